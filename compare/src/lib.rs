@@ -1,0 +1,1 @@
+//! Residuals, metrics and reports: the only crate that knows both model and measurement.

@@ -1,0 +1,109 @@
+//! The measured marker positions of one robot, as a dense tensor.
+//!
+//! A dataset is the same protocol repeated in several **runs**. A protocol is a sequence of **holds** (pressures kept
+//! for a few seconds); in every hold each **marker** is seen `samples_per_hold` times. All lengths are metres, all
+//! pressures pascals, all times seconds; units are converted where the file is read and nowhere else.
+
+/// Whether a hold was reached by raising the actuator pressure, by lowering it, or without changing it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Phase {
+    /// The actuator pressure was raised to reach this hold (the first hold of a run counts as `Load`).
+    Load,
+    /// The actuator pressure is that of the hold before.
+    Hold,
+    /// The actuator pressure was lowered to reach this hold.
+    Unload,
+}
+
+impl Phase {
+    /// The word used in the `phase` column and in JSON: `load`, `hold` or `unload`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Phase::Load => "load",
+            Phase::Hold => "hold",
+            Phase::Unload => "unload",
+        }
+    }
+}
+
+/// One step of the protocol: constant pressures, the same in every run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hold {
+    /// Body gauge pressure p_b \[Pa\], mean over runs of the recorded value.
+    pub p_body_pa: f64,
+    /// Actuator gauge pressure P \[Pa\], mean over runs of the recorded value.
+    pub p_act_pa: f64,
+    /// How the hold was reached.
+    pub phase: Phase,
+    /// 0 for the first hold with these pressures and this phase, 1 for the second, …
+    pub occurrence: usize,
+    /// Time of each sample since the start of the run \[s\], mean over runs; `samples_per_hold` values.
+    pub t_s: Vec<f64>,
+}
+
+/// A marker: its label in the file and where it sits on the undeformed robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Marker {
+    /// Label, exactly as written in the `marker` column.
+    pub name: String,
+    /// Station along the undeformed body from the base \[m\]; `None` if neither the file nor `about.toml` says.
+    pub station_m: Option<f64>,
+}
+
+/// Marker positions of several runs of one protocol.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dataset {
+    /// Short name: the folder name of an embedded set, or the file stem.
+    pub name: String,
+    /// Actuator kind as written in the `actuator` column, lower case (`spam`, `cpam`, `epam`, `fpam`, …).
+    pub actuator: String,
+    /// Run labels in order of first appearance.
+    pub runs: Vec<String>,
+    /// Holds in protocol order.
+    pub holds: Vec<Hold>,
+    /// Markers ordered by station (by first appearance where stations are unknown).
+    pub markers: Vec<Marker>,
+    /// Samples kept per (run, hold, marker).
+    pub samples_per_hold: usize,
+    /// Positions \[m\], laid out `[run][hold][sample][marker][x, y]`; no NaN.
+    pub xy_m: Vec<f64>,
+}
+
+impl Dataset {
+    /// Number of values of one run: holds × samples × markers × 2.
+    pub fn values_per_run(&self) -> usize {
+        self.holds.len() * self.samples_per_hold * self.markers.len() * 2
+    }
+
+    /// All values of one run, laid out `[hold][sample][marker][x, y]` \[m\].
+    pub fn run(&self, run: usize) -> &[f64] {
+        let n = self.values_per_run();
+        &self.xy_m[run * n..(run + 1) * n]
+    }
+
+    /// Offset of (hold, sample, marker) inside one run; `+0` is x, `+1` is y.
+    pub fn offset(&self, hold: usize, sample: usize, marker: usize) -> usize {
+        ((hold * self.samples_per_hold + sample) * self.markers.len() + marker) * 2
+    }
+
+    /// Position of one marker in one sample \[m\].
+    pub fn xy(&self, run: usize, hold: usize, sample: usize, marker: usize) -> [f64; 2] {
+        let i = self.offset(hold, sample, marker);
+        let values = self.run(run);
+        [values[i], values[i + 1]]
+    }
+
+    /// Mean over runs, laid out like [`Dataset::run`] \[m\].
+    pub fn mean_over_runs(&self) -> Vec<f64> {
+        let n = self.values_per_run();
+        let mut mean = vec![0.0; n];
+        for run in 0..self.runs.len() {
+            for (m, v) in mean.iter_mut().zip(self.run(run)) {
+                *m += v;
+            }
+        }
+        let runs = self.runs.len().max(1) as f64;
+        mean.iter_mut().for_each(|m| *m /= runs);
+        mean
+    }
+}

@@ -1,0 +1,1 @@
+//! The explicit finite element engine; not built yet.

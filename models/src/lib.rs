@@ -1,0 +1,1 @@
+//! Reduced-order virtual-work models of pneumatic bending actuators.
