@@ -1,0 +1,226 @@
+//! The virtual-work hinge model: pouches in series that fold an inflated body about its far fibre.
+//!
+//! Each of N units holds one pouch over a body length L0. The wall is inextensible and slack everywhere but at the far
+//! fibre, so a fold by φ costs the volume πR²·Rφ and the body resists with the constant moment p π R³ (Comer and Levy's
+//! collapse moment, [`super::beam::collapse_moment_nm`]).
+//!
+//! ```text
+//! shortening   η L0 ε(θ) = (R + d) φ
+//! energy       Π(θ) = −P η V(θ) + p π R³ φ(θ)
+//! dΠ/dθ = 0    F(θ) ℓ(θ) = p π R³ ,   lever ℓ = d(L0 ε)/dφ = (R + d) / (1 − (ε/ε′) d′/(R + d))
+//! shape        far fibre of length L_b keeps its length: axis radius ρ = L_b/Φ − R, Φ = N φ
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | P, p | gauge pressure in the pouch, in the body | Pa |
+//! | R | radius of the body | m |
+//! | d | distance of the pouch's chord from the body axis | m |
+//! | η | sealed-end factor on contraction and volume ([`super::pouch::robin_end_factor`]) | – |
+//! | θ, ε, V, F | half angle, contraction, volume and force of the pouch ([`super::pouch`]) | rad, –, m³, N |
+//! | φ, Φ | fold angle of one unit, of the whole body | rad |
+//!
+//! Depends on P and p only through P/p. **No** wall or fold stiffness, weld width, gravity, friction, snap or stretch.
+//! Derived here; it is not taken from a published model of these robots.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use super::pouch::{Pouch, bulge_height_m, contraction, force_n, volume_m3};
+use super::solve::{falling_root, sinc, sine_lag};
+
+/// Where the chord of the pouch runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Arm {
+    /// In the wall of the body: d = R.
+    Embedded,
+    /// On the wall, lifted by its own inner bulge: d = R + L0 (1 − cos θ)/(2θ).
+    External,
+}
+
+/// Which lever turns the actuator's force into a moment when the arm changes with inflation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Lever {
+    /// ℓ = dΔL/dφ from dΠ/dθ = 0. The consistent one.
+    VirtualWork,
+    /// ℓ = R + d at the current inflation, its change left out. A shortcut, kept to show what it costs.
+    CurrentArm,
+}
+
+/// One unit of the series: a pouch on a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    /// The pouch, its length along the body axis.
+    pub pouch: Pouch,
+    /// Radius R of the body \[m\].
+    pub body_radius_m: f64,
+    /// Sealed-end factor η, 1 for an ideal pouch.
+    pub end_factor: f64,
+    /// Where the chord runs.
+    pub arm: Arm,
+}
+
+/// A body bent into a circular arc of constant far-fibre length, straight beyond it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BentBody {
+    /// Radius R of the body \[m\].
+    pub body_radius_m: f64,
+    /// Length L_b of the actuated body when straight, and of its far fibre always \[m\].
+    pub length_m: f64,
+    /// Total bending angle Φ \[rad\].
+    pub total_angle: f64,
+}
+
+/// Moment p π R³ with which a fully wrinkled body resists folding \[N m\].
+pub fn restoring_moment_nm(body_radius_m: f64, body_pressure_pa: f64) -> f64 {
+    PI * body_pressure_pa * body_radius_m.powi(3)
+}
+
+/// Distance R + d from the far fibre to the pouch's chord \[m\].
+pub fn arm_m(unit: &Unit, theta: f64) -> f64 {
+    let lift = match unit.arm {
+        Arm::Embedded => 0.0,
+        Arm::External => bulge_height_m(&unit.pouch, theta),
+    };
+    2.0 * unit.body_radius_m + lift
+}
+
+/// Fold angle of one unit, `φ = η L0 ε(θ)/(R + d(θ))` \[rad\].
+pub fn fold_angle(unit: &Unit, theta: f64) -> f64 {
+    unit.end_factor * unit.pouch.length_m * contraction(theta) / arm_m(unit, theta)
+}
+
+/// Energy `Π = −P η V(θ) + p π R³ φ(θ)` of one unit at fixed pressures \[J\].
+pub fn energy_j(unit: &Unit, theta: f64, actuator_pa: f64, body_pa: f64) -> f64 {
+    let body = restoring_moment_nm(unit.body_radius_m, body_pa) * fold_angle(unit, theta);
+    body - actuator_pa * unit.end_factor * volume_m3(&unit.pouch, theta)
+}
+
+/// Lever ℓ of the pouch's force at half angle θ \[m\]; both rules agree for [`Arm::Embedded`].
+pub fn lever_m(unit: &Unit, theta: f64, rule: Lever) -> f64 {
+    let arm = arm_m(unit, theta);
+    if rule == Lever::CurrentArm || unit.arm == Arm::Embedded {
+        return arm;
+    }
+    // d′ = L0 [θ sin θ − (1 − cos θ)]/(2θ²) and ε′ = (sin θ − θ cos θ)/θ²
+    let arm_slope = 0.5 * unit.pouch.length_m * (sinc(theta) - 0.5 * sinc(0.5 * theta).powi(2));
+    arm / (1.0 - contraction(theta) * arm_slope / (theta * sine_lag(theta) * arm))
+}
+
+/// Half angle θ in \[0, π/2\] where `F(θ) ℓ(θ) = p π R³`; η cancels. 0 for P = 0, π/2 for p = 0, NaN for NaN input.
+pub fn equilibrium_theta(unit: &Unit, actuator_pa: f64, body_pa: f64, rule: Lever) -> f64 {
+    let moment = restoring_moment_nm(unit.body_radius_m, body_pa);
+    // Times θ, so that the pole of the force at θ = 0 is gone.
+    let excess = |theta: f64| theta * (force_n(&unit.pouch, theta, actuator_pa) * lever_m(unit, theta, rule) - moment);
+    falling_root(excess, 0.0, FRAC_PI_2)
+}
+
+/// Half angle at which neighbouring pouches touch: `2θ = π − φ(θ)`.
+///
+/// Pouch arcs leave the seam at angle θ from their chords, and chords of neighbours meet at π − φ. Bending beyond this
+/// angle is blocked: use the smaller of this and [`equilibrium_theta`]. Assumes equal pouches without a gap. Derived here.
+pub fn contact_theta(unit: &Unit) -> f64 {
+    falling_root(|theta| PI - fold_angle(unit, theta) - 2.0 * theta, 0.0, FRAC_PI_2)
+}
+
+/// Half angle in \[0, π/2\] that folds the unit by `fold` \[rad\]; π/2 where the pouch cannot fold it so far.
+pub fn theta_from_fold_angle(unit: &Unit, fold: f64) -> f64 {
+    falling_root(|theta| fold - fold_angle(unit, theta), 0.0, FRAC_PI_2)
+}
+
+/// Position `[x, y]` \[m\] of the axis point at far-fibre station s: `x = ρ sin(Φ s/L_b)`, `y = ρ (1 − cos(Φ s/L_b))`.
+///
+/// Beyond s = L_b the body goes on straight along its end tangent. Exact also for Φ → 0. Needs Φ < L_b/R, where the near
+/// fibre would vanish.
+pub fn axis_point_m(body: &BentBody, station_m: f64) -> [f64; 2] {
+    let on_arc = station_m.min(body.length_m);
+    let (tail, fraction) = (station_m - on_arc, on_arc / body.length_m);
+    let angle = body.total_angle * fraction;
+    let axis_arc = (body.length_m - body.body_radius_m * body.total_angle) * fraction;
+    let x = axis_arc * sinc(angle) + tail * angle.cos();
+    let y = 0.5 * axis_arc * angle * sinc(0.5 * angle).powi(2) + tail * angle.sin();
+    [x, y]
+}
+
+/// Total angle Φ in \[0, π/2\] that brings the axis point at `station_m` to height `y_m`; π/2 where y is out of reach.
+///
+/// Needs a slender body, R < 0.23 L_b, so that the height rises with Φ over the whole range.
+pub fn total_angle_from_height(body_radius_m: f64, length_m: f64, station_m: f64, y_m: f64) -> f64 {
+    let height = |angle| axis_point_m(&BentBody { body_radius_m, length_m, total_angle: angle }, station_m)[1];
+    falling_root(|angle| y_m - height(angle), 0.0, FRAC_PI_2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::oracles;
+    use super::*;
+
+    fn unit(arm: Arm) -> Unit {
+        let pouch = Pouch { length_m: 0.06, width_m: 0.06 };
+        Unit { pouch, body_radius_m: 0.04, end_factor: 1.0, arm }
+    }
+
+    #[test]
+    fn hinge_oracles_are_reproduced_to_their_last_digit() {
+        oracles::assert_all_agree(&oracles::hinge::rows());
+    }
+
+    #[test]
+    fn energy_is_stationary_and_smallest_at_equilibrium_for_the_virtual_work_lever() {
+        for arm in [Arm::Embedded, Arm::External] {
+            for actuator_pa in [2e3, 10e3, 30e3] {
+                let unit = unit(arm);
+                let at = equilibrium_theta(&unit, actuator_pa, 2e3, Lever::VirtualWork);
+                let energy = |theta| energy_j(&unit, theta, actuator_pa, 2e3);
+                let h = 1e-4;
+                let slope = (energy(at + h) - energy(at - h)) / (2.0 * h);
+                assert!(slope.abs() < 1e-7 * energy(at).abs(), "{arm:?} {actuator_pa} Pa: slope {slope}");
+                assert!(energy(at) < energy(at - h) && energy(at) < energy(at + h));
+            }
+        }
+    }
+
+    #[test]
+    fn only_the_ratio_of_pressures_matters() {
+        let unit = unit(Arm::External);
+        let low = equilibrium_theta(&unit, 10e3, 2e3, Lever::VirtualWork);
+        let high = equilibrium_theta(&unit, 40e3, 8e3, Lever::VirtualWork);
+        assert!((low - high).abs() < 1e-14);
+    }
+
+    #[test]
+    fn limits_of_no_actuator_pressure_and_no_body_pressure_are_flat_and_round() {
+        let unit = unit(Arm::External);
+        assert!(equilibrium_theta(&unit, 0.0, 2e3, Lever::VirtualWork) < 1e-30);
+        assert!((equilibrium_theta(&unit, 1e3, 0.0, Lever::VirtualWork) - FRAC_PI_2).abs() < 1e-12);
+        assert!(equilibrium_theta(&unit, f64::NAN, 2e3, Lever::VirtualWork).is_nan());
+    }
+
+    #[test]
+    fn the_shortcut_lever_underpredicts_bending_of_an_external_pouch() {
+        let unit = unit(Arm::External);
+        for actuator_pa in [10e3, 20e3, 30e3] {
+            let full = equilibrium_theta(&unit, actuator_pa, 2e3, Lever::VirtualWork);
+            assert!(equilibrium_theta(&unit, actuator_pa, 2e3, Lever::CurrentArm) < full);
+        }
+    }
+
+    #[test]
+    fn a_hardly_bent_body_is_straight_and_the_tail_joins_smoothly() {
+        let body = BentBody { body_radius_m: 0.04, length_m: 0.36, total_angle: 1e-9 };
+        let [x, y] = axis_point_m(&body, 0.18);
+        assert!((x - 0.18).abs() < 1e-10 && (y / (0.5 * 0.18 * 0.5e-9) - 1.0).abs() < 1e-6);
+        let bent = BentBody { total_angle: 1.0, ..body };
+        let step = |s: f64| axis_point_m(&bent, s + 1e-9)[1] - axis_point_m(&bent, s)[1];
+        assert!((step(0.36) / 1e-9 - 1.0_f64.sin()).abs() < 1e-6);
+    }
+
+    #[test]
+    fn inverse_of_height_and_of_fold_angle_return_what_went_in() {
+        let unit = unit(Arm::External);
+        let theta = theta_from_fold_angle(&unit, fold_angle(&unit, 1.1));
+        assert!((theta - 1.1).abs() < 1e-13);
+        let body = BentBody { body_radius_m: 0.04, length_m: 0.36, total_angle: 1.2 };
+        let back = total_angle_from_height(0.04, 0.36, 0.33, axis_point_m(&body, 0.33)[1]);
+        assert!((back - 1.2).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,16 @@
+//! Exact solutions: closed forms that tests, benches and documents share.
+//!
+//! Every item is a pure function or a small plain struct in SI units, and depends on nothing outside this folder, so that
+//! it can judge the rest of the crate. Above each item stand the equation, the symbols, where it holds, and its origin:
+//! whether the source was read, is known second hand, or the result was derived for this project. [`oracle_table`] lists
+//! numbers computed independently of this code, each with the precision it is known to; the tests run over that list.
+
+pub mod beam;
+pub mod fpam;
+pub mod hinge;
+pub mod mckibben;
+pub mod oracles;
+pub mod pouch;
+mod solve;
+
+pub use oracles::{OracleRow, oracle_table};

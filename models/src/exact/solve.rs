@@ -1,0 +1,77 @@
+//! Helpers of the closed forms: two cancellation-free functions and one bracketed root.
+
+/// Below this argument the power series is used; its tenth term is then under 1e-20, and above it nothing cancels.
+const SERIES_BELOW: f64 = 1.0;
+
+/// `(x − sin x)/x³`, accurate to rounding for all x; 1/6 at x = 0.
+pub(super) fn sine_deficit(x: f64) -> f64 {
+    if x.abs() > SERIES_BELOW {
+        return (x - x.sin()) / x.powi(3);
+    }
+    series(x, |_| 1.0)
+}
+
+/// `(sin x − x cos x)/x³`, accurate to rounding for all x; 1/3 at x = 0.
+pub(super) fn sine_lag(x: f64) -> f64 {
+    if x.abs() > SERIES_BELOW {
+        return (x.sin() - x * x.cos()) / x.powi(3);
+    }
+    series(x, |k| 2.0 * k + 2.0)
+}
+
+/// `sin x / x`, 1 at x = 0.
+pub(super) fn sinc(x: f64) -> f64 {
+    1.0 - x * x * sine_deficit(x)
+}
+
+/// `Σ weight(k) (−x²)^k / (2k+3)!`
+fn series(x: f64, weight: impl Fn(f64) -> f64) -> f64 {
+    let (mut term, mut sum) = (1.0 / 6.0, weight(0.0) / 6.0);
+    for k in 1..=10 {
+        let k = f64::from(k);
+        term *= -x * x / ((2.0 * k + 2.0) * (2.0 * k + 3.0));
+        sum += weight(k) * term;
+    }
+    sum
+}
+
+/// The x in (lo, hi) where `f` falls through zero, by bisection down to adjacent numbers.
+///
+/// Returns (nearly) `lo` where f < 0 throughout, `hi` where f > 0 throughout, and NaN where f is NaN. Never evaluates
+/// `f` at `lo` or `hi`, so poles there do no harm. Certainty matters more than speed in a reference: about 60 evaluations.
+pub(super) fn falling_root(f: impl Fn(f64) -> f64, lo: f64, hi: f64) -> f64 {
+    let (mut lo, mut hi) = (lo, hi);
+    for _ in 0..200 {
+        let middle = 0.5 * (lo + hi);
+        if middle <= lo || middle >= hi {
+            break;
+        }
+        let value = f(middle);
+        if value.is_nan() {
+            return f64::NAN;
+        }
+        if value > 0.0 { lo = middle } else { hi = middle }
+    }
+    hi
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn series_and_direct_forms_meet_at_the_switch() {
+        let x: f64 = SERIES_BELOW;
+        assert!((sine_deficit(x) - (x - x.sin())).abs() < 1e-15);
+        assert!((sine_lag(x) - (x.sin() - x * x.cos())).abs() < 1e-15);
+        assert!((sinc(0.7) - 0.7_f64.sin() / 0.7).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_falling_root_is_found_to_the_last_digit_and_clamped_where_there_is_none() {
+        assert!((falling_root(|x| 2.0 - x * x, 0.0, 2.0) - 2.0_f64.sqrt()).abs() < 4e-16);
+        assert_eq!(falling_root(|_| 1.0, 0.0, 2.0), 2.0);
+        assert!(falling_root(|_| -1.0, 0.5, 2.0) < 0.5 + 1e-15);
+        assert!(falling_root(|_| f64::NAN, 0.0, 2.0).is_nan());
+    }
+}
