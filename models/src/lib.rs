@@ -1,1 +1,33 @@
-//! Reduced-order virtual-work models of pneumatic bending actuators.
+//! Reduced-order models of pneumatic bending actuators on inflated-beam robots.
+//!
+//! A model is a list of physical effects in a virtual-work balance ([`term`]). It reads no files and prints nothing; a
+//! controller links this crate alone.
+//!
+//! ```
+//! let scenario = models::Scenario::parse(models::shipped("epam").unwrap()).unwrap();
+//! let model = models::Model::new(&scenario);
+//! let mut state = model.prediction();
+//! model.predict(&models::Loads::uniform(2e3, 30e3), &mut state).unwrap();
+//! assert!((state.markers[5][1] - 0.16155).abs() < 1e-6);
+//! ```
+
+pub mod actuators;
+pub mod assembly;
+pub mod body;
+pub mod effects;
+pub mod error;
+pub mod exact;
+mod inverse;
+mod model;
+mod robot;
+mod root;
+pub mod scenario;
+mod shape;
+pub mod site;
+pub mod term;
+
+pub use error::{ScenarioError, Unsolved};
+pub use inverse::{Target, TipSlope};
+pub use model::{LedgerLine, Model, Prediction, Tip};
+pub use scenario::{EffectChoice, Scenario, shipped};
+pub use term::{CHANNELS, Loads, Pose, Term};

@@ -1,0 +1,21 @@
+//! ePAM: pouches welded into the wall of the body.
+//!
+//! Law of [`super::pouch`] with the line of action in the wall: the arm from the taut generator is 2R.
+
+use super::{Actuator, Family, pouch};
+
+pub(super) const ENTRY: Actuator = Actuator {
+    name: "epam",
+    title: "embedded pneumatic artificial muscle",
+    sentence: "Two concentric bodies welded in a pattern: the pouches are part of the wall.",
+    formula: "ε = 1 − sinθ/θ;  N = P W L₀ cosθ/θ;  arm = 2R",
+    reference: "Niiyama et al. 2015 (pouch); Abrar et al. 2021 (ePAM; its model text was not available here)",
+    validity: "Sealed side edges are not in the bare law: expect it to over-predict (see end_constraint).",
+    family: Family::Pouch,
+    stroke: pouch::stroke,
+    range: pouch::RANGE,
+    guess: pouch::guess,
+    area: pouch::area,
+    arm: pouch::arm,
+    edge_restraint: |_| 1.0,
+};

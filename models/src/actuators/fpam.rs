@@ -1,0 +1,64 @@
+//! fPAM: a tube of woven fabric cut at 45° to its yarns; a McKibben muscle without a separate braid.
+//!
+//! Yarns do not stretch, so the braid angle α follows the contraction, cosα = (1 − ε)/√2:
+//!
+//! ```text
+//! r(ε) = r₀ √(2 − (1 − ε)²)                  tube radius, r₀ = W/π
+//! v(ε) = π r₀² (2 − (1 − ε)²)(1 − ε)         volume per unit flat length
+//! N(ε) = P dv/dε = P π r₀² (3(1 − ε)² − 2) = 2π P r₀² (3cos²α − 1)
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | ε | contraction; N = 0 at 1 − √(2/3) = 0.1835 | - |
+//! | W, r₀ | flat width, radius of the round tube at 45° | m |
+//! | P | actuator gauge pressure | Pa |
+//!
+//! **Validity**: long tube (L ≫ W), inextensible yarns, no fabric shear stiffness (that is the effect
+//! `shear_stiffness`, which makes the free stroke depend on pressure). Reference: Chou & Hannaford 1996 (McKibben);
+//! Naclerio & Hawkes 2020 (fPAM); the 45° form is derived here.
+
+use super::{Actuator, ActuatorShape, Family, Stroke};
+use std::f64::consts::PI;
+
+pub(super) const ENTRY: Actuator = Actuator {
+    name: "fpam",
+    title: "fabric pneumatic artificial muscle",
+    sentence: "A bias-cut fabric tube glued along the body: pressure shears the weave, the tube widens and shortens.",
+    formula: "N = P π r₀² (3(1 − ε)² − 2);  r = r₀ √(2 − (1 − ε)²), r₀ = W/π;  arm = 2R + r₀ + β (r − r₀)",
+    reference: "Chou & Hannaford 1996; Naclerio & Hawkes 2020; 45° form derived here",
+    validity: "Long tube, inextensible yarns; needs shear_stiffness for a real coated fabric.",
+    family: Family::Mckibben,
+    stroke,
+    range: (-0.25, 0.6),
+    guess,
+    area: |shape| shape.volume_gain * PI * rest_radius(shape).powi(2),
+    arm: |radius_m, shape| 2.0 * radius_m + rest_radius(shape),
+    edge_restraint: |_| 1.0,
+};
+
+/// Radius r₀ = W/π of the round tube at rest \[m\].
+fn rest_radius(shape: &ActuatorShape) -> f64 {
+    shape.width_m / PI
+}
+
+fn stroke(shape: &ActuatorShape, contraction: f64) -> Stroke {
+    let length = 1.0 - contraction;
+    let area = shape.volume_gain * PI * rest_radius(shape).powi(2);
+    let spread = 2.0 - length * length;
+    let radius = rest_radius(shape) * spread.sqrt();
+    Stroke {
+        contraction,
+        d_contraction: 1.0,
+        volume: area * spread * length,
+        d_volume: area * (3.0 * length * length - 2.0),
+        lift: radius - rest_radius(shape),
+        d_lift: rest_radius(shape) * rest_radius(shape) * length / radius,
+        weight: 1.0,
+    }
+}
+
+/// N/(P A) = 3(1 − ε)² − 2 solved for ε.
+fn guess(demand: f64) -> f64 {
+    1.0 - ((2.0 + demand.min(1.0)) / 3.0).sqrt()
+}

@@ -1,0 +1,91 @@
+//! The actuators: one file each, one line in [`ACTUATORS`].
+//!
+//! An actuator states its **stroke law**: how contraction, volume and the lift of its line of action follow from one
+//! coordinate. Everything else (pressure work, arm, body, effects) is common.
+
+mod cpam;
+mod epam;
+mod fpam;
+pub mod pouch;
+mod spam;
+
+/// The list: what `ibr list`, the scenarios, the tests and the benches know.
+pub const ACTUATORS: &[Actuator] = &[spam::ENTRY, cpam::ENTRY, epam::ENTRY, fpam::ENTRY];
+
+/// What makes the actuator contract.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Family {
+    /// Flat pouch that becomes a lens: geometry-based contraction.
+    Pouch,
+    /// Bias-cut fabric tube that widens and shortens: material-based contraction.
+    Mckibben,
+}
+
+/// An actuator kind. Plain data: formulas as text for `ibr list`, laws as functions.
+#[derive(Debug, Clone, Copy)]
+pub struct Actuator {
+    /// Name in scenarios and data: `spam`, `cpam`, `epam`, `fpam`.
+    pub name: &'static str,
+    /// Full name.
+    pub title: &'static str,
+    /// One plain sentence.
+    pub sentence: &'static str,
+    /// Stroke law in Unicode.
+    pub formula: &'static str,
+    /// Literature and what is derived here.
+    pub reference: &'static str,
+    /// When the law holds and when not to use it.
+    pub validity: &'static str,
+    /// Contraction mechanism; decides which effects apply.
+    pub family: Family,
+    /// Contraction, volume and lift at a coordinate.
+    pub stroke: fn(&ActuatorShape, f64) -> Stroke,
+    /// Coordinate interval in which equilibrium is sought.
+    pub range: (f64, f64),
+    /// Start value from the demand m = (restoring moment)/(P·area·arm) \[-\].
+    pub guess: fn(f64) -> f64,
+    /// Area A so that P·A is a typical actuator force \[m²\].
+    pub area: fn(&ActuatorShape) -> f64,
+    /// Arm from the taut generator to the line of action at rest \[m\], from body radius and shape; used if the
+    /// scenario gives none.
+    pub arm: fn(f64, &ActuatorShape) -> f64,
+    /// Share of the sealed-edge loss that the edges of this actuator suffer: 1 for sealed edges, 0 for free ones.
+    pub edge_restraint: fn(&ActuatorShape) -> f64,
+}
+
+/// Dimensions of one actuator unit \[m\].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ActuatorShape {
+    /// Flat length L₀ along the body: one pouch, or the whole muscle.
+    pub length_m: f64,
+    /// Flat width W.
+    pub width_m: f64,
+    /// Depth f of a lateral gusset fold; 0 without folds.
+    pub fold_m: f64,
+    /// Factor on the enclosed volume \[-\]; 1 unless the scenario assumes otherwise.
+    pub volume_gain: f64,
+}
+
+/// Stroke law at one coordinate `a`, with derivatives by `a`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stroke {
+    /// Contraction ε \[-\].
+    pub contraction: f64,
+    /// dε/da.
+    pub d_contraction: f64,
+    /// Volume per unit flat length \[m²\].
+    pub volume: f64,
+    /// d(volume)/da.
+    pub d_volume: f64,
+    /// How far the line of action moves away from the body \[m\].
+    pub lift: f64,
+    /// d(lift)/da.
+    pub d_lift: f64,
+    /// Positive factor that makes the moment balance nearly linear in `a` (θ for a pouch, whose force goes as 1/θ).
+    pub weight: f64,
+}
+
+/// The entry of that name.
+pub fn by_name(name: &str) -> Option<&'static Actuator> {
+    ACTUATORS.iter().find(|a| a.name == name)
+}

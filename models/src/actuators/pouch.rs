@@ -1,0 +1,104 @@
+//! The linear pouch law shared by sPAM, cPAM and ePAM.
+//!
+//! Two inextensible sheets of flat length L₀ become two circular arcs of half angle θ:
+//!
+//! ```text
+//! ε(θ) = 1 − sinθ/θ                       contraction
+//! v(θ) = W L₀ (θ − sinθ cosθ)/(2θ²)       volume per unit flat length
+//! N(θ) = P dv/dε = P W L₀ cosθ/θ          force along the body
+//! h(θ) = L₀ (1 − cosθ)/θ                  height of the lens
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | θ | half of the arc's central angle | rad |
+//! | L₀, W | flat length along the body, width across it | m |
+//! | P | actuator gauge pressure | Pa |
+//!
+//! **Validity**: inextensible film, no bending stiffness, quasi-static, and no restraint by the sealed side edges (that
+//! is the effect `end_constraint`). **Do not use** for pouches much longer than wide: there the side seams decide.
+//! Reference: Niiyama et al., Soft Robotics 2(2), 2015 (pouch motor); the volume and its derivative are derived here.
+
+use super::{ActuatorShape, Stroke};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// θ stays below a full circle; at π the two arcs would meet.
+pub(super) const RANGE: (f64, f64) = (1e-6, PI - 1e-6);
+
+/// The pouch law at half arc angle `theta` \[rad\].
+pub fn stroke(shape: &ActuatorShape, theta: f64) -> Stroke {
+    if theta < SERIES_BELOW {
+        return stroke_series(shape, theta);
+    }
+    let (sin, cos) = theta.sin_cos();
+    let inverse = 1.0 / theta;
+    let slope = (sin - theta * cos) * inverse * inverse;
+    let area = shape.volume_gain * shape.width_m * shape.length_m;
+    let height = shape.length_m * (1.0 - cos) * inverse;
+    Stroke {
+        contraction: 1.0 - sin * inverse,
+        d_contraction: slope,
+        volume: area * (theta - sin * cos) * 0.5 * inverse * inverse,
+        d_volume: area * cos * inverse * slope,
+        lift: 0.5 * height,
+        d_lift: 0.5 * (shape.length_m * sin - height) * inverse,
+        weight: theta,
+    }
+}
+
+/// Below this angle 1 − sinθ/θ loses more digits to cancellation than the series to truncation (θ⁶/5040 ≈ 2e-16).
+const SERIES_BELOW: f64 = 0.01;
+
+fn stroke_series(shape: &ActuatorShape, theta: f64) -> Stroke {
+    let t2 = theta * theta;
+    let slope = theta * (1.0 / 3.0 - t2 * (1.0 / 30.0 - t2 / 840.0));
+    let area = shape.volume_gain * shape.width_m * shape.length_m;
+    let cos = theta.cos();
+    Stroke {
+        contraction: t2 * (1.0 / 6.0 - t2 * (1.0 / 120.0 - t2 / 5040.0)),
+        d_contraction: slope,
+        volume: area * theta * (1.0 / 3.0 - t2 * (1.0 / 15.0 - t2 * 2.0 / 315.0)),
+        d_volume: area * cos / theta * slope,
+        lift: 0.5 * shape.length_m * theta * (0.5 - t2 * (1.0 / 24.0 - t2 / 720.0)),
+        d_lift: 0.5 * shape.length_m * (0.5 - t2 * (1.0 / 8.0 - t2 / 144.0)),
+        weight: theta,
+    }
+}
+
+/// Start value: cosθ = mθ, one Newton step from its straight-line solution.
+pub(super) fn guess(demand: f64) -> f64 {
+    let start = FRAC_PI_2 / (1.0 + demand);
+    let (sin, cos) = start.sin_cos();
+    start + (cos - demand * start) / (sin + demand)
+}
+
+/// P·W·L₀ is the force at cosθ = θ.
+pub(super) fn area(shape: &ActuatorShape) -> f64 {
+    shape.volume_gain * shape.width_m * shape.length_m
+}
+
+/// Pouch in or on the wall: its chord lies on the body surface, one diameter from the taut generator.
+pub(super) fn arm(radius_m: f64, _shape: &ActuatorShape) -> f64 {
+    2.0 * radius_m
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_series_meets_the_closed_form_where_they_join() {
+        let shape = ActuatorShape { length_m: 0.06, width_m: 0.05, fold_m: 0.0, volume_gain: 1.0 };
+        let (a, b) = (stroke_series(&shape, SERIES_BELOW), stroke(&shape, SERIES_BELOW));
+        for (series, closed) in [
+            (a.contraction, b.contraction),
+            (a.d_contraction, b.d_contraction),
+            (a.volume, b.volume),
+            (a.d_volume, b.d_volume),
+            (a.lift, b.lift),
+            (a.d_lift, b.d_lift),
+        ] {
+            assert!((series / closed - 1.0).abs() < 1e-9, "{series} {closed}");
+        }
+    }
+}

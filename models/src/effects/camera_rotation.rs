@@ -1,0 +1,45 @@
+//! The camera is rolled: its x axis is not the robot's.
+//!
+//! ```text
+//! x → x cosδ − y sinδ      y → x sinδ + y cosδ
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | δ | roll angle of the camera, constant over the test | rad |
+//!
+//! Validity: rotation about the base point. Geometry.
+
+use super::{Effect, Parameter, Stage};
+use crate::assembly::Assembly;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "camera_rotation",
+    stage: Stage::Camera,
+    formula: "x → x cosδ − y sinδ;  y → x sinδ + y cosδ",
+    sentence: "The camera is rolled, so a straight robot does not look horizontal.",
+    remedy: "Check the markers of the straight robot against the image axis.",
+    validity: "rotation about the base point, constant over the test",
+    reference: "geometry",
+    parameters: &[Parameter {
+        key: "angle_deg",
+        symbol: "δ",
+        unit: "deg",
+        si: std::f64::consts::PI / 180.0,
+        neutral: 0.0,
+        typical: 1.2,
+        lower: -10.0,
+        upper: 10.0,
+        meaning: "roll angle of the camera",
+    }],
+    family: None,
+    add,
+};
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    let (sin, cos) = values[0].sin_cos();
+    assembly.camera.push(Box::new(move |seen| {
+        let [x, y] = seen.xy;
+        seen.xy = [x * cos - y * sin, x * sin + y * cos];
+    }));
+}

@@ -1,0 +1,45 @@
+//! The camera's scale is wrong by a constant factor.
+//!
+//! ```text
+//! (x, y) → (1 + s)(x, y)
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | s | relative scale error | - |
+//!
+//! Validity: checkerboard not in the plane of the markers, or wrong square size. Geometry.
+
+use super::{Effect, Parameter, Stage};
+use crate::assembly::Assembly;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "camera_scale",
+    stage: Stage::Camera,
+    formula: "(x, y) → (1 + s)(x, y)",
+    sentence: "The camera's millimetre is not a millimetre: all positions are off by the same percentage.",
+    remedy: "Photograph a checkerboard in the plane of the markers.",
+    validity: "no lens distortion",
+    reference: "geometry",
+    parameters: &[Parameter {
+        key: "scale_error",
+        symbol: "s",
+        unit: "-",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 0.025,
+        lower: -0.2,
+        upper: 0.2,
+        meaning: "relative scale error",
+    }],
+    family: None,
+    add,
+};
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    let factor = 1.0 + values[0];
+    assembly.camera.push(Box::new(move |seen| {
+        seen.xy[0] *= factor;
+        seen.xy[1] *= factor;
+    }));
+}

@@ -1,0 +1,81 @@
+//! Sealed-edge ("pillow") loss: the closed side seams hold the pouch back.
+//!
+//! A sealed bag cannot take the volume of an open-ended one. Volume and stroke are both scaled by the active fraction
+//!
+//! ```text
+//! pouch:  η = 1 − β e (L₀/W)(1 − 10^(−W/L₀))      fPAM:  η = 1 − 2β (2r₀)/L
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | β | edge-loss coefficient; Robin's paper-bag volume gives 0.142π = 0.446, Kepert's bounds 0.354–0.394 at W = L₀ | - |
+//! | e | edge restraint of the actuator: 1 sealed, 0 freed by gussets | - |
+//! | L₀, W | flat pouch length and width | m |
+//! | L, r₀ | fPAM length and rest radius | m |
+//!
+//! **Validity**: W ≥ L₀ (the bag formula's short side is L₀). Using a *volume* ratio as a *stroke* ratio is an
+//! assumption of this project; a finite element run of one sealed pouch should test it.
+//! Reference: A. Robin 2004 (paper bag problem), volume formula; the end factor is derived here.
+
+use super::{Effect, Parameter, Stage};
+use crate::actuators::{Actuator, ActuatorShape, Family};
+use crate::assembly::Assembly;
+use std::f64::consts::PI;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "end_constraint",
+    stage: Stage::Balance,
+    formula: "η = 1 − β e (L₀/W)(1 − 10^(−W/L₀)) on stroke and volume; fPAM: η = 1 − 4β r₀/L",
+    sentence: "The sealed side edges (or tube ends) hold the actuator back, so only part of its stroke is usable.",
+    remedy: "Compare two pouch widths at the same length: the loss shrinks as W/L₀ grows.",
+    validity: "W ≥ L₀; η is kept above 0.05",
+    reference: "Robin 2004 (paper bag volume); end factor derived here",
+    parameters: &[Parameter {
+        key: "beta",
+        symbol: "β",
+        unit: "-",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 0.446,
+        lower: 0.0,
+        upper: 1.0,
+        meaning: "edge-loss coefficient",
+    }],
+    family: None,
+    add,
+};
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    for site in &mut assembly.sites {
+        if let Some(actuator) = site.actuator {
+            site.linkage.active_fraction *= active_fraction(actuator, &site.shape, values[0]);
+        }
+    }
+}
+
+fn active_fraction(actuator: &Actuator, shape: &ActuatorShape, beta: f64) -> f64 {
+    let loss = match actuator.family {
+        Family::Pouch => {
+            let aspect = shape.width_m / shape.length_m;
+            (actuator.edge_restraint)(shape) * (1.0 - 10f64.powf(-aspect)) / aspect
+        }
+        Family::Mckibben => 4.0 * shape.width_m / PI / shape.length_m,
+    };
+    (1.0 - beta * loss).max(0.05)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::actuators::by_name;
+
+    #[test]
+    fn robins_coefficient_gives_the_known_end_factors() {
+        let epam = by_name("epam").unwrap();
+        for (aspect, eta) in [(1.0, 0.598504459), (2.0, 0.779177452), (2.667, 0.833070606), (5.0, 0.910779661)] {
+            let shape = ActuatorShape { length_m: 0.06, width_m: 0.06 * aspect, fold_m: 0.0, volume_gain: 1.0 };
+            let computed = active_fraction(epam, &shape, 0.142 * PI);
+            assert!((computed - eta).abs() < 1e-9, "{aspect}: {computed}");
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! The unpressurised robot is not straight: the wall springs back to a curvature κ₀, not to zero.
+//!
+//! ```text
+//! ½B(κ − κ₀)² = ½Bκ² − Bκ₀κ + const      E = −B κ₀ κ per metre
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | κ₀ | curvature at rest | 1/m |
+//! | B | effective bending stiffness of the place | N·m² |
+//!
+//! Acts only where B > 0. Validity: small κ₀. Derived here.
+
+use super::{Effect, Parameter, Stage};
+use crate::assembly::Assembly;
+use crate::term::{Pose, Term};
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "initial_curvature",
+    stage: Stage::Balance,
+    formula: "E = ½B(κ − κ₀)² − ½Bκ² per metre",
+    sentence: "The robot is already a little bent when nothing is switched on.",
+    remedy: "Measure the markers at zero actuator pressure.",
+    validity: "small κ₀; needs B > 0",
+    reference: "derived here",
+    parameters: &[Parameter {
+        key: "curvature_per_m",
+        symbol: "κ₀",
+        unit: "1/m",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 0.3,
+        lower: -2.0,
+        upper: 2.0,
+        meaning: "curvature at rest",
+    }],
+    family: None,
+    add,
+};
+
+struct InitialCurvature {
+    moment: f64,
+}
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    for site in &mut assembly.sites {
+        let moment = site.bending.stiffness * values[0];
+        site.body_terms.push(Box::new(InitialCurvature { moment }));
+    }
+}
+
+impl Term for InitialCurvature {
+    fn name(&self) -> &'static str {
+        ENTRY.name
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        force[0] += self.moment;
+        -self.moment * at.q[0]
+    }
+}

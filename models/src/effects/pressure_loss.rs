@@ -1,0 +1,42 @@
+//! Steady pressure drop between regulator and actuator.
+//!
+//! ```text
+//! P = P_set (1 − f)
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | f | share of the set pressure that is lost | - |
+//!
+//! Validity: steady flow; looks like a stiffer body. Supply stage: acts before the balance. Definition.
+
+use super::{Effect, Parameter, Stage};
+use crate::assembly::Assembly;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "pressure_loss",
+    stage: Stage::Supply,
+    formula: "P = P_set (1 − f)",
+    sentence: "A constant share of the set pressure is lost on the way to the actuator.",
+    remedy: "Put a gauge on the actuator while air flows.",
+    validity: "steady flow; looks like a stiffer body",
+    reference: "definition",
+    parameters: &[Parameter {
+        key: "fraction",
+        symbol: "f",
+        unit: "-",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 0.15,
+        lower: 0.0,
+        upper: 0.8,
+        meaning: "share of the set pressure that is lost",
+    }],
+    family: None,
+    add,
+};
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    let lost = values[0];
+    assembly.supply.push(Box::new(move |p| p * (1.0 - lost)));
+}

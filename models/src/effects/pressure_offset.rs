@@ -1,0 +1,42 @@
+//! Dead band or sensor bias: part of the set pressure never reaches the actuator.
+//!
+//! ```text
+//! P = max(0, P_set − P₀) for P_set > 0
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | P₀ | set pressure that does not arrive | kPa |
+//!
+//! Validity: constant over the range of pressures. Supply stage: acts before the balance. Definition.
+
+use super::{Effect, Parameter, Stage};
+use crate::assembly::Assembly;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "pressure_offset",
+    stage: Stage::Supply,
+    formula: "P = max(0, P_set − P₀) for P_set > 0",
+    sentence: "The actuator sees less than the set pressure: dead band or sensor bias.",
+    remedy: "Put a gauge on the actuator.",
+    validity: "constant over the range of pressures",
+    reference: "definition",
+    parameters: &[Parameter {
+        key: "offset_kpa",
+        symbol: "P₀",
+        unit: "kPa",
+        si: 1e3,
+        neutral: 0.0,
+        typical: 2.0,
+        lower: -5.0,
+        upper: 8.0,
+        meaning: "set pressure that does not arrive",
+    }],
+    family: None,
+    add,
+};
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    let offset = values[0];
+    assembly.supply.push(Box::new(move |p| if p > 0.0 { (p - offset).max(0.0) } else { p }));
+}

@@ -1,0 +1,64 @@
+//! Fold and seam stiffness of a pouch: every arc has to be bent against its welds.
+//!
+//! ```text
+//! E = ½ k θ² / L₀ per metre of body
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | k | rotational stiffness of the folds of one pouch | N·m/rad |
+//! | θ | half arc angle | rad |
+//!
+//! For small θ the contraction goes as θ²/6, so this is a constant moment 3kD/L₀: there it cannot be told from
+//! `tail_tension`. Validity: elastic folds. Derived here.
+
+use super::{Effect, Parameter, Stage};
+use crate::actuators::Family;
+use crate::assembly::Assembly;
+use crate::term::{Pose, Term, actuator_q};
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "seam_stiffness",
+    stage: Stage::Balance,
+    formula: "E = ½ k θ²/L₀ per metre",
+    sentence: "Welds and folds of the pouches resist rolling up, like a small spring in every pouch.",
+    remedy: "Measure the force of one inflated pouch at small contraction, or bend an unpressurised weld by hand.",
+    validity: "elastic folds; for small bends not separable from tail_tension",
+    reference: "derived here",
+    parameters: &[Parameter {
+        key: "stiffness_nm_per_rad",
+        symbol: "k",
+        unit: "N m/rad",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 0.5,
+        lower: 0.0,
+        upper: 3.0,
+        meaning: "fold stiffness of one pouch",
+    }],
+    family: Some(Family::Pouch),
+    add,
+};
+
+struct SeamStiffness {
+    per_length: f64,
+}
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    for site in assembly.active_sites(Family::Pouch) {
+        let per_length = values[0] / site.shape.length_m;
+        site.actuator_terms.push(Box::new(SeamStiffness { per_length }));
+    }
+}
+
+impl Term for SeamStiffness {
+    fn name(&self) -> &'static str {
+        ENTRY.name
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        let angle = at.q[actuator_q::COORDINATE];
+        force[actuator_q::COORDINATE] -= self.per_length * angle;
+        0.5 * self.per_length * angle * angle
+    }
+}

@@ -1,0 +1,72 @@
+//! Neighbouring pouches touch and block each other.
+//!
+//! The arcs leave a seam at angle θ from their chords; with chords at angle φ = κ₀L₀ to each other they touch when
+//! 2θ + φ = π. Past that a penalty acts per pouch:
+//!
+//! ```text
+//! E = ½ k (2θ + φ − π)₊² / L₀ per metre
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | θ | half arc angle | rad |
+//! | κ₀ | curvature of inextensible fabric, ηε/D | 1/m |
+//! | k | contact stiffness of one pouch; large k is a hard stop | N·m/rad |
+//!
+//! Validity: pouches side by side without a gap. Derived here.
+
+use super::{Effect, Parameter, Stage};
+use crate::actuators::Family;
+use crate::assembly::Assembly;
+use crate::term::{Pose, Term, actuator_q};
+use std::f64::consts::PI;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "self_contact",
+    stage: Stage::Balance,
+    formula: "E = ½ k (2θ + κL₀ − π)₊²/L₀ per metre",
+    sentence: "Neighbouring pouches press on each other and stop the bend.",
+    remedy: "Look at the side view at full pressure: do the pouches touch?",
+    validity: "pouches side by side without gap; k → large is a hard stop",
+    reference: "derived here",
+    parameters: &[Parameter {
+        key: "stiffness_nm_per_rad",
+        symbol: "k",
+        unit: "N m/rad",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 20.0,
+        lower: 0.0,
+        upper: 1000.0,
+        meaning: "contact stiffness of one pouch",
+    }],
+    family: Some(Family::Pouch),
+    add,
+};
+
+struct SelfContact {
+    stiffness: f64,
+    length_m: f64,
+}
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    for site in assembly.active_sites(Family::Pouch) {
+        let length_m = site.shape.length_m;
+        site.actuator_terms.push(Box::new(SelfContact { stiffness: values[0], length_m }));
+    }
+}
+
+impl Term for SelfContact {
+    fn name(&self) -> &'static str {
+        ENTRY.name
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        let turned = 2.0 * at.q[actuator_q::COORDINATE] + at.q[actuator_q::CURVATURE] * self.length_m;
+        let overlap = (turned - PI).max(0.0);
+        let moment = self.stiffness * overlap / self.length_m;
+        force[actuator_q::COORDINATE] -= 2.0 * moment;
+        force[actuator_q::CURVATURE] -= self.length_m * moment;
+        0.5 * moment * overlap
+    }
+}

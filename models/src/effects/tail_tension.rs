@@ -1,0 +1,65 @@
+//! A constant moment along the body that does not depend on the actuator: tail or tether tension, offset seams.
+//!
+//! ```text
+//! E = ΔM k₀ ln cosh(κ/k₀)      M = −ΔM tanh(κ/k₀)
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | ΔM | extra resisting moment, negative if it helps to bend | N·m |
+//! | k₀ | step width, 0.05 1/m as for the body | 1/m |
+//!
+//! Validity: tension constant along the robot. Derived here.
+
+use super::{Effect, Parameter, Stage};
+use crate::assembly::Assembly;
+use crate::body::soft_step;
+use crate::term::{Pose, Term};
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "tail_tension",
+    stage: Stage::Balance,
+    formula: "E = ΔM k₀ ln cosh(κ/k₀) per metre",
+    sentence: "A pull along the robot (tail, tether, offset seam) adds a constant resisting moment.",
+    remedy: "Free the tail or weigh its pull; repeat at another body pressure.",
+    validity: "constant along the robot and in pressure",
+    reference: "derived here",
+    parameters: &[Parameter {
+        key: "moment_nm",
+        symbol: "ΔM",
+        unit: "N m",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 0.45,
+        lower: -0.3,
+        upper: 1.5,
+        meaning: "extra resisting moment",
+    }],
+    family: None,
+    add,
+};
+
+/// Curvature over which the step sets in \[1/m\], as for the body's hinge.
+const STEP: f64 = 0.05;
+
+struct TailTension {
+    moment: f64,
+}
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    for site in &mut assembly.sites {
+        site.body_terms.push(Box::new(TailTension { moment: values[0] }));
+    }
+}
+
+impl Term for TailTension {
+    fn name(&self) -> &'static str {
+        ENTRY.name
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        let (energy, slope) = soft_step(at.q[0], STEP);
+        force[0] -= self.moment * slope;
+        self.moment * energy
+    }
+}

@@ -1,0 +1,95 @@
+//! Gradual wrinkling of the body wall after Comer & Levy, in place of the ideal hinge.
+//!
+//! The wall carries tension only. With κ_w = p_b c/2 the wrinkling curvature and γ the half angle of the slack zone:
+//!
+//! ```text
+//! κ ≤ κ_w:  M = ½ π p_b R³ κ/κ_w
+//! κ > κ_w:  κ/κ_w = π/D,  M = π p_b R³ (2π − 2γ + sin2γ)/(4D),  D = sinγ + (π − γ) cosγ
+//! E = ½ ∮ Eₜ ε² R dφ − N (ε₀ − N c/(2·2πR))          so that M = −∂E/∂κ
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | c = 1/(E t) | compliance of the body fabric along the axis; 2.3e-5 m/N for 215 MPa × 0.2 mm | m/N |
+//! | N = πR²p_b | axial membrane thrust | N |
+//! | ε₀ | strain at the axis | - |
+//!
+//! At the curvatures of a bent robot (κ/κ_w of 50–200) M is within 2–3 % of the hinge moment, so with a fabric's real
+//! compliance this effect is small; a large fitted c says that the wall folds gradually for another reason.
+//! **Validity**: membrane without bending stiffness, circular section. Reference: Comer & Levy, AIAA Journal 1(7), 1963.
+
+use super::{Effect, Parameter, Stage};
+use crate::assembly::Assembly;
+use crate::exact::beam::{gamma0_from_curvature_ratio, moment_ratio};
+use crate::term::{Pose, Term};
+use std::f64::consts::PI;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "wrinkling",
+    stage: Stage::Balance,
+    formula: "M = π p_b R³ α(κ/κ_w), κ_w = p_b c/2, α from 0 over 1/2 (first wrinkle) to 1 (hinge)",
+    sentence: "The wall wrinkles gradually: small bends meet less resistance than the full hinge moment.",
+    remedy: "Bend the inflated body with a known tip force and measure its deflection.",
+    validity: "tension-only membrane, circular section, regulated body pressure",
+    reference: "Comer & Levy 1963",
+    parameters: &[Parameter {
+        key: "compliance_m_per_n",
+        symbol: "c",
+        unit: "m/N",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 2.3e-5,
+        lower: 0.0,
+        upper: 2e-3,
+        meaning: "compliance 1/(E t) of the body fabric",
+    }],
+    family: None,
+    add,
+};
+
+struct Wrinkling {
+    compliance_m_per_n: f64,
+    radius_m: f64,
+}
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    if values[0] == 0.0 {
+        return;
+    }
+    for site in &mut assembly.sites {
+        let radius_m = site.radius_m;
+        site.body_pressure = Box::new(Wrinkling { compliance_m_per_n: values[0], radius_m });
+    }
+}
+
+impl Term for Wrinkling {
+    fn name(&self) -> &'static str {
+        "body_pressure"
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        let (r, c) = (self.radius_m, self.compliance_m_per_n);
+        let kappa = at.q[0].abs();
+        let thrust = PI * r * r * at.p_body_pa;
+        let wrinkling = 0.5 * at.p_body_pa * c;
+        let (moment, energy) = if kappa <= wrinkling {
+            let moment = PI * r.powi(3) / c * kappa;
+            (moment, 0.5 * moment * kappa)
+        } else {
+            let gamma = gamma0_from_curvature_ratio(kappa / wrinkling);
+            wrinkled(thrust, r, c, kappa, gamma)
+        };
+        force[0] -= moment * at.q[0].signum();
+        energy
+    }
+}
+
+/// Moment and energy with a slack zone of half angle `gamma`.
+fn wrinkled(thrust: f64, r: f64, c: f64, kappa: f64, gamma: f64) -> (f64, f64) {
+    let (sin, cos) = gamma.sin_cos();
+    let open = PI - gamma;
+    let moment = thrust * r * moment_ratio(gamma);
+    let strain = kappa * kappa * r.powi(3) / c * (open * (0.5 + cos * cos) + 1.5 * sin * cos);
+    let energy = strain - thrust * kappa * r * cos + thrust * thrust * c / (4.0 * PI * r);
+    (moment, energy)
+}

@@ -1,0 +1,78 @@
+//! Errors of the models.
+
+use thiserror::Error;
+
+/// Why a scenario was refused; `span` is the byte range in the text it was read from.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{message}")]
+pub struct ScenarioError {
+    /// What is wrong.
+    pub message: String,
+    /// What to type instead.
+    pub help: Option<String>,
+    /// Byte range of the culprit in the scenario text.
+    pub span: Option<(usize, usize)>,
+}
+
+/// Why no prediction came out.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Unsolved {
+    /// A pressure that means nothing.
+    #[error("{what} is {value_kpa} kPa; expected a gauge pressure from 0 to {limit_kpa} kPa")]
+    BadPressure {
+        /// Which pressure.
+        what: &'static str,
+        /// Its value \[kPa\].
+        value_kpa: f64,
+        /// Largest accepted \[kPa\].
+        limit_kpa: f64,
+    },
+    /// The moment balance of a stretch has no root.
+    #[error(
+        "no equilibrium at s = {s_mm:.1} mm for P = {p_act_kpa:.3} kPa, p_b = {p_body_kpa:.3} kPa: \
+         the imbalance goes from {low:.3e} to {high:.3e} N·m; the outer loads exceed what wall and actuator can carry"
+    )]
+    NoEquilibrium {
+        /// Place \[mm\].
+        s_mm: f64,
+        /// Actuator pressure there \[kPa\].
+        p_act_kpa: f64,
+        /// Body pressure \[kPa\].
+        p_body_kpa: f64,
+        /// Imbalance at the lower end of the search interval.
+        low: f64,
+        /// Imbalance at its upper end.
+        high: f64,
+    },
+    /// Moments and shape did not settle.
+    #[error(
+        "moments and shape did not agree after {iterations} iterations at P = {p_act_kpa:.3} kPa: \
+         residual {residual:.3e} N·m; the robot is close to collapse under its load"
+    )]
+    NotConverged {
+        /// Iterations made.
+        iterations: usize,
+        /// Actuator pressure of channel 0 \[kPa\].
+        p_act_kpa: f64,
+        /// Largest remaining imbalance \[N·m\].
+        residual: f64,
+    },
+    /// The wanted tip cannot be had.
+    #[error(
+        "{what} {wanted:.4} {unit} is out of reach: pressures from 0 to {p_max_kpa} kPa give {lowest:.4} to {highest:.4} {unit}"
+    )]
+    OutOfReach {
+        /// Which quantity.
+        what: &'static str,
+        /// Wanted value.
+        wanted: f64,
+        /// Lowest value found.
+        lowest: f64,
+        /// Highest value found.
+        highest: f64,
+        /// Unit of the three.
+        unit: &'static str,
+        /// Largest pressure searched \[kPa\].
+        p_max_kpa: f64,
+    },
+}

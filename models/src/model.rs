@@ -1,0 +1,265 @@
+//! A model: a scenario put together, ready to predict.
+
+use crate::actuators::ActuatorShape;
+use crate::assembly::{Assembly, Segment, Sighting};
+use crate::body::{Bending, BodyPressure};
+use crate::effects::{Effect, by_name};
+use crate::error::Unsolved;
+use crate::robot::{Workspace, equilibrium};
+use crate::scenario::{Scenario, Span};
+use crate::shape::{advance, arc};
+use crate::site::{Linkage, Site};
+use crate::term::{CHANNELS, Loads, Pose, Term, actuator_q};
+
+/// A robot with its list of terms. Made once from a scenario; predicting does not change it.
+pub struct Model {
+    assembly: Assembly,
+    /// Segment, distance from its start \[m\].
+    markers: Vec<(usize, f64)>,
+    p_max_pa: f64,
+}
+
+/// Largest gauge pressure accepted \[Pa\]; fabric robots burst far below.
+const P_LIMIT_PA: f64 = 1e6;
+
+/// Pose of the robot's end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tip {
+    /// Along the undeformed body \[m\].
+    pub x_m: f64,
+    /// Towards the actuator \[m\].
+    pub y_m: f64,
+    /// Heading, the total bending angle \[rad\].
+    pub angle_rad: f64,
+}
+
+/// A predicted state, and the buffers of its computation. Make it with [`Model::prediction`], use it again and again.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prediction {
+    /// Marker positions as the camera sees them \[m\].
+    pub markers: Vec<[f64; 2]>,
+    /// End of the centre line.
+    pub tip: Tip,
+    pub(crate) work: Workspace,
+}
+
+/// One line of the energy ledger.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LedgerLine {
+    /// Name of the term.
+    pub name: &'static str,
+    /// Potential energy at equilibrium \[J\]; for the actuator pressure it is −PΔV, the negative of its work.
+    pub energy_j: f64,
+}
+
+impl Model {
+    /// Puts a scenario together.
+    pub fn new(scenario: &Scenario) -> Model {
+        let spans = scenario.spans();
+        let chosen: Vec<(&'static Effect, &[f64])> =
+            scenario.effects.iter().filter_map(|c| Some((by_name(&c.name)?, c.values.as_slice()))).collect();
+        let mut assembly = assemble(scenario, &spans, scenario.segments);
+        chosen.iter().for_each(|(effect, values)| (effect.add)(values, &mut assembly));
+        // Without transverse loads every stretch of equal design is one arc.
+        if assembly.node_terms.is_empty() {
+            assembly.segments = divide(&spans, 1);
+        }
+        let markers = scenario.markers_m.iter().map(|s| locate(&assembly.segments, *s)).collect();
+        Model { assembly, markers, p_max_pa: scenario.p_max_pa }
+    }
+
+    /// Buffers for [`Model::predict`].
+    pub fn prediction(&self) -> Prediction {
+        Prediction {
+            markers: vec![[0.0; 2]; self.markers.len()],
+            tip: Tip { x_m: 0.0, y_m: 0.0, angle_rad: 0.0 },
+            work: Workspace::new(self.assembly.segments.len(), !self.assembly.node_terms.is_empty()),
+        }
+    }
+
+    /// Equilibrium, shape and markers at given pressures. Allocates nothing.
+    ///
+    /// # Errors
+    /// [`Unsolved`] with pressures and place when a pressure is negative or not finite, or nothing balances.
+    pub fn predict(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
+        check(loads)?;
+        self.supply(loads, &mut out.work);
+        equilibrium(&self.assembly, loads.body_pa, &mut out.work)?;
+        let last = self.assembly.segments.len();
+        let work = &out.work;
+        out.tip =
+            Tip { x_m: work.nodes[2 * last], y_m: work.nodes[2 * last + 1], angle_rad: work.headings[last] };
+        for (seen, (segment, offset)) in out.markers.iter_mut().zip(&self.markers) {
+            *seen = self.sight(&out.work, *segment, *offset);
+        }
+        Ok(())
+    }
+
+    /// Potential energy of every term at a predicted state \[J\], in the order in which terms were added.
+    pub fn ledger(&self, loads: &Loads, at: &Prediction) -> Vec<LedgerLine> {
+        let mut lines = Vec::new();
+        for (i, segment) in self.assembly.segments.iter().enumerate() {
+            let site = &self.assembly.sites[segment.site];
+            self.site_energies(site, segment, loads.body_pa, &at.work, i, &mut lines);
+        }
+        let pose = Pose { q: &at.work.nodes, p_body_pa: loads.body_pa, p_act_pa: 0.0 };
+        let rest = self.rest_nodes();
+        for term in &self.assembly.node_terms {
+            let mut unused = vec![0.0; rest.len()];
+            let energy = term.add(&pose, &mut unused) - term.add(&Pose { q: &rest, ..pose }, &mut unused);
+            post(&mut lines, term.name(), energy);
+        }
+        lines
+    }
+
+    /// Curvature per segment \[1/m\] and the segment's start and length \[m\].
+    pub fn curvatures<'a>(&'a self, at: &'a Prediction) -> impl Iterator<Item = (Segment, f64)> + 'a {
+        self.assembly.segments.iter().zip(&at.work.states).map(|(segment, state)| (*segment, state.curvature))
+    }
+
+    /// `count` points of the centre line from base to tip \[m\], for drawing.
+    pub fn centre_line(&self, at: &Prediction, count: usize) -> Vec<[f64; 2]> {
+        let length: f64 = self.assembly.segments.iter().map(|s| s.length_m).sum();
+        (0..count)
+            .map(|i| {
+                let (segment, offset) = locate(&self.assembly.segments, length * i as f64 / (count.max(2) - 1) as f64);
+                self.place(&at.work, segment, offset).0
+            })
+            .collect()
+    }
+
+    /// Largest actuator pressure of the search for an inverse \[Pa\], from the scenario.
+    pub fn p_max_pa(&self) -> f64 {
+        self.p_max_pa
+    }
+
+    /// The parts, for tests over every term.
+    pub fn assembly(&self) -> &Assembly {
+        &self.assembly
+    }
+
+    fn supply(&self, loads: &Loads, work: &mut Workspace) {
+        for (p, segment) in work.p_act_pa.iter_mut().zip(&self.assembly.segments) {
+            let site = &self.assembly.sites[segment.site];
+            let set = if site.actuator.is_some() { loads.actuator_pa[site.channel] } else { 0.0 };
+            *p = self.assembly.supply.iter().fold(set, |p, law| law(p));
+        }
+    }
+
+    fn place(&self, work: &Workspace, segment: usize, offset: f64) -> ([f64; 2], f64) {
+        let kappa = work.states[segment].curvature;
+        let radius = self.assembly.sites[self.assembly.segments[segment].site].radius_m;
+        let part = arc(kappa, offset, radius);
+        let from = [work.nodes[2 * segment], work.nodes[2 * segment + 1]];
+        (advance(from, work.directions[segment], part.along, part.across), work.headings[segment] + kappa * offset)
+    }
+
+    fn sight(&self, work: &Workspace, segment: usize, offset: f64) -> [f64; 2] {
+        let (xy, heading) = self.place(work, segment, offset);
+        let mut seen = Sighting { xy, heading };
+        for law in &self.assembly.camera {
+            law(&mut seen);
+        }
+        seen.xy
+    }
+
+    fn site_energies(
+        &self,
+        site: &Site,
+        segment: &Segment,
+        p_body_pa: f64,
+        work: &Workspace,
+        index: usize,
+        lines: &mut Vec<LedgerLine>,
+    ) {
+        let (state, p_act_pa, h) = (&work.states[index], work.p_act_pa[index], segment.length_m);
+        let mut unused = [0.0; actuator_q::LEN];
+        if let Some(actuator) = site.actuator.filter(|_| p_act_pa > 0.0) {
+            let stroke = (actuator.stroke)(&site.shape, state.coordinate);
+            let rest = (actuator.stroke)(&site.shape, 0.0_f64.max(actuator.range.0));
+            let q = [state.coordinate, stroke.contraction, stroke.volume - rest.volume, site.geometric(&stroke)];
+            for term in &site.actuator_terms {
+                let energy = term.add(&Pose { q: &q, p_body_pa, p_act_pa }, &mut unused);
+                post(lines, term.name(), energy * site.linkage.active_fraction * h);
+            }
+            let stretch = 0.5 * site.linkage.compliance_per_n * state.tension * state.tension;
+            if stretch != 0.0 {
+                post(lines, "fabric_stretch", stretch * h);
+            }
+        }
+        let pose = Pose { q: &[state.curvature], p_body_pa, p_act_pa };
+        for term in [&*site.body_pressure, &site.bending as &dyn Term].into_iter().chain(site.body_terms()) {
+            post(lines, term.name(), term.add(&pose, &mut unused) * h);
+        }
+    }
+
+    fn rest_nodes(&self) -> Vec<f64> {
+        let mut x = 0.0;
+        let mut nodes = vec![0.0, 0.0];
+        for segment in &self.assembly.segments {
+            x += segment.length_m;
+            nodes.extend([x, 0.0]);
+        }
+        nodes
+    }
+}
+
+fn check(loads: &Loads) -> Result<(), Unsolved> {
+    for (what, p) in
+        std::iter::once(("body pressure", loads.body_pa)).chain(loads.actuator_pa.map(|p| ("actuator pressure", p)))
+    {
+        if !(0.0..=P_LIMIT_PA).contains(&p) {
+            return Err(Unsolved::BadPressure { what, value_kpa: p / 1e3, limit_kpa: P_LIMIT_PA / 1e3 });
+        }
+    }
+    Ok(())
+}
+
+/// Adds to the line of that name, or opens it.
+fn post(lines: &mut Vec<LedgerLine>, name: &'static str, energy_j: f64) {
+    match lines.iter_mut().find(|line| line.name == name) {
+        Some(line) => line.energy_j += energy_j,
+        None => lines.push(LedgerLine { name, energy_j }),
+    }
+}
+
+fn assemble(scenario: &Scenario, spans: &[Span], segments: usize) -> Assembly {
+    let sites = spans.iter().map(|span| site(scenario, span)).collect();
+    Assembly {
+        sites,
+        segments: divide(spans, segments),
+        node_terms: Vec::new(),
+        supply: Vec::new(),
+        camera: Vec::new(),
+        gravity_direction: scenario.gravity_direction,
+    }
+}
+
+fn site(scenario: &Scenario, span: &Span) -> Site {
+    let shape: ActuatorShape = span.shape;
+    let linkage = Linkage { active_fraction: 1.0, arm_m: span.arm_m, arm_growth: 0.0, compliance_per_n: 0.0 };
+    let pressure = BodyPressure { radius_m: span.radius_m, hinge_curvature: scenario.hinge_curvature };
+    let bending = Bending { stiffness: span.bending_stiffness };
+    debug_assert!(span.channel < CHANNELS);
+    Site::new(span.radius_m, pressure, bending, linkage, span.actuator, shape, span.channel)
+}
+
+/// Every span in about `total · length/whole` equal segments, at least one.
+fn divide(spans: &[Span], total: usize) -> Vec<Segment> {
+    let whole: f64 = spans.iter().map(|s| s.length_m).sum();
+    let mut segments = Vec::new();
+    for (site, span) in spans.iter().enumerate() {
+        let count = ((total as f64 * span.length_m / whole).round() as usize).max(1);
+        let length_m = span.length_m / count as f64;
+        for i in 0..count {
+            segments.push(Segment { site, start_m: span.start_m + i as f64 * length_m, length_m });
+        }
+    }
+    segments
+}
+
+/// Segment that holds a station, and the distance from its start; the last segment takes what lies beyond the tip.
+fn locate(segments: &[Segment], station_m: f64) -> (usize, f64) {
+    let index = segments.iter().rposition(|s| s.start_m <= station_m).unwrap_or(0);
+    (index, station_m - segments[index].start_m)
+}

@@ -1,0 +1,276 @@
+//! Raw values → SI, with range checks that say what was probably meant.
+
+use super::raw::{Body, Raw, RawActuator, RawZone};
+use super::{ActuatorChoice, EffectChoice, Scenario, Zone, order};
+use crate::actuators::{self, ACTUATORS, ActuatorShape};
+use crate::effects::{self, EFFECTS, Effect};
+use crate::error::ScenarioError;
+use crate::term::CHANNELS;
+use toml::Spanned;
+
+type Checked<T> = Result<T, ScenarioError>;
+
+/// Accepted interval of a quantity, and the slip to suspect below or above it.
+struct Range {
+    name: &'static str,
+    unit: &'static str,
+    si: f64,
+    low: f64,
+    high: f64,
+    too_small: &'static str,
+    too_large: &'static str,
+}
+
+const LENGTH: Range = Range {
+    name: "length",
+    unit: "mm",
+    si: 1e-3,
+    low: 1.0,
+    high: 1e5,
+    too_small: "this looks like metres: write millimetres, for example 60 for 0.06 m",
+    too_large: "write millimetres",
+};
+const POSITION: Range = Range { name: "position", low: 0.0, too_small: "positions count from the base", ..LENGTH };
+const PRESSURE: Range = Range {
+    name: "pressure",
+    unit: "kPa",
+    si: 1e3,
+    low: 0.0,
+    high: 500.0,
+    too_small: "pressures are gauge pressures and not negative",
+    too_large: "this looks like pascals: write kilopascals, for example 30 for 30000 Pa",
+};
+const BODY_PRESSURE: Range = Range {
+    low: 0.05,
+    high: 100.0,
+    too_small: "an inflated beam needs pressure; 1 psi is 6.895 kPa",
+    ..PRESSURE
+};
+const STIFFNESS: Range = Range {
+    name: "bending stiffness",
+    unit: "N m²",
+    si: 1.0,
+    low: 0.0,
+    high: 1e3,
+    too_small: "a stiffness is not negative",
+    too_large: "write N·m²; 1 N·m² is 1e6 N·mm²",
+};
+const HINGE: Range = Range {
+    name: "hinge curvature",
+    unit: "1/m",
+    si: 1.0,
+    low: 1e-6,
+    high: 10.0,
+    too_small: "it must be positive; 0.05 is the usual value",
+    too_large: "write 1/m; 0.05 is the usual value",
+};
+const GAIN: Range = Range {
+    name: "volume gain",
+    unit: "-",
+    si: 1.0,
+    low: 0.05,
+    high: 20.0,
+    too_small: "1 is the plain pouch",
+    too_large: "1 is the plain pouch",
+};
+
+pub(super) fn scenario(raw: &Raw) -> Checked<Scenario> {
+    let body = raw.body.get_ref();
+    let length_m = si(&body.length_mm, &LENGTH)?;
+    let radius_m = radius(&body.radius_mm)?;
+    let actuator = actuator(&raw.actuator, length_m)?;
+    let zones = raw.zone.iter().map(|z| zone(z, length_m)).collect::<Checked<Vec<_>>>()?;
+    let p_max = raw.actuator.get_ref().max_pressure_kpa.as_ref();
+    Ok(Scenario {
+        name: raw.name.clone(),
+        radius_m,
+        length_m,
+        p_body_pa: si(&body.pressure_kpa, &BODY_PRESSURE)?,
+        bending_stiffness: optional(&body.bending_stiffness_nm2, &STIFFNESS)?.unwrap_or(0.0),
+        hinge_curvature: optional(&body.hinge_curvature_per_m, &HINGE)?.unwrap_or(0.05),
+        gravity_direction: gravity(body)?,
+        actuator,
+        zones,
+        markers_m: stations(&raw.markers.s_mm, length_m)?,
+        pressures_pa: raw.predict.pressures_kpa.iter().map(|p| si(p, &PRESSURE)).collect::<Checked<Vec<_>>>()?,
+        segments: segments(raw)?,
+        p_max_pa: p_max.map(|p| si(p, &PRESSURE)).transpose()?.unwrap_or(100e3),
+        effects: effects_of(raw, actuator.kind)?,
+    })
+}
+
+fn refuse<T>(message: String, help: impl Into<String>, span: std::ops::Range<usize>) -> Checked<T> {
+    Err(ScenarioError { message, help: Some(help.into()), span: Some((span.start, span.end)) })
+}
+
+fn si(value: &Spanned<f64>, range: &Range) -> Checked<f64> {
+    let v = *value.get_ref();
+    if (range.low..=range.high).contains(&v) {
+        return Ok(v * range.si);
+    }
+    let help = if v < range.low { range.too_small } else { range.too_large };
+    let message =
+        format!("{} must be from {} to {} {}, not {v}", range.name, range.low, range.high, range.unit);
+    let help = if v < 0.0 && range.low >= 0.0 { "a negative value means nothing here" } else { help };
+    refuse(message, help, value.span())
+}
+
+fn optional(value: &Option<Spanned<f64>>, range: &Range) -> Checked<Option<f64>> {
+    value.as_ref().map(|v| si(v, range)).transpose()
+}
+
+fn radius(value: &Spanned<f64>) -> Checked<f64> {
+    si(value, &Range { name: "radius", high: 1000.0, ..LENGTH })
+}
+
+fn gravity(body: &Body) -> Checked<[f64; 2]> {
+    let Some(direction) = &body.gravity else { return Ok([0.0, -1.0]) };
+    let [x, y] = *direction.get_ref();
+    if ((x * x + y * y) - 1.0).abs() > 1e-3 {
+        let message = format!("gravity must be a unit vector in the x–y plane, not [{x}, {y}]");
+        return refuse(message, "[0, -1] points against the bend, [1, 0] along the robot", direction.span());
+    }
+    Ok([x, y])
+}
+
+fn actuator(raw: &Spanned<RawActuator>, length_m: f64) -> Checked<ActuatorChoice> {
+    let a = raw.get_ref();
+    let Some(kind) = actuators::by_name(a.kind.get_ref()) else {
+        let known = ACTUATORS.iter().map(|a| a.name).collect::<Vec<_>>().join(", ");
+        return refuse(format!("unknown actuator \"{}\"", a.kind.get_ref()), format!("known: {known}"), a.kind.span());
+    };
+    let shape = ActuatorShape {
+        length_m: si(&a.length_mm, &LENGTH)?,
+        width_m: si(&a.width_mm, &LENGTH)?,
+        fold_m: optional(&a.fold_mm, &POSITION)?.unwrap_or(0.0),
+        volume_gain: optional(&a.volume_gain, &GAIN)?.unwrap_or(1.0),
+    };
+    let count = *a.count.get_ref();
+    if !(1..=10_000).contains(&count) {
+        return refuse(format!("count must be from 1 to 10000, not {count}"), "units in series", a.count.span());
+    }
+    let start_m = optional(&a.start_mm, &POSITION)?.unwrap_or(0.0);
+    let end_m = start_m + count as f64 * shape.length_m;
+    if end_m > length_m * (1.0 + 1e-9) {
+        let message = format!(
+            "{count} units of {} mm from {} mm end at {:.1} mm, beyond the body's {:.1} mm",
+            a.length_mm.get_ref(),
+            start_m * 1e3,
+            end_m * 1e3,
+            length_m * 1e3
+        );
+        return refuse(message, "lower count, length_mm or start_mm, or raise body.length_mm", a.count.span());
+    }
+    let (arm_m, channel) = (optional(&a.arm_mm, &LENGTH)?, channel(&a.channel)?.unwrap_or(0));
+    Ok(ActuatorChoice { kind, shape, count: count as usize, start_m, arm_m, channel })
+}
+
+fn channel(value: &Option<Spanned<i64>>) -> Checked<Option<usize>> {
+    let Some(value) = value else { return Ok(None) };
+    match usize::try_from(*value.get_ref()) {
+        Ok(channel) if channel < CHANNELS => Ok(Some(channel)),
+        _ => refuse(format!("channel must be 0 to {}", CHANNELS - 1), "number of the supply line", value.span()),
+    }
+}
+
+fn zone(raw: &Spanned<RawZone>, length_m: f64) -> Checked<Zone> {
+    let z = raw.get_ref();
+    let (from_m, to_m) = (si(&z.from_mm, &POSITION)?, si(&z.to_mm, &POSITION)?);
+    if from_m >= to_m || to_m > length_m * (1.0 + 1e-9) {
+        let message = format!("a zone from {} to {} mm is not on the body", from_m * 1e3, to_m * 1e3);
+        return refuse(message, format!("0 ≤ from_mm < to_mm ≤ {}", length_m * 1e3), z.to_mm.span());
+    }
+    Ok(Zone {
+        from_m,
+        to_m,
+        radius_m: z.radius_mm.as_ref().map(radius).transpose()?,
+        bending_stiffness: optional(&z.bending_stiffness_nm2, &STIFFNESS)?,
+        passive: z.passive,
+        unit_length_m: optional(&z.length_mm, &LENGTH)?,
+        width_m: optional(&z.width_mm, &LENGTH)?,
+        fold_m: optional(&z.fold_mm, &POSITION)?,
+        arm_m: optional(&z.arm_mm, &LENGTH)?,
+        channel: channel(&z.channel)?,
+    })
+}
+
+fn stations(raw: &[Spanned<f64>], length_m: f64) -> Checked<Vec<f64>> {
+    let mut stations: Vec<f64> = Vec::with_capacity(raw.len());
+    for value in raw {
+        let s = si(value, &POSITION)?;
+        if s > length_m * (1.0 + 1e-9) {
+            let message = format!("marker at {} mm is off the body of {} mm", value.get_ref(), length_m * 1e3);
+            return refuse(message, "stations are measured along the undeformed body from its base", value.span());
+        }
+        if stations.last().is_some_and(|last| *last >= s) {
+            return refuse("marker stations must rise".into(), "sort them from base to tip", value.span());
+        }
+        stations.push(s);
+    }
+    if let (Some(last), Some(value)) = (stations.last(), raw.last())
+        && *last < 0.002
+        && length_m > 0.05
+    {
+        return refuse("marker stations are all below 2 mm".into(), LENGTH.too_small, value.span());
+    }
+    Ok(stations)
+}
+
+fn segments(raw: &Raw) -> Checked<usize> {
+    let Some(value) = &raw.predict.segments else { return Ok(12) };
+    match *value.get_ref() {
+        n @ 1..=2000 => Ok(n as usize),
+        n => refuse(format!("segments must be from 1 to 2000, not {n}"), "12 is the usual value", value.span()),
+    }
+}
+
+/// Words that may stand beside the parameters of an effect: how they are known.
+const REMARKS: &[&str] = &["basis", "interval", "data", "date", "note"];
+
+fn effects_of(raw: &Raw, kind: &actuators::Actuator) -> Checked<Vec<EffectChoice>> {
+    let mut chosen = Vec::new();
+    for (name, table) in &raw.effects {
+        let Some(effect) = effects::by_name(name.get_ref()) else {
+            let known = EFFECTS.iter().map(|e| e.name).collect::<Vec<_>>().join(", ");
+            return refuse(format!("unknown effect \"{}\"", name.get_ref()), format!("known: {known}"), name.span());
+        };
+        if !effect.applies_to(kind.family) {
+            let message = format!("{} does not exist for an {}", effect.name, kind.name);
+            return refuse(message, format!("remove [effects.{}]", effect.name), name.span());
+        }
+        let mut values = effect.neutral();
+        let mut basis = String::new();
+        for (key, value) in table {
+            match (key.get_ref().as_str(), effect.parameters.iter().position(|p| p.key == key.get_ref())) {
+                (_, Some(i)) => values[i] = parameter(effect, i, value)?,
+                ("basis", None) => basis = value.get_ref().as_str().unwrap_or_default().to_string(),
+                (word, None) if REMARKS.contains(&word) => {}
+                (word, None) => {
+                    let keys = effect.parameters.iter().map(|p| p.key).collect::<Vec<_>>().join(", ");
+                    let message = format!("{} has no parameter \"{word}\"", effect.name);
+                    return refuse(message, format!("its parameters: {keys}"), key.span());
+                }
+            }
+        }
+        chosen.push(EffectChoice { name: effect.name.to_string(), values, basis });
+    }
+    chosen.sort_by_key(|e| order(&e.name));
+    Ok(chosen)
+}
+
+fn parameter(effect: &Effect, index: usize, value: &Spanned<toml::Value>) -> Checked<f64> {
+    let p = &effect.parameters[index];
+    let number = match value.get_ref() {
+        toml::Value::Float(v) => *v,
+        toml::Value::Integer(v) => *v as f64,
+        other => {
+            let message = format!("{} must be a number, not {}", p.key, other.type_str());
+            return refuse(message, format!("for example {} = {}", p.key, p.typical), value.span());
+        }
+    };
+    if !(p.lower..=p.upper).contains(&number) {
+        let message = format!("{} = {number} is outside its physical bounds {} to {} {}", p.key, p.lower, p.upper, p.unit);
+        return refuse(message, format!("{}; typical {} {}", p.meaning, p.typical, p.unit), value.span());
+    }
+    Ok(number * p.si)
+}

@@ -1,0 +1,184 @@
+//! A scenario: the robot and its model as the user writes it, in TOML with the unit in every key.
+//!
+//! ```toml
+//! name = "ePAM, du Pasquier 2023"
+//! [body]
+//! radius_mm = 40
+//! length_mm = 360
+//! pressure_kpa = 2
+//! [actuator]
+//! kind = "epam"
+//! length_mm = 60            # one pouch
+//! width_mm = 60
+//! count = 6
+//! [markers]
+//! s_mm = [30, 90, 150, 210, 270, 330]
+//! [effects.end_constraint]
+//! beta = 0.446
+//! basis = "assumed"
+//! ```
+
+mod check;
+mod raw;
+mod spans;
+
+pub use spans::Span;
+
+use crate::actuators::{Actuator, ActuatorShape};
+use crate::error::ScenarioError;
+
+/// A scenario in SI units, checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scenario {
+    /// Free name.
+    pub name: String,
+    /// Body radius R \[m\].
+    pub radius_m: f64,
+    /// Body length L \[m\].
+    pub length_m: f64,
+    /// Body gauge pressure \[Pa\].
+    pub p_body_pa: f64,
+    /// Effective bending stiffness B \[N·m²\]; 0 in a bare model.
+    pub bending_stiffness: f64,
+    /// Hinge curvature k₀ of the base law \[1/m\].
+    pub hinge_curvature: f64,
+    /// Unit vector of gravity in the x–y plane.
+    pub gravity_direction: [f64; 2],
+    /// The actuator.
+    pub actuator: ActuatorChoice,
+    /// Stretches that differ.
+    pub zones: Vec<Zone>,
+    /// Marker stations along the undeformed body \[m\].
+    pub markers_m: Vec<f64>,
+    /// Actuator pressures to predict at when none are asked for \[Pa\].
+    pub pressures_pa: Vec<f64>,
+    /// Segments of a model with transverse loads.
+    pub segments: usize,
+    /// Largest actuator pressure an inverse may ask for \[Pa\].
+    pub p_max_pa: f64,
+    /// Effects, in catalogue order.
+    pub effects: Vec<EffectChoice>,
+}
+
+/// The actuator of a scenario.
+#[derive(Debug, Clone, Copy)]
+pub struct ActuatorChoice {
+    /// Kind.
+    pub kind: &'static Actuator,
+    /// Dimensions of one unit.
+    pub shape: ActuatorShape,
+    /// Units in series.
+    pub count: usize,
+    /// Where the first unit starts \[m\].
+    pub start_m: f64,
+    /// Arm from the taut generator \[m\]; `None`: the kind's own.
+    pub arm_m: Option<f64>,
+    /// Supply channel.
+    pub channel: usize,
+}
+
+impl PartialEq for ActuatorChoice {
+    fn eq(&self, other: &Self) -> bool {
+        self.kind.name == other.kind.name
+            && (self.shape, self.count, self.start_m, self.arm_m, self.channel)
+                == (other.shape, other.count, other.start_m, other.arm_m, other.channel)
+    }
+}
+
+/// A stretch of the body where something differs from the rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Zone {
+    /// Start \[m\].
+    pub from_m: f64,
+    /// End \[m\].
+    pub to_m: f64,
+    /// Body radius \[m\].
+    pub radius_m: Option<f64>,
+    /// Effective bending stiffness \[N·m²\].
+    pub bending_stiffness: Option<f64>,
+    /// Without actuator.
+    pub passive: Option<bool>,
+    /// Unit length \[m\].
+    pub unit_length_m: Option<f64>,
+    /// Unit width \[m\].
+    pub width_m: Option<f64>,
+    /// Fold depth \[m\].
+    pub fold_m: Option<f64>,
+    /// Arm \[m\].
+    pub arm_m: Option<f64>,
+    /// Supply channel.
+    pub channel: Option<usize>,
+}
+
+/// An effect switched on, with its values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EffectChoice {
+    /// Name in the catalogue.
+    pub name: String,
+    /// Parameter values in catalogue order, SI.
+    pub values: Vec<f64>,
+    /// How the values are known: `assumed`, `calibrated`, `geometry`, `measured`, or empty.
+    pub basis: String,
+}
+
+/// The scenarios that come with the library: the four robots of du Pasquier 2023, by actuator name.
+pub fn shipped(name: &str) -> Option<&'static str> {
+    SHIPPED.iter().find(|(key, _)| *key == name).map(|(_, text)| *text)
+}
+
+/// Names and texts of the shipped scenarios.
+pub const SHIPPED: &[(&str, &str)] = &[
+    ("spam", include_str!("../../scenarios/spam.toml")),
+    ("cpam", include_str!("../../scenarios/cpam.toml")),
+    ("epam", include_str!("../../scenarios/epam.toml")),
+    ("fpam", include_str!("../../scenarios/fpam.toml")),
+];
+
+impl Scenario {
+    /// Reads a scenario from TOML text.
+    ///
+    /// # Errors
+    /// Syntax errors, unknown keys and values that cannot be, each with its place in the text.
+    pub fn parse(text: &str) -> Result<Scenario, ScenarioError> {
+        let raw: raw::Raw = toml::from_str(text).map_err(raw::syntax)?;
+        check::scenario(&raw)
+    }
+
+    /// The same robot without any effect and with B = 0.
+    pub fn bare(&self) -> Scenario {
+        Scenario { bending_stiffness: 0.0, effects: Vec::new(), ..self.clone() }
+    }
+
+    /// The same with an effect set (added, or its values replaced); values in SI, catalogue order is kept.
+    pub fn with_effect(&self, name: &str, values: &[f64]) -> Scenario {
+        let mut changed = self.clone();
+        changed.effects.retain(|e| e.name != name);
+        let choice = EffectChoice { name: name.to_string(), values: values.to_vec(), basis: String::new() };
+        changed.effects.push(choice);
+        changed.effects.sort_by_key(|e| order(&e.name));
+        changed
+    }
+
+    /// The same with another effective bending stiffness \[N·m²\].
+    pub fn with_bending(&self, stiffness: f64) -> Scenario {
+        Scenario { bending_stiffness: stiffness, ..self.clone() }
+    }
+
+    /// The same with other marker stations \[m\].
+    pub fn with_markers(&self, stations_m: &[f64]) -> Scenario {
+        Scenario { markers_m: stations_m.to_vec(), ..self.clone() }
+    }
+
+    /// Stretches of equal design, base to tip.
+    pub fn spans(&self) -> Vec<Span> {
+        spans::spans(self)
+    }
+}
+
+/// Place of an effect in the catalogue.
+fn order(name: &str) -> usize {
+    crate::effects::EFFECTS.iter().position(|e| e.name == name).unwrap_or(usize::MAX)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,92 @@
+//! The body cut into stretches of equal design.
+
+use super::{Scenario, Zone};
+use crate::actuators::{Actuator, ActuatorShape};
+
+/// A stretch of equal design.
+#[derive(Debug, Clone, Copy)]
+pub struct Span {
+    /// Start \[m\].
+    pub start_m: f64,
+    /// Length \[m\].
+    pub length_m: f64,
+    /// Body radius \[m\].
+    pub radius_m: f64,
+    /// Effective bending stiffness \[N·m²\].
+    pub bending_stiffness: f64,
+    /// Actuator, if any.
+    pub actuator: Option<&'static Actuator>,
+    /// Unit dimensions.
+    pub shape: ActuatorShape,
+    /// Arm from the taut generator \[m\].
+    pub arm_m: f64,
+    /// Supply channel.
+    pub channel: usize,
+}
+
+/// Stretches shorter than this are rounding of two boundaries meant to be one \[m\].
+const MERGE_BELOW_M: f64 = 1e-9;
+
+pub(super) fn spans(scenario: &Scenario) -> Vec<Span> {
+    let cuts = cuts(scenario);
+    cuts.windows(2).map(|pair| span(scenario, pair[0], pair[1])).collect()
+}
+
+fn active(scenario: &Scenario) -> (f64, f64) {
+    let a = &scenario.actuator;
+    (a.start_m, a.start_m + a.count as f64 * a.shape.length_m)
+}
+
+fn cuts(scenario: &Scenario) -> Vec<f64> {
+    let (start, end) = active(scenario);
+    let mut cuts = vec![0.0, scenario.length_m, start, end];
+    cuts.extend(scenario.zones.iter().flat_map(|z| [z.from_m, z.to_m]));
+    cuts.retain(|c| *c <= scenario.length_m + MERGE_BELOW_M);
+    cuts.sort_by(f64::total_cmp);
+    cuts.dedup_by(|b, a| *b - *a < MERGE_BELOW_M);
+    // The body's own end wins over a boundary that differs from it by rounding.
+    if let Some(last) = cuts.last_mut() {
+        *last = scenario.length_m;
+    }
+    cuts
+}
+
+fn span(scenario: &Scenario, start_m: f64, end_m: f64) -> Span {
+    let middle = 0.5 * (start_m + end_m);
+    let inside = |from: f64, to: f64| from < middle && middle < to;
+    let (from, to) = active(scenario);
+    let a = &scenario.actuator;
+    let mut radius_m = scenario.radius_m;
+    let mut arm_m = a.arm_m;
+    let mut built = Span {
+        start_m,
+        length_m: end_m - start_m,
+        radius_m,
+        bending_stiffness: scenario.bending_stiffness,
+        actuator: inside(from, to).then_some(a.kind),
+        shape: a.shape,
+        arm_m: 0.0,
+        channel: a.channel,
+    };
+    for zone in scenario.zones.iter().filter(|z| inside(z.from_m, z.to_m)) {
+        override_span(&mut built, zone, a.kind);
+        radius_m = zone.radius_m.unwrap_or(radius_m);
+        arm_m = zone.arm_m.or(arm_m);
+    }
+    built.radius_m = radius_m;
+    built.arm_m = arm_m.unwrap_or_else(|| (a.kind.arm)(radius_m, &built.shape));
+    built
+}
+
+fn override_span(span: &mut Span, zone: &Zone, kind: &'static Actuator) {
+    span.bending_stiffness = zone.bending_stiffness.unwrap_or(span.bending_stiffness);
+    span.channel = zone.channel.unwrap_or(span.channel);
+    span.shape.length_m = zone.unit_length_m.unwrap_or(span.shape.length_m);
+    span.shape.width_m = zone.width_m.unwrap_or(span.shape.width_m);
+    span.shape.fold_m = zone.fold_m.unwrap_or(span.shape.fold_m);
+    match zone.passive {
+        Some(true) => span.actuator = None,
+        Some(false) => span.actuator = Some(kind),
+        None => {}
+    }
+}

@@ -1,0 +1,71 @@
+//! What a user can type wrong, and what the scenario says then.
+
+use super::*;
+
+fn broken(from: &str, to: &str) -> ScenarioError {
+    let text = shipped("epam").unwrap();
+    assert!(text.contains(from), "{from}");
+    Scenario::parse(&text.replace(from, to)).unwrap_err()
+}
+
+#[test]
+fn every_shipped_scenario_parses() {
+    for (name, text) in SHIPPED {
+        let scenario = Scenario::parse(text).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(scenario.actuator.kind.name, *name);
+        assert_eq!(scenario.markers_m.len(), 6);
+    }
+}
+
+#[test]
+fn each_slip_is_refused_with_its_place_and_a_hint() {
+    let cases = [
+        ("radius_mm = 40 ", "radius_mm = 0.04 ", "radius must be", "metres"),
+        ("radius_mm = 40 ", "radius_mm = -40 ", "radius must be", "negative"),
+        ("radius_mm = 40 ", "radius_mm = \"40\" ", "invalid type", ""),
+        ("radius_mm = 40 ", "radius_m = 40 ", "unknown field `radius_m`", "unit"),
+        ("pressure_kpa = 2 ", "pressure_kpa = 2000 ", "pressure must be", "pascals"),
+        ("pressure_kpa = 2 ", "pressure_kpa = nan ", "pressure must be", ""),
+        ("kind = \"epam\"", "kind = \"epm\"", "unknown actuator", "epam"),
+        ("count = 6 ", "count = 7 ", "beyond the body", "count"),
+        ("count = 6 ", "count = 0 ", "count must be", ""),
+        ("330]", "390]", "off the body", "base"),
+        ("330]", "200]", "must rise", "sort"),
+        ("[10, 20, 30]", "[10, 20, 30000]", "pressure must be", "pascals"),
+        ("[predict]", "[effects.end_constrain]\nbeta = 1\n[predict]", "unknown effect", "end_constraint"),
+        ("[predict]", "[effects.end_constraint]\nbta = 1\n[predict]", "no parameter", "beta"),
+        ("[predict]", "[effects.end_constraint]\nbeta = 1.5\n[predict]", "bounds", "typical"),
+        ("[predict]", "[effects.end_constraint]\nbeta = \"x\"\n[predict]", "must be a number", "beta ="),
+        ("[predict]", "[effects.shear_stiffness]\nshear_n_per_m = 50\n[predict]", "does not exist", "remove"),
+    ];
+    for (from, to, message, help) in cases {
+        let error = broken(from, to);
+        assert!(error.message.contains(message), "{to}: {error:?}");
+        assert!(error.help.clone().unwrap_or_default().contains(help), "{to}: {error:?}");
+        assert!(error.span.is_some(), "{to}: {error:?}");
+    }
+}
+
+#[test]
+fn an_empty_or_cut_text_is_an_error_not_a_panic() {
+    let text = shipped("fpam").unwrap();
+    for end in 0..text.len() {
+        if text.is_char_boundary(end) {
+            let _ = Scenario::parse(&text[..end]);
+        }
+    }
+    assert!(Scenario::parse("").unwrap_err().message.contains("missing field"));
+}
+
+#[test]
+fn zones_cut_the_body_and_override_what_they_name() {
+    let text = format!(
+        "{}\n[[zone]]\nfrom_mm = 60\nto_mm = 120\npassive = true\n[[zone]]\nfrom_mm = 240\nto_mm = 360\nradius_mm = 30\nchannel = 2\n",
+        shipped("epam").unwrap()
+    );
+    let spans = Scenario::parse(&text).unwrap().spans();
+    let starts: Vec<f64> = spans.iter().map(|s| (s.start_m * 1e3).round()).collect();
+    assert_eq!(starts, [0.0, 60.0, 120.0, 240.0]);
+    assert!(spans[1].actuator.is_none() && spans[2].actuator.is_some());
+    assert_eq!((spans[3].radius_m, spans[3].arm_m, spans[3].channel), (0.03, 0.06, 2));
+}

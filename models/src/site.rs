@@ -1,0 +1,235 @@
+//! One place of the robot: its actuator, its wall, and the linkage between the two; the moment balance there.
+//!
+//! ```text
+//!        actuator side                    linkage                         body side
+//!   a ─► ε(a), v(a), lift(a)      η ε = κ D + c N/W,  D = D₀ + β·lift      κ ─► wall, body pressure
+//!        N = −η ∂U/∂a / (η ε' − κ D')                                     N D + M_load = ∂U/∂κ
+//! ```
+//!
+//! The taut generator on the far side keeps its length; κ is the heading change per length of it, D the arm from it to
+//! the actuator's line of action. One unknown, the actuator's coordinate `a`, decides everything, because every law is
+//! explicit in it; the balance is one scalar equation per place.
+
+use crate::actuators::{Actuator, ActuatorShape, Stroke};
+use crate::body::{Bending, BodyPressure};
+use crate::root::{NoRoot, find_root};
+use crate::term::{Pose, Term, actuator_q};
+
+/// How the actuator's contraction becomes curvature of the body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Linkage {
+    /// Share η of the actuator's stroke and volume that is active \[-\]; 1 in the bare model.
+    pub active_fraction: f64,
+    /// Arm D₀ from the taut generator to the line of action at rest \[m\].
+    pub arm_m: f64,
+    /// Share β of the actuator's lift by which the arm grows \[-\]; 0 in the bare model.
+    pub arm_growth: f64,
+    /// Line compliance of the actuator's fabric c/W \[1/N\], contraction lost per newton; 0 in the bare model.
+    pub compliance_per_n: f64,
+}
+
+/// One place of the robot while a model is put together; an effect changes what it owns.
+pub struct Site {
+    /// Body radius R \[m\].
+    pub radius_m: f64,
+    /// Actuator kind, `None` on a passive stretch.
+    pub actuator: Option<&'static Actuator>,
+    /// Dimensions of one actuator unit.
+    pub shape: ActuatorShape,
+    /// Supply channel.
+    pub channel: usize,
+    /// Link between contraction and curvature.
+    pub linkage: Linkage,
+    /// Terms over [`actuator_q`], J per metre of body at η = 1.
+    pub actuator_terms: Vec<Box<dyn Term>>,
+    /// Body pressure work; an effect may replace the law.
+    pub body_pressure: Box<dyn Term>,
+    /// Effective bending stiffness.
+    pub bending: Bending,
+    /// Further terms over `[κ]`, J per metre of body.
+    pub body_terms: Vec<Box<dyn Term>>,
+}
+
+/// The pressure work of the actuator, `E = −P v`.
+pub(crate) struct ActuatorPressure;
+
+impl Term for ActuatorPressure {
+    fn name(&self) -> &'static str {
+        "actuator_pressure"
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        force[actuator_q::VOLUME] += at.p_act_pa;
+        -at.p_act_pa * at.q[actuator_q::VOLUME]
+    }
+}
+
+/// Equilibrium of one place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SiteState {
+    /// Actuator coordinate; 0 on a passive or unpressurised stretch.
+    pub coordinate: f64,
+    /// Curvature per length of the taut generator \[1/m\].
+    pub curvature: f64,
+    /// Tension of the actuator's line N \[N\].
+    pub tension: f64,
+    /// dκ/dM_load \[1/(N·m·m)\]: how this place gives way to a transverse load.
+    pub compliance: f64,
+}
+
+/// Pressures and external moment at one place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SiteLoads {
+    pub p_body_pa: f64,
+    pub p_act_pa: f64,
+    /// Generalised force of transverse loads on κ, per length \[N·m\].
+    pub moment: f64,
+}
+
+/// Everything that follows from a coordinate.
+struct Balance {
+    curvature: f64,
+    tension: f64,
+    /// N D + M_load − ∂U/∂κ \[N·m\], times the stroke's weight: zero at equilibrium, nearly linear in `a`.
+    imbalance: f64,
+    /// dκ/da of inextensible fabric; exact where the fabric does not stretch, good enough for a Newton slope elsewhere.
+    d_curvature: f64,
+    weight: f64,
+}
+
+impl Site {
+    /// A place with the base law: pressure work and bending stiffness, nothing else.
+    pub(crate) fn new(
+        radius_m: f64,
+        body_pressure: BodyPressure,
+        bending: Bending,
+        linkage: Linkage,
+        actuator: Option<&'static Actuator>,
+        shape: ActuatorShape,
+        channel: usize,
+    ) -> Site {
+        Site {
+            radius_m,
+            actuator,
+            shape,
+            channel,
+            linkage,
+            actuator_terms: vec![Box::new(ActuatorPressure)],
+            body_pressure: Box::new(body_pressure),
+            bending,
+            body_terms: Vec::new(),
+        }
+    }
+
+    /// Curvature at which actuator, wall and external moment balance; `near` is a state to start from.
+    pub(crate) fn solve(&self, loads: &SiteLoads, near: Option<&SiteState>) -> Result<SiteState, NoRoot> {
+        match self.actuator {
+            Some(actuator) if loads.p_act_pa > 0.0 => self.solve_active(actuator, loads, near),
+            _ => self.solve_passive(loads),
+        }
+    }
+
+    fn solve_active(
+        &self,
+        actuator: &Actuator,
+        loads: &SiteLoads,
+        near: Option<&SiteState>,
+    ) -> Result<SiteState, NoRoot> {
+        let guess = match near {
+            Some(state) => state.coordinate,
+            None => (actuator.guess)(self.demand(actuator, loads)),
+        };
+        let mut imbalance = |a: f64| self.balance(actuator, a, loads).imbalance;
+        // A short first step makes the first secant a good Newton step.
+        let root = find_root(&mut imbalance, actuator.range, (guess, guess * (1.0 - FIRST_STEP) - 1e-9))?;
+        let at = self.balance(actuator, root.x, loads);
+        let compliance = -at.weight * at.d_curvature / root.slope;
+        Ok(SiteState { coordinate: root.x, curvature: at.curvature, tension: at.tension, compliance })
+    }
+
+    /// Without actuator pressure the pouch is slack: only the wall resists.
+    fn solve_passive(&self, loads: &SiteLoads) -> Result<SiteState, NoRoot> {
+        let mut imbalance = |k: f64| loads.moment - self.body_moment(k, loads);
+        let stiffness = |k: f64| -> f64 {
+            let rise = self.body_moment(k + PASSIVE_STEP, loads) - self.body_moment(k - PASSIVE_STEP, loads);
+            rise / (2.0 * PASSIVE_STEP)
+        };
+        let root = if imbalance(0.0) == 0.0 {
+            0.0
+        } else {
+            let guess = imbalance(0.0) / stiffness(0.0);
+            find_root(&mut imbalance, (-PASSIVE_RANGE, PASSIVE_RANGE), (guess, 0.99 * guess))?.x
+        };
+        Ok(SiteState { coordinate: 0.0, curvature: root, tension: 0.0, compliance: 1.0 / stiffness(root) })
+    }
+
+    /// Ratio m of restoring to available moment, for the start value.
+    fn demand(&self, actuator: &Actuator, loads: &SiteLoads) -> f64 {
+        let available = loads.p_act_pa * (actuator.area)(&self.shape) * self.linkage.arm_m;
+        let reference = TYPICAL_STROKE * self.linkage.active_fraction / self.linkage.arm_m;
+        let needed = (self.body_moment(reference, loads) - loads.moment).max(0.0);
+        needed / available
+    }
+
+    fn balance(&self, actuator: &Actuator, a: f64, loads: &SiteLoads) -> Balance {
+        let stroke = (actuator.stroke)(&self.shape, a);
+        let link = &self.linkage;
+        let arm = link.arm_m + link.arm_growth * stroke.lift;
+        let d_arm = link.arm_growth * stroke.d_lift;
+        let geometric = link.active_fraction * stroke.contraction / arm;
+        let d_geometric = (link.active_fraction * stroke.d_contraction - geometric * d_arm) / arm;
+        let slope = link.active_fraction * self.actuator_slope(a, &stroke, geometric, d_geometric, loads);
+        let tension = line_tension(-slope, d_geometric * arm, link.compliance_per_n * d_arm / arm);
+        let curvature = geometric - link.compliance_per_n * tension / arm;
+        let imbalance = (tension * arm + loads.moment - self.body_moment(curvature, loads)) * stroke.weight;
+        Balance { curvature, tension, imbalance, d_curvature: d_geometric, weight: stroke.weight }
+    }
+
+    /// dU/da of all actuator-side terms at η = 1, by the chain rule.
+    fn actuator_slope(&self, a: f64, stroke: &Stroke, geometric: f64, d_geometric: f64, loads: &SiteLoads) -> f64 {
+        let q = [a, stroke.contraction, stroke.volume, geometric];
+        let mut force = [0.0; actuator_q::LEN];
+        let pose = Pose { q: &q, p_body_pa: loads.p_body_pa, p_act_pa: loads.p_act_pa };
+        for term in &self.actuator_terms {
+            term.add(&pose, &mut force);
+        }
+        -(force[0] + force[1] * stroke.d_contraction + force[2] * stroke.d_volume + force[3] * d_geometric)
+    }
+
+    /// Curvature of inextensible fabric at a stroke \[1/m\].
+    pub(crate) fn geometric(&self, stroke: &Stroke) -> f64 {
+        self.linkage.active_fraction * stroke.contraction / (self.linkage.arm_m + self.linkage.arm_growth * stroke.lift)
+    }
+
+    /// Further body-side terms.
+    pub(crate) fn body_terms(&self) -> impl Iterator<Item = &dyn Term> {
+        self.body_terms.iter().map(|term| &**term as &dyn Term)
+    }
+
+    /// ∂U/∂κ of all body-side terms \[N·m\].
+    fn body_moment(&self, curvature: f64, loads: &SiteLoads) -> f64 {
+        let q = [curvature];
+        let mut force = [0.0];
+        let pose = Pose { q: &q, p_body_pa: loads.p_body_pa, p_act_pa: loads.p_act_pa };
+        self.body_pressure.add(&pose, &mut force);
+        self.bending.add(&pose, &mut force);
+        for term in &self.body_terms {
+            term.add(&pose, &mut force);
+        }
+        -force[0]
+    }
+}
+
+/// Curvature beyond which a passive stretch counts as folded \[1/m\]: a bend radius of 10 mm.
+const PASSIVE_RANGE: f64 = 100.0;
+/// Half step of the passive stiffness \[1/m\], well inside the hinge's step.
+const PASSIVE_STEP: f64 = 1e-5;
+/// Relative first step of the secant.
+const FIRST_STEP: f64 = 1e-3;
+/// Contraction at which the wall's moment is sampled for the start value: near the free stroke of every actuator here.
+const TYPICAL_STROKE: f64 = 0.25;
+
+/// Tension N from the actuator's balance `N (x + q N) = y`: the arm shrinks a little as the fabric stretches (q > 0).
+fn line_tension(y: f64, x: f64, q: f64) -> f64 {
+    if q == 0.0 || y <= 0.0 { y / x } else { 2.0 * y / (x + (x * x + 4.0 * q * y).sqrt()) }
+}
