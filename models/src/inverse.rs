@@ -61,28 +61,29 @@ impl Model {
     /// # Errors
     /// [`Unsolved::OutOfReach`] with the reachable range, or what [`Model::predict`] returns.
     pub fn pressure_for(&self, target: Target, p_body_pa: f64, out: &mut Prediction) -> Result<f64, Unsolved> {
-        let (mut low, mut high) = (0.0, self.p_max_pa());
         let mut failed = None;
-        let mut short = |p: f64| match self.predict(&Loads::uniform(p_body_pa, p), out) {
+        let mut short = |p: f64| match self.settle(&Loads::uniform(p_body_pa, p), out) {
             Ok(()) => target.value() - target.of(out),
             Err(error) => {
                 failed.get_or_insert(error);
                 f64::NAN
             }
         };
-        let reached = (short(low), short(high));
-        if !(reached.0 >= 0.0 && reached.1 <= 0.0) {
-            (low, high) = bracket(&mut short, low, high, target, self.p_max_pa())?;
+        let whole = (0.0, self.p_max_pa());
+        // The response rises steeply from zero and flattens, so start low.
+        let mut found = find_root(&mut short, whole, (0.2 * whole.1, None, 0.15 * whole.1));
+        if found.is_err() {
+            let (low, high) = bracket(&mut short, whole, target)?;
+            found = find_root(&mut short, (low, high), (0.5 * (low + high), None, high));
         }
-        // Between two samples the response is nearly linear; from zero it rises steeply, so start low.
-        let guess = low + 0.3 * (high - low);
-        let found = find_root(&mut short, (low, high), (guess, 0.9 * guess));
-        if let Some(error) = failed {
-            return Err(error);
+        match (found, failed) {
+            (Ok(root), _) => {
+                self.predict(&Loads::uniform(p_body_pa, root.x), out)?;
+                Ok(root.x)
+            }
+            (Err(_), Some(error)) => Err(error),
+            (Err(_), None) => Err(out_of_reach(target, (target.of(out), target.of(out)), whole.1)),
         }
-        let p = found.map_or(0.5 * (low + high), |root| root.x);
-        self.predict(&Loads::uniform(p_body_pa, p), out)?;
-        Ok(p)
     }
 
     /// Slopes of the tip pose by each channel's pressure, by central differences; `out` is overwritten.
@@ -117,13 +118,7 @@ impl Model {
 }
 
 /// Two neighbouring samples between which the target is passed upwards, or the range that was seen.
-fn bracket(
-    short: &mut dyn FnMut(f64) -> f64,
-    low: f64,
-    high: f64,
-    target: Target,
-    p_max_pa: f64,
-) -> Result<(f64, f64), Unsolved> {
+fn bracket(short: &mut dyn FnMut(f64) -> f64, (low, high): (f64, f64), target: Target) -> Result<(f64, f64), Unsolved> {
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     let mut before = (low, short(low));
     for i in 0..=SAMPLES {
@@ -136,8 +131,12 @@ fn bracket(
         }
         before = (p, miss);
     }
+    Err(out_of_reach(target, (least, most), high))
+}
+
+fn out_of_reach(target: Target, (least, most): (f64, f64), p_max_pa: f64) -> Unsolved {
     let (what, unit, factor) = target.words();
     let wanted = target.value() * factor;
     let (lowest, highest) = (least * factor, most * factor);
-    Err(Unsolved::OutOfReach { what, wanted, lowest, highest, unit, p_max_kpa: p_max_pa / 1e3 })
+    Unsolved::OutOfReach { what, wanted, lowest, highest, unit, p_max_kpa: p_max_pa / 1e3 }
 }

@@ -25,6 +25,7 @@ pub mod scenario;
 mod shape;
 pub mod site;
 pub mod term;
+mod trig;
 
 pub use error::{ScenarioError, Unsolved};
 pub use inverse::{Target, TipSlope};

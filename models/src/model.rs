@@ -82,16 +82,20 @@ impl Model {
     /// # Errors
     /// [`Unsolved`] with pressures and place when a pressure is negative or not finite, or nothing balances.
     pub fn predict(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
-        check(loads)?;
-        self.supply(loads, &mut out.work);
-        equilibrium(&self.assembly, loads.body_pa, &mut out.work)?;
-        let last = self.assembly.segments.len();
-        let work = &out.work;
-        out.tip =
-            Tip { x_m: work.nodes[2 * last], y_m: work.nodes[2 * last + 1], angle_rad: work.headings[last] };
+        self.settle(loads, out)?;
         for (seen, (segment, offset)) in out.markers.iter_mut().zip(&self.markers) {
             *seen = self.sight(&out.work, *segment, *offset);
         }
+        Ok(())
+    }
+
+    /// Like [`Model::predict`], without the markers: all that an inverse needs.
+    pub(crate) fn settle(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
+        check(loads)?;
+        self.supply(loads, &mut out.work);
+        equilibrium(&self.assembly, loads.body_pa, &mut out.work)?;
+        let (work, last) = (&out.work, self.assembly.segments.len());
+        out.tip = Tip { x_m: work.nodes[2 * last], y_m: work.nodes[2 * last + 1], angle_rad: work.headings[last] };
         Ok(())
     }
 

@@ -6,6 +6,7 @@ use crate::root::NoRoot;
 use crate::shape::{Arc, advance, arc};
 use crate::site::{SiteLoads, SiteState};
 use crate::term::Pose;
+use crate::trig::sin_cos;
 
 /// Buffers of a prediction; made once, so that predicting allocates nothing.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,10 +32,9 @@ pub(crate) struct Workspace {
 
 impl Workspace {
     pub fn new(segments: usize, coupled: bool) -> Workspace {
-        let still = SiteState { coordinate: 0.0, curvature: 0.0, tension: 0.0, compliance: 0.0 };
         let flat = Arc { along: 0.0, across: 0.0, d_along: 0.0, d_across: 0.0 };
         Workspace {
-            states: vec![still; segments],
+            states: vec![SiteState::REST; segments],
             p_act_pa: vec![0.0; segments],
             nodes: vec![0.0; 2 * (segments + 1)],
             directions: vec![[1.0, 0.0]; segments + 1],
@@ -53,7 +53,7 @@ impl Workspace {
 /// Newton settles in 3–5 steps; 60 allows for the halvings near collapse.
 const MAX_ITERATIONS: usize = 60;
 /// Agreement of moments wanted, relative to the largest one.
-const MOMENT_TOLERANCE: f64 = 1e-11;
+const MOMENT_TOLERANCE: f64 = 1e-10;
 
 /// Fills `work` with the equilibrium at body pressure `p_body_pa` and the actuator pressures already in it.
 pub(crate) fn equilibrium(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result<(), Unsolved> {
@@ -154,7 +154,7 @@ fn place_nodes(assembly: &Assembly, work: &mut Workspace) {
         let step = arc(kappa, segment.length_m, assembly.sites[segment.site].radius_m);
         xy = advance(xy, direction, step.along, step.across);
         heading += kappa * segment.length_m;
-        let (sin, cos) = f64::sin_cos(heading);
+        let (sin, cos) = sin_cos(heading);
         direction = [cos, sin];
         work.arcs[i] = step;
         work.nodes[2 * i + 2] = xy[0];

@@ -24,21 +24,29 @@ const TOLERANCE: f64 = 1e-14;
 /// Evaluations after which the bracket must have halved, else it is halved.
 const PATIENCE: usize = 8;
 
-/// Root of a function that is positive at `low` and negative at `high`, from two start values.
+/// Root of a function that is positive at `low` and negative at `high`, from two start values (and the function's value
+/// at the first one, if known).
 ///
 /// The ends are evaluated only if the iteration runs against one of them, because the balance is steepest there.
 pub(crate) fn find_root<F: FnMut(f64) -> f64>(
     f: &mut F,
     bracket: (f64, f64),
-    start: (f64, f64),
+    start: (f64, Option<f64>, f64),
 ) -> Result<Root, NoRoot> {
     let (mut low, mut high) = bracket;
     let inset = 1e-3 * (high - low);
     let mut x0 = start.0.clamp(low + inset, high - inset);
-    let mut x1 = start.1.clamp(low + 0.5 * inset, high - 0.5 * inset);
-    let mut f0 = f(x0);
+    let mut x1 = start.2.clamp(low + 0.5 * inset, high - 0.5 * inset);
+    let mut f0 = match start.1 {
+        Some(known) if x0 == start.0 => known,
+        _ => f(x0),
+    };
     let mut seen = (f0 > 0.0, f0 <= 0.0);
-    if f0 > 0.0 { low = x0 } else { high = x0 }
+    if f0 > 0.0 {
+        low = x0
+    } else {
+        high = x0
+    }
     let (mut f1, mut last_width) = (f0, high - low);
     for evaluation in 1..MAX_EVALUATIONS {
         f1 = f(x1);
@@ -91,30 +99,30 @@ mod tests {
 
     #[test]
     fn a_smooth_function_settles_to_rounding() {
-        let x = find_root(&mut |x: f64| x.cos() - 0.3 * x, (0.0, 3.0), (1.5, 1.4)).unwrap().x;
+        let x = find_root(&mut |x: f64| x.cos() - 0.3 * x, (0.0, 3.0), (1.5, None, 1.4)).unwrap().x;
         assert!((x.cos() - 0.3 * x).abs() < 1e-14, "{x}");
     }
 
     #[test]
     fn a_step_is_found_by_halving() {
-        let x = find_root(&mut |x: f64| if x < 0.123 { 1.0 } else { -1e-3 }, (0.0, 1.0), (0.9, 0.8)).unwrap().x;
+        let x = find_root(&mut |x: f64| if x < 0.123 { 1.0 } else { -1e-3 }, (0.0, 1.0), (0.9, None, 0.8)).unwrap().x;
         assert!((x - 0.123).abs() < 1e-10, "{x}");
     }
 
     #[test]
     fn a_function_without_a_root_is_refused_with_its_end_values() {
-        let error = find_root(&mut |x: f64| 1.0 + x, (0.0, 1.0), (0.5, 0.4)).unwrap_err();
+        let error = find_root(&mut |x: f64| 1.0 + x, (0.0, 1.0), (0.5, None, 0.4)).unwrap_err();
         assert!(matches!(error, NoRoot::SameSign { at_high, .. } if at_high > 1.9), "{error:?}");
     }
 
     #[test]
     fn a_function_that_is_nowhere_a_number_is_refused() {
-        assert!(find_root(&mut |_| f64::NAN, (0.0, 1.0), (0.5, 0.4)).is_err());
+        assert!(find_root(&mut |_| f64::NAN, (0.0, 1.0), (0.5, None, 0.4)).is_err());
     }
 
     #[test]
     fn equal_start_values_do_no_harm() {
-        let x = find_root(&mut |x: f64| 0.25 - x, (0.0, 1.0), (0.9, 0.9)).unwrap().x;
+        let x = find_root(&mut |x: f64| 0.25 - x, (0.0, 1.0), (0.9, None, 0.9)).unwrap().x;
         assert!((x - 0.25).abs() < 1e-14);
     }
 
@@ -122,7 +130,7 @@ mod tests {
     fn a_smooth_root_costs_few_evaluations() {
         let mut calls = 0;
         let mut f = |t: f64| (calls += 1, t.cos() - 0.0465 * t).1;
-        let root = find_root(&mut f, (0.0, 3.1), (1.501, 1.5));
+        let root = find_root(&mut f, (0.0, 3.1), (1.501, None, 1.5));
         assert!(root.is_ok() && calls <= 4, "{calls}");
     }
 }

@@ -7,6 +7,8 @@
 //! along = (1 − κR) h sin u/u        across = (1 − κR) h (1 − cos u)/u
 //! ```
 
+use crate::trig::sin_cos;
+
 /// Displacement over a stretch, in the frame of its start, and derivatives by κ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Arc {
@@ -30,7 +32,7 @@ fn sinc_pair(u: f64) -> [f64; 4] {
             0.5 - u2 * (1.0 / 8.0 - u2 * (1.0 / 144.0 - u2 / 5760.0)),
         ];
     }
-    let (sin, cos) = u.sin_cos();
+    let (sin, cos) = sin_cos(u);
     let (a, b) = (sin / u, (1.0 - cos) / u);
     [a, b, (cos - a) / u, (sin - b) / u]
 }

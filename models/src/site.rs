@@ -75,6 +75,14 @@ pub struct SiteState {
     pub tension: f64,
     /// dκ/dM_load \[1/(N·m·m)\]: how this place gives way to a transverse load.
     pub compliance: f64,
+    /// Slope of the weighted imbalance by the coordinate, for the next start.
+    slope: f64,
+}
+
+impl SiteState {
+    /// Straight and slack.
+    pub(crate) const REST: SiteState =
+        SiteState { coordinate: 0.0, curvature: 0.0, tension: 0.0, compliance: 0.0, slope: 0.0 };
 }
 
 /// Pressures and external moment at one place.
@@ -135,16 +143,23 @@ impl Site {
         loads: &SiteLoads,
         near: Option<&SiteState>,
     ) -> Result<SiteState, NoRoot> {
-        let guess = match near {
-            Some(state) => state.coordinate,
-            None => (actuator.guess)(self.demand(actuator, loads)),
-        };
         let mut imbalance = |a: f64| self.balance(actuator, a, loads).imbalance;
-        // A short first step makes the first secant a good Newton step.
-        let root = find_root(&mut imbalance, actuator.range, (guess, guess * (1.0 - FIRST_STEP) - 1e-9))?;
+        let start = match near {
+            Some(state) if state.slope < 0.0 => {
+                let at = imbalance(state.coordinate);
+                (state.coordinate, Some(at), state.coordinate - at / state.slope)
+            }
+            // A short first step makes the first secant a good Newton step.
+            _ => {
+                let guess = (actuator.guess)(self.demand(actuator, loads));
+                (guess, None, guess * (1.0 - FIRST_STEP) - 1e-9)
+            }
+        };
+        let root = find_root(&mut imbalance, actuator.range, start)?;
         let at = self.balance(actuator, root.x, loads);
         let compliance = -at.weight * at.d_curvature / root.slope;
-        Ok(SiteState { coordinate: root.x, curvature: at.curvature, tension: at.tension, compliance })
+        let (curvature, tension) = (at.curvature, at.tension);
+        Ok(SiteState { coordinate: root.x, curvature, tension, compliance, slope: root.slope })
     }
 
     /// Without actuator pressure the pouch is slack: only the wall resists.
@@ -158,9 +173,9 @@ impl Site {
             0.0
         } else {
             let guess = imbalance(0.0) / stiffness(0.0);
-            find_root(&mut imbalance, (-PASSIVE_RANGE, PASSIVE_RANGE), (guess, 0.99 * guess))?.x
+            find_root(&mut imbalance, (-PASSIVE_RANGE, PASSIVE_RANGE), (guess, None, 0.99 * guess))?.x
         };
-        Ok(SiteState { coordinate: 0.0, curvature: root, tension: 0.0, compliance: 1.0 / stiffness(root) })
+        Ok(SiteState { curvature: root, compliance: 1.0 / stiffness(root), ..SiteState::REST })
     }
 
     /// Ratio m of restoring to available moment, for the start value.

@@ -20,6 +20,7 @@
 //! Reference: Niiyama et al., Soft Robotics 2(2), 2015 (pouch motor); the volume and its derivative are derived here.
 
 use super::{ActuatorShape, Stroke};
+use crate::trig::sin_cos;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// θ stays below a full circle; at π the two arcs would meet.
@@ -30,7 +31,7 @@ pub fn stroke(shape: &ActuatorShape, theta: f64) -> Stroke {
     if theta < SERIES_BELOW {
         return stroke_series(shape, theta);
     }
-    let (sin, cos) = theta.sin_cos();
+    let (sin, cos) = sin_cos(theta);
     let inverse = 1.0 / theta;
     let slope = (sin - theta * cos) * inverse * inverse;
     let area = shape.volume_gain * shape.width_m * shape.length_m;
@@ -68,7 +69,7 @@ fn stroke_series(shape: &ActuatorShape, theta: f64) -> Stroke {
 /// Start value: cosθ = mθ, one Newton step from its straight-line solution.
 pub(super) fn guess(demand: f64) -> f64 {
     let start = FRAC_PI_2 / (1.0 + demand);
-    let (sin, cos) = start.sin_cos();
+    let (sin, cos) = sin_cos(start);
     start + (cos - demand * start) / (sin + demand)
 }
 

@@ -40,12 +40,8 @@ const PRESSURE: Range = Range {
     too_small: "pressures are gauge pressures and not negative",
     too_large: "this looks like pascals: write kilopascals, for example 30 for 30000 Pa",
 };
-const BODY_PRESSURE: Range = Range {
-    low: 0.05,
-    high: 100.0,
-    too_small: "an inflated beam needs pressure; 1 psi is 6.895 kPa",
-    ..PRESSURE
-};
+const BODY_PRESSURE: Range =
+    Range { low: 0.05, high: 100.0, too_small: "an inflated beam needs pressure; 1 psi is 6.895 kPa", ..PRESSURE };
 const STIFFNESS: Range = Range {
     name: "bending stiffness",
     unit: "N m²",
@@ -109,8 +105,7 @@ fn si(value: &Spanned<f64>, range: &Range) -> Checked<f64> {
         return Ok(v * range.si);
     }
     let help = if v < range.low { range.too_small } else { range.too_large };
-    let message =
-        format!("{} must be from {} to {} {}, not {v}", range.name, range.low, range.high, range.unit);
+    let message = format!("{} must be from {} to {} {}, not {v}", range.name, range.low, range.high, range.unit);
     let help = if v < 0.0 && range.low >= 0.0 { "a negative value means nothing here" } else { help };
     refuse(message, help, value.span())
 }
@@ -269,7 +264,8 @@ fn parameter(effect: &Effect, index: usize, value: &Spanned<toml::Value>) -> Che
         }
     };
     if !(p.lower..=p.upper).contains(&number) {
-        let message = format!("{} = {number} is outside its physical bounds {} to {} {}", p.key, p.lower, p.upper, p.unit);
+        let message =
+            format!("{} = {number} is outside its physical bounds {} to {} {}", p.key, p.lower, p.upper, p.unit);
         return refuse(message, format!("{}; typical {} {}", p.meaning, p.typical, p.unit), value.span());
     }
     Ok(number * p.si)
