@@ -4,6 +4,8 @@
 //! for a few seconds); in every hold each **marker** is seen `samples_per_hold` times. All lengths are metres, all
 //! pressures pascals, all times seconds; units are converted where the file is read and nowhere else.
 
+use crate::error::{DataError, Fault};
+
 /// Whether a hold was reached by raising the actuator pressure, by lowering it, or without changing it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Phase {
@@ -105,5 +107,29 @@ impl Dataset {
         let runs = self.runs.len().max(1) as f64;
         mean.iter_mut().for_each(|m| *m /= runs);
         mean
+    }
+}
+
+impl Dataset {
+    /// The same dataset, if its parts fit together: for generators and importers that fill the fields themselves.
+    ///
+    /// # Errors
+    /// No run, hold, marker or sample; a wrong number of values or times; a value that is not finite.
+    pub fn checked(self) -> Result<Dataset, DataError> {
+        let empty = self.runs.is_empty() || self.values_per_run() == 0;
+        let times = self.holds.iter().all(|hold| hold.t_s.len() == self.samples_per_hold);
+        let finite = self.xy_m.iter().chain(self.holds.iter().flat_map(|hold| &hold.t_s)).all(|value| value.is_finite());
+        let expected = self.runs.len() * self.values_per_run();
+        let wrong = |message: String| {
+            let help = "lay xy_m out as [run][hold][sample][marker][x, y], with samples_per_hold times in every hold";
+            Err(DataError::Runs(Box::new(Fault::of_file(&self.name, message, help))))
+        };
+        match (empty, times, finite) {
+            (true, ..) => wrong("the dataset has no values".to_string()),
+            (_, false, _) => wrong(format!("a hold has not {} sample times", self.samples_per_hold)),
+            (.., false) => wrong("a value is not finite".to_string()),
+            _ if self.xy_m.len() != expected => wrong(format!("expected {expected} values, found {}", self.xy_m.len())),
+            _ => Ok(self),
+        }
     }
 }

@@ -1,3 +1,36 @@
-//! Measurements and fabric tests as plain structs.
+//! Measurements of inflated-beam robots as plain structs.
+//!
+//! `data` reads marker tables ([`read_markers`], [`load`]), their descriptions ([`About`]) and the numbers of the
+//! reference paper ([`published()`]); it converts units on reading and never sees a model.
+
+pub mod about;
+mod align;
+pub mod check;
 pub mod dataset;
+pub mod error;
+mod header;
+mod lines;
+pub mod load;
+mod plausible;
+pub mod published;
+pub mod read;
+mod rows;
+pub mod sets;
+mod streams;
+pub mod table;
+mod units;
+pub mod write;
+
+#[cfg(test)]
+mod tests;
+
+pub use about::{About, AboutRun, Geometry, MarkerStation, Provenance, parse_about, read_about};
+pub use check::{CheckReport, check};
 pub use dataset::{Dataset, Hold, Marker, Phase};
+pub use error::{DataError, Fault, Location};
+pub use load::load;
+pub use published::{Published, PublishedActuator, PublishedFabric, published};
+pub use read::{ReadOptions, parse_markers, read_markers};
+pub use sets::{SetInfo, set_about, set_file, sets};
+pub use table::{Column, Table, read_parquet};
+pub use write::{about_toml, write_atomically, write_markers_csv};

@@ -50,6 +50,9 @@ pub(crate) fn find_root<F: FnMut(f64) -> f64>(
     let (mut f1, mut last_width) = (f0, high - low);
     for evaluation in 1..MAX_EVALUATIONS {
         f1 = f(x1);
+        if f1 == 0.0 {
+            return Ok(Root { x: x1, slope: (f1 - f0) / (x1 - x0) });
+        }
         if f1 > 0.0 {
             low = low.max(x1);
             seen.0 = true;
@@ -59,7 +62,9 @@ pub(crate) fn find_root<F: FnMut(f64) -> f64>(
         }
         let slope = (f1 - f0) / (x1 - x0);
         let step = -f1 / slope;
-        let settled = (step * (x1 - x0)).abs() <= TOLERANCE && step.abs() <= 1e-5;
+        // A jump makes steps small too, but its values do not shrink.
+        let falling = f1.abs() <= 0.1 * f0.abs();
+        let settled = falling && (step * (x1 - x0)).abs() <= TOLERANCE && step.abs() <= 1e-5;
         let mut next = x1 + step;
         if settled && next >= low && next <= high {
             return Ok(Root { x: next, slope });

@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn robins_coefficient_gives_the_known_end_factors() {
         let epam = by_name("epam").unwrap();
-        for (aspect, eta) in [(1.0, 0.598504459), (2.0, 0.779177452), (2.667, 0.833070606), (5.0, 0.910779661)] {
+        for (aspect, eta) in [(1.0, 0.598504459), (2.0, 0.779177452), (46.0 / 17.25, 0.833070606), (5.0, 0.910779661)] {
             let shape = ActuatorShape { length_m: 0.06, width_m: 0.06 * aspect, fold_m: 0.0, volume_gain: 1.0 };
             let computed = active_fraction(epam, &shape, 0.142 * PI);
             assert!((computed - eta).abs() < 1e-9, "{aspect}: {computed}");
