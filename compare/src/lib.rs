@@ -23,6 +23,8 @@ mod wording;
 #[cfg(test)]
 mod monte_carlo;
 #[cfg(test)]
+mod scenarios;
+#[cfg(test)]
 mod synthetic;
 
 pub use error::CompareError;

@@ -1,0 +1,90 @@
+//! A prediction beside the mean measurement: what every metric starts from.
+
+use crate::error::CompareError;
+use crate::layout::Layout;
+use crate::noise::NoiseModel;
+use data::{Dataset, Phase};
+
+/// Actuator pressures below this count as "no pressure" \[Pa\]: a vented regulator still reads a little.
+pub const ZERO_PRESSURE_PA: f64 = 100.0;
+
+/// A prediction f and the mean over runs ȳ of one dataset, with the noise of ȳ. Lengths in metres.
+pub struct Comparison<'a> {
+    /// The measurements.
+    pub dataset: &'a Dataset,
+    /// The noise of their mean.
+    pub noise: &'a NoiseModel,
+    /// Counts of one run.
+    pub layout: Layout,
+    /// f − ȳ in run layout.
+    pub residual_m: Vec<f64>,
+    /// Means over the samples of f, `[hold][marker][x, y]`.
+    pub model_means_m: Vec<f64>,
+    /// Means over the samples of ȳ, `[hold][marker][x, y]`.
+    pub data_means_m: Vec<f64>,
+    /// The outermost marker: largest station, or the last one if a station is unknown.
+    pub tip: usize,
+    /// Largest measured |y| of a hold mean, the paper's d_max.
+    pub d_max_m: f64,
+}
+
+impl<'a> Comparison<'a> {
+    /// Pair a prediction in run layout with the data; an error if shapes differ or a value is not finite.
+    pub fn new(
+        dataset: &'a Dataset,
+        noise: &'a NoiseModel,
+        prediction_m: &[f64],
+    ) -> Result<Comparison<'a>, CompareError> {
+        let layout = Layout::of(dataset)?;
+        layout.check("the prediction", prediction_m)?;
+        let mean = dataset.mean_over_runs();
+        let data_means_m = layout.hold_means(&mean);
+        Ok(Comparison {
+            dataset,
+            noise,
+            layout,
+            residual_m: prediction_m.iter().zip(&mean).map(|(f, y)| f - y).collect(),
+            model_means_m: layout.hold_means(prediction_m),
+            d_max_m: data_means_m.iter().skip(1).step_by(2).fold(0.0, |d: f64, y| d.max(y.abs())),
+            data_means_m,
+            tip: outermost(dataset),
+        })
+    }
+
+    /// (f, ȳ) of one hold mean, `[x, y]` each.
+    pub fn pair(&self, hold: usize, marker: usize) -> ([f64; 2], [f64; 2]) {
+        let i = (hold * self.layout.markers + marker) * 2;
+        let (f, y) = (&self.model_means_m, &self.data_means_m);
+        ([f[i], f[i + 1]], [y[i], y[i + 1]])
+    }
+
+    /// f − ȳ of one hold mean, `[x, y]`.
+    pub fn error(&self, hold: usize, marker: usize) -> [f64; 2] {
+        let (f, y) = self.pair(hold, marker);
+        [f[0] - y[0], f[1] - y[1]]
+    }
+
+    /// (y of the model, y measured) over the markers of one hold.
+    pub fn deflections(&self, hold: usize) -> (Vec<f64>, Vec<f64>) {
+        (0..self.layout.markers).map(|m| self.pair(hold, m)).map(|(f, y)| (f[1], y[1])).unzip()
+    }
+
+    /// Whether a hold belongs to the paper's accuracy: under pressure and not on the way down.
+    pub fn is_pressurised_loading(&self, hold: usize) -> bool {
+        let h = &self.dataset.holds[hold];
+        h.phase != Phase::Unload && h.p_act_pa > ZERO_PRESSURE_PA
+    }
+
+    /// +1 if the robot bends towards +y, −1 if towards −y: the sign of the largest measured deflection.
+    pub fn bend_sign(&self) -> f64 {
+        let ys = self.data_means_m.iter().skip(1).step_by(2);
+        ys.fold(0.0, |d: f64, &y| if y.abs() > d.abs() { y } else { d }).signum()
+    }
+}
+
+fn outermost(dataset: &Dataset) -> usize {
+    let last = dataset.markers.len() - 1;
+    let stations: Option<Vec<f64>> = dataset.markers.iter().map(|m| m.station_m).collect();
+    let by_station = stations.and_then(|s| (0..s.len()).max_by(|&a, &b| s[a].total_cmp(&s[b])));
+    by_station.unwrap_or(last)
+}

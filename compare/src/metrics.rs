@@ -1,0 +1,248 @@
+//! How well a prediction meets the measurements: the paper's accuracy and, always beside it, its honest companions.
+//!
+//! The accuracy of Du Pasquier et al. 2023, a = 1 − mean over markers of ((y_FEA − y_EXP)/y_FEA)², has the **model** in
+//! the denominator. It is undefined where the model does not move, rewards over-prediction (twice the truth scores
+//! 0.75, half of it 0), ignores x, and hides errors by squaring: 94.3 % is a relative error of 23.9 %. It is therefore
+//! printed exactly, and never alone.
+
+use crate::accuracy::{Band, accuracy_band, paper_accuracy, relative_pct};
+use crate::comparison::Comparison;
+use crate::error::CompareError;
+use crate::stats::{f_tail, reported_p};
+use serde::Serialize;
+
+/// How model and measurement are paired in the accuracy; the paper leaves it open.
+pub const PAIRING: &str = "same marker label, y from the base line (not from the first hold), mean over the samples of \
+                           a hold, mean over runs, model in the denominator";
+
+/// Deflections below this are left out of the restricted accuracy \[m\].
+const SMALL_DEFLECTION_M: f64 = 5e-3;
+
+/// Metrics of one hold. Printed units; `None` where a number does not exist or the noise is unknown.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct HoldMetrics {
+    /// Actuator pressure \[kPa\].
+    pub p_act_kpa: f64,
+    /// Body pressure \[kPa\].
+    pub p_body_kpa: f64,
+    /// `load`, `hold` or `unload`.
+    pub phase: &'static str,
+    /// 0 for the first hold with these pressures and this phase, 1 for the second, …
+    pub occurrence: usize,
+    /// The paper's accuracy a; `None` if the model's |y| is below 1e-9 m at a marker.
+    pub paper_accuracy: Option<f64>,
+    /// Expected a of a perfect model at this noise, 1 − mean(var(ȳ_j)/y_j²).
+    pub noise_ceiling: Option<f64>,
+    /// 95 % bootstrap-over-runs interval of a; 3 runs or more.
+    pub accuracy_interval: Option<[f64; 2]>,
+    /// Root-mean-square relative error √(1 − a) \[%\].
+    pub rms_relative_pct: Option<f64>,
+    /// a over the markers with a measured |y| > max(5 mm, 5σ/√R).
+    pub accuracy_far_markers: Option<f64>,
+    /// Markers left out of `accuracy_far_markers`.
+    pub markers_left_out: usize,
+    /// Root-mean-square error of one coordinate over samples and markers \[mm\].
+    pub rmse_mm: f64,
+    /// Root-mean-square noise of one coordinate of the mean, run-level part included \[mm\].
+    pub noise_floor_mm: Option<f64>,
+    /// Error beyond noise, √max(0, mean (f − ȳ)² − noise variance of the mean) \[mm\].
+    pub systematic_mm: Option<f64>,
+    /// RMSE relative to the largest measured deflection of all holds \[%\].
+    pub nrmse_pct: Option<f64>,
+    /// y of the model minus y measured at the outermost marker \[mm\].
+    pub tip_error_mm: f64,
+    /// The same for x \[mm\].
+    pub tip_error_x_mm: f64,
+    /// Length of the error vector of the outermost marker, with the sign of its y component \[mm\].
+    pub tip_distance_mm: f64,
+    /// χ²/dof of the whitened residuals of this hold.
+    pub reduced_chi2: Option<f64>,
+    /// Probability of a larger χ² if the model is right; 3 runs or more.
+    pub p_value: Option<f64>,
+}
+
+/// Metrics over all holds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OverallMetrics {
+    /// Mean of the paper's accuracy over the loading holds under pressure where it is defined.
+    pub paper_accuracy: Option<f64>,
+    /// How many holds that mean has.
+    pub holds_in_accuracy: usize,
+    /// Mean of the noise ceiling over the same holds.
+    pub noise_ceiling: Option<f64>,
+    /// 95 % bootstrap-over-runs interval of that accuracy; 3 runs or more.
+    pub accuracy_interval: Option<[f64; 2]>,
+    /// √(1 − a) of that accuracy \[%\].
+    pub rms_relative_pct: Option<f64>,
+    /// Root-mean-square error of one coordinate over everything, unloading included \[mm\].
+    pub rmse_mm: f64,
+    /// Root-mean-square noise of one coordinate of the mean \[mm\].
+    pub noise_floor_mm: Option<f64>,
+    /// Error beyond noise \[mm\].
+    pub systematic_mm: Option<f64>,
+    /// Largest measured deflection d_max \[mm\].
+    pub d_max_mm: f64,
+    /// RMSE/d_max \[%\].
+    pub nrmse_pct: Option<f64>,
+    /// The tip error (y) that is largest in size, with its sign \[mm\].
+    pub largest_tip_error_mm: f64,
+    /// χ²/dof of all whitened residuals.
+    pub reduced_chi2: Option<f64>,
+    /// Its degrees of freedom: values minus fitted parameters.
+    pub dof: usize,
+    /// Probability of a larger χ² if the model is right; 3 runs or more. Never below 1e-6.
+    pub p_value: Option<f64>,
+}
+
+/// All metrics of one comparison.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Metrics {
+    /// One entry per hold, in protocol order.
+    pub holds: Vec<HoldMetrics>,
+    /// Everything together.
+    pub overall: OverallMetrics,
+    /// Label of the outermost marker.
+    pub tip_marker: String,
+    /// How model and measurement are paired.
+    pub pairing: &'static str,
+}
+
+/// Settings of [`metrics`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MetricsOptions {
+    /// Parameters of the model fitted to these data; they cost degrees of freedom of the overall χ².
+    pub fitted_parameters: usize,
+    /// Bootstrap resamples; 0 for no interval.
+    pub bootstrap_samples: usize,
+    /// Seed of the bootstrap: same seed, same interval.
+    pub seed: u64,
+}
+
+/// Compute every metric of a comparison.
+///
+/// # Errors
+/// Only if the noise covariance of a hold cannot be decomposed.
+pub fn metrics(c: &Comparison, options: &MetricsOptions) -> Result<Metrics, CompareError> {
+    let band = accuracy_band(c, options.bootstrap_samples, options.seed);
+    let holds = (0..c.layout.holds).map(|h| hold_metrics(c, h, &band)).collect::<Result<Vec<_>, _>>()?;
+    let overall = overall_metrics(c, &holds, &band, options.fitted_parameters);
+    Ok(Metrics { holds, overall, tip_marker: c.dataset.markers[c.tip].name.clone(), pairing: PAIRING })
+}
+
+fn hold_metrics(c: &Comparison, hold: usize, band: &Band) -> Result<HoldMetrics, CompareError> {
+    let (model, measured) = c.deflections(hold);
+    let accuracy = paper_accuracy(&model, &measured);
+    let (far_model, far_measured) = far_markers(c, &model, &measured);
+    let range = c.layout.hold_range(hold);
+    let size = Size::of(c, range.clone());
+    let [tip_x, tip_y] = c.error(hold, c.tip);
+    let fit = Fit::of(c, &c.noise.whiten_range(&c.residual_m, range)?, 0);
+    let protocol = &c.dataset.holds[hold];
+    Ok(HoldMetrics {
+        p_act_kpa: 1e-3 * protocol.p_act_pa,
+        p_body_kpa: 1e-3 * protocol.p_body_pa,
+        phase: protocol.phase.word(),
+        occurrence: protocol.occurrence,
+        paper_accuracy: accuracy,
+        noise_ceiling: noise_ceiling(c, hold, &model),
+        accuracy_interval: band.holds[hold],
+        rms_relative_pct: accuracy.map(relative_pct),
+        accuracy_far_markers: paper_accuracy(&far_model, &far_measured),
+        markers_left_out: model.len() - far_model.len(),
+        rmse_mm: size.rmse_mm,
+        noise_floor_mm: size.noise_floor_mm,
+        systematic_mm: size.systematic_mm,
+        nrmse_pct: size.nrmse_pct,
+        tip_error_mm: 1e3 * tip_y,
+        tip_error_x_mm: 1e3 * tip_x,
+        tip_distance_mm: 1e3 * tip_x.hypot(tip_y).copysign(tip_y),
+        reduced_chi2: fit.reduced_chi2,
+        p_value: fit.p_value,
+    })
+}
+
+fn overall_metrics(c: &Comparison, holds: &[HoldMetrics], band: &Band, fitted: usize) -> OverallMetrics {
+    let counted = || (0..holds.len()).filter(|&h| c.is_pressurised_loading(h)).map(|h| &holds[h]);
+    let accuracies: Vec<f64> = counted().filter_map(|h| h.paper_accuracy).collect();
+    let ceilings: Vec<f64> = counted().filter_map(|h| h.noise_ceiling).collect();
+    let accuracy = mean(&accuracies);
+    let size = Size::of(c, 0..c.residual_m.len());
+    let fit = Fit::of(c, &c.noise.whiten(&c.residual_m), fitted);
+    let tips = holds.iter().map(|h| h.tip_error_mm);
+    OverallMetrics {
+        paper_accuracy: accuracy,
+        holds_in_accuracy: accuracies.len(),
+        noise_ceiling: mean(&ceilings),
+        accuracy_interval: band.overall,
+        rms_relative_pct: accuracy.map(relative_pct),
+        rmse_mm: size.rmse_mm,
+        noise_floor_mm: size.noise_floor_mm,
+        systematic_mm: size.systematic_mm,
+        d_max_mm: 1e3 * c.d_max_m,
+        nrmse_pct: size.nrmse_pct,
+        largest_tip_error_mm: tips.fold(0.0, |worst: f64, e| if e.abs() > worst.abs() { e } else { worst }),
+        reduced_chi2: fit.reduced_chi2,
+        dof: fit.dof,
+        p_value: fit.p_value,
+    }
+}
+
+/// Expected accuracy of a perfect model: E a = 1 − mean(var(ȳ_j)/y_j²), with the noise of the hold mean of marker j.
+fn noise_ceiling(c: &Comparison, hold: usize, model_y: &[f64]) -> Option<f64> {
+    let exact = paper_accuracy(model_y, model_y)?;
+    let mut loss = 0.0;
+    for (marker, y) in model_y.iter().enumerate() {
+        loss += c.noise.variance(&c.layout.mean_weights(hold, marker, 1))? / (y * y);
+    }
+    Some(exact - loss / model_y.len() as f64)
+}
+
+/// The markers that have measurably moved; chosen by the measurement, so every model is judged on the same ones.
+fn far_markers(c: &Comparison, model: &[f64], measured: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let noise = c.noise.sigma_m.map_or(0.0, |s| 5.0 * s / (c.noise.runs as f64).sqrt());
+    let least = SMALL_DEFLECTION_M.max(noise);
+    model.iter().zip(measured).filter(|(_, y)| y.abs() > least).unzip()
+}
+
+/// Error sizes over a range of values.
+struct Size {
+    rmse_mm: f64,
+    noise_floor_mm: Option<f64>,
+    systematic_mm: Option<f64>,
+    nrmse_pct: Option<f64>,
+}
+
+impl Size {
+    fn of(c: &Comparison, range: std::ops::Range<usize>) -> Size {
+        let residual = &c.residual_m[range.clone()];
+        let square = residual.iter().map(|r| r * r).sum::<f64>() / residual.len() as f64;
+        let noise = c.noise.mean_square(range);
+        Size {
+            rmse_mm: 1e3 * square.sqrt(),
+            noise_floor_mm: noise.map(|v| 1e3 * v.sqrt()),
+            systematic_mm: noise.map(|v| 1e3 * (square - v).max(0.0).sqrt()),
+            nrmse_pct: (c.d_max_m > 1e-9).then(|| 100.0 * square.sqrt() / c.d_max_m),
+        }
+    }
+}
+
+/// Goodness of fit of whitened residuals: χ²/dof against F(dof, pure-error dof), because σ is itself estimated.
+struct Fit {
+    reduced_chi2: Option<f64>,
+    dof: usize,
+    p_value: Option<f64>,
+}
+
+impl Fit {
+    fn of(c: &Comparison, white: &[f64], fitted: usize) -> Fit {
+        let dof = white.len().saturating_sub(fitted);
+        let reduced = white.iter().map(|w| w * w).sum::<f64>() / dof.max(1) as f64;
+        let reduced_chi2 = (dof > 0 && c.noise.is_known()).then_some(reduced);
+        let tested = reduced_chi2.filter(|_| c.noise.gives_p_values());
+        Fit { reduced_chi2, dof, p_value: tested.map(|f| reported_p(f_tail(f, dof, c.noise.pure_error_dof))) }
+    }
+}
+
+fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}

@@ -1,0 +1,329 @@
+//! The noise of a mean over runs, with the run as the unit.
+//!
+//! Samples and markers of one run share that run's errors: its pressure was a little off, the camera or the base was
+//! set up a little differently. They are not independent repeats. The model of one run r is
+//!
+//! y_r = μ + U c_r + e_r,  e ~ N(0, σ² I),  c_r ~ N(0, diag v),  U = \[∂f/∂ln p, δx, δy, δφ·(−y, x)\]
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | σ | camera noise of one coordinate | m |
+//! | U | the four nuisance directions, one row per value | m per unit of c |
+//! | v | run-to-run variances of pressure (relative), alignment x, y and rotation | 1, m², m², rad² |
+//! | R, S, n | runs, sessions, values per run | |
+//!
+//! so that the mean has the covariance Σ_mean = σ²/R · I + U diag(v/R) Uᵀ. With the four coefficients fitted to the
+//! deviations from the session mean, σ² is the remaining scatter with (R − S)(n − 4) degrees of freedom and
+//! v̂_j = mean over sessions of Σ_r c_rj²/(R_s − 1) − σ² (UᵀU)⁻¹_jj, never below zero, x and y pooled. In tests v̂ is
+//! widened by (t_.9975/z_.9975)² because few runs estimate it badly, and is never below the sensor specification.
+//! A full 4×4 sample covariance is rank deficient for 3 to 5 runs and raises false alarms; hence the diagonal.
+//!
+//! With several sessions the mean cannot be better than the scatter between the session means b: v/R is replaced by
+//! b Σ_s (R_s/R)² where that is larger.
+//!
+//! Validity: normal errors, σ the same at every pressure, scatter small enough to be linear in U. One run gives no
+//! noise at all: the status says so and no p-value is ever formed.
+
+use crate::directions::{DirectionFit, nuisance_directions};
+use crate::error::CompareError;
+use crate::layout::Layout;
+use crate::stats::t_inflation;
+use crate::whiten::Whitener;
+use data::Dataset;
+use serde::Serialize;
+
+/// Specification of the sensors, the least scatter ever assumed in a test: pressure 0.3 % of the reading, alignment
+/// 0.1 mm in x and y, rotation 0.5 mrad.
+pub const SENSOR_SD: [f64; 4] = [0.003, 1e-4, 1e-4, 5e-4];
+
+/// Smallest camera noise used \[m\]: identical runs would otherwise divide by zero; no camera resolves a micrometre here.
+pub const SMALLEST_SIGMA_M: f64 = 1e-6;
+
+/// Unit of whitened residuals \[m\] where the noise is unknown: they then order models, nothing more.
+pub const NOMINAL_SIGMA_M: f64 = 1e-3;
+
+/// Fewest runs for which p-values are given.
+pub const RUNS_FOR_P: usize = 3;
+
+/// Where the noise level comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum NoiseStatus {
+    /// Estimated from two or more runs.
+    Measured,
+    /// One run; σ was given by the user, run-to-run scatter is taken from the sensor specification.
+    Supplied,
+    /// One run and no σ: no noise floor, no ceiling, no significance.
+    Unknown,
+}
+
+/// The noise of the mean over runs of one dataset. SI units; [`crate::noise_summary::NoiseSummary`] converts for printing.
+#[derive(Debug, Clone, Serialize)]
+pub struct NoiseModel {
+    /// Where the noise level comes from.
+    pub status: NoiseStatus,
+    /// Runs R.
+    pub runs: usize,
+    /// Sessions S.
+    pub sessions: usize,
+    /// Camera noise σ of one coordinate of one sample \[m\]; `None` if unknown.
+    pub sigma_m: Option<f64>,
+    /// Degrees of freedom of σ²: (R − S)(n − directions); 0 if σ was not measured.
+    pub pure_error_dof: usize,
+    /// Run-to-run standard deviations of \[relative pressure, x \[m\], y \[m\], rotation \[rad\]\] as estimated; `None`
+    /// where the data cannot show it (one run, or a direction that vanishes or repeats another).
+    pub run_sd: [Option<f64>; 4],
+    /// Variances of the four coefficients of the mean, best estimate: for noise floors and ceilings.
+    pub mean_variance: [f64; 4],
+    /// The same, widened for few runs and floored at the sensor specification: for tests.
+    pub test_variance: [f64; 4],
+    /// The runs repeat to within a micrometre: copies of one run, or data without noise.
+    pub runs_identical: bool,
+    /// U, one row per value in run layout.
+    #[serde(skip)]
+    pub directions: Vec<[f64; 4]>,
+    #[serde(skip)]
+    whitener: Whitener,
+}
+
+impl NoiseModel {
+    /// Estimate the noise of a dataset.
+    ///
+    /// `dprediction_dlnp` is ∂f/∂ln p \[m\] in run layout (zeros if not available: pressure scatter then counts as
+    /// camera noise). `sessions` holds one label per run, or nothing. `sigma_m` is used only for a single run.
+    ///
+    /// # Errors
+    /// Empty or non-finite data, wrong lengths, sessions without repeats, a σ that is not positive.
+    pub fn estimate(
+        dataset: &Dataset,
+        dprediction_dlnp: &[f64],
+        sessions: &[usize],
+        sigma_m: Option<f64>,
+    ) -> Result<NoiseModel, CompareError> {
+        let layout = Layout::of(dataset)?;
+        layout.check("the derivative with respect to ln p", dprediction_dlnp)?;
+        let groups = session_groups(sessions, dataset.runs.len())?;
+        let directions = nuisance_directions(&dataset.mean_over_runs(), dprediction_dlnp);
+        match (dataset.runs.len(), sigma_m) {
+            (1, None) => Self::without_scatter(NoiseStatus::Unknown, None, directions),
+            (1, Some(sigma)) if sigma.is_finite() && sigma > 0.0 => {
+                Self::without_scatter(NoiseStatus::Supplied, Some(sigma), directions)
+            }
+            (1, Some(value)) => {
+                let expected = "the camera noise must be a positive length in metres";
+                Err(CompareError::BadOption { name: "sigma_m", value, expected })
+            }
+            _ => Self::measured(dataset, &groups, directions),
+        }
+    }
+
+    /// False for a single run without a given σ.
+    pub fn is_known(&self) -> bool {
+        self.sigma_m.is_some()
+    }
+
+    /// True if p-values may be formed: measured from at least [`RUNS_FOR_P`] runs that are not copies of each other.
+    pub fn gives_p_values(&self) -> bool {
+        self.status == NoiseStatus::Measured && self.runs >= RUNS_FOR_P && !self.runs_identical
+    }
+
+    /// Residuals \[m\] in run layout in units of the noise of the mean: unit variance and uncorrelated if the model is
+    /// right. Where the noise is unknown the unit is [`NOMINAL_SIGMA_M`]; use the result for ranking only.
+    pub fn whiten(&self, residual_m: &[f64]) -> Vec<f64> {
+        self.whitener.whiten(residual_m)
+    }
+
+    /// Whitened residuals of some of the values, with their own covariance; `range` indexes the run layout.
+    ///
+    /// # Errors
+    /// If the 4×4 eigenproblem does not converge.
+    pub fn whiten_range(&self, residual_m: &[f64], range: std::ops::Range<usize>) -> Result<Vec<f64>, CompareError> {
+        let whitener = Whitener::new(&self.directions[range.clone()], self.unit_m(), &self.test_variance)?;
+        Ok(whitener.whiten(&residual_m[range]))
+    }
+
+    /// Standard deviation \[unit of the functional\] of wᵀȳ for tests; `None` if unknown.
+    pub fn test_sd(&self, weights: &[(usize, f64)]) -> Option<f64> {
+        self.functional_variance(weights, &self.test_variance).map(f64::sqrt)
+    }
+
+    /// Best estimate of the variance of wᵀȳ; `None` if unknown.
+    pub fn variance(&self, weights: &[(usize, f64)]) -> Option<f64> {
+        self.functional_variance(weights, &self.mean_variance)
+    }
+
+    /// Mean of the diagonal of Σ_mean \[m²\] over some values in run layout, best estimate; `None` if unknown.
+    pub fn mean_square(&self, range: std::ops::Range<usize>) -> Option<f64> {
+        let rows = &self.directions[range];
+        let shared: f64 = rows.iter().map(|u| quadratic(u, &self.mean_variance)).sum();
+        Some(self.sigma_m?.powi(2) / self.runs as f64 + shared / rows.len() as f64)
+    }
+
+    /// Standard deviation of the independent part of one value of the mean, σ/√R \[m\].
+    pub fn unit_m(&self) -> f64 {
+        self.sigma_m.unwrap_or(NOMINAL_SIGMA_M) / (self.runs as f64).sqrt()
+    }
+
+    fn functional_variance(&self, weights: &[(usize, f64)], variances: &[f64; 4]) -> Option<f64> {
+        let mut projected = [0.0; 4];
+        for &(i, w) in weights {
+            for (p, u) in projected.iter_mut().zip(&self.directions[i]) {
+                *p += w * u;
+            }
+        }
+        let squares: f64 = weights.iter().map(|(_, w)| w * w).sum();
+        Some(self.sigma_m?.powi(2) / self.runs as f64 * squares + quadratic(&projected, variances))
+    }
+
+    fn without_scatter(
+        status: NoiseStatus,
+        sigma_m: Option<f64>,
+        directions: Vec<[f64; 4]>,
+    ) -> Result<NoiseModel, CompareError> {
+        let specification = SENSOR_SD.map(|sd| sd * sd);
+        let sigma_m = sigma_m.map(|s| s.max(SMALLEST_SIGMA_M));
+        let whitener = Whitener::new(&directions, sigma_m.unwrap_or(NOMINAL_SIGMA_M), &specification)?;
+        Ok(NoiseModel {
+            status,
+            runs: 1,
+            sessions: 1,
+            sigma_m,
+            pure_error_dof: 0,
+            run_sd: [None; 4],
+            mean_variance: specification,
+            test_variance: specification,
+            runs_identical: false,
+            directions,
+            whitener,
+        })
+    }
+
+    fn measured(
+        dataset: &Dataset,
+        groups: &[Vec<usize>],
+        directions: Vec<[f64; 4]>,
+    ) -> Result<NoiseModel, CompareError> {
+        let fit = DirectionFit::new(&directions);
+        let within = within_sessions(dataset, groups, &fit);
+        let sigma2 = within.sigma2.max(SMALLEST_SIGMA_M.powi(2));
+        let runs = dataset.runs.len();
+        let run_variance = pooled(fit.noise_free(within.coefficient_variance, sigma2));
+        let between = pooled(between_sessions(dataset, groups, &fit, sigma2));
+        let dof = runs - groups.len();
+        let mut mean_variance = [0.0; 4];
+        let mut test_variance = [0.0; 4];
+        for j in 0..4 {
+            let estimates = if j == 1 || j == 2 { 2 * dof } else { dof };
+            let widened = (run_variance[j] * t_inflation(estimates)).max(SENSOR_SD[j].powi(2));
+            mean_variance[j] = (run_variance[j] / runs as f64).max(between[j]);
+            test_variance[j] = (widened / runs as f64).max(between[j]);
+        }
+        let unit_m = (sigma2 / runs as f64).sqrt();
+        let whitener = Whitener::new(&directions, unit_m, &test_variance)?;
+        Ok(NoiseModel {
+            status: NoiseStatus::Measured,
+            runs,
+            sessions: groups.len(),
+            sigma_m: Some(sigma2.sqrt()),
+            pure_error_dof: within.dof,
+            run_sd: std::array::from_fn(|j| fit.kept(j).then(|| run_variance[j].sqrt())),
+            mean_variance,
+            test_variance,
+            runs_identical: within.sigma2 < SMALLEST_SIGMA_M.powi(2),
+            directions,
+            whitener,
+        })
+    }
+}
+
+/// What the repeats inside sessions say.
+struct Within {
+    sigma2: f64,
+    dof: usize,
+    coefficient_variance: [f64; 4],
+}
+
+fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit) -> Within {
+    let mut within = Within { sigma2: 0.0, dof: 0, coefficient_variance: [0.0; 4] };
+    let repeated = groups.iter().filter(|g| g.len() > 1).count() as f64;
+    for group in groups.iter().filter(|g| g.len() > 1) {
+        let mean = mean_of(dataset, group);
+        for &run in group {
+            let deviation: Vec<f64> = dataset.run(run).iter().zip(&mean).map(|(y, m)| y - m).collect();
+            let (coefficients, rest) = fit.solve(&deviation);
+            within.sigma2 += rest;
+            for (v, c) in within.coefficient_variance.iter_mut().zip(coefficients) {
+                *v += c * c / (group.len() - 1) as f64 / repeated;
+            }
+        }
+        within.dof += (group.len() - 1) * (mean.len() - fit.count());
+    }
+    within.sigma2 /= within.dof.max(1) as f64;
+    within
+}
+
+/// Variance of the coefficients of the overall mean as the session means show it; zeros for one session.
+fn between_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit, sigma2: f64) -> [f64; 4] {
+    if groups.len() < 2 {
+        return [0.0; 4];
+    }
+    let runs = dataset.runs.len() as f64;
+    let overall = dataset.mean_over_runs();
+    let mut variance = [0.0; 4];
+    for group in groups {
+        let deviation: Vec<f64> = mean_of(dataset, group).iter().zip(&overall).map(|(y, m)| y - m).collect();
+        for (v, c) in variance.iter_mut().zip(fit.solve(&deviation).0) {
+            *v += c * c / (groups.len() - 1) as f64;
+        }
+    }
+    let repeats = groups.iter().map(|g| 1.0 / g.len() as f64).sum::<f64>() / groups.len() as f64;
+    let share: f64 = groups.iter().map(|g| (g.len() as f64 / runs).powi(2)).sum();
+    fit.noise_free(variance, sigma2 * repeats).map(|v| v * share)
+}
+
+/// x and y alignment are the same kind of error: one variance for both.
+fn pooled(mut variance: [f64; 4]) -> [f64; 4] {
+    let alignment = 0.5 * (variance[1] + variance[2]);
+    variance[1] = alignment;
+    variance[2] = alignment;
+    variance
+}
+
+fn quadratic(vector: &[f64; 4], variances: &[f64; 4]) -> f64 {
+    vector.iter().zip(variances).map(|(u, v)| u * u * v).sum()
+}
+
+fn mean_of(dataset: &Dataset, runs: &[usize]) -> Vec<f64> {
+    let mut mean = vec![0.0; dataset.values_per_run()];
+    for &run in runs {
+        for (m, v) in mean.iter_mut().zip(dataset.run(run)) {
+            *m += v / runs.len() as f64;
+        }
+    }
+    mean
+}
+
+/// Runs of each session, in order of first appearance.
+fn session_groups(sessions: &[usize], runs: usize) -> Result<Vec<Vec<usize>>, CompareError> {
+    if sessions.is_empty() {
+        return Ok(vec![(0..runs).collect()]);
+    }
+    if sessions.len() != runs {
+        return Err(CompareError::WrongSessions { found: sessions.len(), runs });
+    }
+    let mut labels: Vec<usize> = Vec::new();
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (run, label) in sessions.iter().enumerate() {
+        match labels.iter().position(|l| l == label) {
+            Some(i) => groups[i].push(run),
+            None => {
+                labels.push(*label);
+                groups.push(vec![run]);
+            }
+        }
+    }
+    if runs > 1 && groups.len() == runs {
+        return Err(CompareError::SessionsWithoutRepeats);
+    }
+    Ok(groups)
+}

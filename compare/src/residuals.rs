@@ -1,0 +1,217 @@
+//! The residual map, marker × hold, and the directed contrasts beside it: drift during holds, loading against unloading.
+//!
+//! Every entry is a linear functional of f − ȳ over its own standard deviation under the noise model (the widened one,
+//! see [`crate::noise`]). All of them are corrected together by Holm's procedure, so that among all entries of a right
+//! model one is called significant at level α in about a fraction α of all datasets.
+
+use crate::comparison::Comparison;
+use crate::layout::{Weights, apply};
+use crate::stats::{holm, reported_p, two_sided_p};
+use serde::Serialize;
+
+/// Multiple of the noise that counts as standing out where no p-value can be given (two runs, or σ supplied).
+const MANY_TIMES_THE_NOISE: f64 = 5.0;
+
+/// Two pressures are the same hold pressure within this fraction.
+const SAME_PRESSURE: f64 = 0.03;
+
+/// A signed difference, model minus measurement.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Deviation {
+    /// In millimetres.
+    pub mm: f64,
+    /// In standard deviations of the noise of the mean; `None` if the noise is unknown.
+    pub in_noise: Option<f64>,
+    /// Two-sided p, corrected for all contrasts of this comparison (Holm), never below 1e-6; 3 runs or more.
+    pub p_corrected: Option<f64>,
+}
+
+impl Deviation {
+    /// Whether it is more than noise: p < α, or above 5 times the noise where no p can be given; `None` if the noise
+    /// is unknown.
+    pub fn stands_out(&self, alpha: f64) -> Option<bool> {
+        match self.p_corrected {
+            Some(p) => Some(p < alpha),
+            None => self.in_noise.map(|z| z.abs() > MANY_TIMES_THE_NOISE),
+        }
+    }
+}
+
+/// One marker at one hold, means over the samples.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ResidualCell {
+    /// Along the straight robot.
+    pub x: Deviation,
+    /// Across it, the direction of bending.
+    pub y: Deviation,
+    /// Length of the error vector \[mm\].
+    pub norm_mm: f64,
+    /// Length of the vector of the two standardised errors.
+    pub norm_in_noise: Option<f64>,
+}
+
+/// A hold as labelled in tables and plots.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct HoldLabel {
+    /// Actuator pressure \[kPa\].
+    pub p_act_kpa: f64,
+    /// Body pressure \[kPa\].
+    pub p_body_kpa: f64,
+    /// `load`, `hold` or `unload`.
+    pub phase: &'static str,
+    /// 0 for the first hold with these pressures and this phase, 1 for the second, …
+    pub occurrence: usize,
+}
+
+/// Error in the movement during one hold: late third minus early third of the samples, model minus measurement.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Drift {
+    /// Index of the hold.
+    pub hold: usize,
+    /// Mean over markers, weighted by the shape of the most bent hold; positive: the model moves on in the bending
+    /// direction more than the robot.
+    pub deviation: Deviation,
+}
+
+/// Error in the gap between unloading and loading at the same pressures.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LoopGap {
+    /// Index of the hold reached by loading.
+    pub load_hold: usize,
+    /// Index of the hold reached by unloading.
+    pub unload_hold: usize,
+    /// (f − ȳ) unloading minus loading, weighted like [`Drift`]; negative: the robot stays more bent than the model.
+    pub deviation: Deviation,
+}
+
+/// The residual map and the directed contrasts.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ResidualMap {
+    /// Columns.
+    pub holds: Vec<HoldLabel>,
+    /// Rows, ordered as in the data.
+    pub markers: Vec<String>,
+    /// Index of the outermost marker.
+    pub tip: usize,
+    /// `cells[marker][hold]`.
+    pub cells: Vec<Vec<ResidualCell>>,
+    /// Drift error of each hold; empty with one sample per hold.
+    pub drifts: Vec<Drift>,
+    /// Loop errors; empty without a matching pair of holds.
+    pub loops: Vec<LoopGap>,
+    /// Contrasts the p-values are corrected for.
+    pub contrasts: usize,
+}
+
+/// Compute the residual map of a comparison.
+pub fn residual_map(c: &Comparison) -> ResidualMap {
+    let (holds, markers) = (c.layout.holds, c.layout.markers);
+    let cells =
+        (0..markers).flat_map(|m| (0..holds).flat_map(move |h| [0, 1].map(|axis| c.layout.mean_weights(h, m, axis))));
+    let pairs = loop_pairs(c);
+    let shape = bending_weights(c);
+    let mut contrasts: Vec<Weights> = cells.collect();
+    let drift_start = contrasts.len();
+    let drifting = if c.layout.samples > 1 { holds } else { 0 };
+    contrasts.extend((0..drifting).map(|h| drift_weights(c, h, &shape)));
+    contrasts.extend(pairs.iter().map(|&(load, unload)| gap_weights(c, load, unload, &shape)));
+    let deviations = deviations(c, &contrasts);
+    let drift = |hold: usize| Drift { hold, deviation: deviations[drift_start + hold] };
+    let gap = |(i, &(load_hold, unload_hold)): (usize, &(usize, usize))| LoopGap {
+        load_hold,
+        unload_hold,
+        deviation: deviations[drift_start + drifting + i],
+    };
+    ResidualMap {
+        holds: c.dataset.holds.iter().map(label).collect(),
+        markers: c.dataset.markers.iter().map(|m| m.name.clone()).collect(),
+        tip: c.tip,
+        cells: deviations[..drift_start]
+            .chunks(2 * holds)
+            .map(|row| row.chunks(2).map(|xy| cell(xy[0], xy[1])).collect())
+            .collect(),
+        drifts: (0..drifting).map(drift).collect(),
+        loops: pairs.iter().enumerate().map(gap).collect(),
+        contrasts: contrasts.len(),
+    }
+}
+
+/// The printed label of a hold.
+pub fn label(hold: &data::Hold) -> HoldLabel {
+    HoldLabel {
+        p_act_kpa: 1e-3 * hold.p_act_pa,
+        p_body_kpa: 1e-3 * hold.p_body_pa,
+        phase: hold.phase.word(),
+        occurrence: hold.occurrence,
+    }
+}
+
+/// Values, standardised values and jointly corrected p of all contrasts.
+fn deviations(c: &Comparison, contrasts: &[Weights]) -> Vec<Deviation> {
+    let values: Vec<f64> = contrasts.iter().map(|w| apply(w, &c.residual_m)).collect();
+    let in_noise: Vec<Option<f64>> = contrasts
+        .iter()
+        .zip(&values)
+        .map(|(w, v)| c.noise.test_sd(w).filter(|sd| *sd > 0.0).map(|sd| v / sd))
+        .collect();
+    let raw: Vec<f64> = in_noise.iter().map(|z| z.map_or(1.0, |z| two_sided_p(z, c.noise.pure_error_dof))).collect();
+    let corrected = holm(&raw);
+    let p = |i: usize| c.noise.gives_p_values().then(|| reported_p(corrected[i]));
+    (0..values.len()).map(|i| Deviation { mm: 1e3 * values[i], in_noise: in_noise[i], p_corrected: p(i) }).collect()
+}
+
+fn cell(x: Deviation, y: Deviation) -> ResidualCell {
+    ResidualCell { x, y, norm_mm: x.mm.hypot(y.mm), norm_in_noise: x.in_noise.zip(y.in_noise).map(|(x, y)| x.hypot(y)) }
+}
+
+/// Weight of each marker's y: the measured shape of the most bent hold, absolute values summing to one. Bending,
+/// creep and hysteresis all have about this shape, so it gathers them with the least noise.
+fn bending_weights(c: &Comparison) -> Vec<f64> {
+    let shapes = (0..c.layout.holds).map(|h| c.deflections(h).1);
+    let size = |y: &Vec<f64>| y.iter().map(|y| y.abs()).sum::<f64>();
+    let shape = shapes.max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or_default();
+    match size(&shape) {
+        total if total > 1e-9 => shape.iter().map(|y| y / total).collect(),
+        _ => vec![1.0 / shape.len().max(1) as f64; shape.len()],
+    }
+}
+
+fn drift_weights(c: &Comparison, hold: usize, shape: &[f64]) -> Weights {
+    let samples = c.layout.samples;
+    let third = (samples / 3).max(1);
+    let mut weights = Vec::with_capacity(2 * third * shape.len());
+    for (marker, w) in shape.iter().enumerate() {
+        for k in 0..third {
+            weights.push((c.layout.index(hold, samples - 1 - k, marker) + 1, w / third as f64));
+            weights.push((c.layout.index(hold, k, marker) + 1, -w / third as f64));
+        }
+    }
+    weights
+}
+
+fn gap_weights(c: &Comparison, load: usize, unload: usize, shape: &[f64]) -> Weights {
+    let signed = |hold: usize, sign: f64| {
+        let markers = shape.iter().enumerate();
+        let weights = markers
+            .flat_map(move |(m, w)| c.layout.mean_weights(hold, m, 1).into_iter().map(move |(i, v)| (i, sign * w * v)));
+        weights.collect::<Weights>()
+    };
+    let mut weights = signed(unload, 1.0);
+    weights.extend(signed(load, -1.0));
+    weights
+}
+
+/// Each unloading hold with the latest earlier loading hold at the same two pressures.
+fn loop_pairs(c: &Comparison) -> Vec<(usize, usize)> {
+    let holds = &c.dataset.holds;
+    let same = |a: f64, b: f64| {
+        (a - b).abs() <= (SAME_PRESSURE * a.abs().max(b.abs())).max(crate::comparison::ZERO_PRESSURE_PA)
+    };
+    let matches = |l: usize, u: usize| {
+        holds[l].phase != data::Phase::Unload
+            && same(holds[l].p_act_pa, holds[u].p_act_pa)
+            && same(holds[l].p_body_pa, holds[u].p_body_pa)
+    };
+    let unloading = (0..holds.len()).filter(|&u| holds[u].phase == data::Phase::Unload);
+    unloading.filter_map(|u| (0..u).rev().find(|&l| matches(l, u)).map(|l| (l, u))).collect()
+}

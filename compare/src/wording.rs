@@ -1,0 +1,92 @@
+//! Plain-language pieces: lists, pressures, markers, signed lengths.
+
+use crate::residuals::{Deviation, HoldLabel, ResidualMap};
+
+/// `a`, `a and b`, `a, b and c`.
+pub fn list(words: &[String]) -> String {
+    match words {
+        [] => String::new(),
+        [one] => one.clone(),
+        [head @ .., last] => format!("{} and {last}", head.join(", ")),
+    }
+}
+
+/// A number with at most one decimal: `20`, `12.5`.
+pub fn short(value: f64) -> String {
+    let text = format!("{value:.1}");
+    let text = text.strip_suffix(".0").map_or(text.clone(), str::to_string);
+    if text == "-0" { "0".to_string() } else { text }
+}
+
+/// The pressures of some holds: `10, 20 and 30 kPa`; body pressures are named if the data have several.
+pub fn pressures(map: &ResidualMap, holds: &[usize]) -> String {
+    let body = &map.holds[0].p_body_kpa;
+    let several = map.holds.iter().any(|h| (h.p_body_kpa - body).abs() > 0.03 * body.abs().max(0.1));
+    let mut words: Vec<String> = Vec::new();
+    for &h in holds {
+        let word = hold_word(&map.holds[h], several);
+        if !words.contains(&word) {
+            words.push(word);
+        }
+    }
+    if several { list(&words) } else { format!("{} kPa", list(&words)) }
+}
+
+/// `tip +38.2 mm at 30 kPa, 41 times the noise`; the pressure is left out if `holds` names only that one.
+pub fn evidence(map: &ResidualMap, (hold, marker): (usize, usize), holds: &[usize], deviation: &Deviation) -> String {
+    let place = if marker == map.tip { "tip".to_string() } else { format!("marker {}", map.markers[marker]) };
+    let at = if holds.len() > 1 { format!(" at {}", pressures(map, &[hold])) } else { String::new() };
+    format!("{place} {}{at}{}", signed_mm(deviation.mm), times_the_noise(deviation))
+}
+
+/// `+38.2 mm`, with a second decimal below 1 mm.
+pub fn signed_mm(mm: f64) -> String {
+    if mm.abs() < 0.995 { format!("{mm:+.2} mm") } else { format!("{mm:+.1} mm") }
+}
+
+/// `, 41 times the noise`, or nothing if the noise is unknown.
+pub fn times_the_noise(deviation: &Deviation) -> String {
+    match deviation.in_noise.map(f64::abs) {
+        None => String::new(),
+        Some(z) if z < 9.95 => format!(", {z:.1} times the noise"),
+        Some(z) => format!(", {z:.0} times the noise"),
+    }
+}
+
+/// Which markers, in words: `, on every marker`, `, from marker P3 to the tip`, `, only at marker P4`, …
+pub fn markers(map: &ResidualMap, chosen: &[usize]) -> String {
+    let names: Vec<String> = chosen.iter().map(|&m| map.markers[m].clone()).collect();
+    let all = map.markers.len();
+    let to_tip = chosen.first().is_some_and(|&first| chosen.len() == all - first && chosen.len() > 1);
+    match chosen {
+        [] => String::new(),
+        _ if all == 1 => String::new(),
+        _ if chosen.len() == all => ", on every marker".to_string(),
+        [_] => format!(", only at marker {}", names[0]),
+        _ if to_tip => format!(", from marker {} to the tip", names[0]),
+        _ => format!(", at markers {}", list(&names)),
+    }
+}
+
+fn hold_word(hold: &HoldLabel, several_bodies: bool) -> String {
+    let pressure = short(hold.p_act_kpa);
+    let again = if hold.occurrence > 0 { format!(" (time {})", hold.occurrence + 1) } else { String::new() };
+    match several_bodies {
+        true => format!("{pressure} kPa at {} kPa body pressure{again}", short(hold.p_body_kpa)),
+        false => format!("{pressure}{again}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_and_numbers_read_naturally() {
+        let words = ["10", "20", "30"].map(str::to_string);
+        assert_eq!(list(&words), "10, 20 and 30");
+        assert_eq!(list(&words[..1]), "10");
+        assert_eq!([short(20.0), short(12.5), short(-0.01)], ["20", "12.5", "0"]);
+        assert_eq!([signed_mm(38.24), signed_mm(-0.4)], ["+38.2 mm", "-0.40 mm"]);
+    }
+}
