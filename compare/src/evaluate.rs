@@ -92,7 +92,7 @@ pub fn evaluate(
     Ok(Evaluation {
         dataset: dataset.name.clone(),
         actuator: dataset.actuator.clone(),
-        noise: NoiseSummary::of(&noise),
+        noise: NoiseSummary::of(&noise, &dataset.holds),
         metrics,
         residual_map,
         where_it_fails,

@@ -21,13 +21,13 @@
 //! With several sessions the mean cannot be better than the scatter between the session means b: v/R is replaced by
 //! b Σ_s (R_s/R)² where that is larger.
 //!
-//! Validity: normal errors, σ the same at every pressure, scatter small enough to be linear in U. One run gives no
+//! Validity: normal errors, σ the same at every pressure ([`NoiseModel::uneven_holds`] tells when it is not), scatter small enough to be linear in U. One run gives no
 //! noise at all: the status says so and no p-value is ever formed.
 
 use crate::directions::{DirectionFit, nuisance_directions};
 use crate::error::CompareError;
 use crate::layout::Layout;
-use crate::stats::t_inflation;
+use crate::stats::{f_tail, t_inflation};
 use crate::whiten::Whitener;
 use data::Dataset;
 use serde::Serialize;
@@ -77,6 +77,9 @@ pub struct NoiseModel {
     pub mean_variance: [f64; 4],
     /// The same, widened for few runs and floored at the sensor specification: for tests.
     pub test_variance: [f64; 4],
+    /// Camera noise of each hold on its own \[m\]; empty if not measured. Widely different values mean that σ is not
+    /// one number: near a buckling pressure the robot itself scatters.
+    pub hold_sigma_m: Vec<f64>,
     /// The runs repeat to within a micrometre: copies of one run, or data without noise.
     pub runs_identical: bool,
     /// U, one row per value in run layout.
@@ -159,6 +162,19 @@ impl NoiseModel {
         Some(self.sigma_m?.powi(2) / self.runs as f64 + shared / rows.len() as f64)
     }
 
+    /// The noisiest and the quietest hold, if their scatter differs by more than chance (F test, p < 0.01 after
+    /// correction for all pairs) and by more than half: significance is then overstated at the noisiest hold.
+    pub fn uneven_holds(&self) -> Option<(usize, usize)> {
+        let sigma = |h: &usize| self.hold_sigma_m[*h];
+        let holds = self.hold_sigma_m.len();
+        let noisiest = (0..holds).max_by(|a, b| sigma(a).total_cmp(&sigma(b)))?;
+        let quietest = (0..holds).min_by(|a, b| sigma(a).total_cmp(&sigma(b)))?;
+        let quotient = sigma(&noisiest) / sigma(&quietest).max(SMALLEST_SIGMA_M);
+        let dof = self.pure_error_dof / holds;
+        let p = (holds * (holds - 1)) as f64 * f_tail(quotient * quotient, dof, dof);
+        (quotient > 1.5 && p < 0.01).then_some((noisiest, quietest))
+    }
+
     /// Standard deviation of the independent part of one value of the mean, σ/√R \[m\].
     pub fn unit_m(&self) -> f64 {
         self.sigma_m.unwrap_or(NOMINAL_SIGMA_M) / (self.runs as f64).sqrt()
@@ -192,6 +208,7 @@ impl NoiseModel {
             run_sd: [None; 4],
             mean_variance: specification,
             test_variance: specification,
+            hold_sigma_m: Vec::new(),
             runs_identical: false,
             directions,
             whitener,
@@ -229,6 +246,7 @@ impl NoiseModel {
             run_sd: std::array::from_fn(|j| fit.kept(j).then(|| run_variance[j].sqrt())),
             mean_variance,
             test_variance,
+            hold_sigma_m: within.hold_sigma2.iter().map(|s| s.sqrt()).collect(),
             runs_identical: within.sigma2 < SMALLEST_SIGMA_M.powi(2),
             directions,
             whitener,
@@ -239,26 +257,33 @@ impl NoiseModel {
 /// What the repeats inside sessions say.
 struct Within {
     sigma2: f64,
+    hold_sigma2: Vec<f64>,
     dof: usize,
     coefficient_variance: [f64; 4],
 }
 
 fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit) -> Within {
-    let mut within = Within { sigma2: 0.0, dof: 0, coefficient_variance: [0.0; 4] };
+    let holds = dataset.holds.len();
+    let mut within = Within { sigma2: 0.0, hold_sigma2: vec![0.0; holds], dof: 0, coefficient_variance: [0.0; 4] };
     let repeated = groups.iter().filter(|g| g.len() > 1).count() as f64;
     for group in groups.iter().filter(|g| g.len() > 1) {
         let mean = mean_of(dataset, group);
         for &run in group {
             let deviation: Vec<f64> = dataset.run(run).iter().zip(&mean).map(|(y, m)| y - m).collect();
             let (coefficients, rest) = fit.solve(&deviation);
-            within.sigma2 += rest;
+            for (square, part) in within.hold_sigma2.iter_mut().zip(rest.chunks(rest.len() / holds)) {
+                *square += part.iter().map(|r| r * r).sum::<f64>();
+            }
             for (v, c) in within.coefficient_variance.iter_mut().zip(coefficients) {
                 *v += c * c / (group.len() - 1) as f64 / repeated;
             }
         }
         within.dof += (group.len() - 1) * (mean.len() - fit.count());
     }
-    within.sigma2 /= within.dof.max(1) as f64;
+    // All holds have the same number of values, so each has the same share of the degrees of freedom.
+    let dof_per_hold = within.dof.max(1) as f64 / holds as f64;
+    within.hold_sigma2.iter_mut().for_each(|s| *s /= dof_per_hold);
+    within.sigma2 = within.hold_sigma2.iter().sum::<f64>() / holds as f64;
     within
 }
 

@@ -1,6 +1,8 @@
 //! The noise model as printed: millimetres, per cent, one plain sentence.
 
 use crate::noise::{NoiseModel, NoiseStatus, RUNS_FOR_P, SENSOR_SD};
+use crate::wording::short;
+use data::Hold;
 use serde::Serialize;
 
 /// What a reader needs to know about the noise of a dataset.
@@ -26,11 +28,13 @@ pub struct NoiseSummary {
     pub p_values: bool,
     /// All of this in words.
     pub sentence: String,
+    /// A caution where the scatter differs between holds.
+    pub warning: Option<String>,
 }
 
 impl NoiseSummary {
-    /// Convert a noise model for printing.
-    pub fn of(noise: &NoiseModel) -> NoiseSummary {
+    /// Convert a noise model for printing; `holds` are those of the dataset.
+    pub fn of(noise: &NoiseModel, holds: &[Hold]) -> NoiseSummary {
         let mm = |m: f64| 1e3 * m;
         let [pressure, alignment, _, rotation] = noise.run_sd;
         let mut summary = NoiseSummary {
@@ -44,6 +48,15 @@ impl NoiseSummary {
             noise_of_mean_mm: noise.mean_square(0..noise.directions.len()).map(|v| mm(v.sqrt())),
             p_values: noise.gives_p_values(),
             sentence: String::new(),
+            warning: noise.uneven_holds().map(|(loud, quiet)| {
+                let part = |h: usize| {
+                    format!("{:.1} mm at {} kPa", mm(noise.hold_sigma_m[h]), short(1e-3 * holds[h].p_act_pa))
+                };
+                let (loud, quiet) = (part(loud), part(quiet));
+                format!(
+                    "the scatter differs between holds ({loud}, {quiet}): significance is overstated where it is large"
+                )
+            }),
         };
         summary.sentence = sentence(noise, &summary);
         summary

@@ -172,6 +172,22 @@ fn one_run_gives_numbers_but_no_significance() {
 }
 
 #[test]
+fn a_hold_that_scatters_more_than_the_others_is_pointed_out() {
+    let robot = Robot::paper();
+    let quiet = robot.measured(5, CAREFUL, 20);
+    let mut data = quiet.clone();
+    let loud = robot.measured(5, Noise { sigma_m: 2e-3, ..CAREFUL }, 21);
+    let n = data.values_per_run();
+    for (i, y) in data.xy_m.iter_mut().enumerate().filter(|(i, _)| i % n / (n / 5) == 1) {
+        *y = loud.xy_m[i];
+    }
+    let warning = of(&data, &robot).noise.warning.unwrap();
+    println!("{warning}");
+    assert!(warning.contains("2.0 mm at 10 kPa, 0.5 mm at "), "{warning}");
+    assert_eq!(of(&quiet, &robot).noise.warning, None);
+}
+
+#[test]
 fn two_runs_or_copies_of_one_run_give_no_p_values() {
     let robot = Robot::paper();
     let e = of(&robot.measured(2, TYPICAL, 11), &robot);

@@ -143,11 +143,15 @@ impl Site {
         loads: &SiteLoads,
         near: Option<&SiteState>,
     ) -> Result<SiteState, NoRoot> {
-        let mut imbalance = |a: f64| self.balance(actuator, a, loads).imbalance;
+        let mut at = Balance { curvature: 0.0, tension: 0.0, imbalance: 0.0, d_curvature: 0.0, weight: 1.0 };
+        let mut imbalance = |a: f64| {
+            at = self.balance(actuator, a, loads);
+            at.imbalance
+        };
         let start = match near {
             Some(state) if state.slope < 0.0 => {
-                let at = imbalance(state.coordinate);
-                (state.coordinate, Some(at), state.coordinate - at / state.slope)
+                let known = imbalance(state.coordinate);
+                (state.coordinate, Some(known), state.coordinate - known / state.slope)
             }
             // A short first step makes the first secant a good Newton step.
             _ => {
@@ -156,7 +160,6 @@ impl Site {
             }
         };
         let root = find_root(&mut imbalance, actuator.range, start)?;
-        let at = self.balance(actuator, root.x, loads);
         let compliance = -at.weight * at.d_curvature / root.slope;
         let (curvature, tension) = (at.curvature, at.tension);
         Ok(SiteState { coordinate: root.x, curvature, tension, compliance, slope: root.slope })
