@@ -30,7 +30,8 @@ pub enum CompareError {
     },
     /// An array holds NaN, infinity or more than a kilometre.
     #[error(
-        "{what} is not a usable number at hold {hold}, marker {marker} (counted from 1): check the model or the file there (finite, below 1 km)"
+        "{what} is not a usable number at hold {hold}, marker {marker} (counted from 1): check the model or the file \
+         there (finite, below 1 km)"
     )]
     NotFinite {
         /// Which array.
@@ -50,8 +51,8 @@ pub enum CompareError {
     },
     /// Every session has a single run, so nothing repeats.
     #[error(
-        "every session has one run only, so run-to-run scatter cannot be told from session differences: repeat at least \
-         one session, or leave the session labels out"
+        "every session has one run only, so run-to-run scatter cannot be told from session differences: repeat at \
+         least one session, or leave the session labels out"
     )]
     SessionsWithoutRepeats,
     /// A setting is outside its range.

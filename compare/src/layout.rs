@@ -52,7 +52,8 @@ impl Layout {
         self.index(hold, 0, 0)..self.index(hold + 1, 0, 0)
     }
 
-    /// An error unless `values` has this layout and is finite and below a kilometre; `what` names the array in the message.
+    /// An error unless `values` has this layout and is finite and below a kilometre; `what` names the array in the
+    /// message.
     pub fn check(&self, what: &'static str, values: &[f64]) -> Result<(), CompareError> {
         if values.len() != self.values() {
             return Err(self.wrong_length(what, values.len()));

@@ -172,8 +172,8 @@ fn a_right_model_rarely_alarms_because_the_run_is_the_unit() {
         let named = rate(&|t| t.failure_named);
         let (chi2, error) = mean_and_error(&tests.iter().map(|t| t.run_as_unit.reduced_chi2).collect::<Vec<_>>());
         println!(
-            "R = {runs}, p < .01: run as unit: chi2 {chi2_only:.3}, with directed tests {all:.3}, failure named {named:.3}; independent errors: \
-             {iid_chi2:.3}, {iid_all:.3}; chi2/dof {chi2:.4} +- {error:.4}"
+            "R = {runs}, p < .01: run as unit: chi2 {chi2_only:.3}, with directed tests {all:.3}, failure named \
+             {named:.3}; independent errors: {iid_chi2:.3}, {iid_all:.3}; chi2/dof {chi2:.4} +- {error:.4}"
         );
         assert!(chi2_only.max(all).max(named) <= bound, "R = {runs}: {chi2_only} {all} {named}");
         assert!(iid_all > 0.5, "R = {runs}: independent errors must fail on these data, {iid_all}");

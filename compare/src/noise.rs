@@ -21,8 +21,8 @@
 //! With several sessions the mean cannot be better than the scatter between the session means b: v/R is replaced by
 //! b Σ_s (R_s/R)² where that is larger.
 //!
-//! Validity: normal errors, σ the same at every pressure ([`NoiseModel::uneven_holds`] tells when it is not), scatter small enough to be linear in U. One run gives no
-//! noise at all: the status says so and no p-value is ever formed.
+//! Validity: normal errors, σ the same at every pressure ([`NoiseModel::uneven_holds`] tells when it is not), scatter
+//! small enough to be linear in U. One run gives no noise at all: the status says so and no p-value is ever formed.
 
 use crate::directions::{DirectionFit, nuisance_directions};
 use crate::error::CompareError;
@@ -36,7 +36,8 @@ use serde::Serialize;
 /// 0.1 mm in x and y, rotation 0.5 mrad.
 pub const SENSOR_SD: [f64; 4] = [0.003, 1e-4, 1e-4, 5e-4];
 
-/// Smallest camera noise used \[m\]: identical runs would otherwise divide by zero; no camera resolves a micrometre here.
+/// Smallest camera noise used \[m\]: identical runs would otherwise divide by zero; no camera resolves a micrometre
+/// here.
 pub const SMALLEST_SIGMA_M: f64 = 1e-6;
 
 /// Unit of whitened residuals \[m\] where the noise is unknown: they then order models, nothing more.
@@ -57,7 +58,8 @@ pub enum NoiseStatus {
     Unknown,
 }
 
-/// The noise of the mean over runs of one dataset. SI units; [`crate::noise_summary::NoiseSummary`] converts for printing.
+/// The noise of the mean over runs of one dataset. SI units; [`crate::noise_summary::NoiseSummary`] converts for
+/// printing.
 #[derive(Debug, Clone, Serialize)]
 pub struct NoiseModel {
     /// Where the noise level comes from.

@@ -71,8 +71,8 @@ fn sentence(noise: &NoiseModel, s: &NoiseSummary) -> String {
     };
     if noise.status == NoiseStatus::Supplied {
         return format!(
-            "camera noise {camera:.1} mm as given, run-to-run scatter not measured (one run): no significance can be given; \
-             noise at least {mean:.2} mm"
+            "camera noise {camera:.1} mm as given, run-to-run scatter not measured (one run): no significance can be \
+             given; noise at least {mean:.2} mm"
         );
     }
     if noise.runs_identical {

@@ -1,4 +1,5 @@
-//! The residual map, marker × hold, and the directed contrasts beside it: drift during holds, loading against unloading.
+//! The residual map, marker × hold, and the directed contrasts beside it: drift during holds, loading against
+//! unloading.
 //!
 //! Every entry is a linear functional of f − ȳ over its own standard deviation under the noise model (the widened one,
 //! see [`crate::noise`]). All of them are corrected together by Holm's procedure, so that among all entries of a right

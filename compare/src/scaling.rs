@@ -2,8 +2,8 @@
 //!
 //! In the ideal model (no elastic or frictional resistance) the balance cos θ/θ = p π R³/(P L₀ W (R + d)) contains
 //! actuator and body pressure only as P/p, so holds with the same ratio have the same shape. A difference that survives
-//! at the same ratio is an effect with its own stiffness or pressure scale (fabric stretch, bending stiffness, friction,
-//! tail tension, a regulator offset); collapse speaks for geometry alone.
+//! at the same ratio is an effect with its own stiffness or pressure scale (fabric stretch, bending stiffness,
+//! friction, tail tension, a regulator offset); collapse speaks for geometry alone.
 
 use crate::comparison::ZERO_PRESSURE_PA;
 use crate::error::CompareError;
@@ -134,7 +134,8 @@ pub fn scaling_of_model(
         0 => (
             ScalingVerdict::Collapses,
             format!(
-                "The model depends on the pressures only through P/p (largest difference at the same ratio {worst:.2} mm, tolerance {tolerance_mm:.2} mm)."
+                "The model depends on the pressures only through P/p (largest difference at the same ratio \
+                 {worst:.2} mm, tolerance {tolerance_mm:.2} mm)."
             ),
         ),
         _ => (
@@ -220,8 +221,8 @@ fn data_sentence(verdict: ScalingVerdict, pairs: &[ScalingPair], differing: usiz
     let at = format!("P/p = {}", list(&ratios));
     match verdict {
         ScalingVerdict::Collapses => format!(
-            "Shapes at the same P/p collapse to within noise ({at}; largest difference {worst:.1} mm): these data need no \
-             effect with a pressure or stiffness scale of its own."
+            "Shapes at the same P/p collapse to within noise ({at}; largest difference {worst:.1} mm): these data \
+             need no effect with a pressure or stiffness scale of its own."
         ),
         ScalingVerdict::DoesNotCollapse => format!(
             "Shapes at the same P/p do not collapse: {differing} of {} pairs differ by more than noise ({at}; up to \
@@ -237,8 +238,8 @@ fn data_sentence(verdict: ScalingVerdict, pairs: &[ScalingPair], differing: usiz
 
 /// What to measure: the same ratios at twice the body pressure, or at half of it.
 fn cannot_be_checked(holds: &[Hold]) -> ScalingCheck {
-    let start = "The P/p scaling law cannot be checked with these data: no two holds have the same P/p at different body \
-                 pressures";
+    let start = "The P/p scaling law cannot be checked with these data: no two holds have the same P/p at different \
+    body pressures";
     let pressurised = holds.iter().filter(|h| h.p_act_pa > ZERO_PRESSURE_PA && h.p_body_pa > ZERO_PRESSURE_PA);
     let reference = pressurised.clone().map(|h| h.p_body_pa).next();
     let sentence = match reference {

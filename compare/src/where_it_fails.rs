@@ -6,7 +6,7 @@
 
 use crate::comparison::Comparison;
 use crate::residuals::{Deviation, ResidualCell, ResidualMap};
-use crate::wording::{evidence, list, markers, pressures, times_the_noise};
+use crate::wording::{evidence, list, markers, p_value, pressures, times_the_noise};
 use data::Phase;
 use serde::Serialize;
 
@@ -207,8 +207,8 @@ impl<'a> Judge<'a> {
         let d = worst.deviation;
         let more = if d.mm < 0.0 { "more" } else { "less" };
         let sentence = format!(
-            "At {} the robot is bent {:.1} mm {more} after unloading than while loading, compared with the model (weighted \
-             over the markers{}).",
+            "At {} the robot is bent {:.1} mm {more} after unloading than while loading, compared with the model \
+             (weighted over the markers{}).",
             pressures(self.map, &[worst.unload_hold]),
             d.mm.abs(),
             times_the_noise(&d),
@@ -246,8 +246,8 @@ impl<'a> Judge<'a> {
         let holds: Vec<usize> = drifts.iter().map(|d| d.hold).collect();
         let way = if worst.deviation.mm < 0.0 { "in" } else { "against" };
         let sentence = format!(
-            "During the hold at {} the robot moves {:.1} mm further {way} the bending direction than the model (late minus \
-             early samples, weighted over the markers{}).",
+            "During the hold at {} the robot moves {:.1} mm further {way} the bending direction than the model (late \
+             minus early samples, weighted over the markers{}).",
             pressures(self.map, &[worst.hold]),
             worst.deviation.mm.abs(),
             times_the_noise(&worst.deviation),
@@ -262,39 +262,31 @@ impl<'a> Judge<'a> {
         let largest = by(|d| d.in_noise.unwrap_or(d.mm).abs());
         let size = largest.map_or(String::new(), |d| format!("{:.2} mm{}", d.mm.abs(), times_the_noise(&d)));
         let (finding, sentence) = if !self.c.noise.is_known() {
-            (
-                Finding::WithinTolerance,
-                format!("No difference above {:.2} mm was found (largest {size}).", self.least_mm),
-            )
+            let text = format!("No difference above {:.2} mm was found (largest {size}).", self.least_mm);
+            (Finding::WithinTolerance, text)
         } else if entries().any(|d| d.stands_out(self.alpha) == Some(true)) {
-            let tolerance = 1e3 * options.tolerance_m;
-            (
-                Finding::WithinTolerance,
-                format!(
-                    "Every difference is below the tolerance of {tolerance:.2} mm, though not all are noise (most significant {size})."
-                ),
-            )
+            let text = format!(
+                "Every difference is below the tolerance of {:.2} mm, though not all are noise (most significant \
+                 {size}).",
+                1e3 * options.tolerance_m
+            );
+            (Finding::WithinTolerance, text)
         } else if let Some(p) = chi2_p.filter(|p| *p < self.alpha) {
-            (
-                Finding::Diffuse,
-                format!(
-                    "As a whole the misfit is more than noise (p = {p:.1e}), but no single marker and pressure stands out (most significant difference {size})."
-                ),
-            )
+            let text = format!(
+                "As a whole the misfit is more than noise ({}), but no single marker and pressure stands out (most \
+                 significant difference {size}).",
+                p_value(p)
+            );
+            (Finding::Diffuse, text)
         } else if self.c.noise.gives_p_values() {
-            (
-                Finding::Agrees,
-                format!(
-                    "The model agrees with the measurements to within noise at every pressure and marker (most significant difference {size})."
-                ),
-            )
+            let text = format!(
+                "The model agrees with the measurements to within noise at every pressure and marker (most significant \
+                 difference {size})."
+            );
+            (Finding::Agrees, text)
         } else {
-            (
-                Finding::Agrees,
-                format!(
-                    "No difference stands out from the noise (largest {size}); no significance can be given with these runs."
-                ),
-            )
+            let text = format!("Nothing stands out from the noise (largest {size}); no significance can be given.");
+            (Finding::Agrees, text)
         };
         Statement { finding, sentence, holds: Vec::new(), markers: Vec::new(), largest }
     }

@@ -1,6 +1,7 @@
 //! Plain-language pieces: lists, pressures, markers, signed lengths.
 
 use crate::residuals::{Deviation, HoldLabel, ResidualMap};
+use crate::stats::SMALLEST_P;
 
 /// `a`, `a and b`, `a, b and c`.
 pub fn list(words: &[String]) -> String {
@@ -53,6 +54,15 @@ pub fn times_the_noise(deviation: &Deviation) -> String {
     }
 }
 
+/// `p = 0.004`, or `p < 1e-6` at the smallest value reported.
+pub fn p_value(p: f64) -> String {
+    match p {
+        p if p <= SMALLEST_P => "p < 1e-6".to_string(),
+        p if p < 1e-3 => format!("p = {p:.0e}"),
+        p => format!("p = {p:.3}"),
+    }
+}
+
 /// Which markers, in words: `, on every marker`, `, from marker P3 to the tip`, `, only at marker P4`, …
 pub fn markers(map: &ResidualMap, chosen: &[usize]) -> String {
     let names: Vec<String> = chosen.iter().map(|&m| map.markers[m].clone()).collect();
@@ -87,6 +97,7 @@ mod tests {
         assert_eq!(list(&words), "10, 20 and 30");
         assert_eq!(list(&words[..1]), "10");
         assert_eq!([short(20.0), short(12.5), short(-0.01)], ["20", "12.5", "0"]);
+        assert_eq!([p_value(1e-6), p_value(2e-4), p_value(0.0042)], ["p < 1e-6", "p = 2e-4", "p = 0.004"]);
         assert_eq!([signed_mm(38.24), signed_mm(-0.4)], ["+38.2 mm", "-0.40 mm"]);
     }
 }
