@@ -13,6 +13,8 @@ pub mod layout;
 pub mod metrics;
 pub mod noise;
 pub mod noise_summary;
+pub mod plots;
+pub mod report;
 pub mod residuals;
 pub mod scaling;
 pub mod stats;
