@@ -118,7 +118,8 @@ impl Dataset {
     pub fn checked(self) -> Result<Dataset, DataError> {
         let empty = self.runs.is_empty() || self.values_per_run() == 0;
         let times = self.holds.iter().all(|hold| hold.t_s.len() == self.samples_per_hold);
-        let finite = self.xy_m.iter().chain(self.holds.iter().flat_map(|hold| &hold.t_s)).all(|value| value.is_finite());
+        let finite =
+            self.xy_m.iter().chain(self.holds.iter().flat_map(|hold| &hold.t_s)).all(|value| value.is_finite());
         let expected = self.runs.len() * self.values_per_run();
         let wrong = |message: String| {
             let help = "lay xy_m out as [run][hold][sample][marker][x, y], with samples_per_hold times in every hold";

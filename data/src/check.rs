@@ -1,0 +1,281 @@
+//! `ibr data check`: what is in a dataset, how well its runs agree, and what it cannot be used for.
+
+use serde::Serialize;
+
+use crate::about::About;
+use crate::dataset::{Dataset, Phase};
+use crate::streams::{tolerance_act_pa, tolerance_body_pa};
+use crate::units::{kpa, mm};
+
+/// Robust z above which a sample is listed.
+const OUTLIER_Z: f64 = 6.0;
+/// Standard deviations per median absolute deviation of a normal variable: 1/Φ⁻¹(3/4).
+const SD_PER_MAD: f64 = 1.482_602_218_505_602;
+/// Deviations below this are never outliers: far below any camera \[m\].
+const SURELY_FINE_M: f64 = 1e-5;
+
+/// What a dataset holds; mm, kPa and s because it is printed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CheckReport {
+    /// Name of the dataset.
+    pub name: String,
+    /// Actuator kind.
+    pub actuator: String,
+    /// `measured`, `digitised`, `synthetic` or `published`; `None` without about.toml.
+    pub provenance: Option<String>,
+    /// Run labels.
+    pub runs: Vec<String>,
+    /// Samples per (run, hold, marker).
+    pub samples_per_hold: usize,
+    /// Holds in protocol order.
+    pub holds: Vec<HoldCheck>,
+    /// Markers in order of station.
+    pub markers: Vec<MarkerCheck>,
+    /// Distinct actuator pressures \[kPa\], rising.
+    pub actuator_pressures_kpa: Vec<f64>,
+    /// Distinct body pressures \[kPa\], rising.
+    pub body_pressures_kpa: Vec<f64>,
+    /// Whether there is an unloading branch.
+    pub unloading: bool,
+    /// Samples far from the other runs.
+    pub outliers: Vec<Outlier>,
+    /// Pairs of runs with identical values.
+    pub identical_runs: Vec<[String; 2]>,
+    /// What limits the use of this dataset, in plain words.
+    pub warnings: Vec<String>,
+}
+
+/// One hold.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct HoldCheck {
+    /// Actuator pressure \[kPa\].
+    pub p_act_kpa: f64,
+    /// Body pressure \[kPa\].
+    pub p_body_kpa: f64,
+    /// `load`, `hold` or `unload`.
+    pub phase: &'static str,
+    /// 0 for the first hold of its kind.
+    pub occurrence: usize,
+    /// Time between first and last sample \[s\]; with few samples less than the hold lasted.
+    pub duration_s: f64,
+    /// Run-to-run standard deviation of the hold means, rms over markers and axes \[mm\]; `None` for one run.
+    pub scatter_mm: Option<f64>,
+}
+
+/// One marker.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MarkerCheck {
+    /// Label.
+    pub name: String,
+    /// Station \[mm\].
+    pub s_mm: Option<f64>,
+    /// Run-to-run standard deviation of the hold means, rms over holds and axes \[mm\]; `None` for one run.
+    pub scatter_mm: Option<f64>,
+}
+
+/// A sample far from the median over runs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Outlier {
+    /// Run label.
+    pub run: String,
+    /// Index of the hold.
+    pub hold: usize,
+    /// Index of the sample in the hold.
+    pub sample: usize,
+    /// Marker label.
+    pub marker: String,
+    /// Distance along x from the median over runs \[mm\].
+    pub dx_mm: f64,
+    /// Distance along y from the median over runs \[mm\].
+    pub dy_mm: f64,
+    /// Larger of the two robust z.
+    pub robust_z: f64,
+}
+
+/// Checks a dataset.
+pub fn check(dataset: &Dataset, about: Option<&About>) -> CheckReport {
+    let variance_mm2 = variance_of_hold_means_mm2(dataset);
+    let (holds, markers) = (dataset.holds.len(), dataset.markers.len());
+    let rms = |select: &dyn Fn(usize, usize) -> bool| -> Option<f64> {
+        let cells = (0..holds).flat_map(|h| (0..markers).map(move |m| (h, m))).filter(|&(h, m)| select(h, m));
+        let values: Vec<f64> = cells.flat_map(|(h, m)| variance_mm2.as_ref().map(|v| v[h * markers + m])).collect();
+        (!values.is_empty()).then(|| (values.iter().sum::<f64>() / values.len() as f64).sqrt())
+    };
+    let mut report = CheckReport {
+        name: dataset.name.clone(),
+        actuator: dataset.actuator.clone(),
+        provenance: about.map(|about| about.provenance.word().to_string()),
+        runs: dataset.runs.clone(),
+        samples_per_hold: dataset.samples_per_hold,
+        holds: (0..holds).map(|h| hold_check(dataset, h, rms(&|hold, _| hold == h))).collect(),
+        markers: (0..markers).map(|m| marker_check(dataset, m, rms(&|_, marker| marker == m))).collect(),
+        actuator_pressures_kpa: levels(dataset.holds.iter().map(|hold| hold.p_act_pa).collect(), tolerance_act_pa),
+        body_pressures_kpa: levels(dataset.holds.iter().map(|hold| hold.p_body_pa).collect(), tolerance_body_pa),
+        unloading: dataset.holds.iter().any(|hold| hold.phase == Phase::Unload),
+        outliers: outliers(dataset),
+        identical_runs: identical_runs(dataset),
+        warnings: Vec::new(),
+    };
+    report.warnings = warnings(&report, about);
+    report
+}
+
+fn hold_check(dataset: &Dataset, index: usize, scatter_mm: Option<f64>) -> HoldCheck {
+    let hold = &dataset.holds[index];
+    let duration_s = hold.t_s.last().zip(hold.t_s.first()).map_or(0.0, |(last, first)| last - first);
+    HoldCheck {
+        p_act_kpa: kpa(hold.p_act_pa),
+        p_body_kpa: kpa(hold.p_body_pa),
+        phase: hold.phase.word(),
+        occurrence: hold.occurrence,
+        duration_s,
+        scatter_mm,
+    }
+}
+
+fn marker_check(dataset: &Dataset, index: usize, scatter_mm: Option<f64>) -> MarkerCheck {
+    let marker = &dataset.markers[index];
+    MarkerCheck { name: marker.name.clone(), s_mm: marker.station_m.map(mm), scatter_mm }
+}
+
+/// `[hold][marker]`: variance over runs of the mean over samples, averaged over x and y \[mm²\]; `None` for one run.
+fn variance_of_hold_means_mm2(dataset: &Dataset) -> Option<Vec<f64>> {
+    let runs = dataset.runs.len();
+    if runs < 2 {
+        return None;
+    }
+    let samples = dataset.samples_per_hold;
+    let mean_mm = |run: usize, hold: usize, marker: usize, axis: usize| {
+        (0..samples).map(|sample| mm(dataset.xy(run, hold, sample, marker)[axis])).sum::<f64>() / samples as f64
+    };
+    let variance = |hold: usize, marker: usize, axis: usize| {
+        let means: Vec<f64> = (0..runs).map(|run| mean_mm(run, hold, marker, axis)).collect();
+        let centre = means.iter().sum::<f64>() / runs as f64;
+        means.iter().map(|mean| (mean - centre).powi(2)).sum::<f64>() / (runs - 1) as f64
+    };
+    let cells = (0..dataset.holds.len()).flat_map(|hold| (0..dataset.markers.len()).map(move |marker| (hold, marker)));
+    Some(cells.map(|(hold, marker)| 0.5 * (variance(hold, marker, 0) + variance(hold, marker, 1))).collect())
+}
+
+/// Distinct values \[kPa\], rising; values within the tolerance of a hold are one.
+fn levels(mut values_pa: Vec<f64>, tolerance_pa: fn(f64) -> f64) -> Vec<f64> {
+    values_pa.sort_by(f64::total_cmp);
+    let mut levels: Vec<f64> = Vec::new();
+    for value in values_pa {
+        if levels.last().is_none_or(|&last| value - last > tolerance_pa(last)) {
+            levels.push(value);
+        }
+    }
+    levels.into_iter().map(kpa).collect()
+}
+
+/// Samples whose distance d from the median over runs exceeds 6 robust standard deviations, both of their hold and
+/// marker (all runs and samples) and of their marker (all holds): with few runs either scale alone is small by chance
+/// and would list good samples. Robust standard deviation: 1.4826 · median |d| · √(R/(R−1)) over the values with d ≠ 0;
+/// the median run itself has d = 0 and says nothing about the scatter. Needs three runs.
+fn outliers(dataset: &Dataset) -> Vec<Outlier> {
+    let runs = dataset.runs.len();
+    if runs < 3 {
+        return Vec::new();
+    }
+    let deviations = deviations_from_median_m(dataset);
+    let few_runs = (runs as f64 / (runs - 1) as f64).sqrt();
+    let mut found = Vec::new();
+    for (marker, described) in dataset.markers.iter().enumerate() {
+        let scale = |holds: &[usize], axis: usize| {
+            let all = holds.iter().flat_map(|&h| samples_of(dataset, h, marker)).map(|i| i + axis);
+            let sizes =
+                all.flat_map(|i| deviations.iter().map(move |run| run[i].abs())).filter(|size| *size > 0.0).collect();
+            (few_runs * SD_PER_MAD * median(sizes)).max(SURELY_FINE_M / OUTLIER_Z)
+        };
+        let every_hold: Vec<usize> = (0..dataset.holds.len()).collect();
+        let of_marker = [scale(&every_hold, 0), scale(&every_hold, 1)];
+        for hold in every_hold {
+            let sd = [0, 1].map(|axis| scale(&[hold], axis).max(of_marker[axis]));
+            for (sample, at) in samples_of(dataset, hold, marker).enumerate() {
+                for (run, label) in dataset.runs.iter().enumerate() {
+                    let d = [deviations[run][at], deviations[run][at + 1]];
+                    let robust_z = (d[0].abs() / sd[0]).max(d[1].abs() / sd[1]);
+                    if robust_z > OUTLIER_Z {
+                        let (run, marker) = (label.clone(), described.name.clone());
+                        found.push(Outlier { run, hold, sample, marker, dx_mm: mm(d[0]), dy_mm: mm(d[1]), robust_z });
+                    }
+                }
+            }
+        }
+    }
+    found
+}
+
+fn samples_of(dataset: &Dataset, hold: usize, marker: usize) -> impl Iterator<Item = usize> + '_ {
+    (0..dataset.samples_per_hold).map(move |sample| dataset.offset(hold, sample, marker))
+}
+
+/// `[run][value]`: distance of every value from the median over runs \[m\].
+fn deviations_from_median_m(dataset: &Dataset) -> Vec<Vec<f64>> {
+    let runs = 0..dataset.runs.len();
+    let over_runs = |i: usize| median(runs.clone().map(|run| dataset.run(run)[i]).collect());
+    let centre: Vec<f64> = (0..dataset.values_per_run()).map(over_runs).collect();
+    runs.clone()
+        .map(|run| dataset.run(run).iter().zip(&centre).map(|(value, centre)| value - centre).collect())
+        .collect()
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let (count, middle) = (values.len(), values.len() / 2);
+    match count {
+        0 => 0.0,
+        _ if count % 2 == 1 => values[middle],
+        _ => 0.5 * (values[middle - 1] + values[middle]),
+    }
+}
+
+fn identical_runs(dataset: &Dataset) -> Vec<[String; 2]> {
+    let mut order: Vec<usize> = (0..dataset.runs.len()).collect();
+    let compare = |a: &usize, b: &usize| {
+        let pairs = dataset.run(*a).iter().zip(dataset.run(*b));
+        pairs.map(|(x, y)| x.total_cmp(y)).find(|order| order.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
+    };
+    order.sort_by(compare);
+    let same = order.windows(2).filter(|pair| compare(&pair[0], &pair[1]).is_eq());
+    same.map(|pair| [dataset.runs[pair[0]].clone(), dataset.runs[pair[1]].clone()]).collect()
+}
+
+fn warnings(report: &CheckReport, about: Option<&About>) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let mut warn = |condition: bool, text: String| warnings.extend(condition.then_some(text));
+    let runs = report.runs.len();
+    warn(runs == 1, "one run: no noise floor and no p-values can be given; at least 3 runs are needed".to_string());
+    warn(
+        runs == 2,
+        "two runs: the noise floor rests on one difference; at least 3 runs are needed for p-values".to_string(),
+    );
+    for [a, b] in &report.identical_runs {
+        warn(true, format!("runs {a} and {b} are identical to the last digit: one is a copy and not a repetition"));
+    }
+    let outliers = report.outliers.len();
+    warn(
+        outliers > 0,
+        format!("{outliers} samples lie more than {OUTLIER_Z} robust standard deviations from the other runs"),
+    );
+    let unknown = report.markers.iter().filter(|marker| marker.s_mm.is_none()).count();
+    warn(unknown > 0, format!("{unknown} markers without station: add [markers] names and s_mm to about.toml"));
+    warn(
+        !report.unloading,
+        "no unloading branch: friction, creep and set cannot be told from other effects".to_string(),
+    );
+    warn(
+        report.body_pressures_kpa.len() < 2,
+        "one body pressure: body stiffness and pouch effects are hard to separate".to_string(),
+    );
+    warn(
+        report.actuator_pressures_kpa.len() < 3,
+        "fewer than three actuator pressures: no trend with pressure".to_string(),
+    );
+    warn(about.is_none(), "no about.toml: provenance, licence, geometry and gravity are unknown".to_string());
+    let unseen =
+        about.into_iter().flat_map(|about| &about.markers).filter(|m| report.markers.iter().all(|r| r.name != m.name));
+    unseen.for_each(|marker| warn(true, format!("marker {} of about.toml has no rows", marker.name)));
+    warnings
+}

@@ -1,0 +1,275 @@
+//! The header line: which column holds which quantity, in which unit.
+
+use crate::error::{DataError, Fault, nearest};
+use crate::lines::{KeptLine, Line, Lines};
+use crate::units::{Dimension, Unit};
+
+/// A quantity of the tidy marker table.
+pub(crate) struct Quantity {
+    /// Column name without unit.
+    pub base: &'static str,
+    /// Column name as documented.
+    pub expected: &'static str,
+    dimension: Option<Dimension>,
+    required: bool,
+}
+
+const fn text(name: &'static str) -> Quantity {
+    Quantity { base: name, expected: name, dimension: None, required: true }
+}
+
+const fn number(base: &'static str, expected: &'static str, dimension: Dimension) -> Quantity {
+    Quantity { base, expected, dimension: Some(dimension), required: true }
+}
+
+/// Positions in [`QUANTITIES`].
+pub(crate) const RUN: usize = 0;
+pub(crate) const ACTUATOR: usize = 1;
+pub(crate) const TIME: usize = 2;
+pub(crate) const P_BODY: usize = 3;
+pub(crate) const P_ACT: usize = 4;
+pub(crate) const PHASE: usize = 5;
+pub(crate) const MARKER: usize = 6;
+pub(crate) const X: usize = 7;
+pub(crate) const Y: usize = 8;
+pub(crate) const STATION: usize = 9;
+
+/// All quantities, in the order of the documented columns; `s_mm` is optional.
+pub(crate) const QUANTITIES: [Quantity; 10] = [
+    text("run"),
+    text("actuator"),
+    number("t", "t_s", Dimension::Time),
+    number("p_body", "p_body_kpa", Dimension::Pressure),
+    number("p_act", "p_act_kpa", Dimension::Pressure),
+    text("phase"),
+    text("marker"),
+    number("x", "x_mm", Dimension::Length),
+    number("y", "y_mm", Dimension::Length),
+    Quantity { base: "s", expected: "s_mm", dimension: Some(Dimension::Length), required: false },
+];
+
+/// A column that holds a quantity.
+#[derive(Debug, Clone)]
+pub(crate) struct Column {
+    pub index: usize,
+    pub unit: Option<Unit>,
+}
+
+/// The header line, understood.
+#[derive(Debug, Clone)]
+pub(crate) struct Header {
+    /// Column names as written.
+    pub names: Vec<String>,
+    /// The column of each quantity; only `STATION` may be absent.
+    pub columns: [Option<Column>; QUANTITIES.len()],
+    /// The y column was called `y_down_…`: its sign is turned on reading.
+    pub y_down: bool,
+    /// Cell separator.
+    pub delimiter: u8,
+    /// The line itself, for faults of a whole column.
+    pub line: KeptLine,
+}
+
+/// Reads comment lines and the header line of a marker table.
+///
+/// # Errors
+/// Empty file; a column missing, there twice, misspelt or without unit.
+pub(crate) fn read_header(lines: &mut Lines) -> Result<Header, DataError> {
+    loop {
+        let file = lines.file().to_string();
+        let Some(line) = lines.next_filled()? else { return Err(empty_file(&file)) };
+        if !line.text.trim_start().starts_with('#') {
+            return parse_header(&line);
+        }
+    }
+}
+
+fn empty_file(file: &str) -> DataError {
+    let fault =
+        Fault::of_file(file, "the file is empty", format!("the first line must name the columns: {}", wanted()));
+    DataError::Layout(Box::new(fault))
+}
+
+fn wanted() -> String {
+    let names: Vec<_> = QUANTITIES.iter().filter(|q| q.required).map(|q| q.expected).collect();
+    names.join(",")
+}
+
+fn parse_header(line: &Line) -> Result<Header, DataError> {
+    let delimiter = detect_delimiter(line.text);
+    let names: Vec<String> = line.text.split(delimiter as char).map(clean).collect();
+    let mut columns: [Option<Column>; QUANTITIES.len()] = Default::default();
+    let mut y_down = false;
+    for (index, name) in names.iter().enumerate() {
+        let Meaning::Known { quantity, unit, down } = meaning(name) else { continue };
+        if let Some(first) = &columns[quantity] {
+            return Err(twice(line, &names, [first.index, index], quantity));
+        }
+        y_down |= down;
+        columns[quantity] = Some(Column { index, unit });
+    }
+    if let Some(missing) = (0..QUANTITIES.len()).find(|&q| QUANTITIES[q].required && columns[q].is_none()) {
+        return Err(absent(line, &names, delimiter, missing));
+    }
+    Ok(Header { names, columns, y_down, delimiter, line: line.keep() })
+}
+
+fn clean(name: &str) -> String {
+    name.trim().trim_matches('"').trim().to_string()
+}
+
+/// The separator that occurs most often in the header: comma, semicolon or tab.
+fn detect_delimiter(text: &str) -> u8 {
+    let count = |delimiter: u8| text.bytes().filter(|&byte| byte == delimiter).count();
+    [b'\t', b';', b','].into_iter().max_by_key(|&delimiter| count(delimiter)).unwrap_or(b',')
+}
+
+enum Meaning {
+    Known { quantity: usize, unit: Option<Unit>, down: bool },
+    NoUnit { quantity: usize },
+    OtherUnit { quantity: usize },
+    Extra,
+}
+
+fn meaning(name: &str) -> Meaning {
+    let name = name.to_lowercase();
+    if let Some(quantity) = by_base(&name) {
+        let plain = QUANTITIES[quantity].dimension.is_none();
+        return if plain { Meaning::Known { quantity, unit: None, down: false } } else { Meaning::NoUnit { quantity } };
+    }
+    if name == "y_down" {
+        return Meaning::NoUnit { quantity: Y };
+    }
+    let Some((base, suffix)) = name.rsplit_once('_') else { return Meaning::Extra };
+    let down = base == "y_down";
+    let Some(quantity) = by_base(if down { "y" } else { base }) else { return Meaning::Extra };
+    match QUANTITIES[quantity].dimension.and_then(|dimension| dimension.unit(suffix)) {
+        Some(unit) => Meaning::Known { quantity, unit: Some(unit), down },
+        None if QUANTITIES[quantity].dimension.is_some() => Meaning::OtherUnit { quantity },
+        None => Meaning::Extra,
+    }
+}
+
+fn by_base(base: &str) -> Option<usize> {
+    QUANTITIES.iter().position(|quantity| quantity.base == base)
+}
+
+fn twice(line: &Line, names: &[String], indices: [usize; 2], quantity: usize) -> DataError {
+    let [first, second] = indices.map(|index| names[index].as_str());
+    let message = if first.eq_ignore_ascii_case(second) {
+        format!("column {first} is there twice")
+    } else {
+        format!("columns {first} and {second} hold the same quantity")
+    };
+    let expected = QUANTITIES[quantity].expected;
+    column_fault(line, names, indices[1], message, format!("keep one of them, for example {expected}"))
+}
+
+fn column_fault(line: &Line, names: &[String], index: usize, message: String, help: String) -> DataError {
+    let mut fault = line.fault(message, help);
+    fault.location.column_name = Some(names[index].clone());
+    let mut from = 0;
+    for name in &names[..=index] {
+        let at = line.text[from..].find(name.as_str()).map_or(from, |at| from + at);
+        fault.span = Some((line.start + at, line.start + at + name.len()));
+        from = at + name.len();
+    }
+    DataError::Column(fault)
+}
+
+fn absent(line: &Line, names: &[String], delimiter: u8, missing: usize) -> DataError {
+    let Quantity { expected, dimension, .. } = &QUANTITIES[missing];
+    for (index, name) in names.iter().enumerate() {
+        let units = dimension.map(Dimension::sentence).unwrap_or_default();
+        match meaning(name) {
+            Meaning::NoUnit { quantity } if quantity == missing => {
+                let help = format!("name it {expected}; {units}");
+                return column_fault(line, names, index, format!("column {name} has no unit in its name"), help);
+            }
+            Meaning::OtherUnit { quantity } if quantity == missing => {
+                let help = format!("convert it and name it {expected}; {units}");
+                return column_fault(line, names, index, format!("column {name} has an unknown unit"), help);
+            }
+            _ => {}
+        }
+    }
+    let unknown = names.iter().filter(|name| matches!(meaning(name), Meaning::Extra)).map(String::as_str);
+    let found = names.join(&format!("{} ", delimiter as char));
+    if let Some(near) = nearest(expected, unknown).filter(|near| !near.is_empty()) {
+        let index = names.iter().position(|name| name == near).unwrap_or_default();
+        let message = format!("column {expected} is missing; found {found}");
+        return column_fault(line, names, index, message, format!("did you mean {expected} where it says {near}?"));
+    }
+    let message = format!("column {expected} is missing; found {found}");
+    DataError::Column(line.fault(message, format!("add it; the columns are {}", wanted())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn header(text: &str) -> Result<Header, DataError> {
+        let mut progress = |_, _| ();
+        let mut reader = text.as_bytes();
+        read_header(&mut Lines::new("m.csv", &mut reader, 0, &mut progress))
+    }
+
+    const GOOD: &str = "run,actuator,t_s,p_body_kpa,p_act_kpa,phase,marker,x_mm,y_mm";
+
+    #[test]
+    fn units_case_comments_delimiter_and_extra_columns_are_understood() {
+        let text = "# a\n#b,c\nnote;Run;actuator;T_ms;p_body_kPa;P_ACT_bar;phase;marker;X_m;y_cm;s_mm;x_px\n";
+        let header = header(text).unwrap();
+        assert_eq!(header.delimiter, b';');
+        assert_eq!(header.columns[RUN].as_ref().unwrap().index, 1);
+        assert_eq!(header.columns[P_ACT].as_ref().unwrap().unit.unwrap().name, "bar");
+        assert_eq!(header.columns[STATION].as_ref().unwrap().index, 10);
+        assert!(!header.y_down && super::tests::header(&GOOD.replace("y_mm", "y_down_mm")).unwrap().y_down);
+        assert_eq!(super::tests::header(&GOOD.replace(',', "\t")).unwrap().delimiter, b'\t');
+    }
+
+    #[test]
+    fn every_required_column_is_missed_by_name() {
+        for quantity in QUANTITIES.iter().filter(|quantity| quantity.required) {
+            let left: Vec<_> = GOOD.split(',').filter(|name| *name != quantity.expected).collect();
+            let error = header(&left.join(",")).unwrap_err();
+            assert!(error.message().starts_with(&format!("column {} is missing", quantity.expected)), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_misspelt_column_gets_a_suggestion_and_a_caret() {
+        let error = header(&GOOD.replace("p_act_kpa", "p_atc_kpa")).unwrap_err();
+        assert_eq!(error.help(), "did you mean p_act_kpa where it says p_atc_kpa?");
+        let (start, end) = error.caret().unwrap();
+        assert_eq!(&error.source_line().unwrap()[start..end], "p_atc_kpa");
+    }
+
+    #[test]
+    fn a_quantity_without_or_with_unknown_unit_shows_the_expected_name() {
+        let error = header(&GOOD.replace("x_mm", "x")).unwrap_err();
+        assert_eq!(error.to_string(), "m.csv:1, column x: column x has no unit in its name");
+        assert_eq!(error.help(), "name it x_mm; lengths are in mm, cm, m");
+        let error = header(&GOOD.replace("p_act_kpa", "p_act_torr")).unwrap_err();
+        assert!(error.message().contains("unknown unit") && error.help().contains("psi"), "{error}");
+        assert!(header(&GOOD.replace("p_act_kpa", "p_act")).unwrap_err().help().starts_with("name it p_act_kpa"));
+    }
+
+    #[test]
+    fn the_same_quantity_twice_is_refused() {
+        let error = header(&format!("{GOOD},x_mm")).unwrap_err();
+        assert_eq!(error.message(), "column x_mm is there twice");
+        let error = header(&format!("{GOOD},x_m")).unwrap_err();
+        assert_eq!(error.message(), "columns x_mm and x_m hold the same quantity");
+        assert_eq!(error.caret(), Some((GOOD.len() + 1, GOOD.len() + 4)));
+        assert!(header(&format!("{GOOD},y_down_mm")).is_err());
+    }
+
+    #[test]
+    fn an_empty_file_says_which_columns_to_write() {
+        for text in ["", "\n\n", "# only a comment\n"] {
+            let error = header(text).unwrap_err();
+            assert!(matches!(error, DataError::Layout(_)) && error.help().contains(GOOD), "{error}");
+        }
+    }
+}

@@ -1,0 +1,210 @@
+//! A text file as a stream of lines that know their number and byte offset.
+//!
+//! One line is in memory at a time, so a file of any size needs none; a quote that is never closed can spoil one row
+//! only. Quoted cells are therefore not allowed to contain line ends.
+
+use std::io::{BufRead, BufReader, Read};
+
+use crate::error::{DataError, Fault, Location};
+
+/// Longest line accepted: far above any row of markers; without a bound a binary file would be read whole.
+const LONGEST_LINE: u64 = 1 << 20;
+/// Bytes between two calls of the progress function.
+const PROGRESS_STEP: u64 = 1 << 20;
+
+/// One line of a file, without its line end.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Line<'a> {
+    pub file: &'a str,
+    /// Counted from 1.
+    pub number: u64,
+    /// Byte offset of the first character in the file.
+    pub start: usize,
+    pub text: &'a str,
+    /// False for a last line without line end.
+    pub ended: bool,
+}
+
+impl Line<'_> {
+    /// A fault of the whole line.
+    pub fn fault(&self, message: impl Into<String>, help: impl Into<String>) -> Box<Fault> {
+        let location = Location { file: self.file.to_string(), line: self.number, column_name: None, cell: None };
+        Box::new(Fault {
+            location,
+            message: message.into(),
+            help: help.into(),
+            span: Some((self.start, self.start + self.text.len())),
+            source_line: Some(self.text.to_string()),
+            source_start: self.start,
+        })
+    }
+
+    /// An owned copy of place and text, for faults found only when the whole file has been read.
+    pub fn keep(&self) -> KeptLine {
+        KeptLine { file: self.file.to_string(), number: self.number, start: self.start, text: self.text.to_string() }
+    }
+}
+
+/// An owned [`Line`].
+#[derive(Debug, Clone)]
+pub(crate) struct KeptLine {
+    pub file: String,
+    number: u64,
+    start: usize,
+    text: String,
+}
+
+impl KeptLine {
+    /// The line again.
+    pub fn line(&self) -> Line<'_> {
+        Line { file: &self.file, number: self.number, start: self.start, text: &self.text, ended: true }
+    }
+}
+
+/// Reads lines and reports progress.
+pub(crate) struct Lines<'a> {
+    reader: BufReader<&'a mut dyn Read>,
+    progress: &'a mut dyn FnMut(u64, u64),
+    file: String,
+    buffer: Vec<u8>,
+    number: u64,
+    next_byte: u64,
+    bytes_total: u64,
+    next_report: u64,
+}
+
+impl<'a> Lines<'a> {
+    /// Lines of `reader`; `bytes_total` (0 if unknown) is handed on to `progress` with the bytes read so far.
+    pub fn new(
+        file: &str,
+        reader: &'a mut dyn Read,
+        bytes_total: u64,
+        progress: &'a mut dyn FnMut(u64, u64),
+    ) -> Lines<'a> {
+        Lines {
+            reader: BufReader::with_capacity(1 << 16, reader),
+            progress,
+            file: file.to_string(),
+            buffer: Vec::new(),
+            number: 0,
+            next_byte: 0,
+            bytes_total,
+            next_report: PROGRESS_STEP,
+        }
+    }
+
+    /// The name of the file in errors.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// The next line that is not blank, or `None` at the end.
+    ///
+    /// # Errors
+    /// The file cannot be read, a line is not UTF-8 or is longer than 1 MiB.
+    pub fn next_filled(&mut self) -> Result<Option<Line<'_>>, DataError> {
+        loop {
+            let read = self.read_raw()?;
+            if read == 0 {
+                (self.progress)(self.next_byte, self.bytes_total.max(self.next_byte));
+                return Ok(None);
+            }
+            if !self.buffer.iter().all(u8::is_ascii_whitespace) {
+                break;
+            }
+        }
+        self.current().map(Some)
+    }
+
+    fn read_raw(&mut self) -> Result<usize, DataError> {
+        self.buffer.clear();
+        let read = self.reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.buffer);
+        let read = read.map_err(|cause| self.unreadable(&cause.to_string()))?;
+        self.number += 1;
+        self.next_byte += read as u64;
+        if read as u64 == LONGEST_LINE && self.buffer.last() != Some(&b'\n') {
+            return Err(self.too_long());
+        }
+        if self.next_byte >= self.next_report {
+            self.next_report = self.next_byte + PROGRESS_STEP;
+            (self.progress)(self.next_byte, self.bytes_total.max(self.next_byte));
+        }
+        Ok(read)
+    }
+
+    fn current(&self) -> Result<Line<'_>, DataError> {
+        let start = (self.next_byte - self.buffer.len() as u64) as usize;
+        let ended = self.buffer.last() == Some(&b'\n');
+        let mut bytes = self.buffer.strip_suffix(b"\n").unwrap_or(&self.buffer);
+        bytes = bytes.strip_suffix(b"\r").unwrap_or(bytes);
+        let text = std::str::from_utf8(bytes).map_err(|cause| self.not_utf8(start + cause.valid_up_to(), bytes))?;
+        let mark = if self.number == 1 && text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+        Ok(Line { file: &self.file, number: self.number, start: start + mark, text: &text[mark..], ended })
+    }
+
+    fn unreadable(&self, cause: &str) -> DataError {
+        let fault =
+            Fault::of_file(&self.file, format!("cannot read the file: {cause}"), "check the disk and try again");
+        DataError::File(Box::new(fault.at_line(self.number + 1)))
+    }
+
+    fn too_long(&self) -> DataError {
+        let help = "save the table as CSV (UTF-8) with one row per line";
+        let fault = Fault::of_file(&self.file, "a line is longer than 1 MiB: this is not a marker table", help);
+        DataError::Layout(Box::new(fault.at_line(self.number)))
+    }
+
+    fn not_utf8(&self, at: usize, bytes: &[u8]) -> DataError {
+        let help = match bytes {
+            [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => "it looks like UTF-16: save it as \"CSV UTF-8\"",
+            [b'P', b'K', 3, 4, ..] => "it looks like an Excel workbook: export the sheet as \"CSV UTF-8\"",
+            _ => "save the file as \"CSV UTF-8\"; µ, ° and accented letters are the usual culprits",
+        };
+        let mut fault = Fault::of_file(&self.file, "the text is not UTF-8", help).at_line(self.number);
+        fault.span = Some((at, at + 1));
+        DataError::Layout(Box::new(fault))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(mut bytes: &[u8]) -> Vec<(u64, usize, String)> {
+        let mut progress = |_, _| ();
+        let mut lines = Lines::new("f", &mut bytes, 0, &mut progress);
+        let mut out = Vec::new();
+        while let Some(line) = lines.next_filled().unwrap() {
+            out.push((line.number, line.start, line.text.to_string()));
+        }
+        out
+    }
+
+    #[test]
+    fn lines_know_number_and_offset_and_blank_ones_are_skipped() {
+        let expected = vec![(1, 3, "a".to_string()), (3, 8, "bc".to_string())];
+        assert_eq!(texts("\u{feff}a\r\n  \nbc".as_bytes()), [expected[0].clone(), (3, 9, "bc".to_string())]);
+        assert_eq!(expected[0].1, '\u{feff}'.len_utf8());
+    }
+
+    #[test]
+    fn progress_is_called_about_once_per_megabyte_and_at_the_end() {
+        let bytes = b"0123456789abcde\n".repeat(3 << 16);
+        let mut calls = Vec::new();
+        let mut progress = |done, total| calls.push((done, total));
+        let mut reader = bytes.as_slice();
+        let mut lines = Lines::new("f", &mut reader, bytes.len() as u64, &mut progress);
+        while lines.next_filled().unwrap().is_some() {}
+        let total = bytes.len() as u64;
+        assert_eq!(calls, [(1 << 20, total), (2 << 20, total), (3 << 20, total), (total, total)]);
+    }
+
+    #[test]
+    fn a_file_without_line_ends_is_refused_after_one_mebibyte() {
+        let bytes = vec![b'x'; 3 << 20];
+        let mut progress = |_, _| ();
+        let mut reader = bytes.as_slice();
+        let error = Lines::new("f", &mut reader, 0, &mut progress).next_filled().unwrap_err();
+        assert!(error.message().contains("longer than 1 MiB"), "{error}");
+    }
+}

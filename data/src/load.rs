@@ -1,0 +1,99 @@
+//! From what a user types to a dataset: an embedded set, a folder, a CSV or a Parquet file.
+
+use std::path::Path;
+
+use crate::about::{About, read_about};
+use crate::dataset::Dataset;
+use crate::error::{DataError, Fault, nearest};
+use crate::read::{ReadOptions, parse_markers, read_markers_of};
+use crate::sets::{names, set_about, set_file, shown};
+use crate::table::{TableReader, read_parquet};
+
+/// Loads the dataset that `spec` names: an embedded set, a folder with `markers.csv` (or `.parquet`) and `about.toml`,
+/// a `.csv` or a `.parquet` file (an `about.toml` beside it is used). `#kind` at the end chooses one actuator.
+///
+/// # Errors
+/// Nothing of that name, or any fault of its files.
+pub fn load(spec: &str, progress: &mut dyn FnMut(u64, u64)) -> Result<(Dataset, Option<About>), DataError> {
+    let (place, actuator) = split_kind(spec);
+    if names().contains(&place) {
+        return load_set(place, actuator, progress);
+    }
+    let path = Path::new(place);
+    if path.is_dir() {
+        return load_folder(path, actuator, progress);
+    }
+    if !path.is_file() {
+        return Err(nothing(place));
+    }
+    load_file(path, actuator, progress)
+}
+
+/// `markers.csv#epam` → (`markers.csv`, `epam`), unless a file of the full name exists.
+fn split_kind(spec: &str) -> (&str, Option<&str>) {
+    match spec.rsplit_once('#') {
+        Some((place, kind)) if !kind.is_empty() && !Path::new(spec).exists() => (place, Some(kind)),
+        _ => (spec, None),
+    }
+}
+
+fn load_set(
+    name: &str,
+    actuator: Option<&str>,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<(Dataset, Option<About>), DataError> {
+    let about = set_about(name)?;
+    let file = shown(name, "markers.csv");
+    let text = set_file(name, "markers.csv").map_err(|_| {
+        let help = "it holds published tables only; `ibr data list` shows the sets with marker positions";
+        DataError::File(Box::new(Fault::of_file(&file, format!("the set {name} has no marker positions"), help)))
+    })?;
+    let options = ReadOptions { about: Some(&about), actuator, bytes_total: text.len() as u64 };
+    let mut dataset = parse_markers(&file, &mut text.as_bytes(), options, progress)?;
+    dataset.name = name.to_string();
+    Ok((dataset, Some(about)))
+}
+
+fn load_folder(
+    folder: &Path,
+    actuator: Option<&str>,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<(Dataset, Option<About>), DataError> {
+    let candidates = ["markers.csv", "markers.parquet"].map(|file| folder.join(file));
+    let Some(file) = candidates.iter().find(|file| file.is_file()) else {
+        let help = "put the table there as markers.csv, with an about.toml beside it";
+        let fault = Fault::of_file(&folder.display().to_string(), "the folder has no markers.csv", help);
+        return Err(DataError::File(Box::new(fault)));
+    };
+    let (mut dataset, about) = load_file(file, actuator, progress)?;
+    let full = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
+    if let Some(name) = full.file_name() {
+        dataset.name = name.to_string_lossy().into_owned();
+    }
+    Ok((dataset, about))
+}
+
+fn load_file(
+    file: &Path,
+    actuator: Option<&str>,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<(Dataset, Option<About>), DataError> {
+    let beside = file.with_file_name("about.toml");
+    let about = if beside.is_file() { Some(read_about(&beside)?) } else { None };
+    let options = ReadOptions { about: about.as_ref(), actuator, bytes_total: 0 };
+    let dataset = if file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("parquet")) {
+        let table = read_parquet(file)?;
+        parse_markers(&file.display().to_string(), &mut TableReader::new(&table), options, progress)?
+    } else {
+        read_markers_of(file, options, progress)?
+    };
+    Ok((dataset, about))
+}
+
+fn nothing(place: &str) -> DataError {
+    let known = names();
+    let meant = nearest(place, known.iter().copied()).map_or(String::new(), |near| format!("did you mean {near}? "));
+    let help =
+        format!("{meant}give a .csv or .parquet file, a folder with markers.csv, or one of {}", known.join(", "));
+    DataError::File(Box::new(Fault::of_file(place, "no such file, folder or embedded set", help)))
+}

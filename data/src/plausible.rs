@@ -1,0 +1,113 @@
+//! Numbers that are a plausible robot only in another unit, or with the y axis turned over.
+//!
+//! These checks look at the whole file and say which column to rename; they never convert anything themselves.
+
+use crate::dataset::Dataset;
+use crate::error::{DataError, Fault};
+use crate::header::{Header, P_ACT, P_BODY, QUANTITIES, STATION, X, Y};
+use crate::rows::RowReader;
+use crate::streams::Recorder;
+use crate::units::mm;
+
+/// An inflated robot whose farthest marker is nearer than this to its base does not exist \[m\].
+const SHORTEST_ROBOT_M: f64 = 0.002;
+/// Longest robot in one camera picture \[m\].
+const LONGEST_ROBOT_M: f64 = 20.0;
+/// Downward motion of the last marker at the highest pressure that cannot be noise \[m\].
+const SURELY_DOWN_M: f64 = 0.005;
+/// Largest body and actuator pressure, as numbers in the kPa columns, that look like each unit, smallest unit last.
+const LOOKS_LIKE: [(f64, f64, &str); 3] = [(0.6, 7.0, "psi"), (0.06, 1.0, "bar"), (0.006, 0.1, "MPa")];
+
+/// Refuses lengths and pressures that look like another unit.
+///
+/// # Errors
+/// Metres in a millimetre column or millimetres in a metre column; psi, bar or MPa in the kPa columns.
+pub(crate) fn check_units(cells: &RowReader, recorder: &Recorder) -> Result<(), DataError> {
+    let extremes = &recorder.extremes;
+    let unit = |quantity: usize| cells.header.columns[quantity].as_ref().and_then(|c| c.unit).map_or("", |u| u.name);
+    let known_robot = extremes.p_act_pa > 0.0 || recorder.stations_m.iter().any(Option::is_some);
+    let looks = |quantity, value, word: &str| Err(unit_error(&cells.header, quantity, value, word));
+    if unit(X) == "mm" && known_robot && extremes.x_m < SHORTEST_ROBOT_M && extremes.y_m < SHORTEST_ROBOT_M {
+        return looks(X, mm(extremes.x_m), "metres");
+    }
+    if unit(STATION) == "mm" && extremes.station_m > 0.0 && extremes.station_m < SHORTEST_ROBOT_M {
+        return looks(STATION, mm(extremes.station_m), "metres");
+    }
+    for (quantity, value_m) in [(X, extremes.x_m), (Y, extremes.y_m), (STATION, extremes.station_m)] {
+        if unit(quantity) == "m" && value_m > LONGEST_ROBOT_M {
+            return looks(quantity, value_m, "millimetres");
+        }
+    }
+    if unit(P_ACT) == "kpa" && unit(P_BODY) == "kpa" {
+        return check_small_pressures(cells, extremes.p_body_pa * 1e-3, extremes.p_act_pa * 1e-3);
+    }
+    Ok(())
+}
+
+fn unit_error(header: &Header, quantity: usize, largest: f64, word: &str) -> DataError {
+    let (base, suffix) = (QUANTITIES[quantity].base, if word == "metres" { "m" } else { "mm" });
+    let message = format!("the largest value of this column is {largest:.4}: it looks like {word}");
+    DataError::Unit(column_fault(header, quantity, message, format!("name the column {base}_{suffix}")))
+}
+
+fn check_small_pressures(cells: &RowReader, p_body: f64, p_act: f64) -> Result<(), DataError> {
+    let fits = |&&(body, act, _): &&(f64, f64, &str)| p_body > 0.0 && p_act > 0.0 && p_body < body && p_act < act;
+    let Some((_, _, unit)) = LOOKS_LIKE.iter().rfind(fits) else { return Ok(()) };
+    let suffix = unit.to_lowercase();
+    let message = format!("the largest pressures are {p_act} (actuator) and {p_body} (body): they look like {unit}");
+    let help = format!(
+        "name the columns p_act_{suffix}, p_body_{suffix}; if they really are that small, give them in Pa as p_act_pa, \
+         p_body_pa"
+    );
+    Err(DataError::Unit(column_fault(&cells.header, P_ACT, message, help)))
+}
+
+/// Refuses a table whose last marker moves to negative y when the actuator is inflated.
+///
+/// # Errors
+/// At the highest actuator pressure it is more than 5 mm below its place in the first hold (mean over runs).
+pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<(), DataError> {
+    let holds = &dataset.holds;
+    let by_pressure = |&a: &usize, &b: &usize| holds[a].p_act_pa.total_cmp(&holds[b].p_act_pa);
+    let Some(highest) = (0..holds.len()).max_by(by_pressure) else { return Ok(()) };
+    if holds[highest].p_act_pa <= holds[0].p_act_pa {
+        return Ok(());
+    }
+    let mean = dataset.mean_over_runs();
+    let at = |hold: usize, marker: usize, axis: usize| {
+        let samples = dataset.samples_per_hold;
+        (0..samples).map(|sample| mean[dataset.offset(hold, sample, marker) + axis]).sum::<f64>() / samples as f64
+    };
+    let place = |marker: usize| dataset.markers[marker].station_m.unwrap_or_else(|| at(0, marker, 0));
+    let Some(last) = (0..dataset.markers.len()).max_by(|&a, &b| place(a).total_cmp(&place(b))) else { return Ok(()) };
+    let moved_m = at(highest, last, 1) - at(0, last, 1);
+    if moved_m >= -SURELY_DOWN_M {
+        return Ok(());
+    }
+    let message = format!(
+        "y points down: at {:.1} kPa marker {} has moved by {:.1} mm",
+        holds[highest].p_act_pa * 1e-3,
+        dataset.markers[last].name,
+        mm(moved_m)
+    );
+    let unit = header.columns[Y].as_ref().and_then(|column| column.unit).map_or("mm", |unit| unit.name);
+    let help = if header.y_down {
+        format!("y_down_{unit} means the values grow downwards; here they grow upwards: name the column y_{unit}")
+    } else {
+        format!("y is positive towards the actuator: multiply it by -1, or name the column y_down_{unit}")
+    };
+    Err(DataError::Unit(column_fault(header, Y, message, help)))
+}
+
+/// A fault of a whole column, shown at its name in the header.
+fn column_fault(header: &Header, quantity: usize, message: String, help: String) -> Box<Fault> {
+    let line = header.line.line();
+    let mut fault = line.fault(message, help);
+    let Some(column) = &header.columns[quantity] else { return fault };
+    let name = &header.names[column.index];
+    let before = line.text.split(header.delimiter as char).take(column.index).map(|cell| cell.len() + 1).sum::<usize>();
+    let at = line.text[before.min(line.text.len())..].find(name.as_str()).map_or(before, |at| before + at);
+    fault.location.column_name = Some(name.clone());
+    fault.span = Some((line.start + at, line.start + at + name.len()));
+    fault
+}

@@ -1,0 +1,274 @@
+//! The numbers printed in the reference paper, and nothing else.
+//!
+//! C. du Pasquier, S. Jeong, A. M. Okamura, *Finite Element Modeling of Pneumatic Bending Actuators for Inflated-Beam
+//! Robots*, IEEE RA-L 2023, doi 10.1109/LRA.2023.3320010. The file `data/sets/du-pasquier-2023/published.toml` names the
+//! table or section of every number; marker coordinates, pouch count, weld width, tape and densities are **not printed**.
+
+use serde::Deserialize;
+
+use crate::about::parse_toml;
+use crate::error::{DataError, Fault};
+use crate::sets::{set_file, shown};
+
+/// Name of the embedded set.
+pub const PAPER: &str = "du-pasquier-2023";
+
+/// The paper's numbers in SI units; provenance: *published*.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Published {
+    /// Title of the paper.
+    pub title: String,
+    /// Digital object identifier.
+    pub doi: String,
+    /// Body gauge pressure of all tests \[Pa\] (Section III-D).
+    pub body_pressure_pa: f64,
+    /// Actuator gauge pressures, one after the other \[Pa\] (Section III-D).
+    pub actuator_pressures_pa: Vec<f64>,
+    /// Time each pressure is held \[s\] (Section III-D).
+    pub hold_s: f64,
+    /// Number of markers (Section III-D); their places are not printed.
+    pub markers: usize,
+    /// The four actuators (Tables II and III).
+    pub actuators: Vec<PublishedActuator>,
+    /// The two fabrics (Table I).
+    pub fabrics: Vec<PublishedFabric>,
+    /// Settings of the paper's own simulation (Section III-A).
+    pub simulation: PublishedSimulation,
+}
+
+/// One column of Table II and one row of Table III.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PublishedActuator {
+    /// `spam`, `cpam`, `epam` or `fpam`.
+    pub kind: String,
+    /// As printed, for example `sPAMs/PMs`.
+    pub printed_name: String,
+    /// Name of the fabric of the actuator, as in [`Published::fabrics`].
+    pub fabric: String,
+    /// L_IBR \[m\] (Table II).
+    pub body_length_m: f64,
+    /// D_IBR \[m\] (Table II).
+    pub body_diameter_m: f64,
+    /// L_actuator \[m\] (Table II): one pouch, or the whole muscle of the fPAM.
+    pub actuator_length_m: f64,
+    /// W \[m\] (Table II).
+    pub width_m: f64,
+    /// f \[m\] (Table II), printed for the cPAM only.
+    pub fold_m: Option<f64>,
+    /// (actuator pressure \[Pa\], accuracy a of the authors' finite element model \[1\]) (Table III).
+    pub accuracy: Vec<(f64, f64)>,
+    /// d_max \[m\] (Table III): largest measured vertical displacement, at [`PublishedActuator::d_max_pressure_pa`].
+    pub d_max_m: f64,
+    /// 30 kPa (Section IV-A: "maximum displacements (at 30 kPa)") \[Pa\].
+    pub d_max_pressure_pa: f64,
+}
+
+/// One row of Table I.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PublishedFabric {
+    /// Name.
+    pub name: String,
+    /// Supplier.
+    pub supplier: String,
+    /// Elastic modulus along the warp \[Pa\].
+    pub e0_pa: f64,
+    /// Elastic modulus at 45° \[Pa\], printed for the silicone-coated fabric only.
+    pub e45_pa: Option<f64>,
+    /// Elastic modulus along the fill \[Pa\].
+    pub e90_pa: f64,
+    /// Thickness of the shell model \[m\] (Section III-A).
+    pub thickness_m: f64,
+    /// Neo-Hookean C10 as printed (Section III-B), **without a unit**; MPa if the authors worked in mm and N.
+    pub c10_printed: Option<f64>,
+}
+
+/// Settings of the paper's own simulation (Section III-A).
+#[derive(Debug, Clone, PartialEq)]
+pub struct PublishedSimulation {
+    /// Mesh size of the body \[m\].
+    pub body_mesh_m: f64,
+    /// Mesh size of the actuator \[m\].
+    pub actuator_mesh_m: f64,
+    /// Gap between layers at the start \[m\].
+    pub layer_gap_m: f64,
+    /// Length of the time step of the analysis \[s\].
+    pub step_s: f64,
+    /// Time in which the body is inflated, before the actuator \[s\].
+    pub body_ramp_s: f64,
+}
+
+impl Published {
+    /// The actuator of this kind (`spam`, `cpam`, `epam`, `fpam`).
+    pub fn actuator(&self, kind: &str) -> Option<&PublishedActuator> {
+        self.actuators.iter().find(|actuator| actuator.kind.eq_ignore_ascii_case(kind))
+    }
+}
+
+/// The numbers printed in the paper.
+///
+/// # Errors
+/// The embedded file is wrong (a test of this crate sees to it that it is not).
+pub fn published() -> Result<Published, DataError> {
+    parse_published(&shown(PAPER, "published.toml"), set_file(PAPER, "published.toml")?)
+}
+
+fn parse_published(file: &str, text: &str) -> Result<Published, DataError> {
+    let raw: RawPublished = parse_toml(file, text)?;
+    let pressures_pa: Vec<f64> = raw.protocol.actuator_pressures_kpa.iter().map(|p| p * 1e3).collect();
+    let highest_pa = pressures_pa.iter().copied().fold(0.0, f64::max);
+    if let Some(odd) = raw.actuator.iter().find(|actuator| actuator.accuracy_pct.len() != pressures_pa.len()) {
+        let message = format!("{} has not one accuracy per pressure", odd.kind);
+        return Err(DataError::About(Box::new(Fault::of_file(file, message, "give one accuracy_pct per pressure"))));
+    }
+    let simulation = PublishedSimulation {
+        body_mesh_m: raw.simulation.body_mesh_mm / 1e3,
+        actuator_mesh_m: raw.simulation.actuator_mesh_mm / 1e3,
+        layer_gap_m: raw.simulation.layer_gap_mm / 1e3,
+        step_s: raw.simulation.step_s,
+        body_ramp_s: raw.simulation.body_ramp_s,
+    };
+    Ok(Published {
+        title: raw.title,
+        doi: raw.doi,
+        body_pressure_pa: raw.protocol.body_pressure_kpa * 1e3,
+        hold_s: raw.protocol.hold_s,
+        markers: raw.protocol.markers,
+        actuators: raw.actuator.into_iter().map(|actuator| actuator.in_si(&pressures_pa, highest_pa)).collect(),
+        fabrics: raw.fabric.into_iter().map(RawFabric::in_si).collect(),
+        actuator_pressures_pa: pressures_pa,
+        simulation,
+    })
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawPublished {
+    title: String,
+    doi: String,
+    protocol: RawProtocol,
+    simulation: RawSimulation,
+    fabric: Vec<RawFabric>,
+    actuator: Vec<RawActuator>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawProtocol {
+    #[serde(rename = "source")]
+    _source: String,
+    body_pressure_kpa: f64,
+    actuator_pressures_kpa: Vec<f64>,
+    hold_s: f64,
+    markers: usize,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawSimulation {
+    #[serde(rename = "source")]
+    _source: String,
+    body_mesh_mm: f64,
+    actuator_mesh_mm: f64,
+    layer_gap_mm: f64,
+    step_s: f64,
+    body_ramp_s: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawFabric {
+    name: String,
+    supplier: String,
+    #[serde(rename = "source")]
+    _source: String,
+    e0_mpa: f64,
+    e45_mpa: Option<f64>,
+    e90_mpa: f64,
+    thickness_mm: f64,
+    c10_printed: Option<f64>,
+}
+
+impl RawFabric {
+    fn in_si(self) -> PublishedFabric {
+        PublishedFabric {
+            name: self.name,
+            supplier: self.supplier,
+            e0_pa: self.e0_mpa * 1e6,
+            e45_pa: self.e45_mpa.map(|modulus| modulus * 1e6),
+            e90_pa: self.e90_mpa * 1e6,
+            thickness_m: self.thickness_mm / 1e3,
+            c10_printed: self.c10_printed,
+        }
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawActuator {
+    kind: String,
+    printed_name: String,
+    fabric: String,
+    body_length_mm: f64,
+    body_diameter_mm: f64,
+    actuator_length_mm: f64,
+    width_mm: f64,
+    fold_mm: Option<f64>,
+    accuracy_pct: Vec<f64>,
+    d_max_mm: f64,
+}
+
+impl RawActuator {
+    fn in_si(self, pressures_pa: &[f64], highest_pa: f64) -> PublishedActuator {
+        PublishedActuator {
+            kind: self.kind,
+            printed_name: self.printed_name,
+            fabric: self.fabric,
+            body_length_m: self.body_length_mm / 1e3,
+            body_diameter_m: self.body_diameter_mm / 1e3,
+            actuator_length_m: self.actuator_length_mm / 1e3,
+            width_m: self.width_mm / 1e3,
+            fold_m: self.fold_mm.map(|fold| fold / 1e3),
+            accuracy: pressures_pa.iter().copied().zip(self.accuracy_pct.iter().map(|pct| pct / 100.0)).collect(),
+            d_max_m: self.d_max_mm / 1e3,
+            d_max_pressure_pa: highest_pa,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tables_of_the_paper_are_there_in_si_units() {
+        let paper = published().unwrap();
+        let d_max: Vec<_> = paper.actuators.iter().map(|a| (a.kind.as_str(), format!("{:.4}", a.d_max_m))).collect();
+        let expected = [("spam", "0.0675"), ("cpam", "0.1597"), ("epam", "0.1194"), ("fpam", "0.0672")];
+        assert_eq!(d_max, expected.map(|(kind, d)| (kind, d.to_string())));
+        assert_eq!(paper.actuators.iter().map(|a| a.accuracy.len()).sum::<usize>(), 12);
+        assert_eq!(paper.actuator("cPAM").unwrap().accuracy[0], (10_000.0, 0.871));
+        assert!((paper.actuator("epam").unwrap().accuracy[1].1 - 0.921).abs() < 1e-15);
+        assert_eq!((paper.body_pressure_pa, paper.hold_s, paper.markers), (2_000.0, 5.0, 6));
+        assert_eq!(paper.fabrics[0].c10_printed, Some(50.3));
+        assert_eq!((paper.fabrics[0].thickness_m, paper.fabrics[1].thickness_m), (0.0002, 0.00005));
+        assert_eq!(paper.fabrics[1].e45_pa, Some(4.05e6));
+    }
+
+    #[test]
+    fn the_tables_agree_with_the_ratios_printed_in_the_text() {
+        let paper = published().unwrap();
+        let d = |kind: &str| paper.actuator(kind).unwrap().d_max_m;
+        assert_eq!(format!("{:.2}", d("cpam") / d("epam")), "1.34", "Section IV-B");
+        assert_eq!(format!("{:.2}", d("cpam") / d("spam")), "2.37", "Section IV-B");
+        let all = paper.actuators.iter().flat_map(|a| a.accuracy.iter().map(|(_, a)| *a));
+        assert_eq!(all.fold(1.0, f64::min), 0.807, "abstract: 80.7 % at lower pressures");
+        let fpam = paper.actuator("fpam").unwrap();
+        assert!(fpam.accuracy.iter().all(|(_, a)| *a >= 0.967), "abstract: at least 96.7 %");
+    }
+
+    #[test]
+    fn every_actuator_names_a_fabric_of_the_paper() {
+        let paper = published().unwrap();
+        assert!(paper.actuators.iter().all(|a| paper.fabrics.iter().any(|fabric| fabric.name == a.fabric)));
+    }
+}

@@ -1,0 +1,214 @@
+//! The tidy marker table, read as a stream.
+//!
+//! | column | meaning |
+//! |---|---|
+//! | `run`, `actuator`, `marker` | labels |
+//! | `t_s` | time since the start of the run; grows row by row in each (run, marker) |
+//! | `p_body_kpa`, `p_act_kpa` | gauge pressures |
+//! | `phase` | `load`, `hold` or `unload` |
+//! | `x_mm`, `y_mm` | position, x along the undeformed body from its base, y towards the actuator |
+//! | `s_mm` (optional) | station of the marker on the undeformed body |
+//!
+//! Other units by suffix: mm, cm, m; kPa, Pa, MPa, psi, bar; s, ms, min. `y_down_mm` means −y. Extra columns are ignored.
+//! Rows belong to **steady** pressures; a new hold begins when the phase changes or a pressure departs from the mean of
+//! the hold by more than max(0.5 kPa, 5 %) (actuator) or max(0.2 kPa, 5 %) (body).
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use crate::about::About;
+use crate::align::align;
+use crate::dataset::Dataset;
+use crate::error::{DataError, Fault, nearest};
+use crate::header::{ACTUATOR, read_header};
+use crate::lines::Lines;
+use crate::plausible::{check_units, check_y_up};
+use crate::rows::RowReader;
+use crate::streams::Recorder;
+
+/// Stations from the file and from `about.toml` may differ by rounding only \[m\].
+const SAME_STATION_M: f64 = 5e-4;
+/// Actuator kinds remembered for the error message that lists them.
+const MOST_KINDS: usize = 20;
+
+/// What is known about a marker table besides the table.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ReadOptions<'a> {
+    /// Its description: stations and labels are taken from it and checked against the table.
+    pub about: Option<&'a About>,
+    /// Read only the rows of this actuator kind.
+    pub actuator: Option<&'a str>,
+    /// Size of the table for the progress function \[bytes\]; 0 if unknown.
+    pub bytes_total: u64,
+}
+
+/// Reads the marker table at `path`; `progress(bytes_done, bytes_total)` is called about every MiB and at the end.
+///
+/// # Errors
+/// Every fault of the file as one [`DataError`] with line, column and cell.
+pub fn read_markers(
+    path: &Path,
+    about: Option<&About>,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Dataset, DataError> {
+    read_markers_of(path, ReadOptions { about, ..ReadOptions::default() }, progress)
+}
+
+pub(crate) fn read_markers_of(
+    path: &Path,
+    options: ReadOptions,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Dataset, DataError> {
+    let shown = path.display().to_string();
+    let mut file = File::open(path).map_err(|cause| {
+        let help = "check the path; `ibr data list` shows the embedded sets";
+        DataError::File(Box::new(Fault::of_file(&shown, format!("cannot open the file: {cause}"), help)))
+    })?;
+    let bytes_total = file.metadata().map_or(0, |metadata| metadata.len());
+    parse_markers(&shown, &mut file, ReadOptions { bytes_total, ..options }, progress)
+}
+
+/// Reads a marker table from `reader`; `file` names it in errors and its stem becomes the name of the dataset.
+///
+/// # Errors
+/// As [`read_markers`].
+pub fn parse_markers(
+    file: &str,
+    reader: &mut dyn Read,
+    options: ReadOptions,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Dataset, DataError> {
+    let mut lines = Lines::new(file, reader, options.bytes_total, progress);
+    let mut cells = RowReader::new(read_header(&mut lines)?);
+    let mut kind = Kind { wanted: options.actuator.map(str::to_lowercase), ..Kind::default() };
+    let mut recorder = Recorder::default();
+    while let Some(line) = lines.next_filled()? {
+        cells.split(&line)?;
+        match kind.accept(cells.actuator(&line)?) {
+            Verdict::Take => recorder.add(&cells, &line)?,
+            Verdict::Skip => {}
+            Verdict::Mixed(message, help) => {
+                return Err(DataError::Runs(cells.cell_fault(&line, ACTUATOR, message, help)));
+            }
+        }
+    }
+    if recorder.streams.is_empty() {
+        return Err(no_rows(file, &kind));
+    }
+    check_units(&cells, &recorder)?;
+    check_about_runs(file, &recorder, options.about)?;
+    let stations_m = stations(file, &recorder, options.about)?;
+    let stem = Path::new(file).file_stem().map_or(file.to_string(), |stem| stem.to_string_lossy().into_owned());
+    let dataset = align(file, stem, kind.chosen(), &recorder, &stations_m)?;
+    check_kind(file, &dataset.actuator, options.about)?;
+    check_y_up(&cells.header, &dataset)?;
+    Ok(dataset)
+}
+
+/// Which actuator kind is read, and which others were seen.
+#[derive(Default)]
+struct Kind {
+    wanted: Option<String>,
+    found: Option<String>,
+    seen: BTreeSet<String>,
+}
+
+enum Verdict {
+    Take,
+    Skip,
+    Mixed(String, String),
+}
+
+impl Kind {
+    fn accept(&mut self, cell: &str) -> Verdict {
+        if self.found.as_deref().is_some_and(|found| found.eq_ignore_ascii_case(cell)) {
+            return Verdict::Take;
+        }
+        let kind = cell.to_lowercase();
+        if self.wanted.as_ref().is_some_and(|wanted| *wanted != kind) {
+            if self.seen.len() < MOST_KINDS {
+                self.seen.insert(kind);
+            }
+            return Verdict::Skip;
+        }
+        match &self.found {
+            None => {
+                self.found = Some(kind);
+                Verdict::Take
+            }
+            Some(found) if *found == kind => Verdict::Take,
+            Some(found) => Verdict::Mixed(
+                format!("several actuators in one file: {found} and {kind}"),
+                format!("choose one by adding #{found} or #{kind} to the file name, or split the file"),
+            ),
+        }
+    }
+
+    fn chosen(&self) -> String {
+        self.found.clone().unwrap_or_default()
+    }
+}
+
+fn no_rows(file: &str, kind: &Kind) -> DataError {
+    let Some(wanted) = &kind.wanted else {
+        let help = "add one row per run, time and marker below the header";
+        return DataError::Layout(Box::new(Fault::of_file(file, "the file has a header and no rows", help)));
+    };
+    let seen: Vec<_> = kind.seen.iter().map(String::as_str).collect();
+    let message = format!("no rows of actuator {wanted}; found {}", seen.join(", "));
+    DataError::Runs(Box::new(Fault::of_file(file, message, "choose one of the kinds found")))
+}
+
+fn check_kind(file: &str, kind: &str, about: Option<&About>) -> Result<(), DataError> {
+    let Some(said) = about.and_then(|about| about.actuator.as_deref()) else { return Ok(()) };
+    if said == kind {
+        return Ok(());
+    }
+    let message = format!("the table is of actuator {kind}, its about.toml says {said}");
+    let fault = Fault::of_file(file, message, format!("correct the actuator column or `actuator = \"{kind}\"`"));
+    Err(DataError::Runs(Box::new(fault)))
+}
+
+fn check_about_runs(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<(), DataError> {
+    let names = &recorder.runs.names;
+    let described = about.into_iter().flat_map(|about| &about.runs);
+    let Some(unknown) = described.map(|run| &run.id).find(|&id| !names.contains(id)) else { return Ok(()) };
+    let near = nearest(unknown, names.iter().map(String::as_str));
+    let meant = near.map_or(String::new(), |near| format!("did you mean {near}? "));
+    let help =
+        format!("{meant}correct `id = \"{unknown}\"` in about.toml; a [[run]] without rows would lose its tip force");
+    let message = format!("about.toml describes run {unknown}, which has no rows");
+    Err(DataError::Runs(Box::new(Fault::of_file(file, message, help))))
+}
+
+/// Stations in order of `recorder.markers`, from the `s_mm` column or from `about.toml`.
+fn stations(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<Vec<Option<f64>>, DataError> {
+    let Some(about) = about.filter(|about| !about.markers.is_empty()) else { return Ok(recorder.stations_m.clone()) };
+    let mut stations = Vec::with_capacity(recorder.stations_m.len());
+    for (name, column_m) in recorder.markers.names.iter().zip(&recorder.stations_m) {
+        let Some(marker) = about.markers.iter().find(|marker| marker.name == *name) else {
+            return Err(unknown_marker(file, recorder, name, about));
+        };
+        if column_m.is_some_and(|s| (s - marker.station_m).abs() > SAME_STATION_M) {
+            let message =
+                format!("the station of marker {name} is not the one in about.toml ({} mm)", marker.station_m * 1e3);
+            let fault = Fault::of_file(file, message, "correct the s_mm column or [markers] s_mm in about.toml");
+            return Err(DataError::Runs(Box::new(fault)));
+        }
+        stations.push(Some(marker.station_m));
+    }
+    Ok(stations)
+}
+
+fn unknown_marker(file: &str, recorder: &Recorder, name: &str, about: &About) -> DataError {
+    let known: Vec<&str> = about.markers.iter().map(|marker| marker.name.as_str()).collect();
+    let line = recorder.streams.iter().find(|s| recorder.markers.names[s.marker] == name).map_or(0, |s| s.first_line);
+    let message = format!("marker {name} is not in about.toml, which names {}", known.join(", "));
+    let mut fault =
+        Fault::of_file(file, message, "correct the label, or add it to [markers] names and s_mm").at_line(line);
+    fault.location.column_name = Some("marker".to_string());
+    fault.location.cell = Some(name.to_string());
+    DataError::Runs(Box::new(fault))
+}

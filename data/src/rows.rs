@@ -1,0 +1,203 @@
+//! One line of the table as one checked observation in SI units.
+
+use crate::dataset::Phase;
+use crate::error::{DataError, Fault};
+use crate::header::{ACTUATOR, Header, MARKER, P_ACT, P_BODY, PHASE, QUANTITIES, RUN, STATION, TIME, X, Y};
+use crate::lines::Line;
+
+/// Below this a gauge reading is not the noise of a sensor at zero \[Pa\] (the step by which holds are told apart).
+const LOWEST_GAUGE_PA: f64 = -500.0;
+/// No inflated fabric stands this gauge pressure \[Pa\]; a higher one is a unit mistake.
+const HIGHEST_GAUGE_PA: f64 = 1e6;
+/// No robot is this long \[m\]; a larger coordinate is a unit mistake.
+const FARTHEST_M: f64 = 1e3;
+
+/// One observation; texts borrow from the reader.
+#[derive(Debug)]
+pub(crate) struct Row<'a> {
+    pub run: &'a str,
+    pub marker: &'a str,
+    pub phase: Phase,
+    pub t_s: f64,
+    pub p_body_pa: f64,
+    pub p_act_pa: f64,
+    pub x_m: f64,
+    pub y_m: f64,
+    pub station_m: Option<f64>,
+}
+
+/// Splits lines into cells and cells into observations.
+pub(crate) struct RowReader {
+    pub header: Header,
+    splitter: csv_core::Reader,
+    cells: Vec<u8>,
+    ends: Vec<usize>,
+}
+
+impl RowReader {
+    pub fn new(header: Header) -> RowReader {
+        // The line end is already gone; a lone carriage return is then an ordinary character.
+        let end = csv_core::Terminator::Any(b'\n');
+        let splitter = csv_core::ReaderBuilder::new().delimiter(header.delimiter).terminator(end).build();
+        // One place more than columns, so that a row with too many cells is noticed.
+        let ends = vec![0; header.names.len() + 1];
+        RowReader { header, splitter, cells: Vec::new(), ends }
+    }
+
+    /// Splits one line into cells, to be read by [`RowReader::actuator`] and [`RowReader::row`].
+    ///
+    /// # Errors
+    /// Wrong number of cells.
+    pub fn split(&mut self, line: &Line) -> Result<(), DataError> {
+        self.cells.resize(self.cells.len().max(line.text.len() + 1), 0);
+        self.splitter.reset();
+        let (_, _, written, mut count) =
+            self.splitter.read_record(line.text.as_bytes(), &mut self.cells, &mut self.ends);
+        if count < self.ends.len() {
+            let (ends, cells) = (&mut self.ends[count..], &mut self.cells[written..]);
+            let (_, _, _, more) = self.splitter.read_record(&[], cells, ends);
+            count += more;
+        }
+        if count == self.header.names.len() { Ok(()) } else { Err(self.wrong_count(line, count)) }
+    }
+
+    /// The cell of the `actuator` column.
+    pub fn actuator(&self, line: &Line) -> Result<&str, DataError> {
+        self.word(line, ACTUATOR)
+    }
+
+    /// The observation of the line split last.
+    ///
+    /// # Errors
+    /// An empty cell, text in a number cell, NaN or infinity, an unknown phase, an impossible pressure or length.
+    pub fn row(&self, line: &Line) -> Result<Row<'_>, DataError> {
+        let station = self.header.columns[STATION].is_some();
+        let y_m = self.length(line, Y)?;
+        Ok(Row {
+            run: self.word(line, RUN)?,
+            marker: self.word(line, MARKER)?,
+            phase: self.phase(line)?,
+            t_s: self.number(line, TIME)?,
+            p_body_pa: self.pressure(line, P_BODY)?,
+            p_act_pa: self.pressure(line, P_ACT)?,
+            x_m: self.length(line, X)?,
+            y_m: if self.header.y_down { -y_m } else { y_m },
+            station_m: if station { Some(self.length(line, STATION)?) } else { None },
+        })
+    }
+
+    /// The fault of one cell, with its column, text and span.
+    pub fn cell_fault(&self, line: &Line, quantity: usize, message: String, help: String) -> Box<Fault> {
+        let mut fault = line.fault(message, help);
+        let Some(column) = &self.header.columns[quantity] else { return fault };
+        fault.location.column_name = self.header.names.get(column.index).cloned();
+        fault.location.cell = Some(self.text(quantity).to_string());
+        if !line.text.contains('"') {
+            let before: usize =
+                line.text.split(self.header.delimiter as char).take(column.index).map(|c| c.len() + 1).sum();
+            let cell = line.text[before.min(line.text.len())..].split(self.header.delimiter as char).next();
+            fault.span = Some((line.start + before, line.start + before + cell.unwrap_or_default().len()));
+        }
+        fault
+    }
+
+    fn text(&self, quantity: usize) -> &str {
+        let Some(column) = &self.header.columns[quantity] else { return "" };
+        let start = if column.index == 0 { 0 } else { self.ends[column.index - 1] };
+        let bytes = self.cells.get(start..self.ends[column.index]).unwrap_or_default();
+        std::str::from_utf8(bytes).unwrap_or_default().trim()
+    }
+
+    fn word(&self, line: &Line, quantity: usize) -> Result<&str, DataError> {
+        let text = self.text(quantity);
+        if text.is_empty() {
+            let help = format!("write the {} in every row", QUANTITIES[quantity].base);
+            return Err(DataError::Cell(self.cell_fault(line, quantity, "the cell is empty".to_string(), help)));
+        }
+        Ok(text)
+    }
+
+    fn phase(&self, line: &Line) -> Result<Phase, DataError> {
+        let text = self.word(line, PHASE)?;
+        let is = |phase: &Phase| text.eq_ignore_ascii_case(phase.word());
+        [Phase::Load, Phase::Hold, Phase::Unload].into_iter().find(is).ok_or_else(|| {
+            let message = format!("unknown phase \"{text}\"");
+            let help = "write load (actuator pressure raised), hold (unchanged) or unload (lowered)".to_string();
+            DataError::Cell(self.cell_fault(line, PHASE, message, help))
+        })
+    }
+
+    fn number(&self, line: &Line, quantity: usize) -> Result<f64, DataError> {
+        let text = self.text(quantity);
+        let unit = self.header.columns[quantity].as_ref().and_then(|column| column.unit);
+        match (text.parse::<f64>(), unit) {
+            (Ok(value), Some(unit)) if value.is_finite() && unit.to_si(value).is_finite() => Ok(unit.to_si(value)),
+            _ => Err(DataError::Cell(self.not_a_number(line, quantity, text))),
+        }
+    }
+
+    fn not_a_number(&self, line: &Line, quantity: usize, text: &str) -> Box<Fault> {
+        let message = match text.parse::<f64>() {
+            _ if text.is_empty() => "expected a number, the cell is empty".to_string(),
+            Ok(_) => format!("expected a finite number, found \"{text}\""),
+            Err(_) => format!("expected a number, found \"{text}\""),
+        };
+        let name = QUANTITIES[quantity].expected;
+        let help = if text.replace(',', ".").parse::<f64>().is_ok_and(f64::is_finite) {
+            format!("write decimals with a point: {}", text.replace(',', "."))
+        } else {
+            format!(
+                "type a plain number such as 12.5 (the unit belongs to the column name, as in {name}), or delete the row"
+            )
+        };
+        self.cell_fault(line, quantity, message, help)
+    }
+
+    fn length(&self, line: &Line, quantity: usize) -> Result<f64, DataError> {
+        let value = self.number(line, quantity)?;
+        if value.abs() > FARTHEST_M {
+            let base = QUANTITIES[quantity].base;
+            let message = format!("{value} m is farther than any robot reaches");
+            let help = format!("check the unit: name the column {base}_mm if the values are millimetres");
+            return Err(DataError::Unit(self.cell_fault(line, quantity, message, help)));
+        }
+        Ok(value)
+    }
+
+    fn pressure(&self, line: &Line, quantity: usize) -> Result<f64, DataError> {
+        let value = self.number(line, quantity)?;
+        let base = QUANTITIES[quantity].base;
+        if value > HIGHEST_GAUGE_PA {
+            let unit = self.header.columns[quantity].as_ref().and_then(|column| column.unit).map_or("", |u| u.name);
+            let better = if unit == "kpa" { ("Pa", "pa") } else { ("kPa", "kpa") };
+            let message = format!("{} {unit} is above 1 MPa; it looks like {}", self.text(quantity), better.0);
+            let help = format!("name the column {base}_{}", better.1);
+            return Err(DataError::Unit(self.cell_fault(line, quantity, message, help)));
+        }
+        if value < LOWEST_GAUGE_PA {
+            let what = if quantity == P_ACT { "actuator" } else { "body" };
+            let message = format!("{what} pressure below zero: {}", self.text(quantity));
+            let help = "give gauge pressure (0 is the air of the room); subtract the sensor's zero".to_string();
+            return Err(DataError::Cell(self.cell_fault(line, quantity, message, help)));
+        }
+        Ok(value)
+    }
+
+    fn wrong_count(&self, line: &Line, count: usize) -> DataError {
+        let expected = self.header.names.len();
+        let found = if count > expected { format!("more than {expected}") } else { count.to_string() };
+        let message = if line.ended {
+            format!("expected {expected} cells, found {found}")
+        } else {
+            format!("the file ends in the middle of a row: expected {expected} cells, found {found}")
+        };
+        let help = match line.text.matches('"').count() % 2 {
+            1 => "close the quotation mark on the same line".to_string(),
+            _ if count > expected && line.text.contains(',') => {
+                "write decimals with a point, and put cells that contain the separator in quotation marks".to_string()
+            }
+            _ => "complete the row or delete it; if the copy was cut short, copy the file again".to_string(),
+        };
+        DataError::Layout(line.fault(message, help))
+    }
+}

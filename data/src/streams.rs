@@ -1,0 +1,322 @@
+//! Observations sorted into (run, marker) streams, streams cut into holds, holds kept as at most 64 samples.
+//!
+//! Rows may come sorted by time or by marker: each (run, marker) pair is followed on its own. A new hold begins when
+//! the phase changes or a pressure departs from the mean of the current hold by more than its tolerance.
+
+use std::collections::HashMap;
+
+use crate::dataset::Phase;
+use crate::error::DataError;
+use crate::header::{MARKER, RUN, STATION, TIME};
+use crate::lines::{KeptLine, Line};
+use crate::rows::{Row, RowReader};
+
+const MOST_RUNS: usize = 10_000;
+const MOST_MARKERS: usize = 1_000;
+/// Holds of one (run, marker) stream; a protocol has tens, a flickering phase column millions.
+const MOST_HOLDS: usize = 1_000;
+/// Holds of all streams together: bounds memory at about 2 GB whatever the file.
+const MOST_SERIES: usize = 1_000_000;
+/// Samples kept per (run, hold, marker) before neighbours are merged; above the few that `Dataset` holds, far below a
+/// camera's frames.
+const MOST_SAMPLES: usize = 64;
+/// Two stations of one marker closer than this are one \[m\].
+const SAME_STATION_M: f64 = 1e-6;
+
+/// Tolerance of the actuator pressure inside one hold \[Pa\]: max(0.5 kPa, 5 %).
+pub(crate) fn tolerance_act_pa(mean_pa: f64) -> f64 {
+    (0.05 * mean_pa).max(500.0)
+}
+
+/// Tolerance of the body pressure inside one hold \[Pa\]: max(0.2 kPa, 5 %).
+pub(crate) fn tolerance_body_pa(mean_pa: f64) -> f64 {
+    (0.05 * mean_pa).max(200.0)
+}
+
+/// Sum of `count` neighbouring observations.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Sample {
+    pub count: u64,
+    pub t_s: f64,
+    pub x_m: f64,
+    pub y_m: f64,
+}
+
+impl Sample {
+    pub fn add(&mut self, other: Sample) {
+        self.count += other.count;
+        self.t_s += other.t_s;
+        self.x_m += other.x_m;
+        self.y_m += other.y_m;
+    }
+}
+
+/// One hold as one marker saw it.
+#[derive(Debug, Clone)]
+pub(crate) struct Segment {
+    pub phase: Phase,
+    pub first_line: u64,
+    pub samples: Vec<Sample>,
+    rows: u64,
+    /// Observations per sample; doubles whenever neighbours are merged.
+    stride: u64,
+    p_body_sum: f64,
+    p_act_sum: f64,
+}
+
+impl Segment {
+    fn new(row: &Row, line: u64) -> Segment {
+        let (samples, rows, stride) = (Vec::new(), 0, 1);
+        Segment { phase: row.phase, first_line: line, samples, rows, stride, p_body_sum: 0.0, p_act_sum: 0.0 }
+    }
+
+    /// Mean body pressure \[Pa\].
+    pub fn p_body_pa(&self) -> f64 {
+        self.p_body_sum / self.rows.max(1) as f64
+    }
+
+    /// Mean actuator pressure \[Pa\].
+    pub fn p_act_pa(&self) -> f64 {
+        self.p_act_sum / self.rows.max(1) as f64
+    }
+
+    fn continues_with(&self, row: &Row) -> bool {
+        let (act, body) = (self.p_act_pa(), self.p_body_pa());
+        row.phase == self.phase
+            && (row.p_act_pa - act).abs() <= tolerance_act_pa(act)
+            && (row.p_body_pa - body).abs() <= tolerance_body_pa(body)
+    }
+
+    fn add(&mut self, row: &Row) {
+        self.rows += 1;
+        self.p_body_sum += row.p_body_pa;
+        self.p_act_sum += row.p_act_pa;
+        let one = Sample { count: 1, t_s: row.t_s, x_m: row.x_m, y_m: row.y_m };
+        match self.samples.last_mut() {
+            Some(last) if last.count < self.stride => last.add(one),
+            _ => self.samples.push(one),
+        }
+        if self.samples.len() > MOST_SAMPLES {
+            self.merge_neighbours();
+        }
+    }
+
+    fn merge_neighbours(&mut self) {
+        self.stride *= 2;
+        for pair in 0..self.samples.len().div_ceil(2) {
+            let mut merged = self.samples[2 * pair];
+            if let Some(&second) = self.samples.get(2 * pair + 1) {
+                merged.add(second);
+            }
+            self.samples[pair] = merged;
+        }
+        self.samples.truncate(self.samples.len().div_ceil(2));
+    }
+}
+
+/// The observations of one marker in one run.
+#[derive(Debug)]
+pub(crate) struct Stream {
+    pub run: usize,
+    pub marker: usize,
+    pub first_line: u64,
+    pub first_t_s: f64,
+    pub segments: Vec<Segment>,
+    last_t_s: f64,
+}
+
+/// Labels numbered in order of first appearance.
+#[derive(Debug, Default)]
+pub(crate) struct Labels {
+    pub names: Vec<String>,
+    numbers: HashMap<String, usize>,
+    last: usize,
+}
+
+impl Labels {
+    fn number(&mut self, name: &str) -> usize {
+        if self.names.get(self.last).is_none_or(|last| last != name) {
+            self.last = match self.numbers.get(name) {
+                Some(&number) => number,
+                None => self.insert(name),
+            };
+        }
+        self.last
+    }
+
+    fn insert(&mut self, name: &str) -> usize {
+        self.names.push(name.to_string());
+        self.numbers.insert(name.to_string(), self.names.len() - 1);
+        self.names.len() - 1
+    }
+}
+
+/// Everything kept of a file while it is read.
+#[derive(Debug, Default)]
+pub(crate) struct Recorder {
+    pub runs: Labels,
+    pub markers: Labels,
+    pub streams: Vec<Stream>,
+    /// Station of each marker from the `s_mm` column \[m\].
+    pub stations_m: Vec<Option<f64>>,
+    pub extremes: Extremes,
+    pub first_row: Option<KeptLine>,
+    by_pair: HashMap<(usize, usize), usize>,
+    series: usize,
+}
+
+/// Largest values seen, for the check of units.
+#[derive(Debug, Default, Clone, Copy)]
+pub(crate) struct Extremes {
+    pub x_m: f64,
+    pub y_m: f64,
+    pub station_m: f64,
+    pub p_body_pa: f64,
+    pub p_act_pa: f64,
+}
+
+impl Recorder {
+    /// Takes in one observation.
+    ///
+    /// # Errors
+    /// Time not increasing in its stream, a station that changes, too many runs, markers or holds.
+    pub fn add(&mut self, cells: &RowReader, line: &Line) -> Result<(), DataError> {
+        let row = cells.row(line)?;
+        let (run, marker) = (self.runs.number(row.run), self.markers.number(row.marker));
+        let limit = |quantity, what: &str, most| {
+            let help = format!("split the file: at most {most} {what}s are read at once; is the {what} column right?");
+            DataError::Layout(cells.cell_fault(line, quantity, format!("more than {most} {what}s"), help))
+        };
+        if run >= MOST_RUNS {
+            return Err(limit(RUN, "run", MOST_RUNS));
+        }
+        if marker >= MOST_MARKERS {
+            return Err(limit(MARKER, "marker", MOST_MARKERS));
+        }
+        self.first_row.get_or_insert_with(|| line.keep());
+        self.extremes.widen(&row);
+        self.set_station(marker, &row, cells, line)?;
+        self.add_to_stream(run, marker, &row, cells, line)
+    }
+
+    fn add_to_stream(
+        &mut self,
+        run: usize,
+        marker: usize,
+        row: &Row,
+        cells: &RowReader,
+        line: &Line,
+    ) -> Result<(), DataError> {
+        let index = *self.by_pair.entry((run, marker)).or_insert(self.streams.len());
+        if index == self.streams.len() {
+            self.streams.push(Stream {
+                run,
+                marker,
+                first_line: line.number,
+                first_t_s: row.t_s,
+                segments: Vec::new(),
+                last_t_s: f64::NEG_INFINITY,
+            });
+        }
+        let stream = &mut self.streams[index];
+        check_time(stream, row, cells, line)?;
+        stream.last_t_s = row.t_s;
+        if !stream.segments.last().is_some_and(|segment| segment.continues_with(row)) {
+            self.series += 1;
+            if stream.segments.len() >= MOST_HOLDS || self.series > MOST_SERIES {
+                return Err(too_many_holds(line));
+            }
+            stream.segments.push(Segment::new(row, line.number));
+        }
+        if let Some(segment) = stream.segments.last_mut() {
+            segment.add(row);
+        }
+        Ok(())
+    }
+
+    fn set_station(&mut self, marker: usize, row: &Row, cells: &RowReader, line: &Line) -> Result<(), DataError> {
+        if self.stations_m.len() <= marker {
+            self.stations_m.resize(marker + 1, None);
+        }
+        let (Some(new), Some(old)) = (row.station_m, self.stations_m[marker]) else {
+            self.stations_m[marker] = row.station_m.or(self.stations_m[marker]);
+            return Ok(());
+        };
+        if (new - old).abs() <= SAME_STATION_M {
+            return Ok(());
+        }
+        let message = format!("marker {} has two stations: {} mm and {} mm", row.marker, old * 1e3, new * 1e3);
+        let help = "the station is the place on the undeformed robot: write the same number in every row".to_string();
+        Err(DataError::Cell(cells.cell_fault(line, STATION, message, help)))
+    }
+}
+
+impl Extremes {
+    fn widen(&mut self, row: &Row) {
+        let widen = |most: &mut f64, value: f64| *most = most.max(value.abs());
+        widen(&mut self.x_m, row.x_m);
+        widen(&mut self.y_m, row.y_m);
+        widen(&mut self.station_m, row.station_m.unwrap_or(0.0));
+        widen(&mut self.p_body_pa, row.p_body_pa);
+        widen(&mut self.p_act_pa, row.p_act_pa);
+    }
+}
+
+fn check_time(stream: &Stream, row: &Row, cells: &RowReader, line: &Line) -> Result<(), DataError> {
+    if row.t_s > stream.last_t_s {
+        return Ok(());
+    }
+    let of = format!("run {}, marker {}", row.run, row.marker);
+    let (message, help) = if row.t_s == stream.last_t_s {
+        (format!("{of} is there twice at this time"), "delete the duplicate row".to_string())
+    } else {
+        let help = "t_s counts from the start of the run and grows row by row for each marker; \
+                    sort the rows, give repeated tests their own run label, and look for rows copied twice";
+        (format!("time goes backwards in {of}: {} s after {} s", row.t_s, stream.last_t_s), help.to_string())
+    };
+    Err(DataError::Cell(cells.cell_fault(line, TIME, message, help)))
+}
+
+fn too_many_holds(line: &Line) -> DataError {
+    let message = format!("more than {MOST_HOLDS} holds in one run, or {MOST_SERIES} in all");
+    let help = "keep only rows recorded while the pressures are steady; a new hold begins when the phase changes or a \
+                pressure moves by more than 5 %";
+    DataError::Layout(line.fault(message, help))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(t_s: f64, p_act_pa: f64) -> Row<'static> {
+        let (run, marker, phase) = ("1", "1", Phase::Load);
+        Row { run, marker, phase, t_s, p_body_pa: 2000.0, p_act_pa, x_m: 2.0 * t_s, y_m: -t_s, station_m: None }
+    }
+
+    #[test]
+    fn a_hold_ends_when_a_pressure_leaves_its_tolerance() {
+        let mut segment = Segment::new(&row(0.0, 20_000.0), 1);
+        segment.add(&row(0.0, 20_000.0));
+        assert!(segment.continues_with(&row(1.0, 20_999.0)) && !segment.continues_with(&row(1.0, 21_001.0)));
+        let other_phase = Row { phase: Phase::Unload, ..row(1.0, 20_000.0) };
+        let other_body = Row { p_body_pa: 2201.0, ..row(1.0, 20_000.0) };
+        assert!(!segment.continues_with(&other_phase) && !segment.continues_with(&other_body));
+    }
+
+    #[test]
+    fn at_most_64_samples_are_kept_and_none_is_lost() {
+        for rows in [1_u64, 64, 65, 1000, 12_345] {
+            let mut segment = Segment::new(&row(0.0, 0.0), 1);
+            (0..rows).for_each(|i| segment.add(&row(i as f64, 0.0)));
+            let total = segment.samples.iter().fold(Sample::default(), |mut total, &sample| {
+                total.add(sample);
+                total
+            });
+            let sum = (rows * (rows - 1) / 2) as f64;
+            assert!(segment.samples.len() <= MOST_SAMPLES && segment.samples.len() as u64 >= rows.min(32));
+            assert_eq!(total, Sample { count: rows, t_s: sum, x_m: 2.0 * sum, y_m: -sum });
+            let full = &segment.samples[..segment.samples.len() - 1];
+            assert!(full.iter().all(|sample| sample.count == segment.stride), "equal counts but for the last");
+        }
+    }
+}

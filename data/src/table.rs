@@ -1,0 +1,243 @@
+//! A small table of named columns: CSV always, Parquet through polars with the crate feature `parquet`.
+//!
+//! This is the only file that knows polars; [`Table`] keeps it out of every signature.
+
+use std::fmt::Write as _;
+use std::io::{Read, Write};
+use std::path::Path;
+
+use crate::dataset::Dataset;
+use crate::error::{DataError, Fault};
+use crate::units::{kpa, mm};
+use crate::write::{cannot_write, quoted};
+
+/// One column.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Column {
+    /// Floating point numbers; NaN stands for an empty cell.
+    F64(Vec<f64>),
+    /// Texts.
+    Str(Vec<String>),
+    /// Whole numbers.
+    I64(Vec<i64>),
+}
+
+impl Column {
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        match self {
+            Column::F64(values) => values.len(),
+            Column::Str(values) => values.len(),
+            Column::I64(values) => values.len(),
+        }
+    }
+
+    /// Whether there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    fn cell(&self, row: usize) -> String {
+        match self {
+            Column::F64(values) if values[row].is_nan() => String::new(),
+            Column::F64(values) => values[row].to_string(),
+            Column::Str(values) => quoted(&values[row]),
+            Column::I64(values) => values[row].to_string(),
+        }
+    }
+}
+
+/// Named columns of equal length.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Table {
+    /// Names and values, in order.
+    pub columns: Vec<(String, Column)>,
+}
+
+impl Table {
+    /// Number of rows (of the shortest column, should they differ).
+    pub fn rows(&self) -> usize {
+        self.columns.iter().map(|(_, column)| column.len()).min().unwrap_or(0)
+    }
+
+    /// Writes the table as CSV; numbers in the shortest form that reads back exactly.
+    ///
+    /// # Errors
+    /// The writer fails.
+    pub fn to_csv(&self, out: &mut dyn Write) -> Result<(), DataError> {
+        std::io::copy(&mut TableReader::new(self), out).map_err(|cause| cannot_write("table.csv", &cause))?;
+        Ok(())
+    }
+
+    /// Writes the table as Parquet, whole or not at all.
+    ///
+    /// # Errors
+    /// Columns of different length; the folder is not writable; the crate was built without the feature `parquet`.
+    pub fn to_parquet(&self, path: &Path) -> Result<(), DataError> {
+        parquet::write(self, path)
+    }
+}
+
+impl Dataset {
+    /// The dataset as a tidy table in mm and kPa, with the columns of the marker CSV (pressures of the holds); `s_mm`
+    /// is there if every marker has a station.
+    pub fn to_table(&self) -> Table {
+        let (mut texts, mut numbers) = (vec![Vec::new(); 4], vec![Vec::new(); 6]);
+        for (run, label) in self.runs.iter().enumerate() {
+            for (index, hold) in self.holds.iter().enumerate() {
+                for sample in 0..self.samples_per_hold {
+                    for (marker, described) in self.markers.iter().enumerate() {
+                        let [x, y] = self.xy(run, index, sample, marker);
+                        let words = [label.as_str(), &self.actuator, hold.phase.word(), &described.name];
+                        let station = described.station_m.unwrap_or(f64::NAN);
+                        let (body, act) = (kpa(hold.p_body_pa), kpa(hold.p_act_pa));
+                        let values = [hold.t_s[sample], body, act, mm(x), mm(y), mm(station)];
+                        texts.iter_mut().zip(words).for_each(|(column, word)| column.push(word.to_string()));
+                        numbers.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+                    }
+                }
+            }
+        }
+        let mut columns = Vec::with_capacity(10);
+        let texts = ["run", "actuator", "phase", "marker"].into_iter().zip(texts.into_iter().map(Column::Str));
+        let names = ["t_s", "p_body_kpa", "p_act_kpa", "x_mm", "y_mm", "s_mm"];
+        columns.extend(texts.chain(names.into_iter().zip(numbers.into_iter().map(Column::F64))));
+        if self.markers.iter().any(|marker| marker.station_m.is_none()) {
+            columns.pop();
+        }
+        Table { columns: columns.into_iter().map(|(name, column)| (name.to_string(), column)).collect() }
+    }
+}
+
+/// Reads a Parquet file: numbers as `F64` or `I64`, everything else as text; an empty cell becomes NaN or "".
+///
+/// # Errors
+/// Not a Parquet file; a column that is neither number nor text; the crate was built without the feature `parquet`.
+pub fn read_parquet(path: &Path) -> Result<Table, DataError> {
+    parquet::read(path)
+}
+
+/// A table as the bytes of its CSV, rendered row by row: so Parquet goes through the same checks as CSV.
+pub(crate) struct TableReader<'a> {
+    table: &'a Table,
+    next_row: Option<usize>,
+    text: String,
+    taken: usize,
+}
+
+impl<'a> TableReader<'a> {
+    pub fn new(table: &'a Table) -> TableReader<'a> {
+        TableReader { table, next_row: None, text: String::new(), taken: 0 }
+    }
+
+    fn render(&mut self) {
+        self.text.clear();
+        self.taken = 0;
+        let columns = &self.table.columns;
+        let (cells, next): (Vec<String>, _) = match self.next_row {
+            None => (columns.iter().map(|(name, _)| quoted(name)).collect(), 0),
+            Some(row) if row < self.table.rows() => {
+                (columns.iter().map(|(_, column)| column.cell(row)).collect(), row + 1)
+            }
+            Some(_) => return,
+        };
+        self.next_row = Some(next);
+        // Writing into a String cannot fail.
+        let _ = writeln!(self.text, "{}", cells.join(","));
+    }
+}
+
+impl Read for TableReader<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        if self.taken == self.text.len() {
+            self.render();
+        }
+        let count = (self.text.len() - self.taken).min(buffer.len());
+        buffer[..count].copy_from_slice(&self.text.as_bytes()[self.taken..self.taken + count]);
+        self.taken += count;
+        Ok(count)
+    }
+}
+
+#[cfg(feature = "parquet")]
+mod parquet {
+    use std::fs::File;
+    use std::io::Cursor;
+
+    use polars_core::prelude::{
+        Column as PolarsColumn, DataFrame, DataType, NamedFrom, PolarsError, PolarsResult, Series,
+    };
+    use polars_io::SerReader;
+    use polars_io::prelude::{ParquetCompression, ParquetReader, ParquetWriter};
+
+    use super::{Column, DataError, Fault, Path, Table};
+    use crate::write::write_atomically;
+
+    /// Snappy: every Parquet reader has it.
+    pub fn write(table: &Table, path: &Path) -> Result<(), DataError> {
+        let mut bytes = Cursor::new(Vec::new());
+        let written = frame(table).and_then(|mut frame| {
+            ParquetWriter::new(&mut bytes).with_compression(ParquetCompression::Snappy).finish(&mut frame)
+        });
+        written
+            .map_err(|cause| file_error(path, format!("cannot make a Parquet file: {cause}"), "report this table"))?;
+        write_atomically(path, bytes.get_ref())
+    }
+
+    pub fn read(path: &Path) -> Result<Table, DataError> {
+        let file = File::open(path)
+            .map_err(|cause| file_error(path, format!("cannot open the file: {cause}"), "check the path"))?;
+        let unreadable = |cause: PolarsError| {
+            file_error(path, format!("not a readable Parquet file: {cause}"), "save the table again, or give it as CSV")
+        };
+        let frame = ParquetReader::new(file).finish().map_err(unreadable)?;
+        let column = |column: &PolarsColumn| Ok((column.name().to_string(), from_polars(column)?));
+        let columns: PolarsResult<Vec<_>> = frame.columns().iter().map(column).collect();
+        Ok(Table { columns: columns.map_err(unreadable)? })
+    }
+
+    fn file_error(path: &Path, message: String, help: &str) -> DataError {
+        DataError::File(Box::new(Fault::of_file(&path.display().to_string(), message, help)))
+    }
+
+    fn frame(table: &Table) -> PolarsResult<DataFrame> {
+        let series = |(name, column): &(String, Column)| match column {
+            Column::F64(values) => Series::new(name.as_str().into(), values.as_slice()),
+            Column::Str(values) => Series::new(name.as_str().into(), values.as_slice()),
+            Column::I64(values) => Series::new(name.as_str().into(), values.as_slice()),
+        };
+        DataFrame::new(table.rows(), table.columns.iter().map(|column| series(column).into()).collect())
+    }
+
+    fn from_polars(column: &PolarsColumn) -> PolarsResult<Column> {
+        if column.dtype().is_integer() && column.null_count() == 0 {
+            let cast = column.cast(&DataType::Int64)?;
+            return Ok(Column::I64(cast.i64()?.into_iter().flatten().collect()));
+        }
+        if column.dtype().is_primitive_numeric() {
+            let cast = column.cast(&DataType::Float64)?;
+            return Ok(Column::F64(cast.f64()?.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()));
+        }
+        let cast = column.cast(&DataType::String)?;
+        Ok(Column::Str(cast.str()?.into_iter().map(|value| value.unwrap_or_default().to_string()).collect()))
+    }
+}
+
+#[cfg(not(feature = "parquet"))]
+mod parquet {
+    use super::{DataError, Fault, Path, Table};
+
+    pub fn write(_table: &Table, path: &Path) -> Result<(), DataError> {
+        Err(absent(path))
+    }
+
+    pub fn read(path: &Path) -> Result<Table, DataError> {
+        Err(absent(path))
+    }
+
+    fn absent(path: &Path) -> DataError {
+        let help = "use CSV, or build with the crate feature: cargo build --features data/parquet";
+        let message = "this build has no Parquet support";
+        DataError::Feature(Box::new(Fault::of_file(&path.display().to_string(), message, help)))
+    }
+}
