@@ -113,9 +113,9 @@ impl Scene {
 
     /// A horizontal error bar with a rim of paper, to be seen on a filled bar in both themes.
     pub(super) fn error_bar_on_fill(&mut self, [x, y]: Point, half: f64) {
-        self.line(&[[x - half, y], [x + half, y]], Role::Paper, 4.0);
+        self.line(&[[x - half, y], [x + half, y]], Role::Paper, 2.9);
         for end in [x - half, x + half] {
-            self.line(&[[end, y - 4.0], [end, y + 4.0]], Role::Paper, 4.0);
+            self.line(&[[end, y - 3.3], [end, y + 3.3]], Role::Paper, 2.9);
         }
         self.error_bar([x, y], half, false, Role::Ink);
     }
