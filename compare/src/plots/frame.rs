@@ -113,7 +113,8 @@ impl Frame {
             let spare = 0.5 * (wanted - (x.range[1] - x.range[0]));
             x.range = [x.range[0] - spare, x.range[1] + spare];
         }
-        scene.text([RIM, room.top + 14.0], labels.y, TEXT, Role::Muted, Anchor::Start);
+        let name = text::fit(labels.y, TEXT, WIDTH - 2.0 * RIM);
+        scene.text([RIM, room.top + 14.0], &name, TEXT, Role::Muted, Anchor::Start);
         for (value, label) in &y_ticks {
             let at = y.at(*value);
             scene.line(&[[left, at], [WIDTH - room.right, at]], Role::Grid, 1.0);

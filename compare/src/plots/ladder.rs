@@ -72,7 +72,9 @@ pub fn ladder(data: &Ladder) -> Result<Drawn, PlotError> {
     target(&mut scene, &frame, data, [top, bottom]);
     let mut previous = None;
     for (i, step) in data.steps.iter().enumerate() {
-        row(&mut scene, &frame, step, previous, top + ROW * i as f64);
+        let top = top + ROW * i as f64;
+        head(&mut scene, step, top + 19.0);
+        bar(&mut scene, &frame, step, (previous, decimals(data)), top + 26.0);
         previous = Some(step.value).filter(|v| v.is_finite()).or(previous);
     }
     paint::paint(&scene)
@@ -82,9 +84,14 @@ fn half_width(target: &LadderTarget) -> f64 {
     if target.half_width.is_finite() { target.half_width.abs() } else { 0.0 }
 }
 
-fn value_text(value: f64, previous: Option<f64>) -> String {
+/// Decimals that suit the largest value, the same for every step.
+fn decimals(data: &Ladder) -> usize {
+    let values = data.steps.iter().map(|step| step.value.abs());
+    common_decimals(values.filter(|v| v.is_finite()).fold(0.0, f64::max))
+}
+
+fn value_text(value: f64, previous: Option<f64>, digits: usize) -> String {
     let change = previous.map(|from| value - from).filter(|change| change.is_finite());
-    let digits = common_decimals(value);
     let sign = |change: f64| if change > 0.0 { "+" } else { "" };
     let change = change.map_or(String::new(), |c| format!("\u{a0}\u{a0}({}{})", sign(c), number(c, digits)));
     format!("{}{change}", number(value, digits))
@@ -94,7 +101,7 @@ fn room_for_values(data: &Ladder) -> f64 {
     let mut previous = None;
     let mut widest: f64 = 0.0;
     for step in &data.steps {
-        widest = widest.max(text::width(&value_text(step.value, previous), TEXT));
+        widest = widest.max(text::width(&value_text(step.value, previous, decimals(data)), TEXT));
         previous = Some(step.value);
     }
     widest.min(200.0)
@@ -114,9 +121,9 @@ fn target(scene: &mut Scene, frame: &Frame, data: &Ladder, [top, bottom]: [f64; 
     scene.text([middle, top - 9.0], &label, TEXT, Role::Ink, Anchor::Middle);
 }
 
-fn row(scene: &mut Scene, frame: &Frame, step: &LadderStep, previous: Option<f64>, top: f64) {
-    head(scene, step, top + 19.0);
-    let (y0, y1) = (top + 26.0, top + 26.0 + BAR);
+/// Bar from zero with the change since `previous` in pale, its range and its number.
+fn bar(scene: &mut Scene, frame: &Frame, step: &LadderStep, (previous, digits): (Option<f64>, usize), y0: f64) {
+    let y1 = y0 + BAR;
     let zero = frame.x.at(0.0);
     if !step.value.is_finite() {
         return scene.text_mid([zero + 6.0, y0 + 0.5 * BAR], "–", TEXT, Role::Muted, Anchor::Start);
@@ -135,7 +142,7 @@ fn row(scene: &mut Scene, frame: &Frame, step: &LadderStep, previous: Option<f64
         scene.error_bar_on_fill([0.5 * (low + high), 0.5 * (y0 + y1)], 0.5 * (high - low).abs());
         right = right.max(high).max(low);
     }
-    let value = value_text(step.value, previous);
+    let value = value_text(step.value, previous, digits);
     let (x, y) = (right + 7.0, 0.5 * (y0 + y1));
     scene.rect([x - 2.0, y0], [x + text::width(&value, TEXT) + 2.0, y1], Role::Paper, 1.0);
     scene.text_mid([x, y], &value, TEXT, Role::Ink, Anchor::Start);

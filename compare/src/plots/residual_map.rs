@@ -156,7 +156,7 @@ fn phases(scene: &mut Scene, data: &ResidualMap, grid: &Grid) -> f64 {
 fn colour_bar(scene: &mut Scene, data: &ResidualMap, grid: &Grid, top: f64) {
     const STEPS: usize = 31;
     let (limit, left, width) = (limit(data), grid.left, WIDTH - RIM - grid.left);
-    let label = text::fit(&data.value_label, TEXT, WIDTH - 2.0 * RIM);
+    let label = text::fit(&data.value_label, TEXT, width);
     scene.text([left, top + 20.0], &label, TEXT, Role::Ink, Anchor::Start);
     let y = top + 28.0;
     for i in 0..STEPS {
