@@ -28,7 +28,7 @@ pub struct Ledger {
 pub struct LedgerCase {
     /// Label above the bar, e.g. `30 kPa`.
     pub label: String,
-    /// Energy of each term [mJ]; positive values stack to the right, negative ones to the left.
+    /// Energy of each term, in mJ; positive values stack to the right, negative ones to the left.
     pub energies_mj: Vec<f64>,
 }
 

@@ -20,7 +20,7 @@ pub struct ResidualMap {
     pub value_label: String,
     /// Columns in the order of the protocol.
     pub holds: Vec<MapHold>,
-    /// Marker stations along the robot, base first [mm].
+    /// Marker stations along the robot in mm, base first.
     pub stations_mm: Vec<f64>,
     /// Cell values by marker, then by hold, in units of noise; non-finite cells show "–".
     pub values: Vec<Vec<f64>>,
@@ -31,7 +31,7 @@ pub struct ResidualMap {
 /// One column of a [`ResidualMap`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MapHold {
-    /// Actuator pressure [kPa].
+    /// Actuator pressure, in kPa.
     pub p_act_kpa: f64,
     /// Phase of the protocol, e.g. `load` or `unload`.
     pub phase: String,

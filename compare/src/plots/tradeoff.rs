@@ -28,7 +28,7 @@ pub struct TradeoffPoint {
     pub label: String,
     /// Colour and symbol group, e.g. `reduced model` or `finite elements`.
     pub group: String,
-    /// Run time of one prediction [s].
+    /// Run time of one prediction, in seconds.
     pub run_time_s: f64,
     /// Error, in the unit of the axis.
     pub error: f64,
