@@ -17,6 +17,11 @@ fn label(name: &str) -> String {
 /// Every chart with two of everything, filled from `values` in turn and labelled `name`.
 fn charts(name: &str, values: &[f64]) -> Vec<Result<Drawn, PlotError>> {
     let v = |i: usize| values[i % values.len()];
+    planes(name, &v).into_iter().chain(stacks(name, &v)).collect()
+}
+
+/// The charts with two axes.
+fn planes(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, PlotError>> {
     let points = vec![[v(0), v(1)], [v(2), v(3)], [v(4), v(5)]];
     let measured = MeasuredPoint { at_mm: [v(1), v(0)], half_width_mm: [v(2), v(3)] };
     let pose = ShapePose {
@@ -36,6 +41,23 @@ fn charts(name: &str, values: &[f64]) -> Vec<Result<Drawn, PlotError>> {
         values: vec![vec![v(0), v(1)], vec![v(2), v(3)]],
         limit: v(4),
     };
+    let point = |i: usize| TradeoffPoint { label: label(name), group: label(name), run_time_s: v(i), error: v(i + 1) };
+    let cost = Tradeoff { title: label(name), error_label: label(name), points: vec![point(0), point(1)] };
+    let line = |style: LineStyle| LineSeries {
+        name: label(name),
+        points: points.clone(),
+        half_width: vec![v(0), v(1), v(2)],
+        style,
+        colour: None,
+    };
+    let styles = [LineStyle::Line, LineStyle::Dashed, LineStyle::Points, LineStyle::OpenPoints, LineStyle::LinePoints];
+    let curves =
+        Lines { title: label(name), x_label: label(name), y_label: label(name), series: styles.map(line).to_vec() };
+    vec![shapes(&shape), residual_map(&map), tradeoff(&cost), lines(&curves)]
+}
+
+/// The charts of horizontal bars.
+fn stacks(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, PlotError>> {
     let step = |i: usize| LadderStep {
         label: label(name),
         value: v(i),
@@ -57,18 +79,6 @@ fn charts(name: &str, values: &[f64]) -> Vec<Result<Drawn, PlotError>> {
         groups: vec![label(name); 2],
         series: vec![bar(0), bar(1)],
     };
-    let point = |i: usize| TradeoffPoint { label: label(name), group: label(name), run_time_s: v(i), error: v(i + 1) };
-    let cost = Tradeoff { title: label(name), error_label: label(name), points: vec![point(0), point(1)] };
-    let line = |style: LineStyle| LineSeries {
-        name: label(name),
-        points: points.clone(),
-        half_width: vec![v(0), v(1), v(2)],
-        style,
-        colour: None,
-    };
-    let styles = [LineStyle::Line, LineStyle::Dashed, LineStyle::Points, LineStyle::OpenPoints, LineStyle::LinePoints];
-    let curves =
-        Lines { title: label(name), x_label: label(name), y_label: label(name), series: styles.map(line).to_vec() };
     let case = LedgerCase { label: label(name), energies_mj: vec![v(0), v(1), v(2)] };
     let book = Ledger {
         title: label(name),
@@ -76,15 +86,7 @@ fn charts(name: &str, values: &[f64]) -> Vec<Result<Drawn, PlotError>> {
         terms: vec![label(name); 3],
         cases: vec![case.clone(), case],
     };
-    vec![
-        shapes(&shape),
-        residual_map(&map),
-        ladder(&steps),
-        bars(&groups),
-        tradeoff(&cost),
-        lines(&curves),
-        ledger(&book),
-    ]
+    vec![ladder(&steps), bars(&groups), ledger(&book)]
 }
 
 #[test]
