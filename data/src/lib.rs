@@ -1,6 +1,6 @@
 //! Measurements of inflated-beam robots as plain structs.
 //!
-//! `data` reads marker tables ([`read_markers`], [`load`]), their descriptions ([`About`]) and the numbers of the
+//! `data` reads marker tables ([`read_markers`], [`load()`]), their descriptions ([`About`]) and the numbers of the
 //! reference paper ([`published()`]); it converts units on reading and never sees a model.
 
 pub mod about;

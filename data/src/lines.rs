@@ -182,9 +182,8 @@ mod tests {
 
     #[test]
     fn lines_know_number_and_offset_and_blank_ones_are_skipped() {
-        let expected = vec![(1, 3, "a".to_string()), (3, 8, "bc".to_string())];
-        assert_eq!(texts("\u{feff}a\r\n  \nbc".as_bytes()), [expected[0].clone(), (3, 9, "bc".to_string())]);
-        assert_eq!(expected[0].1, '\u{feff}'.len_utf8());
+        let found = texts("\u{feff}a\r\n  \nbc".as_bytes());
+        assert_eq!(found, [(1, 3, "a".to_string()), (3, 9, "bc".to_string())]);
     }
 
     #[test]

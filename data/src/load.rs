@@ -23,7 +23,7 @@ pub fn load(spec: &str, progress: &mut dyn FnMut(u64, u64)) -> Result<(Dataset, 
     if path.is_dir() {
         return load_folder(path, actuator, progress);
     }
-    if !path.is_file() {
+    if !path.exists() {
         return Err(nothing(place));
     }
     load_file(path, actuator, progress)

@@ -168,8 +168,8 @@ impl RowReader {
         let value = self.number(line, quantity)?;
         let base = QUANTITIES[quantity].base;
         if value > HIGHEST_GAUGE_PA {
-            let unit = self.header.columns[quantity].as_ref().and_then(|column| column.unit).map_or("", |u| u.name);
-            let better = if unit == "kpa" { ("Pa", "pa") } else { ("kPa", "kpa") };
+            let unit = self.header.columns[quantity].as_ref().and_then(|column| column.unit).map_or("", |u| u.symbol);
+            let better = if unit == "kPa" { ("Pa", "pa") } else { ("kPa", "kpa") };
             let message = format!("{} {unit} is above 1 MPa; it looks like {}", self.text(quantity), better.0);
             let help = format!("name the column {base}_{}", better.1);
             return Err(DataError::Unit(self.cell_fault(line, quantity, message, help)));

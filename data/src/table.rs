@@ -212,14 +212,14 @@ mod parquet {
     fn from_polars(column: &PolarsColumn) -> PolarsResult<Column> {
         if column.dtype().is_integer() && column.null_count() == 0 {
             let cast = column.cast(&DataType::Int64)?;
-            return Ok(Column::I64(cast.i64()?.into_iter().flatten().collect()));
+            return Ok(Column::I64(cast.i64()?.iter().flatten().collect()));
         }
         if column.dtype().is_primitive_numeric() {
             let cast = column.cast(&DataType::Float64)?;
-            return Ok(Column::F64(cast.f64()?.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()));
+            return Ok(Column::F64(cast.f64()?.iter().map(|value| value.unwrap_or(f64::NAN)).collect()));
         }
         let cast = column.cast(&DataType::String)?;
-        Ok(Column::Str(cast.str()?.into_iter().map(|value| value.unwrap_or_default().to_string()).collect()))
+        Ok(Column::Str(cast.str()?.iter().map(|value| value.unwrap_or_default().to_string()).collect()))
     }
 }
 

@@ -13,25 +13,28 @@ pub(crate) enum Dimension {
 /// A unit of one dimension.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Unit {
+    /// As the suffix of a column name, lower case.
     pub name: &'static str,
+    /// As printed.
+    pub symbol: &'static str,
     numerator: f64,
     denominator: f64,
 }
 
-const fn unit(name: &'static str, numerator: f64, denominator: f64) -> Unit {
-    Unit { name, numerator, denominator }
+const fn unit(name: &'static str, symbol: &'static str, numerator: f64, denominator: f64) -> Unit {
+    Unit { name, symbol, numerator, denominator }
 }
 
-const LENGTHS: &[Unit] = &[unit("mm", 1.0, 1e3), unit("cm", 1.0, 1e2), unit("m", 1.0, 1.0)];
+const LENGTHS: &[Unit] = &[unit("mm", "mm", 1.0, 1e3), unit("cm", "cm", 1.0, 1e2), unit("m", "m", 1.0, 1.0)];
 /// 1 psi = 1 lbf/in² = 6894.757293168 Pa (NIST SP 811, B.8).
 const PRESSURES: &[Unit] = &[
-    unit("kpa", 1e3, 1.0),
-    unit("pa", 1.0, 1.0),
-    unit("mpa", 1e6, 1.0),
-    unit("psi", 6_894.757_293_168, 1.0),
-    unit("bar", 1e5, 1.0),
+    unit("kpa", "kPa", 1e3, 1.0),
+    unit("pa", "Pa", 1.0, 1.0),
+    unit("mpa", "MPa", 1e6, 1.0),
+    unit("psi", "psi", 6_894.757_293_168, 1.0),
+    unit("bar", "bar", 1e5, 1.0),
 ];
-const TIMES: &[Unit] = &[unit("s", 1.0, 1.0), unit("ms", 1.0, 1e3), unit("min", 60.0, 1.0)];
+const TIMES: &[Unit] = &[unit("s", "s", 1.0, 1.0), unit("ms", "ms", 1.0, 1e3), unit("min", "min", 60.0, 1.0)];
 
 impl Dimension {
     /// All units of this dimension, the house unit first.
@@ -50,7 +53,7 @@ impl Dimension {
 
     /// `lengths are in mm, cm, m`, for error texts.
     pub fn sentence(self) -> String {
-        let names: Vec<_> = self.units().iter().map(|unit| unit.name).collect();
+        let names: Vec<_> = self.units().iter().map(|unit| unit.symbol).collect();
         let word = match self {
             Dimension::Length => "lengths",
             Dimension::Pressure => "pressures",

@@ -146,7 +146,7 @@ fn metres_in_a_millimetre_column_and_the_reverse_are_noticed() {
 fn pascal_psi_bar_and_megapascal_in_kilopascal_columns_are_noticed() {
     let row = |body: f64, act: f64| format!("{HEAD}1,spam,0,{body},{act},load,1,60,1\n");
     let error = read(&row(2.0, 10_000.0)).unwrap_err();
-    assert_eq!(error.to_string(), "markers.csv:2, column p_act_kpa: 10000 kpa is above 1 MPa; it looks like Pa");
+    assert_eq!(error.to_string(), "markers.csv:2, column p_act_kpa: 10000 kPa is above 1 MPa; it looks like Pa");
     assert_eq!(error.help(), "name the column p_act_pa");
     assert_eq!(read(&row(2000.0, 10.0)).unwrap_err().help(), "name the column p_body_pa");
     for (body, act, unit) in [(0.29, 4.35, "psi"), (0.02, 0.3, "bar"), (0.002, 0.03, "mpa")] {

@@ -86,8 +86,9 @@ fn a_marker_taken_for_another_in_one_frame_is_listed() {
 
 #[test]
 fn good_data_have_hardly_any_outlier() {
-    for runs in [3, 5, 10] {
+    // An even number of runs has two middle ones, whose distance to the median is small: four runs are the worst case.
+    for (runs, most) in [(3, 2), (4, 8), (5, 2), (10, 2)] {
         let alarms = (0..200).filter(|seed| !check(&noisy(runs, 1000 + seed), None).outliers.is_empty()).count();
-        assert!(alarms <= 4, "{runs} runs: {alarms} of 200 good datasets have an outlier");
+        assert!(alarms <= most, "{runs} runs: {alarms} of 200 good datasets have an outlier");
     }
 }
