@@ -43,15 +43,25 @@ impl Term for BodyPressure {
 }
 
 /// `k₀ ln cosh(x/k₀)` and its slope `tanh(x/k₀)`: an energy whose force steps from −1 to 1 over ±k₀.
+#[inline]
 pub(crate) fn soft_step(x: f64, k0: f64) -> (f64, f64) {
     let u = x / k0;
-    // Beyond 20 the step is complete to the last bit.
-    if u.abs() > 20.0 {
+    let size = u.abs();
+    // From 20 on the step is complete to the last bit.
+    if size > 20.0 {
         return (x.abs() - LN_2 * k0, u.signum());
     }
-    let decay = (-2.0 * u.abs()).exp();
+    if size < SMALL {
+        // cosh u = 1 + 2 sinh²(u/2) keeps the digits that ln 2 would swallow.
+        let half = (0.5 * size).sinh();
+        return (k0 * (2.0 * half * half).ln_1p(), u.tanh());
+    }
+    let decay = (-2.0 * size).exp();
     (x.abs() + k0 * (decay.ln_1p() - LN_2), u.signum() * (1.0 - decay) / (1.0 + decay))
 }
+
+/// Below this, exp(−2u) is too close to 1 for the form used above it.
+const SMALL: f64 = 0.3;
 
 /// Elastic bending of the wall, `E = ½Bκ²`.
 ///

@@ -2,7 +2,7 @@
 
 use crate::error::Unsolved;
 use crate::model::{Model, Prediction};
-use crate::root::find_root;
+use crate::root::{NoRoot, Start, find_root};
 use crate::term::{CHANNELS, Loads};
 
 /// What the tip shall do.
@@ -25,10 +25,25 @@ pub struct TipSlope {
     pub angle_per_pa: f64,
 }
 
-/// Step of the central difference relative to the pressure: truncation and rounding are both below 1e-7 there.
-const JACOBIAN_STEP: f64 = 1e-4;
+/// Step of the wider central difference relative to the pressure: short, because the laws have corners; rounding is
+/// below 1e-8 there.
+const JACOBIAN_STEP: f64 = 4e-4;
+/// Step from zero pressure \[Pa\].
+const LEAST_STEP_PA: f64 = 0.1;
+/// First pressure tried, as a share of the largest.
+const START: f64 = 0.2;
 /// Pressures sampled when the ends of the search interval do not bracket the target.
 const SAMPLES: usize = 32;
+
+impl TipSlope {
+    fn combine(&self, a: f64, other: &TipSlope, b: f64) -> TipSlope {
+        TipSlope {
+            x_per_pa: a * self.x_per_pa + b * other.x_per_pa,
+            y_per_pa: a * self.y_per_pa + b * other.y_per_pa,
+            angle_per_pa: a * self.angle_per_pa + b * other.angle_per_pa,
+        }
+    }
+}
 
 impl Target {
     fn value(self) -> f64 {
@@ -61,55 +76,64 @@ impl Model {
     /// # Errors
     /// [`Unsolved::OutOfReach`] with the reachable range, or what [`Model::predict`] returns.
     pub fn pressure_for(&self, target: Target, p_body_pa: f64, out: &mut Prediction) -> Result<f64, Unsolved> {
-        let mut failed = None;
-        let mut short = |p: f64| match self.settle(&Loads::uniform(p_body_pa, p), out) {
-            Ok(()) => target.value() - target.of(out),
+        let mut reach = Reach { least: f64::INFINITY, most: f64::NEG_INFINITY, failed: None };
+        let mut warm = false;
+        let mut short = |p: f64| match self.settle(&Loads::uniform(p_body_pa, p), out, warm) {
+            Ok(()) => {
+                warm = true;
+                target.value() - reach.note(target.of(out))
+            }
             Err(error) => {
-                failed.get_or_insert(error);
+                reach.failed.get_or_insert(error);
                 f64::NAN
             }
         };
         let whole = (0.0, self.p_max_pa());
-        // The response rises steeply from zero and flattens, so start low.
-        let mut found = find_root(&mut short, whole, (0.2 * whole.1, None, 0.15 * whole.1));
-        if found.is_err() {
-            let (low, high) = bracket(&mut short, whole, target)?;
-            found = find_root(&mut short, (low, high), (0.5 * (low + high), None, high));
-        }
-        match (found, failed) {
-            (Ok(root), _) => {
-                self.predict(&Loads::uniform(p_body_pa, root.x), out)?;
-                Ok(root.x)
+        let found = search(&mut short, whole, target);
+        match found.filter(|p| *p <= whole.1) {
+            Some(p) => {
+                self.predict(&Loads::uniform(p_body_pa, p), out)?;
+                Ok(p)
             }
-            (Err(_), Some(error)) => Err(error),
-            (Err(_), None) => Err(out_of_reach(target, (target.of(out), target.of(out)), whole.1)),
+            None => Err(reach.error(target, whole.1)),
         }
     }
 
-    /// Slopes of the tip pose by each channel's pressure, by central differences; `out` is overwritten.
+    /// Slopes of the tip pose by each channel's pressure, by Richardson-extrapolated central differences (forward ones
+    /// at zero pressure); `out` is overwritten.
     ///
     /// # Errors
     /// What [`Model::predict`] returns.
     pub fn jacobian(&self, loads: &Loads, out: &mut Prediction) -> Result<[TipSlope; CHANNELS], Unsolved> {
         let mut slopes = [TipSlope { x_per_pa: 0.0, y_per_pa: 0.0, angle_per_pa: 0.0 }; CHANNELS];
-        for (channel, slope) in slopes.iter_mut().enumerate() {
-            if !self.uses(channel) {
-                continue;
-            }
-            let p = loads.actuator_pa[channel];
-            let step = (JACOBIAN_STEP * p).max(0.1).min(if p > 0.0 { p } else { 0.1 });
-            let (mut up, mut down) = (*loads, *loads);
-            up.actuator_pa[channel] = p + step;
-            down.actuator_pa[channel] = (p - step).max(0.0);
-            let width = up.actuator_pa[channel] - down.actuator_pa[channel];
-            self.predict(&up, out)?;
-            let high = out.tip;
-            self.predict(&down, out)?;
-            slope.x_per_pa = (high.x_m - out.tip.x_m) / width;
-            slope.y_per_pa = (high.y_m - out.tip.y_m) / width;
-            slope.angle_per_pa = (high.angle_rad - out.tip.angle_rad) / width;
+        self.settle(loads, out, false)?;
+        for (channel, slope) in slopes.iter_mut().enumerate().filter(|(channel, _)| self.uses(*channel)) {
+            let step = JACOBIAN_STEP * loads.actuator_pa[channel];
+            *slope = if step > 0.0 {
+                let (wide, narrow) =
+                    (self.chord(loads, channel, step, out)?, self.chord(loads, channel, 0.5 * step, out)?);
+                narrow.combine(4.0 / 3.0, &wide, -1.0 / 3.0)
+            } else {
+                self.chord(loads, channel, LEAST_STEP_PA, out)?
+            };
         }
         Ok(slopes)
+    }
+
+    /// Mean slope between P − step (not below 0) and P + step.
+    fn chord(&self, loads: &Loads, channel: usize, step: f64, out: &mut Prediction) -> Result<TipSlope, Unsolved> {
+        let (mut up, mut down) = (*loads, *loads);
+        up.actuator_pa[channel] += step;
+        down.actuator_pa[channel] = (down.actuator_pa[channel] - step).max(0.0);
+        self.settle(&up, out, true)?;
+        let high = out.tip;
+        self.settle(&down, out, true)?;
+        let per = 1.0 / (up.actuator_pa[channel] - down.actuator_pa[channel]);
+        Ok(TipSlope {
+            x_per_pa: (high.x_m - out.tip.x_m) * per,
+            y_per_pa: (high.y_m - out.tip.y_m) * per,
+            angle_per_pa: (high.angle_rad - out.tip.angle_rad) * per,
+        })
     }
 
     fn uses(&self, channel: usize) -> bool {
@@ -117,21 +141,55 @@ impl Model {
     }
 }
 
-/// Two neighbouring samples between which the target is passed upwards, or the range that was seen.
-fn bracket(short: &mut dyn FnMut(f64) -> f64, (low, high): (f64, f64), target: Target) -> Result<(f64, f64), Unsolved> {
-    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+/// What the search has seen.
+struct Reach {
+    least: f64,
+    most: f64,
+    failed: Option<Unsolved>,
+}
+
+impl Reach {
+    fn note(&mut self, value: f64) -> f64 {
+        self.least = self.least.min(value);
+        self.most = self.most.max(value);
+        value
+    }
+
+    /// Nothing was predicted: why; else the range that was seen.
+    fn error(self, target: Target, p_max_pa: f64) -> Unsolved {
+        match self.failed {
+            Some(error) if self.least > self.most => error,
+            _ => out_of_reach(target, (self.least, self.most), p_max_pa),
+        }
+    }
+}
+
+/// Secant over the whole interval, and if its ends do not bracket the target, over a pair of samples that does.
+fn search(short: &mut dyn FnMut(f64) -> f64, whole: (f64, f64), target: Target) -> Option<f64> {
+    let mut f = |p: f64| short(p);
+    // The response rises steeply from zero and flattens, so start low, with half the slope of the chord from zero.
+    let x = START * whole.1;
+    let known = f(x);
+    let start = Start { x, f: Some(known), slope: -0.5 * (target.value() - known) / x };
+    let root = find_root(&mut f, whole, start).or_else(|_| {
+        let (low, high) = bracket(&mut f, whole).ok_or(NoRoot::Stalled { f: f64::NAN })?;
+        find_root(&mut f, (low, high), Start { x: 0.5 * (low + high), f: None, slope: f64::NAN })
+    });
+    root.ok().map(|root| root.x + root.step)
+}
+
+/// Two neighbouring samples between which the target is passed upwards.
+fn bracket(short: &mut dyn FnMut(f64) -> f64, (low, high): (f64, f64)) -> Option<(f64, f64)> {
     let mut before = (low, short(low));
-    for i in 0..=SAMPLES {
+    for i in 1..=SAMPLES {
         let p = low + (high - low) * i as f64 / SAMPLES as f64;
         let miss = short(p);
-        least = least.min(target.value() - miss);
-        most = most.max(target.value() - miss);
         if before.1 >= 0.0 && miss <= 0.0 {
-            return Ok((before.0, p));
+            return Some((before.0, p));
         }
         before = (p, miss);
     }
-    Err(out_of_reach(target, (least, most), high))
+    None
 }
 
 fn out_of_reach(target: Target, (least, most): (f64, f64), p_max_pa: f64) -> Unsolved {

@@ -13,6 +13,7 @@
 
 pub mod actuators;
 pub mod assembly;
+mod batch;
 pub mod body;
 pub mod effects;
 pub mod error;
@@ -27,6 +28,7 @@ pub mod site;
 pub mod term;
 mod trig;
 
+pub use batch::Batch;
 pub use error::{ScenarioError, Unsolved};
 pub use inverse::{Target, TipSlope};
 pub use model::{LedgerLine, Model, Prediction, Tip};

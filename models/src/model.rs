@@ -8,7 +8,7 @@ use crate::error::Unsolved;
 use crate::robot::{Workspace, equilibrium};
 use crate::scenario::{Scenario, Span};
 use crate::shape::{advance, arc};
-use crate::site::{Linkage, Site};
+use crate::site::{Linkage, Site, SiteState};
 use crate::term::{CHANNELS, Loads, Pose, Term, actuator_q};
 
 /// A robot with its list of terms. Made once from a scenario; predicting does not change it.
@@ -82,18 +82,18 @@ impl Model {
     /// # Errors
     /// [`Unsolved`] with pressures and place when a pressure is negative or not finite, or nothing balances.
     pub fn predict(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
-        self.settle(loads, out)?;
+        self.settle(loads, out, false)?;
         for (seen, (segment, offset)) in out.markers.iter_mut().zip(&self.markers) {
             *seen = self.sight(&out.work, *segment, *offset);
         }
         Ok(())
     }
 
-    /// Like [`Model::predict`], without the markers: all that an inverse needs.
-    pub(crate) fn settle(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
+    /// Like [`Model::predict`], without the markers: all that an inverse needs. `warm` starts from what `out` holds.
+    pub(crate) fn settle(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Result<(), Unsolved> {
         check(loads)?;
         self.supply(loads, &mut out.work);
-        equilibrium(&self.assembly, loads.body_pa, &mut out.work)?;
+        equilibrium(&self.assembly, loads.body_pa, &mut out.work, warm)?;
         let (work, last) = (&out.work, self.assembly.segments.len());
         out.tip = Tip { x_m: work.nodes[2 * last], y_m: work.nodes[2 * last + 1], angle_rad: work.headings[last] };
         Ok(())
@@ -119,6 +119,11 @@ impl Model {
     /// Curvature per segment \[1/m\] and the segment's start and length \[m\].
     pub fn curvatures<'a>(&'a self, at: &'a Prediction) -> impl Iterator<Item = (Segment, f64)> + 'a {
         self.assembly.segments.iter().zip(&at.work.states).map(|(segment, state)| (*segment, state.curvature))
+    }
+
+    /// Equilibrium of every segment, base to tip: actuator coordinate, curvature, line tension.
+    pub fn states<'a>(&self, at: &'a Prediction) -> &'a [SiteState] {
+        &at.work.states
     }
 
     /// `count` points of the centre line from base to tip \[m\], for drawing.

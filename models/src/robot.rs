@@ -3,10 +3,9 @@
 use crate::assembly::Assembly;
 use crate::error::Unsolved;
 use crate::root::NoRoot;
-use crate::shape::{Arc, advance, arc};
+use crate::shape::{Arc, advance, arc, turned};
 use crate::site::{SiteLoads, SiteState};
 use crate::term::Pose;
-use crate::trig::sin_cos;
 
 /// Buffers of a prediction; made once, so that predicting allocates nothing.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,103 +20,158 @@ pub(crate) struct Workspace {
     pub directions: Vec<[f64; 2]>,
     /// Heading at each node \[rad\].
     pub headings: Vec<f64>,
+    coupled: Coupled,
+}
+
+/// What only transverse loads need; empty without them.
+#[derive(Debug, Clone, PartialEq)]
+struct Coupled {
     arcs: Vec<Arc>,
     forces: Vec<f64>,
+    /// Assumed moment per segment \[N·m\], and its Newton step.
     moments: Vec<f64>,
-    trial: Vec<f64>,
+    step: Vec<f64>,
+    /// Moment of the loads on the shape minus the assumed one.
     residual: Vec<f64>,
+    /// ∂Gᵢ/∂κⱼ for i < j, divided by hⱼ; and ∂Gᵢ/∂κᵢ.
     coupling: Vec<f64>,
-    matrix: Vec<f64>,
+    diagonal: Vec<f64>,
 }
 
 impl Workspace {
     pub fn new(segments: usize, coupled: bool) -> Workspace {
-        let flat = Arc { along: 0.0, across: 0.0, d_along: 0.0, d_across: 0.0 };
+        let n = if coupled { segments } else { 0 };
         Workspace {
             states: vec![SiteState::REST; segments],
             p_act_pa: vec![0.0; segments],
             nodes: vec![0.0; 2 * (segments + 1)],
             directions: vec![[1.0, 0.0]; segments + 1],
             headings: vec![0.0; segments + 1],
-            arcs: vec![flat; segments],
-            forces: vec![0.0; 2 * (segments + 1)],
-            moments: vec![0.0; segments],
-            trial: vec![0.0; segments],
-            residual: vec![0.0; segments],
-            coupling: vec![0.0; segments],
-            matrix: vec![0.0; if coupled { segments * segments } else { 0 }],
+            coupled: Coupled {
+                arcs: vec![Arc::NONE; n],
+                forces: vec![0.0; if coupled { 2 * (n + 1) } else { 0 }],
+                moments: vec![0.0; n],
+                step: vec![0.0; n],
+                residual: vec![0.0; n],
+                coupling: vec![0.0; n],
+                diagonal: vec![0.0; n],
+            },
         }
     }
 }
 
 /// Newton settles in 3–5 steps; 60 allows for the halvings near collapse.
 const MAX_ITERATIONS: usize = 60;
+/// Halvings of a Newton step before it is given up.
+const HALVINGS: usize = 12;
 /// Agreement of moments wanted, relative to the largest one.
 const MOMENT_TOLERANCE: f64 = 1e-10;
 
-/// Fills `work` with the equilibrium at body pressure `p_body_pa` and the actuator pressures already in it.
-pub(crate) fn equilibrium(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result<(), Unsolved> {
+/// Fills `work` with the equilibrium at body pressure `p_body_pa` and the actuator pressures already in it; `warm` starts
+/// from the equilibrium that `work` holds.
+pub(crate) fn equilibrium(
+    assembly: &Assembly,
+    p_body_pa: f64,
+    work: &mut Workspace,
+    warm: bool,
+) -> Result<(), Unsolved> {
     if assembly.node_terms.is_empty() {
         for i in 0..work.states.len() {
-            work.states[i] = solve_segment(assembly, i, p_body_pa, 0.0, work, false)?;
+            let near = if warm { Some(work.states[i]) } else { None };
+            work.states[i] = solve_segment(assembly, i, p_body_pa, 0.0, work.p_act_pa[i], near.as_ref())?;
         }
         place_nodes(assembly, work);
         return Ok(());
     }
-    coupled(assembly, p_body_pa, work)
+    if warm && coupled(assembly, p_body_pa, work, true).is_ok() {
+        return Ok(());
+    }
+    coupled(assembly, p_body_pa, work, false)
 }
 
 /// Newton on the moments m of the transverse loads: `G(κ(m)) − m = 0`, each κ(m) by the bracketed solve of its place.
-fn coupled(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result<(), Unsolved> {
-    work.moments.fill(0.0);
-    let mut worst = update(assembly, p_body_pa, work, false)?;
-    for _ in 0..MAX_ITERATIONS {
-        let scale = work.moments.iter().fold(1e-6_f64, |s, m| s.max(m.abs()));
+fn coupled(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace, warm: bool) -> Result<(), Unsolved> {
+    let mut worst = if warm {
+        update(assembly, p_body_pa, work)?
+    } else {
+        unloaded(assembly, p_body_pa, work)?;
+        disagreement(assembly, p_body_pa, work)
+    };
+    for iterations in 0..MAX_ITERATIONS {
+        let scale = work.coupled.moments.iter().fold(1e-6_f64, |s, m| s.max(m.abs()));
         if worst <= MOMENT_TOLERANCE * scale {
             return Ok(());
         }
-        newton_step(assembly, work);
-        worst = damped_step(assembly, p_body_pa, work, worst)?;
+        if !newton_step(assembly, work) {
+            return Err(not_converged(work, iterations + 1, worst));
+        }
+        worst = damped_step(assembly, p_body_pa, work, worst, iterations)?;
     }
-    let p_act_kpa = work.p_act_pa.iter().fold(0.0_f64, |p, q| p.max(*q)) / 1e3;
-    Err(Unsolved::NotConverged { iterations: MAX_ITERATIONS, p_act_kpa, residual: worst })
+    Err(not_converged(work, MAX_ITERATIONS, worst))
 }
 
-/// Takes the Newton step in `work.trial`, halved until the imbalance falls.
-fn damped_step(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace, before: f64) -> Result<f64, Unsolved> {
+fn not_converged(work: &Workspace, iterations: usize, residual: f64) -> Unsolved {
+    let p_act_kpa = work.p_act_pa.iter().fold(0.0_f64, |p, q| p.max(*q)) / 1e3;
+    Unsolved::NotConverged { iterations, p_act_kpa, residual }
+}
+
+/// Takes the Newton step, halved until the disagreement falls; returns what is left of it.
+fn damped_step(
+    assembly: &Assembly,
+    p_body_pa: f64,
+    work: &mut Workspace,
+    before: f64,
+    iterations: usize,
+) -> Result<f64, Unsolved> {
     let mut share = 1.0;
     let mut taken = 0.0;
-    let mut last = Err(Unsolved::NotConverged { iterations: 0, p_act_kpa: 0.0, residual: before });
-    for _ in 0..12 {
-        for (m, step) in work.moments.iter_mut().zip(&work.trial) {
+    let mut failed = None;
+    for _ in 0..HALVINGS {
+        for (m, step) in work.coupled.moments.iter_mut().zip(&work.coupled.step) {
             *m += (share - taken) * step;
         }
         taken = share;
-        let step = std::mem::take(&mut work.trial);
-        last = update(assembly, p_body_pa, work, true);
-        work.trial = step;
-        if last.as_ref().is_ok_and(|worst| *worst < before) {
-            return last;
+        match update(assembly, p_body_pa, work) {
+            Ok(worst) if worst < before => return Ok(worst),
+            Ok(_) => failed = None,
+            Err(error) => failed = Some(error),
         }
         share *= 0.5;
     }
-    last
+    Err(failed.unwrap_or_else(|| not_converged(work, iterations + 1, before)))
 }
 
-/// Solves every place for its moment, then shape and loads; returns the largest disagreement of moments.
-fn update(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace, warm: bool) -> Result<f64, Unsolved> {
+/// Solves every place without moment; neighbours of equal design and pressure are solved once.
+fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result<(), Unsolved> {
+    work.coupled.moments.fill(0.0);
     for i in 0..work.states.len() {
-        let moment = work.moments[i];
-        work.states[i] = solve_segment(assembly, i, p_body_pa, moment, work, warm)?;
+        let twin = i > 0 && assembly.segments[i - 1].site == assembly.segments[i].site;
+        work.states[i] =
+            if twin { work.states[i - 1] } else { solve_segment(assembly, i, p_body_pa, 0.0, work.p_act_pa[i], None)? };
     }
+    Ok(())
+}
+
+/// Solves every place for its moment from where it is; returns the largest disagreement of moments.
+fn update(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result<f64, Unsolved> {
+    for i in 0..work.states.len() {
+        let near = work.states[i];
+        let moment = work.coupled.moments[i];
+        work.states[i] = solve_segment(assembly, i, p_body_pa, moment, work.p_act_pa[i], Some(&near))?;
+    }
+    Ok(disagreement(assembly, p_body_pa, work))
+}
+
+/// Shape and loads at the curvatures in `work`, and the largest disagreement of moments (NaN if any is).
+fn disagreement(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> f64 {
     place_nodes(assembly, work);
-    work.forces.fill(0.0);
+    work.coupled.forces.fill(0.0);
     let pose = Pose { q: &work.nodes, p_body_pa, p_act_pa: 0.0 };
     for term in &assembly.node_terms {
-        term.add(&pose, &mut work.forces);
+        term.add(&pose, &mut work.coupled.forces);
     }
     load_moments(assembly, work);
-    Ok(work.residual.iter().fold(0.0_f64, |w, r| w.max(r.abs())))
+    work.coupled.residual.iter().fold(0.0, |w, r| if r.abs() > w || r.is_nan() { r.abs() } else { w })
 }
 
 fn solve_segment(
@@ -125,14 +179,11 @@ fn solve_segment(
     index: usize,
     p_body_pa: f64,
     moment: f64,
-    work: &Workspace,
-    warm: bool,
+    p_act_pa: f64,
+    near: Option<&SiteState>,
 ) -> Result<SiteState, Unsolved> {
     let segment = &assembly.segments[index];
-    let loads = SiteLoads { p_body_pa, p_act_pa: work.p_act_pa[index], moment };
-    // Neighbours of equal design start close to each other, and every iteration close to the one before.
-    let twin = index > 0 && assembly.segments[index - 1].site == segment.site && work.p_act_pa[index] > 0.0;
-    let near = if warm { Some(&work.states[index]) } else { twin.then(|| &work.states[index - 1]) };
+    let loads = SiteLoads { p_body_pa, p_act_pa, moment };
     assembly.sites[segment.site].solve(&loads, near).map_err(|error| unsolved(error, segment.start_m, &loads))
 }
 
@@ -154,22 +205,24 @@ fn place_nodes(assembly: &Assembly, work: &mut Workspace) {
         let step = arc(kappa, segment.length_m, assembly.sites[segment.site].radius_m);
         xy = advance(xy, direction, step.along, step.across);
         heading += kappa * segment.length_m;
-        let (sin, cos) = sin_cos(heading);
-        direction = [cos, sin];
-        work.arcs[i] = step;
+        direction = turned(direction, step.turn);
         work.nodes[2 * i + 2] = xy[0];
         work.nodes[2 * i + 3] = xy[1];
         work.headings[i + 1] = heading;
         work.directions[i + 1] = direction;
+        if let Some(kept) = work.coupled.arcs.get_mut(i) {
+            *kept = step;
+        }
     }
 }
 
-/// Generalised force of the nodal forces on each κ, per length, minus the moment assumed: `work.residual`.
+/// Generalised force G of the nodal forces on each κ, per length, minus the moment assumed, and its slopes.
 ///
 /// With S the force on all nodes beyond segment i, and x its end: a change of κᵢ moves them all by its own arc's
-/// change Δ′ and turns them about x, so `Gᵢ = S·Δ′/h + Σ (x_k − x) × F_k`. `work.coupling` is ∂Gᵢ/∂κⱼ for i ≤ j.
+/// change Δ′ and turns them about x, so `Gᵢ = S·Δ′/h + Σ (x_k − x) × F_k`.
 fn load_moments(assembly: &Assembly, work: &mut Workspace) {
     let (mut sum, mut turn, mut reach) = ([0.0; 2], 0.0, 0.0);
+    let load = &mut work.coupled;
     for i in (0..work.states.len()).rev() {
         let node = 2 * (i + 1);
         if node + 2 < work.nodes.len() {
@@ -177,50 +230,41 @@ fn load_moments(assembly: &Assembly, work: &mut Workspace) {
             turn += lever[0] * sum[1] - lever[1] * sum[0];
             reach += lever[0] * sum[0] + lever[1] * sum[1];
         }
-        sum = [sum[0] + work.forces[node], sum[1] + work.forces[node + 1]];
-        let h = assembly.segments[i].length_m;
-        let [c, s] = work.directions[i];
-        let own = &work.arcs[i];
-        let change = [c * own.d_along - s * own.d_across, s * own.d_along + c * own.d_across];
-        let moment = (sum[0] * change[0] + sum[1] * change[1]) / h + turn;
-        work.residual[i] = moment - work.moments[i];
-        work.coupling[i] = sum[1] * change[0] - sum[0] * change[1] - h * reach;
+        sum = [sum[0] + load.forces[node], sum[1] + load.forces[node + 1]];
+        let per_h = 1.0 / assembly.segments[i].length_m;
+        let own = &load.arcs[i];
+        let change = advance([0.0; 2], work.directions[i], own.d_along, own.d_across);
+        let second = advance([0.0; 2], work.directions[i], own.dd_along, own.dd_across);
+        load.residual[i] = (sum[0] * change[0] + sum[1] * change[1]) * per_h + turn - load.moments[i];
+        load.coupling[i] = (sum[1] * change[0] - sum[0] * change[1]) * per_h - reach;
+        load.diagonal[i] = (sum[0] * second[0] + sum[1] * second[1]) * per_h - reach * assembly.segments[i].length_m;
     }
 }
 
-/// Newton step of the moments into `work.trial`: `(1 − ∂G/∂κ·dκ/dm) δ = residual`, by elimination with pivoting.
-fn newton_step(assembly: &Assembly, work: &mut Workspace) {
-    let n = work.states.len();
-    for i in 0..n {
-        for j in 0..n {
-            let ratio = assembly.segments[j].length_m / assembly.segments[i].length_m;
-            let slope = if j >= i { work.coupling[j] } else { work.coupling[i] * ratio };
-            let unit = f64::from(u8::from(i == j));
-            work.matrix[i * n + j] = unit - slope * work.states[j].compliance;
-        }
-        work.trial[i] = work.residual[i];
+/// Newton step δ of the moments: `δᵢ − Σⱼ ∂Gᵢ/∂κⱼ Cⱼ δⱼ = residualᵢ`, C the compliance of a place.
+///
+/// With g the coupling and z = h C δ the turn of a segment, `∂Gᵢ/∂κⱼ = hⱼ g_max(i,j)` off the diagonal. So row i needs of
+/// the others only the turn Z before it and Σ g z beyond it: δ is affine in Z, found from tip to base, then filled in.
+/// `step` and `residual` hold the two coefficients meanwhile. False if the step is not finite: the loads are critical.
+fn newton_step(assembly: &Assembly, work: &mut Workspace) -> bool {
+    let load = &mut work.coupled;
+    let (mut beyond, mut beyond_slope) = (0.0, 0.0);
+    for i in (0..work.states.len()).rev() {
+        let (c, h, g) = (work.states[i].compliance, assembly.segments[i].length_m, load.coupling[i]);
+        // Σ_{j>i} g z = beyond + beyond_slope · (Z + h C δ), and the row is (1 − diagonal C) δ − g Z − that = residual.
+        let pivot = 1.0 - load.diagonal[i] * c - beyond_slope * h * c;
+        let constant = (load.residual[i] + beyond) / pivot;
+        let slope = (g + beyond_slope) / pivot;
+        beyond += (g + beyond_slope) * h * c * constant;
+        beyond_slope += (g + beyond_slope) * h * c * slope;
+        load.step[i] = constant;
+        load.residual[i] = slope;
     }
-    eliminate(&mut work.matrix, &mut work.trial);
-}
-
-/// Solves `matrix · x = rhs` in place; a singular matrix leaves a large step, which the damping then cuts.
-fn eliminate(matrix: &mut [f64], rhs: &mut [f64]) {
-    let n = rhs.len();
-    for k in 0..n {
-        let pivot = (k..n).max_by(|a, b| matrix[a * n + k].abs().total_cmp(&matrix[b * n + k].abs())).unwrap_or(k);
-        if pivot != k {
-            (0..n).for_each(|j| matrix.swap(k * n + j, pivot * n + j));
-            rhs.swap(k, pivot);
-        }
-        let diagonal = if matrix[k * n + k] == 0.0 { f64::MIN_POSITIVE } else { matrix[k * n + k] };
-        for i in k + 1..n {
-            let factor = matrix[i * n + k] / diagonal;
-            (k..n).for_each(|j| matrix[i * n + j] -= factor * matrix[k * n + j]);
-            rhs[i] -= factor * rhs[k];
-        }
+    let mut turn = 0.0_f64;
+    for (i, segment) in assembly.segments.iter().enumerate() {
+        let step = load.step[i] + load.residual[i] * turn;
+        turn += segment.length_m * work.states[i].compliance * step;
+        load.step[i] = step;
     }
-    for k in (0..n).rev() {
-        let known: f64 = (k + 1..n).map(|j| matrix[k * n + j] * rhs[j]).sum();
-        rhs[k] = (rhs[k] - known) / matrix[k * n + k];
-    }
+    turn.is_finite()
 }

@@ -9,36 +9,44 @@ pub(crate) enum NoRoot {
     Stalled { f: f64 },
 }
 
-/// A root and the slope of the last secant there.
+/// Where to start: a point, the function there if it is known, and a guess of its slope (negative).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Root {
+pub(crate) struct Start {
     pub x: f64,
+    pub f: Option<f64>,
     pub slope: f64,
 }
 
-/// A secant settles in 4–7 evaluations and pure bisection of a unit bracket in 60; 120 is never reached.
+/// The root is `x + step`: `x` is the last point evaluated, so that a caller can keep what it computed there and carry
+/// it over the tiny remaining step along its tangent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Root {
+    pub x: f64,
+    pub step: f64,
+    /// Slope of the last secant.
+    pub slope: f64,
+}
+
+/// A secant settles in 2–5 evaluations and pure bisection of a unit bracket in 60; 120 is never reached.
 const MAX_EVALUATIONS: usize = 120;
-/// Relative step at which the iteration ends: the point just evaluated is then a root to this accuracy.
-const TOLERANCE: f64 = 5e-14;
+/// A last step this short is taken without another evaluation …
+const LAST_STEP: f64 = 1e-8;
+/// … if its product with the relative change of the slope is this small: that product is the error the step leaves.
+const LAST_ERROR: f64 = 1e-14;
+/// Part of the bracket below which x counts as zero when steps are compared with it.
+const FLOOR: f64 = 1e-6;
 /// Evaluations after which the bracket must have halved, else it is halved.
 const PATIENCE: usize = 8;
 
-/// Root of a function that is positive at `low` and negative at `high`, from two start values (and the function's value
-/// at the first one, if known).
+/// Root of a function that is positive at `low` and negative at `high`.
 ///
-/// The last point at which `f` is evaluated is the one returned, so that a caller can keep what it computed there. The
-/// ends are evaluated only if the iteration runs against one of them, because the balance is steepest there.
-pub(crate) fn find_root<F: FnMut(f64) -> f64>(
-    f: &mut F,
-    bracket: (f64, f64),
-    start: (f64, Option<f64>, f64),
-) -> Result<Root, NoRoot> {
+/// The ends are evaluated only if the iteration runs against one of them, because the balance is steepest there.
+pub(crate) fn find_root<F: FnMut(f64) -> f64>(f: &mut F, bracket: (f64, f64), start: Start) -> Result<Root, NoRoot> {
     let (mut low, mut high) = bracket;
-    let inset = 1e-3 * (high - low);
-    let mut x0 = start.0.clamp(low + inset, high - inset);
-    let mut x1 = start.2.clamp(low + 0.5 * inset, high - 0.5 * inset);
-    let mut f0 = match start.1 {
-        Some(known) if x0 == start.0 => known,
+    let (inset, floor) = (1e-3 * (high - low), FLOOR * (high - low));
+    let mut x0 = start.x.clamp(low + inset, high - inset);
+    let mut f0 = match start.f {
+        Some(known) if x0 == start.x => known,
         _ => f(x0),
     };
     let mut seen = (f0 > 0.0, f0 <= 0.0);
@@ -47,6 +55,10 @@ pub(crate) fn find_root<F: FnMut(f64) -> f64>(
     } else {
         high = x0
     }
+    let mut slope = start.slope;
+    let newton = x0 - f0 / slope;
+    let mut x1 =
+        if slope < 0.0 && slope.is_finite() && newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
     let (mut f1, mut last_width) = (f(x1), high - low);
     for evaluation in 1..MAX_EVALUATIONS {
         if f1 > 0.0 {
@@ -56,10 +68,13 @@ pub(crate) fn find_root<F: FnMut(f64) -> f64>(
             high = high.min(x1);
             seen.1 = true;
         }
-        let slope = (f1 - f0) / (x1 - x0);
-        let step = -f1 / slope;
-        if f1 == 0.0 || (step.abs() <= TOLERANCE * x1.abs() && step.abs() <= (x1 - x0).abs()) {
-            return Ok(Root { x: x1, slope });
+        let last = slope;
+        if x1 != x0 {
+            slope = (f1 - f0) / (x1 - x0);
+        }
+        let step = if f1 == 0.0 { 0.0 } else { -f1 / slope };
+        if slope < 0.0 && settled(step, slope - last, slope, x1.abs() + floor) {
+            return Ok(Root { x: x1, step, slope });
         }
         if high - low <= 4.0 * f64::EPSILON * (low.abs() + high.abs()) + f64::MIN_POSITIVE {
             return end_of_bracket(f, (low, high), seen, slope);
@@ -75,6 +90,13 @@ pub(crate) fn find_root<F: FnMut(f64) -> f64>(
     Err(NoRoot::Stalled { f: f1 })
 }
 
+/// Whether x plus this step is the root: the step is short, and the error it leaves is rounding.
+#[inline]
+fn settled(step: f64, change: f64, slope: f64, scale: f64) -> bool {
+    let step = step.abs();
+    step <= LAST_STEP * scale && step * change.abs() <= LAST_ERROR * scale * slope.abs()
+}
+
 /// The bracket has closed: a root if both signs were seen, else one end has to show whether the sign changes there.
 fn end_of_bracket<F: FnMut(f64) -> f64>(
     f: &mut F,
@@ -86,7 +108,7 @@ fn end_of_bracket<F: FnMut(f64) -> f64>(
     if seen == (true, true) || (at_low >= 0.0 && at_high <= 0.0) {
         let x = 0.5 * (low + high);
         f(x);
-        return Ok(Root { x, slope });
+        return Ok(Root { x, step: 0.0, slope });
     }
     Err(NoRoot::SameSign { at_low, at_high })
 }
@@ -95,40 +117,53 @@ fn end_of_bracket<F: FnMut(f64) -> f64>(
 mod tests {
     use super::*;
 
+    fn root(mut f: impl FnMut(f64) -> f64, bracket: (f64, f64), x: f64, slope: f64) -> Result<f64, NoRoot> {
+        find_root(&mut f, bracket, Start { x, f: None, slope }).map(|root| root.x + root.step)
+    }
+
     #[test]
     fn a_smooth_function_settles_to_rounding() {
-        let x = find_root(&mut |x: f64| x.cos() - 0.3 * x, (0.0, 3.0), (1.5, None, 1.4)).unwrap().x;
+        let x = root(|x| x.cos() - 0.3 * x, (0.0, 3.0), 1.5, -1.0).unwrap();
         assert!((x.cos() - 0.3 * x).abs() < 1e-14, "{x}");
     }
 
     #[test]
-    fn a_step_is_found_by_halving() {
-        let x = find_root(&mut |x: f64| if x < 0.123 { 1.0 } else { -1e-3 }, (0.0, 1.0), (0.9, None, 0.8)).unwrap().x;
-        assert!((x - 0.123).abs() < 1e-10, "{x}");
+    fn a_jump_is_found_within_the_length_of_the_last_step() {
+        let x = root(|x| if x < 0.123 { 1.0 } else { -1e-3 }, (0.0, 1.0), 0.9, -1.0).unwrap();
+        assert!((x - 0.123).abs() < LAST_STEP, "{x}");
     }
 
     #[test]
     fn a_function_without_a_root_is_refused_with_its_end_values() {
-        let error = find_root(&mut |x: f64| 1.0 + x, (0.0, 1.0), (0.5, None, 0.4)).unwrap_err();
+        let error = root(|x| 1.0 + x, (0.0, 1.0), 0.5, -1.0).unwrap_err();
         assert!(matches!(error, NoRoot::SameSign { at_high, .. } if at_high > 1.9), "{error:?}");
     }
 
     #[test]
     fn a_function_that_is_nowhere_a_number_is_refused() {
-        assert!(find_root(&mut |_| f64::NAN, (0.0, 1.0), (0.5, None, 0.4)).is_err());
+        assert!(root(|_| f64::NAN, (0.0, 1.0), 0.5, -1.0).is_err());
     }
 
     #[test]
-    fn equal_start_values_do_no_harm() {
-        let x = find_root(&mut |x: f64| 0.25 - x, (0.0, 1.0), (0.9, None, 0.9)).unwrap().x;
-        assert!((x - 0.25).abs() < 1e-14);
+    fn a_slope_of_the_wrong_sign_or_no_number_does_no_harm() {
+        for slope in [1.0, 0.0, f64::NAN, f64::NEG_INFINITY] {
+            let x = root(|x| 0.25 - x.powi(3), (0.0, 1.0), 0.9, slope).unwrap();
+            assert!((x - 0.25_f64.cbrt()).abs() < 1e-14, "{slope}");
+        }
+    }
+
+    #[test]
+    fn a_start_at_the_root_with_a_known_value_evaluates_once_and_keeps_the_slope() {
+        let mut calls = 0;
+        let mut f = |x: f64| (calls += 1, 0.5 - x).1;
+        let root = find_root(&mut f, (0.0, 1.0), Start { x: 0.5, f: Some(0.0), slope: -2.0 }).unwrap();
+        assert_eq!((root.x, root.step, root.slope, calls), (0.5, 0.0, -2.0, 1));
     }
 
     #[test]
     fn a_smooth_root_costs_few_evaluations() {
         let mut calls = 0;
-        let mut f = |t: f64| (calls += 1, t.cos() - 0.0465 * t).1;
-        let root = find_root(&mut f, (0.0, 3.1), (1.501, None, 1.5));
-        assert!(root.is_ok() && calls <= 5, "{calls}");
+        let x = root(|t| (calls += 1, t.cos() - 0.0465 * t).1, (0.0, 3.1), 1.45, -1.0).unwrap();
+        assert!((x.cos() - 0.0465 * x).abs() < 1e-15 && calls <= 5, "{calls}");
     }
 }

@@ -12,7 +12,7 @@
 
 use crate::actuators::{Actuator, ActuatorShape, Stroke};
 use crate::body::{Bending, BodyPressure};
-use crate::root::{NoRoot, find_root};
+use crate::root::{NoRoot, Root, Start, find_root};
 use crate::term::{Pose, Term, actuator_q};
 
 /// How the actuator's contraction becomes curvature of the body.
@@ -75,14 +75,23 @@ pub struct SiteState {
     pub tension: f64,
     /// dκ/dM_load \[1/(N·m·m)\]: how this place gives way to a transverse load.
     pub compliance: f64,
-    /// Slope of the weighted imbalance by the coordinate, for the next start.
+    /// Loads it balances, and slope and weight of the imbalance there: what the next start needs.
+    loads: SiteLoads,
     slope: f64,
+    weight: f64,
 }
 
 impl SiteState {
-    /// Straight and slack.
-    pub(crate) const REST: SiteState =
-        SiteState { coordinate: 0.0, curvature: 0.0, tension: 0.0, compliance: 0.0, slope: 0.0 };
+    /// Straight, slack and unloaded.
+    pub(crate) const REST: SiteState = SiteState {
+        coordinate: 0.0,
+        curvature: 0.0,
+        tension: 0.0,
+        compliance: 0.0,
+        loads: SiteLoads { p_body_pa: 0.0, p_act_pa: 0.0, moment: 0.0 },
+        slope: 0.0,
+        weight: 0.0,
+    };
 }
 
 /// Pressures and external moment at one place.
@@ -95,14 +104,39 @@ pub(crate) struct SiteLoads {
 }
 
 /// Everything that follows from a coordinate.
+#[derive(Clone, Copy)]
 struct Balance {
+    coordinate: f64,
     curvature: f64,
     tension: f64,
     /// N D + M_load − ∂U/∂κ \[N·m\], times the stroke's weight: zero at equilibrium, nearly linear in `a`.
     imbalance: f64,
-    /// dκ/da of inextensible fabric; exact where the fabric does not stretch, good enough for a Newton slope elsewhere.
+    /// dκ/da of inextensible fabric.
     d_curvature: f64,
     weight: f64,
+}
+
+impl SiteState {
+    /// Start of the next solve from here: only the moment changed, or the pressures a little too.
+    fn start(&self, loads: &SiteLoads) -> Start {
+        let same = self.loads.p_act_pa == loads.p_act_pa && self.loads.p_body_pa == loads.p_body_pa;
+        // The imbalance is linear in the moment, so its value here needs no evaluation.
+        let f = same.then_some(self.weight * (loads.moment - self.loads.moment));
+        Start { x: self.coordinate, f, slope: self.slope }
+    }
+}
+
+impl Balance {
+    /// What is known at a state of equilibrium.
+    fn at_state(state: &SiteState) -> Balance {
+        let SiteState { coordinate, curvature, tension, weight, .. } = *state;
+        Balance { coordinate, curvature, tension, imbalance: 0.0, d_curvature: 0.0, weight }
+    }
+}
+
+/// Pressures close enough for one solution to start the other.
+fn close(p: f64, q: f64) -> bool {
+    (p - q).abs() < 0.2 * q
 }
 
 impl Site {
@@ -143,26 +177,48 @@ impl Site {
         loads: &SiteLoads,
         near: Option<&SiteState>,
     ) -> Result<SiteState, NoRoot> {
-        let mut at = Balance { curvature: 0.0, tension: 0.0, imbalance: 0.0, d_curvature: 0.0, weight: 1.0 };
+        let near = near.filter(|state| state.slope < 0.0 && close(state.loads.p_act_pa, loads.p_act_pa));
+        let mut before = Balance::at_state(near.unwrap_or(&SiteState::REST));
+        let mut at = before;
         let mut imbalance = |a: f64| {
+            before = at;
             at = self.balance(actuator, a, loads);
             at.imbalance
         };
         let start = match near {
-            Some(state) if state.slope < 0.0 => {
-                let known = imbalance(state.coordinate);
-                (state.coordinate, Some(known), state.coordinate - known / state.slope)
-            }
-            // A short first step makes the first secant a good Newton step.
-            _ => {
-                let guess = (actuator.guess)(self.demand(actuator, loads));
-                (guess, None, guess * (1.0 - FIRST_STEP) - 1e-9)
-            }
+            Some(state) => state.start(loads),
+            None => self.start(actuator, loads),
         };
         let root = find_root(&mut imbalance, actuator.range, start)?;
-        let compliance = -at.weight * at.d_curvature / root.slope;
-        let (curvature, tension) = (at.curvature, at.tension);
-        Ok(SiteState { coordinate: root.x, curvature, tension, compliance, slope: root.slope })
+        Ok(self.settle(loads, &root, &at, &before))
+    }
+
+    /// Start from the actuator's own estimate.
+    fn start(&self, actuator: &Actuator, loads: &SiteLoads) -> Start {
+        let available = loads.p_act_pa * (actuator.area)(&self.shape) * self.linkage.arm_m;
+        let reference = TYPICAL_STROKE * self.linkage.active_fraction / self.linkage.arm_m;
+        let needed = (self.body_moment(reference, loads) - loads.moment).max(0.0);
+        let (x, slope) = (actuator.guess)(needed / available);
+        Start { x, f: None, slope: slope * available }
+    }
+
+    /// State at the root: the last balance carried over the remaining step.
+    fn settle(&self, loads: &SiteLoads, root: &Root, at: &Balance, before: &Balance) -> SiteState {
+        let run = at.coordinate - before.coordinate;
+        let known = run != 0.0 && before.weight != 0.0;
+        // Stretching fabric has no explicit dκ/da: the last secant stands in.
+        let extensible = known && self.linkage.compliance_per_n != 0.0;
+        let d_curvature = if extensible { (at.curvature - before.curvature) / run } else { at.d_curvature };
+        let d_tension = if known { (at.tension - before.tension) / run } else { 0.0 };
+        SiteState {
+            coordinate: root.x + root.step,
+            curvature: at.curvature + d_curvature * root.step,
+            tension: at.tension + d_tension * root.step,
+            compliance: -at.weight * d_curvature / root.slope,
+            loads: *loads,
+            slope: root.slope,
+            weight: at.weight,
+        }
     }
 
     /// Without actuator pressure the pouch is slack: only the wall resists.
@@ -170,37 +226,32 @@ impl Site {
         let mut imbalance = |k: f64| loads.moment - self.body_moment(k, loads);
         let stiffness = |k: f64| -> f64 {
             let rise = self.body_moment(k + PASSIVE_STEP, loads) - self.body_moment(k - PASSIVE_STEP, loads);
-            rise / (2.0 * PASSIVE_STEP)
+            (rise / (2.0 * PASSIVE_STEP)).max(LEAST_STIFFNESS)
         };
-        let root = if imbalance(0.0) == 0.0 {
+        let at_rest = imbalance(0.0);
+        let curvature = if at_rest == 0.0 {
             0.0
         } else {
-            let guess = imbalance(0.0) / stiffness(0.0);
-            find_root(&mut imbalance, (-PASSIVE_RANGE, PASSIVE_RANGE), (guess, None, 0.99 * guess))?.x
+            let slope = -stiffness(0.0);
+            let start = Start { x: 0.0, f: Some(at_rest), slope };
+            let root = find_root(&mut imbalance, (-PASSIVE_RANGE, PASSIVE_RANGE), start)?;
+            root.x + root.step
         };
-        Ok(SiteState { curvature: root, compliance: 1.0 / stiffness(root), ..SiteState::REST })
-    }
-
-    /// Ratio m of restoring to available moment, for the start value.
-    fn demand(&self, actuator: &Actuator, loads: &SiteLoads) -> f64 {
-        let available = loads.p_act_pa * (actuator.area)(&self.shape) * self.linkage.arm_m;
-        let reference = TYPICAL_STROKE * self.linkage.active_fraction / self.linkage.arm_m;
-        let needed = (self.body_moment(reference, loads) - loads.moment).max(0.0);
-        needed / available
+        Ok(SiteState { curvature, compliance: 1.0 / stiffness(curvature), loads: *loads, ..SiteState::REST })
     }
 
     fn balance(&self, actuator: &Actuator, a: f64, loads: &SiteLoads) -> Balance {
         let stroke = (actuator.stroke)(&self.shape, a);
         let link = &self.linkage;
         let arm = link.arm_m + link.arm_growth * stroke.lift;
-        let d_arm = link.arm_growth * stroke.d_lift;
-        let geometric = link.active_fraction * stroke.contraction / arm;
-        let d_geometric = (link.active_fraction * stroke.d_contraction - geometric * d_arm) / arm;
+        let (d_arm, per_arm) = (link.arm_growth * stroke.d_lift, 1.0 / arm);
+        let geometric = link.active_fraction * stroke.contraction * per_arm;
+        let d_geometric = (link.active_fraction * stroke.d_contraction - geometric * d_arm) * per_arm;
         let slope = link.active_fraction * self.actuator_slope(a, &stroke, geometric, d_geometric, loads);
-        let tension = line_tension(-slope, d_geometric * arm, link.compliance_per_n * d_arm / arm);
-        let curvature = geometric - link.compliance_per_n * tension / arm;
+        let tension = line_tension(-slope, d_geometric * arm, link.compliance_per_n * d_arm * per_arm);
+        let curvature = geometric - link.compliance_per_n * tension * per_arm;
         let imbalance = (tension * arm + loads.moment - self.body_moment(curvature, loads)) * stroke.weight;
-        Balance { curvature, tension, imbalance, d_curvature: d_geometric, weight: stroke.weight }
+        Balance { coordinate: a, curvature, tension, imbalance, d_curvature: d_geometric, weight: stroke.weight }
     }
 
     /// dU/da of all actuator-side terms at η = 1, by the chain rule.
@@ -242,8 +293,8 @@ impl Site {
 const PASSIVE_RANGE: f64 = 100.0;
 /// Half step of the passive stiffness \[1/m\], well inside the hinge's step.
 const PASSIVE_STEP: f64 = 1e-5;
-/// Relative first step of the secant.
-const FIRST_STEP: f64 = 1e-3;
+/// Stiffness below which a passive stretch counts as free \[N·m²\]; keeps the compliance finite.
+const LEAST_STIFFNESS: f64 = 1e-12;
 /// Contraction at which the wall's moment is sampled for the start value: near the free stroke of every actuator here.
 const TYPICAL_STROKE: f64 = 0.25;
 

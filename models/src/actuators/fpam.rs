@@ -58,7 +58,8 @@ fn stroke(shape: &ActuatorShape, contraction: f64) -> Stroke {
     }
 }
 
-/// N/(P A) = 3(1 − ε)² − 2 solved for ε.
-fn guess(demand: f64) -> f64 {
-    1.0 - ((2.0 + demand.min(1.0)) / 3.0).sqrt()
+/// N/(P A) = 3(1 − ε)² − 2 = m solved for ε; slope −6(1 − ε).
+fn guess(demand: f64) -> (f64, f64) {
+    let length = ((2.0 + demand.min(1.0)) / 3.0).sqrt();
+    (1.0 - length, -6.0 * length)
 }

@@ -42,8 +42,9 @@ pub struct Actuator {
     pub stroke: fn(&ActuatorShape, f64) -> Stroke,
     /// Coordinate interval in which equilibrium is sought.
     pub range: (f64, f64),
-    /// Start value from the demand m = (restoring moment)/(P·area·arm) \[-\].
-    pub guess: fn(f64) -> f64,
+    /// Start value from the demand m = (restoring moment)/(P·area·arm) \[-\], and the slope there of the weighted
+    /// imbalance over P·area·arm.
+    pub guess: fn(f64) -> (f64, f64),
     /// Area A so that P·A is a typical actuator force \[m²\].
     pub area: fn(&ActuatorShape) -> f64,
     /// Arm from the taut generator to the line of action at rest \[m\], from body radius and shape; used if the

@@ -66,11 +66,16 @@ fn stroke_series(shape: &ActuatorShape, theta: f64) -> Stroke {
     }
 }
 
-/// Start value: cosθ = mθ, one Newton step from its straight-line solution.
-pub(super) fn guess(demand: f64) -> f64 {
-    let start = FRAC_PI_2 / (1.0 + demand);
-    let (sin, cos) = sin_cos(start);
-    start + (cos - demand * start) / (sin + demand)
+/// Start value: cosθ = mθ, two Newton steps from its straight-line solution; slope −sinθ − m.
+pub(super) fn guess(demand: f64) -> (f64, f64) {
+    let mut theta = FRAC_PI_2 / (1.0 + demand);
+    let mut slope = 0.0;
+    for _ in 0..2 {
+        let (sin, cos) = sin_cos(theta);
+        slope = -sin - demand;
+        theta -= (cos - demand * theta) / slope;
+    }
+    (theta, slope)
 }
 
 /// P·W·L₀ is the force at cosθ = θ.

@@ -1,0 +1,15 @@
+//! Laws that every actuator, effect and term obeys; one file per subject.
+
+#![allow(clippy::unwrap_used)]
+
+mod base;
+mod batch;
+mod closed_forms;
+mod forces;
+mod inverse;
+mod neutral;
+mod scaling;
+mod solver;
+mod stationary;
+mod support;
+mod zones;

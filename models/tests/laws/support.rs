@@ -1,0 +1,147 @@
+//! What the law tests share: robots, effect sets, a small random generator, differences, and the total potential.
+
+use models::actuators::ACTUATORS;
+use models::assembly::Assembly;
+use models::effects::{EFFECTS, Effect, Stage};
+use models::site::Site;
+use models::{Loads, Model, Pose, Prediction, Scenario, Unsolved, shipped};
+
+/// Names of the four actuators.
+pub fn actuators() -> impl Iterator<Item = &'static str> {
+    ACTUATORS.iter().map(|a| a.name)
+}
+
+/// The shipped robot of that actuator.
+pub fn robot(actuator: &str) -> Scenario {
+    Scenario::parse(shipped(actuator).unwrap()).unwrap()
+}
+
+/// Effects that exist for the actuator of `scenario`.
+pub fn applicable(scenario: &Scenario) -> impl Iterator<Item = &'static Effect> {
+    let family = scenario.actuator.kind.family;
+    EFFECTS.iter().filter(move |e| e.applies_to(family))
+}
+
+/// Values of all parameters by a rule, SI.
+pub fn values(effect: &Effect, pick: fn(&models::effects::Parameter) -> f64) -> Vec<f64> {
+    effect.parameters.iter().map(|p| pick(p) * p.si).collect()
+}
+
+/// Every applicable effect of the balance at typical values, and a bending stiffness.
+pub fn everything(actuator: &str) -> Scenario {
+    let bent = robot(actuator).with_bending(0.7);
+    let in_balance = |e: &&Effect| e.stage == Stage::Balance;
+    applicable(&bent).filter(in_balance).fold(bent.clone(), |s, e| s.with_effect(e.name, &e.typical()))
+}
+
+/// A prediction, or why there is none.
+pub fn predicted(model: &Model, loads: &Loads) -> Result<Prediction, Unsolved> {
+    let mut out = model.prediction();
+    model.predict(loads, &mut out)?;
+    Ok(out)
+}
+
+/// A prediction that has to work.
+pub fn predict(scenario: &Scenario, p_body_pa: f64, p_act_pa: f64) -> Prediction {
+    let model = Model::new(scenario);
+    predicted(&model, &Loads::uniform(p_body_pa, p_act_pa)).unwrap_or_else(|e| panic!("{}: {e}", scenario.name))
+}
+
+/// Numerical Recipes' linear congruential generator, upper bits.
+pub struct Random(pub u64);
+
+impl Random {
+    /// Uniform in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Uniform in [low, high).
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// Log-uniform in [low, high).
+    pub fn decades(&mut self, low: f64, high: f64) -> f64 {
+        (self.between(low.ln(), high.ln())).exp()
+    }
+}
+
+/// Slope of `f` at `x` by Richardson-extrapolated central differences (error h⁴).
+pub fn slope(mut f: impl FnMut(f64) -> f64, x: f64, h: f64) -> f64 {
+    let mut central = |h: f64| (f(x + h) - f(x - h)) / (2.0 * h);
+    let (coarse, fine) = (central(h), central(0.5 * h));
+    fine + (fine - coarse) / 3.0
+}
+
+/// The total potential of a robot over free coordinates: one (coordinate, curvature) pair per segment.
+pub struct Potential<'a> {
+    /// The parts.
+    pub assembly: &'a Assembly,
+    /// Pressures, the same in every channel; supply effects must be off.
+    pub loads: Loads,
+}
+
+impl Potential<'_> {
+    /// Whether the segment's actuator acts.
+    pub fn is_active(&self, segment: usize) -> bool {
+        let site = self.site(segment);
+        site.actuator.is_some() && self.loads.actuator_pa[site.channel] > 0.0
+    }
+
+    /// The place of a segment.
+    pub fn site(&self, segment: usize) -> &Site {
+        &self.assembly.sites[self.assembly.segments[segment].site]
+    }
+
+    /// Curvature of inextensible fabric at actuator coordinate `a`, and the arm there.
+    pub fn geometric(&self, segment: usize, a: f64) -> (f64, f64) {
+        let site = self.site(segment);
+        let stroke = (site.actuator.unwrap().stroke)(&site.shape, a);
+        let arm = site.linkage.arm_m + site.linkage.arm_growth * stroke.lift;
+        (site.linkage.active_fraction * stroke.contraction / arm, arm)
+    }
+
+    /// Π(a, κ) of one segment per length; with extensible fabric a and κ are independent, else κ must be that of `a`.
+    pub fn of_segment(&self, segment: usize, a: f64, kappa: f64) -> f64 {
+        let site = self.site(segment);
+        let p_act_pa = self.loads.actuator_pa[site.channel];
+        let pose = |q| Pose { q, p_body_pa: self.loads.body_pa, p_act_pa };
+        let at = [kappa];
+        let mut unused = [0.0; 4];
+        let mut sum = site.body_pressure.add(&pose(&at), &mut unused);
+        sum += models::Term::add(&site.bending, &pose(&at), &mut unused);
+        sum += site.body_terms.iter().map(|t| t.add(&pose(&at), &mut unused)).sum::<f64>();
+        if !self.is_active(segment) {
+            return sum;
+        }
+        let stroke = (site.actuator.unwrap().stroke)(&site.shape, a);
+        let (geometric, arm) = self.geometric(segment, a);
+        let q = [a, stroke.contraction, stroke.volume, geometric];
+        let stored: f64 = site.actuator_terms.iter().map(|t| t.add(&pose(&q), &mut unused)).sum();
+        sum += site.linkage.active_fraction * stored;
+        let compliance = site.linkage.compliance_per_n;
+        if compliance > 0.0 {
+            sum += 0.5 * ((geometric - kappa) * arm).powi(2) / compliance;
+        }
+        sum
+    }
+
+    /// Energy of the node terms at curvatures `kappas`, the centre line integrated independently of the library.
+    pub fn of_nodes(&self, kappas: &[f64]) -> f64 {
+        let mut nodes = vec![0.0, 0.0];
+        let (mut x, mut y, mut heading) = (0.0, 0.0, 0.0_f64);
+        for (segment, kappa) in self.assembly.segments.iter().zip(kappas) {
+            let line = (1.0 - kappa * self.assembly.sites[segment.site].radius_m) * segment.length_m;
+            let half = 0.5 * kappa * segment.length_m;
+            let chord = if half == 0.0 { line } else { line * half.sin() / half };
+            x += chord * (heading + half).cos();
+            y += chord * (heading + half).sin();
+            heading += 2.0 * half;
+            nodes.extend([x, y]);
+        }
+        let pose = Pose { q: &nodes, p_body_pa: self.loads.body_pa, p_act_pa: 0.0 };
+        self.assembly.node_terms.iter().map(|t| t.add(&pose, &mut vec![0.0; nodes.len()])).sum()
+    }
+}

@@ -1,0 +1,52 @@
+//! Predicting allocates nothing after set-up: counted by an instrumented allocator.
+
+#![allow(clippy::unwrap_used)]
+
+use models::effects::EFFECTS;
+use models::{Loads, Model, Scenario, Target, shipped};
+use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+use std::alloc::System;
+
+#[global_allocator]
+static COUNTING: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+/// Every applicable effect at its typical value.
+fn everything(scenario: &Scenario) -> Scenario {
+    let family = scenario.actuator.kind.family;
+    let effects = EFFECTS.iter().filter(|e| e.applies_to(family));
+    effects.fold(scenario.with_bending(0.7), |s, e| s.with_effect(e.name, &e.typical()))
+}
+
+/// Allocations of `work`.
+fn allocations(work: impl FnOnce()) -> usize {
+    let region = Region::new(COUNTING);
+    work();
+    let change = region.change();
+    change.allocations + change.reallocations
+}
+
+// Without the test harness, whose own thread allocates at any time and would be counted too.
+fn main() {
+    assert!(allocations(|| drop(std::hint::black_box(vec![1.0]))) > 0, "the counter counts");
+    for name in ["spam", "cpam", "epam", "fpam"] {
+        let shipped = Scenario::parse(shipped(name).unwrap()).unwrap();
+        for scenario in [shipped.bare(), shipped.clone(), everything(&shipped)] {
+            let model = Model::new(&scenario);
+            let mut out = model.prediction();
+            let sweep: Vec<Loads> = (0..50).map(|i| Loads::uniform(2e3, 1e3 * f64::from(i))).collect();
+            let mut batch = model.batch(sweep.len());
+            let found = allocations(|| {
+                for loads in &sweep {
+                    model.predict(loads, &mut out).unwrap();
+                }
+                let target = Target::TipHeight(out.tip.y_m);
+                model.pressure_for(target, 2e3, &mut out).unwrap();
+                model.pressure_for(Target::Angle(0.1), 2e3, &mut out).unwrap();
+                model.jacobian(&sweep[20], &mut out).unwrap();
+                model.predict_batch(&sweep, &mut batch).unwrap();
+            });
+            assert_eq!(found, 0, "allocations in predict, inverse, Jacobian or batch of {name}");
+        }
+    }
+    println!("predict, inverse, Jacobian and batch allocate nothing after set-up");
+}
