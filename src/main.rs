@@ -1,1 +1,88 @@
-fn main() {}
+//! The command `ibr`: parse, run, print, exit code. No logic here.
+
+mod cli;
+mod commands;
+mod failure;
+mod output;
+
+use clap::Parser;
+use cli::Cli;
+use commands::{Context, Outcome};
+use std::io::Write;
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Set while files are being renamed into place: an interrupt then waits, so that no result is left half written.
+static WRITING: AtomicBool = AtomicBool::new(false);
+/// Set when an interrupt came while [`WRITING`].
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+/// Exit code after an interrupt, as shells have it: 128 + SIGINT.
+const INTERRUPT_CODE: i32 = 130;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let handler = || {
+        if WRITING.load(Ordering::SeqCst) {
+            INTERRUPTED.store(true, Ordering::SeqCst);
+        } else {
+            eprintln!("\ninterrupted; nothing was written");
+            std::process::exit(INTERRUPT_CODE);
+        }
+    };
+    if let Err(error) = ctrlc::set_handler(handler) {
+        eprintln!("warning: an interrupt cannot be caught here: {error}");
+    }
+    let bar = (!cli.quiet && !cli.json).then(progress_bar);
+    let mut tell = |text: &str, share: Option<f64>| {
+        if let Some(bar) = &bar {
+            bar.set_message(text.to_string());
+            bar.set_position((1000.0 * share.unwrap_or(0.0)) as u64);
+        }
+    };
+    let mut context = Context { json: cli.json, progress: &mut tell, writing: &WRITING };
+    let result = commands::run(&cli.command, &mut context);
+    if let Some(bar) = &bar {
+        bar.finish_and_clear();
+    }
+    match result {
+        Ok(outcome) => finish(&outcome, cli.json),
+        Err(error) => {
+            eprint!("{}", error.render());
+            ExitCode::from(error.code())
+        }
+    }
+}
+
+/// Prints an outcome; a closed pipe (`| head`) is the reader's choice, not an error.
+fn finish(outcome: &Outcome, json: bool) -> ExitCode {
+    let text = match (&outcome.json, json) {
+        (Some(value), true) => format!("{value:#}\n"),
+        _ => outcome.text.clone(),
+    };
+    let mut stdout = std::io::stdout().lock();
+    let written = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
+    for note in &outcome.notes {
+        eprintln!("{note}");
+    }
+    if INTERRUPTED.load(Ordering::SeqCst) {
+        return ExitCode::from(INTERRUPT_CODE as u8);
+    }
+    match written {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            eprintln!("cannot print: {error}");
+            ExitCode::from(failure::BAD_INPUT)
+        }
+        _ => ExitCode::from(outcome.code),
+    }
+}
+
+/// Appears on terminals only, after the first quarter of a second.
+fn progress_bar() -> indicatif::ProgressBar {
+    let bar = indicatif::ProgressBar::new(1000);
+    let style = indicatif::ProgressStyle::with_template("{spinner} {elapsed} {bar:24} {msg}");
+    if let Ok(style) = style {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(std::time::Duration::from_millis(250));
+    bar
+}

@@ -68,4 +68,78 @@ pub enum CompareError {
     /// A matrix decomposition did not converge.
     #[error("the noise covariance could not be decomposed: check the marker positions for extreme values")]
     Decomposition,
+    /// The model found no equilibrium.
+    #[error("{0}")]
+    Unsolved(#[from] models::Unsolved),
+    /// Scenario and data are of different robots.
+    #[error("the data `{dataset}` are of a {data}, the scenario is of a {scenario}: use the matching scenario")]
+    WrongActuator {
+        /// Name of the dataset.
+        dataset: String,
+        /// Actuator kind in the data.
+        data: String,
+        /// Actuator kind in the scenario.
+        scenario: String,
+    },
+    /// Marker stations are known nowhere.
+    #[error(
+        "the station of marker `{marker}` is not known: add an s_mm column to the data, [markers] names and s_mm to \
+         about.toml, or {needed} stations to [markers] s_mm of the scenario (it has {found})"
+    )]
+    NoStation {
+        /// First marker without station.
+        marker: String,
+        /// Markers in the data.
+        needed: usize,
+        /// Stations in the scenario.
+        found: usize,
+    },
+    /// A marker sits beyond the robot's end.
+    #[error("marker `{marker}` at s = {s_mm} mm is beyond the robot's end at {length_mm} mm: check units and scenario")]
+    OffTheBody {
+        /// Marker label.
+        marker: String,
+        /// Its station \[mm\].
+        s_mm: f64,
+        /// Body length \[mm\].
+        length_mm: f64,
+    },
+    /// Runs with different known tip forces cannot share one mean.
+    #[error(
+        "the runs have different known tip forces ({first} and {second}): put each force into a dataset of its own, \
+         because runs are averaged"
+    )]
+    MixedTipForces {
+        /// A run and its force.
+        first: String,
+        /// Another.
+        second: String,
+    },
+    /// A protocol text that cannot be read.
+    #[error("protocol `{text}`: {problem}; write pressures in kPa, for example \"0,10,20,30,0@2; 0,20,40,60,0@4\"")]
+    BadProtocol {
+        /// The text.
+        text: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A published number that the demo needs is missing from the embedded set.
+    #[error("{0}")]
+    Data(#[from] data::DataError),
+    /// A fit broke off.
+    #[error("the fit of {what} broke off: {problem}")]
+    Fit {
+        /// What was fitted.
+        what: &'static str,
+        /// Why.
+        problem: String,
+    },
+    /// A picture or page could not be made.
+    #[error("could not draw {what}: {problem}")]
+    Drawing {
+        /// Which picture.
+        what: String,
+        /// Why.
+        problem: String,
+    },
 }

@@ -18,6 +18,7 @@ pub mod report;
 pub mod residuals;
 pub mod scaling;
 pub mod stats;
+pub mod study;
 pub mod where_it_fails;
 pub mod whiten;
 mod wording;

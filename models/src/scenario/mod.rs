@@ -19,6 +19,7 @@
 //! ```
 
 mod check;
+pub mod quantity;
 mod raw;
 mod spans;
 

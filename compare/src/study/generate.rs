@@ -1,0 +1,162 @@
+//! Synthetic marker data: a scenario's prediction with the scatter of a real test.
+//!
+//! Per run: one relative pressure error, one shift of the camera, one roll of the camera. Per sample: camera noise. The
+//! recorded pressure is the set one, as a regulator reports it. Seeded: the same call gives the same bytes.
+
+use crate::error::CompareError;
+use data::{Dataset, Hold, Marker, Phase};
+use models::{Loads, Model, Scenario};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{RngCore, SeedableRng};
+
+/// What a synthetic test is like; `Default` is the protocol of du Pasquier et al. 2023 with plausible scatter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Generator {
+    /// Seed of the scatter.
+    pub seed: u64,
+    /// Runs.
+    pub runs: usize,
+    /// Samples per hold.
+    pub samples: usize,
+    /// Length of a hold \[s\].
+    pub hold_s: f64,
+    /// Holds: body pressure, actuator pressure \[Pa\].
+    pub protocol: Vec<[f64; 2]>,
+    /// Camera noise of one coordinate \[m\].
+    pub camera_sd_m: f64,
+    /// Run-to-run relative error of the actuator pressure \[-\].
+    pub pressure_sd: f64,
+    /// Run-to-run shift of the camera \[m\].
+    pub alignment_sd_m: f64,
+    /// Run-to-run roll of the camera \[rad\].
+    pub rotation_sd: f64,
+}
+
+impl Default for Generator {
+    fn default() -> Self {
+        Generator {
+            seed: 1,
+            runs: 5,
+            samples: 5,
+            hold_s: 5.0,
+            protocol: [0.0, 10e3, 20e3, 30e3, 0.0].map(|p| [2e3, p]).to_vec(),
+            camera_sd_m: 1e-3,
+            pressure_sd: 0.02,
+            alignment_sd_m: 0.5e-3,
+            rotation_sd: 0.5e-3,
+        }
+    }
+}
+
+/// Reads a protocol like `0,10,20,30,0@2; 0,20,40,60,0@4`: actuator pressures in kPa at a body pressure in kPa.
+///
+/// # Errors
+/// Texts that are not of that form, or pressures that are negative or above 500 kPa.
+pub fn parse_protocol(text: &str) -> Result<Vec<[f64; 2]>, CompareError> {
+    let bad = |problem: &str| CompareError::BadProtocol { text: text.to_string(), problem: problem.to_string() };
+    let number = |word: &str| match word.trim().parse::<f64>() {
+        Ok(p) if (0.0..=500.0).contains(&p) => Ok(p * 1e3),
+        Ok(_) => Err(bad("pressures are from 0 to 500 kPa")),
+        Err(_) => Err(bad(&format!("`{}` is not a number", word.trim()))),
+    };
+    let mut holds = Vec::new();
+    for part in text.split(';').filter(|part| !part.trim().is_empty()) {
+        let (pressures, body) = part.split_once('@').ok_or_else(|| bad("a body pressure is missing (after `@`)"))?;
+        let body = number(body)?;
+        for p in pressures.split(',') {
+            holds.push([body, number(p)?]);
+        }
+    }
+    if holds.is_empty() { Err(bad("it has no hold")) } else { Ok(holds) }
+}
+
+/// Makes a dataset from a scenario.
+///
+/// # Errors
+/// No marker stations in the scenario, or a hold without equilibrium.
+pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Result<Dataset, CompareError> {
+    if scenario.markers_m.is_empty() {
+        return Err(CompareError::NoStation { marker: "1".into(), needed: 1, found: 0 });
+    }
+    let model = Model::new(scenario);
+    let mut state = model.prediction();
+    let mut scatter = Scatter { rng: ChaCha8Rng::seed_from_u64(generator.seed), spare: None };
+    let mut xy_m = Vec::new();
+    for _ in 0..generator.runs {
+        let gain = 1.0 + generator.pressure_sd * scatter.normal();
+        let shift = [scatter.normal(), scatter.normal()].map(|n| n * generator.alignment_sd_m);
+        let roll = generator.rotation_sd * scatter.normal();
+        for [p_body, p_act] in &generator.protocol {
+            model.predict(&Loads::uniform(*p_body, p_act * gain), &mut state)?;
+            for _ in 0..generator.samples {
+                for [x, y] in &state.markers {
+                    let noise = [scatter.normal(), scatter.normal()].map(|n| n * generator.camera_sd_m);
+                    xy_m.push(x - roll * y + shift[0] + noise[0]);
+                    xy_m.push(y + roll * x + shift[1] + noise[1]);
+                }
+            }
+        }
+    }
+    Ok(Dataset {
+        name: name.to_string(),
+        actuator: scenario.actuator.kind.name.to_string(),
+        runs: (1..=generator.runs).map(|r| r.to_string()).collect(),
+        holds: holds(generator),
+        markers: markers(scenario),
+        samples_per_hold: generator.samples,
+        xy_m,
+    })
+}
+
+fn markers(scenario: &Scenario) -> Vec<Marker> {
+    let marker = |(i, s): (usize, &f64)| Marker { name: (i + 1).to_string(), station_m: Some(*s) };
+    scenario.markers_m.iter().enumerate().map(marker).collect()
+}
+
+fn holds(generator: &Generator) -> Vec<Hold> {
+    let mut holds: Vec<Hold> = Vec::new();
+    for (i, [p_body_pa, p_act_pa]) in generator.protocol.iter().enumerate() {
+        let before = if i == 0 { 0.0 } else { generator.protocol[i - 1][1] };
+        let phase = if i == 0 || *p_act_pa > before {
+            Phase::Load
+        } else if *p_act_pa < before {
+            Phase::Unload
+        } else {
+            Phase::Hold
+        };
+        let alike = |h: &&Hold| h.p_body_pa == *p_body_pa && h.p_act_pa == *p_act_pa && h.phase == phase;
+        let occurrence = holds.iter().filter(alike).count();
+        let step = generator.hold_s / generator.samples as f64;
+        let t_s = (0..generator.samples).map(|k| i as f64 * generator.hold_s + (k + 1) as f64 * step).collect();
+        holds.push(Hold { p_body_pa: *p_body_pa, p_act_pa: *p_act_pa, phase, occurrence, t_s });
+    }
+    holds
+}
+
+/// Standard normal numbers by the polar method, from a generator whose stream is fixed by its definition.
+struct Scatter {
+    rng: ChaCha8Rng,
+    spare: Option<f64>,
+}
+
+impl Scatter {
+    fn uniform(&mut self) -> f64 {
+        // 53 random bits: every double in [0, 1) of that spacing.
+        (self.rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn normal(&mut self) -> f64 {
+        if let Some(value) = self.spare.take() {
+            return value;
+        }
+        loop {
+            let (u, v) = (2.0 * self.uniform() - 1.0, 2.0 * self.uniform() - 1.0);
+            let s = u * u + v * v;
+            if s > 0.0 && s < 1.0 {
+                let factor = (-2.0 * s.ln() / s).sqrt();
+                self.spare = Some(v * factor);
+                return u * factor;
+            }
+        }
+    }
+}

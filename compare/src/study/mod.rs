@@ -1,0 +1,15 @@
+//! Where model and measurement meet: predictions at the points of a dataset, calibration, generated data, the published
+//! numbers, run time against accuracy, and the pages made of them.
+
+pub mod calibrate;
+pub mod generate;
+pub mod pages;
+pub mod predict;
+pub mod published;
+pub mod tradeoff;
+
+pub use calibrate::{Calibration, calibrate_bending};
+pub use generate::{Generator, generate, parse_protocol};
+pub use predict::{Predicted, fit_scenario, predict_dataset};
+pub use published::{Rung, published_ladders};
+pub use tradeoff::{Timing, time_prediction};

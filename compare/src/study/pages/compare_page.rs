@@ -1,0 +1,250 @@
+//! One scenario held against one dataset: numbers, files and the page.
+
+use super::{Files, Imprint, drawing, figures, tables};
+use crate::error::CompareError;
+use crate::evaluate::{EvaluateOptions, Evaluation, evaluate};
+use crate::plots::Known;
+use crate::report::{Block, Callout, Provenance, Report, Section};
+use crate::study::calibrate::calibrate_bending;
+use crate::study::predict::{fit_scenario, predict_dataset};
+use data::{About, Dataset};
+use models::{Loads, Scenario};
+
+/// One model on the data of a [`Study`].
+#[derive(Debug, Clone)]
+pub struct Variant {
+    /// In words.
+    pub label: String,
+    /// How its values are known.
+    pub known: Known,
+    /// Where they come from.
+    pub why: String,
+    /// The model, fitted to stations and loads of the data.
+    pub scenario: Scenario,
+    /// Accuracy, residual map, where it fails.
+    pub evaluation: Evaluation,
+}
+
+/// A comparison: the data, and one or more models on them.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// The data.
+    pub dataset: Dataset,
+    /// Their description.
+    pub about: Option<About>,
+    /// Models, the one given first.
+    pub variants: Vec<Variant>,
+    /// What does not match between scenario and data.
+    pub warnings: Vec<String>,
+}
+
+/// A model to hold against data.
+pub struct Candidate<'a> {
+    /// In words.
+    pub label: &'a str,
+    /// How its values are known.
+    pub known: Known,
+    /// Where they come from.
+    pub why: &'a str,
+    /// The model.
+    pub scenario: &'a Scenario,
+}
+
+/// Holds candidates against a dataset; with `calibrate`, also the last one with B fitted to these data.
+///
+/// # Errors
+/// What does not match, does not balance or cannot be evaluated.
+pub fn study(
+    candidates: &[Candidate],
+    dataset: Dataset,
+    about: Option<About>,
+    options: &EvaluateOptions,
+    calibrate: bool,
+) -> Result<Study, CompareError> {
+    let mut study = Study { dataset, about, variants: Vec::new(), warnings: Vec::new() };
+    for c in candidates {
+        let (scenario, warnings) = fit_scenario(c.scenario, &study.dataset, study.about.as_ref())?;
+        study.warnings.extend(warnings.into_iter().filter(|_| study.variants.is_empty()));
+        let evaluation = held(&scenario, &study.dataset, options)?;
+        let (label, why) = (c.label.to_string(), c.why.to_string());
+        study.variants.push(Variant { label, known: c.known, why, scenario, evaluation });
+    }
+    if let Some(last) = study.variants.last().filter(|_| calibrate) {
+        let variant = calibrated(&last.scenario, &study.dataset, options)?;
+        study.variants.push(variant);
+    }
+    Ok(study)
+}
+
+fn held(scenario: &Scenario, dataset: &Dataset, options: &EvaluateOptions) -> Result<Evaluation, CompareError> {
+    let predicted = predict_dataset(scenario, dataset)?;
+    evaluate(dataset, &predicted.xy_m, &predicted.d_ln_pressure_m, options)
+}
+
+fn calibrated(scenario: &Scenario, dataset: &Dataset, options: &EvaluateOptions) -> Result<Variant, CompareError> {
+    let fit = calibrate_bending(scenario, dataset, options)?;
+    let scenario = scenario.with_bending(fit.bending_nm2);
+    let options = EvaluateOptions { fitted_parameters: options.fitted_parameters + 1, ..options.clone() };
+    let evaluation = held(&scenario, dataset, &options)?;
+    let interval = fit.interval_nm2.map_or(String::new(), |i| format!(", 95 % interval {:.3}–{:.3}", i[0], i[1]));
+    let bound = if fit.at_bound { "; at its bound: a stiffness does not explain these data" } else { "" };
+    Ok(Variant {
+        label: format!("+ bending B = {:.3} N m²", fit.bending_nm2),
+        known: Known::Calibrated,
+        why: format!("B fitted to these data{interval}{bound}"),
+        scenario,
+        evaluation,
+    })
+}
+
+/// The page of a comparison and the files beside it.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn compare_page(study: &Study, imprint: &Imprint) -> Result<Files, CompareError> {
+    let mut files = Files::default();
+    let first = &study.variants[0];
+    let shapes = figures::shapes("Predicted and measured shape", &first.scenario, &study.dataset)?;
+    let map = figures::residual_map("Where the model misses", &first.evaluation, &study.dataset)?;
+    let curve = figures::pressure_curve("Pressure and height", study)?;
+    let top = study.dataset.holds.iter().max_by(|a, b| a.p_act_pa.total_cmp(&b.p_act_pa));
+    let loads = top.map_or(Loads::uniform(2e3, 30e3), |h| Loads::uniform(h.p_body_pa, h.p_act_pa));
+    let cases: Vec<_> = study.variants.iter().map(|v| (v.label.clone(), v.scenario.clone())).collect();
+    let ledger = figures::ledgers("Energy ledger at the highest pressure", &cases, &loads)?;
+    for (name, drawn) in [("shapes", &shapes), ("residual_map", &map), ("pressure", &curve), ("ledger", &ledger)] {
+        files.plot(name, drawn);
+    }
+    files.text("holds.csv", tables::holds_csv(&study.variants));
+    let figure = |caption: &str, alt: &str, svg: &str| Block::Figure {
+        caption: caption.into(),
+        alt: alt.into(),
+        svg: svg.into(),
+    };
+    let mut sections = vec![
+        section(
+            "where",
+            "Where it fails",
+            failure_blocks(
+                first,
+                figure(
+                    "Signed residual of every marker in every hold. Blue: the robot bends more than the model; orange: less.",
+                    "heat map of residuals, markers by holds",
+                    &map.svg,
+                ),
+            ),
+        ),
+        section(
+            "shape",
+            "Shape",
+            vec![
+                figure(
+                    "Lines and open marks: model. Filled marks: mean over runs, bars one standard deviation.",
+                    "centre lines of the robot with markers",
+                    &shapes.svg,
+                ),
+                figure("Loading and unloading are drawn apart.", "marker height over pressure", &curve.svg),
+            ],
+        ),
+        section("accuracy", "Accuracy", accuracy_blocks(study)),
+        section("noise", "Noise", noise_blocks(first)),
+        section(
+            "scaling",
+            "Does the shape depend on P/p only?",
+            vec![Block::Paragraph(first.evaluation.scaling.sentence.clone())],
+        ),
+        section(
+            "ledger",
+            "Where the actuator's work goes",
+            vec![figure(
+                "Potential energies at the highest pressure of the data. The actuator's bar is −PΔV: what its gas gave; with pressure held constant the other bars need not add up to it.",
+                "stacked energies",
+                &ledger.svg,
+            )],
+        ),
+    ];
+    if study.variants.len() > 1 {
+        let ladder = figures::error_ladder("Error beyond noise", &study.variants)?;
+        files.plot("ladder", &ladder);
+        let block = figure("Each bar is one more effect or one calibration.", "bars of error per model", &ladder.svg);
+        sections
+            .insert(1, section("ladder", "What each addition brings", vec![tables::variants(&study.variants), block]));
+    }
+    let report = Report {
+        title: format!("{} held against {}", first.scenario.name, study.dataset.name),
+        lead: lead(study),
+        generated_by: imprint.program.clone(),
+        generated_on: imprint.date.clone(),
+        sections,
+        provenance: provenance(study),
+    };
+    files.report(&report).map_err(|e| drawing("the report", e))?;
+    Ok(files)
+}
+
+fn section(id: &str, heading: &str, blocks: Vec<Block>) -> Section {
+    Section { id: id.into(), heading: heading.into(), blocks }
+}
+
+fn failure_blocks(variant: &Variant, map: Block) -> Vec<Block> {
+    let statements = variant.evaluation.where_it_fails.iter().map(|s| s.sentence.clone()).collect();
+    vec![Block::List(statements), map]
+}
+
+fn accuracy_blocks(study: &Study) -> Vec<Block> {
+    let mut blocks = vec![Block::Callout {
+        kind: Callout::Note,
+        text: "The paper's accuracy is a = 1 − mean(((y_model − y_measured)/y_model)²). It squares the relative error \
+               (94.3 % is an rms error of 23.9 %), divides by the model (over-prediction is almost free), ignores x, and \
+               cannot reach 100 % when there is noise: the noise ceiling is what a perfect model would score here."
+            .into(),
+    }];
+    blocks.extend(study.variants.iter().map(tables::accuracy));
+    blocks
+}
+
+fn noise_blocks(variant: &Variant) -> Vec<Block> {
+    let noise = &variant.evaluation.noise;
+    let mut blocks = vec![Block::Paragraph(noise.sentence.clone())];
+    if let Some(warning) = &noise.warning {
+        blocks.push(Block::Callout { kind: Callout::Warning, text: warning.clone() });
+    }
+    blocks
+}
+
+/// The answer in a paragraph.
+pub(super) fn lead(study: &Study) -> String {
+    let first = &study.variants[0];
+    let all = &first.evaluation.metrics.overall;
+    let size = match all.systematic_mm {
+        Some(mm) => format!("{mm:.2} mm beyond noise (noise of the mean {} mm)", tables::number(all.noise_floor_mm, 2)),
+        None => format!("{:.2} mm rms; the noise is unknown with one run", all.rmse_mm),
+    };
+    let worst = format!("largest tip error {:+.1} mm of {:.1} mm", all.largest_tip_error_mm, all.d_max_mm);
+    let mut text = format!("**{}** misses the data by {size}; {worst}.", first.label);
+    if let (Some(last), true) = (study.variants.last(), study.variants.len() > 1) {
+        let after = last.evaluation.metrics.overall.systematic_mm.unwrap_or(last.evaluation.metrics.overall.rmse_mm);
+        text.push_str(&format!(" With **{}** ({}) {after:.2} mm remain.", last.label, last.known.word()));
+    }
+    if let Some(statement) = first.evaluation.where_it_fails.first() {
+        text.push(' ');
+        text.push_str(&statement.sentence);
+    }
+    text
+}
+
+fn provenance(study: &Study) -> Vec<Provenance> {
+    let line = |name: &str, value: String| Provenance { name: name.into(), value };
+    let mut lines = vec![
+        line("scenario", study.variants[0].scenario.name.clone()),
+        line("data", study.dataset.name.clone()),
+        line("runs", study.dataset.runs.len().to_string()),
+        line("pairing", study.variants[0].evaluation.metrics.pairing.to_string()),
+    ];
+    if let Some(about) = &study.about {
+        lines.push(line("data are", format!("{}: {}", about.provenance.word(), about.title)));
+        lines.push(line("source", about.source.clone()));
+        lines.push(line("licence", about.licence.clone()));
+    }
+    lines.extend(study.warnings.iter().map(|w| line("mismatch", w.clone())));
+    lines
+}

@@ -1,0 +1,54 @@
+//! Pages and files made of results: one report and the plots and tables beside it.
+
+mod compare_page;
+mod demo_page;
+mod figures;
+mod tables;
+
+pub use compare_page::{Candidate, Study, Variant, compare_page, study};
+pub use demo_page::{Demo, demo, demo_page};
+pub use figures::tradeoff as tradeoff_plot;
+
+use crate::error::CompareError;
+use crate::plots::Drawn;
+use crate::report::{Report, render};
+
+/// Files of one result, in memory until all are done; the report is last.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Files {
+    /// File name and contents.
+    pub files: Vec<(String, Vec<u8>)>,
+}
+
+impl Files {
+    /// Adds a plot as `<name>.svg` and `<name>.png`.
+    fn plot(&mut self, name: &str, drawn: &Drawn) {
+        self.files.push((format!("{name}.svg"), drawn.svg.clone().into_bytes()));
+        self.files.push((format!("{name}.png"), drawn.png.clone()));
+    }
+
+    fn text(&mut self, name: &str, text: String) {
+        self.files.push((name.to_string(), text.into_bytes()));
+    }
+
+    fn report(&mut self, report: &Report) -> Result<(), CompareError> {
+        let page = render(report).map_err(|e| drawing("the report", e))?;
+        self.text("report.html", page);
+        Ok(())
+    }
+}
+
+fn drawing(what: &str, problem: impl std::fmt::Display) -> CompareError {
+    CompareError::Drawing { what: what.to_string(), problem: problem.to_string() }
+}
+
+/// What every page says about its origin.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Imprint {
+    /// Program and version.
+    pub program: String,
+    /// Date.
+    pub date: String,
+    /// Machine in words, for timings.
+    pub machine: String,
+}

@@ -1,0 +1,180 @@
+//! Results → tables of a report, and CSV.
+
+use super::compare_page::Variant;
+use crate::metrics::HoldMetrics;
+use crate::report::{Align, Block, Column, Table};
+use crate::study::Timing;
+use crate::study::published::PublishedLadder;
+
+/// A number with `digits` decimals, or a dash where there is none.
+pub(super) fn number(value: Option<f64>, digits: usize) -> String {
+    value.map_or_else(|| "–".into(), |v| format!("{v:.digits$}"))
+}
+
+fn column(heading: &str, unit: &str) -> Column {
+    Column { heading: heading.into(), unit: unit.into(), align: Align::Right }
+}
+
+fn words(heading: &str) -> Column {
+    Column { heading: heading.into(), unit: String::new(), align: Align::Left }
+}
+
+pub(super) fn hold_name(hold: &HoldMetrics) -> String {
+    let again = if hold.occurrence > 0 { format!(" ({})", hold.occurrence + 1) } else { String::new() };
+    format!("{:.0} kPa {}{again}, body {:.0} kPa", hold.p_act_kpa, hold.phase, hold.p_body_kpa)
+}
+
+/// The paper's accuracy per hold, and its companions.
+pub(super) fn accuracy(variant: &Variant) -> Block {
+    let rows = variant.evaluation.metrics.holds.iter().map(|h| {
+        vec![
+            hold_name(h),
+            number(h.paper_accuracy.map(|a| 100.0 * a), 1),
+            number(h.noise_ceiling.map(|a| 100.0 * a), 1),
+            number(h.rms_relative_pct, 1),
+            number(Some(h.rmse_mm), 2),
+            number(h.noise_floor_mm, 2),
+            number(h.systematic_mm, 2),
+            format!("{:+.2}", h.tip_error_mm),
+            number(h.reduced_chi2, 1),
+        ]
+    });
+    Block::Table(Table {
+        caption: format!("{}: the paper's accuracy and, beside it, what it hides", variant.label),
+        columns: vec![
+            words("hold"),
+            column("paper accuracy", "%"),
+            column("noise ceiling", "%"),
+            column("rms relative", "%"),
+            column("RMSE", "mm"),
+            column("noise floor", "mm"),
+            column("beyond noise", "mm"),
+            column("tip error", "mm"),
+            column("χ²/dof", ""),
+        ],
+        rows: rows.collect(),
+        how_column: None,
+    })
+}
+
+/// All variants of a model on the same data.
+pub(super) fn variants(variants: &[Variant]) -> Block {
+    let rows = variants.iter().map(|v| {
+        let all = &v.evaluation.metrics.overall;
+        vec![
+            v.label.clone(),
+            v.known.word().to_string(),
+            number(all.paper_accuracy.map(|a| 100.0 * a), 1),
+            number(all.systematic_mm, 2),
+            number(Some(all.rmse_mm), 2),
+            format!("{:+.1}", all.largest_tip_error_mm),
+            number(all.reduced_chi2, 1),
+            v.why.clone(),
+        ]
+    });
+    Block::Table(Table {
+        caption: "Every model on these data".into(),
+        columns: vec![
+            words("model"),
+            words("how known"),
+            column("paper accuracy", "%"),
+            column("beyond noise", "mm"),
+            column("RMSE", "mm"),
+            column("largest tip error", "mm"),
+            column("χ²/dof", ""),
+            words("where its value comes from"),
+        ],
+        rows: rows.collect(),
+        how_column: Some(1),
+    })
+}
+
+/// Every rung against the published displacement.
+pub(super) fn published(ladders: &[PublishedLadder]) -> Block {
+    let mut rows = Vec::new();
+    for ladder in ladders {
+        let measured = ladder.published.d_max_m * 1e3;
+        for rung in &ladder.rungs {
+            let range = rung.range_m.map_or(String::new(), |r| format!(" ({:.1}–{:.1})", r[0] * 1e3, r[1] * 1e3));
+            rows.push(vec![
+                ladder.published.printed_name.clone(),
+                rung.label.clone(),
+                rung.known.word().into(),
+                format!("{:.1}{range}", rung.y_m * 1e3),
+                format!("{measured:.1}"),
+                format!("{:+.1}", rung.y_m * 1e3 - measured),
+                rung.why.clone(),
+            ]);
+        }
+    }
+    Block::Table(Table {
+        caption: "Displacement at 30 kPa actuator and 2 kPa body pressure".into(),
+        columns: vec![
+            words("actuator"),
+            words("model"),
+            words("how known"),
+            column("model", "mm"),
+            column("measured (published)", "mm"),
+            column("difference", "mm"),
+            words("where the value comes from"),
+        ],
+        rows,
+        how_column: Some(2),
+    })
+}
+
+/// Time and error of every model.
+pub(super) fn timings(timings: &[Timing]) -> Block {
+    let rows = timings.iter().map(|t| {
+        vec![
+            t.actuator.clone(),
+            t.model.clone(),
+            t.known.clone(),
+            format!("{:.2}", t.prediction_us),
+            format!("{:+.1}", t.error_mm),
+            format!("{:.1}", t.error_pct.abs()),
+        ]
+    });
+    Block::Table(Table {
+        caption: "One prediction: equilibrium and six markers, one core".into(),
+        columns: vec![
+            words("actuator"),
+            words("model"),
+            words("how known"),
+            column("time", "µs"),
+            column("error", "mm"),
+            column("error", "%"),
+        ],
+        rows: rows.collect(),
+        how_column: Some(2),
+    })
+}
+
+/// Metrics of every hold as CSV.
+pub(super) fn holds_csv(variants: &[Variant]) -> String {
+    let mut text = String::from(
+        "model,how_known,p_act_kpa,p_body_kpa,phase,paper_accuracy,noise_ceiling,rms_relative_pct,rmse_mm,\
+         noise_floor_mm,systematic_mm,tip_error_mm,reduced_chi2\n",
+    );
+    let cell = |v: Option<f64>| v.map_or(String::new(), |v| format!("{v}"));
+    for variant in variants {
+        for h in &variant.evaluation.metrics.holds {
+            let numbers = [
+                h.paper_accuracy,
+                h.noise_ceiling,
+                h.rms_relative_pct,
+                Some(h.rmse_mm),
+                h.noise_floor_mm,
+                h.systematic_mm,
+                Some(h.tip_error_mm),
+                h.reduced_chi2,
+            ];
+            let numbers: Vec<String> = numbers.into_iter().map(cell).collect();
+            let label = variant.label.replace('"', "'");
+            let known = variant.known.word();
+            let place = format!("{},{},{}", h.p_act_kpa, h.p_body_kpa, h.phase);
+            text.push_str(&format!("\"{label}\",{known},{place},{}\n", numbers.join(",")));
+        }
+    }
+    text
+}

@@ -1,0 +1,128 @@
+//! A model's prediction at the holds and markers of a dataset.
+
+use crate::error::CompareError;
+use data::{About, Dataset};
+use models::{Loads, Model, Scenario};
+
+/// Prediction in the layout of [`Dataset::run`], `[hold][sample][marker][x, y]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Predicted {
+    /// Positions f \[m\].
+    pub xy_m: Vec<f64>,
+    /// ∂f/∂ln P \[m\]: what a relative error of the actuator pressure does.
+    pub d_ln_pressure_m: Vec<f64>,
+}
+
+/// Relative pressure step of the central difference for ∂f/∂ln P.
+const PRESSURE_STEP: f64 = 1e-4;
+
+/// The scenario with the dataset's marker stations, gravity direction and known tip force; and what does not match, in
+/// words.
+///
+/// # Errors
+/// Another actuator, unknown stations, markers off the body, runs with different tip forces.
+pub fn fit_scenario(
+    scenario: &Scenario,
+    dataset: &Dataset,
+    about: Option<&About>,
+) -> Result<(Scenario, Vec<String>), CompareError> {
+    let kind = scenario.actuator.kind.name;
+    if dataset.actuator != kind {
+        let (data, scenario) = (dataset.actuator.clone(), kind.to_string());
+        return Err(CompareError::WrongActuator { dataset: dataset.name.clone(), data, scenario });
+    }
+    let mut fitted = scenario.with_markers(&stations(scenario, dataset)?);
+    let mut warnings = Vec::new();
+    if let Some(about) = about {
+        if let Some(direction) = about.gravity_direction {
+            fitted.gravity_direction = direction;
+        }
+        fitted = with_tip_force(fitted, dataset, about)?;
+        warnings = geometry_warnings(scenario, about);
+    }
+    Ok((fitted, warnings))
+}
+
+fn stations(scenario: &Scenario, dataset: &Dataset) -> Result<Vec<f64>, CompareError> {
+    let known: Option<Vec<f64>> = dataset.markers.iter().map(|m| m.station_m).collect();
+    let stations = match known {
+        Some(stations) => stations,
+        None if scenario.markers_m.len() == dataset.markers.len() => scenario.markers_m.clone(),
+        None => {
+            let marker = dataset.markers.iter().find(|m| m.station_m.is_none());
+            let marker = marker.map(|m| m.name.clone()).unwrap_or_default();
+            let (needed, found) = (dataset.markers.len(), scenario.markers_m.len());
+            return Err(CompareError::NoStation { marker, needed, found });
+        }
+    };
+    for (marker, s) in dataset.markers.iter().zip(&stations) {
+        if !(0.0..=scenario.length_m * 1.001).contains(s) {
+            let (s_mm, length_mm) = (s * 1e3, scenario.length_m * 1e3);
+            return Err(CompareError::OffTheBody { marker: marker.name.clone(), s_mm, length_mm });
+        }
+    }
+    Ok(stations)
+}
+
+fn with_tip_force(scenario: Scenario, dataset: &Dataset, about: &About) -> Result<Scenario, CompareError> {
+    let force = |run: &String| about.tip_force_n(run);
+    let Some(first) = dataset.runs.first() else { return Ok(scenario) };
+    if let Some(other) = dataset.runs.iter().find(|run| force(run) != force(first)) {
+        let words = |run: &String| format!("run {run}: {:?} N", force(run));
+        return Err(CompareError::MixedTipForces { first: words(first), second: words(other) });
+    }
+    let known = force(first);
+    if known == [0.0, 0.0] {
+        return Ok(scenario);
+    }
+    let own = scenario.effects.iter().find(|e| e.name == "tip_load").map_or([0.0, 0.0], |e| [e.values[0], e.values[1]]);
+    Ok(scenario.with_effect("tip_load", &[own[0] + known[0], own[1] + known[1]]))
+}
+
+/// Differences beyond 2 % between the scenario and the data's own description.
+fn geometry_warnings(scenario: &Scenario, about: &About) -> Vec<String> {
+    let Some(g) = &about.geometry else { return Vec::new() };
+    let shape = &scenario.actuator.shape;
+    let pairs = [
+        ("body radius", scenario.radius_m, Some(g.body_radius_m)),
+        ("body length", scenario.length_m, Some(g.body_length_m)),
+        ("actuator length", shape.length_m, g.pouch_length_m),
+        ("actuator width", shape.width_m, g.pouch_width_m),
+    ];
+    let differs = |(name, mine, theirs): (&str, f64, Option<f64>)| {
+        let theirs = theirs.filter(|t| (t - mine).abs() > 0.02 * mine)?;
+        Some(format!("{name}: the scenario says {} mm, the data's about.toml {} mm", mine * 1e3, theirs * 1e3))
+    };
+    pairs.into_iter().filter_map(differs).collect()
+}
+
+/// Predicts every hold of a dataset with a scenario already fitted to it by [`fit_scenario`].
+///
+/// The model is static: every sample of a hold gets the same prediction.
+///
+/// # Errors
+/// What the model returns when a hold has no equilibrium.
+pub fn predict_dataset(scenario: &Scenario, dataset: &Dataset) -> Result<Predicted, CompareError> {
+    let model = Model::new(scenario);
+    let mut state = model.prediction();
+    let n = dataset.values_per_run();
+    let mut out = Predicted { xy_m: vec![0.0; n], d_ln_pressure_m: vec![0.0; n] };
+    for (h, hold) in dataset.holds.iter().enumerate() {
+        let mut at = |factor: f64| -> Result<Vec<[f64; 2]>, CompareError> {
+            model.predict(&Loads::uniform(hold.p_body_pa, hold.p_act_pa * factor), &mut state)?;
+            Ok(state.markers.clone())
+        };
+        let (low, high) = (at(1.0 - PRESSURE_STEP)?, at(1.0 + PRESSURE_STEP)?);
+        let middle = at(1.0)?;
+        for sample in 0..dataset.samples_per_hold {
+            for (m, xy) in middle.iter().enumerate() {
+                let i = dataset.offset(h, sample, m);
+                for axis in 0..2 {
+                    out.xy_m[i + axis] = xy[axis];
+                    out.d_ln_pressure_m[i + axis] = (high[m][axis] - low[m][axis]) / (2.0 * PRESSURE_STEP);
+                }
+            }
+        }
+    }
+    Ok(out)
+}

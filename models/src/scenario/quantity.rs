@@ -1,0 +1,97 @@
+//! Quantities typed with their unit, as on a command line: `30kPa`, `100mm`, `45deg`.
+
+/// What a quantity measures; fixes the units that are understood.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Gauge pressure → Pa.
+    Pressure,
+    /// Length → m.
+    Length,
+    /// Angle → rad.
+    Angle,
+}
+
+const UNITS: &[(Quantity, &str, f64)] = &[
+    (Quantity::Pressure, "kpa", 1e3),
+    (Quantity::Pressure, "mpa", 1e6),
+    (Quantity::Pressure, "pa", 1.0),
+    (Quantity::Pressure, "psi", 6894.757293168),
+    (Quantity::Pressure, "bar", 1e5),
+    (Quantity::Length, "mm", 1e-3),
+    (Quantity::Length, "cm", 1e-2),
+    (Quantity::Length, "m", 1.0),
+    (Quantity::Angle, "deg", std::f64::consts::PI / 180.0),
+    (Quantity::Angle, "rad", 1.0),
+];
+
+/// Reads one quantity into SI.
+///
+/// # Errors
+/// A message that says what is wrong and what to type.
+///
+/// ```
+/// use models::scenario::quantity::{Quantity, parse};
+/// assert_eq!(parse("30 kPa", Quantity::Pressure), Ok(30e3));
+/// assert!(parse("30", Quantity::Pressure).unwrap_err().contains("unit"));
+/// ```
+pub fn parse(text: &str, quantity: Quantity) -> Result<f64, String> {
+    let text = text.trim();
+    let split = text.find(|c: char| c.is_alphabetic() && c != 'e' && c != 'E').unwrap_or(text.len());
+    let (number, unit) = text.split_at(split);
+    let units: Vec<&str> = UNITS.iter().filter(|u| u.0 == quantity).map(|u| u.1).collect();
+    let example = format!("write a number and one of the units {}, for example 30{}", units.join(", "), units[0]);
+    let value: f64 = number.trim().parse().map_err(|_| format!("`{text}` is not a quantity: {example}"))?;
+    if unit.trim().is_empty() {
+        return Err(format!("`{text}` has no unit: {example}"));
+    }
+    let unit = unit.trim().to_lowercase();
+    let known = UNITS.iter().find(|u| u.0 == quantity && u.1 == unit);
+    let factor = known.map(|u| u.2).ok_or_else(|| format!("`{text}` has an unknown unit: {example}"))?;
+    if value.is_finite() { Ok(value * factor) } else { Err(format!("`{text}` is not finite: {example}")) }
+}
+
+/// Reads a comma-separated list of pressures; in each, `/` separates supply channels: `10kPa/20kPa,30kPa`.
+///
+/// # Errors
+/// Like [`parse`]; also too many channels or a negative pressure.
+pub fn parse_pressures(text: &str) -> Result<Vec<[f64; crate::CHANNELS]>, String> {
+    text.split(',').map(channels).collect()
+}
+
+fn channels(text: &str) -> Result<[f64; crate::CHANNELS], String> {
+    let given = text.split('/').map(|p| parse(p, Quantity::Pressure)).collect::<Result<Vec<f64>, String>>()?;
+    if let Some(p) = given.iter().find(|p| **p < 0.0) {
+        return Err(format!("`{text}`: {} kPa is below zero; pressures are gauge pressures", p / 1e3));
+    }
+    match given.as_slice() {
+        [one] => Ok([*one; crate::CHANNELS]),
+        many if many.len() <= crate::CHANNELS => {
+            let mut all = [0.0; crate::CHANNELS];
+            all[..many.len()].copy_from_slice(many);
+            Ok(all)
+        }
+        many => Err(format!("`{text}` names {} channels; there are {}", many.len(), crate::CHANNELS)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_converted_and_slips_explained() {
+        assert_eq!(parse("2.5e1kPa", Quantity::Pressure), Ok(25e3));
+        assert_eq!(parse("-40 mm", Quantity::Length), Ok(-0.04));
+        assert!((parse("180deg", Quantity::Angle).unwrap() - std::f64::consts::PI).abs() < 1e-15);
+        for wrong in ["", "kPa", "30", "30mm", "nankPa", "infkPa", "3O kPa", "30 kPa kPa"] {
+            assert!(parse(wrong, Quantity::Pressure).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn channels_are_separated_by_slashes() {
+        assert_eq!(parse_pressures("10kPa/20kPa,5kPa").unwrap(), [[10e3, 20e3, 0.0, 0.0], [5e3; 4]]);
+        assert!(parse_pressures("1kPa/1kPa/1kPa/1kPa/1kPa").is_err());
+        assert!(parse_pressures("-1kPa").is_err());
+    }
+}

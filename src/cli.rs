@@ -1,0 +1,175 @@
+//! The command line as data.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Models of pneumatic bending actuators on inflated-beam robots, held against measurements.
+#[derive(Debug, Parser)]
+#[command(version, about, max_term_width = 100)]
+#[command(after_help = "A SCENARIO is a TOML file or a shipped robot: spam, cpam, epam, fpam.\n\
+    A DATA is a CSV or Parquet file, a folder with markers.csv and about.toml, or an embedded set (ibr list datasets).\n\
+    Exit codes: 0 done, 1 a threshold was missed, 2 wrong usage, 3 bad input or output file, 4 no solution, 130 interrupted.")]
+pub struct Cli {
+    /// Print one JSON object instead of text
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// No progress
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
+    /// What to do
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// Subcommands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// The whole story on embedded data: every actuator against published and synthetic measurements
+    Demo(OutDir),
+    /// Shape and markers at given pressures, or the pressure for a wanted tip
+    Predict(Predict),
+    /// Hold a model against measurements: accuracy, residual map, where it fails
+    Compare(Compare),
+    /// Look at, list or make marker data
+    #[command(subcommand)]
+    Data(DataCommand),
+    /// Actuators, effects and datasets with their formulas
+    List {
+        /// actuators, effects or datasets; all if left out
+        #[arg(value_parser = ["actuators", "effects", "datasets"])]
+        what: Option<String>,
+    },
+    /// Print a shipped scenario as a start for your own
+    New {
+        /// spam, cpam, epam or fpam
+        kind: String,
+    },
+    /// Run time against accuracy of every model present
+    Tradeoff(OutDirOptional),
+    /// Check the closed forms against their known numbers
+    Verify {
+        /// Print every number, not only the sections
+        #[arg(long)]
+        all: bool,
+    },
+    /// Measure the speed of the model on this machine
+    Bench,
+    /// Shell completions on standard output
+    Completions {
+        /// Which shell
+        shell: clap_complete::Shell,
+    },
+    /// Manual page on standard output, or one per command in a folder
+    Man {
+        /// Folder for the pages
+        #[arg(long)]
+        out: Option<PathBuf>,
+    },
+}
+
+/// Where results go.
+#[derive(Debug, Args)]
+pub struct OutDir {
+    /// Folder for the report, plots and tables
+    #[arg(long, default_value = "ibr-report/demo")]
+    pub out: PathBuf,
+}
+
+/// Where results go, if anywhere.
+#[derive(Debug, Args)]
+pub struct OutDirOptional {
+    /// Folder for plots and tables
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+}
+
+/// `ibr predict`
+#[derive(Debug, Args)]
+pub struct Predict {
+    /// Scenario file or shipped robot
+    pub scenario: String,
+    /// Actuator pressures with unit, for example 10kPa,20kPa; `/` separates supply channels
+    #[arg(long, short)]
+    pub pressure: Option<String>,
+    /// Body pressure with unit, for example 2kPa; default: the scenario's
+    #[arg(long, short)]
+    pub body_pressure: Option<String>,
+    /// Find the pressure instead: tip=100mm (height) or angle=60deg (total bend)
+    #[arg(long, short, conflicts_with = "pressure")]
+    pub inverse: Option<String>,
+    /// Add an effect or change its values: name or name:key=value[,key=value]; repeatable
+    #[arg(long, short)]
+    pub effect: Vec<String>,
+    /// Folder for a plot of the shapes
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+}
+
+/// `ibr compare`
+#[derive(Debug, Args)]
+pub struct Compare {
+    /// Scenario file or shipped robot
+    pub scenario: String,
+    /// Marker data
+    pub data: String,
+    /// Also fit the bending stiffness B to these data and show what that brings
+    #[arg(long)]
+    pub calibrate: bool,
+    /// Also hold the model with this effect against the data: name or name:key=value[,key=value]; repeatable, cumulative
+    #[arg(long, short)]
+    pub effect: Vec<String>,
+    /// Camera noise of one coordinate, for data of a single run, for example 1mm
+    #[arg(long)]
+    pub sigma: Option<String>,
+    /// Exit with code 1 if the error beyond noise of the last model exceeds this, for example 5mm
+    #[arg(long)]
+    pub max_error: Option<String>,
+    /// Folder for the report, plots and tables; default: ibr-report/compare-<data>, with --json: none
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+}
+
+/// `ibr data`
+#[derive(Debug, Subcommand)]
+pub enum DataCommand {
+    /// Read data and say what is in them
+    Check {
+        /// Marker data
+        data: String,
+    },
+    /// Embedded datasets
+    List,
+    /// Make a synthetic dataset from a scenario
+    Generate(Generate),
+}
+
+/// `ibr data generate`
+#[derive(Debug, Args)]
+pub struct Generate {
+    /// Scenario file or shipped robot: the truth of the data
+    pub scenario: String,
+    /// Folder for markers.csv, about.toml and truth.toml
+    #[arg(long)]
+    pub out: PathBuf,
+    /// Seed of the scatter
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Runs
+    #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    pub runs: u64,
+    /// Actuator pressures in kPa at a body pressure in kPa
+    #[arg(long, default_value = "0,10,20,30,0@2")]
+    pub protocol: String,
+    /// Camera noise of one coordinate
+    #[arg(long, default_value = "1mm")]
+    pub sigma: String,
+    /// Run-to-run scatter of the actuator pressure in per cent
+    #[arg(long, default_value_t = 2.0)]
+    pub pressure_scatter: f64,
+    /// Run-to-run shift of the camera
+    #[arg(long, default_value = "0.5mm")]
+    pub alignment: String,
+    /// Replace existing files
+    #[arg(long)]
+    pub force: bool,
+}

@@ -1,0 +1,107 @@
+//! `ibr demo`
+
+use super::tables::{number, table};
+use super::{Context, Outcome};
+use crate::failure::Failure;
+use crate::output::{machine, program, today, write_files};
+use compare::plots::Known;
+use compare::study::pages::{Demo, Imprint, demo, demo_page};
+use compare::study::published::PublishedLadder;
+use serde_json::{Value, json};
+use std::path::Path;
+
+pub fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
+    let computed = demo(&mut |what| (context.progress)(what, Some(0.1)))?;
+    let imprint = Imprint { program: program(), date: today(), machine: machine() };
+    let files = demo_page(&computed, &imprint, &mut |what| (context.progress)(what, Some(0.5)))?;
+    write_files(folder, &files, &[], context)?;
+    let mut outcome = Outcome::new(text(&computed), to_json(&computed));
+    outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
+    Ok(outcome)
+}
+
+/// Published displacement against every rung.
+pub fn published_text(ladders: &[PublishedLadder]) -> String {
+    let head = ["actuator", "model", "how known", "model mm", "range mm", "measured mm", "difference mm"];
+    let mut rows = Vec::new();
+    for ladder in ladders {
+        let measured = ladder.published.d_max_m * 1e3;
+        for rung in &ladder.rungs {
+            rows.push(vec![
+                ladder.published.printed_name.clone(),
+                rung.label.clone(),
+                rung.known.word().into(),
+                format!("{:.1}", rung.y_m * 1e3),
+                rung.range_m.map_or("–".into(), |r| format!("{:.1}–{:.1}", r[0] * 1e3, r[1] * 1e3)),
+                format!("{measured:.1}"),
+                format!("{:+.1}", rung.y_m * 1e3 - measured),
+            ]);
+        }
+    }
+    table(&head, 3, rows)
+}
+
+fn text(demo: &Demo) -> String {
+    let mut out = String::from("Displacement at 30 kPa against the published measurement (du Pasquier et al. 2023)\n");
+    out.push_str(&published_text(&demo.ladders));
+    out.push_str("\nSynthetic marker sets: error beyond noise as effects are added\n");
+    let head = ["data", "model", "how known", "paper acc. %", "beyond noise mm", "largest tip error mm"];
+    let mut rows = Vec::new();
+    for study in &demo.studies {
+        for v in &study.variants {
+            let all = &v.evaluation.metrics.overall;
+            rows.push(vec![
+                study.dataset.name.clone(),
+                v.label.clone(),
+                v.known.word().into(),
+                number(all.paper_accuracy.map(|a| 100.0 * a), 1),
+                number(all.systematic_mm, 2),
+                format!("{:+.1}", all.largest_tip_error_mm),
+            ]);
+        }
+    }
+    out.push_str(&table(&head, 3, rows));
+    out.push_str("\nWhere the bare models fail:\n");
+    for study in &demo.studies {
+        if let Some(statement) = study.variants[0].evaluation.where_it_fails.first() {
+            out.push_str(&format!("  - {}: {}\n", study.dataset.name, statement.sentence));
+        }
+    }
+    out
+}
+
+fn to_json(demo: &Demo) -> Value {
+    let ladder = |l: &PublishedLadder| {
+        let rungs: Vec<Value> = l
+            .rungs
+            .iter()
+            .map(|r| {
+                let range = r.range_m.map(|range| range.map(|v| v * 1e3));
+                json!({"model": r.label, "how_known": r.known.word(), "y_mm": r.y_m * 1e3, "range_mm": range, "why": r.why})
+            })
+            .collect();
+        json!({
+            "actuator": l.published.kind, "measured_mm": l.published.d_max_m * 1e3, "measured_is": Known::Published.word(),
+            "rungs": rungs, "calibrated_bending_nm2": l.calibrated_bending,
+        })
+    };
+    let studies: Vec<Value> = demo
+        .studies
+        .iter()
+        .map(|s| {
+            let models: Vec<Value> = s
+                .variants
+                .iter()
+                .map(
+                    |v| json!({"model": v.label, "how_known": v.known.word(), "overall": v.evaluation.metrics.overall}),
+                )
+                .collect();
+            json!({"data": s.dataset.name, "models": models, "where_it_fails": s.variants[0].evaluation.where_it_fails})
+        })
+        .collect();
+    json!({
+        "schema": "ibr.demo", "version": 1,
+        "published": demo.ladders.iter().map(ladder).collect::<Vec<_>>(),
+        "marker_sets": studies, "timings": demo.timings,
+    })
+}

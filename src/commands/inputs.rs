@@ -1,0 +1,89 @@
+//! Scenarios, data and effects as typed on the command line.
+
+use super::Context;
+use crate::failure::Failure;
+use crate::output::Input;
+use data::{About, Dataset};
+use models::scenario::SHIPPED;
+use models::scenario::quantity::{Quantity, parse};
+use models::{Scenario, effects};
+use std::path::Path;
+
+/// A scenario and where it came from.
+pub struct NamedScenario {
+    /// The checked scenario.
+    pub scenario: Scenario,
+    /// For the manifest.
+    pub input: Input,
+}
+
+/// Reads a scenario file, or takes a shipped one by name.
+pub fn scenario(spec: &str) -> Result<NamedScenario, Failure> {
+    let text = match (std::fs::read_to_string(spec), models::shipped(spec)) {
+        (Ok(text), _) => text,
+        (Err(_), Some(text)) if !Path::new(spec).exists() => text.to_string(),
+        (Err(cause), _) => {
+            let names = SHIPPED.iter().map(|s| s.0).collect::<Vec<_>>().join(", ");
+            let help = format!("give a TOML file, or a shipped robot: {names}; `ibr new epam > my.toml` makes a start");
+            return Err(Failure::Read { path: spec.into(), cause: cause.to_string(), help });
+        }
+    };
+    match Scenario::parse(&text) {
+        Ok(scenario) => Ok(NamedScenario { scenario, input: Input::of(spec, text.as_bytes()) }),
+        Err(error) => Err(Failure::Scenario { file: spec.into(), text, error }),
+    }
+}
+
+/// Loads marker data with progress.
+pub fn dataset(spec: &str, context: &mut Context) -> Result<(Dataset, Option<About>, Input), Failure> {
+    let (loaded, about) = data::load(spec, &mut |done, total| {
+        let share = if total > 0 { done as f64 / total as f64 } else { 0.0 };
+        (context.progress)(&format!("reading {spec}"), Some(share));
+    })?;
+    let mut bytes = Vec::new();
+    data::write_markers_csv(&loaded, &mut bytes)?;
+    Ok((loaded, about, Input::of(&format!("{spec} (as read)"), &bytes)))
+}
+
+/// A quantity of an option.
+pub fn quantity(option: &str, text: &str, kind: Quantity) -> Result<f64, Failure> {
+    parse(text, kind).map_err(|message| Failure::usage(format!("{option}: {message}"), "see ibr --help"))
+}
+
+/// Adds an effect typed as `name` (typical values) or `name:key=value,…`; says how its values are known.
+pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, String), Failure> {
+    let (name, values) = text.split_once(':').unwrap_or((text, ""));
+    let Some(effect) = effects::by_name(name) else {
+        let known = effects::EFFECTS.iter().map(|e| e.name).collect::<Vec<_>>().join(", ");
+        return Err(Failure::usage(format!("unknown effect `{name}`"), format!("known: {known}")));
+    };
+    let kind = scenario.actuator.kind;
+    if !effect.applies_to(kind.family) {
+        let message = format!("{name} does not exist for an {}", kind.name);
+        return Err(Failure::usage(message, "ibr list effects"));
+    }
+    let mut chosen = if values.is_empty() { effect.typical() } else { effect.neutral() };
+    for pair in values.split(',').filter(|pair| !pair.is_empty()) {
+        let (key, number) = pair.split_once('=').unwrap_or((pair, ""));
+        let keys = effect.parameters.iter().map(|p| p.key).collect::<Vec<_>>().join(", ");
+        let help = format!(
+            "parameters of {name}: {keys}; for example {name}:{}={}",
+            effect.parameters[0].key, effect.parameters[0].typical
+        );
+        let Some(index) = effect.parameters.iter().position(|p| p.key == key.trim()) else {
+            return Err(Failure::usage(format!("{name} has no parameter `{key}`"), help));
+        };
+        let p = &effect.parameters[index];
+        match number.trim().parse::<f64>() {
+            Ok(v) if (p.lower..=p.upper).contains(&v) => chosen[index] = v * p.si,
+            Ok(v) => {
+                let message =
+                    format!("{key} = {v} is outside its physical bounds {} to {} {}", p.lower, p.upper, p.unit);
+                return Err(Failure::usage(message, help));
+            }
+            Err(_) => return Err(Failure::usage(format!("`{number}` is not a number"), help)),
+        }
+    }
+    let origin = if values.is_empty() { "typical value of the catalogue" } else { "value given on the command line" };
+    Ok((scenario.with_effect(name, &chosen), origin.to_string()))
+}

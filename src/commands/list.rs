@@ -1,0 +1,91 @@
+//! `ibr list` and `ibr new`
+
+use super::Outcome;
+use crate::failure::Failure;
+use models::actuators::ACTUATORS;
+use models::effects::EFFECTS;
+use models::scenario::SHIPPED;
+use serde_json::{Value, json};
+
+pub fn run(what: Option<&str>) -> Result<Outcome, Failure> {
+    let wanted = |name: &str| what.is_none_or(|w| w == name);
+    let mut text = String::new();
+    let mut object = serde_json::Map::new();
+    object.insert("schema".into(), "ibr.list".into());
+    object.insert("version".into(), 1.into());
+    let parts: [(&str, fn() -> (String, Value)); 3] =
+        [("actuators", actuators), ("effects", effects), ("datasets", datasets)];
+    for (name, list) in parts {
+        if wanted(name) {
+            let (words, value) = list();
+            text.push_str(&words);
+            object.insert(name.into(), value);
+        }
+    }
+    Ok(Outcome::new(text, Value::Object(object)))
+}
+
+fn actuators() -> (String, Value) {
+    let mut text = String::from("ACTUATORS\n");
+    for a in ACTUATORS {
+        text.push_str(&format!(
+            "  {:<6} {}\n         {}\n         {}\n         {}\n         source: {}\n",
+            a.name, a.title, a.sentence, a.formula, a.validity, a.reference
+        ));
+    }
+    let value = ACTUATORS.iter().map(|a| {
+        json!({"name": a.name, "title": a.title, "sentence": a.sentence, "formula": a.formula, "validity": a.validity, "reference": a.reference})
+    });
+    (text, value.collect())
+}
+
+fn effects() -> (String, Value) {
+    let mut text = String::from("EFFECTS\n");
+    for e in EFFECTS {
+        text.push_str(&format!("  {:<18} [{}] {}\n    {}\n", e.name, e.stage.word(), e.sentence, e.formula));
+        for p in e.parameters {
+            text.push_str(&format!(
+                "    {} ({}): {}; typical {} {}, {} to {}, no effect at {}\n",
+                p.key, p.symbol, p.meaning, p.typical, p.unit, p.lower, p.upper, p.neutral
+            ));
+        }
+        text.push_str(&format!("    valid: {}; to check: {}; source: {}\n", e.validity, e.remedy, e.reference));
+    }
+    let value = EFFECTS.iter().map(|e| {
+        let parameters: Vec<Value> = e
+            .parameters
+            .iter()
+            .map(|p| json!({"key": p.key, "symbol": p.symbol, "unit": p.unit, "neutral": p.neutral, "typical": p.typical, "lower": p.lower, "upper": p.upper, "meaning": p.meaning}))
+            .collect();
+        json!({"name": e.name, "stage": e.stage.word(), "sentence": e.sentence, "formula": e.formula, "remedy": e.remedy, "validity": e.validity, "reference": e.reference, "parameters": parameters})
+    });
+    (text, value.collect())
+}
+
+fn datasets() -> (String, Value) {
+    let sets = data::sets();
+    let mut text = String::from("DATASETS\n");
+    for s in &sets {
+        let kind = if s.has_markers() { "markers" } else { "published numbers" };
+        text.push_str(&format!(
+            "  {:<28} {} ({}, {kind})\n    {}; licence {}\n",
+            s.name,
+            s.title,
+            s.provenance.word(),
+            s.source,
+            s.licence
+        ));
+    }
+    let value = sets.iter().map(|s| {
+        json!({"name": s.name, "title": s.title, "provenance": s.provenance.word(), "source": s.source, "licence": s.licence, "files": s.files})
+    });
+    (text, value.collect())
+}
+
+pub fn new(kind: &str) -> Result<Outcome, Failure> {
+    let Some(text) = models::shipped(kind) else {
+        let names = SHIPPED.iter().map(|s| s.0).collect::<Vec<_>>().join(", ");
+        return Err(Failure::usage(format!("no shipped scenario `{kind}`"), format!("known: {names}")));
+    };
+    Ok(Outcome::new(text.to_string(), json!({"schema": "ibr.new", "version": 1, "scenario_toml": text})))
+}

@@ -1,0 +1,89 @@
+//! One file per command; each returns what to print.
+
+mod bench;
+mod compare;
+mod data;
+mod demo;
+mod inputs;
+mod list;
+mod predict;
+mod tables;
+mod tradeoff;
+mod verify;
+
+use crate::cli::{Cli, Command};
+use crate::failure::Failure;
+use clap::CommandFactory;
+use std::sync::atomic::AtomicBool;
+
+/// What a command may use of the outside.
+pub struct Context<'a> {
+    /// JSON is wanted.
+    pub json: bool,
+    /// Told what is being done, and which share of the whole is done if known.
+    pub progress: &'a mut dyn FnMut(&str, Option<f64>),
+    /// Set while files are renamed into place.
+    pub writing: &'a AtomicBool,
+}
+
+/// What a command has to say.
+#[derive(Debug, Default)]
+pub struct Outcome {
+    /// Text for standard output.
+    pub text: String,
+    /// The same as JSON.
+    pub json: Option<serde_json::Value>,
+    /// Lines for standard error.
+    pub notes: Vec<String>,
+    /// Exit code.
+    pub code: u8,
+}
+
+impl Outcome {
+    fn new(text: String, json: serde_json::Value) -> Outcome {
+        Outcome { text, json: Some(json), notes: Vec::new(), code: 0 }
+    }
+}
+
+/// Runs a command.
+pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure> {
+    match command {
+        Command::Demo(out) => demo::run(&out.out, context),
+        Command::Predict(args) => predict::run(args, context),
+        Command::Compare(args) => compare::run(args, context),
+        Command::Data(args) => data::run(args, context),
+        Command::List { what } => list::run(what.as_deref()),
+        Command::New { kind } => list::new(kind),
+        Command::Tradeoff(out) => tradeoff::run(out.out.as_deref(), context),
+        Command::Verify { all } => Ok(verify::run(*all)),
+        Command::Bench => bench::run(context),
+        Command::Completions { shell } => Ok(completions(*shell)),
+        Command::Man { out } => man(out.as_deref(), context),
+    }
+}
+
+fn completions(shell: clap_complete::Shell) -> Outcome {
+    let mut bytes = Vec::new();
+    clap_complete::generate(shell, &mut Cli::command(), "ibr", &mut bytes);
+    Outcome { text: String::from_utf8_lossy(&bytes).into_owned(), ..Outcome::default() }
+}
+
+fn man(out: Option<&std::path::Path>, context: &mut Context) -> Result<Outcome, Failure> {
+    let page = |command: clap::Command| {
+        let mut bytes = Vec::new();
+        clap_mangen::Man::new(command).render(&mut bytes).map(|()| bytes)
+    };
+    let failed = |e: std::io::Error| Failure::usage(format!("the manual cannot be made: {e}"), "report this");
+    let Some(folder) = out else {
+        let bytes = page(Cli::command()).map_err(failed)?;
+        return Ok(Outcome { text: String::from_utf8_lossy(&bytes).into_owned(), ..Outcome::default() });
+    };
+    let mut files = ::compare::study::pages::Files::default();
+    files.files.push(("ibr.1".into(), page(Cli::command()).map_err(failed)?));
+    for sub in Cli::command().get_subcommands() {
+        let name = format!("ibr-{}", sub.get_name());
+        files.files.push((format!("{name}.1"), page(sub.clone().name(name)).map_err(failed)?));
+    }
+    crate::output::write_files(folder, &files, &[], context)?;
+    Ok(Outcome { text: format!("{} pages in {}\n", files.files.len(), folder.display()), ..Outcome::default() })
+}

@@ -1,0 +1,180 @@
+//! `ibr predict`
+
+use super::inputs::{self, quantity, with_effect};
+use super::tables::table;
+use super::{Context, Outcome};
+use crate::cli::Predict;
+use crate::failure::Failure;
+use crate::output::write_files;
+use compare::plots::{ShapePose, Shapes, shapes};
+use compare::study::pages::Files;
+use models::scenario::quantity::{Quantity, parse_pressures};
+use models::{CHANNELS, Loads, Model, Prediction, Scenario, Target, TipSlope};
+use serde_json::{Value, json};
+
+/// One predicted state, ready to print.
+struct State {
+    loads: Loads,
+    prediction: Prediction,
+    slopes: [TipSlope; CHANNELS],
+}
+
+pub fn run(args: &Predict, context: &mut Context) -> Result<Outcome, Failure> {
+    let named = inputs::scenario(&args.scenario)?;
+    let mut scenario = named.scenario;
+    for text in &args.effect {
+        scenario = with_effect(&scenario, text)?.0;
+    }
+    if let Some(text) = &args.body_pressure {
+        scenario.p_body_pa = quantity("--body-pressure", text, Quantity::Pressure)?;
+    }
+    let model = Model::new(&scenario);
+    let states = match &args.inverse {
+        Some(wanted) => vec![inverse(&model, &scenario, wanted)?],
+        None => forward(&model, &scenario, args.pressure.as_deref())?,
+    };
+    if let Some(folder) = &args.out {
+        let files = drawing(&model, &scenario, &states)?;
+        write_files(folder, &files, &[named.input], context)?;
+    }
+    Ok(Outcome::new(text(&scenario, &states), to_json(&args.scenario, &model, &scenario, &states)))
+}
+
+fn forward(model: &Model, scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<State>, Failure> {
+    let pressures = match pressures {
+        Some(text) => {
+            parse_pressures(text).map_err(|m| Failure::usage(format!("--pressure: {m}"), "see ibr predict --help"))?
+        }
+        None => scenario.pressures_pa.iter().map(|p| [*p; CHANNELS]).collect(),
+    };
+    if pressures.is_empty() {
+        return Err(Failure::usage(
+            "no pressure given",
+            "add --pressure 10kPa,20kPa or [predict] pressures_kpa to the scenario",
+        ));
+    }
+    pressures.into_iter().map(|p| solve(model, Loads { body_pa: scenario.p_body_pa, actuator_pa: p })).collect()
+}
+
+fn solve(model: &Model, loads: Loads) -> Result<State, Failure> {
+    let mut prediction = model.prediction();
+    let slopes = model.jacobian(&loads, &mut prediction)?;
+    model.predict(&loads, &mut prediction)?;
+    Ok(State { loads, prediction, slopes })
+}
+
+fn inverse(model: &Model, scenario: &Scenario, wanted: &str) -> Result<State, Failure> {
+    let help = "write tip=100mm (height) or angle=60deg (total bend)";
+    let target = match wanted.split_once('=') {
+        Some(("tip", value)) => Target::TipHeight(quantity("--inverse", value, Quantity::Length)?),
+        Some(("angle", value)) => Target::Angle(quantity("--inverse", value, Quantity::Angle)?),
+        _ => return Err(Failure::usage(format!("--inverse {wanted} is not understood"), help)),
+    };
+    let mut prediction = model.prediction();
+    let p = model.pressure_for(target, scenario.p_body_pa, &mut prediction)?;
+    solve(model, Loads::uniform(scenario.p_body_pa, p))
+}
+
+fn text(scenario: &Scenario, states: &[State]) -> String {
+    let head = ["P [kPa]", "tip x [mm]", "tip y [mm]", "angle [deg]", "dy/dP [mm/kPa]"];
+    let rows = states.iter().map(|s| {
+        let tip = s.prediction.tip;
+        vec![
+            pressure_words(&s.loads),
+            format!("{:.2}", tip.x_m * 1e3),
+            format!("{:.2}", tip.y_m * 1e3),
+            format!("{:.3}", tip.angle_rad.to_degrees()),
+            format!("{:.3}", total_slope(s) * 1e6),
+        ]
+    });
+    let mut out = format!("{} at body pressure {} kPa\n", scenario.name, scenario.p_body_pa / 1e3);
+    out.push_str(&table(&head, 0, rows.collect()));
+    if !scenario.markers_m.is_empty() {
+        let mut head = vec!["marker at s [mm]".to_string()];
+        head.extend(states.iter().map(|s| format!("x, y [mm] at {} kPa", pressure_words(&s.loads))));
+        let rows = scenario.markers_m.iter().enumerate().map(|(i, s)| {
+            let place = |state: &State| {
+                format!("{:.2}, {:.2}", state.prediction.markers[i][0] * 1e3, state.prediction.markers[i][1] * 1e3)
+            };
+            std::iter::once(format!("{:.1}", s * 1e3)).chain(states.iter().map(place)).collect()
+        });
+        let head: Vec<&str> = head.iter().map(String::as_str).collect();
+        out.push_str(&table(&head, 0, rows.collect()));
+    }
+    out
+}
+
+/// ∂y/∂P with all channels moved together \[m/Pa\].
+fn total_slope(state: &State) -> f64 {
+    state.slopes.iter().map(|s| s.y_per_pa).sum()
+}
+
+fn pressure_words(loads: &Loads) -> String {
+    let p = loads.actuator_pa;
+    if p.iter().all(|x| *x == p[0]) {
+        return format!("{:.3}", p[0] / 1e3);
+    }
+    p.map(|x| format!("{}", x / 1e3)).join("/")
+}
+
+fn to_json(name: &str, model: &Model, scenario: &Scenario, states: &[State]) -> Value {
+    let states: Vec<Value> = states.iter().map(|s| state_json(model, scenario, s)).collect();
+    let effects: Vec<&str> = scenario.effects.iter().map(|e| e.name.as_str()).collect();
+    json!({
+        "schema": "ibr.predict", "version": 1, "scenario": name, "name": scenario.name,
+        "actuator": scenario.actuator.kind.name, "effects": effects, "states": states,
+    })
+}
+
+fn state_json(model: &Model, scenario: &Scenario, s: &State) -> Value {
+    let tip = s.prediction.tip;
+    let seen = scenario.markers_m.iter().zip(&s.prediction.markers);
+    let markers: Vec<Value> =
+        seen.map(|(at, xy)| json!({"s_mm": at * 1e3, "x_mm": xy[0] * 1e3, "y_mm": xy[1] * 1e3})).collect();
+    let segments: Vec<Value> = model
+        .curvatures(&s.prediction)
+        .map(|(segment, _)| json!({"s_mm": segment.start_m * 1e3, "length_mm": segment.length_m * 1e3}))
+        .collect();
+    let curvature: Vec<f64> = model.curvatures(&s.prediction).map(|(_, kappa)| kappa).collect();
+    let ledger: Vec<Value> = model
+        .ledger(&s.loads, &s.prediction)
+        .iter()
+        .map(|line| json!({"term": line.name, "energy_mj": line.energy_j * 1e3}))
+        .collect();
+    let channels: Vec<f64> = s.loads.actuator_pa.iter().map(|p| p / 1e3).collect();
+    let slopes: Vec<Value> = s
+        .slopes
+        .iter()
+        .map(|j| {
+            let angle = j.angle_per_pa.to_degrees() * 1e3;
+            json!({"x_mm_per_kpa": j.x_per_pa * 1e6, "y_mm_per_kpa": j.y_per_pa * 1e6, "angle_deg_per_kpa": angle})
+        })
+        .collect();
+    json!({
+        "p_act_kpa": channels[0], "p_act_channels_kpa": channels, "p_body_kpa": s.loads.body_pa / 1e3,
+        "markers": markers,
+        "tip": {"x_mm": tip.x_m * 1e3, "y_mm": tip.y_m * 1e3, "angle_deg": tip.angle_rad.to_degrees()},
+        "curvature_per_m": curvature, "segments": segments, "jacobian": slopes, "ledger": ledger,
+    })
+}
+
+fn drawing(model: &Model, scenario: &Scenario, states: &[State]) -> Result<Files, Failure> {
+    let mm = |points: &[[f64; 2]]| points.iter().map(|p| p.map(|v| v * 1e3)).collect::<Vec<_>>();
+    let poses = states.iter().take(6).map(|s| ShapePose {
+        label: format!("{} kPa", pressure_words(&s.loads)),
+        curve_mm: mm(&model.centre_line(&s.prediction, 80)),
+        predicted_mm: mm(&s.prediction.markers),
+        measured: vec![],
+    });
+    let data = Shapes {
+        title: format!("{}, predicted", scenario.name),
+        rest_mm: vec![[0.0, 0.0], [scenario.length_m * 1e3, 0.0]],
+        body_radius_mm: scenario.radius_m * 1e3,
+        poses: poses.collect(),
+    };
+    let drawn = shapes(&data).map_err(|e| Failure::usage(e.to_string(), "choose other pressures"))?;
+    let mut files = Files::default();
+    files.files.push(("shapes.svg".into(), drawn.svg.into_bytes()));
+    files.files.push(("shapes.png".into(), drawn.png));
+    Ok(files)
+}

@@ -1,0 +1,144 @@
+//! What can go wrong in the command, as the user sees it, with its exit code.
+
+use miette::{
+    GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, NamedSource, Report,
+    SourceCode, SourceSpan, SpanContents,
+};
+
+/// Exit code: a comparison missed its threshold.
+pub const MISSED: u8 = 1;
+/// Exit code: wrong usage.
+pub const USAGE: u8 = 2;
+/// Exit code: an input cannot be read or an output not written.
+pub const BAD_INPUT: u8 = 3;
+/// Exit code: no solution.
+pub const UNSOLVED: u8 = 4;
+
+/// An error of the command.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// A wrong argument.
+    #[error("{message}")]
+    Usage {
+        /// What is wrong.
+        message: String,
+        /// What to type.
+        help: String,
+    },
+    /// A file that cannot be read.
+    #[error("cannot read {path}: {cause}")]
+    Read {
+        /// File.
+        path: String,
+        /// Why.
+        cause: String,
+        /// What to do.
+        help: String,
+    },
+    /// A scenario that was refused.
+    #[error("{error}")]
+    Scenario {
+        /// File or name of the scenario.
+        file: String,
+        /// Its text.
+        text: String,
+        /// Why.
+        error: models::ScenarioError,
+    },
+    /// Data that were refused, or a file that could not be written.
+    #[error(transparent)]
+    Data(#[from] data::DataError),
+    /// The comparison failed.
+    #[error(transparent)]
+    Compare(compare::CompareError),
+    /// The model has no equilibrium.
+    #[error(transparent)]
+    Unsolved(#[from] models::Unsolved),
+}
+
+impl From<compare::CompareError> for Failure {
+    fn from(error: compare::CompareError) -> Failure {
+        match error {
+            compare::CompareError::Data(error) => Failure::Data(error),
+            compare::CompareError::Unsolved(error) => Failure::Unsolved(error),
+            other => Failure::Compare(other),
+        }
+    }
+}
+
+impl Failure {
+    /// A wrong argument and what to type instead.
+    pub fn usage(message: impl Into<String>, help: impl Into<String>) -> Failure {
+        Failure::Usage { message: message.into(), help: help.into() }
+    }
+
+    /// Exit code.
+    pub fn code(&self) -> u8 {
+        match self {
+            Failure::Usage { .. } => USAGE,
+            Failure::Unsolved(_) => UNSOLVED,
+            Failure::Read { .. } | Failure::Scenario { .. } | Failure::Data(_) | Failure::Compare(_) => BAD_INPUT,
+        }
+    }
+
+    /// The error with its place in the file and what to type.
+    pub fn render(&self) -> String {
+        let mut text = String::new();
+        let plain = std::env::var_os("NO_COLOR").is_some() || !std::io::IsTerminal::is_terminal(&std::io::stderr());
+        let theme = if plain { GraphicalTheme::unicode_nocolor() } else { GraphicalTheme::unicode() };
+        let handler = GraphicalReportHandler::new_themed(theme).with_links(false).with_width(110);
+        match handler.render_report(&mut text, self.diagnostic().as_ref()) {
+            Ok(()) => text,
+            Err(_) => format!("error: {self}\n"),
+        }
+    }
+
+    fn diagnostic(&self) -> Report {
+        let base = miette::MietteDiagnostic::new(self.to_string());
+        match self {
+            Failure::Usage { help, .. } | Failure::Read { help, .. } => Report::new(base.with_help(help)),
+            Failure::Scenario { file, text, error } => {
+                let mut shown = base;
+                if let Some(help) = &error.help {
+                    shown = shown.with_help(help);
+                }
+                if let Some((start, end)) = error.span {
+                    shown = shown.with_label(LabeledSpan::at(start..end.max(start + 1).min(text.len()), "here"));
+                }
+                Report::new(shown).with_source_code(NamedSource::new(file, text.clone()))
+            }
+            Failure::Data(error) => data_report(error, base.with_help(error.help())),
+            Failure::Compare(_) | Failure::Unsolved(_) => Report::new(base),
+        }
+    }
+}
+
+/// The offending line of a table, which may be too large a file to show whole.
+struct Line {
+    name: String,
+    text: String,
+    number: usize,
+}
+
+impl SourceCode for Line {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        _before: usize,
+        _after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let whole = SourceSpan::from(0..self.text.len());
+        let column = span.offset();
+        let line = self.number.saturating_sub(1);
+        let text = self.text.as_bytes();
+        Ok(Box::new(MietteSpanContents::new_named(self.name.clone(), text, whole, line, column, self.number)))
+    }
+}
+
+fn data_report(error: &data::DataError, shown: miette::MietteDiagnostic) -> Report {
+    let (Some(text), Some((start, end))) = (error.source_line(), error.caret()) else { return Report::new(shown) };
+    let place = error.location();
+    let source = Line { name: place.file.clone(), text: text.to_string(), number: place.line as usize };
+    let end = end.max(start + 1).min(text.len());
+    Report::new(shown.with_label(LabeledSpan::at(start.min(end)..end, "here"))).with_source_code(source)
+}

@@ -1,0 +1,90 @@
+//! Results to disk: everything is ready in memory before the first byte is written.
+
+use crate::commands::Context;
+use crate::failure::Failure;
+use compare::study::pages::Files;
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+use std::path::Path;
+use std::sync::atomic::Ordering;
+
+/// An input named in the manifest.
+#[derive(Debug, Clone)]
+pub struct Input {
+    /// File or embedded name.
+    pub name: String,
+    /// Its bytes' SHA-256.
+    pub sha256: String,
+}
+
+impl Input {
+    /// An input with known contents.
+    pub fn of(name: &str, bytes: &[u8]) -> Input {
+        Input { name: name.to_string(), sha256: sha256(bytes) }
+    }
+}
+
+/// SHA-256 in hex.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
+}
+
+/// Writes all files into a folder, the report last; each replaces its older one only when complete.
+pub fn write_files(folder: &Path, files: &Files, inputs: &[Input], context: &mut Context) -> Result<(), Failure> {
+    context.writing.store(true, Ordering::SeqCst);
+    let result = write_all(folder, files, inputs);
+    context.writing.store(false, Ordering::SeqCst);
+    result
+}
+
+fn write_all(folder: &Path, files: &Files, inputs: &[Input]) -> Result<(), Failure> {
+    let made = std::fs::create_dir_all(folder);
+    made.map_err(|cause| Failure::Read {
+        path: folder.display().to_string(),
+        cause: format!("the folder cannot be made: {cause}"),
+        help: "choose another folder with --out".into(),
+    })?;
+    let manifest = format!("{:#}\n", manifest(files, inputs));
+    data::write_atomically(&folder.join("manifest.json"), manifest.as_bytes())?;
+    for (name, bytes) in &files.files {
+        data::write_atomically(&folder.join(name), bytes)?;
+    }
+    Ok(())
+}
+
+fn manifest(files: &Files, inputs: &[Input]) -> Value {
+    let inputs: Vec<Value> = inputs.iter().map(|i| json!({"name": i.name, "sha256": i.sha256})).collect();
+    let outputs: Vec<Value> =
+        files.files.iter().map(|(name, bytes)| json!({"name": name, "sha256": sha256(bytes)})).collect();
+    json!({
+        "schema": "ibr.manifest",
+        "version": 1,
+        "program": program(),
+        "date": today(),
+        "machine": machine(),
+        "command": std::env::args().collect::<Vec<_>>().join(" "),
+        "inputs": inputs,
+        "outputs": outputs,
+    })
+}
+
+/// Program and version.
+pub fn program() -> String {
+    format!("ibr {}", env!("CARGO_PKG_VERSION"))
+}
+
+/// Today's date, UTC.
+pub fn today() -> String {
+    time::OffsetDateTime::now_utc().date().to_string()
+}
+
+/// Processor and number of cores, for timings.
+pub fn machine() -> String {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let cpu = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
+        let line = text.lines().find(|l| l.starts_with("model name"))?;
+        Some(line.split_once(':')?.1.trim().to_string())
+    });
+    let cpu = cpu.unwrap_or_else(|| std::env::consts::ARCH.to_string());
+    format!("{cpu}, {cores} cores, {}", std::env::consts::OS)
+}
