@@ -51,17 +51,19 @@ pub(crate) fn soft_step(x: f64, k0: f64) -> (f64, f64) {
     if size > 20.0 {
         return (x.abs() - LN_2 * k0, u.signum());
     }
-    if size < SMALL {
-        // cosh u = 1 + 2 sinh²(u/2) keeps the digits that ln 2 would swallow.
-        let half = (0.5 * size).sinh();
-        return (k0 * (2.0 * half * half).ln_1p(), u.tanh());
+    if size < SERIES_BELOW {
+        let z = u * u;
+        let slope = u * (1.0 - z * (1.0 / 3.0 - z * (2.0 / 15.0 - z * (17.0 / 315.0))));
+        return (k0 * z * (0.5 - z * (1.0 / 12.0 - z * (1.0 / 45.0 - z * (17.0 / 2520.0)))), slope);
     }
     let decay = (-2.0 * size).exp();
-    (x.abs() + k0 * (decay.ln_1p() - LN_2), u.signum() * (1.0 - decay) / (1.0 + decay))
+    // ln(1 + decay) is decay to the last bit where the step is nearly complete.
+    let rest = if decay < 1e-16 { decay } else { decay.ln_1p() };
+    (x.abs() + k0 * (rest - LN_2), u.signum() * (1.0 - decay) / (1.0 + decay))
 }
 
-/// Below this, exp(−2u) is too close to 1 for the form used above it.
-const SMALL: f64 = 0.3;
+/// Below this the exponential form loses the digits that the series keeps.
+const SERIES_BELOW: f64 = 0.02;
 
 /// Elastic bending of the wall, `E = ½Bκ²`.
 ///
@@ -82,5 +84,28 @@ impl Term for Bending {
         let moment = self.stiffness * at.q[0];
         force[0] -= moment;
         0.5 * moment * at.q[0]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_soft_step_is_ln_cosh_and_tanh_everywhere() {
+        for i in -400..400 {
+            let u = 0.1 * f64::from(i) + 1e-3;
+            let (energy, slope) = soft_step(0.05 * u, 0.05);
+            assert!((energy - 0.05 * u.cosh().ln()).abs() < 1e-15 * (1.0 + u.abs()), "{u}");
+            assert!((slope - u.tanh()).abs() < 1e-15, "{u}");
+        }
+    }
+
+    #[test]
+    fn the_branches_of_the_soft_step_meet() {
+        for (join, size) in [(SERIES_BELOW, 1e-13), (20.0, 1e-15)] {
+            let (below, above) = (soft_step(join * (1.0 - 1e-15), 1.0), soft_step(join * (1.0 + 1e-15), 1.0));
+            assert!((above.0 / below.0 - 1.0).abs() < 1e-12 && (above.1 / below.1 - 1.0).abs() < size, "{join}");
+        }
     }
 }

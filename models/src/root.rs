@@ -57,8 +57,11 @@ pub(crate) fn find_root<F: FnMut(f64) -> f64>(f: &mut F, bracket: (f64, f64), st
     }
     let mut slope = start.slope;
     let newton = x0 - f0 / slope;
-    let mut x1 =
-        if slope < 0.0 && slope.is_finite() && newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
+    let trusted = slope < 0.0 && slope.is_finite();
+    if trusted && start.f.is_none() && (newton - x0).abs() <= LAST_ERROR * (x0.abs() + floor) {
+        return Ok(Root { x: x0, step: newton - x0, slope });
+    }
+    let mut x1 = if trusted && newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
     let (mut f1, mut last_width) = (f(x1), high - low);
     for evaluation in 1..MAX_EVALUATIONS {
         if f1 > 0.0 {

@@ -10,7 +10,7 @@
 //! the actuator's line of action. One unknown, the actuator's coordinate `a`, decides everything, because every law is
 //! explicit in it; the balance is one scalar equation per place.
 
-use crate::actuators::{Actuator, ActuatorShape, Stroke};
+use crate::actuators::{Actuator, ActuatorShape, Demand, Stroke};
 use crate::body::{Bending, BodyPressure};
 use crate::root::{NoRoot, Root, Start, find_root};
 use crate::term::{Pose, Term, actuator_q};
@@ -193,12 +193,20 @@ impl Site {
         Ok(self.settle(loads, &root, &at, &before))
     }
 
-    /// Start from the actuator's own estimate.
+    /// Start from the actuator's own balance with the wall's moment linearised and the arm at rest.
     fn start(&self, actuator: &Actuator, loads: &SiteLoads) -> Start {
         let available = loads.p_act_pa * (actuator.area)(&self.shape) * self.linkage.arm_m;
-        let reference = TYPICAL_STROKE * self.linkage.active_fraction / self.linkage.arm_m;
-        let needed = (self.body_moment(reference, loads) - loads.moment).max(0.0);
-        let (x, slope) = (actuator.guess)(needed / available);
+        let (low, high) = TYPICAL_STROKE;
+        let moment = |stroke: f64| {
+            self.body_moment(stroke * self.linkage.active_fraction / self.linkage.arm_m, loads) - loads.moment
+        };
+        let at_low = moment(low);
+        let rise = (moment(high) - at_low) / (high - low);
+        let demand = Demand {
+            constant: ((at_low - rise * low) / available).max(0.0),
+            per_contraction: (rise / available).max(0.0),
+        };
+        let (x, slope) = (actuator.guess)(&demand);
         Start { x, f: None, slope: slope * available }
     }
 
@@ -295,8 +303,8 @@ const PASSIVE_RANGE: f64 = 100.0;
 const PASSIVE_STEP: f64 = 1e-5;
 /// Stiffness below which a passive stretch counts as free \[N·m²\]; keeps the compliance finite.
 const LEAST_STIFFNESS: f64 = 1e-12;
-/// Contraction at which the wall's moment is sampled for the start value: near the free stroke of every actuator here.
-const TYPICAL_STROKE: f64 = 0.25;
+/// Contractions at which the wall's moment is sampled for the start value: in the working range of every actuator here.
+const TYPICAL_STROKE: (f64, f64) = (0.1, 0.3);
 
 /// Tension N from the actuator's balance `N (x + q N) = y`: the arm shrinks a little as the fabric stretches (q > 0).
 fn line_tension(y: f64, x: f64, q: f64) -> f64 {

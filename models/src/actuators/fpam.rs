@@ -18,7 +18,7 @@
 //! `shear_stiffness`, which makes the free stroke depend on pressure). Reference: Chou & Hannaford 1996 (McKibben);
 //! Naclerio & Hawkes 2020 (fPAM); the 45° form is derived here.
 
-use super::{Actuator, ActuatorShape, Family, Stroke};
+use super::{Actuator, ActuatorShape, Demand, Family, Stroke};
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Actuator = Actuator {
@@ -58,8 +58,9 @@ fn stroke(shape: &ActuatorShape, contraction: f64) -> Stroke {
     }
 }
 
-/// N/(P A) = 3(1 − ε)² − 2 = m solved for ε; slope −6(1 − ε).
-fn guess(demand: f64) -> (f64, f64) {
-    let length = ((2.0 + demand.min(1.0)) / 3.0).sqrt();
-    (1.0 - length, -6.0 * length)
+/// Root of the quadratic `3(1 − ε)² − 2 − m₀ − m₁ ε`, contracting only; slope `−6(1 − ε) − m₁`.
+fn guess(demand: &Demand) -> (f64, f64) {
+    let (m0, m1) = (demand.constant.min(1.0), demand.per_contraction);
+    let root = (m1 * m1 + 12.0 * (2.0 + m0 + m1)).sqrt();
+    (1.0 - (root - m1) / 6.0, -root)
 }

@@ -42,9 +42,9 @@ pub struct Actuator {
     pub stroke: fn(&ActuatorShape, f64) -> Stroke,
     /// Coordinate interval in which equilibrium is sought.
     pub range: (f64, f64),
-    /// Start value from the demand m = (restoring moment)/(P·area·arm) \[-\], and the slope there of the weighted
-    /// imbalance over P·area·arm.
-    pub guess: fn(f64) -> (f64, f64),
+    /// Coordinate at which the actuator with its arm at rest meets a demand, to rounding, and the slope there of the
+    /// weighted imbalance over P·area·arm.
+    pub guess: fn(&Demand) -> (f64, f64),
     /// Area A so that P·A is a typical actuator force \[m²\].
     pub area: fn(&ActuatorShape) -> f64,
     /// Arm from the taut generator to the line of action at rest \[m\], from body radius and shape; used if the
@@ -52,6 +52,15 @@ pub struct Actuator {
     pub arm: fn(f64, &ActuatorShape) -> f64,
     /// Share of the sealed-edge loss that the edges of this actuator suffer: 1 for sealed edges, 0 for free ones.
     pub edge_restraint: fn(&ActuatorShape) -> f64,
+}
+
+/// Restoring moment over P·area·arm, `m = m₀ + m₁ ε`, neither negative \[-\].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Demand {
+    /// m₀: the body's hinge.
+    pub constant: f64,
+    /// m₁: the wall's bending stiffness.
+    pub per_contraction: f64,
 }
 
 /// Dimensions of one actuator unit \[m\].

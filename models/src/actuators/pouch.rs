@@ -19,7 +19,7 @@
 //! is the effect `end_constraint`). **Do not use** for pouches much longer than wide: there the side seams decide.
 //! Reference: Niiyama et al., Soft Robotics 2(2), 2015 (pouch motor); the volume and its derivative are derived here.
 
-use super::{ActuatorShape, Stroke};
+use super::{ActuatorShape, Demand, Stroke};
 use crate::trig::sin_cos;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -66,14 +66,24 @@ fn stroke_series(shape: &ActuatorShape, theta: f64) -> Stroke {
     }
 }
 
-/// Start value: cosθ = mθ, two Newton steps from its straight-line solution; slope −sinθ − m.
-pub(super) fn guess(demand: f64) -> (f64, f64) {
-    let mut theta = FRAC_PI_2 / (1.0 + demand);
-    let mut slope = 0.0;
-    for _ in 0..2 {
+/// Root of `cosθ − θ m = cosθ − m₀ θ − m₁ (θ − sinθ)` by Newton; slope `−sinθ − m₀ − m₁ (1 − cosθ)`.
+pub(super) fn guess(demand: &Demand) -> (f64, f64) {
+    let (m0, m1) = (demand.constant, demand.per_contraction);
+    // Exact for m = 0 and m₀ → ∞; the cube root is that of θ − sinθ ≈ θ³/6.
+    let mut theta = FRAC_PI_2 / (1.0 + m0);
+    if m1 > 0.0 {
+        theta /= (1.0 + m1 * theta * theta * theta / 6.0).cbrt();
+    }
+    let mut slope = -1.0;
+    for _ in 0..6 {
         let (sin, cos) = sin_cos(theta);
-        slope = -sin - demand;
-        theta -= (cos - demand * theta) / slope;
+        slope = -sin - m0 - m1 * (1.0 - cos);
+        let step = (cos - m0 * theta - m1 * (theta - sin)) / slope;
+        theta -= step;
+        // The next step would be its square.
+        if step.abs() < 1e-8 {
+            break;
+        }
     }
     (theta, slope)
 }
@@ -91,6 +101,17 @@ pub(super) fn arm(radius_m: f64, _shape: &ActuatorShape) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_guess_meets_its_demand_to_rounding() {
+        for constant in [0.0, 0.0465, 0.5, 1.0, 30.0, 1e4] {
+            for per_contraction in [0.0, 0.01, 2.0, 25.0, 1e4] {
+                let (theta, slope) = guess(&Demand { constant, per_contraction });
+                let left = theta.cos() - constant * theta - per_contraction * (theta - theta.sin());
+                assert!((left / slope).abs() < 1e-14 * (1.0 + theta), "{constant} {per_contraction}: {theta}");
+            }
+        }
+    }
 
     #[test]
     fn the_series_meets_the_closed_form_where_they_join() {
