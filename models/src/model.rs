@@ -213,15 +213,17 @@ impl Model {
     }
 }
 
+#[inline]
 fn check(loads: &Loads) -> Result<(), Unsolved> {
-    for (what, p) in
-        std::iter::once(("body pressure", loads.body_pa)).chain(loads.actuator_pa.map(|p| ("actuator pressure", p)))
-    {
-        if !(0.0..=P_LIMIT_PA).contains(&p) {
-            return Err(Unsolved::BadPressure { what, value_kpa: p / 1e3, limit_kpa: P_LIMIT_PA / 1e3 });
-        }
+    let bad = |p: &f64| !(0.0..=P_LIMIT_PA).contains(p);
+    let refused = |what, p: f64| Unsolved::BadPressure { what, value_kpa: p / 1e3, limit_kpa: P_LIMIT_PA / 1e3 };
+    if bad(&loads.body_pa) {
+        return Err(refused("body pressure", loads.body_pa));
     }
-    Ok(())
+    match loads.actuator_pa.iter().find(|p| bad(p)) {
+        Some(p) => Err(refused("actuator pressure", *p)),
+        None => Ok(()),
+    }
 }
 
 /// Adds to the line of that name, or opens it.

@@ -1,4 +1,4 @@
-//! A bracketed secant iteration: never leaves the bracket, halves it when the secant stalls.
+//! A bracketed secant iteration with the bend of three points: never leaves the bracket, halves it when it stalls.
 
 /// Why no root was returned.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,15 +23,15 @@ pub(crate) struct Start {
 pub(crate) struct Root {
     pub x: f64,
     pub step: f64,
-    /// Slope of the last secant.
+    /// Slope at the root.
     pub slope: f64,
 }
 
-/// A secant settles in 2–5 evaluations and pure bisection of a unit bracket in 60; 120 is never reached.
+/// A smooth root settles in 1–5 evaluations and pure bisection of a unit bracket in 60; 120 is never reached.
 const MAX_EVALUATIONS: usize = 120;
 /// A last step this short is taken without another evaluation …
 const LAST_STEP: f64 = 1e-8;
-/// … if its product with the relative change of the slope is this small: that product is the error the step leaves.
+/// … if its product with the relative doubt about the slope is this small: that product is the error the step leaves.
 const LAST_ERROR: f64 = 1e-14;
 /// Part of the bracket below which x counts as zero when steps are compared with it.
 const FLOOR: f64 = 1e-6;
@@ -62,7 +62,7 @@ pub(crate) fn find_root<F: FnMut(f64) -> f64>(f: &mut F, bracket: (f64, f64), st
         return Ok(Root { x: x0, step: newton - x0, slope });
     }
     let mut x1 = if trusted && newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
-    let (mut f1, mut last_width) = (f(x1), high - low);
+    let (mut f1, mut last_width, mut oldest) = (f(x1), high - low, f64::NAN);
     for evaluation in 1..MAX_EVALUATIONS {
         if f1 > 0.0 {
             low = low.max(x1);
@@ -75,9 +75,11 @@ pub(crate) fn find_root<F: FnMut(f64) -> f64>(f: &mut F, bracket: (f64, f64), st
         if x1 != x0 {
             slope = (f1 - f0) / (x1 - x0);
         }
-        let step = if f1 == 0.0 { 0.0 } else { -f1 / slope };
-        if slope < 0.0 && settled(step, slope - last, slope, x1.abs() + floor) {
-            return Ok(Root { x: x1, step, slope });
+        let (change, bend) = (slope - last, bend(slope - last, x1, x0, oldest));
+        let tangent = if slope + bend < 0.0 { slope + bend } else { slope };
+        let step = if f1 == 0.0 { 0.0 } else { -f1 / tangent };
+        if tangent < 0.0 && settled(step, change / tangent, bend / tangent, x1.abs() + floor) {
+            return Ok(Root { x: x1, step, slope: tangent });
         }
         if high - low <= 4.0 * f64::EPSILON * (low.abs() + high.abs()) + f64::MIN_POSITIVE {
             return end_of_bracket(f, (low, high), seen, slope);
@@ -88,16 +90,26 @@ pub(crate) fn find_root<F: FnMut(f64) -> f64>(f: &mut F, bracket: (f64, f64), st
         if evaluation % PATIENCE == 0 {
             last_width = high - low;
         }
-        (x0, f0, x1, f1) = (x1, f1, next, f(next));
+        (oldest, x0, f0, x1, f1) = (x0, x1, f1, next, f(next));
     }
     Err(NoRoot::Stalled { f: f1 })
 }
 
-/// Whether x plus this step is the root: the step is short, and the error it leaves is rounding.
+/// From the secant to the tangent at x1: what the parabola through the last three points adds; 0 without a third.
 #[inline]
-fn settled(step: f64, change: f64, slope: f64, scale: f64) -> bool {
-    let step = step.abs();
-    step <= LAST_STEP * scale && step * change.abs() <= LAST_ERROR * scale * slope.abs()
+fn bend(change: f64, x1: f64, x0: f64, oldest: f64) -> f64 {
+    let bend = change * (x1 - x0) / (x1 - oldest);
+    if bend.is_finite() { bend } else { 0.0 }
+}
+
+/// Whether x plus this step is the root: the step is short, and the error it leaves is rounding.
+///
+/// A slope that changed by more than a hundredth may hide a corner, which the parabola does not see.
+#[inline]
+fn settled(step: f64, change: f64, bend: f64, scale: f64) -> bool {
+    let (step, change) = (step.abs(), change.abs());
+    let doubt = if change < 1e-2 && bend != 0.0 { bend.abs() } else { change };
+    step <= LAST_STEP * scale && step * doubt <= LAST_ERROR * scale
 }
 
 /// The bracket has closed: a root if both signs were seen, else one end has to show whether the sign changes there.
