@@ -11,22 +11,33 @@ pub struct Batch {
     pub markers: Vec<[f64; 2]>,
     /// Tip per state.
     pub tips: Vec<Tip>,
-    state: Prediction,
+    /// One set of buffers per thread.
+    states: Vec<Prediction>,
+}
+
+/// A contiguous part of a batch.
+struct Part<'a> {
+    first: usize,
+    loads: &'a [Loads],
+    markers: &'a mut [[f64; 2]],
+    tips: &'a mut [Tip],
 }
 
 impl Model {
-    /// Buffers for batches of up to `count` states; a larger batch makes them grow once.
-    pub fn batch(&self, count: usize) -> Batch {
-        let state = self.prediction();
-        Batch { markers: Vec::with_capacity(count * state.markers.len()), tips: Vec::with_capacity(count), state }
+    /// Buffers for batches of up to `count` states on `threads` threads (at least one); a larger batch makes them grow
+    /// once.
+    pub fn batch(&self, count: usize, threads: usize) -> Batch {
+        let states = vec![self.prediction(); threads.max(1)];
+        Batch { markers: Vec::with_capacity(count * self.marker_count()), tips: Vec::with_capacity(count), states }
     }
 
-    /// Predicts one state per item of `loads`, each identical to the bit to [`Model::predict`] at these loads.
+    /// Predicts one state per item of `loads`, each identical to the bit to [`Model::predict`] at these loads, whatever
+    /// the number of threads. On one thread it allocates nothing.
     ///
     /// ```
     /// let model = models::Model::new(&models::Scenario::parse(models::shipped("epam").unwrap()).unwrap());
     /// let loads: Vec<_> = (0..31).map(|kpa| models::Loads::uniform(2e3, 1e3 * f64::from(kpa))).collect();
-    /// let mut batch = model.batch(loads.len());
+    /// let mut batch = model.batch(loads.len(), 1);
     /// model.predict_batch(&loads, &mut batch).unwrap();
     /// assert_eq!((batch.tips.len(), batch.markers.len()), (31, 31 * 6));
     /// ```
@@ -34,13 +45,56 @@ impl Model {
     /// # Errors
     /// The first [`Unsolved`]; the states before it are in `out`, so `out.tips.len()` is the index of the culprit.
     pub fn predict_batch(&self, loads: &[Loads], out: &mut Batch) -> Result<(), Unsolved> {
-        out.markers.clear();
-        out.tips.clear();
-        for item in loads {
-            self.predict(item, &mut out.state)?;
-            out.markers.extend_from_slice(&out.state.markers);
-            out.tips.push(out.state.tip);
+        out.markers.resize(loads.len() * self.marker_count(), [0.0; 2]);
+        out.tips.resize(loads.len(), Tip { x_m: 0.0, y_m: 0.0, angle_rad: 0.0 });
+        let whole = Part { first: 0, loads, markers: &mut out.markers, tips: &mut out.tips };
+        let failed = match out.states.as_mut_slice() {
+            [state] => self.predict_part(whole, state),
+            states => self.predict_parts(whole, states),
+        };
+        let Err((index, error)) = failed else { return Ok(()) };
+        out.markers.truncate(index * self.marker_count());
+        out.tips.truncate(index);
+        Err(error)
+    }
+
+    /// Equal parts, one per thread; of several failures the first counts.
+    fn predict_parts(&self, whole: Part, states: &mut [Prediction]) -> Result<(), (usize, Unsolved)> {
+        let size = whole.loads.len().div_ceil(states.len());
+        std::thread::scope(|scope| {
+            let mut rest = whole;
+            let mut running = Vec::with_capacity(states.len());
+            for state in states {
+                let (part, others) = rest.split(size, self.marker_count());
+                rest = others;
+                running.push(scope.spawn(move || self.predict_part(part, state)));
+            }
+            // A panic of a part is passed on.
+            running
+                .into_iter()
+                .try_for_each(|part| part.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+        })
+    }
+
+    fn predict_part(&self, part: Part, state: &mut Prediction) -> Result<(), (usize, Unsolved)> {
+        let count = self.marker_count();
+        for (i, (item, tip)) in part.loads.iter().zip(part.tips).enumerate() {
+            self.predict(item, state).map_err(|error| (part.first + i, error))?;
+            part.markers[i * count..(i + 1) * count].copy_from_slice(&state.markers);
+            *tip = state.tip;
         }
         Ok(())
+    }
+}
+
+impl<'a> Part<'a> {
+    /// The first `size` states (or what there is) and the others.
+    fn split(self, size: usize, markers_each: usize) -> (Part<'a>, Part<'a>) {
+        let size = size.min(self.loads.len());
+        let (loads, other_loads) = self.loads.split_at(size);
+        let (markers, other_markers) = self.markers.split_at_mut(size * markers_each);
+        let (tips, other_tips) = self.tips.split_at_mut(size);
+        let others = Part { first: self.first + size, loads: other_loads, markers: other_markers, tips: other_tips };
+        (Part { first: self.first, loads, markers, tips }, others)
     }
 }

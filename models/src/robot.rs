@@ -268,3 +268,46 @@ fn newton_step(assembly: &Assembly, work: &mut Workspace) -> bool {
     }
     turn.is_finite()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assembly::Segment;
+
+    /// Segments of unequal length; only their lengths matter here.
+    fn assembly(lengths: &[f64]) -> Assembly {
+        Assembly {
+            sites: Vec::new(),
+            segments: lengths.iter().map(|h| Segment { site: 0, start_m: 0.0, length_m: *h }).collect(),
+            node_terms: Vec::new(),
+            supply: Vec::new(),
+            camera: Vec::new(),
+            gravity_direction: [0.0, -1.0],
+        }
+    }
+
+    #[test]
+    fn the_newton_step_solves_the_dense_system() {
+        let lengths = [0.03, 0.05, 0.02, 0.04, 0.03];
+        let n = lengths.len();
+        let number = |i: usize, k: usize| ((i * 37 + k * 11) % 17) as f64 / 17.0 - 0.4;
+        let mut work = Workspace::new(n, true);
+        for i in 0..n {
+            work.states[i].compliance = 0.5 + number(i, 1);
+            work.coupled.coupling[i] = number(i, 2);
+            work.coupled.diagonal[i] = number(i, 3);
+            work.coupled.residual[i] = number(i, 4);
+        }
+        let before = work.clone();
+        assert!(newton_step(&assembly(&lengths), &mut work));
+        for i in 0..n {
+            // Σⱼ ∂Gᵢ/∂κⱼ Cⱼ δⱼ, with ∂Gᵢ/∂κⱼ = hⱼ g_max(i,j) off the diagonal.
+            let slope = |j: usize| {
+                if i == j { before.coupled.diagonal[i] } else { lengths[j] * before.coupled.coupling[i.max(j)] }
+            };
+            let moved: f64 = (0..n).map(|j| slope(j) * before.states[j].compliance * work.coupled.step[j]).sum();
+            let left = work.coupled.step[i] - moved - before.coupled.residual[i];
+            assert!(left.abs() < 1e-14, "row {i}: {left:e}");
+        }
+    }
+}

@@ -30,7 +30,7 @@ pub(crate) struct Root {
 /// A smooth root settles in 1–5 evaluations and pure bisection of a unit bracket in 60; 120 is never reached.
 const MAX_EVALUATIONS: usize = 120;
 /// A last step this short is taken without another evaluation …
-const LAST_STEP: f64 = 1e-8;
+const LAST_STEP: f64 = 1e-7;
 /// … if its product with the relative doubt about the slope is this small: that product is the error the step leaves.
 const LAST_ERROR: f64 = 1e-14;
 /// Part of the bracket below which x counts as zero when steps are compared with it.
@@ -104,11 +104,12 @@ fn bend(change: f64, x1: f64, x0: f64, oldest: f64) -> f64 {
 
 /// Whether x plus this step is the root: the step is short, and the error it leaves is rounding.
 ///
-/// A slope that changed by more than a hundredth may hide a corner, which the parabola does not see.
+/// Relative doubt about the slope: all its last change without a third point; with one, what a cubic would add to the
+/// parabola. A change of more than a hundredth may hide a corner, which the parabola does not see.
 #[inline]
 fn settled(step: f64, change: f64, bend: f64, scale: f64) -> bool {
     let (step, change) = (step.abs(), change.abs());
-    let doubt = if change < 1e-2 && bend != 0.0 { bend.abs() } else { change };
+    let doubt = if change < 1e-2 && bend != 0.0 { bend.abs() * (change + 1e-3) } else { change };
     step <= LAST_STEP * scale && step * doubt <= LAST_ERROR * scale
 }
 

@@ -48,6 +48,16 @@ pub struct Site {
     pub bending: Bending,
     /// Further terms over `[κ]`, J per metre of body.
     pub body_terms: Vec<Box<dyn Term>>,
+    typical: Typical,
+}
+
+/// Arm and lever at a typical stroke, for start values \[m\].
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Typical {
+    /// D.
+    arm: f64,
+    /// `D / (1 − κD'/(ηε'))`: what virtual work leaves of the arm while it grows.
+    lever: f64,
 }
 
 /// The pressure work of the actuator, `E = −P v`.
@@ -160,7 +170,18 @@ impl Site {
             body_pressure: Box::new(body_pressure),
             bending,
             body_terms: Vec::new(),
+            typical: Typical { arm: linkage.arm_m, lever: linkage.arm_m },
         }
+    }
+
+    /// To be called once all effects have been added.
+    pub(crate) fn prepare(&mut self) {
+        let Some(actuator) = self.actuator else { return };
+        let stroke = (actuator.stroke)(&self.shape, (actuator.guess)(&TYPICAL_DEMAND).0);
+        let arm = self.linkage.arm_m + self.linkage.arm_growth * stroke.lift;
+        let d_arm = self.linkage.arm_growth * stroke.d_lift;
+        let lever = arm / (1.0 - stroke.contraction * d_arm / (stroke.d_contraction * arm));
+        self.typical = Typical { arm, lever };
     }
 
     /// Curvature at which actuator, wall and external moment balance; `near` is a state to start from.
@@ -189,16 +210,24 @@ impl Site {
             Some(state) => state.start(loads),
             None => self.start(actuator, loads),
         };
-        let root = find_root(&mut imbalance, actuator.range, start)?;
+        let mut root = find_root(&mut imbalance, actuator.range, start)?;
+        if self.linkage.compliance_per_n != 0.0 && root.step != 0.0 {
+            // Stretching fabric has no explicit dκ/da: the last step is evaluated, and a secant is the slope.
+            at = self.balance(actuator, root.x + root.step, loads);
+            if at.coordinate != before.coordinate && before.weight != 0.0 {
+                at.d_curvature = (at.curvature - before.curvature) / (at.coordinate - before.coordinate);
+            }
+            root = Root { x: at.coordinate, step: 0.0, ..root };
+        }
         Ok(self.settle(loads, &root, &at, &before))
     }
 
-    /// Start from the actuator's own balance with the wall's moment linearised and the arm at rest.
+    /// Start from the actuator's own balance with the wall's moment linearised and a typical lever.
     fn start(&self, actuator: &Actuator, loads: &SiteLoads) -> Start {
-        let available = loads.p_act_pa * (actuator.area)(&self.shape) * self.linkage.arm_m;
+        let available = loads.p_act_pa * (actuator.area)(&self.shape) * self.typical.lever;
         let (low, high) = TYPICAL_STROKE;
         let moment = |stroke: f64| {
-            self.body_moment(stroke * self.linkage.active_fraction / self.linkage.arm_m, loads) - loads.moment
+            self.body_moment(stroke * self.linkage.active_fraction / self.typical.arm, loads) - loads.moment
         };
         let at_low = moment(low);
         let rise = (moment(high) - at_low) / (high - low);
@@ -213,16 +242,12 @@ impl Site {
     /// State at the root: the last balance carried over the remaining step.
     fn settle(&self, loads: &SiteLoads, root: &Root, at: &Balance, before: &Balance) -> SiteState {
         let run = at.coordinate - before.coordinate;
-        let known = run != 0.0 && before.weight != 0.0;
-        // Stretching fabric has no explicit dκ/da: the last secant stands in.
-        let extensible = known && self.linkage.compliance_per_n != 0.0;
-        let d_curvature = if extensible { (at.curvature - before.curvature) / run } else { at.d_curvature };
-        let d_tension = if known { (at.tension - before.tension) / run } else { 0.0 };
+        let secant = |now: f64, then: f64| if run != 0.0 && before.weight != 0.0 { (now - then) / run } else { 0.0 };
         SiteState {
             coordinate: root.x + root.step,
-            curvature: at.curvature + d_curvature * root.step,
-            tension: at.tension + d_tension * root.step,
-            compliance: -at.weight * d_curvature / root.slope,
+            curvature: at.curvature + at.d_curvature * root.step,
+            tension: at.tension + secant(at.tension, before.tension) * root.step,
+            compliance: -at.weight * at.d_curvature / root.slope,
             loads: *loads,
             slope: root.slope,
             weight: at.weight,
@@ -303,6 +328,8 @@ const PASSIVE_RANGE: f64 = 100.0;
 const PASSIVE_STEP: f64 = 1e-5;
 /// Stiffness below which a passive stretch counts as free \[N·m²\]; keeps the compliance finite.
 const LEAST_STIFFNESS: f64 = 1e-12;
+/// Demand of a robot at a working pressure.
+const TYPICAL_DEMAND: Demand = Demand { constant: 0.07, per_contraction: 0.1 };
 /// Contractions at which the wall's moment is sampled for the start value: in the working range of every actuator here.
 const TYPICAL_STROKE: (f64, f64) = (0.1, 0.3);
 

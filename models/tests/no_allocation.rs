@@ -34,7 +34,7 @@ fn main() {
             let model = Model::new(&scenario);
             let mut out = model.prediction();
             let sweep: Vec<Loads> = (0..50).map(|i| Loads::uniform(2e3, 1e3 * f64::from(i))).collect();
-            let mut batch = model.batch(sweep.len());
+            let mut batch = model.batch(sweep.len(), 1);
             let found = allocations(|| {
                 for loads in &sweep {
                     model.predict(loads, &mut out).unwrap();

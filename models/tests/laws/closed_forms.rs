@@ -57,18 +57,14 @@ fn the_fabric_muscle_agrees_with_and_without_shear_stiffness() {
     for shear in [0.0, 51.6] {
         let mut scenario = robot("fpam").with_effect("shear_stiffness", &[shear]);
         scenario.actuator.start_m = 0.0;
+        // A muscle bends the body little at low pressure: a hinge narrow enough to be complete there too.
+        scenario.hinge_curvature = 1e-3;
         let muscle = Fpam { flat_width_m: 0.06, rest_length_m: 0.3, shear_stiffness_n_per_m: shear };
-        for p_act in PRESSURES {
+        for p_act in [5e3, 10e3, 20e3, 30e3] {
             let alpha = bending_alpha(&muscle, 0.04, p_act, BODY_PA, Lever::VirtualWork);
             let total_angle = total_angle(&muscle, 0.04, alpha);
-            // Below about 1 1/m the regularised hinge is not yet complete, and the closed form has the full step.
-            if total_angle / 0.3 > 17.0 * scenario.hinge_curvature {
-                agree(&scenario, p_act, BentBody { body_radius_m: 0.04, length_m: 0.3, total_angle }, "fpam");
-            } else {
-                let y = axis_point_m(&BentBody { body_radius_m: 0.04, length_m: 0.3, total_angle }, 0.33)[1];
-                let error = predict(&scenario, BODY_PA, p_act).markers[5][1] - y;
-                assert!(error.abs() < 0.06 * y + 3e-3, "{shear} {p_act}: {error:e}");
-            }
+            assert!(total_angle / 0.3 > 20.0 * scenario.hinge_curvature, "{shear} {p_act}");
+            agree(&scenario, p_act, BentBody { body_radius_m: 0.04, length_m: 0.3, total_angle }, "fpam");
         }
     }
 }
