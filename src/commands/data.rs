@@ -80,6 +80,7 @@ fn make(args: &Generate, context: &mut Context) -> Result<Outcome, Failure> {
     let mut files = Files::default();
     files.files.push(("about.toml".into(), data::about_toml(&about).into_bytes()));
     files.files.push(("markers.csv".into(), csv));
+    files.files.push(("truth.toml".into(), named.text.into_bytes()));
     write_files(&args.out, &files, &[named.input], context)?;
     let text = format!("{} values of {} runs in {}\n", dataset.xy_m.len(), dataset.runs.len(), args.out.display());
     let json = json!({"schema": "ibr.data.generate", "version": 1, "folder": args.out, "runs": dataset.runs.len()});

@@ -13,6 +13,8 @@ use std::path::Path;
 pub struct NamedScenario {
     /// The checked scenario.
     pub scenario: Scenario,
+    /// Its text.
+    pub text: String,
     /// For the manifest.
     pub input: Input,
 }
@@ -29,7 +31,10 @@ pub fn scenario(spec: &str) -> Result<NamedScenario, Failure> {
         }
     };
     match Scenario::parse(&text) {
-        Ok(scenario) => Ok(NamedScenario { scenario, input: Input::of(spec, text.as_bytes()) }),
+        Ok(scenario) => {
+            let input = Input::of(spec, text.as_bytes());
+            Ok(NamedScenario { scenario, text, input })
+        }
         Err(error) => Err(Failure::Scenario { file: spec.into(), text, error }),
     }
 }

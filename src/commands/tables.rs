@@ -5,7 +5,7 @@ use comfy_table::{CellAlignment, Table, presets};
 /// A table of text; columns after the first `left` ones are flush right.
 pub fn table(head: &[&str], left: usize, rows: Vec<Vec<String>>) -> String {
     let mut table = Table::new();
-    table.load_preset(presets::UTF8_HORIZONTAL_ONLY);
+    table.load_preset(presets::ASCII_MARKDOWN);
     table.set_header(head.to_vec());
     for row in rows {
         table.add_row(row);
