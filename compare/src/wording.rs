@@ -23,14 +23,30 @@ pub fn short(value: f64) -> String {
 pub fn pressures(map: &ResidualMap, holds: &[usize]) -> String {
     let body = &map.holds[0].p_body_kpa;
     let several = map.holds.iter().any(|h| (h.p_body_kpa - body).abs() > 0.03 * body.abs().max(0.1));
-    let mut words: Vec<String> = Vec::new();
+    let same_body = |a: usize, b: usize| map.holds[a].p_body_kpa == map.holds[b].p_body_kpa;
+    let mut groups: Vec<Vec<usize>> = Vec::new();
     for &h in holds {
-        let word = hold_word(&map.holds[h], several);
+        match groups.iter_mut().find(|group| same_body(group[0], h)) {
+            Some(group) => group.push(h),
+            None => groups.push(vec![h]),
+        }
+    }
+    let words: Vec<String> = groups.iter().map(|group| group_words(map, group, several)).collect();
+    list(&words)
+}
+
+/// The actuator pressures of holds at one body pressure: `10, 20 and 30 kPa at 2 kPa body pressure`.
+fn group_words(map: &ResidualMap, group: &[usize], several_bodies: bool) -> String {
+    let mut words: Vec<String> = Vec::new();
+    for &h in group {
+        let word = hold_word(&map.holds[h]);
         if !words.contains(&word) {
             words.push(word);
         }
     }
-    if several { list(&words) } else { format!("{} kPa", list(&words)) }
+    let body = short(map.holds[group[0]].p_body_kpa);
+    let at = if several_bodies { format!(" at {body} kPa body pressure") } else { String::new() };
+    format!("{} kPa{at}", list(&words))
 }
 
 /// `tip +38.2 mm at 30 kPa, 41 times the noise`; the pressure is left out if `holds` names only that one.
@@ -78,13 +94,9 @@ pub fn markers(map: &ResidualMap, chosen: &[usize]) -> String {
     }
 }
 
-fn hold_word(hold: &HoldLabel, several_bodies: bool) -> String {
-    let pressure = short(hold.p_act_kpa);
+fn hold_word(hold: &HoldLabel) -> String {
     let again = if hold.occurrence > 0 { format!(" (time {})", hold.occurrence + 1) } else { String::new() };
-    match several_bodies {
-        true => format!("{pressure} kPa at {} kPa body pressure{again}", short(hold.p_body_kpa)),
-        false => format!("{pressure}{again}"),
-    }
+    format!("{}{again}", short(hold.p_act_kpa))
 }
 
 #[cfg(test)]

@@ -45,7 +45,7 @@ fn text(demo: &Demo) -> String {
     let mut out = String::from("Displacement at 30 kPa against the published measurement (du Pasquier et al. 2023)\n");
     out.push_str(&published_text(&demo.ladders));
     out.push_str("\nSynthetic marker sets: error beyond noise as effects are added\n");
-    let head = ["data", "model", "how known", "paper acc. %", "beyond noise mm", "largest tip error mm"];
+    let head = ["data", "model", "how known", "paper acc. %", "beyond noise mm", "χ²/dof", "largest tip error mm"];
     let mut rows = Vec::new();
     for study in &demo.studies {
         for v in &study.variants {
@@ -56,6 +56,7 @@ fn text(demo: &Demo) -> String {
                 v.known.word().into(),
                 number(all.paper_accuracy.map(|a| 100.0 * a), 1),
                 number(all.systematic_mm, 2),
+                number(all.reduced_chi2, 1),
                 format!("{:+.1}", all.largest_tip_error_mm),
             ]);
         }

@@ -166,8 +166,11 @@ pub fn compare_page(study: &Study, imprint: &Imprint) -> Result<Files, CompareEr
         let ladder = figures::error_ladder("Error beyond noise", &study.variants)?;
         files.plot("ladder", &ladder);
         let block = figure("Each bar is one more effect or one calibration.", "bars of error per model", &ladder.svg);
-        sections
-            .insert(1, section("ladder", "What each addition brings", vec![tables::variants(&study.variants), block]));
+        let origins = tables::origins(study.variants.iter().map(|v| (v.label.as_str(), v.known, v.why.as_str())));
+        sections.insert(
+            1,
+            section("ladder", "What each addition brings", vec![tables::variants(&study.variants), origins, block]),
+        );
     }
     let report = Report {
         title: format!("{} held against {}", first.scenario.name, study.dataset.name),

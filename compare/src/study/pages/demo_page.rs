@@ -109,6 +109,9 @@ fn published_section(demo: &Demo, files: &mut Files) -> Result<Section, CompareE
             figure("The middle bars are fitted to nothing.", "bars of displacement per actuator", &bars.svg),
             Block::Callout { kind: Callout::Warning, text: note.into() },
             tables::published(&demo.ladders),
+            tables::origins(
+                demo.ladders.iter().flat_map(|l| &l.rungs).map(|r| (r.label.as_str(), r.known, r.why.as_str())),
+            ),
         ],
     })
 }
@@ -169,7 +172,12 @@ fn study_section(study: &Study, files: &mut Files) -> Result<Section, CompareErr
     blocks.push(figure("Signed residual in units of the noise.", "heat map, markers by holds", &map.svg));
     blocks.push(figure("Lines and open marks: bare model. Filled marks: mean over runs.", "centre lines", &shapes.svg));
     blocks.push(tables::variants(&study.variants));
-    blocks.push(figure("The error falls with each addition that belongs here.", "bars of error", &ladder.svg));
+    blocks.push(tables::origins(study.variants.iter().map(|v| (v.label.as_str(), v.known, v.why.as_str()))));
+    blocks.push(figure(
+        "Each bar is one more effect, or one calibration. An addition that does not belong here need not help.",
+        "bars of error",
+        &ladder.svg,
+    ));
     blocks.push(figure("What the last model leaves.", "heat map, markers by holds", &after.svg));
     blocks.push(figure("All models.", "marker height over pressure", &curve.svg));
     blocks.push(tables::accuracy(bare));

@@ -2,6 +2,7 @@
 
 use super::compare_page::Variant;
 use crate::metrics::HoldMetrics;
+use crate::plots::Known;
 use crate::report::{Align, Block, Column, Table};
 use crate::study::Timing;
 use crate::study::published::PublishedLadder;
@@ -19,16 +20,20 @@ fn words(heading: &str) -> Column {
     Column { heading: heading.into(), unit: String::new(), align: Align::Left }
 }
 
-pub(super) fn hold_name(hold: &HoldMetrics) -> String {
+/// `10 kPa load`; the body pressure is named if the data have several.
+fn hold_name(hold: &HoldMetrics, several_bodies: bool) -> String {
     let again = if hold.occurrence > 0 { format!(" ({})", hold.occurrence + 1) } else { String::new() };
-    format!("{:.0} kPa {}{again}, body {:.0} kPa", hold.p_act_kpa, hold.phase, hold.p_body_kpa)
+    let body = if several_bodies { format!(", body {:.0} kPa", hold.p_body_kpa) } else { String::new() };
+    format!("{:.0} kPa {}{again}{body}", hold.p_act_kpa, hold.phase)
 }
 
 /// The paper's accuracy per hold, and its companions.
 pub(super) fn accuracy(variant: &Variant) -> Block {
-    let rows = variant.evaluation.metrics.holds.iter().map(|h| {
+    let holds = &variant.evaluation.metrics.holds;
+    let several = holds.iter().any(|h| h.p_body_kpa != holds[0].p_body_kpa);
+    let rows = holds.iter().map(|h| {
         vec![
-            hold_name(h),
+            hold_name(h, several),
             number(h.paper_accuracy.map(|a| 100.0 * a), 1),
             number(h.noise_ceiling.map(|a| 100.0 * a), 1),
             number(h.rms_relative_pct, 1),
@@ -69,11 +74,10 @@ pub(super) fn variants(variants: &[Variant]) -> Block {
             number(Some(all.rmse_mm), 2),
             format!("{:+.1}", all.largest_tip_error_mm),
             number(all.reduced_chi2, 1),
-            v.why.clone(),
         ]
     });
     Block::Table(Table {
-        caption: "Every model on these data".into(),
+        caption: "Every model on these data. χ² counts run-to-run pressure scatter as noise only where the model reacts to pressure, so it and the error in mm can move apart".into(),
         columns: vec![
             words("model"),
             words("how known"),
@@ -82,7 +86,6 @@ pub(super) fn variants(variants: &[Variant]) -> Block {
             column("RMSE", "mm"),
             column("largest tip error", "mm"),
             column("χ²/dof", ""),
-            words("where its value comes from"),
         ],
         rows: rows.collect(),
         how_column: Some(1),
@@ -94,33 +97,44 @@ pub(super) fn published(ladders: &[PublishedLadder]) -> Block {
     let mut rows = Vec::new();
     for ladder in ladders {
         let measured = ladder.published.d_max_m * 1e3;
+        let name = format!("{} ({measured:.1})", ladder.published.printed_name);
         for rung in &ladder.rungs {
-            let range = rung.range_m.map_or(String::new(), |r| format!(" ({:.1}–{:.1})", r[0] * 1e3, r[1] * 1e3));
+            let range = rung.range_m.map_or("–".into(), |r| format!("{:.1}–{:.1}", r[0] * 1e3, r[1] * 1e3));
             rows.push(vec![
-                ladder.published.printed_name.clone(),
+                name.clone(),
                 rung.label.clone(),
                 rung.known.word().into(),
-                format!("{:.1}{range}", rung.y_m * 1e3),
-                format!("{measured:.1}"),
+                format!("{:.1}", rung.y_m * 1e3),
+                range,
                 format!("{:+.1}", rung.y_m * 1e3 - measured),
-                rung.why.clone(),
             ]);
         }
     }
     Block::Table(Table {
-        caption: "Displacement at 30 kPa actuator and 2 kPa body pressure".into(),
+        caption: "Displacement at 30 kPa actuator and 2 kPa body pressure; measured: du Pasquier et al. 2023".into(),
         columns: vec![
-            words("actuator"),
+            words("actuator (measured)"),
             words("model"),
-            words("how known"),
+            words("addition is"),
             column("model", "mm"),
-            column("measured (published)", "mm"),
+            column("range", "mm"),
             column("difference", "mm"),
-            words("where the value comes from"),
         ],
         rows,
         how_column: Some(2),
     })
+}
+
+/// Where the value of every addition comes from, once each.
+pub(super) fn origins<'a>(additions: impl Iterator<Item = (&'a str, Known, &'a str)>) -> Block {
+    let mut lines: Vec<String> = Vec::new();
+    for (label, known, why) in additions {
+        let line = format!("**{label}** ({}): {why}", known.word());
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    Block::List(lines)
 }
 
 /// Time and error of every model.

@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# The whole check of this repository, and all that CI runs. `./check.sh fast` leaves out the release build and what needs it.
+# Needs Rust (rust-version in Cargo.toml) with rustfmt and clippy, and a C compiler (zstd and brotli of the Parquet reader: none).
+set -euo pipefail
+cd "$(dirname "$0")"
+export CARGO_TERM_COLOR=${CARGO_TERM_COLOR:-never} RUSTDOCFLAGS="-D warnings"
+
+step() { printf '\n== %s (%ss)\n' "$*" "$SECONDS"; }
+
+step format
+cargo fmt --all --check
+step clippy
+cargo clippy --workspace --all-targets -- -D warnings
+step docs
+cargo doc --workspace --no-deps --quiet
+step fast tests
+cargo test --workspace --quiet
+if [ "${1:-}" != fast ]; then
+  step release build
+  cargo build --release --quiet
+  step slow tests
+  cargo test --release --quiet --test slow
+  step oracles
+  ./target/release/ibr verify
+  step speed
+  ./target/release/ibr bench
+  step demo
+  ./target/release/ibr demo --quiet --out target/check-demo
+  step benches compile
+  cargo bench --no-run --quiet
+fi
+printf '\nall checks passed in %ss\n' "$SECONDS"
