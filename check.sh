@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The whole check of this repository, and all that CI runs. `./check.sh fast` leaves out the release build and what needs it.
-# Needs Rust (rust-version in Cargo.toml) with rustfmt and clippy, and a C compiler (zstd and brotli of the Parquet reader: none).
+# Needs Rust (rust-version in Cargo.toml) with rustfmt and clippy, and the C compiler that Rust links with.
 set -euo pipefail
 cd "$(dirname "$0")"
 export CARGO_TERM_COLOR=${CARGO_TERM_COLOR:-never} RUSTDOCFLAGS="-D warnings"

@@ -89,10 +89,10 @@ pub struct Predict {
     /// Scenario file or shipped robot
     pub scenario: String,
     /// Actuator pressures with unit, for example 10kPa,20kPa; `/` separates supply channels
-    #[arg(long, short)]
+    #[arg(long, short, allow_hyphen_values = true)]
     pub pressure: Option<String>,
     /// Body pressure with unit, for example 2kPa; default: the scenario's
-    #[arg(long, short)]
+    #[arg(long, short, allow_hyphen_values = true)]
     pub body_pressure: Option<String>,
     /// Find the pressure instead: tip=100mm (height) or angle=60deg (total bend)
     #[arg(long, short, conflicts_with = "pressure")]
@@ -119,10 +119,10 @@ pub struct Compare {
     #[arg(long, short)]
     pub effect: Vec<String>,
     /// Camera noise of one coordinate, for data of a single run, for example 1mm
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     pub sigma: Option<String>,
     /// Exit with code 1 if the error beyond noise of the last model exceeds this, for example 5mm
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     pub max_error: Option<String>,
     /// Folder for the report, plots and tables; default: ibr-report/compare-<data>, with --json: none
     #[arg(long)]
@@ -161,13 +161,13 @@ pub struct Generate {
     #[arg(long, default_value = "0,10,20,30,0@2")]
     pub protocol: String,
     /// Camera noise of one coordinate
-    #[arg(long, default_value = "1mm")]
+    #[arg(long, default_value = "1mm", allow_hyphen_values = true)]
     pub sigma: String,
     /// Run-to-run scatter of the actuator pressure in per cent
-    #[arg(long, default_value_t = 2.0)]
+    #[arg(long, default_value_t = 2.0, allow_negative_numbers = true)]
     pub pressure_scatter: f64,
     /// Run-to-run shift of the camera
-    #[arg(long, default_value = "0.5mm")]
+    #[arg(long, default_value = "0.5mm", allow_hyphen_values = true)]
     pub alignment: String,
     /// Replace existing files
     #[arg(long)]

@@ -35,6 +35,16 @@ pub enum Failure {
         /// What to do.
         help: String,
     },
+    /// A folder that cannot be written to.
+    #[error("cannot write to {path}: {cause}")]
+    Write {
+        /// Folder.
+        path: String,
+        /// Why.
+        cause: String,
+        /// What to do.
+        help: String,
+    },
     /// A scenario that was refused.
     #[error("{error}")]
     Scenario {
@@ -75,9 +85,11 @@ impl Failure {
     /// Exit code.
     pub fn code(&self) -> u8 {
         match self {
-            Failure::Usage { .. } => USAGE,
+            Failure::Usage { .. } | Failure::Compare(compare::CompareError::BadProtocol { .. }) => USAGE,
+            Failure::Unsolved(models::Unsolved::BadPressure { .. }) => USAGE,
             Failure::Unsolved(_) => UNSOLVED,
-            Failure::Read { .. } | Failure::Scenario { .. } | Failure::Data(_) | Failure::Compare(_) => BAD_INPUT,
+            Failure::Read { .. } | Failure::Write { .. } => BAD_INPUT,
+            Failure::Scenario { .. } | Failure::Data(_) | Failure::Compare(_) => BAD_INPUT,
         }
     }
 
@@ -96,12 +108,12 @@ impl Failure {
     fn diagnostic(&self) -> Report {
         let base = miette::MietteDiagnostic::new(self.to_string());
         match self {
-            Failure::Usage { help, .. } | Failure::Read { help, .. } => Report::new(base.with_help(help)),
+            Failure::Usage { help, .. } | Failure::Read { help, .. } | Failure::Write { help, .. } => {
+                Report::new(base.with_help(help))
+            }
             Failure::Scenario { file, text, error } => {
-                let mut shown = base;
-                if let Some(help) = &error.help {
-                    shown = shown.with_help(help);
-                }
+                let help = error.help.as_deref().unwrap_or_else(|| what_to_type(&error.message));
+                let mut shown = base.with_help(help);
                 if let Some((start, end)) = error.span {
                     shown = shown.with_label(LabeledSpan::at(start..end.max(start + 1).min(text.len()), "here"));
                 }
@@ -110,6 +122,17 @@ impl Failure {
             Failure::Data(error) => data_report(error, base.with_help(error.help())),
             Failure::Compare(_) | Failure::Unsolved(_) => Report::new(base),
         }
+    }
+}
+
+/// Help for TOML errors that bring none.
+fn what_to_type(message: &str) -> &'static str {
+    if message.contains("expected f64") {
+        "write a plain number without quotation marks; the unit is in the name of the key"
+    } else if message.contains("expected i64") {
+        "write a whole number without quotation marks"
+    } else {
+        "`ibr new epam` prints a complete scenario to compare with"
     }
 }
 

@@ -10,28 +10,19 @@ use cli::Cli;
 use commands::{Context, Outcome};
 use std::io::Write;
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
-/// Set while files are being renamed into place: an interrupt then waits, so that no result is left half written.
-static WRITING: AtomicBool = AtomicBool::new(false);
-/// Set when an interrupt came while [`WRITING`].
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+/// Held while files are written: an interrupt then waits, so that no result is left half written. True once results
+/// are written.
+static WRITTEN: Mutex<bool> = Mutex::new(false);
 /// Exit code after an interrupt, as shells have it: 128 + SIGINT.
 const INTERRUPT_CODE: i32 = 130;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
-    let handler = || {
-        if WRITING.load(Ordering::SeqCst) {
-            INTERRUPTED.store(true, Ordering::SeqCst);
-        } else {
-            eprintln!("\ninterrupted; nothing was written");
-            std::process::exit(INTERRUPT_CODE);
-        }
-    };
-    if let Err(error) = ctrlc::set_handler(handler) {
+    if let Err(error) = ctrlc::set_handler(interrupt) {
         eprintln!("warning: an interrupt cannot be caught here: {error}");
     }
+    let cli = Cli::parse();
     let bar = (!cli.quiet && !cli.json).then(progress_bar);
     let mut tell = |text: &str, share: Option<f64>| {
         if let Some(bar) = &bar {
@@ -39,7 +30,7 @@ fn main() -> ExitCode {
             bar.set_position((1000.0 * share.unwrap_or(0.0)) as u64);
         }
     };
-    let mut context = Context { json: cli.json, progress: &mut tell, writing: &WRITING };
+    let mut context = Context { json: cli.json, progress: &mut tell, written: &WRITTEN };
     let result = commands::run(&cli.command, &mut context);
     if let Some(bar) = &bar {
         bar.finish_and_clear();
@@ -53,6 +44,14 @@ fn main() -> ExitCode {
     }
 }
 
+/// Ends the program on Ctrl-C, after files that are being written.
+fn interrupt() {
+    let written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
+    let what = if *written { "the results were already complete" } else { "nothing was written" };
+    eprintln!("\ninterrupted; {what}");
+    std::process::exit(INTERRUPT_CODE);
+}
+
 /// Prints an outcome; a closed pipe (`| head`) is the reader's choice, not an error.
 fn finish(outcome: &Outcome, json: bool) -> ExitCode {
     let text = match (&outcome.json, json) {
@@ -63,9 +62,6 @@ fn finish(outcome: &Outcome, json: bool) -> ExitCode {
     let written = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
     for note in &outcome.notes {
         eprintln!("{note}");
-    }
-    if INTERRUPTED.load(Ordering::SeqCst) {
-        return ExitCode::from(INTERRUPT_CODE as u8);
     }
     match written {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {

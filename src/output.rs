@@ -6,7 +6,7 @@ use compare::study::pages::Files;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use std::path::Path;
-use std::sync::atomic::Ordering;
+use std::sync::PoisonError;
 
 /// An input named in the manifest.
 #[derive(Debug, Clone)]
@@ -31,19 +31,35 @@ pub fn sha256(bytes: &[u8]) -> String {
 
 /// Writes all files into a folder, the report last; each replaces its older one only when complete.
 pub fn write_files(folder: &Path, files: &Files, inputs: &[Input], context: &mut Context) -> Result<(), Failure> {
-    context.writing.store(true, Ordering::SeqCst);
-    let result = write_all(folder, files, inputs);
-    context.writing.store(false, Ordering::SeqCst);
-    result
+    let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
+    write_all(folder, files, inputs)?;
+    *written = true;
+    Ok(())
+}
+
+/// Refuses a folder that cannot be made, before time is spent on its contents.
+pub fn check_folder(folder: &Path) -> Result<(), Failure> {
+    // An empty ancestor is the current folder.
+    match folder.ancestors().find(|a| !a.as_os_str().is_empty() && a.exists()) {
+        Some(there) if !there.is_dir() => Err(unwritable(folder, &format!("{} is a file", there.display()))),
+        _ => Ok(()),
+    }
+}
+
+fn unwritable(folder: &Path, cause: &str) -> Failure {
+    Failure::Write {
+        path: folder.display().to_string(),
+        cause: cause.to_string(),
+        help: "choose another folder with --out".into(),
+    }
 }
 
 fn write_all(folder: &Path, files: &Files, inputs: &[Input]) -> Result<(), Failure> {
     let made = std::fs::create_dir_all(folder);
-    made.map_err(|cause| Failure::Read {
-        path: folder.display().to_string(),
-        cause: format!("the folder cannot be made: {cause}"),
-        help: "choose another folder with --out".into(),
-    })?;
+    made.map_err(|cause| unwritable(folder, &format!("the folder cannot be made: {cause}")))?;
+    for (name, table) in &files.parquet {
+        table.to_parquet(&folder.join(name))?;
+    }
     let manifest = format!("{:#}\n", manifest(files, inputs));
     data::write_atomically(&folder.join("manifest.json"), manifest.as_bytes())?;
     for (name, bytes) in &files.files {

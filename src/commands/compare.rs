@@ -5,7 +5,7 @@ use super::tables::{number, table};
 use super::{Context, Outcome};
 use crate::cli::Compare;
 use crate::failure::{Failure, MISSED};
-use crate::output::{machine, program, today, write_files};
+use crate::output::{check_folder, machine, program, today, write_files};
 use compare::EvaluateOptions;
 use compare::plots::Known;
 use compare::study::pages::{Candidate, Imprint, Study, Variant, compare_page, study};
@@ -15,9 +15,10 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 
 pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
+    let limit_m = args.max_error.as_deref().map(|t| positive("--max-error", t)).transpose()?;
+    let sigma_m = args.sigma.as_deref().map(|t| positive("--sigma", t)).transpose()?;
+    args.out.as_deref().map_or(Ok(()), check_folder)?;
     let named = inputs::scenario(&args.scenario)?;
-    let limit_m = args.max_error.as_deref().map(|t| quantity("--max-error", t, Quantity::Length)).transpose()?;
-    let sigma_m = args.sigma.as_deref().map(|t| quantity("--sigma", t, Quantity::Length)).transpose()?;
     let models = models(&named.scenario, &args.effect)?;
     let (dataset, about, input) = inputs::dataset(&args.data, context)?;
     (context.progress)("comparing", None);
@@ -25,7 +26,8 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
     let options = EvaluateOptions { sigma_m, ..EvaluateOptions::default() };
     let study = study(&candidates, dataset, about, &options, args.calibrate)?;
     let folder = out_folder(args, &study, context.json);
-    let mut outcome = Outcome::new(text(&study), to_json(&args.scenario, &study));
+    let warnings = warnings(args, &study);
+    let mut outcome = Outcome::new(text(&study), to_json(&args.scenario, &study, &warnings));
     if let Some(folder) = folder {
         (context.progress)("drawing the report", None);
         let imprint = Imprint { program: program(), date: today(), machine: machine() };
@@ -33,7 +35,7 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
         write_files(&folder, &files, &[named.input, input], context)?;
         outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
     }
-    outcome.notes.extend(study.warnings.iter().map(|w| format!("warning: {w}")));
+    outcome.notes.extend(warnings.iter().map(|w| format!("warning: {w}")));
     let last = study.variants.last().map(error_mm);
     if let (Some(limit), Some(error)) = (limit_m, last)
         && error > limit * 1e3
@@ -42,6 +44,37 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
         outcome.code = MISSED;
     }
     Ok(outcome)
+}
+
+fn positive(option: &str, text: &str) -> Result<f64, Failure> {
+    match quantity(option, text, Quantity::Length)? {
+        v if v > 0.0 => Ok(v),
+        _ => {
+            Err(Failure::usage(format!("{option} {text} is not above zero"), format!("write for example {option} 1mm")))
+        }
+    }
+}
+
+/// What the reader should know about the data and the options before trusting the figures.
+fn warnings(args: &Compare, study: &Study) -> Vec<String> {
+    let mut warnings = study.warnings.clone();
+    let outliers = data::check(&study.dataset, study.about.as_ref()).outliers;
+    if let Some(o) = outliers.iter().max_by(|a, b| a.robust_z.total_cmp(&b.robust_z)) {
+        warnings.push(format!(
+            "{} samples are far from the other runs, first of all run {}, marker {} ({:+.1}, {:+.1} mm): \
+             look at `ibr data check {}`",
+            outliers.len(),
+            o.run,
+            o.marker,
+            o.dx_mm,
+            o.dy_mm,
+            args.data
+        ));
+    }
+    if args.sigma.is_some() && study.dataset.runs.len() > 1 {
+        warnings.push("--sigma is for a single run and was not used: several runs show the noise themselves".into());
+    }
+    warnings
 }
 
 /// A model with the words that go with it.
@@ -142,7 +175,7 @@ fn holds(variant: &Variant) -> String {
     table(&head, 1, rows.collect())
 }
 
-fn to_json(scenario: &str, study: &Study) -> Value {
+fn to_json(scenario: &str, study: &Study, warnings: &[String]) -> Value {
     let variant = |v: &Variant| {
         json!({
             "label": v.label, "how_known": v.known.word(), "why": v.why,
@@ -161,6 +194,6 @@ fn to_json(scenario: &str, study: &Study) -> Value {
         "pairing": first.metrics.pairing, "residual_map": first.residual_map,
         "where_it_fails": first.where_it_fails, "scaling": first.scaling,
         "models": study.variants.iter().map(variant).collect::<Vec<_>>(),
-        "warnings": study.warnings,
+        "warnings": warnings,
     })
 }

@@ -5,7 +5,7 @@ use super::tables::{number, table};
 use super::{Context, Outcome, list};
 use crate::cli::{DataCommand, Generate};
 use crate::failure::Failure;
-use crate::output::write_files;
+use crate::output::{check_folder, write_files};
 use compare::study::generate::{Generator, generate, parse_protocol};
 use compare::study::pages::Files;
 use data::{About, CheckReport, Dataset, Geometry, MarkerStation, Provenance};
@@ -29,7 +29,7 @@ fn check(spec: &str, context: &mut Context) -> Result<Outcome, Failure> {
 
 fn check_text(report: &CheckReport) -> String {
     let mut out = format!(
-        "{}: {} runs of an {}, {} holds, {} markers, {} samples per hold{}\n",
+        "{}: {} runs of actuator {}, {} holds, {} markers, {} samples per hold{}\n",
         report.name,
         report.runs.len(),
         report.actuator,
@@ -66,12 +66,20 @@ fn check_text(report: &CheckReport) -> String {
 }
 
 fn make(args: &Generate, context: &mut Context) -> Result<Outcome, Failure> {
+    let generator = generator(args)?;
+    check_folder(&args.out)?;
     let named = inputs::scenario(&args.scenario)?;
+    if named.scenario.markers_m.is_empty() {
+        let message = format!("the scenario {} has no marker stations", args.scenario);
+        return Err(Failure::usage(
+            message,
+            "add [markers] with s_mm = [30, 90, 150] to it: places in mm from the base",
+        ));
+    }
     if !args.force && args.out.join("markers.csv").exists() {
         let message = format!("{} already holds a dataset", args.out.display());
         return Err(Failure::usage(message, "choose another folder, or add --force to replace it"));
     }
-    let generator = generator(args)?;
     let name = args.out.file_name().map_or("synthetic".into(), |n| n.to_string_lossy().into_owned());
     let dataset = generate(&named.scenario, &name, &generator)?;
     let mut csv = Vec::new();

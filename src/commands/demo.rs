@@ -3,7 +3,7 @@
 use super::tables::{number, table};
 use super::{Context, Outcome};
 use crate::failure::Failure;
-use crate::output::{machine, program, today, write_files};
+use crate::output::{check_folder, machine, program, today, write_files};
 use compare::plots::Known;
 use compare::study::pages::{Demo, Imprint, demo, demo_page};
 use compare::study::published::PublishedLadder;
@@ -11,6 +11,7 @@ use serde_json::{Value, json};
 use std::path::Path;
 
 pub fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
+    check_folder(folder)?;
     let computed = demo(&mut |what| (context.progress)(what, Some(0.1)))?;
     let imprint = Imprint { program: program(), date: today(), machine: machine() };
     let files = demo_page(&computed, &imprint, &mut |what| (context.progress)(what, Some(0.5)))?;

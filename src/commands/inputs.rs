@@ -21,15 +21,7 @@ pub struct NamedScenario {
 
 /// Reads a scenario file, or takes a shipped one by name.
 pub fn scenario(spec: &str) -> Result<NamedScenario, Failure> {
-    let text = match (std::fs::read_to_string(spec), models::shipped(spec)) {
-        (Ok(text), _) => text,
-        (Err(_), Some(text)) if !Path::new(spec).exists() => text.to_string(),
-        (Err(cause), _) => {
-            let names = SHIPPED.iter().map(|s| s.0).collect::<Vec<_>>().join(", ");
-            let help = format!("give a TOML file, or a shipped robot: {names}; `ibr new epam > my.toml` makes a start");
-            return Err(Failure::Read { path: spec.into(), cause: cause.to_string(), help });
-        }
-    };
+    let text = scenario_text(spec)?;
     match Scenario::parse(&text) {
         Ok(scenario) => {
             let input = Input::of(spec, text.as_bytes());
@@ -37,6 +29,21 @@ pub fn scenario(spec: &str) -> Result<NamedScenario, Failure> {
         }
         Err(error) => Err(Failure::Scenario { file: spec.into(), text, error }),
     }
+}
+
+fn scenario_text(spec: &str) -> Result<String, Failure> {
+    let cause = match (std::fs::read(spec), models::shipped(spec)) {
+        (Err(_), Some(text)) if !Path::new(spec).exists() => return Ok(text.to_string()),
+        (Err(cause), _) => cause.to_string(),
+        (Ok(bytes), _) => match String::from_utf8(bytes) {
+            Ok(text) if text.trim().is_empty() => "the file is empty".to_string(),
+            Ok(text) => return Ok(text),
+            Err(_) => "it is not a text in UTF-8".to_string(),
+        },
+    };
+    let names = SHIPPED.iter().map(|s| s.0).collect::<Vec<_>>().join(", ");
+    let help = format!("give a TOML file, or a shipped robot: {names}; `ibr new epam > my.toml` makes a start");
+    Err(Failure::Read { path: spec.into(), cause, help })
 }
 
 /// Loads marker data with progress.
@@ -55,6 +62,11 @@ pub fn quantity(option: &str, text: &str, kind: Quantity) -> Result<f64, Failure
     parse(text, kind).map_err(|message| Failure::usage(format!("{option}: {message}"), "see ibr --help"))
 }
 
+/// A value and its unit, which is `-` for a pure number.
+pub fn with_unit(value: &str, unit: &str) -> String {
+    if unit == "-" { value.to_string() } else { format!("{value} {unit}") }
+}
+
 /// Adds an effect typed as `name` (typical values) or `name:key=value,…`; says how its values are known.
 pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, String), Failure> {
     let (name, values) = text.split_once(':').unwrap_or((text, ""));
@@ -64,8 +76,8 @@ pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, String)
     };
     let kind = scenario.actuator.kind;
     if !effect.applies_to(kind.family) {
-        let message = format!("{name} does not exist for an {}", kind.name);
-        return Err(Failure::usage(message, "ibr list effects"));
+        let message = format!("{name} does not exist for the actuator {}", kind.name);
+        return Err(Failure::usage(message, "`ibr list effects` says what each effect is for"));
     }
     let mut chosen = if values.is_empty() { effect.typical() } else { effect.neutral() };
     for pair in values.split(',').filter(|pair| !pair.is_empty()) {
@@ -82,11 +94,11 @@ pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, String)
         match number.trim().parse::<f64>() {
             Ok(v) if (p.lower..=p.upper).contains(&v) => chosen[index] = v * p.si,
             Ok(v) => {
-                let message =
-                    format!("{key} = {v} is outside its physical bounds {} to {} {}", p.lower, p.upper, p.unit);
+                let bounds = with_unit(&format!("{} to {}", p.lower, p.upper), p.unit);
+                let message = format!("{key} = {v} is outside its physical bounds {bounds}");
                 return Err(Failure::usage(message, help));
             }
-            Err(_) => return Err(Failure::usage(format!("`{number}` is not a number"), help)),
+            Err(_) => return Err(Failure::usage(format!("{key} = `{number}` is not a number"), help)),
         }
     }
     let origin = if values.is_empty() { "typical value of the catalogue" } else { "value given on the command line" };

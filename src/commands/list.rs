@@ -1,6 +1,7 @@
 //! `ibr list` and `ibr new`
 
 use super::Outcome;
+use super::inputs::with_unit;
 use crate::failure::Failure;
 use models::actuators::ACTUATORS;
 use models::effects::EFFECTS;
@@ -45,8 +46,14 @@ fn effects() -> (String, Value) {
         text.push_str(&format!("  {:<18} [{}] {}\n    {}\n", e.name, e.stage.word(), e.sentence, e.formula));
         for p in e.parameters {
             text.push_str(&format!(
-                "    {} ({}): {}; typical {} {}, {} to {}, no effect at {}\n",
-                p.key, p.symbol, p.meaning, p.typical, p.unit, p.lower, p.upper, p.neutral
+                "    {} ({}): {}; typical {}, {} to {}, no effect at {}\n",
+                p.key,
+                p.symbol,
+                p.meaning,
+                with_unit(&p.typical.to_string(), p.unit),
+                p.lower,
+                p.upper,
+                p.neutral
             ));
         }
         text.push_str(&format!("    valid: {}; to check: {}; source: {}\n", e.validity, e.remedy, e.reference));

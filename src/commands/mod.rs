@@ -14,7 +14,7 @@ mod verify;
 use crate::cli::{Cli, Command};
 use crate::failure::Failure;
 use clap::CommandFactory;
-use std::sync::atomic::AtomicBool;
+use std::sync::Mutex;
 
 /// What a command may use of the outside.
 pub struct Context<'a> {
@@ -22,8 +22,8 @@ pub struct Context<'a> {
     pub json: bool,
     /// Told what is being done, and which share of the whole is done if known.
     pub progress: &'a mut dyn FnMut(&str, Option<f64>),
-    /// Set while files are renamed into place.
-    pub writing: &'a AtomicBool,
+    /// Held while files are written; true once they are.
+    pub written: &'a Mutex<bool>,
 }
 
 /// What a command has to say.

@@ -5,7 +5,7 @@ use super::tables::table;
 use super::{Context, Outcome};
 use crate::cli::Predict;
 use crate::failure::Failure;
-use crate::output::write_files;
+use crate::output::{check_folder, write_files};
 use compare::plots::{ShapePose, Shapes, shapes};
 use compare::study::pages::Files;
 use models::scenario::quantity::{Quantity, parse_pressures};
@@ -20,6 +20,7 @@ struct State {
 }
 
 pub fn run(args: &Predict, context: &mut Context) -> Result<Outcome, Failure> {
+    args.out.as_deref().map_or(Ok(()), check_folder)?;
     let named = inputs::scenario(&args.scenario)?;
     let mut scenario = named.scenario;
     for text in &args.effect {
@@ -37,7 +38,9 @@ pub fn run(args: &Predict, context: &mut Context) -> Result<Outcome, Failure> {
         let files = drawing(&model, &scenario, &states)?;
         write_files(folder, &files, &[named.input], context)?;
     }
-    Ok(Outcome::new(text(&scenario, &states), to_json(&args.scenario, &model, &scenario, &states)))
+    let mut outcome = Outcome::new(text(&scenario, &states), to_json(&args.scenario, &model, &scenario, &states));
+    outcome.notes.extend(above_limit(&scenario, &states));
+    Ok(outcome)
 }
 
 fn forward(model: &Model, scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<State>, Failure> {
@@ -61,6 +64,14 @@ fn solve(model: &Model, loads: Loads) -> Result<State, Failure> {
     let slopes = model.jacobian(&loads, &mut prediction)?;
     model.predict(&loads, &mut prediction)?;
     Ok(State { loads, prediction, slopes })
+}
+
+/// A note if a pressure exceeds what the scenario says its actuator stands.
+fn above_limit(scenario: &Scenario, states: &[State]) -> Option<String> {
+    let highest = states.iter().flat_map(|s| s.loads.actuator_pa).fold(0.0, f64::max);
+    let limit = scenario.p_max_pa;
+    (highest > limit)
+        .then(|| format!("warning: {} kPa is above max_pressure_kpa = {} of the scenario", highest / 1e3, limit / 1e3))
 }
 
 fn inverse(model: &Model, scenario: &Scenario, wanted: &str) -> Result<State, Failure> {

@@ -3,7 +3,7 @@
 use super::tables::table;
 use super::{Context, Outcome};
 use crate::failure::Failure;
-use crate::output::{machine, write_files};
+use crate::output::{check_folder, machine, write_files};
 use compare::study::pages::{Files, tradeoff_plot};
 use compare::study::published::published_ladders;
 use compare::study::tradeoff::tradeoff;
@@ -11,6 +11,7 @@ use serde_json::json;
 use std::path::Path;
 
 pub fn run(out: Option<&Path>, context: &mut Context) -> Result<Outcome, Failure> {
+    out.map_or(Ok(()), check_folder)?;
     (context.progress)("timing", None);
     let timings = tradeoff(&published_ladders()?)?;
     let rows = timings.iter().map(|t| {

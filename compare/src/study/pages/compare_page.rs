@@ -114,7 +114,7 @@ pub fn compare_page(study: &Study, imprint: &Imprint) -> Result<Files, CompareEr
     for (name, drawn) in [("shapes", &shapes), ("residual_map", &map), ("pressure", &curve), ("ledger", &ledger)] {
         files.plot(name, drawn);
     }
-    files.text("holds.csv", tables::holds_csv(&study.variants));
+    files.table("holds", tables::holds(&study.variants))?;
     let figure = |caption: &str, alt: &str, svg: &str| Block::Figure {
         caption: caption.into(),
         alt: alt.into(),

@@ -165,7 +165,7 @@ fn study_section(study: &Study, files: &mut Files) -> Result<Section, CompareErr
     ] {
         files.plot(&format!("{name}_{kind}"), drawn);
     }
-    files.text(&format!("{name}_holds.csv"), tables::holds_csv(&study.variants));
+    files.table(&format!("{name}_holds"), tables::holds(&study.variants))?;
     let mut blocks = vec![Block::Paragraph(lead(study))];
     let statements = bare.evaluation.where_it_fails.iter().map(|s| s.sentence.clone());
     blocks.push(Block::List(statements.collect()));

@@ -18,6 +18,8 @@ use crate::report::{Report, render};
 pub struct Files {
     /// File name and contents.
     pub files: Vec<(String, Vec<u8>)>,
+    /// File name and table, written as Parquet.
+    pub parquet: Vec<(String, data::Table)>,
 }
 
 impl Files {
@@ -29,6 +31,15 @@ impl Files {
 
     fn text(&mut self, name: &str, text: String) {
         self.files.push((name.to_string(), text.into_bytes()));
+    }
+
+    /// Adds a table as `<name>.csv` and `<name>.parquet`.
+    fn table(&mut self, name: &str, table: data::Table) -> Result<(), CompareError> {
+        let mut csv = Vec::new();
+        table.to_csv(&mut csv)?;
+        self.files.push((format!("{name}.csv"), csv));
+        self.parquet.push((format!("{name}.parquet"), table));
+        Ok(())
     }
 
     fn report(&mut self, report: &Report) -> Result<(), CompareError> {

@@ -164,31 +164,31 @@ pub(super) fn timings(timings: &[Timing]) -> Block {
     })
 }
 
-/// Metrics of every hold as CSV.
-pub(super) fn holds_csv(variants: &[Variant]) -> String {
-    let mut text = String::from(
-        "model,how_known,p_act_kpa,p_body_kpa,phase,paper_accuracy,noise_ceiling,rms_relative_pct,rmse_mm,\
-         noise_floor_mm,systematic_mm,tip_error_mm,reduced_chi2\n",
-    );
-    let cell = |v: Option<f64>| v.map_or(String::new(), |v| format!("{v}"));
-    for variant in variants {
-        for h in &variant.evaluation.metrics.holds {
-            let numbers = [
-                h.paper_accuracy,
-                h.noise_ceiling,
-                h.rms_relative_pct,
-                Some(h.rmse_mm),
-                h.noise_floor_mm,
-                h.systematic_mm,
-                Some(h.tip_error_mm),
-                h.reduced_chi2,
-            ];
-            let numbers: Vec<String> = numbers.into_iter().map(cell).collect();
-            let label = variant.label.replace('"', "'");
-            let known = variant.known.word();
-            let place = format!("{},{},{}", h.p_act_kpa, h.p_body_kpa, h.phase);
-            text.push_str(&format!("\"{label}\",{known},{place},{}\n", numbers.join(",")));
-        }
+/// Metrics of every hold of every model, one row each; empty cells where a number does not exist.
+pub(super) fn holds(variants: &[Variant]) -> data::Table {
+    let rows: Vec<(&Variant, &HoldMetrics)> =
+        variants.iter().flat_map(|v| v.evaluation.metrics.holds.iter().map(move |h| (v, h))).collect();
+    let text = |name: &str, value: fn(&Variant, &HoldMetrics) -> String| {
+        (name.to_string(), data::Column::Str(rows.iter().map(|(v, h)| value(v, h)).collect()))
+    };
+    let numbers = |name: &str, value: fn(&HoldMetrics) -> Option<f64>| {
+        (name.to_string(), data::Column::F64(rows.iter().map(|(_, h)| value(h).unwrap_or(f64::NAN)).collect()))
+    };
+    data::Table {
+        columns: vec![
+            text("model", |v, _| v.label.clone()),
+            text("how_known", |v, _| v.known.word().to_string()),
+            numbers("p_act_kpa", |h| Some(h.p_act_kpa)),
+            numbers("p_body_kpa", |h| Some(h.p_body_kpa)),
+            text("phase", |_, h| h.phase.to_string()),
+            numbers("paper_accuracy", |h| h.paper_accuracy),
+            numbers("noise_ceiling", |h| h.noise_ceiling),
+            numbers("rms_relative_pct", |h| h.rms_relative_pct),
+            numbers("rmse_mm", |h| Some(h.rmse_mm)),
+            numbers("noise_floor_mm", |h| h.noise_floor_mm),
+            numbers("systematic_mm", |h| h.systematic_mm),
+            numbers("tip_error_mm", |h| Some(h.tip_error_mm)),
+            numbers("reduced_chi2", |h| h.reduced_chi2),
+        ],
     }
-    text
 }
