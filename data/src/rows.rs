@@ -82,7 +82,7 @@ impl RowReader {
             p_act_pa: self.pressure(line, P_ACT)?,
             x_m: self.length(line, X)?,
             y_m: if self.header.y_down { -y_m } else { y_m },
-            station_m: if station { Some(self.length(line, STATION)?) } else { None },
+            station_m: if station { Some(self.station(line)?) } else { None },
         })
     }
 
@@ -156,10 +156,20 @@ impl RowReader {
     fn length(&self, line: &Line, quantity: usize) -> Result<f64, DataError> {
         let value = self.number(line, quantity)?;
         if value.abs() > FARTHEST_M {
-            let base = QUANTITIES[quantity].base;
-            let message = format!("{value} m is farther than any robot reaches");
-            let help = format!("check the unit: name the column {base}_mm if the values are millimetres");
+            let name = QUANTITIES[quantity].expected;
+            let message = format!("\"{}\" is farther than any robot reaches", self.text(quantity));
+            let help = format!("correct or delete the row; {name} is the name of a column in millimetres");
             return Err(DataError::Unit(self.cell_fault(line, quantity, message, help)));
+        }
+        Ok(value)
+    }
+
+    fn station(&self, line: &Line) -> Result<f64, DataError> {
+        let value = self.length(line, STATION)?;
+        if value < 0.0 {
+            let message = format!("the station of a marker is below zero: {}", self.text(STATION));
+            let help = "stations count from the robot's base along the undeformed body".to_string();
+            return Err(DataError::Cell(self.cell_fault(line, STATION, message, help)));
         }
         Ok(value)
     }
