@@ -13,3 +13,6 @@ pub use generate::{Generator, generate, parse_protocol};
 pub use predict::{Predicted, fit_scenario, predict_dataset};
 pub use published::{Rung, published_ladders};
 pub use tradeoff::{Timing, time_prediction};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,165 @@
+//! Laws of the study: what is put in comes out, and what cannot be is said.
+
+use super::*;
+use crate::evaluate::EvaluateOptions;
+use crate::study::published::{KEPERT, ROBIN, shipped_scenario};
+use data::{About, AboutRun, Dataset, Provenance};
+use models::exact::hinge;
+
+fn quiet(runs: usize) -> Generator {
+    Generator {
+        runs,
+        camera_sd_m: 1e-9,
+        pressure_sd: 0.0,
+        alignment_sd_m: 0.0,
+        rotation_sd: 0.0,
+        ..Generator::default()
+    }
+}
+
+fn about(tip_forces: &[[f64; 2]]) -> About {
+    let run = |(i, f): (usize, &[f64; 2])| AboutRun { id: (i + 1).to_string(), tip_force_n: *f, session: None };
+    About {
+        title: "test".into(),
+        provenance: Provenance::Synthetic,
+        source: "test".into(),
+        licence: "CC0-1.0".into(),
+        actuator: None,
+        geometry: None,
+        markers: vec![],
+        gravity_direction: None,
+        runs: tip_forces.iter().enumerate().map(run).collect(),
+        notes: None,
+    }
+}
+
+#[test]
+fn a_model_meets_the_data_it_made() {
+    for kind in ["spam", "cpam", "epam", "fpam"] {
+        let scenario = shipped_scenario(kind).unwrap();
+        let dataset = generate(&scenario, "made", &quiet(3)).unwrap();
+        let predicted = predict_dataset(&scenario, &dataset).unwrap();
+        let worst =
+            dataset.mean_over_runs().iter().zip(&predicted.xy_m).fold(0.0, |w: f64, (y, f)| w.max((y - f).abs()));
+        assert!(worst < 1e-8, "{kind}: {worst}");
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_data_and_another_seed_does_not() {
+    let scenario = shipped_scenario("epam").unwrap();
+    let made = |seed| generate(&scenario, "made", &Generator { seed, ..Generator::default() }).unwrap();
+    assert_eq!(made(3), made(3));
+    assert_ne!(made(3).xy_m, made(4).xy_m);
+}
+
+#[test]
+fn the_scatter_put_in_is_the_scatter_found() {
+    let scenario = shipped_scenario("epam").unwrap();
+    let generator = Generator { runs: 400, ..Generator::default() };
+    let dataset = generate(&scenario, "made", &generator).unwrap();
+    let tip = |run| dataset.xy(run, 0, 0, 5)[1];
+    let mean = (0..400).map(tip).sum::<f64>() / 400.0;
+    let variance = (0..400).map(|r| (tip(r) - mean).powi(2)).sum::<f64>() / 399.0;
+    // Camera 1 mm, alignment 0.5 mm, roll 0.5 mrad on 330 mm; at zero pressure the gain does nothing.
+    let expected = 1.0 + 0.25 + 0.165_f64.powi(2);
+    assert!((variance * 1e6 / expected - 1.0).abs() < 4.0 * (2.0_f64 / 399.0).sqrt(), "{variance}");
+}
+
+#[test]
+fn calibration_returns_the_stiffness_that_made_the_data() {
+    for (kind, stiffness) in [("epam", 0.7), ("spam", 3.0), ("fpam", 0.2)] {
+        let bare = shipped_scenario(kind).unwrap();
+        let generator =
+            Generator { pressure_sd: 0.003, camera_sd_m: 1e-4, alignment_sd_m: 1e-4, ..Generator::default() };
+        let dataset = generate(&bare.with_bending(stiffness), "made", &generator).unwrap();
+        let fit = calibrate_bending(&bare, &dataset, &EvaluateOptions::default()).unwrap();
+        let [low, high] = fit.interval_nm2.unwrap();
+        assert!(!fit.at_bound && low < fit.bending_nm2 && fit.bending_nm2 < high);
+        assert!((fit.bending_nm2 / stiffness - 1.0).abs() < 0.05, "{kind}: {fit:?}");
+    }
+}
+
+#[test]
+fn a_stiffness_that_is_not_there_is_at_its_bound() {
+    let scenario = shipped_scenario("epam").unwrap();
+    // More bend than the bare model: any stiffness makes it worse.
+    let generator = Generator { pressure_sd: 0.003, ..Generator::default() };
+    let dataset = generate(&scenario.with_effect("pressure_offset", &[-4e3]), "made", &generator).unwrap();
+    let fit = calibrate_bending(&scenario, &dataset, &EvaluateOptions::default()).unwrap();
+    assert!(fit.at_bound && fit.bending_nm2 == 0.0, "{fit:?}");
+}
+
+#[test]
+fn a_known_tip_force_enters_the_model_and_mixed_ones_are_refused() {
+    let scenario = shipped_scenario("epam").unwrap();
+    let dataset = generate(&scenario, "made", &quiet(2)).unwrap();
+    let (loaded, _) = fit_scenario(&scenario, &dataset, Some(&about(&[[0.0, -0.2], [0.0, -0.2]]))).unwrap();
+    assert_eq!(loaded.effects.iter().find(|e| e.name == "tip_load").unwrap().values, [0.0, -0.2]);
+    let mixed = fit_scenario(&scenario, &dataset, Some(&about(&[[0.0, -0.2], [0.0, 0.2]])));
+    assert!(matches!(mixed, Err(crate::CompareError::MixedTipForces { .. })));
+}
+
+#[test]
+fn data_of_another_actuator_or_with_unknown_stations_are_refused() {
+    let scenario = shipped_scenario("epam").unwrap();
+    let dataset = generate(&scenario, "made", &quiet(2)).unwrap();
+    let other = fit_scenario(&shipped_scenario("fpam").unwrap(), &dataset, None);
+    assert!(other.unwrap_err().to_string().contains("matching scenario"));
+    let mut lost = dataset.clone();
+    lost.markers.iter_mut().for_each(|m| m.station_m = None);
+    assert!(fit_scenario(&scenario, &lost, None).is_ok());
+    let error = fit_scenario(&scenario.with_markers(&[0.1]), &lost, None).unwrap_err();
+    assert!(error.to_string().contains("6 stations"), "{error}");
+    let far = Dataset {
+        markers: lost.markers.iter().cloned().map(|m| data::Marker { station_m: Some(3.0), ..m }).collect(),
+        ..dataset
+    };
+    assert!(fit_scenario(&scenario, &far, None).unwrap_err().to_string().contains("beyond"));
+}
+
+#[test]
+fn protocols_are_read_or_refused_with_an_example() {
+    let holds = parse_protocol("0,10@2; 0,20@4").unwrap();
+    assert_eq!(holds, [[2e3, 0.0], [2e3, 10e3], [4e3, 0.0], [4e3, 20e3]]);
+    for wrong in ["", "10", "a@2", "10@x", "-1@2", "9999@2"] {
+        assert!(parse_protocol(wrong).unwrap_err().to_string().contains("for example"), "{wrong}");
+    }
+}
+
+#[test]
+fn the_published_ladders_start_at_the_hinge_model() {
+    let ladders = published_ladders().unwrap();
+    let pouch = models::exact::pouch::Pouch { length_m: 0.06, width_m: 0.06 };
+    let unit = |end_factor, arm| hinge::Unit { pouch, body_radius_m: 0.04, end_factor, arm };
+    let height = |unit: hinge::Unit| {
+        let theta = hinge::equilibrium_theta(&unit, 30e3, 2e3, hinge::Lever::VirtualWork);
+        let total_angle = 6.0 * hinge::fold_angle(&unit, theta);
+        hinge::axis_point_m(&hinge::BentBody { body_radius_m: 0.04, length_m: 0.36, total_angle }, 0.33)[1]
+    };
+    let epam = ladders.iter().find(|l| l.published.kind == "epam").unwrap();
+    assert!((epam.rungs[0].y_m - height(unit(1.0, hinge::Arm::Embedded))).abs() < 1e-9);
+    assert!((epam.rungs[1].y_m - height(unit(0.598504459, hinge::Arm::Embedded))).abs() < 1e-9);
+    let range = epam.rungs[1].range_m.unwrap();
+    assert!((range[0] - 0.1229).abs() < 5e-5 && (range[1] - 0.1279).abs() < 5e-5, "{range:?}");
+    let spam = ladders.iter().find(|l| l.published.kind == "spam").unwrap();
+    assert!((spam.rungs[1].y_m - height(unit(1.0, hinge::Arm::External))).abs() < 1e-9);
+}
+
+#[test]
+fn a_calibrated_rung_meets_the_number_it_was_fitted_to_and_says_so() {
+    for ladder in published_ladders().unwrap() {
+        let calibrated = ladder.rungs.iter().find(|r| r.known == crate::plots::Known::Calibrated);
+        assert_eq!(calibrated.is_some(), ladder.calibrated_bending.is_some());
+        if let Some(rung) = calibrated {
+            assert!((rung.y_m - ladder.published.d_max_m).abs() < 1e-6 && rung.why.contains("fitted"));
+        }
+    }
+}
+
+#[test]
+fn bag_volume_coefficients_give_the_known_end_factors() {
+    let eta = |beta: f64| 1.0 - 0.9 * beta;
+    assert!((eta(ROBIN) - 0.598504459).abs() < 5e-10);
+    assert!((eta(KEPERT[0]) - 0.6817).abs() < 1e-12 && (eta(KEPERT[1]) - 0.6456).abs() < 1e-12);
+}
