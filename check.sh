@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The whole check of this repository, and all that CI runs. `./check.sh fast` leaves out the release build and what needs it.
+# The whole check of this repository, and all that CI runs. `./check.sh fast` is the short form while editing:
+# no release build, no slow tests.
 # Needs Rust (rust-version in Cargo.toml) with rustfmt and clippy, and the C compiler that Rust links with.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -13,14 +14,18 @@ step clippy
 cargo clippy --workspace --all-targets -- -D warnings
 step docs
 cargo doc --workspace --no-deps --quiet
-step fast tests
-cargo test --workspace --quiet
-if [ "${1:-}" != fast ]; then
+if [ "${1:-}" = fast ]; then
+  step fast tests
+  cargo test --workspace --quiet
+else
+  # One profile for everything, so that the dependencies are built once.
   step release build
   cargo build --release --quiet
+  step fast tests
+  cargo test --workspace --release --quiet
   step slow tests
   cargo test --release --quiet --test slow
-  step oracles
+  step known numbers
   ./target/release/ibr verify
   step speed
   ./target/release/ibr bench

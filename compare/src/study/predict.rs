@@ -39,6 +39,11 @@ pub fn fit_scenario(
         }
         fitted = with_tip_force(fitted, dataset, about)?;
         warnings = geometry_warnings(scenario, about);
+        if about.gravity_direction.is_none() && scenario.effects.iter().any(|e| e.name == "gravity") {
+            warnings.push(
+                "the scenario has gravity, the data's about.toml no [gravity] direction: the scenario's is used".into(),
+            );
+        }
     }
     Ok((fitted, warnings))
 }
@@ -88,12 +93,22 @@ fn geometry_warnings(scenario: &Scenario, about: &About) -> Vec<String> {
         ("body length", scenario.length_m, Some(g.body_length_m)),
         ("actuator length", shape.length_m, g.pouch_length_m),
         ("actuator width", shape.width_m, g.pouch_width_m),
+        ("fold depth", shape.fold_m, g.fold_m),
+        ("arm", scenario.actuator.arm_m.unwrap_or(f64::NAN), g.arm_m),
     ];
     let differs = |(name, mine, theirs): (&str, f64, Option<f64>)| {
         let theirs = theirs.filter(|t| (t - mine).abs() > 0.02 * mine)?;
         Some(format!("{name}: the scenario says {} mm, the data's about.toml {} mm", mine * 1e3, theirs * 1e3))
     };
-    pairs.into_iter().filter_map(differs).collect()
+    let mut warnings: Vec<String> = pairs.into_iter().filter_map(differs).collect();
+    if let Some(count) = g.pouches.filter(|count| *count != scenario.actuator.count) {
+        warnings.push(format!("pouches: the scenario says {}, the data's about.toml {count}", scenario.actuator.count));
+    }
+    let first = scenario.actuator.channel;
+    if scenario.zones.iter().any(|z| z.channel.is_some_and(|c| c != first)) {
+        warnings.push("the scenario has several supply channels; data have one actuator pressure, used for all".into());
+    }
+    warnings
 }
 
 /// Predicts every hold of a dataset with a scenario already fitted to it by [`fit_scenario`].

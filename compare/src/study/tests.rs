@@ -101,6 +101,22 @@ fn a_known_tip_force_enters_the_model_and_mixed_ones_are_refused() {
 }
 
 #[test]
+fn sessions_of_the_description_reach_the_noise_model() {
+    let scenario = shipped_scenario("epam").unwrap();
+    let dataset = generate(&scenario, "made", &Generator { runs: 4, ..Generator::default() }).unwrap();
+    let labelled = |labels: [&str; 4]| {
+        let mut about = about(&[[0.0; 2]; 4]);
+        about.runs.iter_mut().zip(labels).for_each(|(run, label)| run.session = Some(label.into()));
+        let first =
+            pages::Candidate { label: "bare", known: crate::plots::Known::Predicted, why: "", scenario: &scenario };
+        pages::study(&[first], dataset.clone(), Some(about), &EvaluateOptions::default(), false)
+    };
+    let two = labelled(["a", "b", "a", "b"]).unwrap();
+    assert_eq!(two.variants[0].evaluation.noise.sessions, 2);
+    assert!(matches!(labelled(["a", "b", "c", "d"]), Err(crate::CompareError::SessionsWithoutRepeats)));
+}
+
+#[test]
 fn data_of_another_actuator_or_with_unknown_stations_are_refused() {
     let scenario = shipped_scenario("epam").unwrap();
     let dataset = generate(&scenario, "made", &quiet(2)).unwrap();

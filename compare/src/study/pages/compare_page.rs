@@ -61,6 +61,7 @@ pub fn study(
     options: &EvaluateOptions,
     calibrate: bool,
 ) -> Result<Study, CompareError> {
+    let options = &EvaluateOptions { sessions: sessions(&dataset, about.as_ref(), options), ..options.clone() };
     let mut study = Study { dataset, about, variants: Vec::new(), warnings: Vec::new() };
     for c in candidates {
         let (scenario, warnings) = fit_scenario(c.scenario, &study.dataset, study.about.as_ref())?;
@@ -74,6 +75,16 @@ pub fn study(
         study.variants.push(variant);
     }
     Ok(study)
+}
+
+/// Session of every run: as given, else as `about.toml` labels them.
+fn sessions(dataset: &Dataset, about: Option<&About>, options: &EvaluateOptions) -> Vec<usize> {
+    let label = |run: &String| about?.runs.iter().find(|r| r.id == *run)?.session.clone();
+    let labels: Vec<Option<String>> = dataset.runs.iter().map(label).collect();
+    if !options.sessions.is_empty() || labels.iter().all(Option::is_none) {
+        return options.sessions.clone();
+    }
+    labels.iter().map(|l| labels.iter().position(|other| other == l).unwrap_or(0)).collect()
 }
 
 fn held(scenario: &Scenario, dataset: &Dataset, options: &EvaluateOptions) -> Result<Evaluation, CompareError> {
