@@ -60,7 +60,6 @@ impl Model {
             scenario.effects.iter().filter_map(|c| Some((by_name(&c.name)?, c.values.as_slice()))).collect();
         let mut assembly = assemble(scenario, &spans, scenario.segments);
         chosen.iter().for_each(|(effect, values)| (effect.add)(values, &mut assembly));
-        assembly.sites.iter_mut().for_each(Site::prepare);
         // Without transverse loads every stretch of equal design is one arc.
         if assembly.node_terms.is_empty() {
             assembly.segments = divide(&spans, 1);

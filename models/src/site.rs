@@ -48,16 +48,6 @@ pub struct Site {
     pub bending: Bending,
     /// Further terms over `[κ]`, J per metre of body.
     pub body_terms: Vec<Box<dyn Term>>,
-    typical: Typical,
-}
-
-/// Arm and lever at a typical stroke, for start values \[m\].
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Typical {
-    /// D.
-    arm: f64,
-    /// `D / (1 − κD'/(ηε'))`: what virtual work leaves of the arm while it grows.
-    lever: f64,
 }
 
 /// The pressure work of the actuator, `E = −P v`.
@@ -170,18 +160,7 @@ impl Site {
             body_pressure: Box::new(body_pressure),
             bending,
             body_terms: Vec::new(),
-            typical: Typical { arm: linkage.arm_m, lever: linkage.arm_m },
         }
-    }
-
-    /// To be called once all effects have been added.
-    pub(crate) fn prepare(&mut self) {
-        let Some(actuator) = self.actuator else { return };
-        let stroke = (actuator.stroke)(&self.shape, (actuator.guess)(&TYPICAL_DEMAND).0);
-        let arm = self.linkage.arm_m + self.linkage.arm_growth * stroke.lift;
-        let d_arm = self.linkage.arm_growth * stroke.d_lift;
-        let lever = arm / (1.0 - stroke.contraction * d_arm / (stroke.d_contraction * arm));
-        self.typical = Typical { arm, lever };
     }
 
     /// Curvature at which actuator, wall and external moment balance; `near` is a state to start from.
@@ -222,20 +201,20 @@ impl Site {
         Ok(self.settle(loads, &root, &at, &before))
     }
 
-    /// Start from the actuator's own balance with the wall's moment linearised and a typical lever.
+    /// Start from the actuator's own balance with the wall's moment linearised.
     fn start(&self, actuator: &Actuator, loads: &SiteLoads) -> Start {
-        let available = loads.p_act_pa * (actuator.area)(&self.shape) * self.typical.lever;
+        let link = &self.linkage;
+        let available = loads.p_act_pa * (actuator.area)(&self.shape) * link.arm_m;
         let (low, high) = TYPICAL_STROKE;
-        let moment = |stroke: f64| {
-            self.body_moment(stroke * self.linkage.active_fraction / self.typical.arm, loads) - loads.moment
-        };
+        let moment = |stroke: f64| self.body_moment(stroke * link.active_fraction / link.arm_m, loads) - loads.moment;
         let at_low = moment(low);
         let rise = (moment(high) - at_low) / (high - low);
         let demand = Demand {
             constant: ((at_low - rise * low) / available).max(0.0),
             per_contraction: (rise / available).max(0.0),
+            growth: link.arm_growth / link.arm_m,
         };
-        let (x, slope) = (actuator.guess)(&demand);
+        let (x, slope) = (actuator.guess)(&self.shape, &demand);
         Start { x, f: None, slope: slope * available }
     }
 
@@ -328,12 +307,36 @@ const PASSIVE_RANGE: f64 = 100.0;
 const PASSIVE_STEP: f64 = 1e-5;
 /// Stiffness below which a passive stretch counts as free \[N·m²\]; keeps the compliance finite.
 const LEAST_STIFFNESS: f64 = 1e-12;
-/// Demand of a robot at a working pressure.
-const TYPICAL_DEMAND: Demand = Demand { constant: 0.07, per_contraction: 0.1 };
 /// Contractions at which the wall's moment is sampled for the start value: in the working range of every actuator here.
 const TYPICAL_STROKE: (f64, f64) = (0.1, 0.3);
 
 /// Tension N from the actuator's balance `N (x + q N) = y`: the arm shrinks a little as the fabric stretches (q > 0).
 fn line_tension(y: f64, x: f64, q: f64) -> f64 {
     if q == 0.0 || y <= 0.0 { y / x } else { 2.0 * y / (x + (x * x + 4.0 * q * y).sqrt()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::actuators::ACTUATORS;
+
+    #[test]
+    fn the_start_value_of_a_place_without_effects_is_its_equilibrium_also_with_a_growing_arm() {
+        for actuator in ACTUATORS {
+            for (stiffness, arm_growth) in [(0.0, 0.0), (0.0, 1.0), (1.35, 0.0), (1.35, 0.5), (0.3, 2.0)] {
+                let shape = ActuatorShape { length_m: 0.06, width_m: 0.07, fold_m: 0.0, volume_gain: 1.2 };
+                let linkage = Linkage { active_fraction: 0.9, arm_m: 0.08, arm_growth, compliance_per_n: 0.0 };
+                let body = BodyPressure { radius_m: 0.04, hinge_curvature: 1e-4 };
+                let site = Site::new(0.04, body, Bending { stiffness }, linkage, Some(actuator), shape, 0);
+                for p_act_pa in [5e3, 2e4, 1e5] {
+                    let loads = SiteLoads { p_body_pa: 2e3, p_act_pa, moment: 0.01 };
+                    let start = site.start(actuator, &loads);
+                    let imbalance = |a: f64| site.balance(actuator, a, &loads).imbalance;
+                    let slope = (imbalance(start.x + 1e-5) - imbalance(start.x - 1e-5)) / 2e-5;
+                    assert!((imbalance(start.x) / slope).abs() < 1e-14, "{} {stiffness} {arm_growth}", actuator.name);
+                    assert!((start.slope / slope - 1.0).abs() < 1e-7, "{} {stiffness} {arm_growth}", actuator.name);
+                }
+            }
+        }
+    }
 }

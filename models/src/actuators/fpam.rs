@@ -58,9 +58,29 @@ fn stroke(shape: &ActuatorShape, contraction: f64) -> Stroke {
     }
 }
 
-/// Root of the quadratic `3(1 − ε)² − 2 − m₀ − m₁ ε`, contracting only; slope `−6(1 − ε) − m₁`.
-fn guess(demand: &Demand) -> (f64, f64) {
+/// Root of `3(1 − ε)² − 2 − m`, m the need at ε: the root of the quadratic of an arm at rest, then Newton.
+fn guess(shape: &ActuatorShape, demand: &Demand) -> (f64, f64) {
     let (m0, m1) = (demand.constant.min(1.0), demand.per_contraction);
     let root = (m1 * m1 + 12.0 * (2.0 + m0 + m1)).sqrt();
-    (1.0 - (root - m1) / 6.0, -root)
+    let (mut contraction, mut slope) = (1.0 - (root - m1) / 6.0, -root);
+    if demand.growth == 0.0 {
+        return (contraction, slope);
+    }
+    let (growth, demand) = (rest_radius(shape) * demand.growth, Demand { constant: m0, ..*demand });
+    for _ in 0..6 {
+        let length = 1.0 - contraction;
+        let spread = (2.0 - length * length).sqrt();
+        let per = 1.0 / spread;
+        let lift = [growth * (spread - 1.0), growth * length * per, -2.0 * growth * per * per * per];
+        let need = demand.need([contraction, 1.0, 0.0], lift);
+        let by_contraction = -6.0 * length - need.slope;
+        let step = (3.0 * length * length - 2.0 - need.value) / by_contraction;
+        slope = by_contraction * need.lever;
+        contraction -= step;
+        // The next step would be its square.
+        if step.abs() < 1e-8 {
+            break;
+        }
+    }
+    (contraction, slope)
 }

@@ -42,9 +42,9 @@ pub struct Actuator {
     pub stroke: fn(&ActuatorShape, f64) -> Stroke,
     /// Coordinate interval in which equilibrium is sought.
     pub range: (f64, f64),
-    /// Coordinate at which the actuator with its arm at rest meets a demand, to rounding, and the slope there of the
-    /// weighted imbalance over P·area·arm.
-    pub guess: fn(&Demand) -> (f64, f64),
+    /// Coordinate at which the actuator meets a demand, to rounding, and the slope there of the weighted imbalance over
+    /// P·area·D₀.
+    pub guess: fn(&ActuatorShape, &Demand) -> (f64, f64),
     /// Area A so that P·A is a typical actuator force \[m²\].
     pub area: fn(&ActuatorShape) -> f64,
     /// Arm from the taut generator to the line of action at rest \[m\], from body radius and shape; used if the
@@ -54,13 +54,45 @@ pub struct Actuator {
     pub edge_restraint: fn(&ActuatorShape) -> f64,
 }
 
-/// Restoring moment over P·area·arm, `m = m₀ + m₁ ε`, neither negative \[-\].
+/// Restoring moment over P·area·D₀, `m = m₀ + m₁ ε D₀/D`, neither negative \[-\], on an arm `D = D₀ (1 + growth·lift)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demand {
     /// m₀: the body's hinge.
     pub constant: f64,
     /// m₁: the wall's bending stiffness.
     pub per_contraction: f64,
+    /// β/D₀ \[1/m\].
+    pub growth: f64,
+}
+
+/// What a growing arm makes of a demand: `m (1 − r)/d` with `d = D/D₀` and `r = ε d'/(ε' d)`, what virtual work takes.
+struct Need {
+    value: f64,
+    /// Its derivative by the coordinate.
+    slope: f64,
+    /// d/(1 − r): weighted imbalance per `force − weight·need`.
+    lever: f64,
+}
+
+impl Demand {
+    /// From contraction and d − 1, each with its first and second derivative by the coordinate.
+    #[inline(always)]
+    fn need(&self, [e, de, dde]: [f64; 3], [grown, dd, ddd]: [f64; 3]) -> Need {
+        let (m0, m1) = (self.constant, self.per_contraction);
+        if self.growth == 0.0 {
+            return Need { value: m0 + m1 * e, slope: m1 * de, lever: 1.0 };
+        }
+        let d = 1.0 + grown;
+        let per = 1.0 / (de * d);
+        let (per_d, d_ratio) = (de * per, dd * de * per);
+        let r = e * dd * per;
+        let slope_r = (de * dd + e * ddd) * per - r * (dde * d * per + d_ratio);
+        let m = m0 + m1 * e * per_d;
+        let slope_m = m1 * (de - e * d_ratio) * per_d;
+        let value = m * (1.0 - r) * per_d;
+        let slope = (slope_m * (1.0 - r) - m * slope_r) * per_d - value * d_ratio;
+        Need { value, slope, lever: d / (1.0 - r) }
+    }
 }
 
 /// Dimensions of one actuator unit \[m\].

@@ -66,9 +66,10 @@ fn stroke_series(shape: &ActuatorShape, theta: f64) -> Stroke {
     }
 }
 
-/// Root of `cosθ − θ m = cosθ − m₀ θ − m₁ (θ − sinθ)` by Newton; slope `−sinθ − m₀ − m₁ (1 − cosθ)`.
-pub(super) fn guess(demand: &Demand) -> (f64, f64) {
+/// Root of `cosθ − θ m` by Newton, m the need at θ.
+pub(super) fn guess(shape: &ActuatorShape, demand: &Demand) -> (f64, f64) {
     let (m0, m1) = (demand.constant, demand.per_contraction);
+    let growth = 0.5 * shape.length_m * demand.growth;
     // Exact for m = 0 and m₀ → ∞; the cube root is that of θ − sinθ ≈ θ³/6.
     let mut theta = FRAC_PI_2 / (1.0 + m0);
     if m1 > 0.0 {
@@ -77,8 +78,15 @@ pub(super) fn guess(demand: &Demand) -> (f64, f64) {
     let mut slope = -1.0;
     for _ in 0..6 {
         let (sin, cos) = sin_cos(theta);
-        slope = -sin - m0 - m1 * (1.0 - cos);
-        let step = (cos - m0 * theta - m1 * (theta - sin)) / slope;
+        let per = 1.0 / theta;
+        let de = (sin * per - cos) * per;
+        let height = (1.0 - cos) * per;
+        let d_height = (sin - height) * per;
+        let lift = [growth * height, growth * d_height, growth * (cos - 2.0 * d_height) * per];
+        let need = demand.need([1.0 - sin * per, de, (sin - 2.0 * de) * per], lift);
+        let by_theta = -sin - need.value - theta * need.slope;
+        let step = (cos - theta * need.value) / by_theta;
+        slope = by_theta * need.lever;
         theta -= step;
         // The next step would be its square.
         if step.abs() < 1e-8 {
@@ -104,9 +112,10 @@ mod tests {
 
     #[test]
     fn the_guess_meets_its_demand_to_rounding() {
+        let shape = ActuatorShape { length_m: 0.06, width_m: 0.05, fold_m: 0.0, volume_gain: 1.0 };
         for constant in [0.0, 0.0465, 0.5, 1.0, 30.0, 1e4] {
             for per_contraction in [0.0, 0.01, 2.0, 25.0, 1e4] {
-                let (theta, slope) = guess(&Demand { constant, per_contraction });
+                let (theta, slope) = guess(&shape, &Demand { constant, per_contraction, growth: 0.0 });
                 let left = theta.cos() - constant * theta - per_contraction * (theta - theta.sin());
                 assert!((left / slope).abs() < 1e-14 * (1.0 + theta), "{constant} {per_contraction}: {theta}");
             }
