@@ -57,10 +57,15 @@ fn unwritable(folder: &Path, cause: &str) -> Failure {
 fn write_all(folder: &Path, files: &Files, inputs: &[Input]) -> Result<(), Failure> {
     let made = std::fs::create_dir_all(folder);
     made.map_err(|cause| unwritable(folder, &format!("the folder cannot be made: {cause}")))?;
+    let mut outputs: Vec<Value> = Vec::new();
     for (name, table) in &files.parquet {
-        table.to_parquet(&folder.join(name))?;
+        let path = folder.join(name);
+        table.to_parquet(&path)?;
+        let bytes = std::fs::read(&path).map_err(|cause| unwritable(folder, &format!("{name}: {cause}")))?;
+        outputs.push(output(name, &bytes));
     }
-    let manifest = format!("{:#}\n", manifest(files, inputs));
+    outputs.extend(files.files.iter().map(|(name, bytes)| output(name, bytes)));
+    let manifest = format!("{:#}\n", manifest(&outputs, inputs));
     data::write_atomically(&folder.join("manifest.json"), manifest.as_bytes())?;
     for (name, bytes) in &files.files {
         data::write_atomically(&folder.join(name), bytes)?;
@@ -68,10 +73,12 @@ fn write_all(folder: &Path, files: &Files, inputs: &[Input]) -> Result<(), Failu
     Ok(())
 }
 
-fn manifest(files: &Files, inputs: &[Input]) -> Value {
+fn output(name: &str, bytes: &[u8]) -> Value {
+    json!({"name": name, "sha256": sha256(bytes)})
+}
+
+fn manifest(outputs: &[Value], inputs: &[Input]) -> Value {
     let inputs: Vec<Value> = inputs.iter().map(|i| json!({"name": i.name, "sha256": i.sha256})).collect();
-    let outputs: Vec<Value> =
-        files.files.iter().map(|(name, bytes)| json!({"name": name, "sha256": sha256(bytes)})).collect();
     json!({
         "schema": "ibr.manifest",
         "version": 1,

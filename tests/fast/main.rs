@@ -1,1 +1,19 @@
-//! Fast tests.
+//! Tests of the command `ibr` as a user meets it.
+//!
+//! A new test belongs into the module of what the user was doing: `json` if a program reads the answer, `predict`,
+//! `compare` and `generate` for what those commands promise, `scenario_errors` and `data_errors` for files that are
+//! wrong, `arguments` for wrong options, `output` for what lands on disk, `shell` for help, completions and pipes.
+//! Whatever needs an optimised build or more than a few seconds belongs into `tests/slow`.
+
+mod arguments;
+mod compare;
+mod data_errors;
+mod generate;
+mod json;
+mod output;
+mod predict;
+mod refused;
+mod scenario_errors;
+mod shell;
+#[path = "../support/mod.rs"]
+mod support;

@@ -1,0 +1,78 @@
+//! `ibr data generate`: the embedded synthetic sets can be made again, byte for byte.
+
+use crate::refused::refuse;
+use crate::support::{Folder, repository};
+
+const TWO_BODIES: &str = "0,10,20,30,0@2; 0,20,40,60,0@4";
+
+#[test]
+fn every_synthetic_set_is_made_again_byte_for_byte_from_its_truth() {
+    let synthetic: Vec<String> =
+        data::sets().into_iter().map(|s| s.name).filter(|name| name.starts_with("synthetic-")).collect();
+    assert_eq!(synthetic.len(), 5);
+    for name in synthetic {
+        let set = repository().join("data/sets").join(&name);
+        let truth = set.join("truth.toml").display().to_string();
+        let (seed, protocol) =
+            if name == "synthetic-epam-two-bodies" { ("12", TWO_BODIES) } else { ("11", "0,10,20,30,0@2") };
+        let folder = Folder::new();
+        let args = ["data", "generate", &truth, "--out", &name, "--seed", seed, "--protocol", protocol];
+        assert_eq!(folder.run(&args).code, 0, "{name}");
+        for file in ["markers.csv", "about.toml", "truth.toml"] {
+            let made = std::fs::read(folder.path(&name).join(file)).unwrap();
+            assert!(made == std::fs::read(set.join(file)).unwrap(), "{name}/{file}");
+        }
+    }
+}
+
+#[test]
+fn another_seed_gives_other_scatter() {
+    let folder = Folder::new();
+    for seed in ["1", "2"] {
+        assert_eq!(folder.run(&["data", "generate", "epam", "--seed", seed, "--out", seed]).code, 0);
+    }
+    let [one, two] = ["1", "2"].map(|name| std::fs::read(folder.path(name).join("markers.csv")).unwrap());
+    assert!(one != two);
+}
+
+#[test]
+fn an_existing_set_is_replaced_only_when_forced() {
+    let folder = Folder::new();
+    assert_eq!(folder.run(&["data", "generate", "epam", "--out", "set"]).code, 0);
+    let again = ["data", "generate", "epam", "--out", "set", "--seed", "2"];
+    refuse(&folder, &again, 2, &["set already holds a dataset", "add --force to replace it"]);
+    let before = folder.contents();
+    assert_eq!(folder.run(&[&again[..], &["--force"]].concat()).code, 0);
+    assert!(folder.contents() != before);
+}
+
+#[test]
+fn a_generated_set_loads_and_agrees_with_its_own_truth() {
+    let folder = Folder::new();
+    assert_eq!(folder.run(&["data", "generate", "fpam", "--seed", "5", "--out", "set"]).code, 0);
+    let answer = folder.run(&["compare", "set/truth.toml", "set", "--json"]).json("ibr.compare");
+    let overall = &answer["overall"];
+    assert!(overall["systematic_mm"].as_f64().unwrap() < 1.0, "{overall}");
+    assert!(overall["p_value"].as_f64().unwrap() > 0.001, "{overall}");
+}
+
+#[test]
+fn what_cannot_be_generated_is_refused_with_an_example() {
+    let folder = Folder::new();
+    let text = models::shipped("epam").unwrap();
+    let bare: Vec<&str> = text.lines().filter(|line| !line.starts_with("s_mm")).collect();
+    folder.write("bare.toml", bare.join("\n"));
+    let refused = |args: &[&str], words: &[&str]| {
+        refuse(&folder, &[&["data", "generate"], args, &["--out", "set"]].concat(), 2, words);
+    };
+    refused(&["bare.toml"], &["bare.toml has no marker stations", "s_mm = [30, 90, 150]"]);
+    refused(&["epam", "--protocol", "0,10"], &["a body pressure is missing (after `@`)", "\"0,10,20,30,0@2"]);
+    refused(&["epam", "--protocol", "0,x@2"], &["`x` is not a number"]);
+    refused(&["epam", "--protocol", ""], &["it has no hold"]);
+    refused(&["epam", "--protocol", "0,900@2"], &["from 0 to 500 kPa"]);
+    refused(&["epam", "--sigma", "5"], &["--sigma", "`5` has no unit"]);
+    refused(&["epam", "--sigma", "-1mm"], &["--sigma", "not from 0 to 100 mm"]);
+    refused(&["epam", "--pressure-scatter", "nan"], &["not from 0 to 50 per cent"]);
+    refused(&["epam", "--pressure-scatter", "-3"], &["not from 0 to 50 per cent"]);
+    refused(&["epam", "--runs", "0"], &["0 is not in 1..=10000"]);
+}

@@ -1,0 +1,78 @@
+//! What lands on disk: whole or not at all.
+
+use crate::refused::{refuse, with_report};
+use crate::support::Folder;
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+
+#[test]
+fn a_comparison_writes_a_report_that_opens_offline_plots_and_a_manifest_whose_hashes_match() {
+    let folder = Folder::new();
+    let ran = folder.run(&["compare", "epam", "synthetic-epam"]);
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    assert!(ran.stdout.contains("Where the scenario's model fails"), "{}", ran.stdout);
+    assert!(ran.stderr.contains("ibr-report/compare-synthetic-epam/report.html"), "{}", ran.stderr);
+    let read = |name: &str| std::fs::read(folder.path("ibr-report/compare-synthetic-epam").join(name)).unwrap();
+    let manifest: Value = serde_json::from_slice(&read("manifest.json")).unwrap();
+    let outputs = manifest["outputs"].as_array().unwrap();
+    for output in outputs {
+        let (name, hash) = (output["name"].as_str().unwrap(), output["sha256"].as_str().unwrap());
+        let bytes = read(name);
+        let found: String = Sha256::digest(&bytes).iter().map(|b| format!("{b:02x}")).collect();
+        assert_eq!(found, hash, "{name}");
+        match name.rsplit_once('.').unwrap().1 {
+            "png" => assert!(bytes.starts_with(b"\x89PNG\r\n"), "{name}"),
+            "svg" => assert!(bytes.starts_with(b"<svg") || bytes.starts_with(b"<?xml"), "{name}"),
+            _ => assert!(!bytes.is_empty(), "{name}"),
+        }
+    }
+    for ending in [".png", ".svg", ".csv", ".html"] {
+        assert!(outputs.iter().any(|o| o["name"].as_str().unwrap().ends_with(ending)), "{ending}");
+    }
+    assert_eq!(folder.contents().len(), outputs.len() + 1, "nothing else is left behind");
+    let names: Vec<_> = manifest["inputs"].as_array().unwrap().iter().map(|i| i["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["epam", "synthetic-epam (as read)"]);
+    crate::support::assert_opens_offline(&String::from_utf8(read("report.html")).unwrap());
+}
+
+#[test]
+fn json_alone_writes_no_files() {
+    let folder = Folder::new();
+    folder.run(&["compare", "epam", "synthetic-epam", "--json"]).json("ibr.compare");
+    assert!(folder.contents().is_empty());
+}
+
+#[test]
+fn a_folder_below_a_file_is_refused_before_any_work() {
+    let folder = with_report();
+    folder.write("file", "text");
+    let words = ["cannot write to file/x", "file is a file", "choose another folder with --out"];
+    let commands: [&[&str]; 5] = [
+        &["demo"],
+        &["predict", "epam"],
+        &["compare", "epam", "synthetic-epam"],
+        &["data", "generate", "epam"],
+        &["tradeoff"],
+    ];
+    for args in commands {
+        refuse(&folder, &[args, &["--out", "file/x"]].concat(), 3, &words);
+    }
+    refuse(&folder, &["man", "--out", "file/x"], 3, &["cannot write to file/x"]);
+    refuse(&folder, &["predict", "epam", "--out", "file"], 3, &["cannot write to file"]);
+    refuse(&folder, &["predict", "epam", "--out", ""], 2, &["a value is required for '--out <OUT>'"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_cannot_be_made_is_refused() {
+    // Not even the superuser can make a folder there.
+    refuse(&with_report(), &["predict", "epam", "--out", "/proc/ibr"], 3, &["cannot write to /proc/ibr"]);
+}
+
+#[test]
+fn a_plot_of_a_prediction_is_written_where_it_is_wanted() {
+    let folder = Folder::new();
+    assert_eq!(folder.run(&["predict", "fpam", "--out", "a/b"]).code, 0);
+    let names: Vec<_> = folder.contents().into_keys().map(|p| p.file_name().unwrap().to_owned()).collect();
+    assert_eq!(names, ["manifest.json", "shapes.png", "shapes.svg"]);
+}

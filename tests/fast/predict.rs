@@ -1,0 +1,95 @@
+//! `ibr predict`: inverse, channels, limits.
+
+use crate::refused::{refuse, with_report};
+use crate::support::Folder;
+use serde_json::Value;
+
+fn state(args: &[&str]) -> Value {
+    let answer = Folder::new().run(&[args, &["--json"]].concat()).json("ibr.predict");
+    answer["states"][0].clone()
+}
+
+#[test]
+fn the_pressure_for_a_wanted_tip_gives_that_tip_when_predicted() {
+    for robot in ["spam", "cpam", "epam", "fpam"] {
+        for (target, place) in [("tip=60mm", "y_mm"), ("angle=15deg", "angle_deg")] {
+            let wanted: f64 = target.trim_matches(|c: char| !c.is_ascii_digit()).parse().unwrap();
+            let found = state(&["predict", robot, "--inverse", target]);
+            let pressure = format!("{}kPa", found["p_act_kpa"]);
+            let back = state(&["predict", robot, "--pressure", &pressure]);
+            let reached = back["tip"][place].as_f64().unwrap();
+            assert!((reached - wanted).abs() < 1e-3, "{robot} {target}: {reached} at {pressure}");
+        }
+    }
+}
+
+#[test]
+fn a_tip_out_of_reach_is_answered_with_the_reachable_range() {
+    let words = ["tip height 900", "out of reach", "pressures from 0 to 100 kPa give 0.0000 to 190.2"];
+    refuse(&with_report(), &["predict", "epam", "--inverse", "tip=900mm", "--out", "report"], 4, &words);
+    let words = ["bending angle 200", "out of reach", "91.4", "deg"];
+    refuse(&with_report(), &["predict", "epam", "--inverse", "angle=200deg"], 4, &words);
+}
+
+#[test]
+fn a_load_that_the_body_cannot_carry_is_said_to_be_close_to_collapse() {
+    let folder = with_report();
+    let text = models::shipped("epam").unwrap();
+    let long = text.replace("length_mm = 360", "length_mm = 2400").replace("count = 6", "count = 40");
+    folder.write("long.toml", long);
+    let args = ["predict", "long.toml", "--pressure", "1kPa", "--effect", "gravity", "--out", "report"];
+    refuse(&folder, &args, 4, &["P = 1.000 kPa", "collapse"]);
+}
+
+#[test]
+fn a_robot_of_two_metres_and_forty_pouches_is_predicted() {
+    let folder = Folder::new();
+    let text = models::shipped("epam").unwrap();
+    folder.write("long.toml", text.replace("length_mm = 360", "length_mm = 2400").replace("count = 6", "count = 40"));
+    let ran = folder.run(&["predict", "long.toml", "--pressure", "1kPa", "--json"]);
+    let tip = &ran.json("ibr.predict")["states"][0]["tip"];
+    // Same pressure, same curvature: the angle grows with the length.
+    let short = state(&["predict", "epam", "--pressure", "1kPa"]);
+    let ratio = tip["angle_deg"].as_f64().unwrap() / short["tip"]["angle_deg"].as_f64().unwrap();
+    assert!((ratio - 2400.0 / 360.0).abs() < 1e-9, "{ratio}");
+}
+
+#[test]
+fn supply_channels_and_zones_are_told_apart() {
+    let folder = Folder::new();
+    let mut text = models::shipped("epam").unwrap().to_string();
+    text.push_str("\n[[zone]]\nfrom_mm = 180\nto_mm = 360\nchannel = 1\n");
+    folder.write("two.toml", text);
+    let angle = |pressure: &str| {
+        let ran = folder.run(&["predict", "two.toml", "--pressure", pressure, "--json"]);
+        ran.json("ibr.predict")["states"][0]["tip"]["angle_deg"].as_f64().unwrap()
+    };
+    let (both, near, far) = (angle("10kPa"), angle("10kPa/0kPa"), angle("0kPa/10kPa"));
+    assert!((near + far - both).abs() < 1e-9 && (near - far).abs() < 1e-9, "{near} {far} {both}");
+}
+
+#[test]
+fn ten_thousand_pressures_are_predicted_in_one_call() {
+    let list: Vec<String> = (1..=10_000).map(|i| format!("{}Pa", 3 * i)).collect();
+    let answer = Folder::new().run(&["predict", "epam", "--pressure", &list.join(","), "--json"]).json("ibr.predict");
+    let states = answer["states"].as_array().unwrap();
+    let heights: Vec<f64> = states.iter().map(|s| s["tip"]["y_mm"].as_f64().unwrap()).collect();
+    assert_eq!(heights.len(), 10_000);
+    assert!(heights.windows(2).all(|pair| pair[1] > pair[0]), "more pressure lifts the tip of this robot");
+}
+
+#[test]
+fn a_pressure_above_the_limit_of_the_scenario_is_predicted_with_a_warning() {
+    let ran = Folder::new().run(&["predict", "epam", "--pressure", "250kPa"]);
+    assert_eq!(ran.code, 0);
+    assert!(ran.stderr.contains("250 kPa is above max_pressure_kpa = 100"), "{}", ran.stderr);
+}
+
+#[test]
+fn units_of_one_pressure_give_one_answer() {
+    let pressures = "10kPa,0.1bar,10000Pa,0.01MPa,1.450377377psi";
+    let answer = Folder::new().run(&["predict", "cpam", "--pressure", pressures, "--json"]).json("ibr.predict");
+    let heights: Vec<f64> =
+        answer["states"].as_array().unwrap().iter().map(|s| s["tip"]["y_mm"].as_f64().unwrap()).collect();
+    assert!(heights.iter().all(|y| (y - heights[0]).abs() < 1e-6), "{heights:?}");
+}

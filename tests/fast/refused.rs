@@ -1,0 +1,32 @@
+//! What every refusal has in common.
+
+use crate::support::Folder;
+
+/// A folder with an earlier report, which no refused command may touch.
+pub fn with_report() -> Folder {
+    let folder = Folder::new();
+    folder.write("report/report.html", "<p>an earlier report");
+    folder.write("report/manifest.json", "{}");
+    folder
+}
+
+/// Runs a command that must be refused: with this code, nothing on standard output, these words in the message (which
+/// may be wrapped), no panic, and not one byte changed on disk.
+pub fn refuse(folder: &Folder, args: &[&str], code: i32, words: &[&str]) {
+    let before = folder.contents();
+    let ran = folder.run(args);
+    let message = unwrapped(&ran.stderr);
+    assert_eq!(ran.code, code, "{args:?}: {message}");
+    assert_eq!(ran.stdout, "", "{args:?}");
+    for part in words {
+        assert!(message.contains(part), "{args:?}: no `{part}` in: {message}");
+    }
+    assert!(!message.contains("panicked") && !message.contains("RUST_BACKTRACE"), "{message}");
+    assert!(folder.contents() == before, "{args:?}: files have changed");
+}
+
+/// A message without the frame and the line breaks that are drawn around it.
+fn unwrapped(text: &str) -> String {
+    let words = text.split_whitespace().filter(|word| *word != "│" && *word != "·");
+    words.collect::<Vec<_>>().join(" ")
+}

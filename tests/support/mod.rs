@@ -1,0 +1,102 @@
+//! What both test binaries share: a folder of its own for every test, and `ibr` run in it.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A folder that is deleted with the test.
+pub struct Folder(tempfile::TempDir);
+
+/// What one run of `ibr` did.
+pub struct Ran {
+    /// Exit code; -1 if a signal ended it.
+    pub code: i32,
+    /// Standard output.
+    pub stdout: String,
+    /// Standard error.
+    pub stderr: String,
+}
+
+/// Root of the repository.
+pub fn repository() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+impl Folder {
+    /// A new, empty one.
+    pub fn new() -> Folder {
+        Folder(tempfile::tempdir().expect("a temporary folder"))
+    }
+
+    /// A path in it.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Writes a file, with the folders above it.
+    pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+        let path = self.path(name);
+        std::fs::create_dir_all(path.parent().expect("a parent")).expect("a folder");
+        std::fs::write(path, bytes).expect("a file");
+    }
+
+    /// The command `ibr` with this folder as its current one.
+    pub fn ibr(&self, args: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_ibr"));
+        command.args(args).current_dir(self.0.path()).env("NO_COLOR", "1");
+        command
+    }
+
+    /// Runs `ibr` to its end.
+    pub fn run(&self, args: &[&str]) -> Ran {
+        Ran::from(self.ibr(args).output().expect("ibr starts"))
+    }
+
+    /// Every file below this folder, hidden ones too, with its contents.
+    pub fn contents(&self) -> BTreeMap<PathBuf, Vec<u8>> {
+        let mut found = BTreeMap::new();
+        collect(self.0.path(), &mut found);
+        found
+    }
+}
+
+fn collect(folder: &Path, found: &mut BTreeMap<PathBuf, Vec<u8>>) {
+    for entry in std::fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            collect(&path, found);
+        } else {
+            let bytes = std::fs::read(&path).expect("a file");
+            found.insert(path, bytes);
+        }
+    }
+}
+
+impl From<Output> for Ran {
+    fn from(output: Output) -> Ran {
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        Ran { code: output.status.code().unwrap_or(-1), stdout: text(&output.stdout), stderr: text(&output.stderr) }
+    }
+}
+
+impl Ran {
+    /// Standard output, which must be one JSON object with this schema, version 1, and nothing else.
+    pub fn json(&self, schema: &str) -> serde_json::Value {
+        assert_eq!(self.code, 0, "{}", self.stderr);
+        let value: serde_json::Value = serde_json::from_str(&self.stdout).expect("one JSON value");
+        assert_eq!((value["schema"].as_str(), value["version"].as_u64()), (Some(schema), Some(1)));
+        value
+    }
+}
+
+/// A page that fetches nothing: no link, script or picture of another place.
+pub fn assert_opens_offline(html: &str) {
+    assert!(html.starts_with("<!doctype html>") || html.starts_with("<!DOCTYPE html>"), "{}", &html[..60]);
+    assert!(html.trim_end().ends_with("</html>"), "the page is cut short");
+    for fetched in
+        ["src=\"http", "href=\"http", "src='http", "href='http", "url(http", "@import", "<link", "<script src"]
+    {
+        assert!(!html.contains(fetched), "the page contains {fetched}");
+    }
+    assert!(html.contains("<svg") && html.contains("prefers-color-scheme: dark") && html.contains("viewport"));
+}
