@@ -79,8 +79,8 @@ impl Model {
     fn predict_part(&self, part: Part, state: &mut Prediction) -> Result<(), (usize, Unsolved)> {
         let count = self.marker_count();
         for (i, (item, tip)) in part.loads.iter().zip(part.tips).enumerate() {
-            self.predict(item, state).map_err(|error| (part.first + i, error))?;
-            part.markers[i * count..(i + 1) * count].copy_from_slice(&state.markers);
+            self.settle(item, state, false).map_err(|error| (part.first + i, error))?;
+            self.sight(&state.work, &mut part.markers[i * count..(i + 1) * count]);
             *tip = state.tip;
         }
         Ok(())

@@ -7,7 +7,7 @@ use crate::effects::{Effect, by_name};
 use crate::error::Unsolved;
 use crate::robot::{Workspace, equilibrium};
 use crate::scenario::{Scenario, Span};
-use crate::shape::{advance, arc};
+use crate::shape::Stretch;
 use crate::site::{Linkage, Site, SiteState};
 use crate::term::{CHANNELS, Loads, Pose, Term, actuator_q};
 
@@ -83,9 +83,7 @@ impl Model {
     /// [`Unsolved`] with pressures and place when a pressure is negative or not finite, or nothing balances.
     pub fn predict(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
         self.settle(loads, out, false)?;
-        for (seen, (segment, offset)) in out.markers.iter_mut().zip(&self.markers) {
-            *seen = self.sight(&out.work, *segment, *offset);
-        }
+        self.sight(&out.work, &mut out.markers);
         Ok(())
     }
 
@@ -132,7 +130,7 @@ impl Model {
         (0..count)
             .map(|i| {
                 let (segment, offset) = locate(&self.assembly.segments, length * i as f64 / (count.max(2) - 1) as f64);
-                self.place(&at.work, segment, offset).0
+                self.stretch(&at.work, segment).at(offset).0
             })
             .collect()
     }
@@ -159,21 +157,29 @@ impl Model {
         }
     }
 
-    fn place(&self, work: &Workspace, segment: usize, offset: f64) -> ([f64; 2], f64) {
-        let kappa = work.states[segment].curvature;
+    #[inline]
+    fn stretch(&self, work: &Workspace, segment: usize) -> Stretch {
         let radius = self.assembly.sites[self.assembly.segments[segment].site].radius_m;
-        let part = arc(kappa, offset, radius);
         let from = [work.nodes[2 * segment], work.nodes[2 * segment + 1]];
-        (advance(from, work.directions[segment], part.along, part.across), work.headings[segment] + kappa * offset)
+        Stretch::new(from, work.directions[segment], work.headings[segment], work.states[segment].curvature, radius)
     }
 
-    fn sight(&self, work: &Workspace, segment: usize, offset: f64) -> [f64; 2] {
-        let (xy, heading) = self.place(work, segment, offset);
-        let mut seen = Sighting { xy, heading };
-        for law in &self.assembly.camera {
-            law(&mut seen);
+    /// The markers as the camera sees them.
+    pub(crate) fn sight(&self, work: &Workspace, markers: &mut [[f64; 2]]) {
+        let Some(&(mut current, _)) = self.markers.first() else { return };
+        let mut stretch = self.stretch(work, current);
+        for (marker, (segment, offset)) in markers.iter_mut().zip(&self.markers) {
+            if *segment != current {
+                current = *segment;
+                stretch = self.stretch(work, current);
+            }
+            let (xy, heading) = stretch.at(*offset);
+            let mut seen = Sighting { xy, heading };
+            for law in &self.assembly.camera {
+                law(&mut seen);
+            }
+            *marker = seen.xy;
         }
-        seen.xy
     }
 
     fn site_energies(

@@ -31,6 +31,10 @@ impl Arc {
 /// Below this turn the closed forms lose digits, and the series are exact to rounding and cheaper.
 const SERIES_BELOW: f64 = 0.25;
 
+/// Coefficients of `sin u/u` and `(1 − cos u)/u²` in u², signs alternating.
+const SIN_SERIES: [f64; 6] = [1.0, 1.0 / 6.0, 1.0 / 120.0, 1.0 / 5040.0, 1.0 / 362_880.0, 1.0 / 39_916_800.0];
+const COS_SERIES: [f64; 6] = [0.5, 1.0 / 24.0, 1.0 / 720.0, 1.0 / 40320.0, 1.0 / 3_628_800.0, 1.0 / 479_001_600.0];
+
 /// `c₀ − z (c₁ − z (c₂ − …))`
 #[inline(always)]
 fn alternating<const N: usize>(z: f64, coefficients: [f64; N]) -> f64 {
@@ -42,8 +46,7 @@ fn alternating<const N: usize>(z: f64, coefficients: [f64; N]) -> f64 {
 fn sinc_pair(u: f64) -> [f64; 8] {
     if u.abs() < SERIES_BELOW {
         let z = u * u;
-        let a = alternating(z, [1.0, 1.0 / 6.0, 1.0 / 120.0, 1.0 / 5040.0, 1.0 / 362_880.0, 1.0 / 39_916_800.0]);
-        let b = alternating(z, [0.5, 1.0 / 24.0, 1.0 / 720.0, 1.0 / 40320.0, 1.0 / 3_628_800.0, 1.0 / 479_001_600.0]);
+        let (a, b) = (alternating(z, SIN_SERIES), alternating(z, COS_SERIES));
         let da = alternating(z, [1.0 / 3.0, 1.0 / 30.0, 1.0 / 840.0, 1.0 / 45360.0, 1.0 / 3_991_680.0]);
         let db = alternating(z, [0.5, 0.125, 1.0 / 144.0, 1.0 / 5760.0, 1.0 / 403_200.0, 1.0 / 43_545_600.0]);
         let dda = alternating(z, [1.0 / 3.0, 0.1, 1.0 / 168.0, 1.0 / 6480.0]);
@@ -74,6 +77,41 @@ pub(crate) fn arc(kappa: f64, h: f64, radius: f64) -> Arc {
     }
 }
 
+/// A stretch of constant curvature in space: what all its points share.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stretch {
+    from: [f64; 2],
+    direction: [f64; 2],
+    heading: f64,
+    kappa: f64,
+    /// 1 − κR, and that over κ (not used where κ is small).
+    line: f64,
+    line_radius: f64,
+}
+
+impl Stretch {
+    /// From its start (position, direction, heading), its curvature and the body radius.
+    #[inline]
+    pub fn new(from: [f64; 2], direction: [f64; 2], heading: f64, kappa: f64, radius: f64) -> Stretch {
+        let line = 1.0 - kappa * radius;
+        Stretch { from, direction, heading, kappa, line, line_radius: line / kappa }
+    }
+
+    /// Position and heading at a taut length from its start.
+    #[inline]
+    pub fn at(&self, offset: f64) -> ([f64; 2], f64) {
+        let u = self.kappa * offset;
+        let (along, across) = if u.abs() < SERIES_BELOW {
+            let (length, z) = (self.line * offset, u * u);
+            (length * alternating(z, SIN_SERIES), length * u * alternating(z, COS_SERIES))
+        } else {
+            let (sin, cos) = sin_cos(u);
+            (self.line_radius * sin, self.line_radius * (1.0 - cos))
+        };
+        (advance(self.from, self.direction, along, across), self.heading + u)
+    }
+}
+
 /// Direction (cos ψ, sin ψ) after an arc.
 #[inline]
 pub(crate) fn turned(direction: [f64; 2], [sin, cos]: [f64; 2]) -> [f64; 2] {
@@ -98,6 +136,20 @@ mod tests {
         let above = sinc_pair(SERIES_BELOW);
         for (b, a) in below.iter().zip(above) {
             assert!((b - a).abs() < 1e-9, "{b} {a}");
+        }
+    }
+
+    #[test]
+    fn a_point_of_a_stretch_is_the_end_of_its_arc() {
+        for kappa in [-9.0, -3.0, -1e-9, 0.0, 1e-3, 0.8, 4.6, 24.9] {
+            let (from, direction, heading) = ([0.1, -0.2], [0.6, 0.8], 0.927);
+            let stretch = Stretch::new(from, direction, heading, kappa, 0.04);
+            for h in [0.0, 0.03, 0.07, 0.31, 1.5] {
+                let (part, ([x, y], at)) = (arc(kappa, h, 0.04), stretch.at(h));
+                let end = advance(from, direction, part.along, part.across);
+                assert!((x - end[0]).abs() < 1e-15 && (y - end[1]).abs() < 1e-15, "{kappa} {h}");
+                assert_eq!(at, heading + kappa * h);
+            }
         }
     }
 
