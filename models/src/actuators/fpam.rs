@@ -18,7 +18,7 @@
 //! `shear_stiffness`, which makes the free stroke depend on pressure). Reference: Chou & Hannaford 1996 (McKibben);
 //! Naclerio & Hawkes 2020 (fPAM); the 45° form is derived here.
 
-use super::{Actuator, ActuatorShape, Demand, Family, Stroke};
+use super::{Actuator, ActuatorShape, Demand, Family, Stroke, converged};
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Actuator = Actuator {
@@ -66,6 +66,7 @@ fn guess(shape: &ActuatorShape, demand: &Demand) -> (f64, f64) {
     if demand.growth == 0.0 {
         return (contraction, slope);
     }
+    let mut last = 0.0;
     let (growth, demand) = (rest_radius(shape) * demand.growth, Demand { constant: m0, ..*demand });
     for _ in 0..6 {
         let length = 1.0 - contraction;
@@ -77,10 +78,10 @@ fn guess(shape: &ActuatorShape, demand: &Demand) -> (f64, f64) {
         let step = (3.0 * length * length - 2.0 - need.value) / by_contraction;
         slope = by_contraction * need.lever;
         contraction -= step;
-        // The next step would be its square.
-        if step.abs() < 1e-8 {
+        if converged(step, last) {
             break;
         }
+        last = step;
     }
     (contraction, slope)
 }

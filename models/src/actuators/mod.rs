@@ -95,6 +95,13 @@ impl Demand {
     }
 }
 
+/// Whether Newton's next step would be rounding: steps shrink as `next = step²·(step/last²)`, or near enough the square.
+#[inline(always)]
+fn converged(step: f64, last: f64) -> bool {
+    let square = step * step;
+    square < 1e-16 || square * step.abs() < 1e-16 * last * last
+}
+
 /// Dimensions of one actuator unit \[m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ActuatorShape {

@@ -19,7 +19,7 @@
 //! is the effect `end_constraint`). **Do not use** for pouches much longer than wide: there the side seams decide.
 //! Reference: Niiyama et al., Soft Robotics 2(2), 2015 (pouch motor); the volume and its derivative are derived here.
 
-use super::{ActuatorShape, Demand, Stroke};
+use super::{ActuatorShape, Demand, Stroke, converged};
 use crate::trig::sin_cos;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -70,12 +70,16 @@ fn stroke_series(shape: &ActuatorShape, theta: f64) -> Stroke {
 pub(super) fn guess(shape: &ActuatorShape, demand: &Demand) -> (f64, f64) {
     let (m0, m1) = (demand.constant, demand.per_contraction);
     let growth = 0.5 * shape.length_m * demand.growth;
-    // Exact for m = 0 and m₀ → ∞; the cube root is that of θ − sinθ ≈ θ³/6.
-    let mut theta = FRAC_PI_2 / (1.0 + m0);
+    // A start within a few thousandths at working pressures: growth as at θ = 1.45 (d = 1 + 0.61 growth), the root
+    // for m = m₀, and the cube root of θ − sinθ ≈ θ³/6, its factor fitted.
+    let lever = 1.0 + 0.84 * growth;
+    let mut theta = FRAC_PI_2 * lever / (lever + m0);
     if m1 > 0.0 {
-        theta /= (1.0 + m1 * theta * theta * theta / 6.0).cbrt();
+        let m1 = m1 / (lever * (1.0 + 0.61 * growth));
+        let factor = 0.22 + 0.0617 / (1.0 + 1.6 * m1);
+        theta /= (1.0 + factor * m1 * theta * theta * theta).cbrt();
     }
-    let mut slope = -1.0;
+    let (mut slope, mut last) = (-1.0, 0.0);
     for _ in 0..6 {
         let (sin, cos) = sin_cos(theta);
         let per = 1.0 / theta;
@@ -88,10 +92,10 @@ pub(super) fn guess(shape: &ActuatorShape, demand: &Demand) -> (f64, f64) {
         let step = (cos - theta * need.value) / by_theta;
         slope = by_theta * need.lever;
         theta -= step;
-        // The next step would be its square.
-        if step.abs() < 1e-8 {
+        if converged(step, last) {
             break;
         }
+        last = step;
     }
     (theta, slope)
 }
