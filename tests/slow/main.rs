@@ -1,1 +1,22 @@
-//! Slow tests.
+//! Tests that need an optimised build: `cargo test --release --test slow` (`./check.sh` runs it).
+//!
+//! A new test belongs into the module of what it measures or runs to its end: `demo`, `interrupts`, `large_file`,
+//! `figures` (speed and known numbers), `documents` (command lines of the documents). Whatever takes less than a
+//! second in an unoptimised build belongs into `tests/fast`.
+
+mod demo;
+mod documents;
+mod figures;
+mod interrupts;
+mod large_file;
+#[path = "../support/mod.rs"]
+mod support;
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// Held by every test of this binary: they measure time and memory, and shall not disturb each other.
+static ALONE: Mutex<()> = Mutex::new(());
+
+fn alone() -> MutexGuard<'static, ()> {
+    ALONE.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,5 +1,6 @@
 //! What both test binaries share: a folder of its own for every test, and `ibr` run in it.
 
+use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -99,4 +100,19 @@ pub fn assert_opens_offline(html: &str) {
         assert!(!html.contains(fetched), "the page contains {fetched}");
     }
     assert!(html.contains("<svg") && html.contains("prefers-color-scheme: dark") && html.contains("viewport"));
+}
+
+/// The names in the manifest of a folder, each a file with the hash that the manifest gives.
+pub fn assert_hashes(folder: &Path) -> Vec<String> {
+    let text = std::fs::read_to_string(folder.join("manifest.json")).expect("a manifest");
+    let manifest: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let outputs = manifest["outputs"].as_array().expect("outputs");
+    let check = |output: &serde_json::Value| {
+        let name = output["name"].as_str().expect("a name");
+        let bytes = std::fs::read(folder.join(name)).expect("the file that the manifest names");
+        let found: String = Sha256::digest(&bytes).iter().map(|b| format!("{b:02x}")).collect();
+        assert_eq!(output["sha256"].as_str(), Some(found.as_str()), "{name}");
+        name.to_string()
+    };
+    outputs.iter().map(check).collect()
 }
