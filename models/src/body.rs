@@ -17,6 +17,7 @@ use std::f64::consts::{LN_2, PI};
 /// | κ | curvature per length of the taut generator | 1/m |
 /// | R | body radius | m |
 /// | p_b | body gauge pressure | Pa |
+/// | share | 1 in the base law; a scenario may set another share of the collapse moment | - |
 /// | k₀ | curvature over which the hinge sets in (numerical; 0.05 1/m is 1 % of a bent robot) | 1/m |
 ///
 /// Validity: κ well above the wrinkling curvature p_b/(2Et) (the effect `wrinkling` replaces the step by the real
@@ -27,6 +28,8 @@ pub struct BodyPressure {
     pub radius_m: f64,
     /// Hinge curvature k₀ \[1/m\].
     pub hinge_curvature: f64,
+    /// Share of the collapse moment that the hinge carries \[-\]: 1 collapse, ½ first wrinkle.
+    pub share: f64,
 }
 
 impl Term for BodyPressure {
@@ -35,7 +38,7 @@ impl Term for BodyPressure {
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let moment = PI * at.p_body_pa * self.radius_m.powi(3);
+        let moment = self.share * PI * at.p_body_pa * self.radius_m.powi(3);
         let (energy, slope) = soft_step(at.q[0], self.hinge_curvature);
         force[0] -= moment * slope;
         moment * energy

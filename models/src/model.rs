@@ -159,9 +159,9 @@ impl Model {
 
     #[inline]
     fn stretch(&self, work: &Workspace, segment: usize) -> Stretch {
-        let radius = self.assembly.sites[self.assembly.segments[segment].site].radius_m;
+        let offset_m = self.assembly.sites[self.assembly.segments[segment].site].centre_line_m;
         let from = [work.nodes[2 * segment], work.nodes[2 * segment + 1]];
-        Stretch::new(from, work.directions[segment], work.headings[segment], work.states[segment].curvature, radius)
+        Stretch::new(from, work.directions[segment], work.headings[segment], work.states[segment].curvature, offset_m)
     }
 
     /// The markers as the camera sees them.
@@ -259,10 +259,16 @@ fn assemble(scenario: &Scenario, spans: &[Span], segments: usize) -> Assembly {
 fn site(scenario: &Scenario, span: &Span) -> Site {
     let shape: ActuatorShape = span.shape;
     let linkage = Linkage { active_fraction: 1.0, arm_m: span.arm_m, arm_growth: 0.0, compliance_per_n: 0.0 };
-    let pressure = BodyPressure { radius_m: span.radius_m, hinge_curvature: scenario.hinge_curvature };
+    let pressure = BodyPressure {
+        radius_m: span.radius_m,
+        hinge_curvature: scenario.hinge_curvature,
+        share: scenario.hinge_share,
+    };
     let bending = Bending { stiffness: span.bending_stiffness };
     debug_assert!(span.channel < CHANNELS);
-    Site::new(span.radius_m, pressure, bending, linkage, span.actuator, shape, span.channel)
+    let mut site = Site::new(span.radius_m, pressure, bending, linkage, span.actuator, shape, span.channel);
+    site.centre_line_m = span.centre_line_m;
+    site
 }
 
 /// Every span in about `total · length/whole` equal segments, at least one.

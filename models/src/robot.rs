@@ -202,17 +202,25 @@ fn place_nodes(assembly: &Assembly, work: &mut Workspace) {
     let mut direction = [1.0, 0.0];
     for (i, segment) in assembly.segments.iter().enumerate() {
         let kappa = work.states[i].curvature;
-        let step = arc(kappa, segment.length_m, assembly.sites[segment.site].radius_m);
-        xy = advance(xy, direction, step.along, step.across);
+        let offset_m = assembly.sites[segment.site].centre_line_m;
+        let [along, across, sin, cos] = match work.coupled.arcs.get_mut(i) {
+            Some(kept) => {
+                *kept = arc(kappa, segment.length_m, offset_m);
+                [kept.along, kept.across, kept.turn[0], kept.turn[1]]
+            }
+            // Without transverse loads the derivatives are not needed, and the compiler drops them here.
+            None => {
+                let step = arc(kappa, segment.length_m, offset_m);
+                [step.along, step.across, step.turn[0], step.turn[1]]
+            }
+        };
+        xy = advance(xy, direction, along, across);
         heading += kappa * segment.length_m;
-        direction = turned(direction, step.turn);
+        direction = turned(direction, [sin, cos]);
         work.nodes[2 * i + 2] = xy[0];
         work.nodes[2 * i + 3] = xy[1];
         work.headings[i + 1] = heading;
         work.directions[i + 1] = direction;
-        if let Some(kept) = work.coupled.arcs.get_mut(i) {
-            *kept = step;
-        }
     }
 }
 

@@ -32,6 +32,9 @@ pub struct Linkage {
 pub struct Site {
     /// Body radius R \[m\].
     pub radius_m: f64,
+    /// Distance of the centre line from the taut generator \[m\], by which it shortens: (1 − κ·distance) ds. R unless the
+    /// scenario says otherwise.
+    pub centre_line_m: f64,
     /// Actuator kind, `None` on a passive stretch.
     pub actuator: Option<&'static Actuator>,
     /// Dimensions of one actuator unit.
@@ -152,6 +155,7 @@ impl Site {
     ) -> Site {
         Site {
             radius_m,
+            centre_line_m: radius_m,
             actuator,
             shape,
             channel,
@@ -326,7 +330,7 @@ mod tests {
             for (stiffness, arm_growth) in [(0.0, 0.0), (0.0, 1.0), (1.35, 0.0), (1.35, 0.5), (0.3, 2.0)] {
                 let shape = ActuatorShape { length_m: 0.06, width_m: 0.07, fold_m: 0.0, volume_gain: 1.2 };
                 let linkage = Linkage { active_fraction: 0.9, arm_m: 0.08, arm_growth, compliance_per_n: 0.0 };
-                let body = BodyPressure { radius_m: 0.04, hinge_curvature: 1e-4 };
+                let body = BodyPressure { radius_m: 0.04, hinge_curvature: 1e-4, share: 1.0 };
                 let site = Site::new(0.04, body, Bending { stiffness }, linkage, Some(actuator), shape, 0);
                 for p_act_pa in [5e3, 2e4, 1e5] {
                     let loads = SiteLoads { p_body_pa: 2e3, p_act_pa, moment: 0.01 };

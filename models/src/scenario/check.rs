@@ -60,6 +60,15 @@ const HINGE: Range = Range {
     too_small: "it must be positive; 0.05 is the usual value",
     too_large: "write 1/m; 0.05 is the usual value",
 };
+const SHARE: Range = Range {
+    name: "hinge moment share",
+    unit: "-",
+    si: 1.0,
+    low: 0.0,
+    high: 2.0,
+    too_small: "1 is the collapse moment πp_bR³, 0.5 the first wrinkle",
+    too_large: "1 is the collapse moment πp_bR³, 0.5 the first wrinkle",
+};
 const GAIN: Range = Range {
     name: "volume gain",
     unit: "-",
@@ -84,6 +93,8 @@ pub(super) fn scenario(raw: &Raw) -> Checked<Scenario> {
         p_body_pa: si(&body.pressure_kpa, &BODY_PRESSURE)?,
         bending_stiffness: optional(&body.bending_stiffness_nm2, &STIFFNESS)?.unwrap_or(0.0),
         hinge_curvature: optional(&body.hinge_curvature_per_m, &HINGE)?.unwrap_or(0.05),
+        hinge_share: optional(&body.hinge_moment_share, &SHARE)?.unwrap_or(1.0),
+        centre_line_m: optional(&body.centre_line_mm, &POSITION)?,
         gravity_direction: gravity(body)?,
         actuator,
         zones,

@@ -43,6 +43,10 @@ pub struct Scenario {
     pub bending_stiffness: f64,
     /// Hinge curvature k₀ of the base law \[1/m\].
     pub hinge_curvature: f64,
+    /// Restoring moment of the base law as a share of πp_bR³ \[-\].
+    pub hinge_share: f64,
+    /// Distance of the centre line from the taut generator \[m\]; `None`: the radius, 0: it does not shorten.
+    pub centre_line_m: Option<f64>,
     /// Unit vector of gravity in the x–y plane.
     pub gravity_direction: [f64; 2],
     /// The actuator.

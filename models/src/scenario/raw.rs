@@ -35,6 +35,8 @@ pub(super) struct Body {
     pub pressure_kpa: Num,
     pub bending_stiffness_nm2: Option<Num>,
     pub hinge_curvature_per_m: Option<Num>,
+    pub hinge_moment_share: Option<Num>,
+    pub centre_line_mm: Option<Num>,
     pub gravity: Option<Spanned<[f64; 2]>>,
 }
 

@@ -12,6 +12,8 @@ pub struct Span {
     pub length_m: f64,
     /// Body radius \[m\].
     pub radius_m: f64,
+    /// Distance of the centre line from the taut generator \[m\].
+    pub centre_line_m: f64,
     /// Effective bending stiffness \[N·m²\].
     pub bending_stiffness: f64,
     /// Actuator, if any.
@@ -62,6 +64,7 @@ fn span(scenario: &Scenario, start_m: f64, end_m: f64) -> Span {
         start_m,
         length_m: end_m - start_m,
         radius_m,
+        centre_line_m: 0.0,
         bending_stiffness: scenario.bending_stiffness,
         actuator: inside(from, to).then_some(a.kind),
         shape: a.shape,
@@ -74,6 +77,7 @@ fn span(scenario: &Scenario, start_m: f64, end_m: f64) -> Span {
         arm_m = zone.arm_m.or(arm_m);
     }
     built.radius_m = radius_m;
+    built.centre_line_m = scenario.centre_line_m.unwrap_or(radius_m);
     built.arm_m = arm_m.unwrap_or_else(|| (a.kind.arm)(radius_m, &built.shape));
     built
 }

@@ -69,3 +69,24 @@ fn zones_cut_the_body_and_override_what_they_name() {
     assert!(spans[1].actuator.is_none() && spans[2].actuator.is_some());
     assert_eq!((spans[3].radius_m, spans[3].arm_m, spans[3].channel), (0.03, 0.06, 2));
 }
+
+#[test]
+fn the_base_law_is_set_from_the_scenario() {
+    let text = |more: &str| shipped("epam").unwrap().replace("[actuator]", &format!("{more}\n[actuator]"));
+    let y = |more: &str| {
+        let model = crate::Model::new(&Scenario::parse(&text(more)).unwrap());
+        let mut state = model.prediction();
+        model.predict(&crate::Loads::uniform(2e3, 10e3), &mut state).unwrap();
+        (state.tip.y_m, state.tip.angle_rad, state.tip.x_m)
+    };
+    let base = y("");
+    assert_eq!(y("hinge_moment_share = 1.0\ncentre_line_mm = 40"), base);
+    let (soft, long) = (y("hinge_moment_share = 0.5"), y("centre_line_mm = 0"));
+    // Half the moment is twice the pressure ratio; without shortening the same angle reaches further.
+    let model = crate::Model::new(&Scenario::parse(&text("")).unwrap());
+    let mut state = model.prediction();
+    model.predict(&crate::Loads::uniform(2e3, 20e3), &mut state).unwrap();
+    assert!((soft.1 - state.tip.angle_rad).abs() < 1e-12);
+    assert!(long.1 == base.1 && long.0 > base.0 && long.2 > base.2);
+    assert!(Scenario::parse(&text("hinge_moment_share = 3")).unwrap_err().help.unwrap().contains("collapse"));
+}
