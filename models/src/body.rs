@@ -32,13 +32,53 @@ pub struct BodyPressure {
     pub share: f64,
 }
 
+/// Law of the body pressure: its own, or what an effect puts in its place.
+pub enum BodyLaw {
+    /// The hinge.
+    Hinge(BodyPressure),
+    /// Another law of the same name.
+    Replaced(Box<dyn Term>),
+}
+
+impl std::ops::Deref for BodyLaw {
+    type Target = dyn Term;
+
+    fn deref(&self) -> &(dyn Term + 'static) {
+        match self {
+            BodyLaw::Hinge(law) => law,
+            BodyLaw::Replaced(law) => &**law,
+        }
+    }
+}
+
+impl BodyLaw {
+    /// Adds the force alone; the hinge needs no logarithm then.
+    #[inline]
+    pub(crate) fn add_force(&self, at: &Pose, force: &mut [f64]) {
+        match self {
+            BodyLaw::Hinge(law) => force[0] -= law.moment(at.p_body_pa) * soft_slope(at.q[0] / law.hinge_curvature),
+            BodyLaw::Replaced(law) => {
+                law.add(at, force);
+            }
+        }
+    }
+}
+
+impl BodyPressure {
+    /// The complete hinge's moment, a share of πp_bR³ \[N·m\].
+    #[inline]
+    fn moment(&self, p_body_pa: f64) -> f64 {
+        self.share * PI * p_body_pa * self.radius_m.powi(3)
+    }
+}
+
 impl Term for BodyPressure {
     fn name(&self) -> &'static str {
         "body_pressure"
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let moment = self.share * PI * at.p_body_pa * self.radius_m.powi(3);
+        let moment = self.moment(at.p_body_pa);
         let (energy, slope) = soft_step(at.q[0], self.hinge_curvature);
         force[0] -= moment * slope;
         moment * energy
@@ -46,25 +86,39 @@ impl Term for BodyPressure {
 }
 
 /// `k₀ ln cosh(x/k₀)` and its slope `tanh(x/k₀)`: an energy whose force steps from −1 to 1 over ±k₀.
-#[inline]
 pub(crate) fn soft_step(x: f64, k0: f64) -> (f64, f64) {
     let u = x / k0;
     let size = u.abs();
-    // From 20 on the step is complete to the last bit.
-    if size > 20.0 {
-        return (x.abs() - LN_2 * k0, u.signum());
+    if size > COMPLETE {
+        return (x.abs() - LN_2 * k0, soft_slope(u));
     }
     if size < SERIES_BELOW {
         let z = u * u;
-        let slope = u * (1.0 - z * (1.0 / 3.0 - z * (2.0 / 15.0 - z * (17.0 / 315.0))));
-        return (k0 * z * (0.5 - z * (1.0 / 12.0 - z * (1.0 / 45.0 - z * (17.0 / 2520.0)))), slope);
+        return (k0 * z * (0.5 - z * (1.0 / 12.0 - z * (1.0 / 45.0 - z * (17.0 / 2520.0)))), soft_slope(u));
     }
     let decay = (-2.0 * size).exp();
     // ln(1 + decay) is decay to the last bit where the step is nearly complete.
     let rest = if decay < 1e-16 { decay } else { decay.ln_1p() };
-    (x.abs() + k0 * (rest - LN_2), u.signum() * (1.0 - decay) / (1.0 + decay))
+    (x.abs() + k0 * (rest - LN_2), soft_slope(u))
 }
 
+/// `tanh u`.
+#[inline]
+fn soft_slope(u: f64) -> f64 {
+    let size = u.abs();
+    if size > COMPLETE {
+        return u.signum();
+    }
+    if size < SERIES_BELOW {
+        let z = u * u;
+        return u * (1.0 - z * (1.0 / 3.0 - z * (2.0 / 15.0 - z * (17.0 / 315.0))));
+    }
+    let decay = (-2.0 * size).exp();
+    u.signum() * (1.0 - decay) / (1.0 + decay)
+}
+
+/// From here on the step is complete to the last bit.
+const COMPLETE: f64 = 20.0;
 /// Below this the exponential form loses the digits that the series keeps.
 const SERIES_BELOW: f64 = 0.02;
 
