@@ -159,6 +159,19 @@ mod tests {
     }
 
     #[test]
+    fn the_force_alone_is_the_force_of_the_law_to_the_bit() {
+        let hinge = BodyPressure { radius_m: 0.04, hinge_curvature: 0.05, share: 0.7 };
+        let law = BodyLaw::Hinge(hinge);
+        for kappa in [-30.0, -0.3, -1e-4, 0.0, 1e-5, 0.04, 0.9, 7.0] {
+            let (mut whole, mut alone) = ([1.0], [1.0]);
+            let at = Pose { q: &[kappa], p_body_pa: 3e3, p_act_pa: 0.0 };
+            law.add(&at, &mut whole);
+            law.add_force(&at, &mut alone);
+            assert_eq!(whole, alone, "{kappa}");
+        }
+    }
+
+    #[test]
     fn the_branches_of_the_soft_step_meet() {
         for (join, size) in [(SERIES_BELOW, 1e-13), (20.0, 1e-15)] {
             let (below, above) = (soft_step(join * (1.0 - 1e-15), 1.0), soft_step(join * (1.0 + 1e-15), 1.0));

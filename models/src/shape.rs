@@ -91,14 +91,14 @@ pub(crate) struct Stretch {
 
 impl Stretch {
     /// From its start (position, direction, heading), its curvature and the body radius.
-    #[inline]
+    #[inline(always)]
     pub fn new(from: [f64; 2], direction: [f64; 2], heading: f64, kappa: f64, radius: f64) -> Stretch {
         let line = 1.0 - kappa * radius;
         Stretch { from, direction, heading, kappa, line, line_radius: line / kappa }
     }
 
     /// Position and heading at a taut length from its start.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, offset: f64) -> ([f64; 2], f64) {
         let u = self.kappa * offset;
         let (along, across) = if u.abs() < SERIES_BELOW {

@@ -11,7 +11,7 @@
 //! explicit in it; the balance is one scalar equation per place.
 
 use crate::actuators::{Actuator, ActuatorShape, Demand, Stroke};
-use crate::body::{Bending, BodyPressure};
+use crate::body::{Bending, BodyLaw, BodyPressure};
 use crate::root::{NoRoot, Root, Start, find_root};
 use crate::term::{Pose, Term, actuator_q};
 
@@ -46,7 +46,7 @@ pub struct Site {
     /// Terms over [`actuator_q`], J per metre of body at η = 1.
     pub actuator_terms: Vec<Box<dyn Term>>,
     /// Body pressure work; an effect may replace the law.
-    pub body_pressure: Box<dyn Term>,
+    pub body_pressure: BodyLaw,
     /// Effective bending stiffness.
     pub bending: Bending,
     /// Further terms over `[κ]`, J per metre of body.
@@ -161,7 +161,7 @@ impl Site {
             channel,
             linkage,
             actuator_terms: vec![Box::new(ActuatorPressure)],
-            body_pressure: Box::new(body_pressure),
+            body_pressure: BodyLaw::Hinge(body_pressure),
             bending,
             body_terms: Vec::new(),
         }
@@ -296,7 +296,7 @@ impl Site {
         let q = [curvature];
         let mut force = [0.0];
         let pose = Pose { q: &q, p_body_pa: loads.p_body_pa, p_act_pa: loads.p_act_pa };
-        self.body_pressure.add(&pose, &mut force);
+        self.body_pressure.add_force(&pose, &mut force);
         self.bending.add(&pose, &mut force);
         for term in &self.body_terms {
             term.add(&pose, &mut force);

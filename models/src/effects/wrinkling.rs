@@ -20,6 +20,7 @@
 
 use super::{Effect, Parameter, Stage};
 use crate::assembly::Assembly;
+use crate::body::BodyLaw;
 use crate::exact::beam::{gamma0_from_curvature_ratio, moment_ratio};
 use crate::term::{Pose, Term};
 use std::f64::consts::PI;
@@ -58,7 +59,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
     }
     for site in &mut assembly.sites {
         let radius_m = site.radius_m;
-        site.body_pressure = Box::new(Wrinkling { compliance_m_per_n: values[0], radius_m });
+        let law = Wrinkling { compliance_m_per_n: values[0], radius_m };
+        site.body_pressure = BodyLaw::Replaced(Box::new(law));
     }
 }
 
