@@ -8,14 +8,16 @@ use models::effects::EFFECTS;
 use models::scenario::SHIPPED;
 use serde_json::{Value, json};
 
+/// Makes a list as text and as JSON.
+type List = fn() -> (String, Value);
+
 pub fn run(what: Option<&str>) -> Result<Outcome, Failure> {
     let wanted = |name: &str| what.is_none_or(|w| w == name);
     let mut text = String::new();
     let mut object = serde_json::Map::new();
     object.insert("schema".into(), "ibr.list".into());
     object.insert("version".into(), 1.into());
-    let parts: [(&str, fn() -> (String, Value)); 3] =
-        [("actuators", actuators), ("effects", effects), ("datasets", datasets)];
+    let parts: [(&str, List); 3] = [("actuators", actuators), ("effects", effects), ("datasets", datasets)];
     for (name, list) in parts {
         if wanted(name) {
             let (words, value) = list();
