@@ -65,6 +65,9 @@ pub struct Demand {
     pub growth: f64,
 }
 
+/// Demand beyond which the arm of a start value is the one at rest.
+const WEAK: f64 = 1e3;
+
 /// What a growing arm makes of a demand: `m (1 − r)/d` with `d = D/D₀` and `r = ε d'/(ε' d)`, what virtual work takes.
 struct Need {
     value: f64,
@@ -79,7 +82,8 @@ impl Demand {
     #[inline(always)]
     fn need(&self, [e, de, dde]: [f64; 3], [grown, dd, ddd]: [f64; 3]) -> Need {
         let (m0, m1) = (self.constant, self.per_contraction);
-        if self.growth == 0.0 {
+        // A weak actuator hardly swells, and the quotients below lose all digits at rest.
+        if self.growth == 0.0 || m0 + m1 > WEAK {
             return Need { value: m0 + m1 * e, slope: m1 * de, lever: 1.0 };
         }
         let d = 1.0 + grown;

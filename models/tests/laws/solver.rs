@@ -108,6 +108,19 @@ fn a_light_load_always_converges() {
 }
 
 #[test]
+fn a_vanishing_actuator_pressure_has_an_equilibrium_also_with_a_growing_arm() {
+    for actuator in actuators() {
+        for stiffness in [0.0, 1.35] {
+            let model = Model::new(&robot(actuator).with_bending(stiffness).with_effect("arm_growth", &[1.0]));
+            for (p_body, p_act) in [(2e3, 1e-3), (2e3, 1e-6), (1e5, 1e-9), (0.0, 1e-3)] {
+                let tip = predicted(&model, &Loads::uniform(p_body, p_act)).unwrap().tip;
+                assert!(tip.angle_rad.is_finite(), "{actuator} {stiffness} {p_body} {p_act}");
+            }
+        }
+    }
+}
+
+#[test]
 fn a_load_beyond_collapse_is_refused_with_pressures_and_place() {
     let model = Model::new(&robot("epam").bare().with_effect("tip_load", &[0.0, -5.0]));
     let error = predicted(&model, &Loads::uniform(2e3, 0.0)).unwrap_err();
