@@ -2,6 +2,9 @@
 
 use crate::support::{Folder, Ran};
 
+/// Says of the cells of a row whether it stays.
+type Keep<'a> = &'a dyn Fn(&[&str]) -> bool;
+
 fn table(keep: impl Fn(&[&str]) -> bool) -> String {
     let text = data::set_file("synthetic-epam", "markers.csv").unwrap();
     let header = text.lines().next().unwrap();
@@ -58,7 +61,7 @@ fn copies_of_one_run_are_called_copies() {
 
 #[test]
 fn one_marker_one_hold_or_one_row_is_enough() {
-    let cases: [(&str, &dyn Fn(&[&str]) -> bool); 4] = [
+    let cases: [(&str, Keep); 4] = [
         ("one marker", &|cells| cells[6] == "6"),
         ("one hold", &|cells| cells[4] == "30.0000"),
         ("one marker and hold", &|cells| cells[6] == "6" && cells[4] == "30.0000"),

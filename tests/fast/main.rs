@@ -5,6 +5,8 @@
 //! wrong, `arguments` for wrong options, `output` for what lands on disk, `shell` for help, completions and pipes.
 //! Whatever needs an optimised build or more than a few seconds belongs into `tests/slow`.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests: a panic is the failure to report")]
+
 mod arguments;
 mod compare;
 mod data_errors;

@@ -4,6 +4,8 @@
 //! `figures` (speed and known numbers), `documents` (command lines of the documents). Whatever takes less than a
 //! second in an unoptimised build belongs into `tests/fast`.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests: a panic is the failure to report")]
+
 mod demo;
 mod documents;
 mod figures;
