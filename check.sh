@@ -12,6 +12,7 @@ step format
 cargo fmt --all --check
 step clippy
 cargo clippy --workspace --all-targets -- -D warnings
+cargo clippy --test slow -- -D warnings
 step docs
 cargo doc --workspace --no-deps --quiet
 if [ "${1:-}" = fast ]; then

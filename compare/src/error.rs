@@ -72,7 +72,9 @@ pub enum CompareError {
     #[error("{0}")]
     Unsolved(#[from] models::Unsolved),
     /// Scenario and data are of different robots.
-    #[error("the data `{dataset}` are of a {data}, the scenario is of a {scenario}: use the matching scenario")]
+    #[error(
+        "the data `{dataset}` are of actuator {data}, the scenario is of actuator {scenario}: use the matching scenario"
+    )]
     WrongActuator {
         /// Name of the dataset.
         dataset: String,

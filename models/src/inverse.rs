@@ -2,7 +2,7 @@
 
 use crate::error::Unsolved;
 use crate::model::{Model, Prediction};
-use crate::root::{NoRoot, Start, find_root};
+use crate::root::{NoRoot, Root, Start, find_root};
 use crate::term::{CHANNELS, Loads};
 
 /// What the tip shall do.
@@ -32,6 +32,8 @@ const JACOBIAN_STEP: f64 = 4e-4;
 const LEAST_STEP_PA: f64 = 0.1;
 /// First pressure tried, as a share of the largest.
 const START: f64 = 0.2;
+/// A target missed by no more than this is met \[m or rad\]: a picometre.
+const MET: f64 = 1e-12;
 /// Pressures sampled when the ends of the search interval do not bracket the target.
 const SAMPLES: usize = 32;
 
@@ -90,7 +92,7 @@ impl Model {
         };
         let whole = (0.0, self.p_max_pa());
         let found = search(&mut short, whole, target);
-        match found.filter(|p| *p <= whole.1) {
+        match found.filter(|p| *p <= whole.1 * (1.0 + 1e-12)).map(|p| p.clamp(whole.0, whole.1)) {
             Some(p) => {
                 self.predict(&Loads::uniform(p_body_pa, p), out)?;
                 Ok(p)
@@ -173,16 +175,23 @@ fn search(short: &mut dyn FnMut(f64) -> f64, whole: (f64, f64), target: Target) 
     let start = Start { x, f: Some(known), slope: -0.5 * (target.value() - known) / x };
     let root = find_root(&mut f, whole, start).or_else(|_| {
         let (low, high) = bracket(&mut f, whole).ok_or(NoRoot::Stalled { f: f64::NAN })?;
+        if low == high {
+            return Ok(Root { x: low, step: 0.0, slope: f64::NAN });
+        }
         find_root(&mut f, (low, high), Start { x: 0.5 * (low + high), f: None, slope: f64::NAN })
     });
     root.ok().map(|root| root.x + root.step)
 }
 
-/// Two neighbouring samples between which the target is passed upwards.
+/// Two neighbouring samples between which the target is passed upwards; the same one twice where it is met.
 fn bracket(short: &mut dyn FnMut(f64) -> f64, (low, high): (f64, f64)) -> Option<(f64, f64)> {
     let mut before = (low, short(low));
+    if before.1.abs() <= MET {
+        return Some((low, low));
+    }
     for i in 1..=SAMPLES {
-        let p = low + (high - low) * i as f64 / SAMPLES as f64;
+        // Dense at low pressure, where the response is steepest.
+        let p = low + (high - low) * (i as f64 / SAMPLES as f64).powi(3);
         let miss = short(p);
         if before.1 >= 0.0 && miss <= 0.0 {
             return Some((before.0, p));
@@ -197,4 +206,38 @@ fn out_of_reach(target: Target, (least, most): (f64, f64), p_max_pa: f64) -> Uns
     let wanted = target.value() * factor;
     let (lowest, highest) = (least * factor, most * factor);
     Unsolved::OutOfReach { what, wanted, lowest, highest, unit, p_max_kpa: p_max_pa / 1e3 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Scenario, shipped};
+
+    fn model(kind: &str, more: &str) -> Model {
+        Model::new(&Scenario::parse(&format!("{}{more}", shipped(kind).unwrap())).unwrap())
+    }
+
+    #[test]
+    fn the_straight_robot_needs_no_pressure() {
+        for kind in ["spam", "cpam", "epam", "fpam"] {
+            let model = model(kind, "");
+            let mut state = model.prediction();
+            for target in [Target::TipHeight(0.0), Target::Angle(0.0)] {
+                let p = model.pressure_for(target, 2e3, &mut state).unwrap();
+                assert!(p.abs() < 1e-3 && target.of(&state).abs() < 1e-9, "{kind} {target:?}: {p}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_long_robot_that_curls_up_is_reached_on_its_steep_start() {
+        let text = shipped("epam").unwrap().replace("length_mm = 360", "length_mm = 2400");
+        let text = text.replace("count = 6 ", "count = 40 ");
+        let model = Model::new(&Scenario::parse(&text).unwrap());
+        let mut state = model.prediction();
+        for wanted in [0.5, 1.0, 1.5] {
+            model.pressure_for(Target::TipHeight(wanted), 2e3, &mut state).unwrap();
+            assert!((state.tip.y_m - wanted).abs() < 1e-9, "{wanted}");
+        }
+    }
 }

@@ -12,6 +12,9 @@ use std::time::Instant;
 /// Median over this many batches.
 const BATCHES: usize = 31;
 
+/// Predictions in one batch, in an order without pattern.
+const BATCH: usize = 10_000;
+
 struct Figure {
     id: String,
     median_us: f64,
@@ -52,11 +55,15 @@ fn measure(kind: &str, scenario: &Scenario) -> Result<Vec<Figure>, Failure> {
     let high = c.tip.y_m;
     let wanted = |i: usize, n: usize| Target::TipHeight(low + (high - low) * i as f64 / n as f64);
     let inverse = median(50, |i, n| plain.pressure_for(wanted(i, n), p_body, &mut c).map(|_| ()))?;
+    let all: Vec<Loads> = (0..BATCH).map(|i| Loads::uniform(p_body, pressure(i * 7919 % BATCH, BATCH))).collect();
+    let mut batch = plain.batch(all.len(), 1);
+    let whole = median(1, |_, _| plain.predict_batch(&all, &mut batch))?;
     let figure =
         |what: &str, median_us: f64, target_us: f64| Figure { id: format!("{what}/{kind}"), median_us, target_us };
     Ok(vec![
         figure("predict", single, 1.0),
-        figure("predict with gravity and tip load", coupled, 20.0),
+        figure("batch of 10 000, each", whole / BATCH as f64, 0.4),
+        figure("predict with gravity and tip load, 12 segments", coupled, 20.0),
         figure("inverse", inverse, 10.0),
     ])
 }

@@ -89,7 +89,10 @@ fn unknown_actuators_and_effects_are_answered_with_the_list() {
         &["no parameter \"bta\"", "its parameters: beta", "bad.toml:26"],
     );
     refused(effect("[effects.end_constraint]\nbeta = 5"), &["outside its physical bounds 0 to 1", "bad.toml:26:8"]);
-    refused(effect("[effects.shear_stiffness]"), &["does not exist for an epam", "remove [effects.shear_stiffness]"]);
+    refused(
+        effect("[effects.shear_stiffness]"),
+        &["does not exist for actuator epam", "remove [effects.shear_stiffness]"],
+    );
 }
 
 #[test]

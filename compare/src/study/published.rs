@@ -73,8 +73,8 @@ fn ladder(paper: &Published, actuator: &PublishedActuator) -> Result<PublishedLa
         let range_m = match addition.range {
             Some(ends) => {
                 let y = |v: f64| height(&before.with_effect(addition.effect, &[v]), &loads);
-                let (a, b) = (y(ends[0])?, y(ends[1])?);
-                Some([a.min(b), a.max(b)])
+                let all = [y(ends[0])?, y(ends[1])?, y(addition.value)?];
+                Some([all.into_iter().fold(f64::INFINITY, f64::min), all.into_iter().fold(0.0, f64::max)])
             }
             None => None,
         };
@@ -125,7 +125,7 @@ fn additions(paper: &Published, actuator: &PublishedActuator) -> Vec<Addition> {
         value: ROBIN,
         range: Some(KEPERT),
         known: Known::Assumed,
-        why: "sealed-bag volume of Robin; the range is Kepert's bounds; that stroke is lost like volume is assumed",
+        why: "sealed-bag volume of Robin; the range reaches to Kepert's bounds; that stroke is lost like volume is assumed",
     };
     let contact = Addition {
         effect: "self_contact",

@@ -116,9 +116,14 @@ fn si(value: &Spanned<f64>, range: &Range) -> Checked<f64> {
         return Ok(v * range.si);
     }
     let help = if v < range.low { range.too_small } else { range.too_large };
-    let message = format!("{} must be from {} to {} {}, not {v}", range.name, range.low, range.high, range.unit);
+    let message = format!("{} must be from {} to {}{}, not {v}", range.name, range.low, range.high, unit(range.unit));
     let help = if v < 0.0 && range.low >= 0.0 { "a negative value means nothing here" } else { help };
     refuse(message, help, value.span())
+}
+
+/// A unit after its number; nothing where there is none.
+fn unit(name: &str) -> String {
+    if name == "-" { String::new() } else { format!(" {name}") }
 }
 
 fn optional(value: &Option<Spanned<f64>>, range: &Range) -> Checked<Option<f64>> {
@@ -241,7 +246,7 @@ fn effects_of(raw: &Raw, kind: &actuators::Actuator) -> Checked<Vec<EffectChoice
             return refuse(format!("unknown effect \"{}\"", name.get_ref()), format!("known: {known}"), name.span());
         };
         if !effect.applies_to(kind.family) {
-            let message = format!("{} does not exist for an {}", effect.name, kind.name);
+            let message = format!("{} does not exist for actuator {}", effect.name, kind.name);
             return refuse(message, format!("remove [effects.{}]", effect.name), name.span());
         }
         let mut values = effect.neutral();
@@ -276,8 +281,8 @@ fn parameter(effect: &Effect, index: usize, value: &Spanned<toml::Value>) -> Che
     };
     if !(p.lower..=p.upper).contains(&number) {
         let message =
-            format!("{} = {number} is outside its physical bounds {} to {} {}", p.key, p.lower, p.upper, p.unit);
-        return refuse(message, format!("{}; typical {} {}", p.meaning, p.typical, p.unit), value.span());
+            format!("{} = {number} is outside its physical bounds {} to {}{}", p.key, p.lower, p.upper, unit(p.unit));
+        return refuse(message, format!("{}; typical {}{}", p.meaning, p.typical, unit(p.unit)), value.span());
     }
     Ok(number * p.si)
 }

@@ -12,9 +12,9 @@ pub enum Quantity {
 }
 
 const UNITS: &[(Quantity, &str, f64)] = &[
-    (Quantity::Pressure, "kpa", 1e3),
-    (Quantity::Pressure, "mpa", 1e6),
-    (Quantity::Pressure, "pa", 1.0),
+    (Quantity::Pressure, "kPa", 1e3),
+    (Quantity::Pressure, "MPa", 1e6),
+    (Quantity::Pressure, "Pa", 1.0),
     (Quantity::Pressure, "psi", 6894.757293168),
     (Quantity::Pressure, "bar", 1e5),
     (Quantity::Length, "mm", 1e-3),
@@ -44,8 +44,7 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, String> {
     if unit.trim().is_empty() {
         return Err(format!("`{text}` has no unit: {example}"));
     }
-    let unit = unit.trim().to_lowercase();
-    let known = UNITS.iter().find(|u| u.0 == quantity && u.1 == unit);
+    let known = UNITS.iter().find(|u| u.0 == quantity && u.1.eq_ignore_ascii_case(unit.trim()));
     let factor = known.map(|u| u.2).ok_or_else(|| format!("`{text}` has an unknown unit: {example}"))?;
     if value.is_finite() { Ok(value * factor) } else { Err(format!("`{text}` is not finite: {example}")) }
 }

@@ -118,11 +118,7 @@ pub fn compare_page(study: &Study, imprint: &Imprint) -> Result<Files, CompareEr
     let shapes = figures::shapes("Predicted and measured shape", &first.scenario, &study.dataset)?;
     let map = figures::residual_map("Where the model misses", &first.evaluation, &study.dataset)?;
     let curve = figures::pressure_curve("Pressure and height", study)?;
-    let top = study.dataset.holds.iter().max_by(|a, b| a.p_act_pa.total_cmp(&b.p_act_pa));
-    let loads = top.map_or(Loads::uniform(2e3, 30e3), |h| Loads::uniform(h.p_body_pa, h.p_act_pa));
-    let cases: Vec<_> = study.variants.iter().map(|v| (v.label.clone(), v.scenario.clone())).collect();
-    let ledger = figures::ledgers("Energy ledger at the highest pressure", &cases, &loads)?;
-    for (name, drawn) in [("shapes", &shapes), ("residual_map", &map), ("pressure", &curve), ("ledger", &ledger)] {
+    for (name, drawn) in [("shapes", &shapes), ("residual_map", &map), ("pressure", &curve)] {
         files.plot(name, drawn);
     }
     files.table("holds", tables::holds(&study.variants))?;
@@ -163,16 +159,8 @@ pub fn compare_page(study: &Study, imprint: &Imprint) -> Result<Files, CompareEr
             "Does the shape depend on P/p only?",
             vec![Block::Paragraph(first.evaluation.scaling.sentence.clone())],
         ),
-        section(
-            "ledger",
-            "Where the actuator's work goes",
-            vec![figure(
-                "Potential energies at the highest pressure of the data. The actuator's bar is −PΔV: what its gas gave; with pressure held constant the other bars need not add up to it.",
-                "stacked energies",
-                &ledger.svg,
-            )],
-        ),
     ];
+    sections.extend(ledger_section(study, &mut files)?);
     if study.variants.len() > 1 {
         let ladder = figures::error_ladder("Error beyond noise", &study.variants)?;
         files.plot("ladder", &ladder);
@@ -193,6 +181,20 @@ pub fn compare_page(study: &Study, imprint: &Imprint) -> Result<Files, CompareEr
     };
     files.report(&report).map_err(|e| drawing("the report", e))?;
     Ok(files)
+}
+
+/// The ledger at the highest pressure of the data; nothing if no hold has actuator pressure.
+fn ledger_section(study: &Study, files: &mut Files) -> Result<Option<Section>, CompareError> {
+    let top = study.dataset.holds.iter().max_by(|a, b| a.p_act_pa.total_cmp(&b.p_act_pa));
+    let Some(hold) = top.filter(|hold| hold.p_act_pa > 0.0) else { return Ok(None) };
+    let loads = Loads::uniform(hold.p_body_pa, hold.p_act_pa);
+    let cases: Vec<_> = study.variants.iter().map(|v| (v.label.clone(), v.scenario.clone())).collect();
+    let ledger = figures::ledgers("Energy ledger at the highest pressure", &cases, &loads)?;
+    files.plot("ledger", &ledger);
+    let caption = "Potential energies at the highest pressure of the data. The actuator's bar is −PΔV: what its gas gave; \
+                   with pressure held constant the other bars need not add up to it.";
+    let figure = Block::Figure { caption: caption.into(), alt: "stacked energies".into(), svg: ledger.svg };
+    Ok(Some(section("ledger", "Where the actuator's work goes", vec![figure])))
 }
 
 fn section(id: &str, heading: &str, blocks: Vec<Block>) -> Section {
