@@ -30,8 +30,6 @@ else
   ./target/release/ibr verify
   step speed
   ./target/release/ibr bench
-  step demo
-  ./target/release/ibr demo --quiet --out target/check-demo
   step benches compile
   cargo bench --no-run --quiet
 fi

@@ -54,23 +54,42 @@ fn unwritable(folder: &Path, cause: &str) -> Failure {
     }
 }
 
+/// Everything goes into a hidden folder first, so that a full disk or a failing table leaves earlier results alone; then
+/// file by file is renamed into place.
 fn write_all(folder: &Path, files: &Files, inputs: &[Input]) -> Result<(), Failure> {
-    let made = std::fs::create_dir_all(folder);
+    let staging = folder.join(format!(".incomplete-{}", std::process::id()));
+    let made = std::fs::create_dir_all(&staging);
     made.map_err(|cause| unwritable(folder, &format!("the folder cannot be made: {cause}")))?;
-    let mut outputs: Vec<Value> = Vec::new();
+    let result = stage(&staging, files, inputs).and_then(|names| {
+        names.iter().try_for_each(|name| {
+            let moved = std::fs::rename(staging.join(name), folder.join(name));
+            moved.map_err(|cause| unwritable(folder, &format!("{name}: {cause}")))
+        })
+    });
+    // What is left there is of no use; a folder that cannot be removed does no harm.
+    let _ = std::fs::remove_dir_all(&staging);
+    result
+}
+
+/// Writes all files into the staging folder; returns their names, the report last.
+fn stage(staging: &Path, files: &Files, inputs: &[Input]) -> Result<Vec<String>, Failure> {
+    let (mut names, mut outputs) = (Vec::new(), Vec::new());
     for (name, table) in &files.parquet {
-        let path = folder.join(name);
+        let path = staging.join(name);
         table.to_parquet(&path)?;
-        let bytes = std::fs::read(&path).map_err(|cause| unwritable(folder, &format!("{name}: {cause}")))?;
+        let bytes = std::fs::read(&path).map_err(|cause| unwritable(staging, &format!("{name}: {cause}")))?;
         outputs.push(output(name, &bytes));
+        names.push(name.clone());
     }
     outputs.extend(files.files.iter().map(|(name, bytes)| output(name, bytes)));
     let manifest = format!("{:#}\n", manifest(&outputs, inputs));
-    data::write_atomically(&folder.join("manifest.json"), manifest.as_bytes())?;
+    data::write_atomically(&staging.join("manifest.json"), manifest.as_bytes())?;
+    names.push("manifest.json".into());
     for (name, bytes) in &files.files {
-        data::write_atomically(&folder.join(name), bytes)?;
+        data::write_atomically(&staging.join(name), bytes)?;
+        names.push(name.clone());
     }
-    Ok(())
+    Ok(names)
 }
 
 fn output(name: &str, bytes: &[u8]) -> Value {
