@@ -170,7 +170,7 @@ impl Site {
     /// Curvature at which actuator, wall and external moment balance; `near` is a state to start from.
     pub(crate) fn solve(&self, loads: &SiteLoads, near: Option<&SiteState>) -> Result<SiteState, NoRoot> {
         match self.actuator {
-            Some(actuator) if loads.p_act_pa > 0.0 => self.solve_active(actuator, loads, near),
+            Some(actuator) if loads.p_act_pa > SLACK_BELOW_PA => self.solve_active(actuator, loads, near),
             _ => self.solve_passive(loads),
         }
     }
@@ -305,6 +305,8 @@ impl Site {
     }
 }
 
+/// Actuator pressure up to which a pouch is slack \[Pa\]: far below any gauge, far above underflow.
+const SLACK_BELOW_PA: f64 = 1e-12;
 /// Curvature beyond which a passive stretch counts as folded \[1/m\]: a bend radius of 10 mm.
 const PASSIVE_RANGE: f64 = 100.0;
 /// Half step of the passive stiffness \[1/m\], well inside the hinge's step.
