@@ -125,9 +125,20 @@ pub enum CompareError {
         /// What is wrong.
         problem: String,
     },
-    /// A published number that the demo needs is missing from the embedded set.
+    /// Data that cannot be read.
     #[error("{0}")]
     Data(#[from] data::DataError),
+    /// No scenario comes with the library for this actuator, or it is damaged.
+    #[error("no shipped scenario of actuator `{kind}`: {problem}")]
+    NoScenario {
+        /// Actuator kind.
+        kind: String,
+        /// Why.
+        problem: String,
+    },
+    /// Nothing to hold against the data.
+    #[error("no model is given to hold against the data: give at least one")]
+    NoModel,
     /// A fit broke off.
     #[error("the fit of {what} broke off: {problem}")]
     Fit {

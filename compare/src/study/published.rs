@@ -51,16 +51,20 @@ pub fn published_ladders() -> Result<Vec<PublishedLadder>, CompareError> {
     paper.actuators.iter().map(|a| ladder(&paper, a)).collect()
 }
 
-/// The models of a ladder without their predictions: bare, then one effect after the other.
+/// The models of a ladder without the calibrated one: bare, then one effect after the other. An actuator of which nothing is
+/// published has the bare model alone.
 ///
 /// # Errors
-/// A damaged embedded set.
+/// A damaged embedded set, or an actuator without a shipped scenario.
 pub fn model_ladder(kind: &str) -> Result<Vec<Rung>, CompareError> {
     let paper = published()?;
-    let actuator = paper.actuator(kind).cloned();
-    Ok(actuator.map(|a| ladder(&paper, &a)).transpose()?.map_or_else(Vec::new, |ladder| {
-        ladder.rungs.into_iter().filter(|rung| rung.known != Known::Calibrated).collect()
-    }))
+    let Some(actuator) = paper.actuator(kind) else {
+        let top = paper.actuator_pressures_pa.iter().fold(0.0, |top: f64, p| top.max(*p));
+        return Ok(vec![start(&shipped_scenario(kind)?, &Loads::uniform(paper.body_pressure_pa, top))?]);
+    };
+    let mut rungs = ladder(&paper, actuator)?.rungs;
+    rungs.retain(|rung| rung.known != Known::Calibrated);
+    Ok(rungs)
 }
 
 fn ladder(paper: &Published, actuator: &PublishedActuator) -> Result<PublishedLadder, CompareError> {
@@ -91,8 +95,9 @@ fn ladder(paper: &Published, actuator: &PublishedActuator) -> Result<PublishedLa
 /// # Errors
 /// An unknown kind.
 pub fn shipped_scenario(kind: &str) -> Result<Scenario, CompareError> {
-    Scenario::parse(shipped(kind).unwrap_or_default())
-        .map_err(|e| CompareError::Fit { what: "the shipped scenario", problem: e.to_string() })
+    let missing = |problem: String| CompareError::NoScenario { kind: kind.to_string(), problem };
+    let text = shipped(kind).ok_or_else(|| missing("there is none".into()))?;
+    Scenario::parse(text).map_err(|e| missing(e.to_string()))
 }
 
 /// The bare law: constant arm, nothing added.

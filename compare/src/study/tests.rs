@@ -117,6 +117,18 @@ fn sessions_of_the_description_reach_the_noise_model() {
 }
 
 #[test]
+fn nothing_to_compare_is_said_and_every_shipped_actuator_has_a_ladder() {
+    let scenario = shipped_scenario("epam").unwrap();
+    let dataset = generate(&scenario, "made", &quiet(2)).unwrap();
+    let none = pages::study(&[], dataset, None, &EvaluateOptions::default(), true);
+    assert_eq!(none.unwrap_err(), crate::CompareError::NoModel);
+    for (kind, _) in models::scenario::SHIPPED {
+        assert!(!published::model_ladder(kind).unwrap().is_empty(), "{kind}");
+    }
+    assert!(published::model_ladder("xpam").unwrap_err().to_string().contains("`xpam`"));
+}
+
+#[test]
 fn data_of_another_actuator_or_with_unknown_stations_are_refused() {
     let scenario = shipped_scenario("epam").unwrap();
     let dataset = generate(&scenario, "made", &quiet(2)).unwrap();

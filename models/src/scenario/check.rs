@@ -40,8 +40,12 @@ const PRESSURE: Range = Range {
     too_small: "pressures are gauge pressures and not negative",
     too_large: "this looks like pascals: write kilopascals, for example 30 for 30000 Pa",
 };
-const BODY_PRESSURE: Range =
-    Range { low: 0.05, high: 100.0, too_small: "an inflated beam needs pressure; 1 psi is 6.895 kPa", ..PRESSURE };
+const BODY_PRESSURE: Range = Range {
+    low: 0.5,
+    high: 100.0,
+    too_small: "this looks like psi: write kilopascals, for example 2 for 0.29 psi (1 psi is 6.895 kPa)",
+    ..PRESSURE
+};
 const STIFFNESS: Range = Range {
     name: "bending stiffness",
     unit: "N m²",

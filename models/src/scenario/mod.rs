@@ -155,7 +155,13 @@ impl Scenario {
     }
 
     /// The same with an effect set (added, or its values replaced); values in SI, catalogue order is kept.
+    ///
+    /// # Panics
+    /// The catalogue has no effect of that name, or it has another number of parameters: a slip in the calling code, which
+    /// must not pass as a model without the effect. Look names typed by a user up in [`crate::effects::by_name`] first.
     pub fn with_effect(&self, name: &str, values: &[f64]) -> Scenario {
+        let parameters = crate::effects::by_name(name).map(|effect| effect.parameters.len());
+        assert!(parameters == Some(values.len()), "no effect `{name}` with {} parameters", values.len());
         let mut changed = self.clone();
         changed.effects.retain(|e| e.name != name);
         let choice = EffectChoice { name: name.to_string(), values: values.to_vec(), basis: String::new() };

@@ -25,6 +25,7 @@ fn each_slip_is_refused_with_its_place_and_a_hint() {
         ("radius_mm = 40 ", "radius_mm = \"40\" ", "invalid type", ""),
         ("radius_mm = 40 ", "radius_m = 40 ", "unknown field `radius_m`", "unit"),
         ("pressure_kpa = 2 ", "pressure_kpa = 2000 ", "pressure must be", "pascals"),
+        ("pressure_kpa = 2 ", "pressure_kpa = 0.29 ", "pressure must be", "psi"),
         ("pressure_kpa = 2 ", "pressure_kpa = nan ", "pressure must be", ""),
         ("kind = \"epam\"", "kind = \"epm\"", "unknown actuator", "epam"),
         ("count = 6 ", "count = 7 ", "beyond the body", "count"),
@@ -44,6 +45,12 @@ fn each_slip_is_refused_with_its_place_and_a_hint() {
         assert!(error.help.clone().unwrap_or_default().contains(help), "{to}: {error:?}");
         assert!(error.span.is_some(), "{to}: {error:?}");
     }
+}
+
+#[test]
+#[should_panic(expected = "no effect `end_constrain`")]
+fn a_misspelt_effect_in_code_is_not_ignored() {
+    let _ = Scenario::parse(shipped("epam").unwrap()).unwrap().with_effect("end_constrain", &[0.4]);
 }
 
 #[test]

@@ -61,6 +61,9 @@ pub fn study(
     options: &EvaluateOptions,
     calibrate: bool,
 ) -> Result<Study, CompareError> {
+    if candidates.is_empty() {
+        return Err(CompareError::NoModel);
+    }
     let options = &EvaluateOptions { sessions: sessions(&dataset, about.as_ref(), options), ..options.clone() };
     let mut study = Study { dataset, about, variants: Vec::new(), warnings: Vec::new() };
     for c in candidates {
