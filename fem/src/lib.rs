@@ -1,11 +1,39 @@
-//! The explicit finite element engine of `ibr`.
+//! The explicit finite element engine of `ibr`: thin inflated fabric with buckling and contact.
 //!
-//! **Not built yet: this crate computes nothing.** It exists so that the workspace, the dependency arrows
-//! (`fem` → `models`, never a measurement) and the build are those of the finished suite. When it comes, an FE run will be
-//! a list of [`models::Term`]s over node positions, with the same energy ledger as the reduced model.
+//! A [`Problem`] says what is simulated (mesh, fabrics, chambers, supports, loads, settings); a [`Simulation`] steps it
+//! through time by central differences with lumped masses. A run is a list of [`models::Term`]s over the node positions
+//! `[x₀, y₀, z₀, 0, x₁, …]` ([`NODE`] numbers per node, the fourth is padding for the vector units), and keeps the same
+//! energy ledger as the reduced model: nothing is simulated that is not on the balance.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`mesh`] | nodes, parts, sets; generators; the plain mesh file; quality and closedness checks |
+//! | [`problem`] | what a run needs besides the mesh |
+//! | [`sheet`] | shells: membrane, hourglass control, viscosity, bending, follower pressure; the fast kernels |
+//! | [`plain`] | the same physics, one element at a time: the twin that the fast kernels are tested against |
+//! | [`terms`] | nodal force, gravity, obstacles, rest curvature, tension-only yarns: the other entries of the list |
+//! | [`contact`] | node-to-face contact with side memory and Coulomb friction |
+//! | [`run`] | time stepping, stable step, ledger, guards |
+//! | [`output`] | vtu, pvd, history, checkpoints |
+//! | [`case`] | the TOML file that describes a run |
+//!
+//! `fem` never sees a measurement.
 
-/// What `ibr` says when asked for the engine.
-pub const STATUS: &str = "the finite element engine is not part of this release";
+pub mod case;
+pub mod contact;
+pub mod error;
+pub mod mesh;
+pub mod output;
+pub mod plain;
+pub mod problem;
+pub mod run;
+pub mod sheet;
+pub mod terms;
 
-/// The interface that finite element terms will implement, over node positions.
-pub use models::Term;
+pub use error::FemError;
+pub use mesh::{Mesh, Part};
+pub use problem::Problem;
+pub use run::Simulation;
+
+/// Numbers per node in position, velocity and force arrays: x, y, z and one of padding (always 0).
+pub const NODE: usize = 4;

@@ -18,6 +18,7 @@ pub mod body;
 pub mod effects;
 pub mod error;
 pub mod exact;
+pub mod fabrics;
 mod inverse;
 mod model;
 mod robot;
@@ -30,7 +31,8 @@ mod trig;
 
 pub use batch::Batch;
 pub use error::{ScenarioError, Unsolved};
+pub use fabrics::Fabric;
 pub use inverse::{Target, TipSlope};
 pub use model::{LedgerLine, Model, Prediction, Tip};
 pub use scenario::{EffectChoice, Scenario, shipped};
-pub use term::{CHANNELS, Loads, Pose, Term};
+pub use term::{CHANNELS, Loads, Pose, Row, RowKind, Term, Tick};

@@ -9,6 +9,9 @@
 //! | [`actuator_q`]: actuator coordinate, contraction, volume, geometric curvature | pressure work, shear, folds | J per metre of body |
 //! | `[κ]`: curvature of a segment \[1/m\] | body pressure, bending, wrinkling | J per metre of body |
 //! | `[x₀, y₀, x₁, y₁, …]`: node positions \[m\] | gravity, tip load | J |
+//! | `[x₀, y₀, z₀, 0, x₁, …]`: nodes of a finite element mesh \[m\] | shells, follower pressure, contact | J |
+//!
+//! The finite element engine steps through time, so its terms may also remember and dissipate: see [`Term::advance`].
 
 /// Gauge pressures acting on the robot \[Pa\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,6 +37,13 @@ impl Loads {
     }
 }
 
+impl<'a> Pose<'a> {
+    /// A pose of finite element nodes, whose terms keep their own pressures.
+    pub fn nodes(q: &'a [f64]) -> Pose<'a> {
+        Pose { q, p_body_pa: 0.0, p_act_pa: 0.0 }
+    }
+}
+
 /// Where a term is evaluated: coordinates, and the two pressures of the place.
 #[derive(Debug, Clone, Copy)]
 pub struct Pose<'a> {
@@ -53,6 +63,67 @@ pub trait Term: Send + Sync {
     fn name(&self) -> &'static str;
     /// Adds `−∂E/∂q` to `force` (same length as `at.q`) and returns the energy E.
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64;
+
+    /// One time step of the finite element engine: what [`Term::add`] does, plus whatever depends on rate or history
+    /// (viscosity, friction, hysteresis, the work of a load). Called once per step.
+    fn advance(&mut self, at: &Pose, _tick: &Tick, force: &mut [f64]) -> f64 {
+        self.add(at, force)
+    }
+
+    /// This term's lines of the energy ledger, evaluated at `at`. One stored energy unless the term says otherwise.
+    fn ledger(&self, at: &Pose) -> Vec<Row> {
+        let mut unused = vec![0.0; at.q.len()];
+        vec![Row { name: self.name(), kind: RowKind::Stored, energy_j: self.add(at, &mut unused) }]
+    }
+
+    /// Adds to `bound[i]` a stiffness kᵢ \[N/m\] of node i such that `u·K u ≤ Σᵢ kᵢ |uᵢ|²` for this term's tangent K at
+    /// `at`. The stable step of central differences then is at least `2/√(maxᵢ kᵢ/mᵢ)`.
+    fn stiffness_bound(&self, _at: &Pose, _bound: &mut [f64]) {}
+
+    /// What a checkpoint must keep of this term, so that a resumed run ends bit-identical. Empty without memory.
+    fn save(&self) -> Vec<u8> {
+        Vec::new()
+    }
+
+    /// Takes back what [`Term::save`] gave; false if it does not fit this term.
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        saved.is_empty()
+    }
+}
+
+/// Where the time integration stands when a term is advanced.
+#[derive(Debug, Clone, Copy)]
+pub struct Tick<'a> {
+    /// Steps done before this one.
+    pub step: u64,
+    /// Time of the positions \[s\].
+    pub time_s: f64,
+    /// Length of the step \[s\].
+    pub dt_s: f64,
+    /// Velocities half a step earlier, laid out like the positions \[m/s\].
+    pub v: &'a [f64],
+}
+
+/// What a ledger row does to the balance `kinetic + Σ stored + Σ dissipated = Σ supplied`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RowKind {
+    /// Recoverable energy held now.
+    Stored,
+    /// Energy lost since the start; never falls.
+    Dissipated,
+    /// Work done on the structure from outside since the start.
+    Supplied,
+}
+
+/// One line of the energy ledger.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// Where the energy is or went.
+    pub name: &'static str,
+    /// Which side of the balance it is on.
+    pub kind: RowKind,
+    /// Energy \[J\].
+    pub energy_j: f64,
 }
 
 /// Layout of the coordinates of an actuator-side term. Only the first is independent; the others follow from it, so a

@@ -1,0 +1,1 @@
+//! Node-to-face contact between layers of fabric, with side memory and Coulomb friction.

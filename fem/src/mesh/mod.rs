@@ -1,0 +1,90 @@
+//! The mesh: nodes, parts of 4-node and 3-node shells, named sets, ties, chambers by name.
+//!
+//! ```text
+//!   4 ─────── 3        front of an element: the side its nodes run round counter-clockwise
+//!   │    ↑    │        (right-hand rule). A pressure in the `back` chamber pushes towards the front.
+//!   1 ─────── 2
+//! ```
+
+use std::collections::BTreeMap;
+
+/// Nodes and elements in their stress-free shape. Node numbers count from 0 here and from 1 in files and messages.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Mesh {
+    /// Reference (stress-free) positions \[m\].
+    pub points: Vec<[f64; 3]>,
+    /// Where the nodes start, if not at `points` (a folded layer, an imperfection); same length, or empty.
+    pub start: Vec<[f64; 3]>,
+    /// Blocks of elements of one fabric.
+    pub parts: Vec<Part>,
+    /// Named node sets (supports, markers, stations).
+    pub sets: BTreeMap<String, Vec<u32>>,
+    /// Nodes glued to an element that does not share them.
+    pub ties: Vec<Tie>,
+}
+
+/// A block of elements with one section, one pair of chambers and one contact layer.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Part {
+    /// Name, unique in the mesh.
+    pub name: String,
+    /// 4-node elements.
+    pub quads: Vec<[u32; 4]>,
+    /// 3-node elements.
+    pub triangles: Vec<[u32; 3]>,
+    /// Warp direction: one vector for the whole part, or one per element (quads first). Projected onto each element;
+    /// need not be unit. Empty: the global x axis, or y where x is within 1 degree of the element normal.
+    pub warp: Vec<[f64; 3]>,
+    /// Chamber that the front of the elements faces; `None`: the surroundings.
+    pub front: Option<String>,
+    /// Chamber that the back faces.
+    pub back: Option<String>,
+    /// Contact layer. Layers of a fold must differ, so that each remembers which side of the others it is on.
+    pub layer: u32,
+}
+
+/// A node that follows a point of an element.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tie {
+    /// The following node.
+    pub node: u32,
+    /// The nodes it follows and their weights (sum 1).
+    pub to: Vec<(u32, f64)>,
+}
+
+impl Part {
+    /// Number of elements, quads and triangles.
+    pub fn len(&self) -> usize {
+        self.quads.len() + self.triangles.len()
+    }
+    /// True without elements.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+    /// Nodes of element `i`, quads first.
+    pub fn nodes(&self, i: usize) -> &[u32] {
+        match self.quads.get(i) {
+            Some(quad) => quad,
+            None => &self.triangles[i - self.quads.len()],
+        }
+    }
+    /// Warp direction given for element `i`, if any.
+    pub fn warp_of(&self, i: usize) -> Option<[f64; 3]> {
+        match self.warp.len() {
+            0 => None,
+            1 => Some(self.warp[0]),
+            _ => self.warp.get(i).copied(),
+        }
+    }
+}
+
+impl Mesh {
+    /// Number of elements.
+    pub fn elements(&self) -> usize {
+        self.parts.iter().map(Part::len).sum()
+    }
+    /// Where node `i` starts.
+    pub fn start_of(&self, i: usize) -> [f64; 3] {
+        if self.start.is_empty() { self.points[i] } else { self.start[i] }
+    }
+}

@@ -1,0 +1,291 @@
+//! What a run needs besides the mesh: sections, chambers, supports, loads, contact, settings.
+
+use std::sync::Arc;
+
+use models::Fabric;
+
+use crate::mesh::Mesh;
+
+/// Everything that defines a run.
+#[derive(Debug, Clone)]
+pub struct Problem {
+    /// Title for outputs.
+    pub name: String,
+    /// Nodes and elements.
+    pub mesh: Mesh,
+    /// One section per part, in the order of `mesh.parts`.
+    pub sections: Vec<Section>,
+    /// Volumes of air; parts name them in `front` and `back`.
+    pub chambers: Vec<Chamber>,
+    /// Nodes whose motion is prescribed.
+    pub supports: Vec<Support>,
+    /// Parts of the structure that move as one rigid body.
+    pub rigid: Vec<Rigid>,
+    /// Forces on nodes.
+    pub forces: Vec<NodalForce>,
+    /// Gravity \[m/s²\].
+    pub gravity: Option<Gravity>,
+    /// Fixed solids in the way.
+    pub obstacles: Vec<Obstacle>,
+    /// Contact between layers; `None` switches the search off.
+    pub contact: Option<Contact>,
+    /// Numerical settings.
+    pub settings: Settings,
+}
+
+/// How a part is made: its plies, weight and bending.
+#[derive(Debug, Clone)]
+pub struct Section {
+    /// Sheets on top of each other; their tensions add.
+    pub plies: Vec<Ply>,
+    /// Plies glued to each other bend as one thick sheet (D of the whole stack, 8 times one ply for two); plies that slide
+    /// bend one by one (2 times).
+    pub bonded: bool,
+    /// Mass per volume of ply \[kg/m³\].
+    pub density_kg_m3: f64,
+    /// Bending stiffness as a share of a solid plate's E t³/(12(1 − ν²)): 1 for film, about .1 for coated woven fabric
+    /// (assumed), 0 for a membrane.
+    pub bending_factor: f64,
+    /// Keep the curvature of the reference shape as the unloaded one; otherwise the fabric wants to be flat.
+    pub rest_curvature: bool,
+}
+
+/// One sheet of a section.
+#[derive(Debug, Clone)]
+pub struct Ply {
+    /// Its membrane law (thickness included).
+    pub fabric: Arc<dyn Fabric>,
+    /// Angle from the part's warp direction to this ply's warp \[rad\], counter-clockwise seen from the front.
+    pub angle_rad: f64,
+}
+
+/// A volume of air with one pressure.
+#[derive(Debug, Clone)]
+pub struct Chamber {
+    /// Name that parts refer to.
+    pub name: String,
+    /// How its gauge pressure comes about.
+    pub pressure: Pressure,
+}
+
+/// How the gauge pressure of a chamber comes about.
+#[derive(Debug, Clone)]
+pub enum Pressure {
+    /// Set from outside \[Pa\].
+    Set(Amplitude),
+    /// Set until `sealed_at_s`, then a constant mass of gas at constant temperature:
+    /// (p + p_atm)·V = const \[Pa, s\]. Valid while the gas has time to keep its temperature.
+    Sealed {
+        /// Pressure before sealing \[Pa\].
+        filling: Amplitude,
+        /// Time of sealing \[s\].
+        sealed_at_s: f64,
+        /// Atmospheric pressure \[Pa\].
+        atmosphere_pa: f64,
+    },
+}
+
+/// A quantity over time.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Amplitude {
+    /// Always the same.
+    Constant(f64),
+    /// Fifth-order smooth steps between (time \[s\], value) points: a + (b − a) ξ³(10 − 15ξ + 6ξ²); constant outside.
+    Smooth(Vec<(f64, f64)>),
+    /// Straight lines between (time \[s\], value) points; constant outside.
+    Linear(Vec<(f64, f64)>),
+}
+
+impl Amplitude {
+    /// Value at time `t` \[s\].
+    pub fn at(&self, t: f64) -> f64 {
+        let (points, smooth) = match self {
+            Amplitude::Constant(value) => return *value,
+            Amplitude::Smooth(points) => (points, true),
+            Amplitude::Linear(points) => (points, false),
+        };
+        let Some(next) = points.iter().position(|p| p.0 > t) else { return points.last().map_or(0.0, |p| p.1) };
+        if next == 0 {
+            return points[0].1;
+        }
+        let ((t0, a), (t1, b)) = (points[next - 1], points[next]);
+        let xi = (t - t0) / (t1 - t0);
+        let share = if smooth { xi * xi * xi * (10.0 + xi * (-15.0 + 6.0 * xi)) } else { xi };
+        a + (b - a) * share
+    }
+
+    /// Largest absolute value it ever takes.
+    pub fn peak(&self) -> f64 {
+        match self {
+            Amplitude::Constant(value) => value.abs(),
+            Amplitude::Smooth(points) | Amplitude::Linear(points) => points.iter().fold(0.0, |m, p| m.max(p.1.abs())),
+        }
+    }
+}
+
+/// Nodes whose motion is prescribed.
+#[derive(Debug, Clone)]
+pub struct Support {
+    /// Node set.
+    pub set: String,
+    /// Which of x, y, z are prescribed. All three is pinned. A row of pinned nodes next to another row is encastre: shells
+    /// have no rotations of their own, so a clamped edge holds two rows of nodes.
+    pub axes: [bool; 3],
+    /// Displacement from the start over time \[m\] per axis; `None` holds still.
+    pub motion: Option<[Amplitude; 3]>,
+}
+
+/// Nodes that keep their distances: an end cap, a plate.
+#[derive(Debug, Clone)]
+pub struct Rigid {
+    /// Node set.
+    pub set: String,
+}
+
+/// The same force on every node of a set.
+#[derive(Debug, Clone)]
+pub struct NodalForce {
+    /// Node set.
+    pub set: String,
+    /// Total force on the set \[N\], shared equally between its nodes.
+    pub total_n: [f64; 3],
+    /// Multiplier over time.
+    pub amplitude: Amplitude,
+}
+
+/// Uniform gravity.
+#[derive(Debug, Clone)]
+pub struct Gravity {
+    /// Acceleration \[m/s²\].
+    pub g_m_s2: [f64; 3],
+    /// Multiplier over time.
+    pub amplitude: Amplitude,
+}
+
+/// A fixed rigid solid.
+#[derive(Debug, Clone)]
+pub struct Obstacle {
+    /// Its surface.
+    pub shape: ObstacleShape,
+    /// Coulomb friction coefficient.
+    pub friction: f64,
+}
+
+/// Surface of an obstacle.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ObstacleShape {
+    /// Half space behind a plane; `normal` points to the free side.
+    Plane {
+        /// A point of the plane \[m\].
+        point: [f64; 3],
+        /// Outward normal, any length.
+        normal: [f64; 3],
+    },
+    /// Infinite solid cylinder.
+    Cylinder {
+        /// A point of the axis \[m\].
+        point: [f64; 3],
+        /// Axis direction, any length.
+        axis: [f64; 3],
+        /// Radius \[m\].
+        radius_m: f64,
+    },
+}
+
+/// Contact between layers of fabric.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contact {
+    /// Coulomb friction coefficient.
+    pub friction: f64,
+    /// Distance kept between layers that start close to each other \[m\] (paper: layers 0.01 mm apart).
+    pub gap_m: f64,
+    /// Distance kept between surfaces that meet later \[m\].
+    pub thickness_m: f64,
+    /// Parts that take part; empty: all.
+    pub parts: Vec<String>,
+}
+
+impl Default for Contact {
+    fn default() -> Contact {
+        Contact { friction: 0.0, gap_m: 5e-6, thickness_m: 2e-4, parts: Vec::new() }
+    }
+}
+
+/// Numerical settings.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    /// Simulated time \[s\].
+    pub end_s: f64,
+    /// Share of the stable step that is used; .9 unless fabric strains exceed 10 %.
+    pub cfl: f64,
+    /// Time step forced by the user \[s\]; refused when it is not stable.
+    pub dt_s: Option<f64>,
+    /// How masses are raised to lengthen the step.
+    pub mass_scaling: MassScaling,
+    /// Mass-proportional damping α \[1/s\]; its work is on the ledger.
+    pub mass_damping_1_s: f64,
+    /// In-plane viscosity as a share of critical damping of the highest membrane mode (0.06 is usual).
+    pub viscosity: f64,
+    /// Hourglass coefficient; .01 does not lock, .05 and more do.
+    pub hourglass: f64,
+    /// Time between outputs \[s\].
+    pub output_every_s: f64,
+    /// Threads; 0: as many as the machine has. Results do not depend on it.
+    pub threads: usize,
+    /// Standard deviation of the random out-of-plane offset of every free node at the start, as a share of the local
+    /// element size; 0 for a perfect start.
+    pub imperfection: f64,
+    /// Seed of the imperfection.
+    pub seed: u64,
+    /// Stops of an untrustworthy run.
+    pub guards: Guards,
+}
+
+/// How masses are raised to lengthen the step. With rate-free fabrics this equals a shorter simulated time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum MassScaling {
+    /// True masses.
+    None,
+    /// All masses times this factor.
+    Fixed(f64),
+    /// Only the nodes that would limit the step, just enough for this step \[s\].
+    TargetStep(f64),
+}
+
+/// When a run stops because its result cannot be trusted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Guards {
+    /// Energy residual over external work that stops the run (0.02).
+    pub residual: f64,
+    /// Do not judge the residual before this much work went in \[J\].
+    pub residual_floor_j: f64,
+    /// Speed that no physics here explains \[m/s\]; 0: the speed of sound in the stiffest fabric.
+    pub speed_m_s: f64,
+    /// Stop at an element that lost its area or turned inside out.
+    pub inverted: bool,
+}
+
+impl Default for Guards {
+    fn default() -> Guards {
+        Guards { residual: 0.02, residual_floor_j: 1e-6, speed_m_s: 0.0, inverted: true }
+    }
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            end_s: 1.0,
+            cfl: 0.9,
+            dt_s: None,
+            mass_scaling: MassScaling::None,
+            mass_damping_1_s: 0.0,
+            viscosity: 0.06,
+            hourglass: 0.01,
+            output_every_s: 0.01,
+            threads: 1,
+            imperfection: 0.0,
+            seed: 1,
+            guards: Guards::default(),
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! Loads and obstacles: the small entries of the list of terms.

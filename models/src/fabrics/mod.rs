@@ -1,0 +1,77 @@
+//! Fabrics: strain → energy and tension of one sheet.
+//!
+//! A fabric is a membrane law in its own axes, 1 = warp, 2 = fill (weft), written per unit *reference* area so that the
+//! thickness is part of the fabric:
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | e = \[E₁₁, E₂₂, 2E₁₂\] | Green–Lagrange strain, E = ½(FᵀF − 1) | – |
+//! | W(e) | recoverable energy per reference area | J/m² |
+//! | S(e) = ∂W/∂e | second Piola–Kirchhoff tension | N/m |
+//!
+//! Law (tested over every entry of [`FABRICS`]): S = ∂W/∂e, W ≥ 0, W(0) = 0 and S(0) = 0.
+//! To add a fabric: one new file here and one line in [`FABRICS`].
+
+mod neo_hookean;
+mod orthotropic;
+
+pub use neo_hookean::NeoHookean;
+pub use orthotropic::Orthotropic;
+
+use std::fmt::Debug;
+
+/// Largest strain each yarn family has seen (warp, fill); what a fabric with different unloading remembers.
+pub type Past = [f64; 2];
+
+/// The membrane law of one sheet of fabric, in warp and fill axes.
+pub trait Fabric: Send + Sync + Debug {
+    /// Reference thickness t \[m\].
+    fn thickness_m(&self) -> f64;
+    /// Recoverable energy W(e) per reference area \[J/m²\].
+    fn energy(&self, e: [f64; 3], past: &Past) -> f64;
+    /// Second Piola–Kirchhoff tension S = ∂W/∂e \[N/m\].
+    fn tension(&self, e: [f64; 3], past: &Past) -> [f64; 3];
+
+    /// Tangent ∂S/∂e \[N/m\]; by central differences unless a law knows better.
+    fn tangent(&self, e: [f64; 3], past: &Past) -> [[f64; 3]; 3] {
+        const STEP: f64 = 1e-6;
+        let mut columns = [[0.0; 3]; 3];
+        for (k, column) in columns.iter_mut().enumerate() {
+            let (mut up, mut down) = (e, e);
+            up[k] += STEP;
+            down[k] -= STEP;
+            let (high, low) = (self.tension(up, past), self.tension(down, past));
+            for i in 0..3 {
+                column[i] = (high[i] - low[i]) / (2.0 * STEP);
+            }
+        }
+        columns
+    }
+
+    /// True if [`Fabric::remember`] does something.
+    fn has_memory(&self) -> bool {
+        false
+    }
+    /// Updates the memory after a strain was reached.
+    fn remember(&self, _e: [f64; 3], _past: &mut Past) {}
+    /// Energy per reference area lost for good on the way to `past` \[J/m²\].
+    fn dissipated(&self, _past: &Past) -> f64 {
+        0.0
+    }
+
+    /// The laws that the element kernels compile for themselves; others are called sheet by sheet.
+    fn kind(&self) -> Kind<'_> {
+        Kind::Other
+    }
+}
+
+/// A fabric whose formula the finite element kernels inline.
+#[derive(Debug, Clone, Copy)]
+pub enum Kind<'a> {
+    /// Incompressible neo-Hookean sheet.
+    NeoHookean(&'a NeoHookean),
+    /// Linear orthotropic sheet.
+    Orthotropic(&'a Orthotropic),
+    /// Any other law.
+    Other,
+}

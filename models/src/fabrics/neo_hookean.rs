@@ -1,0 +1,59 @@
+//! Incompressible neo-Hookean sheet in plane stress: the paper's fit of coated nylon.
+//!
+//! ```text
+//! W = t C₁₀ (C₁₁ + C₂₂ + 1/det C − 3),      C = 1 + 2E
+//! S = 2 t C₁₀ (1 − adj(C)/det² C)
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | C₁₀ | neo-Hookean constant; small-strain modulus E = 6 C₁₀ | Pa |
+//! | t | thickness | m |
+//!
+//! Valid for an isotropic film. **Do not use it for a woven fabric loaded off its yarns**: it has no warp and fill.
+//! Reference: du Pasquier, Jeong, Okamura 2023; plane stress by eliminating the thickness stretch 1/√det C.
+
+use super::{Fabric, Kind, Past};
+
+/// Incompressible neo-Hookean sheet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NeoHookean {
+    /// C₁₀ \[Pa\], positive.
+    pub c10_pa: f64,
+    /// Thickness \[m\], positive.
+    pub thickness_m: f64,
+}
+
+impl Fabric for NeoHookean {
+    fn thickness_m(&self) -> f64 {
+        self.thickness_m
+    }
+
+    fn energy(&self, e: [f64; 3], _past: &Past) -> f64 {
+        // C₁₁ + C₂₂ + 1/det − 3 loses ten digits at a strain of 1e-5; in terms of E: 1/(1+d) − 1 = −d/(1+d).
+        let d = det_minus_one(e);
+        let excess = 2.0 * (e[0] + e[1]) - d / (1.0 + d);
+        self.thickness_m * self.c10_pa * excess
+    }
+
+    #[inline(always)]
+    fn tension(&self, e: [f64; 3], _past: &Past) -> [f64; 3] {
+        let d = det_minus_one(e);
+        let inverse = 1.0 / (1.0 + d);
+        let squared = inverse * inverse;
+        let k = 2.0 * self.thickness_m * self.c10_pa;
+        // 1 − C₂₂/det², with det² − 1 = d(2 + d): no cancellation at small strain.
+        let spare = d * (2.0 + d);
+        [k * squared * (spare - 2.0 * e[1]), k * squared * (spare - 2.0 * e[0]), k * squared * e[2]]
+    }
+
+    fn kind(&self) -> Kind<'_> {
+        Kind::NeoHookean(self)
+    }
+}
+
+/// det C − 1 = 2(E₁₁ + E₂₂) + 4E₁₁E₂₂ − (2E₁₂)².
+#[inline(always)]
+fn det_minus_one(e: [f64; 3]) -> f64 {
+    2.0 * (e[0] + e[1]) + 4.0 * e[0] * e[1] - e[2] * e[2]
+}
