@@ -1,1 +1,3 @@
 //! What a run leaves behind: ParaView files, history, checkpoints.
+
+pub mod bytes;
