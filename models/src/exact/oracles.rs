@@ -4,10 +4,14 @@
 //! from this crate. They are written as text, so that the last printed digit sets the tolerance: nobody can widen it.
 
 pub mod beam;
+pub mod elastic_pouch;
 pub mod fpam;
 pub mod hinge;
+pub mod inflated_cantilever;
 pub mod mckibben;
 pub mod pouch;
+pub mod shell;
+pub mod tube;
 
 /// One number: what is expected, what is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +39,18 @@ impl OracleRow {
 
 /// Every oracle, in the order of the files of this folder.
 pub fn oracle_table() -> Vec<OracleRow> {
-    [pouch::rows(), hinge::rows(), mckibben::rows(), fpam::rows(), beam::rows()].concat()
+    [
+        pouch::rows(),
+        elastic_pouch::rows(),
+        hinge::rows(),
+        mckibben::rows(),
+        fpam::rows(),
+        tube::rows(),
+        beam::rows(),
+        inflated_cantilever::rows(),
+        shell::rows(),
+    ]
+    .concat()
 }
 
 /// Rows of one section from `(quantity, printed, computed)`.
