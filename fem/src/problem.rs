@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use models::Fabric;
 
+use crate::FemError;
 use crate::mesh::Mesh;
 
 /// Everything that defines a run.
@@ -66,6 +67,9 @@ pub struct Chamber {
     pub name: String,
     /// How its gauge pressure comes about.
     pub pressure: Pressure,
+    /// Axis (0 x, 1 y, 2 z) along which the chamber is open at both ends, between two planes that hold the fabric's edge
+    /// (plane strain); its volume then is that between the planes. `None`: the chamber is closed.
+    pub open_axis: Option<usize>,
 }
 
 /// How the gauge pressure of a chamber comes about.
@@ -287,5 +291,89 @@ impl Default for Settings {
             seed: 1,
             guards: Guards::default(),
         }
+    }
+}
+
+impl Problem {
+    /// A problem with default settings, no loads and no supports.
+    pub fn new(name: &str, mesh: Mesh, sections: Vec<Section>, chambers: Vec<Chamber>) -> Problem {
+        Problem {
+            name: name.to_owned(),
+            mesh,
+            sections,
+            chambers,
+            supports: Vec::new(),
+            rigid: Vec::new(),
+            forces: Vec::new(),
+            gravity: None,
+            obstacles: Vec::new(),
+            contact: None,
+            settings: Settings::default(),
+        }
+    }
+
+    /// Refuses what cannot be simulated.
+    ///
+    /// # Errors
+    /// [`FemError::Problem`] saying which value is wrong and what to write.
+    pub fn check(&self) -> Result<(), FemError> {
+        let refuse = |message: String| Err(FemError::Problem(message));
+        if self.sections.len() != self.mesh.parts.len() {
+            return refuse(format!("{} parts but {} sections", self.mesh.parts.len(), self.sections.len()));
+        }
+        for (section, part) in self.sections.iter().zip(&self.mesh.parts) {
+            if section.plies.is_empty() {
+                return refuse(format!("part `{}` has no ply", part.name));
+            }
+            if !(section.density_kg_m3 > 0.0 && section.density_kg_m3.is_finite()) {
+                return refuse(format!("part `{}`: density must be positive, not {}", part.name, section.density_kg_m3));
+            }
+            if !(section.bending_factor >= 0.0 && section.bending_factor.is_finite()) {
+                return refuse(format!("part `{}`: bending_factor must be 0 or more", part.name));
+            }
+            if let Some(ply) = section.plies.iter().find(|p| !(p.fabric.thickness_m() > 0.0)) {
+                return refuse(format!("part `{}`: thickness must be positive, not {}", part.name, ply.fabric.thickness_m()));
+            }
+        }
+        self.settings.check()
+    }
+
+    /// A number that two problems share only if a checkpoint of one fits the other; threads do not matter.
+    pub fn fingerprint(&self) -> u64 {
+        struct Fnv(u64);
+        impl std::fmt::Write for Fnv {
+            fn write_str(&mut self, text: &str) -> std::fmt::Result {
+                text.bytes().for_each(|b| self.0 = (self.0 ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
+                Ok(())
+            }
+        }
+        let mut plain = self.clone();
+        plain.settings.threads = 0;
+        let mut hash = Fnv(0xcbf2_9ce4_8422_2325);
+        // Writing into a hash cannot fail.
+        let _ = std::fmt::Write::write_fmt(&mut hash, format_args!("{plain:?}"));
+        hash.0
+    }
+}
+
+impl Settings {
+    fn check(&self) -> Result<(), FemError> {
+        let positive = [("end_s", self.end_s), ("cfl", self.cfl), ("output_every_s", self.output_every_s)];
+        if let Some((name, value)) = positive.iter().find(|(_, v)| !(*v > 0.0 && v.is_finite())) {
+            return Err(FemError::Problem(format!("settings: {name} must be positive, not {value}")));
+        }
+        let not_negative = [
+            ("mass_damping_1_s", self.mass_damping_1_s),
+            ("viscosity", self.viscosity),
+            ("hourglass", self.hourglass),
+            ("imperfection", self.imperfection),
+        ];
+        if let Some((name, value)) = not_negative.iter().find(|(_, v)| !(*v >= 0.0 && v.is_finite())) {
+            return Err(FemError::Problem(format!("settings: {name} must be 0 or more, not {value}")));
+        }
+        if self.cfl > 1.0 {
+            return Err(FemError::Problem(format!("settings: cfl {} is over 1, the limit of stability", self.cfl)));
+        }
+        Ok(())
     }
 }

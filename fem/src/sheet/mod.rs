@@ -1,1 +1,337 @@
 //! Shells: membrane, hourglass control, viscosity, bending and follower pressure in one pass over the mesh.
+//!
+//! [`Sheet`] is one [`Term`]; [`crate::plain`] holds the same physics one element at a time, and a test holds both
+//! against each other.
+
+pub mod bending;
+pub mod bound;
+pub mod chamber;
+pub mod fields;
+pub mod group;
+pub mod kernel;
+pub mod order;
+mod patch;
+pub mod reference;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use models::{Fabric, Pose, Row, RowKind, Term, Tick};
+
+use crate::mesh::Mesh;
+use crate::problem::{Chamber, Section, Settings};
+use crate::{FemError, NODE};
+use bending::BendingMatrix;
+use chamber::Air;
+use group::Item;
+use patch::{Key, Patch, Shared};
+use reference::{Reference, mean_stiffness};
+
+/// One element, for everything that is not the hot loop.
+#[derive(Debug, Clone)]
+pub struct Element {
+    /// Corner nodes; a triangle repeats its third.
+    pub node: [u32; 4],
+    /// 3 or 4.
+    pub corners: usize,
+    /// Part number.
+    pub part: usize,
+    /// Reference data.
+    pub reference: Reference,
+    /// Hourglass stiffness k \[N/m\].
+    pub hourglass: f64,
+}
+
+impl Element {
+    /// Corner nodes without repetition.
+    pub fn nodes(&self) -> &[u32] {
+        &self.node[..self.corners]
+    }
+}
+
+/// All shells of a run, with the air in their chambers.
+#[derive(Debug, Clone)]
+pub struct Sheet {
+    /// Elements in mesh order.
+    pub elements: Vec<Element>,
+    /// Fabric of each part.
+    pub fabrics: Vec<Arc<dyn Fabric>>,
+    /// Mass per area of each part \[kg/m²\].
+    pub areal_density: Vec<f64>,
+    /// Chambers in the order of the problem.
+    pub air: Vec<Air>,
+    bending: BendingMatrix,
+    patches: Vec<Patch>,
+    viscous_j: f64,
+    arch: pulp::Arch,
+}
+
+impl Sheet {
+    /// Prepares the shells of a mesh whose nodes are in [`order::Order`].
+    ///
+    /// # Errors
+    /// A part without section or an unknown chamber.
+    pub fn new(
+        mesh: &Mesh,
+        order: &order::Order,
+        sections: &[Section],
+        chambers: &[Chamber],
+        settings: &Settings,
+    ) -> Result<Sheet, FemError> {
+        let fabrics = sections.iter().map(fabric_of).collect::<Result<Vec<Arc<dyn Fabric>>, FemError>>()?;
+        let weight = |s: &Section| s.density_kg_m3 * s.plies.iter().map(|p| p.fabric.thickness_m()).sum::<f64>();
+        let areal_density: Vec<f64> = sections.iter().map(weight).collect();
+        let elements = elements(mesh, sections, &fabrics, settings);
+        let stiffness: Vec<f64> = sections.iter().map(reference::bending_stiffness).collect();
+        let rows = bending::curvature_rows(mesh, &stiffness);
+        let bending = BendingMatrix::new(mesh.points.len(), &rows);
+        let mut sheet = Sheet {
+            elements,
+            fabrics,
+            areal_density,
+            air: chambers.iter().map(Air::new).collect(),
+            bending,
+            patches: Vec::new(),
+            viscous_j: 0.0,
+            arch: pulp::Arch::new(),
+        };
+        sheet.patches = sheet.make_patches(mesh, order, chambers, settings)?;
+        Ok(sheet)
+    }
+
+    fn make_patches(
+        &self,
+        mesh: &Mesh,
+        order: &order::Order,
+        chambers: &[Chamber],
+        settings: &Settings,
+    ) -> Result<Vec<Patch>, FemError> {
+        let mut patch_of = vec![0_u32; mesh.points.len()];
+        for (p, nodes) in order.patches.iter().enumerate() {
+            patch_of[nodes.clone()].fill(p as u32);
+        }
+        let keys = mesh.parts.iter().enumerate().map(|(p, part)| key_of(p, part, chambers));
+        let keys = keys.collect::<Result<Vec<Key>, FemError>>()?;
+        let mut items: Vec<BTreeMap<Key, Vec<Item>>> = vec![BTreeMap::new(); order.patches.len()];
+        for (index, element) in self.elements.iter().enumerate() {
+            let mut touched: Vec<u32> = element.nodes().iter().map(|n| patch_of[*n as usize]).collect();
+            let owner = touched[0];
+            touched.sort();
+            touched.dedup();
+            for patch in touched {
+                let key = Key { corners: element.corners, ..keys[element.part] };
+                let item = self.item(index, settings, patch == owner);
+                items[patch as usize].entry(key).or_default().push(item);
+            }
+        }
+        let memory = self.fabrics.iter().any(|f| f.has_memory());
+        let patches = order.patches.iter().zip(items).map(|(nodes, mut items)| {
+            items.values_mut().for_each(|list| list.sort_by_key(|i| (i.node.iter().min().copied(), i.element)));
+            Patch::new(nodes.clone(), items, &self.bending, memory)
+        });
+        Ok(patches.collect())
+    }
+
+    fn item(&self, index: usize, settings: &Settings, own: bool) -> Item {
+        let element = &self.elements[index];
+        let fabric = &*self.fabrics[element.part];
+        let rate = self.element_rate(element, fabric);
+        // η = 2 ξ A/ω makes ξ the damping ratio of the element's highest mode.
+        let viscosity = if rate > 0.0 { 2.0 * settings.viscosity * mean_stiffness(fabric) / rate } else { 0.0 };
+        Item {
+            node: element.nodes().to_vec(),
+            reference: element.reference,
+            hourglass: element.hourglass,
+            viscosity,
+            own,
+            element: index as u32,
+        }
+    }
+
+    /// Highest angular frequency of one unstrained element on its own masses \[1/s\].
+    fn element_rate(&self, element: &Element, fabric: &dyn Fabric) -> f64 {
+        let stiffness = bound::element(element, fabric, [0.0; 3], &[0.0; 2], [1.0, 1.0, 0.0]);
+        let mass = self.areal_density[element.part] * element.reference.area / element.corners as f64;
+        (stiffness / mass).sqrt()
+    }
+
+    /// Lumped masses \[kg\]: each element gives equal shares to its corners.
+    pub fn masses(&self, nodes: usize) -> Vec<f64> {
+        let mut mass = vec![0.0; nodes];
+        for element in &self.elements {
+            let share = self.areal_density[element.part] * element.reference.area / element.corners as f64;
+            element.nodes().iter().for_each(|n| mass[*n as usize] += share);
+        }
+        mass
+    }
+
+    /// Makes the viscosity start from the strains at `q`.
+    pub fn start(&mut self, q: &[f64]) {
+        let pressure: Vec<f64> = self.air.iter().map(|a| a.pressure_pa).collect();
+        let shared = Shared { q: q.as_chunks().0, fabrics: &self.fabrics, pressure_pa: &pressure, rate: 0.0, arch: self.arch };
+        self.patches.iter_mut().for_each(|p| p.start_strains(shared));
+    }
+
+    /// Energy held in membrane, bending and hourglass control at the last step \[J\].
+    fn stored(&self) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for patch in &self.patches {
+            sum[0] += patch.sums.membrane;
+            sum[1] += patch.bending_j;
+            sum[2] += patch.sums.hourglass;
+        }
+        sum
+    }
+
+    fn volumes(&self) -> Vec<f64> {
+        let mut flux = vec![[0.0; 3]; self.air.len()];
+        for patch in &self.patches {
+            for (sum, part) in flux.iter_mut().zip(&patch.flux) {
+                (0..3).for_each(|k| sum[k] += part[k]);
+            }
+        }
+        self.air.iter().zip(flux).map(|(air, flux)| air.volume_of(flux)).collect()
+    }
+
+    fn pass(&mut self, q: &[f64], force: &mut [f64], rate: f64, keep: bool) {
+        let pressure: Vec<f64> = self.air.iter().map(|a| a.pressure_pa).collect();
+        let shared = Shared { q: q.as_chunks().0, fabrics: &self.fabrics, pressure_pa: &pressure, rate, arch: self.arch };
+        over_patches(&mut self.patches, force.as_chunks_mut().0, &|patch, force| patch.pass(shared, force, keep));
+    }
+}
+
+impl Term for Sheet {
+    fn name(&self) -> &'static str {
+        "shells"
+    }
+
+    /// Membrane, hourglass and bending energy minus Σ pV at the pressures of the last step, without viscosity.
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        let mut copy = self.clone();
+        copy.pass(at.q, force, 0.0, false);
+        let work: f64 = copy.air.iter().zip(copy.volumes()).map(|(air, v)| air.pressure_pa * v).sum();
+        copy.stored().iter().sum::<f64>() - work
+    }
+
+    fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64 {
+        let before: Vec<f64> = self.air.iter_mut().map(|air| air.set_pressure(tick.time_s)).collect();
+        self.pass(at.q, force, 1.0 / tick.dt_s, true);
+        self.viscous_j += self.patches.iter().map(|p| p.sums.viscous).sum::<f64>();
+        let volumes = self.volumes();
+        for ((air, volume), before) in self.air.iter_mut().zip(volumes).zip(before) {
+            air.take_volume(volume, before);
+        }
+        self.stored().iter().sum()
+    }
+
+    fn ledger(&self, _at: &Pose) -> Vec<Row> {
+        let [membrane, bending, hourglass] = self.stored();
+        let row = |name, kind, energy_j| Row { name, kind, energy_j };
+        let mut rows = vec![
+            row("membrane", RowKind::Stored, membrane),
+            row("bending", RowKind::Stored, bending),
+            row("hourglass", RowKind::Stored, hourglass),
+            row("viscosity", RowKind::Dissipated, self.viscous_j),
+        ];
+        if self.fabrics.iter().any(|f| f.has_memory()) {
+            rows.push(row("fabric hysteresis", RowKind::Dissipated, self.patches.iter().map(|p| p.hysteresis_j).sum()));
+        }
+        if !self.air.is_empty() {
+            rows.push(row("pressure", RowKind::Supplied, self.air.iter().map(|a| a.work_j).sum()));
+        }
+        rows
+    }
+
+    fn stiffness_bound(&self, at: &Pose, bound: &mut [f64]) {
+        self.add_bound(at.q, bound);
+    }
+
+    fn save(&self) -> Vec<u8> {
+        let mut numbers = vec![self.viscous_j];
+        self.air.iter().for_each(|air| numbers.extend(air.save()));
+        for patch in &self.patches {
+            numbers.extend(patch.strains.iter().flat_map(|s| s.0.as_flattened()));
+            numbers.extend(patch.past.as_flattened().as_flattened());
+        }
+        numbers.iter().flat_map(|n| n.to_le_bytes()).collect()
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        let (words, rest) = saved.as_chunks::<8>();
+        let numbers: Vec<f64> = words.iter().map(|w| f64::from_le_bytes(*w)).collect();
+        let wanted = 1 + self.air.len() * chamber::SAVED
+            + self.patches.iter().map(|p| (p.strains.len() * 3 + p.past.len() * 2) * group::LANES).sum::<usize>();
+        if !rest.is_empty() || numbers.len() != wanted {
+            return false;
+        }
+        self.viscous_j = numbers[0];
+        let mut from = numbers[1..].iter().copied();
+        for air in &mut self.air {
+            let own: Vec<f64> = from.by_ref().take(chamber::SAVED).collect();
+            air.restore(&own);
+        }
+        for patch in &mut self.patches {
+            let strains = patch.strains.iter_mut().flat_map(|s| s.0.as_flattened_mut());
+            let past = patch.past.as_flattened_mut().as_flattened_mut();
+            strains.chain(past).zip(from.by_ref()).for_each(|(to, value)| *to = value);
+        }
+        true
+    }
+}
+
+fn fabric_of(section: &Section) -> Result<Arc<dyn Fabric>, FemError> {
+    match section.plies.as_slice() {
+        [one] => Ok(one.fabric.clone()),
+        _ => Err(FemError::Problem("a section needs a ply".into())),
+    }
+}
+
+fn key_of(fabric: usize, part: &crate::mesh::Part, chambers: &[Chamber]) -> Result<Key, FemError> {
+    let find = |name: &Option<String>| match name {
+        None => Ok(None),
+        Some(name) => match chambers.iter().position(|c| c.name == *name) {
+            Some(place) => Ok(Some(place)),
+            None => Err(FemError::Problem(format!("part `{}` faces chamber `{name}`, which is not defined", part.name))),
+        },
+    };
+    Ok(Key { corners: 4, fabric, front: find(&part.front)?, back: find(&part.back)? })
+}
+
+fn elements(mesh: &Mesh, sections: &[Section], fabrics: &[Arc<dyn Fabric>], settings: &Settings) -> Vec<Element> {
+    let mut all = Vec::with_capacity(mesh.elements());
+    for (p, part) in mesh.parts.iter().enumerate() {
+        // One ply: its axes are the element's. Several: the laminate turns each into the part's axes.
+        let angle = if sections[p].plies.len() == 1 { sections[p].plies[0].angle_rad } else { 0.0 };
+        let stiffness = mean_stiffness(&*fabrics[p]);
+        for i in 0..part.len() {
+            let nodes = part.nodes(i);
+            let corner: Vec<[f64; 3]> = nodes.iter().map(|n| mesh.points[*n as usize]).collect();
+            let reference = Reference::new(&corner, part.warp_of(i), angle);
+            let hourglass = if nodes.len() == 4 { hourglass(&reference, settings.hourglass * stiffness) } else { 0.0 };
+            let node = std::array::from_fn(|k| nodes[k.min(nodes.len() - 1)]);
+            all.push(Element { node, corners: nodes.len(), part: p, reference, hourglass });
+        }
+    }
+    all
+}
+
+/// k = 4 hg A·λ_max(Σ B Bᵀ)·A₁₁: hg = ⅓ would be the stiffness of a fully integrated square.
+fn hourglass(reference: &Reference, stiffness: f64) -> f64 {
+    let [g11, g22, g12] = reference.metric(4);
+    let largest = 0.5 * (g11 + g22) + (0.25 * (g11 - g22) * (g11 - g22) + g12 * g12).sqrt();
+    4.0 * stiffness * reference.area * largest
+}
+
+/// Runs `job` over all patches with their slices of `force`, in parallel.
+fn over_patches<'a>(patches: &mut [Patch], force: &'a mut [[f64; NODE]], job: &(impl Fn(&mut Patch, &'a mut [[f64; NODE]]) + Sync)) {
+    match patches {
+        [] => {}
+        [one] => job(one, force),
+        many => {
+            let (low, high) = many.split_at_mut(many.len() / 2);
+            let here: usize = low.iter().map(|p| p.nodes.len()).sum();
+            let (force_low, force_high) = force.split_at_mut(here);
+            rayon::join(|| over_patches(low, force_low, job), || over_patches(high, force_high, job));
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! Prescribed motion, ties and rigid bodies.
+
+use crate::problem::{Amplitude, Problem};
+use crate::{FemError, Mesh};
+
+/// Nodes whose motion is prescribed along some axes.
+#[derive(Debug, Clone)]
+pub struct Driven {
+    /// Nodes.
+    pub nodes: Vec<u32>,
+    /// Prescribed axes.
+    pub axes: [bool; 3],
+    /// Displacement from the start \[m\].
+    pub motion: [Amplitude; 3],
+    /// Where the nodes started \[m\].
+    pub start: Vec<[f64; 3]>,
+}
+
+/// A rigid body: nodes that keep their distances.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Nodes.
+    pub nodes: Vec<u32>,
+    /// Mass of each node \[kg\].
+    mass: Vec<f64>,
+    /// Positions relative to the centre of mass at the start \[m\].
+    arm: Vec<[f64; 3]>,
+    /// Centre of mass \[m\].
+    pub centre: [f64; 3],
+    /// Its velocity half a step back \[m/s\].
+    pub velocity: [f64; 3],
+    /// Angular momentum half a step back \[kg m²/s\].
+    pub spin: [f64; 3],
+    /// Orientation as a unit quaternion (w, x, y, z).
+    pub turn: [f64; 4],
+}
+
+/// Nodes of a named set.
+///
+/// # Errors
+/// Unknown or empty set, with the names there are.
+pub fn set<'a>(mesh: &'a Mesh, name: &str, what: &str) -> Result<&'a [u32], FemError> {
+    match mesh.sets.get(name) {
+        Some(nodes) if !nodes.is_empty() => Ok(nodes),
+        Some(_) => Err(FemError::Problem(format!("{what}: node set `{name}` is empty"))),
+        None => {
+            let known: Vec<&str> = mesh.sets.keys().map(String::as_str).collect();
+            Err(FemError::Problem(format!("{what}: there is no node set `{name}`; the mesh has {}", known.join(", "))))
+        }
+    }
+}
+
+/// Prescribed nodes of a problem; axes that hold still are only masked.
+pub fn driven(problem: &Problem, mesh: &Mesh, fixed: &mut [[bool; 3]]) -> Result<Vec<Driven>, FemError> {
+    let mut all = Vec::new();
+    for support in &problem.supports {
+        let nodes = set(mesh, &support.set, "support")?;
+        for node in nodes {
+            (0..3).for_each(|k| fixed[*node as usize][k] |= support.axes[k]);
+        }
+        if let Some(motion) = &support.motion {
+            let start = nodes.iter().map(|n| mesh.start_of(*n as usize)).collect();
+            all.push(Driven { nodes: nodes.to_vec(), axes: support.axes, motion: motion.clone(), start });
+        }
+    }
+    Ok(all)
+}
+
+impl Driven {
+    /// Gives the nodes the velocity that brings them to where they must be at `t`, and returns the work done on the
+    /// structure over the step: (m Δv/Δt − f)·v̄ Δt.
+    pub fn step(&self, t: f64, dt: f64, mass: &[f64], force: &[[f64; 4]], x: &[[f64; 4]], v: &mut [[f64; 4]]) -> f64 {
+        let mut work = 0.0;
+        let shift = [0, 1, 2].map(|k| self.motion[k].at(t));
+        for (node, start) in self.nodes.iter().zip(&self.start) {
+            let i = *node as usize;
+            for k in (0..3).filter(|k| self.axes[*k]) {
+                let target = start[k] + shift[k];
+                let velocity = (target - x[i][k]) / dt;
+                let mean = 0.5 * (velocity + v[i][k]);
+                work += (mass[i] * (velocity - v[i][k]) - force[i][k] * dt) * mean;
+                v[i][k] = velocity;
+            }
+        }
+        work
+    }
+}
+
+/// Rigid bodies of a problem.
+pub fn bodies(problem: &Problem, mesh: &Mesh, mass: &[f64]) -> Result<Vec<Body>, FemError> {
+    let make = |rigid: &crate::problem::Rigid| {
+        let nodes = set(mesh, &rigid.set, "rigid")?;
+        if nodes.len() < 3 {
+            return Err(FemError::Problem(format!("rigid: node set `{}` has fewer than 3 nodes", rigid.set)));
+        }
+        Ok(Body::new(nodes, mass, |i| mesh.start_of(i)))
+    };
+    problem.rigid.iter().map(make).collect()
+}
+
+impl Body {
+    fn new(nodes: &[u32], mass: &[f64], at: impl Fn(usize) -> [f64; 3]) -> Body {
+        let own: Vec<f64> = nodes.iter().map(|n| mass[*n as usize]).collect();
+        let total: f64 = own.iter().sum();
+        let mut centre = [0.0; 3];
+        for (node, m) in nodes.iter().zip(&own) {
+            let x = at(*node as usize);
+            (0..3).for_each(|k| centre[k] += m / total * x[k]);
+        }
+        let arm = nodes.iter().map(|n| at(*n as usize)).map(|x| [0, 1, 2].map(|k| x[k] - centre[k])).collect();
+        Body { nodes: nodes.to_vec(), mass: own, arm, centre, velocity: [0.0; 3], spin: [0.0; 3], turn: [1.0, 0.0, 0.0, 0.0] }
+    }
+
+    /// One step of the body under the forces on its nodes; sets the velocities that bring them to their places.
+    /// Leapfrog in momentum and angular momentum; the orientation turns by the mid-step angular velocity.
+    pub fn step(&mut self, dv: f64, dt: f64, damping: f64, force: &[[f64; 4]], x: &[[f64; 4]], v: &mut [[f64; 4]]) {
+        let mut push = [0.0; 3];
+        let mut moment = [0.0; 3];
+        for node in &self.nodes {
+            let i = *node as usize;
+            let f = [force[i][0], force[i][1], force[i][2]];
+            let arm = [0, 1, 2].map(|k| x[i][k] - self.centre[k]);
+            let m = crate::sheet::reference::cross(arm, f);
+            (0..3).for_each(|k| push[k] += f[k]);
+            (0..3).for_each(|k| moment[k] += m[k]);
+        }
+        let total: f64 = self.mass.iter().sum();
+        let (keep, gain) = ((1.0 - 0.5 * damping * dv) / (1.0 + 0.5 * damping * dv), 1.0 / (1.0 + 0.5 * damping * dv));
+        for k in 0..3 {
+            self.velocity[k] = self.velocity[k] * keep + gain * dv * push[k] / total;
+            self.spin[k] = self.spin[k] * keep + gain * dv * moment[k];
+        }
+        let half = rotate_by(self.turn, self.omega(self.turn), 0.5 * dt);
+        let omega = self.omega(half);
+        self.turn = rotate_by(self.turn, omega, dt);
+        let after = matrix(self.turn);
+        for k in 0..3 {
+            self.centre[k] += dt * self.velocity[k];
+        }
+        for (node, arm) in self.nodes.iter().zip(&self.arm) {
+            let i = *node as usize;
+            for k in 0..3 {
+                let target = self.centre[k] + after[k][0] * arm[0] + after[k][1] * arm[1] + after[k][2] * arm[2];
+                v[i][k] = (target - x[i][k]) / dt;
+            }
+        }
+    }
+
+    /// Angular velocity at an orientation \[rad/s\].
+    fn omega(&self, turn: [f64; 4]) -> [f64; 3] {
+        let r = matrix(turn);
+        let mut inertia = [[0.0; 3]; 3];
+        for (m, arm) in self.mass.iter().zip(&self.arm) {
+            let a = [0, 1, 2].map(|k| r[k][0] * arm[0] + r[k][1] * arm[1] + r[k][2] * arm[2]);
+            let square = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+            for i in 0..3 {
+                for j in 0..3 {
+                    inertia[i][j] += m * (if i == j { square } else { 0.0 } - a[i] * a[j]);
+                }
+            }
+        }
+        solve(inertia, self.spin)
+    }
+
+    /// For a checkpoint.
+    pub fn save(&self) -> Vec<f64> {
+        [&self.centre[..], &self.velocity, &self.spin, &self.turn].concat()
+    }
+
+    /// From a checkpoint (13 numbers).
+    pub fn restore(&mut self, from: &[f64]) {
+        self.centre.copy_from_slice(&from[0..3]);
+        self.velocity.copy_from_slice(&from[3..6]);
+        self.spin.copy_from_slice(&from[6..9]);
+        self.turn.copy_from_slice(&from[9..13]);
+    }
+}
+
+/// Rotation matrix of a unit quaternion.
+fn matrix([w, x, y, z]: [f64; 4]) -> [[f64; 3]; 3] {
+    [
+        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+        [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+        [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+    ]
+}
+
+/// `turn` after rotating with angular velocity `omega` for `dt`.
+fn rotate_by(turn: [f64; 4], omega: [f64; 3], dt: f64) -> [f64; 4] {
+    let speed = (omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2]).sqrt();
+    let half = 0.5 * speed * dt;
+    let scale = if speed > 0.0 { half.sin() / speed } else { 0.0 };
+    let (a, b) = ([half.cos(), omega[0] * scale, omega[1] * scale, omega[2] * scale], turn);
+    let mut q = [
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    ];
+    let length = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]).sqrt();
+    q.iter_mut().for_each(|c| *c /= length);
+    q
+}
+
+/// Solves a symmetric 3×3 system by Cramer's rule; a body on one line spins about it without inertia, so 0 there.
+fn solve(a: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
+    let cross = crate::sheet::reference::cross;
+    let dot = crate::sheet::reference::dot;
+    let determinant = dot(a[0], cross(a[1], a[2]));
+    let scale = a[0][0] + a[1][1] + a[2][2];
+    if determinant.abs() <= 1e-12 * scale * scale * scale {
+        return [0.0; 3];
+    }
+    let columns = [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])];
+    [0, 1, 2].map(|k| (columns[0][k] * b[0] + columns[1][k] * b[1] + columns[2][k] * b[2]) / determinant)
+}
+
+/// Hands the forces on tied nodes to the nodes they follow.
+pub fn hand_over(ties: &[crate::mesh::Tie], force: &mut [[f64; 4]]) {
+    for tie in ties {
+        let own = std::mem::take(&mut force[tie.node as usize]);
+        for (node, weight) in &tie.to {
+            (0..3).for_each(|k| force[*node as usize][k] += weight * own[k]);
+        }
+    }
+}
+
+/// Puts tied nodes where the nodes they follow have gone; `offset` is their distance from there at the start.
+pub fn follow(ties: &[crate::mesh::Tie], offset: &[[f64; 3]], x: &mut [[f64; 4]], v: &mut [[f64; 4]]) {
+    for (tie, offset) in ties.iter().zip(offset) {
+        let mut place = *offset;
+        let mut speed = [0.0; 3];
+        for (node, weight) in &tie.to {
+            for k in 0..3 {
+                place[k] += weight * x[*node as usize][k];
+                speed[k] += weight * v[*node as usize][k];
+            }
+        }
+        x[tie.node as usize][..3].copy_from_slice(&place);
+        v[tie.node as usize][..3].copy_from_slice(&speed);
+    }
+}

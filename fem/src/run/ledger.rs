@@ -1,0 +1,42 @@
+//! The energy balance of a run.
+
+use models::{Row, RowKind};
+
+/// The energy balance at one moment: kinetic + Σ stored + Σ dissipated = Σ supplied + residual.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ledger {
+    /// Kinetic energy \[J\].
+    pub kinetic_j: f64,
+    /// All other lines.
+    pub rows: Vec<Row>,
+    /// What the balance misses \[J\].
+    pub residual_j: f64,
+    /// Work done from outside so far \[J\].
+    pub external_work_j: f64,
+    /// What the residual is judged against: the largest external work, or energy present at the start, so far \[J\].
+    pub scale_j: f64,
+}
+
+impl Ledger {
+    /// Closes the balance. `start_j` is the energy stored before the first step.
+    pub fn close(kinetic_j: f64, rows: Vec<Row>, start_j: f64, scale_before_j: f64) -> Ledger {
+        let sum = |kind: RowKind| rows.iter().filter(|r| r.kind == kind).map(|r| r.energy_j).sum::<f64>();
+        let external_work_j = sum(RowKind::Supplied);
+        let held = kinetic_j + sum(RowKind::Stored) + sum(RowKind::Dissipated);
+        let residual_j = held - external_work_j - start_j;
+        let scale_j = scale_before_j.max(external_work_j.abs()).max(start_j.abs());
+        Ledger { kinetic_j, rows, residual_j, external_work_j, scale_j }
+    }
+
+    /// |residual| over what it is judged against; 0 while nothing happened.
+    pub fn residual_share(&self) -> f64 {
+        if self.scale_j > 0.0 { self.residual_j.abs() / self.scale_j } else { 0.0 }
+    }
+
+    /// Kinetic energy over stored energy; 0 while nothing is stored.
+    pub fn kinetic_share(&self) -> f64 {
+        let stored = self.rows.iter().filter(|r| r.kind == RowKind::Stored).map(|r| r.energy_j).sum::<f64>();
+        let all = stored + self.kinetic_j;
+        if all > 0.0 { self.kinetic_j / all } else { 0.0 }
+    }
+}

@@ -1,0 +1,231 @@
+//! Time stepping by central differences with lumped masses, the energy ledger and the guards.
+//!
+//! ```text
+//! v(n+½) = [v(n−½)(1 − ½αΔt) + Δt F(n)/m] / (1 + ½αΔt)        x(n+1) = x(n) + Δt v(n+½)
+//! Δt = cfl · 2/ω · (√(1 + ξ²) − ξ),   ω² = maxᵢ kᵢ/mᵢ          kinetic(n) = ½ Σ m v(n−½)·v(n+½)
+//! ```
+//! α mass damping, ξ viscosity, kᵢ the stiffness bounds of all terms ([`models::Term::stiffness_bound`]). With this
+//! kinetic energy the balance of a linear undamped system is kept to rounding.
+//! Reference: Belytschko, Liu, Moran, Nonlinear Finite Elements, ch. 6.
+
+mod constraint;
+mod guard;
+mod ledger;
+mod setup;
+mod step;
+
+pub use crate::sheet::fields::ElementFields;
+pub use ledger::Ledger;
+
+use models::{Pose, Row, RowKind, Term};
+
+use crate::output::bytes::{Reader, Writer};
+use crate::problem::Guards;
+use crate::sheet::Sheet;
+use crate::sheet::order::Order;
+use crate::{FemError, Mesh, Problem};
+use constraint::{Body, Driven};
+
+/// A run in progress.
+pub struct Simulation {
+    order: Order,
+    mesh: Mesh,
+    sheet: Sheet,
+    terms: Vec<Box<dyn Term>>,
+    driven: Vec<Driven>,
+    bodies: Vec<Body>,
+    tie_offset: Vec<[f64; 3]>,
+    /// Mass of each node, scaling included \[kg\].
+    mass: Vec<f64>,
+    /// 1/m on free axes, 0 on prescribed ones.
+    inverse_mass: Vec<[f64; 4]>,
+    limits: Limits,
+    x: Vec<[f64; 4]>,
+    v: Vec<[f64; 4]>,
+    force: Vec<[f64; 4]>,
+    clock: Clock,
+    books: Books,
+    /// Taken out while it works.
+    pool: Option<rayon::ThreadPool>,
+}
+
+/// What does not change during a run.
+#[derive(Debug, Clone)]
+struct Limits {
+    cfl: f64,
+    viscosity: f64,
+    damping_1_s: f64,
+    forced_dt_s: Option<f64>,
+    guards: Guards,
+    /// Speed that stops the run \[m/s\].
+    speed_m_s: f64,
+    /// Added mass over true mass.
+    added_mass: f64,
+}
+
+/// Where the run stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Clock {
+    step: u64,
+    time_s: f64,
+    dt_s: f64,
+    /// Length of the step before; 0 at the start.
+    before_s: f64,
+    /// Longest step that the start allowed.
+    longest_s: f64,
+}
+
+/// Energies that only stepping can add up \[J\].
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Books {
+    kinetic: f64,
+    stored: f64,
+    damping: f64,
+    support: f64,
+    start: f64,
+    scale: f64,
+}
+
+/// Why [`Simulation::advance_until`] returned.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Advance {
+    /// The time was reached.
+    Reached,
+    /// The callback asked to stop.
+    Interrupted,
+}
+
+/// State of one chamber.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChamberState {
+    /// Name.
+    pub name: String,
+    /// Gauge pressure \[Pa\].
+    pub pressure_pa: f64,
+    /// Volume \[m³\].
+    pub volume_m3: f64,
+}
+
+impl Simulation {
+    /// Continues from a checkpoint of the same problem.
+    ///
+    /// # Errors
+    /// [`FemError::Problem`] if it belongs to another problem or is damaged.
+    pub fn resume(problem: &Problem, saved: &[u8]) -> Result<Simulation, FemError> {
+        let mut run = Simulation::new(problem)?;
+        match run.restore(saved) {
+            Some(()) => Ok(run),
+            None => Err(FemError::Problem("the saved state does not fit this problem: start the run afresh".into())),
+        }
+    }
+
+    /// Everything a bit-identical continuation needs.
+    pub fn save(&self) -> Vec<u8> {
+        let mut out = Writer::new();
+        let (c, b) = (&self.clock, &self.books);
+        out.u64(c.step);
+        out.f64s(&[c.time_s, c.dt_s, c.before_s, c.longest_s]);
+        out.f64s(&[b.kinetic, b.stored, b.damping, b.support, b.start, b.scale]);
+        out.f64s(self.x.as_flattened());
+        out.f64s(self.v.as_flattened());
+        out.bytes(&self.sheet.save());
+        self.terms.iter().for_each(|term| out.bytes(&term.save()));
+        self.bodies.iter().for_each(|body| out.f64s(&body.save()));
+        out.into_bytes()
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> Option<()> {
+        let mut from = Reader::new(saved);
+        let step = from.u64()?;
+        let [time_s, dt_s, before_s, longest_s] = from.f64s()?.try_into().ok()?;
+        self.clock = Clock { step, time_s, dt_s, before_s, longest_s };
+        let [kinetic, stored, damping, support, start, scale] = from.f64s()?.try_into().ok()?;
+        self.books = Books { kinetic, stored, damping, support, start, scale };
+        from.f64s_into(self.x.as_flattened_mut())?;
+        from.f64s_into(self.v.as_flattened_mut())?;
+        self.sheet.restore(from.bytes()?).then_some(())?;
+        for term in &mut self.terms {
+            term.restore(from.bytes()?).then_some(())?;
+        }
+        for body in &mut self.bodies {
+            let numbers = from.f64s()?;
+            (numbers.len() == 13).then_some(())?;
+            body.restore(&numbers);
+        }
+        from.is_empty().then_some(())
+    }
+
+    /// Simulated time \[s\].
+    pub fn time_s(&self) -> f64 {
+        self.clock.time_s
+    }
+    /// Steps done.
+    pub fn step(&self) -> u64 {
+        self.clock.step
+    }
+    /// Current step length \[s\].
+    pub fn dt_s(&self) -> f64 {
+        self.clock.dt_s
+    }
+    /// Number of elements.
+    pub fn elements(&self) -> usize {
+        self.sheet.elements.len()
+    }
+    /// Mass added by mass scaling over true mass.
+    pub fn added_mass(&self) -> f64 {
+        self.limits.added_mass
+    }
+    /// Node positions in mesh order \[m\].
+    pub fn positions(&self) -> Vec<[f64; 3]> {
+        self.in_mesh_order(&self.x)
+    }
+    /// Node velocities in mesh order \[m/s\].
+    pub fn velocities(&self) -> Vec<[f64; 3]> {
+        self.in_mesh_order(&self.v)
+    }
+
+    fn in_mesh_order(&self, values: &[[f64; 4]]) -> Vec<[f64; 3]> {
+        self.order.new.iter().map(|place| values[*place as usize]).map(|p| [p[0], p[1], p[2]]).collect()
+    }
+
+    /// Sets node velocities in mesh order \[m/s\]; before the first step.
+    pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) {
+        for (place, v) in self.order.new.iter().zip(velocities) {
+            let free = &self.inverse_mass[*place as usize];
+            (0..3).for_each(|k| self.v[*place as usize][k] = if free[k] > 0.0 { v[k] } else { 0.0 });
+        }
+    }
+
+    /// The energy balance at the positions of the last step.
+    pub fn ledger(&self) -> Ledger {
+        let pose = Pose::nodes(self.x.as_flattened());
+        let mut rows = self.sheet.ledger(&pose);
+        rows.extend(self.terms.iter().flat_map(|term| term.ledger(&pose)));
+        let row = |name, kind, energy_j| Row { name, kind, energy_j };
+        rows.push(row("mass damping", RowKind::Dissipated, self.books.damping));
+        if !self.driven.is_empty() {
+            rows.push(row("supports", RowKind::Supplied, self.books.support));
+        }
+        Ledger::close(self.books.kinetic, rows, self.books.start, self.books.scale)
+    }
+
+    /// Pressure and volume of every chamber.
+    pub fn chambers(&self) -> Vec<ChamberState> {
+        let state = |air: &crate::sheet::chamber::Air| ChamberState {
+            name: air.name().to_owned(),
+            pressure_pa: air.pressure_pa,
+            volume_m3: air.volume_m3.unwrap_or(0.0),
+        };
+        self.sheet.air.iter().map(state).collect()
+    }
+
+    /// Stresses, strains, thickness and wrinkling of every element.
+    pub fn element_fields(&self) -> ElementFields {
+        self.sheet.fields(self.x.as_flattened())
+    }
+
+    /// Contact pressure at every node in mesh order \[Pa\]; empty without contact.
+    pub fn contact_pressure_pa(&self) -> Vec<f64> {
+        Vec::new()
+    }
+}

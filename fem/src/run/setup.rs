@@ -1,0 +1,179 @@
+//! From a problem to a run: order, masses, time step, constraints, terms.
+
+use models::{Pose, Term};
+
+use super::constraint::{bodies, driven};
+use super::{Books, Clock, Limits, Simulation};
+use crate::problem::MassScaling;
+use crate::sheet::order::{Order, renumber};
+use crate::sheet::reference::{cross, dot};
+use crate::sheet::{Sheet, reference};
+use crate::{FemError, Mesh, Problem};
+
+impl Simulation {
+    /// Prepares a run.
+    ///
+    /// # Errors
+    /// [`FemError::Mesh`] or [`FemError::Problem`] naming what cannot be simulated.
+    pub fn new(problem: &Problem) -> Result<Simulation, FemError> {
+        problem.check()?;
+        let order = Order::of(&problem.mesh);
+        let mesh = renumber(&problem.mesh, &order);
+        let settings = &problem.settings;
+        let mut sheet = Sheet::new(&mesh, &order, &problem.sections, &problem.chambers, settings)?;
+        let count = mesh.points.len();
+        let mut mass = sheet.masses(count);
+        give_tied_masses(&mesh, &mut mass);
+        let mut fixed = vec![[false; 3]; count];
+        let driven = driven(problem, &mesh, &mut fixed)?;
+        let mut x: Vec<[f64; 4]> = (0..count).map(|i| mesh.start_of(i)).map(|p| [p[0], p[1], p[2], 0.0]).collect();
+        imperfect(&mut x, &mesh, &order, &fixed, settings.imperfection, settings.seed);
+        let mut bound = vec![0.0; count];
+        sheet.stiffness_bound(&Pose::nodes(x.as_flattened()), &mut bound);
+        let true_mass: f64 = mass.iter().sum();
+        scale_masses(settings.mass_scaling, &bound, &mut mass);
+        let added_mass = mass.iter().sum::<f64>() / true_mass - 1.0;
+        let stable = stable_step(&bound, &mass, settings.viscosity);
+        let dt_s = choose_step(stable, settings.cfl, settings.dt_s)?;
+        let terms = terms(problem, &mesh, &mass, dt_s)?;
+        sheet.start(x.as_flattened());
+        let bodies = bodies(problem, &mesh, &mass)?;
+        for node in bodies.iter().flat_map(|b| &b.nodes).chain(mesh.ties.iter().map(|t| &t.node)) {
+            fixed[*node as usize] = [true; 3];
+        }
+        let limits = Limits {
+            cfl: settings.cfl,
+            viscosity: settings.viscosity,
+            damping_1_s: settings.mass_damping_1_s,
+            forced_dt_s: settings.dt_s,
+            guards: settings.guards.clone(),
+            speed_m_s: if settings.guards.speed_m_s > 0.0 { settings.guards.speed_m_s } else { sound_speed(&sheet) },
+            added_mass,
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build();
+        let pool = pool.map_err(|e| FemError::Problem(format!("cannot start {} threads: {e}", settings.threads)))?;
+        Ok(Simulation {
+            inverse_mass: inverse_mass(&mass, &fixed),
+            tie_offset: tie_offsets(&mesh, &x),
+            v: vec![[0.0; 4]; count],
+            force: vec![[0.0; 4]; count],
+            clock: Clock { step: 0, time_s: 0.0, dt_s, before_s: 0.0, longest_s: dt_s },
+            books: Books::default(),
+            order,
+            mesh,
+            sheet,
+            terms,
+            driven,
+            bodies,
+            mass,
+            limits,
+            x,
+            pool: Some(pool),
+        })
+    }
+}
+
+/// The terms beside the shells.
+fn terms(_problem: &Problem, _mesh: &Mesh, _mass: &[f64], _dt_s: f64) -> Result<Vec<Box<dyn Term>>, FemError> {
+    Ok(Vec::new())
+}
+
+/// Largest stable step \[s\] from the nodes' stiffness bounds \[N/m\] and masses \[kg\].
+pub(super) fn stable_step(bound: &[f64], mass: &[f64], viscosity: f64) -> f64 {
+    let square = bound.iter().zip(mass).filter(|(_, m)| **m > 0.0).map(|(k, m)| k / m).fold(0.0, f64::max);
+    let damped = (1.0 + viscosity * viscosity).sqrt() - viscosity;
+    2.0 / square.sqrt() * damped
+}
+
+fn choose_step(stable_s: f64, cfl: f64, forced_s: Option<f64>) -> Result<f64, FemError> {
+    match forced_s {
+        None => Ok(cfl * stable_s),
+        Some(dt) if dt <= stable_s => Ok(dt),
+        Some(dt) => Err(FemError::Problem(format!(
+            "the time step {dt:e} s is not stable: this mesh allows {stable_s:.3e} s. Leave the step out, coarsen the \
+             smallest elements, or raise masses with mass_scaling"
+        ))),
+    }
+}
+
+fn scale_masses(scaling: MassScaling, bound: &[f64], mass: &mut [f64]) {
+    match scaling {
+        MassScaling::None => {}
+        MassScaling::Fixed(factor) => mass.iter_mut().for_each(|m| *m *= factor),
+        MassScaling::TargetStep(dt) => {
+            for (m, k) in mass.iter_mut().zip(bound).filter(|(m, _)| **m > 0.0) {
+                *m = m.max(0.25 * k * dt * dt);
+            }
+        }
+    }
+}
+
+/// Tied nodes hand their mass to the nodes they follow.
+fn give_tied_masses(mesh: &Mesh, mass: &mut [f64]) {
+    for tie in &mesh.ties {
+        let own = std::mem::take(&mut mass[tie.node as usize]);
+        tie.to.iter().for_each(|(node, weight)| mass[*node as usize] += weight * own);
+    }
+}
+
+fn tie_offsets(mesh: &Mesh, x: &[[f64; 4]]) -> Vec<[f64; 3]> {
+    let offset = |tie: &crate::mesh::Tie| {
+        let own = x[tie.node as usize];
+        [0, 1, 2].map(|k| own[k] - tie.to.iter().map(|(n, w)| w * x[*n as usize][k]).sum::<f64>())
+    };
+    mesh.ties.iter().map(offset).collect()
+}
+
+fn inverse_mass(mass: &[f64], fixed: &[[bool; 3]]) -> Vec<[f64; 4]> {
+    let one = |(m, fixed): (&f64, &[bool; 3])| {
+        let of = |k: usize| if fixed[k] || *m <= 0.0 { 0.0 } else { 1.0 / m };
+        [of(0), of(1), of(2), 0.0]
+    };
+    mass.iter().zip(fixed).map(one).collect()
+}
+
+fn sound_speed(sheet: &Sheet) -> f64 {
+    let speed = |(fabric, density): (&std::sync::Arc<dyn models::Fabric>, &f64)| {
+        let a = fabric.tangent([0.0; 3], &[0.0; 2]);
+        (a[0][0].max(a[1][1]) / density).sqrt()
+    };
+    sheet.fabrics.iter().zip(&sheet.areal_density).map(speed).fold(0.0, f64::max)
+}
+
+/// Moves free nodes off the start shape along the sheet's normal by normal-distributed offsets; the standard deviation
+/// is `share` of the local element size. The draw of a node depends on its mesh number and the seed alone.
+fn imperfect(x: &mut [[f64; 4]], mesh: &Mesh, order: &Order, fixed: &[[bool; 3]], share: f64, seed: u64) {
+    if share <= 0.0 {
+        return;
+    }
+    let mut normal = vec![[0.0; 3]; x.len()];
+    for part in &mesh.parts {
+        for i in 0..part.len() {
+            let corner: Vec<[f64; 3]> = part.nodes(i).iter().map(|n| mesh.start_of(*n as usize)).collect();
+            let (d1, d2) = reference::diagonals(&corner);
+            let area = cross(d1, d2);
+            for node in part.nodes(i) {
+                (0..3).for_each(|k| normal[*node as usize][k] += 0.5 * area[k] / corner.len() as f64);
+            }
+        }
+    }
+    for (place, (x, n)) in x.iter_mut().zip(&normal).enumerate().filter(|(place, _)| fixed[*place] == [false; 3]) {
+        let area = dot(*n, *n).sqrt();
+        if area > 0.0 {
+            let offset = share * area.sqrt() * gaussian(seed, u64::from(order.old[place]));
+            (0..3).for_each(|k| x[k] += offset * n[k] / area);
+        }
+    }
+}
+
+/// A standard normal number from a seed and a counter (SplitMix64 and Box–Muller).
+fn gaussian(seed: u64, counter: u64) -> f64 {
+    let draw = |salt: u64| {
+        let mut z = (seed ^ 0x9E37_79B9_7F4A_7C15).wrapping_mul(0xD6E8_FEB8_6659_FD93).wrapping_add(counter * 2 + salt);
+        z = z.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    (-2.0 * (1.0 - draw(0)).ln()).sqrt() * (std::f64::consts::TAU * draw(1)).cos()
+}

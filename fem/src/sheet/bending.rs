@@ -1,0 +1,170 @@
+//! Bending as a constant sparse matrix.
+//!
+//! ```text
+//! U = ½ Σ_i D_i A_i |H_i|²       H_i = (1/A_i) Σ_j w_ij (x_j − x_i)       F = −K x,  K = Σ_i (D_i/A_i) L_iᵀ L_i
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | H_i | mean curvature vector κ₁ + κ₂ at node i (points inwards) | 1/m |
+//! | w_ij | cotangent weights of the reference shape, mean of both triangulations of a quadrilateral | – |
+//! | A_i | share of the elements round node i | m² |
+//! | D | bending stiffness | N m |
+//!
+//! The fabric hardly stretches, so the reference weights stay valid and K is constant: 12 neighbours per node on a
+//! regular grid. A node counts if the elements of its layer close round it; at free edges, seams and welds the fabric
+//! hinges freely. **Do not use it when stretch changes the element size by tens of per cent.**
+//! Reference: Bergou et al. 2006, A quadratic bending model for inextensible surfaces.
+
+use std::collections::BTreeMap;
+
+use super::reference::{cross, dot, sub};
+use crate::mesh::Mesh;
+
+/// Row of the curvature operator at one node: H_i A_i = Σ_j w_ij x_j (the diagonal is in the list, first).
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurvatureRow {
+    /// The node.
+    pub node: u32,
+    /// Its area A_i \[m²\].
+    pub area: f64,
+    /// Its bending stiffness D \[N m\].
+    pub stiffness: f64,
+    /// (node, weight), weights summing to 0.
+    pub weights: Vec<(u32, f64)>,
+}
+
+/// Sparse symmetric matrix K, row by row \[N/m\].
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct BendingMatrix {
+    /// Start of each row in the two lists below; one more than nodes.
+    pub start: Vec<u32>,
+    /// Column of each entry.
+    pub column: Vec<u32>,
+    /// Value of each entry \[N/m\].
+    pub value: Vec<f64>,
+}
+
+/// Curvature rows of every node that bends; `stiffness[part]` is D of each part \[N m\].
+pub fn curvature_rows(mesh: &Mesh, stiffness: &[f64]) -> Vec<CurvatureRow> {
+    let mut layers: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for (index, part) in mesh.parts.iter().enumerate().filter(|(index, _)| stiffness[*index] > 0.0) {
+        layers.entry(part.layer).or_default().push(index);
+    }
+    layers.values().flat_map(|parts| layer_rows(mesh, parts, stiffness)).collect()
+}
+
+/// What a node sees of the elements of one layer.
+#[derive(Default)]
+struct Fan {
+    area: f64,
+    stiffness_area: f64,
+    weights: BTreeMap<u32, f64>,
+    /// Elements on each spoke (edge from the node); a closed fan has two on every one.
+    spokes: BTreeMap<u32, u32>,
+}
+
+fn layer_rows(mesh: &Mesh, parts: &[usize], stiffness: &[f64]) -> Vec<CurvatureRow> {
+    let mut fans: BTreeMap<u32, Fan> = BTreeMap::new();
+    for part in parts {
+        for i in 0..mesh.parts[*part].len() {
+            add_element(mesh, mesh.parts[*part].nodes(i), stiffness[*part], &mut fans);
+        }
+    }
+    let closed = |fan: &Fan| fan.spokes.values().all(|n| *n == 2);
+    fans.into_iter().filter(|(_, fan)| closed(fan)).map(|(node, fan)| fan.row(node)).collect()
+}
+
+impl Fan {
+    fn row(self, node: u32) -> CurvatureRow {
+        // The diagonals of rectangles carry rounding only; without them a row has 12 neighbours instead of 24.
+        let spokes: Vec<(u32, f64)> = self.weights.into_iter().filter(|(_, w)| w.abs() > 1e-12).collect();
+        let sum: f64 = spokes.iter().map(|s| s.1).sum();
+        let weights = std::iter::once((node, -sum)).chain(spokes).collect();
+        CurvatureRow { node, area: self.area, stiffness: self.stiffness_area / self.area, weights }
+    }
+}
+
+fn add_element(mesh: &Mesh, nodes: &[u32], stiffness: f64, fans: &mut BTreeMap<u32, Fan>) {
+    let count = nodes.len();
+    for k in 0..count {
+        let fan = fans.entry(nodes[k]).or_default();
+        *fan.spokes.entry(nodes[(k + 1) % count]).or_default() += 1;
+        *fan.spokes.entry(nodes[(k + count - 1) % count]).or_default() += 1;
+    }
+    if count == 3 {
+        return add_triangle(mesh, [nodes[0], nodes[1], nodes[2]], 1.0, stiffness, fans);
+    }
+    for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]] {
+        add_triangle(mesh, [nodes[a], nodes[b], nodes[c]], 0.5, stiffness, fans);
+    }
+}
+
+/// Adds `share` of a triangle's cotangent weights, ½ cot(angle opposite the edge), and a third of its area to each corner.
+fn add_triangle(mesh: &Mesh, nodes: [u32; 3], share: f64, stiffness: f64, fans: &mut BTreeMap<u32, Fan>) {
+    let x = nodes.map(|n| mesh.points[n as usize]);
+    let normal = cross(sub(x[1], x[0]), sub(x[2], x[0]));
+    let twice_area = dot(normal, normal).sqrt();
+    for k in 0..3 {
+        let (i, j, apex) = (k, (k + 1) % 3, (k + 2) % 3);
+        let (to_i, to_j) = (sub(x[i], x[apex]), sub(x[j], x[apex]));
+        let weight = 0.5 * share * dot(to_i, to_j) / twice_area;
+        *fans.entry(nodes[i]).or_default().weights.entry(nodes[j]).or_default() += weight;
+        *fans.entry(nodes[j]).or_default().weights.entry(nodes[i]).or_default() += weight;
+        let fan = fans.entry(nodes[i]).or_default();
+        let area = share * twice_area / 6.0;
+        fan.area += area;
+        fan.stiffness_area += stiffness * area;
+    }
+}
+
+impl BendingMatrix {
+    /// K = Σ_i (D_i/A_i) L_iᵀ L_i over `nodes` rows.
+    pub fn new(nodes: usize, rows: &[CurvatureRow]) -> BendingMatrix {
+        let mut entries: Vec<(u32, u32, f64)> = Vec::new();
+        for row in rows {
+            let scale = row.stiffness / row.area;
+            for (i, wi) in &row.weights {
+                entries.extend(row.weights.iter().map(|(j, wj)| (*i, *j, scale * wi * wj)));
+            }
+        }
+        // A stable sort keeps the order of the additions a function of the mesh alone.
+        entries.sort_by_key(|e| (e.0, e.1));
+        let mut matrix = BendingMatrix { start: vec![0; nodes + 1], column: Vec::new(), value: Vec::new() };
+        let mut last = None;
+        for (i, j, value) in entries {
+            if last == Some((i, j)) {
+                *matrix.value.last_mut().expect("an entry was pushed for this place") += value;
+            } else {
+                matrix.column.push(j);
+                matrix.value.push(value);
+                matrix.start[i as usize + 1] += 1;
+                last = Some((i, j));
+            }
+        }
+        for i in 0..nodes {
+            matrix.start[i + 1] += matrix.start[i];
+        }
+        matrix
+    }
+
+    /// Entries of row `i` as (column, value).
+    pub fn row(&self, i: usize) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let range = self.start[i] as usize..self.start[i + 1] as usize;
+        range.map(|k| (self.column[k], self.value[k]))
+    }
+
+    /// Adds −K x to `force` (stride 4) and returns ½ xᵀKx.
+    pub fn add(&self, q: &[[f64; 4]], force: &mut [[f64; 4]]) -> f64 {
+        let mut energy = 0.0;
+        for i in 0..q.len() {
+            let mut kx = [0.0; 3];
+            for (j, value) in self.row(i) {
+                (0..3).for_each(|k| kx[k] += value * (q[j as usize][k] - q[i][k]));
+            }
+            (0..3).for_each(|k| force[i][k] -= kx[k]);
+            energy += 0.5 * (0..3).map(|k| kx[k] * q[i][k]).sum::<f64>();
+        }
+        energy
+    }
+}

@@ -1,0 +1,102 @@
+//! Pressure, volume and work of the chambers during a run.
+
+use super::kernel::{Lane3, sum};
+use crate::problem::{Chamber, Pressure};
+
+/// A chamber while a run goes on.
+#[derive(Debug, Clone)]
+pub struct Air {
+    chamber: Chamber,
+    /// Gauge pressure now \[Pa\].
+    pub pressure_pa: f64,
+    /// Volume at the last step \[m³\]; `None` before the first.
+    pub volume_m3: Option<f64>,
+    /// Volume a step earlier \[m³\].
+    before_m3: f64,
+    /// Work done on the fabric so far \[J\].
+    pub work_j: f64,
+    /// (p + p_atm) V once sealed \[J\].
+    sealed_j: Option<f64>,
+}
+
+/// Numbers per chamber in a checkpoint.
+pub const SAVED: usize = 7;
+
+impl Air {
+    /// At rest, before the first step.
+    pub fn new(chamber: &Chamber) -> Air {
+        let pressure_pa = match &chamber.pressure {
+            Pressure::Set(amplitude) | Pressure::Sealed { filling: amplitude, .. } => amplitude.at(0.0),
+        };
+        let chamber = chamber.clone();
+        Air { chamber, pressure_pa, volume_m3: None, before_m3: 0.0, work_j: 0.0, sealed_j: None }
+    }
+
+    /// Name.
+    pub fn name(&self) -> &str {
+        &self.chamber.name
+    }
+
+    /// Largest pressure the supply ever sets \[Pa\].
+    pub fn peak_pa(&self) -> f64 {
+        match &self.chamber.pressure {
+            Pressure::Set(amplitude) | Pressure::Sealed { filling: amplitude, .. } => amplitude.peak(),
+        }
+    }
+
+    /// The pressure for a step at time `t`. A sealed chamber extrapolates its volume by one step, to second order.
+    pub fn set_pressure(&mut self, t: f64) -> f64 {
+        let before = self.pressure_pa;
+        self.pressure_pa = match &self.chamber.pressure {
+            Pressure::Set(amplitude) => amplitude.at(t),
+            Pressure::Sealed { filling, sealed_at_s, .. } if t < *sealed_at_s => filling.at(t),
+            Pressure::Sealed { filling, atmosphere_pa, .. } => match self.volume_m3 {
+                None => filling.at(t),
+                Some(volume) => {
+                    let next = 2.0 * volume - self.before_m3;
+                    let content = *self.sealed_j.get_or_insert((self.pressure_pa + atmosphere_pa) * volume);
+                    if next > 0.0 { content / next - atmosphere_pa } else { self.pressure_pa }
+                }
+            },
+        };
+        before
+    }
+
+    /// Takes the volume of this step and books the work ½(p + p′)ΔV.
+    pub fn take_volume(&mut self, volume_m3: f64, pressure_before_pa: f64) {
+        if let Some(before) = self.volume_m3 {
+            self.work_j += 0.5 * (self.pressure_pa + pressure_before_pa) * (volume_m3 - before);
+        }
+        self.before_m3 = self.volume_m3.unwrap_or(volume_m3);
+        self.volume_m3 = Some(volume_m3);
+    }
+
+    /// Volume from the fluxes ∫ x n_x, ∫ y n_y, ∫ z n_z: their mean, without an open axis.
+    pub fn volume_of(&self, flux: [f64; 3]) -> f64 {
+        match self.chamber.open_axis {
+            None => (flux[0] + flux[1] + flux[2]) / 3.0,
+            Some(open) => 0.5 * (0..3).filter(|k| *k != open).map(|k| flux[k]).sum::<f64>(),
+        }
+    }
+
+    /// For a checkpoint.
+    pub fn save(&self) -> [f64; SAVED] {
+        let flag = |o: Option<f64>| f64::from(u8::from(o.is_some()));
+        let (v, s) = (self.volume_m3, self.sealed_j);
+        [self.pressure_pa, flag(v), v.unwrap_or(0.0), self.before_m3, self.work_j, flag(s), s.unwrap_or(0.0)]
+    }
+
+    /// From a checkpoint.
+    pub fn restore(&mut self, saved: &[f64]) {
+        self.pressure_pa = saved[0];
+        self.volume_m3 = (saved[1] > 0.5).then_some(saved[2]);
+        self.before_m3 = saved[3];
+        self.work_j = saved[4];
+        self.sealed_j = (saved[5] > 0.5).then_some(saved[6]);
+    }
+}
+
+/// Sums the lanes of a flux.
+pub fn flux(lanes: &Lane3) -> [f64; 3] {
+    [sum(&lanes[0]), sum(&lanes[1]), sum(&lanes[2])]
+}

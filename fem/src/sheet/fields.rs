@@ -1,0 +1,74 @@
+//! Stress, strain, thickness and wrinkling of every element, for pictures and reports.
+
+use super::reference::dot;
+use super::{Element, Sheet};
+
+/// Element results in mesh order (parts one after the other, quads before triangles), averaged over plies.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ElementFields {
+    /// Von Mises Cauchy stress \[Pa\].
+    pub von_mises_pa: Vec<f64>,
+    /// Principal Cauchy stresses, larger first \[Pa\].
+    pub principal_stress_pa: Vec<[f64; 2]>,
+    /// Principal Green–Lagrange strains, larger first.
+    pub principal_strain: Vec<[f64; 2]>,
+    /// Current thickness of the section (incompressible) \[m\].
+    pub thickness_m: Vec<f64>,
+    /// 0 taut, 1 wrinkled (smaller principal stress not tensile), 2 slack (larger not tensile either).
+    pub wrinkle_state: Vec<u8>,
+}
+
+impl Sheet {
+    /// Evaluates all elements at positions `q` (stride 4).
+    pub fn fields(&self, q: &[f64]) -> ElementFields {
+        let mut fields = ElementFields::default();
+        let past = self.past();
+        for (index, element) in self.elements.iter().enumerate() {
+            self.push(&mut fields, element, element.deformation(q.as_chunks().0), &past.get(index).copied().unwrap_or_default());
+        }
+        fields
+    }
+
+    fn push(&self, fields: &mut ElementFields, element: &Element, f: [[f64; 3]; 2], past: &[f64; 2]) {
+        let fabric = &*self.fabrics[element.part];
+        let c = [dot(f[0], f[0]), dot(f[1], f[1]), dot(f[0], f[1])];
+        let e = [0.5 * (c[0] - 1.0), 0.5 * (c[1] - 1.0), c[2]];
+        let s = fabric.tension(e, past);
+        let area_ratio = (c[0] * c[1] - c[2] * c[2]).max(0.0).sqrt();
+        // Cauchy tension σt = F S Fᵀ / det F per current length; over the current thickness t/det F it is F S Fᵀ / t.
+        let [s1, s2] = cauchy(s, c).map(|n| n / fabric.thickness_m());
+        fields.von_mises_pa.push((s1 * s1 - s1 * s2 + s2 * s2).sqrt());
+        fields.principal_stress_pa.push([s1, s2]);
+        fields.principal_strain.push(principal([e[0], e[1], 0.5 * e[2]]));
+        fields.thickness_m.push(fabric.thickness_m() / area_ratio.max(f64::MIN_POSITIVE));
+        fields.wrinkle_state.push(if s1 <= 0.0 { 2 } else { u8::from(s2 <= 0.0) });
+    }
+
+    /// Fabric memory by element number; empty if no fabric has any.
+    fn past(&self) -> Vec<[f64; 2]> {
+        let mut all = Vec::new();
+        for patch in self.patches.iter().filter(|p| !p.past.is_empty()) {
+            all.resize(self.elements.len(), [0.0; 2]);
+            for (elements, past) in patch.element.iter().zip(&patch.past) {
+                for (element, past) in elements.iter().zip(past).filter(|(e, _)| **e != u32::MAX) {
+                    all[*element as usize] = *past;
+                }
+            }
+        }
+        all
+    }
+}
+
+/// Principal values of F S Fᵀ, larger first: the eigenvalues of S C, invariant under rotation.
+fn cauchy(s: [f64; 3], c: [f64; 3]) -> [f64; 2] {
+    let trace = s[0] * c[0] + s[1] * c[1] + 2.0 * s[2] * c[2];
+    let determinant = (s[0] * s[1] - s[2] * s[2]) * (c[0] * c[1] - c[2] * c[2]);
+    let root = (0.25 * trace * trace - determinant).max(0.0).sqrt();
+    [0.5 * trace + root, 0.5 * trace - root]
+}
+
+/// Eigenvalues of the symmetric matrix (a, b; off-diagonal c), larger first.
+fn principal([a, b, c]: [f64; 3]) -> [f64; 2] {
+    let root = (0.25 * (a - b) * (a - b) + c * c).sqrt();
+    [0.5 * (a + b) + root, 0.5 * (a + b) - root]
+}

@@ -1,0 +1,138 @@
+//! What an element knows of its stress-free shape.
+//!
+//! ```text
+//!   4 ───── 3     F_a = Σ_n B_na x_n at the centre.  For a quadrilateral B₃ = −B₁ and B₄ = −B₂, so
+//!   │       │     F_a = B₁a (x₁ − x₃) + B₂a (x₂ − x₄)
+//!   1 ───── 2     γ_n = ¼ (h_n − Σ_a s_a B_na),  h = (1, −1, 1, −1),  s_a = Σ_n h_n X_na
+//! ```
+//! a = 1 warp, 2 fill. Reference: Flanagan, Belytschko 1981 (one-point quadrature, hourglass vector γ).
+
+use models::Fabric;
+
+use crate::problem::Section;
+
+/// Vector difference.
+pub fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// Scalar product.
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Vector product.
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// a + s b.
+pub fn add_scaled(a: [f64; 3], s: f64, b: [f64; 3]) -> [f64; 3] {
+    [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]
+}
+
+/// Unit vector along `a`; NaN for the zero vector.
+pub fn unit(a: [f64; 3]) -> [f64; 3] {
+    let length = dot(a, a).sqrt();
+    [a[0] / length, a[1] / length, a[2] / length]
+}
+
+/// Reference data of one element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reference {
+    /// Gradient of the shape functions in (warp, fill): of corners 1 and 2 for a quadrilateral (3 and 4 are their
+    /// negatives), of corners 2 and 3 for a triangle (1 is minus their sum) \[1/m\].
+    pub b: [[f64; 2]; 2],
+    /// s_a of the hourglass vector \[m\]; zero for a triangle.
+    pub s: [f64; 2],
+    /// Reference area \[m²\].
+    pub area: f64,
+    /// Warp, fill and normal directions in space.
+    pub axes: [[f64; 3]; 3],
+}
+
+impl Reference {
+    /// From the reference corners (3 or 4), the warp direction of the part and the ply's angle to it.
+    pub fn new(corner: &[[f64; 3]], warp: Option<[f64; 3]>, angle_rad: f64) -> Reference {
+        let (d1, d2) = diagonals(corner);
+        let axes = axes(unit(cross(d1, d2)), warp, angle_rad);
+        let flat: Vec<[f64; 2]> = corner.iter().map(|x| sub(*x, corner[0])).map(|x| [dot(x, axes[0]), dot(x, axes[1])]).collect();
+        if corner.len() == 4 { quad(&flat, axes) } else { triangle(&flat, axes) }
+    }
+
+    /// Gradient of corner `n`'s shape function for an element of `corners` corners.
+    pub fn gradient(&self, corners: usize, n: usize) -> [f64; 2] {
+        let [p, q] = self.b;
+        match (corners, n) {
+            (4, 0) => p,
+            (4, 1) => q,
+            (4, 2) => [-p[0], -p[1]],
+            (4, _) => [-q[0], -q[1]],
+            (_, 0) => [-p[0] - q[0], -p[1] - q[1]],
+            (_, 1) => p,
+            _ => q,
+        }
+    }
+
+    /// Σ_n B_na B_nb, the 2×2 matrix (11, 22, 12) that sets the element's highest frequency \[1/m²\].
+    pub fn metric(&self, corners: usize) -> [f64; 3] {
+        let mut g = [0.0; 3];
+        for n in 0..corners {
+            let b = self.gradient(corners, n);
+            g[0] += b[0] * b[0];
+            g[1] += b[1] * b[1];
+            g[2] += b[0] * b[1];
+        }
+        g
+    }
+}
+
+/// Two vectors whose cross product is twice the element's area vector.
+pub fn diagonals(x: &[[f64; 3]]) -> ([f64; 3], [f64; 3]) {
+    if x.len() == 4 { (sub(x[2], x[0]), sub(x[3], x[1])) } else { (sub(x[1], x[0]), sub(x[2], x[0])) }
+}
+
+fn axes(normal: [f64; 3], warp: Option<[f64; 3]>, angle_rad: f64) -> [[f64; 3]; 3] {
+    // Within 1 degree of the normal, x gives no direction in the sheet.
+    let wanted = warp.unwrap_or(if normal[0].abs() > 0.9998 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] });
+    let along = unit(add_scaled(wanted, -dot(wanted, normal), normal));
+    let across = cross(normal, along);
+    let (sin, cos) = angle_rad.sin_cos();
+    let first = add_scaled([along[0] * cos, along[1] * cos, along[2] * cos], sin, across);
+    [first, cross(normal, first), normal]
+}
+
+fn quad(x: &[[f64; 2]], axes: [[f64; 3]; 3]) -> Reference {
+    let (d13, d24) = ([x[2][0] - x[0][0], x[2][1] - x[0][1]], [x[3][0] - x[1][0], x[3][1] - x[1][1]]);
+    let twice = d13[0] * d24[1] - d13[1] * d24[0];
+    let h = |k: usize| x[0][k] - x[1][k] + x[2][k] - x[3][k];
+    Reference {
+        b: [[-d24[1] / twice, d24[0] / twice], [d13[1] / twice, -d13[0] / twice]],
+        s: [h(0), h(1)],
+        area: 0.5 * twice,
+        axes,
+    }
+}
+
+fn triangle(x: &[[f64; 2]], axes: [[f64; 3]; 3]) -> Reference {
+    let (p, q) = ([x[1][0] - x[0][0], x[1][1] - x[0][1]], [x[2][0] - x[0][0], x[2][1] - x[0][1]]);
+    let twice = p[0] * q[1] - p[1] * q[0];
+    Reference { b: [[q[1] / twice, -q[0] / twice], [-p[1] / twice, p[0] / twice]], s: [0.0; 2], area: 0.5 * twice, axes }
+}
+
+/// Mean in-plane stiffness ½(A₁₁ + A₂₂) of an unstrained fabric \[N/m\]; scales hourglass and bending stiffness.
+pub fn mean_stiffness(fabric: &dyn Fabric) -> f64 {
+    let a = fabric.tangent([0.0; 3], &[0.0; 2]);
+    0.5 * (a[0][0] + a[1][1])
+}
+
+/// Bending stiffness D of a section \[N m\]: factor · A t²/12, the plies of a bonded stack as one plate of the whole
+/// thickness, sliding plies one by one. One isotropic value: the weave's anisotropy of bending is neglected.
+pub fn bending_stiffness(section: &Section) -> f64 {
+    let thickness: f64 = section.plies.iter().map(|p| p.fabric.thickness_m()).sum();
+    let of = |p: &crate::problem::Ply| {
+        let t = if section.bonded { thickness } else { p.fabric.thickness_m() };
+        mean_stiffness(&*p.fabric) * t * t / 12.0
+    };
+    section.bending_factor * section.plies.iter().map(of).sum::<f64>()
+}
