@@ -12,13 +12,41 @@
 //! Law (tested over every entry of [`FABRICS`]): S = ∂W/∂e, W ≥ 0, W(0) = 0 and S(0) = 0.
 //! To add a fabric: one new file here and one line in [`FABRICS`].
 
+mod curve;
+mod laminate;
+mod materials;
 mod neo_hookean;
 mod orthotropic;
+mod recipe;
+mod tension_field;
+mod woven;
 
+pub use curve::Curve;
+pub use laminate::{Laminate, Ply};
+pub use materials::{Known, MATERIALS, Material, material};
 pub use neo_hookean::NeoHookean;
 pub use orthotropic::Orthotropic;
+pub use recipe::{CurveInput, Law, Need, Parameter, Recipe};
+pub use tension_field::TensionField;
+pub use woven::{Woven, Yarn};
 
 use std::fmt::Debug;
+
+/// The list.
+pub const FABRICS: &[Law] = &[
+    neo_hookean::ENTRY,
+    orthotropic::ISOTROPIC,
+    orthotropic::ORTHOTROPIC,
+    woven::ENTRY,
+    laminate::LAMINATE,
+    laminate::GLUED,
+    tension_field::ENTRY,
+];
+
+/// The law of that name.
+pub fn by_name(name: &str) -> Option<&'static Law> {
+    FABRICS.iter().find(|law| law.name == name)
+}
 
 /// Largest strain each yarn family has seen (warp, fill); what a fabric with different unloading remembers.
 pub type Past = [f64; 2];

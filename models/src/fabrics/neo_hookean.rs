@@ -13,7 +13,26 @@
 //! Valid for an isotropic film. **Do not use it for a woven fabric loaded off its yarns**: it has no warp and fill.
 //! Reference: du Pasquier, Jeong, Okamura 2023; plane stress by eliminating the thickness stretch 1/√det C.
 
+use std::sync::Arc;
+
+use super::recipe::{Law, Need, Recipe, THICKNESS, modulus};
 use super::{Fabric, Kind, Past};
+
+pub(super) const ENTRY: Law = Law {
+    name: "neo-hookean",
+    sentence: "An isotropic, incompressible rubber-like film with one constant C10; Young's modulus at small strain is 6 C10.",
+    validity: "isotropic film; not for woven fabric loaded off its yarns",
+    reference: "du Pasquier, Jeong, Okamura 2023; plane stress by eliminating the thickness stretch",
+    parameters: &[modulus("c10_MPa", Need::Required, "neo-Hookean constant, a sixth of Young's modulus"), THICKNESS],
+    curves: &[],
+    plies: [0, 0],
+    strain_limit: 0.4,
+    example: || Recipe::of(&[("c10_MPa", 50.3), ("thickness_mm", 0.2)]),
+    make: |recipe| {
+        let v = ENTRY.read(recipe)?;
+        Ok(Arc::new(NeoHookean { c10_pa: v.get("c10_MPa")?, thickness_m: v.get("thickness_mm")? }))
+    },
+};
 
 /// Incompressible neo-Hookean sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,6 +64,16 @@ impl Fabric for NeoHookean {
         // 1 − C₂₂/det², with det² − 1 = d(2 + d): no cancellation at small strain.
         let spare = d * (2.0 + d);
         [k * squared * (spare - 2.0 * e[1]), k * squared * (spare - 2.0 * e[0]), k * squared * e[2]]
+    }
+
+    /// With a = [C₂₂, C₁₁, −C₁₂], d = det C and ∂d/∂eⱼ = 2aⱼ: ∂Sᵢ/∂eⱼ = k (4 aᵢaⱼ/d − ∂aᵢ/∂eⱼ)/d².
+    #[inline(always)]
+    fn tangent(&self, e: [f64; 3], _past: &Past) -> [[f64; 3]; 3] {
+        let inverse = 1.0 / (1.0 + det_minus_one(e));
+        let k = 2.0 * self.thickness_m * self.c10_pa * inverse * inverse;
+        let a = [1.0 + 2.0 * e[1], 1.0 + 2.0 * e[0], -e[2]];
+        let slopes = [[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, -1.0]];
+        std::array::from_fn(|i| std::array::from_fn(|j| k * (4.0 * a[i] * a[j] * inverse - slopes[i][j])))
     }
 
     fn kind(&self) -> Kind<'_> {

@@ -1,0 +1,188 @@
+//! Bonded plies: several fabrics with one and the same strain, each at its own angle; with or without a film of glue.
+//!
+//! ```text
+//! W(e) = Σ Wₚ(Qₚ e)     S = Σ Qₚᵀ Sₚ(Qₚ e)     t = Σ tₚ
+//!
+//!        ⎡  c²    s²    cs  ⎤
+//! Q(α) = ⎢  s²    c²   −cs  ⎥     e = [E₁₁, E₂₂, 2E₁₂],  c = cos α, s = sin α
+//!        ⎣ −2cs  2cs  c²−s² ⎦
+//! ```
+//!
+//! α is the angle from the laminate's warp to the ply's warp, counter-clockwise. S = ∂W/∂e holds by the chain rule because Q
+//! turns the *engineering* strain and its transpose turns the tension back.
+//!
+//! Valid where the bond does not slip and the laminate is thin against its radius of curvature: the plies sit in one
+//! plane, so the bending stiffness by their distance is the business of the shell, not of this law.
+//! Reference: Jones, Mechanics of Composite Materials, ch. 2.6 and 4.
+
+use std::sync::Arc;
+
+use super::recipe::{Law, Need, Recipe, THICKNESS, modulus, ratio};
+use super::{Fabric, Orthotropic, Past};
+
+pub(super) const LAMINATE: Law = Law {
+    name: "laminate",
+    sentence: "Several fabrics bonded face to face, each at its own angle: they share one strain and add their tensions.",
+    validity: "bond without slip; as far as its plies",
+    reference: "Jones, Mechanics of Composite Materials, ch. 4",
+    parameters: &[],
+    curves: &[],
+    plies: [1, usize::MAX],
+    strain_limit: 0.05,
+    example: || Recipe { plies: example_plies(), ..Recipe::default() },
+    make: |recipe| {
+        let values = LAMINATE.read(recipe)?;
+        Ok(Arc::new(Laminate::new(values.plies().to_vec()).map_err(|m| values.says(m))?))
+    },
+};
+
+pub(super) const GLUED: Law = Law {
+    name: "glued",
+    sentence: "Two fabrics with a film of glue between them: the glue adds stiffness in every direction, also off the yarns.",
+    validity: "bond without slip; glue linear and isotropic, to strains of a few per cent",
+    reference: "Jones, Mechanics of Composite Materials, ch. 4; the glue as an isotropic ply",
+    parameters: &[
+        super::recipe::Parameter { key: "glue_thickness_mm", meaning: "thickness of the glue film", ..THICKNESS },
+        modulus("glue_e_MPa", Need::Required, "Young's modulus of the glue"),
+        ratio("glue_nu", [0.0, 0.5], Need::Default(0.5), "Poisson's ratio of the glue; 0.5: rubber"),
+    ],
+    curves: &[],
+    plies: [2, 2],
+    strain_limit: 0.05,
+    example: || Recipe { plies: example_plies(), ..Recipe::of(&[("glue_thickness_mm", 0.1), ("glue_e_MPa", 1.0)]) },
+    make: |recipe| {
+        let v = GLUED.read(recipe)?;
+        let film = Orthotropic::isotropic(v.get("glue_e_MPa")?, v.get("glue_nu")?, v.get("glue_thickness_mm")?);
+        let mut plies = v.plies().to_vec();
+        plies.insert(1, Ply { fabric: Arc::new(film), angle_rad: 0.0 });
+        Ok(Arc::new(Laminate::new(plies).map_err(|m| v.says(m))?))
+    },
+};
+
+/// One sheet of a laminate.
+#[derive(Debug, Clone)]
+pub struct Ply {
+    /// Its law, thickness included.
+    pub fabric: Arc<dyn Fabric>,
+    /// Angle from the laminate's warp to this ply's warp \[rad\], counter-clockwise.
+    pub angle_rad: f64,
+}
+
+/// Bonded plies.
+#[derive(Debug, Clone)]
+pub struct Laminate {
+    plies: Vec<(Arc<dyn Fabric>, Turn)>,
+}
+
+impl Laminate {
+    /// From plies, in any order: they share one plane.
+    ///
+    /// # Errors
+    /// No ply; an angle that is not finite; plies with memory (unloading curves) at different angles, since an element
+    /// remembers one pair of yarn directions only. A ply that is itself a laminate with memory counts with its own angle.
+    pub fn new(plies: Vec<Ply>) -> Result<Laminate, String> {
+        if plies.is_empty() {
+            return Err("a laminate without plies; write at least one".into());
+        }
+        if let Some(i) = plies.iter().position(|p| !p.angle_rad.is_finite()) {
+            return Err(format!("the angle of ply {} is not a finite number; write degrees from -180 to 180", i + 1));
+        }
+        let mut remembering = plies.iter().filter(|p| p.fabric.has_memory()).map(|p| p.angle_rad);
+        if let Some(first) = remembering.next()
+            && let Some(other) = remembering.find(|a| *a != first)
+        {
+            return Err(format!(
+                "plies with unloading curves lie at {} and {} degrees; leave the unloading curves of one of them out",
+                first.to_degrees(),
+                other.to_degrees()
+            ));
+        }
+        Ok(Laminate { plies: plies.into_iter().map(|p| (p.fabric, Turn::new(p.angle_rad))).collect() })
+    }
+}
+
+impl Fabric for Laminate {
+    fn thickness_m(&self) -> f64 {
+        self.plies.iter().map(|(fabric, _)| fabric.thickness_m()).sum()
+    }
+
+    fn energy(&self, e: [f64; 3], past: &Past) -> f64 {
+        self.plies.iter().map(|(fabric, turn)| fabric.energy(turn.strain(e), past)).sum()
+    }
+
+    fn tension(&self, e: [f64; 3], past: &Past) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for (fabric, turn) in &self.plies {
+            let back = turn.back(fabric.tension(turn.strain(e), past));
+            sum = std::array::from_fn(|i| sum[i] + back[i]);
+        }
+        sum
+    }
+
+    fn tangent(&self, e: [f64; 3], past: &Past) -> [[f64; 3]; 3] {
+        let mut sum = [[0.0; 3]; 3];
+        for (fabric, turn) in &self.plies {
+            let own = fabric.tangent(turn.strain(e), past);
+            // Qᵀ T Q, column by column: the columns of Q are what Q makes of unit strains.
+            let columns: [[f64; 3]; 3] = std::array::from_fn(|j| {
+                let unit = turn.strain(std::array::from_fn(|k| f64::from(k == j)));
+                turn.back(std::array::from_fn(|i| (0..3).map(|k| own[i][k] * unit[k]).sum()))
+            });
+            sum = std::array::from_fn(|i| std::array::from_fn(|j| sum[i][j] + columns[j][i]));
+        }
+        sum
+    }
+
+    fn has_memory(&self) -> bool {
+        self.plies.iter().any(|(fabric, _)| fabric.has_memory())
+    }
+
+    fn remember(&self, e: [f64; 3], past: &mut Past) {
+        // Plies with memory share one angle, so they agree on what was seen.
+        self.plies.iter().for_each(|(fabric, turn)| fabric.remember(turn.strain(e), past));
+    }
+
+    fn dissipated(&self, past: &Past) -> f64 {
+        self.plies.iter().map(|(fabric, _)| fabric.dissipated(past)).sum()
+    }
+}
+
+/// Q(α).
+#[derive(Debug, Clone, Copy)]
+struct Turn {
+    cc: f64,
+    ss: f64,
+    cs: f64,
+}
+
+impl Turn {
+    fn new(angle_rad: f64) -> Turn {
+        let (s, c) = angle_rad.sin_cos();
+        Turn { cc: c * c, ss: s * s, cs: c * s }
+    }
+
+    /// Q e.
+    fn strain(&self, e: [f64; 3]) -> [f64; 3] {
+        let Turn { cc, ss, cs } = *self;
+        [
+            cc * e[0] + ss * e[1] + cs * e[2],
+            ss * e[0] + cc * e[1] - cs * e[2],
+            2.0 * cs * (e[1] - e[0]) + (cc - ss) * e[2],
+        ]
+    }
+
+    /// Qᵀ S.
+    fn back(&self, s: [f64; 3]) -> [f64; 3] {
+        let Turn { cc, ss, cs } = *self;
+        [
+            cc * s[0] + ss * s[1] - 2.0 * cs * s[2],
+            ss * s[0] + cc * s[1] + 2.0 * cs * s[2],
+            cs * (s[0] - s[1]) + (cc - ss) * s[2],
+        ]
+    }
+}
+
+fn example_plies() -> Vec<Ply> {
+    let sheet = Orthotropic::new(96.5e6, 120e6, 0.3, 1.1e6, 5e-5);
+    [0.0, 30f64.to_radians()].map(|angle_rad| Ply { fabric: Arc::new(sheet), angle_rad }).to_vec()
+}

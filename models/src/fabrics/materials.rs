@@ -1,0 +1,114 @@
+//! Fabrics of the paper as ready recipes, each number with how it is known.
+//!
+//! Published: printed by du Pasquier, Jeong, Okamura 2023 (doi 10.1109/LRA.2023.3320010), Table I and Section III. Its Table I
+//! and its C₁₀ are not the same number: 6 C₁₀ = 302 MPa against 215 and 201 MPa pulled along the yarns; C₁₀ is printed
+//! without a unit, MPa is assumed. Neither density nor Poisson's ratio is printed.
+
+use super::{Law, Recipe, by_name};
+
+/// How a number is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Known {
+    /// On the fabric itself.
+    Measured,
+    /// Printed by someone.
+    Published,
+    /// Guessed within what is usual.
+    Assumed,
+}
+
+/// A named fabric.
+#[derive(Debug, Clone, Copy)]
+pub struct Material {
+    /// Name in cases.
+    pub name: &'static str,
+    /// Law in [`super::FABRICS`].
+    pub law: &'static str,
+    /// One plain sentence.
+    pub sentence: &'static str,
+    /// Numbers by key of the law, as written.
+    pub numbers: &'static [(&'static str, f64, Known)],
+    /// Mass per volume \[kg/m³\].
+    pub density_kg_m3: (f64, Known),
+    /// Source.
+    pub source: &'static str,
+}
+
+/// The list.
+pub const MATERIALS: &[Material] = &[
+    Material {
+        name: "tpu-nylon",
+        law: "neo-hookean",
+        sentence: "TPU-coated 70D ripstop nylon as the paper simulated it, isotropic; body, sPAM, ePAM and cPAM.",
+        numbers: &[("c10_MPa", 50.3, Known::Published), ("thickness_mm", 0.2, Known::Published)],
+        density_kg_m3: (1000.0, Known::Assumed),
+        source: "du Pasquier, Jeong, Okamura 2023, Section III-A and III-B",
+    },
+    Material {
+        name: "silicone-nylon",
+        law: "orthotropic",
+        sentence: "Silicone-coated ripstop nylon by its three published moduli, linear; the fPAM.",
+        numbers: SILICONE_NYLON,
+        density_kg_m3: (1000.0, Known::Assumed),
+        source: "du Pasquier, Jeong, Okamura 2023, Table I; nu12 is not printed and matters by some ten per cent",
+    },
+    Material {
+        name: "silicone-nylon-woven",
+        law: "woven",
+        sentence: "Silicone-coated ripstop nylon by its three published moduli, with yarns that turn; the fPAM.",
+        numbers: SILICONE_NYLON,
+        density_kg_m3: (1000.0, Known::Assumed),
+        source: "du Pasquier, Jeong, Okamura 2023, Table I; its measured curves are not printed, so straight ones",
+    },
+];
+
+const SILICONE_NYLON: &[(&str, f64, Known)] = &[
+    ("e0_MPa", 96.5, Known::Published),
+    ("e90_MPa", 120.0, Known::Published),
+    ("e45_MPa", 4.05, Known::Published),
+    ("nu12", 0.0, Known::Assumed),
+    ("thickness_mm", 0.05, Known::Published),
+];
+
+/// The material of that name.
+pub fn material(name: &str) -> Option<&'static Material> {
+    MATERIALS.iter().find(|m| m.name == name)
+}
+
+impl Known {
+    /// Lower-case word for tables and JSON.
+    pub fn word(self) -> &'static str {
+        match self {
+            Known::Measured => "measured",
+            Known::Published => "published",
+            Known::Assumed => "assumed",
+        }
+    }
+}
+
+impl Material {
+    /// Its recipe, to be used or changed number by number.
+    pub fn recipe(&self) -> Recipe {
+        let numbers: Vec<(&str, f64)> = self.numbers.iter().map(|(key, value, _)| (*key, *value)).collect();
+        Recipe::of(&numbers)
+    }
+
+    /// Its law.
+    pub fn law(&self) -> Option<&'static Law> {
+        by_name(self.law)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_material_can_be_made() {
+        for m in MATERIALS {
+            let sheet = (m.law().unwrap().make)(&m.recipe()).unwrap();
+            let thickness = m.numbers.iter().find(|n| n.0 == "thickness_mm").unwrap().1 * 1e-3;
+            assert!((sheet.thickness_m() - thickness).abs() < 1e-15, "{}", m.name);
+        }
+    }
+}

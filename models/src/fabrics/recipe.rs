@@ -1,0 +1,232 @@
+//! How a fabric is written down: named numbers and tables in the units of the text, and the catalogue entry that reads them.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::{Curve, Fabric, Ply};
+
+/// What a user wrote about one fabric, in the units of the keys.
+#[derive(Debug, Clone, Default)]
+pub struct Recipe {
+    /// Numbers by key: `c10_MPa = 50.3`.
+    pub numbers: BTreeMap<String, f64>,
+    /// Tables by key: `warp = [[0, 0], [0.01, 0.9]]`.
+    pub curves: BTreeMap<String, Vec<[f64; 2]>>,
+    /// Fabrics this one is made of, ready-made; only for laws of several plies.
+    pub plies: Vec<Ply>,
+}
+
+impl Recipe {
+    /// A recipe of numbers alone.
+    ///
+    /// ```
+    /// use models::fabrics::{self, Recipe};
+    /// let recipe = Recipe::of(&[("c10_MPa", 50.3), ("thickness_mm", 0.2)]);
+    /// let sheet = (fabrics::by_name("neo-hookean").unwrap().make)(&recipe).unwrap();
+    /// assert_eq!(sheet.thickness_m(), 2e-4);
+    /// ```
+    pub fn of(numbers: &[(&str, f64)]) -> Recipe {
+        let numbers = numbers.iter().map(|(key, value)| (key.to_string(), *value)).collect();
+        Recipe { numbers, ..Recipe::default() }
+    }
+}
+
+/// One number of a law. Values are in `unit` in recipes, in SI (`value × si`) inside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameter {
+    /// Key, with the unit as suffix.
+    pub key: &'static str,
+    /// Unit of the written value.
+    pub unit: &'static str,
+    /// Factor to SI.
+    pub si: f64,
+    /// Smallest accepted value, as written.
+    pub lower: f64,
+    /// Largest accepted value, as written.
+    pub upper: f64,
+    /// Whether it must be written.
+    pub need: Need,
+    /// What it is.
+    pub meaning: &'static str,
+}
+
+/// Whether a parameter must be written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Need {
+    /// It must.
+    Required,
+    /// It has this value (as written) otherwise.
+    Default(f64),
+    /// It may be left out; `meaning` says what then holds, or which other key takes its place.
+    Optional,
+}
+
+/// One table of a law; always optional, in place of the number its `meaning` names.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveInput {
+    /// Key.
+    pub key: &'static str,
+    /// Unit of the first column.
+    pub x_unit: &'static str,
+    /// Factor of the first column to SI.
+    pub x_si: f64,
+    /// Unit of the second column.
+    pub y_unit: &'static str,
+    /// Factor of the second column to SI.
+    pub y_si: f64,
+    /// What it is.
+    pub meaning: &'static str,
+}
+
+/// A fabric law as an entry of the catalogue.
+#[derive(Debug, Clone, Copy)]
+pub struct Law {
+    /// Name in cases.
+    pub name: &'static str,
+    /// One plain sentence for a user.
+    pub sentence: &'static str,
+    /// When it holds.
+    pub validity: &'static str,
+    /// Source.
+    pub reference: &'static str,
+    /// Numbers.
+    pub parameters: &'static [Parameter],
+    /// Tables.
+    pub curves: &'static [CurveInput],
+    /// Fewest and most plies it is made of.
+    pub plies: [usize; 2],
+    /// Green–Lagrange strain up to which the law is meant.
+    pub strain_limit: f64,
+    /// A recipe that works.
+    pub example: fn() -> Recipe,
+    /// Makes the fabric.
+    ///
+    /// # Errors
+    /// A message that names the key and says what to write.
+    pub make: fn(&Recipe) -> Result<Arc<dyn Fabric>, String>,
+}
+
+impl Law {
+    /// Checks names, presence, bounds and number of plies.
+    pub(super) fn read<'a>(&self, recipe: &'a Recipe) -> Result<Values<'a>, String> {
+        let keys: Vec<&str> = self.parameters.iter().map(|p| p.key).collect();
+        let curve_keys: Vec<&str> = self.curves.iter().map(|c| c.key).collect();
+        known(self.name, "number", recipe.numbers.keys(), &keys)?;
+        known(self.name, "curve", recipe.curves.keys(), &curve_keys)?;
+        let [least, most] = self.plies;
+        let n = recipe.plies.len();
+        if n < least || n > most {
+            let wanted = if most == usize::MAX { format!("{least} or more") } else { format!("{least}") };
+            return Err(format!("fabric `{}` got {n} plies; write {wanted}", self.name));
+        }
+        let mut si = BTreeMap::new();
+        for p in self.parameters {
+            if let Some(value) = p.value(self.name, recipe)? {
+                si.insert(p.key, value * p.si);
+            }
+        }
+        Ok(Values { law: *self, si, recipe })
+    }
+}
+
+impl Parameter {
+    fn value(&self, law: &str, recipe: &Recipe) -> Result<Option<f64>, String> {
+        match (recipe.numbers.get(self.key), self.need) {
+            (Some(v), _) if (self.lower..=self.upper).contains(v) => Ok(Some(*v)),
+            (Some(v), _) => Err(format!(
+                "fabric `{law}`: `{}` is {v} {}; write a number from {} to {} ({})",
+                self.key, self.unit, self.lower, self.upper, self.meaning
+            )),
+            (None, Need::Default(v)) => Ok(Some(v)),
+            (None, Need::Optional) => Ok(None),
+            (None, Need::Required) => {
+                Err(format!("fabric `{law}` needs `{}` [{}]: {}", self.key, self.unit, self.meaning))
+            }
+        }
+    }
+}
+
+/// A checked recipe, in SI.
+pub(super) struct Values<'a> {
+    law: Law,
+    si: BTreeMap<&'static str, f64>,
+    recipe: &'a Recipe,
+}
+
+impl Values<'_> {
+    /// A number that is required or has a default \[SI\].
+    pub(super) fn get(&self, key: &str) -> Result<f64, String> {
+        self.optional(key).ok_or_else(|| self.says(format!("write `{key}`")))
+    }
+
+    /// A number that may be left out \[SI\].
+    pub(super) fn optional(&self, key: &str) -> Option<f64> {
+        self.si.get(key).copied()
+    }
+
+    /// A table in SI.
+    pub(super) fn curve(&self, key: &str) -> Result<Option<Curve>, String> {
+        let input = self.law.curves.iter().find(|c| c.key == key);
+        let (Some(rows), Some(input)) = (self.recipe.curves.get(key), input) else {
+            return Ok(None);
+        };
+        let typed = Curve::table(rows).map_err(|m| self.says(format!("curve `{key}`: {m}")))?;
+        Ok(Some(typed.scaled(input.x_si, input.y_si)))
+    }
+
+    /// The plies, as many as the law wants.
+    pub(super) fn plies(&self) -> &[Ply] {
+        &self.recipe.plies
+    }
+
+    /// A message with the name of the law before it.
+    pub(super) fn says(&self, message: String) -> String {
+        format!("fabric `{}`: {message}", self.law.name)
+    }
+
+    /// Refuses two ways of saying the same thing, and none: the keys of which exactly one must be there.
+    pub(super) fn exactly_one(&self, keys: &[&str]) -> Result<(), String> {
+        let given = |key: &&&str| self.si.contains_key(**key) || self.recipe.curves.contains_key(**key);
+        match keys.iter().filter(given).count() {
+            1 => Ok(()),
+            n => {
+                let found = if n == 0 { "none is written" } else { "more than one is written" };
+                Err(self.says(format!("write one of `{}`; {found}", keys.join("`, `"))))
+            }
+        }
+    }
+}
+
+fn known<'a>(law: &str, what: &str, given: impl Iterator<Item = &'a String>, keys: &[&str]) -> Result<(), String> {
+    for key in given {
+        if !keys.contains(&key.as_str()) {
+            let help = match keys {
+                [] => format!("it has no {what}s; leave the line out"),
+                _ => format!("write one of {}", keys.join(", ")),
+            };
+            return Err(format!("fabric `{law}` has no {what} `{key}`; {help}"));
+        }
+    }
+    Ok(())
+}
+
+/// A thickness \[mm\].
+pub(super) const THICKNESS: Parameter = Parameter {
+    key: "thickness_mm",
+    unit: "mm",
+    si: 1e-3,
+    lower: 1e-4,
+    upper: 100.0,
+    need: Need::Required,
+    meaning: "thickness of the sheet",
+};
+
+/// A modulus \[MPa\].
+pub(super) const fn modulus(key: &'static str, need: Need, meaning: &'static str) -> Parameter {
+    Parameter { key, unit: "MPa", si: 1e6, lower: 1e-6, upper: 1e6, need, meaning }
+}
+
+/// A number without unit.
+pub(super) const fn ratio(key: &'static str, bounds: [f64; 2], need: Need, meaning: &'static str) -> Parameter {
+    Parameter { key, unit: "-", si: 1.0, lower: bounds[0], upper: bounds[1], need, meaning }
+}

@@ -1,0 +1,354 @@
+//! Woven fabric: two yarn families that follow the deformation, and the shear between them, each by its own curve.
+//!
+//! ```text
+//! λ₁ = √C₁₁   ε₁ = λ₁ − 1   λ₂ = √C₂₂   ε₂ = λ₂ − 1   γ = asin(C₁₂/(λ₁λ₂))
+//! W = t [ ∫₀^ε₁ T₁ dε + ∫₀^ε₂ T₂ dε + c ε₁ε₂ + ∫₀^γ T₁₂ dγ ]
+//!
+//! ∂ε₁/∂e₁ = 1/λ₁     ∂γ/∂e₃ = 1/(λ₁λ₂ cos γ)     ∂γ/∂e₁ = −tan γ/λ₁²       (e₃ = 2E₁₂ = C₁₂, C₁₁ = 1 + 2e₁)
+//! S₁ = t [(T₁ + c ε₂)/λ₁ − T₁₂ tan γ/λ₁²]     S₂ likewise     S₃ = t T₁₂/(λ₁λ₂ cos γ)
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | ε₁, ε₂ | nominal strain of warp and fill | – |
+//! | T₁(ε), T₂(ε) | force per reference cross-section, pulled along a yarn | Pa |
+//! | γ | angle that the yarns have closed | rad |
+//! | T₁₂(γ) | moment per reference volume that closes it; from bias extension C_s/t = F_sh cos γ/t | Pa |
+//! | ν₁₂, c | biaxial coupling (crimp interchange): c = ν₁₂E₂/(1 − ν₁₂ν₂₁), E from the initial slopes | –, Pa |
+//! | t | thickness | m |
+//!
+//! With ν₁₂ > 0 the curves in W are those given, over 1 − ν₁₂ν₂₁: so a straight given curve *is* the uniaxial test; a bent one
+//! is so at small strain only.
+//!
+//! **Unloading.** ε* is the largest strain seen. Below it the yarn follows the unloading curve u, scaled to meet the loading
+//! curve there: T = T(ε*) u(ε)/u(ε*), back to zero strain, and forth again up to ε*. Lost for good is
+//! D(ε*) = ∫₀^ε* T dε − T(ε*)/u(ε*) ∫₀^ε* u dε, which never falls if u/T never falls: that is checked. Beyond ε* the energy
+//! is ∫T dε − D(ε*): tension is its slope at fixed memory, and energy plus loss is continuous when the memory moves.
+//!
+//! Valid for large turns of the yarns. **Do not use it where yarns slip out of the weave**, nor expect permanent set, rate
+//! or a yarn in compression to buckle: that is what the mesh does. The stress is continuous, the stiffness jumps at rows.
+//! At λ → 0 or γ → 90° the energy stays finite; a locking angle keeps elements from closing.
+//! Reference: Abaqus 2017, Materials, Fabric material behavior (kinematics); Cao et al. 2008, Composites A 39 (shear).
+
+use std::sync::Arc;
+
+use super::orthotropic::{coupling_fits, shear_modulus};
+use super::recipe::{CurveInput, Law, Need, Parameter, Recipe, THICKNESS, Values, modulus, ratio};
+use super::{Curve, Fabric, Past};
+
+pub(super) const ENTRY: Law = Law {
+    name: "woven",
+    sentence: "Two yarn families that turn with the cloth, each with its own tensile curve, and a shear curve between them.",
+    validity: "yarns that do not slip; any turn below the locking angle",
+    reference: "kinematics as in Abaqus 2017, Fabric material behavior; shear after Cao et al. 2008",
+    parameters: &[
+        modulus("e0_MPa", Need::Optional, "modulus pulled along warp; in place of the curve warp"),
+        modulus("e90_MPa", Need::Optional, "modulus pulled along fill; in place of the curve fill"),
+        modulus("e45_MPa", Need::Optional, "modulus pulled at 45 degrees; in place of g_MPa and the curve shear"),
+        modulus("g_MPa", Need::Optional, "stress per shear angle [rad]; in place of e45_MPa and the curve shear"),
+        ratio("nu12", [0.0, 2.0], Need::Default(0.0), "contraction along fill per stretch along warp"),
+        ratio("compression_share", [1e-6, 1.0], Need::Optional, "slope below zero strain over initial slope; else 1"),
+        Parameter {
+            key: "locking_deg",
+            unit: "deg",
+            si: std::f64::consts::PI / 180.0,
+            lower: 1.0,
+            upper: 89.0,
+            need: Need::Optional,
+            meaning: "shear angle at which the yarns jam; else they never do",
+        },
+        modulus("locking_MPa", Need::Optional, "slope added beyond locking_deg; else 10 times the steepest of shear"),
+        THICKNESS,
+    ],
+    curves: &[
+        tensile("warp", "stress over nominal strain, pulled along warp; in place of e0_MPa"),
+        tensile("fill", "stress over nominal strain, pulled along fill; in place of e90_MPa"),
+        tensile("warp_unloading", "shape of the way back along warp; else as loading"),
+        tensile("fill_unloading", "shape of the way back along fill; else as loading"),
+        CurveInput {
+            key: "shear",
+            x_unit: "deg",
+            x_si: std::f64::consts::PI / 180.0,
+            y_unit: "MPa",
+            y_si: 1e6,
+            meaning: "moment per volume over shear angle; in place of g_MPa and e45_MPa",
+        },
+    ],
+    plies: [0, 0],
+    strain_limit: 0.3,
+    example,
+    make: |recipe| Ok(Arc::new(from_values(&ENTRY.read(recipe)?)?)),
+};
+
+/// One yarn family.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Yarn {
+    load: Curve,
+    unload: Option<Curve>,
+}
+
+/// Woven fabric.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Woven {
+    thickness_m: f64,
+    yarns: [Yarn; 2],
+    shear: Curve,
+    coupling_pa: f64,
+}
+
+impl Yarn {
+    /// Stress over nominal strain \[Pa\], and the shape of the way back if it differs.
+    ///
+    /// # Errors
+    /// An unloading curve with rows below zero, or one that would create energy: unloading over loading stress must not fall
+    /// with strain.
+    pub fn new(load: Curve, unload: Option<Curve>) -> Result<Yarn, String> {
+        if let Some(back) = &unload {
+            loses_energy(&load, back)?;
+        }
+        Ok(Yarn { load, unload })
+    }
+
+    /// Stress \[Pa\].
+    fn stress(&self, strain: f64, past: f64) -> f64 {
+        match &self.unload {
+            Some(back) if strain > 0.0 && strain < past => self.scale(back, past) * back.value(strain),
+            _ => self.load.value(strain),
+        }
+    }
+
+    /// dT/dε \[Pa\].
+    fn slope(&self, strain: f64, past: f64) -> f64 {
+        match &self.unload {
+            Some(back) if strain > 0.0 && strain < past => self.scale(back, past) * back.slope(strain),
+            _ => self.load.slope(strain),
+        }
+    }
+
+    /// Recoverable energy per volume \[J/m³\].
+    fn energy(&self, strain: f64, past: f64) -> f64 {
+        match &self.unload {
+            Some(back) if strain > 0.0 && strain < past => self.scale(back, past) * back.integral(strain),
+            Some(_) if strain > 0.0 => self.load.integral(strain) - self.lost(past),
+            _ => self.load.integral(strain),
+        }
+    }
+
+    /// D(ε*) \[J/m³\].
+    fn lost(&self, past: f64) -> f64 {
+        match &self.unload {
+            Some(back) if past > 0.0 => {
+                (self.load.integral(past) - self.scale(back, past) * back.integral(past)).max(0.0)
+            }
+            _ => 0.0,
+        }
+    }
+
+    fn scale(&self, back: &Curve, past: f64) -> f64 {
+        self.load.value(past) / back.value(past)
+    }
+
+    /// A slope that the stress never undercuts, loading or unloading. T(ε*)/u(ε*) falls towards the ratio of the last slopes.
+    fn least_slope(&self) -> f64 {
+        let load = self.load.slope_range()[0];
+        match &self.unload {
+            Some(back) => load.min(back.slope_range()[0] * self.load.last_slope() / back.last_slope()),
+            None => load,
+        }
+    }
+}
+
+impl Woven {
+    /// From curves: stress over nominal strain of both families, stress over shear angle \[rad\] (odd: only the part above zero
+    /// is used), coupling and thickness.
+    ///
+    /// # Errors
+    /// A thickness that is not positive; a coupling so strong that some strain would give energy away.
+    pub fn new(yarns: [Yarn; 2], shear: Curve, nu12: f64, thickness_m: f64) -> Result<Woven, String> {
+        if !(thickness_m > 0.0 && thickness_m.is_finite()) {
+            return Err(format!("the thickness is {thickness_m} m; write a positive number"));
+        }
+        let [e1, e2] = [&yarns[0], &yarns[1]].map(|y| y.load.initial_slope());
+        coupling_fits(e1, e2, nu12)?;
+        let lateral = 1.0 / (1.0 - nu12 * nu12 * e2 / e1);
+        let yarns = yarns.map(|y| Yarn { load: y.load.scaled(1.0, lateral), unload: y.unload });
+        let coupling_pa = nu12 * e2 * lateral;
+        let carried = (yarns[0].least_slope() * yarns[1].least_slope()).sqrt();
+        if coupling_pa >= carried {
+            return Err(format!(
+                "nu12 = {nu12} couples the yarns more strongly than the flattest part of their curves can carry: \
+                 write a number below {:.4}, a larger compression_share or steeper curves",
+                nu12 * carried / coupling_pa
+            ));
+        }
+        Ok(Woven { thickness_m, yarns, shear: shear.mirrored(), coupling_pa })
+    }
+}
+
+impl Fabric for Woven {
+    fn thickness_m(&self) -> f64 {
+        self.thickness_m
+    }
+
+    fn energy(&self, e: [f64; 3], past: &Past) -> f64 {
+        let yarns = Stretch::new(e);
+        let [a, b] = yarns.nominal;
+        let along = self.yarns[0].energy(a, past[0]) + self.yarns[1].energy(b, past[1]);
+        self.thickness_m * (along + self.coupling_pa * a * b + self.shear.integral(yarns.gamma))
+    }
+
+    fn tension(&self, e: [f64; 3], past: &Past) -> [f64; 3] {
+        let yarns = Stretch::new(e);
+        let [a, b] = yarns.nominal;
+        let [l1, l2] = yarns.lambda;
+        let t1 = self.yarns[0].stress(a, past[0]) + self.coupling_pa * b;
+        let t2 = self.yarns[1].stress(b, past[1]) + self.coupling_pa * a;
+        let t12 = self.shear.value(yarns.gamma) / yarns.cos;
+        let turn = t12 * yarns.sin;
+        [t1 / l1 - turn / (l1 * l1), t2 / l2 - turn / (l2 * l2), t12 / (l1 * l2)].map(|s| s * self.thickness_m)
+    }
+
+    fn tangent(&self, e: [f64; 3], past: &Past) -> [[f64; 3]; 3] {
+        let yarns = Stretch::new(e);
+        let (t12, steep) = (self.shear.value(yarns.gamma), self.shear.slope(yarns.gamma));
+        let (turn, turns) = yarns.turn();
+        let mut k: [[f64; 3]; 3] =
+            std::array::from_fn(|i| std::array::from_fn(|j| steep * turn[i] * turn[j] + t12 * turns[i][j]));
+        for (i, (yarn, l)) in self.yarns.iter().zip(yarns.lambda).enumerate() {
+            let (own, other) = (yarns.nominal[i], yarns.nominal[1 - i]);
+            let stress = yarn.stress(own, past[i]) + self.coupling_pa * other;
+            k[i][i] += (yarn.slope(own, past[i]) - stress / l) / (l * l);
+            k[i][1 - i] += self.coupling_pa / (l * yarns.lambda[1 - i]);
+        }
+        k.map(|row| row.map(|x| x * self.thickness_m))
+    }
+
+    fn has_memory(&self) -> bool {
+        self.yarns.iter().any(|y| y.unload.is_some())
+    }
+
+    fn remember(&self, e: [f64; 3], past: &mut Past) {
+        let seen = Stretch::new(e).nominal;
+        *past = [past[0].max(seen[0]), past[1].max(seen[1])];
+    }
+
+    fn dissipated(&self, past: &Past) -> f64 {
+        self.thickness_m * (self.yarns[0].lost(past[0]) + self.yarns[1].lost(past[1]))
+    }
+}
+
+/// Where the yarns are.
+struct Stretch {
+    lambda: [f64; 2],
+    nominal: [f64; 2],
+    gamma: f64,
+    sin: f64,
+    cos: f64,
+}
+
+impl Stretch {
+    fn new(e: [f64; 3]) -> Stretch {
+        // A collapsed element ends as a finite number that the guards see, not as NaN.
+        const LEAST: f64 = 1e-6;
+        let lambda = [e[0], e[1]].map(|x| (1.0 + 2.0 * x).max(LEAST * LEAST).sqrt());
+        // √(1 + 2e) − 1 without cancellation.
+        let nominal = [2.0 * e[0] / (1.0 + lambda[0]), 2.0 * e[1] / (1.0 + lambda[1])];
+        let sin = (e[2] / (lambda[0] * lambda[1])).clamp(-1.0, 1.0);
+        let cos = ((1.0 - sin) * (1.0 + sin)).sqrt().max(LEAST);
+        Stretch { lambda, nominal, gamma: sin.asin(), sin, cos }
+    }
+
+    /// ∂γ/∂e and ∂²γ/∂e²: differentiate −tan γ/λ² and 1/(λ₁λ₂ cos γ) once more, with ∂λ⁻²/∂e = −2λ⁻⁴.
+    fn turn(&self) -> ([f64; 3], [[f64; 3]; 3]) {
+        let inverse = self.lambda.map(|l| 1.0 / (l * l));
+        let (tan, sec2) = (self.sin / self.cos, 1.0 / (self.cos * self.cos));
+        let across = 1.0 / (self.lambda[0] * self.lambda[1] * self.cos);
+        let g = [-tan * inverse[0], -tan * inverse[1], across];
+        let along = |i: usize, j: usize| {
+            let stretched = if i == j { 2.0 * tan * inverse[i] * inverse[i] } else { 0.0 };
+            stretched - sec2 * g[j] * inverse[i]
+        };
+        let rows = [0, 1].map(|i| [0, 1, 2].map(|j| along(i, j)));
+        (g, [rows[0], rows[1], [rows[0][2], rows[1][2], across * across * tan]])
+    }
+}
+
+/// u/T must not fall. Both are straight between their joint rows, so their ratio is monotone there: the rows and the slopes
+/// at both ends tell all.
+fn loses_energy(load: &Curve, back: &Curve) -> Result<(), String> {
+    if back.has_negative_rows() {
+        return Err(
+            "the unloading curve has rows below zero strain; leave them out, slack yarns unload as they load".into()
+        );
+    }
+    let mut at: Vec<f64> = load.rows().iter().chain(back.rows()).map(|r| r[0]).filter(|x| *x > 0.0).collect();
+    at.sort_by(f64::total_cmp);
+    let inside = at.iter().map(|x| (*x, back.value(*x) / load.value(*x)));
+    let start = (0.0, back.initial_slope() / load.initial_slope());
+    let end = (f64::INFINITY, back.last_slope() / load.last_slope());
+    let ratios: Vec<(f64, f64)> = [start].into_iter().chain(inside).chain([end]).collect();
+    match ratios.windows(2).find(|w| w[1].1 < w[0].1 * (1.0 - 1e-9)) {
+        None => Ok(()),
+        Some(w) => Err(format!(
+            "the unloading curve would create energy beyond strain {}: unloading over loading stress falls from {:.4} to \
+             {:.4} there; write unloading stresses that start lower and rise more steeply than those of loading",
+            w[0].0, w[0].1, w[1].1
+        )),
+    }
+}
+
+fn from_values(v: &Values) -> Result<Woven, String> {
+    v.exactly_one(&["e0_MPa", "warp"])?;
+    v.exactly_one(&["e90_MPa", "fill"])?;
+    v.exactly_one(&["e45_MPa", "g_MPa", "shear"])?;
+    let yarns = [yarn(v, "e0_MPa", "warp", "warp_unloading")?, yarn(v, "e90_MPa", "fill", "fill_unloading")?];
+    let nu12 = v.get("nu12")?;
+    let [e1, e2] = [&yarns[0], &yarns[1]].map(|y| y.load.initial_slope());
+    let shear = match (v.curve("shear")?, v.optional("e45_MPa")) {
+        (Some(curve), _) => curve,
+        (None, Some(e45)) => Curve::linear(shear_modulus(e1, e2, e45, nu12).map_err(|m| v.says(m))?),
+        (None, None) => Curve::linear(v.get("g_MPa")?),
+    };
+    Woven::new(yarns, locked(v, shear)?, nu12, v.get("thickness_mm")?).map_err(|m| v.says(m))
+}
+
+fn yarn(v: &Values, modulus: &str, curve: &str, unloading: &str) -> Result<Yarn, String> {
+    let load = match v.curve(curve)? {
+        Some(table) => table,
+        None => Curve::linear(v.get(modulus)?),
+    };
+    let load = match v.optional("compression_share") {
+        Some(_) if load.has_negative_rows() => {
+            let twice = format!("curve `{curve}` has rows below zero strain; leave them or `compression_share` out");
+            return Err(v.says(twice));
+        }
+        Some(share) => load.with_compression(share),
+        None => load,
+    };
+    Yarn::new(load, v.curve(unloading)?).map_err(|m| v.says(format!("curve `{unloading}`: {m}")))
+}
+
+fn locked(v: &Values, shear: Curve) -> Result<Curve, String> {
+    /// Steep against the cloth, soft enough not to shorten the time step much: assumed, not measured.
+    const STEEPER: f64 = 10.0;
+    match (v.optional("locking_deg"), v.optional("locking_MPa")) {
+        (Some(at), slope) => Ok(shear.stiffened(at, slope.unwrap_or(STEEPER * shear.slope_range()[1]))),
+        (None, Some(_)) => Err(v.says("`locking_MPa` without `locking_deg`; write both or neither".into())),
+        (None, None) => Ok(shear),
+    }
+}
+
+const fn tensile(key: &'static str, meaning: &'static str) -> CurveInput {
+    CurveInput { key, x_unit: "-", x_si: 1.0, y_unit: "MPa", y_si: 1e6, meaning }
+}
+
+fn example() -> Recipe {
+    let tables: [(&str, &[[f64; 2]]); 4] = [
+        ("warp", &[[0.0, 0.0], [0.02, 1.6], [0.1, 12.0], [0.2, 22.0]]),
+        ("warp_unloading", &[[0.0, 0.0], [0.02, 0.3], [0.1, 4.0], [0.2, 12.0]]),
+        ("fill", &[[0.0, 0.0], [0.03, 3.0], [0.2, 24.0]]),
+        ("shear", &[[0.0, 0.0], [10.0, 0.2], [30.0, 0.4], [45.0, 1.2]]),
+    ];
+    let curves = tables.into_iter().map(|(key, rows)| (key.to_string(), rows.to_vec())).collect();
+    Recipe { curves, ..Recipe::of(&[("nu12", 0.2), ("locking_deg", 45.0), ("thickness_mm", 0.05)]) }
+}
