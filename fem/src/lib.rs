@@ -29,6 +29,7 @@ pub mod problem;
 pub mod run;
 pub mod sheet;
 pub mod terms;
+mod vec3;
 
 pub use error::FemError;
 pub use mesh::{Mesh, Part};

@@ -1,0 +1,248 @@
+//! Fixed rigid solids in the way of the nodes: frictionless penalty plus Coulomb friction.
+//!
+//! ```text
+//! d = (x − P)·n            plane;  d = |r| − R, n = r/|r|, r = (x − P) − a (a·(x − P))    cylinder
+//! E = ½ k (−d)₊² + ½ k |e|²       N = k (−d)₊       |T| = k |e| ≤ μ N
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | k | penalty stiffness of the node, see [`penalty_stiffness_n_m`](super::penalty_stiffness_n_m) | N/m |
+//! | e | elastic slide remembered per node and obstacle | m |
+//! | μ | friction coefficient | - |
+//!
+//! **Validity**: depths well below the radius; nodes do not touch the solid between them, so elements must be smaller
+//! than its curvature. Friction: see the return map in `coulomb`.
+
+use models::{Pose, Row, RowKind, Term, Tick};
+use rayon::prelude::*;
+
+use super::coulomb::slide;
+use crate::output::bytes::{Reader, Writer};
+use crate::problem::{Obstacle, ObstacleShape};
+use crate::vec3::{V3, along, cross, dot, scale, sub, unit};
+use crate::{FemError, Mesh};
+
+/// Nodes per parallel chunk.
+const CHUNK: usize = 1024;
+
+/// All obstacles of a run.
+#[derive(Debug, Clone)]
+pub struct Obstacles {
+    solids: Vec<Solid>,
+    stiffness_n_m: Vec<f64>,
+    /// Elastic slide of every node, one block of nodes per obstacle.
+    springs_m: Vec<Vec<[f64; 3]>>,
+    /// Positions of the step before; empty before the first step.
+    before_m: Vec<[f64; 4]>,
+    /// Energy and loss of each chunk.
+    sums: Vec<[f64; 2]>,
+    friction_j: f64,
+}
+
+#[derive(Debug, Clone)]
+struct Solid {
+    point: V3,
+    /// Normal or axis, unit.
+    axis: V3,
+    radius_m: Option<f64>,
+    friction: f64,
+}
+
+/// Where a node is with respect to a solid.
+struct Touch {
+    depth_m: f64,
+    normal: V3,
+}
+
+impl Obstacles {
+    /// Obstacles for the nodes of `mesh` (solver's node order), with a penalty stiffness per node.
+    ///
+    /// # Errors
+    /// [`FemError::Problem`] naming an obstacle (from 1) with a zero direction, a radius or a friction out of range.
+    pub fn new(mesh: &Mesh, obstacles: &[Obstacle], stiffness_n_m: &[f64]) -> Result<Obstacles, FemError> {
+        let nodes = mesh.points.len();
+        if stiffness_n_m.len() != nodes {
+            return Err(FemError::Problem(format!("{} stiffnesses for {nodes} nodes", stiffness_n_m.len())));
+        }
+        let solids = obstacles.iter().enumerate().map(|(i, o)| Solid::new(i, o)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Obstacles {
+            springs_m: vec![vec![[0.0; 3]; nodes]; solids.len()],
+            solids,
+            stiffness_n_m: stiffness_n_m.to_vec(),
+            before_m: Vec::new(),
+            sums: vec![[0.0; 2]; nodes.div_ceil(CHUNK)],
+            friction_j: 0.0,
+        })
+    }
+    /// Energy lost to friction so far \[J\].
+    pub fn friction_j(&self) -> f64 {
+        self.friction_j
+    }
+    fn rub(&mut self, solid: usize, x: &[[f64; 4]], force: &mut [[f64; 4]]) -> [f64; 2] {
+        let (body, before, stiffness) = (&self.solids[solid], &self.before_m, &self.stiffness_n_m);
+        let springs = &mut self.springs_m[solid];
+        force.par_chunks_mut(CHUNK).zip(springs.par_chunks_mut(CHUNK)).zip(&mut self.sums).enumerate().for_each(
+            |(chunk, ((force, springs), sums))| {
+                *sums = [0.0; 2];
+                for (local, (f, spring)) in force.iter_mut().zip(springs).enumerate() {
+                    let i = chunk * CHUNK + local;
+                    let [energy, lost] = body.step(&x[i], &before[i], stiffness[i], spring, f);
+                    sums[0] += energy;
+                    sums[1] += lost;
+                }
+            },
+        );
+        self.sums.iter().fold([0.0; 2], |sum, s| [sum[0] + s[0], sum[1] + s[1]])
+    }
+}
+
+impl Term for Obstacles {
+    fn name(&self) -> &'static str {
+        "obstacles"
+    }
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        let (x, force) = (at.q.as_chunks::<4>().0, force.as_chunks_mut::<4>().0);
+        let mut energy_j = 0.0;
+        for (solid, springs) in self.solids.iter().zip(&self.springs_m) {
+            for (i, (f, spring)) in force.iter_mut().zip(springs).enumerate() {
+                let before = self.before_m.get(i).unwrap_or(&x[i]);
+                energy_j += solid.hold(&x[i], before, self.stiffness_n_m[i], spring, f);
+            }
+        }
+        energy_j
+    }
+    fn advance(&mut self, at: &Pose, _tick: &Tick, force: &mut [f64]) -> f64 {
+        let (x, force) = (at.q.as_chunks::<4>().0, force.as_chunks_mut::<4>().0);
+        if self.before_m.is_empty() {
+            self.before_m = x.to_vec();
+        }
+        let mut energy_j = 0.0;
+        for solid in 0..self.solids.len() {
+            let [energy, lost] = self.rub(solid, x, force);
+            energy_j += energy;
+            self.friction_j += lost;
+        }
+        self.before_m.copy_from_slice(x);
+        energy_j
+    }
+    fn ledger(&self, at: &Pose) -> Vec<Row> {
+        let stored = self.add(at, &mut vec![0.0; at.q.len()]);
+        vec![
+            Row { name: self.name(), kind: RowKind::Stored, energy_j: stored },
+            Row { name: "obstacle friction", kind: RowKind::Dissipated, energy_j: self.friction_j },
+        ]
+    }
+    fn stiffness_bound(&self, at: &Pose, bound: &mut [f64]) {
+        let x = at.q.as_chunks::<4>().0;
+        for solid in &self.solids {
+            for (i, (bound, k)) in bound.iter_mut().zip(&self.stiffness_n_m).enumerate() {
+                if solid.touch(&x[i]).depth_m > 0.0 {
+                    *bound += k;
+                }
+            }
+        }
+    }
+    fn save(&self) -> Vec<u8> {
+        let mut writer = Writer::new();
+        writer.f64(self.friction_j);
+        writer.f64s(self.before_m.as_flattened());
+        for springs in &self.springs_m {
+            writer.f64s(springs.as_flattened());
+        }
+        writer.into_bytes()
+    }
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        self.take(saved).is_some()
+    }
+}
+
+impl Obstacles {
+    fn take(&mut self, saved: &[u8]) -> Option<()> {
+        let mut reader = Reader::new(saved);
+        let friction_j = reader.f64()?;
+        let before = reader.f64s()?;
+        if !before.is_empty() && before.len() != 4 * self.stiffness_n_m.len() {
+            return None;
+        }
+        let mut springs_m = self.springs_m.clone();
+        for springs in &mut springs_m {
+            reader.f64s_into(springs.as_flattened_mut())?;
+        }
+        if !reader.is_empty() {
+            return None;
+        }
+        self.before_m = before.as_chunks::<4>().0.to_vec();
+        (self.springs_m, self.friction_j) = (springs_m, friction_j);
+        Some(())
+    }
+}
+
+impl Solid {
+    fn new(index: usize, obstacle: &Obstacle) -> Result<Solid, FemError> {
+        let bad = |what: &str| FemError::Problem(format!("obstacle {}: {what}", index + 1));
+        if !(obstacle.friction >= 0.0 && obstacle.friction.is_finite()) {
+            return Err(bad("friction must be 0 or more"));
+        }
+        let (point, axis, radius_m) = match obstacle.shape {
+            ObstacleShape::Plane { point, normal } => (point, normal, None),
+            ObstacleShape::Cylinder { point, axis, radius_m } => (point, axis, Some(radius_m)),
+        };
+        if point.iter().any(|x| !x.is_finite()) {
+            return Err(bad("its point is not finite"));
+        }
+        if radius_m.is_some_and(|r| !(r > 0.0 && r.is_finite())) {
+            return Err(bad("the radius must be positive"));
+        }
+        let axis = unit(axis).ok_or_else(|| bad("its normal or axis has no length; write for example [0, 0, 1]"))?;
+        Ok(Solid { point, axis, radius_m, friction: obstacle.friction })
+    }
+    fn touch(&self, x: &[f64; 4]) -> Touch {
+        let r = sub([x[0], x[1], x[2]], self.point);
+        let height = dot(r, self.axis);
+        let Some(radius) = self.radius_m else { return Touch { depth_m: -height, normal: self.axis } };
+        let out = along(r, -height, self.axis);
+        let distance = dot(out, out).sqrt();
+        let normal = if distance > 0.0 { scale(out, 1.0 / distance) } else { any_across(self.axis) };
+        Touch { depth_m: radius - distance, normal }
+    }
+    /// One step: force, energy and loss; the spring is updated.
+    #[inline]
+    fn step(&self, x: &[f64; 4], before: &[f64; 4], k: f64, spring: &mut V3, force: &mut [f64; 4]) -> [f64; 2] {
+        let touch = self.touch(x);
+        if touch.depth_m <= 0.0 && *spring == [0.0; 3] {
+            return [0.0; 2];
+        }
+        let normal_n = k * touch.depth_m.max(0.0);
+        let mut lost = 0.0;
+        if self.friction > 0.0 {
+            (*spring, lost) = slide(*spring, moved(x, before), touch.normal, k, self.friction * normal_n);
+        }
+        push(force, normal_n, touch.normal, k, spring);
+        [0.5 * k * (touch.depth_m.max(0.0).powi(2) + dot(*spring, *spring)), lost]
+    }
+    /// Force and energy at a pose, with the spring moved there from where it was remembered; nothing is remembered.
+    fn hold(&self, x: &[f64; 4], before: &[f64; 4], k: f64, spring: &V3, force: &mut [f64; 4]) -> f64 {
+        let mut spring = *spring;
+        self.step(x, before, k, &mut spring, force)[0]
+    }
+}
+
+fn moved(x: &[f64; 4], before: &[f64; 4]) -> V3 {
+    [x[0] - before[0], x[1] - before[1], x[2] - before[2]]
+}
+
+fn push(force: &mut [f64; 4], normal_n: f64, normal: V3, k: f64, spring: &V3) {
+    for axis in 0..3 {
+        force[axis] += normal_n * normal[axis] - k * spring[axis];
+    }
+}
+
+fn any_across(axis: V3) -> V3 {
+    let other = if axis[0].abs() < 0.5 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+    unit(cross(axis, other)).unwrap_or([0.0, 0.0, 1.0])
+}
+
+#[cfg(test)]
+#[path = "obstacles_tests.rs"]
+mod tests;
