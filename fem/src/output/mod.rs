@@ -1,3 +1,28 @@
-//! What a run leaves behind: ParaView files, history, checkpoints.
+//! What a run leaves behind.
+//!
+//! | module | writes |
+//! |---|---|
+//! | [`vtu`], [`pvd`] | frames for ParaView and their time series |
+//! | [`history`] | `history.csv`: energies, balance, chambers and probes over time |
+//! | [`centre_line`], [`markers`] | `centre_line.csv`; `markers.csv`, read back as a dataset |
+//! | [`checkpoint`] | where a stopped run goes on, to the bit |
+//! | [`picture`] | a PNG of the deformed mesh |
+//! | [`bytes`] | numbers as bytes, for everything that is saved |
+//!
+//! Files that are replaced (frames, series, checkpoints) are written under another name and renamed, so that a reader, a
+//! full disk or a kill never meets half a file. Tables grow line by line and are cut back to the checkpoint on resume:
+//! an interrupted and resumed run leaves the same bytes as an uninterrupted one.
 
+mod atomic;
 pub mod bytes;
+pub mod centre_line;
+pub mod checkpoint;
+mod frame;
+pub mod history;
+pub mod markers;
+
+pub mod pvd;
+mod table;
+pub mod vtu;
+
+pub use frame::Frame;

@@ -1,0 +1,238 @@
+//! Centre line: centroids of material sections, followed through the motion; `centre_line.csv`.
+//!
+//! A station s is the plane x·â = s through the *reference* shape. It cuts elements along straight segments; the centroid
+//! is the mean of these segments weighted by their reference length, and its weights per node stay with the material:
+//!
+//! ```text
+//! c(s) = Σₑ Lₑ ½(aₑ + bₑ) / Σₑ Lₑ = Σᵢ wᵢ xᵢ       Σᵢ wᵢ = 1
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | aₑ, bₑ | where the plane meets the edges of element e | m |
+//! | Lₑ | distance of the two in the reference shape | m |
+//! | wᵢ | weight of node i | – |
+//!
+//! On a ring of nodes this is the mean weighted by arc length. **Validity**: exact for any affine motion of the section;
+//! sections are those of the parts named, so that pouches or folds beside a tube need not count. Derived here.
+//!
+//! | column | meaning |
+//! |---|---|
+//! | `time_s`, `step` | time \[s\], steps done |
+//! | `s_mm` | station \[mm\] |
+//! | `x_mm`, `y_mm`, `z_mm` | centroid \[mm\] |
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use super::table::{Table, number};
+use crate::{FemError, Mesh, Part};
+
+/// Nodes nearer to a station than this share of the mesh's length lie on it: far above rounding, far below an element.
+const ON_STATION: f64 = 1e-9;
+
+/// Stations along an axis and what each section is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CentreLine {
+    stations_m: Vec<f64>,
+    weights: Vec<Vec<(u32, f64)>>,
+    nodes: usize,
+}
+
+impl CentreLine {
+    /// Sections of the parts named in `parts` (all if empty) at `stations_m` \[m\] along `axis` (any length, e.g. x).
+    ///
+    /// # Errors
+    /// [`FemError::Problem`] for an unknown part, an axis without direction, or a station beside the mesh.
+    pub fn new(mesh: &Mesh, parts: &[String], axis: [f64; 3], stations_m: &[f64]) -> Result<CentreLine, FemError> {
+        let sections = Sections::of(mesh, parts, axis)?;
+        let (low, high) = sections.range();
+        let outside = |s: f64| {
+            FemError::Problem(format!(
+                "centre line: station {} mm is not on the mesh, which reaches from {} to {} mm",
+                s * 1e3,
+                low * 1e3,
+                high * 1e3
+            ))
+        };
+        let weights = stations_m.iter().map(|&s| sections.weights(s, low, high).ok_or_else(|| outside(s)));
+        let weights = weights.collect::<Result<_, _>>()?;
+        Ok(CentreLine { stations_m: stations_m.to_vec(), weights, nodes: mesh.points.len() })
+    }
+
+    /// `count` stations evenly from end to end of the parts, otherwise as [`CentreLine::new`].
+    ///
+    /// # Errors
+    /// As [`CentreLine::new`].
+    pub fn even(mesh: &Mesh, parts: &[String], axis: [f64; 3], count: usize) -> Result<CentreLine, FemError> {
+        let (low, high) = Sections::of(mesh, parts, axis)?.range();
+        let share = |i: usize| if count == 1 { 0.5 } else { i as f64 / (count - 1) as f64 };
+        let stations: Vec<f64> = (0..count).map(|i| low + (high - low) * share(i)).collect();
+        CentreLine::new(mesh, parts, axis, &stations)
+    }
+
+    /// Stations \[m\].
+    pub fn stations_m(&self) -> &[f64] {
+        &self.stations_m
+    }
+
+    /// Centroid of every section \[m\] for node positions in mesh order.
+    ///
+    /// # Errors
+    /// [`FemError::Problem`] if there are not as many positions as the mesh has nodes.
+    pub fn at(&self, positions: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, FemError> {
+        if positions.len() != self.nodes {
+            return Err(FemError::Problem("centre line: these positions belong to another mesh".into()));
+        }
+        let centroid = |weights: &Vec<(u32, f64)>| {
+            let mut sum = [0.0; 3];
+            for &(node, weight) in weights {
+                (0..3).for_each(|k| sum[k] += weight * positions[node as usize][k]);
+            }
+            sum
+        };
+        Ok(self.weights.iter().map(centroid).collect())
+    }
+}
+
+/// The growing file `centre_line.csv`.
+#[derive(Debug)]
+pub struct CentreLineFile {
+    line: CentreLine,
+    table: Table,
+}
+
+impl CentreLineFile {
+    /// An empty file at `path`.
+    ///
+    /// # Errors
+    /// [`FemError::Io`].
+    pub fn create(path: &Path, line: CentreLine) -> Result<CentreLineFile, FemError> {
+        Ok(CentreLineFile { line, table: Table::create(path)? })
+    }
+
+    /// Goes on after `step` of the checkpoint; later rows are dropped.
+    ///
+    /// # Errors
+    /// [`FemError::Io`]; [`FemError::MeshFile`] if the file was edited into something else.
+    pub fn resume(path: &Path, line: CentreLine, step: u64) -> Result<CentreLineFile, FemError> {
+        Ok(CentreLineFile { line, table: Table::resume(path, step)? })
+    }
+
+    /// Adds one row per station; a step that is in the file already is not written again.
+    ///
+    /// # Errors
+    /// [`FemError::Stopped`] if a centroid is not finite; [`FemError::Problem`] for another mesh; [`FemError::Io`].
+    pub fn append(&mut self, step: u64, time_s: f64, positions: &[[f64; 3]]) -> Result<(), FemError> {
+        let mut rows = String::new();
+        for (point, station) in self.line.at(positions)?.iter().zip(&self.line.stations_m) {
+            if !point.iter().all(|x| x.is_finite()) {
+                let reason = format!("the section at {} mm is at {point:?}", station * 1e3);
+                return Err(FemError::Stopped { step, time_s, reason });
+            }
+            let [s, x, y, z] = [*station, point[0], point[1], point[2]].map(|length| number(length * 1e3));
+            rows += &format!("{},{step},{s},{x},{y},{z}\n", number(time_s));
+        }
+        self.table.append(step, "time_s,step,s_mm,x_mm,y_mm,z_mm", &rows)
+    }
+
+    /// Waits until the disk has all rows; to be called before a checkpoint is written.
+    ///
+    /// # Errors
+    /// [`FemError::Io`].
+    pub fn sync(&self) -> Result<(), FemError> {
+        self.table.sync()
+    }
+}
+
+fn choose<'a>(mesh: &'a Mesh, names: &[String]) -> Result<Vec<&'a Part>, FemError> {
+    if names.is_empty() {
+        return Ok(mesh.parts.iter().collect());
+    }
+    let find = |name: &String| {
+        mesh.parts.iter().find(|part| part.name == *name).ok_or_else(|| {
+            let known: Vec<&str> = mesh.parts.iter().map(|part| part.name.as_str()).collect();
+            FemError::Problem(format!("centre line: there is no part `{name}`; the mesh has: {}", known.join(", ")))
+        })
+    };
+    names.iter().map(find).collect()
+}
+
+/// Parts to be cut, and every node's place along the axis.
+struct Sections<'a> {
+    mesh: &'a Mesh,
+    chosen: Vec<&'a Part>,
+    coordinates: Vec<f64>,
+}
+
+impl<'a> Sections<'a> {
+    fn of(mesh: &'a Mesh, parts: &[String], axis: [f64; 3]) -> Result<Sections<'a>, FemError> {
+        let chosen = choose(mesh, parts)?;
+        let length = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
+        if !(length > 0.0 && length.is_finite()) {
+            return Err(FemError::Problem(format!("centre line: {axis:?} is no direction, write [1, 0, 0] for x")));
+        }
+        let along = |p: &[f64; 3]| (p[0] * axis[0] + p[1] * axis[1] + p[2] * axis[2]) / length;
+        let sections = Sections { mesh, chosen, coordinates: mesh.points.iter().map(along).collect() };
+        let stray = sections.elements().flatten().copied().find(|&node| node as usize >= mesh.points.len());
+        match stray {
+            None => Ok(sections),
+            Some(node) => Err(FemError::Mesh(format!("an element has node {}, which is not in the mesh", node + 1))),
+        }
+    }
+
+    fn elements(&self) -> impl Iterator<Item = &[u32]> {
+        self.chosen.iter().flat_map(|part| (0..part.len()).map(|i| part.nodes(i)))
+    }
+
+    fn range(&self) -> (f64, f64) {
+        let places = self.elements().flatten().map(|&node| self.coordinates[node as usize]);
+        places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), c| (low.min(c), high.max(c)))
+    }
+
+    /// Weights of the section at `station`; `None` beside the mesh.
+    fn weights(&self, station: f64, low: f64, high: f64) -> Option<Vec<(u32, f64)>> {
+        let near = ON_STATION * (high - low);
+        let beyond = |node: u32| {
+            let c = self.coordinates[node as usize] - station;
+            if c.abs() <= near { 0.0 } else { c }
+        };
+        // Nodes on the station count as beyond it, so that a ring is met once, from before; at the start from behind.
+        let at_start = station <= low + near;
+        let above = |c: f64| if at_start { c > 0.0 } else { c >= 0.0 };
+        let mut sums: BTreeMap<u32, f64> = BTreeMap::new();
+        let mut total = 0.0;
+        for nodes in self.elements() {
+            let mut ends = Vec::with_capacity(4);
+            for (k, &i) in nodes.iter().enumerate() {
+                let j = nodes[(k + 1) % nodes.len()];
+                let (ci, cj) = (beyond(i), beyond(j));
+                if above(ci) != above(cj) {
+                    ends.push((i, j, ci / (ci - cj)));
+                }
+            }
+            for segment in ends.chunks_exact(2) {
+                let length = self.distance(segment[0], segment[1]);
+                total += length;
+                for &(i, j, t) in segment {
+                    *sums.entry(i).or_default() += 0.5 * length * (1.0 - t);
+                    *sums.entry(j).or_default() += 0.5 * length * t;
+                }
+            }
+        }
+        (total > 0.0).then(|| sums.into_iter().filter(|w| w.1 != 0.0).map(|(i, w)| (i, w / total)).collect())
+    }
+
+    fn distance(&self, a: (u32, u32, f64), b: (u32, u32, f64)) -> f64 {
+        let place = |(i, j, t): (u32, u32, f64)| {
+            let (p, q) = (self.mesh.points[i as usize], self.mesh.points[j as usize]);
+            [0, 1, 2].map(|k| p[k] + t * (q[k] - p[k]))
+        };
+        let (p, q) = (place(a), place(b));
+        (0..3).map(|k| (p[k] - q[k]) * (p[k] - q[k])).sum::<f64>().sqrt()
+    }
+}
+
+#[cfg(test)]
+#[path = "centre_line_tests.rs"]
+mod tests;

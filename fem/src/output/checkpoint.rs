@@ -1,0 +1,192 @@
+//! Checkpoints: where a stopped run goes on.
+//!
+//! ```text
+//! "ibr-fem\n" | version | fingerprint | step | time | length | payload … | CRC-32 of all before
+//!   8 bytes      u64       u64           u64    f64    u64                  u32, little-endian
+//! ```
+//!
+//! A folder holds `checkpoint` and the one before it, `checkpoint.previous`. A new one is written under a third name and
+//! handed to the disk before two renames, so that a kill or a power cut at any moment leaves at least one that is good.
+
+use std::io::{Error, Write};
+use std::path::{Path, PathBuf};
+
+use super::atomic::{make_folder, partial_name, sync_folder, write_whole};
+use super::bytes::{Reader, Writer};
+use crate::FemError;
+
+const MAGIC: &[u8; 8] = b"ibr-fem\n";
+/// Raised whenever the meaning of the bytes changes.
+const VERSION: u64 = 1;
+const CHECK: usize = 4;
+
+/// Everything a checkpoint holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Checkpoint {
+    /// Number that stands for the problem; a run of another problem must not go on from here.
+    pub fingerprint: u64,
+    /// Steps done.
+    pub step: u64,
+    /// Time \[s\].
+    pub time_s: f64,
+    /// What [`crate::Simulation::save`] gave.
+    pub payload: Vec<u8>,
+}
+
+/// A checkpoint that was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Loaded {
+    /// It.
+    pub checkpoint: Checkpoint,
+    /// Set if the newest one was not good and the one before it is used instead: what to tell the user.
+    pub notice: Option<String>,
+}
+
+/// Writes `checkpoint` to `folder`, which is created; the one before it is kept.
+///
+/// # Errors
+/// [`FemError::Io`]: the disk is full or refuses. The earlier checkpoint is then untouched.
+pub fn write_checkpoint(folder: &Path, checkpoint: &Checkpoint) -> Result<PathBuf, FemError> {
+    write_through(folder, checkpoint, &mut |out, bytes| out.write_all(bytes))
+}
+
+/// Reads the newest good checkpoint of the problem with this `fingerprint`; `None` if the folder has none.
+///
+/// # Errors
+/// [`FemError::Checkpoint`] if none is good, or if the newest belongs to another problem or program version;
+/// [`FemError::Io`].
+pub fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<Loaded>, FemError> {
+    let (newest, previous) = names(folder);
+    let fault = match read_file(&newest, fingerprint)? {
+        Found::Good(checkpoint) => return Ok(Some(Loaded { checkpoint, notice: None })),
+        Found::Foreign(reason) => return Err(FemError::Checkpoint { path: newest, reason }),
+        Found::Damaged(reason) => Some(reason),
+        Found::Nothing => None,
+    };
+    match (read_file(&previous, fingerprint)?, fault) {
+        (Found::Good(checkpoint), fault) => {
+            let why = fault.unwrap_or_else(|| "is missing (the run was killed while replacing it)".into());
+            let (step, time) = (checkpoint.step, checkpoint.time_s);
+            let notice = format!(
+                "checkpoint {} {why}: going on from the one before it, step {step}, t = {time:.6} s",
+                newest.display()
+            );
+            Ok(Some(Loaded { checkpoint, notice: Some(notice) }))
+        }
+        (Found::Foreign(reason), _) => Err(FemError::Checkpoint { path: previous, reason }),
+        (Found::Nothing, None) => Ok(None),
+        (Found::Damaged(reason), None) => Err(start_anew(previous, &reason)),
+        (_, Some(reason)) => Err(start_anew(newest, &reason)),
+    }
+}
+
+fn start_anew(path: PathBuf, reason: &str) -> FemError {
+    FemError::Checkpoint {
+        path,
+        reason: format!("the file {reason}, and there is no other good one. Start the run anew with --fresh"),
+    }
+}
+
+fn names(folder: &Path) -> (PathBuf, PathBuf) {
+    (folder.join("checkpoint"), folder.join("checkpoint.previous"))
+}
+
+/// How bytes get to the file; tests put a full disk here.
+type Put<'a> = &'a mut dyn FnMut(&mut dyn Write, &[u8]) -> Result<(), Error>;
+
+fn write_through(folder: &Path, checkpoint: &Checkpoint, put: Put) -> Result<PathBuf, FemError> {
+    let (newest, previous) = names(folder);
+    make_folder(folder)?;
+    let (partial, bytes) = (partial_name(&newest), encode(checkpoint));
+    let written = write_whole(&partial, &mut |out| put(out, &bytes));
+    let replaced = written.and_then(|()| {
+        if newest.exists() {
+            std::fs::rename(&newest, &previous)?;
+        }
+        std::fs::rename(&partial, &newest)?;
+        sync_folder(folder)
+    });
+    match replaced {
+        Ok(()) => Ok(newest),
+        Err(source) => {
+            // The first failure is the one to report.
+            let _ = std::fs::remove_file(&partial);
+            Err(FemError::Io { path: newest, source })
+        }
+    }
+}
+
+fn encode(checkpoint: &Checkpoint) -> Vec<u8> {
+    let mut writer = Writer::new();
+    writer.u64(u64::from_le_bytes(*MAGIC));
+    writer.u64(VERSION);
+    writer.u64(checkpoint.fingerprint);
+    writer.u64(checkpoint.step);
+    writer.f64(checkpoint.time_s);
+    writer.bytes(&checkpoint.payload);
+    let mut bytes = writer.into_bytes();
+    let check = crc32fast::hash(&bytes);
+    bytes.extend(check.to_le_bytes());
+    bytes
+}
+
+enum Found {
+    Good(Checkpoint),
+    /// Whole, but not for this problem or program.
+    Foreign(String),
+    /// Cut, changed, or something else; completes "the file …".
+    Damaged(String),
+    Nothing,
+}
+
+fn read_file(path: &Path, fingerprint: u64) -> Result<Found, FemError> {
+    match std::fs::read(path) {
+        Ok(bytes) => Ok(decode(&bytes, fingerprint)),
+        Err(source) if source.kind() == std::io::ErrorKind::NotFound => Ok(Found::Nothing),
+        Err(source) => Err(FemError::Io { path: path.to_path_buf(), source }),
+    }
+}
+
+fn decode(bytes: &[u8], fingerprint: u64) -> Found {
+    let Some((body, check)) = bytes.split_last_chunk::<CHECK>() else {
+        return Found::Damaged(format!("is cut off after {} bytes", bytes.len()));
+    };
+    if !body.starts_with(MAGIC) {
+        return Found::Damaged("is not a checkpoint of this program".into());
+    }
+    if crc32fast::hash(body) != u32::from_le_bytes(*check) {
+        return Found::Damaged(format!("is cut off or damaged (checksum of {} bytes differs)", bytes.len()));
+    }
+    let mut reader = Reader::new(&body[MAGIC.len()..]);
+    match reader.u64() {
+        Some(VERSION) => {}
+        other => return Found::Foreign(of_version(other)),
+    }
+    let Some(checkpoint) = fields(reader) else { return Found::Damaged("has fields of the wrong length".into()) };
+    if checkpoint.fingerprint != fingerprint {
+        return Found::Foreign(format!(
+            "it belongs to another problem ({:016x}, this one is {fingerprint:016x}): the case or mesh was changed. Undo \
+             the change, choose another folder, or start anew with --fresh",
+            checkpoint.fingerprint
+        ));
+    }
+    Found::Good(checkpoint)
+}
+
+fn of_version(found: Option<u64>) -> String {
+    let found = found.map_or("missing".to_string(), |version| version.to_string());
+    format!(
+        "its format version is {found}, this program reads {VERSION}: go on with the program that wrote it, or start anew \
+         with --fresh"
+    )
+}
+
+fn fields(mut reader: Reader) -> Option<Checkpoint> {
+    let (fingerprint, step, time_s) = (reader.u64()?, reader.u64()?, reader.f64()?);
+    let payload = reader.bytes()?.to_vec();
+    reader.is_empty().then_some(Checkpoint { fingerprint, step, time_s, payload })
+}
+
+#[cfg(test)]
+#[path = "checkpoint_tests.rs"]
+mod tests;

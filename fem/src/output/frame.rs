@@ -1,0 +1,162 @@
+//! The state of all nodes and elements at one moment, checked before it is written.
+
+use crate::run::ElementFields;
+use crate::{FemError, Mesh, Simulation};
+
+/// The state of all nodes and elements at one moment, in mesh order.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Frame {
+    /// Steps done.
+    pub step: u64,
+    /// Time \[s\].
+    pub time_s: f64,
+    /// Positions \[m\].
+    pub positions: Vec<[f64; 3]>,
+    /// Velocities \[m/s\].
+    pub velocities: Vec<[f64; 3]>,
+    /// Element results.
+    pub fields: ElementFields,
+    /// Contact pressure at every node \[Pa\]; empty without contact.
+    pub contact_pressure_pa: Vec<f64>,
+}
+
+impl Frame {
+    /// The present state of a run.
+    pub fn of(run: &Simulation) -> Frame {
+        Frame {
+            step: run.step(),
+            time_s: run.time_s(),
+            positions: run.positions(),
+            velocities: run.velocities(),
+            fields: run.element_fields(),
+            contact_pressure_pa: run.contact_pressure_pa(),
+        }
+    }
+
+    /// Checks that the frame fits the mesh and that every number is finite.
+    ///
+    /// # Errors
+    /// [`FemError::Stopped`] naming the quantity and the node or element (counted from 1).
+    pub fn check(&self, mesh: &Mesh) -> Result<(), FemError> {
+        let (nodes, elements) = (mesh.points.len(), mesh.elements());
+        let Frame { fields, .. } = self;
+        self.finite("time", "run", 1, [self.time_s].iter().map(std::slice::from_ref))?;
+        self.finite("position", "node", nodes, self.positions.iter().map(<[f64; 3]>::as_slice))?;
+        self.finite("velocity", "node", nodes, self.velocities.iter().map(<[f64; 3]>::as_slice))?;
+        if !self.contact_pressure_pa.is_empty() {
+            let pressures = self.contact_pressure_pa.iter().map(std::slice::from_ref);
+            self.finite("contact pressure", "node", nodes, pressures)?;
+        }
+        let scalars = [("von Mises stress", &fields.von_mises_pa), ("thickness", &fields.thickness_m)];
+        for (name, values) in scalars {
+            self.finite(name, "element", elements, values.iter().map(std::slice::from_ref))?;
+        }
+        let pairs = [("principal stress", &fields.principal_stress_pa), ("strain", &fields.principal_strain)];
+        for (name, values) in pairs {
+            self.finite(name, "element", elements, values.iter().map(<[f64; 2]>::as_slice))?;
+        }
+        match fields.wrinkle_state.len() {
+            count if count == elements => Ok(()),
+            count => Err(self.length("wrinkle state", "element", count, elements)),
+        }
+    }
+
+    fn finite<'a>(
+        &self,
+        name: &str,
+        of: &str,
+        expected: usize,
+        values: impl ExactSizeIterator<Item = &'a [f64]>,
+    ) -> Result<(), FemError> {
+        if values.len() != expected {
+            return Err(self.length(name, of, values.len(), expected));
+        }
+        for (index, entry) in values.enumerate() {
+            if let Some(bad) = entry.iter().find(|value| !value.is_finite()) {
+                return Err(self.refused(format!(
+                    "{name} of {of} {} is {bad}: nothing of this moment was written. Look at the last frame before it, \
+                     then try a smaller cfl or slower loading",
+                    index + 1
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    fn length(&self, name: &str, of: &str, found: usize, expected: usize) -> FemError {
+        self.refused(format!("{found} values of {name} for {expected} {of}s: these results belong to another mesh"))
+    }
+
+    fn refused(&self, reason: String) -> FemError {
+        FemError::Stopped { step: self.step, time_s: self.time_s, reason }
+    }
+}
+
+/// Frames for the tests of the writers.
+#[cfg(test)]
+pub(super) mod samples {
+    use super::*;
+    use crate::Part;
+
+    /// Two parts: a quad and a triangle sharing an edge, then one more triangle.
+    pub fn mesh() -> Mesh {
+        let points = vec![[0., 0., 0.], [0.1, 0., 0.], [0.1, 0.1, 0.], [0., 0.1, 0.], [0.2, 0.05, 0.], [0., 0.2, 0.03]];
+        let body =
+            Part { name: "body".into(), quads: vec![[0, 1, 2, 3]], triangles: vec![[1, 4, 2]], ..Part::default() };
+        let cap = Part { name: "cap".into(), triangles: vec![[3, 2, 5]], ..Part::default() };
+        Mesh { points, parts: vec![body, cap], ..Mesh::default() }
+    }
+
+    /// Numbers without pattern or round values.
+    pub fn frame(time_s: f64) -> Frame {
+        let mesh = mesh();
+        let noise = |i: usize, k: usize| ((i * 7 + k * 13 + 1) as f64 * 0.7 + time_s).sin();
+        let triple = |i: usize| [noise(i, 0), noise(i, 1), noise(i, 2)];
+        let scalar = |k: usize| (0..3).map(|i| noise(i, k)).collect::<Vec<_>>();
+        let pair = |k: usize| (0..3).map(|i| [noise(i, k), noise(i, k + 1)]).collect::<Vec<_>>();
+        Frame {
+            step: 10,
+            time_s,
+            positions: (0..mesh.points.len()).map(triple).collect(),
+            velocities: (0..mesh.points.len()).map(|i| triple(i + 50)).collect(),
+            fields: ElementFields {
+                von_mises_pa: scalar(3),
+                principal_stress_pa: pair(4),
+                principal_strain: pair(6),
+                thickness_m: scalar(8),
+                wrinkle_state: vec![0, 2, 1],
+            },
+            contact_pressure_pa: (0..mesh.points.len()).map(|i| noise(i, 9)).collect(),
+        }
+    }
+
+    /// Every way in which one number of a frame is not finite, or one value too many.
+    pub fn spoilt() -> Vec<(&'static str, Frame)> {
+        let mut all: Vec<(&'static str, Frame)> = Vec::new();
+        let mut add = |name: &'static str, change: &dyn Fn(&mut Frame)| {
+            let mut bad = frame(0.5);
+            change(&mut bad);
+            all.push((name, bad));
+        };
+        add("position of node 3", &|f| f.positions[2][1] = f64::NAN);
+        add("velocity of node 6", &|f| f.velocities[5][2] = f64::INFINITY);
+        add("von Mises stress of element 2", &|f| f.fields.von_mises_pa[1] = f64::NAN);
+        add("principal stress of element 3", &|f| f.fields.principal_stress_pa[2][1] = f64::NEG_INFINITY);
+        add("strain of element 1", &|f| f.fields.principal_strain[0][0] = f64::NAN);
+        add("thickness of element 1", &|f| f.fields.thickness_m[0] = f64::NAN);
+        add("contact pressure of node 1", &|f| f.contact_pressure_pa[0] = f64::NAN);
+        add("time of run 1", &|f| f.time_s = f64::NAN);
+        add("7 values of position for 6 nodes", &|f| f.positions.push([0.0; 3]));
+        add("4 values of wrinkle state for 3 elements", &|f| f.fields.wrinkle_state.push(0));
+        all
+    }
+
+    #[test]
+    fn a_number_that_is_not_finite_is_named_by_quantity_and_place() {
+        frame(0.5).check(&mesh()).unwrap();
+        for (message, bad) in spoilt() {
+            let error = bad.check(&mesh()).unwrap_err().to_string();
+            assert!(error.contains(message), "{error} does not say {message}");
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! `history.csv`: the energy balance, chambers and probes, one row per output.
+//!
+//! | column | meaning |
+//! |---|---|
+//! | `time_s`, `step`, `dt_s` | time \[s\], steps done, step length \[s\] |
+//! | `kinetic_J` | kinetic energy |
+//! | `<row>_J` | one line of the ledger; lines of the same name and kind are added, the same name with another kind gets `_stored`, `_dissipated` or `_supplied` |
+//! | `external_work_J`, `residual_J` | work from outside so far; what the balance misses |
+//! | `residual_share`, `kinetic_share` | residual and kinetic energy over the largest external work so far; 0 before any |
+//! | `<chamber>_kPa`, `<chamber>_cm3` | gauge pressure and volume |
+//! | `<set>_dx_mm`, `_dy_mm`, `_dz_mm` | mean displacement of a probed node set from its start |
+//!
+//! Numbers have the digits that give the same bits when read back.
+
+use std::path::Path;
+
+use models::{Row, RowKind};
+
+use super::table::{Table, check_label, number};
+use crate::run::{ChamberState, Ledger};
+use crate::{FemError, Mesh, Simulation};
+
+/// What one row is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Record {
+    /// Steps done.
+    pub step: u64,
+    /// Time \[s\].
+    pub time_s: f64,
+    /// Step length \[s\].
+    pub dt_s: f64,
+    /// Energy balance.
+    pub ledger: Ledger,
+    /// Chambers.
+    pub chambers: Vec<ChamberState>,
+    /// Node positions in mesh order \[m\]; not looked at without probes.
+    pub positions: Vec<[f64; 3]>,
+}
+
+impl Record {
+    /// The present state of a run.
+    pub fn of(run: &Simulation) -> Record {
+        Record {
+            step: run.step(),
+            time_s: run.time_s(),
+            dt_s: run.dt_s(),
+            ledger: run.ledger(),
+            chambers: run.chambers(),
+            positions: run.positions(),
+        }
+    }
+}
+
+/// The growing file.
+#[derive(Debug)]
+pub struct History {
+    table: Table,
+    probes: Vec<Probe>,
+}
+
+#[derive(Debug)]
+struct Probe {
+    name: String,
+    nodes: Vec<u32>,
+    start: [f64; 3],
+}
+
+impl History {
+    /// An empty history at `path`, with the node sets of `mesh` named in `probes`.
+    ///
+    /// # Errors
+    /// [`FemError::Problem`] for a set that is not in the mesh or empty; [`FemError::Io`].
+    pub fn create(path: &Path, mesh: &Mesh, probes: &[String]) -> Result<History, FemError> {
+        let probes = find_probes(mesh, probes)?;
+        Ok(History { table: Table::create(path)?, probes })
+    }
+
+    /// Goes on after `step` of the checkpoint; later rows are dropped.
+    ///
+    /// # Errors
+    /// As [`History::create`]; [`FemError::MeshFile`] if the file was edited into something else.
+    pub fn resume(path: &Path, mesh: &Mesh, probes: &[String], step: u64) -> Result<History, FemError> {
+        let probes = find_probes(mesh, probes)?;
+        Ok(History { table: Table::resume(path, step)?, probes })
+    }
+
+    /// Adds a row; a step that has a row already is not written again.
+    ///
+    /// # Errors
+    /// [`FemError::Stopped`] if a number is not finite, [`FemError::Problem`] if the columns changed, [`FemError::Io`].
+    pub fn append(&mut self, record: &Record) -> Result<(), FemError> {
+        let cells = self.cells(record)?;
+        if let Some((name, value)) = cells.iter().find(|(_, value)| !value.is_finite()) {
+            let reason = format!("{name} is {value}: try a smaller cfl or slower loading");
+            return Err(FemError::Stopped { step: record.step, time_s: record.time_s, reason });
+        }
+        let mut names: Vec<&str> = cells.iter().map(|(name, _)| name.as_str()).collect();
+        let mut values: Vec<String> = cells.iter().map(|(_, value)| number(*value)).collect();
+        names.insert(1, "step");
+        values.insert(1, record.step.to_string());
+        self.table.append(record.step, &names.join(","), &(values.join(",") + "\n"))
+    }
+
+    /// Waits until the disk has all rows; to be called before a checkpoint is written.
+    ///
+    /// # Errors
+    /// [`FemError::Io`].
+    pub fn sync(&self) -> Result<(), FemError> {
+        self.table.sync()
+    }
+
+    /// Names and values of a row, without the step.
+    fn cells(&self, record: &Record) -> Result<Vec<(String, f64)>, FemError> {
+        let Ledger { kinetic_j, rows, residual_j, external_work_j, scale_j } = &record.ledger;
+        let share = |energy: f64| if *scale_j > 0.0 { energy / scale_j } else { 0.0 };
+        let mut cells = vec![
+            ("time_s".to_string(), record.time_s),
+            ("dt_s".to_string(), record.dt_s),
+            ("kinetic_J".to_string(), *kinetic_j),
+        ];
+        cells.extend(merged(rows));
+        cells.push(("external_work_J".to_string(), *external_work_j));
+        cells.push(("residual_J".to_string(), *residual_j));
+        cells.push(("residual_share".to_string(), share(*residual_j)));
+        cells.push(("kinetic_share".to_string(), share(*kinetic_j)));
+        for chamber in &record.chambers {
+            check_label(&chamber.name, "the name of the chamber")?;
+            cells.push((format!("{}_kPa", chamber.name), chamber.pressure_pa * 1e-3));
+            cells.push((format!("{}_cm3", chamber.name), chamber.volume_m3 * 1e6));
+        }
+        for probe in &self.probes {
+            let now = mean(&probe.nodes, |node| record.positions.get(node).copied()).ok_or_else(|| {
+                FemError::Problem(format!("probe `{}`: these positions belong to another mesh", probe.name))
+            })?;
+            for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+                cells.push((format!("{}_d{axis}_mm", probe.name), (now[k] - probe.start[k]) * 1e3));
+            }
+        }
+        Ok(cells)
+    }
+}
+
+/// Mean of a property of some nodes; `None` without nodes or if one has none.
+pub(super) fn mean(nodes: &[u32], of: impl Fn(usize) -> Option<[f64; 3]>) -> Option<[f64; 3]> {
+    let mut sum = [0.0; 3];
+    for &node in nodes {
+        let point = of(node as usize)?;
+        (0..3).for_each(|k| sum[k] += point[k]);
+    }
+    (!nodes.is_empty()).then(|| sum.map(|total| total / nodes.len() as f64))
+}
+
+fn find_probes(mesh: &Mesh, names: &[String]) -> Result<Vec<Probe>, FemError> {
+    let find = |name: &String| {
+        check_label(name, "the node set")?;
+        let known = || mesh.sets.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
+        let nodes = mesh.sets.get(name).ok_or_else(|| {
+            FemError::Problem(format!("there is no node set `{name}` to probe; the mesh has: {}", known()))
+        })?;
+        let start = mean(nodes, |i| (i < mesh.points.len()).then(|| mesh.start_of(i))).ok_or_else(|| {
+            FemError::Problem(format!("node set `{name}` is empty or names nodes that are not in the mesh"))
+        })?;
+        Ok(Probe { name: name.clone(), nodes: nodes.clone(), start })
+    };
+    names.iter().map(find).collect()
+}
+
+/// Ledger lines as columns in the order of their first appearance.
+fn merged(rows: &[Row]) -> Vec<(String, f64)> {
+    let mut sums: Vec<(&str, RowKind, f64)> = Vec::new();
+    for row in rows {
+        match sums.iter_mut().find(|(name, kind, _)| *name == row.name && *kind == row.kind) {
+            Some((_, _, sum)) => *sum += row.energy_j,
+            None => sums.push((row.name, row.kind, row.energy_j)),
+        }
+    }
+    let column = |&(name, kind, sum): &(&str, RowKind, f64)| {
+        let plain = name.replace([' ', ',', ';', '"'], "_");
+        let alone = sums.iter().filter(|(other, _, _)| *other == name).count() == 1;
+        (if alone { format!("{plain}_J") } else { format!("{plain}_{}_J", word(kind)) }, sum)
+    };
+    sums.iter().map(column).collect()
+}
+
+fn word(kind: RowKind) -> &'static str {
+    match kind {
+        RowKind::Stored => "stored",
+        RowKind::Dissipated => "dissipated",
+        RowKind::Supplied => "supplied",
+    }
+}
+
+#[cfg(test)]
+#[path = "history_tests.rs"]
+mod tests;

@@ -1,0 +1,172 @@
+//! A CSV file that grows as the run does and is cut back to the checkpoint on resume.
+
+use std::fs::{File, OpenOptions};
+use std::io::{Error, Write};
+use std::path::{Path, PathBuf};
+
+use super::atomic::replace;
+use crate::FemError;
+
+/// A growing table with a column `step`. Rows of one step are written in one go and handed to the system at once.
+#[derive(Debug)]
+pub(super) struct Table {
+    path: PathBuf,
+    file: File,
+    header: String,
+    last_step: Option<u64>,
+}
+
+impl Table {
+    /// An empty table; an earlier file is replaced.
+    pub fn create(path: &Path) -> Result<Table, FemError> {
+        replace(path, &mut |_| Ok(()))?;
+        Table::open(path, String::new(), None)
+    }
+
+    /// Goes on after `step`: later rows, and a last line that a kill cut short, are dropped. Without a file it starts one.
+    pub fn resume(path: &Path, step: u64) -> Result<Table, FemError> {
+        if !path.exists() {
+            return Table::create(path);
+        }
+        let text = std::fs::read_to_string(path).map_err(|source| io(path, source))?;
+        let (header, last_step, kept) = cut(&text, step).map_err(|line| FemError::MeshFile {
+            path: path.to_path_buf(),
+            line,
+            message: "not a row as this program writes it, so it cannot go on in this file: move it away".into(),
+        })?;
+        if kept.len() < text.len() {
+            replace(path, &mut |out| out.write_all(kept.as_bytes()))?;
+        }
+        Table::open(path, header.to_string(), last_step)
+    }
+
+    fn open(path: &Path, header: String, last_step: Option<u64>) -> Result<Table, FemError> {
+        let file = OpenOptions::new().append(true).open(path).map_err(|source| io(path, source))?;
+        Ok(Table { path: path.to_path_buf(), file, header, last_step })
+    }
+
+    /// Adds the rows (each ending in a newline) of one step. A step that is in the table already is not written again.
+    pub fn append(&mut self, step: u64, header: &str, rows: &str) -> Result<(), FemError> {
+        if self.last_step == Some(step) || rows.is_empty() {
+            return Ok(());
+        }
+        if let Some(last) = self.last_step.filter(|&last| last > step) {
+            return Err(FemError::Problem(format!(
+                "{}: step {step} comes after step {last}: start a new folder for a new run",
+                self.path.display()
+            )));
+        }
+        let first = self.header.is_empty();
+        if !first && self.header != header {
+            return Err(FemError::Problem(format!(
+                "{}: the columns were `{}` and now are `{header}`: start a new folder for a changed case",
+                self.path.display(),
+                self.header
+            )));
+        }
+        let text = if first { format!("{header}\n{rows}") } else { rows.to_string() };
+        self.file.write_all(text.as_bytes()).map_err(|source| io(&self.path, source))?;
+        self.header = header.to_string();
+        self.last_step = Some(step);
+        Ok(())
+    }
+
+    /// Waits until the disk has all rows; to be called before a checkpoint is written.
+    pub fn sync(&self) -> Result<(), FemError> {
+        self.file.sync_all().map_err(|source| io(&self.path, source))
+    }
+}
+
+/// Header, step of the last kept row and the kept text; or the number of the line that is no row.
+fn cut(text: &str, step: u64) -> Result<(&str, Option<u64>, &str), usize> {
+    let mut lines = text.split_inclusive('\n').take_while(|line| line.ends_with('\n'));
+    let Some(header) = lines.next() else { return Ok(("", None, "")) };
+    let column = header.trim_end().split(',').position(|name| name == "step").ok_or(1_usize)?;
+    let (mut kept, mut last) = (header.len(), None);
+    for (index, line) in lines.enumerate() {
+        let found = line.split(',').nth(column).and_then(|cell| cell.trim_end().parse().ok()).ok_or(index + 2)?;
+        if found > step {
+            break;
+        }
+        (kept, last) = (kept + line.len(), Some(found));
+    }
+    match last {
+        None => Ok(("", None, "")),
+        last => Ok((header.trim_end(), last, &text[..kept])),
+    }
+}
+
+/// The shortest digits that give the same bits when read back.
+pub(super) fn number(value: f64) -> String {
+    format!("{value:e}")
+}
+
+/// Refuses text that would break a cell.
+pub(super) fn check_label(label: &str, what: &str) -> Result<(), FemError> {
+    if label.is_empty() || label.contains([',', ';', '"', '\t', '\n', '\r']) {
+        return Err(FemError::Problem(format!(
+            "{what} `{label}` cannot be a cell of a table: use letters, digits, - and _ only"
+        )));
+    }
+    Ok(())
+}
+
+fn io(path: &Path, source: Error) -> FemError {
+    FemError::Io { path: path.to_path_buf(), source }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEADER: &str = "time_s,step,x";
+
+    fn rows(step: u64) -> String {
+        (0..2).map(|k| format!("{},{step},{k}\n", number(step as f64 * 0.1))).collect()
+    }
+
+    fn whole(steps: std::ops::Range<u64>) -> String {
+        format!("{HEADER}\n{}", steps.map(rows).collect::<String>())
+    }
+
+    #[test]
+    fn cut_anywhere_and_resumed_the_table_ends_with_the_same_bytes() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        let all = whole(0..6);
+        for length in (0..=all.len()).rev().step_by(7) {
+            // What is on the disk has at least the rows up to the checkpoint; the last line may be half written.
+            for step in (0..6).filter(|&step| whole(0..step + 1).len() <= length) {
+                std::fs::write(&path, &all[..length]).unwrap();
+                let mut table = Table::resume(&path, step).unwrap();
+                assert_eq!(std::fs::read_to_string(&path).unwrap(), whole(0..step + 1));
+                (step..6).for_each(|step| table.append(step, HEADER, &rows(step)).unwrap());
+                table.sync().unwrap();
+                assert_eq!(std::fs::read_to_string(&path).unwrap(), all);
+            }
+        }
+    }
+
+    #[test]
+    fn a_step_back_and_other_columns_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        let mut table = Table::create(&path).unwrap();
+        table.append(3, HEADER, &rows(3)).unwrap();
+        assert!(table.append(2, HEADER, &rows(2)).unwrap_err().to_string().contains("step 2 comes after step 3"));
+        assert!(table.append(4, "time_s,step,y", &rows(4)).unwrap_err().to_string().contains("columns were"));
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), whole(3..4));
+    }
+
+    #[test]
+    fn a_file_that_is_no_such_table_is_refused_and_left_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        for (text, line) in [("a,b\n1,2\n", 1), ("time_s,step\n0,1\n0,one\n", 3)] {
+            std::fs::write(&path, text).unwrap();
+            let error = Table::resume(&path, 9).unwrap_err().to_string();
+            assert!(error.contains(&format!("t.csv:{line}: ")), "{error}");
+            assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
+        }
+    }
+}
