@@ -1,6 +1,5 @@
 //! Pressure, volume and work of the chambers during a run.
 
-use super::kernel::{Lane3, sum};
 use crate::problem::{Chamber, Pressure};
 
 /// A chamber while a run goes on.
@@ -94,9 +93,4 @@ impl Air {
         self.work_j = saved[4];
         self.sealed_j = (saved[5] > 0.5).then_some(saved[6]);
     }
-}
-
-/// Sums the lanes of a flux.
-pub fn flux(lanes: &Lane3) -> [f64; 3] {
-    [sum(&lanes[0]), sum(&lanes[1]), sum(&lanes[2])]
 }

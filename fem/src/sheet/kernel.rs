@@ -1,4 +1,4 @@
-//! The hot loops: element forces of a group of eight, and the sum at the nodes.
+//! The hot loops: element forces of groups of eight.
 //!
 //! For one quadrilateral, with the strain measures of [`super::reference`]:
 //!
@@ -11,80 +11,40 @@
 //!
 //! Everything is the exact derivative of an energy (the hourglass form sees in-plane parts of q only, because F is
 //! tangent to the sheet), the pressure force that of −pV with V the volume under the bilinear surface.
-//! No fused multiply-add: the bits must not depend on the processor.
 
-use models::Fabric;
-use models::fabrics::{NeoHookean, Orthotropic, Past};
+use models::fabrics::Past;
+use pulp::Simd;
 
 use super::group::{Group, LANES, Lane};
-
-/// Forces on the corners of a group: `[corner][axis][lane]`.
-pub type CornerForces = [[Lane; 3]; 4];
+use super::lanes::{V, inner, product};
+use super::law::Law;
 
 /// One vector for each element of a group.
 pub type Lane3 = [Lane; 3];
+/// Forces on the corners of a group: `[corner][axis][lane]`.
+pub type CornerForces = [Lane3; 4];
 
-/// What one pass over a patch adds up, in SI units.
+/// What a pass adds up lane by lane, in SI units.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Sums {
+#[repr(C, align(64))]
+pub struct Tally {
     /// Membrane energy \[J\].
-    pub membrane: f64,
+    pub membrane: Lane,
     /// Hourglass energy \[J\].
-    pub hourglass: f64,
+    pub hourglass: Lane,
     /// Energy turned to heat by viscosity in this step \[J\].
-    pub viscous: f64,
+    pub viscous: Lane,
+    /// ∫ x n_x, ∫ y n_y, ∫ z n_z over the elements \[m³\].
+    pub flux: Lane3,
 }
 
-/// A membrane law that the kernels compile for themselves.
-pub trait Law {
-    /// Tension and energy per area of lane `l`.
-    fn at(&self, e: [f64; 3], past: &Past) -> ([f64; 3], f64);
-}
-
-impl Law for NeoHookean {
-    #[inline(always)]
-    fn at(&self, e: [f64; 3], past: &Past) -> ([f64; 3], f64) {
-        (self.tension(e, past), self.energy(e, past))
-    }
-}
-
-impl Law for Orthotropic {
-    #[inline(always)]
-    fn at(&self, e: [f64; 3], past: &Past) -> ([f64; 3], f64) {
-        (self.tension(e, past), self.energy(e, past))
-    }
-}
-
-/// Any other fabric, called element by element.
-pub struct Called<'a>(pub &'a dyn Fabric);
-
-impl Law for Called<'_> {
-    #[inline(always)]
-    fn at(&self, e: [f64; 3], past: &Past) -> ([f64; 3], f64) {
-        (self.0.tension(e, past), self.0.energy(e, past))
-    }
-}
-
-/// Rate and history of the elements of a group.
+/// Strains of the elements of a group at the step before.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
-pub struct Strain(pub [Lane; 3]);
-
-/// Positions of one corner of eight elements.
-#[inline(always)]
-fn gather(q: &[[f64; 4]], node: &[u32; LANES]) -> [Lane; 3] {
-    let mut x = [[0.0; LANES]; 3];
-    for lane in 0..LANES {
-        let p = &q[node[lane] as usize];
-        x[0][lane] = p[0];
-        x[1][lane] = p[1];
-        x[2][lane] = p[2];
-    }
-    x
-}
+pub struct Strain(pub Lane3);
 
 /// What a batch of groups has in common.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct Batch<'a> {
     /// Node positions.
     pub q: &'a [[f64; 4]],
@@ -92,187 +52,179 @@ pub struct Batch<'a> {
     pub pressure: f64,
     /// 1/Δt, or 0 without viscosity \[1/s\].
     pub rate: f64,
+    /// Elements of the batch.
+    pub groups: &'a [Group],
+    /// Memory of the fabric, or empty.
+    pub past: &'a [[Past; LANES]],
 }
 
-/// Forces, energies and volume of quadrilaterals; `volume` collects ∫ x n_x, ∫ y n_y, ∫ z n_z over the batch.
+/// Forces, energies and fluxes of quadrilaterals.
 #[inline(always)]
-pub fn quads<L: Law>(
+pub fn quads<S: Simd, L: Law>(
+    simd: S,
     batch: Batch,
-    law: &L,
-    groups: &[Group],
+    law: L,
     strains: &mut [Strain],
-    past: &[[Past; LANES]],
     out: &mut [CornerForces],
-    volume: &mut Lane3,
-) -> Sums {
-    let mut membrane = [0.0; LANES];
-    let mut hourglass = [0.0; LANES];
-    let mut viscous = [0.0; LANES];
-    for (index, ((group, strain), out)) in groups.iter().zip(strains).zip(out).enumerate() {
-        let x = [0, 1, 2, 3].map(|c| gather(batch.q, &group.node[c]));
-        let old = strain.0;
-        let mut new = [[0.0; LANES]; 3];
-        for l in 0..LANES {
-            let at = |c: usize| [x[c][0][l], x[c][1][l], x[c][2][l]];
-            let (x1, x2, x3, x4) = (at(0), at(1), at(2), at(3));
-            let mut d13 = [0.0; 3];
-            let mut d24 = [0.0; 3];
-            let mut h = [0.0; 3];
-            let mut f1 = [0.0; 3];
-            let mut f2 = [0.0; 3];
-            let (b11, b12) = (group.b[0][0][l], group.b[0][1][l]);
-            let (b21, b22) = (group.b[1][0][l], group.b[1][1][l]);
-            let (s1, s2) = (group.s[0][l], group.s[1][l]);
-            for k in 0..3 {
-                d13[k] = x1[k] - x3[k];
-                d24[k] = x2[k] - x4[k];
-                h[k] = (x1[k] + x3[k]) - (x2[k] + x4[k]);
-                f1[k] = b11 * d13[k] + b21 * d24[k];
-                f2[k] = b12 * d13[k] + b22 * d24[k];
-            }
-            let e = [
-                0.5 * (inner(f1, f1) - 1.0),
-                0.5 * (inner(f2, f2) - 1.0),
-                inner(f1, f2),
-            ];
-            let none = [0.0; 2];
-            let (s, w) = law.at(e, if past.is_empty() { &none } else { &past[index][l] });
-            let area = group.area[l];
-            let eta = group.viscosity[l] * batch.rate;
-            let d = [e[0] - old[0][l], e[1] - old[1][l], e[2] - old[2][l]];
-            new[0][l] = e[0];
-            new[1][l] = e[1];
-            new[2][l] = e[2];
-            let t11 = area * (s[0] + eta * d[0]);
-            let t22 = area * (s[1] + eta * d[1]);
-            let t12 = area * (s[2] + 0.5 * eta * d[2]);
-            let mut hg = [0.0; 3];
-            for k in 0..3 {
-                hg[k] = 0.25 * (h[k] - s1 * f1[k] - s2 * f2[k]);
-            }
-            let (g1, g2) = (inner(f1, hg), inner(f2, hg));
-            let (k1, k2) = (group.hourglass[l] * g1, group.hourglass[l] * g2);
-            let own = group.own[l];
-            membrane[l] += own * area * w;
-            hourglass[l] += own * 0.5 * (k1 * g1 + k2 * g2);
-            viscous[l] += own * area * eta * (d[0] * d[0] + d[1] * d[1] + 0.5 * d[2] * d[2]);
-            let p = batch.pressure * group.real[l];
-            let mut a = [0.0; 3];
-            let mut b = [0.0; 3];
-            let mut c = [0.0; 3];
-            for k in 0..3 {
-                a[k] = 0.25 * (d24[k] - d13[k]);
-                b[k] = -0.25 * (d13[k] + d24[k]);
-                c[k] = 0.25 * h[k];
-            }
-            let n0 = product(a, b);
-            let n1 = product(a, c);
-            let n2 = product(c, b);
-            for k in 0..3 {
-                let quarter = 0.25 * (k1 * f1[k] + k2 * f2[k]);
-                let r1 = t11 * f1[k] + t12 * f2[k] + k1 * hg[k] - s1 * quarter;
-                let r2 = t12 * f1[k] + t22 * f2[k] + k2 * hg[k] - s2 * quarter;
-                let p13 = b11 * r1 + b12 * r2;
-                let p24 = b21 * r1 + b22 * r2;
-                let third = p * (1.0 / 3.0);
-                let (m0, m1, m2) = (p * n0[k], third * n1[k], third * n2[k]);
-                let (even, odd) = (m0 - quarter, m0 + quarter);
-                out[0][k][l] = even - (m1 + m2) - p13;
-                out[1][k][l] = odd + (m1 - m2) - p24;
-                out[2][k][l] = even + (m1 + m2) + p13;
-                out[3][k][l] = odd - (m1 - m2) + p24;
-                let mean = (x1[k] + x3[k]) + (x2[k] + x4[k]);
-                let flux = mean * n0[k] + (4.0 / 3.0) * (a[k] * n1[k] + b[k] * n2[k]);
-                volume[k][l] += own * flux;
-            }
+    tally: &mut Tally,
+) {
+    for (index, ((group, strain), out)) in batch.groups.iter().zip(strains).zip(out).enumerate() {
+        for part in 0..LANES / S::F64_LANES {
+            quad(simd, batch, law, group, batch.past.get(index), part, strain, out, tally);
         }
-        strain.0 = new;
     }
-    Sums { membrane: sum(&membrane), hourglass: sum(&hourglass), viscous: sum(&viscous) }
 }
 
-/// Forces, energies and volume of triangles; the fourth corner gets nothing.
 #[inline(always)]
-pub fn triangles<L: Law>(
+#[allow(clippy::too_many_arguments)] // one call, inlined: a struct would only rename the list
+fn quad<S: Simd, L: Law>(
+    simd: S,
     batch: Batch,
-    law: &L,
-    groups: &[Group],
-    strains: &mut [Strain],
-    past: &[[Past; LANES]],
-    out: &mut [CornerForces],
-    volume: &mut Lane3,
-) -> Sums {
-    let mut membrane = [0.0; LANES];
-    let mut viscous = [0.0; LANES];
-    for (index, ((group, strain), out)) in groups.iter().zip(strains).zip(out).enumerate() {
-        let x = [0, 1, 2].map(|c| gather(batch.q, &group.node[c]));
-        let old = strain.0;
-        let mut new = [[0.0; LANES]; 3];
-        for l in 0..LANES {
-            let at = |c: usize| [x[c][0][l], x[c][1][l], x[c][2][l]];
-            let (x1, x2, x3) = (at(0), at(1), at(2));
-            let mut u = [0.0; 3];
-            let mut v = [0.0; 3];
-            let mut f1 = [0.0; 3];
-            let mut f2 = [0.0; 3];
-            let (b21, b22) = (group.b[0][0][l], group.b[0][1][l]);
-            let (b31, b32) = (group.b[1][0][l], group.b[1][1][l]);
-            for k in 0..3 {
-                u[k] = x2[k] - x1[k];
-                v[k] = x3[k] - x1[k];
-                f1[k] = b21 * u[k] + b31 * v[k];
-                f2[k] = b22 * u[k] + b32 * v[k];
-            }
-            let e = [
-                0.5 * (inner(f1, f1) - 1.0),
-                0.5 * (inner(f2, f2) - 1.0),
-                inner(f1, f2),
-            ];
-            let none = [0.0; 2];
-            let (s, w) = law.at(e, if past.is_empty() { &none } else { &past[index][l] });
-            let area = group.area[l];
-            let eta = group.viscosity[l] * batch.rate;
-            let d = [e[0] - old[0][l], e[1] - old[1][l], e[2] - old[2][l]];
-            new[0][l] = e[0];
-            new[1][l] = e[1];
-            new[2][l] = e[2];
-            let t11 = area * (s[0] + eta * d[0]);
-            let t22 = area * (s[1] + eta * d[1]);
-            let t12 = area * (s[2] + 0.5 * eta * d[2]);
-            let own = group.own[l];
-            membrane[l] += own * area * w;
-            viscous[l] += own * area * eta * (d[0] * d[0] + d[1] * d[1] + 0.5 * d[2] * d[2]);
-            let normal = product(u, v);
-            let p = batch.pressure * group.real[l] * (1.0 / 6.0);
-            for k in 0..3 {
-                let r1 = t11 * f1[k] + t12 * f2[k];
-                let r2 = t12 * f1[k] + t22 * f2[k];
-                let (p2, p3) = (b21 * r1 + b22 * r2, b31 * r1 + b32 * r2);
-                let push = p * normal[k];
-                out[0][k][l] = push + (p2 + p3);
-                out[1][k][l] = push - p2;
-                out[2][k][l] = push - p3;
-                out[3][k][l] = 0.0;
-                volume[k][l] += own * (1.0 / 6.0) * (x1[k] + x2[k] + x3[k]) * normal[k];
-            }
-        }
-        strain.0 = new;
+    law: L,
+    group: &Group,
+    past: Option<&[Past; LANES]>,
+    part: usize,
+    strain: &mut Strain,
+    out: &mut CornerForces,
+    tally: &mut Tally,
+) {
+    let lane = |from: &Lane| V::load(simd, from, part);
+    let all = |value: f64| V::all(simd, value);
+    let axes = [0, 1, 2];
+    let x: [[V<S>; 3]; 4] = [0, 1, 2, 3].map(|c: usize| V::gather(simd, batch.q, &group.node[c], part));
+    let d13 = axes.map(|k| x[0][k] - x[2][k]);
+    let d24 = axes.map(|k| x[1][k] - x[3][k]);
+    let odd = axes.map(|k| x[0][k] + x[2][k]);
+    let even = axes.map(|k| x[1][k] + x[3][k]);
+    let h = axes.map(|k| odd[k] - even[k]);
+
+    let b: [[V<S>; 2]; 2] = [0, 1].map(|c: usize| [lane(&group.b[c][0]), lane(&group.b[c][1])]);
+    let f1 = axes.map(|k| b[0][0] * d13[k] + b[1][0] * d24[k]);
+    let f2 = axes.map(|k| b[0][1] * d13[k] + b[1][1] * d24[k]);
+    let e = [
+        all(0.5) * (inner(f1, f1) - all(1.0)),
+        all(0.5) * (inner(f2, f2) - all(1.0)),
+        inner(f1, f2),
+    ];
+    let (s, w) = law.at(simd, e, past, part);
+    let (area, own) = (lane(&group.area), lane(&group.own));
+    let t = with_viscosity(simd, batch.rate, group, part, e, s, strain, tally);
+
+    let (s1, s2) = (lane(&group.s[0]), lane(&group.s[1]));
+    let q = axes.map(|k| all(0.25) * (h[k] - s1 * f1[k] - s2 * f2[k]));
+    let (g1, g2) = (inner(f1, q), inner(f2, q));
+    let stiffness = lane(&group.hourglass);
+    let (k1, k2) = (stiffness * g1, stiffness * g2);
+    (lane(&tally.membrane) + own * area * w).store(&mut tally.membrane, part);
+    (lane(&tally.hourglass) + all(0.5) * own * (k1 * g1 + k2 * g2)).store(&mut tally.hourglass, part);
+
+    let a = axes.map(|k| all(0.25) * (d24[k] - d13[k]));
+    let c = axes.map(|k| all(-0.25) * (d13[k] + d24[k]));
+    let warp = axes.map(|k| all(0.25) * h[k]);
+    let (n0, n1, n2) = (product(a, c), product(a, warp), product(warp, c));
+    let p = all(batch.pressure) * lane(&group.real);
+    let third = p * all(1.0 / 3.0);
+    for k in 0..3 {
+        let quarter = all(0.25) * (k1 * f1[k] + k2 * f2[k]);
+        let r1 = t[0] * f1[k] + t[2] * f2[k] + k1 * q[k] - s1 * quarter;
+        let r2 = t[2] * f1[k] + t[1] * f2[k] + k2 * q[k] - s2 * quarter;
+        let p13 = b[0][0] * r1 + b[0][1] * r2;
+        let p24 = b[1][0] * r1 + b[1][1] * r2;
+        let (m0, m1, m2) = (p * n0[k], third * n1[k], third * n2[k]);
+        let (low, high) = (m0 - quarter, m0 + quarter);
+        let (sum, difference) = (m1 + m2 + p13, m1 - m2 - p24);
+        (low - sum).store(&mut out[0][k], part);
+        (high + difference).store(&mut out[1][k], part);
+        (low + sum).store(&mut out[2][k], part);
+        (high - difference).store(&mut out[3][k], part);
+        let flux = (odd[k] + even[k]) * n0[k] + all(4.0 / 3.0) * (a[k] * n1[k] + c[k] * n2[k]);
+        (lane(&tally.flux[k]) + own * flux).store(&mut tally.flux[k], part);
     }
-    Sums { membrane: sum(&membrane), hourglass: 0.0, viscous: sum(&viscous) }
 }
 
-/// Sum over the lanes, in one order.
+/// Forces, energies and fluxes of triangles; the fourth corner gets nothing.
 #[inline(always)]
-pub fn sum(lane: &Lane) -> f64 {
-    ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]))
+pub fn triangles<S: Simd, L: Law>(
+    simd: S,
+    batch: Batch,
+    law: L,
+    strains: &mut [Strain],
+    out: &mut [CornerForces],
+    tally: &mut Tally,
+) {
+    for (index, ((group, strain), out)) in batch.groups.iter().zip(strains).zip(out).enumerate() {
+        for part in 0..LANES / S::F64_LANES {
+            triangle(simd, batch, law, group, batch.past.get(index), part, strain, out, tally);
+        }
+    }
 }
 
 #[inline(always)]
-fn inner(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+#[allow(clippy::too_many_arguments)] // one call, inlined: a struct would only rename the list
+fn triangle<S: Simd, L: Law>(
+    simd: S,
+    batch: Batch,
+    law: L,
+    group: &Group,
+    past: Option<&[Past; LANES]>,
+    part: usize,
+    strain: &mut Strain,
+    out: &mut CornerForces,
+    tally: &mut Tally,
+) {
+    let lane = |from: &Lane| V::load(simd, from, part);
+    let all = |value: f64| V::all(simd, value);
+    let axes = [0, 1, 2];
+    let x: [[V<S>; 3]; 3] = [0, 1, 2].map(|c: usize| V::gather(simd, batch.q, &group.node[c], part));
+    let u = axes.map(|k| x[1][k] - x[0][k]);
+    let v = axes.map(|k| x[2][k] - x[0][k]);
+    let b: [[V<S>; 2]; 2] = [0, 1].map(|c: usize| [lane(&group.b[c][0]), lane(&group.b[c][1])]);
+    let f1 = axes.map(|k| b[0][0] * u[k] + b[1][0] * v[k]);
+    let f2 = axes.map(|k| b[0][1] * u[k] + b[1][1] * v[k]);
+    let e = [
+        all(0.5) * (inner(f1, f1) - all(1.0)),
+        all(0.5) * (inner(f2, f2) - all(1.0)),
+        inner(f1, f2),
+    ];
+    let (s, w) = law.at(simd, e, past, part);
+    let (area, own) = (lane(&group.area), lane(&group.own));
+    let t = with_viscosity(simd, batch.rate, group, part, e, s, strain, tally);
+    (lane(&tally.membrane) + own * area * w).store(&mut tally.membrane, part);
+
+    let normal = product(u, v);
+    let p = all(batch.pressure / 6.0) * lane(&group.real);
+    for k in 0..3 {
+        let r1 = t[0] * f1[k] + t[2] * f2[k];
+        let r2 = t[2] * f1[k] + t[1] * f2[k];
+        let (p2, p3) = (b[0][0] * r1 + b[0][1] * r2, b[1][0] * r1 + b[1][1] * r2);
+        let push = p * normal[k];
+        (push + (p2 + p3)).store(&mut out[0][k], part);
+        (push - p2).store(&mut out[1][k], part);
+        (push - p3).store(&mut out[2][k], part);
+        let flux = all(1.0 / 6.0) * (x[0][k] + x[1][k] + x[2][k]) * normal[k];
+        (lane(&tally.flux[k]) + own * flux).store(&mut tally.flux[k], part);
+    }
 }
 
+/// A·(S + viscous part) as (11, 22, 12); keeps the strains and books the heat.
 #[inline(always)]
-fn product(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+#[allow(clippy::too_many_arguments)] // shared tail of the two kernels, inlined
+fn with_viscosity<S: Simd>(
+    simd: S,
+    rate: f64,
+    group: &Group,
+    part: usize,
+    e: [V<S>; 3],
+    s: [V<S>; 3],
+    strain: &mut Strain,
+    tally: &mut Tally,
+) -> [V<S>; 3] {
+    let lane = |from: &Lane| V::load(simd, from, part);
+    let (area, half) = (lane(&group.area), V::all(simd, 0.5));
+    let eta = lane(&group.viscosity) * V::all(simd, rate);
+    let d = [0, 1, 2].map(|k| e[k] - lane(&strain.0[k]));
+    (0..3).for_each(|k| e[k].store(&mut strain.0[k], part));
+    let heat = lane(&group.own) * area * eta * (d[0] * d[0] + d[1] * d[1] + half * d[2] * d[2]);
+    (lane(&tally.viscous) + heat).store(&mut tally.viscous, part);
+    [area * (s[0] + eta * d[0]), area * (s[1] + eta * d[1]), area * (s[2] + half * eta * d[2])]
 }

@@ -5,11 +5,24 @@ use std::ops::Range;
 
 use models::Fabric;
 use models::fabrics::{Kind, Past};
+use pulp::Simd;
 
 use super::bending::BendingMatrix;
-use super::chamber::flux;
 use super::group::{Group, Item, LANES};
-use super::kernel::{self, Batch, Called, CornerForces, Law, Strain, Sums};
+use super::kernel::{self, Batch, CornerForces, Strain, Tally};
+use super::lanes::sum;
+use super::law::{Called, Law};
+
+/// What one pass over a patch adds up, in SI units.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Sums {
+    /// Membrane energy \[J\].
+    pub membrane: f64,
+    /// Hourglass energy \[J\].
+    pub hourglass: f64,
+    /// Energy turned to heat by viscosity in this step \[J\].
+    pub viscous: f64,
+}
 
 /// Elements that run through the same loop: same kind, fabric and chambers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -189,11 +202,11 @@ struct Pass<'a, 'b> {
     force: &'a mut [[f64; 4]],
 }
 
-impl pulp::NullaryFnOnce for Pass<'_, '_> {
+impl pulp::WithSimd for Pass<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn call(self) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let Pass { patch, shared, force } = self;
         patch.sums = Sums::default();
         patch.flux.clear();
@@ -202,9 +215,9 @@ impl pulp::NullaryFnOnce for Pass<'_, '_> {
             let key = patch.runs[index].key;
             let fabric = &*shared.fabrics[key.fabric];
             match fabric.kind() {
-                Kind::NeoHookean(law) => run(patch, shared, index, law),
-                Kind::Orthotropic(law) => run(patch, shared, index, law),
-                Kind::Other => run(patch, shared, index, &Called(fabric)),
+                Kind::NeoHookean(law) => run(simd, patch, shared, index, law),
+                Kind::Orthotropic(law) => run(simd, patch, shared, index, law),
+                Kind::Other => run(simd, patch, shared, index, Called(fabric)),
             }
         }
         sum_corners(patch, force);
@@ -213,27 +226,29 @@ impl pulp::NullaryFnOnce for Pass<'_, '_> {
 }
 
 #[inline(always)]
-fn run<L: Law>(patch: &mut Patch, shared: Shared, index: usize, law: &L) {
+fn run<S: Simd, L: Law>(simd: S, patch: &mut Patch, shared: Shared, index: usize, law: L) {
     let Run { key, groups } = patch.runs[index].clone();
     let pressure = |chamber: Option<usize>| chamber.map_or(0.0, |c| shared.pressure_pa[c]);
-    let batch = Batch { q: shared.q, pressure: pressure(key.back) - pressure(key.front), rate: shared.rate };
-    let mut volume = [[0.0; LANES]; 3];
-    let strains = &mut patch.strains[groups.clone()];
-    let past = if patch.past.is_empty() { &[] } else { &patch.past[groups.clone()] };
-    let out = &mut patch.scratch[groups.clone()];
-    let groups = &patch.groups[groups];
-    let sums = if key.corners == 4 {
-        kernel::quads(batch, law, groups, strains, past, out, &mut volume)
-    } else {
-        kernel::triangles(batch, law, groups, strains, past, out, &mut volume)
+    let batch = Batch {
+        q: shared.q,
+        pressure: pressure(key.back) - pressure(key.front),
+        rate: shared.rate,
+        groups: &patch.groups[groups.clone()],
+        past: if patch.past.is_empty() { &[] } else { &patch.past[groups.clone()] },
     };
-    patch.sums.membrane += sums.membrane;
-    patch.sums.hourglass += sums.hourglass;
-    patch.sums.viscous += sums.viscous;
-    let flux = flux(&volume);
+    let mut tally = Tally::default();
+    let (strains, out) = (&mut patch.strains[groups.clone()], &mut patch.scratch[groups]);
+    if key.corners == 4 {
+        kernel::quads(simd, batch, law, strains, out, &mut tally);
+    } else {
+        kernel::triangles(simd, batch, law, strains, out, &mut tally);
+    }
+    patch.sums.membrane += sum(&tally.membrane);
+    patch.sums.hourglass += sum(&tally.hourglass);
+    patch.sums.viscous += sum(&tally.viscous);
     for (chamber, sign) in [(key.back, 1.0), (key.front, -1.0)] {
         if let Some(chamber) = chamber {
-            (0..3).for_each(|k| patch.flux[chamber][k] += sign * flux[k]);
+            (0..3).for_each(|k| patch.flux[chamber][k] += sign * sum(&tally.flux[k]));
         }
     }
 }

@@ -1,0 +1,102 @@
+//! Vector arithmetic on as many elements as the processor takes at once, with ordinary operators.
+//!
+//! No fused multiply-add, so that every width gives the same bits.
+
+use std::ops::{Add, Mul, Sub};
+
+use pulp::Simd;
+
+use super::group::{LANES, Lane};
+
+/// A vector register of f64.
+#[derive(Clone, Copy)]
+pub struct V<S: Simd>(S, S::f64s);
+
+impl<S: Simd> Add for V<S> {
+    type Output = V<S>;
+    #[inline(always)]
+    fn add(self, other: V<S>) -> V<S> {
+        V(self.0, self.0.add_f64s(self.1, other.1))
+    }
+}
+
+impl<S: Simd> Sub for V<S> {
+    type Output = V<S>;
+    #[inline(always)]
+    fn sub(self, other: V<S>) -> V<S> {
+        V(self.0, self.0.sub_f64s(self.1, other.1))
+    }
+}
+
+impl<S: Simd> Mul for V<S> {
+    type Output = V<S>;
+    #[inline(always)]
+    fn mul(self, other: V<S>) -> V<S> {
+        V(self.0, self.0.mul_f64s(self.1, other.1))
+    }
+}
+
+impl<S: Simd> V<S> {
+    /// The same number in every lane.
+    #[inline(always)]
+    pub fn all(simd: S, value: f64) -> V<S> {
+        V(simd, simd.splat_f64s(value))
+    }
+
+    /// 1/self.
+    #[inline(always)]
+    pub fn inverse(self) -> V<S> {
+        V(self.0, self.0.div_f64s(self.0.splat_f64s(1.0), self.1))
+    }
+
+    /// Part number `part` of eight lanes.
+    #[inline(always)]
+    pub fn load(simd: S, from: &Lane, part: usize) -> V<S> {
+        V(simd, S::as_simd_f64s(from).0[part])
+    }
+
+    /// Writes part number `part` of eight lanes.
+    #[inline(always)]
+    pub fn store(self, to: &mut Lane, part: usize) {
+        S::as_mut_simd_f64s(to).0[part] = self.1;
+    }
+
+    /// Positions of one corner of the elements in part number `part` of a group.
+    #[inline(always)]
+    pub fn gather(simd: S, q: &[[f64; 4]], node: &[u32; LANES], part: usize) -> [V<S>; 3] {
+        let mut x = [[0.0; LANES]; 3];
+        let width = S::F64_LANES;
+        for lane in 0..width {
+            let p = &q[node[part * width + lane] as usize];
+            x[0][lane] = p[0];
+            x[1][lane] = p[1];
+            x[2][lane] = p[2];
+        }
+        [V::load(simd, &x[0], 0), V::load(simd, &x[1], 0), V::load(simd, &x[2], 0)]
+    }
+
+    /// The lanes as numbers, the first `S::F64_LANES` of them meaningful.
+    #[inline(always)]
+    pub fn lanes(self) -> Lane {
+        let mut out = [0.0; LANES];
+        self.store(&mut out, 0);
+        out
+    }
+}
+
+/// Scalar product lane by lane.
+#[inline(always)]
+pub fn inner<S: Simd>(a: [V<S>; 3], b: [V<S>; 3]) -> V<S> {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Vector product lane by lane.
+#[inline(always)]
+pub fn product<S: Simd>(a: [V<S>; 3], b: [V<S>; 3]) -> [V<S>; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// Sum over the lanes, in one order.
+pub fn sum(lane: &Lane) -> f64 {
+    ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]))
+}
