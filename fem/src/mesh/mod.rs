@@ -6,6 +6,13 @@
 //!   1 ─────── 2
 //! ```
 
+pub mod check;
+pub mod generate;
+
+mod geometry;
+mod merge;
+mod names;
+
 use std::collections::BTreeMap;
 
 /// Nodes and elements in their stress-free shape. Node numbers count from 0 here and from 1 in files and messages.

@@ -1,0 +1,220 @@
+//! Chambers: closed, bounded by one consistently oriented surface, with the gas inside.
+
+use super::{describe, fault, millimetres};
+use crate::FemError;
+use crate::mesh::geometry::{area, centre, norm, scale, sub};
+use crate::mesh::names::meant;
+use crate::mesh::{Mesh, Part};
+
+/// Share of the area to the power 3/2 below which a volume is flat and has no sign.
+const FLAT: f64 = 1e-9;
+/// Share of the size of the mesh within which open edges count as lying in a plane.
+const IN_PLANE: f64 = 1e-6;
+
+/// What is known about closed chambers.
+pub(super) struct Closed {
+    /// Volume at the start by chamber \[m³\].
+    pub(super) volumes_m3: Vec<(String, f64)>,
+    /// Edges at which a chamber touches itself.
+    pub(super) seams: usize,
+}
+
+/// One side of a face.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Use {
+    low: u32,
+    high: u32,
+    part: usize,
+    element: usize,
+    ascending: bool,
+}
+
+/// Checks all chambers.
+pub(super) fn check(mesh: &Mesh, chambers: &[&str], open: &[&str]) -> Result<Closed, FemError> {
+    let openings = openings(mesh, open)?;
+    let tied = tied(mesh);
+    let mut closed = Closed { volumes_m3: Vec::new(), seams: 0 };
+    for name in chambers {
+        let uses = uses(mesh, name);
+        let mut cuts = [false; 3];
+        let mut turned: Vec<(Use, Use)> = Vec::new();
+        for edge in uses.chunk_by(|a, b| (a.low, a.high) == (b.low, b.high)) {
+            let up = edge.iter().filter(|u| u.ascending).count();
+            if 2 * up == edge.len() {
+                closed.seams += usize::from(edge.len() > 2);
+            } else if edge.len() == 1 {
+                match opening(mesh, &openings, edge[0])? {
+                    Some(axis) => cuts[axis] = true,
+                    None if tied[edge[0].low as usize] && tied[edge[0].high as usize] => {}
+                    None => return Err(leak(mesh, name, edge[0], &uses)),
+                }
+            } else if edge.len() == 2 {
+                turned.push((edge[0], edge[1]));
+            } else {
+                return Err(pinch(mesh, name, edge));
+            }
+        }
+        if !turned.is_empty() {
+            return Err(flipped(mesh, name, &turned));
+        }
+        closed.volumes_m3.push((name.to_string(), volume(mesh, name, cuts)?));
+    }
+    Ok(closed)
+}
+
+/// +1 if the element's normal points out of the chamber, −1 if into it, 0 if it does not bound it.
+fn side(part: &Part, chamber: &str) -> f64 {
+    let [front, back] = [&part.front, &part.back].map(|name| name.as_deref() == Some(chamber));
+    f64::from(i8::from(back) - i8::from(front))
+}
+
+/// Every edge of every face of the chamber, run along with the outside to the front, sorted by edge.
+fn uses(mesh: &Mesh, chamber: &str) -> Vec<Use> {
+    let mut uses = Vec::new();
+    for (part, block) in mesh.parts.iter().enumerate().filter(|(_, block)| side(block, chamber) != 0.0) {
+        let outward = side(block, chamber) > 0.0;
+        for element in 0..block.len() {
+            let nodes = block.nodes(element);
+            for k in 0..nodes.len() {
+                let (a, b) = (nodes[k], nodes[(k + 1) % nodes.len()]);
+                uses.push(Use { low: a.min(b), high: a.max(b), part, element, ascending: (a < b) == outward });
+            }
+        }
+    }
+    uses.sort_unstable();
+    uses
+}
+
+/// A node set along which a chamber may be open.
+struct Opening {
+    nodes: Vec<bool>,
+    /// Axes to which the set is perpendicular at the start: one, or two where it is a line.
+    flat: [bool; 3],
+}
+
+fn openings(mesh: &Mesh, open: &[&str]) -> Result<Vec<Opening>, FemError> {
+    let mut openings = Vec::with_capacity(open.len());
+    for name in open {
+        let Some(members) = mesh.sets.get(*name) else {
+            let meant = meant(name, mesh.sets.keys().map(String::as_str));
+            return fault(format!("there is no set `{name}` to be open at{meant}"));
+        };
+        let mut nodes = vec![false; mesh.points.len()];
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for node in members {
+            nodes[*node as usize] = true;
+            let x = mesh.start_of(*node as usize);
+            (0..3).for_each(|k| (low[k], high[k]) = (low[k].min(x[k]), high[k].max(x[k])));
+        }
+        let spread = sub(high, low);
+        openings.push(Opening { nodes, flat: spread.map(|s| s <= IN_PLANE * norm(spread)) });
+    }
+    Ok(openings)
+}
+
+/// Axis perpendicular to the opening that an edge lies in, if it does.
+fn opening(mesh: &Mesh, openings: &[Opening], edge: Use) -> Result<Option<usize>, FemError> {
+    let inside = |o: &&Opening| o.nodes[edge.low as usize] && o.nodes[edge.high as usize];
+    let Some(opening) = openings.iter().find(inside) else { return Ok(None) };
+    // Layers that start flat on each other are open along a line; the cut is across the sheet, not along it.
+    let ends = [edge.low, edge.high].map(|n| mesh.start_of(n as usize));
+    let nodes = mesh.parts[edge.part].nodes(edge.element).iter();
+    let away = sub(centre(&nodes.map(|n| mesh.start_of(*n as usize)).collect::<Vec<_>>()), centre(&ends));
+    let axis = (0..3).filter(|k| opening.flat[*k]).max_by(|a, b| away[*a].abs().total_cmp(&away[*b].abs()));
+    if axis.is_none() {
+        let place = millimetres(centre(&ends));
+        return fault(format!(
+            "the open edge at {place} is not in a set that lies in a plane perpendicular to x, y or z"
+        ));
+    }
+    Ok(axis)
+}
+
+/// Nodes that follow an element or are followed: an edge between two such nodes is closed by its ties.
+fn tied(mesh: &Mesh) -> Vec<bool> {
+    let mut tied = vec![false; mesh.points.len()];
+    for tie in &mesh.ties {
+        tied[tie.node as usize] = true;
+        tie.to.iter().for_each(|(to, _)| tied[*to as usize] = true);
+    }
+    tied
+}
+
+fn describe_use(mesh: &Mesh, edge: &Use) -> String {
+    describe(&mesh.parts[edge.part], edge.element)
+}
+
+/// "the edge between nodes 5 and 6 at (1.0, 2.0, 0.0) mm".
+fn describe_edge(mesh: &Mesh, edge: &Use) -> String {
+    let ends = [edge.low, edge.high].map(|n| mesh.start_of(n as usize));
+    format!("the edge between nodes {} and {} at {}", edge.low + 1, edge.high + 1, millimetres(centre(&ends)))
+}
+
+fn leak(mesh: &Mesh, chamber: &str, edge: Use, uses: &[Use]) -> FemError {
+    let open = uses.chunk_by(|a, b| (a.low, a.high) == (b.low, b.high)).filter(|edge| edge.len() == 1).count();
+    FemError::Mesh(format!(
+        "chamber `{chamber}` is open: {} belongs to {} only ({open} such edges); close it, weld the nodes there, or name \
+         the set of nodes at which it may be open",
+        describe_edge(mesh, &edge),
+        describe_use(mesh, &edge)
+    ))
+}
+
+fn pinch(mesh: &Mesh, chamber: &str, edge: &[Use]) -> FemError {
+    let elements: Vec<String> = edge.iter().map(|u| describe_use(mesh, u)).collect();
+    FemError::Mesh(format!(
+        "chamber `{chamber}` is not the inside of a closed surface: {} of its faces meet at {}: {}; a wall that ends inside \
+         a chamber must have it on both sides, or one of these is turned over",
+        edge.len(),
+        describe_edge(mesh, &edge[0]),
+        elements.join(", ")
+    ))
+}
+
+/// The element with most neighbours that disagree is the one turned over.
+fn flipped(mesh: &Mesh, chamber: &str, turned: &[(Use, Use)]) -> FemError {
+    let mut faces: Vec<(usize, usize)> = turned.iter().flat_map(|(a, b)| [a, b]).map(|u| (u.part, u.element)).collect();
+    faces.sort_unstable();
+    let worst = faces.chunk_by(|a, b| a == b).rev().max_by_key(|same| same.len()).map_or((0, 0), |same| same[0]);
+    let touches = |u: &Use| (u.part, u.element) == worst;
+    let pair = turned.iter().find(|(a, b)| touches(a) || touches(b)).unwrap_or(&turned[0]);
+    let (wrong, right) = if touches(&pair.0) { pair } else { &(pair.1, pair.0) };
+    FemError::Mesh(format!(
+        "{} is turned over: at {} it faces chamber `{chamber}` the other way than {} ({} such edges); list its nodes in \
+         the opposite order, or swap front and back of its part",
+        describe_use(mesh, wrong),
+        describe_edge(mesh, wrong),
+        describe_use(mesh, right),
+        turned.len()
+    ))
+}
+
+/// V = Σ x·A over the axes that are not cut, divided by their number; refused if clearly negative.
+fn volume(mesh: &Mesh, chamber: &str, cuts: [bool; 3]) -> Result<f64, FemError> {
+    let axes: Vec<usize> = (0..3).filter(|k| !cuts[*k]).collect();
+    if axes.is_empty() {
+        return fault(format!("chamber `{chamber}` is open along x, y and z, so it has no volume; open it along two"));
+    }
+    let origin = mesh.start_of(0);
+    let (mut sum, mut surface) = (0.0, 0.0);
+    for part in mesh.parts.iter().filter(|part| side(part, chamber) != 0.0) {
+        for i in 0..part.len() {
+            let mut corners = [origin; 4];
+            part.nodes(i).iter().zip(&mut corners).for_each(|(n, x)| *x = sub(mesh.start_of(*n as usize), origin));
+            for k in 2..part.nodes(i).len() {
+                let triangle = [corners[0], corners[k - 1], corners[k]];
+                let (middle, outward) = (centre(&triangle), scale(area(&triangle), side(part, chamber)));
+                sum += axes.iter().map(|k| middle[*k] * outward[*k]).sum::<f64>();
+                surface += norm(outward);
+            }
+        }
+    }
+    let volume = sum / axes.len() as f64;
+    if volume < -FLAT * surface.powf(1.5) {
+        let volume = volume * 1e9;
+        return fault(format!(
+            "chamber `{chamber}` is inside out (volume {volume:.1} mm³): all its faces are turned over; swap front and back"
+        ));
+    }
+    Ok(volume)
+}

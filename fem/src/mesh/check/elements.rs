@@ -1,0 +1,86 @@
+//! Elements one by one: different nodes, an area, no corner turned inside out, a warp direction in the plane.
+
+use super::{describe, fault, millimetres};
+use crate::FemError;
+use crate::mesh::geometry::{area, centre, cross, dot, norm, sub};
+use crate::mesh::{Mesh, Part};
+
+/// Smallest area over the square of the longest side that counts as an area; far below any useful element.
+const NO_AREA: f64 = 1e-9;
+/// Sine of the smallest angle between warp and normal: 1 degree, below which its projection is arbitrary.
+const IN_PLANE: f64 = 0.0175;
+
+/// Checks every element in its stress-free shape, and its area at the start.
+pub(super) fn check(mesh: &Mesh) -> Result<(), FemError> {
+    for part in &mesh.parts {
+        if !(part.warp.len() <= 1 || part.warp.len() == part.len()) {
+            let (name, found, wanted) = (&part.name, part.warp.len(), part.len());
+            return fault(format!("part `{name}` has {found} warp directions; give 1, or {wanted} (one per element)"));
+        }
+        for i in 0..part.len() {
+            shape(mesh, part, i)?;
+            warp(mesh, part, i)?;
+        }
+    }
+    Ok(())
+}
+
+fn shape(mesh: &Mesh, part: &Part, i: usize) -> Result<(), FemError> {
+    let nodes = part.nodes(i);
+    if let Some(k) = (1..nodes.len()).find(|k| nodes[..*k].contains(&nodes[*k])) {
+        return fault(format!("{} has node {} twice", describe(part, i), nodes[k] + 1));
+    }
+    let mut corners = [[0.0; 3]; 4];
+    let x = stress_free(mesh, nodes, &mut corners);
+    let normal = area(x);
+    if !has_area(x) {
+        return fault(format!("{} at {} has no area", describe(part, i), millimetres(centre(x))));
+    }
+    if let Some(k) = (0..x.len()).find(|k| dot(corner(x, *k), normal) <= 0.0) {
+        let (what, place, node) = (describe(part, i), millimetres(x[k]), nodes[k] + 1);
+        return fault(format!("{what} is inverted at node {node}, {place}: its corner there is 180 degrees or more"));
+    }
+    if !mesh.start.is_empty() {
+        let mut start = [[0.0; 3]; 4];
+        nodes.iter().zip(&mut start).for_each(|(n, x)| *x = mesh.start[*n as usize]);
+        let x = &start[..nodes.len()];
+        if !has_area(x) {
+            return fault(format!("{} at {} has no area at the start", describe(part, i), millimetres(centre(x))));
+        }
+    }
+    Ok(())
+}
+
+fn warp(mesh: &Mesh, part: &Part, i: usize) -> Result<(), FemError> {
+    let Some(warp) = part.warp_of(i) else { return Ok(()) };
+    if !(norm(warp) > 0.0 && norm(warp).is_finite()) {
+        return fault(format!("{}: warp direction {warp:?} has no direction", describe(part, i)));
+    }
+    let mut corners = [[0.0; 3]; 4];
+    let normal = area(stress_free(mesh, part.nodes(i), &mut corners));
+    if norm(cross(warp, normal)) < IN_PLANE * norm(warp) * norm(normal) {
+        let what = describe(part, i);
+        return fault(format!("{what}: warp direction {warp:?} is parallel to the normal; give one in the sheet"));
+    }
+    Ok(())
+}
+
+/// Stress-free places of the nodes of one element.
+pub(super) fn stress_free<'a>(mesh: &Mesh, nodes: &[u32], into: &'a mut [[f64; 3]; 4]) -> &'a [[f64; 3]] {
+    nodes.iter().zip(into.iter_mut()).for_each(|(n, x)| *x = mesh.points[*n as usize]);
+    &into[..nodes.len()]
+}
+
+/// Area vector spanned by the two sides that meet in corner `k`.
+pub(super) fn corner(x: &[[f64; 3]], k: usize) -> [f64; 3] {
+    let (next, last) = ((k + 1) % x.len(), (k + x.len() - 1) % x.len());
+    cross(sub(x[next], x[k]), sub(x[last], x[k]))
+}
+
+/// False also for an area so large that it is no number.
+fn has_area(x: &[[f64; 3]]) -> bool {
+    let side = |k: usize| sub(x[k], x[(k + 1) % x.len()]);
+    let longest_squared = (0..x.len()).map(side).map(|e| dot(e, e)).fold(0.0, f64::max);
+    let area = norm(area(x));
+    area > NO_AREA * longest_squared && area.is_finite()
+}

@@ -1,0 +1,168 @@
+//! Is this mesh fit to be simulated? What [`check`] refuses would end as a wrong answer, not as a crash.
+//!
+//! A chamber X is bounded by the elements that face it from one side. Its outward area vector is the element's normal
+//! where `back` is X and the opposite where `front` is X; an element with X on both sides carries no pressure and is left out.
+//! The chamber is closed where every edge is run along as often one way as the other:
+//!
+//! ```text
+//!   once            open: the gas gets out
+//!   twice           closed; the same way both times: one of the two is turned over
+//!   3, 5, …         a wall that ends inside or leaves the chamber: not the surface of a volume
+//!   4, 6, … even    closed and pinched: pouches in one supply line that share a seam; counted in `Quality::seams`
+//! ```
+
+mod chamber;
+mod elements;
+mod quality;
+
+pub use quality::{PartCount, Quality, Spread, Worst};
+
+use crate::FemError;
+use crate::mesh::names::meant;
+use crate::mesh::{Mesh, Part};
+
+/// Checks a mesh whose chambers are all closed. `chambers` are the names that parts may use.
+///
+/// # Errors
+/// [`FemError::Mesh`] naming the first fault found: what, in which element of which part (counted from 1, quads first),
+/// which nodes (counted from 1), and where in mm.
+pub fn check(mesh: &Mesh, chambers: &[&str]) -> Result<Quality, FemError> {
+    check_open(mesh, chambers, &[])
+}
+
+/// Like [`check`], but chambers may be open along edges whose two nodes are in one of the sets `open`: a cut by a plane of
+/// symmetry perpendicular to x, y or z, or an end held in such a plane. The volume counted is that up to the plane.
+///
+/// # Errors
+/// As [`check`]; also when an open edge does not lie in a plane perpendicular to x, y or z.
+pub fn check_open(mesh: &Mesh, chambers: &[&str], open: &[&str]) -> Result<Quality, FemError> {
+    numbers(mesh)?;
+    names(mesh, chambers)?;
+    elements::check(mesh)?;
+    every_node_used(mesh)?;
+    ties(mesh)?;
+    let closed = chamber::check(mesh, chambers, open)?;
+    Ok(quality::measure(mesh, closed))
+}
+
+/// Element `i` of a part, as messages name it.
+fn describe(part: &Part, i: usize) -> String {
+    let nodes: Vec<String> = part.nodes(i).iter().map(|n| (n + 1).to_string()).collect();
+    format!("element {} of part `{}` (nodes {})", i + 1, part.name, nodes.join(", "))
+}
+
+/// A place, as messages give it.
+fn millimetres(x: [f64; 3]) -> String {
+    // Adding 0 turns −0 into 0.
+    let [x, y, z] = x.map(|v| (v * 1e4).round() / 10.0 + 0.0);
+    format!("({x:.1}, {y:.1}, {z:.1}) mm")
+}
+
+fn fault<T>(message: String) -> Result<T, FemError> {
+    Err(FemError::Mesh(message))
+}
+
+/// Lengths of lists, node numbers in range, coordinates that are numbers.
+fn numbers(mesh: &Mesh) -> Result<(), FemError> {
+    let count = mesh.points.len();
+    if !mesh.start.is_empty() && mesh.start.len() != count {
+        return fault(format!("{} start places for {count} nodes; give one per node or none", mesh.start.len()));
+    }
+    if mesh.elements() == 0 {
+        return fault("there are no elements".into());
+    }
+    for (kind, places) in [("place", &mesh.points), ("start", &mesh.start)] {
+        if let Some(i) = places.iter().position(|p| p.iter().any(|c| !c.is_finite())) {
+            return fault(format!("node {} has a {kind} that is not a number: {:?}", i + 1, places[i]));
+        }
+    }
+    for part in &mesh.parts {
+        for i in 0..part.len() {
+            if let Some(node) = part.nodes(i).iter().find(|n| **n as usize >= count) {
+                let what = describe(part, i);
+                return fault(format!("{what} has node {}, but there are only {count} nodes", *node as u64 + 1));
+            }
+        }
+    }
+    for (name, nodes) in &mesh.sets {
+        if let Some(node) = nodes.iter().find(|n| **n as usize >= count) {
+            return fault(format!("set `{name}` has node {}, but there are only {count} nodes", *node as u64 + 1));
+        }
+    }
+    Ok(())
+}
+
+/// Parts that exist once, have elements, and face chambers that exist.
+fn names(mesh: &Mesh, chambers: &[&str]) -> Result<(), FemError> {
+    for (i, part) in mesh.parts.iter().enumerate() {
+        if mesh.parts[..i].iter().any(|other| other.name == part.name) {
+            return fault(format!("there are two parts called `{}`; rename one", part.name));
+        }
+        if part.is_empty() {
+            return fault(format!("part `{}` has no elements; remove it", part.name));
+        }
+        for (side, name) in [("front", &part.front), ("back", &part.back)] {
+            let Some(name) = name.as_deref().filter(|name| !chambers.contains(name)) else { continue };
+            let known = if chambers.is_empty() { "none".into() } else { chambers.join(", ") };
+            let meant = meant(name, chambers.iter().copied());
+            return fault(format!(
+                "part `{}` has chamber `{name}` at its {side}, which does not exist (chambers: {known}){meant}",
+                part.name
+            ));
+        }
+    }
+    let faced = |name: &str| mesh.parts.iter().any(|p| [&p.front, &p.back].iter().any(|n| n.as_deref() == Some(name)));
+    if let Some(name) = chambers.iter().find(|name| !faced(name)) {
+        let sides = mesh.parts.iter().flat_map(|p| [p.front.as_deref(), p.back.as_deref()]).flatten();
+        return fault(format!("no part faces chamber `{name}`{}", meant(name, sides)));
+    }
+    Ok(())
+}
+
+/// A node without elements would have no mass.
+fn every_node_used(mesh: &Mesh) -> Result<(), FemError> {
+    let mut used = vec![false; mesh.points.len()];
+    for part in &mesh.parts {
+        let corners = part.quads.iter().flatten().chain(part.triangles.iter().flatten());
+        corners.for_each(|n| used[*n as usize] = true);
+    }
+    let unused = used.iter().filter(|used| !**used).count();
+    match used.iter().position(|used| !used) {
+        None => Ok(()),
+        Some(i) => fault(format!(
+            "node {} at {} belongs to no element and would have no mass; remove it ({unused} such)",
+            i + 1,
+            millimetres(mesh.points[i])
+        )),
+    }
+}
+
+/// Ties between existing nodes, each tied once, to nodes that are free, with weights of sum 1.
+fn ties(mesh: &Mesh) -> Result<(), FemError> {
+    let count = mesh.points.len();
+    let mut tied = vec![false; count];
+    for tie in &mesh.ties {
+        let number = tie.node as u64 + 1;
+        if let Some(node) = tie.to.iter().map(|t| t.0).chain([tie.node]).find(|n| *n as usize >= count) {
+            return fault(format!("tie of node {number} has node {}, but there are only {count}", node as u64 + 1));
+        }
+        if std::mem::replace(&mut tied[tie.node as usize], true) {
+            return fault(format!("node {number} is tied twice; keep one of the two ties"));
+        }
+        let sum: f64 = tie.to.iter().map(|t| t.1).sum();
+        // Allows weights written with ten digits.
+        if !sum.is_finite() || (sum - 1.0).abs() > 1e-9 {
+            return fault(format!("tie of node {number}: weights sum to {sum}, and must sum to 1"));
+        }
+    }
+    for tie in &mesh.ties {
+        if let Some((to, _)) = tie.to.iter().find(|(to, _)| tied[*to as usize]) {
+            let (node, to) = (tie.node + 1, to + 1);
+            return fault(format!("node {node} is tied to node {to}, which is itself tied; tie both to free nodes"));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

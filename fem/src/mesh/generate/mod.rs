@@ -1,0 +1,68 @@
+//! Structured meshes of the standard shapes.
+//!
+//! Every generator names its node sets, winds its elements counter-clockwise seen from the front, and returns a mesh that
+//! passes [`super::check::check`] for the chambers it names. Shapes are stress free unless a start shape is said.
+//!
+//! | function | shape | chamber | sets |
+//! |---|---|---|---|
+//! | [`plate`] | flat rectangle | none | `left` `right` `bottom` `top` `corners` `centre` |
+//! | [`pillow`] | two squares welded at their edges | `air` | `rim` `corners` `mid_edges` `centre_top` `centre_bottom` |
+//! | [`disc_balloon`] | two discs welded at the rim | `air` | `rim` `centre_top` `centre_bottom` |
+//! | [`long_pouch`] | two strips welded at their ends, open at the sides | `air` | `left` `right` `open_0` `open_1` `middle` |
+//! | [`flat_tube`] | flat tube with welded ends, bias warp | `air` | `end_0` `end_1` `gauge_0` `gauge_1` … |
+//! | [`tube`] | cylinder along x, caps | `body` | `base` `base_2` `tip` `base_cap` `tip_cap` … |
+//! | [`sphere`] | sphere of quads | `air` | `top` `bottom` |
+//! | [`crossed_sheets`] | two strips, one across the other | none | `lower_ends` `upper_ends` … |
+
+mod disc;
+mod grid;
+mod layers;
+mod plate;
+mod sphere;
+mod tube;
+
+pub use disc::disc_balloon;
+pub use layers::{flat_tube, long_pouch, pillow};
+pub use plate::{Distortion, crossed_sheets, plate};
+pub use sphere::sphere;
+pub use tube::{Around, Cap, Tube, tube};
+
+use crate::FemError;
+
+/// Largest number of nodes a generator makes: a slip in a count is a message, not a full memory.
+const MOST_NODES: usize = 20_000_000;
+
+/// Refuses a length that is not a positive number.
+fn positive(what: &str, name: &str, value: f64) -> Result<(), FemError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err(FemError::Mesh(format!("{what}: {name} is {value}, and must be a positive length in metres")))
+}
+
+/// Refuses a count of elements below `least`.
+fn at_least(what: &str, name: &str, value: usize, least: usize) -> Result<(), FemError> {
+    if value >= least {
+        return Ok(());
+    }
+    Err(FemError::Mesh(format!("{what}: {name} is {value}, and must be at least {least}")))
+}
+
+/// Refuses odd counts, because a named point would fall between nodes.
+fn even(what: &str, name: &str, value: usize) -> Result<(), FemError> {
+    if value >= 2 && value.is_multiple_of(2) {
+        return Ok(());
+    }
+    Err(FemError::Mesh(format!("{what}: {name} is {value}, and must be even so that a node lies in the middle")))
+}
+
+/// Refuses meshes that nobody wants.
+fn few_enough(what: &str, a: usize, b: usize) -> Result<(), FemError> {
+    if a.saturating_add(1).saturating_mul(b.saturating_add(1)) <= MOST_NODES {
+        return Ok(());
+    }
+    Err(FemError::Mesh(format!("{what}: {a} by {b} elements is more than {MOST_NODES} nodes; use fewer")))
+}
+
+#[cfg(test)]
+mod tests;

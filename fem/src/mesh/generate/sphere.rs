@@ -1,0 +1,50 @@
+//! A sphere of quads: a cube blown up (equal angles along the edges of each face).
+
+use std::collections::HashMap;
+use std::f64::consts::FRAC_PI_4;
+
+use super::{at_least, few_enough, positive};
+use crate::FemError;
+use crate::mesh::{Mesh, Part};
+
+/// Sphere around the origin, `n` elements along each edge of the cube, 6n² quads; part `sphere`, front outward, chamber
+/// `air` inside. Sets `top` (highest nodes, 1 or 4), `bottom`.
+///
+/// # Errors
+/// [`FemError::Mesh`] for a radius or count out of range.
+pub fn sphere(radius_m: f64, n: usize) -> Result<Mesh, FemError> {
+    positive("sphere", "radius_m", radius_m)?;
+    at_least("sphere", "n", n, 1)?;
+    few_enough("sphere", 2 * n, 3 * n)?;
+    let mut mesh = Mesh::default();
+    let mut known = HashMap::new();
+    let mut quads = Vec::with_capacity(6 * n * n);
+    for (axis, side) in [(0, n), (1, n), (2, n), (0, 0), (1, 0), (2, 0)] {
+        let mut node = |i: usize, j: usize| {
+            let mut key = [side; 3];
+            (key[(axis + 1) % 3], key[(axis + 2) % 3]) = (i, j);
+            *known.entry(key).or_insert_with(|| {
+                mesh.points.push(on_sphere(key, n, radius_m));
+                (mesh.points.len() - 1) as u32
+            })
+        };
+        for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
+            let [a, b, c, d] = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
+            quads.push(if side == n { [a, b, c, d] } else { [a, d, c, b] });
+        }
+    }
+    let near: &[usize] = if n.is_multiple_of(2) { &[n / 2] } else { &[n / 2, n / 2 + 1] };
+    for (name, side) in [("top", n), ("bottom", 0)] {
+        let nodes = near.iter().flat_map(|j| near.iter().map(|i| known[&[*i, *j, side]])).collect();
+        mesh.sets.insert(name.into(), nodes);
+    }
+    mesh.parts.push(Part { name: "sphere".into(), quads, back: Some("air".into()), ..Part::default() });
+    Ok(mesh)
+}
+
+/// Node (i, j, k) of the cube's surface, pushed onto the sphere.
+fn on_sphere(key: [usize; 3], n: usize, radius: f64) -> [f64; 3] {
+    let cube = key.map(|k| ((2.0 * k as f64 - n as f64) / n as f64 * FRAC_PI_4).tan());
+    let length = (cube[0] * cube[0] + cube[1] * cube[1] + cube[2] * cube[2]).sqrt();
+    cube.map(|c| c / length * radius)
+}
