@@ -1,1 +1,116 @@
 //! The TOML file that describes a finite element run.
+//!
+//! ```toml
+//! kind = "fem"
+//! name = "Square pillow airbag"
+//! [mesh]
+//! generator = "pillow"
+//! side_mm = 848.5
+//! elements = 16
+//! [fabric.film]
+//! law = "isotropic"
+//! e_MPa = 588
+//! nu = 0.4
+//! thickness_mm = 0.6
+//! [part.all]
+//! fabric = "film"
+//! density_kg_m3 = 1000
+//! [chamber.air]
+//! smooth_s_kPa = [[0, 0], [0.05, 5]]
+//! [settings]
+//! end_s = 0.15
+//! ```
+//!
+//! Kilopascals, megapascals, millimetres and degrees exist here only, with the unit in the key; what comes out is SI.
+//! Every fault is a [`FemError::Case`] with its place; the first line of its message says what is wrong, the second
+//! what to type. All keys: `docs/case.md`.
+
+mod law;
+mod load;
+mod mesh;
+mod range;
+mod raw;
+mod section;
+mod settings;
+
+pub use mesh::{GENERATORS, Generator, Key};
+
+use crate::{FemError, Mesh, Problem};
+use std::path::Path;
+
+/// A run as the user describes it, in SI, checked.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// What is simulated.
+    pub problem: Problem,
+    /// What is written about it.
+    pub outputs: Outputs,
+}
+
+/// What a run writes besides the energy ledger.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Outputs {
+    /// Node sets whose mean displacement is recorded.
+    pub probes: Vec<String>,
+    /// Node sets along the body, base to tip, whose centres make its centre line.
+    pub stations: Vec<String>,
+    /// Write the deformed mesh at every output.
+    pub frames: bool,
+    /// Draw the end state.
+    pub pictures: bool,
+}
+
+/// Reads the mesh that a case names in `[mesh] file`; the path is as written there.
+pub type ReadMesh<'a> = &'a mut dyn FnMut(&Path) -> Result<Mesh, FemError>;
+
+/// The cases that come with the library, by name.
+pub fn shipped_case(name: &str) -> Option<&'static str> {
+    SHIPPED_CASES.iter().find(|(key, _)| *key == name).map(|(_, text)| *text)
+}
+
+/// Names and texts of the shipped cases.
+pub const SHIPPED_CASES: &[(&str, &str)] = &[
+    ("pillow", include_str!("../../cases/pillow.toml")),
+    ("tube", include_str!("../../cases/tube.toml")),
+];
+
+/// True if the text says that it is a finite element case, whether or not it is a right one.
+pub fn is_case(text: &str) -> bool {
+    let kind = |line: &str| line.split_once('=').is_some_and(|(key, value)| {
+        key.trim() == "kind" && value.trim_start().trim_start_matches(['"', '\'']).starts_with("fem")
+    });
+    text.lines().take_while(|line| !line.trim_start().starts_with('[')).any(kind)
+}
+
+impl Case {
+    /// Reads a case from TOML text. A mesh file is read through `read_mesh`; this function touches no file itself.
+    ///
+    /// # Errors
+    /// [`FemError::Case`] with the place of what is wrong; an error in the mesh file itself as `read_mesh` gives it.
+    pub fn parse(text: &str, read_mesh: ReadMesh) -> Result<Case, FemError> {
+        let raw = raw::read(text)?;
+        range::choice("kind", &raw.kind, &[("fem", ())])?;
+        let mut mesh = mesh::mesh(&raw.mesh, read_mesh)?;
+        let chambers = load::chambers(&raw, &mesh)?;
+        let sections = section::sections(&raw, &mesh)?;
+        let outputs = settings::outputs(&raw.output, &mesh)?;
+        let supports = load::supports(&raw, &mut mesh)?;
+        let problem = Problem {
+            name: raw.name.clone(),
+            sections,
+            chambers,
+            supports,
+            rigid: load::rigid(&raw, &mesh)?,
+            forces: load::forces(&raw, &mesh)?,
+            gravity: load::gravity(&raw)?,
+            obstacles: load::obstacles(&raw)?,
+            contact: load::contact(&raw, &mesh)?,
+            settings: settings::settings(&raw.settings)?,
+            mesh,
+        };
+        Ok(Case { problem, outputs })
+    }
+}
+
+#[cfg(test)]
+mod tests;

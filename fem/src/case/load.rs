@@ -1,0 +1,213 @@
+//! Chambers, supports, rigid bodies, forces, gravity, obstacles and contact of a case.
+
+use super::range::{
+    ATMOSPHERE, Checked, GAP, LENGTH, POSITION, PRESSURE, Range, TIME, amplitude, choice, direction, number, optional,
+    plain, refuse, rising, si, unknown_name, vector,
+};
+use super::raw::{Raw, RawChamber, RawObstacle, RawSupport, Text};
+use crate::mesh::Mesh;
+use crate::problem::{
+    Amplitude, Chamber, Contact, Gravity, NodalForce, Obstacle, ObstacleShape, Pressure, Rigid, Support,
+};
+use std::collections::BTreeSet;
+use toml::Spanned;
+
+/// Pressure over time of the paper's body: up within 0.1 s, then held.
+const BODY: [f64; 2] = [0.0, 0.1];
+/// Pressure over time of the paper's actuators: up from 0.1 s to 1.1 s.
+const ACTUATOR: [f64; 2] = [0.1, 1.1];
+const FACTOR: Range = plain(-1e3, 1e3, "a multiplier over time: 0 is off, 1 is all");
+const FORCE: Range = plain(-1e5, 1e5, "write newtons: the sum over the set, [x, y, z]");
+const ACCELERATION: Range = plain(-1e4, 1e4, "write m/s², for example [0, 0, -9.81]");
+const FRICTION: Range = plain(0.0, 2.0, "a Coulomb coefficient: 0 slides freely, 0.3 is usual for fabric");
+
+/// Every chamber of the mesh, with its pressure.
+pub(super) fn chambers(raw: &Raw, mesh: &Mesh) -> Checked<Vec<Chamber>> {
+    let known: BTreeSet<&str> = mesh.parts.iter().flat_map(|p| [&p.front, &p.back]).flatten().map(|c| &**c).collect();
+    let list: Vec<&str> = known.iter().copied().collect();
+    if let Some(name) = known.iter().find(|c| !raw.chamber.keys().any(|k| k.get_ref() == **c)) {
+        let message = format!("the mesh has a chamber `{name}`, and nothing says its pressure");
+        return refuse(message, format!("add [chamber.{name}] with pressure_kPa = 0 or more"), raw.mesh.span());
+    }
+    let build = |(name, table): (&Text, &Spanned<RawChamber>)| {
+        if !known.contains(name.get_ref().as_str()) {
+            return Err(unknown_name("chamber", name, &list));
+        }
+        Ok(Chamber { name: name.get_ref().clone(), pressure: pressure(table)? })
+    };
+    raw.chamber.iter().map(build).collect()
+}
+
+fn pressure(table: &Spanned<RawChamber>) -> Checked<Pressure> {
+    let raw = table.get_ref();
+    let filling = filling(table)?;
+    let atmosphere_pa = optional("atmosphere_kPa", &raw.atmosphere_kpa, &ATMOSPHERE)?;
+    match (&raw.sealed_at_s, &raw.atmosphere_kpa) {
+        (Some(at), _) => {
+            let sealed_at_s = si("sealed_at_s", at, &TIME)?;
+            Ok(Pressure::Sealed { filling, sealed_at_s, atmosphere_pa: atmosphere_pa.unwrap_or(101_325.0) })
+        }
+        (None, Some(unused)) => {
+            refuse("atmosphere_kPa is used by a sealed chamber only", "add sealed_at_s, or remove it", unused.span())
+        }
+        (None, None) => Ok(Pressure::Set(filling)),
+    }
+}
+
+fn filling(table: &Spanned<RawChamber>) -> Checked<Amplitude> {
+    let raw = table.get_ref();
+    let given = amplitude(&raw.smooth_s_kpa, &raw.linear_s_kpa, &PRESSURE)?;
+    let constant = optional("pressure_kPa", &raw.pressure_kpa, &PRESSURE)?;
+    let help = "write pressure_kPa = 5, or smooth_s_kPa = [[0, 0], [0.05, 5]]";
+    match (constant, given, &raw.preset) {
+        (Some(pa), None, None) => Ok(Amplitude::Constant(pa)),
+        (Some(pa), None, Some(preset)) => {
+            let [from, to] = choice("preset", preset, &[("body", BODY), ("actuator", ACTUATOR)])?;
+            Ok(Amplitude::Smooth(vec![(from, 0.0), (to, pa)]))
+        }
+        (None, Some(curve), None) => Ok(curve),
+        (None, _, Some(preset)) => {
+            refuse("a preset needs the pressure it leads to", "add pressure_kPa = 2, and no curve", preset.span())
+        }
+        (Some(_), Some(_), _) => refuse("a constant pressure and a curve at once", help, table.span()),
+        (None, None, None) => refuse("a chamber without a pressure", help, table.span()),
+    }
+}
+
+/// Supports; an encastre one gets a node set of its own in the mesh.
+pub(super) fn supports(raw: &Raw, mesh: &mut Mesh) -> Checked<Vec<Support>> {
+    raw.support.iter().map(|s| support(s, mesh)).collect()
+}
+
+fn support(table: &Spanned<RawSupport>, mesh: &mut Mesh) -> Checked<Support> {
+    let raw = table.get_ref();
+    let mut set = set_name(&raw.set, mesh)?;
+    let axes = match &raw.axes {
+        Some(text) => axes(text)?,
+        None => [true; 3],
+    };
+    if raw.encastre == Some(true) {
+        if axes != [true; 3] {
+            return refuse("an encastre edge holds all three axes", "remove axes or encastre", table.span());
+        }
+        let wider = with_next_row(mesh, &mesh.sets[&set]);
+        set = format!("{set} and the row beside it");
+        mesh.sets.insert(set.clone(), wider);
+    }
+    Ok(Support { set, axes, motion: motion(raw)? })
+}
+
+fn axes(text: &Text) -> Checked<[bool; 3]> {
+    let held = ['x', 'y', 'z'].map(|axis| text.get_ref().contains(axis));
+    let letters = text.get_ref().chars().count();
+    if letters == 0 || letters != held.iter().filter(|h| **h).count() {
+        let message = format!("axes = \"{}\" is not understood", text.get_ref());
+        return refuse(message, "write the held ones of x, y and z, for example \"xyz\" or \"z\"", text.span());
+    }
+    Ok(held)
+}
+
+/// The nodes, and all that share an element with them: shells have no rotations, so two rows make a clamped edge.
+fn with_next_row(mesh: &Mesh, nodes: &[u32]) -> Vec<u32> {
+    let seed: BTreeSet<u32> = nodes.iter().copied().collect();
+    let mut wider = seed.clone();
+    for part in &mesh.parts {
+        for element in (0..part.len()).map(|i| part.nodes(i)) {
+            if element.iter().any(|n| seed.contains(n)) {
+                wider.extend(element);
+            }
+        }
+    }
+    wider.into_iter().collect()
+}
+
+fn motion(raw: &RawSupport) -> Checked<Option<[Amplitude; 3]>> {
+    let (rows, smooth) = match (&raw.smooth_s_mm, &raw.linear_s_mm) {
+        (None, None) => return Ok(None),
+        (Some(rows), None) => (rows, true),
+        (None, Some(rows)) => (rows, false),
+        (Some(_), Some(second)) => {
+            return refuse("a smooth and a linear motion at once", "keep one of the two", second.span());
+        }
+    };
+    let times: Vec<f64> = rows.get_ref().iter().map(|r| r[0]).collect();
+    rising(&times, rows.span())?;
+    let axis = |k: usize| -> Checked<Amplitude> {
+        let point = |r: &[f64; 4]| Ok((r[0], number("a displacement", r[k], rows.span(), &POSITION)?));
+        let points = rows.get_ref().iter().map(point).collect::<Checked<Vec<_>>>()?;
+        Ok(if smooth { Amplitude::Smooth(points) } else { Amplitude::Linear(points) })
+    };
+    Ok(Some([axis(1)?, axis(2)?, axis(3)?]))
+}
+
+/// A node set of the mesh, by name.
+pub(super) fn set_name(name: &Text, mesh: &Mesh) -> Checked<String> {
+    let known: Vec<&str> = mesh.sets.keys().map(String::as_str).collect();
+    match mesh.sets.get(name.get_ref()) {
+        None => Err(unknown_name("node set", name, &known)),
+        Some(nodes) if nodes.is_empty() => {
+            refuse(format!("the node set `{}` is empty", name.get_ref()), "choose another set", name.span())
+        }
+        Some(_) => Ok(name.get_ref().clone()),
+    }
+}
+
+pub(super) fn rigid(raw: &Raw, mesh: &Mesh) -> Checked<Vec<Rigid>> {
+    raw.rigid.iter().map(|r| Ok(Rigid { set: set_name(&r.set, mesh)? })).collect()
+}
+
+pub(super) fn forces(raw: &Raw, mesh: &Mesh) -> Checked<Vec<NodalForce>> {
+    let force = |f: &super::raw::RawForce| {
+        Ok(NodalForce {
+            set: set_name(&f.set, mesh)?,
+            total_n: vector("total_n", &f.total_n, &FORCE)?,
+            amplitude: amplitude(&f.smooth_s, &f.linear_s, &FACTOR)?.unwrap_or(Amplitude::Constant(1.0)),
+        })
+    };
+    raw.force.iter().map(force).collect()
+}
+
+pub(super) fn gravity(raw: &Raw) -> Checked<Option<Gravity>> {
+    let Some(g) = &raw.gravity else { return Ok(None) };
+    Ok(Some(Gravity {
+        g_m_s2: vector("g_m_s2", &g.g_m_s2, &ACCELERATION)?,
+        amplitude: amplitude(&g.smooth_s, &g.linear_s, &FACTOR)?.unwrap_or(Amplitude::Constant(1.0)),
+    }))
+}
+
+pub(super) fn obstacles(raw: &Raw) -> Checked<Vec<Obstacle>> {
+    raw.obstacle.iter().map(obstacle).collect()
+}
+
+fn obstacle(table: &Spanned<RawObstacle>) -> Checked<Obstacle> {
+    let raw = table.get_ref();
+    let round = choice("shape", &raw.shape, &[("plane", false), ("cylinder", true)])?;
+    let point = vector("point_mm", &raw.point_mm, &POSITION)?;
+    let shape = match (round, &raw.normal, &raw.axis, &raw.radius_mm) {
+        (false, Some(normal), None, None) => ObstacleShape::Plane { point, normal: direction("normal", normal)? },
+        (false, ..) => return refuse("a plane has point_mm and normal", "normal = [0, 0, 1]", table.span()),
+        (true, None, Some(axis), Some(radius)) => ObstacleShape::Cylinder {
+            point,
+            axis: direction("axis", axis)?,
+            radius_m: si("radius_mm", radius, &LENGTH)?,
+        },
+        (true, ..) => {
+            return refuse("a cylinder has point_mm, axis and radius_mm", "axis = [0, 1, 0]", table.span());
+        }
+    };
+    Ok(Obstacle { shape, friction: optional("friction", &raw.friction, &FRICTION)?.unwrap_or(0.0) })
+}
+
+pub(super) fn contact(raw: &Raw, mesh: &Mesh) -> Checked<Option<Contact>> {
+    let (Some(c), usual) = (&raw.contact, Contact::default()) else { return Ok(None) };
+    let known: Vec<&str> = mesh.parts.iter().map(|p| p.name.as_str()).collect();
+    if let Some(name) = c.parts.iter().find(|p| !known.contains(&p.get_ref().as_str())) {
+        return Err(unknown_name("part", name, &known));
+    }
+    Ok(Some(Contact {
+        friction: optional("friction", &c.friction, &FRICTION)?.unwrap_or(usual.friction),
+        gap_m: optional("gap_mm", &c.gap_mm, &GAP)?.unwrap_or(usual.gap_m),
+        thickness_m: optional("thickness_mm", &c.thickness_mm, &GAP)?.unwrap_or(usual.thickness_m),
+        parts: c.parts.iter().map(|p| p.get_ref().clone()).collect(),
+    }))
+}

@@ -1,0 +1,248 @@
+//! `[mesh]`: a generator with its parameters, or a mesh file.
+
+use super::ReadMesh;
+use super::law::plain_number;
+use super::range::{Checked, LENGTH, Range, number, plain, refuse, unknown_name};
+use super::raw::{Free, Text};
+use crate::mesh::generate::{self, Around, Cap, Tube};
+use crate::{FemError, Mesh};
+use std::path::Path;
+use toml::{Spanned, Value};
+
+/// A generator of meshes as cases name it.
+#[derive(Debug, Clone, Copy)]
+pub struct Generator {
+    /// Name in `[mesh] generator`.
+    pub name: &'static str,
+    /// One plain sentence for a user.
+    pub sentence: &'static str,
+    /// Its keys.
+    pub keys: &'static [Key],
+    make: fn(&[f64]) -> Result<Mesh, FemError>,
+}
+
+/// A value of a generator.
+#[derive(Debug, Clone, Copy)]
+pub struct Key {
+    /// Key, with the unit as suffix.
+    pub key: &'static str,
+    /// Value if it is left out, as typed; `None`: it must be given.
+    pub default: Option<f64>,
+    /// What it is.
+    pub meaning: &'static str,
+    kind: Kind,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Kind {
+    Length,
+    Gap,
+    Angle,
+    Count,
+    /// One of these words; its position is the value.
+    Word(&'static [&'static str]),
+}
+
+const COUNT: Range = plain(1.0, 10_000.0, "a whole number of elements");
+const ANGLE: Range = Range { si: std::f64::consts::PI / 180.0, ..plain(-90.0, 90.0, "write degrees") };
+const OPENING: Range = Range { low: 0.0, high: 100.0, too_small: "0 starts flat", ..LENGTH };
+const CAPS: [Cap; 3] = [Cap::Triangles, Cap::Quads, Cap::Open];
+
+const fn length(key: &'static str, meaning: &'static str) -> Key {
+    Key { key, default: None, meaning, kind: Kind::Length }
+}
+
+const fn count(key: &'static str, meaning: &'static str) -> Key {
+    Key { key, default: None, meaning, kind: Kind::Count }
+}
+
+const fn cap(key: &'static str, meaning: &'static str) -> Key {
+    Key { key, default: Some(0.0), meaning, kind: Kind::Word(&["triangles", "quads", "open"]) }
+}
+
+const GAP: Key =
+    Key { key: "gap_mm", default: Some(0.0), meaning: "distance of the two layers at the start", kind: Kind::Gap };
+const WARP: Key = Key {
+    key: "warp_deg",
+    default: Some(0.0),
+    meaning: "angle of the warp to the axis, counter-clockwise seen from outside",
+    kind: Kind::Angle,
+};
+
+/// All generators.
+pub const GENERATORS: &[Generator] = &[
+    Generator {
+        name: "pillow",
+        sentence: "Two squares welded along their four edges.",
+        keys: &[length("side_mm", "side of the flat square"), count("elements", "elements along a side, even"), GAP],
+        make: |v| generate::pillow(v[0], v[1] as usize, v[2]),
+    },
+    Generator {
+        name: "disc_balloon",
+        sentence: "Two discs welded along their rim.",
+        keys: &[length("diameter_mm", "diameter of the flat disc"), count("elements", "elements across the core, even")],
+        make: |v| generate::disc_balloon(0.5 * v[0], v[1] as usize),
+    },
+    Generator {
+        name: "long_pouch",
+        sentence: "A strip of an endlessly wide pouch: two strips welded at their ends, open at the sides.",
+        keys: &[
+            length("length_mm", "flat length between the welds"),
+            length("width_mm", "width of the strip"),
+            count("elements_along", "elements between the welds, even"),
+            count("elements_across", "elements across the strip, even"),
+            GAP,
+        ],
+        make: |v| generate::long_pouch(v[0], v[1], v[2] as usize, v[3] as usize, v[4]),
+    },
+    Generator {
+        name: "flat_tube",
+        sentence: "A fabric muscle: a flat tube with welded ends and its warp at an angle.",
+        keys: &[
+            length("width_mm", "flat width"),
+            length("length_mm", "length between the welds"),
+            count("elements_across", "elements across the flat width, even"),
+            count("elements_along", "elements along the tube, a multiple of 4"),
+            WARP,
+            GAP,
+        ],
+        make: |v| generate::flat_tube(v[0], v[1], v[2] as usize, v[3] as usize, v[4], v[5]),
+    },
+    Generator {
+        name: "tube",
+        sentence: "An inflated cylinder along x with caps.",
+        keys: &[
+            length("diameter_mm", "diameter"),
+            length("length_mm", "length"),
+            count("elements_around", "elements around the circumference"),
+            count("elements_along", "elements along the axis"),
+            cap("base_cap", "how the end at x = 0 is closed"),
+            cap("tip_cap", "how the other end is closed"),
+            WARP,
+        ],
+        make: |v| {
+            generate::tube(&Tube {
+                radius_m: 0.5 * v[0],
+                length_m: v[1],
+                around: Around::Even(v[2] as usize),
+                along: v[3] as usize,
+                caps: [CAPS[v[4] as usize], CAPS[v[5] as usize]],
+                warp_rad: v[6],
+            })
+        },
+    },
+    Generator {
+        name: "sphere",
+        sentence: "A sphere of quads.",
+        keys: &[length("diameter_mm", "diameter"), count("elements", "elements along a sixth of a great circle")],
+        make: |v| generate::sphere(0.5 * v[0], v[1] as usize),
+    },
+    Generator {
+        name: "plate",
+        sentence: "A flat rectangle.",
+        keys: &[
+            length("length_mm", "side along x"),
+            length("width_mm", "side along y"),
+            count("elements_along", "elements along x"),
+            count("elements_across", "elements along y"),
+        ],
+        make: |v| generate::plate(v[0], v[1], v[2] as usize, v[3] as usize, None),
+    },
+    Generator {
+        name: "crossed_sheets",
+        sentence: "Two strips, one across the other.",
+        keys: &[
+            length("length_mm", "length of a strip"),
+            length("width_mm", "width of a strip"),
+            count("elements", "elements across a strip"),
+            GAP,
+        ],
+        make: |v| generate::crossed_sheets(v[0], v[1], v[2] as usize, v[3]),
+    },
+];
+
+/// The mesh that the table describes.
+pub(super) fn mesh(table: &Spanned<Free>, read_mesh: ReadMesh) -> Checked<Mesh> {
+    match (entry(table, "generator")?, entry(table, "file")?) {
+        (Some(_), Some(file)) => refuse("a generator and a file at once", "keep one of the two", file.span()),
+        (None, Some(file)) => from_file(table, &file, read_mesh),
+        (Some(name), None) => generated(table, &name),
+        (None, None) => {
+            refuse("[mesh] says no shape", "write generator = \"pillow\" or file = \"robot.mesh\"", table.span())
+        }
+    }
+}
+
+/// A text of the table, if it is there.
+fn entry(table: &Spanned<Free>, wanted: &str) -> Checked<Option<Text>> {
+    let Some((_, value)) = table.get_ref().iter().find(|(key, _)| key.get_ref() == wanted) else { return Ok(None) };
+    match value.get_ref() {
+        Value::String(text) => Ok(Some(Spanned::new(value.span(), text.clone()))),
+        _ => refuse(format!("{wanted} must be a text"), format!("for example {wanted} = \"pillow\""), value.span()),
+    }
+}
+
+fn from_file(table: &Spanned<Free>, file: &Text, read_mesh: ReadMesh) -> Checked<Mesh> {
+    if let Some((key, _)) = table.get_ref().iter().find(|(key, _)| key.get_ref() != "file") {
+        return Err(unknown_name("key of a mesh from a file", key, &["file"]));
+    }
+    match read_mesh(Path::new(file.get_ref())) {
+        Err(FemError::Io { path, source }) => {
+            let message = format!("the mesh file {} cannot be read: {source}", path.display());
+            refuse(message, "the path counts from the folder of the case file", file.span())
+        }
+        Err(FemError::Mesh(message)) => Err(FemError::Case { message, span: Some(file.span()) }),
+        other => other,
+    }
+}
+
+fn generated(table: &Spanned<Free>, name: &Text) -> Checked<Mesh> {
+    let names: Vec<&str> = GENERATORS.iter().map(|g| g.name).collect();
+    let Some(generator) = GENERATORS.iter().find(|g| g.name == name.get_ref()) else {
+        return Err(unknown_name("generator", name, &names));
+    };
+    let keys: Vec<&str> = generator.keys.iter().map(|k| k.key).collect();
+    let foreign = |key: &&Text| key.get_ref() != "generator" && !keys.contains(&key.get_ref().as_str());
+    if let Some(key) = table.get_ref().keys().find(foreign) {
+        return Err(unknown_name(&format!("key of generator \"{}\"", generator.name), key, &keys));
+    }
+    let values = generator.keys.iter().map(|key| value(table, key)).collect::<Checked<Vec<f64>>>()?;
+    (generator.make)(&values).map_err(|error| match error {
+        FemError::Mesh(message) => FemError::Case { message, span: Some(table.span()) },
+        other => other,
+    })
+}
+
+fn value(table: &Spanned<Free>, key: &Key) -> Checked<f64> {
+    let found = table.get_ref().iter().find(|(name, _)| name.get_ref() == key.key).map(|(_, value)| value);
+    let (v, span) = match (found, key.default) {
+        (Some(value), _) => (typed(key, value)?, value.span()),
+        (None, Some(default)) => (default, table.span()),
+        (None, None) => {
+            let message = format!("[mesh] lacks {}", key.key);
+            return refuse(message, format!("add {} = …: {}", key.key, key.meaning), table.span());
+        }
+    };
+    match key.kind {
+        Kind::Length => number(key.key, v, span, &LENGTH),
+        Kind::Gap => number(key.key, v, span, &OPENING),
+        Kind::Angle => number(key.key, v, span, &ANGLE),
+        Kind::Count if v.fract() == 0.0 => number(key.key, v, span, &COUNT),
+        Kind::Count => refuse(format!("{} must be a whole number, not {v}", key.key), key.meaning, span),
+        Kind::Word(_) => Ok(v),
+    }
+}
+
+/// A value as typed: a number, or the position of a word.
+fn typed(key: &Key, value: &Spanned<Value>) -> Checked<f64> {
+    let Kind::Word(words) = key.kind else { return plain_number(key.key, value) };
+    let word = value.get_ref().as_str().unwrap_or_default();
+    match words.iter().position(|w| *w == word) {
+        Some(at) => Ok(at as f64),
+        None => refuse(
+            format!("{} = {} is not understood", key.key, value.get_ref()),
+            format!("write one of \"{}\"", words.join("\", \"")),
+            value.span(),
+        ),
+    }
+}

@@ -1,0 +1,236 @@
+//! Numbers as typed → SI, refused where they cannot be meant; the words for it.
+
+use super::raw::{Num, Points, unknown};
+use crate::FemError;
+use crate::problem::Amplitude;
+use std::ops::Range as Span;
+use toml::Spanned;
+
+pub(super) type Checked<T> = Result<T, FemError>;
+
+/// Accepted interval of a quantity as typed, its factor to SI, and the slip to suspect outside.
+#[derive(Clone, Copy)]
+pub(super) struct Range {
+    pub unit: &'static str,
+    pub si: f64,
+    pub low: f64,
+    pub high: f64,
+    pub too_small: &'static str,
+    pub too_large: &'static str,
+}
+
+const METRES: &str = "this looks like metres: write millimetres, for example 60 for 0.06 m";
+const ANY: &str = "any number of this size is accepted with its sign";
+
+/// Edge lengths, diameters.
+pub(super) const LENGTH: Range =
+    Range { unit: "mm", si: 1e-3, low: 1.0, high: 1e5, too_small: METRES, too_large: "write millimetres" };
+/// Thicknesses of fabric.
+pub(super) const THICKNESS: Range = Range {
+    low: 0.002,
+    high: 20.0,
+    too_small: "this looks like metres: write millimetres, for example 0.2 for 200 µm",
+    too_large: "this looks like micrometres: write millimetres, for example 0.2 for 200 µm",
+    ..LENGTH
+};
+/// Gaps between layers.
+pub(super) const GAP: Range = Range { low: 1e-5, high: 10.0, ..THICKNESS };
+/// Coordinates.
+pub(super) const POSITION: Range = Range { low: -1e5, too_small: ANY, ..LENGTH };
+/// Gauge pressures.
+pub(super) const PRESSURE: Range = Range {
+    unit: "kPa",
+    si: 1e3,
+    low: 0.0,
+    high: 500.0,
+    too_small: "pressures are gauge pressures and not negative",
+    too_large: "this looks like pascals: write kilopascals, for example 5 for 5000 Pa",
+};
+/// Pressure of the surroundings.
+pub(super) const ATMOSPHERE: Range = Range {
+    low: 1.0,
+    high: 1000.0,
+    too_small: "this looks like bar: write kilopascals, for example 101.325",
+    too_large: "this looks like pascals: write kilopascals, for example 101.325",
+    ..PRESSURE
+};
+/// Times.
+pub(super) const TIME: Range = Range {
+    unit: "s",
+    si: 1.0,
+    low: 0.0,
+    high: 1000.0,
+    too_small: "time starts at 0",
+    too_large: "this looks like milliseconds: write seconds",
+};
+/// Mass per volume.
+pub(super) const DENSITY: Range = Range {
+    unit: "kg/m³",
+    si: 1.0,
+    low: 50.0,
+    high: 20_000.0,
+    too_small: "this looks like g/cm³ or kg/m²: write kg/m³, for example 1140 for nylon; kg/m² divided by the thickness in m",
+    too_large: "write kg/m³, for example 1140 for nylon",
+};
+
+/// Angles.
+pub(super) const ANGLE: Range = Range { si: std::f64::consts::PI / 180.0, ..plain(-360.0, 360.0, "write degrees") };
+
+/// A pure number.
+pub(super) const fn plain(low: f64, high: f64, usual: &'static str) -> Range {
+    Range { unit: "", si: 1.0, low, high, too_small: usual, too_large: usual }
+}
+
+/// A refusal: what is wrong, what to type, where.
+pub(super) fn refuse<T>(message: impl AsRef<str>, help: impl AsRef<str>, span: Span<usize>) -> Checked<T> {
+    Err(FemError::Case { message: format!("{}\n{}", message.as_ref(), help.as_ref()), span: Some(span) })
+}
+
+/// A number in SI.
+pub(super) fn si(key: &str, value: &Num, range: &Range) -> Checked<f64> {
+    number(key, *value.get_ref(), value.span(), range)
+}
+
+/// A number in SI, whose place is that of a larger thing.
+pub(super) fn number(key: &str, v: f64, span: Span<usize>, range: &Range) -> Checked<f64> {
+    if (range.low..=range.high).contains(&v) {
+        return Ok(v * range.si);
+    }
+    let help = match v {
+        _ if v.is_nan() => "write a number",
+        _ if v < 0.0 && range.low >= 0.0 => "a negative value means nothing here",
+        _ if v < range.low => range.too_small,
+        _ => range.too_large,
+    };
+    let unit = if range.unit.is_empty() { String::new() } else { format!(" {}", range.unit) };
+    refuse(format!("{key} must be from {} to {}{unit}, not {v}", range.low, range.high), help, span)
+}
+
+/// A number that may be left out.
+pub(super) fn optional(key: &str, value: &Option<Num>, range: &Range) -> Checked<Option<f64>> {
+    value.as_ref().map(|v| si(key, v, range)).transpose()
+}
+
+/// Three coordinates in SI.
+pub(super) fn vector(key: &str, value: &Spanned<[f64; 3]>, range: &Range) -> Checked<[f64; 3]> {
+    let [x, y, z] = *value.get_ref();
+    let one = |v: f64| number(key, v, value.span(), range);
+    Ok([one(x)?, one(y)?, one(z)?])
+}
+
+/// A direction: three numbers, not all zero.
+pub(super) fn direction(key: &str, value: &Spanned<[f64; 3]>) -> Checked<[f64; 3]> {
+    let v = vector(key, value, &plain(-1e6, 1e6, "for example [0, 0, 1]"))?;
+    match v.iter().all(|x| x.abs() < 1e-9) {
+        true => refuse(format!("{key} has no direction: {v:?}"), "write for example [0, 0, 1]", value.span()),
+        false => Ok(v),
+    }
+}
+
+/// The amplitude that is given, if any; never two at once.
+pub(super) fn amplitude(
+    smooth: &Option<Points>,
+    linear: &Option<Points>,
+    range: &Range,
+) -> Checked<Option<Amplitude>> {
+    match (smooth, linear) {
+        (Some(_), Some(second)) => {
+            refuse("a smooth and a linear curve at once", "keep one of the two", second.span())
+        }
+        (Some(points), None) => Ok(Some(Amplitude::Smooth(curve(points, range)?))),
+        (None, Some(points)) => Ok(Some(Amplitude::Linear(curve(points, range)?))),
+        (None, None) => Ok(None),
+    }
+}
+
+/// (time, value) rows in SI, times rising.
+fn curve(points: &Points, range: &Range) -> Checked<Vec<(f64, f64)>> {
+    let rows: Vec<(f64, f64)> = points.get_ref().iter().map(|p| (p[0], p[1])).collect();
+    let times: Vec<f64> = rows.iter().map(|r| r.0).collect();
+    rising(&times, points.span())?;
+    rows.iter().map(|(t, v)| Ok((*t, number("the second number of a row", *v, points.span(), range)?))).collect()
+}
+
+/// Times of a curve: at least two, from 0 on, each later than the one before.
+pub(super) fn rising(times: &[f64], span: Span<usize>) -> Checked<()> {
+    if times.len() < 2 {
+        return refuse("a curve needs two rows at least", "write for example [[0, 0], [0.05, 5]]: time in s, value", span);
+    }
+    for t in times {
+        number("the time of a row", *t, span.clone(), &TIME)?;
+    }
+    match times.windows(2).find(|pair| pair[1] <= pair[0]) {
+        Some(pair) => {
+            let message = format!("the times of a curve must rise: {} s comes after {} s", pair[1], pair[0]);
+            refuse(message, "sort the rows, and write each time once", span)
+        }
+        None => Ok(()),
+    }
+}
+
+/// One of some words.
+pub(super) fn choice<T: Copy>(what: &str, text: &Spanned<String>, known: &[(&str, T)]) -> Checked<T> {
+    match known.iter().find(|(name, _)| name == text.get_ref()) {
+        Some((_, value)) => Ok(*value),
+        None => Err(unknown_name(what, text, &known.iter().map(|k| k.0).collect::<Vec<_>>())),
+    }
+}
+
+/// A name that is not among the known ones.
+pub(super) fn unknown_name(what: &str, text: &Spanned<String>, known: &[&str]) -> FemError {
+    FemError::Case { message: unknown(what, text.get_ref(), known), span: Some(text.span()) }
+}
+
+/// The known word that was probably meant: one or two slips away, or the beginning of just one.
+pub(super) fn nearest<'a>(wrong: &str, known: &[&'a str]) -> Option<&'a str> {
+    let wrong = wrong.to_lowercase();
+    let allowed = (wrong.chars().count() / 3).clamp(1, 3);
+    let best = known.iter().map(|k| (slips(&wrong, &k.to_lowercase()), *k)).min();
+    let begun = || known.iter().filter(|k| begins(&wrong, k)).copied();
+    match best {
+        Some((distance, word)) if distance <= allowed => Some(word),
+        _ => begun().next().filter(|_| begun().count() == 1),
+    }
+}
+
+/// The same word with another unit or none: `smooth` or `side_m` for `side_mm`.
+fn begins(wrong: &str, known: &str) -> bool {
+    let stem = wrong.rsplit_once('_').map_or(wrong, |(stem, _)| stem);
+    stem.len() >= 3 && known.starts_with(stem)
+}
+
+/// Letters to insert, drop, change or swap to get from one word to the other.
+fn slips(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let mut rows = vec![(0..=b.len()).collect::<Vec<usize>>()];
+    for i in 1..=a.len() {
+        let mut row = vec![i];
+        for j in 1..=b.len() {
+            let change = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let mut least = change.min(rows[i - 1][j] + 1).min(row[j - 1] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                least = least.min(rows[i - 2][j - 2] + 1);
+            }
+            row.push(least);
+        }
+        rows.push(row);
+    }
+    rows[a.len()][b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slips_of_the_finger_are_recognised_and_other_words_are_not() {
+        let known = ["side_mm", "elements", "smooth_s_kPa"];
+        for (wrong, meant) in [("sdie_mm", "side_mm"), ("side_m", "side_mm"), ("Elements", "elements")] {
+            assert_eq!(nearest(wrong, &known), Some(meant), "{wrong}");
+        }
+        assert_eq!(nearest("smooth", &known), Some("smooth_s_kPa"));
+        assert_eq!(nearest("radius_mm", &known), None);
+        assert_eq!(nearest("", &[]), None);
+        assert_eq!((slips("abc", "abc"), slips("abc", "acb"), slips("abc", "")), (0, 1, 3));
+    }
+}

@@ -1,0 +1,205 @@
+//! The TOML text as it stands: keys with units, every value with its place.
+
+use super::range::{Checked, nearest};
+use crate::FemError;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use toml::Spanned;
+
+pub(super) type Num = Spanned<f64>;
+pub(super) type Text = Spanned<String>;
+/// Rows of (time \[s\], value).
+pub(super) type Points = Spanned<Vec<[f64; 2]>>;
+/// A table whose keys depend on one of its values: a mesh generator, a fabric law.
+pub(super) type Free = BTreeMap<Text, Spanned<toml::Value>>;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Raw {
+    pub kind: Text,
+    #[serde(default)]
+    pub name: String,
+    /// Free text; read by people.
+    #[serde(default, rename = "notes")]
+    pub _notes: String,
+    pub mesh: Spanned<Free>,
+    #[serde(default)]
+    pub fabric: BTreeMap<Text, Spanned<Free>>,
+    #[serde(default)]
+    pub part: BTreeMap<Text, Spanned<RawPart>>,
+    #[serde(default)]
+    pub chamber: BTreeMap<Text, Spanned<RawChamber>>,
+    #[serde(default)]
+    pub support: Vec<Spanned<RawSupport>>,
+    #[serde(default)]
+    pub rigid: Vec<RawRigid>,
+    #[serde(default)]
+    pub force: Vec<RawForce>,
+    pub gravity: Option<RawGravity>,
+    #[serde(default)]
+    pub obstacle: Vec<Spanned<RawObstacle>>,
+    pub contact: Option<RawContact>,
+    #[serde(default)]
+    pub settings: RawSettings,
+    #[serde(default)]
+    pub output: RawOutput,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawPart {
+    pub fabric: Option<Text>,
+    pub angle_deg: Option<Num>,
+    pub plies: Option<Spanned<Vec<RawPly>>>,
+    pub bonded: Option<bool>,
+    pub density_kg_m3: Num,
+    pub bending_factor: Option<Num>,
+    pub rest_curvature: Option<bool>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawPly {
+    pub fabric: Text,
+    pub angle_deg: Option<Num>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawChamber {
+    #[serde(rename = "pressure_kPa", alias = "pressure_kpa")]
+    pub pressure_kpa: Option<Num>,
+    pub preset: Option<Text>,
+    #[serde(rename = "smooth_s_kPa", alias = "smooth_s_kpa")]
+    pub smooth_s_kpa: Option<Points>,
+    #[serde(rename = "linear_s_kPa", alias = "linear_s_kpa")]
+    pub linear_s_kpa: Option<Points>,
+    pub sealed_at_s: Option<Num>,
+    #[serde(rename = "atmosphere_kPa", alias = "atmosphere_kpa")]
+    pub atmosphere_kpa: Option<Num>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawSupport {
+    pub set: Text,
+    pub axes: Option<Text>,
+    pub encastre: Option<bool>,
+    pub smooth_s_mm: Option<Spanned<Vec<[f64; 4]>>>,
+    pub linear_s_mm: Option<Spanned<Vec<[f64; 4]>>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawRigid {
+    pub set: Text,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawForce {
+    pub set: Text,
+    pub total_n: Spanned<[f64; 3]>,
+    pub smooth_s: Option<Points>,
+    pub linear_s: Option<Points>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawGravity {
+    pub g_m_s2: Spanned<[f64; 3]>,
+    pub smooth_s: Option<Points>,
+    pub linear_s: Option<Points>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawObstacle {
+    pub shape: Text,
+    pub point_mm: Spanned<[f64; 3]>,
+    pub normal: Option<Spanned<[f64; 3]>>,
+    pub axis: Option<Spanned<[f64; 3]>>,
+    pub radius_mm: Option<Num>,
+    pub friction: Option<Num>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawContact {
+    pub friction: Option<Num>,
+    pub gap_mm: Option<Num>,
+    pub thickness_mm: Option<Num>,
+    #[serde(default)]
+    pub parts: Vec<Text>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawSettings {
+    pub preset: Option<Text>,
+    pub end_s: Option<Num>,
+    pub cfl: Option<Num>,
+    pub dt_s: Option<Num>,
+    pub mass_scaling: Option<Spanned<toml::Value>>,
+    pub target_step_s: Option<Num>,
+    pub mass_damping_1_s: Option<Num>,
+    pub viscosity: Option<Num>,
+    pub hourglass: Option<Num>,
+    pub output_every_s: Option<Num>,
+    pub imperfection: Option<Num>,
+    pub seed: Option<Spanned<i64>>,
+    pub guard_residual: Option<Num>,
+    pub guard_residual_floor_j: Option<Num>,
+    pub guard_speed_m_s: Option<Num>,
+    pub guard_inverted: Option<bool>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawOutput {
+    #[serde(default)]
+    pub probes: Vec<Text>,
+    #[serde(default)]
+    pub stations: Vec<Text>,
+    pub frames: Option<bool>,
+    pub pictures: Option<bool>,
+}
+
+/// Reads the text; a TOML or type error keeps its place.
+pub(super) fn read(text: &str) -> Checked<Raw> {
+    toml::from_str(text).map_err(|error| {
+        let first = error.message().lines().next().unwrap_or("not valid TOML");
+        FemError::Case { message: explain(first), span: error.span() }
+    })
+}
+
+/// The message of the TOML reader, and what to type.
+fn explain(message: &str) -> String {
+    let mut quoted = message.split('`').skip(1).step_by(2);
+    if message.starts_with("unknown field")
+        && let Some(wrong) = quoted.next()
+    {
+        let known: Vec<&str> = quoted.collect();
+        return unknown("key", wrong, &known);
+    }
+    let help = if message.contains("expected f64") {
+        "write a plain number without quotation marks; the unit is in the name of the key"
+    } else if message.contains("expected i64") {
+        "write a whole number without quotation marks"
+    } else if message.contains("missing field `kind`") {
+        "a finite element case begins with kind = \"fem\""
+    } else {
+        "`ibr new pillow` prints a complete case to compare with"
+    };
+    format!("{message}\n{help}")
+}
+
+/// Says that a name is not known, which are, and which was probably meant.
+pub(super) fn unknown(what: &str, wrong: &str, known: &[&str]) -> String {
+    let list = known.join(", ");
+    match nearest(wrong, known) {
+        Some(meant) => format!("unknown {what} `{wrong}`; known here: {list}\ndid you mean `{meant}`?"),
+        None if known.is_empty() => format!("unknown {what} `{wrong}`\nremove it: nothing is expected here"),
+        None => format!("unknown {what} `{wrong}`\nknown here: {list}"),
+    }
+}
