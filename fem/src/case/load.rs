@@ -33,7 +33,9 @@ pub(super) fn chambers(raw: &Raw, mesh: &Mesh) -> Checked<Vec<Chamber>> {
         if !known.contains(name.get_ref().as_str()) {
             return Err(unknown_name("chamber", name, &list));
         }
-        Ok(Chamber { name: name.get_ref().clone(), pressure: pressure(table)? })
+        let axis = table.get_ref().open_axis.as_ref();
+        let open_axis = axis.map(|axis| choice("open_axis", axis, &[("x", 0), ("y", 1), ("z", 2)])).transpose()?;
+        Ok(Chamber { name: name.get_ref().clone(), pressure: pressure(table)?, open_axis })
     };
     raw.chamber.iter().map(build).collect()
 }
@@ -152,6 +154,15 @@ pub(super) fn set_name(name: &Text, mesh: &Mesh) -> Checked<String> {
     }
 }
 
+/// Parts of the mesh, by name.
+pub(super) fn part_names(names: &[Text], mesh: &Mesh) -> Checked<Vec<String>> {
+    let known: Vec<&str> = mesh.parts.iter().map(|p| p.name.as_str()).collect();
+    match names.iter().find(|name| !known.contains(&name.get_ref().as_str())) {
+        Some(name) => Err(unknown_name("part", name, &known)),
+        None => Ok(names.iter().map(|name| name.get_ref().clone()).collect()),
+    }
+}
+
 pub(super) fn rigid(raw: &Raw, mesh: &Mesh) -> Checked<Vec<Rigid>> {
     raw.rigid.iter().map(|r| Ok(Rigid { set: set_name(&r.set, mesh)? })).collect()
 }
@@ -200,14 +211,10 @@ fn obstacle(table: &Spanned<RawObstacle>) -> Checked<Obstacle> {
 
 pub(super) fn contact(raw: &Raw, mesh: &Mesh) -> Checked<Option<Contact>> {
     let (Some(c), usual) = (&raw.contact, Contact::default()) else { return Ok(None) };
-    let known: Vec<&str> = mesh.parts.iter().map(|p| p.name.as_str()).collect();
-    if let Some(name) = c.parts.iter().find(|p| !known.contains(&p.get_ref().as_str())) {
-        return Err(unknown_name("part", name, &known));
-    }
     Ok(Some(Contact {
         friction: optional("friction", &c.friction, &FRICTION)?.unwrap_or(usual.friction),
         gap_m: optional("gap_mm", &c.gap_mm, &GAP)?.unwrap_or(usual.gap_m),
         thickness_m: optional("thickness_mm", &c.thickness_mm, &GAP)?.unwrap_or(usual.thickness_m),
-        parts: c.parts.iter().map(|p| p.get_ref().clone()).collect(),
+        parts: part_names(&c.parts, mesh)?,
     }))
 }

@@ -52,8 +52,12 @@ pub struct Case {
 pub struct Outputs {
     /// Node sets whose mean displacement is recorded.
     pub probes: Vec<String>,
-    /// Node sets along the body, base to tip, whose centres make its centre line.
-    pub stations: Vec<String>,
+    /// Stations of the centre line \[m\], along the axis through the reference shape; empty: no centre line.
+    pub stations_m: Vec<f64>,
+    /// Parts whose sections make the centre line; empty: all.
+    pub station_parts: Vec<String>,
+    /// Direction of the stations.
+    pub station_axis: [f64; 3],
     /// Write the deformed mesh at every output.
     pub frames: bool,
     /// Draw the end state.

@@ -77,6 +77,7 @@ pub(super) struct RawChamber {
     pub sealed_at_s: Option<Num>,
     #[serde(rename = "atmosphere_kPa", alias = "atmosphere_kpa")]
     pub atmosphere_kpa: Option<Num>,
+    pub open_axis: Option<Text>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -160,7 +161,10 @@ pub(super) struct RawOutput {
     #[serde(default)]
     pub probes: Vec<Text>,
     #[serde(default)]
-    pub stations: Vec<Text>,
+    pub stations_mm: Vec<Num>,
+    #[serde(default)]
+    pub station_parts: Vec<Text>,
+    pub station_axis: Option<Spanned<[f64; 3]>>,
     pub frames: Option<bool>,
     pub pictures: Option<bool>,
 }

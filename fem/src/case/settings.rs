@@ -1,8 +1,8 @@
 //! Numerical settings and outputs of a case.
 
 use super::Outputs;
-use super::load::set_name;
-use super::range::{Checked, Range, TIME, choice, optional, plain, refuse};
+use super::load::{part_names, set_name};
+use super::range::{Checked, POSITION, Range, TIME, choice, direction, optional, plain, refuse, si};
 use super::raw::{RawOutput, RawSettings};
 use crate::mesh::Mesh;
 use crate::problem::{Guards, MassScaling, Settings};
@@ -115,10 +115,12 @@ fn not_too_many(raw: &RawSettings, settings: &Settings) -> Checked<()> {
 
 /// What a run writes besides the energy ledger.
 pub(super) fn outputs(raw: &RawOutput, mesh: &Mesh) -> Checked<Outputs> {
-    let sets = |names: &[super::raw::Text]| names.iter().map(|n| set_name(n, mesh)).collect::<Checked<Vec<_>>>();
+    let axis = raw.station_axis.as_ref().map(|axis| direction("station_axis", axis)).transpose()?;
     Ok(Outputs {
-        probes: sets(&raw.probes)?,
-        stations: sets(&raw.stations)?,
+        probes: raw.probes.iter().map(|name| set_name(name, mesh)).collect::<Checked<_>>()?,
+        stations_m: raw.stations_mm.iter().map(|s| si("stations_mm", s, &POSITION)).collect::<Checked<_>>()?,
+        station_parts: part_names(&raw.station_parts, mesh)?,
+        station_axis: axis.unwrap_or([1.0, 0.0, 0.0]),
         frames: raw.frames.unwrap_or(true),
         pictures: raw.pictures.unwrap_or(true),
     })

@@ -71,7 +71,8 @@ output_every_s = 0.02
 seed = 7
 [output]
 probes = ["centre_top"]
-stations = ["corners", "rim"]
+stations_mm = [-100, 100]
+station_parts = ["bottom"]
 frames = false
 "#;
 
@@ -159,9 +160,15 @@ fn every_table_arrives_in_si() {
     assert!((contact.gap_m - 1e-5).abs() < 1e-18 && contact.parts == ["top"], "{contact:?}");
     let s = &p.settings;
     assert_eq!((s.end_s, s.mass_damping_1_s, s.mass_scaling, s.seed), (1.5, 5.0, MassScaling::Fixed(4.0), 7));
-    let outputs = Outputs { frames: false, pictures: true, ..case.outputs.clone() };
-    assert_eq!(case.outputs, outputs);
-    assert_eq!((&*case.outputs.probes, case.outputs.stations.len()), (&["centre_top".to_string()][..], 2));
+    let wanted = Outputs {
+        probes: vec!["centre_top".into()],
+        stations_m: vec![-0.1, 0.1],
+        station_parts: vec!["bottom".into()],
+        station_axis: [1.0, 0.0, 0.0],
+        frames: false,
+        pictures: true,
+    };
+    assert_eq!(case.outputs, wanted);
 }
 
 #[test]
@@ -192,7 +199,9 @@ fn misspelt_keys_and_names_are_answered_with_what_was_meant() {
         ("set = \"corners\"", "set = \"corner\"", "corner", &["unknown node set", "did you mean `corners`?"]),
         ("probes = [\"centre_top\"]", "probes = [\"centre\"]", "centre", &["unknown node set", "centre_top"]),
         ("parts = [\"top\"]", "parts = [\"tpo\"]", "tpo", &["unknown part", "did you mean `top`?"]),
+        ("parts = [\"bottom\"]", "parts = [\"botom\"]", "botom", &["unknown part", "did you mean `bottom`?"]),
         ("\"plane\"", "\"plan\"", "plan", &["unknown shape", "did you mean `plane`?"]),
+        ("sealed_at_s = 1.2", "open_axis = \"q\"", "q", &["unknown open_axis", "x, y, z"]),
         ("\"paper\"", "\"papre\"", "papre", &["unknown preset", "did you mean `paper`?"]),
         ("preset = \"actuator\"", "preset = \"acuator\"", "acuator", &["unknown preset", "`actuator`"]),
         ("kind = \"fem\"", "kind = \"fme\"", "fme", &["unknown kind", "did you mean `fem`?"]),
