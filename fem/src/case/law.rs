@@ -123,7 +123,9 @@ fn law(table: &Spanned<Free>) -> Checked<(&'static Law, Recipe)> {
 fn text(key: &str, value: &Spanned<Value>) -> Checked<Text> {
     match value.get_ref() {
         Value::String(text) => Ok(Spanned::new(value.span(), text.clone())),
-        other => refuse(format!("{key} must be a text, not {}", kind(other)), "write it in quotation marks", value.span()),
+        other => {
+            refuse(format!("{key} must be a text, not {}", kind(other)), "write it in quotation marks", value.span())
+        }
     }
 }
 

@@ -80,7 +80,10 @@ pub const GENERATORS: &[Generator] = &[
     Generator {
         name: "disc_balloon",
         sentence: "Two discs welded along their rim.",
-        keys: &[length("diameter_mm", "diameter of the flat disc"), count("elements", "elements across the core, even")],
+        keys: &[
+            length("diameter_mm", "diameter of the flat disc"),
+            count("elements", "elements across the core, even"),
+        ],
         make: |v| generate::disc_balloon(0.5 * v[0], v[1] as usize),
     },
     Generator {

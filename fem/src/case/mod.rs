@@ -73,16 +73,16 @@ pub fn shipped_case(name: &str) -> Option<&'static str> {
 }
 
 /// Names and texts of the shipped cases.
-pub const SHIPPED_CASES: &[(&str, &str)] = &[
-    ("pillow", include_str!("../../cases/pillow.toml")),
-    ("tube", include_str!("../../cases/tube.toml")),
-];
+pub const SHIPPED_CASES: &[(&str, &str)] =
+    &[("pillow", include_str!("../../cases/pillow.toml")), ("tube", include_str!("../../cases/tube.toml"))];
 
 /// True if the text says that it is a finite element case, whether or not it is a right one.
 pub fn is_case(text: &str) -> bool {
-    let kind = |line: &str| line.split_once('=').is_some_and(|(key, value)| {
-        key.trim() == "kind" && value.trim_start().trim_start_matches(['"', '\'']).starts_with("fem")
-    });
+    let kind = |line: &str| {
+        line.split_once('=').is_some_and(|(key, value)| {
+            key.trim() == "kind" && value.trim_start().trim_start_matches(['"', '\'']).starts_with("fem")
+        })
+    };
     text.lines().take_while(|line| !line.trim_start().starts_with('[')).any(kind)
 }
 

@@ -128,15 +128,9 @@ pub(super) fn direction(key: &str, value: &Spanned<[f64; 3]>) -> Checked<[f64; 3
 }
 
 /// The amplitude that is given, if any; never two at once.
-pub(super) fn amplitude(
-    smooth: &Option<Points>,
-    linear: &Option<Points>,
-    range: &Range,
-) -> Checked<Option<Amplitude>> {
+pub(super) fn amplitude(smooth: &Option<Points>, linear: &Option<Points>, range: &Range) -> Checked<Option<Amplitude>> {
     match (smooth, linear) {
-        (Some(_), Some(second)) => {
-            refuse("a smooth and a linear curve at once", "keep one of the two", second.span())
-        }
+        (Some(_), Some(second)) => refuse("a smooth and a linear curve at once", "keep one of the two", second.span()),
         (Some(points), None) => Ok(Some(Amplitude::Smooth(curve(points, range)?))),
         (None, Some(points)) => Ok(Some(Amplitude::Linear(curve(points, range)?))),
         (None, None) => Ok(None),
@@ -154,7 +148,11 @@ fn curve(points: &Points, range: &Range) -> Checked<Vec<(f64, f64)>> {
 /// Times of a curve: at least two, from 0 on, each later than the one before.
 pub(super) fn rising(times: &[f64], span: Span<usize>) -> Checked<()> {
     if times.len() < 2 {
-        return refuse("a curve needs two rows at least", "write for example [[0, 0], [0.05, 5]]: time in s, value", span);
+        return refuse(
+            "a curve needs two rows at least",
+            "write for example [[0, 0], [0.05, 5]]: time in s, value",
+            span,
+        );
     }
     for t in times {
         number("the time of a row", *t, span.clone(), &TIME)?;
