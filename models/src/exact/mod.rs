@@ -5,15 +5,22 @@
 //! whether the source was read, is known second hand, or the result was derived for this project. [`oracle_table`] lists
 //! numbers computed independently of this code, each with the precision it is known to; the tests run over that list.
 
+pub mod balloon;
 pub mod beam;
+pub mod coupon;
 pub mod elastic_pouch;
+pub mod elastica;
 pub mod fpam;
 pub mod hinge;
 pub mod inflated_cantilever;
 pub mod mckibben;
+pub mod membrane;
 pub mod oracles;
+pub mod pillow;
+pub mod plate;
 pub mod pouch;
 pub mod shell;
+pub mod sliding;
 mod solve;
 pub mod tube;
 

@@ -3,12 +3,16 @@
 //! The expected values come from separate calculations (closed forms checked by finite differences and quadrature), not
 //! from this crate. They are written as text, so that the last printed digit sets the tolerance: nobody can widen it.
 
+pub mod balloon;
 pub mod beam;
+pub mod coupon;
 pub mod elastic_pouch;
+pub mod elastica;
 pub mod fpam;
 pub mod hinge;
 pub mod inflated_cantilever;
 pub mod mckibben;
+pub mod membrane;
 pub mod pouch;
 pub mod shell;
 pub mod tube;
@@ -49,6 +53,10 @@ pub fn oracle_table() -> Vec<OracleRow> {
         beam::rows(),
         inflated_cantilever::rows(),
         shell::rows(),
+        elastica::rows(),
+        coupon::rows(),
+        membrane::rows(),
+        balloon::rows(),
     ]
     .concat()
 }
