@@ -158,7 +158,7 @@ pub fn buckling_load_n(beam: &Cantilever, theory: BeamTheory) -> f64 {
     }
 }
 
-/// Tip load at the first wrinkle, `F_w = p π R³/(2L)` \[N\].
+/// Tip load at the first wrinkle, `F_w = p π R³/(2L)` \[N\]; the deflection beyond it is in [`super::inflated_cantilever`].
 pub fn wrinkling_tip_load_n(beam: &Cantilever) -> f64 {
     0.5 * collapse_tip_load_n(beam)
 }

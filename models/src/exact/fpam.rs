@@ -17,7 +17,8 @@
 //! Valid up to the locking angle of the weave (γ ≈ 45° for a plain weave; free contraction reaches 19.5°), for uniform
 //! shear, no end caps. Derived here; Naclerio & Hawkes, IEEE Robotics and Automation Letters 5 (2020) 3406–3413, start
 //! from the same McKibben geometry, but only their abstract was read and their stiffness term is not known here. The shear
-//! term makes the free contraction rise with pressure; without it, it is the same at every pressure.
+//! term makes the free contraction rise with pressure; without it, it is the same at every pressure. Threads that stretch
+//! lengthen the tube again at high pressure, and unequal ones twist it: see [`super::tube`].
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, SQRT_2};
 

@@ -12,7 +12,8 @@
 //! | P | gauge pressure in the pouch | Pa |
 //!
 //! Valid for 0 ≤ θ ≤ π/2, inextensible film without bending stiffness, infinitely wide pouch (no sealed sides, no weld
-//! width), quasi-static. **A real pouch with W ≈ L0 contracts much less**: see [`robin_end_factor`].
+//! width), quasi-static; film that stretches is in [`super::elastic_pouch`]. **A real pouch with W ≈ L0 contracts much
+//! less**: see [`robin_end_factor`].
 //!
 //! Reference: R. Niiyama et al., Soft Robotics 2 (2015) 59–70. The printed text was not read: the geometry below follows
 //! from the two arcs and agrees with two published codes that use it.
