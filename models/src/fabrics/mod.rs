@@ -12,6 +12,7 @@
 //! Law (tested over every entry of [`FABRICS`]): S = ∂W/∂e, W ≥ 0, W(0) = 0 and S(0) = 0.
 //! To add a fabric: one new file here and one line in [`FABRICS`].
 
+mod bias_extension;
 mod curve;
 mod laminate;
 mod materials;
@@ -21,6 +22,7 @@ mod recipe;
 mod tension_field;
 mod woven;
 
+pub use bias_extension::BiasExtension;
 pub use curve::Curve;
 pub use laminate::{Laminate, Ply};
 pub use materials::{Known, MATERIALS, Material, material};

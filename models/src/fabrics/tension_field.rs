@@ -5,9 +5,9 @@
 //! ```text
 //! taut      both principal tensions of S = A e are ≥ 0          W_r = W
 //! slack     both principal strains are ≤ 0                      W_r = 0
-//! wrinkled  otherwise: tension σ along one direction φ only     W_r = max over φ of ½ E(φ) ⟨e(φ)⟩²
+//! wrinkled  otherwise: tension σ along one direction φ only     W_r = max over φ of ½ t E(φ) ⟨e(φ)⟩²
 //!
-//! e(φ) = c² e₁ + s² e₂ + cs e₃      1/E(φ) = [c⁴/E₁ + s⁴/E₂ + c²s² (1/G − 2ν₁₂/E₁)]/t       σ = E(φ) e(φ)
+//! e(φ) = c² e₁ + s² e₂ + cs e₃      1/E(φ) = c⁴/E₁ + s⁴/E₂ + c²s² (1/G − 2ν₁₂/E₁)       σ = t E(φ) e(φ)
 //! S = σ [c², s², cs]                because the best φ is stationary, ∂W_r/∂e is the slope at fixed φ
 //! ```
 //!
@@ -51,13 +51,18 @@ pub(super) const ENTRY: Law = Law {
 };
 
 /// A linear sheet without (or with a share of) compressive stiffness.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct TensionField {
     sheet: Orthotropic,
     share: f64,
-    /// t/E(φ) = p₀ + p₁ cos 2φ + p₂ cos 4φ \[m/N\].
+    /// 1/(t E(φ)) = p₀ + p₁ cos 2φ + p₂ cos 4φ \[m/N\].
     compliance: [f64; 3],
+    /// sin 2φ, cos 2φ and t E(φ) of equally spaced directions.
+    samples: [[f64; 3]; SAMPLES],
 }
+
+/// Finds every peak of E(φ) of a cloth with E/G up to about 1000, whose peaks are √(G/E) wide.
+const SAMPLES: usize = 96;
 
 impl TensionField {
     /// `share` of the sheet keeps its compressive stiffness.
@@ -79,7 +84,12 @@ impl TensionField {
         if rest.iter().all(|p| p.abs() < 1e-13 * p0) {
             rest = [0.0; 2];
         }
-        Ok(TensionField { sheet, share, compliance: [p0, rest[0], rest[1]] })
+        let compliance = [p0, rest[0], rest[1]];
+        let samples = std::array::from_fn(|i| {
+            let (sin, cos) = (i as f64 * TAU / SAMPLES as f64).sin_cos();
+            [sin, cos, 1.0 / softness(compliance, sin, cos)[0]]
+        });
+        Ok(TensionField { sheet, share, compliance, samples })
     }
 
     fn state(&self, e: [f64; 3]) -> State {
@@ -103,7 +113,7 @@ impl TensionField {
             State::Wrinkled { along, x } => {
                 let (sin, cos) = x.sin_cos();
                 let strain = along.at(sin, cos);
-                let sigma = strain / self.softness(x)[0];
+                let sigma = strain / softness(self.compliance, sin, cos)[0];
                 (0.5 * sigma * strain, [0.5 * (1.0 + cos), 0.5 * (1.0 - cos), 0.5 * sin].map(|w| sigma * w))
             }
         }
@@ -112,7 +122,7 @@ impl TensionField {
     /// Tangent of wrinkled sheet. For W = max f(e, x) it is f_ee − f_ex f_xe/f_xx: pulling also turns the wrinkles.
     fn wrinkled_tangent(&self, along: &Along, x: f64) -> [[f64; 3]; 3] {
         let (sin, cos) = x.sin_cos();
-        let [s, s1, _] = self.softness(x);
+        let [s, s1, _] = softness(self.compliance, sin, cos);
         let (e, e1) = (along.at(sin, cos), along.sin * cos - along.cos * sin);
         let sigma = e / s;
         let (w, w1) = ([0.5 * (1.0 + cos), 0.5 * (1.0 - cos), 0.5 * sin], [-0.5 * sin, 0.5 * sin, 0.5 * cos]);
@@ -121,22 +131,22 @@ impl TensionField {
         std::array::from_fn(|i| std::array::from_fn(|j| w[i] * w[j] / s - mixed[i] * mixed[j] / bent))
     }
 
-    /// x = 2φ with the most energy ½E(φ)e(φ)².
+    /// x = 2φ with the most energy ½tE(φ)e(φ)².
     fn direction(&self, along: &Along) -> f64 {
-        /// Finds both yarn directions of a cloth with E/G up to about 1000, whose peaks are √(G/E) wide.
-        const SAMPLES: usize = 96;
+        let principal = along.sin.atan2(along.cos);
         if self.compliance[1] == 0.0 && self.compliance[2] == 0.0 {
-            return along.sin.atan2(along.cos);
+            return principal;
         }
         let step = TAU / SAMPLES as f64;
-        let energies: [f64; SAMPLES] = std::array::from_fn(|i| self.energy_along(along, i as f64 * step));
+        let energies = self.samples.map(|[sin, cos, stiff]| stiff * along.at(sin, cos).max(0.0).powi(2));
         let peaks = (0..SAMPLES).filter(|i| {
             let (before, after) = (energies[(i + SAMPLES - 1) % SAMPLES], energies[(i + 1) % SAMPLES]);
-            energies[*i] >= before && energies[*i] >= after
+            energies[*i] > 0.0 && energies[*i] >= before && energies[*i] >= after
         });
         let candidates = peaks.map(|i| self.climb(along, (i as f64 - 1.0) * step, (i as f64 + 1.0) * step));
         let better = |a: f64, b: f64| if self.energy_along(along, b) > self.energy_along(along, a) { b } else { a };
-        candidates.reduce(better).unwrap_or(along.sin.atan2(along.cos))
+        // Nearly slack, only a cone between two samples is stretched; it holds the principal direction.
+        candidates.reduce(better).unwrap_or_else(|| self.climb(along, principal - step, principal + step))
     }
 
     /// The peak between `low` and `high`: root of the energy's slope by Newton inside a shrinking bracket.
@@ -164,25 +174,18 @@ impl TensionField {
     fn energy_along(&self, along: &Along, x: f64) -> f64 {
         let (sin, cos) = x.sin_cos();
         let strain = along.at(sin, cos);
-        if strain > 0.0 { strain * strain / self.softness(x)[0] } else { 0.0 }
+        if strain > 0.0 { strain * strain / softness(self.compliance, sin, cos)[0] } else { 0.0 }
     }
 
     /// 2e′s − e s′, which has the sign of the slope of e²/s where e > 0, and its slope; e′ where e ≤ 0.
     fn slope(&self, along: &Along, x: f64) -> (f64, f64) {
         let (sin, cos) = x.sin_cos();
         let e = [along.at(sin, cos), along.sin * cos - along.cos * sin, -along.cos * cos - along.sin * sin];
-        let s = self.softness(x);
+        let s = softness(self.compliance, sin, cos);
         if e[0] <= 0.0 {
             return (e[1], e[2]);
         }
         (2.0 * e[1] * s[0] - e[0] * s[1], 2.0 * e[2] * s[0] + e[1] * s[1] - e[0] * s[2])
-    }
-
-    /// 1/E(φ) over x = 2φ and its two slopes.
-    fn softness(&self, x: f64) -> [f64; 3] {
-        let [p0, p1, p2] = self.compliance;
-        let ((s1, c1), (s2, c2)) = (x.sin_cos(), (2.0 * x).sin_cos());
-        [p0 + p1 * c1 + p2 * c2, -p1 * s1 - 2.0 * p2 * s2, -p1 * c1 - 4.0 * p2 * c2]
     }
 }
 
@@ -220,6 +223,12 @@ enum State {
         along: Along,
         x: f64,
     },
+}
+
+/// 1/(t E(φ)) over x = 2φ and its two slopes.
+fn softness([p0, p1, p2]: [f64; 3], sin: f64, cos: f64) -> [f64; 3] {
+    let (sin2, cos2) = (2.0 * sin * cos, (cos - sin) * (cos + sin));
+    [p0 + p1 * cos + p2 * cos2, -p1 * sin - 2.0 * p2 * sin2, -p1 * cos - 4.0 * p2 * cos2]
 }
 
 /// Strain along a direction: e(φ) = mean + cos·cos 2φ + sin·sin 2φ.

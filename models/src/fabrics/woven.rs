@@ -34,7 +34,7 @@ use std::sync::Arc;
 
 use super::orthotropic::{coupling_fits, shear_modulus};
 use super::recipe::{CurveInput, Law, Need, Parameter, Recipe, THICKNESS, Values, modulus, ratio};
-use super::{Curve, Fabric, Past};
+use super::{BiasExtension, Curve, Fabric, Past};
 
 pub(super) const ENTRY: Law = Law {
     name: "woven",
@@ -58,6 +58,8 @@ pub(super) const ENTRY: Law = Law {
             meaning: "shear angle at which the yarns jam; else they never do",
         },
         modulus("locking_MPa", Need::Optional, "slope added beyond locking_deg; else 10 times the steepest of shear"),
+        Parameter { key: "bias_length_mm", need: Need::Optional, meaning: "free length of the strip", ..STRIP },
+        Parameter { key: "bias_width_mm", need: Need::Optional, meaning: "width of the strip", ..STRIP },
         THICKNESS,
     ],
     curves: &[
@@ -72,6 +74,14 @@ pub(super) const ENTRY: Law = Law {
             y_unit: "MPa",
             y_si: 1e6,
             meaning: "moment per volume over shear angle; in place of g_MPa and e45_MPa",
+        },
+        CurveInput {
+            key: "bias_extension",
+            x_unit: "mm",
+            x_si: 1e-3,
+            y_unit: "N",
+            y_si: 1.0,
+            meaning: "clamp force over displacement of a strip pulled at 45 degrees; in place of the curve shear",
         },
     ],
     plies: [0, 0],
@@ -300,11 +310,11 @@ fn loses_energy(load: &Curve, back: &Curve) -> Result<(), String> {
 fn from_values(v: &Values) -> Result<Woven, String> {
     v.exactly_one(&["e0_MPa", "warp"])?;
     v.exactly_one(&["e90_MPa", "fill"])?;
-    v.exactly_one(&["e45_MPa", "g_MPa", "shear"])?;
+    v.exactly_one(&["e45_MPa", "g_MPa", "shear", "bias_extension"])?;
     let yarns = [yarn(v, "e0_MPa", "warp", "warp_unloading")?, yarn(v, "e90_MPa", "fill", "fill_unloading")?];
     let nu12 = v.get("nu12")?;
     let [e1, e2] = [&yarns[0], &yarns[1]].map(|y| y.load.initial_slope());
-    let shear = match (v.curve("shear")?, v.optional("e45_MPa")) {
+    let shear = match (v.curve("shear")?.or(bias_extension(v)?), v.optional("e45_MPa")) {
         (Some(curve), _) => curve,
         (None, Some(e45)) => Curve::linear(shear_modulus(e1, e2, e45, nu12).map_err(|m| v.says(m))?),
         (None, None) => Curve::linear(v.get("g_MPa")?),
@@ -328,6 +338,21 @@ fn yarn(v: &Values, modulus: &str, curve: &str, unloading: &str) -> Result<Yarn,
     Yarn::new(load, v.curve(unloading)?).map_err(|m| v.says(format!("curve `{unloading}`: {m}")))
 }
 
+fn bias_extension(v: &Values) -> Result<Option<Curve>, String> {
+    let thickness_m = v.get("thickness_mm")?;
+    match (v.curve("bias_extension")?, v.optional("bias_length_mm"), v.optional("bias_width_mm")) {
+        (Some(test), Some(length_m), Some(width_m)) => {
+            let rows = BiasExtension { length_m, width_m, thickness_m }.shear(test.rows());
+            let curve = rows.and_then(|rows| Curve::table(&rows));
+            curve.map(Some).map_err(|m| v.says(format!("curve `bias_extension`, as shear angle and moment: {m}")))
+        }
+        (None, None, None) => Ok(None),
+        _ => {
+            Err(v.says("write `bias_extension`, `bias_length_mm` and `bias_width_mm` together, or none of them".into()))
+        }
+    }
+}
+
 fn locked(v: &Values, shear: Curve) -> Result<Curve, String> {
     /// Steep against the cloth, soft enough not to shorten the time step much: assumed, not measured.
     const STEEPER: f64 = 10.0;
@@ -337,6 +362,8 @@ fn locked(v: &Values, shear: Curve) -> Result<Curve, String> {
         (None, None) => Ok(shear),
     }
 }
+
+const STRIP: Parameter = Parameter { lower: 1.0, upper: 1e4, ..THICKNESS };
 
 const fn tensile(key: &'static str, meaning: &'static str) -> CurveInput {
     CurveInput { key, x_unit: "-", x_si: 1.0, y_unit: "MPa", y_si: 1e6, meaning }

@@ -33,6 +33,9 @@ fn every_curve_of_every_law_says_which_row_is_wrong() {
             let mut recipe = (law.example)();
             let single = ["e0_MPa", "e90_MPa", "e45_MPa", "g_MPa"];
             recipe.numbers.retain(|key, _| !single.contains(&key.as_str()));
+            if c.key == "bias_extension" {
+                recipe.curves.remove("shear");
+            }
             recipe.curves.insert(c.key.into(), vec![[0.0, 0.0], [1.0, 2.0], [2.0, 1.0]]);
             let message = (law.make)(&recipe).unwrap_err();
             assert!(message.contains(c.key) && message.contains("row 3"), "{message}");
@@ -65,7 +68,7 @@ fn moduli_that_contradict_each_other_are_refused() {
     assert!(Orthotropic::from_bias(96.5e6, 120e6, 213e6, 0.0, 5e-5).is_ok());
     let both = [("e0_MPa", 96.5), ("e90_MPa", 120.0), ("e45_MPa", 4.0), ("g_MPa", 1.0), ("thickness_mm", 0.05)];
     assert!(refused("orthotropic", &both).contains("more than one"));
-    assert!(refused("woven", &[both[0], both[1], both[4]]).contains("e45_MPa`, `g_MPa`, `shear"));
+    assert!(refused("woven", &[both[0], both[1], both[4]]).contains("e45_MPa`, `g_MPa`, `shear`"));
     assert!(refused("tension-field", &[("e0_MPa", 1.0), ("g_MPa", 1.0), ("thickness_mm", 1.0)]).contains("e90_MPa"));
     for (nu12, t) in [(-0.1, 1e-4), (0.0, -1e-4), (0.0, 0.0), (f64::NAN, 1e-4), (1.0, 1e-4)] {
         assert!(Orthotropic::checked(1e6, 1e6, nu12, 1e6, t).is_err(), "{nu12} {t}");

@@ -117,6 +117,25 @@ fn an_unloading_curve_that_would_create_energy_is_refused() {
 }
 
 #[test]
+fn a_bias_extension_test_sets_the_shear_curve() {
+    let mut recipe = Recipe::of(&[("e0_MPa", 96.5), ("e90_MPa", 120.0), ("thickness_mm", 0.05)]);
+    // Rows of a strip 250 mm by 20 mm whose shear force is 0.02 N/mm per radian.
+    let rows = vec![[0.0, 0.0], [25.2325254, 0.202938974], [46.9681594, 0.440893099], [64.9222197, 0.706023369]];
+    recipe.curves.insert("bias_extension".into(), rows);
+    let make = |recipe: &Recipe| (by_name("woven").unwrap().make)(recipe);
+    assert!(make(&recipe).unwrap_err().contains("bias_width_mm"));
+    recipe.numbers.extend([("bias_length_mm".to_string(), 250.0), ("bias_width_mm".to_string(), 20.0)]);
+    let fabric = make(&recipe).unwrap();
+    for gamma in [0.2335667, 0.4669, 0.7_f64] {
+        // T₁₂/cos γ = F_sh/t
+        let s = fabric.tension([0.0, 0.0, gamma.sin()], &FRESH)[2];
+        assert!((s / (20.0 * gamma) - 1.0).abs() < 1e-6, "{gamma}: {s}");
+    }
+    recipe.curves.get_mut("bias_extension").unwrap().push([96.0, 2.0]);
+    assert!(make(&recipe).unwrap_err().contains("row 5"));
+}
+
+#[test]
 fn jammed_yarns_stiffen_both_ways() {
     let recipe = |extra: &[(&str, f64)]| {
         let basic = [("e0_MPa", 96.5), ("e90_MPa", 120.0), ("g_MPa", 1.0), ("thickness_mm", 0.05)];
