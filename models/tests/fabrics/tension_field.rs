@@ -58,14 +58,19 @@ fn compare_with_folds(sheet: Orthotropic) {
             least = least.min(sheet.energy(std::array::from_fn(|i| e[i] + depth * n[i]), &FRESH));
         }
         assert!(relaxed <= least * (1.0 + 1e-12), "{e:?}: {relaxed} is more than {least}");
-        // And one fold attains it: P = A⁻¹S − e, which must swallow length in no direction less than none.
-        let taut = solve(sheet.tangent(e, &FRESH), field.tension(e, &FRESH));
-        let fold: [f64; 3] = std::array::from_fn(|i| taut[i] - e[i]);
-        let (mean, radius) = (0.5 * (fold[0] + fold[1]), (0.5 * (fold[0] - fold[1])).hypot(0.5 * fold[2]));
-        let size = e.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        assert!(mean - radius >= -1e-9 * size, "{e:?} folds by {fold:?}");
-        assert!((sheet.energy(taut, &FRESH) - relaxed).abs() <= 1e-9 * relaxed, "{e:?}");
+        one_fold_attains(&sheet, &field, e);
     }
+}
+
+/// The fold P = A⁻¹S − e leaves exactly the relaxed energy, and swallows no negative length in any direction.
+fn one_fold_attains(sheet: &Orthotropic, field: &TensionField, e: [f64; 3]) {
+    let relaxed = field.energy(e, &FRESH);
+    let taut = solve(sheet.tangent(e, &FRESH), field.tension(e, &FRESH));
+    let fold: [f64; 3] = std::array::from_fn(|i| taut[i] - e[i]);
+    let (mean, radius) = (0.5 * (fold[0] + fold[1]), (0.5 * (fold[0] - fold[1])).hypot(0.5 * fold[2]));
+    let size = e.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    assert!(mean - radius >= -1e-12 * size, "{e:?} folds by {fold:?}");
+    assert!((sheet.energy(taut, &FRESH) - relaxed).abs() <= 1e-9 * relaxed, "{e:?}");
 }
 
 #[test]
@@ -94,20 +99,16 @@ fn the_share_is_what_compression_meets() {
 }
 
 #[test]
-fn nearly_slack_cloth_still_has_its_tension_as_slope_of_the_energy() {
+fn nearly_slack_cloth_still_has_the_least_energy() {
     let field = TensionField::new(cloth(), 0.0).unwrap();
     let mut random = Random::new(13);
     for _ in 0..200 {
         // Principal strains −0.01 and a millionth of that: the stretched cone is a tenth of a degree wide.
         let (sin, cos) = random.between(0.0, 6.3).sin_cos();
         let e = [-0.005 * (1.0 - 1e-6) + 0.005 * cos, -0.005 * (1.0 - 1e-6) - 0.005 * cos, 0.01 * sin];
-        let (w, s) = (field.energy(e, &FRESH), field.tension(e, &FRESH));
-        // W grows with the square: ½ S·e = W.
-        assert!(w > 0.0 && (0.5 * (s[0] * e[0] + s[1] * e[1] + s[2] * e[2]) / w - 1.0).abs() < 1e-6, "{e:?}");
-        let mut grown = e;
-        grown[0] += 1e-10;
-        let slope = (field.energy(grown, &FRESH) - w) / 1e-10;
-        assert!((slope - s[0]).abs() < 0.05 * (s[0] + s[1]), "{e:?}: {slope} {s:?}");
+        let s = field.tension(e, &FRESH);
+        assert!(field.energy(e, &FRESH) > 0.0);
+        one_fold_attains(&cloth(), &field, e);
         let tangent = field.tangent(e, &FRESH);
         // Of degree one: T e = S.
         let degree: [f64; 3] = std::array::from_fn(|i| (0..3).map(|j| tangent[i][j] * e[j]).sum());
