@@ -21,6 +21,7 @@ mod frame;
 pub mod history;
 pub mod markers;
 
+pub mod picture;
 pub mod pvd;
 mod table;
 pub mod vtu;

@@ -1,0 +1,251 @@
+//! A picture of the deformed mesh, without a display: parallel projection, z-buffer, flat shading.
+//!
+//! Elements have one colour each, from a perceptually even colour map between two limits, darkened where they turn away
+//! from the light. Nothing here feeds back into a run.
+//!
+//! ```
+//! use fem::output::picture::{Look, render};
+//! use fem::{Mesh, Part};
+//! let points = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+//! let part = Part { quads: vec![[0, 1, 2, 3]], ..Part::default() };
+//! let mesh = Mesh { points: points.clone(), parts: vec![part], ..Mesh::default() };
+//! let image = render(&mesh, &points, &[0.7], &Look { limits: Some((0.0, 1.0)), ..Look::default() })?;
+//! assert_eq!(image.rgb.len(), 3 * image.width * image.height);
+//! # Ok::<(), fem::FemError>(())
+//! ```
+
+mod colour;
+mod raster;
+
+pub use colour::viridis;
+
+use std::path::Path;
+
+use super::atomic::replace;
+use crate::{FemError, Mesh};
+use raster::{Canvas, Corner};
+
+/// Pixels are drawn this many times finer in both directions, then averaged: smooth outlines.
+const FINE: usize = 2;
+/// Largest width and height: what a report can show, and 0.8 GB while drawing.
+const MOST_PIXELS: usize = 4096;
+/// Smallest width and height: room for the colour bar.
+const FEWEST_PIXELS: usize = 128;
+/// Edges of elements that are shorter than this many pixels would only darken the picture.
+const SHORTEST_EDGE: f64 = 5.0;
+/// Colour of elements without values.
+const PLAIN: [f64; 3] = [0.62, 0.68, 0.76];
+
+/// Where the viewer stands, far away.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum View {
+    /// At +z: x to the right, y up.
+    Side,
+    /// At +y: x to the right, z down.
+    Top,
+    /// At +x: z to the left, y up.
+    End,
+    /// At equal x, y and z: y up.
+    Isometric,
+}
+
+impl View {
+    /// Unit vectors to the right, up, and towards the viewer.
+    pub fn axes(self) -> [[f64; 3]; 3] {
+        let (a, b, c) = (0.5_f64.sqrt(), (1.0_f64 / 6.0).sqrt(), (1.0_f64 / 3.0).sqrt());
+        match self {
+            View::Side => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            View::Top => [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
+            View::End => [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
+            View::Isometric => [[a, 0.0, -a], [-b, 2.0 * b, -b], [c, c, c]],
+        }
+    }
+}
+
+/// How a picture is made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Look {
+    /// Where from.
+    pub view: View,
+    /// Width in pixels, 128 to 4096.
+    pub width: usize,
+    /// Height in pixels, 128 to 4096.
+    pub height: usize,
+    /// Values of the two ends of the colour map; `None`: smallest and largest value.
+    pub limits: Option<(f64, f64)>,
+    /// Lowest and highest corner of what is shown \[m\], to keep the frames of a film in place; `None`: the mesh.
+    pub bounds: Option<([f64; 3], [f64; 3])>,
+    /// Draw the outlines of elements where they are large enough.
+    pub edges: bool,
+    /// Draw the colour map with its limits at the right.
+    pub bar: bool,
+}
+
+impl Default for Look {
+    fn default() -> Look {
+        let (width, height) = (960, 600);
+        Look { view: View::Isometric, width, height, limits: None, bounds: None, edges: true, bar: true }
+    }
+}
+
+/// Pixels, row by row from the top left, red green blue.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Image {
+    /// Pixels per row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// 3 bytes per pixel.
+    pub rgb: Vec<u8>,
+}
+
+/// Draws the mesh with its nodes at `positions` \[m\], elements coloured by `values` (mesh order, any unit; empty: grey).
+///
+/// # Errors
+/// [`FemError::Problem`] for a size, limit or position that cannot be drawn, or values of another mesh.
+pub fn render(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &Look) -> Result<Image, FemError> {
+    check(mesh, positions, values, look)?;
+    let limits = look.limits.unwrap_or_else(|| range(values));
+    let axes = look.view.axes();
+    let seen: Vec<[f64; 3]> = positions.iter().map(|p| axes.map(|axis| dot(axis, *p))).collect();
+    let with_bar = look.bar && !values.is_empty();
+    let place = Placing::of(&seen, look, with_bar);
+    let mut canvas = Canvas::new(look.width * FINE, look.height * FINE);
+    let elements = mesh.parts.iter().flat_map(|part| (0..part.len()).map(|i| part.nodes(i)));
+    for (index, nodes) in elements.enumerate() {
+        let corners: Vec<[f64; 3]> = nodes.iter().map(|&node| seen[node as usize]).collect();
+        let base = values.get(index).map_or(PLAIN, |&value| viridis(share(value, limits)));
+        let light = shade(&corners);
+        let corners: Vec<Corner> = corners.into_iter().map(|p| place.on_canvas(p)).collect();
+        let edge = if look.edges { FINE as f64 * 0.5 } else { 0.0 };
+        canvas.element(&corners, base.map(|c| c * light), edge, SHORTEST_EDGE * FINE as f64);
+    }
+    let mut image = canvas.averaged(FINE);
+    if with_bar {
+        colour::draw_bar(&mut image, limits);
+    }
+    Ok(image)
+}
+
+/// Writes an image as PNG, whole or not at all.
+///
+/// # Errors
+/// [`FemError::Io`].
+pub fn write_png(path: &Path, image: &Image) -> Result<(), FemError> {
+    replace(path, &mut |out| {
+        let mut encoder = png::Encoder::new(out, image.width as u32, image.height as u32);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&image.rgb)?;
+        Ok(writer.finish()?)
+    })
+}
+
+fn check(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &Look) -> Result<(), FemError> {
+    let refuse = |message: String| Err(FemError::Problem(format!("picture: {message}")));
+    let (nodes, elements) = (mesh.points.len(), mesh.elements());
+    let sizes = FEWEST_PIXELS..=MOST_PIXELS;
+    if !sizes.contains(&look.width) || !sizes.contains(&look.height) {
+        let (width, height) = (look.width, look.height);
+        return refuse(format!("{width} x {height} pixels; give {FEWEST_PIXELS} to {MOST_PIXELS} each"));
+    }
+    if positions.len() != nodes || !(values.is_empty() || values.len() == elements) {
+        let (p, v) = (positions.len(), values.len());
+        return refuse(format!("{p} positions and {v} values for {nodes} nodes and {elements} elements"));
+    }
+    if let Some(node) = positions.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+        return refuse(format!("node {} is at {:?}", node + 1, positions[node]));
+    }
+    if let Some(element) = values.iter().position(|value| !value.is_finite()) {
+        return refuse(format!("the value of element {} is {}", element + 1, values[element]));
+    }
+    let mut corners = mesh.parts.iter().flat_map(|part| (0..part.len()).flat_map(|i| part.nodes(i)));
+    if let Some(node) = corners.find(|&&node| node as usize >= nodes) {
+        return refuse(format!("an element has node {}, the mesh has {nodes}", node + 1));
+    }
+    match (look.limits, look.bounds) {
+        (Some((low, high)), _) if !(low < high && (high - low).is_finite()) => {
+            refuse(format!("the colour limits {low} and {high} must be finite and rising"))
+        }
+        (_, Some((low, high))) if !(0..3).all(|k| low[k] <= high[k] && (high[k] - low[k]).is_finite()) => {
+            refuse(format!("the bounds {low:?} and {high:?} must be finite and rising"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Smallest and largest value, a little apart if they are the same.
+fn range(values: &[f64]) -> (f64, f64) {
+    let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
+    if low < high { (low, high) } else { (low, low + low.abs().max(1e-300) * 1e-3) }
+}
+
+/// Where a value lies between the limits, 0 to 1.
+fn share(value: f64, (low, high): (f64, f64)) -> f64 {
+    ((value - low) / (high - low)).clamp(0.0, 1.0)
+}
+
+/// Brightness of an element whose corners are given to the right, up and towards the viewer; both sides are lit.
+fn shade(corners: &[[f64; 3]]) -> f64 {
+    // From above and the left, mostly from the viewer; half of it also reaches round, so that colours stay readable.
+    const LIGHT: [f64; 3] = [-0.36, 0.48, 0.8];
+    let last = corners.len() - 1;
+    let (a, b) = (minus(corners[2], corners[0]), minus(corners[last], corners[last - 2]));
+    let normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    let length = dot(normal, normal).sqrt();
+    if length == 0.0 {
+        return 1.0;
+    }
+    let towards = normal[2].signum();
+    0.7 + 0.3 * towards * dot(normal, LIGHT) / length
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// From metres to fine pixels.
+struct Placing {
+    scale: f64,
+    middle: [f64; 2],
+    centre: [f64; 2],
+}
+
+impl Placing {
+    fn of(seen: &[[f64; 3]], look: &Look, with_bar: bool) -> Placing {
+        let corners = look.bounds.map(|(low, high)| {
+            let pick = |i: usize| [0, 1, 2].map(|k| if i >> k & 1 == 0 { low[k] } else { high[k] });
+            (0..8).map(|i| look.view.axes().map(|axis| dot(axis, pick(i)))).collect::<Vec<_>>()
+        });
+        let shown = corners.as_deref().unwrap_or(seen);
+        let [x, y] = [0, 1].map(|k| {
+            shown.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p[k]), high.max(p[k])))
+        });
+        let margin = 0.04 * look.width.min(look.height) as f64;
+        let width = look.width as f64 - if with_bar { colour::bar_width(look.height) as f64 } else { 0.0 };
+        let room = [width - 2.0 * margin, look.height as f64 - 2.0 * margin];
+        let scale = (room[0] / (x.1 - x.0)).min(room[1] / (y.1 - y.0));
+        // A mesh without extent, or without nodes, is drawn at any scale.
+        let scale = if scale.is_finite() && scale > 0.0 { scale } else { 1.0 };
+        let fine = FINE as f64;
+        let middle = [0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1)];
+        Placing { scale: scale * fine, middle, centre: [0.5 * width * fine, 0.5 * look.height as f64 * fine] }
+    }
+
+    fn on_canvas(&self, p: [f64; 3]) -> Corner {
+        Corner {
+            x: self.centre[0] + (p[0] - self.middle[0]) * self.scale,
+            y: self.centre[1] - (p[1] - self.middle[1]) * self.scale,
+            depth: p[2],
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "picture_tests.rs"]
+mod tests;
