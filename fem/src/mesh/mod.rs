@@ -7,6 +7,7 @@
 //! ```
 
 pub mod check;
+pub mod file;
 pub mod generate;
 
 mod geometry;

@@ -8,7 +8,7 @@ use crate::FemError;
 
 /// Writes `path` through a file of another name in the same folder, which is renamed when it is complete. When anything
 /// fails the temporary file is removed and an earlier file at `path` stays as it was.
-pub(super) fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> Result<(), Error>) -> Result<(), FemError> {
+pub(crate) fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> Result<(), Error>) -> Result<(), FemError> {
     let partial = partial_name(path);
     let written = write_whole(&partial, write).and_then(|()| std::fs::rename(&partial, path));
     written.map_err(|source| {

@@ -37,6 +37,9 @@ pub fn check(mesh: &Mesh, chambers: &[&str]) -> Result<Quality, FemError> {
 /// As [`check`]; also when an open edge does not lie in a plane perpendicular to x, y or z.
 pub fn check_open(mesh: &Mesh, chambers: &[&str], open: &[&str]) -> Result<Quality, FemError> {
     numbers(mesh)?;
+    if mesh.elements() == 0 {
+        return fault("there are no elements".into());
+    }
     names(mesh, chambers)?;
     elements::check(mesh)?;
     every_node_used(mesh)?;
@@ -63,13 +66,10 @@ fn fault<T>(message: String) -> Result<T, FemError> {
 }
 
 /// Lengths of lists, node numbers in range, coordinates that are numbers.
-fn numbers(mesh: &Mesh) -> Result<(), FemError> {
+pub(super) fn numbers(mesh: &Mesh) -> Result<(), FemError> {
     let count = mesh.points.len();
     if !mesh.start.is_empty() && mesh.start.len() != count {
         return fault(format!("{} start places for {count} nodes; give one per node or none", mesh.start.len()));
-    }
-    if mesh.elements() == 0 {
-        return fault("there are no elements".into());
     }
     for (kind, places) in [("place", &mesh.points), ("start", &mesh.start)] {
         if let Some(i) = places.iter().position(|p| p.iter().any(|c| !c.is_finite())) {
@@ -87,6 +87,12 @@ fn numbers(mesh: &Mesh) -> Result<(), FemError> {
     for (name, nodes) in &mesh.sets {
         if let Some(node) = nodes.iter().find(|n| **n as usize >= count) {
             return fault(format!("set `{name}` has node {}, but there are only {count} nodes", *node as u64 + 1));
+        }
+    }
+    for tie in &mesh.ties {
+        if let Some(node) = tie.to.iter().map(|t| t.0).chain([tie.node]).find(|n| *n as usize >= count) {
+            let (tied, node) = (tie.node as u64 + 1, node as u64 + 1);
+            return fault(format!("tie of node {tied} has node {node}, but there are only {count}"));
         }
     }
     Ok(())
@@ -143,9 +149,6 @@ fn ties(mesh: &Mesh) -> Result<(), FemError> {
     let mut tied = vec![false; count];
     for tie in &mesh.ties {
         let number = tie.node as u64 + 1;
-        if let Some(node) = tie.to.iter().map(|t| t.0).chain([tie.node]).find(|n| *n as usize >= count) {
-            return fault(format!("tie of node {number} has node {}, but there are only {count}", node as u64 + 1));
-        }
         if std::mem::replace(&mut tied[tie.node as usize], true) {
             return fault(format!("node {number} is tied twice; keep one of the two ties"));
         }

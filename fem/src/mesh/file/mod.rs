@@ -1,0 +1,43 @@
+//! Plain text mesh files (`.mesh`).
+//!
+//! ```text
+//! mesh 1                  # format version
+//! nodes 6                 # then one line per node: x y z [m], stress free
+//! 0 0 0
+//! 0.1 0 0
+//! 0.1 0.1 0
+//! 0 0.1 0
+//! 0.2 0 0
+//! 0.2 0.1 0
+//! part cloth              # what follows belongs to this part
+//! front air               # chamber at the front, if any
+//! back body               # chamber at the back, if any
+//! layer 2                 # contact layer; 0 unless said
+//! warp 1                  # warp directions: 1 for the part, or one per element (quads first)
+//! 1 0 0
+//! quads 1                 # node numbers count from 1, counter-clockwise seen from the front
+//! 1 2 3 4
+//! triangles 1
+//! 2 5 3
+//! set left 2              # then the node numbers, any number per line
+//! 1 4
+//! ties 1                  # node, then pairs of node and weight
+//! 6  3 0.5  5 0.5
+//! end 6 2                 # nodes and elements in total: a file that was cut off is noticed
+//! ```
+//!
+//! A block `start N` after `nodes` gives the places at which the nodes start, if they differ. `#` starts a comment; empty
+//! lines are skipped; spaces are free. Numbers are written with as many digits as they need to be read back bit by bit.
+
+mod read;
+mod write;
+
+pub use read::{parse, read};
+pub use write::{text, write};
+
+/// Words that begin a block.
+const KEYWORDS: [&str; 13] =
+    ["mesh", "nodes", "start", "part", "front", "back", "layer", "warp", "quads", "triangles", "set", "ties", "end"];
+
+#[cfg(test)]
+mod tests;
