@@ -47,6 +47,8 @@ pub enum View {
     End,
     /// At equal x, y and z: y up.
     Isometric,
+    /// At equal x, −y and z: z up, for sheets that lie in x–y.
+    IsometricZUp,
 }
 
 impl View {
@@ -58,6 +60,7 @@ impl View {
             View::Top => [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
             View::End => [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
             View::Isometric => [[a, 0.0, -a], [-b, 2.0 * b, -b], [c, c, c]],
+            View::IsometricZUp => [[a, a, 0.0], [-b, b, 2.0 * b], [c, -c, c]],
         }
     }
 }

@@ -72,7 +72,7 @@ fn a_sphere_has_a_round_outline_from_every_side() {
 
 #[test]
 fn axes_of_every_view_are_right_handed_and_of_unit_length() {
-    for view in [View::Side, View::Top, View::End, View::Isometric] {
+    for view in [View::Side, View::Top, View::End, View::Isometric, View::IsometricZUp] {
         let [right, up, out] = view.axes();
         let cross = [
             right[1] * up[2] - right[2] * up[1],
