@@ -29,16 +29,16 @@ impl Mesh {
         }
         self.points.extend(other.points);
         for mut part in other.parts {
-            part.quads.iter_mut().flatten().for_each(|n| *n += offset);
-            part.triangles.iter_mut().flatten().for_each(|n| *n += offset);
+            part.quads.iter_mut().flatten().for_each(|n| *n = n.saturating_add(offset));
+            part.triangles.iter_mut().flatten().for_each(|n| *n = n.saturating_add(offset));
             self.parts.push(part);
         }
         for (name, nodes) in other.sets {
-            self.sets.entry(name).or_default().extend(nodes.iter().map(|n| n + offset));
+            self.sets.entry(name).or_default().extend(nodes.iter().map(|n| n.saturating_add(offset)));
         }
         for mut tie in other.ties {
-            tie.node += offset;
-            tie.to.iter_mut().for_each(|(n, _)| *n += offset);
+            tie.node = tie.node.saturating_add(offset);
+            tie.to.iter_mut().for_each(|(n, _)| *n = n.saturating_add(offset));
             self.ties.push(tie);
         }
         Ok(())
@@ -143,7 +143,7 @@ impl Mesh {
             *nodes = nodes.iter().map(|n| new(*n)).filter(|n| seen.insert(*n)).collect();
         }
         for tie in &mut mesh.ties {
-            let node = tie.node + 1;
+            let node = u64::from(tie.node) + 1;
             tie.node = new(tie.node);
             tie.to.iter_mut().for_each(|(n, _)| *n = new(*n));
             if tie.to.iter().any(|(n, _)| *n == tie.node) {

@@ -21,8 +21,28 @@ pub(super) fn check(mesh: &Mesh) -> Result<(), FemError> {
             shape(mesh, part, i)?;
             warp(mesh, part, i)?;
         }
+        twins(part)?;
     }
     Ok(())
+}
+
+/// Two elements of a part on the same nodes would count their fabric twice.
+fn twins(part: &Part) -> Result<(), FemError> {
+    let corners = |i: usize| {
+        let mut corners = [u32::MAX; 4];
+        corners[..part.nodes(i).len()].copy_from_slice(part.nodes(i));
+        corners.sort_unstable();
+        (corners, i)
+    };
+    let mut all: Vec<([u32; 4], usize)> = (0..part.len()).map(corners).collect();
+    all.sort_unstable();
+    match all.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+        None => Ok(()),
+        Some(pair) => {
+            let (what, first) = (describe(part, pair[1].1), pair[0].1 + 1);
+            fault(format!("{what} lies on element {first}; remove one (a second ply belongs in the section)"))
+        }
+    }
 }
 
 fn shape(mesh: &Mesh, part: &Part, i: usize) -> Result<(), FemError> {

@@ -176,6 +176,14 @@ fn elements_without_shape_are_named() {
             "element 1 of part `plate` (nodes 1, 2, 5, 4) at (0.0, 5.0, 0.0) mm has no area at the start",
         ),
         (
+            plate_with(|mesh| mesh.parts[0].quads.push([5, 4, 1, 2])),
+            "element 5 of part `plate` (nodes 6, 5, 2, 3) lies on element 2; remove one (a second ply belongs in the section)",
+        ),
+        (
+            plate_with(|mesh| mesh.parts[0].quads[3][0] = u32::MAX),
+            "element 4 of part `plate` (nodes 4294967296, 6, 9, 8) has node 4294967296, but there are only 9 nodes",
+        ),
+        (
             plate_with(|mesh| mesh.parts[0].quads[3][0] = 77),
             "element 4 of part `plate` (nodes 78, 6, 9, 8) has node 78, but there are only 9 nodes",
         ),

@@ -22,7 +22,7 @@ use crate::mesh::{Mesh, Part};
 pub fn pillow(side_m: f64, n: usize, gap_m: f64) -> Result<Mesh, FemError> {
     positive("pillow", "side_m", side_m)?;
     even("pillow", "n", n)?;
-    few_enough("pillow", n, 2 * n)?;
+    few_enough("pillow", n, n.saturating_mul(2))?;
     let size = [side_m, side_m];
     let (mut mesh, top, bottom) = two_layers(size, [n, n], |i, j| i == 0 || j == 0 || i == n || j == n);
     name_centres(&mut mesh, &top, &bottom);
@@ -49,7 +49,7 @@ pub fn long_pouch(length_flat_m: f64, width_m: f64, n: usize, m: usize, gap_m: f
     positive("long pouch", "width_m", width_m)?;
     even("long pouch", "n", n)?;
     even("long pouch", "m", m)?;
-    few_enough("long pouch", n, 2 * m)?;
+    few_enough("long pouch", n, m.saturating_mul(2))?;
     let (mut mesh, top, bottom) = two_layers([length_flat_m, width_m], [n, m], |i, _| i == 0 || i == n);
     name_centres(&mut mesh, &top, &bottom);
     mesh.sets.insert("left".into(), top.column(0));
@@ -87,7 +87,7 @@ pub fn flat_tube(
     positive("flat tube", "length_m", length_m)?;
     even("flat tube", "n_w", n_w)?;
     at_least("flat tube", "n_l", n_l, 4)?;
-    few_enough("flat tube", n_l, 2 * n_w)?;
+    few_enough("flat tube", n_l, n_w.saturating_mul(2))?;
     if !n_l.is_multiple_of(4) || !warp_rad.is_finite() {
         let message = "flat tube: n_l must be a multiple of 4 (gauge rings at the quarters), the angle a number";
         return Err(FemError::Mesh(format!("{message}; found {n_l} and {warp_rad}")));

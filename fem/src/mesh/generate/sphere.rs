@@ -15,7 +15,7 @@ use crate::mesh::{Mesh, Part};
 pub fn sphere(radius_m: f64, n: usize) -> Result<Mesh, FemError> {
     positive("sphere", "radius_m", radius_m)?;
     at_least("sphere", "n", n, 1)?;
-    few_enough("sphere", 2 * n, 3 * n)?;
+    few_enough("sphere", n.saturating_mul(2), n.saturating_mul(3))?;
     let mut mesh = Mesh::default();
     let mut known = HashMap::new();
     let mut quads = Vec::with_capacity(6 * n * n);
