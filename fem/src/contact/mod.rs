@@ -1,1 +1,339 @@
 //! Node-to-face contact between layers of fabric, with side memory and Coulomb friction.
+//!
+//! ```text
+//! d      distance of a node from the closest triangle of a layer, positive on the remembered side
+//! E      = Σ ½ k (g − d)₊² + ½ k |e|²
+//! F      = k (g − d)₊ n − c ḋ n − k e        on the node; −wᵢ F on the corners of the triangle
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | g | rest gap: `gap_m` or the initial distance if smaller for layers that start close, `thickness_m` later | m |
+//! | n, wᵢ | normal, and weights of the point below the node; Σ wᵢ = 1 | - |
+//! | k | 0.05 m/dt², m the lightest of the nodes near the pair | N/m |
+//! | c | 2 ζ √(k m), ζ = 0.1; only pushes | N·s/m |
+//! | e | elastic slide, |k e| ≤ μ N, see the return map in `terms` | m |
+//!
+//! Every node is tested against the faces of every layer, so two layers meet twice, once with the nodes of each.
+//! Net force and moment of a pair without friction are zero; friction leaves the moment of T over the rest gap.
+//!
+//! **Sides.** A node remembers on which side of a layer it is, from when it first comes near (1.5 mm on a 4 mm mesh)
+//! until it is away again; so thin layers cannot swap. Connected pieces of one layer near a node are remembered one by
+//! one, so a tube may fold onto itself. A run starts without contact force: see `start`.
+//!
+//! **Cost.** Candidates are found by a search that is repeated only when nodes moved half the skin; of these, pairs that
+//! may touch are picked again when nodes moved against each other, chunk by chunk; a step evaluates those only.
+//!
+//! **Validity**: penalty depths p dt²/(0.1 m_A) far below the thickness (m_A areal mass, p pressure); elements larger
+//! than about three thicknesses; edges against edges are caught only through their nodes.
+//! Source: penalty contact as in Hallquist et al., Comput. Methods Appl. Mech. Eng. 51 (1985); side memory: this project.
+
+mod build;
+mod chunk;
+mod closest;
+mod gather;
+mod record;
+mod save;
+mod search;
+mod start;
+mod surface;
+
+use models::{Pose, Row, RowKind, Term, Tick};
+use rayon::prelude::*;
+
+use crate::problem;
+use crate::terms::slide;
+use crate::vec3::{dot, norm, scale};
+use crate::{FemError, Mesh};
+use build::Penalty;
+use chunk::{Chunk, Step, Sums, motion, push, touch};
+use gather::Gather;
+use record::{Reach, Record};
+use surface::Surface;
+
+/// (ω dt)² of one pair. A node between two layers holds up to eight such shares: 0.4 of the 4 that central differences
+/// allow, so contact does not limit a step of 0.9 of what the fabric allows.
+const SHARE: f64 = 0.05;
+/// Share of critical damping of a pair.
+const DAMPING: f64 = 0.1;
+/// Nodes per piece of a pass over all nodes.
+const PIECE: usize = 2048;
+
+/// Contact between the layers of a mesh.
+#[derive(Debug, Clone)]
+pub struct Contact {
+    surface: Surface,
+    penalty: Penalty,
+    reach: Reach,
+    friction: f64,
+    chunks: Vec<Chunk>,
+    gather: Gather,
+    /// Forces of the chunks, one block each.
+    out: Vec<[f64; 4]>,
+    /// Positions at the last search.
+    placed_m: Vec<[f64; 4]>,
+    /// Positions one step before; empty before the first step.
+    before_m: Vec<[f64; 4]>,
+    path_m: f64,
+    search_due_m: f64,
+    searches: u64,
+    sums: Sums,
+}
+
+impl Contact {
+    /// Contact for a mesh in the solver's node order, with the nodes' masses and the time step.
+    ///
+    /// # Errors
+    /// [`FemError::Problem`] for unknown parts or parameters out of range; [`FemError::Mesh`] naming node, element and
+    /// depth where layers pass through each other at the start.
+    pub fn new(mesh: &Mesh, settings: &problem::Contact, mass_kg: &[f64], dt_s: f64) -> Result<Contact, FemError> {
+        check(settings, mesh, mass_kg, dt_s)?;
+        let surface = Surface::new(mesh, &settings.parts)?;
+        let reach = reaches(settings, surface.size_m);
+        let stiffness_1_s2 = SHARE / (dt_s * dt_s);
+        let damping_1_s = 2.0 * DAMPING * stiffness_1_s2.sqrt();
+        let placed_m = (0..mesh.points.len()).map(|i| mesh.start_of(i)).map(|[x, y, z]| [x, y, z, 0.0]).collect();
+        let mut contact = Contact {
+            surface,
+            penalty: Penalty { mass_kg: mass_kg.to_vec(), stiffness_1_s2, damping_1_s },
+            reach,
+            friction: settings.friction,
+            chunks: Vec::new(),
+            gather: Gather::default(),
+            out: Vec::new(),
+            placed_m,
+            before_m: Vec::new(),
+            path_m: 0.0,
+            search_due_m: 0.0,
+            searches: 0,
+            sums: Sums::default(),
+        };
+        let start = std::mem::take(&mut contact.placed_m);
+        contact.search(&start);
+        start::sides(&mut contact, mesh, settings, &start)?;
+        let (mut chunks, step) = (std::mem::take(&mut contact.chunks), contact.step_of(&start, 0.0));
+        chunks.iter_mut().for_each(|chunk| chunk.look(&step));
+        contact.chunks = chunks;
+        start::relax(&mut contact, &start);
+        Ok(contact)
+    }
+
+    /// Contact pressure at every node \[Pa\]: normal spring forces over the node's reference area, both faces added.
+    pub fn pressure_pa(&self, q: &[f64]) -> Vec<f64> {
+        let mut pressure = vec![0.0; q.len() / crate::NODE];
+        for record in self.near() {
+            let touch = touch(record, q.as_chunks::<4>().0);
+            let force = record.stiffness_n_m * touch.depth_m.max(0.0);
+            pressure[record.node as usize] += force;
+            for (n, w) in record.corners.iter().zip(touch.weights) {
+                pressure[*n as usize] += w.abs() * force;
+            }
+        }
+        let over = |(p, area): (&mut f64, &f64)| *p = if *area > 0.0 { *p / area } else { 0.0 };
+        pressure.iter_mut().zip(&self.surface.area_m2).for_each(over);
+        pressure
+    }
+    /// Searches done so far.
+    pub fn searches(&self) -> u64 {
+        self.searches
+    }
+    /// Pairs that are evaluated every step now.
+    pub fn near_pairs(&self) -> usize {
+        self.chunks.iter().map(|chunk| chunk.near.len()).sum()
+    }
+
+    fn near(&self) -> impl Iterator<Item = &Record> {
+        self.chunks.iter().flat_map(|chunk| chunk.near.iter().map(|at| &chunk.records[*at as usize]))
+    }
+
+    fn step_of<'a>(&'a self, x: &'a [[f64; 4]], dt_s: f64) -> Step<'a> {
+        let before = if self.before_m.is_empty() { x } else { &self.before_m };
+        Step {
+            surface: &self.surface,
+            x,
+            before,
+            reach: self.reach,
+            dt_s,
+            friction: self.friction,
+            path_m: self.path_m,
+        }
+    }
+
+    /// Searches again when some node may have moved more than half the skin.
+    fn search_if_due(&mut self, x: &[[f64; 4]]) {
+        if self.path_m < self.search_due_m {
+            return;
+        }
+        let left = 0.5 * self.reach.skin_m - fastest_m(x, &self.placed_m);
+        self.search_due_m = self.path_m + left;
+        if left <= 0.05 * self.reach.skin_m {
+            self.search(x);
+        }
+    }
+
+    fn search(&mut self, x: &[[f64; 4]]) {
+        let pairs = search::pairs(&self.surface, x, self.reach.side_m + self.reach.skin_m);
+        let old: Vec<Record> = self.chunks.iter().flat_map(|c| c.records.iter().copied()).collect();
+        let (chunks, lost) = build::chunks(&self.surface, &pairs, &old, &self.penalty);
+        self.sums.friction += lost;
+        self.chunks = chunks;
+        self.placed_m.clear();
+        self.placed_m.extend_from_slice(x);
+        self.search_due_m = self.path_m + 0.5 * self.reach.skin_m;
+        self.searches += 1;
+        self.arrange(x.len());
+    }
+
+    /// Numbers the chunks' nodes and lays out the array of their forces.
+    fn arrange(&mut self, nodes: usize) {
+        let surface = &self.surface;
+        self.chunks.par_iter_mut().for_each(|chunk| chunk.number(surface));
+        self.gather = Gather::new(nodes, &self.chunks);
+        self.out = vec![[0.0; 4]; self.gather.stride * self.chunks.len()];
+    }
+}
+
+impl Term for Contact {
+    fn name(&self) -> &'static str {
+        "contact"
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        let (x, force) = (at.q.as_chunks::<4>().0, force.as_chunks_mut::<4>().0);
+        let before = if self.before_m.is_empty() { x } else { &self.before_m };
+        let mut energy_j = 0.0;
+        for record in self.near() {
+            let touch = touch(record, x);
+            if touch.depth_m <= 0.0 {
+                continue;
+            }
+            let k = record.stiffness_n_m;
+            let mut push_n = scale(touch.normal, k * touch.depth_m);
+            energy_j += 0.5 * k * touch.depth_m * touch.depth_m;
+            if self.friction > 0.0 {
+                let limit = self.friction * k * touch.depth_m;
+                let spring = slide(record.spring_m, motion(record, &touch, x, before), touch.normal, k, limit).0;
+                push_n = crate::vec3::along(push_n, -k, spring);
+                energy_j += 0.5 * k * dot(spring, spring);
+            }
+            push(&mut force[record.node as usize], 1.0, push_n);
+            for (n, w) in record.corners.iter().zip(touch.weights) {
+                push(&mut force[*n as usize], -w, push_n);
+            }
+        }
+        energy_j
+    }
+
+    fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64 {
+        let x = at.q.as_chunks::<4>().0;
+        if self.before_m.is_empty() {
+            self.before_m = x.to_vec();
+        }
+        self.path_m += fastest_m(x, &self.before_m);
+        self.search_if_due(x);
+        let mut chunks = std::mem::take(&mut self.chunks);
+        let mut out = std::mem::take(&mut self.out);
+        let step = self.step_of(x, tick.dt_s);
+        let blocks = out.par_chunks_mut(self.gather.stride.max(1));
+        chunks.par_iter_mut().zip(blocks).for_each(|(chunk, out)| chunk.step(&step, out));
+        (self.chunks, self.out) = (chunks, out);
+        self.sums.stored = 0.0;
+        for chunk in &self.chunks {
+            self.sums.stored += chunk.sums.stored;
+            self.sums.friction += chunk.sums.friction;
+            self.sums.damping += chunk.sums.damping;
+        }
+        if self.chunks.iter().any(|chunk| chunk.active) {
+            self.gather.add(&self.out, force.as_chunks_mut::<4>().0);
+        }
+        self.before_m.copy_from_slice(x);
+        self.sums.stored
+    }
+
+    /// Lines at the positions of the last step (at `at` before the first).
+    fn ledger(&self, at: &Pose) -> Vec<Row> {
+        let first = self.before_m.is_empty();
+        let stored = if first { self.add(at, &mut vec![0.0; at.q.len()]) } else { self.sums.stored };
+        let row = |name, kind, energy_j| Row { name, kind, energy_j };
+        vec![
+            row("contact", RowKind::Stored, stored),
+            row("friction", RowKind::Dissipated, self.sums.friction),
+            row("contact damping", RowKind::Dissipated, self.sums.damping),
+        ]
+    }
+
+    fn stiffness_bound(&self, at: &Pose, bound: &mut [f64]) {
+        for record in self.near() {
+            let touch = touch(record, at.q.as_chunks::<4>().0);
+            if touch.depth_m < 0.0 {
+                continue;
+            }
+            // K = k b bᵀ with b = (1, −wᵢ): uᵀK u ≤ k (Σ|b|) Σ|bᵢ| uᵢ².
+            let whole = 1.0 + touch.weights.iter().map(|w| w.abs()).sum::<f64>();
+            bound[record.node as usize] += record.stiffness_n_m * whole;
+            for (n, w) in record.corners.iter().zip(touch.weights) {
+                bound[*n as usize] += record.stiffness_n_m * whole * w.abs();
+            }
+        }
+    }
+
+    fn save(&self) -> Vec<u8> {
+        save::write(self)
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        save::read(self, saved).is_some()
+    }
+}
+
+/// Largest distance between two sets of positions.
+fn fastest_m(x: &[[f64; 4]], y: &[[f64; 4]]) -> f64 {
+    let piece = |(x, y): (&[[f64; 4]], &[[f64; 4]])| {
+        let mut far = [0.0_f64; 4];
+        for (x, y) in x.iter().zip(y) {
+            let square = (x[0] - y[0]).powi(2) + (x[1] - y[1]).powi(2) + (x[2] - y[2]).powi(2);
+            far[0] = far[0].max(square);
+        }
+        far[0]
+    };
+    let square = if x.len() <= PIECE {
+        piece((x, y))
+    } else {
+        x.par_chunks(PIECE).zip(y.par_chunks(PIECE)).map(piece).reduce(|| 0.0, f64::max)
+    };
+    square.sqrt()
+}
+
+fn reaches(settings: &problem::Contact, size_m: f64) -> Reach {
+    Reach {
+        side_m: (0.375 * size_m).max(4.0 * settings.thickness_m).max(4.0 * settings.gap_m),
+        skin_m: 0.5 * size_m,
+        slack_m: 0.05 * size_m,
+        thickness_m: settings.thickness_m,
+        own_layer_m: 0.5 * size_m,
+    }
+}
+
+fn check(settings: &problem::Contact, mesh: &Mesh, mass_kg: &[f64], dt_s: f64) -> Result<(), FemError> {
+    let bad = |what: String| Err(FemError::Problem(format!("contact: {what}")));
+    if mass_kg.len() != mesh.points.len() {
+        return bad(format!("{} masses for {} nodes", mass_kg.len(), mesh.points.len()));
+    }
+    if !(dt_s > 0.0 && dt_s.is_finite()) {
+        return bad(format!("the time step is {dt_s} s"));
+    }
+    for (name, value) in
+        [("friction", settings.friction), ("gap_m", settings.gap_m), ("thickness_m", settings.thickness_m)]
+    {
+        if !(value >= 0.0 && value.is_finite()) {
+            return bad(format!("{name} is {value}; write a number that is 0 or more"));
+        }
+    }
+    if (0..mesh.points.len()).any(|i| !norm(mesh.start_of(i)).is_finite()) {
+        return Err(FemError::Mesh("a node starts at a position that is not a finite number".into()));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

@@ -5,6 +5,7 @@ mod gravity;
 mod nodal_forces;
 mod obstacles;
 
+pub(crate) use coulomb::slide;
 pub use gravity::Gravity;
 pub use nodal_forces::NodalForces;
 pub use obstacles::Obstacles;

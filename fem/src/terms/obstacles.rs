@@ -37,6 +37,7 @@ pub struct Obstacles {
     before_m: Vec<[f64; 4]>,
     /// Energy and loss of each chunk.
     sums: Vec<[f64; 2]>,
+    stored_j: f64,
     friction_j: f64,
 }
 
@@ -72,6 +73,7 @@ impl Obstacles {
             stiffness_n_m: stiffness_n_m.to_vec(),
             before_m: Vec::new(),
             sums: vec![[0.0; 2]; nodes.div_ceil(CHUNK)],
+            stored_j: 0.0,
             friction_j: 0.0,
         })
     }
@@ -124,10 +126,13 @@ impl Term for Obstacles {
             self.friction_j += lost;
         }
         self.before_m.copy_from_slice(x);
+        self.stored_j = energy_j;
         energy_j
     }
+    /// Lines at the positions of the last step (at `at` before the first).
     fn ledger(&self, at: &Pose) -> Vec<Row> {
-        let stored = self.add(at, &mut vec![0.0; at.q.len()]);
+        let first = self.before_m.is_empty();
+        let stored = if first { self.add(at, &mut vec![0.0; at.q.len()]) } else { self.stored_j };
         vec![
             Row { name: self.name(), kind: RowKind::Stored, energy_j: stored },
             Row { name: "obstacle friction", kind: RowKind::Dissipated, energy_j: self.friction_j },
@@ -145,7 +150,7 @@ impl Term for Obstacles {
     }
     fn save(&self) -> Vec<u8> {
         let mut writer = Writer::new();
-        writer.f64(self.friction_j);
+        writer.f64s(&[self.stored_j, self.friction_j]);
         writer.f64s(self.before_m.as_flattened());
         for springs in &self.springs_m {
             writer.f64s(springs.as_flattened());
@@ -160,7 +165,7 @@ impl Term for Obstacles {
 impl Obstacles {
     fn take(&mut self, saved: &[u8]) -> Option<()> {
         let mut reader = Reader::new(saved);
-        let friction_j = reader.f64()?;
+        let [stored_j, friction_j] = reader.f64s()?.try_into().ok()?;
         let before = reader.f64s()?;
         if !before.is_empty() && before.len() != 4 * self.stiffness_n_m.len() {
             return None;
@@ -173,7 +178,7 @@ impl Obstacles {
             return None;
         }
         self.before_m = before.as_chunks::<4>().0.to_vec();
-        (self.springs_m, self.friction_j) = (springs_m, friction_j);
+        (self.springs_m, self.stored_j, self.friction_j) = (springs_m, stored_j, friction_j);
         Some(())
     }
 }

@@ -1,0 +1,97 @@
+//! What contact remembers of one node near one piece of a layer.
+
+use super::closest::{Closest, Feature};
+use super::surface::Surface;
+use crate::vec3::V3;
+
+/// Distances that decide about pairs \[m\].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reach {
+    /// A side is decided, and remembered, within this distance.
+    pub side_m: f64,
+    /// Candidates are complete up to `side_m` while nodes move less than half of this.
+    pub skin_m: f64,
+    /// Nodes may move this much against each other between two looks at a pair that is nearly touching.
+    pub slack_m: f64,
+    /// Rest gap of pairs that meet during the run.
+    pub thickness_m: f64,
+    /// Largest rest gap between elements of one layer, whose own mesh must not push itself.
+    pub own_layer_m: f64,
+}
+
+/// A node and a connected piece of one layer.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Record {
+    pub node: u32,
+    /// Corners of the triangle that is touched.
+    pub corners: [u32; 3],
+    /// The same nodes (node first) in the chunk's own numbering.
+    pub local: [u32; 4],
+    pub element: u32,
+    pub layer: u32,
+    pub feature: Feature,
+    /// Remembered side: +1 in front of the layer, −1 behind, 0 not decided.
+    pub side: i8,
+    /// Same layer as the node.
+    pub own: bool,
+    /// First candidate in the chunk's list, and their number.
+    pub first: u32,
+    pub count: u32,
+    /// Sign that turns the measured distance into one that grows away from the layer on the remembered side.
+    pub sign: f64,
+    pub rest_m: f64,
+    pub stiffness_n_m: f64,
+    pub damping_n_s_m: f64,
+    /// Distance at the last look \[m\].
+    pub distance_m: f64,
+    /// Elastic slide.
+    pub spring_m: V3,
+    /// Damping force of the step before \[N\].
+    pub damped_n: f64,
+}
+
+impl Record {
+    /// True if the step before left something to account for.
+    pub fn holds(&self) -> bool {
+        self.damped_n != 0.0 || self.spring_m != [0.0; 3]
+    }
+
+    /// Energy of the elastic slide \[J\].
+    pub fn slide_j(&self) -> f64 {
+        let [x, y, z] = self.spring_m;
+        0.5 * self.stiffness_n_m * (x * x + y * y + z * z)
+    }
+
+    /// Takes the closest feature over; the side may be decided, released or reset.
+    pub fn settle(&mut self, surface: &Surface, found: &Closest, reach: &Reach) {
+        self.element = found.element;
+        self.feature = found.feature;
+        let nodes = &surface.elements[found.element as usize];
+        self.corners = found.corners.map(|k| nodes[k as usize]);
+        let distance = found.square_m2.sqrt();
+        let beside = found.cosine.abs() < 0.5;
+        let behind = f64::from(self.side) * found.height_m < 0.0;
+        if self.side != 0 && (distance > reach.side_m || (found.rim && beside)) {
+            self.side = 0;
+        } else if self.side == 0 && distance <= reach.side_m && distance > 0.0 && !beside {
+            self.side = if found.height_m > 0.0 { 1 } else { -1 };
+            let rest_m = if self.own { reach.thickness_m.min(reach.own_layer_m) } else { reach.thickness_m };
+            self.rest_m = rest_m.min(found.height_m.abs());
+        }
+        let side = f64::from(self.side);
+        self.sign = match self.feature {
+            Feature::Face => side,
+            // Around a sharp fold the mean normal says little: a node that was on its side is still there.
+            _ if behind && found.cosine.abs() > 0.05 => -side.abs(),
+            _ => side.abs(),
+        };
+        self.distance_m = if self.side == 0 { distance } else { signed(self, found, distance) };
+    }
+}
+
+fn signed(record: &Record, found: &Closest, distance: f64) -> f64 {
+    match record.feature {
+        Feature::Face => record.sign * found.height_m,
+        _ => record.sign * distance,
+    }
+}

@@ -1,0 +1,174 @@
+//! The mesh as contact sees it: elements of all layers in one list, who borders on whom, whom a node must not touch.
+
+use std::collections::HashMap;
+
+use crate::vec3::{V3, norm, sub};
+use crate::{FemError, Mesh};
+
+/// No element, no node.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Elements of the parts that take part.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Surface {
+    /// Corners; the fourth is [`NONE`] for a triangle.
+    pub elements: Vec<[u32; 4]>,
+    pub layer: Vec<u32>,
+    /// Part, and number within it.
+    pub origin: Vec<(u32, u32)>,
+    /// Element of the same layer across the edge from corner k to the next.
+    pub across: Vec<[u32; 4]>,
+    /// Elements at each node.
+    pub around: Lists,
+    /// Elements of its own layers that a node never touches, ascending: two rings.
+    pub skip: Lists,
+    /// Reference area of each node \[m²\].
+    pub area_m2: Vec<f64>,
+    /// Mean edge length \[m\].
+    pub size_m: f64,
+}
+
+/// Short lists one after the other.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Lists {
+    start: Vec<u32>,
+    items: Vec<u32>,
+}
+
+impl Lists {
+    /// Sorts `pairs` (list, item) into lists, keeping the order within each.
+    pub fn new(lists: usize, pairs: &[(u32, u32)]) -> Lists {
+        let mut start = vec![0; lists + 1];
+        pairs.iter().for_each(|p| start[p.0 as usize + 1] += 1);
+        (0..lists).for_each(|i| start[i + 1] += start[i]);
+        let mut next: Vec<u32> = start[..lists].to_vec();
+        let mut items = vec![0; pairs.len()];
+        for (list, item) in pairs {
+            let place = &mut next[*list as usize];
+            items[*place as usize] = *item;
+            *place += 1;
+        }
+        Lists { start, items }
+    }
+    #[inline]
+    pub fn of(&self, i: usize) -> &[u32] {
+        &self.items[self.start[i] as usize..self.start[i + 1] as usize]
+    }
+}
+
+/// Layer, lower node, higher node.
+type Edge = (u32, u32, u32);
+
+impl Surface {
+    pub fn new(mesh: &Mesh, parts: &[String]) -> Result<Surface, FemError> {
+        let mut surface = Surface::default();
+        if let Some(name) = parts.iter().find(|name| mesh.parts.iter().all(|part| part.name != **name)) {
+            let known: Vec<_> = mesh.parts.iter().map(|part| part.name.as_str()).collect();
+            let known = known.join(", ");
+            return Err(FemError::Problem(format!("contact names part {name:?}; the mesh has: {known}")));
+        }
+        for (p, part) in mesh.parts.iter().enumerate().filter(|(_, p)| parts.is_empty() || parts.contains(&p.name)) {
+            for i in 0..part.len() {
+                let nodes = part.nodes(i);
+                surface.elements.push([nodes[0], nodes[1], nodes[2], nodes.get(3).copied().unwrap_or(NONE)]);
+                surface.layer.push(part.layer);
+                surface.origin.push((p as u32, i as u32));
+            }
+        }
+        surface.around = Lists::new(mesh.points.len(), &surface.corner_pairs());
+        surface.border(mesh)?;
+        surface.skip = surface.rings(mesh.points.len());
+        surface.measure(&mesh.points);
+        Ok(surface)
+    }
+
+    /// Corners of an element: 3 or 4.
+    #[inline]
+    pub fn corners(&self, element: usize) -> &[u32] {
+        let nodes = &self.elements[element];
+        if nodes[3] == NONE { &nodes[..3] } else { nodes }
+    }
+    /// How messages call an element.
+    pub fn name(&self, mesh: &Mesh, element: usize) -> String {
+        let (part, i) = self.origin[element];
+        format!("element {} of part {:?}", i + 1, mesh.parts[part as usize].name)
+    }
+    /// True if `node` is a corner of an element of `layer`.
+    pub fn is_in(&self, node: usize, layer: u32) -> bool {
+        self.around.of(node).iter().any(|e| self.layer[*e as usize] == layer)
+    }
+
+    fn corner_pairs(&self) -> Vec<(u32, u32)> {
+        (0..self.elements.len()).flat_map(|e| self.corners(e).iter().map(move |n| (*n, e as u32))).collect()
+    }
+
+    /// Finds the element across each edge; the fronts of neighbours in one layer must be on the same side.
+    fn border(&mut self, mesh: &Mesh) -> Result<(), FemError> {
+        let mut open: HashMap<Edge, Vec<(u32, u8, bool)>> = HashMap::new();
+        for e in 0..self.elements.len() {
+            let nodes = self.corners(e);
+            for k in 0..nodes.len() {
+                let (a, b) = (nodes[k], nodes[(k + 1) % nodes.len()]);
+                let edge = (self.layer[e], a.min(b), a.max(b));
+                open.entry(edge).or_default().push((e as u32, k as u8, a < b));
+            }
+        }
+        self.across = vec![[NONE; 4]; self.elements.len()];
+        let mut flipped = None;
+        for users in open.into_values() {
+            let [(e, k, up), (f, l, down)] = users[..] else { continue };
+            if up == down {
+                flipped = flipped.max(Some((e, f)));
+            }
+            self.across[e as usize][k as usize] = f;
+            self.across[f as usize][l as usize] = e;
+        }
+        flipped.map_or(Ok(()), |(e, f)| {
+            Err(FemError::Mesh(format!(
+                "{} and {} are neighbours in contact layer {} but face opposite ways: turn one of them over, or give \
+                 their parts different layers",
+                self.name(mesh, e as usize),
+                self.name(mesh, f as usize),
+                self.layer[e as usize]
+            )))
+        })
+    }
+
+    fn rings(&self, nodes: usize) -> Lists {
+        let mut pairs = Vec::new();
+        let mut seen = Vec::new();
+        for node in 0..nodes {
+            seen.clear();
+            let own = self.around.of(node);
+            for &first in own {
+                for &corner in self.corners(first as usize) {
+                    let near = self.around.of(corner as usize);
+                    seen.extend(near.iter().filter(|e| self.layer[**e as usize] == self.layer[first as usize]));
+                }
+            }
+            seen.extend_from_slice(own);
+            seen.sort_unstable();
+            seen.dedup();
+            pairs.extend(seen.iter().map(|e| (node as u32, *e)));
+        }
+        Lists::new(nodes, &pairs)
+    }
+
+    fn measure(&mut self, points: &[V3]) {
+        let (mut length, mut edges) = (0.0, 0);
+        self.area_m2 = vec![0.0; points.len()];
+        for e in 0..self.elements.len() {
+            let nodes = self.corners(e).to_vec();
+            let x: Vec<V3> = nodes.iter().map(|n| points[*n as usize]).collect();
+            for k in 0..x.len() {
+                length += norm(sub(x[(k + 1) % x.len()], x[k]));
+                edges += 1;
+            }
+            let diagonals =
+                if x.len() == 4 { (sub(x[2], x[0]), sub(x[3], x[1])) } else { (sub(x[1], x[0]), sub(x[2], x[0])) };
+            let share = 0.5 * norm(crate::vec3::cross(diagonals.0, diagonals.1)) / x.len() as f64;
+            nodes.iter().for_each(|n| self.area_m2[*n as usize] += share);
+        }
+        self.size_m = if edges > 0 { length / edges as f64 } else { 0.0 };
+    }
+}

@@ -1,0 +1,6 @@
+//! Contact against its laws, and in small explicit runs of nodes and springs.
+
+mod laws;
+mod rig;
+mod speed;
+mod start;
