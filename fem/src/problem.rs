@@ -326,13 +326,20 @@ impl Problem {
                 return refuse(format!("part `{}` has no ply", part.name));
             }
             if !(section.density_kg_m3 > 0.0 && section.density_kg_m3.is_finite()) {
-                return refuse(format!("part `{}`: density must be positive, not {}", part.name, section.density_kg_m3));
+                return refuse(format!(
+                    "part `{}`: density must be positive, not {}",
+                    part.name, section.density_kg_m3
+                ));
             }
             if !(section.bending_factor >= 0.0 && section.bending_factor.is_finite()) {
                 return refuse(format!("part `{}`: bending_factor must be 0 or more", part.name));
             }
             if let Some(ply) = section.plies.iter().find(|p| !(p.fabric.thickness_m() > 0.0)) {
-                return refuse(format!("part `{}`: thickness must be positive, not {}", part.name, ply.fabric.thickness_m()));
+                return refuse(format!(
+                    "part `{}`: thickness must be positive, not {}",
+                    part.name,
+                    ply.fabric.thickness_m()
+                ));
             }
         }
         self.settings.check()

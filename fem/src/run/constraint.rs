@@ -108,7 +108,15 @@ impl Body {
             (0..3).for_each(|k| centre[k] += m / total * x[k]);
         }
         let arm = nodes.iter().map(|n| at(*n as usize)).map(|x| [0, 1, 2].map(|k| x[k] - centre[k])).collect();
-        Body { nodes: nodes.to_vec(), mass: own, arm, centre, velocity: [0.0; 3], spin: [0.0; 3], turn: [1.0, 0.0, 0.0, 0.0] }
+        Body {
+            nodes: nodes.to_vec(),
+            mass: own,
+            arm,
+            centre,
+            velocity: [0.0; 3],
+            spin: [0.0; 3],
+            turn: [1.0, 0.0, 0.0, 0.0],
+        }
     }
 
     /// One step of the body under the forces on its nodes; sets the velocities that bring them to their places.

@@ -33,7 +33,8 @@ impl Simulation {
 
     fn guard_speed(&self) -> Result<(), FemError> {
         let square = |v: &[f64; 4]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-        let fastest = (0..self.v.len()).fold(0, |best, i| if square(&self.v[i]) > square(&self.v[best]) { i } else { best });
+        let fastest =
+            (0..self.v.len()).fold(0, |best, i| if square(&self.v[i]) > square(&self.v[best]) { i } else { best });
         let speed = self.v.get(fastest).map_or(0.0, |v| square(v).sqrt());
         if speed <= self.limits.speed_m_s {
             return Ok(());

@@ -37,8 +37,13 @@ pub struct Simulation {
     tie_offset: Vec<[f64; 3]>,
     /// Mass of each node, scaling included \[kg\].
     mass: Vec<f64>,
-    /// 1/m on free axes, 0 on prescribed ones.
-    inverse_mass: Vec<[f64; 4]>,
+    /// Nodes with prescribed axes.
+    fixed: Vec<(u32, [bool; 3])>,
+    /// Those of them that supports move or bodies and ties carry along.
+    moved: Vec<(u32, [bool; 3])>,
+    /// Position and velocity of `moved` nodes during an update.
+    held: Vec<([f64; 4], [f64; 4])>,
+    arch: pulp::Arch,
     limits: Limits,
     x: Vec<[f64; 4]>,
     v: Vec<[f64; 4]>,
@@ -191,8 +196,10 @@ impl Simulation {
     /// Sets node velocities in mesh order \[m/s\]; before the first step.
     pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) {
         for (place, v) in self.order.new.iter().zip(velocities) {
-            let free = &self.inverse_mass[*place as usize];
-            (0..3).for_each(|k| self.v[*place as usize][k] = if free[k] > 0.0 { v[k] } else { 0.0 });
+            self.v[*place as usize][..3].copy_from_slice(v);
+        }
+        for (node, axes) in &self.fixed {
+            (0..3).filter(|k| axes[*k]).for_each(|k| self.v[*node as usize][k] = 0.0);
         }
     }
 

@@ -38,8 +38,13 @@ impl Simulation {
         let terms = terms(problem, &mesh, &mass, dt_s)?;
         sheet.start(x.as_flattened());
         let bodies = bodies(problem, &mesh, &mass)?;
+        let mut moved = vec![[false; 3]; count];
+        for (node, axes) in driven.iter().flat_map(|d| d.nodes.iter().map(|n| (*n, d.axes))) {
+            (0..3).for_each(|k| moved[node as usize][k] |= axes[k]);
+        }
         for node in bodies.iter().flat_map(|b| &b.nodes).chain(mesh.ties.iter().map(|t| &t.node)) {
             fixed[*node as usize] = [true; 3];
+            moved[*node as usize] = [true; 3];
         }
         let limits = Limits {
             cfl: settings.cfl,
@@ -53,7 +58,10 @@ impl Simulation {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build();
         let pool = pool.map_err(|e| FemError::Problem(format!("cannot start {} threads: {e}", settings.threads)))?;
         Ok(Simulation {
-            inverse_mass: inverse_mass(&mass, &fixed),
+            fixed: listed(&fixed),
+            moved: listed(&moved),
+            held: Vec::new(),
+            arch: pulp::Arch::new(),
             tie_offset: tie_offsets(&mesh, &x),
             v: vec![[0.0; 4]; count],
             force: vec![[0.0; 4]; count],
@@ -124,12 +132,9 @@ fn tie_offsets(mesh: &Mesh, x: &[[f64; 4]]) -> Vec<[f64; 3]> {
     mesh.ties.iter().map(offset).collect()
 }
 
-fn inverse_mass(mass: &[f64], fixed: &[[bool; 3]]) -> Vec<[f64; 4]> {
-    let one = |(m, fixed): (&f64, &[bool; 3])| {
-        let of = |k: usize| if fixed[k] || *m <= 0.0 { 0.0 } else { 1.0 / m };
-        [of(0), of(1), of(2), 0.0]
-    };
-    mass.iter().zip(fixed).map(one).collect()
+/// Nodes with at least one of these axes.
+fn listed(axes: &[[bool; 3]]) -> Vec<(u32, [bool; 3])> {
+    axes.iter().enumerate().filter(|(_, axes)| **axes != [false; 3]).map(|(i, axes)| (i as u32, *axes)).collect()
 }
 
 fn sound_speed(sheet: &Sheet) -> f64 {

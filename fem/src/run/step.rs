@@ -4,6 +4,8 @@ use models::{Pose, Term, Tick};
 
 use super::{Advance, Simulation, constraint};
 use crate::FemError;
+use crate::sheet::group::{LANES, Lane};
+use crate::sheet::lanes::{V, sum};
 
 /// Steps between two looks at the callback and the guards.
 const LOOK: u64 = 64;
@@ -41,11 +43,13 @@ impl Simulation {
         // The pool is moved out for the call, so that the steps may borrow the rest.
         let pool = std::mem::replace(&mut self.pool, None);
         let mut work = || {
-            for _ in 0..steps {
-                if self.clock.time_s + 0.5 * self.clock.dt_s >= time_s {
+            for done in 1..=steps {
+                let ahead = self.clock.time_s + 1.5 * self.clock.dt_s;
+                self.sheet.measure = done == steps || ahead >= time_s;
+                self.one_step();
+                if ahead >= time_s {
                     break;
                 }
-                self.one_step();
             }
         };
         match &pool {
@@ -58,7 +62,6 @@ impl Simulation {
     fn one_step(&mut self) {
         let (t, dt) = (self.clock.time_s, self.clock.dt_s);
         let dv = 0.5 * (self.clock.before_s + dt);
-        self.force.fill([0.0; 4]);
         let pose = Pose::nodes(self.x.as_flattened());
         let tick = Tick { step: self.clock.step, time_s: t, dt_s: dt, v: self.v.as_flattened() };
         let force = self.force.as_flattened_mut();
@@ -74,8 +77,10 @@ impl Simulation {
             body.step(dv, dt, self.limits.damping_1_s, &self.force, &self.x, &mut self.v);
         }
         let before = if self.clock.step == 0 { kinetic(&self.mass, &self.v) } else { 0.0 };
-        let update = Update { dv, dt, damping: self.limits.damping_1_s };
-        let [kinetic, damped] = update.all(&self.mass, &self.inverse_mass, &self.force, &mut self.v, &mut self.x);
+        self.hold_driven();
+        let update = Update { dv, dt, damping: self.limits.damping_1_s, arch: self.arch };
+        let [kinetic, damped] = update.all(&self.mass, &mut self.force, &mut self.v, &mut self.x);
+        self.place_driven();
         constraint::follow(&self.mesh.ties, &self.tie_offset, &mut self.x, &mut self.v);
         if self.clock.step == 0 {
             self.books.start = stored + before;
@@ -89,52 +94,126 @@ impl Simulation {
     }
 }
 
+impl Simulation {
+    /// Takes the forces off prescribed axes, so that the update leaves what stands still at rest, and remembers the
+    /// velocities that supports, bodies and ties set.
+    fn hold_driven(&mut self) {
+        for (node, axes) in &self.fixed {
+            let force = &mut self.force[*node as usize];
+            (0..3).filter(|k| axes[*k]).for_each(|k| force[k] = 0.0);
+        }
+        self.held.clear();
+        self.held.extend(self.moved.iter().map(|(node, _)| (self.x[*node as usize], self.v[*node as usize])));
+    }
+
+    /// Moves driven axes by the velocities that were set for them.
+    fn place_driven(&mut self) {
+        let dt = self.clock.dt_s;
+        for ((node, axes), (x, v)) in self.moved.iter().zip(&self.held) {
+            for k in (0..3).filter(|k| axes[*k]) {
+                self.v[*node as usize][k] = v[k];
+                self.x[*node as usize][k] = x[k] + dt * v[k];
+            }
+        }
+    }
+}
+
 fn kinetic(mass: &[f64], v: &[[f64; 4]]) -> f64 {
     mass.iter().zip(v).map(|(m, v)| 0.5 * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])).sum()
 }
 
-/// The update of velocities and positions.
+/// The update of velocities and positions; leaves the forces at zero.
 #[derive(Clone, Copy)]
 struct Update {
     dv: f64,
     dt: f64,
     damping: f64,
+    arch: pulp::Arch,
 }
 
 impl Update {
-    /// Updates everything; returns kinetic energy and Σ m |v̄|² over the free axes.
-    fn all(self, mass: &[f64], inverse: &[[f64; 4]], force: &[[f64; 4]], v: &mut [[f64; 4]], x: &mut [[f64; 4]]) -> [f64; 2] {
+    /// Updates everything; returns kinetic energy and Σ m |v̄|².
+    fn all(self, mass: &[f64], force: &mut [[f64; 4]], v: &mut [[f64; 4]], x: &mut [[f64; 4]]) -> [f64; 2] {
         if mass.len() <= PIECE {
-            return self.piece(mass, inverse, force, v, x);
+            return self.arch.dispatch(Piece { update: self, mass, force, v, x });
         }
         let half = (mass.len() / 2).next_multiple_of(PIECE);
         let half = if half < mass.len() { half } else { PIECE };
-        let (mass, inverse, force) = (mass.split_at(half), inverse.split_at(half), force.split_at(half));
+        let (mass, force) = (mass.split_at(half), force.split_at_mut(half));
         let (v, x) = (v.split_at_mut(half), x.split_at_mut(half));
-        let (low, high) = rayon::join(
-            || self.all(mass.0, inverse.0, force.0, v.0, x.0),
-            || self.all(mass.1, inverse.1, force.1, v.1, x.1),
-        );
+        let (low, high) = rayon::join(|| self.all(mass.0, force.0, v.0, x.0), || self.all(mass.1, force.1, v.1, x.1));
         [low[0] + high[0], low[1] + high[1]]
     }
+}
 
-    fn piece(self, mass: &[f64], inverse: &[[f64; 4]], force: &[[f64; 4]], v: &mut [[f64; 4]], x: &mut [[f64; 4]]) -> [f64; 2] {
-        let gain = self.dv / (1.0 + 0.5 * self.damping * self.dv);
-        let mut kinetic = [0.0; 4];
-        let mut damped = [0.0; 4];
-        for ((((m, inverse), f), v), x) in mass.iter().zip(inverse).zip(force).zip(v).zip(x) {
-            for k in 0..4 {
-                let free = m * inverse[k];
-                let old = v[k];
-                let new = old + gain * (inverse[k] * f[k] - self.damping * free * old);
-                v[k] = new;
-                x[k] += self.dt * new;
-                kinetic[k] += m * old * new;
-                let mean = 0.5 * (old + new);
-                damped[k] += m * free * mean * mean;
-            }
+/// A piece of the update as a value, compiled for every set of vector instructions.
+struct Piece<'a> {
+    update: Update,
+    mass: &'a [f64],
+    force: &'a mut [[f64; 4]],
+    v: &'a mut [[f64; 4]],
+    x: &'a mut [[f64; 4]],
+}
+
+impl pulp::WithSimd for Piece<'_> {
+    type Output = [f64; 2];
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, simd: S) -> [f64; 2] {
+        let Piece { update, mass, force, v, x } = self;
+        let mut tally = [[0.0; LANES]; 2];
+        let (pairs, last) = mass.as_chunks::<2>();
+        let even = pairs.len() * 2;
+        let (force, last_force) = force.split_at_mut(even);
+        let (v, last_v) = v.split_at_mut(even);
+        let (x, last_x) = x.split_at_mut(even);
+        let moving = force.as_flattened_mut().as_chunks_mut::<LANES>().0.iter_mut();
+        let moving = moving.zip(v.as_flattened_mut().as_chunks_mut::<LANES>().0);
+        let moving = moving.zip(x.as_flattened_mut().as_chunks_mut::<LANES>().0);
+        for (mass, ((force, v), x)) in pairs.iter().zip(moving) {
+            update.two_nodes(simd, *mass, force, v, x, &mut tally);
         }
-        let add = |s: [f64; 4]| (s[0] + s[1]) + (s[2] + s[3]);
-        [0.5 * add(kinetic), add(damped)]
+        if let ([mass], [force], [v], [x]) = (last, last_force, last_v, last_x) {
+            let pad = |a: &[f64; 4]| [a[0], a[1], a[2], a[3], 0.0, 0.0, 0.0, 0.0];
+            let (mut f, mut w, mut p) = (pad(force), pad(v), pad(x));
+            update.two_nodes(simd, [*mass, 0.0], &mut f, &mut w, &mut p, &mut tally);
+            force.copy_from_slice(&f[..4]);
+            v.copy_from_slice(&w[..4]);
+            x.copy_from_slice(&p[..4]);
+        }
+        [0.5 * sum(&tally[0]), sum(&tally[1])]
+    }
+}
+
+impl Update {
+    /// Two nodes, or the eight numbers they are.
+    #[inline(always)]
+    fn two_nodes<S: pulp::Simd>(
+        self,
+        simd: S,
+        [m0, m1]: [f64; 2],
+        force: &mut Lane,
+        v: &mut Lane,
+        x: &mut Lane,
+        tally: &mut [Lane; 2],
+    ) {
+        // A node without mass is placed by what it is tied to.
+        let inverse = |m: f64| if m > 0.0 { 1.0 / m } else { 0.0 };
+        let (w0, w1) = (inverse(m0), inverse(m1));
+        let mass = [m0, m0, m0, m0, m1, m1, m1, m1];
+        let inverse = [w0, w0, w0, w0, w1, w1, w1, w1];
+        let gain = V::all(simd, self.dv / (1.0 + 0.5 * self.damping * self.dv));
+        for part in 0..LANES / S::F64_LANES {
+            let m = V::load(simd, &mass, part);
+            let old = V::load(simd, v, part);
+            let push = V::load(simd, &inverse, part) * V::load(simd, force, part);
+            let new = old + gain * (push - V::all(simd, self.damping) * old);
+            let mean = V::all(simd, 0.5) * (old + new);
+            V::all(simd, 0.0).store(force, part);
+            new.store(v, part);
+            (V::load(simd, x, part) + V::all(simd, self.dt) * new).store(x, part);
+            (V::load(simd, &tally[0], part) + m * (old * new)).store(&mut tally[0], part);
+            (V::load(simd, &tally[1], part) + m * (mean * mean)).store(&mut tally[1], part);
+        }
     }
 }

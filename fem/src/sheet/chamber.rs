@@ -12,6 +12,8 @@ pub struct Air {
     pub volume_m3: Option<f64>,
     /// Volume a step earlier \[m³\].
     before_m3: f64,
+    /// Pressure when the volume was taken last \[Pa\].
+    booked_pa: f64,
     /// Work done on the fabric so far \[J\].
     pub work_j: f64,
     /// (p + p_atm) V once sealed \[J\].
@@ -19,7 +21,7 @@ pub struct Air {
 }
 
 /// Numbers per chamber in a checkpoint.
-pub const SAVED: usize = 7;
+pub const SAVED: usize = 8;
 
 impl Air {
     /// At rest, before the first step.
@@ -28,7 +30,7 @@ impl Air {
             Pressure::Set(amplitude) | Pressure::Sealed { filling: amplitude, .. } => amplitude.at(0.0),
         };
         let chamber = chamber.clone();
-        Air { chamber, pressure_pa, volume_m3: None, before_m3: 0.0, work_j: 0.0, sealed_j: None }
+        Air { chamber, pressure_pa, volume_m3: None, before_m3: 0.0, booked_pa: 0.0, work_j: 0.0, sealed_j: None }
     }
 
     /// Name.
@@ -43,9 +45,13 @@ impl Air {
         }
     }
 
-    /// The pressure for a step at time `t`. A sealed chamber extrapolates its volume by one step, to second order.
-    pub fn set_pressure(&mut self, t: f64) -> f64 {
-        let before = self.pressure_pa;
+    /// True if the pressure depends on the volume, so that it is needed at every step.
+    pub fn follows_volume(&self) -> bool {
+        matches!(self.chamber.pressure, Pressure::Sealed { .. })
+    }
+
+    /// Sets the pressure for a step at time `t`. A sealed chamber extrapolates its volume by one step, to second order.
+    pub fn set_pressure(&mut self, t: f64) {
         self.pressure_pa = match &self.chamber.pressure {
             Pressure::Set(amplitude) => amplitude.at(t),
             Pressure::Sealed { filling, sealed_at_s, .. } if t < *sealed_at_s => filling.at(t),
@@ -58,14 +64,14 @@ impl Air {
                 }
             },
         };
-        before
     }
 
-    /// Takes the volume of this step and books the work ½(p + p′)ΔV.
-    pub fn take_volume(&mut self, volume_m3: f64, pressure_before_pa: f64) {
+    /// Takes the volume of this step and books the work ½(p + p′)ΔV since the last time.
+    pub fn take_volume(&mut self, volume_m3: f64) {
         if let Some(before) = self.volume_m3 {
-            self.work_j += 0.5 * (self.pressure_pa + pressure_before_pa) * (volume_m3 - before);
+            self.work_j += 0.5 * (self.pressure_pa + self.booked_pa) * (volume_m3 - before);
         }
+        self.booked_pa = self.pressure_pa;
         self.before_m3 = self.volume_m3.unwrap_or(volume_m3);
         self.volume_m3 = Some(volume_m3);
     }
@@ -82,7 +88,16 @@ impl Air {
     pub fn save(&self) -> [f64; SAVED] {
         let flag = |o: Option<f64>| f64::from(u8::from(o.is_some()));
         let (v, s) = (self.volume_m3, self.sealed_j);
-        [self.pressure_pa, flag(v), v.unwrap_or(0.0), self.before_m3, self.work_j, flag(s), s.unwrap_or(0.0)]
+        [
+            self.pressure_pa,
+            flag(v),
+            v.unwrap_or(0.0),
+            self.before_m3,
+            self.work_j,
+            flag(s),
+            s.unwrap_or(0.0),
+            self.booked_pa,
+        ]
     }
 
     /// From a checkpoint.
@@ -92,5 +107,6 @@ impl Air {
         self.before_m3 = saved[3];
         self.work_j = saved[4];
         self.sealed_j = (saved[5] > 0.5).then_some(saved[6]);
+        self.booked_pa = saved[7];
     }
 }

@@ -24,7 +24,12 @@ impl Sheet {
         let mut fields = ElementFields::default();
         let past = self.past();
         for (index, element) in self.elements.iter().enumerate() {
-            self.push(&mut fields, element, element.deformation(q.as_chunks().0), &past.get(index).copied().unwrap_or_default());
+            self.push(
+                &mut fields,
+                element,
+                element.deformation(q.as_chunks().0),
+                &past.get(index).copied().unwrap_or_default(),
+            );
         }
         fields
     }

@@ -11,7 +11,7 @@ pub type Lane = [f64; LANES];
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
 pub struct Group {
-    /// Corner nodes; a triangle repeats its third.
+    /// Corner nodes, numbered within the patch; a triangle repeats its third.
     pub node: [[u32; LANES]; 4],
     /// Shape gradients, see [`Reference::b`] \[1/m\].
     pub b: [[Lane; 2]; 2],
@@ -21,9 +21,9 @@ pub struct Group {
     pub area: Lane,
     /// Hourglass stiffness k \[N/m\].
     pub hourglass: Lane,
-    /// Viscosity η \[N s/m\].
+    /// Viscosity times area η A \[N m s\].
     pub viscosity: Lane,
-    /// 1 where the element's energy is this patch's to count, 0 where a neighbour counts it and in empty lanes.
+    /// 1 where the element's energy is this lane's to count, 0 where another lane or patch counts it.
     pub own: Lane,
     /// 1 in lanes that hold an element.
     pub real: Lane,
@@ -47,9 +47,10 @@ pub struct Item {
 }
 
 impl Group {
-    /// Packs up to eight elements. An empty lane repeats the last element with no area, stiffness or pressure, so that
-    /// its arithmetic stays finite and its forces vanish.
-    pub fn pack(items: &[Item]) -> Group {
+    /// Packs up to eight elements, of which the first `counted_before` are counted by an earlier group. An empty lane
+    /// repeats the last element with no area, stiffness or pressure, so that its arithmetic stays finite and its forces
+    /// vanish.
+    pub fn pack(items: &[Item], counted_before: usize) -> Group {
         let mut group = Group {
             node: [[0; LANES]; 4],
             b: [[[0.0; LANES]; 2]; 2],
@@ -73,8 +74,8 @@ impl Group {
             if lane < items.len() {
                 group.area[lane] = item.reference.area;
                 group.hourglass[lane] = item.hourglass;
-                group.viscosity[lane] = item.viscosity;
-                group.own[lane] = f64::from(u8::from(item.own));
+                group.viscosity[lane] = item.viscosity * item.reference.area;
+                group.own[lane] = f64::from(u8::from(item.own && lane >= counted_before));
                 group.real[lane] = 1.0;
             }
         }

@@ -19,6 +19,26 @@ use super::group::{Group, LANES, Lane};
 use super::lanes::{V, inner, product};
 use super::law::Law;
 
+/// `[expression; k = 0, 1, 2]`. Closures would hide the vector instructions from the inliner.
+macro_rules! axes {
+    ($k:ident => $value:expr) => {
+        [
+            {
+                let $k = 0;
+                $value
+            },
+            {
+                let $k = 1;
+                $value
+            },
+            {
+                let $k = 2;
+                $value
+            },
+        ]
+    };
+}
+
 /// One vector for each element of a group.
 pub type Lane3 = [Lane; 3];
 /// Forces on the corners of a group: `[corner][axis][lane]`.
@@ -43,89 +63,128 @@ pub struct Tally {
 #[repr(C, align(64))]
 pub struct Strain(pub Lane3);
 
+/// Where quadrilaterals put their corner forces.
+pub enum Corners<'a> {
+    /// Groups in regular rows: by corner, axis and node.
+    Rows([[&'a mut [f64]; 3]; 4]),
+    /// Other groups: one entry each.
+    Groups(&'a mut [CornerForces]),
+}
+
 /// What a batch of groups has in common.
 #[derive(Clone, Copy)]
 pub struct Batch<'a> {
-    /// Node positions.
-    pub q: &'a [[f64; 4]],
+    /// Node positions by axis.
+    pub x: [&'a [f64]; 3],
     /// Pressure behind minus pressure in front \[Pa\].
     pub pressure: f64,
     /// 1/Δt, or 0 without viscosity \[1/s\].
     pub rate: f64,
+    /// Whether the fluxes are wanted.
+    pub flux: bool,
     /// Elements of the batch.
     pub groups: &'a [Group],
     /// Memory of the fabric, or empty.
     pub past: &'a [[Past; LANES]],
 }
 
-/// Forces, energies and fluxes of quadrilaterals.
+/// Forces, energies and fluxes of quadrilaterals; `ROWS` says that all groups are in regular rows.
 #[inline(always)]
-pub fn quads<S: Simd, L: Law>(
+pub fn quads<S: Simd, L: Law, const ROWS: bool>(
     simd: S,
     batch: Batch,
     law: L,
     strains: &mut [Strain],
-    out: &mut [CornerForces],
+    mut out: Corners,
     tally: &mut Tally,
 ) {
-    for (index, ((group, strain), out)) in batch.groups.iter().zip(strains).zip(out).enumerate() {
+    for (index, (group, strain)) in batch.groups.iter().zip(strains).enumerate() {
         for part in 0..LANES / S::F64_LANES {
-            quad(simd, batch, law, group, batch.past.get(index), part, strain, out, tally);
+            let mut first = [0; 4];
+            let mut x = [[V::all(simd, 0.0); 3]; 4];
+            for c in 0..4 {
+                first[c] = group.node[c][0] as usize + part * S::F64_LANES;
+                if ROWS {
+                    x[c] = axes!(k => V::load_from(simd, batch.x[k], first[c]));
+                } else {
+                    x[c] = V::gather(simd, batch.x, &group.node[c], part);
+                }
+            }
+            let force = quad::<S, L, ROWS>(simd, batch, law, group, batch.past.get(index), part, x, strain, tally);
+            match &mut out {
+                Corners::Rows(rows) => {
+                    for c in 0..4 {
+                        for k in 0..3 {
+                            force[c][k].store_to(rows[c][k], first[c]);
+                        }
+                    }
+                }
+                Corners::Groups(groups) => {
+                    for c in 0..4 {
+                        for k in 0..3 {
+                            force[c][k].store(&mut groups[index][c][k], part);
+                        }
+                    }
+                }
+            }
         }
     }
 }
 
 #[inline(always)]
 #[allow(clippy::too_many_arguments)] // one call, inlined: a struct would only rename the list
-fn quad<S: Simd, L: Law>(
+fn quad<S: Simd, L: Law, const ROWS: bool>(
     simd: S,
     batch: Batch,
     law: L,
     group: &Group,
     past: Option<&[Past; LANES]>,
     part: usize,
+    x: [[V<S>; 3]; 4],
     strain: &mut Strain,
-    out: &mut CornerForces,
     tally: &mut Tally,
-) {
-    let lane = |from: &Lane| V::load(simd, from, part);
-    let all = |value: f64| V::all(simd, value);
-    let axes = [0, 1, 2];
-    let x: [[V<S>; 3]; 4] = [0, 1, 2, 3].map(|c: usize| V::gather(simd, batch.q, &group.node[c], part));
-    let d13 = axes.map(|k| x[0][k] - x[2][k]);
-    let d24 = axes.map(|k| x[1][k] - x[3][k]);
-    let odd = axes.map(|k| x[0][k] + x[2][k]);
-    let even = axes.map(|k| x[1][k] + x[3][k]);
-    let h = axes.map(|k| odd[k] - even[k]);
+) -> [[V<S>; 3]; 4] {
+    let d13 = axes!(k => x[0][k] - x[2][k]);
+    let d24 = axes!(k => x[1][k] - x[3][k]);
+    let odd = axes!(k => x[0][k] + x[2][k]);
+    let even = axes!(k => x[1][k] + x[3][k]);
+    let h = axes!(k => odd[k] - even[k]);
 
-    let b: [[V<S>; 2]; 2] = [0, 1].map(|c: usize| [lane(&group.b[c][0]), lane(&group.b[c][1])]);
-    let f1 = axes.map(|k| b[0][0] * d13[k] + b[1][0] * d24[k]);
-    let f2 = axes.map(|k| b[0][1] * d13[k] + b[1][1] * d24[k]);
+    let b = [
+        [V::load(simd, &group.b[0][0], part), V::load(simd, &group.b[0][1], part)],
+        [V::load(simd, &group.b[1][0], part), V::load(simd, &group.b[1][1], part)],
+    ];
+    let f1 = axes!(k => b[0][0] * d13[k] + b[1][0] * d24[k]);
+    let f2 = axes!(k => b[0][1] * d13[k] + b[1][1] * d24[k]);
     let e = [
-        all(0.5) * (inner(f1, f1) - all(1.0)),
-        all(0.5) * (inner(f2, f2) - all(1.0)),
+        V::all(simd, 0.5) * (inner(f1, f1) - V::all(simd, 1.0)),
+        V::all(simd, 0.5) * (inner(f2, f2) - V::all(simd, 1.0)),
         inner(f1, f2),
     ];
     let (s, w) = law.at(simd, e, past, part);
-    let (area, own) = (lane(&group.area), lane(&group.own));
+    let (area, own) = (V::load(simd, &group.area, part), V::load(simd, &group.own, part));
     let t = with_viscosity(simd, batch.rate, group, part, e, s, strain, tally);
 
-    let (s1, s2) = (lane(&group.s[0]), lane(&group.s[1]));
-    let q = axes.map(|k| all(0.25) * (h[k] - s1 * f1[k] - s2 * f2[k]));
+    let (s1, s2) = (V::load(simd, &group.s[0], part), V::load(simd, &group.s[1], part));
+    let q = axes!(k => V::all(simd, 0.25) * (h[k] - s1 * f1[k] - s2 * f2[k]));
     let (g1, g2) = (inner(f1, q), inner(f2, q));
-    let stiffness = lane(&group.hourglass);
+    let stiffness = V::load(simd, &group.hourglass, part);
     let (k1, k2) = (stiffness * g1, stiffness * g2);
-    (lane(&tally.membrane) + own * area * w).store(&mut tally.membrane, part);
-    (lane(&tally.hourglass) + all(0.5) * own * (k1 * g1 + k2 * g2)).store(&mut tally.hourglass, part);
+    (V::load(simd, &tally.membrane, part) + own * area * w).store(&mut tally.membrane, part);
+    (V::load(simd, &tally.hourglass, part) + V::all(simd, 0.5) * own * (k1 * g1 + k2 * g2))
+        .store(&mut tally.hourglass, part);
 
-    let a = axes.map(|k| all(0.25) * (d24[k] - d13[k]));
-    let c = axes.map(|k| all(-0.25) * (d13[k] + d24[k]));
-    let warp = axes.map(|k| all(0.25) * h[k]);
+    let a = axes!(k => V::all(simd, 0.25) * (d24[k] - d13[k]));
+    let c = axes!(k => V::all(simd, -0.25) * (d13[k] + d24[k]));
+    let warp = axes!(k => V::all(simd, 0.25) * h[k]);
     let (n0, n1, n2) = (product(a, c), product(a, warp), product(warp, c));
-    let p = all(batch.pressure) * lane(&group.real);
-    let third = p * all(1.0 / 3.0);
+    // Regular rows have no empty lanes.
+    let p = V::all(simd, batch.pressure);
+    let p = if ROWS { p } else { p * V::load(simd, &group.real, part) };
+    let third = p * V::all(simd, 1.0 / 3.0);
+    let mut force = [[V::all(simd, 0.0); 3]; 4];
     for k in 0..3 {
-        let quarter = all(0.25) * (k1 * f1[k] + k2 * f2[k]);
+        let quarter = V::all(simd, 0.25) * (k1 * f1[k] + k2 * f2[k]);
         let r1 = t[0] * f1[k] + t[2] * f2[k] + k1 * q[k] - s1 * quarter;
         let r2 = t[2] * f1[k] + t[1] * f2[k] + k2 * q[k] - s2 * quarter;
         let p13 = b[0][0] * r1 + b[0][1] * r2;
@@ -133,13 +192,16 @@ fn quad<S: Simd, L: Law>(
         let (m0, m1, m2) = (p * n0[k], third * n1[k], third * n2[k]);
         let (low, high) = (m0 - quarter, m0 + quarter);
         let (sum, difference) = (m1 + m2 + p13, m1 - m2 - p24);
-        (low - sum).store(&mut out[0][k], part);
-        (high + difference).store(&mut out[1][k], part);
-        (low + sum).store(&mut out[2][k], part);
-        (high - difference).store(&mut out[3][k], part);
-        let flux = (odd[k] + even[k]) * n0[k] + all(4.0 / 3.0) * (a[k] * n1[k] + c[k] * n2[k]);
-        (lane(&tally.flux[k]) + own * flux).store(&mut tally.flux[k], part);
+        force[0][k] = low - sum;
+        force[1][k] = high + difference;
+        force[2][k] = low + sum;
+        force[3][k] = high - difference;
+        if batch.flux {
+            let flux = (odd[k] + even[k]) * n0[k] + V::all(simd, 4.0 / 3.0) * (a[k] * n1[k] + c[k] * n2[k]);
+            (V::load(simd, &tally.flux[k], part) + own * flux).store(&mut tally.flux[k], part);
+        }
     }
+    force
 }
 
 /// Forces, energies and fluxes of triangles; the fourth corner gets nothing.
@@ -172,27 +234,27 @@ fn triangle<S: Simd, L: Law>(
     out: &mut CornerForces,
     tally: &mut Tally,
 ) {
-    let lane = |from: &Lane| V::load(simd, from, part);
-    let all = |value: f64| V::all(simd, value);
-    let axes = [0, 1, 2];
-    let x: [[V<S>; 3]; 3] = [0, 1, 2].map(|c: usize| V::gather(simd, batch.q, &group.node[c], part));
-    let u = axes.map(|k| x[1][k] - x[0][k]);
-    let v = axes.map(|k| x[2][k] - x[0][k]);
-    let b: [[V<S>; 2]; 2] = [0, 1].map(|c: usize| [lane(&group.b[c][0]), lane(&group.b[c][1])]);
-    let f1 = axes.map(|k| b[0][0] * u[k] + b[1][0] * v[k]);
-    let f2 = axes.map(|k| b[0][1] * u[k] + b[1][1] * v[k]);
+    let x = axes!(c => V::gather(simd, batch.x, &group.node[c], part));
+    let u = axes!(k => x[1][k] - x[0][k]);
+    let v = axes!(k => x[2][k] - x[0][k]);
+    let b = [
+        [V::load(simd, &group.b[0][0], part), V::load(simd, &group.b[0][1], part)],
+        [V::load(simd, &group.b[1][0], part), V::load(simd, &group.b[1][1], part)],
+    ];
+    let f1 = axes!(k => b[0][0] * u[k] + b[1][0] * v[k]);
+    let f2 = axes!(k => b[0][1] * u[k] + b[1][1] * v[k]);
     let e = [
-        all(0.5) * (inner(f1, f1) - all(1.0)),
-        all(0.5) * (inner(f2, f2) - all(1.0)),
+        V::all(simd, 0.5) * (inner(f1, f1) - V::all(simd, 1.0)),
+        V::all(simd, 0.5) * (inner(f2, f2) - V::all(simd, 1.0)),
         inner(f1, f2),
     ];
     let (s, w) = law.at(simd, e, past, part);
-    let (area, own) = (lane(&group.area), lane(&group.own));
+    let (area, own) = (V::load(simd, &group.area, part), V::load(simd, &group.own, part));
     let t = with_viscosity(simd, batch.rate, group, part, e, s, strain, tally);
-    (lane(&tally.membrane) + own * area * w).store(&mut tally.membrane, part);
+    (V::load(simd, &tally.membrane, part) + own * area * w).store(&mut tally.membrane, part);
 
     let normal = product(u, v);
-    let p = all(batch.pressure / 6.0) * lane(&group.real);
+    let p = V::all(simd, batch.pressure / 6.0) * V::load(simd, &group.real, part);
     for k in 0..3 {
         let r1 = t[0] * f1[k] + t[2] * f2[k];
         let r2 = t[2] * f1[k] + t[1] * f2[k];
@@ -201,8 +263,8 @@ fn triangle<S: Simd, L: Law>(
         (push + (p2 + p3)).store(&mut out[0][k], part);
         (push - p2).store(&mut out[1][k], part);
         (push - p3).store(&mut out[2][k], part);
-        let flux = all(1.0 / 6.0) * (x[0][k] + x[1][k] + x[2][k]) * normal[k];
-        (lane(&tally.flux[k]) + own * flux).store(&mut tally.flux[k], part);
+        let flux = V::all(simd, 1.0 / 6.0) * (x[0][k] + x[1][k] + x[2][k]) * normal[k];
+        (V::load(simd, &tally.flux[k], part) + own * flux).store(&mut tally.flux[k], part);
     }
 }
 
@@ -219,12 +281,14 @@ fn with_viscosity<S: Simd>(
     strain: &mut Strain,
     tally: &mut Tally,
 ) -> [V<S>; 3] {
-    let lane = |from: &Lane| V::load(simd, from, part);
-    let (area, half) = (lane(&group.area), V::all(simd, 0.5));
-    let eta = lane(&group.viscosity) * V::all(simd, rate);
-    let d = [0, 1, 2].map(|k| e[k] - lane(&strain.0[k]));
-    (0..3).for_each(|k| e[k].store(&mut strain.0[k], part));
-    let heat = lane(&group.own) * area * eta * (d[0] * d[0] + d[1] * d[1] + half * d[2] * d[2]);
-    (lane(&tally.viscous) + heat).store(&mut tally.viscous, part);
-    [area * (s[0] + eta * d[0]), area * (s[1] + eta * d[1]), area * (s[2] + half * eta * d[2])]
+    let (area, half) = (V::load(simd, &group.area, part), V::all(simd, 0.5));
+    let eta = V::load(simd, &group.viscosity, part) * V::all(simd, rate);
+    let d = axes!(k => e[k] - V::load(simd, &strain.0[k], part));
+    for k in 0..3 {
+        e[k].store(&mut strain.0[k], part);
+    }
+    let drag = [eta * d[0], eta * d[1], half * eta * d[2]];
+    let heat = V::load(simd, &group.own, part) * (drag[0] * d[0] + drag[1] * d[1] + drag[2] * d[2]);
+    (V::load(simd, &tally.viscous, part) + heat).store(&mut tally.viscous, part);
+    axes!(k => area * s[k] + drag[k])
 }

@@ -61,18 +61,29 @@ impl<S: Simd> V<S> {
         S::as_mut_simd_f64s(to).0[part] = self.1;
     }
 
+    /// `S::F64_LANES` consecutive numbers.
+    #[inline(always)]
+    pub fn load_from(simd: S, from: &[f64], at: usize) -> V<S> {
+        V(simd, S::as_simd_f64s(&from[at..at + S::F64_LANES]).0[0])
+    }
+
+    /// Writes `S::F64_LANES` consecutive numbers.
+    #[inline(always)]
+    pub fn store_to(self, to: &mut [f64], at: usize) {
+        S::as_mut_simd_f64s(&mut to[at..at + S::F64_LANES]).0[0] = self.1;
+    }
+
     /// Positions of one corner of the elements in part number `part` of a group.
     #[inline(always)]
-    pub fn gather(simd: S, q: &[[f64; 4]], node: &[u32; LANES], part: usize) -> [V<S>; 3] {
-        let mut x = [[0.0; LANES]; 3];
+    pub fn gather(simd: S, x: [&[f64]; 3], node: &[u32; LANES], part: usize) -> [V<S>; 3] {
         let width = S::F64_LANES;
-        for lane in 0..width {
-            let p = &q[node[part * width + lane] as usize];
-            x[0][lane] = p[0];
-            x[1][lane] = p[1];
-            x[2][lane] = p[2];
+        let mut out = [[0.0; LANES]; 3];
+        for (k, out) in out.iter_mut().enumerate() {
+            for lane in 0..width {
+                out[lane] = x[k][node[part * width + lane] as usize];
+            }
         }
-        [V::load(simd, &x[0], 0), V::load(simd, &x[1], 0), V::load(simd, &x[2], 0)]
+        [V::load(simd, &out[0], 0), V::load(simd, &out[1], 0), V::load(simd, &out[2], 0)]
     }
 
     /// The lanes as numbers, the first `S::F64_LANES` of them meaningful.
@@ -97,6 +108,7 @@ pub fn product<S: Simd>(a: [V<S>; 3], b: [V<S>; 3]) -> [V<S>; 3] {
 }
 
 /// Sum over the lanes, in one order.
+#[inline(always)]
 pub fn sum(lane: &Lane) -> f64 {
     ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]))
 }

@@ -16,15 +16,14 @@ pub trait Law: Copy {
 impl Law for &NeoHookean {
     #[inline(always)]
     fn at<S: Simd>(self, simd: S, e: [V<S>; 3], _: Option<&[Past; LANES]>, _: usize) -> ([V<S>; 3], V<S>) {
-        let all = |value| V::all(simd, value);
         let (trace, product) = (e[0] + e[1], e[0] * e[1]);
-        let d = all(2.0) * trace + all(4.0) * product - e[2] * e[2];
-        let inverse = (all(1.0) + d).inverse();
+        let d = V::all(simd, 2.0) * trace + V::all(simd, 4.0) * product - e[2] * e[2];
+        let inverse = (V::all(simd, 1.0) + d).inverse();
         let k = 2.0 * self.thickness_m * self.c10_pa;
-        let scale = all(k) * inverse * inverse;
-        let spare = d * (all(2.0) + d);
-        let s = [scale * (spare - all(2.0) * e[1]), scale * (spare - all(2.0) * e[0]), scale * e[2]];
-        let w = all(0.5 * k) * (all(2.0) * trace - d * inverse);
+        let scale = V::all(simd, k) * inverse * inverse;
+        let spare = d * (V::all(simd, 2.0) + d);
+        let s = [scale * (spare - V::all(simd, 2.0) * e[1]), scale * (spare - V::all(simd, 2.0) * e[0]), scale * e[2]];
+        let w = V::all(simd, 0.5 * k) * (V::all(simd, 2.0) * trace - d * inverse);
         (s, w)
     }
 }
@@ -32,13 +31,12 @@ impl Law for &NeoHookean {
 impl Law for &Orthotropic {
     #[inline(always)]
     fn at<S: Simd>(self, simd: S, e: [V<S>; 3], _: Option<&[Past; LANES]>, _: usize) -> ([V<S>; 3], V<S>) {
-        let all = |value| V::all(simd, value);
         let s = [
-            all(self.a11) * e[0] + all(self.a12) * e[1],
-            all(self.a12) * e[0] + all(self.a22) * e[1],
-            all(self.a66) * e[2],
+            V::all(simd, self.a11) * e[0] + V::all(simd, self.a12) * e[1],
+            V::all(simd, self.a12) * e[0] + V::all(simd, self.a22) * e[1],
+            V::all(simd, self.a66) * e[2],
         ];
-        let w = all(0.5) * (s[0] * e[0] + s[1] * e[1] + s[2] * e[2]);
+        let w = V::all(simd, 0.5) * (s[0] * e[0] + s[1] * e[1] + s[2] * e[2]);
         (s, w)
     }
 }
@@ -50,16 +48,18 @@ pub struct Called<'a>(pub &'a dyn Fabric);
 impl Law for Called<'_> {
     #[inline(always)]
     fn at<S: Simd>(self, simd: S, e: [V<S>; 3], past: Option<&[Past; LANES]>, part: usize) -> ([V<S>; 3], V<S>) {
-        let strain = e.map(V::lanes);
+        let strain = [e[0].lanes(), e[1].lanes(), e[2].lanes()];
         let mut s = [[0.0; LANES]; 3];
         let mut w = [0.0; LANES];
         for l in 0..S::F64_LANES {
             let e = [strain[0][l], strain[1][l], strain[2][l]];
             let past = past.map_or([0.0; 2], |past| past[part * S::F64_LANES + l]);
             let tension = self.0.tension(e, &past);
-            (0..3).for_each(|k| s[k][l] = tension[k]);
+            for k in 0..3 {
+                s[k][l] = tension[k];
+            }
             w[l] = self.0.energy(e, &past);
         }
-        (s.map(|lane| V::load(simd, &lane, 0)), V::load(simd, &w, 0))
+        ([V::load(simd, &s[0], 0), V::load(simd, &s[1], 0), V::load(simd, &s[2], 0)], V::load(simd, &w, 0))
     }
 }

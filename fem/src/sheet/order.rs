@@ -23,8 +23,6 @@ pub struct Order {
 /// small enough that a patch's data stay in the second-level cache and every thread finds work.
 const LARGEST: usize = 1024;
 const SMALLEST: usize = 256;
-/// Nodes are ordered by bisection down to this many.
-const LEAF: usize = 8;
 
 impl Order {
     /// Orders the nodes part by part, each by recursive bisection of its reference shape.
@@ -57,20 +55,11 @@ impl Order {
             self.bisect(mesh, low, target);
             self.bisect(mesh, high, target);
         } else if !nodes.is_empty() {
-            self.place(mesh, nodes);
+            // The generator's own order keeps rows of a structured mesh together.
+            nodes.sort_unstable();
+            self.old.extend_from_slice(nodes);
             self.patches.push(start..self.old.len());
         }
-    }
-
-    fn place(&mut self, mesh: &Mesh, nodes: &mut [u32]) {
-        if nodes.len() <= LEAF {
-            self.old.extend_from_slice(nodes);
-            return;
-        }
-        let half = split(mesh, nodes);
-        let (low, high) = nodes.split_at_mut(half);
-        self.place(mesh, low);
-        self.place(mesh, high);
     }
 }
 

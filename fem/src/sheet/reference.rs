@@ -56,7 +56,8 @@ impl Reference {
     pub fn new(corner: &[[f64; 3]], warp: Option<[f64; 3]>, angle_rad: f64) -> Reference {
         let (d1, d2) = diagonals(corner);
         let axes = axes(unit(cross(d1, d2)), warp, angle_rad);
-        let flat: Vec<[f64; 2]> = corner.iter().map(|x| sub(*x, corner[0])).map(|x| [dot(x, axes[0]), dot(x, axes[1])]).collect();
+        let flat: Vec<[f64; 2]> =
+            corner.iter().map(|x| sub(*x, corner[0])).map(|x| [dot(x, axes[0]), dot(x, axes[1])]).collect();
         if corner.len() == 4 { quad(&flat, axes) } else { triangle(&flat, axes) }
     }
 
@@ -117,7 +118,12 @@ fn quad(x: &[[f64; 2]], axes: [[f64; 3]; 3]) -> Reference {
 fn triangle(x: &[[f64; 2]], axes: [[f64; 3]; 3]) -> Reference {
     let (p, q) = ([x[1][0] - x[0][0], x[1][1] - x[0][1]], [x[2][0] - x[0][0], x[2][1] - x[0][1]]);
     let twice = p[0] * q[1] - p[1] * q[0];
-    Reference { b: [[q[1] / twice, -q[0] / twice], [-p[1] / twice, p[0] / twice]], s: [0.0; 2], area: 0.5 * twice, axes }
+    Reference {
+        b: [[q[1] / twice, -q[0] / twice], [-p[1] / twice, p[0] / twice]],
+        s: [0.0; 2],
+        area: 0.5 * twice,
+        axes,
+    }
 }
 
 /// Mean in-plane stiffness ½(A₁₁ + A₂₂) of an unstrained fabric \[N/m\]; scales hourglass and bending stiffness.

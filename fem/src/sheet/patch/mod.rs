@@ -1,0 +1,266 @@
+//! A patch: consecutive nodes, the elements that touch them, and one pass that gives the nodes their shell forces.
+
+mod bend;
+mod pass;
+mod runs;
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+use models::Fabric;
+use models::fabrics::Past;
+
+use super::bending::BendingMatrix;
+use super::group::{Group, Item, LANES};
+use super::kernel::{CornerForces, Strain};
+use bend::Bend;
+use pass::Pass;
+
+/// What one pass over a patch adds up, in SI units.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Sums {
+    /// Membrane energy \[J\].
+    pub membrane: f64,
+    /// Hourglass energy \[J\].
+    pub hourglass: f64,
+    /// Energy turned to heat by viscosity in this step \[J\].
+    pub viscous: f64,
+    /// Bending energy \[J\].
+    pub bending: f64,
+    /// Energy lost in fabrics with memory \[J\].
+    pub hysteresis: f64,
+}
+
+/// Elements that run through the same loop: same kind, fabric and chambers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Key {
+    /// Corners, 3 or 4.
+    pub corners: usize,
+    /// Fabric number.
+    pub fabric: usize,
+    /// Chamber in front, if any.
+    pub front: Option<usize>,
+    /// Chamber behind, if any.
+    pub back: Option<usize>,
+}
+
+/// Groups with one key: first those in regular rows, then the others.
+#[derive(Debug, Clone)]
+struct Run {
+    key: Key,
+    regular: Range<usize>,
+    other: Range<usize>,
+}
+
+/// Consecutive nodes and what their forces need. Nodes are numbered within the patch: its own, then those of
+/// neighbours.
+#[derive(Debug, Clone)]
+pub struct Patch {
+    /// The nodes this patch owns.
+    pub nodes: Range<usize>,
+    /// Nodes of neighbours that its elements or bending rows need.
+    halo: Vec<u32>,
+    runs: Vec<Run>,
+    groups: Vec<Group>,
+    /// Mesh number of the element in each lane, `u32::MAX` where another lane or patch reports it.
+    pub element: Vec<[u32; LANES]>,
+    /// Own node and place in `scratch` of every corner force of elements outside regular rows, in the order of nodes.
+    corners: Vec<(u32, u32)>,
+    bend: Bend,
+    /// Strains of the step before, one per group.
+    pub strains: Vec<Strain>,
+    /// Memory of fabrics that have one; empty otherwise.
+    pub past: Vec<[Past; LANES]>,
+    work: Work,
+    /// What the last pass added up.
+    pub sums: Sums,
+    /// Flux into each chamber, see [`super::chamber::Air::volume_of`].
+    pub flux: Vec<[f64; 3]>,
+}
+
+/// Room to work in; its content does not outlive a pass, except for zeros where no regular element writes.
+#[derive(Debug, Clone, Default)]
+struct Work {
+    /// Positions by axis.
+    x: [Vec<f64>; 3],
+    /// K x by axis.
+    kx: [Vec<f64>; 3],
+    /// Forces of regular rows by corner and axis. No node is the same corner of two elements in regular rows.
+    corner: [[Vec<f64>; 3]; 4],
+    /// Corner forces of the other groups.
+    scratch: Vec<CornerForces>,
+}
+
+/// What all patches share during a pass.
+#[derive(Clone, Copy)]
+pub struct Shared<'a> {
+    /// Node positions.
+    pub q: &'a [[f64; 4]],
+    /// Fabrics by number.
+    pub fabrics: &'a [Arc<dyn Fabric>],
+    /// Gauge pressure of each chamber \[Pa\].
+    pub pressure_pa: &'a [f64],
+    /// 1/Δt for viscosity, 0 for statics \[1/s\].
+    pub rate: f64,
+    /// Whether the fluxes are wanted.
+    pub flux: bool,
+    /// Vector instructions of this machine.
+    pub arch: pulp::Arch,
+}
+
+impl Patch {
+    /// Packs the elements by key, in the order given; `items` carry global node numbers.
+    pub fn new(nodes: Range<usize>, items: BTreeMap<Key, Vec<Item>>, bending: &BendingMatrix, memory: bool) -> Patch {
+        let own = nodes.clone();
+        let needed = items.values().flatten().flat_map(|i| i.node.iter().copied());
+        let needed = needed.chain(own.clone().flat_map(|i| bending.row(i).map(|e| e.0)));
+        let mut halo: Vec<u32> = needed.filter(|n| !own.contains(&(*n as usize))).collect();
+        halo.sort();
+        halo.dedup();
+        let local = |n: u32| match halo.binary_search(&n) {
+            Ok(place) => (own.len() + place) as u32,
+            Err(_) => n - own.start as u32,
+        };
+        let bend = Bend::new(bending, own.clone(), local);
+        let mut build = Build::new(own.len());
+        for (key, mut list) in items {
+            list.iter_mut().for_each(|item| item.node.iter_mut().for_each(|n| *n = local(*n)));
+            list.sort_by_key(|item| (item.node[0], item.element));
+            build.add(key, &list);
+        }
+        let room = own.len() + halo.len() + LANES;
+        let vectors = || std::array::from_fn(|_| vec![0.0; room]);
+        let work = Work {
+            x: vectors(),
+            kx: vectors(),
+            corner: std::array::from_fn(|_| vectors()),
+            scratch: vec![[[[0.0; LANES]; 3]; 4]; build.groups.len()],
+        };
+        build.corners.sort();
+        Patch {
+            nodes,
+            halo,
+            strains: vec![Strain([[0.0; LANES]; 3]); build.groups.len()],
+            past: if memory { vec![[[0.0; 2]; LANES]; build.groups.len()] } else { Vec::new() },
+            runs: build.runs,
+            groups: build.groups,
+            element: build.element,
+            corners: build.corners,
+            bend,
+            work,
+            sums: Sums::default(),
+            flux: Vec::new(),
+        }
+    }
+
+    /// Adds the shell forces of the own nodes to `force` (their slice) and keeps the sums. With `keep`, strains and
+    /// fabric memory move on by this step.
+    pub fn pass(&mut self, shared: Shared, force: &mut [[f64; 4]], keep: bool) {
+        let strains = if keep { Vec::new() } else { self.strains.clone() };
+        shared.arch.dispatch(Pass { patch: self, shared, force });
+        if !keep {
+            self.strains = strains;
+        } else if !self.past.is_empty() {
+            self.remember(shared.fabrics);
+        }
+    }
+
+    fn remember(&mut self, fabrics: &[Arc<dyn Fabric>]) {
+        self.sums.hysteresis = 0.0;
+        for run in self.runs.iter().filter(|run| fabrics[run.key.fabric].has_memory()) {
+            let fabric = &fabrics[run.key.fabric];
+            for g in run.regular.clone().chain(run.other.clone()) {
+                let strain = &self.strains[g].0;
+                for l in 0..LANES {
+                    fabric.remember([strain[0][l], strain[1][l], strain[2][l]], &mut self.past[g][l]);
+                    let weight = self.groups[g].own[l] * self.groups[g].area[l];
+                    self.sums.hysteresis += weight * fabric.dissipated(&self.past[g][l]);
+                }
+            }
+        }
+    }
+
+    /// Sets the strains that viscosity compares with to those at `q`.
+    pub fn start_strains(&mut self, shared: Shared) {
+        let mut unused = vec![[0.0; 4]; self.nodes.len()];
+        shared.arch.dispatch(Pass { patch: self, shared, force: &mut unused });
+    }
+}
+
+/// A patch while its groups are packed.
+struct Build {
+    own: usize,
+    runs: Vec<Run>,
+    groups: Vec<Group>,
+    element: Vec<[u32; LANES]>,
+    /// (own node, place in the corner forces).
+    corners: Vec<(u32, u32)>,
+    /// Nodes that already are corner c of an element in a regular row.
+    taken: [Vec<bool>; 4],
+}
+
+impl Build {
+    fn new(own: usize) -> Build {
+        let taken = std::array::from_fn(|_| Vec::new());
+        Build { own, runs: Vec::new(), groups: Vec::new(), element: Vec::new(), corners: Vec::new(), taken }
+    }
+
+    fn add(&mut self, key: Key, items: &[Item]) {
+        let (eights, mut rest) = runs::split(items.len(), |a, b| runs::next_in_row(&items[a], &items[b]));
+        let start = self.groups.len();
+        let mut claimed = vec![false; items.len()];
+        for eight in eights {
+            let chunk = &items[eight.first..eight.first + LANES];
+            if self.claim(&chunk[eight.counted..]) {
+                self.push(chunk, eight.counted);
+                claimed[eight.first..eight.first + LANES].fill(true);
+            } else {
+                rest.extend((eight.first + eight.counted..eight.first + LANES).filter(|i| !claimed[*i]));
+            }
+        }
+        let middle = self.groups.len();
+        let rest: Vec<Item> = rest.into_iter().map(|i| items[i].clone()).collect();
+        for chunk in rest.chunks(LANES) {
+            self.note_corners(chunk);
+            self.push(chunk, 0);
+        }
+        self.runs.push(Run { key, regular: start..middle, other: middle..self.groups.len() });
+    }
+
+    /// Reserves the places of a regular group's corner forces; false if another element has one of them.
+    fn claim(&mut self, items: &[Item]) -> bool {
+        let free = |(c, taken): (usize, &Vec<bool>)| {
+            items.iter().all(|item| !taken.get(item.node[c] as usize).copied().unwrap_or(false))
+        };
+        if !self.taken.iter().enumerate().all(free) {
+            return false;
+        }
+        for (c, taken) in self.taken.iter_mut().enumerate() {
+            for item in items {
+                let node = item.node[c] as usize;
+                taken.resize(taken.len().max(node + 1), false);
+                taken[node] = true;
+            }
+        }
+        true
+    }
+
+    fn push(&mut self, chunk: &[Item], counted: usize) {
+        let reported = |lane: usize| match chunk.get(lane) {
+            Some(item) if item.own && lane >= counted => item.element,
+            _ => u32::MAX,
+        };
+        self.element.push(std::array::from_fn(reported));
+        self.groups.push(Group::pack(chunk, counted));
+    }
+
+    fn note_corners(&mut self, chunk: &[Item]) {
+        let group = self.groups.len();
+        for (lane, item) in chunk.iter().enumerate() {
+            for (corner, node) in item.node.iter().enumerate().filter(|(_, n)| (**n as usize) < self.own) {
+                self.corners.push((*node, ((group * 4 + corner) * 3 * LANES + lane) as u32));
+            }
+        }
+    }
+}

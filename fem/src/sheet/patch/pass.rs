@@ -1,0 +1,162 @@
+//! One pass over a patch, compiled for every set of vector instructions.
+
+use models::fabrics::Kind;
+use pulp::Simd;
+
+use super::super::group::LANES;
+use super::super::kernel::{self, Batch, Corners, Tally};
+use super::super::lanes::{V, sum};
+use super::super::law::{Called, Law};
+use super::{Patch, Run, Shared, Sums};
+
+/// The pass as a value, so that it can be handed to the dispatcher.
+pub struct Pass<'a, 'b> {
+    pub patch: &'a mut Patch,
+    pub shared: Shared<'b>,
+    pub force: &'a mut [[f64; 4]],
+}
+
+impl pulp::WithSimd for Pass<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Pass { patch, shared, force } = self;
+        patch.sums = Sums { hysteresis: patch.sums.hysteresis, ..Sums::default() };
+        patch.flux.clear();
+        patch.flux.resize(shared.pressure_pa.len(), [0.0; 3]);
+        take_positions(patch, shared.q);
+        for index in 0..patch.runs.len() {
+            let fabric = &*shared.fabrics[patch.runs[index].key.fabric];
+            match fabric.kind() {
+                Kind::NeoHookean(law) => run(simd, patch, shared, index, law),
+                Kind::Orthotropic(law) => run(simd, patch, shared, index, law),
+                Kind::Other => run(simd, patch, shared, index, Called(fabric)),
+            }
+        }
+        if !patch.bend.is_empty() {
+            patch.bend.apply(simd, slices(&patch.work.x), slices_mut(&mut patch.work.kx));
+            patch.sums.bending = 0.5 * bending_energy(simd, patch);
+        }
+        give_forces(simd, patch, force);
+    }
+}
+
+fn slices([x, y, z]: &[Vec<f64>; 3]) -> [&[f64]; 3] {
+    [x, y, z]
+}
+
+fn slices_mut([x, y, z]: &mut [Vec<f64>; 3]) -> [&mut [f64]; 3] {
+    [x, y, z]
+}
+
+fn corner_slices([a, b, c, d]: &mut [[Vec<f64>; 3]; 4]) -> [[&mut [f64]; 3]; 4] {
+    [slices_mut(a), slices_mut(b), slices_mut(c), slices_mut(d)]
+}
+
+/// Positions of own and neighbours' nodes, axis by axis.
+#[inline(always)]
+fn take_positions(patch: &mut Patch, q: &[[f64; 4]]) {
+    let [x, y, z] = &mut patch.work.x;
+    let own = patch.nodes.len();
+    let places = x.iter_mut().zip(y.iter_mut()).zip(z.iter_mut());
+    for (((x, y), z), p) in places.zip(&q[patch.nodes.clone()]) {
+        (*x, *y, *z) = (p[0], p[1], p[2]);
+    }
+    for (place, node) in patch.halo.iter().enumerate() {
+        let p = &q[*node as usize];
+        (x[own + place], y[own + place], z[own + place]) = (p[0], p[1], p[2]);
+    }
+}
+
+#[inline(always)]
+fn run<S: Simd, L: Law>(simd: S, patch: &mut Patch, shared: Shared, index: usize, law: L) {
+    let Run { key, regular, other } = patch.runs[index].clone();
+    let pressure = |chamber: Option<usize>| chamber.map_or(0.0, |c| shared.pressure_pa[c]);
+    let mut tally = Tally::default();
+    for (groups, in_rows) in [(regular, true), (other, false)] {
+        let batch = Batch {
+            x: slices(&patch.work.x),
+            pressure: pressure(key.back) - pressure(key.front),
+            rate: shared.rate,
+            flux: shared.flux,
+            groups: &patch.groups[groups.clone()],
+            past: if patch.past.is_empty() { &[] } else { &patch.past[groups.clone()] },
+        };
+        let strains = &mut patch.strains[groups.clone()];
+        let scratch = &mut patch.work.scratch[groups];
+        match (in_rows, key.corners) {
+            (true, _) => kernel::quads::<S, L, true>(
+                simd,
+                batch,
+                law,
+                strains,
+                Corners::Rows(corner_slices(&mut patch.work.corner)),
+                &mut tally,
+            ),
+            (_, 4) => kernel::quads::<S, L, false>(simd, batch, law, strains, Corners::Groups(scratch), &mut tally),
+            _ => kernel::triangles(simd, batch, law, strains, scratch, &mut tally),
+        }
+    }
+    patch.sums.membrane += sum(&tally.membrane);
+    patch.sums.hourglass += sum(&tally.hourglass);
+    patch.sums.viscous += sum(&tally.viscous);
+    for (chamber, sign) in [(key.back, 1.0), (key.front, -1.0)] {
+        if let Some(chamber) = chamber {
+            (0..3).for_each(|k| patch.flux[chamber][k] += sign * sum(&tally.flux[k]));
+        }
+    }
+}
+
+/// Σ x·K x over the own nodes.
+#[inline(always)]
+fn bending_energy<S: Simd>(simd: S, patch: &Patch) -> f64 {
+    let own = patch.nodes.len();
+    let mut lanes = [0.0; LANES];
+    let whole = own / LANES * LANES;
+    for first in (0..whole).step_by(LANES) {
+        for part in 0..LANES / S::F64_LANES {
+            let at = first + part * S::F64_LANES;
+            let mut total = V::load(simd, &lanes, part);
+            for k in 0..3 {
+                total = total + V::load_from(simd, &patch.work.x[k], at) * V::load_from(simd, &patch.work.kx[k], at);
+            }
+            total.store(&mut lanes, part);
+        }
+    }
+    let rest: f64 = (whole..own).map(|i| (0..3).map(|k| patch.work.x[k][i] * patch.work.kx[k][i]).sum::<f64>()).sum();
+    sum(&lanes) + rest
+}
+
+/// Adds up the corners and bending of every own node.
+#[inline(always)]
+fn give_forces<S: Simd>(simd: S, patch: &mut Patch, force: &mut [[f64; 4]]) {
+    let work = &mut patch.work;
+    let own = patch.nodes.len();
+    for k in 0..3 {
+        let padded = own.next_multiple_of(LANES);
+        let corner = [0, 1, 2, 3].map(|c: usize| &work.corner[c][k][..padded]);
+        let (kx, total) = (&work.kx[k][..padded], &mut work.x[k][..padded]);
+        // The sum takes the place of the positions, which nobody needs any more.
+        let (total, kx) = (S::as_mut_simd_f64s(total).0, S::as_simd_f64s(kx).0);
+        let [a, b, c, d] = corner.map(|c| S::as_simd_f64s(c).0);
+        for (((((total, kx), a), b), c), d) in total.iter_mut().zip(kx).zip(a).zip(b).zip(c).zip(d) {
+            let sum = simd.add_f64s(simd.add_f64s(*a, *b), simd.add_f64s(*c, *d));
+            *total = simd.sub_f64s(sum, *kx);
+        }
+    }
+    let sums = work.x[0][..own].iter().zip(&work.x[1][..own]).zip(&work.x[2][..own]);
+    for (force, ((x, y), z)) in force.iter_mut().zip(sums) {
+        force[0] += x;
+        force[1] += y;
+        force[2] += z;
+    }
+    let flat: &[f64] = work.scratch.as_flattened().as_flattened().as_flattened();
+    for (node, at) in &patch.corners {
+        let corner = &flat[*at as usize..*at as usize + 2 * LANES + 1];
+        let force = &mut force[*node as usize];
+        force[0] += corner[0];
+        force[1] += corner[LANES];
+        force[2] += corner[2 * LANES];
+    }
+}

@@ -1,0 +1,65 @@
+//! Regular stretches: elements, or nodes, whose neighbours are numbered in step.
+//!
+//! In a structured part of a mesh the corners of eight elements in a row are four runs of eight consecutive nodes: their
+//! positions are loaded, and their forces stored, by one vector instruction each instead of eight. A stretch that is
+//! not a multiple of eight ends with a group that overlaps the one before; the overlap is computed twice, with the same
+//! bits, and counted once.
+
+use super::super::group::{Item, LANES};
+
+/// A group of eight as a range of `items`, and how many of its first lanes the group before it counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Eight {
+    /// First item.
+    pub first: usize,
+    /// Lanes counted by the group before.
+    pub counted: usize,
+}
+
+/// Splits items into groups of regular stretches and a list of items left over. `follows(a, b)` tells whether item b is
+/// the next of the stretch that item a is in.
+pub fn split(count: usize, follows: impl Fn(usize, usize) -> bool) -> (Vec<Eight>, Vec<usize>) {
+    let (mut eights, mut rest) = (Vec::new(), Vec::new());
+    let mut first = 0;
+    while first < count {
+        let mut end = first + 1;
+        while end < count && follows(end - 1, end) {
+            end += 1;
+        }
+        if end - first < LANES {
+            rest.extend(first..end);
+        } else {
+            let whole = (first..=end - LANES).step_by(LANES);
+            eights.extend(whole.map(|at| Eight { first: at, counted: 0 }));
+            let covered = (end - first) / LANES * LANES;
+            if covered < end - first {
+                eights.push(Eight { first: end - LANES, counted: first + covered - (end - LANES) });
+            }
+        }
+        first = end;
+    }
+    (eights, rest)
+}
+
+/// True if every corner of `b` is the node after that of `a`.
+pub fn next_in_row(a: &Item, b: &Item) -> bool {
+    a.node.len() == 4 && b.node.len() == 4 && a.node.iter().zip(&b.node).all(|(a, b)| *b == a + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stretch_of_nineteen_is_two_groups_and_one_that_overlaps_by_five() {
+        let (eights, rest) = split(19, |_, _| true);
+        let expected = [(0, 0), (8, 0), (11, 5)].map(|(first, counted)| Eight { first, counted });
+        assert_eq!((eights.as_slice(), rest.len()), (&expected[..], 0));
+    }
+
+    #[test]
+    fn short_stretches_are_left_over() {
+        let (eights, rest) = split(12, |a, _| a != 6);
+        assert_eq!((eights.len(), rest), (0, (0..12).collect()));
+    }
+}
