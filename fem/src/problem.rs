@@ -1,9 +1,5 @@
 //! What a run needs besides the mesh: sections, chambers, supports, loads, contact, settings.
 
-use std::sync::Arc;
-
-use models::Fabric;
-
 use crate::FemError;
 use crate::mesh::Mesh;
 
@@ -18,6 +14,8 @@ pub struct Problem {
     pub sections: Vec<Section>,
     /// Volumes of air; parts name them in `front` and `back`.
     pub chambers: Vec<Chamber>,
+    /// Node sets along whose edges chambers are open: cuts by planes of symmetry that hold the fabric's edge.
+    pub open: Vec<String>,
     /// Nodes whose motion is prescribed.
     pub supports: Vec<Support>,
     /// Parts of the structure that move as one rigid body.
@@ -52,13 +50,7 @@ pub struct Section {
 }
 
 /// One sheet of a section.
-#[derive(Debug, Clone)]
-pub struct Ply {
-    /// Its membrane law (thickness included).
-    pub fabric: Arc<dyn Fabric>,
-    /// Angle from the part's warp direction to this ply's warp \[rad\], counter-clockwise seen from the front.
-    pub angle_rad: f64,
-}
+pub use models::fabrics::Ply;
 
 /// A volume of air with one pressure.
 #[derive(Debug, Clone)]
@@ -302,6 +294,7 @@ impl Problem {
             mesh,
             sections,
             chambers,
+            open: Vec::new(),
             supports: Vec::new(),
             rigid: Vec::new(),
             forces: Vec::new(),
@@ -334,7 +327,9 @@ impl Problem {
             if !(section.bending_factor >= 0.0 && section.bending_factor.is_finite()) {
                 return refuse(format!("part `{}`: bending_factor must be 0 or more", part.name));
             }
-            if let Some(ply) = section.plies.iter().find(|p| !(p.fabric.thickness_m() > 0.0)) {
+            if let Some(ply) =
+                section.plies.iter().find(|p| p.fabric.thickness_m() <= 0.0 || !p.fabric.thickness_m().is_finite())
+            {
                 return refuse(format!(
                     "part `{}`: thickness must be positive, not {}",
                     part.name,
@@ -342,6 +337,9 @@ impl Problem {
                 ));
             }
         }
+        let chambers: Vec<&str> = self.chambers.iter().map(|c| c.name.as_str()).collect();
+        let open: Vec<&str> = self.open.iter().map(String::as_str).collect();
+        crate::mesh::check::check_open(&self.mesh, &chambers, &open)?;
         self.settings.check()
     }
 

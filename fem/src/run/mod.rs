@@ -19,6 +19,7 @@ pub use ledger::Ledger;
 
 use models::{Pose, Row, RowKind, Term};
 
+use crate::contact::Contact;
 use crate::output::bytes::{Reader, Writer};
 use crate::problem::Guards;
 use crate::sheet::Sheet;
@@ -32,6 +33,7 @@ pub struct Simulation {
     mesh: Mesh,
     sheet: Sheet,
     terms: Vec<Box<dyn Term>>,
+    contact: Option<Contact>,
     driven: Vec<Driven>,
     bodies: Vec<Body>,
     tie_offset: Vec<[f64; 3]>,
@@ -134,7 +136,7 @@ impl Simulation {
         out.f64s(self.x.as_flattened());
         out.f64s(self.v.as_flattened());
         out.bytes(&self.sheet.save());
-        self.terms.iter().for_each(|term| out.bytes(&term.save()));
+        self.others().for_each(|term| out.bytes(&term.save()));
         self.bodies.iter().for_each(|body| out.f64s(&body.save()));
         out.into_bytes()
     }
@@ -149,7 +151,8 @@ impl Simulation {
         from.f64s_into(self.x.as_flattened_mut())?;
         from.f64s_into(self.v.as_flattened_mut())?;
         self.sheet.restore(from.bytes()?).then_some(())?;
-        for term in &mut self.terms {
+        let contact = self.contact.iter_mut().map(|c| c as &mut dyn Term);
+        for term in self.terms.iter_mut().map(|t| &mut **t as &mut dyn Term).chain(contact) {
             term.restore(from.bytes()?).then_some(())?;
         }
         for body in &mut self.bodies {
@@ -207,7 +210,7 @@ impl Simulation {
     pub fn ledger(&self) -> Ledger {
         let pose = Pose::nodes(self.x.as_flattened());
         let mut rows = self.sheet.ledger(&pose);
-        rows.extend(self.terms.iter().flat_map(|term| term.ledger(&pose)));
+        rows.extend(self.others().flat_map(|term| term.ledger(&pose)));
         let row = |name, kind, energy_j| Row { name, kind, energy_j };
         rows.push(row("mass damping", RowKind::Dissipated, self.books.damping));
         if !self.driven.is_empty() {
@@ -233,6 +236,14 @@ impl Simulation {
 
     /// Contact pressure at every node in mesh order \[Pa\]; empty without contact.
     pub fn contact_pressure_pa(&self) -> Vec<f64> {
-        Vec::new()
+        let Some(contact) = &self.contact else { return Vec::new() };
+        let pressure = contact.pressure_pa(self.x.as_flattened());
+        self.order.new.iter().map(|place| pressure[*place as usize]).collect()
+    }
+
+    /// The terms beside the shells.
+    fn others(&self) -> impl Iterator<Item = &dyn Term> {
+        let contact = self.contact.iter().map(|c| c as &dyn Term);
+        self.terms.iter().map(|t| &**t as &dyn Term).chain(contact)
     }
 }

@@ -4,11 +4,16 @@ use models::{Pose, Term};
 
 use super::constraint::{bodies, driven};
 use super::{Books, Clock, Limits, Simulation};
+use crate::contact::Contact;
 use crate::problem::MassScaling;
 use crate::sheet::order::{Order, renumber};
 use crate::sheet::reference::{cross, dot};
 use crate::sheet::{Sheet, reference};
+use crate::terms::{Gravity, NodalForces, Obstacles, penalty_stiffness_n_m};
 use crate::{FemError, Mesh, Problem};
+
+/// Penalty stiffness of obstacles as a share of m/dt².
+const OBSTACLE_SHARE: f64 = 0.1;
 
 impl Simulation {
     /// Prepares a run.
@@ -18,7 +23,7 @@ impl Simulation {
     pub fn new(problem: &Problem) -> Result<Simulation, FemError> {
         problem.check()?;
         let order = Order::of(&problem.mesh);
-        let mesh = renumber(&problem.mesh, &order);
+        let mut mesh = renumber(&problem.mesh, &order);
         let settings = &problem.settings;
         let mut sheet = Sheet::new(&mesh, &order, &problem.sections, &problem.chambers, settings)?;
         let count = mesh.points.len();
@@ -35,7 +40,12 @@ impl Simulation {
         let added_mass = mass.iter().sum::<f64>() / true_mass - 1.0;
         let stable = stable_step(&bound, &mass, settings.viscosity);
         let dt_s = choose_step(stable, settings.cfl, settings.dt_s)?;
+        mesh.start = x.iter().map(|x| [x[0], x[1], x[2]]).collect();
         let terms = terms(problem, &mesh, &mass, dt_s)?;
+        let contact = match &problem.contact {
+            Some(contact) => Some(Contact::new(&mesh, contact, &mass, dt_s)?),
+            None => None,
+        };
         sheet.start(x.as_flattened());
         let bodies = bodies(problem, &mesh, &mass)?;
         let mut moved = vec![[false; 3]; count];
@@ -71,6 +81,7 @@ impl Simulation {
             mesh,
             sheet,
             terms,
+            contact,
             driven,
             bodies,
             mass,
@@ -81,9 +92,20 @@ impl Simulation {
     }
 }
 
-/// The terms beside the shells.
-fn terms(_problem: &Problem, _mesh: &Mesh, _mass: &[f64], _dt_s: f64) -> Result<Vec<Box<dyn Term>>, FemError> {
-    Ok(Vec::new())
+/// The terms beside shells and contact.
+fn terms(problem: &Problem, mesh: &Mesh, mass: &[f64], dt_s: f64) -> Result<Vec<Box<dyn Term>>, FemError> {
+    let mut terms: Vec<Box<dyn Term>> = Vec::new();
+    if !problem.forces.is_empty() {
+        terms.push(Box::new(NodalForces::new(mesh, &problem.forces)?));
+    }
+    if let Some(gravity) = &problem.gravity {
+        terms.push(Box::new(Gravity::new(gravity, mass)?));
+    }
+    if !problem.obstacles.is_empty() {
+        let stiffness = penalty_stiffness_n_m(mass, dt_s, OBSTACLE_SHARE);
+        terms.push(Box::new(Obstacles::new(mesh, &problem.obstacles, &stiffness)?));
+    }
+    Ok(terms)
 }
 
 /// Largest stable step \[s\] from the nodes' stiffness bounds \[N/m\] and masses \[kg\].

@@ -28,7 +28,7 @@ impl Simulation {
             let steps = LOOK - self.clock.step % LOOK;
             self.burst(steps, time_s);
             self.guard()?;
-            if self.clock.step % RECHECK == 0 {
+            if self.clock.step.is_multiple_of(RECHECK) {
                 self.recheck()?;
             }
             if !go_on(self) {
@@ -41,7 +41,7 @@ impl Simulation {
     /// Up to `steps` steps, inside the pool.
     fn burst(&mut self, steps: u64, time_s: f64) {
         // The pool is moved out for the call, so that the steps may borrow the rest.
-        let pool = std::mem::replace(&mut self.pool, None);
+        let pool = self.pool.take();
         let mut work = || {
             for done in 1..=steps {
                 let ahead = self.clock.time_s + 1.5 * self.clock.dt_s;
@@ -68,6 +68,9 @@ impl Simulation {
         let mut stored = self.sheet.advance(&pose, &tick, force);
         for term in &mut self.terms {
             stored += term.advance(&pose, &tick, force);
+        }
+        if let Some(contact) = &mut self.contact {
+            stored += contact.advance(&pose, &tick, force);
         }
         constraint::hand_over(&self.mesh.ties, &mut self.force);
         for driven in &self.driven {

@@ -284,8 +284,8 @@ fn with_viscosity<S: Simd>(
     let (area, half) = (V::load(simd, &group.area, part), V::all(simd, 0.5));
     let eta = V::load(simd, &group.viscosity, part) * V::all(simd, rate);
     let d = axes!(k => e[k] - V::load(simd, &strain.0[k], part));
-    for k in 0..3 {
-        e[k].store(&mut strain.0[k], part);
+    for (e, kept) in e.into_iter().zip(&mut strain.0) {
+        e.store(kept, part);
     }
     let drag = [eta * d[0], eta * d[1], half * eta * d[2]];
     let heat = V::load(simd, &group.own, part) * (drag[0] * d[0] + drag[1] * d[1] + drag[2] * d[2]);

@@ -223,7 +223,7 @@ impl Term for Sheet {
 
     fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64 {
         self.air.iter_mut().for_each(|air| air.set_pressure(tick.time_s));
-        let flux = self.measure || tick.step % VOLUME_EVERY == 0 || self.air.iter().any(Air::follows_volume);
+        let flux = self.measure || tick.step.is_multiple_of(VOLUME_EVERY) || self.air.iter().any(Air::follows_volume);
         self.pass(at.q, force, 1.0 / tick.dt_s, flux, true);
         self.viscous_j += self.patches.iter().map(|p| p.sums.viscous).sum::<f64>();
         if flux {
@@ -296,7 +296,10 @@ impl Term for Sheet {
 fn fabric_of(section: &Section) -> Result<Arc<dyn Fabric>, FemError> {
     match section.plies.as_slice() {
         [one] => Ok(one.fabric.clone()),
-        _ => Err(FemError::Problem("a section needs a ply".into())),
+        plies => match models::fabrics::Laminate::new(plies.to_vec()) {
+            Ok(laminate) => Ok(Arc::new(laminate)),
+            Err(reason) => Err(FemError::Problem(reason)),
+        },
     }
 }
 

@@ -171,11 +171,11 @@ impl Patch {
         for run in self.runs.iter().filter(|run| fabrics[run.key.fabric].has_memory()) {
             let fabric = &fabrics[run.key.fabric];
             for g in run.regular.clone().chain(run.other.clone()) {
-                let strain = &self.strains[g].0;
-                for l in 0..LANES {
-                    fabric.remember([strain[0][l], strain[1][l], strain[2][l]], &mut self.past[g][l]);
+                let [e1, e2, e3] = &self.strains[g].0;
+                for (l, past) in self.past[g].iter_mut().enumerate() {
+                    fabric.remember([e1[l], e2[l], e3[l]], past);
                     let weight = self.groups[g].own[l] * self.groups[g].area[l];
-                    self.sums.hysteresis += weight * fabric.dissipated(&self.past[g][l]);
+                    self.sums.hysteresis += weight * fabric.dissipated(past);
                 }
             }
         }
