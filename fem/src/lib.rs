@@ -15,6 +15,7 @@
 //! | [`contact`] | node-to-face contact with side memory and Coulomb friction |
 //! | [`run`] | time stepping, stable step, ledger, guards |
 //! | [`output`] | vtu, pvd, history, checkpoints |
+//! | [`verify`] | problems with known answers |
 //! | [`case`] | the TOML file that describes a run |
 //!
 //! `fem` never sees a measurement.
@@ -30,6 +31,7 @@ pub mod run;
 pub mod sheet;
 pub mod terms;
 mod vec3;
+pub mod verify;
 
 pub use error::FemError;
 pub use mesh::{Mesh, Part};
