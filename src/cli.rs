@@ -7,6 +7,7 @@ use std::path::PathBuf;
 #[derive(Debug, Parser)]
 #[command(version, about, max_term_width = 100)]
 #[command(after_help = "A SCENARIO is a TOML file or a shipped robot: spam, cpam, epam, fpam.\n\
+    A CASE is a TOML file with kind = \"fem\" or a shipped case: pillow, tube.\n\
     A DATA is a CSV or Parquet file, a folder with markers.csv and about.toml, or an embedded set (ibr list datasets).\n\
     Exit codes: 0 done, 1 a threshold was missed, 2 wrong usage, 3 bad input or output file, 4 no solution, 130 interrupted.")]
 pub struct Cli {
@@ -30,18 +31,20 @@ pub enum Command {
     Predict(Predict),
     /// Hold a model against measurements: accuracy, residual map, where it fails
     Compare(Compare),
+    /// Run a finite element case through time: ParaView frames, energy balance, checkpoints
+    Simulate(Simulate),
     /// Look at, list or make marker data
     #[command(subcommand)]
     Data(DataCommand),
-    /// Actuators, effects and datasets with their formulas
+    /// Actuators, effects, datasets and finite element cases with their formulas
     List {
-        /// actuators, effects or datasets; all if left out
-        #[arg(value_parser = ["actuators", "effects", "datasets"])]
+        /// actuators, effects, datasets or cases; all if left out
+        #[arg(value_parser = ["actuators", "effects", "datasets", "cases"])]
         what: Option<String>,
     },
-    /// Print a shipped scenario as a start for your own
+    /// Print a shipped scenario or finite element case as a start for your own
     New {
-        /// spam, cpam, epam or fpam
+        /// spam, cpam, epam or fpam; pillow or tube
         kind: String,
     },
     /// Run time against accuracy of every model present
@@ -127,6 +130,34 @@ pub struct Compare {
     /// Folder for the report, plots and tables; default: ibr-report/compare-<data>, with --json: none
     #[arg(long)]
     pub out: Option<PathBuf>,
+}
+
+/// `ibr simulate`
+#[derive(Debug, Args)]
+pub struct Simulate {
+    /// Case file or shipped case
+    pub case: String,
+    /// Folder of the run; default: ibr-report/simulate-<case>
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+    /// Threads; 0: one per core. Results do not depend on it
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
+    pub threads: u64,
+    /// Go on with the interrupted run in the folder; the end is the same to the bit
+    #[arg(long)]
+    pub resume: bool,
+    /// Run again where a run is; a finished one stays until the new one is complete
+    #[arg(long)]
+    pub force: bool,
+    /// Simulated time, for example 0.15s or 150ms; default: the case's
+    #[arg(long, allow_hyphen_values = true)]
+    pub end: Option<String>,
+    /// Real time between checkpoints
+    #[arg(long, default_value = "30s", allow_hyphen_values = true)]
+    pub checkpoint_every: String,
+    /// Write no ParaView frames
+    #[arg(long)]
+    pub no_frames: bool,
 }
 
 /// `ibr data`

@@ -14,6 +14,9 @@ pub const BAD_INPUT: u8 = 3;
 /// Exit code: no solution.
 pub const UNSOLVED: u8 = 4;
 
+/// Exit code after an interrupt, as shells have it: 128 + SIGINT.
+pub const INTERRUPTED: u8 = 130;
+
 /// An error of the command.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
@@ -55,6 +58,29 @@ pub enum Failure {
         /// Why.
         error: models::ScenarioError,
     },
+    /// A finite element case that was refused.
+    #[error("{}", message.lines().next().unwrap_or_default())]
+    Case {
+        /// File or name of the case.
+        file: String,
+        /// Its text.
+        text: String,
+        /// Why, and in the second line what to type.
+        message: String,
+        /// Where.
+        span: Option<std::ops::Range<usize>>,
+    },
+    /// A finite element run that cannot be made or was stopped.
+    #[error(transparent)]
+    Fem(#[from] fem::FemError),
+    /// A finite element run that was stopped because its result could not be trusted.
+    #[error("{error}")]
+    Stopped {
+        /// Why.
+        error: fem::FemError,
+        /// Where its files are.
+        folder: String,
+    },
     /// Data that were refused, or a file that could not be written.
     #[error(transparent)]
     Data(#[from] data::DataError),
@@ -87,9 +113,11 @@ impl Failure {
         match self {
             Failure::Usage { .. } | Failure::Compare(compare::CompareError::BadProtocol { .. }) => USAGE,
             Failure::Unsolved(models::Unsolved::BadPressure { .. }) => USAGE,
-            Failure::Unsolved(_) => UNSOLVED,
+            Failure::Unsolved(_) | Failure::Stopped { .. } => UNSOLVED,
+            Failure::Fem(fem::FemError::Stopped { .. }) => UNSOLVED,
             Failure::Read { .. } | Failure::Write { .. } => BAD_INPUT,
             Failure::Scenario { .. } | Failure::Data(_) | Failure::Compare(_) => BAD_INPUT,
+            Failure::Case { .. } | Failure::Fem(_) => BAD_INPUT,
         }
     }
 
@@ -113,16 +141,41 @@ impl Failure {
             }
             Failure::Scenario { file, text, error } => {
                 let help = error.help.as_deref().unwrap_or_else(|| what_to_type(&error.message));
-                let mut shown = base.with_help(help);
-                if let Some((start, end)) = error.span {
-                    shown = shown.with_label(LabeledSpan::at(start..end.max(start + 1).min(text.len()), "here"));
-                }
-                Report::new(shown).with_source_code(NamedSource::new(file, text.clone()))
+                let span = error.span.map(|(start, end)| start..end);
+                in_source(base.with_help(help), file, text, span)
+            }
+            Failure::Case { file, text, message, span } => {
+                let help = message.lines().skip(1).collect::<Vec<_>>().join(" ");
+                let shown = if help.is_empty() { base } else { base.with_help(help) };
+                in_source(shown, file, text, span.clone())
             }
             Failure::Data(error) => data_report(error, base.with_help(error.help())),
-            Failure::Compare(_) | Failure::Unsolved(_) => Report::new(base),
+            Failure::Stopped { folder, .. } => {
+                let help = format!(
+                    "what was written until then is in {folder}; change the case and run it again with --force"
+                );
+                Report::new(base.with_help(help))
+            }
+            Failure::Compare(_) | Failure::Unsolved(_) | Failure::Fem(_) => Report::new(base),
         }
     }
+}
+
+/// A message with the place in a text file.
+fn in_source(
+    shown: miette::MietteDiagnostic,
+    file: &str,
+    text: &str,
+    span: Option<std::ops::Range<usize>>,
+) -> Report {
+    let label = |span: std::ops::Range<usize>| {
+        LabeledSpan::at(span.start..span.end.max(span.start + 1).min(text.len()), "here")
+    };
+    let shown = match span {
+        Some(span) => shown.with_label(label(span)),
+        None => shown,
+    };
+    Report::new(shown).with_source_code(NamedSource::new(file, text.to_string()))
 }
 
 /// Help for TOML errors that bring none.

@@ -7,7 +7,7 @@ mod output;
 
 use clap::Parser;
 use cli::Cli;
-use commands::{Context, Outcome};
+use commands::{Context, Interrupt, Outcome};
 use std::io::Write;
 use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
@@ -15,8 +15,8 @@ use std::sync::{Mutex, PoisonError};
 /// Held while files are written: an interrupt then waits, so that no result is left half written. True once results
 /// are written.
 static WRITTEN: Mutex<bool> = Mutex::new(false);
-/// Exit code after an interrupt, as shells have it: 128 + SIGINT.
-const INTERRUPT_CODE: i32 = 130;
+/// For a command that saves where it stands before it ends.
+static INTERRUPT: Interrupt = Interrupt::new();
 
 fn main() -> ExitCode {
     if let Err(error) = ctrlc::set_handler(interrupt) {
@@ -30,7 +30,7 @@ fn main() -> ExitCode {
             bar.set_position((1000.0 * share.unwrap_or(0.0)) as u64);
         }
     };
-    let mut context = Context { json: cli.json, progress: &mut tell, written: &WRITTEN };
+    let mut context = Context { json: cli.json, progress: &mut tell, written: &WRITTEN, interrupt: &INTERRUPT };
     let result = commands::run(&cli.command, &mut context);
     if let Some(bar) = &bar {
         bar.finish_and_clear();
@@ -44,12 +44,16 @@ fn main() -> ExitCode {
     }
 }
 
-/// Ends the program on Ctrl-C, after files that are being written.
+/// Ends the program on Ctrl-C, after files that are being written. A command that wants to end itself is asked first; the
+/// second Ctrl-C ends it at once.
 fn interrupt() {
+    if INTERRUPT.ask() {
+        return;
+    }
     let written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
     let what = if *written { "the results were already complete" } else { "nothing was written" };
     eprintln!("\ninterrupted; {what}");
-    std::process::exit(INTERRUPT_CODE);
+    std::process::exit(failure::INTERRUPTED.into());
 }
 
 /// Prints an outcome; a closed pipe (`| head`) is the reader's choice, not an error.

@@ -92,11 +92,13 @@ fn stage(staging: &Path, files: &Files, inputs: &[Input]) -> Result<Vec<String>,
     Ok(names)
 }
 
-fn output(name: &str, bytes: &[u8]) -> Value {
+/// A file as a manifest names it.
+pub fn output(name: &str, bytes: &[u8]) -> Value {
     json!({"name": name, "sha256": sha256(bytes)})
 }
 
-fn manifest(outputs: &[Value], inputs: &[Input]) -> Value {
+/// What made these files, from what, where and when.
+pub fn manifest(outputs: &[Value], inputs: &[Input]) -> Value {
     let inputs: Vec<Value> = inputs.iter().map(|i| json!({"name": i.name, "sha256": i.sha256})).collect();
     json!({
         "schema": "ibr.manifest",

@@ -3,6 +3,7 @@
 use super::Outcome;
 use super::inputs::with_unit;
 use crate::failure::Failure;
+use fem::case::{GENERATORS, SHIPPED_CASES, shipped_case};
 use models::actuators::ACTUATORS;
 use models::effects::EFFECTS;
 use models::scenario::SHIPPED;
@@ -17,7 +18,8 @@ pub fn run(what: Option<&str>) -> Result<Outcome, Failure> {
     let mut object = serde_json::Map::new();
     object.insert("schema".into(), "ibr.list".into());
     object.insert("version".into(), 1.into());
-    let parts: [(&str, List); 3] = [("actuators", actuators), ("effects", effects), ("datasets", datasets)];
+    let parts: [(&str, List); 4] =
+        [("actuators", actuators), ("effects", effects), ("datasets", datasets), ("cases", cases)];
     for (name, list) in parts {
         if wanted(name) {
             let (words, value) = list();
@@ -91,10 +93,38 @@ fn datasets() -> (String, Value) {
     (text, value.collect())
 }
 
+fn cases() -> (String, Value) {
+    let mut text = String::from("CASES (ibr simulate; ibr new prints them)\n");
+    let mut shipped = Vec::new();
+    for (name, toml) in SHIPPED_CASES {
+        let title = toml.lines().find_map(|line| line.strip_prefix("name = ")).unwrap_or_default().trim_matches('"');
+        text.push_str(&format!("  {name:<16} {title}\n"));
+        shipped.push(json!({"name": name, "title": title}));
+    }
+    text.push_str("  meshes for cases of your own, [mesh] generator = …\n");
+    for g in GENERATORS {
+        let keys = g.keys.iter().map(|k| k.key).collect::<Vec<_>>().join(", ");
+        text.push_str(&format!("    {:<14} {}\n                   {keys}\n", g.name, g.sentence));
+    }
+    let generators: Vec<Value> = GENERATORS
+        .iter()
+        .map(|g| {
+            let keys: Vec<Value> =
+                g.keys.iter().map(|k| json!({"key": k.key, "default": k.default, "meaning": k.meaning})).collect();
+            json!({"name": g.name, "sentence": g.sentence, "keys": keys})
+        })
+        .collect();
+    (text, json!({"shipped": shipped, "generators": generators}))
+}
+
 pub fn new(kind: &str) -> Result<Outcome, Failure> {
-    let Some(text) = models::shipped(kind) else {
-        let names = SHIPPED.iter().map(|s| s.0).collect::<Vec<_>>().join(", ");
-        return Err(Failure::usage(format!("no shipped scenario `{kind}`"), format!("known: {names}")));
+    let (key, text) = match (models::shipped(kind), shipped_case(kind)) {
+        (Some(text), _) => ("scenario_toml", text),
+        (None, Some(text)) => ("case_toml", text),
+        (None, None) => {
+            let names = SHIPPED.iter().chain(SHIPPED_CASES).map(|s| s.0).collect::<Vec<_>>().join(", ");
+            return Err(Failure::usage(format!("no shipped scenario `{kind}`"), format!("known: {names}")));
+        }
     };
-    Ok(Outcome::new(text.to_string(), json!({"schema": "ibr.new", "version": 1, "scenario_toml": text})))
+    Ok(Outcome::new(text.to_string(), json!({"schema": "ibr.new", "version": 1, key: text})))
 }

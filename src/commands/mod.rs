@@ -7,6 +7,7 @@ mod demo;
 mod inputs;
 mod list;
 mod predict;
+mod simulate;
 mod tables;
 mod tradeoff;
 mod verify;
@@ -15,6 +16,7 @@ use crate::cli::{Cli, Command};
 use crate::failure::Failure;
 use clap::CommandFactory;
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What a command may use of the outside.
 pub struct Context<'a> {
@@ -24,6 +26,37 @@ pub struct Context<'a> {
     pub progress: &'a mut dyn FnMut(&str, Option<f64>),
     /// Held while files are written; true once they are.
     pub written: &'a Mutex<bool>,
+    /// For commands that end themselves on Ctrl-C.
+    pub interrupt: &'a Interrupt,
+}
+
+/// How Ctrl-C reaches a command that saves where it stands before it ends.
+#[derive(Debug)]
+pub struct Interrupt {
+    awaited: AtomicBool,
+    asked: AtomicBool,
+}
+
+impl Interrupt {
+    /// Nobody waits for it yet.
+    pub const fn new() -> Interrupt {
+        Interrupt { awaited: AtomicBool::new(false), asked: AtomicBool::new(false) }
+    }
+
+    /// Says whether the command will end itself when asked, from now on.
+    fn set_awaited(&self, awaited: bool) {
+        self.awaited.store(awaited, Ordering::SeqCst);
+    }
+
+    /// Asks the command to end; false if it will not, or was asked before.
+    pub fn ask(&self) -> bool {
+        self.awaited.load(Ordering::SeqCst) && !self.asked.swap(true, Ordering::SeqCst)
+    }
+
+    /// Whether the command shall end.
+    fn asked(&self) -> bool {
+        self.asked.load(Ordering::SeqCst)
+    }
 }
 
 /// What a command has to say.
@@ -51,6 +84,7 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
         Command::Demo(out) => demo::run(&out.out, context),
         Command::Predict(args) => predict::run(args, context),
         Command::Compare(args) => compare::run(args, context),
+        Command::Simulate(args) => simulate::run(args, context),
         Command::Data(args) => data::run(args, context),
         Command::List { what } => list::run(what.as_deref()),
         Command::New { kind } => list::new(kind),

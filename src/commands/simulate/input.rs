@@ -1,0 +1,92 @@
+//! Case and options as typed.
+
+use crate::failure::Failure;
+use crate::output::Input;
+use fem::case::{Case, SHIPPED_CASES, shipped_case};
+use fem::{FemError, Mesh};
+use std::path::{Path, PathBuf};
+
+/// Where a case came from.
+pub struct NamedCase {
+    /// Its text.
+    pub text: String,
+    /// For the manifest.
+    pub input: Input,
+    file: String,
+}
+
+impl NamedCase {
+    /// An error about the problem as one about the file that describes it.
+    pub fn in_case(&self, error: FemError) -> Failure {
+        refused(&self.file, &self.text, error)
+    }
+}
+
+/// Reads a case file, or takes a shipped one by name.
+pub fn case(spec: &str) -> Result<(NamedCase, Case), Failure> {
+    let (text, folder) = text(spec)?;
+    let mut read_mesh = |path: &Path| mesh_file(&folder.join(path));
+    match Case::parse(&text, &mut read_mesh) {
+        Ok(case) => {
+            let input = Input::of(spec, text.as_bytes());
+            Ok((NamedCase { text, input, file: spec.into() }, case))
+        }
+        Err(_) if models::Scenario::parse(&text).is_ok() => Err(unreadable(spec, "it is a scenario of the reduced model")),
+        Err(error) => Err(refused(spec, &text, error)),
+    }
+}
+
+fn mesh_file(path: &Path) -> Result<Mesh, FemError> {
+    std::fs::metadata(path).map_err(|source| FemError::Io { path: path.to_path_buf(), source })?;
+    Err(FemError::Mesh("mesh files cannot be read yet\nuse a generator: `ibr list cases`".into()))
+}
+
+fn refused(file: &str, text: &str, error: FemError) -> Failure {
+    let (message, span) = match error {
+        FemError::Case { message, span } => (message, span),
+        FemError::Mesh(message) | FemError::Problem(message) => (message, None),
+        other => return Failure::Fem(other),
+    };
+    Failure::Case { file: file.into(), text: text.into(), message, span }
+}
+
+/// The text, and the folder that its paths count from.
+fn text(spec: &str) -> Result<(String, PathBuf), Failure> {
+    let path = Path::new(spec);
+    let cause = match (std::fs::read(path), shipped_case(spec)) {
+        (Err(_), Some(text)) if !path.exists() => return Ok((text.to_string(), PathBuf::new())),
+        (Err(_), None) if models::shipped(spec).is_some() => "it is a scenario of the reduced model".to_string(),
+        (Err(cause), _) => cause.to_string(),
+        (Ok(bytes), _) => match String::from_utf8(bytes) {
+            Ok(text) if text.trim().is_empty() => "the file is empty".to_string(),
+            Ok(text) => return Ok((text, path.parent().unwrap_or(Path::new("")).to_path_buf())),
+            Err(_) => "it is not a text in UTF-8".to_string(),
+        },
+    };
+    Err(unreadable(spec, &cause))
+}
+
+fn unreadable(spec: &str, cause: &str) -> Failure {
+    let names = SHIPPED_CASES.iter().map(|c| c.0).collect::<Vec<_>>().join(", ");
+    let help = format!("give a finite element case, or a shipped one: {names}; `ibr new pillow > my.toml` makes a start");
+    Failure::Read { path: spec.into(), cause: cause.into(), help }
+}
+
+/// A time typed with its unit, above zero.
+pub fn seconds(option: &str, text: &str) -> Result<f64, Failure> {
+    let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0)];
+    let typed = text.trim();
+    let found = units.iter().find_map(|(unit, factor)| Some((typed.strip_suffix(unit)?.trim(), factor)));
+    let value = found.and_then(|(number, factor)| Some(number.parse::<f64>().ok()? * factor));
+    match value {
+        // A year is more than any run or checkpoint needs, and less than a duration can hold.
+        Some(v) if v > 0.0 && v < 3.2e7 => Ok(v),
+        Some(v) if v.is_finite() => {
+            Err(Failure::usage(format!("{option} {typed} is out of range"), format!("write for example {option} 30s")))
+        }
+        _ => {
+            let message = format!("{option}: `{typed}` is not a time");
+            Err(Failure::usage(message, format!("write a number and one of the units s, ms, min, for example {option} 30s")))
+        }
+    }
+}

@@ -1,0 +1,283 @@
+//! A run on its way: rows, frames and checkpoints as it goes, so that it can go on where it was interrupted.
+
+use crate::commands::Context;
+use crate::failure::Failure;
+use fem::case::Case;
+use fem::output::Frame;
+use fem::output::bytes::{Reader, Writer};
+use fem::output::centre_line::{CentreLine, CentreLineFile};
+use fem::output::checkpoint::{Checkpoint, read_checkpoint, write_checkpoint};
+use fem::output::history::{History, Record};
+use fem::output::picture::{self, Look};
+use fem::output::pvd::Series;
+use fem::run::Advance;
+use fem::{FemError, Simulation};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// The end state, coloured by von Mises stress.
+const PICTURE: &str = "picture.png";
+/// Time between two lines of progress.
+const TELL_EVERY: Duration = Duration::from_millis(200);
+
+/// How stepping ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ended {
+    /// The end was reached.
+    Complete,
+    /// The user asked to stop; a checkpoint is written.
+    Interrupted,
+}
+
+/// Energies at one output, for the judgement at the end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Balance {
+    /// Time \[s\].
+    pub time_s: f64,
+    /// Kinetic energy over kinetic and stored energy.
+    pub kinetic_share: f64,
+    /// Missing energy over external work.
+    pub residual_share: f64,
+}
+
+/// A run and its files.
+pub struct Running<'a> {
+    /// The run.
+    pub run: Simulation,
+    /// Energies at all outputs so far.
+    pub balances: Vec<Balance>,
+    /// Processor seconds of earlier sessions.
+    pub cpu_before_s: f64,
+    /// What to tell the user in the end.
+    pub notices: Vec<String>,
+    /// Where this session began: steps, and processor seconds.
+    pub began: (u64, f64),
+    case: &'a Case,
+    files: Files,
+    /// Number of the next output.
+    next: u64,
+}
+
+struct Files {
+    folder: PathBuf,
+    history: History,
+    series: Option<Series>,
+    centre_line: Option<CentreLineFile>,
+    fingerprint: u64,
+}
+
+impl<'a> Running<'a> {
+    /// A new run in a folder.
+    pub fn start(case: &'a Case, run: Simulation, folder: &Path) -> Result<Running<'a>, Failure> {
+        let mesh = &case.problem.mesh;
+        let history = History::create(&folder.join("history.csv"), mesh, &case.outputs.probes)?;
+        let series = case.outputs.frames.then(|| Series::create(folder)).transpose()?;
+        let path = folder.join("centre_line.csv");
+        let centre_line = centre_line(case)?.map(|line| CentreLineFile::create(&path, line)).transpose()?;
+        let files = Files { folder: folder.into(), history, series, centre_line, fingerprint: case.problem.fingerprint() };
+        let began = (0, cpu_seconds());
+        Ok(Running { run, balances: Vec::new(), cpu_before_s: 0.0, notices: Vec::new(), began, case, files, next: 0 })
+    }
+
+    /// Goes on from the last checkpoint of a folder; from the beginning if there is none yet.
+    pub fn resume(case: &'a Case, fresh: Simulation, folder: &Path) -> Result<Running<'a>, Failure> {
+        let fingerprint = case.problem.fingerprint();
+        let Some(loaded) = read_checkpoint(folder, fingerprint)? else { return Running::start(case, fresh, folder) };
+        let Checkpoint { step, time_s, payload, .. } = loaded.checkpoint;
+        let foreign = || FemError::Checkpoint {
+            path: folder.join("checkpoint"),
+            reason: "it holds something else than this program writes; start again with --force".into(),
+        };
+        let saved = Saved::read(&payload).ok_or_else(foreign)?;
+        let run = Simulation::resume(&case.problem, saved.run)?;
+        let mesh = &case.problem.mesh;
+        let history = History::resume(&folder.join("history.csv"), mesh, &case.outputs.probes, step)?;
+        let series = case.outputs.frames.then(|| Series::resume(folder, time_s)).transpose()?;
+        let path = folder.join("centre_line.csv");
+        let centre_line = centre_line(case)?.map(|line| CentreLineFile::resume(&path, line, step)).transpose()?;
+        let files = Files { folder: folder.into(), history, series, centre_line, fingerprint };
+        Ok(Running {
+            began: (run.step(), cpu_seconds()),
+            run,
+            balances: saved.balances,
+            cpu_before_s: saved.cpu_s,
+            notices: loaded.notice.into_iter().collect(),
+            case,
+            files,
+            next: saved.next,
+        })
+    }
+
+    /// Steps to the end of the case, or until the user interrupts.
+    pub fn to_the_end(&mut self, checkpoint_every: Duration, context: &mut Context) -> Result<Ended, Failure> {
+        let settings = &self.case.problem.settings;
+        let (end_s, every_s) = (settings.end_s, settings.output_every_s);
+        // The last output is the end itself; a whole number of intervals shall not get a second one just before it.
+        let last = (end_s / every_s - 1e-6).ceil().max(1.0) as u64;
+        let mut teller = Teller::new(&self.run, end_s);
+        let mut saved_at = Instant::now();
+        while self.next <= last {
+            let target_s = if self.next == last { end_s } else { self.next as f64 * every_s };
+            let (next, balances, files) = (self.next, &self.balances, &self.files);
+            let cpu_s = self.cpu_before_s - self.began.1;
+            let mut fault = None;
+            let advanced = self.run.advance_until(target_s, &mut |run| {
+                teller.tell(run, context);
+                if saved_at.elapsed() >= checkpoint_every {
+                    fault = files.save(run, next, balances, cpu_s + cpu_seconds()).err();
+                    saved_at = Instant::now();
+                }
+                fault.is_none() && !context.interrupt.asked()
+            })?;
+            if let Some(fault) = fault {
+                return Err(fault.into());
+            }
+            if advanced == Advance::Interrupted {
+                self.files.save(&self.run, self.next, &self.balances, cpu_s + cpu_seconds())?;
+                return Ok(Ended::Interrupted);
+            }
+            self.output()?;
+        }
+        Ok(Ended::Complete)
+    }
+
+    /// Writes one output.
+    fn output(&mut self) -> Result<(), FemError> {
+        let record = Record::of(&self.run);
+        self.balances.push(Balance {
+            time_s: record.time_s,
+            kinetic_share: record.ledger.kinetic_share(),
+            residual_share: record.ledger.residual_share(),
+        });
+        self.files.history.append(&record)?;
+        if let Some(line) = &mut self.files.centre_line {
+            line.append(record.step, record.time_s, &record.positions)?;
+        }
+        if let Some(series) = &mut self.files.series {
+            series.push(&self.case.problem.mesh, &Frame::of(&self.run))?;
+        }
+        self.next += 1;
+        Ok(())
+    }
+
+    /// Draws the end state; its name in the folder.
+    pub fn picture(&self, folder: &Path) -> Result<Option<&'static str>, FemError> {
+        if !self.case.outputs.pictures {
+            return Ok(None);
+        }
+        let stress_mpa: Vec<f64> = self.run.element_fields().von_mises_pa.iter().map(|s| s * 1e-6).collect();
+        let image = picture::render(&self.case.problem.mesh, &self.run.positions(), &stress_mpa, &Look::default())?;
+        picture::write_png(&folder.join(PICTURE), &image)?;
+        Ok(Some(PICTURE))
+    }
+
+    /// Whether frames are written.
+    pub fn has_frames(&self) -> bool {
+        self.files.series.is_some()
+    }
+
+    /// Processor seconds of this session.
+    pub fn cpu_s(&self) -> f64 {
+        cpu_seconds() - self.began.1
+    }
+}
+
+impl Files {
+    fn save(&self, run: &Simulation, next: u64, balances: &[Balance], cpu_s: f64) -> Result<(), FemError> {
+        self.history.sync()?;
+        self.centre_line.as_ref().map_or(Ok(()), CentreLineFile::sync)?;
+        let mut payload = Writer::new();
+        payload.u64(next);
+        payload.f64(cpu_s);
+        let flat: Vec<f64> = balances.iter().flat_map(|b| [b.time_s, b.kinetic_share, b.residual_share]).collect();
+        payload.f64s(&flat);
+        payload.bytes(&run.save());
+        let (step, time_s) = (run.step(), run.time_s());
+        let checkpoint = Checkpoint { fingerprint: self.fingerprint, step, time_s, payload: payload.into_bytes() };
+        write_checkpoint(&self.folder, &checkpoint).map(|_| ())
+    }
+}
+
+/// What a checkpoint of this command holds.
+struct Saved<'a> {
+    next: u64,
+    cpu_s: f64,
+    balances: Vec<Balance>,
+    run: &'a [u8],
+}
+
+impl Saved<'_> {
+    fn read(payload: &[u8]) -> Option<Saved<'_>> {
+        let mut from = Reader::new(payload);
+        let (next, cpu_s, flat) = (from.u64()?, from.f64()?, from.f64s()?);
+        let run = from.bytes()?;
+        let (rows, rest) = flat.as_chunks::<3>();
+        (rest.is_empty() && from.is_empty()).then_some(())?;
+        let balance = |&[time_s, kinetic_share, residual_share]: &[f64; 3]| Balance { time_s, kinetic_share, residual_share };
+        Some(Saved { next, cpu_s, balances: rows.iter().map(balance).collect(), run })
+    }
+}
+
+fn centre_line(case: &Case) -> Result<Option<CentreLine>, FemError> {
+    let wanted = &case.outputs;
+    let make = || CentreLine::new(&case.problem.mesh, &wanted.station_parts, wanted.station_axis, &wanted.stations_m);
+    (!wanted.stations_m.is_empty()).then(make).transpose()
+}
+
+/// Tells how far a run is.
+struct Teller {
+    began: Instant,
+    from_s: f64,
+    end_s: f64,
+    last: Option<Instant>,
+}
+
+impl Teller {
+    fn new(run: &Simulation, end_s: f64) -> Teller {
+        Teller { began: Instant::now(), from_s: run.time_s(), end_s, last: None }
+    }
+
+    fn tell(&mut self, run: &Simulation, context: &mut Context) {
+        if self.last.is_some_and(|last| last.elapsed() < TELL_EVERY) {
+            return;
+        }
+        self.last = Some(Instant::now());
+        let (t, ledger) = (run.time_s(), run.ledger());
+        let done = (t - self.from_s) / (self.end_s - self.from_s).max(f64::MIN_POSITIVE);
+        let left_s = self.began.elapsed().as_secs_f64() * (1.0 - done) / done.max(1e-9);
+        let text = format!(
+            "step {} · t {:.4} of {} s · dt {:.2} µs · kinetic {:.1} % · residual {:.2} % · {} left",
+            run.step(),
+            t,
+            self.end_s,
+            run.dt_s() * 1e6,
+            100.0 * ledger.kinetic_share(),
+            100.0 * ledger.residual_share(),
+            clock(left_s)
+        );
+        (context.progress)(&text, Some(t / self.end_s));
+    }
+}
+
+fn clock(seconds: f64) -> String {
+    match seconds {
+        s if s < 100.0 => format!("{s:.0} s"),
+        s if s < 6000.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.1} h", s / 3600.0),
+    }
+}
+
+/// Processor seconds of this process; real time where the system does not say.
+fn cpu_seconds() -> f64 {
+    /// Clock ticks per second of `/proc`, the same on every Linux.
+    const TICKS: f64 = 100.0;
+    static START: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
+    let started = START.get_or_init(Instant::now);
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // Fields after the name, which is in parentheses and may contain anything: user and system time are the 12th and 13th.
+    let ticks = stat.rsplit_once(')').map(|(_, rest)| rest.split_whitespace().skip(11).take(2).filter_map(|f| f.parse::<f64>().ok()));
+    match ticks.map(Iterator::collect::<Vec<f64>>).as_deref() {
+        Some([user, system]) => (user + system) / TICKS,
+        _ => started.elapsed().as_secs_f64(),
+    }
+}
