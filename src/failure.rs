@@ -162,12 +162,7 @@ impl Failure {
 }
 
 /// A message with the place in a text file.
-fn in_source(
-    shown: miette::MietteDiagnostic,
-    file: &str,
-    text: &str,
-    span: Option<std::ops::Range<usize>>,
-) -> Report {
+fn in_source(shown: miette::MietteDiagnostic, file: &str, text: &str, span: Option<std::ops::Range<usize>>) -> Report {
     let label = |span: std::ops::Range<usize>| {
         LabeledSpan::at(span.start..span.end.max(span.start + 1).min(text.len()), "here")
     };

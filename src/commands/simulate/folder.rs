@@ -177,7 +177,11 @@ fn take(folder: &Path, target: &Path, interrupted: Option<Marker>) -> Result<Ope
     std::fs::create_dir_all(folder).map_err(|cause| write_failure(folder, &cause))?;
     let lock = File::create(folder.join(LOCK)).map_err(|cause| write_failure(folder, &cause))?;
     if let Err(std::fs::TryLockError::WouldBlock) = lock.try_lock() {
-        return Err(refused(folder, "another run is writing to it", "wait for it, or choose another folder with --out"));
+        return Err(refused(
+            folder,
+            "another run is writing to it",
+            "wait for it, or choose another folder with --out",
+        ));
     }
     sweep(folder)?;
     sweep(&folder.join("frames"))?;
@@ -252,7 +256,8 @@ fn sweep(folder: &Path) -> Result<(), Failure> {
 
 fn sorted(folder: &Path) -> Result<Vec<String>, Failure> {
     let entries = std::fs::read_dir(folder).map_err(|cause| write_failure(folder, &cause))?;
-    let mut names: Vec<String> = entries.filter_map(|e| Some(e.ok()?.file_name().to_string_lossy().into_owned())).collect();
+    let mut names: Vec<String> =
+        entries.filter_map(|e| Some(e.ok()?.file_name().to_string_lossy().into_owned())).collect();
     names.sort();
     Ok(names)
 }

@@ -31,7 +31,9 @@ pub fn case(spec: &str) -> Result<(NamedCase, Case), Failure> {
             let input = Input::of(spec, text.as_bytes());
             Ok((NamedCase { text, input, file: spec.into() }, case))
         }
-        Err(_) if models::Scenario::parse(&text).is_ok() => Err(unreadable(spec, "it is a scenario of the reduced model")),
+        Err(_) if models::Scenario::parse(&text).is_ok() => {
+            Err(unreadable(spec, "it is a scenario of the reduced model"))
+        }
         Err(error) => Err(refused(spec, &text, error)),
     }
 }
@@ -68,7 +70,8 @@ fn text(spec: &str) -> Result<(String, PathBuf), Failure> {
 
 fn unreadable(spec: &str, cause: &str) -> Failure {
     let names = SHIPPED_CASES.iter().map(|c| c.0).collect::<Vec<_>>().join(", ");
-    let help = format!("give a finite element case, or a shipped one: {names}; `ibr new pillow > my.toml` makes a start");
+    let help =
+        format!("give a finite element case, or a shipped one: {names}; `ibr new pillow > my.toml` makes a start");
     Failure::Read { path: spec.into(), cause: cause.into(), help }
 }
 
@@ -86,7 +89,10 @@ pub fn seconds(option: &str, text: &str) -> Result<f64, Failure> {
         }
         _ => {
             let message = format!("{option}: `{typed}` is not a time");
-            Err(Failure::usage(message, format!("write a number and one of the units s, ms, min, for example {option} 30s")))
+            Err(Failure::usage(
+                message,
+                format!("write a number and one of the units s, ms, min, for example {option} 30s"),
+            ))
         }
     }
 }

@@ -92,14 +92,15 @@ fn stopped(error: Failure, place: &Workplace) -> Failure {
 
 fn interrupted(args: &Simulate, running: &Running, folder: &Path) -> Outcome {
     let force = if args.force { " --force" } else { "" };
-    let note = format!(
+    let mut notes = running.notices.clone();
+    notes.push(format!(
         "interrupted at t = {:.6} s, step {}; go on with: ibr simulate {} --out {} --resume{force}",
         running.run.time_s(),
         running.run.step(),
         args.case,
         folder.display()
-    );
-    Outcome { notes: vec![note], code: INTERRUPTED, ..Outcome::default() }
+    ));
+    Outcome { notes, code: INTERRUPTED, ..Outcome::default() }
 }
 
 /// `--resume` of a run that needs nothing more.
@@ -132,7 +133,7 @@ fn finish(
     place.complete(&sheet)?;
     *written = true;
     let mut answer = found.physics;
-    let mut outcome = Outcome { text: summary::text(&answer), ..Outcome::default() };
+    let mut outcome = Outcome { text: summary::text(&answer), notes: running.notices.clone(), ..Outcome::default() };
     outcome.text.push_str(&summary::cost_text(&found.cost));
     answer["cost"] = found.cost;
     answer["folder"] = json!(folder.display().to_string());

@@ -74,7 +74,8 @@ impl<'a> Running<'a> {
         let series = case.outputs.frames.then(|| Series::create(folder)).transpose()?;
         let path = folder.join("centre_line.csv");
         let centre_line = centre_line(case)?.map(|line| CentreLineFile::create(&path, line)).transpose()?;
-        let files = Files { folder: folder.into(), history, series, centre_line, fingerprint: case.problem.fingerprint() };
+        let files =
+            Files { folder: folder.into(), history, series, centre_line, fingerprint: case.problem.fingerprint() };
         let began = (0, cpu_seconds());
         Ok(Running { run, balances: Vec::new(), cpu_before_s: 0.0, notices: Vec::new(), began, case, files, next: 0 })
     }
@@ -213,7 +214,8 @@ impl Saved<'_> {
         let run = from.bytes()?;
         let (rows, rest) = flat.as_chunks::<3>();
         (rest.is_empty() && from.is_empty()).then_some(())?;
-        let balance = |&[time_s, kinetic_share, residual_share]: &[f64; 3]| Balance { time_s, kinetic_share, residual_share };
+        let balance =
+            |&[time_s, kinetic_share, residual_share]: &[f64; 3]| Balance { time_s, kinetic_share, residual_share };
         Some(Saved { next, cpu_s, balances: rows.iter().map(balance).collect(), run })
     }
 }
@@ -275,7 +277,9 @@ fn cpu_seconds() -> f64 {
     let started = START.get_or_init(Instant::now);
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     // Fields after the name, which is in parentheses and may contain anything: user and system time are the 12th and 13th.
-    let ticks = stat.rsplit_once(')').map(|(_, rest)| rest.split_whitespace().skip(11).take(2).filter_map(|f| f.parse::<f64>().ok()));
+    let ticks = stat
+        .rsplit_once(')')
+        .map(|(_, rest)| rest.split_whitespace().skip(11).take(2).filter_map(|f| f.parse::<f64>().ok()));
     match ticks.map(Iterator::collect::<Vec<f64>>).as_deref() {
         Some([user, system]) => (user + system) / TICKS,
         _ => started.elapsed().as_secs_f64(),

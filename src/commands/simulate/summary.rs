@@ -31,11 +31,8 @@ impl Summary {
 fn physics(case: &Case, running: &Running) -> Value {
     let (run, mesh) = (&running.run, &case.problem.mesh);
     let ledger = run.ledger();
-    let rows: Vec<Value> = ledger
-        .rows
-        .iter()
-        .map(|r| json!({"name": r.name, "kind": word(r.kind), "energy_j": r.energy_j}))
-        .collect();
+    let rows: Vec<Value> =
+        ledger.rows.iter().map(|r| json!({"name": r.name, "kind": word(r.kind), "energy_j": r.energy_j})).collect();
     let chambers: Vec<Value> = run
         .chambers()
         .iter()
@@ -120,7 +117,10 @@ pub fn text(s: &Value) -> String {
         number(&s["time_s"])
     );
     if number(&s["added_mass_share"]) > 0.0 {
-        out.push_str(&format!("mass added by scaling: {:.1} % of the true mass\n", 100.0 * number(&s["added_mass_share"])));
+        out.push_str(&format!(
+            "mass added by scaling: {:.1} % of the true mass\n",
+            100.0 * number(&s["added_mass_share"])
+        ));
     }
     let rows = list(&s["probes"]).map(|p| {
         let moved = list(&p["displacement_mm"]).map(|d| format!("{:+.3}", number(d)));
@@ -168,7 +168,10 @@ fn judgement(s: &Value) -> String {
         percent(&k["peak"]),
         number(&k["peak_time_s"])
     ));
-    out.push_str(&rule("below 10 % of internal energy (the paper's rule for a valid run)", &k["below_10_pct_of_internal"]));
+    out.push_str(&rule(
+        "below 10 % of internal energy (the paper's rule for a valid run)",
+        &k["below_10_pct_of_internal"],
+    ));
     out.push_str(&rule("below 1 % of total energy (what the paper kept)", &k["below_1_pct_of_total"]));
     out
 }

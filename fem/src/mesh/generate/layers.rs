@@ -15,7 +15,7 @@ use crate::mesh::{Mesh, Part};
 ///
 /// The stress-free shape is flat, both layers at z = 0. With `gap_m` above 0 the inner nodes start at z = ±`gap_m`/2.
 /// Parts `top` (layer 0, front up) and `bottom` (layer 1, front down), chamber `air` between. Sets `rim`, `corners`,
-/// `mid_edges` (4 nodes), `centre_top`, `centre_bottom`.
+/// `mid_edges` (4 nodes), `mid_edge` (the one at x > 0), `centre_top`, `centre_bottom`.
 ///
 /// # Errors
 /// [`FemError::Mesh`] for a length out of range, or `n` odd or below 2.
@@ -29,6 +29,7 @@ pub fn pillow(side_m: f64, n: usize, gap_m: f64) -> Result<Mesh, FemError> {
     mesh.sets.insert("rim".into(), top.rim());
     mesh.sets.insert("corners".into(), top.corners());
     let middles = vec![top.at(n / 2, 0), top.at(n, n / 2), top.at(n / 2, n), top.at(0, n / 2)];
+    mesh.sets.insert("mid_edge".into(), vec![middles[1]]);
     mesh.sets.insert("mid_edges".into(), middles);
     open_gap(&mut mesh, &top, &bottom, gap_m)?;
     Ok(mesh)

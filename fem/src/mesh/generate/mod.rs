@@ -6,7 +6,7 @@
 //! | function | shape | chamber | sets |
 //! |---|---|---|---|
 //! | [`plate`] | flat rectangle | none | `left` `right` `bottom` `top` `corners` `centre` |
-//! | [`pillow`] | two squares welded at their edges | `air` | `rim` `corners` `mid_edges` `centre_top` `centre_bottom` |
+//! | [`pillow`] | two squares welded at their edges | `air` | `rim` `corners` `mid_edges` `mid_edge` `centre_top` `centre_bottom` |
 //! | [`disc_balloon`] | two discs welded at the rim | `air` | `rim` `centre_top` `centre_bottom` |
 //! | [`long_pouch`] | two strips welded at their ends, open at the sides | `air` | `left` `right` `open_0` `open_1` `middle` |
 //! | [`flat_tube`] | flat tube with welded ends, bias warp | `air` | `end_0` `end_1` `gauge_0` `gauge_1` … |
