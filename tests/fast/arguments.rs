@@ -62,8 +62,8 @@ fn unknown_commands_robots_and_lists_name_the_known_ones() {
     wrong(&["frob"], &["unrecognized subcommand 'frob'"]);
     wrong(&[], &["Usage: ibr", "compare"]);
     wrong(&["predict"], &["<SCENARIO>"]);
-    wrong(&["new", "nosuch"], &["no shipped scenario `nosuch`", "spam, cpam, epam, fpam"]);
-    wrong(&["list", "nosuch"], &["possible values: actuators, effects, datasets"]);
+    wrong(&["new", "nosuch"], &["no shipped scenario `nosuch`", "spam, cpam, epam, fpam, pillow, tube"]);
+    wrong(&["list", "nosuch"], &["possible values: actuators, effects, datasets, cases"]);
     wrong(&["completions", "klingon"], &["possible values: bash"]);
 }
 

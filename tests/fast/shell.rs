@@ -8,9 +8,20 @@ use std::process::Stdio;
 fn help_names_every_command_and_the_exit_codes() {
     let help = Folder::new().run(&["--help"]);
     assert_eq!((help.code, help.stderr.as_str()), (0, ""));
-    for word in
-        ["demo", "predict", "compare", "data", "list", "new", "tradeoff", "verify", "bench", "completions", "man"]
-    {
+    for word in [
+        "demo",
+        "predict",
+        "compare",
+        "simulate",
+        "data",
+        "list",
+        "new",
+        "tradeoff",
+        "verify",
+        "bench",
+        "completions",
+        "man",
+    ] {
         assert!(help.stdout.contains(&format!("\n  {word}")), "{word}");
         assert_eq!(Folder::new().run(&[word, "--help"]).code, 0, "{word}");
     }

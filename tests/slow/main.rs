@@ -1,6 +1,6 @@
 //! Tests that need an optimised build: `cargo test --release --test slow` (`./check.sh` runs it).
 //!
-//! A new test belongs into the module of what it measures or runs to its end: `demo`, `interrupts`, `large_file`,
+//! A new test belongs into the module of what it measures or runs to its end: `demo`, `interrupts`, `simulate`, `large_file`,
 //! `figures` (speed and known numbers), `documents` (command lines of the documents). Whatever takes less than a
 //! second in an unoptimised build belongs into `tests/fast`.
 
@@ -11,6 +11,7 @@ mod documents;
 mod figures;
 mod interrupts;
 mod large_file;
+mod simulate;
 #[path = "../support/mod.rs"]
 mod support;
 

@@ -4,7 +4,9 @@ use super::ReadMesh;
 use super::law::plain_number;
 use super::range::{Checked, LENGTH, Range, number, plain, refuse, unknown_name};
 use super::raw::{Free, Text};
+use crate::mesh::check::check_open;
 use crate::mesh::generate::{self, Around, Cap, Tube};
+use crate::problem::Chamber;
 use crate::{FemError, Mesh};
 use std::path::Path;
 use toml::{Spanned, Value};
@@ -173,6 +175,20 @@ pub(super) fn mesh(table: &Spanned<Free>, read_mesh: ReadMesh) -> Checked<Mesh> 
         (None, None) => {
             refuse("[mesh] says no shape", "write generator = \"pillow\" or file = \"robot.mesh\"", table.span())
         }
+    }
+}
+
+/// Refuses a mesh that cannot be simulated: bad elements, chambers that leak.
+pub(super) fn check(table: &Spanned<Free>, mesh: &Mesh, chambers: &[Chamber]) -> Checked<()> {
+    let names: Vec<&str> = chambers.iter().map(|c| c.name.as_str()).collect();
+    // Where a chamber may be open, its edges must lie in planes; which sets they belong to does not matter.
+    let open: Vec<&str> = match chambers.iter().any(|c| c.open_axis.is_some()) {
+        true => mesh.sets.keys().map(String::as_str).collect(),
+        false => Vec::new(),
+    };
+    match check_open(mesh, &names, &open) {
+        Err(FemError::Mesh(message)) => Err(FemError::Case { message, span: Some(table.span()) }),
+        other => other.map(|_| ()),
     }
 }
 

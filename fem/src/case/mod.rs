@@ -35,6 +35,7 @@ mod settings;
 
 pub use mesh::{GENERATORS, Generator, Key};
 
+use crate::output::picture::View;
 use crate::{FemError, Mesh, Problem};
 use std::path::Path;
 
@@ -48,7 +49,7 @@ pub struct Case {
 }
 
 /// What a run writes besides the energy ledger.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Outputs {
     /// Node sets whose mean displacement is recorded.
     pub probes: Vec<String>,
@@ -62,6 +63,8 @@ pub struct Outputs {
     pub frames: bool,
     /// Draw the end state.
     pub pictures: bool,
+    /// Where it is seen from.
+    pub view: View,
 }
 
 /// Reads the mesh that a case names in `[mesh] file`; the path is as written there.
@@ -96,6 +99,7 @@ impl Case {
         range::choice("kind", &raw.kind, &[("fem", ())])?;
         let mut mesh = mesh::mesh(&raw.mesh, read_mesh)?;
         let chambers = load::chambers(&raw, &mesh)?;
+        mesh::check(&raw.mesh, &mesh, &chambers)?;
         let sections = section::sections(&raw, &mesh)?;
         let outputs = settings::outputs(&raw.output, &mesh)?;
         let supports = load::supports(&raw, &mut mesh)?;

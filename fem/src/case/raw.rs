@@ -167,6 +167,7 @@ pub(super) struct RawOutput {
     pub station_axis: Option<Spanned<[f64; 3]>>,
     pub frames: Option<bool>,
     pub pictures: Option<bool>,
+    pub view: Option<Text>,
 }
 
 /// Reads the text; a TOML or type error keeps its place.

@@ -5,6 +5,7 @@ use super::load::{part_names, set_name};
 use super::range::{Checked, POSITION, Range, TIME, choice, direction, optional, plain, refuse, si};
 use super::raw::{RawOutput, RawSettings};
 use crate::mesh::Mesh;
+use crate::output::picture::View;
 use crate::problem::{Guards, MassScaling, Settings};
 use toml::Value;
 
@@ -123,5 +124,17 @@ pub(super) fn outputs(raw: &RawOutput, mesh: &Mesh) -> Checked<Outputs> {
         station_axis: axis.unwrap_or([1.0, 0.0, 0.0]),
         frames: raw.frames.unwrap_or(true),
         pictures: raw.pictures.unwrap_or(true),
+        view: view(raw)?,
     })
+}
+
+fn view(raw: &RawOutput) -> Checked<View> {
+    let known = [
+        ("isometric", View::Isometric),
+        ("isometric-z-up", View::IsometricZUp),
+        ("side", View::Side),
+        ("top", View::Top),
+        ("end", View::End),
+    ];
+    raw.view.as_ref().map_or(Ok(View::Isometric), |name| choice("view", name, &known))
 }

@@ -74,6 +74,7 @@ probes = ["centre_top"]
 stations_mm = [-100, 100]
 station_parts = ["bottom"]
 frames = false
+view = "top"
 "#;
 
 fn no_files(path: &Path) -> Result<Mesh, FemError> {
@@ -167,6 +168,7 @@ fn every_table_arrives_in_si() {
         station_axis: [1.0, 0.0, 0.0],
         frames: false,
         pictures: true,
+        view: View::Top,
     };
     assert_eq!(case.outputs, wanted);
 }
@@ -201,6 +203,7 @@ fn misspelt_keys_and_names_are_answered_with_what_was_meant() {
         ("parts = [\"top\"]", "parts = [\"tpo\"]", "tpo", &["unknown part", "did you mean `top`?"]),
         ("parts = [\"bottom\"]", "parts = [\"botom\"]", "botom", &["unknown part", "did you mean `bottom`?"]),
         ("\"plane\"", "\"plan\"", "plan", &["unknown shape", "did you mean `plane`?"]),
+        ("view = \"top\"", "view = \"topp\"", "topp", &["unknown view", "did you mean `top`?"]),
         ("sealed_at_s = 1.2", "open_axis = \"q\"", "q", &["unknown open_axis", "x, y, z"]),
         ("\"paper\"", "\"papre\"", "papre", &["unknown preset", "did you mean `paper`?"]),
         ("preset = \"actuator\"", "preset = \"acuator\"", "acuator", &["unknown preset", "`actuator`"]),
@@ -331,6 +334,18 @@ fn a_mesh_file_is_read_through_the_given_function_only() {
     let (message, place) = refused(&text);
     assert!(place.contains("robot.mesh") && message.contains("cannot be read"), "{message}");
     assert!(message.contains("folder of the case file"), "{message}");
+}
+
+#[test]
+fn a_mesh_whose_chamber_leaks_is_refused() {
+    let mut tube = String::from("kind = \"fem\"\n[mesh]\ngenerator = \"tube\"\ndiameter_mm = 80\nlength_mm = 100\n");
+    tube += "elements_around = 12\nelements_along = 4\ntip_cap = \"CAP\"\n[fabric.nylon]\nmaterial = \"tpu-nylon\"\n";
+    tube += "[part.all]\nfabric = \"nylon\"\ndensity_kg_m3 = 1000\n[chamber.body]\npressure_kPa = 2\n";
+    assert!(parse(&tube.replace("CAP", "triangles")).is_ok() && parse(&tube.replace("CAP", "quads")).is_ok());
+    let (message, place) = refused(&tube.replace("CAP", "open"));
+    assert!(place == "[mesh]" && message.contains("body"), "{place}: {message}");
+    let (message, place) = refused(&tube.replace("CAP", "shut"));
+    assert!(place.contains("shut") && message.contains("\"triangles\", \"quads\", \"open\""), "{message}");
 }
 
 #[test]

@@ -2,8 +2,8 @@
 
 use crate::failure::Failure;
 use crate::output::Input;
+use fem::FemError;
 use fem::case::{Case, SHIPPED_CASES, shipped_case};
-use fem::{FemError, Mesh};
 use std::path::{Path, PathBuf};
 
 /// Where a case came from.
@@ -25,7 +25,7 @@ impl NamedCase {
 /// Reads a case file, or takes a shipped one by name.
 pub fn case(spec: &str) -> Result<(NamedCase, Case), Failure> {
     let (text, folder) = text(spec)?;
-    let mut read_mesh = |path: &Path| mesh_file(&folder.join(path));
+    let mut read_mesh = |path: &Path| fem::mesh::file::read(&folder.join(path));
     match Case::parse(&text, &mut read_mesh) {
         Ok(case) => {
             let input = Input::of(spec, text.as_bytes());
@@ -36,11 +36,6 @@ pub fn case(spec: &str) -> Result<(NamedCase, Case), Failure> {
         }
         Err(error) => Err(refused(spec, &text, error)),
     }
-}
-
-fn mesh_file(path: &Path) -> Result<Mesh, FemError> {
-    std::fs::metadata(path).map_err(|source| FemError::Io { path: path.to_path_buf(), source })?;
-    Err(FemError::Mesh("mesh files cannot be read yet\nuse a generator: `ibr list cases`".into()))
 }
 
 fn refused(file: &str, text: &str, error: FemError) -> Failure {

@@ -167,7 +167,8 @@ impl<'a> Running<'a> {
             return Ok(None);
         }
         let stress_mpa: Vec<f64> = self.run.element_fields().von_mises_pa.iter().map(|s| s * 1e-6).collect();
-        let image = picture::render(&self.case.problem.mesh, &self.run.positions(), &stress_mpa, &Look::default())?;
+        let look = Look { view: self.case.outputs.view, ..Look::default() };
+        let image = picture::render(&self.case.problem.mesh, &self.run.positions(), &stress_mpa, &look)?;
         picture::write_png(&folder.join(PICTURE), &image)?;
         Ok(Some(PICTURE))
     }

@@ -1,0 +1,143 @@
+//! Runs that are killed or interrupted at any moment, and the frames as another program reads them.
+#![cfg(unix)]
+
+use crate::alone;
+use crate::support::{Folder, Ran, repository};
+use std::collections::BTreeMap;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// Seconds of work in some hundred thousandths of a second between checkpoints.
+fn with_case() -> Folder {
+    let text = fem::case::shipped_case("pillow").unwrap();
+    let text =
+        text.replace("elements = 32 ", "elements = 28 ").replace("[output]", "[output]\nstations_mm = [-200, 0, 200]");
+    let folder = Folder::new();
+    folder.write("my.toml", text);
+    folder
+}
+
+fn start(folder: &Folder, more: &[&str]) -> Child {
+    let args = [&["simulate", "my.toml", "--checkpoint-every", "20ms", "--out", "run"], more].concat();
+    folder.ibr(&args).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+/// All files of the run but the manifest, which says when and how it was made.
+fn results(folder: &Folder) -> BTreeMap<String, Vec<u8>> {
+    let root = folder.path("run");
+    let named = folder.contents().into_iter().filter_map(|(path, bytes)| {
+        let name = path.strip_prefix(&root).ok()?.to_string_lossy().into_owned();
+        (name != "manifest.json").then_some((name, bytes))
+    });
+    named.collect()
+}
+
+fn assert_same(whole: &BTreeMap<String, Vec<u8>>, folder: &Folder, what: &str) {
+    let found = results(folder);
+    assert_eq!(found.keys().collect::<Vec<_>>(), whole.keys().collect::<Vec<_>>(), "{what}");
+    for (name, bytes) in whole {
+        assert!(found[name] == *bytes, "{what}: {name} differs");
+    }
+}
+
+/// Next number in 0..1 of the SplitMix64 sequence.
+fn uniform(state: &mut u64) -> f64 {
+    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let mut z = *state;
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+}
+
+#[test]
+fn a_run_that_is_killed_at_any_moment_and_resumed_ends_with_the_same_bytes() {
+    let _alone = alone();
+    let reference = with_case();
+    let began = Instant::now();
+    let ran = Ran::from(start(&reference, &[]).wait_with_output().unwrap());
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    let takes = began.elapsed();
+    let whole = results(&reference);
+    let (mut random, mut unfinished, mut with_checkpoint) = (2026, 0, 0);
+    for trial in 0..20 {
+        let folder = with_case();
+        let mut more: &[&str] = &[];
+        // Some are killed a second time while they go on.
+        for _ in 0..1 + trial % 2 {
+            let mut child = start(&folder, more);
+            let wait = takes.mul_f64(uniform(&mut random));
+            std::thread::sleep(wait);
+            child.kill().unwrap();
+            child.wait().unwrap();
+            unfinished += i32::from(!folder.path("run/manifest.json").exists());
+            with_checkpoint += i32::from(folder.path("run/checkpoint").exists());
+            more = &["--resume"];
+        }
+        let ran = Ran::from(start(&folder, more).wait_with_output().unwrap());
+        assert_eq!(ran.code, 0, "trial {trial}: {}", ran.stderr);
+        assert_same(&whole, &folder, &format!("trial {trial}"));
+    }
+    println!("{unfinished} of 30 kills met an unfinished run, {with_checkpoint} one with a checkpoint");
+    assert!(
+        unfinished >= 15 && with_checkpoint >= 10,
+        "{unfinished} {with_checkpoint}: kills came too late or too early"
+    );
+}
+
+#[test]
+fn an_interrupt_writes_a_checkpoint_and_the_command_that_goes_on() {
+    let _alone = alone();
+    let reference = with_case();
+    assert_eq!(Ran::from(start(&reference, &[]).wait_with_output().unwrap()).code, 0);
+    let folder = with_case();
+    let child = start(&folder, &[]);
+    let patience = Instant::now();
+    while !folder.path("run/frames/run_00002.vtu").exists() {
+        assert!(patience.elapsed() < Duration::from_secs(60), "no frame was written");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let kill = format!("kill -INT {}", child.id());
+    assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+    let ran = Ran::from(child.wait_with_output().unwrap());
+    assert_eq!((ran.code, ran.stdout.as_str()), (130, ""), "{}", ran.stderr);
+    let command = ran.stderr.split("go on with: ibr ").nth(1).expect("the command to go on with").trim();
+    assert_eq!(command, "simulate my.toml --out run --resume");
+    let other_end = folder.run(&["simulate", "my.toml", "--out", "run", "--resume", "--end", "0.1s"]);
+    assert!(other_end.code == 2 && other_end.stderr.contains("ends at 0.15 s"), "{}", other_end.stderr);
+    let ran = folder.run(&command.split(' ').collect::<Vec<_>>());
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    assert_same(&results(&reference), &folder, "resumed");
+}
+
+#[test]
+fn two_runs_do_not_write_to_one_folder() {
+    let _alone = alone();
+    let folder = with_case();
+    let mut child = start(&folder, &[]);
+    let patience = Instant::now();
+    while !folder.path("run/frames/run_00000.vtu").exists() {
+        assert!(patience.elapsed() < Duration::from_secs(60), "no frame was written");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let second = folder.run(&["simulate", "my.toml", "--out", "run", "--resume"]);
+    assert!(second.code == 3 && second.stderr.contains("another run is writing to it"), "{}", second.stderr);
+    child.kill().unwrap();
+    child.wait().unwrap();
+}
+
+#[test]
+fn vtk_reads_every_frame_that_the_series_names() {
+    let _alone = alone();
+    let python = std::env::var("IBR_PYTHON").unwrap_or_else(|_| "python3".into());
+    let has_vtk = Command::new(&python).args(["-c", "import vtk"]).output().is_ok_and(|o| o.status.success());
+    if !has_vtk {
+        println!("skipped: `{python} -c \"import vtk\"` does not work here; set IBR_PYTHON to a Python with vtk");
+        return;
+    }
+    let folder = with_case();
+    assert_eq!(Ran::from(start(&folder, &[]).wait_with_output().unwrap()).code, 0);
+    let script = repository().join("tests/read_pvd.py");
+    let read = Ran::from(Command::new(&python).arg(script).arg(folder.path("run/run.pvd")).output().unwrap());
+    assert_eq!(read.code, 0, "{}{}", read.stdout, read.stderr);
+    assert!(read.stdout.contains("31 frames"), "{}", read.stdout);
+}
