@@ -263,6 +263,7 @@ impl Term for Sheet {
         let mut numbers = vec![self.viscous_j];
         self.air.iter().for_each(|air| numbers.extend(air.save()));
         for patch in &self.patches {
+            numbers.extend(patch.sums.saved());
             numbers.extend(patch.strains.iter().flat_map(|s| s.0.as_flattened()));
             numbers.extend(patch.past.as_flattened().as_flattened());
         }
@@ -274,6 +275,7 @@ impl Term for Sheet {
         let numbers: Vec<f64> = words.iter().map(|w| f64::from_le_bytes(*w)).collect();
         let wanted = 1
             + self.air.len() * chamber::SAVED
+            + self.patches.len() * patch::SAVED
             + self.patches.iter().map(|p| (p.strains.len() * 3 + p.past.len() * 2) * group::LANES).sum::<usize>();
         if !rest.is_empty() || numbers.len() != wanted {
             return false;
@@ -285,6 +287,8 @@ impl Term for Sheet {
             air.restore(&own);
         }
         for patch in &mut self.patches {
+            let sums: Vec<f64> = from.by_ref().take(patch::SAVED).collect();
+            patch.sums.restore(&sums);
             let strains = patch.strains.iter_mut().flat_map(|s| s.0.as_flattened_mut());
             let past = patch.past.as_flattened_mut().as_flattened_mut();
             strains.chain(past).zip(from.by_ref()).for_each(|(to, value)| *to = value);

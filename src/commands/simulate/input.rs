@@ -41,7 +41,7 @@ pub fn case(spec: &str) -> Result<(NamedCase, Case), Failure> {
 fn refused(file: &str, text: &str, error: FemError) -> Failure {
     let (message, span) = match error {
         FemError::Case { message, span } => (message, span),
-        FemError::Mesh(message) | FemError::Problem(message) => (message, None),
+        FemError::Mesh(message) | FemError::Problem(message) => (format!("{file}: {message}"), None),
         other => return Failure::Fem(other),
     };
     Failure::Case { file: file.into(), text: text.into(), message, span }

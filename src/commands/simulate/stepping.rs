@@ -36,7 +36,7 @@ pub struct Balance {
     pub time_s: f64,
     /// Kinetic energy over kinetic and stored energy.
     pub kinetic_share: f64,
-    /// Missing energy over external work.
+    /// Missing energy over external work; 0 while that is below the floor of the guard.
     pub residual_share: f64,
 }
 
@@ -145,10 +145,12 @@ impl<'a> Running<'a> {
     /// Writes one output.
     fn output(&mut self) -> Result<(), FemError> {
         let record = Record::of(&self.run);
+        // Before the guard judges it, the residual is rounding over next to no work.
+        let judged = record.ledger.scale_j > self.case.problem.settings.guards.residual_floor_j;
         self.balances.push(Balance {
             time_s: record.time_s,
             kinetic_share: record.ledger.kinetic_share(),
-            residual_share: record.ledger.residual_share(),
+            residual_share: if judged { record.ledger.residual_share() } else { 0.0 },
         });
         self.files.history.append(&record)?;
         if let Some(line) = &mut self.files.centre_line {

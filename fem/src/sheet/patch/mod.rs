@@ -32,6 +32,23 @@ pub struct Sums {
     pub hysteresis: f64,
 }
 
+/// Numbers in a checkpoint per patch, beside strains and memory.
+pub const SAVED: usize = 5;
+
+impl Sums {
+    /// For a checkpoint: the energies are those of the last step, which a resumed run does not repeat.
+    pub fn saved(&self) -> [f64; SAVED] {
+        [self.membrane, self.hourglass, self.viscous, self.bending, self.hysteresis]
+    }
+
+    /// From a checkpoint.
+    pub fn restore(&mut self, saved: &[f64]) {
+        if let &[membrane, hourglass, viscous, bending, hysteresis] = saved {
+            *self = Sums { membrane, hourglass, viscous, bending, hysteresis };
+        }
+    }
+}
+
 /// Elements that run through the same loop: same kind, fabric and chambers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Key {
