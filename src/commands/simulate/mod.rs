@@ -48,7 +48,7 @@ pub fn run(args: &Simulate, context: &mut Context) -> Result<Outcome, Failure> {
         }
     };
     context.interrupt.set_awaited(true);
-    let ended = running.to_the_end(every, context);
+    let ended = running.step_on(every, context);
     context.interrupt.set_awaited(false);
     match ended.map_err(|error| stopped(error, &place))? {
         Ended::Interrupted => Ok(interrupted(args, &running, &folder)),

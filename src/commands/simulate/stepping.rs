@@ -110,7 +110,7 @@ impl<'a> Running<'a> {
     }
 
     /// Steps to the end of the case, or until the user interrupts.
-    pub fn to_the_end(&mut self, checkpoint_every: Duration, context: &mut Context) -> Result<Ended, Failure> {
+    pub fn step_on(&mut self, checkpoint_every: Duration, context: &mut Context) -> Result<Ended, Failure> {
         let settings = &self.case.problem.settings;
         let (end_s, every_s) = (settings.end_s, settings.output_every_s);
         // The last output is the end itself; a whole number of intervals shall not get a second one just before it.
