@@ -131,7 +131,7 @@ impl Sheet {
         }
         let memory = self.fabrics.iter().any(|f| f.has_memory());
         let pairs = order.patches.iter().zip(items);
-        Ok(pairs.map(|(nodes, items)| Patch::new(nodes.clone(), items, &self.bending, memory)).collect())
+        Ok(pairs.map(|(nodes, items)| Patch::new(nodes.clone(), items, &self.bending, &order.old, memory)).collect())
     }
 
     fn item(&self, index: usize, settings: &Settings, own: bool) -> Item {

@@ -19,15 +19,17 @@ pub struct Order {
     pub patches: Vec<Range<usize>>,
 }
 
-/// Largest and smallest number of nodes of a patch: large enough that few elements are computed twice (6 % at 1024),
-/// small enough that a patch's data stay in the second-level cache and every thread finds work.
+/// Largest number of nodes of a patch: large enough that few elements are computed twice (6 %), small enough that a
+/// patch's data stay in the second-level cache. Meshes of fewer than `PATCHES` such patches are cut smaller, so that
+/// threads find work, but not below `SMALLEST`.
 const LARGEST: usize = 1024;
-const SMALLEST: usize = 256;
+const PATCHES: usize = 8;
+const SMALLEST: usize = 400;
 
 impl Order {
     /// Orders the nodes part by part, each by recursive bisection of its reference shape.
     pub fn of(mesh: &Mesh) -> Order {
-        let target = (mesh.points.len() / 16).clamp(SMALLEST, LARGEST);
+        let target = (mesh.points.len() / PATCHES).clamp(SMALLEST, LARGEST);
         let mut order = Order { old: Vec::new(), new: vec![u32::MAX; mesh.points.len()], patches: Vec::new() };
         let mut taken = vec![false; mesh.points.len()];
         for part in &mesh.parts {
@@ -37,23 +39,26 @@ impl Order {
                     nodes.push(*node);
                 }
             }
-            order.bisect(mesh, &mut nodes, target);
+            let pieces = nodes.len().div_ceil(target);
+            order.bisect(mesh, &mut nodes, pieces);
         }
         let mut loose: Vec<u32> = (0..mesh.points.len() as u32).filter(|n| !taken[*n as usize]).collect();
-        order.bisect(mesh, &mut loose, target);
+        order.bisect(mesh, &mut loose, 1);
         for (place, old) in order.old.iter().enumerate() {
             order.new[*old as usize] = place as u32;
         }
         order
     }
 
-    fn bisect(&mut self, mesh: &Mesh, nodes: &mut [u32], target: usize) {
+    /// Cuts into `pieces` patches of about the same size.
+    fn bisect(&mut self, mesh: &Mesh, nodes: &mut [u32], pieces: usize) {
         let start = self.old.len();
-        if nodes.len() > target {
-            let half = split(mesh, nodes);
-            let (low, high) = nodes.split_at_mut(half);
-            self.bisect(mesh, low, target);
-            self.bisect(mesh, high, target);
+        if pieces > 1 {
+            let at = nodes.len() * (pieces / 2) / pieces;
+            split(mesh, nodes, at);
+            let (low, high) = nodes.split_at_mut(at);
+            self.bisect(mesh, low, pieces / 2);
+            self.bisect(mesh, high, pieces - pieces / 2);
         } else if !nodes.is_empty() {
             // The generator's own order keeps rows of a structured mesh together.
             nodes.sort_unstable();
@@ -63,8 +68,8 @@ impl Order {
     }
 }
 
-/// Sorts `nodes` along the longest side of their bounding box and returns where to cut: the middle.
-fn split(mesh: &Mesh, nodes: &mut [u32]) -> usize {
+/// Puts the `at` nodes that come first along the longest side of the bounding box in front.
+fn split(mesh: &Mesh, nodes: &mut [u32], at: usize) {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
     for node in nodes.iter() {
@@ -75,13 +80,11 @@ fn split(mesh: &Mesh, nodes: &mut [u32]) -> usize {
     }
     let size: Vec<f64> = (0..3).map(|k| high[k] - low[k]).collect();
     let axis = (0..3).fold(0, |best, k| if size[k] > size[best] { k } else { best });
-    let half = nodes.len() / 2;
     // The node number breaks ties, so that the order is a function of the mesh alone.
-    nodes.select_nth_unstable_by(half, |a, b| {
+    nodes.select_nth_unstable_by(at, |a, b| {
         let (xa, xb) = (mesh.points[*a as usize][axis], mesh.points[*b as usize][axis]);
         xa.total_cmp(&xb).then(a.cmp(b))
     });
-    half
 }
 
 /// The mesh in the new numbering.

@@ -35,15 +35,15 @@ pub struct Bend {
 }
 
 impl Bend {
-    /// From the rows of the own nodes `nodes`; `local` numbers any node that they refer to.
-    pub fn new(matrix: &BendingMatrix, nodes: std::ops::Range<usize>, local: impl Fn(u32) -> u32) -> Bend {
-        let row = |i: usize| -> Vec<(i32, f64)> {
-            let mut row: Vec<(i32, f64)> =
-                matrix.row(nodes.start + i).map(|(j, value)| (local(j) as i32 - i as i32, value)).collect();
+    /// From the rows of the nodes `own` (numbers within the patch) among `places`; `local` turns a place into a number.
+    pub fn new(matrix: &BendingMatrix, places: &[u32], own: &[u32], local: impl Fn(u32) -> u32) -> Bend {
+        let mut rows: Vec<Vec<(i32, f64)>> = vec![Vec::new(); places.len()];
+        for i in own {
+            let shift = |(j, value): (u32, f64)| (local(j) as i32 - *i as i32, value);
+            let row = &mut rows[*i as usize];
+            row.extend(matrix.row(places[*i as usize] as usize).map(shift));
             row.sort_by_key(|entry| entry.0);
-            row
-        };
-        let rows: Vec<Vec<(i32, f64)>> = (0..nodes.len()).map(row).collect();
+        }
         let alike = |a: usize, b: usize| {
             !rows[a].is_empty()
                 && rows[a].len() == rows[b].len()

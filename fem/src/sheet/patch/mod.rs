@@ -70,14 +70,16 @@ struct Run {
     other: Range<usize>,
 }
 
-/// Consecutive nodes and what their forces need. Nodes are numbered within the patch: its own, then those of
-/// neighbours.
+/// Consecutive nodes and what their forces need. Within the patch, its own nodes and those of neighbours that its elements
+/// and bending rows need are numbered in mesh order, so that rows of a structured mesh stay whole.
 #[derive(Debug, Clone)]
 pub struct Patch {
     /// The nodes this patch owns.
     pub nodes: Range<usize>,
-    /// Nodes of neighbours that its elements or bending rows need.
-    halo: Vec<u32>,
+    /// Place of every node of the patch.
+    places: Vec<u32>,
+    /// Number within the patch of the own nodes.
+    own: Vec<u32>,
     runs: Vec<Run>,
     groups: Vec<Group>,
     /// Mesh number of the element in each lane, `u32::MAX` where another lane or patch reports it.
@@ -127,26 +129,32 @@ pub struct Shared<'a> {
 }
 
 impl Patch {
-    /// Packs the elements by key, in the order given; `items` carry global node numbers.
-    pub fn new(nodes: Range<usize>, items: BTreeMap<Key, Vec<Item>>, bending: &BendingMatrix, memory: bool) -> Patch {
-        let own = nodes.clone();
+    /// Packs the elements by key; `items` carry places of nodes, `mesh_number` turns a place into a number of the mesh.
+    pub fn new(
+        nodes: Range<usize>,
+        items: BTreeMap<Key, Vec<Item>>,
+        bending: &BendingMatrix,
+        mesh_number: &[u32],
+        memory: bool,
+    ) -> Patch {
+        let own_places = nodes.clone().map(|i| i as u32);
         let needed = items.values().flatten().flat_map(|i| i.node.iter().copied());
-        let needed = needed.chain(own.clone().flat_map(|i| bending.row(i).map(|e| e.0)));
-        let mut halo: Vec<u32> = needed.filter(|n| !own.contains(&(*n as usize))).collect();
-        halo.sort();
-        halo.dedup();
-        let local = |n: u32| match halo.binary_search(&n) {
-            Ok(place) => (own.len() + place) as u32,
-            Err(_) => n - own.start as u32,
-        };
-        let bend = Bend::new(bending, own.clone(), local);
-        let mut build = Build::new(own.len());
+        let needed = needed.chain(nodes.clone().flat_map(|i| bending.row(i).map(|e| e.0))).chain(own_places.clone());
+        let mut places: Vec<u32> = needed.collect();
+        places.sort_by_key(|place| mesh_number[*place as usize]);
+        places.dedup();
+        let numbers: BTreeMap<u32, u32> = places.iter().enumerate().map(|(i, place)| (*place, i as u32)).collect();
+        let local = |place: u32| numbers[&place];
+        let own: Vec<u32> = own_places.map(local).collect();
+        let bend = Bend::new(bending, &places, &own, local);
+        let mut build = Build::new(nodes.clone());
         for (key, mut list) in items {
+            list.sort_by_key(|item| (mesh_number[item.node[0] as usize], item.element));
+            let own_corners: Vec<Item> = list.clone();
             list.iter_mut().for_each(|item| item.node.iter_mut().for_each(|n| *n = local(*n)));
-            list.sort_by_key(|item| (item.node[0], item.element));
-            build.add(key, &list);
+            build.add(key, &list, &own_corners);
         }
-        let room = own.len() + halo.len() + LANES;
+        let room = places.len().next_multiple_of(LANES) + LANES;
         let vectors = || std::array::from_fn(|_| vec![0.0; room]);
         let work = Work {
             x: vectors(),
@@ -157,7 +165,8 @@ impl Patch {
         build.corners.sort();
         Patch {
             nodes,
-            halo,
+            places,
+            own,
             strains: vec![Strain([[0.0; LANES]; 3]); build.groups.len()],
             past: if memory { vec![[[0.0; 2]; LANES]; build.groups.len()] } else { Vec::new() },
             runs: build.runs,
@@ -207,7 +216,7 @@ impl Patch {
 
 /// A patch while its groups are packed.
 struct Build {
-    own: usize,
+    own: Range<usize>,
     runs: Vec<Run>,
     groups: Vec<Group>,
     element: Vec<[u32; LANES]>,
@@ -218,12 +227,13 @@ struct Build {
 }
 
 impl Build {
-    fn new(own: usize) -> Build {
+    fn new(own: Range<usize>) -> Build {
         let taken = std::array::from_fn(|_| Vec::new());
         Build { own, runs: Vec::new(), groups: Vec::new(), element: Vec::new(), corners: Vec::new(), taken }
     }
 
-    fn add(&mut self, key: Key, items: &[Item]) {
+    /// `items` are numbered within the patch, `placed` are the same with places.
+    fn add(&mut self, key: Key, items: &[Item], placed: &[Item]) {
         let (eights, mut rest) = runs::split(items.len(), |a, b| runs::next_in_row(&items[a], &items[b]));
         let start = self.groups.len();
         let mut claimed = vec![false; items.len()];
@@ -237,10 +247,10 @@ impl Build {
             }
         }
         let middle = self.groups.len();
-        let rest: Vec<Item> = rest.into_iter().map(|i| items[i].clone()).collect();
         for chunk in rest.chunks(LANES) {
-            self.note_corners(chunk);
-            self.push(chunk, 0);
+            let of = |list: &[Item]| chunk.iter().map(|i| list[*i].clone()).collect::<Vec<Item>>();
+            self.note_corners(&of(placed));
+            self.push(&of(items), 0);
         }
         self.runs.push(Run { key, regular: start..middle, other: middle..self.groups.len() });
     }
@@ -275,8 +285,9 @@ impl Build {
     fn note_corners(&mut self, chunk: &[Item]) {
         let group = self.groups.len();
         for (lane, item) in chunk.iter().enumerate() {
-            for (corner, node) in item.node.iter().enumerate().filter(|(_, n)| (**n as usize) < self.own) {
-                self.corners.push((*node, ((group * 4 + corner) * 3 * LANES + lane) as u32));
+            for (corner, node) in item.node.iter().enumerate().filter(|(_, n)| self.own.contains(&(**n as usize))) {
+                let at = (group * 4 + corner) * 3 * LANES + lane;
+                self.corners.push((*node - self.own.start as u32, at as u32));
             }
         }
     }

@@ -54,18 +54,14 @@ fn corner_slices([a, b, c, d]: &mut [[Vec<f64>; 3]; 4]) -> [[&mut [f64]; 3]; 4] 
     [slices_mut(a), slices_mut(b), slices_mut(c), slices_mut(d)]
 }
 
-/// Positions of own and neighbours' nodes, axis by axis.
+/// Positions of the patch's nodes, axis by axis.
 #[inline(always)]
 fn take_positions(patch: &mut Patch, q: &[[f64; 4]]) {
     let [x, y, z] = &mut patch.work.x;
-    let own = patch.nodes.len();
-    let places = x.iter_mut().zip(y.iter_mut()).zip(z.iter_mut());
-    for (((x, y), z), p) in places.zip(&q[patch.nodes.clone()]) {
+    let to = x.iter_mut().zip(y.iter_mut()).zip(z.iter_mut());
+    for (((x, y), z), place) in to.zip(&patch.places) {
+        let p = &q[*place as usize];
         (*x, *y, *z) = (p[0], p[1], p[2]);
-    }
-    for (place, node) in patch.halo.iter().enumerate() {
-        let p = &q[*node as usize];
-        (x[own + place], y[own + place], z[own + place]) = (p[0], p[1], p[2]);
     }
 }
 
@@ -108,10 +104,10 @@ fn run<S: Simd, L: Law>(simd: S, patch: &mut Patch, shared: Shared, index: usize
     }
 }
 
-/// Σ x·K x over the own nodes.
+/// Σ x·K x; K x is 0 at neighbours' nodes.
 #[inline(always)]
 fn bending_energy<S: Simd>(simd: S, patch: &Patch) -> f64 {
-    let own = patch.nodes.len();
+    let own = patch.places.len();
     let mut lanes = [0.0; LANES];
     let whole = own / LANES * LANES;
     for first in (0..whole).step_by(LANES) {
@@ -132,9 +128,8 @@ fn bending_energy<S: Simd>(simd: S, patch: &Patch) -> f64 {
 #[inline(always)]
 fn give_forces<S: Simd>(simd: S, patch: &mut Patch, force: &mut [[f64; 4]]) {
     let work = &mut patch.work;
-    let own = patch.nodes.len();
+    let padded = patch.places.len().next_multiple_of(LANES);
     for k in 0..3 {
-        let padded = own.next_multiple_of(LANES);
         let corner = [0, 1, 2, 3].map(|c: usize| &work.corner[c][k][..padded]);
         let (kx, total) = (&work.kx[k][..padded], &mut work.x[k][..padded]);
         // The sum takes the place of the positions, which nobody needs any more.
@@ -145,11 +140,12 @@ fn give_forces<S: Simd>(simd: S, patch: &mut Patch, force: &mut [[f64; 4]]) {
             *total = simd.sub_f64s(sum, *kx);
         }
     }
-    let sums = work.x[0][..own].iter().zip(&work.x[1][..own]).zip(&work.x[2][..own]);
-    for (force, ((x, y), z)) in force.iter_mut().zip(sums) {
-        force[0] += x;
-        force[1] += y;
-        force[2] += z;
+    let [x, y, z] = slices(&work.x);
+    for (force, own) in force.iter_mut().zip(&patch.own) {
+        let own = *own as usize;
+        force[0] += x[own];
+        force[1] += y[own];
+        force[2] += z[own];
     }
     let flat: &[f64] = work.scratch.as_flattened().as_flattened().as_flattened();
     for (node, at) in &patch.corners {
