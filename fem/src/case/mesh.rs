@@ -160,7 +160,7 @@ pub const GENERATORS: &[Generator] = &[
             length("length_mm", "length of a strip"),
             length("width_mm", "width of a strip"),
             count("elements", "elements across a strip"),
-            GAP,
+            Key { default: None, ..GAP },
         ],
         make: |v| generate::crossed_sheets(v[0], v[1], v[2] as usize, v[3]),
     },
