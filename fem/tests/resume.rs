@@ -1,5 +1,7 @@
 //! A run that goes on from a saved state is the run that was saved, already before its next step.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests: a panic is the failure to report")]
+
 use fem::case::{Case, shipped_case};
 use fem::{FemError, Simulation};
 use std::path::Path;

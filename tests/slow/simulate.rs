@@ -7,18 +7,18 @@ use std::collections::BTreeMap;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Seconds of work in some hundred thousandths of a second between checkpoints.
+/// A run of about half a second, with every kind of file.
 fn with_case() -> Folder {
     let text = fem::case::shipped_case("pillow").unwrap();
     let text =
-        text.replace("elements = 32 ", "elements = 28 ").replace("[output]", "[output]\nstations_mm = [-200, 0, 200]");
+        text.replace("elements = 32 ", "elements = 24 ").replace("[output]", "[output]\nstations_mm = [-200, 0, 200]");
     let folder = Folder::new();
     folder.write("my.toml", text);
     folder
 }
 
 fn start(folder: &Folder, more: &[&str]) -> Child {
-    let args = [&["simulate", "my.toml", "--checkpoint-every", "20ms", "--out", "run"], more].concat();
+    let args = [&["simulate", "my.toml", "--checkpoint-every", "50ms", "--out", "run"], more].concat();
     folder.ibr(&args).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
