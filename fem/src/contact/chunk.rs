@@ -1,8 +1,10 @@
 //! A few hundred records that are looked at, and stepped, together; their forces add up in a small array of their own.
 
 use super::closest::{Closest, Feature, describe, nearest};
+use super::pack::{Pack, Touches};
 use super::record::{Reach, Record};
 use super::surface::{NONE, Surface};
+use crate::sheet::group::LANES;
 use crate::terms::slide;
 use crate::vec3::{V3, add, along, cross, dot, node, norm, scale, sub};
 
@@ -23,8 +25,12 @@ pub(super) struct Chunk {
     pub candidates: Vec<Candidate>,
     /// Nodes that the chunk may push, ascending.
     pub nodes: Vec<u32>,
-    /// Records that may touch before the next look.
+    /// Records that may touch before the next look: on faces first, then on edges and corners.
     pub near: Vec<u32>,
+    /// Those on faces, ready to be stepped.
+    pub packs: Vec<Pack>,
+    /// Their number.
+    pub faces: u32,
     /// Positions at the last look.
     pub seen_m: Vec<[f64; 4]>,
     /// Each node may move this much before the next look.
@@ -47,6 +53,7 @@ pub(super) struct Sums {
 /// What a step needs to know.
 #[derive(Clone, Copy)]
 pub(super) struct Step<'a> {
+    pub arch: pulp::Arch,
     pub surface: &'a Surface,
     pub x: &'a [[f64; 4]],
     pub before: &'a [[f64; 4]],
@@ -98,14 +105,30 @@ impl Chunk {
         }
         self.active = false;
         out[..self.nodes.len()].fill([0.0; 4]);
-        for &at in &self.near {
-            let record = &mut self.records[at as usize];
+        step.arch.dispatch(Pass { chunk: self, step, out });
+        for at in &self.near[self.faces as usize..] {
+            let record = &mut self.records[*at as usize];
             let touch = touch(record, step.x);
-            if touch.depth_m > 0.0 || record.holds() {
-                press(record, &touch, step, &mut self.sums, out);
+            if touch.depth_m > 0.0 || record.last_m > 0.0 {
+                press_round(record, &touch, step, &mut self.sums, out);
                 self.active = true;
             }
+            record.last_m = touch.depth_m;
         }
+    }
+
+    /// Brings what the packs hold back to the records.
+    pub fn unload(&mut self) {
+        for pack in &self.packs {
+            pack.unload(&mut self.records);
+        }
+    }
+
+    /// Packs the near records that touch faces.
+    pub fn load(&mut self) {
+        let faces = &self.near[..self.faces as usize];
+        self.packs.clear();
+        self.packs.extend(faces.chunks(LANES).map(|members| Pack::new(&self.records, members)));
     }
 
     /// Measures how far nodes moved against the mean motion, or puts the next measurement off.
@@ -131,6 +154,7 @@ impl Chunk {
 
     /// Finds the closest feature of every record and the records that may touch soon.
     pub fn look(&mut self, step: &Step) {
+        self.unload();
         let mut closest_m = f64::INFINITY;
         for record in &mut self.records {
             let candidates = &self.candidates[record.first as usize..(record.first + record.count) as usize];
@@ -143,6 +167,11 @@ impl Chunk {
             }
             let [a, b, c] = found.corners.map(|k| local[k as usize]);
             record.local = [record.local[0], a, b, c];
+            record.last_m = if record.side == 0 { 0.0 } else { touch(record, step.before).depth_m };
+            if record.last_m <= 0.0 && record.holds() {
+                self.sums.friction += record.slide_j();
+                (record.spring_m, record.damped_n) = ([0.0; 3], 0.0);
+            }
             let gap_m = if record.side == 0 { record.distance_m } else { record.distance_m - record.rest_m };
             closest_m = closest_m.min(gap_m);
         }
@@ -150,8 +179,15 @@ impl Chunk {
         // Half of the way left, so that a far pair is looked at again well before it touches.
         let between = (0.5 * closest_m).clamp(reach.slack_m, 0.25 * reach.side_m + reach.slack_m);
         self.near.clear();
-        let near = |r: &Record| r.side != 0 && (r.distance_m - r.rest_m <= between || r.holds());
-        self.near.extend(self.records.iter().enumerate().filter(|(_, r)| near(r)).map(|(i, _)| i as u32));
+        let near = |r: &Record| r.side != 0 && (r.distance_m - r.rest_m <= between || r.last_m > 0.0);
+        for faces in [true, false] {
+            let wanted = |r: &Record| (r.feature == Feature::Face) == faces && near(r);
+            self.near.extend(self.records.iter().enumerate().filter(|(_, r)| wanted(r)).map(|(i, _)| i as u32));
+            if faces {
+                self.faces = self.near.len() as u32;
+            }
+        }
+        self.load();
         self.allowed_m = 0.5 * between;
         self.due_m = step.path_m + 0.5 * self.allowed_m;
         self.seen_m.clear();
@@ -206,28 +242,100 @@ fn round_touch(record: &Record, p: V3, a: V3, b: V3) -> Touch {
     Touch { depth_m: record.rest_m - record.sign * length, normal, weights: [1.0 - t, t, 0.0] }
 }
 
-/// Spring, damping and friction of a record that touches, or did in the step before.
-#[inline]
-fn press(record: &mut Record, touch: &Touch, step: &Step, sums: &mut Sums, out: &mut [[f64; 4]]) {
-    let k = record.stiffness_n_m;
-    let depth = touch.depth_m.max(0.0);
-    let elastic = k * depth;
-    let moved = motion(record, touch, step.x, step.before);
-    let opened = dot(moved, touch.normal);
-    // The layers do not stick to each other: damping never pulls.
-    let damped = if depth > 0.0 { (-record.damping_n_s_m * opened / step.dt_s).max(-elastic) } else { 0.0 };
-    sums.damping -= 0.5 * (damped + record.damped_n) * opened;
-    record.damped_n = damped;
-    let mut force = scale(touch.normal, elastic + damped);
-    if step.friction > 0.0 {
-        let limit = step.friction * (elastic + damped);
-        let (spring, lost) = slide(record.spring_m, moved, touch.normal, k, limit);
-        record.spring_m = spring;
-        sums.friction += lost;
-        force = along(force, -k, spring);
+/// The packs of a chunk in one step.
+struct Pass<'a, 'b> {
+    chunk: &'a mut Chunk,
+    step: &'a Step<'b>,
+    out: &'a mut [[f64; 4]],
+}
+
+impl pulp::WithSimd for Pass<'_, '_> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, simd: S) {
+        let mut touches = Touches::NONE;
+        let Chunk { packs, records, sums, active, .. } = self.chunk;
+        for pack in packs {
+            pack.measure(simd, self.step.x, &mut touches);
+            for lane in 0..LANES {
+                if touches.depth_m[lane] > 0.0 || pack.last_m[lane] > 0.0 {
+                    press_lane(pack, lane, &touches, records, self.step, sums, self.out);
+                    *active = true;
+                }
+            }
+            pack.last_m = touches.depth_m;
+        }
     }
-    sums.stored += 0.5 * k * depth * depth + record.slide_j();
-    spread(record, touch, force, out);
+}
+
+/// A lane that touches, or did in the step before.
+#[inline(always)]
+fn press_lane(
+    pack: &mut Pack,
+    lane: usize,
+    touches: &Touches,
+    records: &mut [Record],
+    step: &Step,
+    sums: &mut Sums,
+    out: &mut [[f64; 4]],
+) {
+    let touch = touches.of(lane);
+    let (k, c, last_m) = (pack.stiffness_n_m[lane], pack.damping_n_s_m[lane], pack.last_m[lane]);
+    let spring = Spring { k, c_dt: c / step.dt_s, last_m };
+    let normal_n = spring.press(touch.depth_m, &mut pack.damped_n[lane], sums);
+    let mut force = scale(touch.normal, normal_n);
+    if step.friction > 0.0 {
+        force = add(force, rub(&mut records[pack.record[lane] as usize], &touch, normal_n, step, sums));
+    }
+    spread([0, 1, 2, 3].map(|k: usize| pack.local[k][lane]), touch.weights, force, out);
+}
+
+/// The same for an edge or corner.
+fn press_round(record: &mut Record, touch: &Touch, step: &Step, sums: &mut Sums, out: &mut [[f64; 4]]) {
+    let c_dt = record.damping_n_s_m / step.dt_s;
+    let spring = Spring { k: record.stiffness_n_m, c_dt, last_m: record.last_m };
+    let normal_n = spring.press(touch.depth_m, &mut record.damped_n, sums);
+    let mut force = scale(touch.normal, normal_n);
+    if step.friction > 0.0 {
+        force = add(force, rub(record, touch, normal_n, step, sums));
+    }
+    spread(record.local, touch.weights, force, out);
+}
+
+/// The normal part of a pair.
+struct Spring {
+    k: f64,
+    /// Damping coefficient over the step.
+    c_dt: f64,
+    last_m: f64,
+}
+
+impl Spring {
+    /// Normal force; `damped_n` goes from the step before to this one.
+    #[inline(always)]
+    fn press(&self, depth_m: f64, damped_n: &mut f64, sums: &mut Sums) -> f64 {
+        let closed = depth_m - self.last_m;
+        let elastic = self.k * if depth_m > 0.0 { depth_m } else { 0.0 };
+        let pull = self.c_dt * closed;
+        // The layers do not stick to each other: damping never pulls more than the spring pushes.
+        let damped = if depth_m > 0.0 { if pull > -elastic { pull } else { -elastic } } else { 0.0 };
+        sums.damping += 0.5 * (damped + *damped_n) * closed;
+        sums.stored += if depth_m > 0.0 { 0.5 * elastic * depth_m } else { 0.0 };
+        *damped_n = damped;
+        elastic + damped
+    }
+}
+
+/// Friction force of a pair.
+#[inline]
+fn rub(record: &mut Record, touch: &Touch, normal_n: f64, step: &Step, sums: &mut Sums) -> V3 {
+    let k = record.stiffness_n_m;
+    let moved = motion(record, touch, step.x, step.before);
+    let (spring, lost) = slide(record.spring_m, moved, touch.normal, k, step.friction * normal_n);
+    record.spring_m = spring;
+    sums.friction += lost;
+    sums.stored += record.slide_j();
+    scale(spring, -k)
 }
 
 /// Motion of the node against the touched point since the step before.
@@ -242,12 +350,12 @@ pub(super) fn motion(record: &Record, touch: &Touch, x: &[[f64; 4]], before: &[[
 }
 
 #[inline(always)]
-fn spread(record: &Record, touch: &Touch, force: V3, out: &mut [[f64; 4]]) {
-    let [p, a, b, c] = record.local.map(|n| n as usize);
+fn spread(local: [u32; 4], weights: [f64; 3], force: V3, out: &mut [[f64; 4]]) {
+    let [p, a, b, c] = local.map(|n| n as usize);
     push(&mut out[p], 1.0, force);
-    push(&mut out[a], -touch.weights[0], force);
-    push(&mut out[b], -touch.weights[1], force);
-    push(&mut out[c], -touch.weights[2], force);
+    push(&mut out[a], -weights[0], force);
+    push(&mut out[b], -weights[1], force);
+    push(&mut out[c], -weights[2], force);
 }
 
 #[inline(always)]

@@ -32,6 +32,7 @@ mod build;
 mod chunk;
 mod closest;
 mod gather;
+mod pack;
 mod record;
 mod save;
 mod search;
@@ -66,6 +67,7 @@ pub struct Contact {
     penalty: Penalty,
     reach: Reach,
     friction: f64,
+    arch: pulp::Arch,
     chunks: Vec<Chunk>,
     gather: Gather,
     /// Forces of the chunks, one block each.
@@ -98,6 +100,7 @@ impl Contact {
             penalty: Penalty { mass_kg: mass_kg.to_vec(), stiffness_1_s2, damping_1_s },
             reach,
             friction: settings.friction,
+            arch: pulp::Arch::new(),
             chunks: Vec::new(),
             gather: Gather::default(),
             out: Vec::new(),
@@ -149,6 +152,7 @@ impl Contact {
     fn step_of<'a>(&'a self, x: &'a [[f64; 4]], dt_s: f64) -> Step<'a> {
         let before = if self.before_m.is_empty() { x } else { &self.before_m };
         Step {
+            arch: self.arch,
             surface: &self.surface,
             x,
             before,
@@ -173,6 +177,7 @@ impl Contact {
 
     fn search(&mut self, x: &[[f64; 4]]) {
         let pairs = search::pairs(&self.surface, x, self.reach.side_m + self.reach.skin_m);
+        self.chunks.iter_mut().for_each(Chunk::unload);
         let old: Vec<Record> = self.chunks.iter().flat_map(|c| c.records.iter().copied()).collect();
         let (chunks, lost) = build::chunks(&self.surface, &pairs, &old, &self.penalty);
         self.sums.friction += lost;

@@ -46,6 +46,8 @@ pub(super) struct Record {
     pub distance_m: f64,
     /// Elastic slide.
     pub spring_m: V3,
+    /// Depth in the step before \[m\].
+    pub last_m: f64,
     /// Damping force of the step before \[N\].
     pub damped_n: f64,
 }

@@ -20,6 +20,8 @@ pub(super) fn write(contact: &Contact) -> Vec<u8> {
     out.f64s(contact.before_m.as_flattened());
     out.u64(contact.chunks.len() as u64);
     for chunk in &contact.chunks {
+        let mut chunk = chunk.clone();
+        chunk.unload();
         out.f64s(&[chunk.allowed_m, chunk.due_m]);
         out.u64(u64::from(chunk.active));
         out.f64s(chunk.seen_m.as_flattened());
@@ -65,6 +67,7 @@ pub(super) fn read(contact: &mut Contact, saved: &[u8]) -> Option<()> {
         if !chunk.seen_m.is_empty() && chunk.seen_m.len() != chunk.nodes.len() {
             return None;
         }
+        chunk.load();
     }
     Some(())
 }
@@ -95,11 +98,13 @@ fn chunk(contact: &Contact, from: &mut Reader) -> Option<Chunk> {
     let good = records.iter().all(fits)
         && candidates.iter().all(|c| c.element < elements)
         && near.iter().all(|at| (*at as usize) < records.len());
-    good.then(|| Chunk { records, candidates, near, seen_m, allowed_m, due_m, active, ..Chunk::default() })
+    let on_face = |at: &u32| records.get(*at as usize).is_some_and(|r| r.feature == Feature::Face);
+    let faces = near.iter().take_while(|at| on_face(at)).count() as u32;
+    good.then(|| Chunk { faces, records, candidates, near, seen_m, allowed_m, due_m, active, ..Chunk::default() })
 }
 
 const INTEGERS: usize = 11;
-const NUMBERS: usize = 9;
+const NUMBERS: usize = 10;
 
 fn integers(r: &Record) -> [u32; INTEGERS] {
     let [a, b, c] = r.corners;
@@ -109,12 +114,12 @@ fn integers(r: &Record) -> [u32; INTEGERS] {
 
 fn numbers(r: &Record) -> [f64; NUMBERS] {
     let [x, y, z] = r.spring_m;
-    [r.sign, r.rest_m, r.stiffness_n_m, r.damping_n_s_m, r.distance_m, x, y, z, r.damped_n]
+    [r.sign, r.rest_m, r.stiffness_n_m, r.damping_n_s_m, r.distance_m, x, y, z, r.last_m, r.damped_n]
 }
 
 fn record(i: &[u32; INTEGERS], n: &[f64; NUMBERS]) -> Option<Record> {
     let [node, a, b, c, element, layer, feature, side, own, first, count] = *i;
-    let [sign, rest_m, stiffness_n_m, damping_n_s_m, distance_m, x, y, z, damped_n] = *n;
+    let [sign, rest_m, stiffness_n_m, damping_n_s_m, distance_m, x, y, z, last_m, damped_n] = *n;
     let feature = [Feature::Face, Feature::Edge, Feature::Corner].into_iter().find(|f| *f as u32 == feature)?;
     let side = [-1, 0, 1].get(side as usize).copied()?;
     let record = Record {
@@ -129,5 +134,15 @@ fn record(i: &[u32; INTEGERS], n: &[f64; NUMBERS]) -> Option<Record> {
         count,
         ..Record::default()
     };
-    Some(Record { sign, rest_m, stiffness_n_m, damping_n_s_m, distance_m, spring_m: [x, y, z], damped_n, ..record })
+    Some(Record {
+        sign,
+        rest_m,
+        stiffness_n_m,
+        damping_n_s_m,
+        distance_m,
+        spring_m: [x, y, z],
+        last_m,
+        damped_n,
+        ..record
+    })
 }

@@ -184,6 +184,8 @@ pub(super) fn relax(contact: &mut Contact, x: &[[f64; 4]]) {
     for chunk in &mut contact.chunks {
         for record in chunk.records.iter_mut().filter(|r| r.side != 0) {
             record.rest_m -= touch(record, x).depth_m.max(0.0);
+            record.last_m = touch(record, x).depth_m;
         }
+        chunk.load();
     }
 }

@@ -49,6 +49,12 @@ impl<S: Simd> V<S> {
         V(self.0, self.0.div_f64s(self.0.splat_f64s(1.0), self.1))
     }
 
+    /// √self.
+    #[inline(always)]
+    pub fn sqrt(self) -> V<S> {
+        V(self.0, self.0.sqrt_f64s(self.1))
+    }
+
     /// Part number `part` of eight lanes.
     #[inline(always)]
     pub fn load(simd: S, from: &Lane, part: usize) -> V<S> {

@@ -1,0 +1,105 @@
+//! Pairs of nodes and faces in groups of eight: the part of contact that runs every step.
+//!
+//! ```text
+//! n = s e₁×e₂/|e₁×e₂|    d = (p − a)·n    w₁ = ((p − a)×e₂)·m/m²    w₂ = (e₁×(p − a))·m/m²    m = e₁×e₂
+//! ```
+
+use pulp::Simd;
+
+use super::chunk::Touch;
+use super::record::Record;
+use crate::sheet::group::{LANES, Lane};
+use crate::sheet::lanes::{V, inner, product};
+
+/// Eight pairs.
+#[derive(Debug, Clone)]
+#[repr(C, align(64))]
+pub(super) struct Pack {
+    /// Node and the corners of the face.
+    pub node: [[u32; LANES]; 4],
+    /// The same in the chunk's numbering.
+    pub local: [[u32; LANES]; 4],
+    pub sign: Lane,
+    pub rest_m: Lane,
+    pub stiffness_n_m: Lane,
+    pub damping_n_s_m: Lane,
+    /// Depth and damping force of the step before.
+    pub last_m: Lane,
+    pub damped_n: Lane,
+    /// Position of the record in the chunk.
+    pub record: [u32; LANES],
+}
+
+/// Geometry of eight pairs at one moment.
+#[derive(Debug, Clone)]
+#[repr(C, align(64))]
+pub(super) struct Touches {
+    pub depth_m: Lane,
+    pub normal: [Lane; 3],
+    pub w1: Lane,
+    pub w2: Lane,
+}
+
+impl Touches {
+    pub const NONE: Touches = Touches { depth_m: [0.0; 8], normal: [[0.0; 8]; 3], w1: [0.0; 8], w2: [0.0; 8] };
+
+    #[inline(always)]
+    pub fn of(&self, lane: usize) -> Touch {
+        let (w1, w2) = (self.w1[lane], self.w2[lane]);
+        let normal = [self.normal[0][lane], self.normal[1][lane], self.normal[2][lane]];
+        Touch { depth_m: self.depth_m[lane], normal, weights: [1.0 - w1 - w2, w1, w2] }
+    }
+}
+
+impl Pack {
+    /// Pairs of these records; unused lanes repeat the first pair with a gap that never closes.
+    pub fn new(records: &[Record], members: &[u32]) -> Pack {
+        let first = members.first().map_or(0, |at| *at);
+        let of = |lane: usize| &records[members.get(lane).copied().unwrap_or(first) as usize];
+        let lanes = |value: fn(&Record) -> f64| std::array::from_fn(|lane| value(of(lane)));
+        let ids = |k: usize| std::array::from_fn(|lane| if k == 0 { of(lane).node } else { of(lane).corners[k - 1] });
+        let mut pack = Pack {
+            node: [ids(0), ids(1), ids(2), ids(3)],
+            local: [0, 1, 2, 3].map(|k| std::array::from_fn(|lane| of(lane).local[k])),
+            sign: lanes(|r| r.sign),
+            rest_m: lanes(|r| r.rest_m),
+            stiffness_n_m: lanes(|r| r.stiffness_n_m),
+            damping_n_s_m: lanes(|r| r.damping_n_s_m),
+            last_m: lanes(|r| r.last_m),
+            damped_n: lanes(|r| r.damped_n),
+            record: std::array::from_fn(|lane| members.get(lane).copied().unwrap_or(first)),
+        };
+        for lane in members.len()..LANES {
+            (pack.rest_m[lane], pack.damped_n[lane], pack.record[lane]) = (f64::NEG_INFINITY, 0.0, u32::MAX);
+            pack.last_m[lane] = f64::NEG_INFINITY;
+        }
+        pack
+    }
+
+    /// Gives the records back what the step before left.
+    pub fn unload(&self, records: &mut [Record]) {
+        for lane in 0..LANES {
+            if let Some(record) = records.get_mut(self.record[lane] as usize) {
+                (record.last_m, record.damped_n) = (self.last_m[lane], self.damped_n[lane]);
+            }
+        }
+    }
+
+    /// Depth, normal and weights of all lanes.
+    #[inline(always)]
+    pub fn measure<S: Simd>(&self, simd: S, x: &[[f64; 4]], touches: &mut Touches) {
+        for part in 0..LANES / S::F64_LANES {
+            let [p, a, b, c]: [[V<S>; 3]; 4] = [0, 1, 2, 3].map(|k: usize| V::gather(simd, x, &self.node[k], part));
+            let axes = [0, 1, 2];
+            let (e1, e2, r) = (axes.map(|k| b[k] - a[k]), axes.map(|k| c[k] - a[k]), axes.map(|k| p[k] - a[k]));
+            let m = product(e1, e2);
+            let inverse = inner(m, m).inverse();
+            let per = V::load(simd, &self.sign, part) * inverse.sqrt();
+            let normal = axes.map(|k| m[k] * per);
+            (V::load(simd, &self.rest_m, part) - inner(r, normal)).store(&mut touches.depth_m, part);
+            (inner(product(r, e2), m) * inverse).store(&mut touches.w1, part);
+            (inner(product(e1, r), m) * inverse).store(&mut touches.w2, part);
+            (0..3).for_each(|k| normal[k].store(&mut touches.normal[k], part));
+        }
+    }
+}
