@@ -160,9 +160,14 @@ impl Chunk {
             let candidates = &self.candidates[record.first as usize..(record.first + record.count) as usize];
             let Some((found, local)) = closest(step, record, candidates) else { continue };
             let held = (record.side, record.slide_j());
+            let depth_m = if held.0 == 0 { 0.0 } else { touch(record, step.x).depth_m };
             record.settle(step.surface, &found, &step.reach);
-            if record.side != held.0 && held.0 != 0 {
+            if record.side == held.0 && held.0 != 0 {
+                let now_m = touch(record, step.x).depth_m;
+                self.sums.damping += record.ease(depth_m, now_m);
+            } else if held.0 != 0 {
                 self.sums.friction += held.1;
+                self.sums.damping += 0.5 * record.stiffness_n_m * depth_m.max(0.0).powi(2);
                 (record.spring_m, record.damped_n) = ([0.0; 3], 0.0);
             }
             let [a, b, c] = found.corners.map(|k| local[k as usize]);
@@ -311,19 +316,28 @@ struct Spring {
 }
 
 impl Spring {
-    /// Normal force; `damped_n` goes from the step before to this one.
+    /// Normal force; `damped_n` goes from the step before to this one. The loss is the work of the step less what the
+    /// spring stores: damping, and what a step that ends or begins within the gap takes or gives.
     #[inline(always)]
     fn press(&self, depth_m: f64, damped_n: &mut f64, sums: &mut Sums) -> f64 {
         let closed = depth_m - self.last_m;
-        let elastic = self.k * if depth_m > 0.0 { depth_m } else { 0.0 };
+        let (deep, was) = (positive(depth_m), positive(self.last_m));
+        let elastic = self.k * deep;
         let pull = self.c_dt * closed;
         // The layers do not stick to each other: damping never pulls more than the spring pushes.
         let damped = if depth_m > 0.0 { if pull > -elastic { pull } else { -elastic } } else { 0.0 };
-        sums.damping += 0.5 * (damped + *damped_n) * closed;
-        sums.stored += if depth_m > 0.0 { 0.5 * elastic * depth_m } else { 0.0 };
+        let work = 0.5 * (damped + *damped_n + self.k * (deep + was)) * closed;
+        let stored = 0.5 * elastic * deep;
+        sums.damping += work - (stored - 0.5 * self.k * was * was);
+        sums.stored += stored;
         *damped_n = damped;
         elastic + damped
     }
+}
+
+#[inline(always)]
+fn positive(value: f64) -> f64 {
+    if value > 0.0 { value } else { 0.0 }
 }
 
 /// Friction force of a pair.

@@ -21,6 +21,10 @@
 //! until it is away again; so thin layers cannot swap. Connected pieces of one layer near a node are remembered one by
 //! one, so a tube may fold onto itself. A run starts without contact force: see `start`.
 //!
+//! **Energy.** Changing from face to face, or a side judged wrongly in a crumple, must not create energy: at such a
+//! change the rest gap is lowered so that the depth stays; it grows back to what is wanted when the pair is apart. What
+//! that loses, and what a time step takes or gives that begins or ends within the gap, is in `contact damping`.
+//!
 //! **Cost.** Candidates are found by a search that is repeated only when nodes moved half the skin; of these, pairs that
 //! may touch are picked again when nodes moved against each other, chunk by chunk; a step evaluates those only.
 //!

@@ -39,7 +39,9 @@ pub(super) struct Record {
     pub count: u32,
     /// Sign that turns the measured distance into one that grows away from the layer on the remembered side.
     pub sign: f64,
+    /// Distance that is kept now, and the one that is wanted \[m\].
     pub rest_m: f64,
+    pub wanted_m: f64,
     pub stiffness_n_m: f64,
     pub damping_n_s_m: f64,
     /// Distance at the last look \[m\].
@@ -64,6 +66,16 @@ impl Record {
         0.5 * self.stiffness_n_m * (x * x + y * y + z * z)
     }
 
+    /// After a change of feature: keeps the depth, lest the change push. A pair that is apart gets its gap back, as far
+    /// as it is apart. Returns the energy that a reduced depth loses \[J\].
+    pub fn ease(&mut self, before_m: f64, now_m: f64) -> f64 {
+        let kept = before_m.max(0.0);
+        let distance_m = self.rest_m - now_m;
+        self.rest_m = self.wanted_m.min(distance_m + kept);
+        let depth = (self.rest_m - distance_m).max(0.0);
+        0.5 * self.stiffness_n_m * (kept * kept - depth * depth)
+    }
+
     /// Takes the closest feature over; the side may be decided, released or reset.
     pub fn settle(&mut self, surface: &Surface, found: &Closest, reach: &Reach) {
         self.element = found.element;
@@ -78,6 +90,7 @@ impl Record {
         } else if self.side == 0 && distance <= reach.side_m && distance > 0.0 && !beside {
             self.side = if found.height_m > 0.0 { 1 } else { -1 };
             let rest_m = if self.own { reach.thickness_m.min(reach.own_layer_m) } else { reach.thickness_m };
+            self.wanted_m = rest_m;
             self.rest_m = rest_m.min(found.height_m.abs());
         }
         let side = f64::from(self.side);

@@ -104,7 +104,7 @@ fn chunk(contact: &Contact, from: &mut Reader) -> Option<Chunk> {
 }
 
 const INTEGERS: usize = 11;
-const NUMBERS: usize = 10;
+const NUMBERS: usize = 11;
 
 fn integers(r: &Record) -> [u32; INTEGERS] {
     let [a, b, c] = r.corners;
@@ -114,12 +114,12 @@ fn integers(r: &Record) -> [u32; INTEGERS] {
 
 fn numbers(r: &Record) -> [f64; NUMBERS] {
     let [x, y, z] = r.spring_m;
-    [r.sign, r.rest_m, r.stiffness_n_m, r.damping_n_s_m, r.distance_m, x, y, z, r.last_m, r.damped_n]
+    [r.sign, r.rest_m, r.wanted_m, r.stiffness_n_m, r.damping_n_s_m, r.distance_m, x, y, z, r.last_m, r.damped_n]
 }
 
 fn record(i: &[u32; INTEGERS], n: &[f64; NUMBERS]) -> Option<Record> {
     let [node, a, b, c, element, layer, feature, side, own, first, count] = *i;
-    let [sign, rest_m, stiffness_n_m, damping_n_s_m, distance_m, x, y, z, last_m, damped_n] = *n;
+    let [sign, rest_m, wanted_m, stiffness_n_m, damping_n_s_m, distance_m, x, y, z, last_m, damped_n] = *n;
     let feature = [Feature::Face, Feature::Edge, Feature::Corner].into_iter().find(|f| *f as u32 == feature)?;
     let side = [-1, 0, 1].get(side as usize).copied()?;
     let record = Record {
@@ -137,6 +137,7 @@ fn record(i: &[u32; INTEGERS], n: &[f64; NUMBERS]) -> Option<Record> {
     Some(Record {
         sign,
         rest_m,
+        wanted_m,
         stiffness_n_m,
         damping_n_s_m,
         distance_m,

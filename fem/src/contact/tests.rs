@@ -2,5 +2,6 @@
 
 mod laws;
 mod rig;
+mod runs;
 mod speed;
 mod start;

@@ -80,7 +80,7 @@ impl Rig {
         let mut stiff = vec![0.0; mass.len()];
         springs.iter().for_each(|s| [s.0, s.1].iter().for_each(|n| stiff[*n as usize] += 2.0 * STIFF));
         let omega2 = stiff.iter().zip(&mass).map(|(k, m)| k / m).fold(0.0, f64::max);
-        let dt = 0.9 * 2.0 / f64::sqrt(omega2);
+        let dt = 0.6 * 2.0 / f64::sqrt(omega2);
         let contact = Contact::new(&mesh, settings, &mass, dt)?;
         let x: Vec<_> = (0..mass.len()).map(|i| mesh.start_of(i)).map(|p| [p[0], p[1], p[2], 0.0]).collect();
         Ok(Rig {
