@@ -89,7 +89,7 @@ impl Pack {
     #[inline(always)]
     pub fn measure<S: Simd>(&self, simd: S, x: &[[f64; 4]], touches: &mut Touches) {
         for part in 0..LANES / S::F64_LANES {
-            let [p, a, b, c]: [[V<S>; 3]; 4] = [0, 1, 2, 3].map(|k: usize| V::gather(simd, x, &self.node[k], part));
+            let [p, a, b, c]: [[V<S>; 3]; 4] = [0, 1, 2, 3].map(|k: usize| rows(simd, x, &self.node[k], part));
             let axes = [0, 1, 2];
             let (e1, e2, r) = (axes.map(|k| b[k] - a[k]), axes.map(|k| c[k] - a[k]), axes.map(|k| p[k] - a[k]));
             let m = product(e1, e2);
@@ -102,4 +102,15 @@ impl Pack {
             (0..3).for_each(|k| normal[k].store(&mut touches.normal[k], part));
         }
     }
+}
+
+/// Positions of one of the nodes of every lane.
+#[inline(always)]
+fn rows<S: Simd>(simd: S, x: &[[f64; 4]], node: &[u32; LANES], part: usize) -> [V<S>; 3] {
+    let mut out = [[0.0; LANES]; 3];
+    for lane in 0..S::F64_LANES {
+        let p = &x[node[part * S::F64_LANES + lane] as usize];
+        (out[0][lane], out[1][lane], out[2][lane]) = (p[0], p[1], p[2]);
+    }
+    [V::load(simd, &out[0], 0), V::load(simd, &out[1], 0), V::load(simd, &out[2], 0)]
 }

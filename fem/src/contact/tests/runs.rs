@@ -11,9 +11,9 @@ fn lowest(rig: &Rig, nodes: std::ops::Range<usize>, layer: u32) -> f64 {
     let faces: Vec<u32> = (0..surface.elements.len() as u32).filter(|e| surface.layer[*e as usize] == layer).collect();
     let mut low = f64::INFINITY;
     for i in nodes {
-        let near = |e: &&u32| nearest(surface, &rig.x, rig.p(i), **e).0;
-        let Some(best) = faces.iter().min_by(|a, b| near(a).total_cmp(&near(b))) else { continue };
-        let found = closest::describe(surface, &rig.x, rig.p(i), *best, 0.0);
+        let near = faces.iter().map(|e| (nearest(surface, &rig.x, rig.p(i), *e).0, *e));
+        let Some((_, best)) = near.min_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
+        let found = closest::describe(surface, &rig.x, rig.p(i), best, 0.0);
         if !found.rim {
             low = low.min(found.height_m);
         }
@@ -39,7 +39,7 @@ fn two_crossed_strips_thrown_at_each_other_never_pass_through() {
     let mut step = 0;
     rig.run_with(2400, |rig| {
         step += 1;
-        if step % 20 == 0 {
+        if step % 100 == 0 {
             let low = lowest(rig, lower..all, 0);
             assert!(low > deepest, "step {step}: {low} m against {deepest} m");
         }
@@ -60,15 +60,15 @@ fn a_dome_thrown_on_a_held_sheet_comes_back_and_the_books_close() {
     let (sheet, all) = (21 * 21, 21 * 21 + 15 * 15);
     let mut rig = Rig::new(mesh, &settings(0.3)).unwrap();
     for i in 0..sheet {
-        rig.fixed[i] = i % 21 == 0 || i % 21 == 20 || i < 21 || i >= 20 * 21;
+        rig.fixed[i] = i % 21 == 0 || i % 21 == 20 || !(21..20 * 21).contains(&i);
     }
     rig.throw(sheet..all, [0.2, 0.0, -2.0]);
     let start = rig.kinetic_of([0.2, 0.0, -2.0], sheet..all);
     let deepest = -depth(&rig, 2.0);
     let mut step = 0;
-    rig.run_with(6000, |rig| {
+    rig.run_with(4500, |rig| {
         step += 1;
-        if step % 50 == 0 {
+        if step % 300 == 0 {
             assert!(lowest(rig, sheet..all, 0) > deepest, "step {step}: {}", lowest(rig, sheet..all, 0));
         }
     });
@@ -95,15 +95,15 @@ fn incline(angle_rad: f64, friction: f64, seconds: f64) -> (Rig, f64, f64) {
 
 #[test]
 fn a_patch_on_an_incline_sticks_below_the_friction_angle() {
-    let (_, speed, way) = incline(0.2, 0.3, 0.05);
-    // Free fall along the slope would be 2.4 mm and 0.1 m/s.
+    let (_, speed, way) = incline(0.2, 0.3, 0.02);
+    // Free fall along the slope would be 0.4 mm and 0.04 m/s.
     assert!(way.abs() < 5e-6 && speed.abs() < 1e-3, "{way} m, {speed} m/s");
 }
 
 #[test]
 fn a_patch_on_an_incline_slides_with_the_acceleration_of_coulomb() {
     let (angle, friction) = (0.5_f64, 0.3);
-    let (rig, speed, _) = incline(angle, friction, 0.05);
+    let (rig, speed, _) = incline(angle, friction, 0.02);
     let exact = 9.81 * (angle.sin() - friction * angle.cos()) * rig.dt * rig.step as f64;
     assert!((speed - exact).abs() < 0.01 * exact, "{speed} against {exact} m/s");
     let miss = rig.residual(0.0);
@@ -127,8 +127,8 @@ fn a_pressed_and_shaken_stack_of_layers_keeps_its_order() {
     rig.v.iter_mut().for_each(|v| *v = [0.0, 0.0, 2.0 * noise.next(), 0.0]);
     let static_m = 2e4 * rig.dt * rig.dt / (2.0 * 0.05 * 0.2);
     let deepest = -(depth(&rig, 4.0) + 2.0 * static_m);
-    for step in 0..60 {
-        rig.run(50);
+    for step in 0..10 {
+        rig.run(300);
         for layer in 0..4 {
             let low = lowest(&rig, 121 * (layer + 1)..121 * (layer + 2), layer as u32);
             assert!(low > deepest, "burst {step}, layer {layer}: {low} m against {deepest} m");
@@ -160,7 +160,7 @@ fn a_tube_of_one_layer_slammed_flat_does_not_pass_through_itself() {
     let start: f64 = rig.v.iter().zip(&rig.mass).map(|(v, m)| 0.5 * m * v[2] * v[2]).sum();
     let deepest = -depth(&rig, 8.0);
     let mut met = false;
-    for _ in 0..400 {
+    for _ in 0..250 {
         rig.run(10);
         for i in 0..11 {
             // Node 6 rows up is the top of the ring, 18 the bottom.
@@ -184,7 +184,10 @@ fn nothing_that_touches_is_missing_from_the_near_pairs() {
     rig.throw(81..181, [3.0, 1.0, -4.0]);
     rig.v.iter_mut().for_each(|v| (0..3).for_each(|k| v[k] += 2.0 * noise.next()));
     let mut touched = 0;
-    rig.run_with(1500, |rig| {
+    rig.run_with(900, |rig| {
+        if rig.step % 4 != 0 {
+            return;
+        }
         let at: Vec<_> = rig.x.iter().zip(&rig.v).map(|(x, v)| [0, 1, 2, 3].map(|k| x[k] - rig.dt * v[k])).collect();
         let surface = &rig.contact.surface;
         let near: std::collections::HashSet<u32> = rig.contact.near().map(|r| r.node).collect();
@@ -200,7 +203,7 @@ fn nothing_that_touches_is_missing_from_the_near_pairs() {
             }
         }
     });
-    assert!(touched > 100, "{touched}");
+    assert!(touched > 20, "{touched}");
 }
 
 #[test]

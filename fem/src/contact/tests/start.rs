@@ -67,8 +67,8 @@ fn the_layers_of_a_coincident_pillow_do_not_swap_when_they_are_pressed_together(
 fn contact_pressure_is_the_pressure_that_presses() {
     let mut rig = Rig::new(pillow(12, 0.05, true, [0, 1]), &settings(0.0)).unwrap();
     rig.pressure = vec![1e3, 1e3];
-    rig.alpha = 2000.0;
-    rig.run(20_000);
+    rig.alpha = 5000.0;
+    rig.run(4000);
     let pressure = rig.contact.pressure_pa(rig.x.as_flattened());
     let middle = 6 * 13 + 6;
     assert!((pressure[middle] - 1e3).abs() < 20.0, "{} Pa", pressure[middle]);
