@@ -83,7 +83,7 @@ pub fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<Loaded>
 fn start_anew(path: PathBuf, reason: &str) -> FemError {
     FemError::Checkpoint {
         path,
-        reason: format!("the file {reason}, and there is no other good one. Start the run anew with --fresh"),
+        reason: format!("the file {reason}, and there is no other good one. Start the run anew with --force"),
     }
 }
 
