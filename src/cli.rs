@@ -55,8 +55,8 @@ pub enum Command {
         #[arg(long)]
         all: bool,
     },
-    /// Measure the speed of the model on this machine
-    Bench,
+    /// Measure the speed on this machine: of the model, or of the finite element engine
+    Bench(BenchArgs),
     /// Shell completions on standard output
     Completions {
         /// Which shell
@@ -68,6 +68,17 @@ pub enum Command {
         #[arg(long)]
         out: Option<PathBuf>,
     },
+}
+
+/// What is measured.
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// model or fem
+    #[arg(value_parser = ["model", "fem"], default_value = "model")]
+    pub what: String,
+    /// With fem: also whole runs of up to 80 000 triangles' nodes, about a minute
+    #[arg(long)]
+    pub all: bool,
 }
 
 /// Where results go.

@@ -16,6 +16,7 @@
 //! | [`run`] | time stepping, stable step, ledger, guards |
 //! | [`output`] | vtu, pvd, history, checkpoints |
 //! | [`verify`] | problems with known answers |
+//! | [`speed`] | workloads whose speed is measured |
 //! | [`case`] | the TOML file that describes a run |
 //!
 //! `fem` never sees a measurement.
@@ -29,6 +30,7 @@ pub mod plain;
 pub mod problem;
 pub mod run;
 pub mod sheet;
+pub mod speed;
 pub mod terms;
 mod vec3;
 pub mod verify;

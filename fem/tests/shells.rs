@@ -1,6 +1,8 @@
 //! Laws of the shell term: the fast kernels equal the plain ones, force is minus the slope of energy, rigid motion
 //! costs nothing.
 
+#![allow(clippy::unwrap_used)]
+
 use std::sync::Arc;
 
 use fem::mesh::generate;

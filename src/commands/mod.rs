@@ -1,6 +1,7 @@
 //! One file per command; each returns what to print.
 
 mod bench;
+mod bench_fem;
 mod compare;
 mod data;
 mod demo;
@@ -90,7 +91,8 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
         Command::New { kind } => list::new(kind),
         Command::Tradeoff(out) => tradeoff::run(out.out.as_deref(), context),
         Command::Verify { all } => Ok(verify::run(*all)),
-        Command::Bench => bench::run(context),
+        Command::Bench(args) if args.what == "fem" => bench_fem::run(args.all, context),
+        Command::Bench(_) => bench::run(context),
         Command::Completions { shell } => Ok(completions(*shell)),
         Command::Man { out } => man(out.as_deref(), context),
     }

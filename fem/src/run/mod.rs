@@ -13,6 +13,7 @@ mod guard;
 mod ledger;
 mod setup;
 mod step;
+mod team;
 
 pub use crate::sheet::fields::ElementFields;
 pub use ledger::Ledger;
@@ -26,6 +27,7 @@ use crate::sheet::Sheet;
 use crate::sheet::order::Order;
 use crate::{FemError, Mesh, Problem};
 use constraint::{Body, Driven};
+use team::Team;
 
 /// A run in progress.
 pub struct Simulation {
@@ -53,7 +55,7 @@ pub struct Simulation {
     clock: Clock,
     books: Books,
     /// Taken out while it works.
-    pool: Option<rayon::ThreadPool>,
+    team: Option<Team>,
 }
 
 /// What does not change during a run.

@@ -3,6 +3,7 @@
 use models::{Pose, Term};
 
 use super::constraint::{bodies, driven};
+use super::team::Team;
 use super::{Books, Clock, Limits, Simulation};
 use crate::contact::Contact;
 use crate::problem::MassScaling;
@@ -65,8 +66,6 @@ impl Simulation {
             speed_m_s: if settings.guards.speed_m_s > 0.0 { settings.guards.speed_m_s } else { sound_speed(&sheet) },
             added_mass,
         };
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build();
-        let pool = pool.map_err(|e| FemError::Problem(format!("cannot start {} threads: {e}", settings.threads)))?;
         Ok(Simulation {
             fixed: listed(&fixed),
             moved: listed(&moved),
@@ -87,7 +86,7 @@ impl Simulation {
             mass,
             limits,
             x,
-            pool: Some(pool),
+            team: Some(Team::new(settings.threads)?),
         })
     }
 }

@@ -38,25 +38,22 @@ impl Simulation {
         Ok(Advance::Reached)
     }
 
-    /// Up to `steps` steps, inside the pool.
+    /// Up to `steps` steps.
     fn burst(&mut self, steps: u64, time_s: f64) {
-        // The pool is moved out for the call, so that the steps may borrow the rest.
-        let pool = self.pool.take();
-        let mut work = || {
+        // The team is moved out for the call, so that the steps may borrow the rest.
+        let Some(mut team) = self.team.take() else { return };
+        team.run(|| {
             for done in 1..=steps {
                 let ahead = self.clock.time_s + 1.5 * self.clock.dt_s;
                 self.sheet.measure = done == steps || ahead >= time_s;
                 self.one_step();
                 if ahead >= time_s {
-                    break;
+                    return done;
                 }
             }
-        };
-        match &pool {
-            Some(pool) => pool.install(work),
-            None => work(),
-        }
-        self.pool = pool;
+            steps
+        });
+        self.team = Some(team);
     }
 
     fn one_step(&mut self) {

@@ -1,5 +1,6 @@
 //! A run on its way: rows, frames and checkpoints as it goes, so that it can go on where it was interrupted.
 
+use crate::cost::cpu_seconds;
 use crate::commands::Context;
 use crate::failure::Failure;
 use fem::case::Case;
@@ -269,22 +270,5 @@ fn clock(seconds: f64) -> String {
         s if s < 100.0 => format!("{s:.0} s"),
         s if s < 6000.0 => format!("{:.0} min", s / 60.0),
         s => format!("{:.1} h", s / 3600.0),
-    }
-}
-
-/// Processor seconds of this process; real time where the system does not say.
-fn cpu_seconds() -> f64 {
-    /// Clock ticks per second of `/proc`, the same on every Linux.
-    const TICKS: f64 = 100.0;
-    static START: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
-    let started = START.get_or_init(Instant::now);
-    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    // Fields after the name, which is in parentheses and may contain anything: user and system time are the 12th and 13th.
-    let ticks = stat
-        .rsplit_once(')')
-        .map(|(_, rest)| rest.split_whitespace().skip(11).take(2).filter_map(|f| f.parse::<f64>().ok()));
-    match ticks.map(Iterator::collect::<Vec<f64>>).as_deref() {
-        Some([user, system]) => (user + system) / TICKS,
-        _ => started.elapsed().as_secs_f64(),
     }
 }

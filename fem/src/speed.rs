@@ -1,0 +1,71 @@
+//! Workloads whose speed is measured: what `ibr bench fem` and `benches/fem.rs` run.
+//!
+//! The counts per element-step below are of the inner loops as written: a regular quadrilateral of an orthotropic fabric
+//! with viscosity, hourglass control and pressure (volumes are taken every eighth step and not counted).
+
+use std::sync::Arc;
+
+use models::fabrics::Orthotropic;
+
+use crate::mesh::generate;
+use crate::problem::{Amplitude, Chamber, Ply, Pressure, Problem, Section};
+use crate::{FemError, Simulation};
+
+/// Multiplications, additions and subtractions per quadrilateral and step, membrane and pressure.
+pub const FLOPS_MEMBRANE: f64 = 312.0;
+/// The same per node and step for bending: 13 neighbours in three directions, and its energy.
+pub const FLOPS_BENDING: f64 = 13.0 * 6.0 + 6.0;
+/// Per node and step: corner sums, update of velocity and position, energies.
+pub const FLOPS_NODE: f64 = 15.0 + 4.0 * 12.0;
+
+/// Bytes that one element and its node move between cache and core per step: element constants 112, strains in and out
+/// 48, corner forces out and in 192, positions and velocities 200.
+pub const BYTES_MEMBRANE: f64 = 112.0 + 48.0 + 192.0 + 200.0;
+/// More bytes for bending: sums out and in; the stencil's weights are shared by eight nodes.
+pub const BYTES_BENDING: f64 = 72.0 + 20.0;
+
+/// The square airbag of the wrinkling literature (`fem/cases/pillow.toml`) with `n` × `n` quadrilaterals per layer.
+///
+/// # Errors
+/// As the generator.
+pub fn pillow(n: usize, bending: bool) -> Result<Problem, FemError> {
+    let fabric = Arc::new(Orthotropic::isotropic(588e6, 0.4, 0.6e-3));
+    let section = Section {
+        plies: vec![Ply { fabric, angle_rad: 0.0 }],
+        bonded: true,
+        density_kg_m3: 1000.0,
+        bending_factor: if bending { 0.01 } else { 0.0 },
+        rest_curvature: false,
+    };
+    let ramp = Amplitude::Smooth(vec![(0.0, 0.0), (0.05, 5e3)]);
+    let mesh = generate::pillow(0.8485, n, 0.0)?;
+    let name = mesh.parts[0].back.clone().unwrap_or_default();
+    let air = Chamber { name, pressure: Pressure::Set(ramp), open_axis: None };
+    let sections = vec![section; mesh.parts.len()];
+    let mut problem = Problem::new("pillow", mesh, sections, vec![air]);
+    problem.settings.end_s = 0.15;
+    problem.settings.mass_damping_1_s = 100.0;
+    Ok(problem)
+}
+
+/// Steps a run by `steps` steps of its current length and returns how many were done.
+///
+/// # Errors
+/// As [`Simulation::advance_until`].
+pub fn advance_by(run: &mut Simulation, steps: u64) -> Result<u64, FemError> {
+    let from = run.step();
+    run.advance_until(run.time_s() + steps as f64 * run.dt_s(), &mut |_| true)?;
+    Ok(run.step() - from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_workload_runs_and_keeps_its_balance() {
+        let mut run = Simulation::new(&pillow(8, true).unwrap()).unwrap();
+        assert_eq!(advance_by(&mut run, 300).unwrap(), 300);
+        assert!(run.ledger().residual_share() < 0.02);
+    }
+}

@@ -1,0 +1,174 @@
+//! `ibr bench fem`: speed of the finite element engine on this machine, beside what it must reach.
+
+use super::tables::table;
+use super::{Context, Outcome};
+use crate::cost::{cpu_seconds, resident_bytes};
+use crate::failure::Failure;
+use crate::output::machine;
+use fem::{Problem, Simulation, speed};
+use serde_json::json;
+use std::time::Instant;
+
+/// A figure is the best of this many repetitions: the others were disturbed.
+const REPEATS: usize = 5;
+/// Steps per repetition.
+const STEPS: u64 = 400;
+
+/// One measured line.
+struct Figure {
+    what: String,
+    elements: usize,
+    value: f64,
+    unit: &'static str,
+    wanted: f64,
+    /// True if more is better.
+    rate: bool,
+    residual: f64,
+}
+
+impl Figure {
+    fn met(&self) -> bool {
+        if self.rate { self.value >= self.wanted } else { self.value <= self.wanted }
+    }
+}
+
+pub fn run(all: bool, context: &mut Context) -> Result<Outcome, Failure> {
+    let mut figures = Vec::new();
+    for (what, bending, wanted) in [("membrane only", false, 60.0), ("membrane + bending", true, 40.0)] {
+        (context.progress)(what, None);
+        figures.push(throughput(what, &speed::pillow(100, bending)?, wanted)?);
+    }
+    (context.progress)("two threads", None);
+    figures.push(two_threads()?);
+    figures.push(memory()?);
+    let whole: &[(usize, &str, f64)] = &[(36, "4.9k", 0.6), (72, "20k", 5.0), (142, "80k", 40.0)];
+    for (n, name, wanted) in &whole[..if all { 3 } else { 2 }] {
+        (context.progress)(&format!("whole run, {name}"), None);
+        figures.push(whole_run(*n, name, *wanted)?);
+    }
+    Ok(report(&figures))
+}
+
+fn report(figures: &[Figure]) -> Outcome {
+    let rows = figures.iter().map(|f| {
+        vec![
+            f.what.clone(),
+            f.elements.to_string(),
+            format!("{:.2} {}", f.value, f.unit),
+            format!("{} {}", if f.rate { "at least" } else { "at most" }, f.wanted),
+            if f.met() { "yes" } else { "no" }.into(),
+            format!("{:.1e}", f.residual),
+        ]
+    });
+    let mut text = format!("Finite elements on {}\n", machine());
+    text.push_str(&table(&["what", "quads", "measured", "wanted", "met", "energy residual"], 1, rows.collect()));
+    text.push_str(&roofline(figures));
+    let list: Vec<_> = figures
+        .iter()
+        .map(|f| {
+            json!({"what": f.what, "elements": f.elements, "value": f.value, "unit": f.unit, "wanted": f.wanted,
+                "met": f.met(), "energy_residual": f.residual})
+        })
+        .collect();
+    Outcome::new(text, json!({"schema": "ibr.bench.fem", "version": 1, "machine": machine(), "figures": list}))
+}
+
+/// Million element-steps per CPU-second.
+fn throughput(what: &str, problem: &Problem, wanted: f64) -> Result<Figure, Failure> {
+    let mut run = Simulation::new(problem)?;
+    speed::advance_by(&mut run, STEPS)?;
+    let mut best = 0.0_f64;
+    for _ in 0..REPEATS {
+        let start = cpu_seconds();
+        let steps = speed::advance_by(&mut run, STEPS)?;
+        best = best.max(steps as f64 * run.elements() as f64 / (cpu_seconds() - start) / 1e6);
+    }
+    Ok(Figure {
+        what: what.to_owned(),
+        elements: run.elements(),
+        value: best,
+        unit: "M element-steps/CPU-s",
+        wanted,
+        rate: true,
+        residual: run.ledger().residual_share(),
+    })
+}
+
+/// Real time of one thread over that of two, alternating so that both see the same machine.
+fn two_threads() -> Result<Figure, Failure> {
+    let with = |threads: usize| -> Result<Simulation, Failure> {
+        let mut problem = speed::pillow(100, true)?;
+        problem.settings.threads = threads;
+        let mut run = Simulation::new(&problem)?;
+        speed::advance_by(&mut run, STEPS)?;
+        Ok(run)
+    };
+    let mut runs = [with(1)?, with(2)?];
+    let mut best = [f64::INFINITY; 2];
+    for _ in 0..REPEATS {
+        for (run, best) in runs.iter_mut().zip(&mut best) {
+            let start = Instant::now();
+            speed::advance_by(run, STEPS)?;
+            *best = best.min(start.elapsed().as_secs_f64());
+        }
+    }
+    Ok(Figure {
+        what: "two threads against one".into(),
+        elements: runs[1].elements(),
+        value: best[0] / best[1],
+        unit: "times",
+        wanted: 1.75,
+        rate: true,
+        residual: runs[1].ledger().residual_share(),
+    })
+}
+
+/// Growth of the resident memory by a run, per element.
+fn memory() -> Result<Figure, Failure> {
+    let problem = speed::pillow(150, true)?;
+    let before = resident_bytes();
+    let mut run = Simulation::new(&problem)?;
+    speed::advance_by(&mut run, 10)?;
+    let grown = resident_bytes() - before;
+    Ok(Figure {
+        what: "memory of a run".into(),
+        elements: run.elements(),
+        value: grown / run.elements() as f64,
+        unit: "bytes per element",
+        wanted: 1000.0,
+        rate: false,
+        residual: run.ledger().residual_share(),
+    })
+}
+
+/// CPU-seconds of the whole pillow run to 0.15 s, preparation and ledger included.
+fn whole_run(n: usize, name: &str, wanted: f64) -> Result<Figure, Failure> {
+    let start = cpu_seconds();
+    let problem = speed::pillow(n, true)?;
+    let mut run = Simulation::new(&problem)?;
+    run.advance_until(problem.settings.end_s, &mut |_| true)?;
+    Ok(Figure {
+        what: format!("pillow to 0.15 s, nodes of {name} triangles"),
+        elements: run.elements(),
+        value: cpu_seconds() - start,
+        unit: "CPU-s",
+        wanted,
+        rate: false,
+        residual: run.ledger().residual_share(),
+    })
+}
+
+/// What an element-step takes, beside what was reached.
+fn roofline(figures: &[Figure]) -> String {
+    let (flops, bytes) = (speed::FLOPS_MEMBRANE + speed::FLOPS_NODE, speed::BYTES_MEMBRANE);
+    let (more, more_bytes) = (flops + speed::FLOPS_BENDING, bytes + speed::BYTES_BENDING);
+    let rate = |i: usize| figures.get(i).map_or(0.0, |f| f.value * 1e6);
+    format!(
+        "One element-step: {flops:.0} flops and {bytes:.0} bytes (with bending {more:.0} and {more_bytes:.0}).\n\
+         Reached: {:.0} Gflop/s and {:.0} GB/s (with bending {:.0} and {:.0}).\n",
+        rate(0) * flops / 1e9,
+        rate(0) * bytes / 1e9,
+        rate(1) * more / 1e9,
+        rate(1) * more_bytes / 1e9,
+    )
+}
