@@ -166,7 +166,7 @@ fn decode(bytes: &[u8], fingerprint: u64) -> Found {
     if checkpoint.fingerprint != fingerprint {
         return Found::Foreign(format!(
             "it belongs to another problem ({:016x}, this one is {fingerprint:016x}): the case or mesh was changed. Undo \
-             the change, choose another folder, or start anew with --fresh",
+             the change, choose another folder, or start anew with --force",
             checkpoint.fingerprint
         ));
     }
@@ -177,7 +177,7 @@ fn of_version(found: Option<u64>) -> String {
     let found = found.map_or("missing".to_string(), |version| version.to_string());
     format!(
         "its format version is {found}, this program reads {VERSION}: go on with the program that wrote it, or start anew \
-         with --fresh"
+         with --force"
     )
 }
 

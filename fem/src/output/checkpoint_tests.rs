@@ -51,7 +51,7 @@ fn every_changed_byte_and_every_cut_is_noticed() {
     cases.push(vec![0; good.len()]);
     for bad in cases {
         std::fs::write(&path, &bad).unwrap();
-        assert!(reason(folder.path()).contains("--fresh"));
+        assert!(reason(folder.path()).contains("--force"));
     }
 }
 
