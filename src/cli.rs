@@ -49,12 +49,8 @@ pub enum Command {
     },
     /// Run time against accuracy of every model present
     Tradeoff(OutDirOptional),
-    /// Check the closed forms against their known numbers
-    Verify {
-        /// Print every number, not only the sections
-        #[arg(long)]
-        all: bool,
-    },
+    /// Check the closed forms against their known numbers, and the finite element engine against the closed forms
+    Verify(VerifyArgs),
     /// Measure the speed on this machine: of the model, or of the finite element engine
     Bench(BenchArgs),
     /// Shell completions on standard output
@@ -68,6 +64,23 @@ pub enum Command {
         #[arg(long)]
         out: Option<PathBuf>,
     },
+}
+
+/// What is checked.
+#[derive(Debug, Args)]
+pub struct VerifyArgs {
+    /// Print every closed-form number, not only the sections
+    #[arg(long)]
+    pub all: bool,
+    /// Also the finite element checks that take long, some minutes in all
+    #[arg(long)]
+    pub slow: bool,
+    /// Only these finite element checks, by name
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub only: Vec<String>,
+    /// Draw the checks that have curves into this folder
+    #[arg(long, value_name = "FOLDER")]
+    pub plots: Option<PathBuf>,
 }
 
 /// What is measured.

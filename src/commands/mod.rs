@@ -12,6 +12,7 @@ mod simulate;
 mod tables;
 mod tradeoff;
 mod verify;
+mod verify_fem;
 
 use crate::cli::{Cli, Command};
 use crate::failure::Failure;
@@ -90,7 +91,7 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
         Command::List { what } => list::run(what.as_deref()),
         Command::New { kind } => list::new(kind),
         Command::Tradeoff(out) => tradeoff::run(out.out.as_deref(), context),
-        Command::Verify { all } => Ok(verify::run(*all)),
+        Command::Verify(args) => verify::run(args, context),
         Command::Bench(args) if args.what == "fem" => bench_fem::run(args.all, context),
         Command::Bench(_) => bench::run(context),
         Command::Completions { shell } => Ok(completions(*shell)),

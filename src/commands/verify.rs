@@ -1,35 +1,42 @@
-//! `ibr verify`: the closed forms against their known numbers.
+//! `ibr verify`: the closed forms against their known numbers, then the engine against the closed forms.
 
-use super::Outcome;
 use super::tables::table;
-use crate::failure::MISSED;
+use super::{Context, Outcome, verify_fem};
+use crate::cli::VerifyArgs;
+use crate::failure::{Failure, MISSED};
 use models::exact::{OracleRow, oracle_table};
 use serde_json::json;
 
-pub fn run(all: bool) -> Outcome {
-    let rows = oracle_table();
+pub fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome, Failure> {
+    let rows = if args.only.is_empty() { oracle_table() } else { Vec::new() };
     let wrong: Vec<&OracleRow> = rows.iter().filter(|r| !r.agrees()).collect();
-    let mut text = if all { every(&rows) } else { sections(&rows) };
-    for row in &wrong {
+    let mut text = String::new();
+    if !rows.is_empty() {
+        text.push_str(&if args.all { every(&rows) } else { sections(&rows) });
+        for row in &wrong {
+            text.push_str(&format!(
+                "WRONG: {}, {}: {} expected, {:e} computed\n",
+                row.section, row.quantity, row.printed, row.computed
+            ));
+        }
         text.push_str(&format!(
-            "WRONG: {}, {}: {} expected, {:e} computed\n",
-            row.section, row.quantity, row.printed, row.computed
+            "{} of {} numbers reproduced to the last printed digit\n\n",
+            rows.len() - wrong.len(),
+            rows.len()
         ));
     }
-    text.push_str(&format!(
-        "{} of {} numbers reproduced to the last printed digit\n",
-        rows.len() - wrong.len(),
-        rows.len()
-    ));
+    let engine = verify_fem::run(args, context)?;
+    text.push_str(&engine.text);
     let list: Vec<_> = rows
         .iter()
         .map(|r| json!({"section": r.section, "quantity": r.quantity, "expected": r.printed, "computed": r.computed, "agrees": r.agrees()}))
         .collect();
-    let code = if wrong.is_empty() { 0 } else { MISSED };
-    Outcome {
-        code,
-        ..Outcome::new(text, json!({"schema": "ibr.verify", "version": 1, "wrong": wrong.len(), "rows": list}))
-    }
+    let code = if wrong.is_empty() && engine.missed == 0 { 0 } else { MISSED };
+    let json = json!({
+        "schema": "ibr.verify", "version": 2, "wrong": wrong.len(), "rows": list,
+        "engine_missed": engine.missed, "engine": engine.json,
+    });
+    Ok(Outcome { code, notes: engine.notes, ..Outcome::new(text, json) })
 }
 
 fn every(rows: &[OracleRow]) -> String {

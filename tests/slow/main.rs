@@ -1,6 +1,7 @@
 //! Tests that need an optimised build: `cargo test --release --test slow` (`./check.sh` runs it).
 //!
-//! A new test belongs into the module of what it measures or runs to its end: `demo`, `interrupts`, `simulate`,
+//! A new test belongs into the module of what it measures or runs to its end: `demo`, `engine` (the finite
+//! element engine against known answers), `interrupts`, `simulate`,
 //! `large_file`, `figures` (speed and known numbers), `documents` (command lines of the documents). Whatever takes less than a
 //! second in an unoptimised build belongs into `tests/fast`.
 
@@ -8,6 +9,7 @@
 
 mod demo;
 mod documents;
+mod engine;
 mod figures;
 mod interrupts;
 mod large_file;

@@ -1,7 +1,7 @@
 //! A run on its way: rows, frames and checkpoints as it goes, so that it can go on where it was interrupted.
 
-use crate::cost::cpu_seconds;
 use crate::commands::Context;
+use crate::cost::cpu_seconds;
 use crate::failure::Failure;
 use fem::case::Case;
 use fem::output::Frame;
