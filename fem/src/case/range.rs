@@ -69,7 +69,7 @@ pub(super) const DENSITY: Range = Range {
     si: 1.0,
     low: 50.0,
     high: 20_000.0,
-    too_small: "this looks like g/cm³ or kg/m²: write kg/m³, for example 1140 for nylon; kg/m² divided by the thickness in m",
+    too_small: "this looks like g/cm³ or kg/m²: write kg/m³, for example 1140 for nylon; kg/m² over the thickness in m",
     too_large: "write kg/m³, for example 1140 for nylon",
 };
 
