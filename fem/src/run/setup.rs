@@ -44,7 +44,7 @@ impl Simulation {
         mesh.start = x.iter().map(|x| [x[0], x[1], x[2]]).collect();
         let terms = terms(problem, &mesh, &mass, dt_s)?;
         let contact = match &problem.contact {
-            Some(contact) => Some(Contact::new(&mesh, contact, &mass, dt_s)?),
+            Some(contact) => Some(self::contact(problem, contact, &mesh, &order, &mass, dt_s)?),
             None => None,
         };
         sheet.start(x.as_flattened());
@@ -89,6 +89,24 @@ impl Simulation {
             team: Some(Team::new(settings.threads)?),
         })
     }
+}
+
+/// Contact in the order of the run. A fault is looked for again in mesh order, so that its message has the user's
+/// numbers.
+fn contact(
+    problem: &Problem,
+    settings: &crate::problem::Contact,
+    mesh: &Mesh,
+    order: &Order,
+    mass: &[f64],
+    dt_s: f64,
+) -> Result<Contact, FemError> {
+    Contact::new(mesh, settings, mass, dt_s).map_err(|fault| {
+        let mass: Vec<f64> = order.new.iter().map(|place| mass[*place as usize]).collect();
+        let start = order.new.iter().map(|place| mesh.start[*place as usize]).collect();
+        let users = Mesh { start, ..problem.mesh.clone() };
+        Contact::new(&users, settings, &mass, dt_s).err().unwrap_or(fault)
+    })
 }
 
 /// The terms beside shells and contact.

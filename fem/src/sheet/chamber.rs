@@ -45,9 +45,11 @@ impl Air {
         }
     }
 
-    /// True if the pressure depends on the volume, so that it is needed at every step.
-    pub fn follows_volume(&self) -> bool {
-        matches!(self.chamber.pressure, Pressure::Sealed { .. })
+    /// True if the volume is needed at this step: the pressure depends on it, or has changed by more than a hundredth
+    /// since the work ∫p dV was booked.
+    pub fn wants_volume(&self) -> bool {
+        let follows = matches!(self.chamber.pressure, Pressure::Sealed { .. });
+        follows || (self.pressure_pa - self.booked_pa).abs() > 0.01 * self.pressure_pa.abs()
     }
 
     /// Sets the pressure for a step at time `t`. A sealed chamber extrapolates its volume by one step, to second order.

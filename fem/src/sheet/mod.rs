@@ -204,8 +204,7 @@ impl Sheet {
     }
 }
 
-/// Steps between two measurements of the volumes, which only the work ∫p dV needs: pressures change by less than a
-/// thousandth in between.
+/// Most steps between two measurements of the volumes, which only the work ∫p dV needs.
 const VOLUME_EVERY: u64 = 8;
 
 impl Term for Sheet {
@@ -223,7 +222,7 @@ impl Term for Sheet {
 
     fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64 {
         self.air.iter_mut().for_each(|air| air.set_pressure(tick.time_s));
-        let flux = self.measure || tick.step.is_multiple_of(VOLUME_EVERY) || self.air.iter().any(Air::follows_volume);
+        let flux = self.measure || tick.step.is_multiple_of(VOLUME_EVERY) || self.air.iter().any(Air::wants_volume);
         self.pass(at.q, force, 1.0 / tick.dt_s, flux, true);
         self.viscous_j += self.patches.iter().map(|p| p.sums.viscous).sum::<f64>();
         if flux {
