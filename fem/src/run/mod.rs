@@ -89,10 +89,24 @@ struct Clock {
 struct Books {
     kinetic: f64,
     stored: f64,
-    damping: f64,
-    support: f64,
+    damping: Halves,
+    support: Halves,
     start: f64,
     scale: f64,
+}
+
+/// A sum of what happens from half a step before to half a step after each moment, read at the moments.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Halves {
+    sum: f64,
+    last: f64,
+}
+
+impl Halves {
+    fn add(&mut self, whole: f64) {
+        self.sum += 0.5 * (self.last + whole);
+        self.last = whole;
+    }
 }
 
 /// Why [`Simulation::advance_until`] returned.
@@ -134,7 +148,8 @@ impl Simulation {
         let (c, b) = (&self.clock, &self.books);
         out.u64(c.step);
         out.f64s(&[c.time_s, c.dt_s, c.before_s, c.longest_s]);
-        out.f64s(&[b.kinetic, b.stored, b.damping, b.support, b.start, b.scale]);
+        out.f64s(&[b.kinetic, b.stored, b.start, b.scale]);
+        out.f64s(&[b.damping.sum, b.damping.last, b.support.sum, b.support.last]);
         out.f64s(self.x.as_flattened());
         out.f64s(self.v.as_flattened());
         out.bytes(&self.sheet.save());
@@ -148,7 +163,10 @@ impl Simulation {
         let step = from.u64()?;
         let [time_s, dt_s, before_s, longest_s] = from.f64s()?.try_into().ok()?;
         self.clock = Clock { step, time_s, dt_s, before_s, longest_s };
-        let [kinetic, stored, damping, support, start, scale] = from.f64s()?.try_into().ok()?;
+        let [kinetic, stored, start, scale] = from.f64s()?.try_into().ok()?;
+        let [damping, damping_last, support, support_last] = from.f64s()?.try_into().ok()?;
+        let (damping, support) =
+            (Halves { sum: damping, last: damping_last }, Halves { sum: support, last: support_last });
         self.books = Books { kinetic, stored, damping, support, start, scale };
         from.f64s_into(self.x.as_flattened_mut())?;
         from.f64s_into(self.v.as_flattened_mut())?;
@@ -214,9 +232,9 @@ impl Simulation {
         let mut rows = self.sheet.ledger(&pose);
         rows.extend(self.others().flat_map(|term| term.ledger(&pose)));
         let row = |name, kind, energy_j| Row { name, kind, energy_j };
-        rows.push(row("mass damping", RowKind::Dissipated, self.books.damping));
+        rows.push(row("mass damping", RowKind::Dissipated, self.books.damping.sum));
         if !self.driven.is_empty() {
-            rows.push(row("supports", RowKind::Supplied, self.books.support));
+            rows.push(row("supports", RowKind::Supplied, self.books.support.sum));
         }
         Ledger::close(self.books.kinetic, rows, self.books.start, self.books.scale)
     }

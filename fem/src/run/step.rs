@@ -70,9 +70,11 @@ impl Simulation {
             stored += contact.advance(&pose, &tick, force);
         }
         constraint::hand_over(&self.mesh.ties, &mut self.force);
+        let mut support = 0.0;
         for driven in &self.driven {
-            self.books.support += driven.step(t + dt, dt, &self.mass, &self.force, &self.x, &mut self.v);
+            support += driven.step(t + dt, dt, &self.mass, &self.force, &self.x, &mut self.v);
         }
+        self.books.support.add(support);
         for body in &mut self.bodies {
             body.step(dv, dt, self.limits.damping_1_s, &self.force, &self.x, &mut self.v);
         }
@@ -87,7 +89,7 @@ impl Simulation {
         }
         self.books.kinetic = kinetic;
         self.books.stored = stored;
-        self.books.damping += self.limits.damping_1_s * dv * damped;
+        self.books.damping.add(self.limits.damping_1_s * dv * damped);
         self.clock.before_s = dt;
         self.clock.time_s += dt;
         self.clock.step += 1;
