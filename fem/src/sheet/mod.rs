@@ -361,3 +361,32 @@ fn over_patches<'a>(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::speed;
+
+    /// Forces and energies of a shaken pillow on the given vector instructions.
+    fn bits_on(arch: pulp::Arch) -> (Vec<u64>, Vec<Row>) {
+        let problem = speed::pillow(24, true).unwrap();
+        let order = order::Order::of(&problem.mesh);
+        let mesh = order::renumber(&problem.mesh, &order);
+        let mut sheet = Sheet::new(&mesh, &order, &problem.sections, &problem.chambers, &problem.settings).unwrap();
+        sheet.arch = arch;
+        let shake = |i: usize, k: usize| 1e-3 * ((i * 7919 + k * 104_729) as f64 * 0.618_033_988).fract();
+        let node = |(i, p): (usize, &[f64; 3])| [p[0] + shake(i, 0), p[1] + shake(i, 1), p[2] + shake(i, 2), 0.0];
+        let q: Vec<f64> = mesh.points.iter().enumerate().flat_map(node).collect();
+        let mut force = vec![0.0; q.len()];
+        let tick = Tick { step: 0, time_s: 0.03, dt_s: 1e-5, v: &[] };
+        sheet.advance(&Pose::nodes(&q), &tick, &mut force);
+        (force.iter().map(|f| f.to_bits()).collect(), sheet.ledger(&Pose::nodes(&q)))
+    }
+
+    #[test]
+    fn every_width_of_vector_registers_gives_the_same_bits() {
+        let (widest, scalar) = (bits_on(pulp::Arch::new()), bits_on(pulp::Arch::Scalar));
+        assert!(widest.0.iter().any(|bits| *bits != 0));
+        assert_eq!(widest, scalar);
+    }
+}
