@@ -170,7 +170,8 @@ impl<'a> Running<'a> {
             return Ok(None);
         }
         let stress_mpa: Vec<f64> = self.run.element_fields().von_mises_pa.iter().map(|s| s * 1e-6).collect();
-        let look = Look { view: self.case.outputs.view, ..Look::default() };
+        let title = format!("{}, von Mises stress [MPa] at {:.4} s", self.case.problem.name, self.run.time_s());
+        let look = Look { view: self.case.outputs.view, title, ..Look::default() };
         let image = picture::render(&self.case.problem.mesh, &self.run.positions(), &stress_mpa, &look)?;
         picture::write_png(&folder.join(PICTURE), &image)?;
         Ok(Some(PICTURE))

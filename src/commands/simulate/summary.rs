@@ -53,11 +53,25 @@ fn physics(case: &Case, running: &Running) -> Value {
         "schema": "ibr.simulate", "version": 1, "name": case.problem.name,
         "time_s": run.time_s(), "steps": run.step(), "dt_s": run.dt_s(),
         "nodes": mesh.points.len(), "elements": run.elements(), "added_mass_share": run.added_mass(),
+        "quality": quality(case),
         "probes": probes, "chambers": chambers,
         "ledger": rows, "kinetic_j": ledger.kinetic_j, "external_work_j": ledger.external_work_j,
         "residual_j": ledger.residual_j, "residual_share": ledger.residual_share(), "residual_share_peak": largest,
         "kinetic_share": kinetic(&running.balances),
     })
+}
+
+/// Shape of the elements; the run would not have started with a mesh that does not pass.
+fn quality(case: &Case) -> Option<Value> {
+    let problem = &case.problem;
+    let chambers: Vec<&str> = problem.chambers.iter().map(|c| c.name.as_str()).collect();
+    let open: Vec<&str> = problem.open.iter().map(String::as_str).collect();
+    let quality = fem::mesh::check::check_open(&problem.mesh, &chambers, &open).ok()?;
+    let side = &quality.side_m;
+    Some(json!({
+        "side_mm": [side.min * 1e3, side.median * 1e3, side.max * 1e3], "aspect": quality.aspect.value,
+        "jacobian_ratio": quality.jacobian_ratio.value, "warpage": quality.warpage.value,
+    }))
 }
 
 /// Mean displacement of a node set from where it started \[m\].
@@ -120,6 +134,13 @@ pub fn text(s: &Value) -> String {
         out.push_str(&format!(
             "mass added by scaling: {:.1} % of the true mass\n",
             100.0 * number(&s["added_mass_share"])
+        ));
+    }
+    if let [Some(min), Some(median), Some(max)] = [0, 1, 2].map(|i| s["quality"]["side_mm"][i].as_f64()) {
+        out.push_str(&format!(
+            "element sides {min:.2} to {max:.2} mm, median {median:.2}; worst aspect {:.1}, worst Jacobian ratio {:.2}\n",
+            number(&s["quality"]["aspect"]),
+            number(&s["quality"]["jacobian_ratio"])
         ));
     }
     let rows = list(&s["probes"]).map(|p| {

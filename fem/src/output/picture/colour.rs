@@ -1,5 +1,7 @@
 //! The colour map, and the bar that explains it.
 
+use font8x8::{BASIC_FONTS, LATIN_FONTS, UnicodeFonts};
+
 use super::Image;
 use super::raster::bytes;
 
@@ -36,7 +38,7 @@ pub(super) fn draw_bar(image: &mut Image, (low, high): (f64, f64)) {
     let (top, bottom) = (image.height / 5, image.height - image.height / 5);
     for row in top..bottom {
         let colour = bytes(viridis((bottom - 1 - row) as f64 / (bottom - 1 - top).max(1) as f64));
-        (left..left + 8 * zoom).for_each(|column| paint(image, row, column, colour));
+        (left..left + 16 * zoom).for_each(|column| paint(image, row, column, colour));
     }
     let gap = 3 * zoom;
     write_text(image, top.saturating_sub(LETTER_ROWS * zoom + gap), left, zoom, &short(high));
@@ -45,7 +47,7 @@ pub(super) fn draw_bar(image: &mut Image, (low, high): (f64, f64)) {
 
 /// Size of a dot of the letters.
 fn zoom(height: usize) -> usize {
-    (height / 250).max(2)
+    (height / 400).max(1)
 }
 
 /// Four digits at most, as a person would write them.
@@ -62,35 +64,26 @@ fn short(value: f64) -> String {
     }
 }
 
-const LETTER_ROWS: usize = 5;
-const LETTER_STEP: usize = 4;
+/// Dots of a letter, rows and columns, as in the font.
+const LETTER_ROWS: usize = 8;
+const LETTER_STEP: usize = 8;
 /// Letters in the longest text: -1.2e-300.
-const LONGEST: usize = 9;
+const LONGEST: usize = 8;
 
-/// Three dots by five for each of `0123456789-.e`, row by row from the top.
-const LETTERS: [u16; 13] = [
-    0b111_101_101_101_111,
-    0b010_110_010_010_111,
-    0b111_001_111_100_111,
-    0b111_001_111_001_111,
-    0b101_101_111_001_001,
-    0b111_100_111_001_111,
-    0b111_100_111_101_111,
-    0b111_001_010_010_010,
-    0b111_101_111_101_111,
-    0b111_101_111_001_111,
-    0b000_000_111_000_000,
-    0b000_000_000_000_010,
-    0b000_011_111_100_011,
-];
+/// Writes the title at the top left.
+pub(super) fn draw_title(image: &mut Image, title: &str) {
+    let zoom = zoom(image.height);
+    write_text(image, 4 * zoom, 4 * zoom, zoom, title);
+}
 
 fn write_text(image: &mut Image, top: usize, left: usize, zoom: usize, text: &str) {
     for (index, letter) in text.chars().enumerate() {
-        let Some(number) = "0123456789-.e".find(letter) else { continue };
-        for dot in (0..15).filter(|dot| LETTERS[number] >> (14 - dot) & 1 == 1) {
-            let (row, column) = (dot / 3, dot % 3 + index * LETTER_STEP);
-            for (i, j) in (0..zoom).flat_map(|i| (0..zoom).map(move |j| (i, j))) {
-                paint(image, top + row * zoom + i, left + column * zoom + j, [40; 3]);
+        let rows = BASIC_FONTS.get(letter).or_else(|| LATIN_FONTS.get(letter)).unwrap_or_default();
+        for (row, dots) in rows.into_iter().enumerate() {
+            for column in (0..8).filter(|column| dots >> column & 1 == 1) {
+                for (i, j) in (0..zoom).flat_map(|i| (0..zoom).map(move |j| (i, j))) {
+                    paint(image, top + row * zoom + i, left + (column + index * LETTER_STEP) * zoom + j, [40; 3]);
+                }
             }
         }
     }

@@ -82,12 +82,23 @@ pub struct Look {
     pub edges: bool,
     /// Draw the colour map with its limits at the right.
     pub bar: bool,
+    /// Line at the top: what is shown, and in which unit the colours are. Letters of western Europe.
+    pub title: String,
 }
 
 impl Default for Look {
     fn default() -> Look {
         let (width, height) = (960, 600);
-        Look { view: View::Isometric, width, height, limits: None, bounds: None, edges: true, bar: true }
+        Look {
+            view: View::Isometric,
+            width,
+            height,
+            limits: None,
+            bounds: None,
+            edges: true,
+            bar: true,
+            title: String::new(),
+        }
     }
 }
 
@@ -127,6 +138,7 @@ pub fn render(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &Look) 
     if with_bar {
         colour::draw_bar(&mut image, limits);
     }
+    colour::draw_title(&mut image, &look.title);
     Ok(image)
 }
 
