@@ -3,6 +3,13 @@
 //! A check builds a [`crate::Problem`], runs it with the real engine and compares with a closed form
 //! (`models::exact`), a conservation law or a published band. To add one: one new file here and one line in [`CHECKS`].
 
+mod balloon;
+mod bias_tube;
+mod cantilever;
+mod inflated;
+mod long_pouch;
+mod pillow;
+
 use crate::FemError;
 
 /// A problem with a known answer.
@@ -83,7 +90,14 @@ pub struct Curve {
 }
 
 /// All checks, quick ones first.
-pub const CHECKS: &[Check] = &[];
+pub const CHECKS: &[Check] = &[
+    long_pouch::CHECK,
+    cantilever::SLOPE,
+    bias_tube::CHECK,
+    balloon::CHECK,
+    pillow::CHECK,
+    cantilever::WRINKLING,
+];
 
 impl Line {
     /// A number against a known value.
