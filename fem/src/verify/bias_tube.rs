@@ -84,8 +84,11 @@ fn contractions(fabric: Orthotropic, pressures_pa: &[f64]) -> Result<Vec<f64>, F
     }
     let sheet = section(Arc::new(fabric), 0.0);
     let mut problem = Problem::new("bias tube", mesh, vec![sheet.clone(), sheet], vec![chamber("air", points)]);
-    problem.supports =
-        vec![hold("anchor", [true; 3]), hold("anchor_end", [false, true, true]), hold("corners_0", [false, false, true])];
+    problem.supports = vec![
+        hold("anchor", [true; 3]),
+        hold("anchor_end", [false, true, true]),
+        hold("corners_0", [false, false, true]),
+    ];
     problem.settings.mass_damping_1_s = 150.0;
     problem.settings.cfl = 0.7;
     problem.settings.imperfection = 1e-3;

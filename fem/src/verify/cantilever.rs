@@ -58,7 +58,7 @@ const C10_PA: f64 = 50.3e6;
 const INFLATED_S: f64 = 0.03;
 /// Time to move the tip to its next place, and to come to rest there.
 const MOVE_S: f64 = 0.01;
-const REST_S: f64 = 0.025;
+const REST_S: f64 = 0.03;
 
 fn slope() -> Result<Outcome, FemError> {
     let mut run = Run::new(&Setup { around: 64, along: 36, grade: 0.0, hourglass: 0.01 }, &[at_share(0.2)])?;
@@ -68,7 +68,10 @@ fn slope() -> Result<Outcome, FemError> {
         l.powi(3) / (3.0 * young_pa * t * PI * r.powi(3)) + l / (0.5 * shear_pa * 2.0 * PI * r * t)
     };
     let measured = 1e3 * point.deflection_m / point.force_n;
-    Ok(Outcome { lines: vec![Line::value("tip deflection per force [mm/N]", measured, 1e3 * line, 0.02)], figure: None })
+    Ok(Outcome {
+        lines: vec![Line::value("tip deflection per force [mm/N]", measured, 1e3 * line, 0.02)],
+        figure: None,
+    })
 }
 
 fn wrinkling() -> Result<Outcome, FemError> {
@@ -85,7 +88,12 @@ fn wrinkling() -> Result<Outcome, FemError> {
             Line::value(&name, point.force_n, share * collapse, 0.05)
         })
         .collect();
-    lines.push(Line::value("moment of the first wrinkle [N m]", first_wrinkle(&points), 0.5 * collapse * BEAM.length_m, 0.05));
+    lines.push(Line::value(
+        "moment of the first wrinkle [N m]",
+        first_wrinkle(&points),
+        0.5 * collapse * BEAM.length_m,
+        0.05,
+    ));
     let largest = points.iter().fold(0.0, |most: f64, p| most.max(p.force_n));
     lines.push(Line::value("moment of collapse [N m]", largest * BEAM.length_m, collapse * BEAM.length_m, 0.05));
     lines.push(Line::at_most("energy residual over work", run.run.ledger().residual_share(), 0.01));
@@ -100,7 +108,8 @@ fn first_wrinkle(points: &[Point]) -> f64 {
 }
 
 fn figure(points: &[Point]) -> Figure {
-    let exact = (1..=99).map(|i| f64::from(i) / 100.0).map(|share| [1e3 * at_share(share), share * collapse_tip_load_n(&BEAM)]);
+    let exact =
+        (1..=99).map(|i| f64::from(i) / 100.0).map(|share| [1e3 * at_share(share), share * collapse_tip_load_n(&BEAM)]);
     let engine = points.iter().map(|p| [1e3 * p.deflection_m, p.force_n]);
     Figure {
         title: "Inflated cantilever up to collapse".into(),
@@ -196,7 +205,7 @@ fn problem(mesh: Mesh, hourglass: f64, deflections_m: &[f64]) -> Problem {
         crate::problem::Section { density_kg_m3, ..section }
     };
     // Caps are heavier so that their triangles do not limit the step; at rest that does not matter.
-    let sections = vec![of(BEAM.thickness_m, 1e3), of(BEAM.thickness_m, 1e4), of(10.0 * BEAM.thickness_m, 2.5e3)];
+    let sections = vec![of(BEAM.thickness_m, 1e3), of(BEAM.thickness_m, 1e4), of(5.0 * BEAM.thickness_m, 2.5e3)];
     let air = chamber("body", vec![(0.0, 0.0), (INFLATED_S / 3.0, BEAM.pressure_pa)]);
     let mut problem = Problem::new("inflated cantilever", mesh, sections, vec![air]);
     let mut way = vec![(INFLATED_S, 0.0)];
@@ -207,10 +216,8 @@ fn problem(mesh: Mesh, hourglass: f64, deflections_m: &[f64]) -> Problem {
     problem.settings.end_s = way.last().map_or(INFLATED_S, |last| last.0);
     let still = Amplitude::Constant(0.0);
     let motion = Some([still.clone(), still, Amplitude::Smooth(way)]);
-    problem.supports = vec![
-        hold("base_cap", [true; 3]),
-        Support { set: "hung".into(), axes: [false, true, true], motion },
-    ];
+    problem.supports =
+        vec![hold("base_cap", [true; 3]), Support { set: "hung".into(), axes: [false, false, true], motion }];
     problem.settings.mass_damping_1_s = 500.0;
     problem.settings.hourglass = hourglass;
     problem.settings.imperfection = 1e-3;

@@ -90,14 +90,8 @@ pub struct Curve {
 }
 
 /// All checks, quick ones first.
-pub const CHECKS: &[Check] = &[
-    long_pouch::CHECK,
-    cantilever::SLOPE,
-    bias_tube::CHECK,
-    balloon::CHECK,
-    pillow::CHECK,
-    cantilever::WRINKLING,
-];
+pub const CHECKS: &[Check] =
+    &[long_pouch::CHECK, cantilever::SLOPE, bias_tube::CHECK, balloon::CHECK, pillow::CHECK, cantilever::WRINKLING];
 
 impl Line {
     /// A number against a known value.
