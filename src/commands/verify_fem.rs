@@ -108,11 +108,20 @@ fn as_json(check: &Check, outcome: &Outcome, cpu_s: f64) -> Value {
 }
 
 fn draw(figure: &Figure) -> Result<Vec<u8>, Failure> {
-    let series = figure.curves.iter().map(|curve| LineSeries {
-        name: curve.label.clone(),
-        points: curve.points.clone(),
-        style: if curve.exact { LineStyle::Line } else { LineStyle::LinePoints },
-        ..LineSeries::default()
+    let known = figure.curves.iter().filter(|c| c.exact).count();
+    let paired = 2 * known == figure.curves.len();
+    let mut seen = [0, 0];
+    let series = figure.curves.iter().map(|curve| {
+        let place = &mut seen[usize::from(curve.exact)];
+        *place += 1;
+        LineSeries {
+            name: curve.label.clone(),
+            points: curve.points.clone(),
+            style: if curve.exact { LineStyle::Line } else { LineStyle::Points },
+            // An engine's marks have the colour of the line that they belong to.
+            colour: paired.then_some(*place - 1),
+            ..LineSeries::default()
+        }
     });
     let lines = Lines {
         title: figure.title.clone(),
