@@ -10,7 +10,7 @@ use crate::problem::MassScaling;
 use crate::sheet::order::{Order, renumber};
 use crate::sheet::reference::{cross, dot};
 use crate::sheet::{Sheet, reference};
-use crate::terms::{Gravity, NodalForces, Obstacles, penalty_stiffness_n_m};
+use crate::terms::{Gravity, NodalForces, Obstacles, RestCurvature, penalty_stiffness_n_m};
 use crate::{FemError, Mesh, Problem};
 
 /// Penalty stiffness of obstacles as a share of m/dt².
@@ -36,13 +36,18 @@ impl Simulation {
         imperfect(&mut x, &mesh, &order, &fixed, settings.imperfection, settings.seed);
         let mut bound = vec![0.0; count];
         sheet.stiffness_bound(&Pose::nodes(x.as_flattened()), &mut bound);
+        let rest = RestCurvature::new(&mesh, &problem.sections);
+        rest.stiffness_bound(&Pose::nodes(x.as_flattened()), &mut bound);
         let true_mass: f64 = mass.iter().sum();
         scale_masses(settings.mass_scaling, &bound, &mut mass);
         let added_mass = mass.iter().sum::<f64>() / true_mass - 1.0;
         let stable = stable_step(&bound, &mass, settings.viscosity);
         let dt_s = choose_step(stable, settings.cfl, settings.dt_s)?;
         mesh.start = x.iter().map(|x| [x[0], x[1], x[2]]).collect();
-        let terms = terms(problem, &mesh, &mass, dt_s)?;
+        let mut terms = terms(problem, &mesh, &mass, dt_s)?;
+        if !rest.is_empty() {
+            terms.push(Box::new(rest));
+        }
         let contact = match &problem.contact {
             Some(contact) => Some(self::contact(problem, contact, &mesh, &order, &mass, dt_s)?),
             None => None,

@@ -12,13 +12,18 @@
 //! | D | bending stiffness | N m |
 //!
 //! The fabric hardly stretches, so the reference weights stay valid and K is constant: 12 neighbours per node on a
-//! regular grid. A node counts if the elements of its layer close round it; at free edges, seams and welds the fabric
-//! hinges freely. **Do not use it when stretch changes the element size by tens of per cent.**
+//! regular grid. At free edges, seams and welds the fabric hinges freely about the edge and bends along it: a node there
+//! has the curvature along the edge instead (see [`super::edge`]), so that a strip of width b has the stiffness D b. At
+//! corners there is neither. **Do not use it when stretch changes the element size by tens of per cent.**
+//!
+//! (κ₁ + κ₂)² is the energy of a plate less a multiple of its Gaussian curvature, which only matters where an edge is
+//! free: there the strip curls across as if ν were 1, over a width of about √(t/κ) that its membrane keeps small.
 //! Reference: Bergou et al. 2006, A quadratic bending model for inextensible surfaces.
 
 use std::collections::BTreeMap;
 
-use super::reference::{cross, dot, sub};
+use super::edge;
+use super::reference::{add_scaled, cross, dot, sub, unit};
 use crate::mesh::Mesh;
 
 /// Row of the curvature operator at one node: H_i A_i = Σ_j w_ij x_j (the diagonal is in the list, first).
@@ -32,6 +37,19 @@ pub struct CurvatureRow {
     pub stiffness: f64,
     /// (node, weight), weights summing to 0.
     pub weights: Vec<(u32, f64)>,
+    /// Area vectors of its shares of the elements, for the normal of the sheet.
+    pub facets: Vec<Facet>,
+}
+
+/// Share of an element that belongs to a corner: `share` (x_b − x_a) × (x_d − x_c) is its area vector \[m²\].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Facet {
+    /// Nodes a, b, c, d.
+    pub nodes: [u32; 4],
+    /// ⅛ of a quadrilateral's diagonals, ⅙ of a triangle's sides.
+    pub share: f64,
+    /// Part number.
+    pub part: usize,
 }
 
 /// Sparse symmetric matrix K, row by row \[N/m\].
@@ -62,41 +80,79 @@ struct Fan {
     weights: BTreeMap<u32, f64>,
     /// Elements on each spoke (edge from the node); a closed fan has two on every one.
     spokes: BTreeMap<u32, u32>,
+    facets: Vec<Facet>,
 }
 
 fn layer_rows(mesh: &Mesh, parts: &[usize], stiffness: &[f64]) -> Vec<CurvatureRow> {
     let mut fans: BTreeMap<u32, Fan> = BTreeMap::new();
     for part in parts {
         for i in 0..mesh.parts[*part].len() {
-            add_element(mesh, mesh.parts[*part].nodes(i), stiffness[*part], &mut fans);
+            add_element(mesh, mesh.parts[*part].nodes(i), *part, stiffness[*part], &mut fans);
         }
     }
-    let closed = |fan: &Fan| fan.spokes.values().all(|n| *n == 2);
-    fans.into_iter().filter(|(_, fan)| closed(fan)).map(|(node, fan)| fan.row(node)).collect()
+    fans.into_iter().filter_map(|(node, fan)| fan.row(mesh, node)).collect()
 }
 
 impl Fan {
-    fn row(self, node: u32) -> CurvatureRow {
+    /// The mean curvature where the fan is closed, the curvature along the edge where it is open.
+    fn row(self, mesh: &Mesh, node: u32) -> Option<CurvatureRow> {
+        let weights =
+            if self.spokes.values().all(|n| *n == 2) { self.weights.clone() } else { self.along_edge(mesh, node)? };
         // The diagonals of rectangles carry rounding only; without them a row has 12 neighbours instead of 24.
-        let spokes: Vec<(u32, f64)> = self.weights.into_iter().filter(|(_, w)| w.abs() > 1e-12).collect();
+        let spokes: Vec<(u32, f64)> = weights.into_iter().filter(|(_, w)| w.abs() > 1e-12).collect();
         let sum: f64 = spokes.iter().map(|s| s.1).sum();
         let weights = std::iter::once((node, -sum)).chain(spokes).collect();
-        CurvatureRow { node, area: self.area, stiffness: self.stiffness_area / self.area, weights }
+        let stiffness = self.stiffness_area / self.area;
+        Some(CurvatureRow { node, area: self.area, stiffness, weights, facets: self.facets })
+    }
+
+    /// `None` at corners and where sheets meet in more than one edge.
+    fn along_edge(&self, mesh: &Mesh, node: u32) -> Option<BTreeMap<u32, f64>> {
+        let [before, after] = self.spokes.iter().filter(|s| *s.1 == 1).map(|s| *s.0).collect::<Vec<u32>>()[..] else {
+            return None;
+        };
+        if self.spokes.values().any(|n| *n > 2) {
+            return None;
+        }
+        let offset = |n: u32| sub(mesh.points[n as usize], mesh.points[node as usize]);
+        let around: Vec<(u32, [f64; 3])> = self.weights.keys().map(|n| (*n, offset(*n))).collect();
+        let normal = self
+            .facets
+            .iter()
+            .fold([0.0; 3], |sum, f| add_scaled(sum, 1.0, f.area_vector(|n| mesh.points[n as usize])));
+        let weights = edge::weights([(before, offset(before)), (after, offset(after))], &around, unit(normal))?;
+        Some(weights.into_iter().map(|(n, w)| (n, w * self.area)).collect())
     }
 }
 
-fn add_element(mesh: &Mesh, nodes: &[u32], stiffness: f64, fans: &mut BTreeMap<u32, Fan>) {
+impl Facet {
+    /// Area vector with the nodes at these places \[m²\].
+    pub fn area_vector(&self, at: impl Fn(u32) -> [f64; 3]) -> [f64; 3] {
+        let [a, b, c, d] = self.nodes.map(at);
+        cross(sub(b, a), sub(d, c)).map(|v| self.share * v)
+    }
+}
+
+fn add_element(mesh: &Mesh, nodes: &[u32], part: usize, stiffness: f64, fans: &mut BTreeMap<u32, Fan>) {
     let count = nodes.len();
     for k in 0..count {
         let fan = fans.entry(nodes[k]).or_default();
         *fan.spokes.entry(nodes[(k + 1) % count]).or_default() += 1;
         *fan.spokes.entry(nodes[(k + count - 1) % count]).or_default() += 1;
+        fan.facets.push(facet(nodes, part));
     }
     if count == 3 {
         return add_triangle(mesh, [nodes[0], nodes[1], nodes[2]], 1.0, stiffness, fans);
     }
     for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]] {
         add_triangle(mesh, [nodes[a], nodes[b], nodes[c]], 0.5, stiffness, fans);
+    }
+}
+
+fn facet(nodes: &[u32], part: usize) -> Facet {
+    match *nodes {
+        [a, b, c, d] => Facet { nodes: [a, c, b, d], share: 0.125, part },
+        _ => Facet { nodes: [nodes[0], nodes[1], nodes[0], nodes[2]], share: 1.0 / 6.0, part },
     }
 }
 

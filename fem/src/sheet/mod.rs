@@ -6,6 +6,7 @@
 pub mod bending;
 pub mod bound;
 pub mod chamber;
+pub mod edge;
 pub mod fields;
 pub mod group;
 mod kernel;

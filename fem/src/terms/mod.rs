@@ -1,14 +1,16 @@
-//! Loads and obstacles: the small entries of the list of terms.
+//! Loads, obstacles, rest curvature: the small entries of the list of terms.
 
 mod coulomb;
 mod gravity;
 mod nodal_forces;
 mod obstacles;
+mod rest_curvature;
 
 pub(crate) use coulomb::slide;
 pub use gravity::Gravity;
 pub use nodal_forces::NodalForces;
 pub use obstacles::Obstacles;
+pub use rest_curvature::RestCurvature;
 
 /// Penalty stiffness of every node k = share · m/dt² \[N/m\].
 ///

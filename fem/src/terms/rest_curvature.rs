@@ -1,0 +1,171 @@
+//! Curvature of the stress-free shape: a tube that was made round does not want to be flat.
+//!
+//! ```text
+//! ½ D A |H − H̄ N|² = ½ D A |H|² − D A H̄ H·N + ½ D A H̄² |N|²       H = (1/A) Σ w_j x_j    N = (1/A) Σ share (x_b − x_a)×(x_d − x_c)
+//! ```
+//!
+//! The first part is the energy of [`crate::sheet::bending`]; this term is the other two, so that both together are a square:
+//! zero, with zero force, at the reference shape and wherever it is moved to.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | H | mean curvature vector, or curvature vector along a free edge | 1/m |
+//! | N | area vector of the node's share of the elements over its reference area: a unit normal while the sheet does not stretch | – |
+//! | H̄ | H·N/N·N of the reference shape | 1/m |
+//! | D, A | bending stiffness of the parts that keep their curvature; area of the node | N m, m² |
+//!
+//! **Validity**: that of the bending; where elements are so irregular that H and N are not parallel in the reference shape,
+//! it keeps a stress of the order of the element size. Derived here.
+
+use models::{Pose, Row, RowKind, Term};
+
+use crate::mesh::Mesh;
+use crate::problem::Section;
+use crate::sheet::bending::{CurvatureRow, curvature_rows};
+use crate::sheet::reference::bending_stiffness;
+use crate::vec3::{V3, add, along, cross, dot, node, norm, scale, sub};
+
+/// Rest curvature of all nodes that have one.
+#[derive(Debug, Clone)]
+pub struct RestCurvature {
+    nodes: Vec<Rest>,
+}
+
+#[derive(Debug, Clone)]
+struct Rest {
+    row: CurvatureRow,
+    /// D of the parts that keep their curvature \[N m\].
+    stiffness: f64,
+    /// H̄ \[1/m\].
+    curvature: f64,
+}
+
+impl RestCurvature {
+    /// Of the parts of `mesh` (solver's node order) whose section asks for it.
+    pub fn new(mesh: &Mesh, sections: &[Section]) -> RestCurvature {
+        if !sections.iter().any(|s| s.rest_curvature) {
+            return RestCurvature { nodes: Vec::new() };
+        }
+        let stiffness: Vec<f64> = sections.iter().map(bending_stiffness).collect();
+        let x: Vec<[f64; 4]> = mesh.points.iter().map(|p| [p[0], p[1], p[2], 0.0]).collect();
+        let rows = curvature_rows(mesh, &stiffness).into_iter();
+        RestCurvature { nodes: rows.filter_map(|row| Rest::new(row, sections, &stiffness, &x)).collect() }
+    }
+    /// True if nothing has a rest curvature.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+}
+
+impl Rest {
+    /// `None` where nothing asks for it or the reference is flat.
+    fn new(row: CurvatureRow, sections: &[Section], stiffness: &[f64], x: &[[f64; 4]]) -> Option<Rest> {
+        let weight = |asked: bool| {
+            let own = row.facets.iter().filter(|f| !asked || sections[f.part].rest_curvature);
+            own.map(|f| stiffness[f.part] * norm(f.area_vector(|n| node(x, n as usize)))).sum::<f64>()
+        };
+        let share = weight(true) / weight(false);
+        let stiffness = share * row.stiffness;
+        let mut rest = Rest { row, stiffness, curvature: 0.0 };
+        let (h, n) = (rest.curvature_vector(x), rest.normal(x));
+        rest.curvature = dot(h, n) / dot(n, n);
+        // A flat sheet has rounding only.
+        let flat = rest.curvature.abs() * rest.row.area.sqrt() < 1e-12;
+        (share > 0.0 && !flat).then_some(rest)
+    }
+
+    fn curvature_vector(&self, x: &[[f64; 4]]) -> V3 {
+        let own = node(x, self.row.node as usize);
+        let step = |sum, (n, w): &(u32, f64)| along(sum, *w, sub(node(x, *n as usize), own));
+        scale(self.row.weights.iter().fold([0.0; 3], step), 1.0 / self.row.area)
+    }
+
+    fn normal(&self, x: &[[f64; 4]]) -> V3 {
+        let step = |sum, f: &crate::sheet::bending::Facet| add(sum, f.area_vector(|n| node(x, n as usize)));
+        scale(self.row.facets.iter().fold([0.0; 3], step), 1.0 / self.row.area)
+    }
+
+    /// A ∂E/∂N per area: D H̄ (H̄ N − H) \[N\].
+    fn slope(&self, h: V3, n: V3) -> V3 {
+        scale(sub(scale(n, self.curvature), h), self.stiffness * self.curvature)
+    }
+
+    fn add(&self, x: &[[f64; 4]], force: &mut [[f64; 4]]) -> f64 {
+        let (h, n) = (self.curvature_vector(x), self.normal(x));
+        let mut push = |i: u32, f: V3| (0..3).for_each(|k| force[i as usize][k] += f[k]);
+        for (i, w) in &self.row.weights {
+            push(*i, scale(n, self.stiffness * self.curvature * w));
+        }
+        let g = self.slope(h, n);
+        for facet in &self.row.facets {
+            let [a, b, c, d] = facet.nodes;
+            let side = |from: u32, to: u32| sub(node(x, to as usize), node(x, from as usize));
+            let first = scale(cross(side(c, d), g), facet.share);
+            let second = scale(cross(g, side(a, b)), facet.share);
+            push(a, first);
+            push(b, scale(first, -1.0));
+            push(c, second);
+            push(d, scale(second, -1.0));
+        }
+        self.energy_of(h, n)
+    }
+
+    fn energy(&self, x: &[[f64; 4]]) -> f64 {
+        self.energy_of(self.curvature_vector(x), self.normal(x))
+    }
+
+    fn energy_of(&self, h: V3, n: V3) -> f64 {
+        let scale = self.stiffness * self.row.area * self.curvature;
+        scale * (0.5 * self.curvature * dot(n, n) - dot(h, n))
+    }
+
+    /// Cauchy–Schwarz on 2 |δH||δN| H̄ + |δN|² H̄² and on g·δ²N, with |δH| ≤ Σ a_j |u_j| and |δN| ≤ Σ b_j |u_j|.
+    fn bound(&self, x: &[[f64; 4]], bound: &mut [f64]) {
+        let (h, n) = (self.curvature_vector(x), self.normal(x));
+        let by_weight = self.row.weights.iter().map(|(i, w)| (*i, w.abs() / self.row.area));
+        let by_weight: Vec<(u32, f64)> = by_weight.collect();
+        let mut by_facet: Vec<(u32, f64)> = Vec::new();
+        for facet in &self.row.facets {
+            let [a, b, c, d] = facet.nodes;
+            let side = |from: u32, to: u32| norm(sub(node(x, to as usize), node(x, from as usize)));
+            let share = facet.share / self.row.area;
+            let (first, second) = (share * side(c, d), share * side(a, b));
+            by_facet.extend([(a, first), (b, first), (c, second), (d, second)]);
+        }
+        let sum = |list: &[(u32, f64)]| list.iter().map(|e| e.1).sum::<f64>();
+        let (all_weights, all_facets) = (sum(&by_weight), sum(&by_facet));
+        let (scale, rest) = (self.stiffness * self.row.area, self.curvature.abs());
+        for (i, a) in by_weight {
+            bound[i as usize] += scale * rest * a * all_facets;
+        }
+        for (i, b) in by_facet {
+            bound[i as usize] += scale * rest * b * (all_weights + rest * all_facets);
+        }
+        let g = norm(self.slope(h, n));
+        for facet in &self.row.facets {
+            facet.nodes.iter().for_each(|i| bound[*i as usize] += 2.0 * facet.share * g);
+        }
+    }
+}
+
+impl Term for RestCurvature {
+    fn name(&self) -> &'static str {
+        "rest curvature"
+    }
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        let (x, force) = (at.q.as_chunks::<4>().0, force.as_chunks_mut::<4>().0);
+        self.nodes.iter().map(|rest| rest.add(x, force)).sum()
+    }
+    fn ledger(&self, at: &Pose) -> Vec<Row> {
+        let x = at.q.as_chunks::<4>().0;
+        let energy_j = self.nodes.iter().map(|rest| rest.energy(x)).sum();
+        vec![Row { name: self.name(), kind: RowKind::Stored, energy_j }]
+    }
+    fn stiffness_bound(&self, at: &Pose, bound: &mut [f64]) {
+        self.nodes.iter().for_each(|rest| rest.bound(at.q.as_chunks::<4>().0, bound));
+    }
+}
+
+#[cfg(test)]
+#[path = "rest_curvature_tests.rs"]
+mod tests;
