@@ -62,6 +62,7 @@ impl Simulation {
         let mut bound = vec![0.0; self.x.len()];
         self.sheet.stiffness_bound(&pose, &mut bound);
         self.others().for_each(|term| term.stiffness_bound(&pose, &mut bound));
+        setup::give_tied_bounds(&self.mesh, &mut bound);
         let stable = setup::stable_step(&bound, &self.mass, self.limits.viscosity);
         match self.limits.forced_dt_s {
             None => self.clock.dt_s = (self.limits.cfl * stable).min(self.clock.longest_s),

@@ -38,6 +38,7 @@ impl Simulation {
         sheet.stiffness_bound(&Pose::nodes(x.as_flattened()), &mut bound);
         let rest = RestCurvature::new(&mesh, &problem.sections);
         rest.stiffness_bound(&Pose::nodes(x.as_flattened()), &mut bound);
+        give_tied_bounds(&mesh, &mut bound);
         let true_mass: f64 = mass.iter().sum();
         scale_masses(settings.mass_scaling, &bound, &mut mass);
         let added_mass = mass.iter().sum::<f64>() / true_mass - 1.0;
@@ -165,6 +166,15 @@ fn give_tied_masses(mesh: &Mesh, mass: &mut [f64]) {
     for tie in &mesh.ties {
         let own = std::mem::take(&mut mass[tie.node as usize]);
         tie.to.iter().for_each(|(node, weight)| mass[*node as usize] += weight * own);
+    }
+}
+
+/// Tied nodes hand their stiffness to the nodes they follow: |Σ w u|² ≤ Σ|w| Σ |w| u².
+pub(super) fn give_tied_bounds(mesh: &Mesh, bound: &mut [f64]) {
+    for tie in &mesh.ties {
+        let own = std::mem::take(&mut bound[tie.node as usize]);
+        let sum: f64 = tie.to.iter().map(|(_, weight)| weight.abs()).sum();
+        tie.to.iter().for_each(|(node, weight)| bound[*node as usize] += sum * weight.abs() * own);
     }
 }
 

@@ -48,3 +48,50 @@ pub fn weights(edge: [(u32, [f64; 3]); 2], around: &[(u32, [f64; 3])], normal: [
     all.into_iter().for_each(|(n, w)| *merged.entry(n).or_insert(0.0) += w);
     Some(merged.into_iter().collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::mesh::generate::{Distortion, disc_balloon, plate};
+    use crate::sheet::bending::{CurvatureRow, curvature_rows};
+
+    fn curvature(row: &CurvatureRow, place: impl Fn(u32) -> [f64; 3]) -> [f64; 3] {
+        let sum = |k: usize| row.weights.iter().map(|(n, w)| w * place(*n)[k]).sum::<f64>() / row.area;
+        [sum(0), sum(1), sum(2)]
+    }
+
+    #[test]
+    fn a_flat_sheet_cut_along_a_circle_has_no_curvature_anywhere() {
+        let mesh = disc_balloon(0.1, 12).unwrap();
+        let rows = curvature_rows(&mesh, &[1.0, 0.0]);
+        let rim = &mesh.sets["rim"];
+        assert_eq!(rows.iter().filter(|row| rim.contains(&row.node)).count(), rim.len());
+        for row in rows {
+            let h = curvature(&row, |n| mesh.points[n as usize]);
+            assert!(h.iter().all(|c| c.abs() * 0.1 < 1e-10), "node {}: {h:?}", row.node);
+        }
+    }
+
+    #[test]
+    fn the_edge_of_a_sphere_cap_bends_along_itself() {
+        // The rim of z = κ r²/2 has normal curvature κ along the edge and turns within the sheet by 1/r.
+        let mesh = disc_balloon(0.1, 24).unwrap();
+        let rows = curvature_rows(&mesh, &[1.0, 0.0]);
+        let bowl = |n: u32| {
+            let [x, y, _] = mesh.points[n as usize];
+            [x, y, 0.5 * (x * x + y * y)]
+        };
+        for row in rows.iter().filter(|row| mesh.sets["rim"].contains(&row.node)) {
+            let h = curvature(row, bowl)[2];
+            assert!((h - 1.0).abs() < 0.1, "node {}: {h}", row.node);
+        }
+    }
+
+    #[test]
+    fn the_rows_of_a_plate_cover_it_but_for_its_corners() {
+        let mesh = plate(0.2, 0.1, 8, 4, Some(Distortion { share: 0.2, seed: 1 })).unwrap();
+        let rows = curvature_rows(&mesh, &[1.0]);
+        let covered: f64 = rows.iter().map(|row| row.area).sum();
+        assert_eq!(rows.len(), mesh.points.len() - 4);
+        assert!(covered < 0.02 && covered > 0.02 * (1.0 - 2.0 / 32.0), "{covered}");
+    }
+}

@@ -17,7 +17,7 @@
 //! **Validity**: that of the bending; where elements are so irregular that H and N are not parallel in the reference shape,
 //! it keeps a stress of the order of the element size. Derived here.
 
-use models::{Pose, Row, RowKind, Term};
+use models::{Pose, Row, RowKind, Term, Tick};
 
 use crate::mesh::Mesh;
 use crate::problem::Section;
@@ -29,6 +29,8 @@ use crate::vec3::{V3, add, along, cross, dot, node, norm, scale, sub};
 #[derive(Debug, Clone)]
 pub struct RestCurvature {
     nodes: Vec<Rest>,
+    /// Energy at the last step \[J\]; `None` before the first.
+    stored_j: Option<f64>,
 }
 
 #[derive(Debug, Clone)]
@@ -44,12 +46,13 @@ impl RestCurvature {
     /// Of the parts of `mesh` (solver's node order) whose section asks for it.
     pub fn new(mesh: &Mesh, sections: &[Section]) -> RestCurvature {
         if !sections.iter().any(|s| s.rest_curvature) {
-            return RestCurvature { nodes: Vec::new() };
+            return RestCurvature { nodes: Vec::new(), stored_j: None };
         }
         let stiffness: Vec<f64> = sections.iter().map(bending_stiffness).collect();
         let x: Vec<[f64; 4]> = mesh.points.iter().map(|p| [p[0], p[1], p[2], 0.0]).collect();
         let rows = curvature_rows(mesh, &stiffness).into_iter();
-        RestCurvature { nodes: rows.filter_map(|row| Rest::new(row, sections, &stiffness, &x)).collect() }
+        let nodes = rows.filter_map(|row| Rest::new(row, sections, &stiffness, &x)).collect();
+        RestCurvature { nodes, stored_j: None }
     }
     /// True if nothing has a rest curvature.
     pub fn is_empty(&self) -> bool {
@@ -156,13 +159,27 @@ impl Term for RestCurvature {
         let (x, force) = (at.q.as_chunks::<4>().0, force.as_chunks_mut::<4>().0);
         self.nodes.iter().map(|rest| rest.add(x, force)).sum()
     }
+    fn advance(&mut self, at: &Pose, _tick: &Tick, force: &mut [f64]) -> f64 {
+        let energy_j = self.add(at, force);
+        self.stored_j = Some(energy_j);
+        energy_j
+    }
+    /// At the positions of the last step (at `at` before the first).
     fn ledger(&self, at: &Pose) -> Vec<Row> {
         let x = at.q.as_chunks::<4>().0;
-        let energy_j = self.nodes.iter().map(|rest| rest.energy(x)).sum();
+        let energy_j = self.stored_j.unwrap_or_else(|| self.nodes.iter().map(|rest| rest.energy(x)).sum());
         vec![Row { name: self.name(), kind: RowKind::Stored, energy_j }]
     }
     fn stiffness_bound(&self, at: &Pose, bound: &mut [f64]) {
         self.nodes.iter().for_each(|rest| rest.bound(at.q.as_chunks::<4>().0, bound));
+    }
+    fn save(&self) -> Vec<u8> {
+        self.stored_j.iter().flat_map(|energy| energy.to_le_bytes()).collect()
+    }
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        let (words, rest) = saved.as_chunks::<8>();
+        self.stored_j = words.first().map(|word| f64::from_le_bytes(*word));
+        words.len() <= 1 && rest.is_empty()
     }
 }
 

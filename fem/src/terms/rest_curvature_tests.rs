@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use models::fabrics::Orthotropic;
-use models::{Pose, Term};
+use models::{Pose, Term, Tick};
 
 use super::RestCurvature;
 use crate::Mesh;
@@ -114,4 +114,16 @@ fn a_flat_sheet_and_a_section_that_does_not_ask_have_no_rest_curvature() {
     assert!(RestCurvature::new(&plate, &[section()]).is_empty());
     let other = Section { rest_curvature: false, ..section() };
     assert!(RestCurvature::new(&tube(12, 4), &[other]).is_empty());
+}
+
+#[test]
+fn a_restored_term_reports_the_energy_of_its_last_step() {
+    let mesh = tube(12, 4);
+    let mut term = RestCurvature::new(&mesh, &[section()]);
+    let (q, v) = (flat(&mesh.points), vec![0.0; 4 * mesh.points.len()]);
+    let tick = Tick { step: 0, time_s: 0.0, dt_s: 1e-6, v: &v };
+    let energy = term.advance(&Pose::nodes(&q), &tick, &mut vec![0.0; q.len()]);
+    let mut other = RestCurvature::new(&mesh, &[section()]);
+    assert!(other.restore(&term.save()) && !other.clone().restore(&[1, 2]));
+    assert!(energy < 0.0 && other.ledger(&Pose::nodes(&v))[0].energy_j.to_bits() == energy.to_bits());
 }

@@ -6,9 +6,16 @@
 mod balloon;
 mod bias_tube;
 mod cantilever;
+mod energy;
+mod gradient;
 mod inflated;
 mod long_pouch;
+mod patch;
 mod pillow;
+mod ring;
+mod setup;
+mod strip;
+mod tube;
 
 use crate::FemError;
 
@@ -90,8 +97,24 @@ pub struct Curve {
 }
 
 /// All checks, quick ones first.
-pub const CHECKS: &[Check] =
-    &[long_pouch::CHECK, cantilever::SLOPE, bias_tube::CHECK, balloon::CHECK, pillow::CHECK, cantilever::WRINKLING];
+pub const CHECKS: &[Check] = &[
+    patch::UNIFORM,
+    patch::BENDING,
+    patch::RIGID,
+    gradient::CHECK,
+    energy::CHECK,
+    strip::SMALL,
+    strip::LARGE,
+    strip::ROLL,
+    tube::CHECK,
+    ring::CHECK,
+    long_pouch::CHECK,
+    cantilever::SLOPE,
+    bias_tube::CHECK,
+    balloon::CHECK,
+    pillow::CHECK,
+    cantilever::WRINKLING,
+];
 
 impl Line {
     /// A number against a known value.
@@ -146,6 +169,15 @@ mod tests {
             Line::between("", f64::NAN, 0.0, 1.0),
         ];
         assert!(lines.iter().all(|line| !line.passes()));
+    }
+
+    #[test]
+    fn the_checks_that_take_milliseconds_pass() {
+        for check in [patch::UNIFORM, patch::BENDING, patch::RIGID, gradient::CHECK] {
+            for line in (check.run)().unwrap().lines {
+                assert!(line.passes(), "{}: {line:?}", check.name);
+            }
+        }
     }
 
     #[test]
