@@ -222,7 +222,8 @@ pub struct Settings {
     pub mass_damping_1_s: f64,
     /// In-plane viscosity as a share of critical damping of the highest membrane mode (0.06 is usual).
     pub viscosity: f64,
-    /// Hourglass coefficient; .01 does not lock, .05 and more do.
+    /// Hourglass coefficient; .01 does not lock, .05 and more do. Where the wall wrinkles at the scale of the
+    /// mesh it needs less: p R/(E t) for a bent tube, a tenth of that for a pleated balloon (measured, see [`crate::verify`]).
     pub hourglass: f64,
     /// Time between outputs \[s\].
     pub output_every_s: f64,

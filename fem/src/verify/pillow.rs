@@ -2,7 +2,7 @@
 //!
 //! Edge and sheet pleat at the scale of the mesh. The node in the middle of an edge therefore lies on a ridge or in a valley,
 //! up to 14 mm apart and exchanged by n/2 even or odd: it measures the pleat, not the bag. The edge's place is the mean over
-//! one pleat, ¼ ½ ¼ over the node and its two neighbours. Measured, mean of 4 edges (3 seeds differ in the fifth digit):
+//! one pleat, ¼ ½ ¼ over the node and its two neighbours. Measured, mean of 4 edges (three seeds differ by less than .0001):
 //!
 //! | elements per side | centre \[m\] | middle node \[m\] | mean over the pleat \[m\] |
 //! |---|---|---|---|
@@ -11,9 +11,10 @@
 //! | 34 | .2160 | .1140 | .1204 |
 //! | 48 | .2161 | .1254 | .1205 |
 //! | 64 | .2162 | .1254 | .1215 |
+//! | 96 | .2169 | .1238 | .1239, edges .118 to .127 |
 //!
 //! At 32: bending factor 0 to 1 moves the mean by −.0009, hourglass .001 to .03 by ±.0006 (middle node), imperfection .001 to .1
-//! not at all.
+//! not at all. From 64 on pleats are wider than two elements, so three nodes no longer span one: single edges scatter by 4 %.
 
 use std::sync::Arc;
 
@@ -35,8 +36,7 @@ pub const CHECK: Check = Check {
 };
 
 fn run() -> Result<Outcome, FemError> {
-    let [coarse, middle, fine] = [(16, 1), (32, 3), (48, 1)].map(|(n, seeds)| ensemble(n, seeds));
-    let rows = [(16, coarse?), (32, middle?), (48, fine?)];
+    let rows = [(16, ensemble(16)?), (32, ensemble(32)?), (48, ensemble(48)?)];
     let mut lines = Vec::new();
     for (n, [centre, edge]) in rows {
         let ([low, high], [near, far]) = (AIRBAG_CENTRE_M, AIRBAG_MID_EDGE_M);
@@ -69,12 +69,12 @@ fn figure(rows: &[(usize, [f64; 2])]) -> Figure {
     }
 }
 
-/// Height of the centre and pull-in of the edges \[m\], mean over seeds of the imperfection.
-fn ensemble(n: usize, seeds: u64) -> Result<[f64; 2], FemError> {
+/// Height of the centre and pull-in of the edges \[m\], mean over three seeds of the imperfection.
+fn ensemble(n: usize) -> Result<[f64; 2], FemError> {
     let mut sum = [0.0; 2];
-    for seed in 1..=seeds {
+    for seed in 1..=3 {
         let found = inflate(n, seed)?;
-        (0..2).for_each(|k| sum[k] += found[k] / seeds as f64);
+        (0..2).for_each(|k| sum[k] += found[k] / 3.0);
     }
     Ok(sum)
 }
