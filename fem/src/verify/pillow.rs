@@ -14,7 +14,8 @@
 //! | 96 | .2169 | .1238 | .1239, edges .118 to .127 |
 //!
 //! At 32: bending factor 0 to 1 moves the mean by −.0009, hourglass .001 to .03 by ±.0006 (middle node), imperfection .001 to .1
-//! not at all. From 64 on pleats are wider than two elements, so three nodes no longer span one: single edges scatter by 4 %.
+//! not at all. At 96
+//! pleats join to one deep fold beside the middle of each edge; three nodes no longer span it, and single edges scatter by 4 %.
 
 use std::sync::Arc;
 
