@@ -154,6 +154,19 @@ impl Body {
         }
     }
 
+    /// Takes momentum and angular momentum from the velocities of the nodes.
+    pub fn take_velocities(&mut self, x: &[[f64; 4]], v: &[[f64; 4]]) {
+        (self.velocity, self.spin) = ([0.0; 3], [0.0; 3]);
+        let total: f64 = self.mass.iter().sum();
+        for (node, m) in self.nodes.iter().zip(&self.mass) {
+            let (x, v) = (x[*node as usize], v[*node as usize]);
+            let arm = [0, 1, 2].map(|k| x[k] - self.centre[k]);
+            let spin = crate::sheet::reference::cross(arm, [v[0], v[1], v[2]]);
+            (0..3).for_each(|k| self.velocity[k] += m / total * v[k]);
+            (0..3).for_each(|k| self.spin[k] += m * spin[k]);
+        }
+    }
+
     /// Angular velocity at an orientation \[rad/s\].
     fn omega(&self, turn: [f64; 4]) -> [f64; 3] {
         let r = matrix(turn);

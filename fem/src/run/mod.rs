@@ -216,11 +216,13 @@ impl Simulation {
         self.order.new.iter().map(|place| values[*place as usize]).map(|p| [p[0], p[1], p[2]]).collect()
     }
 
-    /// Sets node velocities in mesh order \[m/s\]; before the first step.
+    /// Sets node velocities in mesh order \[m/s\]; before the first step. A rigid body takes their momentum and angular
+    /// momentum.
     pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) {
         for (place, v) in self.order.new.iter().zip(velocities) {
             self.v[*place as usize][..3].copy_from_slice(v);
         }
+        self.bodies.iter_mut().for_each(|body| body.take_velocities(&self.x, &self.v));
         for (node, axes) in &self.fixed {
             (0..3).filter(|k| axes[*k]).for_each(|k| self.v[*node as usize][k] = 0.0);
         }
@@ -252,6 +254,23 @@ impl Simulation {
     /// Stresses, strains, thickness and wrinkling of every element.
     pub fn element_fields(&self) -> ElementFields {
         self.sheet.fields(self.x.as_flattened())
+    }
+
+    /// Force with which supports hold or drive a node set \[N\]: minus what everything else does to its nodes at the
+    /// present positions. Inertia, viscosity and mass damping are left out, so the state should be quiet. `None` for a set
+    /// that the mesh does not have.
+    pub fn reaction_n(&self, set: &str) -> Option<[f64; 3]> {
+        let nodes = self.mesh.sets.get(set)?;
+        let pose = Pose::nodes(self.x.as_flattened());
+        let mut force = vec![[0.0; 4]; self.x.len()];
+        self.sheet.add(&pose, force.as_flattened_mut());
+        self.others().for_each(|term| {
+            term.add(&pose, force.as_flattened_mut());
+        });
+        constraint::hand_over(&self.mesh.ties, &mut force);
+        let mut sum = [0.0; 3];
+        nodes.iter().for_each(|n| (0..3).for_each(|k| sum[k] -= force[*n as usize][k]));
+        Some(sum)
     }
 
     /// Contact pressure at every node in mesh order \[Pa\]; empty without contact.

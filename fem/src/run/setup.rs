@@ -6,7 +6,7 @@ use super::constraint::{bodies, driven};
 use super::team::Team;
 use super::{Books, Clock, Limits, Simulation};
 use crate::contact::Contact;
-use crate::problem::MassScaling;
+use crate::problem::{MassScaling, Settings};
 use crate::sheet::order::{Order, renumber};
 use crate::sheet::reference::{cross, dot};
 use crate::sheet::{Sheet, reference};
@@ -40,7 +40,7 @@ impl Simulation {
         rest.stiffness_bound(&Pose::nodes(x.as_flattened()), &mut bound);
         give_tied_bounds(&mesh, &mut bound);
         let true_mass: f64 = mass.iter().sum();
-        scale_masses(settings.mass_scaling, &bound, &mut mass);
+        scale_masses(settings, &bound, &mut mass);
         let added_mass = mass.iter().sum::<f64>() / true_mass - 1.0;
         let stable = stable_step(&bound, &mass, settings.viscosity);
         let dt_s = choose_step(stable, settings.cfl, settings.dt_s)?;
@@ -134,8 +134,12 @@ fn terms(problem: &Problem, mesh: &Mesh, mass: &[f64], dt_s: f64) -> Result<Vec<
 /// Largest stable step \[s\] from the nodes' stiffness bounds \[N/m\] and masses \[kg\].
 pub(super) fn stable_step(bound: &[f64], mass: &[f64], viscosity: f64) -> f64 {
     let square = bound.iter().zip(mass).filter(|(_, m)| **m > 0.0).map(|(k, m)| k / m).fold(0.0, f64::max);
-    let damped = (1.0 + viscosity * viscosity).sqrt() - viscosity;
-    2.0 / square.sqrt() * damped
+    2.0 / square.sqrt() * damped(viscosity)
+}
+
+/// What viscosity leaves of the stable step.
+fn damped(viscosity: f64) -> f64 {
+    (1.0 + viscosity * viscosity).sqrt() - viscosity
 }
 
 fn choose_step(stable_s: f64, cfl: f64, forced_s: Option<f64>) -> Result<f64, FemError> {
@@ -149,11 +153,13 @@ fn choose_step(stable_s: f64, cfl: f64, forced_s: Option<f64>) -> Result<f64, Fe
     }
 }
 
-fn scale_masses(scaling: MassScaling, bound: &[f64], mass: &mut [f64]) {
-    match scaling {
+fn scale_masses(settings: &Settings, bound: &[f64], mass: &mut [f64]) {
+    match settings.mass_scaling {
         MassScaling::None => {}
         MassScaling::Fixed(factor) => mass.iter_mut().for_each(|m| *m *= factor),
-        MassScaling::TargetStep(dt) => {
+        MassScaling::TargetStep(asked_s) => {
+            // The step used is cfl times the stable one.
+            let dt = asked_s / (settings.cfl * damped(settings.viscosity));
             for (m, k) in mass.iter_mut().zip(bound).filter(|(m, _)| **m > 0.0) {
                 *m = m.max(0.25 * k * dt * dt);
             }

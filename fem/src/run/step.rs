@@ -11,6 +11,8 @@ use crate::sheet::lanes::{V, sum};
 const LOOK: u64 = 64;
 /// Steps between two estimates of the stable step; strains change by a small fraction of a per cent in between.
 const RECHECK: u64 = 512;
+/// The same for fabrics whose curves stiffen.
+const RECHECK_STIFFENING: u64 = 128;
 /// Nodes per piece of the update; fixed, so that sums have one order.
 const PIECE: usize = 1024;
 
@@ -24,11 +26,12 @@ impl Simulation {
         time_s: f64,
         go_on: &mut dyn FnMut(&Simulation) -> bool,
     ) -> Result<Advance, FemError> {
+        let recheck = if self.sheet.stiffens() { RECHECK_STIFFENING } else { RECHECK };
         while self.clock.time_s + 0.5 * self.clock.dt_s < time_s {
             let steps = LOOK - self.clock.step % LOOK;
             self.burst(steps, time_s);
             self.guard()?;
-            if self.clock.step.is_multiple_of(RECHECK) {
+            if self.clock.step.is_multiple_of(recheck) {
                 self.recheck()?;
             }
             if !go_on(self) {

@@ -5,7 +5,7 @@
 //! Σ B Bᵀ. Bending adds the row sums of K (Gershgorin).
 
 use models::Fabric;
-use models::fabrics::Past;
+use models::fabrics::{Kind, Past};
 
 use super::reference::dot;
 use super::{Element, Sheet};
@@ -28,24 +28,47 @@ pub fn element(element: &Element, fabric: &dyn Fabric, e: [f64; 3], past: &Past,
     element.reference.area * (material + tension * largest(g[0], g[1], g[2])) + element.hourglass * stretch * 0.5
 }
 
+/// Strain that a fabric may go on between two estimates of the step.
+const AHEAD: f64 = 0.01;
+
+/// The largest [`element`] for what comes next: curves stiffen at their rows, and a way back may be steeper than the way
+/// there. Linear and neo-Hookean fabrics change too little to look ahead.
+fn ahead(item: &Element, fabric: &dyn Fabric, e: [f64; 3], past: &Past, c: [f64; 3]) -> f64 {
+    let here = element(item, fabric, e, past, c);
+    if !matches!(fabric.kind(), Kind::Other) {
+        return here;
+    }
+    let next = [e, [e[0] + AHEAD, e[1] + AHEAD, e[2]], [e[0], e[1], e[2] + AHEAD.copysign(e[2])]];
+    let pasts = [*past, [0.0; 2]];
+    let pasts = if fabric.has_memory() { &pasts[..] } else { &pasts[1..] };
+    let all = next.iter().flat_map(|e| pasts.iter().map(|past| element(item, fabric, *e, past, c)));
+    all.fold(here, f64::max)
+}
+
 /// Larger eigenvalue of the symmetric matrix (a, b; off-diagonal c).
 fn largest(a: f64, b: f64, c: f64) -> f64 {
     0.5 * (a + b) + (0.25 * (a - b) * (a - b) + c * c).sqrt()
 }
 
 impl Sheet {
+    /// True if some fabric may stiffen faster than linear and neo-Hookean ones do.
+    pub(crate) fn stiffens(&self) -> bool {
+        self.fabrics.iter().any(|f| matches!(f.kind(), Kind::Other))
+    }
+
     /// Adds each node's stiffness bound at positions `q` (stride 4) \[N/m\].
     pub(super) fn add_bound(&self, q: &[f64], bound: &mut [f64]) {
         let q = q.as_chunks::<4>().0;
         let pressure = self.air.iter().map(|a| a.peak_pa()).fold(0.0, f64::max);
-        for item in &self.elements {
+        let past = self.past();
+        for (index, item) in self.elements.iter().enumerate() {
             let fabric = &*self.fabrics[item.part];
             let [f1, f2] = item.deformation(q);
             let c = [dot(f1, f1), dot(f2, f2), dot(f1, f2)];
             let e = [0.5 * (c[0] - 1.0), 0.5 * (c[1] - 1.0), c[2]];
             // Follower pressure: ∂(p N n)/∂x is of the order of p times an edge.
             let follower = pressure * item.reference.area.sqrt();
-            let k = element(item, fabric, e, &[0.0; 2], c) + follower;
+            let k = ahead(item, fabric, e, &past.get(index).copied().unwrap_or_default(), c) + follower;
             item.nodes().iter().for_each(|n| bound[*n as usize] += k);
         }
         for (i, bound) in bound.iter_mut().enumerate() {

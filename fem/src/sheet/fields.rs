@@ -50,7 +50,7 @@ impl Sheet {
     }
 
     /// Fabric memory by element number; empty if no fabric has any.
-    fn past(&self) -> Vec<[f64; 2]> {
+    pub(super) fn past(&self) -> Vec<[f64; 2]> {
         let mut all = Vec::new();
         for patch in self.patches.iter().filter(|p| !p.past.is_empty()) {
             all.resize(self.elements.len(), [0.0; 2]);

@@ -9,12 +9,14 @@
 //! | [`pillow`] | two squares welded at their edges | `air` | `rim` `corners` `mid_edges` `mid_edge` `centre_top` `centre_bottom` |
 //! | [`disc_balloon`] | two discs welded at the rim | `air` | `rim` `centre_top` `centre_bottom` |
 //! | [`long_pouch`] | two strips welded at their ends, open at the sides | `air` | `left` `right` `open_0` `open_1` `middle` |
+//! | [`folded_pouch`] | pouch with a Z-fold at each side | `air` | `ends` `creases` `middle_top` `middle_bottom` |
 //! | [`flat_tube`] | flat tube with welded ends, bias warp | `air` | `end_0` `end_1` `gauge_0` `gauge_1` … |
 //! | [`tube`] | cylinder along x, caps | `body` | `base` `base_2` `tip` `base_cap` `tip_cap` … |
 //! | [`sphere`] | sphere of quads | `air` | `top` `bottom` |
 //! | [`crossed_sheets`] | two strips, one across the other | none | `lower_ends` `upper_ends` … |
 
 mod disc;
+mod folded_pouch;
 mod grid;
 mod layers;
 mod plate;
@@ -22,6 +24,7 @@ mod sphere;
 mod tube;
 
 pub use disc::disc_balloon;
+pub use folded_pouch::{FoldedPouch, folded_pouch};
 pub use layers::{flat_tube, long_pouch, pillow};
 pub use plate::{Distortion, crossed_sheets, plate};
 pub use sphere::sphere;
