@@ -337,6 +337,9 @@ impl Problem {
                     ply.fabric.thickness_m()
                 ));
             }
+            if section.plies.iter().any(|ply| !stiff(&*ply.fabric)) {
+                return refuse(format!("part `{}`: some stiffness of its fabric is not positive", part.name));
+            }
         }
         let chambers: Vec<&str> = self.chambers.iter().map(|c| c.name.as_str()).collect();
         let open: Vec<&str> = self.open.iter().map(String::as_str).collect();
@@ -362,11 +365,21 @@ impl Problem {
     }
 }
 
+/// True if every small strain costs energy.
+fn stiff(fabric: &dyn models::Fabric) -> bool {
+    let a = fabric.tangent([0.0; 3], &[0.0; 2]);
+    let finite = a.as_flattened().iter().all(|x| x.is_finite());
+    finite && a[0][0] > 0.0 && a[2][2] > 0.0 && a[0][0] * a[1][1] > a[0][1] * a[1][0]
+}
+
 impl Settings {
     fn check(&self) -> Result<(), FemError> {
         let positive = [("end_s", self.end_s), ("cfl", self.cfl), ("output_every_s", self.output_every_s)];
         if let Some((name, value)) = positive.iter().find(|(_, v)| !(*v > 0.0 && v.is_finite())) {
             return Err(FemError::Problem(format!("settings: {name} must be positive, not {value}")));
+        }
+        if let Some(dt) = self.dt_s.filter(|dt| !(*dt > 0.0 && dt.is_finite())) {
+            return Err(FemError::Problem(format!("settings: the time step must be positive, not {dt}; leave it out")));
         }
         let not_negative = [
             ("mass_damping_1_s", self.mass_damping_1_s),

@@ -49,7 +49,8 @@ pub(super) fn masses(mesh: &Mesh, areal: &[f64]) -> Vec<f64> {
         for i in 0..part.len() {
             let corners = part.nodes(i);
             let x: Vec<V3> = corners.iter().map(|n| mesh.points[*n as usize]).collect();
-            let (d1, d2) = if x.len() == 4 { (sub(x[2], x[0]), sub(x[3], x[1])) } else { (sub(x[1], x[0]), sub(x[2], x[0])) };
+            let (d1, d2) =
+                if x.len() == 4 { (sub(x[2], x[0]), sub(x[3], x[1])) } else { (sub(x[1], x[0]), sub(x[2], x[0])) };
             let normal = cross(d1, d2);
             let share = 0.5 * dot(normal, normal).sqrt() * areal / x.len() as f64;
             corners.iter().for_each(|n| mass[*n as usize] += share);

@@ -23,7 +23,7 @@ use std::sync::Arc;
 use models::exact::coupon;
 use models::fabrics::{BiasExtension, Curve as Table, Woven, Yarn};
 
-use super::strip::{drive_x, hold, membrane};
+use super::pulled::{drive_x, hold, membrane};
 use super::{Check, Curve, Figure, Line, Outcome};
 use crate::mesh::Part;
 use crate::{FemError, Mesh, Problem, Simulation};
@@ -117,7 +117,12 @@ fn mesh() -> Mesh {
             mesh.points.push([i as f64 * HALF_M, j as f64 * HALF_M, 0.0]);
             continue;
         }
-        let around = [(j > 0, i, j.wrapping_sub(1)), (i < columns, i + 1, j), (j < rows, i, j + 1), (i > 0, i.wrapping_sub(1), j)];
+        let around = [
+            (j > 0, i, j.wrapping_sub(1)),
+            (i < columns, i + 1, j),
+            (j < rows, i, j + 1),
+            (i > 0, i.wrapping_sub(1), j),
+        ];
         let corners: Vec<u32> = around.iter().filter(|c| c.0).map(|c| node(c.1, c.2)).collect();
         match corners[..] {
             [a, b, c, d] => part.quads.push([a, b, c, d]),

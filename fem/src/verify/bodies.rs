@@ -5,7 +5,7 @@ use std::sync::Arc;
 use models::fabrics::Orthotropic;
 
 use super::apart::{masses, momentum};
-use super::strip::{drive_x, hold, membrane};
+use super::pulled::{drive_x, hold, membrane};
 use super::{Check, Line, Outcome};
 use crate::mesh::{Tie, generate};
 use crate::problem::{Amplitude, Chamber, Gravity, MassScaling, Pressure, Rigid, Section, Support};
@@ -112,7 +112,12 @@ fn ties() -> Result<Outcome, FemError> {
         let row = |name: &str| run.ledger().rows.iter().filter(|r| r.name == name).map(|r| r.energy_j).sum::<f64>();
         let kept = row("supports") - row("mass damping") - row("viscosity");
         let stored = 0.5 * exact * PULL_M;
-        lines.push(Line::value(&format!("{name}: work of the support less damping [µJ]"), 1e6 * kept, 1e6 * stored, 0.01));
+        lines.push(Line::value(
+            &format!("{name}: work of the support less damping [µJ]"),
+            1e6 * kept,
+            1e6 * stored,
+            0.01,
+        ));
         lines.push(Line::value(&format!("{name}: energy stored [µJ]"), 1e6 * row("membrane"), 1e6 * stored, 0.01));
         found.push(force);
     }
@@ -173,7 +178,8 @@ fn sealed() -> Result<Outcome, FemError> {
     problem.settings.mass_damping_1_s = 200.0;
     let mut run = Simulation::new(&problem)?;
     run.advance_until(0.021, &mut |_| true)?;
-    let content = |run: &Simulation| run.chambers().iter().map(|c| (c.pressure_pa + 101_325.0) * c.volume_m3).sum::<f64>();
+    let content =
+        |run: &Simulation| run.chambers().iter().map(|c| (c.pressure_pa + 101_325.0) * c.volume_m3).sum::<f64>();
     let (start, before) = (content(&run), run.chambers()[0].volume_m3);
     let mut worst = 0.0_f64;
     for i in 1..=20 {

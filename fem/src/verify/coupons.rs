@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use models::fabrics::{Curve as Table, NeoHookean, Orthotropic, Woven, Yarn};
 
-use super::strip::Strip;
+use super::pulled::Strip;
 use super::{Check, Curve, Figure, Line, Outcome};
 use crate::{FemError, Simulation};
 
@@ -95,7 +95,8 @@ fn rubber() -> Result<Outcome, FemError> {
     outcome.lines.push(Line::at_least("strain reached", marks[3][0] / 100.0, 0.2));
     outcome.lines.push(residual(&run));
     let exact = (0..=22).map(f64::from).map(|e| [e, law(1.0 + 0.01 * e) * 1e-6]).collect();
-    outcome.figure = Some(figure("Neo-Hookean strip", vec![("2 C10 (l - 1/l²)", exact, true), ("engine", marks, false)]));
+    outcome.figure =
+        Some(figure("Neo-Hookean strip", vec![("2 C10 (l - 1/l²)", exact, true), ("engine", marks, false)]));
     Ok(outcome)
 }
 
@@ -134,7 +135,12 @@ fn woven() -> Result<Outcome, FemError> {
     let loop_j = (load.integral(0.06) - back.integral(0.06)) * 0.1 * 0.01 * 5e-5;
     let row = |name: &str| run.ledger().rows.iter().filter(|r| r.name == name).map(|r| r.energy_j).sum::<f64>();
     let spent_j = row("supports") - row("viscosity") - row("mass damping");
-    outcome.lines.push(Line::value("energy lost in the fabric [mJ]", 1e3 * row("fabric hysteresis"), 1e3 * loop_j, 0.01));
+    outcome.lines.push(Line::value(
+        "energy lost in the fabric [mJ]",
+        1e3 * row("fabric hysteresis"),
+        1e3 * loop_j,
+        0.01,
+    ));
     outcome.lines.push(Line::value("work of the clamps over the loop [mJ]", 1e3 * spent_j, 1e3 * loop_j, 0.01));
     outcome.lines.push(residual(&run));
     let rows = |rows: &[[f64; 2]]| rows.iter().map(|r| [100.0 * r[0], 1e-6 * r[1]]).collect();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use models::fabrics::NeoHookean;
 
 use super::apart::{clearance_m, heights, masses, momentum, nodes, triangles};
-use super::strip::membrane;
+use super::pulled::membrane;
 use super::{Check, Line, Outcome};
 use crate::mesh::generate;
 use crate::problem::{Amplitude, Chamber, Contact, Obstacle, ObstacleShape, Pressure, Section};

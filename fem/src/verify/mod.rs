@@ -3,17 +3,25 @@
 //! A check builds a [`crate::Problem`], runs it with the real engine and compares with a closed form
 //! (`models::exact`), a conservation law or a published band. To add one: one new file here and one line in [`CHECKS`].
 
+mod apart;
 mod balloon;
+mod bias;
 mod bias_tube;
+mod bodies;
 mod cantilever;
+mod coupons;
+mod drops;
 mod energy;
+pub mod folded;
 mod gradient;
 mod inflated;
 mod long_pouch;
 mod patch;
 mod pillow;
+mod pulled;
 mod ring;
 mod setup;
+mod slope;
 mod strip;
 mod tube;
 
@@ -106,6 +114,17 @@ pub const CHECKS: &[Check] = &[
     strip::SMALL,
     strip::LARGE,
     strip::ROLL,
+    coupons::LINEAR,
+    coupons::RUBBER,
+    coupons::WOVEN,
+    drops::BALL_ON_FLOOR,
+    drops::BALL_ON_SHEET,
+    drops::CROSSED,
+    slope::CHECK,
+    bodies::RIGID,
+    bodies::TIES,
+    bodies::SCALED,
+    bodies::SEALED,
     tube::CHECK,
     ring::CHECK,
     long_pouch::CHECK,
@@ -114,6 +133,8 @@ pub const CHECKS: &[Check] = &[
     balloon::CHECK,
     pillow::CHECK,
     cantilever::WRINKLING,
+    bias::CHECK,
+    folded::CHECK,
 ];
 
 impl Line {

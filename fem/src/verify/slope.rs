@@ -5,7 +5,7 @@ use std::sync::Arc;
 use models::exact::sliding;
 use models::fabrics::Orthotropic;
 
-use super::strip::membrane;
+use super::pulled::membrane;
 use super::{Check, Line, Outcome};
 use crate::mesh::generate;
 use crate::problem::{Amplitude, Gravity, Obstacle, ObstacleShape, Rigid};
@@ -33,7 +33,11 @@ fn run() -> Result<Outcome, FemError> {
         let (mut stuck, start) = (plate(0.6, rigid)?, along_m(&plate(0.6, rigid)?));
         stuck.advance_until(END_S, &mut |_| true)?;
         let free_m = 0.5 * GRAVITY * SLOPE.sin() * END_S * END_S;
-        lines.push(Line::at_most(&format!("{kind}, sticking: way over free way"), (along_m(&stuck) - start) / free_m, 1e-4));
+        lines.push(Line::at_most(
+            &format!("{kind}, sticking: way over free way"),
+            (along_m(&stuck) - start) / free_m,
+            1e-4,
+        ));
         let mut run = plate(0.3, rigid)?;
         let speed = |run: &Simulation| along(&run.velocities());
         run.advance_until(RISE_S, &mut |_| true)?;

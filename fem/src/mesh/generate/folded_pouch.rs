@@ -142,9 +142,8 @@ fn add(
         let j = first + j;
         (Joint::of(panel, [i, pouch.along], [j, last, fold]), i, j)
     };
-    let place = |i: usize, j: usize| {
-        [i as f64 / pouch.along as f64 * pouch.length_m, across_m(pouch, between, first + j), 0.0]
-    };
+    let place =
+        |i: usize, j: usize| [i as f64 / pouch.along as f64 * pouch.length_m, across_m(pouch, between, first + j), 0.0];
     let grid = Grid::sharing(mesh, pouch.along, count, place, |i, j| known.get(&key(i, j)).copied());
     for (i, j) in (0..=count).flat_map(|j| (0..=pouch.along).map(move |i| (i, j))) {
         known.insert(key(i, j), grid.at(i, j));
