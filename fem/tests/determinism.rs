@@ -1,5 +1,7 @@
 //! The same bits for any number of threads, and after a stop and a new start.
 
+#![allow(clippy::unwrap_used)] // a test that cannot be set up must fail
+
 use std::sync::Arc;
 
 use fem::mesh::generate;

@@ -1,5 +1,7 @@
 //! What cannot be simulated is refused with its place; what cannot be trusted is stopped before it is written.
 
+#![allow(clippy::unwrap_used)] // a test that cannot be set up must fail
+
 use std::sync::Arc;
 
 use fem::case::Case;
@@ -182,7 +184,7 @@ fn meshes_that_cannot_be_simulated_are_refused_with_their_element() {
         }),
         &["belongs to no element"],
     );
-    says(&faulty(&|mesh| drop(mesh.parts[1].quads.pop())), &["chamber `air` is open", "element"]);
+    says(&faulty(&|mesh| mesh.parts[1].quads.truncate(99)), &["chamber `air` is open", "element"]);
     says(&faulty(&|mesh| mesh.parts[1].quads[12].reverse()), &["element 13", "turned over"]);
     let third = |mesh: &mut Mesh| {
         let mut fin = mesh.parts[1].clone();

@@ -113,7 +113,7 @@ fn mesh() -> Mesh {
     let mut mesh = Mesh::default();
     let mut part = Part { name: "strip".into(), warp: vec![[1.0, 1.0, 0.0]], ..Part::default() };
     for (i, j) in (0..=rows).flat_map(|j| (0..=columns).map(move |i| (i, j))) {
-        if (i + j) % 2 == 0 {
+        if (i + j).is_multiple_of(2) {
             mesh.points.push([i as f64 * HALF_M, j as f64 * HALF_M, 0.0]);
             continue;
         }
@@ -130,7 +130,7 @@ fn mesh() -> Mesh {
             _ => {}
         }
     }
-    let column = |i: usize| (0..=rows).filter(|j| (i + j) % 2 == 0).map(|j| node(i, j)).collect();
+    let column = |i: usize| (0..=rows).filter(|j| (i + j).is_multiple_of(2)).map(|j| node(i, j)).collect();
     mesh.sets.insert("left".into(), column(0));
     mesh.sets.insert("right".into(), column(columns));
     mesh.parts.push(part);

@@ -4,9 +4,10 @@
 //! above it, negative on the wrong side. *Piercing*: sides of elements that run through a face that they do not share a
 //! node with, deeper than the penalty springs give.
 //!
-//! The pressure is 1 kPa, at which the pouch is three quarters full. **Above about 2 kPa this check would fail**: crumpled
-//! folds squeezed between the chambers pierce each other side against side (at 30 kPa and 3 mm elements some 160 sides of
-//! 3000; 250 without contact), because contact sees nodes against faces only.
+//! **The engine does not pass this yet**, so the check is not in [`super::CHECKS`]. Energy is kept (residual below 0.1 %),
+//! but crumpled folds pierce each other, and nodes end up on the wrong side. With 3 mm elements, some 150 sides of 3000 at
+//! 30 kPa (240 without contact), 65 with 1.5 mm and half the speed. At 0.5, 1 and 2 kPa, each at two speeds, two of six runs
+//! were clean, and one of these was not any more after an unrelated change: there is no pressure that is safe.
 
 use std::sync::Arc;
 
@@ -20,9 +21,10 @@ use crate::problem::{Amplitude, Chamber, Contact, Pressure, Section};
 use crate::vec3::{V3, cross, dot, sub, unit};
 use crate::{FemError, Mesh, Problem, Simulation};
 
-pub(super) const CHECK: Check = Check {
+/// Fails today: see above.
+pub const CHECK: Check = Check {
     name: "folded-pouch",
-    sentence: "A pouch with side folds of four layers 0.01 mm apart blows up to 1 kPa without layers passing through each other.",
+    sentence: "A pouch with side folds of four layers 0.01 mm apart blows up to 30 kPa without layers passing through each other.",
     source: "bodies do not pass through each other; the same run without contact",
     slow: true,
     run,
@@ -77,9 +79,9 @@ fn run() -> Result<Outcome, FemError> {
     Ok(Outcome { lines, figure: None })
 }
 
-/// Least distance \[m\], most piercings and largest residual of a run to 1 kPa.
+/// Least distance \[m\], most piercings and largest residual of a run to 30 kPa.
 fn blow_up(contact: bool) -> Result<[f64; 3], FemError> {
-    let problem = pouch(3e-3, 1e3, contact)?;
+    let problem = pouch(3e-3, 30e3, contact)?;
     let mut run = Simulation::new(&problem)?;
     let [mut order, mut pierced, mut residual] = [f64::INFINITY, 0.0, 0.0];
     for i in 1..=OUTPUTS {
@@ -155,4 +157,14 @@ fn piercings(mesh: &Mesh, x: &[V3]) -> usize {
         [(a, b), (b, c), (c, a)].iter().all(|(s, e)| dot(cross(sub(*e, *s), sub(hit, *s)), n) >= 0.0)
     };
     sides.iter().map(|side| faces.iter().filter(|face| through(side, face)).count()).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    #[ignore = "contact lets crumpled folds pierce each other: a defect to mend, not a slow test"]
+    fn layers_of_a_folded_pouch_keep_their_order() {
+        let outcome = super::run().unwrap();
+        assert!(outcome.lines.iter().all(super::Line::passes), "{:?}", outcome.lines);
+    }
 }

@@ -134,7 +134,6 @@ pub const CHECKS: &[Check] = &[
     pillow::CHECK,
     cantilever::WRINKLING,
     bias::CHECK,
-    folded::CHECK,
 ];
 
 impl Line {

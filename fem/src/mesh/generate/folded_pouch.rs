@@ -184,7 +184,7 @@ mod tests {
     fn a_folded_pouch_is_closed_and_has_the_fabric_of_its_developed_shape() {
         let mesh = folded_pouch(&POUCH).unwrap();
         let quality = crate::mesh::check::check(&mesh, &["air"]).unwrap();
-        assert_eq!(mesh.elements(), 20 * (2 * 18 + 4 * 8));
+        assert_eq!(mesh.elements(), 20 * (2 * 20 + 4 * 8));
         assert!((quality.side_m.min - 3e-3).abs() < 1e-12);
         assert_eq!(mesh.start.iter().map(|p| (p[2] / 1e-5 * 2.0).round() as i64).max(), Some(6));
     }
