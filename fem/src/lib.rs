@@ -13,6 +13,7 @@
 //! | [`plain`] | the same physics, one element at a time: the twin that the fast kernels are tested against |
 //! | [`terms`] | nodal force, gravity, obstacles, rest curvature, tension-only yarns: the other entries of the list |
 //! | [`contact`] | node-to-face contact with side memory and Coulomb friction |
+//! | [`robot`] | robots from scenarios and sewing patterns |
 //! | [`run`] | time stepping, stable step, ledger, guards |
 //! | [`output`] | vtu, pvd, history, checkpoints |
 //! | [`verify`] | problems with known answers |
@@ -28,6 +29,7 @@ pub mod mesh;
 pub mod output;
 pub mod plain;
 pub mod problem;
+pub mod robot;
 pub mod run;
 pub mod sheet;
 pub mod speed;

@@ -10,6 +10,7 @@
 //! For L₀ = 60 mm, f = 24 mm it is 0: the ideal pouch. Derived here from the published inner-area factor 2.60 =
 //! (W + 4f)/W, which says that the folds are at the two lateral sides (inferred, not printed).
 
+use super::pattern::{Joint, Pattern, flat, panel};
 use super::{Actuator, ActuatorShape, Family, pouch};
 use std::f64::consts::PI;
 
@@ -27,10 +28,28 @@ pub(super) const ENTRY: Actuator = Actuator {
     area: pouch::area,
     arm: pouch::arm,
     edge_restraint,
+    pattern,
 };
 
 fn edge_restraint(shape: &ActuatorShape) -> f64 {
     (1.0 - PI * shape.fold_m / shape.length_m).max(0.0)
+}
+
+/// Two lateral Z-folds: four layers (wall, gusset 1, gusset 2, top) at the seams.
+fn pattern(shape: &ActuatorShape) -> Pattern {
+    let (half, fold) = (0.5 * shape.width_m, shape.fold_m);
+    let plain = flat(shape, Joint::Wall);
+    if fold == 0.0 {
+        return plain;
+    }
+    let panels = vec![
+        panel("gusset_1_left", 1, -half, fold - half),
+        panel("gusset_2_left", 2, fold - half, -half),
+        panel("top", 3, -half, half),
+        panel("gusset_2_right", 2, half, half - fold),
+        panel("gusset_1_right", 1, half - fold, half),
+    ];
+    Pattern { panels, ..plain }
 }
 
 #[cfg(test)]

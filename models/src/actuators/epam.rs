@@ -2,6 +2,7 @@
 //!
 //! Law of [`super::pouch`] with the line of action in the wall: the arm from the taut generator is 2R.
 
+use super::pattern::{Joint, Pattern, flat};
 use super::{Actuator, Family, pouch};
 
 pub(super) const ENTRY: Actuator = Actuator {
@@ -18,4 +19,6 @@ pub(super) const ENTRY: Actuator = Actuator {
     area: pouch::area,
     arm: pouch::arm,
     edge_restraint: |_| 1.0,
+    // Published: two cylinders welded in a pattern; that they are loose beside the pouches is assumed.
+    pattern: |shape| Pattern { body_sheets: 2, ..flat(shape, Joint::Wall) },
 };

@@ -18,8 +18,9 @@
 //! `shear_stiffness`, which makes the free stroke depend on pressure). Reference: Chou & Hannaford 1996 (McKibben);
 //! Naclerio & Hawkes 2020 (fPAM); the 45° form is derived here.
 
+use super::pattern::{Film, Joint, Pattern, flat};
 use super::{Actuator, ActuatorShape, Demand, Family, Stroke, converged};
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_4, PI};
 
 pub(super) const ENTRY: Actuator = Actuator {
     name: "fpam",
@@ -35,7 +36,17 @@ pub(super) const ENTRY: Actuator = Actuator {
     area: |shape| shape.volume_gain * PI * rest_radius(shape).powi(2),
     arm: |radius_m, shape| 2.0 * radius_m + rest_radius(shape),
     edge_restraint: |_| 1.0,
+    pattern,
 };
+
+/// Published: cut at 45° and glued. Assumed: glued over its flat width, warp in one helix round the tube.
+fn pattern(shape: &ActuatorShape) -> Pattern {
+    // Seen from outside the body, the underside of a helix turns the other way.
+    let mut pattern = flat(shape, Joint::Bonded { film: Film::Glue, warp_rad: -FRAC_PI_4 });
+    pattern.fabric = "silicone-nylon";
+    pattern.panels[0].warp_rad = FRAC_PI_4;
+    pattern
+}
 
 /// Radius r₀ = W/π of the round tube at rest \[m\].
 fn rest_radius(shape: &ActuatorShape) -> f64 {

@@ -6,6 +6,7 @@
 mod cpam;
 mod epam;
 mod fpam;
+pub mod pattern;
 pub mod pouch;
 mod spam;
 
@@ -52,6 +53,8 @@ pub struct Actuator {
     pub arm: fn(f64, &ActuatorShape) -> f64,
     /// Share of the sealed-edge loss that the edges of this actuator suffer: 1 for sealed edges, 0 for free ones.
     pub edge_restraint: fn(&ActuatorShape) -> f64,
+    /// How it is cut, folded, welded and joined to the body.
+    pub pattern: fn(&ActuatorShape) -> pattern::Pattern,
 }
 
 /// Restoring moment over P·area·D₀, `m = m₀ + m₁ ε D₀/D`, neither negative \[-\], on an arm `D = D₀ (1 + growth·lift)`.

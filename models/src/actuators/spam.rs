@@ -4,6 +4,7 @@
 //! bulge, h/2, so the arm grows with pressure. That is the effect `arm_growth` with β = 1, stated in the scenario, so
 //! that a user sees what it costs.
 
+use super::pattern::{Film, Joint, flat};
 use super::{Actuator, Family, pouch};
 
 pub(super) const ENTRY: Actuator = Actuator {
@@ -20,4 +21,6 @@ pub(super) const ENTRY: Actuator = Actuator {
     area: pouch::area,
     arm: pouch::arm,
     edge_restraint: |_| 1.0,
+    // Published: two layers welded at all sides and taped onto the body; the whole face is assumed to be taped.
+    pattern: |shape| flat(shape, Joint::Bonded { film: Film::Tape, warp_rad: 0.0 }),
 };

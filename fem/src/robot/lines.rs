@@ -1,0 +1,123 @@
+//! Grid lines of a robot: along the body so that welds and markers lie on rings, around so that edges and folds of the
+//! actuator lie on generators.
+
+use std::f64::consts::TAU;
+
+use models::Scenario;
+use models::actuators::pattern::Pattern;
+
+use super::RobotSettings;
+
+/// Largest ratio of neighbouring elements where the size changes.
+const GROWTH: f64 = 1.25;
+/// Lines closer than this share of the element size become one.
+const MERGE: f64 = 0.4;
+
+/// The grid.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Lines {
+    /// Places of the rings \[m\].
+    pub x_m: Vec<f64>,
+    /// Rows of elements that are welded flat: (first ring, last ring); equal for a weld without width.
+    pub welds: Vec<[usize; 2]>,
+    /// Places across the strip \[m\], from edge to edge; the first generators.
+    pub s_m: Vec<f64>,
+    /// Angles of all generators from the middle of the strip \[rad\], ascending from the strip's edge.
+    pub angles: Vec<f64>,
+    /// Ring of every marker.
+    pub markers: Vec<usize>,
+}
+
+impl Lines {
+    pub fn of(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) -> Lines {
+        let (x_m, bands) = along(scenario, settings);
+        let nearest = |place: f64| nearest(&x_m, place);
+        let welds = bands.iter().map(|band| band.map(nearest)).collect();
+        let markers = scenario.markers_m.iter().map(|s| nearest(*s)).collect();
+        let s_m = across(pattern, settings.actuator_size_m);
+        let angles = around(scenario.radius_m, &s_m, settings);
+        Lines { welds, markers, s_m, angles, x_m }
+    }
+
+    /// Generator at a place across the strip.
+    pub fn column(&self, s_m: f64) -> usize {
+        nearest(&self.s_m, s_m)
+    }
+}
+
+fn nearest(places: &[f64], wanted: f64) -> usize {
+    let far = |i: &usize| (places[*i] - wanted).abs();
+    (0..places.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0)
+}
+
+/// Rings, and where each weld begins and ends.
+fn along(scenario: &Scenario, settings: &RobotSettings) -> (Vec<f64>, Vec<[f64; 2]>) {
+    let (actuator, length) = (&scenario.actuator, scenario.length_m);
+    let seam = |k: usize| actuator.start_m + k as f64 * actuator.shape.length_m;
+    let half = 0.5 * settings.weld_m;
+    let bands: Vec<[f64; 2]> =
+        (0..=actuator.count).map(|k| [-half, half].map(|w| (seam(k) + w).clamp(0.0, length))).collect();
+    let mut cuts = vec![0.0, length];
+    bands.iter().flatten().for_each(|place| add(&mut cuts, *place, 1e-9));
+    let ends = [seam(0), seam(actuator.count)];
+    let size = |place: f64| match ends[0] < place && place < ends[1] {
+        true => settings.actuator_size_m,
+        false => settings.body_size_m,
+    };
+    scenario.markers_m.iter().for_each(|place| add(&mut cuts, *place, MERGE * size(*place)));
+    cuts.sort_by(f64::total_cmp);
+    let mut x_m = vec![0.0];
+    for pair in cuts.windows(2) {
+        x_m.extend(divided(pair[0], pair[1], size(0.5 * (pair[0] + pair[1]))).skip(1));
+    }
+    (x_m, bands)
+}
+
+/// Adds a line unless there is one within `apart`.
+fn add(cuts: &mut Vec<f64>, place: f64, apart: f64) {
+    if cuts.iter().all(|c| (c - place).abs() > apart) {
+        cuts.push(place);
+    }
+}
+
+/// Lines from `a` to `b`, about `size` apart.
+fn divided(a: f64, b: f64, size: f64) -> impl Iterator<Item = f64> {
+    let n = ((b - a) / size).round().max(1.0) as usize;
+    (0..=n).map(move |i| if i == n { b } else { a + (b - a) * i as f64 / n as f64 })
+}
+
+/// Places across the strip: edges, folds, and even steps between.
+fn across(pattern: &Pattern, size: f64) -> Vec<f64> {
+    let half = 0.5 * pattern.width_m;
+    let mut cuts = vec![-half, half];
+    pattern.panels.iter().flat_map(|p| p.range_m()).for_each(|place| add(&mut cuts, place, 1e-9));
+    cuts.sort_by(f64::total_cmp);
+    let steps = |pair: &[f64]| divided(pair[0], pair[1], size).skip(1).collect::<Vec<_>>();
+    std::iter::once(cuts[0]).chain(cuts.windows(2).flat_map(steps)).collect()
+}
+
+/// The strip's generators, then the others: growing from the strip's size to the body's and back.
+fn around(radius: f64, s_m: &[f64], settings: &RobotSettings) -> Vec<f64> {
+    let (first, last) = (s_m[0], s_m[s_m.len() - 1]);
+    let half = 0.5 * (TAU * radius - (last - first));
+    let mut steps = Vec::new();
+    let (mut size, mut sum) = (settings.actuator_size_m, 0.0);
+    while sum + 0.5 * size < half || steps.is_empty() {
+        let grown = if size < settings.body_size_m { size * GROWTH } else { size / GROWTH };
+        size = match size < settings.body_size_m {
+            true => grown.min(settings.body_size_m),
+            false => grown.max(settings.body_size_m),
+        };
+        steps.push(size);
+        sum += size;
+    }
+    let scale = half / sum;
+    let mut place = last;
+    let mut angles: Vec<f64> = s_m.iter().map(|s| s / radius).collect();
+    for step in steps.iter().chain(steps.iter().rev()) {
+        place += step * scale;
+        angles.push(place / radius);
+    }
+    angles.pop();
+    angles
+}

@@ -1,0 +1,176 @@
+//! The robots: from a scenario of the reduced model and its actuator's sewing pattern to a finite element problem.
+//!
+//! The body is a cylinder along x, its base ring pinned at x = 0, a flat cap at the tip; the actuator lies on the side of
+//! +y, so that the robot bends towards +y. The actuator's sheet is meshed panel by panel over the same grid lines, layers
+//! `layer_gap_m` apart; welds are shared nodes.
+//!
+//! | part | what | chambers (front, back) |
+//! |---|---|---|
+//! | `wall`, `tip_cap` | the body | –, body |
+//! | `face` | the wall under the pouches, with what is stuck to it | actuator, body |
+//! | `seam_2`, `seam_4` … | welds with a width: so many layers | –, body |
+//! | by the pattern: `top`, `gusset_1_left` … | the sheet | –, actuator |
+//!
+//! | set | nodes |
+//! |---|---|
+//! | `base` | pinned ring |
+//! | `tip`, `marker_1` … | rings of the body at its end and at (or next to) the scenario's stations |
+//! | `far_generator` | the taut line opposite the actuator |
+//!
+//! Where elements around are of one size, the mean of a ring is the centre line; [`sections`] gives it for any mesh.
+
+mod lines;
+mod plies;
+mod settings;
+mod sew;
+
+pub use settings::{ASSUMED, Assumed, RobotSettings};
+
+use models::Scenario;
+use models::actuators::pattern::Pattern;
+
+use crate::mesh::check::{Quality, check_open};
+use crate::output::centre_line::CentreLine;
+use crate::problem::{Amplitude, Chamber, Contact, MassScaling, Pressure, Settings, Support};
+use crate::sheet::reference::mean_stiffness;
+use crate::{FemError, Mesh, Problem};
+use lines::Lines;
+use plies::Plies;
+
+/// Fewest rows of elements between two welds.
+const FEWEST_ROWS: usize = 4;
+
+/// The robot of a scenario as a problem, ready to run.
+///
+/// # Errors
+/// [`FemError::Problem`] with the number that is wrong: a pattern that cannot be sewn on this body, a pressure below the
+/// body's, a marker off the robot, elements too large for the pouch; [`FemError::Mesh`] if the mesh is not fit to run.
+///
+/// ```
+/// let scenario = models::Scenario::parse(models::shipped("epam").unwrap()).unwrap();
+/// let problem = fem::robot::problem(&scenario, &fem::robot::RobotSettings::default())?;
+/// assert_eq!(problem.chambers.len(), 2);
+/// # Ok::<(), fem::FemError>(())
+/// ```
+pub fn problem(scenario: &Scenario, settings: &RobotSettings) -> Result<Problem, FemError> {
+    let pattern = (scenario.actuator.kind.pattern)(&scenario.actuator.shape);
+    sewn(scenario, &pattern, settings)
+}
+
+/// The same with another pattern than the actuator's own.
+///
+/// # Errors
+/// As [`problem`].
+pub fn sewn(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) -> Result<Problem, FemError> {
+    settings.check()?;
+    fits(scenario, pattern, settings)?;
+    let lines = Lines::of(scenario, pattern, settings);
+    rows(&lines, settings)?;
+    let mesh = sew::sew(scenario, pattern, settings, &lines)?;
+    check_open(&mesh, &[sew::BODY, sew::ACTUATOR], &["base"])?;
+    let plies = Plies::of(pattern, settings)?;
+    let sections = mesh.parts.iter().map(|part| plies.section(&part.name)).collect();
+    let mut problem = Problem::new(&scenario.name, mesh, sections, chambers(scenario, settings));
+    problem.open = vec!["base".into()];
+    problem.supports = vec![Support { set: "base".into(), axes: [true; 3], motion: None }];
+    problem.contact = contact(&problem.mesh, pattern, settings);
+    problem.settings = numerics(&problem, settings);
+    Ok(problem)
+}
+
+/// Shape and quality of a robot's mesh.
+///
+/// # Errors
+/// [`FemError::Mesh`] naming the first fault.
+pub fn quality(problem: &Problem) -> Result<Quality, FemError> {
+    check_open(&problem.mesh, &[sew::BODY, sew::ACTUATOR], &["base"])
+}
+
+/// Centre line of the body at stations along it \[m\]: centroids of the wall's sections, the actuator's sheet left out.
+///
+/// # Errors
+/// [`FemError::Problem`] for a station off the robot.
+pub fn sections(mesh: &Mesh, stations_m: &[f64]) -> Result<CentreLine, FemError> {
+    let body = |name: &str| name == sew::WALL || name == sew::FACE || name.starts_with(sew::SEAM);
+    let parts: Vec<String> = mesh.parts.iter().map(|p| p.name.clone()).filter(|name| body(name)).collect();
+    CentreLine::new(mesh, &parts, [1.0, 0.0, 0.0], stations_m)
+}
+
+/// Refuses what the scenario and the pattern do not allow together.
+fn fits(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) -> Result<(), FemError> {
+    let refuse = |message: String| Err(FemError::Problem(format!("robot: {message}")));
+    if let Err(fault) = pattern.check(scenario.radius_m, settings.weld_m) {
+        return refuse(fault);
+    }
+    if !scenario.zones.is_empty() {
+        return refuse(format!("{} zones; zones exist in the reduced model only, remove them", scenario.zones.len()));
+    }
+    if settings.actuator_pa < scenario.p_body_pa {
+        let [actuator, body] = [settings.actuator_pa, scenario.p_body_pa].map(|p| p * 1e-3);
+        return refuse(format!("an actuator at {actuator} kPa in a body at {body} kPa stays flat; raise actuator_pa"));
+    }
+    let end_m = scenario.length_m * (1.0 + 1e-9);
+    if let Some(s) = scenario.markers_m.iter().find(|s| !(0.0..=end_m).contains(*s)) {
+        let length = scenario.length_m * 1e3;
+        return refuse(format!("a marker at {} mm is off the body of {length} mm", s * 1e3));
+    }
+    let last_m = scenario.actuator.start_m + scenario.actuator.count as f64 * pattern.pitch_m;
+    if scenario.actuator.count == 0 || scenario.actuator.start_m < 0.0 || last_m > end_m {
+        let (count, length) = (scenario.actuator.count, scenario.length_m * 1e3);
+        return refuse(format!("{count} units that end at {:.1} mm do not fit the body of {length} mm", last_m * 1e3));
+    }
+    Ok(())
+}
+
+fn rows(lines: &Lines, settings: &RobotSettings) -> Result<(), FemError> {
+    let fewest = lines.welds.windows(2).map(|w| w[1][0].saturating_sub(w[0][1])).min().unwrap_or(0);
+    let fewest = fewest.min(lines.s_m.len() - 1);
+    if fewest >= FEWEST_ROWS {
+        return Ok(());
+    }
+    Err(FemError::Problem(format!(
+        "robot: a pouch of {fewest} elements; lower actuator_size_m from {} mm so that it has {FEWEST_ROWS} or more",
+        settings.actuator_size_m * 1e3
+    )))
+}
+
+/// Body first, then the actuator.
+fn chambers(scenario: &Scenario, settings: &RobotSettings) -> Vec<Chamber> {
+    let filled = settings.body_ramp_s;
+    let full = filled + settings.actuator_ramp_s;
+    let ramp = |from: f64, to: f64, pressure: f64| Pressure::Set(Amplitude::Smooth(vec![(from, 0.0), (to, pressure)]));
+    let chamber = |name: &str, pressure| Chamber { name: name.into(), pressure, open_axis: None };
+    vec![
+        chamber(sew::BODY, ramp(0.0, filled, scenario.p_body_pa)),
+        chamber(sew::ACTUATOR, ramp(filled, full, settings.actuator_pa)),
+    ]
+}
+
+/// Contact of everything but the cap, where the pattern folds.
+fn contact(mesh: &Mesh, pattern: &Pattern, settings: &RobotSettings) -> Option<Contact> {
+    let wanted = settings.contact.unwrap_or(pattern.folds());
+    let parts = mesh.parts.iter().map(|p| p.name.clone()).filter(|name| name != "tip_cap").collect();
+    wanted.then(|| Contact { gap_m: 0.5 * settings.layer_gap_m, parts, ..Contact::default() })
+}
+
+fn numerics(problem: &Problem, settings: &RobotSettings) -> Settings {
+    let speed = |section: &crate::problem::Section| {
+        let stiffness: f64 = section.plies.iter().map(|p| mean_stiffness(&*p.fabric)).sum();
+        let mass: f64 = section.plies.iter().map(|p| p.fabric.thickness_m()).sum::<f64>() * section.density_kg_m3;
+        (stiffness / mass).sqrt()
+    };
+    let fastest = problem.sections.iter().map(speed).fold(0.0, f64::max);
+    let smallest = settings.body_size_m.min(settings.actuator_size_m);
+    Settings {
+        end_s: settings.body_ramp_s + settings.actuator_ramp_s + settings.hold_s,
+        mass_scaling: MassScaling::TargetStep(settings.mass_factor.sqrt() * smallest / fastest),
+        mass_damping_1_s: settings.mass_damping_1_s,
+        hourglass: settings.hourglass,
+        imperfection: settings.imperfection,
+        seed: settings.seed,
+        ..Settings::default()
+    }
+}
+
+#[cfg(test)]
+mod tests;

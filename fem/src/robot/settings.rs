@@ -1,0 +1,182 @@
+//! Everything about a robot that its scenario does not say, each with how it is known.
+
+use crate::FemError;
+
+/// Mesh, fabrication and loading of a robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RobotSettings {
+    /// Element size of the body \[m\].
+    pub body_size_m: f64,
+    /// Element size of the strip under the actuator and of the actuator \[m\].
+    pub actuator_size_m: f64,
+    /// Distance between layers at the start \[m\]. Published: 0.01 mm.
+    pub layer_gap_m: f64,
+    /// Width of the axial welds \[m\]; 0 is a line. Assumed.
+    pub weld_m: f64,
+    /// Share of the bending stiffness of a solid plate that one sheet of coated fabric has. Assumed.
+    pub bending_factor: f64,
+    /// How far taped and glued plies bend as one: 1 without slip, 0 as loose sheets. Assumed.
+    pub bond: f64,
+    /// Thickness of the transfer tape \[m\]. Assumed.
+    pub tape_m: f64,
+    /// Young's modulus of the tape's adhesive \[Pa\]. Assumed.
+    pub tape_e_pa: f64,
+    /// Thickness of the glue film \[m\]. Assumed.
+    pub glue_m: f64,
+    /// Young's modulus of the glue (silicone) \[Pa\]. Assumed.
+    pub glue_e_pa: f64,
+    /// Contraction along fill per stretch along warp of an anisotropic fabric; `None` keeps the material's own. Assumed.
+    pub nu12: Option<f64>,
+    /// Mass per volume of all fabrics, tape and glue \[kg/m³\]. Assumed.
+    pub density_kg_m3: f64,
+    /// Actuator gauge pressure at the end \[Pa\].
+    pub actuator_pa: f64,
+    /// Duration of the body's ramp, which comes first \[s\].
+    pub body_ramp_s: f64,
+    /// Duration of the actuator's ramp \[s\].
+    pub actuator_ramp_s: f64,
+    /// Time at full pressure \[s\].
+    pub hold_s: f64,
+    /// Factor on the masses of the smallest elements; larger ones get less (`mass_scaling`).
+    pub mass_factor: f64,
+    /// Mass damping \[1/s\].
+    pub mass_damping_1_s: f64,
+    /// Hourglass coefficient.
+    pub hourglass: f64,
+    /// Whether layers touch; `None`: where the pattern folds.
+    pub contact: Option<bool>,
+    /// Random offset of the nodes at the start, as a share of the element size.
+    pub imperfection: f64,
+    /// Seed of these offsets.
+    pub seed: u64,
+}
+
+impl RobotSettings {
+    /// 4 mm mesh, half a second, doubled masses: about 90 000 steps. With rate-free fabrics only the number of steps counts;
+    /// below about 60 000 inertia adds buckles.
+    pub fn compressed() -> RobotSettings {
+        RobotSettings {
+            body_size_m: 4e-3,
+            actuator_size_m: 4e-3,
+            layer_gap_m: 1e-5,
+            weld_m: 0.0,
+            bending_factor: 0.1,
+            bond: 1.0,
+            tape_m: 5e-5,
+            tape_e_pa: 1e6,
+            glue_m: 1e-4,
+            glue_e_pa: 1e6,
+            nu12: Some(0.3),
+            density_kg_m3: 1000.0,
+            actuator_pa: 30e3,
+            body_ramp_s: 0.05,
+            actuator_ramp_s: 0.45,
+            hold_s: 0.0,
+            mass_factor: 2.0,
+            mass_damping_1_s: 5.0,
+            hourglass: 0.01,
+            contact: None,
+            imperfection: 2e-4,
+            seed: 1,
+        }
+    }
+
+    /// The published loading, body to 0.1 s and actuator to 1.1 s, with true masses.
+    pub fn published() -> RobotSettings {
+        RobotSettings { body_ramp_s: 0.1, actuator_ramp_s: 1.0, mass_factor: 1.0, ..RobotSettings::compressed() }
+    }
+
+    /// Refuses numbers that cannot be meant.
+    ///
+    /// # Errors
+    /// [`FemError::Problem`] with the name, the number and what is accepted.
+    pub fn check(&self) -> Result<(), FemError> {
+        let above_0 = f64::MIN_POSITIVE;
+        for (name, value, low, high) in [
+            ("body_size_m", self.body_size_m, 1e-4, 0.1),
+            ("actuator_size_m", self.actuator_size_m, 1e-4, 0.1),
+            ("layer_gap_m", self.layer_gap_m, 1e-7, 1e-3),
+            ("weld_m", self.weld_m, 0.0, 0.1),
+            ("bending_factor", self.bending_factor, 0.0, 10.0),
+            ("bond", self.bond, 0.0, 1.0),
+            ("tape_m", self.tape_m, above_0, 5e-3),
+            ("tape_e_pa", self.tape_e_pa, above_0, 1e10),
+            ("glue_m", self.glue_m, above_0, 5e-3),
+            ("glue_e_pa", self.glue_e_pa, above_0, 1e10),
+            ("density_kg_m3", self.density_kg_m3, 10.0, 2e4),
+            ("actuator_pa", self.actuator_pa, 0.0, 1e6),
+            ("body_ramp_s", self.body_ramp_s, above_0, 1e3),
+            ("actuator_ramp_s", self.actuator_ramp_s, above_0, 1e3),
+            ("hold_s", self.hold_s, 0.0, 1e3),
+            ("mass_factor", self.mass_factor, 1.0, 1e4),
+        ] {
+            if !(low..=high).contains(&value) {
+                let low = if low == above_0 { "above 0".into() } else { low.to_string() };
+                let message = format!("robot: {name} is {value}; write a number from {low} to {high}");
+                return Err(FemError::Problem(message));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Default for RobotSettings {
+    fn default() -> RobotSettings {
+        RobotSettings::compressed()
+    }
+}
+
+/// A number that nobody printed, and the interval it may lie in.
+#[derive(Debug, Clone, Copy)]
+pub struct Assumed {
+    /// Field of [`RobotSettings`].
+    pub name: &'static str,
+    /// Smallest and largest plausible value, SI.
+    pub interval: [f64; 2],
+    /// Where the interval comes from.
+    pub reason: &'static str,
+    /// Writes a value.
+    pub set: fn(&mut RobotSettings, f64),
+}
+
+/// What the four robots leave open, besides pouch count and marker stations, which are in the scenario.
+pub const ASSUMED: &[Assumed] = &[
+    Assumed {
+        name: "weld_m",
+        interval: [0.0, 0.008],
+        reason: "a line to a wide impulse seal",
+        set: |s, v| s.weld_m = v,
+    },
+    Assumed {
+        name: "bending_factor",
+        interval: [0.02, 1.0],
+        reason: "yarns that slide in a thin coat to a solid film",
+        set: |s, v| s.bending_factor = v,
+    },
+    Assumed {
+        name: "bond",
+        interval: [0.0, 1.0],
+        reason: "plies that slide to plies without slip; shear lag through 0.05 mm of adhesive is about 2 mm",
+        set: |s, v| s.bond = v,
+    },
+    Assumed {
+        name: "tape_m",
+        interval: [2e-5, 2e-4],
+        reason: "adhesive transfer tapes are sold from 0.02 to 0.25 mm",
+        set: |s, v| s.tape_m = v,
+    },
+    Assumed { name: "glue_m", interval: [5e-5, 5e-4], reason: "a film spread by hand", set: |s, v| s.glue_m = v },
+    Assumed { name: "glue_e_pa", interval: [3e5, 3e6], reason: "silicone adhesives", set: |s, v| s.glue_e_pa = v },
+    Assumed {
+        name: "nu12",
+        interval: [0.0, 0.4],
+        reason: "woven fabrics pulled in one direction; 0 is yarns that do not cross",
+        set: |s, v| s.nu12 = Some(v),
+    },
+    Assumed {
+        name: "density_kg_m3",
+        interval: [700.0, 1300.0],
+        reason: "nylon 1140, coats 900 to 1200, air between yarns",
+        set: |s, v| s.density_kg_m3 = v,
+    },
+];

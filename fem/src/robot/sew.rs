@@ -1,0 +1,197 @@
+//! One algorithm from any pattern to elements: the wall cut into wall, face and seams, and the sheet panel by panel.
+
+use models::Scenario;
+use models::actuators::pattern::{Joint, Panel, Pattern};
+
+use super::RobotSettings;
+use super::lines::Lines;
+use crate::FemError;
+use crate::mesh::generate::{Around, Cap, Tube, tube};
+use crate::mesh::{Mesh, Part};
+
+/// Names of the chambers.
+pub(super) const BODY: &str = "body";
+pub(super) const ACTUATOR: &str = "actuator";
+/// Parts made of the wall: beside the actuator, and under it.
+pub(super) const WALL: &str = "wall";
+pub(super) const FACE: &str = "face";
+/// Parts made of welded layers are called `seam_` and their number, the wall's included.
+pub(super) const SEAM: &str = "seam_";
+
+/// The mesh of a robot.
+pub(super) fn sew(
+    scenario: &Scenario,
+    pattern: &Pattern,
+    settings: &RobotSettings,
+    lines: &Lines,
+) -> Result<Mesh, FemError> {
+    let mut mesh = body(scenario, lines)?;
+    mesh.sets.remove("middle");
+    let wall = std::mem::take(&mut mesh.parts[0]);
+    let sewer = Sewer { pattern, lines, radius_m: scenario.radius_m, gap_m: settings.layer_gap_m };
+    let mut parts = sewer.wall(&wall.quads);
+    parts.extend(mesh.parts.drain(1..));
+    parts.extend(sewer.sheet(&mut mesh.points));
+    mesh.parts = parts;
+    let n = lines.angles.len() as u32;
+    for (k, ring) in lines.markers.iter().enumerate() {
+        let first = *ring as u32 * n;
+        mesh.sets.insert(format!("marker_{}", k + 1), (first..first + n).collect());
+    }
+    // The taut generator runs opposite the middle of the strip.
+    let far = (lines.s_m.len() - 1 + lines.angles.len()) / 2;
+    let generator = (0..lines.x_m.len()).map(|i| i as u32 * n + far as u32).collect();
+    mesh.sets.insert("far_generator".into(), generator);
+    Ok(mesh)
+}
+
+/// The body as a tube with its rings at the lines.
+fn body(scenario: &Scenario, lines: &Lines) -> Result<Mesh, FemError> {
+    let n = lines.angles.len();
+    let mut mesh = tube(&Tube {
+        radius_m: scenario.radius_m,
+        length_m: scenario.length_m,
+        around: Around::Angles(lines.angles.clone()),
+        along: lines.x_m.len() - 1,
+        caps: [Cap::Open, Cap::Triangles],
+        warp_rad: 0.0,
+    })?;
+    for (ring, x) in lines.x_m.iter().enumerate() {
+        mesh.points[ring * n..(ring + 1) * n].iter_mut().for_each(|p| p[0] = *x);
+    }
+    Ok(mesh)
+}
+
+struct Sewer<'a> {
+    pattern: &'a Pattern,
+    lines: &'a Lines,
+    radius_m: f64,
+    gap_m: f64,
+}
+
+impl Sewer<'_> {
+    /// The wall's elements sorted into parts.
+    fn wall(&self, quads: &[[u32; 4]]) -> Vec<Part> {
+        let n = self.lines.angles.len();
+        let back = || Some(BODY.into());
+        let mut parts = vec![Part { name: WALL.into(), back: back(), ..Part::default() }];
+        for (e, quad) in quads.iter().enumerate() {
+            let (row, column) = (e / n, e % n);
+            let (name, front) = match self.place(row, column) {
+                Place::Beside => (WALL.into(), None),
+                Place::Weld(layers) => (format!("{SEAM}{layers}"), None),
+                Place::Under if self.pattern.joint == Joint::Seams => (WALL.into(), None),
+                Place::Under => (FACE.into(), Some(ACTUATOR.into())),
+            };
+            let at = parts.iter().position(|p| p.name == name).unwrap_or_else(|| {
+                parts.push(Part { name, front, back: back(), ..Part::default() });
+                parts.len() - 1
+            });
+            parts[at].quads.push(*quad);
+        }
+        parts.retain(|p| !p.is_empty());
+        parts.iter_mut().for_each(|p| p.warp = vec![[1.0, 0.0, 0.0]]);
+        parts
+    }
+
+    fn place(&self, row: usize, column: usize) -> Place {
+        let (s, welds) = (&self.lines.s_m, &self.lines.welds);
+        let [first, last] = [welds[0][0], welds[welds.len() - 1][1]];
+        if column + 1 >= s.len() || !(first..last).contains(&row) {
+            return Place::Beside;
+        }
+        match welds.iter().any(|weld| (weld[0]..weld[1]).contains(&row)) {
+            true => Place::Weld(1 + self.pattern.layers_at(0.5 * (s[column] + s[column + 1]))),
+            false => Place::Under,
+        }
+    }
+
+    /// The panels of all units; nodes of the sheet are added to `points`.
+    fn sheet(&self, points: &mut Vec<[f64; 3]>) -> Vec<Part> {
+        let mut parts: Vec<Part> = self.pattern.panels.iter().enumerate().map(|(k, p)| part(k, p)).collect();
+        for pair in self.lines.welds.windows(2) {
+            self.unit(points, &mut parts, [pair[0][1], pair[1][0]]);
+        }
+        parts
+    }
+
+    /// One unit between two welds.
+    fn unit(&self, points: &mut Vec<[f64; 3]>, parts: &mut [Part], [first, last]: [usize; 2]) {
+        let path = self.path();
+        let mut rows: Vec<Vec<u32>> = Vec::with_capacity(last - first + 1);
+        for ring in first..=last {
+            let inside = first < ring && ring < last;
+            let mut row: Vec<u32> = path.iter().map(|stop| self.node(points, ring, stop, inside)).collect();
+            if inside && self.pattern.joint == Joint::Seams {
+                // The sheet runs round: its last stop is its first, whose node is not needed twice.
+                points.pop();
+                row[path.len() - 1] = row[0];
+            }
+            rows.push(row);
+        }
+        for pair in rows.windows(2) {
+            for (q, stop) in path.iter().enumerate().skip(1) {
+                parts[stop.panel].quads.push([pair[0][q - 1], pair[0][q], pair[1][q], pair[1][q - 1]]);
+            }
+        }
+    }
+
+    /// Stops of the cross-section, one per grid line, folds once; each stop ends an element of its panel.
+    fn path(&self) -> Vec<Stop> {
+        let panels = &self.pattern.panels;
+        let mut stops: Vec<Stop> = Vec::new();
+        for (k, panel) in panels.iter().enumerate() {
+            let [from, to] = [panel.from_m, panel.to_m].map(|s| self.lines.column(s));
+            let columns: Vec<usize> = if from < to { (from..=to).collect() } else { (to..=from).rev().collect() };
+            let level = panel.level as f64;
+            stops.extend(columns.iter().skip(usize::from(k > 0)).map(|c| Stop { panel: k, column: *c, level }));
+            if let (Some(next), Some(stop)) = (panels.get(k + 1), stops.last_mut()) {
+                stop.level = 0.5 * (panel.level + next.level) as f64;
+            }
+        }
+        let ends = [0, stops.len() - 1];
+        let level = match self.pattern.joint {
+            Joint::Seams => 0.5 * (panels[0].level + panels[panels.len() - 1].level) as f64,
+            _ => 0.0,
+        };
+        ends.iter().for_each(|end| stops[*end].level = level);
+        stops
+    }
+
+    /// The wall's node at a weld or joined edge, or a new one above it.
+    fn node(&self, points: &mut Vec<[f64; 3]>, ring: usize, stop: &Stop, inside: bool) -> u32 {
+        if !inside || stop.level == 0.0 {
+            return (ring * self.lines.angles.len() + stop.column) as u32;
+        }
+        let (radius, angle) = (self.radius_m + stop.level * self.gap_m, self.lines.angles[stop.column]);
+        points.push([self.lines.x_m[ring], radius * angle.cos(), radius * angle.sin()]);
+        (points.len() - 1) as u32
+    }
+}
+
+/// Where an element of the wall is.
+enum Place {
+    Beside,
+    Under,
+    /// With the number of layers.
+    Weld(usize),
+}
+
+/// A grid line of the cross-section.
+struct Stop {
+    panel: usize,
+    column: usize,
+    /// Height above the wall in layers.
+    level: f64,
+}
+
+/// A part without elements. The warp is along the body; angles are the section's.
+fn part(k: usize, panel: &Panel) -> Part {
+    Part {
+        name: panel.name.into(),
+        warp: vec![[1.0, 0.0, 0.0]],
+        back: Some(ACTUATOR.into()),
+        layer: k as u32 + 1,
+        ..Part::default()
+    }
+}
