@@ -56,7 +56,7 @@ fn chosen(args: &VerifyArgs) -> Result<Vec<&'static Check>, Failure> {
     let find = |name: &String| {
         let known = || CHECKS.iter().map(|c| c.name).collect::<Vec<_>>().join(", ");
         let found = CHECKS.iter().find(|c| c.name == name);
-        found.ok_or_else(|| Failure::usage(format!("there is no check `{name}`"), &format!("write one of {}", known())))
+        found.ok_or_else(|| Failure::usage(format!("there is no check `{name}`"), format!("write one of {}", known())))
     };
     args.only.iter().map(find).collect()
 }
