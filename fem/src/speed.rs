@@ -5,10 +5,10 @@
 
 use std::sync::Arc;
 
-use models::fabrics::Orthotropic;
+use models::fabrics::{NeoHookean, Orthotropic};
 
 use crate::mesh::generate;
-use crate::problem::{Amplitude, Chamber, Ply, Pressure, Problem, Section};
+use crate::problem::{Amplitude, Chamber, Contact, Ply, Pressure, Problem, Section};
 use crate::{FemError, Simulation};
 
 /// Multiplications, additions and subtractions per quadrilateral and step, membrane and pressure.
@@ -44,6 +44,38 @@ pub fn pillow(n: usize, bending: bool) -> Result<Problem, FemError> {
     let sections = vec![section; mesh.parts.len()];
     let mut problem = Problem::new("pillow", mesh, sections, vec![air]);
     problem.settings.end_s = 0.15;
+    problem.settings.mass_damping_1_s = 100.0;
+    Ok(problem)
+}
+
+/// A pouch with a Z-fold at each side as in an actuator: 60 by 60 mm, folds of 24 mm, four layers 0.01 mm apart that touch
+/// each other, blown up to 30 kPa in 50 ms. Element size 1.5 mm makes 5.8 thousand quadrilaterals, 1 mm 13 thousand.
+///
+/// # Errors
+/// As the generator.
+pub fn folded_cpam(element_m: f64, contact: bool) -> Result<Problem, FemError> {
+    let fabric = Arc::new(NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 });
+    let section = Section {
+        plies: vec![Ply { fabric, angle_rad: 0.0 }],
+        bonded: true,
+        density_kg_m3: 1000.0,
+        bending_factor: 0.1,
+        rest_curvature: false,
+    };
+    let mesh = generate::folded_pouch(&generate::FoldedPouch {
+        length_m: 0.06,
+        width_m: 0.06,
+        fold_m: 0.024,
+        gap_m: 1e-5,
+        along: (0.06 / element_m).round() as usize,
+        in_fold: (0.024 / element_m).round() as usize,
+    })?;
+    let ramp = Amplitude::Smooth(vec![(0.0, 0.0), (0.05, 30e3)]);
+    let air = Chamber { name: "air".into(), pressure: Pressure::Set(ramp), open_axis: None };
+    let sections = vec![section; mesh.parts.len()];
+    let mut problem = Problem::new("folded cPAM", mesh, sections, vec![air]);
+    problem.contact = contact.then(Contact::default);
+    problem.settings.end_s = 0.1;
     problem.settings.mass_damping_1_s = 100.0;
     Ok(problem)
 }
