@@ -20,11 +20,11 @@ pub(super) struct Penalty {
 
 /// Chunks of records for `pairs` (sorted by node); `old` are the records so far, in order of their nodes. The second
 /// result is the energy of elastic slides that were dropped \[J\].
-pub(super) fn chunks(surface: &Surface, pairs: &[(u32, u32)], old: &[Record], penalty: &Penalty) -> (Vec<Chunk>, f64) {
+pub(super) fn chunks(surface: &Surface, pairs: &[(u32, u32)], old: &Memory, penalty: &Penalty) -> (Vec<Chunk>, f64) {
     let mut chunks = vec![Chunk::default()];
     let mut work = Work::default();
     let mut lost = 0.0;
-    let mut rest = old;
+    let mut rest = &old.records[..];
     for group in pairs.chunk_by(|a, b| a.0 == b.0) {
         let node = group[0].0;
         while let Some((first, after)) = rest.split_first().filter(|(r, _)| r.node < node) {
@@ -36,6 +36,7 @@ pub(super) fn chunks(surface: &Surface, pairs: &[(u32, u32)], old: &[Record], pe
         rest = after;
         work.split(surface, group);
         lost += work.records(surface, node, remembered, penalty);
+        work.inherit(remembered, old);
         if chunks.last().is_none_or(|c| c.records.len() >= RECORDS || c.candidates.len() >= CANDIDATES) {
             chunks.push(Chunk::default());
         }
@@ -48,6 +49,32 @@ pub(super) fn chunks(surface: &Surface, pairs: &[(u32, u32)], old: &[Record], pe
     (chunks, lost)
 }
 
+/// Records before a search, in order of their nodes, and all their candidates.
+pub(super) struct Memory {
+    records: Vec<Record>,
+    candidates: Vec<Candidate>,
+    /// What was no candidate is no closer than this.
+    clear_m: f64,
+}
+
+impl Memory {
+    /// No records.
+    pub fn new(clear_m: f64) -> Memory {
+        Memory { records: Vec::new(), candidates: Vec::new(), clear_m }
+    }
+
+    /// Adds a chunk whose way was closed.
+    pub fn append(&mut self, chunk: &Chunk) {
+        let first = self.candidates.len() as u32;
+        self.candidates.extend_from_slice(&chunk.candidates);
+        self.records.extend(chunk.records.iter().map(|r| Record { first: r.first + first, ..*r }));
+    }
+
+    fn of(&self, record: &Record) -> &[Candidate] {
+        &self.candidates[record.first as usize..(record.first + record.count) as usize]
+    }
+}
+
 /// The candidates of one node, sorted into connected pieces.
 #[derive(Default)]
 struct Work {
@@ -55,6 +82,8 @@ struct Work {
     piece: Vec<u32>,
     pieces: u32,
     made: Vec<Record>,
+    /// As in [`Candidate::clear_m`], for each element.
+    clear_m: Vec<f64>,
 }
 
 impl Work {
@@ -91,7 +120,7 @@ impl Work {
         for piece in 0..self.pieces {
             let members = || self.elements.iter().zip(&self.piece).filter(move |(_, p)| **p == piece).map(|(e, _)| *e);
             let layer = members().next().map_or(0, |e| surface.layer[e as usize]);
-            let mut record = Record { node, layer, own: surface.is_in(node as usize, layer), ..Record::default() };
+            let mut record = Record { node, layer, own: surface.is_in(node as usize, layer), ..Record::NEW };
             let heirs = remembered.iter().filter(|r| members().any(|e| e == r.element));
             if let Some(best) = heirs.min_by(|a, b| order(a).total_cmp(&order(b))) {
                 record = *best;
@@ -115,11 +144,28 @@ impl Work {
         lost + remembered.iter().filter(|r| !kept(r)).map(Record::slide_j).sum::<f64>()
     }
 
+    /// Takes over how far elements were, and when records are due. A record is due at once if it is new or if there are
+    /// elements in its piece that were in another.
+    fn inherit(&mut self, remembered: &[Record], old: &Memory) {
+        self.clear_m.clear();
+        for (element, piece) in self.elements.iter().zip(&self.piece) {
+            let record = &mut self.made[*piece as usize];
+            let keeper = remembered.iter().find_map(|r| Some((r, old.of(r).iter().find(|c| c.element == *element)?)));
+            let known = keeper.map_or(old.clear_m, |(_, c)| c.clear_m);
+            if keeper.is_some_and(|(r, _)| r.element != record.element || r.layer != record.layer) {
+                record.due_m = f64::NEG_INFINITY;
+            }
+            self.clear_m.push(known);
+        }
+    }
+
     fn append(&self, chunk: &mut Chunk) {
         for (piece, record) in self.made.iter().enumerate() {
             let first = chunk.candidates.len() as u32;
-            let members = self.elements.iter().zip(&self.piece).filter(|(_, p)| **p as usize == piece);
-            chunk.candidates.extend(members.map(|(e, _)| Candidate { element: *e, ..Candidate::default() }));
+            let members = (0..self.elements.len()).filter(|i| self.piece[*i] as usize == piece);
+            let candidate =
+                |i| Candidate { element: self.elements[i], clear_m: self.clear_m[i], ..Candidate::default() };
+            chunk.candidates.extend(members.map(candidate));
             chunk.records.push(Record { first, count: chunk.candidates.len() as u32 - first, ..*record });
         }
     }

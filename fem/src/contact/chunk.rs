@@ -1,21 +1,26 @@
-//! A few hundred records that are looked at, and stepped, together; their forces add up in a small array of their own.
+//! Some dozens of records that are looked at, and stepped, together; their forces add up in a small array of their own.
 
-use super::closest::{Closest, Feature, describe, nearest};
+use super::closest::{Closest, Feature, Nearest, describe, nearest};
 use super::pack::{Pack, Touches};
+use super::press::{Out, Sums, press_lane, press_round, push};
 use super::record::{Reach, Record};
 use super::surface::{NONE, Surface};
 use crate::sheet::group::LANES;
-use crate::terms::slide;
 use crate::vec3::{V3, add, along, cross, dot, node, norm, scale, sub};
 
 /// Records per chunk.
-pub(super) const RECORDS: usize = 256;
+pub(super) const RECORDS: usize = 64;
+
+/// Records are looked at early by this share of the slack, so that few looks serve many.
+const EARLY: f64 = 0.3;
 
 /// An element near a record's node, its corners in the chunk's numbering.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Candidate {
     pub element: u32,
     pub local: [u32; 4],
+    /// Distance when it was measured, plus the way of the chunk then: it is no closer than this less the way now.
+    pub clear_m: f64,
 }
 
 /// Records in order of their nodes.
@@ -33,21 +38,15 @@ pub(super) struct Chunk {
     pub faces: u32,
     /// Positions at the last look.
     pub seen_m: Vec<[f64; 4]>,
-    /// Each node may move this much before the next look.
-    pub allowed_m: f64,
+    /// Way: sum over the looks of the most that two nodes can have moved against each other in between.
+    pub way_m: f64,
+    /// Way at which a record is due.
+    pub next_m: f64,
     /// Path of the fastest node at which the motion must be measured again.
     pub due_m: f64,
-    /// True if `out` holds forces.
-    pub active: bool,
+    /// Forces on the nodes, and which of them (some more than once) are not zero.
+    pub out: Out,
     pub sums: Sums,
-}
-
-/// Energies of a chunk in one step \[J\].
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Sums {
-    pub stored: f64,
-    pub friction: f64,
-    pub damping: f64,
 }
 
 /// What a step needs to know.
@@ -75,6 +74,13 @@ pub(super) struct Touch {
 }
 
 impl Chunk {
+    /// Starts the way at zero again, at positions `x`.
+    pub fn close(&mut self, x: &[[f64; 4]]) {
+        let way_m = if self.seen_m.is_empty() { f64::INFINITY } else { self.way_m + 2.0 * self.spread_m(x) };
+        self.records.iter_mut().for_each(|r| r.due_m -= way_m);
+        self.candidates.iter_mut().for_each(|c| c.clear_m -= way_m);
+    }
+
     /// Gives every node of the records and their candidates a number within the chunk.
     pub fn number(&mut self, surface: &Surface) {
         self.nodes.clear();
@@ -88,32 +94,40 @@ impl Chunk {
             let corners = surface.elements[candidate.element as usize];
             candidate.local = corners.map(|n| if n == NONE { 0 } else { find(n) });
         }
-        self.records.iter_mut().for_each(|r| r.local[0] = find(r.node));
-        self.due_m = f64::NEG_INFINITY;
-        self.allowed_m = 0.0;
+        for r in &mut self.records {
+            r.local = [r.node, r.corners[0], r.corners[1], r.corners[2]].map(find);
+        }
+        (self.due_m, self.way_m, self.next_m) = (f64::NEG_INFINITY, 0.0, f64::NEG_INFINITY);
         self.seen_m.clear();
+        self.out.pushed.clear();
+        self.out.force_n.clear();
+        self.out.force_n.resize(self.nodes.len(), [0.0; 4]);
     }
 
-    /// One step: looks again if nodes moved too far, then adds up the forces of the near records in `out`.
-    pub fn step(&mut self, step: &Step, out: &mut [[f64; 4]]) {
+    /// One step: looks again if nodes moved too far, then adds up the forces of the near records.
+    pub fn step(&mut self, step: &Step) {
         self.sums = Sums::default();
-        if step.path_m >= self.due_m && self.moved_too_far(step) {
-            self.look(step);
+        if step.path_m >= self.due_m {
+            self.look_if_due(step);
         }
-        if self.near.is_empty() && !self.active {
-            return;
+        if !self.packs.is_empty() {
+            step.arch.dispatch(Pass { chunk: self, step });
         }
-        self.active = false;
-        out[..self.nodes.len()].fill([0.0; 4]);
-        step.arch.dispatch(Pass { chunk: self, step, out });
         for at in &self.near[self.faces as usize..] {
             let record = &mut self.records[*at as usize];
             let touch = touch(record, step.x);
             if touch.depth_m > 0.0 || record.last_m > 0.0 {
-                press_round(record, &touch, step, &mut self.sums, out);
-                self.active = true;
+                press_round(record, &touch, step, &mut self.sums, &mut self.out);
             }
             record.last_m = touch.depth_m;
+        }
+    }
+
+    /// Adds the forces of the step to those on all nodes.
+    pub fn hand_over(&mut self, force: &mut [[f64; 4]]) {
+        for local in self.out.pushed.drain(..).flatten() {
+            let own = std::mem::take(&mut self.out.force_n[local as usize]);
+            push(&mut force[self.nodes[local as usize] as usize], 1.0, [own[0], own[1], own[2]]);
         }
     }
 
@@ -131,60 +145,50 @@ impl Chunk {
         self.packs.extend(faces.chunks(LANES).map(|members| Pack::new(&self.records, members)));
     }
 
-    /// Measures how far nodes moved against the mean motion, or puts the next measurement off.
-    fn moved_too_far(&mut self, step: &Step) -> bool {
-        if self.seen_m.is_empty() {
-            return true;
+    /// Measures how far nodes moved against each other and looks, or puts the next measurement off.
+    fn look_if_due(&mut self, step: &Step) {
+        let moved_m = if self.seen_m.is_empty() { 0.0 } else { 2.0 * self.spread_m(step.x) };
+        let left_m = self.next_m - (self.way_m + moved_m);
+        if left_m > 0.05 * step.reach.slack_m {
+            // A node and the mean may part at twice the pace of the fastest node.
+            self.due_m = step.path_m + 0.25 * left_m;
+        } else {
+            self.way_m += moved_m;
+            self.look(step);
         }
+    }
+
+    /// Largest motion of a node against the mean motion since the last look.
+    fn spread_m(&self, x: &[[f64; 4]]) -> f64 {
         let mut mean = [0.0; 3];
         for (n, seen) in self.nodes.iter().zip(&self.seen_m) {
-            mean = add(mean, sub(node(step.x, *n as usize), [seen[0], seen[1], seen[2]]));
+            mean = add(mean, sub(node(x, *n as usize), [seen[0], seen[1], seen[2]]));
         }
         let mean = scale(mean, 1.0 / self.nodes.len() as f64);
         let mut far: f64 = 0.0;
         for (n, seen) in self.nodes.iter().zip(&self.seen_m) {
-            let moved = sub(sub(node(step.x, *n as usize), [seen[0], seen[1], seen[2]]), mean);
+            let moved = sub(sub(node(x, *n as usize), [seen[0], seen[1], seen[2]]), mean);
             far = far.max(dot(moved, moved));
         }
-        let left = self.allowed_m - far.sqrt();
-        // A node and the mean may part at twice the pace of the fastest node.
-        self.due_m = step.path_m + 0.5 * left;
-        left <= 0.05 * self.allowed_m || left.is_nan()
+        far.sqrt()
     }
 
-    /// Finds the closest feature of every record and the records that may touch soon.
+    /// Finds the closest feature of the records that are due, or nearly, and the records that may touch soon.
     pub fn look(&mut self, step: &Step) {
         self.unload();
-        let mut closest_m = f64::INFINITY;
+        let ripe_m = self.way_m + EARLY * step.reach.slack_m;
+        self.next_m = f64::INFINITY;
         for record in &mut self.records {
-            let candidates = &self.candidates[record.first as usize..(record.first + record.count) as usize];
-            let Some((found, local)) = closest(step, record, candidates) else { continue };
-            let held = (record.side, record.slide_j());
-            let depth_m = if held.0 == 0 { 0.0 } else { touch(record, step.x).depth_m };
-            record.settle(step.surface, &found, &step.reach);
-            if record.side == held.0 && held.0 != 0 {
-                let now_m = touch(record, step.x).depth_m;
-                self.sums.damping += record.ease(depth_m, now_m);
-            } else if held.0 != 0 {
-                self.sums.friction += held.1;
-                self.sums.damping += 0.5 * record.stiffness_n_m * depth_m.max(0.0).powi(2);
-                (record.spring_m, record.damped_n) = ([0.0; 3], 0.0);
+            // Not a number is due, too.
+            if record.due_m <= ripe_m || record.due_m.is_nan() {
+                let own = record.first as usize..(record.first + record.count) as usize;
+                look_at(record, &mut self.candidates[own], step, self.way_m, &mut self.sums);
+                record.due_m = self.way_m + record.free_m(&step.reach);
             }
-            let [a, b, c] = found.corners.map(|k| local[k as usize]);
-            record.local = [record.local[0], a, b, c];
-            record.last_m = if record.side == 0 { 0.0 } else { touch(record, step.before).depth_m };
-            if record.last_m <= 0.0 && record.holds() {
-                self.sums.friction += record.slide_j();
-                (record.spring_m, record.damped_n) = ([0.0; 3], 0.0);
-            }
-            let gap_m = if record.side == 0 { record.distance_m } else { record.distance_m - record.rest_m };
-            closest_m = closest_m.min(gap_m);
+            self.next_m = self.next_m.min(record.due_m);
         }
-        let reach = &step.reach;
-        // Half of the way left, so that a far pair is looked at again well before it touches.
-        let between = (0.5 * closest_m).clamp(reach.slack_m, 0.25 * reach.side_m + reach.slack_m);
         self.near.clear();
-        let near = |r: &Record| r.side != 0 && (r.distance_m - r.rest_m <= between || r.last_m > 0.0);
+        let near = |r: &Record| r.side != 0 && (r.gap_m() <= r.free_m(&step.reach) || r.last_m > 0.0);
         for faces in [true, false] {
             let wanted = |r: &Record| (r.feature == Feature::Face) == faces && near(r);
             self.near.extend(self.records.iter().enumerate().filter(|(_, r)| wanted(r)).map(|(i, _)| i as u32));
@@ -193,25 +197,61 @@ impl Chunk {
             }
         }
         self.load();
-        self.allowed_m = 0.5 * between;
-        self.due_m = step.path_m + 0.5 * self.allowed_m;
+        self.due_m = step.path_m + 0.25 * (self.next_m - self.way_m);
         self.seen_m.clear();
         self.seen_m.extend(self.nodes.iter().map(|n| step.x[*n as usize]));
     }
 }
 
-/// The closest feature among a record's candidates; the first wins a tie.
-pub(super) fn closest(step: &Step, record: &Record, candidates: &[Candidate]) -> Option<(Closest, [u32; 4])> {
+/// Finds the closest feature of one record.
+fn look_at(record: &mut Record, candidates: &mut [Candidate], step: &Step, way_m: f64, sums: &mut Sums) {
+    let Some((found, local)) = closest(step, record, candidates, way_m) else { return };
+    let held = (record.side, record.slide_j());
+    let depth_m = if held.0 == 0 { 0.0 } else { touch(record, step.x).depth_m };
+    record.settle(step.surface, &found, &step.reach);
+    if record.side == held.0 && held.0 != 0 {
+        let now_m = touch(record, step.x).depth_m;
+        sums.damping += record.ease(depth_m, now_m);
+    } else if held.0 != 0 {
+        sums.friction += held.1;
+        sums.damping += 0.5 * record.stiffness_n_m * depth_m.max(0.0).powi(2);
+        (record.spring_m, record.damped_n) = ([0.0; 3], 0.0);
+    }
+    let [a, b, c] = found.corners.map(|k| local[k as usize]);
+    record.local = [record.local[0], a, b, c];
+    record.last_m = if record.side == 0 { 0.0 } else { touch(record, step.before).depth_m };
+    if record.last_m <= 0.0 && record.holds() {
+        sums.friction += record.slide_j();
+        (record.spring_m, record.damped_n) = ([0.0; 3], 0.0);
+    }
+}
+
+/// The closest feature among a record's candidates; the first wins a tie. Candidates that cannot be closer than the
+/// element that was closest before are passed over.
+pub(super) fn closest(
+    step: &Step,
+    record: &Record,
+    candidates: &mut [Candidate],
+    way_m: f64,
+) -> Option<(Closest, [u32; 4])> {
     let p = node(step.x, record.node as usize);
-    let mut best: Option<(f64, &Candidate)> = None;
+    let mut limit_m = f64::INFINITY;
+    if candidates.iter().any(|c| c.element == record.element) {
+        limit_m = nearest(step.surface, step.x, p, record.element).square_m2.sqrt() * (1.0 + 1e-9);
+    }
+    let mut best: Option<(Nearest, &Candidate)> = None;
     for candidate in candidates {
-        let square = nearest(step.surface, step.x, p, candidate.element).0;
-        if best.is_none_or(|b| square < b.0 * (1.0 - 1e-9)) {
-            best = Some((square, candidate));
+        if candidate.clear_m - way_m > limit_m {
+            continue;
+        }
+        let now = nearest(step.surface, step.x, p, candidate.element);
+        candidate.clear_m = now.square_m2.sqrt() + way_m;
+        if best.as_ref().is_none_or(|b| now.square_m2 < b.0.square_m2 * (1.0 - 1e-9)) {
+            best = Some((now, candidate));
         }
     }
-    let (_, candidate) = best?;
-    let found = describe(step.surface, step.x, p, candidate.element, 0.4 * step.reach.slack_m);
+    let (now, candidate) = best?;
+    let found = describe(step.surface, step.x, p, candidate.element, &now, 0.4 * step.reach.slack_m);
     Some((found, candidate.local))
 }
 
@@ -251,7 +291,6 @@ fn round_touch(record: &Record, p: V3, a: V3, b: V3) -> Touch {
 struct Pass<'a, 'b> {
     chunk: &'a mut Chunk,
     step: &'a Step<'b>,
-    out: &'a mut [[f64; 4]],
 }
 
 impl pulp::WithSimd for Pass<'_, '_> {
@@ -259,122 +298,18 @@ impl pulp::WithSimd for Pass<'_, '_> {
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, simd: S) {
         let mut touches = Touches::NONE;
-        let Chunk { packs, records, sums, active, .. } = self.chunk;
+        let Chunk { packs, records, sums, out, .. } = self.chunk;
         for pack in packs {
-            pack.measure(simd, self.step.x, &mut touches);
+            if !pack.measure(simd, self.step.x, &mut touches) {
+                pack.last_m = touches.depth_m;
+                continue;
+            }
             for lane in 0..LANES {
                 if touches.depth_m[lane] > 0.0 || pack.last_m[lane] > 0.0 {
-                    press_lane(pack, lane, &touches, records, self.step, sums, self.out);
-                    *active = true;
+                    press_lane(pack, lane, &touches, records, self.step, sums, out);
                 }
             }
             pack.last_m = touches.depth_m;
         }
     }
-}
-
-/// A lane that touches, or did in the step before.
-#[inline(always)]
-fn press_lane(
-    pack: &mut Pack,
-    lane: usize,
-    touches: &Touches,
-    records: &mut [Record],
-    step: &Step,
-    sums: &mut Sums,
-    out: &mut [[f64; 4]],
-) {
-    let touch = touches.of(lane);
-    let (k, c, last_m) = (pack.stiffness_n_m[lane], pack.damping_n_s_m[lane], pack.last_m[lane]);
-    let spring = Spring { k, c_dt: c / step.dt_s, last_m };
-    let normal_n = spring.press(touch.depth_m, &mut pack.damped_n[lane], sums);
-    let mut force = scale(touch.normal, normal_n);
-    if step.friction > 0.0 {
-        force = add(force, rub(&mut records[pack.record[lane] as usize], &touch, normal_n, step, sums));
-    }
-    spread([0, 1, 2, 3].map(|k: usize| pack.local[k][lane]), touch.weights, force, out);
-}
-
-/// The same for an edge or corner.
-fn press_round(record: &mut Record, touch: &Touch, step: &Step, sums: &mut Sums, out: &mut [[f64; 4]]) {
-    let c_dt = record.damping_n_s_m / step.dt_s;
-    let spring = Spring { k: record.stiffness_n_m, c_dt, last_m: record.last_m };
-    let normal_n = spring.press(touch.depth_m, &mut record.damped_n, sums);
-    let mut force = scale(touch.normal, normal_n);
-    if step.friction > 0.0 {
-        force = add(force, rub(record, touch, normal_n, step, sums));
-    }
-    spread(record.local, touch.weights, force, out);
-}
-
-/// The normal part of a pair.
-struct Spring {
-    k: f64,
-    /// Damping coefficient over the step.
-    c_dt: f64,
-    last_m: f64,
-}
-
-impl Spring {
-    /// Normal force; `damped_n` goes from the step before to this one. The loss is the work of the step less what the
-    /// spring stores: damping, and what a step that ends or begins within the gap takes or gives.
-    #[inline(always)]
-    fn press(&self, depth_m: f64, damped_n: &mut f64, sums: &mut Sums) -> f64 {
-        let closed = depth_m - self.last_m;
-        let (deep, was) = (positive(depth_m), positive(self.last_m));
-        let elastic = self.k * deep;
-        let pull = self.c_dt * closed;
-        // The layers do not stick to each other: damping never pulls more than the spring pushes.
-        let damped = if depth_m > 0.0 { if pull > -elastic { pull } else { -elastic } } else { 0.0 };
-        let work = 0.5 * (damped + *damped_n + self.k * (deep + was)) * closed;
-        let stored = 0.5 * elastic * deep;
-        sums.damping += work - (stored - 0.5 * self.k * was * was);
-        sums.stored += stored;
-        *damped_n = damped;
-        elastic + damped
-    }
-}
-
-#[inline(always)]
-fn positive(value: f64) -> f64 {
-    if value > 0.0 { value } else { 0.0 }
-}
-
-/// Friction force of a pair.
-#[inline]
-fn rub(record: &mut Record, touch: &Touch, normal_n: f64, step: &Step, sums: &mut Sums) -> V3 {
-    let k = record.stiffness_n_m;
-    let moved = motion(record, touch, step.x, step.before);
-    let (spring, lost) = slide(record.spring_m, moved, touch.normal, k, step.friction * normal_n);
-    record.spring_m = spring;
-    sums.friction += lost;
-    sums.stored += record.slide_j();
-    scale(spring, -k)
-}
-
-/// Motion of the node against the touched point since the step before.
-#[inline(always)]
-pub(super) fn motion(record: &Record, touch: &Touch, x: &[[f64; 4]], before: &[[f64; 4]]) -> V3 {
-    let one = |n: u32| sub(node(x, n as usize), node(before, n as usize));
-    let mut moved = one(record.node);
-    for (n, w) in record.corners.iter().zip(touch.weights) {
-        moved = along(moved, -w, one(*n));
-    }
-    moved
-}
-
-#[inline(always)]
-fn spread(local: [u32; 4], weights: [f64; 3], force: V3, out: &mut [[f64; 4]]) {
-    let [p, a, b, c] = local.map(|n| n as usize);
-    push(&mut out[p], 1.0, force);
-    push(&mut out[a], -weights[0], force);
-    push(&mut out[b], -weights[1], force);
-    push(&mut out[c], -weights[2], force);
-}
-
-#[inline(always)]
-pub(super) fn push(out: &mut [f64; 4], weight: f64, force: V3) {
-    out[0] += weight * force[0];
-    out[1] += weight * force[1];
-    out[2] += weight * force[2];
 }

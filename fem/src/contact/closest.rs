@@ -73,27 +73,43 @@ pub(super) fn on_triangle(p: V3, a: V3, b: V3, c: V3) -> [f64; 3] {
     [va / total, vb / total, vc / total]
 }
 
-/// Squared distance to an element, the triangle and the weights; the first half of a quad wins a tie.
+/// The point of an element that is nearest to a node.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Nearest {
+    /// Squared distance \[m²\].
+    pub square_m2: f64,
+    pub half: usize,
+    pub weights: [f64; 3],
+}
+
+/// Nearest point of an element; the first half of a quad wins a tie.
 #[inline]
-pub(super) fn nearest(surface: &Surface, x: &[[f64; 4]], p: V3, element: u32) -> (f64, usize, [f64; 3]) {
+pub(super) fn nearest(surface: &Surface, x: &[[f64; 4]], p: V3, element: u32) -> Nearest {
     let nodes = &surface.elements[element as usize];
     let halves = if nodes[3] == NONE { 1 } else { 2 };
-    let mut best = (f64::INFINITY, 0, [0.0; 3]);
+    let mut best = Nearest { square_m2: f64::INFINITY, half: 0, weights: [0.0; 3] };
     for (half, triangle) in TRIANGLES.iter().enumerate().take(halves) {
         let [a, b, c] = triangle.map(|k| node(x, nodes[k as usize] as usize));
-        let w = on_triangle(p, a, b, c);
-        let r = sub(p, blend(w, a, b, c));
-        let square = dot(r, r);
-        if square < best.0 {
-            best = (square, half, w);
+        let weights = on_triangle(p, a, b, c);
+        let r = sub(p, blend(weights, a, b, c));
+        let square_m2 = dot(r, r);
+        if square_m2 < best.square_m2 {
+            best = Nearest { square_m2, half, weights };
         }
     }
     best
 }
 
 /// Turns a nearest point into a feature. Within `slack_m` of a face its plane is used: there the surface is nearly flat.
-pub(super) fn describe(surface: &Surface, x: &[[f64; 4]], p: V3, element: u32, slack_m: f64) -> Closest {
-    let (square_m2, half, w) = nearest(surface, x, p, element);
+pub(super) fn describe(
+    surface: &Surface,
+    x: &[[f64; 4]],
+    p: V3,
+    element: u32,
+    nearest: &Nearest,
+    slack_m: f64,
+) -> Closest {
+    let Nearest { square_m2, half, weights: w } = *nearest;
     let nodes = &surface.elements[element as usize];
     let triangle = TRIANGLES[half];
     let [a, b, c] = triangle.map(|k| node(x, nodes[k as usize] as usize));

@@ -25,8 +25,9 @@
 //! change the rest gap is lowered so that the depth stays; it grows back to what is wanted when the pair is apart. What
 //! that loses, and what a time step takes or gives that begins or ends within the gap, is in `contact damping`.
 //!
-//! **Cost.** Candidates are found by a search that is repeated only when nodes moved half the skin; of these, pairs that
-//! may touch are picked again when nodes moved against each other, chunk by chunk; a step evaluates those only.
+//! **Cost.** Candidates are found by a search that is repeated only when nodes moved half the skin. A record is looked at
+//! when it may have moved far enough to matter, against what its chunk moved; candidates that cannot be the closest then
+//! are passed over. A step evaluates the pairs that may touch, in vector groups, and hands over forces where they touch.
 //!
 //! **Validity**: penalty depths p dt²/(0.1 m_A) far below the thickness (m_A areal mass, p pressure); elements larger
 //! than about three thicknesses; edges against edges are caught only through their nodes.
@@ -35,8 +36,8 @@
 mod build;
 mod chunk;
 mod closest;
-mod gather;
 mod pack;
+mod press;
 mod record;
 mod save;
 mod search;
@@ -50,9 +51,9 @@ use crate::problem;
 use crate::terms::slide;
 use crate::vec3::{dot, norm, scale};
 use crate::{FemError, Mesh};
-use build::Penalty;
-use chunk::{Chunk, Step, Sums, motion, push, touch};
-use gather::Gather;
+use build::{Memory, Penalty};
+use chunk::{Chunk, Step, motion, touch};
+use press::{Sums, push};
 use record::{Reach, Record};
 use surface::Surface;
 
@@ -73,9 +74,6 @@ pub struct Contact {
     friction: f64,
     arch: pulp::Arch,
     chunks: Vec<Chunk>,
-    gather: Gather,
-    /// Forces of the chunks, one block each.
-    out: Vec<[f64; 4]>,
     /// Positions at the last search.
     placed_m: Vec<[f64; 4]>,
     /// Positions one step before; empty before the first step.
@@ -106,8 +104,6 @@ impl Contact {
             friction: settings.friction,
             arch: pulp::Arch::new(),
             chunks: Vec::new(),
-            gather: Gather::default(),
-            out: Vec::new(),
             placed_m,
             before_m: Vec::new(),
             path_m: 0.0,
@@ -181,8 +177,12 @@ impl Contact {
 
     fn search(&mut self, x: &[[f64; 4]]) {
         let pairs = search::pairs(&self.surface, x, self.reach.side_m + self.reach.skin_m);
-        self.chunks.iter_mut().for_each(Chunk::unload);
-        let old: Vec<Record> = self.chunks.iter().flat_map(|c| c.records.iter().copied()).collect();
+        let mut old = Memory::new(if self.searches == 0 { f64::NEG_INFINITY } else { self.reach.side_m });
+        for chunk in &mut self.chunks {
+            chunk.unload();
+            chunk.close(x);
+            old.append(chunk);
+        }
         let (chunks, lost) = build::chunks(&self.surface, &pairs, &old, &self.penalty);
         self.sums.friction += lost;
         self.chunks = chunks;
@@ -190,15 +190,13 @@ impl Contact {
         self.placed_m.extend_from_slice(x);
         self.search_due_m = self.path_m + 0.5 * self.reach.skin_m;
         self.searches += 1;
-        self.arrange(x.len());
+        self.arrange();
     }
 
-    /// Numbers the chunks' nodes and lays out the array of their forces.
-    fn arrange(&mut self, nodes: usize) {
+    /// Numbers the chunks' nodes.
+    fn arrange(&mut self) {
         let surface = &self.surface;
         self.chunks.par_iter_mut().for_each(|chunk| chunk.number(surface));
-        self.gather = Gather::new(nodes, &self.chunks);
-        self.out = vec![[0.0; 4]; self.gather.stride * self.chunks.len()];
     }
 }
 
@@ -241,19 +239,17 @@ impl Term for Contact {
         self.path_m += fastest_m(x, &self.before_m);
         self.search_if_due(x);
         let mut chunks = std::mem::take(&mut self.chunks);
-        let mut out = std::mem::take(&mut self.out);
         let step = self.step_of(x, tick.dt_s);
-        let blocks = out.par_chunks_mut(self.gather.stride.max(1));
-        chunks.par_iter_mut().zip(blocks).for_each(|(chunk, out)| chunk.step(&step, out));
-        (self.chunks, self.out) = (chunks, out);
+        chunks.par_iter_mut().for_each(|chunk| chunk.step(&step));
+        self.chunks = chunks;
         self.sums.stored = 0.0;
-        for chunk in &self.chunks {
+        // One after the other, so that the order of additions does not depend on threads.
+        let force = force.as_chunks_mut::<4>().0;
+        for chunk in &mut self.chunks {
+            chunk.hand_over(force);
             self.sums.stored += chunk.sums.stored;
             self.sums.friction += chunk.sums.friction;
             self.sums.damping += chunk.sums.damping;
-        }
-        if self.chunks.iter().any(|chunk| chunk.active) {
-            self.gather.add(&self.out, force.as_chunks_mut::<4>().0);
         }
         self.before_m.copy_from_slice(x);
         self.sums.stored
@@ -316,7 +312,7 @@ fn fastest_m(x: &[[f64; 4]], y: &[[f64; 4]]) -> f64 {
 fn reaches(settings: &problem::Contact, size_m: f64) -> Reach {
     Reach {
         side_m: (0.375 * size_m).max(4.0 * settings.thickness_m).max(4.0 * settings.gap_m),
-        skin_m: 0.5 * size_m,
+        skin_m: 0.75 * size_m,
         slack_m: 0.05 * size_m,
         thickness_m: settings.thickness_m,
         own_layer_m: 0.5 * size_m,

@@ -9,7 +9,7 @@ use pulp::Simd;
 use super::chunk::Touch;
 use super::record::Record;
 use crate::sheet::group::{LANES, Lane};
-use crate::sheet::lanes::{V, inner, product};
+use crate::sheet::lanes::{V, axes, inner, product};
 
 /// Eight pairs.
 #[derive(Debug, Clone)]
@@ -85,22 +85,28 @@ impl Pack {
         }
     }
 
-    /// Depth, normal and weights of all lanes.
+    /// Depth, normal and weights of all lanes; false if none of them touches or did in the step before.
     #[inline(always)]
-    pub fn measure<S: Simd>(&self, simd: S, x: &[[f64; 4]], touches: &mut Touches) {
+    pub fn measure<S: Simd>(&self, simd: S, x: &[[f64; 4]], touches: &mut Touches) -> bool {
+        let mut any = false;
         for part in 0..LANES / S::F64_LANES {
-            let [p, a, b, c]: [[V<S>; 3]; 4] = [0, 1, 2, 3].map(|k: usize| rows(simd, x, &self.node[k], part));
-            let axes = [0, 1, 2];
-            let (e1, e2, r) = (axes.map(|k| b[k] - a[k]), axes.map(|k| c[k] - a[k]), axes.map(|k| p[k] - a[k]));
+            let (p, a) = (rows(simd, x, &self.node[0], part), rows(simd, x, &self.node[1], part));
+            let (b, c) = (rows(simd, x, &self.node[2], part), rows(simd, x, &self.node[3], part));
+            let (e1, e2, r) = (axes!(k => b[k] - a[k]), axes!(k => c[k] - a[k]), axes!(k => p[k] - a[k]));
             let m = product(e1, e2);
             let inverse = inner(m, m).inverse();
             let per = V::load(simd, &self.sign, part) * inverse.sqrt();
-            let normal = axes.map(|k| m[k] * per);
-            (V::load(simd, &self.rest_m, part) - inner(r, normal)).store(&mut touches.depth_m, part);
+            let normal = axes!(k => m[k] * per);
+            let depth = V::load(simd, &self.rest_m, part) - inner(r, normal);
+            any |= depth.max(V::load(simd, &self.last_m, part)).largest() > 0.0;
+            depth.store(&mut touches.depth_m, part);
             (inner(product(r, e2), m) * inverse).store(&mut touches.w1, part);
             (inner(product(e1, r), m) * inverse).store(&mut touches.w2, part);
-            (0..3).for_each(|k| normal[k].store(&mut touches.normal[k], part));
+            for (normal, to) in normal.into_iter().zip(&mut touches.normal) {
+                normal.store(to, part);
+            }
         }
+        any
     }
 }
 

@@ -46,6 +46,8 @@ pub(super) struct Record {
     pub damping_n_s_m: f64,
     /// Distance at the last look \[m\].
     pub distance_m: f64,
+    /// Way of the chunk at which to look again.
+    pub due_m: f64,
     /// Elastic slide.
     pub spring_m: V3,
     /// Depth in the step before \[m\].
@@ -55,9 +57,44 @@ pub(super) struct Record {
 }
 
 impl Record {
+    /// Due at once.
+    pub const NEW: Record = Record {
+        node: 0,
+        corners: [0; 3],
+        local: [0; 4],
+        element: 0,
+        layer: 0,
+        feature: Feature::Face,
+        side: 0,
+        own: false,
+        first: 0,
+        count: 0,
+        sign: 0.0,
+        rest_m: 0.0,
+        wanted_m: 0.0,
+        stiffness_n_m: 0.0,
+        damping_n_s_m: 0.0,
+        distance_m: 0.0,
+        due_m: f64::NEG_INFINITY,
+        spring_m: [0.0; 3],
+        last_m: 0.0,
+        damped_n: 0.0,
+    };
+
     /// True if the step before left something to account for.
     pub fn holds(&self) -> bool {
         self.damped_n != 0.0 || self.spring_m != [0.0; 3]
+    }
+
+    /// Way to go until it touches, as far as the last look told; the distance of an undecided pair.
+    pub fn gap_m(&self) -> f64 {
+        if self.side == 0 { self.distance_m } else { self.distance_m - self.rest_m }
+    }
+
+    /// Motion of the node against the layer until the next look. Half of the way left, so that a far pair is looked at
+    /// again well before it touches.
+    pub fn free_m(&self, reach: &Reach) -> f64 {
+        (0.5 * self.gap_m()).clamp(reach.slack_m, 0.25 * reach.side_m + reach.slack_m)
     }
 
     /// Energy of the elastic slide \[J\].

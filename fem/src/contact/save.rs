@@ -7,7 +7,7 @@ use super::record::Record;
 use crate::output::bytes::{Reader, Writer};
 
 /// Changes with the layout of the bytes.
-const VERSION: u64 = 1;
+const VERSION: u64 = 2;
 
 pub(super) fn write(contact: &Contact) -> Vec<u8> {
     let mut out = Writer::new();
@@ -22,11 +22,11 @@ pub(super) fn write(contact: &Contact) -> Vec<u8> {
     for chunk in &contact.chunks {
         let mut chunk = chunk.clone();
         chunk.unload();
-        out.f64s(&[chunk.allowed_m, chunk.due_m]);
-        out.u64(u64::from(chunk.active));
+        out.f64s(&[chunk.way_m, chunk.next_m, chunk.due_m]);
         out.f64s(chunk.seen_m.as_flattened());
         out.u32s(&chunk.near);
         out.u32s(&chunk.candidates.iter().map(|c| c.element).collect::<Vec<_>>());
+        out.f64s(&chunk.candidates.iter().map(|c| c.clear_m).collect::<Vec<_>>());
         out.u32s(&chunk.records.iter().flat_map(integers).collect::<Vec<_>>());
         out.f64s(&chunk.records.iter().flat_map(numbers).collect::<Vec<_>>());
     }
@@ -56,14 +56,12 @@ pub(super) fn read(contact: &mut Contact, saved: &[u8]) -> Option<()> {
     contact.before_m = before.as_chunks::<4>().0.to_vec();
     contact.searches = searches;
     [contact.path_m, contact.search_due_m, contact.sums.stored, contact.sums.friction, contact.sums.damping] = sums;
-    let kept: Vec<_> = chunks.iter_mut().map(|c| (std::mem::take(&mut c.seen_m), c.allowed_m, c.due_m)).collect();
+    let kept = chunks.clone();
     contact.chunks = chunks;
-    contact.arrange(nodes);
-    for (chunk, (seen_m, allowed_m, due_m)) in contact.chunks.iter_mut().zip(kept) {
-        (chunk.seen_m, chunk.allowed_m, chunk.due_m) = (seen_m, allowed_m, due_m);
-        let nodes = &chunk.nodes;
-        let find = |n: u32| nodes.binary_search(&n).unwrap_or(0) as u32;
-        chunk.records.iter_mut().for_each(|r| r.local = [r.node, r.corners[0], r.corners[1], r.corners[2]].map(find));
+    contact.arrange();
+    for (chunk, kept) in contact.chunks.iter_mut().zip(kept) {
+        (chunk.way_m, chunk.next_m, chunk.due_m) = (kept.way_m, kept.next_m, kept.due_m);
+        chunk.seen_m = kept.seen_m;
         if !chunk.seen_m.is_empty() && chunk.seen_m.len() != chunk.nodes.len() {
             return None;
         }
@@ -73,14 +71,16 @@ pub(super) fn read(contact: &mut Contact, saved: &[u8]) -> Option<()> {
 }
 
 fn chunk(contact: &Contact, from: &mut Reader) -> Option<Chunk> {
-    let [allowed_m, due_m] = from.f64s()?.try_into().ok()?;
-    let active = from.u64()? != 0;
+    let [way_m, next_m, due_m] = from.f64s()?.try_into().ok()?;
     let seen_m = from.f64s()?.as_chunks::<4>().0.to_vec();
     let near = from.u32s()?;
     let elements = contact.surface.elements.len() as u32;
-    let candidates = from.u32s()?;
-    let candidates: Vec<_> =
-        candidates.into_iter().map(|element| Candidate { element, ..Candidate::default() }).collect();
+    let (candidates, clear) = (from.u32s()?, from.f64s()?);
+    if candidates.len() != clear.len() {
+        return None;
+    }
+    let candidate = |(element, clear_m)| Candidate { element, clear_m, ..Candidate::default() };
+    let candidates: Vec<_> = candidates.into_iter().zip(clear).map(candidate).collect();
     let (whole, real) = (from.u32s()?, from.f64s()?);
     if whole.len() / INTEGERS != real.len() / NUMBERS {
         return None;
@@ -100,11 +100,12 @@ fn chunk(contact: &Contact, from: &mut Reader) -> Option<Chunk> {
         && near.iter().all(|at| (*at as usize) < records.len());
     let on_face = |at: &u32| records.get(*at as usize).is_some_and(|r| r.feature == Feature::Face);
     let faces = near.iter().take_while(|at| on_face(at)).count() as u32;
-    good.then(|| Chunk { faces, records, candidates, near, seen_m, allowed_m, due_m, active, ..Chunk::default() })
+    let whole = Chunk { faces, records, candidates, near, seen_m, way_m, next_m, due_m, ..Chunk::default() };
+    good.then_some(whole)
 }
 
 const INTEGERS: usize = 11;
-const NUMBERS: usize = 11;
+const NUMBERS: usize = 12;
 
 fn integers(r: &Record) -> [u32; INTEGERS] {
     let [a, b, c] = r.corners;
@@ -114,12 +115,25 @@ fn integers(r: &Record) -> [u32; INTEGERS] {
 
 fn numbers(r: &Record) -> [f64; NUMBERS] {
     let [x, y, z] = r.spring_m;
-    [r.sign, r.rest_m, r.wanted_m, r.stiffness_n_m, r.damping_n_s_m, r.distance_m, x, y, z, r.last_m, r.damped_n]
+    [
+        r.sign,
+        r.rest_m,
+        r.wanted_m,
+        r.stiffness_n_m,
+        r.damping_n_s_m,
+        r.distance_m,
+        x,
+        y,
+        z,
+        r.last_m,
+        r.damped_n,
+        r.due_m,
+    ]
 }
 
 fn record(i: &[u32; INTEGERS], n: &[f64; NUMBERS]) -> Option<Record> {
     let [node, a, b, c, element, layer, feature, side, own, first, count] = *i;
-    let [sign, rest_m, wanted_m, stiffness_n_m, damping_n_s_m, distance_m, x, y, z, last_m, damped_n] = *n;
+    let [sign, rest_m, wanted_m, stiffness_n_m, damping_n_s_m, distance_m, x, y, z, last_m, damped_n, due_m] = *n;
     let feature = [Feature::Face, Feature::Edge, Feature::Corner].into_iter().find(|f| *f as u32 == feature)?;
     let side = [-1, 0, 1].get(side as usize).copied()?;
     let record = Record {
@@ -144,6 +158,7 @@ fn record(i: &[u32; INTEGERS], n: &[f64; NUMBERS]) -> Option<Record> {
         spring_m: [x, y, z],
         last_m,
         damped_n,
+        due_m,
         ..record
     })
 }

@@ -71,8 +71,9 @@ fn entries(contact: &Contact, settings: &problem::Contact, x: &[[f64; 4]]) -> Ve
     let mut entries = Vec::new();
     for (c, chunk) in contact.chunks.iter().enumerate() {
         for (at, record) in chunk.records.iter().enumerate() {
-            let candidates = &chunk.candidates[record.first as usize..(record.first + record.count) as usize];
-            let Some((found, _)) = closest(&step, record, candidates) else { continue };
+            let own = record.first as usize..(record.first + record.count) as usize;
+            let mut candidates = chunk.candidates[own].to_vec();
+            let Some((found, _)) = closest(&step, record, &mut candidates, 0.0) else { continue };
             let clear = found.cosine.abs() >= 0.5;
             if found.square_m2.sqrt() <= contact.reach.side_m && clear {
                 let vote_m = found.height_m.clamp(-cut, cut);

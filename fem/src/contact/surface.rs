@@ -20,7 +20,7 @@ pub(super) struct Surface {
     pub across: Vec<[u32; 4]>,
     /// Elements at each node.
     pub around: Lists,
-    /// Elements of its own layers that a node never touches, ascending: two rings.
+    /// Nodes of its own layer that never touch an element, ascending: two rings.
     pub skip: Lists,
     /// Reference area of each node \[m²\].
     pub area_m2: Vec<f64>,
@@ -149,9 +149,9 @@ impl Surface {
             seen.extend_from_slice(own);
             seen.sort_unstable();
             seen.dedup();
-            pairs.extend(seen.iter().map(|e| (node as u32, *e)));
+            pairs.extend(seen.iter().map(|e| (*e, node as u32)));
         }
-        Lists::new(nodes, &pairs)
+        Lists::new(self.elements.len(), &pairs)
     }
 
     fn measure(&mut self, points: &[V3]) {

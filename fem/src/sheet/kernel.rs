@@ -16,28 +16,8 @@ use models::fabrics::Past;
 use pulp::Simd;
 
 use super::group::{Group, LANES, Lane};
-use super::lanes::{V, inner, product};
+use super::lanes::{V, axes, inner, product};
 use super::law::Law;
-
-/// `[expression; k = 0, 1, 2]`. Closures would hide the vector instructions from the inliner.
-macro_rules! axes {
-    ($k:ident => $value:expr) => {
-        [
-            {
-                let $k = 0;
-                $value
-            },
-            {
-                let $k = 1;
-                $value
-            },
-            {
-                let $k = 2;
-                $value
-            },
-        ]
-    };
-}
 
 /// One vector for each element of a group.
 pub type Lane3 = [Lane; 3];

@@ -8,6 +8,27 @@ use pulp::Simd;
 
 use super::group::{LANES, Lane};
 
+/// `[expression; k = 0, 1, 2]`. Closures would hide the vector instructions from the inliner.
+macro_rules! axes {
+    ($k:ident => $value:expr) => {
+        [
+            {
+                let $k = 0;
+                $value
+            },
+            {
+                let $k = 1;
+                $value
+            },
+            {
+                let $k = 2;
+                $value
+            },
+        ]
+    };
+}
+pub(crate) use axes;
+
 /// A vector register of f64.
 #[derive(Clone, Copy)]
 pub struct V<S: Simd>(S, S::f64s);
@@ -53,6 +74,18 @@ impl<S: Simd> V<S> {
     #[inline(always)]
     pub fn sqrt(self) -> V<S> {
         V(self.0, self.0.sqrt_f64s(self.1))
+    }
+
+    /// The larger of two, lane by lane.
+    #[inline(always)]
+    pub fn max(self, other: V<S>) -> V<S> {
+        V(self.0, self.0.max_f64s(self.1, other.1))
+    }
+
+    /// The largest lane.
+    #[inline(always)]
+    pub fn largest(self) -> f64 {
+        self.0.reduce_max_f64s(self.1)
     }
 
     /// Part number `part` of eight lanes.

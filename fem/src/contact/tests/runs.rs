@@ -11,9 +11,9 @@ fn lowest(rig: &Rig, nodes: std::ops::Range<usize>, layer: u32) -> f64 {
     let faces: Vec<u32> = (0..surface.elements.len() as u32).filter(|e| surface.layer[*e as usize] == layer).collect();
     let mut low = f64::INFINITY;
     for i in nodes {
-        let near = faces.iter().map(|e| (nearest(surface, &rig.x, rig.p(i), *e).0, *e));
-        let Some((_, best)) = near.min_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
-        let found = closest::describe(surface, &rig.x, rig.p(i), best, 0.0);
+        let near = faces.iter().map(|e| (nearest(surface, &rig.x, rig.p(i), *e), *e));
+        let Some((at, best)) = near.min_by(|a, b| a.0.square_m2.total_cmp(&b.0.square_m2)) else { continue };
+        let found = closest::describe(surface, &rig.x, rig.p(i), best, &at, 0.0);
         if !found.rim {
             low = low.min(found.height_m);
         }
@@ -196,7 +196,7 @@ fn nothing_that_touches_is_missing_from_the_near_pairs() {
             let p = crate::vec3::node(&at, i);
             for e in (0..surface.elements.len() as u32).filter(|e| surface.layer[*e as usize] == layer) {
                 let inside = nearest(surface, &at, p, e);
-                if inside.0 < (1.5e-4_f64).powi(2) && inside.2.iter().all(|w| *w > 0.05) {
+                if inside.square_m2 < (1.5e-4_f64).powi(2) && inside.weights.iter().all(|w| *w > 0.05) {
                     touched += 1;
                     assert!(near.contains(&(i as u32)), "step {}: node {i} at element {e}", rig.step);
                 }

@@ -1,0 +1,131 @@
+//! Forces of pairs: spring, damping and friction, and the energies that go with them.
+
+use super::chunk::{Step, Touch, motion};
+use super::pack::{Pack, Touches};
+use super::record::Record;
+use crate::terms::slide;
+use crate::vec3::{V3, add, scale};
+
+/// Forces in a chunk's numbering.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Out {
+    pub force_n: Vec<[f64; 4]>,
+    pub pushed: Vec<[u32; 4]>,
+}
+
+/// Energies of a chunk in one step \[J\].
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Sums {
+    pub stored: f64,
+    pub friction: f64,
+    pub damping: f64,
+}
+
+/// A lane that touches, or did in the step before.
+#[inline(always)]
+pub(super) fn press_lane(
+    pack: &mut Pack,
+    lane: usize,
+    touches: &Touches,
+    records: &mut [Record],
+    step: &Step,
+    sums: &mut Sums,
+    out: &mut Out,
+) {
+    let touch = touches.of(lane);
+    let (k, c, last_m) = (pack.stiffness_n_m[lane], pack.damping_n_s_m[lane], pack.last_m[lane]);
+    let spring = Spring { k, c_dt: c / step.dt_s, last_m };
+    let normal_n = spring.press(touch.depth_m, &mut pack.damped_n[lane], sums);
+    let mut force = scale(touch.normal, normal_n);
+    if step.friction > 0.0 {
+        force = add(force, rub(&mut records[pack.record[lane] as usize], &touch, normal_n, step, sums));
+    }
+    let local = [pack.local[0][lane], pack.local[1][lane], pack.local[2][lane], pack.local[3][lane]];
+    spread(local, touch.weights, force, out);
+}
+
+/// The same for an edge or corner.
+pub(super) fn press_round(record: &mut Record, touch: &Touch, step: &Step, sums: &mut Sums, out: &mut Out) {
+    let c_dt = record.damping_n_s_m / step.dt_s;
+    let spring = Spring { k: record.stiffness_n_m, c_dt, last_m: record.last_m };
+    let normal_n = spring.press(touch.depth_m, &mut record.damped_n, sums);
+    let mut force = scale(touch.normal, normal_n);
+    if step.friction > 0.0 {
+        force = add(force, rub(record, touch, normal_n, step, sums));
+    }
+    spread(record.local, touch.weights, force, out);
+}
+
+/// The normal part of a pair.
+struct Spring {
+    k: f64,
+    /// Damping coefficient over the step.
+    c_dt: f64,
+    last_m: f64,
+}
+
+impl Spring {
+    /// Normal force; `damped_n` goes from the step before to this one. The loss is the work of the step less what the
+    /// spring stores: damping, and what a step that ends or begins within the gap takes or gives.
+    #[inline(always)]
+    fn press(&self, depth_m: f64, damped_n: &mut f64, sums: &mut Sums) -> f64 {
+        let closed = depth_m - self.last_m;
+        let (deep, was) = (positive(depth_m), positive(self.last_m));
+        let elastic = self.k * deep;
+        let pull = self.c_dt * closed;
+        // The layers do not stick to each other: damping never pulls more than the spring pushes.
+        let damped = if depth_m > 0.0 { if pull > -elastic { pull } else { -elastic } } else { 0.0 };
+        let work = 0.5 * (damped + *damped_n + self.k * (deep + was)) * closed;
+        let stored = 0.5 * elastic * deep;
+        sums.damping += work - (stored - 0.5 * self.k * was * was);
+        sums.stored += stored;
+        *damped_n = damped;
+        elastic + damped
+    }
+}
+
+#[inline(always)]
+fn positive(value: f64) -> f64 {
+    if value > 0.0 { value } else { 0.0 }
+}
+
+/// Friction force of a pair.
+#[inline]
+fn rub(record: &mut Record, touch: &Touch, normal_n: f64, step: &Step, sums: &mut Sums) -> V3 {
+    let k = record.stiffness_n_m;
+    let moved = motion(record, touch, step.x, step.before);
+    let (spring, lost) = slide(record.spring_m, moved, touch.normal, k, step.friction * normal_n);
+    record.spring_m = spring;
+    sums.friction += lost;
+    sums.stored += record.slide_j();
+    scale(spring, -k)
+}
+
+/// Motion of the node against the touched point since the step before.
+#[inline(always)]
+pub(super) fn motion(record: &Record, touch: &Touch, x: &[[f64; 4]], before: &[[f64; 4]]) -> V3 {
+    let one = |n: u32| sub(node(x, n as usize), node(before, n as usize));
+    let mut moved = one(record.node);
+    for (n, w) in record.corners.iter().zip(touch.weights) {
+        moved = along(moved, -w, one(*n));
+    }
+    moved
+}
+
+#[inline(always)]
+fn spread(local: [u32; 4], weights: [f64; 3], force: V3, out: &mut Out) {
+    out.pushed.push(local);
+    let out = &mut out.force_n[..];
+    let [p, a, b, c] = [local[0] as usize, local[1] as usize, local[2] as usize, local[3] as usize];
+    push(&mut out[p], 1.0, force);
+    push(&mut out[a], -weights[0], force);
+    push(&mut out[b], -weights[1], force);
+    push(&mut out[c], -weights[2], force);
+}
+
+#[inline(always)]
+pub(super) fn push(out: &mut [f64; 4], weight: f64, force: V3) {
+    out[0] += weight * force[0];
+    out[1] += weight * force[1];
+    out[2] += weight * force[2];
+}
