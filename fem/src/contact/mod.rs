@@ -52,8 +52,8 @@ use crate::terms::slide;
 use crate::vec3::{dot, norm, scale};
 use crate::{FemError, Mesh};
 use build::{Memory, Penalty};
-use chunk::{Chunk, Step, motion, touch};
-use press::{Sums, push};
+use chunk::{Chunk, Step, touch};
+use press::{Sums, motion, push};
 use record::{Reach, Record};
 use surface::Surface;
 

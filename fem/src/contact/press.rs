@@ -1,10 +1,10 @@
 //! Forces of pairs: spring, damping and friction, and the energies that go with them.
 
-use super::chunk::{Step, Touch, motion};
+use super::chunk::{Step, Touch};
 use super::pack::{Pack, Touches};
 use super::record::Record;
 use crate::terms::slide;
-use crate::vec3::{V3, add, scale};
+use crate::vec3::{V3, add, along, node, scale, sub};
 
 /// Forces in a chunk's numbering.
 #[derive(Debug, Clone, Default)]
