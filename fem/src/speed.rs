@@ -100,4 +100,12 @@ mod tests {
         assert_eq!(advance_by(&mut run, 300).unwrap(), 300);
         assert!(run.ledger().residual_share() < 0.02);
     }
+
+    #[test]
+    fn the_folded_workload_touches_and_keeps_its_balance() {
+        let mut run = Simulation::new(&folded_cpam(4e-3, true).unwrap()).unwrap();
+        run.advance_until(5e-3, &mut |_| true).unwrap();
+        assert!(run.contact_pressure_pa().iter().any(|p| *p > 0.0));
+        assert!(run.ledger().residual_share() < 0.02);
+    }
 }

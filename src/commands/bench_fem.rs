@@ -38,6 +38,8 @@ pub fn run(all: bool, context: &mut Context) -> Result<Outcome, Failure> {
         (context.progress)(what, None);
         figures.push(throughput(what, &speed::pillow(100, bending)?, wanted)?);
     }
+    (context.progress)("folded cPAM", None);
+    figures.push(folded()?);
     (context.progress)("two threads", None);
     figures.push(two_threads()?);
     figures.push(memory()?);
@@ -89,6 +91,25 @@ fn throughput(what: &str, problem: &Problem, wanted: f64) -> Result<Figure, Fail
         value: best,
         unit: "M element-steps/CPU-s",
         wanted,
+        rate: true,
+        residual: run.ledger().residual_share(),
+    })
+}
+
+/// Million element-steps per CPU-second over a whole run with contact: folded, blown up, at rest. No best of several: the
+/// cost changes along the run.
+fn folded() -> Result<Figure, Failure> {
+    let problem = speed::folded_cpam(2e-3, true)?;
+    let mut run = Simulation::new(&problem)?;
+    let start = cpu_seconds();
+    run.advance_until(problem.settings.end_s, &mut |_| true)?;
+    let steps = run.step() as f64 * run.elements() as f64;
+    Ok(Figure {
+        what: "membrane + bending + contact, folded cPAM".to_owned(),
+        elements: run.elements(),
+        value: steps / (cpu_seconds() - start) / 1e6,
+        unit: "M element-steps/CPU-s",
+        wanted: 25.0,
         rate: true,
         residual: run.ledger().residual_share(),
     })
