@@ -159,7 +159,7 @@ pub struct Compare {
 /// `ibr simulate`
 #[derive(Debug, Args)]
 pub struct Simulate {
-    /// Case file or shipped case
+    /// Case file or robot's scenario, or a shipped one: pillow, tube, spam, cpam, epam, fpam
     pub case: String,
     /// Folder of the run; default: ibr-report/simulate-<case>
     #[arg(long)]

@@ -154,12 +154,8 @@ fn a_wrong_case_is_shown_with_its_place_and_what_to_type() {
 #[test]
 fn files_that_are_no_case_are_refused() {
     let folder = with_report();
-    folder.write("epam.toml", models::shipped("epam").unwrap());
     folder.write("empty.toml", "\n");
     let help = "`ibr new pillow > my.toml` makes a start";
-    for file in ["epam.toml", "epam"] {
-        refuse(&folder, &["simulate", file], 3, &["a scenario of the reduced model", help]);
-    }
     refuse(&folder, &["simulate", "empty.toml"], 3, &["the file is empty", help]);
     refuse(&folder, &["simulate", "nothing.toml"], 3, &["No such file", "pillow, tube"]);
     let mesh = small().replace("generator = \"pillow\"\nside_mm = 848.5", "file = \"no.mesh\"");
@@ -167,6 +163,20 @@ fn files_that_are_no_case_are_refused() {
     let end = mesh[start..].find('\n').unwrap() + start;
     folder.write("sub/mesh.toml", format!("{}{}", &mesh[..start], &mesh[end..]));
     refuse(&folder, &["simulate", "sub/mesh.toml"], 3, &["sub/no.mesh cannot be read", "folder of the case file"]);
+}
+
+#[test]
+fn robots_run_from_their_scenarios_and_bad_ones_are_refused_with_their_place() {
+    let folder = with_report();
+    let epam = models::shipped("epam").unwrap();
+    folder.write("wide.toml", epam.replace("width_mm = 60", "width_mm = 150"));
+    refuse(&folder, &["simulate", "wide.toml"], 3, &["wide.toml", "150 mm is wider than half of the body, 125.664 mm"]);
+    folder.write("long.toml", epam.replace("count = 6", "count = 7"));
+    refuse(&folder, &["simulate", "long.toml"], 3, &["long.toml:16", "beyond the body's 360.0 mm", "lower count"]);
+    let ran = folder.run(&["simulate", "epam", "--end", "0.2ms", "--no-frames", "--out", "robot"]);
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    let line = std::fs::read_to_string(folder.path("robot/centre_line.csv")).unwrap();
+    assert!(line.contains(",360,"), "{line}");
 }
 
 #[test]

@@ -29,8 +29,10 @@ pub use settings::{ASSUMED, Assumed, RobotSettings};
 use models::Scenario;
 use models::actuators::pattern::Pattern;
 
+use crate::case::Outputs;
 use crate::mesh::check::{Quality, check_open};
 use crate::output::centre_line::CentreLine;
+use crate::output::picture::View;
 use crate::problem::{Amplitude, Chamber, Contact, MassScaling, Pressure, Settings, Support};
 use crate::sheet::reference::mean_stiffness;
 use crate::{FemError, Mesh, Problem};
@@ -91,9 +93,29 @@ pub fn quality(problem: &Problem) -> Result<Quality, FemError> {
 /// # Errors
 /// [`FemError::Problem`] for a station off the robot.
 pub fn sections(mesh: &Mesh, stations_m: &[f64]) -> Result<CentreLine, FemError> {
+    CentreLine::new(mesh, &body_parts(mesh), [1.0, 0.0, 0.0], stations_m)
+}
+
+/// What a run of a robot writes: the tip, the centre line at the markers and the tip, frames and a side view.
+pub fn outputs(scenario: &Scenario, mesh: &Mesh) -> Outputs {
+    let mut stations_m = scenario.markers_m.clone();
+    if stations_m.last().is_none_or(|s| *s < scenario.length_m) {
+        stations_m.push(scenario.length_m);
+    }
+    Outputs {
+        probes: vec!["tip".into()],
+        stations_m,
+        station_parts: body_parts(mesh),
+        station_axis: [1.0, 0.0, 0.0],
+        frames: true,
+        pictures: true,
+        view: View::Side,
+    }
+}
+
+fn body_parts(mesh: &Mesh) -> Vec<String> {
     let body = |name: &str| name == sew::WALL || name == sew::FACE || name.starts_with(sew::SEAM);
-    let parts: Vec<String> = mesh.parts.iter().map(|p| p.name.clone()).filter(|name| body(name)).collect();
-    CentreLine::new(mesh, &parts, [1.0, 0.0, 0.0], stations_m)
+    mesh.parts.iter().map(|p| p.name.clone()).filter(|name| body(name)).collect()
 }
 
 /// Refuses what the scenario and the pattern do not allow together.

@@ -3,7 +3,9 @@
 use crate::failure::Failure;
 use crate::output::Input;
 use fem::FemError;
-use fem::case::{Case, SHIPPED_CASES, shipped_case};
+use fem::case::{Case, SHIPPED_CASES, is_case, shipped_case};
+use fem::robot::{RobotSettings, outputs, problem};
+use models::{Scenario, ScenarioError};
 use std::path::{Path, PathBuf};
 
 /// Where a case came from.
@@ -22,20 +24,39 @@ impl NamedCase {
     }
 }
 
-/// Reads a case file, or takes a shipped one by name.
+/// Reads a case file or the scenario of a robot, or takes a shipped one by name.
 pub fn case(spec: &str) -> Result<(NamedCase, Case), Failure> {
     let (text, folder) = text(spec)?;
     let mut read_mesh = |path: &Path| fem::mesh::file::read(&folder.join(path));
-    match Case::parse(&text, &mut read_mesh) {
+    let case = match scenario(&text) {
+        Some(robot) => robot.and_then(|scenario| as_case(&scenario)),
+        None => Case::parse(&text, &mut read_mesh),
+    };
+    match case {
         Ok(case) => {
             let input = Input::of(spec, text.as_bytes());
             Ok((NamedCase { text, input, file: spec.into() }, case))
         }
-        Err(_) if models::Scenario::parse(&text).is_ok() => {
-            Err(unreadable(spec, "it is a scenario of the reduced model"))
-        }
         Err(error) => Err(refused(spec, &text, error)),
     }
+}
+
+/// The scenario of a robot, if the text is one and no case; or what is wrong with it.
+fn scenario(text: &str) -> Option<Result<Scenario, FemError>> {
+    let table = |name: &str| text.lines().any(|line| line.trim() == name);
+    let robot = !is_case(text) && table("[body]") && table("[actuator]");
+    let fault = |ScenarioError { message, help, span }: ScenarioError| FemError::Case {
+        message: help.map_or(message.clone(), |help| format!("{message}\n{help}")),
+        span: span.map(|(start, end)| start..end),
+    };
+    robot.then(|| Scenario::parse(text).map_err(fault))
+}
+
+/// A robot with the settings that its scenario does not say at their defaults.
+fn as_case(scenario: &Scenario) -> Result<Case, FemError> {
+    let problem = problem(scenario, &RobotSettings::default())?;
+    let outputs = outputs(scenario, &problem.mesh);
+    Ok(Case { problem, outputs })
 }
 
 fn refused(file: &str, text: &str, error: FemError) -> Failure {
@@ -50,9 +71,8 @@ fn refused(file: &str, text: &str, error: FemError) -> Failure {
 /// The text, and the folder that its paths count from.
 fn text(spec: &str) -> Result<(String, PathBuf), Failure> {
     let path = Path::new(spec);
-    let cause = match (std::fs::read(path), shipped_case(spec)) {
+    let cause = match (std::fs::read(path), shipped_case(spec).or(models::shipped(spec))) {
         (Err(_), Some(text)) if !path.exists() => return Ok((text.to_string(), PathBuf::new())),
-        (Err(_), None) if models::shipped(spec).is_some() => "it is a scenario of the reduced model".to_string(),
         (Err(cause), _) => cause.to_string(),
         (Ok(bytes), _) => match String::from_utf8(bytes) {
             Ok(text) if text.trim().is_empty() => "the file is empty".to_string(),
@@ -64,9 +84,11 @@ fn text(spec: &str) -> Result<(String, PathBuf), Failure> {
 }
 
 fn unreadable(spec: &str, cause: &str) -> Failure {
-    let names = SHIPPED_CASES.iter().map(|c| c.0).collect::<Vec<_>>().join(", ");
-    let help =
-        format!("give a finite element case, or a shipped one: {names}; `ibr new pillow > my.toml` makes a start");
+    let shipped = SHIPPED_CASES.iter().chain(models::scenario::SHIPPED);
+    let names = shipped.map(|c| c.0).collect::<Vec<_>>().join(", ");
+    let help = format!(
+        "give a finite element case or a robot's scenario, or a shipped one: {names}; `ibr new pillow > my.toml` makes a start"
+    );
     Failure::Read { path: spec.into(), cause: cause.into(), help }
 }
 
