@@ -176,7 +176,7 @@ fn robots_run_from_their_scenarios_and_bad_ones_are_refused_with_their_place() {
     let ran = folder.run(&["simulate", "epam", "--end", "0.2ms", "--no-frames", "--out", "robot"]);
     assert_eq!(ran.code, 0, "{}", ran.stderr);
     let line = std::fs::read_to_string(folder.path("robot/centre_line.csv")).unwrap();
-    assert!(line.contains(",360,"), "{line}");
+    assert!(line.contains(",3.6e2,"), "{line}");
 }
 
 #[test]
