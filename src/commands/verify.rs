@@ -33,7 +33,7 @@ pub fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome, Failure>
         .collect();
     let code = if wrong.is_empty() && engine.missed == 0 { 0 } else { MISSED };
     let json = json!({
-        "schema": "ibr.verify", "version": 2, "wrong": wrong.len(), "rows": list,
+        "schema": "ibr.verify", "version": 1, "wrong": wrong.len(), "rows": list,
         "engine_missed": engine.missed, "engine": engine.json,
     });
     Ok(Outcome { code, notes: engine.notes, ..Outcome::new(text, json) })
