@@ -9,6 +9,7 @@ use models::fabrics::{NeoHookean, Orthotropic};
 
 use crate::mesh::generate;
 use crate::problem::{Amplitude, Chamber, Contact, Ply, Pressure, Problem, Section};
+use crate::sheet::lanes::V;
 use crate::{FemError, Simulation};
 
 /// Multiplications, additions and subtractions per quadrilateral and step, membrane and pressure.
@@ -88,6 +89,77 @@ pub fn advance_by(run: &mut Simulation, steps: u64) -> Result<u64, FemError> {
     let from = run.step();
     run.advance_until(run.time_s() + steps as f64 * run.dt_s(), &mut |_| true)?;
     Ok(run.step() - from)
+}
+
+/// Multiplications and additions per second that one core can do in registers, half of each, not fused \[1/s\].
+pub fn peak_flops() -> f64 {
+    const ROUNDS: usize = 2_000_000;
+    let start = std::time::Instant::now();
+    let (sum, lanes) = pulp::Arch::new().dispatch(Registers { rounds: ROUNDS });
+    let seconds = start.elapsed().as_secs_f64();
+    std::hint::black_box(sum);
+    (ROUNDS * CHAINS * 2 * lanes) as f64 / seconds
+}
+
+/// Bytes per second that one core moves through arrays of 4 MB each, as in a = b + s c \[1/s\].
+pub fn stream_bytes_per_s() -> f64 {
+    const ROUNDS: usize = 40;
+    const COUNT: usize = 1 << 19;
+    let (mut a, b, c) = (vec![0.0; COUNT], vec![1.0; COUNT], vec![2.0; COUNT]);
+    let start = std::time::Instant::now();
+    for round in 0..ROUNDS {
+        pulp::Arch::new().dispatch(Triad { a: &mut a, b: &b, c: &c, scale: round as f64 });
+    }
+    let seconds = start.elapsed().as_secs_f64();
+    std::hint::black_box(a[COUNT / 2]);
+    (ROUNDS * COUNT * 3 * size_of::<f64>()) as f64 / seconds
+}
+
+/// Independent chains: enough to hide the latency of an addition.
+const CHAINS: usize = 8;
+
+struct Registers {
+    rounds: usize,
+}
+
+impl pulp::WithSimd for Registers {
+    type Output = (f64, usize);
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, simd: S) -> (f64, usize) {
+        let mut chains = [V::all(simd, 1.0); CHAINS];
+        let (grow, step) = (V::all(simd, 1.000_000_1), V::all(simd, 1e-9));
+        for _ in 0..self.rounds {
+            for chain in &mut chains {
+                *chain = *chain * grow + step;
+            }
+        }
+        let mut total = V::all(simd, 0.0);
+        for chain in chains {
+            total = total + chain;
+        }
+        (total.lanes()[0], S::F64_LANES)
+    }
+}
+
+struct Triad<'a> {
+    a: &'a mut [f64],
+    b: &'a [f64],
+    c: &'a [f64],
+    scale: f64,
+}
+
+impl pulp::WithSimd for Triad<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, simd: S) {
+        let scale = simd.splat_f64s(self.scale);
+        let (a, b, c) = (S::as_mut_simd_f64s(self.a).0, S::as_simd_f64s(self.b).0, S::as_simd_f64s(self.c).0);
+        for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
+            *a = simd.add_f64s(*b, simd.mul_f64s(scale, *c));
+        }
+    }
 }
 
 #[cfg(test)]
