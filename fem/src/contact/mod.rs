@@ -36,6 +36,7 @@
 mod build;
 mod chunk;
 mod closest;
+pub mod edges;
 mod pack;
 mod press;
 mod record;

@@ -1,7 +1,7 @@
 //! Contact against its laws, and in small explicit runs of nodes and springs.
 
 mod laws;
-mod rig;
+pub mod rig;
 mod runs;
 mod speed;
 mod start;

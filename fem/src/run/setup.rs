@@ -6,6 +6,7 @@ use super::constraint::{bodies, driven};
 use super::team::Team;
 use super::{Books, Clock, Limits, Simulation};
 use crate::contact::Contact;
+use crate::contact::edges::Edges;
 use crate::problem::{MassScaling, Settings};
 use crate::sheet::order::{Order, renumber};
 use crate::sheet::reference::{cross, dot};
@@ -53,6 +54,9 @@ impl Simulation {
             Some(contact) => Some(self::contact(problem, contact, &mesh, &order, &mass, dt_s)?),
             None => None,
         };
+        if let (Some(settings), Some(contact)) = (&problem.contact, &contact) {
+            terms.push(Box::new(Edges::new(&mesh, settings, &mass, dt_s, contact)?));
+        }
         sheet.start(x.as_flattened());
         let bodies = bodies(problem, &mesh, &mass)?;
         let mut moved = vec![[false; 3]; count];
