@@ -123,9 +123,11 @@ impl Sides {
 
 /// Elements around a side that are of its own layers: those that share a node with an element at its ends.
 fn rings(surface: &Surface, side: &Side) -> Vec<u32> {
-    let mut out: Vec<u32> = side.nodes.iter().flat_map(|n| surface.skip.of(*n as usize)).copied().collect();
     let layers: Vec<u32> = side.faces.iter().filter(|e| **e != NONE).map(|e| surface.layer[*e as usize]).collect();
-    out.retain(|e| layers.contains(&surface.layer[*e as usize]));
+    let own = |e: &&u32| layers.contains(&surface.layer[**e as usize]);
+    let around = |n: &u32| surface.around.of(*n as usize).iter().filter(own);
+    let first = side.nodes.iter().flat_map(around);
+    let mut out: Vec<u32> = first.flat_map(|e| surface.corners(*e as usize)).flat_map(around).copied().collect();
     out.sort_unstable();
     out.dedup();
     out
