@@ -188,8 +188,8 @@ impl Edges {
                     continue;
                 }
                 let swapped = usize::from(old[at].sides[k] != *next);
-                for j in 0..2 {
-                    votes[j] += i32::from(old[at].way[j ^ swapped]);
+                for (j, vote) in votes.iter_mut().enumerate() {
+                    *vote += i32::from(old[at].way[j ^ swapped]);
                 }
                 if old[at].way != [0; 2] {
                     wanted_m = wanted_m.min(old[at].wanted_m);
