@@ -199,11 +199,13 @@ pub struct Contact {
     pub thickness_m: f64,
     /// Parts that take part; empty: all.
     pub parts: Vec<String>,
+    /// Sides of elements against sides as well, which holds crumpled folds apart better. Young: see `contact::edges`.
+    pub edges: bool,
 }
 
 impl Default for Contact {
     fn default() -> Contact {
-        Contact { friction: 0.0, gap_m: 5e-6, thickness_m: 2e-4, parts: Vec::new() }
+        Contact { friction: 0.0, gap_m: 5e-6, thickness_m: 2e-4, parts: Vec::new(), edges: false }
     }
 }
 

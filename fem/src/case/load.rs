@@ -216,5 +216,6 @@ pub(super) fn contact(raw: &Raw, mesh: &Mesh) -> Checked<Option<Contact>> {
         gap_m: optional("gap_mm", &c.gap_mm, &GAP)?.unwrap_or(usual.gap_m),
         thickness_m: optional("thickness_mm", &c.thickness_mm, &GAP)?.unwrap_or(usual.thickness_m),
         parts: part_names(&c.parts, mesh)?,
+        edges: c.edges.unwrap_or(usual.edges),
     }))
 }

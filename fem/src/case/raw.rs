@@ -128,6 +128,7 @@ pub(super) struct RawObstacle {
 #[serde(deny_unknown_fields)]
 pub(super) struct RawContact {
     pub friction: Option<Num>,
+    pub edges: Option<bool>,
     pub gap_mm: Option<Num>,
     pub thickness_mm: Option<Num>,
     #[serde(default)]

@@ -54,7 +54,7 @@ impl Simulation {
             Some(contact) => Some(self::contact(problem, contact, &mesh, &order, &mass, dt_s)?),
             None => None,
         };
-        if let (Some(settings), Some(contact)) = (&problem.contact, &contact) {
+        if let (Some(settings), Some(contact)) = (problem.contact.as_ref().filter(|c| c.edges), &contact) {
             terms.push(Box::new(Edges::new(&mesh, settings, &mass, dt_s, contact)?));
         }
         sheet.start(x.as_flattened());

@@ -65,7 +65,7 @@ pub fn pouch(element_m: f64, peak_pa: f64, contact: bool) -> Result<Problem, Fem
     let pressure = Pressure::Set(Amplitude::Smooth(vec![(0.0, 0.0), (0.03, peak_pa)]));
     let mut problem =
         Problem::new("folded pouch", mesh, sections, vec![Chamber { name: "air".into(), pressure, open_axis: None }]);
-    problem.contact = contact.then(Contact::default);
+    problem.contact = contact.then(|| Contact { edges: true, ..Contact::default() });
     problem.settings.mass_damping_1_s = 100.0;
     problem.settings.end_s = 0.04;
     Ok(problem)
