@@ -30,7 +30,7 @@
 //! are passed over. A step evaluates the pairs that may touch, in vector groups, and hands over forces where they touch.
 //!
 //! **Validity**: penalty depths p dt²/(0.1 m_A) far below the thickness (m_A areal mass, p pressure); elements larger
-//! than about three thicknesses; edges against edges are caught only through their nodes.
+//! than about three thicknesses; edges against edges are caught only through their nodes, unless [`edges`] are asked for.
 //! Source: penalty contact as in Hallquist et al., Comput. Methods Appl. Mech. Eng. 51 (1985); side memory: this project.
 
 mod build;

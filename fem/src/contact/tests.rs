@@ -3,5 +3,4 @@
 mod laws;
 pub mod rig;
 mod runs;
-mod speed;
 mod start;

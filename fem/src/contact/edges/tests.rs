@@ -82,7 +82,7 @@ fn dropped() -> (Problem, Vec<[f64; 3]>) {
         rest_curvature: false,
     };
     let mut problem = Problem::new("strips", strips(1e-3), vec![section(), section()], vec![]);
-    problem.contact = Some(problem::Contact::default());
+    problem.contact = Some(problem::Contact { edges: true, ..problem::Contact::default() });
     let v = (0..28).map(|i| [0.0, 0.0, if i < 16 { 0.0 } else { -2.0 }]).collect();
     (problem, v)
 }
