@@ -6,6 +6,7 @@
 
 pub mod accuracy;
 pub mod comparison;
+pub mod diagnosis;
 pub mod directions;
 pub mod error;
 pub mod evaluate;

@@ -1,0 +1,356 @@
+//! What a diagnosis says: plain structs, printed units, no NaN.
+
+use crate::noise_summary::NoiseSummary;
+use crate::residuals::ResidualMap;
+use crate::where_it_fails::Statement;
+use serde::Serialize;
+
+/// The answer to "is an effect missing, and which".
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// No missing effect is detectable in these data.
+    None,
+    /// One or two effects of the catalogue explain the misfit.
+    Effect,
+    /// Something is missing that no effect of the catalogue explains.
+    OutOfCatalog,
+}
+
+/// Where in a prediction an effect belongs; supply and measurement are to be ruled out before physics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Group {
+    /// Actuator or body.
+    Physics,
+    /// A force from outside.
+    Load,
+    /// Between regulator and actuator.
+    Supply,
+    /// Camera, mount and markers.
+    Measurement,
+}
+
+impl Group {
+    /// Whether it is checked on the bench before physics is blamed.
+    pub fn is_nuisance(self) -> bool {
+        matches!(self, Group::Supply | Group::Measurement)
+    }
+
+    /// Lower-case word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Group::Physics => "physics",
+            Group::Load => "load",
+            Group::Supply => "supply",
+            Group::Measurement => "measurement",
+        }
+    }
+}
+
+/// How sure a name is, from the size of the evidence and the number of rivals.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Confidence {
+    /// Gain below 25: often another effect.
+    Hint,
+    /// The truth is likely in the set.
+    LikelyOneOf,
+    /// Gain above 100 and no rival in this catalogue.
+    IdentifiedInCatalog,
+}
+
+/// One fitted parameter, in the unit of the scenario.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ParameterValue {
+    /// Key in the scenario, with the unit as suffix.
+    pub key: String,
+    /// Letter in the formula.
+    pub symbol: String,
+    /// Unit.
+    pub unit: String,
+    /// Best value; **calibrated** on these data.
+    pub value: f64,
+    /// Lower end of the 95 % interval; `None` if the noise is unknown.
+    pub lo: Option<f64>,
+    /// Upper end of the 95 % interval.
+    pub hi: Option<f64>,
+    /// The best value sits on a physical bound and the data push against it.
+    pub at_bound: bool,
+}
+
+/// One effect of the catalogue, refitted together with the base.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Ranked {
+    /// Name in scenarios.
+    pub effect: String,
+    /// Group.
+    pub group: Group,
+    /// One plain sentence.
+    pub sentence: String,
+    /// What to measure or change on the robot.
+    pub remedy: String,
+    /// Value of its first parameter.
+    pub value: f64,
+    /// Unit of that parameter.
+    pub unit: String,
+    /// Lower end of its 95 % interval.
+    pub lo: Option<f64>,
+    /// Upper end of its 95 % interval.
+    pub hi: Option<f64>,
+    /// A value sits on a physical bound and the data push against it: the effect is rejected.
+    pub at_bound: bool,
+    /// All parameters.
+    pub parameters: Vec<ParameterValue>,
+    /// Fall of the whitened sum of squares against the calibrated base.
+    pub gain: f64,
+    /// BIC minus that of the best effect.
+    pub bic_difference: f64,
+    /// p of the gain, corrected for all effects tried; `None` with fewer than three runs.
+    pub p_corrected: Option<f64>,
+    /// Error beyond noise of the calibrated base \[mm\]; root-mean-square error if the noise is unknown.
+    pub systematic_before_mm: f64,
+    /// The same with the effect \[mm\].
+    pub systematic_after_mm: f64,
+    /// Error beyond noise at actuator pressures left out of the fit, rms over the pressures \[mm\]; `None` with one
+    /// pressure.
+    pub heldout_mm: Option<f64>,
+    /// Error beyond noise of runs left out of the fit, rms over the runs \[mm\]; `None` with one run.
+    pub heldout_run_mm: Option<f64>,
+    /// Effective bending stiffness with the effect, one per body pressure \[N·m²\].
+    pub bending_nm2: Vec<f64>,
+    /// Cosine between this effect's and the best one's trace in the data, base fitted out; ±1: cannot be told apart.
+    pub cosine_with_best: f64,
+    /// Member of the indistinguishable set.
+    pub in_set: bool,
+    /// Different starts of the fit ended in different minima; the best one is given.
+    pub several_minima: bool,
+    /// Cautions about this effect.
+    pub notes: Vec<String>,
+}
+
+/// Several effects together.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Combination {
+    /// Names.
+    pub effects: Vec<String>,
+    /// Values of all parameters, effect by effect.
+    pub parameters: Vec<ParameterValue>,
+    /// Fall of the whitened sum of squares against the calibrated base.
+    pub gain: f64,
+    /// BIC minus that of the best combination.
+    pub bic_difference: f64,
+    /// p of the gain over the best single effect, corrected for all combinations tried.
+    pub p_corrected: Option<f64>,
+    /// Error beyond noise \[mm\].
+    pub systematic_after_mm: f64,
+    /// Cannot be told from the best combination with these data.
+    pub in_set: bool,
+    /// The two terms cancel each other: opposite contributions, nearly the same trace.
+    pub cancels: bool,
+}
+
+/// An effect that the verdict adds to the model.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Added {
+    /// Name in scenarios.
+    pub effect: String,
+    /// Group.
+    pub group: Group,
+    /// Values in the final model.
+    pub parameters: Vec<ParameterValue>,
+}
+
+/// The calibrated base: the scenario with only the bending stiffness fitted.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BaseFit {
+    /// B of the scenario \[N·m²\].
+    pub bending_nominal_nm2: f64,
+    /// Fitted B, one per body pressure.
+    pub bending: Vec<Bending>,
+    /// B of the final model, one per body pressure \[N·m²\].
+    pub bending_with_added_nm2: Vec<f64>,
+    /// Error beyond noise of the scenario as given \[mm\].
+    pub systematic_nominal_mm: f64,
+    /// Error beyond noise after fitting B \[mm\].
+    pub systematic_mm: f64,
+    /// Error beyond noise of the final model \[mm\].
+    pub systematic_with_added_mm: f64,
+    /// Root-mean-square noise of one coordinate of the mean \[mm\].
+    pub noise_floor_mm: Option<f64>,
+    /// Error beyond noise at pressures left out of the fit of B \[mm\].
+    pub heldout_mm: Option<f64>,
+    /// Error beyond noise of runs left out \[mm\].
+    pub heldout_run_mm: Option<f64>,
+}
+
+/// A fitted bending stiffness.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Bending {
+    /// Body pressure it belongs to \[kPa\].
+    pub p_body_kpa: f64,
+    /// Effective bending stiffness B \[N·m²\].
+    pub value_nm2: f64,
+    /// Lower end of the 95 % interval.
+    pub lo: Option<f64>,
+    /// Upper end.
+    pub hi: Option<f64>,
+    /// On a bound of its search.
+    pub at_bound: bool,
+}
+
+/// Four tests of whether what is left is noise.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LackOfFit {
+    /// All values.
+    pub all: f64,
+    /// Means of the holds.
+    pub hold_means: f64,
+    /// Drift within the holds; 1 with fewer than three samples.
+    pub drift: f64,
+    /// Means of the markers.
+    pub marker_means: f64,
+    /// Smallest of the four times four.
+    pub p_value: f64,
+}
+
+/// Samples and runs that stand out from the others.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Outliers {
+    /// Samples far from the median over runs; they were replaced by the mean of the other runs.
+    pub samples: Vec<data::check::Outlier>,
+    /// Share of all samples.
+    pub share: f64,
+    /// Runs whose shape differs from the others, beyond pressure, alignment and rotation.
+    pub runs: Vec<OutlyingRun>,
+    /// Pairs of runs that are copies; the second was left out.
+    pub copies: Vec<[String; 2]>,
+}
+
+/// A run that differs from the others.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OutlyingRun {
+    /// Label.
+    pub run: String,
+    /// Its scatter over that of the other runs.
+    pub scatter_ratio: f64,
+    /// p of the ratio, corrected for the number of runs.
+    pub p_corrected: f64,
+}
+
+/// How large an effect would have to be.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Undetectable {
+    /// Name in scenarios.
+    pub effect: String,
+    /// Group.
+    pub group: Group,
+    /// Smallest value of its first parameter found with 90 % probability; `None`: none within its bounds.
+    pub smallest_detectable: Option<f64>,
+    /// Unit.
+    pub unit: String,
+    /// The same as a multiple of the effect's typical size.
+    pub times_typical: Option<f64>,
+}
+
+/// A proposed experiment.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Experiment {
+    /// Short name.
+    pub name: String,
+    /// What to do.
+    pub sentence: String,
+    /// Protocol in the form of `ibr data generate --protocol`.
+    pub protocol: String,
+    /// Expected separation λ of the best explanation from each rival, same number of runs.
+    pub separations: Vec<Separation>,
+    /// Rivals with λ ≥ 16, which are told apart in about nine of ten cases.
+    pub separated: usize,
+    /// Smallest λ of the rivals it can tell apart (λ ≥ 3 after up to four times the runs), else the largest of all.
+    pub lambda: f64,
+    /// Runs needed for λ = 16 there.
+    pub runs_needed: Option<usize>,
+}
+
+/// Expected separation of two explanations after an experiment.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Separation {
+    /// Rival explanation.
+    pub rival: String,
+    /// λ: expected difference of the whitened sums of squares.
+    pub lambda: f64,
+}
+
+/// What to measure next.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NextExperiment {
+    /// The explanation the rivals are to be told from.
+    pub best: String,
+    /// The recommended one; `None` if no listed experiment separates anything.
+    pub recommended: Option<Experiment>,
+    /// λ with what is there already.
+    pub now: Vec<Separation>,
+    /// All that were tried, best first.
+    pub tried: Vec<Experiment>,
+    /// In words.
+    pub sentence: String,
+}
+
+/// Everything a diagnosis found.
+#[derive(Debug, Clone, Serialize)]
+pub struct Diagnosis {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Name of the dataset.
+    pub dataset: String,
+    /// Actuator kind.
+    pub actuator: String,
+    /// Runs used.
+    pub runs: usize,
+    /// Verdict; `None` where no p-value can be formed: the ranking is then uncalibrated.
+    pub verdict: Option<Verdict>,
+    /// One p of "nothing is missing", corrected for everything that was tried; never below 1e-6.
+    pub p_value: Option<f64>,
+    /// Level at which it is judged.
+    pub alpha: f64,
+    /// Differences up to this are good enough \[mm\].
+    pub tolerance_mm: f64,
+    /// How sure the name is; `None` without verdict `effect`.
+    pub confidence: Option<Confidence>,
+    /// The story in sentences.
+    pub summary: Vec<String>,
+    /// Noise of the data.
+    pub noise: NoiseSummary,
+    /// The calibrated base.
+    pub base: BaseFit,
+    /// Effects of actuator, body and loads and those of supply and measurement, best first.
+    pub ranked: Vec<Ranked>,
+    /// Names that these data cannot tell apart, best first; for two added effects written `a + b`.
+    pub indistinguishable: Vec<String>,
+    /// Those of them (or of the ranking within reach of it) that belong to supply or measurement: rule out first.
+    pub rule_out_first: Vec<String>,
+    /// Pairs of effects, best first; empty if a single effect is enough.
+    pub pairs: Vec<Combination>,
+    /// What the verdict adds; empty for `none`.
+    pub added: Vec<Added>,
+    /// Lack of fit of the calibrated base.
+    pub lack_of_fit_before: Option<LackOfFit>,
+    /// Lack of fit of the final model.
+    pub lack_of_fit_after: Option<LackOfFit>,
+    /// Where and when the final model still fails, in plain language.
+    pub leftover: Vec<Statement>,
+    /// Residuals of the calibrated base, marker × hold.
+    pub residuals_before: ResidualMap,
+    /// Residuals of the final model, marker × hold.
+    pub residuals_after: ResidualMap,
+    /// Samples and runs that stand out.
+    pub outliers: Outliers,
+    /// Smallest detectable size of every effect that was not found.
+    pub undetectable: Vec<Undetectable>,
+    /// What would separate the indistinguishable ones; `None` if there is nothing to separate.
+    pub next_experiment: Option<NextExperiment>,
+    /// What these data cannot show, whatever the model.
+    pub limits: Vec<String>,
+    /// Cautions.
+    pub warnings: Vec<String>,
+}
