@@ -63,16 +63,16 @@ fn run() -> Result<Outcome, FemError> {
         1.7,
     ));
     let line = (0..=100).map(|i| f64::from(i) * 0.05 * edge);
-    let line = line.map(|x| [x, shell::displacement_m(&shell, pressure_pa, x)]).collect();
+    let line = line.map(|x| [1e3 * x, 1e6 * shell::displacement_m(&shell, pressure_pa, x)]).collect();
     let figure = Figure {
         title: "Cylinder clamped at a ring under pressure".into(),
-        x: "distance from the ring [m]".into(),
-        y: "widening [m]".into(),
+        x: "distance from the ring [mm]".into(),
+        y: "widening [µm]".into(),
         curves: vec![
             Curve { label: "closed form".into(), points: line, exact: true },
             Curve {
                 label: "shells".into(),
-                points: meshes[1].iter().copied().filter(|p| p[0] < 5.0 * edge).collect(),
+                points: meshes[1].iter().filter(|p| p[0] < 5.0 * edge).map(|p| [1e3 * p[0], 1e6 * p[1]]).collect(),
                 exact: false,
             },
         ],

@@ -61,6 +61,31 @@ pub fn cantilever(load: f64) -> Tip {
     }
 }
 
+/// Points (x/L, v/L) of the same cantilever from the clamp to its tip, `count` ≥ 2 of them, even in rotation.
+pub fn cantilever_line(load: f64, count: usize) -> Vec<[f64; 2]> {
+    let tip = cantilever(load);
+    if load == 0.0 {
+        return vec![[0.0, 0.0], [1.0, 0.0]];
+    }
+    let root = load.sqrt();
+    let end = tip.rotation.sin();
+    let square = 0.5 * (1.0 + end);
+    // From the tangent: φ itself is badly known from its sine near the tip.
+    let phi = |theta: f64| (1.0 + theta.sin()).sqrt().atan2((end - theta.sin()).max(0.0).sqrt());
+    (0..count)
+        .map(|i| {
+            let theta = tip.rotation * (i as f64 / (count.max(2) - 1) as f64);
+            let across = |phi: f64| {
+                let s = square * phi.sin().powi(2);
+                (2.0 * s - 1.0) / (1.0 - s).sqrt()
+            };
+            let x =
+                ((2.0 * tip.rotation.sin()).sqrt() - (2.0 * (tip.rotation.sin() - theta.sin())).max(0.0).sqrt()) / root;
+            [x, integral(across, phi(0.0), phi(theta), PANELS) / root]
+        })
+        .collect()
+}
+
 /// Cantilever under an end moment; `turn` = M L/B is the rotation of the tip.
 pub fn end_moment(turn: f64) -> Tip {
     let half = 0.5 * turn;
@@ -133,6 +158,17 @@ mod tests {
             }
             assert!((theta - tip.rotation).abs() < 1e-7 && (v - tip.deflection).abs() < 1e-7);
             assert!((x - arm).abs() < 1e-7, "{load}");
+        }
+    }
+
+    #[test]
+    fn the_line_of_the_cantilever_is_as_long_as_the_strip_and_ends_at_its_tip() {
+        for load in [0.3, 3.0, 10.0] {
+            let (tip, line) = (cantilever(load), cantilever_line(load, 400));
+            let length: f64 = line.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
+            assert!((length - 1.0).abs() < 1e-5, "{load}: {length}");
+            let end = line[399];
+            assert!((end[0] - 1.0 + tip.shortening).abs() < 1e-12 && (end[1] - tip.deflection).abs() < 1e-12);
         }
     }
 
