@@ -115,7 +115,8 @@ pub struct OutDirOptional {
 pub struct Predict {
     /// Scenario file or shipped robot
     pub scenario: String,
-    /// Actuator pressures with unit, for example 10kPa,20kPa; `/` separates supply channels
+    /// Actuator pressures with unit, for example 10kPa,20kPa; `/` separates supply channels. With an effect that has
+    /// history (friction, creep, plastic_set, leak) they are one path in this order, 5 s each, from rest
     #[arg(long, short, allow_hyphen_values = true)]
     pub pressure: Option<String>,
     /// Body pressure with unit, for example 2kPa; default: the scenario's

@@ -4,8 +4,8 @@ use crate::actuators::Family;
 use crate::site::Site;
 use crate::term::Term;
 
-/// Set pressure → pressure in the actuator \[Pa\].
-pub type SupplyLaw = Box<dyn Fn(f64) -> f64 + Send + Sync>;
+/// Set pressure \[Pa\], and for how long it has been held \[s\] → pressure in the actuator \[Pa\].
+pub type SupplyLaw = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
 /// Changes what the camera sees of one marker.
 pub type CameraLaw = Box<dyn Fn(&mut Sighting) + Send + Sync>;
 
@@ -16,6 +16,8 @@ pub struct Sighting {
     pub xy: [f64; 2],
     /// Heading of the body at the marker \[rad\].
     pub heading: f64,
+    /// Largest pressure in any actuator \[Pa\].
+    pub p_act_pa: f64,
 }
 
 /// A stretch of the robot in which the curvature is constant.
@@ -27,6 +29,13 @@ pub struct Segment {
     pub start_m: f64,
     /// Length of its taut generator \[m\].
     pub length_m: f64,
+}
+
+impl Segment {
+    /// Middle of its taut generator \[m\].
+    pub fn middle_m(&self) -> f64 {
+        self.start_m + 0.5 * self.length_m
+    }
 }
 
 /// Everything a model is made of.
@@ -41,6 +50,10 @@ pub struct Assembly {
     pub supply: Vec<SupplyLaw>,
     /// Camera laws in order.
     pub camera: Vec<CameraLaw>,
+    /// Whether a supply law depends on the time in a hold.
+    pub timed: bool,
+    /// Whether a term depends on the place along the body: then stretches of equal design are divided too.
+    pub varies: bool,
     /// Unit vector of gravity in the x–y plane.
     pub gravity_direction: [f64; 2],
 }
@@ -49,6 +62,11 @@ impl Assembly {
     /// Sites whose actuator is of that family.
     pub fn active_sites(&mut self, family: Family) -> impl Iterator<Item = &mut Site> {
         self.sites.iter_mut().filter(move |site| site.actuator.is_some_and(|a| a.family == family))
+    }
+
+    /// Length of the taut generator \[m\].
+    pub fn length_m(&self) -> f64 {
+        self.segments.iter().map(|segment| segment.length_m).sum()
     }
 
     /// Length of body that each node stands for \[m\]: half of the segments on both sides.

@@ -164,7 +164,8 @@ mod tests {
         let law = BodyLaw::Hinge(hinge);
         for kappa in [-30.0, -0.3, -1e-4, 0.0, 1e-5, 0.04, 0.9, 7.0] {
             let (mut whole, mut alone) = ([1.0], [1.0]);
-            let at = Pose { q: &[kappa], p_body_pa: 3e3, p_act_pa: 0.0 };
+            let q = [kappa];
+            let at = Pose::new(&q, 3e3, 0.0);
             law.add(&at, &mut whole);
             law.add_force(&at, &mut alone);
             assert_eq!(whole, alone, "{kappa}");

@@ -27,6 +27,12 @@ pub enum Unsolved {
         /// Largest accepted \[kPa\].
         limit_kpa: f64,
     },
+    /// A time that is not a number of seconds.
+    #[error("the time {t_s} s of a step of the protocol is not finite")]
+    BadTime {
+        /// Its value \[s\].
+        t_s: f64,
+    },
     /// The moment balance of a stretch has no root.
     #[error(
         "no equilibrium at s = {s_mm:.1} mm for P = {p_act_kpa:.3} kPa, p_b = {p_body_kpa:.3} kPa: \

@@ -9,7 +9,7 @@ use crate::robot::{Workspace, equilibrium};
 use crate::scenario::{Scenario, Span};
 use crate::shape::Stretch;
 use crate::site::{Linkage, Site, SiteState};
-use crate::term::{CHANNELS, Loads, Pose, Term, actuator_q};
+use crate::term::{CHANNELS, Loads, Pose, RowKind, Term, actuator_q};
 
 /// A robot with its list of terms. Made once from a scenario; predicting does not change it.
 pub struct Model {
@@ -48,6 +48,8 @@ pub struct Prediction {
 pub struct LedgerLine {
     /// Name of the term.
     pub name: &'static str,
+    /// Held now, or lost since the start of the protocol.
+    pub kind: RowKind,
     /// Potential energy at equilibrium \[J\]; for the actuator pressure it is −PΔV, the negative of its work.
     pub energy_j: f64,
 }
@@ -60,8 +62,8 @@ impl Model {
             scenario.effects.iter().filter_map(|c| Some((by_name(&c.name)?, c.values.as_slice()))).collect();
         let mut assembly = assemble(scenario, &spans, scenario.segments);
         chosen.iter().for_each(|(effect, values)| (effect.add)(values, &mut assembly));
-        // Without transverse loads every stretch of equal design is one arc.
-        if assembly.node_terms.is_empty() {
+        // Without transverse loads and terms that vary along it every stretch of equal design is one arc.
+        if assembly.node_terms.is_empty() && !assembly.varies {
             assembly.segments = divide(&spans, 1);
         }
         let markers = scenario.markers_m.iter().map(|s| locate(&assembly.segments, *s)).collect();
@@ -73,11 +75,12 @@ impl Model {
         Prediction {
             markers: vec![[0.0; 2]; self.markers.len()],
             tip: Tip { x_m: 0.0, y_m: 0.0, angle_rad: 0.0 },
-            work: Workspace::new(self.assembly.segments.len(), !self.assembly.node_terms.is_empty()),
+            work: Workspace::new(&self.assembly),
         }
     }
 
-    /// Equilibrium, shape and markers at given pressures. Allocates nothing.
+    /// Equilibrium, shape and markers at given pressures, on the first loading from rest, at once (what came before and
+    /// the time in a hold matter only if [`Model::has_history`]; see [`Model::follow`]). Allocates nothing.
     ///
     /// # Errors
     /// [`Unsolved`] with pressures and place when a pressure is negative or not finite, or nothing balances.
@@ -90,26 +93,45 @@ impl Model {
     /// Like [`Model::predict`], without the markers: all that an inverse needs. `warm` starts from what `out` holds.
     pub(crate) fn settle(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Result<(), Unsolved> {
         check(loads)?;
-        self.supply(loads, &mut out.work);
-        equilibrium(&self.assembly, loads.body_pa, &mut out.work, warm)?;
-        let (work, last) = (&out.work, self.assembly.segments.len());
-        out.tip = Tip { x_m: work.nodes[2 * last], y_m: work.nodes[2 * last + 1], angle_rad: work.headings[last] };
+        out.work.history.sleep();
+        self.solve(loads, out, warm)?;
+        self.place_tip(out);
         Ok(())
     }
 
-    /// Potential energy of every term at a predicted state \[J\], in the order in which terms were added.
+    /// The equilibrium with what `out` remembers.
+    pub(crate) fn solve(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Result<(), Unsolved> {
+        self.supply(loads, &mut out.work);
+        equilibrium(&self.assembly, loads.body_pa, &mut out.work, warm)
+    }
+
+    /// Tip and markers of the equilibrium in `out`.
+    pub(crate) fn show(&self, out: &mut Prediction) {
+        self.place_tip(out);
+        self.sight(&out.work, &mut out.markers);
+    }
+
+    fn place_tip(&self, out: &mut Prediction) {
+        let (work, last) = (&out.work, self.assembly.segments.len());
+        out.tip = Tip { x_m: work.nodes[2 * last], y_m: work.nodes[2 * last + 1], angle_rad: work.headings[last] };
+    }
+
+    /// Potential energy of every term at a predicted state \[J\], in the order in which terms were added. In a state of
+    /// [`Model::follow`] a term with history has two lines, what it stores and what it has lost since the start; in one of
+    /// [`Model::predict`] its line is the sum.
     pub fn ledger(&self, loads: &Loads, at: &Prediction) -> Vec<LedgerLine> {
         let mut lines = Vec::new();
         for (i, segment) in self.assembly.segments.iter().enumerate() {
             let site = &self.assembly.sites[segment.site];
             self.site_energies(site, segment, loads.body_pa, &at.work, i, &mut lines);
         }
-        let pose = Pose { q: &at.work.nodes, p_body_pa: loads.body_pa, p_act_pa: 0.0 };
+        self.lost_energies(&at.work, &mut lines);
+        let pose = Pose::new(&at.work.nodes, loads.body_pa, 0.0);
         let rest = self.rest_nodes();
         for term in &self.assembly.node_terms {
             let mut unused = vec![0.0; rest.len()];
             let energy = term.add(&pose, &mut unused) - term.add(&Pose { q: &rest, ..pose }, &mut unused);
-            post(&mut lines, term.name(), energy);
+            post(&mut lines, term.name(), RowKind::Stored, energy);
         }
         lines
     }
@@ -150,10 +172,11 @@ impl Model {
     }
 
     fn supply(&self, loads: &Loads, work: &mut Workspace) {
+        let held_s = work.history.held_s;
         for (p, segment) in work.p_act_pa.iter_mut().zip(&self.assembly.segments) {
             let site = &self.assembly.sites[segment.site];
             let set = if site.actuator.is_some() { loads.actuator_pa[site.channel] } else { 0.0 };
-            *p = self.assembly.supply.iter().fold(set, |p, law| law(p));
+            *p = self.assembly.supply.iter().fold(set, |p, law| law(p, held_s));
         }
     }
 
@@ -168,13 +191,14 @@ impl Model {
     pub(crate) fn sight(&self, work: &Workspace, markers: &mut [[f64; 2]]) {
         let Some(&(mut current, _)) = self.markers.first() else { return };
         let mut stretch = self.stretch(work, current);
+        let p_act_pa = if self.assembly.camera.is_empty() { 0.0 } else { largest(&work.p_act_pa) };
         for (marker, (segment, offset)) in markers.iter_mut().zip(&self.markers) {
             if *segment != current {
                 current = *segment;
                 stretch = self.stretch(work, current);
             }
             let (xy, heading) = stretch.at(*offset);
-            let mut seen = Sighting { xy, heading };
+            let mut seen = Sighting { xy, heading, p_act_pa };
             for law in &self.assembly.camera {
                 law(&mut seen);
             }
@@ -198,17 +222,30 @@ impl Model {
             let rest = (actuator.stroke)(&site.shape, 0.0_f64.max(actuator.range.0));
             let q = [state.coordinate, stroke.contraction, stroke.volume - rest.volume, site.geometric(&stroke)];
             for term in &site.actuator_terms {
-                let energy = term.add(&Pose { q: &q, p_body_pa, p_act_pa }, &mut unused);
-                post(lines, term.name(), energy * site.linkage.active_fraction * h);
+                let pose = Pose { s_m: segment.middle_m(), ..Pose::new(&q, p_body_pa, p_act_pa) };
+                let energy = term.add(&pose, &mut unused) * site.linkage.active_fraction;
+                post(lines, term.name(), RowKind::Stored, energy * h);
             }
             let stretch = 0.5 * site.linkage.compliance_per_n * state.tension * state.tension;
             if stretch != 0.0 {
-                post(lines, "fabric_stretch", stretch * h);
+                post(lines, "fabric_stretch", RowKind::Stored, stretch * h);
             }
         }
-        let pose = Pose { q: &[state.curvature], p_body_pa, p_act_pa };
+        let q = [state.curvature];
+        let mut pose = Pose { s_m: segment.middle_m(), ..Pose::new(&q, p_body_pa, p_act_pa) };
+        let mut rest = work.history.of_segment(index);
         for term in [&*site.body_pressure, &site.bending as &dyn Term].into_iter().chain(site.body_terms()) {
-            post(lines, term.name(), term.add(&pose, &mut unused) * h);
+            // At the memory of this very state and without time: what is stored.
+            (pose.memory, rest) = rest.split_at(term.memory().values.min(rest.len()));
+            post(lines, term.name(), RowKind::Stored, term.add(&pose, &mut unused) * h);
+        }
+    }
+
+    fn lost_energies(&self, work: &Workspace, lines: &mut Vec<LedgerLine>) {
+        let places = self.assembly.segments.iter().map(|segment| &self.assembly.sites[segment.site]);
+        let terms = places.flat_map(Site::body_terms).filter(|term| term.memory().values > 0);
+        for (term, lost) in terms.zip(work.history.lost()).filter(|_| work.history.awake) {
+            post(lines, term.name(), RowKind::Dissipated, lost);
         }
     }
 
@@ -223,8 +260,12 @@ impl Model {
     }
 }
 
+fn largest(pressures: &[f64]) -> f64 {
+    pressures.iter().fold(0.0, |most, p| p.max(most))
+}
+
 #[inline]
-fn check(loads: &Loads) -> Result<(), Unsolved> {
+pub(crate) fn check(loads: &Loads) -> Result<(), Unsolved> {
     let bad = |p: &f64| !(0.0..=P_LIMIT_PA).contains(p);
     let refused = |what, p: f64| Unsolved::BadPressure { what, value_kpa: p / 1e3, limit_kpa: P_LIMIT_PA / 1e3 };
     if bad(&loads.body_pa) {
@@ -236,11 +277,11 @@ fn check(loads: &Loads) -> Result<(), Unsolved> {
     }
 }
 
-/// Adds to the line of that name, or opens it.
-fn post(lines: &mut Vec<LedgerLine>, name: &'static str, energy_j: f64) {
-    match lines.iter_mut().find(|line| line.name == name) {
+/// Adds to the line of that name and kind, or opens it.
+fn post(lines: &mut Vec<LedgerLine>, name: &'static str, kind: RowKind, energy_j: f64) {
+    match lines.iter_mut().find(|line| line.name == name && line.kind == kind) {
         Some(line) => line.energy_j += energy_j,
-        None => lines.push(LedgerLine { name, energy_j }),
+        None => lines.push(LedgerLine { name, kind, energy_j }),
     }
 }
 
@@ -252,6 +293,8 @@ fn assemble(scenario: &Scenario, spans: &[Span], segments: usize) -> Assembly {
         node_terms: Vec::new(),
         supply: Vec::new(),
         camera: Vec::new(),
+        timed: false,
+        varies: false,
         gravity_direction: scenario.gravity_direction,
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::assembly::Assembly;
 use crate::error::Unsolved;
+use crate::history::History;
 use crate::root::NoRoot;
 use crate::shape::{Arc, advance, arc, turned};
 use crate::site::{SiteLoads, SiteState};
@@ -20,6 +21,8 @@ pub(crate) struct Workspace {
     pub directions: Vec<[f64; 2]>,
     /// Heading at each node \[rad\].
     pub headings: Vec<f64>,
+    /// What the states before have left behind.
+    pub history: History,
     coupled: Coupled,
 }
 
@@ -39,7 +42,8 @@ struct Coupled {
 }
 
 impl Workspace {
-    pub fn new(segments: usize, coupled: bool) -> Workspace {
+    pub fn new(assembly: &Assembly) -> Workspace {
+        let (segments, coupled) = (assembly.segments.len(), !assembly.node_terms.is_empty());
         let n = if coupled { segments } else { 0 };
         Workspace {
             states: vec![SiteState::REST; segments],
@@ -47,6 +51,7 @@ impl Workspace {
             nodes: vec![0.0; 2 * (segments + 1)],
             directions: vec![[1.0, 0.0]; segments + 1],
             headings: vec![0.0; segments + 1],
+            history: History::new(assembly),
             coupled: Coupled {
                 arcs: vec![Arc::NONE; n],
                 forces: vec![0.0; if coupled { 2 * (n + 1) } else { 0 }],
@@ -77,8 +82,8 @@ pub(crate) fn equilibrium(
 ) -> Result<(), Unsolved> {
     if assembly.node_terms.is_empty() {
         for i in 0..work.states.len() {
-            let near = if warm { Some(work.states[i]) } else { None };
-            work.states[i] = solve_segment(assembly, i, p_body_pa, 0.0, work.p_act_pa[i], near.as_ref())?;
+            let near = if warm { Some(&work.states[i]) } else { None };
+            work.states[i] = solve_segment(assembly, work, i, p_body_pa, 0.0, near)?;
         }
         place_nodes(assembly, work);
         return Ok(());
@@ -145,9 +150,10 @@ fn damped_step(
 fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result<(), Unsolved> {
     work.coupled.moments.fill(0.0);
     for i in 0..work.states.len() {
-        let twin = i > 0 && assembly.segments[i - 1].site == assembly.segments[i].site;
+        let alike = i > 0 && assembly.segments[i - 1].site == assembly.segments[i].site;
+        let twin = alike && !assembly.varies && work.history.of_segment(i).is_empty();
         work.states[i] =
-            if twin { work.states[i - 1] } else { solve_segment(assembly, i, p_body_pa, 0.0, work.p_act_pa[i], None)? };
+            if twin { work.states[i - 1] } else { solve_segment(assembly, work, i, p_body_pa, 0.0, None)? };
     }
     Ok(())
 }
@@ -155,9 +161,8 @@ fn unloaded(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result
 /// Solves every place for its moment from where it is; returns the largest disagreement of moments.
 fn update(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result<f64, Unsolved> {
     for i in 0..work.states.len() {
-        let near = work.states[i];
         let moment = work.coupled.moments[i];
-        work.states[i] = solve_segment(assembly, i, p_body_pa, moment, work.p_act_pa[i], Some(&near))?;
+        work.states[i] = solve_segment(assembly, work, i, p_body_pa, moment, Some(&work.states[i]))?;
     }
     Ok(disagreement(assembly, p_body_pa, work))
 }
@@ -166,7 +171,7 @@ fn update(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> Result<f
 fn disagreement(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> f64 {
     place_nodes(assembly, work);
     work.coupled.forces.fill(0.0);
-    let pose = Pose { q: &work.nodes, p_body_pa, p_act_pa: 0.0 };
+    let pose = Pose::new(&work.nodes, p_body_pa, 0.0);
     for term in &assembly.node_terms {
         term.add(&pose, &mut work.coupled.forces);
     }
@@ -176,15 +181,17 @@ fn disagreement(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> f6
 
 fn solve_segment(
     assembly: &Assembly,
+    work: &Workspace,
     index: usize,
     p_body_pa: f64,
     moment: f64,
-    p_act_pa: f64,
     near: Option<&SiteState>,
 ) -> Result<SiteState, Unsolved> {
     let segment = &assembly.segments[index];
-    let loads = SiteLoads { p_body_pa, p_act_pa, moment };
-    assembly.sites[segment.site].solve(&loads, near).map_err(|error| unsolved(error, segment.start_m, &loads))
+    let History { dt_s, stamp, .. } = work.history;
+    let loads = SiteLoads { p_body_pa, p_act_pa: work.p_act_pa[index], moment, s_m: segment.middle_m(), dt_s, stamp };
+    let memory = work.history.of_segment(index);
+    assembly.sites[segment.site].solve(&loads, memory, near).map_err(|error| unsolved(error, segment.start_m, &loads))
 }
 
 fn unsolved(error: NoRoot, start_m: f64, loads: &SiteLoads) -> Unsolved {
@@ -281,6 +288,7 @@ fn newton_step(assembly: &Assembly, work: &mut Workspace) -> bool {
 mod tests {
     use super::*;
     use crate::assembly::Segment;
+    use crate::body::Bending;
 
     /// Segments of unequal length; only their lengths matter here.
     fn assembly(lengths: &[f64]) -> Assembly {
@@ -290,6 +298,8 @@ mod tests {
             node_terms: Vec::new(),
             supply: Vec::new(),
             camera: Vec::new(),
+            timed: false,
+            varies: false,
             gravity_direction: [0.0, -1.0],
         }
     }
@@ -299,7 +309,9 @@ mod tests {
         let lengths = [0.03, 0.05, 0.02, 0.04, 0.03];
         let n = lengths.len();
         let number = |i: usize, k: usize| ((i * 37 + k * 11) % 17) as f64 / 17.0 - 0.4;
-        let mut work = Workspace::new(n, true);
+        let mut assembly = assembly(&lengths);
+        assembly.node_terms.push(Box::new(Bending { stiffness: 0.0 }));
+        let mut work = Workspace::new(&assembly);
         for i in 0..n {
             work.states[i].compliance = 0.5 + number(i, 1);
             work.coupled.coupling[i] = number(i, 2);
@@ -307,7 +319,7 @@ mod tests {
             work.coupled.residual[i] = number(i, 4);
         }
         let before = work.clone();
-        assert!(newton_step(&assembly(&lengths), &mut work));
+        assert!(newton_step(&assembly, &mut work));
         for i in 0..n {
             // Σⱼ ∂Gᵢ/∂κⱼ Cⱼ δⱼ, with ∂Gᵢ/∂κⱼ = hⱼ g_max(i,j) off the diagonal.
             let slope = |j: usize| {

@@ -91,19 +91,32 @@ impl SiteState {
         curvature: 0.0,
         tension: 0.0,
         compliance: 0.0,
-        loads: SiteLoads { p_body_pa: 0.0, p_act_pa: 0.0, moment: 0.0 },
+        loads: SiteLoads { p_body_pa: 0.0, p_act_pa: 0.0, moment: 0.0, s_m: 0.0, dt_s: 0.0, stamp: 0 },
         slope: 0.0,
         weight: 0.0,
     };
 }
 
-/// Pressures and external moment at one place.
+/// Pressures, external moment and time at one place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SiteLoads {
     pub p_body_pa: f64,
     pub p_act_pa: f64,
     /// Generalised force of transverse loads on κ, per length \[N·m\].
     pub moment: f64,
+    /// Station \[m\].
+    pub s_m: f64,
+    /// Time since the remembered state \[s\].
+    pub dt_s: f64,
+    /// Which memory this is; 0 without.
+    pub stamp: u32,
+}
+
+impl SiteLoads {
+    fn pose<'a>(&self, q: &'a [f64]) -> Pose<'a> {
+        let SiteLoads { p_body_pa, p_act_pa, s_m, dt_s, .. } = *self;
+        Pose { q, p_body_pa, p_act_pa, s_m, dt_s, memory: &[] }
+    }
 }
 
 /// Everything that follows from a coordinate.
@@ -122,7 +135,9 @@ struct Balance {
 impl SiteState {
     /// Start of the next solve from here: only the moment changed, or the pressures a little too.
     fn start(&self, loads: &SiteLoads) -> Start {
-        let same = self.loads.p_act_pa == loads.p_act_pa && self.loads.p_body_pa == loads.p_body_pa;
+        let same = self.loads.p_act_pa == loads.p_act_pa
+            && self.loads.p_body_pa == loads.p_body_pa
+            && self.loads.stamp == loads.stamp;
         // The imbalance is linear in the moment, so its value here needs no evaluation.
         let f = same.then_some(self.weight * (loads.moment - self.loads.moment));
         Start { x: self.coordinate, f, slope: self.slope }
@@ -167,11 +182,17 @@ impl Site {
         }
     }
 
-    /// Curvature at which actuator, wall and external moment balance; `near` is a state to start from.
-    pub(crate) fn solve(&self, loads: &SiteLoads, near: Option<&SiteState>) -> Result<SiteState, NoRoot> {
+    /// Curvature at which actuator, wall and external moment balance; `memory` is what the body's terms remember here,
+    /// `near` a state to start from.
+    pub(crate) fn solve(
+        &self,
+        loads: &SiteLoads,
+        memory: &[f64],
+        near: Option<&SiteState>,
+    ) -> Result<SiteState, NoRoot> {
         match self.actuator {
-            Some(actuator) if loads.p_act_pa > SLACK_BELOW_PA => self.solve_active(actuator, loads, near),
-            _ => self.solve_passive(loads),
+            Some(actuator) if loads.p_act_pa > SLACK_BELOW_PA => self.solve_active(actuator, loads, memory, near),
+            _ => self.solve_passive(loads, memory, near),
         }
     }
 
@@ -179,6 +200,7 @@ impl Site {
         &self,
         actuator: &Actuator,
         loads: &SiteLoads,
+        memory: &[f64],
         near: Option<&SiteState>,
     ) -> Result<SiteState, NoRoot> {
         let near = near.filter(|state| state.slope < 0.0 && close(state.loads.p_act_pa, loads.p_act_pa));
@@ -186,17 +208,17 @@ impl Site {
         let mut at = before;
         let mut imbalance = |a: f64| {
             before = at;
-            at = self.balance(actuator, a, loads);
+            at = self.balance(actuator, a, loads, memory);
             at.imbalance
         };
         let start = match near {
             Some(state) => state.start(loads),
-            None => self.start(actuator, loads),
+            None => self.start(actuator, loads, memory),
         };
         let mut root = find_root(&mut imbalance, actuator.range, start)?;
         if self.linkage.compliance_per_n != 0.0 && root.step != 0.0 {
             // Stretching fabric has no explicit dκ/da: the last step is evaluated, and a secant is the slope.
-            at = self.balance(actuator, root.x + root.step, loads);
+            at = self.balance(actuator, root.x + root.step, loads, memory);
             if at.coordinate != before.coordinate && before.weight != 0.0 {
                 at.d_curvature = (at.curvature - before.curvature) / (at.coordinate - before.coordinate);
             }
@@ -206,11 +228,12 @@ impl Site {
     }
 
     /// Start from the actuator's own balance with the wall's moment linearised.
-    fn start(&self, actuator: &Actuator, loads: &SiteLoads) -> Start {
+    fn start(&self, actuator: &Actuator, loads: &SiteLoads, memory: &[f64]) -> Start {
         let link = &self.linkage;
         let available = loads.p_act_pa * (actuator.area)(&self.shape) * link.arm_m;
         let (low, high) = TYPICAL_STROKE;
-        let moment = |stroke: f64| self.body_moment(stroke * link.active_fraction / link.arm_m, loads) - loads.moment;
+        let moment =
+            |stroke: f64| self.body_moment(stroke * link.active_fraction / link.arm_m, loads, memory) - loads.moment;
         let at_low = moment(low);
         let rise = (moment(high) - at_low) / (high - low);
         let demand = Demand {
@@ -238,25 +261,28 @@ impl Site {
     }
 
     /// Without actuator pressure the pouch is slack: only the wall resists.
-    fn solve_passive(&self, loads: &SiteLoads) -> Result<SiteState, NoRoot> {
-        let mut imbalance = |k: f64| loads.moment - self.body_moment(k, loads);
+    fn solve_passive(&self, loads: &SiteLoads, memory: &[f64], near: Option<&SiteState>) -> Result<SiteState, NoRoot> {
+        let mut imbalance = |k: f64| loads.moment - self.body_moment(k, loads, memory);
         let stiffness = |k: f64| -> f64 {
-            let rise = self.body_moment(k + PASSIVE_STEP, loads) - self.body_moment(k - PASSIVE_STEP, loads);
+            let moment = |k: f64| self.body_moment(k, loads, memory);
+            let rise = moment(k + PASSIVE_STEP) - moment(k - PASSIVE_STEP);
             (rise / (2.0 * PASSIVE_STEP)).max(LEAST_STIFFNESS)
         };
-        let at_rest = imbalance(0.0);
+        // A wall that remembers rests where it was bent to, not straight.
+        let x = near.filter(|_| !memory.is_empty()).map_or(0.0, |state| state.curvature);
+        let at_rest = imbalance(x);
         let curvature = if at_rest == 0.0 {
-            0.0
+            x
         } else {
-            let slope = -stiffness(0.0);
-            let start = Start { x: 0.0, f: Some(at_rest), slope };
+            let slope = -stiffness(x);
+            let start = Start { x, f: Some(at_rest), slope };
             let root = find_root(&mut imbalance, (-PASSIVE_RANGE, PASSIVE_RANGE), start)?;
             root.x + root.step
         };
         Ok(SiteState { curvature, compliance: 1.0 / stiffness(curvature), loads: *loads, ..SiteState::REST })
     }
 
-    fn balance(&self, actuator: &Actuator, a: f64, loads: &SiteLoads) -> Balance {
+    fn balance(&self, actuator: &Actuator, a: f64, loads: &SiteLoads, memory: &[f64]) -> Balance {
         let stroke = (actuator.stroke)(&self.shape, a);
         let link = &self.linkage;
         let arm = link.arm_m + link.arm_growth * stroke.lift;
@@ -266,7 +292,7 @@ impl Site {
         let slope = link.active_fraction * self.actuator_slope(a, &stroke, geometric, d_geometric, loads);
         let tension = line_tension(-slope, d_geometric * arm, link.compliance_per_n * d_arm * per_arm);
         let curvature = geometric - link.compliance_per_n * tension * per_arm;
-        let imbalance = (tension * arm + loads.moment - self.body_moment(curvature, loads)) * stroke.weight;
+        let imbalance = (tension * arm + loads.moment - self.body_moment(curvature, loads, memory)) * stroke.weight;
         Balance { coordinate: a, curvature, tension, imbalance, d_curvature: d_geometric, weight: stroke.weight }
     }
 
@@ -274,7 +300,7 @@ impl Site {
     fn actuator_slope(&self, a: f64, stroke: &Stroke, geometric: f64, d_geometric: f64, loads: &SiteLoads) -> f64 {
         let q = [a, stroke.contraction, stroke.volume, geometric];
         let mut force = [0.0; actuator_q::LEN];
-        let pose = Pose { q: &q, p_body_pa: loads.p_body_pa, p_act_pa: loads.p_act_pa };
+        let pose = loads.pose(&q);
         for term in &self.actuator_terms {
             term.add(&pose, &mut force);
         }
@@ -292,13 +318,21 @@ impl Site {
     }
 
     /// ∂U/∂κ of all body-side terms \[N·m\].
-    fn body_moment(&self, curvature: f64, loads: &SiteLoads) -> f64 {
+    fn body_moment(&self, curvature: f64, loads: &SiteLoads, memory: &[f64]) -> f64 {
         let q = [curvature];
         let mut force = [0.0];
-        let pose = Pose { q: &q, p_body_pa: loads.p_body_pa, p_act_pa: loads.p_act_pa };
+        let mut pose = loads.pose(&q);
         self.body_pressure.add_force(&pose, &mut force);
         self.bending.add(&pose, &mut force);
+        if memory.is_empty() {
+            for term in &self.body_terms {
+                term.add(&pose, &mut force);
+            }
+            return -force[0];
+        }
+        let mut rest = memory;
         for term in &self.body_terms {
+            (pose.memory, rest) = rest.split_at(term.memory().values);
             term.add(&pose, &mut force);
         }
         -force[0]
@@ -335,9 +369,9 @@ mod tests {
                 let body = BodyPressure { radius_m: 0.04, hinge_curvature: 1e-4, share: 1.0 };
                 let site = Site::new(0.04, body, Bending { stiffness }, linkage, Some(actuator), shape, 0);
                 for p_act_pa in [5e3, 2e4, 1e5] {
-                    let loads = SiteLoads { p_body_pa: 2e3, p_act_pa, moment: 0.01 };
-                    let start = site.start(actuator, &loads);
-                    let imbalance = |a: f64| site.balance(actuator, a, &loads).imbalance;
+                    let loads = SiteLoads { p_body_pa: 2e3, p_act_pa, moment: 0.01, s_m: 0.0, dt_s: 0.0, stamp: 0 };
+                    let start = site.start(actuator, &loads, &[]);
+                    let imbalance = |a: f64| site.balance(actuator, a, &loads, &[]).imbalance;
                     let slope = (imbalance(start.x + 1e-5) - imbalance(start.x - 1e-5)) / 2e-5;
                     assert!((imbalance(start.x) / slope).abs() < 1e-14, "{} {stiffness} {arm_growth}", actuator.name);
                     assert!((start.slope / slope - 1.0).abs() < 1e-7, "{} {stiffness} {arm_growth}", actuator.name);

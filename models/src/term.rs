@@ -11,7 +11,9 @@
 //! | `[x₀, y₀, x₁, y₁, …]`: node positions \[m\] | gravity, tip load | J |
 //! | `[x₀, y₀, z₀, 0, x₁, …]`: nodes of a finite element mesh \[m\] | shells, follower pressure, contact | J |
 //!
-//! The finite element engine steps through time, so its terms may also remember and dissipate: see [`Term::advance`].
+//! Some effects depend on what came before (friction, creep). The reduced model keeps their memory outside of the terms,
+//! in a [`crate::Prediction`], and walks a protocol with [`crate::Model::follow`]. The finite element engine steps through
+//! time and its terms keep their own: see [`Term::advance`].
 
 /// Gauge pressures acting on the robot \[Pa\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,13 +40,24 @@ impl Loads {
 }
 
 impl<'a> Pose<'a> {
+    /// A pose without station, time or memory.
+    pub fn new(q: &'a [f64], p_body_pa: f64, p_act_pa: f64) -> Pose<'a> {
+        Pose { q, p_body_pa, p_act_pa, s_m: 0.0, dt_s: 0.0, memory: &[] }
+    }
+
     /// A pose of finite element nodes, whose terms keep their own pressures.
     pub fn nodes(q: &'a [f64]) -> Pose<'a> {
-        Pose { q, p_body_pa: 0.0, p_act_pa: 0.0 }
+        Pose::new(q, 0.0, 0.0)
+    }
+
+    /// A value this term remembers; 0 where nothing has happened yet.
+    #[inline]
+    pub fn remembered(&self, index: usize) -> f64 {
+        self.memory.get(index).copied().unwrap_or(0.0)
     }
 }
 
-/// Where a term is evaluated: coordinates, and the two pressures of the place.
+/// Where a term is evaluated: coordinates, the two pressures of the place, and what the term remembers there.
 #[derive(Debug, Clone, Copy)]
 pub struct Pose<'a> {
     /// Generalised coordinates; their meaning is that of the list the term is in.
@@ -53,16 +66,50 @@ pub struct Pose<'a> {
     pub p_body_pa: f64,
     /// Pressure in this segment's actuator, after the supply stage \[Pa\]; 0 where there is none.
     pub p_act_pa: f64,
+    /// Middle of the segment along the taut generator \[m\]; 0 for terms over nodes.
+    pub s_m: f64,
+    /// Time since the state that [`Pose::memory`] remembers \[s\]; 0: at once.
+    pub dt_s: f64,
+    /// What this term remembers of the states before, in its own layout ([`Term::memory`]); empty: nothing has happened
+    /// yet, all values are 0.
+    pub memory: &'a [f64],
+}
+
+/// What a term with history keeps of every place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Memory {
+    /// Number of values.
+    pub values: usize,
+    /// Shortest time over which they change by themselves \[s\]; infinite when only motion changes them.
+    pub time_s: f64,
+}
+
+impl Memory {
+    /// A static term.
+    pub const NONE: Memory = Memory { values: 0, time_s: f64::INFINITY };
 }
 
 /// One physical effect: its energy and its virtual work.
 ///
-/// Law (tested over every term at random poses): the force added equals minus the slope of the returned energy.
+/// Law (tested over every term at random poses): the force added equals minus the slope of the returned energy, at fixed
+/// memory. A term with history returns its **incremental potential**: what it stores now and loses on the way from the
+/// state it remembers. At its new memory and without time it returns what it stores.
 pub trait Term: Send + Sync {
     /// Name in the energy ledger.
     fn name(&self) -> &'static str;
     /// Adds `−∂E/∂q` to `force` (same length as `at.q`) and returns the energy E.
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64;
+
+    /// What this term remembers between states of the reduced model; only terms over `[κ]` may.
+    fn memory(&self) -> Memory {
+        Memory::NONE
+    }
+
+    /// Writes to `next` what it remembers after the accepted state `at`, and returns the energy lost on the way there, per
+    /// metre of body.
+    fn remember(&self, _at: &Pose, _next: &mut [f64]) -> f64 {
+        0.0
+    }
 
     /// One time step of the finite element engine: what [`Term::add`] does, plus whatever depends on rate or history
     /// (viscosity, friction, hysteresis, the work of a load). Called once per step.

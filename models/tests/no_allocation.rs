@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use models::effects::EFFECTS;
-use models::{Loads, Model, Scenario, Target, shipped};
+use models::{Loads, Model, Scenario, Step, Target, shipped};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 
@@ -46,7 +46,11 @@ fn main() {
                 model.predict_batch(&sweep, &mut batch).unwrap();
             });
             assert_eq!(found, 0, "allocations in predict, inverse, Jacobian or batch of {name}");
+            let steps: Vec<Step> =
+                sweep.iter().enumerate().map(|(i, loads)| Step { t_s: i as f64, loads: *loads }).collect();
+            let found = allocations(|| model.follow(&steps, &mut out, &mut |_, _| ()).unwrap());
+            assert_eq!(found, 0, "allocations in a protocol of {name}");
         }
     }
-    println!("predict, inverse, Jacobian and batch allocate nothing after set-up");
+    println!("predict, inverse, Jacobian, batch and protocol allocate nothing after set-up");
 }

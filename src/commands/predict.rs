@@ -9,7 +9,7 @@ use crate::output::{check_folder, write_files};
 use compare::plots::{ShapePose, Shapes, shapes};
 use compare::study::pages::Files;
 use models::scenario::quantity::{Quantity, parse_pressures};
-use models::{CHANNELS, Loads, Model, Prediction, Scenario, Target, TipSlope};
+use models::{CHANNELS, Loads, Model, Prediction, RowKind, Scenario, Step, Target, TipSlope};
 use serde_json::{Value, json};
 
 /// One predicted state, ready to print.
@@ -56,7 +56,26 @@ fn forward(model: &Model, scenario: &Scenario, pressures: Option<&str>) -> Resul
             "add --pressure 10kPa,20kPa or [predict] pressures_kpa to the scenario",
         ));
     }
-    pressures.into_iter().map(|p| solve(model, Loads { body_pa: scenario.p_body_pa, actuator_pa: p })).collect()
+    let loads: Vec<Loads> =
+        pressures.into_iter().map(|p| Loads { body_pa: scenario.p_body_pa, actuator_pa: p }).collect();
+    if model.has_history() { path(model, &loads) } else { loads.into_iter().map(|loads| solve(model, loads)).collect() }
+}
+
+/// Time for which `ibr predict` holds each pressure of a model with history \[s\]: the hold of the usual protocol.
+const HOLD_S: f64 = 5.0;
+
+/// The pressures in their order, each held for [`HOLD_S`]; the slopes are those of the first loading.
+fn path(model: &Model, loads: &[Loads]) -> Result<Vec<State>, Failure> {
+    let steps: Vec<Step> =
+        loads.iter().enumerate().map(|(i, loads)| Step { t_s: HOLD_S * (i + 1) as f64, loads: *loads }).collect();
+    let mut predictions = Vec::new();
+    model.follow(&steps, &mut model.prediction(), &mut |_, at| predictions.push(at.clone()))?;
+    let mut scratch = model.prediction();
+    let state = |(loads, prediction): (&Loads, Prediction)| {
+        let slopes = model.jacobian(loads, &mut scratch)?;
+        Ok(State { loads: *loads, prediction, slopes })
+    };
+    loads.iter().zip(predictions).map(state).collect()
 }
 
 fn solve(model: &Model, loads: Loads) -> Result<State, Failure> {
@@ -150,7 +169,7 @@ fn state_json(model: &Model, scenario: &Scenario, s: &State) -> Value {
     let ledger: Vec<Value> = model
         .ledger(&s.loads, &s.prediction)
         .iter()
-        .map(|line| json!({"term": line.name, "energy_mj": line.energy_j * 1e3}))
+        .map(|line| json!({"term": line.name, "kind": kind(line.kind), "energy_mj": line.energy_j * 1e3}))
         .collect();
     let channels: Vec<f64> = s.loads.actuator_pa.iter().map(|p| p / 1e3).collect();
     let slopes: Vec<Value> = s
@@ -167,6 +186,14 @@ fn state_json(model: &Model, scenario: &Scenario, s: &State) -> Value {
         "tip": {"x_mm": tip.x_m * 1e3, "y_mm": tip.y_m * 1e3, "angle_deg": tip.angle_rad.to_degrees()},
         "curvature_per_m": curvature, "segments": segments, "jacobian": slopes, "ledger": ledger,
     })
+}
+
+fn kind(kind: RowKind) -> &'static str {
+    match kind {
+        RowKind::Stored => "stored",
+        RowKind::Dissipated => "lost",
+        RowKind::Supplied => "supplied",
+    }
 }
 
 fn drawing(model: &Model, scenario: &Scenario, states: &[State]) -> Result<Files, Failure> {

@@ -5,7 +5,7 @@
 
 use crate::error::CompareError;
 use data::{Dataset, Hold, Marker, Phase};
-use models::{Loads, Model, Scenario};
+use models::{Loads, Model, Prediction, Scenario, Step};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
@@ -86,15 +86,21 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
         let gain = 1.0 + generator.pressure_sd * scatter.normal();
         let shift = [scatter.normal(), scatter.normal()].map(|n| n * generator.alignment_sd_m);
         let roll = generator.rotation_sd * scatter.normal();
+        let mut see = |markers: &[[f64; 2]]| {
+            for [x, y] in markers {
+                let noise = [scatter.normal(), scatter.normal()].map(|n| n * generator.camera_sd_m);
+                xy_m.push(x - roll * y + shift[0] + noise[0]);
+                xy_m.push(y + roll * x + shift[1] + noise[1]);
+            }
+        };
+        if model.has_history() {
+            let mut each = |_: usize, at: &Prediction| see(&at.markers);
+            model.follow(&steps(generator, gain), &mut state, &mut each)?;
+            continue;
+        }
         for [p_body, p_act] in &generator.protocol {
             model.predict(&Loads::uniform(*p_body, p_act * gain), &mut state)?;
-            for _ in 0..generator.samples {
-                for [x, y] in &state.markers {
-                    let noise = [scatter.normal(), scatter.normal()].map(|n| n * generator.camera_sd_m);
-                    xy_m.push(x - roll * y + shift[0] + noise[0]);
-                    xy_m.push(y + roll * x + shift[1] + noise[1]);
-                }
-            }
+            (0..generator.samples).for_each(|_| see(&state.markers));
         }
     }
     Ok(Dataset {
@@ -106,6 +112,15 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
         samples_per_hold: generator.samples,
         xy_m,
     })
+}
+
+/// The protocol of one run whose actuator pressures are off by a factor.
+fn steps(generator: &Generator, gain: f64) -> Vec<Step> {
+    let of_hold = |(hold, [p_body, p_act]): (Hold, &[f64; 2])| {
+        let loads = Loads::uniform(*p_body, p_act * gain);
+        hold.t_s.into_iter().map(move |t_s| Step { t_s, loads })
+    };
+    holds(generator).into_iter().zip(&generator.protocol).flat_map(of_hold).collect()
 }
 
 fn markers(scenario: &Scenario) -> Vec<Marker> {

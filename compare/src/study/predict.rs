@@ -2,7 +2,7 @@
 
 use crate::error::CompareError;
 use data::{About, Dataset};
-use models::{Loads, Model, Scenario};
+use models::{Loads, Model, Prediction, Scenario, Step};
 
 /// Prediction in the layout of [`Dataset::run`], `[hold][sample][marker][x, y]`.
 #[derive(Debug, Clone, PartialEq)]
@@ -113,12 +113,18 @@ fn geometry_warnings(scenario: &Scenario, about: &About) -> Vec<String> {
 
 /// Predicts every hold of a dataset with a scenario already fitted to it by [`fit_scenario`].
 ///
-/// The model is static: every sample of a hold gets the same prediction.
+/// Every sample of a hold gets the same prediction, unless the model has history: then the holds are walked in order at
+/// their sample times ([`Model::follow`]). The robot starts at rest when the first hold's pressures are set, at time 0; a
+/// gap between two holds, of one session or of two, passes at the pressures of the second; a hold whose times lie before
+/// those of the hold before starts a new session at rest.
 ///
 /// # Errors
 /// What the model returns when a hold has no equilibrium.
 pub fn predict_dataset(scenario: &Scenario, dataset: &Dataset) -> Result<Predicted, CompareError> {
     let model = Model::new(scenario);
+    if model.has_history() {
+        return predict_in_time(&model, dataset);
+    }
     let mut state = model.prediction();
     let n = dataset.values_per_run();
     let mut out = Predicted { xy_m: vec![0.0; n], d_ln_pressure_m: vec![0.0; n] };
@@ -140,4 +146,26 @@ pub fn predict_dataset(scenario: &Scenario, dataset: &Dataset) -> Result<Predict
         }
     }
     Ok(out)
+}
+
+/// The steps of a dataset's protocol, one per sample, with the actuator pressures times `factor`.
+pub(crate) fn protocol(dataset: &Dataset, factor: f64) -> Vec<Step> {
+    let of_hold = |hold: &data::Hold| {
+        let loads = Loads::uniform(hold.p_body_pa, hold.p_act_pa * factor);
+        hold.t_s.iter().map(|t_s| Step { t_s: *t_s, loads }).collect::<Vec<_>>()
+    };
+    dataset.holds.iter().flat_map(of_hold).collect()
+}
+
+fn predict_in_time(model: &Model, dataset: &Dataset) -> Result<Predicted, CompareError> {
+    let mut state = model.prediction();
+    let mut positions = |factor: f64| -> Result<Vec<f64>, CompareError> {
+        let mut xy_m = Vec::with_capacity(dataset.values_per_run());
+        let mut take = |_: usize, at: &Prediction| xy_m.extend(at.markers.iter().flatten());
+        model.follow(&protocol(dataset, factor), &mut state, &mut take)?;
+        Ok(xy_m)
+    };
+    let (low, high) = (positions(1.0 - PRESSURE_STEP)?, positions(1.0 + PRESSURE_STEP)?);
+    let slope = |(high, low): (&f64, &f64)| (high - low) / (2.0 * PRESSURE_STEP);
+    Ok(Predicted { xy_m: positions(1.0)?, d_ln_pressure_m: high.iter().zip(&low).map(slope).collect() })
 }

@@ -6,11 +6,16 @@
 mod arm_growth;
 mod camera_rotation;
 mod camera_scale;
+mod creep;
 mod end_constraint;
 mod fabric_stretch;
+mod friction;
 mod gravity;
 mod initial_curvature;
+mod leak;
 mod marker_height;
+mod mount_rotation;
+mod plastic_set;
 mod pressure_loss;
 mod pressure_offset;
 mod seam_stiffness;
@@ -34,11 +39,16 @@ pub const EFFECTS: &[Effect] = &[
     wrinkling::ENTRY,
     tail_tension::ENTRY,
     initial_curvature::ENTRY,
+    plastic_set::ENTRY,
+    friction::ENTRY,
+    creep::ENTRY,
     gravity::ENTRY,
     tip_load::ENTRY,
     pressure_offset::ENTRY,
     pressure_loss::ENTRY,
+    leak::ENTRY,
     marker_height::ENTRY,
+    mount_rotation::ENTRY,
     camera_scale::ENTRY,
     camera_rotation::ENTRY,
 ];

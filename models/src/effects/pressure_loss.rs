@@ -38,5 +38,5 @@ pub(super) const ENTRY: Effect = Effect {
 
 fn add(values: &[f64], assembly: &mut Assembly) {
     let lost = values[0];
-    assembly.supply.push(Box::new(move |p| p * (1.0 - lost)));
+    assembly.supply.push(Box::new(move |p, _| p * (1.0 - lost)));
 }

@@ -38,5 +38,5 @@ pub(super) const ENTRY: Effect = Effect {
 
 fn add(values: &[f64], assembly: &mut Assembly) {
     let offset = values[0];
-    assembly.supply.push(Box::new(move |p| if p > 0.0 { (p - offset).max(0.0) } else { p }));
+    assembly.supply.push(Box::new(move |p, _| if p > 0.0 { (p - offset).max(0.0) } else { p }));
 }

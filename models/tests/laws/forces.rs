@@ -12,10 +12,10 @@ const POSES: usize = 200;
 fn worst_error(term: &dyn Term, q: &[f64], p_body_pa: f64, p_act_pa: f64) -> f64 {
     let energy = |q: &[f64]| {
         let mut unused = vec![0.0; q.len()];
-        term.add(&Pose { q, p_body_pa, p_act_pa }, &mut unused)
+        term.add(&Pose::new(q, p_body_pa, p_act_pa), &mut unused)
     };
     let mut force = vec![0.0; q.len()];
-    term.add(&Pose { q, p_body_pa, p_act_pa }, &mut force);
+    term.add(&Pose::new(q, p_body_pa, p_act_pa), &mut force);
     let mut worst = 0.0_f64;
     for i in 0..q.len() {
         let along = |x: f64| {

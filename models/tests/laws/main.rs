@@ -6,6 +6,7 @@ mod base;
 mod batch;
 mod closed_forms;
 mod forces;
+mod history;
 mod inverse;
 mod neutral;
 mod scaling;

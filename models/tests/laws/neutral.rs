@@ -1,7 +1,7 @@
 //! An effect at its neutral value changes no bit; at its typical value it changes something.
 
 use crate::support::*;
-use models::{Loads, Model, Prediction, Scenario};
+use models::{Loads, Model, Prediction, Scenario, Step};
 
 const PRESSURES: [(f64, f64); 6] = [(2e3, 0.0), (2e3, 1e3), (2e3, 10e3), (2e3, 30e3), (8e3, 30e3), (500.0, 90e3)];
 
@@ -32,14 +32,23 @@ fn a_neutral_effect_changes_no_bit_of_any_prediction() {
     }
 }
 
+/// Markers after five seconds at 30 kPa.
+fn held(scenario: &Scenario) -> Vec<[f64; 2]> {
+    let model = Model::new(scenario);
+    let mut out = model.prediction();
+    let step = Step { t_s: 5.0, loads: Loads::uniform(2e3, 30e3) };
+    model.follow(&[step], &mut out, &mut |_, _| ()).unwrap();
+    out.markers
+}
+
 #[test]
 fn a_typical_effect_changes_the_prediction_of_every_actuator_it_applies_to() {
     for actuator in actuators() {
         let base = robot(actuator).bare().with_bending(0.02);
         for effect in applicable(&base) {
             let with = base.with_effect(effect.name, &effect.typical());
-            let (a, b) = (predict(&base, 2e3, 30e3), predict(&with, 2e3, 30e3));
-            let moved = a.markers.iter().flatten().zip(b.markers.iter().flatten()).map(|(a, b)| (a - b).abs());
+            let (a, b) = (held(&base), held(&with));
+            let moved = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b).abs());
             let moved = moved.fold(0.0, f64::max);
             if (actuator, effect.name) == ("cpam", "end_constraint") {
                 assert_eq!(moved, 0.0, "the gussets of a cPAM free its edges");

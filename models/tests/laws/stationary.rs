@@ -25,9 +25,9 @@ fn of_segment(potential: &Potential, states: &[SiteState], kappas: &[f64], i: us
         potential.of_segment(i, a, kappa) * h + potential.of_nodes(&moved)
     };
     let scale = std::f64::consts::PI * potential.loads.body_pa * site.radius_m.powi(3) * h;
-    // The moment has corners (first wrinkle, contact): the best of three steps keeps away from them.
+    // The moment has corners (first wrinkle, contact, set at κ = 0): the best of four steps keeps away from them.
     let best = |f: &dyn Fn(f64) -> f64, x: f64, h: f64| {
-        [h, 0.1 * h, 0.01 * h].map(|h| slope(f, x, h).abs()).into_iter().fold(f64::INFINITY, f64::min)
+        [h, 0.1 * h, 0.01 * h, 0.001 * h].map(|h| slope(f, x, h).abs()).into_iter().fold(f64::INFINITY, f64::min)
     };
     let by_curvature = |a: f64| best(&|k| total(a, k), state.curvature, 1e-3) / scale;
     if !potential.is_active(i) {

@@ -107,7 +107,8 @@ impl Potential<'_> {
     pub fn of_segment(&self, segment: usize, a: f64, kappa: f64) -> f64 {
         let site = self.site(segment);
         let p_act_pa = self.loads.actuator_pa[site.channel];
-        let pose = |q| Pose { q, p_body_pa: self.loads.body_pa, p_act_pa };
+        let s_m = self.assembly.segments[segment].middle_m();
+        let pose = |q| Pose { s_m, ..Pose::new(q, self.loads.body_pa, p_act_pa) };
         let at = [kappa];
         let mut unused = [0.0; 4];
         let mut sum = site.body_pressure.add(&pose(&at), &mut unused);
@@ -141,7 +142,7 @@ impl Potential<'_> {
             heading += 2.0 * half;
             nodes.extend([x, y]);
         }
-        let pose = Pose { q: &nodes, p_body_pa: self.loads.body_pa, p_act_pa: 0.0 };
+        let pose = Pose::new(&nodes, self.loads.body_pa, 0.0);
         self.assembly.node_terms.iter().map(|t| t.add(&pose, &mut vec![0.0; nodes.len()])).sum()
     }
 }

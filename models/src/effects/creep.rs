@@ -1,0 +1,128 @@
+//! Creep: a part of the wall's stiffness relaxes with time (standard linear solid).
+//!
+//! ```text
+//! M = −a B (κ − q)      q' = (κ − q)/τ      stored ½ a B (κ − q)²      lost at the rate a B (κ − q)²/τ
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | a | relaxing stiffness as a share of B: at once the wall has (1 + a) B, in the end B | - |
+//! | τ | time in which a kept bend relaxes to 1/e | s |
+//! | κ, q | curvature; curvature to which the relaxing part has flowed | 1/m |
+//! | B | effective bending stiffness of the place | N·m² |
+//!
+//! Over a step of length Δt, with x = Δt/τ, e₀ = κ₀ − q₀ and κ running straight from κ₀, the solution is exact:
+//!
+//! ```text
+//! κ − q = e₀ e^{−x} + (κ − κ₀) φ      φ = (1 − e^{−x})/x
+//! ```
+//!
+//! so a kept bend relaxes exactly and a moving one is integrated to second order in Δt. The potential at fixed memory is
+//! `aB [½e₀² + e₀ e^{−x}(κ − κ₀) + ½φ(κ − κ₀)²]`. Acts only where B > 0. **Validity**: linear, one relaxation time; real
+//! fabrics creep over several decades of time, of which a test sees the one it lasts. Reference: standard linear solid
+//! (Zener 1948); the form over a step is derived here.
+
+use super::{Effect, Parameter, Stage};
+use crate::assembly::Assembly;
+use crate::term::{Memory, Pose, Term};
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "creep",
+    stage: Stage::Balance,
+    formula: "M = −a B (κ − q), q' = (κ − q)/τ",
+    sentence: "The wall gives way slowly: the robot goes on bending in a hold, and straightens slowly after it.",
+    remedy: "Hold one pressure for a minute and watch the tip.",
+    validity: "linear, one relaxation time; needs B > 0",
+    reference: "standard linear solid (Zener 1948)",
+    parameters: &[
+        Parameter {
+            key: "share",
+            symbol: "a",
+            unit: "-",
+            si: 1.0,
+            neutral: 0.0,
+            typical: 0.25,
+            lower: 0.0,
+            upper: 2.0,
+            meaning: "relaxing stiffness as a share of B",
+        },
+        Parameter {
+            key: "time_s",
+            symbol: "τ",
+            unit: "s",
+            si: 1.0,
+            neutral: 2.0,
+            typical: 2.0,
+            lower: 0.4,
+            upper: 30.0,
+            meaning: "relaxation time",
+        },
+    ],
+    family: None,
+    add,
+};
+
+struct Creep {
+    stiffness: f64,
+    time_s: f64,
+}
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    if values[0] == 0.0 {
+        return;
+    }
+    for site in &mut assembly.sites {
+        let stiffness = values[0] * site.bending.stiffness;
+        site.body_terms.push(Box::new(Creep { stiffness, time_s: values[1] }));
+    }
+}
+
+/// What it remembers: κ and κ − q.
+const CURVATURE: usize = 0;
+const STRETCH: usize = 1;
+/// Below this x = Δt/τ the series of φ is good to rounding and the closed form is not.
+const SERIES_BELOW: f64 = 1e-3;
+
+impl Creep {
+    /// e^{−x} and φ = (1 − e^{−x})/x.
+    fn decay(&self, dt_s: f64) -> (f64, f64) {
+        let x = dt_s / self.time_s;
+        let left = (-x).exp();
+        let mean = if x < SERIES_BELOW { 1.0 - x * (0.5 - x * (1.0 / 6.0 - x / 24.0)) } else { (1.0 - left) / x };
+        (left, mean)
+    }
+}
+
+impl Term for Creep {
+    fn name(&self) -> &'static str {
+        ENTRY.name
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        let (left, mean) = self.decay(at.dt_s);
+        let (change, stretch) = (at.q[0] - at.remembered(CURVATURE), at.remembered(STRETCH));
+        force[0] -= self.stiffness * (stretch * left + change * mean);
+        self.stiffness * (0.5 * stretch * stretch + change * (stretch * left + 0.5 * mean * change))
+    }
+
+    fn memory(&self) -> Memory {
+        Memory { values: 2, time_s: self.time_s }
+    }
+
+    /// The loss is `aB ∫ e² dt/τ` over the step, with `e' = κ' − e/τ`: what went in, `aB ∫ e dκ`, less what is stored.
+    fn remember(&self, at: &Pose, next: &mut [f64]) -> f64 {
+        let (left, mean) = self.decay(at.dt_s);
+        let (change, before) = (at.q[0] - at.remembered(CURVATURE), at.remembered(STRETCH));
+        let after = before * left + change * mean;
+        next[CURVATURE] = at.q[0];
+        next[STRETCH] = after;
+        // ∫ e dκ at constant κ' = change·(mean of e), and e falls from `before` to `c = change/x` as e^{−x}.
+        let x = at.dt_s / self.time_s;
+        if x == 0.0 {
+            return 0.0;
+        }
+        let steady = change / x;
+        let put_in = change * (steady + (before - steady) * mean);
+        self.stiffness * (put_in - 0.5 * (after * after - before * before)).max(0.0)
+    }
+}

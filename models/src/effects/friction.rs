@@ -1,0 +1,95 @@
+//! Coulomb friction of threads, folds and layers against each other: a moment that opposes every change of bend.
+//!
+//! ```text
+//! M = −clamp(M_f (κ − q)/κ_s, ±M_f)      q follows κ at a distance of at most κ_s
+//! incremental potential from q₀, with u = |κ − q₀|:
+//! E = ½ M_f u²/κ_s (u ≤ κ_s, sticks),  E = ½ M_f κ_s + M_f (u − κ_s) (slides): stored + lost
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | M_f | moment at which it slides | N·m |
+//! | κ | curvature per length of the taut generator | 1/m |
+//! | q | curvature at which the friction is free: what it remembers | 1/m |
+//! | κ_s | elastic slide before it gives way (numerical; 0.02 1/m is below 1 % of a bent robot) | 1/m |
+//!
+//! Independent of rate. The same bend needs more pressure going up than coming down; after unloading the robot stays bent
+//! if M_f exceeds the wall's restoring moment there. **Validity**: M_f independent of pressure; one sliding moment, no
+//! gradual onset. Reference: Coulomb's law with elastic slide (Prandtl); friction of the braid of McKibben muscles: Tondu
+//! & Lopez 2000.
+
+use super::{Effect, Parameter, Stage};
+use crate::assembly::Assembly;
+use crate::term::{Memory, Pose, Term};
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "friction",
+    stage: Stage::Balance,
+    formula: "M = ∓M_f against the change of κ, elastic within ±M_f",
+    sentence: "Threads, folds and layers rub on each other, so the robot bends less going up and springs back less coming down.",
+    remedy: "Repeat the test with pressures going up and down, and tap the robot in each hold: friction lets go.",
+    validity: "independent of rate and of pressure; one sliding moment",
+    reference: "Coulomb friction with elastic slide; Tondu & Lopez 2000 for braided muscles",
+    parameters: &[Parameter {
+        key: "moment_nm",
+        symbol: "M_f",
+        unit: "N m",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 0.5,
+        lower: 0.0,
+        upper: 3.0,
+        meaning: "moment at which it slides",
+    }],
+    family: None,
+    add,
+};
+
+/// Elastic slide \[1/m\].
+const SLIDE: f64 = 0.02;
+
+struct Friction {
+    moment: f64,
+}
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    if values[0] == 0.0 {
+        return;
+    }
+    for site in &mut assembly.sites {
+        site.body_terms.push(Box::new(Friction { moment: values[0] }));
+    }
+}
+
+impl Friction {
+    /// How far it slides from the remembered place to curvature `kappa`, with sign \[1/m\].
+    fn slip(kappa: f64, free: f64) -> f64 {
+        let away = kappa - free;
+        away - away.clamp(-SLIDE, SLIDE)
+    }
+}
+
+impl Term for Friction {
+    fn name(&self) -> &'static str {
+        ENTRY.name
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        let free = at.remembered(0);
+        let slip = Friction::slip(at.q[0], free);
+        let elastic = at.q[0] - free - slip;
+        let moment = self.moment * elastic / SLIDE;
+        force[0] -= moment;
+        0.5 * moment * elastic + self.moment * slip.abs()
+    }
+
+    fn memory(&self) -> Memory {
+        Memory { values: 1, time_s: f64::INFINITY }
+    }
+
+    fn remember(&self, at: &Pose, next: &mut [f64]) -> f64 {
+        let slip = Friction::slip(at.q[0], at.remembered(0));
+        next[0] = at.remembered(0) + slip;
+        self.moment * slip.abs()
+    }
+}

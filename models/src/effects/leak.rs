@@ -1,0 +1,48 @@
+//! Leak: the actuator loses air while its pressure is held with the valve shut.
+//!
+//! ```text
+//! P(t) = P_set e^{−r t}      t: time since the pressure was set
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | r | leak rate: share of the pressure lost per second | 1/s |
+//!
+//! **Validity**: valve shut after filling, small gauge pressure, laminar leak. With a regulator that goes on feeding the
+//! loss is steady: use `pressure_loss`. Supply stage. Reference: discharge of a volume through a laminar leak; for small
+//! r t it is 1 − r t.
+
+use super::{Effect, Parameter, Stage};
+use crate::assembly::Assembly;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "leak",
+    stage: Stage::Supply,
+    formula: "P = P_set e^{−r t}",
+    sentence: "The actuator leaks, so its pressure sinks in a hold and the robot slowly straightens.",
+    remedy: "Put a gauge on the actuator, shut the valve and watch it for a minute.",
+    validity: "valve shut in a hold; laminar leak",
+    reference: "discharge of a volume through a laminar leak",
+    parameters: &[Parameter {
+        key: "rate_per_s",
+        symbol: "r",
+        unit: "1/s",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 0.02,
+        lower: 0.0,
+        upper: 0.5,
+        meaning: "share of the pressure lost per second",
+    }],
+    family: None,
+    add,
+};
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    let rate = values[0];
+    if rate == 0.0 {
+        return;
+    }
+    assembly.timed = true;
+    assembly.supply.push(Box::new(move |p, held_s| p * (-rate * held_s).exp()));
+}

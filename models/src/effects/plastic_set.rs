@@ -1,0 +1,85 @@
+//! Plastic set: the wall keeps a share of the largest bend it has seen.
+//!
+//! ```text
+//! M = −B (κ − s κ_max)      κ_max = largest κ so far
+//! stored ½B(κ − sκ_max)²      lost at the rate B s (1 − s) κ_max κ_max'
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | s | share of the largest bend that stays without load | - |
+//! | κ, κ_max | curvature and its largest value so far, towards the actuator | 1/m |
+//! | B | effective bending stiffness of the place | N·m² |
+//!
+//! The incremental potential from the remembered κ_max = m, less the ½Bκ² of the base, is `−Bsmκ + ½Bs²m²` below m and
+//! `−½Bsκ² − ½Bs(1 − s)m²` beyond, where the largest bend goes along. Acts only where B > 0. **Validity**: creases and
+//! yarns that stay bent; no recovery with time. Reference: linear plastic hardening without threshold; derived here.
+
+use super::{Effect, Parameter, Stage};
+use crate::assembly::Assembly;
+use crate::term::{Memory, Pose, Term};
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "plastic_set",
+    stage: Stage::Balance,
+    formula: "M = −B (κ − s κ_max)",
+    sentence: "The wall keeps a share of the largest bend it has seen, as a creased sheet does.",
+    remedy: "Compare the straight robot before and after the first full pressure, after a rest of some minutes.",
+    validity: "no recovery with time; bends towards the actuator; needs B > 0",
+    reference: "linear plastic hardening; derived here",
+    parameters: &[Parameter {
+        key: "share",
+        symbol: "s",
+        unit: "-",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 0.12,
+        lower: 0.0,
+        upper: 0.5,
+        meaning: "share of the largest bend that stays",
+    }],
+    family: None,
+    add,
+};
+
+struct PlasticSet {
+    stiffness: f64,
+    share: f64,
+}
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    if values[0] == 0.0 {
+        return;
+    }
+    for site in &mut assembly.sites {
+        let stiffness = site.bending.stiffness;
+        site.body_terms.push(Box::new(PlasticSet { stiffness, share: values[0] }));
+    }
+}
+
+impl Term for PlasticSet {
+    fn name(&self) -> &'static str {
+        ENTRY.name
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        let (kappa, before) = (at.q[0], at.remembered(0));
+        let moment = self.stiffness * self.share * kappa.max(before);
+        force[0] += moment;
+        if kappa <= before {
+            -moment * (kappa - 0.5 * self.share * before)
+        } else {
+            -0.5 * (moment * kappa + self.stiffness * self.share * (1.0 - self.share) * before * before)
+        }
+    }
+
+    fn memory(&self) -> Memory {
+        Memory { values: 1, time_s: f64::INFINITY }
+    }
+
+    fn remember(&self, at: &Pose, next: &mut [f64]) -> f64 {
+        let before = at.remembered(0);
+        next[0] = at.q[0].max(before);
+        0.5 * self.stiffness * self.share * (1.0 - self.share) * (next[0] * next[0] - before * before)
+    }
+}

@@ -1,0 +1,144 @@
+//! A protocol in time: loading, holding and unloading, with what the robot remembers.
+
+use crate::error::Unsolved;
+use crate::model::{Model, Prediction, check};
+use crate::term::Loads;
+
+/// A state of a protocol: the pressures that were set after the step before, and the time at which the robot is looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// Time since the start \[s\].
+    pub t_s: f64,
+    /// Set pressures.
+    pub loads: Loads,
+}
+
+/// Longest step in time, as a share of the time scale plus the time since the pressures changed: what relaxes does so
+/// ever more slowly. Halving it moves a creeping tip by less than 1e-3 of its creep (tested).
+const TIME_SHARE: f64 = 0.15;
+/// States on the way from one pair of pressures to another where the curvatures may not run one way: with transverse loads,
+/// or when actuator and body pressure change together.
+const PATH_STEPS: usize = 8;
+
+impl Model {
+    /// Whether a state depends on those before it or on the time in a hold: then [`Model::follow`] differs from
+    /// [`Model::predict`], which is the first loading from rest, at once.
+    pub fn has_history(&self) -> bool {
+        self.assembly().timed || self.remembers()
+    }
+
+    /// Walks a protocol from rest in time order; `each` sees every state with its index. Allocates nothing.
+    ///
+    /// The robot starts at rest at time 0. Pressures change at once, right after the state before, in a straight line;
+    /// then time passes **at the new pressures** until `t_s`, so a gap between two holds belongs to the second. A step
+    /// back in time starts a new session: the robot is at rest at time 0 again and remembers nothing.
+    ///
+    /// ```
+    /// use models::{Loads, Model, Scenario, Step, shipped};
+    /// let robot = Scenario::parse(shipped("epam").unwrap()).unwrap().with_bending(1.0);
+    /// let model = Model::new(&robot.with_effect("friction", &[0.55]));
+    /// let steps = [0.0, 30e3, 0.0].map(|p| Step { t_s: 0.0, loads: Loads::uniform(2e3, p) });
+    /// let mut tips = Vec::new();
+    /// model.follow(&steps, &mut model.prediction(), &mut |_, at| tips.push(at.tip.y_m)).unwrap();
+    /// assert!(tips[0] == 0.0 && tips[1] > 0.05 && tips[2] > 1e-3);
+    /// ```
+    ///
+    /// # Errors
+    /// What [`Model::predict`] returns, or a time that is not finite.
+    pub fn follow(
+        &self,
+        steps: &[Step],
+        out: &mut Prediction,
+        each: &mut dyn FnMut(usize, &Prediction),
+    ) -> Result<(), Unsolved> {
+        let mut before: Option<Step> = None;
+        for (index, step) in steps.iter().enumerate() {
+            check(&step.loads)?;
+            if !step.t_s.is_finite() {
+                return Err(Unsolved::BadTime { t_s: step.t_s });
+            }
+            let last = before.filter(|last| last.t_s <= step.t_s);
+            if last.is_none() {
+                out.work.history.start();
+            }
+            if last.is_none_or(|last| last.loads != step.loads) {
+                self.change(last.map(|last| last.loads), &step.loads, out)?;
+            }
+            self.wait(step.t_s - last.map_or(0.0, |last| last.t_s), &step.loads, out)?;
+            self.show(out);
+            each(index, out);
+            before = Some(*step);
+        }
+        Ok(())
+    }
+
+    /// From one pair of pressures to another, at once.
+    fn change(&self, from: Option<Loads>, to: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
+        let start = from.unwrap_or(Loads::uniform(to.body_pa, 0.0));
+        let one_way = self.assembly().node_terms.is_empty() && start.leads_one_way(to);
+        let count = if one_way { 1 } else { PATH_STEPS };
+        (out.work.history.held_s, out.work.history.dt_s) = (0.0, 0.0);
+        for k in 1..=count {
+            let loads = if k == count { *to } else { start.towards(to, k as f64 / count as f64) };
+            self.reach(&loads, out, from.is_some() || k > 1)?;
+        }
+        Ok(())
+    }
+
+    /// Lets time pass at constant set pressures.
+    fn wait(&self, time_s: f64, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
+        let scale = self.time_scale_s();
+        let mut left = time_s;
+        while left > 0.0 {
+            let held = out.work.history.held_s;
+            let longest = TIME_SHARE * (scale + held);
+            // Two equal parts at the end rather than a long one and a short one.
+            let dt_s = if left <= longest { left } else { longest.min(0.5 * left) };
+            (out.work.history.held_s, out.work.history.dt_s) = (held + dt_s, dt_s);
+            left -= dt_s;
+            if self.assembly().timed || scale.is_finite() {
+                self.reach(loads, out, true)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The next state, from the one before, and its memory.
+    fn reach(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Result<(), Unsolved> {
+        self.solve(loads, out, warm)?;
+        let work = &mut out.work;
+        work.history.remember(self.assembly(), loads.body_pa, &work.states, &work.p_act_pa);
+        Ok(())
+    }
+
+    fn remembers(&self) -> bool {
+        let mut terms = self.assembly().sites.iter().flat_map(|site| &site.body_terms);
+        terms.any(|term| term.memory().values > 0)
+    }
+
+    /// Shortest time over which any term's memory changes by itself \[s\].
+    fn time_scale_s(&self) -> f64 {
+        let terms = self.assembly().sites.iter().flat_map(|site| &site.body_terms);
+        terms.fold(f64::INFINITY, |least, term| least.min(term.memory().time_s))
+    }
+}
+
+impl Loads {
+    /// Whether only the body's or only the actuators' pressures change, and all of them in the same direction.
+    fn leads_one_way(&self, to: &Loads) -> bool {
+        let changes = || self.actuator_pa.iter().zip(&to.actuator_pa).map(|(a, b)| b - a);
+        let (up, down) = (changes().any(|d| d > 0.0), changes().any(|d| d < 0.0));
+        let body = self.body_pa != to.body_pa;
+        !(up && down) && !(body && (up || down))
+    }
+
+    /// A share of the way to other pressures.
+    fn towards(&self, to: &Loads, share: f64) -> Loads {
+        let part = |a: f64, b: f64| a + share * (b - a);
+        let mut between = Loads { body_pa: part(self.body_pa, to.body_pa), ..*self };
+        for (p, end) in between.actuator_pa.iter_mut().zip(&to.actuator_pa) {
+            *p = part(*p, *end);
+        }
+        between
+    }
+}
