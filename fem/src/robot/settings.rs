@@ -74,7 +74,7 @@ impl RobotSettings {
             hold_s: 0.0,
             mass_factor: 2.0,
             mass_damping_1_s: 5.0,
-            hourglass: 0.01,
+            hourglass: 1e-3,
             contact: None,
             imperfection: 2e-4,
             seed: 1,

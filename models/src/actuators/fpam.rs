@@ -39,11 +39,14 @@ pub(super) const ENTRY: Actuator = Actuator {
     pattern,
 };
 
-/// Published: cut at 45° and glued. Assumed: glued over its flat width, warp in one helix round the tube.
+/// Published: cut at 45° and glued with silicone (Sil-Poxy). Assumed: glued over its flat width, warp in one helix round
+/// the tube, and a body of the same fabric with its yarns along and across: the paper names TPU-coated bodies for the
+/// other three only, its glued surface is silicone-coated nylon and glue alone, and silicone glue holds on silicone.
 fn pattern(shape: &ActuatorShape) -> Pattern {
     // Seen from outside the body, the underside of a helix turns the other way.
     let mut pattern = flat(shape, Joint::Bonded { film: Film::Glue, warp_rad: -FRAC_PI_4 });
     pattern.fabric = "silicone-nylon";
+    pattern.body_fabric = "silicone-nylon";
     pattern.panels[0].warp_rad = FRAC_PI_4;
     pattern
 }
