@@ -31,6 +31,8 @@ pub enum Command {
     Predict(Predict),
     /// Hold a model against measurements: accuracy, residual map, where it fails
     Compare(Compare),
+    /// Which physical effect is missing: ranking, what the data cannot tell apart, what to measure next
+    Diagnose(Diagnose),
     /// Run a finite element case through time: ParaView frames, energy balance, checkpoints
     Simulate(Simulate),
     /// Look at, list or make marker data
@@ -155,6 +157,27 @@ pub struct Compare {
     /// Folder for the report, plots and tables; default: ibr-report/compare-<data>, with --json: none
     #[arg(long)]
     pub out: Option<PathBuf>,
+}
+
+/// `ibr diagnose`
+#[derive(Debug, Args)]
+pub struct Diagnose {
+    /// Scenario file or shipped robot
+    pub scenario: String,
+    /// Marker data
+    pub data: String,
+    /// Also fit the values of the effects that the scenario already has
+    #[arg(long)]
+    pub refit: bool,
+    /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
+    #[arg(long)]
+    pub keep_bending: bool,
+    /// Camera noise of one coordinate, for data of a single run, for example 1mm
+    #[arg(long, allow_hyphen_values = true)]
+    pub sigma: Option<String>,
+    /// Differences up to this are good enough; default: the larger of 0.15 mm and 0.5 % of the largest deflection
+    #[arg(long, allow_hyphen_values = true)]
+    pub tolerance: Option<String>,
 }
 
 /// `ibr simulate`

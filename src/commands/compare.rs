@@ -1,6 +1,6 @@
 //! `ibr compare`
 
-use super::inputs::{self, quantity, with_effect};
+use super::inputs::{self, positive, with_effect};
 use super::tables::{number, table};
 use super::{Context, Outcome};
 use crate::cli::Compare;
@@ -10,7 +10,6 @@ use compare::EvaluateOptions;
 use compare::plots::Known;
 use compare::study::pages::{Candidate, Imprint, Study, Variant, compare_page, study};
 use models::Scenario;
-use models::scenario::quantity::Quantity;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -44,15 +43,6 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
         outcome.code = MISSED;
     }
     Ok(outcome)
-}
-
-fn positive(option: &str, text: &str) -> Result<f64, Failure> {
-    match quantity(option, text, Quantity::Length)? {
-        v if v > 0.0 => Ok(v),
-        _ => {
-            Err(Failure::usage(format!("{option} {text} is not above zero"), format!("write for example {option} 1mm")))
-        }
-    }
 }
 
 /// What the reader should know about the data and the options before trusting the figures.

@@ -62,6 +62,16 @@ pub fn quantity(option: &str, text: &str, kind: Quantity) -> Result<f64, Failure
     parse(text, kind).map_err(|message| Failure::usage(format!("{option}: {message}"), "see ibr --help"))
 }
 
+/// A length of an option that must be above zero \[m\].
+pub fn positive(option: &str, text: &str) -> Result<f64, Failure> {
+    match quantity(option, text, Quantity::Length)? {
+        v if v > 0.0 => Ok(v),
+        _ => {
+            Err(Failure::usage(format!("{option} {text} is not above zero"), format!("write for example {option} 1mm")))
+        }
+    }
+}
+
 /// A value and its unit, which is `-` for a pure number.
 pub fn with_unit(value: &str, unit: &str) -> String {
     if unit == "-" { value.to_string() } else { format!("{value} {unit}") }

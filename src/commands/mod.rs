@@ -5,6 +5,7 @@ mod bench_fem;
 mod compare;
 mod data;
 mod demo;
+mod diagnose;
 mod inputs;
 mod list;
 mod predict;
@@ -86,6 +87,7 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
         Command::Demo(out) => demo::run(&out.out, context),
         Command::Predict(args) => predict::run(args, context),
         Command::Compare(args) => compare::run(args, context),
+        Command::Diagnose(args) => diagnose::run(args, context),
         Command::Simulate(args) => simulate::run(args, context),
         Command::Data(args) => data::run(args, context),
         Command::List { what } => list::run(what.as_deref()),

@@ -1,7 +1,238 @@
-//! Which physical effect is missing, and when the data cannot tell.
+//! Which physical effect is missing, what it would bring, and when the data cannot tell.
+//!
+//! ```text
+//! prepare ─► noise, base ─► every effect refitted ─► one p ─► set ─► pairs if wanted ─► lack of fit ─► verdict
+//!            (case)          (screen, singles)                       (pairs)            (lack_of_fit, decide)
+//!                                 └─► intervals, held-out error, smallest detectable sizes, next experiment
+//! ```
+//!
+//! All fits minimise the whitened sum of squares of the mean over runs ([`crate::noise`]: the run is the unit). Gains are
+//! falls of that sum against the calibrated base; under "nothing is missing" a gain by q parameters follows about q·F(q,
+//! dof of σ²), and p is multiplied by the number of effects tried. Effects with a bound at their neutral value and
+//! thresholds make that conservative (Chernoff; Davies). The set is what the data cannot tell apart: BIC within 6 of the
+//! best, or 95 % of its gain. A name is the best explanation *in the catalogue*, never a proof.
 
+mod basis;
+mod candidates;
+mod case;
+mod decide;
+mod detect;
+mod evaluator;
+mod experiments;
+mod heldout;
+mod interval;
+mod lack_of_fit;
+mod least_squares;
+mod limits;
+mod next;
 mod options;
+mod pairs;
+mod prepare;
+mod problem;
 mod result;
+mod screen;
+mod singles;
+mod story;
+#[cfg(test)]
+mod tests;
+mod words;
 
+pub use candidates::{Candidate, Free, candidates};
 pub use options::Options;
 pub use result::*;
+
+use crate::comparison::Comparison;
+use crate::error::CompareError;
+use crate::noise_summary::NoiseSummary;
+use crate::residuals::residual_map;
+use crate::study::fit_scenario;
+use crate::where_it_fails::{FailureOptions, where_it_fails};
+use case::Case;
+use data::{About, Dataset};
+use decide::{Decision, decide};
+use heldout::HeldOut;
+use models::Scenario;
+use problem::Fit;
+
+/// Gain below which a name is a hint, and above which a lone one is called identified.
+const GAINS: [f64; 2] = [25.0, 100.0];
+
+/// Diagnoses a dataset: is an effect missing in the scenario, which, and what would tell.
+///
+/// # Errors
+/// Scenario and data that do not fit together, impossible options, a base without equilibrium.
+pub fn diagnose(
+    scenario: &Scenario,
+    dataset: &Dataset,
+    about: Option<&About>,
+    options: &Options,
+) -> Result<Diagnosis, CompareError> {
+    check(options)?;
+    crate::layout::Layout::of(dataset)?;
+    let (fitted, mut warnings) = fit_scenario(scenario, dataset, about)?;
+    let mut prepared = prepare::prepare(dataset, about);
+    warnings.append(&mut prepared.warnings);
+    let (candidates, own) = case::catalogue(&fitted, options);
+    let case = Case::new(&fitted, &prepared.dataset, &prepared.sessions, (&candidates, own), options)?;
+    prepared.outliers.runs = prepare::outlying_runs(&prepared.dataset, &case.noise);
+    warnings.extend(prepared.outliers.runs.iter().map(|r| {
+        format!(
+            "run {} scatters {:.1} times as much as the others: look at it before believing anything",
+            r.run, r.scatter_ratio
+        )
+    }));
+    warnings.extend(limits::warnings(&case, about));
+    let decision = decide(&case, options)?;
+    let mut diagnosis = assemble(&case, &decision, prepared.outliers, warnings)?;
+    if options.next_experiment {
+        diagnosis.next_experiment = next::next_experiment(&case, &decision)?;
+    }
+    diagnosis.summary = story::story(&diagnosis);
+    Ok(diagnosis)
+}
+
+fn check(options: &Options) -> Result<(), CompareError> {
+    let alpha = options.alpha;
+    if !(alpha > 0.0 && alpha < 1.0) {
+        let expected = "the significance level lies between 0 and 1";
+        return Err(CompareError::BadOption { name: "alpha", value: alpha, expected });
+    }
+    match options.tolerance_m {
+        Some(value) if !(value >= 0.0 && value.is_finite()) => {
+            let expected = "a length in metres, not negative";
+            Err(CompareError::BadOption { name: "tolerance_m", value, expected })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn assemble(
+    case: &Case,
+    decision: &Decision,
+    outliers: Outliers,
+    mut warnings: Vec<String>,
+) -> Result<Diagnosis, CompareError> {
+    let held_out = HeldOut::new(case)?;
+    let ranked = singles::rank(case, &decision.singles, &decision.set, &held_out);
+    let single = decision.set.first().map(|i| &decision.singles[*i]);
+    let pairs = single.map_or(Vec::new(), |single| {
+        pairs::describe(case, &decision.pairs, single, &decision.pair_set, decision.pairs_tried)
+    });
+    let last = decision.last.as_ref().unwrap_or(&case.base);
+    let added = added(case, decision);
+    let undetectable = undetectable(case, decision, &ranked, &added);
+    let noise = NoiseSummary::of(&case.noise, &case.dataset.holds);
+    warnings.extend(noise.warning.clone());
+    let prediction = case.prediction(last);
+    let before = residual_map(&Comparison::new(case.dataset, &case.noise, &case.prediction(&case.base))?);
+    let after = Comparison::new(case.dataset, &case.noise, &prediction)?;
+    let after_map = residual_map(&after);
+    let failure = FailureOptions { alpha: case.alpha, tolerance_m: case.tolerance_m };
+    let leftover = where_it_fails(&after, &after_map, decision.after.map(|lof| lof.p_value), &failure);
+    let indistinguishable = names(case, decision, &pairs);
+    Ok(Diagnosis {
+        scenario: case.scenario.name.clone(),
+        dataset: case.dataset.name.clone(),
+        actuator: case.dataset.actuator.clone(),
+        runs: case.dataset.runs.len(),
+        verdict: decision.verdict,
+        p_value: decision.p_value,
+        alpha: case.alpha,
+        tolerance_mm: 1e3 * case.tolerance_m,
+        confidence: confidence(case, decision),
+        summary: Vec::new(),
+        base: base(case, last, &held_out, &noise)?,
+        noise,
+        rule_out_first: rule_out_first(&ranked, decision),
+        limits: limits::limits(case.dataset, &undetectable),
+        ranked,
+        indistinguishable,
+        pairs,
+        added,
+        lack_of_fit_before: decision.before,
+        lack_of_fit_after: decision.after,
+        leftover,
+        residuals_before: before,
+        residuals_after: after_map,
+        outliers,
+        undetectable,
+        next_experiment: None,
+        warnings,
+    })
+}
+
+fn base(case: &Case, last: &Fit, held_out: &HeldOut, noise: &NoiseSummary) -> Result<BaseFit, CompareError> {
+    let intervals = interval::intervals(case, &case.base, true);
+    let bendings = case.problem.bendings;
+    let bending = |k: usize| Bending {
+        p_body_kpa: 1e-3 * case.body_pa[k],
+        value_nm2: case.base.theta()[k],
+        lo: intervals[k].map(|i| i[0]),
+        hi: intervals[k].map(|i| i[1]),
+        at_bound: case.base.binding[k],
+    };
+    let nominal = crate::study::predict_dataset(case.scenario, case.dataset)?.xy_m;
+    Ok(BaseFit {
+        bending_nominal_nm2: case.scenario.bending_stiffness,
+        bending: (0..bendings).map(bending).collect(),
+        bending_with_added_nm2: last.theta()[..bendings].to_vec(),
+        systematic_nominal_mm: case.error_mm(&nominal),
+        systematic_mm: case.error_mm(&case.prediction(&case.base)),
+        systematic_with_added_mm: case.error_mm(&case.prediction(last)),
+        noise_floor_mm: noise.noise_of_mean_mm,
+        heldout_mm: held_out.pressure_mm(&case.base),
+        heldout_run_mm: held_out.run_mm(&case.base),
+    })
+}
+
+fn confidence(case: &Case, decision: &Decision) -> Option<Confidence> {
+    let last = decision.last.as_ref().filter(|_| decision.verdict == Some(Verdict::Effect))?;
+    let rivals = if decision.pairs.is_empty() { decision.set.len() } else { decision.pair_set.len() };
+    Some(match case.gain(last) {
+        gain if gain < GAINS[0] => Confidence::Hint,
+        gain if gain > GAINS[1] && rivals == 1 => Confidence::IdentifiedInCatalog,
+        _ => Confidence::LikelyOneOf,
+    })
+}
+
+fn added(case: &Case, decision: &Decision) -> Vec<Added> {
+    let Some(last) = &decision.last else { return Vec::new() };
+    let values = singles::parameter_values(case, last, true);
+    let mut from = case.problem.count(&case.always);
+    let entry = |effect: &usize| {
+        let candidate = case.candidate(*effect);
+        let to = from + candidate.parameters.len();
+        let parameters = values[from..to].to_vec();
+        from = to;
+        Added { effect: candidate.name.clone(), group: candidate.group, parameters }
+    };
+    last.effects[case.always.len()..].iter().map(entry).collect()
+}
+
+/// Names in the set of the verdict, best first; without verdict those of the ranking.
+fn names(case: &Case, decision: &Decision, pairs: &[Combination]) -> Vec<String> {
+    if decision.verdict == Some(Verdict::None) || (decision.verdict.is_some() && decision.last.is_none()) {
+        return Vec::new();
+    }
+    if !decision.pairs.is_empty() {
+        return pairs.iter().filter(|p| p.in_set).map(|p| p.effects.join(" + ")).collect();
+    }
+    let name = |i: &usize| decision.singles[*i].effects.last().map(|e| case.candidate(*e).name.clone());
+    decision.set.iter().filter_map(name).collect()
+}
+
+fn rule_out_first(ranked: &[Ranked], decision: &Decision) -> Vec<String> {
+    if decision.verdict == Some(Verdict::None) {
+        return Vec::new();
+    }
+    ranked.iter().filter(|r| r.in_set && r.group.is_nuisance()).map(|r| r.effect.clone()).collect()
+}
+
+fn undetectable(case: &Case, decision: &Decision, ranked: &[Ranked], added: &[Added]) -> Vec<Undetectable> {
+    let found = |name: &str| {
+        let in_set = decision.last.is_some() && ranked.iter().any(|r| r.in_set && r.effect == name);
+        in_set || added.iter().any(|a| a.effect == name)
+    };
+    let missed = case.tried.iter().filter(|e| !found(&case.candidate(**e).name));
+    missed.map(|e| detect::smallest_detectable(case, *e)).collect()
+}

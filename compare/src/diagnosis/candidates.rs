@@ -1,0 +1,123 @@
+//! The effects that may be missing: the one place where the diagnosis meets the catalogue.
+
+use super::result::Group;
+use models::Scenario;
+use models::effects::{EFFECTS, Effect, Stage};
+
+/// An effect that can be switched on, with what a fit and a reader need.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidate {
+    /// Name in scenarios.
+    pub name: String,
+    /// Group.
+    pub group: Group,
+    /// One plain sentence.
+    pub sentence: String,
+    /// What to measure or change.
+    pub remedy: String,
+    /// Its parameters, SI inside.
+    pub parameters: Vec<Free>,
+}
+
+/// A parameter to fit; values in SI, `si` leads back to `unit`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Free {
+    /// Key in the scenario.
+    pub key: String,
+    /// Letter.
+    pub symbol: String,
+    /// Unit of the scenario value.
+    pub unit: String,
+    /// Factor to SI.
+    pub si: f64,
+    /// Value at which the effect vanishes.
+    pub neutral: f64,
+    /// Typical size.
+    pub typical: f64,
+    /// Physical lower bound.
+    pub lower: f64,
+    /// Physical upper bound.
+    pub upper: f64,
+}
+
+impl Free {
+    /// Length of one step of the fit.
+    pub fn scale(&self) -> f64 {
+        let typical = (self.typical - self.neutral).abs();
+        if typical > 0.0 { typical } else { 0.1 * (self.upper - self.lower) }
+    }
+}
+
+impl Candidate {
+    /// The scenario with this effect at these values (SI). Known forces on the tip add up.
+    pub fn apply(&self, scenario: &Scenario, values: &[f64]) -> Scenario {
+        let known = scenario.effects.iter().find(|e| e.name == self.name && self.name == "tip_load");
+        match known {
+            Some(known) => {
+                let sum: Vec<f64> = values.iter().zip(&known.values).map(|(a, b)| a + b).collect();
+                scenario.with_effect(&self.name, &sum)
+            }
+            None => scenario.with_effect(&self.name, values),
+        }
+    }
+
+    /// Values `share` of the way from neutral to typical.
+    pub fn at(&self, share: f64) -> Vec<f64> {
+        self.parameters.iter().map(|p| p.neutral + share * (p.typical - p.neutral)).collect()
+    }
+
+    /// Values from which a fit is started: typical, three times as much, and the other sign where bounds allow it.
+    pub fn starts(&self) -> Vec<Vec<f64>> {
+        let clamped = |share: f64| -> Vec<f64> {
+            self.parameters.iter().zip(self.at(share)).map(|(p, v)| v.clamp(p.lower, p.upper)).collect()
+        };
+        let mut starts = vec![clamped(1.0), clamped(3.0)];
+        if clamped(-1.0) != clamped(0.0) {
+            starts.push(clamped(-1.0));
+        }
+        starts.dedup();
+        starts
+    }
+}
+
+/// Effects of the catalogue that exist for this actuator and are not in the scenario yet.
+pub fn candidates(scenario: &Scenario) -> Vec<Candidate> {
+    let family = scenario.actuator.kind.family;
+    let absent = |effect: &&Effect| !scenario.effects.iter().any(|e| e.name == effect.name);
+    EFFECTS.iter().filter(|e| e.applies_to(family)).filter(absent).map(candidate).collect()
+}
+
+/// The scenario's own effects, to be fitted along with the base; known forces stay known.
+pub fn present(scenario: &Scenario) -> Vec<Candidate> {
+    let own = |effect: &&Effect| effect.name != "tip_load" && scenario.effects.iter().any(|e| e.name == effect.name);
+    EFFECTS.iter().filter(own).map(candidate).collect()
+}
+
+fn candidate(effect: &Effect) -> Candidate {
+    let free = |p: &models::effects::Parameter| Free {
+        key: p.key.to_string(),
+        symbol: p.symbol.to_string(),
+        unit: p.unit.to_string(),
+        si: p.si,
+        neutral: p.neutral * p.si,
+        typical: p.typical * p.si,
+        lower: p.lower * p.si,
+        upper: p.upper * p.si,
+    };
+    Candidate {
+        name: effect.name.to_string(),
+        group: group(effect),
+        sentence: effect.sentence.to_string(),
+        remedy: effect.remedy.to_string(),
+        parameters: effect.parameters.iter().map(free).collect(),
+    }
+}
+
+fn group(effect: &Effect) -> Group {
+    match effect.stage {
+        Stage::Supply => Group::Supply,
+        Stage::Camera => Group::Measurement,
+        Stage::Balance if matches!(effect.name, "gravity" | "tip_load") => Group::Load,
+        Stage::Balance => Group::Physics,
+    }
+}

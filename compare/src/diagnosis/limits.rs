@@ -1,0 +1,83 @@
+//! What data cannot show, whatever the model, and metadata that contradict each other.
+
+use super::case::{Case, body_pressures};
+use super::result::{Group, Undetectable};
+use crate::comparison::ZERO_PRESSURE_PA;
+use crate::wording::list;
+use data::{About, Dataset, Phase};
+
+/// A base that leaves more than this share of the measured movement does not fit at all.
+const NO_FIT: f64 = 0.5;
+
+/// What the protocol hides.
+pub fn limits(dataset: &Dataset, undetectable: &[Undetectable]) -> Vec<String> {
+    let mut limits = Vec::new();
+    let mut levels: Vec<f64> = dataset.holds.iter().map(|h| h.p_act_pa).filter(|p| *p > ZERO_PRESSURE_PA).collect();
+    levels.sort_by(f64::total_cmp);
+    levels.dedup_by(|a, b| *a - *b <= 0.05 * *b);
+    if levels.len() < 2 {
+        limits.push(
+            "one actuator pressure only: B takes up whatever changes the size of the bend, so effects show only in the \
+             shape; measure at three pressures or more"
+                .into(),
+        );
+    }
+    if !dataset.holds.iter().any(|h| h.phase == Phase::Unload) {
+        limits.push(
+            "no unloading branch: what remembers the way there (friction, plastic set, creep) looks like a stiffer or \
+             weaker robot or cannot be seen; lower the pressure again in steps"
+                .into(),
+        );
+    }
+    if dataset.samples_per_hold < 3 {
+        limits.push("fewer than three samples per hold: what drifts in time (creep, leaks) cannot be seen".into());
+    }
+    if body_pressures(dataset).len() < 2 {
+        limits.push("one body pressure only: what grows with it cannot be told from what does not".into());
+    }
+    let unseen: Vec<String> =
+        undetectable.iter().filter(|u| u.smallest_detectable.is_none()).map(|u| u.effect.clone()).collect();
+    if !unseen.is_empty() {
+        limits.push(format!("no size within its bounds would be seen: {}", list(&unseen)));
+    }
+    limits
+}
+
+/// Cautions about the base and the description of the data.
+pub fn warnings(case: &Case, about: Option<&About>) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let target = &case.problem.blocks[0].target_m;
+    let moved = |values: &[f64]| -> f64 {
+        let y = values.iter().skip(1).step_by(2).map(|y| y * y).sum::<f64>();
+        1e3 * (y / values.len() as f64).sqrt()
+    };
+    let left = case.error_mm(&case.prediction(&case.base));
+    if left > NO_FIT * moved(target) {
+        warnings.push(format!(
+            "the base does not fit at all: {left:.1} mm remain of a movement of {:.1} mm (rms); before looking for effects, \
+             check actuator and dimensions in the scenario, the sign of y, marker stations and pressure units",
+            moved(target)
+        ));
+    }
+    for (group, bending) in case.base.theta()[..case.problem.bendings].iter().enumerate() {
+        let nominal = case.scenario.bending_stiffness;
+        if case.base.binding[group] {
+            warnings.push(format!(
+                "B = {bending:.2} N·m² is on the bound of its search: stiffness does not explain the data"
+            ));
+        } else if nominal > 0.0 && (bending - nominal).abs() > 0.2 * nominal {
+            warnings.push(format!(
+                "B had to move from {nominal:.2} to {bending:.2} N·m²: a stiffness far off its own value hides something else"
+            ));
+        }
+    }
+    let gravity = case.problem.candidates.iter().any(|c| c.name == "gravity" && c.group == Group::Load);
+    if gravity && about.is_some_and(|a| a.gravity_direction.is_none()) {
+        warnings.push(
+            "about.toml names no [gravity] direction; gravity was tried in the scenario's direction all the same: rule it \
+             out if the robot bends in a horizontal plane"
+                .into(),
+        );
+    }
+    warnings
+}

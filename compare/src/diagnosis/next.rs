@@ -1,0 +1,182 @@
+//! The experiment that would tell the indistinguishable apart.
+//!
+//! For the best explanation a and a rival b, the data at hand and those of a planned experiment are predicted by a, and b
+//! is fitted to them, its bending stiffnesses too. What b cannot meet, in units of the noise expected there, is the
+//! separation λ = min |f_a − f_b|²: the expected difference of the sums of squares. 16 suffices in about nine of ten cases.
+//! It is taken both ways round and the larger counts: a fit of the wrong explanation hides part of the difference.
+
+use super::case::{Case, block, fitted_scenarios, nearest};
+use super::decide::Decision;
+use super::experiments::{Part, Plan, plans, protocol_text};
+use super::problem::{Block, Fit, Problem};
+use super::result::{Experiment, NextExperiment, Separation, Verdict};
+use crate::directions::nuisance_directions;
+use crate::error::CompareError;
+use crate::study::predict_dataset;
+use crate::whiten::Whitener;
+
+/// λ that tells two explanations apart in about nine of ten cases.
+const ENOUGH: f64 = 16.0;
+/// λ below which an experiment is not worth its time.
+const WORTHLESS: f64 = 3.0;
+/// Rivals looked at.
+const RIVALS: usize = 5;
+/// Accuracy of λ.
+const LAMBDA_ERROR: f64 = 0.05;
+
+/// Looks for the experiment; `None` if there is nothing to separate or the noise is unknown.
+///
+/// # Errors
+/// What the model returns for a planned experiment.
+pub fn next_experiment(case: &Case, decision: &Decision) -> Result<Option<NextExperiment>, CompareError> {
+    let hypotheses = hypotheses(decision);
+    if hypotheses.len() < 2 || !case.noise.is_known() {
+        return Ok(None);
+    }
+    let (best, rivals) = (hypotheses[0], &hypotheses[1..hypotheses.len().min(RIVALS + 1)]);
+    let now = separations(case, None, best, rivals)?;
+    let mut tried = Vec::new();
+    for plan in plans(case.scenario, case.dataset) {
+        // A planned pressure without equilibrium is no experiment to propose.
+        if let Ok(separations) = separations(case, Some(&plan), best, rivals) {
+            tried.push(experiment(case, &plan, separations));
+        }
+    }
+    let worth = |e: &Experiment| (e.separated, e.separations.iter().map(|s| s.lambda.min(ENOUGH)).sum::<f64>());
+    tried.sort_by(|a, b| {
+        let (a, b) = (worth(a), worth(b));
+        b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))
+    });
+    let recommended = tried.first().filter(|e| e.separations.iter().any(|s| s.lambda >= WORTHLESS)).cloned();
+    let best = label(case, best);
+    let sentence = sentence(&best, recommended.as_ref());
+    Ok(Some(NextExperiment { best, recommended, now, tried, sentence }))
+}
+
+/// The explanations to be told apart, best first.
+fn hypotheses(decision: &Decision) -> Vec<&Fit> {
+    match decision.verdict {
+        Some(Verdict::None) => Vec::new(),
+        _ if !decision.pairs.is_empty() => decision.pair_set.iter().map(|i| &decision.pairs[*i]).collect(),
+        _ => decision.set.iter().map(|i| &decision.singles[*i]).collect(),
+    }
+}
+
+fn label(case: &Case, fit: &Fit) -> String {
+    let names: Vec<String> = fit.effects[case.always.len()..].iter().map(|e| case.candidate(*e).name.clone()).collect();
+    names.join(" + ")
+}
+
+fn experiment(case: &Case, plan: &Plan, separations: Vec<Separation>) -> Experiment {
+    let separated = separations.iter().filter(|s| s.lambda >= ENOUGH).count();
+    let within_reach = separations.iter().map(|s| s.lambda).filter(|l| *l >= WORTHLESS).reduce(f64::min);
+    let largest = separations.iter().map(|s| s.lambda).fold(0.0, f64::max);
+    let runs = |lambda: f64| ((case.noise.runs as f64 * ENOUGH / lambda).ceil() as usize).max(3);
+    Experiment {
+        name: plan.name.into(),
+        sentence: plan.sentence.clone(),
+        protocol: protocol_text(plan),
+        separated,
+        lambda: within_reach.unwrap_or(largest),
+        runs_needed: within_reach.map(runs),
+        separations,
+    }
+}
+
+fn separations(case: &Case, plan: Option<&Plan>, best: &Fit, rivals: &[&Fit]) -> Result<Vec<Separation>, CompareError> {
+    let ours = Expected::of(case, plan, best)?;
+    let mut found = Vec::new();
+    for &rival in rivals {
+        let theirs = Expected::of(case, plan, rival)?;
+        let lambda = ours.misfit(rival).max(theirs.misfit(best));
+        found.push(Separation { rival: label(case, rival), lambda });
+    }
+    Ok(found)
+}
+
+/// The data that a hypothesis leads one to expect, at hand and planned.
+struct Expected<'a> {
+    problem: Problem<'a>,
+    /// Bending stiffnesses that the data at hand do not have.
+    added: usize,
+}
+
+impl<'a> Expected<'a> {
+    fn of<'p: 'a>(case: &'a Case, plan: Option<&'p Plan>, truth: &Fit) -> Result<Expected<'a>, CompareError> {
+        let all: Vec<usize> = (0..case.dataset.holds.len()).collect();
+        let old = block(case.scenario, case.dataset, &all, case.prediction(truth), &case.noise, &case.body_pa)?;
+        let parts: &[Part] = plan.map_or(&[], |plan| &plan.parts);
+        let body = parts.first().map(|part| part.dataset.holds[0].p_body_pa);
+        let mut levels = case.body_pa.clone();
+        let is_new = |p: &f64| levels.iter().all(|l| (l - p).abs() > 0.05 * l.abs().max(100.0));
+        let added = usize::from(case.problem.bendings > 0 && body.as_ref().is_some_and(is_new));
+        levels.extend(body.filter(|_| added > 0));
+        let bendings = case.problem.bendings + added;
+        let mut problem =
+            Problem { candidates: case.problem.candidates, blocks: vec![old], bendings, enough: LAMBDA_ERROR };
+        let theta = extended(truth, case.problem.bendings, added);
+        for part in parts {
+            let planned = planned(case, &problem, part, &levels, (truth, &theta))?;
+            problem.blocks.push(planned);
+        }
+        Ok(Expected { problem, added })
+    }
+
+    /// What another hypothesis cannot meet of it.
+    fn misfit(&self, other: &Fit) -> f64 {
+        let start = extended(other, self.problem.bendings - self.added, self.added);
+        // Without an equilibrium there the rival could not even be measured: nothing is promised.
+        self.problem.fit(&other.effects, &[start]).map_or(0.0, |fit| fit.cost())
+    }
+}
+
+/// Parameters with the stiffness of a new body pressure, the same as at the first.
+fn extended(fit: &Fit, bendings: usize, added: usize) -> Vec<f64> {
+    let (bending, effects) = fit.theta().split_at(bendings);
+    let new = bending.first().copied().filter(|_| added > 0);
+    bending.iter().copied().chain(new).chain(effects.iter().copied()).collect()
+}
+
+/// A planned part as the hypothesis `truth` predicts it, with the noise of as many runs as at hand.
+fn planned<'a>(
+    case: &Case,
+    problem: &Problem,
+    part: &'a Part,
+    levels: &[f64],
+    (truth, theta): (&Fit, &[f64]),
+) -> Result<Block<'a>, CompareError> {
+    let dataset = &part.dataset;
+    let mut block = Block {
+        scenario: part.scenario.clone(),
+        dataset,
+        holds: (0..dataset.holds.len()).collect(),
+        bending_of: dataset.holds.iter().map(|h| nearest(levels, h.p_body_pa)).collect(),
+        target_m: Vec::new(),
+        whitener: Whitener::new(&[[0.0; 4]; 4], 1.0, &[0.0; 4])?,
+    };
+    let scenarios = fitted_scenarios(problem, &block, &truth.effects, theta);
+    let own = scenarios.get(block.bending_of[0]).or(scenarios.first());
+    let predicted = predict_dataset(own.unwrap_or(&part.scenario), dataset)?;
+    let directions = nuisance_directions(&predicted.xy_m, &predicted.d_ln_pressure_m);
+    block.whitener = Whitener::new(&directions, case.noise.unit_m(), &case.noise.test_variance)?;
+    block.target_m = predicted.xy_m;
+    Ok(block)
+}
+
+fn sentence(best: &str, recommended: Option<&Experiment>) -> String {
+    let Some(e) = recommended else {
+        return format!(
+            "No listed experiment separates {best} from its rivals: measure the quantities directly (weigh the robot, put a \
+             gauge on the actuator, photograph a checkerboard)."
+        );
+    };
+    let rivals: Vec<String> = e.separations.iter().filter(|s| s.lambda >= WORTHLESS).map(|s| s.rival.clone()).collect();
+    let runs = e.runs_needed.map_or(String::new(), |n| format!("; about {n} runs"));
+    format!(
+        "Next: {} ({}). It is expected to separate {best} from {} (λ = {:.0}, 16 suffices{runs}).",
+        e.sentence,
+        e.protocol,
+        crate::wording::list(&rivals),
+        e.lambda
+    )
+}

@@ -1,0 +1,106 @@
+//! Two effects at once, when one is not enough: greedy search alone fails where two compensate each other.
+
+use super::basis::cosine;
+use super::case::Case;
+use super::problem::Fit;
+use super::result::Combination;
+use super::screen::{score, starts};
+use super::singles::{SAME_BIC, SAME_GAIN, parameter_values};
+use crate::stats::reported_p;
+
+/// All pairs among this many best effects are tried, and the best one with every other.
+const BEST: usize = 8;
+/// Pairs that are reported.
+const REPORTED: usize = 12;
+/// Contributions this opposite cancel.
+const CANCELS: f64 = -0.95;
+
+/// The p that another effect is wanted on top of a fit, screened and corrected for all effects; 1 if none.
+pub fn another_wanted(case: &Case, fit: &Fit) -> f64 {
+    let others = case.tried.iter().filter(|e| !fit.effects.contains(e));
+    let best = others.filter_map(|e| score(&case.problem, fit, *e)).map(|s| s.gain).fold(0.0, f64::max);
+    case.p_of_gain(best, 1, case.tried.len()).unwrap_or(1.0)
+}
+
+/// Pairs fitted, best first by BIC, without those that a bound rejects; and how many were tried.
+pub fn fit_pairs(case: &Case, singles: &[Fit]) -> (Vec<Fit>, usize) {
+    let own = |fit: &Fit| fit.effects[fit.effects.len() - 1];
+    let mut chosen: Vec<(usize, usize)> = Vec::new();
+    for a in 0..singles.len() {
+        let others = a + 1..if a == 0 { singles.len() } else { singles.len().min(BEST) };
+        chosen.extend(others.filter(|_| a < BEST).map(|b| (a, b)));
+    }
+    let mut fits: Vec<Fit> = Vec::new();
+    for &(a, b) in &chosen {
+        let (first, second) = (&singles[a], &singles[b]);
+        let effects: Vec<usize> = first.effects.iter().copied().chain([own(second)]).collect();
+        let mut all = starts(&case.problem, first, own(second), false);
+        all.truncate(2);
+        all.extend(swapped(case, first, second));
+        fits.extend(case.problem.fit(&effects, &all).filter(|fit| !case.is_rejected(fit)));
+    }
+    fits.sort_by(|a, b| case.bic(a).total_cmp(&case.bic(b)));
+    (fits, chosen.len())
+}
+
+/// The start from the second effect's fit with the first one's expected amount on top, in the order of the pair.
+fn swapped(case: &Case, first: &Fit, second: &Fit) -> Option<Vec<f64>> {
+    let effect = first.effects[first.effects.len() - 1];
+    let amount = score(&case.problem, second, effect).filter(|s| s.amount != 0.0)?.amount;
+    let kept = second.theta().len() - case.candidate(second.effects[second.effects.len() - 1]).parameters.len();
+    let (base, own) = second.theta().split_at(kept);
+    let values = case.candidate(effect).at(amount);
+    Some(base.iter().copied().chain(values).chain(own.iter().copied()).collect())
+}
+
+/// Indices of the pairs that cannot be told from the best one.
+pub fn indistinguishable(case: &Case, pairs: &[Fit], single: &Fit) -> Vec<usize> {
+    let Some(best) = pairs.first() else { return Vec::new() };
+    let more = |fit: &Fit| single.cost() - fit.cost();
+    let is_alike =
+        |i: &usize| case.bic(&pairs[*i]) - case.bic(best) < SAME_BIC || more(&pairs[*i]) >= SAME_GAIN * more(best);
+    (0..pairs.len()).filter(is_alike).collect()
+}
+
+/// What a reader needs of the best pairs.
+pub fn describe(case: &Case, pairs: &[Fit], single: &Fit, set: &[usize], tried: usize) -> Vec<Combination> {
+    let entry = |(i, fit): (usize, &Fit)| Combination {
+        effects: fit.effects[case.always.len()..].iter().map(|e| case.candidate(*e).name.clone()).collect(),
+        parameters: parameter_values(case, fit, false),
+        gain: case.gain(fit),
+        bic_difference: case.bic(fit) - case.bic(&pairs[0]),
+        p_corrected: p_over_single(case, fit, single, tried).map(reported_p),
+        systematic_after_mm: case.error_mm(&case.prediction(fit)),
+        in_set: set.contains(&i),
+        cancels: cancels(case, fit),
+    };
+    pairs.iter().take(REPORTED.max(set.len())).enumerate().map(entry).collect()
+}
+
+/// p of the gain of a pair over the best single effect.
+pub fn p_over_single(case: &Case, pair: &Fit, single: &Fit, tried: usize) -> Option<f64> {
+    let more = case.extra(pair).saturating_sub(case.extra(single)).max(1);
+    case.p_of_gain((single.cost() - pair.cost()).max(0.0), more, tried)
+}
+
+/// Whether the two last effects contribute nearly the same with opposite signs.
+fn cancels(case: &Case, fit: &Fit) -> bool {
+    let lead = fit.effects.len().saturating_sub(2);
+    let without = |dropped: usize| -> Option<Vec<f64>> {
+        let mut theta = fit.theta().to_vec();
+        let mut at = case.problem.bendings;
+        for (i, effect) in fit.effects.iter().enumerate() {
+            let neutral = case.candidate(*effect).at(0.0);
+            if i == dropped {
+                theta[at..at + neutral.len()].copy_from_slice(&neutral);
+            }
+            at += neutral.len();
+        }
+        let residual = case.problem.residuals(&fit.effects, &theta)?;
+        Some(residual.iter().zip(&fit.minimum.residual).map(|(a, b)| b - a).collect())
+    };
+    match (without(lead), without(lead + 1)) {
+        (Some(a), Some(b)) => cosine(&a, &b) < CANCELS,
+        _ => false,
+    }
+}

@@ -1,0 +1,203 @@
+//! The fit behind every hypothesis: bending stiffness and effect parameters to the whitened mean over runs.
+
+use super::basis::Basis;
+use super::candidates::Candidate;
+use super::evaluator::positions;
+use super::least_squares::{Minimum, Range, dot, minimise, square};
+use crate::whiten::Whitener;
+use data::Dataset;
+use models::Scenario;
+
+/// Largest B searched \[N·m²\]: 100 times what a 0.2 mm coated fabric would need at these sizes.
+pub const MAX_BENDING: f64 = 200.0;
+/// A change of B that matters \[N·m²\], for the steps of the fit.
+const BENDING_SCALE: f64 = 0.5;
+/// Costs of two starts that differ by more than this end in different minima.
+const SAME_MINIMUM: f64 = 1.0;
+/// A bound is binding if the data would gain this much beyond it: two standard errors.
+const BINDING: f64 = 4.0;
+
+/// Measurements under one set of loads, and their noise.
+pub struct Block<'a> {
+    /// The base with the loads of this block.
+    pub scenario: Scenario,
+    /// Protocol and markers.
+    pub dataset: &'a Dataset,
+    /// Holds that are fitted, rising.
+    pub holds: Vec<usize>,
+    /// Index of the bending stiffness of every hold of the dataset.
+    pub bending_of: Vec<usize>,
+    /// What is to be met \[m\], in run layout.
+    pub target_m: Vec<f64>,
+    /// Whitens the values of the fitted holds.
+    pub whitener: Whitener,
+}
+
+/// A list of blocks with shared parameters.
+pub struct Problem<'a> {
+    /// Catalogue.
+    pub candidates: &'a [Candidate],
+    /// Measurements.
+    pub blocks: Vec<Block<'a>>,
+    /// Bending stiffnesses that are fitted; 0 if B is kept as the scenarios say.
+    pub bendings: usize,
+    /// A round of a fit that lowers the whitened sum of squares by less is the last one.
+    pub enough: f64,
+}
+
+/// A fitted hypothesis. Parameters: bending stiffnesses, then those of its effects one after the other.
+#[derive(Debug, Clone)]
+pub struct Fit {
+    /// Effects, as indices into the catalogue.
+    pub effects: Vec<usize>,
+    /// Where the fit ended; residuals are whitened.
+    pub minimum: Minimum,
+    /// Parameters on a bound against which the data push.
+    pub binding: Vec<bool>,
+    /// Different starts ended in different minima.
+    pub several_minima: bool,
+}
+
+impl Fit {
+    /// Whitened sum of squares.
+    pub fn cost(&self) -> f64 {
+        self.minimum.cost
+    }
+
+    /// Parameters.
+    pub fn theta(&self) -> &[f64] {
+        &self.minimum.at
+    }
+}
+
+impl Block<'_> {
+    /// Positions in run layout \[m\]; holds that are not asked for are zero. `None` without equilibrium.
+    fn predict(&self, candidates: &[Candidate], effects: &[usize], theta: &[f64], bendings: usize) -> Option<Vec<f64>> {
+        self.predict_at(&self.holds, candidates, effects, theta, bendings)
+    }
+
+    /// The same at other holds.
+    pub fn predict_at(
+        &self,
+        holds: &[usize],
+        candidates: &[Candidate],
+        effects: &[usize],
+        theta: &[f64],
+        bendings: usize,
+    ) -> Option<Vec<f64>> {
+        let mut model = with_effects(&self.scenario, candidates, effects, &theta[bendings..]);
+        let mut out = vec![0.0; self.dataset.values_per_run()];
+        if bendings == 0 {
+            positions(&model, self.dataset, holds, &mut out).ok()?;
+        }
+        for (group, bending) in theta[..bendings].iter().enumerate() {
+            let own: Vec<usize> = holds.iter().copied().filter(|h| self.bending_of[*h] == group).collect();
+            if !own.is_empty() {
+                model.bending_stiffness = *bending;
+                positions(&model, self.dataset, &own, &mut out).ok()?;
+            }
+        }
+        Some(out)
+    }
+
+    /// Whitened difference of a prediction to the target.
+    pub fn whiten(&self, predicted_m: &[f64]) -> Vec<f64> {
+        let width = predicted_m.len() / self.dataset.holds.len();
+        let rows = self.holds.iter().flat_map(|h| h * width..(h + 1) * width);
+        let residual: Vec<f64> = rows.map(|i| predicted_m[i] - self.target_m[i]).collect();
+        self.whitener.whiten(&residual)
+    }
+}
+
+/// A scenario with effects at values in SI, one effect's parameters after the other's.
+pub fn with_effects(scenario: &Scenario, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Scenario {
+    let mut model = scenario.clone();
+    let mut from = 0;
+    for &effect in effects {
+        let to = from + candidates[effect].parameters.len();
+        model = candidates[effect].apply(&model, &values[from..to]);
+        from = to;
+    }
+    model
+}
+
+impl Problem<'_> {
+    /// Whitened residuals of all blocks, prediction minus target.
+    pub fn residuals(&self, effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
+        let mut all = Vec::new();
+        for block in &self.blocks {
+            let predicted = block.predict(self.candidates, effects, theta, self.bendings)?;
+            all.append(&mut block.whiten(&predicted));
+        }
+        Some(all)
+    }
+
+    /// Ranges of the parameters of a hypothesis.
+    pub fn ranges(&self, effects: &[usize]) -> Vec<Range> {
+        let bending = Range { lower: 0.0, upper: MAX_BENDING, scale: BENDING_SCALE };
+        let free = effects.iter().flat_map(|e| &self.candidates[*e].parameters);
+        let free = free.map(|p| Range { lower: p.lower, upper: p.upper, scale: p.scale() });
+        std::iter::repeat_n(bending, self.bendings).chain(free).collect()
+    }
+
+    /// Number of parameters of a hypothesis beyond the bending stiffnesses.
+    pub fn count(&self, effects: &[usize]) -> usize {
+        effects.iter().map(|e| self.candidates[*e].parameters.len()).sum()
+    }
+
+    /// The best fit from several starts; `None` if none of them has an equilibrium.
+    pub fn fit(&self, effects: &[usize], starts: &[Vec<f64>]) -> Option<Fit> {
+        let ranges = self.ranges(effects);
+        let mut costs = Vec::new();
+        let mut best: Option<Minimum> = None;
+        for start in starts {
+            let Some(found) = minimise(start, &ranges, self.enough, &mut |theta| self.residuals(effects, theta)) else {
+                continue;
+            };
+            costs.push(found.cost);
+            if best.as_ref().is_none_or(|b| found.cost < b.cost) {
+                best = Some(found);
+            }
+        }
+        let minimum = best?;
+        let several_minima = costs.iter().any(|c| c - minimum.cost > SAME_MINIMUM);
+        let neutral = self.neutral(effects);
+        let binding = (0..ranges.len()).map(|k| is_binding(&minimum, k, &ranges[k], neutral[k])).collect();
+        Some(Fit { effects: effects.to_vec(), minimum, binding, several_minima })
+    }
+
+    /// Fit of the base: B scanned from zero up, evenly in √B, then refined.
+    pub fn fit_base(&self, always: &[usize], own_values: &[f64]) -> Option<Fit> {
+        let start = |bending: f64| -> Vec<f64> {
+            std::iter::repeat_n(bending, self.bendings).chain(own_values.iter().copied()).collect()
+        };
+        let cost = |theta: &[f64]| {
+            self.residuals(always, theta).map_or(f64::INFINITY, |r| r.iter().map(|r| r * r).sum::<f64>())
+        };
+        let grid = if self.bendings == 0 { 0 } else { 24 };
+        let scan: Vec<Vec<f64>> = (0..=grid).map(|i| start(MAX_BENDING * (f64::from(i) / 24.0).powi(2))).collect();
+        let costs: Vec<f64> = scan.iter().map(|theta| cost(theta)).collect();
+        let best = (0..scan.len()).min_by(|a, b| costs[*a].total_cmp(&costs[*b]))?;
+        self.fit(always, &scan[best..=best])
+    }
+
+    /// Values at which parameters do nothing; NaN for bending stiffnesses, which always act.
+    fn neutral(&self, effects: &[usize]) -> Vec<f64> {
+        let free = effects.iter().flat_map(|e| &self.candidates[*e].parameters).map(|p| p.neutral);
+        std::iter::repeat_n(f64::NAN, self.bendings).chain(free).collect()
+    }
+}
+
+/// On a bound that is not the neutral value, and the sum of squares would fall beyond it by more than noise explains.
+fn is_binding(minimum: &Minimum, k: usize, range: &Range, neutral: f64) -> bool {
+    let near = 1e-6 * range.scale;
+    let at_bound = minimum.at[k] - range.lower < near || range.upper - minimum.at[k] < near;
+    if !at_bound || (minimum.at[k] - neutral).abs() < near {
+        return false;
+    }
+    let others: Vec<Vec<f64>> =
+        (0..minimum.at.len()).filter(|j| *j != k).map(|j| minimum.jacobian[j].clone()).collect();
+    let own = Basis::of(&others).rest(&minimum.jacobian[k]);
+    let (squares, slope) = (square(&own), dot(&own, &minimum.residual));
+    squares > 0.0 && slope * slope / squares > BINDING
+}

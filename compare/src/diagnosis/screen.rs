@@ -1,0 +1,52 @@
+//! Screening: how much a first bit of an effect would help, from one prediction each (score test).
+//!
+//! With g the whitened change per unit of the effect and P the projection that fits everything already free out of it,
+//! `gain = (gᵀPr)²/(gᵀPg)` at the amount `−gᵀPr/(gᵀPg)`. Cheap and explainable, but local: an effect with a threshold
+//! shows nothing. It gives starts for the fits and asks whether another effect is wanted; it decides nothing alone.
+
+use super::basis::Basis;
+use super::least_squares::{dot, square};
+use super::problem::{Fit, Problem};
+
+/// Share of the typical size at which an effect is tried.
+const FIRST_BIT: f64 = 0.02;
+
+/// What screening says of an effect.
+#[derive(Debug, Clone)]
+pub struct Score {
+    /// Expected fall of the whitened sum of squares along the typical direction, within the bounds.
+    pub gain: f64,
+    /// Amount at which it is expected, in units of the typical size; 0 if bounds forbid the right sign.
+    pub amount: f64,
+}
+
+/// Screens an effect on top of a fit; `None` if it changes nothing there or has no equilibrium.
+pub fn score(problem: &Problem, fit: &Fit, effect: usize) -> Option<Score> {
+    let free = Basis::of(&fit.minimum.jacobian);
+    let candidate = &problem.candidates[effect];
+    let theta = |share: f64| -> Vec<f64> { fit.theta().iter().copied().chain(candidate.at(share)).collect() };
+    let effects: Vec<usize> = fit.effects.iter().copied().chain([effect]).collect();
+    let moved = problem.residuals(&effects, &theta(FIRST_BIT))?;
+    let change: Vec<f64> = moved.iter().zip(&fit.minimum.residual).map(|(a, b)| (a - b) / FIRST_BIT).collect();
+    let rest = free.rest(&change);
+    let squares = square(&rest);
+    if squares <= 1e-12 * square(&change) || squares == 0.0 {
+        return None;
+    }
+    let amount = -dot(&rest, &fit.minimum.residual) / squares;
+    let allowed = candidate.parameters.iter().zip(candidate.at(amount)).all(|(p, v)| {
+        let outward = if v > p.neutral { p.upper - p.neutral } else { p.neutral - p.lower };
+        outward > 0.0 || v == p.neutral
+    });
+    let amount = if allowed { amount } else { 0.0 };
+    Some(Score { gain: amount * amount * squares, amount })
+}
+
+/// Starts for the fit of an effect on top of another: the expected amount, then the catalogue's own.
+pub fn starts(problem: &Problem, fit: &Fit, effect: usize, own: bool) -> Vec<Vec<f64>> {
+    let candidate = &problem.candidates[effect];
+    let expected = score(problem, fit, effect).filter(|s| s.amount != 0.0).map(|s| candidate.at(s.amount));
+    let catalogue = if own || expected.is_none() { candidate.starts() } else { Vec::new() };
+    let all = expected.into_iter().chain(catalogue);
+    all.map(|values| fit.theta().iter().copied().chain(values).collect()).collect()
+}

@@ -1,0 +1,127 @@
+//! Every effect of the catalogue refitted together with the base, and the set that the data cannot tell apart.
+
+use super::basis::{Basis, cosine};
+use super::case::Case;
+use super::heldout::HeldOut;
+use super::interval::intervals;
+use super::problem::Fit;
+use super::result::{ParameterValue, Ranked};
+use super::screen::starts;
+use crate::stats::reported_p;
+
+/// Differences of BIC below this do not decide.
+pub const SAME_BIC: f64 = 6.0;
+/// Nor do effects that reach this share of the best gain: real laws are never the textbook ones.
+pub const SAME_GAIN: f64 = 0.95;
+/// B that moves by more than this with an effect is said so.
+const BENDING_MOVES: f64 = 0.2;
+
+/// All effects fitted, best first by BIC; those without equilibrium left out.
+pub fn fit_all(case: &Case) -> Vec<Fit> {
+    let fit = |effect: &usize| {
+        let effects: Vec<usize> = case.always.iter().copied().chain([*effect]).collect();
+        case.problem.fit(&effects, &starts(&case.problem, &case.base, *effect, true))
+    };
+    let mut fits: Vec<Fit> = case.tried.iter().filter_map(fit).collect();
+    fits.sort_by(|a, b| case.bic(a).total_cmp(&case.bic(b)));
+    fits
+}
+
+/// Indices of the fits that cannot be told from the best acceptable one, best first; empty if none helps.
+pub fn indistinguishable(case: &Case, fits: &[Fit]) -> Vec<usize> {
+    let acceptable = |i: &usize| !case.is_rejected(&fits[*i]) && case.gain(&fits[*i]) > 0.0;
+    let Some(best) = (0..fits.len()).find(acceptable) else { return Vec::new() };
+    let (bic, gain) = (case.bic(&fits[best]), case.gain(&fits[best]));
+    let is_alike = |i: &usize| case.bic(&fits[*i]) - bic < SAME_BIC || case.gain(&fits[*i]) >= SAME_GAIN * gain;
+    (0..fits.len()).filter(acceptable).filter(is_alike).collect()
+}
+
+/// What a reader needs of every fit.
+pub fn rank(case: &Case, fits: &[Fit], set: &[usize], held_out: &HeldOut) -> Vec<Ranked> {
+    let before = case.error_mm(&case.prediction(&case.base));
+    let best = set.first().copied().unwrap_or(0);
+    let trace = |fit: &Fit| -> Vec<f64> {
+        let change: Vec<f64> =
+            fit.minimum.residual.iter().zip(&case.base.minimum.residual).map(|(a, b)| a - b).collect();
+        Basis::of(&case.base.minimum.jacobian).rest(&change)
+    };
+    let best_trace = fits.get(best).map(trace).unwrap_or_default();
+    let least = fits.get(best).map_or(0.0, |fit| case.bic(fit));
+    let entry = |(i, fit): (usize, &Fit)| {
+        let effect = fit.effects[fit.effects.len() - 1];
+        let candidate = case.candidate(effect);
+        let parameters = parameter_values(case, fit, set.contains(&i));
+        let own = parameters[parameters.len() - candidate.parameters.len()..].to_vec();
+        let lead = own[0].clone();
+        let gain = case.gain(fit);
+        Ranked {
+            effect: candidate.name.clone(),
+            group: candidate.group,
+            sentence: candidate.sentence.clone(),
+            remedy: candidate.remedy.clone(),
+            value: lead.value,
+            unit: lead.unit,
+            lo: lead.lo,
+            hi: lead.hi,
+            at_bound: own.iter().any(|p| p.at_bound),
+            gain,
+            bic_difference: case.bic(fit) - least,
+            p_corrected: case.p_of_gain(gain, own.len(), case.tried.len()).map(reported_p),
+            systematic_before_mm: before,
+            systematic_after_mm: case.error_mm(&case.prediction(fit)),
+            heldout_mm: held_out.pressure_mm(fit),
+            heldout_run_mm: held_out.run_mm(fit),
+            bending_nm2: fit.theta()[..case.problem.bendings].to_vec(),
+            cosine_with_best: cosine(&best_trace, &trace(fit)),
+            in_set: set.contains(&i),
+            several_minima: fit.several_minima,
+            notes: notes(case, fit, &own),
+            parameters: own,
+        }
+    };
+    fits.iter().enumerate().map(entry).collect()
+}
+
+/// Parameters of all effects of a fit in the units of the scenario.
+pub fn parameter_values(case: &Case, fit: &Fit, profiled: bool) -> Vec<ParameterValue> {
+    let intervals = intervals(case, fit, profiled);
+    let from = case.problem.bendings;
+    let free = fit.effects.iter().flat_map(|e| &case.candidate(*e).parameters);
+    free.enumerate()
+        .map(|(k, p)| ParameterValue {
+            key: p.key.clone(),
+            symbol: p.symbol.clone(),
+            unit: p.unit.clone(),
+            value: fit.theta()[from + k] / p.si,
+            lo: intervals[from + k].map(|i| i[0] / p.si),
+            hi: intervals[from + k].map(|i| i[1] / p.si),
+            at_bound: fit.binding[from + k],
+        })
+        .collect()
+}
+
+fn notes(case: &Case, fit: &Fit, own: &[ParameterValue]) -> Vec<String> {
+    let mut notes = Vec::new();
+    for p in own.iter().filter(|p| p.at_bound) {
+        notes.push(format!(
+            "rejected: the best {} sits on its physical bound {} {}, and the data push beyond it",
+            p.symbol,
+            super::words::value(p.value),
+            p.unit
+        ));
+    }
+    for (group, (with, without)) in fit.theta().iter().zip(case.base.theta()).take(case.problem.bendings).enumerate() {
+        if (with - without).abs() > BENDING_MOVES * without.max(1e-3) && case.gain(fit) > 1.0 {
+            let body = if case.body_pa.len() > 1 {
+                format!(" at {:.0} kPa body pressure", case.body_pa[group] / 1e3)
+            } else {
+                String::new()
+            };
+            notes.push(format!("with it, B moves from {without:.2} to {with:.2} N·m²{body}: the two compensate"));
+        }
+    }
+    if fit.several_minima {
+        notes.push("different starts of the fit ended in different minima; the best one is given".into());
+    }
+    notes
+}

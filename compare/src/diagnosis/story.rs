@@ -1,0 +1,132 @@
+//! The diagnosis told in sentences.
+
+use super::result::{Confidence, Diagnosis, ParameterValue, Ranked, Verdict};
+use super::words::quantity;
+use crate::wording::{list, p_value};
+
+/// The story, one sentence or two per entry.
+pub fn story(d: &Diagnosis) -> Vec<String> {
+    let mut told = vec![opening(d)];
+    told.extend(match d.verdict {
+        None => ranking_only(d),
+        Some(Verdict::None) => nothing(d),
+        Some(Verdict::Effect) => effect(d),
+        Some(Verdict::OutOfCatalog) => outside(d),
+    });
+    if !d.rule_out_first.is_empty() {
+        told.push(format!(
+            "Rule out before physics: {}, because supply and measurement would look the same here.",
+            list(&d.rule_out_first)
+        ));
+    }
+    told.extend(d.next_experiment.as_ref().map(|next| next.sentence.clone()));
+    told
+}
+
+fn opening(d: &Diagnosis) -> String {
+    let noise = d.base.noise_floor_mm.map_or("noise unknown".into(), |n| format!("noise of the mean {n:.2} mm"));
+    let calibrated = if d.base.bending.is_empty() { "with the scenario's B" } else { "after fitting B" };
+    format!("Misfit beyond noise: {:.2} mm {calibrated} ({noise}).", d.base.systematic_mm)
+}
+
+fn ranking_only(d: &Diagnosis) -> Vec<String> {
+    let names: Vec<String> = d.indistinguishable.iter().take(5).cloned().collect();
+    let why = format!("{} usable runs: at least three are needed for p-values", d.runs);
+    let order = if names.is_empty() {
+        "No effect lowers the misfit.".to_string()
+    } else {
+        format!("In order of how much they lower the misfit, uncalibrated: {}.", list(&names))
+    };
+    vec![format!("No verdict ({why})."), order]
+}
+
+fn nothing(d: &Diagnosis) -> Vec<String> {
+    let mut told = vec![format!(
+        "No missing effect detectable ({} after correcting for {} tests).",
+        d.p_value.map(p_value).unwrap_or_default(),
+        d.ranked.len()
+    )];
+    let mut seen: Vec<_> =
+        d.undetectable.iter().filter_map(|u| Some((u, u.smallest_detectable?, u.times_typical?))).collect();
+    seen.sort_by(|a, b| b.2.total_cmp(&a.2));
+    let parts: Vec<String> =
+        seen.iter().take(4).map(|(u, size, _)| format!("{} {}", u.effect, quantity(*size, &u.unit))).collect();
+    if !parts.is_empty() {
+        told.push(format!("To be seen, the effects that hide best would have to exceed: {}.", list(&parts)));
+    }
+    told
+}
+
+fn effect(d: &Diagnosis) -> Vec<String> {
+    let mut told = Vec::new();
+    let names: Vec<String> = d.added.iter().map(|a| a.effect.clone()).collect();
+    told.push(format!(
+        "Adding {} brings it to {:.2} mm ({} after correcting for {} tests).",
+        list(&names),
+        d.base.systematic_with_added_mm,
+        d.p_value.map(p_value).unwrap_or_default(),
+        d.ranked.len()
+    ));
+    for added in &d.added {
+        let values: Vec<String> = added.parameters.iter().map(with_interval).collect();
+        let sentence = d.ranked.iter().find(|r| r.effect == added.effect).map_or("", |r| r.sentence.as_str());
+        told.push(format!("{}: {}. {sentence}", added.effect, values.join(", ")));
+    }
+    if let Some(r) = d.ranked.iter().find(|r| names.len() == 1 && r.effect == names[0]) {
+        told.extend(held_out(d, r));
+    }
+    if d.indistinguishable.len() > 1 {
+        told.push(format!(
+            "Equally good with this data: {}. The data do not choose between them.",
+            list(&d.indistinguishable)
+        ));
+    }
+    told.push(match d.confidence {
+        Some(Confidence::Hint) => {
+            "A hint only: evidence this weak often points to a neighbour of the true effect.".into()
+        }
+        Some(Confidence::IdentifiedInCatalog) => {
+            "Best explanation in this catalogue, without a rival in it. Another effect that is not listed may look the \
+             same."
+                .into()
+        }
+        _ => "Best explanation in this catalogue. Another effect that is not listed may look the same.".to_string(),
+    });
+    told
+}
+
+fn held_out(d: &Diagnosis, r: &Ranked) -> Option<String> {
+    let (before, after) = (d.base.heldout_mm?, r.heldout_mm?);
+    let verdict = if after < 0.7 * before {
+        "it predicts what it has not seen"
+    } else {
+        "caution: it does not predict the pressures it has not seen"
+    };
+    Some(format!("At pressures left out of the fit the error goes from {before:.2} to {after:.2} mm: {verdict}."))
+}
+
+fn outside(d: &Diagnosis) -> Vec<String> {
+    let mut told = vec![format!(
+        "Nothing in the catalogue explains this ({}): {:.2} mm remain{}.",
+        d.p_value.map(p_value).unwrap_or_default(),
+        d.base.systematic_with_added_mm,
+        if d.added.is_empty() {
+            String::new()
+        } else {
+            format!(" with the best of it, {}", list(&d.added.iter().map(|a| a.effect.clone()).collect::<Vec<_>>()))
+        }
+    )];
+    told.extend(d.leftover.iter().map(|s| s.sentence.clone()));
+    told.push("Check markers, set-up and protocol there before looking for new physics.".into());
+    told
+}
+
+/// `β = 0.42 (0.40 to 0.44)`.
+pub fn with_interval(p: &ParameterValue) -> String {
+    let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
+    let range = match (p.lo, p.hi) {
+        (Some(lo), Some(hi)) => format!(" ({} to {})", super::words::value(lo), super::words::value(hi)),
+        _ => String::new(),
+    };
+    format!("{} = {}{range}{unit}", p.symbol, super::words::value(p.value))
+}

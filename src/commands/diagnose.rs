@@ -1,0 +1,190 @@
+//! `ibr diagnose`
+
+use super::inputs::{self, positive};
+use super::tables::{number, table};
+use super::{Context, Outcome};
+use crate::cli::Diagnose;
+use crate::failure::Failure;
+use compare::diagnosis::{Diagnosis, Experiment, Group, Options, ParameterValue, Ranked, Verdict, diagnose};
+use serde_json::{Value, json};
+
+pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
+    let sigma_m = args.sigma.as_deref().map(|t| positive("--sigma", t)).transpose()?;
+    let tolerance_m = args.tolerance.as_deref().map(|t| positive("--tolerance", t)).transpose()?;
+    let named = inputs::scenario(&args.scenario)?;
+    let (dataset, about, _) = inputs::dataset(&args.data, context)?;
+    (context.progress)("fitting every effect", None);
+    let options = Options {
+        sigma_m,
+        tolerance_m,
+        refit_present: args.refit,
+        keep_bending: args.keep_bending,
+        ..Options::default()
+    };
+    let diagnosis = diagnose(&named.scenario, &dataset, about.as_ref(), &options)?;
+    let mut outcome = Outcome::new(text(&diagnosis), to_json(&args.scenario, &diagnosis));
+    outcome.notes.extend(diagnosis.warnings.iter().map(|w| format!("warning: {w}")));
+    if args.sigma.is_some() && dataset.runs.len() > 1 {
+        outcome.notes.push(
+            "warning: --sigma is for a single run and was not used: several runs show the noise themselves".into(),
+        );
+    }
+    Ok(outcome)
+}
+
+fn to_json(scenario: &str, diagnosis: &Diagnosis) -> Value {
+    let mut value = json!(diagnosis);
+    if let Some(object) = value.as_object_mut() {
+        object.insert("schema".into(), "ibr.diagnose".into());
+        object.insert("version".into(), 1.into());
+        object.insert("scenario_file".into(), scenario.into());
+    }
+    value
+}
+
+fn text(d: &Diagnosis) -> String {
+    let mut out = format!("{} held against {}, {} runs\n{}\n\n", d.scenario, d.dataset, d.runs, d.noise.sentence);
+    let verdict = match d.verdict {
+        Some(Verdict::None) => "no missing effect detectable",
+        Some(Verdict::Effect) => "an effect is missing",
+        Some(Verdict::OutOfCatalog) => "something is missing that is not in the catalogue",
+        None => "none: ranking only",
+    };
+    out.push_str(&format!("Verdict: {verdict}\n"));
+    d.summary.iter().for_each(|s| out.push_str(&format!("  - {s}\n")));
+    out.push_str(&ranking(d));
+    out.push_str(&pairs(d));
+    out.push_str(&details(d));
+    out.push_str(&unseen(d));
+    out.push_str(&experiments(d));
+    out
+}
+
+fn ranking(d: &Diagnosis) -> String {
+    let blocks = [("Supply and measurement, to be ruled out first", true), ("Physics and loads", false)];
+    let mut out = String::new();
+    for (title, nuisance) in blocks {
+        let chosen = d.ranked.iter().filter(|r| r.group.is_nuisance() == nuisance);
+        let rows: Vec<Vec<String>> = chosen.map(|r| row(d, r)).collect();
+        if !rows.is_empty() {
+            out.push_str(&format!("\n{title} (base: {:.2} mm beyond noise):\n", d.base.systematic_mm));
+            out.push_str(&table(&HEAD, 3, rows));
+        }
+    }
+    out.push_str("= cannot be told from the best · ! on a physical bound, rejected\n");
+    out
+}
+
+const HEAD: [&str; 8] =
+    ["", "effect", "value, 95 %", "after mm", "held-out pressure mm", "held-out run mm", "gain", "p corrected"];
+
+fn row(d: &Diagnosis, r: &Ranked) -> Vec<String> {
+    let mark = match (r.in_set && d.verdict != Some(Verdict::None), r.at_bound) {
+        (_, true) => "!",
+        (true, _) => "=",
+        _ => "",
+    };
+    let values: Vec<String> = r.parameters.iter().map(value).collect();
+    vec![
+        mark.into(),
+        r.effect.clone(),
+        values.join(", "),
+        format!("{:.2}", r.systematic_after_mm),
+        number(r.heldout_mm, 2),
+        number(r.heldout_run_mm, 2),
+        format!("{:.0}", r.gain),
+        r.p_corrected.map_or("–".into(), p_text),
+    ]
+}
+
+fn p_text(p: f64) -> String {
+    match p {
+        p if p <= 1e-6 => "< 1e-6".into(),
+        p if p < 1e-3 => format!("{p:.0e}"),
+        p => format!("{p:.3}"),
+    }
+}
+
+fn value(p: &ParameterValue) -> String {
+    let interval = match (p.lo, p.hi) {
+        (Some(lo), Some(hi)) => format!(" ({}…{})", short(lo), short(hi)),
+        _ => String::new(),
+    };
+    format!("{} = {}{interval}", p.symbol, inputs::with_unit(&short(p.value), &p.unit))
+}
+
+/// Three significant digits.
+fn short(v: f64) -> String {
+    let size = v.abs();
+    match size {
+        0.0 => "0".into(),
+        s if !(1e-3..1e5).contains(&s) => format!("{v:.1e}"),
+        s => format!("{v:.*}", (2 - s.log10().floor() as i32).max(0) as usize),
+    }
+}
+
+fn pairs(d: &Diagnosis) -> String {
+    if d.pairs.is_empty() {
+        return String::new();
+    }
+    let row = |p: &compare::diagnosis::Combination| {
+        vec![
+            if p.in_set { "=" } else { "" }.to_string(),
+            p.effects.join(" + "),
+            p.parameters.iter().map(value).collect::<Vec<_>>().join(", "),
+            format!("{:.2}", p.systematic_after_mm),
+            format!("{:.0}", p.gain),
+            p.p_corrected.map_or("–".into(), p_text),
+            if p.cancels { "the two cancel" } else { "" }.to_string(),
+        ]
+    };
+    let head = ["", "pair", "values, 95 %", "after mm", "gain", "p over one", ""];
+    format!("\nPairs:\n{}", table(&head, 3, d.pairs.iter().map(row).collect()))
+}
+
+/// Sentences, remedies and cautions of the set, and where the final model still fails.
+fn details(d: &Diagnosis) -> String {
+    let mut out = String::new();
+    if d.verdict == Some(Verdict::None) {
+        return out;
+    }
+    let added = |r: &&Ranked| r.in_set || d.added.iter().any(|a| a.effect == r.effect);
+    for r in d.ranked.iter().filter(added) {
+        out.push_str(&format!("\n{} ({}): {}\n  check: {}\n", r.effect, r.group.word(), r.sentence, r.remedy));
+        r.notes.iter().for_each(|n| out.push_str(&format!("  note: {n}\n")));
+    }
+    for r in d.ranked.iter().filter(|r| r.at_bound && !r.in_set && r.group != Group::Load) {
+        out.push_str(&format!("\n{}: {}\n", r.effect, r.notes.first().cloned().unwrap_or_default()));
+    }
+    out.push_str("\nWhere the final model still fails:\n");
+    d.leftover.iter().for_each(|s| out.push_str(&format!("  - {}\n", s.sentence)));
+    out
+}
+
+fn unseen(d: &Diagnosis) -> String {
+    let rows = d.undetectable.iter().map(|u| {
+        let size =
+            u.smallest_detectable.map_or("not within its bounds".into(), |s| inputs::with_unit(&short(s), &u.unit));
+        vec![u.effect.clone(), size, number(u.times_typical, 2)]
+    });
+    let mut out = "\nEffects not found; smallest size that would have been seen (90 %):\n".to_string();
+    out.push_str(&table(&["effect", "size", "times typical"], 1, rows.collect()));
+    d.limits.iter().for_each(|l| out.push_str(&format!("note: {l}\n")));
+    out
+}
+
+fn experiments(d: &Diagnosis) -> String {
+    let Some(next) = &d.next_experiment else { return String::new() };
+    let lambda = |e: &Experiment| -> Vec<String> { e.separations.iter().map(|s| format!("{:.1}", s.lambda)).collect() };
+    let now = next.now.iter().map(|s| format!("{:.1}", s.lambda));
+    let mut rows = vec![["data at hand".to_string(), String::new()].into_iter().chain(now).collect::<Vec<_>>()];
+    rows.extend(
+        next.tried
+            .iter()
+            .map(|e| [e.name.clone(), e.protocol.clone()].into_iter().chain(lambda(e)).collect::<Vec<_>>()),
+    );
+    let mut head = vec!["experiment".to_string(), "protocol [kPa]".to_string()];
+    head.extend(next.now.iter().map(|s| s.rival.clone()));
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
+    format!("\nExpected separation λ of {} from (16 suffices):\n{}", next.best, table(&head, 2, rows))
+}
