@@ -46,6 +46,15 @@ impl BiasExtension {
     /// assert!((curve[1][0] - 0.2335667).abs() < 1e-7);
     /// ```
     pub fn shear(&self, rows: &[[f64; 2]]) -> Result<Vec<[f64; 2]>, String> {
+        let forces = self.shear_force(rows)?;
+        Ok(forces.iter().map(|[angle, force]| [*angle, force * angle.cos() / self.thickness_m]).collect())
+    }
+
+    /// The same rows → rows shear angle \[rad\], shear force per width F_sh \[N/m\]; the thickness does not matter.
+    ///
+    /// # Errors
+    /// As [`BiasExtension::shear`].
+    pub fn shear_force(&self, rows: &[[f64; 2]]) -> Result<Vec<[f64; 2]>, String> {
         let fits = self.width_m > 0.0 && self.length_m >= 2.0 * self.width_m && self.thickness_m > 0.0;
         if !(fits && self.length_m.is_finite()) {
             return Err(format!(
@@ -61,11 +70,16 @@ impl BiasExtension {
             })?;
             forces.push([angle, self.force(angle, row[1], &forces)]);
         }
-        Ok(forces.iter().map(|[angle, force]| [*angle, force * angle.cos() / self.thickness_m]).collect())
+        Ok(forces)
     }
 
-    /// γ(d), below 90°.
-    fn angle(&self, displacement_m: f64) -> Option<f64> {
+    /// Displacement at a shear angle, d = L₀ (√2 cos(π/4 − γ/2) − 1) \[m\].
+    pub fn displacement_m(&self, angle: f64) -> f64 {
+        (self.length_m - self.width_m) * (SQRT_2 * (0.5 * (FRAC_PI_2 - angle)).cos() - 1.0)
+    }
+
+    /// γ(d) \[rad\]; none where the yarns would be parallel (90°).
+    pub fn angle(&self, displacement_m: f64) -> Option<f64> {
         let reach = self.length_m - self.width_m;
         let ratio = (reach + displacement_m) / (SQRT_2 * reach);
         (ratio < 1.0).then(|| FRAC_PI_2 - 2.0 * ratio.acos())

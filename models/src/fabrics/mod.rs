@@ -19,6 +19,7 @@ mod materials;
 mod neo_hookean;
 mod orthotropic;
 mod recipe;
+pub mod specimen;
 mod tension_field;
 mod woven;
 

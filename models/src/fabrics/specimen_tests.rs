@@ -1,0 +1,100 @@
+//! Tests of the reduction of specimens.
+
+use super::super::{Fabric, NeoHookean};
+use super::*;
+use crate::exact::coupon;
+
+fn rows(n: usize, end: f64, y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+    (0..=n).map(|i| end * i as f64 / n as f64).map(|x| [x, y(x)]).collect()
+}
+
+#[test]
+fn the_fit_recovers_the_constant_of_the_sheet_law_pulled_with_free_edges() {
+    let sheet = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
+    let pulled = |strain: f64| {
+        // Incompressible and free to contract: C₂₂ = 1/λ.
+        let stretch: f64 = 1.0 + strain;
+        let e = [0.5 * (stretch * stretch - 1.0), 0.5 * (1.0 / stretch - 1.0), 0.0];
+        sheet.tension(e, &[0.0; 2])[0] * stretch / sheet.thickness_m
+    };
+    let curve = rows(30, 0.3, pulled);
+    assert!((c10_pa(&curve).unwrap() / 50.3e6 - 1.0).abs() < 1e-12);
+    assert!((c10_by_share_pa(&curve).unwrap() / 50.3e6 - 1.0).abs() < 1e-12);
+    assert!(misfit(&curve, |e| neo_hookean_pa(50.3e6, e)) < 1e-12);
+    assert_eq!(c10_pa(&[[0.0, 0.0]]), None);
+}
+
+#[test]
+fn the_two_weights_differ_where_the_curve_has_another_shape() {
+    // P = 1000 ε + 20000 ε²: the share looks at small strains (6 C₁₀ → 1000), the stress at large ones.
+    let curve = rows(100, 0.2, |e| 1e3 * e + 2e4 * e * e);
+    let (stress, share) = (c10_pa(&curve).unwrap(), c10_by_share_pa(&curve).unwrap());
+    assert!(share < 0.9 * stress && misfit(&curve, |e| neo_hookean_pa(stress, e)) > 0.02, "{share} {stress}");
+}
+
+#[test]
+fn the_slope_of_a_line_is_found_whatever_its_intercept() {
+    assert!((slope(&rows(10, 0.01, |x| 3.0 + 96.5 * x)).unwrap() - 96.5).abs() < 1e-9);
+    assert_eq!(slope(&[[0.1, 1.0]]), None);
+    assert_eq!(slope(&[]), None);
+}
+
+#[test]
+fn grips_stiffen_a_bias_specimen_by_what_the_zones_of_the_closed_form_give() {
+    for (length_m, width_m) in [(0.25, 0.02), (0.08, 0.04)] {
+        let (test, shear_pa) = (coupon::Bias { length_m, width_m }, 1e6);
+        let angle = 1e-5;
+        let force = coupon::bias_force_n(&test, angle, |x| shear_pa * x);
+        let strain = coupon::lengthening_m(&test, angle) / length_m;
+        let strip = BiasExtension { length_m, width_m, thickness_m: 1.0 };
+        let found = force / width_m / strain / (4.0 * shear_pa);
+        assert!((found / bias_grip_factor(&strip) - 1.0).abs() < 1e-4, "{found}");
+    }
+}
+
+#[test]
+fn a_drop_that_is_made_good_is_a_slip_and_a_break_or_noise_is_none() {
+    let slipped = rows(100, 0.2, |x| if x < 0.1 { 1e3 * x } else { 1e3 * x - 20.0 });
+    let found = drop(&slipped).unwrap();
+    assert!((found.at - 0.098).abs() < 1e-9 && (found.until - 0.118).abs() < 1e-9, "{found:?}");
+    assert!((found.lost - (1.0 - 80.0 / 98.0)).abs() < 1e-9);
+    assert_eq!(drop(&rows(100, 0.2, |x| if x < 0.15 { 1e3 * x } else { 30.0 })), None);
+    assert_eq!(drop(&rows(200, 0.2, |x| 1e3 * x + 2.0 * (900.0 * x).sin())), None);
+}
+
+#[test]
+fn a_flat_stretch_between_two_rises_is_a_slip_and_a_soft_start_is_none() {
+    let flat = rows(200, 0.2, |x| 1e3 * (x.min(0.1) + (x - 0.13).max(0.0)));
+    let found = plateau(&flat).unwrap();
+    assert!((found.at - 0.1).abs() < 0.006 && (found.until - 0.13).abs() < 0.006, "{found:?}");
+    assert_eq!(plateau(&rows(200, 0.2, |x| 1e4 * x * x)), None);
+    assert_eq!(plateau(&rows(200, 0.2, |x| 1e3 * x.min(0.12))), None);
+}
+
+#[test]
+fn locking_is_where_the_lines_meet_and_an_even_rise_has_none() {
+    let found = locking(&rows(60, 0.9, |x| 50.0 * x + 900.0 * (x - 0.75).max(0.0))).unwrap();
+    assert!((found.angle - 0.75).abs() < 0.01, "{found:?}");
+    assert!((found.slopes[0] - 50.0).abs() < 2.0 && (found.slopes[1] - 950.0).abs() < 60.0, "{found:?}");
+    assert_eq!(locking(&rows(60, 0.9, |x| 50.0 * x)), None);
+    assert_eq!(locking(&rows(60, 0.9, |x| 50.0 * x + 30.0 * x * x)), None);
+    assert_eq!(locking(&[]), None);
+}
+
+#[test]
+fn rising_keeps_what_rises_and_pools_what_falls() {
+    let straight = [[0.0, 0.0], [1.0, 2.0], [2.0, 3.0]];
+    assert_eq!(rising(&straight), straight);
+    let pooled = rising(&[[1.0, 1.0], [2.0, 3.0], [3.0, 2.0], [4.0, 5.0]]);
+    assert_eq!(pooled, [[0.0, 0.0], [1.0, 1.0], [2.5, 2.5], [4.0, 5.0]]);
+    assert_eq!(rising(&[[0.0, 0.0], [1.0, -1.0], [2.0, -2.0]]), [[0.0, 0.0]]);
+}
+
+#[test]
+fn thinning_keeps_a_straight_line_and_reading_is_straight_between_rows() {
+    let thin = thinned(&rows(10_000, 1.0, |x| 4.0 * x), 100);
+    assert_eq!(thin.len(), 100);
+    assert!(thin.iter().all(|[x, y]| (y - 4.0 * x).abs() < 1e-12));
+    assert_eq!(thinned(&[[0.0, 1.0]], 4), [[0.0, 1.0]]);
+    assert_eq!([0.5, -1.0, 3.0].map(|x| at(&[[0.0, 0.0], [1.0, 2.0]], x)), [1.0, 0.0, 2.0]);
+}
