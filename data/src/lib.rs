@@ -6,6 +6,7 @@
 pub mod about;
 mod align;
 pub mod check;
+pub mod coupons;
 pub mod dataset;
 pub mod error;
 mod header;
@@ -26,6 +27,7 @@ mod tests;
 
 pub use about::{About, AboutRun, Geometry, MarkerStation, Provenance, parse_about, read_about};
 pub use check::{CheckReport, check};
+pub use coupons::{Coupon, CouponDefaults, Direction, Pulled, parse_coupons, read_coupons};
 pub use dataset::{Dataset, Hold, Marker, Phase};
 pub use error::{DataError, Fault, Location};
 pub use load::load;

@@ -8,6 +8,9 @@ pub(crate) enum Dimension {
     Length,
     Pressure,
     Time,
+    Force,
+    Ratio,
+    Angle,
 }
 
 /// A unit of one dimension.
@@ -36,6 +39,13 @@ const PRESSURES: &[Unit] = &[
 ];
 const TIMES: &[Unit] = &[unit("s", "s", 1.0, 1.0), unit("ms", "ms", 1.0, 1e3), unit("min", "min", 60.0, 1.0)];
 
+/// 1 lbf = 4.4482216152605 N (NIST SP 811, B.8).
+const FORCES: &[Unit] =
+    &[unit("n", "N", 1.0, 1.0), unit("kn", "kN", 1e3, 1.0), unit("lbf", "lbf", 4.448_221_615_260_5, 1.0)];
+const RATIOS: &[Unit] = &[unit("pct", "pct (per cent)", 1.0, 1e2), unit("ratio", "ratio", 1.0, 1.0)];
+/// Degrees stay degrees: directions of a test are labels, not angles to compute with.
+const ANGLES: &[Unit] = &[unit("deg", "deg", 1.0, 1.0)];
+
 impl Dimension {
     /// All units of this dimension, the house unit first.
     pub fn units(self) -> &'static [Unit] {
@@ -43,6 +53,9 @@ impl Dimension {
             Dimension::Length => LENGTHS,
             Dimension::Pressure => PRESSURES,
             Dimension::Time => TIMES,
+            Dimension::Force => FORCES,
+            Dimension::Ratio => RATIOS,
+            Dimension::Angle => ANGLES,
         }
     }
 
@@ -58,13 +71,16 @@ impl Dimension {
             Dimension::Length => "lengths",
             Dimension::Pressure => "pressures",
             Dimension::Time => "times",
+            Dimension::Force => "forces",
+            Dimension::Ratio => "strains",
+            Dimension::Angle => "directions",
         };
         format!("{word} are in {}", names.join(", "))
     }
 }
 
 impl Unit {
-    /// `value` of this unit in m, Pa or s.
+    /// `value` of this unit in m, Pa, s, N, a ratio or degrees.
     pub fn to_si(self, value: f64) -> f64 {
         value * self.numerator / self.denominator
     }

@@ -132,9 +132,9 @@ pub fn locking(rows: &[[f64; 2]]) -> Option<Locking> {
     const STEEPER: f64 = 3.0;
     const PIECES: usize = 120;
     let end = rows.last()?[0];
-    let even: Vec<[f64; 2]> =
-        (1..=PIECES).map(|i| end * i as f64 / PIECES as f64).map(|x| [x, at(rows, x)]).collect();
-    let tried = (PIECES / 5..PIECES * 19 / 20).filter_map(|i| two_lines(&even, even[i][0]).map(|fit| (even[i][0], fit)));
+    let even: Vec<[f64; 2]> = (1..=PIECES).map(|i| end * i as f64 / PIECES as f64).map(|x| [x, at(rows, x)]).collect();
+    let tried =
+        (PIECES / 5..PIECES * 19 / 20).filter_map(|i| two_lines(&even, even[i][0]).map(|fit| (even[i][0], fit)));
     let (angle, (_, [before, more])) = tried.min_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
     let after = before + more;
     (after > 0.0 && after > STEEPER * before).then_some(Locking { angle, slopes: [before, after] })
@@ -147,7 +147,8 @@ fn two_lines(rows: &[[f64; 2]], knee: f64) -> Option<(f64, [f64; 2])> {
     let mean = |f: &dyn Fn(&[f64; 2]) -> f64| rows.iter().map(f).sum::<f64>() / n;
     let [u, v] = [0, 1].map(|k| mean(&|row| features(row[0])[k]));
     let y = mean(&|row| row[1]);
-    let product = |a: &dyn Fn(&[f64; 2]) -> f64, b: &dyn Fn(&[f64; 2]) -> f64| rows.iter().map(|r| a(r) * b(r)).sum::<f64>();
+    let product =
+        |a: &dyn Fn(&[f64; 2]) -> f64, b: &dyn Fn(&[f64; 2]) -> f64| rows.iter().map(|r| a(r) * b(r)).sum::<f64>();
     let (du, dv) = (|r: &[f64; 2]| features(r[0])[0] - u, |r: &[f64; 2]| features(r[0])[1] - v);
     let dy = |r: &[f64; 2]| r[1] - y;
     let (uu, uv, vv) = (product(&du, &du), product(&du, &dv), product(&dv, &dv));

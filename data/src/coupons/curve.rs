@@ -1,0 +1,174 @@
+//! Rows become the curves of specimens, each checked as a whole.
+
+use super::cells::Cells;
+use super::columns::{DIRECTION, Header, LENGTH, Notes, QUANTITIES, Quantity, SPECIMEN, STRAIN, THICKNESS, WIDTH};
+use super::{Coupon, CouponDefaults, Direction, Pulled};
+use crate::error::{DataError, Fault};
+use std::path::Path;
+
+/// Fewest rows of a specimen: three for a slope and as many for its shape.
+const FEWEST: usize = 6;
+/// Steps back below this share of the range are the noise of the displacement sensor.
+const JITTER: f64 = 2e-3;
+/// Strain above which a coated fabric has broken; more is a unit mistake.
+const LARGEST_STRAIN: f64 = 3.0;
+
+/// All specimens of a file, as far as it has been read.
+pub(super) struct Specimens<'a> {
+    file: String,
+    header: &'a Header,
+    notes: Notes,
+    found: Vec<Raw>,
+}
+
+/// One specimen with its line numbers.
+struct Raw {
+    name: String,
+    rows: Vec<([f64; 2], u64)>,
+    /// By quantity: direction, width, length, thickness.
+    numbers: [Option<f64>; QUANTITIES.len()],
+}
+
+impl<'a> Specimens<'a> {
+    pub fn new(file: &str, header: &'a Header, notes: Notes) -> Specimens<'a> {
+        Specimens { file: file.to_string(), header, notes, found: Vec::new() }
+    }
+
+    /// Adds a row to its specimen.
+    pub fn add(&mut self, cells: &Cells) -> Result<(), DataError> {
+        let [x, y] = self.header.curve();
+        let row = [cells.number(x)?.unwrap_or_default(), cells.number(y)?.unwrap_or_default()];
+        let name = cells.text(SPECIMEN);
+        if name.is_empty() && self.header.columns[SPECIMEN].is_some() {
+            let help = "write the specimen in every row, or leave the column out".to_string();
+            return Err(DataError::Cell(cells.fault(SPECIMEN, "the cell is empty".into(), help)));
+        }
+        let index = self.found.iter().rposition(|raw| raw.name == name).unwrap_or_else(|| {
+            self.found.push(Raw { name: name.to_string(), rows: Vec::new(), numbers: Default::default() });
+            self.found.len() - 1
+        });
+        let raw = &mut self.found[index];
+        for quantity in [DIRECTION, WIDTH, LENGTH, THICKNESS] {
+            let Some(value) = cells.number(quantity)? else { continue };
+            let first = *raw.numbers[quantity].get_or_insert(value);
+            if first != value {
+                let what = QUANTITIES[quantity].base;
+                let message =
+                    format!("the {what} of a specimen changes within its rows, here to {}", cells.text(quantity));
+                let help = "a specimen has one direction and one size: give the rows of another specimen another label";
+                return Err(DataError::Cell(cells.fault(quantity, message, help.to_string())));
+            }
+        }
+        raw.rows.push((row, cells.line.number));
+        Ok(())
+    }
+
+    /// The specimens, complete and checked.
+    pub fn finish(self, defaults: &CouponDefaults) -> Result<Vec<Coupon>, DataError> {
+        if self.found.is_empty() {
+            let fault = Fault::of_file(&self.file, "the file has a header and no rows", "add the rows of a specimen");
+            return Err(DataError::Layout(Box::new(fault)));
+        }
+        self.found.iter().map(|raw| self.coupon(raw, defaults)).collect()
+    }
+
+    fn coupon(&self, raw: &Raw, defaults: &CouponDefaults) -> Result<Coupon, DataError> {
+        let specimen = self.specimen(raw);
+        let said = |quantity: usize, typed: Option<f64>| self.number(raw, &specimen, quantity, typed);
+        let direction = self.direction(&specimen, said(DIRECTION, defaults.direction_deg)?, raw)?;
+        let (rows, jitter) = self.rows(raw, &specimen)?;
+        let [x, y] = self.header.curve();
+        Ok(Coupon {
+            file: self.file.clone(),
+            line: raw.rows[0].1,
+            direction,
+            pulled: if x == STRAIN { Pulled::Stress(rows) } else { Pulled::Force(rows) },
+            columns: [self.header.name(x), self.header.name(y)],
+            width_m: said(WIDTH, defaults.width_m)?,
+            length_m: said(LENGTH, defaults.length_m)?,
+            thickness_m: said(THICKNESS, defaults.thickness_m)?,
+            provenance: self.notes.provenance.unwrap_or(crate::Provenance::Measured),
+            specimen,
+            jitter,
+        })
+    }
+
+    fn specimen(&self, raw: &Raw) -> String {
+        let stem = || Path::new(&self.file).file_stem().map_or(self.file.clone(), |s| s.to_string_lossy().into_owned());
+        if raw.name.is_empty() { self.notes.specimen.clone().unwrap_or_else(stem) } else { raw.name.clone() }
+    }
+
+    /// What the rows, the comments or the caller say; they must not contradict each other.
+    fn number(&self, raw: &Raw, specimen: &str, quantity: usize, typed: Option<f64>) -> Result<Option<f64>, DataError> {
+        let Quantity { base, expected, .. } = &QUANTITIES[quantity];
+        let written = raw.numbers[quantity].or(self.notes.numbers[quantity]);
+        let unit = if quantity == DIRECTION { ("deg", 1.0) } else { ("mm", 1e3) };
+        if let (Some(written), Some(typed)) = (written, typed)
+            && (written - typed).abs() > 1e-9 * typed.abs()
+        {
+            let message = format!(
+                "specimen {specimen}: the file says {expected} = {:.6}, --{base} says {:.6}",
+                written * unit.1,
+                typed * unit.1
+            );
+            return Err(self.fault(raw, message, format!("leave --{base} out, or correct the file")));
+        }
+        let value = written.or(typed);
+        match value.filter(|v| quantity != DIRECTION && (*v <= 0.0 || *v > 10.0)) {
+            Some(v) => {
+                let message = format!("specimen {specimen}: the {base} is {} {}", v * unit.1, unit.0);
+                Err(self.fault(raw, message, format!("write a positive {base} of a specimen, as in {expected}")))
+            }
+            None => Ok(value),
+        }
+    }
+
+    fn direction(&self, specimen: &str, degrees: Option<f64>, raw: &Raw) -> Result<Direction, DataError> {
+        let help = "write 0 (pulled along the warp), 45 (bias) or 90 (along the fill): as a column direction_deg, as a \
+                    comment # direction_deg: 0 above the header, or as --direction 0 for all files without one";
+        let Some(degrees) = degrees else {
+            return Err(self.fault(raw, format!("specimen {specimen}: the direction of the pull is not known"), help));
+        };
+        let wrong = || self.fault(raw, format!("specimen {specimen}: it is pulled at {degrees} degrees"), help);
+        Direction::of(degrees).ok_or_else(wrong)
+    }
+
+    /// Zeroed on the first row; steps back that are noise left out.
+    fn rows(&self, raw: &Raw, specimen: &str) -> Result<(Vec<[f64; 2]>, usize), DataError> {
+        let [x, _] = self.header.curve();
+        let (column, first) = (self.header.name(x), raw.rows[0].0);
+        let range = raw.rows.iter().map(|(row, _)| (row[0] - first[0]).abs()).fold(0.0, f64::max);
+        let strain = range / if x == STRAIN { 1.0 } else { self.notes.numbers[LENGTH].unwrap_or(f64::INFINITY) };
+        if strain > LARGEST_STRAIN {
+            let message = format!("specimen {specimen}: {column} reaches a strain of {:.4} %", 100.0 * strain);
+            let help = if x == STRAIN { "name the column strain_pct if it is in per cent" } else { "check its unit" };
+            return Err(self.fault(raw, message, help));
+        }
+        let mut rows = vec![[0.0, 0.0]];
+        let mut jitter = 0;
+        for (row, line) in &raw.rows[1..] {
+            let moved = [row[0] - first[0], row[1] - first[1]];
+            let last = rows[rows.len() - 1][0];
+            if moved[0] > last {
+                rows.push(moved);
+            } else if last - moved[0] <= JITTER * range {
+                jitter += 1;
+            } else {
+                let message = format!("specimen {specimen}: {column} goes back, after having been larger above");
+                let help = "keep the rows of loading only (delete what follows the turn), in the order they were taken";
+                let mut fault = Fault::of_file(&self.file, message, help).at_line(*line);
+                fault.location.column_name = Some(column);
+                return Err(DataError::Cell(Box::new(fault)));
+            }
+        }
+        if rows.len() < FEWEST {
+            let message = format!("specimen {specimen} has {} rows that rise in {column}", rows.len());
+            return Err(self.fault(raw, message, format!("give at least {FEWEST}, from the start of the pull")));
+        }
+        Ok((rows, jitter))
+    }
+
+    fn fault(&self, raw: &Raw, message: String, help: impl Into<String>) -> DataError {
+        DataError::Runs(Box::new(Fault::of_file(&self.file, message, help).at_line(raw.rows[0].1)))
+    }
+}

@@ -1,0 +1,166 @@
+//! Tensile tests of fabric: stress over strain, or force over displacement, of pulled specimens.
+//!
+//! | column | meaning |
+//! |---|---|
+//! | `strain_pct` and `stress_mpa` | nominal strain and stress (force over first cross-section), or |
+//! | `displacement_mm` and `force_n` | of the grip |
+//! | `specimen` | label; the name of the file if there is no such column |
+//! | `direction_deg` | of the pull to the warp: 0 warp, 45 bias, 90 fill |
+//! | `width_mm`, `thickness_mm` | of the specimen |
+//! | `length_mm` | free length between the grips (gauge length) |
+//!
+//! Other units by suffix: `strain_ratio`; kPa, Pa, MPa, psi, bar; mm, cm, m; N, kN, lbf. Everything but the two curves may
+//! instead stand in a comment above the header, `# width_mm: 20`, or come from the caller. `# provenance: digitised` says
+//! how the numbers came to be (measured, digitised, synthetic, published; measured if nothing is said).
+//! Curves start at their first row: strain, stress, displacement and force of that row are taken off.
+
+mod cells;
+mod columns;
+mod curve;
+#[cfg(test)]
+mod tests;
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use crate::about::Provenance;
+use crate::error::{DataError, Fault};
+use crate::lines::Lines;
+
+/// Angle of the pull to the warp.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Direction {
+    /// 0°.
+    Warp,
+    /// 45°.
+    Bias,
+    /// 90°.
+    Fill,
+}
+
+/// The curve of a specimen; x rises from row to row, the first row is `[0, 0]`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Pulled {
+    /// Rows nominal strain \[1\], nominal stress \[Pa\].
+    Stress(Vec<[f64; 2]>),
+    /// Rows displacement \[m\], force \[N\].
+    Force(Vec<[f64; 2]>),
+}
+
+/// One pulled specimen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coupon {
+    /// File it was read from.
+    pub file: String,
+    /// Its label.
+    pub specimen: String,
+    /// Line of its first row, from 1.
+    pub line: u64,
+    /// Direction of the pull.
+    pub direction: Direction,
+    /// Its curve.
+    pub pulled: Pulled,
+    /// The columns of x and y as the file names them.
+    pub columns: [String; 2],
+    /// Width \[m\].
+    pub width_m: Option<f64>,
+    /// Free length between the grips \[m\].
+    pub length_m: Option<f64>,
+    /// Thickness \[m\].
+    pub thickness_m: Option<f64>,
+    /// How its numbers came to be.
+    pub provenance: Provenance,
+    /// Rows left out because x went back by less than a five-hundredth of its range.
+    pub jitter: usize,
+}
+
+/// What holds where a file says nothing; a file that says something else is refused.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct CouponDefaults {
+    /// Direction \[deg\].
+    pub direction_deg: Option<f64>,
+    /// Width \[m\].
+    pub width_m: Option<f64>,
+    /// Free length \[m\].
+    pub length_m: Option<f64>,
+    /// Thickness \[m\].
+    pub thickness_m: Option<f64>,
+    /// Names of the columns, in place of those in the header lines.
+    pub columns: Vec<String>,
+}
+
+impl Direction {
+    /// Angle to the warp \[deg\].
+    pub fn degrees(self) -> u32 {
+        match self {
+            Direction::Warp => 0,
+            Direction::Bias => 45,
+            Direction::Fill => 90,
+        }
+    }
+
+    /// `warp`, `bias` or `fill`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Direction::Warp => "warp",
+            Direction::Bias => "bias",
+            Direction::Fill => "fill",
+        }
+    }
+
+    fn of(degrees: f64) -> Option<Direction> {
+        let all = [Direction::Warp, Direction::Bias, Direction::Fill];
+        all.into_iter().find(|direction| f64::from(direction.degrees()) == degrees)
+    }
+}
+
+impl Pulled {
+    /// The rows.
+    pub fn rows(&self) -> &[[f64; 2]] {
+        match self {
+            Pulled::Stress(rows) | Pulled::Force(rows) => rows,
+        }
+    }
+}
+
+/// Reads all specimens of a file; `progress(bytes_done, bytes_total)` is called about every MiB and at the end.
+///
+/// # Errors
+/// Every fault of the file as one [`DataError`] with line and column.
+pub fn read_coupons(
+    path: &Path,
+    defaults: &CouponDefaults,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Vec<Coupon>, DataError> {
+    let shown = path.display().to_string();
+    let mut file = File::open(path).map_err(|cause| {
+        let help =
+            "check the path; docs/characterize.md has the format, `ibr characterize --example FOLDER` makes files";
+        DataError::File(Box::new(Fault::of_file(&shown, format!("cannot open the file: {cause}"), help)))
+    })?;
+    let bytes_total = file.metadata().map_or(0, |metadata| metadata.len());
+    parse_coupons(&shown, &mut file, bytes_total, defaults, progress)
+}
+
+/// Reads all specimens from `reader`; `file` names it in errors.
+///
+/// # Errors
+/// As [`read_coupons`].
+pub fn parse_coupons(
+    file: &str,
+    reader: &mut dyn Read,
+    bytes_total: u64,
+    defaults: &CouponDefaults,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Vec<Coupon>, DataError> {
+    let mut lines = Lines::new(file, reader, bytes_total, progress);
+    let (notes, header) = columns::read(&mut lines, defaults)?;
+    let mut found = curve::Specimens::new(file, &header, notes);
+    while let Some(line) = lines.next_filled()? {
+        if !line.text.trim_start().starts_with('#') {
+            found.add(&cells::Cells::new(&header, line)?)?;
+        }
+    }
+    found.finish(defaults)
+}
