@@ -45,6 +45,14 @@ pub fn t_inflation(dof: usize) -> f64 {
     }
 }
 
+/// t_{dof,.975}: half-width of a 95 % interval in standard errors; the normal 1.96 for `dof` = 0.
+pub fn t_975(dof: usize) -> f64 {
+    match StudentsT::new(0.0, 1.0, dof as f64) {
+        Ok(t) if dof > 0 => t.inverse_cdf(0.975),
+        _ => 1.959_963_984_540_054,
+    }
+}
+
 /// Holm's step-down adjusted p-values, in the order given: rejecting those below α errs in at most α of all families.
 pub fn holm(p: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p.len()).collect();
@@ -71,6 +79,7 @@ mod tests {
         assert!((two_sided_p(1.959963985, 0) - 0.05).abs() < 1e-9);
         assert!((two_sided_p(2.776445105, 4) - 0.05).abs() < 1e-9);
         assert!((f_tail(3.325834530, 5, 10) - 0.05).abs() < 1e-9);
+        assert!((t_975(4) - 2.776445105).abs() < 1e-7 && (t_975(1) - 12.7062047).abs() < 1e-6);
         assert_eq!(reported_p(two_sided_p(60.0, 100)), SMALLEST_P);
     }
 

@@ -1,0 +1,43 @@
+//! From pulled specimens to the numbers and curves of a fabric law, each with its scatter and how it is known.
+//!
+//! One specimen at a time ([`specimen`]: stress over strain, modulus, C₁₀, shear curve of a bias extension), then over
+//! specimens ([`reduce`]: the specimen is the unit, mean ± t s/√n at 95 %), then out ([`write`], [`pictures`]). Formulas are
+//! those of `models::fabrics::specimen` and `models::fabrics::BiasExtension`.
+
+pub mod example;
+pub mod pictures;
+pub mod reduce;
+pub mod scatter;
+pub mod specimen;
+#[cfg(test)]
+mod tests;
+mod units;
+mod warn;
+pub mod write;
+
+pub use reduce::{Characterized, MeanCurve, ShearCurve, characterize};
+pub use scatter::{Quantity, Scatter};
+pub use specimen::{Specimen, Strip};
+
+/// Shear angle of the paper's validity limit \[rad\]: 24 % strain of its strip of 250 mm by 20 mm.
+pub const PAPER_LIMIT_RAD: f64 = 0.630_801_3;
+/// Shear angle up to which optical angles agree within 5° with the kinematics (Cao et al. 2008) \[rad\].
+pub const OPTICAL_LIMIT_RAD: f64 = std::f64::consts::PI / 6.0;
+
+/// Choices of the user.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Name of the fabric in the TOML fragment.
+    pub name: String,
+    /// Strain up to which a modulus is the slope.
+    pub modulus_strain: f64,
+    /// Accept moduli that no coated fabric has.
+    pub any_modulus: bool,
+}
+
+impl Default for Settings {
+    /// Moduli to 1 % strain: above the slack of a hand-clamped specimen, below where coated fabrics bend. Assumed.
+    fn default() -> Settings {
+        Settings { name: "fabric".into(), modulus_strain: 0.01, any_modulus: false }
+    }
+}

@@ -1,0 +1,296 @@
+//! Over specimens: the numbers with their scatter, the mean curves, the shear curve.
+
+use data::{Coupon, DataError, Direction, Fault, Provenance};
+use models::exact::coupon::shear_modulus_from_bias_pa;
+use models::fabrics::specimen as fit;
+
+use super::scatter::{Quantity, Scatter};
+use super::specimen::{self, Specimen, Strip};
+use super::{PAPER_LIMIT_RAD, Settings, warn};
+use crate::CompareError;
+
+/// Rows of a mean curve: a law's table, fine enough for any bend of a fabric.
+const STEPS: usize = 24;
+
+/// All that the specimens of one fabric say.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Characterized {
+    /// One by one, in the order given.
+    pub specimens: Vec<Specimen>,
+    /// Numbers of the fabric.
+    pub quantities: Vec<Quantity>,
+    /// Mean curves along warp and fill.
+    pub yarns: Vec<MeanCurve>,
+    /// Shear curve, from bias extension.
+    pub shear: Option<ShearCurve>,
+    /// Mean thickness \[m\], if any specimen has one.
+    pub thickness_m: Option<f64>,
+    /// How the curves came to be.
+    pub provenance: Provenance,
+    /// What to look at before the numbers are believed.
+    pub warnings: Vec<String>,
+    /// What the numbers rest on, for the curious.
+    pub notes: Vec<String>,
+}
+
+/// Mean stress over strain of one direction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeanCurve {
+    /// Warp or fill.
+    pub direction: Direction,
+    /// Rows nominal strain, mean nominal stress \[Pa\]; strictly rising from `[0, 0]`.
+    pub rows: Vec<[f64; 2]>,
+    /// Standard deviation between specimens at every row \[Pa\], of two or more.
+    pub sd_pa: Vec<Option<f64>>,
+}
+
+/// Mean shear force over shear angle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShearCurve {
+    /// Rows shear angle \[rad\], mean shear force per length \[N/m\].
+    pub rows: Vec<[f64; 2]>,
+    /// Standard deviation between specimens at every row \[N/m\], of two or more.
+    pub sd_n_per_m: Vec<Option<f64>>,
+    /// Rows shear angle \[rad\], moment per volume T₁₂ = F_sh cos γ/t \[Pa\], strictly rising: the woven law's input.
+    pub moment_pa: Option<Vec<[f64; 2]>>,
+}
+
+/// Reduces all specimens of one fabric.
+///
+/// # Errors
+/// No specimen, a specimen given twice, and whatever [`specimen`] refuses.
+pub fn characterize(coupons: &[Coupon], settings: &Settings) -> Result<Characterized, CompareError> {
+    different(coupons)?;
+    let mut warnings = Vec::new();
+    let reduced: Result<Vec<Specimen>, DataError> =
+        coupons.iter().map(|coupon| specimen::reduce(coupon, settings, &mut warnings)).collect();
+    let specimens = reduced?;
+    warn::deviations(&specimens, &mut warnings);
+    let thickness_m = thickness(&specimens, &mut warnings);
+    let provenance = coupons.iter().map(|c| c.provenance).find(|p| *p != Provenance::Measured);
+    let mut found = Characterized {
+        yarns: [Direction::Warp, Direction::Fill].into_iter().filter_map(|d| mean_curve(&specimens, d)).collect(),
+        shear: shear_curve(&specimens, thickness_m),
+        quantities: Vec::new(),
+        provenance: provenance.unwrap_or(Provenance::Measured),
+        notes: Vec::new(),
+        specimens,
+        thickness_m,
+        warnings,
+    };
+    moduli(&mut found);
+    rubber(&mut found);
+    shear(&mut found);
+    reach(&mut found);
+    Ok(found)
+}
+
+impl Characterized {
+    /// Specimens of a direction.
+    pub fn of(&self, direction: Direction) -> impl Iterator<Item = &Specimen> {
+        self.specimens.iter().filter(move |s| s.direction == direction)
+    }
+
+    /// Bias-extension tests.
+    pub fn strips(&self) -> impl Iterator<Item = (&Specimen, &Strip)> {
+        self.specimens.iter().filter_map(|s| Some((s, s.strip.as_ref()?)))
+    }
+
+    /// A number by its key.
+    pub fn quantity(&self, key: &str) -> Option<&Quantity> {
+        self.quantities.iter().find(|q| q.key == key)
+    }
+
+    fn add(&mut self, key: &'static str, name: &str, unit: &'static str, scatter: Option<Scatter>, known: String) {
+        let quantity = |scatter| Quantity { key, name: name.to_string(), unit, scatter, known };
+        self.quantities.extend(scatter.map(quantity));
+    }
+
+    fn modulus(&self, direction: Direction) -> Option<Scatter> {
+        Scatter::of(&self.of(direction).filter_map(|s| s.modulus_pa).collect::<Vec<f64>>())
+    }
+}
+
+fn different(coupons: &[Coupon]) -> Result<(), DataError> {
+    let key = |c: &Coupon| (c.direction, c.specimen.clone());
+    for (i, c) in coupons.iter().enumerate() {
+        if let Some(first) = coupons[..i].iter().find(|other| key(other) == key(c)) {
+            let message = format!(
+                "specimen {} ({}°) is there twice, here and in {}:{}",
+                c.specimen,
+                c.direction.degrees(),
+                first.file,
+                first.line
+            );
+            let help = "give each specimen once, or another label in the column specimen";
+            return Err(DataError::Runs(Box::new(Fault::of_file(&c.file, message, help).at_line(c.line))));
+        }
+    }
+    if coupons.is_empty() {
+        let fault = Fault::of_file("characterize", "there is no specimen", "give at least one file");
+        return Err(DataError::Runs(Box::new(fault)));
+    }
+    Ok(())
+}
+
+fn thickness(specimens: &[Specimen], warnings: &mut Vec<String>) -> Option<f64> {
+    let all: Vec<f64> = specimens.iter().filter_map(|s| s.thickness_m).collect();
+    let [low, high] = all.iter().fold([f64::INFINITY, 0.0], |[a, b], t| [f64::min(a, *t), f64::max(b, *t)]);
+    if high > 1.1 * low {
+        warnings.push(format!(
+            "the thickness is {:.4} to {:.4} mm, the mean is used: are all specimens of one fabric?",
+            1e3 * low,
+            1e3 * high
+        ));
+    }
+    Scatter::of(&all).map(|s| s.mean)
+}
+
+/// Means over specimens on common places up to where the shortest ends.
+fn mean(curves: &[&[[f64; 2]]]) -> Option<(Vec<[f64; 2]>, Vec<Option<f64>>)> {
+    let end = curves.iter().filter_map(|rows| rows.last()).map(|row| row[0]).fold(f64::INFINITY, f64::min);
+    if curves.is_empty() || !(end > 0.0 && end.is_finite()) {
+        return None;
+    }
+    let place = |i: usize| end * i as f64 / STEPS as f64;
+    let at = |x: f64| Scatter::of(&curves.iter().map(|rows| fit::at(rows, x)).collect::<Vec<f64>>());
+    let rows = (0..=STEPS).filter_map(|i| Some((place(i), at(place(i))?)));
+    Some(rows.map(|(x, s)| ([x, s.mean], s.sd)).unzip())
+}
+
+fn mean_curve(specimens: &[Specimen], direction: Direction) -> Option<MeanCurve> {
+    let same = specimens.iter().filter(|s| s.direction == direction && s.stress.len() > 1);
+    let (mean, sd) = mean(&same.map(|s| s.stress.as_slice()).collect::<Vec<_>>())?;
+    let rows = fit::rising(&mean);
+    let spread: Vec<[f64; 2]> = mean.iter().zip(&sd).map(|(row, sd)| [row[0], sd.unwrap_or(f64::NAN)]).collect();
+    let sd_pa = rows.iter().map(|row| Some(fit::at(&spread, row[0])).filter(|sd| sd.is_finite())).collect();
+    (rows.len() > 1).then_some(MeanCurve { direction, rows, sd_pa })
+}
+
+fn shear_curve(specimens: &[Specimen], thickness_m: Option<f64>) -> Option<ShearCurve> {
+    let strips = specimens.iter().filter_map(|s| s.strip.as_ref()).filter(|strip| strip.shear.len() > 1);
+    let (rows, sd_n_per_m) = mean(&strips.map(|strip| strip.shear.as_slice()).collect::<Vec<_>>())?;
+    let moment = |t: f64| fit::rising(&rows.iter().map(|[x, f]| [*x, f * x.cos() / t]).collect::<Vec<_>>());
+    let moment_pa = thickness_m.map(moment).filter(|rows| rows.len() > 1);
+    Some(ShearCurve { rows, sd_n_per_m, moment_pa })
+}
+
+fn moduli(found: &mut Characterized) {
+    let word = found.provenance.word();
+    for (direction, key, name) in [
+        (Direction::Warp, "e0", "modulus E0, pulled along warp"),
+        (Direction::Fill, "e90", "modulus E90, pulled along fill"),
+        (Direction::Bias, "e45", "modulus E45, pulled at 45°"),
+    ] {
+        let to = found.of(direction).map(|s| s.modulus_strain).fold(0.0, f64::max);
+        let known = format!("{word}: slope to {:.1} % strain", 100.0 * to);
+        let scatter = found.modulus(direction).map(|s| s.scaled(1e-6));
+        found.add(key, name, "MPa", scatter, known);
+    }
+}
+
+/// C₁₀ of warp and fill together: the mean of the two directions' means.
+fn rubber(found: &mut Characterized) {
+    for (k, key, name, known) in [
+        (0, "c10", "C10, warp and fill together", "calibrated: whole curves, weight by stress"),
+        (1, "c10_by_share", "C10, another weight", "calibrated: whole curves, weight by share of stress"),
+    ] {
+        let part =
+            |direction| Scatter::of(&found.of(direction).filter_map(|s| Some(s.c10_pa?[k])).collect::<Vec<f64>>());
+        let parts: Vec<Scatter> = [Direction::Warp, Direction::Fill].into_iter().filter_map(part).collect();
+        let share = 1.0 / parts.len().max(1) as f64;
+        let total = match &parts[..] {
+            [] => None,
+            [only] => Some(*only),
+            all => {
+                let mean = all.iter().map(|s| share * s.mean).sum();
+                Some(Scatter::carried(mean, &all.iter().map(|s| (*s, share)).collect::<Vec<_>>()))
+            }
+        };
+        found.add(key, name, "MPa", total.map(|s| s.scaled(1e-6)), known.into());
+    }
+    let Some(c10_pa) = found.quantity("c10").map(|q| 1e6 * q.scatter.mean) else { return };
+    for direction in [Direction::Warp, Direction::Fill] {
+        let misses: Vec<f64> = found
+            .of(direction)
+            .filter(|s| !s.stress.is_empty())
+            .map(|s| 100.0 * fit::misfit(&s.stress, |e| fit::neo_hookean_pa(c10_pa, e)))
+            .collect();
+        let (key, name) = match direction {
+            Direction::Warp => ("c10_misfit_warp", "what that C10 misses along warp, rms"),
+            _ => ("c10_misfit_fill", "what that C10 misses along fill, rms"),
+        };
+        found.add(key, name, "%", Scatter::of(&misses), "calibrated: share of the largest stress".into());
+    }
+    found
+        .notes
+        .push(format!("6 C10 = {:.1} MPa would be the modulus if the curves had the law's shape", 6e-6 * c10_pa));
+}
+
+fn shear(found: &mut Characterized) {
+    let strips: Vec<Strip> = found.strips().map(|(_, strip)| strip.clone()).collect();
+    let slopes: Vec<f64> = strips.iter().filter_map(|s| s.slope_n_per_m).collect();
+    let slope = Scatter::of(&slopes);
+    found.add("gt", "shear stiffness at small angle, G12 t", "N/m", slope, "calibrated: bias extension, zones".into());
+    let g12 = found.thickness_m.and_then(|t| Some(slope?.scaled(1e-6 / t)));
+    found.add("g12", "shear modulus G12", "MPa", g12, "calibrated: bias extension, zones".into());
+    link(found);
+    let locked: Vec<f64> = strips.iter().filter_map(|s| Some(s.locking?.angle.to_degrees())).collect();
+    let known = format!("calibrated: two lines, {} of {} specimens lock", locked.len(), strips.len());
+    found.add("locking", "locking angle", "°", Scatter::of(&locked), known);
+    let limits: Vec<f64> =
+        strips.iter().map(|s| 100.0 * s.size.displacement_m(PAPER_LIMIT_RAD) / s.size.length_m).collect();
+    let known = format!("predicted: strain at {:.1}°", PAPER_LIMIT_RAD.to_degrees());
+    found.add("limit_strain", "validity limit of the reduction", "%", Scatter::of(&limits), known);
+    for strip in strips.iter().take(1) {
+        let factor = fit::bias_grip_factor(&strip.size);
+        found.notes.push(format!(
+            "grips stiffen a strip of H/W = {:.1} at 45°: its E45 is {:.2} times that of a free one",
+            strip.size.length_m / strip.size.width_m,
+            factor
+        ));
+    }
+}
+
+/// G₁₂ from the three moduli, 1/G = 4/E45 − 1/E0 − 1/E90, with the errors of all three.
+fn link(found: &mut Characterized) {
+    let all = [Direction::Bias, Direction::Warp, Direction::Fill].map(|d| found.modulus(d));
+    let [Some(e45), Some(e0), Some(e90)] = all else { return };
+    let g = shear_modulus_from_bias_pa(e45.mean, e0.mean, e90.mean, 0.0);
+    if !(g > 0.0 && g.is_finite()) {
+        found.warnings.push(format!(
+            "E45 = {:.4} MPa is too large for E0 = {:.4} and E90 = {:.4} MPa (at most {:.4}): no shear modulus follows; are \
+             the directions right?",
+            1e-6 * e45.mean,
+            1e-6 * e0.mean,
+            1e-6 * e90.mean,
+            4e-6 / (1.0 / e0.mean + 1.0 / e90.mean)
+        ));
+        return;
+    }
+    let slope = |e: Scatter, factor: f64| (e, factor * (g / e.mean).powi(2));
+    let scatter = Scatter::carried(g, &[slope(e45, 4.0), slope(e0, -1.0), slope(e90, -1.0)]);
+    let known = "calibrated: 1/G = 4/E45 − 1/E0 − 1/E90; nu12 = 0 assumed".to_string();
+    found.add("g12_link", "G12 from the moduli, free edges", "MPa", Some(scatter.scaled(1e-6)), known);
+}
+
+/// How far the curves go.
+fn reach(found: &mut Characterized) {
+    for direction in [Direction::Warp, Direction::Fill] {
+        let ends: Vec<f64> = found.of(direction).filter_map(|s| s.stress.last()).map(|row| 100.0 * row[0]).collect();
+        let (key, name) = match direction {
+            Direction::Warp => ("reach_warp", "strain at the largest stress, warp"),
+            _ => ("reach_fill", "strain at the largest stress, fill"),
+        };
+        let word = found.provenance.word().to_string();
+        found.add(key, name, "%", Scatter::of(&ends), word);
+    }
+    let single: Vec<&str> = [Direction::Warp, Direction::Bias, Direction::Fill]
+        .into_iter()
+        .filter(|d| found.of(*d).count() == 1)
+        .map(Direction::word)
+        .collect();
+    if !single.is_empty() {
+        found.notes.push(format!("one specimen only along {}: no interval can be given", single.join(", ")));
+    }
+}

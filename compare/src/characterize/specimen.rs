@@ -1,0 +1,171 @@
+//! One specimen: stress over strain, modulus, C₁₀, and the shear curve of a bias extension.
+
+use data::{Coupon, DataError, Direction, Fault, Pulled};
+use models::fabrics::{BiasExtension, specimen as fit};
+
+use super::{Settings, units};
+
+/// Fewest rows of a modulus.
+const FEWEST: usize = 5;
+/// Most rows that go into a reduction: far finer than any law's table, and the noise is averaged.
+const MOST_ROWS: usize = 400;
+/// Shear angle beyond which published curves are yarn slip, not shear \[rad\].
+const SURELY_SLIP_RAD: f64 = 70.0 * std::f64::consts::PI / 180.0;
+
+/// What one specimen says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Specimen {
+    /// Label.
+    pub name: String,
+    /// File it came from.
+    pub file: String,
+    /// Direction of the pull.
+    pub direction: Direction,
+    /// Rows nominal strain, nominal stress \[Pa\] up to the largest; empty if the cross-section is not known.
+    pub stress: Vec<[f64; 2]>,
+    /// Modulus of this direction \[Pa\], where there are stresses.
+    pub modulus_pa: Option<f64>,
+    /// Strain up to which the modulus was taken.
+    pub modulus_strain: f64,
+    /// C₁₀ by stress and by share \[Pa\], along yarns.
+    pub c10_pa: Option<[f64; 2]>,
+    /// Bias extension, where width and length are known.
+    pub strip: Option<Strip>,
+    /// Thickness \[m\].
+    pub thickness_m: Option<f64>,
+}
+
+/// A bias-extension test and what came of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strip {
+    /// Its size; the thickness is 1 m where it is not known.
+    pub size: BiasExtension,
+    /// Rows displacement \[m\], force \[N\] that were used.
+    pub pulled: Vec<[f64; 2]>,
+    /// Rows shear angle \[rad\], shear force per length \[N/m\].
+    pub shear: Vec<[f64; 2]>,
+    /// Slope of the shear force at small angles \[N/m\].
+    pub slope_n_per_m: Option<f64>,
+    /// Where shear stiffens for good.
+    pub locking: Option<fit::Locking>,
+}
+
+/// Reduces one specimen; adds to `warnings` what a user should look at.
+///
+/// # Errors
+/// A size that is missing, a strip with H < 2W, a modulus that only another unit explains.
+pub(super) fn reduce(coupon: &Coupon, settings: &Settings, warnings: &mut Vec<String>) -> Result<Specimen, DataError> {
+    let bias = coupon.direction == Direction::Bias;
+    let whole = stresses(coupon)?;
+    let mut used = up_to_peak(whole.as_deref().unwrap_or(coupon.pulled.rows()));
+    super::warn::slips(coupon, &used, warnings);
+    used = fit::thinned(&used, MOST_ROWS);
+    let stress = if whole.is_some() { used } else { Vec::new() };
+    let (modulus_pa, modulus_strain) = modulus(&stress, settings.modulus_strain * if bias { 2.0 } else { 1.0 });
+    if let Some(modulus_pa) = modulus_pa
+        && !settings.any_modulus
+    {
+        units::plausible(coupon, modulus_pa)?;
+    }
+    let both = |rows: &[[f64; 2]]| Some([fit::c10_pa(rows)?, fit::c10_by_share_pa(rows)?]);
+    Ok(Specimen {
+        name: coupon.specimen.clone(),
+        file: coupon.file.clone(),
+        direction: coupon.direction,
+        c10_pa: if bias { None } else { both(&stress) },
+        strip: if bias { strip(coupon, settings, warnings)? } else { None },
+        thickness_m: coupon.thickness_m,
+        stress,
+        modulus_pa,
+        modulus_strain,
+    })
+}
+
+/// A fault of a specimen.
+pub(super) fn fault(coupon: &Coupon, message: String, help: impl Into<String>) -> DataError {
+    let message = format!("specimen {} ({}°): {message}", coupon.specimen, coupon.direction.degrees());
+    DataError::Runs(Box::new(Fault::of_file(&coupon.file, message, help).at_line(coupon.line)))
+}
+
+/// Nominal strain and stress; none for a bias test without thickness.
+fn stresses(coupon: &Coupon) -> Result<Option<Vec<[f64; 2]>>, DataError> {
+    let Pulled::Force(rows) = &coupon.pulled else { return Ok(Some(coupon.pulled.rows().to_vec())) };
+    let sizes =
+        [("length", coupon.length_m, 250.0), ("width", coupon.width_m, 20.0), ("thickness", coupon.thickness_m, 0.05)];
+    let bias = coupon.direction == Direction::Bias;
+    if let Some((name, _, typical)) = sizes.iter().find(|s| s.1.is_none() && !(bias && s.0 == "thickness")) {
+        let what = if *name == "length" { "length (free, between the grips)" } else { name };
+        let help = format!("write # {name}_mm: {typical} above the header, or --{name} {typical}mm for all files");
+        return Err(fault(coupon, format!("force and displacement need the {what}, which is missing"), help));
+    }
+    let [length, width, thickness] = sizes.map(|s| s.1);
+    if let Some(length) = length
+        && rows[rows.len() - 1][0] > 3.0 * length
+    {
+        let (far, free) = (1e3 * rows[rows.len() - 1][0], 1e3 * length);
+        let message = format!("a displacement of {far:.3} mm on a free length of {free:.3} mm");
+        return Err(fault(coupon, message, format!("check the unit of {} and of the length", coupon.columns[0])));
+    }
+    let (Some(length), Some(area)) = (length, width.zip(thickness).map(|(w, t)| w * t)) else { return Ok(None) };
+    Ok(Some(rows.iter().map(|[d, f]| [d / length, f / area]).collect()))
+}
+
+/// Until the specimen breaks: rows up to the largest y.
+fn up_to_peak(rows: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let peak = (0..rows.len()).max_by(|a, b| rows[*a][1].total_cmp(&rows[*b][1])).unwrap_or(0);
+    rows[..=peak].to_vec()
+}
+
+/// Slope at small strain, and up to which strain: further than asked for if there are too few rows.
+fn modulus(stress: &[[f64; 2]], up_to: f64) -> (Option<f64>, f64) {
+    let within = stress.partition_point(|row| row[0] <= up_to).max(FEWEST.min(stress.len()));
+    (fit::slope(&stress[..within]), stress[..within].last().map_or(up_to, |row| row[0]))
+}
+
+fn strip(coupon: &Coupon, settings: &Settings, warnings: &mut Vec<String>) -> Result<Option<Strip>, DataError> {
+    let (Some(length_m), Some(width_m)) = (coupon.length_m, coupon.width_m) else { return Ok(None) };
+    if length_m < 2.0 * width_m {
+        let message = format!(
+            "bias extension needs a free length of at least twice the width, H ≥ 2W; here H = {:.3} mm and W = {:.3} mm",
+            1e3 * length_m,
+            1e3 * width_m
+        );
+        let help = format!("cut the next one {:.0} mm long or narrower; check length_mm and width_mm", 2e3 * width_m);
+        return Err(fault(coupon, message, help));
+    }
+    let rows: Vec<[f64; 2]> = match (&coupon.pulled, coupon.thickness_m) {
+        (Pulled::Force(rows), _) => rows.clone(),
+        (Pulled::Stress(rows), Some(t)) => rows.iter().map(|[e, s]| [e * length_m, s * width_m * t]).collect(),
+        (Pulled::Stress(_), None) => return Ok(None),
+    };
+    let size = BiasExtension { length_m, width_m, thickness_m: coupon.thickness_m.unwrap_or(1.0) };
+    let pulled = fit::thinned(&sheared(coupon, &size, up_to_peak(&rows), warnings), MOST_ROWS);
+    let shear = size.shear_force(&pulled).map_err(|message| fault(coupon, message, "check length_mm and width_mm"))?;
+    let small = shear.partition_point(|row| size.displacement_m(row[0]) <= 2.0 * settings.modulus_strain * length_m);
+    let slope_n_per_m = fit::slope(&shear[..small.max(FEWEST.min(shear.len()))]);
+    let locking = fit::locking(&shear);
+    Ok(Some(Strip { size, pulled, shear, slope_n_per_m, locking }))
+}
+
+/// Rows up to the angle beyond which yarns slip.
+fn sheared(
+    coupon: &Coupon,
+    size: &BiasExtension,
+    mut rows: Vec<[f64; 2]>,
+    warnings: &mut Vec<String>,
+) -> Vec<[f64; 2]> {
+    let last_m = size.displacement_m(SURELY_SLIP_RAD);
+    let kept = rows.partition_point(|row| row[0] <= last_m);
+    if kept < rows.len() {
+        warnings.push(format!(
+            "specimen {} ({}°): {} rows beyond {:.1} mm left out: the shear angle would be above {:.0}°, where yarns slip",
+            coupon.specimen,
+            coupon.direction.degrees(),
+            rows.len() - kept,
+            1e3 * last_m,
+            SURELY_SLIP_RAD.to_degrees()
+        ));
+        rows.truncate(kept);
+    }
+    rows
+}

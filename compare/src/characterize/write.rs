@@ -1,0 +1,132 @@
+//! Results as text: the TOML fragment that cases take, and tables.
+
+use data::{Column, Direction, Table};
+
+use super::reduce::{Characterized, ShearCurve};
+use super::{PAPER_LIMIT_RAD, Settings};
+
+/// `[fabric.NAME]` tables for a finite element case, one for every law that these tests determine; none without thickness.
+///
+/// Woven needs warp, fill and bias; orthotropic the same; neo-Hookean warp or fill.
+pub fn fabric_toml(found: &Characterized, settings: &Settings, program: &str) -> Option<String> {
+    let thickness_mm = 1e3 * found.thickness_m?;
+    let laws = [woven(found), linear(found), film(found)];
+    let count = laws.iter().flatten().count();
+    if count == 0 {
+        return None;
+    }
+    let mut text = format!(
+        "# Made by {program} characterize from {} specimens ({}). Keep the tables that you need.\n",
+        found.specimens.len(),
+        found.provenance.word()
+    );
+    for (suffix, law) in ["", "-linear", "-film"].iter().zip(laws) {
+        let Some(lines) = law else { continue };
+        let name = quoted(&format!("{}{suffix}", settings.name));
+        text.push_str(&format!("\n[fabric.{name}]\n{lines}thickness_mm = {thickness_mm:.6}\n"));
+    }
+    Some(text)
+}
+
+/// A bare key, or one in quotation marks.
+fn quoted(name: &str) -> String {
+    let bare = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    if !name.is_empty() && name.chars().all(bare) { name.into() } else { format!("\"{}\"", name.escape_default()) }
+}
+
+fn value(found: &Characterized, key: &str) -> Option<f64> {
+    found.quantity(key).map(|q| q.scatter.mean)
+}
+
+fn woven(found: &Characterized) -> Option<String> {
+    let yarn = |direction| found.yarns.iter().find(|y| y.direction == direction);
+    let (warp, fill) = (yarn(Direction::Warp)?, yarn(Direction::Fill)?);
+    let shear = match found.shear.as_ref().and_then(|s| s.moment_pa.as_ref()) {
+        Some(rows) => {
+            let limit = PAPER_LIMIT_RAD.to_degrees();
+            format!(
+                "# degrees, MPa: moment per volume; calibrated on bias extension; beyond {limit:.0}° the reduction is doubtful\n\
+                 shear = {}\n",
+                rows_of(rows, [180.0 / std::f64::consts::PI, 1e-6])
+            )
+        }
+        None => format!("e45_MPa = {:.6}                # {}\n", value(found, "e45")?, found.provenance.word()),
+    };
+    let word = found.provenance.word();
+    Some(format!(
+        "law = \"woven\"\n\
+         nu12 = 0                      # assumed: needs a biaxial test\n\
+         # nominal strain, MPa: mean of the specimens, {word}\n\
+         warp = {}\nfill = {}\n{shear}",
+        rows_of(&warp.rows, [1.0, 1e-6]),
+        rows_of(&fill.rows, [1.0, 1e-6])
+    ))
+}
+
+fn linear(found: &Characterized) -> Option<String> {
+    let (e0, e90) = (value(found, "e0")?, value(found, "e90")?);
+    let word = found.provenance.word();
+    let shear = match (value(found, "g12"), value(found, "e45")) {
+        (Some(g), _) if g > 0.0 => format!("g_MPa = {g:.6}                # calibrated: bias extension, small angle\n"),
+        (_, Some(e45)) if value(found, "g12_link").is_some() => format!("e45_MPa = {e45:.6}                # {word}\n"),
+        _ => return None,
+    };
+    Some(format!(
+        "law = \"orthotropic\"\n\
+         e0_MPa = {e0:.6}                # {word}\n\
+         e90_MPa = {e90:.6}                # {word}\n\
+         nu12 = 0                      # assumed: needs a biaxial test\n{shear}"
+    ))
+}
+
+fn film(found: &Characterized) -> Option<String> {
+    let c10 = value(found, "c10")?;
+    Some(format!(
+        "law = \"neo-hookean\"\nc10_MPa = {c10:.6}                # calibrated: isotropic, warp and fill together\n"
+    ))
+}
+
+/// `[[x, y], …]` in other units, with the digits that a test has.
+fn rows_of(rows: &[[f64; 2]], factors: [f64; 2]) -> String {
+    let row = |r: &[f64; 2]| format!("[{}, {}]", digits(r[0] * factors[0]), digits(r[1] * factors[1]));
+    format!("[{}]", rows.iter().map(row).collect::<Vec<_>>().join(", "))
+}
+
+/// Seven digits, so that rows that rise still rise.
+fn digits(x: f64) -> String {
+    if x == 0.0 { "0".into() } else { format!("{}", format!("{x:.6e}").parse::<f64>().unwrap_or(x)) }
+}
+
+/// Table of a mean curve along a yarn: strain in per cent, stress and its scatter in MPa.
+pub fn yarn_table(rows: &[[f64; 2]], sd_pa: &[Option<f64>]) -> Table {
+    let column = |values: Vec<f64>| Column::F64(values);
+    Table {
+        columns: vec![
+            ("strain_pct".into(), column(rows.iter().map(|r| 100.0 * r[0]).collect())),
+            ("stress_mpa".into(), column(rows.iter().map(|r| 1e-6 * r[1]).collect())),
+            (
+                "sd_between_specimens_mpa".into(),
+                column(sd_pa.iter().map(|s| s.map_or(f64::NAN, |s| 1e-6 * s)).collect()),
+            ),
+        ],
+    }
+}
+
+/// Table of the shear curve: angle, force per length and its scatter, moment per volume, whether within the limit.
+pub fn shear_table(shear: &ShearCurve, thickness_m: Option<f64>) -> Table {
+    let moment = |row: &[f64; 2]| thickness_m.map_or(f64::NAN, |t| 1e-6 * row[1] * row[0].cos() / t);
+    let within = |row: &[f64; 2]| if row[0] <= PAPER_LIMIT_RAD { "yes" } else { "no" }.to_string();
+    let rows = &shear.rows;
+    Table {
+        columns: vec![
+            ("shear_angle_deg".into(), Column::F64(rows.iter().map(|r| r[0].to_degrees()).collect())),
+            ("shear_force_n_per_m".into(), Column::F64(rows.iter().map(|r| r[1]).collect())),
+            (
+                "sd_between_specimens_n_per_m".into(),
+                Column::F64(shear.sd_n_per_m.iter().map(|s| s.unwrap_or(f64::NAN)).collect()),
+            ),
+            ("moment_per_volume_mpa".into(), Column::F64(rows.iter().map(moment).collect())),
+            ("within_validity_limit".into(), Column::Str(rows.iter().map(within).collect())),
+        ],
+    }
+}
