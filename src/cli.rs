@@ -35,6 +35,8 @@ pub enum Command {
     Diagnose(Diagnose),
     /// Run a finite element case through time: ParaView frames, energy balance, checkpoints
     Simulate(Simulate),
+    /// From tensile tests of a fabric to its moduli, C10, curves along warp and fill, shear curve, and a table for cases
+    Characterize(Characterize),
     /// Look at, list or make marker data
     #[command(subcommand)]
     Data(DataCommand),
@@ -206,6 +208,44 @@ pub struct Simulate {
     /// Write no ParaView frames
     #[arg(long)]
     pub no_frames: bool,
+}
+
+/// `ibr characterize`
+#[derive(Debug, Args)]
+pub struct Characterize {
+    /// CSV files of tensile tests: strain_pct,stress_mpa or displacement_mm,force_n, several specimens each
+    #[arg(required_unless_present = "example")]
+    pub files: Vec<String>,
+    /// Direction of the pull in degrees to the warp where a file does not say: 0, 45 or 90
+    #[arg(long, allow_hyphen_values = true)]
+    pub direction: Option<f64>,
+    /// Width of the specimens where a file does not say, for example 20mm
+    #[arg(long, allow_hyphen_values = true)]
+    pub width: Option<String>,
+    /// Free length between the grips where a file does not say, for example 250mm
+    #[arg(long, allow_hyphen_values = true)]
+    pub length: Option<String>,
+    /// Thickness where a file does not say, for example 0.05mm
+    #[arg(long, allow_hyphen_values = true)]
+    pub thickness: Option<String>,
+    /// Names of the columns in place of those in the files, for example displacement_mm,force_n
+    #[arg(long, value_delimiter = ',')]
+    pub columns: Vec<String>,
+    /// Strain up to which a modulus is taken along yarns, in per cent; twice that at 45 degrees
+    #[arg(long, default_value_t = 1.0, allow_negative_numbers = true, value_name = "PERCENT")]
+    pub modulus_to: f64,
+    /// Accept moduli that no coated fabric has
+    #[arg(long)]
+    pub any_modulus: bool,
+    /// Name of the fabric in fabric.toml
+    #[arg(long, default_value = "fabric")]
+    pub name: String,
+    /// Folder for plots, tables and fabric.toml
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+    /// Instead, write made-up tests of a fabric with known truth into this folder
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["files", "out"])]
+    pub example: Option<PathBuf>,
 }
 
 /// `ibr data`

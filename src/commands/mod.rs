@@ -2,6 +2,7 @@
 
 mod bench;
 mod bench_fem;
+mod characterize;
 mod compare;
 mod data;
 mod demo;
@@ -89,6 +90,7 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
         Command::Compare(args) => compare::run(args, context),
         Command::Diagnose(args) => diagnose::run(args, context),
         Command::Simulate(args) => simulate::run(args, context),
+        Command::Characterize(args) => characterize::run(args, context),
         Command::Data(args) => data::run(args, context),
         Command::List { what } => list::run(what.as_deref()),
         Command::New { kind } => list::new(kind),

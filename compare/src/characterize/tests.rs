@@ -1,1 +1,242 @@
-//! Tests.
+//! Tests of the characterisation: known truth comes back, published numbers too, and bad specimens are named.
+
+use super::example::{FILL, SHEAR, STRIP, THICKNESS_M, WARP, example};
+use super::write::fabric_toml;
+use super::*;
+use crate::CompareError;
+use data::{Coupon, CouponDefaults, Direction, parse_coupons};
+use models::exact::coupon;
+use models::fabrics::{BiasExtension, Curve};
+
+fn read(text: &str, defaults: &CouponDefaults) -> Vec<Coupon> {
+    parse_coupons("a.csv", &mut text.as_bytes(), 0, defaults, &mut |_, _| ()).unwrap()
+}
+
+fn made(seed: u64) -> Characterized {
+    let coupons: Vec<Coupon> = example(seed).iter().flat_map(|(_, t)| read(t, &CouponDefaults::default())).collect();
+    characterize(&coupons, &Settings::default()).unwrap()
+}
+
+/// Specimens of a straight law in MPa over strain, one per factor.
+fn straight(direction: u32, moduli_mpa: &[f64]) -> String {
+    let mut text = format!("# direction_deg: {direction}\n# thickness_mm: 0.05\nspecimen,strain_pct,stress_mpa\n");
+    for (k, e) in moduli_mpa.iter().enumerate() {
+        (0..=40).for_each(|i| {
+            text.push_str(&format!("S{},{},{}\n", k + 1, 0.25 * f64::from(i), 0.0025 * f64::from(i) * e))
+        });
+    }
+    text
+}
+
+fn refused(text: &str, defaults: &CouponDefaults, words: &[&str]) {
+    let error = characterize(&read(text, defaults), &Settings::default()).unwrap_err();
+    let CompareError::Data(error) = error else { panic!("{error}") };
+    let said = format!("{error} | {}", error.help());
+    assert!(words.iter().all(|word| said.contains(word)), "{said}");
+}
+
+fn warned(text: &str, words: &[&str]) {
+    let found = characterize(&read(text, &CouponDefaults::default()), &Settings::default()).unwrap();
+    let said = found.warnings.join(" | ");
+    assert!(words.iter().all(|word| said.contains(word)), "{said}");
+}
+
+#[test]
+fn the_limit_of_the_paper_is_24_per_cent_of_its_strip() {
+    let strip = BiasExtension { length_m: 0.25, width_m: 0.02, thickness_m: 1.0 };
+    assert!((strip.angle(0.06).unwrap() - PAPER_LIMIT_RAD).abs() < 1e-6);
+    assert!((PAPER_LIMIT_RAD.to_degrees() - 36.14225).abs() < 1e-4);
+}
+
+#[test]
+fn intervals_of_made_up_specimens_hold_the_truth_as_often_as_they_say() {
+    // 95 % each; of 40 sets 34 or fewer would come up once in about two hundred times.
+    let truth = [("e0", 96.5), ("e90", 120.0), ("g12", 1.03)];
+    let mut held = [0; 3];
+    for seed in 0..40 {
+        let found = made(100 + seed);
+        for (k, (key, value)) in truth.iter().enumerate() {
+            let [low, high] = found.quantity(key).unwrap().scatter.interval().unwrap();
+            held[k] += usize::from((low..high).contains(&value));
+        }
+    }
+    assert!(held.iter().all(|n| *n >= 34), "{held:?}");
+}
+
+#[test]
+fn the_curves_of_a_made_up_fabric_come_back_within_its_scatter() {
+    let found = made(1);
+    for (direction, truth) in [(Direction::Warp, WARP), (Direction::Fill, FILL)] {
+        let (yarn, truth) =
+            (found.yarns.iter().find(|y| y.direction == direction).unwrap(), Curve::table(&truth).unwrap());
+        // 4 % between specimens, five of them: three standard errors, and half a per cent for corners between rows.
+        let worst = yarn.rows[1..].iter().map(|r| (r[1] / truth.value(r[0]) - 1.0).abs()).fold(0.0, f64::max);
+        assert!(worst < 3.0 * 0.04 / 5.0_f64.sqrt() + 0.005, "{worst}");
+    }
+    let moment = found.shear.as_ref().unwrap().moment_pa.as_ref().unwrap();
+    let truth = Curve::table(&SHEAR).unwrap();
+    let worst = moment[2..].iter().map(|r| (r[1] / truth.value(r[0]) - 1.0).abs()).fold(0.0, f64::max);
+    assert!(worst < 0.08, "{worst}");
+    let locking = found.quantity("locking").unwrap().scatter.mean;
+    assert!((locking - 45.0).abs() < 4.0, "{locking}");
+    assert_eq!(found.warnings, Vec::<String>::new());
+}
+
+#[test]
+fn without_noise_the_shear_curve_and_its_force_come_back() {
+    let truth = Curve::table(&SHEAR).unwrap();
+    let law = |angle: f64| truth.value(angle) * THICKNESS_M / angle.cos();
+    let mut text =
+        "# direction_deg: 45\n# width_mm: 20\n# length_mm: 250\n# thickness_mm: 0.05\ndisplacement_mm,force_n\n"
+            .to_string();
+    for i in 0..=180 {
+        let angle = 0.005 * f64::from(i);
+        let d = 1e3 * coupon::lengthening_m(&STRIP, angle);
+        text.push_str(&format!("{d:.9},{:.9}\n", coupon::bias_force_n(&STRIP, angle, law)));
+    }
+    let found = characterize(&read(&text, &CouponDefaults::default()), &Settings::default()).unwrap();
+    let moment = found.shear.unwrap().moment_pa.unwrap();
+    for row in &moment[1..] {
+        assert!((row[1] / truth.value(row[0]) - 1.0).abs() < 5e-3, "{row:?} {}", truth.value(row[0]));
+    }
+}
+
+#[test]
+fn published_moduli_give_the_published_shear_modulus() {
+    let text = [straight(0, &[96.5]), straight(45, &[4.05]), straight(90, &[120.0])];
+    let coupons: Vec<Coupon> = text.iter().flat_map(|t| read(t, &CouponDefaults::default())).collect();
+    let found = characterize(&coupons, &Settings::default()).unwrap();
+    let value = |key: &str| found.quantity(key).unwrap().scatter.mean;
+    assert!((value("e0") - 96.5).abs() < 1e-9 && (value("e45") - 4.05).abs() < 1e-9);
+    assert!((value("g12_link") - 1.032).abs() < 5e-4, "{}", value("g12_link"));
+    let fragment = fabric_toml(&found, &Settings::default(), "ibr").unwrap();
+    assert!(fragment.contains("e45_MPa = 4.05") && fragment.contains("[fabric.fabric-film]"), "{fragment}");
+}
+
+/// The digitised curves of Cao et al. 2008 may not be passed on with this program; where a copy lies in a folder
+/// `shared/data` above the sources, its published reduction must come out.
+#[test]
+fn digitised_glass_gives_the_known_numbers_where_it_is_present() {
+    let known: [(&str, [f64; 2], &[[f64; 3]]); 2] = [
+        (
+            "glass_plain_150_450.csv",
+            [0.15, 0.45],
+            &[
+                [9.8437, 3.82452994, 3.22152],
+                [34.4126, 14.0385939, 5.67847],
+                [73.7241, 33.4964798, 17.31315],
+                [105.5746, 55.8606665, 66.44535],
+            ],
+        ),
+        ("glass_plain_115_230.csv", [0.115, 0.23], &[[24.1332, 27.6290942, 12.33578], [36.1998, 46.7731624, 23.83435]]),
+    ];
+    let above = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
+    let Some(folder) = above.map(|a| a.join("shared/data")).find(|folder| folder.is_dir()) else { return };
+    for (name, [width_m, length_m], rows) in known {
+        let text = std::fs::read_to_string(folder.join(name)).unwrap();
+        let columns = vec!["displacement_mm".into(), "force_n".into()];
+        let defaults = CouponDefaults {
+            direction_deg: Some(45.0),
+            width_m: Some(width_m),
+            length_m: Some(length_m),
+            columns,
+            ..CouponDefaults::default()
+        };
+        let found = characterize(&read(&text, &defaults), &Settings::default()).unwrap();
+        let strip = found.specimens[0].strip.as_ref().unwrap();
+        for [d_mm, degrees, n_per_m] in rows {
+            let row = strip.pulled.iter().position(|row| (1e3 * row[0] - d_mm).abs() < 1e-3).unwrap();
+            let [angle, force] = strip.shear[row];
+            assert!((angle.to_degrees() - degrees).abs() < 1e-3, "{name}: {}", angle.to_degrees());
+            assert!((force / n_per_m - 1.0).abs() < 1e-4, "{name} {degrees}: {force}");
+        }
+        let locking = found.quantity("locking").map(|q| q.scatter.mean);
+        println!("{name}: locking {locking:?}, {:?}", found.warnings);
+        assert!(locking.is_some_and(|angle| (35.0..55.0).contains(&angle)), "{name}: {locking:?}");
+    }
+}
+
+#[test]
+fn stresses_in_another_unit_are_refused_with_the_name_to_type() {
+    let none = CouponDefaults::default();
+    let good = straight(0, &[96.5]);
+    refused(
+        &good.replace("stress_mpa", "stress_kpa"),
+        &none,
+        &["S1", "0.0965 MPa", "name it stress_mpa (modulus 96.5 MPa)"],
+    );
+    let pascals = straight(0, &[96.5e6]);
+    refused(&pascals, &none, &["if stress_mpa holds Pa, name it stress_pa (modulus 96.5 MPa)", "--any-modulus"]);
+    refused(&straight(0, &[96.5e3]), &none, &["if stress_mpa holds kPa, name it stress_kpa"]);
+    refused(&straight(45, &[4.05e3]), &none, &["(45°)", "4050 MPa", "stress_kpa"]);
+    let anyway = Settings { any_modulus: true, ..Settings::default() };
+    assert!(characterize(&read(&pascals, &none), &anyway).is_ok());
+}
+
+#[test]
+fn a_bias_strip_shorter_than_twice_its_width_is_refused_with_both_numbers() {
+    let rows: String = (0..10).map(|i| format!("{i},{i}\n")).collect();
+    let text = format!("# direction_deg: 45\n# width_mm: 60\n# length_mm: 100\ndisplacement_mm,force_n\n{rows}");
+    refused(&text, &CouponDefaults::default(), &["H = 100.000 mm", "W = 60.000 mm", "120 mm"]);
+}
+
+#[test]
+fn what_is_missing_for_a_stress_is_named() {
+    let rows: String = (0..10).map(|i| format!("{i},{i}\n")).collect();
+    let text = |notes: &str| format!("# direction_deg: 0\n{notes}displacement_mm,force_n\n{rows}");
+    let none = CouponDefaults::default();
+    refused(
+        &text("# width_mm: 20\n# length_mm: 250\n"),
+        &none,
+        &["the thickness, which is missing", "# thickness_mm: 0.05", "--thickness"],
+    );
+    refused(&text("# width_mm: 20\n# thickness_mm: 0.05\n"), &none, &["free, between the grips", "--length 250mm"]);
+    let far = text("# width_mm: 20\n# thickness_mm: 0.05\n# length_mm: 0.25\n");
+    refused(&far, &none, &["free length of 0.250 mm"]);
+    let twice = straight(0, &[96.5]).replace("S1,10,", "S1,10.0,");
+    let both = [read(&twice, &none), read(&twice, &none)].concat();
+    assert!(characterize(&both, &Settings::default()).unwrap_err().to_string().contains("there twice"));
+}
+
+#[test]
+fn a_slipping_specimen_is_named_with_its_strain() {
+    let dropped = |i: i32| if i < 20 { f64::from(i) } else { f64::from(i) - 4.0 };
+    let halted = |i: i32| f64::from(i.min(20)) + f64::from((i - 26).max(0));
+    for (law, words) in [
+        (&dropped as &dyn Fn(i32) -> f64, ["specimen G2 (0°)", "drops by 16 % from 4.75 % strain"]),
+        (&halted, ["specimen G2 (0°)", "stands still from 5.00 % strain"]),
+    ] {
+        let mut text = "# direction_deg: 0\n# specimen: G2\nstrain_pct,stress_mpa\n".to_string();
+        (0..=40).for_each(|i| text.push_str(&format!("{},{}\n", 0.25 * f64::from(i), 0.25 * law(i))));
+        warned(&text, &words);
+    }
+}
+
+#[test]
+fn a_specimen_that_deviates_or_has_the_wrong_direction_is_named() {
+    warned(&straight(0, &[96.0, 97.0, 61.0, 95.0, 96.5]), &["specimen S3 (0°)", "61", "off the mean of the others"]);
+    let none = CouponDefaults::default();
+    let warp = straight(0, &[96.0, 97.0, 4.1, 95.0, 96.5]).replace("S3", "X");
+    let text = [read(&warp, &none), read(&straight(45, &[4.0, 4.1, 4.05]), &none)].concat();
+    let found = characterize(&text, &Settings { any_modulus: true, ..Settings::default() }).unwrap();
+    let said = found.warnings.join(" | ");
+    assert!(said.contains("specimen X (0°)") && said.contains("like those at 45°"), "{said}");
+    let soft = [
+        read(&straight(0, &[2.0e1, 2.0e1]), &none),
+        read(&straight(90, &[2.0e1]), &none),
+        read(&straight(45, &[9e1]), &none),
+    ];
+    let found = characterize(&soft.concat(), &Settings::default()).unwrap();
+    assert!(
+        found.warnings.iter().any(|w| w.contains("E45 = 90") && w.contains("directions right")),
+        "{:?}",
+        found.warnings
+    );
+}
+
+#[test]
+fn the_same_tests_give_the_same_bytes() {
+    let both = [made(1), made(1)].map(|found| fabric_toml(&found, &Settings::default(), "ibr").unwrap());
+    assert_eq!(both[0], both[1]);
+    assert!(pictures::pictures(&made(1)).unwrap().iter().map(|p| p.0).eq(["tension", "bias", "shear"]));
+}

@@ -36,12 +36,14 @@ pub(super) const CHECK: Check = Check {
     run,
 };
 
-/// Moment per volume over shear angle \[rad, Pa\].
-const SHEAR: [[f64; 2]; 5] = [[0.0, 0.0], [0.15, 0.1e6], [0.35, 0.3e6], [0.55, 0.6e6], [0.8, 1.1e6]];
-const STRIP: coupon::Bias = coupon::Bias { length_m: 0.08, width_m: 0.04 };
+/// The curve that goes in: moment per volume over shear angle \[rad, Pa\].
+pub const SHEAR: [[f64; 2]; 5] = [[0.0, 0.0], [0.15, 0.1e6], [0.35, 0.3e6], [0.55, 0.6e6], [0.8, 1.1e6]];
+/// Size of the strip.
+pub const STRIP: coupon::Bias = coupon::Bias { length_m: 0.08, width_m: 0.04 };
 /// Modulus of the yarns \[Pa\]: a hundred thousand times the shear; errors fall with its inverse.
 const YARN_PA: f64 = 1e11;
-const THICKNESS_M: f64 = 5e-5;
+/// Thickness of the fabric \[m\].
+pub const THICKNESS_M: f64 = 5e-5;
 /// Half diagonal of an element: an eighth of the width.
 const HALF_M: f64 = 5e-3;
 const STEP_S: f64 = 8e-3;
@@ -49,16 +51,35 @@ const ROWS: usize = 14;
 /// Shear angle of the last row \[rad\].
 const LAST: f64 = 0.7;
 
-fn run() -> Result<Outcome, FemError> {
-    let table = Table::table(&SHEAR).map_err(FemError::Problem)?;
-    let mut run = start(&table)?;
-    let mut rows = vec![[0.0, 0.0]];
-    let mut seen = vec![0.0];
+/// The simulated test.
+pub struct Pulled {
+    /// Rows displacement \[m\], force \[N\] of the right clamp, the first `[0, 0]`.
+    pub rows: Vec<[f64; 2]>,
+    /// Shear angle in the middle at every row \[rad\].
+    pub seen: Vec<f64>,
+    /// Energy residual over external work at the end.
+    pub residual: f64,
+}
+
+/// Pulls the strip: some ten CPU-seconds.
+///
+/// # Errors
+/// A run that stops, which none does.
+pub fn pull() -> Result<Pulled, FemError> {
+    let mut run = start(&Table::table(&SHEAR).map_err(FemError::Problem)?)?;
+    let mut pulled = Pulled { rows: vec![[0.0, 0.0]], seen: vec![0.0], residual: 0.0 };
     for row in 1..=ROWS {
         run.advance_until(1.25 * STEP_S * row as f64, &mut |_| true)?;
-        rows.push([displacement_m(row), run.reaction_n("right").map_or(f64::NAN, |f| f[0])]);
-        seen.push(angle_in_the_middle(&run.positions()));
+        pulled.rows.push([displacement_m(row), run.reaction_n("right").map_or(f64::NAN, |f| f[0])]);
+        pulled.seen.push(angle_in_the_middle(&run.positions()));
     }
+    pulled.residual = run.ledger().residual_share();
+    Ok(pulled)
+}
+
+fn run() -> Result<Outcome, FemError> {
+    let table = Table::table(&SHEAR).map_err(FemError::Problem)?;
+    let Pulled { rows, seen, residual } = pull()?;
     let test = BiasExtension { length_m: STRIP.length_m, width_m: STRIP.width_m, thickness_m: THICKNESS_M };
     let found = test.shear(&rows).map_err(FemError::Problem)?;
     let mut outcome = Outcome::default();
@@ -68,7 +89,7 @@ fn run() -> Result<Outcome, FemError> {
         outcome.lines.push(Line::value(&name, moment_pa * 1e-6, exact * 1e-6, 0.01));
         outcome.lines.push(Line::value("shear angle in the middle [rad]", seen[row], *angle, 0.01));
     }
-    outcome.lines.push(Line::at_most("energy residual over external work", run.ledger().residual_share(), 0.01));
+    outcome.lines.push(Line::at_most("energy residual over external work", residual, 0.01));
     let curve = |label: &str, rows: &[[f64; 2]], exact: bool| Curve {
         label: label.into(),
         points: rows.iter().map(|r| [r[0], 1e-6 * r[1]]).collect(),

@@ -5,7 +5,7 @@
 
 mod apart;
 mod balloon;
-mod bias;
+pub mod bias;
 mod bias_tube;
 mod bodies;
 mod cantilever;

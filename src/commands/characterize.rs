@@ -1,0 +1,211 @@
+//! `ibr characterize`
+
+use super::inputs::quantity;
+use super::tables::{number, table};
+use super::{Context, Outcome};
+use crate::cli::Characterize;
+use crate::failure::Failure;
+use crate::output::{Input, check_folder, program, write_files};
+use compare::characterize::write::{fabric_toml, shear_table, yarn_table};
+use compare::characterize::{Characterized, Quantity as Number, Settings, Specimen, characterize, example, pictures};
+use compare::study::pages::Files;
+use data::{Coupon, CouponDefaults, Direction, Table, parse_coupons, read_coupons};
+use models::scenario::quantity::Quantity;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Seed of the example: the documents show its numbers.
+const EXAMPLE_SEED: u64 = 1;
+
+pub fn run(args: &Characterize, context: &mut Context) -> Result<Outcome, Failure> {
+    if let Some(folder) = &args.example {
+        return make_example(folder, context);
+    }
+    args.out.as_deref().map_or(Ok(()), check_folder)?;
+    let settings = settings(args)?;
+    let (coupons, inputs) = read(args, context)?;
+    (context.progress)("reducing", None);
+    let found = characterize(&coupons, &settings)?;
+    let fabric = fabric_toml(&found, &settings, &program());
+    let mut text = text(&found);
+    if fabric.is_none() {
+        text.push_str(&format!("No fabric.toml: {}\n", missing(&found)));
+    }
+    if let Some(folder) = &args.out {
+        let files = files(&found, fabric.as_deref())?;
+        write_files(folder, &files, &inputs, context)?;
+        text.push_str(&format!(
+            "Plots, tables{} in {}\n",
+            fabric.as_ref().map_or("", |_| ", fabric.toml"),
+            folder.display()
+        ));
+    }
+    Ok(Outcome::new(text, as_json(&found, fabric.as_deref())))
+}
+
+fn settings(args: &Characterize) -> Result<Settings, Failure> {
+    if !(args.modulus_to > 0.0 && args.modulus_to <= 50.0) {
+        let message = format!("--modulus-to is {} per cent strain", args.modulus_to);
+        return Err(Failure::usage(message, "write a number above 0 and up to 50, for example 1"));
+    }
+    if args.name.trim().is_empty() {
+        return Err(Failure::usage("--name is empty", "write a name for the fabric, for example silicone-nylon-mine"));
+    }
+    let (name, modulus_strain) = (args.name.trim().to_string(), 0.01 * args.modulus_to);
+    Ok(Settings { name, modulus_strain, any_modulus: args.any_modulus })
+}
+
+fn read(args: &Characterize, context: &mut Context) -> Result<(Vec<Coupon>, Vec<Input>), Failure> {
+    let length = |option: &str, text: &Option<String>| {
+        text.as_ref().map(|text| quantity(option, text, Quantity::Length)).transpose()
+    };
+    let defaults = CouponDefaults {
+        direction_deg: args.direction,
+        width_m: length("--width", &args.width)?,
+        length_m: length("--length", &args.length)?,
+        thickness_m: length("--thickness", &args.thickness)?,
+        columns: args.columns.iter().map(|name| name.trim().to_string()).collect(),
+    };
+    let (mut coupons, mut inputs) = (Vec::new(), Vec::new());
+    for file in &args.files {
+        (context.progress)(&format!("reading {file}"), None);
+        // The bytes are hashed for the manifest; a file that cannot be read is refused by the reader.
+        coupons.extend(match std::fs::read(file) {
+            Ok(bytes) => {
+                inputs.push(Input::of(file, &bytes));
+                parse_coupons(file, &mut bytes.as_slice(), bytes.len() as u64, &defaults, &mut |_, _| ())?
+            }
+            Err(_) => read_coupons(Path::new(file), &defaults, &mut |_, _| ())?,
+        });
+    }
+    Ok((coupons, inputs))
+}
+
+fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
+    check_folder(folder)?;
+    let made = example::example(EXAMPLE_SEED);
+    if let Some((name, _)) = made.iter().find(|(name, _)| folder.join(name).exists()) {
+        let message = format!("{} exists", folder.join(name).display());
+        return Err(Failure::usage(message, "give another folder to --example"));
+    }
+    let names: Vec<String> = made.iter().map(|(name, _)| folder.join(name).display().to_string()).collect();
+    let files = made.into_iter().map(|(name, text)| (name, text.into_bytes())).collect();
+    write_files(folder, &Files { files, ..Files::default() }, &[], context)?;
+    let text = format!(
+        "Made-up tests of a fabric with E0 = 96.5, E90 = 120, G12 = 1.03 MPa and locking at 45°\nibr characterize {}\n",
+        names.join(" ")
+    );
+    Ok(Outcome::new(text, json!({"schema": "ibr.characterize.example", "version": 1, "files": names})))
+}
+
+/// What would have to be there for a fabric table.
+fn missing(found: &Characterized) -> &'static str {
+    if found.thickness_m.is_none() {
+        "the thickness is missing; add --thickness 0.05mm or # thickness_mm: 0.05 in the files"
+    } else {
+        "a law needs specimens pulled along warp or fill; woven and orthotropic need 0°, 45° and 90°"
+    }
+}
+
+fn text(found: &Characterized) -> String {
+    let count = |d: Direction| format!("{} along {}", found.of(d).count(), d.word());
+    let directions = [Direction::Warp, Direction::Bias, Direction::Fill].map(count).join(", ");
+    let mut text = format!("{} specimens: {directions} ({})\n", found.specimens.len(), found.provenance.word());
+    let row = |q: &Number| {
+        let interval =
+            q.scatter.interval().map_or("–".into(), |[low, high]| format!("{} – {}", digits(low), digits(high)));
+        let sd = q.scatter.sd.map_or("–".into(), digits);
+        vec![
+            q.name.clone(),
+            q.known.clone(),
+            digits(q.scatter.mean),
+            q.unit.into(),
+            interval,
+            sd,
+            q.scatter.n.to_string(),
+        ]
+    };
+    let head = ["quantity", "how known", "mean", "unit", "95 % interval of the mean", "sd", "n"];
+    text.push_str(&table(&head, 2, found.quantities.iter().map(row).collect()));
+    text.push_str(&table(
+        &["specimen", "direction", "modulus [MPa]", "C10 [MPa]", "largest strain [%]", "locking [°]"],
+        1,
+        found.specimens.iter().map(specimen_row).collect(),
+    ));
+    found.warnings.iter().for_each(|w| text.push_str(&format!("look at: {w}\n")));
+    found.notes.iter().for_each(|n| text.push_str(&format!("note: {n}\n")));
+    text
+}
+
+fn specimen_row(s: &Specimen) -> Vec<String> {
+    let locking = s.strip.as_ref().and_then(|strip| strip.locking).map(|l| l.angle.to_degrees());
+    vec![
+        s.name.clone(),
+        format!("{}°", s.direction.degrees()),
+        s.modulus_pa.map_or("–".into(), |e| digits(1e-6 * e)),
+        s.c10_pa.map_or("–".into(), |c| digits(1e-6 * c[0])),
+        number(s.stress.last().map(|row| 100.0 * row[0]), 1),
+        number(locking, 1),
+    ]
+}
+
+/// Four digits.
+fn digits(x: f64) -> String {
+    let decimals = (3 - x.abs().max(1e-3).log10().floor() as i32).clamp(0, 6) as usize;
+    format!("{x:.decimals$}")
+}
+
+fn files(found: &Characterized, fabric: Option<&str>) -> Result<Files, Failure> {
+    let mut files = Files::default();
+    for (name, drawn) in pictures::pictures(found)? {
+        files.files.push((format!("{name}.svg"), drawn.svg.into_bytes()));
+        files.files.push((format!("{name}.png"), drawn.png));
+    }
+    let yarns = found.yarns.iter().map(|y| (y.direction.word(), yarn_table(&y.rows, &y.sd_pa)));
+    let shear = found.shear.iter().map(|s| ("shear", shear_table(s, found.thickness_m)));
+    for (name, rows) in yarns.chain(shear) {
+        files.files.push((format!("{name}.csv"), csv(&rows)?));
+    }
+    files.files.extend(fabric.map(|text| ("fabric.toml".to_string(), text.as_bytes().to_vec())));
+    Ok(files)
+}
+
+fn csv(rows: &Table) -> Result<Vec<u8>, Failure> {
+    let mut bytes = Vec::new();
+    rows.to_csv(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn as_json(found: &Characterized, fabric: Option<&str>) -> Value {
+    let quantity = |q: &Number| {
+        json!({
+            "key": q.key, "name": q.name, "unit": q.unit, "mean": q.scatter.mean, "sd": q.scatter.sd,
+            "interval": q.scatter.interval(), "specimens": q.scatter.n, "how_known": q.known,
+        })
+    };
+    let specimen = |s: &Specimen| {
+        let strip = s.strip.as_ref();
+        json!({
+            "specimen": s.name, "file": s.file, "direction_deg": s.direction.degrees(), "modulus_pa": s.modulus_pa,
+            "modulus_to_strain": s.modulus_strain, "c10_pa": s.c10_pa.map(|c| c[0]),
+            "locking_rad": strip.and_then(|s| s.locking).map(|l| l.angle),
+            "shear_rad_n_per_m": strip.map(|s| &s.shear),
+        })
+    };
+    let yarn = |direction| found.yarns.iter().find(|y| y.direction == direction).map(|y| &y.rows);
+    json!({
+        "schema": "ibr.characterize",
+        "version": 1,
+        "provenance": found.provenance.word(),
+        "quantities": found.quantities.iter().map(quantity).collect::<Vec<_>>(),
+        "specimens": found.specimens.iter().map(specimen).collect::<Vec<_>>(),
+        "warp_strain_pa": yarn(Direction::Warp),
+        "fill_strain_pa": yarn(Direction::Fill),
+        "shear_rad_n_per_m": found.shear.as_ref().map(|s| &s.rows),
+        "shear_rad_pa": found.shear.as_ref().and_then(|s| s.moment_pa.as_ref()),
+        "thickness_m": found.thickness_m,
+        "warnings": found.warnings,
+        "notes": found.notes,
+        "fabric_toml": fabric,
+    })
+}
