@@ -108,9 +108,9 @@ fn missing(found: &Characterized) -> &'static str {
 }
 
 fn text(found: &Characterized) -> String {
-    let count = |d: Direction| format!("{} along {}", found.of(d).count(), d.word());
+    let count = |d: Direction| format!("{} at {}°", found.of(d).count(), d.degrees());
     let directions = [Direction::Warp, Direction::Bias, Direction::Fill].map(count).join(", ");
-    let mut text = format!("{} specimens: {directions} ({})\n", found.specimens.len(), found.provenance.word());
+    let mut text = format!("Specimens: {directions} ({})\n", found.provenance.word());
     let row = |q: &Number| {
         let interval =
             q.scatter.interval().map_or("–".into(), |[low, high]| format!("{} – {}", digits(low), digits(high)));
@@ -138,13 +138,16 @@ fn text(found: &Characterized) -> String {
 }
 
 fn specimen_row(s: &Specimen) -> Vec<String> {
-    let locking = s.strip.as_ref().and_then(|strip| strip.locking).map(|l| l.angle.to_degrees());
+    let strip = s.strip.as_ref();
+    let locking = strip.and_then(|strip| strip.locking).map(|l| l.angle.to_degrees());
+    let stretched = strip.and_then(|strip| Some(strip.pulled.last()?[0] / strip.size.length_m));
+    let strain = s.stress.last().map(|row| row[0]).or(stretched);
     vec![
         s.name.clone(),
         format!("{}°", s.direction.degrees()),
         s.modulus_pa.map_or("–".into(), |e| digits(1e-6 * e)),
         s.c10_pa.map_or("–".into(), |c| digits(1e-6 * c[0])),
-        number(s.stress.last().map(|row| 100.0 * row[0]), 1),
+        number(strain.map(|e| 100.0 * e), 1),
         number(locking, 1),
     ]
 }

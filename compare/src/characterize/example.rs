@@ -23,12 +23,12 @@ pub const SHEAR: [[f64; 2]; 4] = [[0.0, 0.0], [0.4, 0.412e6], [0.785, 0.7e6], [0
 /// Share by which the stiffness of specimens scatters (standard deviation).
 const SCATTER: f64 = 0.04;
 /// Noise of the load cell over the largest force.
-const NOISE: f64 = 0.002;
-const ROWS: usize = 120;
+const NOISE: f64 = 0.001;
+const ROWS: usize = 250;
 
 /// File names and contents: one file per direction.
 ///
-/// Synthetic: curves of the tables above, stiffness of each specimen scattered by 4 %, load noise of 0.2 %.
+/// Synthetic: curves of the tables above, stiffness of each specimen scattered by 4 %, load noise of 0.1 %.
 pub fn example(seed: u64) -> Vec<(String, String)> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     [Direction::Warp, Direction::Bias, Direction::Fill].map(|d| file(d, &mut random)).to_vec()

@@ -33,7 +33,7 @@ fn tension(found: &Characterized) -> Option<Lines> {
         let all = found.of(yarn.direction).map(|s| scaled(&s.stress, [100.0, 1e-6]));
         series.push(specimens(&format!("{word}, {}", count(found.of(yarn.direction).count())), all, 2 * k));
         series.push(LineSeries {
-            name: format!("{word}, mean ± sd"),
+            name: format!("{word}, mean{}", if found.of(yarn.direction).count() > 1 { " ± sd" } else { "" }),
             points: scaled(&yarn.rows, [100.0, 1e-6]),
             half_width: yarn.sd_pa.iter().map(|s| s.map_or(0.0, |s| 1e-6 * s)).collect(),
             style: LineStyle::Points,
@@ -95,11 +95,11 @@ fn shear(found: &Characterized) -> Option<Lines> {
     let all = found.strips().map(|(_, s)| scaled(&s.shear, [degrees, 1.0]));
     let mut series = vec![specimens(&count(found.strips().count()), all, 0)];
     series.push(LineSeries {
-        name: "mean ± sd".into(),
+        name: if found.strips().count() > 1 { "mean ± sd" } else { "rows of the table" }.into(),
         points: scaled(&shear.rows, [degrees, 1.0]),
         half_width: shear.sd_n_per_m.iter().map(|s| s.unwrap_or(0.0)).collect(),
         style: LineStyle::Points,
-        colour: Some(0),
+        colour: Some(1),
     });
     let top = highest(&series);
     let last = shear.rows.last().map_or(0.0, |row| row[0]);

@@ -240,8 +240,10 @@ fn shear(found: &mut Characterized) {
     found.add("locking", "locking angle", "°", Scatter::of(&locked), known);
     let limits: Vec<f64> =
         strips.iter().map(|s| 100.0 * s.size.displacement_m(PAPER_LIMIT_RAD) / s.size.length_m).collect();
-    let known = format!("predicted: strain at {:.1}°", PAPER_LIMIT_RAD.to_degrees());
-    found.add("limit_strain", "validity limit of the reduction", "%", Scatter::of(&limits), known);
+    let known = format!("published: its strain at {:.1}°, in a strip of this size", PAPER_LIMIT_RAD.to_degrees());
+    // A number of the strip's size, not of its fabric: it has no interval.
+    let limit = Scatter::of(&limits).map(|s| Scatter { sd: None, half: None, ..s });
+    found.add("limit_strain", "validity limit of the reduction", "%", limit, known);
     for strip in strips.iter().take(1) {
         let factor = fit::bias_grip_factor(&strip.size);
         found.notes.push(format!(

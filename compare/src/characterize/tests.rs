@@ -114,7 +114,7 @@ fn published_moduli_give_the_published_shear_modulus() {
 }
 
 /// The digitised curves of Cao et al. 2008 may not be passed on with this program; where a copy lies in a folder
-/// `shared/data` above the sources, its published reduction must come out.
+/// `shared/data` above the sources, the fixed point of eq. 18 on its rows must come out, iterated apart from this program.
 #[test]
 fn digitised_glass_gives_the_known_numbers_where_it_is_present() {
     let known: [(&str, [f64; 2], &[[f64; 3]]); 2] = [
@@ -122,13 +122,13 @@ fn digitised_glass_gives_the_known_numbers_where_it_is_present() {
             "glass_plain_150_450.csv",
             [0.15, 0.45],
             &[
-                [9.8437, 3.82452994, 3.22152],
-                [34.4126, 14.0385939, 5.67847],
-                [73.7241, 33.4964798, 17.31315],
-                [105.5746, 55.8606665, 66.44535],
+                [9.8437, 3.82452994, 3.23386],
+                [34.4126, 14.0385939, 5.68045],
+                [73.7241, 33.4964798, 17.3129],
+                [105.5746, 55.8606665, 66.44574],
             ],
         ),
-        ("glass_plain_115_230.csv", [0.115, 0.23], &[[24.1332, 27.6290942, 12.33578], [36.1998, 46.7731624, 23.83435]]),
+        ("glass_plain_115_230.csv", [0.115, 0.23], &[[24.1332, 27.6290942, 12.19498], [36.1998, 46.7731624, 24.54503]]),
     ];
     let above = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
     let Some(folder) = above.map(|a| a.join("shared/data")).find(|folder| folder.is_dir()) else { return };
@@ -148,7 +148,7 @@ fn digitised_glass_gives_the_known_numbers_where_it_is_present() {
             let row = strip.pulled.iter().position(|row| (1e3 * row[0] - d_mm).abs() < 1e-3).unwrap();
             let [angle, force] = strip.shear[row];
             assert!((angle.to_degrees() - degrees).abs() < 1e-3, "{name}: {}", angle.to_degrees());
-            assert!((force / n_per_m - 1.0).abs() < 1e-4, "{name} {degrees}: {force}");
+            assert!((force / n_per_m - 1.0).abs() < 2e-6, "{name} {degrees}: {force}");
         }
         let locking = found.quantity("locking").map(|q| q.scatter.mean);
         println!("{name}: locking {locking:?}, {:?}", found.warnings);
@@ -191,8 +191,9 @@ fn what_is_missing_for_a_stress_is_named() {
         &["the thickness, which is missing", "# thickness_mm: 0.05", "--thickness"],
     );
     refused(&text("# width_mm: 20\n# thickness_mm: 0.05\n"), &none, &["free, between the grips", "--length 250mm"]);
-    let far = text("# width_mm: 20\n# thickness_mm: 0.05\n# length_mm: 0.25\n");
-    refused(&far, &none, &["free length of 0.250 mm"]);
+    let far = text("# width_mm: 20\n# thickness_mm: 0.05\n");
+    let short = CouponDefaults { length_m: Some(0.25e-3), ..CouponDefaults::default() };
+    refused(&far, &short, &["displacement of 9.000 mm on a free length of 0.250 mm"]);
     let twice = straight(0, &[96.5]).replace("S1,10,", "S1,10.0,");
     let both = [read(&twice, &none), read(&twice, &none)].concat();
     assert!(characterize(&both, &Settings::default()).unwrap_err().to_string().contains("there twice"));

@@ -141,7 +141,11 @@ impl<'a> Specimens<'a> {
         let strain = range / if x == STRAIN { 1.0 } else { self.notes.numbers[LENGTH].unwrap_or(f64::INFINITY) };
         if strain > LARGEST_STRAIN {
             let message = format!("specimen {specimen}: {column} reaches a strain of {:.4} %", 100.0 * strain);
-            let help = if x == STRAIN { "name the column strain_pct if it is in per cent" } else { "check its unit" };
+            let help = if x == STRAIN {
+                "name the column strain_pct if it is in per cent"
+            } else {
+                "check the units of displacement and length"
+            };
             return Err(self.fault(raw, message, help));
         }
         let mut rows = vec![[0.0, 0.0]];
