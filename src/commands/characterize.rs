@@ -33,6 +33,7 @@ pub fn run(args: &Characterize, context: &mut Context) -> Result<Outcome, Failur
     }
     if let Some(folder) = &args.out {
         let files = files(&found, fabric.as_deref())?;
+        spares_inputs(folder, &files, &args.files)?;
         write_files(folder, &files, &inputs, context)?;
         text.push_str(&format!(
             "Plots, tables{} in {}\n",
@@ -167,10 +168,23 @@ fn files(found: &Characterized, fabric: Option<&str>) -> Result<Files, Failure> 
     let yarns = found.yarns.iter().map(|y| (y.direction.word(), yarn_table(&y.rows, &y.sd_pa)));
     let shear = found.shear.iter().map(|s| ("shear", shear_table(s, found.thickness_m)));
     for (name, rows) in yarns.chain(shear) {
-        files.files.push((format!("{name}.csv"), csv(&rows)?));
+        files.files.push((format!("mean_{name}.csv"), csv(&rows)?));
     }
     files.files.extend(fabric.map(|text| ("fabric.toml".to_string(), text.as_bytes().to_vec())));
     Ok(files)
+}
+
+/// Refuses to write over a file that was read.
+fn spares_inputs(folder: &Path, files: &Files, inputs: &[String]) -> Result<(), Failure> {
+    let read: Vec<_> = inputs.iter().filter_map(|file| std::fs::canonicalize(file).ok()).collect();
+    let same = |name: &&String| std::fs::canonicalize(folder.join(name)).is_ok_and(|path| read.contains(&path));
+    match files.files.iter().map(|(name, _)| name).find(same) {
+        Some(name) => {
+            let message = format!("{} was read and would be written over", folder.join(name).display());
+            Err(Failure::usage(message, "choose another folder with --out"))
+        }
+        None => Ok(()),
+    }
 }
 
 fn csv(rows: &Table) -> Result<Vec<u8>, Failure> {

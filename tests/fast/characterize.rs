@@ -17,9 +17,16 @@ fn the_fabric_that_it_writes_runs_in_a_case() {
     let ran = folder.run(&[&FILES[..], &["--name", "film", "--out", "out"]].concat());
     assert_eq!(ran.code, 0, "{}", ran.stderr);
     let names = assert_hashes(&folder.path("out"));
-    for name in
-        ["fabric.toml", "tension.png", "tension.svg", "bias.png", "shear.png", "warp.csv", "fill.csv", "shear.csv"]
-    {
+    for name in [
+        "fabric.toml",
+        "tension.png",
+        "tension.svg",
+        "bias.png",
+        "shear.png",
+        "mean_warp.csv",
+        "mean_fill.csv",
+        "mean_shear.csv",
+    ] {
         assert!(names.iter().any(|n| n == name), "{name}");
     }
     let fragment = std::fs::read_to_string(folder.path("out/fabric.toml")).unwrap();
@@ -60,7 +67,7 @@ fn one_direction_or_no_thickness_still_gives_what_it_can() {
     folder.write("thin.csv", bias.replace("# thickness_mm: 0.05\n", ""));
     let ran = folder.run(&["characterize", "thin.csv", "--out", "thin"]);
     assert!(ran.code == 0 && ran.stdout.contains("No fabric.toml: the thickness is missing"), "{}", ran.stdout);
-    assert!(folder.path("thin/shear.csv").exists() && !folder.path("thin/fabric.toml").exists());
+    assert!(folder.path("thin/mean_shear.csv").exists() && !folder.path("thin/fabric.toml").exists());
 }
 
 #[test]
@@ -82,6 +89,13 @@ fn wrong_tests_are_refused_and_earlier_results_stay() {
         refuse(&folder, &["characterize", "bad.csv", "--out", "report"], 3, &[&["bad.csv"], words].concat());
     }
     refuse(&folder, &["characterize", "none.csv", "--out", "report"], 3, &["none.csv", "cannot open"]);
+    folder.write("report/mean_warp.csv", &warp);
+    refuse(
+        &folder,
+        &["characterize", "report/mean_warp.csv", "--out", "report"],
+        2,
+        &["would be written over", "--out"],
+    );
     refuse(&folder, &["characterize"], 2, &["FILES"]);
     refuse(&folder, &["characterize", "bad.csv", "--width", "20"], 2, &["--width", "unit"]);
     refuse(&folder, &["characterize", "bad.csv", "--modulus-to", "0"], 2, &["--modulus-to"]);

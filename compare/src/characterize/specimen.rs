@@ -58,6 +58,11 @@ pub(super) fn reduce(coupon: &Coupon, settings: &Settings, warnings: &mut Vec<St
     let bias = coupon.direction == Direction::Bias;
     let whole = stresses(coupon)?;
     let mut used = up_to_peak(whole.as_deref().unwrap_or(coupon.pulled.rows()));
+    if used.len() < FEWEST {
+        let message = format!("{} is largest in row {} of the specimen", coupon.columns[1], used.len());
+        let help = format!("give at least {FEWEST} rows of loading, tension as a positive {}", coupon.columns[1]);
+        return Err(fault(coupon, message, help));
+    }
     super::warn::slips(coupon, &used, warnings);
     used = fit::thinned(&used, MOST_ROWS);
     let stress = if whole.is_some() { used } else { Vec::new() };

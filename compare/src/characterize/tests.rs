@@ -194,6 +194,7 @@ fn what_is_missing_for_a_stress_is_named() {
     let far = text("# width_mm: 20\n# thickness_mm: 0.05\n");
     let short = CouponDefaults { length_m: Some(0.25e-3), ..CouponDefaults::default() };
     refused(&far, &short, &["displacement of 9.000 mm on a free length of 0.250 mm"]);
+    refused(&straight(0, &[-96.5]), &none, &["stress_mpa is largest in row 1", "tension as a positive"]);
     let twice = straight(0, &[96.5]).replace("S1,10,", "S1,10.0,");
     let both = [read(&twice, &none), read(&twice, &none)].concat();
     assert!(characterize(&both, &Settings::default()).unwrap_err().to_string().contains("there twice"));

@@ -50,7 +50,10 @@ fn woven(found: &Characterized) -> Option<String> {
                 rows_of(rows, [180.0 / std::f64::consts::PI, 1e-6])
             )
         }
-        None => format!("e45_MPa = {:.6}                # {}\n", value(found, "e45")?, found.provenance.word()),
+        None => {
+            value(found, "g12_link")?;
+            format!("e45_MPa = {:.6}                # {}\n", value(found, "e45")?, found.provenance.word())
+        }
     };
     let word = found.provenance.word();
     Some(format!(
