@@ -146,8 +146,11 @@ fn thickness(specimens: &[Specimen], warnings: &mut Vec<String>) -> Option<f64> 
     Scatter::of(&all).map(|s| s.mean)
 }
 
+/// Rows of a mean, and the standard deviation at each.
+type Mean = (Vec<[f64; 2]>, Vec<Option<f64>>);
+
 /// Means over specimens on common places up to where the shortest ends.
-fn mean(curves: &[&[[f64; 2]]]) -> Option<(Vec<[f64; 2]>, Vec<Option<f64>>)> {
+fn mean(curves: &[&[[f64; 2]]]) -> Option<Mean> {
     let end = curves.iter().filter_map(|rows| rows.last()).map(|row| row[0]).fold(f64::INFINITY, f64::min);
     if curves.is_empty() || !(end > 0.0 && end.is_finite()) {
         return None;
