@@ -69,9 +69,13 @@ fn the_curves_of_a_made_up_fabric_come_back_within_its_scatter() {
     for (direction, truth) in [(Direction::Warp, WARP), (Direction::Fill, FILL)] {
         let (yarn, truth) =
             (found.yarns.iter().find(|y| y.direction == direction).unwrap(), Curve::table(&truth).unwrap());
-        // 4 % between specimens, five of them: three standard errors, and half a per cent for corners between rows.
-        let worst = yarn.rows[1..].iter().map(|r| (r[1] / truth.value(r[0]) - 1.0).abs()).fold(0.0, f64::max);
-        assert!(worst < 3.0 * 0.04 / 5.0_f64.sqrt() + 0.005, "{worst}");
+        // Three standard errors of five specimens (stiffness 4 %, load cell 0.1 % of the largest stress), half a per cent for
+        // corners between rows.
+        for row in &yarn.rows[1..] {
+            let (wanted, noise) = (truth.value(row[0]), 1e-3 * truth.value(0.25));
+            let error = (0.04_f64.powi(2) + (noise / wanted).powi(2)).sqrt() / 5.0_f64.sqrt();
+            assert!((row[1] / wanted - 1.0).abs() < 3.0 * error + 0.005, "{direction:?} {row:?} {wanted}");
+        }
     }
     let moment = found.shear.as_ref().unwrap().moment_pa.as_ref().unwrap();
     let truth = Curve::table(&SHEAR).unwrap();
@@ -79,7 +83,8 @@ fn the_curves_of_a_made_up_fabric_come_back_within_its_scatter() {
     assert!(worst < 0.08, "{worst}");
     let locking = found.quantity("locking").unwrap().scatter.mean;
     assert!((locking - 45.0).abs() < 4.0, "{locking}");
-    assert_eq!(found.warnings, Vec::<String>::new());
+    // A specimen may deviate by chance; none slipped.
+    assert!(!found.warnings.iter().any(|w| w.contains("slipped")), "{:?}", found.warnings);
 }
 
 #[test]
