@@ -6,6 +6,8 @@
 //!        N = −η ∂U/∂a / (η ε' − κ D')                                     N D + M_load = ∂U/∂κ
 //! ```
 //!
+//! With a section that flattens, the curvature of the round body g takes the place of κ on the left and κ = g (1 + o g²).
+//!
 //! The taut generator on the far side keeps its length; κ is the heading change per length of it, D the arm from it to
 //! the actuator's line of action. One unknown, the actuator's coordinate `a`, decides everything, because every law is
 //! explicit in it; the balance is one scalar equation per place.
@@ -26,6 +28,17 @@ pub struct Linkage {
     pub arm_growth: f64,
     /// Line compliance of the actuator's fabric c/W \[1/N\], contraction lost per newton; 0 in the bare model.
     pub compliance_per_n: f64,
+    /// Flattening of the section per squared curvature o \[m²\]; 0 in the bare model.
+    pub flattening_m2: f64,
+}
+
+impl Linkage {
+    /// Curvature κ of the body where a round one would have curvature `g`, and dκ/dg.
+    #[inline]
+    pub fn bent(&self, g: f64) -> (f64, f64) {
+        let flat = self.flattening_m2 * g * g;
+        (g + flat * g, 1.0 + 3.0 * flat)
+    }
 }
 
 /// One place of the robot while a model is put together; an effect changes what it owns.
@@ -232,8 +245,10 @@ impl Site {
         let link = &self.linkage;
         let available = loads.p_act_pa * (actuator.area)(&self.shape) * link.arm_m;
         let (low, high) = TYPICAL_STROKE;
-        let moment =
-            |stroke: f64| self.body_moment(stroke * link.active_fraction / link.arm_m, loads, memory) - loads.moment;
+        let moment = |stroke: f64| {
+            let (curvature, gain) = link.bent(stroke * link.active_fraction / link.arm_m);
+            (self.body_moment(curvature, loads, memory) - loads.moment) * gain
+        };
         let at_low = moment(low);
         let rise = (moment(high) - at_low) / (high - low);
         let demand = Demand {
@@ -291,25 +306,29 @@ impl Site {
         let d_geometric = (link.active_fraction * stroke.d_contraction - geometric * d_arm) * per_arm;
         let slope = link.active_fraction * self.actuator_slope(a, &stroke, geometric, d_geometric, loads);
         let tension = line_tension(-slope, d_geometric * arm, link.compliance_per_n * d_arm * per_arm);
-        let curvature = geometric - link.compliance_per_n * tension * per_arm;
-        let imbalance = (tension * arm + loads.moment - self.body_moment(curvature, loads, memory)) * stroke.weight;
-        Balance { coordinate: a, curvature, tension, imbalance, d_curvature: d_geometric, weight: stroke.weight }
+        let (curvature, gain) = link.bent(geometric - link.compliance_per_n * tension * per_arm);
+        let lever = arm / gain;
+        let imbalance = (tension * lever + loads.moment - self.body_moment(curvature, loads, memory)) * stroke.weight;
+        let (d_curvature, weight) = (d_geometric * gain, stroke.weight);
+        Balance { coordinate: a, curvature, tension, imbalance, d_curvature, weight }
     }
 
     /// dU/da of all actuator-side terms at η = 1, by the chain rule.
     fn actuator_slope(&self, a: f64, stroke: &Stroke, geometric: f64, d_geometric: f64, loads: &SiteLoads) -> f64 {
-        let q = [a, stroke.contraction, stroke.volume, geometric];
+        let (curvature, gain) = self.linkage.bent(geometric);
+        let q = [a, stroke.contraction, stroke.volume, curvature];
         let mut force = [0.0; actuator_q::LEN];
         let pose = loads.pose(&q);
         for term in &self.actuator_terms {
             term.add(&pose, &mut force);
         }
-        -(force[0] + force[1] * stroke.d_contraction + force[2] * stroke.d_volume + force[3] * d_geometric)
+        -(force[0] + force[1] * stroke.d_contraction + force[2] * stroke.d_volume + force[3] * (d_geometric * gain))
     }
 
     /// Curvature of inextensible fabric at a stroke \[1/m\].
     pub(crate) fn geometric(&self, stroke: &Stroke) -> f64 {
-        self.linkage.active_fraction * stroke.contraction / (self.linkage.arm_m + self.linkage.arm_growth * stroke.lift)
+        let arm = self.linkage.arm_m + self.linkage.arm_growth * stroke.lift;
+        self.linkage.bent(self.linkage.active_fraction * stroke.contraction / arm).0
     }
 
     /// Further body-side terms.
@@ -365,7 +384,13 @@ mod tests {
         for actuator in ACTUATORS {
             for (stiffness, arm_growth) in [(0.0, 0.0), (0.0, 1.0), (1.35, 0.0), (1.35, 0.5), (0.3, 2.0)] {
                 let shape = ActuatorShape { length_m: 0.06, width_m: 0.07, fold_m: 0.0, volume_gain: 1.2 };
-                let linkage = Linkage { active_fraction: 0.9, arm_m: 0.08, arm_growth, compliance_per_n: 0.0 };
+                let linkage = Linkage {
+                    active_fraction: 0.9,
+                    arm_m: 0.08,
+                    arm_growth,
+                    compliance_per_n: 0.0,
+                    flattening_m2: 0.0,
+                };
                 let body = BodyPressure { radius_m: 0.04, hinge_curvature: 1e-4, share: 1.0 };
                 let site = Site::new(0.04, body, Bending { stiffness }, linkage, Some(actuator), shape, 0);
                 for p_act_pa in [5e3, 2e4, 1e5] {

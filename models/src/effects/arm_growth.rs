@@ -13,14 +13,17 @@
 //! `N = −U'/(ηε' − κD')`. Validity: β from geometry for external actuators (β = 1), unknown for embedded ones.
 //! Derived here.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "arm_growth",
+    group: Group::Actuator,
     stage: Stage::Balance,
+    history: false,
     formula: "D = D₀ + β·lift;  pouch: lift = L₀(1 − cosθ)/(2θ);  fPAM: lift = r − r₀",
     sentence: "The swelling actuator lifts its own line of action off the body, so the same stroke bends it less.",
+    differs: "The more the actuator swells, the more bend is missing: the curve over pressure flattens.",
     remedy: "Photograph the side view at full pressure and measure the distance of the pouch chord from the far wall.",
     validity: "β = 1 for actuators on the outside of the body (geometry); a free number for embedded ones",
     reference: "derived here",
@@ -33,6 +36,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.8,
         lower: 0.0,
         upper: 2.0,
+        starts: &[],
+        by_actuator: &[],
         meaning: "share of the lift that lengthens the arm",
     }],
     family: None,

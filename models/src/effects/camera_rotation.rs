@@ -10,14 +10,17 @@
 //!
 //! Validity: rotation about the base point. Geometry.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "camera_rotation",
+    group: Group::Measurement,
     stage: Stage::Camera,
+    history: false,
     formula: "x → x cosδ − y sinδ;  y → x sinδ + y cosδ",
     sentence: "The camera is rolled, so a straight robot does not look horizontal.",
+    differs: "The straight robot is not horizontal, and the same roll is in every hold.",
     remedy: "Check the markers of the straight robot against the image axis.",
     validity: "rotation about the base point, constant over the test",
     reference: "geometry",
@@ -30,6 +33,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 1.2,
         lower: -10.0,
         upper: 10.0,
+        starts: &[],
+        by_actuator: &[],
         meaning: "roll angle of the camera",
     }],
     family: None,

@@ -10,14 +10,17 @@
 //!
 //! Validity: checkerboard not in the plane of the markers, or wrong square size. Geometry.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "camera_scale",
+    group: Group::Measurement,
     stage: Stage::Camera,
+    history: false,
     formula: "(x, y) → (1 + s)(x, y)",
     sentence: "The camera's millimetre is not a millimetre: all positions are off by the same percentage.",
+    differs: "All positions are off by the same percentage, also those of the straight robot.",
     remedy: "Photograph a checkerboard in the plane of the markers.",
     validity: "no lens distortion",
     reference: "geometry",
@@ -30,6 +33,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.025,
         lower: -0.2,
         upper: 0.2,
+        starts: &[],
+        by_actuator: &[],
         meaning: "relative scale error",
     }],
     family: None,

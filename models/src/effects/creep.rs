@@ -22,15 +22,18 @@
 //! fabrics creep over several decades of time, of which a test sees the one it lasts. Reference: standard linear solid
 //! (Zener 1948); the form over a step is derived here.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Memory, Pose, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "creep",
+    group: Group::Body,
     stage: Stage::Balance,
+    history: true,
     formula: "M = −a B (κ − q), q' = (κ − q)/τ",
     sentence: "The wall gives way slowly: the robot goes on bending in a hold, and straightens slowly after it.",
+    differs: "The bend grows within every hold and goes on falling for a while after unloading.",
     remedy: "Hold one pressure for a minute and watch the tip.",
     validity: "linear, one relaxation time; needs B > 0",
     reference: "standard linear solid (Zener 1948)",
@@ -44,6 +47,8 @@ pub(super) const ENTRY: Effect = Effect {
             typical: 0.25,
             lower: 0.0,
             upper: 2.0,
+            starts: &[],
+            by_actuator: &[],
             meaning: "relaxing stiffness as a share of B",
         },
         Parameter {
@@ -55,6 +60,8 @@ pub(super) const ENTRY: Effect = Effect {
             typical: 2.0,
             lower: 0.4,
             upper: 30.0,
+            starts: &[0.7, 2.0, 6.0, 18.0],
+            by_actuator: &[],
             meaning: "relaxation time",
         },
     ],

@@ -17,16 +17,19 @@
 //! assumption of this project; a finite element run of one sealed pouch should test it.
 //! Reference: A. Robin 2004 (paper bag problem), volume formula; the end factor is derived here.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::actuators::{Actuator, ActuatorShape, Family};
 use crate::assembly::Assembly;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "end_constraint",
+    group: Group::Actuator,
     stage: Stage::Balance,
+    history: false,
     formula: "η = 1 − β e (L₀/W)(1 − 10^(−W/L₀)) on stroke and volume; fPAM: η = 1 − 4β r₀/L",
     sentence: "The sealed side edges (or tube ends) hold the actuator back, so only part of its stroke is usable.",
+    differs: "The same share of the bend is missing at every pressure and at every place.",
     remedy: "Compare two pouch widths at the same length: the loss shrinks as W/L₀ grows.",
     validity: "W ≥ L₀; η is kept above 0.05",
     reference: "Robin 2004 (paper bag volume); end factor derived here",
@@ -39,6 +42,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.446,
         lower: 0.0,
         upper: 1.0,
+        starts: &[],
+        by_actuator: &[],
         meaning: "edge-loss coefficient",
     }],
     family: None,

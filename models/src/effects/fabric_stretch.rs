@@ -13,14 +13,17 @@
 //! Validity: linear elastic, uniform over the width. Reference: the pressure correction of Niiyama et al. 2015 has the
 //! same origin; this form is derived here.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "fabric_stretch",
+    group: Group::Actuator,
     stage: Stage::Balance,
+    history: false,
     formula: "κD = ηε − c N/W",
     sentence: "The actuator's fabric stretches under its own tension, so part of the stroke is lost; more at high force.",
+    differs: "Most bend is missing where the actuator pulls hardest: it grows with both pressures.",
     remedy: "Take E t of the fabric from a tensile test along the body: c = 1/(E t).",
     validity: "linear elastic fabric; c from a tensile test is a prediction, a larger fitted c also holds seam slip",
     reference: "derived here; same origin as the correction of Niiyama et al. 2015",
@@ -33,6 +36,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 8e-5,
         lower: 0.0,
         upper: 3e-4,
+        starts: &[],
+        by_actuator: &[],
         meaning: "compliance 1/(E t) of the actuator's fabric",
     }],
     family: None,

@@ -18,15 +18,18 @@
 //! gradual onset. Reference: Coulomb's law with elastic slide (Prandtl); friction of the braid of McKibben muscles: Tondu
 //! & Lopez 2000.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Memory, Pose, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "friction",
+    group: Group::Body,
     stage: Stage::Balance,
+    history: true,
     formula: "M = ∓M_f against the change of κ, elastic within ±M_f",
     sentence: "Threads, folds and layers rub on each other, so the robot bends less going up and springs back less coming down.",
+    differs: "Less bend going up and more coming down at the same pressure; a rest after unloading that time does not remove.",
     remedy: "Repeat the test with pressures going up and down, and tap the robot in each hold: friction lets go.",
     validity: "independent of rate and of pressure; one sliding moment",
     reference: "Coulomb friction with elastic slide; Tondu & Lopez 2000 for braided muscles",
@@ -38,7 +41,9 @@ pub(super) const ENTRY: Effect = Effect {
         neutral: 0.0,
         typical: 0.5,
         lower: 0.0,
-        upper: 3.0,
+        upper: 5.0,
+        starts: &[0.05, 0.2, 0.6, 1.5],
+        by_actuator: &[("spam", 1.15), ("epam", 0.58), ("cpam", 0.52), ("fpam", 0.07)],
         meaning: "moment at which it slides",
     }],
     family: None,

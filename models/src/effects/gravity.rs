@@ -13,15 +13,18 @@
 //! Validity: needs a fine enough division (12 segments give 0.1 % of the droop of a 360 mm robot). Vanishes when the
 //! robot bends in a horizontal plane. Derived here; kept as dead load on the deformed shape.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "gravity",
+    group: Group::Load,
     stage: Stage::Balance,
+    history: false,
     formula: "E = −Σ w hᵢ ĝ·xᵢ",
     sentence: "The robot's weight bends it: most at the base, and the other way when the robot is turned over.",
+    differs: "The error is largest near the base, and changes its sign when the robot is turned over.",
     remedy: "Weigh the robot; repeat the test with the robot rolled by 180°.",
     validity: "bending plane vertical; dead load",
     reference: "statics",
@@ -34,6 +37,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 1.5,
         lower: 0.0,
         upper: 8.0,
+        starts: &[],
+        by_actuator: &[],
         meaning: "weight per length",
     }],
     family: None,

@@ -11,15 +11,18 @@
 //!
 //! Acts only where B > 0. Validity: small κ₀. Derived here.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "initial_curvature",
+    group: Group::Body,
     stage: Stage::Balance,
+    history: false,
     formula: "E = ½B(κ − κ₀)² − ½Bκ² per metre",
     sentence: "The robot is already a little bent when nothing is switched on.",
+    differs: "The robot is bent at zero pressure already, and after unloading as before.",
     remedy: "Measure the markers at zero actuator pressure.",
     validity: "small κ₀; needs B > 0",
     reference: "derived here",
@@ -32,6 +35,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.3,
         lower: -2.0,
         upper: 2.0,
+        starts: &[],
+        by_actuator: &[("spam", 0.16), ("epam", 0.36), ("cpam", 0.48), ("fpam", 0.19)],
         meaning: "curvature at rest",
     }],
     family: None,

@@ -12,14 +12,17 @@
 //! loss is steady: use `pressure_loss`. Supply stage. Reference: discharge of a volume through a laminar leak; for small
 //! r t it is 1 − r t.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "leak",
+    group: Group::Supply,
     stage: Stage::Supply,
+    history: true,
     formula: "P = P_set e^{−r t}",
     sentence: "The actuator leaks, so its pressure sinks in a hold and the robot slowly straightens.",
+    differs: "The bend falls within every hold and is whole again after the next filling.",
     remedy: "Put a gauge on the actuator, shut the valve and watch it for a minute.",
     validity: "valve shut in a hold; laminar leak",
     reference: "discharge of a volume through a laminar leak",
@@ -32,6 +35,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.02,
         lower: 0.0,
         upper: 0.5,
+        starts: &[],
+        by_actuator: &[],
         meaning: "share of the pressure lost per second",
     }],
     family: None,

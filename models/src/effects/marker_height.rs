@@ -11,14 +11,17 @@
 //!
 //! y is taken relative to the straight robot, where every marker reads 0. Validity: same e for all markers. Geometry.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "marker_height",
+    group: Group::Measurement,
     stage: Stage::Camera,
+    history: false,
     formula: "x = x_c − e sinψ;  y = y_c + e (cosψ − 1)",
     sentence: "The markers sit above or below the robot's axis, so rotation moves them along the robot.",
+    differs: "Markers move along the robot as it turns: x is off by the sine of the local angle.",
     remedy: "Measure how far the markers are from the centre line.",
     validity: "the same height for all markers",
     reference: "geometry",
@@ -31,6 +34,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 10.0,
         lower: -60.0,
         upper: 60.0,
+        starts: &[],
+        by_actuator: &[],
         meaning: "marker height above the axis",
     }],
     family: None,

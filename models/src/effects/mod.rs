@@ -4,6 +4,7 @@
 //! that adds it to a model under construction. At its neutral values it changes no bit of any prediction.
 
 mod arm_growth;
+mod base_clamp;
 mod camera_rotation;
 mod camera_scale;
 mod creep;
@@ -15,13 +16,16 @@ mod initial_curvature;
 mod leak;
 mod marker_height;
 mod mount_rotation;
+mod ovalization;
 mod plastic_set;
 mod pressure_loss;
 mod pressure_offset;
 mod seam_stiffness;
 mod self_contact;
+mod shear_lock;
 mod shear_stiffness;
 mod tail_tension;
+mod tip_clamp;
 mod tip_load;
 mod wrinkling;
 
@@ -33,11 +37,15 @@ pub const EFFECTS: &[Effect] = &[
     end_constraint::ENTRY,
     arm_growth::ENTRY,
     fabric_stretch::ENTRY,
+    ovalization::ENTRY,
     shear_stiffness::ENTRY,
+    shear_lock::ENTRY,
     seam_stiffness::ENTRY,
     self_contact::ENTRY,
     wrinkling::ENTRY,
     tail_tension::ENTRY,
+    base_clamp::ENTRY,
+    tip_clamp::ENTRY,
     initial_curvature::ENTRY,
     plastic_set::ENTRY,
     friction::ENTRY,
@@ -75,6 +83,34 @@ impl Stage {
     }
 }
 
+/// What an effect belongs to: where to look for it on the robot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Group {
+    /// The actuator and its fabric.
+    Actuator,
+    /// The body's wall.
+    Body,
+    /// What pulls on the robot from outside.
+    Load,
+    /// The air on its way to the actuator.
+    Supply,
+    /// Camera, markers and mount: to be ruled out before any physics.
+    Measurement,
+}
+
+impl Group {
+    /// Lower-case word for tables and JSON.
+    pub fn word(self) -> &'static str {
+        match self {
+            Group::Actuator => "actuator",
+            Group::Body => "body",
+            Group::Load => "load",
+            Group::Supply => "supply",
+            Group::Measurement => "measurement",
+        }
+    }
+}
+
 /// One parameter of an effect. Values are in `unit` in scenarios and tables, in SI (`value × si`) inside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameter {
@@ -94,6 +130,10 @@ pub struct Parameter {
     pub lower: f64,
     /// Physical upper bound.
     pub upper: f64,
+    /// Where a fit starts if one start is not enough: thresholds and time scales; empty: at the typical size.
+    pub starts: &'static [f64],
+    /// Typical size for single actuators, where it depends on their curvature and stiffness.
+    pub by_actuator: &'static [(&'static str, f64)],
     /// What it is.
     pub meaning: &'static str,
 }
@@ -103,12 +143,19 @@ pub struct Parameter {
 pub struct Effect {
     /// Name in scenarios.
     pub name: &'static str,
+    /// What it belongs to.
+    pub group: Group,
     /// Stage in which it acts.
     pub stage: Stage,
+    /// Whether a state depends on those before it or on the time in a hold: needs data with an unloading branch or with
+    /// several samples in a hold.
+    pub history: bool,
     /// Formula in Unicode.
     pub formula: &'static str,
     /// One plain sentence for a user.
     pub sentence: &'static str,
+    /// What measurements show where it acts and the model lacks it.
+    pub differs: &'static str,
     /// What to measure or change on the robot.
     pub remedy: &'static str,
     /// When it holds.
@@ -128,6 +175,18 @@ pub fn by_name(name: &str) -> Option<&'static Effect> {
     EFFECTS.iter().find(|e| e.name == name)
 }
 
+impl Parameter {
+    /// Typical size on an actuator, in `unit`.
+    pub fn typical_for(&self, actuator: &str) -> f64 {
+        self.by_actuator.iter().find(|(name, _)| *name == actuator).map_or(self.typical, |(_, typical)| *typical)
+    }
+
+    /// Where a fit starts for an actuator, in `unit`: at least one value.
+    pub fn starts_for(&self, actuator: &str) -> Vec<f64> {
+        if self.starts.is_empty() { vec![self.typical_for(actuator)] } else { self.starts.to_vec() }
+    }
+}
+
 impl Effect {
     /// Neutral values of all parameters, SI.
     pub fn neutral(&self) -> Vec<f64> {
@@ -137,6 +196,11 @@ impl Effect {
     /// Typical values of all parameters, SI.
     pub fn typical(&self) -> Vec<f64> {
         self.parameters.iter().map(|p| p.typical * p.si).collect()
+    }
+
+    /// Typical values of all parameters on an actuator, SI.
+    pub fn typical_for(&self, actuator: &str) -> Vec<f64> {
+        self.parameters.iter().map(|p| p.typical_for(actuator) * p.si).collect()
     }
 
     /// Whether the effect exists for an actuator of this family.

@@ -12,14 +12,17 @@
 //! A pure bending moment is balanced inside the robot and does not reach the base; what turns it is the hose, the clamp or
 //! the first pouch pressing on it. **Validity**: elastic mount, rotation about the base point. Geometry.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "mount_rotation",
+    group: Group::Measurement,
     stage: Stage::Camera,
+    history: false,
     formula: "δ = c P; x → x cosδ − y sinδ; y → x sinδ + y cosδ",
     sentence: "The base turns when the actuator is inflated, so the whole robot swings like a stiff arm.",
+    differs: "The whole robot swings like a stiff arm as pressure rises: y is off in proportion to x.",
     remedy: "Put two markers on the base plate, or hold it by hand while the pressure rises.",
     validity: "elastic mount, rotation about the base point",
     reference: "geometry",
@@ -32,6 +35,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.05,
         lower: -0.35,
         upper: 0.35,
+        starts: &[],
+        by_actuator: &[],
         meaning: "rotation of the base per actuator pressure",
     }],
     family: None,

@@ -15,15 +15,18 @@
 //! `−½Bsκ² − ½Bs(1 − s)m²` beyond, where the largest bend goes along. Acts only where B > 0. **Validity**: creases and
 //! yarns that stay bent; no recovery with time. Reference: linear plastic hardening without threshold; derived here.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Memory, Pose, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "plastic_set",
+    group: Group::Body,
     stage: Stage::Balance,
+    history: true,
     formula: "M = −B (κ − s κ_max)",
     sentence: "The wall keeps a share of the largest bend it has seen, as a creased sheet does.",
+    differs: "After the first full pressure the robot stays bent; later cycles follow the unloading branch.",
     remedy: "Compare the straight robot before and after the first full pressure, after a rest of some minutes.",
     validity: "no recovery with time; bends towards the actuator; needs B > 0",
     reference: "linear plastic hardening; derived here",
@@ -36,6 +39,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.12,
         lower: 0.0,
         upper: 0.5,
+        starts: &[],
+        by_actuator: &[],
         meaning: "share of the largest bend that stays",
     }],
     family: None,

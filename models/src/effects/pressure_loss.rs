@@ -10,14 +10,17 @@
 //!
 //! Validity: steady flow; looks like a stiffer body. Supply stage: acts before the balance. Definition.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "pressure_loss",
+    group: Group::Supply,
     stage: Stage::Supply,
+    history: false,
     formula: "P = P_set (1 − f)",
     sentence: "A constant share of the set pressure is lost on the way to the actuator.",
+    differs: "The curve over pressure is stretched sideways by the same factor everywhere.",
     remedy: "Put a gauge on the actuator while air flows.",
     validity: "steady flow; looks like a stiffer body",
     reference: "definition",
@@ -30,6 +33,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.15,
         lower: 0.0,
         upper: 0.8,
+        starts: &[],
+        by_actuator: &[],
         meaning: "share of the set pressure that is lost",
     }],
     family: None,

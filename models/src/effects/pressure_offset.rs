@@ -10,14 +10,17 @@
 //!
 //! Validity: constant over the range of pressures. Supply stage: acts before the balance. Definition.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "pressure_offset",
+    group: Group::Supply,
     stage: Stage::Supply,
+    history: false,
     formula: "P = max(0, P_set − P₀) for P_set > 0",
     sentence: "The actuator sees less than the set pressure: dead band or sensor bias.",
+    differs: "The curve over pressure is shifted sideways: the error is largest where it is steep.",
     remedy: "Put a gauge on the actuator.",
     validity: "constant over the range of pressures",
     reference: "definition",
@@ -30,6 +33,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 2.0,
         lower: -5.0,
         upper: 8.0,
+        starts: &[],
+        by_actuator: &[],
         meaning: "set pressure that does not arrive",
     }],
     family: None,

@@ -12,16 +12,19 @@
 //! For small θ the contraction goes as θ²/6, so this is a constant moment 3kD/L₀: there it cannot be told from
 //! `tail_tension`. Validity: elastic folds. Derived here.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "seam_stiffness",
+    group: Group::Actuator,
     stage: Stage::Balance,
+    history: false,
     formula: "E = ½ k θ²/L₀ per metre",
     sentence: "Welds and folds of the pouches resist rolling up, like a small spring in every pouch.",
+    differs: "A steady moment is missing: nothing moves at first, then the bend comes late.",
     remedy: "Measure the force of one inflated pouch at small contraction, or bend an unpressurised weld by hand.",
     validity: "elastic folds; for small bends not separable from tail_tension",
     reference: "derived here",
@@ -34,6 +37,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.5,
         lower: 0.0,
         upper: 3.0,
+        starts: &[],
+        by_actuator: &[],
         meaning: "fold stiffness of one pouch",
     }],
     family: Some(Family::Pouch),

@@ -15,7 +15,7 @@
 //!
 //! Validity: pouches side by side without a gap. Derived here.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -23,9 +23,12 @@ use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "self_contact",
+    group: Group::Actuator,
     stage: Stage::Balance,
+    history: false,
     formula: "E = ½ k (2θ + κL₀ − π)₊²/L₀ per metre",
     sentence: "Neighbouring pouches press on each other and stop the bend.",
+    differs: "The bend stops at a value that no further pressure exceeds.",
     remedy: "Look at the side view at full pressure: do the pouches touch?",
     validity: "pouches side by side without gap; k → large is a hard stop",
     reference: "derived here",
@@ -38,6 +41,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 20.0,
         lower: 0.0,
         upper: 1000.0,
+        starts: &[1.0, 20.0, 300.0],
+        by_actuator: &[],
         meaning: "contact stiffness of one pouch",
     }],
     family: Some(Family::Pouch),

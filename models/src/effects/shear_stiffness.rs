@@ -13,7 +13,7 @@
 //! Makes the free stroke rise with pressure, which no ideal McKibben law does. Validity: linear in γ, below locking
 //! (about 35–45°). Derived here; modulus relation of an orthotropic sheet at 45° with ν₁₂ ≈ 0.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -21,9 +21,12 @@ use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "shear_stiffness",
+    group: Group::Actuator,
     stage: Stage::Balance,
+    history: false,
     formula: "E = G_t γ² W per metre, γ = 2α − π/2, cosα = (1 − ε)/√2",
     sentence: "The coated weave resists shearing, so the muscle contracts less, most at low pressure.",
+    differs: "Most bend is missing at low pressure; the free stroke rises with pressure.",
     remedy: "Take G_t from a 45° tensile or bias-extension test of the fabric.",
     validity: "below shear locking (|γ| < 35°); linear",
     reference: "derived here; 1/G = 4/E45 − (1/E0 + 1/E90)",
@@ -36,6 +39,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 45.0,
         lower: 0.0,
         upper: 400.0,
+        starts: &[],
+        by_actuator: &[],
         meaning: "shear modulus times thickness of the fabric",
     }],
     family: Some(Family::Mckibben),

@@ -11,16 +11,19 @@
 //!
 //! Validity: tension constant along the robot. Derived here.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::body::soft_step;
 use crate::term::{Pose, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "tail_tension",
+    group: Group::Body,
     stage: Stage::Balance,
+    history: false,
     formula: "E = ΔM k₀ ln cosh(κ/k₀) per metre",
     sentence: "A pull along the robot (tail, tether, offset seam) adds a constant resisting moment.",
+    differs: "A steady moment is missing, alike at all pressures: largest share of the bend at low pressure.",
     remedy: "Free the tail or weigh its pull; repeat at another body pressure.",
     validity: "constant along the robot and in pressure",
     reference: "derived here",
@@ -33,6 +36,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.45,
         lower: -0.3,
         upper: 1.5,
+        starts: &[],
+        by_actuator: &[],
         meaning: "extra resisting moment",
     }],
     family: None,

@@ -10,15 +10,18 @@
 //!
 //! Validity: dead load at the end of the centre line. Statics.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "tip_load",
+    group: Group::Load,
     stage: Stage::Balance,
+    history: false,
     formula: "E = −F·x_tip",
     sentence: "A force pulls or pushes the tip: a payload, a cable, a camera.",
+    differs: "The tip is bent at zero pressure already; the error grows from the base as a lever does.",
     remedy: "Hang a known weight on the tip, or take off what hangs there.",
     validity: "dead load at the tip",
     reference: "statics",
@@ -37,6 +40,8 @@ const fn force(key: &'static str, symbol: &'static str, typical: f64) -> Paramet
         typical,
         lower: -5.0,
         upper: 5.0,
+        starts: &[],
+        by_actuator: &[],
         meaning: "force on the tip",
     }
 }

@@ -18,7 +18,7 @@
 //! compliance this effect is small; a large fitted c says that the wall folds gradually for another reason.
 //! **Validity**: membrane without bending stiffness, circular section. Reference: Comer & Levy, AIAA Journal 1(7), 1963.
 
-use super::{Effect, Parameter, Stage};
+use super::{Effect, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::body::BodyLaw;
 use crate::exact::beam::{gamma0_from_curvature_ratio, moment_ratio};
@@ -27,9 +27,12 @@ use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "wrinkling",
+    group: Group::Body,
     stage: Stage::Balance,
+    history: false,
     formula: "M = π p_b R³ α(κ/κ_w), κ_w = p_b c/2, α from 0 over 1/2 (first wrinkle) to 1 (hinge)",
     sentence: "The wall wrinkles gradually: small bends meet less resistance than the full hinge moment.",
+    differs: "Small bends come more easily than predicted; large ones hardly change.",
     remedy: "Bend the inflated body with a known tip force and measure its deflection.",
     validity: "tension-only membrane, circular section, regulated body pressure",
     reference: "Comer & Levy 1963",
@@ -42,6 +45,8 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 2.3e-5,
         lower: 0.0,
         upper: 2e-3,
+        starts: &[2.3e-5, 1e-4, 4e-4, 1.5e-3],
+        by_actuator: &[],
         meaning: "compliance 1/(E t) of the body fabric",
     }],
     family: None,

@@ -100,7 +100,7 @@ impl Potential<'_> {
         let site = self.site(segment);
         let stroke = (site.actuator.unwrap().stroke)(&site.shape, a);
         let arm = site.linkage.arm_m + site.linkage.arm_growth * stroke.lift;
-        (site.linkage.active_fraction * stroke.contraction / arm, arm)
+        (site.linkage.bent(site.linkage.active_fraction * stroke.contraction / arm).0, arm)
     }
 
     /// Π(a, κ) of one segment per length; with extensible fabric a and κ are independent, else κ must be that of `a`.
@@ -124,7 +124,8 @@ impl Potential<'_> {
         sum += site.linkage.active_fraction * stored;
         let compliance = site.linkage.compliance_per_n;
         if compliance > 0.0 {
-            sum += 0.5 * ((geometric - kappa) * arm).powi(2) / compliance;
+            let flattening = site.linkage.flattening_m2;
+            sum += 0.5 * ((round(geometric, flattening) - round(kappa, flattening)) * arm).powi(2) / compliance;
         }
         sum
     }
@@ -145,4 +146,9 @@ impl Potential<'_> {
         let pose = Pose::new(&nodes, self.loads.body_pa, 0.0);
         self.assembly.node_terms.iter().map(|t| t.add(&pose, &mut vec![0.0; nodes.len()])).sum()
     }
+}
+
+/// Curvature g of the round body where a flattened one has κ = g + o g³, by Newton.
+fn round(kappa: f64, flattening: f64) -> f64 {
+    (0..60).fold(kappa, |g, _| g - (g + flattening * g.powi(3) - kappa) / (1.0 + 3.0 * flattening * g * g))
 }

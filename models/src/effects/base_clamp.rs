@@ -1,0 +1,85 @@
+//! A stiffer base: the clamp holds the wall round and keeps the folds from forming beside it.
+//!
+//! ```text
+//! B(s) = B (1 + b e^{−s/λ})      E = ½ B b e^{−s/λ} κ² per metre      λ = 1.5 R
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | b | extra stiffness at the base as a share of B | - |
+//! | s | distance from the base | m |
+//! | λ | length over which it fades, 1.5 body radii (assumed: end effects of tubes fade within one to two) | m |
+//!
+//! Acts only where B > 0; divides the body into segments, as transverse loads do. **Validity**: linear; s is taken in the middle of
+//! a segment. Derived here.
+
+use super::{Effect, Group, Parameter, Stage};
+use crate::assembly::Assembly;
+use crate::term::{Pose, Term};
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "base_clamp",
+    group: Group::Body,
+    stage: Stage::Balance,
+    history: false,
+    formula: "B(s) = B (1 + b e^{−s/λ}), λ = 1.5 R",
+    sentence: "The clamp at the base stiffens the body next to it.",
+    differs: "The first markers bend too little and the others only follow: the missing angle is gained near the base.",
+    remedy: "Mark the body densely near the base, or clamp a longer stretch and see the bend move on.",
+    validity: "fades over 1.5 radii; needs B > 0",
+    reference: "derived here",
+    parameters: &[Parameter {
+        key: "share",
+        symbol: "b",
+        unit: "-",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 2.0,
+        lower: 0.0,
+        upper: 8.0,
+        starts: &[],
+        by_actuator: &[],
+        meaning: "extra stiffness at the base as a share of B",
+    }],
+    family: None,
+    add,
+};
+
+/// Length over which an end fades, in body radii.
+const FADES: f64 = 1.5;
+
+/// A wall that is stiffer towards one place.
+struct Clamp {
+    name: &'static str,
+    stiffness: f64,
+    at_m: f64,
+    length_m: f64,
+}
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    clamp(ENTRY.name, values[0], 0.0, assembly);
+}
+
+/// Stiffens the wall around station `at_m` by a share of its B.
+pub(super) fn clamp(name: &'static str, share: f64, at_m: f64, assembly: &mut Assembly) {
+    if share == 0.0 {
+        return;
+    }
+    assembly.varies = true;
+    for site in &mut assembly.sites {
+        let (stiffness, length_m) = (share * site.bending.stiffness, FADES * site.radius_m);
+        site.body_terms.push(Box::new(Clamp { name, stiffness, at_m, length_m }));
+    }
+}
+
+impl Term for Clamp {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        let moment = self.stiffness * (-(at.s_m - self.at_m).abs() / self.length_m).exp() * at.q[0];
+        force[0] -= moment;
+        0.5 * moment * at.q[0]
+    }
+}

@@ -1,0 +1,55 @@
+//! Ovalisation: the bent body flattens, and the arm of the actuator with it.
+//!
+//! ```text
+//! D = (D₀ + β·lift)/(1 + o g²)      g = ηε/(D₀ + β·lift): curvature of the round body at the same stroke
+//! hence  κ = g (1 + o g²)           and the moment of the line on κ is N (D₀ + β·lift)/(1 + 3 o g²)
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | o | flattening per squared curvature | m² |
+//! | D₀ | arm of the round body | m |
+//! | g, κ | curvature without and with flattening | 1/m |
+//!
+//! Written over g, κ is an explicit, rising function of the stroke: an arm that shrinks as `D₀(1 − oκ²)`, the first order of the
+//! same law, lets κD fall again beyond `κ = 1/√(3o)` and has two equilibria there. Brazier's elastic tube under pressure has
+//! `o = E t R³/(4 p R²)` before it wrinkles, and next to none after: a fitted o is a number for a section that collapses between
+//! the pouches. **Validity**: o g² below about 1; the body's own pressure moment stays that of the round section. Reference:
+//! Brazier 1927 for the squared curvature; this form is derived here.
+
+use super::{Effect, Group, Parameter, Stage};
+use crate::assembly::Assembly;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "ovalization",
+    group: Group::Body,
+    stage: Stage::Balance,
+    history: false,
+    formula: "D = D₀/(1 + o g²), g = ηε/D₀;  κ = g (1 + o g²)",
+    sentence: "The bent body flattens, so the actuator sits closer to its far wall: shorter lever, more bend per stroke.",
+    differs: "Less bend at low pressure than at high: the curve over pressure stays steep where others flatten.",
+    remedy: "Measure the body's height at its middle, straight and fully bent; repeat at another body pressure.",
+    validity: "o g² below about 1; body pressure moment of the round section",
+    reference: "Brazier 1927 for the squared curvature; derived here",
+    parameters: &[Parameter {
+        key: "flattening_m2",
+        symbol: "o",
+        unit: "m²",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 0.02,
+        lower: 0.0,
+        upper: 0.18,
+        starts: &[],
+        by_actuator: &[("spam", 0.07), ("epam", 0.014), ("cpam", 0.0078), ("fpam", 0.05)],
+        meaning: "flattening per squared curvature",
+    }],
+    family: None,
+    add,
+};
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    for site in &mut assembly.sites {
+        site.linkage.flattening_m2 += values[0];
+    }
+}
