@@ -3,7 +3,7 @@
 #![allow(missing_docs)]
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use models::{Loads, Model, Scenario, Target, shipped};
+use models::{Loads, Model, Scenario, Step, Target, shipped};
 use std::hint::black_box;
 
 /// The shipped robots and the size of their actuators.
@@ -99,5 +99,25 @@ fn set_up(c: &mut Criterion) {
     c.bench_function("set_up/epam/6x60mm", |b| b.iter(|| Model::new(black_box(&scenario)).prediction()));
 }
 
-criterion_group!(benches, predict, loaded, inverse, jacobian, batch, set_up);
+/// Six holds of five samples with an effect that has history.
+fn protocol(c: &mut Criterion) {
+    for (name, size) in ROBOTS {
+        for (effect, values) in [("friction", vec![0.3]), ("creep", vec![0.25, 2.0])] {
+            let model = Model::new(&robot(name).with_bending(STIFFNESS).with_effect(effect, &values));
+            let step = |i: usize, p: f64, k: usize| Step {
+                t_s: 5.0 * i as f64 + k as f64 + 1.0,
+                loads: Loads::uniform(BODY_PA, p),
+            };
+            let holds = [0.0, 10e3, 20e3, 30e3, 20e3, 0.0];
+            let steps: Vec<Step> =
+                holds.iter().enumerate().flat_map(|(i, p)| (0..5).map(move |k| step(i, *p, k))).collect();
+            let mut out = model.prediction();
+            c.bench_function(&format!("protocol/{name}/{size}/{effect}"), |b| {
+                b.iter(|| model.follow(black_box(&steps), &mut out, &mut |_, _| ()));
+            });
+        }
+    }
+}
+
+criterion_group!(benches, predict, loaded, inverse, jacobian, batch, set_up, protocol);
 criterion_main!(benches);

@@ -22,6 +22,7 @@ pub mod fabrics;
 mod follow;
 mod history;
 mod inverse;
+mod linkage;
 mod model;
 mod robot;
 mod root;

@@ -5,7 +5,7 @@ use crate::assembly::{Assembly, Segment, Sighting};
 use crate::body::{Bending, BodyPressure};
 use crate::effects::{Effect, by_name};
 use crate::error::Unsolved;
-use crate::robot::{Workspace, equilibrium};
+use crate::robot::{Workspace, equilibrium, place};
 use crate::scenario::{Scenario, Span};
 use crate::shape::Stretch;
 use crate::site::{Linkage, Site, SiteState};
@@ -112,6 +112,7 @@ impl Model {
     }
 
     fn place_tip(&self, out: &mut Prediction) {
+        place(&self.assembly, &mut out.work);
         let (work, last) = (&out.work, self.assembly.segments.len());
         out.tip = Tip { x_m: work.nodes[2 * last], y_m: work.nodes[2 * last + 1], angle_rad: work.headings[last] };
     }

@@ -72,6 +72,13 @@ const HALVINGS: usize = 12;
 /// Agreement of moments wanted, relative to the largest one.
 const MOMENT_TOLERANCE: f64 = 1e-10;
 
+/// Places the nodes at an equilibrium without transverse loads, which does not need them; with such loads they are placed.
+pub(crate) fn place(assembly: &Assembly, work: &mut Workspace) {
+    if assembly.node_terms.is_empty() {
+        place_nodes(assembly, work);
+    }
+}
+
 /// Fills `work` with the equilibrium at body pressure `p_body_pa` and the actuator pressures already in it; `warm` starts
 /// from the equilibrium that `work` holds.
 pub(crate) fn equilibrium(
@@ -85,7 +92,6 @@ pub(crate) fn equilibrium(
             let near = if warm { Some(&work.states[i]) } else { None };
             work.states[i] = solve_segment(assembly, work, i, p_body_pa, 0.0, near)?;
         }
-        place_nodes(assembly, work);
         return Ok(());
     }
     if warm && coupled(assembly, p_body_pa, work, true).is_ok() {

@@ -14,32 +14,10 @@
 
 use crate::actuators::{Actuator, ActuatorShape, Demand, Stroke};
 use crate::body::{Bending, BodyLaw, BodyPressure};
+pub use crate::linkage::Linkage;
+use crate::linkage::line_tension;
 use crate::root::{NoRoot, Root, Start, find_root};
 use crate::term::{Pose, Term, actuator_q};
-
-/// How the actuator's contraction becomes curvature of the body.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Linkage {
-    /// Share η of the actuator's stroke and volume that is active \[-\]; 1 in the bare model.
-    pub active_fraction: f64,
-    /// Arm D₀ from the taut generator to the line of action at rest \[m\].
-    pub arm_m: f64,
-    /// Share β of the actuator's lift by which the arm grows \[-\]; 0 in the bare model.
-    pub arm_growth: f64,
-    /// Line compliance of the actuator's fabric c/W \[1/N\], contraction lost per newton; 0 in the bare model.
-    pub compliance_per_n: f64,
-    /// Flattening of the section per squared curvature o \[m²\]; 0 in the bare model.
-    pub flattening_m2: f64,
-}
-
-impl Linkage {
-    /// Curvature κ of the body where a round one would have curvature `g`, and dκ/dg.
-    #[inline]
-    pub fn bent(&self, g: f64) -> (f64, f64) {
-        let flat = self.flattening_m2 * g * g;
-        (g + flat * g, 1.0 + 3.0 * flat)
-    }
-}
 
 /// One place of the robot while a model is put together; an effect changes what it owns.
 pub struct Site {
@@ -146,13 +124,13 @@ struct Balance {
 }
 
 impl SiteState {
-    /// Start of the next solve from here: only the moment changed, or the pressures a little too.
-    fn start(&self, loads: &SiteLoads) -> Start {
-        let same = self.loads.p_act_pa == loads.p_act_pa
-            && self.loads.p_body_pa == loads.p_body_pa
-            && self.loads.stamp == loads.stamp;
+    /// Start of the next solve from here: only the moment changed, or time has passed, or the pressures a little too.
+    fn start(&self, site: &Site, loads: &SiteLoads, memory: &[f64]) -> Start {
+        let same = self.loads.p_act_pa == loads.p_act_pa && self.loads.p_body_pa == loads.p_body_pa;
+        let remembered = if self.loads.stamp == loads.stamp { Some(0.0) } else { site.relaxed(self, loads, memory) };
         // The imbalance is linear in the moment, so its value here needs no evaluation.
-        let f = same.then_some(self.weight * (loads.moment - self.loads.moment));
+        let change = |relaxed: f64| self.weight * (loads.moment - self.loads.moment + relaxed);
+        let f = remembered.filter(|_| same).map(change);
         Start { x: self.coordinate, f, slope: self.slope }
     }
 }
@@ -225,7 +203,7 @@ impl Site {
             at.imbalance
         };
         let start = match near {
-            Some(state) => state.start(loads),
+            Some(state) => state.start(self, loads, memory),
             None => self.start(actuator, loads, memory),
         };
         let mut root = find_root(&mut imbalance, actuator.range, start)?;
@@ -331,6 +309,30 @@ impl Site {
         self.linkage.bent(self.linkage.active_fraction * stroke.contraction / arm).0
     }
 
+    /// By how much the moment of the terms with history has fallen since the state `at` was remembered: their share of the
+    /// imbalance when time passes. `None` if they do not remember that very state.
+    fn relaxed(&self, at: &SiteState, loads: &SiteLoads, memory: &[f64]) -> Option<f64> {
+        if memory.is_empty() || loads.stamp != at.loads.stamp.wrapping_add(1) {
+            return None;
+        }
+        let q = [at.curvature];
+        let now = SiteLoads { dt_s: 0.0, ..*loads };
+        Some(self.history_force(&loads.pose(&q), memory) - self.history_force(&now.pose(&q), memory))
+    }
+
+    /// Force of the terms with history.
+    fn history_force(&self, at: &Pose, memory: &[f64]) -> f64 {
+        let (mut force, mut rest, mut pose) = ([0.0], memory, *at);
+        for term in &self.body_terms {
+            let count = term.memory().values;
+            if count > 0 {
+                (pose.memory, rest) = rest.split_at(count);
+                term.add(&pose, &mut force);
+            }
+        }
+        force[0]
+    }
+
     /// Further body-side terms.
     pub(crate) fn body_terms(&self) -> impl Iterator<Item = &dyn Term> {
         self.body_terms.iter().map(|term| &**term as &dyn Term)
@@ -368,11 +370,6 @@ const PASSIVE_STEP: f64 = 1e-5;
 const LEAST_STIFFNESS: f64 = 1e-12;
 /// Contractions at which the wall's moment is sampled for the start value: in the working range of every actuator here.
 const TYPICAL_STROKE: (f64, f64) = (0.1, 0.3);
-
-/// Tension N from the actuator's balance `N (x + q N) = y`: the arm shrinks a little as the fabric stretches (q > 0).
-fn line_tension(y: f64, x: f64, q: f64) -> f64 {
-    if q == 0.0 || y <= 0.0 { y / x } else { 2.0 * y / (x + (x * x + 4.0 * q * y).sqrt()) }
-}
 
 #[cfg(test)]
 mod tests {

@@ -48,6 +48,7 @@ fn effects() -> (String, Value) {
     let mut text = String::from("EFFECTS\n");
     for e in EFFECTS {
         text.push_str(&format!("  {:<18} [{}] {}\n    {}\n", e.name, e.stage.word(), e.sentence, e.formula));
+        text.push_str(&format!("    in data: {}\n", e.differs));
         for p in e.parameters {
             text.push_str(&format!(
                 "    {} ({}): {}; typical {}, {} to {}, no effect at {}\n",
@@ -66,9 +67,9 @@ fn effects() -> (String, Value) {
         let parameters: Vec<Value> = e
             .parameters
             .iter()
-            .map(|p| json!({"key": p.key, "symbol": p.symbol, "unit": p.unit, "neutral": p.neutral, "typical": p.typical, "lower": p.lower, "upper": p.upper, "meaning": p.meaning}))
+            .map(|p| json!({"key": p.key, "symbol": p.symbol, "unit": p.unit, "neutral": p.neutral, "typical": p.typical, "lower": p.lower, "upper": p.upper, "starts": p.starts, "meaning": p.meaning}))
             .collect();
-        json!({"name": e.name, "stage": e.stage.word(), "sentence": e.sentence, "formula": e.formula, "remedy": e.remedy, "validity": e.validity, "reference": e.reference, "parameters": parameters})
+        json!({"name": e.name, "stage": e.stage.word(), "group": e.group.word(), "history": e.history, "differs": e.differs, "sentence": e.sentence, "formula": e.formula, "remedy": e.remedy, "validity": e.validity, "reference": e.reference, "parameters": parameters})
     });
     (text, value.collect())
 }

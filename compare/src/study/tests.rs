@@ -46,6 +46,27 @@ fn a_model_meets_the_data_it_made() {
 }
 
 #[test]
+fn a_model_with_history_meets_the_data_it_made_sample_by_sample() {
+    let generator = Generator { protocol: [0.0, 10e3, 30e3, 10e3, 0.0].map(|p| [2e3, p]).to_vec(), ..quiet(3) };
+    for kind in ["spam", "cpam", "epam", "fpam"] {
+        let base = shipped_scenario(kind).unwrap().with_bending(1.0);
+        for (effect, values) in
+            [("friction", vec![0.3]), ("creep", vec![0.5, 2.0]), ("plastic_set", vec![0.2]), ("leak", vec![0.02])]
+        {
+            let scenario = base.with_effect(effect, &values);
+            let dataset = generate(&scenario, "made", &generator).unwrap();
+            let apart = |scenario| -> f64 {
+                let predicted = predict_dataset(scenario, &dataset).unwrap();
+                let mean = dataset.mean_over_runs();
+                mean.iter().zip(&predicted.xy_m).map(|(y, f)| (y - f).abs()).fold(0.0, f64::max)
+            };
+            assert!(apart(&scenario) < 1e-8, "{kind} {effect}: {:e}", apart(&scenario));
+            assert!(apart(&base) > 1e-4, "{kind} {effect} leaves its mark: {:e}", apart(&base));
+        }
+    }
+}
+
+#[test]
 fn the_same_seed_gives_the_same_data_and_another_seed_does_not() {
     let scenario = shipped_scenario("epam").unwrap();
     let made = |seed| generate(&scenario, "made", &Generator { seed, ..Generator::default() }).unwrap();

@@ -11,14 +11,15 @@
 //! | κ, q | curvature; curvature to which the relaxing part has flowed | 1/m |
 //! | B | effective bending stiffness of the place | N·m² |
 //!
-//! Over a step of length Δt, with x = Δt/τ, e₀ = κ₀ − q₀ and κ running straight from κ₀, the solution is exact:
+//! Over a step of length Δt the solution is exact for a κ that runs from κ₀ as what relaxes does, κ' ~ e^{−t/τ}. With x = Δt/τ
+//! and e₀ = κ₀ − q₀
 //!
 //! ```text
-//! κ − q = e₀ e^{−x} + (κ − κ₀) φ      φ = (1 − e^{−x})/x
+//! κ − q = e₀ e^{−x} + (κ − κ₀) φ      φ = x/(e^x − 1)
 //! ```
 //!
-//! so a kept bend relaxes exactly and a moving one is integrated to second order in Δt. The potential at fixed memory is
-//! `aB [½e₀² + e₀ e^{−x}(κ − κ₀) + ½φ(κ − κ₀)²]`. Acts only where B > 0. **Validity**: linear, one relaxation time; real
+//! so a kept bend relaxes exactly and a moving one is integrated to second order in Δt, with a small error as long as the rest of
+//! the wall is not much softer than the relaxing part. The potential at fixed memory is `aB [½e₀² + e₀ e^{−x}(κ − κ₀) + ½φ(κ − κ₀)²]`. Acts only where B > 0. **Validity**: linear, one relaxation time; real
 //! fabrics creep over several decades of time, of which a test sees the one it lasts. Reference: standard linear solid
 //! (Zener 1948); the form over a step is derived here.
 
@@ -87,17 +88,31 @@ fn add(values: &[f64], assembly: &mut Assembly) {
 /// What it remembers: κ and κ − q.
 const CURVATURE: usize = 0;
 const STRETCH: usize = 1;
-/// Below this x = Δt/τ the series of φ is good to rounding and the closed form is not.
-const SERIES_BELOW: f64 = 1e-3;
+/// Below this x = Δt/τ the closed form of the loss has fewer digits than Simpson's rule.
+const SIMPSON_BELOW: f64 = 0.1;
 
 impl Creep {
-    /// e^{−x} and φ = (1 − e^{−x})/x.
+    /// e^{−x} and φ.
     fn decay(&self, dt_s: f64) -> (f64, f64) {
         let x = dt_s / self.time_s;
-        let left = (-x).exp();
-        let mean = if x < SERIES_BELOW { 1.0 - x * (0.5 - x * (1.0 / 6.0 - x / 24.0)) } else { (1.0 - left) / x };
-        (left, mean)
+        if x == 0.0 {
+            return (1.0, 1.0);
+        }
+        let gone = -(-x).exp_m1();
+        (1.0 - gone, x * (1.0 - gone) / gone)
     }
+}
+
+/// ∫ e² du over a step of length x in units of τ, for `e = e^{−u}(e₀ + c u)` with `c = (κ − κ₀)/(1 − e^{−x})`.
+fn squared(before: f64, c: f64, x: f64) -> f64 {
+    if x < SIMPSON_BELOW {
+        let at = |u: f64| ((-u).exp() * (before + c * u)).powi(2);
+        return x / 6.0 * (at(0.0) + 4.0 * at(0.5 * x) + at(x));
+    }
+    let left = (-2.0 * x).exp();
+    let (constant, linear) = (0.5 * (1.0 - left), 0.25 - left * (0.5 * x + 0.25));
+    let square = 0.25 - left * (0.5 * x * x + 0.5 * x + 0.25);
+    before * before * constant + 2.0 * before * c * linear + c * c * square
 }
 
 impl Term for Creep {
@@ -116,20 +131,16 @@ impl Term for Creep {
         Memory { values: 2, time_s: self.time_s }
     }
 
-    /// The loss is `aB ∫ e² dt/τ` over the step, with `e' = κ' − e/τ`: what went in, `aB ∫ e dκ`, less what is stored.
+    /// The loss is `aB ∫ e² dt/τ` over the step.
     fn remember(&self, at: &Pose, next: &mut [f64]) -> f64 {
         let (left, mean) = self.decay(at.dt_s);
         let (change, before) = (at.q[0] - at.remembered(CURVATURE), at.remembered(STRETCH));
-        let after = before * left + change * mean;
         next[CURVATURE] = at.q[0];
-        next[STRETCH] = after;
-        // ∫ e dκ at constant κ' = change·(mean of e), and e falls from `before` to `c = change/x` as e^{−x}.
-        let x = at.dt_s / self.time_s;
-        if x == 0.0 {
+        next[STRETCH] = before * left + change * mean;
+        if at.dt_s == 0.0 {
             return 0.0;
         }
-        let steady = change / x;
-        let put_in = change * (steady + (before - steady) * mean);
-        self.stiffness * (put_in - 0.5 * (after * after - before * before)).max(0.0)
+        let x = at.dt_s / self.time_s;
+        self.stiffness * squared(before, -change / (-x).exp_m1(), x)
     }
 }

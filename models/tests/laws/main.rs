@@ -4,6 +4,7 @@
 
 mod base;
 mod batch;
+mod catalogue;
 mod closed_forms;
 mod forces;
 mod history;

@@ -1,0 +1,31 @@
+//! The linkage between an actuator and the body: arm, active share, compliance, flattening.
+
+/// How the actuator's contraction becomes curvature of the body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Linkage {
+    /// Share η of the actuator's stroke and volume that is active \[-\]; 1 in the bare model.
+    pub active_fraction: f64,
+    /// Arm D₀ from the taut generator to the line of action at rest \[m\].
+    pub arm_m: f64,
+    /// Share β of the actuator's lift by which the arm grows \[-\]; 0 in the bare model.
+    pub arm_growth: f64,
+    /// Line compliance of the actuator's fabric c/W \[1/N\], contraction lost per newton; 0 in the bare model.
+    pub compliance_per_n: f64,
+    /// Flattening of the section per squared curvature o \[m²\]; 0 in the bare model.
+    pub flattening_m2: f64,
+}
+
+impl Linkage {
+    /// Curvature κ of the body where a round one would have curvature `g`, and dκ/dg.
+    #[inline]
+    pub fn bent(&self, g: f64) -> (f64, f64) {
+        let flat = self.flattening_m2 * g * g;
+        (g + flat * g, 1.0 + 3.0 * flat)
+    }
+}
+
+/// Tension N from the actuator's balance `N (x + q N) = y`: the arm shrinks a little as the fabric stretches (q > 0).
+#[inline]
+pub(crate) fn line_tension(y: f64, x: f64, q: f64) -> f64 {
+    if q == 0.0 || y <= 0.0 { y / x } else { 2.0 * y / (x + (x * x + 4.0 * q * y).sqrt()) }
+}
