@@ -317,15 +317,15 @@ impl Site {
         }
         let q = [at.curvature];
         let now = SiteLoads { dt_s: 0.0, ..*loads };
-        Some(self.history_force(&loads.pose(&q), memory) - self.history_force(&now.pose(&q), memory))
+        Some(self.term_force(&loads.pose(&q), memory, false) - self.term_force(&now.pose(&q), memory, false))
     }
 
-    /// Force of the terms with history.
-    fn history_force(&self, at: &Pose, memory: &[f64]) -> f64 {
+    /// Force of all body terms, or of those with history.
+    fn term_force(&self, at: &Pose, memory: &[f64], all: bool) -> f64 {
         let (mut force, mut rest, mut pose) = ([0.0], memory, *at);
         for term in &self.body_terms {
             let count = term.memory().values;
-            if count > 0 {
+            if all || count > 0 {
                 (pose.memory, rest) = rest.split_at(count);
                 term.add(&pose, &mut force);
             }
@@ -342,18 +342,13 @@ impl Site {
     fn body_moment(&self, curvature: f64, loads: &SiteLoads, memory: &[f64]) -> f64 {
         let q = [curvature];
         let mut force = [0.0];
-        let mut pose = loads.pose(&q);
+        let pose = loads.pose(&q);
         self.body_pressure.add_force(&pose, &mut force);
         self.bending.add(&pose, &mut force);
-        if memory.is_empty() {
-            for term in &self.body_terms {
-                term.add(&pose, &mut force);
-            }
-            return -force[0];
+        if !memory.is_empty() {
+            return -force[0] - self.term_force(&pose, memory, true);
         }
-        let mut rest = memory;
         for term in &self.body_terms {
-            (pose.memory, rest) = rest.split_at(term.memory().values);
             term.add(&pose, &mut force);
         }
         -force[0]
