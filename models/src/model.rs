@@ -3,7 +3,6 @@
 use crate::actuators::ActuatorShape;
 use crate::assembly::{Assembly, Segment, Sighting};
 use crate::body::{Bending, BodyPressure};
-use crate::effects::{Effect, by_name};
 use crate::error::Unsolved;
 use crate::robot::{Workspace, equilibrium, place};
 use crate::scenario::{Scenario, Span};
@@ -58,10 +57,8 @@ impl Model {
     /// Puts a scenario together.
     pub fn new(scenario: &Scenario) -> Model {
         let spans = scenario.spans();
-        let chosen: Vec<(&'static Effect, &[f64])> =
-            scenario.effects.iter().filter_map(|c| Some((by_name(&c.name)?, c.values.as_slice()))).collect();
         let mut assembly = assemble(scenario, &spans, scenario.segments);
-        chosen.iter().for_each(|(effect, values)| (effect.add)(values, &mut assembly));
+        scenario.add_effects(&mut assembly);
         // Without transverse loads and terms that vary along it every stretch of equal design is one arc.
         if assembly.node_terms.is_empty() && !assembly.varies {
             assembly.segments = divide(&spans, 1);
@@ -286,7 +283,7 @@ fn post(lines: &mut Vec<LedgerLine>, name: &'static str, kind: RowKind, energy_j
     }
 }
 
-fn assemble(scenario: &Scenario, spans: &[Span], segments: usize) -> Assembly {
+pub(crate) fn assemble(scenario: &Scenario, spans: &[Span], segments: usize) -> Assembly {
     let sites = spans.iter().map(|span| site(scenario, span)).collect();
     Assembly {
         sites,

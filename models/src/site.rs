@@ -327,7 +327,7 @@ impl Site {
             let count = term.memory().values;
             if all || count > 0 {
                 (pose.memory, rest) = rest.split_at(count);
-                term.add(&pose, &mut force);
+                term.add_force(&pose, &mut force);
             }
         }
         force[0]
@@ -349,7 +349,7 @@ impl Site {
             return -force[0] - self.term_force(&pose, memory, true);
         }
         for term in &self.body_terms {
-            term.add(&pose, &mut force);
+            term.add_force(&pose, &mut force);
         }
         -force[0]
     }

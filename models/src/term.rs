@@ -100,6 +100,11 @@ pub trait Term: Send + Sync {
     /// Adds `−∂E/∂q` to `force` (same length as `at.q`) and returns the energy E.
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64;
 
+    /// The force of [`Term::add`] alone, for a term whose energy costs more.
+    fn add_force(&self, at: &Pose, force: &mut [f64]) {
+        self.add(at, force);
+    }
+
     /// What this term remembers between states of the reduced model; only terms over `[κ]` may.
     fn memory(&self) -> Memory {
         Memory::NONE

@@ -4,9 +4,9 @@ use super::Context;
 use crate::failure::Failure;
 use crate::output::Input;
 use data::{About, Dataset};
+use models::Scenario;
 use models::scenario::SHIPPED;
 use models::scenario::quantity::{Quantity, parse};
-use models::{Scenario, effects};
 use std::path::Path;
 
 /// A scenario and where it came from.
@@ -80,8 +80,9 @@ pub fn with_unit(value: &str, unit: &str) -> String {
 /// Adds an effect typed as `name` (typical values) or `name:key=value,…`; says how its values are known.
 pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, String), Failure> {
     let (name, values) = text.split_once(':').unwrap_or((text, ""));
-    let Some(effect) = effects::by_name(name) else {
-        let known = effects::EFFECTS.iter().map(|e| e.name).collect::<Vec<_>>().join(", ");
+    let catalogue = scenario.catalogue();
+    let Some(effect) = catalogue.by_name(name) else {
+        let known = catalogue.effects().map(|e| e.name).collect::<Vec<_>>().join(", ");
         return Err(Failure::usage(format!("unknown effect `{name}`"), format!("known: {known}")));
     };
     let kind = scenario.actuator.kind;

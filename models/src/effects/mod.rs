@@ -17,6 +17,7 @@ mod leak;
 mod marker_height;
 mod mount_rotation;
 mod ovalization;
+mod own;
 mod plastic_set;
 mod pressure_loss;
 mod pressure_offset;
@@ -31,6 +32,7 @@ mod wrinkling;
 
 use crate::actuators::Family;
 use crate::assembly::Assembly;
+pub use own::Catalogue;
 
 /// The list, in the order in which effects are added to a model.
 pub const EFFECTS: &[Effect] = &[
@@ -113,13 +115,13 @@ impl Group {
 
 /// One parameter of an effect. Values are in `unit` in scenarios and tables, in SI (`value × si`) inside.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Parameter {
+pub struct Parameter<'a> {
     /// Key in the scenario, with the unit as suffix.
-    pub key: &'static str,
+    pub key: &'a str,
     /// Letter in the formula.
-    pub symbol: &'static str,
+    pub symbol: &'a str,
     /// Unit of the scenario value.
-    pub unit: &'static str,
+    pub unit: &'a str,
     /// Factor to SI.
     pub si: f64,
     /// Value at which the effect vanishes.
@@ -131,18 +133,18 @@ pub struct Parameter {
     /// Physical upper bound.
     pub upper: f64,
     /// Where a fit starts if one start is not enough: thresholds and time scales; empty: at the typical size.
-    pub starts: &'static [f64],
+    pub starts: &'a [f64],
     /// Typical size for single actuators, where it depends on their curvature and stiffness.
-    pub by_actuator: &'static [(&'static str, f64)],
+    pub by_actuator: &'a [(&'a str, f64)],
     /// What it is.
-    pub meaning: &'static str,
+    pub meaning: &'a str,
 }
 
-/// A physical effect as an entry of the catalogue.
+/// A physical effect as an entry of the catalogue, or of a scenario's own ([`Catalogue`]).
 #[derive(Debug, Clone, Copy)]
-pub struct Effect {
+pub struct Effect<'a> {
     /// Name in scenarios.
-    pub name: &'static str,
+    pub name: &'a str,
     /// What it belongs to.
     pub group: Group,
     /// Stage in which it acts.
@@ -151,31 +153,31 @@ pub struct Effect {
     /// several samples in a hold.
     pub history: bool,
     /// Formula in Unicode.
-    pub formula: &'static str,
+    pub formula: &'a str,
     /// One plain sentence for a user.
-    pub sentence: &'static str,
+    pub sentence: &'a str,
     /// What measurements show where it acts and the model lacks it.
-    pub differs: &'static str,
+    pub differs: &'a str,
     /// What to measure or change on the robot.
-    pub remedy: &'static str,
+    pub remedy: &'a str,
     /// When it holds.
-    pub validity: &'static str,
+    pub validity: &'a str,
     /// Source.
-    pub reference: &'static str,
+    pub reference: &'a str,
     /// Parameters in the order `add` takes them.
-    pub parameters: &'static [Parameter],
+    pub parameters: &'a [Parameter<'a>],
     /// Contraction mechanism it needs; `None`: any.
     pub family: Option<Family>,
-    /// Adds it to a model under construction; values in SI.
-    pub add: fn(&[f64], &mut Assembly),
+    /// Adds it to a model under construction; values in SI. A formula adds itself.
+    pub(crate) add: fn(&[f64], &mut Assembly),
 }
 
 /// The entry of that name.
-pub fn by_name(name: &str) -> Option<&'static Effect> {
+pub fn by_name(name: &str) -> Option<&'static Effect<'static>> {
     EFFECTS.iter().find(|e| e.name == name)
 }
 
-impl Parameter {
+impl Parameter<'_> {
     /// Typical size on an actuator, in `unit`.
     pub fn typical_for(&self, actuator: &str) -> f64 {
         self.by_actuator.iter().find(|(name, _)| *name == actuator).map_or(self.typical, |(_, typical)| *typical)
@@ -187,7 +189,7 @@ impl Parameter {
     }
 }
 
-impl Effect {
+impl Effect<'_> {
     /// Neutral values of all parameters, SI.
     pub fn neutral(&self) -> Vec<f64> {
         self.parameters.iter().map(|p| p.neutral * p.si).collect()

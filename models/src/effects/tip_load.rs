@@ -30,7 +30,7 @@ pub(super) const ENTRY: Effect = Effect {
     add,
 };
 
-const fn force(key: &'static str, symbol: &'static str, typical: f64) -> Parameter {
+const fn force(key: &'static str, symbol: &'static str, typical: f64) -> Parameter<'static> {
     Parameter {
         key,
         symbol,

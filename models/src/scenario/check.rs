@@ -1,14 +1,17 @@
 //! Raw values → SI, with range checks that say what was probably meant.
 
+use super::formulas::formulas;
 use super::raw::{Body, Raw, RawActuator, RawZone};
 use super::{ActuatorChoice, EffectChoice, Scenario, Zone, order};
 use crate::actuators::{self, ACTUATORS, ActuatorShape};
-use crate::effects::{self, EFFECTS, Effect};
+use crate::effects::{Catalogue, Effect};
 use crate::error::ScenarioError;
+use crate::formula::Formula;
 use crate::term::CHANNELS;
+use std::sync::Arc;
 use toml::Spanned;
 
-type Checked<T> = Result<T, ScenarioError>;
+pub(super) type Checked<T> = Result<T, ScenarioError>;
 
 /// Accepted interval of a quantity, and the slip to suspect below or above it.
 struct Range {
@@ -83,12 +86,13 @@ const GAIN: Range = Range {
     too_large: "1 is the plain pouch",
 };
 
-pub(super) fn scenario(raw: &Raw) -> Checked<Scenario> {
+pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
     let body = raw.body.get_ref();
     let length_m = si(&body.length_mm, &LENGTH)?;
     let radius_m = radius(&body.radius_mm)?;
     let actuator = actuator(&raw.actuator, length_m)?;
     let zones = raw.zone.iter().map(|z| zone(z, length_m)).collect::<Checked<Vec<_>>>()?;
+    let formulas = formulas(raw, text)?;
     let p_max = raw.actuator.get_ref().max_pressure_kpa.as_ref();
     Ok(Scenario {
         name: raw.name.clone(),
@@ -106,11 +110,12 @@ pub(super) fn scenario(raw: &Raw) -> Checked<Scenario> {
         pressures_pa: raw.predict.pressures_kpa.iter().map(|p| si(p, &PRESSURE)).collect::<Checked<Vec<_>>>()?,
         segments: segments(raw)?,
         p_max_pa: p_max.map(|p| si(p, &PRESSURE)).transpose()?.unwrap_or(100e3),
-        effects: effects_of(raw, actuator.kind)?,
+        effects: effects_of(raw, actuator.kind, &formulas)?,
+        formulas,
     })
 }
 
-fn refuse<T>(message: String, help: impl Into<String>, span: std::ops::Range<usize>) -> Checked<T> {
+pub(super) fn refuse<T>(message: String, help: impl Into<String>, span: std::ops::Range<usize>) -> Checked<T> {
     Err(ScenarioError { message, help: Some(help.into()), span: Some((span.start, span.end)) })
 }
 
@@ -126,7 +131,7 @@ fn si(value: &Spanned<f64>, range: &Range) -> Checked<f64> {
 }
 
 /// A unit after its number; nothing where there is none.
-fn unit(name: &str) -> String {
+pub(super) fn unit(name: &str) -> String {
     if name == "-" { String::new() } else { format!(" {name}") }
 }
 
@@ -242,11 +247,11 @@ fn segments(raw: &Raw) -> Checked<usize> {
 /// Words that may stand beside the parameters of an effect: how they are known.
 const REMARKS: &[&str] = &["basis", "interval", "data", "date", "note"];
 
-fn effects_of(raw: &Raw, kind: &actuators::Actuator) -> Checked<Vec<EffectChoice>> {
-    let mut chosen = Vec::new();
+fn effects_of(raw: &Raw, kind: &actuators::Actuator, formulas: &[Arc<Formula>]) -> Checked<Vec<EffectChoice>> {
+    let (mut chosen, catalogue) = (Vec::new(), Catalogue::new(formulas));
     for (name, table) in &raw.effects {
-        let Some(effect) = effects::by_name(name.get_ref()) else {
-            let known = EFFECTS.iter().map(|e| e.name).collect::<Vec<_>>().join(", ");
+        let Some(effect) = catalogue.by_name(name.get_ref()) else {
+            let known = catalogue.effects().map(|e| e.name).collect::<Vec<_>>().join(", ");
             return refuse(format!("unknown effect \"{}\"", name.get_ref()), format!("known: {known}"), name.span());
         };
         if !effect.applies_to(kind.family) {
@@ -257,7 +262,7 @@ fn effects_of(raw: &Raw, kind: &actuators::Actuator) -> Checked<Vec<EffectChoice
         let mut basis = String::new();
         for (key, value) in table {
             match (key.get_ref().as_str(), effect.parameters.iter().position(|p| p.key == key.get_ref())) {
-                (_, Some(i)) => values[i] = parameter(effect, i, value)?,
+                (_, Some(i)) => values[i] = parameter(&effect, i, value)?,
                 ("basis", None) => basis = value.get_ref().as_str().unwrap_or_default().to_string(),
                 (word, None) if REMARKS.contains(&word) => {}
                 (word, None) => {
@@ -269,7 +274,7 @@ fn effects_of(raw: &Raw, kind: &actuators::Actuator) -> Checked<Vec<EffectChoice
         }
         chosen.push(EffectChoice { name: effect.name.to_string(), values, basis });
     }
-    chosen.sort_by_key(|e| order(&e.name));
+    chosen.sort_by_key(|e| order(&e.name, formulas));
     Ok(chosen)
 }
 

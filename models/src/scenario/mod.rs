@@ -19,6 +19,7 @@
 //! ```
 
 mod check;
+mod formulas;
 pub mod quantity;
 mod raw;
 mod spans;
@@ -26,7 +27,11 @@ mod spans;
 pub use spans::Span;
 
 use crate::actuators::{Actuator, ActuatorShape};
+use crate::assembly::Assembly;
+use crate::effects::{Catalogue, EFFECTS};
 use crate::error::ScenarioError;
+use crate::formula::Formula;
+use std::sync::Arc;
 
 /// A scenario in SI units, checked.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,6 +68,8 @@ pub struct Scenario {
     pub p_max_pa: f64,
     /// Effects, in catalogue order.
     pub effects: Vec<EffectChoice>,
+    /// The scenario's own effects, in the order of the text: they follow those of the catalogue.
+    pub formulas: Vec<Arc<Formula>>,
 }
 
 /// The actuator of a scenario.
@@ -146,7 +153,7 @@ impl Scenario {
     /// Syntax errors, unknown keys and values that cannot be, each with its place in the text.
     pub fn parse(text: &str) -> Result<Scenario, ScenarioError> {
         let raw: raw::Raw = toml::from_str(text).map_err(raw::syntax)?;
-        check::scenario(&raw)
+        check::scenario(&raw, text)
     }
 
     /// The same robot without any effect and with B = 0.
@@ -158,16 +165,37 @@ impl Scenario {
     ///
     /// # Panics
     /// The catalogue has no effect of that name, or it has another number of parameters: a slip in the calling code, which
-    /// must not pass as a model without the effect. Look names typed by a user up in [`crate::effects::by_name`] first.
+    /// must not pass as a model without the effect. Look names typed by a user up in [`Scenario::catalogue`] first.
     pub fn with_effect(&self, name: &str, values: &[f64]) -> Scenario {
-        let parameters = crate::effects::by_name(name).map(|effect| effect.parameters.len());
+        let listed = crate::effects::by_name(name).map(|effect| effect.parameters.len());
+        let parameters = listed.or_else(|| self.formula(name).map(|formula| formula.parameters.len()));
         assert!(parameters == Some(values.len()), "no effect `{name}` with {} parameters", values.len());
         let mut changed = self.clone();
         changed.effects.retain(|e| e.name != name);
         let choice = EffectChoice { name: name.to_string(), values: values.to_vec(), basis: String::new() };
         changed.effects.push(choice);
-        changed.effects.sort_by_key(|e| order(&e.name));
+        changed.effects.sort_by_key(|e| order(&e.name, &self.formulas));
         changed
+    }
+
+    /// Every effect this scenario may use: those of all, and its own formulas.
+    pub fn catalogue(&self) -> Catalogue<'_> {
+        Catalogue::new(&self.formulas)
+    }
+
+    fn formula(&self, name: &str) -> Option<&Formula> {
+        self.formulas.iter().find(|formula| formula.name == name).map(|formula| &**formula)
+    }
+
+    /// Adds what is switched on to a model under construction.
+    pub(crate) fn add_effects(&self, assembly: &mut Assembly) {
+        for chosen in &self.effects {
+            match (crate::effects::by_name(&chosen.name), self.formula(&chosen.name)) {
+                (Some(effect), _) => (effect.add)(&chosen.values, assembly),
+                (None, Some(formula)) => formula.add(&chosen.values, assembly),
+                (None, None) => {}
+            }
+        }
     }
 
     /// The same with another effective bending stiffness \[N·m²\].
@@ -187,8 +215,9 @@ impl Scenario {
 }
 
 /// Place of an effect in the catalogue.
-fn order(name: &str) -> usize {
-    crate::effects::EFFECTS.iter().position(|e| e.name == name).unwrap_or(usize::MAX)
+fn order(name: &str, formulas: &[Arc<Formula>]) -> usize {
+    let listed = EFFECTS.iter().position(|e| e.name == name);
+    listed.unwrap_or_else(|| EFFECTS.len() + formulas.iter().take_while(|formula| formula.name != name).count())
 }
 
 #[cfg(test)]

@@ -24,6 +24,8 @@ pub(super) struct Raw {
     #[serde(default)]
     pub predict: Predict,
     #[serde(default)]
+    pub formula: Vec<Spanned<RawFormula>>,
+    #[serde(default)]
     pub effects: BTreeMap<Spanned<String>, BTreeMap<Spanned<String>, Spanned<toml::Value>>>,
 }
 
@@ -83,6 +85,28 @@ pub(super) struct Predict {
     #[serde(default)]
     pub pressures_kpa: Vec<Num>,
     pub segments: Option<Spanned<i64>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawFormula {
+    pub name: Spanned<String>,
+    pub moment: Spanned<String>,
+    pub sentence: Option<String>,
+    pub differs: Option<String>,
+    pub remedy: Option<String>,
+    #[serde(default)]
+    pub parameters: BTreeMap<Spanned<String>, RawParameter>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawParameter {
+    pub unit: Spanned<String>,
+    pub neutral: Option<Num>,
+    pub typical: Num,
+    pub bounds: Spanned<[f64; 2]>,
+    pub meaning: Option<String>,
 }
 
 /// A TOML or type error with its place, its first line only.

@@ -97,3 +97,49 @@ fn the_base_law_is_set_from_the_scenario() {
     assert!(long.1 == base.1 && long.0 > base.0 && long.2 > base.2);
     assert!(Scenario::parse(&text("hinge_moment_share = 3")).unwrap_err().help.unwrap().contains("collapse"));
 }
+
+const OWN: &str = r#"
+[[formula]]
+name = "cubic_spring"
+moment = "-k*theta^3"
+[formula.parameters.k]
+unit = "N m"
+typical = 0.5
+bounds = [0, 20]
+"#;
+
+#[test]
+fn a_formula_of_the_scenario_joins_the_catalogue_and_can_be_switched_on() {
+    let text = shipped("epam").unwrap().to_string() + OWN + "[effects.cubic_spring]\nk = 2\nbasis = \"assumed\"\n";
+    let scenario = Scenario::parse(&text).unwrap();
+    assert_eq!(scenario.formulas.len(), 1);
+    let chosen = scenario.effects.iter().find(|e| e.name == "cubic_spring").unwrap();
+    assert_eq!((chosen.values.as_slice(), chosen.basis.as_str()), (&[2.0][..], "assumed"));
+    assert_eq!(scenario.bare().catalogue().effects().count(), EFFECTS.len() + 1);
+}
+
+#[test]
+fn a_slip_in_a_formula_is_shown_under_its_character() {
+    for (from, to, message, at) in [
+        ("theta^3", "theta^", "ends too early", "\""),
+        ("theta^3", "phi^3", "`phi` is not known", "phi"),
+        ("theta^3", "(theta", "not closed", "("),
+        ("-k*theta^3", "-k*kappa", "comes out in N, not in N m", "-k*kappa"),
+        ("N m\"", "N furlong\"", "furlong", "\"N furlong\""),
+        ("[0, 20]", "[20, 0]", "must rise", "[20, 0]"),
+        ("[0, 20]", "[0, 0.1]", "outside its bounds", "0.5"),
+        ("[0, 20]", "[0.1, 20]", "neutral = 0", "k"),
+        ("cubic_spring", "friction", "already", "\"friction\""),
+        ("cubic_spring", "cubic spring", "cannot name", "\"cubic spring\""),
+        (".k]", ".kappa]", "cannot name", "kappa"),
+        ("typical = 0.5", "typicl = 0.5", "unknown field", "typicl"),
+    ] {
+        let text = shipped("epam").unwrap().to_string() + &OWN.replace(from, to);
+        let error = Scenario::parse(&text).unwrap_err();
+        let (start, end) = error.span.unwrap_or_else(|| panic!("{to}: {error:?}"));
+        assert!(error.message.contains(message), "{to}: {error:?}");
+        assert_eq!(&text[start..end], at, "{to}: {error:?}");
+    }
+    let twice = shipped("epam").unwrap().to_string() + OWN + OWN;
+    assert!(Scenario::parse(&twice).unwrap_err().message.contains("two formulas"));
+}

@@ -17,7 +17,7 @@ pub fn robot(actuator: &str) -> Scenario {
 }
 
 /// Effects that exist for the actuator of `scenario`.
-pub fn applicable(scenario: &Scenario) -> impl Iterator<Item = &'static Effect> {
+pub fn applicable(scenario: &Scenario) -> impl Iterator<Item = &'static Effect<'static>> {
     let family = scenario.actuator.kind.family;
     EFFECTS.iter().filter(move |e| e.applies_to(family))
 }

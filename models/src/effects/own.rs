@@ -1,0 +1,45 @@
+//! The catalogue of one scenario: the effects of all, and its own formulas.
+
+use super::{EFFECTS, Effect, Parameter};
+use crate::formula::Formula;
+use std::sync::Arc;
+
+/// Every effect that a scenario may use: [`EFFECTS`] and its own formulas, in the order in which they are added to a model.
+///
+/// ```
+/// let text = models::shipped("epam").unwrap().to_string() + r#"
+/// [[formula]]
+/// name = "cubic_spring"
+/// moment = "-k * theta^3"
+/// [formula.parameters.k]
+/// unit = "N m"
+/// typical = 0.5
+/// bounds = [0, 20]
+/// "#;
+/// let scenario = models::Scenario::parse(&text).unwrap();
+/// let catalogue = scenario.catalogue();
+/// let own = catalogue.by_name("cubic_spring").unwrap();
+/// assert_eq!((own.parameters[0].key, own.typical()[0]), ("k", 0.5));
+/// assert_eq!(catalogue.effects().count(), models::effects::EFFECTS.len() + 1);
+/// let softer = scenario.with_effect("cubic_spring", &own.typical());
+/// assert_eq!(softer.effects.last().unwrap().name, "cubic_spring");
+/// ```
+pub struct Catalogue<'a> {
+    own: Vec<(&'a Formula, Vec<Parameter<'a>>)>,
+}
+
+impl<'a> Catalogue<'a> {
+    pub(crate) fn new(formulas: &'a [Arc<Formula>]) -> Catalogue<'a> {
+        Catalogue { own: formulas.iter().map(|formula| (&**formula, formula.parameters())).collect() }
+    }
+
+    /// All entries.
+    pub fn effects(&self) -> impl Iterator<Item = Effect<'_>> {
+        EFFECTS.iter().copied().chain(self.own.iter().map(|(formula, parameters)| formula.effect(parameters)))
+    }
+
+    /// The entry of that name.
+    pub fn by_name(&self, name: &str) -> Option<Effect<'_>> {
+        self.effects().find(|effect| effect.name == name)
+    }
+}

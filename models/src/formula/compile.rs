@@ -1,0 +1,313 @@
+//! Text → program, with the dimension of every part checked on the way.
+//!
+//! ```text
+//! sum = product (('+' | '-') product)*      product = sign (('*' | '/') sign)*      sign = ('-' | '+') sign | power
+//! power = atom ('^' sign)?      atom = number | name | name '(' sum (',' sum)* ')' | '(' sum ')'
+//! ```
+
+use super::program::{DEPTH, FUNCTIONS, Op, PAIRS};
+use super::units::Dimension;
+
+/// What is wrong, what to type, and where: byte range in the formula.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Slip {
+    pub message: String,
+    pub help: String,
+    pub at: (usize, usize),
+}
+
+/// A name that the formula may use; its place in the inputs is its place in the list.
+pub(crate) struct Name<'a> {
+    pub name: &'a str,
+    pub dimension: Dimension,
+}
+
+/// A compiled formula and the inputs it uses.
+#[derive(Debug, Clone)]
+pub(crate) struct Compiled {
+    pub program: Vec<Op>,
+    pub dimension: Dimension,
+    pub used: Vec<bool>,
+}
+
+/// Compiles a formula over `names`.
+pub(crate) fn compile(text: &str, names: &[Name]) -> Result<Compiled, Slip> {
+    let used = vec![false; names.len()];
+    let mut reader = Reader { text, at: 0, names, program: Vec::new(), used, depth: 0, nesting: 0 };
+    let part = reader.sum()?;
+    reader.skip_space();
+    if reader.at < text.len() {
+        let (found, at) = reader.next_word();
+        return Err(slip(
+            format!("`{found}` is not expected here"),
+            "write an operator + - * / ^ between two parts",
+            at,
+        ));
+    }
+    Ok(Compiled { program: reader.program, dimension: part.dimension, used: reader.used })
+}
+
+fn slip(message: String, help: &str, at: (usize, usize)) -> Slip {
+    Slip { message, help: help.into(), at }
+}
+
+/// A part of the formula.
+#[derive(Clone, Copy)]
+struct Part {
+    dimension: Dimension,
+    /// Its value, if it is made of numbers alone.
+    value: Option<f64>,
+    at: (usize, usize),
+}
+
+struct Reader<'a> {
+    text: &'a str,
+    at: usize,
+    names: &'a [Name<'a>],
+    program: Vec<Op>,
+    used: Vec<bool>,
+    /// Values on the stack here.
+    depth: usize,
+    nesting: usize,
+}
+
+/// Deepest nesting of parentheses, signs and powers.
+const NESTING: usize = 64;
+
+impl<'a> Reader<'a> {
+    fn sum(&mut self) -> Result<Part, Slip> {
+        let mut left = self.product()?;
+        while let Some(sign) = self.take(&['+', '-']) {
+            let right = self.product()?;
+            alike(&left, &right, if sign == '+' { "added to" } else { "subtracted from" })?;
+            self.operate(if sign == '+' { Op::Add } else { Op::Subtract });
+            let value = both(left.value, right.value, |a, b| if sign == '+' { a + b } else { a - b });
+            left = Part { dimension: left.dimension, value, at: (left.at.0, right.at.1) };
+        }
+        Ok(left)
+    }
+
+    fn product(&mut self) -> Result<Part, Slip> {
+        let mut left = self.sign()?;
+        while let Some(sign) = self.take(&['*', '/']) {
+            let right = self.sign()?;
+            let power = if sign == '*' { 1.0 } else { -1.0 };
+            self.operate(if sign == '*' { Op::Multiply } else { Op::Divide });
+            let value = both(left.value, right.value, |a, b| if sign == '*' { a * b } else { a / b });
+            let dimension = left.dimension.times(right.dimension, power);
+            left = Part { dimension, value, at: (left.at.0, right.at.1) };
+        }
+        Ok(left)
+    }
+
+    fn sign(&mut self) -> Result<Part, Slip> {
+        let start = self.here();
+        let Some(sign) = self.take(&['-', '+']) else { return self.power() };
+        self.enter(start)?;
+        let part = self.sign()?;
+        self.nesting -= 1;
+        let minus = sign == '-';
+        if minus {
+            self.program.push(Op::Negate);
+        }
+        Ok(Part { value: part.value.map(|v| if minus { -v } else { v }), at: (start, part.at.1), ..part })
+    }
+
+    fn power(&mut self) -> Result<Part, Slip> {
+        let base = self.atom()?;
+        if self.take(&['^']).is_none() {
+            return Ok(base);
+        }
+        self.enter(self.at)?;
+        let before = self.program.len();
+        let exponent = self.sign()?;
+        self.nesting -= 1;
+        if !exponent.dimension.is(Dimension::NONE) {
+            let message = format!("an exponent must be a pure number, not {}", exponent.dimension.words());
+            return Err(slip(message, "divide it by a length, pressure or moment of its own kind", exponent.at));
+        }
+        let at = (base.at.0, exponent.at.1);
+        let dimension = match exponent.value {
+            Some(power) => Dimension::NONE.times(base.dimension, power),
+            None if base.dimension.is(Dimension::NONE) => Dimension::NONE,
+            None => {
+                let message = format!("{} to a power that is not a number has no unit", base.dimension.words());
+                return Err(slip(message, "write the exponent as a number, for example ^3", at));
+            }
+        };
+        match exponent.value.filter(|v| v.fract() == 0.0 && v.abs() <= 100.0) {
+            Some(whole) => {
+                self.program.truncate(before);
+                self.program.push(Op::Whole(whole as i32));
+                self.depth -= 1;
+            }
+            None => self.operate(Op::Power),
+        }
+        Ok(Part { dimension, value: both(base.value, exponent.value, f64::powf), at })
+    }
+
+    fn atom(&mut self) -> Result<Part, Slip> {
+        let start = self.here();
+        match self.text[start..].chars().next() {
+            Some('(') => {
+                self.enter(start)?;
+                self.at += 1;
+                let inner = self.sum()?;
+                self.close(start)?;
+                self.nesting -= 1;
+                Ok(Part { at: (start, self.at), ..inner })
+            }
+            Some(c) if c.is_ascii_digit() || c == '.' => self.number(start),
+            Some(c) if c.is_alphabetic() || c == '_' => self.name(start),
+            Some(c) => {
+                let at = (start, start + c.len_utf8());
+                Err(slip(format!("`{c}` is not expected here"), "a number, a name or `(` belongs here", at))
+            }
+            None => {
+                Err(slip("the formula ends too early".into(), "a number, a name or `(` is missing", (start, start)))
+            }
+        }
+    }
+
+    fn number(&mut self, start: usize) -> Result<Part, Slip> {
+        let bytes = self.text.as_bytes();
+        let mut end = start;
+        while end < bytes.len() && (bytes[end].is_ascii_digit() || bytes[end] == b'.') {
+            end += 1;
+        }
+        let exponent = end < bytes.len() && (bytes[end] | 32) == b'e';
+        let sign = usize::from(exponent && bytes.get(end + 1).is_some_and(|c| matches!(c, b'+' | b'-')));
+        if exponent && bytes.get(end + 1 + sign).is_some_and(u8::is_ascii_digit) {
+            end += 1 + sign;
+            while end < bytes.len() && bytes[end].is_ascii_digit() {
+                end += 1;
+            }
+        }
+        self.at = end;
+        let value: f64 = self.text[start..end].parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| {
+            slip(format!("`{}` is not a number", &self.text[start..end]), "write for example 0.5 or 2e-3", (start, end))
+        })?;
+        self.push(Op::Number(value), (start, end))?;
+        Ok(Part { dimension: Dimension::NONE, value: Some(value), at: (start, end) })
+    }
+
+    fn name(&mut self, start: usize) -> Result<Part, Slip> {
+        let (name, at) = self.next_word();
+        self.at = at.1;
+        self.skip_space();
+        if self.text[self.at..].starts_with('(') {
+            self.enter(start)?;
+            let part = self.call(name, at)?;
+            self.nesting -= 1;
+            return Ok(part);
+        }
+        let Some(place) = self.names.iter().position(|known| known.name == name) else {
+            let known = self.names.iter().map(|n| n.name).collect::<Vec<_>>().join(", ");
+            return Err(slip(format!("`{name}` is not known"), &format!("known: {known}"), at));
+        };
+        self.used[place] = true;
+        self.push(Op::Load(place), at)?;
+        Ok(Part { dimension: self.names[place].dimension, value: None, at })
+    }
+
+    /// A function, from its opening parenthesis.
+    fn call(&mut self, name: &str, at: (usize, usize)) -> Result<Part, Slip> {
+        let open = self.at;
+        self.at += 1;
+        let first = self.sum()?;
+        if let Some(function) = FUNCTIONS.iter().find(|known| known.name == name) {
+            self.close(open)?;
+            if function.power.is_none() && !first.dimension.is(Dimension::NONE) {
+                let message = format!("{name} needs a pure number, not {}", first.dimension.words());
+                return Err(slip(message, "divide by a parameter of the same unit", first.at));
+            }
+            self.program.push(Op::Apply(function.law));
+            let dimension = Dimension::NONE.times(first.dimension, function.power.unwrap_or(0.0));
+            return Ok(Part { dimension, value: None, at: (at.0, self.at) });
+        }
+        let Some(function) = PAIRS.iter().find(|known| known.name == name) else {
+            let known =
+                FUNCTIONS.iter().map(|f| f.name).chain(PAIRS.iter().map(|f| f.name)).collect::<Vec<_>>().join(", ");
+            return Err(slip(format!("there is no function `{name}`"), &format!("functions: {known}"), at));
+        };
+        if self.take(&[',']).is_none() {
+            let help = format!("write {name}(a, b)");
+            return Err(slip(format!("{name} takes two arguments"), &help, (at.0, self.at)));
+        }
+        let second = self.sum()?;
+        self.close(open)?;
+        alike(&first, &second, "compared with")?;
+        self.operate(Op::Combine(function.law));
+        Ok(Part { dimension: first.dimension, value: None, at: (at.0, self.at) })
+    }
+
+    fn close(&mut self, open: usize) -> Result<(), Slip> {
+        match self.take(&[')']) {
+            Some(_) => Ok(()),
+            None => Err(slip("this parenthesis is not closed".into(), "add `)`", (open, open + 1))),
+        }
+    }
+
+    fn enter(&mut self, at: usize) -> Result<(), Slip> {
+        self.nesting += 1;
+        if self.nesting > NESTING {
+            return Err(slip("the formula is nested too deeply".into(), "write it flatter", (at, at + 1)));
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, op: Op, at: (usize, usize)) -> Result<(), Slip> {
+        self.program.push(op);
+        self.depth += 1;
+        if self.depth > DEPTH {
+            return Err(slip("the formula is nested too deeply".into(), "write it flatter", at));
+        }
+        Ok(())
+    }
+
+    /// An instruction that makes one value of two.
+    fn operate(&mut self, op: Op) {
+        self.program.push(op);
+        self.depth -= 1;
+    }
+
+    fn skip_space(&mut self) {
+        let rest = &self.text[self.at..];
+        self.at += rest.len() - rest.trim_start().len();
+    }
+
+    /// Start of the next part.
+    fn here(&mut self) -> usize {
+        self.skip_space();
+        self.at
+    }
+
+    fn take(&mut self, wanted: &[char]) -> Option<char> {
+        self.skip_space();
+        let next = self.text[self.at..].chars().next().filter(|c| wanted.contains(c))?;
+        self.at += next.len_utf8();
+        Some(next)
+    }
+
+    /// The name that starts here, or one character.
+    fn next_word(&self) -> (&'a str, (usize, usize)) {
+        let rest: &'a str = &self.text[self.at..];
+        let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
+        let end = if end == 0 { rest.chars().next().map_or(0, char::len_utf8) } else { end };
+        (&rest[..end], (self.at, self.at + end))
+    }
+}
+
+fn both(a: Option<f64>, b: Option<f64>, f: impl Fn(f64, f64) -> f64) -> Option<f64> {
+    Some(f(a?, b?))
+}
+
+/// Only like can be added and compared.
+fn alike(left: &Part, right: &Part, verb: &str) -> Result<(), Slip> {
+    if left.dimension.is(right.dimension) {
+        return Ok(());
+    }
+    let (a, b) = (right.dimension.words(), left.dimension.words());
+    let message = format!("{a} cannot be {verb} {b}");
+    Err(slip(message, "both parts need the same unit; check those of the parameters", (left.at.0, right.at.1)))
+}

@@ -1,0 +1,308 @@
+//! A user's own effect: a moment written as a formula in the scenario, checked and compiled once.
+//!
+//! ```text
+//! M = f(κ, …) in N·m, positive towards the actuator      E = −∫₀^κ M dκ' per metre of body
+//! ```
+//!
+//! | name | meaning | unit in the formula |
+//! |---|---|---|
+//! | `kappa` | curvature of the place, per length of the taut generator | 1/m |
+//! | `theta` | κ L₀: bend of one actuator unit (of the whole muscle for an fPAM) | rad |
+//! | `p_act`, `p_body` | pressure in the actuator of the place, in the body | Pa |
+//! | `s` | station along the body | m |
+//! | `R`, `B` | body radius; effective bending stiffness of the place | m, N·m² |
+//!
+//! Parameters enter in SI. The energy is integrated to rounding over the formula's own corners, so the force is its slope and
+//! the ledger stays true. **Validity**: whatever the author of the formula says; a moment that falls with κ may leave no
+//! equilibrium, or several.
+
+mod compile;
+mod program;
+mod units;
+
+use crate::assembly::Assembly;
+use crate::effects::{Effect, Group, Parameter, Stage};
+use crate::term::{Pose, Term};
+use compile::{Compiled, Name, compile};
+use program::{Op, run};
+use std::sync::Arc;
+use units::Dimension;
+
+pub(crate) use compile::Slip;
+
+/// An effect of the scenario's own.
+#[derive(Debug, Clone)]
+pub struct Formula {
+    /// Name in `[effects.<name>]`.
+    pub name: String,
+    /// The moment as written.
+    pub moment: String,
+    /// One plain sentence for a user.
+    pub sentence: String,
+    /// What measurements show where it acts.
+    pub differs: String,
+    /// What to measure or change on the robot.
+    pub remedy: String,
+    /// Its parameters, in the order of the text.
+    pub parameters: Vec<FormulaParameter>,
+    program: Arc<[Op]>,
+    uses_station: bool,
+}
+
+/// A parameter of a [`Formula`]; the fields are those of [`Parameter`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct FormulaParameter {
+    /// Name in the formula and key in the scenario.
+    pub key: String,
+    /// Unit of the scenario value.
+    pub unit: String,
+    /// Factor to SI.
+    pub si: f64,
+    /// Value at which the effect vanishes.
+    pub neutral: f64,
+    /// Typical size.
+    pub typical: f64,
+    /// Physical lower bound.
+    pub lower: f64,
+    /// Physical upper bound.
+    pub upper: f64,
+    /// What it is.
+    pub meaning: String,
+}
+
+impl FormulaParameter {
+    fn entry(&self) -> Parameter<'_> {
+        Parameter {
+            key: &self.key,
+            symbol: &self.key,
+            unit: &self.unit,
+            si: self.si,
+            neutral: self.neutral,
+            typical: self.typical,
+            lower: self.lower,
+            upper: self.upper,
+            starts: &[],
+            by_actuator: &[],
+            meaning: &self.meaning,
+        }
+    }
+}
+
+impl PartialEq for Formula {
+    fn eq(&self, other: &Self) -> bool {
+        let texts = |f: &Formula| [&f.name, &f.moment, &f.sentence, &f.differs, &f.remedy].map(String::clone);
+        texts(self) == texts(other) && self.parameters == other.parameters
+    }
+}
+
+/// Names that every formula may use; the parameters follow.
+const VARIABLES: [(&str, Dimension); 7] = [
+    ("kappa", Dimension([0.0, -1.0, 0.0])),
+    ("theta", Dimension::NONE),
+    ("p_act", Dimension::PRESSURE),
+    ("p_body", Dimension::PRESSURE),
+    ("s", Dimension::LENGTH),
+    ("R", Dimension::LENGTH),
+    ("B", Dimension([1.0, 3.0, -2.0])),
+];
+const KAPPA: usize = 0;
+const STATION: usize = 4;
+/// Most parameters of one formula.
+pub(crate) const MOST_PARAMETERS: usize = 8;
+const INPUTS: usize = VARIABLES.len() + MOST_PARAMETERS;
+
+/// Whether a name means something in every formula.
+pub(crate) fn is_variable(name: &str) -> bool {
+    VARIABLES.iter().any(|(known, _)| *known == name)
+}
+
+/// Factor to SI of a unit; the error is the part that is not known.
+pub(crate) fn unit(text: &str) -> Result<f64, String> {
+    units::parse(text).map(|(si, _)| si)
+}
+
+/// What the text says of a formula, its parameters checked.
+pub(crate) struct Draft {
+    pub name: String,
+    pub moment: String,
+    pub sentence: String,
+    pub differs: String,
+    pub remedy: String,
+    pub parameters: Vec<FormulaParameter>,
+}
+
+impl Formula {
+    /// Compiles a draft: names, units, and values where it will be asked for.
+    pub(crate) fn new(draft: Draft) -> Result<Formula, Slip> {
+        let Compiled { program, dimension, used } = compile(&draft.moment, &names(&draft.parameters))?;
+        let whole = (0, draft.moment.len());
+        let slip = |message: String, help: &str| Err(Slip { message, help: help.into(), at: whole });
+        if !dimension.is(Dimension::MOMENT) {
+            let message = format!("the moment comes out in {}, not in N m", dimension.words());
+            return slip(message, &units_help(&draft.parameters));
+        }
+        if let Some(idle) = draft.parameters.iter().zip(&used[VARIABLES.len()..]).find(|(_, used)| !**used) {
+            return slip(format!("the parameter {} does not occur in the formula", idle.0.key), "use it or remove it");
+        }
+        let Draft { name, moment, sentence, differs, remedy, parameters } = draft;
+        let (program, uses_station) = (program.into(), used[STATION]);
+        let formula = Formula { name, moment, sentence, differs, remedy, parameters, program, uses_station };
+        match formula.misbehaves() {
+            Some((message, help)) => slip(message, help),
+            None => Ok(formula),
+        }
+    }
+
+    /// Its entry for a catalogue, with its parameters in the form of the catalogue's.
+    pub(crate) fn effect<'a>(&'a self, parameters: &'a [Parameter<'a>]) -> Effect<'a> {
+        Effect {
+            name: &self.name,
+            group: Group::Body,
+            stage: Stage::Balance,
+            history: false,
+            formula: &self.moment,
+            sentence: &self.sentence,
+            differs: &self.differs,
+            remedy: &self.remedy,
+            validity: "what the author of the formula says",
+            reference: "the scenario's own formula",
+            parameters,
+            family: None,
+            add: |_, _| {},
+        }
+    }
+
+    pub(crate) fn parameters(&self) -> Vec<Parameter<'_>> {
+        self.parameters.iter().map(FormulaParameter::entry).collect()
+    }
+
+    /// Adds it to a model under construction; values in SI.
+    pub(crate) fn add(&self, values: &[f64], assembly: &mut Assembly) {
+        assembly.varies |= self.uses_station;
+        for site in &mut assembly.sites {
+            let mut inputs = [0.0; INPUTS];
+            (inputs[5], inputs[6]) = (site.radius_m, site.bending.stiffness);
+            inputs[VARIABLES.len()..][..values.len()].copy_from_slice(values);
+            let (program, unit_m) = (Arc::clone(&self.program), site.shape.length_m);
+            site.body_terms.push(Box::new(FormulaTerm { program, unit_m, inputs }));
+        }
+    }
+
+    /// Values that cannot be, at some of the places where it will be asked: message and what to do.
+    fn misbehaves(&self) -> Option<(String, &'static str)> {
+        for (k, set) in ["neutral", "typical", "lower", "upper"].into_iter().enumerate() {
+            let mut inputs = [0.0; INPUTS];
+            for (input, p) in inputs[VARIABLES.len()..].iter_mut().zip(&self.parameters) {
+                *input = [p.neutral, p.typical, p.lower, p.upper][k] * p.si;
+            }
+            for place in PLACES {
+                inputs[..VARIABLES.len()].copy_from_slice(&place);
+                let moment = run(&self.program, &inputs);
+                let at = format!("at the {set} values, kappa = {} 1/m, p_act = {} kPa", place[KAPPA], place[2] / 1e3);
+                if !moment.is_finite() {
+                    return Some((format!("the moment is {moment} {at}"), "it must be finite over all bounds"));
+                }
+                if set == "neutral" && moment != 0.0 {
+                    let help = "choose neutral values at which the formula is exactly zero";
+                    return Some((format!("the moment is {moment:.3e} N m {at}"), help));
+                }
+            }
+        }
+        None
+    }
+}
+
+/// Where a formula is tried: κ, θ, P, p_b, s, R, B in SI.
+const PLACES: [[f64; 7]; 7] = [
+    [0.0, 0.0, 0.0, 2e3, 0.0, 0.04, 0.0],
+    [0.0, 0.0, 30e3, 2e3, 0.36, 0.04, 1.0],
+    [1e-3, 6e-5, 10e3, 2e3, 0.18, 0.04, 1.0],
+    [0.7, 0.042, 10e3, 2e3, 0.03, 0.04, 1.0],
+    [-0.7, -0.042, 0.0, 2e3, 0.03, 0.04, 1.0],
+    [4.0, 0.24, 30e3, 4e3, 0.33, 0.04, 6.0],
+    [20.0, 1.2, 100e3, 1e3, 0.36, 0.02, 6.0],
+];
+
+fn names(parameters: &[FormulaParameter]) -> Vec<Name<'_>> {
+    let own = parameters.iter().map(|p| {
+        let dimension = units::parse(&p.unit).map_or(Dimension::NONE, |(_, dimension)| dimension);
+        Name { name: &p.key, dimension }
+    });
+    VARIABLES.iter().map(|(name, dimension)| Name { name, dimension: *dimension }).chain(own).collect()
+}
+
+fn units_help(parameters: &[FormulaParameter]) -> String {
+    let own: Vec<String> = parameters.iter().map(|p| format!("{} in {}", p.key, p.unit)).collect();
+    format!("kappa is in 1/m, theta in rad, p_act and p_body in Pa, s and R in m, B in N m2; {}", own.join(", "))
+}
+
+/// The formula at one place.
+struct FormulaTerm {
+    program: Arc<[Op]>,
+    unit_m: f64,
+    inputs: [f64; INPUTS],
+}
+
+impl FormulaTerm {
+    fn moment(&self, inputs: &mut [f64; INPUTS], kappa: f64) -> f64 {
+        (inputs[KAPPA], inputs[KAPPA + 1]) = (kappa, kappa * self.unit_m);
+        run(&self.program, inputs)
+    }
+
+    fn inputs(&self, at: &Pose) -> [f64; INPUTS] {
+        let mut inputs = self.inputs;
+        (inputs[2], inputs[3], inputs[4]) = (at.p_act_pa, at.p_body_pa, at.s_m);
+        inputs
+    }
+}
+
+impl Term for FormulaTerm {
+    fn name(&self) -> &'static str {
+        "formula"
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        self.add_force(at, force);
+        let mut inputs = self.inputs(at);
+        -integral(&mut |kappa| self.moment(&mut inputs, kappa), at.q[0])
+    }
+
+    fn add_force(&self, at: &Pose, force: &mut [f64]) {
+        force[0] += self.moment(&mut self.inputs(at), at.q[0]);
+    }
+}
+
+/// Nodes and weights of Lobatto's rule with five points on \[−1, 1\]: it sees the ends, so a corner close to one is not missed.
+const LOBATTO: [(f64, f64); 5] = [
+    (-1.0, 0.1),
+    (-0.654_653_670_707_977_1, 49.0 / 90.0),
+    (0.0, 32.0 / 45.0),
+    (0.654_653_670_707_977_1, 49.0 / 90.0),
+    (1.0, 0.1),
+];
+/// Halvings of the interval around a corner: its share of the integral is then below rounding.
+const HALVINGS: u32 = 40;
+
+/// ∫₀^end f, halved three times and then where two halves disagree with the whole.
+fn integral(f: &mut dyn FnMut(f64) -> f64, end: f64) -> f64 {
+    let whole = lobatto(f, 0.0, end);
+    let size = whole.abs() + f(end).abs() * end.abs();
+    refined(f, (0.0, end), whole, 1e-14 * size, HALVINGS)
+}
+
+fn refined(f: &mut dyn FnMut(f64) -> f64, (a, b): (f64, f64), whole: f64, error: f64, left: u32) -> f64 {
+    let middle = 0.5 * (a + b);
+    let (low, high) = (lobatto(f, a, middle), lobatto(f, middle, b));
+    if left == 0 || (left < HALVINGS - 2 && (low + high - whole).abs() <= error) {
+        return low + high;
+    }
+    refined(f, (a, middle), low, error, left - 1) + refined(f, (middle, b), high, error, left - 1)
+}
+
+fn lobatto(f: &mut dyn FnMut(f64) -> f64, a: f64, b: f64) -> f64 {
+    let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
+    LOBATTO.iter().map(|(x, weight)| weight * f(middle + half * x)).sum::<f64>() * half
+}
+
+#[cfg(test)]
+mod tests;

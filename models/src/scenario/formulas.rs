@@ -1,0 +1,122 @@
+//! `[[formula]]`: the scenario's own effects.
+
+use super::check::{Checked, refuse, unit};
+use super::raw::{Raw, RawFormula, RawParameter};
+use crate::effects::EFFECTS;
+use crate::error::ScenarioError;
+use crate::formula::{self, Draft, Formula, FormulaParameter, MOST_PARAMETERS, Slip};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::Arc;
+use toml::Spanned;
+
+/// All formulas of a scenario, compiled.
+pub(super) fn formulas(raw: &Raw, text: &str) -> Checked<Vec<Arc<Formula>>> {
+    let mut found: Vec<Arc<Formula>> = Vec::new();
+    for entry in &raw.formula {
+        let raw = entry.get_ref();
+        if found.iter().any(|other| other.name == *raw.name.get_ref()) {
+            let message = format!("two formulas are called \"{}\"", raw.name.get_ref());
+            return refuse(message, "give the second another name", raw.name.span());
+        }
+        found.push(Arc::new(compiled(raw, text)?));
+    }
+    Ok(found)
+}
+
+fn compiled(raw: &RawFormula, text: &str) -> Checked<Formula> {
+    let name = raw.name.get_ref();
+    if !is_name(name) {
+        let help = "letters, digits and _, starting with a letter, for example cubic_spring";
+        return refuse(format!("\"{name}\" cannot name an effect"), help, raw.name.span());
+    }
+    if EFFECTS.iter().any(|effect| effect.name == name) {
+        let message = format!("the catalogue already has an effect {name}");
+        return refuse(message, "give the formula another name", raw.name.span());
+    }
+    let words = |text: &Option<String>, default: &str| text.clone().unwrap_or_else(|| default.to_string());
+    let draft = Draft {
+        name: name.clone(),
+        moment: raw.moment.get_ref().clone(),
+        sentence: words(&raw.sentence, "The scenario's own formula."),
+        differs: words(&raw.differs, "As its formula says."),
+        remedy: words(&raw.remedy, "Measure the parameters of the formula on the robot."),
+        parameters: parameters(&raw.parameters, raw)?,
+    };
+    Formula::new(draft).map_err(|slip| placed(slip, &raw.moment, text))
+}
+
+fn parameters(raw: &BTreeMap<Spanned<String>, RawParameter>, of: &RawFormula) -> Checked<Vec<FormulaParameter>> {
+    if raw.is_empty() || raw.len() > MOST_PARAMETERS {
+        let message = format!("a formula has 1 to {MOST_PARAMETERS} parameters, not {}", raw.len());
+        let help = format!("write [formula.parameters.k] with unit, typical and bounds below {}", of.name.get_ref());
+        return refuse(message, help, of.moment.span());
+    }
+    let mut sorted: Vec<_> = raw.iter().collect();
+    sorted.sort_by_key(|(key, _)| key.span().start);
+    sorted.into_iter().map(|(key, parameter)| checked(key, parameter)).collect()
+}
+
+fn checked(key: &Spanned<String>, raw: &RawParameter) -> Checked<FormulaParameter> {
+    let name = key.get_ref();
+    if !is_name(name) || formula::is_variable(name) {
+        let help =
+            "letters, digits and _, starting with a letter; kappa, theta, p_act, p_body, s, R and B have a meaning";
+        return refuse(format!("\"{name}\" cannot name a parameter"), help, key.span());
+    }
+    let si = formula::unit(raw.unit.get_ref()).or_else(|part| {
+        let help =
+            "known: 1 or -, %, rad, deg, mN, N, kN, mm, cm, m, Pa, kPa, MPa, J, g, kg, s; for example \"N m/rad^3\"";
+        refuse(format!("the unit \"{}\" is not understood at \"{part}\"", raw.unit.get_ref()), help, raw.unit.span())
+    })?;
+    let [lower, upper] = *raw.bounds.get_ref();
+    if !(lower.is_finite() && upper.is_finite() && lower < upper) {
+        return refuse(
+            format!("bounds of {name} must rise, not [{lower}, {upper}]"),
+            "[lower, upper]",
+            raw.bounds.span(),
+        );
+    }
+    let within = |what: &str, value: f64, span: Range<usize>| {
+        if (lower..=upper).contains(&value) {
+            return Ok(value);
+        }
+        let message =
+            format!("{what} = {value} of {name} is outside its bounds {lower} to {upper}{}", unit(raw.unit.get_ref()));
+        refuse(message, "move the bounds or the value", span)
+    };
+    let typical = within("typical", *raw.typical.get_ref(), raw.typical.span())?;
+    let neutral = match &raw.neutral {
+        Some(value) => within("neutral", *value.get_ref(), value.span())?,
+        None => within("neutral", 0.0, key.span())?,
+    };
+    let meaning = raw.meaning.clone().unwrap_or_else(|| "parameter of the formula".into());
+    Ok(FormulaParameter {
+        key: name.clone(),
+        unit: raw.unit.get_ref().clone(),
+        si,
+        neutral,
+        typical,
+        lower,
+        upper,
+        meaning,
+    })
+}
+
+fn is_name(text: &str) -> bool {
+    let mut letters = text.chars();
+    let inside = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    letters.next().is_some_and(|c| c.is_ascii_alphabetic()) && letters.all(inside) && text.len() <= 40
+}
+
+/// A slip in a formula with its place in the scenario.
+fn placed(slip: Slip, moment: &Spanned<String>, text: &str) -> ScenarioError {
+    let span = moment.span();
+    let written = text.get(span.clone()).unwrap_or_default();
+    // The text between the quotes is the formula itself, unless it has escapes.
+    let span = match written.find(moment.get_ref().as_str()) {
+        Some(start) => (span.start + start + slip.at.0, span.start + start + slip.at.1.max(slip.at.0 + 1)),
+        None => (span.start, span.end),
+    };
+    ScenarioError { message: slip.message, help: Some(slip.help), span: Some(span) }
+}
