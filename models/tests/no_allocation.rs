@@ -10,6 +10,19 @@ use std::alloc::System;
 #[global_allocator]
 static COUNTING: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
+/// An effect of the scenario's own, switched on.
+const FORMULA: &str = r#"
+[[formula]]
+name = "cubic_spring"
+moment = "-k*theta^3 * exp(-s/R)"
+[formula.parameters.k]
+unit = "N m"
+typical = 0.5
+bounds = [0, 20]
+[effects.cubic_spring]
+k = 0.5
+"#;
+
 /// Every applicable effect at its typical value.
 fn everything(scenario: &Scenario) -> Scenario {
     let family = scenario.actuator.kind.family;
@@ -30,7 +43,8 @@ fn main() {
     assert!(allocations(|| drop(std::hint::black_box(vec![1.0]))) > 0, "the counter counts");
     for name in ["spam", "cpam", "epam", "fpam"] {
         let shipped = Scenario::parse(shipped(name).unwrap()).unwrap();
-        for scenario in [shipped.bare(), shipped.clone(), everything(&shipped)] {
+        let with_formula = Scenario::parse(&(self::shipped(name).unwrap().to_string() + FORMULA)).unwrap();
+        for scenario in [shipped.bare(), shipped.clone(), everything(&shipped), everything(&with_formula)] {
             let model = Model::new(&scenario);
             let mut out = model.prediction();
             let sweep: Vec<Loads> = (0..50).map(|i| Loads::uniform(2e3, 1e3 * f64::from(i))).collect();

@@ -331,3 +331,28 @@ fn hold_at(term: &dyn Term, kappa: f64, dt_s: f64, memory: &[f64], name: &str) {
         assert!((left + lost - spent).abs() < 1e-12 * (1.0 + spent.abs()), "{name}: {left:e} + {lost:e} of {spent:e}");
     }
 }
+
+#[test]
+fn every_effect_with_history_walks_up_and_down_at_all_its_bounds() {
+    let picks: [fn(&models::effects::Parameter) -> f64; 3] = [|p| p.typical, |p| p.lower, |p| p.upper];
+    for actuator in actuators() {
+        for base in [robot(actuator).bare(), robot(actuator).with_bending(0.8)] {
+            for effect in applicable(&base).filter(|e| e.history) {
+                for pick in picks {
+                    let scenario = base.with_effect(effect.name, &values(effect, pick));
+                    for body_pa in [500.0, 2e3, 3e4] {
+                        let mut steps =
+                            protocol(&[0.0, 1e-3, 5.0, 30.0, 100.0, 30.0, 1.0, 1e-6, 0.0, 20.0, 0.0], 5.0, 3);
+                        steps.iter_mut().for_each(|step| step.loads.body_pa = body_pa);
+                        // A long pause, and another session at another body pressure.
+                        let last = steps[steps.len() - 1].t_s;
+                        steps.push(Step { t_s: last + 3600.0, loads: Loads::uniform(2.0 * body_pa, 20e3) });
+                        let tips = heights(&scenario, &steps);
+                        let fine = tips.iter().all(|y| y.is_finite() && *y > -1e-9);
+                        assert!(fine, "{actuator} {} {body_pa}: {tips:?}", effect.name);
+                    }
+                }
+            }
+        }
+    }
+}
