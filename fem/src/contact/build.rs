@@ -12,31 +12,26 @@ const CANDIDATES: usize = 4096;
 #[derive(Debug, Clone)]
 pub(super) struct Penalty {
     pub mass_kg: Vec<f64>,
+    /// Least mass of the corners of each element, infinite if all are held.
+    pub light_kg: Vec<f64>,
     /// k = share · m.
     pub stiffness_1_s2: f64,
     /// c = share · m.
     pub damping_1_s: f64,
 }
 
-/// Chunks of records for `pairs` (sorted by node); `old` are the records so far, in order of their nodes. The second
-/// result is the energy of elastic slides that were dropped \[J\].
-pub(super) fn chunks(surface: &Surface, pairs: &[(u32, u32)], old: &Memory, penalty: &Penalty) -> (Vec<Chunk>, f64) {
+/// Chunks of records for `pairs` (those of a node together); `old` are the records so far. The second result is the energy
+/// of elastic slides that were dropped \[J\].
+pub(super) fn chunks(surface: &Surface, pairs: &[(u32, u32)], mut old: Memory, penalty: &Penalty) -> (Vec<Chunk>, f64) {
     let mut chunks = vec![Chunk::default()];
-    let mut work = Work::default();
+    let mut work = Work { place: vec![0; surface.elements.len()], ..Work::default() };
     let mut lost = 0.0;
-    let mut rest = &old.records[..];
     for group in pairs.chunk_by(|a, b| a.0 == b.0) {
         let node = group[0].0;
-        while let Some((first, after)) = rest.split_first().filter(|(r, _)| r.node < node) {
-            lost += first.slide_j();
-            rest = after;
-        }
-        let own = rest.iter().take_while(|r| r.node == node).count();
-        let (remembered, after) = rest.split_at(own);
-        rest = after;
         work.split(surface, group);
-        lost += work.records(surface, node, remembered, penalty);
-        work.inherit(remembered, old);
+        lost += work.records(surface, node, old.of(node).0, penalty);
+        work.inherit(old.of(node), old.clear_m);
+        old.forget(node);
         if chunks.last().is_none_or(|c| c.records.len() >= RECORDS || c.candidates.len() >= CANDIDATES) {
             chunks.push(Chunk::default());
         }
@@ -44,34 +39,50 @@ pub(super) fn chunks(surface: &Surface, pairs: &[(u32, u32)], old: &Memory, pena
             work.append(chunk);
         }
     }
-    lost += rest.iter().map(Record::slide_j).sum::<f64>();
     chunks.retain(|c| !c.records.is_empty());
-    (chunks, lost)
+    chunks.iter_mut().for_each(|c| c.records.sort_by_key(|r| r.node));
+    (chunks, lost + old.slides_j())
 }
 
-/// Records before a search, in order of their nodes, and all their candidates.
+/// Records before a search, and their candidates.
 pub(super) struct Memory {
-    records: Vec<Record>,
-    candidates: Vec<Candidate>,
+    chunks: Vec<Chunk>,
+    /// Chunk, first record and number of records of every node.
+    place: Vec<[u32; 3]>,
     /// What was no candidate is no closer than this.
     clear_m: f64,
 }
 
 impl Memory {
-    /// No records.
-    pub fn new(clear_m: f64) -> Memory {
-        Memory { records: Vec::new(), candidates: Vec::new(), clear_m }
+    /// Records of chunks whose way was closed, for so many nodes.
+    pub fn new(chunks: Vec<Chunk>, nodes: usize, clear_m: f64) -> Memory {
+        let mut place = vec![[0; 3]; nodes];
+        for (c, chunk) in chunks.iter().enumerate() {
+            for (i, record) in chunk.records.iter().enumerate() {
+                let place = &mut place[record.node as usize];
+                *place = [c as u32, if place[2] == 0 { i as u32 } else { place[1] }, place[2] + 1];
+            }
+        }
+        Memory { chunks, place, clear_m }
     }
 
-    /// Adds a chunk whose way was closed.
-    pub fn append(&mut self, chunk: &Chunk) {
-        let first = self.candidates.len() as u32;
-        self.candidates.extend_from_slice(&chunk.candidates);
-        self.records.extend(chunk.records.iter().map(|r| Record { first: r.first + first, ..*r }));
+    /// Records of a node, and the candidates of its chunk.
+    fn of(&self, node: u32) -> (&[Record], &[Candidate]) {
+        let [chunk, first, count] = self.place[node as usize].map(|i| i as usize);
+        match self.chunks.get(chunk) {
+            Some(chunk) => (&chunk.records[first..first + count], &chunk.candidates),
+            None => (&[], &[]),
+        }
     }
 
-    fn of(&self, record: &Record) -> &[Candidate] {
-        &self.candidates[record.first as usize..(record.first + record.count) as usize]
+    fn forget(&mut self, node: u32) {
+        self.place[node as usize] = [0; 3];
+    }
+
+    /// Energy of the slides of all nodes that were not forgotten.
+    fn slides_j(&self) -> f64 {
+        let all = self.chunks.iter().flat_map(|c| &c.records);
+        all.filter(|r| self.place[r.node as usize][2] > 0).map(Record::slide_j).sum()
     }
 }
 
@@ -84,50 +95,75 @@ struct Work {
     made: Vec<Record>,
     /// As in [`Candidate::clear_m`], for each element.
     clear_m: Vec<f64>,
+    /// Members whose neighbours were not asked yet, and the number of elements without a piece.
+    open: Vec<usize>,
+    left: usize,
+    /// Where each element of the mesh is in `elements`, if it is there.
+    place: Vec<u32>,
 }
 
 impl Work {
+    fn find(&self, element: u32) -> Option<usize> {
+        let at = self.place[element as usize] as usize;
+        self.elements.get(at).is_some_and(|e| *e == element).then_some(at)
+    }
+
     /// Numbers connected pieces; elements of one layer that share a corner are connected.
     fn split(&mut self, surface: &Surface, group: &[(u32, u32)]) {
         self.elements.clear();
         self.elements.extend(group.iter().map(|p| p.1));
+        for (at, pair) in group.iter().enumerate() {
+            self.place[pair.1 as usize] = at as u32;
+        }
         self.piece.clear();
         self.piece.resize(group.len(), u32::MAX);
-        self.pieces = 0;
-        let mut open = Vec::new();
+        (self.pieces, self.left) = (0, group.len());
         for seed in 0..group.len() {
             if self.piece[seed] != u32::MAX {
                 continue;
             }
-            self.piece[seed] = self.pieces;
-            open.push(seed);
-            while let Some(at) = open.pop() {
-                for other in seed + 1..group.len() {
-                    if self.piece[other] == u32::MAX && touching(surface, self.elements[at], self.elements[other]) {
-                        self.piece[other] = self.pieces;
-                        open.push(other);
-                    }
+            self.take(seed);
+            while let Some(at) = self.open.pop().filter(|_| self.left > 0) {
+                self.reach(surface, self.elements[at]);
+            }
+            self.open.clear();
+            self.pieces += 1;
+        }
+    }
+
+    fn take(&mut self, at: usize) {
+        self.piece[at] = self.pieces;
+        self.left -= 1;
+        self.open.push(at);
+    }
+
+    /// Adds the neighbours of an element to the piece at hand.
+    fn reach(&mut self, surface: &Surface, element: u32) {
+        let layer = surface.layer[element as usize];
+        for n in surface.corners(element as usize) {
+            for other in surface.around.of(*n as usize) {
+                let Some(at) = self.find(*other) else { continue };
+                if self.piece[at] == u32::MAX && surface.layer[*other as usize] == layer {
+                    self.take(at);
                 }
             }
-            self.pieces += 1;
         }
     }
 
     /// One record per piece, with what was remembered; returns the slide energy of what was dropped.
     fn records(&mut self, surface: &Surface, node: u32, remembered: &[Record], penalty: &Penalty) -> f64 {
         self.made.clear();
+        let own_kg = Some(penalty.mass_kg[node as usize]).filter(|m| *m > 0.0).unwrap_or(f64::INFINITY);
         let mut lost = 0.0;
         for piece in 0..self.pieces {
             let members = || self.elements.iter().zip(&self.piece).filter(move |(_, p)| **p == piece).map(|(e, _)| *e);
             let layer = members().next().map_or(0, |e| surface.layer[e as usize]);
-            let mut record = Record { node, layer, own: surface.is_in(node as usize, layer), ..Record::NEW };
-            let heirs = remembered.iter().filter(|r| members().any(|e| e == r.element));
-            if let Some(best) = heirs.min_by(|a, b| order(a).total_cmp(&order(b))) {
-                record = *best;
-            }
-            let corners = members().flat_map(|e| surface.corners(e as usize));
-            let light = |m: f64, n: &u32| m.min(Some(penalty.mass_kg[*n as usize]).filter(|m| *m > 0.0).unwrap_or(m));
-            let mass = std::iter::once(&node).chain(corners).fold(f64::INFINITY, light);
+            let heirs = remembered.iter().filter(|r| self.find(r.element).is_some_and(|at| self.piece[at] == piece));
+            let mut record = match heirs.min_by(|a, b| order(a).total_cmp(&order(b))) {
+                Some(best) => *best,
+                None => Record { node, layer, own: surface.is_in(node as usize, layer), ..Record::NEW },
+            };
+            let mass = members().map(|e| penalty.light_kg[e as usize]).fold(own_kg, f64::min);
             let mass = if mass.is_finite() { mass } else { 0.0 };
             let stiffness = penalty.stiffness_1_s2 * mass;
             // A pair under load keeps its spring, unless lighter nodes came near.
@@ -145,17 +181,24 @@ impl Work {
     }
 
     /// Takes over how far elements were, and when records are due. A record is due at once if it is new or if there are
-    /// elements in its piece that were in another.
-    fn inherit(&mut self, remembered: &[Record], old: &Memory) {
+    /// elements in its piece that were in another, and soon if there are new ones.
+    fn inherit(&mut self, (remembered, candidates): (&[Record], &[Candidate]), clear_m: f64) {
         self.clear_m.clear();
-        for (element, piece) in self.elements.iter().zip(&self.piece) {
-            let record = &mut self.made[*piece as usize];
-            let keeper = remembered.iter().find_map(|r| Some((r, old.of(r).iter().find(|c| c.element == *element)?)));
-            let known = keeper.map_or(old.clear_m, |(_, c)| c.clear_m);
-            if keeper.is_some_and(|(r, _)| r.element != record.element || r.layer != record.layer) {
-                record.due_m = f64::NEG_INFINITY;
+        self.clear_m.resize(self.elements.len(), f64::NAN);
+        for old in remembered {
+            for candidate in &candidates[old.first as usize..(old.first + old.count) as usize] {
+                let Some(at) = self.find(candidate.element) else { continue };
+                self.clear_m[at] = candidate.clear_m;
+                let record = &mut self.made[self.piece[at] as usize];
+                if old.element != record.element || old.layer != record.layer {
+                    record.due_m = f64::NEG_INFINITY;
+                }
             }
-            self.clear_m.push(known);
+        }
+        for (known, piece) in self.clear_m.iter_mut().zip(&self.piece).filter(|(known, _)| known.is_nan()) {
+            *known = clear_m;
+            let record = &mut self.made[*piece as usize];
+            record.due_m = record.due_m.min(0.25 * clear_m);
         }
     }
 
@@ -163,9 +206,7 @@ impl Work {
         for (piece, record) in self.made.iter().enumerate() {
             let first = chunk.candidates.len() as u32;
             let members = (0..self.elements.len()).filter(|i| self.piece[*i] as usize == piece);
-            let candidate =
-                |i| Candidate { element: self.elements[i], clear_m: self.clear_m[i], ..Candidate::default() };
-            chunk.candidates.extend(members.map(candidate));
+            chunk.candidates.extend(members.map(|i| Candidate { element: self.elements[i], clear_m: self.clear_m[i] }));
             chunk.records.push(Record { first, count: chunk.candidates.len() as u32 - first, ..*record });
         }
     }
@@ -174,10 +215,4 @@ impl Work {
 /// Decided records first, then the closer one.
 fn order(record: &Record) -> f64 {
     if record.side == 0 { f64::INFINITY } else { record.distance_m.abs() }
-}
-
-fn touching(surface: &Surface, e: u32, f: u32) -> bool {
-    let others = surface.corners(f as usize);
-    surface.layer[e as usize] == surface.layer[f as usize]
-        && surface.corners(e as usize).iter().any(|n| others.contains(n))
 }

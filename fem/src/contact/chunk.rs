@@ -1,12 +1,13 @@
-//! Some dozens of records that are looked at, and stepped, together; their forces add up in a small array of their own.
+//! Some dozens of records that are looked at, and stepped, together.
 
-use super::closest::{Closest, Feature, Nearest, describe, nearest};
+use super::ask::{Question, Questions};
+use super::closest::{Closest, Feature, describe, nearest};
 use super::pack::{Pack, Touches};
-use super::press::{Out, Sums, press_lane, press_round, push};
+use super::press::{Push, Sums, press_lane, press_round, push};
 use super::record::{Reach, Record};
-use super::surface::{NONE, Surface};
-use crate::sheet::group::LANES;
-use crate::vec3::{V3, add, along, cross, dot, node, norm, scale, sub};
+use super::surface::Surface;
+use crate::sheet::group::{LANES, Lane};
+use crate::vec3::{V3, along, cross, dot, node, norm, scale, sub};
 
 /// Records per chunk.
 pub(super) const RECORDS: usize = 64;
@@ -14,11 +15,10 @@ pub(super) const RECORDS: usize = 64;
 /// Records are looked at early by this share of the slack, so that few looks serve many.
 const EARLY: f64 = 0.3;
 
-/// An element near a record's node, its corners in the chunk's numbering.
+/// An element near a record's node.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Candidate {
     pub element: u32,
-    pub local: [u32; 4],
     /// Distance when it was measured, plus the way of the chunk then: it is no closer than this less the way now.
     pub clear_m: f64,
 }
@@ -28,7 +28,7 @@ pub(super) struct Candidate {
 pub(super) struct Chunk {
     pub records: Vec<Record>,
     pub candidates: Vec<Candidate>,
-    /// Nodes that the chunk may push, ascending.
+    /// Nodes of the records and of their candidates.
     pub nodes: Vec<u32>,
     /// Records that may touch before the next look: on faces first, then on edges and corners.
     pub near: Vec<u32>,
@@ -44,9 +44,12 @@ pub(super) struct Chunk {
     pub next_m: f64,
     /// Path of the fastest node at which the motion must be measured again.
     pub due_m: f64,
-    /// Forces on the nodes, and which of them (some more than once) are not zero.
-    pub out: Out,
+    /// Forces of the step.
+    pub pushes: Vec<Push>,
     pub sums: Sums,
+    /// Room for a look.
+    pub asked: Vec<Question>,
+    pub square_m2: Vec<Lane>,
 }
 
 /// What a step needs to know.
@@ -76,32 +79,27 @@ pub(super) struct Touch {
 impl Chunk {
     /// Starts the way at zero again, at positions `x`.
     pub fn close(&mut self, x: &[[f64; 4]]) {
-        let way_m = if self.seen_m.is_empty() { f64::INFINITY } else { self.way_m + 2.0 * self.spread_m(x) };
-        self.records.iter_mut().for_each(|r| r.due_m -= way_m);
+        let way_m = if self.seen_m.is_empty() { f64::INFINITY } else { self.way_m + self.parted_m(x) };
+        for record in &mut self.records {
+            record.due_m -= way_m;
+            record.within_m += way_m;
+        }
         self.candidates.iter_mut().for_each(|c| c.clear_m -= way_m);
     }
 
-    /// Gives every node of the records and their candidates a number within the chunk.
-    pub fn number(&mut self, surface: &Surface) {
+    /// Lists the nodes, each once; `mark` holds a number for every node, and no two chunks leave the same there.
+    pub fn list(&mut self, surface: &Surface, chunk: u32, mark: &mut [u32]) {
         self.nodes.clear();
-        self.nodes.extend(self.records.iter().map(|r| r.node));
-        self.nodes.extend(self.candidates.iter().flat_map(|c| surface.corners(c.element as usize)));
-        self.nodes.sort_unstable();
-        self.nodes.dedup();
-        let nodes = &self.nodes;
-        let find = |n: u32| nodes.binary_search(&n).unwrap_or(0) as u32;
-        for candidate in &mut self.candidates {
-            let corners = surface.elements[candidate.element as usize];
-            candidate.local = corners.map(|n| if n == NONE { 0 } else { find(n) });
-        }
-        for r in &mut self.records {
-            r.local = [r.node, r.corners[0], r.corners[1], r.corners[2]].map(find);
+        let corners = self.candidates.iter().flat_map(|c| surface.corners(c.element as usize));
+        for n in self.records.iter().map(|r| &r.node).chain(corners) {
+            let mark = &mut mark[*n as usize];
+            if *mark != chunk {
+                *mark = chunk;
+                self.nodes.push(*n);
+            }
         }
         (self.due_m, self.way_m, self.next_m) = (f64::NEG_INFINITY, 0.0, f64::NEG_INFINITY);
         self.seen_m.clear();
-        self.out.pushed.clear();
-        self.out.force_n.clear();
-        self.out.force_n.resize(self.nodes.len(), [0.0; 4]);
     }
 
     /// One step: looks again if nodes moved too far, then adds up the forces of the near records.
@@ -117,7 +115,7 @@ impl Chunk {
             let record = &mut self.records[*at as usize];
             let touch = touch(record, step.x);
             if touch.depth_m > 0.0 || record.last_m > 0.0 {
-                press_round(record, &touch, step, &mut self.sums, &mut self.out);
+                press_round(record, &touch, step, &mut self.sums, &mut self.pushes);
             }
             record.last_m = touch.depth_m;
         }
@@ -125,9 +123,11 @@ impl Chunk {
 
     /// Adds the forces of the step to those on all nodes.
     pub fn hand_over(&mut self, force: &mut [[f64; 4]]) {
-        for local in self.out.pushed.drain(..).flatten() {
-            let own = std::mem::take(&mut self.out.force_n[local as usize]);
-            push(&mut force[self.nodes[local as usize] as usize], 1.0, [own[0], own[1], own[2]]);
+        for Push { nodes: [p, a, b, c], weights, force_n } in self.pushes.drain(..) {
+            push(&mut force[p as usize], 1.0, force_n);
+            push(&mut force[a as usize], -weights[0], force_n);
+            push(&mut force[b as usize], -weights[1], force_n);
+            push(&mut force[c as usize], -weights[2], force_n);
         }
     }
 
@@ -147,65 +147,122 @@ impl Chunk {
 
     /// Measures how far nodes moved against each other and looks, or puts the next measurement off.
     fn look_if_due(&mut self, step: &Step) {
-        let moved_m = if self.seen_m.is_empty() { 0.0 } else { 2.0 * self.spread_m(step.x) };
+        let moved_m = if self.seen_m.is_empty() { 0.0 } else { self.parted_m(step.x) };
         let left_m = self.next_m - (self.way_m + moved_m);
         if left_m > 0.05 * step.reach.slack_m {
-            // A node and the mean may part at twice the pace of the fastest node.
-            self.due_m = step.path_m + 0.25 * left_m;
+            // Two nodes may part at twice the pace of the fastest node.
+            self.due_m = step.path_m + 0.5 * left_m;
         } else {
             self.way_m += moved_m;
             self.look(step);
         }
     }
 
-    /// Largest motion of a node against the mean motion since the last look.
-    fn spread_m(&self, x: &[[f64; 4]]) -> f64 {
-        let mut mean = [0.0; 3];
+    /// No two nodes moved more than this against each other since the last look: diagonal of the box of all motions.
+    fn parted_m(&self, x: &[[f64; 4]]) -> f64 {
+        let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
         for (n, seen) in self.nodes.iter().zip(&self.seen_m) {
-            mean = add(mean, sub(node(x, *n as usize), [seen[0], seen[1], seen[2]]));
+            let p = &x[*n as usize];
+            for k in 0..4 {
+                let moved = p[k] - seen[k];
+                low[k] = if moved < low[k] { moved } else { low[k] };
+                high[k] = if moved > high[k] { moved } else { high[k] };
+            }
         }
-        let mean = scale(mean, 1.0 / self.nodes.len() as f64);
-        let mut far: f64 = 0.0;
-        for (n, seen) in self.nodes.iter().zip(&self.seen_m) {
-            let moved = sub(sub(node(x, *n as usize), [seen[0], seen[1], seen[2]]), mean);
-            far = far.max(dot(moved, moved));
-        }
-        far.sqrt()
+        norm([high[0] - low[0], high[1] - low[1], high[2] - low[2]])
     }
 
     /// Finds the closest feature of the records that are due, or nearly, and the records that may touch soon.
     pub fn look(&mut self, step: &Step) {
         self.unload();
-        let ripe_m = self.way_m + EARLY * step.reach.slack_m;
+        self.ask(step, self.way_m + EARLY * step.reach.slack_m);
+        let mut first = 0;
+        for own in self.asked.chunk_by(|a, b| a.record == b.record) {
+            let record = &mut self.records[own[0].record as usize];
+            let squares = &self.square_m2.as_flattened()[first..first + own.len()];
+            let element = choose(own, squares, &mut self.candidates, self.way_m);
+            look_at(record, element, step, &mut self.sums);
+            record.within_m -= self.way_m;
+            record.due_m = self.way_m + record.free_m(&step.reach);
+            first += own.len();
+        }
         self.next_m = f64::INFINITY;
-        for record in &mut self.records {
-            // Not a number is due, too.
-            if record.due_m <= ripe_m || record.due_m.is_nan() {
-                let own = record.first as usize..(record.first + record.count) as usize;
-                look_at(record, &mut self.candidates[own], step, self.way_m, &mut self.sums);
-                record.due_m = self.way_m + record.free_m(&step.reach);
-            }
-            self.next_m = self.next_m.min(record.due_m);
-        }
         self.near.clear();
-        let near = |r: &Record| r.side != 0 && (r.gap_m() <= r.free_m(&step.reach) || r.last_m > 0.0);
-        for faces in [true, false] {
-            let wanted = |r: &Record| (r.feature == Feature::Face) == faces && near(r);
-            self.near.extend(self.records.iter().enumerate().filter(|(_, r)| wanted(r)).map(|(i, _)| i as u32));
-            if faces {
-                self.faces = self.near.len() as u32;
+        let mut round = Vec::new();
+        for (at, record) in self.records.iter().enumerate() {
+            self.next_m = self.next_m.min(record.due_m);
+            if record.side == 0 || (record.gap_m() > record.free_m(&step.reach) && record.last_m <= 0.0) {
+                continue;
             }
+            if record.feature == Feature::Face { self.near.push(at as u32) } else { round.push(at as u32) }
         }
+        self.faces = self.near.len() as u32;
+        self.near.extend(round);
         self.load();
-        self.due_m = step.path_m + 0.25 * (self.next_m - self.way_m);
+        self.due_m = step.path_m + 0.5 * (self.next_m - self.way_m);
         self.seen_m.clear();
         self.seen_m.extend(self.nodes.iter().map(|n| step.x[*n as usize]));
     }
+
+    /// Measures the distances of the records that are due by `ripe_m` from candidates that may be the closest: the closest
+    /// cannot have moved farther off than the way since the last look.
+    fn ask(&mut self, step: &Step, ripe_m: f64) {
+        self.asked.clear();
+        for (at, record) in self.records.iter().enumerate() {
+            // Not a number is due, too.
+            if record.due_m > ripe_m {
+                continue;
+            }
+            let limit_m = record.within_m + self.way_m;
+            for candidate in record.first..record.first + record.count {
+                let Candidate { element, clear_m } = self.candidates[candidate as usize];
+                if clear_m - self.way_m > limit_m * (1.0 + 1e-9) {
+                    continue;
+                }
+                self.asked.push(Question { record: at as u32, candidate, node: record.node, element });
+            }
+        }
+        let questions =
+            Questions { surface: step.surface, x: step.x, asked: &self.asked, square_m2: &mut self.square_m2 };
+        step.arch.dispatch(questions);
+    }
+
+    /// The closest feature of every record at the positions of a step: its position in the chunk, and the feature.
+    pub fn all(&mut self, step: &Step) -> Vec<(usize, Closest)> {
+        self.ask(step, f64::INFINITY);
+        let mut found = Vec::with_capacity(self.records.len());
+        let mut first = 0;
+        for own in self.asked.chunk_by(|a, b| a.record == b.record) {
+            let squares = &self.square_m2.as_flattened()[first..first + own.len()];
+            let element = choose(own, squares, &mut self.candidates, self.way_m);
+            found.push((own[0].record as usize, closest(step, own[0].node, element)));
+            first += own.len();
+        }
+        found
+    }
 }
 
-/// Finds the closest feature of one record.
-fn look_at(record: &mut Record, candidates: &mut [Candidate], step: &Step, way_m: f64, sums: &mut Sums) {
-    let Some((found, local)) = closest(step, record, candidates, way_m) else { return };
+/// The closest of one record's candidates; the first wins a tie.
+fn choose(own: &[Question], squares: &[f64], candidates: &mut [Candidate], way_m: f64) -> u32 {
+    let (mut element, mut least_m2) = (own[0].element, f64::INFINITY);
+    for (question, square_m2) in own.iter().zip(squares) {
+        candidates[question.candidate as usize].clear_m = square_m2.sqrt() + way_m;
+        if *square_m2 < least_m2 * (1.0 - 1e-9) {
+            (element, least_m2) = (question.element, *square_m2);
+        }
+    }
+    element
+}
+
+fn closest(step: &Step, node: u32, element: u32) -> Closest {
+    let p = crate::vec3::node(step.x, node as usize);
+    let now = nearest(step.surface, step.x, p, element);
+    describe(step.surface, step.x, p, element, &now, 0.4 * step.reach.slack_m)
+}
+
+/// Takes the closest feature of one record over.
+fn look_at(record: &mut Record, element: u32, step: &Step, sums: &mut Sums) {
+    let found = closest(step, record.node, element);
     let held = (record.side, record.slide_j());
     let depth_m = if held.0 == 0 { 0.0 } else { touch(record, step.x).depth_m };
     record.settle(step.surface, &found, &step.reach);
@@ -217,42 +274,11 @@ fn look_at(record: &mut Record, candidates: &mut [Candidate], step: &Step, way_m
         sums.damping += 0.5 * record.stiffness_n_m * depth_m.max(0.0).powi(2);
         (record.spring_m, record.damped_n) = ([0.0; 3], 0.0);
     }
-    let [a, b, c] = found.corners.map(|k| local[k as usize]);
-    record.local = [record.local[0], a, b, c];
     record.last_m = if record.side == 0 { 0.0 } else { touch(record, step.before).depth_m };
     if record.last_m <= 0.0 && record.holds() {
         sums.friction += record.slide_j();
         (record.spring_m, record.damped_n) = ([0.0; 3], 0.0);
     }
-}
-
-/// The closest feature among a record's candidates; the first wins a tie. Candidates that cannot be closer than the
-/// element that was closest before are passed over.
-pub(super) fn closest(
-    step: &Step,
-    record: &Record,
-    candidates: &mut [Candidate],
-    way_m: f64,
-) -> Option<(Closest, [u32; 4])> {
-    let p = node(step.x, record.node as usize);
-    let mut limit_m = f64::INFINITY;
-    if candidates.iter().any(|c| c.element == record.element) {
-        limit_m = nearest(step.surface, step.x, p, record.element).square_m2.sqrt() * (1.0 + 1e-9);
-    }
-    let mut best: Option<(Nearest, &Candidate)> = None;
-    for candidate in candidates {
-        if candidate.clear_m - way_m > limit_m {
-            continue;
-        }
-        let now = nearest(step.surface, step.x, p, candidate.element);
-        candidate.clear_m = now.square_m2.sqrt() + way_m;
-        if best.as_ref().is_none_or(|b| now.square_m2 < b.0.square_m2 * (1.0 - 1e-9)) {
-            best = Some((now, candidate));
-        }
-    }
-    let (now, candidate) = best?;
-    let found = describe(step.surface, step.x, p, candidate.element, &now, 0.4 * step.reach.slack_m);
-    Some((found, candidate.local))
 }
 
 /// Distance of a record's node from its feature.
@@ -298,7 +324,7 @@ impl pulp::WithSimd for Pass<'_, '_> {
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, simd: S) {
         let mut touches = Touches::NONE;
-        let Chunk { packs, records, sums, out, .. } = self.chunk;
+        let Chunk { packs, records, sums, pushes, .. } = self.chunk;
         for pack in packs {
             if !pack.measure(simd, self.step.x, &mut touches) {
                 pack.last_m = touches.depth_m;
@@ -306,7 +332,7 @@ impl pulp::WithSimd for Pass<'_, '_> {
             }
             for lane in 0..LANES {
                 if touches.depth_m[lane] > 0.0 || pack.last_m[lane] > 0.0 {
-                    press_lane(pack, lane, &touches, records, self.step, sums, out);
+                    press_lane(pack, lane, &touches, records, self.step, sums, pushes);
                 }
             }
             pack.last_m = touches.depth_m;

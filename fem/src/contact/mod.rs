@@ -26,13 +26,15 @@
 //! that loses, and what a time step takes or gives that begins or ends within the gap, is in `contact damping`.
 //!
 //! **Cost.** Candidates are found by a search that is repeated only when nodes moved half the skin. A record is looked at
-//! when it may have moved far enough to matter, against what its chunk moved; candidates that cannot be the closest then
-//! are passed over. A step evaluates the pairs that may touch, in vector groups, and hands over forces where they touch.
+//! when it may have moved far enough to matter, against what its chunk, a compact stretch of a layer, moved; candidates
+//! that cannot be the closest then are passed over, the others measured eight at a time. A step evaluates the pairs that may
+//! touch, in vector groups, and hands over forces where they touch.
 //!
 //! **Validity**: penalty depths p dt²/(0.1 m_A) far below the thickness (m_A areal mass, p pressure); elements larger
 //! than about three thicknesses; edges against edges are caught only through their nodes, unless [`edges`] are asked for.
 //! Source: penalty contact as in Hallquist et al., Comput. Methods Appl. Mech. Eng. 51 (1985); side memory: this project.
 
+mod ask;
 mod build;
 mod chunk;
 mod closest;
@@ -95,12 +97,13 @@ impl Contact {
         check(settings, mesh, mass_kg, dt_s)?;
         let surface = Surface::new(mesh, &settings.parts)?;
         let reach = reaches(settings, surface.size_m);
+        let light_kg = surface.lightest(mass_kg);
         let stiffness_1_s2 = SHARE / (dt_s * dt_s);
         let damping_1_s = 2.0 * DAMPING * stiffness_1_s2.sqrt();
         let placed_m = (0..mesh.points.len()).map(|i| mesh.start_of(i)).map(|[x, y, z]| [x, y, z, 0.0]).collect();
         let mut contact = Contact {
             surface,
-            penalty: Penalty { mass_kg: mass_kg.to_vec(), stiffness_1_s2, damping_1_s },
+            penalty: Penalty { mass_kg: mass_kg.to_vec(), light_kg, stiffness_1_s2, damping_1_s },
             reach,
             friction: settings.friction,
             arch: pulp::Arch::new(),
@@ -178,13 +181,13 @@ impl Contact {
 
     fn search(&mut self, x: &[[f64; 4]]) {
         let pairs = search::pairs(&self.surface, x, self.reach.side_m + self.reach.skin_m);
-        let mut old = Memory::new(if self.searches == 0 { f64::NEG_INFINITY } else { self.reach.side_m });
         for chunk in &mut self.chunks {
             chunk.unload();
             chunk.close(x);
-            old.append(chunk);
         }
-        let (chunks, lost) = build::chunks(&self.surface, &pairs, &old, &self.penalty);
+        let clear_m = if self.searches == 0 { f64::NEG_INFINITY } else { self.reach.side_m };
+        let old = Memory::new(std::mem::take(&mut self.chunks), x.len(), clear_m);
+        let (chunks, lost) = build::chunks(&self.surface, &pairs, old, &self.penalty);
         self.sums.friction += lost;
         self.chunks = chunks;
         self.placed_m.clear();
@@ -194,10 +197,12 @@ impl Contact {
         self.arrange();
     }
 
-    /// Numbers the chunks' nodes.
+    /// Lists the chunks' nodes.
     fn arrange(&mut self) {
-        let surface = &self.surface;
-        self.chunks.par_iter_mut().for_each(|chunk| chunk.number(surface));
+        let (surface, nodes) = (&self.surface, self.placed_m.len());
+        let mark = || vec![surface::NONE; nodes];
+        let chunks = self.chunks.par_iter_mut().enumerate();
+        chunks.for_each_init(mark, |mark, (i, chunk)| chunk.list(surface, i as u32, mark));
     }
 }
 

@@ -17,8 +17,6 @@ use crate::sheet::lanes::{V, axes, inner, product};
 pub(super) struct Pack {
     /// Node and the corners of the face.
     pub node: [[u32; LANES]; 4],
-    /// The same in the chunk's numbering.
-    pub local: [[u32; LANES]; 4],
     pub sign: Lane,
     pub rest_m: Lane,
     pub stiffness_n_m: Lane,
@@ -60,7 +58,6 @@ impl Pack {
         let ids = |k: usize| std::array::from_fn(|lane| if k == 0 { of(lane).node } else { of(lane).corners[k - 1] });
         let mut pack = Pack {
             node: [ids(0), ids(1), ids(2), ids(3)],
-            local: [0, 1, 2, 3].map(|k| std::array::from_fn(|lane| of(lane).local[k])),
             sign: lanes(|r| r.sign),
             rest_m: lanes(|r| r.rest_m),
             stiffness_n_m: lanes(|r| r.stiffness_n_m),
@@ -112,7 +109,7 @@ impl Pack {
 
 /// Positions of one of the nodes of every lane.
 #[inline(always)]
-fn rows<S: Simd>(simd: S, x: &[[f64; 4]], node: &[u32; LANES], part: usize) -> [V<S>; 3] {
+pub(super) fn rows<S: Simd>(simd: S, x: &[[f64; 4]], node: &[u32; LANES], part: usize) -> [V<S>; 3] {
     let mut out = [[0.0; LANES]; 3];
     for lane in 0..S::F64_LANES {
         let p = &x[node[part * S::F64_LANES + lane] as usize];

@@ -6,11 +6,13 @@ use super::record::Record;
 use crate::terms::slide;
 use crate::vec3::{V3, add, along, node, scale, sub};
 
-/// Forces in a chunk's numbering.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Out {
-    pub force_n: Vec<[f64; 4]>,
-    pub pushed: Vec<[u32; 4]>,
+/// Force of a pair on its node; the corners of the triangle take their shares of its opposite.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Push {
+    /// Node, corners.
+    pub nodes: [u32; 4],
+    pub weights: [f64; 3],
+    pub force_n: V3,
 }
 
 /// Energies of a chunk in one step \[J\].
@@ -30,7 +32,7 @@ pub(super) fn press_lane(
     records: &mut [Record],
     step: &Step,
     sums: &mut Sums,
-    out: &mut Out,
+    pushes: &mut Vec<Push>,
 ) {
     let touch = touches.of(lane);
     let (k, c, last_m) = (pack.stiffness_n_m[lane], pack.damping_n_s_m[lane], pack.last_m[lane]);
@@ -40,12 +42,12 @@ pub(super) fn press_lane(
     if step.friction > 0.0 {
         force = add(force, rub(&mut records[pack.record[lane] as usize], &touch, normal_n, step, sums));
     }
-    let local = [pack.local[0][lane], pack.local[1][lane], pack.local[2][lane], pack.local[3][lane]];
-    spread(local, touch.weights, force, out);
+    let nodes = [pack.node[0][lane], pack.node[1][lane], pack.node[2][lane], pack.node[3][lane]];
+    pushes.push(Push { nodes, weights: touch.weights, force_n: force });
 }
 
 /// The same for an edge or corner.
-pub(super) fn press_round(record: &mut Record, touch: &Touch, step: &Step, sums: &mut Sums, out: &mut Out) {
+pub(super) fn press_round(record: &mut Record, touch: &Touch, step: &Step, sums: &mut Sums, pushes: &mut Vec<Push>) {
     let c_dt = record.damping_n_s_m / step.dt_s;
     let spring = Spring { k: record.stiffness_n_m, c_dt, last_m: record.last_m };
     let normal_n = spring.press(touch.depth_m, &mut record.damped_n, sums);
@@ -53,7 +55,8 @@ pub(super) fn press_round(record: &mut Record, touch: &Touch, step: &Step, sums:
     if step.friction > 0.0 {
         force = add(force, rub(record, touch, normal_n, step, sums));
     }
-    spread(record.local, touch.weights, force, out);
+    let [a, b, c] = record.corners;
+    pushes.push(Push { nodes: [record.node, a, b, c], weights: touch.weights, force_n: force });
 }
 
 /// The normal part of a pair.
@@ -110,17 +113,6 @@ pub(super) fn motion(record: &Record, touch: &Touch, x: &[[f64; 4]], before: &[[
         moved = along(moved, -w, one(*n));
     }
     moved
-}
-
-#[inline(always)]
-fn spread(local: [u32; 4], weights: [f64; 3], force: V3, out: &mut Out) {
-    out.pushed.push(local);
-    let out = &mut out.force_n[..];
-    let [p, a, b, c] = [local[0] as usize, local[1] as usize, local[2] as usize, local[3] as usize];
-    push(&mut out[p], 1.0, force);
-    push(&mut out[a], -weights[0], force);
-    push(&mut out[b], -weights[1], force);
-    push(&mut out[c], -weights[2], force);
 }
 
 #[inline(always)]

@@ -25,8 +25,6 @@ pub(super) struct Record {
     pub node: u32,
     /// Corners of the triangle that is touched.
     pub corners: [u32; 3],
-    /// The same nodes (node first) in the chunk's own numbering.
-    pub local: [u32; 4],
     pub element: u32,
     pub layer: u32,
     pub feature: Feature,
@@ -46,6 +44,9 @@ pub(super) struct Record {
     pub damping_n_s_m: f64,
     /// Distance at the last look \[m\].
     pub distance_m: f64,
+    /// Distance of the closest point at the last look, less the way of the chunk then: it is no farther off than this and
+    /// the way now.
+    pub within_m: f64,
     /// Way of the chunk at which to look again.
     pub due_m: f64,
     /// Elastic slide.
@@ -61,7 +62,6 @@ impl Record {
     pub const NEW: Record = Record {
         node: 0,
         corners: [0; 3],
-        local: [0; 4],
         element: 0,
         layer: 0,
         feature: Feature::Face,
@@ -75,6 +75,7 @@ impl Record {
         stiffness_n_m: 0.0,
         damping_n_s_m: 0.0,
         distance_m: 0.0,
+        within_m: f64::INFINITY,
         due_m: f64::NEG_INFINITY,
         spring_m: [0.0; 3],
         last_m: 0.0,
@@ -92,9 +93,10 @@ impl Record {
     }
 
     /// Motion of the node against the layer until the next look. Half of the way left, so that a far pair is looked at
-    /// again well before it touches.
+    /// again well before it touches; an undecided pair may come near before its side is asked for.
     pub fn free_m(&self, reach: &Reach) -> f64 {
-        (0.5 * self.gap_m()).clamp(reach.slack_m, 0.25 * reach.side_m + reach.slack_m)
+        let free_m = (0.5 * self.gap_m()).clamp(reach.slack_m, 0.25 * reach.side_m + reach.slack_m);
+        if self.side == 0 { free_m.max(self.distance_m - reach.side_m) } else { free_m }
     }
 
     /// Energy of the elastic slide \[J\].
@@ -120,6 +122,7 @@ impl Record {
         let nodes = &surface.elements[found.element as usize];
         self.corners = found.corners.map(|k| nodes[k as usize]);
         let distance = found.square_m2.sqrt();
+        self.within_m = distance;
         let beside = found.cosine.abs() < 0.5;
         let behind = f64::from(self.side) * found.height_m < 0.0;
         if self.side != 0 && (distance > reach.side_m || (found.rim && beside)) {

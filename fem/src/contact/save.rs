@@ -7,7 +7,7 @@ use super::record::Record;
 use crate::output::bytes::{Reader, Writer};
 
 /// Changes with the layout of the bytes.
-const VERSION: u64 = 2;
+const VERSION: u64 = 3;
 
 pub(super) fn write(contact: &Contact) -> Vec<u8> {
     let mut out = Writer::new();
@@ -79,7 +79,7 @@ fn chunk(contact: &Contact, from: &mut Reader) -> Option<Chunk> {
     if candidates.len() != clear.len() {
         return None;
     }
-    let candidate = |(element, clear_m)| Candidate { element, clear_m, ..Candidate::default() };
+    let candidate = |(element, clear_m)| Candidate { element, clear_m };
     let candidates: Vec<_> = candidates.into_iter().zip(clear).map(candidate).collect();
     let (whole, real) = (from.u32s()?, from.f64s()?);
     if whole.len() / INTEGERS != real.len() / NUMBERS {
@@ -105,7 +105,7 @@ fn chunk(contact: &Contact, from: &mut Reader) -> Option<Chunk> {
 }
 
 const INTEGERS: usize = 11;
-const NUMBERS: usize = 12;
+const NUMBERS: usize = 13;
 
 fn integers(r: &Record) -> [u32; INTEGERS] {
     let [a, b, c] = r.corners;
@@ -127,13 +127,15 @@ fn numbers(r: &Record) -> [f64; NUMBERS] {
         z,
         r.last_m,
         r.damped_n,
+        r.within_m,
         r.due_m,
     ]
 }
 
 fn record(i: &[u32; INTEGERS], n: &[f64; NUMBERS]) -> Option<Record> {
     let [node, a, b, c, element, layer, feature, side, own, first, count] = *i;
-    let [sign, rest_m, wanted_m, stiffness_n_m, damping_n_s_m, distance_m, x, y, z, last_m, damped_n, due_m] = *n;
+    let [sign, rest_m, wanted_m, stiffness_n_m, damping_n_s_m, distance_m, x, y, z, last_m, damped_n, within_m, due_m] =
+        *n;
     let feature = [Feature::Face, Feature::Edge, Feature::Corner].into_iter().find(|f| *f as u32 == feature)?;
     let side = [-1, 0, 1].get(side as usize).copied()?;
     let record = Record {
@@ -158,6 +160,7 @@ fn record(i: &[u32; INTEGERS], n: &[f64; NUMBERS]) -> Option<Record> {
         spring_m: [x, y, z],
         last_m,
         damped_n,
+        within_m,
         due_m,
         ..record
     })

@@ -8,7 +8,7 @@
 //! The rest gap is the initial distance or `gap_m`, whichever is smaller, so that nothing pushes at the start.
 
 use super::Contact;
-use super::chunk::{closest, touch};
+use super::chunk::touch;
 use super::closest::{Closest, element_normal};
 use super::surface::Lists;
 use crate::problem;
@@ -70,10 +70,8 @@ fn entries(contact: &Contact, settings: &problem::Contact, x: &[[f64; 4]]) -> Ve
     let cut = 4.0 * settings.gap_m.max(1e-9);
     let mut entries = Vec::new();
     for (c, chunk) in contact.chunks.iter().enumerate() {
-        for (at, record) in chunk.records.iter().enumerate() {
-            let own = record.first as usize..(record.first + record.count) as usize;
-            let mut candidates = chunk.candidates[own].to_vec();
-            let Some((found, _)) = closest(&step, record, &mut candidates, 0.0) else { continue };
+        for (at, found) in chunk.clone().all(&step) {
+            let record = &chunk.records[at];
             let clear = found.cosine.abs() >= 0.5;
             if found.square_m2.sqrt() <= contact.reach.side_m && clear {
                 let vote_m = found.height_m.clamp(-cut, cut);

@@ -22,6 +22,8 @@ pub(super) struct Surface {
     pub around: Lists,
     /// Nodes of its own layer that never touch an element, ascending: two rings.
     pub skip: Lists,
+    /// Place of each node in an order that keeps neighbours of a layer together.
+    pub rank: Vec<u32>,
     /// Reference area of each node \[m²\].
     pub area_m2: Vec<f64>,
     /// Mean edge length \[m\].
@@ -79,6 +81,7 @@ impl Surface {
         surface.border(mesh)?;
         surface.skip = surface.rings(mesh.points.len());
         surface.measure(&mesh.points);
+        surface.rank = surface.along_curve(&mesh.points);
         Ok(surface)
     }
 
@@ -92,6 +95,12 @@ impl Surface {
     pub fn name(&self, mesh: &Mesh, element: usize) -> String {
         let (part, i) = self.origin[element];
         format!("element {} of part {:?}", i + 1, mesh.parts[part as usize].name)
+    }
+    /// Least mass of each element's corners that are free to move (infinite without one).
+    pub fn lightest(&self, mass_kg: &[f64]) -> Vec<f64> {
+        let free = |n: &u32| Some(mass_kg[*n as usize]).filter(|m| *m > 0.0);
+        let of = |e: usize| self.corners(e).iter().filter_map(free).fold(f64::INFINITY, f64::min);
+        (0..self.elements.len()).map(of).collect()
     }
     /// True if `node` is a corner of an element of `layer`.
     pub fn is_in(&self, node: usize, layer: u32) -> bool {
@@ -152,6 +161,21 @@ impl Surface {
             pairs.extend(seen.iter().map(|e| (*e, node as u32)));
         }
         Lists::new(self.elements.len(), &pairs)
+    }
+
+    /// Ranks nodes layer by layer along a Z-order curve through cells of half an element.
+    fn along_curve(&self, points: &[V3]) -> Vec<u32> {
+        let low = points.iter().fold([f64::INFINITY; 3], |low, p| [0, 1, 2].map(|k| low[k].min(p[k])));
+        let cell = |p: &V3, k: usize| (2.0 * (p[k] - low[k]) / self.size_m).clamp(0.0, 65535.0) as u64;
+        let spaced = |v: u64| (0..16).fold(0, |sum, bit| sum | (v >> bit & 1) << (3 * bit));
+        let place = |p: &V3| spaced(cell(p, 0)) | spaced(cell(p, 1)) << 1 | spaced(cell(p, 2)) << 2;
+        let layer = |n: usize| self.around.of(n).first().map_or(NONE, |e| self.layer[*e as usize]);
+        let mut order: Vec<(u32, u64, u32)> =
+            points.iter().enumerate().map(|(n, p)| (layer(n), place(p), n as u32)).collect();
+        order.sort_unstable();
+        let mut rank = vec![0; points.len()];
+        order.iter().enumerate().for_each(|(at, (_, _, n))| rank[*n as usize] = at as u32);
+        rank
     }
 
     fn measure(&mut self, points: &[V3]) {

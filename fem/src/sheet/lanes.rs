@@ -82,6 +82,19 @@ impl<S: Simd> V<S> {
         V(self.0, self.0.max_f64s(self.1, other.1))
     }
 
+    /// The smaller of two, lane by lane.
+    #[inline(always)]
+    pub fn min(self, other: V<S>) -> V<S> {
+        V(self.0, self.0.min_f64s(self.1, other.1))
+    }
+
+    /// `yes` in lanes where `self` is not negative, `no` in the others.
+    #[inline(always)]
+    pub fn choose(self, yes: V<S>, no: V<S>) -> V<S> {
+        let zero = self.0.splat_f64s(0.0);
+        V(self.0, self.0.select_f64s(self.0.greater_than_or_equal_f64s(self.1, zero), yes.1, no.1))
+    }
+
     /// The largest lane.
     #[inline(always)]
     pub fn largest(self) -> f64 {
