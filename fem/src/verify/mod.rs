@@ -20,6 +20,7 @@ mod patch;
 mod pillow;
 mod pulled;
 mod ring;
+mod robots;
 mod setup;
 mod slope;
 mod strip;
@@ -134,6 +135,7 @@ pub const CHECKS: &[Check] = &[
     pillow::CHECK,
     cantilever::WRINKLING,
     bias::CHECK,
+    robots::CHECK,
 ];
 
 impl Line {

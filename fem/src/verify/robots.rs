@@ -1,0 +1,91 @@
+//! The four robots of du Pasquier, Jeong, Okamura 2023 against their measured tips.
+//!
+//! Read at the last marker, 330 mm from the base: the paper measures at six markers only, each at the middle of a pouch,
+//! which six pouches of 60 mm on 360 mm give. The mean over seeds counts, for one run snaps from buckle to buckle. Tape
+//! thickness and ν₁₂ are calibrated on two of the tips; cPAM and ePAM see neither and are predicted.
+
+use super::{Check, Curve, Figure, Line, Outcome};
+use crate::robot::{RobotSettings, problem, sections};
+use crate::{FemError, Simulation};
+use models::Scenario;
+
+pub(super) const CHECK: Check = Check {
+    name: "robots",
+    sentence: "The four robots at 30 kPa bend as far as measured, with one set of settings; the figure has the usual values too.",
+    source: "du Pasquier, Jeong, Okamura 2023, Table III, d_max: measured",
+    slow: true,
+    run,
+};
+
+/// Scenario, measured tip \[mm\].
+const MEASURED: [(&str, f64); 4] = [("spam", 67.5), ("cpam", 159.7), ("epam", 119.4), ("fpam", 67.2)];
+/// Robots that one of the calibrated numbers concerns.
+const CALIBRATED: [&str; 2] = ["spam", "fpam"];
+const SEEDS: [u64; 2] = [1, 2];
+
+/// End of a run.
+struct End {
+    /// At the last marker and at the tip ring \[mm\].
+    y_mm: [f64; 2],
+    kinetic: f64,
+    residual: f64,
+    hourglass: f64,
+}
+
+fn run() -> Result<Outcome, FemError> {
+    let mut outcome = Outcome::default();
+    let (mut set, mut usual, mut ring) = (Vec::new(), Vec::new(), Vec::new());
+    for (name, measured) in MEASURED {
+        let ends = SEEDS.map(|seed| bend(name, &RobotSettings { seed, ..RobotSettings::compressed() }));
+        let ends = ends.into_iter().collect::<Result<Vec<End>, FemError>>()?;
+        let mean = |of: fn(&End) -> f64| ends.iter().map(of).sum::<f64>() / ends.len() as f64;
+        let most = |of: fn(&End) -> f64| ends.iter().map(of).fold(0.0, f64::max);
+        let of = |what: &str| format!("{name}: {what}");
+        outcome.lines.extend([
+            Line::value(&of("marker at 330 mm, mean of seeds [mm]"), mean(|e| e.y_mm[0]), measured, 0.10),
+            Line::at_most(&of("kinetic share at the end"), most(|e| e.kinetic), 0.01),
+            Line::at_most(&of("energy residual over external work"), most(|e| e.residual), 0.02),
+            Line::at_most(&of("hourglass share of stored energy"), most(|e| e.hourglass), 0.10),
+        ]);
+        set.extend(ends.iter().map(|e| [measured, e.y_mm[0]]));
+        ring.extend(ends.iter().map(|e| [measured, e.y_mm[1]]));
+        if CALIBRATED.contains(&name) {
+            usual.push([measured, bend(name, &RobotSettings::usual())?.y_mm[0]]);
+        }
+    }
+    let curve = |label: &str, points, exact| Curve { label: label.into(), points, exact };
+    outcome.figure = Some(Figure {
+        title: "Four robots at 30 kPa".into(),
+        x: "measured [mm]".into(),
+        y: "finite elements [mm]".into(),
+        curves: vec![
+            curve("as measured", vec![[60.0, 60.0], [165.0, 165.0]], true),
+            curve("marker at 330 mm, each seed", set, false),
+            curve("tip ring at 360 mm", ring, false),
+            curve("marker, tape 0.05 mm and nu12 = 0", usual, false),
+        ],
+    });
+    Ok(outcome)
+}
+
+fn bend(name: &str, settings: &RobotSettings) -> Result<End, FemError> {
+    let text = models::shipped(name).ok_or_else(|| FemError::Problem(format!("there is no scenario `{name}`")))?;
+    let scenario = Scenario::parse(text).map_err(|e| FemError::Problem(e.to_string()))?;
+    let mut problem = problem(&scenario, settings)?;
+    problem.settings.threads = 1;
+    let last = scenario.markers_m.last().copied().unwrap_or(scenario.length_m);
+    let line = sections(&problem.mesh, &[last, scenario.length_m])?;
+    let mut run = Simulation::new(&problem)?;
+    let start = line.at(&run.positions())?;
+    run.advance_until(problem.settings.end_s, &mut |_| true)?;
+    let end = line.at(&run.positions())?;
+    let ledger = run.ledger();
+    let row = |name: &str| ledger.rows.iter().filter(|r| r.name == name).map(|r| r.energy_j).sum::<f64>();
+    let hourglass = row("hourglass");
+    Ok(End {
+        y_mm: [0, 1].map(|k| 1e3 * (end[k][1] - start[k][1])),
+        kinetic: ledger.kinetic_share(),
+        residual: ledger.residual_share(),
+        hourglass: hourglass / (row("membrane") + row("bending") + hourglass),
+    })
+}
