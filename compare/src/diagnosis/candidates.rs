@@ -2,7 +2,7 @@
 
 use super::result::Group;
 use models::Scenario;
-use models::effects::{EFFECTS, Effect, Stage};
+use models::effects::{Effect, Stage};
 
 /// An effect that can be switched on, with what a fit and a reader need.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,17 +80,18 @@ impl Candidate {
     }
 }
 
-/// Effects of the catalogue that exist for this actuator and are not in the scenario yet.
+/// Effects of the catalogue and formulas of the scenario that exist for this actuator and are not in the scenario yet.
 pub fn candidates(scenario: &Scenario) -> Vec<Candidate> {
     let family = scenario.actuator.kind.family;
-    let absent = |effect: &&Effect| !scenario.effects.iter().any(|e| e.name == effect.name);
-    EFFECTS.iter().filter(|e| e.applies_to(family)).filter(absent).map(candidate).collect()
+    let absent = |effect: &Effect| !scenario.effects.iter().any(|e| e.name == effect.name);
+    let catalogue = scenario.catalogue();
+    catalogue.effects().filter(|e| e.applies_to(family)).filter(absent).map(|e| candidate(&e)).collect()
 }
 
 /// The scenario's own effects, to be fitted along with the base; known forces stay known.
 pub fn present(scenario: &Scenario) -> Vec<Candidate> {
-    let own = |effect: &&Effect| effect.name != "tip_load" && scenario.effects.iter().any(|e| e.name == effect.name);
-    EFFECTS.iter().filter(own).map(candidate).collect()
+    let own = |effect: &Effect| effect.name != "tip_load" && scenario.effects.iter().any(|e| e.name == effect.name);
+    scenario.catalogue().effects().filter(own).map(|e| candidate(&e)).collect()
 }
 
 fn candidate(effect: &Effect) -> Candidate {
