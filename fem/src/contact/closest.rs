@@ -35,7 +35,7 @@ pub(super) struct Closest {
     pub normal: V3,
 }
 
-const TRIANGLES: [[u8; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
+pub(super) const TRIANGLES: [[u8; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
 /// Closest point of one triangle as weights of its corners (Ericson, Real-Time Collision Detection, 2005, 5.1.5).
 pub(super) fn on_triangle(p: V3, a: V3, b: V3, c: V3) -> [f64; 3] {

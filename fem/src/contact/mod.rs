@@ -322,6 +322,8 @@ fn reaches(settings: &problem::Contact, size_m: f64) -> Reach {
         slack_m: 0.05 * size_m,
         thickness_m: settings.thickness_m,
         own_layer_m: 0.5 * size_m,
+        solid: settings.edges,
+        floor_m: if settings.edges { 0.5 * settings.gap_m.min(settings.thickness_m) } else { f64::NEG_INFINITY },
     }
 }
 

@@ -78,6 +78,8 @@ impl Pack {
         for lane in 0..LANES {
             if let Some(record) = records.get_mut(self.record[lane] as usize) {
                 (record.last_m, record.damped_n) = (self.last_m[lane], self.damped_n[lane]);
+                record.rest_m = self.rest_m[lane];
+                record.wanted_m = record.wanted_m.max(record.rest_m);
             }
         }
     }

@@ -6,6 +6,9 @@ use super::record::Record;
 use crate::terms::slide;
 use crate::vec3::{V3, add, along, node, scale, sub};
 
+/// Share of what a pair is too close by which its rest gap grows in a step.
+const GROWTH: f64 = 0.02;
+
 /// Force of a pair on its node; the corners of the triangle take their shares of its opposite.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Push {
@@ -34,7 +37,10 @@ pub(super) fn press_lane(
     sums: &mut Sums,
     pushes: &mut Vec<Push>,
 ) {
-    let touch = touches.of(lane);
+    let mut touch = touches.of(lane);
+    let grown = grow(pack.stiffness_n_m[lane], pack.rest_m[lane], &mut touch, pack.last_m[lane], step, sums);
+    pack.rest_m[lane] += grown;
+    pack.last_m[lane] += grown;
     let (k, c, last_m) = (pack.stiffness_n_m[lane], pack.damping_n_s_m[lane], pack.last_m[lane]);
     let spring = Spring { k, c_dt: c / step.dt_s, last_m };
     let normal_n = spring.press(touch.depth_m, &mut pack.damped_n[lane], sums);
@@ -48,6 +54,12 @@ pub(super) fn press_lane(
 
 /// The same for an edge or corner.
 pub(super) fn press_round(record: &mut Record, touch: &Touch, step: &Step, sums: &mut Sums, pushes: &mut Vec<Push>) {
+    let mut touch = *touch;
+    let grown = grow(record.stiffness_n_m, record.rest_m, &mut touch, record.last_m, step, sums);
+    record.rest_m += grown;
+    record.wanted_m = record.wanted_m.max(record.rest_m);
+    record.last_m += grown;
+    let touch = &touch;
     let c_dt = record.damping_n_s_m / step.dt_s;
     let spring = Spring { k: record.stiffness_n_m, c_dt, last_m: record.last_m };
     let normal_n = spring.press(touch.depth_m, &mut record.damped_n, sums);
@@ -57,6 +69,21 @@ pub(super) fn press_round(record: &mut Record, touch: &Touch, step: &Step, sums:
     }
     let [a, b, c] = record.corners;
     pushes.push(Push { nodes: [record.node, a, b, c], weights: touch.weights, force_n: force });
+}
+
+/// Growth of the rest gap of a pair that is pressed too close, and the depth with it. The work comes from nowhere: it is
+/// booked as a negative loss.
+#[inline(always)]
+fn grow(k: f64, rest_m: f64, touch: &mut Touch, last_m: f64, step: &Step, sums: &mut Sums) -> f64 {
+    let distance_m = rest_m - touch.depth_m;
+    if distance_m >= step.reach.floor_m || rest_m >= step.reach.thickness_m {
+        return 0.0;
+    }
+    let by_m = GROWTH * (step.reach.floor_m - distance_m).min(step.reach.floor_m);
+    let (was, is) = (positive(last_m), positive(last_m + by_m));
+    sums.damping -= 0.5 * k * (is * is - was * was);
+    touch.depth_m += by_m;
+    by_m
 }
 
 /// The normal part of a pair.

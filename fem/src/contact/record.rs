@@ -17,6 +17,10 @@ pub(super) struct Reach {
     pub thickness_m: f64,
     /// Largest rest gap between elements of one layer, whose own mesh must not push itself.
     pub own_layer_m: f64,
+    /// The rest gap of a pair that is pressed closer than this grows, lest the two meet.
+    pub floor_m: f64,
+    /// Nothing passes through anything, so the present side of a face is the right one.
+    pub solid: bool,
 }
 
 /// A node and a connected piece of one layer.
@@ -133,9 +137,14 @@ impl Record {
             self.wanted_m = rest_m;
             self.rest_m = rest_m.min(found.height_m.abs());
         }
+        if reach.solid && self.side != 0 && self.feature == Feature::Face && behind {
+            self.side = -self.side;
+            self.rest_m = self.wanted_m.min(distance);
+        }
         let side = f64::from(self.side);
         self.sign = match self.feature {
             Feature::Face => side,
+            _ if reach.solid => side.abs(),
             // Around a sharp fold the mean normal says little: a node that was on its side is still there.
             _ if behind && found.cosine.abs() > 0.05 => -side.abs(),
             _ => side.abs(),

@@ -59,7 +59,8 @@ pub(super) fn sides(
     for ((entry, side), height_m) in entries.iter().zip(&side).zip(&heights) {
         let record = &mut contact.chunks[entry.chunk].records[entry.at];
         record.side = *side;
-        (record.wanted_m, record.rest_m) = (settings.gap_m, height_m.min(settings.gap_m));
+        let wanted_m = if settings.edges { settings.thickness_m } else { settings.gap_m };
+        (record.wanted_m, record.rest_m) = (wanted_m, height_m.min(settings.gap_m));
     }
     crossings(contact, mesh, &entries, &of_node, &side)
 }

@@ -21,6 +21,7 @@ pub use ledger::Ledger;
 use models::{Pose, Row, RowKind, Term};
 
 use crate::contact::Contact;
+use crate::contact::edges::Edges;
 use crate::output::bytes::{Reader, Writer};
 use crate::problem::Guards;
 use crate::sheet::Sheet;
@@ -36,6 +37,7 @@ pub struct Simulation {
     sheet: Sheet,
     terms: Vec<Box<dyn Term>>,
     contact: Option<Contact>,
+    edges: Option<Edges>,
     driven: Vec<Driven>,
     bodies: Vec<Body>,
     tie_offset: Vec<[f64; 3]>,
@@ -172,6 +174,7 @@ impl Simulation {
         from.f64s_into(self.v.as_flattened_mut())?;
         self.sheet.restore(from.bytes()?).then_some(())?;
         let contact = self.contact.iter_mut().map(|c| c as &mut dyn Term);
+        let contact = contact.chain(self.edges.iter_mut().map(|e| e as &mut dyn Term));
         for term in self.terms.iter_mut().map(|t| &mut **t as &mut dyn Term).chain(contact) {
             term.restore(from.bytes()?).then_some(())?;
         }
@@ -283,6 +286,7 @@ impl Simulation {
     /// The terms beside the shells.
     fn others(&self) -> impl Iterator<Item = &dyn Term> {
         let contact = self.contact.iter().map(|c| c as &dyn Term);
+        let contact = contact.chain(self.edges.iter().map(|e| e as &dyn Term));
         self.terms.iter().map(|t| &**t as &dyn Term).chain(contact)
     }
 }

@@ -54,9 +54,6 @@ impl Simulation {
             Some(contact) => Some(self::contact(problem, contact, &mesh, &order, &mass, dt_s)?),
             None => None,
         };
-        if let (Some(settings), Some(contact)) = (problem.contact.as_ref().filter(|c| c.edges), &contact) {
-            terms.push(Box::new(Edges::new(&mesh, settings, &mass, dt_s, contact)?));
-        }
         sheet.start(x.as_flattened());
         let bodies = bodies(problem, &mesh, &mass)?;
         let mut moved = vec![[false; 3]; count];
@@ -76,7 +73,13 @@ impl Simulation {
             speed_m_s: if settings.guards.speed_m_s > 0.0 { settings.guards.speed_m_s } else { sound_speed(&sheet) },
             added_mass,
         };
-        Ok(Simulation {
+        let mut owned = fixed.clone();
+        mesh.ties.iter().for_each(|t| owned[t.node as usize] = [true; 3]);
+        let edges = match problem.contact.as_ref().filter(|c| c.edges) {
+            Some(settings) => Some(Edges::new(&mesh, settings, &mass, dt_s, &owned)?),
+            None => None,
+        };
+        let mut run = Simulation {
             fixed: listed(&fixed),
             moved: listed(&moved),
             held: Vec::new(),
@@ -91,13 +94,19 @@ impl Simulation {
             sheet,
             terms,
             contact,
+            edges,
             driven,
             bodies,
             mass,
             limits,
             x,
             team: Some(Team::new(settings.threads)?),
-        })
+        };
+        if run.edges.is_some() {
+            // The first step already allows for what touches.
+            run.recheck()?;
+        }
+        Ok(run)
     }
 }
 

@@ -4,6 +4,7 @@ use models::{Pose, Term, Tick};
 
 use super::{Advance, Simulation, constraint};
 use crate::FemError;
+use crate::contact::edges::hold;
 use crate::sheet::group::{LANES, Lane};
 use crate::sheet::lanes::{V, sum};
 
@@ -26,7 +27,11 @@ impl Simulation {
         time_s: f64,
         go_on: &mut dyn FnMut(&Simulation) -> bool,
     ) -> Result<Advance, FemError> {
-        let recheck = if self.sheet.stiffens() { RECHECK_STIFFENING } else { RECHECK };
+        let recheck = match (&self.edges, self.sheet.stiffens()) {
+            (Some(_), _) => LOOK,
+            (None, true) => RECHECK_STIFFENING,
+            (None, false) => RECHECK,
+        };
         while self.clock.time_s + 0.5 * self.clock.dt_s < time_s {
             let steps = LOOK - self.clock.step % LOOK;
             self.burst(steps, time_s);
@@ -72,7 +77,14 @@ impl Simulation {
         if let Some(contact) = &mut self.contact {
             stored += contact.advance(&pose, &tick, force);
         }
+        if let Some(edges) = &mut self.edges {
+            stored += edges.advance(&pose, &tick, force);
+        }
         constraint::hand_over(&self.mesh.ties, &mut self.force);
+        if let Some(edges) = &mut self.edges {
+            let step = hold::Step { x: &self.x, v: &self.v, dv_s: dv, dt_s: dt, damping_1_s: self.limits.damping_1_s };
+            edges.hold(&step, &mut self.force);
+        }
         let mut support = 0.0;
         for driven in &self.driven {
             support += driven.step(t + dt, dt, &self.mass, &self.force, &self.x, &mut self.v);

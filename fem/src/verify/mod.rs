@@ -12,7 +12,7 @@ mod cantilever;
 mod coupons;
 mod drops;
 mod energy;
-pub mod folded;
+pub(crate) mod folded;
 mod gradient;
 mod inflated;
 mod long_pouch;
@@ -121,6 +121,7 @@ pub const CHECKS: &[Check] = &[
     drops::BALL_ON_FLOOR,
     drops::BALL_ON_SHEET,
     drops::CROSSED,
+    folded::CHECK,
     slope::CHECK,
     bodies::RIGID,
     bodies::TIES,

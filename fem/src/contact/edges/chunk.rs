@@ -1,32 +1,64 @@
-//! A few hundred pairs that are looked at and stepped together.
+//! Some dozens of pairs that are looked at and stepped together.
 
-use super::pair::{Pair, Scene};
+use super::pair::{Pair, Touch};
 use crate::vec3::{V3, add, dot, node, scale, sub};
 
 /// Pairs per chunk.
-pub(super) const PAIRS: usize = 512;
+pub(super) const PAIRS: usize = 64;
+/// A meeting is a distance below this share of the present one.
+const STOP: f64 = 0.2;
+/// Share of the way to that distance that a meeting leaves.
+const LEFT: f64 = 0.3;
+/// Share of what is missing of the least distance by which a meeting parts the pair.
+const OUT: f64 = 0.1;
 
 /// Force of one pair, and how its four nodes share it.
 pub(super) type Push = ([u32; 4], [f64; 4], V3);
 
-/// Pairs in order of their sides.
+/// A pair that would meet within a step.
+#[derive(Debug, Clone)]
+pub(super) struct Hit {
+    pub nodes: [u32; 4],
+    /// How far it may close \[m\].
+    pub most_m: f64,
+    /// When it meets.
+    pub touch: Touch,
+}
+
+/// A step about to be taken.
+pub(super) struct Look<'a> {
+    pub x: &'a [[f64; 4]],
+    /// Motion of every node.
+    pub by: &'a [V3],
+    /// How far the fastest node will have come.
+    pub path_m: f64,
+    /// What is closer than this is one.
+    pub one_m: f64,
+    /// Distance that meetings leave.
+    pub least_m: f64,
+}
+
+/// Pairs in order of their keys.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Chunk {
     pub pairs: Vec<Pair>,
+    /// Way at which the spring of each pair may push, and at which the two may meet.
+    pub press_at_m: Vec<f64>,
+    pub cross_at_m: Vec<f64>,
     /// Nodes of the pairs, ascending.
     pub nodes: Vec<u32>,
-    /// Pairs that may touch before the next look.
-    pub near: Vec<u32>,
-    /// Positions of the nodes at the last look.
+    /// Positions when the way was summed up last.
     pub seen_m: Vec<[f64; 4]>,
-    /// Each node may move this much against the others before the next look.
-    pub allowed_m: f64,
-    /// Path of the fastest node at which the motion must be measured again.
-    pub due_m: f64,
+    /// Way: sum of the most that two nodes can have moved against each other.
+    pub way_m: f64,
+    /// Path of the fastest node at which springs, and meetings, must be looked at again.
+    pub press_due_m: f64,
+    pub cross_due_m: f64,
     /// Forces of the last step.
     pub pushes: Vec<Push>,
     /// Energy stored, and lost in the last step \[J\].
     pub sums: [f64; 2],
+    pub hits: Vec<Hit>,
 }
 
 impl Chunk {
@@ -34,72 +66,115 @@ impl Chunk {
         let mut nodes: Vec<u32> = pairs.iter().flat_map(|p| p.nodes).collect();
         nodes.sort_unstable();
         nodes.dedup();
-        Chunk { pairs, nodes, due_m: f64::NEG_INFINITY, ..Chunk::default() }
+        let due = f64::NEG_INFINITY;
+        let press = |p: &Pair| if p.face { f64::INFINITY } else { due };
+        let press_at_m = pairs.iter().map(press).collect();
+        let cross_at_m = vec![due; pairs.len()];
+        Chunk { pairs, press_at_m, cross_at_m, nodes, press_due_m: due, cross_due_m: due, ..Chunk::default() }
     }
 
-    /// One step: looks again if nodes moved too far, then evaluates the near pairs.
-    pub fn step(&mut self, scene: &Scene, path_m: f64, slack_m: f64) {
+    /// Forces of the springs.
+    pub fn press(&mut self, x: &[[f64; 4]], path_m: f64, dt_s: f64, floor_m: f64) {
         self.sums = [0.0; 2];
         self.pushes.clear();
-        if path_m >= self.due_m && self.moved_too_far(scene, path_m) {
-            self.look(scene, path_m, slack_m);
+        if path_m < self.press_due_m {
+            return;
         }
-        for at in &self.near {
-            let pair = &mut self.pairs[*at as usize];
-            let Some(touch) = pair.update(scene) else {
-                if pair.deep_m > 0.0 {
-                    self.sums[1] += pair.release();
-                }
+        let moved_m = self.spread_m(|n| node(x, n));
+        let left_m = least(&self.press_at_m) - self.way_m - moved_m;
+        if left_m > 0.0 {
+            self.press_due_m = path_m + 0.5 * left_m;
+            return;
+        }
+        self.rebase(x, moved_m);
+        for at in 0..self.press_at_m.len() {
+            if self.press_at_m[at] > self.way_m {
                 continue;
-            };
-            if pair.deep_m > 0.0 || (pair.on && touch.depth_m > 0.0) {
-                let force = pair.press(&touch, scene.dt_s, &mut self.sums);
-                if force > 0.0 {
-                    self.pushes.push((pair.nodes, touch.weights, scale(touch.normal, force)));
-                }
-            } else {
-                (pair.last_m, pair.damped_n) = (touch.depth_m, 0.0);
             }
+            let pair = &mut self.pairs[at];
+            let touch = pair.touch(x);
+            let force = pair.press(&touch, dt_s, floor_m, &mut self.sums);
+            self.press_at_m[at] = self.way_m + pair.idle_m(&touch);
+            if force > 0.0 {
+                self.pushes.push((pair.nodes, touch.weights, scale(touch.normal, force)));
+            }
+        }
+        self.press_due_m = path_m + 0.5 * (least(&self.press_at_m) - self.way_m);
+    }
+
+    /// Finds pairs that would meet within the motion of a step.
+    pub fn meet(&mut self, step: &Look) {
+        self.hits.clear();
+        if step.path_m < self.cross_due_m {
+            return;
+        }
+        let (x, by) = (step.x, step.by);
+        let there = |n: usize| add(node(x, n), by[n]);
+        let mut moved_m = self.spread_m(there);
+        let next_m = least(&self.cross_at_m);
+        if next_m > self.way_m + moved_m {
+            self.cross_due_m = step.path_m + 0.5 * (next_m - self.way_m - moved_m);
+            return;
+        }
+        let before_m = self.spread_m(|n| node(x, n));
+        if before_m > 0.0 || self.seen_m.is_empty() {
+            self.rebase(x, before_m);
+            moved_m = self.spread_m(there);
+        }
+        for at in 0..self.pairs.len() {
+            if self.cross_at_m[at] <= self.way_m + moved_m {
+                self.try_to_meet(at, step, moved_m);
+            }
+        }
+        self.cross_due_m = step.path_m + 0.5 * (least(&self.cross_at_m) - self.way_m - moved_m);
+    }
+
+    fn try_to_meet(&mut self, at: usize, step: &Look, moved_m: f64) {
+        let pair = &self.pairs[at];
+        let now = pair.touch(step.x);
+        if now.distance_m < step.one_m {
+            // One point for two bodies, as in a weld of two meshes.
+            self.cross_at_m[at] = self.way_m + step.one_m;
+            return;
+        }
+        let stop_m = (STOP * now.distance_m).max(step.least_m.min(0.8 * now.distance_m));
+        self.cross_at_m[at] = self.way_m + now.distance_m - stop_m;
+        if self.cross_at_m[at] > self.way_m + moved_m {
+            return;
+        }
+        if let Some(touch) = pair.meets(&now, step.x, step.by, stop_m) {
+            let missing_m = step.least_m - now.distance_m;
+            let most_m = if missing_m > 0.0 { -OUT * missing_m } else { (1.0 - LEFT) * (now.distance_m - stop_m) };
+            self.hits.push(Hit { nodes: pair.nodes, most_m, touch });
         }
     }
 
-    /// Measures how far nodes moved against the mean motion, or puts the next measurement off.
-    fn moved_too_far(&mut self, scene: &Scene, path_m: f64) -> bool {
-        if self.seen_m.is_empty() {
-            return true;
-        }
-        let moved = |(n, seen): (&u32, &[f64; 4])| sub(node(scene.x, *n as usize), [seen[0], seen[1], seen[2]]);
-        let all = || self.nodes.iter().zip(&self.seen_m).map(moved);
-        let mean = scale(all().fold([0.0; 3], add), 1.0 / self.nodes.len() as f64);
-        let far = all().map(|m| sub(m, mean)).map(|m| dot(m, m)).fold(0.0, f64::max).sqrt();
-        let left = self.allowed_m - far;
-        // A node and the mean may part at twice the pace of the fastest node.
-        self.due_m = path_m + 0.5 * left;
-        left <= 0.05 * self.allowed_m || left.is_nan()
-    }
-
-    /// Decides ways and which pairs may touch soon.
-    pub fn look(&mut self, scene: &Scene, path_m: f64, slack_m: f64) {
-        let mut closest_m = f64::INFINITY;
-        let mut gaps = Vec::with_capacity(self.pairs.len());
-        for pair in &mut self.pairs {
-            let gap_m = pair.settle(scene) - pair.rest_m.max(0.0);
-            closest_m = closest_m.min(gap_m);
-            gaps.push(gap_m);
-        }
-        // Half of the way left, so that a far pair is looked at again well before it touches.
-        let between = (0.5 * closest_m).clamp(slack_m, 0.25 * scene.reach_m + slack_m);
-        self.near.clear();
-        for (at, (pair, gap_m)) in self.pairs.iter_mut().zip(gaps).enumerate() {
-            if gap_m <= between || pair.deep_m > 0.0 {
-                self.near.push(at as u32);
-            } else {
-                (pair.sign, pair.on, pair.damped_n) = (0, false, 0.0);
-            }
-        }
-        self.allowed_m = 0.5 * between;
-        self.due_m = path_m + 0.5 * self.allowed_m;
+    /// Measures the way from here on.
+    fn rebase(&mut self, x: &[[f64; 4]], moved_m: f64) {
+        self.way_m += moved_m;
         self.seen_m.clear();
-        self.seen_m.extend(self.nodes.iter().map(|n| scene.x[*n as usize]));
+        self.seen_m.extend(self.nodes.iter().map(|n| x[*n as usize]));
     }
+
+    /// Most that two nodes can have moved against each other.
+    fn spread_m(&self, at: impl Fn(usize) -> V3) -> f64 {
+        if self.seen_m.is_empty() {
+            return 0.0;
+        }
+        let mut mean = [0.0; 3];
+        for (n, seen) in self.nodes.iter().zip(&self.seen_m) {
+            mean = add(mean, sub(at(*n as usize), [seen[0], seen[1], seen[2]]));
+        }
+        let mean = scale(mean, 1.0 / self.nodes.len() as f64);
+        let mut far: f64 = 0.0;
+        for (n, seen) in self.nodes.iter().zip(&self.seen_m) {
+            let moved = sub(sub(at(*n as usize), [seen[0], seen[1], seen[2]]), mean);
+            far = far.max(dot(moved, moved));
+        }
+        2.0 * far.sqrt()
+    }
+}
+
+fn least(values: &[f64]) -> f64 {
+    values.iter().fold(f64::INFINITY, |least, v| if *v < least { *v } else { least })
 }

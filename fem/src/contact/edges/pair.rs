@@ -1,33 +1,30 @@
-//! What is remembered of two sides of elements that are near each other.
+//! Two sides of elements, or a node and a triangle, that are near each other.
 
-use super::super::surface::{NONE, Surface};
-use super::segment::{Lines, closest, lines};
-use super::sides::Sides;
-use crate::vec3::{V3, along, dot, node, norm, scale};
+use super::super::closest::{blend, on_triangle};
+use crate::vec3::{V3, add, along, cross, dot, node, norm, scale, sub};
 
 /// Sines below this are parallel: nodes and faces take care.
 const SINE: f64 = 0.1;
-/// A pair that was active stays so this far beyond the ends, lest it switch at every step.
-const BEYOND: f64 = 0.02;
-/// Beyond this the sign is decided anew when the pair comes back.
-const AWAY: f64 = 0.25;
+/// Share of what a pair is too close by which its gap grows in a step.
+const GROWTH: f64 = 0.02;
+/// Share of its gap by which a pair may move before it is looked at again.
+const SLACK: f64 = 0.25;
 
-/// Two sides of elements.
+/// Two sides, or a node and a triangle.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Pair {
-    pub sides: [u32; 2],
+    /// True for a node and a triangle.
+    pub face: bool,
+    /// Numbers of the sides; of the node and the triangle.
+    pub key: [u32; 2],
     pub nodes: [u32; 4],
-    /// Which side of the first's faces the second is on (+1 in front, 0 not decided), and of the second's the first.
-    pub way: [i8; 2],
-    /// Sign s of the normal s e₁×e₂; 0 while the lines are parallel or apart.
-    pub sign: i8,
-    /// True while closest points are within both sides.
-    pub on: bool,
-    /// Distance that is kept now, and the one that is wanted \[m\].
+    /// Distance that the spring keeps now, and the one that is wanted \[m\]; 0 if there is no spring.
     pub rest_m: f64,
     pub wanted_m: f64,
     pub stiffness_n_m: f64,
     pub damping_n_s_m: f64,
+    /// True while closest points are within both sides.
+    pub on: bool,
     /// Rest gap minus distance in the step before \[m\], and the part of it that pushed.
     pub last_m: f64,
     pub deep_m: f64,
@@ -38,149 +35,110 @@ pub(super) struct Pair {
 /// A pair at one moment.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touch {
-    pub depth_m: f64,
+    pub distance_m: f64,
     /// From the second to the first.
     pub normal: V3,
     /// Of the four nodes; sum 0.
     pub weights: [f64; 4],
+    /// Closest points are within both sides, which cross at an angle.
+    pub inside: bool,
 }
 
-/// Where a pair stands in space.
-pub(super) struct Scene<'a> {
-    pub surface: &'a Surface,
-    pub sides: &'a Sides,
-    pub x: &'a [[f64; 4]],
-    /// Sides are remembered within this distance \[m\].
-    pub reach_m: f64,
-    pub thickness_m: f64,
-    pub dt_s: f64,
+/// Closest points of a node and a triangle or of two segments.
+#[inline]
+pub(super) fn touch(face: bool, [a, b, c, d]: [V3; 4]) -> Touch {
+    let (weights, r, inside) = if face {
+        let [u, v, w] = on_triangle(a, b, c, d);
+        ([1.0, -u, -v, -w], sub(a, blend([u, v, w], b, c, d)), false)
+    } else {
+        segments([a, b], [c, d])
+    };
+    let distance_m = norm(r);
+    let normal = if distance_m > 0.0 { scale(r, 1.0 / distance_m) } else { [0.0; 3] };
+    Touch { distance_m, normal, weights, inside }
+}
+
+/// Weights of the ends of two segments, vector from the second to the first, and whether they cross within their ends
+/// (Ericson, Real-Time Collision Detection, 2005, 5.1.9).
+fn segments([p, q]: [V3; 2], [r, s]: [V3; 2]) -> ([f64; 4], V3, bool) {
+    let (e1, e2, w) = (sub(q, p), sub(s, r), sub(p, r));
+    let (a, b, c, d, e) = (dot(e1, e1), dot(e1, e2), dot(e2, e2), dot(e1, w), dot(e2, w));
+    let m = cross(e1, e2);
+    let square = dot(m, m);
+    let over = |x: f64, y: f64| if y > 0.0 { x / y } else { 0.0 };
+    let free = if square > 1e-12 * a * c { over(b * e - c * d, square) } else { 0.5 };
+    let mut u = free.clamp(0.0, 1.0);
+    let reach = over(b * u + e, c);
+    let v = reach.clamp(0.0, 1.0);
+    let inside = u == free && v == reach && square > SINE * SINE * a * c;
+    if v != reach {
+        u = over(b * v - d, a).clamp(0.0, 1.0);
+    }
+    if inside {
+        // Along the common normal, without the cancellation of two close points.
+        return ([1.0 - u, u, v - 1.0, -v], scale(m, dot(w, m) / square), true);
+    }
+    ([1.0 - u, u, v - 1.0, -v], along(along(w, u, e1), -v, e2), false)
 }
 
 impl Pair {
     #[inline]
-    pub fn ends(&self, x: &[[f64; 4]]) -> [[V3; 2]; 2] {
-        let [a, b, c, d] = self.nodes.map(|n| node(x, n as usize));
-        [[a, b], [c, d]]
-    }
-
-    /// Distance and normal, if the pair is active.
-    #[inline]
-    pub fn touch(&self, x: &[[f64; 4]]) -> Option<Touch> {
-        let [a, b] = self.ends(x);
-        if self.on && self.sign != 0 { Some(self.touch_of(&lines(a, b))) } else { None }
+    pub fn corners(&self, x: &[[f64; 4]]) -> [V3; 4] {
+        self.nodes.map(|n| node(x, n as usize))
     }
 
     #[inline]
-    fn touch_of(&self, l: &Lines) -> Touch {
-        let per = f64::from(self.sign) / norm(l.product);
-        let [u, v] = l.place;
-        Touch {
-            depth_m: self.rest_m - l.triple * per,
-            normal: scale(l.product, per),
-            weights: [1.0 - u, u, v - 1.0, -v],
-        }
+    pub fn touch(&self, x: &[[f64; 4]]) -> Touch {
+        touch(self.face, self.corners(x))
     }
 
-    /// Switches the pair on or off for this step and eases its rest gap; the touch if it may push.
-    pub fn update(&mut self, scene: &Scene) -> Option<Touch> {
-        let [a, b] = self.ends(scene.x);
-        let l = lines(a, b);
-        let within = |by: f64| l.place.iter().all(|p| *p > -by && *p < 1.0 + by);
-        if l.sine_square.is_nan() || l.sine_square <= SINE * SINE || !within(AWAY) {
-            (self.sign, self.on) = (0, false);
-            return None;
-        }
-        let inside = within(if self.on { BEYOND } else { 0.0 });
-        if self.sign == 0 && inside {
-            self.sign = self.decide(scene, &l);
-        }
-        if self.sign == 0 {
+    /// Force of a step; eases the rest gap. The loss is the work of the step less what the spring stores.
+    ///
+    /// Nothing pushes at once: a pair that comes near keeps what it has, and gets its gap back as far as it parts.
+    pub fn press(&mut self, touch: &Touch, dt_s: f64, floor_m: f64, sums: &mut [f64; 2]) -> f64 {
+        let idle = self.deep_m == 0.0;
+        if !touch.inside || (idle && touch.distance_m >= self.rest_m) {
             self.on = false;
-            return None;
+            self.rest_m = if touch.inside { self.wanted_m.min(touch.distance_m) } else { self.wanted_m };
+            sums[1] += self.release();
+            return 0.0;
         }
-        let mut touch = self.touch_of(&l);
-        let distance_m = self.rest_m - touch.depth_m;
-        if inside && !self.on {
-            // Nothing pushes at once: the pair keeps what it has, and gets its gap back when it is apart.
-            self.rest_m = self.wanted_m.min(distance_m);
-        } else if distance_m > self.rest_m {
-            self.rest_m = self.wanted_m.min(distance_m);
+        if !self.on {
+            self.rest_m = self.rest_m.min(touch.distance_m);
+            (self.on, self.last_m) = (true, 0.0);
         }
-        let shift = self.rest_m - distance_m - touch.depth_m;
-        self.last_m += shift;
-        touch.depth_m += shift;
-        self.on = inside;
-        Some(touch)
-    }
-
-    /// Sign with which the normal leads from the second to the first: what the remembered ways say, or, if they say
-    /// little, the present distance.
-    fn decide(&self, scene: &Scene, l: &Lines) -> i8 {
-        let to = self.direction(scene);
-        let clear = dot(to, l.product) / norm(l.product);
-        let far = l.triple.abs() > 0.25 * scene.thickness_m * norm(l.product);
-        if clear.abs() > 0.2 {
-            return if clear > 0.0 { 1 } else { -1 };
-        }
-        if far && l.triple > 0.0 {
-            1
-        } else if far {
-            -1
-        } else {
-            0
-        }
-    }
-
-    /// From the second to the first by the remembered ways.
-    fn direction(&self, scene: &Scene) -> V3 {
-        let [a, b] = self.sides.map(|s| scene.sides.normal(scene.surface, scene.x, s));
-        along(scale(b, f64::from(self.way[1])), -f64::from(self.way[0]), a)
-    }
-
-    /// Decides or forgets the ways by the closest points of the segments; returns their distance.
-    pub fn settle(&mut self, scene: &Scene) -> f64 {
-        let [a, b] = self.ends(scene.x);
-        let r = closest(a, b).2;
-        let distance_m = norm(r);
-        if distance_m > scene.reach_m {
-            self.way = [0, 0];
-            return distance_m;
-        }
-        for k in 0..2 {
-            let border = scene.sides.list[self.sides[k] as usize].faces[1] == NONE;
-            if self.way[k] != 0 && !(border && distance_m > scene.thickness_m) {
-                continue;
-            }
-            let n = scene.sides.normal(scene.surface, scene.x, self.sides[k]);
-            let height = if k == 0 { -dot(n, r) } else { dot(n, r) };
-            let clear = height.abs() > 0.5 * distance_m * norm(n) && height != 0.0;
-            self.way[k] = match (clear, self.way[k]) {
-                (true, 0) => {
-                    if height > 0.0 {
-                        1
-                    } else {
-                        -1
-                    }
-                }
-                (false, _) => 0,
-                (true, way) => way,
-            };
-        }
-        distance_m
-    }
-
-    /// Normal force of a step with a touch; the loss is the work of the step less what the spring stores.
-    pub fn press(&mut self, touch: &Touch, dt_s: f64, sums: &mut [f64; 2]) -> f64 {
-        let closed = touch.depth_m - self.last_m;
-        let deep = if self.on { touch.depth_m.max(0.0) } else { 0.0 };
+        self.grow(touch.distance_m, floor_m, sums);
+        let depth_m = self.rest_m - touch.distance_m;
+        let closed = depth_m - self.last_m;
+        let deep = depth_m.max(0.0);
         let elastic = self.stiffness_n_m * deep;
         let damped = if deep > 0.0 { (self.damping_n_s_m / dt_s * closed).max(-elastic) } else { 0.0 };
         let work = 0.5 * (damped + self.damped_n + elastic + self.stiffness_n_m * self.deep_m) * closed;
         let stored = 0.5 * elastic * deep;
         sums[0] += stored;
         sums[1] += work - stored + 0.5 * self.stiffness_n_m * self.deep_m * self.deep_m;
-        (self.last_m, self.deep_m, self.damped_n) = (touch.depth_m, deep, damped);
+        (self.last_m, self.deep_m, self.damped_n) = (depth_m, deep, damped);
         elastic + damped
+    }
+
+    /// Growth of the gap of a pair that is pressed too close, as with nodes and faces.
+    fn grow(&mut self, distance_m: f64, floor_m: f64, sums: &mut [f64; 2]) {
+        if distance_m < floor_m && self.rest_m < self.wanted_m {
+            let by_m = GROWTH * (floor_m - distance_m);
+            let deep = self.deep_m + by_m;
+            if self.deep_m > 0.0 {
+                sums[1] -= 0.5 * self.stiffness_n_m * (deep * deep - self.deep_m * self.deep_m);
+                self.deep_m = deep;
+            }
+            self.rest_m += by_m;
+            self.last_m += by_m;
+        }
+    }
+
+    /// Motion of the two against each other until the spring must be looked at again.
+    pub fn idle_m(&self, touch: &Touch) -> f64 {
+        let gap_m = if touch.inside { self.rest_m } else { self.wanted_m };
+        if self.on { 0.0 } else { (touch.distance_m - gap_m).max(SLACK * self.wanted_m) }
     }
 
     /// Lets go of what the spring holds; returns the energy lost.
@@ -188,5 +146,39 @@ impl Pair {
         let lost = 0.5 * self.stiffness_n_m * self.deep_m * self.deep_m;
         (self.deep_m, self.damped_n) = (0.0, 0.0);
         lost
+    }
+
+    /// Touch when the distance falls to `stop` within the motion `by` (additive continuous collision
+    /// detection: Li et al., ACM Trans. Graph. 40 (2021), algorithm 1).
+    pub fn meets(&self, now: &Touch, x: &[[f64; 4]], by: &[V3], stop: f64) -> Option<Touch> {
+        let mut motion = self.nodes.map(|n| by[n as usize]);
+        let mean = scale(motion.iter().fold([0.0; 3], |sum, m| add(sum, *m)), 0.25);
+        motion.iter_mut().for_each(|m| *m = sub(*m, mean));
+        let first = if self.face { 1 } else { 2 };
+        let far = |part: &[V3]| part.iter().map(|m| dot(*m, *m)).fold(0.0, f64::max).sqrt();
+        let most = far(&motion[..first]) + far(&motion[first..]);
+        if most <= now.distance_m - stop {
+            return None;
+        }
+        let corners = self.corners(x);
+        // A plane that is between them before and after is so all the time.
+        let height = |k: usize| dot(now.normal, add(sub(corners[k], corners[0]), motion[k]));
+        let low = (0..first).map(height).fold(f64::INFINITY, f64::min);
+        let high = (first..4).map(height).fold(f64::NEG_INFINITY, f64::max);
+        if low - high >= stop {
+            return None;
+        }
+        let (mut time, mut at) = (0.0, *now);
+        for _ in 0..300 {
+            time += (at.distance_m - stop) / most;
+            if time >= 1.0 {
+                return None;
+            }
+            at = touch(self.face, [0, 1, 2, 3].map(|k| along(corners[k], time, motion[k])));
+            if at.distance_m <= 1.02 * stop {
+                break;
+            }
+        }
+        Some(at)
     }
 }
