@@ -128,6 +128,12 @@ pub enum CompareError {
     /// Data that cannot be read.
     #[error("{0}")]
     Data(#[from] data::DataError),
+    /// The generator of hidden-effect data cannot make this robot or this run.
+    #[error("the data cannot be generated: {problem}")]
+    NotSimulated {
+        /// Why.
+        problem: String,
+    },
     /// No scenario comes with the library for this actuator, or it is damaged.
     #[error("no shipped scenario of actuator `{kind}`: {problem}")]
     NoScenario {

@@ -11,6 +11,7 @@ pub mod diagnosis;
 pub mod directions;
 pub mod error;
 pub mod evaluate;
+pub mod hidden;
 pub mod layout;
 pub mod metrics;
 pub mod noise;

@@ -80,7 +80,7 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
     }
     let model = Model::new(scenario);
     let mut state = model.prediction();
-    let mut scatter = Scatter { rng: ChaCha8Rng::seed_from_u64(generator.seed), spare: None };
+    let mut scatter = Scatter::new(generator.seed);
     let mut xy_m = Vec::new();
     for _ in 0..generator.runs {
         let gain = 1.0 + generator.pressure_sd * scatter.normal();
@@ -123,12 +123,14 @@ fn steps(generator: &Generator, gain: f64) -> Vec<Step> {
     holds(generator).into_iter().zip(&generator.protocol).flat_map(of_hold).collect()
 }
 
-fn markers(scenario: &Scenario) -> Vec<Marker> {
+/// The markers of a scenario, counted from 1.
+pub(crate) fn markers(scenario: &Scenario) -> Vec<Marker> {
     let marker = |(i, s): (usize, &f64)| Marker { name: (i + 1).to_string(), station_m: Some(*s) };
     scenario.markers_m.iter().enumerate().map(marker).collect()
 }
 
-fn holds(generator: &Generator) -> Vec<Hold> {
+/// The holds of a protocol, with the times of their samples.
+pub(crate) fn holds(generator: &Generator) -> Vec<Hold> {
     let mut holds: Vec<Hold> = Vec::new();
     for (i, [p_body_pa, p_act_pa]) in generator.protocol.iter().enumerate() {
         let before = if i == 0 { 0.0 } else { generator.protocol[i - 1][1] };
@@ -149,18 +151,24 @@ fn holds(generator: &Generator) -> Vec<Hold> {
 }
 
 /// Standard normal numbers by the polar method, from a generator whose stream is fixed by its definition.
-struct Scatter {
+pub(crate) struct Scatter {
     rng: ChaCha8Rng,
     spare: Option<f64>,
 }
 
 impl Scatter {
-    fn uniform(&mut self) -> f64 {
+    pub(crate) fn new(seed: u64) -> Scatter {
+        Scatter { rng: ChaCha8Rng::seed_from_u64(seed), spare: None }
+    }
+
+    /// Uniform in [0, 1).
+    pub(crate) fn uniform(&mut self) -> f64 {
         // 53 random bits: every double in [0, 1) of that spacing.
         (self.rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn normal(&mut self) -> f64 {
+    /// Standard normal.
+    pub(crate) fn normal(&mut self) -> f64 {
         if let Some(value) = self.spare.take() {
             return value;
         }

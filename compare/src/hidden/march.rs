@@ -1,0 +1,169 @@
+//! A run: the protocol in time, cell by cell, with what the cells remember.
+
+use super::loads::Shape;
+use super::robot::{Acting, Robot};
+use super::wall::Memory;
+use crate::error::CompareError;
+use data::Hold;
+
+/// Time in which a regulator reaches a new set pressure \[s\].
+const RAMP_S: f64 = 0.4;
+/// Steps of a ramp.
+const RAMP_STEPS: usize = 8;
+/// Longest step while a pressure is held \[s\].
+const LONGEST_STEP_S: f64 = 0.5;
+/// Rounds in which loads and shape must agree.
+const MAX_ROUNDS: usize = 400;
+/// Agreement wanted \[N·m\]: a millionth of a hinge moment.
+const AGREED_NM: f64 = 1e-7;
+
+/// State of a robot in time.
+struct March<'a> {
+    robot: &'a Robot,
+    gain: f64,
+    memory: Vec<Memory>,
+    curvatures: Vec<f64>,
+    moments: Vec<f64>,
+}
+
+/// One instant.
+#[derive(Clone, Copy)]
+struct Instant {
+    p_body_pa: f64,
+    set_pa: f64,
+    held_s: f64,
+    dt_s: f64,
+}
+
+/// Marker positions of one run as an ideal camera records them, `[hold][sample][marker][x, y]` \[m\]; `gain` is the
+/// run's factor on the actuator pressure.
+///
+/// # Errors
+/// A hold at which nothing balances.
+pub fn run(robot: &Robot, holds: &[Hold], gain: f64) -> Result<Vec<f64>, CompareError> {
+    let n = robot.cells.len();
+    let mut march = March {
+        robot,
+        gain,
+        memory: vec![Memory::default(); n],
+        curvatures: vec![0.0; n],
+        moments: vec![0.0; n],
+    };
+    let (mut xy_m, mut set_pa, mut time_s) = (Vec::new(), 0.0, 0.0);
+    for hold in holds {
+        let begin_s = time_s;
+        if robot.remembers() {
+            march.ramp(hold, set_pa)?;
+            time_s += RAMP_S;
+        }
+        for (k, t_s) in hold.t_s.iter().enumerate() {
+            if k == 0 || robot.remembers() || robot.supply.leak_per_s != 0.0 {
+                march.hold(hold, begin_s, &mut time_s, *t_s)?;
+            }
+            march.sight(hold.p_act_pa, &mut xy_m);
+        }
+        set_pa = hold.p_act_pa;
+        time_s = hold.t_s.last().copied().unwrap_or(time_s);
+    }
+    Ok(xy_m)
+}
+
+impl Robot {
+    /// Whether a state depends on what was before.
+    fn remembers(&self) -> bool {
+        let memory = |wall: &super::wall::Wall| wall.friction_nm != 0.0 || wall.creep_nm2 != 0.0 || wall.set != 0.0;
+        self.cells.iter().any(|cell| memory(&cell.wall))
+    }
+}
+
+impl March<'_> {
+    fn ramp(&mut self, hold: &Hold, from_pa: f64) -> Result<(), CompareError> {
+        for step in 1..=RAMP_STEPS {
+            let share = step as f64 / RAMP_STEPS as f64;
+            let set_pa = if step == RAMP_STEPS { hold.p_act_pa } else { from_pa + share * (hold.p_act_pa - from_pa) };
+            let dt_s = RAMP_S / RAMP_STEPS as f64;
+            self.step(&Instant { p_body_pa: hold.p_body_pa, set_pa, held_s: 0.0, dt_s })?;
+        }
+        Ok(())
+    }
+
+    /// Holds the pressure until `until_s`.
+    fn hold(&mut self, hold: &Hold, begin_s: f64, time_s: &mut f64, until_s: f64) -> Result<(), CompareError> {
+        let left = (until_s - *time_s).max(0.0);
+        let steps = if self.robot.remembers() { (left / LONGEST_STEP_S).ceil().max(1.0) } else { 1.0 };
+        for _ in 0..steps as usize {
+            let dt_s = left / steps;
+            *time_s += dt_s;
+            let held_s = (*time_s - begin_s - RAMP_S).max(0.0);
+            self.step(&Instant { p_body_pa: hold.p_body_pa, set_pa: hold.p_act_pa, held_s, dt_s })?;
+        }
+        Ok(())
+    }
+
+    fn step(&mut self, at: &Instant) -> Result<(), CompareError> {
+        if self.robot.loads.any() {
+            self.agree(at)?;
+        } else {
+            self.solve(at)?;
+        }
+        for ((cell, memory), kappa) in self.robot.cells.iter().zip(&mut self.memory).zip(&self.curvatures) {
+            cell.wall.remember(*kappa, memory, at.dt_s);
+        }
+        Ok(())
+    }
+
+    /// Moments and shape in turn, more cautiously whenever they part.
+    fn agree(&mut self, at: &Instant) -> Result<(), CompareError> {
+        let (mut share, mut before) = (1.0, f64::INFINITY);
+        for _ in 0..MAX_ROUNDS {
+            self.solve(at)?;
+            let wanted = Shape::new(&self.robot.cells, &self.curvatures).moments(&self.robot.cells, &self.robot.loads);
+            let gap = wanted.iter().zip(&self.moments).fold(0.0_f64, |most, (w, m)| most.max((w - m).abs()));
+            if gap < AGREED_NM {
+                return Ok(());
+            }
+            if gap > 0.95 * before {
+                share = f64::max(0.5 * share, 0.02);
+            }
+            before = gap;
+            self.moments.iter_mut().zip(wanted).for_each(|(m, w)| *m += share * (w - *m));
+        }
+        Err(unbalanced(at, "loads and shape do not agree"))
+    }
+
+    fn solve(&mut self, at: &Instant) -> Result<(), CompareError> {
+        let cells = &self.robot.cells;
+        let p_act_pa = self.robot.supply.pressure(at.set_pa, self.gain, at.held_s);
+        for i in 0..cells.len() {
+            let alike = i > 0
+                && cells[i].drive == cells[i - 1].drive
+                && cells[i].wall == cells[i - 1].wall
+                && self.moments[i] == self.moments[i - 1]
+                && self.memory[i] == self.memory[i - 1];
+            self.curvatures[i] = if alike {
+                self.curvatures[i - 1]
+            } else {
+                let (p_body_pa, dt_s) = (at.p_body_pa, at.dt_s);
+                let acting = Acting { p_body_pa, p_act_pa, moment: self.moments[i], dt_s };
+                let solved = cells[i].solve(&acting, &self.memory[i]);
+                solved.ok_or_else(|| unbalanced(at, &format!("s = {:.0} mm", cells[i].start_m * 1e3)))?
+            };
+        }
+        Ok(())
+    }
+
+    /// Appends what the camera sees.
+    fn sight(&self, set_pa: f64, xy_m: &mut Vec<f64>) {
+        let shape = Shape::new(&self.robot.cells, &self.curvatures);
+        for station in &self.robot.markers_m {
+            let point = shape.point(&self.robot.cells, &self.curvatures, *station);
+            xy_m.extend(self.robot.camera.see(&point, set_pa));
+        }
+    }
+}
+
+fn unbalanced(at: &Instant, place: &str) -> CompareError {
+    let (p, body) = (at.set_pa / 1e3, at.p_body_pa / 1e3);
+    let problem = format!("nothing balances at {p} kPa on a body of {body} kPa ({place}); make the hidden effect smaller");
+    CompareError::NotSimulated { problem }
+}

@@ -1,0 +1,76 @@
+//! A robot measured: several runs with the scatter of a real test.
+
+use super::march;
+use super::robot::Robot;
+use crate::error::CompareError;
+use crate::study::generate::{Generator, Scatter, holds, markers};
+use data::Dataset;
+use models::Scenario;
+
+/// How a robot is measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    /// Runs, protocol, scatter and its seed.
+    pub generator: Generator,
+    /// Camera noise from Student's t with 3 degrees of freedom, scaled to the same standard deviation: now and then a
+    /// marker is seen far off.
+    pub heavy_tails: bool,
+}
+
+/// Degrees of freedom of heavy-tailed noise: the least with a variance.
+const HEAVY_DOF: usize = 3;
+
+/// Positions without any scatter, in run layout \[m\].
+///
+/// # Errors
+/// A hold at which nothing balances.
+pub fn ideal(robot: &Robot, generator: &Generator) -> Result<Vec<f64>, CompareError> {
+    march::run(robot, &holds(generator), 1.0)
+}
+
+/// Measures a robot; `scenario` gives what the experimenter believes: actuator and marker stations.
+///
+/// # Errors
+/// A hold at which nothing balances; no marker stations.
+pub fn measure(
+    robot: &Robot,
+    scenario: &Scenario,
+    name: &str,
+    measurement: &Measurement,
+) -> Result<Dataset, CompareError> {
+    let g = &measurement.generator;
+    let holds = holds(g);
+    let mut scatter = Scatter::new(g.seed);
+    let mut xy_m = Vec::new();
+    for _ in 0..g.runs {
+        let gain = 1.0 + g.pressure_sd * scatter.normal();
+        let shift = [scatter.normal(), scatter.normal()].map(|n| n * g.alignment_sd_m);
+        let roll = g.rotation_sd * scatter.normal();
+        for xy in march::run(robot, &holds, gain)?.chunks_exact(2) {
+            let noise = [0, 1].map(|_| g.camera_sd_m * camera_noise(&mut scatter, measurement.heavy_tails));
+            xy_m.push(xy[0] - roll * xy[1] + shift[0] + noise[0]);
+            xy_m.push(xy[1] + roll * xy[0] + shift[1] + noise[1]);
+        }
+    }
+    let made = Dataset {
+        name: name.to_string(),
+        actuator: scenario.actuator.kind.name.to_string(),
+        runs: (1..=g.runs).map(|r| r.to_string()).collect(),
+        holds,
+        markers: markers(scenario),
+        samples_per_hold: g.samples,
+        xy_m,
+    };
+    Ok(made.checked()?)
+}
+
+/// One number of variance 1.
+fn camera_noise(scatter: &mut Scatter, heavy_tails: bool) -> f64 {
+    let normal = scatter.normal();
+    if !heavy_tails {
+        return normal;
+    }
+    let chi2: f64 = (0..HEAVY_DOF).map(|_| scatter.normal().powi(2)).sum();
+    // t = n/√(χ²/3) has the variance 3.
+    normal / chi2.sqrt()
+}

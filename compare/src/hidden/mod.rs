@@ -1,0 +1,32 @@
+//! Data with a hidden effect: a robot simulated by other laws than the diagnosing side has.
+//!
+//! ```text
+//! Scenario ─► Robot (48 cells) ── HIDDEN / OUTSIDE effects put in ─► march in time ─► camera ─► scatter ─► Dataset
+//! ```
+//!
+//! The base physics is the project's (pouch, body pressure, B, McKibben), written again and divided otherwise, so that
+//! without a hidden effect the model is right up to discretisation; every hidden effect follows another law than the
+//! catalogue's entry of the same name, as real robots do. Quasi-static: at every instant each cell balances, with what it
+//! remembers of friction, creep and set.
+
+pub mod camera;
+pub mod drive;
+pub mod effects;
+pub mod loads;
+pub mod march;
+pub mod measure;
+pub mod robot;
+mod root;
+pub mod score;
+pub mod supply;
+pub mod truth;
+pub mod wall;
+
+#[cfg(test)]
+mod tests;
+
+pub use effects::{HIDDEN, HiddenEffect, OUTSIDE, by_name};
+pub use measure::{Measurement, ideal, measure};
+pub use robot::Robot;
+pub use score::{Answer, Score, score};
+pub use truth::{Draw, Kind, Truth};

@@ -1,0 +1,204 @@
+//! The robot of the generator, cut into cells; and the equilibrium of one cell.
+
+use super::camera::Camera;
+use super::drive::Drive;
+use super::loads::DeadLoads;
+use super::root::root;
+use super::supply::Supply;
+use super::wall::{Memory, Wall};
+use crate::error::CompareError;
+use models::actuators::Family;
+use models::{Loads, Model, Scenario};
+use std::f64::consts::PI;
+
+/// Cells of a robot: four times the model's segments, and not a multiple of the pouches' places of the markers.
+pub const CELLS: usize = 48;
+
+/// A stretch of body with its laws.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cell {
+    /// Start along the taut generator \[m\].
+    pub start_m: f64,
+    /// Length of the taut generator \[m\].
+    pub length_m: f64,
+    /// Distance of the centre line from the taut generator \[m\].
+    pub centre_line_m: f64,
+    /// Actuator, if any.
+    pub drive: Option<Drive>,
+    /// Body.
+    pub wall: Wall,
+}
+
+/// Everything the generator knows about a robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Robot {
+    /// Base to tip.
+    pub cells: Vec<Cell>,
+    /// Body length \[m\].
+    pub length_m: f64,
+    /// Marker stations where they really are \[m\].
+    pub markers_m: Vec<f64>,
+    /// From the regulator to the actuator.
+    pub supply: Supply,
+    /// Weights and forces.
+    pub loads: DeadLoads,
+    /// What the camera makes of it.
+    pub camera: Camera,
+    /// Curvature of the robot without hidden effects at 30 kPa on 2 kPa \[1/m\]: the scale of what depends on size.
+    pub scale_per_m: f64,
+}
+
+/// Pressures of the scale: the top of the standard protocol.
+const SCALE_PA: [f64; 2] = [2e3, 30e3];
+
+impl Robot {
+    /// The robot of a scenario. The only effect understood is `arm_growth`, the geometry of an external actuator.
+    ///
+    /// # Errors
+    /// Another effect in the scenario; no equilibrium at the top of the standard protocol.
+    pub fn new(scenario: &Scenario) -> Result<Robot, CompareError> {
+        let mut lift_share = 0.0;
+        for effect in &scenario.effects {
+            if effect.name != "arm_growth" {
+                let problem =
+                    format!("the scenario already has the effect {}; start from one without effects", effect.name);
+                return Err(CompareError::NotSimulated { problem });
+            }
+            lift_share = effect.values[0];
+        }
+        let scale_per_m = scale(scenario)?;
+        let cells: Vec<Cell> = cells(scenario, lift_share, scale_per_m);
+        Ok(Robot {
+            loads: DeadLoads::none(cells.len(), scenario.gravity_direction),
+            cells,
+            length_m: scenario.length_m,
+            markers_m: scenario.markers_m.clone(),
+            supply: Supply::default(),
+            camera: Camera { length_m: scenario.length_m, ..Camera::default() },
+            scale_per_m,
+        })
+    }
+
+    /// Calls `change` on every cell with its middle \[m\].
+    pub fn each(&mut self, mut change: impl FnMut(&mut Cell, f64)) {
+        for cell in &mut self.cells {
+            let middle = cell.start_m + 0.5 * cell.length_m;
+            change(cell, middle);
+        }
+    }
+}
+
+/// Largest curvature of the bare robot at [`SCALE_PA`].
+fn scale(scenario: &Scenario) -> Result<f64, CompareError> {
+    let model = Model::new(scenario);
+    let mut state = model.prediction();
+    model.predict(&Loads::uniform(SCALE_PA[0], SCALE_PA[1]), &mut state)?;
+    Ok(model.curvatures(&state).fold(1e-3, |most, (_, kappa)| f64::max(most, kappa)))
+}
+
+fn cells(scenario: &Scenario, lift_share: f64, scale_per_m: f64) -> Vec<Cell> {
+    let mut cells = Vec::new();
+    for span in scenario.spans() {
+        let count = ((CELLS as f64 * span.length_m / scenario.length_m).round() as usize).max(1);
+        let length_m = span.length_m / count as f64;
+        let drive = span.actuator.map(|actuator| Drive {
+            family: actuator.family,
+            length_m: span.shape.length_m,
+            width_m: span.shape.width_m,
+            gain: span.shape.volume_gain,
+            arm_m: span.arm_m,
+            lift_share,
+            strength: 1.0,
+            edge_loss: 0.0,
+            swell_m: 0.0,
+            stretch_m_per_n: 0.0,
+            crease_nm: 0.0,
+            shear_n_per_m: 0.0,
+            lock_n_per_m: 0.0,
+        });
+        let wall = Wall {
+            bending: span.bending_stiffness,
+            hinge_m3: scenario.hinge_share * PI * span.radius_m.powi(3),
+            step_per_m: scenario.hinge_curvature,
+            scale_per_m,
+            wrinkle_per_m: 0.0,
+            tail_m3: 0.0,
+            oval: 0.0,
+            stop_nm: 0.0,
+            rest_per_m: 0.0,
+            friction_nm: 0.0,
+            creep_nm2: 0.0,
+            set: 0.0,
+        };
+        let start = |i: usize| span.start_m + i as f64 * length_m;
+        cells.extend((0..count).map(|i| Cell {
+            start_m: start(i),
+            length_m,
+            centre_line_m: span.centre_line_m,
+            drive,
+            wall,
+        }));
+    }
+    cells
+}
+
+/// What acts on one cell in one step of time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Acting {
+    pub p_body_pa: f64,
+    pub p_act_pa: f64,
+    /// Of weights and forces \[N·m\].
+    pub moment: f64,
+    pub dt_s: f64,
+}
+
+/// Actuator pressure below which a pouch is slack \[Pa\].
+const SLACK_PA: f64 = 1e-6;
+/// Bend radius of 10 mm \[1/m\].
+const FOLDED_PER_M: f64 = 100.0;
+
+impl Cell {
+    /// Whether the actuator is a muscle.
+    pub fn is(&self, family: Family) -> bool {
+        self.drive.is_some_and(|drive| drive.family == family)
+    }
+
+    /// Curvature at which actuator, body and loads balance.
+    pub(super) fn solve(&self, acting: &Acting, memory: &Memory) -> Option<f64> {
+        match &self.drive {
+            Some(drive) if drive.strength * acting.p_act_pa > SLACK_PA => {
+                let (low, high) = drive.range();
+                let a = root(|a| self.imbalance(drive, a, acting, memory).1, low, high)?;
+                Some(self.imbalance(drive, a, acting, memory).0)
+            }
+            _ => {
+                let left = |k: f64| acting.moment - self.wall.moment(k, acting.p_body_pa, memory, acting.dt_s);
+                root(left, -FOLDED_PER_M, FOLDED_PER_M)
+            }
+        }
+    }
+
+    /// Curvature at a coordinate, and the weighted moment that is left: N ∂(κD)/∂κ + M_load − M_wall.
+    fn imbalance(&self, drive: &Drive, a: f64, acting: &Acting, memory: &Memory) -> (f64, f64) {
+        let pull = drive.at(a, acting.p_act_pa);
+        let mut kappa = pull.contraction / pull.arm;
+        let mut tension = 0.0;
+        // The arm gives way to curvature (ovalization) and the fabric to tension: both small, so a few rounds suffice.
+        for _ in 0..ROUNDS {
+            let (factor, _) = self.wall.arm_factor(kappa);
+            tension = pull.push / (pull.d_contraction - kappa * factor * pull.d_arm);
+            let next = (pull.contraction - drive.stretch(tension)) / (pull.arm * factor);
+            let done = (next - kappa).abs() <= 1e-13 * next.abs();
+            kappa = next;
+            if done {
+                break;
+            }
+        }
+        let slope = pull.arm * self.wall.arm_factor(kappa).1;
+        let wall = self.wall.moment(kappa, acting.p_body_pa, memory, acting.dt_s);
+        (kappa, (tension * slope + acting.moment - wall) * pull.weight)
+    }
+}
+
+/// Rounds of the fixed point in [`Cell::imbalance`].
+const ROUNDS: usize = 30;

@@ -1,0 +1,213 @@
+//! What is hidden in a dataset, as data: drawn from a seed, written as TOML, made into a robot and measured.
+
+use super::effects::{HIDDEN, HiddenEffect, OUTSIDE, by_name};
+use super::measure::{Measurement, measure};
+use super::robot::Robot;
+use crate::error::CompareError;
+use crate::study::generate::{Generator, Scatter};
+use data::Dataset;
+use models::{Scenario, shipped};
+use serde::{Deserialize, Serialize};
+
+/// A robot to hide effects in: a shipped scenario and an effective bending stiffness \[N·m²\], **assumed** once so that the
+/// robots bend about as far as the published ones (handbook of the prototype; the cPAM's is divided by its volume gain).
+pub const ROBOTS: [(&str, f64); 4] = [("spam", 6.0), ("cpam", 0.5), ("epam", 1.35), ("fpam", 0.3)];
+
+/// How much is hidden.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Nothing.
+    Nothing,
+    /// One effect that the catalogue also knows.
+    One,
+    /// Two of them.
+    Two,
+    /// One that the catalogue does not know.
+    Outside,
+}
+
+/// An effect and its size.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct HiddenChoice {
+    /// Name.
+    pub name: String,
+    /// Size in typical sizes.
+    pub times_typical: f64,
+}
+
+/// Everything hidden in a dataset.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Truth {
+    /// Actuator kind, one of [`ROBOTS`].
+    pub actuator: String,
+    /// Bending stiffness of this robot \[N·m²\].
+    pub bending_nm2: f64,
+    /// Seed of the scatter.
+    pub seed: u64,
+    /// Runs.
+    pub runs: usize,
+    /// Camera noise of one coordinate \[m\].
+    pub camera_sd_m: f64,
+    /// Heavy-tailed camera noise (Student's t, 3 degrees of freedom).
+    pub heavy_tails: bool,
+    /// Run-to-run relative error of the pressure \[-\].
+    pub pressure_sd: f64,
+    /// Run-to-run shift of the camera \[m\].
+    pub alignment_sd_m: f64,
+    /// The effects.
+    #[serde(default, rename = "effect")]
+    pub effects: Vec<HiddenChoice>,
+}
+
+/// Random numbers of one dataset: a stream of its own for every (seed, index).
+pub struct Draw(Scatter);
+
+impl Draw {
+    /// Stream number `index` of a seed.
+    pub fn new(seed: u64, index: u64) -> Draw {
+        // Steps of an odd constant (2⁶⁴ over the golden ratio) keep neighbouring streams far apart.
+        Draw(Scatter::new(seed.wrapping_add((index + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15))))
+    }
+
+    /// Uniform in [low, high).
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.0.uniform()
+    }
+
+    /// One of a list that is not empty.
+    pub fn one_of<'a, T>(&mut self, list: &'a [T]) -> &'a T {
+        &list[((list.len() as f64 * self.0.uniform()) as usize).min(list.len() - 1)]
+    }
+}
+
+impl Truth {
+    /// Draws a robot of that actuator with a bending stiffness within 15 % of its usual one, camera noise of 0.5–2 mm, 3,
+    /// 5 or 10 runs, 2 % pressure and 0.5 mm alignment scatter between runs, and nothing hidden.
+    ///
+    /// # Errors
+    /// Not an actuator of [`ROBOTS`].
+    pub fn draw(actuator: &str, draw: &mut Draw) -> Result<Truth, CompareError> {
+        let (_, usual) = robot(actuator)?;
+        Ok(Truth {
+            actuator: actuator.to_string(),
+            bending_nm2: usual * draw.between(0.85, 1.15),
+            seed: draw.between(0.0, 1e15) as u64,
+            runs: *draw.one_of(&[3, 5, 10]),
+            camera_sd_m: *draw.one_of(&[0.5e-3, 1e-3, 2e-3]),
+            heavy_tails: false,
+            pressure_sd: 0.02,
+            alignment_sd_m: 0.5e-3,
+            effects: Vec::new(),
+        })
+    }
+
+    /// Hides effects of that kind, each of 0.8–1.5 typical sizes; sizes of what is outside the catalogue are typical.
+    ///
+    /// # Errors
+    /// The scenario is damaged.
+    pub fn hide(&mut self, kind: Kind, draw: &mut Draw) -> Result<(), CompareError> {
+        let inside = applicable(&self.actuator, HIDDEN)?;
+        let first = draw.one_of(&inside).name;
+        match kind {
+            Kind::Nothing => {}
+            Kind::One => self.add(first, draw.between(0.8, 1.5)),
+            Kind::Two => {
+                let others: Vec<_> = inside.iter().filter(|effect| effect.name != first).collect();
+                self.add(first, draw.between(0.8, 1.5));
+                let second = draw.one_of(&others).name;
+                self.add(second, draw.between(0.8, 1.5));
+            }
+            Kind::Outside => self.add(draw.one_of(OUTSIDE).name, 1.0),
+        }
+        Ok(())
+    }
+
+    /// Hides an effect.
+    pub fn add(&mut self, name: &str, times_typical: f64) {
+        self.effects.push(HiddenChoice { name: name.to_string(), times_typical });
+    }
+
+    /// What the diagnosing side is given: the shipped robot with its usual bending stiffness.
+    ///
+    /// # Errors
+    /// Not an actuator of [`ROBOTS`].
+    pub fn told(&self) -> Result<Scenario, CompareError> {
+        let (scenario, usual) = robot(&self.actuator)?;
+        Ok(scenario.with_bending(usual))
+    }
+
+    /// The robot as it is.
+    ///
+    /// # Errors
+    /// Unknown names, or an effect that this actuator cannot have.
+    pub fn robot(&self) -> Result<Robot, CompareError> {
+        let scenario = robot(&self.actuator)?.0.with_bending(self.bending_nm2);
+        let mut robot = Robot::new(&scenario)?;
+        for choice in &self.effects {
+            let effect = known(&choice.name)?;
+            if !effect.applies_to(&scenario) {
+                let problem = format!("{} does not exist for a robot of actuator {}", choice.name, self.actuator);
+                return Err(CompareError::NotSimulated { problem });
+            }
+            let amount = choice.times_typical * (effect.typical)(&robot);
+            (effect.put)(&mut robot, amount);
+        }
+        Ok(robot)
+    }
+
+    /// How it is measured under a protocol.
+    pub fn measurement(&self, protocol: &[[f64; 2]]) -> Measurement {
+        let generator = Generator {
+            seed: self.seed,
+            runs: self.runs,
+            camera_sd_m: self.camera_sd_m,
+            pressure_sd: self.pressure_sd,
+            alignment_sd_m: self.alignment_sd_m,
+            protocol: protocol.to_vec(),
+            ..Generator::default()
+        };
+        Measurement { generator, heavy_tails: self.heavy_tails }
+    }
+
+    /// The dataset under a protocol.
+    ///
+    /// # Errors
+    /// As [`Truth::robot`]; a hold at which nothing balances.
+    pub fn dataset(&self, name: &str, protocol: &[[f64; 2]]) -> Result<Dataset, CompareError> {
+        measure(&self.robot()?, &self.told()?, name, &self.measurement(protocol))
+    }
+}
+
+/// The standard protocol: 0, 10, 20, 30, 0 kPa on a body of 2 kPa.
+pub fn standard_protocol() -> Vec<[f64; 2]> {
+    Generator::default().protocol
+}
+
+/// The effects of a list that a robot of that actuator can have.
+///
+/// # Errors
+/// Not an actuator of [`ROBOTS`].
+pub fn applicable(actuator: &str, list: &[HiddenEffect]) -> Result<Vec<HiddenEffect>, CompareError> {
+    let (scenario, _) = robot(actuator)?;
+    Ok(list.iter().filter(|effect| effect.applies_to(&scenario)).copied().collect())
+}
+
+/// The effect of that name.
+///
+/// # Errors
+/// None has it.
+pub fn known(name: &str) -> Result<&'static HiddenEffect, CompareError> {
+    by_name(name).ok_or_else(|| {
+        let names: Vec<_> = HIDDEN.iter().chain(OUTSIDE).map(|effect| effect.name).collect();
+        CompareError::NotSimulated { problem: format!("no hidden effect `{name}`; known: {}", names.join(", ")) }
+    })
+}
+
+fn robot(actuator: &str) -> Result<(Scenario, f64), CompareError> {
+    let missing = |problem: String| CompareError::NoScenario { kind: actuator.to_string(), problem };
+    let known = ROBOTS.iter().find(|(kind, _)| *kind == actuator);
+    let (kind, usual) = known.ok_or_else(|| missing("known are spam, cpam, epam and fpam".into()))?;
+    let text = shipped(kind).ok_or_else(|| missing("it is not shipped".into()))?;
+    let scenario = Scenario::parse(text).map_err(|error| missing(error.to_string()))?;
+    Ok((scenario, *usual))
+}

@@ -1,0 +1,210 @@
+//! The body of one cell: the moment that resists a curvature, with memory.
+//!
+//! Base laws: bending B κ and the hinge of the body pressure, share·π R³ p_b tanh(κ/k₀). Hidden laws, off at 0:
+//!
+//! ```text
+//! wrinkling       hinge → M₀ x/(1 + |x|^1.5)^(2/3), x = κ/κ_w                 another curve than Comer–Levy's
+//! tail            + t p_b tanh(κ/k₀)                                           the tail is pulled by the body's own pressure
+//! ovalization     D → D (1 − o κ²/(κ² + κ_c²))                                 flattens, then keeps its shape
+//! stop            + m exp((κ − κ_s)/w)                                         folds that press on each other ever harder
+//! rest curvature  − B κ₀
+//! friction        + Σ clamp(k_j (κ − z_j), ±f_j)                               Maxwell slip: four layers slide one after another
+//! creep           + Σ g_i (κ − q_i), q_i' = (κ − q_i)/τ_i, τ = 0.7, 3, 15 s    three relaxation times
+//! set             − B s (κ_max − κ_y)₊, fading with 40 s while κ < κ_max       yields late, recovers slowly
+//! ```
+
+/// Relaxation times of creep \[s\].
+pub(super) const RELAXATION_S: [f64; 3] = [0.7, 3.0, 15.0];
+/// Curvatures over which the friction layers slide, as shares of [`Wall::scale_per_m`].
+const SLIP_SHARES: [f64; 4] = [0.02, 0.06, 0.15, 0.3];
+/// Time in which a set fades \[s\].
+const RECOVERY_S: f64 = 40.0;
+
+/// Laws of one cell's body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wall {
+    /// Bending stiffness B \[N·m²\].
+    pub bending: f64,
+    /// Hinge moment per body pressure, share·π R³ \[m³\].
+    pub hinge_m3: f64,
+    /// Hinge step k₀ \[1/m\].
+    pub step_per_m: f64,
+    /// Curvature scale κ_c of the hidden laws \[1/m\].
+    pub scale_per_m: f64,
+    /// Wrinkling κ_w \[1/m\].
+    pub wrinkle_per_m: f64,
+    /// Tail t \[m³\].
+    pub tail_m3: f64,
+    /// Ovalization o \[-\].
+    pub oval: f64,
+    /// Stop m \[N·m\].
+    pub stop_nm: f64,
+    /// Rest curvature κ₀ \[1/m\].
+    pub rest_per_m: f64,
+    /// Friction, sum of all layers \[N·m\].
+    pub friction_nm: f64,
+    /// Creep stiffness, sum of all arms \[N·m²\].
+    pub creep_nm2: f64,
+    /// Set s \[-\].
+    pub set: f64,
+}
+
+/// What a cell remembers.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Memory {
+    slid: [f64; 4],
+    crept: [f64; 3],
+    largest: f64,
+    set: f64,
+}
+
+impl Wall {
+    /// Factor of the actuator's arm, and d(κ·factor)/dκ.
+    pub(super) fn arm_factor(&self, kappa: f64) -> (f64, f64) {
+        if self.oval == 0.0 {
+            return (1.0, 1.0);
+        }
+        let (k2, c2) = (kappa * kappa, self.scale_per_m * self.scale_per_m);
+        let flat = k2 / (k2 + c2);
+        let d_flat = 2.0 * k2 * c2 / ((k2 + c2) * (k2 + c2));
+        (1.0 - self.oval * flat, 1.0 - self.oval * (flat + d_flat))
+    }
+
+    /// Resisting moment at a curvature reached `dt_s` after the state in `memory` \[N·m\].
+    pub(super) fn moment(&self, kappa: f64, p_body_pa: f64, memory: &Memory, dt_s: f64) -> f64 {
+        let mut moment = self.bending * (kappa - self.rest_per_m) + self.hinge(kappa, p_body_pa);
+        moment += self.tail_m3 * p_body_pa * (kappa / self.step_per_m).tanh();
+        if self.stop_nm != 0.0 {
+            moment += self.stop_nm * ((kappa / self.scale_per_m - 0.7) / 0.08).min(200.0).exp();
+        }
+        if self.friction_nm != 0.0 {
+            moment += (0..4).map(|j| self.layer(j, kappa, memory)).sum::<f64>();
+        }
+        if self.creep_nm2 != 0.0 {
+            moment += (0..3).map(|i| self.arm(i, kappa, memory, dt_s)).sum::<f64>();
+        }
+        if self.set != 0.0 {
+            moment -= self.bending * self.set_after(kappa, memory, dt_s);
+        }
+        moment
+    }
+
+    /// What the cell remembers after `dt_s` at `kappa`.
+    pub(super) fn remember(&self, kappa: f64, memory: &mut Memory, dt_s: f64) {
+        let before = *memory;
+        if self.friction_nm != 0.0 {
+            for j in 0..4 {
+                memory.slid[j] = kappa - self.layer(j, kappa, &before) / self.layer_stiffness(j);
+            }
+        }
+        for (q, tau) in memory.crept.iter_mut().zip(RELAXATION_S) {
+            *q += (kappa - *q) * (1.0 - (-dt_s / tau).exp());
+        }
+        memory.set = self.set_after(kappa, &before, dt_s);
+        memory.largest = before.largest.max(kappa);
+    }
+
+    fn hinge(&self, kappa: f64, p_body_pa: f64) -> f64 {
+        let complete = self.hinge_m3 * p_body_pa;
+        if self.wrinkle_per_m == 0.0 {
+            return complete * (kappa / self.step_per_m).tanh();
+        }
+        let x = kappa / self.wrinkle_per_m;
+        complete * x / (1.0 + x.abs().powf(1.5)).powf(2.0 / 3.0)
+    }
+
+    fn layer_stiffness(&self, j: usize) -> f64 {
+        0.25 * self.friction_nm / (SLIP_SHARES[j] * self.scale_per_m)
+    }
+
+    fn layer(&self, j: usize, kappa: f64, memory: &Memory) -> f64 {
+        let most = 0.25 * self.friction_nm;
+        (self.layer_stiffness(j) * (kappa - memory.slid[j])).clamp(-most, most)
+    }
+
+    fn arm(&self, i: usize, kappa: f64, memory: &Memory, dt_s: f64) -> f64 {
+        let share = [0.3, 0.4, 0.3][i];
+        self.creep_nm2 * share * (kappa - memory.crept[i]) * (-dt_s / RELAXATION_S[i]).exp()
+    }
+
+    fn set_after(&self, kappa: f64, memory: &Memory, dt_s: f64) -> f64 {
+        let target = self.set * (kappa - 0.25 * self.scale_per_m).max(0.0);
+        let faded = memory.set * (-dt_s / RECOVERY_S).exp();
+        if kappa > memory.largest { faded.max(target) } else { faded }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLAIN: Wall = Wall {
+        bending: 1.0,
+        hinge_m3: 2e-4,
+        step_per_m: 0.05,
+        scale_per_m: 2.0,
+        wrinkle_per_m: 0.0,
+        tail_m3: 0.0,
+        oval: 0.0,
+        stop_nm: 0.0,
+        rest_per_m: 0.0,
+        friction_nm: 0.0,
+        creep_nm2: 0.0,
+        set: 0.0,
+    };
+
+    /// Moments of the wall without bending and hinge along a path of curvatures.
+    fn along(wall: &Wall, path: &[f64], dt_s: f64) -> Vec<f64> {
+        let mut memory = Memory::default();
+        let step = |k: &f64| {
+            let moment = wall.moment(*k, 0.0, &memory, dt_s) - wall.bending * k;
+            wall.remember(*k, &mut memory, dt_s);
+            moment
+        };
+        path.iter().map(step).collect()
+    }
+
+    #[test]
+    fn friction_saturates_and_reverses_by_twice_its_size() {
+        let wall = Wall { friction_nm: 0.3, ..PLAIN };
+        let up: Vec<f64> = (0..=40).map(|i| 0.05 * f64::from(i)).collect();
+        let down: Vec<f64> = up.iter().rev().copied().collect();
+        let loop_nm = along(&wall, &[up, down].concat(), 0.1);
+        assert!((loop_nm[40] - 0.3).abs() < 1e-12, "all layers slide: {}", loop_nm[40]);
+        assert!((loop_nm[81] + 0.3).abs() < 1e-12, "and slide back: {}", loop_nm[81]);
+        assert!(loop_nm[20] < 0.3 + 1e-12 && loop_nm[10] > 0.1);
+    }
+
+    #[test]
+    fn creep_relaxes_with_three_times_to_nothing() {
+        let wall = Wall { creep_nm2: 0.25, ..PLAIN };
+        let moments = along(&wall, &[1.0; 2000], 0.1);
+        let exact = |t: f64| {
+            let arm = |(share, tau): (f64, f64)| share * (-t / tau).exp();
+            0.25 * [(0.3, 0.7), (0.4, 3.0), (0.3, 15.0)].map(arm).iter().sum::<f64>()
+        };
+        for i in [0, 9, 99, 1999] {
+            assert!((moments[i] - exact(0.1 * (i + 1) as f64)).abs() < 1e-12, "{i}");
+        }
+        assert!(moments[1999] < 1e-6);
+    }
+
+    #[test]
+    fn a_set_needs_a_bend_beyond_yield_and_fades() {
+        let wall = Wall { set: 0.2, ..PLAIN };
+        assert_eq!(along(&wall, &[0.4, 0.0], 1.0), [0.0, 0.0]);
+        let moments = along(&wall, &[1.5, 0.0, 0.0], 1.0);
+        assert!((moments[0] + 0.2).abs() < 1e-12 && moments[1] < -0.19 && moments[2] > moments[1], "{moments:?}");
+    }
+
+    #[test]
+    fn the_arm_slope_is_the_derivative_and_stays_positive() {
+        let wall = Wall { oval: 0.4, ..PLAIN };
+        for i in 0..100 {
+            let k = 0.1 * f64::from(i);
+            let product = |k: f64| k * wall.arm_factor(k).0;
+            let slope = (product(k + 1e-5) - product(k - 1e-5)) / 2e-5;
+            assert!((wall.arm_factor(k).1 - slope).abs() < 1e-8 && slope > 0.0, "{k}");
+        }
+    }
+}
