@@ -40,6 +40,9 @@ pub enum Command {
     /// Look at, list or make marker data
     #[command(subcommand)]
     Data(DataCommand),
+    /// Data with a hidden effect, sealed: for testing a diagnosis, for teaching, for reviewers
+    #[command(subcommand)]
+    Challenge(ChallengeCommand),
     /// Actuators, effects, datasets and finite element cases with their formulas
     List {
         /// actuators, effects, datasets or cases; all if left out
@@ -288,6 +291,55 @@ pub struct Generate {
     /// Run-to-run shift of the camera
     #[arg(long, default_value = "0.5mm", allow_hyphen_values = true)]
     pub alignment: String,
+    /// Replace existing files
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// `ibr challenge`
+#[derive(Debug, Subcommand)]
+pub enum ChallengeCommand {
+    /// Make data of a robot with something hidden, and seal what it is
+    New(ChallengeNew),
+    /// Open the seal, check that nothing was changed, and score a diagnosis
+    Reveal {
+        /// Folder of the challenge
+        folder: PathBuf,
+        /// What `ibr diagnose SCENARIO DATA --json` printed
+        #[arg(long, value_name = "JSON")]
+        diagnosis: Option<PathBuf>,
+    },
+    /// Everything that can be hidden, with its law
+    List,
+}
+
+/// `ibr challenge new`
+#[derive(Debug, Args)]
+pub struct ChallengeNew {
+    /// Folder for scenario.toml, markers.csv, about.toml and seal.toml
+    #[arg(long)]
+    pub out: PathBuf,
+    /// Makes the same challenge again; without it nobody can guess what is hidden
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// What to hide: random (the default), none, or NAME[=times its typical size]; repeatable
+    #[arg(long, short)]
+    pub effect: Vec<String>,
+    /// spam, cpam, epam or fpam; drawn if left out
+    #[arg(long)]
+    pub actuator: Option<String>,
+    /// Runs; 3, 5 or 10 drawn if left out
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    pub runs: Option<u64>,
+    /// Camera noise of one coordinate, for example 1mm; 0.5, 1 or 2 mm drawn if left out
+    #[arg(long, allow_hyphen_values = true)]
+    pub sigma: Option<String>,
+    /// Camera noise with heavy tails: now and then a marker is seen far off
+    #[arg(long)]
+    pub heavy_tails: bool,
+    /// Actuator pressures in kPa at a body pressure in kPa; default: 0,10,20,30,0@2
+    #[arg(long)]
+    pub protocol: Option<String>,
     /// Replace existing files
     #[arg(long)]
     pub force: bool,

@@ -2,6 +2,7 @@
 
 mod bench;
 mod bench_fem;
+mod challenge;
 mod characterize;
 mod compare;
 mod data;
@@ -92,6 +93,7 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
         Command::Simulate(args) => simulate::run(args, context),
         Command::Characterize(args) => characterize::run(args, context),
         Command::Data(args) => data::run(args, context),
+        Command::Challenge(command) => challenge::run(command, context),
         Command::List { what } => list::run(what.as_deref()),
         Command::New { kind } => list::new(kind),
         Command::Tradeoff(out) => tradeoff::run(out.out.as_deref(), context),

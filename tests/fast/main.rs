@@ -8,6 +8,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests: a panic is the failure to report")]
 
 mod arguments;
+mod challenge;
 mod characterize;
 mod compare;
 mod data_errors;

@@ -137,11 +137,7 @@ impl Drive {
         let d_radius = rest * rest * short / radius;
         let volume = PI * radius * radius * short;
         let d_volume = 2.0 * PI * radius * d_radius * short - PI * radius * radius;
-        Bag {
-            contraction: [e, 1.0],
-            volume: [self.gain * volume, self.gain * d_volume],
-            height: [radius, d_radius],
-        }
+        Bag { contraction: [e, 1.0], volume: [self.gain * volume, self.gain * d_volume], height: [radius, d_radius] }
     }
 
     /// Hill curve in the height of the bag (of a muscle: in its growth), and its slope by the height.

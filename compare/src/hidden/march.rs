@@ -42,13 +42,8 @@ struct Instant {
 /// A hold at which nothing balances.
 pub fn run(robot: &Robot, holds: &[Hold], gain: f64) -> Result<Vec<f64>, CompareError> {
     let n = robot.cells.len();
-    let mut march = March {
-        robot,
-        gain,
-        memory: vec![Memory::default(); n],
-        curvatures: vec![0.0; n],
-        moments: vec![0.0; n],
-    };
+    let mut march =
+        March { robot, gain, memory: vec![Memory::default(); n], curvatures: vec![0.0; n], moments: vec![0.0; n] };
     let (mut xy_m, mut set_pa, mut time_s) = (Vec::new(), 0.0, 0.0);
     for hold in holds {
         let begin_s = time_s;
@@ -164,6 +159,7 @@ impl March<'_> {
 
 fn unbalanced(at: &Instant, place: &str) -> CompareError {
     let (p, body) = (at.set_pa / 1e3, at.p_body_pa / 1e3);
-    let problem = format!("nothing balances at {p} kPa on a body of {body} kPa ({place}); make the hidden effect smaller");
+    let problem =
+        format!("nothing balances at {p} kPa on a body of {body} kPa ({place}); make the hidden effect smaller");
     CompareError::NotSimulated { problem }
 }

@@ -136,6 +136,19 @@ impl Truth {
         Ok(scenario.with_bending(usual))
     }
 
+    /// The same as a scenario file.
+    ///
+    /// # Errors
+    /// Not an actuator of [`ROBOTS`].
+    pub fn told_text(&self) -> Result<String, CompareError> {
+        let (_, usual) = robot(&self.actuator)?;
+        let line = |line: &str| match line.starts_with("bending_stiffness_nm2") {
+            true => format!("bending_stiffness_nm2 = {usual}    # assumed: usual for such a robot; fit it\n"),
+            false => format!("{line}\n"),
+        };
+        Ok(shipped(&self.actuator).unwrap_or_default().lines().map(line).collect())
+    }
+
     /// The robot as it is.
     ///
     /// # Errors
