@@ -93,9 +93,15 @@ pub struct VerifyArgs {
 /// What is measured.
 #[derive(Debug, Args)]
 pub struct BenchArgs {
-    /// model or fem
-    #[arg(value_parser = ["model", "fem"], default_value = "model")]
+    /// model, fem or discovery: how often a diagnosis is right on data with hidden effects
+    #[arg(value_parser = ["model", "fem", "discovery"], default_value = "model")]
     pub what: String,
+    /// With discovery: sets without and with one hidden effect; the default takes a minute, 200 are the full bench
+    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    pub sets: u64,
+    /// With discovery: seed of everything
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
     /// With fem: also whole runs of up to 80 000 triangles' nodes, about a minute
     #[arg(long)]
     pub all: bool,

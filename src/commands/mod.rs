@@ -1,6 +1,7 @@
 //! One file per command; each returns what to print.
 
 mod bench;
+mod bench_discovery;
 mod bench_fem;
 mod challenge;
 mod characterize;
@@ -99,6 +100,9 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
         Command::Tradeoff(out) => tradeoff::run(out.out.as_deref(), context),
         Command::Verify(args) => verify::run(args, context),
         Command::Bench(args) if args.what == "fem" => bench_fem::run(args.all, context),
+        Command::Bench(args) if args.what == "discovery" => {
+            bench_discovery::run(args.sets as usize, args.seed, context)
+        }
         Command::Bench(_) => bench::run(context),
         Command::Completions { shell } => Ok(completions(*shell)),
         Command::Man { out } => man(out.as_deref(), context),

@@ -4,7 +4,7 @@ use super::march;
 use super::robot::Robot;
 use crate::error::CompareError;
 use crate::study::generate::{Generator, Scatter, holds, markers};
-use data::Dataset;
+use data::{Dataset, Hold};
 use models::Scenario;
 
 /// How a robot is measured.
@@ -28,7 +28,8 @@ pub fn ideal(robot: &Robot, generator: &Generator) -> Result<Vec<f64>, CompareEr
     march::run(robot, &holds(generator), 1.0)
 }
 
-/// Measures a robot; `scenario` gives what the experimenter believes: actuator and marker stations.
+/// Measures a robot under the protocol of its measurement; `scenario` gives what the experimenter believes: actuator and
+/// marker stations.
 ///
 /// # Errors
 /// A hold at which nothing balances; no marker stations.
@@ -38,8 +39,21 @@ pub fn measure(
     name: &str,
     measurement: &Measurement,
 ) -> Result<Dataset, CompareError> {
+    measure_holds(robot, scenario, name, measurement, holds(&measurement.generator))
+}
+
+/// Measures a robot under holds of any length.
+///
+/// # Errors
+/// As [`measure`].
+pub fn measure_holds(
+    robot: &Robot,
+    scenario: &Scenario,
+    name: &str,
+    measurement: &Measurement,
+    holds: Vec<Hold>,
+) -> Result<Dataset, CompareError> {
     let g = &measurement.generator;
-    let holds = holds(g);
     let mut scatter = Scatter::new(g.seed);
     let mut xy_m = Vec::new();
     for _ in 0..g.runs {

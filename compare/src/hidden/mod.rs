@@ -9,6 +9,7 @@
 //! catalogue's entry of the same name, as real robots do. Quasi-static: at every instant each cell balances, with what it
 //! remembers of friction, creep and set.
 
+pub mod bench;
 pub mod camera;
 pub mod drive;
 pub mod effects;

@@ -37,8 +37,8 @@ pub struct Score {
     pub set_size: usize,
     /// True effects among the added.
     pub named: usize,
-    /// Added effects that are not true, and for which no true one stands in the set.
-    pub wrong: usize,
+    /// An effect that is not true is asserted: it was added, and no entry of the stated set is free of such.
+    pub wrong: bool,
 }
 
 impl Answer {
@@ -76,7 +76,9 @@ pub fn score(truth: &Truth, answer: &Answer) -> Score {
     let in_set = true_names.iter().any(|name| answer.set.iter().any(|entry| holds(entry, name)));
     let all_of = |entry: &String| true_names.iter().all(|name| holds(entry, name));
     let named = true_names.iter().filter(|name| answer.added.iter().any(|added| added == *name)).count();
-    let wrong = answer.added.iter().filter(|added| !names.contains(&added.as_str())).count();
+    let is_true = |name: &String| names.contains(&name.as_str());
+    let excused = answer.set.iter().any(|entry| members(entry).iter().all(is_true));
+    let asserted = answer.verdict == "effect" && !answer.added.iter().all(is_true);
     Score {
         alarm: !answer.verdict.is_empty() && answer.verdict != "none",
         out_of_catalog: answer.verdict == "out_of_catalog",
@@ -86,6 +88,42 @@ pub fn score(truth: &Truth, answer: &Answer) -> Score {
         all_in_set: !true_names.is_empty() && answer.set.iter().any(all_of),
         set_size: answer.set.len(),
         named,
-        wrong: if in_set { 0 } else { wrong },
+        wrong: asserted && !excused,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hidden::Draw;
+
+    fn scored(hidden: &[&str], verdict: &str, set: &[&str], added: &[&str]) -> Score {
+        let mut truth = Truth::draw("epam", &mut Draw::new(1, 1)).unwrap();
+        hidden.iter().for_each(|name| truth.add(name, 1.0));
+        let own = |list: &[&str]| list.iter().map(|name| name.to_string()).collect::<Vec<_>>();
+        let ranked = own(&["gravity", "creep", "leak"]);
+        score(&truth, &Answer { verdict: verdict.into(), ranked, set: own(set), added: own(added) })
+    }
+
+    #[test]
+    fn a_wrong_name_beside_the_right_one_in_the_set_is_no_assertion() {
+        let s = scored(&["creep"], "effect", &["gravity", "creep"], &["gravity"]);
+        assert_eq!((s.alarm, s.verdict_right, s.rank, s.in_set, s.wrong), (true, true, Some(2), true, false));
+        assert!(scored(&["creep"], "effect", &["gravity"], &["gravity"]).wrong);
+    }
+
+    #[test]
+    fn of_two_effects_a_pair_with_one_wrong_member_is_wrong_unless_the_set_offers_a_right_one() {
+        let hidden = ["creep", "leak"];
+        assert!(scored(&hidden, "effect", &["creep + gravity"], &["creep", "gravity"]).wrong);
+        let s = scored(&hidden, "effect", &["creep + gravity", "leak + creep"], &["creep", "gravity"]);
+        assert_eq!((s.wrong, s.named, s.all_in_set), (false, 1, true));
+        assert_eq!(scored(&hidden, "effect", &["creep + leak"], &["creep", "leak"]).named, 2);
+    }
+
+    #[test]
+    fn nothing_and_something_outside_have_verdicts_of_their_own() {
+        assert!(scored(&[], "none", &[], &[]).verdict_right && !scored(&[], "effect", &[], &[]).verdict_right);
+        assert!(scored(&["dead_pouch"], "out_of_catalog", &[], &[]).verdict_right);
     }
 }

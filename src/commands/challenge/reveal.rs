@@ -102,7 +102,7 @@ fn answer(path: &Path) -> Result<Answer, Failure> {
     let names = |key: &str, field: &str| -> Vec<String> {
         let list = inner.get(key).and_then(Value::as_array).map(Vec::as_slice).unwrap_or_default();
         let kept = list.iter().filter(|item| item.get("at_bound") != Some(&Value::Bool(true)));
-        kept.filter_map(|item| item.as_str().or(item.get(field)?.as_str()).map(str::to_string)).collect()
+        kept.filter_map(|item| item.as_str().or_else(|| item.get(field)?.as_str()).map(str::to_string)).collect()
     };
     Ok(Answer {
         verdict: found.as_str().unwrap_or_default().to_string(),

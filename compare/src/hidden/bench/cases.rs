@@ -1,0 +1,152 @@
+//! One set: drawn, measured, diagnosed.
+
+use super::follow::follow_up;
+use super::{Case, Diagnose, Part};
+use crate::diagnosis::{Diagnosis, Options};
+use crate::error::CompareError;
+use crate::hidden::score::{Answer, Score, score};
+use crate::hidden::truth::{ROBOTS, standard_protocol};
+use crate::hidden::{Draw, HIDDEN, Kind, OUTSIDE, Truth, truth};
+use crate::study::generate;
+use data::{About, Provenance};
+
+/// What became of a set.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// Part of the table.
+    pub part: Part,
+    /// What was hidden.
+    pub truth: Truth,
+    /// What was found; `None` if it failed.
+    pub named: Option<Named>,
+    /// Why it failed.
+    pub failed: Option<String>,
+}
+
+/// What was found.
+#[derive(Debug, Clone)]
+pub struct Named {
+    /// The answer.
+    pub answer: Answer,
+    /// Its score.
+    pub score: Score,
+    /// Error beyond noise of the calibrated base and of the final model \[mm\].
+    pub systematic_mm: [f64; 2],
+    /// The same on runs left out, where the diagnosis gives both.
+    pub heldout_mm: Option<[f64; 2]>,
+    /// The true value is inside the 95 % interval; `None` if another effect was chosen or there is no interval.
+    pub covered: Option<bool>,
+    /// λ between the best explanation and its rivals, by name.
+    pub separations: Vec<(String, f64)>,
+    /// Score after the recommended next experiment, of ambiguous sets.
+    pub after: Option<Score>,
+}
+
+/// Draws a set; robots and effects take turns, so that all are equally frequent.
+pub(super) fn draw(part: Part, seed: u64, stream: u64, index: usize) -> Result<Truth, CompareError> {
+    let mut draw = Draw::new(seed, stream);
+    let actuator = ROBOTS[index % ROBOTS.len()].0;
+    let turn = index / ROBOTS.len();
+    let mut truth = Truth::draw(actuator, &mut draw)?;
+    match part {
+        Part::Hidden(Kind::One) => {
+            let list = truth::applicable(actuator, HIDDEN)?;
+            truth.add(list[turn % list.len()].name, draw.between(0.8, 1.5));
+        }
+        Part::Hidden(Kind::Outside) => truth.add(OUTSIDE[turn % OUTSIDE.len()].name, 1.0),
+        Part::Hidden(kind) => truth.hide(kind, &mut draw)?,
+        Part::Interval => {
+            let list = truth::applicable(actuator, HIDDEN)?;
+            let known = |name: &str| models::effects::by_name(name).is_some();
+            let list: Vec<_> = list.iter().filter(|effect| known(effect.name)).collect();
+            truth.add(list[turn % list.len()].name, draw.between(0.8, 1.5));
+        }
+    }
+    Ok(truth)
+}
+
+/// Makes and diagnoses a set.
+pub(super) fn outcome(case: &Case, diagnose: Diagnose) -> Outcome {
+    let found = match case.part {
+        Part::Hidden(kind) => hidden(&case.truth, kind, diagnose),
+        Part::Interval => interval(&case.truth, diagnose),
+    };
+    let (named, failed) = match found {
+        Ok(named) => (Some(named), None),
+        Err(error) => (None, Some(format!("{} {:?}: {error}", case.truth.actuator, names(&case.truth)))),
+    };
+    Outcome { part: case.part, truth: case.truth.clone(), named, failed }
+}
+
+pub(super) fn names(truth: &Truth) -> Vec<&str> {
+    truth.effects.iter().map(|choice| choice.name.as_str()).collect()
+}
+
+fn hidden(truth: &Truth, kind: Kind, diagnose: Diagnose) -> Result<Named, CompareError> {
+    let data = truth.dataset("hidden", &standard_protocol())?;
+    let next_experiment = kind == Kind::One;
+    let options = Options { next_experiment, ..Options::default() };
+    let found = diagnose(&truth.told()?, &data, Some(&about(truth)?), &options)?;
+    let mut named = named(truth, &found);
+    if next_experiment && named.answer.verdict == "effect" && named.answer.set.len() > 1 {
+        let next = found.next_experiment.as_ref().and_then(|next| next.recommended.as_ref());
+        if let Some(experiment) = next {
+            let options = Options { next_experiment: false, ..Options::default() };
+            let (data, about) = follow_up(truth, experiment)?;
+            let found = diagnose(&truth.told()?, &data, Some(&about), &options)?;
+            named.after = Some(score(truth, &Answer::of(&found)));
+        }
+    }
+    Ok(named)
+}
+
+/// Data by the catalogue's own law, where "the true value" means something.
+fn interval(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
+    let name = &truth.effects[0].name;
+    let missing = || CompareError::NotSimulated { problem: format!("the catalogue has no {name}") };
+    let effect = models::effects::by_name(name).ok_or_else(missing)?;
+    let told = truth.told()?;
+    let values: Vec<f64> = effect.typical().iter().map(|v| v * truth.effects[0].times_typical).collect();
+    let robot = told.with_bending(truth.bending_nm2).with_effect(name, &values);
+    let data = generate(&robot, "own law", &truth.measurement(&standard_protocol()).generator)?;
+    let options = Options { next_experiment: false, ..Options::default() };
+    let found = diagnose(&told, &data, Some(&about(truth)?), &options)?;
+    let mut named = named(truth, &found);
+    let only = found.added.len() == 1 && found.added[0].effect == *name;
+    if let Some(first) = found.added.first().and_then(|added| added.parameters.first()).filter(|_| only) {
+        let wanted = values[0] / effect.parameters[0].si;
+        named.covered = first.lo.zip(first.hi).map(|(lo, hi)| (lo..=hi).contains(&wanted));
+    }
+    Ok(named)
+}
+
+fn named(truth: &Truth, found: &Diagnosis) -> Named {
+    let answer = Answer::of(found);
+    let first = found.ranked.iter().find(|row| answer.added.first() == Some(&row.effect));
+    let now = found.next_experiment.iter().flat_map(|next| &next.now);
+    Named {
+        score: score(truth, &answer),
+        systematic_mm: [found.base.systematic_mm, found.base.systematic_with_added_mm],
+        heldout_mm: found.base.heldout_run_mm.zip(first.and_then(|row| row.heldout_run_mm)).map(|(a, b)| [a, b]),
+        covered: None,
+        separations: now.map(|s| (s.rival.clone(), s.lambda)).collect(),
+        after: None,
+        answer,
+    }
+}
+
+/// The description of a set: gravity is known to act.
+pub(super) fn about(truth: &Truth) -> Result<About, CompareError> {
+    Ok(About {
+        title: "Bench".into(),
+        provenance: Provenance::Synthetic,
+        source: "ibr bench discovery".into(),
+        licence: "CC0-1.0".into(),
+        actuator: Some(truth.actuator.clone()),
+        geometry: None,
+        markers: Vec::new(),
+        gravity_direction: Some(truth.told()?.gravity_direction),
+        runs: Vec::new(),
+        notes: None,
+    })
+}

@@ -1,0 +1,122 @@
+//! How often a diagnosis is right, on data with hidden effects: the table of figures it must reach, row by row.
+//!
+//! Every set is drawn from (seed, part of the table, number), so that the same call gives the same numbers for any number
+//! of threads. Sizes, laws and seeds are not tuned: what is not reached is shown, with what was named instead and the
+//! separation λ of truth and name.
+
+mod cases;
+mod follow;
+mod row;
+mod table;
+#[cfg(test)]
+mod tests;
+
+pub use cases::{Named, Outcome};
+pub use row::{Row, Target};
+
+use super::truth::{Kind, Truth};
+use crate::diagnosis::{Diagnosis, Options};
+use crate::error::CompareError;
+use data::{About, Dataset};
+use models::Scenario;
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// What diagnoses; the bench is given it.
+pub type Diagnose = fn(&Scenario, &Dataset, Option<&About>, &Options) -> Result<Diagnosis, CompareError>;
+
+/// How large the bench is.
+#[derive(Debug, Clone, Copy)]
+pub struct BenchOptions {
+    /// Seed of everything.
+    pub seed: u64,
+    /// Sets with nothing hidden, and with one effect; half as many with two, outside the catalogue, and for intervals.
+    pub sets: usize,
+}
+
+/// One named effect beside the hidden one.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Confusion {
+    /// Hidden.
+    pub truth: String,
+    /// On top of the ranking; `none` without alarm, `out_of_catalog` for that verdict.
+    pub named: String,
+    /// How often.
+    pub count: usize,
+    /// Median λ between the two where the diagnosis gave it: below 16 the data do not hold the answer.
+    pub lambda: Option<f64>,
+}
+
+/// The result.
+#[derive(Debug, Clone, Serialize)]
+pub struct Bench {
+    /// Seed.
+    pub seed: u64,
+    /// Rows of the table.
+    pub rows: Vec<Row>,
+    /// Truth against name, single effects.
+    pub confusion: Vec<Confusion>,
+    /// Sets that could not be made or diagnosed, with the reason.
+    pub failed: Vec<String>,
+}
+
+/// Runs the bench; `tell` is told the share done.
+///
+/// # Errors
+/// A shipped scenario is damaged.
+pub fn run(options: &BenchOptions, diagnose: Diagnose, tell: &(dyn Fn(f64) + Sync)) -> Result<Bench, CompareError> {
+    let plan = plan(options)?;
+    let done = std::sync::atomic::AtomicUsize::new(0);
+    let outcomes: Vec<Outcome> = plan
+        .par_iter()
+        .map(|case| {
+            let outcome = cases::outcome(case, diagnose);
+            let so_far = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
+            tell(so_far as f64 / plan.len() as f64);
+            outcome
+        })
+        .collect();
+    Ok(Bench {
+        seed: options.seed,
+        rows: table::rows(&outcomes),
+        confusion: table::confusion(&outcomes),
+        failed: outcomes.iter().filter_map(|outcome| outcome.failed.clone()).collect(),
+    })
+}
+
+/// One set of the bench.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Part of the table.
+    pub part: Part,
+    /// What is hidden.
+    pub truth: Truth,
+}
+
+/// Parts of the table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// Hidden by the generator.
+    Hidden(Kind),
+    /// One effect by the catalogue's own law, for which a true value of its parameter exists.
+    Interval,
+}
+
+fn plan(options: &BenchOptions) -> Result<Vec<Case>, CompareError> {
+    let half = options.sets.div_ceil(2);
+    let parts = [
+        (Part::Hidden(Kind::Nothing), options.sets),
+        (Part::Hidden(Kind::One), options.sets),
+        (Part::Hidden(Kind::Two), half),
+        (Part::Hidden(Kind::Outside), half),
+        (Part::Interval, half),
+    ];
+    let mut plan = Vec::new();
+    for (number, (part, sets)) in parts.into_iter().enumerate() {
+        for index in 0..sets {
+            let stream = ((number as u64) << 32) + index as u64;
+            plan.push(Case { part, truth: cases::draw(part, options.seed, stream, index)? });
+        }
+    }
+    Ok(plan)
+}

@@ -1,0 +1,93 @@
+//! One row of the table: a figure, its target, and how well it is known.
+
+use serde::Serialize;
+use statrs::distribution::{Beta, ContinuousCDF};
+
+/// What a figure must reach.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Target {
+    /// At least.
+    AtLeast(f64),
+    /// At most.
+    AtMost(f64),
+    /// Between two.
+    Between(f64, f64),
+}
+
+/// A figure of the table.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Row {
+    /// Which sets.
+    pub case: &'static str,
+    /// Which figure.
+    pub figure: &'static str,
+    /// Target.
+    pub target: Target,
+    /// Measured; `None` without sets.
+    pub measured: Option<f64>,
+    /// 95 % interval of a share (Clopper–Pearson).
+    pub interval: Option<[f64; 2]>,
+    /// Sets it is from.
+    pub sets: usize,
+    /// It is a share and printed in per cent.
+    pub share: bool,
+    /// The measured value reaches the target.
+    pub met: Option<bool>,
+}
+
+impl Target {
+    fn met(self, value: f64) -> bool {
+        match self {
+            Target::AtLeast(least) => value >= least,
+            Target::AtMost(most) => value <= most,
+            Target::Between(low, high) => (low..=high).contains(&value),
+        }
+    }
+}
+
+impl Row {
+    /// Share of sets for which something holds.
+    pub fn share(case: &'static str, figure: &'static str, target: Target, sets: &[bool]) -> Row {
+        let (hits, n) = (sets.iter().filter(|hit| **hit).count(), sets.len());
+        let measured = (n > 0).then(|| hits as f64 / n as f64);
+        let interval = (n > 0).then(|| clopper_pearson(hits, n));
+        Row { case, figure, target, measured, interval, sets: n, share: true, met: measured.map(|v| target.met(v)) }
+    }
+
+    /// A mean or median.
+    pub fn number(case: &'static str, figure: &'static str, target: Target, value: Option<f64>, sets: usize) -> Row {
+        let met = value.map(|v| target.met(v));
+        Row { case, figure, target, measured: value, interval: None, sets, share: false, met }
+    }
+}
+
+/// The exact binomial 95 % interval.
+fn clopper_pearson(hits: usize, n: usize) -> [f64; 2] {
+    let quantile =
+        |a: usize, b: usize, p: f64| Beta::new(a as f64, b as f64).map_or(f64::NAN, |beta| beta.inverse_cdf(p));
+    let low = if hits == 0 { 0.0 } else { quantile(hits, n - hits + 1, 0.025) };
+    let high = if hits == n { 1.0 } else { quantile(hits + 1, n - hits, 0.975) };
+    [low, high]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_interval_is_the_exact_binomial_one() {
+        // Clopper & Pearson: 0 of 10 gives 1 − 0.025^(1/10); 5 of 10 the tabulated 0.1871–0.8129.
+        let [low, high] = clopper_pearson(0, 10);
+        assert!(low == 0.0 && (high - (1.0 - 0.025_f64.powf(0.1))).abs() < 1e-9, "{high}");
+        let [low, high] = clopper_pearson(5, 10);
+        assert!((low - 0.187_086_0).abs() < 1e-6 && (high - 0.812_914_0).abs() < 1e-6, "{low} {high}");
+    }
+
+    #[test]
+    fn a_row_without_sets_reaches_nothing_and_misses_nothing() {
+        let row = Row::share("c", "f", Target::AtLeast(0.9), &[]);
+        assert_eq!((row.measured, row.met, row.interval), (None, None, None));
+        assert_eq!(Row::share("c", "f", Target::AtMost(0.5), &[true, false]).met, Some(true));
+    }
+}

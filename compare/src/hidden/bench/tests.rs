@@ -1,0 +1,41 @@
+//! The bench itself: what it draws, and that it reports what fails.
+
+use super::*;
+use crate::hidden::HIDDEN;
+
+#[test]
+fn all_robots_and_all_effects_take_part_equally() {
+    let plan = plan(&BenchOptions { seed: 1, sets: 96 }).unwrap();
+    let one: Vec<&Case> = plan.iter().filter(|case| case.part == Part::Hidden(Kind::One)).collect();
+    assert_eq!(one.len(), 96);
+    for effect in HIDDEN {
+        let count = one.iter().filter(|case| case.truth.effects[0].name == effect.name).count();
+        assert!((1..=8).contains(&count), "{}: {count}", effect.name);
+    }
+    for case in &plan {
+        let size = |c: &crate::hidden::truth::HiddenChoice| (0.8..1.5).contains(&c.times_typical);
+        assert!(case.truth.effects.iter().all(size), "{:?}", case.truth);
+        let sigma = case.truth.camera_sd_m;
+        assert!((0.5e-3..=2e-3).contains(&sigma) && [3, 5, 10].contains(&case.truth.runs));
+    }
+    let two = plan.iter().filter(|case| case.part == Part::Hidden(Kind::Two));
+    assert!(two.clone().count() == 48 && two.clone().all(|c| c.truth.effects[0].name != c.truth.effects[1].name));
+}
+
+#[test]
+fn the_plan_follows_from_the_seed() {
+    let truths = |seed: u64, sets: usize| -> Vec<Truth> {
+        plan(&BenchOptions { seed, sets }).unwrap().into_iter().map(|case| case.truth).collect()
+    };
+    assert_eq!(truths(1, 8), truths(1, 8));
+    assert_ne!(truths(1, 8), truths(2, 8));
+    assert_eq!(truths(1, 8)[..8], truths(1, 80)[..8], "more sets add to the same ones");
+}
+
+#[test]
+fn a_diagnosis_that_fails_is_counted_and_named() {
+    let refuse: Diagnose = |_, _, _, _| Err(CompareError::NoModel);
+    let bench = run(&BenchOptions { seed: 1, sets: 2 }, refuse, &|_| ()).unwrap();
+    assert_eq!(bench.failed.len(), 7);
+    assert!(bench.failed[0].contains("no model is given") && bench.rows.iter().all(|row| row.measured.is_none()));
+}
