@@ -30,6 +30,8 @@ else
   ./target/release/ibr verify
   step speed
   ./target/release/ibr bench
+  step discovery, short form
+  ./target/release/ibr bench discovery --sets 8
   step benches compile
   cargo bench --no-run --quiet
 fi

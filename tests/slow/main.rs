@@ -9,6 +9,7 @@
 
 mod characterize;
 mod demo;
+mod discovery;
 mod documents;
 mod engine;
 mod figures;

@@ -42,6 +42,9 @@ pub struct Named {
     pub after: Option<Score>,
 }
 
+/// Step through a list of effects, prime to their numbers, so that a short bench sees different groups.
+const STRIDE: usize = 13;
+
 /// Draws a set; robots and effects take turns, so that all are equally frequent.
 pub(super) fn draw(part: Part, seed: u64, stream: u64, index: usize) -> Result<Truth, CompareError> {
     let mut draw = Draw::new(seed, stream);
@@ -51,15 +54,15 @@ pub(super) fn draw(part: Part, seed: u64, stream: u64, index: usize) -> Result<T
     match part {
         Part::Hidden(Kind::One) => {
             let list = truth::applicable(actuator, HIDDEN)?;
-            truth.add(list[turn % list.len()].name, draw.between(0.8, 1.5));
+            truth.add(list[turn * STRIDE % list.len()].name, draw.between(0.8, 1.5));
         }
-        Part::Hidden(Kind::Outside) => truth.add(OUTSIDE[turn % OUTSIDE.len()].name, 1.0),
+        Part::Hidden(Kind::Outside) => truth.add(OUTSIDE[turn * STRIDE % OUTSIDE.len()].name, 1.0),
         Part::Hidden(kind) => truth.hide(kind, &mut draw)?,
         Part::Interval => {
             let list = truth::applicable(actuator, HIDDEN)?;
             let known = |name: &str| models::effects::by_name(name).is_some();
             let list: Vec<_> = list.iter().filter(|effect| known(effect.name)).collect();
-            truth.add(list[turn % list.len()].name, draw.between(0.8, 1.5));
+            truth.add(list[turn * STRIDE % list.len()].name, draw.between(0.8, 1.5));
         }
     }
     Ok(truth)

@@ -1,0 +1,26 @@
+//! `ibr bench discovery`: the same numbers for any number of threads, every row there.
+
+use crate::support::Folder;
+use serde_json::Value;
+
+fn bench(threads: &str) -> Value {
+    let folder = Folder::new();
+    let mut command = folder.ibr(&["bench", "discovery", "--sets", "8", "--seed", "3", "--json"]);
+    let output = command.env("RAYON_NUM_THREADS", threads).output().expect("ibr starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut answer: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    // Times differ from run to run.
+    answer["time"] = Value::Null;
+    answer
+}
+
+#[test]
+fn the_bench_gives_the_same_numbers_for_any_number_of_threads_and_no_set_fails() {
+    let one = bench("1");
+    assert_eq!(one, bench("3"));
+    assert_eq!(one["schema"], "ibr.bench.discovery");
+    assert_eq!(one["failed"].as_array().map(Vec::len), Some(0), "{}", one["failed"]);
+    let rows = one["rows"].as_array().expect("rows");
+    assert_eq!(rows.len(), 16);
+    assert!(rows.iter().all(|row| row["figure"].is_string() && row["target"].is_object()), "{rows:?}");
+}
