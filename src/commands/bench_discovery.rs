@@ -1,6 +1,6 @@
 //! `ibr bench discovery`: how often a diagnosis is right, on data whose hidden effects follow other laws.
 
-use super::tables::table;
+use super::tables::{number, table};
 use super::{Context, Outcome};
 use crate::failure::Failure;
 use crate::output::machine;
@@ -28,7 +28,7 @@ pub fn run(sets: usize, seed: u64, _context: &mut Context) -> Result<Outcome, Fa
     let text = text(&bench, &time);
     let json = json!({
         "schema": "ibr.bench.discovery", "version": 1, "seed": seed, "sets": sets, "rows": bench.rows,
-        "confusion": bench.confusion, "failed": bench.failed, "time": {"machine": machine(), "row": time},
+        "confusion": bench.confusion, "breakdown": bench.breakdown, "failed": bench.failed, "time": {"machine": machine(), "row": time},
     });
     Ok(Outcome::new(text, json))
 }
@@ -53,14 +53,24 @@ fn text(bench: &Bench, time: &Row) -> String {
     let head = ["sets of", "figure", "wanted", "measured", "95 % interval", "sets", "met"];
     let mut out = format!("Diagnosis of data with hidden effects, seed {}\n", bench.seed);
     out.push_str(&table(&head, 2, bench.rows.iter().chain([time]).map(cells).collect()));
-    out.push_str(
-        "\nOne hidden effect: what was named (λ: separation of the two, below 16 the data do not hold the answer)\n",
-    );
+    out.push_str("\nOne hidden effect, by part of the sets\n");
+    let percent = |v: f64| format!("{:.0} %", 100.0 * v);
+    let rows = bench
+        .breakdown
+        .iter()
+        .map(|b| vec![b.of.clone(), b.sets.to_string(), percent(b.alarm), percent(b.on_top), percent(b.in_set)]);
+    out.push_str(&table(&["of", "sets", "alarm", "truth on top", "truth in set"], 1, rows.collect()));
+    out.push_str("\nOne hidden effect: what was named\n");
     let rows = bench.confusion.iter().map(|c| {
-        let lambda = c.lambda.map_or("–".into(), |lambda| format!("{lambda:.1}"));
-        vec![c.truth.clone(), c.named.clone(), c.count.to_string(), lambda]
+        let [lambda, behind, least] = [c.lambda, c.bic_behind, c.smallest_detectable].map(|v| number(v, 1));
+        vec![c.truth.clone(), c.named.clone(), c.count.to_string(), lambda, behind, least]
     });
-    out.push_str(&table(&["hidden", "named", "sets", "median λ"], 2, rows.collect()));
+    let head = ["hidden", "named", "sets", "λ", "truth behind by BIC", "smallest detectable [typical sizes]"];
+    out.push_str(&table(&head, 2, rows.collect()));
+    out.push_str(
+        "Medians. λ below 16: the data do not hold the answer. Behind by more than 6 without λ: the robot's law is not the \
+         catalogue's formula.\n",
+    );
     for reason in &bench.failed {
         out.push_str(&format!("failed: {reason}\n"));
     }
@@ -68,14 +78,14 @@ fn text(bench: &Bench, time: &Row) -> String {
 }
 
 fn cells(row: &Row) -> Vec<String> {
-    let number = |v: f64| if row.share { format!("{:.1} %", 100.0 * v) } else { format!("{v:.2}") };
+    let shown = |v: f64| if row.share { format!("{:.1} %", 100.0 * v) } else { format!("{v:.2}") };
     let wanted = match row.target {
-        Target::AtLeast(v) => format!("≥ {}", number(v)),
-        Target::AtMost(v) => format!("≤ {}", number(v)),
-        Target::Between(low, high) => format!("{}–{}", number(low), number(high)),
+        Target::AtLeast(v) => format!("≥ {}", shown(v)),
+        Target::AtMost(v) => format!("≤ {}", shown(v)),
+        Target::Between(low, high) => format!("{}–{}", shown(low), shown(high)),
     };
-    let interval = row.interval.map_or("–".into(), |[low, high]| format!("{}–{}", number(low), number(high)));
+    let interval = row.interval.map_or("–".into(), |[low, high]| format!("{}–{}", shown(low), shown(high)));
     let met = row.met.map_or("–", |met| if met { "yes" } else { "no" });
-    let measured = row.measured.map_or("–".into(), number);
+    let measured = row.measured.map_or("–".into(), shown);
     vec![row.case.into(), row.figure.into(), wanted, measured, interval, row.sets.to_string(), met.into()]
 }

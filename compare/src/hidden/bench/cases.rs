@@ -38,6 +38,10 @@ pub struct Named {
     pub covered: Option<bool>,
     /// λ between the best explanation and its rivals, by name.
     pub separations: Vec<(String, f64)>,
+    /// BIC of the (first) true effect beyond the best one.
+    pub bic_behind: Option<f64>,
+    /// Smallest detectable size of the (first) true effect, in typical sizes.
+    pub smallest_detectable: Option<f64>,
     /// Score after the recommended next experiment, of ambiguous sets.
     pub after: Option<Score>,
 }
@@ -58,6 +62,7 @@ pub(super) fn draw(part: Part, seed: u64, stream: u64, index: usize) -> Result<T
         }
         Part::Hidden(Kind::Outside) => truth.add(OUTSIDE[turn * STRIDE % OUTSIDE.len()].name, 1.0),
         Part::Hidden(kind) => truth.hide(kind, &mut draw)?,
+        Part::HeavyTails => truth.heavy_tails = true,
         Part::Interval => {
             let list = truth::applicable(actuator, HIDDEN)?;
             let known = |name: &str| models::effects::by_name(name).is_some();
@@ -73,6 +78,7 @@ pub(super) fn outcome(case: &Case, diagnose: Diagnose) -> Outcome {
     let found = match case.part {
         Part::Hidden(kind) => hidden(&case.truth, kind, diagnose),
         Part::Interval => interval(&case.truth, diagnose),
+        Part::HeavyTails => hidden(&case.truth, Kind::Nothing, diagnose),
     };
     let (named, failed) = match found {
         Ok(named) => (Some(named), None),
@@ -126,12 +132,19 @@ fn interval(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
 fn named(truth: &Truth, found: &Diagnosis) -> Named {
     let answer = Answer::of(found);
     let first = found.ranked.iter().find(|row| answer.added.first() == Some(&row.effect));
+    let is_true = |name: &String| truth.effects.first().is_some_and(|choice| choice.name == *name);
     let now = found.next_experiment.iter().flat_map(|next| &next.now);
     Named {
         score: score(truth, &answer),
         systematic_mm: [found.base.systematic_mm, found.base.systematic_with_added_mm],
         heldout_mm: found.base.heldout_run_mm.zip(first.and_then(|row| row.heldout_run_mm)).map(|(a, b)| [a, b]),
         covered: None,
+        bic_behind: found.ranked.iter().find(|row| is_true(&row.effect)).map(|row| row.bic_difference),
+        smallest_detectable: found
+            .undetectable
+            .iter()
+            .find(|row| is_true(&row.effect))
+            .and_then(|row| row.times_typical),
         separations: now.map(|s| (s.rival.clone(), s.lambda)).collect(),
         after: None,
         answer,

@@ -30,7 +30,7 @@ pub type Diagnose = fn(&Scenario, &Dataset, Option<&About>, &Options) -> Result<
 pub struct BenchOptions {
     /// Seed of everything.
     pub seed: u64,
-    /// Sets with nothing hidden, and with one effect; half as many with two, outside the catalogue, and for intervals.
+    /// Sets with nothing hidden, and with one effect; half as many of the other parts.
     pub sets: usize,
 }
 
@@ -45,6 +45,26 @@ pub struct Confusion {
     pub count: usize,
     /// Median λ between the two where the diagnosis gave it: below 16 the data do not hold the answer.
     pub lambda: Option<f64>,
+    /// Median BIC by which the truth is behind the name: large without λ means that the catalogue's formula is not the
+    /// robot's law.
+    pub bic_behind: Option<f64>,
+    /// Where nothing was found: smallest size of the truth that would have been, in typical sizes (median).
+    pub smallest_detectable: Option<f64>,
+}
+
+/// Figures of single effects for a part of the sets.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Breakdown {
+    /// Which part: an actuator, a camera noise, a number of runs.
+    pub of: String,
+    /// Sets.
+    pub sets: usize,
+    /// Share with alarm.
+    pub alarm: f64,
+    /// Given alarm: share with the truth on top.
+    pub on_top: f64,
+    /// Given alarm: share with the truth in the stated set.
+    pub in_set: f64,
 }
 
 /// The result.
@@ -56,6 +76,8 @@ pub struct Bench {
     pub rows: Vec<Row>,
     /// Truth against name, single effects.
     pub confusion: Vec<Confusion>,
+    /// Single effects by actuator, camera noise and runs.
+    pub breakdown: Vec<Breakdown>,
     /// Sets that could not be made or diagnosed, with the reason.
     pub failed: Vec<String>,
 }
@@ -80,6 +102,7 @@ pub fn run(options: &BenchOptions, diagnose: Diagnose, tell: &(dyn Fn(f64) + Syn
         seed: options.seed,
         rows: table::rows(&outcomes),
         confusion: table::confusion(&outcomes),
+        breakdown: table::breakdown(&outcomes),
         failed: outcomes.iter().filter_map(|outcome| outcome.failed.clone()).collect(),
     })
 }
@@ -100,6 +123,8 @@ pub enum Part {
     Hidden(Kind),
     /// One effect by the catalogue's own law, for which a true value of its parameter exists.
     Interval,
+    /// Nothing, seen by a camera with heavy-tailed noise.
+    HeavyTails,
 }
 
 fn plan(options: &BenchOptions) -> Result<Vec<Case>, CompareError> {
@@ -110,6 +135,7 @@ fn plan(options: &BenchOptions) -> Result<Vec<Case>, CompareError> {
         (Part::Hidden(Kind::Two), half),
         (Part::Hidden(Kind::Outside), half),
         (Part::Interval, half),
+        (Part::HeavyTails, half),
     ];
     let mut plan = Vec::new();
     for (number, (part, sets)) in parts.into_iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use super::cases::{Named, Outcome, names};
 use super::row::{Row, Target};
-use super::{Confusion, Part};
+use super::{Breakdown, Confusion, Part};
 use crate::hidden::Kind;
 use Target::{AtLeast, AtMost, Between};
 
@@ -25,7 +25,9 @@ fn nothing(outcomes: &[Outcome]) -> Vec<Row> {
     let (few, many): (Vec<_>, Vec<_>) = all.into_iter().partition(|(outcome, _)| outcome.truth.runs < 5);
     let case = "no hidden effect";
     let alarm = |named: &Named| named.score.alarm;
+    let heavy = found(outcomes, Part::HeavyTails);
     vec![
+        Row::share("no hidden effect, heavy tails", "false alarms", AtMost(0.05), &shares(&heavy, alarm)),
         Row::share(case, "false alarms, 5 and 10 runs", AtMost(0.03), &shares(&many, alarm)),
         Row::share(case, "false alarms, 3 runs", AtMost(0.05), &shares(&few, alarm)),
     ]
@@ -104,29 +106,71 @@ fn median(values: &[f64]) -> Option<f64> {
     (n > 0).then(|| 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]))
 }
 
-/// Truth against the name on top, single effects, most frequent misses first.
+/// A cell of the confusion table while it is counted.
+#[derive(Default)]
+struct Count {
+    truth: String,
+    named: String,
+    count: usize,
+    lambdas: Vec<f64>,
+    behind: Vec<f64>,
+    detectable: Vec<f64>,
+}
+
+/// Truth against the name on top, single effects, by truth and then by frequency.
 pub(super) fn confusion(outcomes: &[Outcome]) -> Vec<Confusion> {
-    let mut seen: Vec<(Confusion, Vec<f64>)> = Vec::new();
-    for (outcome, named) in found(outcomes, Part::Hidden(Kind::One)) {
+    let mut cells: Vec<Count> = Vec::new();
+    for (outcome, found) in found(outcomes, Part::Hidden(Kind::One)) {
         let truth = names(&outcome.truth).join(" + ");
-        let on_top = match named.answer.verdict.as_str() {
-            "effect" => named.answer.ranked.first().cloned().unwrap_or_default(),
+        let named = match found.answer.verdict.as_str() {
+            "effect" => found.answer.ranked.first().cloned().unwrap_or_default(),
             other => other.to_string(),
         };
-        let lambda = named.separations.iter().find(|(rival, _)| *rival == truth).map(|(_, lambda)| *lambda);
-        match seen.iter_mut().find(|(c, _)| c.truth == truth && c.named == on_top) {
-            Some((confusion, lambdas)) => {
-                confusion.count += 1;
-                lambdas.extend(lambda);
-            }
-            None => {
-                let confusion = Confusion { truth, named: on_top, count: 1, lambda: None };
-                seen.push((confusion, lambda.into_iter().collect()));
-            }
-        }
+        let at = cells.iter().position(|cell| cell.truth == truth && cell.named == named).unwrap_or_else(|| {
+            cells.push(Count { truth: truth.clone(), named: named.clone(), ..Count::default() });
+            cells.len() - 1
+        });
+        let cell = &mut cells[at];
+        cell.count += 1;
+        cell.lambdas.extend(found.separations.iter().find(|(rival, _)| *rival == truth).map(|(_, lambda)| *lambda));
+        cell.behind.extend(found.bic_behind);
+        cell.detectable.extend(found.smallest_detectable.filter(|_| named == "none"));
     }
-    let mut all: Vec<Confusion> =
-        seen.into_iter().map(|(confusion, lambdas)| Confusion { lambda: median(&lambdas), ..confusion }).collect();
-    all.sort_by(|a, b| (&a.truth, b.count, &a.named).cmp(&(&b.truth, a.count, &b.named)));
-    all
+    cells.sort_by(|a, b| (&a.truth, b.count, &a.named).cmp(&(&b.truth, a.count, &b.named)));
+    let finish = |cell: Count| Confusion {
+        lambda: median(&cell.lambdas),
+        bic_behind: median(&cell.behind),
+        smallest_detectable: median(&cell.detectable),
+        truth: cell.truth,
+        named: cell.named,
+        count: cell.count,
+    };
+    cells.into_iter().map(finish).collect()
+}
+
+/// Figures of single effects by actuator, camera noise and runs.
+pub(super) fn breakdown(outcomes: &[Outcome]) -> Vec<Breakdown> {
+    let all = found(outcomes, Part::Hidden(Kind::One));
+    let keys = |outcome: &Outcome| {
+        let truth = &outcome.truth;
+        [truth.actuator.clone(), format!("{} mm", truth.camera_sd_m * 1e3), format!("{} runs", truth.runs)]
+    };
+    let mut names: Vec<(usize, String)> =
+        all.iter().flat_map(|(outcome, _)| keys(outcome).into_iter().enumerate()).collect();
+    names.sort();
+    names.dedup();
+    let share = |hits: usize, of: usize| if of > 0 { hits as f64 / of as f64 } else { 0.0 };
+    let part = |(place, of): (usize, String)| {
+        let sets: Vec<&Named> = all.iter().filter(|(o, _)| keys(o)[place] == of).map(|(_, named)| *named).collect();
+        let alarmed: Vec<&&Named> = sets.iter().filter(|named| named.score.alarm).collect();
+        let count = |hit: &dyn Fn(&Named) -> bool| alarmed.iter().filter(|named| hit(named)).count();
+        Breakdown {
+            of,
+            sets: sets.len(),
+            alarm: share(alarmed.len(), sets.len()),
+            on_top: share(count(&|named| named.score.rank == Some(1)), alarmed.len()),
+            in_set: share(count(&|named| named.score.in_set), alarmed.len()),
+        }
+    };
+    names.into_iter().map(part).collect()
 }

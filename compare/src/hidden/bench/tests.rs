@@ -36,6 +36,6 @@ fn the_plan_follows_from_the_seed() {
 fn a_diagnosis_that_fails_is_counted_and_named() {
     let refuse: Diagnose = |_, _, _, _| Err(CompareError::NoModel);
     let bench = run(&BenchOptions { seed: 1, sets: 2 }, refuse, &|_| ()).unwrap();
-    assert_eq!(bench.failed.len(), 7);
+    assert_eq!(bench.failed.len(), 8);
     assert!(bench.failed[0].contains("no model is given") && bench.rows.iter().all(|row| row.measured.is_none()));
 }
