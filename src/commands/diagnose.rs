@@ -148,7 +148,7 @@ fn details(d: &Diagnosis) -> String {
     if d.verdict == Some(Verdict::None) {
         return out;
     }
-    let added = |r: &&Ranked| r.in_set || d.added.iter().any(|a| a.effect == r.effect);
+    let added = |r: &&Ranked| r.in_set || d.added.iter().chain(&d.attempt).any(|a| a.effect == r.effect);
     for r in d.ranked.iter().filter(added) {
         out.push_str(&format!("\n{} ({}): {}\n  check: {}\n", r.effect, r.group.word(), r.sentence, r.remedy));
         r.notes.iter().for_each(|n| out.push_str(&format!("  note: {n}\n")));

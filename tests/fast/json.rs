@@ -6,10 +6,11 @@ use serde_json::Value;
 #[test]
 fn every_command_that_prints_results_prints_one_json_object_and_nothing_else() {
     let folder = Folder::new();
-    let commands: [(&[&str], &str); 12] = [
+    let commands: [(&[&str], &str); 13] = [
         (&["predict", "epam"], "ibr.predict"),
         (&["predict", "fpam", "--inverse", "tip=50mm"], "ibr.predict"),
         (&["compare", "epam", "synthetic-epam"], "ibr.compare"),
+        (&["diagnose", "epam", "synthetic-epam"], "ibr.diagnose"),
         (&["data", "check", "synthetic-cpam"], "ibr.data.check"),
         (&["data", "list"], "ibr.list"),
         (&["data", "generate", "spam", "--out", "made"], "ibr.data.generate"),

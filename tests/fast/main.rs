@@ -1,7 +1,8 @@
 //! Tests of the command `ibr` as a user meets it.
 //!
 //! A new test belongs into the module of what the user was doing: `json` if a program reads the answer, `predict`,
-//! `compare`, `characterize`, `generate` and `simulate` for what those commands promise, `scenario_errors` and `data_errors` for files
+//! `compare`, `characterize`, `diagnose`, `generate` and `simulate` for what those commands promise, `scenario_errors` and
+//! `data_errors` for files
 //! that are wrong, `arguments` for wrong options, `output` for what lands on disk, `shell` for help, completions and pipes.
 //! Whatever needs an optimised build or more than a few seconds belongs into `tests/slow`.
 
@@ -12,6 +13,7 @@ mod challenge;
 mod characterize;
 mod compare;
 mod data_errors;
+mod diagnose;
 mod generate;
 mod json;
 mod output;

@@ -41,6 +41,11 @@ pub struct Free {
 }
 
 impl Free {
+    /// Whether it is fitted: a parameter that is typically zero (a force along the robot) stays there.
+    pub fn is_free(&self) -> bool {
+        self.typical != 0.0 || self.neutral != 0.0
+    }
+
     /// Length of one step of the fit.
     pub fn scale(&self) -> f64 {
         let typical = (self.typical - self.neutral).abs();
@@ -66,14 +71,29 @@ impl Candidate {
         self.parameters.iter().map(|p| p.neutral + share * (p.typical - p.neutral)).collect()
     }
 
-    /// Values from which a fit is started: typical, three times as much, and the other sign where bounds allow it.
+    /// Number of parameters that are fitted.
+    pub fn count(&self) -> usize {
+        self.parameters.iter().filter(|p| p.is_free()).count()
+    }
+
+    /// Values from which a fit is started: neutral, typical, three times as much, and the other sign where bounds allow
+    /// it. A parameter that has no neutral value of its own (a relaxation time) is also tried nearer to its bounds.
     pub fn starts(&self) -> Vec<Vec<f64>> {
         let clamped = |share: f64| -> Vec<f64> {
             self.parameters.iter().zip(self.at(share)).map(|(p, v)| v.clamp(p.lower, p.upper)).collect()
         };
-        let mut starts = vec![clamped(1.0), clamped(3.0)];
+        let mut starts = vec![clamped(0.0), clamped(1.0), clamped(3.0)];
         if clamped(-1.0) != clamped(0.0) {
             starts.push(clamped(-1.0));
+        }
+        for (k, p) in self.parameters.iter().enumerate() {
+            if p.neutral == p.typical && p.typical > 0.0 && p.lower > 0.0 {
+                for bound in [p.lower, p.upper] {
+                    let mut start = clamped(1.0);
+                    start[k] = (bound * p.typical).sqrt();
+                    starts.push(start);
+                }
+            }
         }
         starts.dedup();
         starts

@@ -1,8 +1,10 @@
 //! A scenario and a dataset made ready for hypotheses: noise, calibrated base, catalogue.
 
+use super::basis::{Basis, cosine};
 use super::candidates::{Candidate, candidates, present};
 use super::options::Options;
 use super::problem::{Block, Fit, Problem, with_effects};
+use super::screen::trace;
 use crate::comparison::Comparison;
 use crate::error::CompareError;
 use crate::evaluate::default_tolerance_m;
@@ -13,11 +15,14 @@ use crate::study::predict_dataset;
 use crate::whiten::Whitener;
 use data::Dataset;
 use models::Scenario;
+use nalgebra::{DMatrix, SymmetricEigen};
 
 /// Body pressures within this fraction share a bending stiffness.
 const SAME_BODY_PRESSURE: f64 = 0.05;
 /// Fits end when a round lowers the whitened sum of squares by less.
 const ENOUGH: f64 = 1e-4;
+/// Rounds of the eigenvalue iteration; a handful suffice.
+const EIGEN_ROUNDS: usize = 1000;
 
 /// What every hypothesis is held against.
 pub struct Case<'a> {
@@ -37,6 +42,8 @@ pub struct Case<'a> {
     pub body_pa: Vec<f64>,
     /// The calibrated base.
     pub base: Fit,
+    /// Independent tests among the effects tried.
+    pub tests: f64,
     /// Error below which a model is good enough \[m\].
     pub tolerance_m: f64,
     /// Level of the one corrected p-value.
@@ -85,8 +92,9 @@ impl<'a> Case<'a> {
             scenario,
             dataset,
             noise,
-            problem,
             always,
+            tests: independent_tests(&problem, &base, own..candidates.len()),
+            problem,
             tried: (own..candidates.len()).collect(),
             body_pa,
             base,
@@ -133,9 +141,9 @@ impl<'a> Case<'a> {
     }
 
     /// p of a gain by `parameters`, the best of `tests`; `None` if no p-values can be formed.
-    pub fn p_of_gain(&self, gain: f64, parameters: usize, tests: usize) -> Option<f64> {
+    pub fn p_of_gain(&self, gain: f64, parameters: usize, tests: f64) -> Option<f64> {
         let q = parameters.max(1);
-        let p = tests as f64 * f_tail(gain / q as f64, q, self.noise.pure_error_dof);
+        let p = tests * f_tail(gain / q as f64, q, self.noise.pure_error_dof);
         self.noise.gives_p_values().then_some(p.min(1.0))
     }
 
@@ -143,6 +151,21 @@ impl<'a> Case<'a> {
     pub fn is_rejected(&self, fit: &Fit) -> bool {
         fit.binding[self.problem.bendings..].iter().any(|b| *b)
     }
+}
+
+/// Effective number of independent tests, `(Σ√λ)²/Σλ` over the eigenvalues λ of the correlations between the effects' first
+/// traces (Galwey 2009): twins are one test, not two. An effect without a first trace, a threshold, is one of its own.
+fn independent_tests(problem: &Problem, base: &Fit, tried: std::ops::Range<usize>) -> f64 {
+    let free = Basis::of(&base.minimum.jacobian);
+    let count = tried.len();
+    let traces: Vec<Vec<f64>> = tried.filter_map(|e| trace(problem, base, &free, e)).collect();
+    let n = traces.len();
+    let correlations = DMatrix::from_fn(n, n, |i, j| if i == j { 1.0 } else { cosine(&traces[i], &traces[j]) });
+    let apart = match SymmetricEigen::try_new(correlations, f64::EPSILON, EIGEN_ROUNDS) {
+        Some(eigen) if n > 0 => eigen.eigenvalues.iter().map(|l| l.max(0.0).sqrt()).sum::<f64>().powi(2) / n as f64,
+        _ => n as f64,
+    };
+    (apart + (count - n) as f64).max(1.0)
 }
 
 /// The block of a dataset's mean, or of another target at its holds.

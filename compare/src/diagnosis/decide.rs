@@ -3,7 +3,7 @@
 use super::case::Case;
 use super::lack_of_fit::lack_of_fit;
 use super::options::Options;
-use super::pairs::{another_wanted, fit_pairs, indistinguishable as alike_pairs, p_over_single};
+use super::pairs::{another_wanted, fit_pairs, indistinguishable as alike_pairs, p_over};
 use super::problem::Fit;
 use super::result::{LackOfFit, Verdict};
 use super::singles::{fit_all, indistinguishable};
@@ -12,9 +12,12 @@ use crate::stats::reported_p;
 
 /// Of the level α, the share that the effects get; the tests for lack of fit get the rest.
 const SHARE_OF_EFFECTS: f64 = 0.8;
-/// More than this share of the error left after adding means that the catalogue does not explain it.
-const LEFT_OVER: f64 = 0.25;
-/// Least error left that is called unexplained \[mm\].
+/// A second effect is looked for if more than this share of the error is left: the catalogue's laws are not the real ones
+/// to the last twentieth.
+const WORTH_A_SECOND: f64 = 0.05;
+/// More than this share of the error left by one effect, or by two, means that the catalogue does not explain it.
+const LEFT_OVER: [f64; 2] = [0.25, 0.15];
+/// Error left that is never worth a word \[mm\].
 const LEAST_LEFT_MM: f64 = 0.15;
 
 /// Everything that was fitted, and what follows.
@@ -67,50 +70,55 @@ pub fn decide(case: &Case, options: &Options) -> Result<Decision, CompareError> 
         return Ok(decision);
     }
     decision.verdict = Some(Verdict::OutOfCatalog);
-    if p_effect.is_some_and(|p| p < SHARE_OF_EFFECTS * case.alpha) {
-        explain(case, options, &mut decision)?;
-    }
+    let significant = p_effect.is_some_and(|p| p < SHARE_OF_EFFECTS * case.alpha);
+    explain(case, options, &mut decision, significant)?;
     Ok(decision)
 }
 
 /// Adds the best effect, a second one if it is wanted, and asks whether that explains the misfit.
-fn explain(case: &Case, options: &Options, decision: &mut Decision) -> Result<(), CompareError> {
-    let Some(&best) = decision.set.first() else { return Ok(()) };
-    let mut last = decision.singles[best].clone();
-    if options.pairs && wants_more(case, &last)? {
+fn explain(case: &Case, options: &Options, decision: &mut Decision, significant: bool) -> Result<(), CompareError> {
+    let single = decision.set.first().filter(|_| significant).map(|i| decision.singles[*i].clone());
+    let mut last = single.clone();
+    let one_is_enough = match &single {
+        Some(fit) => !(leaves(case, fit, WORTH_A_SECOND) && is_significant(case, fit)?),
+        None => false,
+    };
+    if options.pairs && !one_is_enough {
         add_second(case, decision, &mut last);
     }
+    let Some(last) = last else { return Ok(()) };
     decision.after = test(case, &last)?;
-    let before_mm = case.error_mm(&case.prediction(&case.base));
-    let after_mm = case.error_mm(&case.prediction(&last));
-    let unexplained = decision.after.is_some_and(|lof| lof.p_value < case.alpha)
-        && after_mm > LEAST_LEFT_MM.max(LEFT_OVER * before_mm);
-    let third = case.extra(&last) > 1 && !decision.pairs.is_empty() && wants_more(case, &last)?;
-    decision.verdict = Some(if unexplained || third { Verdict::OutOfCatalog } else { Verdict::Effect });
+    let share = if decision.pairs.is_empty() { LEFT_OVER[0] } else { LEFT_OVER[1] };
+    let unexplained = leaves(case, &last, share) && is_significant(case, &last)?;
+    decision.verdict = Some(if unexplained { Verdict::OutOfCatalog } else { Verdict::Effect });
     decision.last = Some(last);
     Ok(())
 }
 
-/// Replaces the single effect by the best pair if that is significantly better.
-fn add_second(case: &Case, decision: &mut Decision, last: &mut Fit) {
+/// Takes the best pair in place of the single effect, or of the base, if it is significantly better.
+fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>) {
     let (pairs, tried) = fit_pairs(case, &decision.singles);
     decision.pairs_tried = tried;
+    let before = last.as_ref().unwrap_or(&case.base);
     if let Some(best) = pairs.first()
-        && p_over_single(case, best, last, tried).is_some_and(|p| p < case.alpha)
+        && p_over(case, best, before, tried).is_some_and(|p| p < case.alpha)
     {
-        decision.pair_set = alike_pairs(case, &pairs, last);
-        *last = best.clone();
+        decision.pair_set = alike_pairs(case, &pairs, before);
+        *last = Some(best.clone());
         decision.pairs = pairs;
     }
 }
 
-/// Whether more than noise and more than the tolerance is left.
-fn wants_more(case: &Case, fit: &Fit) -> Result<bool, CompareError> {
-    if case.error_mm(&case.prediction(fit)) <= 1e3 * case.tolerance_m {
-        return Ok(false);
-    }
-    let lof = test(case, fit)?.is_some_and(|lof| lof.p_value < case.alpha);
-    Ok(lof || another_wanted(case, fit) < case.alpha)
+/// Whether a fit leaves more than a share of the base's error, and more than is worth a word.
+fn leaves(case: &Case, fit: &Fit, share: f64) -> bool {
+    let error = |fit: &Fit| case.error_mm(&case.prediction(fit));
+    error(fit) > LEAST_LEFT_MM.max(share * error(&case.base))
+}
+
+/// Whether what a fit leaves is more than noise, seen by a test for lack of fit or along another effect.
+fn is_significant(case: &Case, fit: &Fit) -> Result<bool, CompareError> {
+    let lack = test(case, fit)?.is_some_and(|lof| lof.p_value < case.alpha);
+    Ok(lack || another_wanted(case, fit) < case.alpha)
 }
 
 fn test(case: &Case, fit: &Fit) -> Result<Option<LackOfFit>, CompareError> {
@@ -118,7 +126,7 @@ fn test(case: &Case, fit: &Fit) -> Result<Option<LackOfFit>, CompareError> {
 }
 
 fn p_of(case: &Case, fit: &Fit) -> Option<f64> {
-    case.p_of_gain(case.gain(fit), case.extra(fit), case.tried.len())
+    case.p_of_gain(case.gain(fit), case.extra(fit), case.tests)
 }
 
 /// Weighted Bonferroni over the two kinds of tests.

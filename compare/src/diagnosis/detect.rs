@@ -30,13 +30,12 @@ pub fn smallest_detectable(case: &Case, effect: usize) -> Undetectable {
 
 /// The trace an effect must leave to be seen with 90 % probability.
 pub fn needed(case: &Case) -> f64 {
-    let tests = case.tried.len().max(1) as f64;
-    let z = Normal::new(0.0, 1.0).map_or(4.0, |n| n.inverse_cdf(1.0 - case.alpha / (2.0 * tests)));
+    let z = Normal::new(0.0, 1.0).map_or(4.0, |n| n.inverse_cdf(1.0 - case.alpha / (2.0 * case.tests)));
     (z + Z_POWER).powi(2)
 }
 
 /// First parameter whose typical value is not its neutral one.
-fn lead(candidate: &super::candidates::Candidate) -> usize {
+pub fn lead(candidate: &super::candidates::Candidate) -> usize {
     candidate.parameters.iter().position(|p| p.typical != p.neutral).unwrap_or(0)
 }
 

@@ -48,16 +48,17 @@ fn half_width(case: &Case, white: &[f64]) -> Option<f64> {
     // The whitening matrix is symmetric: weights on raw values are the whitened weights on white ones.
     let weights = noise.whiten(white);
     let runs = noise.runs as f64;
-    let mut parts = vec![(sigma * sigma / runs * square(&weights), noise.pure_error_dof.max(1) as f64)];
+    let camera = sigma * sigma / runs * square(&weights);
+    let run_to_run: f64 = (0..4)
+        .map(|j| {
+            let along: f64 = weights.iter().zip(&noise.directions).map(|(w, u)| w * u[j]).sum();
+            along * along * noise.mean_variance[j].max(SENSOR_SD[j].powi(2) / runs)
+        })
+        .sum();
+    let total = camera + run_to_run;
     let run_dof = noise.runs.saturating_sub(noise.sessions).max(1) as f64;
-    for j in 0..4 {
-        let along: f64 = weights.iter().zip(&noise.directions).map(|(w, u)| w * u[j]).sum();
-        let variance = noise.mean_variance[j].max(SENSOR_SD[j].powi(2) / runs);
-        let dof = if j == 1 || j == 2 { 2.0 * run_dof } else { run_dof };
-        parts.push((along * along * variance, dof));
-    }
-    let total: f64 = parts.iter().map(|(v, _)| v).sum();
-    let dof = total * total / parts.iter().map(|(v, d)| v * v / d).sum::<f64>();
+    let dof =
+        total * total / (camera * camera / noise.pure_error_dof.max(1) as f64 + run_to_run * run_to_run / run_dof);
     let t = StudentsT::new(0.0, 1.0, dof.max(1.0)).ok()?.inverse_cdf(0.975);
     Some(t * total.sqrt())
 }

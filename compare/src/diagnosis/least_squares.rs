@@ -122,11 +122,16 @@ fn is_held(x: f64, range: &Range, gradient: f64) -> bool {
     (x <= range.lower && gradient >= 0.0) || (x >= range.upper && gradient <= 0.0)
 }
 
-/// One-sided differences, inwards at the upper bound; a column is zero where the residuals do not exist.
+/// One-sided differences, inwards at the upper bound; a column is zero where the residuals do not exist, and for a
+/// coordinate whose range is one value.
 pub fn jacobian(at: &Minimum, ranges: &[Range], residuals: &mut Residuals) -> Vec<Vec<f64>> {
     let mut moved = at.at.clone();
     let mut columns = Vec::with_capacity(ranges.len());
     for (k, range) in ranges.iter().enumerate() {
+        if range.lower == range.upper {
+            columns.push(vec![0.0; at.residual.len()]);
+            continue;
+        }
         let h = DIFFERENCE * range.scale;
         let inward = if at.at[k] + h <= range.upper { h } else { -h };
         let column = [inward, -inward].into_iter().find_map(|h| {

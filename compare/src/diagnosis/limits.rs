@@ -1,10 +1,10 @@
-//! What data cannot show, whatever the model, and metadata that contradict each other.
+//! What data cannot show, whatever the model.
 
 use super::case::{Case, body_pressures};
-use super::result::{Group, Undetectable};
+use super::result::Undetectable;
 use crate::comparison::ZERO_PRESSURE_PA;
 use crate::wording::list;
-use data::{About, Dataset, Phase};
+use data::{Dataset, Phase};
 
 /// A base that leaves more than this share of the measured movement does not fit at all.
 const NO_FIT: f64 = 0.5;
@@ -43,8 +43,8 @@ pub fn limits(dataset: &Dataset, undetectable: &[Undetectable]) -> Vec<String> {
     limits
 }
 
-/// Cautions about the base and the description of the data.
-pub fn warnings(case: &Case, about: Option<&About>) -> Vec<String> {
+/// Cautions about the base.
+pub fn warnings(case: &Case) -> Vec<String> {
     let mut warnings = Vec::new();
     let target = &case.problem.blocks[0].target_m;
     let moved = |values: &[f64]| -> f64 {
@@ -70,14 +70,6 @@ pub fn warnings(case: &Case, about: Option<&About>) -> Vec<String> {
                 "B had to move from {nominal:.2} to {bending:.2} N·m²: a stiffness far off its own value hides something else"
             ));
         }
-    }
-    let gravity = case.problem.candidates.iter().any(|c| c.name == "gravity" && c.group == Group::Load);
-    if gravity && about.is_some_and(|a| a.gravity_direction.is_none()) {
-        warnings.push(
-            "about.toml names no [gravity] direction; gravity was tried in the scenario's direction all the same: rule it \
-             out if the robot bends in a horizontal plane"
-                .into(),
-        );
     }
     warnings
 }

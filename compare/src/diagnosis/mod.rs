@@ -81,11 +81,16 @@ pub fn diagnose(
             r.run, r.scatter_ratio
         )
     }));
-    warnings.extend(limits::warnings(&case, about));
+    warnings.extend(limits::warnings(&case));
     let decision = decide(&case, options)?;
     let mut diagnosis = assemble(&case, &decision, prepared.outliers, warnings)?;
     if options.next_experiment {
         diagnosis.next_experiment = next::next_experiment(&case, &decision)?;
+    }
+    if about.is_some_and(|a| a.gravity_direction.is_none()) {
+        let words =
+            "about.toml names no [gravity] direction: out of the question if the robot bends in a horizontal plane";
+        diagnosis.ranked.iter_mut().filter(|r| r.effect == "gravity").for_each(|r| r.notes.push(words.into()));
     }
     diagnosis.summary = story::story(&diagnosis);
     Ok(diagnosis)
@@ -114,12 +119,13 @@ fn assemble(
 ) -> Result<Diagnosis, CompareError> {
     let held_out = HeldOut::new(case)?;
     let ranked = singles::rank(case, &decision.singles, &decision.set, &held_out);
-    let single = decision.set.first().map(|i| &decision.singles[*i]);
-    let pairs = single.map_or(Vec::new(), |single| {
-        pairs::describe(case, &decision.pairs, single, &decision.pair_set, decision.pairs_tried)
-    });
+    let single = decision.set.first().map_or(&case.base, |i| &decision.singles[*i]);
+    let pairs = pairs::describe(case, &decision.pairs, single, &decision.pair_set, decision.pairs_tried);
     let last = decision.last.as_ref().unwrap_or(&case.base);
-    let added = added(case, decision);
+    let (added, attempt) = match decision.verdict {
+        Some(Verdict::Effect) => (added(case, decision), Vec::new()),
+        _ => (Vec::new(), added(case, decision)),
+    };
     let undetectable = undetectable(case, decision, &ranked, &added);
     let noise = NoiseSummary::of(&case.noise, &case.dataset.holds);
     warnings.extend(noise.warning.clone());
@@ -149,6 +155,7 @@ fn assemble(
         indistinguishable,
         pairs,
         added,
+        attempt,
         lack_of_fit_before: decision.before,
         lack_of_fit_after: decision.after,
         leftover,
@@ -198,7 +205,7 @@ fn confidence(case: &Case, decision: &Decision) -> Option<Confidence> {
 fn added(case: &Case, decision: &Decision) -> Vec<Added> {
     let Some(last) = &decision.last else { return Vec::new() };
     let values = singles::parameter_values(case, last, true);
-    let mut from = case.problem.count(&case.always);
+    let mut from: usize = case.always.iter().map(|e| case.candidate(*e).parameters.len()).sum();
     let entry = |effect: &usize| {
         let candidate = case.candidate(*effect);
         let to = from + candidate.parameters.len();
@@ -211,7 +218,7 @@ fn added(case: &Case, decision: &Decision) -> Vec<Added> {
 
 /// Names in the set of the verdict, best first; without verdict those of the ranking.
 fn names(case: &Case, decision: &Decision, pairs: &[Combination]) -> Vec<String> {
-    if decision.verdict == Some(Verdict::None) || (decision.verdict.is_some() && decision.last.is_none()) {
+    if decision.verdict.is_some_and(|v| v != Verdict::Effect) {
         return Vec::new();
     }
     if !decision.pairs.is_empty() {
@@ -222,7 +229,7 @@ fn names(case: &Case, decision: &Decision, pairs: &[Combination]) -> Vec<String>
 }
 
 fn rule_out_first(ranked: &[Ranked], decision: &Decision) -> Vec<String> {
-    if decision.verdict == Some(Verdict::None) {
+    if decision.verdict.is_some_and(|v| v != Verdict::Effect) {
         return Vec::new();
     }
     ranked.iter().filter(|r| r.in_set && r.group.is_nuisance()).map(|r| r.effect.clone()).collect()
@@ -230,7 +237,7 @@ fn rule_out_first(ranked: &[Ranked], decision: &Decision) -> Vec<String> {
 
 fn undetectable(case: &Case, decision: &Decision, ranked: &[Ranked], added: &[Added]) -> Vec<Undetectable> {
     let found = |name: &str| {
-        let in_set = decision.last.is_some() && ranked.iter().any(|r| r.in_set && r.effect == name);
+        let in_set = decision.verdict == Some(Verdict::Effect) && ranked.iter().any(|r| r.in_set && r.effect == name);
         in_set || added.iter().any(|a| a.effect == name)
     };
     let missed = case.tried.iter().filter(|e| !found(&case.candidate(**e).name));

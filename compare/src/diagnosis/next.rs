@@ -42,7 +42,8 @@ pub fn next_experiment(case: &Case, decision: &Decision) -> Result<Option<NextEx
             tried.push(experiment(case, &plan, separations));
         }
     }
-    let worth = |e: &Experiment| (e.separated, e.separations.iter().map(|s| s.lambda.min(ENOUGH)).sum::<f64>());
+    // Beyond enough more is still better, because real laws are not the catalogue's.
+    let worth = |e: &Experiment| (e.separated, e.separations.iter().map(|s| s.lambda.ln_1p()).sum::<f64>());
     tried.sort_by(|a, b| {
         let (a, b) = (worth(a), worth(b));
         b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))

@@ -1,6 +1,6 @@
 //! Two effects at once, when one is not enough: greedy search alone fails where two compensate each other.
 
-use super::basis::cosine;
+use super::basis::{Basis, cosine};
 use super::case::Case;
 use super::problem::Fit;
 use super::result::Combination;
@@ -8,8 +8,8 @@ use super::screen::{score, starts};
 use super::singles::{SAME_BIC, SAME_GAIN, parameter_values};
 use crate::stats::reported_p;
 
-/// All pairs among this many best effects are tried, and the best one with every other.
-const BEST: usize = 8;
+/// Pairs refitted, the most promising by screening every effect on top of every other.
+const REFITTED: usize = 32;
 /// Pairs that are reported.
 const REPORTED: usize = 12;
 /// Contributions this opposite cancel.
@@ -17,21 +17,16 @@ const CANCELS: f64 = -0.95;
 
 /// The p that another effect is wanted on top of a fit, screened and corrected for all effects; 1 if none.
 pub fn another_wanted(case: &Case, fit: &Fit) -> f64 {
+    let free = Basis::of(&fit.minimum.jacobian);
     let others = case.tried.iter().filter(|e| !fit.effects.contains(e));
-    let best = others.filter_map(|e| score(&case.problem, fit, *e)).map(|s| s.gain).fold(0.0, f64::max);
-    case.p_of_gain(best, 1, case.tried.len()).unwrap_or(1.0)
+    let best = others.filter_map(|e| score(&case.problem, fit, &free, *e)).map(|s| s.gain).fold(0.0, f64::max);
+    case.p_of_gain(best, 1, case.tests).unwrap_or(1.0)
 }
 
-/// Pairs fitted, best first by BIC, without those that a bound rejects; and how many were tried.
+/// Promising pairs fitted, best first by BIC, without those that a bound rejects; and how many there are in all.
 pub fn fit_pairs(case: &Case, singles: &[Fit]) -> (Vec<Fit>, usize) {
-    let own = |fit: &Fit| fit.effects[fit.effects.len() - 1];
-    let mut chosen: Vec<(usize, usize)> = Vec::new();
-    for a in 0..singles.len() {
-        let others = a + 1..if a == 0 { singles.len() } else { singles.len().min(BEST) };
-        chosen.extend(others.filter(|_| a < BEST).map(|b| (a, b)));
-    }
     let mut fits: Vec<Fit> = Vec::new();
-    for &(a, b) in &chosen {
+    for (a, b) in promising(case, singles) {
         let (first, second) = (&singles[a], &singles[b]);
         let effects: Vec<usize> = first.effects.iter().copied().chain([own(second)]).collect();
         let mut all = starts(&case.problem, first, own(second), false);
@@ -40,14 +35,37 @@ pub fn fit_pairs(case: &Case, singles: &[Fit]) -> (Vec<Fit>, usize) {
         fits.extend(case.problem.fit(&effects, &all).filter(|fit| !case.is_rejected(fit)));
     }
     fits.sort_by(|a, b| case.bic(a).total_cmp(&case.bic(b)));
-    (fits, chosen.len())
+    (fits, singles.len() * singles.len().saturating_sub(1) / 2)
+}
+
+/// Pairs (index of the better single, of the other) in order of the sum of squares that screening expects of them.
+fn promising(case: &Case, singles: &[Fit]) -> Vec<(usize, usize)> {
+    let n = singles.len();
+    let mut expected = vec![f64::INFINITY; n * n];
+    for (a, first) in singles.iter().enumerate() {
+        let free = Basis::of(&first.minimum.jacobian);
+        for (b, second) in singles.iter().enumerate().filter(|(b, _)| *b != a) {
+            let gain = score(&case.problem, first, &free, own(second)).map_or(0.0, |s| s.gain);
+            let (low, high) = (a.min(b), a.max(b));
+            let place = &mut expected[low * n + high];
+            *place = place.min(first.cost() - gain);
+        }
+    }
+    let mut order: Vec<usize> = (0..n * n).filter(|i| expected[*i].is_finite()).collect();
+    order.sort_by(|i, j| expected[*i].total_cmp(&expected[*j]));
+    order.iter().take(REFITTED).map(|i| (i / n, i % n)).collect()
+}
+
+fn own(fit: &Fit) -> usize {
+    fit.effects[fit.effects.len() - 1]
 }
 
 /// The start from the second effect's fit with the first one's expected amount on top, in the order of the pair.
 fn swapped(case: &Case, first: &Fit, second: &Fit) -> Option<Vec<f64>> {
-    let effect = first.effects[first.effects.len() - 1];
-    let amount = score(&case.problem, second, effect).filter(|s| s.amount != 0.0)?.amount;
-    let kept = second.theta().len() - case.candidate(second.effects[second.effects.len() - 1]).parameters.len();
+    let effect = own(first);
+    let free = Basis::of(&second.minimum.jacobian);
+    let amount = score(&case.problem, second, &free, effect).filter(|s| s.amount != 0.0)?.amount;
+    let kept = second.theta().len() - case.candidate(own(second)).parameters.len();
     let (base, own) = second.theta().split_at(kept);
     let values = case.candidate(effect).at(amount);
     Some(base.iter().copied().chain(values).chain(own.iter().copied()).collect())
@@ -69,7 +87,7 @@ pub fn describe(case: &Case, pairs: &[Fit], single: &Fit, set: &[usize], tried: 
         parameters: parameter_values(case, fit, false),
         gain: case.gain(fit),
         bic_difference: case.bic(fit) - case.bic(&pairs[0]),
-        p_corrected: p_over_single(case, fit, single, tried).map(reported_p),
+        p_corrected: p_over(case, fit, single, tried).map(reported_p),
         systematic_after_mm: case.error_mm(&case.prediction(fit)),
         in_set: set.contains(&i),
         cancels: cancels(case, fit),
@@ -77,10 +95,10 @@ pub fn describe(case: &Case, pairs: &[Fit], single: &Fit, set: &[usize], tried: 
     pairs.iter().take(REPORTED.max(set.len())).enumerate().map(entry).collect()
 }
 
-/// p of the gain of a pair over the best single effect.
-pub fn p_over_single(case: &Case, pair: &Fit, single: &Fit, tried: usize) -> Option<f64> {
+/// p of the gain of a pair over the best single effect, or over the base.
+pub fn p_over(case: &Case, pair: &Fit, single: &Fit, tried: usize) -> Option<f64> {
     let more = case.extra(pair).saturating_sub(case.extra(single)).max(1);
-    case.p_of_gain((single.cost() - pair.cost()).max(0.0), more, tried)
+    case.p_of_gain((single.cost() - pair.cost()).max(0.0), more, tried as f64)
 }
 
 /// Whether the two last effects contribute nearly the same with opposite signs.

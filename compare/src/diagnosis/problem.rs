@@ -136,13 +136,16 @@ impl Problem<'_> {
     pub fn ranges(&self, effects: &[usize]) -> Vec<Range> {
         let bending = Range { lower: 0.0, upper: MAX_BENDING, scale: BENDING_SCALE };
         let free = effects.iter().flat_map(|e| &self.candidates[*e].parameters);
-        let free = free.map(|p| Range { lower: p.lower, upper: p.upper, scale: p.scale() });
+        let free = free.map(|p| match p.is_free() {
+            true => Range { lower: p.lower, upper: p.upper, scale: p.scale() },
+            false => Range { lower: p.neutral, upper: p.neutral, scale: p.scale() },
+        });
         std::iter::repeat_n(bending, self.bendings).chain(free).collect()
     }
 
-    /// Number of parameters of a hypothesis beyond the bending stiffnesses.
+    /// Number of fitted parameters of a hypothesis beyond the bending stiffnesses.
     pub fn count(&self, effects: &[usize]) -> usize {
-        effects.iter().map(|e| self.candidates[*e].parameters.len()).sum()
+        effects.iter().map(|e| self.candidates[*e].count()).sum()
     }
 
     /// The best fit from several starts; `None` if none of them has an equilibrium.

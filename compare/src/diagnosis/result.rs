@@ -331,8 +331,10 @@ pub struct Diagnosis {
     pub rule_out_first: Vec<String>,
     /// Pairs of effects, best first; empty if a single effect is enough.
     pub pairs: Vec<Combination>,
-    /// What the verdict adds; empty for `none`.
+    /// What the verdict `effect` adds, else empty.
     pub added: Vec<Added>,
+    /// With the verdict `out_of_catalog`: the best that the catalogue can do, which is not enough.
+    pub attempt: Vec<Added>,
     /// Lack of fit of the calibrated base.
     pub lack_of_fit_before: Option<LackOfFit>,
     /// Lack of fit of the final model.

@@ -20,9 +20,8 @@ pub struct Score {
     pub amount: f64,
 }
 
-/// Screens an effect on top of a fit; `None` if it changes nothing there or has no equilibrium.
-pub fn score(problem: &Problem, fit: &Fit, effect: usize) -> Option<Score> {
-    let free = Basis::of(&fit.minimum.jacobian);
+/// Whitened trace of the first bit of an effect per typical size, everything free fitted out; `None` if it leaves none.
+pub fn trace(problem: &Problem, fit: &Fit, free: &Basis, effect: usize) -> Option<Vec<f64>> {
     let candidate = &problem.candidates[effect];
     let theta = |share: f64| -> Vec<f64> { fit.theta().iter().copied().chain(candidate.at(share)).collect() };
     let effects: Vec<usize> = fit.effects.iter().copied().chain([effect]).collect();
@@ -30,9 +29,14 @@ pub fn score(problem: &Problem, fit: &Fit, effect: usize) -> Option<Score> {
     let change: Vec<f64> = moved.iter().zip(&fit.minimum.residual).map(|(a, b)| (a - b) / FIRST_BIT).collect();
     let rest = free.rest(&change);
     let squares = square(&rest);
-    if squares <= 1e-12 * square(&change) || squares == 0.0 {
-        return None;
-    }
+    (squares > 1e-12 * square(&change) && squares > 0.0).then_some(rest)
+}
+
+/// Screens an effect on top of a fit; `None` if it changes nothing there or has no equilibrium.
+pub fn score(problem: &Problem, fit: &Fit, free: &Basis, effect: usize) -> Option<Score> {
+    let rest = trace(problem, fit, free, effect)?;
+    let squares = square(&rest);
+    let candidate = &problem.candidates[effect];
     let amount = -dot(&rest, &fit.minimum.residual) / squares;
     let allowed = candidate.parameters.iter().zip(candidate.at(amount)).all(|(p, v)| {
         let outward = if v > p.neutral { p.upper - p.neutral } else { p.neutral - p.lower };
@@ -45,7 +49,9 @@ pub fn score(problem: &Problem, fit: &Fit, effect: usize) -> Option<Score> {
 /// Starts for the fit of an effect on top of another: the expected amount, then the catalogue's own.
 pub fn starts(problem: &Problem, fit: &Fit, effect: usize, own: bool) -> Vec<Vec<f64>> {
     let candidate = &problem.candidates[effect];
-    let expected = score(problem, fit, effect).filter(|s| s.amount != 0.0).map(|s| candidate.at(s.amount));
+    let expected = score(problem, fit, &Basis::of(&fit.minimum.jacobian), effect)
+        .filter(|s| s.amount != 0.0)
+        .map(|s| candidate.at(s.amount));
     let catalogue = if own || expected.is_none() { candidate.starts() } else { Vec::new() };
     let all = expected.into_iter().chain(catalogue);
     all.map(|values| fit.theta().iter().copied().chain(values).collect()).collect()

@@ -2,6 +2,7 @@
 
 use super::basis::{Basis, cosine};
 use super::case::Case;
+use super::detect;
 use super::heldout::HeldOut;
 use super::interval::intervals;
 use super::problem::Fit;
@@ -52,7 +53,7 @@ pub fn rank(case: &Case, fits: &[Fit], set: &[usize], held_out: &HeldOut) -> Vec
         let candidate = case.candidate(effect);
         let parameters = parameter_values(case, fit, set.contains(&i));
         let own = parameters[parameters.len() - candidate.parameters.len()..].to_vec();
-        let lead = own[0].clone();
+        let lead = own[detect::lead(candidate)].clone();
         let gain = case.gain(fit);
         Ranked {
             effect: candidate.name.clone(),
@@ -66,7 +67,7 @@ pub fn rank(case: &Case, fits: &[Fit], set: &[usize], held_out: &HeldOut) -> Vec
             at_bound: own.iter().any(|p| p.at_bound),
             gain,
             bic_difference: case.bic(fit) - least,
-            p_corrected: case.p_of_gain(gain, own.len(), case.tried.len()).map(reported_p),
+            p_corrected: case.p_of_gain(gain, candidate.count(), case.tests).map(reported_p),
             systematic_before_mm: before,
             systematic_after_mm: case.error_mm(&case.prediction(fit)),
             heldout_mm: held_out.pressure_mm(fit),
@@ -120,7 +121,9 @@ fn notes(case: &Case, fit: &Fit, own: &[ParameterValue]) -> Vec<String> {
             notes.push(format!("with it, B moves from {without:.2} to {with:.2} N·m²{body}: the two compensate"));
         }
     }
-    if fit.several_minima {
+    if case.gain(fit) < 1e-6 {
+        notes.push("leaves no trace in these data at any value that helps".into());
+    } else if fit.several_minima {
         notes.push("different starts of the fit ended in different minima; the best one is given".into());
     }
     notes

@@ -30,7 +30,8 @@ fn opening(d: &Diagnosis) -> String {
 }
 
 fn ranking_only(d: &Diagnosis) -> Vec<String> {
-    let names: Vec<String> = d.indistinguishable.iter().take(5).cloned().collect();
+    let helps = d.ranked.iter().filter(|r| r.gain > 1.0 && !r.at_bound);
+    let names: Vec<String> = helps.take(5).map(|r| r.effect.clone()).collect();
     let why = format!("{} usable runs: at least three are needed for p-values", d.runs);
     let order = if names.is_empty() {
         "No effect lowers the misfit.".to_string()
@@ -42,7 +43,7 @@ fn ranking_only(d: &Diagnosis) -> Vec<String> {
 
 fn nothing(d: &Diagnosis) -> Vec<String> {
     let mut told = vec![format!(
-        "No missing effect detectable ({} after correcting for {} tests).",
+        "No missing effect detectable ({} after correcting for {} effects).",
         d.p_value.map(p_value).unwrap_or_default(),
         d.ranked.len()
     )];
@@ -61,7 +62,7 @@ fn effect(d: &Diagnosis) -> Vec<String> {
     let mut told = Vec::new();
     let names: Vec<String> = d.added.iter().map(|a| a.effect.clone()).collect();
     told.push(format!(
-        "Adding {} brings it to {:.2} mm ({} after correcting for {} tests).",
+        "Adding {} brings it to {:.2} mm ({} after correcting for {} effects).",
         list(&names),
         d.base.systematic_with_added_mm,
         d.p_value.map(p_value).unwrap_or_default(),
@@ -81,6 +82,14 @@ fn effect(d: &Diagnosis) -> Vec<String> {
             list(&d.indistinguishable)
         ));
     }
+    if let Some(left) = d.lack_of_fit_after.filter(|left| left.p_value < d.alpha) {
+        told.push(format!(
+            "What is left, {:.2} mm, is small but more than noise ({}): the real law is not quite the catalogue's, or a second, \
+             smaller effect is there.",
+            d.base.systematic_with_added_mm,
+            p_value(left.p_value)
+        ));
+    }
     told.push(match d.confidence {
         Some(Confidence::Hint) => {
             "A hint only: evidence this weak often points to a neighbour of the true effect.".into()
@@ -97,10 +106,10 @@ fn effect(d: &Diagnosis) -> Vec<String> {
 
 fn held_out(d: &Diagnosis, r: &Ranked) -> Option<String> {
     let (before, after) = (d.base.heldout_mm?, r.heldout_mm?);
-    let verdict = if after < 0.7 * before {
-        "it predicts what it has not seen"
-    } else {
-        "caution: it does not predict the pressures it has not seen"
+    let verdict = match () {
+        () if before.max(after) <= d.tolerance_mm => "both within the tolerance, no argument for or against it",
+        () if after < 0.7 * before => "it predicts what it has not seen",
+        () => "caution: it does not predict the pressures it has not seen",
     };
     Some(format!("At pressures left out of the fit the error goes from {before:.2} to {after:.2} mm: {verdict}."))
 }
@@ -110,10 +119,10 @@ fn outside(d: &Diagnosis) -> Vec<String> {
         "Nothing in the catalogue explains this ({}): {:.2} mm remain{}.",
         d.p_value.map(p_value).unwrap_or_default(),
         d.base.systematic_with_added_mm,
-        if d.added.is_empty() {
+        if d.attempt.is_empty() {
             String::new()
         } else {
-            format!(" with the best of it, {}", list(&d.added.iter().map(|a| a.effect.clone()).collect::<Vec<_>>()))
+            format!(" with the best of it, {}", list(&d.attempt.iter().map(|a| a.effect.clone()).collect::<Vec<_>>()))
         }
     )];
     told.extend(d.leftover.iter().map(|s| s.sentence.clone()));

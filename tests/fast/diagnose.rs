@@ -1,0 +1,54 @@
+//! `ibr diagnose`: what it promises to programs and to readers.
+
+use crate::support::Folder;
+
+#[test]
+fn a_diagnosis_as_json_holds_what_programs_build_on() {
+    let folder = Folder::new();
+    let answer = folder.run(&["diagnose", "spam", "synthetic-spam", "--json"]).json("ibr.diagnose");
+    assert!(["none", "effect", "out_of_catalog"].contains(&answer["verdict"].as_str().unwrap()));
+    assert!(answer["p_value"].as_f64().unwrap() <= 1.0);
+    for key in ["noise", "base", "outliers"] {
+        assert!(answer[key].is_object(), "{key}");
+    }
+    for key in ["indistinguishable", "added", "undetectable", "pairs", "limits", "warnings", "summary"] {
+        assert!(answer[key].is_array(), "{key}");
+    }
+    assert!(answer.get("next_experiment").is_some());
+    let ranked = answer["ranked"].as_array().unwrap();
+    let keys = [
+        "effect",
+        "value",
+        "unit",
+        "lo",
+        "hi",
+        "at_bound",
+        "systematic_before_mm",
+        "systematic_after_mm",
+        "heldout_mm",
+        "p_corrected",
+    ];
+    for entry in ranked {
+        keys.iter().for_each(|key| assert!(entry.get(*key).is_some(), "{key} in {entry}"));
+    }
+}
+
+#[test]
+fn the_text_puts_supply_and_measurement_before_physics_and_says_what_was_not_seen() {
+    let ran = Folder::new().run(&["diagnose", "epam", "synthetic-epam"]);
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    let place = |words: &str| ran.stdout.find(words).unwrap_or_else(|| panic!("`{words}` in\n{}", ran.stdout));
+    assert!(place("Supply and measurement") < place("Physics and loads"));
+    assert!(place("Verdict:") < place("Effects not found"));
+}
+
+#[test]
+fn data_of_another_robot_are_refused_and_nothing_is_written() {
+    let folder = Folder::new();
+    let ran = folder.run(&["diagnose", "epam", "synthetic-spam"]);
+    assert_eq!(ran.code, 3);
+    assert!(ran.stderr.contains("use the matching scenario"), "{}", ran.stderr);
+    let ran = folder.run(&["diagnose", "epam", "synthetic-epam", "--tolerance", "0mm"]);
+    assert_eq!(ran.code, 2);
+    assert!(!folder.path("ibr-report").exists());
+}
