@@ -150,7 +150,14 @@ fn details(d: &Diagnosis) -> String {
     }
     let added = |r: &&Ranked| r.in_set || d.added.iter().chain(&d.attempt).any(|a| a.effect == r.effect);
     for r in d.ranked.iter().filter(added) {
-        out.push_str(&format!("\n{} ({}): {}\n  check: {}\n", r.effect, r.group.word(), r.sentence, r.remedy));
+        out.push_str(&format!(
+            "\n{} ({}): {}\n  shows: {}\n  check: {}\n",
+            r.effect,
+            r.group.word(),
+            r.sentence,
+            r.differs,
+            r.remedy
+        ));
         r.notes.iter().for_each(|n| out.push_str(&format!("  note: {n}\n")));
     }
     for r in d.ranked.iter().filter(|r| r.at_bound && !r.in_set && r.group != Group::Load) {

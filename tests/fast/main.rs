@@ -2,8 +2,8 @@
 //!
 //! A new test belongs into the module of what the user was doing: `json` if a program reads the answer, `predict`,
 //! `compare`, `characterize`, `diagnose`, `generate` and `simulate` for what those commands promise, `scenario_errors` and
-//! `data_errors` for files
-//! that are wrong, `arguments` for wrong options, `output` for what lands on disk, `shell` for help, completions and pipes.
+//! `data_errors` for files that are wrong, `arguments` for wrong options, `output` for what lands on disk, `shell` for help,
+//! completions and pipes.
 //! Whatever needs an optimised build or more than a few seconds belongs into `tests/slow`.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests: a panic is the failure to report")]

@@ -2,7 +2,7 @@
 
 use super::result::Group;
 use models::Scenario;
-use models::effects::{Effect, Stage};
+use models::effects::Effect;
 
 /// An effect that can be switched on, with what a fit and a reader need.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,6 +13,8 @@ pub struct Candidate {
     pub group: Group,
     /// One plain sentence.
     pub sentence: String,
+    /// What measurements show where it acts and the model lacks it.
+    pub differs: String,
     /// What to measure or change.
     pub remedy: String,
     /// Its parameters, SI inside.
@@ -38,6 +40,8 @@ pub struct Free {
     pub lower: f64,
     /// Physical upper bound.
     pub upper: f64,
+    /// Where a fit starts beside neutral and typical: thresholds and time scales.
+    pub starts: Vec<f64>,
 }
 
 impl Free {
@@ -77,7 +81,7 @@ impl Candidate {
     }
 
     /// Values from which a fit is started: neutral, typical, three times as much, and the other sign where bounds allow
-    /// it. A parameter that has no neutral value of its own (a relaxation time) is also tried nearer to its bounds.
+    /// it, and what the catalogue names.
     pub fn starts(&self) -> Vec<Vec<f64>> {
         let clamped = |share: f64| -> Vec<f64> {
             self.parameters.iter().zip(self.at(share)).map(|(p, v)| v.clamp(p.lower, p.upper)).collect()
@@ -87,13 +91,11 @@ impl Candidate {
             starts.push(clamped(-1.0));
         }
         for (k, p) in self.parameters.iter().enumerate() {
-            if p.neutral == p.typical && p.typical > 0.0 && p.lower > 0.0 {
-                for bound in [p.lower, p.upper] {
-                    let mut start = clamped(1.0);
-                    start[k] = (bound * p.typical).sqrt();
-                    starts.push(start);
-                }
-            }
+            starts.extend(p.starts.iter().map(|value| {
+                let mut start = clamped(1.0);
+                start[k] = *value;
+                start
+            }));
         }
         starts.dedup();
         starts
@@ -104,41 +106,45 @@ impl Candidate {
 pub fn candidates(scenario: &Scenario) -> Vec<Candidate> {
     let family = scenario.actuator.kind.family;
     let absent = |effect: &Effect| !scenario.effects.iter().any(|e| e.name == effect.name);
-    let catalogue = scenario.catalogue();
-    catalogue.effects().filter(|e| e.applies_to(family)).filter(absent).map(|e| candidate(&e)).collect()
+    let (catalogue, actuator) = (scenario.catalogue(), scenario.actuator.kind.name);
+    catalogue.effects().filter(|e| e.applies_to(family)).filter(absent).map(|e| candidate(&e, actuator)).collect()
 }
 
 /// The scenario's own effects, to be fitted along with the base; known forces stay known.
 pub fn present(scenario: &Scenario) -> Vec<Candidate> {
     let own = |effect: &Effect| effect.name != "tip_load" && scenario.effects.iter().any(|e| e.name == effect.name);
-    scenario.catalogue().effects().filter(own).map(|e| candidate(&e)).collect()
+    let (catalogue, actuator) = (scenario.catalogue(), scenario.actuator.kind.name);
+    catalogue.effects().filter(own).map(|e| candidate(&e, actuator)).collect()
 }
 
-fn candidate(effect: &Effect) -> Candidate {
+fn candidate(effect: &Effect, actuator: &str) -> Candidate {
     let free = |p: &models::effects::Parameter| Free {
         key: p.key.to_string(),
         symbol: p.symbol.to_string(),
         unit: p.unit.to_string(),
         si: p.si,
         neutral: p.neutral * p.si,
-        typical: p.typical * p.si,
+        typical: p.typical_for(actuator) * p.si,
         lower: p.lower * p.si,
         upper: p.upper * p.si,
+        starts: p.starts.iter().map(|v| v * p.si).collect(),
     };
     Candidate {
         name: effect.name.to_string(),
-        group: group(effect),
+        group: group(effect.group),
         sentence: effect.sentence.to_string(),
+        differs: effect.differs.to_string(),
         remedy: effect.remedy.to_string(),
         parameters: effect.parameters.iter().map(free).collect(),
     }
 }
 
-fn group(effect: &Effect) -> Group {
-    match effect.stage {
-        Stage::Supply => Group::Supply,
-        Stage::Camera => Group::Measurement,
-        Stage::Balance if matches!(effect.name, "gravity" | "tip_load") => Group::Load,
-        Stage::Balance => Group::Physics,
+fn group(group: models::effects::Group) -> Group {
+    match group {
+        models::effects::Group::Actuator => Group::Actuator,
+        models::effects::Group::Body => Group::Body,
+        models::effects::Group::Load => Group::Load,
+        models::effects::Group::Supply => Group::Supply,
+        models::effects::Group::Measurement => Group::Measurement,
     }
 }

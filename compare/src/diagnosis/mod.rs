@@ -8,8 +8,8 @@
 //!
 //! All fits minimise the whitened sum of squares of the mean over runs ([`crate::noise`]: the run is the unit). Gains are
 //! falls of that sum against the calibrated base; under "nothing is missing" a gain by q parameters follows about q·F(q,
-//! dof of σ²), and p is multiplied by the number of effects tried. Effects with a bound at their neutral value and
-//! thresholds make that conservative (Chernoff; Davies). The set is what the data cannot tell apart: BIC within 6 of the
+//! dof of σ²), and p is multiplied by the number of independent tests among the effects. Effects with a bound at their
+//! neutral value and thresholds make that conservative (Chernoff; Davies). The set is what the data cannot tell apart: BIC within 6 of the
 //! best, or 95 % of its gain. A name is the best explanation *in the catalogue*, never a proof.
 
 mod basis;
@@ -44,9 +44,9 @@ pub use result::*;
 use crate::comparison::Comparison;
 use crate::error::CompareError;
 use crate::noise_summary::NoiseSummary;
-use crate::residuals::residual_map;
+use crate::residuals::{ResidualMap, residual_map};
 use crate::study::fit_scenario;
-use crate::where_it_fails::{FailureOptions, where_it_fails};
+use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
 use case::Case;
 use data::{About, Dataset};
 use decide::{Decision, decide};
@@ -119,8 +119,7 @@ fn assemble(
 ) -> Result<Diagnosis, CompareError> {
     let held_out = HeldOut::new(case)?;
     let ranked = singles::rank(case, &decision.singles, &decision.set, &held_out);
-    let single = decision.set.first().map_or(&case.base, |i| &decision.singles[*i]);
-    let pairs = pairs::describe(case, &decision.pairs, single, &decision.pair_set, decision.pairs_tried);
+    let pairs = pairs_of(case, decision);
     let last = decision.last.as_ref().unwrap_or(&case.base);
     let (added, attempt) = match decision.verdict {
         Some(Verdict::Effect) => (added(case, decision), Vec::new()),
@@ -129,12 +128,8 @@ fn assemble(
     let undetectable = undetectable(case, decision, &ranked, &added);
     let noise = NoiseSummary::of(&case.noise, &case.dataset.holds);
     warnings.extend(noise.warning.clone());
-    let prediction = case.prediction(last);
-    let before = residual_map(&Comparison::new(case.dataset, &case.noise, &case.prediction(&case.base))?);
-    let after = Comparison::new(case.dataset, &case.noise, &prediction)?;
-    let after_map = residual_map(&after);
-    let failure = FailureOptions { alpha: case.alpha, tolerance_m: case.tolerance_m };
-    let leftover = where_it_fails(&after, &after_map, decision.after.map(|lof| lof.p_value), &failure);
+    let (residuals_before, _) = fails(case, &case.base, decision.before)?;
+    let (residuals_after, leftover) = fails(case, last, decision.after)?;
     let indistinguishable = names(case, decision, &pairs);
     Ok(Diagnosis {
         scenario: case.scenario.name.clone(),
@@ -159,13 +154,28 @@ fn assemble(
         lack_of_fit_before: decision.before,
         lack_of_fit_after: decision.after,
         leftover,
-        residuals_before: before,
-        residuals_after: after_map,
+        residuals_before,
+        residuals_after,
         outliers,
         undetectable,
         next_experiment: None,
         warnings,
     })
+}
+
+fn pairs_of(case: &Case, decision: &Decision) -> Vec<Combination> {
+    let single = decision.set.first().map_or(&case.base, |i| &decision.singles[*i]);
+    pairs::describe(case, &decision.pairs, single, &decision.pair_set, decision.pairs_tried)
+}
+
+/// Residual map of a fit, and where it fails in plain language.
+fn fails(case: &Case, fit: &Fit, lof: Option<LackOfFit>) -> Result<(ResidualMap, Vec<Statement>), CompareError> {
+    let prediction = case.prediction(fit);
+    let c = Comparison::new(case.dataset, &case.noise, &prediction)?;
+    let map = residual_map(&c);
+    let options = FailureOptions { alpha: case.alpha, tolerance_m: case.tolerance_m };
+    let statements = where_it_fails(&c, &map, lof.map(|lof| lof.p_value), &options);
+    Ok((map, statements))
 }
 
 fn base(case: &Case, last: &Fit, held_out: &HeldOut, noise: &NoiseSummary) -> Result<BaseFit, CompareError> {

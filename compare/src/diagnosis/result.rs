@@ -21,8 +21,10 @@ pub enum Verdict {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Group {
-    /// Actuator or body.
-    Physics,
+    /// The actuator and its fabric.
+    Actuator,
+    /// The body's wall.
+    Body,
     /// A force from outside.
     Load,
     /// Between regulator and actuator.
@@ -40,7 +42,8 @@ impl Group {
     /// Lower-case word.
     pub fn word(self) -> &'static str {
         match self {
-            Group::Physics => "physics",
+            Group::Actuator => "actuator",
+            Group::Body => "body",
             Group::Load => "load",
             Group::Supply => "supply",
             Group::Measurement => "measurement",
@@ -88,6 +91,8 @@ pub struct Ranked {
     pub group: Group,
     /// One plain sentence.
     pub sentence: String,
+    /// What measurements show where it acts and the model lacks it.
+    pub differs: String,
     /// What to measure or change on the robot.
     pub remedy: String,
     /// Value of its first parameter.

@@ -59,6 +59,7 @@ pub fn rank(case: &Case, fits: &[Fit], set: &[usize], held_out: &HeldOut) -> Vec
             effect: candidate.name.clone(),
             group: candidate.group,
             sentence: candidate.sentence.clone(),
+            differs: candidate.differs.clone(),
             remedy: candidate.remedy.clone(),
             value: lead.value,
             unit: lead.unit,
