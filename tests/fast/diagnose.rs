@@ -47,7 +47,7 @@ fn data_of_another_robot_are_refused_and_nothing_is_written() {
     let folder = Folder::new();
     let ran = folder.run(&["diagnose", "epam", "synthetic-spam"]);
     assert_eq!(ran.code, 3);
-    assert!(ran.stderr.contains("use the matching scenario"), "{}", ran.stderr);
+    assert!(ran.stderr.contains("are of actuator spam"), "{}", ran.stderr);
     let ran = folder.run(&["diagnose", "epam", "synthetic-epam", "--tolerance", "0mm"]);
     assert_eq!(ran.code, 2);
     assert!(!folder.path("ibr-report").exists());
