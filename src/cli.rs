@@ -217,6 +217,24 @@ pub struct Simulate {
     /// Write no ParaView frames
     #[arg(long)]
     pub no_frames: bool,
+    /// Robots: actuator pressures in one ramp with a hold at each, for example 10kPa,20kPa,30kPa
+    #[arg(long, short, allow_hyphen_values = true)]
+    pub pressure: Option<String>,
+    /// Robots: a run of its own for every pressure
+    #[arg(long)]
+    pub separate: bool,
+    /// Robots: as many runs with other random imperfections, and their mean and spread
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    pub seeds: Option<u64>,
+    /// Robots: element size, for example 4mm; several are several runs
+    #[arg(long, allow_hyphen_values = true)]
+    pub mesh: Option<String>,
+    /// Robots: another value of a key of [fem], for example bond=0.5; repeatable
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Robots: every assumed number at both ends of its interval, one at a time
+    #[arg(long, conflicts_with_all = ["separate", "seeds"])]
+    pub sensitivity: bool,
 }
 
 /// `ibr characterize`

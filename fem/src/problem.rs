@@ -159,7 +159,7 @@ pub struct Gravity {
 }
 
 /// A fixed rigid solid.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Obstacle {
     /// Its surface.
     pub shape: ObstacleShape,

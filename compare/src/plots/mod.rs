@@ -20,6 +20,7 @@ mod shapes;
 #[cfg(test)]
 mod tests;
 mod text;
+mod tornado;
 mod tradeoff;
 
 pub use bars::{BarSeries, Bars, bars};
@@ -29,6 +30,7 @@ pub use lines::{LineSeries, LineStyle, Lines, lines};
 pub use palette::{Theme, css_variables, with_css_variables};
 pub use residual_map::{MapHold, ResidualMap, residual_map};
 pub use shapes::{MeasuredPoint, ShapePose, Shapes, shapes};
+pub use tornado::{Tornado, TornadoBar, tornado};
 pub use tradeoff::{Tradeoff, TradeoffPoint, tradeoff};
 
 /// Width of every drawing [design px].

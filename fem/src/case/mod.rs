@@ -28,8 +28,8 @@
 mod law;
 mod load;
 mod mesh;
-mod range;
-mod raw;
+pub(crate) mod range;
+pub(crate) mod raw;
 mod section;
 mod settings;
 

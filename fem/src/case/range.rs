@@ -6,11 +6,11 @@ use crate::problem::Amplitude;
 use std::ops::Range as Span;
 use toml::Spanned;
 
-pub(super) type Checked<T> = Result<T, FemError>;
+pub(crate) type Checked<T> = Result<T, FemError>;
 
 /// Accepted interval of a quantity as typed, its factor to SI, and the slip to suspect outside.
 #[derive(Clone, Copy)]
-pub(super) struct Range {
+pub(crate) struct Range {
     pub unit: &'static str,
     pub si: f64,
     pub low: f64,
@@ -23,10 +23,10 @@ const METRES: &str = "this looks like metres: write millimetres, for example 60 
 const ANY: &str = "any number of this size is accepted with its sign";
 
 /// Edge lengths, diameters.
-pub(super) const LENGTH: Range =
+pub(crate) const LENGTH: Range =
     Range { unit: "mm", si: 1e-3, low: 1.0, high: 1e5, too_small: METRES, too_large: "write millimetres" };
 /// Thicknesses of fabric.
-pub(super) const THICKNESS: Range = Range {
+pub(crate) const THICKNESS: Range = Range {
     low: 0.002,
     high: 20.0,
     too_small: "this looks like metres: write millimetres, for example 0.2 for 200 µm",
@@ -34,11 +34,11 @@ pub(super) const THICKNESS: Range = Range {
     ..LENGTH
 };
 /// Gaps between layers.
-pub(super) const GAP: Range = Range { low: 1e-5, high: 10.0, ..THICKNESS };
+pub(crate) const GAP: Range = Range { low: 1e-5, high: 10.0, ..THICKNESS };
 /// Coordinates.
-pub(super) const POSITION: Range = Range { low: -1e5, too_small: ANY, ..LENGTH };
+pub(crate) const POSITION: Range = Range { low: -1e5, too_small: ANY, ..LENGTH };
 /// Gauge pressures.
-pub(super) const PRESSURE: Range = Range {
+pub(crate) const PRESSURE: Range = Range {
     unit: "kPa",
     si: 1e3,
     low: 0.0,
@@ -47,7 +47,7 @@ pub(super) const PRESSURE: Range = Range {
     too_large: "this looks like pascals: write kilopascals, for example 5 for 5000 Pa",
 };
 /// Pressure of the surroundings.
-pub(super) const ATMOSPHERE: Range = Range {
+pub(crate) const ATMOSPHERE: Range = Range {
     low: 1.0,
     high: 1000.0,
     too_small: "this looks like bar: write kilopascals, for example 101.325",
@@ -55,7 +55,7 @@ pub(super) const ATMOSPHERE: Range = Range {
     ..PRESSURE
 };
 /// Times.
-pub(super) const TIME: Range = Range {
+pub(crate) const TIME: Range = Range {
     unit: "s",
     si: 1.0,
     low: 0.0,
@@ -64,7 +64,7 @@ pub(super) const TIME: Range = Range {
     too_large: "this looks like milliseconds: write seconds",
 };
 /// Mass per volume.
-pub(super) const DENSITY: Range = Range {
+pub(crate) const DENSITY: Range = Range {
     unit: "kg/m³",
     si: 1.0,
     low: 50.0,
@@ -74,25 +74,25 @@ pub(super) const DENSITY: Range = Range {
 };
 
 /// Angles.
-pub(super) const ANGLE: Range = Range { si: std::f64::consts::PI / 180.0, ..plain(-360.0, 360.0, "write degrees") };
+pub(crate) const ANGLE: Range = Range { si: std::f64::consts::PI / 180.0, ..plain(-360.0, 360.0, "write degrees") };
 
 /// A pure number.
-pub(super) const fn plain(low: f64, high: f64, usual: &'static str) -> Range {
+pub(crate) const fn plain(low: f64, high: f64, usual: &'static str) -> Range {
     Range { unit: "", si: 1.0, low, high, too_small: usual, too_large: usual }
 }
 
 /// A refusal: what is wrong, what to type, where.
-pub(super) fn refuse<T>(message: impl AsRef<str>, help: impl AsRef<str>, span: Span<usize>) -> Checked<T> {
+pub(crate) fn refuse<T>(message: impl AsRef<str>, help: impl AsRef<str>, span: Span<usize>) -> Checked<T> {
     Err(FemError::Case { message: format!("{}\n{}", message.as_ref(), help.as_ref()), span: Some(span) })
 }
 
 /// A number in SI.
-pub(super) fn si(key: &str, value: &Num, range: &Range) -> Checked<f64> {
+pub(crate) fn si(key: &str, value: &Num, range: &Range) -> Checked<f64> {
     number(key, *value.get_ref(), value.span(), range)
 }
 
 /// A number in SI, whose place is that of a larger thing.
-pub(super) fn number(key: &str, v: f64, span: Span<usize>, range: &Range) -> Checked<f64> {
+pub(crate) fn number(key: &str, v: f64, span: Span<usize>, range: &Range) -> Checked<f64> {
     if (range.low..=range.high).contains(&v) {
         return Ok(v * range.si);
     }
@@ -107,19 +107,19 @@ pub(super) fn number(key: &str, v: f64, span: Span<usize>, range: &Range) -> Che
 }
 
 /// A number that may be left out.
-pub(super) fn optional(key: &str, value: &Option<Num>, range: &Range) -> Checked<Option<f64>> {
+pub(crate) fn optional(key: &str, value: &Option<Num>, range: &Range) -> Checked<Option<f64>> {
     value.as_ref().map(|v| si(key, v, range)).transpose()
 }
 
 /// Three coordinates in SI.
-pub(super) fn vector(key: &str, value: &Spanned<[f64; 3]>, range: &Range) -> Checked<[f64; 3]> {
+pub(crate) fn vector(key: &str, value: &Spanned<[f64; 3]>, range: &Range) -> Checked<[f64; 3]> {
     let [x, y, z] = *value.get_ref();
     let one = |v: f64| number(key, v, value.span(), range);
     Ok([one(x)?, one(y)?, one(z)?])
 }
 
 /// A direction: three numbers, not all zero.
-pub(super) fn direction(key: &str, value: &Spanned<[f64; 3]>) -> Checked<[f64; 3]> {
+pub(crate) fn direction(key: &str, value: &Spanned<[f64; 3]>) -> Checked<[f64; 3]> {
     let v = vector(key, value, &plain(-1e6, 1e6, "for example [0, 0, 1]"))?;
     match v.iter().all(|x| x.abs() < 1e-9) {
         true => refuse(format!("{key} has no direction: {v:?}"), "write for example [0, 0, 1]", value.span()),
@@ -128,7 +128,7 @@ pub(super) fn direction(key: &str, value: &Spanned<[f64; 3]>) -> Checked<[f64; 3
 }
 
 /// The amplitude that is given, if any; never two at once.
-pub(super) fn amplitude(smooth: &Option<Points>, linear: &Option<Points>, range: &Range) -> Checked<Option<Amplitude>> {
+pub(crate) fn amplitude(smooth: &Option<Points>, linear: &Option<Points>, range: &Range) -> Checked<Option<Amplitude>> {
     match (smooth, linear) {
         (Some(_), Some(second)) => refuse("a smooth and a linear curve at once", "keep one of the two", second.span()),
         (Some(points), None) => Ok(Some(Amplitude::Smooth(curve(points, range)?))),
@@ -146,7 +146,7 @@ fn curve(points: &Points, range: &Range) -> Checked<Vec<(f64, f64)>> {
 }
 
 /// Times of a curve: at least two, from 0 on, each later than the one before.
-pub(super) fn rising(times: &[f64], span: Span<usize>) -> Checked<()> {
+pub(crate) fn rising(times: &[f64], span: Span<usize>) -> Checked<()> {
     if times.len() < 2 {
         return refuse(
             "a curve needs two rows at least",
@@ -167,7 +167,7 @@ pub(super) fn rising(times: &[f64], span: Span<usize>) -> Checked<()> {
 }
 
 /// One of some words.
-pub(super) fn choice<T: Copy>(what: &str, text: &Spanned<String>, known: &[(&str, T)]) -> Checked<T> {
+pub(crate) fn choice<T: Copy>(what: &str, text: &Spanned<String>, known: &[(&str, T)]) -> Checked<T> {
     match known.iter().find(|(name, _)| name == text.get_ref()) {
         Some((_, value)) => Ok(*value),
         None => Err(unknown_name(what, text, &known.iter().map(|k| k.0).collect::<Vec<_>>())),
@@ -175,12 +175,12 @@ pub(super) fn choice<T: Copy>(what: &str, text: &Spanned<String>, known: &[(&str
 }
 
 /// A name that is not among the known ones.
-pub(super) fn unknown_name(what: &str, text: &Spanned<String>, known: &[&str]) -> FemError {
+pub(crate) fn unknown_name(what: &str, text: &Spanned<String>, known: &[&str]) -> FemError {
     FemError::Case { message: unknown(what, text.get_ref(), known), span: Some(text.span()) }
 }
 
 /// The known word that was probably meant: one or two slips away, or the beginning of just one.
-pub(super) fn nearest<'a>(wrong: &str, known: &[&'a str]) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(wrong: &str, known: &[&'a str]) -> Option<&'a str> {
     let wrong = wrong.to_lowercase();
     let allowed = (wrong.chars().count() / 3).clamp(1, 3);
     let best = known.iter().map(|k| (slips(&wrong, &k.to_lowercase()), *k)).min();

@@ -6,12 +6,12 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
 
-pub(super) type Num = Spanned<f64>;
-pub(super) type Text = Spanned<String>;
+pub(crate) type Num = Spanned<f64>;
+pub(crate) type Text = Spanned<String>;
 /// Rows of (time \[s\], value).
 pub(super) type Points = Spanned<Vec<[f64; 2]>>;
 /// A table whose keys depend on one of its values: a mesh generator, a fabric law.
-pub(super) type Free = BTreeMap<Text, Spanned<toml::Value>>;
+pub(crate) type Free = BTreeMap<Text, Spanned<toml::Value>>;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -201,7 +201,7 @@ fn explain(message: &str) -> String {
 }
 
 /// Says that a name is not known, which are, and which was probably meant.
-pub(super) fn unknown(what: &str, wrong: &str, known: &[&str]) -> String {
+pub(crate) fn unknown(what: &str, wrong: &str, known: &[&str]) -> String {
     let list = known.join(", ");
     match nearest(wrong, known) {
         Some(meant) => format!("unknown {what} `{wrong}`; known here: {list}\ndid you mean `{meant}`?"),

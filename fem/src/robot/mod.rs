@@ -20,11 +20,21 @@
 //! Where elements around are of one size, the mean of a ring is the centre line; [`sections`] gives it for any mesh.
 
 mod lines;
+mod loading;
 mod plies;
+mod reading;
+mod seams;
 mod settings;
 mod sew;
+mod snaps;
+mod table;
 
+pub use loading::{Hold, RobotRun};
+pub use reading::{Gauge, Reading};
+pub use seams::{SeamForce, Seams};
 pub use settings::{ASSUMED, Assumed, RobotSettings};
+pub use snaps::{Sample, Snap, Watch, snaps};
+pub use table::{KEYS, Key, with_fem};
 
 use models::Scenario;
 use models::actuators::pattern::Pattern;

@@ -27,6 +27,9 @@ pub(super) struct Raw {
     pub formula: Vec<Spanned<RawFormula>>,
     #[serde(default)]
     pub effects: BTreeMap<Spanned<String>, BTreeMap<Spanned<String>, Spanned<toml::Value>>>,
+    /// Settings of the finite element run; read by the engine, which is not known here.
+    #[serde(default, rename = "fem")]
+    pub _fem: Option<serde::de::IgnoredAny>,
 }
 
 #[derive(Debug, Deserialize)]

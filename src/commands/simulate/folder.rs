@@ -21,6 +21,13 @@ const OWN: &[&str] = &[
     "run.pvd",
     "frames",
     "picture.png",
+    "readings.csv",
+    "markers.csv",
+    "snaps.csv",
+    "history.png",
+    "side.png",
+    "section.png",
+    "cut.png",
     "summary.json",
     "checkpoint",
     "checkpoint.previous",
@@ -190,6 +197,11 @@ fn take(folder: &Path, target: &Path, interrupted: Option<Marker>) -> Result<Ope
 }
 
 impl Workplace {
+    /// Where the complete run goes in the end.
+    pub fn target(&self) -> &Path {
+        &self.target
+    }
+
     /// Clears away an earlier run and marks the folder as that of a run in progress.
     pub fn start(&self, marker: &Marker, text: &str) -> Result<(), Failure> {
         let value = json!({

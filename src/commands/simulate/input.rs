@@ -1,10 +1,11 @@
 //! Case and options as typed.
 
+use super::robot::Robot;
 use crate::failure::Failure;
 use crate::output::Input;
 use fem::FemError;
-use fem::case::{Case, SHIPPED_CASES, is_case, shipped_case};
-use fem::robot::{RobotSettings, outputs, problem};
+use fem::case::{Case, Outputs, SHIPPED_CASES, is_case, shipped_case};
+use fem::robot::{RobotRun, outputs, with_fem};
 use models::{Scenario, ScenarioError};
 use std::path::{Path, PathBuf};
 
@@ -24,39 +25,89 @@ impl NamedCase {
     }
 }
 
+/// What a user names: a text, and where it is from.
+pub struct Named {
+    /// Text.
+    pub text: String,
+    /// Name as typed.
+    pub spec: String,
+    /// Folder that paths in it count from.
+    folder: PathBuf,
+}
+
+/// A case ready to run.
+pub struct Loaded {
+    /// Its text.
+    pub named: NamedCase,
+    /// The case.
+    pub case: Case,
+    /// The robot, if it is one.
+    pub robot: Option<Robot>,
+}
+
 /// Reads a case file or the scenario of a robot, or takes a shipped one by name.
-pub fn case(spec: &str) -> Result<(NamedCase, Case), Failure> {
+pub fn named(spec: &str) -> Result<Named, Failure> {
     let (text, folder) = text(spec)?;
-    let mut read_mesh = |path: &Path| fem::mesh::file::read(&folder.join(path));
-    let case = match scenario(&text) {
-        Some(robot) => robot.and_then(|scenario| as_case(&scenario)),
-        None => Case::parse(&text, &mut read_mesh),
-    };
-    match case {
-        Ok(case) => {
-            let input = Input::of(spec, text.as_bytes());
-            Ok((NamedCase { text, input, file: spec.into() }, case))
-        }
-        Err(error) => Err(refused(spec, &text, error)),
+    Ok(Named { text, spec: spec.into(), folder })
+}
+
+impl Named {
+    /// Whether it is the scenario of a robot.
+    pub fn is_robot(&self) -> bool {
+        let table = |name: &str| self.text.lines().any(|line| line.trim() == name);
+        !is_case(&self.text) && table("[body]") && table("[actuator]")
     }
-}
 
-/// The scenario of a robot, if the text is one and no case; or what is wrong with it.
-fn scenario(text: &str) -> Option<Result<Scenario, FemError>> {
-    let table = |name: &str| text.lines().any(|line| line.trim() == name);
-    let robot = !is_case(text) && table("[body]") && table("[actuator]");
-    let fault = |ScenarioError { message, help, span }: ScenarioError| FemError::Case {
-        message: help.map_or(message.clone(), |help| format!("{message}\n{help}")),
-        span: span.map(|(start, end)| start..end),
-    };
-    robot.then(|| Scenario::parse(text).map_err(fault))
-}
+    /// The same with keys of `[fem]` set to other values.
+    pub fn with(&self, changes: &[(String, String)]) -> Result<Named, Failure> {
+        let changes: Vec<(&str, &str)> = changes.iter().map(|(key, value)| (key.as_str(), value.as_str())).collect();
+        let Some(text) = with_fem(&self.text, &changes) else {
+            let message = format!("the table [fem] of {} cannot be changed from the command line", self.spec);
+            return Err(Failure::usage(message, "write `[fem]` on a line of its own, or set the keys in the file"));
+        };
+        Ok(Named { text, spec: self.spec.clone(), folder: self.folder.clone() })
+    }
 
-/// A robot with the settings that its scenario does not say at their defaults.
-fn as_case(scenario: &Scenario) -> Result<Case, FemError> {
-    let problem = problem(scenario, &RobotSettings::default())?;
-    let outputs = outputs(scenario, &problem.mesh);
-    Ok(Case { problem, outputs })
+    /// The case that it describes.
+    pub fn load(&self) -> Result<Loaded, Failure> {
+        let mut read_mesh = |path: &Path| fem::mesh::file::read(&self.folder.join(path));
+        let made = match self.is_robot() {
+            true => self.robot().map(|(case, robot)| (case, Some(robot))),
+            false => Case::parse(&self.text, &mut read_mesh).map(|case| (case, None)),
+        };
+        let (case, robot) = made.map_err(|error| refused(&self.spec, &self.text, error))?;
+        let input = Input::of(&self.spec, self.text.as_bytes());
+        let named = NamedCase { text: self.text.clone(), input, file: self.spec.clone() };
+        Ok(Loaded { named, case, robot })
+    }
+
+    /// The robot of a scenario.
+    fn robot(&self) -> Result<(Case, Robot), FemError> {
+        let scenario = self.scenario()?;
+        let run = RobotRun::parse(&self.text, &scenario)?;
+        let problem = run.problem(&scenario)?;
+        let robot = Robot::new(&scenario, &run, &problem)?;
+        // The pictures of a robot are its own.
+        let outputs = Outputs { pictures: false, ..outputs(&scenario, &problem.mesh) };
+        Ok((Case { problem, outputs }, robot))
+    }
+
+    fn scenario(&self) -> Result<Scenario, FemError> {
+        let fault = |ScenarioError { message, help, span }: ScenarioError| FemError::Case {
+            message: help.map_or(message.clone(), |help| format!("{message}\n{help}")),
+            span: span.map(|(start, end)| start..end),
+        };
+        Scenario::parse(&self.text).map_err(fault)
+    }
+
+    /// Scenario and settings of a robot.
+    pub fn robot_run(&self) -> Result<(Scenario, RobotRun), Failure> {
+        let both = self.scenario().and_then(|scenario| {
+            let run = RobotRun::parse(&self.text, &scenario)?;
+            Ok((scenario, run))
+        });
+        both.map_err(|error| refused(&self.spec, &self.text, error))
+    }
 }
 
 fn refused(file: &str, text: &str, error: FemError) -> Failure {

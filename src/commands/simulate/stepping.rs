@@ -1,5 +1,6 @@
 //! A run on its way: rows, frames and checkpoints as it goes, so that it can go on where it was interrupted.
 
+use super::robot::Watched;
 use crate::commands::Context;
 use crate::cost::cpu_seconds;
 use crate::failure::Failure;
@@ -53,6 +54,8 @@ pub struct Running<'a> {
     pub notices: Vec<String>,
     /// Where this session began: steps, and processor seconds.
     pub began: (u64, f64),
+    /// What is read of a robot.
+    pub robot: Option<Watched>,
     case: &'a Case,
     files: Files,
     /// Number of the next output.
@@ -69,7 +72,12 @@ struct Files {
 
 impl<'a> Running<'a> {
     /// A new run in a folder.
-    pub fn start(case: &'a Case, run: Simulation, folder: &Path) -> Result<Running<'a>, Failure> {
+    pub fn start(
+        case: &'a Case,
+        run: Simulation,
+        folder: &Path,
+        robot: Option<Watched>,
+    ) -> Result<Running<'a>, Failure> {
         let mesh = &case.problem.mesh;
         let history = History::create(&folder.join("history.csv"), mesh, &case.outputs.probes)?;
         let series = case.outputs.frames.then(|| Series::create(folder)).transpose()?;
@@ -78,19 +86,30 @@ impl<'a> Running<'a> {
         let files =
             Files { folder: folder.into(), history, series, centre_line, fingerprint: case.problem.fingerprint() };
         let began = (0, cpu_seconds());
-        Ok(Running { run, balances: Vec::new(), cpu_before_s: 0.0, notices: Vec::new(), began, case, files, next: 0 })
+        let (balances, notices) = (Vec::new(), Vec::new());
+        Ok(Running { run, balances, cpu_before_s: 0.0, notices, began, robot, case, files, next: 0 })
     }
 
     /// Goes on from the last checkpoint of a folder; from the beginning if there is none yet.
-    pub fn resume(case: &'a Case, fresh: Simulation, folder: &Path) -> Result<Running<'a>, Failure> {
+    pub fn resume(
+        case: &'a Case,
+        fresh: Simulation,
+        folder: &Path,
+        mut robot: Option<Watched>,
+    ) -> Result<Running<'a>, Failure> {
         let fingerprint = case.problem.fingerprint();
-        let Some(loaded) = read_checkpoint(folder, fingerprint)? else { return Running::start(case, fresh, folder) };
+        let Some(loaded) = read_checkpoint(folder, fingerprint)? else {
+            return Running::start(case, fresh, folder, robot);
+        };
         let Checkpoint { step, time_s, payload, .. } = loaded.checkpoint;
         let foreign = || FemError::Checkpoint {
             path: folder.join("checkpoint"),
             reason: "it holds something else than this program writes; start again with --force".into(),
         };
         let saved = Saved::read(&payload).ok_or_else(foreign)?;
+        if let Some(robot) = &mut robot {
+            robot.restore(saved.robot).ok_or_else(foreign)?;
+        }
         let run = Simulation::resume(&case.problem, saved.run)?;
         let mesh = &case.problem.mesh;
         let history = History::resume(&folder.join("history.csv"), mesh, &case.outputs.probes, step)?;
@@ -104,6 +123,7 @@ impl<'a> Running<'a> {
             balances: saved.balances,
             cpu_before_s: saved.cpu_s,
             notices: loaded.notice.into_iter().collect(),
+            robot,
             case,
             files,
             next: saved.next,
@@ -119,14 +139,17 @@ impl<'a> Running<'a> {
         let mut teller = Teller::new(&self.run, end_s);
         let mut saved_at = Instant::now();
         while self.next <= last {
-            let target_s = if self.next == last { end_s } else { self.next as f64 * every_s };
-            let (next, balances, files) = (self.next, &self.balances, &self.files);
+            let output_s = if self.next == last { end_s } else { self.next as f64 * every_s };
+            let hold_s = self.robot.as_ref().and_then(Watched::next_s).filter(|hold_s| *hold_s <= output_s);
+            let target_s = hold_s.unwrap_or(output_s);
+            let (next, balances, files, robot) = (self.next, &self.balances, &self.files, &mut self.robot);
             let cpu_s = self.cpu_before_s - self.began.1;
             let mut fault = None;
             let advanced = self.run.advance_until(target_s, &mut |run| {
                 teller.tell(run, context);
+                robot.iter_mut().for_each(|robot| robot.watch.sample(run));
                 if saved_at.elapsed() >= checkpoint_every {
-                    fault = files.save(run, next, balances, cpu_s + cpu_seconds()).err();
+                    fault = files.save(run, next, balances, robot.as_ref(), cpu_s + cpu_seconds()).err();
                     saved_at = Instant::now();
                 }
                 fault.is_none() && !context.interrupt.asked()
@@ -135,10 +158,14 @@ impl<'a> Running<'a> {
                 return Err(fault.into());
             }
             if advanced == Advance::Interrupted {
-                self.files.save(&self.run, self.next, &self.balances, cpu_s + cpu_seconds())?;
+                let cpu_s = cpu_s + cpu_seconds();
+                self.files.save(&self.run, self.next, &self.balances, self.robot.as_ref(), cpu_s)?;
                 return Ok(Ended::Interrupted);
             }
-            self.output()?;
+            match &mut self.robot {
+                Some(robot) if hold_s.is_some() => robot.read(&self.run)?,
+                _ => self.output()?,
+            }
         }
         Ok(Ended::Complete)
     }
@@ -189,7 +216,14 @@ impl<'a> Running<'a> {
 }
 
 impl Files {
-    fn save(&self, run: &Simulation, next: u64, balances: &[Balance], cpu_s: f64) -> Result<(), FemError> {
+    fn save(
+        &self,
+        run: &Simulation,
+        next: u64,
+        balances: &[Balance],
+        robot: Option<&Watched>,
+        cpu_s: f64,
+    ) -> Result<(), FemError> {
         self.history.sync()?;
         self.centre_line.as_ref().map_or(Ok(()), CentreLineFile::sync)?;
         let mut payload = Writer::new();
@@ -197,6 +231,7 @@ impl Files {
         payload.f64(cpu_s);
         let flat: Vec<f64> = balances.iter().flat_map(|b| [b.time_s, b.kinetic_share, b.residual_share]).collect();
         payload.f64s(&flat);
+        payload.bytes(&robot.map(Watched::save).unwrap_or_default());
         payload.bytes(&run.save());
         let (step, time_s) = (run.step(), run.time_s());
         let checkpoint = Checkpoint { fingerprint: self.fingerprint, step, time_s, payload: payload.into_bytes() };
@@ -209,6 +244,7 @@ struct Saved<'a> {
     next: u64,
     cpu_s: f64,
     balances: Vec<Balance>,
+    robot: &'a [u8],
     run: &'a [u8],
 }
 
@@ -216,12 +252,12 @@ impl Saved<'_> {
     fn read(payload: &[u8]) -> Option<Saved<'_>> {
         let mut from = Reader::new(payload);
         let (next, cpu_s, flat) = (from.u64()?, from.f64()?, from.f64s()?);
-        let run = from.bytes()?;
+        let (robot, run) = (from.bytes()?, from.bytes()?);
         let (rows, rest) = flat.as_chunks::<3>();
         (rest.is_empty() && from.is_empty()).then_some(())?;
         let balance =
             |&[time_s, kinetic_share, residual_share]: &[f64; 3]| Balance { time_s, kinetic_share, residual_share };
-        Some(Saved { next, cpu_s, balances: rows.iter().map(balance).collect(), run })
+        Some(Saved { next, cpu_s, balances: rows.iter().map(balance).collect(), robot, run })
     }
 }
 

@@ -1,8 +1,8 @@
 //! What a run came to.
 
+use super::robot::{self, Robot};
 use super::stepping::{Balance, Running};
 use crate::commands::tables::table;
-use crate::failure::Failure;
 use fem::case::Case;
 use models::RowKind;
 use serde_json::{Value, json};
@@ -23,12 +23,12 @@ pub struct Summary {
 
 impl Summary {
     /// Reads a run that has reached its end.
-    pub fn of(case: &Case, running: &Running, wall: Duration) -> Result<Summary, Failure> {
-        Ok(Summary { physics: physics(case, running), cost: cost(case, running, wall) })
+    pub fn of(case: &Case, running: &Running, robot: Option<&Robot>, wall: Duration) -> Summary {
+        Summary { physics: physics(case, running, robot), cost: cost(case, running, wall) }
     }
 }
 
-fn physics(case: &Case, running: &Running) -> Value {
+fn physics(case: &Case, running: &Running, robot: Option<&Robot>) -> Value {
     let (run, mesh) = (&running.run, &case.problem.mesh);
     let ledger = run.ledger();
     let rows: Vec<Value> =
@@ -49,8 +49,9 @@ fn physics(case: &Case, running: &Running) -> Value {
         })
         .collect();
     let largest = running.balances.iter().fold(0.0_f64, |most, b| most.max(b.residual_share));
+    let read = robot.zip(running.robot.as_ref()).map(|(robot, seen)| seen.to_json(&robot.scenario, &robot.run));
     json!({
-        "schema": "ibr.simulate", "version": 1, "name": case.problem.name,
+        "schema": "ibr.simulate", "version": 1, "name": case.problem.name, "engine": fem::ENGINE, "robot": read,
         "time_s": run.time_s(), "steps": run.step(), "dt_s": run.dt_s(),
         "nodes": mesh.points.len(), "elements": run.elements(), "added_mass_share": run.added_mass(),
         "quality": quality(case),
@@ -153,6 +154,7 @@ pub fn text(s: &Value) -> String {
         vec![name(&c["name"]), format!("{:.3}", number(&c["pressure_kpa"])), format!("{volume:.3}")]
     });
     out.push_str(&section(&["chamber", "pressure kPa", "volume cm³"], 1, rows.collect()));
+    out.push_str(&robot::text(s));
     out.push_str(&section(&["energy", "", "J"], 2, ledger(s)));
     out.push_str(&judgement(s));
     out

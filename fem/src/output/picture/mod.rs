@@ -15,9 +15,11 @@
 //! ```
 
 mod colour;
+mod cut;
 mod raster;
 
 pub use colour::viridis;
+pub use cut::{Cut, section};
 
 use std::path::Path;
 

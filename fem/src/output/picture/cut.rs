@@ -1,0 +1,148 @@
+//! Where a plane of the reference shape cuts the mesh, drawn as lines where the material is now.
+//!
+//! The cut stays with the material: elements are cut once, in the shape they started in, and the pieces are drawn at the
+//! present positions. What a plane through a bent robot would cut elsewhere does not come in.
+
+use super::raster::Canvas;
+use super::{FINE, Image, Look, Placing, check, colour, dot, minus, range, share, viridis};
+use crate::{FemError, Mesh};
+
+/// Width of a line \[pixels\].
+const LINE: f64 = 3.0;
+
+/// A plane through the reference shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cut {
+    /// Its normal, a unit vector.
+    pub normal: [f64; 3],
+    /// Its distance from the origin along it \[m\].
+    pub at_m: f64,
+}
+
+/// Draws a cut. Across the view (its normal along the view's depth at the start) the section is turned to face the viewer.
+///
+/// # Errors
+/// [`FemError::Problem`] as [`super::render`], or if the plane misses the mesh.
+pub fn section(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], cut: &Cut, look: &Look) -> Result<Image, FemError> {
+    check(mesh, positions, values, look)?;
+    let pieces = pieces(mesh, positions, cut);
+    if pieces.is_empty() {
+        let at = cut.at_m * 1e3;
+        return Err(FemError::Problem(format!(
+            "picture: no element is cut by the plane at {at} mm; move it onto the mesh"
+        )));
+    }
+    let axes = facing(&pieces, look.view.axes());
+    let flat = |p: [f64; 3]| axes.map(|axis| dot(axis, p));
+    let seen: Vec<[f64; 3]> = pieces.iter().flat_map(|p| p.ends).map(flat).collect();
+    let limits = look.limits.unwrap_or_else(|| range(values));
+    let with_bar = look.bar && !values.is_empty();
+    let place = Placing::of(&seen, &Look { bounds: None, ..look.clone() }, with_bar);
+    let mut canvas = Canvas::new(look.width * FINE, look.height * FINE);
+    for (piece, ends) in pieces.iter().zip(seen.chunks_exact(2)) {
+        let colour = values.get(piece.element).map_or(super::PLAIN, |&value| viridis(share(value, limits)));
+        let [a, b] = [ends[0], ends[1]].map(|p| place.on_canvas([p[0], p[1], 0.0]));
+        let length = (b.x - a.x).hypot(b.y - a.y).max(f64::MIN_POSITIVE);
+        let half = 0.5 * LINE * FINE as f64;
+        // A little longer than the piece, so that neighbours join.
+        let (along, across) = ([(b.x - a.x) / length * half, (b.y - a.y) / length * half], half);
+        let turned = [-along[1] / half * across, along[0] / half * across];
+        let corner = |p: &super::Corner, s: f64, t: f64| super::Corner {
+            x: p.x + s * 0.4 * along[0] + t * turned[0],
+            y: p.y + s * 0.4 * along[1] + t * turned[1],
+            depth: 0.0,
+        };
+        let corners = [corner(&a, -1.0, -1.0), corner(&b, 1.0, -1.0), corner(&b, 1.0, 1.0), corner(&a, -1.0, 1.0)];
+        canvas.element(&corners, colour, 0.0, 0.0);
+    }
+    let mut image = canvas.averaged(FINE);
+    if with_bar {
+        colour::draw_bar(&mut image, limits);
+    }
+    colour::draw_title(&mut image, &look.title);
+    Ok(image)
+}
+
+/// A cut element, where it is now.
+struct Piece {
+    element: usize,
+    ends: [[f64; 3]; 2],
+}
+
+fn pieces(mesh: &Mesh, positions: &[[f64; 3]], cut: &Cut) -> Vec<Piece> {
+    let height: Vec<f64> = (0..mesh.points.len()).map(|n| dot(cut.normal, mesh.start_of(n)) - cut.at_m).collect();
+    // A node in the plane counts as behind it: a ring of nodes is then drawn once, by the elements on one side.
+    let before = |node: u32| height[node as usize] > 1e-9;
+    let mut pieces = Vec::new();
+    let elements = mesh.parts.iter().flat_map(|part| (0..part.len()).map(|i| part.nodes(i)));
+    for (element, nodes) in elements.enumerate() {
+        let sides = (0..nodes.len()).map(|k| (nodes[k], nodes[(k + 1) % nodes.len()]));
+        let ends: Vec<[f64; 3]> = sides
+            .filter(|(a, b)| before(*a) != before(*b))
+            .map(|(a, b)| {
+                let (h, g) = (height[a as usize], height[b as usize]);
+                let (p, q) = (positions[a as usize], positions[b as usize]);
+                [0, 1, 2].map(|k| p[k] + (q[k] - p[k]) * h / (h - g))
+            })
+            .collect();
+        if let [a, b] = ends[..] {
+            pieces.push(Piece { element, ends: [a, b] });
+        }
+    }
+    pieces
+}
+
+/// The view's axes, turned about its right so that it looks along the normal of the points' mean plane.
+fn facing(pieces: &[Piece], axes: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let [right, up, towards] = axes;
+    let all = || pieces.iter().flat_map(|p| p.ends);
+    let count = all().count() as f64;
+    let mean = all().fold([0.0; 3], |sum, p| [0, 1, 2].map(|k| sum[k] + p[k] / count));
+    // Regression of depth on height: the plane's tilt about the right.
+    let (mut high, mut deep) = (0.0, 0.0);
+    for p in all() {
+        let d = minus(p, mean);
+        high += dot(d, up) * dot(d, up);
+        deep += dot(d, up) * dot(d, towards);
+    }
+    let tilt = if high > 0.0 { (deep / high).atan() } else { 0.0 };
+    let (s, c) = tilt.sin_cos();
+    let mix = |a: [f64; 3], x: f64, b: [f64; 3], y: f64| [0, 1, 2].map(|k| a[k] * x + b[k] * y);
+    [right, mix(up, c, towards, s), mix(towards, c, up, -s)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::View;
+    use super::*;
+    use crate::mesh::generate::{Around, Cap, Tube, tube};
+
+    #[test]
+    fn the_section_of_a_turned_tube_is_its_circle_seen_face_on() {
+        let mesh = tube(&Tube {
+            radius_m: 0.04,
+            length_m: 0.2,
+            around: Around::Even(24),
+            along: 8,
+            caps: [Cap::Open, Cap::Open],
+            warp_rad: 0.0,
+        })
+        .unwrap();
+        let (s, c) = 0.9_f64.sin_cos();
+        let turned: Vec<[f64; 3]> =
+            mesh.points.iter().map(|p| [c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]]).collect();
+        let cut = Cut { normal: [1.0, 0.0, 0.0], at_m: 0.11 };
+        let found = pieces(&mesh, &turned, &cut);
+        assert_eq!(found.len(), 24);
+        let axes = facing(&found, View::End.axes());
+        let centre = [0.11 * c, 0.11 * s, 0.0];
+        for p in found.iter().flat_map(|p| p.ends) {
+            let d = minus(p, centre);
+            assert!((dot(d, axes[0]).hypot(dot(d, axes[1])) - 0.04).abs() < 1e-6 && dot(d, axes[2]).abs() < 1e-9);
+        }
+        let look = Look { view: View::End, ..Look::default() };
+        assert!(section(&mesh, &turned, &[], &cut, &look).is_ok());
+        let beside = Cut { at_m: 0.5, ..cut };
+        assert!(section(&mesh, &turned, &[], &beside, &look).unwrap_err().to_string().contains("500 mm"));
+    }
+}

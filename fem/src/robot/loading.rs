@@ -1,0 +1,85 @@
+//! Loads of a robot's run: pressures one after the other in one ramp, and what else pushes on it.
+//!
+//! Between two pressures the actuator's pressure runs in a fifth-order step that takes its share of the ramp, so that the
+//! pressure rises equally fast everywhere; then it is held for `hold_s`, and read at the end of it.
+
+use models::Scenario;
+
+use super::{RobotSettings, problem, sew, table};
+use crate::problem::{Amplitude, NodalForce, Obstacle, Pressure};
+use crate::{FemError, Problem};
+
+/// Everything about a robot's run: its numbers and its loads.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RobotRun {
+    /// Mesh, fabrication, numerics.
+    pub settings: RobotSettings,
+    /// Actuator pressures that are read, in this order \[Pa\].
+    pub pressures_pa: Vec<f64>,
+    /// Dead load on the tip's ring, which grows while the body is filled \[N\].
+    pub tip_force_n: [f64; 3],
+    /// A cylinder along z in the way.
+    pub obstacle: Option<Obstacle>,
+}
+
+/// A moment at which a robot is read: the end of a hold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hold {
+    /// When \[s\].
+    pub time_s: f64,
+    /// Actuator pressure then \[Pa\].
+    pub pressure_pa: f64,
+}
+
+impl RobotRun {
+    /// From the text of a scenario and what it says.
+    ///
+    /// # Errors
+    /// [`FemError::Case`] with the place of what is wrong in `[fem]`.
+    pub fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun, FemError> {
+        table::parse(text, scenario)
+    }
+
+    /// When the robot is read: full body first, then every pressure.
+    pub fn holds(&self) -> Vec<Hold> {
+        let (mut time_s, mut before) = (self.settings.body_ramp_s, 0.0);
+        let mut holds = vec![Hold { time_s, pressure_pa: 0.0 }];
+        for pressure_pa in &self.pressures_pa {
+            time_s += self.ramp_s(before, *pressure_pa) + self.settings.hold_s;
+            holds.push(Hold { time_s, pressure_pa: *pressure_pa });
+            before = *pressure_pa;
+        }
+        holds
+    }
+
+    fn ramp_s(&self, from_pa: f64, to_pa: f64) -> f64 {
+        self.settings.actuator_ramp_s * (to_pa - from_pa).abs() / self.settings.actuator_pa.max(f64::MIN_POSITIVE)
+    }
+
+    /// The problem, ready to run.
+    ///
+    /// # Errors
+    /// As [`problem`].
+    pub fn problem(&self, scenario: &Scenario) -> Result<Problem, FemError> {
+        let mut made = problem(scenario, &self.settings)?;
+        let holds = self.holds();
+        let mut points = vec![(holds[0].time_s, 0.0)];
+        for hold in &holds[1..] {
+            let ramped_s = hold.time_s - self.settings.hold_s;
+            points.push((ramped_s, hold.pressure_pa));
+            if self.settings.hold_s > 0.0 {
+                points.push((hold.time_s, hold.pressure_pa));
+            }
+        }
+        if let Some(chamber) = made.chambers.iter_mut().find(|c| c.name == sew::ACTUATOR) {
+            chamber.pressure = Pressure::Set(Amplitude::Smooth(points));
+        }
+        made.settings.end_s = holds[holds.len() - 1].time_s;
+        if self.tip_force_n != [0.0; 3] {
+            let amplitude = Amplitude::Smooth(vec![(0.0, 0.0), (holds[0].time_s, 1.0)]);
+            made.forces.push(NodalForce { set: "tip".into(), total_n: self.tip_force_n, amplitude });
+        }
+        made.obstacles.extend(self.obstacle.clone());
+        Ok(made)
+    }
+}

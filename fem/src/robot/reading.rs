@@ -1,0 +1,170 @@
+//! What a robot looks like at one moment: markers, tip, volumes, stresses, weld forces, energies.
+
+use models::{RowKind, Scenario};
+use serde::{Deserialize, Serialize};
+
+use super::seams::Seams;
+use super::{sections, sew};
+use crate::output::centre_line::CentreLine;
+use crate::{FemError, Mesh, Problem, Simulation};
+
+/// Reads a robot while it runs.
+#[derive(Debug, Clone)]
+pub struct Gauge {
+    line: CentreLine,
+    start_m: Vec<[f64; 3]>,
+    rings: Vec<Vec<u32>>,
+    tip: Vec<u32>,
+    seams: Seams,
+    mesh: Mesh,
+}
+
+/// A robot at one moment; SI, displacements from the start.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Reading {
+    /// Time \[s\].
+    pub time_s: f64,
+    /// Actuator gauge pressure \[Pa\].
+    pub actuator_pa: f64,
+    /// Body gauge pressure \[Pa\].
+    pub body_pa: f64,
+    /// Marker stations and, last, the tip \[m\].
+    pub stations_m: Vec<f64>,
+    /// Displacement of the section's centroid at each station \[m\].
+    pub moved_m: Vec<[f64; 3]>,
+    /// Displacement of the mean of the ring of nodes at (or next to) each station \[m\].
+    pub ring_moved_m: Vec<[f64; 3]>,
+    /// Turn of the tip's ring in the plane of bending \[rad\].
+    pub tip_angle_rad: f64,
+    /// Volume of the body \[m³\].
+    pub body_m3: f64,
+    /// Volume of the actuator \[m³\].
+    pub actuator_m3: f64,
+    /// Largest von Mises stress \[Pa\], with the part and the place along the robot \[m\] of its element.
+    pub von_mises_pa: f64,
+    /// Part of that element.
+    pub von_mises_part: String,
+    /// Its place along the straight robot \[m\].
+    pub von_mises_at_m: f64,
+    /// Largest pull on a weld \[N/m\].
+    pub seam_n_per_m: f64,
+    /// Part of the element that pulls.
+    pub seam_part: String,
+    /// Its place along the straight robot \[m\].
+    pub seam_at_m: f64,
+    /// Ledger: name, `stored`, `dissipated` or `supplied`, and energy \[J\].
+    pub ledger: Vec<(String, String, f64)>,
+    /// Kinetic over kinetic and stored energy.
+    pub kinetic_share: f64,
+}
+
+impl Gauge {
+    /// For a robot's problem.
+    ///
+    /// # Errors
+    /// [`FemError::Problem`] for a marker off the robot.
+    pub fn new(scenario: &Scenario, problem: &Problem) -> Result<Gauge, FemError> {
+        let mesh = problem.mesh.clone();
+        let mut stations_m = scenario.markers_m.clone();
+        let mut rings: Vec<Vec<u32>> = (1..=stations_m.len()).map(|k| ring(&mesh, &format!("marker_{k}"))).collect();
+        let tip = ring(&mesh, "tip");
+        // The tip may carry a marker; it is listed once more then, as the tip.
+        stations_m.push(scenario.length_m);
+        rings.push(tip.clone());
+        let line = sections(&mesh, &stations_m)?;
+        let start: Vec<[f64; 3]> = (0..mesh.points.len()).map(|node| mesh.start_of(node)).collect();
+        let start_m = line.at(&start)?;
+        Ok(Gauge { line, start_m, rings, tip, seams: Seams::of(&mesh), mesh })
+    }
+
+    /// The welds.
+    pub fn seams(&self) -> &Seams {
+        &self.seams
+    }
+
+    /// The robot now.
+    ///
+    /// # Errors
+    /// [`FemError::Problem`] if the run is of another mesh.
+    pub fn read(&self, run: &Simulation) -> Result<Reading, FemError> {
+        let (positions, fields) = (run.positions(), run.element_fields());
+        let now = self.line.at(&positions)?;
+        let moved_m = now.iter().zip(&self.start_m).map(|(a, b)| [0, 1, 2].map(|k| a[k] - b[k])).collect();
+        let peak = |values: &[f64]| (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b])).unwrap_or(0);
+        let hottest = peak(&fields.von_mises_pa);
+        let seam = self.seams.largest(&fields);
+        let (von_mises_part, von_mises_at_m) = self.place(hottest);
+        let (seam_part, seam_at_m) = seam.map_or((String::new(), 0.0), |s| self.place(s.element));
+        let chamber = |name: &str| run.chambers().into_iter().find(|c| c.name == name);
+        let (body, actuator) = (chamber(sew::BODY), chamber(sew::ACTUATOR));
+        let ledger = run.ledger();
+        let mut rows = vec![("kinetic".to_string(), "stored".to_string(), ledger.kinetic_j)];
+        rows.extend(ledger.rows.iter().map(|r| (r.name.to_string(), word(r.kind).to_string(), r.energy_j)));
+        Ok(Reading {
+            time_s: run.time_s(),
+            actuator_pa: actuator.as_ref().map_or(0.0, |c| c.pressure_pa),
+            body_pa: body.as_ref().map_or(0.0, |c| c.pressure_pa),
+            stations_m: self.line.stations_m().to_vec(),
+            moved_m,
+            ring_moved_m: self.rings.iter().map(|ring| self.moved(ring, &positions)).collect(),
+            tip_angle_rad: self.angle(&positions),
+            body_m3: body.map_or(0.0, |c| c.volume_m3),
+            actuator_m3: actuator.map_or(0.0, |c| c.volume_m3),
+            von_mises_pa: fields.von_mises_pa.get(hottest).copied().unwrap_or(0.0),
+            von_mises_part,
+            von_mises_at_m,
+            seam_n_per_m: seam.map_or(0.0, |s| s.n_per_m),
+            seam_part,
+            seam_at_m,
+            ledger: rows,
+            kinetic_share: ledger.kinetic_share(),
+        })
+    }
+
+    /// Part and place along the straight robot of an element.
+    pub fn place(&self, element: usize) -> (String, f64) {
+        let mut first = 0;
+        for part in &self.mesh.parts {
+            if element < first + part.len() {
+                let nodes = part.nodes(element - first);
+                let sum: f64 = nodes.iter().map(|n| self.mesh.points[*n as usize][0]).sum();
+                return (part.name.clone(), sum / nodes.len() as f64);
+            }
+            first += part.len();
+        }
+        (String::new(), f64::NAN)
+    }
+
+    fn moved(&self, ring: &[u32], positions: &[[f64; 3]]) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for node in ring {
+            let (now, start) = (positions[*node as usize], self.mesh.start_of(*node as usize));
+            (0..3).for_each(|k| sum[k] += (now[k] - start[k]) / ring.len() as f64);
+        }
+        sum
+    }
+
+    /// The ring's height vector Σ y₀ (x − x̄) turns with the tip.
+    fn angle(&self, positions: &[[f64; 3]]) -> f64 {
+        let moved = self.moved(&self.tip, positions);
+        let mut up = [0.0; 2];
+        for node in &self.tip {
+            let (now, start) = (positions[*node as usize], self.mesh.start_of(*node as usize));
+            (0..2).for_each(|k| up[k] += start[1] * (now[k] - start[k] - moved[k]));
+            up[1] += start[1] * start[1];
+        }
+        (-up[0]).atan2(up[1])
+    }
+}
+
+fn ring(mesh: &Mesh, name: &str) -> Vec<u32> {
+    mesh.sets.get(name).cloned().unwrap_or_default()
+}
+
+fn word(kind: RowKind) -> &'static str {
+    match kind {
+        RowKind::Stored => "stored",
+        RowKind::Dissipated => "dissipated",
+        RowKind::Supplied => "supplied",
+    }
+}

@@ -1,0 +1,267 @@
+//! The table `[fem]` of a robot's scenario, and single settings of it typed elsewhere.
+//!
+//! ```toml
+//! [fem]
+//! pressures_kpa = [10, 20, 30]
+//! mesh_mm = 4
+//! bond = 0.5
+//! ```
+//!
+//! `loading` is read first, every other key overrides it. All keys: [`KEYS`] and `docs/scenario.md`.
+
+use std::collections::BTreeMap;
+
+use models::Scenario;
+use serde::Deserialize;
+use toml::{Spanned, Value};
+
+use super::{RobotRun, RobotSettings};
+use crate::FemError;
+use crate::case::range::{Checked, LENGTH, POSITION, PRESSURE, Range, number, plain, refuse};
+use crate::case::raw::{Free, unknown};
+use crate::problem::{Obstacle, ObstacleShape};
+
+/// One number of the table.
+#[derive(Debug, Clone, Copy)]
+pub struct Key {
+    /// Name with unit, as in the file.
+    pub name: &'static str,
+    /// Factor from the file to SI.
+    pub si: f64,
+    /// Accepted numbers, as in the file.
+    pub bounds: [f64; 2],
+    /// What it is.
+    pub meaning: &'static str,
+    /// Reads it \[SI\]; NaN if it is not set.
+    pub get: fn(&RobotSettings) -> f64,
+    /// Writes it \[SI\].
+    pub set: fn(&mut RobotSettings, f64),
+}
+
+const fn key(
+    name: &'static str,
+    si: f64,
+    bounds: [f64; 2],
+    meaning: &'static str,
+    get: fn(&RobotSettings) -> f64,
+    set: fn(&mut RobotSettings, f64),
+) -> Key {
+    Key { name, si, bounds, meaning, get, set }
+}
+
+/// All numbers of the table.
+#[rustfmt::skip]
+pub const KEYS: &[Key] = &[
+    key("mesh_mm", 1e-3, [0.5, 50.0], "element size of body and actuator",
+        |s| s.body_size_m, |s, v| { s.body_size_m = v; s.actuator_size_m = v; }),
+    key("body_mesh_mm", 1e-3, [0.5, 50.0], "element size of the body", |s| s.body_size_m, |s, v| s.body_size_m = v),
+    key("actuator_mesh_mm", 1e-3, [0.5, 50.0], "element size of the actuator and the strip under it",
+        |s| s.actuator_size_m, |s, v| s.actuator_size_m = v),
+    key("layer_gap_mm", 1e-3, [1e-4, 1.0], "distance between layers at the start",
+        |s| s.layer_gap_m, |s, v| s.layer_gap_m = v),
+    key("weld_mm", 1e-3, [0.0, 100.0], "width of the welds across the robot; 0: a line", |s| s.weld_m, |s, v| s.weld_m = v),
+    key("bending_factor", 1.0, [0.0, 10.0], "bending stiffness of one sheet over that of a solid plate",
+        |s| s.bending_factor, |s, v| s.bending_factor = v),
+    key("bond", 1.0, [0.0, 1.0], "how far taped and glued plies bend as one", |s| s.bond, |s, v| s.bond = v),
+    key("tape_mm", 1e-3, [1e-3, 5.0], "thickness of the transfer tape", |s| s.tape_m, |s, v| s.tape_m = v),
+    key("tape_e_mpa", 1e6, [1e-3, 1e4], "Young's modulus of its adhesive", |s| s.tape_e_pa, |s, v| s.tape_e_pa = v),
+    key("glue_mm", 1e-3, [1e-3, 5.0], "thickness of the glue film", |s| s.glue_m, |s, v| s.glue_m = v),
+    key("glue_e_mpa", 1e6, [1e-3, 1e4], "Young's modulus of the glue", |s| s.glue_e_pa, |s, v| s.glue_e_pa = v),
+    key("nu12", 1.0, [0.0, 0.9], "contraction along fill per stretch along warp of an anisotropic fabric",
+        |s| s.nu12.unwrap_or(f64::NAN), |s, v| s.nu12 = Some(v)),
+    key("density_kg_m3", 1.0, [50.0, 2e4], "mass per volume of fabrics, tape and glue",
+        |s| s.density_kg_m3, |s, v| s.density_kg_m3 = v),
+    key("body_ramp_s", 1.0, [1e-4, 1e3], "duration of the body's ramp", |s| s.body_ramp_s, |s, v| s.body_ramp_s = v),
+    key("actuator_ramp_s", 1.0, [1e-4, 1e3], "duration of the actuator's ramp to its highest pressure, holds left out",
+        |s| s.actuator_ramp_s, |s, v| s.actuator_ramp_s = v),
+    key("hold_s", 1.0, [0.0, 1e3], "time at each pressure before it is read", |s| s.hold_s, |s, v| s.hold_s = v),
+    key("mass_factor", 1.0, [1.0, 1e4], "factor on the masses of the smallest elements",
+        |s| s.mass_factor, |s, v| s.mass_factor = v),
+    key("mass_damping_1_s", 1.0, [0.0, 1e5], "mass damping", |s| s.mass_damping_1_s, |s, v| s.mass_damping_1_s = v),
+    key("hourglass", 1.0, [0.0, 1.0], "hourglass coefficient", |s| s.hourglass, |s, v| s.hourglass = v),
+    key("imperfection", 1.0, [0.0, 0.2], "random offset of the nodes over the element size",
+        |s| s.imperfection, |s, v| s.imperfection = v),
+    key("seed", 1.0, [0.0, 4e15], "seed of these offsets", |s| s.seed as f64, |s, v| s.seed = v as u64),
+];
+
+/// Keys that are no single number.
+const OTHERS: [&str; 6] = ["loading", "pressures_kpa", "contact", "tip_force_n", "obstacle_mm", "obstacle_friction"];
+
+/// Time at each pressure over the actuator's ramp, unless `hold_s` is given: the smooth ramp ends at rest already.
+const HOLD: f64 = 0.06;
+
+#[derive(Deserialize)]
+struct File {
+    fem: Option<Spanned<Free>>,
+}
+
+/// What a scenario says about its finite element run.
+///
+/// # Errors
+/// [`FemError::Case`] with its place: an unknown key, a number out of bounds, a pressure below the body's.
+pub(super) fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun, FemError> {
+    let file: File = toml::from_str(text)
+        .map_err(|error| FemError::Case { message: format!("{}\n", error.message()), span: error.span() })?;
+    let empty = Free::new();
+    let table = file.fem.as_ref().map_or(&empty, |table| table.get_ref());
+    let mut run = RobotRun {
+        settings: loading(table)?,
+        pressures_pa: usual_pressures(scenario),
+        tip_force_n: [0.0; 3],
+        obstacle: None,
+    };
+    // The common size first, so that the others override it whatever their order.
+    let (common, rest): (Vec<_>, Vec<_>) = table.iter().partition(|(key, _)| key.get_ref() == "mesh_mm");
+    common.into_iter().chain(rest).try_for_each(|(key, value)| read(&mut run, key, value))?;
+    if !table.keys().any(|key| key.get_ref() == "hold_s") {
+        run.settings.hold_s = HOLD * run.settings.actuator_ramp_s;
+    }
+    run.settings.actuator_pa = run.pressures_pa.iter().copied().fold(0.0, f64::max);
+    above_body(&run, scenario, table)?;
+    Ok(run)
+}
+
+fn usual_pressures(scenario: &Scenario) -> Vec<f64> {
+    let above: Vec<f64> = scenario.pressures_pa.iter().copied().filter(|p| *p >= scenario.p_body_pa).collect();
+    if above.is_empty() { vec![RobotSettings::default().actuator_pa] } else { above }
+}
+
+fn loading(table: &Free) -> Checked<RobotSettings> {
+    let Some((_, value)) = table.iter().find(|(key, _)| key.get_ref() == "loading") else {
+        return Ok(RobotSettings::default());
+    };
+    match value.get_ref().as_str() {
+        Some("compressed") => Ok(RobotSettings::compressed()),
+        Some("published") => Ok(RobotSettings::published()),
+        _ => refuse(format!("unknown loading {}", value.get_ref()), "known: compressed, published", value.span()),
+    }
+}
+
+fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Checked<()> {
+    let name = key.get_ref().as_str();
+    if let Some(known) = KEYS.iter().find(|k| k.name == name) {
+        let (low, high) = (known.bounds[0], known.bounds[1]);
+        let range = Range { si: known.si, ..plain(low, high, known.meaning) };
+        let si = number(name, plain_number(name, value)?, value.span(), &range)?;
+        if name == "seed" && si.fract() != 0.0 {
+            return refuse(format!("seed must be a whole number, not {si}"), "write for example 1", value.span());
+        }
+        (known.set)(&mut run.settings, si);
+        return Ok(());
+    }
+    match name {
+        "loading" => {}
+        "pressures_kpa" => run.pressures_pa = pressures(value)?,
+        "contact" => match value.get_ref().as_bool() {
+            Some(wanted) => run.settings.contact = Some(wanted),
+            None => {
+                return refuse("contact must be true or false", "leave it out: where the pattern folds", value.span());
+            }
+        },
+        "tip_force_n" => run.tip_force_n = triple(name, value, &plain(-1e4, 1e4, "write newtons: [x, y, z]"))?,
+        "obstacle_mm" => {
+            let [x, y, radius] = triple(name, value, &POSITION)?;
+            number("its radius", radius * 1e3, value.span(), &LENGTH)?;
+            let shape = ObstacleShape::Cylinder { point: [x, y, 0.0], axis: [0.0, 0.0, 1.0], radius_m: radius };
+            run.obstacle = Some(Obstacle { shape, friction: run.obstacle.as_ref().map_or(0.0, |o| o.friction) });
+        }
+        "obstacle_friction" => {
+            let friction = number(name, plain_number(name, value)?, value.span(), &plain(0.0, 2.0, "Coulomb"))?;
+            match &mut run.obstacle {
+                Some(obstacle) => obstacle.friction = friction,
+                None => {
+                    return refuse("there is no obstacle to rub on", "add obstacle_mm = [x, y, radius]", key.span());
+                }
+            }
+        }
+        _ => {
+            let known: Vec<&str> = OTHERS.into_iter().chain(KEYS.iter().map(|k| k.name)).collect();
+            return Err(FemError::Case { message: unknown("key", name, &known), span: Some(key.span()) });
+        }
+    }
+    Ok(())
+}
+
+fn plain_number(name: &str, value: &Spanned<Value>) -> Checked<f64> {
+    match value.get_ref() {
+        Value::Float(v) => Ok(*v),
+        Value::Integer(v) => Ok(*v as f64),
+        other => refuse(
+            format!("{name} must be a number, not {other}"),
+            "write a plain number without quotation marks; the unit is in the name of the key",
+            value.span(),
+        ),
+    }
+}
+
+fn numbers(name: &str, value: &Spanned<Value>, range: &Range) -> Checked<Vec<f64>> {
+    let Some(list) = value.get_ref().as_array() else {
+        return refuse(format!("{name} must be a list"), "write numbers in brackets: [10, 20, 30]", value.span());
+    };
+    let one =
+        |v: &Value| number(name, plain_number(name, &Spanned::new(value.span(), v.clone()))?, value.span(), range);
+    list.iter().map(one).collect()
+}
+
+fn triple(name: &str, value: &Spanned<Value>, range: &Range) -> Checked<[f64; 3]> {
+    let found = numbers(name, value, range)?;
+    found.try_into().or_else(|_| refuse(format!("{name} needs three numbers"), range.too_large, value.span()))
+}
+
+fn pressures(value: &Spanned<Value>) -> Checked<Vec<f64>> {
+    let found = numbers("pressures_kpa", value, &PRESSURE)?;
+    if found.is_empty() || found.windows(2).any(|pair| pair[0] == pair[1]) {
+        return refuse(
+            "pressures_kpa needs pressures that differ one by one",
+            "write for example [10, 20, 30]",
+            value.span(),
+        );
+    }
+    Ok(found)
+}
+
+fn above_body(run: &RobotRun, scenario: &Scenario, table: &Free) -> Checked<()> {
+    let Some(low) = run.pressures_pa.iter().find(|p| **p < scenario.p_body_pa) else { return Ok(()) };
+    let [low, body] = [*low, scenario.p_body_pa].map(|p| p * 1e-3);
+    let span = table.iter().find(|(key, _)| key.get_ref() == "pressures_kpa").map(|(_, value)| value.span());
+    let message = format!("an actuator at {low} kPa in a body at {body} kPa stays flat\nraise the actuator pressure");
+    Err(FemError::Case { message, span })
+}
+
+/// The scenario's text with keys of `[fem]` set to other values, which are written as in TOML; `None` if the table cannot be
+/// told from the text around it.
+///
+/// ```
+/// let text = fem::robot::with_fem("name = \"a\"\n[fem]\nbond = 1 # glued\nhourglass = 0.01\n[body]\n", &[("bond", "0.5")]);
+/// assert_eq!(text.unwrap(), "name = \"a\"\n[body]\n\n[fem]\nbond = 0.5\nhourglass = 0.01\n");
+/// ```
+pub fn with_fem(text: &str, changes: &[(&str, &str)]) -> Option<String> {
+    if changes.is_empty() {
+        return Some(text.to_string());
+    }
+    let before: toml::Table = text.parse().ok()?;
+    let own = before.get("fem").and_then(Value::as_table).cloned().unwrap_or_default();
+    let mut all: BTreeMap<String, String> = own.iter().map(|(key, value)| (key.clone(), value.to_string())).collect();
+    for (key, value) in changes {
+        if *key == "mesh_mm" {
+            all.remove("body_mesh_mm");
+            all.remove("actuator_mesh_mm");
+        }
+        all.insert(key.to_string(), value.to_string());
+    }
+    let mut inside = false;
+    let mut out = String::new();
+    for line in text.lines() {
+        let head = line.split('#').next().unwrap_or_default().trim();
+        inside = if head.starts_with('[') { head == "[fem]" } else { inside };
+        if !inside {
+            out.push_str(line);
+            out.push('\n');
+        }
+    }
+    let rest: toml::Table = out.parse().ok()?;
+    let same = before.iter().filter(|(key, _)| *key != "fem").eq(rest.iter());
+    out.push_str("\n[fem]\n");
+    all.iter().for_each(|(key, value)| out.push_str(&format!("{key} = {value}\n")));
+    same.then_some(out)
+}

@@ -1,0 +1,250 @@
+//! Several runs of one robot in one folder: a finished one is kept and skipped, an interrupted one goes on.
+
+use super::input::Named;
+use super::plan::Variation;
+use super::robot::heights_mm;
+use super::single::{self, Done, Manner};
+use super::{robot, write_failure};
+use crate::commands::tables::table;
+use crate::commands::{Context, Outcome};
+use crate::failure::{Failure, INTERRUPTED};
+use compare::plots::{Tornado, TornadoBar, tornado};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Heights of one run.
+struct Row {
+    variation: Variation,
+    /// Pressure \[kPa\], outermost marker \[mm\], tip \[mm\].
+    heights: Vec<[f64; 3]>,
+    /// Folder; empty if the run is that of another row.
+    folder: String,
+    cpu_s: f64,
+}
+
+/// Runs all that are not there yet.
+pub fn run(
+    base: &Named,
+    cases: &[Variation],
+    sensitivity: bool,
+    manner: &Manner,
+    context: &mut Context,
+) -> Result<Outcome, Failure> {
+    if manner.folder.join("case.toml").exists() {
+        let path = manner.folder.display().to_string();
+        let help = "choose another folder with --out; several runs get a folder each inside it".into();
+        return Err(Failure::Write { path, cause: "it holds a single run".into(), help });
+    }
+    // All cases are looked at before the first one costs time.
+    let mut loaded = Vec::new();
+    for case in cases {
+        let named = base.with(&case.changes)?;
+        let fingerprint = named.load()?.case.problem.fingerprint();
+        loaded.push((named, fingerprint));
+    }
+    let mut rows: Vec<Row> = Vec::new();
+    for (index, (case, (named, fingerprint))) in cases.iter().zip(&loaded).enumerate() {
+        let same = loaded[..index].iter().position(|(_, other)| other == fingerprint);
+        if let Some(first) = same {
+            let (heights, cpu_s) = (rows[first].heights.clone(), 0.0);
+            rows.push(Row { variation: case.clone(), heights, folder: String::new(), cpu_s });
+            continue;
+        }
+        let what = format!("{} of {}, {}", index + 1, cases.len(), case.label);
+        match one(named, &case.label, manner, &what, context)? {
+            Some((summary, cost)) => rows.push(Row {
+                variation: case.clone(),
+                heights: heights(&summary),
+                folder: case.label.clone(),
+                cpu_s: cost["cpu_s_of_all_sessions"].as_f64().unwrap_or(0.0),
+            }),
+            None => return Ok(interrupted(index, cases.len(), &manner.folder)),
+        }
+    }
+    let mut outcome = if sensitivity { told(&rows) } else { listed(&rows) };
+    let drawn = sensitivity.then(|| drawn(&base.spec, &rows)).flatten();
+    if let Some(png) = &drawn {
+        data::write_atomically(&manner.folder.join("tornado.png"), png)?;
+        outcome.notes.push(format!("plot: {}", manner.folder.join("tornado.png").display()));
+    }
+    data::write_atomically(&manner.folder.join("table.csv"), csv(&rows).as_bytes())?;
+    outcome.notes.push(format!("table: {}", manner.folder.join("table.csv").display()));
+    Ok(outcome)
+}
+
+/// One run of the batch; `None` if the user interrupted it.
+pub fn one(
+    named: &Named,
+    label: &str,
+    manner: &Manner,
+    what: &str,
+    context: &mut Context,
+) -> Result<Option<(Value, Value)>, Failure> {
+    let folder = manner.folder.join(label);
+    let case = folder.join("case.toml");
+    let other = case.exists() && std::fs::read_to_string(&case).map_err(|e| write_failure(&case, &e))? != named.text;
+    if other && !manner.force {
+        let cause = "it holds a run of another case, or the case has changed".into();
+        let help = "choose another folder with --out, or add --force to run it again".into();
+        return Err(Failure::Write { path: folder.display().to_string(), cause, help });
+    }
+    let manner = Manner { folder, resume: !other, force: other, ..manner.clone() };
+    let Context { json, progress, written, interrupt } = context;
+    let mut tell = |text: &str, share: Option<f64>| progress(&format!("{what}: {text}"), share);
+    let mut inner = Context { json: *json, progress: &mut tell, written, interrupt };
+    match single::run(named.load()?, &manner, &mut inner)? {
+        Done::Now { summary, cost, .. } | Done::Before { summary, cost } => Ok(Some((summary, cost))),
+        Done::Interrupted { .. } => Ok(None),
+    }
+}
+
+fn heights(summary: &Value) -> Vec<[f64; 3]> {
+    let read = robot::readings(summary);
+    let row = |r: &fem::robot::Reading| {
+        let [marker, tip] = heights_mm(r);
+        [robot::rounded(r.actuator_pa * 1e-3), marker, tip]
+    };
+    read.iter().filter(|r| r.actuator_pa > 0.0).map(row).collect()
+}
+
+fn interrupted(done: usize, all: usize, folder: &Path) -> Outcome {
+    let note = format!(
+        "interrupted; {done} of {all} runs are complete in {}; the same command goes on there",
+        folder.display()
+    );
+    Outcome { notes: vec![note], code: INTERRUPTED, ..Outcome::default() }
+}
+
+/// Every run, then mean and spread of those that differ in the seed only.
+fn listed(rows: &[Row]) -> Outcome {
+    let mut lines = Vec::new();
+    for row in rows {
+        for [kpa, marker, tip] in &row.heights {
+            let label = if row.variation.label.is_empty() { "as it is" } else { &row.variation.label };
+            let cpu = format!("{:.1}", row.cpu_s);
+            lines.push(vec![label.to_string(), kpa.to_string(), format!("{marker:.1}"), format!("{tip:.1}"), cpu]);
+        }
+    }
+    let head = ["run", "actuator kPa", "outermost marker mm", "tip mm", "run CPU s"];
+    let mut text = table(&head, 1, lines);
+    let groups = groups(rows);
+    let words = |name: &str| if name.is_empty() { "all".to_string() } else { name.to_string() };
+    let several: Vec<&Group> = groups.iter().filter(|g| g.tips.len() > 1).collect();
+    if !several.is_empty() {
+        let row = |g: &&Group| {
+            let (mean, spread) = (g.mean(), g.spread());
+            let count = g.tips.len().to_string();
+            vec![words(&g.name), g.kpa.to_string(), count, format!("{mean:.1}"), format!("{spread:.1}")]
+        };
+        text.push_str("\nTip, mean and standard deviation over the seeds\n");
+        let head = ["group", "actuator kPa", "runs", "mean mm", "sd mm"];
+        text.push_str(&table(&head, 1, several.iter().map(row).collect()));
+    }
+    let groups = groups.iter().map(
+        |g| json!({"group": g.name, "actuator_kpa": g.kpa, "runs": g.tips.len(), "tip_mean_mm": g.mean(), "tip_sd_mm": g.spread()}),
+    );
+    Outcome::new(
+        text,
+        json!({"schema": "ibr.simulations", "version": 1, "runs": as_json(rows), "groups": groups.collect::<Vec<_>>()}),
+    )
+}
+
+struct Group {
+    name: String,
+    kpa: f64,
+    tips: Vec<f64>,
+}
+
+impl Group {
+    fn mean(&self) -> f64 {
+        self.tips.iter().sum::<f64>() / self.tips.len() as f64
+    }
+
+    /// Standard deviation of the sample; 0 for one.
+    fn spread(&self) -> f64 {
+        let (mean, n) = (self.mean(), self.tips.len() as f64);
+        let sum: f64 = self.tips.iter().map(|t| (t - mean).powi(2)).sum();
+        if n > 1.0 { (sum / (n - 1.0)).sqrt() } else { 0.0 }
+    }
+}
+
+fn groups(rows: &[Row]) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for row in rows {
+        for [kpa, _, tip] in &row.heights {
+            match groups.iter_mut().find(|g| g.name == row.variation.group && g.kpa == *kpa) {
+                Some(group) => group.tips.push(*tip),
+                None => groups.push(Group { name: row.variation.group.clone(), kpa: *kpa, tips: vec![*tip] }),
+            }
+        }
+    }
+    groups
+}
+
+/// Tip at the highest pressure of the first run, and with each assumed number at both ends.
+fn told(rows: &[Row]) -> Outcome {
+    let Some((first, others)) = rows.split_first() else { return Outcome::default() };
+    let base = tip(first);
+    let mut lines = Vec::new();
+    for pair in others.chunks(2) {
+        let value = |row: &Row| row.variation.changes.first().map_or(String::new(), |c| c.1.clone());
+        let [Some(low), Some(high)] = [pair.first(), pair.get(1)] else { continue };
+        let swing = (tip(high) - base).abs().max((tip(low) - base).abs());
+        let swing = if swing == 0.0 { "none".into() } else { format!("{:.1} %", 100.0 * swing / base) };
+        let mm = |row: &Row| format!("{:.1}", tip(row));
+        lines.push(vec![low.variation.group.clone(), value(low), mm(low), value(high), mm(high), swing]);
+    }
+    let mut text =
+        format!("Tip at the highest pressure: {base:.1} mm; with each assumed number at the ends of its interval\n");
+    text.push_str(&table(&["assumed", "from", "tip mm", "to", "tip mm", "largest change"], 1, lines));
+    Outcome::new(text, json!({"schema": "ibr.sensitivity", "version": 1, "tip_mm": base, "runs": as_json(rows)}))
+}
+
+fn tip(row: &Row) -> f64 {
+    row.heights.last().map_or(f64::NAN, |h| h[2])
+}
+
+fn drawn(name: &str, rows: &[Row]) -> Option<Vec<u8>> {
+    let (first, others) = rows.split_first()?;
+    let bar = |pair: &[Row]| {
+        let value = |row: &Row| row.variation.changes.first().map_or(String::new(), |c| c.1.clone());
+        let [low, high] = [pair.first()?, pair.get(1)?];
+        Some(TornadoBar {
+            name: low.variation.group.clone(),
+            ends: [value(low), value(high)],
+            values: [tip(low), tip(high)],
+        })
+    };
+    let bars: Vec<TornadoBar> = others.chunks(2).filter_map(bar).collect();
+    let data = Tornado {
+        title: format!("{name}: what each assumed number does to the tip"),
+        value_label: "tip displacement at the highest pressure [mm]".into(),
+        base: tip(first),
+        bars,
+    };
+    tornado(&data).ok().map(|drawn| drawn.png)
+}
+
+fn csv(rows: &[Row]) -> String {
+    let mut out = String::from("run,changes,p_act_kpa,marker_mm,tip_mm,cpu_s\n");
+    for row in rows {
+        let changes: Vec<String> =
+            row.variation.changes.iter().map(|(k, v)| format!("{k}={v}").replace(',', ";")).collect();
+        for [kpa, marker, tip] in &row.heights {
+            let label = &row.variation.label;
+            out.push_str(&format!("{label},{},{kpa},{marker},{tip},{}\n", changes.join(" "), row.cpu_s));
+        }
+    }
+    out
+}
+
+fn as_json(rows: &[Row]) -> Vec<Value> {
+    let row = |r: &Row| {
+        let changes: serde_json::Map<String, Value> =
+            r.variation.changes.iter().map(|(k, v)| (k.clone(), json!(v))).collect();
+        let heights: Vec<Value> =
+            r.heights.iter().map(|h| json!({"actuator_kpa": h[0], "marker_mm": h[1], "tip_mm": h[2]})).collect();
+        json!({"run": r.variation.label, "changes": changes, "folder": r.folder, "heights": heights, "cpu_s": r.cpu_s})
+    };
+    rows.iter().map(row).collect()
+}

@@ -1,0 +1,191 @@
+//! What the options of `ibr simulate` ask for: one run, or several that differ in one thing each.
+
+use super::input::Named;
+use super::robot::rounded;
+use crate::cli::Simulate;
+use crate::commands::inputs::quantity;
+use crate::failure::Failure;
+use fem::robot::{ASSUMED, Assumed, KEYS, Key, RobotSettings};
+use models::scenario::quantity::Quantity;
+
+/// One run of several.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Variation {
+    /// Name of its folder.
+    pub label: String,
+    /// Keys of `[fem]` that differ from the scenario with the common options.
+    pub changes: Vec<(String, String)>,
+    /// Group of runs that differ in seed or in single pressures only.
+    pub group: String,
+}
+
+/// What is to be run.
+pub enum Plan {
+    /// One run.
+    Single(Named),
+    /// Several, and what the table of their results is about.
+    Several {
+        /// The scenario with the common options.
+        base: Named,
+        /// The runs.
+        cases: Vec<Variation>,
+        /// Whether they are the two ends of every assumed number.
+        sensitivity: bool,
+    },
+}
+
+/// Reads the options.
+pub fn plan(args: &Simulate, named: Named) -> Result<Plan, Failure> {
+    if !named.is_robot() {
+        return match robot_option(args) {
+            None => Ok(Plan::Single(named)),
+            Some(option) => {
+                let message = format!("{option} is for robots; {} is a finite element case", args.case);
+                Err(Failure::usage(message, "change the case file, or name a robot's scenario such as epam"))
+            }
+        };
+    }
+    let mut common = Vec::new();
+    for text in &args.set {
+        common.push(setting(text)?);
+    }
+    let pressures_kpa = args.pressure.as_deref().map(pressures).transpose()?;
+    if let Some(list) = &pressures_kpa {
+        common.push(("pressures_kpa".to_string(), format!("{list:?}")));
+    }
+    let meshes = args.mesh.as_deref().map(sizes).transpose()?.unwrap_or_default();
+    if let [one] = meshes[..] {
+        common.push(("mesh_mm".to_string(), one.to_string()));
+    }
+    let base = named.with(&common)?;
+    if args.sensitivity {
+        return sensitivity(base);
+    }
+    let several = meshes.len() > 1 || args.separate || args.seeds.is_some();
+    if !several {
+        return Ok(Plan::Single(base));
+    }
+    let cases = product(&base, args, &meshes)?;
+    Ok(Plan::Several { base, cases, sensitivity: false })
+}
+
+/// An option that only robots have.
+fn robot_option(args: &Simulate) -> Option<&'static str> {
+    let given = [
+        ("--pressure", args.pressure.is_some()),
+        ("--separate", args.separate),
+        ("--seeds", args.seeds.is_some()),
+        ("--mesh", args.mesh.is_some()),
+        ("--set", !args.set.is_empty()),
+        ("--sensitivity", args.sensitivity),
+    ];
+    given.iter().find(|(_, given)| *given).map(|(option, _)| *option)
+}
+
+fn setting(text: &str) -> Result<(String, String), Failure> {
+    let help = || format!("for example --set hourglass=0.02; keys: {}", names());
+    let Some((key, value)) = text.split_once('=') else {
+        return Err(Failure::usage(format!("--set {text}: there is no ="), help()));
+    };
+    let (key, value) = (key.trim(), value.trim());
+    let known = KEYS.iter().any(|k| k.name == key)
+        || ["loading", "contact", "tip_force_n", "obstacle_mm", "obstacle_friction"].contains(&key);
+    match known {
+        true if key == "loading" => Ok((key.into(), format!("\"{}\"", value.trim_matches('"')))),
+        true => Ok((key.into(), value.into())),
+        false => Err(Failure::usage(format!("--set: unknown key `{key}`"), help())),
+    }
+}
+
+fn names() -> String {
+    KEYS.iter().map(|k| k.name).collect::<Vec<_>>().join(", ")
+}
+
+fn pressures(text: &str) -> Result<Vec<f64>, Failure> {
+    let one = |p: &str| Ok(rounded(quantity("--pressure", p, Quantity::Pressure)? / 1e3));
+    text.split(',').map(one).collect()
+}
+
+fn sizes(text: &str) -> Result<Vec<f64>, Failure> {
+    let one = |size: &str| match rounded(quantity("--mesh", size, Quantity::Length)? * 1e3) {
+        mm if (0.5..=50.0).contains(&mm) => Ok(mm),
+        mm => Err(Failure::usage(format!("--mesh {mm}mm is out of range"), "write 0.5mm to 50mm, for example 4mm")),
+    };
+    text.split(',').map(one).collect()
+}
+
+/// Every mesh with every seed at every single pressure.
+fn product(base: &Named, args: &Simulate, meshes: &[f64]) -> Result<Vec<Variation>, Failure> {
+    let (_, run) = base.robot_run()?;
+    let mut cases = vec![Variation::default()];
+    if meshes.len() > 1 {
+        let of = |mm: &f64| (format!("mesh-{mm}mm"), ("mesh_mm", mm.to_string()), true);
+        cases = extended(&cases, &meshes.iter().map(of).collect::<Vec<_>>());
+    }
+    if let Some(count) = args.seeds {
+        let of = |seed: u64| (format!("seed-{seed}"), ("seed", seed.to_string()), false);
+        cases = extended(&cases, &(1..=count).map(of).collect::<Vec<_>>());
+    }
+    if args.separate {
+        let of = |pa: &f64| {
+            let kpa = rounded(pa * 1e-3);
+            (format!("{kpa}kPa"), ("pressures_kpa", format!("[{kpa}]")), false)
+        };
+        cases = extended(&cases, &run.pressures_pa.iter().map(of).collect::<Vec<_>>());
+    }
+    Ok(cases)
+}
+
+type Step = (String, (&'static str, String), bool);
+
+fn extended(cases: &[Variation], steps: &[Step]) -> Vec<Variation> {
+    let joined = |a: &str, b: &str| if a.is_empty() { b.to_string() } else { format!("{a}-{b}") };
+    let with = |case: &Variation, (label, (key, value), grouping): &Step| Variation {
+        label: joined(&case.label, label),
+        changes: case.changes.iter().cloned().chain([(key.to_string(), value.clone())]).collect(),
+        group: if *grouping { joined(&case.group, label) } else { case.group.clone() },
+    };
+    cases.iter().flat_map(|case| steps.iter().map(|step| with(case, step)).collect::<Vec<_>>()).collect()
+}
+
+/// The scenario at its highest pressure, and there with every assumed number at both ends of its interval.
+fn sensitivity(base: Named) -> Result<Plan, Failure> {
+    let (_, run) = base.robot_run()?;
+    let top = rounded(run.settings.actuator_pa * 1e-3);
+    let base = base.with(&[("pressures_kpa".into(), format!("[{top}]"))])?;
+    let mut cases = vec![Variation { label: "as-it-is".into(), ..Variation::default() }];
+    for unknown in ASSUMED {
+        let Some(key) = key_of(unknown) else { continue };
+        for si in unknown.interval {
+            let value = rounded(si / key.si);
+            let label = format!("{}-{value}", key.name);
+            let changes = vec![(key.name.to_string(), value.to_string())];
+            cases.push(Variation { label, changes, group: key.name.into() });
+        }
+    }
+    Ok(Plan::Several { base, cases, sensitivity: true })
+}
+
+/// The key that writes what an assumed number writes.
+pub fn key_of(unknown: &Assumed) -> Option<&'static Key> {
+    let mut changed = RobotSettings::default();
+    (unknown.set)(&mut changed, unknown.interval[1]);
+    let fits = |key: &&Key| {
+        let mut other = RobotSettings::default();
+        (key.set)(&mut other, unknown.interval[1]);
+        other == changed
+    };
+    KEYS.iter().find(fits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_assumed_number_has_a_key_of_its_own() {
+        let keys: Vec<&str> = ASSUMED.iter().filter_map(|unknown| Some(key_of(unknown)?.name)).collect();
+        assert_eq!(keys.len(), ASSUMED.len(), "{keys:?}");
+        assert!(keys.iter().enumerate().all(|(i, key)| !keys[..i].contains(key)), "{keys:?}");
+    }
+}

@@ -1,0 +1,208 @@
+//! What is read of a robot while it runs, and how it is told.
+
+use crate::commands::tables::table;
+use fem::robot::{Gauge, Hold, Reading, RobotRun, Snap, Watch, snaps};
+use fem::{FemError, Problem, Simulation};
+use models::Scenario;
+use serde_json::{Value, json};
+
+const MM: f64 = 1e3;
+/// A hold this near to the present counts as reached \[s\].
+const NOW_S: f64 = 1e-12;
+
+/// A robot and how to read it.
+#[derive(Clone)]
+pub struct Robot {
+    /// Its scenario.
+    pub scenario: Scenario,
+    /// Its run.
+    pub run: RobotRun,
+    gauge: Gauge,
+}
+
+impl Robot {
+    /// For its problem.
+    pub fn new(scenario: &Scenario, run: &RobotRun, problem: &Problem) -> Result<Robot, FemError> {
+        Ok(Robot { scenario: scenario.clone(), run: run.clone(), gauge: Gauge::new(scenario, problem)? })
+    }
+
+    /// Starts to watch a run.
+    pub fn watch(&self, problem: &Problem) -> Watched {
+        let holds = self.run.holds().into_iter().filter(|hold| hold.time_s <= problem.settings.end_s + NOW_S);
+        Watched {
+            filled_s: self.run.settings.body_ramp_s,
+            gauge: self.gauge.clone(),
+            holds: holds.collect(),
+            readings: Vec::new(),
+            watch: Watch::new(&problem.mesh),
+        }
+    }
+}
+
+/// Readings of a run so far.
+pub struct Watched {
+    /// Energies between outputs.
+    pub watch: Watch,
+    filled_s: f64,
+    gauge: Gauge,
+    holds: Vec<Hold>,
+    /// As JSON: what goes through a checkpoint shall come out with the same digits.
+    readings: Vec<String>,
+}
+
+impl Watched {
+    /// When the robot is to be read next \[s\].
+    pub fn next_s(&self) -> Option<f64> {
+        self.holds.get(self.readings.len()).map(|hold| hold.time_s)
+    }
+
+    /// Reads the robot.
+    pub fn read(&mut self, run: &Simulation) -> Result<(), FemError> {
+        let reading = self.gauge.read(run)?;
+        let stopped = |cause: serde_json::Error| FemError::Stopped {
+            step: run.step(),
+            time_s: run.time_s(),
+            reason: format!("the robot cannot be read: {cause}"),
+        };
+        self.readings.push(serde_json::to_string(&reading).map_err(stopped)?);
+        Ok(())
+    }
+
+    /// All readings.
+    pub fn readings(&self) -> Vec<Reading> {
+        self.readings.iter().filter_map(|text| serde_json::from_str(text).ok()).collect()
+    }
+
+    /// Buckling while the actuator is filled.
+    pub fn snaps(&self) -> Vec<Snap> {
+        snaps(self.watch.samples(), self.filled_s)
+    }
+
+    /// For a checkpoint.
+    pub fn save(&self) -> Vec<u8> {
+        let mut out = fem::output::bytes::Writer::new();
+        out.f64s(&self.watch.save());
+        out.bytes(self.readings.join("\n").as_bytes());
+        out.into_bytes()
+    }
+
+    /// From a checkpoint.
+    pub fn restore(&mut self, saved: &[u8]) -> Option<()> {
+        let mut from = fem::output::bytes::Reader::new(saved);
+        self.watch.restore(&from.f64s()?);
+        let text = std::str::from_utf8(from.bytes()?).ok()?;
+        self.readings = text.lines().map(str::to_string).collect();
+        from.is_empty().then_some(())
+    }
+
+    /// For the summary.
+    pub fn to_json(&self, scenario: &Scenario, run: &RobotRun) -> Value {
+        let settings: serde_json::Map<String, Value> = fem::robot::KEYS
+            .iter()
+            .filter(|key| key.name != "mesh_mm")
+            .map(|key| (key.name.to_string(), json!(rounded((key.get)(&run.settings) / key.si))))
+            .collect();
+        json!({
+            "actuator": scenario.actuator.kind.name, "length_m": scenario.length_m, "body_pa": scenario.p_body_pa,
+            "pouch_m": scenario.actuator.shape.length_m,
+            "settings": settings, "readings": self.readings(), "snaps": self.snaps(),
+        })
+    }
+}
+
+/// Without the digits that a change of unit leaves behind.
+pub fn rounded(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
+}
+
+/// Readings of a summary, if it is one of a robot.
+pub fn readings(summary: &Value) -> Vec<Reading> {
+    serde_json::from_value(summary["robot"]["readings"].clone()).unwrap_or_default()
+}
+
+/// Buckling events of a summary.
+pub fn events(summary: &Value) -> Vec<Snap> {
+    serde_json::from_value(summary["robot"]["snaps"].clone()).unwrap_or_default()
+}
+
+/// Height of the outermost marker and of the tip of a reading \[mm\].
+pub fn heights_mm(reading: &Reading) -> [f64; 2] {
+    let y = |from_end: usize| reading.moved_m.iter().rev().nth(from_end).map_or(f64::NAN, |d| d[1] * MM);
+    [y(1), y(0)]
+}
+
+/// What a robot's run came to, as text.
+pub fn text(summary: &Value) -> String {
+    let readings = readings(summary);
+    let Some(last) = readings.last() else { return String::new() };
+    let mut out = String::new();
+    out.push_str(
+        "\nDisplacement towards the actuator [mm]: section at the station; at the tip also the mean of its ring\n",
+    );
+    let mut head = vec!["actuator kPa".to_string()];
+    head.extend(last.stations_m.iter().map(|s| format!("s = {:.0}", s * MM)));
+    head.extend(["tip ring", "tip x", "turn deg"].map(String::from));
+    let rows = readings.iter().map(|r| {
+        let mut row = vec![format!("{:.0}", r.actuator_pa * 1e-3)];
+        row.extend(r.moved_m.iter().map(|d| format!("{:.1}", d[1] * MM)));
+        row.push(r.ring_moved_m.last().map_or("–".into(), |d| format!("{:.1}", d[1] * MM)));
+        row.push(r.moved_m.last().map_or("–".into(), |d| format!("{:.1}", d[0] * MM)));
+        row.push(format!("{:.1}", r.tip_angle_rad.to_degrees()));
+        row
+    });
+    out.push_str(&table(&head.iter().map(String::as_str).collect::<Vec<_>>(), 0, rows.collect()));
+    out.push('\n');
+    out.push_str(&state(&readings));
+    out.push_str(&buckling(&events(summary)));
+    out
+}
+
+fn state(readings: &[Reading]) -> String {
+    let head = [
+        "actuator kPa",
+        "body cm³",
+        "actuator cm³",
+        "von Mises MPa",
+        "in",
+        "at mm",
+        "weld N/m",
+        "in",
+        "at mm",
+        "kinetic %",
+    ];
+    let rows = readings.iter().map(|r| {
+        vec![
+            format!("{:.0}", r.actuator_pa * 1e-3),
+            format!("{:.1}", r.body_m3 * 1e6),
+            format!("{:.1}", r.actuator_m3 * 1e6),
+            format!("{:.1}", r.von_mises_pa * 1e-6),
+            r.von_mises_part.clone(),
+            format!("{:.0}", r.von_mises_at_m * MM),
+            format!("{:.0}", r.seam_n_per_m),
+            r.seam_part.clone(),
+            format!("{:.0}", r.seam_at_m * MM),
+            format!("{:.2}", 100.0 * r.kinetic_share),
+        ]
+    });
+    table(&head, 0, rows.collect())
+}
+
+fn buckling(found: &[Snap]) -> String {
+    if found.is_empty() {
+        return "\nno buckling event while the actuator is filled\n".into();
+    }
+    let mut largest: Vec<&Snap> = found.iter().collect();
+    largest.sort_by(|a, b| b.released_j.total_cmp(&a.released_j));
+    let released_mj: f64 = found.iter().map(|s| s.released_j * 1e3).sum();
+    let mut out = format!("\n{} buckling events, {released_mj:.0} mJ released in all; the largest:\n", found.len());
+    let rows = largest.iter().take(8).map(|s| {
+        vec![
+            format!("{:.3}", s.time_s),
+            format!("{:.0}", s.place_m * MM),
+            format!("{:.1}", s.released_j * 1e3),
+            format!("{:.1}", s.kinetic_j * 1e3),
+        ]
+    });
+    out.push_str(&table(&["time s", "at mm", "released mJ", "walls' kinetic peak mJ"], 0, rows.collect()));
+    out
+}

@@ -1,0 +1,145 @@
+//! Files of a robot's run beside those of every run: readings, markers as a dataset, buckling events, plots, pictures.
+
+use super::robot::{self, Robot, Watched};
+use crate::failure::Failure;
+use compare::plots::{Drawn, LineSeries, LineStyle, Lines, lines};
+use fem::output::picture::{self, Image, Look, View};
+use fem::robot::{Reading, Snap};
+use fem::{Mesh, Simulation};
+use std::fmt::Write;
+use std::path::Path;
+
+/// Stress at the end of the colour scale of every picture of a robot \[MPa\].
+const MOST_MPA: f64 = 20.0;
+const MM: f64 = 1e3;
+
+/// Writes all of them.
+pub fn write(robot: &Robot, watched: &Watched, mesh: &Mesh, run: &Simulation, folder: &Path) -> Result<(), Failure> {
+    let (readings, found) = (watched.readings(), watched.snaps());
+    let text = |name: &str, text: String| data::write_atomically(&folder.join(name), text.as_bytes());
+    text("readings.csv", readings_csv(&readings))?;
+    text("markers.csv", markers_csv(robot, &readings))?;
+    text("snaps.csv", snaps_csv(&found))?;
+    if let Some(drawn) = history(robot, watched, &found)? {
+        data::write_atomically(&folder.join("history.png"), &drawn.png)?;
+    }
+    for (name, image) in pictures(robot, mesh, run)? {
+        picture::write_png(&folder.join(name), &image)?;
+    }
+    Ok(())
+}
+
+fn readings_csv(readings: &[Reading]) -> String {
+    let mut out = String::from("p_act_kpa,time_s,quantity,place,value,unit\n");
+    for r in readings {
+        let mut line = |quantity: &str, place: String, value: f64, unit: &str| {
+            // Writing to a string cannot fail.
+            let _ = writeln!(out, "{},{},{quantity},{place},{value},{unit}", r.actuator_pa * 1e-3, r.time_s);
+        };
+        for ((station, moved), ring) in r.stations_m.iter().zip(&r.moved_m).zip(&r.ring_moved_m) {
+            for (k, axis) in ["dx", "dy", "dz"].into_iter().enumerate() {
+                line(axis, robot::rounded(station * MM).to_string(), moved[k] * MM, "mm");
+                line(&format!("ring_{axis}"), robot::rounded(station * MM).to_string(), ring[k] * MM, "mm");
+            }
+        }
+        line("tip_turn", String::new(), r.tip_angle_rad.to_degrees(), "deg");
+        line("volume", "body".into(), r.body_m3 * 1e6, "cm3");
+        line("volume", "actuator".into(), r.actuator_m3 * 1e6, "cm3");
+        line(
+            "von_mises_max",
+            format!("{} at {:.0} mm", r.von_mises_part, r.von_mises_at_m * MM),
+            r.von_mises_pa * 1e-6,
+            "MPa",
+        );
+        line("weld_force_max", format!("{} at {:.0} mm", r.seam_part, r.seam_at_m * MM), r.seam_n_per_m, "N/m");
+        line("kinetic_share", String::new(), r.kinetic_share, "1");
+        for (name, kind, energy) in &r.ledger {
+            line(&format!("energy {kind}"), name.clone(), *energy, "J");
+        }
+    }
+    out
+}
+
+/// The columns of a measured dataset, so that `ibr compare` can hold the reduced model against the run.
+fn markers_csv(robot: &Robot, readings: &[Reading]) -> String {
+    let mut out = String::from("run,actuator,t_s,p_body_kpa,p_act_kpa,phase,marker,x_mm,y_mm,s_mm\n");
+    let kind = robot.scenario.actuator.kind.name;
+    let mut before = 0.0;
+    for r in readings {
+        let phase = if r.actuator_pa >= before { "load" } else { "unload" };
+        before = r.actuator_pa;
+        for (k, station) in robot.scenario.markers_m.iter().enumerate() {
+            let (x, y) = ((station + r.moved_m[k][0]) * MM, r.moved_m[k][1] * MM);
+            let (body, actuator) = (robot::rounded(r.body_pa * 1e-3), robot::rounded(r.actuator_pa * 1e-3));
+            let s = robot::rounded(station * MM);
+            let _ = writeln!(out, "fem,{kind},{},{body},{actuator},{phase},{},{x},{y},{s}", r.time_s, k + 1);
+        }
+    }
+    out
+}
+
+fn snaps_csv(found: &[Snap]) -> String {
+    let mut out = String::from("time_s,place_mm,released_mJ,kinetic_mJ\n");
+    for s in found {
+        let _ = writeln!(out, "{},{},{},{}", s.time_s, s.place_m * MM, s.released_j * 1e3, s.kinetic_j * 1e3);
+    }
+    out
+}
+
+/// Stored and kinetic energy over time with the buckling events.
+fn history(robot: &Robot, watched: &Watched, found: &[Snap]) -> Result<Option<Drawn>, Failure> {
+    let samples = watched.watch.samples();
+    if samples.is_empty() {
+        return Ok(None);
+    }
+    let series = |name: &str, points: Vec<[f64; 2]>, style, colour| LineSeries {
+        name: name.into(),
+        points,
+        half_width: Vec::new(),
+        style,
+        colour: Some(colour),
+    };
+    let stored = samples.iter().map(|s| [s.time_s, s.stored_j * 1e3]).collect();
+    let kinetic = samples.iter().map(|s| [s.time_s, s.kinetic_j * 1e3]).collect();
+    let walls = samples.iter().map(|s| [s.time_s, s.walls_j * 1e3]).collect();
+    let marks: Vec<[f64; 2]> = found.iter().map(|s| [s.time_s, s.kinetic_j * 1e3]).collect();
+    let mut all = vec![
+        series("stored", stored, LineStyle::Line, 0),
+        series("kinetic", kinetic, LineStyle::Line, 1),
+        series("kinetic, walls", walls, LineStyle::Line, 2),
+    ];
+    if !marks.is_empty() {
+        all.push(series("buckling", marks, LineStyle::Points, 3));
+    }
+    let drawn = lines(&Lines {
+        title: format!("{}: energy over time", robot.scenario.name),
+        x_label: "time [s]".into(),
+        y_label: "energy [mJ]".into(),
+        series: all,
+    });
+    Ok(Some(drawn.map_err(|e| compare::CompareError::Drawing { what: "the history".into(), problem: e.to_string() })?))
+}
+
+/// Side view, cross-section through the middle of a unit, and cut along the robot, in one colour scale.
+fn pictures(robot: &Robot, mesh: &Mesh, run: &Simulation) -> Result<Vec<(&'static str, Image)>, Failure> {
+    let stress_mpa: Vec<f64> = run.element_fields().von_mises_pa.iter().map(|s| s * 1e-6).collect();
+    let positions = run.positions();
+    let pressure = robot.run.pressures_pa.last().map_or(0.0, |p| p * 1e-3);
+    let what = format!("von Mises [MPa], {pressure:.0} kPa");
+    let look = |title: String| Look {
+        view: View::Side,
+        limits: Some((0.0, MOST_MPA)),
+        title: format!("{title}, {what}"),
+        ..Look::default()
+    };
+    let actuator = &robot.scenario.actuator;
+    let unit = actuator.shape.length_m;
+    let middle_m = actuator.start_m + ((actuator.count - 1) / 2) as f64 * unit + 0.5 * unit;
+    let side = picture::render(mesh, &positions, &stress_mpa, &look(robot.scenario.name.clone()))?;
+    let across = picture::Cut { normal: [1.0, 0.0, 0.0], at_m: middle_m };
+    let along = picture::Cut { normal: [0.0, 0.0, 1.0], at_m: 0.0 };
+    let section = look(format!("section that was at {:.0} mm", middle_m * MM));
+    let section = picture::section(mesh, &positions, &stress_mpa, &across, &Look { view: View::End, ..section })?;
+    let cut = picture::section(mesh, &positions, &stress_mpa, &along, &look("middle plane".into()))?;
+    Ok(vec![("side.png", side), ("section.png", section), ("cut.png", cut)])
+}
