@@ -29,10 +29,12 @@ pub enum Command {
     Demo(OutDir),
     /// Shape and markers at given pressures, or the pressure for a wanted tip
     Predict(Predict),
-    /// Hold a model against measurements: accuracy, residual map, where it fails
+    /// Hold a model against measurements: accuracy, residual map, where it fails; or both engines against each other
     Compare(Compare),
     /// Which physical effect is missing: ranking, what the data cannot tell apart, what to measure next
     Diagnose(Diagnose),
+    /// Where the reduced model parts from finite elements, over pressures and pouches, and which energy carries it
+    Breakdown(Breakdown),
     /// Run a finite element case through time: ParaView frames, energy balance, checkpoints
     Simulate(Simulate),
     /// From tensile tests of a fabric to its moduli, C10, curves along warp and fill, shear curve, and a table for cases
@@ -55,7 +57,7 @@ pub enum Command {
         kind: String,
     },
     /// Run time against accuracy of every model present
-    Tradeoff(OutDirOptional),
+    Tradeoff(Tradeoff),
     /// Check the closed forms against their known numbers, and the finite element engine against the closed forms
     Verify(VerifyArgs),
     /// Measure the speed on this machine: of the model, or of the finite element engine
@@ -115,12 +117,15 @@ pub struct OutDir {
     pub out: PathBuf,
 }
 
-/// Where results go, if anywhere.
+/// `ibr tradeoff`
 #[derive(Debug, Args)]
-pub struct OutDirOptional {
+pub struct Tradeoff {
     /// Folder for plots and tables
     #[arg(long)]
     pub out: Option<PathBuf>,
+    /// Folder of finished finite element runs; default: those that come with the program
+    #[arg(long)]
+    pub runs: Option<PathBuf>,
 }
 
 /// `ibr predict`
@@ -149,10 +154,21 @@ pub struct Predict {
 /// `ibr compare`
 #[derive(Debug, Args)]
 pub struct Compare {
-    /// Scenario file or shipped robot
-    pub scenario: String,
-    /// Marker data
-    pub data: String,
+    /// Scenario file or shipped robot, then marker data; with --engines any number of scenarios, those of the paper if none
+    #[arg(value_name = "SCENARIO DATA")]
+    pub inputs: Vec<String>,
+    /// Hold the reduced model and finite element runs against each other and against the published numbers
+    #[arg(long, visible_alias = "published", conflicts_with_all = ["calibrate", "effect", "sigma", "max_error"])]
+    pub engines: bool,
+    /// With --engines: folder of finished runs; missing ones are made there
+    #[arg(long, default_value = "ibr-report/runs")]
+    pub runs: PathBuf,
+    /// With --engines: only the runs that come with the program
+    #[arg(long, requires = "engines")]
+    pub stored: bool,
+    /// With --engines: threads of a run; 0: one per core
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
+    pub threads: u64,
     /// Also fit the bending stiffness B to these data and show what that brings
     #[arg(long)]
     pub calibrate: bool,
@@ -189,6 +205,35 @@ pub struct Diagnose {
     /// Differences up to this are good enough; default: the larger of 0.15 mm and 0.5 % of the largest deflection
     #[arg(long, allow_hyphen_values = true)]
     pub tolerance: Option<String>,
+}
+
+/// `ibr breakdown`
+#[derive(Debug, Args)]
+pub struct Breakdown {
+    /// Scenario files or shipped robots; default: the four of the paper
+    #[arg(value_name = "SCENARIO")]
+    pub scenarios: Vec<String>,
+    /// Folder for maps and tables
+    #[arg(long, default_value = "ibr-report/breakdown")]
+    pub out: PathBuf,
+    /// Folder of finished runs; missing ones are made there
+    #[arg(long, default_value = "ibr-report/runs")]
+    pub runs: PathBuf,
+    /// Actuator pressures
+    #[arg(long, short, default_value = "5kPa,10kPa,15kPa,20kPa,25kPa,30kPa", allow_hyphen_values = true)]
+    pub pressure: String,
+    /// Body pressures beside the scenario's own
+    #[arg(long, default_value = "1kPa,4kPa", allow_hyphen_values = true)]
+    pub body_pressure: String,
+    /// Lengths of a pouch beside the scenario's own, at its body pressure
+    #[arg(long, default_value = "45mm,90mm", allow_hyphen_values = true)]
+    pub pouch: String,
+    /// Element size: coarse, for a map
+    #[arg(long, default_value = "6mm", allow_hyphen_values = true)]
+    pub mesh: String,
+    /// Threads; 0: one per core
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
+    pub threads: u64,
 }
 
 /// `ibr simulate`

@@ -14,19 +14,20 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 
 pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
+    let (scenario_spec, data_spec) = both(args)?;
     let limit_m = args.max_error.as_deref().map(|t| positive("--max-error", t)).transpose()?;
     let sigma_m = args.sigma.as_deref().map(|t| positive("--sigma", t)).transpose()?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
-    let named = inputs::scenario(&args.scenario)?;
+    let named = inputs::scenario(scenario_spec)?;
     let models = models(&named.scenario, &args.effect)?;
-    let (dataset, about, input) = inputs::dataset(&args.data, context)?;
+    let (dataset, about, input) = inputs::dataset(data_spec, context)?;
     (context.progress)("comparing", None);
     let candidates: Vec<Candidate> = models.iter().map(Model::candidate).collect();
     let options = EvaluateOptions { sigma_m, ..EvaluateOptions::default() };
     let study = study(&candidates, dataset, about, &options, args.calibrate)?;
     let folder = out_folder(args, &study, context.json);
-    let warnings = warnings(args, &study);
-    let mut outcome = Outcome::new(text(&study), to_json(&args.scenario, &study, &warnings));
+    let warnings = warnings(args, data_spec, &study);
+    let mut outcome = Outcome::new(text(&study), to_json(scenario_spec, &study, &warnings));
     if let Some(folder) = folder {
         (context.progress)("drawing the report", None);
         let imprint = Imprint { program: program(), date: today(), machine: machine() };
@@ -45,8 +46,21 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
     Ok(outcome)
 }
 
+/// Scenario and data.
+fn both(args: &Compare) -> Result<(&str, &str), Failure> {
+    match &args.inputs[..] {
+        [scenario, data] => Ok((scenario, data)),
+        other => {
+            let message = format!("ibr compare takes a scenario and data, not {} names", other.len());
+            let help =
+                "for example `ibr compare epam synthetic-epam`; `ibr compare spam epam --engines` takes scenarios only";
+            Err(Failure::usage(message, help))
+        }
+    }
+}
+
 /// What the reader should know about the data and the options before trusting the figures.
-fn warnings(args: &Compare, study: &Study) -> Vec<String> {
+fn warnings(args: &Compare, data_spec: &str, study: &Study) -> Vec<String> {
     let mut warnings = study.warnings.clone();
     let outliers = data::check(&study.dataset, study.about.as_ref()).outliers;
     if let Some(o) = outliers.iter().max_by(|a, b| a.robust_z.total_cmp(&b.robust_z)) {
@@ -58,7 +72,7 @@ fn warnings(args: &Compare, study: &Study) -> Vec<String> {
             o.marker,
             o.dx_mm,
             o.dy_mm,
-            args.data
+            data_spec
         ));
     }
     if args.sigma.is_some() && study.dataset.runs.len() > 1 {

@@ -1,5 +1,6 @@
 //! `ibr demo`
 
+use super::simulate::{Small, heights_mm, small_run};
 use super::tables::{number, table};
 use super::{Context, Outcome};
 use crate::failure::Failure;
@@ -13,12 +14,32 @@ use std::path::Path;
 pub fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
     check_folder(folder)?;
     let computed = demo(&mut |what| (context.progress)(what, Some(0.1)))?;
+    let small = small_run("epam", SMALL, context)?;
     let imprint = Imprint { program: program(), date: today(), machine: machine() };
-    let files = demo_page(&computed, &imprint, &mut |what| (context.progress)(what, Some(0.5)))?;
+    let mut files = demo_page(&computed, &imprint, &mut |what| (context.progress)(what, Some(0.5)))?;
+    files.files.insert(0, ("small_run.png".into(), small.picture.clone()));
     write_files(folder, &files, &[], context)?;
-    let mut outcome = Outcome::new(text(&computed), to_json(&computed));
+    let mut outcome = Outcome::new(text(&computed) + &small_text(&small), to_json(&computed, &small));
     outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
     Ok(outcome)
+}
+
+/// The run that is made here and now: coarse, to be quick.
+const SMALL: &[(&str, &str)] = &[("mesh_mm", "9"), ("pressures_kpa", "[10, 20, 30]")];
+
+fn small_text(small: &Small) -> String {
+    let tips = small.readings.iter().filter(|r| r.actuator_pa > 0.0);
+    let tips: Vec<String> =
+        tips.map(|r| format!("{:.1} mm at {:.0} kPa", heights_mm(r)[1], r.actuator_pa * 1e-3)).collect();
+    format!(
+        "\nA finite element run of the ePAM made just now, {} elements of 9 mm (coarse), {:.1} CPU s: tip {}; {} buckling \
+         events, energy balance missing {:.3} %\n",
+        small.elements,
+        small.cpu_s,
+        tips.join(", "),
+        small.snaps,
+        100.0 * small.residual_share
+    )
 }
 
 /// Published displacement against every rung.
@@ -72,7 +93,7 @@ fn text(demo: &Demo) -> String {
     out
 }
 
-fn to_json(demo: &Demo) -> Value {
+fn to_json(demo: &Demo, small: &Small) -> Value {
     let ladder = |l: &PublishedLadder| {
         let rungs: Vec<Value> = l
             .rungs
@@ -105,5 +126,9 @@ fn to_json(demo: &Demo) -> Value {
         "schema": "ibr.demo", "version": 1,
         "published": demo.ladders.iter().map(ladder).collect::<Vec<_>>(),
         "marker_sets": studies, "timings": demo.timings,
+        "small_run": {
+            "elements": small.elements, "cpu_s": small.cpu_s, "residual_share": small.residual_share,
+            "buckling_events": small.snaps, "readings": small.readings,
+        },
     })
 }

@@ -3,12 +3,14 @@
 mod bench;
 mod bench_discovery;
 mod bench_fem;
+mod breakdown;
 mod challenge;
 mod characterize;
 mod compare;
 mod data;
 mod demo;
 mod diagnose;
+mod engines;
 mod inputs;
 mod list;
 mod predict;
@@ -89,15 +91,17 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
     match command {
         Command::Demo(out) => demo::run(&out.out, context),
         Command::Predict(args) => predict::run(args, context),
+        Command::Compare(args) if args.engines => engines::run(args, context),
         Command::Compare(args) => compare::run(args, context),
         Command::Diagnose(args) => diagnose::run(args, context),
+        Command::Breakdown(args) => breakdown::run(args, context),
         Command::Simulate(args) => simulate::run(args, context),
         Command::Characterize(args) => characterize::run(args, context),
         Command::Data(args) => data::run(args, context),
         Command::Challenge(command) => challenge::run(command, context),
         Command::List { what } => list::run(what.as_deref()),
         Command::New { kind } => list::new(kind),
-        Command::Tradeoff(out) => tradeoff::run(out.out.as_deref(), context),
+        Command::Tradeoff(args) => tradeoff::run(args, context),
         Command::Verify(args) => verify::run(args, context),
         Command::Bench(args) if args.what == "fem" => bench_fem::run(args.all, context),
         Command::Bench(args) if args.what == "discovery" => {

@@ -1,33 +1,40 @@
 //! `ibr tradeoff`
 
+use super::engines::known_runs;
 use super::tables::table;
 use super::{Context, Outcome};
+use crate::cli::Tradeoff;
 use crate::failure::Failure;
 use crate::output::{check_folder, machine, write_files};
 use compare::study::pages::{Files, tradeoff_plot};
 use compare::study::published::published_ladders;
-use compare::study::tradeoff::tradeoff;
+use compare::study::tradeoff::{of_runs, tradeoff};
 use serde_json::json;
-use std::path::Path;
 
-pub fn run(out: Option<&Path>, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn run(args: &Tradeoff, context: &mut Context) -> Result<Outcome, Failure> {
+    let out = args.out.as_deref();
     out.map_or(Ok(()), check_folder)?;
     (context.progress)("timing", None);
-    let timings = tradeoff(&published_ladders()?)?;
+    let ladders = published_ladders()?;
+    let mut timings = tradeoff(&ladders)?;
+    timings.extend(of_runs(&ladders, &known_runs(args.runs.as_deref())));
     let rows = timings.iter().map(|t| {
         vec![
             t.engine.clone(),
             t.actuator.clone(),
             t.model.clone(),
             t.known.clone(),
-            format!("{:.2}", t.prediction_us),
+            time(t.prediction_us),
             format!("{:+.1}", t.error_mm),
             format!("{:.1}", t.error_pct.abs()),
         ]
     });
-    let head = ["engine", "actuator", "model", "how known", "time [µs]", "error [mm]", "error [%]"];
-    let mut text =
-        format!("One prediction (equilibrium, six markers) on {}; error of the published displacement\n", machine());
+    let head = ["engine", "actuator", "model", "how known", "time", "error [mm]", "error [%]"];
+    let mut text = format!(
+        "One prediction of the reduced model (equilibrium, six markers) on {}, one finite element run to 30 kPa \
+        (processor time); error of the published displacement: outermost marker, finite elements tip\n",
+        machine()
+    );
     text.push_str(&table(&head, 4, rows.collect()));
     if let Some(folder) = out {
         let drawn = tradeoff_plot(&timings)?;
@@ -37,4 +44,12 @@ pub fn run(out: Option<&Path>, context: &mut Context) -> Result<Outcome, Failure
         write_files(folder, &files, &[], context)?;
     }
     Ok(Outcome::new(text, json!({"schema": "ibr.tradeoff", "version": 1, "machine": machine(), "models": timings})))
+}
+
+/// Microseconds to minutes.
+fn time(us: f64) -> String {
+    match us {
+        us if us < 1e3 => format!("{us:.2} µs"),
+        us => format!("{:.1} s", us * 1e-6),
+    }
 }

@@ -7,6 +7,7 @@
 
 mod axis;
 mod bars;
+mod breakdown;
 mod frame;
 mod ladder;
 mod ledger;
@@ -24,6 +25,7 @@ mod tornado;
 mod tradeoff;
 
 pub use bars::{BarSeries, Bars, bars};
+pub use breakdown::{Breakdown, BreakdownCell, breakdown};
 pub use ladder::{Ladder, LadderStep, LadderTarget, ladder};
 pub use ledger::{Ledger, LedgerCase, ledger};
 pub use lines::{LineSeries, LineStyle, Lines, lines};

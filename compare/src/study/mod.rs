@@ -2,6 +2,7 @@
 //! numbers, run time against accuracy, and the pages made of them.
 
 pub mod calibrate;
+pub mod engines;
 pub mod generate;
 pub mod pages;
 pub mod predict;

@@ -1,6 +1,8 @@
 //! Run time against accuracy of every model present.
 
 use crate::error::CompareError;
+use crate::plots::Known;
+use crate::study::engines::{FeRun, as_it_is};
 use crate::study::published::{PublishedLadder, Rung};
 use models::{Loads, Model, Scenario};
 use std::time::Instant;
@@ -8,7 +10,7 @@ use std::time::Instant;
 /// Time and error of one model.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Timing {
-    /// Engine: `reduced` (others follow).
+    /// Engine: `reduced` or `finite elements`.
     pub engine: String,
     /// Actuator kind.
     pub actuator: String,
@@ -62,6 +64,32 @@ pub fn tradeoff(ladders: &[PublishedLadder]) -> Result<Vec<Timing>, CompareError
         }
     }
     Ok(timings)
+}
+
+/// Finite element runs of the published robots at their own body pressure, at 30 kPa.
+pub fn of_runs(ladders: &[PublishedLadder], runs: &[FeRun]) -> Vec<Timing> {
+    let mut timings = Vec::new();
+    for ladder in ladders {
+        let Some(rung) = ladder.rungs.first() else { continue };
+        let measured_mm = ladder.published.d_max_m * 1e3;
+        let mut own: Vec<&FeRun> = runs.iter().filter(|run| as_it_is(run, &rung.scenario)).collect();
+        own.sort_by(|a, b| b.mesh_mm[1].total_cmp(&a.mesh_mm[1]));
+        for run in own {
+            let top_kpa = ladder.published.d_max_pressure_pa * 1e-3;
+            let Some(state) = run.states.iter().find(|s| (s.actuator_kpa - top_kpa).abs() < 0.05) else { continue };
+            let error_mm = state.tip_mm - measured_mm;
+            timings.push(Timing {
+                engine: "finite elements".into(),
+                actuator: run.actuator.clone(),
+                model: format!("FE {} mm", run.mesh_mm[1]),
+                prediction_us: run.cpu_s * 1e6,
+                error_mm,
+                error_pct: 100.0 * error_mm / measured_mm,
+                known: Known::Assumed.word().into(),
+            });
+        }
+    }
+    timings
 }
 
 fn timing(ladder: &PublishedLadder, rung: &Rung) -> Result<Timing, CompareError> {

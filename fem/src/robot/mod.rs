@@ -205,4 +205,6 @@ fn numerics(problem: &Problem, settings: &RobotSettings) -> Settings {
 }
 
 #[cfg(test)]
+mod run_tests;
+#[cfg(test)]
 mod tests;

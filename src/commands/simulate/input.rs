@@ -65,7 +65,12 @@ impl Named {
             let message = format!("the table [fem] of {} cannot be changed from the command line", self.spec);
             return Err(Failure::usage(message, "write `[fem]` on a line of its own, or set the keys in the file"));
         };
-        Ok(Named { text, spec: self.spec.clone(), folder: self.folder.clone() })
+        Ok(self.with_text(text))
+    }
+
+    /// The same name with another text.
+    pub fn with_text(&self, text: String) -> Named {
+        Named { text, spec: self.spec.clone(), folder: self.folder.clone() }
     }
 
     /// The case that it describes.

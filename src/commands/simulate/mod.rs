@@ -1,12 +1,14 @@
 //! `ibr simulate`
 
 mod batch;
+mod cache;
 mod folder;
 mod input;
 mod plan;
 mod robot;
 mod robot_files;
 mod single;
+mod small;
 mod stepping;
 mod summary;
 
@@ -20,8 +22,10 @@ use single::{Done, Manner};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+pub use cache::{Keeper, all as all_runs};
 pub use input::{Named, named};
-pub use robot::{events, heights_mm, readings, rounded};
+pub use robot::{heights_mm, rounded};
+pub use small::{Small, run as small_run};
 
 pub fn run(args: &Simulate, context: &mut Context) -> Result<Outcome, Failure> {
     let manner = manner(args)?;

@@ -122,24 +122,29 @@ fn history(robot: &Robot, watched: &Watched, found: &[Snap]) -> Result<Option<Dr
 
 /// Side view, cross-section through the middle of a unit, and cut along the robot, in one colour scale.
 fn pictures(robot: &Robot, mesh: &Mesh, run: &Simulation) -> Result<Vec<(&'static str, Image)>, Failure> {
-    let stress_mpa: Vec<f64> = run.element_fields().von_mises_pa.iter().map(|s| s * 1e-6).collect();
-    let positions = run.positions();
-    let pressure = robot.run.pressures_pa.last().map_or(0.0, |p| p * 1e-3);
-    let what = format!("von Mises [MPa], {pressure:.0} kPa");
-    let look = |title: String| Look {
-        view: View::Side,
-        limits: Some((0.0, MOST_MPA)),
-        title: format!("{title}, {what}"),
-        ..Look::default()
-    };
+    let (stress_mpa, positions) = (stress_mpa(run), run.positions());
     let actuator = &robot.scenario.actuator;
     let unit = actuator.shape.length_m;
     let middle_m = actuator.start_m + ((actuator.count - 1) / 2) as f64 * unit + 0.5 * unit;
-    let side = picture::render(mesh, &positions, &stress_mpa, &look(robot.scenario.name.clone()))?;
     let across = picture::Cut { normal: [1.0, 0.0, 0.0], at_m: middle_m };
     let along = picture::Cut { normal: [0.0, 0.0, 1.0], at_m: 0.0 };
-    let section = look(format!("section that was at {:.0} mm", middle_m * MM));
-    let section = picture::section(mesh, &positions, &stress_mpa, &across, &Look { view: View::End, ..section })?;
-    let cut = picture::section(mesh, &positions, &stress_mpa, &along, &look("middle plane".into()))?;
-    Ok(vec![("side.png", side), ("section.png", section), ("cut.png", cut)])
+    let end = Look { view: View::End, ..look(robot, &format!("section that was at {:.0} mm", middle_m * MM)) };
+    let section = picture::section(mesh, &positions, &stress_mpa, &across, &end)?;
+    let cut = picture::section(mesh, &positions, &stress_mpa, &along, &look(robot, "middle plane"))?;
+    Ok(vec![("side.png", side_view(robot, mesh, run)?), ("section.png", section), ("cut.png", cut)])
+}
+
+/// The robot from the side.
+pub fn side_view(robot: &Robot, mesh: &Mesh, run: &Simulation) -> Result<Image, Failure> {
+    Ok(picture::render(mesh, &run.positions(), &stress_mpa(run), &look(robot, &robot.scenario.name))?)
+}
+
+fn stress_mpa(run: &Simulation) -> Vec<f64> {
+    run.element_fields().von_mises_pa.iter().map(|s| s * 1e-6).collect()
+}
+
+fn look(robot: &Robot, what: &str) -> Look {
+    let pressure = robot.run.pressures_pa.last().map_or(0.0, |p| p * 1e-3);
+    let title = format!("{what}, von Mises [MPa], {pressure:.0} kPa");
+    Look { view: View::Side, limits: Some((0.0, MOST_MPA)), title, ..Look::default() }
 }

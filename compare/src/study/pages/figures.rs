@@ -268,7 +268,7 @@ pub fn tradeoff(timings: &[crate::study::Timing]) -> Result<Drawn, CompareError>
     };
     let shown = timings.iter().filter(|t| t.known != Known::Calibrated.word());
     let data = plots::Tradeoff {
-        title: "Run time against error, reduced models".into(),
+        title: "Run time against error".into(),
         error_label: "error of the published displacement [%]".into(),
         points: shown.map(point).collect(),
     };

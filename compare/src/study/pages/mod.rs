@@ -2,11 +2,18 @@
 
 mod compare_page;
 mod demo_page;
+mod engine_figures;
+mod engines_page;
 mod figures;
 mod tables;
 
 pub use compare_page::{Candidate, Study, Variant, compare_page, study};
 pub use demo_page::{Demo, demo, demo_page};
+pub use engine_figures::parting_plot;
+pub use engines_page::{
+    EngineLine, EngineRobot, Engines, HEADS, PartingMap, cells, engine_sections, engines, engines_page, lines,
+    parting_plot, varied,
+};
 pub use figures::tradeoff as tradeoff_plot;
 
 use crate::error::CompareError;
@@ -24,12 +31,13 @@ pub struct Files {
 
 impl Files {
     /// Adds a plot as `<name>.svg` and `<name>.png`.
-    fn plot(&mut self, name: &str, drawn: &Drawn) {
+    pub fn plot(&mut self, name: &str, drawn: &Drawn) {
         self.files.push((format!("{name}.svg"), drawn.svg.clone().into_bytes()));
         self.files.push((format!("{name}.png"), drawn.png.clone()));
     }
 
-    fn text(&mut self, name: &str, text: String) {
+    /// Adds a text.
+    pub fn text(&mut self, name: &str, text: String) {
         self.files.push((name.to_string(), text.into_bytes()));
     }
 

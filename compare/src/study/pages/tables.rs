@@ -144,18 +144,22 @@ pub(super) fn timings(timings: &[Timing]) -> Block {
             t.actuator.clone(),
             t.model.clone(),
             t.known.clone(),
-            format!("{:.2}", t.prediction_us),
+            if t.prediction_us < 1e3 {
+                format!("{:.2} µs", t.prediction_us)
+            } else {
+                format!("{:.1} s", t.prediction_us * 1e-6)
+            },
             format!("{:+.1}", t.error_mm),
             format!("{:.1}", t.error_pct.abs()),
         ]
     });
     Block::Table(Table {
-        caption: "One prediction: equilibrium and six markers, one core".into(),
+        caption: "Reduced model: one prediction, equilibrium and six markers, one core. Finite elements (FE): one run, processor time".into(),
         columns: vec![
             words("actuator"),
             words("model"),
             words("how known"),
-            column("time", "µs"),
+            column("time", ""),
             column("error", "mm"),
             column("error", "%"),
         ],

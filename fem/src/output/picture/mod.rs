@@ -149,14 +149,25 @@ pub fn render(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &Look) 
 /// # Errors
 /// [`FemError::Io`].
 pub fn write_png(path: &Path, image: &Image) -> Result<(), FemError> {
-    replace(path, &mut |out| {
-        let mut encoder = png::Encoder::new(out, image.width as u32, image.height as u32);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(&image.rgb)?;
-        Ok(writer.finish()?)
-    })
+    replace(path, &mut |out| encode(image, out))
+}
+
+/// The bytes of an image as PNG; empty if it cannot be encoded, which only an image of another size than it says can.
+pub fn png_bytes(image: &Image) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    if encode(image, &mut bytes).is_err() {
+        bytes.clear();
+    }
+    bytes
+}
+
+fn encode(image: &Image, out: &mut dyn std::io::Write) -> std::io::Result<()> {
+    let mut encoder = png::Encoder::new(out, image.width as u32, image.height as u32);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&image.rgb)?;
+    Ok(writer.finish()?)
 }
 
 fn check(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &Look) -> Result<(), FemError> {

@@ -1,0 +1,281 @@
+//! Both engines on one robot: what the reduced model and a finite element run say at the same pressures, where their energy
+//! is, and which term carries a difference.
+//!
+//! At the bend θ that the finite elements reach, energies of the same kind stand side by side:
+//!
+//! ```text
+//! excess of a term = E_fe(θ) − E_reduced(θ)        gas: −P ΔV, counted from the filled body
+//! ```
+//!
+//! Where the finite elements bend less, the term with the largest excess carries the difference: energy that the reduced model
+//! does not know of. Where they bend more, the one with the largest lack. **Validity**: a statement about energies, not about
+//! their slopes, which decide the equilibrium; it names what to look at, it proves nothing.
+
+use crate::accuracy::paper_accuracy;
+use crate::error::CompareError;
+use models::{Loads, Model, Scenario, Target};
+use serde::{Deserialize, Serialize};
+
+/// Terms of the common ledger.
+pub const TERMS: [&str; 6] = ["pouch gas", "body folds", "wall bending", "stretch", "contact", "hourglass"];
+/// Difference over the finite elements' tip from which the models are said to part.
+pub const PARTS: f64 = 0.10;
+/// Smallest tip displacement that a share is taken of \[m\].
+const SMALLEST_TIP_M: f64 = 5e-3;
+
+/// A finished finite element run of a robot.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FeRun {
+    /// Actuator kind.
+    pub actuator: String,
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Element sizes of body and actuator \[mm\].
+    pub mesh_mm: [f64; 2],
+    /// Elements.
+    pub elements: u64,
+    /// Steps.
+    pub steps: u64,
+    /// Processor time \[s\].
+    pub cpu_s: f64,
+    /// Number of the engine that made it.
+    pub engine: u64,
+    /// Body gauge pressure \[kPa\].
+    pub body_kpa: f64,
+    /// Length of one unit of the actuator \[mm\].
+    pub pouch_mm: f64,
+    /// Units in series.
+    pub count: usize,
+    /// States, the filled body without actuator pressure first.
+    pub states: Vec<FeState>,
+}
+
+/// One state of a finite element run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FeState {
+    /// Actuator gauge pressure \[kPa\].
+    pub actuator_kpa: f64,
+    /// Height of the outermost marker \[mm\].
+    pub marker_mm: f64,
+    /// Height of the tip \[mm\].
+    pub tip_mm: f64,
+    /// Turn of the tip \[rad\].
+    pub turn_rad: f64,
+    /// Volume of the body \[cm³\].
+    pub body_cm3: f64,
+    /// Volume of the actuator \[cm³\].
+    pub actuator_cm3: f64,
+    /// Stored in membrane, bending, contact and hourglass control, and lost so far \[mJ\].
+    pub energies_mj: [f64; 5],
+    /// Kinetic over kinetic and stored energy.
+    pub kinetic_share: f64,
+    /// Largest von Mises stress \[MPa\].
+    pub von_mises_mpa: f64,
+    /// Largest pull on a weld \[N/m\].
+    pub weld_n_per_m: f64,
+}
+
+/// Both engines in one state.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Pair {
+    /// Actuator gauge pressure \[kPa\].
+    pub actuator_kpa: f64,
+    /// Outermost marker and tip of the reduced model \[mm\].
+    pub reduced_mm: [f64; 2],
+    /// Outermost marker and tip of the finite elements \[mm\].
+    pub fe_mm: [f64; 2],
+    /// Ledger of the reduced model in [`TERMS`] \[mJ\], at its own bend.
+    pub reduced_mj: [f64; 6],
+    /// Ledger of the finite elements \[mJ\].
+    pub fe_mj: [f64; 6],
+    /// The same minus the reduced model's at this bend \[mJ\]; `None` if it cannot bend so.
+    pub excess_mj: Option<[f64; 6]>,
+    /// What the finite elements have lost since the body was full \[mJ\].
+    pub lost_mj: f64,
+}
+
+impl Pair {
+    /// Reduced minus finite element tip over the latter; `None` where the tip hardly moves.
+    pub fn difference(&self) -> Option<f64> {
+        let fe = self.fe_mm[1];
+        (fe.abs() > SMALLEST_TIP_M * 1e3).then(|| (self.reduced_mm[1] - fe) / fe)
+    }
+
+    /// The term that carries the difference, where it is more than [`PARTS`].
+    pub fn carrier(&self) -> Option<&'static str> {
+        let difference = self.difference().filter(|d| d.abs() > PARTS)?;
+        let excess = self.excess_mj?;
+        let signed = |k: &usize| excess[*k] * difference.signum();
+        let k = (0..TERMS.len()).max_by(|a, b| signed(a).total_cmp(&signed(b)))?;
+        (signed(&k) > 0.0).then_some(TERMS[k])
+    }
+}
+
+/// Both engines at every pressure of a run.
+///
+/// # Errors
+/// A model without equilibrium.
+pub fn pairs(scenario: &Scenario, run: &FeRun) -> Result<Vec<Pair>, CompareError> {
+    let Some((filled, states)) = run.states.split_first() else { return Ok(Vec::new()) };
+    states.iter().map(|state| pair(scenario, run, filled, state)).collect()
+}
+
+fn pair(scenario: &Scenario, run: &FeRun, filled: &FeState, state: &FeState) -> Result<Pair, CompareError> {
+    let model = Model::new(scenario);
+    let mut at = model.prediction();
+    let loads = Loads::uniform(run.body_kpa * 1e3, state.actuator_kpa * 1e3);
+    model.predict(&loads, &mut at)?;
+    let marker = at.markers.last().map_or(at.tip.y_m, |xy| xy[1]);
+    let reduced_mm = [marker * 1e3, at.tip.y_m * 1e3];
+    let reduced_mj = reduced_ledger(&model, &loads, &at, 1.0);
+    let fe_mj = fe_ledger(run, filled, state);
+    let mut excess_mj = None;
+    if let Ok(pa) = model.pressure_for(Target::Angle(state.turn_rad), loads.body_pa, &mut at)
+        && pa > 0.0
+    {
+        let same_bend = Loads::uniform(loads.body_pa, pa);
+        // Gas at the run's pressure in the volume that this bend takes.
+        let reduced = reduced_ledger(&model, &same_bend, &at, state.actuator_kpa * 1e3 / pa);
+        excess_mj = Some(std::array::from_fn(|k| fe_mj[k] - reduced[k]));
+    }
+    let lost_mj = state.energies_mj[4] - filled.energies_mj[4];
+    let fe_mm = [state.marker_mm, state.tip_mm];
+    Ok(Pair { actuator_kpa: state.actuator_kpa, reduced_mm, fe_mm, reduced_mj, fe_mj, excess_mj, lost_mj })
+}
+
+fn reduced_ledger(model: &Model, loads: &Loads, at: &models::Prediction, gas: f64) -> [f64; 6] {
+    let mut out = [0.0; 6];
+    for line in model.ledger(loads, at) {
+        let (term, factor) = match line.name {
+            "actuator_pressure" => (0, gas),
+            "body_pressure" => (1, 1.0),
+            "self_contact" => (4, 1.0),
+            "fabric_stretch" | "shear_stiffness" => (3, 1.0),
+            _ => (2, 1.0),
+        };
+        out[term] += factor * line.energy_j * 1e3;
+    }
+    out
+}
+
+/// Gas −P ΔV in mJ (kPa·cm³ is mJ), the rest as stored since the body was full.
+fn fe_ledger(run: &FeRun, filled: &FeState, state: &FeState) -> [f64; 6] {
+    let since = |k: usize| state.energies_mj[k] - filled.energies_mj[k];
+    [
+        -state.actuator_kpa * (state.actuator_cm3 - filled.actuator_cm3),
+        -run.body_kpa * (state.body_cm3 - filled.body_cm3),
+        since(1),
+        since(0),
+        since(2),
+        since(3),
+    ]
+}
+
+/// The paper's accuracy of one displacement against one measurement.
+pub fn accuracy(model_mm: f64, measured_mm: f64) -> Option<f64> {
+    paper_accuracy(&[model_mm], &[measured_mm])
+}
+
+/// Finite element runs that come with the program, made by its own commands (`ibr breakdown`, `ibr simulate`).
+pub fn stored() -> Vec<FeRun> {
+    serde_json::from_str(include_str!("../../assets/fem-runs.json")).unwrap_or_default()
+}
+
+/// The stored run of a shipped robot as it is, on the finest mesh there is.
+pub fn stored_robot<'a>(runs: &'a [FeRun], scenario: &Scenario) -> Option<&'a FeRun> {
+    let mine = runs.iter().filter(|r| as_it_is(r, scenario) && r.states.last().is_some_and(|s| s.actuator_kpa > 29.9));
+    mine.min_by(|a, b| a.mesh_mm[1].total_cmp(&b.mesh_mm[1]))
+}
+
+/// Whether a run is of this robot at its own body pressure.
+pub fn as_it_is(run: &FeRun, scenario: &Scenario) -> bool {
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-6 * b.abs();
+    run.actuator == scenario.actuator.kind.name
+        && run.scenario == scenario.name
+        && run.count == scenario.actuator.count
+        && near(run.body_kpa, scenario.p_body_pa * 1e-3)
+        && near(run.pouch_mm, scenario.actuator.shape.length_m * 1e3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::published::shipped_scenario;
+
+    /// A run that is the reduced model itself, but for one term.
+    fn run(extra: usize, mj: f64) -> (Scenario, FeRun, Pair) {
+        let scenario = shipped_scenario("epam").unwrap().with_bending(0.4);
+        let model = Model::new(&scenario);
+        let mut at = model.prediction();
+        let loads = Loads::uniform(2e3, 20e3);
+        model.predict(&loads, &mut at).unwrap();
+        let [gas, body, bending, ..] = reduced_ledger(&model, &loads, &at, 1.0);
+        let mut energies_mj = [0.0, bending, 0.0, 0.0, 0.0];
+        energies_mj[extra] += mj;
+        let filled = FeState {
+            actuator_kpa: 0.0,
+            marker_mm: 0.0,
+            tip_mm: 0.0,
+            turn_rad: 0.0,
+            body_cm3: 1800.0,
+            actuator_cm3: 0.0,
+            energies_mj: [0.0; 5],
+            kinetic_share: 0.0,
+            von_mises_mpa: 0.0,
+            weld_n_per_m: 0.0,
+        };
+        let state = FeState {
+            actuator_kpa: 20.0,
+            tip_mm: at.tip.y_m * 1e3,
+            turn_rad: at.tip.angle_rad,
+            body_cm3: 1800.0 - body / 2.0,
+            actuator_cm3: -gas / 20.0,
+            energies_mj,
+            ..filled.clone()
+        };
+        let run = FeRun {
+            actuator: "epam".into(),
+            scenario: scenario.name.clone(),
+            mesh_mm: [4.0; 2],
+            elements: 1,
+            steps: 1,
+            cpu_s: 1.0,
+            engine: 1,
+            body_kpa: 2.0,
+            pouch_mm: 60.0,
+            count: 6,
+            states: vec![filled, state],
+        };
+        let pair = pairs(&scenario, &run).unwrap().remove(0);
+        (scenario, run, pair)
+    }
+
+    #[test]
+    fn a_run_that_is_the_reduced_model_has_no_excess_and_nothing_that_carries_a_difference() {
+        let (_, _, pair) = run(0, 0.0);
+        let largest = pair.reduced_mj.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
+        assert!(pair.excess_mj.unwrap().iter().all(|e| e.abs() < 1e-4 * largest), "{pair:?}");
+        assert!(pair.difference().unwrap().abs() < 1e-9 && pair.carrier().is_none());
+    }
+
+    #[test]
+    fn the_term_that_holds_more_energy_at_the_same_bend_carries_the_difference() {
+        for (place, term) in [(0, "stretch"), (1, "wall bending"), (2, "contact"), (3, "hourglass")] {
+            let (_, _, pair) = run(place, 50.0);
+            // The reduced tip is put 20 % above.
+            let apart = Pair { reduced_mm: [0.0, 1.2 * pair.fe_mm[1]], ..pair };
+            assert_eq!(apart.carrier(), Some(term));
+        }
+    }
+
+    #[test]
+    fn stored_runs_can_be_read_and_are_of_shipped_robots() {
+        let runs = stored();
+        assert!(!runs.is_empty());
+        for run in &runs {
+            let scenario = shipped_scenario(&run.actuator).unwrap();
+            assert_eq!(run.scenario, scenario.name);
+            assert!(run.states.len() > 1 && run.states[0].actuator_kpa == 0.0);
+        }
+    }
+}

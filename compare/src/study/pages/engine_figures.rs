@@ -1,0 +1,111 @@
+//! Plots of both engines.
+
+use super::drawing;
+use super::engines_page::{EngineRobot, Engines, PartingMap};
+use crate::error::CompareError;
+use crate::plots::{self, Drawn};
+use crate::study::engines::{PARTS, Pair, TERMS};
+
+/// Draws a map.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn parting_plot(map: &PartingMap) -> Result<Drawn, CompareError> {
+    let mut columns: Vec<f64> = map.rows.iter().flat_map(|r| r.1.iter().map(|p| p.actuator_kpa)).collect();
+    columns.sort_by(f64::total_cmp);
+    columns.dedup_by(|a, b| (*a - *b).abs() < 0.05);
+    let cell = |pairs: &[Pair], kpa: f64| {
+        let found = pairs.iter().find(|p| (p.actuator_kpa - kpa).abs() < 0.05);
+        plots::BreakdownCell {
+            percent: found.and_then(Pair::difference).map_or(f64::NAN, |d| 100.0 * d),
+            carrier: found.and_then(Pair::carrier).unwrap_or_default().into(),
+        }
+    };
+    let data = plots::Breakdown {
+        title: format!("{}: where the models part", map.actuator),
+        value_label: "reduced tip minus finite element tip, over the latter; below: what carries it".into(),
+        column_label: "actuator pressure [kPa]".into(),
+        row_label: map.row_label.clone(),
+        columns: columns.iter().map(|kpa| format!("{kpa:.0}")).collect(),
+        rows: map.rows.iter().map(|r| r.0.clone()).collect(),
+        cells: map.rows.iter().map(|r| columns.iter().map(|kpa| cell(&r.1, *kpa)).collect()).collect(),
+        parts: 100.0 * PARTS,
+        limit: 150.0,
+    };
+    plots::breakdown(&data).map_err(|e| drawing("the breakdown map", e))
+}
+
+/// Displacements at the highest pressure; `None` without runs.
+pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>, CompareError> {
+    let shown: Vec<&EngineRobot> =
+        engines.robots.iter().filter(|r| r.published.is_some() && !r.pairs.is_empty()).collect();
+    if shown.is_empty() {
+        return Ok(None);
+    }
+    let series = |name: &str, of: &dyn Fn(&EngineRobot) -> f64, reference| plots::BarSeries {
+        name: name.into(),
+        values: shown.iter().map(|r| of(r)).collect(),
+        half_width: vec![],
+        reference,
+    };
+    let last = |r: &EngineRobot| r.pairs.last().cloned();
+    let data = plots::Bars {
+        title: "Displacement at 30 kPa".into(),
+        value_label: "displacement [mm]".into(),
+        groups: shown.iter().map(|r| r.published.as_ref().map_or(String::new(), |p| p.printed_name.clone())).collect(),
+        series: vec![
+            series("reduced, bare", &|r| last(r).map_or(f64::NAN, |p| p.reduced_mm[0]), false),
+            series("reduced, with effects", &|r| r.with_effects.as_ref().map_or(f64::NAN, |g| g.y_m * 1e3), false),
+            series("finite elements, tip", &|r| last(r).map_or(f64::NAN, |p| p.fe_mm[1]), false),
+            series("measured", &|r| r.published.as_ref().map_or(f64::NAN, |p| p.d_max_m * 1e3), true),
+        ],
+    };
+    plots::bars(&data).map(Some).map_err(|e| drawing("the displacements", e))
+}
+
+/// Tip over pressure.
+pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn, CompareError> {
+    let of = |pick: fn(&Pair) -> f64| -> Vec<[f64; 2]> {
+        std::iter::once([0.0, 0.0]).chain(robot.pairs.iter().map(|p| [p.actuator_kpa, pick(p)])).collect()
+    };
+    let series = |name: &str, points, style, colour| plots::LineSeries {
+        name: name.into(),
+        points,
+        half_width: vec![],
+        style,
+        colour: Some(colour),
+    };
+    let mut all = vec![
+        series("reduced", of(|p| p.reduced_mm[1]), plots::LineStyle::LinePoints, 0),
+        series("finite elements", of(|p| p.fe_mm[1]), plots::LineStyle::LinePoints, 1),
+    ];
+    if let Some(p) = &robot.published {
+        let at = vec![[p.d_max_pressure_pa * 1e-3, p.d_max_m * 1e3]];
+        all.push(series("measured", at, plots::LineStyle::OpenPoints, 3));
+    }
+    let data = plots::Lines {
+        title: format!("{}: tip over pressure", robot.scenario.actuator.kind.name),
+        x_label: "actuator pressure [kPa]".into(),
+        y_label: "tip displacement [mm]".into(),
+        series: all,
+    };
+    plots::lines(&data).map_err(|e| drawing("the pressure curve", e))
+}
+
+/// Ledgers at every pressure.
+pub(super) fn ledger(robot: &EngineRobot) -> Result<Drawn, CompareError> {
+    let mut cases = Vec::new();
+    for p in &robot.pairs {
+        for (engine, energies) in [("reduced", p.reduced_mj), ("finite elements", p.fe_mj)] {
+            let label = format!("{:.0} kPa, {engine}", p.actuator_kpa);
+            cases.push(plots::LedgerCase { label, energies_mj: energies.to_vec() });
+        }
+    }
+    let data = plots::Ledger {
+        title: format!("{}: where the energy is", robot.scenario.actuator.kind.name),
+        value_label: "potential energy [mJ]".into(),
+        terms: TERMS.map(String::from).to_vec(),
+        cases,
+    };
+    plots::ledger(&data).map_err(|e| drawing("the ledger", e))
+}

@@ -1,0 +1,144 @@
+//! A robot's run from the text of its scenario: settings, loads, readings.
+
+use super::*;
+use crate::Simulation;
+use crate::problem::{Amplitude, ObstacleShape, Pressure};
+use crate::robot::Gauge;
+
+fn text(more: &str) -> String {
+    format!("{}\n[fem]\n{more}\n", models::shipped("epam").unwrap())
+}
+
+fn parsed(more: &str) -> Result<(Scenario, RobotRun), FemError> {
+    let text = text(more);
+    let scenario = Scenario::parse(&text).unwrap();
+    RobotRun::parse(&text, &scenario).map(|run| (scenario, run))
+}
+
+fn refused(more: &str) -> (String, String) {
+    match parsed(more).unwrap_err() {
+        FemError::Case { message, span } => (message, span.map_or(String::new(), |span| text(more)[span].to_string())),
+        other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn keys_of_the_table_become_settings_in_si_over_the_preset() {
+    let (_, run) = parsed(
+        "actuator_mesh_mm = 3\nmesh_mm = 5\nloading = \"published\"\nbond = 0.25\nseed = 7\nnu12 = 0.1\ncontact = true",
+    )
+    .unwrap();
+    let s = &run.settings;
+    assert_eq!((s.body_size_m, s.actuator_size_m, s.bond, s.seed), (5e-3, 3e-3, 0.25, 7));
+    assert_eq!(
+        (s.nu12, s.contact, s.actuator_ramp_s),
+        (Some(0.1), Some(true), RobotSettings::published().actuator_ramp_s)
+    );
+    assert_eq!(run.pressures_pa, [10e3, 20e3, 30e3], "those that the scenario predicts at");
+    let (_, plain) = parsed("").unwrap();
+    assert_eq!(RobotSettings { hold_s: 0.0, ..plain.settings }, RobotSettings::default());
+}
+
+#[test]
+fn every_key_is_read_back_as_written_and_within_its_bounds() {
+    let defaults = RobotSettings::default();
+    for key in KEYS {
+        let value = (key.get)(&defaults) / key.si;
+        assert!(value.is_nan() || (key.bounds[0]..=key.bounds[1]).contains(&value), "{}: {value}", key.name);
+        let middle = if key.name == "seed" { 3.0 } else { 0.5 * (key.bounds[0] + key.bounds[1]) };
+        let (_, run) = parsed(&format!("{} = {middle}", key.name)).unwrap();
+        assert!(((key.get)(&run.settings) / (middle * key.si) - 1.0).abs() < 1e-12, "{}", key.name);
+    }
+}
+
+#[test]
+fn faults_of_the_table_are_refused_with_their_place() {
+    for (more, words, place) in [
+        ("hourglas = 0.1", "did you mean `hourglass`?", "hourglas"),
+        ("weld_m = 0.001", "did you mean `weld_mm`?", "weld_m"),
+        ("mesh_mm = 0.004", "mesh_mm must be from 0.5 to 50, not 0.004", "0.004"),
+        ("bond = \"all\"", "bond must be a number", "\"all\""),
+        ("loading = \"fast\"", "known: compressed, published", "\"fast\""),
+        ("pressures_kpa = [10, 1]", "an actuator at 1 kPa in a body at 2 kPa stays flat", "[10, 1]"),
+        ("pressures_kpa = [10000]", "looks like pascals", "[10000]"),
+        ("pressures_kpa = []", "[10, 20, 30]", "[]"),
+        ("seed = 1.5", "whole number", "1.5"),
+        ("tip_force_n = [1, 2]", "three numbers", "[1, 2]"),
+        ("obstacle_friction = 0.2", "add obstacle_mm", "obstacle_friction"),
+    ] {
+        let (message, found) = refused(more);
+        assert!(message.contains(words) && found == place, "{more}: {message} at {found}");
+    }
+}
+
+#[test]
+fn one_ramp_leads_through_all_pressures_at_one_rate_and_rests_at_each() {
+    let (scenario, run) = parsed("pressures_kpa = [10, 30]\nhold_s = 0.03\nmesh_mm = 8").unwrap();
+    let problem = run.problem(&scenario).unwrap();
+    let Pressure::Set(amplitude @ Amplitude::Smooth(_)) = &problem.chambers[1].pressure else { panic!("not set") };
+    let holds = run.holds();
+    let (filled, ramp) = (run.settings.body_ramp_s, run.settings.actuator_ramp_s);
+    let wanted = [(filled, 0.0), (filled + ramp / 3.0 + 0.03, 10e3), (filled + ramp + 0.06, 30e3)];
+    for (hold, (time_s, pressure_pa)) in holds.iter().zip(wanted) {
+        assert!((hold.time_s - time_s).abs() < 1e-12 && hold.pressure_pa == pressure_pa, "{holds:?}");
+        assert!((amplitude.at(time_s) - pressure_pa).abs() < 1e-9 * 30e3);
+        assert!((amplitude.at(time_s - 0.029) - pressure_pa).abs() < 1e-9 * 30e3 || pressure_pa == 0.0);
+    }
+    assert_eq!(problem.settings.end_s, holds[2].time_s);
+}
+
+#[test]
+fn loads_of_the_outlook_reach_the_problem() {
+    let (scenario, run) =
+        parsed("tip_force_n = [0, -1, 0]\nobstacle_mm = [200, 80, 25]\nobstacle_friction = 0.2\nmesh_mm = 8").unwrap();
+    let problem = run.problem(&scenario).unwrap();
+    assert_eq!((problem.forces[0].set.as_str(), problem.forces[0].total_n), ("tip", [0.0, -1.0, 0.0]));
+    let ObstacleShape::Cylinder { point, radius_m, .. } = problem.obstacles[0].shape else { panic!("no cylinder") };
+    assert!((point[0] - 0.2).abs() < 1e-12 && (radius_m - 0.025).abs() < 1e-12 && problem.obstacles[0].friction == 0.2);
+}
+
+#[test]
+fn a_rigid_turn_of_the_robot_is_read_as_its_turn_and_its_place() {
+    let (scenario, run) = parsed("mesh_mm = 8").unwrap();
+    let mut problem = run.problem(&scenario).unwrap();
+    let angle = 0.4_f64;
+    let (s, c) = angle.sin_cos();
+    // The start is the straight robot; the run begins turned.
+    problem.mesh.start = problem.mesh.points.clone();
+    let gauge = Gauge::new(&scenario, &problem).unwrap();
+    let mut turned = problem.clone();
+    turned.settings.imperfection = 0.0;
+    turned.mesh.points.iter_mut().for_each(|p| *p = [c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]]);
+    turned.mesh.start = turned.mesh.points.clone();
+    let reading = gauge.read(&Simulation::new(&turned).unwrap()).unwrap();
+    assert!((reading.tip_angle_rad - angle).abs() < 1e-9, "{}", reading.tip_angle_rad);
+    let tip = reading.moved_m.last().unwrap();
+    assert!((tip[1] - 0.36 * s).abs() < 1e-4 && (tip[0] - 0.36 * (c - 1.0)).abs() < 1e-4, "{tip:?}");
+    assert!(reading.seam_n_per_m.abs() < 1.0 && reading.von_mises_pa < 1.0, "no stress in a rigid turn");
+}
+
+#[test]
+fn welds_are_where_three_sheets_meet_and_pull_with_their_tension() {
+    let (scenario, run) = parsed("mesh_mm = 8").unwrap();
+    let problem = run.problem(&scenario).unwrap();
+    let seams = Seams::of(&problem.mesh);
+    let gauge = Gauge::new(&scenario, &problem).unwrap();
+    // All edges of six pouches of 60 x 60 mm: weld elements are on the strip or beside it.
+    for element in seams.elements() {
+        let (part, x) = gauge.place(*element);
+        assert!(["wall", "face", "top"].contains(&part.as_str()) && (0.0..0.36).contains(&x), "{part} {x}");
+    }
+    let count = problem.mesh.elements();
+    let mut fields = crate::run::ElementFields {
+        principal_stress_pa: vec![[1e9, 0.0]; count],
+        thickness_m: vec![2e-4; count],
+        ..crate::run::ElementFields::default()
+    };
+    for element in seams.elements() {
+        fields.principal_stress_pa[*element] = [1e6, 0.0];
+    }
+    let one = seams.elements()[3];
+    fields.principal_stress_pa[one] = [5e6, 1e6];
+    let found = seams.largest(&fields).unwrap();
+    assert!(found.element == one && (found.n_per_m - 1000.0).abs() < 1e-9, "{found:?}");
+}

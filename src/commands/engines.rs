@@ -1,0 +1,124 @@
+//! `ibr compare --engines`: both engines and the published numbers.
+
+use super::simulate::{Keeper, Named, all_runs, named};
+use super::tables::table;
+use super::{Context, Outcome};
+use crate::cli::Compare;
+use crate::failure::{Failure, INTERRUPTED};
+use crate::output::{Input, check_folder, machine, program, today, write_files};
+use compare::study::engines::{FeRun, TERMS, stored};
+use compare::study::pages::{EngineLine, Engines, HEADS, Imprint, cells, engines, engines_page, lines};
+use models::Scenario;
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+/// The robots of the paper.
+const PUBLISHED: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
+
+pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
+    let folder = args.out.clone().unwrap_or_else(|| PathBuf::from("ibr-report/compare-engines"));
+    check_folder(&folder)?;
+    let (scenarios, inputs) = robots(&args.inputs)?;
+    let Some(runs) = runs(args, &scenarios, context)? else {
+        let note = "interrupted; finished runs are kept, the same command goes on".to_string();
+        return Ok(Outcome { notes: vec![note], code: INTERRUPTED, ..Outcome::default() });
+    };
+    let scenarios: Vec<Scenario> = scenarios.into_iter().map(|s| s.1).collect();
+    let found = engines(&scenarios, &runs)?;
+    let mut all: Vec<EngineLine> = Vec::new();
+    for robot in &found.robots {
+        all.extend(lines(robot)?);
+    }
+    let mut outcome = Outcome::new(
+        text(&all, &found),
+        json!({
+            "schema": "ibr.engines", "version": 1, "lines": all,
+            "ledgers": found.robots.iter().map(|r| json!({"robot": r.scenario.name, "pairs": r.pairs})).collect::<Vec<_>>(),
+        }),
+    );
+    (context.progress)("drawing the report", None);
+    let imprint = Imprint { program: program(), date: today(), machine: machine() };
+    let mut files = engines_page(&found, &imprint)?;
+    let kept = serde_json::to_string_pretty(&runs).unwrap_or_default();
+    files.files.insert(0, ("runs.json".into(), (kept + "\n").into_bytes()));
+    write_files(&folder, &files, &inputs, context)?;
+    outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
+    Ok(outcome)
+}
+
+/// Scenarios named, or those of the paper.
+pub fn robots(specs: &[String]) -> Result<(Vec<(Named, Scenario)>, Vec<Input>), Failure> {
+    let own: Vec<String> = PUBLISHED.map(String::from).to_vec();
+    let specs = if specs.is_empty() { &own } else { specs };
+    let (mut found, mut inputs) = (Vec::new(), Vec::new());
+    for spec in specs {
+        let named = named(spec)?;
+        if !named.is_robot() {
+            let message = format!("{spec} is not the scenario of a robot");
+            return Err(Failure::usage(message, "give scenarios such as spam cpam epam fpam"));
+        }
+        let (scenario, _) = named.robot_run()?;
+        inputs.push(Input::of(spec, named.text.as_bytes()));
+        found.push((named, scenario));
+    }
+    Ok((found, inputs))
+}
+
+/// Stored runs, or those of the folder, which gets what is missing.
+fn runs(args: &Compare, scenarios: &[(Named, Scenario)], context: &mut Context) -> Result<Option<Vec<FeRun>>, Failure> {
+    if args.stored {
+        return Ok(Some(stored()));
+    }
+    let keeper = Keeper { folder: args.runs.clone(), threads: args.threads as usize };
+    let mut own = Vec::new();
+    for (k, (named, scenario)) in scenarios.iter().enumerate() {
+        let what = format!("{} of {}, {}", k + 1, scenarios.len(), scenario.name);
+        match keeper.run(named, &what, context)? {
+            Some(run) => own.push(run),
+            None => return Ok(None),
+        }
+    }
+    // Runs of the map are there if they were made.
+    let others = all_runs(&args.runs).into_iter().filter(|r| !own.contains(r)).collect::<Vec<_>>();
+    own.extend(others);
+    Ok(Some(own))
+}
+
+fn text(lines: &[EngineLine], engines: &Engines) -> String {
+    let mut out =
+        String::from("Both engines and the published numbers; accuracy by the paper's formula for one marker\n");
+    out.push_str(&table(&HEADS, 1, lines.iter().map(cells).collect()));
+    let mut rows = Vec::new();
+    for robot in &engines.robots {
+        let Some(pair) = robot.pairs.last() else { continue };
+        for (engine, energies) in [
+            ("reduced", Some(pair.reduced_mj)),
+            ("finite elements", Some(pair.fe_mj)),
+            ("excess at the same bend", pair.excess_mj),
+        ] {
+            let Some(energies) = energies else { continue };
+            let mut row = vec![robot.scenario.actuator.kind.name.to_string(), engine.to_string()];
+            row.extend(energies.map(|e| format!("{e:.0}")));
+            row.push(if engine == "finite elements" { format!("{:.0}", pair.lost_mj) } else { "–".into() });
+            rows.push(row);
+        }
+        if let Some(carrier) = pair.carrier() {
+            let mut row = vec![String::new(), format!("carried by: {carrier}")];
+            row.resize(TERMS.len() + 3, String::new());
+            rows.push(row);
+        }
+    }
+    if !rows.is_empty() {
+        out.push_str("\nLedgers at the highest pressure [mJ]: gas −P ΔV, what is stored, what was lost\n");
+        let mut head = vec!["robot", "engine"];
+        head.extend(TERMS);
+        head.push("lost");
+        out.push_str(&table(&head, 2, rows));
+    }
+    out
+}
+
+/// Runs for other commands: those stored in the program, and those of a folder if one is named.
+pub fn known_runs(folder: Option<&Path>) -> Vec<FeRun> {
+    folder.map_or_else(stored, all_runs)
+}

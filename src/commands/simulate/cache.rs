@@ -1,0 +1,105 @@
+//! Finished runs of robots, kept in a folder under the hash of problem and engine, so that asking twice costs nothing.
+
+use super::input::Named;
+use super::robot;
+use super::single::{self, Done, Manner};
+use crate::commands::Context;
+use crate::failure::Failure;
+use compare::study::engines::{FeRun, FeState};
+use fem::robot::Reading;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// How missing runs are made.
+#[derive(Debug, Clone)]
+pub struct Keeper {
+    /// Folder of all runs.
+    pub folder: PathBuf,
+    /// Threads.
+    pub threads: usize,
+}
+
+impl Keeper {
+    /// The run of a robot: read if it is there, made or gone on with if not. `None` if the user interrupted it.
+    pub fn run(&self, named: &Named, what: &str, context: &mut Context) -> Result<Option<FeRun>, Failure> {
+        let loaded = named.load()?;
+        let kind = loaded.robot.as_ref().map_or("case", |r| r.scenario.actuator.kind.name);
+        let key = format!("{kind}-{:016x}-{}", loaded.case.problem.fingerprint(), fem::ENGINE);
+        let folder = self.folder.join(key);
+        if let Some(run) = finished(&folder) {
+            return Ok(Some(run));
+        }
+        let case = folder.join("case.toml");
+        let begun = std::fs::read_to_string(&case).is_ok_and(|text| text == named.text);
+        let force = case.exists() && !begun;
+        let every = Duration::from_secs(30);
+        let (threads, end_s) = (self.threads, None);
+        let manner = Manner { folder: folder.clone(), resume: begun, force, frames: false, end_s, threads, every };
+        let Context { json, progress, written, interrupt } = context;
+        let mut tell = |text: &str, share: Option<f64>| progress(&format!("{what}: {text}"), share);
+        let mut inner = Context { json: *json, progress: &mut tell, written, interrupt };
+        match single::run(loaded, &manner, &mut inner)? {
+            Done::Interrupted { .. } => Ok(None),
+            Done::Now { summary, cost, .. } | Done::Before { summary, cost } => Ok(as_run(&summary, &cost)),
+        }
+    }
+}
+
+/// A finished run of the present engine in a folder.
+pub fn finished(folder: &Path) -> Option<FeRun> {
+    let read =
+        |name: &str| -> Option<Value> { serde_json::from_str(&std::fs::read_to_string(folder.join(name)).ok()?).ok() };
+    let (summary, manifest) = (read("summary.json")?, read("manifest.json")?);
+    (summary["engine"] == fem::ENGINE).then_some(())?;
+    as_run(&summary, &manifest["cost"])
+}
+
+/// All finished runs in a folder, by name.
+pub fn all(folder: &Path) -> Vec<FeRun> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let mut folders: Vec<PathBuf> = entries.filter_map(|e| Some(e.ok()?.path())).collect();
+    folders.sort();
+    folders.iter().filter_map(|folder| finished(folder)).collect()
+}
+
+/// A run as the comparison wants it; `None` if it is not one of a robot.
+pub fn as_run(summary: &Value, cost: &Value) -> Option<FeRun> {
+    let readings = robot::readings(summary);
+    let about = &summary["robot"];
+    let setting = |key: &str| about["settings"][key].as_f64();
+    (!readings.is_empty()).then_some(())?;
+    Some(FeRun {
+        actuator: about["actuator"].as_str()?.into(),
+        scenario: summary["name"].as_str()?.into(),
+        mesh_mm: [setting("body_mesh_mm")?, setting("actuator_mesh_mm")?],
+        elements: summary["elements"].as_u64()?,
+        steps: summary["steps"].as_u64()?,
+        cpu_s: robot::rounded(cost["cpu_s_of_all_sessions"].as_f64().unwrap_or(0.0)),
+        engine: summary["engine"].as_u64()?,
+        body_kpa: robot::rounded(about["body_pa"].as_f64()? * 1e-3),
+        pouch_mm: robot::rounded(about["pouch_m"].as_f64()? * 1e3),
+        count: about["count"].as_u64()? as usize,
+        states: readings.iter().map(state).collect(),
+    })
+}
+
+fn state(r: &Reading) -> FeState {
+    let [marker_mm, tip_mm] = robot::heights_mm(r);
+    let stored = |name: &str| r.ledger.iter().filter(|l| l.0 == name).map(|l| l.2 * 1e3).sum::<f64>();
+    let lost = r.ledger.iter().filter(|l| l.1 == "dissipated").map(|l| l.2 * 1e3).sum::<f64>();
+    let short = |v: f64| format!("{v:.6e}").parse().unwrap_or(v);
+    let energies_mj = [stored("membrane"), stored("bending"), stored("contact"), stored("hourglass"), lost].map(short);
+    FeState {
+        actuator_kpa: short(r.actuator_pa * 1e-3),
+        marker_mm: short(marker_mm),
+        tip_mm: short(tip_mm),
+        turn_rad: short(r.tip_angle_rad),
+        body_cm3: short(r.body_m3 * 1e6),
+        actuator_cm3: short(r.actuator_m3 * 1e6),
+        energies_mj,
+        kinetic_share: short(r.kinetic_share),
+        von_mises_mpa: short(r.von_mises_pa * 1e-6),
+        weld_n_per_m: short(r.seam_n_per_m),
+    }
+}
