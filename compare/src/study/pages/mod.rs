@@ -11,8 +11,7 @@ pub use compare_page::{Candidate, Study, Variant, compare_page, study};
 pub use demo_page::{Demo, demo, demo_page};
 pub use engine_figures::parting_plot;
 pub use engines_page::{
-    EngineLine, EngineRobot, Engines, HEADS, PartingMap, cells, engine_sections, engines, engines_page, lines,
-    parting_plot, varied,
+    EngineLine, EngineRobot, Engines, HEADS, PartingMap, cells, engine_sections, engines, engines_page, lines, varied,
 };
 pub use figures::tradeoff as tradeoff_plot;
 
