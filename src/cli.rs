@@ -7,7 +7,7 @@ use std::path::PathBuf;
 #[derive(Debug, Parser)]
 #[command(version, about, max_term_width = 100)]
 #[command(after_help = "A SCENARIO is a TOML file or a shipped robot: spam, cpam, epam, fpam.\n\
-    A CASE is a TOML file with kind = \"fem\" or a shipped case: pillow, tube.\n\
+    A CASE is a TOML file with kind = \"fem\" or a shipped case: pillow, tube; robots run too (ibr list cases).\n\
     A DATA is a CSV or Parquet file, a folder with markers.csv and about.toml, or an embedded set (ibr list datasets).\n\
     Exit codes: 0 done, 1 a threshold was missed, 2 wrong usage, 3 bad input or output file, 4 no solution, 130 interrupted.")]
 pub struct Cli {
@@ -53,7 +53,7 @@ pub enum Command {
     },
     /// Print a shipped scenario or finite element case as a start for your own
     New {
-        /// spam, cpam, epam or fpam; pillow or tube
+        /// spam, cpam, epam or fpam; pillow or tube; a study of ibr list cases
         kind: String,
     },
     /// Run time against accuracy of every model present

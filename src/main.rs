@@ -5,6 +5,7 @@ mod commands;
 mod cost;
 mod failure;
 mod output;
+mod studies;
 
 use clap::Parser;
 use cli::Cli;

@@ -32,7 +32,7 @@ pub fn scenario(spec: &str) -> Result<NamedScenario, Failure> {
 }
 
 fn scenario_text(spec: &str) -> Result<String, Failure> {
-    let cause = match (std::fs::read(spec), models::shipped(spec)) {
+    let cause = match (std::fs::read(spec), models::shipped(spec).or(crate::studies::study(spec))) {
         (Err(_), Some(text)) if !Path::new(spec).exists() => return Ok(text.to_string()),
         (Err(cause), _) => cause.to_string(),
         (Ok(bytes), _) => match String::from_utf8(bytes) {

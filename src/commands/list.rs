@@ -3,6 +3,7 @@
 use super::Outcome;
 use super::inputs::with_unit;
 use crate::failure::Failure;
+use crate::studies::{STUDIES, study};
 use fem::case::{GENERATORS, SHIPPED_CASES, shipped_case};
 use models::actuators::ACTUATORS;
 use models::effects::EFFECTS;
@@ -102,6 +103,12 @@ fn cases() -> (String, Value) {
         text.push_str(&format!("  {name:<16} {title}\n"));
         shipped.push(json!({"name": name, "title": title}));
     }
+    text.push_str("  robots in finite elements, beside the four of ibr list actuators\n");
+    let mut studies = Vec::new();
+    for (name, about, _) in STUDIES {
+        text.push_str(&format!("    {name:<14} {about}\n"));
+        studies.push(json!({"name": name, "title": about}));
+    }
     text.push_str("  meshes for cases of your own, [mesh] generator = …\n");
     for g in GENERATORS {
         let keys = g.keys.iter().map(|k| k.key).collect::<Vec<_>>().join(", ");
@@ -115,15 +122,16 @@ fn cases() -> (String, Value) {
             json!({"name": g.name, "sentence": g.sentence, "keys": keys})
         })
         .collect();
-    (text, json!({"shipped": shipped, "generators": generators}))
+    (text, json!({"shipped": shipped, "studies": studies, "generators": generators}))
 }
 
 pub fn new(kind: &str) -> Result<Outcome, Failure> {
-    let (key, text) = match (models::shipped(kind), shipped_case(kind)) {
+    let (key, text) = match (models::shipped(kind).or(study(kind)), shipped_case(kind)) {
         (Some(text), _) => ("scenario_toml", text),
         (None, Some(text)) => ("case_toml", text),
         (None, None) => {
-            let names = SHIPPED.iter().chain(SHIPPED_CASES).map(|s| s.0).collect::<Vec<_>>().join(", ");
+            let names = SHIPPED.iter().chain(SHIPPED_CASES).map(|s| s.0).chain(STUDIES.iter().map(|s| s.0));
+            let names = names.collect::<Vec<_>>().join(", ");
             return Err(Failure::usage(format!("no shipped scenario `{kind}`"), format!("known: {names}")));
         }
     };

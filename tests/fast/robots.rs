@@ -154,3 +154,20 @@ fn a_breakdown_is_drawn_from_runs_that_are_kept() {
     assert_eq!(std::fs::read(folder.path("map/breakdown.csv")).unwrap(), first);
     assert_eq!(std::fs::read_dir(folder.path("runs")).unwrap().count(), 2);
 }
+
+#[test]
+fn every_study_is_listed_printed_read_by_both_engines_and_starts() {
+    let folder = Folder::new();
+    let listed = folder.run(&["list", "cases", "--json"]).json("ibr.list");
+    let names: Vec<&str> =
+        listed["cases"]["studies"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["cpam-11-12-13", "long", "tip-load", "obstacle"]);
+    for name in names {
+        folder.write("mine.toml", folder.run(&["new", name]).stdout);
+        let predicted = folder.run(&["predict", "mine.toml"]);
+        assert_eq!(predicted.code, 0, "{name}: {}", predicted.stderr);
+        let more = ["--mesh", "12mm", "--end", "0.1ms", "--no-frames", "--quiet", "--out", name];
+        let ran = folder.run(&[&["simulate", name], &more[..]].concat());
+        assert_eq!(ran.code, 0, "{name}: {}", ran.stderr);
+    }
+}

@@ -110,9 +110,10 @@ pub(super) fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun, FemErro
         tip_force_n: [0.0; 3],
         obstacle: None,
     };
-    // The common size first, so that the others override it whatever their order.
-    let (common, rest): (Vec<_>, Vec<_>) = table.iter().partition(|(key, _)| key.get_ref() == "mesh_mm");
-    common.into_iter().chain(rest).try_for_each(|(key, value)| read(&mut run, key, value))?;
+    // What others override or need comes first, whatever their order.
+    let first = |name: &str| name == "mesh_mm" || name == "obstacle_mm";
+    let (before, after): (Vec<_>, Vec<_>) = table.iter().partition(|(key, _)| first(key.get_ref()));
+    before.into_iter().chain(after).try_for_each(|(key, value)| read(&mut run, key, value))?;
     if !table.keys().any(|key| key.get_ref() == "hold_s") {
         run.settings.hold_s = HOLD * run.settings.actuator_ramp_s;
     }

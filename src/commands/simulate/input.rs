@@ -3,6 +3,7 @@
 use super::robot::Robot;
 use crate::failure::Failure;
 use crate::output::Input;
+use crate::studies::{STUDIES, study};
 use fem::FemError;
 use fem::case::{Case, Outputs, SHIPPED_CASES, is_case, shipped_case};
 use fem::robot::{RobotRun, outputs, with_fem};
@@ -127,7 +128,7 @@ fn refused(file: &str, text: &str, error: FemError) -> Failure {
 /// The text, and the folder that its paths count from.
 fn text(spec: &str) -> Result<(String, PathBuf), Failure> {
     let path = Path::new(spec);
-    let cause = match (std::fs::read(path), shipped_case(spec).or(models::shipped(spec))) {
+    let cause = match (std::fs::read(path), shipped_case(spec).or(models::shipped(spec)).or(study(spec))) {
         (Err(_), Some(text)) if !path.exists() => return Ok((text.to_string(), PathBuf::new())),
         (Err(cause), _) => cause.to_string(),
         (Ok(bytes), _) => match String::from_utf8(bytes) {
@@ -140,8 +141,8 @@ fn text(spec: &str) -> Result<(String, PathBuf), Failure> {
 }
 
 fn unreadable(spec: &str, cause: &str) -> Failure {
-    let shipped = SHIPPED_CASES.iter().chain(models::scenario::SHIPPED);
-    let names = shipped.map(|c| c.0).collect::<Vec<_>>().join(", ");
+    let shipped = SHIPPED_CASES.iter().chain(models::scenario::SHIPPED).map(|c| c.0);
+    let names = shipped.chain(STUDIES.iter().map(|s| s.0)).collect::<Vec<_>>().join(", ");
     let help = format!(
         "give a finite element case or a robot's scenario, or a shipped one: {names}; `ibr new pillow > my.toml` makes a start"
     );
