@@ -1,0 +1,14 @@
+//! Scenarios of finite element studies that come with the program, beside the four robots.
+
+/// Names, what they are about, and texts.
+pub const STUDIES: &[(&str, &str, &str)] = &[
+    ("cpam-11-12-13", "the cPAM in small steps of pressure", include_str!("../studies/cpam-11-12-13.toml")),
+    ("long", "a robot of 2 m with 40 pouches", include_str!("../studies/long.toml")),
+    ("tip-load", "a load on the tip", include_str!("../studies/tip-load.toml")),
+    ("obstacle", "a cylinder in the way", include_str!("../studies/obstacle.toml")),
+];
+
+/// The text of a study.
+pub fn study(name: &str) -> Option<&'static str> {
+    STUDIES.iter().find(|s| s.0 == name).map(|s| s.2)
+}
