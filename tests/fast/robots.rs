@@ -52,43 +52,6 @@ fn a_robot_is_read_at_every_pressure_of_one_ramp_and_its_markers_are_a_dataset()
 }
 
 #[test]
-fn seeds_and_separate_pressures_are_runs_of_their_own_which_are_kept() {
-    let folder = Folder::new();
-    let more = ["--pressure", "10kPa,15kPa", "--separate", "--seeds", "2", "--out", "batch"];
-    let answer = simulate(&folder, &more);
-    let runs = answer["runs"].as_array().unwrap();
-    let labels: Vec<&str> = runs.iter().map(|r| r["run"].as_str().unwrap()).collect();
-    assert_eq!(labels, ["seed-1-10kPa", "seed-1-15kPa", "seed-2-10kPa", "seed-2-15kPa"]);
-    let groups = answer["groups"].as_array().unwrap();
-    assert_eq!(groups.len(), 2, "one mean per pressure");
-    let tip = |k: usize| runs[k]["heights"][0]["tip_mm"].as_f64().unwrap();
-    let mean = groups[0]["tip_mean_mm"].as_f64().unwrap();
-    assert!((mean - 0.5 * (tip(0) + tip(2))).abs() < 1e-12 && tip(0) != tip(2), "{groups:?}");
-    let before = std::fs::metadata(folder.path("batch/seed-1-10kPa/manifest.json")).unwrap().modified().unwrap();
-    assert_eq!(simulate(&folder, &more)["runs"], answer["runs"], "the same from what is kept");
-    let after = std::fs::metadata(folder.path("batch/seed-1-10kPa/manifest.json")).unwrap().modified().unwrap();
-    assert_eq!(before, after);
-    let other = [&["simulate", "epam"], &QUICK[..], &more, &["--set", "hourglass=0.02"]].concat();
-    refuse(&folder, &other, 3, &["batch/seed-1-10kPa", "another case", "--force"]);
-}
-
-#[test]
-fn sensitivity_tells_what_each_assumed_number_does_and_which_do_nothing_here() {
-    let folder = Folder::new();
-    let answer = simulate(&folder, &["--sensitivity", "--out", "s"]);
-    let runs = answer["runs"].as_array().unwrap();
-    assert_eq!(runs.len(), 1 + 2 * fem::robot::ASSUMED.len());
-    let base = answer["tip_mm"].as_f64().unwrap();
-    let tip = |name: &str| {
-        let run = runs.iter().find(|r| r["run"].as_str().unwrap().starts_with(name)).unwrap();
-        run["heights"][0]["tip_mm"].as_f64().unwrap()
-    };
-    assert_eq!(tip("glue_mm"), base, "an ePAM has no glue");
-    assert_ne!(tip("bending_factor"), base);
-    assert!(folder.path("s/tornado.png").exists() && read(&folder, "s/table.csv").contains("bending_factor=0.02"));
-}
-
-#[test]
 fn wrong_settings_are_refused_before_anything_is_run() {
     let folder = with_report();
     for (args, words) in [
@@ -121,38 +84,6 @@ fn both_engines_stand_beside_the_published_numbers_from_stored_runs() {
     assert_hashes(&folder.path("page"));
     let wrong = folder.run(&["compare", "epam"]);
     assert!(wrong.code == 2 && wrong.stderr.contains("a scenario and data, not 1 names"), "{}", wrong.stderr);
-}
-
-#[test]
-fn a_breakdown_is_drawn_from_runs_that_are_kept() {
-    let folder = Folder::new();
-    folder.write(
-        "quick.toml",
-        models::shipped("fpam").unwrap().to_string() + "\n[fem]\nbody_ramp_s = 0.004\nactuator_ramp_s = 0.006\n",
-    );
-    let args = [
-        "breakdown",
-        "quick.toml",
-        "--mesh",
-        "14mm",
-        "--pressure",
-        "10kPa,20kPa",
-        "--body-pressure",
-        "3kPa",
-        "--out",
-        "map",
-        "--runs",
-        "runs",
-        "--json",
-    ];
-    let answer = folder.run(&args).json("ibr.breakdown");
-    let cells = answer["cells"].as_array().unwrap();
-    assert_eq!(cells.len(), 4, "two pressures at the body's own and at 3 kPa; no pouches to vary");
-    assert!(cells.iter().any(|c| c["body_kpa"] == 3.0) && folder.path("map/breakdown_fpam_0.png").exists());
-    let first = std::fs::read(folder.path("map/breakdown.csv")).unwrap();
-    folder.run(&args).json("ibr.breakdown");
-    assert_eq!(std::fs::read(folder.path("map/breakdown.csv")).unwrap(), first);
-    assert_eq!(std::fs::read_dir(folder.path("runs")).unwrap().count(), 2);
 }
 
 #[test]

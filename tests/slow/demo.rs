@@ -1,11 +1,11 @@
-//! `ibr demo`: the whole story in one report, in less than half a minute.
+//! `ibr demo`: the whole story in one report, with a real finite element run, in less than two minutes.
 
 use crate::alone;
 use crate::support::{Folder, assert_hashes, assert_opens_offline};
 use std::time::Instant;
 
 #[test]
-fn demo_tells_the_story_in_text_json_and_a_report_in_less_than_30_seconds() {
+fn demo_tells_the_story_in_text_json_and_a_report_in_less_than_two_minutes() {
     let _alone = alone();
     let folder = Folder::new();
     let start = Instant::now();
@@ -37,5 +37,5 @@ fn demo_tells_the_story_in_text_json_and_a_report_in_less_than_30_seconds() {
     assert_eq!(answer["published"].as_array().unwrap().len(), 4, "four actuators");
     assert_eq!(answer["marker_sets"].as_array().unwrap().len(), 5);
     println!("demo: {text_s:.1} s and {json_s:.1} s");
-    assert!(text_s.min(json_s) < 30.0, "{text_s:.1} s and {json_s:.1} s");
+    assert!(text_s.min(json_s) < 120.0, "{text_s:.1} s and {json_s:.1} s");
 }

@@ -15,6 +15,7 @@ mod engine;
 mod figures;
 mod interrupts;
 mod large_file;
+mod robots;
 mod simulate;
 #[path = "../support/mod.rs"]
 mod support;

@@ -1,0 +1,103 @@
+//! Finite element robots: many runs from one command, which are kept. The robots are coarse and fast: what they give is no
+//! result.
+
+use crate::alone;
+use crate::support::Folder;
+use serde_json::Value;
+
+/// A tenth of a second of processor time.
+const QUICK: [&str; 9] = [
+    "--mesh",
+    "14mm",
+    "--set",
+    "body_ramp_s=0.004",
+    "--set",
+    "actuator_ramp_s=0.006",
+    "--no-frames",
+    "--quiet",
+    "--json",
+];
+
+fn simulate(folder: &Folder, more: &[&str]) -> Value {
+    let ran = folder.run(&[&["simulate", "epam"], &QUICK[..], more].concat());
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    serde_json::from_str(&ran.stdout).unwrap()
+}
+
+#[test]
+fn seeds_and_separate_pressures_are_runs_of_their_own_which_are_kept() {
+    let _alone = alone();
+    let folder = Folder::new();
+    let more = ["--pressure", "10kPa,15kPa", "--separate", "--seeds", "2", "--out", "batch"];
+    let answer = simulate(&folder, &more);
+    let runs = answer["runs"].as_array().unwrap();
+    let labels: Vec<&str> = runs.iter().map(|r| r["run"].as_str().unwrap()).collect();
+    assert_eq!(labels, ["seed-1-10kPa", "seed-1-15kPa", "seed-2-10kPa", "seed-2-15kPa"]);
+    let groups = answer["groups"].as_array().unwrap();
+    assert_eq!(groups.len(), 2, "one mean per pressure");
+    let tip = |k: usize| runs[k]["heights"][0]["tip_mm"].as_f64().unwrap();
+    let mean = groups[0]["tip_mean_mm"].as_f64().unwrap();
+    assert!((mean - 0.5 * (tip(0) + tip(2))).abs() < 1e-12 && tip(0) != tip(2), "{groups:?}");
+    let before = std::fs::metadata(folder.path("batch/seed-1-10kPa/manifest.json")).unwrap().modified().unwrap();
+    assert_eq!(simulate(&folder, &more)["runs"], answer["runs"], "the same from what is kept");
+    let after = std::fs::metadata(folder.path("batch/seed-1-10kPa/manifest.json")).unwrap().modified().unwrap();
+    assert_eq!(before, after);
+    let other = folder.run(&[&["simulate", "epam"], &QUICK[..], &more, &["--set", "hourglass=0.02"]].concat());
+    assert_eq!(other.code, 3);
+    for words in ["batch/seed-1-10kPa", "another case", "--force"] {
+        assert!(other.stderr.contains(words), "{words}: {}", other.stderr);
+    }
+}
+
+#[test]
+fn sensitivity_tells_what_each_assumed_number_does_and_which_do_nothing_here() {
+    let _alone = alone();
+    let folder = Folder::new();
+    let answer = simulate(&folder, &["--sensitivity", "--out", "s"]);
+    let runs = answer["runs"].as_array().unwrap();
+    assert_eq!(runs.len(), 1 + 2 * fem::robot::ASSUMED.len());
+    let base = answer["tip_mm"].as_f64().unwrap();
+    let tip = |name: &str| {
+        let run = runs.iter().find(|r| r["run"].as_str().unwrap().starts_with(name)).unwrap();
+        run["heights"][0]["tip_mm"].as_f64().unwrap()
+    };
+    assert_eq!(tip("glue_mm"), base, "an ePAM has no glue");
+    assert_ne!(tip("bending_factor"), base);
+    assert!(
+        folder.path("s/tornado.png").exists()
+            && std::fs::read_to_string(folder.path("s/table.csv")).unwrap().contains("bending_factor=0.02")
+    );
+}
+
+#[test]
+fn a_breakdown_is_drawn_from_runs_that_are_kept() {
+    let _alone = alone();
+    let folder = Folder::new();
+    folder.write(
+        "quick.toml",
+        models::shipped("fpam").unwrap().to_string() + "\n[fem]\nbody_ramp_s = 0.004\nactuator_ramp_s = 0.006\n",
+    );
+    let args = [
+        "breakdown",
+        "quick.toml",
+        "--mesh",
+        "14mm",
+        "--pressure",
+        "10kPa,20kPa",
+        "--body-pressure",
+        "3kPa",
+        "--out",
+        "map",
+        "--runs",
+        "runs",
+        "--json",
+    ];
+    let answer = folder.run(&args).json("ibr.breakdown");
+    let cells = answer["cells"].as_array().unwrap();
+    assert_eq!(cells.len(), 4, "two pressures at the body's own and at 3 kPa; no pouches to vary");
+    assert!(cells.iter().any(|c| c["body_kpa"] == 3.0) && folder.path("map/breakdown_fpam_0.png").exists());
+    let first = std::fs::read(folder.path("map/breakdown.csv")).unwrap();
+    folder.run(&args).json("ibr.breakdown");
+    assert_eq!(std::fs::read(folder.path("map/breakdown.csv")).unwrap(), first);
+    assert_eq!(std::fs::read_dir(folder.path("runs")).unwrap().count(), 2);
+}
