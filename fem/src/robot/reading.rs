@@ -107,7 +107,7 @@ impl Gauge {
             stations_m: self.line.stations_m().to_vec(),
             moved_m,
             ring_moved_m: self.rings.iter().map(|ring| self.moved(ring, &positions)).collect(),
-            tip_angle_rad: self.angle(&positions),
+            tip_angle_rad: self.turn_rad(&positions),
             body_m3: body.map_or(0.0, |c| c.volume_m3),
             actuator_m3: actuator.map_or(0.0, |c| c.volume_m3),
             von_mises_pa: fields.von_mises_pa.get(hottest).copied().unwrap_or(0.0),
@@ -144,8 +144,8 @@ impl Gauge {
         sum
     }
 
-    /// The ring's height vector Σ y₀ (x − x̄) turns with the tip.
-    fn angle(&self, positions: &[[f64; 3]]) -> f64 {
+    /// Turn of the tip's ring for node positions in mesh order \[rad\]: its height vector Σ y₀ (x − x̄) turns with the tip.
+    pub(super) fn turn_rad(&self, positions: &[[f64; 3]]) -> f64 {
         let moved = self.moved(&self.tip, positions);
         let mut up = [0.0; 2];
         for node in &self.tip {
