@@ -46,8 +46,11 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
     Ok(outcome)
 }
 
+/// A scenario as typed, and as read.
+pub type Robot = (Named, Scenario);
+
 /// Scenarios named, or those of the paper.
-pub fn robots(specs: &[String]) -> Result<(Vec<(Named, Scenario)>, Vec<Input>), Failure> {
+pub fn robots(specs: &[String]) -> Result<(Vec<Robot>, Vec<Input>), Failure> {
     let own: Vec<String> = PUBLISHED.map(String::from).to_vec();
     let specs = if specs.is_empty() { &own } else { specs };
     let (mut found, mut inputs) = (Vec::new(), Vec::new());
