@@ -46,6 +46,8 @@ pub struct FeRun {
     pub pouch_mm: f64,
     /// Units in series.
     pub count: usize,
+    /// `calibrated` if a number of the run was fitted to the tip it is compared with, else `assumed`.
+    pub known: String,
     /// States, the filled body without actuator pressure first.
     pub states: Vec<FeState>,
 }
@@ -244,6 +246,7 @@ mod tests {
             body_kpa: 2.0,
             pouch_mm: 60.0,
             count: 6,
+            known: "assumed".into(),
             states: vec![filled, state],
         };
         let pair = pairs(&scenario, &run).unwrap().remove(0);

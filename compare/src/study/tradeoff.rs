@@ -1,7 +1,6 @@
 //! Run time against accuracy of every model present.
 
 use crate::error::CompareError;
-use crate::plots::Known;
 use crate::study::engines::{FeRun, as_it_is};
 use crate::study::published::{PublishedLadder, Rung};
 use models::{Loads, Model, Scenario};
@@ -85,7 +84,7 @@ pub fn of_runs(ladders: &[PublishedLadder], runs: &[FeRun]) -> Vec<Timing> {
                 prediction_us: run.cpu_s * 1e6,
                 error_mm,
                 error_pct: 100.0 * error_mm / measured_mm,
-                known: Known::Assumed.word().into(),
+                known: run.known.clone(),
             });
         }
     }

@@ -87,7 +87,7 @@ pub const KEYS: &[Key] = &[
 /// Keys that are no single number.
 const OTHERS: [&str; 6] = ["loading", "pressures_kpa", "contact", "tip_force_n", "obstacle_mm", "obstacle_friction"];
 
-/// Time at each pressure over the actuator's ramp, unless `hold_s` is given: the smooth ramp ends at rest already.
+/// Shortest time at each pressure over the actuator's ramp, unless `hold_s` is given.
 const HOLD: f64 = 0.06;
 
 #[derive(Deserialize)]
@@ -115,7 +115,7 @@ pub(super) fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun, FemErro
     let (before, after): (Vec<_>, Vec<_>) = table.iter().partition(|(key, _)| first(key.get_ref()));
     before.into_iter().chain(after).try_for_each(|(key, value)| read(&mut run, key, value))?;
     if !table.keys().any(|key| key.get_ref() == "hold_s") {
-        run.settings.hold_s = HOLD * run.settings.actuator_ramp_s;
+        run.settings.hold_s = run.settings.hold_s.max(HOLD * run.settings.actuator_ramp_s);
     }
     run.settings.actuator_pa = run.pressures_pa.iter().copied().fold(0.0, f64::max);
     above_body(&run, scenario, table)?;
@@ -133,8 +133,11 @@ fn loading(table: &Free) -> Checked<RobotSettings> {
     };
     match value.get_ref().as_str() {
         Some("compressed") => Ok(RobotSettings::compressed()),
+        Some("usual") => Ok(RobotSettings::usual()),
         Some("published") => Ok(RobotSettings::published()),
-        _ => refuse(format!("unknown loading {}", value.get_ref()), "known: compressed, published", value.span()),
+        _ => {
+            refuse(format!("unknown loading {}", value.get_ref()), "known: compressed, usual, published", value.span())
+        }
     }
 }
 

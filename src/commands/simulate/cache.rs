@@ -69,6 +69,9 @@ pub fn as_run(summary: &Value, cost: &Value) -> Option<FeRun> {
     let about = &summary["robot"];
     let setting = |key: &str| about["settings"][key].as_f64();
     (!readings.is_empty()).then_some(())?;
+    // The two numbers that `RobotSettings::usual` leaves as one would assume them before seeing a robot bend.
+    let fitted = |kind: &str, key: &str, usual: f64| about["actuator"] == kind && setting(key) != Some(usual);
+    let calibrated = fitted("spam", "tape_mm", 0.05) || fitted("fpam", "nu12", 0.0);
     Some(FeRun {
         actuator: about["actuator"].as_str()?.into(),
         scenario: summary["name"].as_str()?.into(),
@@ -80,6 +83,7 @@ pub fn as_run(summary: &Value, cost: &Value) -> Option<FeRun> {
         body_kpa: robot::rounded(about["body_pa"].as_f64()? * 1e-3),
         pouch_mm: robot::rounded(about["pouch_m"].as_f64()? * 1e3),
         count: about["count"].as_u64()? as usize,
+        known: if calibrated { "calibrated" } else { "assumed" }.into(),
         states: readings.iter().map(state).collect(),
     })
 }

@@ -206,7 +206,11 @@ fn tradeoff_section(demo: &Demo, imprint: &Imprint, files: &mut Files) -> Result
         heading: "Run time against accuracy".into(),
         blocks: vec![
             Block::Paragraph(format!("Median of one prediction on {}.", imprint.machine)),
-            figure("Calibrated models are left out: their error is zero by construction.", "scatter", &drawn.svg),
+            figure(
+                "Calibrated reduced models are left out: their error is zero by construction.",
+                "scatter",
+                &drawn.svg,
+            ),
             tables::timings(&demo.timings),
         ],
     })

@@ -140,7 +140,8 @@ fn at_pressure(robot: &EngineRobot, kpa: f64, out: &mut Vec<EngineLine>) -> Resu
     }
     if let Some(pair) = robot.pairs.iter().find(|p| (p.actuator_kpa - kpa).abs() < 0.05) {
         let mesh = robot.run.as_ref().map_or(f64::NAN, |r| r.mesh_mm[1]);
-        model(&format!("finite elements, {mesh} mm"), Known::Assumed.word(), pair.fe_mm);
+        let known = robot.run.as_ref().map_or("", |r| &r.known);
+        model(&format!("finite elements, {mesh} mm"), known, pair.fe_mm);
     }
     Ok(())
 }

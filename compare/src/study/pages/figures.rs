@@ -266,7 +266,7 @@ pub fn tradeoff(timings: &[crate::study::Timing]) -> Result<Drawn, CompareError>
         run_time_s: t.prediction_us * 1e-6,
         error: t.error_pct.abs(),
     };
-    let shown = timings.iter().filter(|t| t.known != Known::Calibrated.word());
+    let shown = timings.iter().filter(|t| t.engine != "reduced" || t.known != Known::Calibrated.word());
     let data = plots::Tradeoff {
         title: "Run time against error".into(),
         error_label: "error of the published displacement [%]".into(),
