@@ -90,7 +90,7 @@ pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, String)
         let message = format!("{name} does not exist for the actuator {}", kind.name);
         return Err(Failure::usage(message, "`ibr list effects` says what each effect is for"));
     }
-    let mut chosen = if values.is_empty() { effect.typical() } else { effect.neutral() };
+    let mut chosen = if values.is_empty() { effect.typical_for(kind.name) } else { effect.neutral() };
     for pair in values.split(',').filter(|pair| !pair.is_empty()) {
         let (key, number) = pair.split_once('=').unwrap_or((pair, ""));
         let keys = effect.parameters.iter().map(|p| p.key).collect::<Vec<_>>().join(", ");
