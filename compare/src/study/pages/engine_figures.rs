@@ -54,7 +54,7 @@ pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>, CompareError> {
         value_label: "displacement [mm]".into(),
         groups: shown.iter().map(|r| r.published.as_ref().map_or(String::new(), |p| p.printed_name.clone())).collect(),
         series: vec![
-            series("reduced, bare", &|r| last(r).map_or(f64::NAN, |p| p.reduced_mm[0]), false),
+            series("reduced, as shipped", &|r| last(r).map_or(f64::NAN, |p| p.reduced_mm[0]), false),
             series("reduced, with effects", &|r| r.with_effects.as_ref().map_or(f64::NAN, |g| g.y_m * 1e3), false),
             series("finite elements, tip", &|r| last(r).map_or(f64::NAN, |p| p.fe_mm[1]), false),
             series("measured", &|r| r.published.as_ref().map_or(f64::NAN, |p| p.d_max_m * 1e3), true),

@@ -133,7 +133,7 @@ fn at_pressure(robot: &EngineRobot, kpa: f64, out: &mut Vec<EngineLine>) -> Resu
         out.push(line(source, known, mm.map(Some), judged(mm)));
     };
     let loads = Loads::uniform(robot.scenario.p_body_pa, kpa * 1e3);
-    let own = if robot.published.is_some() { "reduced, bare" } else { "reduced, as in the scenario" };
+    let own = if robot.published.is_some() { "reduced, as shipped" } else { "reduced, as in the scenario" };
     model(own, Known::Predicted.word(), heights(&robot.scenario, &loads)?);
     if let Some(rung) = &robot.with_effects {
         model("reduced, with effects", Known::Assumed.word(), heights(&rung.scenario, &loads)?);
@@ -230,7 +230,7 @@ fn lead(engines: &Engines) -> Result<String, CompareError> {
         let share = 100.0 * (fe - measured) / measured;
         let name = &printed.printed_name;
         words.push(format!(
-            "{name} {fe:.1} mm ({share:+.0} %; bare reduced model {bare:.1} mm, measured {measured:.1} mm)"
+            "{name} {fe:.1} mm ({share:+.0} %; reduced model as shipped {bare:.1} mm, measured {measured:.1} mm)"
         ));
     }
     Ok(match words.is_empty() {
@@ -288,7 +288,7 @@ const NOTE: &str = "Not printed by the paper and assumed here: pouch count, mark
 const LEDGER: &str = "Reduced model and finite elements, each at its own bend. Gas is −P ΔV since the body was full; stretch and \
     wall bending of the finite elements likewise. What the finite elements lost in buckling, damping and friction is not stored \
     and not shown.";
-const MAPS: &str = "Cells: how much more the bare reduced model bends than the finite elements. Beyond 10 % the cell is \
+const MAPS: &str = "Cells: how much more the reduced model bends, as shipped, than the finite elements. Beyond 10 % the cell is \
     coloured and names the term in which the finite elements hold more energy at the same bend (or less, where they bend more): \
     pouch gas (the pouches give less work), body folds (the body's gas is squeezed more), wall bending, stretch, contact, or \
     hourglass control, which is numerical.";
