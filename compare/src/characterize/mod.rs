@@ -1,7 +1,7 @@
 //! From pulled specimens to the numbers and curves of a fabric law, each with its scatter and how it is known.
 //!
 //! One specimen at a time ([`specimen`]: stress over strain, modulus, C₁₀, shear curve of a bias extension), then over
-//! specimens ([`reduce`]: the specimen is the unit, mean ± t s/√n at 95 %), then out ([`write`], [`pictures`]). Formulas are
+//! specimens ([`reduce`]: the specimen is the unit, mean ± t s/√n at 95 %), then out ([`mod@write`], [`pictures`]). Formulas are
 //! those of `models::fabrics::specimen` and `models::fabrics::BiasExtension`.
 
 pub mod example;

@@ -144,16 +144,20 @@ impl Gauge {
         sum
     }
 
-    /// Turn of the tip's ring for node positions in mesh order \[rad\]: its height vector Σ y₀ (x − x̄) turns with the tip.
+    /// Turn of the tip's ring for node positions in mesh order \[rad\]: its height vector Σ (y₀ − ȳ₀) x turns with the tip.
     pub(super) fn turn_rad(&self, positions: &[[f64; 3]]) -> f64 {
-        let moved = self.moved(&self.tip, positions);
-        let mut up = [0.0; 2];
+        let start = |node: u32| self.mesh.start_of(node as usize);
+        let middle = self.tip.iter().map(|n| start(*n)[1]).sum::<f64>() / self.tip.len() as f64;
+        let (mut now, mut before) = ([0.0; 2], [0.0; 2]);
         for node in &self.tip {
-            let (now, start) = (positions[*node as usize], self.mesh.start_of(*node as usize));
-            (0..2).for_each(|k| up[k] += start[1] * (now[k] - start[k] - moved[k]));
-            up[1] += start[1] * start[1];
+            let height = start(*node)[1] - middle;
+            for k in 0..2 {
+                now[k] += height * positions[*node as usize][k];
+                before[k] += height * start(*node)[k];
+            }
         }
-        (-up[0]).atan2(up[1])
+        let (cross, dot) = (before[0] * now[1] - before[1] * now[0], before[0] * now[0] + before[1] * now[1]);
+        cross.atan2(dot)
     }
 }
 

@@ -104,7 +104,8 @@ fn a_turn_of_the_whole_robot_is_read_as_the_turn_of_its_tip() {
     for angle in [-0.7_f64, 0.0, 0.4, 2.5] {
         let (s, c) = angle.sin_cos();
         let turned = |p: &[f64; 3]| [c * p[0] - s * p[1] + 0.3, s * p[0] + c * p[1], p[2]];
-        let turned: Vec<[f64; 3]> = problem.mesh.points.iter().map(turned).collect();
+        let start = (0..problem.mesh.points.len()).map(|node| problem.mesh.start_of(node));
+        let turned: Vec<[f64; 3]> = start.map(|p| turned(&p)).collect();
         assert!((gauge.turn_rad(&turned) - angle).abs() < 1e-9, "{angle}");
     }
 }
