@@ -22,7 +22,7 @@ static INTERRUPT: Interrupt = Interrupt::new();
 
 fn main() -> ExitCode {
     if let Err(error) = ctrlc::set_handler(interrupt) {
-        eprintln!("warning: an interrupt cannot be caught here: {error}");
+        say(&format!("warning: an interrupt cannot be caught here: {error}\n"));
     }
     let cli = Cli::parse();
     let bar = (!cli.quiet && !cli.json).then(progress_bar);
@@ -40,7 +40,7 @@ fn main() -> ExitCode {
     match result {
         Ok(outcome) => finish(&outcome, cli.json),
         Err(error) => {
-            eprint!("{}", error.render());
+            say(&error.render());
             ExitCode::from(error.code())
         }
     }
@@ -54,7 +54,7 @@ fn interrupt() {
     }
     let written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
     let what = if *written { "the results were already complete" } else { "nothing was written" };
-    eprintln!("\ninterrupted; {what}");
+    say(&format!("\ninterrupted; {what}\n"));
     std::process::exit(failure::INTERRUPTED.into());
 }
 
@@ -66,16 +66,19 @@ fn finish(outcome: &Outcome, json: bool) -> ExitCode {
     };
     let mut stdout = std::io::stdout().lock();
     let written = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
-    for note in &outcome.notes {
-        eprintln!("{note}");
-    }
+    outcome.notes.iter().for_each(|note| say(&format!("{note}\n")));
     match written {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            eprintln!("cannot print: {error}");
+            say(&format!("cannot print: {error}\n"));
             ExitCode::from(failure::BAD_INPUT)
         }
         _ => ExitCode::from(outcome.code),
     }
+}
+
+/// To standard error, which may be closed as well (`2>&1 | head`).
+fn say(text: &str) {
+    let _ = std::io::stderr().write_all(text.as_bytes());
 }
 
 /// Appears on terminals only, after the first quarter of a second.

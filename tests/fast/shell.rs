@@ -63,6 +63,14 @@ fn a_reader_that_closes_the_pipe_ends_the_command_without_a_word() {
 }
 
 #[test]
+fn an_error_that_nobody_reads_keeps_its_exit_code() {
+    let folder = Folder::new();
+    let mut child = folder.ibr(&["predict", "nothing.toml"]).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stderr.take());
+    assert_eq!(child.wait().unwrap().code(), Some(3));
+}
+
+#[test]
 fn quiet_and_json_keep_progress_and_pages_away_from_standard_output() {
     let folder = Folder::new();
     let [plain, quiet] = [&["predict", "epam"][..], &["predict", "epam", "--quiet"]].map(|args| folder.run(args));
