@@ -33,6 +33,10 @@ pub enum Command {
     Compare(Compare),
     /// Which physical effect is missing: ranking, what the data cannot tell apart, what to measure next
     Diagnose(Diagnose),
+    /// Write a new scenario with one more effect, fitted on data or given; the old one stays as it is
+    Add(Add),
+    /// Does an added effect help on data it was not fitted to: nothing refitted, error before and after
+    Validate(Validate),
     /// Where the reduced model parts from finite elements, over pressures and pouches, and which energy carries it
     Breakdown(Breakdown),
     /// Run a finite element case through time: ParaView frames, energy balance, checkpoints
@@ -205,6 +209,45 @@ pub struct Diagnose {
     /// Differences up to this are good enough; default: the larger of 0.15 mm and 0.5 % of the largest deflection
     #[arg(long, allow_hyphen_values = true)]
     pub tolerance: Option<String>,
+}
+
+/// `ibr add`
+#[derive(Debug, Args)]
+pub struct Add {
+    /// Scenario file or shipped robot; it is not changed
+    pub scenario: String,
+    /// NAME is fitted on the data; NAME=VALUE or NAME:key=value[,key=value] is taken as given; `best` is what the diagnosis adds
+    pub effect: String,
+    /// Marker data: the value is fitted on them, B with it, and the error is shown before and after
+    pub data: Option<String>,
+    /// New scenario; default: <scenario>-<effect>.toml
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+    /// Replace an existing file
+    #[arg(long)]
+    pub force: bool,
+    /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
+    #[arg(long)]
+    pub keep_bending: bool,
+    /// Camera noise of one coordinate, for data of a single run, for example 1mm
+    #[arg(long, allow_hyphen_values = true)]
+    pub sigma: Option<String>,
+}
+
+/// `ibr validate`
+#[derive(Debug, Args)]
+pub struct Validate {
+    /// Scenario file with the added effect
+    pub scenario: String,
+    /// Other data: another pressure, another size of actuator, another body pressure
+    #[arg(required = true)]
+    pub data: Vec<String>,
+    /// Effect to judge; default: those written by ibr add; repeatable
+    #[arg(long, value_name = "EFFECT")]
+    pub without: Vec<String>,
+    /// Camera noise of one coordinate, for data of a single run, for example 1mm
+    #[arg(long, allow_hyphen_values = true)]
+    pub sigma: Option<String>,
 }
 
 /// `ibr breakdown`

@@ -3,6 +3,7 @@
 mod cli;
 mod commands;
 mod cost;
+mod extended;
 mod failure;
 mod output;
 mod studies;

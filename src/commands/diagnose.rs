@@ -1,11 +1,12 @@
 //! `ibr diagnose`
 
+use super::extend::{short, value};
 use super::inputs::{self, positive};
 use super::tables::{number, table};
 use super::{Context, Outcome};
 use crate::cli::Diagnose;
 use crate::failure::Failure;
-use compare::diagnosis::{Diagnosis, Experiment, Group, Options, ParameterValue, Ranked, Verdict, diagnose};
+use compare::diagnosis::{Diagnosis, Experiment, Group, Options, Ranked, Verdict, diagnose};
 use serde_json::{Value, json};
 
 pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
@@ -102,24 +103,6 @@ fn p_text(p: f64) -> String {
         p if p <= 1e-6 => "< 1e-6".into(),
         p if p < 1e-3 => format!("{p:.0e}"),
         p => format!("{p:.3}"),
-    }
-}
-
-fn value(p: &ParameterValue) -> String {
-    let interval = match (p.lo, p.hi) {
-        (Some(lo), Some(hi)) => format!(" ({}…{})", short(lo), short(hi)),
-        _ => String::new(),
-    };
-    format!("{} = {}{interval}", p.symbol, inputs::with_unit(&short(p.value), &p.unit))
-}
-
-/// Three significant digits.
-fn short(v: f64) -> String {
-    let size = v.abs();
-    match size {
-        0.0 => "0".into(),
-        s if !(1e-3..1e5).contains(&s) => format!("{v:.1e}"),
-        s => format!("{v:.*}", (2 - s.log10().floor() as i32).max(0) as usize),
     }
 }
 

@@ -1,5 +1,6 @@
 //! One file per command; each returns what to print.
 
+mod add;
 mod bench;
 mod bench_discovery;
 mod bench_fem;
@@ -11,12 +12,14 @@ mod data;
 mod demo;
 mod diagnose;
 mod engines;
+mod extend;
 mod inputs;
 mod list;
 mod predict;
 mod simulate;
 mod tables;
 mod tradeoff;
+mod validate;
 mod verify;
 mod verify_fem;
 
@@ -94,6 +97,8 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
         Command::Compare(args) if args.engines => engines::run(args, context),
         Command::Compare(args) => compare::run(args, context),
         Command::Diagnose(args) => diagnose::run(args, context),
+        Command::Add(args) => add::run(args, context),
+        Command::Validate(args) => validate::run(args, context),
         Command::Breakdown(args) => breakdown::run(args, context),
         Command::Simulate(args) => simulate::run(args, context),
         Command::Characterize(args) => characterize::run(args, context),

@@ -1,13 +1,14 @@
 //! Tests of the command `ibr` as a user meets it.
 //!
 //! A new test belongs into the module of what the user was doing: `json` if a program reads the answer, `predict`,
-//! `compare`, `characterize`, `diagnose`, `generate`, `simulate` and `robots` for what those commands promise, `scenario_errors` and
+//! `compare`, `characterize`, `diagnose`, `add`, `generate`, `simulate` and `robots` for what those commands promise, `scenario_errors` and
 //! `data_errors` for files that are wrong, `arguments` for wrong options, `output` for what lands on disk, `shell` for help,
 //! completions and pipes.
 //! Whatever needs an optimised build or more than a few seconds belongs into `tests/slow`.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests: a panic is the failure to report")]
 
+mod add;
 mod arguments;
 mod challenge;
 mod characterize;

@@ -199,6 +199,8 @@ fn base(case: &Case, last: &Fit, held_out: &HeldOut, noise: &NoiseSummary) -> Re
         noise_floor_mm: noise.noise_of_mean_mm,
         heldout_mm: held_out.pressure_mm(&case.base),
         heldout_run_mm: held_out.run_mm(&case.base),
+        heldout_with_added_mm: held_out.pressure_mm(last),
+        heldout_run_with_added_mm: held_out.run_mm(last),
     })
 }
 

@@ -187,6 +187,10 @@ pub struct BaseFit {
     pub heldout_mm: Option<f64>,
     /// Error beyond noise of runs left out \[mm\].
     pub heldout_run_mm: Option<f64>,
+    /// Error of the final model at pressures left out of its fit \[mm\].
+    pub heldout_with_added_mm: Option<f64>,
+    /// Error of the final model for runs left out of its fit \[mm\].
+    pub heldout_run_with_added_mm: Option<f64>,
 }
 
 /// A fitted bending stiffness.

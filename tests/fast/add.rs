@@ -1,0 +1,97 @@
+//! `ibr add` and `ibr validate`: a new scenario, the old one as it was, and the error before and after.
+
+use crate::support::Folder;
+use sha2::{Digest, Sha256};
+
+const OWN: &str = include_str!("../../models/scenarios/epam.toml");
+
+/// A folder with an ePAM of the user's own and data of it, five runs at 2 and at 4 kPa body pressure.
+fn robot() -> Folder {
+    let folder = Folder::new();
+    folder.write("mine.toml", format!("# my robot\n{OWN}"));
+    let truth = OWN.replace("bending_stiffness_nm2 = 0 ", "bending_stiffness_nm2 = 1 ");
+    folder.write("truth.toml", format!("{truth}\n[effects.end_constraint]\nbeta = 0.4\n"));
+    for (name, body) in [("two", "2"), ("four", "4")] {
+        let protocol = format!("0,10,20,30,0@{body}");
+        let ran = folder.run(&["data", "generate", "truth.toml", "--out", name, "--protocol", &protocol]);
+        assert_eq!(ran.code, 0, "{}", ran.stderr);
+    }
+    folder
+}
+
+#[test]
+fn an_effect_is_fitted_written_and_seen_to_help_and_the_old_scenario_stays() {
+    let folder = robot();
+    let before = folder.contents();
+    let answer = folder.run(&["add", "mine.toml", "end_constraint", "two", "--json"]).json("ibr.add");
+    let (old, new) = (&answer["before"], &answer["after"]);
+    for key in ["training_mm", "heldout_pressure_mm", "heldout_run_mm"] {
+        assert!(new[key].as_f64().unwrap() < 0.5 * old[key].as_f64().unwrap(), "{key}: {answer}");
+    }
+    let beta = &answer["effects"][0]["parameters"][0];
+    assert!(beta["lo"].as_f64().unwrap() < 0.4 && 0.4 < beta["hi"].as_f64().unwrap(), "{beta}");
+    assert!(before.iter().all(|(path, bytes)| std::fs::read(path).unwrap() == *bytes));
+    assert_eq!(folder.contents().len(), before.len() + 1);
+
+    let text = std::fs::read_to_string(folder.path("mine-end_constraint.toml")).unwrap();
+    assert!(text.starts_with("# my robot\n") && text.contains("basis = \"calibrated\""), "{text}");
+    for line in OWN.lines().filter(|l| !l.starts_with("bending")) {
+        assert!(text.contains(line), "{line}");
+    }
+    let hash = answer["data"]["sha256"].as_str().unwrap();
+    assert!(text.contains(&format!("SHA-256 {hash}")) && text.contains("interval = \"beta 0."), "{text}");
+
+    let compare = |scenario: &str| {
+        let answer = folder.run(&["compare", scenario, "two", "--json"]).json("ibr.compare");
+        answer["overall"]["systematic_mm"].as_f64().unwrap()
+    };
+    assert!(compare("mine-end_constraint.toml") < 0.1 * compare("mine.toml"));
+
+    let answer = folder.run(&["validate", "mine-end_constraint.toml", "two", "four", "--json"]).json("ibr.validate");
+    let sets = answer["datasets"].as_array().unwrap();
+    assert_eq!([&sets[0]["verdict"], &sets[1]["verdict"]], ["fitted_to_these", "helps"], "{answer}");
+}
+
+#[test]
+fn a_value_given_is_called_assumed_and_no_file_is_replaced_unless_told() {
+    let folder = Folder::new();
+    let ran = folder.run(&["add", "epam", "friction=0.2"]);
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    let path = folder.path("epam-friction.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(text.contains("[effects.friction]\nmoment_nm = 0.2\nbasis = \"assumed\""), "{text}");
+    let hash = Sha256::digest(&text);
+    let again = folder.run(&["add", "epam", "friction=0.3"]);
+    assert_eq!(again.code, 2);
+    assert!(again.stderr.contains("exists already") && again.stderr.contains("--force"), "{}", again.stderr);
+    assert_eq!(Sha256::digest(std::fs::read(&path).unwrap()), hash);
+    assert_eq!(folder.run(&["add", "epam", "friction=0.3", "--force"]).code, 0);
+    let own = folder.run(&["add", "epam-friction.toml", "gravity=1", "--out", "epam-friction.toml", "--force"]);
+    assert_eq!(own.code, 2);
+    assert!(own.stderr.contains("the scenario itself"), "{}", own.stderr);
+}
+
+#[test]
+fn what_cannot_be_added_is_said_and_nothing_is_written() {
+    let folder = Folder::new();
+    let refusals: &[(&[&str], &str)] = &[
+        (&["add", "epam", "frictoin"], "unknown effect `frictoin`"),
+        (&["add", "epam", "friction=much"], "is not a number"),
+        (&["add", "epam", "friction=50"], "outside its physical bounds"),
+        (&["add", "epam", "friction:mu=0.1"], "no parameter `mu`"),
+        (&["add", "epam", "shear_stiffness"], "does not exist for the actuator epam"),
+        (&["add", "epam", "best"], "needs data"),
+        (&["add", "spam", "arm_growth"], "has arm_growth already"),
+        (&["add", "epam", "friction", "synthetic-epam"], "do not ask for friction"),
+        (&["validate", "epam", "synthetic-epam"], "was written by `ibr add`"),
+        (&["validate", "epam", "synthetic-epam", "--without", "gravity"], "has no effect `gravity`"),
+    ];
+    for (args, words) in refusals {
+        let ran = folder.run(args);
+        assert_eq!(ran.code, 2, "{args:?}: {}", ran.stderr);
+        assert!(ran.stderr.replace("\n  │ ", " ").contains(words), "{args:?}: {}", ran.stderr);
+    }
+    assert!(folder.contents().is_empty());
+    assert_eq!(folder.run(&["add", "epam", "friction=0.1", "synthetic-spam"]).code, 3);
+    assert!(folder.contents().is_empty());
+}
