@@ -241,9 +241,11 @@ pub fn check_runs(dataset: &Dataset) -> Option<String> {
     })
 }
 
-/// Reads an effect as typed, `NAME`, `NAME=VALUE` or `NAME:key=value,…`: its name, and its values in the units of the
-/// scenario if any were given.
-pub fn typed(scenario: &Scenario, text: &str) -> Result<(String, Option<Vec<(String, f64)>>), Failure> {
+/// Name of an effect, and its keys and values in the units of the scenario if any were given.
+pub type Typed = (String, Option<Vec<(String, f64)>>);
+
+/// Reads an effect as typed, `NAME`, `NAME=VALUE` or `NAME:key=value,…`.
+pub fn typed(scenario: &Scenario, text: &str) -> Result<Typed, Failure> {
     let place = text.find([':', '=']).unwrap_or(text.len());
     let (name, rest) = text.split_at(place);
     let catalogue = scenario.catalogue();
