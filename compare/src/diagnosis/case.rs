@@ -125,6 +125,13 @@ impl<'a> Case<'a> {
         1e3 * (squares - noise).max(0.0).sqrt()
     }
 
+    /// Error beyond noise that no scatter between runs explains \[mm\]: from the whitened sum of squares, whose expectation
+    /// under noise is its degrees of freedom. Pressure, alignment and rotation of a run do not count.
+    pub fn beyond_noise_mm(&self, fit: &Fit) -> f64 {
+        let dof = fit.minimum.residual.len().saturating_sub(fit.theta().len()).max(1) as f64;
+        1e3 * self.noise.unit_m() * (fit.cost() / dof - 1.0).max(0.0).sqrt()
+    }
+
     /// Fall of the whitened sum of squares against the calibrated base.
     pub fn gain(&self, fit: &Fit) -> f64 {
         (self.base.cost() - fit.cost()).max(0.0)
@@ -133,11 +140,6 @@ impl<'a> Case<'a> {
     /// Parameters beyond the base.
     pub fn extra(&self, fit: &Fit) -> usize {
         self.problem.count(&fit.effects) - self.problem.count(&self.always)
-    }
-
-    /// Bayesian information criterion up to a constant.
-    pub fn bic(&self, fit: &Fit) -> f64 {
-        fit.cost() + self.extra(fit) as f64 * (self.noise.directions.len() as f64).ln()
     }
 
     /// p of a gain by `parameters`, the best of `tests`; `None` if no p-values can be formed.

@@ -3,6 +3,7 @@
 use super::case::Case;
 use super::lack_of_fit::lack_of_fit;
 use super::options::Options;
+use super::order;
 use super::pairs::{another_wanted, fit_pairs, indistinguishable as alike_pairs, p_over};
 use super::problem::Fit;
 use super::result::{LackOfFit, Verdict};
@@ -24,10 +25,14 @@ const LEAST_LEFT_MM: f64 = 0.15;
 pub struct Decision {
     /// Single effects, best first.
     pub singles: Vec<Fit>,
+    /// Allowance for the form of their laws.
+    pub allowance: f64,
     /// Those that cannot be told apart.
     pub set: Vec<usize>,
     /// Pairs, best first; empty if one effect is enough.
     pub pairs: Vec<Fit>,
+    /// Allowance for the form of their laws.
+    pub pair_allowance: f64,
     /// Those that cannot be told apart.
     pub pair_set: Vec<usize>,
     /// Pairs tried.
@@ -49,15 +54,17 @@ pub struct Decision {
 /// # Errors
 /// What the tests return.
 pub fn decide(case: &Case, options: &Options) -> Result<Decision, CompareError> {
-    let singles = fit_all(case);
-    let set = indistinguishable(case, &singles);
+    let (singles, allowance) = fit_all(case);
+    let set = indistinguishable(case, &singles, allowance);
     let before = test(case, &case.base)?;
     let p_effect = set.iter().filter_map(|i| p_of(case, &singles[*i])).reduce(f64::min);
     let p_value = before.map(|lof| combined(p_effect.unwrap_or(1.0), lof.p_value));
     let mut decision = Decision {
         singles,
+        allowance,
         set,
         pairs: Vec::new(),
+        pair_allowance: 1.0,
         pair_set: Vec::new(),
         pairs_tried: 0,
         last: None,
@@ -97,13 +104,15 @@ fn explain(case: &Case, options: &Options, decision: &mut Decision, significant:
 
 /// Takes the best pair in place of the single effect, or of the base, if it is significantly better.
 fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>) {
-    let (pairs, tried) = fit_pairs(case, &decision.singles);
+    let (mut pairs, tried) = fit_pairs(case, &decision.singles);
     decision.pairs_tried = tried;
     let before = last.as_ref().unwrap_or(&case.base);
+    let allowance = order::sort(case, &mut pairs, before);
     if let Some(best) = pairs.first()
         && p_over(case, best, before, tried).is_some_and(|p| p < case.alpha)
     {
-        decision.pair_set = alike_pairs(case, &pairs, before);
+        decision.pair_allowance = allowance;
+        decision.pair_set = alike_pairs(case, &pairs, allowance);
         *last = Some(best.clone());
         decision.pairs = pairs;
     }
@@ -111,8 +120,7 @@ fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>) {
 
 /// Whether a fit leaves more than a share of the base's error, and more than is worth a word.
 fn leaves(case: &Case, fit: &Fit, share: f64) -> bool {
-    let error = |fit: &Fit| case.error_mm(&case.prediction(fit));
-    error(fit) > LEAST_LEFT_MM.max(share * error(&case.base))
+    case.beyond_noise_mm(fit) > LEAST_LEFT_MM.max(share * case.beyond_noise_mm(&case.base))
 }
 
 /// Whether what a fit leaves is more than noise, seen by a test for lack of fit or along another effect.

@@ -26,6 +26,7 @@ mod least_squares;
 mod limits;
 mod next;
 mod options;
+mod order;
 mod pairs;
 mod prepare;
 mod problem;
@@ -118,7 +119,7 @@ fn assemble(
     mut warnings: Vec<String>,
 ) -> Result<Diagnosis, CompareError> {
     let held_out = HeldOut::new(case)?;
-    let ranked = singles::rank(case, &decision.singles, &decision.set, &held_out);
+    let ranked = singles::rank(case, decision, &held_out);
     let pairs = pairs_of(case, decision);
     let last = decision.last.as_ref().unwrap_or(&case.base);
     let (added, attempt) = match decision.verdict {
@@ -165,7 +166,7 @@ fn assemble(
 
 fn pairs_of(case: &Case, decision: &Decision) -> Vec<Combination> {
     let single = decision.set.first().map_or(&case.base, |i| &decision.singles[*i]);
-    pairs::describe(case, &decision.pairs, single, &decision.pair_set, decision.pairs_tried)
+    pairs::describe(case, decision, single)
 }
 
 /// Residual map of a fit, and where it fails in plain language.
@@ -196,6 +197,10 @@ fn base(case: &Case, last: &Fit, held_out: &HeldOut, noise: &NoiseSummary) -> Re
         systematic_nominal_mm: case.error_mm(&nominal),
         systematic_mm: case.error_mm(&case.prediction(&case.base)),
         systematic_with_added_mm: case.error_mm(&case.prediction(last)),
+        left_share: match case.beyond_noise_mm(&case.base) {
+            before if before > 0.0 => case.beyond_noise_mm(last) / before,
+            _ => 0.0,
+        },
         noise_floor_mm: noise.noise_of_mean_mm,
         heldout_mm: held_out.pressure_mm(&case.base),
         heldout_run_mm: held_out.run_mm(&case.base),

@@ -2,10 +2,12 @@
 
 use super::basis::{Basis, cosine};
 use super::case::Case;
+use super::decide::Decision;
+use super::order;
 use super::problem::Fit;
 use super::result::Combination;
 use super::screen::{score, starts};
-use super::singles::{SAME_BIC, SAME_GAIN, parameter_values};
+use super::singles::parameter_values;
 use crate::stats::reported_p;
 
 /// Pairs refitted, the most promising by screening every effect on top of every other.
@@ -23,7 +25,7 @@ pub fn another_wanted(case: &Case, fit: &Fit) -> f64 {
     case.p_of_gain(best, 1, case.tests).unwrap_or(1.0)
 }
 
-/// Promising pairs fitted, best first by BIC, without those that a bound rejects; and how many there are in all.
+/// Promising pairs fitted, without those that a bound rejects; and how many there are in all.
 pub fn fit_pairs(case: &Case, singles: &[Fit]) -> (Vec<Fit>, usize) {
     let mut fits: Vec<Fit> = Vec::new();
     for (a, b) in promising(case, singles) {
@@ -34,7 +36,6 @@ pub fn fit_pairs(case: &Case, singles: &[Fit]) -> (Vec<Fit>, usize) {
         all.extend(swapped(case, first, second));
         fits.extend(case.problem.fit(&effects, &all).filter(|fit| !case.is_rejected(fit)));
     }
-    fits.sort_by(|a, b| case.bic(a).total_cmp(&case.bic(b)));
     (fits, singles.len() * singles.len().saturating_sub(1) / 2)
 }
 
@@ -72,21 +73,22 @@ fn swapped(case: &Case, first: &Fit, second: &Fit) -> Option<Vec<f64>> {
 }
 
 /// Indices of the pairs that cannot be told from the best one.
-pub fn indistinguishable(case: &Case, pairs: &[Fit], single: &Fit) -> Vec<usize> {
+pub fn indistinguishable(case: &Case, pairs: &[Fit], allowance: f64) -> Vec<usize> {
     let Some(best) = pairs.first() else { return Vec::new() };
-    let more = |fit: &Fit| single.cost() - fit.cost();
-    let is_alike =
-        |i: &usize| case.bic(&pairs[*i]) - case.bic(best) < SAME_BIC || more(&pairs[*i]) >= SAME_GAIN * more(best);
+    let c = |fit: &Fit| order::criterion(case, fit, allowance);
+    let is_alike = |i: &usize| c(&pairs[*i]) - c(best) < order::SAME;
     (0..pairs.len()).filter(is_alike).collect()
 }
 
 /// What a reader needs of the best pairs.
-pub fn describe(case: &Case, pairs: &[Fit], single: &Fit, set: &[usize], tried: usize) -> Vec<Combination> {
+pub fn describe(case: &Case, decision: &Decision, single: &Fit) -> Vec<Combination> {
+    let (pairs, set, tried) = (&decision.pairs, &decision.pair_set, decision.pairs_tried);
+    let c = |fit: &Fit| order::criterion(case, fit, decision.pair_allowance);
     let entry = |(i, fit): (usize, &Fit)| Combination {
         effects: fit.effects[case.always.len()..].iter().map(|e| case.candidate(*e).name.clone()).collect(),
         parameters: parameter_values(case, fit, false),
         gain: case.gain(fit),
-        bic_difference: case.bic(fit) - case.bic(&pairs[0]),
+        bic_difference: c(fit) - c(&pairs[0]),
         p_corrected: p_over(case, fit, single, tried).map(reported_p),
         systematic_after_mm: case.error_mm(&case.prediction(fit)),
         in_set: set.contains(&i),

@@ -109,7 +109,7 @@ pub struct Ranked {
     pub parameters: Vec<ParameterValue>,
     /// Fall of the whitened sum of squares against the calibrated base.
     pub gain: f64,
-    /// BIC minus that of the best effect.
+    /// BIC minus that of the best effect, with an allowance for the form of the law and a weak prior of the size.
     pub bic_difference: f64,
     /// p of the gain, corrected for all effects tried; `None` with fewer than three runs.
     pub p_corrected: Option<f64>,
@@ -143,7 +143,7 @@ pub struct Combination {
     pub parameters: Vec<ParameterValue>,
     /// Fall of the whitened sum of squares against the calibrated base.
     pub gain: f64,
-    /// BIC minus that of the best combination.
+    /// BIC minus that of the best combination, with the same allowance and prior.
     pub bic_difference: f64,
     /// p of the gain over the best single effect, corrected for all combinations tried.
     pub p_corrected: Option<f64>,
@@ -181,6 +181,8 @@ pub struct BaseFit {
     pub systematic_mm: f64,
     /// Error beyond noise of the final model \[mm\].
     pub systematic_with_added_mm: f64,
+    /// Share of the calibrated base's misfit (beyond noise and scatter between runs) that the final model leaves.
+    pub left_share: f64,
     /// Root-mean-square noise of one coordinate of the mean \[mm\].
     pub noise_floor_mm: Option<f64>,
     /// Error beyond noise at pressures left out of the fit of B \[mm\].

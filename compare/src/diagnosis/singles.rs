@@ -2,43 +2,43 @@
 
 use super::basis::{Basis, cosine};
 use super::case::Case;
+use super::decide::Decision;
 use super::detect;
 use super::heldout::HeldOut;
 use super::interval::intervals;
+use super::order;
 use super::problem::Fit;
 use super::result::{ParameterValue, Ranked};
 use super::screen::starts;
 use crate::stats::reported_p;
 
-/// Differences of BIC below this do not decide.
-pub const SAME_BIC: f64 = 6.0;
-/// Nor do effects that reach this share of the best gain: real laws are never the textbook ones.
-pub const SAME_GAIN: f64 = 0.95;
 /// B that moves by more than this with an effect is said so.
 const BENDING_MOVES: f64 = 0.2;
 
-/// All effects fitted, best first by BIC; those without equilibrium left out.
-pub fn fit_all(case: &Case) -> Vec<Fit> {
+/// All effects fitted, best first, and the allowance for their form; those without equilibrium left out.
+pub fn fit_all(case: &Case) -> (Vec<Fit>, f64) {
     let fit = |effect: &usize| {
         let effects: Vec<usize> = case.always.iter().copied().chain([*effect]).collect();
         case.problem.fit(&effects, &starts(&case.problem, &case.base, *effect, true))
     };
     let mut fits: Vec<Fit> = case.tried.iter().filter_map(fit).collect();
-    fits.sort_by(|a, b| case.bic(a).total_cmp(&case.bic(b)));
-    fits
+    let allowance = order::sort(case, &mut fits, &case.base);
+    (fits, allowance)
 }
 
 /// Indices of the fits that cannot be told from the best acceptable one, best first; empty if none helps.
-pub fn indistinguishable(case: &Case, fits: &[Fit]) -> Vec<usize> {
+pub fn indistinguishable(case: &Case, fits: &[Fit], allowance: f64) -> Vec<usize> {
     let acceptable = |i: &usize| !case.is_rejected(&fits[*i]) && case.gain(&fits[*i]) > 0.0;
     let Some(best) = (0..fits.len()).find(acceptable) else { return Vec::new() };
-    let (bic, gain) = (case.bic(&fits[best]), case.gain(&fits[best]));
-    let is_alike = |i: &usize| case.bic(&fits[*i]) - bic < SAME_BIC || case.gain(&fits[*i]) >= SAME_GAIN * gain;
+    let c = |i: usize| order::criterion(case, &fits[i], allowance);
+    let is_alike = |i: &usize| c(*i) - c(best) < order::SAME;
     (0..fits.len()).filter(acceptable).filter(is_alike).collect()
 }
 
 /// What a reader needs of every fit.
-pub fn rank(case: &Case, fits: &[Fit], set: &[usize], held_out: &HeldOut) -> Vec<Ranked> {
+pub fn rank(case: &Case, decision: &Decision, held_out: &HeldOut) -> Vec<Ranked> {
+    let (fits, set) = (&decision.singles, &decision.set);
+    let c = |fit: &Fit| order::criterion(case, fit, decision.allowance);
     let before = case.error_mm(&case.prediction(&case.base));
     let best = set.first().copied().unwrap_or(0);
     let trace = |fit: &Fit| -> Vec<f64> {
@@ -47,7 +47,7 @@ pub fn rank(case: &Case, fits: &[Fit], set: &[usize], held_out: &HeldOut) -> Vec
         Basis::of(&case.base.minimum.jacobian).rest(&change)
     };
     let best_trace = fits.get(best).map(trace).unwrap_or_default();
-    let least = fits.get(best).map_or(0.0, |fit| case.bic(fit));
+    let least = fits.get(best).map_or(0.0, c);
     let entry = |(i, fit): (usize, &Fit)| {
         let effect = fit.effects[fit.effects.len() - 1];
         let candidate = case.candidate(effect);
@@ -67,7 +67,7 @@ pub fn rank(case: &Case, fits: &[Fit], set: &[usize], held_out: &HeldOut) -> Vec
             hi: lead.hi,
             at_bound: own.iter().any(|p| p.at_bound),
             gain,
-            bic_difference: case.bic(fit) - least,
+            bic_difference: c(fit) - least,
             p_corrected: case.p_of_gain(gain, candidate.count(), case.tests).map(reported_p),
             systematic_before_mm: before,
             systematic_after_mm: case.error_mm(&case.prediction(fit)),

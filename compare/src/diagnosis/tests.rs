@@ -82,6 +82,24 @@ fn tail_tension_on_an_spam_is_reported_with_seam_stiffness_and_no_experiment_par
 }
 
 #[test]
+fn of_two_effects_with_the_same_trace_the_one_of_usual_size_comes_first() {
+    let plain = robot("spam");
+    for (effect, value) in [("tail_tension", 0.45), ("seam_stiffness", 0.7)] {
+        let d = run(&plain, &measured(&plain.with_effect(effect, &[value]), 10, 32));
+        assert_eq!(d.indistinguishable[0], effect, "{:?}", d.indistinguishable);
+    }
+}
+
+#[test]
+fn pouches_that_touch_early_are_found_without_knowing_where() {
+    let plain = robot("spam");
+    let d = run(&plain, &measured(&plain.with_effect("self_contact", &[3.0, 1.5]), 5, 33));
+    assert!(d.indistinguishable.iter().any(|name| name == "self_contact"), "{:?}", d.indistinguishable);
+    let angle = &ranked(&d, "self_contact").parameters[1];
+    assert!((angle.value - 1.5).abs() < 0.2, "{angle:?}");
+}
+
+#[test]
 fn the_same_input_gives_the_same_output() {
     let plain = robot("epam");
     let data = measured(&plain.with_effect("friction", &[0.3]), 5, 41);

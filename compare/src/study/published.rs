@@ -67,16 +67,23 @@ pub fn model_ladder(kind: &str) -> Result<Vec<Rung>, CompareError> {
     Ok(rungs)
 }
 
+/// The scenario with an effect whose first parameter has a value; others stay neutral.
+fn with(scenario: &Scenario, effect: &str, value: f64) -> Scenario {
+    let mut values = models::effects::by_name(effect).map_or_else(Vec::new, |e| e.neutral());
+    values.iter_mut().take(1).for_each(|first| *first = value);
+    scenario.with_effect(effect, &values)
+}
+
 fn ladder(paper: &Published, actuator: &PublishedActuator) -> Result<PublishedLadder, CompareError> {
     let scenario = shipped_scenario(&actuator.kind)?;
     let loads = Loads::uniform(paper.body_pressure_pa, actuator.d_max_pressure_pa);
     let mut rungs = vec![start(&scenario, &loads)?];
     for addition in additions(paper, actuator) {
         let before = &rungs[rungs.len() - 1].scenario;
-        let next = before.with_effect(addition.effect, &[addition.value]);
+        let next = with(before, addition.effect, addition.value);
         let range_m = match addition.range {
             Some(ends) => {
-                let y = |v: f64| height(&before.with_effect(addition.effect, &[v]), &loads);
+                let y = |v: f64| height(&with(before, addition.effect, v), &loads);
                 let all = [y(ends[0])?, y(ends[1])?, y(addition.value)?];
                 Some([all.into_iter().fold(f64::INFINITY, f64::min), all.into_iter().fold(0.0, f64::max)])
             }

@@ -8,10 +8,10 @@
 //! |---|---|---|
 //! | γ | shear angle; 0.34 rad at the free stroke of an ideal muscle | rad |
 //! | γ_L | angle at which the yarns touch; above 0.34 rad it is never reached | rad |
-//! | K | stiffness of the jammed weave, 2000 N/m: some 40 times a coated weave's (numerical, a hard stop) | N/m |
+//! | K | stiffness of the jammed weave; 2000 N/m, some 40 times a coated weave's, is a hard stop | N/m |
 //! | W | flat width | m |
 //!
-//! **Validity**: sudden locking. Bias-extension tests lock near 45° for a plain weave, far beyond the muscle's stroke; a coating or
+//! **Validity**: sudden locking with a large K; yarns that are pressed together little by little have a smaller one. Bias-extension tests lock near 45° for a plain weave, far beyond the muscle's stroke; a coating or
 //! a tight weave locks earlier. Reference: trellis kinematics, Cao et al. 2008; the penalty is an assumption.
 
 use super::{Effect, Group, Parameter, Stage};
@@ -25,41 +25,57 @@ pub(super) const ENTRY: Effect = Effect {
     group: Group::Actuator,
     stage: Stage::Balance,
     history: false,
-    formula: "E = K (γ − γ_L)²₊ W per metre, γ = 2α − π/2, cosα = (1 − ε)/√2, K = 2000 N/m",
+    formula: "E = K (γ − γ_L)²₊ W per metre, γ = 2α − π/2, cosα = (1 − ε)/√2",
     sentence: "The yarns of the muscle jam at a certain shear angle and stop it.",
     differs: "The bend stops at a value that no further pressure exceeds; below it nothing changes.",
     remedy: "Take the locking angle from a bias-extension test of the fabric.",
-    validity: "sudden locking",
-    reference: "trellis kinematics, Cao et al. 2008; penalty assumed",
-    parameters: &[Parameter {
-        key: "lock_rad",
-        symbol: "γ_L",
-        unit: "rad",
-        si: 1.0,
-        neutral: 1.0,
-        typical: 0.22,
-        lower: 0.05,
-        upper: 1.0,
-        starts: &[0.08, 0.14, 0.2, 0.26, 0.32],
-        by_actuator: &[],
-        meaning: "shear angle at which the yarns touch",
-    }],
+    validity: "locking at one angle, then a linear stiffness",
+    reference: "trellis kinematics, Cao et al. 2008; usual K assumed",
+    parameters: &[
+        Parameter {
+            key: "lock_rad",
+            symbol: "γ_L",
+            unit: "rad",
+            si: 1.0,
+            neutral: 1.0,
+            typical: 0.22,
+            lower: 0.05,
+            upper: 1.0,
+            starts: &[0.08, 0.14, 0.2, 0.26, 0.32],
+            by_actuator: &[],
+            meaning: "shear angle at which the yarns touch",
+        },
+        Parameter {
+            key: "stiffness_n_per_m",
+            symbol: "K",
+            unit: "N/m",
+            si: 1.0,
+            neutral: JAMMED,
+            typical: JAMMED,
+            lower: 20.0,
+            upper: 20e3,
+            starts: &[60.0, 200.0, 600.0],
+            by_actuator: &[],
+            meaning: "stiffness of the jammed weave",
+        },
+    ],
     family: Some(Family::Mckibben),
     add,
 };
 
-/// Stiffness of the jammed weave \[N/m\].
+/// Usual stiffness of the jammed weave \[N/m\].
 const JAMMED: f64 = 2000.0;
 
 struct ShearLock {
     lock: f64,
+    stiffness: f64,
     width_m: f64,
 }
 
 fn add(values: &[f64], assembly: &mut Assembly) {
     for site in assembly.active_sites(Family::Mckibben) {
         let width_m = site.shape.width_m;
-        site.actuator_terms.push(Box::new(ShearLock { lock: values[0], width_m }));
+        site.actuator_terms.push(Box::new(ShearLock { lock: values[0], stiffness: values[1], width_m }));
     }
 }
 
@@ -72,7 +88,7 @@ impl Term for ShearLock {
         let cos = (1.0 - at.q[actuator_q::CONTRACTION]) / SQRT_2;
         let beyond = (2.0 * cos.acos() - FRAC_PI_2 - self.lock).max(0.0);
         let d_shear = SQRT_2 / (1.0 - cos * cos).sqrt();
-        let moment = 2.0 * JAMMED * self.width_m * beyond;
+        let moment = 2.0 * self.stiffness * self.width_m * beyond;
         force[actuator_q::CONTRACTION] -= moment * d_shear;
         0.5 * moment * beyond
     }

@@ -100,7 +100,7 @@ fn clamps_hold_their_own_end_and_flattening_bends_more_per_stroke() {
 fn a_jammed_weave_stops_the_muscle_near_its_angle() {
     let base = robot("fpam").bare();
     let contraction = |lock: f64, p: f64| {
-        let model = Model::new(&base.with_effect("shear_lock", &[lock]));
+        let model = Model::new(&base.with_effect("shear_lock", &[lock, 2000.0]));
         model.states(&predicted(&model, &Loads::uniform(2e3, p)).unwrap())[0].coordinate
     };
     let locked = |lock: f64| 1.0 - std::f64::consts::SQRT_2 * (0.5 * lock + std::f64::consts::FRAC_PI_4).cos();

@@ -1,0 +1,106 @@
+//! In which order explanations are named, and which cannot be told apart.
+//!
+//! ```text
+//! C = S/(1 + cG) + q ln n + Σ [(ln u / ln 3)² + 2 ln w],    u = |x − neutral| / |typical − neutral|
+//! ```
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | S, G | whitened sum of squares; gain of the best explanation that no bound rejects |
+//! | c | allowance for the form of the law: 5 % of the gain counts as six units |
+//! | q, n | parameters added, values fitted |
+//! | u | size over the catalogue's typical one, of every effect added that has one parameter |
+//! | w | for a value on the other side of neutral than the typical one: how much further the bounds reach on the usual side |
+//!
+//! Real laws are never the textbook ones: what a formula misses grows with the effect, so differences are held against
+//! the noise *and* a share of the effect. What then still ties is ordered by size: a curve met by an effect of its usual size
+//! is likelier than the same curve met by a rival of five times its own. The prior is weak (a factor of three is one standard
+//! deviation): it orders twins, and never excludes one from the set by itself unless its size is absurd.
+
+use super::candidates::Free;
+use super::case::Case;
+use super::detect::lead;
+use super::problem::Fit;
+
+/// Differences below this do not decide.
+pub const SAME: f64 = 6.0;
+/// Share of the best gain that counts as [`SAME`].
+const FORM: f64 = 0.05;
+/// One standard deviation of the size, as a factor.
+const SIZE_FACTOR: f64 = 3.0;
+/// Sizes beyond this factor from the typical one are equally odd.
+const ODDEST: f64 = 1e3;
+
+/// What a gain that large makes of differences between sums of squares.
+pub fn allowance(best_gain: f64) -> f64 {
+    1.0 + FORM * best_gain.max(0.0) / SAME
+}
+
+/// C of an explanation, up to a constant.
+pub fn criterion(case: &Case, fit: &Fit, allowance: f64) -> f64 {
+    fit.cost() / allowance + case.extra(fit) as f64 * (case.noise.directions.len() as f64).ln() + oddness(case, fit)
+}
+
+/// Fits in order of C, and the allowance used: that of the best gain among those that no bound rejects.
+pub fn sort(case: &Case, fits: &mut [Fit], over: &Fit) -> f64 {
+    let gain = |fit: &&Fit| over.cost() - fit.cost();
+    let allowance = allowance(fits.iter().filter(|f| !case.is_rejected(f)).map(|f| gain(&f)).fold(0.0, f64::max));
+    fits.sort_by(|a, b| criterion(case, a, allowance).total_cmp(&criterion(case, b, allowance)));
+    allowance
+}
+
+/// Σ (ln u / ln 3)² over the effects that were added. Where a threshold or a time shapes the law too, the first parameter
+/// alone is no measure of its size.
+fn oddness(case: &Case, fit: &Fit) -> f64 {
+    let mut from = case.problem.bendings;
+    let mut sum = 0.0;
+    for (i, effect) in fit.effects.iter().enumerate() {
+        let candidate = case.candidate(*effect);
+        let k = lead(candidate);
+        let p = &candidate.parameters[k];
+        let size = (fit.theta()[from + k] - p.neutral).abs() / p.scale();
+        if i >= case.always.len() && candidate.count() == 1 {
+            sum += (size.clamp(1.0 / ODDEST, ODDEST).ln() / SIZE_FACTOR.ln()).powi(2);
+            sum += wrong_sign(p, fit.theta()[from + k]);
+        }
+        from += candidate.parameters.len();
+    }
+    sum
+}
+
+/// 2 ln of how much further the bounds reach on the typical side, for a value on the other one.
+fn wrong_sign(p: &Free, value: f64) -> f64 {
+    let (up, down) = (p.upper - p.neutral, p.neutral - p.lower);
+    let (usual, other) = if p.typical > p.neutral { (up, down) } else { (down, up) };
+    let against = (value - p.neutral) * (p.typical - p.neutral) < 0.0;
+    if against && other > 0.0 { 2.0 * (usual / other).ln().max(0.0) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_twentieth_of_a_large_gain_counts_as_much_as_six_units_of_noise() {
+        assert_eq!(allowance(0.0), 1.0);
+        let gain = 1e6;
+        assert!((0.05 * gain / allowance(gain) / SAME - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn only_the_unusual_sign_is_odd_and_as_odd_as_its_bounds_are_narrow() {
+        let p = Free {
+            key: "k".into(),
+            symbol: "k".into(),
+            unit: "-".into(),
+            si: 1.0,
+            neutral: 0.0,
+            typical: 0.5,
+            lower: -0.5,
+            upper: 1.5,
+            starts: Vec::new(),
+        };
+        assert_eq!((wrong_sign(&p, 0.3), wrong_sign(&Free { lower: -1.5, ..p.clone() }, -0.3)), (0.0, 0.0));
+        assert!((wrong_sign(&p, -0.3) - 2.0 * 3.0_f64.ln()).abs() < 1e-12);
+    }
+}
