@@ -170,6 +170,15 @@ pub struct Compare {
     /// With --engines: only the runs that come with the program
     #[arg(long, requires = "engines")]
     pub stored: bool,
+    /// With --engines: runs of every robot, with other random imperfections each
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    pub seeds: u64,
+    /// With --engines: also with usual values in place of those calibrated on the published displacements
+    #[arg(long, requires = "engines")]
+    pub usual: bool,
+    /// With --engines: actuator pressures of the runs; default: the scenario's
+    #[arg(long, requires = "engines", allow_hyphen_values = true)]
+    pub pressure: Option<String>,
     /// With --engines: threads of a run; 0: one per core
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
     pub threads: u64,
@@ -375,6 +384,48 @@ pub enum DataCommand {
     List,
     /// Make a synthetic dataset from a scenario
     Generate(Generate),
+    /// Make marker data from finite element runs of a robot, with the scatter of a real test
+    Fem(DataFem),
+}
+
+/// `ibr data fem`
+#[derive(Debug, Args)]
+pub struct DataFem {
+    /// Robot's scenario file or shipped robot: the truth of the data
+    pub scenario: String,
+    /// Folder for markers.csv, about.toml and truth.toml
+    #[arg(long)]
+    pub out: PathBuf,
+    /// Only the finite element runs that come with the program
+    #[arg(long)]
+    pub stored: bool,
+    /// Folder of finished runs; missing ones are made there
+    #[arg(long, default_value = "ibr-report/runs")]
+    pub runs: PathBuf,
+    /// Runs, each with other random imperfections
+    #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    pub seeds: u64,
+    /// Actuator pressures, rising
+    #[arg(long, short, default_value = "5kPa,10kPa,15kPa,20kPa,25kPa,30kPa", allow_hyphen_values = true)]
+    pub pressure: String,
+    /// Seed of camera, pressure and alignment
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Camera noise of one coordinate
+    #[arg(long, default_value = "1mm", allow_hyphen_values = true)]
+    pub sigma: String,
+    /// Run-to-run scatter of the actuator pressure in per cent
+    #[arg(long, default_value_t = 2.0, allow_negative_numbers = true)]
+    pub pressure_scatter: f64,
+    /// Run-to-run shift of the camera
+    #[arg(long, default_value = "0.5mm", allow_hyphen_values = true)]
+    pub alignment: String,
+    /// Threads of a run; 0: one per core
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
+    pub threads: u64,
+    /// Replace existing files
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// `ibr data generate`

@@ -8,7 +8,7 @@ use super::{Context, Outcome};
 use crate::cli::Breakdown;
 use crate::failure::{Failure, INTERRUPTED};
 use crate::output::{check_folder, write_files};
-use compare::study::engines::{FeRun, Pair, pairs};
+use compare::study::engines::{FeRun, Pair, pairs, runs_json};
 use compare::study::pages::{Files, engines, parting_plot, varied};
 use models::Scenario;
 use models::actuators::Family;
@@ -41,7 +41,7 @@ pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> 
         files.plot(&format!("breakdown_{}_{k}", map.actuator), &parting_plot(map)?);
     }
     files.text("breakdown.csv", csv(&rows));
-    files.text("runs.json", serde_json::to_string_pretty(&runs).unwrap_or_default() + "\n");
+    files.text("runs.json", runs_json(&runs));
     write_files(&args.out, &files, &[], context)?;
     let mut outcome = Outcome::new(text(&rows), as_json(&rows));
     outcome.notes.push(format!("maps and tables: {}", args.out.display()));

@@ -1,4 +1,4 @@
-//! `ibr data check | list | generate`
+//! `ibr data check | list | generate | fem`
 
 use super::inputs::{self, quantity};
 use super::tables::{number, table};
@@ -12,12 +12,14 @@ use data::{About, CheckReport, Dataset, Geometry, MarkerStation, Provenance};
 use models::Scenario;
 use models::scenario::quantity::Quantity;
 use serde_json::json;
+use std::path::Path;
 
 pub fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome, Failure> {
     match command {
         DataCommand::Check { data } => check(data, context),
         DataCommand::List => list::run(Some("datasets")),
         DataCommand::Generate(args) => make(args, context),
+        DataCommand::Fem(args) => super::data_fem::run(args, context),
     }
 }
 
@@ -76,10 +78,7 @@ fn make(args: &Generate, context: &mut Context) -> Result<Outcome, Failure> {
             "add [markers] with s_mm = [30, 90, 150] to it: places in mm from the base",
         ));
     }
-    if !args.force && args.out.join("markers.csv").exists() {
-        let message = format!("{} already holds a dataset", args.out.display());
-        return Err(Failure::usage(message, "choose another folder, or add --force to replace it"));
-    }
+    folder_is_free(&args.out, args.force)?;
     let name = args.out.file_name().map_or("synthetic".into(), |n| n.to_string_lossy().into_owned());
     let dataset = generate(&named.scenario, &name, &generator)?;
     let mut csv = Vec::new();
@@ -96,26 +95,44 @@ fn make(args: &Generate, context: &mut Context) -> Result<Outcome, Failure> {
 }
 
 fn generator(args: &Generate) -> Result<Generator, Failure> {
-    if !(0.0..=50.0).contains(&args.pressure_scatter) {
-        let message = format!("--pressure-scatter {} is not from 0 to 50 per cent", args.pressure_scatter);
-        return Err(Failure::usage(message, "2 is usual"));
-    }
-    let scatter = |option: &str, text: &str| match quantity(option, text, Quantity::Length)? {
-        v if (0.0..=0.1).contains(&v) => Ok(v),
-        v => Err(Failure::usage(format!("{option} {v} m is not from 0 to 100 mm"), "1mm is usual")),
-    };
     Ok(Generator {
         seed: args.seed,
         runs: args.runs as usize,
         protocol: parse_protocol(&args.protocol)?,
         camera_sd_m: scatter("--sigma", &args.sigma)?,
-        pressure_sd: args.pressure_scatter / 100.0,
+        pressure_sd: pressure_scatter(args.pressure_scatter)?,
         alignment_sd_m: scatter("--alignment", &args.alignment)?,
         ..Generator::default()
     })
 }
 
-fn about(scenario: &Scenario, dataset: &Dataset, g: &Generator) -> About {
+/// Refuses a folder with data in it, unless forced.
+pub fn folder_is_free(folder: &Path, force: bool) -> Result<(), Failure> {
+    if !force && folder.join("markers.csv").exists() {
+        let message = format!("{} already holds a dataset", folder.display());
+        return Err(Failure::usage(message, "choose another folder, or add --force to replace it"));
+    }
+    Ok(())
+}
+
+/// A scatter of pressures as typed in per cent, as a share.
+pub fn pressure_scatter(percent: f64) -> Result<f64, Failure> {
+    if (0.0..=50.0).contains(&percent) {
+        return Ok(percent / 100.0);
+    }
+    Err(Failure::usage(format!("--pressure-scatter {percent} is not from 0 to 50 per cent"), "2 is usual"))
+}
+
+/// A scatter of lengths as typed \[m\].
+pub fn scatter(option: &str, text: &str) -> Result<f64, Failure> {
+    match quantity(option, text, Quantity::Length)? {
+        v if (0.0..=0.1).contains(&v) => Ok(v),
+        v => Err(Failure::usage(format!("{option} {v} m is not from 0 to 100 mm"), "1mm is usual")),
+    }
+}
+
+/// Description of generated data.
+pub fn about(scenario: &Scenario, dataset: &Dataset, g: &Generator) -> About {
     let shape = &scenario.actuator.shape;
     let stations = dataset.markers.iter().zip(&scenario.markers_m);
     About {

@@ -1,13 +1,15 @@
 //! `ibr compare --engines`: both engines and the published numbers.
 
-use super::simulate::{Keeper, Named, all_runs, named};
+use super::simulate::{Keeper, Named, all_runs, named, pressures};
 use super::tables::table;
 use super::{Context, Outcome};
 use crate::cli::Compare;
 use crate::failure::{Failure, INTERRUPTED};
 use crate::output::{Input, check_folder, machine, program, today, write_files};
-use compare::study::engines::{FeRun, TERMS, stored};
-use compare::study::pages::{EngineLine, Engines, HEADS, Imprint, cells, engines, engines_page, lines};
+use compare::study::engines::{CALIBRATED, FeRun, TERMS, runs_json, stored};
+use compare::study::pages::{
+    EngineLine, Engines, HEADS, Imprint, SUMMARY, cells, engines, engines_page, lines, summary,
+};
 use models::Scenario;
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -30,7 +32,7 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
         all.extend(lines(robot)?);
     }
     let mut outcome = Outcome::new(
-        text(&all, &found),
+        text(&all, &found)?,
         json!({
             "schema": "ibr.engines", "version": 1, "lines": all,
             "ledgers": found.robots.iter().map(|r| json!({"robot": r.scenario.name, "pairs": r.pairs})).collect::<Vec<_>>(),
@@ -39,8 +41,7 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
     (context.progress)("drawing the report", None);
     let imprint = Imprint { program: program(), date: today(), machine: machine() };
     let mut files = engines_page(&found, &imprint)?;
-    let kept = serde_json::to_string_pretty(&runs).unwrap_or_default();
-    files.files.insert(0, ("runs.json".into(), (kept + "\n").into_bytes()));
+    files.files.insert(0, ("runs.json".into(), runs_json(&runs).into_bytes()));
     write_files(&folder, &files, &inputs, context)?;
     outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
     Ok(outcome)
@@ -73,10 +74,10 @@ fn runs(args: &Compare, scenarios: &[(Named, Scenario)], context: &mut Context) 
         return Ok(Some(stored()));
     }
     let keeper = Keeper { folder: args.runs.clone(), threads: args.threads as usize };
+    let cases = cases(args, scenarios)?;
     let mut own = Vec::new();
-    for (k, (named, scenario)) in scenarios.iter().enumerate() {
-        let what = format!("{} of {}, {}", k + 1, scenarios.len(), scenario.name);
-        match keeper.run(named, &what, context)? {
+    for (k, (named, what)) in cases.iter().enumerate() {
+        match keeper.run(named, &format!("{} of {}, {what}", k + 1, cases.len()), context)? {
             Some(run) => own.push(run),
             None => return Ok(None),
         }
@@ -87,11 +88,42 @@ fn runs(args: &Compare, scenarios: &[(Named, Scenario)], context: &mut Context) 
     Ok(Some(own))
 }
 
-fn text(lines: &[EngineLine], engines: &Engines) -> String {
-    let mut out =
-        String::from("Both engines and the published numbers; accuracy by the paper's formula for one marker\n");
+/// Every robot with every seed, and with usual values in place of calibrated ones if that is wanted.
+fn cases(args: &Compare, scenarios: &[Robot]) -> Result<Vec<(Named, String)>, Failure> {
+    let mut cases = Vec::new();
+    for (named, scenario) in scenarios {
+        for seed in 1..=args.seeds {
+            let mut changes = vec![("seed".to_string(), seed.to_string())];
+            if let Some(list) = &args.pressure {
+                changes.push(("pressures_kpa".into(), format!("{:?}", pressures(list)?)));
+            }
+            cases.push((named.with(&changes)?, format!("{}, seed {seed}", scenario.name)));
+            if args.usual && CALIBRATED.contains(&scenario.actuator.kind.name) {
+                changes.push(("loading".into(), "\"usual\"".into()));
+                cases.push((named.with(&changes)?, format!("{}, usual values, seed {seed}", scenario.name)));
+            }
+        }
+    }
+    Ok(cases)
+}
+
+fn text(lines: &[EngineLine], engines: &Engines) -> Result<String, Failure> {
+    let mut out = String::new();
+    let short = engines.robots.iter().filter_map(|r| summary(r).transpose()).collect::<Result<Vec<_>, _>>()?;
+    if !short.is_empty() {
+        out.push_str(
+            "Outermost marker at 30 kPa; finite elements: mean ± standard deviation over seeds; accuracy by the paper's formula\n",
+        );
+        out.push_str(&table(&SUMMARY, 1, short));
+        out.push('\n');
+    }
+    out.push_str("All pressures that the paper prints\n");
     out.push_str(&table(&HEADS, 1, lines.iter().map(cells).collect()));
-    let mut rows = Vec::new();
+    Ok(out + &ledgers(engines))
+}
+
+fn ledgers(engines: &Engines) -> String {
+    let (mut out, mut rows) = (String::new(), Vec::new());
     for robot in &engines.robots {
         let Some(pair) = robot.pairs.last() else { continue };
         for (engine, energies) in [

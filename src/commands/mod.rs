@@ -9,6 +9,7 @@ mod challenge;
 mod characterize;
 mod compare;
 mod data;
+mod data_fem;
 mod demo;
 mod diagnose;
 mod engines;

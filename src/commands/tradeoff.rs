@@ -32,7 +32,7 @@ pub fn run(args: &Tradeoff, context: &mut Context) -> Result<Outcome, Failure> {
     let head = ["engine", "actuator", "model", "how known", "time", "error [mm]", "error [%]"];
     let mut text = format!(
         "One prediction of the reduced model (equilibrium, six markers) on {}, one finite element run to 30 kPa \
-        (processor time); error of the published displacement: outermost marker, finite elements tip\n",
+        (processor time); error of the published displacement: outermost marker, finite elements mean of seeds\n",
         machine()
     );
     text.push_str(&table(&head, 4, rows.collect()));

@@ -46,6 +46,12 @@ pub struct FeRun {
     pub pouch_mm: f64,
     /// Units in series.
     pub count: usize,
+    /// Seed of its imperfections.
+    #[serde(default = "first_seed")]
+    pub seed: u64,
+    /// Marker stations along the robot \[mm\]; empty in runs that kept none.
+    #[serde(default)]
+    pub stations_mm: Vec<f64>,
     /// `calibrated` if a number of the run was fitted to the tip it is compared with, else `assumed`.
     pub known: String,
     /// States, the filled body without actuator pressure first.
@@ -75,6 +81,13 @@ pub struct FeState {
     pub von_mises_mpa: f64,
     /// Largest pull on a weld \[N/m\].
     pub weld_n_per_m: f64,
+    /// Displacements of the markers in the plane of bending, x along the straight robot, y to the actuator \[mm\].
+    #[serde(default)]
+    pub moved_mm: Vec<[f64; 2]>,
+}
+
+fn first_seed() -> u64 {
+    1
 }
 
 /// Both engines in one state.
@@ -183,11 +196,64 @@ pub fn stored() -> Vec<FeRun> {
     serde_json::from_str(include_str!("../../assets/fem-runs.json")).unwrap_or_default()
 }
 
-/// The stored run of a shipped robot as it is, on the finest mesh there is.
-pub fn stored_robot<'a>(runs: &'a [FeRun], scenario: &Scenario) -> Option<&'a FeRun> {
-    let mine = runs.iter().filter(|r| as_it_is(r, scenario) && r.states.last().is_some_and(|s| s.actuator_kpa > 29.9));
-    mine.min_by(|a, b| a.mesh_mm[1].total_cmp(&b.mesh_mm[1]))
+/// Runs as they are stored: one a line.
+pub fn runs_json(runs: &[FeRun]) -> String {
+    let lines: Vec<String> = runs.iter().filter_map(|run| serde_json::to_string(run).ok()).collect();
+    format!("[\n{}\n]\n", lines.join(",\n"))
 }
+
+/// Runs of one robot as it is that differ in their seed only.
+#[derive(Debug, Clone, Default)]
+pub struct Ensemble {
+    /// Runs, by seed.
+    pub runs: Vec<FeRun>,
+}
+
+impl Ensemble {
+    /// Mean and standard deviation of the outermost marker and of the tip at a pressure \[mm\]; the deviation is `None` for
+    /// a single run, everything where no run was read there.
+    pub fn at(&self, actuator_kpa: f64) -> Option<[(f64, Option<f64>); 2]> {
+        let here = |run: &FeRun| {
+            run.states.iter().find(|s| (s.actuator_kpa - actuator_kpa).abs() < 0.05).map(|s| [s.marker_mm, s.tip_mm])
+        };
+        let found: Vec<[f64; 2]> = self.runs.iter().filter_map(here).collect();
+        let n = found.len() as f64;
+        let of = |k: usize| {
+            let mean = found.iter().map(|mm| mm[k]).sum::<f64>() / n;
+            let square = found.iter().map(|mm| (mm[k] - mean).powi(2)).sum::<f64>() / (n - 1.0);
+            (mean, (found.len() > 1).then_some(square.sqrt()))
+        };
+        (!found.is_empty()).then(|| [of(0), of(1)])
+    }
+
+    /// Mean processor time of a run \[s\].
+    pub fn cpu_s(&self) -> f64 {
+        self.runs.iter().map(|run| run.cpu_s).sum::<f64>() / self.runs.len() as f64
+    }
+}
+
+/// The runs of a shipped robot as it is to 30 kPa, on the finest mesh there is: with the recommended settings, and with usual
+/// values in place of calibrated ones, which is empty for a robot that no calibrated number concerns.
+pub fn ensembles(runs: &[FeRun], scenario: &Scenario) -> [Ensemble; 2] {
+    let mine = runs.iter().filter(|r| as_it_is(r, scenario) && r.states.last().is_some_and(|s| s.actuator_kpa > 29.9));
+    let fitted = CALIBRATED.contains(&scenario.actuator.kind.name);
+    let (usual, own): (Vec<&FeRun>, Vec<&FeRun>) = mine.partition(|r| fitted && r.known != "calibrated");
+    [own, usual].map(finest)
+}
+
+/// Of the runs on the finest mesh those read at the most pressures, one for every seed.
+fn finest(runs: Vec<&FeRun>) -> Ensemble {
+    let mesh = runs.iter().map(|r| r.mesh_mm[1]).fold(f64::INFINITY, f64::min);
+    let mut kept: Vec<FeRun> = runs.into_iter().filter(|r| r.mesh_mm[1] == mesh).cloned().collect();
+    let read = kept.iter().map(|r| r.states.len()).max().unwrap_or(0);
+    kept.retain(|r| r.states.len() == read);
+    kept.sort_by_key(|r| r.seed);
+    kept.dedup_by_key(|r| r.seed);
+    Ensemble { runs: kept }
+}
+
+/// Robots with a number fitted to the tip they are compared with: tape of the sPAM, ν₁₂ of the fPAM.
+pub const CALIBRATED: [&str; 2] = ["spam", "fpam"];
 
 /// Whether a run is of this robot at its own body pressure.
 pub fn as_it_is(run: &FeRun, scenario: &Scenario) -> bool {
@@ -225,6 +291,7 @@ mod tests {
             kinetic_share: 0.0,
             von_mises_mpa: 0.0,
             weld_n_per_m: 0.0,
+            moved_mm: Vec::new(),
         };
         let state = FeState {
             actuator_kpa: 20.0,
@@ -246,6 +313,8 @@ mod tests {
             body_kpa: 2.0,
             pouch_mm: 60.0,
             count: 6,
+            seed: 1,
+            stations_mm: Vec::new(),
             known: "assumed".into(),
             states: vec![filled, state],
         };
@@ -269,6 +338,22 @@ mod tests {
             let apart = Pair { reduced_mm: [0.0, 1.2 * pair.fe_mm[1]], ..pair };
             assert_eq!(apart.carrier(), Some(term));
         }
+    }
+
+    #[test]
+    fn an_ensemble_is_of_the_finest_mesh_and_of_runs_with_what_is_recommended() {
+        let (scenario, run, _) = run(0, 0.0);
+        let of = |seed: u64, mesh: f64, tip_mm: f64| {
+            let mut run = FeRun { seed, mesh_mm: [mesh; 2], ..run.clone() };
+            run.states[1].actuator_kpa = 30.0;
+            run.states[1].tip_mm = tip_mm;
+            run
+        };
+        let runs = [of(2, 4.0, 13.0), of(1, 4.0, 11.0), of(1, 6.0, 99.0)];
+        let [own, usual] = ensembles(&runs, &scenario);
+        let [_, (mean, spread)] = own.at(30.0).unwrap();
+        assert!(mean == 12.0 && (spread.unwrap() - 2.0_f64.sqrt()).abs() < 1e-12 && usual.runs.is_empty());
+        assert!(own.at(10.0).is_none());
     }
 
     #[test]

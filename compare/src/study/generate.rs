@@ -80,27 +80,18 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
     }
     let model = Model::new(scenario);
     let mut state = model.prediction();
-    let mut scatter = Scatter::new(generator.seed);
+    let mut eye = Seen::new(generator);
     let mut xy_m = Vec::new();
     for _ in 0..generator.runs {
-        let gain = 1.0 + generator.pressure_sd * scatter.normal();
-        let shift = [scatter.normal(), scatter.normal()].map(|n| n * generator.alignment_sd_m);
-        let roll = generator.rotation_sd * scatter.normal();
-        let mut see = |markers: &[[f64; 2]]| {
-            for [x, y] in markers {
-                let noise = [scatter.normal(), scatter.normal()].map(|n| n * generator.camera_sd_m);
-                xy_m.push(x - roll * y + shift[0] + noise[0]);
-                xy_m.push(y + roll * x + shift[1] + noise[1]);
-            }
-        };
+        let gain = eye.next_run();
         if model.has_history() {
-            let mut each = |_: usize, at: &Prediction| see(&at.markers);
+            let mut each = |_: usize, at: &Prediction| eye.look(&at.markers, &mut xy_m);
             model.follow(&steps(generator, gain), &mut state, &mut each)?;
             continue;
         }
         for [p_body, p_act] in &generator.protocol {
             model.predict(&Loads::uniform(*p_body, p_act * gain), &mut state)?;
-            (0..generator.samples).for_each(|_| see(&state.markers));
+            (0..generator.samples).for_each(|_| eye.look(&state.markers, &mut xy_m));
         }
     }
     Ok(Dataset {
@@ -112,6 +103,39 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
         samples_per_hold: generator.samples,
         xy_m,
     })
+}
+
+/// A camera and the regulator's error, run by run.
+pub(super) struct Seen<'a> {
+    generator: &'a Generator,
+    scatter: Scatter,
+    shift: [f64; 2],
+    roll: f64,
+}
+
+impl<'a> Seen<'a> {
+    pub(super) fn new(generator: &'a Generator) -> Seen<'a> {
+        Seen { generator, scatter: Scatter::new(generator.seed), shift: [0.0; 2], roll: 0.0 }
+    }
+
+    /// Sets the robot up again; returns true over set pressure.
+    pub(super) fn next_run(&mut self) -> f64 {
+        let (g, scatter) = (self.generator, &mut self.scatter);
+        let gain = 1.0 + g.pressure_sd * scatter.normal();
+        self.shift = [scatter.normal(), scatter.normal()].map(|n| n * g.alignment_sd_m);
+        self.roll = g.rotation_sd * scatter.normal();
+        gain
+    }
+
+    /// One sample of all markers.
+    pub(super) fn look(&mut self, markers: &[[f64; 2]], xy_m: &mut Vec<f64>) {
+        let (shift, roll) = (self.shift, self.roll);
+        for [x, y] in markers {
+            let noise = [self.scatter.normal(), self.scatter.normal()].map(|n| n * self.generator.camera_sd_m);
+            xy_m.push(x - roll * y + shift[0] + noise[0]);
+            xy_m.push(y + roll * x + shift[1] + noise[1]);
+        }
+    }
 }
 
 /// The protocol of one run whose actuator pressures are off by a factor.

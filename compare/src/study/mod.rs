@@ -7,6 +7,7 @@ pub mod generate;
 pub mod pages;
 pub mod predict;
 pub mod published;
+pub mod seen;
 pub mod tradeoff;
 
 pub use calibrate::{Calibration, calibrate_bending};

@@ -83,6 +83,8 @@ pub fn as_run(summary: &Value, cost: &Value) -> Option<FeRun> {
         body_kpa: robot::rounded(about["body_pa"].as_f64()? * 1e-3),
         pouch_mm: robot::rounded(about["pouch_m"].as_f64()? * 1e3),
         count: about["count"].as_u64()? as usize,
+        seed: setting("seed")? as u64,
+        stations_mm: readings[0].stations_m.iter().rev().skip(1).rev().map(|s| robot::rounded(s * 1e3)).collect(),
         known: if calibrated { "calibrated" } else { "assumed" }.into(),
         states: readings.iter().map(state).collect(),
     })
@@ -105,5 +107,7 @@ fn state(r: &Reading) -> FeState {
         kinetic_share: short(r.kinetic_share),
         von_mises_mpa: short(r.von_mises_pa * 1e-6),
         weld_n_per_m: short(r.seam_n_per_m),
+        // The last station is the tip.
+        moved_mm: r.moved_m.iter().rev().skip(1).rev().map(|d| [short(d[0] * 1e3), short(d[1] * 1e3)]).collect(),
     }
 }

@@ -101,7 +101,8 @@ fn names() -> String {
     KEYS.iter().map(|k| k.name).collect::<Vec<_>>().join(", ")
 }
 
-fn pressures(text: &str) -> Result<Vec<f64>, Failure> {
+/// Pressures as typed \[kPa\].
+pub fn pressures(text: &str) -> Result<Vec<f64>, Failure> {
     let one = |p: &str| Ok(rounded(quantity("--pressure", p, Quantity::Pressure)? / 1e3));
     text.split(',').map(one).collect()
 }

@@ -50,43 +50,50 @@ pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>, CompareError> {
     };
     let last = |r: &EngineRobot| r.pairs.last().cloned();
     let data = plots::Bars {
-        title: "Displacement at 30 kPa".into(),
+        title: "Outermost marker at 30 kPa".into(),
         value_label: "displacement [mm]".into(),
         groups: shown.iter().map(|r| r.published.as_ref().map_or(String::new(), |p| p.printed_name.clone())).collect(),
         series: vec![
             series("reduced, as shipped", &|r| last(r).map_or(f64::NAN, |p| p.reduced_mm[0]), false),
             series("reduced, with effects", &|r| r.with_effects.as_ref().map_or(f64::NAN, |g| g.y_m * 1e3), false),
-            series("finite elements, tip", &|r| last(r).map_or(f64::NAN, |p| p.fe_mm[1]), false),
+            series("finite elements", &|r| r.ensemble.at(30.0).map_or(f64::NAN, |[marker, _]| marker.0), false),
             series("measured", &|r| r.published.as_ref().map_or(f64::NAN, |p| p.d_max_m * 1e3), true),
         ],
     };
     plots::bars(&data).map(Some).map_err(|e| drawing("the displacements", e))
 }
 
-/// Tip over pressure.
+/// Outermost marker over pressure: both engines, every seed of the finite elements.
 pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn, CompareError> {
-    let of = |pick: fn(&Pair) -> f64| -> Vec<[f64; 2]> {
-        std::iter::once([0.0, 0.0]).chain(robot.pairs.iter().map(|p| [p.actuator_kpa, pick(p)])).collect()
-    };
-    let series = |name: &str, points, style, colour| plots::LineSeries {
+    let series = |name: &str, points, half_width, style, colour| plots::LineSeries {
         name: name.into(),
         points,
-        half_width: vec![],
+        half_width,
         style,
         colour: Some(colour),
     };
-    let mut all = vec![
-        series("reduced", of(|p| p.reduced_mm[1]), plots::LineStyle::LinePoints, 0),
-        series("finite elements", of(|p| p.fe_mm[1]), plots::LineStyle::LinePoints, 1),
-    ];
+    let reduced = robot.pairs.iter().map(|p| [p.actuator_kpa, p.reduced_mm[0]]);
+    let reduced = std::iter::once([0.0, 0.0]).chain(reduced).collect();
+    let mut all = vec![series("reduced, as shipped", reduced, vec![], plots::LineStyle::LinePoints, 0)];
+    for (ensemble, words, colour) in [(&robot.ensemble, "", 1), (&robot.usual, ", usual values", 2)] {
+        let Some(run) = ensemble.runs.first() else { continue };
+        let states = run.states.iter().filter_map(|s| Some((s.actuator_kpa, ensemble.at(s.actuator_kpa)?[0])));
+        let (points, spread): (Vec<[f64; 2]>, Vec<f64>) =
+            states.map(|(kpa, (mean, sd))| ([kpa, mean], sd.unwrap_or(0.0))).unzip();
+        let name = match ensemble.runs.len() {
+            1 => format!("finite elements{words}"),
+            n => format!("finite elements{words}, mean and sd of {n} seeds"),
+        };
+        all.push(series(&name, points, spread, plots::LineStyle::LinePoints, colour));
+    }
     if let Some(p) = &robot.published {
         let at = vec![[p.d_max_pressure_pa * 1e-3, p.d_max_m * 1e3]];
-        all.push(series("measured", at, plots::LineStyle::OpenPoints, 3));
+        all.push(series("measured", at, vec![], plots::LineStyle::OpenPoints, 3));
     }
     let data = plots::Lines {
-        title: format!("{}: tip over pressure", robot.scenario.actuator.kind.name),
+        title: format!("{}: outermost marker over pressure", robot.scenario.actuator.kind.name),
         x_label: "actuator pressure [kPa]".into(),
-        y_label: "tip displacement [mm]".into(),
+        y_label: "displacement of the outermost marker [mm]".into(),
         series: all,
     };
     plots::lines(&data).map_err(|e| drawing("the pressure curve", e))

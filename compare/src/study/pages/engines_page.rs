@@ -1,14 +1,15 @@
 //! Both engines and the published numbers on one page: displacement, accuracy, ledgers, and where the models part.
 
 use super::engine_figures::{bars, curve, ledger, parting_plot};
+use super::engine_lines::{HEADS, SUMMARY, cells, csv, lines, summary};
 use super::{Files, Imprint};
 use crate::error::CompareError;
-use crate::plots::{Drawn, Known};
+use crate::plots::Drawn;
 use crate::report::{Align, Block, Callout, Column, Provenance, Report, Section, Table};
-use crate::study::engines::{FeRun, Pair, accuracy, as_it_is, pairs, stored_robot};
+use crate::study::engines::{Ensemble, FeRun, Pair, as_it_is, ensembles, pairs};
 use crate::study::published::{Rung, model_ladder, shipped_scenario};
 use data::{PublishedActuator, published};
-use models::{Loads, Model, Scenario};
+use models::Scenario;
 
 /// One robot with both engines.
 #[derive(Debug, Clone)]
@@ -19,9 +20,13 @@ pub struct EngineRobot {
     pub published: Option<PublishedActuator>,
     /// The reduced model with effects of which none is fitted.
     pub with_effects: Option<Rung>,
-    /// Its finite element run, if there is one.
+    /// Its finite element runs with the recommended settings.
+    pub ensemble: Ensemble,
+    /// The same with usual values in place of calibrated ones.
+    pub usual: Ensemble,
+    /// The first run, if there is one.
     pub run: Option<FeRun>,
-    /// Both at the run's pressures.
+    /// Both engines at this run's pressures.
     pub pairs: Vec<Pair>,
 }
 
@@ -47,25 +52,6 @@ pub struct Engines {
     pub maps: Vec<PartingMap>,
 }
 
-/// One line of the comparison.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
-pub struct EngineLine {
-    /// Robot.
-    pub robot: String,
-    /// Actuator pressure \[kPa\].
-    pub actuator_kpa: f64,
-    /// Who says so.
-    pub source: String,
-    /// How it is known.
-    pub known: String,
-    /// Outermost marker \[mm\].
-    pub marker_mm: Option<f64>,
-    /// Tip \[mm\].
-    pub tip_mm: Option<f64>,
-    /// The paper's accuracy: as printed, or of the marker and of the tip against the measured displacement.
-    pub accuracy: [Option<f64>; 2],
-}
-
 /// Puts robots and runs together.
 ///
 /// # Errors
@@ -87,70 +73,10 @@ fn robot(scenario: &Scenario, runs: &[FeRun]) -> Result<EngineRobot, CompareErro
         printed = published()?.actuator(kind).cloned();
         with_effects = model_ladder(kind)?.pop();
     }
-    let run = stored_robot(runs, scenario).cloned();
+    let [ensemble, usual] = ensembles(runs, scenario);
+    let run = ensemble.runs.first().cloned();
     let pairs = run.as_ref().map_or(Ok(Vec::new()), |run| pairs(scenario, run))?;
-    Ok(EngineRobot { scenario: scenario.clone(), published: printed, with_effects, run, pairs })
-}
-
-/// Lines of one robot at its pressures, or at those printed.
-///
-/// # Errors
-/// A model without equilibrium.
-pub fn lines(robot: &EngineRobot) -> Result<Vec<EngineLine>, CompareError> {
-    let mut out = Vec::new();
-    let mut pressures: Vec<f64> = robot.pairs.iter().map(|p| p.actuator_kpa).collect();
-    if let (true, Some(printed)) = (pressures.is_empty(), &robot.published) {
-        pressures = printed.accuracy.iter().map(|a| a.0 * 1e-3).collect();
-    }
-    for kpa in pressures {
-        at_pressure(robot, kpa, &mut out)?;
-    }
-    Ok(out)
-}
-
-fn at_pressure(robot: &EngineRobot, kpa: f64, out: &mut Vec<EngineLine>) -> Result<(), CompareError> {
-    let near = |other_pa: f64| (other_pa * 1e-3 - kpa).abs() < 0.05;
-    let name = robot.published.as_ref().map_or(&robot.scenario.name, |p| &p.printed_name).clone();
-    let line = |source: &str, known: &str, heights: [Option<f64>; 2], accuracy: [Option<f64>; 2]| EngineLine {
-        robot: name.clone(),
-        actuator_kpa: kpa,
-        source: source.into(),
-        known: known.into(),
-        marker_mm: heights[0],
-        tip_mm: heights[1],
-        accuracy,
-    };
-    let printed = robot.published.as_ref();
-    let measured_mm = printed.filter(|p| near(p.d_max_pressure_pa)).map(|p| p.d_max_m * 1e3);
-    if let Some(mm) = measured_mm {
-        out.push(line("measurement", "measured, published", [Some(mm), None], [None, None]));
-    }
-    if let Some((_, a)) = printed.and_then(|p| p.accuracy.iter().find(|a| near(a.0))) {
-        out.push(line("the paper's finite elements", "published", [None, None], [Some(*a), None]));
-    }
-    let judged = |mm: [f64; 2]| mm.map(|model| measured_mm.and_then(|measured| accuracy(model, measured)));
-    let mut model = |source: &str, known: &str, mm: [f64; 2]| {
-        out.push(line(source, known, mm.map(Some), judged(mm)));
-    };
-    let loads = Loads::uniform(robot.scenario.p_body_pa, kpa * 1e3);
-    let own = if robot.published.is_some() { "reduced, as shipped" } else { "reduced, as in the scenario" };
-    model(own, Known::Predicted.word(), heights(&robot.scenario, &loads)?);
-    if let Some(rung) = &robot.with_effects {
-        model("reduced, with effects", Known::Assumed.word(), heights(&rung.scenario, &loads)?);
-    }
-    if let Some(pair) = robot.pairs.iter().find(|p| (p.actuator_kpa - kpa).abs() < 0.05) {
-        let mesh = robot.run.as_ref().map_or(f64::NAN, |r| r.mesh_mm[1]);
-        let known = robot.run.as_ref().map_or("", |r| &r.known);
-        model(&format!("finite elements, {mesh} mm"), known, pair.fe_mm);
-    }
-    Ok(())
-}
-
-fn heights(scenario: &Scenario, loads: &Loads) -> Result<[f64; 2], CompareError> {
-    let model = Model::new(scenario);
-    let mut at = model.prediction();
-    model.predict(loads, &mut at)?;
-    Ok([at.markers.last().map_or(at.tip.y_m, |xy| xy[1]) * 1e3, at.tip.y_m * 1e3])
+    Ok(EngineRobot { scenario: scenario.clone(), published: printed, with_effects, ensemble, usual, run, pairs })
 }
 
 /// Maps over body pressure and over pouch length, from runs on one mesh: the coarsest.
@@ -226,7 +152,8 @@ fn lead(engines: &Engines) -> Result<String, CompareError> {
     let mut words = Vec::new();
     for robot in &engines.robots {
         let (Some(printed), Some(last)) = (&robot.published, robot.pairs.last()) else { continue };
-        let (measured, [_, fe], [bare, _]) = (printed.d_max_m * 1e3, last.fe_mm, last.reduced_mm);
+        let Some([(fe, _), _]) = robot.ensemble.at(printed.d_max_pressure_pa * 1e-3) else { continue };
+        let (measured, [bare, _]) = (printed.d_max_m * 1e3, last.reduced_mm);
         let share = 100.0 * (fe - measured) / measured;
         let name = &printed.printed_name;
         words.push(format!(
@@ -235,7 +162,7 @@ fn lead(engines: &Engines) -> Result<String, CompareError> {
     }
     Ok(match words.is_empty() {
         true => "There is no finite element run of these robots yet.".into(),
-        false => format!("Tip at 30 kPa by finite elements: {}.", words.join("; ")),
+        false => format!("Outermost marker at 30 kPa by finite elements: {}.", words.join("; ")),
     })
 }
 
@@ -249,10 +176,15 @@ pub fn engine_sections(engines: &Engines, files: &mut Files) -> Result<Vec<Secti
         all.extend(lines(robot)?);
     }
     files.text("engines.csv", csv(&all));
-    let mut first = vec![table(&all)];
+    let rows = engines.robots.iter().filter_map(|robot| summary(robot).transpose()).collect::<Result<Vec<_>, _>>()?;
+    let mut first = Vec::new();
+    if !rows.is_empty() {
+        first.push(rows_of(SUMMARY_CAPTION, &SUMMARY, &[0, 5], Some(5), rows));
+    }
+    first.push(rows_of(LINES_CAPTION, &HEADS, &[0, 2, 3], Some(3), all.iter().map(cells).collect()));
     if let Some(bars) = bars(engines)? {
         files.plot("engines", &bars);
-        first.insert(0, figure("Outermost marker of the reduced models, tip of the finite elements.", "bars", &bars));
+        first.insert(0, figure("Outermost marker, 330 mm from the base.", "bars", &bars));
     }
     first.push(Block::Callout { kind: Callout::Warning, text: NOTE.into() });
     let mut sections = vec![section("engines", "Both engines and the published numbers", first)];
@@ -261,7 +193,7 @@ pub fn engine_sections(engines: &Engines, files: &mut Files) -> Result<Vec<Secti
         let kind = robot.scenario.actuator.kind.name;
         let curve = curve(robot)?;
         files.plot(&format!("{kind}_engines"), &curve);
-        ledgers.push(figure("Tip over actuator pressure.", "tip over pressure", &curve));
+        ledgers.push(figure("Outermost marker over actuator pressure.", "marker over pressure", &curve));
         let drawn = ledger(robot)?;
         files.plot(&format!("{kind}_engines_ledger"), &drawn);
         ledgers.push(figure(LEDGER, "stacked energies", &drawn));
@@ -284,7 +216,11 @@ pub fn engine_sections(engines: &Engines, files: &mut Files) -> Result<Vec<Secti
 
 const NOTE: &str = "Not printed by the paper and assumed here: pouch count, marker stations, weld width, stiffness of tape and \
     glue, how far plies bend as one, biaxial coupling, densities. The measured displacement is that of a marker nobody gave \
-    the place of; it is held against the outermost assumed marker and against the tip. One number per robot validates nothing.";
+    the place of; it is held against the outermost assumed marker. Tape thickness (sPAM) and ν₁₂ (fPAM) are calibrated on \
+    these displacements; the usual values are what one would assume without them. One number per robot validates nothing.";
+const SUMMARY_CAPTION: &str = "Displacement of the outermost marker at the pressure of the measurement; finite elements: mean ± \
+    standard deviation over seeds of the imperfections; accuracy by the paper's formula beside the paper's own";
+const LINES_CAPTION: &str = "All pressures printed by the paper. Accuracy a = 1 − ((y_model − y_measured)/y_model)², the paper's formula for one marker";
 const LEDGER: &str = "Reduced model and finite elements, each at its own bend. Gas is −P ΔV since the body was full; stretch and \
     wall bending of the finite elements likewise. What the finite elements lost in buckling, damping and friction is not stored \
     and not shown.";
@@ -301,47 +237,12 @@ fn figure(caption: &str, alt: &str, drawn: &Drawn) -> Block {
     Block::Figure { caption: caption.into(), alt: alt.into(), svg: drawn.svg.clone() }
 }
 
-/// Cells of a line: robot, pressure, source, how known, marker, tip, accuracies.
-pub fn cells(line: &EngineLine) -> Vec<String> {
-    let mm = |v: Option<f64>| v.map_or("–".into(), |v| format!("{v:.1}"));
-    let percent = |v: Option<f64>| v.map_or("–".into(), |v| format!("{:.1}", 100.0 * v));
-    vec![
-        line.robot.clone(),
-        format!("{:.0}", line.actuator_kpa),
-        line.source.clone(),
-        line.known.clone(),
-        mm(line.marker_mm),
-        mm(line.tip_mm),
-        percent(line.accuracy[0]),
-        percent(line.accuracy[1]),
-    ]
-}
-
-/// Heads of these cells.
-pub const HEADS: [&str; 8] =
-    ["robot", "kPa", "source", "how known", "marker mm", "tip mm", "accuracy %, marker", "accuracy %, tip"];
-
-fn table(lines: &[EngineLine]) -> Block {
+fn rows_of(caption: &str, heads: &[&str], left: &[usize], how: Option<usize>, rows: Vec<Vec<String>>) -> Block {
     let column = |(k, heading): (usize, &&str)| Column {
         heading: heading.to_string(),
         unit: String::new(),
-        align: if matches!(k, 0 | 2 | 3) { Align::Left } else { Align::Right },
+        align: if left.contains(&k) { Align::Left } else { Align::Right },
     };
-    Block::Table(Table {
-        caption: "Accuracy a = 1 − ((y_model − y_measured)/y_model)², the paper's formula for one marker".into(),
-        columns: HEADS.iter().enumerate().map(column).collect(),
-        rows: lines.iter().map(cells).collect(),
-        how_column: Some(3),
-    })
-}
-
-fn csv(lines: &[EngineLine]) -> String {
-    let mut out = String::from("robot,p_act_kpa,source,how_known,marker_mm,tip_mm,accuracy_marker,accuracy_tip\n");
-    let cell = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
-    for l in lines {
-        let numbers = [l.marker_mm, l.tip_mm, l.accuracy[0], l.accuracy[1]].map(cell).join(",");
-        let text = [&l.robot, &l.source, &l.known].map(|t| t.replace(',', ";"));
-        out.push_str(&format!("{},{},{},{},{numbers}\n", text[0], l.actuator_kpa, text[1], text[2]));
-    }
-    out
+    let columns = heads.iter().enumerate().map(column).collect();
+    Block::Table(Table { caption: caption.into(), columns, rows, how_column: how })
 }

@@ -3,6 +3,7 @@
 mod compare_page;
 mod demo_page;
 mod engine_figures;
+mod engine_lines;
 mod engines_page;
 mod figures;
 mod tables;
@@ -10,9 +11,8 @@ mod tables;
 pub use compare_page::{Candidate, Study, Variant, compare_page, study};
 pub use demo_page::{Demo, demo, demo_page};
 pub use engine_figures::parting_plot;
-pub use engines_page::{
-    EngineLine, EngineRobot, Engines, HEADS, PartingMap, cells, engine_sections, engines, engines_page, lines, varied,
-};
+pub use engine_lines::{EngineLine, HEADS, SUMMARY, cells, lines, summary};
+pub use engines_page::{EngineRobot, Engines, PartingMap, engine_sections, engines, engines_page, varied};
 pub use figures::tradeoff as tradeoff_plot;
 
 use crate::error::CompareError;

@@ -1,0 +1,171 @@
+//! Both engines in rows of text: every pressure, and one row per robot.
+
+use super::engines_page::EngineRobot;
+use crate::error::CompareError;
+use crate::plots::Known;
+use crate::study::engines::{Ensemble, accuracy};
+use models::{Loads, Model, Scenario};
+
+/// One line of the comparison.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct EngineLine {
+    /// Robot.
+    pub robot: String,
+    /// Actuator pressure \[kPa\].
+    pub actuator_kpa: f64,
+    /// Who says so.
+    pub source: String,
+    /// How it is known.
+    pub known: String,
+    /// Outermost marker \[mm\].
+    pub marker_mm: Option<f64>,
+    /// Its standard deviation over the seeds \[mm\].
+    pub spread_mm: Option<f64>,
+    /// Tip \[mm\].
+    pub tip_mm: Option<f64>,
+    /// The paper's accuracy: as printed, or of the outermost marker against the measured displacement.
+    pub accuracy: Option<f64>,
+}
+
+/// Lines of one robot at the printed pressures, or at those of its run.
+///
+/// # Errors
+/// A model without equilibrium.
+pub fn lines(robot: &EngineRobot) -> Result<Vec<EngineLine>, CompareError> {
+    let mut out = Vec::new();
+    let pressures: Vec<f64> = match &robot.published {
+        Some(printed) => printed.accuracy.iter().map(|a| a.0 * 1e-3).collect(),
+        None => robot.pairs.iter().map(|p| p.actuator_kpa).collect(),
+    };
+    for kpa in pressures {
+        at_pressure(robot, kpa, &mut out)?;
+    }
+    Ok(out)
+}
+
+/// One robot in one row: the displacement at the pressure of the measurement; `None` without one.
+///
+/// # Errors
+/// A model without equilibrium.
+pub fn summary(robot: &EngineRobot) -> Result<Option<Vec<String>>, CompareError> {
+    let Some(printed) = &robot.published else { return Ok(None) };
+    let (kpa, measured) = (printed.d_max_pressure_pa * 1e-3, printed.d_max_m * 1e3);
+    let loads = Loads::uniform(robot.scenario.p_body_pa, printed.d_max_pressure_pa);
+    let with = robot.with_effects.as_ref().map(|rung| heights(&rung.scenario, &loads)).transpose()?;
+    let near = |a: &&(f64, f64)| (a.0 - printed.d_max_pressure_pa).abs() < 50.0;
+    let paper = printed.accuracy.iter().find(near).map(|a| a.1);
+    let fe = |ensemble: &Ensemble| ensemble.at(kpa).map(|[marker, _]| marker);
+    let own = fe(&robot.ensemble);
+    let shown = |found: Option<(f64, Option<f64>)>| match found {
+        Some((mean, Some(spread))) => format!("{mean:.1} ± {spread:.1}"),
+        Some((mean, None)) => format!("{mean:.1}"),
+        None => "–".into(),
+    };
+    let percent = |v: Option<f64>| v.map_or("–".into(), |v| format!("{:.1}", 100.0 * v));
+    let known = robot.run.as_ref().map_or("–", |run| &run.known);
+    Ok(Some(vec![
+        printed.printed_name.clone(),
+        format!("{measured:.1}"),
+        format!("{:.1}", heights(&robot.scenario.bare(), &loads)?[0]),
+        with.map_or("–".into(), |mm| format!("{:.1}", mm[0])),
+        shown(own),
+        known.into(),
+        own.map_or("–".into(), |(mm, _)| format!("{:+.0}", 100.0 * (mm / measured - 1.0))),
+        percent(own.and_then(|(mm, _)| accuracy(mm, measured))),
+        percent(paper),
+        shown(fe(&robot.usual).or(own)),
+    ]))
+}
+
+/// Heads of [`summary`].
+pub const SUMMARY: [&str; 10] = [
+    "robot",
+    "measured mm, published",
+    "bare model mm, predicted",
+    "with effects mm, assumed",
+    "finite elements mm",
+    "how known",
+    "error %",
+    "accuracy %",
+    "the paper's %, published",
+    "usual values mm, assumed",
+];
+
+/// Cells of a line: robot, pressure, source, how known, marker, its spread, tip, accuracy.
+pub fn cells(line: &EngineLine) -> Vec<String> {
+    let mm = |v: Option<f64>| v.map_or("–".into(), |v| format!("{v:.1}"));
+    vec![
+        line.robot.clone(),
+        format!("{:.0}", line.actuator_kpa),
+        line.source.clone(),
+        line.known.clone(),
+        mm(line.marker_mm),
+        mm(line.spread_mm),
+        mm(line.tip_mm),
+        line.accuracy.map_or("–".into(), |a| format!("{:.1}", 100.0 * a)),
+    ]
+}
+
+/// Heads of these cells.
+pub const HEADS: [&str; 8] =
+    ["robot", "kPa", "source", "how known", "marker mm", "sd of seeds mm", "tip mm", "accuracy %"];
+
+/// Lines as CSV.
+pub(super) fn csv(lines: &[EngineLine]) -> String {
+    let mut out = String::from("robot,p_act_kpa,source,how_known,marker_mm,marker_sd_mm,tip_mm,accuracy\n");
+    let cell = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
+    for l in lines {
+        let numbers = [l.marker_mm, l.spread_mm, l.tip_mm, l.accuracy].map(cell).join(",");
+        let text = [&l.robot, &l.source, &l.known].map(|t| t.replace(',', ";"));
+        out.push_str(&format!("{},{},{},{},{numbers}\n", text[0], l.actuator_kpa, text[1], text[2]));
+    }
+    out
+}
+
+fn at_pressure(robot: &EngineRobot, kpa: f64, out: &mut Vec<EngineLine>) -> Result<(), CompareError> {
+    let near = |other_pa: f64| (other_pa * 1e-3 - kpa).abs() < 0.05;
+    let name = robot.published.as_ref().map_or(&robot.scenario.name, |p| &p.printed_name).clone();
+    let printed = robot.published.as_ref();
+    let measured_mm = printed.filter(|p| near(p.d_max_pressure_pa)).map(|p| p.d_max_m * 1e3);
+    let mut line = |source: &str, known: &str, mm: [Option<f64>; 3], printed: Option<f64>| {
+        let [marker_mm, spread_mm, tip_mm] = mm;
+        let judged = marker_mm.zip(measured_mm).filter(|(a, b)| a != b).and_then(|(a, b)| accuracy(a, b));
+        let (robot, source, known) = (name.clone(), source.into(), known.into());
+        let accuracy = printed.or(judged);
+        out.push(EngineLine { robot, actuator_kpa: kpa, source, known, marker_mm, spread_mm, tip_mm, accuracy });
+    };
+    if measured_mm.is_some() {
+        line("measurement", "measured, published", [measured_mm, None, None], None);
+    }
+    if let Some((_, a)) = printed.and_then(|p| p.accuracy.iter().find(|a| near(a.0))) {
+        line("the paper's finite elements", "published", [None; 3], Some(*a));
+    }
+    let loads = Loads::uniform(robot.scenario.p_body_pa, kpa * 1e3);
+    let own = if printed.is_some() { "reduced, as shipped" } else { "reduced, as in the scenario" };
+    let [marker, tip] = heights(&robot.scenario, &loads)?.map(Some);
+    line(own, Known::Predicted.word(), [marker, None, tip], None);
+    if let Some(rung) = &robot.with_effects {
+        let [marker, tip] = heights(&rung.scenario, &loads)?.map(Some);
+        line("reduced, with effects", Known::Assumed.word(), [marker, None, tip], None);
+    }
+    for (ensemble, with) in [(&robot.ensemble, ""), (&robot.usual, ", usual values")] {
+        let (Some(first), Some([marker, tip])) = (ensemble.runs.first(), ensemble.at(kpa)) else { continue };
+        let source = format!("finite elements, {} mm{with}, {}", first.mesh_mm[1], seeds(ensemble));
+        line(&source, &first.known, [Some(marker.0), marker.1, Some(tip.0)], None);
+    }
+    Ok(())
+}
+
+fn seeds(ensemble: &Ensemble) -> String {
+    match ensemble.runs.len() {
+        1 => "1 seed".into(),
+        n => format!("{n} seeds"),
+    }
+}
+
+fn heights(scenario: &Scenario, loads: &Loads) -> Result<[f64; 2], CompareError> {
+    let model = Model::new(scenario);
+    let mut at = model.prediction();
+    model.predict(loads, &mut at)?;
+    Ok([at.markers.last().map_or(at.tip.y_m, |xy| xy[1]) * 1e3, at.tip.y_m * 1e3])
+}

@@ -1,0 +1,168 @@
+//! Marker data from finite element runs: what a camera would see of them, with the scatter of a real test.
+//!
+//! Every run of the data is one finite element run with imperfections of its own. Between the pressures at which it was read,
+//! and up to [`BEYOND`] past the highest, its markers lie on straight lines over pressure:
+//!
+//! ```text
+//! r(P) = r_k + (r_{k+1} − r_k) (P − P_k)/(P_{k+1} − P_k)       P = set pressure · (1 + ε), one ε per run
+//! ```
+//!
+//! What is added to that is what [`generate`](super::generate()) adds to a reduced model: pressure error, shift and roll of the
+//! camera per run, camera noise per sample. Seeded: the same call gives the same bytes. **Validity**: first loading only.
+
+use super::engines::FeRun;
+use super::generate::{Generator, Seen, holds};
+use crate::error::CompareError;
+use data::{Dataset, Marker};
+
+/// How far past the highest pressure that was read a set pressure with its error may lie, over that pressure.
+pub const BEYOND: f64 = 0.10;
+
+/// Makes a dataset from runs of one robot; their number is that of the runs, whatever the generator says.
+///
+/// # Errors
+/// No runs, runs without markers or of different robots, a pressure they do not reach.
+///
+/// ```
+/// use compare::study::{Generator, engines::{ensembles, stored}, published::shipped_scenario, seen::seen};
+/// let scenario = shipped_scenario("epam")?;
+/// let [runs, _] = ensembles(&stored(), &scenario);
+/// let data = seen(&runs.runs, "mine", &Generator::default())?;
+/// assert_eq!(data.runs.len(), runs.runs.len());
+/// # Ok::<(), compare::CompareError>(())
+/// ```
+pub fn seen(runs: &[FeRun], name: &str, generator: &Generator) -> Result<Dataset, CompareError> {
+    let refuse = |problem: String| CompareError::NotSimulated { problem };
+    let first = runs.first().ok_or_else(|| refuse("there is no finite element run to look at".into()))?;
+    if first.stations_mm.is_empty() {
+        return Err(refuse("the finite element runs kept no markers".into()));
+    }
+    if runs.iter().any(|run| run.actuator != first.actuator || run.stations_mm != first.stations_mm) {
+        return Err(refuse("the finite element runs are of different robots".into()));
+    }
+    let mut eye = Seen::new(generator);
+    let mut xy_m = Vec::new();
+    for run in runs {
+        let gain = eye.next_run();
+        for [body_pa, actuator_pa] in &generator.protocol {
+            if (body_pa * 1e-3 - run.body_kpa).abs() > 1e-6 {
+                let (wanted, there) = (body_pa * 1e-3, run.body_kpa);
+                return Err(refuse(format!("a body at {wanted} kPa; the runs are at {there} kPa")));
+            }
+            let markers = at(run, actuator_pa * 1e-3 * gain)?;
+            (0..generator.samples).for_each(|_| eye.look(&markers, &mut xy_m));
+        }
+    }
+    let marker = |(i, s): (usize, &f64)| Marker { name: (i + 1).to_string(), station_m: Some(s * 1e-3) };
+    Ok(Dataset {
+        name: name.to_string(),
+        actuator: first.actuator.clone(),
+        runs: (1..=runs.len()).map(|r| r.to_string()).collect(),
+        holds: holds(generator),
+        markers: first.stations_mm.iter().enumerate().map(marker).collect(),
+        samples_per_hold: generator.samples,
+        xy_m,
+    })
+}
+
+/// Marker positions of a run at a pressure \[m\].
+fn at(run: &FeRun, kpa: f64) -> Result<Vec<[f64; 2]>, CompareError> {
+    let mut states: Vec<_> = run.states.iter().filter(|s| s.moved_mm.len() == run.stations_mm.len()).collect();
+    let rising = states.windows(2).take_while(|pair| pair[1].actuator_kpa > pair[0].actuator_kpa).count();
+    states.truncate(rising + 1);
+    let top = states.last().map_or(0.0, |s| s.actuator_kpa);
+    if rising == 0 || kpa > top * (1.0 + BEYOND) {
+        let problem = format!("an actuator at {kpa:.1} kPa; the runs were read up to {top:.1} kPa");
+        return Err(CompareError::NotSimulated { problem });
+    }
+    let k = states[1..rising].partition_point(|s| s.actuator_kpa < kpa);
+    let (low, high) = (states[k], states[k + 1]);
+    let share = (kpa - low.actuator_kpa) / (high.actuator_kpa - low.actuator_kpa);
+    let place = |i: usize| {
+        let of = |axis: usize| low.moved_mm[i][axis] + share * (high.moved_mm[i][axis] - low.moved_mm[i][axis]);
+        [(run.stations_mm[i] + of(0)) * 1e-3, of(1) * 1e-3]
+    };
+    Ok((0..run.stations_mm.len()).map(place).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::engines::FeState;
+
+    /// A run whose only marker rises by 2 mm per kPa and shifts by −1.
+    fn run(slope: f64) -> FeRun {
+        let state = |kpa: f64| FeState {
+            actuator_kpa: kpa,
+            marker_mm: slope * kpa,
+            tip_mm: 0.0,
+            turn_rad: 0.0,
+            body_cm3: 0.0,
+            actuator_cm3: 0.0,
+            energies_mj: [0.0; 5],
+            kinetic_share: 0.0,
+            von_mises_mpa: 0.0,
+            weld_n_per_m: 0.0,
+            moved_mm: vec![[-kpa, slope * kpa]],
+        };
+        FeRun {
+            actuator: "epam".into(),
+            scenario: "a robot".into(),
+            mesh_mm: [4.0; 2],
+            elements: 1,
+            steps: 1,
+            cpu_s: 1.0,
+            engine: 1,
+            body_kpa: 2.0,
+            pouch_mm: 60.0,
+            count: 6,
+            seed: 1,
+            stations_mm: vec![330.0],
+            known: "assumed".into(),
+            states: [0.0, 10.0, 20.0, 30.0].map(state).to_vec(),
+        }
+    }
+
+    fn quiet() -> Generator {
+        Generator {
+            samples: 1,
+            protocol: [0.0, 5.0, 20.0, 30.0].map(|p| [2e3, p * 1e3]).to_vec(),
+            camera_sd_m: 0.0,
+            pressure_sd: 0.0,
+            alignment_sd_m: 0.0,
+            rotation_sd: 0.0,
+            ..Generator::default()
+        }
+    }
+
+    #[test]
+    fn without_scatter_the_camera_sees_the_markers_of_the_runs() {
+        let data = seen(&[run(2.0), run(3.0)], "d", &quiet()).unwrap();
+        let mm: Vec<f64> = data.xy_m.iter().map(|v| (v * 1e6).round() * 1e-3).collect();
+        assert_eq!(mm[..8], [330.0, 0.0, 325.0, 10.0, 310.0, 40.0, 300.0, 60.0]);
+        assert_eq!(mm[8 + 6..], [300.0, 90.0]);
+    }
+
+    #[test]
+    fn an_error_of_the_pressure_moves_the_markers_of_a_run_together() {
+        let data = seen(&[run(2.0)], "d", &Generator { pressure_sd: 0.02, ..quiet() }).unwrap();
+        let gain = data.xy_m[7] / 0.060;
+        assert!(gain != 1.0 && (gain - 1.0).abs() < 0.1);
+        assert!((data.xy_m[3] / 0.010 - gain).abs() < 1e-12 && (data.xy_m[5] / 0.040 - gain).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_the_runs_do_not_hold_is_refused() {
+        let high = Generator { protocol: vec![[2e3, 40e3]], ..quiet() };
+        let body = Generator { protocol: vec![[4e3, 10e3]], ..quiet() };
+        for (runs, generator, words) in [
+            (vec![run(2.0)], high, "up to 30.0 kPa"),
+            (vec![run(2.0)], body, "a body at 4 kPa"),
+            (vec![], quiet(), "no finite element run"),
+            (vec![FeRun { stations_mm: vec![], ..run(2.0) }], quiet(), "kept no markers"),
+        ] {
+            let error = seen(&runs, "d", &generator).unwrap_err().to_string();
+            assert!(error.contains(words), "{error}");
+        }
+    }
+}
