@@ -28,7 +28,7 @@ pub fn run(sets: usize, seed: u64, _context: &mut Context) -> Result<Outcome, Fa
     let text = text(&bench, &time);
     let json = json!({
         "schema": "ibr.bench.discovery", "version": 1, "seed": seed, "sets": sets, "rows": bench.rows,
-        "confusion": bench.confusion, "breakdown": bench.breakdown, "failed": bench.failed, "time": {"machine": machine(), "row": time},
+        "confusion": bench.confusion, "breakdown": bench.breakdown, "made": bench.made, "failed": bench.failed, "time": {"machine": machine(), "row": time},
     });
     Ok(Outcome::new(text, json))
 }
@@ -71,6 +71,15 @@ fn text(bench: &Bench, time: &Row) -> String {
         "Medians. λ below 16: the data do not hold the answer. Behind by more than 6 without λ: the robot's law is not the \
          catalogue's formula.\n",
     );
+    out.push_str("\nMade by finite elements, bare model with B = 0: what it lacks, error at held-out pressures\n");
+    let rows = bench.made.iter().map(|m| {
+        let [before, after] = [m.before_mm, m.after_mm].map(|mm| number(mm, 1));
+        let yes = if m.in_set { "yes" } else { "no" };
+        let stated = if m.stated.is_empty() { "nothing in the catalogue".into() } else { m.stated.join(", ") };
+        vec![m.robot.to_string(), m.lacking.to_string(), stated, yes.into(), before, after]
+    });
+    let head = ["robot", "lacks", "stated set", "in it", "before mm", "after mm"];
+    out.push_str(&table(&head, 4, rows.collect()));
     for reason in &bench.failed {
         out.push_str(&format!("failed: {reason}\n"));
     }

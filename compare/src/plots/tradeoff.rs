@@ -24,7 +24,7 @@ pub struct Tradeoff {
 /// One point of a [`Tradeoff`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TradeoffPoint {
-    /// Direct label, e.g. `cPAM + wrinkling`.
+    /// Direct label, e.g. `cPAM + wrinkling`; empty for none.
     pub label: String,
     /// Colour and symbol group, e.g. `reduced model` or `finite elements`.
     pub group: String,
@@ -111,6 +111,9 @@ fn scatter(scene: &mut Scene, frame: &Frame, points: &[&TradeoffPoint], groups: 
     let bounds = [frame.x.pixels[0], frame.y.pixels[1] - 8.0, WIDTH - 4.0, frame.y.pixels[0] - 2.0];
     let places = place::around(&at, &sizes, bounds, &dots);
     for (i, centre) in places.iter().enumerate() {
+        if labels[i].is_empty() {
+            continue;
+        }
         let (half, away) = (0.5 * sizes[i][0], (centre[1] - at[i][1]).abs());
         if away > 26.0 {
             let end =

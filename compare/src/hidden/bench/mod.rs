@@ -6,12 +6,14 @@
 
 mod cases;
 mod follow;
+mod made;
 mod row;
 mod table;
 #[cfg(test)]
 mod tests;
 
 pub use cases::{Named, Outcome};
+pub use made::{LACKING, Made};
 pub use row::{Row, Target};
 
 use super::truth::{Kind, Truth};
@@ -78,6 +80,8 @@ pub struct Bench {
     pub confusion: Vec<Confusion>,
     /// Single effects by actuator, camera noise and runs.
     pub breakdown: Vec<Breakdown>,
+    /// Data made by finite elements, robot by robot.
+    pub made: Vec<Made>,
     /// Sets that could not be made or diagnosed, with the reason.
     pub failed: Vec<String>,
 }
@@ -98,12 +102,15 @@ pub fn run(options: &BenchOptions, diagnose: Diagnose, tell: &(dyn Fn(f64) + Syn
             outcome
         })
         .collect();
+    let mut failed: Vec<String> = outcomes.iter().filter_map(|outcome| outcome.failed.clone()).collect();
+    let made = made::made(diagnose, &mut failed);
     Ok(Bench {
         seed: options.seed,
-        rows: table::rows(&outcomes),
+        rows: [table::rows(&outcomes), made::rows(&made)].concat(),
         confusion: table::confusion(&outcomes),
         breakdown: table::breakdown(&outcomes),
-        failed: outcomes.iter().filter_map(|outcome| outcome.failed.clone()).collect(),
+        made,
+        failed,
     })
 }
 

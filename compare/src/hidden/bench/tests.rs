@@ -36,6 +36,16 @@ fn the_plan_follows_from_the_seed() {
 fn a_diagnosis_that_fails_is_counted_and_named() {
     let refuse: Diagnose = |_, _, _, _| Err(CompareError::NoModel);
     let bench = run(&BenchOptions { seed: 1, sets: 2 }, refuse, &|_| ()).unwrap();
-    assert_eq!(bench.failed.len(), 8);
+    assert_eq!(bench.failed.len(), 8 + LACKING.len());
     assert!(bench.failed[0].contains("no model is given") && bench.rows.iter().all(|row| row.measured.is_none()));
+}
+
+#[test]
+fn the_finite_element_sets_are_diagnosed_and_the_taped_plies_halve_the_held_out_error() {
+    let mut failed = Vec::new();
+    let made = made::made(crate::diagnosis::diagnose, &mut failed);
+    assert!(failed.is_empty(), "{failed:?}");
+    assert_eq!(made.iter().map(|m| m.robot).collect::<Vec<_>>(), ["spam", "cpam", "epam", "fpam"]);
+    assert!(made[0].in_set && made[0].halved(), "{:?}", made[0]);
+    assert!(made.iter().all(|m| m.before_mm.is_some_and(|mm| mm > 1.0)), "the bare model is wrong: {made:?}");
 }

@@ -260,17 +260,25 @@ pub(super) fn published_bars(ladders: &[PublishedLadder]) -> Result<Drawn, Compa
 
 /// Run time against error.
 pub fn tradeoff(timings: &[crate::study::Timing]) -> Result<Drawn, CompareError> {
-    let point = |t: &crate::study::Timing| plots::TradeoffPoint {
-        label: t.model.clone(),
-        group: t.actuator.clone(),
-        run_time_s: t.prediction_us * 1e-6,
-        error: t.error_pct.abs(),
+    let shown: Vec<_> =
+        timings.iter().filter(|t| t.engine != "reduced" || t.known != Known::Calibrated.word()).collect();
+    let point = |(k, t): (usize, &&crate::study::Timing)| {
+        // The rungs of a ladder lie close together: the first and the last are named.
+        let alike = |other: Option<&&crate::study::Timing>| {
+            other.is_some_and(|o| o.engine == "reduced" && o.actuator == t.actuator)
+        };
+        let between = t.engine == "reduced" && k > 0 && alike(shown.get(k - 1)) && alike(shown.get(k + 1));
+        plots::TradeoffPoint {
+            label: if between { String::new() } else { t.model.clone() },
+            group: t.actuator.clone(),
+            run_time_s: t.prediction_us * 1e-6,
+            error: t.error_pct.abs(),
+        }
     };
-    let shown = timings.iter().filter(|t| t.engine != "reduced" || t.known != Known::Calibrated.word());
     let data = plots::Tradeoff {
         title: "Run time against error".into(),
         error_label: "error of the published displacement [%]".into(),
-        points: shown.map(point).collect(),
+        points: shown.iter().enumerate().map(point).collect(),
     };
     plots::tradeoff(&data).map_err(|e| drawing("the trade-off", e))
 }

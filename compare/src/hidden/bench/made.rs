@@ -1,0 +1,93 @@
+//! Data that no generator made: markers of the finite element runs that come with the program (`data/sets/fem-*`).
+//!
+//! The diagnosing side is given the bare model. What it lacks is really there in the finite elements, and known to be from
+//! runs without it or from the sewing pattern:
+//!
+//! | robot | not in the model | why it is in the data |
+//! |---|---|---|
+//! | sPAM | `seam_stiffness` | taped plies bend as one; with the usual tape the marker goes to 109.5 instead of 72.5 mm |
+//! | cPAM | `self_contact` | pouches touch at 30 kPa |
+//! | ePAM | `end_constraint` | the pouches' sides are sealed |
+//! | fPAM | `shear_stiffness` | the fabric's shear modulus, 45° to the muscle |
+//!
+//! The bending stiffness B is kept at zero: a wall of this thickness has next to none, and a fitted one would take the place of
+//! what is missing.
+
+use super::Diagnose;
+use super::row::{Row, Target};
+use crate::diagnosis::{Options, Verdict};
+use crate::error::CompareError;
+use crate::study::published::shipped_scenario;
+use serde::Serialize;
+
+/// Robots, and what their bare model lacks.
+pub const LACKING: [(&str, &str); 4] =
+    [("spam", "seam_stiffness"), ("cpam", "self_contact"), ("epam", "end_constraint"), ("fpam", "shear_stiffness")];
+
+/// What became of one robot.
+#[derive(Debug, Clone, Serialize)]
+pub struct Made {
+    /// Robot.
+    pub robot: &'static str,
+    /// Effect that the model lacks.
+    pub lacking: &'static str,
+    /// Verdict.
+    pub verdict: Verdict,
+    /// The stated set; a pair is written `a + b`.
+    pub stated: Vec<String>,
+    /// The effect is in it.
+    pub in_set: bool,
+    /// Error beyond noise at pressures left out of the fit, before \[mm\].
+    pub before_mm: Option<f64>,
+    /// The same with the best of the effects added, alone; `None` if none was added.
+    pub after_mm: Option<f64>,
+}
+
+impl Made {
+    /// The error at held-out pressures falls by half or more.
+    pub fn halved(&self) -> bool {
+        self.before_mm.zip(self.after_mm).is_some_and(|(before, after)| after <= 0.5 * before)
+    }
+}
+
+/// Diagnoses the finite element sets; what fails is told in `failed`.
+pub(super) fn made(diagnose: Diagnose, failed: &mut Vec<String>) -> Vec<Made> {
+    let mut all = Vec::new();
+    for (robot, lacking) in LACKING {
+        match one(robot, lacking, diagnose) {
+            Ok(made) => all.push(made),
+            Err(error) => failed.push(format!("fem-{robot}: {error}")),
+        }
+    }
+    all
+}
+
+fn one(robot: &'static str, lacking: &'static str, diagnose: Diagnose) -> Result<Made, CompareError> {
+    let set = format!("fem-{robot}");
+    let (data, about) = data::load(&set, &mut |_, _| {})?;
+    let options = Options { keep_bending: true, next_experiment: false, ..Options::default() };
+    let found = diagnose(&shipped_scenario(robot)?.bare(), &data, about.as_ref(), &options)?;
+    let added = |name: &str| found.added.iter().any(|a| a.effect == name);
+    let after = found.ranked.iter().filter(|row| added(&row.effect)).filter_map(|row| row.heldout_mm);
+    let in_set = found.indistinguishable.iter().any(|entry| entry.split(" + ").any(|name| name == lacking));
+    Ok(Made {
+        robot,
+        lacking,
+        verdict: found.verdict,
+        in_set,
+        before_mm: found.base.heldout_mm,
+        after_mm: after.reduce(f64::min),
+        stated: found.indistinguishable,
+    })
+}
+
+/// Their rows of the table.
+pub(super) fn rows(made: &[Made]) -> Vec<Row> {
+    let share = |figure, hit: fn(&Made) -> bool| {
+        Row::share("made by finite elements", figure, Target::AtLeast(1.0), &made.iter().map(hit).collect::<Vec<_>>())
+    };
+    vec![
+        share("what the model lacks is in the stated set", |m| m.in_set),
+        share("error at held-out pressures falls by half", Made::halved),
+    ]
+}
