@@ -26,6 +26,36 @@ fn every_synthetic_set_is_made_again_byte_for_byte_from_its_truth() {
 }
 
 #[test]
+fn every_finite_element_set_is_made_again_byte_for_byte_from_the_stored_runs() {
+    for robot in ["spam", "cpam", "epam", "fpam"] {
+        let (folder, name) = (Folder::new(), format!("fem-{robot}"));
+        let ran = folder.run(&["data", "fem", robot, "--stored", "--seed", "21", "--out", &name]);
+        assert_eq!(ran.code, 0, "{}", ran.stderr);
+        for file in ["markers.csv", "about.toml", "truth.toml"] {
+            let made = std::fs::read(folder.path(&name).join(file)).unwrap();
+            assert!(
+                made == std::fs::read(repository().join("data/sets").join(&name).join(file)).unwrap(),
+                "{name}/{file}"
+            );
+        }
+    }
+}
+
+#[test]
+fn finite_element_data_that_cannot_be_made_are_refused_before_anything_is_written() {
+    let folder = Folder::new();
+    refuse(
+        &folder,
+        &["data", "fem", "epam", "--stored", "--seeds", "900", "--out", "a"],
+        2,
+        &["come with the program", "--seeds"],
+    );
+    refuse(&folder, &["data", "fem", "pillow", "--stored", "--out", "a"], 3, &["pillow"]);
+    refuse(&folder, &["data", "fem", "epam", "--stored", "--pressure", "90kPa", "--out", "a"], 3, &["up to 30.0 kPa"]);
+    assert!(!folder.path("a").exists());
+}
+
+#[test]
 fn another_seed_gives_other_scatter() {
     let folder = Folder::new();
     for seed in ["1", "2"] {

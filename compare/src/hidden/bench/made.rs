@@ -31,8 +31,8 @@ pub struct Made {
     pub robot: &'static str,
     /// Effect that the model lacks.
     pub lacking: &'static str,
-    /// Verdict.
-    pub verdict: Verdict,
+    /// Verdict; `None` if the data do not allow one.
+    pub verdict: Option<Verdict>,
     /// The stated set; a pair is written `a + b`.
     pub stated: Vec<String>,
     /// The effect is in it.
