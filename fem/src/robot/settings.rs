@@ -57,7 +57,7 @@ impl RobotSettings {
     ///
     /// | number | why |
     /// |---|---|
-    /// | 4 mm | published for the body; at 3 mm the sPAM reaches the same tip, the ePAM 7 % more (one seed each) |
+    /// | 4 mm | published for the body; at 3 mm the sPAM reaches the same tip (one seed), the ePAM 6 % more (three) |
     /// | 0.05 + 0.45 + 0.05 s, masses raised | about 60 000 steps; with rate-free fabrics only their number counts |
     /// | mass damping 20 1/s | with the time at full pressure it brings the kinetic share below 1 % |
     /// | hourglass .001 | p R/(E t) of the TPU-coated body; .01 holds 9 to 16 % of the stored energy, .001 up to 8 % |
