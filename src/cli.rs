@@ -35,6 +35,8 @@ pub enum Command {
     Diagnose(Diagnose),
     /// Write a new scenario with one more effect, fitted on data or given; the old one stays as it is
     Add(Add),
+    /// Diagnose and add until what is left is noise: the fall of the error, bare to extended
+    Ladder(Ladder),
     /// Does an added effect help on data it was not fitted to: nothing refitted, error before and after
     Validate(Validate),
     /// Where the reduced model parts from finite elements, over pressures and pouches, and which energy carries it
@@ -218,6 +220,30 @@ pub struct Diagnose {
     /// Differences up to this are good enough; default: the larger of 0.15 mm and 0.5 % of the largest deflection
     #[arg(long, allow_hyphen_values = true)]
     pub tolerance: Option<String>,
+    /// Folder for the report, plots and diagnosis.json
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+}
+
+/// `ibr ladder`
+#[derive(Debug, Args)]
+pub struct Ladder {
+    /// Scenario file or shipped robot; it is not changed
+    pub scenario: String,
+    /// Marker data
+    pub data: String,
+    /// Most effects to add
+    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u64).range(1..=3))]
+    pub effects: u64,
+    /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
+    #[arg(long)]
+    pub keep_bending: bool,
+    /// Differences up to this are good enough; default: the larger of 0.15 mm and 0.5 % of the largest deflection
+    #[arg(long, allow_hyphen_values = true)]
+    pub tolerance: Option<String>,
+    /// Folder for the waterfall and the scenario of every step; default: ibr-report/ladder-<data>, with --json: none
+    #[arg(long)]
+    pub out: Option<PathBuf>,
 }
 
 /// `ibr add`

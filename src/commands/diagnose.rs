@@ -1,19 +1,22 @@
 //! `ibr diagnose`
 
-use super::extend::{short, value};
+use super::extend::{Ground, Rung, drawn, short, value};
 use super::inputs::{self, positive};
 use super::tables::{number, table};
 use super::{Context, Outcome};
 use crate::cli::Diagnose;
 use crate::failure::Failure;
+use crate::output::{check_folder, machine, program, today, write_files};
 use compare::diagnosis::{Diagnosis, Experiment, Group, Options, Ranked, Verdict, diagnose};
+use compare::study::pages::{Diagnosed, Imprint, diagnosis_page};
 use serde_json::{Value, json};
 
 pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
     let sigma_m = args.sigma.as_deref().map(|t| positive("--sigma", t)).transpose()?;
     let tolerance_m = args.tolerance.as_deref().map(|t| positive("--tolerance", t)).transpose()?;
     let named = inputs::scenario(&args.scenario)?;
-    let (dataset, about, _) = inputs::dataset(&args.data, context)?;
+    args.out.as_deref().map_or(Ok(()), check_folder)?;
+    let (dataset, about, input) = inputs::dataset(&args.data, context)?;
     (context.progress)("fitting every effect", None);
     let options = Options {
         sigma_m,
@@ -25,12 +28,39 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
     let diagnosis = diagnose(&named.scenario, &dataset, about.as_ref(), &options)?;
     let mut outcome = Outcome::new(text(&diagnosis), to_json(&args.scenario, &diagnosis));
     outcome.notes.extend(diagnosis.warnings.iter().map(|w| format!("warning: {w}")));
+    if let Some(folder) = &args.out {
+        (context.progress)("drawing the report", None);
+        let rungs = rungs(&Ground::new(&diagnosis, &named.scenario, &input));
+        let found = Diagnosed {
+            diagnosis: &diagnosis,
+            scenario: &named.scenario,
+            dataset: &dataset,
+            about: about.as_ref(),
+            rungs: &drawn(&rungs),
+            typed: [&args.scenario, &args.data],
+        };
+        let imprint = Imprint { program: program(), date: today(), machine: machine() };
+        let mut files = diagnosis_page(&found, &imprint)?;
+        let answer = format!("{:#}\n", to_json(&args.scenario, &diagnosis));
+        files.files.insert(0, ("diagnosis.json".into(), answer.into_bytes()));
+        write_files(folder, &files, &[named.input, input], context)?;
+        outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
+    }
     if args.sigma.is_some() && dataset.runs.len() > 1 {
         outcome.notes.push(
             "warning: --sigma is for a single run and was not used: several runs show the noise themselves".into(),
         );
     }
     Ok(outcome)
+}
+
+/// As given, calibrated, and with what the verdict adds.
+pub fn rungs(ground: &Ground) -> Vec<Rung> {
+    let mut rungs = ground.first_rungs();
+    if !ground.d.added.is_empty() {
+        rungs.push(ground.verdict_rung());
+    }
+    rungs
 }
 
 fn to_json(scenario: &str, diagnosis: &Diagnosis) -> Value {

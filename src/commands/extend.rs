@@ -7,6 +7,7 @@ use crate::failure::Failure;
 use crate::output::{Input, today};
 use compare::diagnosis::{Diagnosis, ParameterValue, Ranked};
 use compare::plots::Known;
+use compare::study::pages::ErrorRung;
 use data::Dataset;
 use models::Scenario;
 use serde::Serialize;
@@ -231,6 +232,17 @@ pub fn rungs_text(rungs: &[Rung], noise_floor_mm: Option<f64>) -> String {
         format!("noise of the mean {n:.2} mm, already taken off")
     });
     format!("Error beyond noise ({floor})\n{}", table(&head, 2, rungs.iter().map(row).collect()))
+}
+
+/// The rungs as they are drawn.
+pub fn drawn(rungs: &[Rung]) -> Vec<ErrorRung> {
+    let drawn = |r: &Rung| ErrorRung {
+        label: if r.model.ends_with(r.how_known) { r.model.clone() } else { format!("{} ({})", r.model, r.how_known) },
+        training_mm: r.training_mm,
+        heldout_pressure_mm: r.heldout_pressure_mm,
+        heldout_run_mm: r.heldout_run_mm,
+    };
+    rungs.iter().map(drawn).collect()
 }
 
 /// What to say of data without enough runs.

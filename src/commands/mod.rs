@@ -15,6 +15,7 @@ mod diagnose;
 mod engines;
 mod extend;
 mod inputs;
+mod ladder;
 mod list;
 mod predict;
 mod simulate;
@@ -99,6 +100,7 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
         Command::Compare(args) => compare::run(args, context),
         Command::Diagnose(args) => diagnose::run(args, context),
         Command::Add(args) => add::run(args, context),
+        Command::Ladder(args) => ladder::run(args, context),
         Command::Validate(args) => validate::run(args, context),
         Command::Breakdown(args) => breakdown::run(args, context),
         Command::Simulate(args) => simulate::run(args, context),

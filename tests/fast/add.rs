@@ -1,6 +1,6 @@
-//! `ibr add` and `ibr validate`: a new scenario, the old one as it was, and the error before and after.
+//! `ibr add`, `ladder`, `validate` and the report of `diagnose`: new scenarios, the old one as it was, the fall of the error.
 
-use crate::support::Folder;
+use crate::support::{Folder, assert_hashes, assert_opens_offline};
 use sha2::{Digest, Sha256};
 
 const OWN: &str = include_str!("../../models/scenarios/epam.toml");
@@ -94,4 +94,65 @@ fn what_cannot_be_added_is_said_and_nothing_is_written() {
     assert!(folder.contents().is_empty());
     assert_eq!(folder.run(&["add", "epam", "friction=0.1", "synthetic-spam"]).code, 3);
     assert!(folder.contents().is_empty());
+}
+
+#[test]
+fn a_ladder_climbs_until_what_is_left_is_noise_and_keeps_every_scenario() {
+    let folder = robot();
+    let old = std::fs::read(folder.path("mine.toml")).unwrap();
+    let ran = folder.run(&["ladder", "mine.toml", "two", "--out", "climb", "--json"]);
+    let answer = ran.json("ibr.ladder");
+    assert!(["noise", "tolerance"].contains(&answer["stopped"].as_str().unwrap()), "{answer}");
+    let errors: Vec<f64> =
+        answer["rungs"].as_array().unwrap().iter().map(|r| r["training_mm"].as_f64().unwrap()).collect();
+    assert!(errors.windows(2).all(|pair| pair[1] < pair[0]) && errors.len() > 2, "{errors:?}");
+    let held_out = |k: usize| answer["rungs"][k]["heldout_pressure_mm"].as_f64().unwrap();
+    assert!(held_out(2) < 0.5 * held_out(1), "{answer}");
+    let names = assert_hashes(&folder.path("climb"));
+    let file = answer["steps"][0]["file"].as_str().unwrap();
+    for name in [file, "step-0-calibrated.toml", "waterfall.png", "waterfall.svg", "report.html"] {
+        assert!(names.iter().any(|n| n == name), "{name} of {names:?}");
+    }
+    assert_opens_offline(&std::fs::read_to_string(folder.path("climb/report.html")).unwrap());
+    assert_eq!(std::fs::read(folder.path("mine.toml")).unwrap(), old);
+    let written = format!("climb/{file}");
+    let after = folder.run(&["compare", &written, "two", "--json"]).json("ibr.compare");
+    assert!(after["overall"]["systematic_mm"].as_f64().unwrap() < 0.1 * errors[0]);
+}
+
+#[test]
+fn two_runs_make_no_ladder_beyond_calibration_and_no_interval_is_claimed() {
+    let folder = robot();
+    let ran = folder.run(&["data", "generate", "truth.toml", "--out", "few", "--runs", "2"]);
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    let answer = folder.run(&["ladder", "mine.toml", "few", "--json"]).json("ibr.ladder");
+    assert_eq!((answer["stopped"].as_str(), answer["steps"].as_array().unwrap().len()), (Some("no_p_values"), 0));
+    let ran = folder.run(&["add", "mine.toml", "end_constraint", "few"]);
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    assert!(ran.stderr.contains("at least three are needed for p-values"), "{}", ran.stderr);
+}
+
+#[test]
+fn the_report_of_a_diagnosis_is_one_page_with_its_plots_and_the_answer_for_programs() {
+    let folder = Folder::new();
+    let answer = folder.run(&["diagnose", "epam", "synthetic-epam", "--out", "page", "--json"]).json("ibr.diagnose");
+    let names = assert_hashes(&folder.path("page"));
+    for plot in ["residuals_before", "residuals_after", "ranking", "before_after", "candidates", "ledger"] {
+        for ending in ["svg", "png"] {
+            assert!(names.contains(&format!("{plot}.{ending}")), "{plot} of {names:?}");
+        }
+    }
+    let page = std::fs::read_to_string(folder.path("page/report.html")).unwrap();
+    assert_opens_offline(&page);
+    for id in ["missing", "where", "ranking", "candidates", "before-after", "differently", "unseen", "next"] {
+        assert!(page.contains(&format!("id=\"{id}\"")), "{id}");
+    }
+    let first = answer["ranked"][0]["effect"].as_str().unwrap();
+    assert!(page.contains(first) && page.contains("ibr add epam best synthetic-epam"));
+    let kept: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(folder.path("page/diagnosis.json")).unwrap()).unwrap();
+    assert_eq!(kept, answer);
+    folder.write("file", "x");
+    let ran = folder.run(&["diagnose", "epam", "synthetic-epam", "--out", "file"]);
+    assert_eq!(ran.code, 3, "{}", ran.stderr);
 }

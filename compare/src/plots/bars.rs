@@ -2,6 +2,7 @@
 
 use super::axis::{Axis, common_decimals, extent, number};
 use super::frame::{Entry, Frame, Key, RIM, TEXT, legend, title};
+use super::ladder::LadderTarget;
 use super::palette::Role;
 use super::scene::{Anchor, Scene};
 use super::{Drawn, PlotError, WIDTH, at_most, paint, same_length, text};
@@ -21,6 +22,8 @@ pub struct Bars {
     pub groups: Vec<String>,
     /// One bar per group and series.
     pub series: Vec<BarSeries>,
+    /// A value to compare with, as a dashed line.
+    pub target: Option<LadderTarget>,
 }
 
 /// One series of [`Bars`].
@@ -55,6 +58,11 @@ pub fn bars(data: &Bars) -> Result<Drawn, PlotError> {
     let group = 26.0 + BAR * data.series.len() as f64 + 8.0;
     let frame = Frame { x, y: Axis::exact([0.0, 1.0]) };
     frame.x_axis(&mut scene, &data.value_label, [top, top + group * data.groups.len() as f64]);
+    if let Some(value) = target(data) {
+        let at = frame.x.at(value);
+        let bottom = top + group * data.groups.len() as f64;
+        scene.dashed(&[[at, top], [at, bottom]], Role::Ink, 1.6, [6.0, 3.5]);
+    }
     for (i, name) in data.groups.iter().enumerate() {
         draw_group(&mut scene, &frame, data, (i, name), top + group * i as f64);
     }
@@ -70,7 +78,11 @@ fn axis(data: &Bars) -> Result<Axis, PlotError> {
     let ends = data.series.iter().flat_map(|series| {
         series.values.iter().enumerate().flat_map(|(i, v)| [v - half_width(series, i), v + half_width(series, i)])
     });
-    Axis::linear(ends.chain([0.0]), CHART)
+    Axis::linear(ends.chain(target(data)).chain([0.0]), CHART)
+}
+
+fn target(data: &Bars) -> Option<f64> {
+    data.target.as_ref().map(|t| t.value).filter(|v| v.is_finite())
 }
 
 fn all_values(data: &Bars) -> impl Iterator<Item = f64> + '_ {
@@ -98,7 +110,9 @@ fn role(data: &Bars, series: usize) -> Role {
 fn keys(data: &Bars) -> Vec<Entry> {
     let entry =
         |(i, series): (usize, &BarSeries)| Entry { key: Key::Patch, role: role(data, i), name: series.name.clone() };
-    data.series.iter().enumerate().map(entry).collect()
+    let line = data.target.iter().filter(|t| t.value.is_finite());
+    let line = line.map(|t| Entry { key: Key::Dashed, role: Role::Ink, name: t.label.clone() });
+    data.series.iter().enumerate().map(entry).chain(line).collect()
 }
 
 fn draw_group(scene: &mut Scene, frame: &Frame, data: &Bars, (group, name): (usize, &String), top: f64) {

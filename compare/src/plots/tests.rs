@@ -64,9 +64,9 @@ fn stacks(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, PlotError>>
         range: Some([v(i + 1), v(i + 2)]),
         known: Known::Assumed,
     };
-    let target = LadderTarget { label: label(name), value: v(3), half_width: v(4) };
+    let target = || LadderTarget { label: label(name), value: v(3), half_width: v(4) };
     let steps =
-        Ladder { title: label(name), value_label: label(name), steps: vec![step(0), step(1)], target: Some(target) };
+        Ladder { title: label(name), value_label: label(name), steps: vec![step(0), step(1)], target: Some(target()) };
     let bar = |i: usize| BarSeries {
         name: label(name),
         values: vec![v(i), v(i + 1)],
@@ -78,6 +78,7 @@ fn stacks(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, PlotError>>
         value_label: label(name),
         groups: vec![label(name); 2],
         series: vec![bar(0), bar(1)],
+        target: Some(target()),
     };
     let case = LedgerCase { label: label(name), energies_mj: vec![v(0), v(1), v(2)] };
     let book = Ledger {
@@ -86,7 +87,14 @@ fn stacks(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, PlotError>>
         terms: vec![label(name); 3],
         cases: vec![case.clone(), case],
     };
-    vec![ladder(&steps), bars(&groups), ledger(&book)]
+    let row = |i: usize, class: RankClass| RankingRow { label: label(name), value: v(i), class };
+    let order = Ranking {
+        title: label(name),
+        value_label: label(name),
+        rows: vec![row(0, RankClass::Alike), row(1, RankClass::Worse), row(2, RankClass::Rejected)],
+        target: Some(target()),
+    };
+    vec![ladder(&steps), bars(&groups), ledger(&book), ranking(&order)]
 }
 
 #[test]
@@ -131,6 +139,7 @@ fn charts_without_a_finite_value_say_so() {
         tradeoff(&Tradeoff::default()),
         lines(&Lines::default()),
         ledger(&Ledger::default()),
+        ranking(&Ranking::default()),
     ];
     for drawn in empty.into_iter().chain(charts("nothing", &[f64::NAN])) {
         assert!(matches!(drawn, Err(PlotError::NothingToDraw { .. })));

@@ -59,6 +59,7 @@ pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>, CompareError> {
             series("finite elements", &|r| r.ensemble.at(30.0).map_or(f64::NAN, |[marker, _]| marker.0), false),
             series("measured", &|r| r.published.as_ref().map_or(f64::NAN, |p| p.d_max_m * 1e3), true),
         ],
+        target: None,
     };
     plots::bars(&data).map(Some).map_err(|e| drawing("the displacements", e))
 }

@@ -77,7 +77,11 @@ fn mm(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 
 /// Signed y residuals marker × hold in units of noise (in mm when the noise is unknown).
 pub(super) fn residual_map(title: &str, evaluation: &Evaluation, dataset: &Dataset) -> Result<Drawn, CompareError> {
-    let map = &evaluation.residual_map;
+    map(title, &evaluation.residual_map, dataset)
+}
+
+/// The same for residuals at hand.
+pub(super) fn map(title: &str, map: &crate::residuals::ResidualMap, dataset: &Dataset) -> Result<Drawn, CompareError> {
     let in_noise = map.cells.iter().flatten().all(|c| c.y.in_noise.is_some());
     let value =
         |cell: &crate::residuals::ResidualCell| if in_noise { cell.y.in_noise.unwrap_or(f64::NAN) } else { cell.y.mm };
@@ -254,6 +258,7 @@ pub(super) fn published_bars(ladders: &[PublishedLadder]) -> Result<Drawn, Compa
             series("with effects, nothing fitted", ladders.iter().map(last).collect(), false),
             series("measured (published)", ladders.iter().map(|l| l.published.d_max_m * MM).collect(), true),
         ],
+        target: None,
     };
     plots::bars(&data).map_err(|e| drawing("the displacements", e))
 }

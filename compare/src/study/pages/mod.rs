@@ -2,18 +2,24 @@
 
 mod compare_page;
 mod demo_page;
+mod diagnosis_figures;
+mod diagnosis_page;
 mod engine_figures;
 mod engine_lines;
 mod engines_page;
 mod figures;
+mod ladder_page;
 mod tables;
 
 pub use compare_page::{Candidate, Study, Variant, compare_page, study};
 pub use demo_page::{Demo, demo, demo_page};
+pub use diagnosis_figures::ErrorRung;
+pub use diagnosis_page::{Diagnosed, diagnosis_page, diagnosis_sections};
 pub use engine_figures::parting_plot;
 pub use engine_lines::{EngineLine, HEADS, SUMMARY, cells, lines, summary};
 pub use engines_page::{EngineRobot, Engines, PartingMap, engine_sections, engines, engines_page, varied};
 pub use figures::tradeoff as tradeoff_plot;
+pub use ladder_page::{LadderPage, ladder_page};
 
 use crate::error::CompareError;
 use crate::plots::Drawn;

@@ -12,11 +12,11 @@ pub(super) fn number(value: Option<f64>, digits: usize) -> String {
     value.map_or_else(|| "–".into(), |v| format!("{v:.digits$}"))
 }
 
-fn column(heading: &str, unit: &str) -> Column {
+pub(super) fn column(heading: &str, unit: &str) -> Column {
     Column { heading: heading.into(), unit: unit.into(), align: Align::Right }
 }
 
-fn words(heading: &str) -> Column {
+pub(super) fn words(heading: &str) -> Column {
     Column { heading: heading.into(), unit: String::new(), align: Align::Left }
 }
 

@@ -1,0 +1,366 @@
+//! The report of a diagnosis, for people: where it fails, whether anything is missing, what it could be, what to do.
+
+use super::diagnosis_figures::{
+    ErrorRung, calibrated, candidate_curves, first_level, ranking, shown, waterfall, with_ranked,
+};
+use super::tables::{column, number, words};
+use super::{Files, Imprint, figures};
+use crate::diagnosis::{Diagnosis, ParameterValue, Ranked, Verdict};
+use crate::error::CompareError;
+use crate::plots::Drawn;
+use crate::report::{Block, Callout, Provenance, Report, Section, Table};
+use crate::residuals::ResidualMap;
+use crate::study::predict::fit_scenario;
+use crate::wording::p_value;
+use data::{About, Dataset};
+use models::{Loads, Scenario};
+
+/// A diagnosis with what it was made of.
+pub struct Diagnosed<'a> {
+    /// What was found.
+    pub diagnosis: &'a Diagnosis,
+    /// The scenario as given.
+    pub scenario: &'a Scenario,
+    /// The data.
+    pub dataset: &'a Dataset,
+    /// Their description.
+    pub about: Option<&'a About>,
+    /// As given, calibrated, with what the verdict adds.
+    pub rungs: &'a [ErrorRung],
+    /// Scenario and data as typed, for the commands that come next.
+    pub typed: [&'a str; 2],
+}
+
+/// The page of a diagnosis and its plots.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn diagnosis_page(found: &Diagnosed, imprint: &Imprint) -> Result<Files, CompareError> {
+    let d = found.diagnosis;
+    let mut files = Files::default();
+    let sections = diagnosis_sections(found, "", &mut files)?;
+    let report = Report {
+        title: format!("{} held against {}: what is missing?", d.scenario, d.dataset),
+        lead: lead(d),
+        generated_by: imprint.program.clone(),
+        generated_on: imprint.date.clone(),
+        sections,
+        provenance: provenance(found),
+    };
+    files.report(&report)?;
+    Ok(files)
+}
+
+/// The sections of a diagnosis; `prefix` keeps anchors and file names apart where a page has more than one.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn diagnosis_sections(found: &Diagnosed, prefix: &str, files: &mut Files) -> Result<Vec<Section>, CompareError> {
+    let d = found.diagnosis;
+    let (scenario, _) = fit_scenario(found.scenario, found.dataset, found.about)?;
+    let mut keep = |name: &str, caption: &str, drawn: Drawn| -> Block {
+        files.plot(&format!("{prefix}{name}"), &drawn);
+        Block::Figure { caption: caption.into(), alt: caption.into(), svg: drawn.svg }
+    };
+    let before = figures::map("The calibrated model misses here", &d.residuals_before, found.dataset)?;
+    let after = figures::map("What is left with the best explanation", &d.residuals_after, found.dataset)?;
+    let mut fails = vec![
+        Block::Paragraph(worst(&d.residuals_before)),
+        keep(
+            "residuals_before",
+            "Residuals after fitting B, marker × hold. Blue: the robot bends more than the model; orange: less.",
+            before,
+        ),
+    ];
+    let nothing_added = d.added.is_empty() && d.attempt.is_empty();
+    if !nothing_added {
+        fails.push(keep(
+            "residuals_after",
+            "The same with the best explanation: on this scale noise stays within ±3.",
+            after,
+        ));
+    }
+    fails.push(Block::List(d.leftover.iter().map(|s| s.sentence.clone()).collect()));
+    let mut bars: Vec<Block> = ranking(d)?.map(|drawn| keep("ranking", "One effect added and refitted together with B, best first. Green ones cannot be told apart with these data: BIC within 6 of the best, or 95 % of its gain.", drawn)).into_iter().collect();
+    bars.push(ranking_table(d));
+    let fall = waterfall("Before and after", found.rungs, d.base.noise_floor_mm)?;
+    let fall = vec![keep(
+        "before_after",
+        "Left-out data were not in the fit of the value drawn. A fall there is worth more than one on the data of the fit, and neither proves the name.",
+        fall,
+    )];
+    let mut sections = vec![
+        section(prefix, "missing", "Is anything missing?", verdict_blocks(d)),
+        section(prefix, "where", "Where it fails", fails),
+        section(prefix, "ranking", "What it could be", bars),
+        section(prefix, "candidates", "The candidates in plain words", candidate_blocks(d)),
+        section(prefix, "before-after", "Before and after", fall),
+    ];
+    if d.verdict != Some(Verdict::None) {
+        sections.extend(differently(found, &scenario, prefix, files)?);
+    }
+    sections.push(section(prefix, "unseen", "What could not be seen", unseen_blocks(d)));
+    sections.push(section(prefix, "next", "What to do next", next_blocks(found)));
+    sections.push(section(prefix, "noise", "Noise and cautions", noise_blocks(d)));
+    Ok(sections)
+}
+
+pub(super) fn section(prefix: &str, id: &str, heading: &str, blocks: Vec<Block>) -> Section {
+    let id = format!("{}{id}", prefix.replace('_', "-"));
+    Section { id, heading: heading.into(), blocks }
+}
+
+fn lead(d: &Diagnosis) -> String {
+    d.summary.iter().take(3).cloned().collect::<Vec<_>>().join(" ")
+}
+
+fn verdict_blocks(d: &Diagnosis) -> Vec<Block> {
+    let answer = match d.verdict {
+        Some(Verdict::None) => "**No**: no missing effect is detectable in these data.",
+        Some(Verdict::Effect) => "**Yes**: an effect is missing, and the catalogue has an explanation.",
+        Some(Verdict::OutOfCatalog) => "**Yes**: something is missing, and nothing in the catalogue explains it.",
+        None => "**No answer**: too few runs for p-values. What follows is a ranking, not a test.",
+    };
+    let p = |p: Option<f64>| p.map_or("–".into(), p_value);
+    let row = |name: &str, value: String| vec![name.to_string(), value];
+    let rows = vec![
+        row("\"nothing is missing\", corrected for everything tried", p(d.p_value)),
+        row("level at which it is judged", format!("{}", d.alpha)),
+        row("lack of fit after fitting B", p(d.lack_of_fit_before.map(|l| l.p_value))),
+        row("lack of fit of the final model", p(d.lack_of_fit_after.map(|l| l.p_value))),
+        row("error beyond noise after fitting B", format!("{:.2} mm", d.base.systematic_mm)),
+        row("the same of the final model", format!("{:.2} mm", d.base.systematic_with_added_mm)),
+        row("noise of the mean", d.base.noise_floor_mm.map_or("unknown".into(), |n| format!("{n:.2} mm"))),
+        row("good enough", format!("{:.2} mm", d.tolerance_mm)),
+    ];
+    let evidence = Table {
+        caption: "Evidence".into(),
+        columns: vec![words("quantity"), column("value", "")],
+        rows,
+        how_column: None,
+    };
+    vec![
+        Block::Callout { kind: Callout::Result, text: answer.into() },
+        Block::List(d.summary.clone()),
+        Block::Table(evidence),
+    ]
+}
+
+/// The largest residual in words.
+fn worst(map: &ResidualMap) -> String {
+    let cells = map.cells.iter().enumerate().flat_map(|(m, row)| row.iter().enumerate().map(move |(h, c)| (m, h, c)));
+    let Some((marker, hold, cell)) = cells.max_by(|a, b| a.2.y.mm.abs().total_cmp(&b.2.y.mm.abs())) else {
+        return "There is no residual to show.".into();
+    };
+    let at = &map.holds[hold];
+    let noise = cell.y.in_noise.map_or(String::new(), |z| format!(", {:.0} times the noise", z.abs()));
+    format!(
+        "Largest across the robot: {:+.1} mm (model minus measured{noise}) at marker {} of {}, {:.0} kPa {}.",
+        cell.y.mm,
+        marker + 1,
+        map.cells.len(),
+        at.p_act_kpa,
+        at.phase
+    )
+}
+
+fn with_interval(p: &ParameterValue) -> String {
+    let short = crate::wording::short;
+    let digits = |v: f64| if v.abs() >= 100.0 { short(v) } else { three(v) };
+    let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
+    match (p.lo, p.hi) {
+        (Some(lo), Some(hi)) => format!("{} = {} ({} to {}){unit}", p.symbol, digits(p.value), digits(lo), digits(hi)),
+        _ => format!("{} = {}{unit}", p.symbol, digits(p.value)),
+    }
+}
+
+/// Three significant digits.
+fn three(v: f64) -> String {
+    match v.abs() {
+        0.0 => "0".into(),
+        s if s < 1e-3 => format!("{v:.1e}"),
+        s => format!("{v:.*}", (2 - s.log10().floor() as i32).max(0) as usize),
+    }
+}
+
+fn listed(values: &[ParameterValue]) -> String {
+    values.iter().map(with_interval).collect::<Vec<_>>().join(", ")
+}
+
+fn ranking_table(d: &Diagnosis) -> Block {
+    let row = |r: &Ranked| {
+        let mark = match (r.at_bound, r.in_set && d.verdict != Some(Verdict::None)) {
+            (true, _) => "on a bound: rejected",
+            (_, true) => "cannot be told apart",
+            _ => "",
+        };
+        vec![
+            r.effect.clone(),
+            r.group.word().into(),
+            listed(&r.parameters),
+            number(Some(r.systematic_after_mm), 2),
+            number(r.heldout_mm, 2),
+            number(r.heldout_run_mm, 2),
+            format!("{:.0}", r.gain),
+            r.p_corrected.map_or("–".into(), |p| p_value(p).trim_start_matches("p = ").replace("p < ", "< ")),
+            mark.into(),
+        ]
+    };
+    Block::Table(Table {
+        caption: format!(
+            "Every candidate, refitted with B (without any: {:.2} mm). Values are calibrated on these data",
+            d.base.systematic_mm
+        ),
+        columns: vec![
+            words("effect"),
+            words("group"),
+            words("value, 95 % interval"),
+            column("after", "mm"),
+            column("pressures left out", "mm"),
+            column("runs left out", "mm"),
+            column("gain", ""),
+            column("p corrected", ""),
+            words("note"),
+        ],
+        rows: d.ranked.iter().map(row).collect(),
+        how_column: None,
+    })
+}
+
+fn candidate_blocks(d: &Diagnosis) -> Vec<Block> {
+    if d.verdict == Some(Verdict::None) {
+        return vec![Block::Paragraph("None is needed.".into())];
+    }
+    let added = |r: &Ranked| d.added.iter().chain(&d.attempt).any(|a| a.effect == r.effect);
+    let mut blocks = Vec::new();
+    if !d.rule_out_first.is_empty() {
+        let text = format!("Rule out before physics is blamed: {}.", d.rule_out_first.join(", "));
+        blocks.push(Block::Callout { kind: Callout::Warning, text });
+    }
+    for r in d.ranked.iter().filter(|r| (r.in_set && !r.at_bound) || added(r)) {
+        blocks.push(Block::Paragraph(format!(
+            "**{}** ({}), {}; {:.2} → {:.2} mm. {}",
+            r.effect,
+            r.group.word(),
+            listed(&r.parameters),
+            r.systematic_before_mm,
+            r.systematic_after_mm,
+            r.sentence
+        )));
+        let mut lines = vec![format!("Seen in data: {}", r.differs), format!("Check: {}", r.remedy)];
+        lines.extend(r.notes.iter().map(|n| format!("Note: {n}")));
+        blocks.push(Block::List(lines));
+    }
+    for pair in d.pairs.iter().filter(|p| p.in_set).take(5) {
+        let cancel = if pair.cancels { "; the two cancel each other" } else { "" };
+        let text = format!(
+            "Pair **{}**: {}; {:.2} mm left{cancel}.",
+            pair.effects.join(" + "),
+            listed(&pair.parameters),
+            pair.systematic_after_mm
+        );
+        blocks.push(Block::Paragraph(text));
+    }
+    blocks
+}
+
+fn differently(
+    found: &Diagnosed,
+    scenario: &Scenario,
+    prefix: &str,
+    files: &mut Files,
+) -> Result<Option<Section>, CompareError> {
+    let d = found.diagnosis;
+    let Some(curves) = candidate_curves(d, scenario, found.dataset)? else { return Ok(None) };
+    files.plot(&format!("{prefix}candidates"), &curves);
+    let caption = "First loading at the first body pressure, to 1.3 times the highest one measured. Solid: cannot be told apart; dashed: fits worse. Effects with history also differ on the way down.";
+    let mut blocks = vec![Block::Figure {
+        caption: caption.into(),
+        alt: "curves of the candidates over pressure".into(),
+        svg: curves.svg,
+    }];
+    let level = first_level(d, found.dataset);
+    let top = found.dataset.holds.iter().max_by(|a, b| a.p_act_pa.total_cmp(&b.p_act_pa));
+    if let Some(hold) = top.filter(|h| h.p_act_pa > 0.0) {
+        let mut cases = vec![("base".to_string(), calibrated(scenario, d, level))];
+        cases.extend(shown(d).iter().take(3).map(|r| (format!("+ {}", r.effect), with_ranked(scenario, r, level))));
+        let loads = Loads::uniform(hold.p_body_pa, hold.p_act_pa);
+        let ledger = figures::ledgers("Energy ledger at the highest pressure", &cases, &loads)?;
+        files.plot(&format!("{prefix}ledger"), &ledger);
+        let caption = "Where each candidate lets the actuator's work go. `ibr compare SCENARIO --engines` puts the finite elements' ledger beside the model's.";
+        blocks.push(Block::Figure { caption: caption.into(), alt: "stacked energies".into(), svg: ledger.svg });
+    }
+    Ok(Some(section(prefix, "differently", "What they would predict differently", blocks)))
+}
+
+fn unseen_blocks(d: &Diagnosis) -> Vec<Block> {
+    let rows = d.undetectable.iter().map(|u| {
+        let size = u.smallest_detectable.map_or("not within its bounds".into(), |s| {
+            if u.unit == "-" { three(s) } else { format!("{} {}", three(s), u.unit) }
+        });
+        vec![u.effect.clone(), size, number(u.times_typical, 2)]
+    });
+    let table = Table {
+        caption: "Effects that were not found, and the smallest size that would have been seen in nine of ten such experiments".into(),
+        columns: vec![words("effect"), column("size", ""), column("times typical", "")],
+        rows: rows.collect(),
+        how_column: None,
+    };
+    let mut blocks = vec![Block::Table(table)];
+    if !d.limits.is_empty() {
+        blocks.push(Block::List(d.limits.clone()));
+    }
+    blocks
+}
+
+fn next_blocks(found: &Diagnosed) -> Vec<Block> {
+    let d = found.diagnosis;
+    let mut blocks = Vec::new();
+    if let Some(next) = &d.next_experiment {
+        blocks.push(Block::Callout { kind: Callout::Result, text: next.sentence.clone() });
+        let mut columns = vec![words("experiment"), words("protocol [kPa]")];
+        columns.extend(next.now.iter().map(|s| column(&s.rival, "")));
+        let cells = |separations: &[crate::diagnosis::Separation]| -> Vec<String> {
+            separations.iter().map(|s| format!("{:.1}", s.lambda)).collect()
+        };
+        let mut rows = vec![[vec!["data at hand".to_string(), String::new()], cells(&next.now)].concat()];
+        rows.extend(
+            next.tried.iter().map(|e| [vec![e.name.clone(), e.protocol.clone()], cells(&e.separations)].concat()),
+        );
+        let caption = format!("Expected separation λ of {} from its rivals; 16 suffices", next.best);
+        blocks.push(Block::Table(Table { caption, columns, rows, how_column: None }));
+    }
+    let [scenario, data] = found.typed;
+    let commands = match d.verdict {
+        Some(Verdict::Effect) => format!(
+            "ibr add {scenario} best {data}     # writes a new scenario\nibr ladder {scenario} {data}       # until what is left is noise\nibr validate NEW OTHER_DATA    # the strongest evidence: data it was not fitted to"
+        ),
+        Some(Verdict::None) => "ibr diagnose SCENARIO OTHER_DATA   # another pressure, size or body pressure".into(),
+        _ => format!("ibr data check {data}"),
+    };
+    blocks.push(Block::Code(commands));
+    blocks
+}
+
+fn noise_blocks(d: &Diagnosis) -> Vec<Block> {
+    let mut blocks = vec![Block::Paragraph(d.noise.sentence.clone())];
+    blocks.extend(d.warnings.iter().map(|w| Block::Callout { kind: Callout::Warning, text: w.clone() }));
+    blocks
+}
+
+pub(super) fn line(name: &str, value: &str) -> Provenance {
+    Provenance { name: name.into(), value: value.into() }
+}
+
+fn provenance(found: &Diagnosed) -> Vec<Provenance> {
+    let mut lines = vec![
+        line("scenario", found.typed[0]),
+        line("data", found.typed[1]),
+        line("runs", &found.diagnosis.runs.to_string()),
+    ];
+    if let Some(about) = found.about {
+        lines.push(line("data are", &format!("{}: {}", about.provenance.word(), about.title)));
+        lines.push(line("source", &about.source));
+    }
+    lines
+}
