@@ -207,7 +207,11 @@ pub struct Diagnose {
     /// Scenario file or shipped robot
     pub scenario: String,
     /// Marker data
-    pub data: String,
+    #[arg(required_unless_present = "published")]
+    pub data: Option<String>,
+    /// Instead of data: which effects alone meet the one displacement that the paper printed of this robot
+    #[arg(long, conflicts_with_all = ["data", "refit", "keep_bending", "sigma", "tolerance"])]
+    pub published: bool,
     /// Also fit the values of the effects that the scenario already has
     #[arg(long)]
     pub refit: bool,

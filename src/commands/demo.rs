@@ -84,6 +84,9 @@ fn text(demo: &Demo) -> String {
         }
     }
     out.push_str(&table(&head, 3, rows));
+    let d = &demo.diagnosed.diagnosis;
+    out.push_str(&format!("\nWhat is missing in {} on {}:\n", d.scenario, d.dataset));
+    d.summary.iter().for_each(|s| out.push_str(&format!("  - {s}\n")));
     out.push_str("\nWhere the bare models fail:\n");
     for study in &demo.studies {
         if let Some(statement) = study.variants[0].evaluation.where_it_fails.first() {
@@ -125,7 +128,7 @@ fn to_json(demo: &Demo, small: &Small) -> Value {
     json!({
         "schema": "ibr.demo", "version": 1,
         "published": demo.ladders.iter().map(ladder).collect::<Vec<_>>(),
-        "marker_sets": studies, "timings": demo.timings,
+        "marker_sets": studies, "diagnosis": demo.diagnosed.diagnosis, "timings": demo.timings,
         "small_run": {
             "elements": small.elements, "cpu_s": small.cpu_s, "residual_share": small.residual_share,
             "buckling_events": small.snaps, "readings": small.readings,

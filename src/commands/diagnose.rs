@@ -1,6 +1,6 @@
 //! `ibr diagnose`
 
-use super::extend::{Ground, Rung, drawn, short, value};
+use super::extend::{short, value};
 use super::inputs::{self, positive};
 use super::tables::{number, table};
 use super::{Context, Outcome};
@@ -12,11 +12,14 @@ use compare::study::pages::{Diagnosed, Imprint, diagnosis_page};
 use serde_json::{Value, json};
 
 pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
+    let Some(data) = args.data.as_deref() else {
+        return super::published::run(&args.scenario, args.out.as_deref(), context);
+    };
     let sigma_m = args.sigma.as_deref().map(|t| positive("--sigma", t)).transpose()?;
     let tolerance_m = args.tolerance.as_deref().map(|t| positive("--tolerance", t)).transpose()?;
     let named = inputs::scenario(&args.scenario)?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
-    let (dataset, about, input) = inputs::dataset(&args.data, context)?;
+    let (dataset, about, input) = inputs::dataset(data, context)?;
     (context.progress)("fitting every effect", None);
     let options = Options {
         sigma_m,
@@ -30,14 +33,12 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
     outcome.notes.extend(diagnosis.warnings.iter().map(|w| format!("warning: {w}")));
     if let Some(folder) = &args.out {
         (context.progress)("drawing the report", None);
-        let rungs = rungs(&Ground::new(&diagnosis, &named.scenario, &input));
         let found = Diagnosed {
             diagnosis: &diagnosis,
             scenario: &named.scenario,
             dataset: &dataset,
             about: about.as_ref(),
-            rungs: &drawn(&rungs),
-            typed: [&args.scenario, &args.data],
+            typed: [&args.scenario, data],
         };
         let imprint = Imprint { program: program(), date: today(), machine: machine() };
         let mut files = diagnosis_page(&found, &imprint)?;
@@ -52,15 +53,6 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
         );
     }
     Ok(outcome)
-}
-
-/// As given, calibrated, and with what the verdict adds.
-pub fn rungs(ground: &Ground) -> Vec<Rung> {
-    let mut rungs = ground.first_rungs();
-    if !ground.d.added.is_empty() {
-        rungs.push(ground.verdict_rung());
-    }
-    rungs
 }
 
 fn to_json(scenario: &str, diagnosis: &Diagnosis) -> Value {

@@ -18,6 +18,7 @@ mod inputs;
 mod ladder;
 mod list;
 mod predict;
+mod published;
 mod simulate;
 mod tables;
 mod tradeoff;

@@ -36,6 +36,9 @@ fn demo_tells_the_story_in_text_json_and_a_report_in_less_than_two_minutes() {
     let json_s = start.elapsed().as_secs_f64();
     assert_eq!(answer["published"].as_array().unwrap().len(), 4, "four actuators");
     assert_eq!(answer["marker_sets"].as_array().unwrap().len(), 5);
+    let diagnosis = &answer["diagnosis"];
+    assert_eq!(diagnosis["added"][0]["effect"], "end_constraint", "{}", diagnosis["summary"]);
+    assert!(ran.stdout.contains("What is missing in ePAM") && page.contains("id=\"diagnosis-missing\""));
     println!("demo: {text_s:.1} s and {json_s:.1} s");
     assert!(text_s.min(json_s) < 120.0, "{text_s:.1} s and {json_s:.1} s");
 }

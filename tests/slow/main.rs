@@ -17,6 +17,7 @@ mod interrupts;
 mod large_file;
 mod robots;
 mod simulate;
+mod story;
 #[path = "../support/mod.rs"]
 mod support;
 

@@ -2,7 +2,6 @@
 
 use super::axis::{Axis, common_decimals, extent, number};
 use super::frame::{Entry, Frame, Key, RIM, TEXT, legend, title};
-use super::ladder::LadderTarget;
 use super::palette::Role;
 use super::scene::{Anchor, Scene};
 use super::{Drawn, PlotError, WIDTH, at_most, paint, text};
@@ -22,8 +21,6 @@ pub struct Ranking {
     pub value_label: String,
     /// Rows from best to worst.
     pub rows: Vec<RankingRow>,
-    /// A value to compare with, as a dashed line.
-    pub target: Option<LadderTarget>,
 }
 
 /// One row of a [`Ranking`].
@@ -73,8 +70,7 @@ pub fn ranking(data: &Ranking) -> Result<Drawn, PlotError> {
     at_most(CHART, "rows", MOST, data.rows.len())?;
     let values = || data.rows.iter().map(|row| row.value);
     extent(values(), CHART)?;
-    let end = data.target.as_ref().map(|t| t.value).filter(|v| v.is_finite());
-    let mut x = Axis::linear(values().chain(end).chain([0.0]), CHART)?;
+    let mut x = Axis::linear(values().chain([0.0]), CHART)?;
     let digits = common_decimals(values().filter(|v| v.is_finite()).fold(0.0, |a, b| f64::max(a, b.abs())));
     let widest = |texts: &mut dyn Iterator<Item = f64>| texts.fold(0.0, f64::max);
     let names = widest(&mut data.rows.iter().map(|row| text::width(&row.label, TEXT))).min(NAMES);
@@ -86,10 +82,6 @@ pub fn ranking(data: &Ranking) -> Result<Drawn, PlotError> {
     let frame = Frame { x, y: Axis::exact([0.0, 1.0]) };
     let bottom = top + ROW * data.rows.len() as f64 + 4.0;
     frame.x_axis(&mut scene, &data.value_label, [top, bottom]);
-    if let Some(value) = end {
-        let at = frame.x.at(value);
-        scene.dashed(&[[at, top], [at, bottom]], Role::Ink, 1.6, [6.0, 3.5]);
-    }
     for (i, row) in data.rows.iter().enumerate() {
         draw(&mut scene, &frame, row, (names, digits), top + 4.0 + ROW * i as f64);
     }
@@ -99,9 +91,7 @@ pub fn ranking(data: &Ranking) -> Result<Drawn, PlotError> {
 fn keys(data: &Ranking) -> Vec<Entry> {
     let classes = [RankClass::Alike, RankClass::Worse, RankClass::Rejected];
     let present = classes.into_iter().filter(|class| data.rows.iter().any(|row| row.class == *class));
-    let bars = present.map(|c| Entry { key: Key::Patch, role: c.role(), name: c.words().into() });
-    let line = data.target.iter().filter(|t| t.value.is_finite());
-    bars.chain(line.map(|t| Entry { key: Key::Dashed, role: Role::Ink, name: t.label.clone() })).collect()
+    present.map(|c| Entry { key: Key::Patch, role: c.role(), name: c.words().into() }).collect()
 }
 
 fn draw(scene: &mut Scene, frame: &Frame, row: &RankingRow, (names, digits): (f64, usize), top: f64) {

@@ -92,7 +92,6 @@ fn stacks(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, PlotError>>
         title: label(name),
         value_label: label(name),
         rows: vec![row(0, RankClass::Alike), row(1, RankClass::Worse), row(2, RankClass::Rejected)],
-        target: Some(target()),
     };
     vec![ladder(&steps), bars(&groups), ledger(&book), ranking(&order)]
 }

@@ -181,7 +181,7 @@ fn fabric_effects(fabric: &data::PublishedFabric) -> Vec<Addition> {
     }
 }
 
-fn height(scenario: &Scenario, loads: &Loads) -> Result<f64, CompareError> {
+pub(crate) fn height(scenario: &Scenario, loads: &Loads) -> Result<f64, CompareError> {
     let model = Model::new(scenario);
     let mut state = model.prediction();
     model.predict(loads, &mut state)?;

@@ -1,8 +1,10 @@
 //! The demonstration: every actuator against the published displacements and against the embedded marker sets.
 
 use super::compare_page::{Candidate, Study, lead, study};
+use super::diagnosis_page::{Diagnosed, diagnosis_sections};
 use super::engines_page::{Engines, engine_sections, engines};
 use super::{Files, Imprint, figures, tables};
+use crate::diagnosis::{Diagnosis, Options, diagnose};
 use crate::error::CompareError;
 use crate::evaluate::EvaluateOptions;
 use crate::plots::Known;
@@ -10,7 +12,8 @@ use crate::report::{Block, Callout, Provenance, Report, Section};
 use crate::study::engines::stored;
 use crate::study::published::{PublishedLadder, model_ladder, published_ladders, shipped_scenario};
 use crate::study::tradeoff::{Timing, of_runs, tradeoff};
-use models::Loads;
+use data::{About, Dataset};
+use models::{Loads, Scenario};
 
 /// Everything the demonstration computes.
 #[derive(Debug, Clone)]
@@ -21,8 +24,33 @@ pub struct Demo {
     pub studies: Vec<Study>,
     /// Run time against error.
     pub timings: Vec<Timing>,
+    /// What is missing in the calibrated bare model of one marker set, with the data.
+    pub diagnosed: Story,
     /// Both engines, with the finite element runs that come with the program.
     pub engines: Engines,
+}
+
+/// A diagnosis with what it was made of.
+#[derive(Debug, Clone)]
+pub struct Story {
+    /// What was found.
+    pub diagnosis: Diagnosis,
+    /// The model without what is hidden in the data.
+    pub scenario: Scenario,
+    /// The data.
+    pub dataset: Dataset,
+    /// Their description.
+    pub about: Option<About>,
+}
+
+/// The marker set of the diagnosis; its generator had an effect that the shipped scenario has not.
+const HIDDEN_IN: [&str; 2] = ["epam", "synthetic-epam"];
+
+fn story() -> Result<Story, CompareError> {
+    let scenario = shipped_scenario(HIDDEN_IN[0])?;
+    let (dataset, about) = data::load(HIDDEN_IN[1], &mut |_, _| {})?;
+    let diagnosis = diagnose(&scenario, &dataset, about.as_ref(), &Options::default())?;
+    Ok(Story { diagnosis, scenario, dataset, about })
 }
 
 /// Computes the demonstration; `progress` is told what is being done.
@@ -44,6 +72,8 @@ pub fn demo(progress: &mut dyn FnMut(&str)) -> Result<Demo, CompareError> {
             .collect();
         studies.push(study(&candidates, dataset, about, &EvaluateOptions::default(), true)?);
     }
+    progress("what is missing");
+    let diagnosed = story()?;
     progress("run times");
     let mut timings = tradeoff(&ladders)?;
     progress("finite elements");
@@ -51,7 +81,7 @@ pub fn demo(progress: &mut dyn FnMut(&str)) -> Result<Demo, CompareError> {
     timings.extend(of_runs(&ladders, &runs));
     let scenarios = ladders.iter().map(|l| shipped_scenario(&l.published.kind)).collect::<Result<Vec<_>, _>>()?;
     let engines = engines(&scenarios, &runs)?;
-    Ok(Demo { ladders, studies, timings, engines })
+    Ok(Demo { ladders, studies, timings, diagnosed, engines })
 }
 
 /// The page of the demonstration and its plots.
@@ -68,6 +98,8 @@ pub fn demo_page(demo: &Demo, imprint: &Imprint, progress: &mut dyn FnMut(&str))
         progress(&format!("plots of {}", study.dataset.name));
         sections.push(study_section(study, &mut files)?);
     }
+    progress("plots of the diagnosis");
+    sections.extend(story_sections(&demo.diagnosed, &mut files)?);
     sections.push(tradeoff_section(demo, imprint, &mut files)?);
     sections.push(limits_section());
     let line = |name: &str, value: &str| Provenance { name: name.into(), value: value.into() };
@@ -197,6 +229,22 @@ fn study_section(study: &Study, files: &mut Files) -> Result<Section, CompareErr
     blocks.push(Block::Paragraph(bare.evaluation.scaling.sentence.clone()));
     blocks.push(figure("Potential energies; the actuator's bar is −PΔV.", "stacked energies", &ledger.svg));
     Ok(Section { id: name.replace(['_', '.'], "-"), heading: format!("Marker set {name}"), blocks })
+}
+
+/// The sections of a diagnosis, each named as part of it.
+fn story_sections(story: &Story, files: &mut Files) -> Result<Vec<Section>, CompareError> {
+    let found = Diagnosed {
+        diagnosis: &story.diagnosis,
+        scenario: &story.scenario,
+        dataset: &story.dataset,
+        about: story.about.as_ref(),
+        typed: HIDDEN_IN,
+    };
+    let mut sections = diagnosis_sections(&found, "diagnosis_", files)?;
+    for section in &mut sections {
+        section.heading = format!("Diagnosis of {}: {}", HIDDEN_IN[1], section.heading);
+    }
+    Ok(sections)
 }
 
 fn tradeoff_section(demo: &Demo, imprint: &Imprint, files: &mut Files) -> Result<Section, CompareError> {

@@ -32,6 +32,30 @@ pub struct ErrorRung {
     pub heldout_run_mm: Option<f64>,
 }
 
+/// As given, calibrated, and with what the verdict adds.
+pub(super) fn rungs_of(d: &Diagnosis) -> Vec<ErrorRung> {
+    let base = &d.base;
+    let rung = |label: String, training_mm, heldout_pressure_mm, heldout_run_mm| ErrorRung {
+        label,
+        training_mm,
+        heldout_pressure_mm,
+        heldout_run_mm,
+    };
+    let mut rungs = vec![rung("scenario as given".into(), base.systematic_nominal_mm, None, None)];
+    let calibrated = if base.bending.is_empty() { "B as given" } else { "B calibrated" };
+    rungs.push(rung(calibrated.into(), base.systematic_mm, base.heldout_mm, base.heldout_run_mm));
+    if !d.added.is_empty() {
+        let names: Vec<String> = d.added.iter().map(|a| format!("+ {}", a.effect)).collect();
+        rungs.push(rung(
+            format!("{} (calibrated)", names.join(" ")),
+            base.systematic_with_added_mm,
+            base.heldout_with_added_mm,
+            base.heldout_run_with_added_mm,
+        ));
+    }
+    rungs
+}
+
 /// Error of every model, training and left-out data, with the noise of the mean.
 pub(super) fn waterfall(title: &str, rungs: &[ErrorRung], floor_mm: Option<f64>) -> Result<Drawn, CompareError> {
     let series = |name: &str, of: fn(&ErrorRung) -> f64| plots::BarSeries {
@@ -54,9 +78,6 @@ pub(super) fn waterfall(title: &str, rungs: &[ErrorRung], floor_mm: Option<f64>)
     plots::bars(&data).map_err(|e| drawing("the waterfall", e))
 }
 
-/// Share of the best gain that makes a candidate a member of the set, whatever its BIC.
-const ALIKE_PCT: f64 = 95.0;
-
 /// Gain of every candidate over that of the best one.
 pub(super) fn ranking(d: &Diagnosis) -> Result<Option<Drawn>, CompareError> {
     let class = |r: &Ranked| match (r.at_bound, r.in_set && d.verdict != Some(Verdict::None)) {
@@ -73,11 +94,6 @@ pub(super) fn ranking(d: &Diagnosis) -> Result<Option<Drawn>, CompareError> {
         title: "Misfit that one effect takes away".into(),
         value_label: "gain, in % of the best".into(),
         rows: d.ranked.iter().map(row).collect(),
-        target: Some(plots::LadderTarget {
-            label: format!("{ALIKE_PCT:.0} % of the best"),
-            value: ALIKE_PCT,
-            half_width: 0.0,
-        }),
     };
     plots::ranking(&data).map(Some).map_err(|e| drawing("the ranking", e))
 }

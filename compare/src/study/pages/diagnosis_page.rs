@@ -1,7 +1,7 @@
 //! The report of a diagnosis, for people: where it fails, whether anything is missing, what it could be, what to do.
 
 use super::diagnosis_figures::{
-    ErrorRung, calibrated, candidate_curves, first_level, ranking, shown, waterfall, with_ranked,
+    calibrated, candidate_curves, first_level, ranking, rungs_of, shown, waterfall, with_ranked,
 };
 use super::tables::{column, number, words};
 use super::{Files, Imprint, figures};
@@ -25,8 +25,6 @@ pub struct Diagnosed<'a> {
     pub dataset: &'a Dataset,
     /// Their description.
     pub about: Option<&'a About>,
-    /// As given, calibrated, with what the verdict adds.
-    pub rungs: &'a [ErrorRung],
     /// Scenario and data as typed, for the commands that come next.
     pub typed: [&'a str; 2],
 }
@@ -81,9 +79,9 @@ pub fn diagnosis_sections(found: &Diagnosed, prefix: &str, files: &mut Files) ->
         ));
     }
     fails.push(Block::List(d.leftover.iter().map(|s| s.sentence.clone()).collect()));
-    let mut bars: Vec<Block> = ranking(d)?.map(|drawn| keep("ranking", "One effect added and refitted together with B, best first. Green ones cannot be told apart with these data: BIC within 6 of the best, or 95 % of its gain.", drawn)).into_iter().collect();
+    let mut bars: Vec<Block> = ranking(d)?.map(|drawn| keep("ranking", "One effect added and refitted together with B, best first. Green ones cannot be told apart with these data.", drawn)).into_iter().collect();
     bars.push(ranking_table(d));
-    let fall = waterfall("Before and after", found.rungs, d.base.noise_floor_mm)?;
+    let fall = waterfall("Before and after", &rungs_of(d), d.base.noise_floor_mm)?;
     let fall = vec![keep(
         "before_after",
         "Left-out data were not in the fit of the value drawn. A fall there is worth more than one on the data of the fit, and neither proves the name.",

@@ -12,7 +12,7 @@ mod ladder_page;
 mod tables;
 
 pub use compare_page::{Candidate, Study, Variant, compare_page, study};
-pub use demo_page::{Demo, demo, demo_page};
+pub use demo_page::{Demo, Story, demo, demo_page};
 pub use diagnosis_figures::ErrorRung;
 pub use diagnosis_page::{Diagnosed, diagnosis_page, diagnosis_sections};
 pub use engine_figures::parting_plot;

@@ -1,0 +1,212 @@
+//! What one displacement cannot decide: every effect of the catalogue, alone, at the value that meets it.
+//!
+//! A published displacement is one number. Each effect is given the value at which the model meets it, if any within
+//! its bounds does; all of these models are then equally good there, and differ at the pressures in between. Values are
+//! *calibrated* on that one number, so meeting it is no evidence for any of them.
+
+use crate::error::CompareError;
+use crate::study::engines::stored;
+use crate::study::pages::engines;
+use crate::study::published::{height, shipped_scenario};
+use data::{PublishedActuator, published};
+use models::effects::{Effect, Parameter};
+use models::{Loads, Scenario};
+use serde::Serialize;
+
+/// Values of an effect tried between neutral and each bound.
+const GRID: u32 = 60;
+/// Halvings of the interval in which the displacement is met.
+const HALVINGS: u32 = 60;
+/// Largest B tried \[N·m²\].
+const MOST_BENDING: f64 = 200.0;
+
+/// One explanation of a displacement.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Explanation {
+    /// Effect, or `bending_stiffness`.
+    pub effect: String,
+    /// Key of the parameter that was varied.
+    pub key: String,
+    /// Unit.
+    pub unit: String,
+    /// The value that meets the displacement.
+    pub value: f64,
+    /// The same as a multiple of the typical size; `None` for B.
+    pub times_typical: Option<f64>,
+    /// Displacement at every pressure of the protocol \[mm\].
+    pub y_mm: Vec<f64>,
+}
+
+/// A published displacement and all that meets it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OneNumber {
+    /// Name as printed.
+    pub robot: String,
+    /// Actuator kind.
+    pub actuator: String,
+    /// Pressures \[kPa\], the last is that of the displacement.
+    pub p_act_kpa: Vec<f64>,
+    /// Printed displacement \[mm\].
+    pub measured_mm: f64,
+    /// The model with what its geometry brings, without bending stiffness, at every pressure \[mm\].
+    pub bare_mm: Vec<f64>,
+    /// Single effects that meet it, smallest multiple of their typical size first.
+    pub met_by: Vec<Explanation>,
+    /// Effects that meet it at no value within their bounds.
+    pub not_met_by: Vec<String>,
+    /// Term that takes the work in the finite element run, where one carries the difference.
+    pub fe_ledger: Option<String>,
+}
+
+impl OneNumber {
+    /// Least and largest displacement of the explanations at a pressure \[mm\].
+    pub fn spread_mm(&self, pressure: usize) -> Option<[f64; 2]> {
+        let at = self.met_by.iter().map(|e| e.y_mm[pressure]);
+        at.fold(None, |range: Option<[f64; 2]>, y| Some(range.map_or([y, y], |[a, b]| [a.min(y), b.max(y)])))
+    }
+}
+
+/// Every explanation of an actuator's published displacement.
+///
+/// # Errors
+/// An actuator of which nothing is published; a model without equilibrium.
+pub fn one_number(kind: &str) -> Result<OneNumber, CompareError> {
+    let paper = published()?;
+    let missing = || CompareError::NoScenario { kind: kind.into(), problem: "nothing is published about it".into() };
+    let actuator: &PublishedActuator = paper.actuator(kind).ok_or_else(missing)?;
+    let shipped = shipped_scenario(kind)?;
+    let bare = shipped.with_bending(0.0);
+    let mut pressures: Vec<f64> =
+        paper.actuator_pressures_pa.iter().copied().filter(|p| *p > 0.0 && *p < actuator.d_max_pressure_pa).collect();
+    pressures.push(actuator.d_max_pressure_pa);
+    let loads: Vec<Loads> = pressures.iter().map(|p| Loads::uniform(paper.body_pressure_pa, *p)).collect();
+    let has = |name: &str| bare.effects.iter().any(|e| e.name == name);
+    let curve = |s: &Scenario| loads.iter().map(|l| Ok(1e3 * height(s, l)?)).collect::<Result<Vec<f64>, CompareError>>();
+    let aim = Aim { loads: &loads[loads.len() - 1], wanted_m: actuator.d_max_m };
+    let (mut met_by, mut not_met_by) = (Vec::new(), Vec::new());
+    if let Some(value) = aim.reached(0.0, MOST_BENDING, &|b| bare.with_bending(b)) {
+        let y_mm = curve(&bare.with_bending(value))?;
+        let [effect, key, unit] = ["bending_stiffness", "bending_stiffness_nm2", "N m²"].map(String::from);
+        met_by.push(Explanation { effect, key, unit, value, times_typical: None, y_mm });
+    }
+    for effect in models::effects::EFFECTS.iter().filter(|e| e.applies_to(bare.actuator.kind.family) && !has(e.name)) {
+        match aim.meets(&bare, effect) {
+            Some((p, value)) => {
+                let y_mm = curve(&with(&bare, effect, p, value))?;
+                let typical = p.typical_for(kind) * p.si - p.neutral * p.si;
+                met_by.push(Explanation {
+                    effect: effect.name.into(),
+                    key: p.key.into(),
+                    unit: p.unit.into(),
+                    value: value / p.si,
+                    times_typical: Some((value - p.neutral * p.si) / typical),
+                    y_mm,
+                });
+            }
+            None => not_met_by.push(effect.name.to_string()),
+        }
+    }
+    met_by.sort_by(|a, b| size(a).total_cmp(&size(b)));
+    let fe_ledger = engines(&[shipped], &stored())?.robots.first().and_then(|r| r.pairs.last()?.carrier());
+    Ok(OneNumber {
+        robot: actuator.printed_name.clone(),
+        actuator: kind.into(),
+        p_act_kpa: pressures.iter().map(|p| p * 1e-3).collect(),
+        measured_mm: actuator.d_max_m * 1e3,
+        bare_mm: curve(&bare)?,
+        met_by,
+        not_met_by,
+        fe_ledger: fe_ledger.map(String::from),
+    })
+}
+
+fn size(e: &Explanation) -> f64 {
+    e.times_typical.map_or(0.0, |t| t.abs())
+}
+
+/// The displacement to be met.
+struct Aim<'a> {
+    loads: &'a Loads,
+    wanted_m: f64,
+}
+
+impl Aim<'_> {
+    /// The parameter that is varied and the value nearest neutral at which the effect alone meets the displacement.
+    fn meets<'e>(&self, bare: &Scenario, effect: &'e Effect) -> Option<(&'e Parameter, f64)> {
+        let p = effect.parameters.iter().find(|p| p.typical != p.neutral)?;
+        let model = |value: f64| with(bare, effect, p, value);
+        let ends = [p.upper * p.si, p.lower * p.si];
+        let found = ends.iter().filter_map(|end| self.reached(p.neutral * p.si, *end, &model));
+        let away = |v: &f64| (v - p.neutral * p.si).abs();
+        found.min_by(|a, b| away(a).total_cmp(&away(b))).map(|value| (p, value))
+    }
+
+    /// The value nearest `from` on the way to `to` at which the displacement is met.
+    fn reached(&self, from: f64, to: f64, model: &dyn Fn(f64) -> Scenario) -> Option<f64> {
+        if from == to {
+            return None;
+        }
+        let miss = |v: f64| height(&model(v), self.loads).ok().map(|y| y - self.wanted_m);
+        // Denser near neutral, where most effects act first.
+        let at = |i: u32| from + (to - from) * (f64::from(i) / f64::from(GRID)).powi(2);
+        let mut low = (at(0), miss(at(0))?);
+        for i in 1..=GRID {
+            let Some(next) = miss(at(i)) else { return None };
+            if low.1 * next <= 0.0 && low.1 != next {
+                return Some(self.halved(low, at(i), &miss));
+            }
+            low = (at(i), next);
+        }
+        None
+    }
+
+    fn halved(&self, low: (f64, f64), high: f64, miss: &dyn Fn(f64) -> Option<f64>) -> f64 {
+        let (mut a, mut b) = (low.0, high);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (a + b);
+            match miss(middle) {
+                Some(y) if y * low.1 > 0.0 => a = middle,
+                _ => b = middle,
+            }
+        }
+        0.5 * (a + b)
+    }
+}
+
+/// The bare model with one parameter of one effect set, others typical.
+fn with(bare: &Scenario, effect: &Effect, varied: &Parameter, value_si: f64) -> Scenario {
+    let kind = bare.actuator.kind.name;
+    let others = effect.typical_for(kind);
+    let values: Vec<f64> = effect
+        .parameters
+        .iter()
+        .zip(others)
+        .map(|(p, typical)| if p.key == varied.key { value_si } else { typical })
+        .collect();
+    bare.with_effect(effect.name, &values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_explanation_meets_the_published_number_and_several_do() {
+        for kind in ["spam", "epam", "fpam"] {
+            let one = one_number(kind).unwrap();
+            assert!(one.met_by.len() > 3, "{kind}: {:?}", one.met_by);
+            for e in &one.met_by {
+                let y = e.y_mm[e.y_mm.len() - 1];
+                assert!((y - one.measured_mm).abs() < 1e-3, "{kind} {}: {y} for {}", e.effect, one.measured_mm);
+            }
+        }
+    }
+
+    #[test]
+    fn without_an_effect_the_pouches_bend_too_far() {
+        let bare = |kind: &str| *one_number(kind).unwrap().bare_mm.last().unwrap();
+        for (kind, y_mm) in [("epam", 161.6), ("spam", 145.5)] {
+            assert!((bare(kind) - y_mm).abs() < 0.05, "{kind}: {}", bare(kind));
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! `ibr diagnose SCENARIO --published`: what the one displacement that the paper prints can tell.
+
+use super::extend::short;
+use super::inputs::with_unit;
+use super::tables::{number, table};
+use super::{Context, Outcome};
+use crate::failure::Failure;
+use crate::output::{check_folder, write_files};
+use compare::plots::{LineSeries, LineStyle, Lines, lines};
+use compare::study::one_number::{Explanation, OneNumber, one_number};
+use compare::study::pages::Files;
+use serde_json::json;
+use std::path::Path;
+
+/// Explanations drawn as curves.
+const MOST_CURVES: usize = 8;
+
+pub fn run(kind: &str, out: Option<&Path>, context: &mut Context) -> Result<Outcome, Failure> {
+    out.map_or(Ok(()), check_folder)?;
+    if models::shipped(kind).is_none() {
+        let message = format!("the paper printed no displacement of `{kind}`");
+        return Err(Failure::usage(message, "with --published name spam, cpam, epam or fpam"));
+    }
+    let one = one_number(kind)?;
+    let mut outcome = Outcome::new(text(&one), json!({"schema": "ibr.one_number", "version": 1, "result": one}));
+    if let Some(folder) = out {
+        let mut files = Files::default();
+        let drawn = lines(&curves(&one)).map_err(|e| Failure::usage(format!("the curves: {e}"), "report this"))?;
+        files.plot(&format!("one_number_{kind}"), &drawn);
+        write_files(folder, &files, &[], context)?;
+    }
+    Ok(outcome)
+}
+
+fn text(one: &OneNumber) -> String {
+    let top = one.p_act_kpa.len() - 1;
+    let mut out = format!(
+        "{}: the bare model says {:.1} mm at {:.0} kPa, the paper {:.1} mm (published). One number, met by one effect alone at:\n",
+        one.robot, one.bare_mm[top], one.p_act_kpa[top], one.measured_mm
+    );
+    let mut head = vec!["effect".to_string(), "value".into(), "times typical".into()];
+    head.extend(one.p_act_kpa.iter().map(|p| format!("mm at {p:.0} kPa")));
+    let row = |e: &Explanation| {
+        let mut cells = vec![
+            e.effect.clone(),
+            format!("{} = {}", e.key, with_unit(&short(e.value), &e.unit)),
+            number(e.times_typical, 2),
+        ];
+        cells.extend(e.y_mm.iter().map(|y| format!("{y:.1}")));
+        cells
+    };
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
+    out.push_str(&table(&head, 2, one.met_by.iter().map(row).collect()));
+    out.push_str("Each value is calibrated on that one number: meeting it is evidence for none of them.\n");
+    out.push_str(&told(one));
+    if !one.not_met_by.is_empty() {
+        out.push_str(&format!("At no value within its bounds: {}.\n", one.not_met_by.join(", ")));
+    }
+    if let Some(term) = &one.fe_ledger {
+        out.push_str(&format!("The finite element run's ledger: the work that the reduced model lacks is in {term}.\n"));
+    }
+    out
+}
+
+/// What a second pressure would decide.
+fn told(one: &OneNumber) -> String {
+    let mut out = String::new();
+    for k in 0..one.p_act_kpa.len() - 1 {
+        if let Some([low, high]) = one.spread_mm(k) {
+            out.push_str(&format!(
+                "At {:.0} kPa they differ: {low:.1} to {high:.1} mm. Marker positions there would tell most of them apart.\n",
+                one.p_act_kpa[k]
+            ));
+        }
+    }
+    out
+}
+
+fn curves(one: &OneNumber) -> Lines {
+    let points = |y_mm: &[f64]| one.p_act_kpa.iter().zip(y_mm).map(|(p, y)| [*p, *y]).collect::<Vec<_>>();
+    let line = |name: &str, y_mm: &[f64], style| LineSeries {
+        name: name.into(),
+        points: points(y_mm),
+        half_width: Vec::new(),
+        style,
+        colour: None,
+    };
+    let top = one.p_act_kpa.len() - 1;
+    let mut series = vec![line("bare model", &one.bare_mm, LineStyle::Dashed)];
+    series.extend(one.met_by.iter().take(MOST_CURVES).map(|e| line(&e.effect, &e.y_mm, LineStyle::LinePoints)));
+    series.push(LineSeries {
+        name: "published".into(),
+        points: vec![[one.p_act_kpa[top], one.measured_mm]],
+        half_width: vec![0.0],
+        style: LineStyle::Points,
+        colour: None,
+    });
+    Lines {
+        title: format!("{}: all of these meet the one published number", one.robot),
+        x_label: "actuator pressure [kPa]".into(),
+        y_label: "displacement [mm]".into(),
+        series,
+    }
+}
