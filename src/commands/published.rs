@@ -22,7 +22,7 @@ pub fn run(kind: &str, out: Option<&Path>, context: &mut Context) -> Result<Outc
         return Err(Failure::usage(message, "with --published name spam, cpam, epam or fpam"));
     }
     let one = one_number(kind)?;
-    let mut outcome = Outcome::new(text(&one), json!({"schema": "ibr.one_number", "version": 1, "result": one}));
+    let outcome = Outcome::new(text(&one), json!({"schema": "ibr.one_number", "version": 1, "result": one}));
     if let Some(folder) = out {
         let mut files = Files::default();
         let drawn = lines(&curves(&one)).map_err(|e| Failure::usage(format!("the curves: {e}"), "report this"))?;
@@ -35,7 +35,7 @@ pub fn run(kind: &str, out: Option<&Path>, context: &mut Context) -> Result<Outc
 fn text(one: &OneNumber) -> String {
     let top = one.p_act_kpa.len() - 1;
     let mut out = format!(
-        "{}: the bare model says {:.1} mm at {:.0} kPa, the paper {:.1} mm (published). One number, met by one effect alone at:\n",
+        "{}: the model without stiffness says {:.1} mm at {:.0} kPa, the paper {:.1} mm (published). One number, met by one effect alone at:\n",
         one.robot, one.bare_mm[top], one.p_act_kpa[top], one.measured_mm
     );
     let mut head = vec!["effect".to_string(), "value".into(), "times typical".into()];
@@ -57,7 +57,9 @@ fn text(one: &OneNumber) -> String {
         out.push_str(&format!("At no value within its bounds: {}.\n", one.not_met_by.join(", ")));
     }
     if let Some(term) = &one.fe_ledger {
-        out.push_str(&format!("The finite element run's ledger: the work that the reduced model lacks is in {term}.\n"));
+        out.push_str(&format!(
+            "In the finite element run's ledger the difference from the model as shipped is carried by: {term}.\n"
+        ));
     }
     out
 }

@@ -9,8 +9,22 @@ fn a_hidden_effect_is_found_added_and_holds_on_data_it_was_not_fitted_to() {
     let folder = Folder::new();
     let make = |name: &str, protocol: &str, seed: &str| {
         let ran = folder.run(&[
-            "challenge", "new", "--out", name, "--seed", seed, "--effect", "end_constraint", "--actuator", "epam",
-            "--runs", "5", "--sigma", "1mm", "--protocol", protocol,
+            "challenge",
+            "new",
+            "--out",
+            name,
+            "--seed",
+            seed,
+            "--effect",
+            "end_constraint",
+            "--actuator",
+            "epam",
+            "--runs",
+            "5",
+            "--sigma",
+            "1mm",
+            "--protocol",
+            protocol,
         ]);
         assert_eq!(ran.code, 0, "{}", ran.stderr);
     };
