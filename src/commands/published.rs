@@ -88,7 +88,7 @@ fn curves(one: &OneNumber) -> Lines {
         colour: None,
     };
     let top = one.p_act_kpa.len() - 1;
-    let mut series = vec![line("bare model", &one.bare_mm, LineStyle::Dashed)];
+    let mut series = vec![line("without B", &one.bare_mm, LineStyle::Dashed)];
     series.extend(one.met_by.iter().take(MOST_CURVES).map(|e| line(&e.effect, &e.y_mm, LineStyle::LinePoints)));
     series.push(LineSeries {
         name: "published".into(),

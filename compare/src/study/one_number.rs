@@ -152,7 +152,7 @@ impl Aim<'_> {
         let at = |i: u32| from + (to - from) * (f64::from(i) / f64::from(GRID)).powi(2);
         let mut low = (at(0), miss(at(0))?);
         for i in 1..=GRID {
-            let Some(next) = miss(at(i)) else { return None };
+            let next = miss(at(i))?;
             if low.1 * next <= 0.0 && low.1 != next {
                 return Some(self.halved(low, at(i), &miss));
             }
