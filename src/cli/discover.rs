@@ -1,0 +1,170 @@
+//! The commands around a missing effect: diagnose, add, ladder, validate, breakdown, challenge.
+
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
+
+/// `ibr diagnose`
+#[derive(Debug, Args)]
+pub struct Diagnose {
+    /// Scenario file or shipped robot
+    pub scenario: String,
+    /// Marker data
+    #[arg(required_unless_present = "published")]
+    pub data: Option<String>,
+    /// Instead of data: which effects alone meet the one displacement that the paper printed of this robot
+    #[arg(long, conflicts_with_all = ["data", "refit", "keep_bending", "sigma", "tolerance"])]
+    pub published: bool,
+    /// Also fit the values of the effects that the scenario already has
+    #[arg(long)]
+    pub refit: bool,
+    /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
+    #[arg(long)]
+    pub keep_bending: bool,
+    /// Camera noise of one coordinate, for data of a single run, for example 1mm
+    #[arg(long, allow_hyphen_values = true)]
+    pub sigma: Option<String>,
+    /// Differences up to this are good enough; default: the larger of 0.15 mm and 0.5 % of the largest deflection
+    #[arg(long, allow_hyphen_values = true)]
+    pub tolerance: Option<String>,
+    /// Folder for the report, plots and diagnosis.json
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+}
+
+/// `ibr ladder`
+#[derive(Debug, Args)]
+pub struct Ladder {
+    /// Scenario file or shipped robot; it is not changed
+    pub scenario: String,
+    /// Marker data
+    pub data: String,
+    /// Most effects to add
+    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u64).range(1..=3))]
+    pub effects: u64,
+    /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
+    #[arg(long)]
+    pub keep_bending: bool,
+    /// Differences up to this are good enough; default: the larger of 0.15 mm and 0.5 % of the largest deflection
+    #[arg(long, allow_hyphen_values = true)]
+    pub tolerance: Option<String>,
+    /// Folder for the waterfall and the scenario of every step; default: ibr-report/ladder-<data>, with --json: none
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+}
+
+/// `ibr add`
+#[derive(Debug, Args)]
+pub struct Add {
+    /// Scenario file or shipped robot; it is not changed
+    pub scenario: String,
+    /// NAME is fitted on the data; NAME=VALUE or NAME:key=value[,key=value] is taken as given; `best` is what the diagnosis adds
+    pub effect: String,
+    /// Marker data: the value is fitted on them, B with it, and the error is shown before and after
+    pub data: Option<String>,
+    /// New scenario; default: <scenario>-<effect>.toml
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+    /// Replace an existing file
+    #[arg(long)]
+    pub force: bool,
+    /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
+    #[arg(long)]
+    pub keep_bending: bool,
+    /// Camera noise of one coordinate, for data of a single run, for example 1mm
+    #[arg(long, allow_hyphen_values = true)]
+    pub sigma: Option<String>,
+}
+
+/// `ibr validate`
+#[derive(Debug, Args)]
+pub struct Validate {
+    /// Scenario file with the added effect
+    pub scenario: String,
+    /// Other data: another pressure, another size of actuator, another body pressure
+    #[arg(required = true)]
+    pub data: Vec<String>,
+    /// Effect to judge; default: those written by ibr add; repeatable
+    #[arg(long, value_name = "EFFECT")]
+    pub without: Vec<String>,
+    /// Camera noise of one coordinate, for data of a single run, for example 1mm
+    #[arg(long, allow_hyphen_values = true)]
+    pub sigma: Option<String>,
+}
+
+/// `ibr breakdown`
+#[derive(Debug, Args)]
+pub struct Breakdown {
+    /// Scenario files or shipped robots; default: the four of the paper
+    #[arg(value_name = "SCENARIO")]
+    pub scenarios: Vec<String>,
+    /// Folder for maps and tables
+    #[arg(long, default_value = "ibr-report/breakdown")]
+    pub out: PathBuf,
+    /// Folder of finished runs; missing ones are made there
+    #[arg(long, default_value = "ibr-report/runs")]
+    pub runs: PathBuf,
+    /// Actuator pressures
+    #[arg(long, short, default_value = "5kPa,10kPa,15kPa,20kPa,25kPa,30kPa", allow_hyphen_values = true)]
+    pub pressure: String,
+    /// Body pressures beside the scenario's own
+    #[arg(long, default_value = "1kPa,4kPa", allow_hyphen_values = true)]
+    pub body_pressure: String,
+    /// Lengths of a pouch beside the scenario's own, at its body pressure
+    #[arg(long, default_value = "45mm,90mm", allow_hyphen_values = true)]
+    pub pouch: String,
+    /// Element size: coarse, for a map
+    #[arg(long, default_value = "6mm", allow_hyphen_values = true)]
+    pub mesh: String,
+    /// Threads; 0: one per core
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
+    pub threads: u64,
+}
+
+/// `ibr challenge`
+#[derive(Debug, Subcommand)]
+pub enum ChallengeCommand {
+    /// Make data of a robot with something hidden, and seal what it is
+    New(ChallengeNew),
+    /// Open the seal, check that nothing was changed, and score a diagnosis
+    Reveal {
+        /// Folder of the challenge
+        folder: PathBuf,
+        /// What `ibr diagnose SCENARIO DATA --json` printed
+        #[arg(long, value_name = "JSON")]
+        diagnosis: Option<PathBuf>,
+    },
+    /// Everything that can be hidden, with its law
+    List,
+}
+
+/// `ibr challenge new`
+#[derive(Debug, Args)]
+pub struct ChallengeNew {
+    /// Folder for scenario.toml, markers.csv, about.toml and seal.toml
+    #[arg(long)]
+    pub out: PathBuf,
+    /// Makes the same challenge again; without it nobody can guess what is hidden
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// What to hide: random (the default), none, or NAME[=times its typical size]; repeatable
+    #[arg(long, short)]
+    pub effect: Vec<String>,
+    /// spam, cpam, epam or fpam; drawn if left out
+    #[arg(long)]
+    pub actuator: Option<String>,
+    /// Runs; 3, 5 or 10 drawn if left out
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    pub runs: Option<u64>,
+    /// Camera noise of one coordinate, for example 1mm; 0.5, 1 or 2 mm drawn if left out
+    #[arg(long, allow_hyphen_values = true)]
+    pub sigma: Option<String>,
+    /// Camera noise with heavy tails: now and then a marker is seen far off
+    #[arg(long)]
+    pub heavy_tails: bool,
+    /// Actuator pressures in kPa at a body pressure in kPa; default: 0,10,20,30,0@2
+    #[arg(long)]
+    pub protocol: Option<String>,
+    /// Replace existing files
+    #[arg(long)]
+    pub force: bool,
+}
