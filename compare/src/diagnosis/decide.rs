@@ -13,13 +13,14 @@ use crate::stats::reported_p;
 
 /// Of the level α, the share that the effects get; the tests for lack of fit get the rest.
 const SHARE_OF_EFFECTS: f64 = 0.8;
-/// A second effect is looked for if more than this share of the error is left: the catalogue's laws are not the real ones
-/// to the last twentieth.
-const WORTH_A_SECOND: f64 = 0.05;
-/// More than this share of the error left by one effect, or by two, means that the catalogue does not explain it.
-const LEFT_OVER: [f64; 2] = [0.25, 0.15];
-/// Error left that is never worth a word \[mm\].
-const LEAST_LEFT_MM: f64 = 0.15;
+/// A second effect is looked for if more than this share of the error is left, and more than that many mm: the catalogue's
+/// laws are not the real ones to the last twentieth.
+const WORTH_A_SECOND: (f64, f64) = (0.05, 0.15);
+/// More than this share of the error left by one effect, or by two, and more than that many mm, means that the catalogue
+/// does not explain it. Errors are those beyond noise and scatter between runs.
+const LEFT_OVER: [(f64, f64); 2] = [(0.2, 0.05), (0.15, 0.05)];
+/// Left over by more than this share, a trace along yet another effect says the same as a lack of fit.
+const MOST_LEFT: (f64, f64) = (0.5, 0.05);
 
 /// Everything that was fitted, and what follows.
 pub struct Decision {
@@ -87,7 +88,10 @@ fn explain(case: &Case, options: &Options, decision: &mut Decision, significant:
     let single = decision.set.first().filter(|_| significant).map(|i| decision.singles[*i].clone());
     let mut last = single.clone();
     let one_is_enough = match &single {
-        Some(fit) => !(leaves(case, fit, WORTH_A_SECOND) && is_significant(case, fit)?),
+        Some(fit) => {
+            let wanted = leaves(case, fit, WORTH_A_SECOND) && is_significant(case, fit)?;
+            !wanted && !is_unexplained(case, fit, test(case, fit)?, LEFT_OVER[0])
+        }
         None => false,
     };
     if options.pairs && !one_is_enough {
@@ -95,11 +99,18 @@ fn explain(case: &Case, options: &Options, decision: &mut Decision, significant:
     }
     let Some(last) = last else { return Ok(()) };
     decision.after = test(case, &last)?;
-    let share = if decision.pairs.is_empty() { LEFT_OVER[0] } else { LEFT_OVER[1] };
-    let unexplained = leaves(case, &last, share) && is_significant(case, &last)?;
+    let share = LEFT_OVER[usize::from(!decision.pairs.is_empty())];
+    let unexplained = is_unexplained(case, &last, decision.after, share);
     decision.verdict = Some(if unexplained { Verdict::OutOfCatalog } else { Verdict::Effect });
     decision.last = Some(last);
     Ok(())
+}
+
+/// Whether a fit leaves a share of the error that the tests see as more than noise, at the level that is theirs.
+fn is_unexplained(case: &Case, fit: &Fit, lof: Option<LackOfFit>, share: (f64, f64)) -> bool {
+    let level = (1.0 - SHARE_OF_EFFECTS) * case.alpha;
+    let lacks = lof.is_some_and(|lof| lof.p_value < level);
+    leaves(case, fit, share) && (lacks || leaves(case, fit, MOST_LEFT) && another_wanted(case, fit) < level)
 }
 
 /// Takes the best pair in place of the single effect, or of the base, if it is significantly better.
@@ -118,9 +129,9 @@ fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>) {
     }
 }
 
-/// Whether a fit leaves more than a share of the base's error, and more than is worth a word.
-fn leaves(case: &Case, fit: &Fit, share: f64) -> bool {
-    case.beyond_noise_mm(fit) > LEAST_LEFT_MM.max(share * case.beyond_noise_mm(&case.base))
+/// Whether a fit leaves more than a share of the base's error, and more than some mm.
+fn leaves(case: &Case, fit: &Fit, (share, least_mm): (f64, f64)) -> bool {
+    case.beyond_noise_mm(fit) > least_mm.max(share * case.beyond_noise_mm(&case.base))
 }
 
 /// Whether what a fit leaves is more than noise, seen by a test for lack of fit or along another effect.
