@@ -5,7 +5,7 @@ use super::{Context, Outcome};
 use crate::failure::Failure;
 use crate::output::machine;
 use compare::diagnosis::{Options, diagnose};
-use compare::hidden::bench::{Bench, BenchOptions, Row, Target, run as run_bench};
+use compare::hidden::bench::{Bench, BenchOptions, Confusion, Row, Target, run as run_bench};
 use compare::hidden::truth::{ROBOTS, standard_protocol};
 use compare::hidden::{Draw, Truth};
 use cpu_time::ThreadTime;
@@ -13,6 +13,11 @@ use serde_json::json;
 
 /// Time wanted for a full diagnosis on one core \[s\].
 const TIME_S: f64 = 1.0;
+
+/// Largest size of a hidden effect, in typical sizes.
+const LARGEST: f64 = 1.5;
+/// λ that parts two explanations in about nine of ten cases.
+const ENOUGH: f64 = 16.0;
 
 pub fn run(sets: usize, seed: u64, _context: &mut Context) -> Result<Outcome, Failure> {
     let options = BenchOptions { seed, sets };
@@ -71,6 +76,7 @@ fn text(bench: &Bench, time: &Row) -> String {
         "Medians. λ below 16: the data do not hold the answer. Behind by more than 6 without λ: the robot's law is not the \
          catalogue's formula.\n",
     );
+    out.push_str(&limits(bench));
     out.push_str("\nMade by finite elements, bare model with B = 0: what it lacks, error at held-out pressures\n");
     let rows = bench.made.iter().map(|m| {
         let [before, after] = [m.before_mm, m.after_mm].map(|mm| number(mm, 1));
@@ -84,6 +90,23 @@ fn text(bench: &Bench, time: &Row) -> String {
         out.push_str(&format!("failed: {reason}\n"));
     }
     out
+}
+
+/// How many misses of single effects no method could avoid with these data, cell by cell of the table above.
+fn limits(bench: &Bench) -> String {
+    let count = |chosen: &dyn Fn(&Confusion) -> bool| -> usize {
+        bench.confusion.iter().filter(|c| chosen(c)).map(|c| c.count).sum()
+    };
+    let unseen = |c: &Confusion| c.named == "none";
+    let other = |c: &Confusion| !unseen(c) && c.named != "out_of_catalog" && c.named != c.truth;
+    let small = count(&|c| unseen(c) && c.smallest_detectable.is_none_or(|least| least > LARGEST));
+    let alike = count(&|c| other(c) && c.lambda.is_some_and(|lambda| lambda < ENOUGH));
+    format!(
+        "Of {} effects not seen {small} are smaller than what these data show with 90 % probability (above {LARGEST} typical \
+         sizes); of {} called by another name {alike} are the same curve here (λ below {ENOUGH}).\n",
+        count(&unseen),
+        count(&other)
+    )
 }
 
 fn cells(row: &Row) -> Vec<String> {

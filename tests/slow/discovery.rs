@@ -24,3 +24,12 @@ fn the_bench_gives_the_same_numbers_for_any_number_of_threads_and_no_set_fails()
     assert_eq!(rows.len(), 17);
     assert!(rows.iter().all(|row| row["figure"].is_string() && row["target"].is_object()), "{rows:?}");
 }
+
+#[test]
+fn a_full_diagnosis_takes_less_than_a_second_on_one_core() {
+    let folder = Folder::new();
+    let output = folder.ibr(&["bench", "discovery", "--sets", "1", "--json"]).output().expect("ibr starts");
+    let answer: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let seconds = answer["time"]["row"]["measured"].as_f64().expect("CPU seconds");
+    assert!(seconds > 0.0 && seconds <= 1.0, "{seconds} s");
+}
