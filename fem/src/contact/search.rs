@@ -13,7 +13,9 @@ const PIECE: usize = 1024;
 /// element.
 /// Elements that a node must not touch are left out.
 pub(super) fn pairs(surface: &Surface, x: &[[f64; 4]], radius_m: f64) -> Vec<(u32, u32)> {
-    let grid = Grid::new(surface, x, radius_m.max(surface.size_m));
+    let used = (0..x.len() as u32).filter(|n| !surface.around.of(*n as usize).is_empty());
+    let places = used.map(|n| Placed { place: node(x, n as usize), item: n }).collect();
+    let grid = Grid::new(places, radius_m.max(surface.size_m));
     let mark = || vec![NONE; x.len()];
     let pieces = surface.elements.len().div_ceil(PIECE);
     let found: Vec<Vec<(u32, u32)>> = (0..pieces)
@@ -73,7 +75,7 @@ fn ask(
         let mut end = out.len();
         let nodes = grid.row(i, from[1], to[1]);
         out.resize(end + nodes.len(), (NONE, NONE));
-        for Placed { place: p, node } in nodes {
+        for Placed { place: p, item: node } in nodes {
             let r = sub(*p, middle);
             let mut found = (dot(r, r) <= limit) & (own[*node as usize] != element as u32);
             for k in 0..3 {
@@ -86,59 +88,57 @@ fn ask(
     }
 }
 
-/// Columns per node at most.
+/// Columns per point at most.
 const COLUMNS: f64 = 4.0;
 
-/// Nodes sorted into columns along the shortest direction of the mesh.
-struct Grid {
+/// Points sorted into columns along the direction in which they are spread least.
+pub(super) struct Grid {
     low: V3,
     per_m: f64,
     /// The two directions across the columns, and the number of columns in each.
     across: [usize; 2],
     count: [usize; 2],
     start: Vec<u32>,
-    nodes: Vec<Placed>,
+    points: Vec<Placed>,
 }
 
-/// A node in its column.
+/// A point, and what it stands for.
 #[derive(Clone, Copy, Default)]
-struct Placed {
-    place: V3,
-    node: u32,
+pub(super) struct Placed {
+    pub place: V3,
+    pub item: u32,
 }
 
 impl Grid {
-    /// Columns of `size_m`, or wider ones where the mesh is spread so thin that there would be too many.
-    fn new(surface: &Surface, x: &[[f64; 4]], size_m: f64) -> Grid {
-        let used: Vec<u32> = (0..x.len() as u32).filter(|n| !surface.around.of(*n as usize).is_empty()).collect();
+    /// Columns of `size_m`, or wider ones where the points are spread so thin that there would be too many.
+    pub fn new(places: Vec<Placed>, size_m: f64) -> Grid {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for n in &used {
-            let p = node(x, *n as usize);
+        for Placed { place: p, .. } in &places {
             (0..3).for_each(|k| (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k])));
         }
         let length = sub(high, low).map(|l| l.max(0.0));
         let short = (0..3).fold(0, |s, k| if length[k] < length[s] { k } else { s });
         let across = [(short + 1) % 3, (short + 2) % 3];
-        let most = COLUMNS * used.len().max(1) as f64;
+        let most = COLUMNS * places.len().max(1) as f64;
         let [a, b] = across.map(|k| length[k]);
-        let size_m = size_m.max((a * b / most).sqrt()).max(a.max(b) / most);
+        let size_m = size_m.max((a * b / most).sqrt()).max(a.max(b) / most).max(f64::MIN_POSITIVE);
         let count = [a, b].map(|l| (l / size_m) as usize + 1);
         let start = vec![0; count[0] * count[1] + 1];
         let mut grid =
-            Grid { low, per_m: 1.0 / size_m, across, count, start, nodes: vec![Placed::default(); used.len()] };
-        let columns: Vec<usize> = used.iter().map(|n| grid.number(grid.column_of(node(x, *n as usize)))).collect();
+            Grid { low, per_m: 1.0 / size_m, across, count, start, points: vec![Placed::default(); places.len()] };
+        let columns: Vec<usize> = places.iter().map(|p| grid.number(grid.column_of(p.place))).collect();
         columns.iter().for_each(|c| grid.start[c + 1] += 1);
         (1..grid.start.len()).for_each(|i| grid.start[i] += grid.start[i - 1]);
         let mut next = grid.start.clone();
-        for (n, column) in used.iter().zip(columns) {
-            grid.nodes[next[column] as usize] = Placed { place: node(x, *n as usize), node: *n };
+        for (place, column) in places.into_iter().zip(columns) {
+            grid.points[next[column] as usize] = place;
             next[column] += 1;
         }
         grid
     }
 
     /// The column of a point, or the one nearest to it.
-    fn column_of(&self, p: V3) -> [usize; 2] {
+    pub fn column_of(&self, p: V3) -> [usize; 2] {
         [0, 1].map(|i| {
             let k = self.across[i];
             (((p[k] - self.low[k]) * self.per_m) as usize).min(self.count[i] - 1)
@@ -149,8 +149,8 @@ impl Grid {
         i * self.count[1] + j
     }
 
-    /// Nodes of some columns beside each other.
-    fn row(&self, i: usize, from: usize, to: usize) -> &[Placed] {
-        &self.nodes[self.start[self.number([i, from])] as usize..self.start[self.number([i, to]) + 1] as usize]
+    /// Points of some columns beside each other.
+    pub fn row(&self, i: usize, from: usize, to: usize) -> &[Placed] {
+        &self.points[self.start[self.number([i, from])] as usize..self.start[self.number([i, to]) + 1] as usize]
     }
 }

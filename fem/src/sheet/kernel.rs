@@ -60,17 +60,15 @@ pub struct Batch<'a> {
     pub pressure: f64,
     /// 1/Δt, or 0 without viscosity \[1/s\].
     pub rate: f64,
-    /// Whether the fluxes are wanted.
-    pub flux: bool,
     /// Elements of the batch.
     pub groups: &'a [Group],
     /// Memory of the fabric, or empty.
     pub past: &'a [[Past; LANES]],
 }
 
-/// Forces, energies and fluxes of quadrilaterals; `ROWS` says that all groups are in regular rows.
+/// Forces of quadrilaterals, with `BOOKS` also energies and fluxes; `ROWS` says that all groups are in regular rows.
 #[inline(always)]
-pub fn quads<S: Simd, L: Law, const ROWS: bool>(
+pub fn quads<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
     simd: S,
     batch: Batch,
     law: L,
@@ -90,7 +88,8 @@ pub fn quads<S: Simd, L: Law, const ROWS: bool>(
                     x[c] = V::gather(simd, batch.x, &group.node[c], part);
                 }
             }
-            let force = quad::<S, L, ROWS>(simd, batch, law, group, batch.past.get(index), part, x, strain, tally);
+            let force =
+                quad::<S, L, ROWS, BOOKS>(simd, batch, law, group, batch.past.get(index), part, x, strain, tally);
             match &mut out {
                 Corners::Rows(rows) => {
                     for c in 0..4 {
@@ -113,7 +112,7 @@ pub fn quads<S: Simd, L: Law, const ROWS: bool>(
 
 #[inline(always)]
 #[allow(clippy::too_many_arguments)] // one call, inlined: a struct would only rename the list
-fn quad<S: Simd, L: Law, const ROWS: bool>(
+fn quad<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
     simd: S,
     batch: Batch,
     law: L,
@@ -150,9 +149,11 @@ fn quad<S: Simd, L: Law, const ROWS: bool>(
     let (g1, g2) = (inner(f1, q), inner(f2, q));
     let stiffness = V::load(simd, &group.hourglass, part);
     let (k1, k2) = (stiffness * g1, stiffness * g2);
-    (V::load(simd, &tally.membrane, part) + own * area * w).store(&mut tally.membrane, part);
-    (V::load(simd, &tally.hourglass, part) + V::all(simd, 0.5) * own * (k1 * g1 + k2 * g2))
-        .store(&mut tally.hourglass, part);
+    if BOOKS {
+        (V::load(simd, &tally.membrane, part) + own * area * w).store(&mut tally.membrane, part);
+        (V::load(simd, &tally.hourglass, part) + V::all(simd, 0.5) * own * (k1 * g1 + k2 * g2))
+            .store(&mut tally.hourglass, part);
+    }
 
     let a = axes!(k => V::all(simd, 0.25) * (d24[k] - d13[k]));
     let c = axes!(k => V::all(simd, -0.25) * (d13[k] + d24[k]));
@@ -176,7 +177,7 @@ fn quad<S: Simd, L: Law, const ROWS: bool>(
         force[1][k] = high + difference;
         force[2][k] = low + sum;
         force[3][k] = high - difference;
-        if batch.flux {
+        if BOOKS {
             let flux = (odd[k] + even[k]) * n0[k] + V::all(simd, 4.0 / 3.0) * (a[k] * n1[k] + c[k] * n2[k]);
             (V::load(simd, &tally.flux[k], part) + own * flux).store(&mut tally.flux[k], part);
         }

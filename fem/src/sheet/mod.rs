@@ -66,7 +66,7 @@ pub struct Sheet {
     bending: BendingMatrix,
     patches: Vec<Patch>,
     viscous_j: f64,
-    /// Take the volumes in the next step whatever its number, because somebody will look at the ledger.
+    /// Take energies and volumes in the next step whatever its number, because somebody will look at the ledger.
     pub measure: bool,
     arch: pulp::Arch,
 }
@@ -172,7 +172,7 @@ impl Sheet {
     pub fn start(&mut self, q: &[f64]) {
         let pressure: Vec<f64> = self.air.iter().map(|a| a.pressure_pa).collect();
         let (q, fabrics, arch) = (q.as_chunks().0, &self.fabrics[..], self.arch);
-        let shared = Shared { q, fabrics, pressure_pa: &pressure, rate: 0.0, flux: false, arch };
+        let shared = Shared { q, fabrics, pressure_pa: &pressure, rate: 0.0, books: false, arch };
         self.patches.iter_mut().for_each(|p| p.start_strains(shared));
     }
 
@@ -197,16 +197,16 @@ impl Sheet {
         self.air.iter().zip(flux).map(|(air, flux)| air.volume_of(flux)).collect()
     }
 
-    fn pass(&mut self, q: &[f64], force: &mut [f64], rate: f64, flux: bool, keep: bool) {
+    fn pass(&mut self, q: &[f64], force: &mut [f64], rate: f64, books: bool, keep: bool) {
         let pressure: Vec<f64> = self.air.iter().map(|a| a.pressure_pa).collect();
         let (q, fabrics, arch) = (q.as_chunks().0, &self.fabrics[..], self.arch);
-        let shared = Shared { q, fabrics, pressure_pa: &pressure, rate, flux, arch };
+        let shared = Shared { q, fabrics, pressure_pa: &pressure, rate, books, arch };
         over_patches(&mut self.patches, force.as_chunks_mut().0, &|patch, force| patch.pass(shared, force, keep));
     }
 }
 
-/// Most steps between two measurements of the volumes, which only the work ∫p dV needs.
-const VOLUME_EVERY: u64 = 8;
+/// Most steps between two measurements of energies and volumes: forces do not need them, only the work ∫p dV does.
+const BOOKS_EVERY: u64 = 8;
 
 impl Term for Sheet {
     fn name(&self) -> &'static str {
@@ -223,10 +223,10 @@ impl Term for Sheet {
 
     fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64 {
         self.air.iter_mut().for_each(|air| air.set_pressure(tick.time_s));
-        let flux = self.measure || tick.step.is_multiple_of(VOLUME_EVERY) || self.air.iter().any(Air::wants_volume);
-        self.pass(at.q, force, 1.0 / tick.dt_s, flux, true);
+        let books = self.measure || tick.step.is_multiple_of(BOOKS_EVERY) || self.air.iter().any(Air::wants_volume);
+        self.pass(at.q, force, 1.0 / tick.dt_s, books, true);
         self.viscous_j += self.patches.iter().map(|p| p.sums.viscous).sum::<f64>();
-        if flux {
+        if books {
             let volumes = self.volumes();
             self.air.iter_mut().zip(volumes).for_each(|(air, volume)| air.take_volume(volume));
         }

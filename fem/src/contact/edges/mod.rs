@@ -119,12 +119,7 @@ impl Edges {
             held: hold::Held::default(),
         };
         edges.search(&x);
-        for pair in edges.chunks.iter_mut().flat_map(|c| &mut c.pairs).filter(|p| !p.face) {
-            let distance_m = pair.touch(&x).distance_m;
-            if distance_m < edges.thickness_m {
-                pair.rest_m = distance_m.min(edges.gap_m).min(edges.thickness_m);
-            }
-        }
+        edges.start_gaps(&x);
         Ok(edges)
     }
 
@@ -135,6 +130,16 @@ impl Edges {
     /// Pairs within reach.
     pub fn pairs(&self) -> usize {
         self.chunks.iter().map(|chunk| chunk.pairs.len()).sum()
+    }
+
+    /// Pairs that start close keep the distance they have.
+    fn start_gaps(&mut self, x: &[[f64; 4]]) {
+        for pair in self.chunks.iter_mut().flat_map(|c| &mut c.pairs).filter(|p| !p.face) {
+            let distance_m = pair.touch(x).distance_m;
+            if distance_m < self.thickness_m {
+                pair.rest_m = distance_m.min(self.gap_m).min(self.thickness_m);
+            }
+        }
     }
 
     fn active(&self) -> impl Iterator<Item = &Pair> {

@@ -1,13 +1,12 @@
 //! Sides of elements, diagonals that halve quadrilaterals, and triangles, and which of them are within reach of each other.
 
-use std::collections::HashMap;
-
 use rayon::prelude::*;
 
 use super::super::closest::TRIANGLES;
+use super::super::search::{Grid, Placed};
 use super::super::surface::{NONE, Surface};
 use super::pair::touch;
-use crate::vec3::{V3, add, node, norm, scale, sub};
+use crate::vec3::{V3, add, node, scale};
 
 /// Items per parallel piece.
 const PIECE: usize = 256;
@@ -42,88 +41,142 @@ impl Sides {
 
     /// Pairs of sides (lower, higher number) within `radius_m`, and of nodes and triangles, both sorted.
     pub fn pairs(&self, x: &[[f64; 4]], radius_m: f64) -> [Vec<[u32; 2]>; 2] {
-        let sides = Grid::new(self.list.iter().map(|s| s.as_slice()), x, radius_m);
-        let side = |i: u32| {
+        let place = |n: u32| node(x, n as usize);
+        let sides = Boxes::new(self.list.iter().map(|s| s.as_slice()), x, radius_m);
+        let side = |i: u32, near: &mut Vec<u32>| {
             let own = self.list[i as usize];
-            let mut near = Vec::new();
-            sides.near(x, &own, radius_m, |j| {
-                let other = self.list[j as usize];
-                if j > i && !other.iter().any(|n| own.contains(n)) {
-                    let nodes = [own[0], own[1], other[0], other[1]];
-                    if touch(false, nodes.map(|n| node(x, n as usize))).distance_m <= radius_m {
-                        near.push([i, j]);
-                    }
-                }
+            sides.near(bounds(x, &own), near);
+            near.retain(|j| {
+                let other = self.list[*j as usize];
+                let apart = *j > i && !other.iter().any(|n| own.contains(n));
+                apart && touch(false, [own[0], own[1], other[0], other[1]].map(place)).distance_m <= radius_m
             });
-            near.sort_unstable();
-            near
+            i
         };
-        let triangles = Grid::new(self.triangles.iter().map(|t| t.as_slice()), x, radius_m);
-        let point = |i: u32| {
+        let triangles = Boxes::new(self.triangles.iter().map(|t| t.as_slice()), x, radius_m);
+        let point = |i: u32, near: &mut Vec<u32>| {
             let own = self.nodes[i as usize];
-            let mut near = Vec::new();
-            triangles.near(x, &[own], radius_m, |j| {
-                let [a, b, c] = self.triangles[j as usize];
-                if ![a, b, c].contains(&own)
-                    && touch(true, [own, a, b, c].map(|n| node(x, n as usize))).distance_m <= radius_m
-                {
-                    near.push([own, j]);
-                }
+            triangles.near(bounds(x, &[own]), near);
+            near.retain(|j| {
+                let [a, b, c] = self.triangles[*j as usize];
+                ![a, b, c].contains(&own) && touch(true, [own, a, b, c].map(place)).distance_m <= radius_m
             });
-            near.sort_unstable();
-            near
+            own
         };
         [gather(self.list.len(), side), gather(self.nodes.len(), point)]
     }
 }
 
-fn gather(count: usize, of: impl Fn(u32) -> Vec<[u32; 2]> + Sync) -> Vec<[u32; 2]> {
-    let piece = |p: usize| (p * PIECE..((p + 1) * PIECE).min(count)).flat_map(|i| of(i as u32)).collect();
+/// `of` lists what is near an item, and returns what the item is called.
+fn gather(count: usize, of: impl Fn(u32, &mut Vec<u32>) -> u32 + Sync) -> Vec<[u32; 2]> {
+    let piece = |p: usize| {
+        let (mut near, mut out) = (Vec::new(), Vec::new());
+        for i in p * PIECE..((p + 1) * PIECE).min(count) {
+            let name = of(i as u32, &mut near);
+            near.sort_unstable();
+            out.extend(near.iter().map(|j| [name, *j]));
+        }
+        out
+    };
     let found: Vec<Vec<[u32; 2]>> = (0..count.div_ceil(PIECE)).into_par_iter().map(piece).collect();
     found.concat()
 }
 
-/// Items by the cell in which their middle lies, with their boxes.
-struct Grid {
-    per_m: f64,
-    cells: HashMap<[i64; 3], Vec<u32>>,
-    boxes: Vec<[V3; 2]>,
+/// Lowest and highest corner.
+type Bounds = [V3; 2];
+
+/// Items by the column in which their middle lies, with their boxes, which are larger by the radius.
+struct Boxes {
+    grid: Grid,
+    boxes: Vec<Bounds>,
+    /// Largest half box along each axis.
+    half_m: V3,
 }
 
-fn bounds(x: &[[f64; 4]], nodes: &[u32]) -> [V3; 2] {
-    let start = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-    nodes
-        .iter()
-        .map(|n| node(x, *n as usize))
-        .fold(start, |[low, high], p| [[0, 1, 2].map(|k| low[k].min(p[k])), [0, 1, 2].map(|k| high[k].max(p[k]))])
+fn bounds(x: &[[f64; 4]], nodes: &[u32]) -> Bounds {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for n in nodes {
+        let p = node(x, *n as usize);
+        (0..3).for_each(|k| (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k])));
+    }
+    [low, high]
 }
 
-impl Grid {
-    fn new<'a>(items: impl Iterator<Item = &'a [u32]>, x: &[[f64; 4]], radius_m: f64) -> Grid {
-        let boxes: Vec<[V3; 2]> = items.map(|nodes| bounds(x, nodes)).collect();
-        let longest = boxes.iter().map(|[low, high]| norm(sub(*high, *low))).fold(0.0, f64::max);
-        let mut grid = Grid { per_m: 1.0 / (longest + radius_m).max(f64::MIN_POSITIVE), cells: HashMap::new(), boxes };
-        for i in 0..grid.boxes.len() {
-            grid.cells.entry(grid.cell(grid.boxes[i])).or_default().push(i as u32);
+impl Boxes {
+    fn new<'a>(items: impl Iterator<Item = &'a [u32]>, x: &[[f64; 4]], radius_m: f64) -> Boxes {
+        let larger = |[low, high]: Bounds| [low.map(|v| v - radius_m), high.map(|v| v + radius_m)];
+        let boxes: Vec<Bounds> = items.map(|nodes| larger(bounds(x, nodes))).collect();
+        let mut half_m = [0.0_f64; 3];
+        for [low, high] in &boxes {
+            (0..3).for_each(|k| half_m[k] = half_m[k].max(0.5 * (high[k] - low[k])));
         }
-        grid
+        let middle =
+            |(i, [low, high]): (usize, &Bounds)| Placed { place: scale(add(*low, *high), 0.5), item: i as u32 };
+        let places = boxes.iter().enumerate().map(middle).collect();
+        let size_m = half_m.iter().fold(0.0, |most: f64, h| most.max(*h));
+        Boxes { grid: Grid::new(places, size_m), boxes, half_m }
     }
 
-    fn cell(&self, [low, high]: [V3; 2]) -> [i64; 3] {
-        scale(add(low, high), 0.5 * self.per_m).map(|v| v.floor() as i64)
-    }
-
-    /// Items whose boxes are within `radius_m` of that of some nodes.
-    fn near(&self, x: &[[f64; 4]], nodes: &[u32], radius_m: f64, mut found: impl FnMut(u32)) {
-        let own = bounds(x, nodes);
-        let [cx, cy, cz] = self.cell(own);
-        for [i, j, k] in (-1..=1).flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [i, j, k]))) {
-            for item in self.cells.get(&[cx + i, cy + j, cz + k]).into_iter().flatten() {
-                let [low, high] = self.boxes[*item as usize];
-                if (0..3).all(|k| own[0][k] <= high[k] + radius_m && low[k] <= own[1][k] + radius_m) {
-                    found(*item);
+    /// Items whose boxes touch `own`.
+    fn near(&self, own: Bounds, out: &mut Vec<u32>) {
+        out.clear();
+        // A little more than half a box, lest rounding lose a column.
+        let [from, to] = [-1.001, 1.001].map(|side| {
+            let corner = own[usize::from(side > 0.0)];
+            self.grid.column_of([0, 1, 2].map(|k| corner[k] + side * self.half_m[k]))
+        });
+        for i in from[0]..=to[0] {
+            for Placed { item, .. } in self.grid.row(i, from[1], to[1]) {
+                let [low, high] = &self.boxes[*item as usize];
+                let mut touching = true;
+                for k in 0..3 {
+                    touching &= (own[0][k] <= high[k]) & (low[k] <= own[1][k]);
+                }
+                if touching {
+                    out.push(*item);
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::tests::rig::Noise;
+
+    #[test]
+    fn the_search_finds_what_asking_every_pair_finds() {
+        let (mut noise, mut sides, mut x) = (Noise(7), Sides::default(), Vec::new());
+        for i in 0..300_u32 {
+            let [u, v, w] = noise.point(10.0);
+            let size = if i % 50 == 0 { 3.0 } else { 0.5 };
+            for _ in 0..3 {
+                let [a, b, c] = noise.point(size);
+                x.push([u + a, v + b, 0.2 * w + c, 0.0]);
+            }
+            sides.triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
+            sides.list.extend([[3 * i, 3 * i + 1], [3 * i + 1, 3 * i + 2]]);
+            sides.nodes.extend([3 * i, 3 * i + 1, 3 * i + 2]);
+        }
+        let place = |n: u32| node(&x, n as usize);
+        let close = |face: bool, nodes: [u32; 4]| touch(face, nodes.map(place)).distance_m <= 0.7;
+        let (mut edges, mut faces) = (Vec::new(), Vec::new());
+        for (i, [a, b]) in sides.list.iter().enumerate() {
+            for (j, [c, d]) in sides.list.iter().enumerate().skip(i + 1) {
+                if ![c, d].iter().any(|n| [a, b].contains(n)) && close(false, [*a, *b, *c, *d]) {
+                    edges.push([i as u32, j as u32]);
+                }
+            }
+        }
+        for n in &sides.nodes {
+            for (j, [a, b, c]) in sides.triangles.iter().enumerate() {
+                if ![a, b, c].contains(&n) && close(true, [*n, *a, *b, *c]) {
+                    faces.push([*n, j as u32]);
+                }
+            }
+        }
+        assert!(edges.len() > 100 && faces.len() > 100);
+        assert_eq!(sides.pairs(&x, 0.7), [edges, faces]);
     }
 }

@@ -30,6 +30,7 @@ pub struct Bend {
     weights: Vec<Lane>,
     single: Vec<u32>,
     start: Vec<u32>,
+    /// Places, not numbers within the patch: all axes of a place lie together.
     column: Vec<u32>,
     value: Vec<f64>,
 }
@@ -56,7 +57,7 @@ impl Bend {
         }
         for i in rest.into_iter().filter(|i| !rows[*i].is_empty()) {
             bend.single.push(i as u32);
-            bend.column.extend(rows[i].iter().map(|(shift, _)| (i as i32 + shift) as u32));
+            bend.column.extend(rows[i].iter().map(|(shift, _)| places[(i as i32 + shift) as usize]));
             bend.value.extend(rows[i].iter().map(|(_, value)| *value));
             bend.start.push(bend.column.len() as u32);
         }
@@ -85,9 +86,10 @@ impl Bend {
         self.stencils.is_empty() && self.single.is_empty()
     }
 
-    /// Writes K x of the own nodes into `kx`; nodes without bending keep what is there.
+    /// Writes K x of the own nodes into `kx`; nodes without bending keep what is there. `x` are the positions of the patch,
+    /// `q` those of all places.
     #[inline(always)]
-    pub fn apply<S: Simd>(&self, simd: S, x: [&[f64]; 3], kx: [&mut [f64]; 3]) {
+    pub fn apply<S: Simd>(&self, simd: S, x: [&[f64]; 3], q: &[[f64; 4]], kx: [&mut [f64]; 3]) {
         for stencil in &self.stencils {
             let entries = stencil.entries.start as usize..stencil.entries.end as usize;
             let (shifts, common) = (&self.shifts[entries.clone()], &self.common[entries]);
@@ -111,10 +113,11 @@ impl Bend {
         }
         for (row, i) in self.single.iter().enumerate() {
             let range = self.start[row] as usize..self.start[row + 1] as usize;
-            let mut sum = [0.0; 3];
+            let mut sum = [0.0; 4];
             for (column, value) in self.column[range.clone()].iter().zip(&self.value[range]) {
-                for k in 0..3 {
-                    sum[k] += value * x[k][*column as usize];
+                let place = &q[*column as usize];
+                for k in 0..4 {
+                    sum[k] += value * place[k];
                 }
             }
             for k in 0..3 {

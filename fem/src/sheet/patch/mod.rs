@@ -122,8 +122,8 @@ pub struct Shared<'a> {
     pub pressure_pa: &'a [f64],
     /// 1/Δt for viscosity, 0 for statics \[1/s\].
     pub rate: f64,
-    /// Whether the fluxes are wanted.
-    pub flux: bool,
+    /// Whether energies and fluxes are wanted; without, only the heat of viscosity is summed up.
+    pub books: bool,
     /// Vector instructions of this machine.
     pub arch: pulp::Arch,
 }

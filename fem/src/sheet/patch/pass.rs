@@ -28,15 +28,19 @@ impl pulp::WithSimd for Pass<'_, '_> {
         take_positions(patch, shared.q);
         for index in 0..patch.runs.len() {
             let fabric = &*shared.fabrics[patch.runs[index].key.fabric];
-            match fabric.kind() {
-                Kind::NeoHookean(law) => run(simd, patch, shared, index, law),
-                Kind::Orthotropic(law) => run(simd, patch, shared, index, law),
-                Kind::Other => run(simd, patch, shared, index, Called(fabric)),
+            match (fabric.kind(), shared.books) {
+                (Kind::NeoHookean(law), true) => run::<S, _, true>(simd, patch, shared, index, law),
+                (Kind::NeoHookean(law), false) => run::<S, _, false>(simd, patch, shared, index, law),
+                (Kind::Orthotropic(law), true) => run::<S, _, true>(simd, patch, shared, index, law),
+                (Kind::Orthotropic(law), false) => run::<S, _, false>(simd, patch, shared, index, law),
+                (Kind::Other, _) => run::<S, _, true>(simd, patch, shared, index, Called(fabric)),
             }
         }
         if !patch.bend.is_empty() {
-            patch.bend.apply(simd, slices(&patch.work.x), slices_mut(&mut patch.work.kx));
-            patch.sums.bending = 0.5 * bending_energy(simd, patch);
+            patch.bend.apply(simd, slices(&patch.work.x), shared.q, slices_mut(&mut patch.work.kx));
+            if shared.books {
+                patch.sums.bending = 0.5 * bending_energy(simd, patch);
+            }
         }
         give_forces(simd, patch, force);
     }
@@ -66,7 +70,7 @@ fn take_positions(patch: &mut Patch, q: &[[f64; 4]]) {
 }
 
 #[inline(always)]
-fn run<S: Simd, L: Law>(simd: S, patch: &mut Patch, shared: Shared, index: usize, law: L) {
+fn run<S: Simd, L: Law, const BOOKS: bool>(simd: S, patch: &mut Patch, shared: Shared, index: usize, law: L) {
     let Run { key, regular, other } = patch.runs[index].clone();
     let pressure = |chamber: Option<usize>| chamber.map_or(0.0, |c| shared.pressure_pa[c]);
     let mut tally = Tally::default();
@@ -75,14 +79,13 @@ fn run<S: Simd, L: Law>(simd: S, patch: &mut Patch, shared: Shared, index: usize
             x: slices(&patch.work.x),
             pressure: pressure(key.back) - pressure(key.front),
             rate: shared.rate,
-            flux: shared.flux,
             groups: &patch.groups[groups.clone()],
             past: if patch.past.is_empty() { &[] } else { &patch.past[groups.clone()] },
         };
         let strains = &mut patch.strains[groups.clone()];
         let scratch = &mut patch.work.scratch[groups];
         match (in_rows, key.corners) {
-            (true, _) => kernel::quads::<S, L, true>(
+            (true, _) => kernel::quads::<S, L, true, BOOKS>(
                 simd,
                 batch,
                 law,
@@ -90,8 +93,10 @@ fn run<S: Simd, L: Law>(simd: S, patch: &mut Patch, shared: Shared, index: usize
                 Corners::Rows(corner_slices(&mut patch.work.corner)),
                 &mut tally,
             ),
-            (_, 4) => kernel::quads::<S, L, false>(simd, batch, law, strains, Corners::Groups(scratch), &mut tally),
-            _ => kernel::triangles(simd, batch, law, strains, scratch, &mut tally),
+            (_, 4) => {
+                kernel::quads::<S, L, false, BOOKS>(simd, batch, law, strains, Corners::Groups(scratch), &mut tally)
+            }
+            _ => kernel::triangles::<S, L>(simd, batch, law, strains, scratch, &mut tally),
         }
     }
     patch.sums.membrane += sum(&tally.membrane);
