@@ -26,6 +26,10 @@ pub struct Diagnose {
     /// Differences up to this are good enough; default: the larger of 0.15 mm and 0.5 % of the largest deflection
     #[arg(long, allow_hyphen_values = true)]
     pub tolerance: Option<String>,
+    /// Folder of finite element runs of the robot, as `compare --engines` makes them; default: those that come with the
+    /// program
+    #[arg(long, conflicts_with = "published")]
+    pub runs: Option<PathBuf>,
     /// Folder for the report, plots and diagnosis.json
     #[arg(long)]
     pub out: Option<PathBuf>,

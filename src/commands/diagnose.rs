@@ -1,5 +1,6 @@
 //! `ibr diagnose`
 
+use super::engines::known_runs;
 use super::extend::{short, value};
 use super::inputs::{self, positive};
 use super::tables::{number, table};
@@ -8,7 +9,9 @@ use crate::cli::Diagnose;
 use crate::failure::Failure;
 use crate::output::{check_folder, machine, program, today, write_files};
 use compare::diagnosis::{Diagnosis, Experiment, Group, Options, Ranked, Verdict, diagnose};
+use compare::study::engines::TERMS;
 use compare::study::pages::{Diagnosed, Imprint, diagnosis_page};
+use compare::study::witness::{HEIGHTS, Witness, witness};
 use serde_json::{Value, json};
 
 pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
@@ -29,7 +32,11 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
         ..Options::default()
     };
     let diagnosis = diagnose(&named.scenario, &dataset, about.as_ref(), &options)?;
-    let mut outcome = Outcome::new(text(&diagnosis), to_json(&args.scenario, &diagnosis));
+    let runs = known_runs(args.runs.as_deref())?;
+    let witness = witness(&diagnosis, &named.scenario, &dataset, about.as_ref(), &runs)?;
+    let answer = to_json(&args.scenario, &diagnosis, witness.as_ref());
+    let file = format!("{answer:#}\n").into_bytes();
+    let mut outcome = Outcome::new(text(&diagnosis, witness.as_ref()), answer);
     outcome.notes.extend(diagnosis.warnings.iter().map(|w| format!("warning: {w}")));
     if let Some(folder) = &args.out {
         (context.progress)("drawing the report", None);
@@ -38,12 +45,12 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
             scenario: &named.scenario,
             dataset: &dataset,
             about: about.as_ref(),
+            witness: witness.as_ref(),
             typed: [&args.scenario, data],
         };
         let imprint = Imprint { program: program(), date: today(), machine: machine() };
         let mut files = diagnosis_page(&found, &imprint)?;
-        let answer = format!("{:#}\n", to_json(&args.scenario, &diagnosis));
-        files.files.insert(0, ("diagnosis.json".into(), answer.into_bytes()));
+        files.files.insert(0, ("diagnosis.json".into(), file));
         write_files(folder, &files, &[named.input, input], context)?;
         outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
     }
@@ -55,17 +62,18 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
     Ok(outcome)
 }
 
-fn to_json(scenario: &str, diagnosis: &Diagnosis) -> Value {
+fn to_json(scenario: &str, diagnosis: &Diagnosis, witness: Option<&Witness>) -> Value {
     let mut value = json!(diagnosis);
     if let Some(object) = value.as_object_mut() {
         object.insert("schema".into(), "ibr.diagnose".into());
         object.insert("version".into(), 1.into());
+        object.insert("finite_elements".into(), json!(witness));
         object.insert("scenario_file".into(), scenario.into());
     }
     value
 }
 
-fn text(d: &Diagnosis) -> String {
+fn text(d: &Diagnosis, witness: Option<&Witness>) -> String {
     let mut out = format!("{} held against {}, {} runs\n{}\n\n", d.scenario, d.dataset, d.runs, d.noise.sentence);
     let verdict = match d.verdict {
         Some(Verdict::None) => "no missing effect detectable",
@@ -78,6 +86,7 @@ fn text(d: &Diagnosis) -> String {
     out.push_str(&ranking(d));
     out.push_str(&pairs(d));
     out.push_str(&details(d));
+    out.push_str(&witness.map(finite_elements).unwrap_or_default());
     out.push_str(&unseen(d));
     out.push_str(&experiments(d));
     out
@@ -170,6 +179,19 @@ fn details(d: &Diagnosis) -> String {
     }
     out.push_str("\nWhere the final model still fails:\n");
     d.leftover.iter().for_each(|s| out.push_str(&format!("  - {}\n", s.sentence)));
+    out
+}
+
+fn finite_elements(w: &Witness) -> String {
+    let mut out = "\nThe same robot in finite elements:\n".to_string();
+    w.sentences.iter().for_each(|s| out.push_str(&format!("  - {s}\n")));
+    out.push_str(&table(&HEIGHTS, 1, w.height_rows()));
+    if w.fe_mj.is_some() {
+        let mut head = vec!["energies mJ"];
+        head.extend(TERMS);
+        head.push("apart");
+        out.push_str(&table(&head, 1, w.ledger_rows()));
+    }
     out
 }
 

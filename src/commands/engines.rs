@@ -153,7 +153,14 @@ fn ledgers(engines: &Engines) -> String {
     out
 }
 
-/// Runs for other commands: those stored in the program, and those of a folder if one is named.
-pub fn known_runs(folder: Option<&Path>) -> Vec<FeRun> {
-    folder.map_or_else(stored, all_runs)
+/// Runs for other commands: those stored in the program, or those of a folder if one is named.
+pub fn known_runs(folder: Option<&Path>) -> Result<Vec<FeRun>, Failure> {
+    let Some(folder) = folder else { return Ok(stored()) };
+    let found = all_runs(folder);
+    if found.is_empty() {
+        let message = format!("{}: no finished finite element run of a robot", folder.display());
+        let make = format!("make them with: ibr compare --engines SCENARIO --runs {}", folder.display());
+        return Err(Failure::usage(message, &make));
+    }
+    Ok(found)
 }

@@ -17,7 +17,7 @@ pub fn run(args: &Tradeoff, context: &mut Context) -> Result<Outcome, Failure> {
     (context.progress)("timing", None);
     let ladders = published_ladders()?;
     let mut timings = tradeoff(&ladders)?;
-    timings.extend(of_runs(&ladders, &known_runs(args.runs.as_deref())));
+    timings.extend(of_runs(&ladders, &known_runs(args.runs.as_deref())?));
     let rows = timings.iter().map(|t| {
         vec![
             t.engine.clone(),

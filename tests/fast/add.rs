@@ -53,6 +53,24 @@ fn an_effect_is_fitted_written_and_seen_to_help_and_the_old_scenario_stays() {
 }
 
 #[test]
+fn finite_elements_of_the_same_robot_stand_beside_the_diagnosis_and_their_ledger_speaks() {
+    let folder = Folder::new();
+    let answer = folder.run(&["diagnose", "epam", "synthetic-epam", "--json"]).json("ibr.diagnose");
+    let beside = &answer["finite_elements"];
+    let models = beside["models"].as_array().unwrap();
+    let apart = |k: usize| models[k]["apart_mj"].as_f64().unwrap();
+    assert_eq!([&models[0]["name"], &models[1]["name"]], ["base", "+ end_constraint"], "{beside}");
+    assert!(apart(1) < 0.5 * apart(0) && apart(1) < 0.5 * apart(2), "{beside}");
+    assert_eq!(beside["heights"].as_array().unwrap().len(), 3, "{beside}");
+
+    folder.write("mine.toml", OWN.replace("radius_mm = ", "radius_mm = 1"));
+    let other = folder.run(&["diagnose", "mine.toml", "synthetic-epam", "--json"]);
+    assert!(other.code != 0 || other.json("ibr.diagnose")["finite_elements"].is_null(), "{}", other.stdout);
+    let none = folder.run(&["diagnose", "epam", "synthetic-epam", "--runs", "nowhere"]);
+    assert!(none.code == 2 && none.stderr.contains("--runs nowhere"), "{}", none.stderr);
+}
+
+#[test]
 fn a_value_given_is_called_assumed_and_no_file_is_replaced_unless_told() {
     let folder = Folder::new();
     let ran = folder.run(&["add", "epam", "friction=0.2"]);

@@ -114,6 +114,8 @@ mod tests {
             cpu_s: 1.0,
             engine: 1,
             body_kpa: 2.0,
+            radius_mm: 40.0,
+            width_mm: 60.0,
             pouch_mm: 60.0,
             count: 6,
             seed: 1,

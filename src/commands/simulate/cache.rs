@@ -81,6 +81,8 @@ pub fn as_run(summary: &Value, cost: &Value) -> Option<FeRun> {
         cpu_s: robot::rounded(cost["cpu_s_of_all_sessions"].as_f64().unwrap_or(0.0)),
         engine: summary["engine"].as_u64()?,
         body_kpa: robot::rounded(about["body_pa"].as_f64()? * 1e-3),
+        radius_mm: robot::rounded(about["radius_m"].as_f64().unwrap_or(0.0) * 1e3),
+        width_mm: robot::rounded(about["width_m"].as_f64().unwrap_or(0.0) * 1e3),
         pouch_mm: robot::rounded(about["pouch_m"].as_f64()? * 1e3),
         count: about["count"].as_u64()? as usize,
         seed: setting("seed")? as u64,

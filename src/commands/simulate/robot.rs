@@ -104,6 +104,7 @@ impl Watched {
             .collect();
         json!({
             "actuator": scenario.actuator.kind.name, "length_m": scenario.length_m, "body_pa": scenario.p_body_pa,
+            "radius_m": scenario.radius_m, "width_m": scenario.actuator.shape.width_m,
             "pouch_m": scenario.actuator.shape.length_m, "count": scenario.actuator.count,
             "settings": settings, "readings": self.readings(), "snaps": self.snaps(),
         })

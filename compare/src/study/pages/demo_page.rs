@@ -12,6 +12,7 @@ use crate::report::{Block, Callout, Provenance, Report, Section};
 use crate::study::engines::stored;
 use crate::study::published::{PublishedLadder, model_ladder, published_ladders, shipped_scenario};
 use crate::study::tradeoff::{Timing, of_runs, tradeoff};
+use crate::study::witness::witness;
 use data::{About, Dataset};
 use models::{Loads, Scenario};
 
@@ -233,11 +234,14 @@ fn study_section(study: &Study, files: &mut Files) -> Result<Section, CompareErr
 
 /// The sections of a diagnosis, each named as part of it.
 fn story_sections(story: &Story, files: &mut Files) -> Result<Vec<Section>, CompareError> {
+    let (d, about) = (&story.diagnosis, story.about.as_ref());
+    let witness = witness(d, &story.scenario, &story.dataset, about, &stored())?;
     let found = Diagnosed {
-        diagnosis: &story.diagnosis,
+        diagnosis: d,
         scenario: &story.scenario,
         dataset: &story.dataset,
-        about: story.about.as_ref(),
+        about,
+        witness: witness.as_ref(),
         typed: HIDDEN_IN,
     };
     let mut sections = diagnosis_sections(&found, "diagnosis_", files)?;

@@ -5,7 +5,9 @@ use super::figures::measured;
 use crate::diagnosis::{Diagnosis, Ranked, Verdict};
 use crate::error::CompareError;
 use crate::plots::{self, Drawn, LineSeries, LineStyle, RankClass};
+use crate::study::engines::TERMS;
 use crate::study::predict::predict_dataset;
+use crate::study::witness::Witness;
 use data::{Dataset, Phase};
 use models::{Loads, Model, Scenario};
 
@@ -16,6 +18,8 @@ const POINTS: u32 = 48;
 const BEYOND: f64 = 1.3;
 /// Candidates drawn as curves.
 const MOST_CURVES: usize = 5;
+/// Ledgers drawn beside that of finite elements: the base and the nearest.
+const MOST_LEDGERS: usize = 4;
 /// Candidates drawn where the set has a single member, so that there is something to compare with.
 const FEWEST_CURVES: usize = 3;
 
@@ -177,6 +181,23 @@ pub(super) fn candidate_curves(
         series,
     };
     plots::lines(&data).map(Some).map_err(|e| drawing("the candidates' curves", e))
+}
+
+/// Ledgers of base, the nearest candidates and finite elements at the same bends.
+pub(super) fn witness_ledger(w: &Witness) -> Result<Drawn, CompareError> {
+    let case = |name: &str, e: &[f64; 6]| plots::LedgerCase {
+        label: name.trim_start_matches("+ ").into(),
+        energies_mj: e.to_vec(),
+    };
+    let mut cases: Vec<_> = w.models.iter().take(MOST_LEDGERS).map(|m| case(&m.name, &m.energies_mj)).collect();
+    cases.extend(w.fe_mj.iter().map(|fe| case("finite elements", fe)));
+    let data = plots::Ledger {
+        title: format!("Where the energy goes, to {:.0} kPa", w.actuator_kpa),
+        value_label: "energy taken up since the first bend [mJ]".into(),
+        terms: TERMS.map(String::from).to_vec(),
+        cases,
+    };
+    plots::ledger(&data).map_err(|e| drawing("the ledger beside finite elements", e))
 }
 
 /// Measured minus calibrated base at the loading holds of the first body pressure.

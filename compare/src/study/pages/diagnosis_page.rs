@@ -1,7 +1,7 @@
 //! The report of a diagnosis, for people: where it fails, whether anything is missing, what it could be, what to do.
 
 use super::diagnosis_figures::{
-    calibrated, candidate_curves, first_level, ranking, rungs_of, shown, waterfall, with_ranked,
+    calibrated, candidate_curves, first_level, ranking, rungs_of, shown, waterfall, with_ranked, witness_ledger,
 };
 use super::tables::{column, number, words};
 use super::{Files, Imprint, figures};
@@ -10,7 +10,9 @@ use crate::error::CompareError;
 use crate::plots::Drawn;
 use crate::report::{Block, Callout, Provenance, Report, Section, Table};
 use crate::residuals::ResidualMap;
+use crate::study::engines::TERMS;
 use crate::study::predict::fit_scenario;
+use crate::study::witness::{HEIGHTS, Witness};
 use crate::wording::p_value;
 use data::{About, Dataset};
 use models::{Loads, Scenario};
@@ -25,6 +27,8 @@ pub struct Diagnosed<'a> {
     pub dataset: &'a Dataset,
     /// Their description.
     pub about: Option<&'a About>,
+    /// Finite element runs of the same robot, if there are any.
+    pub witness: Option<&'a Witness>,
     /// Scenario and data as typed, for the commands that come next.
     pub typed: [&'a str; 2],
 }
@@ -96,6 +100,10 @@ pub fn diagnosis_sections(found: &Diagnosed, prefix: &str, files: &mut Files) ->
     ];
     if d.verdict != Some(Verdict::None) {
         sections.extend(differently(found, &scenario, prefix, files)?);
+    }
+    if let Some(witness) = found.witness {
+        let blocks = witness_blocks(witness, prefix, files)?;
+        sections.push(section(prefix, "finite-elements", "The same robot in finite elements", blocks));
     }
     sections.push(section(prefix, "unseen", "What could not be seen", unseen_blocks(d)));
     sections.push(section(prefix, "next", "What to do next", next_blocks(found)));
@@ -285,10 +293,32 @@ fn differently(
         let loads = Loads::uniform(hold.p_body_pa, hold.p_act_pa);
         let ledger = figures::ledgers("Energy ledger at the highest pressure", &cases, &loads)?;
         files.plot(&format!("{prefix}ledger"), &ledger);
-        let caption = "Where each candidate lets the actuator's work go. `ibr compare SCENARIO --engines` puts the finite elements' ledger beside the model's.";
+        let caption = "Where each candidate lets the actuator's work go.";
         blocks.push(Block::Figure { caption: caption.into(), alt: "stacked energies".into(), svg: ledger.svg });
     }
     Ok(Some(section(prefix, "differently", "What they would predict differently", blocks)))
+}
+
+fn witness_blocks(w: &Witness, prefix: &str, files: &mut Files) -> Result<Vec<Block>, CompareError> {
+    let rows = w.height_rows();
+    let mut columns = vec![column(HEIGHTS[0], "")];
+    columns.extend(HEIGHTS[1..].iter().map(|h| column(h, "mm")));
+    let caption = "Outermost marker on first loading".to_string();
+    let mut blocks =
+        vec![Block::List(w.sentences.clone()), Block::Table(Table { caption, columns, rows, how_column: None })];
+    if w.fe_mj.is_some() {
+        let ledger = witness_ledger(w)?;
+        files.plot(&format!("{prefix}finite_elements"), &ledger);
+        let caption = "The work of the gas and where it went, at the bends of the finite elements. Models that bend alike may spend it differently.";
+        blocks.push(Block::Figure { caption: caption.into(), alt: "stacked energies".into(), svg: ledger.svg });
+        let mut columns = vec![words("model")];
+        columns.extend(TERMS.iter().map(|t| column(t, "mJ")));
+        columns.push(column("apart", "mJ"));
+        let caption =
+            "Ledgers from the first bend to the highest shared pressure; apart: without hourglass control".into();
+        blocks.push(Block::Table(Table { caption, columns, rows: w.ledger_rows(), how_column: None }));
+    }
+    Ok(blocks)
 }
 
 fn unseen_blocks(d: &Diagnosis) -> Vec<Block> {

@@ -20,6 +20,10 @@ use serde::{Deserialize, Serialize};
 pub const TERMS: [&str; 6] = ["pouch gas", "body folds", "wall bending", "stretch", "contact", "hourglass"];
 /// Difference over the finite elements' tip from which the models are said to part.
 pub const PARTS: f64 = 0.10;
+/// Turn, over that at the highest pressure, from which a robot is said to bend.
+const FIRST_BEND: f64 = 0.1;
+/// Highest pressure at which a model is asked for a bend \[Pa\].
+const HIGHEST_PA: f64 = 500e3;
 /// Smallest tip displacement that a share is taken of \[m\].
 const SMALLEST_TIP_M: f64 = 5e-3;
 
@@ -42,6 +46,12 @@ pub struct FeRun {
     pub engine: u64,
     /// Body gauge pressure \[kPa\].
     pub body_kpa: f64,
+    /// Radius of the body \[mm\]; 0 in runs that did not keep it.
+    #[serde(default)]
+    pub radius_mm: f64,
+    /// Width of one unit of the actuator \[mm\]; 0 in runs that did not keep it.
+    #[serde(default)]
+    pub width_mm: f64,
     /// Length of one unit of the actuator \[mm\].
     pub pouch_mm: f64,
     /// Units in series.
@@ -144,18 +154,44 @@ fn pair(scenario: &Scenario, run: &FeRun, filled: &FeState, state: &FeState) -> 
     let reduced_mm = [marker * 1e3, at.tip.y_m * 1e3];
     let reduced_mj = reduced_ledger(&model, &loads, &at, 1.0);
     let fe_mj = fe_ledger(run, filled, state);
-    let mut excess_mj = None;
-    if let Ok(pa) = model.pressure_for(Target::Angle(state.turn_rad), loads.body_pa, &mut at)
-        && pa > 0.0
-    {
-        let same_bend = Loads::uniform(loads.body_pa, pa);
-        // Gas at the run's pressure in the volume that this bend takes.
-        let reduced = reduced_ledger(&model, &same_bend, &at, state.actuator_kpa * 1e3 / pa);
-        excess_mj = Some(std::array::from_fn(|k| fe_mj[k] - reduced[k]));
-    }
+    let at_this_bend = reduced_at(&model, run, state, state.actuator_kpa, &mut at);
+    let excess_mj = at_this_bend.map(|reduced| std::array::from_fn(|k| fe_mj[k] - reduced[k]));
     let lost_mj = state.energies_mj[4] - filled.energies_mj[4];
     let fe_mm = [state.marker_mm, state.tip_mm];
     Ok(Pair { actuator_kpa: state.actuator_kpa, reduced_mm, fe_mm, reduced_mj, fe_mj, excess_mj, lost_mj })
+}
+
+/// Ledger of the reduced model at the bend of a state, its gas at a pressure in the volume that this bend takes \[mJ\];
+/// `None` if it cannot bend so.
+fn reduced_at(
+    model: &Model,
+    run: &FeRun,
+    state: &FeState,
+    gas_kpa: f64,
+    at: &mut models::Prediction,
+) -> Option<[f64; 6]> {
+    let body_pa = run.body_kpa * 1e3;
+    let pa = model.pressure_for(Target::Angle(state.turn_rad), body_pa, at).ok().filter(|pa| *pa > 0.0)?;
+    Some(reduced_ledger(model, &Loads::uniform(body_pa, pa), at, gas_kpa * 1e3 / pa))
+}
+
+/// Ledgers of finite elements and of the reduced model at the same bends, from the first pressure that bends the robot by
+/// [`FIRST_BEND`] of the turn at the given one to that one \[mJ\]: what filling a slack actuator takes is in neither. `None` if
+/// the run lacks the two states or the model cannot bend so.
+pub fn between(scenario: &Scenario, run: &FeRun, actuator_kpa: f64) -> Option<[[f64; 6]; 2]> {
+    let model = Model::new(&Scenario { p_max_pa: HIGHEST_PA, ..scenario.clone() });
+    let mut at = model.prediction();
+    let high = run.states.iter().find(|s| same(s.actuator_kpa, actuator_kpa))?;
+    let bent = |s: &&FeState| s.actuator_kpa > 0.0 && s.turn_rad > FIRST_BEND * high.turn_rad;
+    let low = run.states.iter().find(bent).filter(|s| s.actuator_kpa < high.actuator_kpa)?;
+    let from = reduced_at(&model, run, low, actuator_kpa, &mut at)?;
+    let to = reduced_at(&model, run, high, actuator_kpa, &mut at)?;
+    Some([fe_ledger(run, low, high), std::array::from_fn(|k| to[k] - from[k])])
+}
+
+/// Pressures that are the same reading.
+fn same(a_kpa: f64, b_kpa: f64) -> bool {
+    (a_kpa - b_kpa).abs() < 0.05
 }
 
 fn reduced_ledger(model: &Model, loads: &Loads, at: &models::Prediction, gas: f64) -> [f64; 6] {
@@ -193,7 +229,7 @@ pub fn accuracy(model_mm: f64, measured_mm: f64) -> Option<f64> {
 
 /// Finite element runs that come with the program, made by its own commands (`ibr breakdown`, `ibr simulate`).
 pub fn stored() -> Vec<FeRun> {
-    serde_json::from_str(include_str!("../../assets/fem-runs.json")).unwrap_or_default()
+    serde_json::from_str(include_str!("../../../assets/fem-runs.json")).unwrap_or_default()
 }
 
 /// Runs as they are stored: one a line.
@@ -214,7 +250,7 @@ impl Ensemble {
     /// a single run, everything where no run was read there.
     pub fn at(&self, actuator_kpa: f64) -> Option<[(f64, Option<f64>); 2]> {
         let here = |run: &FeRun| {
-            run.states.iter().find(|s| (s.actuator_kpa - actuator_kpa).abs() < 0.05).map(|s| [s.marker_mm, s.tip_mm])
+            run.states.iter().find(|s| same(s.actuator_kpa, actuator_kpa)).map(|s| [s.marker_mm, s.tip_mm])
         };
         let found: Vec<[f64; 2]> = self.runs.iter().filter_map(here).collect();
         let n = found.len() as f64;
@@ -258,112 +294,15 @@ pub const CALIBRATED: [&str; 2] = ["spam", "fpam"];
 /// Whether a run is of this robot at its own body pressure.
 pub fn as_it_is(run: &FeRun, scenario: &Scenario) -> bool {
     let near = |a: f64, b: f64| (a - b).abs() < 1e-6 * b.abs();
+    let kept = |a: f64, b: f64| a == 0.0 || near(a, b);
     run.actuator == scenario.actuator.kind.name
         && run.scenario == scenario.name
         && run.count == scenario.actuator.count
         && near(run.body_kpa, scenario.p_body_pa * 1e-3)
         && near(run.pouch_mm, scenario.actuator.shape.length_m * 1e3)
+        && kept(run.radius_mm, scenario.radius_m * 1e3)
+        && kept(run.width_mm, scenario.actuator.shape.width_m * 1e3)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::study::published::shipped_scenario;
-
-    /// A run that is the reduced model itself, but for one term.
-    fn run(extra: usize, mj: f64) -> (Scenario, FeRun, Pair) {
-        let scenario = shipped_scenario("epam").unwrap().with_bending(0.4);
-        let model = Model::new(&scenario);
-        let mut at = model.prediction();
-        let loads = Loads::uniform(2e3, 20e3);
-        model.predict(&loads, &mut at).unwrap();
-        let [gas, body, bending, ..] = reduced_ledger(&model, &loads, &at, 1.0);
-        let mut energies_mj = [0.0, bending, 0.0, 0.0, 0.0];
-        energies_mj[extra] += mj;
-        let filled = FeState {
-            actuator_kpa: 0.0,
-            marker_mm: 0.0,
-            tip_mm: 0.0,
-            turn_rad: 0.0,
-            body_cm3: 1800.0,
-            actuator_cm3: 0.0,
-            energies_mj: [0.0; 5],
-            kinetic_share: 0.0,
-            von_mises_mpa: 0.0,
-            weld_n_per_m: 0.0,
-            moved_mm: Vec::new(),
-        };
-        let state = FeState {
-            actuator_kpa: 20.0,
-            tip_mm: at.tip.y_m * 1e3,
-            turn_rad: at.tip.angle_rad,
-            body_cm3: 1800.0 - body / 2.0,
-            actuator_cm3: -gas / 20.0,
-            energies_mj,
-            ..filled.clone()
-        };
-        let run = FeRun {
-            actuator: "epam".into(),
-            scenario: scenario.name.clone(),
-            mesh_mm: [4.0; 2],
-            elements: 1,
-            steps: 1,
-            cpu_s: 1.0,
-            engine: 1,
-            body_kpa: 2.0,
-            pouch_mm: 60.0,
-            count: 6,
-            seed: 1,
-            stations_mm: Vec::new(),
-            known: "assumed".into(),
-            states: vec![filled, state],
-        };
-        let pair = pairs(&scenario, &run).unwrap().remove(0);
-        (scenario, run, pair)
-    }
-
-    #[test]
-    fn a_run_that_is_the_reduced_model_has_no_excess_and_nothing_that_carries_a_difference() {
-        let (_, _, pair) = run(0, 0.0);
-        let largest = pair.reduced_mj.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
-        assert!(pair.excess_mj.unwrap().iter().all(|e| e.abs() < 1e-4 * largest), "{pair:?}");
-        assert!(pair.difference().unwrap().abs() < 1e-9 && pair.carrier().is_none());
-    }
-
-    #[test]
-    fn the_term_that_holds_more_energy_at_the_same_bend_carries_the_difference() {
-        for (place, term) in [(0, "stretch"), (1, "wall bending"), (2, "contact"), (3, "hourglass")] {
-            let (_, _, pair) = run(place, 50.0);
-            // The reduced tip is put 20 % above.
-            let apart = Pair { reduced_mm: [0.0, 1.2 * pair.fe_mm[1]], ..pair };
-            assert_eq!(apart.carrier(), Some(term));
-        }
-    }
-
-    #[test]
-    fn an_ensemble_is_of_the_finest_mesh_and_of_runs_with_what_is_recommended() {
-        let (scenario, run, _) = run(0, 0.0);
-        let of = |seed: u64, mesh: f64, tip_mm: f64| {
-            let mut run = FeRun { seed, mesh_mm: [mesh; 2], ..run.clone() };
-            run.states[1].actuator_kpa = 30.0;
-            run.states[1].tip_mm = tip_mm;
-            run
-        };
-        let runs = [of(2, 4.0, 13.0), of(1, 4.0, 11.0), of(1, 6.0, 99.0)];
-        let [own, usual] = ensembles(&runs, &scenario);
-        let [_, (mean, spread)] = own.at(30.0).unwrap();
-        assert!(mean == 12.0 && (spread.unwrap() - 2.0_f64.sqrt()).abs() < 1e-12 && usual.runs.is_empty());
-        assert!(own.at(10.0).is_none());
-    }
-
-    #[test]
-    fn stored_runs_can_be_read_and_are_of_shipped_robots() {
-        let runs = stored();
-        assert!(!runs.is_empty());
-        for run in &runs {
-            let scenario = shipped_scenario(&run.actuator).unwrap();
-            assert_eq!(run.scenario, scenario.name);
-            assert!(run.states.len() > 1 && run.states[0].actuator_kpa == 0.0);
-        }
-    }
-}
+mod tests;

@@ -1,0 +1,330 @@
+//! What finite element runs of the same robot say about a diagnosis.
+//!
+//! Two questions. **Do the finite elements meet the measurement where the model does not?** Then what is missing is among what
+//! they contain: sealed edges, folds, contact, stretch and shear of the fabric, the shape of the section. If they miss it too,
+//! it is rather in what they lack: the supply, the camera, memory of the fabric. **Whose ledger is theirs?** Candidates that
+//! bend the robot alike may spend the work of the gas differently; at the bend θ that the finite elements reach,
+//!
+//! ```text
+//! apart = Σ |E_fe,k(θ) − E_candidate,k(θ)|        k: pouch gas, body folds, wall bending, stretch, contact
+//! ```
+//!
+//! is least for the candidate that spends it as they do. **Validity**: the runs are models too, with assumed numbers; a ledger
+//! compares energies and not their slopes. It speaks for or against a candidate, it proves nothing.
+
+use crate::diagnosis::{Diagnosis, ParameterValue};
+use crate::error::CompareError;
+use crate::study::engines::{Ensemble, FeRun, TERMS, between, ensembles};
+use crate::study::predict::{fit_scenario, predict_dataset};
+use crate::wording::{list, short};
+use data::{About, Dataset, Phase};
+use models::Scenario;
+use serde::Serialize;
+
+/// Terms that are physics: all but hourglass control.
+const PHYSICAL: usize = TERMS.len() - 1;
+/// Candidates held against the ledger.
+const MOST: usize = 6;
+/// Finite elements meet a measurement within this share, or within their own spread.
+const MEETS: f64 = 0.10;
+/// A ledger is nearer if what it is apart falls below this share.
+const NEARER: f64 = 0.7;
+/// Places in [`TERMS`].
+const GAS: usize = 0;
+const BENDING: usize = 2;
+/// Pressures of a hold and of a run that are taken for the same, over the pressure.
+const SAME_PRESSURE: f64 = 0.02;
+
+/// Outermost marker at one pressure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Height {
+    /// Actuator gauge pressure \[kPa\].
+    pub actuator_kpa: f64,
+    /// Mean of the runs, first loading \[mm\].
+    pub measured_mm: f64,
+    /// The model with its calibrated B \[mm\].
+    pub base_mm: f64,
+    /// The final model \[mm\].
+    pub best_mm: f64,
+    /// Finite elements, mean over seeds \[mm\].
+    pub fe_mm: f64,
+    /// Their standard deviation over seeds; `None` for one run \[mm\].
+    pub fe_sd_mm: Option<f64>,
+    /// Whether finite elements meet the measurement: within a tenth of it or two of their own deviations.
+    pub meets: bool,
+}
+
+/// The ledger of one model beside that of the finite elements.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Beside {
+    /// `base`, or the effects it has beyond it.
+    pub name: String,
+    /// Ledger in [`TERMS`] at the finite elements' bend \[mJ\].
+    pub energies_mj: [f64; 6],
+    /// Σ of the differences from the finite elements' \[mJ\].
+    pub apart_mj: f64,
+}
+
+/// Finite elements beside a diagnosis.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Witness {
+    /// Runs, one per seed of the imperfections.
+    pub runs: usize,
+    /// Element size of the actuator \[mm\].
+    pub mesh_mm: f64,
+    /// How their numbers are known: `assumed` or `calibrated`.
+    pub known: String,
+    /// Outermost marker at the pressures that runs and data share.
+    pub heights: Vec<Height>,
+    /// Actuator pressure of the ledgers \[kPa\].
+    pub actuator_kpa: f64,
+    /// Their ledger in [`TERMS`] from the first bend to that pressure, mean over seeds \[mJ\]; `None` if the calibrated model
+    /// cannot bend as they do.
+    pub fe_mj: Option<[f64; 6]>,
+    /// The base first, then candidates, nearest ledger first; empty without a ledger.
+    pub models: Vec<Beside>,
+    /// What follows, in sentences.
+    pub sentences: Vec<String>,
+}
+
+/// Headings of [`Witness::height_rows`], in kPa and mm.
+pub const HEIGHTS: [&str; 5] = ["actuator kPa", "measured", "calibrated B", "final model", "finite elements"];
+
+impl Witness {
+    /// Outermost marker at every shared pressure \[mm\].
+    pub fn height_rows(&self) -> Vec<Vec<String>> {
+        let row = |h: &Height| {
+            let sd = h.fe_sd_mm.map_or(String::new(), |sd| format!(" ± {sd:.1}"));
+            let mm = |v: f64| format!("{v:.1}");
+            let fe = format!("{:.1}{sd}", h.fe_mm);
+            vec![short(h.actuator_kpa), mm(h.measured_mm), mm(h.base_mm), mm(h.best_mm), fe]
+        };
+        self.heights.iter().map(row).collect()
+    }
+
+    /// Name, ledger in [`TERMS`] and distance from the finite elements' ledger, which is the last row \[mJ\].
+    pub fn ledger_rows(&self) -> Vec<Vec<String>> {
+        let row = |name: &str, energies: &[f64; 6], apart: Option<f64>| {
+            let mut row = vec![name.to_string()];
+            row.extend(energies.iter().map(|e| format!("{e:.0}")));
+            row.push(apart.map_or("–".into(), |e| format!("{e:.0}")));
+            row
+        };
+        let models = self.models.iter().map(|m| row(&m.name, &m.energies_mj, Some(m.apart_mj)));
+        models.chain(self.fe_mj.map(|fe| row("finite elements", &fe, None))).collect()
+    }
+}
+
+/// Holds finite element runs of the scenario's robot against a diagnosis; `None` where there is none, or none at a pressure
+/// of the data.
+///
+/// # Errors
+/// A model without equilibrium.
+pub fn witness(
+    d: &Diagnosis,
+    scenario: &Scenario,
+    dataset: &Dataset,
+    about: Option<&About>,
+    runs: &[FeRun],
+) -> Result<Option<Witness>, CompareError> {
+    let (scenario, _) = fit_scenario(scenario, dataset, about)?;
+    let [ensemble, _] = ensembles(runs, &scenario);
+    let cases = cases(d, &scenario);
+    let heights = heights([&cases.base, &cases.best], dataset, &ensemble)?;
+    let (Some(top), Some(first)) = (heights.last(), ensemble.runs.first()) else { return Ok(None) };
+    let kpa = top.actuator_kpa;
+    let mut models: Vec<Beside> =
+        cases.candidates.iter().filter_map(|(name, s)| Some(beside(name, s, &ensemble, kpa)?.0)).collect();
+    models.sort_by(|a, b| a.apart_mj.total_cmp(&b.apart_mj));
+    let own = beside("base", &cases.base, &ensemble, kpa);
+    let fe_mj = own.as_ref().map(|o| o.1);
+    match own {
+        Some((own, _)) => models.insert(0, own),
+        None => models.clear(),
+    }
+    let mut found = Witness {
+        runs: ensemble.runs.len(),
+        mesh_mm: first.mesh_mm[1],
+        known: first.known.clone(),
+        actuator_kpa: kpa,
+        fe_mj,
+        models,
+        heights,
+        sentences: Vec::new(),
+    };
+    found.sentences = sentences(&found, d);
+    Ok(Some(found))
+}
+
+/// Models of a diagnosis, each with the B fitted with it.
+struct Cases {
+    base: Scenario,
+    /// With everything that is added, supply and camera too.
+    best: Scenario,
+    /// With what has a ledger.
+    candidates: Vec<(String, Scenario)>,
+}
+
+fn cases(d: &Diagnosis, scenario: &Scenario) -> Cases {
+    let p_kpa = scenario.p_body_pa * 1e-3;
+    let away = |k: &usize| (d.base.bending[*k].p_body_kpa - p_kpa).abs();
+    let level = (0..d.base.bending.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0);
+    let with = |added: &[(&str, &[ParameterValue])], bending: Option<f64>| {
+        let with = with(scenario, added);
+        bending.map_or(with.clone(), |b| with.with_bending(b))
+    };
+    let added = if d.added.is_empty() { &d.attempt } else { &d.added };
+    let all: Vec<(&str, &[ParameterValue])> = added.iter().map(|a| (&*a.effect, &*a.parameters)).collect();
+    let physical = added.iter().filter(|a| !a.group.is_nuisance());
+    let physical: Vec<(&str, &[ParameterValue])> = physical.map(|a| (&*a.effect, &*a.parameters)).collect();
+    let b = d.base.bending_with_added_nm2.get(level).copied();
+    let mut candidates = Vec::new();
+    if !physical.is_empty() {
+        let name = physical.iter().map(|a| format!("+ {}", a.0)).collect::<Vec<_>>().join(" ");
+        candidates.push((name, with(&physical, b)));
+    }
+    for r in d.ranked.iter().filter(|r| !r.at_bound && r.gain > 1.0 && !r.group.is_nuisance()).take(MOST) {
+        let name = format!("+ {}", r.effect);
+        if candidates.iter().all(|c| c.0 != name) {
+            candidates.push((name, with(&[(&r.effect, &r.parameters)], r.bending_nm2.get(level).copied())));
+        }
+    }
+    Cases { base: with(&[], d.base.bending.get(level).map(|b| b.value_nm2)), best: with(&all, b), candidates }
+}
+
+/// The scenario with effects at their fitted values.
+fn with(scenario: &Scenario, added: &[(&str, &[ParameterValue])]) -> Scenario {
+    let catalogue = scenario.catalogue();
+    let mut with = scenario.clone();
+    for (name, fitted) in added {
+        let Some(effect) = catalogue.by_name(name) else { continue };
+        let value = |p: &models::effects::Parameter| {
+            fitted.iter().find(|v| v.key == p.key).map_or(p.neutral, |v| v.value) * p.si
+        };
+        let values: Vec<f64> = effect.parameters.iter().map(value).collect();
+        with = with.with_effect(name, &values);
+    }
+    with
+}
+
+/// Outermost marker on first loading at the body pressure of the runs, where runs and data have the same pressure.
+fn heights(models: [&Scenario; 2], dataset: &Dataset, ensemble: &Ensemble) -> Result<Vec<Height>, CompareError> {
+    let Some(run) = ensemble.runs.first() else { return Ok(Vec::new()) };
+    let [base, best] = [predict_dataset(models[0], dataset)?, predict_dataset(models[1], dataset)?];
+    let (tip, samples) = (dataset.markers.len() - 1, dataset.samples_per_hold);
+    let mut found: Vec<Height> = Vec::new();
+    for (h, hold) in dataset.holds.iter().enumerate() {
+        let kpa = hold.p_act_pa * 1e-3;
+        let body = (hold.p_body_pa * 1e-3 - run.body_kpa).abs() < 0.05 * run.body_kpa;
+        let nearest =
+            run.states.iter().map(|s| s.actuator_kpa).min_by(|a, b| (a - kpa).abs().total_cmp(&(b - kpa).abs()));
+        let Some(shared) = nearest.filter(|p| *p > 0.0 && (p - kpa).abs() < SAME_PRESSURE * p) else { continue };
+        let Some([(fe_mm, fe_sd_mm), _]) = ensemble.at(shared) else { continue };
+        if !body || hold.phase == Phase::Unload || found.iter().any(|f| f.actuator_kpa == shared) {
+            continue;
+        }
+        let of =
+            |xy: &[f64]| (0..samples).map(|s| 1e3 * xy[dataset.offset(h, s, tip) + 1]).sum::<f64>() / samples as f64;
+        let runs = dataset.runs.len();
+        let measured_mm = (0..runs).map(|r| of(dataset.run(r))).sum::<f64>() / runs as f64;
+        let [base_mm, best_mm] = [of(&base.xy_m), of(&best.xy_m)];
+        let meets = (fe_mm - measured_mm).abs() <= (MEETS * measured_mm.abs()).max(2.0 * fe_sd_mm.unwrap_or(0.0));
+        found.push(Height { actuator_kpa: shared, measured_mm, base_mm, best_mm, fe_mm, fe_sd_mm, meets });
+    }
+    found.sort_by(|a, b| a.actuator_kpa.total_cmp(&b.actuator_kpa));
+    Ok(found)
+}
+
+/// The ledger of a model and that of the finite elements, means over seeds.
+fn beside(name: &str, scenario: &Scenario, ensemble: &Ensemble, kpa: f64) -> Option<(Beside, [f64; 6])> {
+    let ledgers: Vec<[[f64; 6]; 2]> =
+        ensemble.runs.iter().map(|run| between(scenario, run, kpa)).collect::<Option<_>>()?;
+    let mean =
+        |which: usize| std::array::from_fn(|k| ledgers.iter().map(|l| l[which][k]).sum::<f64>() / ledgers.len() as f64);
+    let (fe, own): ([f64; 6], [f64; 6]) = (mean(0), mean(1));
+    let apart_mj = (0..PHYSICAL).map(|k| (fe[k] - own[k]).abs()).sum();
+    Some((Beside { name: name.into(), energies_mj: own, apart_mj }, fe))
+}
+
+fn sentences(w: &Witness, d: &Diagnosis) -> Vec<String> {
+    let Some(top) = w.heights.last() else { return Vec::new() };
+    let at = short(top.actuator_kpa);
+    let sd = top.fe_sd_mm.map_or(String::new(), |sd| format!(" ± {sd:.1}"));
+    let runs = if w.runs == 1 { "one run".to_string() } else { format!("{} runs", w.runs) };
+    let mut out = vec![format!(
+        "Outermost marker at {at} kPa: measured {:.1} mm; model with calibrated B {:.1}, final model {:.1}, finite elements {:.1}{sd} mm ({runs}, {} mm elements, numbers {}).",
+        top.measured_mm,
+        top.base_mm,
+        top.best_mm,
+        top.fe_mm,
+        short(w.mesh_mm),
+        w.known
+    )];
+    out.push(meeting(w));
+    if let (Some(fe), [base, others @ ..]) = (w.fe_mj, &w.models[..]) {
+        out.extend(stiffness(base, &fe));
+        out.push(nearest(base, others, &fe, d));
+    }
+    out
+}
+
+/// Whether they are where the robot is, and what follows for the effect that is missing.
+fn meeting(w: &Witness) -> String {
+    let of = |meets: bool| -> Vec<String> {
+        w.heights.iter().filter(|h| h.meets == meets).map(|h| short(h.actuator_kpa)).collect()
+    };
+    let (met, missed) = (of(true), of(false));
+    let contain = "They contain sealed edges, folds, contact, stretch and shear of the fabric, but no supply, no camera and no memory.";
+    let fitted = if w.known == "calibrated" && !met.is_empty() {
+        " One of their numbers was fitted to the published displacement of such a robot: meeting it at that pressure is little evidence."
+    } else {
+        ""
+    };
+    let first = match (&met[..], &missed[..]) {
+        (_, []) => "They meet the measurement at every shared pressure: what is missing is likely among what they contain.".into(),
+        ([], _) => "They miss it everywhere: the robot is not the one they were given, one of their assumed numbers is wrong (`ibr simulate ROBOT --sensitivity`), or what is missing is something they lack too.".into(),
+        _ => format!(
+            "They meet the measurement at {} kPa and miss it at {} kPa: they lack something too, or one of their assumed numbers is wrong (`ibr simulate ROBOT --sensitivity`).",
+            list(&met),
+            list(&missed)
+        ),
+    };
+    format!("{first} {contain}{fitted}")
+}
+
+/// A calibrated B that holds far more energy than the wall.
+fn stiffness(base: &Beside, fe: &[f64; 6]) -> Option<String> {
+    let (own, theirs) = (base.energies_mj[BENDING], fe[BENDING]);
+    (own > 2.0 * theirs.max(0.0) && own > 0.1 * fe[GAS].abs()).then(|| {
+        format!("On the way there the calibrated B stores {own:.0} mJ in the wall, theirs {theirs:.0} mJ: this B stands for something that is not bending.")
+    })
+}
+
+fn nearest(base: &Beside, others: &[Beside], fe: &[f64; 6], d: &Diagnosis) -> String {
+    let off = |m: &Beside, k: usize| (fe[k] - m.energies_mj[k]).abs();
+    let widest = (0..PHYSICAL).max_by(|a, b| off(base, *a).total_cmp(&off(base, *b))).unwrap_or(GAS);
+    let where_ = format!("{} ({:.0} mJ, theirs {:.0} mJ)", TERMS[widest], base.energies_mj[widest], fe[widest]);
+    match others.first().filter(|m| m.apart_mj < NEARER * base.apart_mj) {
+        Some(m) => {
+            let named = d.indistinguishable.iter().chain(d.added.iter().map(|a| &a.effect));
+            let named = named.map(|n| format!("+ {n}")).any(|n| n == m.name);
+            let by = if named { "which the data name too" } else { "which the data alone do not put first" };
+            let rivals: Vec<String> = others[1..]
+                .iter()
+                .filter(|o| o.apart_mj < m.apart_mj / NEARER)
+                .map(|o| o.name.trim_start_matches("+ ").to_string())
+                .collect();
+            let rivals = if rivals.is_empty() { String::new() } else { format!("; {} hardly less so", list(&rivals)) };
+            format!(
+                "Their ledger points at {}, {by}: at the same bends {:.0} mJ apart from theirs instead of {:.0}{rivals}. The model without it differs most in {where_}.",
+                m.name.trim_start_matches("+ "),
+                m.apart_mj,
+                base.apart_mj
+            )
+        }
+        None => format!(
+            "No candidate spends the work of the gas much more like them than the model itself ({:.0} mJ apart); it differs most in {where_}.",
+            base.apart_mj
+        ),
+    }
+}
