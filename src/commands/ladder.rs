@@ -14,7 +14,7 @@ use data::{About, Dataset};
 use models::Scenario;
 use serde::Serialize;
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 pub fn run(args: &Ladder, context: &mut Context) -> Result<Outcome, Failure> {
     let tolerance_m = args.tolerance.as_deref().map(|t| positive("--tolerance", t)).transpose()?;
@@ -44,9 +44,24 @@ pub fn run(args: &Ladder, context: &mut Context) -> Result<Outcome, Failure> {
         write_files(&folder, &files, &[named.input, input], context)?;
         let names: Vec<&str> = climb.files.iter().map(|(name, _)| name.as_str()).collect();
         outcome.notes.push(format!("scenarios in {}: {}", folder.display(), names.join(", ")));
+        let old = earlier_steps(&folder, &names);
+        if !old.is_empty() {
+            outcome.notes.push(format!("warning: of an earlier ladder, and not of this one: {}", old.join(", ")));
+        }
         outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
     }
     Ok(outcome)
+}
+
+/// Scenarios in the folder that look like steps and are none of these.
+fn earlier_steps(folder: &Path, names: &[&str]) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    let there = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let mut old: Vec<String> = there
+        .filter(|name| name.starts_with("step-") && name.ends_with(".toml") && !names.contains(&name.as_str()))
+        .collect();
+    old.sort();
+    old
 }
 
 struct Data<'a> {

@@ -136,6 +136,10 @@ fn a_ladder_climbs_until_what_is_left_is_noise_and_keeps_every_scenario() {
     let written = format!("climb/{file}");
     let after = folder.run(&["compare", &written, "two", "--json"]).json("ibr.compare");
     assert!(after["overall"]["systematic_mm"].as_f64().unwrap() < 0.1 * errors[0]);
+
+    folder.write("climb/step-2-friction.toml", "old");
+    let again = folder.run(&["ladder", "mine.toml", "two", "--out", "climb"]);
+    assert!(again.stderr.contains("earlier ladder, and not of this one: step-2-friction.toml"), "{}", again.stderr);
 }
 
 #[test]
