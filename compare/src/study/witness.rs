@@ -35,7 +35,7 @@ const BENDING: usize = 2;
 /// Pressures of a hold and of a run that are taken for the same, over the pressure.
 const SAME_PRESSURE: f64 = 0.02;
 
-/// Outermost marker at one pressure.
+/// Outermost shared marker at one pressure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Height {
     /// Actuator gauge pressure \[kPa\].
@@ -207,24 +207,28 @@ fn with(scenario: &Scenario, added: &[(&str, &[ParameterValue])]) -> Scenario {
     with
 }
 
-/// Outermost marker on first loading at the body pressure of the runs, where runs and data have the same pressure.
+/// The outermost marker that data and runs share, on first loading at the body pressure of the runs, where both have the same
+/// actuator pressure.
 fn heights(models: [&Scenario; 2], dataset: &Dataset, ensemble: &Ensemble) -> Result<Vec<Height>, CompareError> {
     let Some(run) = ensemble.runs.first() else { return Ok(Vec::new()) };
+    let stations = &models[0].markers_m;
+    let pressures = || run.states.iter().map(|s| s.actuator_kpa).filter(|p| *p > 0.0);
+    let shared = |m: &usize| pressures().any(|p| ensemble.marker_at(stations[*m], p).is_some());
+    let Some(marker) = (0..stations.len()).rev().find(shared) else { return Ok(Vec::new()) };
     let [base, best] = [predict_dataset(models[0], dataset)?, predict_dataset(models[1], dataset)?];
-    let (tip, samples) = (dataset.markers.len() - 1, dataset.samples_per_hold);
     let mut found: Vec<Height> = Vec::new();
     for (h, hold) in dataset.holds.iter().enumerate() {
         let kpa = hold.p_act_pa * 1e-3;
         let body = (hold.p_body_pa * 1e-3 - run.body_kpa).abs() < 0.05 * run.body_kpa;
-        let nearest =
-            run.states.iter().map(|s| s.actuator_kpa).min_by(|a, b| (a - kpa).abs().total_cmp(&(b - kpa).abs()));
-        let Some(shared) = nearest.filter(|p| *p > 0.0 && (p - kpa).abs() < SAME_PRESSURE * p) else { continue };
-        let Some([(fe_mm, fe_sd_mm), _]) = ensemble.at(shared) else { continue };
+        let nearest = pressures().min_by(|a, b| (a - kpa).abs().total_cmp(&(b - kpa).abs()));
+        let Some(shared) = nearest.filter(|p| (p - kpa).abs() < SAME_PRESSURE * p) else { continue };
+        let Some((fe_mm, fe_sd_mm)) = ensemble.marker_at(stations[marker], shared) else { continue };
         if !body || hold.phase == Phase::Unload || found.iter().any(|f| f.actuator_kpa == shared) {
             continue;
         }
-        let of =
-            |xy: &[f64]| (0..samples).map(|s| 1e3 * xy[dataset.offset(h, s, tip) + 1]).sum::<f64>() / samples as f64;
+        let samples = dataset.samples_per_hold;
+        let y_mm = |xy: &[f64], s: usize| 1e3 * xy[dataset.offset(h, s, marker) + 1];
+        let of = |xy: &[f64]| (0..samples).map(|s| y_mm(xy, s)).sum::<f64>() / samples as f64;
         let runs = dataset.runs.len();
         let measured_mm = (0..runs).map(|r| of(dataset.run(r))).sum::<f64>() / runs as f64;
         let [base_mm, best_mm] = [of(&base.xy_m), of(&best.xy_m)];

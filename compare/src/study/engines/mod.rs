@@ -24,6 +24,8 @@ pub const PARTS: f64 = 0.10;
 const FIRST_BEND: f64 = 0.1;
 /// Highest pressure at which a model is asked for a bend \[Pa\].
 const HIGHEST_PA: f64 = 500e3;
+/// Stations this near are the same marker \[mm\].
+const SAME_STATION_MM: f64 = 1.0;
 /// Smallest tip displacement that a share is taken of \[m\].
 const SMALLEST_TIP_M: f64 = 5e-3;
 
@@ -253,19 +255,33 @@ impl Ensemble {
             run.states.iter().find(|s| same(s.actuator_kpa, actuator_kpa)).map(|s| [s.marker_mm, s.tip_mm])
         };
         let found: Vec<[f64; 2]> = self.runs.iter().filter_map(here).collect();
-        let n = found.len() as f64;
-        let of = |k: usize| {
-            let mean = found.iter().map(|mm| mm[k]).sum::<f64>() / n;
-            let square = found.iter().map(|mm| (mm[k] - mean).powi(2)).sum::<f64>() / (n - 1.0);
-            (mean, (found.len() > 1).then_some(square.sqrt()))
-        };
+        let of = |k: usize| mean_and_deviation(&found.iter().map(|mm| mm[k]).collect::<Vec<_>>());
         (!found.is_empty()).then(|| [of(0), of(1)])
+    }
+
+    /// Mean and standard deviation of the height of the marker at a station \[mm\]; `None` where no run has it at that pressure.
+    pub fn marker_at(&self, station_m: f64, actuator_kpa: f64) -> Option<(f64, Option<f64>)> {
+        let here = |run: &FeRun| {
+            let k = run.stations_mm.iter().position(|s| (s - station_m * 1e3).abs() < SAME_STATION_MM)?;
+            let state = run.states.iter().find(|s| same(s.actuator_kpa, actuator_kpa))?;
+            Some(state.moved_mm.get(k)?[1])
+        };
+        let found: Vec<f64> = self.runs.iter().filter_map(here).collect();
+        (!found.is_empty()).then(|| mean_and_deviation(&found))
     }
 
     /// Mean processor time of a run \[s\].
     pub fn cpu_s(&self) -> f64 {
         self.runs.iter().map(|run| run.cpu_s).sum::<f64>() / self.runs.len() as f64
     }
+}
+
+/// Mean and standard deviation, which one value has not.
+fn mean_and_deviation(values: &[f64]) -> (f64, Option<f64>) {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0);
+    (mean, (values.len() > 1).then_some(square.sqrt()))
 }
 
 /// The runs of a shipped robot as it is to 30 kPa, on the finest mesh there is: with the recommended settings, and with usual
