@@ -122,6 +122,27 @@ impl NoiseModel {
         }
     }
 
+    /// The noise of a mean over `runs` runs if nothing of it had to be estimated: σ \[m\] and the run-to-run standard
+    /// deviations of [`NoiseModel::run_sd`]. It gives no p-values; it tells how far apart two explanations are.
+    ///
+    /// # Errors
+    /// As [`NoiseModel::estimate`].
+    pub fn known(
+        dataset: &Dataset,
+        dprediction_dlnp: &[f64],
+        runs: usize,
+        sigma_m: f64,
+        run_sd: [f64; 4],
+    ) -> Result<NoiseModel, CompareError> {
+        Layout::of(dataset)?.check("the derivative with respect to ln p", dprediction_dlnp)?;
+        let directions = nuisance_directions(&dataset.mean_over_runs(), dprediction_dlnp);
+        let variance = run_sd.map(|sd| sd * sd / runs.max(1) as f64);
+        let whitener = Whitener::new(&directions, sigma_m / (runs.max(1) as f64).sqrt(), &variance)?;
+        let plain = Self::without_scatter(NoiseStatus::Supplied, Some(sigma_m), directions)?;
+        let run_sd = run_sd.map(Some);
+        Ok(NoiseModel { runs, run_sd, mean_variance: variance, test_variance: variance, whitener, ..plain })
+    }
+
     /// False for a single run without a given σ.
     pub fn is_known(&self) -> bool {
         self.sigma_m.is_some()

@@ -70,6 +70,21 @@ impl<'a> Case<'a> {
         (candidates, own): (&'a [Candidate], usize),
         options: &Options,
     ) -> Result<Case<'a>, CompareError> {
+        let estimate = |slope: &[f64]| NoiseModel::estimate(dataset, slope, sessions, options.sigma_m);
+        Case::with_noise(scenario, dataset, &estimate, (candidates, own), options)
+    }
+
+    /// The same with noise from elsewhere, as a function of ∂f/∂ln p.
+    ///
+    /// # Errors
+    /// What the model or the noise returns.
+    pub fn with_noise(
+        scenario: &'a Scenario,
+        dataset: &'a Dataset,
+        noise: &dyn Fn(&[f64]) -> Result<NoiseModel, CompareError>,
+        (candidates, own): (&'a [Candidate], usize),
+        options: &Options,
+    ) -> Result<Case<'a>, CompareError> {
         Layout::of(dataset)?;
         let body_pa = body_pressures(dataset);
         let bendings = if options.keep_bending { 0 } else { body_pa.len() };
@@ -77,7 +92,7 @@ impl<'a> Case<'a> {
         let values: Vec<f64> = candidates[..own].iter().flat_map(|c| own_values(scenario, c)).collect();
         let mut slope = predict_dataset(scenario, dataset)?.d_ln_pressure_m;
         let fit = |slope: &[f64]| -> Result<(NoiseModel, Problem<'a>, Fit), CompareError> {
-            let noise = NoiseModel::estimate(dataset, slope, sessions, options.sigma_m)?;
+            let noise = noise(slope)?;
             let all: Vec<usize> = (0..dataset.holds.len()).collect();
             let block = block(scenario, dataset, &all, dataset.mean_over_runs(), &noise, &body_pa)?;
             let problem = Problem { candidates, blocks: vec![block], bendings, enough: ENOUGH };

@@ -8,6 +8,7 @@ use super::pairs::{another_wanted, fit_pairs, indistinguishable as alike_pairs, 
 use super::problem::Fit;
 use super::result::{LackOfFit, Verdict};
 use super::singles::{fit_all, indistinguishable};
+use super::stands_out::{StandsOut, stands_out};
 use crate::error::CompareError;
 use crate::stats::reported_p;
 
@@ -19,6 +20,9 @@ const WORTH_A_SECOND: (f64, f64) = (0.05, 0.15);
 /// More than this share of the error left by one effect, or by two, and more than that many mm, means that the catalogue
 /// does not explain it. Errors are those beyond noise and scatter between runs.
 const LEFT_OVER: [(f64, f64); 2] = [(0.2, 0.05), (0.15, 0.05)];
+/// A place that stands out with more than this share of the error is not explained: the law of a uniform robot, however wrong
+/// its form, leaves uniform bending.
+const PLACE_LEFT: f64 = 0.1;
 /// Left over by more than this share, a trace along yet another effect says the same as a lack of fit.
 const MOST_LEFT: (f64, f64) = (0.5, 0.05);
 
@@ -111,6 +115,13 @@ fn is_unexplained(case: &Case, fit: &Fit, lof: Option<LackOfFit>, share: (f64, f
     let level = (1.0 - SHARE_OF_EFFECTS) * case.alpha;
     let lacks = lof.is_some_and(|lof| lof.p_value < level);
     leaves(case, fit, share) && (lacks || leaves(case, fit, MOST_LEFT) && another_wanted(case, fit) < level)
+        || stands_out(case, fit).iter().any(|seen| seen.p_value < level && is_a_place_left(case, fit, seen))
+}
+
+/// Whether a pattern that a fit leaves is a place with a share of the error; amplitudes, as far as they were seen.
+fn is_a_place_left(case: &Case, fit: &Fit, seen: &StandsOut) -> bool {
+    let before = case.gain(fit) + seen.gain;
+    !seen.is_uniform && seen.gain - 1.0 > PLACE_LEFT * PLACE_LEFT * before
 }
 
 /// Takes the best pair in place of the single effect, or of the base, if it is significantly better.

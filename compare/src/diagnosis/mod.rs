@@ -17,6 +17,7 @@ mod candidates;
 mod case;
 mod decide;
 mod detect;
+mod distance;
 mod evaluator;
 mod experiments;
 mod heldout;
@@ -28,17 +29,22 @@ mod next;
 mod options;
 mod order;
 mod pairs;
+#[cfg(test)]
+mod pattern_tests;
+mod patterns;
 mod prepare;
 mod problem;
 mod result;
 mod screen;
 mod singles;
+mod stands_out;
 mod story;
 #[cfg(test)]
 mod tests;
 mod words;
 
 pub use candidates::{Candidate, Free, candidates};
+pub use distance::{Distances, KnownNoise, distances, power};
 pub use options::Options;
 pub use result::*;
 
@@ -132,6 +138,7 @@ fn assemble(
     let (residuals_before, _) = fails(case, &case.base, decision.before)?;
     let (residuals_after, leftover) = fails(case, last, decision.after)?;
     let indistinguishable = names(case, decision, &pairs);
+    let outside = decision.verdict == Some(Verdict::OutOfCatalog);
     Ok(Diagnosis {
         scenario: case.scenario.name.clone(),
         dataset: case.dataset.name.clone(),
@@ -154,6 +161,7 @@ fn assemble(
         attempt,
         lack_of_fit_before: decision.before,
         lack_of_fit_after: decision.after,
+        pattern: outside.then(|| stands_out::left_pattern(case, decision.last.as_ref())).flatten(),
         leftover,
         residuals_before,
         residuals_after,

@@ -225,6 +225,19 @@ pub struct LackOfFit {
     pub p_value: f64,
 }
 
+/// A pattern without physics that noise would rarely leave: one marker, one hold, one place of the robot.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LeftPattern {
+    /// What it looks like.
+    pub words: String,
+    /// Share of the squares beyond noise that this one pattern explains.
+    pub share: f64,
+    /// p of the largest of all patterns under noise.
+    pub p_value: f64,
+    /// It explains more of the whole misfit than the best of the catalogue does; else it is what that leaves.
+    pub instead: bool,
+}
+
 /// Samples and runs that stand out from the others.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Outliers {
@@ -350,6 +363,8 @@ pub struct Diagnosis {
     pub lack_of_fit_before: Option<LackOfFit>,
     /// Lack of fit of the final model.
     pub lack_of_fit_after: Option<LackOfFit>,
+    /// With the verdict `out_of_catalog`: what the misfit looks like, if it looks like something simple.
+    pub pattern: Option<LeftPattern>,
     /// Where and when the final model still fails, in plain language.
     pub leftover: Vec<Statement>,
     /// Residuals of the calibrated base, marker × hold.

@@ -1,6 +1,6 @@
 //! The diagnosis told in sentences.
 
-use super::result::{Confidence, Diagnosis, ParameterValue, Ranked, Verdict};
+use super::result::{Confidence, Diagnosis, LeftPattern, ParameterValue, Ranked, Verdict};
 use super::words::quantity;
 use crate::wording::{list, p_value};
 
@@ -115,19 +115,27 @@ fn held_out(d: &Diagnosis, r: &Ranked) -> Option<String> {
 }
 
 fn outside(d: &Diagnosis) -> Vec<String> {
-    let mut told = vec![format!(
-        "Nothing in the catalogue explains this ({}): {:.2} mm remain{}.",
-        d.p_value.map(p_value).unwrap_or_default(),
-        d.base.systematic_with_added_mm,
-        if d.attempt.is_empty() {
-            String::new()
-        } else {
-            format!(" with the best of it, {}", list(&d.attempt.iter().map(|a| a.effect.clone()).collect::<Vec<_>>()))
-        }
-    )];
+    let p = d.p_value.map(p_value).unwrap_or_default();
+    let tried = list(&d.attempt.iter().map(|a| a.effect.clone()).collect::<Vec<_>>());
+    let mut told = Vec::new();
+    if d.attempt.is_empty() {
+        told.push(format!("Nothing in the catalogue explains this ({p}): {:.2} mm remain.", d.base.systematic_mm));
+    } else {
+        told.push(format!(
+            "Nothing in the catalogue explains this ({p}): {:.2} mm remain with the best of it, {tried}, of {:.2} mm before.",
+            d.base.systematic_with_added_mm, d.base.systematic_mm
+        ));
+    }
+    told.extend(d.pattern.as_ref().map(looks_like));
     told.extend(d.leftover.iter().map(|s| s.sentence.clone()));
     told.push("Check markers, set-up and protocol there before looking for new physics.".into());
     told
+}
+
+fn looks_like(pattern: &LeftPattern) -> String {
+    let LeftPattern { words, share, p_value: p, instead } = pattern;
+    let (what, percent, p) = (if *instead { "It looks" } else { "What is left looks" }, 100.0 * share, p_value(*p));
+    format!("{what} as if {words}: that alone makes up {percent:.0} % of it ({p} among all such patterns).")
 }
 
 /// `β = 0.42 (0.40 to 0.44)`.

@@ -1,8 +1,9 @@
 //! One set: drawn, measured, diagnosed.
 
+use super::attainable::distances_of;
 use super::follow::follow_up;
 use super::{Case, Diagnose, Part};
-use crate::diagnosis::{Diagnosis, Options};
+use crate::diagnosis::{Diagnosis, Distances, Options};
 use crate::error::CompareError;
 use crate::hidden::score::{Answer, Score, score};
 use crate::hidden::truth::{ROBOTS, standard_protocol};
@@ -44,6 +45,8 @@ pub struct Named {
     pub smallest_detectable: Option<f64>,
     /// Score after the recommended next experiment, of ambiguous sets.
     pub after: Option<Score>,
+    /// How far the truth is from what the catalogue can say, of one hidden effect and of one outside the catalogue.
+    pub distances: Option<Distances>,
 }
 
 /// Step through a list of effects, prime to their numbers, so that a short bench sees different groups.
@@ -97,6 +100,9 @@ fn hidden(truth: &Truth, kind: Kind, diagnose: Diagnose) -> Result<Named, Compar
     let options = Options { next_experiment, ..Options::default() };
     let found = diagnose(&truth.told()?, &data, Some(&about(truth)?), &options)?;
     let mut named = named(truth, &found);
+    if matches!(kind, Kind::One | Kind::Outside) {
+        named.distances = Some(distances_of(truth, &data, kind == Kind::Outside)?);
+    }
     if next_experiment && named.answer.verdict == "effect" && named.answer.set.len() > 1 {
         let next = found.next_experiment.as_ref().and_then(|next| next.recommended.as_ref());
         if let Some(experiment) = next {
@@ -147,6 +153,7 @@ fn named(truth: &Truth, found: &Diagnosis) -> Named {
             .and_then(|row| row.times_typical),
         separations: now.map(|s| (s.rival.clone(), s.lambda)).collect(),
         after: None,
+        distances: None,
         answer,
     }
 }

@@ -4,6 +4,7 @@
 //! of threads. Sizes, laws and seeds are not tuned: what is not reached is shown, with what was named instead and the
 //! separation λ of truth and name.
 
+mod attainable;
 mod cases;
 mod follow;
 mod made;
@@ -12,6 +13,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
+pub use attainable::Attainable;
 pub use cases::{Named, Outcome};
 pub use made::{LACKING, Made};
 pub use row::{Row, Target};
@@ -80,6 +82,8 @@ pub struct Bench {
     pub confusion: Vec<Confusion>,
     /// Single effects by actuator, camera noise and runs.
     pub breakdown: Vec<Breakdown>,
+    /// What no test could exceed with these data.
+    pub attainable: Attainable,
     /// Data made by finite elements, robot by robot.
     pub made: Vec<Made>,
     /// Sets that could not be made or diagnosed, with the reason.
@@ -109,6 +113,7 @@ pub fn run(options: &BenchOptions, diagnose: Diagnose, tell: &(dyn Fn(f64) + Syn
         rows: [table::rows(&outcomes), made::rows(&made)].concat(),
         confusion: table::confusion(&outcomes),
         breakdown: table::breakdown(&outcomes),
+        attainable: attainable::of(&outcomes),
         made,
         failed,
     })

@@ -1,0 +1,88 @@
+//! Patterns without physics, and distances without noise: what they see, what they must not see, and how often noise is seen.
+
+use super::case::{Case, catalogue};
+use super::stands_out::{StandsOut, stands_out};
+use super::*;
+use crate::study::{Generator, generate, published::shipped_scenario};
+
+fn robot(kind: &str, bending_nm2: f64) -> Scenario {
+    shipped_scenario(kind).unwrap().with_bending(bending_nm2)
+}
+
+fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
+    generate(truth, "made", &Generator { runs, seed, ..Generator::default() }).unwrap()
+}
+
+/// What the calibrated base leaves: a place, a time.
+fn left_by_base(scenario: &Scenario, data: &Dataset) -> [StandsOut; 2] {
+    let options = Options::default();
+    let (candidates, own) = catalogue(scenario, &options);
+    let case = Case::new(scenario, data, &[], (&candidates, own), &options).unwrap();
+    stands_out(&case, &case.base).try_into().unwrap()
+}
+
+#[test]
+fn a_marker_that_sits_elsewhere_is_outside_the_catalogue_and_is_named() {
+    let told = robot("epam", 1.35);
+    let mut stations = told.markers_m.clone();
+    stations[3] += 0.008;
+    let mut data = measured(&told.with_markers(&stations), 5, 51);
+    data.markers[3].station_m = Some(told.markers_m[3]);
+    let options = Options { next_experiment: false, ..Options::default() };
+    let d = diagnose(&told, &data, None, &options).unwrap();
+    assert_eq!(d.verdict, Some(Verdict::OutOfCatalog));
+    let pattern = d.pattern.as_ref().unwrap();
+    assert!(pattern.words.contains("marker 4 sits elsewhere") && pattern.instead, "{pattern:?}");
+    assert!(pattern.share > 0.9 && pattern.share <= 1.0 && pattern.p_value <= 1e-6, "{pattern:?}");
+    assert!(d.summary.iter().any(|s| s.contains("It looks as if marker 4 sits elsewhere")), "{:?}", d.summary);
+}
+
+#[test]
+fn a_wrong_law_of_a_uniform_robot_leaves_a_time_and_no_place() {
+    let plain = robot("spam", 6.0);
+    for (effect, value, seed) in [("tail_tension", 0.9, 52), ("pressure_offset", 3e3, 53), ("friction", 0.4, 54)] {
+        let [place, time] = left_by_base(&plain, &measured(&plain.with_effect(effect, &[value]), 5, seed));
+        assert!(!place.is_uniform && time.is_uniform);
+        assert!(time.p_value < 1e-6 && place.p_value > 0.01, "{effect}: {place:?} {time:?}");
+    }
+}
+
+#[test]
+fn a_stiffness_that_falls_along_the_robot_is_a_place() {
+    let plain = robot("epam", 1.35);
+    let [place, _] = left_by_base(&plain, &measured(&plain.with_effect("base_clamp", &[3.0]), 5, 55));
+    assert!(place.p_value < 1e-6 && place.words.contains("stiffness changes steadily"), "{place:?}");
+}
+
+#[test]
+fn noise_leaves_a_pattern_below_5_percent_in_about_5_percent_of_sets() {
+    let mut below = 0;
+    let kinds = [("spam", 6.0), ("epam", 1.35), ("cpam", 0.5), ("fpam", 0.3)];
+    for seed in 0..100 {
+        let (kind, bending) = kinds[seed % 4];
+        let runs = [3, 5, 10][seed % 3];
+        let truth = robot(kind, bending);
+        let found = left_by_base(&truth, &measured(&truth, runs, 600 + seed as u64));
+        below += usize::from(found.iter().any(|f| f.p_value < 0.05));
+    }
+    // Of 100 sets at 5 % more than 11 are below once in 200 times.
+    assert!(below <= 11, "{below} of 100");
+}
+
+#[test]
+fn an_effect_by_its_own_formula_is_at_no_distance_from_the_catalogue_and_far_from_the_base() {
+    let plain = robot("epam", 1.35);
+    let noise = KnownNoise { runs: 5, sigma_m: 1e-3, run_sd: [0.02, 5e-4, 5e-4, 5e-4] };
+    let ideal = |scenario: &Scenario| {
+        let none =
+            Generator { runs: 1, camera_sd_m: 0.0, pressure_sd: 0.0, alignment_sd_m: 0.0, ..Generator::default() };
+        generate(scenario, "ideal", &Generator { rotation_sd: 0.0, ..none }).unwrap()
+    };
+    let own = distances(&plain, &ideal(&plain), None, noise, true).unwrap();
+    assert!(own.base < 1e-3 && own.one <= own.base && own.two <= own.one, "{own:?}");
+    let friction = distances(&plain, &ideal(&plain.with_effect("friction", &[0.3])), None, noise, true).unwrap();
+    assert!(friction.base > 100.0 && friction.one < 1e-2 && friction.two <= friction.one, "{friction:?}");
+    let more = KnownNoise { runs: 20, ..noise };
+    let closer = distances(&plain, &ideal(&plain.with_effect("friction", &[0.3])), None, more, false).unwrap();
+    assert!((closer.base / friction.base / 4.0 - 1.0).abs() < 0.01, "λ grows with the runs: {closer:?} {friction:?}");
+}

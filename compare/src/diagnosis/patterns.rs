@@ -1,0 +1,229 @@
+//! Shapes that a misfit may have whatever its cause: what a person looks for in residuals before thinking of physics.
+//!
+//! A pattern is a place times a time. Places are small rotations at one point of the robot (a kink, a stiffer stretch), one
+//! marker by itself, or all markers together; times are one hold by itself, all holds alike, in proportion to the bending or to
+//! its square, or from a pressure on. Displacements are first order: what lies beyond a rotated point turns about it and comes
+//! nearer, because the far side of the body keeps its length,
+//!
+//! ```text
+//! δx_j = Σ_k c_k [(−(y_j − ȳ_k), x_j − x̄_k) − R t_k]   over the points k before marker j, halfway between neighbours
+//! ```
+//!
+//! with R the distance of the centre line from the far side and t_k the direction of the robot at k.
+//!
+//! No pattern knows an effect. A misfit along one of them more than along all effects is what "outside the catalogue" means.
+
+use super::case::Case;
+use crate::comparison::ZERO_PRESSURE_PA;
+use crate::layout::Layout;
+
+/// Pressures within this fraction are one level.
+const SAME_PRESSURE: f64 = 0.05;
+
+/// A pattern in the data.
+pub struct Pattern {
+    /// What it looks like, to follow "What is left looks as if".
+    pub words: String,
+    /// The whole robot bends otherwise at some time: all that a wrong law of a uniform robot can leave. Without it, a place.
+    pub is_uniform: bool,
+    /// Displacement in run layout, any unit.
+    pub direction: Vec<f64>,
+}
+
+/// Where a pattern acts.
+enum Place {
+    /// Rotations at the points halfway between neighbouring markers, the first between base and first marker.
+    Bends(Vec<f64>),
+    /// One marker in x or y.
+    Marker(usize, [f64; 2]),
+    /// One marker along the robot.
+    Along(usize),
+    /// All markers in x or y.
+    All([f64; 2]),
+}
+
+/// When: one factor per hold.
+type Time = Vec<f64>;
+
+/// The robot seen in one sample: base and markers in the order of their stations.
+struct Outline {
+    xy: Vec<[f64; 2]>,
+    /// Approach per turn \[m\], with the sign of the bending.
+    shorter_m: f64,
+    /// Place in the outline of every marker of the data.
+    place: Vec<usize>,
+}
+
+/// All patterns for a prediction in run layout \[m\]; none for data of another shape.
+pub fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
+    let Ok(layout) = Layout::of(case.dataset) else { return Vec::new() };
+    let (names, outlines) = (&case.dataset.markers, outlines(case, &layout, prediction_m));
+    let bent = bending(&layout, prediction_m);
+    let stations = order(&case.scenario.markers_m);
+    let mut all = Vec::new();
+    let mut add = |words: String, place: Place, time: &Time| {
+        all.push(Pattern { words, is_uniform: false, direction: direction(&layout, &outlines, &place, time) });
+    };
+    let always = vec![1.0; layout.holds];
+    let n = layout.markers;
+    // A rotation before the first marker is one of mount or camera, which the catalogue has.
+    for k in 1..n {
+        let at = between(&stations, k, |m| &names[m].name);
+        let one: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == k))).collect();
+        add(format!("the robot bends otherwise {at} in proportion to its bending"), Place::Bends(one.clone()), &bent);
+        add(format!("the robot has a fixed kink {at}"), Place::Bends(one), &always);
+    }
+    let along = |f: fn(f64) -> f64| Place::Bends(stretches(case).iter().map(|[s, ds]| f(*s) * ds).collect());
+    add("stiffness changes steadily along the robot".into(), along(|s| 1.0 - 2.0 * s), &bent);
+    add("the robot's middle bends otherwise than its ends".into(), along(|s| 1.0 - 6.0 * s + 6.0 * s * s), &bent);
+    for m in 0..n {
+        let name = &names[m].name;
+        add(format!("marker {name} sits elsewhere along the robot"), Place::Along(m), &always);
+        add(format!("marker {name} stands alone in x"), Place::Marker(m, [1.0, 0.0]), &always);
+        add(format!("marker {name} stands alone in y"), Place::Marker(m, [0.0, 1.0]), &always);
+    }
+    let times = times(case, &bent);
+    for (words, time) in &times {
+        add(format!("something bends the robot from its tip {words}"), along(|s| 1.0 - s), time);
+        add(format!("the image shifts in x {words}"), Place::All([1.0, 0.0]), time);
+        add(format!("the image shifts in y {words}"), Place::All([0.0, 1.0]), time);
+    }
+    for (words, time) in &times {
+        let words = format!("the whole robot bends otherwise {words}");
+        let direction = direction(&layout, &outlines, &along(|_| 1.0), time);
+        all.push(Pattern { words, is_uniform: true, direction });
+    }
+    all
+}
+
+/// Uniform bending of every hold by itself, what any law of a uniform robot may do: of the outline, and as the model bends with
+/// pressure, which knows stretches without actuator.
+pub fn uniform_bending(case: &Case, prediction_m: &[f64]) -> Vec<Vec<f64>> {
+    let Ok(layout) = Layout::of(case.dataset) else { return Vec::new() };
+    let outlines = outlines(case, &layout, prediction_m);
+    let bent = Place::Bends(stretches(case).iter().map(|[_, ds]| *ds).collect());
+    let by_model = |h: usize| {
+        let own = layout.hold_range(h);
+        let slope = case.noise.directions.iter().enumerate();
+        slope.map(|(i, u)| if own.contains(&i) { u[0] } else { 0.0 }).collect()
+    };
+    let by_outline = |h: usize| direction(&layout, &outlines, &bent, &alone(layout.holds, h));
+    (0..layout.holds).flat_map(|h| [by_outline(h), by_model(h)]).collect()
+}
+
+/// Stretches between neighbouring markers, the first from the base: middle and length over the last station.
+fn stretches(case: &Case) -> Vec<[f64; 2]> {
+    let stations = &case.scenario.markers_m;
+    let ordered: Vec<f64> = order(stations).iter().map(|m| stations[*m]).collect();
+    let last = ordered.last().copied().filter(|last| *last > 0.0).unwrap_or(1.0);
+    let mut before = 0.0;
+    let mut stretch = |s: &f64| {
+        let own = [0.5 * (s + before) / last, (s - before) / last];
+        before = *s;
+        own
+    };
+    ordered.iter().map(&mut stretch).collect()
+}
+
+fn alone(holds: usize, hold: usize) -> Time {
+    (0..holds).map(|i| f64::from(u8::from(i == hold))).collect()
+}
+
+/// Times that single out holds, with words.
+fn times(case: &Case, bent: &Time) -> Vec<(String, Time)> {
+    let holds = &case.dataset.holds;
+    let mut all: Vec<(String, Time)> = Vec::new();
+    for (h, hold) in holds.iter().enumerate() {
+        all.push((format!("in hold {} alone ({:.0} kPa)", h + 1, hold.p_act_pa / 1e3), alone(holds.len(), h)));
+    }
+    all.push(("faster than its bending".into(), bent.iter().map(|b| b * b).collect()));
+    let mut levels: Vec<f64> = Vec::new();
+    for p in holds.iter().map(|h| h.p_act_pa).filter(|p| *p > ZERO_PRESSURE_PA) {
+        if !levels.iter().any(|l| (l - p).abs() < SAME_PRESSURE * l) {
+            levels.push(p);
+        }
+    }
+    levels.sort_by(f64::total_cmp);
+    // Above the last but one level there is one hold level left, which stands alone already.
+    for from in levels.iter().take(levels.len().saturating_sub(2)) {
+        let beyond = holds.iter().map(|h| (h.p_act_pa - from).max(0.0)).collect();
+        all.push((format!("from {:.0} kPa on", from / 1e3), beyond));
+    }
+    all
+}
+
+/// Indices of markers by station.
+fn order(stations_m: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..stations_m.len()).collect();
+    order.sort_by(|a, b| stations_m[*a].total_cmp(&stations_m[*b]));
+    order
+}
+
+/// Where the k-th point lies, k ≥ 1.
+fn between<'a>(order: &[usize], k: usize, name: impl Fn(usize) -> &'a String) -> String {
+    format!("between markers {} and {}", name(order[k - 1]), name(order[k]))
+}
+
+fn outlines(case: &Case, layout: &Layout, prediction_m: &[f64]) -> Vec<Outline> {
+    let order = order(&case.scenario.markers_m);
+    let centre_m = case.scenario.centre_line_m.unwrap_or(case.scenario.radius_m);
+    let outline = |sample: &[f64]| {
+        let mut xy = vec![[0.0; 2]];
+        xy.extend(order.iter().map(|m| [sample[2 * m], sample[2 * m + 1]]));
+        let mut place = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(at, m)| place[*m] = at + 1);
+        let shorter_m = xy.last().map_or(0.0, |tip| if tip[1] < 0.0 { -centre_m } else { centre_m });
+        Outline { xy, shorter_m, place }
+    };
+    prediction_m.chunks_exact(2 * layout.markers).map(outline).collect()
+}
+
+/// Deflection of the farthest marker per hold, last sample, over the largest.
+fn bending(layout: &Layout, prediction_m: &[f64]) -> Time {
+    let tip = |h: usize| {
+        let last = layout.index(h, layout.samples - 1, 0);
+        let sample = &prediction_m[last..last + 2 * layout.markers];
+        sample.chunks_exact(2).map(|xy| xy[1]).fold(0.0, |a: f64, y| if y.abs() > a.abs() { y } else { a })
+    };
+    let all: Time = (0..layout.holds).map(tip).collect();
+    let most = all.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+    if most > 0.0 { all.iter().map(|b| b / most).collect() } else { all }
+}
+
+fn direction(layout: &Layout, outlines: &[Outline], place: &Place, time: &Time) -> Vec<f64> {
+    let mut out = Vec::with_capacity(layout.values());
+    for (i, outline) in outlines.iter().enumerate() {
+        let factor = time[i / layout.samples];
+        for m in 0..layout.markers {
+            out.extend(displacement(outline, place, m).map(|d| factor * d));
+        }
+    }
+    out
+}
+
+fn displacement(outline: &Outline, place: &Place, marker: usize) -> [f64; 2] {
+    let (xy, at) = (&outline.xy, outline.place[marker]);
+    match place {
+        Place::Bends(turns) => {
+            let mut sum = [0.0; 2];
+            for (k, turn) in turns.iter().enumerate().take(at) {
+                let middle = [0, 1].map(|axis| 0.5 * (xy[k][axis] + xy[k + 1][axis]));
+                let along = towards(xy[k], xy[k + 1]);
+                sum[0] -= turn * (xy[at][1] - middle[1] + outline.shorter_m * along[0]);
+                sum[1] += turn * (xy[at][0] - middle[0] - outline.shorter_m * along[1]);
+            }
+            sum
+        }
+        Place::Marker(own, d) => d.map(|d| if *own == marker { d } else { 0.0 }),
+        Place::Along(own) if *own == marker => towards(xy[at - 1], xy[(at + 1).min(xy.len() - 1)]),
+        Place::Along(_) => [0.0; 2],
+        Place::All(d) => *d,
+    }
+}
+
+/// Unit vector from one point to another; zero if they are one.
+fn towards(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
+    let chord = [0, 1].map(|axis| to[axis] - from[axis]);
+    let length = chord[0].hypot(chord[1]);
+    if length > 0.0 { chord.map(|c| c / length) } else { [0.0; 2] }
+}
