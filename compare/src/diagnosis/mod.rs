@@ -1,8 +1,8 @@
 //! Which physical effect is missing, what it would bring, and when the data cannot tell.
 //!
 //! ```text
-//! prepare ─► noise, base ─► every effect refitted ─► one p ─► set ─► pairs if wanted ─► lack of fit ─► verdict
-//!            (case)          (screen, singles)                       (pairs)            (lack_of_fit, decide)
+//! prepare ─► noise, base ─► every effect refitted ─► one p ─► set ─► pairs if wanted ─► lack of fit, places ─► verdict
+//!            (case)          (screen, singles)                       (pairs)            (lack_of_fit, stands_out, decide)
 //!                                 └─► intervals, held-out error, smallest detectable sizes, next experiment
 //! ```
 //!
