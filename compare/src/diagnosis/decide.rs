@@ -115,14 +115,13 @@ fn is_unexplained(case: &Case, fit: &Fit, lof: Option<LackOfFit>, share: (f64, f
     let level = (1.0 - SHARE_OF_EFFECTS) * case.alpha;
     let lacks = lof.is_some_and(|lof| lof.p_value < level);
     leaves(case, fit, share) && (lacks || leaves(case, fit, MOST_LEFT) && another_wanted(case, fit) < level)
-        || stands_out(case, fit).iter().any(|seen| is_a_place_left(case, fit, seen))
+        || stands_out(case, fit).iter().any(|seen| seen.p_value < level && is_a_place_left(case, fit, seen))
 }
 
 /// Whether a pattern that a fit leaves is a place with a share of the error; amplitudes, as far as they were seen.
 fn is_a_place_left(case: &Case, fit: &Fit, seen: &StandsOut) -> bool {
     let before = case.gain(fit) + seen.gain;
-    let is_seen = seen.p_value < PLACE_LEVEL * case.alpha;
-    is_seen && !seen.is_uniform && seen.gain - 1.0 > PLACE_LEFT * PLACE_LEFT * before
+    !seen.is_uniform && seen.gain - 1.0 > PLACE_LEFT * PLACE_LEFT * before
 }
 
 /// Takes the best pair in place of the single effect, or of the base, if it is significantly better.

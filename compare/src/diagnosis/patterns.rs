@@ -76,8 +76,8 @@ pub fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
     let along = |f: fn(f64) -> f64| Place::Bends(stretches(case).iter().map(|[s, ds]| f(*s) * ds).collect());
     add("stiffness changes steadily along the robot".into(), along(|s| 1.0 - 2.0 * s), &bent);
     add("the robot's middle bends otherwise than its ends".into(), along(|s| 1.0 - 6.0 * s + 6.0 * s * s), &bent);
-    for m in 0..n {
-        let name = &names[m].name;
+    for (m, marker) in names.iter().enumerate() {
+        let name = &marker.name;
         add(format!("marker {name} sits elsewhere along the robot"), Place::Along(m), &always);
         add(format!("marker {name} stands alone in x"), Place::Marker(m, [1.0, 0.0]), &always);
         add(format!("marker {name} stands alone in y"), Place::Marker(m, [0.0, 1.0]), &always);
