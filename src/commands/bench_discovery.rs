@@ -121,8 +121,8 @@ fn attainable(limits: &Attainable) -> String {
          One hidden effect, alarm, 3 % false alarms: {alarm} if it knows the effect, {any} if it looks for one of ten.\n\
          Outside the catalogue, 5 % false flags, laws taken as the catalogue's formulas: {one} if one effect counts as an \
          explanation, {two} if two do.\n\
-         They are not: of the misfit that an effect of the catalogue makes here, its formula leaves {median} of the amplitude \
-         in the median and {most} in one of ten sets, and that must not be flagged.\n\
+         Laws are not the formulas: of the misfit that an effect of the catalogue makes here, the nearest formula leaves \
+         {median} of the amplitude in the median and {most} in one of ten sets, and that must not be flagged.\n\
          Of {} sets outside the catalogue that were not flagged, one or two effects come nearer than can be seen in {} (λ below \
          13) and as near as an effect's own formula in {} more.\n",
         limits.missed, limits.missed_unseen, limits.missed_alike

@@ -178,7 +178,7 @@ fn reduced_at(
 }
 
 /// Ledgers of finite elements and of the reduced model at the same bends, from the first pressure that bends the robot by
-/// [`FIRST_BEND`] of the turn at the given one to that one \[mJ\]: what filling a slack actuator takes is in neither. `None` if
+/// `FIRST_BEND` of the turn at the given one to that one \[mJ\]: what filling a slack actuator takes is in neither. `None` if
 /// the run lacks the two states or the model cannot bend so.
 pub fn between(scenario: &Scenario, run: &FeRun, actuator_kpa: f64) -> Option<[[f64; 6]; 2]> {
     let model = Model::new(&Scenario { p_max_pa: HIGHEST_PA, ..scenario.clone() });
