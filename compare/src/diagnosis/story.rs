@@ -4,6 +4,9 @@ use super::result::{Confidence, Diagnosis, LeftPattern, ParameterValue, Ranked, 
 use super::words::quantity;
 use crate::wording::{list, p_value};
 
+/// Share of the error left up to which the best of the catalogue is named as a part of the answer.
+const MOSTLY: f64 = 0.25;
+
 /// The story, one sentence or two per entry.
 pub fn story(d: &Diagnosis) -> Vec<String> {
     let mut told = vec![opening(d)];
@@ -117,15 +120,20 @@ fn held_out(d: &Diagnosis, r: &Ranked) -> Option<String> {
 fn outside(d: &Diagnosis) -> Vec<String> {
     let p = d.p_value.map(p_value).unwrap_or_default();
     let tried = list(&d.attempt.iter().map(|a| a.effect.clone()).collect::<Vec<_>>());
-    let mut told = Vec::new();
-    if d.attempt.is_empty() {
-        told.push(format!("Nothing in the catalogue explains this ({p}): {:.2} mm remain.", d.base.systematic_mm));
-    } else {
-        told.push(format!(
-            "Nothing in the catalogue explains this ({p}): {:.2} mm remain with the best of it, {tried}, of {:.2} mm before.",
-            d.base.systematic_with_added_mm, d.base.systematic_mm
-        ));
-    }
+    let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
+    let mut told = vec![match () {
+        () if d.attempt.is_empty() => {
+            format!("Nothing in the catalogue explains this ({p}): {before:.2} mm remain.")
+        }
+        () if after <= MOSTLY * before => format!(
+            "Adding {tried} takes away most of it, {before:.2} to {after:.2} mm, but nothing in the catalogue explains the rest \
+             ({p}): a law that is not quite the catalogue's, or something that is not listed."
+        ),
+        () => format!(
+            "Nothing in the catalogue explains this ({p}): {after:.2} mm remain with the best of it, {tried}, of {before:.2} mm \
+             before."
+        ),
+    }];
     told.extend(d.pattern.as_ref().map(looks_like));
     told.extend(d.leftover.iter().map(|s| s.sentence.clone()));
     told.push("Check markers, set-up and protocol there before looking for new physics.".into());
