@@ -125,36 +125,20 @@ pub fn compare_page(study: &Study, imprint: &Imprint) -> Result<Files, CompareEr
         files.plot(name, drawn);
     }
     files.table("holds", tables::holds(&study.variants))?;
-    let figure = |caption: &str, alt: &str, svg: &str| Block::Figure {
-        caption: caption.into(),
-        alt: alt.into(),
-        svg: svg.into(),
-    };
+    let residuals = figure(
+        "Signed residual of every marker in every hold. Blue: the robot bends more than the model; orange: less.",
+        "heat map of residuals, markers by holds",
+        &map.svg,
+    );
+    let lines = figure(
+        "Lines and open marks: model. Filled marks: mean over runs, bars one standard deviation.",
+        "centre lines of the robot with markers",
+        &shapes.svg,
+    );
+    let heights = figure("Loading and unloading are drawn apart.", "marker height over pressure", &curve.svg);
     let mut sections = vec![
-        section(
-            "where",
-            "Where it fails",
-            failure_blocks(
-                first,
-                figure(
-                    "Signed residual of every marker in every hold. Blue: the robot bends more than the model; orange: less.",
-                    "heat map of residuals, markers by holds",
-                    &map.svg,
-                ),
-            ),
-        ),
-        section(
-            "shape",
-            "Shape",
-            vec![
-                figure(
-                    "Lines and open marks: model. Filled marks: mean over runs, bars one standard deviation.",
-                    "centre lines of the robot with markers",
-                    &shapes.svg,
-                ),
-                figure("Loading and unloading are drawn apart.", "marker height over pressure", &curve.svg),
-            ],
-        ),
+        section("where", "Where it fails", failure_blocks(first, residuals)),
+        section("shape", "Shape", vec![lines, heights]),
         section("accuracy", "Accuracy", accuracy_blocks(study)),
         section("noise", "Noise", noise_blocks(first)),
         section(
@@ -165,14 +149,7 @@ pub fn compare_page(study: &Study, imprint: &Imprint) -> Result<Files, CompareEr
     ];
     sections.extend(ledger_section(study, &mut files)?);
     if study.variants.len() > 1 {
-        let ladder = figures::error_ladder("Error beyond noise", &study.variants)?;
-        files.plot("ladder", &ladder);
-        let block = figure("Each bar is one more effect or one calibration.", "bars of error per model", &ladder.svg);
-        let origins = tables::origins(study.variants.iter().map(|v| (v.label.as_str(), v.known, v.why.as_str())));
-        sections.insert(
-            1,
-            section("ladder", "What each addition brings", vec![tables::variants(&study.variants), origins, block]),
-        );
+        sections.insert(1, additions_section(study, &mut files)?);
     }
     let report = Report {
         title: format!("{} held against {}", first.scenario.name, study.dataset.name),
@@ -184,6 +161,19 @@ pub fn compare_page(study: &Study, imprint: &Imprint) -> Result<Files, CompareEr
     };
     files.report(&report).map_err(|e| drawing("the report", e))?;
     Ok(files)
+}
+
+pub(super) fn figure(caption: &str, alt: &str, svg: &str) -> Block {
+    Block::Figure { caption: caption.into(), alt: alt.into(), svg: svg.into() }
+}
+
+/// Every effect and calibration beyond the first model.
+fn additions_section(study: &Study, files: &mut Files) -> Result<Section, CompareError> {
+    let ladder = figures::error_ladder("Error beyond noise", &study.variants)?;
+    files.plot("ladder", &ladder);
+    let bars = figure("Each bar is one more effect or one calibration.", "bars of error per model", &ladder.svg);
+    let origins = tables::origins(study.variants.iter().map(|v| (v.label.as_str(), v.known, v.why.as_str())));
+    Ok(section("ladder", "What each addition brings", vec![tables::variants(&study.variants), origins, bars]))
 }
 
 /// The ledger at the highest pressure of the data; nothing if no hold has actuator pressure.

@@ -1,6 +1,6 @@
 //! The demonstration: every actuator against the published displacements and against the embedded marker sets.
 
-use super::compare_page::{Candidate, Study, lead, study};
+use super::compare_page::{Candidate, Study, figure, lead, study};
 use super::diagnosis_page::{Diagnosed, diagnosis_sections};
 use super::engines_page::{Engines, engine_sections, engines};
 use super::{Files, Imprint, figures, tables};
@@ -136,10 +136,6 @@ fn demo_lead(demo: &Demo) -> String {
          fabric moduli or a volume formula, and not from the measurement, brings: {}.",
         words.collect::<Vec<_>>().join("; ")
     )
-}
-
-fn figure(caption: &str, alt: &str, svg: &str) -> Block {
-    Block::Figure { caption: caption.into(), alt: alt.into(), svg: svg.into() }
 }
 
 fn published_section(demo: &Demo, files: &mut Files) -> Result<Section, CompareError> {
