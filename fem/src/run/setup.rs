@@ -2,7 +2,7 @@
 
 use models::{Pose, Term};
 
-use super::constraint::{bodies, driven};
+use super::constraint::{Body, Driven, bodies, driven};
 use super::team::Team;
 use super::{Books, Clock, Limits, Simulation};
 use crate::contact::Contact;
@@ -29,56 +29,20 @@ impl Simulation {
         let settings = &problem.settings;
         let mut sheet = Sheet::new(&mesh, &order, &problem.sections, &problem.chambers, settings)?;
         let count = mesh.points.len();
-        let mut mass = sheet.masses(count);
-        give_tied_masses(&mesh, &mut mass);
         let mut fixed = vec![[false; 3]; count];
         let driven = driven(problem, &mesh, &mut fixed)?;
         let mut x: Vec<[f64; 4]> = (0..count).map(|i| mesh.start_of(i)).map(|p| [p[0], p[1], p[2], 0.0]).collect();
         imperfect(&mut x, &mesh, &order, &fixed, settings.imperfection, settings.seed);
-        let mut bound = vec![0.0; count];
-        sheet.stiffness_bound(&Pose::nodes(x.as_flattened()), &mut bound);
         let rest = RestCurvature::new(&mesh, &problem.sections);
-        rest.stiffness_bound(&Pose::nodes(x.as_flattened()), &mut bound);
-        give_tied_bounds(&mesh, &mut bound);
-        let true_mass: f64 = mass.iter().sum();
-        scale_masses(settings, &bound, &mut mass);
-        let added_mass = mass.iter().sum::<f64>() / true_mass - 1.0;
-        let stable = stable_step(&bound, &mass, settings.viscosity);
-        let dt_s = choose_step(stable, settings.cfl, settings.dt_s)?;
+        let (mass, added_mass, dt_s) = masses_and_step(settings, &mesh, &sheet, &rest, &x)?;
         mesh.start = x.iter().map(|x| [x[0], x[1], x[2]]).collect();
-        let mut terms = terms(problem, &mesh, &mass, dt_s)?;
-        if !rest.is_empty() {
-            terms.push(Box::new(rest));
-        }
-        let contact = match &problem.contact {
-            Some(contact) => Some(self::contact(problem, contact, &mesh, &order, &mass, dt_s)?),
-            None => None,
-        };
+        let terms = terms(problem, &mesh, &mass, dt_s, rest)?;
+        let touching = problem.contact.as_ref();
+        let contact = touching.map(|c| contact(problem, c, &mesh, &order, &mass, dt_s)).transpose()?;
         sheet.start(x.as_flattened());
         let bodies = bodies(problem, &mesh, &mass)?;
-        let mut moved = vec![[false; 3]; count];
-        for (node, axes) in driven.iter().flat_map(|d| d.nodes.iter().map(|n| (*n, d.axes))) {
-            (0..3).for_each(|k| moved[node as usize][k] |= axes[k]);
-        }
-        for node in bodies.iter().flat_map(|b| &b.nodes).chain(mesh.ties.iter().map(|t| &t.node)) {
-            fixed[*node as usize] = [true; 3];
-            moved[*node as usize] = [true; 3];
-        }
-        let limits = Limits {
-            cfl: settings.cfl,
-            viscosity: settings.viscosity,
-            damping_1_s: settings.mass_damping_1_s,
-            forced_dt_s: settings.dt_s,
-            guards: settings.guards.clone(),
-            speed_m_s: if settings.guards.speed_m_s > 0.0 { settings.guards.speed_m_s } else { sound_speed(&sheet) },
-            added_mass,
-        };
-        let mut owned = fixed.clone();
-        mesh.ties.iter().for_each(|t| owned[t.node as usize] = [true; 3]);
-        let edges = match problem.contact.as_ref().filter(|c| c.edges) {
-            Some(settings) => Some(Edges::new(&mesh, settings, &mass, dt_s, &owned)?),
-            None => None,
-        };
+        let moved = moved(&driven, &bodies, &mesh, &mut fixed);
+        let edges = touching.filter(|c| c.edges).map(|c| Edges::new(&mesh, c, &mass, dt_s, &fixed)).transpose()?;
         let mut run = Simulation {
             fixed: listed(&fixed),
             moved: listed(&moved),
@@ -89,6 +53,8 @@ impl Simulation {
             force: vec![[0.0; 4]; count],
             clock: Clock { step: 0, time_s: 0.0, dt_s, before_s: 0.0, longest_s: dt_s },
             books: Books::default(),
+            limits: limits(settings, &sheet, added_mass),
+            team: Some(Team::new(settings.threads)?),
             order,
             mesh,
             sheet,
@@ -98,15 +64,59 @@ impl Simulation {
             driven,
             bodies,
             mass,
-            limits,
             x,
-            team: Some(Team::new(settings.threads)?),
         };
         if run.edges.is_some() {
             // The first step already allows for what touches.
             run.recheck()?;
         }
         Ok(run)
+    }
+}
+
+/// Masses \[kg\] after scaling, the share of mass that it added, and the time step \[s\].
+fn masses_and_step(
+    settings: &Settings,
+    mesh: &Mesh,
+    sheet: &Sheet,
+    rest: &RestCurvature,
+    x: &[[f64; 4]],
+) -> Result<(Vec<f64>, f64, f64), FemError> {
+    let mut mass = sheet.masses(x.len());
+    give_tied_masses(mesh, &mut mass);
+    let mut bound = vec![0.0; x.len()];
+    sheet.stiffness_bound(&Pose::nodes(x.as_flattened()), &mut bound);
+    rest.stiffness_bound(&Pose::nodes(x.as_flattened()), &mut bound);
+    give_tied_bounds(mesh, &mut bound);
+    let true_mass: f64 = mass.iter().sum();
+    scale_masses(settings, &bound, &mut mass);
+    let added_mass = mass.iter().sum::<f64>() / true_mass - 1.0;
+    let stable = stable_step(&bound, &mass, settings.viscosity);
+    Ok((mass, added_mass, choose_step(stable, settings.cfl, settings.dt_s)?))
+}
+
+/// Axes whose velocities are set; `fixed` gets those of bodies and ties, too.
+fn moved(driven: &[Driven], bodies: &[Body], mesh: &Mesh, fixed: &mut [[bool; 3]]) -> Vec<[bool; 3]> {
+    let mut moved = vec![[false; 3]; fixed.len()];
+    for (node, axes) in driven.iter().flat_map(|d| d.nodes.iter().map(|n| (*n, d.axes))) {
+        (0..3).for_each(|k| moved[node as usize][k] |= axes[k]);
+    }
+    for node in bodies.iter().flat_map(|b| &b.nodes).chain(mesh.ties.iter().map(|t| &t.node)) {
+        fixed[*node as usize] = [true; 3];
+        moved[*node as usize] = [true; 3];
+    }
+    moved
+}
+
+fn limits(settings: &Settings, sheet: &Sheet, added_mass: f64) -> Limits {
+    Limits {
+        cfl: settings.cfl,
+        viscosity: settings.viscosity,
+        damping_1_s: settings.mass_damping_1_s,
+        forced_dt_s: settings.dt_s,
+        guards: settings.guards.clone(),
+        speed_m_s: if settings.guards.speed_m_s > 0.0 { settings.guards.speed_m_s } else { sound_speed(sheet) },
+        added_mass,
     }
 }
 
@@ -129,7 +139,13 @@ fn contact(
 }
 
 /// The terms beside shells and contact.
-fn terms(problem: &Problem, mesh: &Mesh, mass: &[f64], dt_s: f64) -> Result<Vec<Box<dyn Term>>, FemError> {
+fn terms(
+    problem: &Problem,
+    mesh: &Mesh,
+    mass: &[f64],
+    dt_s: f64,
+    rest: RestCurvature,
+) -> Result<Vec<Box<dyn Term>>, FemError> {
     let mut terms: Vec<Box<dyn Term>> = Vec::new();
     if !problem.forces.is_empty() {
         terms.push(Box::new(NodalForces::new(mesh, &problem.forces)?));
@@ -140,6 +156,9 @@ fn terms(problem: &Problem, mesh: &Mesh, mass: &[f64], dt_s: f64) -> Result<Vec<
     if !problem.obstacles.is_empty() {
         let stiffness = penalty_stiffness_n_m(mass, dt_s, OBSTACLE_SHARE);
         terms.push(Box::new(Obstacles::new(mesh, &problem.obstacles, &stiffness)?));
+    }
+    if !rest.is_empty() {
+        terms.push(Box::new(rest));
     }
     Ok(terms)
 }
