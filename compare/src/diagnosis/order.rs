@@ -1,13 +1,14 @@
 //! In which order explanations are named, and which cannot be told apart.
 //!
 //! ```text
-//! C = S/(1 + cG) + q ln n + Σ [(ln u / ln 3)² + 2 ln w],    u = |x − neutral| / |typical − neutral|
+//! C = S/A + q ln(n/A) + Σ [(ln u / ln 3)² + 2 ln w],    A = 1 + cG,    u = |x − neutral| / |typical − neutral|
 //! ```
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | S, G | whitened sum of squares; gain of the best explanation that no bound rejects |
 //! | c | allowance for the form of the law: 5 % of the gain counts as six units |
+//! | A | what that makes of the noise: the n values then tell as much as n/A; each parameter costs at least 1 |
 //! | q, n | parameters added, values fitted |
 //! | u | size over the catalogue's typical one, of every effect added that has one parameter |
 //! | w | for a value on the other side of neutral than the typical one: how much further the bounds reach on the usual side |
@@ -28,6 +29,8 @@ pub const SAME: f64 = 6.0;
 const FORM: f64 = 0.05;
 /// One standard deviation of the size, as a factor.
 const SIZE_FACTOR: f64 = 3.0;
+/// Least price of a parameter, where hardly any information is left.
+const LEAST_PRICE: f64 = 1.0;
 /// Sizes beyond this factor from the typical one are equally odd.
 const ODDEST: f64 = 1e3;
 
@@ -38,7 +41,13 @@ pub fn allowance(best_gain: f64) -> f64 {
 
 /// C of an explanation, up to a constant.
 pub fn criterion(case: &Case, fit: &Fit, allowance: f64) -> f64 {
-    fit.cost() / allowance + case.extra(fit) as f64 * (case.noise.directions.len() as f64).ln() + oddness(case, fit)
+    let values = case.noise.directions.len() as f64;
+    fit.cost() / allowance + case.extra(fit) as f64 * price(values, allowance) + oddness(case, fit)
+}
+
+/// Schwarz's price of a parameter where the variance of the values is larger by the allowance.
+fn price(values: f64, allowance: f64) -> f64 {
+    (values / allowance).ln().max(LEAST_PRICE)
 }
 
 /// Fits in order of C, and the allowance used: that of the best gain among those that no bound rejects.
@@ -85,6 +94,14 @@ mod tests {
         assert_eq!(allowance(0.0), 1.0);
         let gain = 1e6;
         assert!((0.05 * gain / allowance(gain) / SAME - 1.0).abs() < 1e-3);
+    }
+
+    /// A gain of that many units of noise is the same evidence whether σ² is larger by A or n values are fewer by A.
+    #[test]
+    fn a_parameter_costs_as_much_as_with_fewer_values_and_never_nothing() {
+        assert_eq!(price(300.0, 1.0), 300.0_f64.ln());
+        assert_eq!(price(300.0, 10.0), 30.0_f64.ln());
+        assert_eq!(price(300.0, 1e6), LEAST_PRICE);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::attainable::distances_of;
 use super::follow::follow_up;
 use super::{Case, Diagnose, Part};
-use crate::diagnosis::{Diagnosis, Distances, Options};
+use crate::diagnosis::{Diagnosis, Distances, Experiment, Options};
 use crate::error::CompareError;
 use crate::hidden::score::{Answer, Score, score};
 use crate::hidden::truth::{ROBOTS, standard_protocol};
@@ -47,6 +47,8 @@ pub struct Named {
     pub after: Option<Score>,
     /// How far the truth is from what the catalogue can say, of one hidden effect and of one outside the catalogue.
     pub distances: Option<Distances>,
+    /// The same experiment with next to no noise, where the truth did not come out on top.
+    pub after_in_silence: Option<Score>,
 }
 
 /// Step through a list of effects, prime to their numbers, so that a short bench sees different groups.
@@ -106,13 +108,32 @@ fn hidden(truth: &Truth, kind: Kind, diagnose: Diagnose) -> Result<Named, Compar
     if next_experiment && named.answer.verdict == "effect" && named.answer.set.len() > 1 {
         let next = found.next_experiment.as_ref().and_then(|next| next.recommended.as_ref());
         if let Some(experiment) = next {
-            let options = Options { next_experiment: false, ..Options::default() };
-            let (data, about) = follow_up(truth, experiment)?;
-            let found = diagnose(&truth.told()?, &data, Some(&about), &options)?;
-            named.after = Some(score(truth, &Answer::of(&found)));
+            let after = after(truth, experiment, diagnose)?;
+            if after.rank != Some(1) {
+                named.after_in_silence = Some(self::after(&silent(truth), experiment, diagnose)?);
+            }
+            named.after = Some(after);
         }
     }
     Ok(named)
+}
+
+/// Score after an experiment.
+fn after(truth: &Truth, experiment: &Experiment, diagnose: Diagnose) -> Result<Score, CompareError> {
+    let options = Options { next_experiment: false, ..Options::default() };
+    let (data, about) = follow_up(truth, experiment)?;
+    let found = diagnose(&truth.told()?, &data, Some(&about), &options)?;
+    Ok(score(truth, &Answer::of(&found)))
+}
+
+/// The same robot with a hundredth of the noise and scatter: what is missed then is missed because of the laws.
+fn silent(truth: &Truth) -> Truth {
+    Truth {
+        camera_sd_m: 0.01 * truth.camera_sd_m,
+        pressure_sd: 0.01 * truth.pressure_sd,
+        alignment_sd_m: 0.01 * truth.alignment_sd_m,
+        ..truth.clone()
+    }
 }
 
 /// Data by the catalogue's own law, where "the true value" means something.
@@ -154,6 +175,7 @@ fn named(truth: &Truth, found: &Diagnosis) -> Named {
         separations: now.map(|s| (s.rival.clone(), s.lambda)).collect(),
         after: None,
         distances: None,
+        after_in_silence: None,
         answer,
     }
 }

@@ -84,6 +84,11 @@ pub struct Bench {
     pub breakdown: Vec<Breakdown>,
     /// What no test could exceed with these data.
     pub attainable: Attainable,
+    /// Sets whose truth is not on top after the recommended next experiment.
+    pub missed_after: usize,
+    /// Those of them where it is not on top with a hundredth of the noise either: another formula of the catalogue meets the
+    /// robot's law as well as its own, or better.
+    pub missed_by_law: usize,
     /// Data made by finite elements, robot by robot.
     pub made: Vec<Made>,
     /// Sets that could not be made or diagnosed, with the reason.
@@ -108,12 +113,15 @@ pub fn run(options: &BenchOptions, diagnose: Diagnose, tell: &(dyn Fn(f64) + Syn
         .collect();
     let mut failed: Vec<String> = outcomes.iter().filter_map(|outcome| outcome.failed.clone()).collect();
     let made = made::made(diagnose, &mut failed);
+    let silence: Vec<bool> = table::missed_in_silence(&outcomes);
     Ok(Bench {
         seed: options.seed,
         rows: [table::rows(&outcomes), made::rows(&made)].concat(),
         confusion: table::confusion(&outcomes),
         breakdown: table::breakdown(&outcomes),
         attainable: attainable::of(&outcomes),
+        missed_after: silence.len(),
+        missed_by_law: silence.iter().filter(|missed| **missed).count(),
         made,
         failed,
     })

@@ -62,6 +62,12 @@ fn after(outcomes: &[Outcome]) -> Vec<Row> {
     vec![Row::share("ambiguous, after the next experiment", "truth on top", AtLeast(0.90), &top)]
 }
 
+/// Of every set missed after the next experiment, whether it is missed with next to no noise too.
+pub(super) fn missed_in_silence(outcomes: &[Outcome]) -> Vec<bool> {
+    let all = found(outcomes, Part::Hidden(Kind::One));
+    all.iter().filter_map(|(_, named)| named.after_in_silence.as_ref()).map(|score| score.rank != Some(1)).collect()
+}
+
 fn two(outcomes: &[Outcome]) -> Vec<Row> {
     let all = found(outcomes, Part::Hidden(Kind::Two));
     let case = "two hidden effects";
