@@ -2,7 +2,6 @@
 
 use super::ask::{Question, Questions};
 use super::closest::{Closest, Feature, describe, nearest};
-use super::motion::parted_m;
 use super::pack::{Pack, Touches};
 use super::press::{Push, Sums, press_lane, press_round, push};
 use super::record::{Reach, Record};
@@ -79,12 +78,8 @@ pub(super) struct Touch {
 
 impl Chunk {
     /// Starts the way at zero again, at positions `x`.
-    pub fn close(&mut self, arch: pulp::Arch, x: &[[f64; 4]]) {
-        let way_m = if self.seen_m.is_empty() {
-            f64::INFINITY
-        } else {
-            self.way_m + parted_m(arch, x, &self.nodes, &self.seen_m)
-        };
+    pub fn close(&mut self, x: &[[f64; 4]]) {
+        let way_m = if self.seen_m.is_empty() { f64::INFINITY } else { self.way_m + self.parted_m(x) };
         for record in &mut self.records {
             record.due_m -= way_m;
             record.within_m += way_m;
@@ -152,8 +147,7 @@ impl Chunk {
 
     /// Measures how far nodes moved against each other and looks, or puts the next measurement off.
     fn look_if_due(&mut self, step: &Step) {
-        let seen = !self.seen_m.is_empty();
-        let moved_m = if seen { parted_m(step.arch, step.x, &self.nodes, &self.seen_m) } else { 0.0 };
+        let moved_m = if self.seen_m.is_empty() { 0.0 } else { self.parted_m(step.x) };
         let left_m = self.next_m - (self.way_m + moved_m);
         if left_m > 0.05 * step.reach.slack_m {
             // Two nodes may part at twice the pace of the fastest node.
@@ -162,6 +156,20 @@ impl Chunk {
             self.way_m += moved_m;
             self.look(step);
         }
+    }
+
+    /// No two nodes moved more than this against each other since the last look: diagonal of the box of all motions.
+    fn parted_m(&self, x: &[[f64; 4]]) -> f64 {
+        let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
+        for (n, seen) in self.nodes.iter().zip(&self.seen_m) {
+            let p = &x[*n as usize];
+            for k in 0..4 {
+                let moved = p[k] - seen[k];
+                low[k] = if moved < low[k] { moved } else { low[k] };
+                high[k] = if moved > high[k] { moved } else { high[k] };
+            }
+        }
+        norm([high[0] - low[0], high[1] - low[1], high[2] - low[2]])
     }
 
     /// Finds the closest feature of the records that are due, or nearly, and the records that may touch soon.

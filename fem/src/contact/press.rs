@@ -123,8 +123,8 @@ fn positive(value: f64) -> f64 {
 #[inline]
 fn rub(record: &mut Record, touch: &Touch, normal_n: f64, step: &Step, sums: &mut Sums) -> V3 {
     let k = record.stiffness_n_m;
-    let by_m = moved(record, touch, step.x, step.before);
-    let (spring, lost) = slide(record.spring_m, by_m, touch.normal, k, step.friction * normal_n);
+    let moved = motion(record, touch, step.x, step.before);
+    let (spring, lost) = slide(record.spring_m, moved, touch.normal, k, step.friction * normal_n);
     record.spring_m = spring;
     sums.friction += lost;
     sums.stored += record.slide_j();
@@ -133,13 +133,13 @@ fn rub(record: &mut Record, touch: &Touch, normal_n: f64, step: &Step, sums: &mu
 
 /// Motion of the node against the touched point since the step before.
 #[inline(always)]
-pub(super) fn moved(record: &Record, touch: &Touch, x: &[[f64; 4]], before: &[[f64; 4]]) -> V3 {
+pub(super) fn motion(record: &Record, touch: &Touch, x: &[[f64; 4]], before: &[[f64; 4]]) -> V3 {
     let one = |n: u32| sub(node(x, n as usize), node(before, n as usize));
-    let mut by_m = one(record.node);
+    let mut moved = one(record.node);
     for (n, w) in record.corners.iter().zip(touch.weights) {
-        by_m = along(by_m, -w, one(*n));
+        moved = along(moved, -w, one(*n));
     }
-    by_m
+    moved
 }
 
 #[inline(always)]

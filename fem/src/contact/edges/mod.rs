@@ -45,7 +45,7 @@ use models::{Pose, Row, RowKind, Term, Tick};
 use rayon::prelude::*;
 
 use super::surface::Surface;
-use super::{motion, push};
+use super::{fastest_m, push};
 use crate::{FemError, Mesh, problem};
 use chunk::{Chunk, PAIRS};
 use pair::Pair;
@@ -151,7 +151,7 @@ impl Edges {
         if self.path_m < self.search_due_m {
             return;
         }
-        let left = 0.5 * self.skin_m - motion::keep(pulp::Arch::new(), x, &self.placed_m, &mut []);
+        let left = 0.5 * self.skin_m - fastest_m(x, &self.placed_m);
         self.search_due_m = self.path_m + left;
         if left <= 0.05 * self.skin_m {
             self.search(x);
