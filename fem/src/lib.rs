@@ -22,6 +22,7 @@
 //!
 //! `fem` never sees a measurement.
 
+mod amplitude;
 pub mod case;
 pub mod contact;
 pub mod error;
