@@ -327,6 +327,20 @@ pub struct DataFem {
     /// Seed of camera, pressure and alignment
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
+    /// Noise
+    #[command(flatten)]
+    pub scatter: Scatter,
+    /// Threads of a run; 0: one per core
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
+    pub threads: u64,
+    /// Replace existing files
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Noise of made data.
+#[derive(Debug, Args)]
+pub struct Scatter {
     /// Camera noise of one coordinate
     #[arg(long, default_value = "1mm", allow_hyphen_values = true)]
     pub sigma: String,
@@ -336,12 +350,6 @@ pub struct DataFem {
     /// Run-to-run shift of the camera
     #[arg(long, default_value = "0.5mm", allow_hyphen_values = true)]
     pub alignment: String,
-    /// Threads of a run; 0: one per core
-    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
-    pub threads: u64,
-    /// Replace existing files
-    #[arg(long)]
-    pub force: bool,
 }
 
 /// `ibr data generate`
@@ -361,15 +369,9 @@ pub struct Generate {
     /// Actuator pressures in kPa at a body pressure in kPa
     #[arg(long, default_value = "0,10,20,30,0@2")]
     pub protocol: String,
-    /// Camera noise of one coordinate
-    #[arg(long, default_value = "1mm", allow_hyphen_values = true)]
-    pub sigma: String,
-    /// Run-to-run scatter of the actuator pressure in per cent
-    #[arg(long, default_value_t = 2.0, allow_negative_numbers = true)]
-    pub pressure_scatter: f64,
-    /// Run-to-run shift of the camera
-    #[arg(long, default_value = "0.5mm", allow_hyphen_values = true)]
-    pub alignment: String,
+    /// Noise
+    #[command(flatten)]
+    pub scatter: Scatter,
     /// Replace existing files
     #[arg(long)]
     pub force: bool,

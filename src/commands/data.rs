@@ -99,9 +99,9 @@ fn generator(args: &Generate) -> Result<Generator, Failure> {
         seed: args.seed,
         runs: args.runs as usize,
         protocol: parse_protocol(&args.protocol)?,
-        camera_sd_m: scatter("--sigma", &args.sigma)?,
-        pressure_sd: pressure_scatter(args.pressure_scatter)?,
-        alignment_sd_m: scatter("--alignment", &args.alignment)?,
+        camera_sd_m: scatter("--sigma", &args.scatter.sigma)?,
+        pressure_sd: pressure_scatter(args.scatter.pressure_scatter)?,
+        alignment_sd_m: scatter("--alignment", &args.scatter.alignment)?,
         ..Generator::default()
     })
 }

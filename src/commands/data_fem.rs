@@ -23,9 +23,9 @@ pub fn run(args: &DataFem, context: &mut Context) -> Result<Outcome, Failure> {
         seed: args.seed,
         runs: args.seeds as usize,
         protocol: std::iter::once(0.0).chain(kpa.iter().map(|p| p * 1e3)).map(|p| [body_pa, p]).collect(),
-        camera_sd_m: scatter("--sigma", &args.sigma)?,
-        alignment_sd_m: scatter("--alignment", &args.alignment)?,
-        pressure_sd: pressure_scatter(args.pressure_scatter)?,
+        camera_sd_m: scatter("--sigma", &args.scatter.sigma)?,
+        alignment_sd_m: scatter("--alignment", &args.scatter.alignment)?,
+        pressure_sd: pressure_scatter(args.scatter.pressure_scatter)?,
         ..Generator::default()
     };
     let Some(runs) = runs(args, &kpa, context)? else {
