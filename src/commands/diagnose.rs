@@ -38,6 +38,10 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
     let file = format!("{answer:#}\n").into_bytes();
     let mut outcome = Outcome::new(text(&diagnosis, witness.as_ref()), answer);
     outcome.notes.extend(diagnosis.warnings.iter().map(|w| format!("warning: {w}")));
+    if let (Some(folder), None) = (&args.runs, &witness) {
+        let why = "is of this robot at a pressure of the data";
+        outcome.notes.push(format!("warning: no finite element run in {} {why}", folder.display()));
+    }
     if let Some(folder) = &args.out {
         (context.progress)("drawing the report", None);
         let found = Diagnosed {

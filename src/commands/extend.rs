@@ -42,9 +42,7 @@ pub struct Ground<'a> {
 impl<'a> Ground<'a> {
     /// Of a diagnosis of this scenario.
     pub fn new(d: &'a Diagnosis, scenario: &Scenario, input: &'a Input) -> Ground<'a> {
-        let away = |k: &usize| (d.base.bending[*k].p_body_kpa - 1e-3 * scenario.p_body_pa).abs();
-        let level = (0..d.base.bending.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0);
-        Ground { d, input, level }
+        Ground { d, input, level: d.level(1e-3 * scenario.p_body_pa) }
     }
 
     /// Of one B per body pressure, that of the scenario; the scenario's own if it was kept.

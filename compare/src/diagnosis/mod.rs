@@ -20,6 +20,7 @@ mod detect;
 mod distance;
 mod evaluator;
 mod experiments;
+mod fitted;
 mod heldout;
 mod interval;
 mod lack_of_fit;
@@ -45,6 +46,7 @@ mod words;
 
 pub use candidates::{Candidate, Free, candidates};
 pub use distance::{Distances, KnownNoise, distances, power};
+pub use fitted::with_fitted;
 pub use options::Options;
 pub use result::*;
 

@@ -121,18 +121,18 @@ fn outside(d: &Diagnosis) -> Vec<String> {
     let p = d.p_value.map(p_value).unwrap_or_default();
     let tried = list(&d.attempt.iter().map(|a| a.effect.clone()).collect::<Vec<_>>());
     let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
-    let mut told = vec![match () {
-        () if d.attempt.is_empty() => {
-            format!("Nothing in the catalogue explains this ({p}): {before:.2} mm remain.")
-        }
-        () if after <= MOSTLY * before => format!(
+    let mut told = vec![if d.attempt.is_empty() {
+        format!("Nothing in the catalogue explains this ({p}): {before:.2} mm remain.")
+    } else if after <= MOSTLY * before {
+        format!(
             "Adding {tried} takes away most of it, {before:.2} to {after:.2} mm, but nothing in the catalogue explains the rest \
              ({p}): a law that is not quite the catalogue's, or something that is not listed."
-        ),
-        () => format!(
+        )
+    } else {
+        format!(
             "Nothing in the catalogue explains this ({p}): {after:.2} mm remain with the best of it, {tried}, of {before:.2} mm \
              before."
-        ),
+        )
     }];
     told.extend(d.pattern.as_ref().map(looks_like));
     told.extend(d.leftover.iter().map(|s| s.sentence.clone()));

@@ -92,36 +92,16 @@ mod tests {
 
     /// A run whose only marker rises by 2 mm per kPa and shifts by −1.
     fn run(slope: f64) -> FeRun {
-        let state = |kpa: f64| FeState {
-            actuator_kpa: kpa,
-            marker_mm: slope * kpa,
-            tip_mm: 0.0,
-            turn_rad: 0.0,
-            body_cm3: 0.0,
-            actuator_cm3: 0.0,
-            energies_mj: [0.0; 5],
-            kinetic_share: 0.0,
-            von_mises_mpa: 0.0,
-            weld_n_per_m: 0.0,
-            moved_mm: vec![[-kpa, slope * kpa]],
-        };
+        let moved_mm = |kpa: f64| vec![[-kpa, slope * kpa]];
+        let state = |kpa: f64| FeState { actuator_kpa: kpa, moved_mm: moved_mm(kpa), ..FeState::default() };
         FeRun {
             actuator: "epam".into(),
             scenario: "a robot".into(),
-            mesh_mm: [4.0; 2],
-            elements: 1,
-            steps: 1,
-            cpu_s: 1.0,
-            engine: 1,
             body_kpa: 2.0,
-            radius_mm: 40.0,
-            width_mm: 60.0,
-            pouch_mm: 60.0,
-            count: 6,
-            seed: 1,
             stations_mm: vec![330.0],
             known: "assumed".into(),
             states: [0.0, 10.0, 20.0, 30.0].map(state).to_vec(),
+            ..FeRun::default()
         }
     }
 

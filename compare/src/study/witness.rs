@@ -12,7 +12,7 @@
 //! is least for the candidate that spends it as they do. **Validity**: the runs are models too, with assumed numbers; a ledger
 //! compares energies and not their slopes. It speaks for or against a candidate, it proves nothing.
 
-use crate::diagnosis::{Diagnosis, ParameterValue};
+use crate::diagnosis::{Diagnosis, ParameterValue, with_fitted};
 use crate::error::CompareError;
 use crate::study::engines::{Ensemble, FeRun, TERMS, between, ensembles};
 use crate::study::predict::{fit_scenario, predict_dataset};
@@ -166,13 +166,7 @@ struct Cases {
 }
 
 fn cases(d: &Diagnosis, scenario: &Scenario) -> Cases {
-    let p_kpa = scenario.p_body_pa * 1e-3;
-    let away = |k: &usize| (d.base.bending[*k].p_body_kpa - p_kpa).abs();
-    let level = (0..d.base.bending.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0);
-    let with = |added: &[(&str, &[ParameterValue])], bending: Option<f64>| {
-        let with = with(scenario, added);
-        bending.map_or(with.clone(), |b| with.with_bending(b))
-    };
+    let level = d.level(scenario.p_body_pa * 1e-3);
     let added = if d.added.is_empty() { &d.attempt } else { &d.added };
     let all: Vec<(&str, &[ParameterValue])> = added.iter().map(|a| (&*a.effect, &*a.parameters)).collect();
     let physical = added.iter().filter(|a| !a.group.is_nuisance());
@@ -181,30 +175,15 @@ fn cases(d: &Diagnosis, scenario: &Scenario) -> Cases {
     let mut candidates = Vec::new();
     if !physical.is_empty() {
         let name = physical.iter().map(|a| format!("+ {}", a.0)).collect::<Vec<_>>().join(" ");
-        candidates.push((name, with(&physical, b)));
+        candidates.push((name, with_fitted(scenario, &physical, b)));
     }
     for r in d.ranked.iter().filter(|r| !r.at_bound && r.gain > 1.0 && !r.group.is_nuisance()).take(MOST) {
         let name = format!("+ {}", r.effect);
         if candidates.iter().all(|c| c.0 != name) {
-            candidates.push((name, with(&[(&r.effect, &r.parameters)], r.bending_nm2.get(level).copied())));
+            candidates.push((name, r.on(scenario, level)));
         }
     }
-    Cases { base: with(&[], d.base.bending.get(level).map(|b| b.value_nm2)), best: with(&all, b), candidates }
-}
-
-/// The scenario with effects at their fitted values.
-fn with(scenario: &Scenario, added: &[(&str, &[ParameterValue])]) -> Scenario {
-    let catalogue = scenario.catalogue();
-    let mut with = scenario.clone();
-    for (name, fitted) in added {
-        let Some(effect) = catalogue.by_name(name) else { continue };
-        let value = |p: &models::effects::Parameter| {
-            fitted.iter().find(|v| v.key == p.key).map_or(p.neutral, |v| v.value) * p.si
-        };
-        let values: Vec<f64> = effect.parameters.iter().map(value).collect();
-        with = with.with_effect(name, &values);
-    }
-    with
+    Cases { base: d.calibrated(scenario, level), best: with_fitted(scenario, &all, b), candidates }
 }
 
 /// The outermost marker that data and runs share, on first loading at the body pressure of the runs, where both have the same
@@ -268,6 +247,11 @@ fn sentences(w: &Witness, d: &Diagnosis) -> Vec<String> {
     if let (Some(fe), [base, others @ ..]) = (w.fe_mj, &w.models[..]) {
         out.extend(stiffness(base, &fe));
         out.push(nearest(base, others, &fe, d));
+    } else {
+        out.push(
+            "No ledgers: they take readings at two pressures that bend the robot, and a model that can bend as far."
+                .into(),
+        );
     }
     out
 }
@@ -285,7 +269,8 @@ fn meeting(w: &Witness) -> String {
         ""
     };
     let first = match (&met[..], &missed[..]) {
-        (_, []) => "They meet the measurement at every shared pressure: what is missing is likely among what they contain.".into(),
+        ([_], []) => "They meet the measurement at the one shared pressure, which decides little.".into(),
+        (_, []) => "They meet the measurement at every shared pressure: what is missing can be among what they contain.".into(),
         ([], _) => "They miss it everywhere: the robot is not the one they were given, one of their assumed numbers is wrong (`ibr simulate ROBOT --sensitivity`), or what is missing is something they lack too.".into(),
         _ => format!(
             "They meet the measurement at {} kPa and miss it at {} kPa: they lack something too, or one of their assumed numbers is wrong (`ibr simulate ROBOT --sensitivity`).",

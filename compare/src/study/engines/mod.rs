@@ -30,7 +30,7 @@ const SAME_STATION_MM: f64 = 1.0;
 const SMALLEST_TIP_M: f64 = 5e-3;
 
 /// A finished finite element run of a robot.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct FeRun {
     /// Actuator kind.
     pub actuator: String,
@@ -71,7 +71,7 @@ pub struct FeRun {
 }
 
 /// One state of a finite element run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct FeState {
     /// Actuator gauge pressure \[kPa\].
     pub actuator_kpa: f64,

@@ -39,19 +39,14 @@ fn run(extra: usize, mj: f64) -> (Scenario, FeRun, Pair) {
         actuator: "epam".into(),
         scenario: scenario.name.clone(),
         mesh_mm: [4.0; 2],
-        elements: 1,
-        steps: 1,
-        cpu_s: 1.0,
-        engine: 1,
         body_kpa: 2.0,
         radius_mm: 40.0,
         width_mm: 60.0,
         pouch_mm: 60.0,
         count: 6,
-        seed: 1,
-        stations_mm: Vec::new(),
         known: "assumed".into(),
         states: vec![filled, state],
+        ..FeRun::default()
     };
     let pair = pairs(&scenario, &run).unwrap().remove(0);
     (scenario, run, pair)

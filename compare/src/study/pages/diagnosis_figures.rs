@@ -102,31 +102,9 @@ pub(super) fn ranking(d: &Diagnosis) -> Result<Option<Drawn>, CompareError> {
     plots::ranking(&data).map(Some).map_err(|e| drawing("the ranking", e))
 }
 
-/// The scenario with one candidate at its fitted values, and the B fitted with it.
-pub(super) fn with_ranked(scenario: &Scenario, r: &Ranked, level: usize) -> Scenario {
-    let catalogue = scenario.catalogue();
-    let Some(effect) = catalogue.by_name(&r.effect) else { return scenario.clone() };
-    let fitted = |p: &models::effects::Parameter| {
-        r.parameters.iter().find(|v| v.key == p.key).map_or(p.neutral, |v| v.value) * p.si
-    };
-    let values: Vec<f64> = effect.parameters.iter().map(fitted).collect();
-    let with = scenario.with_effect(&r.effect, &values);
-    match r.bending_nm2.get(level) {
-        Some(b) => with.with_bending(*b),
-        None => with,
-    }
-}
-
-/// The scenario with the calibrated B of a body pressure.
-pub(super) fn calibrated(scenario: &Scenario, d: &Diagnosis, level: usize) -> Scenario {
-    d.base.bending.get(level).map_or(scenario.clone(), |b| scenario.with_bending(b.value_nm2))
-}
-
 /// Which fitted B belongs to the first hold.
 pub(super) fn first_level(d: &Diagnosis, dataset: &Dataset) -> usize {
-    let p_kpa = dataset.holds.first().map_or(0.0, |h| h.p_body_pa * 1e-3);
-    let away = |k: &usize| (d.base.bending[*k].p_body_kpa - p_kpa).abs();
-    (0..d.base.bending.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
+    d.level(dataset.holds.first().map_or(0.0, |h| h.p_body_pa * 1e-3))
 }
 
 /// Candidates worth a curve.
@@ -160,11 +138,11 @@ pub(super) fn candidate_curves(
         };
         (0..=POINTS).map(&mut height).collect()
     };
-    let base = calibrated(scenario, d, level);
+    let base = d.calibrated(scenario, level);
     let zero = heights(&base);
     let mut series = vec![deviations(&base, dataset)?];
     for (i, r) in candidates.iter().enumerate() {
-        let own = heights(&with_ranked(scenario, r, level));
+        let own = heights(&r.on(scenario, level));
         let point = |k: usize| [1e-3 * top_pa * (k as f64 / f64::from(POINTS)).powi(2), own[k] - zero[k]];
         series.push(LineSeries {
             name: format!("+ {}", r.effect),

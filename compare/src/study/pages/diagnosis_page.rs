@@ -1,8 +1,6 @@
 //! The report of a diagnosis, for people: where it fails, whether anything is missing, what it could be, what to do.
 
-use super::diagnosis_figures::{
-    calibrated, candidate_curves, first_level, ranking, rungs_of, shown, waterfall, with_ranked, witness_ledger,
-};
+use super::diagnosis_figures::{candidate_curves, first_level, ranking, rungs_of, shown, waterfall, witness_ledger};
 use super::tables::{column, number, words};
 use super::{Files, Imprint, figures};
 use crate::diagnosis::{Diagnosis, ParameterValue, Ranked, Verdict};
@@ -288,8 +286,8 @@ fn differently(
     let level = first_level(d, found.dataset);
     let top = found.dataset.holds.iter().max_by(|a, b| a.p_act_pa.total_cmp(&b.p_act_pa));
     if let Some(hold) = top.filter(|h| h.p_act_pa > 0.0) {
-        let mut cases = vec![("base".to_string(), calibrated(scenario, d, level))];
-        cases.extend(shown(d).iter().take(3).map(|r| (format!("+ {}", r.effect), with_ranked(scenario, r, level))));
+        let mut cases = vec![("base".to_string(), d.calibrated(scenario, level))];
+        cases.extend(shown(d).iter().take(3).map(|r| (format!("+ {}", r.effect), r.on(scenario, level))));
         let loads = Loads::uniform(hold.p_body_pa, hold.p_act_pa);
         let ledger = figures::ledgers("Energy ledger at the highest pressure", &cases, &loads)?;
         files.plot(&format!("{prefix}ledger"), &ledger);
