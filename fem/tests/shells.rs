@@ -11,7 +11,7 @@ use fem::problem::{Amplitude, Chamber, Ply, Pressure, Problem, Section};
 use fem::sheet::Sheet;
 use fem::sheet::order::{Order, renumber};
 use fem::{Mesh, NODE};
-use models::fabrics::{FABRICS, NeoHookean, Orthotropic};
+use models::fabrics::{FABRICS, Laminate, NeoHookean, Orthotropic};
 use models::{Fabric, Pose, Term};
 
 fn section(fabric: Arc<dyn Fabric>, angle_rad: f64) -> Section {
@@ -23,7 +23,8 @@ fn chamber(name: &str, pa: f64) -> Chamber {
     Chamber { name: name.into(), pressure: Pressure::Set(Amplitude::Constant(pa)), open_axis: None }
 }
 
-/// A tube with quad and triangle caps and a balloon: regular rows, irregular quads, triangles, two chambers, two laws.
+/// A tube with quad and triangle caps, a balloon and a glued tube: regular rows, irregular quads, triangles, two chambers,
+/// single and bonded plies.
 fn zoo() -> Vec<(Problem, &'static str)> {
     let neo: Arc<dyn Fabric> = Arc::new(NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 });
     let woven: Arc<dyn Fabric> = Arc::new(Orthotropic::new(96.5e6, 120e6, 0.3, 1.03e6, 5e-5));
@@ -37,13 +38,22 @@ fn zoo() -> Vec<(Problem, &'static str)> {
         warp_rad: 0.0,
     })
     .unwrap();
-    let sections = (0..tube.parts.len()).map(|p| section(if p == 1 { neo.clone() } else { woven.clone() }, 0.4));
-    let sections = sections.collect();
-    all.push((Problem::new("tube", tube, sections, vec![chamber("body", 2e3)]), "tube"));
+    let by_part = |wall: &Arc<dyn Fabric>, cap: &Arc<dyn Fabric>| {
+        let sections = (0..tube.parts.len()).map(|p| section(if p == 1 { cap.clone() } else { wall.clone() }, 0.4));
+        Problem::new("tube", tube.clone(), sections.collect(), vec![chamber("body", 2e3)])
+    };
+    all.push((by_part(&woven, &neo), "tube"));
+    all.push((by_part(&bonded(&[&woven, &neo, &woven]), &bonded(&[&woven, &woven])), "glued tube"));
     let disc = generate::disc_balloon(0.1, 12).unwrap();
     let sections = disc.parts.iter().map(|_| section(neo.clone(), 0.0)).collect();
     all.push((Problem::new("disc", disc, sections, vec![chamber("air", 1e3)]), "disc"));
     all
+}
+
+/// Plies at 0, 0.7, 1.4 rad.
+fn bonded(plies: &[&Arc<dyn Fabric>]) -> Arc<dyn Fabric> {
+    let ply = |(i, fabric): (usize, &&Arc<dyn Fabric>)| Ply { fabric: Arc::clone(fabric), angle_rad: 0.7 * i as f64 };
+    Arc::new(Laminate::new(plies.iter().enumerate().map(ply).collect()).unwrap())
 }
 
 fn prepared(problem: &Problem) -> (Sheet, Mesh) {

@@ -1,11 +1,11 @@
-//! Membrane laws as the kernels call them: vector twins of the two common fabrics, and any other one by one.
+//! Membrane laws as the kernels call them: vector twins of the common fabrics, and any other one by one.
 
 use models::Fabric;
-use models::fabrics::{NeoHookean, Orthotropic, Past};
+use models::fabrics::{Mixed, NeoHookean, Orthotropic, Past};
 use pulp::Simd;
 
 use super::group::LANES;
-use super::lanes::V;
+use super::lanes::{V, axes, inner};
 
 /// Tension and energy per reference area of several elements at once.
 pub trait Law: Copy {
@@ -38,6 +38,20 @@ impl Law for &Orthotropic {
         ];
         let w = V::all(simd, 0.5) * (s[0] * e[0] + s[1] * e[1] + s[2] * e[2]);
         (s, w)
+    }
+}
+
+impl Law for &Mixed {
+    #[inline(always)]
+    fn at<S: Simd>(self, simd: S, e: [V<S>; 3], past: Option<&[Past; LANES]>, part: usize) -> ([V<S>; 3], V<S>) {
+        let row = axes!(i => axes!(j => V::all(simd, self.linear[i][j]) * e[j]));
+        let s = axes!(i => row[i][0] + row[i][1] + row[i][2]);
+        let w = V::all(simd, 0.5) * inner(s, e);
+        if self.rubber.thickness_m == 0.0 {
+            return (s, w);
+        }
+        let (rubber, stored) = (&self.rubber).at(simd, e, past, part);
+        (axes!(i => rubber[i] + s[i]), stored + w)
     }
 }
 

@@ -18,7 +18,7 @@
 use std::sync::Arc;
 
 use super::recipe::{Law, Need, Recipe, THICKNESS, modulus, ratio};
-use super::{Fabric, Orthotropic, Past};
+use super::{Fabric, Kind, NeoHookean, Orthotropic, Past};
 
 pub(super) const LAMINATE: Law = Law {
     name: "laminate",
@@ -72,6 +72,16 @@ pub struct Ply {
 #[derive(Debug, Clone)]
 pub struct Laminate {
     plies: Vec<(Arc<dyn Fabric>, Turn)>,
+    mixed: Option<Mixed>,
+}
+
+/// Bonded neo-Hookean and linear plies as one formula, W = W_rubber(e) + ½ e·A e: what is isotropic or linear adds up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mixed {
+    /// All neo-Hookean plies: Σ t, and C₁₀ = Σ t C₁₀/Σ t. Thickness 0 without any.
+    pub rubber: NeoHookean,
+    /// A of all linear plies in the laminate's axes, symmetric \[N/m\].
+    pub linear: [[f64; 3]; 3],
 }
 
 impl Laminate {
@@ -97,7 +107,40 @@ impl Laminate {
                 other.to_degrees()
             ));
         }
-        Ok(Laminate { plies: plies.into_iter().map(|p| (p.fabric, Turn::new(p.angle_rad))).collect() })
+        let plies: Vec<_> = plies.into_iter().map(|p| (p.fabric, Turn::new(p.angle_rad))).collect();
+        Ok(Laminate { mixed: Mixed::of(&plies), plies })
+    }
+}
+
+impl Mixed {
+    /// `None` if a ply follows another law.
+    fn of(plies: &[(Arc<dyn Fabric>, Turn)]) -> Option<Mixed> {
+        let mut sum = Mixed { rubber: NeoHookean { c10_pa: 0.0, thickness_m: 0.0 }, linear: [[0.0; 3]; 3] };
+        for (fabric, turn) in plies {
+            let linear = match fabric.kind() {
+                Kind::NeoHookean(rubber) => {
+                    sum.add_rubber(rubber);
+                    continue;
+                }
+                Kind::Orthotropic(sheet) => sheet.tangent([0.0; 3], &[0.0; 2]),
+                Kind::Mixed(mixed) => {
+                    sum.add_rubber(&mixed.rubber);
+                    mixed.linear
+                }
+                Kind::Other => return None,
+            };
+            let turned = turn.tangent(&linear);
+            sum.linear = std::array::from_fn(|i| std::array::from_fn(|j| sum.linear[i][j] + turned[i][j]));
+        }
+        Some(sum)
+    }
+
+    fn add_rubber(&mut self, other: &NeoHookean) {
+        let force_n_per_m = self.rubber.c10_pa * self.rubber.thickness_m + other.c10_pa * other.thickness_m;
+        self.rubber.thickness_m += other.thickness_m;
+        if self.rubber.thickness_m > 0.0 {
+            self.rubber.c10_pa = force_n_per_m / self.rubber.thickness_m;
+        }
     }
 }
 
@@ -122,13 +165,8 @@ impl Fabric for Laminate {
     fn tangent(&self, e: [f64; 3], past: &Past) -> [[f64; 3]; 3] {
         let mut sum = [[0.0; 3]; 3];
         for (fabric, turn) in &self.plies {
-            let own = fabric.tangent(turn.strain(e), past);
-            // Qᵀ T Q, column by column: the columns of Q are what Q makes of unit strains.
-            let columns: [[f64; 3]; 3] = std::array::from_fn(|j| {
-                let unit = turn.strain(std::array::from_fn(|k| f64::from(k == j)));
-                turn.back(std::array::from_fn(|i| (0..3).map(|k| own[i][k] * unit[k]).sum()))
-            });
-            sum = std::array::from_fn(|i| std::array::from_fn(|j| sum[i][j] + columns[j][i]));
+            let turned = turn.tangent(&fabric.tangent(turn.strain(e), past));
+            sum = std::array::from_fn(|i| std::array::from_fn(|j| sum[i][j] + turned[i][j]));
         }
         sum
     }
@@ -144,6 +182,14 @@ impl Fabric for Laminate {
 
     fn dissipated(&self, past: &Past) -> f64 {
         self.plies.iter().map(|(fabric, _)| fabric.dissipated(past)).sum()
+    }
+
+    fn kind(&self) -> Kind<'_> {
+        match &self.mixed {
+            Some(mixed) if mixed.linear == [[0.0; 3]; 3] => Kind::NeoHookean(&mixed.rubber),
+            Some(mixed) => Kind::Mixed(mixed),
+            None => Kind::Other,
+        }
     }
 }
 
@@ -179,6 +225,15 @@ impl Turn {
             ss * s[0] + cc * s[1] + 2.0 * cs * s[2],
             cs * (s[0] - s[1]) + (cc - ss) * s[2],
         ]
+    }
+
+    /// Qᵀ T Q, column by column: the columns of Q are what Q makes of unit strains.
+    fn tangent(&self, own: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        let columns: [[f64; 3]; 3] = std::array::from_fn(|j| {
+            let unit = self.strain(std::array::from_fn(|k| f64::from(k == j)));
+            self.back(std::array::from_fn(|i| (0..3).map(|k| own[i][k] * unit[k]).sum()))
+        });
+        std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i]))
     }
 }
 

@@ -25,7 +25,7 @@ mod woven;
 
 pub use bias_extension::BiasExtension;
 pub use curve::Curve;
-pub use laminate::{Laminate, Ply};
+pub use laminate::{Laminate, Mixed, Ply};
 pub use materials::{Known, MATERIALS, Material, material};
 pub use neo_hookean::NeoHookean;
 pub use orthotropic::Orthotropic;
@@ -103,6 +103,8 @@ pub enum Kind<'a> {
     NeoHookean(&'a NeoHookean),
     /// Linear orthotropic sheet.
     Orthotropic(&'a Orthotropic),
+    /// Bonded sheets of these two.
+    Mixed(&'a Mixed),
     /// Any other law.
     Other,
 }

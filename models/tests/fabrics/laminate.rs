@@ -2,7 +2,7 @@
 
 use crate::support::*;
 use models::Fabric;
-use models::fabrics::{Laminate, NeoHookean, Orthotropic, Ply, Recipe, by_name};
+use models::fabrics::{Kind, Laminate, NeoHookean, Orthotropic, Ply, Recipe, by_name};
 use std::sync::Arc;
 
 fn ply(fabric: impl Fabric + 'static, angle_deg: f64) -> Ply {
@@ -29,6 +29,28 @@ fn two_equal_plies_are_one_of_double_thickness() {
     same(&Laminate::new(vec![ply(cloth(5e-5), 0.0), ply(cloth(5e-5), 0.0)]).unwrap(), &cloth(1e-4), 1e-12);
     let film = |thickness_m| NeoHookean { c10_pa: 50.3e6, thickness_m };
     same(&Laminate::new(vec![ply(film(1e-4), 0.0), ply(film(1e-4), 0.0)]).unwrap(), &film(2e-4), 1e-12);
+}
+
+#[test]
+fn rubber_and_linear_plies_add_up_to_one_formula_and_other_laws_do_not() {
+    let film = NeoHookean { c10_pa: 50.3e6, thickness_m: 1e-4 };
+    let inner = Laminate::new(vec![ply(cloth(5e-5), 20.0), ply(film, 0.0)]).unwrap();
+    let outer = Laminate::new(vec![ply(inner, 30.0), ply(film, 45.0), ply(cloth(2e-5), -70.0)]).unwrap();
+    let Kind::Mixed(mixed) = outer.kind() else { panic!("{:?}", outer.kind()) };
+    let mut random = Random::new(5);
+    for _ in 0..100 {
+        let e = random.strain(0.1);
+        let linear = mixed.linear.map(|row| row[0] * e[0] + row[1] * e[1] + row[2] * e[2]);
+        let rubber = mixed.rubber.tension(e, &FRESH);
+        let sum = [rubber[0] + linear[0], rubber[1] + linear[1], rubber[2] + linear[2]];
+        assert!(apart(sum, outer.tension(e, &FRESH), 0.0) < 1e-12, "{e:?}");
+    }
+    assert!((mixed.rubber.thickness_m - 2e-4).abs() < 1e-18);
+    let films = Laminate::new(vec![ply(film, 0.0), ply(film, 30.0)]).unwrap();
+    assert!(matches!(films.kind(), Kind::NeoHookean(both) if (both.thickness_m - 2e-4).abs() < 1e-18));
+    let woven = (by_name("woven").unwrap().make)(&(by_name("woven").unwrap().example)()).unwrap();
+    let with_curves = Laminate::new(vec![ply(film, 0.0), Ply { fabric: woven, angle_rad: 0.0 }]).unwrap();
+    assert!(matches!(with_curves.kind(), Kind::Other));
 }
 
 #[test]

@@ -33,6 +33,8 @@ impl pulp::WithSimd for Pass<'_, '_> {
                 (Kind::NeoHookean(law), false) => run::<S, _, false>(simd, patch, shared, index, law),
                 (Kind::Orthotropic(law), true) => run::<S, _, true>(simd, patch, shared, index, law),
                 (Kind::Orthotropic(law), false) => run::<S, _, false>(simd, patch, shared, index, law),
+                (Kind::Mixed(law), true) => run::<S, _, true>(simd, patch, shared, index, law),
+                (Kind::Mixed(law), false) => run::<S, _, false>(simd, patch, shared, index, law),
                 (Kind::Other, _) => run::<S, _, true>(simd, patch, shared, index, Called(fabric)),
             }
         }
