@@ -13,7 +13,7 @@ const END_S: f64 = 4e-3;
 
 /// A pillow large enough for several patches, whose layers touch each other and a floor.
 fn pillow(threads: usize) -> Problem {
-    let mesh = generate::pillow(0.2, 40, 1e-4).unwrap();
+    let mesh = generate::pillow(0.2, 50, 1e-4).unwrap();
     let fabric = Arc::new(NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 });
     let section = Section {
         plies: vec![Ply { fabric, angle_rad: 0.0 }],

@@ -257,7 +257,7 @@ fn choose(own: &[Question], squares: &[f64], candidates: &mut [Candidate], way_m
 fn closest(step: &Step, node: u32, element: u32) -> Closest {
     let p = crate::vec3::node(step.x, node as usize);
     let now = nearest(step.surface, step.x, p, element);
-    describe(step.surface, step.x, p, element, &now, 0.4 * step.reach.slack_m)
+    describe(step.surface, step.x, p, element, &now, step.reach.flat_m)
 }
 
 /// Takes the closest feature of one record over.

@@ -100,14 +100,14 @@ pub(super) fn nearest(surface: &Surface, x: &[[f64; 4]], p: V3, element: u32) ->
     best
 }
 
-/// Turns a nearest point into a feature. Within `slack_m` of a face its plane is used: there the surface is nearly flat.
+/// Turns a nearest point into a feature. Within `flat_m` of a face its plane is used: there the surface is nearly flat.
 pub(super) fn describe(
     surface: &Surface,
     x: &[[f64; 4]],
     p: V3,
     element: u32,
     nearest: &Nearest,
-    slack_m: f64,
+    flat_m: f64,
 ) -> Closest {
     let Nearest { square_m2, half, weights: w } = *nearest;
     let nodes = &surface.elements[element as usize];
@@ -127,7 +127,7 @@ pub(super) fn describe(
         normal,
     };
     let free = w.iter().filter(|w| **w > 0.0).count();
-    if free == 3 || aside <= slack_m * slack_m {
+    if free == 3 || aside <= flat_m * flat_m {
         return face;
     }
     let order = if free == 2 { edge_first(w) } else { corner_first(w) };

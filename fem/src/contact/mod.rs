@@ -318,8 +318,9 @@ fn fastest_m(x: &[[f64; 4]], y: &[[f64; 4]]) -> f64 {
 fn reaches(settings: &problem::Contact, size_m: f64) -> Reach {
     Reach {
         side_m: (0.375 * size_m).max(4.0 * settings.thickness_m).max(4.0 * settings.gap_m),
-        skin_m: 0.75 * size_m,
-        slack_m: 0.05 * size_m,
+        skin_m: size_m,
+        slack_m: 0.15 * size_m,
+        flat_m: 0.02 * size_m,
         thickness_m: settings.thickness_m,
         own_layer_m: 0.5 * size_m,
         solid: settings.edges,

@@ -13,6 +13,8 @@ pub(super) struct Reach {
     pub skin_m: f64,
     /// Nodes may move this much against each other between two looks at a pair that is nearly touching.
     pub slack_m: f64,
+    /// Within this of a triangle its plane is used: there the surface is nearly flat.
+    pub flat_m: f64,
     /// Rest gap of pairs that meet during the run.
     pub thickness_m: f64,
     /// Largest rest gap between elements of one layer, whose own mesh must not push itself.

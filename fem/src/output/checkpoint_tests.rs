@@ -134,9 +134,9 @@ fn another_problem_or_version_is_refused_even_if_an_older_one_would_fit() {
     assert!(text.contains("another problem (0000000000000005, this one is 00000000feedbeef)"), "{text}");
     let mut later = encode(&state(3));
     let length = later.len() - CHECK;
-    later[8] = 2;
+    later[8] = 3;
     let check = crc32fast::hash(&later[..length]).to_le_bytes();
     later[length..].copy_from_slice(&check);
     std::fs::write(folder.path().join("checkpoint"), later).unwrap();
-    assert!(reason(folder.path()).contains("format version is 2, this program reads 1"));
+    assert!(reason(folder.path()).contains("format version is 3, this program reads 2"));
 }

@@ -42,6 +42,8 @@ pub struct Item {
     pub viscosity: f64,
     /// Whether this patch counts its energy.
     pub own: bool,
+    /// Part number.
+    pub part: u32,
     /// Number of the element in mesh order.
     pub element: u32,
 }

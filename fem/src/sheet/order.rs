@@ -19,19 +19,17 @@ pub struct Order {
     pub patches: Vec<Range<usize>>,
 }
 
-/// Largest number of nodes of a patch: large enough that few elements are computed twice (6 %), small enough that a
-/// patch's data stay in the second-level cache. Meshes of fewer than `PATCHES` such patches are cut smaller, so that
-/// threads find work, but not below `SMALLEST`.
-const LARGEST: usize = 1024;
-const PATCHES: usize = 8;
-const SMALLEST: usize = 400;
+/// Largest number of nodes of a patch: large enough that few elements are computed twice and few rows are cut, small
+/// enough that a patch's data stay in the second-level cache.
+const LARGEST: usize = 2048;
 
 impl Order {
-    /// Orders the nodes part by part, each by recursive bisection of its reference shape.
+    /// Orders the nodes part by part: a large part by recursive bisection of its reference shape, small parts that follow
+    /// each other together.
     pub fn of(mesh: &Mesh) -> Order {
-        let target = (mesh.points.len() / PATCHES).clamp(SMALLEST, LARGEST);
         let mut order = Order { old: Vec::new(), new: vec![u32::MAX; mesh.points.len()], patches: Vec::new() };
         let mut taken = vec![false; mesh.points.len()];
+        let mut together: Vec<u32> = Vec::new();
         for part in &mesh.parts {
             let mut nodes = Vec::new();
             for node in (0..part.len()).flat_map(|i| part.nodes(i)) {
@@ -39,15 +37,23 @@ impl Order {
                     nodes.push(*node);
                 }
             }
-            let pieces = nodes.len().div_ceil(target);
-            order.bisect(mesh, &mut nodes, pieces);
+            if together.len() + nodes.len() > LARGEST {
+                order.cut(mesh, std::mem::take(&mut together));
+            }
+            together.extend(nodes);
         }
+        order.cut(mesh, together);
         let mut loose: Vec<u32> = (0..mesh.points.len() as u32).filter(|n| !taken[*n as usize]).collect();
         order.bisect(mesh, &mut loose, 1);
         for (place, old) in order.old.iter().enumerate() {
             order.new[*old as usize] = place as u32;
         }
         order
+    }
+
+    fn cut(&mut self, mesh: &Mesh, mut nodes: Vec<u32>) {
+        let pieces = nodes.len().div_ceil(LARGEST);
+        self.bisect(mesh, &mut nodes, pieces);
     }
 
     /// Cuts into `pieces` patches of about the same size.

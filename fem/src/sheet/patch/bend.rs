@@ -1,16 +1,20 @@
-//! The bending matrix of a patch: stretches of nodes with one stencil, and single rows.
+//! The bending matrix of a patch: nodes eight at a time, in stretches with one stencil or mixed, and single rows.
 
 use pulp::Simd;
 
 use super::super::bending::BendingMatrix;
 use super::super::group::{LANES, Lane};
 use super::super::lanes::V;
-use super::runs::split;
 
 /// Weights that differ by less than this share are rounding of the same weight.
 const ALIKE: f64 = 1e-12;
+/// Eight rows go together if they have at most this many shifts per row that is new: a row alone costs as much as five.
+const SHIFTS_PER_ROW: usize = 4;
 
-/// Eight consecutive nodes whose neighbours sit at the same distances in the numbering.
+/// Shifts to the neighbours of a node in the numbering, ascending, and their weights.
+type Row = Vec<(i32, f64)>;
+
+/// Eight consecutive nodes and all shifts at which they have neighbours; where one of them has none its weight is 0.
 #[derive(Debug, Clone)]
 struct Stencil {
     /// First of the eight.
@@ -38,47 +42,56 @@ pub struct Bend {
 impl Bend {
     /// From the rows of the nodes `own` (numbers within the patch) among `places`; `local` turns a place into a number.
     pub fn new(matrix: &BendingMatrix, places: &[u32], own: &[u32], local: impl Fn(u32) -> u32) -> Bend {
-        let mut rows: Vec<Vec<(i32, f64)>> = vec![Vec::new(); places.len()];
+        let mut rows: Vec<Row> = vec![Vec::new(); places.len()];
         for i in own {
             let shift = |(j, value): (u32, f64)| (local(j) as i32 - *i as i32, value);
             let row = &mut rows[*i as usize];
             row.extend(matrix.row(places[*i as usize] as usize).map(shift));
             row.sort_by_key(|entry| entry.0);
         }
-        let alike = |a: usize, b: usize| {
-            !rows[a].is_empty()
-                && rows[a].len() == rows[b].len()
-                && rows[a].iter().zip(&rows[b]).all(|(a, b)| a.0 == b.0)
-        };
-        let (eights, rest) = split(rows.len(), alike);
         let mut bend = Bend { start: vec![0], ..Bend::default() };
-        for eight in eights {
-            bend.push(eight.first, &rows[eight.first..eight.first + LANES]);
-        }
-        for i in rest.into_iter().filter(|i| !rows[*i].is_empty()) {
-            bend.single.push(i as u32);
-            bend.column.extend(rows[i].iter().map(|(shift, _)| places[(i as i32 + shift) as usize]));
-            bend.value.extend(rows[i].iter().map(|(_, value)| *value));
-            bend.start.push(bend.column.len() as u32);
+        let mut next = 0;
+        while let Some(i) = (next..rows.len()).find(|i| !rows[*i].is_empty()) {
+            // A mixed group ends where a stretch begins, which is cheaper on its own.
+            next = if stretch(&rows, i) {
+                i + LANES
+            } else {
+                (i + 1..i + LANES).find(|j| stretch(&rows, *j)).unwrap_or(i + LANES)
+            };
+            let new = rows[i..next.min(rows.len())].iter().filter(|row| !row.is_empty()).count();
+            match shifts(&rows, i) {
+                Some(shifts) if shifts.len() <= SHIFTS_PER_ROW * new => bend.push(i, &shifts, &rows[i..i + LANES]),
+                _ => {
+                    bend.push_single(i, &rows[i], places);
+                    next = i + 1;
+                }
+            }
         }
         bend
     }
 
-    fn push(&mut self, first: usize, rows: &[Vec<(i32, f64)>]) {
+    /// Eight rows by the shifts of all of them.
+    fn push(&mut self, first: usize, shifts: &[i32], rows: &[Row]) {
         let start = self.shifts.len() as u32;
-        let largest = rows[0].iter().map(|entry| entry.1.abs()).fold(0.0, f64::max);
-        let mut alike = true;
-        for (entry, (shift, weight)) in rows[0].iter().enumerate() {
-            self.shifts.push(*shift);
-            self.common.push(*weight);
-            alike &= rows.iter().all(|row| (row[entry].1 - weight).abs() <= ALIKE * largest);
-        }
+        let weight = |row: &Row, shift: i32| row.iter().find(|e| e.0 == shift).map_or(0.0, |e| e.1);
+        let lanes = |shift: &i32| std::array::from_fn(|lane| weight(&rows[lane], *shift));
+        let weights: Vec<Lane> = shifts.iter().map(lanes).collect();
+        let largest = weights.as_flattened().iter().fold(0.0, |most: f64, w| most.max(w.abs()));
+        let alike = weights.iter().all(|lanes| lanes.iter().all(|w| (w - lanes[0]).abs() <= ALIKE * largest));
         let own = (!alike).then_some(self.weights.len() as u32);
+        self.shifts.extend(shifts);
+        self.common.extend(weights.iter().map(|lanes| lanes[0]));
         if !alike {
-            let lanes = |entry: usize| std::array::from_fn(|lane| rows[lane][entry].1);
-            self.weights.extend((0..rows[0].len()).map(lanes));
+            self.weights.extend(weights);
         }
         self.stencils.push(Stencil { first: first as u32, entries: start..self.shifts.len() as u32, own });
+    }
+
+    fn push_single(&mut self, i: usize, row: &Row, places: &[u32]) {
+        self.single.push(i as u32);
+        self.column.extend(row.iter().map(|(shift, _)| places[(i as i32 + shift) as usize]));
+        self.value.extend(row.iter().map(|(_, value)| *value));
+        self.start.push(self.column.len() as u32);
     }
 
     /// True without any bending stiffness.
@@ -123,6 +136,82 @@ impl Bend {
             for k in 0..3 {
                 kx[k][*i as usize] = sum[k];
             }
+        }
+    }
+}
+
+/// True if eight nodes from `first` on have neighbours at the same shifts.
+fn stretch(rows: &[Row], first: usize) -> bool {
+    let alike = |a: &Row, b: &Row| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.0 == b.0);
+    match rows.get(first..first + LANES) {
+        Some(eight) => !eight[0].is_empty() && eight.iter().all(|row| alike(row, &eight[0])),
+        None => false,
+    }
+}
+
+/// All shifts of the eight nodes from `first` on; `None` if one of them leads beyond the patch.
+fn shifts(rows: &[Row], first: usize) -> Option<Vec<i32>> {
+    let eight = rows.get(first..first + LANES)?;
+    let mut all: Vec<i32> = eight.iter().flatten().map(|entry| entry.0).collect();
+    all.sort_unstable();
+    all.dedup();
+    let inside = |shift: &i32| (0..=rows.len() as i32 - LANES as i32).contains(&(first as i32 + shift));
+    all.iter().all(inside).then_some(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Apply<'a>(&'a Bend, [&'a [f64]; 3], &'a [[f64; 4]], [&'a mut [f64]; 3]);
+
+    impl pulp::WithSimd for Apply<'_> {
+        type Output = ();
+        #[inline(always)]
+        fn with_simd<S: Simd>(self, simd: S) {
+            self.0.apply(simd, self.1, self.2, self.3);
+        }
+    }
+
+    /// Rows of 13 nodes with neighbours within the row and in the rows beside it; every 17th node has a far one, too.
+    fn matrix(nodes: usize) -> BendingMatrix {
+        let mut matrix = BendingMatrix { start: vec![0], column: Vec::new(), value: Vec::new() };
+        for i in 0..nodes as i32 {
+            let mut shifts = vec![-13_i32, -2, -1, 0, 1, 2, 13];
+            shifts.retain(|shift| shift.abs() == 13 || (0..13).contains(&(i % 13 + shift)));
+            if i % 17 == 0 {
+                shifts.push((i + 61) % nodes as i32 - i);
+            }
+            shifts.retain(|shift| i % 29 != 0 && (0..nodes as i32).contains(&(i + shift)));
+            shifts.sort_unstable();
+            shifts.dedup();
+            matrix.column.extend(shifts.iter().map(|shift| (i + shift) as u32));
+            matrix.value.extend(shifts.iter().map(|shift| f64::from(1 + i % 5) * 0.37 + f64::from(*shift) * 0.11));
+            matrix.start.push(matrix.column.len() as u32);
+        }
+        matrix
+    }
+
+    #[test]
+    fn rows_by_eights_of_any_shape_are_the_matrix() {
+        for nodes in [5, 8, 40, 131] {
+            let matrix = matrix(nodes);
+            let places: Vec<u32> = (0..nodes as u32).collect();
+            let bend = Bend::new(&matrix, &places, &places, |place| place);
+            let q: Vec<[f64; 4]> = (0..nodes).map(|i| [0, 1, 2, 3].map(|k| ((7 * i + k) as f64).sin())).collect();
+            let room = nodes.next_multiple_of(LANES) + LANES;
+            let axis = |k: usize| (0..room).map(|i| q.get(i).map_or(0.0, |q| q[k])).collect::<Vec<f64>>();
+            let x = [axis(0), axis(1), axis(2)];
+            let mut kx = [vec![0.0; room], vec![0.0; room], vec![0.0; room]];
+            let [a, b, c] = &mut kx;
+            pulp::Arch::new().dispatch(Apply(&bend, [&x[0], &x[1], &x[2]], &q, [a, b, c]));
+            for (k, kx) in kx.iter().enumerate() {
+                for (i, got) in kx[..nodes].iter().enumerate() {
+                    let wanted: f64 = matrix.row(i).map(|(j, value)| value * q[j as usize][k]).sum();
+                    assert!((got - wanted).abs() < 1e-12, "row {i} of {nodes}: {got} and {wanted}");
+                }
+            }
+            assert!(nodes < 100 || (!bend.single.is_empty() && bend.stencils.len() > 5));
         }
     }
 }

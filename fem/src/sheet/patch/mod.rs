@@ -149,7 +149,7 @@ impl Patch {
         let bend = Bend::new(bending, &places, &own, local);
         let mut build = Build::new(nodes.clone());
         for (key, mut list) in items {
-            list.sort_by_key(|item| (mesh_number[item.node[0] as usize], item.element));
+            list.sort_by_key(|item| (item.part, mesh_number[item.node[0] as usize], item.element));
             let own_corners: Vec<Item> = list.clone();
             list.iter_mut().for_each(|item| item.node.iter_mut().for_each(|n| *n = local(*n)));
             build.add(key, &list, &own_corners);

@@ -1,4 +1,4 @@
-//! Regular stretches: elements, or nodes, whose neighbours are numbered in step.
+//! Regular stretches: elements whose neighbours are numbered in step.
 //!
 //! In a structured part of a mesh the corners of eight elements in a row are four runs of eight consecutive nodes: their
 //! positions are loaded, and their forces stored, by one vector instruction each instead of eight. A stretch that is
