@@ -239,8 +239,8 @@ pub struct Simulate {
     /// Robots: as many runs with other random imperfections, and their mean and spread
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=1000))]
     pub seeds: Option<u64>,
-    /// Robots: element size, for example 4mm; several are several runs
-    #[arg(long, allow_hyphen_values = true)]
+    /// Robots: element size, or those of body and actuator, for example 8mm/3mm; several (8mm/4mm,8mm/3mm) are several runs
+    #[arg(long, value_name = "[BODY/]ACTUATOR", allow_hyphen_values = true)]
     pub mesh: Option<String>,
     /// Robots: another value of a key of [fem], for example bond=0.5; repeatable
     #[arg(long, value_name = "KEY=VALUE")]

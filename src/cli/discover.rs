@@ -116,9 +116,9 @@ pub struct Breakdown {
     /// Lengths of a pouch beside the scenario's own, at its body pressure
     #[arg(long, default_value = "45mm,90mm", allow_hyphen_values = true)]
     pub pouch: String,
-    /// Element size: coarse, for a map
-    #[arg(long, default_value = "6mm", allow_hyphen_values = true)]
-    pub mesh: String,
+    /// Element size, or those of body and actuator, for example 8mm/4mm; default: the scenario's
+    #[arg(long, value_name = "[BODY/]ACTUATOR", allow_hyphen_values = true)]
+    pub mesh: Option<String>,
     /// Threads; 0: one per core
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
     pub threads: u64,

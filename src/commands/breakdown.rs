@@ -2,7 +2,7 @@
 
 use super::engines::robots;
 use super::inputs::quantity;
-use super::simulate::{Keeper, Named, rounded};
+use super::simulate::{Keeper, Named, keys_of, rounded, sizes};
 use super::tables::table;
 use super::{Context, Outcome};
 use crate::cli::Breakdown;
@@ -53,7 +53,10 @@ fn cases(args: &Breakdown) -> Result<Vec<(Named, Scenario)>, Failure> {
     let body = list("--body-pressure", &args.body_pressure, Quantity::Pressure, 1e-3)?;
     let pouch = list("--pouch", &args.pouch, Quantity::Length, 1e3)?;
     let pressures = list("--pressure", &args.pressure, Quantity::Pressure, 1e-3)?;
-    let mesh = rounded(quantity("--mesh", &args.mesh, Quantity::Length)? * 1e3);
+    let meshes = args.mesh.as_deref().map(sizes).transpose()?.unwrap_or_default();
+    if meshes.len() > 1 {
+        return Err(Failure::usage("--mesh takes one size here", "write for example --mesh 8mm/4mm"));
+    }
     let mut cases = Vec::new();
     for (named, scenario) in robots(&args.scenarios)?.0 {
         let own = rounded(scenario.p_body_pa * 1e-3);
@@ -68,8 +71,8 @@ fn cases(args: &Breakdown) -> Result<Vec<(Named, Scenario)>, Failure> {
         for (body_kpa, pouch_mm) in wanted {
             let above: Vec<f64> = pressures.iter().copied().filter(|p| *p >= body_kpa).collect();
             let text = changed(&named, &scenario, body_kpa, pouch_mm)?;
-            let changes =
-                [("mesh_mm".to_string(), mesh.to_string()), ("pressures_kpa".to_string(), format!("{above:?}"))];
+            let mut changes = vec![("pressures_kpa".to_string(), format!("{above:?}"))];
+            changes.extend(meshes.iter().flat_map(keys_of));
             let case = text.with(&changes)?;
             cases.push((case, scenario.clone()));
         }

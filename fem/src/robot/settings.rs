@@ -67,8 +67,8 @@ impl RobotSettings {
     /// `ibr verify --only robots` holds this set against the measured tips.
     pub fn compressed() -> RobotSettings {
         RobotSettings {
-            body_size_m: 4e-3,
-            actuator_size_m: 4e-3,
+            body_size_m: 8e-3,
+            actuator_size_m: 3e-3,
             layer_gap_m: 1e-5,
             weld_m: 0.0,
             bending_factor: 0.1,

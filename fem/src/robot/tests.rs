@@ -59,7 +59,8 @@ fn every_shipped_robot_meshes_and_starts() {
 #[test]
 fn fine_actuators_on_coarse_bodies_mesh_without_thin_elements() {
     for (name, _) in SHIPPED {
-        let problem = robot(name, &RobotSettings { actuator_size_m: 2e-3, ..RobotSettings::default() });
+        let problem =
+            robot(name, &RobotSettings { body_size_m: 4e-3, actuator_size_m: 2e-3, ..RobotSettings::default() });
         let quality = quality(&problem).unwrap();
         assert!(quality.side_m.min > 1.5e-3 && quality.aspect.value < 4.0, "{name}: {quality}");
     }

@@ -24,7 +24,7 @@ use std::time::Duration;
 
 pub use cache::{Keeper, all as all_runs};
 pub use input::{Named, named};
-pub use plan::pressures;
+pub use plan::{keys_of, pressures, sizes};
 pub use robot::{heights_mm, rounded};
 pub use small::{Small, run as small_run};
 

@@ -54,8 +54,8 @@ pub fn plan(args: &Simulate, named: Named) -> Result<Plan, Failure> {
         common.push(("pressures_kpa".to_string(), format!("{list:?}")));
     }
     let meshes = args.mesh.as_deref().map(sizes).transpose()?.unwrap_or_default();
-    if let [one] = meshes[..] {
-        common.push(("mesh_mm".to_string(), one.to_string()));
+    if let [one] = &meshes[..] {
+        common.extend(keys_of(one));
     }
     let base = named.with(&common)?;
     if args.sensitivity {
@@ -107,43 +107,58 @@ pub fn pressures(text: &str) -> Result<Vec<f64>, Failure> {
     text.split(',').map(one).collect()
 }
 
-fn sizes(text: &str) -> Result<Vec<f64>, Failure> {
+/// Element sizes of body and actuator \[mm\], from `3mm` for both or `8mm/3mm`; several with commas between.
+pub fn sizes(text: &str) -> Result<Vec<[f64; 2]>, Failure> {
     let one = |size: &str| match rounded(quantity("--mesh", size, Quantity::Length)? * 1e3) {
         mm if (0.5..=50.0).contains(&mm) => Ok(mm),
-        mm => Err(Failure::usage(format!("--mesh {mm}mm is out of range"), "write 0.5mm to 50mm, for example 4mm")),
+        mm => Err(Failure::usage(format!("--mesh {mm}mm is out of range"), "write 0.5mm to 50mm, for example 8mm/3mm")),
     };
-    text.split(',').map(one).collect()
+    let pair = |text: &str| {
+        let (body, actuator) = text.split_once('/').unwrap_or((text, text));
+        Ok([one(body)?, one(actuator)?])
+    };
+    text.split(',').map(pair).collect()
+}
+
+/// What [`sizes`] mean in `[fem]`.
+pub fn keys_of([body_mm, actuator_mm]: &[f64; 2]) -> [(String, String); 2] {
+    [("body_mesh_mm".into(), body_mm.to_string()), ("actuator_mesh_mm".into(), actuator_mm.to_string())]
 }
 
 /// Every mesh with every seed at every single pressure.
-fn product(base: &Named, args: &Simulate, meshes: &[f64]) -> Result<Vec<Variation>, Failure> {
+fn product(base: &Named, args: &Simulate, meshes: &[[f64; 2]]) -> Result<Vec<Variation>, Failure> {
     let (_, run) = base.robot_run()?;
     let mut cases = vec![Variation::default()];
     if meshes.len() > 1 {
-        let of = |mm: &f64| (format!("mesh-{mm}mm"), ("mesh_mm", mm.to_string()), true);
+        let label = |[body, actuator]: &[f64; 2]| match body == actuator {
+            true => format!("mesh-{actuator}mm"),
+            false => format!("mesh-{body}-{actuator}mm"),
+        };
+        let of = |mm: &[f64; 2]| (label(mm), keys_of(mm).to_vec(), true);
         cases = extended(&cases, &meshes.iter().map(of).collect::<Vec<_>>());
     }
     if let Some(count) = args.seeds {
-        let of = |seed: u64| (format!("seed-{seed}"), ("seed", seed.to_string()), false);
+        let of = |seed: u64| (format!("seed-{seed}"), vec![("seed".into(), seed.to_string())], false);
         cases = extended(&cases, &(1..=count).map(of).collect::<Vec<_>>());
     }
     if args.separate {
         let of = |pa: &f64| {
             let kpa = rounded(pa * 1e-3);
-            (format!("{kpa}kPa"), ("pressures_kpa", format!("[{kpa}]")), false)
+            (format!("{kpa}kPa"), vec![("pressures_kpa".into(), format!("[{kpa}]"))], false)
         };
         cases = extended(&cases, &run.pressures_pa.iter().map(of).collect::<Vec<_>>());
     }
     Ok(cases)
 }
 
-type Step = (String, (&'static str, String), bool);
+/// Label, keys of `[fem]`, and whether means are taken apart for it.
+type Step = (String, Vec<(String, String)>, bool);
 
 fn extended(cases: &[Variation], steps: &[Step]) -> Vec<Variation> {
     let joined = |a: &str, b: &str| if a.is_empty() { b.to_string() } else { format!("{a}-{b}") };
-    let with = |case: &Variation, (label, (key, value), grouping): &Step| Variation {
+    let with = |case: &Variation, (label, keys, grouping): &Step| Variation {
         label: joined(&case.label, label),
-        changes: case.changes.iter().cloned().chain([(key.to_string(), value.clone())]).collect(),
+        changes: case.changes.iter().chain(keys).cloned().collect(),
         group: if *grouping { joined(&case.group, label) } else { case.group.clone() },
     };
     cases.iter().flat_map(|case| steps.iter().map(|step| with(case, step)).collect::<Vec<_>>()).collect()
