@@ -5,6 +5,7 @@ use super::{Context, Outcome};
 use crate::cost::{cpu_seconds, resident_bytes};
 use crate::failure::Failure;
 use crate::output::machine;
+use fem::robot::RobotSettings;
 use fem::{Problem, Simulation, speed};
 use serde_json::json;
 use std::time::Instant;
@@ -13,6 +14,9 @@ use std::time::Instant;
 const REPEATS: usize = 5;
 /// Steps per repetition.
 const STEPS: u64 = 400;
+
+/// Robots, and the seconds that a run of each may take on two cores at 4 mm.
+const ROBOTS: [(&str, f64); 4] = [("spam", 15.0), ("epam", 15.0), ("fpam", 15.0), ("cpam", 45.0)];
 
 /// One measured line.
 struct Figure {
@@ -47,6 +51,10 @@ pub fn run(all: bool, context: &mut Context) -> Result<Outcome, Failure> {
     for (n, name, wanted) in &whole[..if all { 3 } else { 2 }] {
         (context.progress)(&format!("whole run, {name}"), None);
         figures.push(whole_run(*n, name, *wanted)?);
+    }
+    for (name, wanted) in ROBOTS.iter().filter(|_| all) {
+        (context.progress)(&format!("robot {name}"), None);
+        figures.push(robot(name, *wanted)?);
     }
     Ok(report(&figures))
 }
@@ -173,6 +181,25 @@ fn whole_run(n: usize, name: &str, wanted: f64) -> Result<Figure, Failure> {
         elements: run.elements(),
         value: cpu_seconds() - start,
         unit: "CPU-s",
+        wanted,
+        rate: false,
+        residual: run.ledger().residual_share(),
+    })
+}
+
+/// Seconds on two threads of one ramp to 30 kPa with elements of 4 mm everywhere.
+fn robot(name: &str, wanted: f64) -> Result<Figure, Failure> {
+    let settings = RobotSettings { body_size_m: 4e-3, actuator_size_m: 4e-3, ..RobotSettings::compressed() };
+    let mut problem = fem::robot::shipped(name, &settings)?.1;
+    problem.settings.threads = 2;
+    let start = Instant::now();
+    let mut run = Simulation::new(&problem)?;
+    run.advance_until(problem.settings.end_s, &mut |_| true)?;
+    Ok(Figure {
+        what: format!("robot {name} to 30 kPa, 4 mm, two threads"),
+        elements: run.elements(),
+        value: start.elapsed().as_secs_f64(),
+        unit: "s",
         wanted,
         rate: false,
         residual: run.ledger().residual_share(),

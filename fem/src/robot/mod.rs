@@ -69,6 +69,17 @@ pub fn problem(scenario: &Scenario, settings: &RobotSettings) -> Result<Problem,
     sewn(scenario, &pattern, settings)
 }
 
+/// A robot that comes with the program, by name, and its problem.
+///
+/// # Errors
+/// [`FemError::Problem`] for a name that `models::shipped` does not know; else like [`problem`].
+pub fn shipped(name: &str, settings: &RobotSettings) -> Result<(Scenario, Problem), FemError> {
+    let text = models::shipped(name).ok_or_else(|| FemError::Problem(format!("there is no scenario `{name}`")))?;
+    let scenario = Scenario::parse(text).map_err(|e| FemError::Problem(e.to_string()))?;
+    let problem = problem(&scenario, settings)?;
+    Ok((scenario, problem))
+}
+
 /// The same with another pattern than the actuator's own.
 ///
 /// # Errors

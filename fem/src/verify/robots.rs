@@ -15,9 +15,8 @@
 //! \[mm\]. Raised in steps, other seeds, meshes and ramps: `docs/robots.md`.
 
 use super::{Check, Curve, Figure, Line, Outcome};
-use crate::robot::{RobotSettings, problem, sections};
+use crate::robot::{RobotSettings, sections, shipped};
 use crate::{FemError, Simulation};
-use models::Scenario;
 
 pub(super) const CHECK: Check = Check {
     name: "robots",
@@ -79,9 +78,7 @@ fn run() -> Result<Outcome, FemError> {
 }
 
 fn bend(name: &str, settings: &RobotSettings) -> Result<End, FemError> {
-    let text = models::shipped(name).ok_or_else(|| FemError::Problem(format!("there is no scenario `{name}`")))?;
-    let scenario = Scenario::parse(text).map_err(|e| FemError::Problem(e.to_string()))?;
-    let mut problem = problem(&scenario, settings)?;
+    let (scenario, mut problem) = shipped(name, settings)?;
     problem.settings.threads = 1;
     let last = scenario.markers_m.last().copied().unwrap_or(scenario.length_m);
     let line = sections(&problem.mesh, &[last, scenario.length_m])?;
