@@ -57,8 +57,8 @@ impl RobotSettings {
     ///
     /// | number | why |
     /// |---|---|
-    /// | 4 mm | published for the body; at 3 mm the sPAM reaches the same tip (one seed), the ePAM 6 % more (three) |
-    /// | 0.05 + 0.45 + 0.05 s, masses raised | about 60 000 steps; with rate-free fabrics only their number counts |
+    /// | 8 mm on the body, 3 mm on the actuator | half as many steps or 2 mm change the tips by at most 4 %, 4 mm by 5 to 12 % |
+    /// | 0.1 + 0.9 + 0.05 s, masses raised | about 160 000 steps; with rate-free fabrics only their number counts |
     /// | mass damping 20 1/s | with the time at full pressure it brings the kinetic share below 1 % |
     /// | hourglass .001 | p R/(E t) of the TPU-coated body; .01 holds 9 to 16 % of the stored energy, .001 up to 8 % |
     /// | bending factor 0.1 | assumed |
@@ -80,8 +80,8 @@ impl RobotSettings {
             nu12: Some(0.3),
             density_kg_m3: 1000.0,
             actuator_pa: 30e3,
-            body_ramp_s: 0.05,
-            actuator_ramp_s: 0.45,
+            body_ramp_s: 0.1,
+            actuator_ramp_s: 0.9,
             hold_s: 0.05,
             mass_factor: 2.0,
             mass_damping_1_s: 20.0,

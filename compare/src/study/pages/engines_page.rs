@@ -6,7 +6,7 @@ use super::{Files, Imprint};
 use crate::error::CompareError;
 use crate::plots::Drawn;
 use crate::report::{Align, Block, Callout, Column, Provenance, Report, Section, Table};
-use crate::study::engines::{Ensemble, FeRun, Pair, as_it_is, ensembles, pairs};
+use crate::study::engines::{CALIBRATED, Ensemble, FeRun, Pair, as_it_is, ensembles, pairs};
 use crate::study::published::{Rung, model_ladder, shipped_scenario};
 use data::{PublishedActuator, published};
 use models::Scenario;
@@ -79,30 +79,40 @@ fn robot(scenario: &Scenario, runs: &[FeRun]) -> Result<EngineRobot, CompareErro
     Ok(EngineRobot { scenario: scenario.clone(), published: printed, with_effects, ensemble, usual, run, pairs })
 }
 
-/// Maps over body pressure and over pouch length, from runs on one mesh: the coarsest.
+/// Maps over body pressure and over pouch length, each from runs on the finest mesh that has two rows of it.
 fn parting_maps(scenario: &Scenario, runs: &[FeRun]) -> Result<Vec<PartingMap>, CompareError> {
-    let mine = |r: &&FeRun| r.scenario == scenario.name && r.actuator == scenario.actuator.kind.name;
-    let coarsest = runs.iter().filter(mine).map(|r| r.mesh_mm[1]).fold(0.0, f64::max);
-    let of_mesh: Vec<&FeRun> = runs.iter().filter(mine).filter(|r| r.mesh_mm[1] == coarsest).collect();
-    let own_pouch = |r: &&&FeRun| (r.pouch_mm * 1e-3 - scenario.actuator.shape.length_m).abs() < 1e-6;
-    let own_body = |r: &&&FeRun| (r.body_kpa * 1e3 - scenario.p_body_pa).abs() < 1e-3;
-    let body: Vec<&FeRun> = of_mesh.iter().filter(own_pouch).copied().collect();
-    let pouch: Vec<&FeRun> = of_mesh.iter().filter(own_body).copied().collect();
+    let kind = scenario.actuator.kind.name;
+    let usual = |r: &FeRun| CALIBRATED.contains(&kind) && r.known != "calibrated";
+    let mine: Vec<&FeRun> =
+        runs.iter().filter(|r| r.scenario == scenario.name && r.actuator == kind && !usual(r)).collect();
+    let own_pouch = |r: &&FeRun| (r.pouch_mm * 1e-3 - scenario.actuator.shape.length_m).abs() < 1e-6;
+    let own_body = |r: &&FeRun| (r.body_kpa * 1e3 - scenario.p_body_pa).abs() < 1e-3;
+    let body: Vec<&FeRun> = mine.iter().copied().filter(own_pouch).collect();
+    let pouch: Vec<&FeRun> = mine.iter().copied().filter(own_body).collect();
     let mut maps = Vec::new();
-    for (row_label, mut runs, value) in [
+    for (row_label, runs, value) in [
         ("rows: body pressure [kPa]", body, (|r: &FeRun| r.body_kpa) as fn(&FeRun) -> f64),
         ("rows: length of a pouch [mm]", pouch, |r: &FeRun| r.pouch_mm),
     ] {
-        runs.sort_by(|a, b| value(b).total_cmp(&value(a)));
-        if runs.len() < 2 {
-            continue;
-        }
-        let rows = runs.iter().map(|r| Ok((format!("{}", value(r)), pairs(&varied(scenario, r), r)?)));
+        let rows = one_per_value(runs, value);
+        let Some(mesh_mm) = rows.first().map(|r| r.mesh_mm[1]) else { continue };
+        let rows = rows.iter().map(|r| Ok((format!("{}", value(r)), pairs(&varied(scenario, r), r)?)));
         let rows = rows.collect::<Result<Vec<_>, CompareError>>()?;
-        let actuator = scenario.actuator.kind.name.to_string();
-        maps.push(PartingMap { actuator, row_label: row_label.into(), rows, mesh_mm: coarsest });
+        maps.push(PartingMap { actuator: kind.to_string(), row_label: row_label.into(), rows, mesh_mm });
     }
     Ok(maps)
+}
+
+/// One run per value, largest first, on the finest mesh that has two; of several runs that with the most states, then the
+/// smallest seed.
+fn one_per_value(mut runs: Vec<&FeRun>, value: fn(&FeRun) -> f64) -> Vec<&FeRun> {
+    runs.sort_by(|a, b| {
+        let rank = |r: &FeRun| (std::cmp::Reverse(r.states.len()), r.seed);
+        a.mesh_mm[1].total_cmp(&b.mesh_mm[1]).then(value(b).total_cmp(&value(a))).then(rank(a).cmp(&rank(b)))
+    });
+    runs.dedup_by(|a, b| a.mesh_mm[1] == b.mesh_mm[1] && value(a) == value(b));
+    let of_mesh = runs.chunk_by(|a, b| a.mesh_mm[1] == b.mesh_mm[1]).find(|rows| rows.len() > 1);
+    of_mesh.map(<[&FeRun]>::to_vec).unwrap_or_default()
 }
 
 /// The scenario at a run's body pressure and pouch length.
@@ -245,4 +255,23 @@ fn rows_of(caption: &str, heads: &[&str], left: &[usize], how: Option<usize>, ro
     };
     let columns = heads.iter().enumerate().map(column).collect();
     Block::Table(Table { caption: caption.into(), columns, rows, how_column: how })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_map_takes_one_run_per_row_from_the_finest_mesh_with_two() {
+        let run =
+            |mesh: f64, body_kpa: f64, seed: u64| FeRun { mesh_mm: [8.0, mesh], body_kpa, seed, ..FeRun::default() };
+        let runs = [run(6.0, 1.0, 1), run(6.0, 2.0, 1), run(3.0, 2.0, 2), run(3.0, 2.0, 1)];
+        let rows = |more: &[FeRun]| -> Vec<(f64, f64, u64)> {
+            let picked = one_per_value(runs.iter().chain(more).collect(), |r| r.body_kpa);
+            picked.iter().map(|r| (r.mesh_mm[1], r.body_kpa, r.seed)).collect()
+        };
+        assert_eq!(rows(&[]), [(6.0, 2.0, 1), (6.0, 1.0, 1)]);
+        assert_eq!(rows(&[run(3.0, 4.0, 1)]), [(3.0, 4.0, 1), (3.0, 2.0, 1)]);
+        assert!(one_per_value(runs[..1].iter().collect(), |r| r.body_kpa).is_empty());
+    }
 }
