@@ -62,7 +62,7 @@ impl RobotSettings {
     /// | mass damping 20 1/s | with the time at full pressure it brings the kinetic share below 1 % |
     /// | hourglass .001 | p R/(E t) of the TPU-coated body; .01 holds 9 to 16 % of the stored energy, .001 up to 8 % |
     /// | bending factor 0.1 | assumed |
-    /// | tape 0.25 mm, ν₁₂ = 0.3 | **calibrated** on the tips of the sPAM and the fPAM, see [`RobotSettings::usual`] |
+    /// | tape 0.2 mm, ν₁₂ = 0.3 | **calibrated** on the tips of the sPAM and the fPAM, see [`RobotSettings::usual`] |
     ///
     /// `ibr verify --only robots` holds this set against the measured tips.
     pub fn compressed() -> RobotSettings {
@@ -73,7 +73,7 @@ impl RobotSettings {
             weld_m: 0.0,
             bending_factor: 0.1,
             bond: 1.0,
-            tape_m: 2.5e-4,
+            tape_m: 2e-4,
             tape_e_pa: 1e6,
             glue_m: 1e-4,
             glue_e_pa: 1e6,
@@ -185,7 +185,7 @@ pub const ASSUMED: &[Assumed] = &[
     Assumed {
         name: "tape_m",
         interval: [2e-5, 2.5e-4],
-        reason: "adhesive transfer tapes are sold from 0.02 to 0.25 mm; 0.25 mm is calibrated on the sPAM's tip, 0.05 mm usual",
+        reason: "adhesive transfer tapes are sold from 0.02 to 0.25 mm; 0.2 mm is calibrated on the sPAM's tip, 0.05 mm usual",
         set: |s, v| s.tape_m = v,
     },
     Assumed { name: "glue_m", interval: [5e-5, 5e-4], reason: "a film spread by hand", set: |s, v| s.glue_m = v },

@@ -293,13 +293,13 @@ pub fn ensembles(runs: &[FeRun], scenario: &Scenario) -> [Ensemble; 2] {
     [own, usual].map(finest)
 }
 
-/// Of the runs on the finest mesh those read at the most pressures, one for every seed.
+/// Of the runs on the finest mesh those read at the most pressures, one for every seed: that with the most steps.
 fn finest(runs: Vec<&FeRun>) -> Ensemble {
     let mesh = runs.iter().map(|r| r.mesh_mm[1]).fold(f64::INFINITY, f64::min);
     let mut kept: Vec<FeRun> = runs.into_iter().filter(|r| r.mesh_mm[1] == mesh).cloned().collect();
     let read = kept.iter().map(|r| r.states.len()).max().unwrap_or(0);
     kept.retain(|r| r.states.len() == read);
-    kept.sort_by_key(|r| r.seed);
+    kept.sort_by_key(|r| (r.seed, std::cmp::Reverse(r.steps)));
     kept.dedup_by_key(|r| r.seed);
     Ensemble { runs: kept }
 }

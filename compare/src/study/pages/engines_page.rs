@@ -215,7 +215,7 @@ pub fn engine_sections(engines: &Engines, files: &mut Files) -> Result<Vec<Secti
     for (k, map) in engines.maps.iter().enumerate() {
         let drawn = parting_plot(map)?;
         files.plot(&format!("breakdown_{}_{k}", map.actuator), &drawn);
-        let caption = format!("Elements of {} mm: coarse, for the map.", map.mesh_mm);
+        let caption = format!("Elements of {} mm at the actuator.", map.mesh_mm);
         maps.push(figure(&caption, "map of differences", &drawn));
     }
     if maps.len() > 1 {
