@@ -58,7 +58,7 @@ impl RobotSettings {
     /// | number | why |
     /// |---|---|
     /// | 8 mm on the body, 3 mm on the actuator | half as many steps or 2 mm change the tips by at most 4 %, 4 mm by 5 to 12 % |
-    /// | 0.1 + 0.9 + 0.05 s, masses raised | about 160 000 steps; with rate-free fabrics only their number counts |
+    /// | 0.1 + 0.9 + 0.054 s, masses raised | about 160 000 steps; with rate-free fabrics only their number counts |
     /// | mass damping 20 1/s | with the time at full pressure it brings the kinetic share below 1 % |
     /// | hourglass .001 | p R/(E t) of the TPU-coated body; .01 holds 9 to 16 % of the stored energy, .001 up to 8 % |
     /// | bending factor 0.1 | assumed |
@@ -82,7 +82,7 @@ impl RobotSettings {
             actuator_pa: 30e3,
             body_ramp_s: 0.1,
             actuator_ramp_s: 0.9,
-            hold_s: 0.05,
+            hold_s: 0.054,
             mass_factor: 2.0,
             mass_damping_1_s: 20.0,
             hourglass: 1e-3,
