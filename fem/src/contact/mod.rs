@@ -319,7 +319,7 @@ fn reaches(settings: &problem::Contact, size_m: f64) -> Reach {
     Reach {
         side_m: (0.375 * size_m).max(4.0 * settings.thickness_m).max(4.0 * settings.gap_m),
         skin_m: size_m,
-        // Looking three times as often moves no robot by more than its seeds do, and takes a quarter more time.
+        // Looking three times as often leaves the cPAM within the scatter of its seeds, and costs more.
         slack_m: 0.15 * size_m,
         flat_m: 0.02 * size_m,
         thickness_m: settings.thickness_m,

@@ -57,7 +57,7 @@ impl RobotSettings {
     ///
     /// | number | why |
     /// |---|---|
-    /// | 8 mm on the body, 3 mm on the actuator | half as many steps or 2 mm change the tips by at most 4 %, 4 mm by 5 to 12 % |
+    /// | 8 mm on the body, 3 mm on the actuator | 2 mm change the tips by at most 4 %, 4 mm by up to 12 % |
     /// | 0.1 + 0.9 + 0.054 s, masses raised | about 160 000 steps; with rate-free fabrics only their number counts |
     /// | mass damping 20 1/s | with the time at full pressure it brings the kinetic share below 1 % |
     /// | hourglass .001 | p R/(E t) of the TPU-coated body; .01 holds 9 to 16 % of the stored energy, .001 up to 8 % |
