@@ -393,4 +393,10 @@ mod tests {
         assert!(widest.0.iter().any(|bits| *bits != 0));
         assert_eq!(widest, scalar);
     }
+    #[test]
+    fn what_another_patch_or_run_left_in_the_room_changes_no_bit() {
+        let fresh = bits_on(pulp::Arch::new());
+        patch::room::Room::spoil();
+        assert_eq!(bits_on(pulp::Arch::new()), fresh);
+    }
 }

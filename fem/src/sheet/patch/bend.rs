@@ -1,10 +1,13 @@
 //! The bending matrix of a patch: nodes eight at a time, in stretches with one stencil or mixed, and single rows.
 
+use std::ops::Range;
+
 use pulp::Simd;
 
 use super::super::bending::BendingMatrix;
 use super::super::group::{LANES, Lane};
 use super::super::lanes::V;
+use super::room::Gaps;
 
 /// Weights that differ by less than this share are rounding of the same weight.
 const ALIKE: f64 = 1e-12;
@@ -20,7 +23,7 @@ struct Stencil {
     /// First of the eight.
     first: u32,
     /// Range in `shifts` and `common`.
-    entries: std::ops::Range<u32>,
+    entries: Range<u32>,
     /// Range in `weights` if they differ between the eight; otherwise they are in `common`.
     own: Option<u32>,
 }
@@ -97,6 +100,17 @@ impl Bend {
     /// True without any bending stiffness.
     pub fn is_empty(&self) -> bool {
         self.stencils.is_empty() && self.single.is_empty()
+    }
+
+    /// Places of `0..count` where [`Bend::apply`] writes nothing; none without bending, for then nobody reads them.
+    pub fn gaps(&self, count: usize) -> Gaps {
+        if self.is_empty() {
+            return Gaps::default();
+        }
+        let mut written = vec![false; count];
+        self.single.iter().for_each(|i| written[*i as usize] = true);
+        self.stencils.iter().for_each(|s| written[s.first as usize..s.first as usize + LANES].fill(true));
+        Gaps::new(count, |i| written[i])
     }
 
     /// Writes K x of the own nodes into `kx`; nodes without bending keep what is there. `x` are the positions of the patch,

@@ -2,6 +2,7 @@
 
 mod bend;
 mod pass;
+pub(super) mod room;
 mod runs;
 
 use std::collections::BTreeMap;
@@ -13,9 +14,11 @@ use models::fabrics::Past;
 
 use super::bending::BendingMatrix;
 use super::group::{Group, Item, LANES};
-use super::kernel::{CornerForces, Strain};
+use super::kernel::Strain;
 use bend::Bend;
 use pass::Pass;
+use room::{Gaps, Needs, Room};
+use runs::Stretch;
 
 /// What one pass over a patch adds up, in SI units.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -68,6 +71,8 @@ struct Run {
     key: Key,
     regular: Range<usize>,
     other: Range<usize>,
+    /// Place in the room of the corner forces of the first of the others.
+    scratch: usize,
 }
 
 /// Consecutive nodes and what their forces need. Within the patch, its own nodes and those of neighbours that its elements
@@ -76,10 +81,12 @@ struct Run {
 pub struct Patch {
     /// The nodes this patch owns.
     pub nodes: Range<usize>,
-    /// Place of every node of the patch.
-    places: Vec<u32>,
-    /// Number within the patch of the own nodes.
-    own: Vec<u32>,
+    /// Nodes of the patch, its own and those of neighbours.
+    count: usize,
+    /// All of them, and their places.
+    taken: Vec<Stretch>,
+    /// The own ones, and their numbers among the own.
+    given: Vec<Stretch>,
     runs: Vec<Run>,
     groups: Vec<Group>,
     /// Mesh number of the element in each lane, `u32::MAX` where another lane or patch reports it.
@@ -91,24 +98,11 @@ pub struct Patch {
     pub strains: Vec<Strain>,
     /// Memory of fabrics that have one; empty otherwise.
     pub past: Vec<[Past; LANES]>,
-    work: Work,
+    needs: Needs,
     /// What the last pass added up.
     pub sums: Sums,
     /// Flux into each chamber, see [`super::chamber::Air::volume_of`].
     pub flux: Vec<[f64; 3]>,
-}
-
-/// Room to work in; its content does not outlive a pass, except for zeros where no regular element writes.
-#[derive(Debug, Clone, Default)]
-struct Work {
-    /// Positions by axis.
-    x: [Vec<f64>; 3],
-    /// K x by axis.
-    kx: [Vec<f64>; 3],
-    /// Forces of regular rows by corner and axis. No node is the same corner of two elements in regular rows.
-    corner: [[Vec<f64>; 3]; 4],
-    /// Corner forces of the other groups.
-    scratch: Vec<CornerForces>,
 }
 
 /// What all patches share during a pass.
@@ -154,19 +148,22 @@ impl Patch {
             list.iter_mut().for_each(|item| item.node.iter_mut().for_each(|n| *n = local(*n)));
             build.add(key, &list, &own_corners);
         }
-        let room = places.len().next_multiple_of(LANES) + LANES;
-        let vectors = || std::array::from_fn(|_| vec![0.0; room]);
-        let work = Work {
-            x: vectors(),
-            kx: vectors(),
-            corner: std::array::from_fn(|_| vectors()),
-            scratch: vec![[[[0.0; LANES]; 3]; 4]; build.groups.len()],
+        let padded = places.len().next_multiple_of(LANES);
+        let mut is_own = vec![false; padded];
+        own.iter().for_each(|i| is_own[*i as usize] = true);
+        let no_corner = |taken: &Vec<bool>| Gaps::new(padded, |i| !is_own[i] || taken.get(i).is_some_and(|t| *t));
+        let needs = Needs {
+            nodes: padded + LANES,
+            others: build.others,
+            no_corner: build.taken.each_ref().map(no_corner),
+            no_bending: bend.gaps(padded),
         };
         build.corners.sort();
         Patch {
             nodes,
-            places,
-            own,
+            count: places.len(),
+            taken: runs::stretches(&places.iter().enumerate().map(|(i, place)| (i, *place as usize)).collect::<Vec<_>>()),
+            given: runs::stretches(&own.iter().enumerate().map(|(i, local)| (*local as usize, i)).collect::<Vec<_>>()),
             strains: vec![Strain([[0.0; LANES]; 3]); build.groups.len()],
             past: if memory { vec![[[0.0; 2]; LANES]; build.groups.len()] } else { Vec::new() },
             runs: build.runs,
@@ -174,7 +171,7 @@ impl Patch {
             element: build.element,
             corners: build.corners,
             bend,
-            work,
+            needs,
             sums: Sums::default(),
             flux: Vec::new(),
         }
@@ -184,7 +181,7 @@ impl Patch {
     /// fabric memory move on by this step.
     pub fn pass(&mut self, shared: Shared, force: &mut [[f64; 4]], keep: bool) {
         let strains = if keep { Vec::new() } else { self.strains.clone() };
-        shared.arch.dispatch(Pass { patch: self, shared, force });
+        self.dispatch(shared, force);
         if !keep {
             self.strains = strains;
         } else if !self.past.is_empty() {
@@ -210,7 +207,13 @@ impl Patch {
     /// Sets the strains that viscosity compares with to those at `q`.
     pub fn start_strains(&mut self, shared: Shared) {
         let mut unused = vec![[0.0; 4]; self.nodes.len()];
-        shared.arch.dispatch(Pass { patch: self, shared, force: &mut unused });
+        self.dispatch(shared, &mut unused);
+    }
+
+    fn dispatch(&mut self, shared: Shared, force: &mut [[f64; 4]]) {
+        let needs = std::mem::take(&mut self.needs);
+        Room::with(&needs, |room| shared.arch.dispatch(Pass { patch: self, room, shared, force }));
+        self.needs = needs;
     }
 }
 
@@ -220,6 +223,8 @@ struct Build {
     runs: Vec<Run>,
     groups: Vec<Group>,
     element: Vec<[u32; LANES]>,
+    /// Groups outside regular rows so far.
+    others: usize,
     /// (own node, place in the corner forces).
     corners: Vec<(u32, u32)>,
     /// Nodes that already are corner c of an element in a regular row.
@@ -229,7 +234,7 @@ struct Build {
 impl Build {
     fn new(own: Range<usize>) -> Build {
         let taken = std::array::from_fn(|_| Vec::new());
-        Build { own, runs: Vec::new(), groups: Vec::new(), element: Vec::new(), corners: Vec::new(), taken }
+        Build { own, runs: Vec::new(), groups: Vec::new(), element: Vec::new(), others: 0, corners: Vec::new(), taken }
     }
 
     /// `items` are numbered within the patch, `placed` are the same with places.
@@ -246,13 +251,14 @@ impl Build {
                 rest.extend((eight.first + eight.counted..eight.first + LANES).filter(|i| !claimed[*i]));
             }
         }
-        let middle = self.groups.len();
+        let (middle, scratch) = (self.groups.len(), self.others);
         for chunk in rest.chunks(LANES) {
             let of = |list: &[Item]| chunk.iter().map(|i| list[*i].clone()).collect::<Vec<Item>>();
             self.note_corners(&of(placed));
             self.push(&of(items), 0);
+            self.others += 1;
         }
-        self.runs.push(Run { key, regular: start..middle, other: middle..self.groups.len() });
+        self.runs.push(Run { key, regular: start..middle, other: middle..self.groups.len(), scratch });
     }
 
     /// Reserves the places of a regular group's corner forces; false if another element has one of them.
@@ -283,10 +289,9 @@ impl Build {
     }
 
     fn note_corners(&mut self, chunk: &[Item]) {
-        let group = self.groups.len();
         for (lane, item) in chunk.iter().enumerate() {
             for (corner, node) in item.node.iter().enumerate().filter(|(_, n)| self.own.contains(&(**n as usize))) {
-                let at = (group * 4 + corner) * 3 * LANES + lane;
+                let at = (self.others * 4 + corner) * 3 * LANES + lane;
                 self.corners.push((*node - self.own.start as u32, at as u32));
             }
         }

@@ -7,11 +7,13 @@ use super::super::group::LANES;
 use super::super::kernel::{self, Batch, Corners, Tally};
 use super::super::lanes::{V, sum};
 use super::super::law::{Called, Law};
+use super::room::Room;
 use super::{Patch, Run, Shared, Sums};
 
 /// The pass as a value, so that it can be handed to the dispatcher.
 pub struct Pass<'a, 'b> {
     pub patch: &'a mut Patch,
+    pub room: Room<'a>,
     pub shared: Shared<'b>,
     pub force: &'a mut [[f64; 4]],
 }
@@ -21,78 +23,89 @@ impl pulp::WithSimd for Pass<'_, '_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Pass { patch, shared, force } = self;
+        let Pass { patch, mut room, shared, force } = self;
+        let room = &mut room;
         patch.sums = Sums { hysteresis: patch.sums.hysteresis, ..Sums::default() };
         patch.flux.clear();
         patch.flux.resize(shared.pressure_pa.len(), [0.0; 3]);
-        take_positions(patch, shared.q);
+        take_positions(patch, room, shared.q);
         for index in 0..patch.runs.len() {
             let fabric = &*shared.fabrics[patch.runs[index].key.fabric];
             match (fabric.kind(), shared.books) {
-                (Kind::NeoHookean(law), true) => run::<S, _, true>(simd, patch, shared, index, law),
-                (Kind::NeoHookean(law), false) => run::<S, _, false>(simd, patch, shared, index, law),
-                (Kind::Orthotropic(law), true) => run::<S, _, true>(simd, patch, shared, index, law),
-                (Kind::Orthotropic(law), false) => run::<S, _, false>(simd, patch, shared, index, law),
-                (Kind::Mixed(law), true) => run::<S, _, true>(simd, patch, shared, index, law),
-                (Kind::Mixed(law), false) => run::<S, _, false>(simd, patch, shared, index, law),
-                (Kind::Other, _) => run::<S, _, true>(simd, patch, shared, index, Called(fabric)),
+                (Kind::NeoHookean(law), true) => run::<S, _, true>(simd, patch, room, shared, index, law),
+                (Kind::NeoHookean(law), false) => run::<S, _, false>(simd, patch, room, shared, index, law),
+                (Kind::Orthotropic(law), true) => run::<S, _, true>(simd, patch, room, shared, index, law),
+                (Kind::Orthotropic(law), false) => run::<S, _, false>(simd, patch, room, shared, index, law),
+                (Kind::Mixed(law), true) => run::<S, _, true>(simd, patch, room, shared, index, law),
+                (Kind::Mixed(law), false) => run::<S, _, false>(simd, patch, room, shared, index, law),
+                (Kind::Other, _) => run::<S, _, true>(simd, patch, room, shared, index, Called(fabric)),
             }
         }
         if !patch.bend.is_empty() {
-            patch.bend.apply(simd, slices(&patch.work.x), shared.q, slices_mut(&mut patch.work.kx));
+            patch.bend.apply(simd, slices(&room.x), shared.q, slices_mut(&mut room.kx));
             if shared.books {
-                patch.sums.bending = 0.5 * bending_energy(simd, patch);
+                patch.sums.bending = 0.5 * bending_energy(simd, room, patch.count);
             }
         }
-        give_forces(simd, patch, force);
+        give_forces(simd, patch, room, force);
     }
 }
 
-fn slices([x, y, z]: &[Vec<f64>; 3]) -> [&[f64]; 3] {
+fn slices<'a>([x, y, z]: &'a [&mut [f64]; 3]) -> [&'a [f64]; 3] {
     [x, y, z]
 }
 
-fn slices_mut([x, y, z]: &mut [Vec<f64>; 3]) -> [&mut [f64]; 3] {
+fn slices_mut<'a>([x, y, z]: &'a mut [&mut [f64]; 3]) -> [&'a mut [f64]; 3] {
     [x, y, z]
 }
 
-fn corner_slices([a, b, c, d]: &mut [[Vec<f64>; 3]; 4]) -> [[&mut [f64]; 3]; 4] {
+fn corner_slices<'a>([a, b, c, d]: &'a mut [[&mut [f64]; 3]; 4]) -> [[&'a mut [f64]; 3]; 4] {
     [slices_mut(a), slices_mut(b), slices_mut(c), slices_mut(d)]
 }
 
 /// Positions of the patch's nodes, axis by axis.
 #[inline(always)]
-fn take_positions(patch: &mut Patch, q: &[[f64; 4]]) {
-    let [x, y, z] = &mut patch.work.x;
-    let to = x.iter_mut().zip(y.iter_mut()).zip(z.iter_mut());
-    for (((x, y), z), place) in to.zip(&patch.places) {
-        let p = &q[*place as usize];
-        (*x, *y, *z) = (p[0], p[1], p[2]);
+fn take_positions(patch: &Patch, room: &mut Room, q: &[[f64; 4]]) {
+    let [x, y, z] = &mut room.x;
+    for stretch in &patch.taken {
+        let local = stretch.local.clone();
+        let to = x[local.clone()].iter_mut().zip(&mut y[local.clone()]).zip(&mut z[local]);
+        for (((x, y), z), p) in to.zip(&q[stretch.outer.clone()]) {
+            (*x, *y, *z) = (p[0], p[1], p[2]);
+        }
     }
 }
 
 #[inline(always)]
-fn run<S: Simd, L: Law, const BOOKS: bool>(simd: S, patch: &mut Patch, shared: Shared, index: usize, law: L) {
-    let Run { key, regular, other } = patch.runs[index].clone();
+fn run<S: Simd, L: Law, const BOOKS: bool>(
+    simd: S,
+    patch: &mut Patch,
+    room: &mut Room,
+    shared: Shared,
+    index: usize,
+    law: L,
+) {
+    let Run { key, regular, other, scratch } = patch.runs[index].clone();
     let pressure = |chamber: Option<usize>| chamber.map_or(0.0, |c| shared.pressure_pa[c]);
     let mut tally = Tally::default();
     for (groups, in_rows) in [(regular, true), (other, false)] {
         let batch = Batch {
-            x: slices(&patch.work.x),
+            x: slices(&room.x),
             pressure: pressure(key.back) - pressure(key.front),
             rate: shared.rate,
             groups: &patch.groups[groups.clone()],
             past: if patch.past.is_empty() { &[] } else { &patch.past[groups.clone()] },
         };
-        let strains = &mut patch.strains[groups.clone()];
-        let scratch = &mut patch.work.scratch[groups];
+        let scratch = if in_rows { 0..0 } else { scratch..scratch + groups.len() };
+        let strains = &mut patch.strains[groups];
+        let scratch = &mut room.scratch[scratch];
         match (in_rows, key.corners) {
             (true, _) => kernel::quads::<S, L, true, BOOKS>(
                 simd,
                 batch,
                 law,
                 strains,
-                Corners::Rows(corner_slices(&mut patch.work.corner)),
+                Corners::Rows(corner_slices(&mut room.corner)),
                 &mut tally,
             ),
             (_, 4) => {
@@ -113,8 +126,7 @@ fn run<S: Simd, L: Law, const BOOKS: bool>(simd: S, patch: &mut Patch, shared: S
 
 /// Σ x·K x; K x is 0 at neighbours' nodes.
 #[inline(always)]
-fn bending_energy<S: Simd>(simd: S, patch: &Patch) -> f64 {
-    let own = patch.places.len();
+fn bending_energy<S: Simd>(simd: S, room: &Room, own: usize) -> f64 {
     let mut lanes = [0.0; LANES];
     let whole = own / LANES * LANES;
     for first in (0..whole).step_by(LANES) {
@@ -122,39 +134,46 @@ fn bending_energy<S: Simd>(simd: S, patch: &Patch) -> f64 {
             let at = first + part * S::F64_LANES;
             let mut total = V::load(simd, &lanes, part);
             for k in 0..3 {
-                total = total + V::load_from(simd, &patch.work.x[k], at) * V::load_from(simd, &patch.work.kx[k], at);
+                total = total + V::load_from(simd, room.x[k], at) * V::load_from(simd, room.kx[k], at);
             }
             total.store(&mut lanes, part);
         }
     }
-    let rest: f64 = (whole..own).map(|i| (0..3).map(|k| patch.work.x[k][i] * patch.work.kx[k][i]).sum::<f64>()).sum();
+    let rest: f64 = (whole..own).map(|i| (0..3).map(|k| room.x[k][i] * room.kx[k][i]).sum::<f64>()).sum();
     sum(&lanes) + rest
 }
 
 /// Adds up the corners and bending of every own node.
 #[inline(always)]
-fn give_forces<S: Simd>(simd: S, patch: &mut Patch, force: &mut [[f64; 4]]) {
-    let work = &mut patch.work;
-    let padded = patch.places.len().next_multiple_of(LANES);
+fn give_forces<S: Simd>(simd: S, patch: &Patch, room: &mut Room, force: &mut [[f64; 4]]) {
+    let padded = patch.count.next_multiple_of(LANES);
     for k in 0..3 {
-        let corner = [0, 1, 2, 3].map(|c: usize| &work.corner[c][k][..padded]);
-        let (kx, total) = (&work.kx[k][..padded], &mut work.x[k][..padded]);
         // The sum takes the place of the positions, which nobody needs any more.
-        let (total, kx) = (S::as_mut_simd_f64s(total).0, S::as_simd_f64s(kx).0);
-        let [a, b, c, d] = corner.map(|c| S::as_simd_f64s(c).0);
-        for (((((total, kx), a), b), c), d) in total.iter_mut().zip(kx).zip(a).zip(b).zip(c).zip(d) {
-            let sum = simd.add_f64s(simd.add_f64s(*a, *b), simd.add_f64s(*c, *d));
-            *total = simd.sub_f64s(sum, *kx);
+        let total = S::as_mut_simd_f64s(&mut room.x[k][..padded]).0;
+        let kx = S::as_simd_f64s(&room.kx[k][..padded]).0;
+        let [a, b, c, d] = [0, 1, 2, 3].map(|c: usize| S::as_simd_f64s(&room.corner[c][k][..padded]).0);
+        let all = total.iter_mut().zip(a).zip(b).zip(c).zip(d);
+        if patch.bend.is_empty() {
+            for ((((total, a), b), c), d) in all {
+                *total = simd.add_f64s(simd.add_f64s(*a, *b), simd.add_f64s(*c, *d));
+            }
+        } else {
+            for (((((total, a), b), c), d), kx) in all.zip(kx) {
+                let sum = simd.add_f64s(simd.add_f64s(*a, *b), simd.add_f64s(*c, *d));
+                *total = simd.sub_f64s(sum, *kx);
+            }
         }
     }
-    let [x, y, z] = slices(&work.x);
-    for (force, own) in force.iter_mut().zip(&patch.own) {
-        let own = *own as usize;
-        force[0] += x[own];
-        force[1] += y[own];
-        force[2] += z[own];
+    let [x, y, z] = slices(&room.x);
+    for stretch in &patch.given {
+        let local = stretch.local.clone();
+        let from = x[local.clone()].iter().zip(&y[local.clone()]).zip(&z[local]);
+        for (force, ((x, y), z)) in force[stretch.outer.clone()].iter_mut().zip(from) {
+            // The fourth number stays 0; with it whole registers are written.
+            *force = [force[0] + x, force[1] + y, force[2] + z, force[3] + 0.0];
+        }
     }
-    let flat: &[f64] = work.scratch.as_flattened().as_flattened().as_flattened();
+    let flat: &[f64] = room.scratch.as_flattened().as_flattened().as_flattened();
     for (node, at) in &patch.corners {
         let corner = &flat[*at as usize..*at as usize + 2 * LANES + 1];
         let force = &mut force[*node as usize];

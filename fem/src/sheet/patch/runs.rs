@@ -5,6 +5,8 @@
 //! not a multiple of eight ends with a group that overlaps the one before; the overlap is computed twice, with the same
 //! bits, and counted once.
 
+use std::ops::Range;
+
 use super::super::group::{Item, LANES};
 
 /// A group of eight as a range of `items`, and how many of its first lanes the group before it counts.
@@ -46,6 +48,25 @@ pub fn next_in_row(a: &Item, b: &Item) -> bool {
     a.node.len() == 4 && b.node.len() == 4 && a.node.iter().zip(&b.node).all(|(a, b)| *b == a + 1)
 }
 
+/// Nodes that follow each other in two numberings.
+#[derive(Debug, Clone)]
+pub struct Stretch {
+    /// In the numbering of the patch.
+    pub local: Range<usize>,
+    /// In the other.
+    pub outer: Range<usize>,
+}
+
+/// Stretches of pairs of numbers.
+pub fn stretches(pairs: &[(usize, usize)]) -> Vec<Stretch> {
+    let follow = |a: &(usize, usize), b: &(usize, usize)| b.0 == a.0 + 1 && b.1 == a.1 + 1;
+    let stretch = |chunk: &[(usize, usize)]| {
+        let (local, outer) = chunk[0];
+        Stretch { local: local..local + chunk.len(), outer: outer..outer + chunk.len() }
+    };
+    pairs.chunk_by(follow).map(stretch).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -61,5 +82,12 @@ mod tests {
     fn short_stretches_are_left_over() {
         let (eights, rest) = split(12, |a, _| a != 6);
         assert_eq!((eights.len(), rest), (0, (0..12).collect()));
+    }
+
+    #[test]
+    fn pairs_that_step_together_are_one_stretch() {
+        let found = stretches(&[(0, 4), (1, 5), (2, 7), (4, 8), (5, 9)]);
+        let found: Vec<_> = found.into_iter().map(|s| (s.local, s.outer)).collect();
+        assert_eq!(found, [(0..2, 4..6), (2..3, 7..8), (4..6, 8..10)]);
     }
 }
