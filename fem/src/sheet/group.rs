@@ -9,10 +9,18 @@ pub type Lane = [f64; LANES];
 
 /// Eight elements of one kind, section and pair of chambers.
 #[derive(Debug, Clone)]
-#[repr(C, align(64))]
 pub struct Group {
-    /// Corner nodes, numbered within the patch; a triangle repeats its third.
-    pub node: [[u32; LANES]; 4],
+    /// Place of its constants in a table.
+    pub constants: u32,
+    /// Corner nodes by lane, numbered within the patch; a triangle repeats its third.
+    pub node: [[u32; 4]; LANES],
+}
+
+/// What eight elements hold from start to end. In a structured mesh most groups share theirs, which then stay in the
+/// first cache.
+#[derive(Debug, Clone)]
+#[repr(C, align(64))]
+pub struct Constants {
     /// Shape gradients, see [`Reference::b`] \[1/m\].
     pub b: [[Lane; 2]; 2],
     /// Hourglass offsets s_a \[m\].
@@ -49,38 +57,68 @@ pub struct Item {
 }
 
 impl Group {
+    /// Corner nodes of up to eight elements; an empty lane repeats the last.
+    pub fn pack(items: &[Item], constants: u32) -> Group {
+        let item = |lane: usize| &items[lane.min(items.len() - 1)].node;
+        let corner = |lane: usize| std::array::from_fn(|c| item(lane)[c.min(item(lane).len() - 1)]);
+        Group { constants, node: std::array::from_fn(corner) }
+    }
+}
+
+/// Numbers that differ by less than this share of the element's size are rounding of the same number.
+const ALIKE: f64 = 1e-12;
+
+impl Constants {
     /// Packs up to eight elements, of which the first `counted_before` are counted by an earlier group. An empty lane
     /// repeats the last element with no area, stiffness or pressure, so that its arithmetic stays finite and its forces
     /// vanish.
-    pub fn pack(items: &[Item], counted_before: usize) -> Group {
-        let mut group = Group {
-            node: [[0; LANES]; 4],
-            b: [[[0.0; LANES]; 2]; 2],
-            s: [[0.0; LANES]; 2],
-            area: [0.0; LANES],
-            hourglass: [0.0; LANES],
-            viscosity: [0.0; LANES],
-            own: [0.0; LANES],
-            real: [0.0; LANES],
+    pub fn pack(items: &[Item], counted_before: usize) -> Constants {
+        let zero = [0.0; LANES];
+        let mut constants = Constants {
+            b: [[zero; 2]; 2],
+            s: [zero; 2],
+            area: zero,
+            hourglass: zero,
+            viscosity: zero,
+            own: zero,
+            real: zero,
         };
         for lane in 0..LANES {
             let item = &items[lane.min(items.len() - 1)];
-            for corner in 0..4 {
-                group.node[corner][lane] = item.node[corner.min(item.node.len() - 1)];
-            }
             for a in 0..2 {
-                group.b[0][a][lane] = item.reference.b[0][a];
-                group.b[1][a][lane] = item.reference.b[1][a];
-                group.s[a][lane] = item.reference.s[a];
+                constants.b[0][a][lane] = item.reference.b[0][a];
+                constants.b[1][a][lane] = item.reference.b[1][a];
+                constants.s[a][lane] = item.reference.s[a];
             }
             if lane < items.len() {
-                group.area[lane] = item.reference.area;
-                group.hourglass[lane] = item.hourglass;
-                group.viscosity[lane] = item.viscosity * item.reference.area;
-                group.own[lane] = f64::from(u8::from(item.own && lane >= counted_before));
-                group.real[lane] = 1.0;
+                constants.area[lane] = item.reference.area;
+                constants.hourglass[lane] = item.hourglass;
+                constants.viscosity[lane] = item.viscosity * item.reference.area;
+                constants.own[lane] = f64::from(u8::from(item.own && lane >= counted_before));
+                constants.real[lane] = 1.0;
             }
         }
-        group
+        constants
     }
+
+    /// The same for constants that are equal but for rounding, save where they lie just beside a step of it.
+    pub fn key(&self) -> Vec<i64> {
+        let steps = |value: f64| (value / ALIKE).round() as i64;
+        let mut key = Vec::new();
+        for lane in 0..LANES {
+            // Lengths may be zero but for rounding: they are told in sizes of the element.
+            let size = self.area[lane].sqrt();
+            key.extend(self.b.as_flattened().iter().map(|b| steps(b[lane] * size)));
+            key.extend(self.s.iter().map(|s| steps(s[lane] / size)));
+            let positive = [self.area[lane], self.hourglass[lane], self.viscosity[lane]];
+            key.extend(positive.map(leading_bits));
+            key.extend([self.own[lane], self.real[lane]].map(|flag| flag as i64));
+        }
+        key
+    }
+}
+
+/// Sign, exponent and the 40 leading bits of the fraction, rounded.
+fn leading_bits(value: f64) -> i64 {
+    (value.to_bits() as i64 + (1 << 11)) >> 12
 }

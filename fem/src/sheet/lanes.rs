@@ -125,14 +125,14 @@ impl<S: Simd> V<S> {
         S::as_mut_simd_f64s(&mut to[at..at + S::F64_LANES]).0[0] = self.1;
     }
 
-    /// Positions of one corner of the elements in part number `part` of a group.
+    /// Positions of corner `c` of the elements in part number `part` of a group.
     #[inline(always)]
-    pub fn gather(simd: S, x: [&[f64]; 3], node: &[u32; LANES], part: usize) -> [V<S>; 3] {
+    pub fn gather(simd: S, x: [&[f64]; 3], node: &[[u32; 4]; LANES], c: usize, part: usize) -> [V<S>; 3] {
         let width = S::F64_LANES;
         let mut out = [[0.0; LANES]; 3];
         for (k, out) in out.iter_mut().enumerate() {
             for lane in 0..width {
-                out[lane] = x[k][node[part * width + lane] as usize];
+                out[lane] = x[k][node[part * width + lane][c] as usize];
             }
         }
         [V::load(simd, &out[0], 0), V::load(simd, &out[1], 0), V::load(simd, &out[2], 0)]

@@ -13,7 +13,7 @@ use models::Fabric;
 use models::fabrics::Past;
 
 use super::bending::BendingMatrix;
-use super::group::{Group, Item, LANES};
+use super::group::{Constants, Group, Item, LANES};
 use super::kernel::Strain;
 use bend::Bend;
 use pass::Pass;
@@ -89,6 +89,7 @@ pub struct Patch {
     given: Vec<Stretch>,
     runs: Vec<Run>,
     groups: Vec<Group>,
+    constants: Vec<Constants>,
     /// Mesh number of the element in each lane, `u32::MAX` where another lane or patch reports it.
     pub element: Vec<[u32; LANES]>,
     /// Own node and place in `scratch` of every corner force of elements outside regular rows, in the order of nodes.
@@ -168,6 +169,7 @@ impl Patch {
             past: if memory { vec![[[0.0; 2]; LANES]; build.groups.len()] } else { Vec::new() },
             runs: build.runs,
             groups: build.groups,
+            constants: build.constants,
             element: build.element,
             corners: build.corners,
             bend,
@@ -195,9 +197,10 @@ impl Patch {
             let fabric = &fabrics[run.key.fabric];
             for g in run.regular.clone().chain(run.other.clone()) {
                 let [e1, e2, e3] = &self.strains[g].0;
+                let constants = &self.constants[self.groups[g].constants as usize];
                 for (l, past) in self.past[g].iter_mut().enumerate() {
                     fabric.remember([e1[l], e2[l], e3[l]], past);
-                    let weight = self.groups[g].own[l] * self.groups[g].area[l];
+                    let weight = constants.own[l] * constants.area[l];
                     self.sums.hysteresis += weight * fabric.dissipated(past);
                 }
             }
@@ -218,10 +221,14 @@ impl Patch {
 }
 
 /// A patch while its groups are packed.
+#[derive(Default)]
 struct Build {
     own: Range<usize>,
     runs: Vec<Run>,
     groups: Vec<Group>,
+    constants: Vec<Constants>,
+    /// Places of the constants by their keys.
+    known: BTreeMap<Vec<i64>, u32>,
     element: Vec<[u32; LANES]>,
     /// Groups outside regular rows so far.
     others: usize,
@@ -233,8 +240,7 @@ struct Build {
 
 impl Build {
     fn new(own: Range<usize>) -> Build {
-        let taken = std::array::from_fn(|_| Vec::new());
-        Build { own, runs: Vec::new(), groups: Vec::new(), element: Vec::new(), others: 0, corners: Vec::new(), taken }
+        Build { own, ..Build::default() }
     }
 
     /// `items` are numbered within the patch, `placed` are the same with places.
@@ -285,7 +291,13 @@ impl Build {
             _ => u32::MAX,
         };
         self.element.push(std::array::from_fn(reported));
-        self.groups.push(Group::pack(chunk, counted));
+        let constants = Constants::pack(chunk, counted);
+        let next = self.constants.len() as u32;
+        let place = *self.known.entry(constants.key()).or_insert(next);
+        if place == next {
+            self.constants.push(constants);
+        }
+        self.groups.push(Group::pack(chunk, place));
     }
 
     fn note_corners(&mut self, chunk: &[Item]) {
