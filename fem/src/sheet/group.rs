@@ -119,6 +119,6 @@ impl Constants {
 }
 
 /// Sign, exponent and the 40 leading bits of the fraction, rounded.
-fn leading_bits(value: f64) -> i64 {
+pub fn leading_bits(value: f64) -> i64 {
     (value.to_bits() as i64 + (1 << 11)) >> 12
 }

@@ -1,11 +1,12 @@
 //! The bending matrix of a patch: nodes eight at a time, in stretches with one stencil or mixed, and single rows.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use pulp::Simd;
 
 use super::super::bending::BendingMatrix;
-use super::super::group::{LANES, Lane};
+use super::super::group::{LANES, Lane, leading_bits};
 use super::super::lanes::V;
 use super::room::Gaps;
 
@@ -16,6 +17,9 @@ const SHIFTS_PER_ROW: usize = 4;
 
 /// Shifts to the neighbours of a node in the numbering, ascending, and their weights.
 type Row = Vec<(i32, f64)>;
+
+/// Shifts, size and weights of stencils that are equal but for rounding, and where they lie.
+type Known = BTreeMap<(Vec<i32>, i64, Vec<i64>), (Range<u32>, Option<u32>)>;
 
 /// Eight consecutive nodes and all shifts at which they have neighbours; where one of them has none its weight is 0.
 #[derive(Debug, Clone)]
@@ -53,7 +57,7 @@ impl Bend {
             row.sort_by_key(|entry| entry.0);
         }
         let mut bend = Bend { start: vec![0], ..Bend::default() };
-        let mut next = 0;
+        let (mut next, mut known) = (0, Known::new());
         while let Some(i) = (next..rows.len()).find(|i| !rows[*i].is_empty()) {
             // A mixed group ends where a stretch begins, which is cheaper on its own.
             next = if stretch(&rows, i) {
@@ -63,7 +67,9 @@ impl Bend {
             };
             let new = rows[i..next.min(rows.len())].iter().filter(|row| !row.is_empty()).count();
             match shifts(&rows, i) {
-                Some(shifts) if shifts.len() <= SHIFTS_PER_ROW * new => bend.push(i, &shifts, &rows[i..i + LANES]),
+                Some(shifts) if shifts.len() <= SHIFTS_PER_ROW * new => {
+                    bend.push(i, &shifts, &rows[i..i + LANES], &mut known);
+                }
                 _ => {
                     bend.push_single(i, &rows[i], places);
                     next = i + 1;
@@ -73,21 +79,27 @@ impl Bend {
         bend
     }
 
-    /// Eight rows by the shifts of all of them.
-    fn push(&mut self, first: usize, shifts: &[i32], rows: &[Row]) {
-        let start = self.shifts.len() as u32;
+    /// Eight rows by the shifts of all of them; `known` holds what an earlier eight may share.
+    fn push(&mut self, first: usize, shifts: &[i32], rows: &[Row], known: &mut Known) {
         let weight = |row: &Row, shift: i32| row.iter().find(|e| e.0 == shift).map_or(0.0, |e| e.1);
         let lanes = |shift: &i32| std::array::from_fn(|lane| weight(&rows[lane], *shift));
         let weights: Vec<Lane> = shifts.iter().map(lanes).collect();
-        let largest = weights.as_flattened().iter().fold(0.0, |most: f64, w| most.max(w.abs()));
-        let alike = weights.iter().all(|lanes| lanes.iter().all(|w| (w - lanes[0]).abs() <= ALIKE * largest));
-        let own = (!alike).then_some(self.weights.len() as u32);
-        self.shifts.extend(shifts);
-        self.common.extend(weights.iter().map(|lanes| lanes[0]));
-        if !alike {
-            self.weights.extend(weights);
-        }
-        self.stencils.push(Stencil { first: first as u32, entries: start..self.shifts.len() as u32, own });
+        let numbers = weights.as_flattened();
+        let largest = numbers.iter().fold(0.0, |most: f64, w| most.max(w.abs()));
+        let steps = numbers.iter().map(|w| (w / (ALIKE * largest)).round() as i64);
+        let key = (shifts.to_vec(), leading_bits(largest), steps.collect());
+        let (entries, own) = known.entry(key).or_insert_with(|| {
+            let alike = weights.iter().all(|lanes| lanes.iter().all(|w| (w - lanes[0]).abs() <= ALIKE * largest));
+            let start = self.shifts.len() as u32;
+            self.shifts.extend(shifts);
+            self.common.extend(weights.iter().map(|lanes| lanes[0]));
+            let own = (!alike).then_some(self.weights.len() as u32);
+            if !alike {
+                self.weights.extend(&weights);
+            }
+            (start..self.shifts.len() as u32, own)
+        });
+        self.stencils.push(Stencil { first: first as u32, entries: entries.clone(), own: *own });
     }
 
     fn push_single(&mut self, i: usize, row: &Row, places: &[u32]) {
@@ -122,17 +134,13 @@ impl Bend {
             let (shifts, common) = (&self.shifts[entries.clone()], &self.common[entries]);
             for part in 0..LANES / S::F64_LANES {
                 let first = stencil.first as usize + part * S::F64_LANES;
-                let mut sum = [V::all(simd, 0.0); 3];
-                for (entry, (shift, common)) in shifts.iter().zip(common).enumerate() {
-                    let weight = match stencil.own {
-                        None => V::all(simd, *common),
-                        Some(own) => V::load(simd, &self.weights[own as usize + entry], part),
-                    };
-                    let at = (first as i32 + shift) as usize;
-                    for k in 0..3 {
-                        sum[k] = sum[k] + weight * V::load_from(simd, x[k], at);
+                let sum = match stencil.own {
+                    None => weigh::<S, false>(simd, x, first, shifts, common, &[], part),
+                    Some(own) => {
+                        let weights = &self.weights[own as usize..own as usize + shifts.len()];
+                        weigh::<S, true>(simd, x, first, shifts, common, weights, part)
                     }
-                }
+                };
                 for k in 0..3 {
                     sum[k].store_to(kx[k], first);
                 }
@@ -152,6 +160,28 @@ impl Bend {
             }
         }
     }
+}
+
+/// Σ weight · x at the shifts from `first`, with the weights of each lane if they are its `OWN`.
+#[inline(always)]
+fn weigh<S: Simd, const OWN: bool>(
+    simd: S,
+    x: [&[f64]; 3],
+    first: usize,
+    shifts: &[i32],
+    common: &[f64],
+    own: &[Lane],
+    part: usize,
+) -> [V<S>; 3] {
+    let mut sum = [V::all(simd, 0.0); 3];
+    for entry in 0..shifts.len() {
+        let weight = if OWN { V::load(simd, &own[entry], part) } else { V::all(simd, common[entry]) };
+        let at = (first as i32 + shifts[entry]) as usize;
+        for k in 0..3 {
+            sum[k] = sum[k] + weight * V::load_from(simd, x[k], at);
+        }
+    }
+    sum
 }
 
 /// True if eight nodes from `first` on have neighbours at the same shifts.
