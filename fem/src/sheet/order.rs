@@ -52,7 +52,11 @@ impl Order {
     }
 
     fn cut(&mut self, mesh: &Mesh, mut nodes: Vec<u32>) {
-        let pieces = nodes.len().div_ceil(LARGEST);
+        // Two threads share an even number of patches evenly.
+        let pieces = match nodes.len().div_ceil(LARGEST) {
+            1 => 1,
+            more => more.next_multiple_of(2),
+        };
         self.bisect(mesh, &mut nodes, pieces);
     }
 
