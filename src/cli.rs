@@ -184,7 +184,7 @@ pub struct Compare {
     /// With --engines: actuator pressures of the runs; default: the scenario's
     #[arg(long, requires = "engines", allow_hyphen_values = true)]
     pub pressure: Option<String>,
-    /// With --engines: threads of a run; 0: one per core
+    /// With --engines: threads, shared by runs beside each other; 0: one per core
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
     pub threads: u64,
     /// Also fit the bending stiffness B to these data and show what that brings

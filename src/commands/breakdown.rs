@@ -19,13 +19,14 @@ pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> 
     check_folder(&args.out)?;
     let cases = cases(args)?;
     let keeper = Keeper { folder: args.runs.clone(), threads: args.threads as usize };
+    let found = match keeper.run_all(&cases, context)? {
+        Ok(found) => found,
+        Err(done) => return Ok(interrupted(done, cases.len())),
+    };
     let mut runs: Vec<FeRun> = Vec::new();
-    for (k, (named, scenario)) in cases.iter().enumerate() {
-        let what = format!("{} of {}, {}", k + 1, cases.len(), scenario.name);
-        match keeper.run(named, &what, context)? {
-            Some(run) if runs.contains(&run) => {}
-            Some(run) => runs.push(run),
-            None => return Ok(interrupted(k, cases.len())),
+    for run in found {
+        if !runs.contains(&run) {
+            runs.push(run);
         }
     }
     let scenarios: Vec<Scenario> = robots(&args.scenarios)?.0.into_iter().map(|r| r.1).collect();
@@ -52,7 +53,7 @@ pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> 
 const LOADING: [(&str, &str); 3] = [("body_ramp_s", "0.05"), ("actuator_ramp_s", "0.45"), ("hold_s", "0.05")];
 
 /// Every robot at every body pressure, and with every pouch length at its own.
-fn cases(args: &Breakdown) -> Result<Vec<(Named, Scenario)>, Failure> {
+fn cases(args: &Breakdown) -> Result<Vec<(Named, String)>, Failure> {
     let body = list("--body-pressure", &args.body_pressure, Quantity::Pressure, 1e-3)?;
     let pouch = list("--pouch", &args.pouch, Quantity::Length, 1e3)?;
     let pressures = list("--pressure", &args.pressure, Quantity::Pressure, 1e-3)?;
@@ -78,7 +79,7 @@ fn cases(args: &Breakdown) -> Result<Vec<(Named, Scenario)>, Failure> {
             changes.extend(meshes.iter().flat_map(keys_of));
             changes.extend(quicker(&named));
             let case = text.with(&changes)?;
-            cases.push((case, scenario.clone()));
+            cases.push((case, scenario.name.clone()));
         }
     }
     Ok(cases)

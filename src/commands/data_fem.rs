@@ -73,13 +73,10 @@ fn runs(args: &DataFem, kpa: &[f64], context: &mut Context) -> Result<Option<Vec
         return Ok(Some(found));
     }
     let keeper = Keeper { folder: args.runs.clone(), threads: args.threads as usize };
-    let mut made = Vec::new();
+    let mut cases = Vec::new();
     for seed in 1..=args.seeds {
         let case = robot.with(&[("seed".into(), seed.to_string()), ("pressures_kpa".into(), format!("{kpa:?}"))])?;
-        match keeper.run(&case, &format!("run {seed} of {}", args.seeds), context)? {
-            Some(run) => made.push(run),
-            None => return Ok(None),
-        }
+        cases.push((case, format!("seed {seed}")));
     }
-    Ok(Some(made))
+    Ok(keeper.run_all(&cases, context)?.ok())
 }

@@ -74,14 +74,7 @@ fn runs(args: &Compare, scenarios: &[(Named, Scenario)], context: &mut Context) 
         return Ok(Some(stored()));
     }
     let keeper = Keeper { folder: args.runs.clone(), threads: args.threads as usize };
-    let cases = cases(args, scenarios)?;
-    let mut own = Vec::new();
-    for (k, (named, what)) in cases.iter().enumerate() {
-        match keeper.run(named, &format!("{} of {}, {what}", k + 1, cases.len()), context)? {
-            Some(run) => own.push(run),
-            None => return Ok(None),
-        }
-    }
+    let Ok(mut own) = keeper.run_all(&cases(args, scenarios)?, context)? else { return Ok(None) };
     // Runs of the map are there if they were made.
     let others = all_runs(&args.runs).into_iter().filter(|r| !own.contains(r)).collect::<Vec<_>>();
     own.extend(others);

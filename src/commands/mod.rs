@@ -21,6 +21,7 @@ mod predict;
 mod published;
 mod simulate;
 mod tables;
+mod together;
 mod tradeoff;
 mod validate;
 mod verify;
@@ -30,7 +31,7 @@ use crate::cli::{Cli, Command};
 use crate::failure::Failure;
 use clap::CommandFactory;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// What a command may use of the outside.
 pub struct Context<'a> {
@@ -47,24 +48,30 @@ pub struct Context<'a> {
 /// How Ctrl-C reaches a command that saves where it stands before it ends.
 #[derive(Debug)]
 pub struct Interrupt {
-    awaited: AtomicBool,
+    /// Runs that will end themselves.
+    awaited: AtomicUsize,
     asked: AtomicBool,
 }
 
 impl Interrupt {
     /// Nobody waits for it yet.
     pub const fn new() -> Interrupt {
-        Interrupt { awaited: AtomicBool::new(false), asked: AtomicBool::new(false) }
+        Interrupt { awaited: AtomicUsize::new(0), asked: AtomicBool::new(false) }
     }
 
-    /// Says whether the command will end itself when asked, from now on.
-    fn set_awaited(&self, awaited: bool) {
-        self.awaited.store(awaited, Ordering::SeqCst);
+    /// One more run will end itself when asked, from now on.
+    fn await_one(&self) {
+        self.awaited.fetch_add(1, Ordering::SeqCst);
+    }
+
+    /// One less.
+    fn let_one_go(&self) {
+        self.awaited.fetch_sub(1, Ordering::SeqCst);
     }
 
     /// Asks the command to end; false if it will not, or was asked before.
     pub fn ask(&self) -> bool {
-        self.awaited.load(Ordering::SeqCst) && !self.asked.swap(true, Ordering::SeqCst)
+        self.awaited.load(Ordering::SeqCst) > 0 && !self.asked.swap(true, Ordering::SeqCst)
     }
 
     /// Whether the command shall end.

@@ -198,6 +198,11 @@ impl Simulation {
     pub fn dt_s(&self) -> f64 {
         self.clock.dt_s
     }
+    /// Processor seconds that the steps took so far, on all threads of this run; setting up and resuming count from 0.
+    pub fn cpu_s(&self) -> f64 {
+        self.team.as_ref().map_or(0.0, |team| team.cpu_s)
+    }
+
     /// Number of elements.
     pub fn elements(&self) -> usize {
         self.sheet.elements.len()

@@ -20,6 +20,8 @@ pub struct Team {
     /// Seconds per step with one thread and with all; 0 before the first try.
     seconds: [f64; 2],
     stretches: u64,
+    /// Processor seconds of all threads so far.
+    pub cpu_s: f64,
 }
 
 impl Team {
@@ -34,13 +36,13 @@ impl Team {
             pool.map_err(|e| FemError::Problem(format!("cannot start {threads} threads: {e}")))
         };
         let all = if threads > 1 { Some(pool(threads)?) } else { None };
-        Ok(Team { one: pool(1)?, all, seconds: [0.0; 2], stretches: 0 })
+        Ok(Team { one: pool(1)?, all, seconds: [0.0; 2], stretches: 0, cpu_s: 0.0 })
     }
 
     /// Runs a stretch of `work`, which returns the number of steps it did.
     pub fn run(&mut self, work: impl FnOnce() -> u64 + Send) {
         let Some(all) = &self.all else {
-            self.one.install(work);
+            self.alone(work);
             return;
         };
         let better = usize::from(self.seconds[1] <= self.seconds[0]);
@@ -48,12 +50,34 @@ impl Team {
         let turn = self.stretches % TRY_AGAIN == TRY_AGAIN - 1;
         let way = untried.unwrap_or(if turn { 1 - better } else { better });
         let start = Instant::now();
-        let steps = if way == 1 { all.install(work) } else { self.one.install(work) };
+        let steps = if way == 1 {
+            let spent = || all.broadcast(|_| thread_seconds()).iter().sum::<f64>();
+            let before = spent();
+            let steps = all.install(work);
+            self.cpu_s += spent() - before;
+            steps
+        } else {
+            self.alone(work)
+        };
         let taken = start.elapsed().as_secs_f64() / steps.max(1) as f64;
         let mean = &mut self.seconds[way];
         *mean = if *mean == 0.0 { taken } else { (1.0 - NEWEST) * *mean + NEWEST * taken };
         self.stretches += 1;
     }
+
+    fn alone(&mut self, work: impl FnOnce() -> u64 + Send) -> u64 {
+        let (steps, spent_s) = self.one.install(|| {
+            let before = thread_seconds();
+            (work(), thread_seconds() - before)
+        });
+        self.cpu_s += spent_s;
+        steps
+    }
+}
+
+/// Processor seconds of the calling thread; 0 where the system does not say.
+fn thread_seconds() -> f64 {
+    cpu_time::ThreadTime::try_now().map_or(0.0, |t| t.as_duration().as_secs_f64())
 }
 
 #[cfg(test)]

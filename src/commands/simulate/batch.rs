@@ -6,10 +6,12 @@ use super::robot::heights_mm;
 use super::single::{self, Done, Manner};
 use super::{robot, write_failure};
 use crate::commands::tables::table;
+use crate::commands::together::{shared, together};
 use crate::commands::{Context, Outcome};
 use crate::failure::{Failure, INTERRUPTED};
 use compare::plots::{Tornado, TornadoBar, tornado};
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Heights of one run.
@@ -35,32 +37,10 @@ pub fn run(
         let help = "choose another folder with --out; several runs get a folder each inside it".into();
         return Err(Failure::Write { path, cause: "it holds a single run".into(), help });
     }
-    // All cases are looked at before the first one costs time.
-    let mut loaded = Vec::new();
-    for case in cases {
-        let named = base.with(&case.changes)?;
-        let fingerprint = named.load()?.case.problem.fingerprint();
-        loaded.push((named, fingerprint));
-    }
-    let mut rows: Vec<Row> = Vec::new();
-    for (index, (case, (named, fingerprint))) in cases.iter().zip(&loaded).enumerate() {
-        let same = loaded[..index].iter().position(|(_, other)| other == fingerprint);
-        if let Some(first) = same {
-            let (heights, cpu_s) = (rows[first].heights.clone(), 0.0);
-            rows.push(Row { variation: case.clone(), heights, folder: String::new(), cpu_s });
-            continue;
-        }
-        let what = format!("{} of {}, {}", index + 1, cases.len(), case.label);
-        match one(named, &case.label, manner, &what, context)? {
-            Some((summary, cost)) => rows.push(Row {
-                variation: case.clone(),
-                heights: heights(&summary),
-                folder: case.label.clone(),
-                cpu_s: cost["cpu_s_of_all_sessions"].as_f64().unwrap_or(0.0),
-            }),
-            None => return Ok(interrupted(index, cases.len(), &manner.folder)),
-        }
-    }
+    let rows = match rows(base, cases, manner, context)? {
+        Ok(rows) => rows,
+        Err(done) => return Ok(interrupted(done, cases.len(), &manner.folder)),
+    };
     let mut outcome = if sensitivity { told(&rows) } else { listed(&rows) };
     let drawn = sensitivity.then(|| drawn(&base.spec, &rows)).flatten();
     if let Some(png) = &drawn {
@@ -70,6 +50,41 @@ pub fn run(
     data::write_atomically(&manner.folder.join("table.csv"), csv(&rows).as_bytes())?;
     outcome.notes.push(format!("table: {}", manner.folder.join("table.csv").display()));
     Ok(outcome)
+}
+
+/// What the cases gave, several beside each other; if the user interrupted them, the number of runs that are complete.
+fn rows(
+    base: &Named,
+    cases: &[Variation],
+    manner: &Manner,
+    context: &mut Context,
+) -> Result<Result<Vec<Row>, usize>, Failure> {
+    // All cases are looked at before the first one costs time.
+    let mut loaded = Vec::new();
+    for case in cases {
+        let named = base.with(&case.changes)?;
+        let fingerprint = named.load()?.case.problem.fingerprint();
+        loaded.push((named, fingerprint));
+    }
+    let first = |index: usize| loaded.iter().position(|(_, print)| *print == loaded[index].1).unwrap_or(index);
+    let jobs: Vec<usize> = (0..cases.len()).filter(|index| first(*index) == *index).collect();
+    let (workers, threads) = shared(manner.threads, jobs.len());
+    let each = Manner { threads, ..manner.clone() };
+    let found = together(jobs.len(), workers, context, &|job, inner: &mut Context| {
+        let (index, label) = (jobs[job], &cases[jobs[job]].label);
+        one(&loaded[index].0, label, &each, &format!("{} of {}, {label}", index + 1, cases.len()), inner)
+    })?;
+    let found: BTreeMap<usize, (Value, Value)> = match found {
+        Ok(found) => jobs.into_iter().zip(found).collect(),
+        Err(done) => return Ok(Err(done)),
+    };
+    let row = |(index, case): (usize, &Variation)| {
+        let (own, (summary, cost)) = (first(index) == index, &found[&first(index)]);
+        let cpu_s = if own { cost["cpu_s_of_all_sessions"].as_f64().unwrap_or(0.0) } else { 0.0 };
+        let folder = if own { case.label.clone() } else { String::new() };
+        Row { variation: case.clone(), heights: heights(summary), folder, cpu_s }
+    };
+    Ok(Ok(cases.iter().enumerate().map(row).collect()))
 }
 
 /// One run of the batch; `None` if the user interrupted it.

@@ -1,13 +1,15 @@
 //! Finished runs of robots, kept in a folder under the hash of problem and engine, so that asking twice costs nothing.
 
-use super::input::Named;
+use super::input::{Loaded, Named};
 use super::robot;
 use super::single::{self, Done, Manner};
 use crate::commands::Context;
+use crate::commands::together::{shared, together};
 use crate::failure::Failure;
 use compare::study::engines::{FeRun, FeState};
 use fem::robot::Reading;
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -16,13 +18,40 @@ use std::time::Duration;
 pub struct Keeper {
     /// Folder of all runs.
     pub folder: PathBuf,
-    /// Threads.
+    /// Threads of all runs together; 0: one per core.
     pub threads: usize,
 }
 
 impl Keeper {
-    /// The run of a robot: read if it is there, made or gone on with if not. `None` if the user interrupted it.
-    pub fn run(&self, named: &Named, what: &str, context: &mut Context) -> Result<Option<FeRun>, Failure> {
+    /// The runs of robots: read if they are there, made or gone on with if not, several beside each other and those first
+    /// that will take longest. If the user interrupted them, the number of runs that are complete.
+    pub fn run_all(
+        &self,
+        cases: &[(Named, String)],
+        context: &mut Context,
+    ) -> Result<Result<Vec<FeRun>, usize>, Failure> {
+        let (mut jobs, mut wanted): (Vec<Job>, Vec<u64>) = (Vec::new(), Vec::new());
+        for (at, (named, _)) in cases.iter().enumerate() {
+            let job = Job::of(at, &named.load()?);
+            wanted.push(job.fingerprint);
+            if jobs.iter().all(|other| other.fingerprint != job.fingerprint) {
+                jobs.push(job);
+            }
+        }
+        jobs.sort_by(|a, b| b.effort.total_cmp(&a.effort));
+        let (workers, threads) = shared(self.threads, jobs.len());
+        let found = together(jobs.len(), workers, context, &|k, inner: &mut Context| {
+            let (named, what) = &cases[jobs[k].at];
+            self.run(named, &format!("{} of {}, {what}", jobs[k].at + 1, cases.len()), threads, inner)
+        })?;
+        let of = |runs: Vec<FeRun>| {
+            let by_print: BTreeMap<u64, FeRun> = jobs.iter().map(|job| job.fingerprint).zip(runs).collect();
+            wanted.iter().map(|print| by_print[print].clone()).collect()
+        };
+        Ok(found.map(of))
+    }
+
+    fn run(&self, named: &Named, what: &str, threads: usize, context: &mut Context) -> Result<Option<FeRun>, Failure> {
         let loaded = named.load()?;
         let kind = loaded.robot.as_ref().map_or("case", |r| r.scenario.actuator.kind.name);
         let key = format!("{kind}-{:016x}-{}", loaded.case.problem.fingerprint(), fem::ENGINE);
@@ -34,8 +63,8 @@ impl Keeper {
         let begun = std::fs::read_to_string(&case).is_ok_and(|text| text == named.text);
         let force = case.exists() && !begun;
         let every = Duration::from_secs(30);
-        let (threads, end_s) = (self.threads, None);
-        let manner = Manner { folder: folder.clone(), resume: begun, force, frames: false, end_s, threads, every };
+        let manner =
+            Manner { folder: folder.clone(), resume: begun, force, frames: false, end_s: None, threads, every };
         let Context { json, progress, written, interrupt } = context;
         let mut tell = |text: &str, share: Option<f64>| progress(&format!("{what}: {text}"), share);
         let mut inner = Context { json: *json, progress: &mut tell, written, interrupt };
@@ -43,6 +72,28 @@ impl Keeper {
             Done::Interrupted { .. } => Ok(None),
             Done::Now { summary, cost, .. } | Done::Before { summary, cost } => Ok(as_run(&summary, &cost)),
         }
+    }
+}
+
+/// A run to be made.
+struct Job {
+    /// Position in the list of cases.
+    at: usize,
+    fingerprint: u64,
+    /// Grows with the time it will take.
+    effort: f64,
+}
+
+/// What a step with contact costs, in steps without.
+const CONTACT: f64 = 2.5;
+
+impl Job {
+    fn of(at: usize, loaded: &Loaded) -> Job {
+        let problem = &loaded.case.problem;
+        let contact = if problem.contact.is_some() { CONTACT } else { 1.0 };
+        // Smaller elements need more steps as well.
+        let effort = contact * problem.settings.end_s * (problem.mesh.elements() as f64).powf(1.5);
+        Job { at, fingerprint: problem.fingerprint(), effort }
     }
 }
 

@@ -87,9 +87,9 @@ pub fn run(mut loaded: Loaded, manner: &Manner, context: &mut Context) -> Result
             Running::start(&loaded.case, fresh, &place.folder, robot)?
         }
     };
-    context.interrupt.set_awaited(true);
+    context.interrupt.await_one();
     let ended = running.step_on(manner.every, context);
-    context.interrupt.set_awaited(false);
+    context.interrupt.let_one_go();
     match ended.map_err(|error| stopped(error, &place))? {
         Ended::Interrupted => {
             Ok(Done::Interrupted { at: (running.run.time_s(), running.run.step()), notes: running.notices })

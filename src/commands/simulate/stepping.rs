@@ -2,7 +2,7 @@
 
 use super::robot::Watched;
 use crate::commands::Context;
-use crate::cost::cpu_seconds;
+use crate::cost::thread_seconds;
 use crate::failure::Failure;
 use fem::case::Case;
 use fem::output::Frame;
@@ -85,7 +85,7 @@ impl<'a> Running<'a> {
         let centre_line = centre_line(case)?.map(|line| CentreLineFile::create(&path, line)).transpose()?;
         let files =
             Files { folder: folder.into(), history, series, centre_line, fingerprint: case.problem.fingerprint() };
-        let began = (0, cpu_seconds());
+        let began = (0, thread_seconds());
         let (balances, notices) = (Vec::new(), Vec::new());
         Ok(Running { run, balances, cpu_before_s: 0.0, notices, began, robot, case, files, next: 0 })
     }
@@ -118,7 +118,7 @@ impl<'a> Running<'a> {
         let centre_line = centre_line(case)?.map(|line| CentreLineFile::resume(&path, line, step)).transpose()?;
         let files = Files { folder: folder.into(), history, series, centre_line, fingerprint };
         Ok(Running {
-            began: (run.step(), cpu_seconds()),
+            began: (run.step(), thread_seconds()),
             run,
             balances: saved.balances,
             cpu_before_s: saved.cpu_s,
@@ -143,13 +143,14 @@ impl<'a> Running<'a> {
             let hold_s = self.robot.as_ref().and_then(Watched::next_s).filter(|hold_s| *hold_s <= output_s);
             let target_s = hold_s.unwrap_or(output_s);
             let (next, balances, files, robot) = (self.next, &self.balances, &self.files, &mut self.robot);
-            let cpu_s = self.cpu_before_s - self.began.1;
+            let (before_s, began_s) = (self.cpu_before_s, self.began.1);
             let mut fault = None;
             let advanced = self.run.advance_until(target_s, &mut |run| {
                 teller.tell(run, context);
                 robot.iter_mut().for_each(|robot| robot.watch.sample(run));
                 if saved_at.elapsed() >= checkpoint_every {
-                    fault = files.save(run, next, balances, robot.as_ref(), cpu_s + cpu_seconds()).err();
+                    let cpu_s = before_s + run.cpu_s() + thread_seconds() - began_s;
+                    fault = files.save(run, next, balances, robot.as_ref(), cpu_s).err();
                     saved_at = Instant::now();
                 }
                 fault.is_none() && !context.interrupt.asked()
@@ -158,7 +159,7 @@ impl<'a> Running<'a> {
                 return Err(fault.into());
             }
             if advanced == Advance::Interrupted {
-                let cpu_s = cpu_s + cpu_seconds();
+                let cpu_s = self.cpu_before_s + self.cpu_s();
                 self.files.save(&self.run, self.next, &self.balances, self.robot.as_ref(), cpu_s)?;
                 return Ok(Ended::Interrupted);
             }
@@ -209,9 +210,9 @@ impl<'a> Running<'a> {
         self.files.series.is_some()
     }
 
-    /// Processor seconds of this session.
+    /// Processor seconds of this session: of the steps, and of this thread, which writes.
     pub fn cpu_s(&self) -> f64 {
-        cpu_seconds() - self.began.1
+        self.run.cpu_s() + thread_seconds() - self.began.1
     }
 }
 

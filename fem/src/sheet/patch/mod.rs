@@ -163,7 +163,9 @@ impl Patch {
         Patch {
             nodes,
             count: places.len(),
-            taken: runs::stretches(&places.iter().enumerate().map(|(i, place)| (i, *place as usize)).collect::<Vec<_>>()),
+            taken: runs::stretches(
+                &places.iter().enumerate().map(|(i, place)| (i, *place as usize)).collect::<Vec<_>>(),
+            ),
             given: runs::stretches(&own.iter().enumerate().map(|(i, local)| (*local as usize, i)).collect::<Vec<_>>()),
             strains: vec![Strain([[0.0; LANES]; 3]); build.groups.len()],
             past: if memory { vec![[[0.0; 2]; LANES]; build.groups.len()] } else { Vec::new() },
