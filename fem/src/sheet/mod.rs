@@ -246,11 +246,8 @@ impl Term for Sheet {
             row("viscosity", RowKind::Dissipated, self.viscous_j),
         ];
         if self.fabrics.iter().any(|f| f.has_memory()) {
-            rows.push(row(
-                "fabric hysteresis",
-                RowKind::Dissipated,
-                self.patches.iter().map(|p| p.sums.hysteresis).sum(),
-            ));
+            let lost = self.patches.iter().map(|p| p.sums.hysteresis).sum();
+            rows.push(row("fabric hysteresis", RowKind::Dissipated, lost));
         }
         if !self.air.is_empty() {
             rows.push(row("pressure", RowKind::Supplied, self.air.iter().map(|a| a.work_j).sum()));
@@ -303,10 +300,10 @@ impl Term for Sheet {
 fn fabric_of(section: &Section) -> Result<Arc<dyn Fabric>, FemError> {
     match section.plies.as_slice() {
         [one] => Ok(one.fabric.clone()),
-        plies => match models::fabrics::Laminate::new(plies.to_vec()) {
-            Ok(laminate) => Ok(Arc::new(laminate)),
-            Err(reason) => Err(FemError::Problem(reason)),
-        },
+        plies => {
+            let laminate = models::fabrics::Laminate::new(plies.to_vec()).map_err(FemError::Problem)?;
+            Ok(Arc::new(laminate))
+        }
     }
 }
 
