@@ -23,10 +23,11 @@ pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> 
         Ok(found) => found,
         Err(done) => return Ok(interrupted(done, cases.len())),
     };
-    let mut runs: Vec<FeRun> = Vec::new();
+    let (mut runs, mut left_out): (Vec<FeRun>, Vec<String>) = (Vec::new(), Vec::new());
     for run in found {
-        if !runs.contains(&run) {
-            runs.push(run);
+        match run {
+            Ok(run) => runs.push(run),
+            Err(stopped) => left_out.push(format!("left out of the map: {}", stopped.render().trim())),
         }
     }
     let scenarios: Vec<Scenario> = robots(&args.scenarios)?.0.into_iter().map(|r| r.1).collect();
@@ -45,6 +46,7 @@ pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> 
     files.text("runs.json", runs_json(&runs));
     write_files(&args.out, &files, &[], context)?;
     let mut outcome = Outcome::new(text(&rows), as_json(&rows));
+    outcome.notes.extend(left_out);
     outcome.notes.push(format!("maps and tables: {}", args.out.display()));
     Ok(outcome)
 }

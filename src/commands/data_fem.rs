@@ -78,5 +78,8 @@ fn runs(args: &DataFem, kpa: &[f64], context: &mut Context) -> Result<Option<Vec
         let case = robot.with(&[("seed".into(), seed.to_string()), ("pressures_kpa".into(), format!("{kpa:?}"))])?;
         cases.push((case, format!("seed {seed}")));
     }
-    Ok(keeper.run_all(&cases, context)?.ok())
+    match keeper.run_all(&cases, context)? {
+        Ok(made) => made.into_iter().collect::<Result<Vec<FeRun>, Failure>>().map(Some),
+        Err(_) => Ok(None),
+    }
 }

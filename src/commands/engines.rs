@@ -74,7 +74,8 @@ fn runs(args: &Compare, scenarios: &[(Named, Scenario)], context: &mut Context) 
         return Ok(Some(stored()));
     }
     let keeper = Keeper { folder: args.runs.clone(), threads: args.threads as usize };
-    let Ok(mut own) = keeper.run_all(&cases(args, scenarios)?, context)? else { return Ok(None) };
+    let Ok(own) = keeper.run_all(&cases(args, scenarios)?, context)? else { return Ok(None) };
+    let mut own = own.into_iter().collect::<Result<Vec<FeRun>, Failure>>()?;
     // Runs of the map are there if they were made.
     let others = all_runs(&args.runs).into_iter().filter(|r| !own.contains(r)).collect::<Vec<_>>();
     own.extend(others);

@@ -23,17 +23,17 @@ pub struct Keeper {
 }
 
 impl Keeper {
-    /// The runs of robots: read if they are there, made or gone on with if not, several beside each other and those first
-    /// that will take longest. If the user interrupted them, the number of runs that are complete.
+    /// The runs of robots, each problem once: read if they are there, made or gone on with if not, several beside each other
+    /// and those first that will take longest. A run that a guard stopped is its error. If the user interrupted them, the
+    /// number of runs that are complete.
     pub fn run_all(
         &self,
         cases: &[(Named, String)],
         context: &mut Context,
-    ) -> Result<Result<Vec<FeRun>, usize>, Failure> {
-        let (mut jobs, mut wanted): (Vec<Job>, Vec<u64>) = (Vec::new(), Vec::new());
+    ) -> Result<Result<Vec<Made>, usize>, Failure> {
+        let mut jobs: Vec<Job> = Vec::new();
         for (at, (named, _)) in cases.iter().enumerate() {
             let job = Job::of(at, &named.load()?);
-            wanted.push(job.fingerprint);
             if jobs.iter().all(|other| other.fingerprint != job.fingerprint) {
                 jobs.push(job);
             }
@@ -42,13 +42,15 @@ impl Keeper {
         let (workers, threads) = shared(self.threads, jobs.len());
         let found = together(jobs.len(), workers, context, &|k, inner: &mut Context| {
             let (named, what) = &cases[jobs[k].at];
-            self.run(named, &format!("{} of {}, {what}", jobs[k].at + 1, cases.len()), threads, inner)
+            match self.run(named, &format!("{} of {}, {what}", jobs[k].at + 1, cases.len()), threads, inner) {
+                Err(stopped @ Failure::Stopped { .. }) => Ok(Some(Err(stopped))),
+                other => other.map(|run| run.map(Ok)),
+            }
         })?;
-        let of = |runs: Vec<FeRun>| {
-            let by_print: BTreeMap<u64, FeRun> = jobs.iter().map(|job| job.fingerprint).zip(runs).collect();
-            wanted.iter().map(|print| by_print[print].clone()).collect()
-        };
-        Ok(found.map(of))
+        Ok(found.map(|runs| {
+            let in_order: BTreeMap<usize, Made> = jobs.iter().map(|job| job.at).zip(runs).collect();
+            in_order.into_values().collect()
+        }))
     }
 
     fn run(&self, named: &Named, what: &str, threads: usize, context: &mut Context) -> Result<Option<FeRun>, Failure> {
@@ -74,6 +76,9 @@ impl Keeper {
         }
     }
 }
+
+/// A run, or why it was stopped.
+pub type Made = Result<FeRun, Failure>;
 
 /// A run to be made.
 struct Job {
