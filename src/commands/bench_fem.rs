@@ -157,7 +157,7 @@ fn memory() -> Result<Figure, Failure> {
     let problem = speed::pillow(150, true)?;
     let before = resident_bytes();
     let mut run = Simulation::new(&problem)?;
-    speed::advance_by(&mut run, 10)?;
+    speed::advance_by(&mut run, 300)?;
     let grown = resident_bytes() - before;
     Ok(Figure {
         what: "memory of a run".into(),
