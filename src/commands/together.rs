@@ -99,11 +99,14 @@ mod tests {
     use crate::commands::Interrupt;
     use std::sync::Mutex;
 
+    type Found = Result<Result<Vec<usize>, usize>, Failure>;
+
+    /// What came back, and the shares that were told.
     fn tried(
         count: usize,
         workers: usize,
         job: &(impl Fn(usize) -> Result<Option<usize>, Failure> + Sync),
-    ) -> (Result<Result<Vec<usize>, usize>, Failure>, Vec<f64>) {
+    ) -> (Found, Vec<f64>) {
         let (written, interrupt) = (Mutex::new(false), Interrupt::new());
         let mut shares = Vec::new();
         let mut progress = |_: &str, share: Option<f64>| shares.extend(share);
