@@ -15,7 +15,7 @@ thread_local! {
 const LINE: usize = 64;
 /// Numbers after which addresses fall on the same lines of the first cache.
 const ROUND: usize = 4096 / 8;
-/// How far apart on that round the arrays start: fifteen of them at the same place of it would throw each other out.
+/// How far apart on that round the arrays start: at the same place of it they would throw each other out.
 const STAGGER: usize = 5 * LANES;
 /// Arrays over nodes: positions, K x and four corners, three axes each.
 const ARRAYS: usize = 18;
