@@ -23,12 +23,15 @@ pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> 
         Ok(found) => found,
         Err(done) => return Ok(interrupted(done, cases.len())),
     };
-    let (mut runs, mut left_out): (Vec<FeRun>, Vec<String>) = (Vec::new(), Vec::new());
+    let (mut runs, mut stopped): (Vec<FeRun>, Vec<Failure>) = (Vec::new(), Vec::new());
     for run in found {
         match run {
             Ok(run) => runs.push(run),
-            Err(stopped) => left_out.push(format!("left out of the map: {}", stopped.render().trim())),
+            Err(error) => stopped.push(error),
         }
+    }
+    if runs.is_empty() && !stopped.is_empty() {
+        return Err(stopped.remove(0));
     }
     let scenarios: Vec<Scenario> = robots(&args.scenarios)?.0.into_iter().map(|r| r.1).collect();
     let mut rows = Vec::new();
@@ -46,7 +49,7 @@ pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> 
     files.text("runs.json", runs_json(&runs));
     write_files(&args.out, &files, &[], context)?;
     let mut outcome = Outcome::new(text(&rows), as_json(&rows));
-    outcome.notes.extend(left_out);
+    outcome.notes.extend(stopped.iter().map(|error| format!("left out of the map: {}", error.render().trim())));
     outcome.notes.push(format!("maps and tables: {}", args.out.display()));
     Ok(outcome)
 }
