@@ -54,9 +54,6 @@ pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> 
     Ok(outcome)
 }
 
-/// Half the recommended time: a map looks for differences of 10 %, and pressures that rise in small steps leave time anyway.
-const LOADING: [(&str, &str); 3] = [("body_ramp_s", "0.05"), ("actuator_ramp_s", "0.45"), ("hold_s", "0.05")];
-
 /// Every robot at every body pressure, and with every pouch length at its own.
 fn cases(args: &Breakdown) -> Result<Vec<(Named, String)>, Failure> {
     let body = list("--body-pressure", &args.body_pressure, Quantity::Pressure, 1e-3)?;
@@ -82,20 +79,11 @@ fn cases(args: &Breakdown) -> Result<Vec<(Named, String)>, Failure> {
             let text = changed(&named, &scenario, body_kpa, pouch_mm)?;
             let mut changes = vec![("pressures_kpa".to_string(), format!("{above:?}"))];
             changes.extend(meshes.iter().flat_map(keys_of));
-            changes.extend(quicker(&named));
             let case = text.with(&changes)?;
             cases.push((case, scenario.name.clone()));
         }
     }
     Ok(cases)
-}
-
-/// [`LOADING`], but for what the scenario itself says of its loading.
-fn quicker(named: &Named) -> Vec<(String, String)> {
-    let all: toml::Table = named.text.parse().unwrap_or_default();
-    let own = |key: &str| all.get("fem").and_then(|fem| fem.get(key)).is_some();
-    let missing = LOADING.iter().filter(|(key, _)| !own("loading") && !own(key));
-    missing.map(|(key, s)| (key.to_string(), s.to_string())).collect()
 }
 
 fn list(option: &str, text: &str, kind: Quantity, factor: f64) -> Result<Vec<f64>, Failure> {

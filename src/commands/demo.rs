@@ -28,7 +28,7 @@ pub fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
 const SMALL: &[(&str, &str)] = &[
     ("actuator_mesh_mm", "4"),
     ("body_ramp_s", "0.05"),
-    ("actuator_ramp_s", "0.45"),
+    ("actuator_ramp_s", "0.3"),
     ("pressures_kpa", "[10, 20, 30]"),
 ];
 

@@ -1,13 +1,18 @@
 //! Loads of a robot's run: pressures one after the other in one ramp, and what else pushes on it.
 //!
-//! Between two pressures the actuator's pressure runs in a fifth-order step that takes its share of the ramp, so that the
-//! pressure rises equally fast everywhere; then it is held for `hold_s`, and read at the end of it.
+//! Between two pressures the logarithm of the actuator's pressure plus `ramp_floor_pa` rises at one rate, the same in the whole
+//! ramp ([`Amplitude::Growing`]), for a sixth of the ramp at least; then the pressure is held for `hold_s`, and read at the end
+//! of it. Without a stop the robot cannot be read: while the pressure passes by, its motion holds a tenth of the energy.
 
 use models::Scenario;
 
 use super::{RobotSettings, problem, sew, table};
 use crate::problem::{Amplitude, NodalForce, Obstacle, Pressure};
 use crate::{FemError, Problem};
+
+/// Shortest way between two pressures, as a share of the ramp: a robot that is stopped faster swings past its place, and stays
+/// there in other folds.
+const SHORTEST: f64 = 1.0 / 6.0;
 
 /// Everything about a robot's run: its numbers and its loads.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,7 +58,12 @@ impl RobotRun {
     }
 
     fn ramp_s(&self, from_pa: f64, to_pa: f64) -> f64 {
-        self.settings.actuator_ramp_s * (to_pa - from_pa).abs() / self.settings.actuator_pa.max(f64::MIN_POSITIVE)
+        let way = |from: f64, to: f64| match self.settings.ramp_floor_pa {
+            Some(floor_pa) => ((to - from) / (from + floor_pa)).ln_1p().abs(),
+            None => (to - from).abs(),
+        };
+        let whole = way(0.0, self.settings.actuator_pa).max(f64::MIN_POSITIVE);
+        self.settings.actuator_ramp_s * (way(from_pa, to_pa) / whole).max(SHORTEST)
     }
 
     /// The problem, ready to run.
@@ -72,7 +82,7 @@ impl RobotRun {
             }
         }
         if let Some(chamber) = made.chambers.iter_mut().find(|c| c.name == sew::ACTUATOR) {
-            chamber.pressure = Pressure::Set(Amplitude::Smooth(points));
+            chamber.pressure = Pressure::Set(self.settings.rise(points));
         }
         made.settings.end_s = holds[holds.len() - 1].time_s;
         if self.tip_force_n != [0.0; 3] {

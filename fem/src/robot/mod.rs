@@ -181,12 +181,10 @@ fn rows(lines: &Lines, settings: &RobotSettings) -> Result<(), FemError> {
 fn chambers(scenario: &Scenario, settings: &RobotSettings) -> Vec<Chamber> {
     let filled = settings.body_ramp_s;
     let full = filled + settings.actuator_ramp_s;
-    let ramp = |from: f64, to: f64, pressure: f64| Pressure::Set(Amplitude::Smooth(vec![(from, 0.0), (to, pressure)]));
-    let chamber = |name: &str, pressure| Chamber { name: name.into(), pressure, open_axis: None };
-    vec![
-        chamber(sew::BODY, ramp(0.0, filled, scenario.p_body_pa)),
-        chamber(sew::ACTUATOR, ramp(filled, full, settings.actuator_pa)),
-    ]
+    let body = Amplitude::Smooth(vec![(0.0, 0.0), (filled, scenario.p_body_pa)]);
+    let actuator = settings.rise(vec![(filled, 0.0), (full, settings.actuator_pa)]);
+    let chamber = |name: &str, set| Chamber { name: name.into(), pressure: Pressure::Set(set), open_axis: None };
+    vec![chamber(sew::BODY, body), chamber(sew::ACTUATOR, actuator)]
 }
 
 /// Contact of everything but the cap, where the pattern folds.

@@ -72,18 +72,29 @@ fn faults_of_the_table_are_refused_with_their_place() {
 
 #[test]
 fn one_ramp_leads_through_all_pressures_at_one_rate_and_rests_at_each() {
-    let (scenario, run) = parsed("pressures_kpa = [10, 30]\nhold_s = 0.03\nmesh_mm = 8").unwrap();
+    let (scenario, run) = parsed("pressures_kpa = [10, 25, 30]\nhold_s = 0.03\nmesh_mm = 8").unwrap();
     let problem = run.problem(&scenario).unwrap();
-    let Pressure::Set(amplitude @ Amplitude::Smooth(_)) = &problem.chambers[1].pressure else { panic!("not set") };
+    let Pressure::Set(amplitude @ Amplitude::Growing { .. }) = &problem.chambers[1].pressure else { panic!("not set") };
     let holds = run.holds();
     let (filled, ramp) = (run.settings.body_ramp_s, run.settings.actuator_ramp_s);
-    let wanted = [(filled, 0.0), (filled + ramp / 3.0 + 0.03, 10e3), (filled + ramp + 0.06, 30e3)];
-    for (hold, (time_s, pressure_pa)) in holds.iter().zip(wanted) {
+    // Above a floor of 2 kPa, 0 to 10 of 30 kPa is ln 6 of ln 16; 25 to 30 is less than a sixth.
+    let [first, second] = [6_f64, 27.0 / 12.0].map(|factor| ramp * factor.ln() / 16_f64.ln());
+    let ends = [0.0, first, first + second, first + second + ramp / 6.0];
+    for (at, (hold, pressure_pa)) in holds.iter().zip([0.0, 10e3, 25e3, 30e3]).enumerate() {
+        let time_s = filled + ends[at] + 0.03 * at as f64;
         assert!((hold.time_s - time_s).abs() < 1e-12 && hold.pressure_pa == pressure_pa, "{holds:?}");
         assert!((amplitude.at(time_s) - pressure_pa).abs() < 1e-9 * 30e3);
         assert!((amplitude.at(time_s - 0.029) - pressure_pa).abs() < 1e-9 * 30e3 || pressure_pa == 0.0);
     }
-    assert_eq!(problem.settings.end_s, holds[2].time_s);
+    assert_eq!((holds.len(), problem.settings.end_s), (4, holds[3].time_s));
+}
+
+#[test]
+fn published_loading_is_the_papers_smooth_step() {
+    let (scenario, run) = parsed("loading = \"published\"\nmesh_mm = 8\npressures_kpa = [30]").unwrap();
+    let problem = run.problem(&scenario).unwrap();
+    let Pressure::Set(Amplitude::Smooth(points)) = &problem.chambers[1].pressure else { panic!("no smooth step") };
+    assert_eq!(points[..2], [(0.1, 0.0), (1.1, 30e3)]);
 }
 
 #[test]

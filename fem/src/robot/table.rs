@@ -74,6 +74,8 @@ pub const KEYS: &[Key] = &[
     key("body_ramp_s", 1.0, [1e-4, 1e3], "duration of the body's ramp", |s| s.body_ramp_s, |s, v| s.body_ramp_s = v),
     key("actuator_ramp_s", 1.0, [1e-4, 1e3], "duration of the actuator's ramp to its highest pressure, holds left out",
         |s| s.actuator_ramp_s, |s, v| s.actuator_ramp_s = v),
+    key("ramp_floor_kpa", 1e3, [1e-3, 1e6], "pressure from which the actuator's grows by equal shares in equal times",
+        |s| s.ramp_floor_pa.unwrap_or(f64::NAN), |s, v| s.ramp_floor_pa = Some(v)),
     key("hold_s", 1.0, [0.0, 1e3], "time at each pressure before it is read", |s| s.hold_s, |s, v| s.hold_s = v),
     key("mass_factor", 1.0, [1.0, 1e4], "factor on the masses of the smallest elements",
         |s| s.mass_factor, |s, v| s.mass_factor = v),
