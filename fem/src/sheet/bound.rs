@@ -71,9 +71,7 @@ impl Sheet {
             let k = ahead(item, fabric, e, &past.get(index).copied().unwrap_or_default(), c) + follower;
             item.nodes().iter().for_each(|n| bound[*n as usize] += k);
         }
-        for (i, bound) in bound.iter_mut().enumerate() {
-            *bound += self.bending.row(i).map(|(_, value)| value.abs()).sum::<f64>();
-        }
+        bound.iter_mut().zip(&self.bending_bound).for_each(|(bound, bending)| *bound += bending);
     }
 }
 

@@ -63,7 +63,8 @@ pub struct Sheet {
     pub areal_density: Vec<f64>,
     /// Chambers in the order of the problem.
     pub air: Vec<Air>,
-    bending: BendingMatrix,
+    /// Row sums of |K| in bending, for the stable step \[N/m\].
+    bending_bound: Vec<f64>,
     patches: Vec<Patch>,
     viscous_j: f64,
     /// Take energies and volumes in the next step whatever its number, because somebody will look at the ledger.
@@ -88,20 +89,21 @@ impl Sheet {
         let areal_density: Vec<f64> = sections.iter().map(weight).collect();
         let elements = elements(mesh, sections, &fabrics, settings);
         let stiffness: Vec<f64> = sections.iter().map(reference::bending_stiffness).collect();
-        let rows = bending::curvature_rows(mesh, &stiffness);
-        let bending = BendingMatrix::new(mesh.points.len(), &rows);
+        // The patches keep what they need of the matrix, and take the room of the rows.
+        let bending = BendingMatrix::new(mesh.points.len(), &bending::curvature_rows(mesh, &stiffness));
+        let bound = |i: usize| bending.row(i).map(|(_, value)| value.abs()).sum();
         let mut sheet = Sheet {
             elements,
             fabrics,
             areal_density,
             air: chambers.iter().map(Air::new).collect(),
-            bending,
+            bending_bound: (0..mesh.points.len()).map(bound).collect(),
             patches: Vec::new(),
             viscous_j: 0.0,
             measure: false,
             arch: pulp::Arch::new(),
         };
-        sheet.patches = sheet.make_patches(mesh, order, chambers, settings)?;
+        sheet.patches = sheet.make_patches(mesh, order, &bending, chambers, settings)?;
         Ok(sheet)
     }
 
@@ -109,6 +111,7 @@ impl Sheet {
         &self,
         mesh: &Mesh,
         order: &order::Order,
+        bending: &BendingMatrix,
         chambers: &[Chamber],
         settings: &Settings,
     ) -> Result<Vec<Patch>, FemError> {
@@ -134,7 +137,7 @@ impl Sheet {
         }
         let memory = self.fabrics.iter().any(|f| f.has_memory());
         let pairs = order.patches.iter().zip(items);
-        Ok(pairs.map(|(nodes, items)| Patch::new(nodes.clone(), items, &self.bending, &order.old, memory)).collect())
+        Ok(pairs.map(|(nodes, items)| Patch::new(nodes.clone(), items, bending, &order.old, memory)).collect())
     }
 
     fn item(&self, index: usize, settings: &Settings, own: bool) -> Item {
