@@ -63,7 +63,7 @@ pub struct Sheet {
     pub areal_density: Vec<f64>,
     /// Chambers in the order of the problem.
     pub air: Vec<Air>,
-    /// Row sums of |K| in bending, for the stable step \[N/m\].
+    /// Row sums of |K| in bending, for the stable step \[N/m\]; of K itself the patches keep what they need.
     bending_bound: Vec<f64>,
     patches: Vec<Patch>,
     viscous_j: f64,
@@ -89,15 +89,13 @@ impl Sheet {
         let areal_density: Vec<f64> = sections.iter().map(weight).collect();
         let elements = elements(mesh, sections, &fabrics, settings);
         let stiffness: Vec<f64> = sections.iter().map(reference::bending_stiffness).collect();
-        // The patches keep what they need of the matrix, and take the room of the rows.
         let bending = BendingMatrix::new(mesh.points.len(), &bending::curvature_rows(mesh, &stiffness));
-        let bound = |i: usize| bending.row(i).map(|(_, value)| value.abs()).sum();
         let mut sheet = Sheet {
             elements,
             fabrics,
             areal_density,
             air: chambers.iter().map(Air::new).collect(),
-            bending_bound: (0..mesh.points.len()).map(bound).collect(),
+            bending_bound: (0..mesh.points.len()).map(|i| bending.row(i).map(|(_, k)| k.abs()).sum()).collect(),
             patches: Vec::new(),
             viscous_j: 0.0,
             measure: false,
