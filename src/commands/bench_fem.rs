@@ -6,20 +6,19 @@ use crate::cost::{cpu_seconds, resident_bytes};
 use crate::failure::Failure;
 use crate::output::machine;
 use fem::robot::RobotSettings;
-use fem::{Problem, Simulation, speed};
+use fem::{Simulation, speed};
 use serde_json::json;
 use std::fmt::Write;
 use std::time::Instant;
 
-/// A figure is the best of this many repetitions: the others were disturbed.
-const REPEATS: usize = 5;
-/// Steps per repetition.
-const STEPS: u64 = 400;
 /// Whole runs of the folded cPAM; its cost changes along the run.
-const WHOLE_RUNS: usize = 3;
+const WHOLE_RUNS: usize = 4;
+/// Stretches of such a run that are timed, with as many short repetitions of the other rates between them: on a shared
+/// machine most are disturbed, for seconds on end.
+const STRETCHES: usize = 40;
 /// Repetitions of one thread, two threads, two runs: both cores of a shared machine are rarely free, so many short ones.
 const TURNS: usize = 60;
-/// Steps of each.
+/// Steps of a repetition.
 const TURN_STEPS: u64 = 150;
 
 /// Robots, and the seconds that a run of each may take on two cores at 4 mm.
@@ -47,12 +46,7 @@ pub fn run(all: bool, context: &mut Context) -> Result<Outcome, Failure> {
     let mut figures = Vec::new();
     // First: later it would get the room that others gave back, and not grow.
     let memory = memory()?;
-    for (what, bending, wanted) in [("membrane only", false, 60.0), ("membrane + bending", true, 40.0)] {
-        (context.progress)(what, None);
-        figures.push(throughput(what, &speed::pillow(100, bending)?, wanted)?);
-    }
-    (context.progress)("folded cPAM", None);
-    figures.push(folded()?);
+    figures.extend(rates(context)?);
     (context.progress)("two threads", None);
     let (two, limit) = two_threads()?;
     figures.push(two);
@@ -100,47 +94,49 @@ fn report(figures: &[Figure], limit: f64) -> Outcome {
     )
 }
 
-/// Million element-steps per CPU-second.
-fn throughput(what: &str, problem: &Problem, wanted: f64) -> Result<Figure, Failure> {
-    let mut run = Simulation::new(problem)?;
-    speed::advance_by(&mut run, STEPS)?;
-    let mut best = 0.0_f64;
-    for _ in 0..REPEATS {
-        let start = cpu_seconds();
-        let steps = speed::advance_by(&mut run, STEPS)?;
-        best = best.max(steps as f64 * run.elements() as f64 / (cpu_seconds() - start) / 1e6);
+/// Million element-steps per CPU-second: of shells, the best repetition; of a whole run with contact (folded, blown up, at
+/// rest), each stretch as it was in the best of several runs, which do the same.
+fn rates(context: &mut Context) -> Result<Vec<Figure>, Failure> {
+    let pillow = |bending: bool| -> Result<Simulation, Failure> {
+        let mut run = Simulation::new(&speed::pillow(100, bending)?)?;
+        speed::advance_by(&mut run, TURN_STEPS)?;
+        Ok(run)
+    };
+    let mut shells = [(pillow(false)?, f64::INFINITY), (pillow(true)?, f64::INFINITY)];
+    let problem = speed::folded_cpam(2e-3, true)?;
+    let mut contact = Simulation::new(&problem)?;
+    let mut stretch_s = [f64::INFINITY; STRETCHES];
+    for whole in 0..WHOLE_RUNS {
+        contact = Simulation::new(&problem)?;
+        for (i, best_s) in stretch_s.iter_mut().enumerate() {
+            let done = (whole * STRETCHES + i) as f64 / (WHOLE_RUNS * STRETCHES) as f64;
+            (context.progress)("element-steps per second", Some(done));
+            let start = cpu_seconds();
+            contact.advance_until(problem.settings.end_s * (i + 1) as f64 / STRETCHES as f64, &mut |_| true)?;
+            *best_s = best_s.min(cpu_seconds() - start);
+            for (run, best_s) in &mut shells {
+                let start = cpu_seconds();
+                let steps = speed::advance_by(run, TURN_STEPS)?;
+                *best_s = best_s.min((cpu_seconds() - start) / steps as f64);
+            }
+        }
     }
-    Ok(Figure {
+    let [(membrane, membrane_s), (bending, bending_s)] = shells;
+    let contact_s = stretch_s.iter().sum::<f64>() / contact.step() as f64;
+    let rate = |what: &str, run: &Simulation, step_s: f64, wanted| Figure {
         what: what.to_owned(),
         elements: run.elements(),
-        value: best,
+        value: run.elements() as f64 / step_s / 1e6,
         unit: "M element-steps/CPU-s",
         wanted,
         rate: true,
         residual: run.ledger().residual_share(),
-    })
-}
-
-/// Million element-steps per CPU-second over a whole run with contact: folded, blown up, at rest.
-fn folded() -> Result<Figure, Failure> {
-    let problem = speed::folded_cpam(2e-3, true)?;
-    let (mut best, mut seen) = (0.0_f64, (0, 0.0));
-    for _ in 0..WHOLE_RUNS {
-        let mut run = Simulation::new(&problem)?;
-        let start = cpu_seconds();
-        run.advance_until(problem.settings.end_s, &mut |_| true)?;
-        best = best.max(run.step() as f64 * run.elements() as f64 / (cpu_seconds() - start) / 1e6);
-        seen = (run.elements(), run.ledger().residual_share());
-    }
-    Ok(Figure {
-        what: "membrane + bending + contact, folded cPAM".to_owned(),
-        elements: seen.0,
-        value: best,
-        unit: "M element-steps/CPU-s",
-        wanted: 25.0,
-        rate: true,
-        residual: seen.1,
-    })
+    };
+    Ok(vec![
+        rate("membrane only", &membrane, membrane_s, 60.0),
+        rate("membrane + bending", &bending, bending_s, 40.0),
+        rate("membrane + bending + contact, folded cPAM", &contact, contact_s, 25.0),
+    ])
 }
 
 /// Real time of one thread over that of two, and over half that of two runs of one thread each: what the two cores give
@@ -150,7 +146,7 @@ fn two_threads() -> Result<(Figure, f64), Failure> {
         let mut problem = speed::pillow(100, true)?;
         problem.settings.threads = threads;
         let mut run = Simulation::new(&problem)?;
-        speed::advance_by(&mut run, STEPS)?;
+        speed::advance_by(&mut run, TURN_STEPS)?;
         Ok(run)
     };
     let (mut one, mut other, mut two) = (with(1)?, with(1)?, with(2)?);

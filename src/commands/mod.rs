@@ -38,7 +38,7 @@ pub struct Context<'a> {
     /// JSON is wanted.
     pub json: bool,
     /// Told what is being done, and which share of the whole is done if known.
-    pub progress: &'a mut dyn FnMut(&str, Option<f64>),
+    pub progress: &'a mut (dyn FnMut(&str, Option<f64>) + Send),
     /// Held while files are written; true once they are.
     pub written: &'a Mutex<bool>,
     /// For commands that end themselves on Ctrl-C.

@@ -95,9 +95,10 @@ struct Work {
     made: Vec<Record>,
     /// As in [`Candidate::clear_m`], for each element.
     clear_m: Vec<f64>,
-    /// Members whose neighbours were not asked yet, and the number of elements without a piece.
+    /// Members whose neighbours were not asked yet.
     open: Vec<usize>,
-    left: usize,
+    /// Layers, and how many elements of each are without a piece.
+    left: Vec<(u32, usize)>,
     /// Where each element of the mesh is in `elements`, if it is there.
     place: Vec<u32>,
 }
@@ -117,34 +118,44 @@ impl Work {
         }
         self.piece.clear();
         self.piece.resize(group.len(), u32::MAX);
-        (self.pieces, self.left) = (0, group.len());
-        for seed in 0..group.len() {
+        self.pieces = 0;
+        self.left.clear();
+        for (_, element) in group {
+            let layer = surface.layer[*element as usize];
+            match self.left.iter_mut().find(|(l, _)| *l == layer) {
+                Some((_, count)) => *count += 1,
+                None => self.left.push((layer, 1)),
+            }
+        }
+        for (seed, (_, element)) in group.iter().enumerate() {
             if self.piece[seed] != u32::MAX {
                 continue;
             }
-            self.take(seed);
-            while let Some(at) = self.open.pop().filter(|_| self.left > 0) {
-                self.reach(surface, self.elements[at]);
+            let layer = surface.layer[*element as usize];
+            let mut left = self.left.iter().find(|(l, _)| *l == layer).map_or(0, |(_, count)| *count);
+            self.take(seed, &mut left);
+            while let Some(at) = self.open.pop().filter(|_| left > 0) {
+                self.reach(surface, self.elements[at], layer, &mut left);
             }
             self.open.clear();
             self.pieces += 1;
+            self.left.iter_mut().filter(|(l, _)| *l == layer).for_each(|(_, count)| *count = left);
         }
     }
 
-    fn take(&mut self, at: usize) {
+    fn take(&mut self, at: usize, left: &mut usize) {
         self.piece[at] = self.pieces;
-        self.left -= 1;
+        *left -= 1;
         self.open.push(at);
     }
 
-    /// Adds the neighbours of an element to the piece at hand.
-    fn reach(&mut self, surface: &Surface, element: u32) {
-        let layer = surface.layer[element as usize];
+    /// Adds the neighbours of an element of this layer to the piece at hand.
+    fn reach(&mut self, surface: &Surface, element: u32, layer: u32, left: &mut usize) {
         for n in surface.corners(element as usize) {
             for other in surface.around.of(*n as usize) {
                 let Some(at) = self.find(*other) else { continue };
                 if self.piece[at] == u32::MAX && surface.layer[*other as usize] == layer {
-                    self.take(at);
+                    self.take(at, left);
                 }
             }
         }

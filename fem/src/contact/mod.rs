@@ -39,6 +39,7 @@ mod build;
 mod chunk;
 mod closest;
 pub mod edges;
+mod follow;
 mod pack;
 mod press;
 mod record;
@@ -56,6 +57,7 @@ use crate::vec3::{dot, norm, scale};
 use crate::{FemError, Mesh};
 use build::{Memory, Penalty};
 use chunk::{Chunk, Step, touch};
+use follow::{farthest_m, follow};
 use press::{Sums, motion, push};
 use record::{Reach, Record};
 use surface::Surface;
@@ -65,8 +67,6 @@ use surface::Surface;
 const SHARE: f64 = 0.05;
 /// Share of critical damping of a pair.
 const DAMPING: f64 = 0.1;
-/// Nodes per piece of a pass over all nodes.
-const PIECE: usize = 2048;
 
 /// Contact between the layers of a mesh.
 #[derive(Debug, Clone)]
@@ -81,6 +81,8 @@ pub struct Contact {
     placed_m: Vec<[f64; 4]>,
     /// Positions one step before; empty before the first step.
     before_m: Vec<[f64; 4]>,
+    /// Positions now, during a step.
+    now_m: Vec<[f64; 4]>,
     path_m: f64,
     search_due_m: f64,
     searches: u64,
@@ -110,6 +112,7 @@ impl Contact {
             chunks: Vec::new(),
             placed_m,
             before_m: Vec::new(),
+            now_m: Vec::new(),
             path_m: 0.0,
             search_due_m: 0.0,
             searches: 0,
@@ -172,7 +175,7 @@ impl Contact {
         if self.path_m < self.search_due_m {
             return;
         }
-        let left = 0.5 * self.reach.skin_m - fastest_m(x, &self.placed_m);
+        let left = 0.5 * self.reach.skin_m - farthest_m(x, &self.placed_m);
         self.search_due_m = self.path_m + left;
         if left <= 0.05 * self.reach.skin_m {
             self.search(x);
@@ -242,7 +245,8 @@ impl Term for Contact {
         if self.before_m.is_empty() {
             self.before_m = x.to_vec();
         }
-        self.path_m += fastest_m(x, &self.before_m);
+        self.now_m.resize(x.len(), [0.0; 4]);
+        self.path_m += follow(self.arch, x, &self.before_m, &mut self.now_m);
         self.search_if_due(x);
         let mut chunks = std::mem::take(&mut self.chunks);
         let step = self.step_of(x, tick.dt_s);
@@ -257,7 +261,7 @@ impl Term for Contact {
             self.sums.friction += chunk.sums.friction;
             self.sums.damping += chunk.sums.damping;
         }
-        self.before_m.copy_from_slice(x);
+        std::mem::swap(&mut self.before_m, &mut self.now_m);
         self.sums.stored
     }
 
@@ -295,24 +299,6 @@ impl Term for Contact {
     fn restore(&mut self, saved: &[u8]) -> bool {
         save::read(self, saved).is_some()
     }
-}
-
-/// Largest distance between two sets of positions.
-fn fastest_m(x: &[[f64; 4]], y: &[[f64; 4]]) -> f64 {
-    let piece = |(x, y): (&[[f64; 4]], &[[f64; 4]])| {
-        let mut far = [0.0_f64; 4];
-        for (x, y) in x.iter().zip(y) {
-            let square = (x[0] - y[0]).powi(2) + (x[1] - y[1]).powi(2) + (x[2] - y[2]).powi(2);
-            far[0] = far[0].max(square);
-        }
-        far[0]
-    };
-    let square = if x.len() <= PIECE {
-        piece((x, y))
-    } else {
-        x.par_chunks(PIECE).zip(y.par_chunks(PIECE)).map(piece).reduce(|| 0.0, f64::max)
-    };
-    square.sqrt()
 }
 
 fn reaches(settings: &problem::Contact, size_m: f64) -> Reach {

@@ -55,6 +55,7 @@ impl Simulation {
             books: Books::default(),
             limits: limits(settings, &sheet, added_mass),
             team: Some(Team::new(settings.threads)?),
+            cpu_s: 0.0,
             order,
             mesh,
             sheet,

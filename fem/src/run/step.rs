@@ -1,5 +1,7 @@
 //! One time step.
 
+use std::time::{Duration, Instant};
+
 use models::{Pose, Term, Tick};
 
 use super::{Advance, Simulation, constraint};
@@ -8,6 +10,8 @@ use crate::contact::edges::hold;
 use crate::sheet::group::{LANES, Lane};
 use crate::sheet::lanes::{V, sum};
 
+/// Wall time that the threads of a run stay together: waking them costs 0.1 ms.
+const STRETCH: Duration = Duration::from_millis(50);
 /// Steps between two looks at the callback and the guards.
 const LOOK: u64 = 64;
 /// Steps between two estimates of the stable step; strains change by a small fraction of a per cent in between.
@@ -18,21 +22,48 @@ const RECHECK_STIFFENING: u64 = 128;
 const PIECE: usize = 1024;
 
 impl Simulation {
-    /// Steps until the time is reached or `go_on` (called every few dozen steps) returns false.
+    /// Steps until the time is reached or `go_on` (called every few dozen steps, on a thread of the run) returns false.
     ///
     /// # Errors
     /// [`FemError::Stopped`] when a guard fires.
     pub fn advance_until(
         &mut self,
         time_s: f64,
-        go_on: &mut dyn FnMut(&Simulation) -> bool,
+        go_on: &mut (dyn FnMut(&Simulation) -> bool + Send),
     ) -> Result<Advance, FemError> {
+        let mut advance = None;
+        while self.is_before(time_s) && advance.is_none() {
+            // The team is moved out for the call, so that the steps may borrow the rest.
+            let Some(mut team) = self.team.take() else { break };
+            let outcome = team.run(|| {
+                let from = self.clock.step;
+                let outcome = self.stretch(time_s, go_on);
+                (self.clock.step - from, outcome)
+            });
+            self.cpu_s += team.take_cpu_s();
+            self.team = Some(team);
+            advance = outcome?;
+        }
+        Ok(advance.unwrap_or(Advance::Reached))
+    }
+
+    fn is_before(&self, time_s: f64) -> bool {
+        self.clock.time_s + 0.5 * self.clock.dt_s < time_s
+    }
+
+    /// Steps for [`STRETCH`], or until the time is reached or the callback asks to stop.
+    fn stretch(
+        &mut self,
+        time_s: f64,
+        go_on: &mut (dyn FnMut(&Simulation) -> bool + Send),
+    ) -> Result<Option<Advance>, FemError> {
+        let began = Instant::now();
         let recheck = match (&self.edges, self.sheet.stiffens()) {
             (Some(_), _) => LOOK,
             (None, true) => RECHECK_STIFFENING,
             (None, false) => RECHECK,
         };
-        while self.clock.time_s + 0.5 * self.clock.dt_s < time_s {
+        while self.is_before(time_s) && began.elapsed() < STRETCH {
             let steps = LOOK - self.clock.step % LOOK;
             self.burst(steps, time_s);
             self.guard()?;
@@ -40,28 +71,22 @@ impl Simulation {
                 self.recheck()?;
             }
             if !go_on(self) {
-                return Ok(Advance::Interrupted);
+                return Ok(Some(Advance::Interrupted));
             }
         }
-        Ok(Advance::Reached)
+        Ok(None)
     }
 
     /// Up to `steps` steps.
     fn burst(&mut self, steps: u64, time_s: f64) {
-        // The team is moved out for the call, so that the steps may borrow the rest.
-        let Some(mut team) = self.team.take() else { return };
-        team.run(|| {
-            for done in 1..=steps {
-                let ahead = self.clock.time_s + 1.5 * self.clock.dt_s;
-                self.sheet.measure = done == steps || ahead >= time_s;
-                self.one_step();
-                if ahead >= time_s {
-                    return done;
-                }
+        for done in 1..=steps {
+            let ahead = self.clock.time_s + 1.5 * self.clock.dt_s;
+            self.sheet.measure = done == steps || ahead >= time_s;
+            self.one_step();
+            if ahead >= time_s {
+                return;
             }
-            steps
-        });
-        self.team = Some(team);
+        }
     }
 
     fn one_step(&mut self) {

@@ -20,8 +20,8 @@ pub struct Team {
     /// Seconds per step with one thread and with all; 0 before the first try.
     seconds: [f64; 2],
     stretches: u64,
-    /// Processor seconds of all threads so far.
-    pub cpu_s: f64,
+    /// Processor seconds of all threads since they were taken.
+    cpu_s: f64,
 }
 
 impl Team {
@@ -39,23 +39,27 @@ impl Team {
         Ok(Team { one: pool(1)?, all, seconds: [0.0; 2], stretches: 0, cpu_s: 0.0 })
     }
 
-    /// Runs a stretch of `work`, which returns the number of steps it did.
-    pub fn run(&mut self, work: impl FnOnce() -> u64 + Send) {
+    /// Processor seconds of all threads since this was last asked.
+    pub fn take_cpu_s(&mut self) -> f64 {
+        std::mem::take(&mut self.cpu_s)
+    }
+
+    /// Runs a stretch of `work`, which returns the number of steps it did and what else there is to say.
+    pub fn run<T: Send>(&mut self, work: impl FnOnce() -> (u64, T) + Send) -> T {
         let Some(all) = &self.all else {
-            self.alone(work);
-            return;
+            return self.alone(work).1;
         };
         let better = usize::from(self.seconds[1] <= self.seconds[0]);
         let untried = self.seconds.iter().position(|s| *s == 0.0);
         let turn = self.stretches % TRY_AGAIN == TRY_AGAIN - 1;
         let way = untried.unwrap_or(if turn { 1 - better } else { better });
         let start = Instant::now();
-        let steps = if way == 1 {
+        let (steps, said) = if way == 1 {
             let spent = || all.broadcast(|_| thread_seconds()).iter().sum::<f64>();
             let before = spent();
-            let steps = all.install(work);
+            let done = all.install(work);
             self.cpu_s += spent() - before;
-            steps
+            done
         } else {
             self.alone(work)
         };
@@ -63,15 +67,16 @@ impl Team {
         let mean = &mut self.seconds[way];
         *mean = if *mean == 0.0 { taken } else { (1.0 - NEWEST) * *mean + NEWEST * taken };
         self.stretches += 1;
+        said
     }
 
-    fn alone(&mut self, work: impl FnOnce() -> u64 + Send) -> u64 {
-        let (steps, spent_s) = self.one.install(|| {
+    fn alone<T: Send>(&mut self, work: impl FnOnce() -> (u64, T) + Send) -> (u64, T) {
+        let (done, spent_s) = self.one.install(|| {
             let before = thread_seconds();
             (work(), thread_seconds() - before)
         });
         self.cpu_s += spent_s;
-        steps
+        done
     }
 }
 
@@ -95,7 +100,7 @@ mod tests {
                     with_all.store(true, std::sync::atomic::Ordering::Relaxed);
                     std::thread::sleep(std::time::Duration::from_millis(20));
                 }
-                1
+                (1, ())
             });
             slow += u64::from(with_all.into_inner());
         }

@@ -143,14 +143,13 @@ impl<'a> Running<'a> {
             let hold_s = self.robot.as_ref().and_then(Watched::next_s).filter(|hold_s| *hold_s <= output_s);
             let target_s = hold_s.unwrap_or(output_s);
             let (next, balances, files, robot) = (self.next, &self.balances, &self.files, &mut self.robot);
-            let (before_s, began_s) = (self.cpu_before_s, self.began.1);
+            let outside_s = self.cpu_before_s + thread_seconds() - self.began.1;
             let mut fault = None;
             let advanced = self.run.advance_until(target_s, &mut |run| {
                 teller.tell(run, context);
                 robot.iter_mut().for_each(|robot| robot.watch.sample(run));
                 if saved_at.elapsed() >= checkpoint_every {
-                    let cpu_s = before_s + run.cpu_s() + thread_seconds() - began_s;
-                    fault = files.save(run, next, balances, robot.as_ref(), cpu_s).err();
+                    fault = files.save(run, next, balances, robot.as_ref(), outside_s + run.cpu_s()).err();
                     saved_at = Instant::now();
                 }
                 fault.is_none() && !context.interrupt.asked()

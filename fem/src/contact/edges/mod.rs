@@ -44,8 +44,9 @@ mod tests;
 use models::{Pose, Row, RowKind, Term, Tick};
 use rayon::prelude::*;
 
+use super::follow::farthest_m;
+use super::push;
 use super::surface::Surface;
-use super::{fastest_m, push};
 use crate::{FemError, Mesh, problem};
 use chunk::{Chunk, PAIRS};
 use pair::Pair;
@@ -151,7 +152,7 @@ impl Edges {
         if self.path_m < self.search_due_m {
             return;
         }
-        let left = 0.5 * self.skin_m - fastest_m(x, &self.placed_m);
+        let left = 0.5 * self.skin_m - farthest_m(x, &self.placed_m);
         self.search_due_m = self.path_m + left;
         if left <= 0.05 * self.skin_m {
             self.search(x);
