@@ -24,13 +24,17 @@ const FALSE_FLAGS: f64 = 0.05;
 /// λ at which a known difference is seen nine times in ten at the level of 1 %: (2.33 + 1.28)².
 const SEEN: f64 = 13.0;
 
-/// Bounds of two rows of the table, and why sets outside the catalogue were not flagged.
+/// Bounds of four rows of the table, and why sets outside the catalogue were not flagged.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Attainable {
     /// Alarms of one hidden effect, if the effect and the noise were known; false alarms in 3 %.
     pub alarm_known: Option<f64>,
     /// The same if one of ten kinds had to be looked for.
     pub alarm_any: Option<f64>,
+    /// Given alarm: the true name on top, for whoever has every law as it is in these robots ([`super::oracle`]).
+    pub on_top: Option<f64>,
+    /// The same, in the first three.
+    pub first_three: Option<f64>,
     /// Flags outside the catalogue, if no effect or one is an explanation; false flags in 5 %.
     pub flag_one: Option<f64>,
     /// The same if pairs of effects are explanations too.
@@ -73,7 +77,13 @@ pub(super) fn of(outcomes: &[Outcome]) -> Attainable {
     let missed: Vec<Distances> =
         outside.iter().filter(|(named, _)| !named.score.out_of_catalog).map(|(_, d)| *d).collect();
     let is_alike = |d: &&Distances| d.two >= SEEN && form.is_some_and(|[_, most]| left(d.two, d.base) < most);
+    let best = |k: usize| {
+        let shares: Vec<f64> = one.iter().filter_map(|(named, _)| Some(named.at_best?[k])).collect();
+        (!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64)
+    };
     Attainable {
+        on_top: best(0),
+        first_three: best(1),
         alarm_known: mean(&one, &|d| power(d.base, FALSE_ALARMS)),
         alarm_any: mean(&one, &|d| power(d.base, FALSE_ALARMS / KINDS)),
         flag_one: mean(&outside, &|d| power(d.one, FALSE_FLAGS)),

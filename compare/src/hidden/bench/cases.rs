@@ -2,6 +2,7 @@
 
 use super::attainable::distances_of;
 use super::follow::follow_up;
+use super::oracle::at_best;
 use super::{Case, Diagnose, Part};
 use crate::diagnosis::{Diagnosis, Distances, Experiment, Options};
 use crate::error::CompareError;
@@ -47,6 +48,8 @@ pub struct Named {
     pub after: Option<Score>,
     /// How far the truth is from what the catalogue can say, of one hidden effect and of one outside the catalogue.
     pub distances: Option<Distances>,
+    /// Shares of all noise in which the truth could be named first, and among three, of one hidden effect that gave alarm.
+    pub at_best: Option<[f64; 2]>,
     /// The same experiment with next to no noise, where the truth did not come out on top.
     pub after_in_silence: Option<Score>,
 }
@@ -104,6 +107,9 @@ fn hidden(truth: &Truth, kind: Kind, diagnose: Diagnose) -> Result<Named, Compar
     let mut named = named(truth, &found);
     if matches!(kind, Kind::One | Kind::Outside) {
         named.distances = Some(distances_of(truth, &data, kind == Kind::Outside)?);
+    }
+    if kind == Kind::One && named.score.alarm {
+        named.at_best = Some(at_best(truth, &data)?);
     }
     if next_experiment && named.answer.verdict == "effect" && named.answer.set.len() > 1 {
         let next = found.next_experiment.as_ref().and_then(|next| next.recommended.as_ref());
@@ -175,6 +181,7 @@ fn named(truth: &Truth, found: &Diagnosis) -> Named {
         separations: now.map(|s| (s.rival.clone(), s.lambda)).collect(),
         after: None,
         distances: None,
+        at_best: None,
         after_in_silence: None,
         answer,
     }

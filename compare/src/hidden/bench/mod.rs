@@ -8,6 +8,7 @@ mod attainable;
 mod cases;
 mod follow;
 mod made;
+mod oracle;
 mod row;
 mod table;
 #[cfg(test)]
