@@ -31,7 +31,7 @@ pub struct Attainable {
     pub alarm_known: Option<f64>,
     /// The same if one of ten kinds had to be looked for.
     pub alarm_any: Option<f64>,
-    /// Given alarm: the true name on top, for whoever has every law as it is in these robots ([`super::oracle`]).
+    /// Given alarm: the true name on top, for whoever has every law as it is in these robots.
     pub on_top: Option<f64>,
     /// The same, in the first three.
     pub first_three: Option<f64>,
