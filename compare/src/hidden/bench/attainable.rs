@@ -24,7 +24,7 @@ const FALSE_FLAGS: f64 = 0.05;
 /// λ at which a known difference is seen nine times in ten at the level of 1 %: (2.33 + 1.28)².
 const SEEN: f64 = 13.0;
 
-/// Bounds of four rows of the table, and why sets outside the catalogue were not flagged.
+/// Bounds of two rows of the table, what the robots' own laws would give in two more, and why sets outside the catalogue were not flagged.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Attainable {
     /// Alarms of one hidden effect, if the effect and the noise were known; false alarms in 3 %.

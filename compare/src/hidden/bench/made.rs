@@ -46,7 +46,12 @@ pub struct Made {
 }
 
 impl Made {
-    /// The error at held-out pressures falls by half or more.
+    /// The error at held-out pressures falls by half or more with what is stated.
+    pub fn halved_as_stated(&self) -> bool {
+        !self.stated.is_empty() && self.halved()
+    }
+
+    /// The same with what is stated or, said not to be enough, attempted.
     pub fn halved(&self) -> bool {
         self.before_mm.zip(self.after_mm).is_some_and(|(before, after)| after <= 0.5 * before)
     }
@@ -91,6 +96,7 @@ pub(super) fn rows(made: &[Made]) -> Vec<Row> {
     };
     vec![
         share("what the model lacks is in the stated set", |m| m.in_set),
-        share("error at held-out pressures falls by half with what is named", Made::halved),
+        share("error at held-out pressures falls by half with what is stated", Made::halved_as_stated),
+        share("the same, attempts that are said not to be enough counted too", Made::halved),
     ]
 }

@@ -46,7 +46,7 @@ fn the_finite_element_sets_are_diagnosed_and_what_is_named_halves_the_held_out_e
     let made = made::made(crate::diagnosis::diagnose, &mut failed);
     assert!(failed.is_empty(), "{failed:?}");
     assert_eq!(made.iter().map(|m| m.robot).collect::<Vec<_>>(), ["spam", "cpam", "epam", "fpam"]);
-    assert!(made[0].in_set, "{:?}", made[0]);
+    assert!(made[0].in_set && made[0].halved_as_stated(), "{:?}", made[0]);
     assert!(made.iter().all(made::Made::halved), "{made:?}");
     assert!(made.iter().all(|m| m.before_mm.is_some_and(|mm| mm > 1.0)), "the bare model is wrong: {made:?}");
 }
