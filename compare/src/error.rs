@@ -55,6 +55,19 @@ pub enum CompareError {
          least one session, or leave the session labels out"
     )]
     SessionsWithoutRepeats,
+    /// Data beside others say too little of their own noise.
+    #[error(
+        "{name} has {runs} run(s); data that are diagnosed beside others need {needed} of their own to know their noise: \
+         measure more, or diagnose them alone"
+    )]
+    TooFewRunsBeside {
+        /// Dataset.
+        name: String,
+        /// Runs it has.
+        runs: usize,
+        /// Runs it needs.
+        needed: usize,
+    },
     /// A setting is outside its range.
     #[error("{name} = {value} is not possible: {expected}")]
     BadOption {

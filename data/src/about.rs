@@ -16,6 +16,10 @@
 //! s_mm = [60, 120]
 //! [gravity]                          # absent: gravity does not act in the bending plane
 //! direction = [0, -1]                # unit vector in the x–y plane
+//! [direct]                           # optional: what an instrument of its own measured, so that no model of it is needed
+//! pressure = true                    # p_act is that of a gauge at the actuator, not the regulator's
+//! frame = true                       # positions in the base's frame: fiducials on the clamp, a checkerboard in the
+//!                                    # markers' plane, their distance from the axis by caliper
 //! [[run]]                            # optional; runs not named have no tip force
 //! id = "1"
 //! tip_force_n = [0, 0.3]
@@ -74,10 +78,23 @@ pub struct About {
     pub markers: Vec<MarkerStation>,
     /// Unit vector of gravity in the x–y plane; `None` if gravity does not act in it.
     pub gravity_direction: Option<[f64; 2]>,
+    /// What was measured directly.
+    pub direct: Direct,
     /// Runs with a tip force or a session of their own.
     pub runs: Vec<AboutRun>,
     /// Free text.
     pub notes: Option<String>,
+}
+
+/// What an instrument of its own measured: nothing between set and true value is left to be explained in these data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Direct {
+    /// The actuator's pressure is that of a gauge at the actuator: whatever the supply does is in it.
+    pub pressure: bool,
+    /// Positions are in the frame of the base: fiducials on the clamp, a checkerboard in the plane of the markers, their
+    /// distance from the axis by caliper.
+    pub frame: bool,
 }
 
 /// Dimensions of the robot \[m\].
@@ -150,6 +167,7 @@ pub fn parse_about(file: &str, text: &str) -> Result<About, DataError> {
     Ok(About {
         markers: raw.markers.map_or(Ok(Vec::new()), |markers| check.markers(markers))?,
         gravity_direction: raw.gravity.map(|gravity| check.direction(&gravity.direction)).transpose()?,
+        direct: raw.direct,
         runs: check.runs(raw.run)?,
         title: check.filled("title", &raw.title)?,
         source: check.filled("source", &raw.source)?,
@@ -183,6 +201,8 @@ struct RawAbout {
     geometry: Option<RawGeometry>,
     markers: Option<RawMarkers>,
     gravity: Option<RawGravity>,
+    #[serde(default)]
+    direct: Direct,
     #[serde(default)]
     run: Vec<RawRun>,
 }

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::about::About;
+use crate::about::{About, Direct};
 use crate::dataset::Dataset;
 use crate::error::{DataError, Fault};
 use crate::units::{kpa, mm};
@@ -89,6 +89,10 @@ pub fn about_toml(about: &About) -> String {
         let names: Vec<_> = about.markers.iter().map(|marker| string(&marker.name)).collect();
         let stations: Vec<_> = about.markers.iter().map(|marker| tidy_mm(marker.station_m)).collect();
         text.push_str(&format!("\n[markers]\nnames = [{}]\ns_mm = [{}]\n", names.join(", "), stations.join(", ")));
+    }
+    if about.direct != Direct::default() {
+        let Direct { pressure, frame } = about.direct;
+        text.push_str(&format!("\n[direct]\npressure = {pressure}\nframe = {frame}\n"));
     }
     if let Some([x, y]) = about.gravity_direction {
         text.push_str(&format!("\n[gravity]\ndirection = [{x:?}, {y:?}]\n"));

@@ -11,6 +11,10 @@ pub struct Diagnose {
     /// Marker data
     #[arg(required_unless_present = "published")]
     pub data: Option<String>,
+    /// Further data of the same robot, each with its own protocol, loads and direct measurements (about.toml), fitted along;
+    /// may be given several times
+    #[arg(long, value_name = "DATA", conflicts_with = "published")]
+    pub also: Vec<String>,
     /// Instead of data: which effects alone meet the one displacement that the paper printed of this robot
     #[arg(long, conflicts_with_all = ["data", "refit", "keep_bending", "sigma", "tolerance"])]
     pub published: bool,

@@ -4,7 +4,7 @@ use super::tables::{number, table};
 use super::{Context, Outcome};
 use crate::failure::Failure;
 use crate::output::machine;
-use compare::diagnosis::{Options, diagnose};
+use compare::diagnosis::{Options, diagnose, diagnose_together};
 use compare::hidden::bench::{Attainable, Bench, BenchOptions, Confusion, Row, Target, run as run_bench};
 use compare::hidden::truth::{ROBOTS, standard_protocol};
 use compare::hidden::{Draw, Truth};
@@ -21,7 +21,7 @@ const ENOUGH: f64 = 16.0;
 
 pub fn run(sets: usize, seed: u64, _context: &mut Context) -> Result<Outcome, Failure> {
     let options = BenchOptions { seed, sets };
-    let bench = run_bench(&options, diagnose, &|_| ())?;
+    let bench = run_bench(&options, diagnose_together, &|_| ())?;
     let seconds = seconds(seed)?;
     let time = Row::number(
         "full diagnosis",

@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
 use compare::study::generate::{Generator, generate, parse_protocol};
 use compare::study::pages::Files;
-use data::{About, CheckReport, Dataset, Geometry, MarkerStation, Provenance};
+use data::{About, CheckReport, Dataset, Direct, Geometry, MarkerStation, Provenance};
 use models::Scenario;
 use models::scenario::quantity::Quantity;
 use serde_json::json;
@@ -152,6 +152,7 @@ pub fn about(scenario: &Scenario, dataset: &Dataset, g: &Generator) -> About {
         }),
         markers: stations.map(|(m, s)| MarkerStation { name: m.name.clone(), station_m: *s }).collect(),
         gravity_direction: None,
+        direct: Direct::default(),
         runs: vec![],
         notes: Some(format!(
             "Not a measurement. Camera noise {} mm per coordinate; run to run: pressure {} %, alignment {} mm, rotation {} mrad. \

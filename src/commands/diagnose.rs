@@ -8,7 +8,7 @@ use super::{Context, Outcome};
 use crate::cli::Diagnose;
 use crate::failure::Failure;
 use crate::output::{check_folder, machine, program, today, write_files};
-use compare::diagnosis::{Diagnosis, Experiment, Group, Options, Ranked, Verdict, diagnose};
+use compare::diagnosis::{Diagnosis, Experiment, Group, Measured, Options, Ranked, Verdict, diagnose_together};
 use compare::study::engines::TERMS;
 use compare::study::pages::{Diagnosed, Imprint, diagnosis_page};
 use compare::study::witness::{HEIGHTS, Witness, witness};
@@ -23,6 +23,8 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
     let named = inputs::scenario(&args.scenario)?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let (dataset, about, input) = inputs::dataset(data, context)?;
+    let also: Vec<_> = args.also.iter().map(|data| inputs::dataset(data, context)).collect::<Result<_, _>>()?;
+    let further: Vec<_> = also.iter().map(|(dataset, about, _)| Measured { dataset, about: about.as_ref() }).collect();
     (context.progress)("fitting every effect", None);
     let options = Options {
         sigma_m,
@@ -31,7 +33,8 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
         keep_bending: args.keep_bending,
         ..Options::default()
     };
-    let diagnosis = diagnose(&named.scenario, &dataset, about.as_ref(), &options)?;
+    let first = Measured { dataset: &dataset, about: about.as_ref() };
+    let diagnosis = diagnose_together(&named.scenario, first, &further, &options)?;
     let runs = known_runs(args.runs.as_deref())?;
     let witness = witness(&diagnosis, &named.scenario, &dataset, about.as_ref(), &runs)?;
     let answer = to_json(&args.scenario, &diagnosis, witness.as_ref());
@@ -55,7 +58,9 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
         let imprint = Imprint { program: program(), date: today(), machine: machine() };
         let mut files = diagnosis_page(&found, &imprint)?;
         files.files.insert(0, ("diagnosis.json".into(), file));
-        write_files(folder, &files, &[named.input, input], context)?;
+        let inputs: Vec<_> =
+            [named.input, input].into_iter().chain(also.into_iter().map(|(_, _, input)| input)).collect();
+        write_files(folder, &files, &inputs, context)?;
         outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
     }
     if args.sigma.is_some() && dataset.runs.len() > 1 {

@@ -2,7 +2,7 @@
 
 use super::result::Group;
 use models::Scenario;
-use models::effects::Effect;
+use models::effects::{Effect, Stage};
 
 /// An effect that can be switched on, with what a fit and a reader need.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,6 +11,8 @@ pub struct Candidate {
     pub name: String,
     /// Group.
     pub group: Group,
+    /// Where in a prediction it acts.
+    pub stage: Stage,
     /// One plain sentence.
     pub sentence: String,
     /// What measurements show where it acts and the model lacks it.
@@ -132,6 +134,7 @@ fn candidate(effect: &Effect, actuator: &str) -> Candidate {
     Candidate {
         name: effect.name.to_string(),
         group: group(effect.group),
+        stage: effect.stage,
         sentence: effect.sentence.to_string(),
         differs: effect.differs.to_string(),
         remedy: effect.remedy.to_string(),

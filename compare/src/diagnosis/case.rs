@@ -1,19 +1,20 @@
-//! A scenario and a dataset made ready for hypotheses: noise, calibrated base, catalogue.
+//! A scenario and its datasets made ready for hypotheses: noise, calibrated base, catalogue.
 
 use super::basis::{Basis, cosine};
 use super::candidates::{Candidate, candidates, present};
 use super::options::Options;
-use super::problem::{Block, Fit, Problem, with_effects};
+use super::problem::{Block, Fit, Problem};
 use super::screen::trace;
 use crate::comparison::Comparison;
 use crate::error::CompareError;
 use crate::evaluate::default_tolerance_m;
 use crate::layout::Layout;
-use crate::noise::NoiseModel;
+use crate::noise::{NoiseModel, RUNS_FOR_P};
 use crate::stats::f_tail;
+use crate::study::predict::is_open;
 use crate::study::predict_dataset;
 use crate::whiten::Whitener;
-use data::Dataset;
+use data::{Dataset, Direct};
 use models::Scenario;
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -24,14 +25,37 @@ const ENOUGH: f64 = 1e-4;
 /// Rounds of the eigenvalue iteration; a handful suffice.
 const EIGEN_ROUNDS: usize = 1000;
 
-/// What every hypothesis is held against.
-pub struct Case<'a> {
+/// A dataset and the base as it was measured there.
+#[derive(Clone, Copy)]
+pub struct Source<'a> {
     /// The base as given, with the dataset's markers and loads.
     pub scenario: &'a Scenario,
     /// The data.
     pub dataset: &'a Dataset,
+    /// What was measured directly.
+    pub direct: Direct,
+}
+
+/// A dataset of the same robot that is fitted along with the first.
+pub struct Beside<'a> {
+    /// Base and data.
+    pub source: Source<'a>,
     /// Noise of their mean.
     pub noise: NoiseModel,
+}
+
+/// What every hypothesis is held against.
+pub struct Case<'a> {
+    /// The base as given, with the first dataset's markers and loads.
+    pub scenario: &'a Scenario,
+    /// The first data: errors in millimetres, places and held-out parts are theirs.
+    pub dataset: &'a Dataset,
+    /// What was measured directly in them.
+    pub direct: Direct,
+    /// Noise of their mean.
+    pub noise: NoiseModel,
+    /// Further data.
+    pub beside: Vec<Beside<'a>>,
     /// The fit.
     pub problem: Problem<'a>,
     /// Effects in every hypothesis: the scenario's own, if they are refitted.
@@ -50,63 +74,80 @@ pub struct Case<'a> {
     pub alpha: f64,
 }
 
-/// Catalogue of a diagnosis: the scenario's own effects first if they are refitted, then those that may be missing.
-pub fn catalogue(scenario: &Scenario, options: &Options) -> (Vec<Candidate>, usize) {
+/// Catalogue of a diagnosis: the scenario's own effects first if they are refitted, then those that may be missing; without
+/// those that nothing is left to be seen of in any of the data.
+pub fn catalogue(scenario: &Scenario, direct: &[Direct], options: &Options) -> (Vec<Candidate>, usize) {
+    let open = |c: &Candidate| direct.iter().any(|direct| is_open(c.stage, *direct));
     let mut list = if options.refit_present { present(scenario) } else { Vec::new() };
+    list.retain(open);
     let own = list.len();
-    list.extend(candidates(scenario));
+    list.extend(candidates(scenario).into_iter().filter(open));
     (list, own)
 }
 
 impl<'a> Case<'a> {
-    /// Estimates the noise and fits the base, twice: each needs the other.
+    /// Estimates the noise and fits the base, twice: each needs the other. `sessions` are those of each source, in order.
     ///
     /// # Errors
-    /// What the model or the noise estimate returns.
+    /// What the model or the noise estimate returns; data beside the first with fewer than three runs.
     pub fn new(
-        scenario: &'a Scenario,
-        dataset: &'a Dataset,
-        sessions: &[usize],
+        sources: &[Source<'a>],
+        sessions: &[Vec<usize>],
         (candidates, own): (&'a [Candidate], usize),
         options: &Options,
     ) -> Result<Case<'a>, CompareError> {
-        let estimate = |slope: &[f64]| NoiseModel::estimate(dataset, slope, sessions, options.sigma_m);
-        Case::with_noise(scenario, dataset, &estimate, (candidates, own), options)
+        for source in sources.iter().skip(1).filter(|s| s.dataset.runs.len() < RUNS_FOR_P) {
+            let (name, runs) = (source.dataset.name.clone(), source.dataset.runs.len());
+            return Err(CompareError::TooFewRunsBeside { name, runs, needed: RUNS_FOR_P });
+        }
+        let estimate =
+            |i: usize, slope: &[f64]| NoiseModel::estimate(sources[i].dataset, slope, &sessions[i], options.sigma_m);
+        Case::with_noise(sources, &estimate, (candidates, own), options)
     }
 
-    /// The same with noise from elsewhere, as a function of ∂f/∂ln p.
+    /// The same with noise from elsewhere, as a function of the source's number and its ∂f/∂ln p.
     ///
     /// # Errors
     /// What the model or the noise returns.
     pub fn with_noise(
-        scenario: &'a Scenario,
-        dataset: &'a Dataset,
-        noise: &dyn Fn(&[f64]) -> Result<NoiseModel, CompareError>,
+        sources: &[Source<'a>],
+        noise: &dyn Fn(usize, &[f64]) -> Result<NoiseModel, CompareError>,
         (candidates, own): (&'a [Candidate], usize),
         options: &Options,
     ) -> Result<Case<'a>, CompareError> {
-        Layout::of(dataset)?;
-        let body_pa = body_pressures(dataset);
+        let Source { scenario, dataset, direct } = sources[0];
+        for source in sources {
+            Layout::of(source.dataset)?;
+        }
+        let body_pa = body_pressures(sources.iter().map(|source| source.dataset));
         let bendings = if options.keep_bending { 0 } else { body_pa.len() };
         let always: Vec<usize> = (0..own).collect();
         let values: Vec<f64> = candidates[..own].iter().flat_map(|c| own_values(scenario, c)).collect();
-        let mut slope = predict_dataset(scenario, dataset)?.d_ln_pressure_m;
-        let fit = |slope: &[f64]| -> Result<(NoiseModel, Problem<'a>, Fit), CompareError> {
-            let noise = noise(slope)?;
-            let all: Vec<usize> = (0..dataset.holds.len()).collect();
-            let block = block(scenario, dataset, &all, dataset.mean_over_runs(), &noise, &body_pa)?;
-            let problem = Problem { candidates, blocks: vec![block], bendings, enough: ENOUGH };
+        let slopes = sources.iter().map(|s| Ok(predict_dataset(s.scenario, s.dataset)?.d_ln_pressure_m));
+        let slopes: Vec<Vec<f64>> = slopes.collect::<Result<_, CompareError>>()?;
+        let fit = |slopes: &[Vec<f64>]| -> Result<(Vec<NoiseModel>, Problem<'a>, Fit), CompareError> {
+            let (mut noises, mut blocks) = (Vec::new(), Vec::new());
+            for (i, source) in sources.iter().enumerate() {
+                let noise = noise(i, &slopes[i])?;
+                blocks.push(whole_block(source, source.dataset.mean_over_runs(), &noise, &body_pa)?);
+                noises.push(noise);
+            }
+            let problem = Problem { candidates, blocks, bendings, enough: ENOUGH };
             let base = problem.fit_base(&always, &values).ok_or_else(no_base)?;
-            Ok((noise, problem, base))
+            Ok((noises, problem, base))
         };
-        let (_, problem, base) = fit(&slope)?;
-        slope = derivative(&problem, &base)?;
-        let (noise, problem, base) = fit(&slope)?;
+        let (_, problem, base) = fit(&slopes)?;
+        let slopes: Result<Vec<_>, _> = problem.blocks.iter().map(|block| derivative(&problem, block, &base)).collect();
+        let (mut noises, problem, base) = fit(&slopes?)?;
+        let noise = noises.remove(0);
+        let beside = sources[1..].iter().zip(noises).map(|(source, noise)| Beside { source: *source, noise }).collect();
         let d_max_m = Comparison::new(dataset, &noise, &dataset.mean_over_runs())?.d_max_m;
         Ok(Case {
             scenario,
             dataset,
+            direct,
             noise,
+            beside,
             always,
             tests: independent_tests(&problem, &base, own..candidates.len()),
             problem,
@@ -123,21 +164,61 @@ impl<'a> Case<'a> {
         &self.problem.candidates[effect]
     }
 
-    /// Prediction of a fit in run layout \[m\].
+    /// Prediction of a fit in run layout of the first data \[m\].
     pub fn prediction(&self, fit: &Fit) -> Vec<f64> {
-        let block = &self.problem.blocks[0];
+        self.prediction_of(0, fit)
+    }
+
+    /// The same of the source with that number.
+    pub fn prediction_of(&self, source: usize, fit: &Fit) -> Vec<f64> {
+        let block = &self.problem.blocks[source];
         let predicted =
             block.predict_at(&block.holds, self.problem.candidates, &fit.effects, fit.theta(), self.problem.bendings);
         // A fit ends at a place that was predicted before, so there is a prediction.
-        predicted.unwrap_or_else(|| self.dataset.mean_over_runs())
+        predicted.unwrap_or_else(|| block.target_m.clone())
+    }
+
+    /// All sources with their noise, the first one first.
+    pub fn sources(&self) -> impl Iterator<Item = (Source<'a>, &NoiseModel)> {
+        let first = Source { scenario: self.scenario, dataset: self.dataset, direct: self.direct };
+        std::iter::once((first, &self.noise)).chain(self.beside.iter().map(|b| (b.source, &b.noise)))
+    }
+
+    /// Blocks of the data beside the first.
+    ///
+    /// # Errors
+    /// If a covariance cannot be decomposed.
+    pub fn blocks_beside(&self) -> Result<Vec<Block<'a>>, CompareError> {
+        let block = |b: &Beside<'a>| whole_block(&b.source, b.source.dataset.mean_over_runs(), &b.noise, &self.body_pa);
+        self.beside.iter().map(block).collect()
+    }
+
+    /// The part of whitened values that belongs to the first data.
+    pub fn first<'v>(&self, white: &'v [f64]) -> &'v [f64] {
+        &white[..self.noise.directions.len()]
+    }
+
+    /// Whether p-values can be formed.
+    pub fn gives_p_values(&self) -> bool {
+        self.sources().all(|(_, noise)| noise.gives_p_values())
+    }
+
+    /// Degrees of freedom of σ²; of several data the fewest.
+    fn noise_dof(&self) -> usize {
+        self.sources().map(|(_, noise)| noise.pure_error_dof).min().unwrap_or(0)
     }
 
     /// Error beyond noise of a prediction \[mm\]; the root-mean-square error if the noise is unknown.
     pub fn error_mm(&self, prediction_m: &[f64]) -> f64 {
-        let mean = &self.problem.blocks[0].target_m;
-        let squares = prediction_m.iter().zip(mean).map(|(f, y)| (f - y).powi(2)).sum::<f64>() / mean.len() as f64;
-        let noise = self.noise.mean_square(0..mean.len()).unwrap_or(0.0);
-        1e3 * (squares - noise).max(0.0).sqrt()
+        error_mm(prediction_m, &self.problem.blocks[0].target_m, &self.noise)
+    }
+
+    /// The same of a fit in each of the data beside the first \[mm\].
+    pub fn errors_beside_mm(&self, fit: &Fit) -> Vec<f64> {
+        let error = |(i, b): (usize, &Beside)| {
+            error_mm(&self.prediction_of(i + 1, fit), &self.problem.blocks[i + 1].target_m, &b.noise)
+        };
+        self.beside.iter().enumerate().map(error).collect()
     }
 
     /// Error beyond noise that no scatter between runs explains \[mm\]: from the whitened sum of squares, whose expectation
@@ -160,8 +241,8 @@ impl<'a> Case<'a> {
     /// p of a gain by `parameters`, the best of `tests`; `None` if no p-values can be formed.
     pub fn p_of_gain(&self, gain: f64, parameters: usize, tests: f64) -> Option<f64> {
         let q = parameters.max(1);
-        let p = tests * f_tail(gain / q as f64, q, self.noise.pure_error_dof);
-        self.noise.gives_p_values().then_some(p.min(1.0))
+        let p = tests * f_tail(gain / q as f64, q, self.noise_dof());
+        self.gives_p_values().then_some(p.min(1.0))
     }
 
     /// Whether a parameter of its effects sits on a bound against which the data push.
@@ -185,24 +266,46 @@ fn independent_tests(problem: &Problem, base: &Fit, tried: std::ops::Range<usize
     (apart + (count - n) as f64).max(1.0)
 }
 
+/// Root-mean-square error of a prediction beyond the noise of the mean \[mm\].
+fn error_mm(prediction_m: &[f64], mean_m: &[f64], noise: &NoiseModel) -> f64 {
+    let squares = prediction_m.iter().zip(mean_m).map(|(f, y)| (f - y).powi(2)).sum::<f64>() / mean_m.len() as f64;
+    let expected = noise.mean_square(0..mean_m.len()).unwrap_or(0.0);
+    1e3 * (squares - expected).max(0.0).sqrt()
+}
+
+/// The block of all holds of a dataset.
+///
+/// # Errors
+/// If the covariance cannot be decomposed.
+pub fn whole_block<'a>(
+    source: &Source<'a>,
+    target_m: Vec<f64>,
+    noise: &NoiseModel,
+    body_pa: &[f64],
+) -> Result<Block<'a>, CompareError> {
+    let all: Vec<usize> = (0..source.dataset.holds.len()).collect();
+    block(source, &all, target_m, noise, body_pa)
+}
+
 /// The block of a dataset's mean, or of another target at its holds.
 ///
 /// # Errors
 /// If the covariance cannot be decomposed.
 pub fn block<'a>(
-    scenario: &Scenario,
-    dataset: &'a Dataset,
+    source: &Source<'a>,
     holds: &[usize],
     target_m: Vec<f64>,
     noise: &NoiseModel,
     body_pa: &[f64],
 ) -> Result<Block<'a>, CompareError> {
+    let Source { scenario, dataset, direct } = *source;
     let width = dataset.values_per_run() / dataset.holds.len();
     let rows: Vec<[f64; 4]> =
         holds.iter().flat_map(|h| noise.directions[h * width..(h + 1) * width].to_vec()).collect();
     Ok(Block {
         scenario: scenario.clone(),
         dataset,
+        direct,
         holds: holds.to_vec(),
         bending_of: dataset.holds.iter().map(|h| nearest(body_pa, h.p_body_pa)).collect(),
         target_m,
@@ -211,9 +314,9 @@ pub fn block<'a>(
 }
 
 /// Distinct body pressures in order of appearance \[Pa\].
-pub fn body_pressures(dataset: &Dataset) -> Vec<f64> {
+pub fn body_pressures<'d>(datasets: impl IntoIterator<Item = &'d Dataset>) -> Vec<f64> {
     let mut levels: Vec<f64> = Vec::new();
-    for hold in &dataset.holds {
+    for hold in datasets.into_iter().flat_map(|dataset| &dataset.holds) {
         let p = hold.p_body_pa;
         if !levels.iter().any(|l| (l - p).abs() <= SAME_BODY_PRESSURE * l.abs().max(100.0)) {
             levels.push(p);
@@ -229,16 +332,15 @@ pub fn nearest(levels: &[f64], p: f64) -> usize {
 
 /// Scenarios of a fit, one per bending stiffness; the scenario's own if B is kept.
 pub fn fitted_scenarios(problem: &Problem, block: &Block, effects: &[usize], theta: &[f64]) -> Vec<Scenario> {
-    let model = with_effects(&block.scenario, problem.candidates, effects, &theta[problem.bendings..]);
+    let model = block.with_effects(problem.candidates, effects, &theta[problem.bendings..]);
     match problem.bendings {
         0 => vec![model],
         n => theta[..n].iter().map(|b| model.with_bending(*b)).collect(),
     }
 }
 
-/// ∂f/∂ln p of a fit in the first block \[m\].
-fn derivative(problem: &Problem, fit: &Fit) -> Result<Vec<f64>, CompareError> {
-    let block = &problem.blocks[0];
+/// ∂f/∂ln p of a fit in a block \[m\].
+fn derivative(problem: &Problem, block: &Block, fit: &Fit) -> Result<Vec<f64>, CompareError> {
     let mut slope = vec![0.0; block.target_m.len()];
     let width = slope.len() / block.dataset.holds.len();
     for (group, scenario) in fitted_scenarios(problem, block, &fit.effects, fit.theta()).iter().enumerate() {

@@ -176,8 +176,16 @@ fn is_significant(case: &Case, fit: &Fit) -> Result<bool, CompareError> {
     Ok(lack || another_wanted(case, fit) < case.alpha)
 }
 
+/// Lack of fit; of several data the clearest, corrected for their number.
 fn test(case: &Case, fit: &Fit) -> Result<Option<LackOfFit>, CompareError> {
-    lack_of_fit(case.dataset, &case.noise, &case.prediction(fit), fit.theta().len())
+    let mut tests = Vec::new();
+    for (i, (source, noise)) in case.sources().enumerate() {
+        tests.push(lack_of_fit(source.dataset, noise, &case.prediction_of(i, fit), fit.theta().len())?);
+    }
+    let count = tests.len() as f64;
+    let clearest = tests.into_iter().collect::<Option<Vec<_>>>();
+    let clearest = clearest.and_then(|all| all.into_iter().min_by(|a, b| a.p_value.total_cmp(&b.p_value)));
+    Ok(clearest.map(|lof| LackOfFit { p_value: (count * lof.p_value).min(1.0), ..lof }))
 }
 
 fn p_of(case: &Case, fit: &Fit) -> Option<f64> {

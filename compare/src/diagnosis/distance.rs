@@ -10,7 +10,7 @@
 //! explanation sees the difference more often than Φ(√λ − z_{1−α}); one that knows neither the size and kind of what it looks
 //! for nor the noise sees it less often.
 
-use super::case::{Case, catalogue};
+use super::case::{Case, Source, catalogue};
 use super::options::Options;
 use super::pairs::fit_pairs;
 use super::singles::fit_all;
@@ -56,9 +56,10 @@ pub fn distances(
 ) -> Result<Distances, CompareError> {
     let (fitted, _) = fit_scenario(scenario, ideal, about)?;
     let options = Options::default();
-    let (candidates, own) = catalogue(&fitted, &options);
-    let known = |slope: &[f64]| NoiseModel::known(ideal, slope, noise.runs, noise.sigma_m, noise.run_sd);
-    let case = Case::with_noise(&fitted, ideal, &known, (&candidates, own), &options)?;
+    let source = Source { scenario: &fitted, dataset: ideal, direct: about.map(|a| a.direct).unwrap_or_default() };
+    let (candidates, own) = catalogue(&fitted, &[source.direct], &options);
+    let known = |_: usize, slope: &[f64]| NoiseModel::known(ideal, slope, noise.runs, noise.sigma_m, noise.run_sd);
+    let case = Case::with_noise(&[source], &known, (&candidates, own), &options)?;
     let (singles, _) = fit_all(&case);
     let base = case.base.cost();
     let allowed = singles.iter().filter(|fit| !case.is_rejected(fit));

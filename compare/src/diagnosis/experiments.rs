@@ -1,7 +1,7 @@
 //! Experiments that may be proposed, for any robot: its own pressures scaled, not ours.
 
 use crate::comparison::ZERO_PRESSURE_PA;
-use data::{Dataset, Hold, Phase};
+use data::{Dataset, Direct, Hold, Phase};
 use models::Scenario;
 
 /// Known force hung on the tip \[N\].
@@ -12,7 +12,7 @@ const LONG_HOLD_S: f64 = 60.0;
 /// An experiment: one or more parts, each a protocol under loads.
 pub struct Plan {
     /// Short name.
-    pub name: &'static str,
+    pub name: String,
     /// What to do.
     pub sentence: String,
     /// Parts, each measured as often as the data at hand.
@@ -25,10 +25,39 @@ pub struct Part {
     pub scenario: Scenario,
     /// Protocol and markers; one run without values.
     pub dataset: Dataset,
+    /// What is measured directly.
+    pub direct: Direct,
 }
 
-/// All experiments for the robot and the protocol of the data at hand.
-pub fn plans(scenario: &Scenario, dataset: &Dataset) -> Vec<Plan> {
+/// All experiments for the robot and the protocol of the data at hand; then the same with what `instruments` measure directly,
+/// if that is more than in those data.
+pub fn plans(scenario: &Scenario, dataset: &Dataset, at_hand: Direct, instruments: Direct) -> Vec<Plan> {
+    let all = Direct { pressure: at_hand.pressure || instruments.pressure, frame: at_hand.frame || instruments.frame };
+    let mut plans = protocols(scenario, dataset, at_hand);
+    if all != at_hand {
+        let (name, sentence) = with_instruments(at_hand, all);
+        plans.extend(protocols(scenario, dataset, all).into_iter().map(|plan| Plan {
+            name: format!("{}, {name}", plan.name),
+            sentence: format!("{}, {sentence}", plan.sentence),
+            ..plan
+        }));
+    }
+    plans
+}
+
+/// Short and long, what is measured directly for the first time.
+fn with_instruments(before: Direct, now: Direct) -> (String, String) {
+    let pressure = (now.pressure && !before.pressure)
+        .then_some(("gauge", "with the pressure read, or regulated, at the actuator itself"));
+    let frame = (now.frame && !before.frame)
+        .then_some(("frame", "with fiducials on the clamp and a checkerboard in the markers' plane"));
+    let both: Vec<_> = [pressure, frame].into_iter().flatten().collect();
+    let join = |words: Vec<&str>, between| words.join(between);
+    (join(both.iter().map(|b| b.0).collect(), ", "), join(both.iter().map(|b| b.1).collect(), " and "))
+}
+
+/// Protocols and loads.
+fn protocols(scenario: &Scenario, dataset: &Dataset, direct: Direct) -> Vec<Plan> {
     let top = dataset.holds.iter().map(|h| h.p_act_pa).fold(ZERO_PRESSURE_PA, f64::max);
     let body = dataset.holds[0].p_body_pa;
     let steps = |n: usize| (0..=n).map(|i| top * i as f64 / n as f64).collect::<Vec<f64>>();
@@ -39,14 +68,18 @@ pub fn plans(scenario: &Scenario, dataset: &Dataset) -> Vec<Plan> {
     let standard = then_zero(steps(3));
     let fine = then_zero(steps(6));
     let up_down: Vec<f64> = steps(3).into_iter().chain(steps(3).into_iter().rev().skip(1)).collect();
-    let one = |pressures: &[f64], body: f64, hold_s: f64| {
-        vec![Part { scenario: scenario.clone(), dataset: protocol(dataset, pressures, body, hold_s) }]
+    let part = |scenario: &Scenario, pressures: &[f64], body: f64, hold_s: f64| Part {
+        scenario: scenario.clone(),
+        dataset: protocol(dataset, pressures, body, hold_s),
+        direct,
     };
+    let one = |pressures: &[f64], body: f64, hold_s: f64| vec![part(scenario, pressures, body, hold_s)];
     let usual = hold_length_s(dataset);
     let flipped = Scenario { gravity_direction: scenario.gravity_direction.map(|g| -g), ..scenario.clone() };
-    let turned = vec![Part { scenario: flipped, dataset: protocol(dataset, &standard, body, usual) }];
+    let turned = vec![part(&flipped, &standard, body, usual)];
+    let tipped = [TIP_FORCE_N, -TIP_FORCE_N].map(|force| part(&tipped(scenario, force), &standard, body, usual)).into();
     let other_body = second_body(dataset, body);
-    let plan = |name, sentence: String, parts| Plan { name, sentence, parts };
+    let plan = |name: &str, sentence: String, parts| Plan { name: name.into(), sentence, parts };
     vec![
         plan("finer pressures", format!("repeat in steps of {:.1} kPa", top / 6e3), one(&fine, body, usual)),
         plan(
@@ -55,11 +88,7 @@ pub fn plans(scenario: &Scenario, dataset: &Dataset) -> Vec<Plan> {
             one(&standard, other_body, usual),
         ),
         plan("up and down", "lower the pressure in the same steps as it was raised".into(), one(&up_down, body, usual)),
-        plan(
-            "tip force",
-            format!("repeat with ±{TIP_FORCE_N} N on the tip, across the body"),
-            tipped(scenario, dataset, &standard, body),
-        ),
+        plan("tip force", format!("repeat with ±{TIP_FORCE_N} N on the tip, across the body"), tipped),
         plan("turned over", "repeat with the robot rolled by 180°, so that gravity is reversed".into(), turned),
         plan("long hold", format!("hold every pressure for {LONG_HOLD_S:.0} s"), one(&standard, body, LONG_HOLD_S)),
         plan("repeat", "repeat the same protocol as often again".into(), one(&standard, body, usual)),
@@ -74,18 +103,15 @@ pub fn protocol_text(plan: &Plan) -> String {
     format!("{}@{}", list.join(","), kpa(holds[0].p_body_pa))
 }
 
-fn tipped(scenario: &Scenario, dataset: &Dataset, pressures: &[f64], body: f64) -> Vec<Part> {
+/// With a force on the tip beside the known one.
+fn tipped(scenario: &Scenario, force_n: f64) -> Scenario {
     let known = scenario.effects.iter().find(|e| e.name == "tip_load").map_or([0.0; 2], |e| [e.values[0], e.values[1]]);
-    let part = |force: f64| Part {
-        scenario: scenario.with_effect("tip_load", &[known[0], known[1] + force]),
-        dataset: protocol(dataset, pressures, body, hold_length_s(dataset)),
-    };
-    vec![part(TIP_FORCE_N), part(-TIP_FORCE_N)]
+    scenario.with_effect("tip_load", &[known[0], known[1] + force_n])
 }
 
 /// Twice the first body pressure, or the middle of the two that are there.
 fn second_body(dataset: &Dataset, body: f64) -> f64 {
-    let other = super::case::body_pressures(dataset).get(1).copied();
+    let other = super::case::body_pressures([dataset]).get(1).copied();
     other.map_or(2.0 * body, |other| 0.5 * (other + body))
 }
 

@@ -2,7 +2,7 @@
 //!
 //! The fit is linear near its end: parameter k = w_kᵀȳ with weights from the whitened Jacobian. Its variance is taken from
 //! the best estimate of the noise, not from the widened one of the tests, as camera part plus run-to-run parts; t has the
-//! degrees of freedom of that sum (Welch–Satterthwaite), so that three runs give wide intervals. Where a bound is near or
+//! degrees of freedom of that sum over all data (Welch–Satterthwaite), so that three runs give wide intervals. Where a bound is near or
 //! the interval exceeds 30 % of the value, the profile of the sum of squares replaces the linear one.
 
 use super::basis::Basis;
@@ -43,22 +43,26 @@ fn interval(case: &Case, fit: &Fit, k: usize, profiled: bool) -> Option<[f64; 2]
 
 /// Half-width of the interval of wᵀȳ, `white` being the weights on whitened values.
 fn half_width(case: &Case, white: &[f64]) -> Option<f64> {
-    let noise = &case.noise;
-    let sigma = noise.sigma_m?;
-    // The whitening matrix is symmetric: weights on raw values are the whitened weights on white ones.
-    let weights = noise.whiten(white);
-    let runs = noise.runs as f64;
-    let camera = sigma * sigma / runs * square(&weights);
-    let run_to_run: f64 = (0..4)
-        .map(|j| {
-            let along: f64 = weights.iter().zip(&noise.directions).map(|(w, u)| w * u[j]).sum();
-            along * along * noise.mean_variance[j].max(SENSOR_SD[j].powi(2) / runs)
-        })
-        .sum();
-    let total = camera + run_to_run;
-    let run_dof = noise.runs.saturating_sub(noise.sessions).max(1) as f64;
-    let dof =
-        total * total / (camera * camera / noise.pure_error_dof.max(1) as f64 + run_to_run * run_to_run / run_dof);
+    let (mut total, mut squares_over_dof, mut from) = (0.0, 0.0, 0);
+    for (_, noise) in case.sources() {
+        let to = from + noise.directions.len();
+        let sigma = noise.sigma_m?;
+        // The whitening matrix is symmetric: weights on raw values are the whitened weights on white ones.
+        let weights = noise.whiten(&white[from..to]);
+        let runs = noise.runs as f64;
+        let camera = sigma * sigma / runs * square(&weights);
+        let run_to_run: f64 = (0..4)
+            .map(|j| {
+                let along: f64 = weights.iter().zip(&noise.directions).map(|(w, u)| w * u[j]).sum();
+                along * along * noise.mean_variance[j].max(SENSOR_SD[j].powi(2) / runs)
+            })
+            .sum();
+        let run_dof = noise.runs.saturating_sub(noise.sessions).max(1) as f64;
+        total += camera + run_to_run;
+        squares_over_dof += camera * camera / noise.pure_error_dof.max(1) as f64 + run_to_run * run_to_run / run_dof;
+        from = to;
+    }
+    let dof = total * total / squares_over_dof;
     let t = StudentsT::new(0.0, 1.0, dof.max(1.0)).ok()?.inverse_cdf(0.975);
     Some(t * total.sqrt())
 }

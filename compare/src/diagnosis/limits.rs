@@ -9,10 +9,11 @@ use data::{Dataset, Phase};
 /// A base that leaves more than this share of the measured movement does not fit at all.
 const NO_FIT: f64 = 0.5;
 
-/// What the protocol hides.
-pub fn limits(dataset: &Dataset, undetectable: &[Undetectable]) -> Vec<String> {
+/// What the protocols hide.
+pub fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Vec<String> {
     let mut limits = Vec::new();
-    let mut levels: Vec<f64> = dataset.holds.iter().map(|h| h.p_act_pa).filter(|p| *p > ZERO_PRESSURE_PA).collect();
+    let holds = || datasets.iter().flat_map(|dataset| &dataset.holds);
+    let mut levels: Vec<f64> = holds().map(|h| h.p_act_pa).filter(|p| *p > ZERO_PRESSURE_PA).collect();
     levels.sort_by(f64::total_cmp);
     levels.dedup_by(|a, b| *a - *b <= 0.05 * *b);
     if levels.len() < 2 {
@@ -22,17 +23,17 @@ pub fn limits(dataset: &Dataset, undetectable: &[Undetectable]) -> Vec<String> {
                 .into(),
         );
     }
-    if !dataset.holds.iter().any(|h| h.phase == Phase::Unload) {
+    if !holds().any(|h| h.phase == Phase::Unload) {
         limits.push(
             "no unloading branch: what remembers the way there (friction, plastic set, creep) looks like a stiffer or \
              weaker robot or cannot be seen; lower the pressure again in steps"
                 .into(),
         );
     }
-    if dataset.samples_per_hold < 3 {
+    if datasets.iter().all(|dataset| dataset.samples_per_hold < 3) {
         limits.push("fewer than three samples per hold: what drifts in time (creep, leaks) cannot be seen".into());
     }
-    if body_pressures(dataset).len() < 2 {
+    if body_pressures(datasets.iter().copied()).len() < 2 {
         limits.push("one body pressure only: what grows with it cannot be told from what does not".into());
     }
     let unseen: Vec<String> =

@@ -42,6 +42,8 @@ mod stands_out;
 mod story;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod together_tests;
 mod words;
 
 pub use candidates::{Candidate, Free, candidates};
@@ -56,8 +58,8 @@ use crate::noise_summary::NoiseSummary;
 use crate::residuals::{ResidualMap, residual_map};
 use crate::study::fit_scenario;
 use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
-use case::Case;
-use data::{About, Dataset};
+use case::{Case, Source};
+use data::{About, Dataset, Direct};
 use decide::{Decision, decide};
 use heldout::HeldOut;
 use models::Scenario;
@@ -65,6 +67,15 @@ use problem::Fit;
 
 /// Gain below which a name is a hint, and above which a lone one is called identified.
 const GAINS: [f64; 2] = [25.0, 100.0];
+
+/// Data and their description.
+#[derive(Debug, Clone, Copy)]
+pub struct Measured<'a> {
+    /// Marker data.
+    pub dataset: &'a Dataset,
+    /// What the table does not say: loads, and what was measured directly.
+    pub about: Option<&'a About>,
+}
 
 /// Diagnoses a dataset: is an effect missing in the scenario, which, and what would tell.
 ///
@@ -76,15 +87,36 @@ pub fn diagnose(
     about: Option<&About>,
     options: &Options,
 ) -> Result<Diagnosis, CompareError> {
+    diagnose_together(scenario, Measured { dataset, about }, &[], options)
+}
+
+/// The same with further data of the same robot, each under its own protocol and loads: one bending stiffness for every body
+/// pressure and one value of every parameter must meet them all. Errors in millimetres, places and held-out parts are those
+/// of the first data.
+///
+/// # Errors
+/// As [`diagnose`]; further data with fewer than three runs.
+pub fn diagnose_together(
+    scenario: &Scenario,
+    first: Measured,
+    further: &[Measured],
+    options: &Options,
+) -> Result<Diagnosis, CompareError> {
     check(options)?;
-    crate::layout::Layout::of(dataset)?;
-    let (fitted, mut warnings) = fit_scenario(scenario, dataset, about)?;
-    let mut prepared = prepare::prepare(dataset, about);
-    warnings.append(&mut prepared.warnings);
-    let (candidates, own) = case::catalogue(&fitted, options);
-    let case = Case::new(&fitted, &prepared.dataset, &prepared.sessions, (&candidates, own), options)?;
-    prepared.outliers.runs = prepare::outlying_runs(&prepared.dataset, &case.noise);
-    warnings.extend(prepared.outliers.runs.iter().map(|r| {
+    let (mut parts, mut warnings) = (Vec::new(), Vec::new());
+    for (i, measured) in std::iter::once(&first).chain(further).enumerate() {
+        let (part, told) = Part::of(scenario, measured)?;
+        let name = if i > 0 { format!("{}: ", measured.dataset.name) } else { String::new() };
+        warnings.extend(told.into_iter().map(|warning| format!("{name}{warning}")));
+        parts.push(part);
+    }
+    let sources: Vec<Source> = parts.iter().map(Part::source).collect();
+    let sessions: Vec<Vec<usize>> = parts.iter().map(|part| part.prepared.sessions.clone()).collect();
+    let direct: Vec<Direct> = parts.iter().map(|part| part.direct).collect();
+    let (candidates, own) = case::catalogue(&parts[0].scenario, &direct, options);
+    let case = Case::new(&sources, &sessions, (&candidates, own), options)?;
+    let runs = prepare::outlying_runs(case.dataset, &case.noise);
+    warnings.extend(runs.iter().map(|r| {
         format!(
             "run {} scatters {:.1} times as much as the others: look at it before believing anything",
             r.run, r.scatter_ratio
@@ -92,17 +124,41 @@ pub fn diagnose(
     }));
     warnings.extend(limits::warnings(&case));
     let decision = decide(&case, options)?;
-    let mut diagnosis = assemble(&case, &decision, prepared.outliers, warnings)?;
+    let outliers = Outliers { runs, ..parts[0].prepared.outliers.clone() };
+    let mut diagnosis = assemble(&case, &decision, outliers, warnings)?;
     if options.next_experiment {
         diagnosis.next_experiment = next::next_experiment(&case, &decision)?;
     }
-    if about.is_some_and(|a| a.gravity_direction.is_none()) {
+    if first.about.is_some_and(|a| a.gravity_direction.is_none()) {
         let words =
             "about.toml names no [gravity] direction: out of the question if the robot bends in a horizontal plane";
         diagnosis.ranked.iter_mut().filter(|r| r.effect == "gravity").for_each(|r| r.notes.push(words.into()));
     }
     diagnosis.summary = story::story(&diagnosis);
     Ok(diagnosis)
+}
+
+/// One of the data made ready.
+struct Part {
+    scenario: Scenario,
+    prepared: prepare::Prepared,
+    direct: Direct,
+}
+
+impl Part {
+    /// With cautions.
+    fn of(scenario: &Scenario, measured: &Measured) -> Result<(Part, Vec<String>), CompareError> {
+        let Measured { dataset, about } = *measured;
+        crate::layout::Layout::of(dataset)?;
+        let (scenario, mut warnings) = fit_scenario(scenario, dataset, about)?;
+        let mut prepared = prepare::prepare(dataset, about);
+        warnings.append(&mut prepared.warnings);
+        Ok((Part { scenario, prepared, direct: about.map(|a| a.direct).unwrap_or_default() }, warnings))
+    }
+
+    fn source(&self) -> Source<'_> {
+        Source { scenario: &self.scenario, dataset: &self.prepared.dataset, direct: self.direct }
+    }
 }
 
 fn check(options: &Options) -> Result<(), CompareError> {
@@ -146,6 +202,7 @@ fn assemble(
         dataset: case.dataset.name.clone(),
         actuator: case.dataset.actuator.clone(),
         runs: case.dataset.runs.len(),
+        beside: beside(case, last),
         verdict: decision.verdict,
         p_value: decision.p_value,
         alpha: case.alpha,
@@ -155,7 +212,7 @@ fn assemble(
         base: base(case, last, &held_out, &noise)?,
         noise,
         rule_out_first: rule_out_first(&ranked, decision),
-        limits: limits::limits(case.dataset, &undetectable),
+        limits: limits::limits(&case.sources().map(|(source, _)| source.dataset).collect::<Vec<_>>(), &undetectable),
         ranked,
         indistinguishable,
         pairs,
@@ -172,6 +229,18 @@ fn assemble(
         next_experiment: None,
         warnings,
     })
+}
+
+fn beside(case: &Case, last: &Fit) -> Vec<FittedBeside> {
+    let errors = case.errors_beside_mm(&case.base).into_iter().zip(case.errors_beside_mm(last));
+    let entry = |(b, (before, after)): (&case::Beside, (f64, f64))| FittedBeside {
+        dataset: b.source.dataset.name.clone(),
+        runs: b.source.dataset.runs.len(),
+        direct: b.source.direct,
+        systematic_mm: before,
+        systematic_with_added_mm: after,
+    };
+    case.beside.iter().zip(errors).map(entry).collect()
 }
 
 fn pairs_of(case: &Case, decision: &Decision) -> Vec<Combination> {

@@ -5,7 +5,7 @@
 //! separation λ = min |f_a − f_b|²: the expected difference of the sums of squares. 16 suffices in about nine of ten cases.
 //! It is taken both ways round and the larger counts: a fit of the wrong explanation hides part of the difference.
 
-use super::case::{Case, block, fitted_scenarios, nearest};
+use super::case::{Case, fitted_scenarios, nearest, whole_block};
 use super::decide::Decision;
 use super::experiments::{Part, Plan, plans, protocol_text};
 use super::problem::{Block, Fit, Problem};
@@ -14,6 +14,8 @@ use crate::directions::nuisance_directions;
 use crate::error::CompareError;
 use crate::study::predict_dataset;
 use crate::whiten::Whitener;
+use data::Direct;
+use models::effects::Stage;
 
 /// λ that tells two explanations apart in about nine of ten cases.
 const ENOUGH: f64 = 16.0;
@@ -36,7 +38,7 @@ pub fn next_experiment(case: &Case, decision: &Decision) -> Result<Option<NextEx
     let (best, rivals) = (hypotheses[0], &hypotheses[1..hypotheses.len().min(RIVALS + 1)]);
     let now = separations(case, None, best, rivals)?;
     let mut tried = Vec::new();
-    for plan in plans(case.scenario, case.dataset) {
+    for plan in plans(case.scenario, case.dataset, case.direct, instruments(case, &hypotheses)) {
         // A planned pressure without equilibrium is no experiment to propose.
         if let Ok(separations) = separations(case, Some(&plan), best, rivals) {
             tried.push(experiment(case, &plan, separations));
@@ -63,6 +65,15 @@ fn hypotheses(decision: &Decision) -> Vec<&Fit> {
     }
 }
 
+/// What would have to be measured directly so that none of the explanations is one of supply or camera.
+fn instruments(case: &Case, hypotheses: &[&Fit]) -> Direct {
+    let has = |stage: Stage| {
+        let tried = |fit: &&&Fit| fit.effects[case.always.len()..].iter().any(|e| case.candidate(*e).stage == stage);
+        hypotheses.iter().any(|fit| tried(&fit))
+    };
+    Direct { pressure: has(Stage::Supply), frame: has(Stage::Camera) }
+}
+
 fn label(case: &Case, fit: &Fit) -> String {
     let names: Vec<String> = fit.effects[case.always.len()..].iter().map(|e| case.candidate(*e).name.clone()).collect();
     names.join(" + ")
@@ -74,9 +85,10 @@ fn experiment(case: &Case, plan: &Plan, separations: Vec<Separation>) -> Experim
     let largest = separations.iter().map(|s| s.lambda).fold(0.0, f64::max);
     let runs = |lambda: f64| ((case.noise.runs as f64 * ENOUGH / lambda).ceil() as usize).max(3);
     Experiment {
-        name: plan.name.into(),
+        name: plan.name.clone(),
         sentence: plan.sentence.clone(),
         protocol: protocol_text(plan),
+        direct: plan.parts[0].direct,
         separated,
         lambda: within_reach.unwrap_or(largest),
         runs_needed: within_reach.map(runs),
@@ -104,8 +116,9 @@ struct Expected<'a> {
 
 impl<'a> Expected<'a> {
     fn of<'p: 'a>(case: &'a Case, plan: Option<&'p Plan>, truth: &Fit) -> Result<Expected<'a>, CompareError> {
-        let all: Vec<usize> = (0..case.dataset.holds.len()).collect();
-        let old = block(case.scenario, case.dataset, &all, case.prediction(truth), &case.noise, &case.body_pa)?;
+        let old = case.sources().enumerate();
+        let old = old.map(|(i, (s, noise))| whole_block(&s, case.prediction_of(i, truth), noise, &case.body_pa));
+        let old = old.collect::<Result<Vec<_>, _>>()?;
         let parts: &[Part] = plan.map_or(&[], |plan| &plan.parts);
         let body = parts.first().map(|part| part.dataset.holds[0].p_body_pa);
         let mut levels = case.body_pa.clone();
@@ -113,8 +126,7 @@ impl<'a> Expected<'a> {
         let added = usize::from(case.problem.bendings > 0 && body.as_ref().is_some_and(is_new));
         levels.extend(body.filter(|_| added > 0));
         let bendings = case.problem.bendings + added;
-        let mut problem =
-            Problem { candidates: case.problem.candidates, blocks: vec![old], bendings, enough: LAMBDA_ERROR };
+        let mut problem = Problem { candidates: case.problem.candidates, blocks: old, bendings, enough: LAMBDA_ERROR };
         let theta = extended(truth, case.problem.bendings, added);
         for part in parts {
             let planned = planned(case, &problem, part, &levels, (truth, &theta))?;
@@ -150,6 +162,7 @@ fn planned<'a>(
     let mut block = Block {
         scenario: part.scenario.clone(),
         dataset,
+        direct: part.direct,
         holds: (0..dataset.holds.len()).collect(),
         bending_of: dataset.holds.iter().map(|h| nearest(levels, h.p_body_pa)).collect(),
         target_m: Vec::new(),

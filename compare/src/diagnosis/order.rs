@@ -41,7 +41,7 @@ pub fn allowance(best_gain: f64) -> f64 {
 
 /// C of an explanation, up to a constant.
 pub fn criterion(case: &Case, fit: &Fit, allowance: f64) -> f64 {
-    let values = case.noise.directions.len() as f64;
+    let values = case.sources().map(|(_, noise)| noise.directions.len()).sum::<usize>() as f64;
     fit.cost() / allowance + case.extra(fit) as f64 * price(values, allowance) + oddness(case, fit)
 }
 

@@ -4,8 +4,9 @@ use super::basis::Basis;
 use super::candidates::Candidate;
 use super::evaluator::positions;
 use super::least_squares::{Minimum, Range, dot, minimise, square};
+use crate::study::predict::is_open;
 use crate::whiten::Whitener;
-use data::Dataset;
+use data::{Dataset, Direct};
 use models::Scenario;
 
 /// Largest B searched \[N·m²\]: 100 times what a 0.2 mm coated fabric would need at these sizes.
@@ -23,6 +24,8 @@ pub struct Block<'a> {
     pub scenario: Scenario,
     /// Protocol and markers.
     pub dataset: &'a Dataset,
+    /// What was measured directly: effects there change nothing in this block.
+    pub direct: Direct,
     /// Holds that are fitted, rising.
     pub holds: Vec<usize>,
     /// Index of the bending stiffness of every hold of the dataset.
@@ -85,7 +88,7 @@ impl Block<'_> {
         theta: &[f64],
         bendings: usize,
     ) -> Option<Vec<f64>> {
-        let mut model = with_effects(&self.scenario, candidates, effects, &theta[bendings..]);
+        let mut model = self.with_effects(candidates, effects, &theta[bendings..]);
         let mut out = vec![0.0; self.dataset.values_per_run()];
         if bendings == 0 {
             positions(&model, self.dataset, holds, &mut out).ok()?;
@@ -100,6 +103,20 @@ impl Block<'_> {
         Some(out)
     }
 
+    /// The base of this block with effects at values in SI, one effect's parameters after the other's.
+    pub fn with_effects(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Scenario {
+        let mut model = self.scenario.clone();
+        let mut from = 0;
+        for candidate in effects.iter().map(|e| &candidates[*e]) {
+            let to = from + candidate.parameters.len();
+            if is_open(candidate.stage, self.direct) {
+                model = candidate.apply(&model, &values[from..to]);
+            }
+            from = to;
+        }
+        model
+    }
+
     /// Whitened difference of a prediction to the target.
     pub fn whiten(&self, predicted_m: &[f64]) -> Vec<f64> {
         let width = predicted_m.len() / self.dataset.holds.len();
@@ -107,18 +124,6 @@ impl Block<'_> {
         let residual: Vec<f64> = rows.map(|i| predicted_m[i] - self.target_m[i]).collect();
         self.whitener.whiten(&residual)
     }
-}
-
-/// A scenario with effects at values in SI, one effect's parameters after the other's.
-pub fn with_effects(scenario: &Scenario, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Scenario {
-    let mut model = scenario.clone();
-    let mut from = 0;
-    for &effect in effects {
-        let to = from + candidates[effect].parameters.len();
-        model = candidates[effect].apply(&model, &values[from..to]);
-        from = to;
-    }
-    model
 }
 
 impl Problem<'_> {

@@ -5,6 +5,21 @@ use crate::residuals::ResidualMap;
 use crate::where_it_fails::Statement;
 use serde::Serialize;
 
+/// Data of the same robot that were fitted along with the first.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FittedBeside {
+    /// Dataset.
+    pub dataset: String,
+    /// Runs.
+    pub runs: usize,
+    /// What was measured directly in it.
+    pub direct: data::Direct,
+    /// Error beyond noise of the calibrated base there \[mm\].
+    pub systematic_mm: f64,
+    /// The same with what was added, or attempted \[mm\].
+    pub systematic_with_added_mm: f64,
+}
+
 /// The answer to "is an effect missing, and which".
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -286,6 +301,8 @@ pub struct Experiment {
     pub sentence: String,
     /// Protocol in the form of `ibr data generate --protocol`.
     pub protocol: String,
+    /// What is to be measured directly.
+    pub direct: data::Direct,
     /// Expected separation λ of the best explanation from each rival, same number of runs.
     pub separations: Vec<Separation>,
     /// Rivals with λ ≥ 16, which are told apart in about nine of ten cases.
@@ -331,6 +348,9 @@ pub struct Diagnosis {
     pub actuator: String,
     /// Runs used.
     pub runs: usize,
+    /// Further data that were fitted along; the errors elsewhere are those of the first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub beside: Vec<FittedBeside>,
     /// Verdict; `None` where no p-value can be formed: the ranking is then uncalibrated.
     pub verdict: Option<Verdict>,
     /// One p of "nothing is missing", corrected for everything that was tried; never below 1e-6.

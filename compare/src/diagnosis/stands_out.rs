@@ -48,7 +48,7 @@ pub fn stands_out(case: &Case, fit: &Fit) -> Vec<StandsOut> {
 pub fn left_pattern(case: &Case, last: Option<&Fit>) -> Option<LeftPattern> {
     let clearest = |fit: &Fit| look(case, fit, false).into_iter().max_by(|a, b| a.gain.total_cmp(&b.gain));
     let told = |fit: &Fit, seen: StandsOut, instead: bool| LeftPattern {
-        share: seen.gain / (fit.cost() - fit.minimum.residual.len() as f64).max(seen.gain),
+        share: seen.gain / excess(case.first(&fit.minimum.residual)).max(seen.gain),
         words: seen.words,
         p_value: reported_p(seen.p_value),
         instead,
@@ -62,12 +62,12 @@ pub fn left_pattern(case: &Case, last: Option<&Fit>) -> Option<LeftPattern> {
 }
 
 fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Vec<StandsOut> {
-    if !case.noise.gives_p_values() {
+    if !case.gives_p_values() {
         return Vec::new();
     }
     let prediction = case.prediction(fit);
     let whiten = |direction: &[f64]| case.problem.blocks[0].whitener.whiten(direction);
-    let fitted = Basis::of(&fit.minimum.jacobian);
+    let fitted = Basis::of(&fit.minimum.jacobian.iter().map(|column| case.first(column).to_vec()).collect::<Vec<_>>());
     let mut bent = fitted.clone();
     if beside_bending {
         for column in uniform_bending(case, &prediction) {
@@ -79,7 +79,7 @@ fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Vec<StandsOut> {
     for Pattern { words, is_uniform, direction } in patterns(case, &prediction) {
         let white = whiten(&direction);
         let Some(unit) = unit(if is_uniform { &fitted } else { &bent }, &white) else { continue };
-        let t = dot(&unit, &fit.minimum.residual);
+        let t = dot(&unit, case.first(&fit.minimum.residual));
         let p_value = two_sided_p(t, case.noise.pure_error_dof);
         found.push(StandsOut { words, is_uniform, gain: t * t, p_value });
         units.push(unit);
@@ -89,6 +89,11 @@ fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Vec<StandsOut> {
     found.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     let first = |uniform: bool| found.iter().find(|f| f.is_uniform == uniform).cloned();
     [first(false), first(true)].into_iter().flatten().collect()
+}
+
+/// What whitened residuals have beyond noise.
+fn excess(white: &[f64]) -> f64 {
+    square(white) - white.len() as f64
 }
 
 /// Unit vector along what a fit leaves of a pattern; `None` if that is next to nothing.

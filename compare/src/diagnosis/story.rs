@@ -1,6 +1,8 @@
 //! The diagnosis told in sentences.
 
-use super::result::{Confidence, Diagnosis, LeftPattern, ParameterValue, Ranked, Verdict};
+use data::Direct;
+
+use super::result::{Confidence, Diagnosis, FittedBeside, LeftPattern, ParameterValue, Ranked, Verdict};
 use super::words::quantity;
 use crate::wording::{list, p_value};
 
@@ -10,6 +12,7 @@ const MOSTLY: f64 = 0.25;
 /// The story, one sentence or two per entry.
 pub fn story(d: &Diagnosis) -> Vec<String> {
     let mut told = vec![opening(d)];
+    told.extend(d.beside.iter().map(beside));
     told.extend(match d.verdict {
         None => ranking_only(d),
         Some(Verdict::None) => nothing(d),
@@ -30,6 +33,19 @@ fn opening(d: &Diagnosis) -> String {
     let noise = d.base.noise_floor_mm.map_or("noise unknown".into(), |n| format!("noise of the mean {n:.2} mm"));
     let calibrated = if d.base.bending.is_empty() { "with the scenario's B" } else { "after fitting B" };
     format!("Misfit beyond noise: {:.2} mm {calibrated} ({noise}).", d.base.systematic_mm)
+}
+
+fn beside(part: &FittedBeside) -> String {
+    let direct = match part.direct {
+        Direct { pressure: false, frame: false } => "",
+        Direct { pressure: true, frame: false } => ", pressure measured at the actuator",
+        Direct { pressure: false, frame: true } => ", positions measured from the base",
+        Direct { pressure: true, frame: true } => ", pressure measured at the actuator and positions from the base",
+    };
+    let FittedBeside { dataset, runs, systematic_mm: before, systematic_with_added_mm: after, .. } = part;
+    format!(
+        "Fitted along: {dataset} ({runs} runs{direct}), {before:.2} mm beyond noise with the base, {after:.2} mm with this answer."
+    )
 }
 
 fn ranking_only(d: &Diagnosis) -> Vec<String> {

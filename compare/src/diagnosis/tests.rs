@@ -5,22 +5,22 @@ use super::*;
 use crate::study::{Generator, generate, parse_protocol, published::shipped_scenario};
 
 /// B at which the shipped robots bend about as far as measured \[N·m²\].
-fn robot(kind: &str) -> Scenario {
+pub(super) fn robot(kind: &str) -> Scenario {
     let bending = [("spam", 6.0), ("epam", 1.35), ("cpam", 0.9), ("fpam", 0.3)];
     let bending = bending.iter().find(|(name, _)| *name == kind).unwrap().1;
     shipped_scenario(kind).unwrap().with_bending(bending)
 }
 
-fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
+pub(super) fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
     generate(truth, "made", &Generator { runs, seed, ..Generator::default() }).unwrap()
 }
 
 /// Without the search for the next experiment, which most tests do not look at.
-fn quick() -> Options {
+pub(super) fn quick() -> Options {
     Options { next_experiment: false, ..Options::default() }
 }
 
-fn run(scenario: &Scenario, data: &Dataset) -> Diagnosis {
+pub(super) fn run(scenario: &Scenario, data: &Dataset) -> Diagnosis {
     diagnose(scenario, data, None, &quick()).unwrap()
 }
 

@@ -1,7 +1,8 @@
 //! A model's prediction at the holds and markers of a dataset.
 
 use crate::error::CompareError;
-use data::{About, Dataset};
+use data::{About, Dataset, Direct};
+use models::effects::Stage;
 use models::{Loads, Model, Prediction, Scenario, Step};
 
 /// Prediction in the layout of [`Dataset::run`], `[hold][sample][marker][x, y]`.
@@ -16,8 +17,8 @@ pub struct Predicted {
 /// Relative pressure step of the central difference for ∂f/∂ln P.
 const PRESSURE_STEP: f64 = 1e-4;
 
-/// The scenario with the dataset's marker stations, gravity direction and known tip force; and what does not match, in
-/// words.
+/// The scenario with the dataset's marker stations, gravity direction and known tip force, without effects of what was
+/// measured directly; and what does not match, in words.
 ///
 /// # Errors
 /// Another actuator, unknown stations, markers off the body, runs with different tip forces.
@@ -38,6 +39,7 @@ pub fn fit_scenario(
             fitted.gravity_direction = direction;
         }
         fitted = with_tip_force(fitted, dataset, about)?;
+        fitted.effects.retain(|effect| !is_settled(scenario, &effect.name, about.direct));
         warnings = geometry_warnings(scenario, about);
         if about.gravity_direction.is_none() && scenario.effects.iter().any(|e| e.name == "gravity") {
             warnings.push(
@@ -46,6 +48,21 @@ pub fn fit_scenario(
         }
     }
     Ok((fitted, warnings))
+}
+
+/// Whether a stage of a prediction can leave anything to explain in data of which that much was measured directly.
+pub(crate) fn is_open(stage: Stage, direct: Direct) -> bool {
+    match stage {
+        Stage::Supply => !direct.pressure,
+        Stage::Camera => !direct.frame,
+        _ => true,
+    }
+}
+
+/// Whether nothing is left of an effect in data of which that much was measured directly.
+fn is_settled(scenario: &Scenario, name: &str, direct: Direct) -> bool {
+    let stage = scenario.catalogue().effects().find(|e| e.name == name).map(|e| e.stage);
+    stage.is_some_and(|stage| !is_open(stage, direct))
 }
 
 fn stations(scenario: &Scenario, dataset: &Dataset) -> Result<Vec<f64>, CompareError> {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::evaluate::EvaluateOptions;
 use crate::study::published::{KEPERT, ROBIN, shipped_scenario};
-use data::{About, AboutRun, Dataset, Provenance};
+use data::{About, AboutRun, Dataset, Direct, Provenance};
 use models::exact::hinge;
 
 fn quiet(runs: usize) -> Generator {
@@ -28,6 +28,7 @@ fn about(tip_forces: &[[f64; 2]]) -> About {
         geometry: None,
         markers: vec![],
         gravity_direction: None,
+        direct: Direct::default(),
         runs: tip_forces.iter().enumerate().map(run).collect(),
         notes: None,
     }

@@ -1,6 +1,6 @@
 //! Descriptions: read, refused, written and read again.
 
-use crate::{About, Provenance, about_toml, parse_about};
+use crate::{About, Direct, Provenance, about_toml, parse_about};
 
 const FULL: &str = r#"title = "ePAM, five runs"
 provenance = "measured"
@@ -19,6 +19,8 @@ names = ["1", "2"]
 s_mm = [60, 360]
 [gravity]
 direction = [0, -1]
+[direct]
+pressure = true
 [[run]]
 id = "1"
 tip_force_n = [0, 0.3]
@@ -41,6 +43,7 @@ fn a_full_description_is_read_in_si_units() {
     assert_eq!(about.markers[1].station_m, 0.36);
     assert_eq!(about.gravity_direction, Some([0.0, -1.0]));
     assert_eq!((about.tip_force_n("1"), about.tip_force_n("2")), ([0.0, 0.3], [0.0, 0.0]));
+    assert_eq!(about.direct, Direct { pressure: true, frame: false });
     assert_eq!(about.runs[0].session.as_deref(), Some("monday"));
 }
 

@@ -12,7 +12,8 @@ pub struct RobotSettings {
     pub actuator_size_m: f64,
     /// Distance between layers at the start \[m\]. Published: 0.01 mm.
     pub layer_gap_m: f64,
-    /// Width of the axial welds \[m\]; 0 is a line. Assumed.
+    /// Width of the welds across the robot \[m\]; 0 is a line, along which taped plies fold without end as the mesh gets
+    /// finer. Assumed.
     pub weld_m: f64,
     /// Share of the bending stiffness of a solid plate that one sheet of coated fabric has. Assumed.
     pub bending_factor: f64,
@@ -75,7 +76,7 @@ impl RobotSettings {
             body_size_m: 8e-3,
             actuator_size_m: 3e-3,
             layer_gap_m: 1e-5,
-            weld_m: 0.0,
+            weld_m: 3e-3,
             bending_factor: 0.1,
             bond: 1.0,
             tape_m: 2e-4,
@@ -183,7 +184,7 @@ pub const ASSUMED: &[Assumed] = &[
     Assumed {
         name: "weld_m",
         interval: [0.0, 0.008],
-        reason: "a line to a wide impulse seal",
+        reason: "a line to a wide impulse seal; ultrasonic wheels are a few millimetres wide",
         set: |s, v| s.weld_m = v,
     },
     Assumed {

@@ -10,7 +10,7 @@ use compare::hidden::truth::{ROBOTS, known, standard_protocol};
 use compare::hidden::{Draw, HiddenEffect, Kind, Truth};
 use compare::study::pages::Files;
 use compare::study::parse_protocol;
-use data::{About, Dataset, Geometry, MarkerStation, Provenance};
+use data::{About, Dataset, Direct, Geometry, MarkerStation, Provenance};
 use models::Scenario;
 use models::scenario::quantity::Quantity;
 use serde_json::json;
@@ -161,6 +161,7 @@ fn about(scenario: &Scenario, dataset: &Dataset) -> About {
         }),
         markers: stations.map(|(m, s)| MarkerStation { name: m.name.clone(), station_m: *s }).collect(),
         gravity_direction: Some(scenario.gravity_direction),
+        direct: Direct::default(),
         runs: vec![],
         notes: Some(
             "Not a measurement. What is hidden is sealed in seal.toml; the recorded pressures are the set ones.".into(),

@@ -4,13 +4,13 @@ use super::attainable::distances_of;
 use super::follow::follow_up;
 use super::oracle::at_best;
 use super::{Case, Diagnose, Part};
-use crate::diagnosis::{Diagnosis, Distances, Experiment, Options};
+use crate::diagnosis::{Diagnosis, Distances, Experiment, Measured, Options};
 use crate::error::CompareError;
 use crate::hidden::score::{Answer, Score, score};
 use crate::hidden::truth::{ROBOTS, standard_protocol};
 use crate::hidden::{Draw, HIDDEN, Kind, OUTSIDE, Truth, truth};
 use crate::study::generate;
-use data::{About, Provenance};
+use data::{About, Direct, Provenance};
 
 /// What became of a set.
 #[derive(Debug, Clone)]
@@ -103,7 +103,8 @@ fn hidden(truth: &Truth, kind: Kind, diagnose: Diagnose) -> Result<Named, Compar
     let data = truth.dataset("hidden", &standard_protocol())?;
     let next_experiment = kind == Kind::One;
     let options = Options { next_experiment, ..Options::default() };
-    let found = diagnose(&truth.told()?, &data, Some(&about(truth)?), &options)?;
+    let about = about(truth)?;
+    let found = diagnose(&truth.told()?, Measured { dataset: &data, about: Some(&about) }, &[], &options)?;
     let mut named = named(truth, &found);
     if matches!(kind, Kind::One | Kind::Outside) {
         named.distances = Some(distances_of(truth, &data, kind == Kind::Outside)?);
@@ -127,8 +128,10 @@ fn hidden(truth: &Truth, kind: Kind, diagnose: Diagnose) -> Result<Named, Compar
 /// Score after an experiment.
 fn after(truth: &Truth, experiment: &Experiment, diagnose: Diagnose) -> Result<Score, CompareError> {
     let options = Options { next_experiment: false, ..Options::default() };
-    let (data, about) = follow_up(truth, experiment)?;
-    let found = diagnose(&truth.told()?, &data, Some(&about), &options)?;
+    let parts = follow_up(truth, experiment)?;
+    let parts: Vec<Measured> =
+        parts.iter().map(|(data, about)| Measured { dataset: data, about: Some(about) }).collect();
+    let found = diagnose(&truth.told()?, parts[0], &parts[1..], &options)?;
     Ok(score(truth, &Answer::of(&found)))
 }
 
@@ -152,7 +155,7 @@ fn interval(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
     let robot = told.with_bending(truth.bending_nm2).with_effect(name, &values);
     let data = generate(&robot, "own law", &truth.measurement(&standard_protocol()).generator)?;
     let options = Options { next_experiment: false, ..Options::default() };
-    let found = diagnose(&told, &data, Some(&about(truth)?), &options)?;
+    let found = diagnose(&told, Measured { dataset: &data, about: Some(&about(truth)?) }, &[], &options)?;
     let mut named = named(truth, &found);
     let only = found.added.len() == 1 && found.added[0].effect == *name;
     if let Some(first) = found.added.first().and_then(|added| added.parameters.first()).filter(|_| only) {
@@ -198,6 +201,7 @@ pub(super) fn about(truth: &Truth) -> Result<About, CompareError> {
         geometry: None,
         markers: Vec::new(),
         gravity_direction: Some(truth.told()?.gravity_direction),
+        direct: Direct::default(),
         runs: Vec::new(),
         notes: None,
     })

@@ -1,57 +1,77 @@
 //! The recommended next experiment, done on the same robot.
 //!
 //! What can be recorded in one table (other pressures, another body pressure, longer holds) is measured after the first
-//! protocol in the same runs; "repeat" doubles the runs. A tip force or gravity turned over needs a description of its
-//! own, so these data are diagnosed alone.
+//! protocol in the same runs; "repeat" doubles the runs. A tip force, gravity turned over, a gauge at the actuator, and
+//! positions from the base need a description of their own: these data are new runs, diagnosed together with the first.
 
-use super::cases::about;
+use super::cases::about as description;
 use crate::diagnosis::Experiment;
 use crate::error::CompareError;
 use crate::hidden::Truth;
+use crate::hidden::camera::Camera;
 use crate::hidden::measure::measure_holds;
+use crate::hidden::supply::Supply;
 use crate::hidden::truth::standard_protocol;
 use crate::study::generate::{Generator, holds};
 use crate::study::parse_protocol;
-use data::{About, AboutRun, Dataset, Hold};
+use data::{About, AboutRun, Dataset, Direct, Hold};
 
 /// Known force of the experiment "tip force" \[N\].
 const TIP_N: [f64; 2] = [0.0, 0.3];
 /// Length of a hold of the experiment "long hold" \[s\].
 const LONG_HOLD_S: f64 = 60.0;
 
-/// Measures again as recommended.
+/// Measures again as recommended: all data to be diagnosed, with their descriptions.
 ///
 /// # Errors
 /// A protocol that cannot be read; a hold at which nothing balances.
-pub(super) fn follow_up(truth: &Truth, experiment: &Experiment) -> Result<(Dataset, About), CompareError> {
+pub(super) fn follow_up(truth: &Truth, experiment: &Experiment) -> Result<Vec<(Dataset, About)>, CompareError> {
     // Its scatter is another one than that of the first data.
     let mut again = Truth { seed: truth.seed ^ 0x5EED, ..truth.clone() };
-    let (mut robot, mut about) = (truth.robot()?, about(truth)?);
+    let (mut robot, mut about) = (truth.robot()?, description(truth)?);
     let first = holds(&again.measurement(&standard_protocol()).generator);
     let wanted = parse_protocol(&experiment.protocol)?;
-    let hold_s = if experiment.name == "long hold" { LONG_HOLD_S } else { Generator::default().hold_s };
+    let hold_s = if experiment.name.starts_with("long hold") { LONG_HOLD_S } else { Generator::default().hold_s };
     let second = holds(&Generator { hold_s, protocol: wanted, ..Generator::default() });
-    let holds = match experiment.name.as_str() {
-        "repeat" => {
-            again.runs *= 2;
-            first
-        }
+    let Direct { pressure, frame } = experiment.direct;
+    about.direct = experiment.direct;
+    if pressure {
+        // Regulated by a gauge at the actuator, so that the pressure there is the set one.
+        robot.supply = Supply::default();
+    }
+    if frame {
+        robot.camera = Camera { length_m: robot.camera.length_m, ..Camera::default() };
+    }
+    let name = experiment.name.split(',').next().unwrap_or_default();
+    let loaded = matches!(name, "tip force" | "turned over");
+    match name {
         "tip force" => {
             robot.loads.tip_n = TIP_N;
             let run = |r: usize| AboutRun { id: r.to_string(), tip_force_n: TIP_N, session: None };
             about.runs = (1..=again.runs).map(run).collect();
-            second
         }
         "turned over" => {
             robot.loads.down = robot.loads.down.map(|d| -d);
             about.gravity_direction = about.gravity_direction.map(|g| g.map(|d| -d));
-            second
         }
-        _ => joined(first, second),
+        _ => {}
+    }
+    let apart = loaded || pressure || frame;
+    let holds = match (apart, name) {
+        (true, _) => second,
+        (false, "repeat") => {
+            again.runs *= 2;
+            first
+        }
+        (false, _) => joined(first, second),
     };
     let measurement = again.measurement(&standard_protocol());
     let data = measure_holds(&robot, &truth.told()?, "follow-up", &measurement, holds)?;
-    Ok((data, about))
+    let mut all = vec![(data, about)];
+    if apart {
+        all.insert(0, (truth.dataset("hidden", &standard_protocol())?, description(truth)?));
+    }
+    Ok(all)
 }
 
 /// One protocol after the other on one clock.

@@ -15,7 +15,7 @@
 
 use super::Diagnose;
 use super::row::{Row, Target};
-use crate::diagnosis::{Added, Options, Verdict};
+use crate::diagnosis::{Added, Measured, Options, Verdict};
 use crate::error::CompareError;
 use crate::study::published::shipped_scenario;
 use serde::Serialize;
@@ -73,7 +73,8 @@ fn one(robot: &'static str, lacking: &'static str, diagnose: Diagnose) -> Result
     let set = format!("fem-{robot}");
     let (data, about) = data::load(&set, &mut |_, _| {})?;
     let options = Options { keep_bending: true, next_experiment: false, ..Options::default() };
-    let found = diagnose(&shipped_scenario(robot)?.bare(), &data, about.as_ref(), &options)?;
+    let measured = Measured { dataset: &data, about: about.as_ref() };
+    let found = diagnose(&shipped_scenario(robot)?.bare(), measured, &[], &options)?;
     let names = |added: &[Added]| added.iter().map(|a| a.effect.clone()).collect::<Vec<_>>();
     let attempt = names(&found.attempt);
     let in_set = found.indistinguishable.iter().any(|entry| entry.split(" + ").any(|name| name == lacking));

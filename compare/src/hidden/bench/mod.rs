@@ -20,15 +20,14 @@ pub use made::{LACKING, Made};
 pub use row::{Row, Target};
 
 use super::truth::{Kind, Truth};
-use crate::diagnosis::{Diagnosis, Options};
+use crate::diagnosis::{Diagnosis, Measured, Options};
 use crate::error::CompareError;
-use data::{About, Dataset};
 use models::Scenario;
 use rayon::prelude::*;
 use serde::Serialize;
 
 /// What diagnoses; the bench is given it.
-pub type Diagnose = fn(&Scenario, &Dataset, Option<&About>, &Options) -> Result<Diagnosis, CompareError>;
+pub type Diagnose = fn(&Scenario, Measured, &[Measured], &Options) -> Result<Diagnosis, CompareError>;
 
 /// How large the bench is.
 #[derive(Debug, Clone, Copy)]

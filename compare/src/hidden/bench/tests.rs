@@ -43,7 +43,7 @@ fn a_diagnosis_that_fails_is_counted_and_named() {
 #[test]
 fn the_finite_element_sets_are_diagnosed_and_what_is_named_halves_the_held_out_error() {
     let mut failed = Vec::new();
-    let made = made::made(crate::diagnosis::diagnose, &mut failed);
+    let made = made::made(crate::diagnosis::diagnose_together, &mut failed);
     assert!(failed.is_empty(), "{failed:?}");
     assert_eq!(made.iter().map(|m| m.robot).collect::<Vec<_>>(), ["spam", "cpam", "epam", "fpam"]);
     assert!(made[0].in_set && made[0].halved_as_stated(), "{:?}", made[0]);
