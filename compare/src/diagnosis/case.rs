@@ -25,6 +25,9 @@ const ENOUGH: f64 = 1e-4;
 /// Rounds of the eigenvalue iteration; a handful suffice.
 const EIGEN_ROUNDS: usize = 1000;
 
+/// Noise of the source with that number, given its ∂f/∂ln p.
+type NoiseOf<'n> = dyn Fn(usize, &[f64]) -> Result<NoiseModel, CompareError> + 'n;
+
 /// A dataset and the base as it was measured there.
 #[derive(Clone, Copy)]
 pub struct Source<'a> {
@@ -96,7 +99,7 @@ impl<'a> Case<'a> {
         (candidates, own): (&'a [Candidate], usize),
         options: &Options,
     ) -> Result<Case<'a>, CompareError> {
-        for source in sources.iter().skip(1).filter(|s| s.dataset.runs.len() < RUNS_FOR_P) {
+        if let Some(source) = sources.iter().skip(1).find(|s| s.dataset.runs.len() < RUNS_FOR_P) {
             let (name, runs) = (source.dataset.name.clone(), source.dataset.runs.len());
             return Err(CompareError::TooFewRunsBeside { name, runs, needed: RUNS_FOR_P });
         }
@@ -111,7 +114,7 @@ impl<'a> Case<'a> {
     /// What the model or the noise returns.
     pub fn with_noise(
         sources: &[Source<'a>],
-        noise: &dyn Fn(usize, &[f64]) -> Result<NoiseModel, CompareError>,
+        noise: &NoiseOf,
         (candidates, own): (&'a [Candidate], usize),
         options: &Options,
     ) -> Result<Case<'a>, CompareError> {

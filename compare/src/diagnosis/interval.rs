@@ -16,6 +16,8 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 const WIDE: f64 = 0.3;
 /// Halvings of the bracket of a profile's end.
 const HALVINGS: usize = 10;
+/// Degrees of freedom beyond which t is normal to four digits; for far more its quantile is no longer found.
+const MOST_DOF: f64 = 1e4;
 
 /// Intervals of all parameters of a fit, SI; `None` if the noise is unknown or the data do not hold the parameter.
 pub fn intervals(case: &Case, fit: &Fit, profiled: bool) -> Vec<Option<[f64; 2]>> {
@@ -63,7 +65,7 @@ fn half_width(case: &Case, white: &[f64]) -> Option<f64> {
         from = to;
     }
     let dof = total * total / squares_over_dof;
-    let t = StudentsT::new(0.0, 1.0, dof.max(1.0)).ok()?.inverse_cdf(0.975);
+    let t = StudentsT::new(0.0, 1.0, dof.clamp(1.0, MOST_DOF)).ok()?.inverse_cdf(0.975);
     Some(t * total.sqrt())
 }
 

@@ -6,6 +6,9 @@
 //!                                 └─► intervals, held-out error, smallest detectable sizes, next experiment
 //! ```
 //!
+//! Several data of one robot, each under its own protocol and loads, are blocks of one fit; what an instrument measured directly
+//! leaves nothing to explain in its block (`data::Direct`).
+//!
 //! All fits minimise the whitened sum of squares of the mean over runs ([`crate::noise`]: the run is the unit). Gains are
 //! falls of that sum against the calibrated base; under "nothing is missing" a gain by q parameters follows about q·F(q,
 //! dof of σ²), and p is multiplied by the number of independent tests among the effects. Effects with a bound at their

@@ -123,7 +123,7 @@ fn a_turn_of_the_whole_robot_is_read_as_the_turn_of_its_tip() {
 
 #[test]
 fn welds_are_where_three_sheets_meet_and_pull_with_their_tension() {
-    let (scenario, run) = parsed("mesh_mm = 8").unwrap();
+    let (scenario, run) = parsed("mesh_mm = 8\nweld_mm = 0").unwrap();
     let problem = run.problem(&scenario).unwrap();
     let seams = Seams::of(&problem.mesh);
     let gauge = Gauge::new(&scenario, &problem).unwrap();

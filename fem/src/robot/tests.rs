@@ -6,8 +6,9 @@ fn shipped(name: &str) -> Scenario {
     Scenario::parse(models::shipped(name).unwrap()).unwrap()
 }
 
+/// Welds are lines, so that areas and volumes are those of the pattern.
 fn coarse() -> RobotSettings {
-    RobotSettings { body_size_m: 8e-3, actuator_size_m: 6e-3, ..RobotSettings::default() }
+    RobotSettings { body_size_m: 8e-3, actuator_size_m: 6e-3, weld_m: 0.0, ..RobotSettings::default() }
 }
 
 fn robot(name: &str, settings: &RobotSettings) -> Problem {
@@ -62,7 +63,8 @@ fn fine_actuators_on_coarse_bodies_mesh_without_thin_elements() {
         let problem =
             robot(name, &RobotSettings { body_size_m: 4e-3, actuator_size_m: 2e-3, ..RobotSettings::default() });
         let quality = quality(&problem).unwrap();
-        assert!(quality.side_m.min > 1.5e-3 && quality.aspect.value < 4.0, "{name}: {quality}");
+        // A weld of 3 mm is two rows here.
+        assert!(quality.side_m.min > 1.49e-3 && quality.aspect.value < 4.0, "{name}: {quality}");
     }
 }
 

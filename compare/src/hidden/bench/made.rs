@@ -5,7 +5,7 @@
 //!
 //! | robot | not in the model | why it is in the data |
 //! |---|---|---|
-//! | sPAM | `seam_stiffness` | taped plies bend as one; with the usual tape the marker goes to 103.3 instead of 69.9 mm |
+//! | sPAM | `seam_stiffness` | taped plies bend as one; with the usual tape the marker goes to 96.5 instead of 66.1 mm |
 //! | cPAM | `self_contact` | pouches touch at 30 kPa |
 //! | ePAM | `end_constraint` | the pouches' sides are sealed |
 //! | fPAM | `shear_stiffness` | the fabric's shear modulus, 45° to the muscle |
