@@ -52,3 +52,16 @@ fn data_of_another_robot_are_refused_and_nothing_is_written() {
     assert_eq!(ran.code, 2);
     assert!(!folder.path("ibr-report").exists());
 }
+
+#[test]
+fn further_data_of_the_robot_are_fitted_along_and_those_of_another_are_refused() {
+    let folder = Folder::new();
+    let typed = ["diagnose", "epam", "synthetic-epam", "--also", "synthetic-epam-two-bodies", "--json"];
+    let answer = folder.run(&typed).json("ibr.diagnose");
+    let beside = answer["beside"].as_array().unwrap();
+    assert_eq!((beside.len(), &beside[0]["dataset"]), (1, &"synthetic-epam-two-bodies".into()));
+    assert_eq!(answer["base"]["bending"].as_array().unwrap().len(), 2, "one for each body pressure of all data");
+    let ran = folder.run(&["diagnose", "epam", "synthetic-epam", "--also", "synthetic-spam"]);
+    assert_eq!(ran.code, 3);
+    assert!(ran.stderr.contains("synthetic-spam") && ran.stderr.contains("are of actuator spam"), "{}", ran.stderr);
+}
