@@ -10,6 +10,8 @@ use super::RobotSettings;
 
 /// Largest ratio of neighbouring elements where the size changes.
 const GROWTH: f64 = 1.25;
+/// A weld narrower than this share of the element size is a line: a row of slivers turns inside out.
+const LEAST_WELD: f64 = 0.5;
 /// Lines closer than this share of the element size become one.
 const MERGE: f64 = 0.4;
 
@@ -54,7 +56,8 @@ fn nearest(places: &[f64], wanted: f64) -> usize {
 fn along(scenario: &Scenario, settings: &RobotSettings) -> (Vec<f64>, Vec<[f64; 2]>) {
     let (actuator, length) = (&scenario.actuator, scenario.length_m);
     let seam = |k: usize| actuator.start_m + k as f64 * actuator.shape.length_m;
-    let half = 0.5 * settings.weld_m;
+    let is_resolved = settings.weld_m >= LEAST_WELD * settings.actuator_size_m;
+    let half = if is_resolved { 0.5 * settings.weld_m } else { 0.0 };
     let bands: Vec<[f64; 2]> =
         (0..=actuator.count).map(|k| [-half, half].map(|w| (seam(k) + w).clamp(0.0, length))).collect();
     let mut cuts = vec![0.0, length];

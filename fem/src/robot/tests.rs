@@ -202,3 +202,12 @@ fn every_assumed_number_may_take_both_ends_of_its_interval() {
         assert!(changed > 0, "{} changes nothing", unknown.name);
     }
 }
+
+#[test]
+fn a_weld_far_narrower_than_an_element_is_a_line() {
+    let seams = |weld_m: f64| {
+        let problem = robot("epam", &RobotSettings { weld_m, ..coarse() });
+        problem.mesh.parts.iter().filter(|p| p.name.starts_with("seam")).count()
+    };
+    assert!(seams(2.9e-3) == 0 && seams(3e-3) > 0);
+}
