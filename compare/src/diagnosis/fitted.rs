@@ -2,6 +2,22 @@
 
 use super::result::{Diagnosis, ParameterValue, Ranked};
 use models::Scenario;
+use serde::Serialize;
+
+/// Data of the same robot that were fitted along with the first.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FittedBeside {
+    /// Dataset.
+    pub dataset: String,
+    /// Runs.
+    pub runs: usize,
+    /// What was measured directly in it.
+    pub direct: data::Direct,
+    /// Error beyond noise of the calibrated base there \[mm\].
+    pub systematic_mm: f64,
+    /// The same with what was added, or attempted \[mm\].
+    pub systematic_with_added_mm: f64,
+}
 
 impl Diagnosis {
     /// Which of the fitted bending stiffnesses, one per body pressure, belongs to a body pressure \[kPa\]: the nearest.

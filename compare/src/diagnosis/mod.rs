@@ -51,7 +51,7 @@ mod words;
 
 pub use candidates::{Candidate, Free, candidates};
 pub use distance::{Distances, KnownNoise, distances, power};
-pub use fitted::with_fitted;
+pub use fitted::{FittedBeside, with_fitted};
 pub use options::Options;
 pub use result::*;
 

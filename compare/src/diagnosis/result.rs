@@ -1,24 +1,10 @@
 //! What a diagnosis says: plain structs, printed units, no NaN.
 
+use super::fitted::FittedBeside;
 use crate::noise_summary::NoiseSummary;
 use crate::residuals::ResidualMap;
 use crate::where_it_fails::Statement;
 use serde::Serialize;
-
-/// Data of the same robot that were fitted along with the first.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct FittedBeside {
-    /// Dataset.
-    pub dataset: String,
-    /// Runs.
-    pub runs: usize,
-    /// What was measured directly in it.
-    pub direct: data::Direct,
-    /// Error beyond noise of the calibrated base there \[mm\].
-    pub systematic_mm: f64,
-    /// The same with what was added, or attempted \[mm\].
-    pub systematic_with_added_mm: f64,
-}
 
 /// The answer to "is an effect missing, and which".
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

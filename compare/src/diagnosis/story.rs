@@ -2,7 +2,8 @@
 
 use data::Direct;
 
-use super::result::{Confidence, Diagnosis, FittedBeside, LeftPattern, ParameterValue, Ranked, Verdict};
+use super::fitted::FittedBeside;
+use super::result::{Confidence, Diagnosis, LeftPattern, ParameterValue, Ranked, Verdict};
 use super::words::quantity;
 use crate::wording::{list, p_value};
 
