@@ -108,9 +108,16 @@ pub fn diagnose_together(
     check(options)?;
     let (mut parts, mut warnings) = (Vec::new(), Vec::new());
     for (i, measured) in std::iter::once(&first).chain(further).enumerate() {
+        let name = &measured.dataset.name;
+        if std::iter::once(&first).chain(further).take(i).any(|seen| seen.dataset.xy_m == measured.dataset.xy_m) {
+            warnings.push(format!(
+                "{name} is a copy of data that are there already and was left out: copies are not repeats"
+            ));
+            continue;
+        }
         let (part, told) = Part::of(scenario, measured)?;
-        let name = if i > 0 { format!("{}: ", measured.dataset.name) } else { String::new() };
-        warnings.extend(told.into_iter().map(|warning| format!("{name}{warning}")));
+        let of = if i > 0 { format!("{name}: ") } else { String::new() };
+        warnings.extend(told.into_iter().map(|warning| format!("{of}{warning}")));
         parts.push(part);
     }
     let sources: Vec<Source> = parts.iter().map(Part::source).collect();

@@ -2,22 +2,9 @@
 
 use super::tests::{measured, quick, robot, run};
 use super::*;
-use data::Provenance;
 
 fn about(direct: Direct) -> About {
-    About {
-        title: "test".into(),
-        provenance: Provenance::Synthetic,
-        source: "test".into(),
-        licence: "CC0-1.0".into(),
-        actuator: None,
-        geometry: None,
-        markers: vec![],
-        gravity_direction: None,
-        direct,
-        runs: vec![],
-        notes: None,
-    }
+    About { direct, ..crate::study::tests::about(&[]) }
 }
 
 const GAUGE: Direct = Direct { pressure: true, frame: false };
@@ -97,6 +84,16 @@ fn what_all_data_measure_directly_is_no_candidate_and_an_effect_of_it_in_the_sce
     let d = together(&plain.with_effect("pressure_loss", &[0.2]), &[(&data, all)]).unwrap();
     assert_eq!(d.verdict, Some(Verdict::None));
     assert!(d.ranked.iter().all(|r| r.group != Group::Supply && r.effect != "camera_scale"));
+}
+
+#[test]
+fn a_copy_beside_the_first_data_is_left_out() {
+    let plain = robot("epam");
+    let data = measured(&plain.with_effect("friction", &[0.3]), 5, 365);
+    let alone = run(&plain, &data);
+    let d = together(&plain, &[(&data, Direct::default()), (&data, Direct::default())]).unwrap();
+    assert!(d.warnings.iter().any(|w| w.contains("made is a copy")), "{:?}", d.warnings);
+    assert!(d.beside.is_empty() && d.ranked[0].gain == alone.ranked[0].gain);
 }
 
 #[test]

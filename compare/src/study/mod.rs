@@ -19,4 +19,4 @@ pub use published::{Rung, published_ladders};
 pub use tradeoff::{Timing, time_prediction};
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -17,7 +17,7 @@ fn quiet(runs: usize) -> Generator {
     }
 }
 
-fn about(tip_forces: &[[f64; 2]]) -> About {
+pub(crate) fn about(tip_forces: &[[f64; 2]]) -> About {
     let run = |(i, f): (usize, &[f64; 2])| AboutRun { id: (i + 1).to_string(), tip_force_n: *f, session: None };
     About {
         title: "test".into(),

@@ -62,8 +62,8 @@ impl RobotSettings {
     ///
     /// | number | why |
     /// |---|---|
-    /// | 8 mm on the body, 3 mm on the actuator | 2 mm change sPAM, ePAM and fPAM by at most 3 %, the cPAM by 9 %, see `docs/robots.md` |
-    /// | welds 3 mm wide | assumed; 2 mm give the same tips, a line does not converge |
+    /// | 8 mm on the body, 3 mm on the actuator | 2 mm change ePAM and fPAM by at most 3 %, sPAM by −5, cPAM by +9 %, see `docs/robots.md` |
+    /// | welds 3 mm wide | assumed; 2 mm give tips within 1 %, a line does not converge |
     /// | 0.1 + 0.6 + 0.054 s, masses raised | about 120 000 steps; with rate-free fabrics only their number counts |
     /// | ramp floor 2 kPa | the body's pressure: there a robot bends most per pascal, and gussets open |
     /// | mass damping 20 1/s | with the time at full pressure it brings the kinetic share below 1 % |
