@@ -369,6 +369,9 @@ pub struct Generate {
     /// Actuator pressures in kPa at a body pressure in kPa
     #[arg(long, default_value = "0,10,20,30,0@2")]
     pub protocol: String,
+    /// A gauge at the actuator is read along: column p_gauge_kpa
+    #[arg(long)]
+    pub gauge: bool,
     /// Noise
     #[command(flatten)]
     pub scatter: Scatter,

@@ -26,7 +26,8 @@
 
 use crate::directions::{DirectionFit, nuisance_directions};
 use crate::error::CompareError;
-use crate::layout::Layout;
+use crate::layout::{Layout, Weights};
+use crate::run_scatter::{between_sessions, pooled, session_groups, within_sessions};
 use crate::stats::{f_tail, t_inflation};
 use crate::whiten::Whitener;
 use data::Dataset;
@@ -87,6 +88,10 @@ pub struct NoiseModel {
     /// U, one row per value in run layout.
     #[serde(skip)]
     pub directions: Vec<[f64; 4]>,
+    /// What one standard deviation of each error of the gauge does to the mean \[m\], in run layout; empty unless the
+    /// actuator's pressure was read there ([`NoiseModel::at_readings`]).
+    #[serde(skip)]
+    pub gauge_errors: Vec<Vec<f64>>,
     #[serde(skip)]
     whitener: Whitener,
 }
@@ -143,6 +148,35 @@ impl NoiseModel {
         Ok(NoiseModel { runs, run_sd, mean_variance: variance, test_variance: variance, whitener, ..plain })
     }
 
+    /// The same where predictions are made at what a gauge at the actuator read: scatter of the pressure between runs is in
+    /// the readings, and the errors of the gauge take its place.
+    ///
+    /// # Errors
+    /// If the eigenproblem does not converge.
+    pub fn at_readings(mut self, gauge_errors: Vec<Vec<f64>>) -> Result<NoiseModel, CompareError> {
+        self.gauge_errors = gauge_errors;
+        (self.mean_variance[0], self.test_variance[0]) = (0.0, 0.0);
+        let each: Vec<Weights> = (0..self.directions.len()).map(|i| vec![(i, 1.0)]).collect();
+        self.whitener = self.whitener_of(&each)?;
+        Ok(self)
+    }
+
+    /// Whitens sums of values, in tests; of every sum the squares of its weights have the same total, and no value is in two.
+    ///
+    /// # Errors
+    /// If the eigenproblem does not converge.
+    pub fn whitener_of(&self, sums: &[Weights]) -> Result<Whitener, CompareError> {
+        let direction = |w: &Weights| -> [f64; 4] {
+            std::array::from_fn(|j| w.iter().map(|(i, share)| share * self.directions[*i][j]).sum())
+        };
+        let along =
+            |column: &Vec<f64>| sums.iter().map(|w| w.iter().map(|(i, share)| share * column[*i]).sum()).collect();
+        let rows: Vec<[f64; 4]> = sums.iter().map(direction).collect();
+        let columns: Vec<Vec<f64>> = self.gauge_errors.iter().map(along).collect();
+        let squares = sums.first().map_or(1.0, |w| w.iter().map(|(_, share)| share * share).sum::<f64>());
+        Whitener::with_columns(&rows, self.unit_m() * squares.sqrt(), &self.test_variance, &columns)
+    }
+
     /// False for a single run without a given σ.
     pub fn is_known(&self) -> bool {
         self.sigma_m.is_some()
@@ -164,8 +198,8 @@ impl NoiseModel {
     /// # Errors
     /// If the 4×4 eigenproblem does not converge.
     pub fn whiten_range(&self, residual_m: &[f64], range: std::ops::Range<usize>) -> Result<Vec<f64>, CompareError> {
-        let whitener = Whitener::new(&self.directions[range.clone()], self.unit_m(), &self.test_variance)?;
-        Ok(whitener.whiten(&residual_m[range]))
+        let each: Vec<Weights> = range.clone().map(|i| vec![(i, 1.0)]).collect();
+        Ok(self.whitener_of(&each)?.whiten(&residual_m[range]))
     }
 
     /// Standard deviation \[unit of the functional\] of wᵀȳ for tests; `None` if unknown.
@@ -180,9 +214,10 @@ impl NoiseModel {
 
     /// Mean of the diagonal of Σ_mean \[m²\] over some values in run layout, best estimate; `None` if unknown.
     pub fn mean_square(&self, range: std::ops::Range<usize>) -> Option<f64> {
-        let rows = &self.directions[range];
+        let rows = &self.directions[range.clone()];
         let shared: f64 = rows.iter().map(|u| quadratic(u, &self.mean_variance)).sum();
-        Some(self.sigma_m?.powi(2) / self.runs as f64 + shared / rows.len() as f64)
+        let read: f64 = self.gauge_errors.iter().flat_map(|c| &c[range.clone()]).map(|e| e * e).sum();
+        Some(self.sigma_m?.powi(2) / self.runs as f64 + (shared + read) / rows.len() as f64)
     }
 
     /// The noisiest and the quietest hold, if their scatter differs by more than chance (F test, p < 0.01 after
@@ -211,7 +246,9 @@ impl NoiseModel {
             }
         }
         let squares: f64 = weights.iter().map(|(_, w)| w * w).sum();
-        Some(self.sigma_m?.powi(2) / self.runs as f64 * squares + quadratic(&projected, variances))
+        let along = |column: &Vec<f64>| weights.iter().map(|&(i, w)| w * column[i]).sum::<f64>();
+        let read: f64 = self.gauge_errors.iter().map(|column| along(column).powi(2)).sum();
+        Some(self.sigma_m?.powi(2) / self.runs as f64 * squares + quadratic(&projected, variances) + read)
     }
 
     fn without_scatter(
@@ -234,6 +271,7 @@ impl NoiseModel {
             hold_sigma_m: Vec::new(),
             runs_identical: false,
             directions,
+            gauge_errors: Vec::new(),
             whitener,
         })
     }
@@ -272,106 +310,12 @@ impl NoiseModel {
             hold_sigma_m: within.hold_sigma2.iter().map(|s| s.sqrt()).collect(),
             runs_identical: within.sigma2 < SMALLEST_SIGMA_M.powi(2),
             directions,
+            gauge_errors: Vec::new(),
             whitener,
         })
     }
 }
 
-/// What the repeats inside sessions say.
-struct Within {
-    sigma2: f64,
-    hold_sigma2: Vec<f64>,
-    dof: usize,
-    coefficient_variance: [f64; 4],
-}
-
-fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit) -> Within {
-    let holds = dataset.holds.len();
-    let mut within = Within { sigma2: 0.0, hold_sigma2: vec![0.0; holds], dof: 0, coefficient_variance: [0.0; 4] };
-    let repeated = groups.iter().filter(|g| g.len() > 1).count() as f64;
-    for group in groups.iter().filter(|g| g.len() > 1) {
-        let mean = mean_of(dataset, group);
-        for &run in group {
-            let deviation: Vec<f64> = dataset.run(run).iter().zip(&mean).map(|(y, m)| y - m).collect();
-            let (coefficients, rest) = fit.solve(&deviation);
-            for (square, part) in within.hold_sigma2.iter_mut().zip(rest.chunks(rest.len() / holds)) {
-                *square += part.iter().map(|r| r * r).sum::<f64>();
-            }
-            for (v, c) in within.coefficient_variance.iter_mut().zip(coefficients) {
-                *v += c * c / (group.len() - 1) as f64 / repeated;
-            }
-        }
-        within.dof += (group.len() - 1) * (mean.len() - fit.count());
-    }
-    // All holds have the same number of values, so each has the same share of the degrees of freedom.
-    let dof_per_hold = within.dof.max(1) as f64 / holds as f64;
-    within.hold_sigma2.iter_mut().for_each(|s| *s /= dof_per_hold);
-    within.sigma2 = within.hold_sigma2.iter().sum::<f64>() / holds as f64;
-    within
-}
-
-/// Variance of the coefficients of the overall mean as the session means show it; zeros for one session.
-fn between_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit, sigma2: f64) -> [f64; 4] {
-    if groups.len() < 2 {
-        return [0.0; 4];
-    }
-    let runs = dataset.runs.len() as f64;
-    let overall = dataset.mean_over_runs();
-    let mut variance = [0.0; 4];
-    for group in groups {
-        let deviation: Vec<f64> = mean_of(dataset, group).iter().zip(&overall).map(|(y, m)| y - m).collect();
-        for (v, c) in variance.iter_mut().zip(fit.solve(&deviation).0) {
-            *v += c * c / (groups.len() - 1) as f64;
-        }
-    }
-    let repeats = groups.iter().map(|g| 1.0 / g.len() as f64).sum::<f64>() / groups.len() as f64;
-    let share: f64 = groups.iter().map(|g| (g.len() as f64 / runs).powi(2)).sum();
-    fit.noise_free(variance, sigma2 * repeats).map(|v| v * share)
-}
-
-/// x and y alignment are the same kind of error: one variance for both.
-fn pooled(mut variance: [f64; 4]) -> [f64; 4] {
-    let alignment = 0.5 * (variance[1] + variance[2]);
-    variance[1] = alignment;
-    variance[2] = alignment;
-    variance
-}
-
 fn quadratic(vector: &[f64; 4], variances: &[f64; 4]) -> f64 {
     vector.iter().zip(variances).map(|(u, v)| u * u * v).sum()
-}
-
-fn mean_of(dataset: &Dataset, runs: &[usize]) -> Vec<f64> {
-    let mut mean = vec![0.0; dataset.values_per_run()];
-    for &run in runs {
-        for (m, v) in mean.iter_mut().zip(dataset.run(run)) {
-            *m += v / runs.len() as f64;
-        }
-    }
-    mean
-}
-
-/// Runs of each session, in order of first appearance.
-fn session_groups(sessions: &[usize], runs: usize) -> Result<Vec<Vec<usize>>, CompareError> {
-    if sessions.is_empty() {
-        return Ok(vec![(0..runs).collect()]);
-    }
-    if sessions.len() != runs {
-        return Err(CompareError::WrongSessions { found: sessions.len(), runs });
-    }
-    let mut labels: Vec<usize> = Vec::new();
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    for (run, label) in sessions.iter().enumerate() {
-        match labels.iter().position(|l| l == label) {
-            Some(i) => groups[i].push(run),
-            None => {
-                labels.push(*label);
-                groups.push(vec![run]);
-            }
-        }
-    }
-    if runs > 1 && groups.len() == runs {
-        return Err(CompareError::SessionsWithoutRepeats);
-    }
-    Ok(groups)
 }

@@ -79,6 +79,7 @@ impl Robot {
             markers: (0..self.markers).map(marker).collect(),
             samples_per_hold: self.samples,
             xy_m,
+            gauge_pa: None,
         }
     }
 

@@ -1,11 +1,11 @@
-//! Whitening of residuals whose covariance is s² I + U diag(v) Uᵀ with four directions U.
+//! Whitening of residuals whose covariance is s² I + U diag(v) Uᵀ with a few directions U.
 //!
 //! With U diag(√v) = Q T and T Tᵀ = E diag(w) Eᵀ, r_w = (r + B((1 + w/s²)^−½ − 1)Bᵀ r)/s, B = Q E, has covariance I.
 
 use crate::error::CompareError;
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Rounds of the 4×4 eigenvalue iteration; a handful suffice.
+/// Rounds of the eigenvalue iteration over the directions; a handful suffice.
 const EIGEN_ROUNDS: usize = 500;
 
 /// The prepared transformation.
@@ -22,7 +22,23 @@ impl Whitener {
     /// # Errors
     /// If the eigenproblem does not converge (values that are not finite).
     pub fn new(directions: &[[f64; 4]], unit_m: f64, variances: &[f64; 4]) -> Result<Whitener, CompareError> {
-        let scaled = DMatrix::from_fn(directions.len(), 4, |i, j| directions[i][j] * variances[j].sqrt());
+        Self::with_columns(directions, unit_m, variances, &[])
+    }
+
+    /// The same with further columns of U, each times the square root of its variance.
+    ///
+    /// # Errors
+    /// As [`Whitener::new`].
+    pub fn with_columns(
+        directions: &[[f64; 4]],
+        unit_m: f64,
+        variances: &[f64; 4],
+        columns: &[Vec<f64>],
+    ) -> Result<Whitener, CompareError> {
+        let scaled = DMatrix::from_fn(directions.len(), 4 + columns.len(), |i, j| match j.checked_sub(4) {
+            None => directions[i][j] * variances[j].sqrt(),
+            Some(further) => columns[further][i],
+        });
         let qr = scaled.qr();
         let t = qr.r();
         let eigen = SymmetricEigen::try_new(&t * t.transpose(), f64::EPSILON, EIGEN_ROUNDS)

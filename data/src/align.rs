@@ -26,6 +26,7 @@ pub(crate) fn align(
     let samples = grid.common_samples();
     let holds = grid.holds(&order, samples);
     let mut xy_m = Vec::with_capacity(recorder.runs.names.len() * holds.len() * samples * order.len() * 2);
+    let mut gauge_pa = Vec::new();
     for run in 0..recorder.runs.names.len() {
         for hold in 0..holds.len() {
             let bins: Vec<_> = order.iter().map(|&m| bins(&grid.segment(run, m, hold).samples, samples)).collect();
@@ -33,13 +34,16 @@ pub(crate) fn align(
                 xy_m.extend(
                     bins.iter().flat_map(|bins| [mean(bins[sample], |b| b.x_m), mean(bins[sample], |b| b.y_m)]),
                 );
+                let readings = bins.iter().map(|bins| mean(bins[sample], |b| b.gauge_pa));
+                gauge_pa.push(readings.sum::<f64>() / bins.len() as f64);
             }
         }
     }
     let marker = |&m: &usize| Marker { name: recorder.markers.names[m].clone(), station_m: stations_m[m] };
     let markers = order.iter().map(marker).collect();
     let runs = recorder.runs.names.clone();
-    Ok(Dataset { name, actuator, runs, holds, markers, samples_per_hold: samples, xy_m })
+    let gauge_pa = recorder.extremes.gauge.then_some(gauge_pa);
+    Ok(Dataset { name, actuator, runs, holds, markers, samples_per_hold: samples, xy_m, gauge_pa })
 }
 
 /// By station where all are known, else by first appearance.

@@ -60,6 +60,8 @@ pub struct HoldCheck {
     pub duration_s: f64,
     /// Run-to-run standard deviation of the hold means, rms over markers and axes \[mm\]; `None` for one run.
     pub scatter_mm: Option<f64>,
+    /// Mean reading of the gauge at the actuator \[kPa\]; `None` without one.
+    pub gauge_kpa: Option<f64>,
 }
 
 /// One marker.
@@ -130,7 +132,15 @@ fn hold_check(dataset: &Dataset, index: usize, scatter_mm: Option<f64>) -> HoldC
         occurrence: hold.occurrence,
         duration_s,
         scatter_mm,
+        gauge_kpa: gauge_kpa(dataset, index),
     }
+}
+
+fn gauge_kpa(dataset: &Dataset, hold: usize) -> Option<f64> {
+    let samples = dataset.samples_per_hold;
+    let own = |run: usize| Some(dataset.gauge(run)?[hold * samples..(hold + 1) * samples].iter().sum::<f64>());
+    let total: f64 = (0..dataset.runs.len()).map(own).sum::<Option<f64>>()?;
+    Some(kpa(total / (dataset.runs.len() * samples) as f64))
 }
 
 fn marker_check(dataset: &Dataset, index: usize, scatter_mm: Option<f64>) -> MarkerCheck {

@@ -69,6 +69,8 @@ pub struct Dataset {
     pub samples_per_hold: usize,
     /// Positions \[m\], laid out `[run][hold][sample][marker][x, y]`; no NaN.
     pub xy_m: Vec<f64>,
+    /// What a gauge at the actuator read \[Pa\], laid out `[run][hold][sample]`; `None` without one.
+    pub gauge_pa: Option<Vec<f64>>,
 }
 
 impl Dataset {
@@ -95,6 +97,12 @@ impl Dataset {
         [values[i], values[i + 1]]
     }
 
+    /// Readings of one run of the gauge at the actuator, laid out `[hold][sample]` \[Pa\].
+    pub fn gauge(&self, run: usize) -> Option<&[f64]> {
+        let n = self.holds.len() * self.samples_per_hold;
+        self.gauge_pa.as_ref().map(|all| &all[run * n..(run + 1) * n])
+    }
+
     /// Mean over runs, laid out like [`Dataset::run`] \[m\].
     pub fn mean_over_runs(&self) -> Vec<f64> {
         let n = self.values_per_run();
@@ -117,19 +125,24 @@ impl Dataset {
     /// No run, hold, marker or sample; a wrong number of values or times; a value that is not finite.
     pub fn checked(self) -> Result<Dataset, DataError> {
         let empty = self.runs.is_empty() || self.values_per_run() == 0;
-        let times = self.holds.iter().all(|hold| hold.t_s.len() == self.samples_per_hold);
-        let finite =
-            self.xy_m.iter().chain(self.holds.iter().flat_map(|hold| &hold.t_s)).all(|value| value.is_finite());
+        let timed = self.holds.iter().all(|hold| hold.t_s.len() == self.samples_per_hold);
+        let gauge = self.gauge_pa.as_deref().unwrap_or_default();
+        let times = self.holds.iter().flat_map(|hold| &hold.t_s);
+        let finite = self.xy_m.iter().chain(times).chain(gauge).all(|value| value.is_finite());
         let expected = self.runs.len() * self.values_per_run();
+        let readings = self.runs.len() * self.holds.len() * self.samples_per_hold;
         let wrong = |message: String| {
             let help = "lay xy_m out as [run][hold][sample][marker][x, y], with samples_per_hold times in every hold";
             Err(DataError::Runs(Box::new(Fault::of_file(&self.name, message, help))))
         };
-        match (empty, times, finite) {
+        match (empty, timed, finite) {
             (true, ..) => wrong("the dataset has no values".to_string()),
             (_, false, _) => wrong(format!("a hold has not {} sample times", self.samples_per_hold)),
             (.., false) => wrong("a value is not finite".to_string()),
             _ if self.xy_m.len() != expected => wrong(format!("expected {expected} values, found {}", self.xy_m.len())),
+            _ if self.gauge_pa.is_some() && gauge.len() != readings => {
+                wrong(format!("expected {readings} readings of the gauge, found {}", gauge.len()))
+            }
             _ => Ok(self),
         }
     }

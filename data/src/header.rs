@@ -22,6 +22,10 @@ const fn number(base: &'static str, expected: &'static str, dimension: Dimension
     Quantity { base, expected, dimension: Some(dimension), required: true }
 }
 
+const fn optional(base: &'static str, expected: &'static str, dimension: Dimension) -> Quantity {
+    Quantity { base, expected, dimension: Some(dimension), required: false }
+}
+
 /// Positions in [`QUANTITIES`].
 pub(crate) const RUN: usize = 0;
 pub(crate) const ACTUATOR: usize = 1;
@@ -33,9 +37,10 @@ pub(crate) const MARKER: usize = 6;
 pub(crate) const X: usize = 7;
 pub(crate) const Y: usize = 8;
 pub(crate) const STATION: usize = 9;
+pub(crate) const GAUGE: usize = 10;
 
-/// All quantities, in the order of the documented columns; `s_mm` is optional.
-pub(crate) const QUANTITIES: [Quantity; 10] = [
+/// All quantities, in the order of the documented columns; `s_mm` and `p_gauge_kpa` are optional.
+pub(crate) const QUANTITIES: [Quantity; 11] = [
     text("run"),
     text("actuator"),
     number("t", "t_s", Dimension::Time),
@@ -45,7 +50,8 @@ pub(crate) const QUANTITIES: [Quantity; 10] = [
     text("marker"),
     number("x", "x_mm", Dimension::Length),
     number("y", "y_mm", Dimension::Length),
-    Quantity { base: "s", expected: "s_mm", dimension: Some(Dimension::Length), required: false },
+    optional("s", "s_mm", Dimension::Length),
+    optional("p_gauge", "p_gauge_kpa", Dimension::Pressure),
 ];
 
 /// A column that holds a quantity.
@@ -60,7 +66,7 @@ pub(crate) struct Column {
 pub(crate) struct Header {
     /// Column names as written.
     pub names: Vec<String>,
-    /// The column of each quantity; only `STATION` may be absent.
+    /// The column of each quantity; only `STATION` and `GAUGE` may be absent.
     pub columns: [Option<Column>; QUANTITIES.len()],
     /// The y column was called `y_down_…`: its sign is turned on reading.
     pub y_down: bool,
@@ -110,6 +116,11 @@ fn parse_header(line: &Line) -> Result<Header, DataError> {
     }
     if let Some(missing) = (0..QUANTITIES.len()).find(|&q| QUANTITIES[q].required && columns[q].is_none()) {
         return Err(absent(line, &names, delimiter, missing));
+    }
+    if columns[GAUGE].is_none()
+        && let Some(fault) = without_unit(line, &names, GAUGE)
+    {
+        return Err(fault);
     }
     Ok(Header { names, columns, y_down, delimiter, line: line.keep() })
 }
@@ -177,22 +188,28 @@ fn column_fault(line: &Line, names: &[String], index: usize, message: String, he
     DataError::Column(fault)
 }
 
-fn absent(line: &Line, names: &[String], delimiter: u8, missing: usize) -> DataError {
+/// The fault of a column that names a quantity without a unit, or with one that is not known.
+fn without_unit(line: &Line, names: &[String], missing: usize) -> Option<DataError> {
     let Quantity { expected, dimension, .. } = &QUANTITIES[missing];
-    for (index, name) in names.iter().enumerate() {
-        let units = dimension.map(Dimension::sentence).unwrap_or_default();
-        match meaning(name) {
-            Meaning::NoUnit { quantity } if quantity == missing => {
-                let help = format!("name it {expected}; {units}");
-                return column_fault(line, names, index, format!("column {name} has no unit in its name"), help);
-            }
-            Meaning::OtherUnit { quantity } if quantity == missing => {
-                let help = format!("convert it and name it {expected}; {units}");
-                return column_fault(line, names, index, format!("column {name} has an unknown unit"), help);
-            }
-            _ => {}
+    let units = dimension.map(Dimension::sentence).unwrap_or_default();
+    names.iter().enumerate().find_map(|(index, name)| match meaning(name) {
+        Meaning::NoUnit { quantity } if quantity == missing => {
+            let help = format!("name it {expected}; {units}");
+            Some(column_fault(line, names, index, format!("column {name} has no unit in its name"), help))
         }
+        Meaning::OtherUnit { quantity } if quantity == missing => {
+            let help = format!("convert it and name it {expected}; {units}");
+            Some(column_fault(line, names, index, format!("column {name} has an unknown unit"), help))
+        }
+        _ => None,
+    })
+}
+
+fn absent(line: &Line, names: &[String], delimiter: u8, missing: usize) -> DataError {
+    if let Some(fault) = without_unit(line, names, missing) {
+        return fault;
     }
+    let expected = QUANTITIES[missing].expected;
     let unknown = names.iter().filter(|name| matches!(meaning(name), Meaning::Extra)).map(String::as_str);
     let found = names.join(&format!("{} ", delimiter as char));
     if let Some(near) = nearest(expected, unknown).filter(|near| !near.is_empty()) {

@@ -8,6 +8,7 @@
 //! | `phase` | `load`, `hold` or `unload` |
 //! | `x_mm`, `y_mm` | position, x along the undeformed body from its base, y towards the actuator |
 //! | `s_mm` (optional) | station of the marker on the undeformed body |
+//! | `p_gauge_kpa` (optional) | reading of a gauge at the actuator, where `p_act_kpa` is what was set |
 //!
 //! Other units by suffix: mm, cm, m; kPa, Pa, MPa, psi, bar; s, ms, min. `y_down_mm` means −y. Extra columns are ignored.
 //! Rows belong to **steady** pressures; a new hold begins when the phase changes or a pressure departs from the mean of

@@ -2,7 +2,7 @@
 
 use crate::dataset::Phase;
 use crate::error::{DataError, Fault};
-use crate::header::{ACTUATOR, Header, MARKER, P_ACT, P_BODY, PHASE, QUANTITIES, RUN, STATION, TIME, X, Y};
+use crate::header::{ACTUATOR, GAUGE, Header, MARKER, P_ACT, P_BODY, PHASE, QUANTITIES, RUN, STATION, TIME, X, Y};
 use crate::lines::Line;
 
 /// Below this a gauge reading is not the noise of a sensor at zero \[Pa\] (the step by which holds are told apart).
@@ -24,6 +24,7 @@ pub(crate) struct Row<'a> {
     pub x_m: f64,
     pub y_m: f64,
     pub station_m: Option<f64>,
+    pub gauge_pa: Option<f64>,
 }
 
 /// Splits lines into cells and cells into observations.
@@ -72,6 +73,7 @@ impl RowReader {
     /// An empty cell, text in a number cell, NaN or infinity, an unknown phase, an impossible pressure or length.
     pub fn row(&self, line: &Line) -> Result<Row<'_>, DataError> {
         let station = self.header.columns[STATION].is_some();
+        let gauge = self.header.columns[GAUGE].is_some();
         let y_m = self.length(line, Y)?;
         Ok(Row {
             run: self.word(line, RUN)?,
@@ -83,6 +85,7 @@ impl RowReader {
             x_m: self.length(line, X)?,
             y_m: if self.header.y_down { -y_m } else { y_m },
             station_m: if station { Some(self.station(line)?) } else { None },
+            gauge_pa: if gauge { Some(self.pressure(line, GAUGE)?) } else { None },
         })
     }
 
@@ -185,7 +188,7 @@ impl RowReader {
             return Err(DataError::Unit(self.cell_fault(line, quantity, message, help)));
         }
         if value < LOWEST_GAUGE_PA {
-            let what = if quantity == P_ACT { "actuator" } else { "body" };
+            let what = if quantity == P_BODY { "body" } else { "actuator" };
             let message = format!("{what} pressure below zero: {}", self.text(quantity));
             let help = "give gauge pressure (0 is the air of the room); subtract the sensor's zero".to_string();
             return Err(DataError::Cell(self.cell_fault(line, quantity, message, help)));

@@ -40,6 +40,7 @@ pub(crate) struct Sample {
     pub t_s: f64,
     pub x_m: f64,
     pub y_m: f64,
+    pub gauge_pa: f64,
 }
 
 impl Sample {
@@ -48,6 +49,7 @@ impl Sample {
         self.t_s += other.t_s;
         self.x_m += other.x_m;
         self.y_m += other.y_m;
+        self.gauge_pa += other.gauge_pa;
     }
 }
 
@@ -91,7 +93,8 @@ impl Segment {
         self.rows += 1;
         self.p_body_sum += row.p_body_pa;
         self.p_act_sum += row.p_act_pa;
-        let one = Sample { count: 1, t_s: row.t_s, x_m: row.x_m, y_m: row.y_m };
+        let gauge_pa = row.gauge_pa.unwrap_or(0.0);
+        let one = Sample { count: 1, t_s: row.t_s, x_m: row.x_m, y_m: row.y_m, gauge_pa };
         match self.samples.last_mut() {
             Some(last) if last.count < self.stride => last.add(one),
             _ => self.samples.push(one),
@@ -173,6 +176,8 @@ pub(crate) struct Extremes {
     pub station_m: f64,
     pub p_body_pa: f64,
     pub p_act_pa: f64,
+    /// There is a column of gauge readings.
+    pub gauge: bool,
 }
 
 impl Recorder {
@@ -259,6 +264,7 @@ impl Extremes {
         widen(&mut self.station_m, row.station_m.unwrap_or(0.0));
         widen(&mut self.p_body_pa, row.p_body_pa);
         widen(&mut self.p_act_pa, row.p_act_pa);
+        self.gauge |= row.gauge_pa.is_some();
     }
 }
 
@@ -290,7 +296,8 @@ mod tests {
 
     fn row(t_s: f64, p_act_pa: f64) -> Row<'static> {
         let (run, marker, phase) = ("1", "1", Phase::Load);
-        Row { run, marker, phase, t_s, p_body_pa: 2000.0, p_act_pa, x_m: 2.0 * t_s, y_m: -t_s, station_m: None }
+        let (x_m, y_m, gauge_pa) = (2.0 * t_s, -t_s, Some(3.0 * t_s));
+        Row { run, marker, phase, t_s, p_body_pa: 2000.0, p_act_pa, x_m, y_m, station_m: None, gauge_pa }
     }
 
     #[test]
@@ -314,7 +321,7 @@ mod tests {
             });
             let sum = (rows * (rows - 1) / 2) as f64;
             assert!(segment.samples.len() <= MOST_SAMPLES && segment.samples.len() as u64 >= rows.min(32));
-            assert_eq!(total, Sample { count: rows, t_s: sum, x_m: 2.0 * sum, y_m: -sum });
+            assert_eq!(total, Sample { count: rows, t_s: sum, x_m: 2.0 * sum, y_m: -sum, gauge_pa: 3.0 * sum });
             let full = &segment.samples[..segment.samples.len() - 1];
             assert!(full.iter().all(|sample| sample.count == segment.stride), "equal counts but for the last");
         }

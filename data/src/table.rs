@@ -80,9 +80,9 @@ impl Table {
 
 impl Dataset {
     /// The dataset as a tidy table in mm and kPa, with the columns of the marker CSV (pressures of the holds); `s_mm`
-    /// is there if every marker has a station.
+    /// is there if every marker has a station, `p_gauge_kpa` if a gauge was read.
     pub fn to_table(&self) -> Table {
-        let (mut texts, mut numbers) = (vec![Vec::new(); 4], vec![Vec::new(); 6]);
+        let (mut texts, mut numbers) = (vec![Vec::new(); 4], vec![Vec::new(); 7]);
         for (run, label) in self.runs.iter().enumerate() {
             for (index, hold) in self.holds.iter().enumerate() {
                 for sample in 0..self.samples_per_hold {
@@ -91,20 +91,22 @@ impl Dataset {
                         let words = [label.as_str(), &self.actuator, hold.phase.word(), &described.name];
                         let station = described.station_m.unwrap_or(f64::NAN);
                         let (body, act) = (kpa(hold.p_body_pa), kpa(hold.p_act_pa));
-                        let values = [hold.t_s[sample], body, act, mm(x), mm(y), mm(station)];
+                        let read =
+                            self.gauge(run).map_or(f64::NAN, |all| kpa(all[index * self.samples_per_hold + sample]));
+                        let values = [hold.t_s[sample], body, act, mm(x), mm(y), mm(station), read];
                         texts.iter_mut().zip(words).for_each(|(column, word)| column.push(word.to_string()));
                         numbers.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
                     }
                 }
             }
         }
-        let mut columns = Vec::with_capacity(10);
+        let mut columns = Vec::with_capacity(11);
         let texts = ["run", "actuator", "phase", "marker"].into_iter().zip(texts.into_iter().map(Column::Str));
-        let names = ["t_s", "p_body_kpa", "p_act_kpa", "x_mm", "y_mm", "s_mm"];
+        let names = ["t_s", "p_body_kpa", "p_act_kpa", "x_mm", "y_mm", "s_mm", "p_gauge_kpa"];
         columns.extend(texts.chain(names.into_iter().zip(numbers.into_iter().map(Column::F64))));
-        if self.markers.iter().any(|marker| marker.station_m.is_none()) {
-            columns.pop();
-        }
+        let stations = self.markers.iter().all(|marker| marker.station_m.is_some());
+        columns.retain(|(name, _)| *name != "s_mm" || stations);
+        columns.retain(|(name, _)| *name != "p_gauge_kpa" || self.gauge_pa.is_some());
         Table { columns: columns.into_iter().map(|(name, column)| (name.to_string(), column)).collect() }
     }
 }

@@ -11,14 +11,16 @@ use crate::error::{DataError, Fault};
 use crate::units::{kpa, mm};
 
 /// Writes the tidy marker table of a dataset: mm and kPa with four decimals, so that the same data give the same bytes.
-/// A column `s_mm` follows if every marker has a station. The pressures are those of the holds (means over runs).
+/// A column `s_mm` follows if every marker has a station, and `p_gauge_kpa` if there are readings of a gauge. The pressures set
+/// are those of the holds (means over runs).
 ///
 /// # Errors
 /// The writer fails.
 pub fn write_markers_csv(dataset: &Dataset, out: &mut dyn Write) -> Result<(), DataError> {
     let stations = dataset.markers.iter().all(|marker| marker.station_m.is_some());
     let mut text = String::from("run,actuator,t_s,p_body_kpa,p_act_kpa,phase,marker,x_mm,y_mm");
-    text.push_str(if stations { ",s_mm\n" } else { "\n" });
+    text.push_str(if stations { ",s_mm" } else { "" });
+    text.push_str(if dataset.gauge_pa.is_some() { ",p_gauge_kpa\n" } else { "\n" });
     for (run, label) in dataset.runs.iter().enumerate() {
         for hold in 0..dataset.holds.len() {
             add_rows(&mut text, dataset, run, label, hold, stations);
@@ -34,12 +36,15 @@ fn add_rows(text: &mut String, dataset: &Dataset, run: usize, label: &str, hold:
     for sample in 0..*samples_per_hold {
         let (t, body, act) = (holds[hold].t_s[sample], kpa(holds[hold].p_body_pa), kpa(holds[hold].p_act_pa));
         let state = [t, body, act].map(fixed).join(",");
+        let gauge = dataset.gauge(run).map(|all| format!(",{}", fixed(kpa(all[hold * samples_per_hold + sample]))));
+        let gauge = gauge.unwrap_or_default();
         for (index, marker) in markers.iter().enumerate() {
             let [x, y] = dataset.xy(run, hold, sample, index).map(|value| fixed(mm(value)));
             let (phase, name) = (holds[hold].phase.word(), quoted(&marker.name));
             let station = marker.station_m.filter(|_| stations).map_or(String::new(), |s| format!(",{}", fixed(mm(s))));
             // Writing into a String cannot fail.
-            let _ = writeln!(text, "{},{},{state},{phase},{name},{x},{y}{station}", quoted(label), quoted(actuator));
+            let _ =
+                writeln!(text, "{},{},{state},{phase},{name},{x},{y}{station}{gauge}", quoted(label), quoted(actuator));
         }
     }
 }

@@ -59,6 +59,20 @@ pub struct Assembly {
 }
 
 impl Assembly {
+    /// Without any part.
+    pub fn empty(gravity_direction: [f64; 2]) -> Assembly {
+        Assembly {
+            sites: Vec::new(),
+            segments: Vec::new(),
+            node_terms: Vec::new(),
+            supply: Vec::new(),
+            camera: Vec::new(),
+            timed: false,
+            varies: false,
+            gravity_direction,
+        }
+    }
+
     /// Sites whose actuator is of that family.
     pub fn active_sites(&mut self, family: Family) -> impl Iterator<Item = &mut Site> {
         self.sites.iter_mut().filter(move |site| site.actuator.is_some_and(|a| a.family == family))

@@ -30,6 +30,7 @@ mod root;
 pub mod scenario;
 mod shape;
 pub mod site;
+mod supply;
 pub mod term;
 mod trig;
 
@@ -41,4 +42,5 @@ pub use formula::Formula;
 pub use inverse::{Target, TipSlope};
 pub use model::{LedgerLine, Model, Prediction, Tip};
 pub use scenario::{EffectChoice, Scenario, shipped};
+pub use supply::Supply;
 pub use term::{CHANNELS, Loads, Memory, Pose, Row, RowKind, Term, Tick};

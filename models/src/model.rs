@@ -285,16 +285,8 @@ fn post(lines: &mut Vec<LedgerLine>, name: &'static str, kind: RowKind, energy_j
 
 pub(crate) fn assemble(scenario: &Scenario, spans: &[Span], segments: usize) -> Assembly {
     let sites = spans.iter().map(|span| site(scenario, span)).collect();
-    Assembly {
-        sites,
-        segments: divide(spans, segments),
-        node_terms: Vec::new(),
-        supply: Vec::new(),
-        camera: Vec::new(),
-        timed: false,
-        varies: false,
-        gravity_direction: scenario.gravity_direction,
-    }
+    let segments = divide(spans, segments);
+    Assembly { sites, segments, ..Assembly::empty(scenario.gravity_direction) }
 }
 
 fn site(scenario: &Scenario, span: &Span) -> Site {

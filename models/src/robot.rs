@@ -298,16 +298,8 @@ mod tests {
 
     /// Segments of unequal length; only their lengths matter here.
     fn assembly(lengths: &[f64]) -> Assembly {
-        Assembly {
-            sites: Vec::new(),
-            segments: lengths.iter().map(|h| Segment { site: 0, start_m: 0.0, length_m: *h }).collect(),
-            node_terms: Vec::new(),
-            supply: Vec::new(),
-            camera: Vec::new(),
-            timed: false,
-            varies: false,
-            gravity_direction: [0.0, -1.0],
-        }
+        let segments = lengths.iter().map(|h| Segment { site: 0, start_m: 0.0, length_m: *h }).collect();
+        Assembly { segments, ..Assembly::empty([0.0, -1.0]) }
     }
 
     #[test]

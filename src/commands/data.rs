@@ -43,10 +43,12 @@ fn check_text(report: &CheckReport) -> String {
     let holds = report.holds.iter().map(|h| {
         let cells = [format!("{:.2}", h.p_act_kpa), format!("{:.2}", h.p_body_kpa), h.phase.into()];
         let rest = [format!("{:.1}", h.duration_s), number(h.scatter_mm, 2)];
-        cells.into_iter().chain(rest).collect()
+        let read = h.gauge_kpa.map(|kpa| format!("{kpa:.2}"));
+        cells.into_iter().chain(rest).chain(read).collect()
     });
-    let head = ["P [kPa]", "body [kPa]", "phase", "duration [s]", "scatter of runs [mm]"];
-    out.push_str(&table(&head, 0, holds.collect()));
+    let head = ["P [kPa]", "body [kPa]", "phase", "duration [s]", "scatter of runs [mm]", "gauge [kPa]"];
+    let head = &head[..head.len() - usize::from(report.holds.iter().any(|h| h.gauge_kpa.is_none()))];
+    out.push_str(&table(head, 0, holds.collect()));
     let markers = report.markers.iter().map(|m| vec![m.name.clone(), number(m.s_mm, 1), number(m.scatter_mm, 2)]);
     out.push_str(&table(&["marker", "station [mm]", "scatter of runs [mm]"], 1, markers.collect()));
     for o in &report.outliers {
@@ -102,6 +104,7 @@ fn generator(args: &Generate) -> Result<Generator, Failure> {
         camera_sd_m: scatter("--sigma", &args.scatter.sigma)?,
         pressure_sd: pressure_scatter(args.scatter.pressure_scatter)?,
         alignment_sd_m: scatter("--alignment", &args.scatter.alignment)?,
+        gauge: args.gauge,
         ..Generator::default()
     })
 }

@@ -3,20 +3,21 @@
 use super::basis::{Basis, cosine};
 use super::candidates::{Candidate, candidates, present};
 use super::options::Options;
-use super::problem::{Block, Fit, Problem};
+use super::problem::{Block, Fit, Problem, Readings};
 use super::screen::trace;
+use super::source::Source;
 use crate::comparison::Comparison;
 use crate::error::CompareError;
 use crate::evaluate::default_tolerance_m;
-use crate::layout::Layout;
+use crate::gauge::Gauge;
+use crate::layout::{Layout, Weights};
 use crate::noise::{NoiseModel, RUNS_FOR_P};
 use crate::stats::f_tail;
-use crate::study::predict::is_open;
 use crate::study::predict_dataset;
-use crate::whiten::Whitener;
 use data::{Dataset, Direct};
 use models::Scenario;
 use nalgebra::{DMatrix, SymmetricEigen};
+use std::borrow::Cow;
 
 /// Body pressures within this fraction share a bending stiffness.
 const SAME_BODY_PRESSURE: f64 = 0.05;
@@ -27,17 +28,6 @@ const EIGEN_ROUNDS: usize = 1000;
 
 /// Noise of the source with that number, given its ∂f/∂ln p.
 type NoiseOf<'n> = dyn Fn(usize, &[f64]) -> Result<NoiseModel, CompareError> + 'n;
-
-/// A dataset and the base as it was measured there.
-#[derive(Clone, Copy)]
-pub struct Source<'a> {
-    /// The base as given, with the dataset's markers and loads.
-    pub scenario: &'a Scenario,
-    /// The data.
-    pub dataset: &'a Dataset,
-    /// What was measured directly.
-    pub direct: Direct,
-}
 
 /// A dataset of the same robot that is fitted along with the first.
 pub struct Beside<'a> {
@@ -55,6 +45,8 @@ pub struct Case<'a> {
     pub dataset: &'a Dataset,
     /// What was measured directly in them.
     pub direct: Direct,
+    /// Readings of the actuator's pressure in them.
+    pub gauge: Option<&'a Gauge>,
     /// Noise of their mean.
     pub noise: NoiseModel,
     /// Further data.
@@ -79,8 +71,9 @@ pub struct Case<'a> {
 
 /// Catalogue of a diagnosis: the scenario's own effects first if they are refitted, then those that may be missing; without
 /// those that nothing is left to be seen of in any of the data.
-pub fn catalogue(scenario: &Scenario, direct: &[Direct], options: &Options) -> (Vec<Candidate>, usize) {
-    let open = |c: &Candidate| direct.iter().any(|direct| is_open(c.stage, *direct));
+pub fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usize) {
+    let scenario = sources[0].as_given();
+    let open = |c: &Candidate| sources.iter().any(|source| source.shows(c.stage));
     let mut list = if options.refit_present { present(scenario) } else { Vec::new() };
     list.retain(open);
     let own = list.len();
@@ -103,8 +96,10 @@ impl<'a> Case<'a> {
             let (name, runs) = (source.dataset.name.clone(), source.dataset.runs.len());
             return Err(CompareError::TooFewRunsBeside { name, runs, needed: RUNS_FOR_P });
         }
-        let estimate =
-            |i: usize, slope: &[f64]| NoiseModel::estimate(sources[i].dataset, slope, &sessions[i], options.sigma_m);
+        let estimate = |i: usize, slope: &[f64]| {
+            let noise = NoiseModel::estimate(sources[i].dataset, slope, &sessions[i], options.sigma_m)?;
+            sources[i].at_readings(noise, slope)
+        };
         Case::with_noise(sources, &estimate, (candidates, own), options)
     }
 
@@ -118,14 +113,14 @@ impl<'a> Case<'a> {
         (candidates, own): (&'a [Candidate], usize),
         options: &Options,
     ) -> Result<Case<'a>, CompareError> {
-        let Source { scenario, dataset, direct } = sources[0];
+        let Source { scenario, dataset, direct, gauge } = sources[0];
         for source in sources {
             Layout::of(source.dataset)?;
         }
         let body_pa = body_pressures(sources.iter().map(|source| source.dataset));
         let bendings = if options.keep_bending { 0 } else { body_pa.len() };
         let always: Vec<usize> = (0..own).collect();
-        let values: Vec<f64> = candidates[..own].iter().flat_map(|c| own_values(scenario, c)).collect();
+        let values: Vec<f64> = candidates[..own].iter().flat_map(|c| own_values(sources[0].as_given(), c)).collect();
         let slopes = sources.iter().map(|s| Ok(predict_dataset(s.scenario, s.dataset)?.d_ln_pressure_m));
         let slopes: Vec<Vec<f64>> = slopes.collect::<Result<_, CompareError>>()?;
         let fit = |slopes: &[Vec<f64>]| -> Result<(Vec<NoiseModel>, Problem<'a>, Fit), CompareError> {
@@ -149,6 +144,7 @@ impl<'a> Case<'a> {
             scenario,
             dataset,
             direct,
+            gauge,
             noise,
             beside,
             always,
@@ -181,10 +177,20 @@ impl<'a> Case<'a> {
         predicted.unwrap_or_else(|| block.target_m.clone())
     }
 
+    /// Whitened differences of a fit's supply to the readings in the source with that number.
+    pub fn supply_of(&self, source: usize, fit: &Fit) -> Option<Vec<f64>> {
+        let values = &fit.theta()[self.problem.bendings..];
+        self.problem.blocks[source].supply(self.problem.candidates, &fit.effects, values)
+    }
+
     /// All sources with their noise, the first one first.
     pub fn sources(&self) -> impl Iterator<Item = (Source<'a>, &NoiseModel)> {
-        let first = Source { scenario: self.scenario, dataset: self.dataset, direct: self.direct };
-        std::iter::once((first, &self.noise)).chain(self.beside.iter().map(|b| (b.source, &b.noise)))
+        std::iter::once((self.source(), &self.noise)).chain(self.beside.iter().map(|b| (b.source, &b.noise)))
+    }
+
+    /// The first data.
+    pub fn source(&self) -> Source<'a> {
+        Source { scenario: self.scenario, dataset: self.dataset, direct: self.direct, gauge: self.gauge }
     }
 
     /// Blocks of the data beside the first.
@@ -301,18 +307,18 @@ pub fn block<'a>(
     noise: &NoiseModel,
     body_pa: &[f64],
 ) -> Result<Block<'a>, CompareError> {
-    let Source { scenario, dataset, direct } = *source;
+    let Source { scenario, dataset, direct, gauge } = *source;
     let width = dataset.values_per_run() / dataset.holds.len();
-    let rows: Vec<[f64; 4]> =
-        holds.iter().flat_map(|h| noise.directions[h * width..(h + 1) * width].to_vec()).collect();
+    let each: Vec<Weights> = holds.iter().flat_map(|h| h * width..(h + 1) * width).map(|i| vec![(i, 1.0)]).collect();
     Ok(Block {
         scenario: scenario.clone(),
-        dataset,
+        dataset: Cow::Borrowed(dataset),
         direct,
         holds: holds.to_vec(),
         bending_of: dataset.holds.iter().map(|h| nearest(body_pa, h.p_body_pa)).collect(),
         target_m,
-        whitener: Whitener::new(&rows, noise.unit_m(), &noise.test_variance)?,
+        whitener: noise.whitener_of(&each)?,
+        gauge: gauge.map(|gauge| Readings::of(gauge.clone())).transpose()?,
     })
 }
 
@@ -347,7 +353,7 @@ fn derivative(problem: &Problem, block: &Block, fit: &Fit) -> Result<Vec<f64>, C
     let mut slope = vec![0.0; block.target_m.len()];
     let width = slope.len() / block.dataset.holds.len();
     for (group, scenario) in fitted_scenarios(problem, block, &fit.effects, fit.theta()).iter().enumerate() {
-        let predicted = predict_dataset(scenario, block.dataset)?;
+        let predicted = predict_dataset(scenario, &block.dataset)?;
         for (hold, own) in block.bending_of.iter().enumerate() {
             if *own == group || problem.bendings == 0 {
                 let rows = hold * width..(hold + 1) * width;

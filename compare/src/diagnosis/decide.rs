@@ -1,7 +1,7 @@
 //! From fits to a verdict.
 
 use super::case::Case;
-use super::lack_of_fit::lack_of_fit;
+use super::lack_of_fit::{lack_of_fit, with_supply};
 use super::options::Options;
 use super::order;
 use super::pairs::{another_wanted, fit_pairs, indistinguishable as alike_pairs, p_over};
@@ -180,7 +180,9 @@ fn is_significant(case: &Case, fit: &Fit) -> Result<bool, CompareError> {
 fn test(case: &Case, fit: &Fit) -> Result<Option<LackOfFit>, CompareError> {
     let mut tests = Vec::new();
     for (i, (source, noise)) in case.sources().enumerate() {
-        tests.push(lack_of_fit(source.dataset, noise, &case.prediction_of(i, fit), fit.theta().len())?);
+        let positions = lack_of_fit(source.dataset, noise, &case.prediction_of(i, fit), fit.theta().len())?;
+        let supply = source.gauge.zip(case.supply_of(i, fit));
+        tests.push(positions.map(|lof| supply.map_or(lof, |(gauge, white)| with_supply(lof, gauge, &white))));
     }
     let count = tests.len() as f64;
     let clearest = tests.into_iter().collect::<Option<Vec<_>>>();

@@ -10,10 +10,11 @@
 //! explanation sees the difference more often than Φ(√λ − z_{1−α}); one that knows neither the size and kind of what it looks
 //! for nor the noise sees it less often.
 
-use super::case::{Case, Source, catalogue};
+use super::case::{Case, catalogue};
 use super::options::Options;
 use super::pairs::fit_pairs;
 use super::singles::fit_all;
+use super::source::Source;
 use crate::error::CompareError;
 use crate::noise::NoiseModel;
 use crate::study::fit_scenario;
@@ -56,8 +57,9 @@ pub fn distances(
 ) -> Result<Distances, CompareError> {
     let (fitted, _) = fit_scenario(scenario, ideal, about)?;
     let options = Options::default();
-    let source = Source { scenario: &fitted, dataset: ideal, direct: about.map(|a| a.direct).unwrap_or_default() };
-    let (candidates, own) = catalogue(&fitted, &[source.direct], &options);
+    let direct = about.map(|a| a.direct).unwrap_or_default();
+    let source = Source { scenario: &fitted, dataset: ideal, direct, gauge: None };
+    let (candidates, own) = catalogue(&[source], &options);
     let known = |_: usize, slope: &[f64]| NoiseModel::known(ideal, slope, noise.runs, noise.sigma_m, noise.run_sd);
     let case = Case::with_noise(&[source], &known, (&candidates, own), &options)?;
     let (singles, _) = fit_all(&case);

@@ -48,7 +48,7 @@ pub fn plans(scenario: &Scenario, dataset: &Dataset, at_hand: Direct, instrument
 /// Short and long, what is measured directly for the first time.
 fn with_instruments(before: Direct, now: Direct) -> (String, String) {
     let pressure = (now.pressure && !before.pressure)
-        .then_some(("gauge", "with the pressure read, or regulated, at the actuator itself"));
+        .then_some(("gauge", "with a gauge read at the actuator itself (column p_gauge_kpa)"));
     let frame = (now.frame && !before.frame)
         .then_some(("frame", "with fiducials on the clamp and a checkerboard in the markers' plane"));
     let both: Vec<_> = [pressure, frame].into_iter().flatten().collect();
@@ -134,7 +134,7 @@ fn protocol(dataset: &Dataset, pressures: &[f64], body: f64, hold_s: f64) -> Dat
         t_s: (0..samples).map(|k| hold_s * (i as f64 + (k + 1) as f64 / samples as f64)).collect(),
     };
     let holds: Vec<Hold> = pressures.iter().enumerate().map(hold).collect();
-    let mut planned = Dataset { runs: vec!["1".into()], holds, xy_m: Vec::new(), ..dataset.clone() };
+    let mut planned = Dataset { runs: vec!["1".into()], holds, xy_m: Vec::new(), gauge_pa: None, ..dataset.clone() };
     planned.xy_m = vec![0.0; planned.values_per_run()];
     planned
 }

@@ -1,6 +1,6 @@
 //! Error at what a fit has not seen of the first data: pressures left out, runs left out. Data beside them stay in the fit.
 
-use super::case::{Case, Source, block};
+use super::case::{Case, block};
 use super::problem::{Fit, Problem};
 use crate::comparison::ZERO_PRESSURE_PA;
 use crate::error::CompareError;
@@ -114,8 +114,7 @@ fn run_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
 }
 
 fn problem<'a>(case: &Case<'a>, holds: &[usize], target_m: Vec<f64>) -> Result<Problem<'a>, CompareError> {
-    let source = Source { scenario: case.scenario, dataset: case.dataset, direct: case.direct };
-    let mut blocks = vec![block(&source, holds, target_m, &case.noise, &case.body_pa)?];
+    let mut blocks = vec![block(&case.source(), holds, target_m, &case.noise, &case.body_pa)?];
     blocks.extend(case.blocks_beside()?);
     let Problem { candidates, bendings, .. } = case.problem;
     Ok(Problem { candidates, blocks, bendings, enough: ENOUGH })

@@ -7,7 +7,7 @@
 
 use super::basis::Basis;
 use super::case::Case;
-use super::least_squares::{minimise, square};
+use super::least_squares::{dot, minimise, square};
 use super::problem::Fit;
 use crate::noise::SENSOR_SD;
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -47,8 +47,9 @@ fn interval(case: &Case, fit: &Fit, k: usize, profiled: bool) -> Option<[f64; 2]
 /// Half-width of the interval of wᵀȳ, `white` being the weights on whitened values.
 fn half_width(case: &Case, white: &[f64]) -> Option<f64> {
     let (mut total, mut squares_over_dof, mut from) = (0.0, 0.0, 0);
-    for (_, noise) in case.sources() {
+    for (source, noise) in case.sources() {
         let to = from + noise.directions.len();
+        let read = source.gauge.map_or(0, |gauge| gauge.readings.len());
         let sigma = noise.sigma_m?;
         // The whitening matrix is symmetric: weights on raw values are the whitened weights on white ones.
         let weights = noise.whiten(&white[from..to]);
@@ -60,10 +61,13 @@ fn half_width(case: &Case, white: &[f64]) -> Option<f64> {
                 along * along * noise.mean_variance[j].max(SENSOR_SD[j].powi(2) / runs)
             })
             .sum();
+        let gauge: f64 = noise.gauge_errors.iter().map(|c| dot(&weights, c).powi(2)).sum();
+        // Errors of the gauge are specified, or widened already: unit variance of what is whitened.
+        total += gauge + square(&white[to..to + read]);
         let run_dof = noise.runs.saturating_sub(noise.sessions).max(1) as f64;
         total += camera + run_to_run;
         squares_over_dof += camera * camera / noise.pure_error_dof.max(1) as f64 + run_to_run * run_to_run / run_dof;
-        from = to;
+        from = to + read;
     }
     let dof = total * total / squares_over_dof;
     let t = StudentsT::new(0.0, 1.0, dof.clamp(1.0, MOST_DOF)).ok()?.inverse_cdf(0.975);

@@ -7,17 +7,19 @@
 //! | drift | late minus early samples of each hold, along the robot's shape | creep, leaks |
 //! | marker means | means over all holds | a marker or camera at fault |
 //!
+//! Where a gauge was read at the actuator, its readings against the supply's laws are a fifth ([`with_supply`]).
+//!
 //! Each is a χ² of whitened functionals over its degrees of freedom, held against F because σ is estimated. The
 //! smallest p times four is the p of the whole.
 
 use super::result::LackOfFit;
 use crate::comparison::Comparison;
 use crate::error::CompareError;
+use crate::gauge::Gauge;
 use crate::layout::{Layout, Weights, apply};
 use crate::noise::NoiseModel;
 use crate::residuals::residual_map;
 use crate::stats::{f_tail, reported_p};
-use crate::whiten::Whitener;
 use data::Dataset;
 
 /// Tests a prediction; `fitted` parameters were fitted to the data. `None` if no p-values can be formed.
@@ -41,7 +43,14 @@ pub fn lack_of_fit(
     let least = [all, hold_means, drift, marker_means].into_iter().fold(1.0, f64::min);
     let p_value = reported_p(4.0 * least);
     let [all, hold_means, drift, marker_means] = [all, hold_means, drift, marker_means].map(reported_p);
-    Ok(Some(LackOfFit { all, hold_means, drift, marker_means, p_value }))
+    Ok(Some(LackOfFit { all, hold_means, drift, marker_means, supply: None, p_value }))
+}
+
+/// The same with what the gauge says of the supply; `white` are its readings minus the laws, whitened.
+pub fn with_supply(lof: LackOfFit, gauge: &Gauge, white: &[f64]) -> LackOfFit {
+    let chi2: f64 = white.iter().map(|w| w * w).sum();
+    let p = f_tail(chi2 / white.len() as f64, white.len(), gauge.dof);
+    LackOfFit { supply: Some(reported_p(p)), p_value: (1.25 * lof.p_value).min(reported_p(5.0 * p)), ..lof }
 }
 
 fn p_of(white: &[f64], fitted: usize, noise: &NoiseModel) -> f64 {
@@ -67,12 +76,7 @@ fn marker_means(layout: &Layout) -> Vec<Weights> {
 /// Whitened values of means of equally many values each, no value in two of them.
 fn whitened(c: &Comparison, means: &[Weights]) -> Result<Vec<f64>, CompareError> {
     let values: Vec<f64> = means.iter().map(|w| apply(w, &c.residual_m)).collect();
-    let direction = |w: &Weights| -> [f64; 4] {
-        std::array::from_fn(|j| w.iter().map(|(i, share)| share * c.noise.directions[*i][j]).sum())
-    };
-    let rows: Vec<[f64; 4]> = means.iter().map(direction).collect();
-    let unit_m = c.noise.unit_m() / (means.first().map_or(1, Vec::len) as f64).sqrt();
-    Ok(Whitener::new(&rows, unit_m, &c.noise.test_variance)?.whiten(&values))
+    Ok(c.noise.whitener_of(means)?.whiten(&values))
 }
 
 fn drift(c: &Comparison, noise: &NoiseModel) -> f64 {

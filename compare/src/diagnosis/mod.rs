@@ -24,6 +24,8 @@ mod distance;
 mod evaluator;
 mod experiments;
 mod fitted;
+#[cfg(test)]
+mod gauge_tests;
 mod heldout;
 mod interval;
 mod lack_of_fit;
@@ -41,6 +43,7 @@ mod problem;
 mod result;
 mod screen;
 mod singles;
+mod source;
 mod stands_out;
 mod story;
 #[cfg(test)]
@@ -51,22 +54,25 @@ mod words;
 
 pub use candidates::{Candidate, Free, candidates};
 pub use distance::{Distances, KnownNoise, distances, power};
-pub use fitted::{FittedBeside, with_fitted};
+pub use fitted::{FittedBeside, GaugeFit, with_fitted};
 pub use options::Options;
 pub use result::*;
 
 use crate::comparison::Comparison;
 use crate::error::CompareError;
+use crate::gauge::Gauge;
 use crate::noise_summary::NoiseSummary;
 use crate::residuals::{ResidualMap, residual_map};
 use crate::study::fit_scenario;
+use crate::study::predict::without_settled;
 use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
-use case::{Case, Source};
+use case::Case;
 use data::{About, Dataset, Direct};
 use decide::{Decision, decide};
 use heldout::HeldOut;
 use models::Scenario;
 use problem::Fit;
+use source::Source;
 
 /// Gain below which a name is a hint, and above which a lone one is called identified.
 const GAINS: [f64; 2] = [25.0, 100.0];
@@ -122,8 +128,7 @@ pub fn diagnose_together(
     }
     let sources: Vec<Source> = parts.iter().map(Part::source).collect();
     let sessions: Vec<Vec<usize>> = parts.iter().map(|part| part.prepared.sessions.clone()).collect();
-    let direct: Vec<Direct> = parts.iter().map(|part| part.direct).collect();
-    let (candidates, own) = case::catalogue(&parts[0].scenario, &direct, options);
+    let (candidates, own) = case::catalogue(&sources, options);
     let case = Case::new(&sources, &sessions, (&candidates, own), options)?;
     let runs = prepare::outlying_runs(case.dataset, &case.noise);
     warnings.extend(runs.iter().map(|r| {
@@ -153,6 +158,7 @@ struct Part {
     scenario: Scenario,
     prepared: prepare::Prepared,
     direct: Direct,
+    gauge: Option<Gauge>,
 }
 
 impl Part {
@@ -160,14 +166,28 @@ impl Part {
     fn of(scenario: &Scenario, measured: &Measured) -> Result<(Part, Vec<String>), CompareError> {
         let Measured { dataset, about } = *measured;
         crate::layout::Layout::of(dataset)?;
-        let (scenario, mut warnings) = fit_scenario(scenario, dataset, about)?;
+        let (mut scenario, mut warnings) = fit_scenario(scenario, dataset, about)?;
         let mut prepared = prepare::prepare(dataset, about);
         warnings.append(&mut prepared.warnings);
-        Ok((Part { scenario, prepared, direct: about.map(|a| a.direct).unwrap_or_default() }, warnings))
+        let mut direct = about.map(|a| a.direct).unwrap_or_default();
+        if direct.pressure && dataset.gauge_pa.is_some() {
+            warnings.push(
+                "about.toml says [direct] pressure, so p_act is the actuator's own and the column p_gauge was not used"
+                    .into(),
+            );
+        }
+        let gauge = Gauge::of(&prepared.dataset, &scenario).filter(|_| !direct.pressure);
+        if let Some(gauge) = &gauge {
+            prepared.dataset = gauge.positions(&prepared.dataset);
+            direct.pressure = true;
+            scenario = without_settled(&scenario, direct);
+        }
+        Ok((Part { scenario, prepared, direct, gauge }, warnings))
     }
 
     fn source(&self) -> Source<'_> {
-        Source { scenario: &self.scenario, dataset: &self.prepared.dataset, direct: self.direct }
+        let Part { scenario, prepared, direct, gauge } = self;
+        Source { scenario, dataset: &prepared.dataset, direct: *direct, gauge: gauge.as_ref() }
     }
 }
 
@@ -213,6 +233,7 @@ fn assemble(
         actuator: case.dataset.actuator.clone(),
         runs: case.dataset.runs.len(),
         beside: beside(case, last),
+        gauges: GaugeFit::all(case, last),
         verdict: decision.verdict,
         p_value: decision.p_value,
         alpha: case.alpha,
@@ -221,7 +242,7 @@ fn assemble(
         summary: Vec::new(),
         base: base(case, last, &held_out, &noise)?,
         noise,
-        rule_out_first: rule_out_first(&ranked, decision),
+        rule_out_first: rule_out_first(case, &ranked, decision),
         limits: limits::limits(&case.sources().map(|(source, _)| source.dataset).collect::<Vec<_>>(), &undetectable),
         ranked,
         indistinguishable,
@@ -334,11 +355,14 @@ fn names(case: &Case, decision: &Decision, pairs: &[Combination]) -> Vec<String>
     decision.set.iter().filter_map(name).collect()
 }
 
-fn rule_out_first(ranked: &[Ranked], decision: &Decision) -> Vec<String> {
+fn rule_out_first(case: &Case, ranked: &[Ranked], decision: &Decision) -> Vec<String> {
     if decision.verdict.is_some_and(|v| v != Verdict::Effect) {
         return Vec::new();
     }
-    ranked.iter().filter(|r| r.in_set && r.group.is_nuisance()).map(|r| r.effect.clone()).collect()
+    // A gauge has been asked already.
+    let read = case.sources().any(|(source, _)| source.gauge.is_some());
+    let doubtful = |r: &&Ranked| r.in_set && r.group.is_nuisance() && !(read && r.group == Group::Supply);
+    ranked.iter().filter(doubtful).map(|r| r.effect.clone()).collect()
 }
 
 fn undetectable(case: &Case, decision: &Decision, ranked: &[Ranked], added: &[Added]) -> Vec<Undetectable> {

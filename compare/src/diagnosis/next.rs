@@ -8,14 +8,19 @@
 use super::case::{Case, fitted_scenarios, nearest, whole_block};
 use super::decide::Decision;
 use super::experiments::{Part, Plan, plans, protocol_text};
-use super::problem::{Block, Fit, Problem};
+use super::problem::{Block, Fit, Problem, Readings, with};
 use super::result::{Experiment, NextExperiment, Separation, Verdict};
 use crate::directions::nuisance_directions;
 use crate::error::CompareError;
+use crate::gauge::Gauge;
+use crate::noise::SENSOR_SD;
+use crate::study::predict::without_settled;
 use crate::study::predict_dataset;
 use crate::whiten::Whitener;
 use data::Direct;
+use models::Supply;
 use models::effects::Stage;
+use std::borrow::Cow;
 
 /// λ that tells two explanations apart in about nine of ten cases.
 const ENOUGH: f64 = 16.0;
@@ -38,7 +43,8 @@ pub fn next_experiment(case: &Case, decision: &Decision) -> Result<Option<NextEx
     let (best, rivals) = (hypotheses[0], &hypotheses[1..hypotheses.len().min(RIVALS + 1)]);
     let now = separations(case, None, best, rivals)?;
     let mut tried = Vec::new();
-    for plan in plans(case.scenario, case.dataset, case.direct, instruments(case, &hypotheses)) {
+    let set = case.gauge.map_or_else(|| case.dataset.clone(), |gauge| gauge.as_set(case.dataset));
+    for plan in plans(case.scenario, &set, case.direct, instruments(case, &hypotheses)) {
         // A planned pressure without equilibrium is no experiment to propose.
         if let Ok(separations) = separations(case, Some(&plan), best, rivals) {
             tried.push(experiment(case, &plan, separations));
@@ -158,21 +164,38 @@ fn planned<'a>(
     levels: &[f64],
     (truth, theta): (&Fit, &[f64]),
 ) -> Result<Block<'a>, CompareError> {
-    let dataset = &part.dataset;
+    let gauge = part.direct.pressure.then(|| {
+        let laws = with(&part.scenario, problem.candidates, &truth.effects, &theta[problem.bendings..], &|stage| {
+            stage == Stage::Supply
+        });
+        let run_sd = case.noise.run_sd[0].unwrap_or(SENSOR_SD[0]);
+        Gauge::planned(&part.dataset, &part.scenario, &Supply::of(&laws), case.noise.runs, run_sd)
+    });
+    let dataset = match &gauge {
+        Some(gauge) => Cow::Owned(gauge.positions(&part.dataset)),
+        None => Cow::Borrowed(&part.dataset),
+    };
     let mut block = Block {
-        scenario: part.scenario.clone(),
-        dataset,
+        scenario: without_settled(&part.scenario, part.direct),
         direct: part.direct,
         holds: (0..dataset.holds.len()).collect(),
         bending_of: dataset.holds.iter().map(|h| nearest(levels, h.p_body_pa)).collect(),
         target_m: Vec::new(),
         whitener: Whitener::new(&[[0.0; 4]; 4], 1.0, &[0.0; 4])?,
+        gauge: None,
+        dataset,
     };
     let scenarios = fitted_scenarios(problem, &block, &truth.effects, theta);
     let own = scenarios.get(block.bending_of[0]).or(scenarios.first());
-    let predicted = predict_dataset(own.unwrap_or(&part.scenario), dataset)?;
+    let predicted = predict_dataset(own.unwrap_or(&block.scenario), &block.dataset)?;
     let directions = nuisance_directions(&predicted.xy_m, &predicted.d_ln_pressure_m);
-    block.whitener = Whitener::new(&directions, case.noise.unit_m(), &case.noise.test_variance)?;
+    let mut variance = case.noise.test_variance;
+    let errors = gauge.as_ref().map(|gauge| gauge.errors_m(&block.dataset, &predicted.d_ln_pressure_m));
+    if errors.is_some() {
+        variance[0] = 0.0;
+    }
+    block.whitener = Whitener::with_columns(&directions, case.noise.unit_m(), &variance, &errors.unwrap_or_default())?;
+    block.gauge = gauge.map(Readings::of).transpose()?;
     block.target_m = predicted.xy_m;
     Ok(block)
 }

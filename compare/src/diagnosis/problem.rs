@@ -4,10 +4,14 @@ use super::basis::Basis;
 use super::candidates::Candidate;
 use super::evaluator::positions;
 use super::least_squares::{Minimum, Range, dot, minimise, square};
+use crate::error::CompareError;
+use crate::gauge::Gauge;
 use crate::study::predict::is_open;
 use crate::whiten::Whitener;
 use data::{Dataset, Direct};
 use models::Scenario;
+use models::effects::Stage;
+use std::borrow::Cow;
 
 /// Largest B searched \[N·m²\]: 100 times what a 0.2 mm coated fabric would need at these sizes.
 pub const MAX_BENDING: f64 = 200.0;
@@ -23,7 +27,7 @@ pub struct Block<'a> {
     /// The base with the loads of this block.
     pub scenario: Scenario,
     /// Protocol and markers.
-    pub dataset: &'a Dataset,
+    pub dataset: Cow<'a, Dataset>,
     /// What was measured directly: effects there change nothing in this block.
     pub direct: Direct,
     /// Holds that are fitted, rising.
@@ -34,6 +38,24 @@ pub struct Block<'a> {
     pub target_m: Vec<f64>,
     /// Whitens the values of the fitted holds.
     pub whitener: Whitener,
+    /// A gauge at the actuator, at whose readings the positions are predicted.
+    pub gauge: Option<Readings>,
+}
+
+/// What the supply's laws are held against.
+pub struct Readings {
+    /// The readings.
+    pub gauge: Gauge,
+    /// Whitens their differences to a law.
+    pub whitener: Whitener,
+}
+
+impl Readings {
+    /// # Errors
+    /// If the covariance cannot be decomposed.
+    pub fn of(gauge: Gauge) -> Result<Readings, CompareError> {
+        Ok(Readings { whitener: gauge.whitener()?, gauge })
+    }
 }
 
 /// A list of blocks with shared parameters.
@@ -91,13 +113,13 @@ impl Block<'_> {
         let mut model = self.with_effects(candidates, effects, &theta[bendings..]);
         let mut out = vec![0.0; self.dataset.values_per_run()];
         if bendings == 0 {
-            positions(&model, self.dataset, holds, &mut out).ok()?;
+            positions(&model, &self.dataset, holds, &mut out).ok()?;
         }
         for (group, bending) in theta[..bendings].iter().enumerate() {
             let own: Vec<usize> = holds.iter().copied().filter(|h| self.bending_of[*h] == group).collect();
             if !own.is_empty() {
                 model.bending_stiffness = *bending;
-                positions(&model, self.dataset, &own, &mut out).ok()?;
+                positions(&model, &self.dataset, &own, &mut out).ok()?;
             }
         }
         Some(out)
@@ -105,16 +127,21 @@ impl Block<'_> {
 
     /// The base of this block with effects at values in SI, one effect's parameters after the other's.
     pub fn with_effects(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Scenario {
-        let mut model = self.scenario.clone();
-        let mut from = 0;
-        for candidate in effects.iter().map(|e| &candidates[*e]) {
-            let to = from + candidate.parameters.len();
-            if is_open(candidate.stage, self.direct) {
-                model = candidate.apply(&model, &values[from..to]);
-            }
-            from = to;
-        }
-        model
+        with(&self.scenario, candidates, effects, values, &|stage| is_open(stage, self.direct))
+    }
+
+    /// Differences of the supply's laws to the readings of the gauge \[Pa\]; none without one.
+    pub fn supply_pa(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Vec<f64> {
+        self.gauge.as_ref().map_or(Vec::new(), |Readings { gauge, .. }| {
+            let laws = with(&gauge.scenario, candidates, effects, values, &|stage| stage == Stage::Supply);
+            gauge.differences_pa(&laws)
+        })
+    }
+
+    /// The same, whitened.
+    pub fn supply(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Option<Vec<f64>> {
+        let Readings { whitener, .. } = self.gauge.as_ref()?;
+        Some(whitener.whiten(&self.supply_pa(candidates, effects, values)))
     }
 
     /// Whitened difference of a prediction to the target.
@@ -133,6 +160,7 @@ impl Problem<'_> {
         for block in &self.blocks {
             let predicted = block.predict(self.candidates, effects, theta, self.bendings)?;
             all.append(&mut block.whiten(&predicted));
+            all.append(&mut block.supply(self.candidates, effects, &theta[self.bendings..]).unwrap_or_default());
         }
         Some(all)
     }
@@ -194,6 +222,26 @@ impl Problem<'_> {
         let free = effects.iter().flat_map(|e| &self.candidates[*e].parameters).map(|p| p.neutral);
         std::iter::repeat_n(f64::NAN, self.bendings).chain(free).collect()
     }
+}
+
+/// A scenario with those of the effects whose stage is open, at values in SI.
+pub fn with(
+    scenario: &Scenario,
+    candidates: &[Candidate],
+    effects: &[usize],
+    values: &[f64],
+    is_open: &dyn Fn(Stage) -> bool,
+) -> Scenario {
+    let mut model = scenario.clone();
+    let mut from = 0;
+    for candidate in effects.iter().map(|e| &candidates[*e]) {
+        let to = from + candidate.parameters.len();
+        if is_open(candidate.stage) {
+            model = candidate.apply(&model, &values[from..to]);
+        }
+        from = to;
+    }
+    model
 }
 
 /// On a bound that is not the neutral value, and the sum of squares would fall beyond it by more than noise explains.

@@ -1,6 +1,6 @@
 //! What a diagnosis says: plain structs, printed units, no NaN.
 
-use super::fitted::FittedBeside;
+use super::fitted::{FittedBeside, GaugeFit};
 use crate::noise_summary::NoiseSummary;
 use crate::residuals::ResidualMap;
 use crate::where_it_fails::Statement;
@@ -222,7 +222,10 @@ pub struct LackOfFit {
     pub drift: f64,
     /// Means of the markers.
     pub marker_means: f64,
-    /// Smallest of the four times four.
+    /// Readings of a gauge at the actuator against the supply's laws, where there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub supply: Option<f64>,
+    /// Smallest of them times their number.
     pub p_value: f64,
 }
 
@@ -337,6 +340,9 @@ pub struct Diagnosis {
     /// Further data that were fitted along; the errors elsewhere are those of the first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub beside: Vec<FittedBeside>,
+    /// Gauges at the actuator that were read along.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gauges: Vec<GaugeFit>,
     /// Verdict; `None` where no p-value can be formed: the ranking is then uncalibrated.
     pub verdict: Option<Verdict>,
     /// One p of "nothing is missing", corrected for everything that was tried; never below 1e-6.

@@ -2,8 +2,8 @@
 
 use data::Direct;
 
-use super::fitted::FittedBeside;
-use super::result::{Confidence, Diagnosis, LeftPattern, ParameterValue, Ranked, Verdict};
+use super::fitted::{FittedBeside, GaugeFit};
+use super::result::{Confidence, Diagnosis, Group, LeftPattern, ParameterValue, Ranked, Verdict};
 use super::words::quantity;
 use crate::wording::{list, p_value};
 
@@ -14,6 +14,7 @@ const MOSTLY: f64 = 0.25;
 pub fn story(d: &Diagnosis) -> Vec<String> {
     let mut told = vec![opening(d)];
     told.extend(d.beside.iter().map(beside));
+    told.extend(d.gauges.iter().filter_map(gauge));
     told.extend(match d.verdict {
         None => ranking_only(d),
         Some(Verdict::None) => nothing(d),
@@ -49,6 +50,16 @@ fn beside(part: &FittedBeside) -> String {
     )
 }
 
+fn gauge(fit: &GaugeFit) -> Option<String> {
+    let (read, set) = (fit.read_kpa.iter().zip(&fit.set_kpa)).max_by(|a, b| a.1.total_cmp(b.1))?;
+    let GaugeFit { dataset, before_kpa, after_kpa, .. } = fit;
+    Some(format!(
+        "The gauge in {dataset} read {read:.1} kPa at the actuator where {set:.1} were set. The supply's laws are off by \
+         {before_kpa:.2} kPa (rms) as the scenario has them, by {after_kpa:.2} kPa with this answer; positions are predicted at \
+         the readings."
+    ))
+}
+
 fn ranking_only(d: &Diagnosis) -> Vec<String> {
     let helps = d.ranked.iter().filter(|r| r.gain > 1.0 && !r.at_bound);
     let names: Vec<String> = helps.take(5).map(|r| r.effect.clone()).collect();
@@ -79,21 +90,24 @@ fn nothing(d: &Diagnosis) -> Vec<String> {
 }
 
 fn effect(d: &Diagnosis) -> Vec<String> {
-    let mut told = Vec::new();
     let names: Vec<String> = d.added.iter().map(|a| a.effect.clone()).collect();
-    told.push(format!(
-        "Adding {} brings it to {:.2} mm ({} after correcting for {} effects).",
+    let supply = d.gauges.first().filter(|_| d.added.iter().all(|a| a.group == Group::Supply));
+    let brings = match supply {
+        Some(gauge) => format!("the supply within {:.2} kPa of the gauge", gauge.after_kpa),
+        None => format!("it to {:.2} mm", d.base.systematic_with_added_mm),
+    };
+    let mut told = vec![format!(
+        "Adding {} brings {brings} ({} after correcting for {} effects).",
         list(&names),
-        d.base.systematic_with_added_mm,
         d.p_value.map(p_value).unwrap_or_default(),
         d.ranked.len()
-    ));
+    )];
     for added in &d.added {
         let values: Vec<String> = added.parameters.iter().map(with_interval).collect();
         let sentence = d.ranked.iter().find(|r| r.effect == added.effect).map_or("", |r| r.sentence.as_str());
         told.push(format!("{}: {}. {sentence}", added.effect, values.join(", ")));
     }
-    if let Some(r) = d.ranked.iter().find(|r| names.len() == 1 && r.effect == names[0]) {
+    if let Some(r) = d.ranked.iter().find(|r| names.len() == 1 && r.effect == names[0] && supply.is_none()) {
         told.extend(held_out(d, r));
     }
     if d.indistinguishable.len() > 1 {

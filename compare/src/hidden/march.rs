@@ -63,6 +63,11 @@ pub fn run(robot: &Robot, holds: &[Hold], gain: f64) -> Result<Vec<f64>, Compare
     Ok(xy_m)
 }
 
+/// For how long a set pressure has been held since it was reached \[s\]; the hold before ended at `begin_s`.
+pub(super) fn held_s(time_s: f64, begin_s: f64) -> f64 {
+    (time_s - begin_s - RAMP_S).max(0.0)
+}
+
 impl Robot {
     /// Whether a state depends on what was before.
     fn remembers(&self) -> bool {
@@ -89,7 +94,7 @@ impl March<'_> {
         for _ in 0..steps as usize {
             let dt_s = left / steps;
             *time_s += dt_s;
-            let held_s = (*time_s - begin_s - RAMP_S).max(0.0);
+            let held_s = held_s(*time_s, begin_s);
             self.step(&Instant { p_body_pa: hold.p_body_pa, set_pa: hold.p_act_pa, held_s, dt_s })?;
         }
         Ok(())

@@ -3,7 +3,7 @@
 use super::march;
 use super::robot::Robot;
 use crate::error::CompareError;
-use crate::study::generate::{Generator, Scatter, holds, markers};
+use crate::study::generate::{Generator, Manometer, Scatter, holds, markers};
 use data::{Dataset, Hold};
 use models::Scenario;
 
@@ -55,7 +55,8 @@ pub fn measure_holds(
 ) -> Result<Dataset, CompareError> {
     let g = &measurement.generator;
     let mut scatter = Scatter::new(g.seed);
-    let mut xy_m = Vec::new();
+    let mut manometer = g.gauge.then(|| Manometer::new(g.seed));
+    let (mut xy_m, mut readings) = (Vec::new(), Vec::new());
     for _ in 0..g.runs {
         let gain = 1.0 + g.pressure_sd * scatter.normal();
         let shift = [scatter.normal(), scatter.normal()].map(|n| n * g.alignment_sd_m);
@@ -64,6 +65,9 @@ pub fn measure_holds(
             let noise = [0, 1].map(|_| g.camera_sd_m * camera_noise(&mut scatter, measurement.heavy_tails));
             xy_m.push(xy[0] - roll * xy[1] + shift[0] + noise[0]);
             xy_m.push(xy[1] + roll * xy[0] + shift[1] + noise[1]);
+        }
+        if let Some(manometer) = &mut manometer {
+            read(manometer, robot, &holds, gain, &mut readings);
         }
     }
     let made = Dataset {
@@ -74,8 +78,21 @@ pub fn measure_holds(
         markers: markers(scenario),
         samples_per_hold: g.samples,
         xy_m,
+        gauge_pa: g.gauge.then_some(readings),
     };
     Ok(made.checked()?)
+}
+
+/// Readings of one run, `[hold][sample]` \[Pa\]; `gain` is the run's factor on the pressure.
+fn read(manometer: &mut Manometer, robot: &Robot, holds: &[Hold], gain: f64, readings: &mut Vec<f64>) {
+    let mut begin_s = 0.0;
+    for hold in holds {
+        for t_s in &hold.t_s {
+            let p_pa = robot.supply.pressure(hold.p_act_pa, gain, march::held_s(*t_s, begin_s));
+            readings.push(manometer.read(p_pa));
+        }
+        begin_s = hold.t_s.last().copied().unwrap_or(begin_s);
+    }
 }
 
 /// One number of variance 1.

@@ -5,7 +5,7 @@
 
 use crate::error::CompareError;
 use data::{Dataset, Hold, Marker, Phase};
-use models::{Loads, Model, Prediction, Scenario, Step};
+use models::{Loads, Model, Prediction, Scenario, Step, Supply};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
@@ -30,6 +30,8 @@ pub struct Generator {
     pub alignment_sd_m: f64,
     /// Run-to-run roll of the camera \[rad\].
     pub rotation_sd: f64,
+    /// A gauge at the actuator is read along.
+    pub gauge: bool,
 }
 
 impl Default for Generator {
@@ -44,6 +46,7 @@ impl Default for Generator {
             pressure_sd: 0.02,
             alignment_sd_m: 0.5e-3,
             rotation_sd: 0.5e-3,
+            gauge: false,
         }
     }
 }
@@ -81,9 +84,13 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
     let model = Model::new(scenario);
     let mut state = model.prediction();
     let mut eye = Seen::new(generator);
-    let mut xy_m = Vec::new();
+    let (supply, mut manometer) = (Supply::of(scenario), Manometer::new(generator.seed));
+    let (mut xy_m, mut gauge_pa) = (Vec::new(), Vec::new());
     for _ in 0..generator.runs {
         let gain = eye.next_run();
+        for (set_pa, held_s) in held(&holds(generator)) {
+            gauge_pa.push(manometer.read(supply.pressure(gain * set_pa, held_s)));
+        }
         if model.has_history() {
             let mut each = |_: usize, at: &Prediction| eye.look(&at.markers, &mut xy_m);
             model.follow(&steps(generator, gain), &mut state, &mut each)?;
@@ -102,7 +109,45 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
         markers: markers(scenario),
         samples_per_hold: generator.samples,
         xy_m,
+        gauge_pa: generator.gauge.then_some(gauge_pa),
     })
+}
+
+/// Set pressure of every sample \[Pa\], and for how long it has been held \[s\]; the time between two holds belongs to the
+/// second, and a clock that jumps back starts anew, as in [`Model::follow`].
+pub(crate) fn held(holds: &[Hold]) -> Vec<(f64, f64)> {
+    let mut end_s = 0.0;
+    let mut all = Vec::new();
+    for hold in holds {
+        let begin_s = if hold.t_s.first().is_some_and(|t| *t < end_s) { 0.0 } else { end_s };
+        all.extend(hold.t_s.iter().map(|t| (hold.p_act_pa, t - begin_s)));
+        end_s = hold.t_s.last().copied().unwrap_or(end_s);
+    }
+    all
+}
+
+/// A small digital gauge: one error of its zero and of its gain, and scatter of every reading.
+pub(crate) struct Manometer {
+    scatter: Scatter,
+    zero_pa: f64,
+    gain: f64,
+}
+
+impl Manometer {
+    /// Standard deviations of zero \[Pa\], gain \[-\] and reading \[Pa\].
+    const SD: [f64; 3] = [100.0, 0.003, 50.0];
+
+    pub(crate) fn new(seed: u64) -> Manometer {
+        // Other numbers than the camera's, which are the same with and without a gauge.
+        let mut scatter = Scatter::new(seed ^ 0x6A06E);
+        let (zero_pa, gain) = (Self::SD[0] * scatter.normal(), 1.0 + Self::SD[1] * scatter.normal());
+        Manometer { scatter, zero_pa, gain }
+    }
+
+    /// What it shows at a pressure \[Pa\].
+    pub(crate) fn read(&mut self, p_pa: f64) -> f64 {
+        self.gain * p_pa + self.zero_pa + Self::SD[2] * self.scatter.normal()
+    }
 }
 
 /// A camera and the regulator's error, run by run.

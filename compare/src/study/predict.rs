@@ -39,7 +39,7 @@ pub fn fit_scenario(
             fitted.gravity_direction = direction;
         }
         fitted = with_tip_force(fitted, dataset, about)?;
-        fitted.effects.retain(|effect| !is_settled(scenario, &effect.name, about.direct));
+        fitted = without_settled(&fitted, about.direct);
         warnings = geometry_warnings(scenario, about);
         if about.gravity_direction.is_none() && scenario.effects.iter().any(|e| e.name == "gravity") {
             warnings.push(
@@ -59,10 +59,12 @@ pub(crate) fn is_open(stage: Stage, direct: Direct) -> bool {
     }
 }
 
-/// Whether nothing is left of an effect in data of which that much was measured directly.
-fn is_settled(scenario: &Scenario, name: &str, direct: Direct) -> bool {
-    let stage = scenario.catalogue().effects().find(|e| e.name == name).map(|e| e.stage);
-    stage.is_some_and(|stage| !is_open(stage, direct))
+/// The scenario without effects of which nothing is left in data of which that much was measured directly.
+pub(crate) fn without_settled(scenario: &Scenario, direct: Direct) -> Scenario {
+    let stage = |name: &str| scenario.catalogue().effects().find(|e| e.name == name).map(|e| e.stage);
+    let mut left = scenario.clone();
+    left.effects.retain(|effect| stage(&effect.name).is_none_or(|stage| is_open(stage, direct)));
+    left
 }
 
 fn stations(scenario: &Scenario, dataset: &Dataset) -> Result<Vec<f64>, CompareError> {

@@ -62,6 +62,7 @@ pub fn seen(runs: &[FeRun], name: &str, generator: &Generator) -> Result<Dataset
         markers: first.stations_mm.iter().enumerate().map(marker).collect(),
         samples_per_hold: generator.samples,
         xy_m,
+        gauge_pa: None,
     })
 }
 

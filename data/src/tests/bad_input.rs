@@ -254,3 +254,27 @@ proptest! {
         }
     }
 }
+
+/// The good table with a column of gauge readings; the second row's is `cell`.
+fn with_gauge(name: &str, cell: &str) -> String {
+    let row = |(i, line): (usize, &str)| match i {
+        0 => format!("{line},{name}\n"),
+        2 => format!("{line},{cell}\n"),
+        _ => format!("{line},0.5\n"),
+    };
+    table(2, 5).lines().enumerate().map(row).collect()
+}
+
+#[test]
+fn a_gauge_needs_a_unit_and_a_plausible_number_in_every_row() {
+    assert!(read(&with_gauge("p_gauge_kpa", "1.5")).unwrap().gauge_pa.is_some());
+    let error = read(&with_gauge("p_gauge", "1.5")).unwrap_err();
+    assert_eq!(error.message(), "column p_gauge has no unit in its name");
+    assert!(error.help().starts_with("name it p_gauge_kpa"), "{}", error.help());
+    assert!(read(&with_gauge("p_gauge_torr", "1.5")).unwrap_err().message().contains("unknown unit"));
+    let error = read(&with_gauge("p_gauge_kpa", "")).unwrap_err();
+    assert_eq!(error.to_string(), "markers.csv:3, column p_gauge_kpa: expected a number, the cell is empty");
+    let error = read(&with_gauge("p_gauge_kpa", "-2")).unwrap_err();
+    assert!(error.message().starts_with("actuator pressure below zero"), "{error}");
+    assert!(read(&with_gauge("p_gauge_kpa", "30000")).unwrap_err().help().contains("p_gauge_pa"));
+}

@@ -140,3 +140,20 @@ fn without_parquet_support_the_error_says_how_to_get_it() {
         assert!(matches!(error, DataError::Feature(_)) && error.help().contains("--features"), "{error}");
     }
 }
+
+#[test]
+fn readings_of_a_gauge_are_written_and_read_back() {
+    let mut data = read(&table(2, 5)).unwrap();
+    let count = data.runs.len() * data.holds.len() * data.samples_per_hold;
+    data.gauge_pa = Some((0..count).map(|i| 100.0 * i as f64).collect());
+    let text = csv(&data);
+    assert_eq!(text.lines().next(), Some("run,actuator,t_s,p_body_kpa,p_act_kpa,phase,marker,x_mm,y_mm,p_gauge_kpa"));
+    let again = read(&text).unwrap();
+    assert_eq!(again.gauge_pa, data.gauge_pa);
+    assert_eq!(again.gauge(1).unwrap()[0], 2500.0);
+    let mut bytes = Vec::new();
+    data.to_table().to_csv(&mut bytes).unwrap();
+    assert_eq!(read(std::str::from_utf8(&bytes).unwrap()).unwrap().gauge_pa, data.gauge_pa);
+    let short = Dataset { gauge_pa: Some(vec![0.0; count - 1]), ..data };
+    assert!(short.checked().unwrap_err().message().contains("readings of the gauge"));
+}

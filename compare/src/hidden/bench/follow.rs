@@ -1,8 +1,9 @@
 //! The recommended next experiment, done on the same robot.
 //!
 //! What can be recorded in one table (other pressures, another body pressure, longer holds) is measured after the first
-//! protocol in the same runs; "repeat" doubles the runs. A tip force, gravity turned over, a gauge at the actuator, and
-//! positions from the base need a description of their own: these data are new runs, diagnosed together with the first.
+//! protocol in the same runs; "repeat" doubles the runs. A tip force, gravity turned over, a gauge read at the actuator beside
+//! what is set, and positions from the base need a description of their own: these data are new runs, diagnosed together with
+//! the first.
 
 use super::cases::about as description;
 use crate::diagnosis::Experiment;
@@ -10,7 +11,6 @@ use crate::error::CompareError;
 use crate::hidden::Truth;
 use crate::hidden::camera::Camera;
 use crate::hidden::measure::measure_holds;
-use crate::hidden::supply::Supply;
 use crate::hidden::truth::standard_protocol;
 use crate::study::generate::{Generator, holds};
 use crate::study::parse_protocol;
@@ -34,11 +34,7 @@ pub(super) fn follow_up(truth: &Truth, experiment: &Experiment) -> Result<Vec<(D
     let hold_s = if experiment.name.starts_with("long hold") { LONG_HOLD_S } else { Generator::default().hold_s };
     let second = holds(&Generator { hold_s, protocol: wanted, ..Generator::default() });
     let Direct { pressure, frame } = experiment.direct;
-    about.direct = experiment.direct;
-    if pressure {
-        // Regulated by a gauge at the actuator, so that the pressure there is the set one.
-        robot.supply = Supply::default();
-    }
+    about.direct = Direct { pressure: false, frame };
     if frame {
         robot.camera = Camera { length_m: robot.camera.length_m, ..Camera::default() };
     }
@@ -65,7 +61,8 @@ pub(super) fn follow_up(truth: &Truth, experiment: &Experiment) -> Result<Vec<(D
         }
         (false, _) => joined(first, second),
     };
-    let measurement = again.measurement(&standard_protocol());
+    let mut measurement = again.measurement(&standard_protocol());
+    measurement.generator.gauge = pressure;
     let data = measure_holds(&robot, &truth.told()?, "follow-up", &measurement, holds)?;
     let mut all = vec![(data, about)];
     if apart {

@@ -1,0 +1,34 @@
+//! From the set pressure to the pressure in the actuator: the supply stage of a scenario alone.
+
+use crate::assembly::{Assembly, SupplyLaw};
+use crate::effects::{Stage, by_name};
+use crate::scenario::Scenario;
+
+/// The supply laws of a scenario, in order.
+pub struct Supply {
+    laws: Vec<SupplyLaw>,
+}
+
+impl Supply {
+    /// Of the effects that are switched on.
+    pub fn of(scenario: &Scenario) -> Supply {
+        let mut assembly = Assembly::empty(scenario.gravity_direction);
+        for chosen in &scenario.effects {
+            if let Some(effect) = by_name(&chosen.name).filter(|effect| effect.stage == Stage::Supply) {
+                (effect.add)(&chosen.values, &mut assembly);
+            }
+        }
+        Supply { laws: assembly.supply }
+    }
+
+    /// Pressure in the actuator \[Pa\] when `set_pa` has been set for `held_s` seconds.
+    ///
+    /// ```
+    /// let robot = models::Scenario::parse(models::shipped("epam").unwrap()).unwrap();
+    /// let lossy = models::Supply::of(&robot.with_effect("pressure_loss", &[0.1]));
+    /// assert!((lossy.pressure(30e3, 0.0) - 27e3).abs() < 1e-9);
+    /// ```
+    pub fn pressure(&self, set_pa: f64, held_s: f64) -> f64 {
+        self.laws.iter().fold(set_pa, |p, law| law(p, held_s))
+    }
+}
