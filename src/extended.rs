@@ -20,7 +20,7 @@ pub struct Addition {
     /// 95 % intervals in words; empty for none.
     pub interval: String,
     /// Name and SHA-256 of the data, if there were any.
-    pub data: Option<[String; 2]>,
+    pub data: Vec<[String; 2]>,
     /// Date, for example `2026-11-21`.
     pub date: String,
     /// B of the scenario without the effect, calibrated on the same data \[N·m²\].
@@ -44,7 +44,7 @@ pub struct Origin {
     /// Name of the effect.
     pub effect: String,
     /// SHA-256 of the data it was fitted to or judged on.
-    pub data_sha256: Option<String>,
+    pub data_sha256: Vec<String>,
     /// B without it, calibrated on those data \[N·m²\].
     pub bending_without_nm2: Option<f64>,
 }
@@ -106,12 +106,18 @@ pub fn origins(text: &str) -> Vec<Origin> {
             let note = word("note");
             let after = |text: &str, mark: &str| Some(text.split_once(mark)?.1.split_whitespace().next()?.to_string());
             let bending_without_nm2 = after(&note, WITHOUT).and_then(|number| number.parse().ok());
-            let origin = Origin { effect, data_sha256: after(&word("data"), HASH), bending_without_nm2 };
+            let origin = Origin { effect, data_sha256: hashes(&word("data")), bending_without_nm2 };
             note.starts_with(ADDED).then_some((start, origin))
         })
         .collect();
     found.sort_by_key(|(start, _)| *start);
     found.into_iter().map(|(_, origin)| origin).collect()
+}
+
+/// Every SHA-256 in what is said of the data.
+fn hashes(text: &str) -> Vec<String> {
+    let hash = |part: &str| part.chars().take_while(char::is_ascii_alphanumeric).collect();
+    text.split(HASH).skip(1).map(hash).collect()
 }
 
 /// Rounded to what is written.
@@ -164,8 +170,9 @@ fn section(a: &Addition, on_new_line: bool) -> String {
     if !a.interval.is_empty() {
         word("interval", &a.interval);
     }
-    if let Some([name, sha256]) = &a.data {
-        word("data", &format!("{name}, {HASH}{sha256}"));
+    if !a.data.is_empty() {
+        let each: Vec<String> = a.data.iter().map(|[name, sha256]| format!("{name}, {HASH}{sha256}")).collect();
+        word("data", &each.join("; "));
     }
     word("date", &a.date);
     let without = a.bending_without_nm2.map(|b| format!("; {WITHOUT}{} N m²", rounded(b)));
@@ -220,7 +227,7 @@ mod tests {
             values: vec![("moment_nm".into(), 0.123456789)],
             basis: "calibrated",
             interval: "moment_nm 0.12 to 0.13".into(),
-            data: Some(["my \"runs\"".into(), "ab12".into()]),
+            data: vec![["my \"runs\"".into(), "ab12".into()], ["more".into(), "cd34".into()]],
             date: "2026-11-21".into(),
             bending_without_nm2: Some(0.5),
             remarks: vec!["from\nhere".into()],
@@ -238,8 +245,11 @@ mod tests {
             let kept = |line: &str| line.starts_with("bending_stiffness") || new.contains(line);
             assert!(text.lines().all(kept) && new.contains("# from here\n[effects.friction]"), "{new}");
             assert!(new.contains("calibrated; before: 0"), "{new}");
-            let wanted =
-                Origin { effect: "friction".into(), data_sha256: Some("ab12".into()), bending_without_nm2: Some(0.5) };
+            let wanted = Origin {
+                effect: "friction".into(),
+                data_sha256: vec!["ab12".into(), "cd34".into()],
+                bending_without_nm2: Some(0.5),
+            };
             assert_eq!(origins(&new), [wanted]);
         }
     }

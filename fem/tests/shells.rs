@@ -11,7 +11,7 @@ use fem::problem::{Amplitude, Chamber, Ply, Pressure, Problem, Section};
 use fem::sheet::Sheet;
 use fem::sheet::order::{Order, renumber};
 use fem::{Mesh, NODE};
-use models::fabrics::{FABRICS, Laminate, NeoHookean, Orthotropic};
+use models::fabrics::{FABRICS, Laminate, NeoHookean, Orthotropic, WrinklingFilm};
 use models::{Fabric, Pose, Term};
 
 fn section(fabric: Arc<dyn Fabric>, angle_rad: f64) -> Section {
@@ -23,10 +23,14 @@ fn chamber(name: &str, pa: f64) -> Chamber {
     Chamber { name: name.into(), pressure: Pressure::Set(Amplitude::Constant(pa)), open_axis: None }
 }
 
+fn neo_film() -> NeoHookean {
+    NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 }
+}
+
 /// A tube with quad and triangle caps, a balloon and a glued tube: regular rows, irregular quads, triangles, two chambers,
 /// single and bonded plies.
 fn zoo() -> Vec<(Problem, &'static str)> {
-    let neo: Arc<dyn Fabric> = Arc::new(NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 });
+    let neo: Arc<dyn Fabric> = Arc::new(neo_film());
     let woven: Arc<dyn Fabric> = Arc::new(Orthotropic::new(96.5e6, 120e6, 0.3, 1.03e6, 5e-5));
     let mut all = Vec::new();
     let tube = generate::tube(&generate::Tube {
@@ -43,6 +47,8 @@ fn zoo() -> Vec<(Problem, &'static str)> {
         Problem::new("tube", tube.clone(), sections.collect(), vec![chamber("body", 2e3)])
     };
     all.push((by_part(&woven, &neo), "tube"));
+    let film: Arc<dyn Fabric> = Arc::new(WrinklingFilm { film: neo_film(), share: 0.05 });
+    all.push((by_part(&film, &film), "tube that wrinkles"));
     all.push((by_part(&bonded(&[&woven, &neo, &woven]), &bonded(&[&woven, &woven])), "glued tube"));
     let disc = generate::disc_balloon(0.1, 12).unwrap();
     let sections = disc.parts.iter().map(|_| section(neo.clone(), 0.0)).collect();

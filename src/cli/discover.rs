@@ -46,6 +46,9 @@ pub struct Ladder {
     pub scenario: String,
     /// Marker data
     pub data: String,
+    /// Further data of the same robot, fitted along; may be given several times
+    #[arg(long, value_name = "DATA")]
+    pub also: Vec<String>,
     /// Most effects to add
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u64).range(1..=3))]
     pub effects: u64,
@@ -69,6 +72,9 @@ pub struct Add {
     pub effect: String,
     /// Marker data: the value is fitted on them, B with it, and the error is shown before and after
     pub data: Option<String>,
+    /// Further data of the same robot, fitted along; may be given several times
+    #[arg(long, value_name = "DATA", requires = "data")]
+    pub also: Vec<String>,
     /// New scenario; default: <scenario>-<effect>.toml
     #[arg(long)]
     pub out: Option<PathBuf>,

@@ -1,15 +1,14 @@
 //! `ibr add`
 
 use super::extend::{Ground, Rung, check_runs, ranked, rungs_text, short, typed, value};
-use super::inputs::{self, NamedScenario, positive};
+use super::inputs::{self, Loaded, NamedScenario, diagnosed, positive};
 use super::{Context, Outcome};
 use crate::cli::Add;
 use crate::extended::{Addition, NewBending, extended};
 use crate::failure::Failure;
 use crate::output::today;
-use compare::diagnosis::{Diagnosis, Options, ParameterValue, diagnose};
+use compare::diagnosis::{Diagnosis, Options, ParameterValue};
 use compare::plots::Known;
-use data::{About, Dataset};
 use models::Scenario;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -24,7 +23,11 @@ pub fn run(args: &Add, context: &mut Context) -> Result<Outcome, Failure> {
     let wish = Wish::read(&named.scenario, &args.effect, args.data.is_some())?;
     let options = Options { sigma_m, keep_bending: args.keep_bending, next_experiment: false, ..Options::default() };
     let found = match &args.data {
-        Some(spec) => with_data(&named.scenario, &wish, spec, &options, context)?,
+        Some(spec) => {
+            let data = inputs::datasets(spec, &args.also, context)?;
+            (context.progress)("fitting every effect", None);
+            with_data(&named.scenario, &wish, &data, &options)?
+        }
         None => Found::without_data(&named.scenario, &wish),
     };
     let names: Vec<String> = found.additions.iter().map(|a| a.name.clone()).collect();
@@ -71,7 +74,7 @@ struct Found {
     noise_floor_mm: Option<f64>,
     told: Vec<String>,
     values: Vec<(String, Vec<ParameterValue>)>,
-    data: Option<[String; 2]>,
+    data: Vec<[String; 2]>,
     warnings: Vec<String>,
 }
 
@@ -84,7 +87,7 @@ impl Found {
             values: wish.values.clone().unwrap_or_default(),
             basis: Known::Assumed.word(),
             interval: String::new(),
-            data: None,
+            data: Vec::new(),
             date: today(),
             bending_without_nm2: None,
             remarks: sentence.into_iter().collect(),
@@ -96,7 +99,7 @@ impl Found {
             rungs: Vec::new(),
             noise_floor_mm: None,
             values: Vec::new(),
-            data: None,
+            data: Vec::new(),
             warnings: Vec::new(),
         }
     }
@@ -107,26 +110,18 @@ fn assumed(a: &Addition) -> String {
     format!("{}, {}", a.name, values.join(", "))
 }
 
-fn with_data(
-    scenario: &Scenario,
-    wish: &Wish,
-    spec: &str,
-    options: &Options,
-    context: &mut Context,
-) -> Result<Found, Failure> {
-    let (dataset, about, input) = inputs::dataset(spec, context)?;
-    (context.progress)("fitting every effect", None);
+fn with_data(scenario: &Scenario, wish: &Wish, data: &[Loaded], options: &Options) -> Result<Found, Failure> {
     let pairs = wish.name == BEST;
     let options = Options { pairs, ..options.clone() };
-    let d = diagnose(scenario, &dataset, about.as_ref(), &options)?;
-    let ground = Ground::new(&d, scenario, &input);
+    let d = diagnosed(scenario, data, &options)?;
+    let ground = Ground::new(&d, scenario, data);
     let mut found = match &wish.values {
-        Some(values) => given(&ground, scenario, (&wish.name, values), (&dataset, about.as_ref()), &options)?,
+        Some(values) => given(&ground, scenario, (&wish.name, values), &options)?,
         None if wish.name == BEST => best(&ground)?,
         None => fitted(&ground, &wish.name)?,
     };
-    found.warnings.extend(check_runs(&dataset));
-    found.data = Some([spec.to_string(), input.sha256.clone()]);
+    found.warnings.extend(check_runs(&data[0].dataset));
+    found.data = data.iter().map(|data| [data.spec.clone(), data.input.sha256.clone()]).collect();
     Ok(found)
 }
 
@@ -187,15 +182,14 @@ fn given(
     ground: &Ground,
     scenario: &Scenario,
     (name, values): (&str, &[(String, f64)]),
-    (dataset, about): (&Dataset, Option<&About>),
     options: &Options,
 ) -> Result<Found, Failure> {
     let catalogue = scenario.catalogue();
     let value_of = |key: &str| values.iter().find(|(k, _)| k == key).map_or(0.0, |(_, v)| *v);
     let si = catalogue.by_name(name).map(|e| e.parameters.iter().map(|p| value_of(p.key) * p.si).collect::<Vec<_>>());
     let extended = scenario.with_effect(name, &si.unwrap_or_default());
-    let after = diagnose(&extended, dataset, about, options)?;
-    let with = Ground::new(&after, &extended, ground.input);
+    let after = diagnosed(&extended, ground.data, options)?;
+    let with = Ground::new(&after, &extended, ground.data);
     let rung = with.base_rung(&format!("+ {name}"), Known::Assumed);
     let addition = ground.addition(name, values.to_vec(), Known::Assumed);
     Ok(Found {
@@ -218,7 +212,7 @@ fn climbed(ground: &Ground, rung: Rung) -> Found {
         noise_floor_mm: ground.d.base.noise_floor_mm,
         told: Vec::new(),
         values: Vec::new(),
-        data: None,
+        data: Vec::new(),
         warnings: Vec::new(),
     }
 }
@@ -263,7 +257,7 @@ fn words(args: &Add, found: &Found, target: &Path) -> String {
         out.push_str(&format!("`ibr validate {} DATA`\n", target.display()));
     }
     out.push_str(&format!("\nwritten: {}; {} is as it was\n", target.display(), args.scenario));
-    if let Some([data, _]) = &found.data {
+    if let Some([data, _]) = found.data.first() {
         out.push_str(&format!("see it: ibr compare {} {data}\n", target.display()));
     }
     out
@@ -275,6 +269,7 @@ fn to_json(args: &Add, named: &NamedScenario, found: &Found, target: &Path) -> V
         let values: serde_json::Map<String, Value> = a.values.iter().map(|(k, v)| (k.clone(), json!(v))).collect();
         json!({"effect": a.name, "how_known": a.basis, "values": values, "parameters": fitted})
     };
+    let data = |[name, sha256]: &[String; 2]| json!({"name": name, "sha256": sha256});
     let known = found.rungs.len().checked_sub(2).and_then(|before| found.rungs.get(before));
     json!({
         "schema": "ibr.add", "version": 1,
@@ -283,7 +278,7 @@ fn to_json(args: &Add, named: &NamedScenario, found: &Found, target: &Path) -> V
         "bending_nm2": found.bending.as_ref().map(|b| b.value_nm2),
         "before": known, "after": found.rungs.last(), "rungs": found.rungs,
         "noise_floor_mm": found.noise_floor_mm,
-        "data": found.data.as_ref().map(|[name, sha256]| json!({"name": name, "sha256": sha256})),
+        "data": found.data.first().map(data), "also": found.data.iter().skip(1).map(data).collect::<Vec<_>>(),
         "date": today(), "warnings": found.warnings,
     })
 }

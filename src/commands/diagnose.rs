@@ -2,13 +2,13 @@
 
 use super::engines::known_runs;
 use super::extend::{short, value};
-use super::inputs::{self, positive};
+use super::inputs::{self, diagnosed, positive};
 use super::tables::{number, table};
 use super::{Context, Outcome};
 use crate::cli::Diagnose;
 use crate::failure::Failure;
 use crate::output::{check_folder, machine, program, today, write_files};
-use compare::diagnosis::{Diagnosis, Experiment, Group, Measured, Options, Ranked, Verdict, diagnose_together};
+use compare::diagnosis::{Diagnosis, Experiment, Group, Options, Ranked, Verdict};
 use compare::study::engines::TERMS;
 use compare::study::pages::{Diagnosed, Imprint, diagnosis_page};
 use compare::study::witness::{HEIGHTS, Witness, witness};
@@ -22,9 +22,8 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
     let tolerance_m = args.tolerance.as_deref().map(|t| positive("--tolerance", t)).transpose()?;
     let named = inputs::scenario(&args.scenario)?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
-    let (dataset, about, input) = inputs::dataset(data, context)?;
-    let also: Vec<_> = args.also.iter().map(|data| inputs::dataset(data, context)).collect::<Result<_, _>>()?;
-    let further: Vec<_> = also.iter().map(|(dataset, about, _)| Measured { dataset, about: about.as_ref() }).collect();
+    let loaded = inputs::datasets(data, &args.also, context)?;
+    let inputs::Loaded { dataset, about, .. } = &loaded[0];
     (context.progress)("fitting every effect", None);
     let options = Options {
         sigma_m,
@@ -33,10 +32,9 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
         keep_bending: args.keep_bending,
         ..Options::default()
     };
-    let first = Measured { dataset: &dataset, about: about.as_ref() };
-    let diagnosis = diagnose_together(&named.scenario, first, &further, &options)?;
+    let diagnosis = diagnosed(&named.scenario, &loaded, &options)?;
     let runs = known_runs(args.runs.as_deref())?;
-    let witness = witness(&diagnosis, &named.scenario, &dataset, about.as_ref(), &runs)?;
+    let witness = witness(&diagnosis, &named.scenario, dataset, about.as_ref(), &runs)?;
     let answer = to_json(&args.scenario, &diagnosis, witness.as_ref());
     let file = format!("{answer:#}\n").into_bytes();
     let mut outcome = Outcome::new(text(&diagnosis, witness.as_ref()), answer);
@@ -50,7 +48,7 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
         let found = Diagnosed {
             diagnosis: &diagnosis,
             scenario: &named.scenario,
-            dataset: &dataset,
+            dataset,
             about: about.as_ref(),
             witness: witness.as_ref(),
             typed: [&args.scenario, data],
@@ -58,8 +56,7 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
         let imprint = Imprint { program: program(), date: today(), machine: machine() };
         let mut files = diagnosis_page(&found, &imprint)?;
         files.files.insert(0, ("diagnosis.json".into(), file));
-        let inputs: Vec<_> =
-            [named.input, input].into_iter().chain(also.into_iter().map(|(_, _, input)| input)).collect();
+        let inputs: Vec<_> = std::iter::once(&named.input).chain(loaded.iter().map(|l| &l.input)).cloned().collect();
         write_files(folder, &files, &inputs, context)?;
         outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
     }

@@ -1,10 +1,10 @@
 //! From a diagnosis to what is written into a scenario, and the error before and after.
 
-use super::inputs::{self, with_unit};
+use super::inputs::{self, Loaded, with_unit};
 use super::tables::{number, table};
 use crate::extended::{Addition, NewBending};
 use crate::failure::Failure;
-use crate::output::{Input, today};
+use crate::output::today;
 use compare::diagnosis::{Diagnosis, ParameterValue, Ranked};
 use compare::plots::Known;
 use compare::study::pages::ErrorRung;
@@ -33,16 +33,16 @@ pub struct Rung {
 pub struct Ground<'a> {
     /// What was found.
     pub d: &'a Diagnosis,
-    /// The data as read.
-    pub input: &'a Input,
+    /// The data as read, those that were fitted along after the first.
+    pub data: &'a [Loaded],
     /// Which of the fitted stiffnesses is the scenario's.
     level: usize,
 }
 
 impl<'a> Ground<'a> {
     /// Of a diagnosis of this scenario.
-    pub fn new(d: &'a Diagnosis, scenario: &Scenario, input: &'a Input) -> Ground<'a> {
-        Ground { d, input, level: d.level(1e-3 * scenario.p_body_pa) }
+    pub fn new(d: &'a Diagnosis, scenario: &Scenario, data: &'a [Loaded]) -> Ground<'a> {
+        Ground { d, data, level: d.level(1e-3 * scenario.p_body_pa) }
     }
 
     /// Of one B per body pressure, that of the scenario; the scenario's own if it was kept.
@@ -61,11 +61,6 @@ impl<'a> Ground<'a> {
         !self.d.base.bending.is_empty()
     }
 
-    /// Name and runs of the data.
-    fn words(&self) -> String {
-        format!("{}, {} runs", self.d.dataset, self.d.runs)
-    }
-
     /// An effect to be written.
     pub fn addition(&self, name: &str, values: Vec<(String, f64)>, known: Known) -> Addition {
         let ranked = self.d.ranked.iter().find(|r| r.effect == name);
@@ -74,7 +69,7 @@ impl<'a> Ground<'a> {
             values,
             basis: known.word(),
             interval: String::new(),
-            data: Some([self.words(), self.input.sha256.clone()]),
+            data: self.data.iter().map(named).collect(),
             date: today(),
             bending_without_nm2: self.fits_bending().then(|| self.base_bending()),
             remarks: ranked.map(|r| r.sentence.clone()).into_iter().collect(),
@@ -163,6 +158,11 @@ impl<'a> Ground<'a> {
         }
         warnings
     }
+}
+
+/// Name and runs of data, and their hash.
+fn named(data: &Loaded) -> [String; 2] {
+    [format!("{}, {} runs", data.dataset.name, data.dataset.runs.len()), data.input.sha256.clone()]
 }
 
 fn calibrated_as_given(given: Rung, calibrated: Rung) -> Rung {

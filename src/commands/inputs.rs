@@ -3,6 +3,7 @@
 use super::Context;
 use crate::failure::Failure;
 use crate::output::Input;
+use compare::diagnosis::{Diagnosis, Measured, Options, diagnose_together};
 use data::{About, Dataset};
 use models::Scenario;
 use models::scenario::SHIPPED;
@@ -55,6 +56,40 @@ pub fn dataset(spec: &str, context: &mut Context) -> Result<(Dataset, Option<Abo
     let mut bytes = Vec::new();
     data::write_markers_csv(&loaded, &mut bytes)?;
     Ok((loaded, about, Input::of(&format!("{spec} (as read)"), &bytes)))
+}
+
+/// Marker data as read.
+pub struct Loaded {
+    /// As typed.
+    pub spec: String,
+    /// The data.
+    pub dataset: Dataset,
+    /// Their description.
+    pub about: Option<About>,
+    /// Their hash.
+    pub input: Input,
+}
+
+impl Loaded {
+    /// For a diagnosis.
+    pub fn measured(&self) -> Measured<'_> {
+        Measured { dataset: &self.dataset, about: self.about.as_ref() }
+    }
+}
+
+/// Loads the data of a diagnosis and those to be fitted along.
+pub fn datasets(first: &str, also: &[String], context: &mut Context) -> Result<Vec<Loaded>, Failure> {
+    let load = |spec: &str| {
+        let (dataset, about, input) = dataset(spec, context)?;
+        Ok(Loaded { spec: spec.to_string(), dataset, about, input })
+    };
+    std::iter::once(first).chain(also.iter().map(String::as_str)).map(load).collect()
+}
+
+/// A diagnosis of all of them.
+pub fn diagnosed(scenario: &Scenario, data: &[Loaded], options: &Options) -> Result<Diagnosis, Failure> {
+    let further: Vec<Measured> = data[1..].iter().map(Loaded::measured).collect();
+    Ok(diagnose_together(scenario, data[0].measured(), &further, options)?)
 }
 
 /// A quantity of an option.

@@ -1,16 +1,16 @@
 //! `ibr ladder`
 
 use super::extend::{Ground, Rung, drawn, rungs_text, value};
-use super::inputs::{self, NamedScenario, positive};
+use super::inputs::{self, Loaded, NamedScenario, diagnosed, positive};
 use super::{Context, Outcome};
 use crate::cli::Ladder;
 use crate::extended::extended;
 use crate::failure::Failure;
-use crate::output::{Input, check_folder, machine, program, today, write_files};
-use compare::diagnosis::{Confidence, Diagnosis, Options, ParameterValue, Verdict, diagnose};
+use crate::output::{check_folder, machine, program, today, write_files};
+use compare::diagnosis::{Confidence, Diagnosis, Group, Options, ParameterValue, Verdict};
 use compare::plots::Known;
 use compare::study::pages::{Imprint, LadderPage, ladder_page};
-use data::{About, Dataset};
+use data::Dataset;
 use models::Scenario;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -20,14 +20,14 @@ pub fn run(args: &Ladder, context: &mut Context) -> Result<Outcome, Failure> {
     let tolerance_m = args.tolerance.as_deref().map(|t| positive("--tolerance", t)).transpose()?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let named = inputs::scenario(&args.scenario)?;
-    let (dataset, about, input) = inputs::dataset(&args.data, context)?;
+    let data = inputs::datasets(&args.data, &args.also, context)?;
+    let dataset = &data[0].dataset;
     let options =
         Options { tolerance_m, keep_bending: args.keep_bending, next_experiment: false, ..Options::default() };
-    let data = Data { dataset: &dataset, about: about.as_ref(), input: &input };
     let climb = climb(&named, &data, &options, args.effects as usize, context)?;
     let mut outcome = Outcome::new(text(&climb), to_json(args, &climb));
     outcome.notes.extend(climb.warnings.iter().map(|w| format!("warning: {w}")));
-    if let Some(folder) = folder(args, &dataset, context.json) {
+    if let Some(folder) = folder(args, dataset, context.json) {
         let imprint = Imprint { program: program(), date: today(), machine: machine() };
         let page = LadderPage {
             title: format!("{}: one effect after the other, on {}", named.scenario.name, dataset.name),
@@ -41,7 +41,8 @@ pub fn run(args: &Ladder, context: &mut Context) -> Result<Outcome, Failure> {
         for (name, text) in &climb.files {
             files.files.insert(0, (name.clone(), text.clone().into_bytes()));
         }
-        write_files(&folder, &files, &[named.input, input], context)?;
+        let inputs = std::iter::once(named.input.clone()).chain(data.iter().map(|data| data.input.clone()));
+        write_files(&folder, &files, &inputs.collect::<Vec<_>>(), context)?;
         let names: Vec<&str> = climb.files.iter().map(|(name, _)| name.as_str()).collect();
         outcome.notes.push(format!("scenarios in {}: {}", folder.display(), names.join(", ")));
         let old = earlier_steps(&folder, &names);
@@ -62,12 +63,6 @@ fn earlier_steps(folder: &Path, names: &[&str]) -> Vec<String> {
         .collect();
     old.sort();
     old
-}
-
-struct Data<'a> {
-    dataset: &'a Dataset,
-    about: Option<&'a About>,
-    input: &'a Input,
 }
 
 /// One step up.
@@ -104,7 +99,7 @@ struct Climb {
 
 fn climb(
     named: &NamedScenario,
-    data: &Data,
+    data: &[Loaded],
     options: &Options,
     most: usize,
     context: &mut Context,
@@ -114,8 +109,8 @@ fn climb(
     let mut count = 0;
     loop {
         (context.progress)(&format!("step {}: fitting every effect", climb.steps.len() + 1), None);
-        let d = diagnose(&scenario, data.dataset, data.about, options)?;
-        let ground = Ground::new(&d, &scenario, data.input);
+        let d = diagnosed(&scenario, data, options)?;
+        let ground = Ground::new(&d, &scenario, data);
         if climb.rungs.is_empty() {
             climb.start(&ground, &text, &scenario)?;
         }
@@ -177,7 +172,7 @@ fn end(d: &Diagnosis, left: f64, (count, most): (usize, usize)) -> Option<(&'sta
         Some(Verdict::None) => {
             ("noise", format!("What is left, {left:.2} mm beyond noise, is not significant: noise."))
         }
-        Some(_) if left <= d.tolerance_mm => {
+        Some(_) if left <= d.tolerance_mm && !is_of_supply(d) => {
             let limit = d.tolerance_mm;
             (
                 "tolerance",
@@ -202,6 +197,11 @@ fn end(d: &Diagnosis, left: f64, (count, most): (usize, usize)) -> Option<(&'sta
         Some(Verdict::Effect) => return None,
     };
     Some(sentence)
+}
+
+/// Whether it adds to the supply what a gauge has shown, which the positions, predicted at its readings, do not see.
+fn is_of_supply(d: &Diagnosis) -> bool {
+    !d.gauges.is_empty() && !d.added.is_empty() && d.added.iter().all(|a| a.group == Group::Supply)
 }
 
 fn told(number: usize, d: &Diagnosis) -> String {
@@ -247,7 +247,7 @@ fn text(climb: &Climb) -> String {
 
 fn to_json(args: &Ladder, climb: &Climb) -> Value {
     json!({
-        "schema": "ibr.ladder", "version": 1, "scenario_file": args.scenario, "data": args.data,
+        "schema": "ibr.ladder", "version": 1, "scenario_file": args.scenario, "data": args.data, "also": args.also,
         "rungs": climb.rungs, "noise_floor_mm": climb.floor_mm, "steps": climb.steps,
         "stopped": climb.stopped, "ending": climb.ending, "warnings": climb.warnings,
     })

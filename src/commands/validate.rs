@@ -30,7 +30,7 @@ pub fn run(args: &Validate, context: &mut Context) -> Result<Outcome, Failure> {
     for spec in &args.data {
         let (dataset, about, input) = inputs::dataset(spec, context)?;
         (context.progress)(&format!("comparing with {spec}"), None);
-        let fitted_to_these = added.iter().any(|o| o.data_sha256.as_ref() == Some(&input.sha256));
+        let fitted_to_these = added.iter().any(|o| o.data_sha256.contains(&input.sha256));
         let (trial, warnings) = trial(spec, [&before, &named.scenario], (dataset, about), sigma_m, fitted_to_these)?;
         outcome.notes.extend(warnings.into_iter().map(|w| format!("warning: {spec}: {w}")));
         trials.push(trial);
@@ -83,7 +83,8 @@ fn added(scenario: &Scenario, text: &str, named: &[String]) -> Result<Vec<Origin
     let found: Vec<Origin> = match named {
         [] => written,
         _ => {
-            let by_hand = |name: &String| Origin { effect: name.clone(), data_sha256: None, bending_without_nm2: None };
+            let by_hand =
+                |name: &String| Origin { effect: name.clone(), data_sha256: Vec::new(), bending_without_nm2: None };
             let of = |name: &String| written.iter().find(|o| o.effect == *name).cloned();
             named.iter().map(|name| of(name).unwrap_or_else(|| by_hand(name))).collect()
         }

@@ -192,3 +192,48 @@ fn one_published_displacement_is_met_by_several_effects_that_part_at_other_press
     assert_eq!(ran.code, 2, "{}", ran.stderr);
     assert_eq!(folder.run(&["diagnose", "epam"]).code, 2);
 }
+
+#[test]
+fn an_effect_fitted_on_two_datasets_names_both_and_neither_can_test_it() {
+    let folder = robot();
+    let width = |args: &[&str]| {
+        let answer = folder.run(args).json("ibr.add");
+        let beta = &answer["effects"][0]["parameters"][0];
+        beta["hi"].as_f64().unwrap() - beta["lo"].as_f64().unwrap()
+    };
+    let alone = width(&["add", "mine.toml", "end_constraint", "two", "--out", "alone.toml", "--json"]);
+    let both = ["add", "mine.toml", "end_constraint", "two", "--also", "four", "--out", "both.toml", "--json"];
+    assert!(width(&both) < alone);
+    let answer = folder.run(&["validate", "both.toml", "two", "four", "--json"]).json("ibr.validate");
+    let verdicts: Vec<_> = answer["datasets"].as_array().unwrap().iter().map(|set| &set["verdict"]).collect();
+    assert_eq!(verdicts, ["fitted_to_these"; 2]);
+    let climb = ["ladder", "mine.toml", "two", "--also", "four", "--json"];
+    let answer = folder.run(&climb).json("ibr.ladder");
+    assert_eq!(answer["also"][0], "four");
+    assert_eq!(answer["steps"][0]["added"][0]["effect"], "end_constraint", "{answer}");
+    assert_eq!(folder.run(&["add", "mine.toml", "friction=0.2", "--also", "four"]).code, 2, "without data");
+}
+
+#[test]
+fn a_gauge_read_along_names_what_the_supply_does_and_the_step_is_taken() {
+    let folder = robot();
+    assert_eq!(folder.run(&["add", "truth.toml", "pressure_loss=0.12", "--out", "lossy.toml"]).code, 0);
+    let protocol = "0,5,10,15,20,25,30,0@2";
+    let ran = folder.run(&["data", "generate", "lossy.toml", "--gauge", "--protocol", protocol, "--out", "read"]);
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    let check = folder.run(&["data", "check", "read", "--json"]).json("ibr.data.check");
+    let read = check["report"]["holds"][6]["gauge_kpa"].as_f64().unwrap();
+    assert!((read - 0.88 * 30.0).abs() < 0.8, "{read}");
+
+    let answer = folder.run(&["diagnose", "truth.toml", "read", "--json"]).json("ibr.diagnose");
+    assert_eq!(answer["added"][0]["effect"], "pressure_loss", "{}", answer["summary"]);
+    let gauge = &answer["gauges"][0];
+    assert!(gauge["after_kpa"].as_f64().unwrap() < 0.2 * gauge["before_kpa"].as_f64().unwrap(), "{gauge}");
+    let climbed = folder.run(&["ladder", "truth.toml", "read", "--out", "up"]);
+    assert_eq!(climbed.code, 0, "{}", climbed.stderr);
+    let error = |scenario: &str| {
+        let answer = folder.run(&["compare", scenario, "read", "--json"]).json("ibr.compare");
+        answer["overall"]["systematic_mm"].as_f64().unwrap()
+    };
+    assert!(error("up/step-1-pressure_loss.toml") < 0.3 * error("truth.toml"));
+}

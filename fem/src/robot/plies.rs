@@ -26,7 +26,7 @@ use std::sync::Arc;
 
 use models::Fabric;
 use models::actuators::pattern::{Film, Joint, Pattern};
-use models::fabrics::{Orthotropic, Ply, material};
+use models::fabrics::{Kind, Orthotropic, Ply, WrinklingFilm, material};
 
 use super::RobotSettings;
 use super::sew::{FACE, SEAM, WALL};
@@ -51,10 +51,11 @@ impl Plies<'_> {
     /// Section of the part of that name.
     pub fn section(&self, part: &str) -> Section {
         let wall = ply(&self.body, 0.0);
+        let free = ply(&self.wrinkling(&self.body), 0.0);
         if let Some(panel) = self.pattern.panels.iter().find(|p| p.name == part) {
             // A panel that runs back shows its front to the body, and is seen from there.
             let seen = if panel.to_m < panel.from_m { -panel.warp_rad } else { panel.warp_rad };
-            return self.loose(vec![ply(&self.sheet, seen)]);
+            return self.loose(vec![ply(&self.wrinkling(&self.sheet), seen)]);
         }
         match (part, part.strip_prefix(SEAM).and_then(|n| n.parse::<usize>().ok())) {
             (_, Some(layers)) => {
@@ -68,8 +69,19 @@ impl Plies<'_> {
                 let plies = std::iter::once(wall).chain(self.stuck()).collect();
                 self.bonded(plies)
             }
-            (WALL, None) => self.loose(vec![wall; self.pattern.body_sheets]),
-            _ => self.loose(vec![wall]),
+            (WALL, None) => self.loose(vec![free; self.pattern.body_sheets]),
+            _ => self.loose(vec![free]),
+        }
+    }
+
+    /// A film whose wrinkles are shorter than an element, if less than all of compression is to be carried; stuck plies are too
+    /// stiff for such wrinkles.
+    fn wrinkling(&self, fabric: &Arc<dyn Fabric>) -> Arc<dyn Fabric> {
+        match fabric.kind() {
+            Kind::NeoHookean(film) if self.settings.compression < 1.0 => {
+                Arc::new(WrinklingFilm { film: *film, share: self.settings.compression })
+            }
+            _ => Arc::clone(fabric),
         }
     }
 

@@ -17,6 +17,9 @@ pub struct RobotSettings {
     pub weld_m: f64,
     /// Share of the bending stiffness of a solid plate that one sheet of coated fabric has. Assumed.
     pub bending_factor: f64,
+    /// Share of compression that single sheets of a film carry: less than 1 where wrinkles are shorter than the elements
+    /// ([`models::fabrics::WrinklingFilm`]). Assumed.
+    pub compression: f64,
     /// How far taped and glued plies bend as one: 1 without slip, 0 as loose sheets. Assumed.
     pub bond: f64,
     /// Thickness of the transfer tape \[m\]. Calibrated on the sPAM, within what is sold.
@@ -79,6 +82,7 @@ impl RobotSettings {
             layer_gap_m: 1e-5,
             weld_m: 3e-3,
             bending_factor: 0.1,
+            compression: 1.0,
             bond: 1.0,
             tape_m: 2e-4,
             tape_e_pa: 1e6,
@@ -138,6 +142,7 @@ impl RobotSettings {
             ("layer_gap_m", self.layer_gap_m, 1e-7, 1e-3),
             ("weld_m", self.weld_m, 0.0, 0.1),
             ("bending_factor", self.bending_factor, 0.0, 10.0),
+            ("compression", self.compression, 0.0, 1.0),
             ("bond", self.bond, 0.0, 1.0),
             ("tape_m", self.tape_m, above_0, 5e-3),
             ("tape_e_pa", self.tape_e_pa, above_0, 1e10),

@@ -62,6 +62,8 @@ pub const KEYS: &[Key] = &[
     key("weld_mm", 1e-3, [0.0, 100.0], "width of the welds across the robot; 0: a line", |s| s.weld_m, |s, v| s.weld_m = v),
     key("bending_factor", 1.0, [0.0, 10.0], "bending stiffness of one sheet over that of a solid plate",
         |s| s.bending_factor, |s, v| s.bending_factor = v),
+    key("compression", 1.0, [0.0, 1.0], "share of compression that single sheets of a film carry; the rest wrinkles",
+        |s| s.compression, |s, v| s.compression = v),
     key("bond", 1.0, [0.0, 1.0], "how far taped and glued plies bend as one", |s| s.bond, |s, v| s.bond = v),
     key("tape_mm", 1e-3, [1e-3, 5.0], "thickness of the transfer tape", |s| s.tape_m, |s, v| s.tape_m = v),
     key("tape_e_mpa", 1e6, [1e-3, 1e4], "Young's modulus of its adhesive", |s| s.tape_e_pa, |s, v| s.tape_e_pa = v),

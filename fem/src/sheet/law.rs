@@ -1,7 +1,7 @@
 //! Membrane laws as the kernels call them: vector twins of the common fabrics, and any other one by one.
 
 use models::Fabric;
-use models::fabrics::{Mixed, NeoHookean, Orthotropic, Past};
+use models::fabrics::{Mixed, NeoHookean, Orthotropic, Past, WrinklingFilm};
 use pulp::Simd;
 
 use super::group::LANES;
@@ -25,6 +25,28 @@ impl Law for &NeoHookean {
         let s = [scale * (spare - V::all(simd, 2.0) * e[1]), scale * (spare - V::all(simd, 2.0) * e[0]), scale * e[2]];
         let w = V::all(simd, 0.5 * k) * (V::all(simd, 2.0) * trace - d * inverse);
         (s, w)
+    }
+}
+
+impl Law for &WrinklingFilm {
+    #[inline(always)]
+    fn at<S: Simd>(self, simd: S, e: [V<S>; 3], past: Option<&[Past; LANES]>, part: usize) -> ([V<S>; 3], V<S>) {
+        let (full, stored) = (&self.film).at(simd, e, past, part);
+        let (zero, half, one) = (V::all(simd, 0.0), V::all(simd, 0.5), V::all(simd, 1.0));
+        let (mean, d, c) = (e[0] + e[1], e[0] - e[1], e[2]);
+        // Never 0, so that its inverse is a number; it is multiplied by what is 0 there.
+        let r = (d * d + c * c).max(V::all(simd, f64::MIN_POSITIVE)).sqrt();
+        let (x, y) = (mean + r, mean - r);
+        let z = x * ((one + x).max(zero).sqrt() + one).inverse();
+        let share = (y + z + y * z).choose(zero, V::all(simd, 1.0 - self.share));
+        let z = z.max(zero);
+        let a = one + z;
+        let (over, per_r) = (a.inverse(), half * r.inverse());
+        let k = V::all(simd, 2.0 * self.film.thickness_m * self.film.c10_pa);
+        let sigma = k * z * (a * a + a + one) * over * over * over;
+        let along = [half + d * per_r, half - d * per_r, c * per_r];
+        let w = k * half * z * z * (a + V::all(simd, 2.0)) * over;
+        (axes!(i => full[i] + share * (sigma * along[i] - full[i])), stored + share * (w - stored))
     }
 }
 

@@ -18,7 +18,7 @@
 use std::sync::Arc;
 
 use super::recipe::{Law, Need, Recipe, THICKNESS, modulus, ratio};
-use super::{Fabric, Kind, NeoHookean, Orthotropic, Past};
+use super::{Fabric, Kind, NeoHookean, Orthotropic, Past, WrinklingFilm};
 
 pub(super) const LAMINATE: Law = Law {
     name: "laminate",
@@ -73,6 +73,7 @@ pub struct Ply {
 pub struct Laminate {
     plies: Vec<(Arc<dyn Fabric>, Turn)>,
     mixed: Option<Mixed>,
+    film: Option<WrinklingFilm>,
 }
 
 /// Bonded neo-Hookean and linear plies as one formula, W = W_rubber(e) + ½ e·A e: what is isotropic or linear adds up.
@@ -108,8 +109,22 @@ impl Laminate {
             ));
         }
         let plies: Vec<_> = plies.into_iter().map(|p| (p.fabric, Turn::new(p.angle_rad))).collect();
-        Ok(Laminate { mixed: Mixed::of(&plies), plies })
+        Ok(Laminate { mixed: Mixed::of(&plies), film: film_of(&plies), plies })
     }
+}
+
+/// Wrinkling films of one share are one film; `None` if a ply is something else.
+fn film_of(plies: &[(Arc<dyn Fabric>, Turn)]) -> Option<WrinklingFilm> {
+    let mut sum = Mixed { rubber: NeoHookean { c10_pa: 0.0, thickness_m: 0.0 }, linear: [[0.0; 3]; 3] };
+    let mut share = None;
+    for (fabric, _) in plies {
+        let Kind::WrinklingFilm(ply) = fabric.kind() else { return None };
+        if *share.get_or_insert(ply.share) != ply.share {
+            return None;
+        }
+        sum.add_rubber(&ply.film);
+    }
+    Some(WrinklingFilm { film: sum.rubber, share: share? })
 }
 
 impl Mixed {
@@ -127,7 +142,7 @@ impl Mixed {
                     sum.add_rubber(&mixed.rubber);
                     mixed.linear
                 }
-                Kind::Other => return None,
+                Kind::WrinklingFilm(_) | Kind::Other => return None,
             };
             let turned = turn.tangent(&linear);
             sum.linear = std::array::from_fn(|i| std::array::from_fn(|j| sum.linear[i][j] + turned[i][j]));
@@ -185,6 +200,9 @@ impl Fabric for Laminate {
     }
 
     fn kind(&self) -> Kind<'_> {
+        if let Some(film) = &self.film {
+            return Kind::WrinklingFilm(film);
+        }
         match &self.mixed {
             Some(mixed) if mixed.linear == [[0.0; 3]; 3] => Kind::NeoHookean(&mixed.rubber),
             Some(mixed) => Kind::Mixed(mixed),

@@ -22,6 +22,7 @@ mod recipe;
 pub mod specimen;
 mod tension_field;
 mod woven;
+mod wrinkling_film;
 
 pub use bias_extension::BiasExtension;
 pub use curve::Curve;
@@ -32,6 +33,7 @@ pub use orthotropic::Orthotropic;
 pub use recipe::{CurveInput, Law, Need, Parameter, Recipe};
 pub use tension_field::TensionField;
 pub use woven::{Woven, Yarn};
+pub use wrinkling_film::WrinklingFilm;
 
 use std::fmt::Debug;
 
@@ -44,6 +46,7 @@ pub const FABRICS: &[Law] = &[
     laminate::LAMINATE,
     laminate::GLUED,
     tension_field::ENTRY,
+    wrinkling_film::ENTRY,
 ];
 
 /// The law of that name.
@@ -105,6 +108,8 @@ pub enum Kind<'a> {
     Orthotropic(&'a Orthotropic),
     /// Bonded sheets of these two.
     Mixed(&'a Mixed),
+    /// Neo-Hookean sheet that wrinkles.
+    WrinklingFilm(&'a WrinklingFilm),
     /// Any other law.
     Other,
 }

@@ -9,3 +9,4 @@ mod support;
 mod tension_field;
 mod uniaxial;
 mod woven;
+mod wrinkling_film;

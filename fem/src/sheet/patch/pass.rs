@@ -38,6 +38,8 @@ impl pulp::WithSimd for Pass<'_, '_> {
                 (Kind::Orthotropic(law), false) => run::<S, _, false>(simd, patch, room, shared, index, law),
                 (Kind::Mixed(law), true) => run::<S, _, true>(simd, patch, room, shared, index, law),
                 (Kind::Mixed(law), false) => run::<S, _, false>(simd, patch, room, shared, index, law),
+                (Kind::WrinklingFilm(law), true) => run::<S, _, true>(simd, patch, room, shared, index, law),
+                (Kind::WrinklingFilm(law), false) => run::<S, _, false>(simd, patch, room, shared, index, law),
                 (Kind::Other, _) => run::<S, _, true>(simd, patch, room, shared, index, Called(fabric)),
             }
         }
