@@ -142,3 +142,21 @@ fn a_rigid_turn_by_one_radian_leaves_stress_and_force_at_rounding() {
         assert!(stress * thickness < 1e-12 * stiff, "{}: {stress:e} Pa", law.name);
     }
 }
+
+#[test]
+fn a_slack_film_is_stepped_as_if_it_were_taut() {
+    let bounds = zoo().into_iter().filter(|(_, name)| *name == "tube that wrinkles").map(|(problem, _)| {
+        let whole = problem.sections.iter().map(|_| section(Arc::new(neo_film()), 0.4)).collect();
+        [problem.clone(), Problem { sections: whole, ..problem }].map(|problem| {
+            let (sheet, mesh) = prepared(&problem);
+            let shrunk: Vec<f64> =
+                mesh.points.iter().flat_map(|p| [0.98 * p[0], 0.98 * p[1], 0.98 * p[2], 0.0]).collect();
+            let mut bound = vec![0.0; mesh.points.len()];
+            sheet.stiffness_bound(&Pose::nodes(&shrunk), &mut bound);
+            bound
+        })
+    });
+    let all: Vec<_> = bounds.collect();
+    assert_eq!(all.len(), 1);
+    assert_eq!(all[0][0], all[0][1]);
+}

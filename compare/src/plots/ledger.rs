@@ -43,7 +43,8 @@ pub fn ledger(data: &Ledger) -> Result<Drawn, PlotError> {
     }
     extent(data.cases.iter().flat_map(|case| case.energies_mj.iter().copied()), CHART)?;
     let mut x = Axis::linear(data.cases.iter().flat_map(ends).chain([0.0]), CHART)?;
-    x.pixels = [RIM + 2.0, WIDTH - RIM - 2.0];
+    // Half a tick label beyond each end.
+    x.pixels = [RIM + 16.0, WIDTH - RIM - 16.0];
     let mut scene = Scene::new();
     let top = title(&mut scene, &data.title);
     let top = legend(&mut scene, top, &keys(data)) + 2.0;

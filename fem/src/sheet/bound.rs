@@ -34,6 +34,11 @@ const AHEAD: f64 = 0.01;
 /// The largest [`element`] for what comes next: curves stiffen at their rows, and a way back may be steeper than the way
 /// there. Linear and neo-Hookean fabrics change too little to look ahead.
 fn ahead(item: &Element, fabric: &dyn Fabric, e: [f64; 3], past: &Past, c: [f64; 3]) -> f64 {
+    // Slack now may be taut in the next step.
+    let fabric = match fabric.kind() {
+        Kind::WrinklingFilm(wrinkling) => &wrinkling.film,
+        _ => fabric,
+    };
     let here = element(item, fabric, e, past, c);
     if !matches!(fabric.kind(), Kind::Other) {
         return here;
