@@ -13,7 +13,7 @@ pub mod error;
 pub mod evaluate;
 pub mod gauge;
 pub mod hidden;
-mod layout;
+pub mod layout;
 pub mod metrics;
 pub mod noise;
 pub mod noise_summary;

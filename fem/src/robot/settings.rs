@@ -65,12 +65,13 @@ impl RobotSettings {
     ///
     /// | number | why |
     /// |---|---|
-    /// | 8 mm on the body, 3 mm on the actuator | 2 mm change ePAM and fPAM by at most 3 %, sPAM by −5, cPAM by +9 %, see `docs/robots.md` |
+    /// | 8 mm on the body, 3 mm on the actuator | 2 mm change ePAM and fPAM by at most 3 %, the mean sPAM by 2 ± 4.5, the cPAM by +7 %, see `docs/robots.md` |
     /// | welds 3 mm wide | assumed; 2 mm give tips within 1 %, a line does not converge |
     /// | 0.1 + 0.6 + 0.054 s, masses raised | about 120 000 steps; with rate-free fabrics only their number counts |
     /// | ramp floor 2 kPa | the body's pressure: there a robot bends most per pascal, and gussets open |
     /// | mass damping 20 1/s | with the time at full pressure it brings the kinetic share below 1 % |
     /// | hourglass .001 | p R/(E t) of the TPU-coated body; .01 holds 9 to 16 % of the stored energy, .001 up to 8 % |
+    /// | all of compression | less than 1 lets sheets wrinkle below the mesh: the right limit on coarse meshes, but the tape is calibrated without |
     /// | bending factor 0.1 | assumed |
     /// | tape 0.2 mm, ν₁₂ = 0.3 | **calibrated** on the tips of the sPAM and the fPAM, see [`RobotSettings::usual`] |
     ///
