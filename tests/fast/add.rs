@@ -222,7 +222,7 @@ fn a_gauge_read_along_names_what_the_supply_does_and_the_step_is_taken() {
     let ran = folder.run(&["data", "generate", "lossy.toml", "--gauge", "--protocol", protocol, "--out", "read"]);
     assert_eq!(ran.code, 0, "{}", ran.stderr);
     let check = folder.run(&["data", "check", "read", "--json"]).json("ibr.data.check");
-    let read = check["report"]["holds"][6]["gauge_kpa"].as_f64().unwrap();
+    let read = check["check"]["holds"][6]["gauge_kpa"].as_f64().unwrap();
     assert!((read - 0.88 * 30.0).abs() < 0.8, "{read}");
 
     let answer = folder.run(&["diagnose", "truth.toml", "read", "--json"]).json("ibr.diagnose");
