@@ -184,13 +184,13 @@ fn sensitivity(base: Named) -> Result<Plan, Failure> {
 
 /// The key that writes what an assumed number writes.
 pub fn key_of(unknown: &Assumed) -> Option<&'static Key> {
-    let mut changed = RobotSettings::default();
-    (unknown.set)(&mut changed, unknown.interval[1]);
-    let fits = |key: &&Key| {
-        let mut other = RobotSettings::default();
-        (key.set)(&mut other, unknown.interval[1]);
-        other == changed
+    let after = |set: fn(&mut RobotSettings, f64), value: f64| {
+        let mut changed = RobotSettings::default();
+        set(&mut changed, value);
+        changed
     };
+    // One end may be the default of several keys.
+    let fits = |key: &&Key| unknown.interval.iter().all(|v| after(key.set, *v) == after(unknown.set, *v));
     KEYS.iter().find(fits)
 }
 
