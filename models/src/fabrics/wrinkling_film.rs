@@ -33,7 +33,7 @@ pub(super) const ENTRY: Law = Law {
     reference: "Pipkin 1986, IMA J. Appl. Math. 36; du Pasquier, Jeong, Okamura 2023",
     parameters: &[
         modulus("c10_MPa", Need::Required, "neo-Hookean constant, a sixth of Young's modulus"),
-        ratio("compression_share", [0.0, 1.0], Need::Default(0.1), "share of the film that carries compression"),
+        ratio("compression_share", [0.0, 1.0], Need::Default(0.01), "share of the film that carries compression"),
         THICKNESS,
     ],
     curves: &[],
