@@ -10,8 +10,8 @@ use super::RobotSettings;
 
 /// Largest ratio of neighbouring elements where the size changes.
 const GROWTH: f64 = 1.25;
-/// A weld narrower than this share of the element size is a line: a row of slivers turns inside out.
-const LEAST_WELD: f64 = 0.5;
+/// A weld narrower than this share of the element size is a line, a margin is none: a row of slivers turns inside out.
+const LEAST_STRIP: f64 = 0.5;
 /// Lines closer than this share of the element size become one.
 const MERGE: f64 = 0.4;
 
@@ -22,7 +22,7 @@ pub(super) struct Lines {
     pub x_m: Vec<f64>,
     /// Rows of elements that are welded flat: (first ring, last ring); equal for a weld without width.
     pub welds: Vec<[usize; 2]>,
-    /// Places across the strip \[m\], from edge to edge; the first generators.
+    /// Places across the strip \[m\], from edge to edge of the sheet, its side welds included; the first generators.
     pub s_m: Vec<f64>,
     /// Angles of all generators from the middle of the strip \[rad\], ascending from the strip's edge.
     pub angles: Vec<f64>,
@@ -36,7 +36,7 @@ impl Lines {
         let nearest = |place: f64| nearest(&x_m, place);
         let welds = bands.iter().map(|band| band.map(nearest)).collect();
         let markers = scenario.markers_m.iter().map(|s| nearest(*s)).collect();
-        let s_m = across(pattern, settings.actuator_size_m);
+        let s_m = across(pattern, settings);
         let angles = around(scenario.radius_m, &s_m, settings);
         Lines { welds, markers, s_m, angles, x_m }
     }
@@ -52,12 +52,20 @@ fn nearest(places: &[f64], wanted: f64) -> usize {
     (0..places.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0)
 }
 
+/// Width of the welds in the mesh \[m\]; 0 is a line.
+pub(super) fn weld_m(settings: &RobotSettings) -> f64 {
+    strip(settings.weld_m, settings)
+}
+
+fn strip(width_m: f64, settings: &RobotSettings) -> f64 {
+    if width_m >= LEAST_STRIP * settings.actuator_size_m { width_m } else { 0.0 }
+}
+
 /// Rings, and where each weld begins and ends.
 fn along(scenario: &Scenario, settings: &RobotSettings) -> (Vec<f64>, Vec<[f64; 2]>) {
     let (actuator, length) = (&scenario.actuator, scenario.length_m);
     let seam = |k: usize| actuator.start_m + k as f64 * actuator.shape.length_m;
-    let is_resolved = settings.weld_m >= LEAST_WELD * settings.actuator_size_m;
-    let half = if is_resolved { 0.5 * settings.weld_m } else { 0.0 };
+    let half = 0.5 * weld_m(settings);
     let bands: Vec<[f64; 2]> =
         (0..=actuator.count).map(|k| [-half, half].map(|w| (seam(k) + w).clamp(0.0, length))).collect();
     let mut cuts = vec![0.0, length];
@@ -89,13 +97,18 @@ fn divided(a: f64, b: f64, size: f64) -> impl Iterator<Item = f64> {
     (0..=n).map(move |i| if i == n { b } else { a + (b - a) * i as f64 / n as f64 })
 }
 
-/// Places across the strip: edges, folds, and even steps between.
-fn across(pattern: &Pattern, size: f64) -> Vec<f64> {
+/// Places across the strip: edges, the welds beside them, folds, and even steps between.
+fn across(pattern: &Pattern, settings: &RobotSettings) -> Vec<f64> {
     let half = 0.5 * pattern.width_m;
     let mut cuts = vec![-half, half];
+    let weld = if pattern.side_welds { weld_m(settings) } else { 0.0 };
+    let margin = if pattern.is_taped() { strip(settings.tape_margin_m, settings) } else { 0.0 };
+    for edge in [half + weld, half + weld + margin] {
+        [-edge, edge].iter().for_each(|place| add(&mut cuts, *place, 1e-9));
+    }
     pattern.panels.iter().flat_map(|p| p.range_m()).for_each(|place| add(&mut cuts, place, 1e-9));
     cuts.sort_by(f64::total_cmp);
-    let steps = |pair: &[f64]| divided(pair[0], pair[1], size).skip(1).collect::<Vec<_>>();
+    let steps = |pair: &[f64]| divided(pair[0], pair[1], settings.actuator_size_m).skip(1).collect::<Vec<_>>();
     std::iter::once(cuts[0]).chain(cuts.windows(2).flat_map(steps)).collect()
 }
 

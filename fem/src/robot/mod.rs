@@ -8,6 +8,7 @@
 //! |---|---|---|
 //! | `wall`, `tip_cap` | the body | –, body |
 //! | `face` | the wall under the pouches, with what is stuck to it | actuator, body |
+//! | `margin` | the wall with the taped sheet beyond its welds stuck to it | –, body |
 //! | `seam_2`, `seam_4` … | welds with a width: so many layers | –, body |
 //! | by the pattern: `top`, `gusset_1_left` … | the sheet | –, actuator |
 //!
@@ -35,6 +36,8 @@ pub use seams::{SeamForce, Seams};
 pub use settings::{ASSUMED, Assumed, RobotSettings};
 pub use snaps::{Sample, Snap, Watch, snaps};
 pub use table::{KEYS, Key, with_fem};
+
+use std::f64::consts::PI;
 
 use models::Scenario;
 use models::actuators::pattern::Pattern;
@@ -87,6 +90,7 @@ pub fn shipped(name: &str, settings: &RobotSettings) -> Result<(Scenario, Proble
 pub fn sewn(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) -> Result<Problem, FemError> {
     settings.check()?;
     fits(scenario, pattern, settings)?;
+    let pattern = &pattern.between_welds(lines::weld_m(settings));
     let lines = Lines::of(scenario, pattern, settings);
     rows(&lines, settings)?;
     let mesh = sew::sew(scenario, pattern, settings, &lines)?;
@@ -135,15 +139,24 @@ pub fn outputs(scenario: &Scenario, mesh: &Mesh) -> Outputs {
 }
 
 fn body_parts(mesh: &Mesh) -> Vec<String> {
-    let body = |name: &str| name == sew::WALL || name == sew::FACE || name.starts_with(sew::SEAM);
+    let body = |name: &str| [sew::WALL, sew::FACE, sew::MARGIN].contains(&name) || name.starts_with(sew::SEAM);
     mesh.parts.iter().map(|p| p.name.clone()).filter(|name| body(name)).collect()
 }
 
 /// Refuses what the scenario and the pattern do not allow together.
 fn fits(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) -> Result<(), FemError> {
     let refuse = |message: String| Err(FemError::Problem(format!("robot: {message}")));
-    if let Err(fault) = pattern.check(scenario.radius_m, settings.weld_m) {
+    let sewn = |p: &Pattern| p.check(scenario.radius_m, settings.weld_m);
+    if let Err(fault) = sewn(pattern).and_then(|()| sewn(&pattern.between_welds(settings.weld_m))) {
         return refuse(fault);
+    }
+    let taped_m = if pattern.is_taped() { settings.tape_margin_m } else { 0.0 };
+    let (edge_m, half_m) = (0.5 * (pattern.width_m + settings.weld_m) + taped_m, PI * scenario.radius_m);
+    if edge_m > half_m {
+        let (edge, half) = (edge_m * 1e3, half_m * 1e3);
+        return refuse(format!(
+            "the sheet's edges are {edge:.1} mm from the middle of the strip and meet behind the body, at {half:.1} mm; make the pouch, weld_mm or tape_margin_mm narrower"
+        ));
     }
     if !scenario.zones.is_empty() {
         return refuse(format!("{} zones; zones exist in the reduced model only, remove them", scenario.zones.len()));

@@ -29,7 +29,7 @@ use models::actuators::pattern::{Film, Joint, Pattern};
 use models::fabrics::{Kind, Orthotropic, Ply, WrinklingFilm, material};
 
 use super::RobotSettings;
-use super::sew::{FACE, SEAM, WALL};
+use super::sew::{FACE, MARGIN, SEAM, WALL};
 use crate::FemError;
 use crate::problem::Section;
 use crate::sheet::reference::{bending_stiffness, mean_stiffness};
@@ -65,7 +65,7 @@ impl Plies<'_> {
                 plies.resize(plies.len().max(welded), ply(&self.sheet, self.pattern.panels[0].warp_rad));
                 self.bonded(plies)
             }
-            (FACE, None) if !self.stuck().is_empty() => {
+            (FACE | MARGIN, None) if !self.stuck().is_empty() => {
                 let plies = std::iter::once(wall).chain(self.stuck()).collect();
                 self.bonded(plies)
             }

@@ -4,7 +4,7 @@ use models::Scenario;
 use models::actuators::pattern::{Joint, Panel, Pattern};
 
 use super::RobotSettings;
-use super::lines::Lines;
+use super::lines::{Lines, weld_m};
 use crate::FemError;
 use crate::mesh::generate::{Around, Cap, Tube, tube};
 use crate::mesh::{Mesh, Part};
@@ -15,6 +15,8 @@ pub(super) const ACTUATOR: &str = "actuator";
 /// Parts made of the wall: beside the actuator, and under it.
 pub(super) const WALL: &str = "wall";
 pub(super) const FACE: &str = "face";
+/// The wall with the bottom sheet stuck to it beyond the welds.
+pub(super) const MARGIN: &str = "margin";
 /// Parts made of welded layers are called `seam_` and their number, the wall's included.
 pub(super) const SEAM: &str = "seam_";
 
@@ -28,7 +30,8 @@ pub(super) fn sew(
     let mut mesh = body(scenario, lines)?;
     mesh.sets.remove("middle");
     let wall = std::mem::take(&mut mesh.parts[0]);
-    let sewer = Sewer { pattern, lines, radius_m: scenario.radius_m, gap_m: settings.layer_gap_m };
+    let sewer =
+        Sewer { pattern, lines, radius_m: scenario.radius_m, gap_m: settings.layer_gap_m, weld_m: weld_m(settings) };
     let mut parts = sewer.wall(&wall.quads);
     parts.extend(mesh.parts.drain(1..));
     parts.extend(sewer.sheet(&mut mesh.points));
@@ -67,6 +70,7 @@ struct Sewer<'a> {
     lines: &'a Lines,
     radius_m: f64,
     gap_m: f64,
+    weld_m: f64,
 }
 
 impl Sewer<'_> {
@@ -80,6 +84,7 @@ impl Sewer<'_> {
             let (name, front) = match self.place(row, column) {
                 Place::Beside => (WALL.into(), None),
                 Place::Weld(layers) => (format!("{SEAM}{layers}"), None),
+                Place::Margin => (MARGIN.into(), None),
                 Place::Under if self.pattern.joint == Joint::Seams => (WALL.into(), None),
                 Place::Under => (FACE.into(), Some(ACTUATOR.into())),
             };
@@ -100,8 +105,17 @@ impl Sewer<'_> {
         if column + 1 >= s.len() || !(first..last).contains(&row) {
             return Place::Beside;
         }
+        let middle = 0.5 * (s[column] + s[column + 1]);
+        let side_weld_m = if self.pattern.side_welds { self.weld_m } else { 0.0 };
+        if middle.abs() > 0.5 * self.pattern.width_m + side_weld_m {
+            return Place::Margin;
+        }
+        if middle.abs() > 0.5 * self.pattern.width_m {
+            // The sheet's edge on the wall, and the bottom sheet between them.
+            return Place::Weld(2 + self.pattern.layers_at(middle));
+        }
         match welds.iter().any(|weld| (weld[0]..weld[1]).contains(&row)) {
-            true => Place::Weld(1 + self.pattern.layers_at(0.5 * (s[column] + s[column + 1]))),
+            true => Place::Weld(1 + self.pattern.layers_at(middle)),
             false => Place::Under,
         }
     }
@@ -175,6 +189,8 @@ enum Place {
     Under,
     /// With the number of layers.
     Weld(usize),
+    /// Stuck to the bottom sheet beyond its welds.
+    Margin,
 }
 
 /// A grid line of the cross-section.

@@ -67,6 +67,8 @@ pub const KEYS: &[Key] = &[
     key("bond", 1.0, [0.0, 1.0], "how far taped and glued plies bend as one", |s| s.bond, |s, v| s.bond = v),
     key("tape_mm", 1e-3, [1e-3, 5.0], "thickness of the transfer tape", |s| s.tape_m, |s, v| s.tape_m = v),
     key("tape_e_mpa", 1e6, [1e-3, 1e4], "Young's modulus of its adhesive", |s| s.tape_e_pa, |s, v| s.tape_e_pa = v),
+    key("tape_margin_mm", 1e-3, [0.0, 100.0], "width of the taped sheet beyond the welds along its sides",
+        |s| s.tape_margin_m, |s, v| s.tape_margin_m = v),
     key("glue_mm", 1e-3, [1e-3, 5.0], "thickness of the glue film", |s| s.glue_m, |s, v| s.glue_m = v),
     key("glue_e_mpa", 1e6, [1e-3, 1e4], "Young's modulus of the glue", |s| s.glue_e_pa, |s, v| s.glue_e_pa = v),
     key("nu12", 1.0, [0.0, 0.9], "contraction along fill per stretch along warp of an anisotropic fabric",

@@ -140,9 +140,27 @@ fn seams_with_a_width_have_the_layers_of_the_pattern() {
     assert_eq!(plies("spam", "seam_3"), (4, true), "wall, tape, bottom, top");
     assert_eq!(plies("spam", "face"), (3, true));
     assert_eq!(plies("epam", "wall"), (2, false));
-    // Half a weld at both ends, whole ones between: 6 widths of 60 mm.
+    // Half a weld at both ends, whole ones between: 6 widths of 60 mm; and along both sides.
     let area = area_m2(&robot("epam", &wide).mesh, |part| part == "seam_2");
-    assert!((area / (6.0 * 5e-3 * 0.06) - 1.0).abs() < 2e-3, "{area}");
+    assert!((area / (6.0 * 5e-3 * 0.055 + 2.0 * 5e-3 * 0.36) - 1.0).abs() < 2e-3, "{area}");
+    // Between the welds' middles 60 x 60 mm, inside of them 55 x 55.
+    let top = area_m2(&robot("epam", &wide).mesh, |part| part == "top");
+    assert!((top / (6.0 * 0.055 * 0.055) - 1.0).abs() < 2e-3, "{top}");
+}
+
+#[test]
+fn a_tube_that_is_glued_on_has_no_weld_along_it() {
+    let wide = RobotSettings { weld_m: 5e-3, ..coarse() };
+    let strip = |name: &str| {
+        let mesh = robot(name, &wide).mesh;
+        area_m2(&mesh, |part| part.starts_with("seam")) / (5e-3 * 0.06)
+    };
+    // Half a weld at the base, a whole one at its other end.
+    assert!((strip("fpam") - 1.5).abs() < 2e-3, "{}", strip("fpam"));
+    assert!(robot("epam", &wide).mesh.parts.iter().all(|p| p.name != "margin"), "an ePAM is not taped");
+    let margin = area_m2(&robot("spam", &wide).mesh, |part| part == "margin");
+    assert!((margin / (2.0 * 6e-3 * 0.36) - 1.0).abs() < 2e-3, "{margin}");
+    assert!((strip("spam") - 6.0 * 55.0 / 60.0 - 12.0).abs() < 0.05, "{}", strip("spam"));
 }
 
 #[test]
@@ -173,6 +191,8 @@ fn what_cannot_be_built_or_run_is_refused_with_its_number() {
     assert!(wide.contains("a pouch of 150 mm is wider than half of the body, 125.664 mm"), "{wide}");
     let weld = refused("epam", |_, s| s.weld_m = 0.06);
     assert!(weld.contains("welds of 60 mm every 60 mm overlap"), "{weld}");
+    let margin = refused("spam", |_, s| s.tape_margin_m = 0.1);
+    assert!(margin.contains("130.0 mm from the middle of the strip and meet behind the body, at 125.7 mm"), "{margin}");
     let fold = refused("cpam", |s, _| s.actuator.shape.fold_m = 0.035);
     assert!(fold.contains("by 10 mm at level"), "{fold}");
     let flat = refused("epam", |_, s| s.actuator_pa = 1e3);

@@ -1,7 +1,7 @@
 //! The four robots of du Pasquier, Jeong, Okamura 2023 against their measured tips.
 //!
 //! Read at the last marker, 330 mm from the base: the paper measures at six markers only, each at the middle of a pouch,
-//! which six pouches of 60 mm on 360 mm give. Tape thickness and ν₁₂ are calibrated on two of the tips; cPAM and ePAM see
+//! which six pouches of 60 mm on 360 mm give. The taped sheet's margin and ν₁₂ are calibrated on two of the tips; cPAM and ePAM see
 //! neither. They are not blind: hourglass control, damping and the station were settled with their tips in view.
 //!
 //! | robot | measured | marker at 330 mm, seed 1 | tape 0.05 mm, ν₁₂ = 0, in steps of 5 kPa |
@@ -25,15 +25,16 @@ pub(super) const CHECK: Check = Check {
     run,
 };
 
-/// Scenario, measured tip \[mm\].
-const MEASURED: [(&str, f64); 4] = [("spam", 67.5), ("cpam", 159.7), ("epam", 119.4), ("fpam", 67.2)];
+/// Scenario, measured tip \[mm\], seeds: the sPAM's seams snap or hold from seed to seed.
+const MEASURED: [(&str, f64, u64); 4] = [("spam", 67.5, 3), ("cpam", 159.7, 1), ("epam", 119.4, 1), ("fpam", 67.2, 1)];
 /// Robots that one of the calibrated numbers concerns.
 const CALIBRATED: [&str; 2] = ["spam", "fpam"];
 
-/// End of a run.
+/// End of a robot's runs.
 struct End {
-    /// At the last marker and at the tip ring \[mm\].
+    /// At the last marker and at the tip ring, mean over the seeds \[mm\].
     y_mm: [f64; 2],
+    /// These shares are the largest of all seeds.
     kinetic: f64,
     residual: f64,
     hourglass: f64,
@@ -42,11 +43,11 @@ struct End {
 fn run() -> Result<Outcome, FemError> {
     let mut outcome = Outcome::default();
     let (mut set, mut usual, mut ring) = (Vec::new(), Vec::new(), Vec::new());
-    for (name, measured) in MEASURED {
-        let end = bend(name, &RobotSettings::compressed())?;
+    for (name, measured, seeds) in MEASURED {
+        let end = mean(name, &RobotSettings::compressed(), seeds)?;
         let of = |what: &str| format!("{name}: {what}");
         outcome.lines.extend([
-            Line::value(&of("marker at 330 mm [mm]"), end.y_mm[0], measured, 0.10),
+            Line::value(&of(&format!("marker at 330 mm (seeds: {seeds}) [mm]")), end.y_mm[0], measured, 0.10),
             Line::at_most(&of("kinetic share at the end"), end.kinetic, 0.01),
             Line::at_most(&of("energy residual over external work"), end.residual, 0.02),
             Line::at_most(&of("hourglass share of stored energy"), end.hourglass, 0.10),
@@ -54,7 +55,7 @@ fn run() -> Result<Outcome, FemError> {
         set.push([measured, end.y_mm[0]]);
         ring.push([measured, end.y_mm[1]]);
         if CALIBRATED.contains(&name) {
-            usual.push([measured, bend(name, &RobotSettings::usual())?.y_mm[0]]);
+            usual.push([measured, mean(name, &RobotSettings::usual(), 1)?.y_mm[0]]);
         }
     }
     let curve = |label: &str, points, exact| Curve { label: label.into(), points, exact };
@@ -66,10 +67,22 @@ fn run() -> Result<Outcome, FemError> {
             curve("as measured", vec![[60.0, 60.0], [165.0, 165.0]], true),
             curve("marker at 330 mm", set, false),
             curve("tip ring at 360 mm", ring, false),
-            curve("marker, tape 0.05 mm and nu12 = 0", usual, false),
+            curve("marker, no margin and nu12 = 0", usual, false),
         ],
     });
     Ok(outcome)
+}
+
+fn mean(name: &str, settings: &RobotSettings, seeds: u64) -> Result<End, FemError> {
+    let mut sum = End { y_mm: [0.0; 2], kinetic: 0.0, residual: 0.0, hourglass: 0.0 };
+    for seed in 1..=seeds {
+        let end = bend(name, &RobotSettings { seed, ..settings.clone() })?;
+        (0..2).for_each(|k| sum.y_mm[k] += end.y_mm[k] / seeds as f64);
+        sum.kinetic = sum.kinetic.max(end.kinetic);
+        sum.residual = sum.residual.max(end.residual);
+        sum.hourglass = sum.hourglass.max(end.hourglass);
+    }
+    Ok(sum)
 }
 
 fn bend(name: &str, settings: &RobotSettings) -> Result<End, FemError> {

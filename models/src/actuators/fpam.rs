@@ -47,6 +47,7 @@ fn pattern(shape: &ActuatorShape) -> Pattern {
     let mut pattern = flat(shape, Joint::Bonded { film: Film::Glue, warp_rad: -FRAC_PI_4 });
     pattern.fabric = "silicone-nylon";
     pattern.body_fabric = "silicone-nylon";
+    pattern.side_welds = false;
     pattern.panels[0].warp_rad = FRAC_PI_4;
     pattern
 }

@@ -2,7 +2,8 @@
 //!
 //! The sheet of one unit lies over a strip of the body and is described by its cross-section: panels from the edge at −W/2
 //! to the edge at +W/2, each at a level above the wall (level 0). Where one panel ends the next begins: a fold. At both
-//! ends of a unit all panels are welded flat onto the wall, so as many layers meet there as lie over each other.
+//! ends of a unit all panels are welded flat onto the wall, so as many layers meet there as lie over each other; its edges
+//! may be welded onto the wall too (`side_welds`).
 //!
 //! ```text
 //!   level 3        ┌──────────── top ────────────┐
@@ -31,6 +32,8 @@ pub struct Pattern {
     pub width_m: f64,
     /// How the bottom of the chamber is joined to the body.
     pub joint: Joint,
+    /// Whether the sheet is welded along its edges at ±W/2 too, from the first seam to the last.
+    pub side_welds: bool,
     /// The sheet, in the order of its cross-section.
     pub panels: Vec<Panel>,
 }
@@ -97,9 +100,26 @@ impl Pattern {
         self.panels.iter().filter(over).count() + usize::from(matches!(self.joint, Joint::Bonded { .. }))
     }
 
+    /// True with a bottom sheet that is taped to the wall.
+    pub fn is_taped(&self) -> bool {
+        matches!(self.joint, Joint::Bonded { film: Film::Tape, .. })
+    }
+
     /// True where layers of the sheet lie over each other and can touch.
     pub fn folds(&self) -> bool {
         self.joint == Joint::Seams || self.panels.iter().any(|p| p.level > 1)
+    }
+
+    /// The chamber's own pattern if the welds along its sides have a width: the pattern's edges are the middles of these welds, as
+    /// its ends are those of the seams, and folds keep their depth.
+    pub fn between_welds(&self, weld_m: f64) -> Pattern {
+        let mut pattern = self.clone();
+        if self.side_welds {
+            let inwards = |place: f64| place - 0.5 * weld_m * place.signum();
+            pattern.width_m -= weld_m;
+            pattern.panels.iter_mut().for_each(|p| (p.from_m, p.to_m) = (inwards(p.from_m), inwards(p.to_m)));
+        }
+        pattern
     }
 
     /// Refuses what cannot be sewn on a body of radius `radius_m` with welds `weld_m` wide (0: a line).
@@ -147,7 +167,19 @@ impl Pattern {
         if self.body_sheets == 0 || self.panels.is_empty() {
             return Err("a pattern needs a wall and at least one panel".into());
         }
-        Ok(())
+        if !self.side_welds {
+            return Ok(());
+        }
+        if weld_m >= self.width_m {
+            let (weld, width) = (mm(weld_m), mm(self.width_m));
+            return Err(format!("side welds of {weld} mm fill a pouch of {width} mm; write a width below {width} mm"));
+        }
+        match self.joint {
+            Joint::Seams => {
+                Err("a bag joined at its seams only has no side welds on the wall; set side_welds to false".into())
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The sheet runs without a gap from edge to edge, or round.
@@ -225,6 +257,7 @@ pub(super) fn flat(shape: &ActuatorShape, joint: Joint) -> Pattern {
         pitch_m: shape.length_m,
         width_m: shape.width_m,
         joint,
+        side_welds: true,
         panels: vec![panel("top", 1, -half, half)],
     }
 }
@@ -302,6 +335,21 @@ mod tests {
     }
 
     #[test]
+    fn between_welds_the_chamber_is_narrower_and_its_folds_as_deep() {
+        let (cpam, radius_m) = shipped("cpam");
+        assert!(cpam.side_welds);
+        let inner = cpam.between_welds(0.004);
+        inner.check(radius_m, 0.004).unwrap();
+        assert!((inner.width_m - 0.056).abs() < 1e-12);
+        assert!((inner.sheet_width_m() - 0.152).abs() < 1e-12, "{}", inner.sheet_width_m());
+        let error = cpam.between_welds(0.014).check(radius_m, 0.014).unwrap_err();
+        assert!(error.contains("lie over each other by 2 mm"), "{error}");
+        assert!(refused(|p| p.width_m = 0.05, 0.055).contains("side welds of 55 mm fill a pouch of 50 mm"));
+        let fpam = shipped("fpam").0;
+        assert_eq!(fpam.between_welds(0.004), fpam);
+    }
+
+    #[test]
     fn folds_deeper_than_half_the_pouch_are_refused() {
         let (kind, radius_m) = (crate::actuators::by_name("cpam").unwrap(), 0.04);
         let shape = ActuatorShape { length_m: 0.06, width_m: 0.06, fold_m: 0.035, volume_gain: 1.0 };
@@ -313,6 +361,8 @@ mod tests {
     fn a_pouch_joined_at_its_seams_only_is_a_bag_of_its_own() {
         let (mut pattern, radius_m) = shipped("spam");
         pattern.joint = Joint::Seams;
+        assert!(pattern.check(radius_m, 0.0).unwrap_err().contains("no side welds"));
+        pattern.side_welds = false;
         assert!(pattern.check(radius_m, 0.0).unwrap_err().contains("does not close"));
         pattern.panels = vec![panel("bottom", 1, 0.03, -0.03), panel("top", 2, -0.03, 0.03)];
         pattern.check(radius_m, 0.0).unwrap();

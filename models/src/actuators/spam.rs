@@ -21,6 +21,6 @@ pub(super) const ENTRY: Actuator = Actuator {
     area: pouch::area,
     arm: pouch::arm,
     edge_restraint: |_| 1.0,
-    // Published: two layers welded at all sides and taped onto the body; the whole face is assumed to be taped.
+    // Published: two layers welded at their sides and taped onto the body; the whole face is assumed to be taped.
     pattern: |shape| flat(shape, Joint::Bonded { film: Film::Tape, warp_rad: 0.0 }),
 };

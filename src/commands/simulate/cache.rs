@@ -127,7 +127,7 @@ pub fn as_run(summary: &Value, cost: &Value) -> Option<FeRun> {
     (!readings.is_empty()).then_some(())?;
     // The two numbers that `RobotSettings::usual` leaves as one would assume them before seeing a robot bend.
     let fitted = |kind: &str, key: &str, usual: f64| about["actuator"] == kind && setting(key) != Some(usual);
-    let calibrated = fitted("spam", "tape_mm", 0.05) || fitted("fpam", "nu12", 0.0);
+    let calibrated = fitted("spam", "tape_margin_mm", 0.0) || fitted("fpam", "nu12", 0.0);
     Some(FeRun {
         actuator: about["actuator"].as_str()?.into(),
         scenario: summary["name"].as_str()?.into(),

@@ -304,7 +304,7 @@ fn finest(runs: Vec<&FeRun>) -> Ensemble {
     Ensemble { runs: kept }
 }
 
-/// Robots with a number fitted to the tip they are compared with: tape of the sPAM, ν₁₂ of the fPAM.
+/// Robots with a number fitted to the tip they are compared with: the taped sheet's margin of the sPAM, ν₁₂ of the fPAM.
 pub const CALIBRATED: [&str; 2] = ["spam", "fpam"];
 
 /// Whether a run is of this robot at its own body pressure.

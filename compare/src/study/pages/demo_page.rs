@@ -269,8 +269,8 @@ fn limits_section() -> Section {
     let list = [
         "Four displacements do not tell which effect is missing: several sizes of several effects meet them.",
         "The sealed-edge loss uses a volume ratio as a stroke ratio: an assumption.",
-        "The sPAM's remaining difference is not explained by sealed edges, arm and fabric stretch; tape stiffness and weld \
-         width are candidates that no published number decides.",
+        "The sPAM's remaining difference is not explained by sealed edges, arm and fabric stretch; the taped sheet's margin, \
+         tape and weld width are candidates that no published number decides.",
         "The marker sets are synthetic. They show that the comparison finds what was put in, not that the models are right.",
         "The finite element runs rest on assumed stiffnesses of tape, glue and seams; agreement with four numbers is no proof.",
     ];
