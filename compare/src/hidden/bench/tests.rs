@@ -41,12 +41,15 @@ fn a_diagnosis_that_fails_is_counted_and_named() {
 }
 
 #[test]
-fn the_finite_element_sets_are_diagnosed_and_what_is_named_halves_the_held_out_error() {
+fn the_finite_element_sets_are_diagnosed_and_what_is_named_lowers_the_held_out_error() {
     let mut failed = Vec::new();
     let made = made::made(crate::diagnosis::diagnose_together, &mut failed);
     assert!(failed.is_empty(), "{failed:?}");
     assert_eq!(made.iter().map(|m| m.robot).collect::<Vec<_>>(), ["spam", "cpam", "epam", "fpam"]);
     assert!(made[0].in_set && made[0].halved_as_stated(), "{:?}", made[0]);
-    assert!(made.iter().all(made::Made::halved), "{made:?}");
+    // The cPAM's attempt, which is said not to be enough, takes away a third.
+    let halved: Vec<_> = made.iter().filter(|m| m.halved()).map(|m| m.robot).collect();
+    assert_eq!(halved, ["spam", "epam", "fpam"], "{made:?}");
+    assert!(made.iter().all(|m| m.after_mm < m.before_mm), "{made:?}");
     assert!(made.iter().all(|m| m.before_mm.is_some_and(|mm| mm > 1.0)), "the bare model is wrong: {made:?}");
 }
