@@ -2,13 +2,17 @@
 //!
 //! Results do not depend on the number of threads, so it may change at any time. On a machine that is busy with other
 //! work a second thread is often not running when its share is due, and everybody waits for it; so stretches of steps
-//! are timed with one thread and with all, and the faster is used. Nobody spins while waiting.
+//! are timed with one thread and with all, and the faster is used. Within a stretch nobody sleeps.
 
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
 use crate::FemError;
 
-/// Every so many stretches the way that is not in use is tried again; at worst it costs 1/24 of its disadvantage.
+/// Stretches after a change until the way that is not in use is tried again, since one bad stretch may have misled; twice as
+/// many each time it stays the slower one.
+const TRY_SOON: u64 = 2;
+/// The most of them; at worst a try costs 1/24 of its disadvantage.
 const TRY_AGAIN: u64 = 24;
 /// Weight of the newest time in the running mean.
 const NEWEST: f64 = 0.3;
@@ -19,7 +23,9 @@ pub struct Team {
     all: Option<rayon::ThreadPool>,
     /// Seconds per step with one thread and with all; 0 before the first try.
     seconds: [f64; 2],
-    stretches: u64,
+    /// Stretches since both ways were tried, and after how many to do so again.
+    since: u64,
+    patience: u64,
     /// Processor seconds of all threads since they were taken.
     cpu_s: f64,
 }
@@ -36,7 +42,7 @@ impl Team {
             pool.map_err(|e| FemError::Problem(format!("cannot start {threads} threads: {e}")))
         };
         let all = if threads > 1 { Some(pool(threads)?) } else { None };
-        Ok(Team { one: pool(1)?, all, seconds: [0.0; 2], stretches: 0, cpu_s: 0.0 })
+        Ok(Team { one: pool(1)?, all, seconds: [0.0; 2], since: 0, patience: TRY_SOON, cpu_s: 0.0 })
     }
 
     /// Processor seconds of all threads since this was last asked.
@@ -49,15 +55,14 @@ impl Team {
         let Some(all) = &self.all else {
             return self.alone(work).1;
         };
-        let better = usize::from(self.seconds[1] <= self.seconds[0]);
+        let better = self.better();
         let untried = self.seconds.iter().position(|s| *s == 0.0);
-        let turn = self.stretches % TRY_AGAIN == TRY_AGAIN - 1;
-        let way = untried.unwrap_or(if turn { 1 - better } else { better });
+        let way = untried.unwrap_or(if self.since >= self.patience { 1 - better } else { better });
         let start = Instant::now();
         let (steps, said) = if way == 1 {
             let spent = || all.broadcast(|_| thread_seconds()).iter().sum::<f64>();
             let before = spent();
-            let done = all.install(work);
+            let done = all.install(|| awake(work));
             self.cpu_s += spent() - before;
             done
         } else {
@@ -66,8 +71,19 @@ impl Team {
         let taken = start.elapsed().as_secs_f64() / steps.max(1) as f64;
         let mean = &mut self.seconds[way];
         *mean = if *mean == 0.0 { taken } else { (1.0 - NEWEST) * *mean + NEWEST * taken };
-        self.stretches += 1;
+        if self.better() != better {
+            (self.since, self.patience) = (0, TRY_SOON);
+        } else if way != better {
+            (self.since, self.patience) = (0, TRY_AGAIN.min(2 * self.patience));
+        } else {
+            self.since += 1;
+        }
         said
+    }
+
+    /// Place of the faster way in `seconds`.
+    fn better(&self) -> usize {
+        usize::from(self.seconds[1] <= self.seconds[0])
     }
 
     fn alone<T: Send>(&mut self, work: impl FnOnce() -> (u64, T) + Send) -> (u64, T) {
@@ -80,6 +96,39 @@ impl Team {
     }
 }
 
+/// Runs `work` while the other threads of the pool look for their shares of it instead of falling asleep: a step is about as
+/// short as waking one. They let other programs go first.
+fn awake<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    /// Says that the work is over, also when it panics.
+    struct Over<'a>(&'a AtomicBool);
+    impl Drop for Over<'_> {
+        fn drop(&mut self) {
+            self.0.store(true, Ordering::Release);
+        }
+    }
+    let (over, ready, me) = (AtomicBool::new(false), AtomicUsize::new(1), rayon::current_thread_index());
+    rayon::scope(|scope| {
+        scope.spawn_broadcast(|_, thread| {
+            // The thread that works must not wait for itself.
+            if Some(thread.index()) == me {
+                return;
+            }
+            ready.fetch_add(1, Ordering::AcqRel);
+            while !over.load(Ordering::Acquire) {
+                if rayon::yield_now() != Some(rayon::Yield::Executed) {
+                    std::thread::yield_now();
+                }
+            }
+        });
+        let _over = Over(&over);
+        // A thread that took a share first would begin to look for others in the middle of it, and never end it.
+        while ready.load(Ordering::Acquire) < rayon::current_num_threads() {
+            std::thread::yield_now();
+        }
+        work()
+    })
+}
+
 /// Processor seconds of the calling thread; 0 where the system does not say.
 fn thread_seconds() -> f64 {
     cpu_time::ThreadTime::try_now().map_or(0.0, |t| t.as_duration().as_secs_f64())
@@ -89,21 +138,64 @@ fn thread_seconds() -> f64 {
 mod tests {
     use super::*;
 
+    /// Runs `count` stretches, of which those numbers for which `slow` says so take 20 ms with all threads and the others 1 ms, with
+    /// one thread 4 ms; counts the stretches with all.
+    fn with_all(team: &mut Team, count: usize, slow: impl Fn(usize) -> bool + Sync) -> usize {
+        let mut with_all = 0;
+        for i in 0..count {
+            with_all += team.run(|| {
+                let all = rayon::current_num_threads() == 2;
+                let ms = if !all {
+                    4
+                } else if slow(i) {
+                    20
+                } else {
+                    1
+                };
+                std::thread::sleep(std::time::Duration::from_millis(ms));
+                (1, usize::from(all))
+            });
+        }
+        with_all
+    }
+
     #[test]
     fn a_way_that_is_slower_is_tried_now_and_then_only() {
         let mut team = Team::new(2).unwrap();
-        let mut slow = 0;
-        for _ in 0..96 {
-            let with_all = std::sync::atomic::AtomicBool::new(false);
-            team.run(|| {
-                if rayon::current_num_threads() == 2 {
-                    with_all.store(true, std::sync::atomic::Ordering::Relaxed);
-                    std::thread::sleep(std::time::Duration::from_millis(20));
-                }
-                (1, ())
-            });
-            slow += u64::from(with_all.into_inner());
+        let with_all = with_all(&mut team, 96, |_| true);
+        assert!((2..=8).contains(&with_all), "{with_all}");
+    }
+
+    #[test]
+    fn one_bad_stretch_does_not_put_a_way_off_for_long() {
+        let mut team = Team::new(2).unwrap();
+        let with_all = with_all(&mut team, 64, |i| (20..23).contains(&i));
+        assert!(with_all >= 48, "{with_all}");
+    }
+
+    /// 2^depth shares.
+    fn shares(depth: usize) -> usize {
+        if depth == 0 {
+            return 1;
         }
-        assert!((1..=6).contains(&slow), "{slow}");
+        let (a, b) = rayon::join(|| shares(depth - 1), || shares(depth - 1));
+        a + b
+    }
+
+    #[test]
+    fn shares_of_shares_come_to_an_end() {
+        let all = Team::new(2).unwrap().all.unwrap();
+        for _ in 0..5000 {
+            // Threads that have just worked look around before they sleep.
+            all.broadcast(|_| thread_seconds());
+            assert_eq!(all.install(|| awake(|| shares(4))), 16);
+        }
+    }
+
+    #[test]
+    fn a_panic_in_a_stretch_comes_out_of_it() {
+        let all = Team::new(2).unwrap().all.unwrap();
+        let run = || all.install(|| awake(|| panic!("on purpose")));
+        assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(run)).is_err());
     }
 }

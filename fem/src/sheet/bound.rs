@@ -5,7 +5,7 @@
 //! Σ B Bᵀ. Bending adds the row sums of K (Gershgorin).
 
 use models::Fabric;
-use models::fabrics::{Kind, Past};
+use models::fabrics::{Kind, Past, WrinklingFilm};
 
 use super::reference::dot;
 use super::{Element, Sheet};
@@ -31,15 +31,16 @@ pub fn element(element: &Element, fabric: &dyn Fabric, e: [f64; 3], past: &Past,
 /// Strain that a fabric may go on between two estimates of the step.
 const AHEAD: f64 = 0.01;
 
-/// The largest [`element`] for what comes next: curves stiffen at their rows, and a way back may be steeper than the way
-/// there. Linear and neo-Hookean fabrics change too little to look ahead.
+/// The largest [`element`] for what comes next: curves stiffen at their rows, a way back may be steeper than the way there, and
+/// a film that is slack comes back taut, at a strain that has no folds. Linear and neo-Hookean fabrics change too little to
+/// look ahead.
 fn ahead(item: &Element, fabric: &dyn Fabric, e: [f64; 3], past: &Past, c: [f64; 3]) -> f64 {
-    // Slack now may be taut in the next step.
-    let fabric = match fabric.kind() {
-        Kind::WrinklingFilm(wrinkling) => &wrinkling.film,
-        _ => fabric,
-    };
     let here = element(item, fabric, e, past, c);
+    if let Kind::WrinklingFilm(wrinkling) = fabric.kind() {
+        let taut = WrinklingFilm::unfolded(e);
+        let at = [1.0 + 2.0 * taut[0], 1.0 + 2.0 * taut[1], taut[2]];
+        return here.max(element(item, &wrinkling.film, taut, past, at));
+    }
     if !matches!(fabric.kind(), Kind::Other) {
         return here;
     }

@@ -77,6 +77,17 @@ impl WrinklingFilm {
         (y + z + y * z < 0.0).then_some(Folded { d, c, r, z: z.max(0.0) })
     }
 
+    /// Strain of the film without its folds: eigenvalues of C raised to L₁ ≥ 1 and L₂ ≥ L₁^(−1/2), the least that is taut.
+    pub fn unfolded(e: [f64; 3]) -> [f64; 3] {
+        let (mean, d, c) = (1.0 + e[0] + e[1], e[0] - e[1], e[2]);
+        let r = d.hypot(c);
+        let large = (mean + r).max(1.0);
+        let small = (mean - r).max(1.0 / large.sqrt());
+        // The directions stay; without a difference there are none, and both are 1.
+        let (mean, share) = (0.5 * (large + small), 0.5 * (large - small) / r.max(f64::MIN_POSITIVE));
+        [0.5 * (mean + share * d - 1.0), 0.5 * (mean - share * d - 1.0), share * c]
+    }
+
     /// 2 t C₁₀ \[N/m\].
     fn k(&self) -> f64 {
         2.0 * self.film.thickness_m * self.film.c10_pa

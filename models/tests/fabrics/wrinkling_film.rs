@@ -64,6 +64,32 @@ fn pulled_one_way_a_film_is_as_wide_as_it_likes_and_narrower_it_wrinkles_at_the_
 }
 
 #[test]
+fn without_its_folds_a_film_is_as_little_taut_as_can_be() {
+    let mut random = Random::new(23);
+    let mut changed = 0;
+    for _ in 0..200 {
+        let e = random.strain(0.2);
+        let u = WrinklingFilm::unfolded(e);
+        let (mean, r) = (1.0 + u[0] + u[1], (u[0] - u[1]).hypot(u[2]));
+        let (large, small) = (mean + r, mean - r);
+        assert!(large >= 1.0 - 1e-12 && small * large.sqrt() >= 1.0 - 1e-12, "{e:?}: {u:?}");
+        // Directions stay: both are multiples of one traceless matrix.
+        assert!(((u[0] - u[1]) * e[2] - (e[0] - e[1]) * u[2]).abs() < 1e-12);
+        if with(0.0).energy(e, &FRESH) == FILM.energy(e, &FRESH) {
+            assert!(apart(u, e, 1e-12) < 1e-9, "{e:?}: {u:?}");
+        } else {
+            assert!((small * large.sqrt() - 1.0).abs() < 1e-9, "{e:?}: {u:?}");
+            // Its energy is what the folded film has.
+            assert!(
+                (FILM.energy(u, &FRESH) - with(0.0).energy(e, &FRESH)).abs() < 1e-9 * FILM.c10_pa * FILM.thickness_m
+            );
+            changed += 1;
+        }
+    }
+    assert!((50..200).contains(&changed), "{changed}");
+}
+
+#[test]
 fn the_share_is_what_compression_meets_and_all_of_it_is_the_film() {
     let e = [-0.01, -0.02, 0.004];
     let full = FILM.tension(e, &FRESH);
