@@ -67,9 +67,9 @@ impl RobotSettings {
     ///
     /// | number | why |
     /// |---|---|
-    /// | 8 mm on the body, 4 mm on the actuator | 2 mm change ePAM and fPAM by at most 4 %, the mean sPAM by −3 ± 5, the cPAM by +6 % |
+    /// | 8 mm on the body, 4 mm on the actuator | 2 mm change ePAM and fPAM by at most 3 %, the mean sPAM by −5 ± 4, the cPAM by +5 % |
     /// | welds 3 mm wide | assumed; 4 mm lower cPAM and ePAM by 2 and 4 to 11 %, a line does not converge |
-    /// | 0.1 + 0.6 + 0.054 s, masses raised | about 110 000 steps; with rate-free fabrics only their number counts |
+    /// | 0.1 + 0.6 + 0.054 s, masses raised | 52 000 to 90 000 steps; with rate-free fabrics only their number counts |
     /// | ramp floor 2 kPa | the body's pressure: there a robot bends most per pascal, and gussets open |
     /// | mass damping 20 1/s | with the time at full pressure it brings the kinetic share below 1 % |
     /// | hourglass .001 | p R/(E t) of the TPU-coated body; .01 holds 9 to 16 % of the stored energy, .001 up to 2 % |
