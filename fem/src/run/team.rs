@@ -21,13 +21,47 @@ const NEWEST: f64 = 0.3;
 pub struct Team {
     one: rayon::ThreadPool,
     all: Option<rayon::ThreadPool>,
-    /// Seconds per step with one thread and with all; 0 before the first try.
+    ways: Ways,
+    /// Processor seconds of all threads since they were taken.
+    cpu_s: f64,
+}
+
+/// What is known of the two ways to run a stretch: 0 with one thread, 1 with all.
+struct Ways {
+    /// Running mean of the seconds per step; 0 before the first try.
     seconds: [f64; 2],
     /// Stretches since both ways were tried, and after how many to do so again.
     since: u64,
     patience: u64,
-    /// Processor seconds of all threads since they were taken.
-    cpu_s: f64,
+}
+
+impl Ways {
+    const NEW: Ways = Ways { seconds: [0.0; 2], since: 0, patience: TRY_SOON };
+
+    /// The way for the next stretch.
+    fn next(&self) -> usize {
+        let untried = self.seconds.iter().position(|s| *s == 0.0);
+        untried.unwrap_or(if self.since >= self.patience { 1 - self.better() } else { self.better() })
+    }
+
+    /// The faster way.
+    fn better(&self) -> usize {
+        usize::from(self.seconds[1] <= self.seconds[0])
+    }
+
+    /// A stretch took so many seconds per step.
+    fn took(&mut self, way: usize, seconds: f64) {
+        let better = self.better();
+        let mean = &mut self.seconds[way];
+        *mean = if *mean == 0.0 { seconds } else { (1.0 - NEWEST) * *mean + NEWEST * seconds };
+        if self.better() != better {
+            (self.since, self.patience) = (0, TRY_SOON);
+        } else if way != better {
+            (self.since, self.patience) = (0, TRY_AGAIN.min(2 * self.patience));
+        } else {
+            self.since += 1;
+        }
+    }
 }
 
 impl Team {
@@ -42,7 +76,7 @@ impl Team {
             pool.map_err(|e| FemError::Problem(format!("cannot start {threads} threads: {e}")))
         };
         let all = if threads > 1 { Some(pool(threads)?) } else { None };
-        Ok(Team { one: pool(1)?, all, seconds: [0.0; 2], since: 0, patience: TRY_SOON, cpu_s: 0.0 })
+        Ok(Team { one: pool(1)?, all, ways: Ways::NEW, cpu_s: 0.0 })
     }
 
     /// Processor seconds of all threads since this was last asked.
@@ -55,9 +89,7 @@ impl Team {
         let Some(all) = &self.all else {
             return self.alone(work).1;
         };
-        let better = self.better();
-        let untried = self.seconds.iter().position(|s| *s == 0.0);
-        let way = untried.unwrap_or(if self.since >= self.patience { 1 - better } else { better });
+        let way = self.ways.next();
         let start = Instant::now();
         let (steps, said) = if way == 1 {
             let spent = || all.broadcast(|_| thread_seconds()).iter().sum::<f64>();
@@ -68,22 +100,8 @@ impl Team {
         } else {
             self.alone(work)
         };
-        let taken = start.elapsed().as_secs_f64() / steps.max(1) as f64;
-        let mean = &mut self.seconds[way];
-        *mean = if *mean == 0.0 { taken } else { (1.0 - NEWEST) * *mean + NEWEST * taken };
-        if self.better() != better {
-            (self.since, self.patience) = (0, TRY_SOON);
-        } else if way != better {
-            (self.since, self.patience) = (0, TRY_AGAIN.min(2 * self.patience));
-        } else {
-            self.since += 1;
-        }
+        self.ways.took(way, start.elapsed().as_secs_f64() / steps.max(1) as f64);
         said
-    }
-
-    /// Place of the faster way in `seconds`.
-    fn better(&self) -> usize {
-        usize::from(self.seconds[1] <= self.seconds[0])
     }
 
     fn alone<T: Send>(&mut self, work: impl FnOnce() -> (u64, T) + Send) -> (u64, T) {
@@ -138,39 +156,36 @@ fn thread_seconds() -> f64 {
 mod tests {
     use super::*;
 
-    /// Runs `count` stretches, of which those numbers for which `slow` says so take 20 ms with all threads and the others 1 ms, with
-    /// one thread 4 ms; counts the stretches with all.
-    fn with_all(team: &mut Team, count: usize, slow: impl Fn(usize) -> bool + Sync) -> usize {
+    /// How many of `count` stretches use all threads, where one takes 4 ms and all take 20 or 1, as `slow` says of their number.
+    fn with_all(count: usize, slow: impl Fn(usize) -> bool) -> usize {
+        let mut ways = Ways::NEW;
         let mut with_all = 0;
         for i in 0..count {
-            with_all += team.run(|| {
-                let all = rayon::current_num_threads() == 2;
-                let ms = if !all {
-                    4
+            let way = ways.next();
+            with_all += way;
+            ways.took(
+                way,
+                if way == 0 {
+                    4e-3
                 } else if slow(i) {
-                    20
+                    20e-3
                 } else {
-                    1
-                };
-                std::thread::sleep(std::time::Duration::from_millis(ms));
-                (1, usize::from(all))
-            });
+                    1e-3
+                },
+            );
         }
         with_all
     }
 
     #[test]
     fn a_way_that_is_slower_is_tried_now_and_then_only() {
-        let mut team = Team::new(2).unwrap();
-        let with_all = with_all(&mut team, 96, |_| true);
-        assert!((2..=8).contains(&with_all), "{with_all}");
+        assert!((2..=8).contains(&with_all(96, |_| true)), "{}", with_all(96, |_| true));
     }
 
     #[test]
-    fn one_bad_stretch_does_not_put_a_way_off_for_long() {
-        let mut team = Team::new(2).unwrap();
-        let with_all = with_all(&mut team, 64, |i| (20..23).contains(&i));
-        assert!(with_all >= 48, "{with_all}");
+    fn a_bad_stretch_does_not_put_a_way_off_for_long() {
+        let lost = with_all(64, |_| false) - with_all(64, |i| (20..23).contains(&i));
+        assert!((1..=10).contains(&lost), "{lost}");
     }
 
     /// 2^depth shares.
