@@ -49,11 +49,34 @@ fn zoo() -> Vec<(Problem, &'static str)> {
     all.push((by_part(&woven, &neo), "tube"));
     let film: Arc<dyn Fabric> = Arc::new(WrinklingFilm { film: neo_film(), share: 0.05 });
     all.push((by_part(&film, &film), "tube that wrinkles"));
+    all.push((by_part(&film, &neo), "tube that wrinkles, with stiff caps"));
+    all.push((striped(&tube, &[film, bonded(&[&neo, &neo]), woven.clone()]), "tube with seams along it"));
     all.push((by_part(&bonded(&[&woven, &neo, &woven]), &bonded(&[&woven, &woven])), "glued tube"));
     let disc = generate::disc_balloon(0.1, 12).unwrap();
     let sections = disc.parts.iter().map(|_| section(neo.clone(), 0.0)).collect();
     all.push((Problem::new("disc", disc, sections, vec![chamber("air", 1e3)]), "disc"));
+    // Sheets that share a rim, in several patches: rows of one want the places of the other.
+    let pillow = generate::pillow(0.2, 50, 1e-4).unwrap();
+    let sections = pillow.parts.iter().map(|_| section(neo.clone(), 0.0)).collect();
+    all.push((Problem::new("pillow", pillow, sections, vec![chamber("air", 1e3)]), "pillow"));
     all
+}
+
+/// The tube with its wall in strips of the fabrics, so that rows of elements change fabric.
+fn striped(tube: &Mesh, fabrics: &[Arc<dyn Fabric>]) -> Problem {
+    let mut mesh = tube.clone();
+    let wall = std::mem::take(&mut mesh.parts[0].quads);
+    for (k, fabric) in fabrics.iter().enumerate().rev() {
+        let mut part = mesh.parts[0].clone();
+        part.name = format!("strip_{k}_{:.0}", 1e6 * fabric.thickness_m());
+        part.quads =
+            wall.iter().enumerate().filter(|(e, _)| [0, 0, 1, 0, 2][e % 40 % 5] == k).map(|(_, q)| *q).collect();
+        mesh.parts.insert(1, part);
+    }
+    mesh.parts.remove(0);
+    let of = |p: usize| section(fabrics.get(p).unwrap_or(&fabrics[0]).clone(), 0.4);
+    let sections = (0..mesh.parts.len()).map(of).collect();
+    Problem::new("striped", mesh, sections, vec![chamber("body", 2e3)])
 }
 
 /// Plies at 0, 0.7, 1.4 rad.

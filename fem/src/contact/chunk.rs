@@ -1,5 +1,7 @@
 //! Some dozens of records that are looked at, and stepped, together.
 
+use std::ops::Range;
+
 use super::ask::{Question, Questions};
 use super::closest::{Closest, Feature, describe, nearest};
 use super::pack::{Pack, Touches};
@@ -30,6 +32,8 @@ pub(super) struct Chunk {
     pub candidates: Vec<Candidate>,
     /// Nodes of the records and of their candidates.
     pub nodes: Vec<u32>,
+    /// From the first of them to the last.
+    pub span: Range<u32>,
     /// Records that may touch before the next look: on faces first, then on edges and corners.
     pub near: Vec<u32>,
     /// Those on faces, ready to be stepped.
@@ -98,6 +102,8 @@ impl Chunk {
                 self.nodes.push(*n);
             }
         }
+        let last = self.nodes.iter().max().map_or(0, |n| n + 1);
+        self.span = self.nodes.iter().min().copied().unwrap_or(last)..last;
         (self.due_m, self.way_m, self.next_m) = (f64::NEG_INFINITY, 0.0, f64::NEG_INFINITY);
         self.seen_m.clear();
     }
@@ -105,6 +111,7 @@ impl Chunk {
     /// One step: looks again if nodes moved too far, then adds up the forces of the near records.
     pub fn step(&mut self, step: &Step) {
         self.sums = Sums::default();
+        self.pushes.clear();
         if step.path_m >= self.due_m {
             self.look_if_due(step);
         }
@@ -121,13 +128,19 @@ impl Chunk {
         }
     }
 
-    /// Adds the forces of the step to those on all nodes.
-    pub fn hand_over(&mut self, force: &mut [[f64; 4]]) {
-        for Push { nodes: [p, a, b, c], weights, force_n } in self.pushes.drain(..) {
-            push(&mut force[p as usize], 1.0, force_n);
-            push(&mut force[a as usize], -weights[0], force_n);
-            push(&mut force[b as usize], -weights[1], force_n);
-            push(&mut force[c as usize], -weights[2], force_n);
+    /// Adds the forces of the step to those on the nodes from `first` on.
+    pub fn hand_over(&self, first: u32, force: &mut [[f64; 4]]) {
+        let last = first + force.len() as u32;
+        if self.span.end <= first || last <= self.span.start {
+            return;
+        }
+        for Push { nodes: [p, a, b, c], weights, force_n } in &self.pushes {
+            for (node, weight) in [(p, 1.0), (a, -weights[0]), (b, -weights[1]), (c, -weights[2])] {
+                // A node before the first wraps round to beyond the last.
+                if let Some(force) = force.get_mut(node.wrapping_sub(first) as usize) {
+                    push(force, weight, *force_n);
+                }
+            }
         }
     }
 

@@ -68,6 +68,9 @@ const SHARE: f64 = 0.05;
 /// Share of critical damping of a pair.
 const DAMPING: f64 = 0.1;
 
+/// Most nodes whose forces are handed over by one thread.
+const PIECE: usize = 4096;
+
 /// Contact between the layers of a mesh.
 #[derive(Debug, Clone)]
 pub struct Contact {
@@ -252,11 +255,9 @@ impl Term for Contact {
         let step = self.step_of(x, tick.dt_s);
         chunks.par_iter_mut().for_each(|chunk| chunk.step(&step));
         self.chunks = chunks;
+        hand_over(&self.chunks, 0, force.as_chunks_mut::<4>().0);
         self.sums.stored = 0.0;
-        // One after the other, so that the order of additions does not depend on threads.
-        let force = force.as_chunks_mut::<4>().0;
-        for chunk in &mut self.chunks {
-            chunk.hand_over(force);
+        for chunk in &self.chunks {
             self.sums.stored += chunk.sums.stored;
             self.sums.friction += chunk.sums.friction;
             self.sums.damping += chunk.sums.damping;
@@ -299,6 +300,17 @@ impl Term for Contact {
     fn restore(&mut self, saved: &[u8]) -> bool {
         save::read(self, saved).is_some()
     }
+}
+
+/// Adds the forces of all chunks to those on the nodes from `first` on; every node gets its own in the order of chunks, whatever
+/// the number of threads.
+fn hand_over(chunks: &[Chunk], first: u32, force: &mut [[f64; 4]]) {
+    if force.len() <= PIECE {
+        return chunks.iter().for_each(|chunk| chunk.hand_over(first, force));
+    }
+    let half = force.len() / 2;
+    let (low, high) = force.split_at_mut(half);
+    rayon::join(|| hand_over(chunks, first, low), || hand_over(chunks, first + half as u32, high));
 }
 
 fn reaches(settings: &problem::Contact, size_m: f64) -> Reach {

@@ -1,5 +1,6 @@
 //! Contact against its laws, and in small explicit runs of nodes and springs.
 
+mod hand_over;
 mod laws;
 pub mod rig;
 mod runs;

@@ -18,8 +18,9 @@ const LOOK: u64 = 64;
 const RECHECK: u64 = 512;
 /// The same for fabrics whose curves stiffen.
 const RECHECK_STIFFENING: u64 = 128;
-/// Nodes per piece of the update; fixed, so that sums have one order.
-const PIECE: usize = 1024;
+/// Most nodes per piece of the update; fixed, so that sums have one order. Handing a piece to another thread takes as long as
+/// some hundred nodes.
+const PIECE: usize = 3072;
 
 impl Simulation {
     /// Steps until the time is reached or `go_on` (called every few dozen steps, on a thread of the run) returns false.
@@ -179,8 +180,7 @@ impl Update {
         if mass.len() <= PIECE {
             return self.arch.dispatch(Piece { update: self, mass, force, v, x });
         }
-        let half = (mass.len() / 2).next_multiple_of(PIECE);
-        let half = if half < mass.len() { half } else { PIECE };
+        let half = (mass.len() / 2).next_multiple_of(LANES);
         let (mass, force) = (mass.split_at(half), force.split_at_mut(half));
         let (v, x) = (v.split_at_mut(half), x.split_at_mut(half));
         let (low, high) = rayon::join(|| self.all(mass.0, force.0, v.0, x.0), || self.all(mass.1, force.1, v.1, x.1));

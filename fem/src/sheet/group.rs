@@ -27,6 +27,10 @@ pub struct Constants {
     pub s: [Lane; 2],
     /// Reference area \[m²\]; 0 for an empty lane.
     pub area: Lane,
+    /// Reference area times what the loop's law is told per, see [`super::law::own`].
+    pub amount: Lane,
+    /// Share of compression that a film does not carry.
+    pub relief: Lane,
     /// Hourglass stiffness k \[N/m\].
     pub hourglass: Lane,
     /// Viscosity times area η A \[N m s\].
@@ -44,6 +48,8 @@ pub struct Item {
     pub node: Vec<u32>,
     /// Reference data.
     pub reference: Reference,
+    /// See [`super::law::own`].
+    pub law: [f64; 2],
     /// Hourglass stiffness \[N/m\].
     pub hourglass: f64,
     /// Viscosity \[N s/m\].
@@ -78,6 +84,8 @@ impl Constants {
             b: [[zero; 2]; 2],
             s: [zero; 2],
             area: zero,
+            amount: zero,
+            relief: zero,
             hourglass: zero,
             viscosity: zero,
             own: zero,
@@ -92,6 +100,8 @@ impl Constants {
             }
             if lane < items.len() {
                 constants.area[lane] = item.reference.area;
+                constants.amount[lane] = item.reference.area * item.law[0];
+                constants.relief[lane] = item.law[1];
                 constants.hourglass[lane] = item.hourglass;
                 constants.viscosity[lane] = item.viscosity * item.reference.area;
                 constants.own[lane] = f64::from(u8::from(item.own && lane >= counted_before));
@@ -110,7 +120,7 @@ impl Constants {
             let size = self.area[lane].sqrt();
             key.extend(self.b.as_flattened().iter().map(|b| steps(b[lane] * size)));
             key.extend(self.s.iter().map(|s| steps(s[lane] / size)));
-            let positive = [self.area[lane], self.hourglass[lane], self.viscosity[lane]];
+            let positive = [self.area, self.amount, self.relief, self.hourglass, self.viscosity].map(|of| of[lane]);
             key.extend(positive.map(leading_bits));
             key.extend([self.own[lane], self.real[lane]].map(|flag| flag as i64));
         }

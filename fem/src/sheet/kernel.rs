@@ -17,7 +17,7 @@ use pulp::Simd;
 
 use super::group::{Constants, Group, LANES, Lane};
 use super::lanes::{V, axes, inner, product};
-use super::law::Law;
+use super::law::{Law, Who};
 
 /// One vector for each element of a group.
 pub type Lane3 = [Lane; 3];
@@ -143,8 +143,8 @@ fn quad<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
         V::all(simd, 0.5) * (inner(f2, f2) - V::all(simd, 1.0)),
         inner(f1, f2),
     ];
-    let (s, w) = law.at(simd, e, past, part);
-    let (area, own) = (V::load(simd, &constants.area, part), V::load(simd, &constants.own, part));
+    let (s, w) = law.at(simd, e, Who { constants, past, part });
+    let (amount, own) = (V::load(simd, &constants.amount, part), V::load(simd, &constants.own, part));
     let t = with_viscosity(simd, batch.rate, constants, part, e, s, strain, tally);
 
     let (s1, s2) = (V::load(simd, &constants.s[0], part), V::load(simd, &constants.s[1], part));
@@ -153,7 +153,7 @@ fn quad<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
     let stiffness = V::load(simd, &constants.hourglass, part);
     let (k1, k2) = (stiffness * g1, stiffness * g2);
     if BOOKS {
-        (V::load(simd, &tally.membrane, part) + own * area * w).store(&mut tally.membrane, part);
+        (V::load(simd, &tally.membrane, part) + own * amount * w).store(&mut tally.membrane, part);
         (V::load(simd, &tally.hourglass, part) + V::all(simd, 0.5) * own * (k1 * g1 + k2 * g2))
             .store(&mut tally.hourglass, part);
     }
@@ -233,10 +233,10 @@ fn triangle<S: Simd, L: Law>(
         V::all(simd, 0.5) * (inner(f2, f2) - V::all(simd, 1.0)),
         inner(f1, f2),
     ];
-    let (s, w) = law.at(simd, e, past, part);
-    let (area, own) = (V::load(simd, &constants.area, part), V::load(simd, &constants.own, part));
+    let (s, w) = law.at(simd, e, Who { constants, past, part });
+    let (amount, own) = (V::load(simd, &constants.amount, part), V::load(simd, &constants.own, part));
     let t = with_viscosity(simd, batch.rate, constants, part, e, s, strain, tally);
-    (V::load(simd, &tally.membrane, part) + own * area * w).store(&mut tally.membrane, part);
+    (V::load(simd, &tally.membrane, part) + own * amount * w).store(&mut tally.membrane, part);
 
     let normal = product(u, v);
     let p = V::all(simd, batch.pressure / 6.0) * V::load(simd, &constants.real, part);
@@ -266,7 +266,7 @@ fn with_viscosity<S: Simd>(
     strain: &mut Strain,
     tally: &mut Tally,
 ) -> [V<S>; 3] {
-    let (area, half) = (V::load(simd, &constants.area, part), V::all(simd, 0.5));
+    let (amount, half) = (V::load(simd, &constants.amount, part), V::all(simd, 0.5));
     let eta = V::load(simd, &constants.viscosity, part) * V::all(simd, rate);
     let d = axes!(k => e[k] - V::load(simd, &strain.0[k], part));
     for (e, kept) in e.into_iter().zip(&mut strain.0) {
@@ -275,5 +275,5 @@ fn with_viscosity<S: Simd>(
     let drag = [eta * d[0], eta * d[1], half * eta * d[2]];
     let heat = V::load(simd, &constants.own, part) * (drag[0] * d[0] + drag[1] * d[1] + drag[2] * d[2]);
     (V::load(simd, &tally.viscous, part) + heat).store(&mut tally.viscous, part);
-    axes!(k => area * s[k] + drag[k])
+    axes!(k => amount * s[k] + drag[k])
 }

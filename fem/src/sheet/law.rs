@@ -1,58 +1,110 @@
 //! Membrane laws as the kernels call them: vector twins of the common fabrics, and any other one by one.
 
+use std::sync::Arc;
+
 use models::Fabric;
-use models::fabrics::{Mixed, NeoHookean, Orthotropic, Past, WrinklingFilm};
+use models::fabrics::{Kind, Mixed, NeoHookean, Orthotropic, Past};
 use pulp::Simd;
 
-use super::group::LANES;
+use super::group::{Constants, LANES};
 use super::lanes::{V, axes, inner};
 
-/// Tension and energy per reference area of several elements at once.
-pub trait Law: Copy {
-    /// At strain (E₁₁, E₂₂, 2E₁₂) of part `part` of a group; `past` is the group's memory, if the fabric has one.
-    fn at<S: Simd>(self, simd: S, e: [V<S>; 3], past: Option<&[Past; LANES]>, part: usize) -> ([V<S>; 3], V<S>);
+/// Eight elements, and which of them are in the registers.
+#[derive(Clone, Copy)]
+pub struct Who<'a> {
+    /// Their constants.
+    pub constants: &'a Constants,
+    /// Their memory, if the fabric has one.
+    pub past: Option<&'a [Past; LANES]>,
+    /// Part of the eight.
+    pub part: usize,
 }
 
-impl Law for &NeoHookean {
+/// Tension and energy of several elements at once, per [`Constants::amount`].
+pub trait Law: Copy {
+    /// At strain (E₁₁, E₂₂, 2E₁₂).
+    fn at<S: Simd>(self, simd: S, e: [V<S>; 3], who: Who) -> ([V<S>; 3], V<S>);
+}
+
+/// Number of the fabric whose loop each fabric goes through. Films of any stiffness go through one, since rows of elements
+/// across a seam are then whole: their moduli and shares of compression are with the elements.
+pub fn loops(fabrics: &[Arc<dyn Fabric>]) -> Vec<usize> {
+    let kind = |wrinkles: bool| {
+        fabrics.iter().position(|f| match f.kind() {
+            Kind::WrinklingFilm(_) => wrinkles,
+            Kind::NeoHookean(_) => !wrinkles,
+            _ => false,
+        })
+    };
+    let film = kind(true).or(kind(false));
+    let of = |p: usize| match fabrics[p].kind() {
+        Kind::NeoHookean(_) | Kind::WrinklingFilm(_) => film.unwrap_or(p),
+        _ => fabrics.iter().position(|f| Arc::ptr_eq(f, &fabrics[p])).unwrap_or(p),
+    };
+    (0..fabrics.len()).map(of).collect()
+}
+
+/// What a fabric's loop computes tension per \[N/m\], and what share of compression the fabric does without: 1 and 0 but for
+/// films.
+pub fn own(fabric: &dyn Fabric) -> [f64; 2] {
+    match fabric.kind() {
+        Kind::NeoHookean(film) => [modulus(film), 0.0],
+        Kind::WrinklingFilm(film) => [modulus(&film.film), 1.0 - film.share],
+        _ => [1.0, 0.0],
+    }
+}
+
+/// 2 t C₁₀ \[N/m\].
+fn modulus(film: &NeoHookean) -> f64 {
+    2.0 * film.thickness_m * film.c10_pa
+}
+
+/// Neo-Hookean film of the given 2 t C₁₀.
+#[derive(Clone, Copy)]
+pub struct Rubber(pub f64);
+
+impl Law for Rubber {
     #[inline(always)]
-    fn at<S: Simd>(self, simd: S, e: [V<S>; 3], _: Option<&[Past; LANES]>, _: usize) -> ([V<S>; 3], V<S>) {
+    fn at<S: Simd>(self, simd: S, e: [V<S>; 3], _: Who) -> ([V<S>; 3], V<S>) {
         let (trace, product) = (e[0] + e[1], e[0] * e[1]);
         let d = V::all(simd, 2.0) * trace + V::all(simd, 4.0) * product - e[2] * e[2];
         let inverse = (V::all(simd, 1.0) + d).inverse();
-        let k = 2.0 * self.thickness_m * self.c10_pa;
-        let scale = V::all(simd, k) * inverse * inverse;
+        let scale = V::all(simd, self.0) * inverse * inverse;
         let spare = d * (V::all(simd, 2.0) + d);
         let s = [scale * (spare - V::all(simd, 2.0) * e[1]), scale * (spare - V::all(simd, 2.0) * e[0]), scale * e[2]];
-        let w = V::all(simd, 0.5 * k) * (V::all(simd, 2.0) * trace - d * inverse);
+        let w = V::all(simd, 0.5 * self.0) * (V::all(simd, 2.0) * trace - d * inverse);
         (s, w)
     }
 }
 
-impl Law for &WrinklingFilm {
+/// Wrinkling film with 2 t C₁₀ = 1.
+#[derive(Clone, Copy)]
+pub struct Film;
+
+impl Law for Film {
     #[inline(always)]
-    fn at<S: Simd>(self, simd: S, e: [V<S>; 3], past: Option<&[Past; LANES]>, part: usize) -> ([V<S>; 3], V<S>) {
-        let (full, stored) = (&self.film).at(simd, e, past, part);
+    fn at<S: Simd>(self, simd: S, e: [V<S>; 3], who: Who) -> ([V<S>; 3], V<S>) {
+        let (full, stored) = Rubber(1.0).at(simd, e, who);
         let (zero, half, one) = (V::all(simd, 0.0), V::all(simd, 0.5), V::all(simd, 1.0));
         let (mean, d, c) = (e[0] + e[1], e[0] - e[1], e[2]);
         // Never 0, so that its inverse is a number; it is multiplied by what is 0 there.
         let r = (d * d + c * c).max(V::all(simd, f64::MIN_POSITIVE)).sqrt();
-        let (x, y) = (mean + r, mean - r);
-        let z = x * ((one + x).max(zero).sqrt() + one).inverse();
-        let share = (y + z + y * z).choose(zero, V::all(simd, 1.0 - self.share));
-        let z = z.max(zero);
-        let a = one + z;
+        // Where x < 0 the film is slack, and it is so with 0 in its place.
+        let (x, y) = ((mean + r).max(zero), mean - r);
+        let a = (one + x).sqrt();
+        let z = x * (a + one).inverse();
+        let share = (y + z + y * z).choose(zero, V::load(simd, &who.constants.relief, who.part));
         let (over, per_r) = (a.inverse(), half * r.inverse());
-        let k = V::all(simd, 2.0 * self.film.thickness_m * self.film.c10_pa);
-        let sigma = k * z * (a * a + a + one) * over * over * over;
+        let sigma = z * (a * a + a + one) * over * over * over;
         let along = [half + d * per_r, half - d * per_r, c * per_r];
-        let w = k * half * z * z * (a + V::all(simd, 2.0)) * over;
+        let w = half * z * z * (a + V::all(simd, 2.0)) * over;
         (axes!(i => full[i] + share * (sigma * along[i] - full[i])), stored + share * (w - stored))
     }
 }
 
 impl Law for &Orthotropic {
     #[inline(always)]
-    fn at<S: Simd>(self, simd: S, e: [V<S>; 3], _: Option<&[Past; LANES]>, _: usize) -> ([V<S>; 3], V<S>) {
+    fn at<S: Simd>(self, simd: S, e: [V<S>; 3], _: Who) -> ([V<S>; 3], V<S>) {
         let s = [
             V::all(simd, self.a11) * e[0] + V::all(simd, self.a12) * e[1],
             V::all(simd, self.a12) * e[0] + V::all(simd, self.a22) * e[1],
@@ -65,14 +117,14 @@ impl Law for &Orthotropic {
 
 impl Law for &Mixed {
     #[inline(always)]
-    fn at<S: Simd>(self, simd: S, e: [V<S>; 3], past: Option<&[Past; LANES]>, part: usize) -> ([V<S>; 3], V<S>) {
+    fn at<S: Simd>(self, simd: S, e: [V<S>; 3], who: Who) -> ([V<S>; 3], V<S>) {
         let row = axes!(i => axes!(j => V::all(simd, self.linear[i][j]) * e[j]));
         let s = axes!(i => row[i][0] + row[i][1] + row[i][2]);
         let w = V::all(simd, 0.5) * inner(s, e);
         if self.rubber.thickness_m == 0.0 {
             return (s, w);
         }
-        let (rubber, stored) = (&self.rubber).at(simd, e, past, part);
+        let (rubber, stored) = Rubber(modulus(&self.rubber)).at(simd, e, who);
         (axes!(i => rubber[i] + s[i]), stored + w)
     }
 }
@@ -83,13 +135,13 @@ pub struct Called<'a>(pub &'a dyn Fabric);
 
 impl Law for Called<'_> {
     #[inline(always)]
-    fn at<S: Simd>(self, simd: S, e: [V<S>; 3], past: Option<&[Past; LANES]>, part: usize) -> ([V<S>; 3], V<S>) {
+    fn at<S: Simd>(self, simd: S, e: [V<S>; 3], who: Who) -> ([V<S>; 3], V<S>) {
         let strain = [e[0].lanes(), e[1].lanes(), e[2].lanes()];
         let mut s = [[0.0; LANES]; 3];
         let mut w = [0.0; LANES];
         for l in 0..S::F64_LANES {
             let e = [strain[0][l], strain[1][l], strain[2][l]];
-            let past = past.map_or([0.0; 2], |past| past[part * S::F64_LANES + l]);
+            let past = who.past.map_or([0.0; 2], |past| past[who.part * S::F64_LANES + l]);
             let tension = self.0.tension(e, &past);
             for k in 0..3 {
                 s[k][l] = tension[k];

@@ -117,9 +117,8 @@ impl Sheet {
         for (p, nodes) in order.patches.iter().enumerate() {
             patch_of[nodes.clone()].fill(p as u32);
         }
-        // Parts of one fabric go through one loop.
-        let same = |p: usize| self.fabrics.iter().position(|f| Arc::ptr_eq(f, &self.fabrics[p])).unwrap_or(p);
-        let keys = mesh.parts.iter().enumerate().map(|(p, part)| key_of(same(p), part, chambers));
+        let keys =
+            mesh.parts.iter().zip(law::loops(&self.fabrics)).map(|(part, fabric)| key_of(fabric, part, chambers));
         let keys = keys.collect::<Result<Vec<Key>, FemError>>()?;
         let mut items: Vec<BTreeMap<Key, Vec<Item>>> = vec![BTreeMap::new(); order.patches.len()];
         for (index, element) in self.elements.iter().enumerate() {
@@ -147,6 +146,7 @@ impl Sheet {
         Item {
             node: element.nodes().to_vec(),
             reference: element.reference,
+            law: law::own(fabric),
             hourglass: element.hourglass,
             viscosity,
             own,

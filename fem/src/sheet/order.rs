@@ -24,40 +24,21 @@ pub struct Order {
 const LARGEST: usize = 2048;
 
 impl Order {
-    /// Orders the nodes part by part: a large part by recursive bisection of its reference shape, small parts that follow
-    /// each other together.
+    /// Orders the nodes by recursive bisection of the reference shape, all parts together: layers that share seams lie in one
+    /// patch, and patches are alike.
     pub fn of(mesh: &Mesh) -> Order {
         let mut order = Order { old: Vec::new(), new: vec![u32::MAX; mesh.points.len()], patches: Vec::new() };
-        let mut taken = vec![false; mesh.points.len()];
-        let mut together: Vec<u32> = Vec::new();
-        for part in &mesh.parts {
-            let mut nodes = Vec::new();
-            for node in (0..part.len()).flat_map(|i| part.nodes(i)) {
-                if !std::mem::replace(&mut taken[*node as usize], true) {
-                    nodes.push(*node);
-                }
-            }
-            if together.len() + nodes.len() > LARGEST {
-                order.cut(mesh, std::mem::take(&mut together));
-            }
-            together.extend(nodes);
-        }
-        order.cut(mesh, together);
-        let mut loose: Vec<u32> = (0..mesh.points.len() as u32).filter(|n| !taken[*n as usize]).collect();
-        order.bisect(mesh, &mut loose, 1);
+        let mut nodes: Vec<u32> = (0..mesh.points.len() as u32).collect();
+        // Two threads share an even number of patches evenly.
+        let pieces = match nodes.len().div_ceil(LARGEST) {
+            0 | 1 => 1,
+            more => more.next_multiple_of(2),
+        };
+        order.bisect(mesh, &mut nodes, pieces);
         for (place, old) in order.old.iter().enumerate() {
             order.new[*old as usize] = place as u32;
         }
         order
-    }
-
-    fn cut(&mut self, mesh: &Mesh, mut nodes: Vec<u32>) {
-        // Two threads share an even number of patches evenly.
-        let pieces = match nodes.len().div_ceil(LARGEST) {
-            1 => 1,
-            more => more.next_multiple_of(2),
-        };
-        self.bisect(mesh, &mut nodes, pieces);
     }
 
     /// Cuts into `pieces` patches of about the same size.

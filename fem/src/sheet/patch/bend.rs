@@ -148,13 +148,7 @@ impl Bend {
         }
         for (row, i) in self.single.iter().enumerate() {
             let range = self.start[row] as usize..self.start[row + 1] as usize;
-            let mut sum = [0.0; 4];
-            for (column, value) in self.column[range.clone()].iter().zip(&self.value[range]) {
-                let place = &q[*column as usize];
-                for k in 0..4 {
-                    sum[k] += value * place[k];
-                }
-            }
+            let sum = alone(simd, q, &self.column[range.clone()], &self.value[range]);
             for k in 0..3 {
                 kx[k][*i as usize] = sum[k];
             }
@@ -182,6 +176,33 @@ fn weigh<S: Simd, const OWN: bool>(
         }
     }
     sum
+}
+
+/// Σ value · q of one row; even and odd entries apart, so that they need not wait for each other.
+#[inline(always)]
+fn alone<S: Simd>(simd: S, q: &[[f64; 4]], column: &[u32], value: &[f64]) -> [f64; 4] {
+    let (pairs, last) = column.as_chunks::<2>();
+    let (values, last_value) = value.as_chunks::<2>();
+    if S::F64_LANES == 4 {
+        let q = q.as_flattened();
+        let mut sum = [V::all(simd, 0.0); 2];
+        for (pair, values) in pairs.iter().zip(values) {
+            sum[0] = sum[0] + V::all(simd, values[0]) * V::load_from(simd, q, 4 * pair[0] as usize);
+            sum[1] = sum[1] + V::all(simd, values[1]) * V::load_from(simd, q, 4 * pair[1] as usize);
+        }
+        if let ([column], [value]) = (last, last_value) {
+            sum[0] = sum[0] + V::all(simd, *value) * V::load_from(simd, q, 4 * *column as usize);
+        }
+        let sum = (sum[0] + sum[1]).lanes();
+        return [sum[0], sum[1], sum[2], sum[3]];
+    }
+    let mut sum = [[0.0; 4]; 2];
+    for (n, (column, value)) in column.iter().zip(value).enumerate() {
+        for (sum, x) in sum[n % 2].iter_mut().zip(&q[*column as usize]) {
+            *sum += value * x;
+        }
+    }
+    std::array::from_fn(|k| sum[0][k] + sum[1][k])
 }
 
 /// True if eight nodes from `first` on have neighbours at the same shifts.

@@ -144,10 +144,12 @@ impl Patch {
         let bend = Bend::new(bending, &places, &own, local);
         let mut build = Build::new(nodes.clone());
         for (key, mut list) in items {
-            list.sort_by_key(|item| (item.part, mesh_number[item.node[0] as usize], item.element));
-            let own_corners: Vec<Item> = list.clone();
+            list.sort_by_key(|item| (mesh_number[item.node[0] as usize], item.part, item.element));
+            let placed: Vec<Item> = list.clone();
             list.iter_mut().for_each(|item| item.node.iter_mut().for_each(|n| *n = local(*n)));
-            build.add(key, &list, &own_corners);
+            let rows = runs::rows(&list);
+            let in_rows = |items: &[Item]| rows.iter().map(|i| items[*i].clone()).collect::<Vec<Item>>();
+            build.add(key, &in_rows(&list), &in_rows(&placed));
         }
         let padded = places.len().next_multiple_of(LANES);
         let mut is_own = vec![false; padded];
@@ -252,7 +254,9 @@ impl Build {
         let mut claimed = vec![false; items.len()];
         for eight in eights {
             let chunk = &items[eight.first..eight.first + LANES];
-            if self.claim(&chunk[eight.counted..]) {
+            // It writes all its lanes, so those counted before must be where they were counted.
+            let before = claimed[eight.first..eight.first + eight.counted].iter().all(|c| *c);
+            if before && self.claim(&chunk[eight.counted..]) {
                 self.push(chunk, eight.counted);
                 claimed[eight.first..eight.first + LANES].fill(true);
             } else {

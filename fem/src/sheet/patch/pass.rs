@@ -6,7 +6,7 @@ use pulp::Simd;
 use super::super::group::LANES;
 use super::super::kernel::{self, Batch, Corners, Tally};
 use super::super::lanes::{V, sum};
-use super::super::law::{Called, Law};
+use super::super::law::{Called, Film, Law, Rubber};
 use super::room::Room;
 use super::{Patch, Run, Shared, Sums};
 
@@ -32,14 +32,14 @@ impl pulp::WithSimd for Pass<'_, '_> {
         for index in 0..patch.runs.len() {
             let fabric = &*shared.fabrics[patch.runs[index].key.fabric];
             match (fabric.kind(), shared.books) {
-                (Kind::NeoHookean(law), true) => run::<S, _, true>(simd, patch, room, shared, index, law),
-                (Kind::NeoHookean(law), false) => run::<S, _, false>(simd, patch, room, shared, index, law),
+                (Kind::NeoHookean(_), true) => run::<S, _, true>(simd, patch, room, shared, index, Rubber(1.0)),
+                (Kind::NeoHookean(_), false) => run::<S, _, false>(simd, patch, room, shared, index, Rubber(1.0)),
                 (Kind::Orthotropic(law), true) => run::<S, _, true>(simd, patch, room, shared, index, law),
                 (Kind::Orthotropic(law), false) => run::<S, _, false>(simd, patch, room, shared, index, law),
                 (Kind::Mixed(law), true) => run::<S, _, true>(simd, patch, room, shared, index, law),
                 (Kind::Mixed(law), false) => run::<S, _, false>(simd, patch, room, shared, index, law),
-                (Kind::WrinklingFilm(law), true) => run::<S, _, true>(simd, patch, room, shared, index, law),
-                (Kind::WrinklingFilm(law), false) => run::<S, _, false>(simd, patch, room, shared, index, law),
+                (Kind::WrinklingFilm(_), true) => run::<S, _, true>(simd, patch, room, shared, index, Film),
+                (Kind::WrinklingFilm(_), false) => run::<S, _, false>(simd, patch, room, shared, index, Film),
                 (Kind::Other, _) => run::<S, _, true>(simd, patch, room, shared, index, Called(fabric)),
             }
         }

@@ -5,6 +5,7 @@
 //! not a multiple of eight ends with a group that overlaps the one before; the overlap is computed twice, with the same
 //! bits, and counted once.
 
+use std::collections::{BTreeMap, VecDeque};
 use std::ops::Range;
 
 use super::super::group::{Item, LANES};
@@ -43,6 +44,27 @@ pub fn split(count: usize, follows: impl Fn(usize, usize) -> bool) -> (Vec<Eight
     (eights, rest)
 }
 
+/// An order of items, sorted by first corner, in which the next of a row comes next, whatever lies between them.
+pub fn rows(items: &[Item]) -> Vec<usize> {
+    let mut left: BTreeMap<&[u32], VecDeque<usize>> = BTreeMap::new();
+    for (i, item) in items.iter().enumerate() {
+        left.entry(&item.node).or_default().push_back(i);
+    }
+    let mut taken = vec![false; items.len()];
+    let mut order = Vec::with_capacity(items.len());
+    for first in 0..items.len() {
+        let mut next = Some(first).filter(|i| !taken[*i]);
+        while let Some(i) = next {
+            taken[i] = true;
+            order.push(i);
+            let after: Vec<u32> = items[i].node.iter().map(|n| n + 1).collect();
+            let same = left.get_mut(after.as_slice());
+            next = same.and_then(|same| std::iter::from_fn(|| same.pop_front()).find(|i| !taken[*i]));
+        }
+    }
+    order
+}
+
 /// True if every corner of `b` is the node after that of `a`.
 pub fn next_in_row(a: &Item, b: &Item) -> bool {
     a.node.len() == 4 && b.node.len() == 4 && a.node.iter().zip(&b.node).all(|(a, b)| *b == a + 1)
@@ -69,6 +91,7 @@ pub fn stretches(pairs: &[(usize, usize)]) -> Vec<Stretch> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::reference::Reference;
     use super::*;
 
     #[test]
@@ -82,6 +105,26 @@ mod tests {
     fn short_stretches_are_left_over() {
         let (eights, rest) = split(12, |a, _| a != 6);
         assert_eq!((eights.len(), rest), (0, (0..12).collect()));
+    }
+
+    #[test]
+    fn the_next_of_a_row_comes_next_whatever_lies_between() {
+        let square = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let reference = Reference::new(&square, None, 0.0);
+        let item = |n: [u32; 4]| Item {
+            node: n.to_vec(),
+            reference,
+            law: [1.0, 0.0],
+            hourglass: 0.0,
+            viscosity: 0.0,
+            own: true,
+            part: 0,
+            element: 0,
+        };
+        let row = |first: u32| item([first, first + 1, first + 21, first + 20]);
+        // Two elements on the same nodes, and one that shares a corner only.
+        let items = [row(0), row(0), item([1, 7, 8, 9]), row(1), row(1), row(2), row(5)];
+        assert_eq!(rows(&items), [0, 3, 5, 1, 4, 2, 6]);
     }
 
     #[test]
