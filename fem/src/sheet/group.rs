@@ -27,7 +27,7 @@ pub struct Constants {
     pub s: [Lane; 2],
     /// Reference area \[m²\]; 0 for an empty lane.
     pub area: Lane,
-    /// Reference area times what the loop's law is told per, see [`super::law::own`].
+    /// Reference area times what the law's answer is per: 2 t C₁₀ \[N/m\] for films, 1 for others.
     pub amount: Lane,
     /// Share of compression that a film does not carry.
     pub relief: Lane,
@@ -48,7 +48,7 @@ pub struct Item {
     pub node: Vec<u32>,
     /// Reference data.
     pub reference: Reference,
-    /// See [`super::law::own`].
+    /// What the law's answer is per, and the share of compression that a film does not carry.
     pub law: [f64; 2],
     /// Hourglass stiffness \[N/m\].
     pub hourglass: f64,
