@@ -1,6 +1,8 @@
 //! From pairs within reach to records: candidates of one layer that hang together are one record, and what was
 //! remembered of them goes on.
 
+use rayon::prelude::*;
+
 use super::chunk::{Candidate, Chunk, RECORDS};
 use super::record::Record;
 use super::surface::Surface;
@@ -22,16 +24,52 @@ pub(super) struct Penalty {
 
 /// Chunks of records for `pairs` (those of a node together); `old` are the records so far. The second result is the energy
 /// of elastic slides that were dropped \[J\].
-pub(super) fn chunks(surface: &Surface, pairs: &[(u32, u32)], mut old: Memory, penalty: &Penalty) -> (Vec<Chunk>, f64) {
+pub(super) fn chunks(surface: &Surface, pairs: &[(u32, u32)], old: &Memory, penalty: &Penalty) -> (Vec<Chunk>, f64) {
+    let mut gone: Vec<bool> = vec![true; old.place.len()];
+    pairs.iter().for_each(|(node, _)| gone[*node as usize] = false);
+    let room = || Work { place: vec![0; surface.elements.len()], ..Work::default() };
+    let pieces =
+        pieces(pairs).into_par_iter().map_init(room, |work, pairs| some_chunks(surface, pairs, old, penalty, work));
+    let (mut all, mut lost) = (Vec::new(), old.slides_j(&gone));
+    for (chunks, of) in pieces.collect::<Vec<_>>() {
+        all.extend(chunks);
+        lost += of;
+    }
+    (all, lost)
+}
+
+/// Pairs that one thread takes at once; fixed, so that chunks do not depend on the number of threads.
+const PIECE: usize = 16_384;
+
+/// About as many pairs each; those of a node stay together.
+fn pieces(mut pairs: &[(u32, u32)]) -> Vec<&[(u32, u32)]> {
+    let mut pieces = Vec::new();
+    while let Some(last) = pairs.get(PIECE) {
+        let more = pairs[PIECE..].iter().take_while(|pair| pair.0 == last.0).count();
+        let own = pairs[..PIECE].iter().rev().take_while(|pair| pair.0 == last.0).count();
+        // The node at the cut goes with the pairs before it.
+        let cut = if own > 0 { PIECE + more } else { PIECE };
+        pieces.push(&pairs[..cut]);
+        pairs = &pairs[cut..];
+    }
+    pieces.push(pairs);
+    pieces
+}
+
+fn some_chunks(
+    surface: &Surface,
+    pairs: &[(u32, u32)],
+    old: &Memory,
+    penalty: &Penalty,
+    work: &mut Work,
+) -> (Vec<Chunk>, f64) {
     let mut chunks = vec![Chunk::default()];
-    let mut work = Work { place: vec![0; surface.elements.len()], ..Work::default() };
     let mut lost = 0.0;
     for group in pairs.chunk_by(|a, b| a.0 == b.0) {
         let node = group[0].0;
         work.split(surface, group);
         lost += work.records(surface, node, old.of(node).0, penalty);
         work.inherit(old.of(node), old.clear_m);
-        old.forget(node);
         if chunks.last().is_none_or(|c| c.records.len() >= RECORDS || c.candidates.len() >= CANDIDATES) {
             chunks.push(Chunk::default());
         }
@@ -41,7 +79,7 @@ pub(super) fn chunks(surface: &Surface, pairs: &[(u32, u32)], mut old: Memory, p
     }
     chunks.retain(|c| !c.records.is_empty());
     chunks.iter_mut().for_each(|c| c.records.sort_by_key(|r| r.node));
-    (chunks, lost + old.slides_j())
+    (chunks, lost)
 }
 
 /// Records before a search, and their candidates.
@@ -75,14 +113,10 @@ impl Memory {
         }
     }
 
-    fn forget(&mut self, node: u32) {
-        self.place[node as usize] = [0; 3];
-    }
-
-    /// Energy of the slides of all nodes that were not forgotten.
-    fn slides_j(&self) -> f64 {
+    /// Energy of the slides of the nodes that are `gone`.
+    fn slides_j(&self, gone: &[bool]) -> f64 {
         let all = self.chunks.iter().flat_map(|c| &c.records);
-        all.filter(|r| self.place[r.node as usize][2] > 0).map(Record::slide_j).sum()
+        all.filter(|r| gone[r.node as usize]).map(Record::slide_j).sum()
     }
 }
 

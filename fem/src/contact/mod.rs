@@ -193,7 +193,7 @@ impl Contact {
         }
         let clear_m = if self.searches == 0 { f64::NEG_INFINITY } else { self.reach.side_m };
         let old = Memory::new(std::mem::take(&mut self.chunks), x.len(), clear_m);
-        let (chunks, lost) = build::chunks(&self.surface, &pairs, old, &self.penalty);
+        let (chunks, lost) = build::chunks(&self.surface, &pairs, &old, &self.penalty);
         self.sums.friction += lost;
         self.chunks = chunks;
         self.placed_m.clear();

@@ -17,7 +17,7 @@ use crate::FemError;
 
 const MAGIC: &[u8; 8] = b"ibr-fem\n";
 /// Raised whenever the meaning of the bytes changes.
-const VERSION: u64 = 3;
+const VERSION: u64 = 4;
 const CHECK: usize = 4;
 
 /// Everything a checkpoint holds.

@@ -48,7 +48,8 @@ pub struct RobotSettings {
     pub ramp_floor_pa: Option<f64>,
     /// Time at full pressure \[s\].
     pub hold_s: f64,
-    /// Factor on the masses of the smallest elements; larger ones get less (`mass_scaling`).
+    /// Square of the step over the time that sound takes through the smallest element; masses are raised as the highest mode of the
+    /// mesh needs (`mass_scaling`).
     pub mass_factor: f64,
     /// Mass damping \[1/s\].
     pub mass_damping_1_s: f64,
@@ -100,7 +101,7 @@ impl RobotSettings {
             actuator_ramp_s: 0.6,
             ramp_floor_pa: Some(2e3),
             hold_s: 0.054,
-            mass_factor: 2.0,
+            mass_factor: 2.4,
             mass_damping_1_s: 20.0,
             hourglass: 1e-3,
             contact: None,

@@ -2,12 +2,15 @@
 
 use models::{Pose, Term};
 
-use super::{Simulation, setup};
+use super::{Simulation, highest, setup};
 use crate::FemError;
 use crate::sheet::reference::{cross, dot};
 
 /// Share of its reference area below which an element counts as collapsed.
 const COLLAPSED: f64 = 1e-4;
+
+/// Steps between two estimates of the highest mode of the whole mesh: in the robots it changes by a hundredth or two in between.
+const WHOLE: u64 = 8192;
 
 impl Simulation {
     /// Judges the last step.
@@ -59,11 +62,16 @@ impl Simulation {
             self.guard_elements()?;
         }
         let pose = Pose::nodes(self.x.as_flattened());
-        let mut bound = vec![0.0; self.x.len()];
+        let mut others = vec![0.0; self.x.len()];
+        self.others().for_each(|term| term.stiffness_bound(&pose, &mut others));
+        let mut bound = others.clone();
         self.sheet.stiffness_bound(&pose, &mut bound);
-        self.others().for_each(|term| term.stiffness_bound(&pose, &mut bound));
         setup::give_tied_bounds(&self.mesh, &mut bound);
-        let stable = setup::stable_step(&bound, &self.mass, self.limits.viscosity);
+        let nodes = setup::stable_step(&bound, &self.mass, self.limits.viscosity);
+        if self.clock.step.is_multiple_of(WHOLE) {
+            self.clock.gain = highest::gain(&self.sheet, &self.mesh.ties, &self.x, others, &self.mass, nodes);
+        }
+        let stable = self.clock.gain * nodes;
         match self.limits.forced_dt_s {
             None => self.clock.dt_s = (self.limits.cfl * stable).min(self.clock.longest_s),
             Some(dt) if dt <= stable => {}

@@ -2,14 +2,16 @@
 //!
 //! ```text
 //! v(n+½) = [v(n−½)(1 − ½αΔt) + Δt F(n)/m] / (1 + ½αΔt)        x(n+1) = x(n) + Δt v(n+½)
-//! Δt = cfl · 2/ω · (√(1 + ξ²) − ξ),   ω² = maxᵢ kᵢ/mᵢ          kinetic(n) = ½ Σ m v(n−½)·v(n+½)
+//! Δt = cfl · γ · 2/ω · (√(1 + ξ²) − ξ),   ω² = maxᵢ kᵢ/mᵢ      kinetic(n) = ½ Σ m v(n−½)·v(n+½)
 //! ```
-//! α mass damping, ξ viscosity, kᵢ the stiffness bounds of all terms ([`models::Term::stiffness_bound`]). With this
+//! α mass damping, ξ viscosity, kᵢ the stiffness bounds of all terms ([`models::Term::stiffness_bound`]), γ ≥ 1 what the
+//! highest mode of the whole mesh allows beyond them (`highest`). With this
 //! kinetic energy the balance of a linear undamped system is kept to rounding.
 //! Reference: Belytschko, Liu, Moran, Nonlinear Finite Elements, ch. 6.
 
 mod constraint;
 mod guard;
+mod highest;
 mod ledger;
 mod setup;
 mod step;
@@ -85,6 +87,8 @@ struct Clock {
     before_s: f64,
     /// Longest step that the start allowed.
     longest_s: f64,
+    /// γ: the stable step of the whole mesh over that of the nodes' bounds.
+    gain: f64,
 }
 
 /// Energies that only stepping can add up \[J\].
@@ -150,7 +154,7 @@ impl Simulation {
         let mut out = Writer::new();
         let (c, b) = (&self.clock, &self.books);
         out.u64(c.step);
-        out.f64s(&[c.time_s, c.dt_s, c.before_s, c.longest_s]);
+        out.f64s(&[c.time_s, c.dt_s, c.before_s, c.longest_s, c.gain]);
         out.f64s(&[b.kinetic, b.stored, b.start, b.scale]);
         out.f64s(&[b.damping.sum, b.damping.last, b.support.sum, b.support.last]);
         out.f64s(self.x.as_flattened());
@@ -164,8 +168,8 @@ impl Simulation {
     fn restore(&mut self, saved: &[u8]) -> Option<()> {
         let mut from = Reader::new(saved);
         let step = from.u64()?;
-        let [time_s, dt_s, before_s, longest_s] = from.f64s()?.try_into().ok()?;
-        self.clock = Clock { step, time_s, dt_s, before_s, longest_s };
+        let [time_s, dt_s, before_s, longest_s, gain] = from.f64s()?.try_into().ok()?;
+        self.clock = Clock { step, time_s, dt_s, before_s, longest_s, gain };
         let [kinetic, stored, start, scale] = from.f64s()?.try_into().ok()?;
         let [damping, damping_last, support, support_last] = from.f64s()?.try_into().ok()?;
         let (damping, support) =

@@ -4,7 +4,7 @@ use models::{Pose, Term};
 
 use super::constraint::{Body, Driven, bodies, driven};
 use super::team::Team;
-use super::{Books, Clock, Limits, Simulation};
+use super::{Books, Clock, Limits, Simulation, highest};
 use crate::contact::Contact;
 use crate::contact::edges::Edges;
 use crate::problem::{MassScaling, Settings};
@@ -34,7 +34,7 @@ impl Simulation {
         let mut x: Vec<[f64; 4]> = (0..count).map(|i| mesh.start_of(i)).map(|p| [p[0], p[1], p[2], 0.0]).collect();
         imperfect(&mut x, &mesh, &order, &fixed, settings.imperfection, settings.seed);
         let rest = RestCurvature::new(&mesh, &problem.sections);
-        let (mass, added_mass, dt_s) = masses_and_step(settings, &mesh, &sheet, &rest, &x)?;
+        let Masses { mass, added_mass, gain, dt_s } = masses_and_step(settings, &mesh, &sheet, &rest, &x)?;
         mesh.start = x.iter().map(|x| [x[0], x[1], x[2]]).collect();
         let terms = terms(problem, &mesh, &mass, dt_s, rest)?;
         let touching = problem.contact.as_ref();
@@ -51,7 +51,7 @@ impl Simulation {
             tie_offset: tie_offsets(&mesh, &x),
             v: vec![[0.0; 4]; count],
             force: vec![[0.0; 4]; count],
-            clock: Clock { step: 0, time_s: 0.0, dt_s, before_s: 0.0, longest_s: dt_s },
+            clock: Clock { step: 0, time_s: 0.0, dt_s, before_s: 0.0, longest_s: dt_s, gain },
             books: Books::default(),
             limits: limits(settings, &sheet, added_mass),
             team: Some(Team::new(settings.threads)?),
@@ -75,25 +75,45 @@ impl Simulation {
     }
 }
 
-/// Masses \[kg\] after scaling, the share of mass that it added, and the time step \[s\].
+/// Masses and the first time step.
+struct Masses {
+    /// After scaling \[kg\].
+    mass: Vec<f64>,
+    /// What scaling added, over the true mass.
+    added_mass: f64,
+    /// γ of the module.
+    gain: f64,
+    dt_s: f64,
+}
+
 fn masses_and_step(
     settings: &Settings,
     mesh: &Mesh,
     sheet: &Sheet,
     rest: &RestCurvature,
     x: &[[f64; 4]],
-) -> Result<(Vec<f64>, f64, f64), FemError> {
+) -> Result<Masses, FemError> {
     let mut mass = sheet.masses(x.len());
     give_tied_masses(mesh, &mut mass);
-    let mut bound = vec![0.0; x.len()];
-    sheet.stiffness_bound(&Pose::nodes(x.as_flattened()), &mut bound);
-    rest.stiffness_bound(&Pose::nodes(x.as_flattened()), &mut bound);
+    let pose = Pose::nodes(x.as_flattened());
+    let mut others = vec![0.0; x.len()];
+    rest.stiffness_bound(&pose, &mut others);
+    let mut bound = others.clone();
+    sheet.stiffness_bound(&pose, &mut bound);
     give_tied_bounds(mesh, &mut bound);
+    let gain = |mass: &[f64]| {
+        let nodes = stable_step(&bound, mass, settings.viscosity);
+        (highest::gain(sheet, &mesh.ties, x, others.clone(), mass, nodes), nodes)
+    };
     let true_mass: f64 = mass.iter().sum();
-    scale_masses(settings, &bound, &mut mass);
+    // With masses for the bounds first: what the whole mesh then gains in step, it does not need in mass.
+    let mut raised = mass.clone();
+    scale_masses(settings, &bound, 1.0, &mut raised);
+    scale_masses(settings, &bound, gain(&raised).0, &mut mass);
     let added_mass = mass.iter().sum::<f64>() / true_mass - 1.0;
-    let stable = stable_step(&bound, &mass, settings.viscosity);
-    Ok((mass, added_mass, choose_step(stable, settings.cfl, settings.dt_s)?))
+    let (gain, nodes) = gain(&mass);
+    let dt_s = choose_step(gain * nodes, settings.cfl, settings.dt_s)?;
+    Ok(Masses { mass, added_mass, gain, dt_s })
 }
 
 /// Axes whose velocities are set; `fixed` gets those of bodies and ties, too.
@@ -186,13 +206,13 @@ fn choose_step(stable_s: f64, cfl: f64, forced_s: Option<f64>) -> Result<f64, Fe
     }
 }
 
-fn scale_masses(settings: &Settings, bound: &[f64], mass: &mut [f64]) {
+fn scale_masses(settings: &Settings, bound: &[f64], gain: f64, mass: &mut [f64]) {
     match settings.mass_scaling {
         MassScaling::None => {}
         MassScaling::Fixed(factor) => mass.iter_mut().for_each(|m| *m *= factor),
         MassScaling::TargetStep(asked_s) => {
             // The step used is cfl times the stable one.
-            let dt = asked_s / (settings.cfl * damped(settings.viscosity));
+            let dt = asked_s / (settings.cfl * gain * damped(settings.viscosity));
             for (m, k) in mass.iter_mut().zip(bound).filter(|(m, _)| **m > 0.0) {
                 *m = m.max(0.25 * k * dt * dt);
             }
@@ -265,7 +285,7 @@ fn imperfect(x: &mut [[f64; 4]], mesh: &Mesh, order: &Order, fixed: &[[bool; 3]]
 }
 
 /// A standard normal number from a seed and a counter (SplitMix64 and Box–Muller).
-fn gaussian(seed: u64, counter: u64) -> f64 {
+pub(super) fn gaussian(seed: u64, counter: u64) -> f64 {
     let draw = |salt: u64| {
         let mut z = (seed ^ 0x9E37_79B9_7F4A_7C15).wrapping_mul(0xD6E8_FEB8_6659_FD93).wrapping_add(counter * 2 + salt);
         z = z.wrapping_add(0x9E37_79B9_7F4A_7C15);

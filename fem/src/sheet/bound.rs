@@ -7,48 +7,72 @@
 use models::Fabric;
 use models::fabrics::{Kind, Past, WrinklingFilm};
 
-use super::reference::dot;
+use super::reference::{dot, mean_stiffness};
+use super::tangent::Tangent;
 use super::{Element, Sheet};
 
-/// Bound of the largest eigenvalue of an element's stiffness \[N/m\] at strain `e`; `c` = C₁₁, C₂₂, C₁₂.
-pub fn element(element: &Element, fabric: &dyn Fabric, e: [f64; 3], past: &Past, c: [f64; 3]) -> f64 {
-    let g = element.reference.metric(element.corners);
-    let d = fabric.tangent(e, past);
-    // B Bᵀ of the strain operator in (E₁₁, E₂₂, 2E₁₂).
-    let bb = [
-        [c[0] * g[0], c[2] * g[2], c[0] * g[2] + c[2] * g[0]],
-        [c[2] * g[2], c[1] * g[1], c[2] * g[1] + c[1] * g[2]],
-        [c[0] * g[2] + c[2] * g[0], c[2] * g[1] + c[1] * g[2], c[0] * g[1] + c[1] * g[0] + 2.0 * c[2] * g[2]],
-    ];
-    let entry = |i: usize, j: usize| (0..3).map(|k| d[i][k] * bb[k][j]).sum::<f64>().abs();
-    let material = (0..3).map(|i| (0..3).map(|j| entry(i, j)).sum::<f64>()).fold(0.0, f64::max);
-    let s = fabric.tension(e, past);
-    let tension = largest(s[0], s[1], s[2]).max(0.0);
-    let stretch = largest(c[0], c[1], c[2]);
-    element.reference.area * (material + tension * largest(g[0], g[1], g[2])) + element.hourglass * stretch * 0.5
+/// A state of an element at which its stiffness is asked for.
+#[derive(Clone, Copy)]
+struct At<'a> {
+    fabric: &'a dyn Fabric,
+    e: [f64; 3],
+    past: Past,
+    /// C₁₁, C₂₂, C₁₂.
+    c: [f64; 3],
+}
+
+impl At<'_> {
+    /// Bound of the largest eigenvalue of A·Bᵀ D B \[N/m\].
+    fn material(&self, element: &Element) -> f64 {
+        let (g, c) = (element.reference.metric(element.corners), self.c);
+        let d = self.fabric.tangent(self.e, &self.past);
+        // B Bᵀ of the strain operator in (E₁₁, E₂₂, 2E₁₂).
+        let bb = [
+            [c[0] * g[0], c[2] * g[2], c[0] * g[2] + c[2] * g[0]],
+            [c[2] * g[2], c[1] * g[1], c[2] * g[1] + c[1] * g[2]],
+            [c[0] * g[2] + c[2] * g[0], c[2] * g[1] + c[1] * g[2], c[0] * g[1] + c[1] * g[0] + 2.0 * c[2] * g[2]],
+        ];
+        let entry = |i: usize, j: usize| (0..3).map(|k| d[i][k] * bb[k][j]).sum::<f64>().abs();
+        element.reference.area * (0..3).map(|i| (0..3).map(|j| entry(i, j)).sum::<f64>()).fold(0.0, f64::max)
+    }
+
+    /// Bound of that of the geometric part and of hourglass control \[N/m\].
+    fn rest(&self, element: &Element) -> f64 {
+        let g = element.reference.metric(element.corners);
+        let s = self.fabric.tension(self.e, &self.past);
+        let tension = largest(s[0], s[1], s[2]).max(0.0);
+        let stretch = largest(self.c[0], self.c[1], self.c[2]);
+        element.reference.area * tension * largest(g[0], g[1], g[2]) + element.hourglass * stretch * 0.5
+    }
+
+    fn all(&self, element: &Element) -> f64 {
+        self.material(element) + self.rest(element)
+    }
 }
 
 /// Strain that a fabric may go on between two estimates of the step.
 const AHEAD: f64 = 0.01;
 
-/// The largest [`element`] for what comes next: curves stiffen at their rows, a way back may be steeper than the way there, and
+/// The stiffest state of what comes next, and its bound: curves stiffen at their rows, a way back may be steeper than the way there, and
 /// a film that is slack comes back taut, at a strain that has no folds. Linear and neo-Hookean fabrics change too little to
 /// look ahead.
-fn ahead(item: &Element, fabric: &dyn Fabric, e: [f64; 3], past: &Past, c: [f64; 3]) -> f64 {
-    let here = element(item, fabric, e, past, c);
-    if let Kind::WrinklingFilm(wrinkling) = fabric.kind() {
-        let taut = WrinklingFilm::unfolded(e);
-        let at = [1.0 + 2.0 * taut[0], 1.0 + 2.0 * taut[1], taut[2]];
-        return here.max(element(item, &wrinkling.film, taut, past, at));
+fn ahead<'a>(item: &Element, here: At<'a>) -> (At<'a>, f64) {
+    let bounded = |at: At<'a>| (at, at.all(item));
+    let stiffer = |a: (At<'a>, f64), b: (At<'a>, f64)| if b.1 > a.1 { b } else { a };
+    if let Kind::WrinklingFilm(wrinkling) = here.fabric.kind() {
+        let e = WrinklingFilm::unfolded(here.e);
+        let taut = At { fabric: &wrinkling.film, e, c: [1.0 + 2.0 * e[0], 1.0 + 2.0 * e[1], e[2]], ..here };
+        return stiffer(bounded(here), bounded(taut));
     }
-    if !matches!(fabric.kind(), Kind::Other) {
-        return here;
+    if !matches!(here.fabric.kind(), Kind::Other) {
+        return bounded(here);
     }
+    let e = here.e;
     let next = [e, [e[0] + AHEAD, e[1] + AHEAD, e[2]], [e[0], e[1], e[2] + AHEAD.copysign(e[2])]];
-    let pasts = [*past, [0.0; 2]];
-    let pasts = if fabric.has_memory() { &pasts[..] } else { &pasts[1..] };
-    let all = next.iter().flat_map(|e| pasts.iter().map(|past| element(item, fabric, *e, past, c)));
-    all.fold(here, f64::max)
+    let pasts = [here.past, [0.0; 2]];
+    let pasts = if here.fabric.has_memory() { &pasts[..] } else { &pasts[1..] };
+    let all = next.iter().flat_map(|e| pasts.iter().map(|past| bounded(At { e: *e, past: *past, ..here })));
+    all.fold(bounded(here), stiffer)
 }
 
 /// Larger eigenvalue of the symmetric matrix (a, b; off-diagonal c).
@@ -57,6 +81,15 @@ fn largest(a: f64, b: f64, c: f64) -> f64 {
 }
 
 impl Sheet {
+    /// η = 2 ξ A/ω \[N s/m\], which makes ξ the damping ratio of an unstrained element's highest mode on its own masses.
+    pub(super) fn viscosity_n_s_m(&self, element: &Element) -> f64 {
+        let (fabric, area) = (&*self.fabrics[element.part], element.reference.area);
+        let stiffness = At { fabric, e: [0.0; 3], past: [0.0; 2], c: [1.0, 1.0, 0.0] }.all(element);
+        let mass = self.areal_density[element.part] * area / element.corners as f64;
+        let rate = (stiffness / mass).sqrt();
+        if rate > 0.0 { 2.0 * self.viscosity * mean_stiffness(fabric) / rate } else { 0.0 }
+    }
+
     /// True if some fabric may stiffen faster than linear and neo-Hookean ones do.
     pub(crate) fn stiffens(&self) -> bool {
         self.fabrics.iter().any(|f| matches!(f.kind(), Kind::Other))
@@ -64,17 +97,35 @@ impl Sheet {
 
     /// Adds each node's stiffness bound at positions `q` (stride 4) \[N/m\].
     pub(super) fn add_bound(&self, q: &[f64], bound: &mut [f64]) {
+        self.each_ahead(q, bound, |_, (_, bound), _| bound);
+    }
+
+    /// The material part of the tangent that the bound is of, element by element; adds the bounds of everything else.
+    pub(crate) fn tangents(&self, q: &[f64], bound: &mut [f64]) -> Vec<Tangent> {
+        let mut all = Vec::with_capacity(self.elements.len());
+        self.each_ahead(q, bound, |item, (at, _), f| {
+            // A film that comes taut is as long as its unfolded strain says.
+            let f = [0, 1].map(|k| f[k].map(|x| x * (at.c[k] / dot(f[k], f[k])).sqrt()));
+            let d = at.fabric.tangent(at.e, &at.past);
+            all.push(Tangent::new(item, f, d, self.viscosity_n_s_m(item)));
+            at.rest(item)
+        });
+        all
+    }
+
+    /// Adds to the nodes what `of` says of every element at its stiffest state, and the bounds of bending and pressure.
+    fn each_ahead(&self, q: &[f64], bound: &mut [f64], mut of: impl FnMut(&Element, (At, f64), [[f64; 3]; 2]) -> f64) {
         let q = q.as_chunks::<4>().0;
         let pressure = self.air.iter().map(|a| a.peak_pa()).fold(0.0, f64::max);
         let past = self.past();
         for (index, item) in self.elements.iter().enumerate() {
             let fabric = &*self.fabrics[item.part];
-            let [f1, f2] = item.deformation(q);
-            let c = [dot(f1, f1), dot(f2, f2), dot(f1, f2)];
+            let f = item.deformation(q);
+            let c = [dot(f[0], f[0]), dot(f[1], f[1]), dot(f[0], f[1])];
             let e = [0.5 * (c[0] - 1.0), 0.5 * (c[1] - 1.0), c[2]];
+            let here = At { fabric, e, past: past.get(index).copied().unwrap_or_default(), c };
             // Follower pressure: ∂(p N n)/∂x is of the order of p times an edge.
-            let follower = pressure * item.reference.area.sqrt();
-            let k = ahead(item, fabric, e, &past.get(index).copied().unwrap_or_default(), c) + follower;
+            let k = of(item, ahead(item, here), f) + pressure * item.reference.area.sqrt();
             item.nodes().iter().for_each(|n| bound[*n as usize] += k);
         }
         bound.iter_mut().zip(&self.bending_bound).for_each(|(bound, bending)| *bound += bending);

@@ -15,6 +15,7 @@ mod law;
 pub mod order;
 mod patch;
 pub mod reference;
+pub mod tangent;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -67,6 +68,8 @@ pub struct Sheet {
     bending_bound: Vec<f64>,
     patches: Vec<Patch>,
     viscous_j: f64,
+    /// ξ.
+    viscosity: f64,
     /// Take energies and volumes in the next step whatever its number, because somebody will look at the ledger.
     pub measure: bool,
     arch: pulp::Arch,
@@ -98,10 +101,11 @@ impl Sheet {
             bending_bound: (0..mesh.points.len()).map(|i| bending.row(i).map(|(_, k)| k.abs()).sum()).collect(),
             patches: Vec::new(),
             viscous_j: 0.0,
+            viscosity: settings.viscosity,
             measure: false,
             arch: pulp::Arch::new(),
         };
-        sheet.patches = sheet.make_patches(mesh, order, &bending, chambers, settings)?;
+        sheet.patches = sheet.make_patches(mesh, order, &bending, chambers)?;
         Ok(sheet)
     }
 
@@ -111,7 +115,6 @@ impl Sheet {
         order: &order::Order,
         bending: &BendingMatrix,
         chambers: &[Chamber],
-        settings: &Settings,
     ) -> Result<Vec<Patch>, FemError> {
         let mut patch_of = vec![0_u32; mesh.points.len()];
         for (p, nodes) in order.patches.iter().enumerate() {
@@ -128,7 +131,7 @@ impl Sheet {
             touched.dedup();
             for patch in touched {
                 let key = Key { corners: element.corners, ..keys[element.part] };
-                let item = self.item(index, settings, patch == owner);
+                let item = self.item(index, patch == owner);
                 items[patch as usize].entry(key).or_default().push(item);
             }
         }
@@ -137,29 +140,19 @@ impl Sheet {
         Ok(pairs.map(|(nodes, items)| Patch::new(nodes.clone(), items, bending, &order.old, memory)).collect())
     }
 
-    fn item(&self, index: usize, settings: &Settings, own: bool) -> Item {
+    fn item(&self, index: usize, own: bool) -> Item {
         let element = &self.elements[index];
         let fabric = &*self.fabrics[element.part];
-        let rate = self.element_rate(element, fabric);
-        // η = 2 ξ A/ω makes ξ the damping ratio of the element's highest mode.
-        let viscosity = if rate > 0.0 { 2.0 * settings.viscosity * mean_stiffness(fabric) / rate } else { 0.0 };
         Item {
             node: element.nodes().to_vec(),
             reference: element.reference,
             law: law::own(fabric),
             hourglass: element.hourglass,
-            viscosity,
+            viscosity: self.viscosity_n_s_m(element),
             own,
             part: element.part as u32,
             element: index as u32,
         }
-    }
-
-    /// Highest angular frequency of one unstrained element on its own masses \[1/s\].
-    fn element_rate(&self, element: &Element, fabric: &dyn Fabric) -> f64 {
-        let stiffness = bound::element(element, fabric, [0.0; 3], &[0.0; 2], [1.0, 1.0, 0.0]);
-        let mass = self.areal_density[element.part] * element.reference.area / element.corners as f64;
-        (stiffness / mass).sqrt()
     }
 
     /// Lumped masses \[kg\]: each element gives equal shares to its corners.

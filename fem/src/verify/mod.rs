@@ -7,7 +7,7 @@ mod apart;
 mod balloon;
 pub mod bias;
 mod bias_tube;
-mod bodies;
+pub(crate) mod bodies;
 mod cantilever;
 mod coupons;
 mod drops;

@@ -2,7 +2,7 @@
 
 use super::robot::{self, Robot, Watched};
 use crate::failure::Failure;
-use compare::plots::{Drawn, LineSeries, LineStyle, Lines, lines};
+use compare::plots::{LineSeries, LineStyle, Lines, lines};
 use fem::output::picture::{self, Image, Look, View};
 use fem::robot::{Reading, Snap};
 use fem::{Mesh, Simulation};
@@ -20,13 +20,20 @@ pub fn write(robot: &Robot, watched: &Watched, mesh: &Mesh, run: &Simulation, fo
     text("readings.csv", readings_csv(&readings))?;
     text("markers.csv", markers_csv(robot, &readings))?;
     text("snaps.csv", snaps_csv(&found))?;
-    if let Some(drawn) = history(robot, watched, &found)? {
-        data::write_atomically(&folder.join("history.png"), &drawn.png)?;
-    }
-    for (name, image) in pictures(robot, mesh, run)? {
-        picture::write_png(&folder.join(name), &image)?;
-    }
-    Ok(())
+    let history = history(robot, watched, &found);
+    // Drawing the plot takes as long as all pictures.
+    std::thread::scope(|scope| {
+        let drawing = scope.spawn(|| history.as_ref().map(lines).transpose());
+        for (name, image) in pictures(robot, mesh, run)? {
+            picture::write_png(&folder.join(name), &image)?;
+        }
+        let drawn = drawing.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        let what = "the history".to_string();
+        match drawn.map_err(|e| compare::CompareError::Drawing { what, problem: e.to_string() })? {
+            Some(drawn) => Ok(data::write_atomically(&folder.join("history.png"), &drawn.png)?),
+            None => Ok(()),
+        }
+    })
 }
 
 fn readings_csv(readings: &[Reading]) -> String {
@@ -87,10 +94,10 @@ fn snaps_csv(found: &[Snap]) -> String {
 }
 
 /// Stored and kinetic energy over time with the buckling events.
-fn history(robot: &Robot, watched: &Watched, found: &[Snap]) -> Result<Option<Drawn>, Failure> {
+fn history(robot: &Robot, watched: &Watched, found: &[Snap]) -> Option<Lines> {
     let samples = watched.watch.samples();
     if samples.is_empty() {
-        return Ok(None);
+        return None;
     }
     let series = |name: &str, points: Vec<[f64; 2]>, style, colour| LineSeries {
         name: name.into(),
@@ -111,13 +118,12 @@ fn history(robot: &Robot, watched: &Watched, found: &[Snap]) -> Result<Option<Dr
     if !marks.is_empty() {
         all.push(series("buckling", marks, LineStyle::Points, 3));
     }
-    let drawn = lines(&Lines {
+    Some(Lines {
         title: format!("{}: energy over time", robot.scenario.name),
         x_label: "time [s]".into(),
         y_label: "energy [mJ]".into(),
         series: all,
-    });
-    Ok(Some(drawn.map_err(|e| compare::CompareError::Drawing { what: "the history".into(), problem: e.to_string() })?))
+    })
 }
 
 /// Side view, cross-section through the middle of a unit, and cut along the robot, in one colour scale.
