@@ -68,9 +68,9 @@ impl RobotSettings {
     ///
     /// | number | why |
     /// |---|---|
-    /// | 8 mm on the body, 4 mm on the actuator | 2 mm change ePAM and fPAM by at most 3 %, the mean sPAM by −5 ± 4, the cPAM by +5 % |
+    /// | 8 mm on the body, 4 mm on the actuator | 3 mm change the cPAM and the fPAM by 1 %, the ePAM by +5 %, the sPAM by −8 ± 2 %; 2 mm another +4, 0, +1, +3 ± 3 % |
     /// | welds 3 mm wide | assumed; 4 mm lower cPAM and ePAM by 2 and 4 to 11 %, a line does not converge |
-    /// | 0.1 + 0.6 + 0.054 s, masses raised | 52 000 to 90 000 steps; with rate-free fabrics only their number counts |
+    /// | 0.1 + 0.6 + 0.054 s, masses raised | 44 000 to 78 000 steps; with rate-free fabrics only their number counts |
     /// | ramp floor 2 kPa | the body's pressure: there a robot bends most per pascal, and gussets open |
     /// | mass damping 20 1/s | with the time at full pressure it brings the kinetic share below 1 % |
     /// | hourglass .001 | p R/(E t) of the TPU-coated body; .01 holds 9 to 16 % of the stored energy, .001 up to 2 % |
