@@ -44,13 +44,11 @@ const PIECE: usize = 16_384;
 /// About as many pairs each; those of a node stay together.
 fn pieces(mut pairs: &[(u32, u32)]) -> Vec<&[(u32, u32)]> {
     let mut pieces = Vec::new();
-    while let Some(last) = pairs.get(PIECE) {
-        let more = pairs[PIECE..].iter().take_while(|pair| pair.0 == last.0).count();
-        let own = pairs[..PIECE].iter().rev().take_while(|pair| pair.0 == last.0).count();
-        // The node at the cut goes with the pairs before it.
-        let cut = if own > 0 { PIECE + more } else { PIECE };
-        pieces.push(&pairs[..cut]);
-        pairs = &pairs[cut..];
+    while pairs.len() > PIECE {
+        let node = pairs[PIECE - 1].0;
+        let (piece, rest) = pairs.split_at(PIECE + pairs[PIECE..].iter().take_while(|pair| pair.0 == node).count());
+        pieces.push(piece);
+        pairs = rest;
     }
     pieces.push(pairs);
     pieces
@@ -260,4 +258,20 @@ impl Work {
 /// Decided records first, then the closer one.
 fn order(record: &Record) -> f64 {
     if record.side == 0 { f64::INFINITY } else { record.distance_m.abs() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pieces_hold_every_pair_once_and_no_node_is_cut() {
+        for (pairs, of_a_node) in [(0, 1), (10, 3), (PIECE, 1), (PIECE + 1, 2), (3 * PIECE, 7), (3 * PIECE, 2 * PIECE)]
+        {
+            let pairs: Vec<(u32, u32)> = (0..pairs).map(|i| ((i / of_a_node) as u32, i as u32)).collect();
+            let pieces = pieces(&pairs);
+            assert_eq!(pieces.concat(), pairs);
+            assert!(pieces.windows(2).all(|w| w[0].last().unwrap().0 < w[1].first().map_or(u32::MAX, |pair| pair.0)));
+        }
+    }
 }

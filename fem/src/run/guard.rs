@@ -9,7 +9,7 @@ use crate::sheet::reference::{cross, dot};
 /// Share of its reference area below which an element counts as collapsed.
 const COLLAPSED: f64 = 1e-4;
 
-/// Steps between two estimates of the highest mode of the whole mesh: in the robots it changes by a hundredth or two in between.
+/// Steps between two estimates of the highest mode of the whole mesh: in the robots it changes by some hundredths in between.
 const WHOLE: u64 = 8192;
 
 impl Simulation {
