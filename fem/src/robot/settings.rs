@@ -68,7 +68,7 @@ impl RobotSettings {
     ///
     /// | number | why |
     /// |---|---|
-    /// | 8 mm on the body, 4 mm on the actuator | 3 mm change the cPAM and the fPAM by 1 %, the ePAM by +5 %, the sPAM by −8 ± 2 %; 2 mm another +4, 0, +1, +3 ± 3 % |
+    /// | 8 mm on the body, 4 mm on the actuator | 3 mm change cPAM and fPAM by 1 %, the ePAM by +5 % (in steps of 5 kPa 0), the sPAM by −8 ± 2 %; 2 mm another +4, 0, −2, 0 % |
     /// | welds 3 mm wide | assumed; 4 mm lower cPAM and ePAM by 2 and 4 to 11 %, a line does not converge |
     /// | 0.1 + 0.6 + 0.054 s, masses raised | 44 000 to 78 000 steps; with rate-free fabrics only their number counts |
     /// | ramp floor 2 kPa | the body's pressure: there a robot bends most per pascal, and gussets open |

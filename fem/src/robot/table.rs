@@ -81,7 +81,7 @@ pub const KEYS: &[Key] = &[
     key("ramp_floor_kpa", 1e3, [1e-3, 1e6], "pressure from which the actuator's grows by equal shares in equal times",
         |s| s.ramp_floor_pa.unwrap_or(f64::NAN), |s, v| s.ramp_floor_pa = Some(v)),
     key("hold_s", 1.0, [0.0, 1e3], "time at each pressure before it is read", |s| s.hold_s, |s, v| s.hold_s = v),
-    key("mass_factor", 1.0, [1.0, 1e4], "square of the step over the way of sound through the smallest element",
+    key("mass_factor", 1.0, [1.0, 1e4], "square of the step over the time of sound through the smallest element",
         |s| s.mass_factor, |s, v| s.mass_factor = v),
     key("mass_damping_1_s", 1.0, [0.0, 1e5], "mass damping", |s| s.mass_damping_1_s, |s, v| s.mass_damping_1_s = v),
     key("hourglass", 1.0, [0.0, 1.0], "hourglass coefficient", |s| s.hourglass, |s, v| s.hourglass = v),
