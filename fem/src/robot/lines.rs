@@ -72,7 +72,7 @@ fn along(scenario: &Scenario, settings: &RobotSettings) -> (Vec<f64>, Vec<[f64; 
     bands.iter().flatten().for_each(|place| add(&mut cuts, *place, 1e-9));
     let ends = [seam(0), seam(actuator.count)];
     let size = |place: f64| match ends[0] < place && place < ends[1] {
-        true => settings.actuator_size_m,
+        true => settings.ring_spacing * settings.actuator_size_m,
         false => settings.body_size_m,
     };
     scenario.markers_m.iter().for_each(|place| add(&mut cuts, *place, MERGE * size(*place)));

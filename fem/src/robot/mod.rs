@@ -29,6 +29,7 @@ mod settings;
 mod sew;
 mod snaps;
 mod table;
+mod waviness;
 
 pub use loading::{Hold, RobotRun};
 pub use reading::{Gauge, Reading};
@@ -93,7 +94,8 @@ pub fn sewn(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) ->
     let pattern = &pattern.between_welds(lines::weld_m(settings));
     let lines = Lines::of(scenario, pattern, settings);
     rows(&lines, settings)?;
-    let mesh = sew::sew(scenario, pattern, settings, &lines)?;
+    let mut mesh = sew::sew(scenario, pattern, settings, &lines)?;
+    waviness::wavy(&mut mesh.points, settings.waviness_m, settings.seed);
     check_open(&mesh, &[sew::BODY, sew::ACTUATOR], &["base"])?;
     let plies = Plies::of(pattern, settings)?;
     let sections = mesh.parts.iter().map(|part| plies.section(&part.name)).collect();

@@ -10,6 +10,8 @@ pub struct RobotSettings {
     pub body_size_m: f64,
     /// Element size of the strip under the actuator and of the actuator \[m\].
     pub actuator_size_m: f64,
+    /// Distance of the rings at the actuator over `actuator_size_m`.
+    pub ring_spacing: f64,
     /// Distance between layers at the start \[m\]. Published: 0.01 mm.
     pub layer_gap_m: f64,
     /// Width of the welds across the robot and along the actuator's sides \[m\]; 0 is a line, along which taped plies fold
@@ -57,9 +59,12 @@ pub struct RobotSettings {
     pub hourglass: f64,
     /// Whether layers touch; `None`: where the pattern folds.
     pub contact: Option<bool>,
-    /// Random offset of the nodes at the start, as a share of the element size.
+    /// Random offset of the nodes at the start, as a share of the element size: a push that breaks the symmetry.
     pub imperfection: f64,
-    /// Seed of these offsets.
+    /// How far the sewn shape, free of membrane stress, departs from the pattern \[m\]: root mean square along each axis, in random
+    /// waves of 30 to 120 mm. A seed is the same robot on every mesh. Assumed.
+    pub waviness_m: f64,
+    /// Seed of both.
     pub seed: u64,
 }
 
@@ -84,6 +89,7 @@ impl RobotSettings {
         RobotSettings {
             body_size_m: 8e-3,
             actuator_size_m: 4e-3,
+            ring_spacing: 1.0,
             layer_gap_m: 1e-5,
             weld_m: 3e-3,
             bending_factor: 0.1,
@@ -106,6 +112,7 @@ impl RobotSettings {
             hourglass: 1e-3,
             contact: None,
             imperfection: 2e-4,
+            waviness_m: 0.0,
             seed: 1,
         }
     }
@@ -145,6 +152,7 @@ impl RobotSettings {
         for (name, value, low, high) in [
             ("body_size_m", self.body_size_m, 1e-4, 0.1),
             ("actuator_size_m", self.actuator_size_m, 1e-4, 0.1),
+            ("ring_spacing", self.ring_spacing, 0.1, 10.0),
             ("layer_gap_m", self.layer_gap_m, 1e-7, 1e-3),
             ("weld_m", self.weld_m, 0.0, 0.1),
             ("bending_factor", self.bending_factor, 0.0, 10.0),
@@ -162,6 +170,7 @@ impl RobotSettings {
             ("ramp_floor_pa", self.ramp_floor_pa.unwrap_or(1.0), 1.0, 1e9),
             ("hold_s", self.hold_s, 0.0, 1e3),
             ("mass_factor", self.mass_factor, 1.0, 1e4),
+            ("waviness_m", self.waviness_m, 0.0, 1e-3),
         ] {
             if !(low..=high).contains(&value) {
                 let low = if low == above_0 { "above 0".into() } else { low.to_string() };

@@ -57,6 +57,8 @@ pub const KEYS: &[Key] = &[
     key("body_mesh_mm", 1e-3, [0.5, 50.0], "element size of the body", |s| s.body_size_m, |s, v| s.body_size_m = v),
     key("actuator_mesh_mm", 1e-3, [0.5, 50.0], "element size of the actuator and the strip under it",
         |s| s.actuator_size_m, |s, v| s.actuator_size_m = v),
+    key("ring_spacing", 1.0, [0.1, 10.0], "distance of the rings at the actuator over its element size",
+        |s| s.ring_spacing, |s, v| s.ring_spacing = v),
     key("layer_gap_mm", 1e-3, [1e-4, 1.0], "distance between layers at the start",
         |s| s.layer_gap_m, |s, v| s.layer_gap_m = v),
     key("weld_mm", 1e-3, [0.0, 100.0], "width of the welds across the robot; 0: a line", |s| s.weld_m, |s, v| s.weld_m = v),
@@ -87,7 +89,9 @@ pub const KEYS: &[Key] = &[
     key("hourglass", 1.0, [0.0, 1.0], "hourglass coefficient", |s| s.hourglass, |s, v| s.hourglass = v),
     key("imperfection", 1.0, [0.0, 0.2], "random offset of the nodes over the element size",
         |s| s.imperfection, |s, v| s.imperfection = v),
-    key("seed", 1.0, [0.0, 4e15], "seed of these offsets", |s| s.seed as f64, |s, v| s.seed = v as u64),
+    key("waviness_mm", 1e-3, [0.0, 1.0], "departure of the sewn shape from the pattern, root mean square along each axis",
+        |s| s.waviness_m, |s, v| s.waviness_m = v),
+    key("seed", 1.0, [0.0, 4e15], "seed of both", |s| s.seed as f64, |s, v| s.seed = v as u64),
 ];
 
 /// Keys that are no single number.

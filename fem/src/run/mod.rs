@@ -19,6 +19,7 @@ mod team;
 
 pub use crate::sheet::fields::ElementFields;
 pub use ledger::Ledger;
+pub(crate) use setup::gaussian;
 
 use models::{Pose, Row, RowKind, Term};
 

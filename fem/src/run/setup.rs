@@ -285,7 +285,7 @@ fn imperfect(x: &mut [[f64; 4]], mesh: &Mesh, order: &Order, fixed: &[[bool; 3]]
 }
 
 /// A standard normal number from a seed and a counter (SplitMix64 and Box–Muller).
-pub(super) fn gaussian(seed: u64, counter: u64) -> f64 {
+pub(crate) fn gaussian(seed: u64, counter: u64) -> f64 {
     let draw = |salt: u64| {
         let mut z = (seed ^ 0x9E37_79B9_7F4A_7C15).wrapping_mul(0xD6E8_FEB8_6659_FD93).wrapping_add(counter * 2 + salt);
         z = z.wrapping_add(0x9E37_79B9_7F4A_7C15);
