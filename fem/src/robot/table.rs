@@ -91,7 +91,7 @@ pub const KEYS: &[Key] = &[
         |s| s.imperfection, |s, v| s.imperfection = v),
     key("waviness_mm", 1e-3, [0.0, 1.0], "departure of the sewn shape from the pattern, root mean square along each axis",
         |s| s.waviness_m, |s, v| s.waviness_m = v),
-    key("seed", 1.0, [0.0, 4e15], "seed of both", |s| s.seed as f64, |s, v| s.seed = v as u64),
+    key("seed", 1.0, [0.0, 4e15], "seed of imperfection and waviness_mm", |s| s.seed as f64, |s, v| s.seed = v as u64),
 ];
 
 /// Keys that are no single number.
