@@ -187,8 +187,9 @@ fn rows(lines: &Lines, settings: &RobotSettings) -> Result<(), FemError> {
         return Ok(());
     }
     Err(FemError::Problem(format!(
-        "robot: a pouch of {fewest} elements; lower actuator_size_m from {} mm so that it has {FEWEST_ROWS} or more",
-        settings.actuator_size_m * 1e3
+        "robot: a pouch of {fewest} elements; lower actuator_size_m from {} mm or ring_spacing from {} so that it has {FEWEST_ROWS} or more",
+        settings.actuator_size_m * 1e3,
+        settings.ring_spacing
     )))
 }
 
