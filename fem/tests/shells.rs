@@ -50,6 +50,10 @@ fn zoo() -> Vec<(Problem, &'static str)> {
     let film: Arc<dyn Fabric> = Arc::new(WrinklingFilm { film: neo_film(), share: 0.05 });
     all.push((by_part(&film, &film), "tube that wrinkles"));
     all.push((by_part(&film, &neo), "tube that wrinkles, with stiff caps"));
+    let mut wavy = by_part(&film, &neo);
+    let wave = |p: &[f64; 3]| [p[0] + 1e-3 * (90.0 * p[1]).sin(), p[1], p[2] + 1e-3 * (80.0 * p[0]).sin()];
+    wavy.mesh.membrane = wavy.mesh.points.iter().map(wave).collect();
+    all.push((wavy, "wavy tube"));
     all.push((striped(&tube, &[film, bonded(&[&neo, &neo]), woven.clone()]), "tube with seams along it"));
     all.push((by_part(&bonded(&[&woven, &neo, &woven]), &bonded(&[&woven, &woven])), "glued tube"));
     let disc = generate::disc_balloon(0.1, 12).unwrap();

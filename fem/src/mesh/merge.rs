@@ -125,7 +125,8 @@ impl Mesh {
                 .collect()
         };
         let new = |n: u32| number.get(n as usize).copied().unwrap_or(n);
-        let mut mesh = Mesh { points: keep(&self.points), start: keep(&self.start), ..self.clone() };
+        let (points, membrane, start) = (keep(&self.points), keep(&self.membrane), keep(&self.start));
+        let mut mesh = Mesh { points, membrane, start, ..self.clone() };
         for (part, old) in mesh.parts.iter_mut().zip(&self.parts) {
             part.quads.iter_mut().flatten().for_each(|n| *n = new(*n));
             part.triangles.iter_mut().flatten().for_each(|n| *n = new(*n));

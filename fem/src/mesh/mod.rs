@@ -21,7 +21,11 @@ use std::collections::BTreeMap;
 pub struct Mesh {
     /// Reference (stress-free) positions \[m\].
     pub points: Vec<[f64; 3]>,
-    /// Where the nodes start, if not at `points` (a folded layer, an imperfection); same length, or empty.
+    /// Positions in which the membrane is free of stress, if not at `points` (a sheet that is not quite its pattern); same
+    /// length, or empty. Bending keeps the weights of `points`, which in a structured mesh most nodes share: for departures that
+    /// are small against an element.
+    pub membrane: Vec<[f64; 3]>,
+    /// Where the nodes start, if not where the membrane is free of stress (a folded layer, an imperfection); same length, or empty.
     pub start: Vec<[f64; 3]>,
     /// Blocks of elements of one fabric.
     pub parts: Vec<Part>,
@@ -91,8 +95,12 @@ impl Mesh {
     pub fn elements(&self) -> usize {
         self.parts.iter().map(Part::len).sum()
     }
+    /// Where the membrane at node `i` is free of stress.
+    pub fn free_of(&self, i: usize) -> [f64; 3] {
+        if self.membrane.is_empty() { self.points[i] } else { self.membrane[i] }
+    }
     /// Where node `i` starts.
     pub fn start_of(&self, i: usize) -> [f64; 3] {
-        if self.start.is_empty() { self.points[i] } else { self.start[i] }
+        if self.start.is_empty() { self.free_of(i) } else { self.start[i] }
     }
 }

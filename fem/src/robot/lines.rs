@@ -7,6 +7,7 @@ use models::Scenario;
 use models::actuators::pattern::Pattern;
 
 use super::RobotSettings;
+use super::settings::TAPED_SPACING;
 
 /// Largest ratio of neighbouring elements where the size changes.
 const GROWTH: f64 = 1.25;
@@ -32,7 +33,7 @@ pub(super) struct Lines {
 
 impl Lines {
     pub fn of(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) -> Lines {
-        let (x_m, bands) = along(scenario, settings);
+        let (x_m, bands) = along(scenario, spacing(pattern, settings), settings);
         let nearest = |place: f64| nearest(&x_m, place);
         let welds = bands.iter().map(|band| band.map(nearest)).collect();
         let markers = scenario.markers_m.iter().map(|s| nearest(*s)).collect();
@@ -61,8 +62,13 @@ fn strip(width_m: f64, settings: &RobotSettings) -> f64 {
     if width_m >= LEAST_STRIP * settings.actuator_size_m { width_m } else { 0.0 }
 }
 
+/// Distance of the rings at the actuator over the element size there.
+pub(super) fn spacing(pattern: &Pattern, settings: &RobotSettings) -> f64 {
+    settings.ring_spacing.unwrap_or(if pattern.is_taped() { TAPED_SPACING } else { 1.0 })
+}
+
 /// Rings, and where each weld begins and ends.
-fn along(scenario: &Scenario, settings: &RobotSettings) -> (Vec<f64>, Vec<[f64; 2]>) {
+fn along(scenario: &Scenario, spacing: f64, settings: &RobotSettings) -> (Vec<f64>, Vec<[f64; 2]>) {
     let (actuator, length) = (&scenario.actuator, scenario.length_m);
     let seam = |k: usize| actuator.start_m + k as f64 * actuator.shape.length_m;
     let half = 0.5 * weld_m(settings);
@@ -72,7 +78,7 @@ fn along(scenario: &Scenario, settings: &RobotSettings) -> (Vec<f64>, Vec<[f64; 
     bands.iter().flatten().for_each(|place| add(&mut cuts, *place, 1e-9));
     let ends = [seam(0), seam(actuator.count)];
     let size = |place: f64| match ends[0] < place && place < ends[1] {
-        true => settings.ring_spacing * settings.actuator_size_m,
+        true => spacing * settings.actuator_size_m,
         false => settings.body_size_m,
     };
     scenario.markers_m.iter().for_each(|place| add(&mut cuts, *place, MERGE * size(*place)));

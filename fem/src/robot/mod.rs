@@ -93,9 +93,9 @@ pub fn sewn(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) ->
     fits(scenario, pattern, settings)?;
     let pattern = &pattern.between_welds(lines::weld_m(settings));
     let lines = Lines::of(scenario, pattern, settings);
-    rows(&lines, settings)?;
+    rows(&lines, pattern, settings)?;
     let mut mesh = sew::sew(scenario, pattern, settings, &lines)?;
-    waviness::wavy(&mut mesh.points, settings.waviness_m, settings.seed);
+    mesh.membrane = waviness::wavy(&mesh.points, settings.waviness_m, settings.seed);
     check_open(&mesh, &[sew::BODY, sew::ACTUATOR], &["base"])?;
     let plies = Plies::of(pattern, settings)?;
     let sections = mesh.parts.iter().map(|part| plies.section(&part.name)).collect();
@@ -180,7 +180,7 @@ fn fits(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) -> Res
     Ok(())
 }
 
-fn rows(lines: &Lines, settings: &RobotSettings) -> Result<(), FemError> {
+fn rows(lines: &Lines, pattern: &Pattern, settings: &RobotSettings) -> Result<(), FemError> {
     let fewest = lines.welds.windows(2).map(|w| w[1][0].saturating_sub(w[0][1])).min().unwrap_or(0);
     let fewest = fewest.min(lines.s_m.len() - 1);
     if fewest >= FEWEST_ROWS {
@@ -189,7 +189,7 @@ fn rows(lines: &Lines, settings: &RobotSettings) -> Result<(), FemError> {
     Err(FemError::Problem(format!(
         "robot: a pouch of {fewest} elements; lower actuator_size_m from {} mm or ring_spacing from {} so that it has {FEWEST_ROWS} or more",
         settings.actuator_size_m * 1e3,
-        settings.ring_spacing
+        lines::spacing(pattern, settings)
     )))
 }
 

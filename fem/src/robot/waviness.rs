@@ -13,25 +13,27 @@ const WAVES_M: [f64; 2] = [0.03, 0.12];
 /// Number of waves.
 const COUNT: usize = 64;
 
-/// Moves points by u = rms √(1/n) Σₖ (aₖ cos kₖ·x + bₖ sin kₖ·x) with standard normal aₖ, bₖ, kₖ in all directions and lengths
+/// The points moved by u = rms √(1/n) Σₖ (aₖ cos kₖ·x + bₖ sin kₖ·x) with standard normal aₖ, bₖ, kₖ in all directions and lengths
 /// 2π/|kₖ| evenly spread in their logarithm, so that each component of u has the root mean square `rms_m` over many seeds. The base
-/// at x = 0 stays in its plane.
+/// at x = 0 stays in its plane. Empty for `rms_m` = 0.
 ///
 /// Layers 0.01 mm apart move together: waves of 30 mm change their gap by 2π rms/30 mm, 4 % for 0.2 mm, which is also the order of
 /// the strains between this shape and the pattern.
-pub(super) fn wavy(points: &mut [[f64; 3]], rms_m: f64, seed: u64) {
+pub(super) fn wavy(points: &[[f64; 3]], rms_m: f64, seed: u64) -> Vec<[f64; 3]> {
     if rms_m == 0.0 {
-        return;
+        return Vec::new();
     }
     let waves: Vec<Wave> = (0..COUNT).map(|k| Wave::of(k, rms_m, seed)).collect();
-    for point in points {
-        let x = *point;
+    let moved = |x: &[f64; 3]| {
+        let mut point = *x;
         let beyond_base = 1.0 - (-(x[0] / WAVES_M[0]).powi(2)).exp();
         for wave in &waves {
             let (sin, cos) = (wave.k[0] * x[0] + wave.k[1] * x[1] + wave.k[2] * x[2]).sin_cos();
             (0..3).for_each(|i| point[i] += beyond_base * (wave.a[i] * cos + wave.b[i] * sin));
         }
-    }
+        point
+    };
+    points.iter().map(moved).collect()
 }
 
 /// One wave: wave vector \[1/m\] and amplitudes \[m\].
@@ -61,9 +63,8 @@ impl Wave {
 mod tests {
     use super::*;
 
-    fn moved(mut points: Vec<[f64; 3]>, seed: u64) -> Vec<[f64; 3]> {
-        let before = points.clone();
-        wavy(&mut points, 2e-4, seed);
+    fn moved(before: Vec<[f64; 3]>, seed: u64) -> Vec<[f64; 3]> {
+        let points = wavy(&before, 2e-4, seed);
         points.iter().zip(&before).map(|(p, b)| from_fn(|i| p[i] - b[i])).collect()
     }
 

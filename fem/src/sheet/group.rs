@@ -10,31 +10,39 @@ pub type Lane = [f64; LANES];
 /// Eight elements of one kind, section and pair of chambers.
 #[derive(Debug, Clone)]
 pub struct Group {
-    /// Place of its constants in a table.
-    pub constants: u32,
+    /// Places of its shape and its stock in their tables.
+    pub shape: u32,
+    /// See [`Stock`].
+    pub stock: u32,
     /// Corner nodes by lane, numbered within the patch; a triangle repeats its third.
     pub node: [[u32; 4]; LANES],
 }
 
-/// What eight elements hold from start to end. In a structured mesh most groups share theirs, which then stay in the
-/// first cache.
+/// Stress-free shape of eight elements and what follows from it. In a structured mesh most groups share theirs, which then stays in the first cache;
+/// where every element has its own, as in a wavy robot, this is what each step must fetch, so nothing else is here.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
-pub struct Constants {
+pub struct Shape {
     /// Shape gradients, see [`Reference::b`] \[1/m\].
     pub b: [[Lane; 2]; 2],
     /// Hourglass offsets s_a \[m\].
     pub s: [Lane; 2],
     /// Reference area \[m²\]; 0 for an empty lane.
     pub area: Lane,
-    /// Reference area times what the law's answer is per: 2 t C₁₀ \[N/m\] for films, 1 for others.
-    pub amount: Lane,
+    /// Hourglass stiffness k \[N/m\]; 0 for an empty lane.
+    pub hourglass: Lane,
+    /// Viscosity times area η A \[N m s\]; 0 for an empty lane.
+    pub viscosity: Lane,
+}
+
+/// What eight elements are made of and who counts them.
+#[derive(Debug, Clone)]
+#[repr(C, align(64))]
+pub struct Stock {
+    /// What the law's answer is per: 2 t C₁₀ \[N/m\] for films, 1 for others.
+    pub per: Lane,
     /// Share of compression that a film does not carry.
     pub relief: Lane,
-    /// Hourglass stiffness k \[N/m\].
-    pub hourglass: Lane,
-    /// Viscosity times area η A \[N m s\].
-    pub viscosity: Lane,
     /// 1 where the element's energy is this lane's to count, 0 where another lane or patch counts it.
     pub own: Lane,
     /// 1 in lanes that hold an element.
@@ -64,54 +72,39 @@ pub struct Item {
 
 impl Group {
     /// Corner nodes of up to eight elements; an empty lane repeats the last.
-    pub fn pack(items: &[Item], constants: u32) -> Group {
+    pub fn pack(items: &[Item], shape: u32, stock: u32) -> Group {
         let item = |lane: usize| &items[lane.min(items.len() - 1)].node;
         let corner = |lane: usize| std::array::from_fn(|c| item(lane)[c.min(item(lane).len() - 1)]);
-        Group { constants, node: std::array::from_fn(corner) }
+        Group { shape, stock, node: std::array::from_fn(corner) }
     }
 }
 
 /// Numbers that differ by less than this share of the element's size are rounding of the same number.
 const ALIKE: f64 = 1e-12;
 
-impl Constants {
-    /// Packs up to eight elements, of which the first `counted_before` are counted by an earlier group. An empty lane
-    /// repeats the last element with no area, stiffness or pressure, so that its arithmetic stays finite and its forces
-    /// vanish.
-    pub fn pack(items: &[Item], counted_before: usize) -> Constants {
+impl Shape {
+    /// Packs up to eight elements. An empty lane repeats the last one without area and stiffness, so that its arithmetic stays
+    /// finite and its forces vanish.
+    pub fn pack(items: &[Item]) -> Shape {
         let zero = [0.0; LANES];
-        let mut constants = Constants {
-            b: [[zero; 2]; 2],
-            s: [zero; 2],
-            area: zero,
-            amount: zero,
-            relief: zero,
-            hourglass: zero,
-            viscosity: zero,
-            own: zero,
-            real: zero,
-        };
+        let mut shape = Shape { b: [[zero; 2]; 2], s: [zero; 2], area: zero, hourglass: zero, viscosity: zero };
         for lane in 0..LANES {
             let item = &items[lane.min(items.len() - 1)];
             for a in 0..2 {
-                constants.b[0][a][lane] = item.reference.b[0][a];
-                constants.b[1][a][lane] = item.reference.b[1][a];
-                constants.s[a][lane] = item.reference.s[a];
+                shape.b[0][a][lane] = item.reference.b[0][a];
+                shape.b[1][a][lane] = item.reference.b[1][a];
+                shape.s[a][lane] = item.reference.s[a];
             }
             if lane < items.len() {
-                constants.area[lane] = item.reference.area;
-                constants.amount[lane] = item.reference.area * item.law[0];
-                constants.relief[lane] = item.law[1];
-                constants.hourglass[lane] = item.hourglass;
-                constants.viscosity[lane] = item.viscosity * item.reference.area;
-                constants.own[lane] = f64::from(u8::from(item.own && lane >= counted_before));
-                constants.real[lane] = 1.0;
+                shape.area[lane] = item.reference.area;
+                shape.hourglass[lane] = item.hourglass;
+                shape.viscosity[lane] = item.viscosity * item.reference.area;
             }
         }
-        constants
+        shape
     }
 
-    /// The same for constants that are equal but for rounding, save where they lie just beside a step of it.
+    /// The same for shapes that are equal but for rounding, save where they lie just beside a step of it.
     pub fn key(&self) -> Vec<i64> {
         let steps = |value: f64| (value / ALIKE).round() as i64;
         let mut key = Vec::new();
@@ -120,11 +113,30 @@ impl Constants {
             let size = self.area[lane].sqrt();
             key.extend(self.b.as_flattened().iter().map(|b| steps(b[lane] * size)));
             key.extend(self.s.iter().map(|s| steps(s[lane] / size)));
-            let positive = [self.area, self.amount, self.relief, self.hourglass, self.viscosity].map(|of| of[lane]);
-            key.extend(positive.map(leading_bits));
-            key.extend([self.own[lane], self.real[lane]].map(|flag| flag as i64));
+            key.extend([self.area, self.hourglass, self.viscosity].map(|of| leading_bits(of[lane])));
         }
         key
+    }
+}
+
+impl Stock {
+    /// Packs up to eight elements, of which the first `counted_before` are counted by an earlier group.
+    pub fn pack(items: &[Item], counted_before: usize) -> Stock {
+        let zero = [0.0; LANES];
+        let mut stock = Stock { per: zero, relief: zero, own: zero, real: zero };
+        for (lane, item) in items.iter().enumerate() {
+            stock.per[lane] = item.law[0];
+            stock.relief[lane] = item.law[1];
+            stock.own[lane] = f64::from(u8::from(item.own && lane >= counted_before));
+            stock.real[lane] = 1.0;
+        }
+        stock
+    }
+
+    /// As [`Shape::key`].
+    pub fn key(&self) -> Vec<i64> {
+        let all = [self.per, self.relief, self.own, self.real];
+        all.as_flattened().iter().map(|value| leading_bits(*value)).collect()
     }
 }
 

@@ -15,7 +15,7 @@
 use models::fabrics::Past;
 use pulp::Simd;
 
-use super::group::{Constants, Group, LANES, Lane};
+use super::group::{Group, LANES, Lane, Shape, Stock};
 use super::lanes::{V, axes, inner, product};
 use super::law::{Law, Who};
 
@@ -62,8 +62,10 @@ pub struct Batch<'a> {
     pub rate: f64,
     /// Elements of the batch.
     pub groups: &'a [Group],
-    /// Constants of all groups of the patch.
-    pub constants: &'a [Constants],
+    /// Shapes of all groups of the patch.
+    pub shapes: &'a [Shape],
+    /// Stocks of all groups of the patch.
+    pub stocks: &'a [Stock],
     /// Memory of the fabric, or empty.
     pub past: &'a [[Past; LANES]],
 }
@@ -79,7 +81,7 @@ pub fn quads<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
     tally: &mut Tally,
 ) {
     for (index, (group, strain)) in batch.groups.iter().zip(strains).enumerate() {
-        let constants = &batch.constants[group.constants as usize];
+        let of = (&batch.shapes[group.shape as usize], &batch.stocks[group.stock as usize]);
         for part in 0..LANES / S::F64_LANES {
             let mut first = [0; 4];
             let mut x = [[V::all(simd, 0.0); 3]; 4];
@@ -91,8 +93,7 @@ pub fn quads<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
                     x[c] = V::gather(simd, batch.x, &group.node, c, part);
                 }
             }
-            let force =
-                quad::<S, L, ROWS, BOOKS>(simd, batch, law, constants, batch.past.get(index), part, x, strain, tally);
+            let force = quad::<S, L, ROWS, BOOKS>(simd, batch, law, of, batch.past.get(index), part, x, strain, tally);
             match &mut out {
                 Corners::Rows(rows) => {
                     for c in 0..4 {
@@ -119,7 +120,7 @@ fn quad<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
     simd: S,
     batch: Batch,
     law: L,
-    constants: &Constants,
+    (shape, stock): (&Shape, &Stock),
     past: Option<&[Past; LANES]>,
     part: usize,
     x: [[V<S>; 3]; 4],
@@ -133,8 +134,8 @@ fn quad<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
     let h = axes!(k => odd[k] - even[k]);
 
     let b = [
-        [V::load(simd, &constants.b[0][0], part), V::load(simd, &constants.b[0][1], part)],
-        [V::load(simd, &constants.b[1][0], part), V::load(simd, &constants.b[1][1], part)],
+        [V::load(simd, &shape.b[0][0], part), V::load(simd, &shape.b[0][1], part)],
+        [V::load(simd, &shape.b[1][0], part), V::load(simd, &shape.b[1][1], part)],
     ];
     let f1 = axes!(k => b[0][0] * d13[k] + b[1][0] * d24[k]);
     let f2 = axes!(k => b[0][1] * d13[k] + b[1][1] * d24[k]);
@@ -143,14 +144,15 @@ fn quad<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
         V::all(simd, 0.5) * (inner(f2, f2) - V::all(simd, 1.0)),
         inner(f1, f2),
     ];
-    let (s, w) = law.at(simd, e, Who { constants, past, part });
-    let (amount, own) = (V::load(simd, &constants.amount, part), V::load(simd, &constants.own, part));
-    let t = with_viscosity(simd, batch.rate, constants, part, e, s, strain, tally);
+    let (s, w) = law.at(simd, e, Who { stock, past, part });
+    let amount = V::load(simd, &shape.area, part) * V::load(simd, &stock.per, part);
+    let own = V::load(simd, &stock.own, part);
+    let t = with_viscosity(simd, batch.rate, (shape, stock), part, e, s, strain, tally);
 
-    let (s1, s2) = (V::load(simd, &constants.s[0], part), V::load(simd, &constants.s[1], part));
+    let (s1, s2) = (V::load(simd, &shape.s[0], part), V::load(simd, &shape.s[1], part));
     let q = axes!(k => V::all(simd, 0.25) * (h[k] - s1 * f1[k] - s2 * f2[k]));
     let (g1, g2) = (inner(f1, q), inner(f2, q));
-    let stiffness = V::load(simd, &constants.hourglass, part);
+    let stiffness = V::load(simd, &shape.hourglass, part);
     let (k1, k2) = (stiffness * g1, stiffness * g2);
     if BOOKS {
         (V::load(simd, &tally.membrane, part) + own * amount * w).store(&mut tally.membrane, part);
@@ -164,7 +166,7 @@ fn quad<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
     let (n0, n1, n2) = (product(a, c), product(a, warp), product(warp, c));
     // Regular rows have no empty lanes.
     let p = V::all(simd, batch.pressure);
-    let p = if ROWS { p } else { p * V::load(simd, &constants.real, part) };
+    let p = if ROWS { p } else { p * V::load(simd, &stock.real, part) };
     let third = p * V::all(simd, 1.0 / 3.0);
     let mut force = [[V::all(simd, 0.0); 3]; 4];
     for k in 0..3 {
@@ -218,13 +220,13 @@ fn triangle<S: Simd, L: Law>(
     out: &mut CornerForces,
     tally: &mut Tally,
 ) {
-    let constants = &batch.constants[group.constants as usize];
+    let (shape, stock) = (&batch.shapes[group.shape as usize], &batch.stocks[group.stock as usize]);
     let x = axes!(c => V::gather(simd, batch.x, &group.node, c, part));
     let u = axes!(k => x[1][k] - x[0][k]);
     let v = axes!(k => x[2][k] - x[0][k]);
     let b = [
-        [V::load(simd, &constants.b[0][0], part), V::load(simd, &constants.b[0][1], part)],
-        [V::load(simd, &constants.b[1][0], part), V::load(simd, &constants.b[1][1], part)],
+        [V::load(simd, &shape.b[0][0], part), V::load(simd, &shape.b[0][1], part)],
+        [V::load(simd, &shape.b[1][0], part), V::load(simd, &shape.b[1][1], part)],
     ];
     let f1 = axes!(k => b[0][0] * u[k] + b[1][0] * v[k]);
     let f2 = axes!(k => b[0][1] * u[k] + b[1][1] * v[k]);
@@ -233,13 +235,14 @@ fn triangle<S: Simd, L: Law>(
         V::all(simd, 0.5) * (inner(f2, f2) - V::all(simd, 1.0)),
         inner(f1, f2),
     ];
-    let (s, w) = law.at(simd, e, Who { constants, past, part });
-    let (amount, own) = (V::load(simd, &constants.amount, part), V::load(simd, &constants.own, part));
-    let t = with_viscosity(simd, batch.rate, constants, part, e, s, strain, tally);
+    let (s, w) = law.at(simd, e, Who { stock, past, part });
+    let amount = V::load(simd, &shape.area, part) * V::load(simd, &stock.per, part);
+    let own = V::load(simd, &stock.own, part);
+    let t = with_viscosity(simd, batch.rate, (shape, stock), part, e, s, strain, tally);
     (V::load(simd, &tally.membrane, part) + own * amount * w).store(&mut tally.membrane, part);
 
     let normal = product(u, v);
-    let p = V::all(simd, batch.pressure / 6.0) * V::load(simd, &constants.real, part);
+    let p = V::all(simd, batch.pressure / 6.0) * V::load(simd, &stock.real, part);
     for k in 0..3 {
         let r1 = t[0] * f1[k] + t[2] * f2[k];
         let r2 = t[2] * f1[k] + t[1] * f2[k];
@@ -259,21 +262,22 @@ fn triangle<S: Simd, L: Law>(
 fn with_viscosity<S: Simd>(
     simd: S,
     rate: f64,
-    constants: &Constants,
+    (shape, stock): (&Shape, &Stock),
     part: usize,
     e: [V<S>; 3],
     s: [V<S>; 3],
     strain: &mut Strain,
     tally: &mut Tally,
 ) -> [V<S>; 3] {
-    let (amount, half) = (V::load(simd, &constants.amount, part), V::all(simd, 0.5));
-    let eta = V::load(simd, &constants.viscosity, part) * V::all(simd, rate);
+    let half = V::all(simd, 0.5);
+    let amount = V::load(simd, &shape.area, part) * V::load(simd, &stock.per, part);
+    let eta = V::load(simd, &shape.viscosity, part) * V::all(simd, rate);
     let d = axes!(k => e[k] - V::load(simd, &strain.0[k], part));
     for (e, kept) in e.into_iter().zip(&mut strain.0) {
         e.store(kept, part);
     }
     let drag = [eta * d[0], eta * d[1], half * eta * d[2]];
-    let heat = V::load(simd, &constants.own, part) * (drag[0] * d[0] + drag[1] * d[1] + drag[2] * d[2]);
+    let heat = V::load(simd, &stock.own, part) * (drag[0] * d[0] + drag[1] * d[1] + drag[2] * d[2]);
     (V::load(simd, &tally.viscous, part) + heat).store(&mut tally.viscous, part);
     axes!(k => amount * s[k] + drag[k])
 }

@@ -6,21 +6,21 @@ use models::Fabric;
 use models::fabrics::{Kind, Mixed, NeoHookean, Orthotropic, Past};
 use pulp::Simd;
 
-use super::group::{Constants, LANES};
+use super::group::{LANES, Stock};
 use super::lanes::{V, axes, inner};
 
 /// Eight elements, and which of them are in the registers.
 #[derive(Clone, Copy)]
 pub struct Who<'a> {
-    /// Their constants.
-    pub constants: &'a Constants,
+    /// What they are made of.
+    pub stock: &'a Stock,
     /// Their memory, if the fabric has one.
     pub past: Option<&'a [Past; LANES]>,
     /// Part of the eight.
     pub part: usize,
 }
 
-/// Tension and energy of several elements at once, per [`Constants::amount`].
+/// Tension and energy of several elements at once, per [`Stock::per`] and area.
 pub trait Law: Copy {
     /// At strain (E₁₁, E₂₂, 2E₁₂).
     fn at<S: Simd>(self, simd: S, e: [V<S>; 3], who: Who) -> ([V<S>; 3], V<S>);
@@ -93,7 +93,7 @@ impl Law for Film {
         let (x, y) = ((mean + r).max(zero), mean - r);
         let a = (one + x).sqrt();
         let z = x * (a + one).inverse();
-        let share = (y + z + y * z).choose(zero, V::load(simd, &who.constants.relief, who.part));
+        let share = (y + z + y * z).choose(zero, V::load(simd, &who.stock.relief, who.part));
         let (over, per_r) = (a.inverse(), half * r.inverse());
         let sigma = z * (a * a + a + one) * over * over * over;
         let along = [half + d * per_r, half - d * per_r, c * per_r];

@@ -322,7 +322,7 @@ fn elements(mesh: &Mesh, sections: &[Section], fabrics: &[Arc<dyn Fabric>], sett
         let stiffness = mean_stiffness(&*fabrics[p]);
         for i in 0..part.len() {
             let nodes = part.nodes(i);
-            let corner: Vec<[f64; 3]> = nodes.iter().map(|n| mesh.points[*n as usize]).collect();
+            let corner: Vec<[f64; 3]> = nodes.iter().map(|n| mesh.free_of(*n as usize)).collect();
             let reference = Reference::new(&corner, part.warp_of(i), angle);
             let hourglass = if nodes.len() == 4 { hourglass(&reference, settings.hourglass * stiffness) } else { 0.0 };
             let node = std::array::from_fn(|k| nodes[k.min(nodes.len() - 1)]);

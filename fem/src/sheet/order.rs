@@ -83,8 +83,10 @@ pub fn renumber(mesh: &Mesh, order: &Order) -> Mesh {
     let mut new = mesh.clone();
     for (place, old) in order.old.iter().enumerate() {
         new.points[place] = mesh.points[*old as usize];
-        if !mesh.start.is_empty() {
-            new.start[place] = mesh.start[*old as usize];
+        for (new, places) in [(&mut new.start, &mesh.start), (&mut new.membrane, &mesh.membrane)] {
+            if !places.is_empty() {
+                new[place] = places[*old as usize];
+            }
         }
     }
     let turn = |n: &mut u32| *n = order.new[*n as usize];

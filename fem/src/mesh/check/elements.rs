@@ -60,12 +60,13 @@ fn shape(mesh: &Mesh, part: &Part, i: usize) -> Result<(), FemError> {
         let (what, place, node) = (describe(part, i), millimetres(x[k]), nodes[k] + 1);
         return fault(format!("{what} is inverted at node {node}, {place}: its corner there is 180 degrees or more"));
     }
-    if !mesh.start.is_empty() {
-        let mut start = [[0.0; 3]; 4];
-        nodes.iter().zip(&mut start).for_each(|(n, x)| *x = mesh.start[*n as usize]);
-        let x = &start[..nodes.len()];
-        if !has_area(x) {
-            return fault(format!("{} at {} has no area at the start", describe(part, i), millimetres(centre(x))));
+    let bent = if mesh.membrane.is_empty() { &[] } else { &mesh.points[..] };
+    for (shape, places) in [("at the start", &mesh.start[..]), ("as it bends", bent)] {
+        let mut corners = [[0.0; 3]; 4];
+        nodes.iter().zip(&mut corners).for_each(|(n, x)| *x = *places.get(*n as usize).unwrap_or(x));
+        let x = &corners[..nodes.len()];
+        if !places.is_empty() && !has_area(x) {
+            return fault(format!("{} at {} has no area {shape}", describe(part, i), millimetres(centre(x))));
         }
     }
     Ok(())
@@ -87,7 +88,7 @@ fn warp(mesh: &Mesh, part: &Part, i: usize) -> Result<(), FemError> {
 
 /// Stress-free places of the nodes of one element.
 pub(super) fn stress_free<'a>(mesh: &Mesh, nodes: &[u32], into: &'a mut [[f64; 3]; 4]) -> &'a [[f64; 3]] {
-    nodes.iter().zip(into.iter_mut()).for_each(|(n, x)| *x = mesh.points[*n as usize]);
+    nodes.iter().zip(into.iter_mut()).for_each(|(n, x)| *x = mesh.free_of(*n as usize));
     &into[..nodes.len()]
 }
 

@@ -68,10 +68,10 @@ fn fault<T>(message: String) -> Result<T, FemError> {
 /// Lengths of lists, node numbers in range, coordinates that are numbers.
 pub(super) fn numbers(mesh: &Mesh) -> Result<(), FemError> {
     let count = mesh.points.len();
-    if !mesh.start.is_empty() && mesh.start.len() != count {
-        return fault(format!("{} start places for {count} nodes; give one per node or none", mesh.start.len()));
-    }
-    for (kind, places) in [("place", &mesh.points), ("start", &mesh.start)] {
+    for (kind, places) in [("place", &mesh.points), ("start", &mesh.start), ("membrane", &mesh.membrane)] {
+        if !places.is_empty() && places.len() != count {
+            return fault(format!("{} {kind} places for {count} nodes; give one per node or none", places.len()));
+        }
         if let Some(i) = places.iter().position(|p| p.iter().any(|c| !c.is_finite())) {
             return fault(format!("node {} has a {kind} that is not a number: {:?}", i + 1, places[i]));
         }

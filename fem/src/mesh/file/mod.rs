@@ -26,8 +26,8 @@
 //! end 6 2                 # nodes and elements in total: a file that was cut off is noticed
 //! ```
 //!
-//! A block `start N` after `nodes` gives the places at which the nodes start, if they differ. `#` starts a comment; empty
-//! lines are skipped; spaces are free. Numbers are written with as many digits as they need to be read back bit by bit.
+//! Blocks `membrane N` and `start N` after `nodes` give the places at which the membrane is free of stress and at which the
+//! nodes start, if they differ. `#` starts a comment; empty lines are skipped; spaces are free. Numbers are written with as many digits as they need to be read back bit by bit.
 
 mod read;
 mod write;
@@ -36,8 +36,22 @@ pub use read::{parse, read};
 pub use write::{text, write};
 
 /// Words that begin a block.
-const KEYWORDS: [&str; 13] =
-    ["mesh", "nodes", "start", "part", "front", "back", "layer", "warp", "quads", "triangles", "set", "ties", "end"];
+const KEYWORDS: [&str; 14] = [
+    "mesh",
+    "nodes",
+    "membrane",
+    "start",
+    "part",
+    "front",
+    "back",
+    "layer",
+    "warp",
+    "quads",
+    "triangles",
+    "set",
+    "ties",
+    "end",
+];
 
 #[cfg(test)]
 mod tests;

@@ -84,7 +84,8 @@ impl<'a> Reader<'a> {
                 self.mesh.points = self.rows(count, "node", "x y z", vector)?;
             }
             ("nodes", [_]) => return Err("a second block of nodes; put all nodes in one".into()),
-            ("start", [count]) => self.start(count)?,
+            ("start", [count]) => self.mesh.start = self.places(keyword, count, self.mesh.start.len())?,
+            ("membrane", [count]) => self.mesh.membrane = self.places(keyword, count, self.mesh.membrane.len())?,
             ("part", [name]) => self.part(name)?,
             ("front", [name]) => once(&mut self.current()?.front, name, keyword)?,
             ("back", [name]) => once(&mut self.current()?.back, name, keyword)?,
@@ -122,16 +123,17 @@ impl<'a> Reader<'a> {
         self.mesh.parts.last_mut().ok_or_else(|| "this belongs to a part; write `part NAME` before it".to_string())
     }
 
-    fn start(&mut self, count: &str) -> Result<(), String> {
-        if !self.mesh.start.is_empty() {
-            return Err("a second block of start places; put all in one".into());
+    /// Places of all nodes, of which there were `before`.
+    fn places(&mut self, kind: &str, count: &str, before: usize) -> Result<Vec<[f64; 3]>, String> {
+        if before > 0 {
+            return Err(format!("a second block of {kind} places; put all in one"));
         }
-        self.mesh.start = self.rows(count, "start place", "x y z", vector)?;
-        let (found, wanted) = (self.mesh.start.len(), self.mesh.points.len());
+        let places = self.rows(count, &format!("{kind} place"), "x y z", vector)?;
+        let (found, wanted) = (places.len(), self.mesh.points.len());
         if found == wanted {
-            Ok(())
+            Ok(places)
         } else {
-            Err(format!("{found} start places for {wanted} nodes; give one per node"))
+            Err(format!("{found} {kind} places for {wanted} nodes; give one per node"))
         }
     }
 

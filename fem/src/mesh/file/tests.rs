@@ -67,6 +67,7 @@ fn what_was_written_is_read_back_bit_by_bit() {
     odd.points[6] = [f64::MAX, 0.1 + 0.2, -1.0 / 3.0];
     odd.ties.push(Tie { node: 5, to: vec![(0, 1.0 / 3.0), (1, 2.0 / 3.0)] });
     odd.sets.insert("nobody".into(), Vec::new());
+    odd.membrane = odd.points.iter().rev().copied().collect();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.mesh");
     for mesh in [
@@ -80,8 +81,8 @@ fn what_was_written_is_read_back_bit_by_bit() {
         let again = read(&path).unwrap();
         assert_eq!(again, mesh);
         // Equality does not see the sign of zero.
-        let bits =
-            |mesh: &Mesh| mesh.points.iter().chain(&mesh.start).flatten().map(|x| x.to_bits()).collect::<Vec<_>>();
+        let places = |mesh: &Mesh| [mesh.points.clone(), mesh.membrane.clone(), mesh.start.clone()].concat();
+        let bits = |mesh: &Mesh| places(mesh).as_flattened().iter().map(|x| x.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&again), bits(&mesh));
     }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
@@ -109,7 +110,7 @@ fn every_fault_is_named_with_its_line() {
             "part cloth",
             "prt cloth",
             9,
-            "unknown keyword `prt`; did you mean `part`? (known: mesh, nodes, start, part, front, \
+            "unknown keyword `prt`; did you mean `part`? (known: mesh, nodes, membrane, start, part, front, \
           back, layer, warp, quads, triangles, set, ties, end)",
         ),
         ("part cloth", "part", 9, "`part` has 0 words after it; write `part NAME, one word`"),
@@ -137,6 +138,7 @@ fn every_fault_is_named_with_its_line() {
         ("end 6 2", "end 6 2\nend 6 2", 24, "`end` after `end`; remove what follows"),
         ("end 6 2", "nodes 1\n0 0 0\nend 6 2", 23, "a second block of nodes; put all nodes in one"),
         ("end 6 2", "start 1\n0 0 0\nend 6 2", 24, "1 start places for 6 nodes; give one per node"),
+        ("end 6 2", "membrane 1\n0 0 0\nend 6 2", 24, "1 membrane places for 6 nodes; give one per node"),
     ] {
         assert!(SMALL.contains(wrong), "{wrong}");
         let error = parsed(&SMALL.replacen(wrong, by, 1)).unwrap_err();

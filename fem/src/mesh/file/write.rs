@@ -28,8 +28,10 @@ pub fn text(mesh: &Mesh) -> Result<String, FemError> {
     numbers(mesh)?;
     let mut out = String::from("mesh 1\n");
     block(&mut out, "nodes", &mesh.points, floats);
-    if !mesh.start.is_empty() {
-        block(&mut out, "start", &mesh.start, floats);
+    for (keyword, places) in [("membrane", &mesh.membrane), ("start", &mesh.start)] {
+        if !places.is_empty() {
+            block(&mut out, keyword, places, floats);
+        }
     }
     for part in &mesh.parts {
         part_text(&mut out, part)?;

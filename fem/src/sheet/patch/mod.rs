@@ -13,7 +13,7 @@ use models::Fabric;
 use models::fabrics::Past;
 
 use super::bending::BendingMatrix;
-use super::group::{Constants, Group, Item, LANES};
+use super::group::{Group, Item, LANES, Shape, Stock};
 use super::kernel::Strain;
 use bend::Bend;
 use pass::Pass;
@@ -89,7 +89,8 @@ pub struct Patch {
     given: Vec<Stretch>,
     runs: Vec<Run>,
     groups: Vec<Group>,
-    constants: Vec<Constants>,
+    shapes: Vec<Shape>,
+    stocks: Vec<Stock>,
     /// Mesh number of the element in each lane, `u32::MAX` where another lane or patch reports it.
     pub element: Vec<[u32; LANES]>,
     /// Own node and place in `scratch` of every corner force of elements outside regular rows, in the order of nodes.
@@ -173,7 +174,8 @@ impl Patch {
             past: if memory { vec![[[0.0; 2]; LANES]; build.groups.len()] } else { Vec::new() },
             runs: build.runs,
             groups: build.groups,
-            constants: build.constants,
+            shapes: build.shapes.items,
+            stocks: build.stocks.items,
             element: build.element,
             corners: build.corners,
             bend,
@@ -201,10 +203,11 @@ impl Patch {
             let fabric = &fabrics[run.key.fabric];
             for g in run.regular.clone().chain(run.other.clone()) {
                 let [e1, e2, e3] = &self.strains[g].0;
-                let constants = &self.constants[self.groups[g].constants as usize];
+                let group = &self.groups[g];
+                let (shape, stock) = (&self.shapes[group.shape as usize], &self.stocks[group.stock as usize]);
                 for (l, past) in self.past[g].iter_mut().enumerate() {
                     fabric.remember([e1[l], e2[l], e3[l]], past);
-                    let weight = constants.own[l] * constants.area[l];
+                    let weight = stock.own[l] * shape.area[l];
                     self.sums.hysteresis += weight * fabric.dissipated(past);
                 }
             }
@@ -224,15 +227,39 @@ impl Patch {
     }
 }
 
+/// A list without repetitions.
+struct Distinct<T> {
+    items: Vec<T>,
+    /// Places by key.
+    known: BTreeMap<Vec<i64>, u32>,
+}
+
+impl<T> Default for Distinct<T> {
+    fn default() -> Distinct<T> {
+        Distinct { items: Vec::new(), known: BTreeMap::new() }
+    }
+}
+
+impl<T> Distinct<T> {
+    /// Place of the item with this key, added if it is new.
+    fn place(&mut self, key: Vec<i64>, item: T) -> u32 {
+        let next = self.items.len() as u32;
+        let place = *self.known.entry(key).or_insert(next);
+        if place == next {
+            self.items.push(item);
+        }
+        place
+    }
+}
+
 /// A patch while its groups are packed.
 #[derive(Default)]
 struct Build {
     own: Range<usize>,
     runs: Vec<Run>,
     groups: Vec<Group>,
-    constants: Vec<Constants>,
-    /// Places of the constants by their keys.
-    known: BTreeMap<Vec<i64>, u32>,
+    shapes: Distinct<Shape>,
+    stocks: Distinct<Stock>,
     element: Vec<[u32; LANES]>,
     /// Groups outside regular rows so far.
     others: usize,
@@ -297,13 +324,9 @@ impl Build {
             _ => u32::MAX,
         };
         self.element.push(std::array::from_fn(reported));
-        let constants = Constants::pack(chunk, counted);
-        let next = self.constants.len() as u32;
-        let place = *self.known.entry(constants.key()).or_insert(next);
-        if place == next {
-            self.constants.push(constants);
-        }
-        self.groups.push(Group::pack(chunk, place));
+        let (shape, stock) = (Shape::pack(chunk), Stock::pack(chunk, counted));
+        let (shape, stock) = (self.shapes.place(shape.key(), shape), self.stocks.place(stock.key(), stock));
+        self.groups.push(Group::pack(chunk, shape, stock));
     }
 
     fn note_corners(&mut self, chunk: &[Item]) {

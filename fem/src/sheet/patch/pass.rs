@@ -96,7 +96,8 @@ fn run<S: Simd, L: Law, const BOOKS: bool>(
             pressure: pressure(key.back) - pressure(key.front),
             rate: shared.rate,
             groups: &patch.groups[groups.clone()],
-            constants: &patch.constants,
+            shapes: &patch.shapes,
+            stocks: &patch.stocks,
             past: if patch.past.is_empty() { &[] } else { &patch.past[groups.clone()] },
         };
         let scratch = if in_rows { 0..0 } else { scratch..scratch + groups.len() };
