@@ -3,8 +3,8 @@
 use crate::FemError;
 use crate::problem::Amplitude;
 
-/// Rings under a taped sheet are this much closer than its element size: its margins of stuck plies fold across in the middle of
-/// every pouch, and with seven rows from weld to middle the fold is not resolved.
+/// Distance of the rings under a taped sheet over its element size: its margins of stuck plies fold across in the middle of every
+/// pouch, and with seven rows from weld to middle seams snap or hold from seed to seed.
 pub(super) const TAPED_SPACING: f64 = 0.8;
 
 /// Mesh, fabrication and loading of a robot.

@@ -18,8 +18,8 @@ pub struct Group {
     pub node: [[u32; 4]; LANES],
 }
 
-/// Stress-free shape of eight elements and what follows from it. In a structured mesh most groups share theirs, which then stays in the first cache;
-/// where every element has its own, as in a wavy robot, this is what each step must fetch, so nothing else is here.
+/// Stress-free shape of eight elements and what follows from it. In a structured mesh most groups share theirs, which then
+/// stays in the first cache; where every element has its own, as in a wavy robot, this is what each step must fetch.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
 pub struct Shape {

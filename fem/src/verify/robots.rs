@@ -25,7 +25,7 @@ pub(super) const CHECK: Check = Check {
     run,
 };
 
-/// Scenario, measured tip \[mm\], seeds: where it stands nearest to its limit, the mean of several.
+/// Scenario, measured tip \[mm\], seeds: the sPAM's seams are nearest to snapping, so it is the mean of three.
 const MEASURED: [(&str, f64, u64); 4] = [("spam", 67.5, 3), ("cpam", 159.7, 1), ("epam", 119.4, 1), ("fpam", 67.2, 1)];
 /// Robots that one of the calibrated numbers concerns.
 const CALIBRATED: [&str; 2] = ["spam", "fpam"];
