@@ -18,7 +18,7 @@ enum News<T> {
 /// user interrupted it; then nothing new is begun, and the answer is the number of jobs that were done.
 ///
 /// # Errors
-/// The first that a job gave; the jobs that run beside it are finished before.
+/// That of the first job in their order that failed; the jobs that run beside it are finished before.
 pub fn together<T: Send>(
     count: usize,
     workers: usize,
@@ -27,7 +27,7 @@ pub fn together<T: Send>(
 ) -> Result<Result<Vec<T>, usize>, Failure> {
     let next = AtomicUsize::new(0);
     let mut done: Vec<Option<T>> = (0..count).map(|_| None).collect();
-    let mut fault = None;
+    let mut faults = BTreeMap::new();
     std::thread::scope(|scope| {
         let (tell, hear) = channel();
         for _ in 0..workers.clamp(1, count.max(1)) {
@@ -64,14 +64,14 @@ pub fn together<T: Send>(
                     standing.remove(&index);
                     match found {
                         Ok(found) => done[index] = found,
-                        Err(error) => fault = fault.take().or(Some(error)),
+                        Err(error) => _ = faults.insert(index, error),
                     }
                 }
             }
         }
     });
-    if let Some(error) = fault {
-        return Err(error);
+    if let Some((_, first)) = faults.pop_first() {
+        return Err(first);
     }
     let ended = done.iter().flatten().count();
     let all: Option<Vec<T>> = done.into_iter().collect();
@@ -137,6 +137,15 @@ mod tests {
         assert_eq!((interrupted.unwrap().unwrap_err(), shares.len()), (2, 3));
         let (failed, shares) = tried(5, 1, &|i| if i < 2 { Ok(Some(i)) } else { Err(Failure::usage("no", "yes")) });
         assert!(failed.is_err() && shares.len() == 3);
+    }
+
+    #[test]
+    fn of_several_errors_the_first_jobs_is_told_whichever_came_first() {
+        let (failed, _) = tried(3, 3, &|i| {
+            std::thread::sleep(std::time::Duration::from_millis(40 * (2 - i) as u64));
+            if i == 0 { Ok(Some(0)) } else { Err(Failure::usage(format!("job {i}"), "yes")) }
+        });
+        assert!(failed.unwrap_err().to_string().contains("job 1"));
     }
 
     #[test]

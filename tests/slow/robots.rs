@@ -42,11 +42,14 @@ fn seeds_and_separate_pressures_are_runs_of_their_own_which_are_kept() {
     assert_eq!(simulate(&folder, &more)["runs"], answer["runs"], "the same from what is kept");
     let after = std::fs::metadata(folder.path("batch/seed-1-10kPa/manifest.json")).unwrap().modified().unwrap();
     assert_eq!(before, after);
+    // The first is free again: the second refuses before any is begun.
+    std::fs::remove_dir_all(folder.path("batch/seed-1-10kPa")).unwrap();
     let other = folder.run(&[&["simulate", "epam"], &QUICK[..], &more, &["--set", "hourglass=0.02"]].concat());
     assert_eq!(other.code, 3);
-    for words in ["batch/seed-1-10kPa", "another case", "--force"] {
+    for words in ["batch/seed-1-15kPa", "another case", "--force"] {
         assert!(other.stderr.contains(words), "{words}: {}", other.stderr);
     }
+    assert!(!folder.path("batch/seed-1-10kPa").exists());
 }
 
 #[test]

@@ -68,6 +68,9 @@ fn rows(
     }
     let first = |index: usize| loaded.iter().position(|(_, print)| *print == loaded[index].1).unwrap_or(index);
     let jobs: Vec<usize> = (0..cases.len()).filter(|index| first(*index) == *index).collect();
+    for &index in &jobs {
+        holds_another(&loaded[index].0, &manner.folder.join(&cases[index].label), manner.force)?;
+    }
     let (workers, threads) = shared(manner.threads, jobs.len());
     let each = Manner { threads, ..manner.clone() };
     let found = together(jobs.len(), workers, context, &|job, inner: &mut Context| {
@@ -96,13 +99,7 @@ pub fn one(
     context: &mut Context,
 ) -> Result<Option<(Value, Value)>, Failure> {
     let folder = manner.folder.join(label);
-    let case = folder.join("case.toml");
-    let other = case.exists() && std::fs::read_to_string(&case).map_err(|e| write_failure(&case, &e))? != named.text;
-    if other && !manner.force {
-        let cause = "it holds a run of another case, or the case has changed".into();
-        let help = "choose another folder with --out, or add --force to run it again".into();
-        return Err(Failure::Write { path: folder.display().to_string(), cause, help });
-    }
+    let other = holds_another(named, &folder, manner.force)?;
     let manner = Manner { folder, resume: !other, force: other, ..manner.clone() };
     let Context { json, progress, written, interrupt } = context;
     let mut tell = |text: &str, share: Option<f64>| progress(&format!("{what}: {text}"), share);
@@ -111,6 +108,18 @@ pub fn one(
         Done::Now { summary, cost, .. } | Done::Before { summary, cost } => Ok(Some((summary, cost))),
         Done::Interrupted { .. } => Ok(None),
     }
+}
+
+/// Whether the folder holds a run of another case, which is an error unless it may be overwritten.
+fn holds_another(named: &Named, folder: &Path, force: bool) -> Result<bool, Failure> {
+    let case = folder.join("case.toml");
+    let other = case.exists() && std::fs::read_to_string(&case).map_err(|e| write_failure(&case, &e))? != named.text;
+    if other && !force {
+        let cause = "it holds a run of another case, or the case has changed".into();
+        let help = "choose another folder with --out, or add --force to run it again".into();
+        return Err(Failure::Write { path: folder.display().to_string(), cause, help });
+    }
+    Ok(other)
 }
 
 fn heights(summary: &Value) -> Vec<[f64; 3]> {
