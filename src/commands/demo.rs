@@ -27,8 +27,8 @@ pub fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
 /// The run that is made here and now: a little coarse and fast, to be quick.
 const SMALL: &[(&str, &str)] = &[
     ("actuator_mesh_mm", "4"),
-    ("body_ramp_s", "0.05"),
-    ("actuator_ramp_s", "0.3"),
+    ("body_ramp_s", "0.02"),
+    ("actuator_ramp_s", "0.18"),
     ("pressures_kpa", "[10, 20, 30]"),
 ];
 

@@ -58,6 +58,7 @@ pub(super) fn settings(raw: &RawSettings) -> Checked<Settings> {
     set(&mut settings.imperfection, optional("imperfection", &raw.imperfection, &IMPERFECTION)?);
     settings.dt_s = optional("dt_s", &raw.dt_s, &STEP)?;
     settings.mass_scaling = mass_scaling(raw)?.unwrap_or(settings.mass_scaling);
+    settings.selective_mass = raw.selective_mass.unwrap_or(settings.selective_mass);
     settings.seed = seed(raw)?.unwrap_or(settings.seed);
     settings.guards = guards(raw)?;
     not_too_many(raw, &settings)?;

@@ -221,6 +221,7 @@ fn numerics(problem: &Problem, settings: &RobotSettings) -> Settings {
     Settings {
         end_s: settings.body_ramp_s + settings.actuator_ramp_s + settings.hold_s,
         mass_scaling: MassScaling::TargetStep(settings.mass_factor.sqrt() * smallest / fastest),
+        selective_mass: settings.selective_mass,
         mass_damping_1_s: settings.mass_damping_1_s,
         hourglass: settings.hourglass,
         imperfection: settings.imperfection,

@@ -24,14 +24,14 @@ fn refused(more: &str) -> (String, String) {
 #[test]
 fn keys_of_the_table_become_settings_in_si_over_the_preset() {
     let (_, run) = parsed(
-        "actuator_mesh_mm = 3\nmesh_mm = 5\nloading = \"published\"\nbond = 0.25\nseed = 7\nnu12 = 0.1\ncontact = true",
+        "actuator_mesh_mm = 3\nmesh_mm = 5\nloading = \"published\"\nbond = 0.25\nseed = 7\nnu12 = 0.1\ncontact = true\nselective_mass = true",
     )
     .unwrap();
     let s = &run.settings;
     assert_eq!((s.body_size_m, s.actuator_size_m, s.bond, s.seed), (5e-3, 3e-3, 0.25, 7));
     assert_eq!(
-        (s.nu12, s.contact, s.actuator_ramp_s),
-        (Some(0.1), Some(true), RobotSettings::published().actuator_ramp_s)
+        (s.nu12, s.contact, s.selective_mass, s.actuator_ramp_s),
+        (Some(0.1), Some(true), true, RobotSettings::published().actuator_ramp_s)
     );
     assert_eq!(run.pressures_pa, [10e3, 20e3, 30e3], "those that the scenario predicts at");
     let (_, plain) = parsed("").unwrap();
@@ -62,6 +62,8 @@ fn faults_of_the_table_are_refused_with_their_place() {
         ("pressures_kpa = [10000]", "looks like pascals", "[10000]"),
         ("pressures_kpa = []", "[10, 20, 30]", "[]"),
         ("seed = 1.5", "whole number", "1.5"),
+        ("selective_mass = 1", "selective_mass must be true or false", "1"),
+        ("contact = \"yes\"", "leave it out: where the pattern folds", "\"yes\""),
         ("tip_force_n = [1, 2]", "three numbers", "[1, 2]"),
         ("obstacle_friction = 0.2", "add obstacle_mm", "obstacle_friction"),
     ] {

@@ -95,7 +95,8 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// Keys that are no single number.
-const OTHERS: [&str; 6] = ["loading", "pressures_kpa", "contact", "tip_force_n", "obstacle_mm", "obstacle_friction"];
+const OTHERS: [&str; 7] =
+    ["loading", "pressures_kpa", "contact", "selective_mass", "tip_force_n", "obstacle_mm", "obstacle_friction"];
 
 /// Shortest time at each pressure over the actuator's ramp, unless `hold_s` is given.
 const HOLD: f64 = 0.06;
@@ -166,12 +167,8 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
     match name {
         "loading" => {}
         "pressures_kpa" => run.pressures_pa = pressures(value)?,
-        "contact" => match value.get_ref().as_bool() {
-            Some(wanted) => run.settings.contact = Some(wanted),
-            None => {
-                return refuse("contact must be true or false", "leave it out: where the pattern folds", value.span());
-            }
-        },
+        "contact" => run.settings.contact = Some(yes_or_no(name, value, "where the pattern folds")?),
+        "selective_mass" => run.settings.selective_mass = yes_or_no(name, value, "true")?,
         "tip_force_n" => run.tip_force_n = triple(name, value, &plain(-1e4, 1e4, "write newtons: [x, y, z]"))?,
         "obstacle_mm" => {
             let [x, y, radius] = triple(name, value, &POSITION)?;
@@ -194,6 +191,11 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
         }
     }
     Ok(())
+}
+
+fn yes_or_no(name: &str, value: &Spanned<Value>, without: &str) -> Checked<bool> {
+    let told = || refuse(format!("{name} must be true or false"), format!("leave it out: {without}"), value.span());
+    value.get_ref().as_bool().map_or_else(told, Ok)
 }
 
 fn plain_number(name: &str, value: &Spanned<Value>) -> Checked<f64> {

@@ -69,7 +69,15 @@ impl Simulation {
         setup::give_tied_bounds(&self.mesh, &mut bound);
         let nodes = setup::stable_step(&bound, &self.mass, self.limits.viscosity);
         if self.clock.step.is_multiple_of(WHOLE) {
-            self.clock.gain = highest::gain(&self.sheet, &self.mesh.ties, &self.x, others, &self.mass, nodes);
+            self.clock.gain = highest::gain(
+                &self.sheet,
+                &self.mesh.ties,
+                &self.x,
+                others,
+                &self.mass,
+                nodes,
+                self.selective.as_ref(),
+            );
         }
         let stable = self.clock.gain * nodes;
         match self.limits.forced_dt_s {

@@ -4,12 +4,14 @@
 //! Δt² λ(Δt)/4 = 1,   λ(Δt) = largest eigenvalue of M⁻¹ (K + 2 C/Δt)        γ = Δt/Δt(bounds) ≥ 1
 //! ```
 //! K: A Bᵀ D B of every element at its stiffest state, plus the nodes' bounds of everything else; C: viscosity. λ by Lanczos from
-//! a fixed start vector. Δt(bounds) stands for Δt in λ: it is shorter, so C counts too much rather than too little. Supports and
+//! a fixed start vector. A shorter step stands for Δt in λ, so C counts too much rather than too little: Δt(bounds), with selective masses
+//! what was found with it. Supports and
 //! rigid bodies only lower the mode and are left out.
 //!
 //! Between two estimates the bounds follow the shape, and γ stays; `cfl` covers what it changes.
 //! Source: the global estimator of explicit codes; Lanczos as in Golub, Van Loan, Matrix Computations, ch. 10.
 
+use super::selective::Selective;
 use super::{constraint, setup};
 use crate::mesh::Tie;
 use crate::sheet::Sheet;
@@ -24,7 +26,7 @@ const LOOK: usize = 5;
 const ENOUGH: f64 = 5e-4;
 
 /// γ at positions `x`: the stable step of the whole mesh over that of the nodes' bounds, `nodes_s`; `others` are the bounds of
-/// all terms but the shells \[N/m\], `mass` the nodes' \[kg\].
+/// all terms but the shells \[N/m\], `mass` the nodes' \[kg\], `selective` what smooths their velocities.
 pub(super) fn gain(
     sheet: &Sheet,
     ties: &[Tie],
@@ -32,29 +34,37 @@ pub(super) fn gain(
     mut others: Vec<f64>,
     mass: &[f64],
     nodes_s: f64,
+    selective: Option<&Selective>,
 ) -> f64 {
     let tangents = sheet.tangents(x.as_flattened(), &mut others);
-    let root = |m: &f64| if *m > 0.0 { 1.0 / m.sqrt() } else { 0.0 };
-    let whole = Whole { tangents, rest: others, ties, light: mass.iter().map(root).collect(), rate_1_s: 2.0 / nodes_s };
-    let highest_1_s = SURE * whole.highest_1_s2().sqrt();
-    let gain = 2.0 / (highest_1_s * nodes_s);
+    let inverse = |m: &f64| if *m > 0.0 { 1.0 / m } else { 0.0 };
+    let inverse = mass.iter().map(inverse).collect();
+    let mut whole = Whole { tangents, rest: others, ties, inverse, selective, rate_1_s: 2.0 / nodes_s };
+    let mut gain = 2.0 / (SURE * whole.highest_1_s2().sqrt() * nodes_s);
+    if selective.is_some() && gain > 1.0 {
+        // Twice the step is viscosity's half: once more, from a step that is still too short.
+        whole.rate_1_s /= gain;
+        gain = 2.0 / (SURE * whole.highest_1_s2().sqrt() * nodes_s);
+    }
     // Not a number, too: the bounds hold then.
     if gain > 1.0 { gain } else { 1.0 }
 }
 
-/// M^(−½) (K + 2 C/Δt) M^(−½).
+/// M⁻¹ (K + 2 C/Δt), symmetric in the product uᵀ (K + 2 C/Δt) v.
 struct Whole<'a> {
     tangents: Vec<Tangent>,
     rest: Vec<f64>,
     ties: &'a [Tie],
-    /// 1/√m; 0 for nodes without mass.
-    light: Vec<f64>,
+    /// 1/m; 0 for nodes without mass.
+    inverse: Vec<f64>,
+    selective: Option<&'a Selective>,
     rate_1_s: f64,
 }
 
 impl Whole<'_> {
-    fn times(&self, v: &[[f64; 4]]) -> Vec<[f64; 4]> {
-        let mut u: Vec<[f64; 4]> = v.iter().zip(&self.light).map(|(v, w)| v.map(|v| w * v)).collect();
+    /// (K + 2 C/Δt) v.
+    fn stiff(&self, v: &[[f64; 4]]) -> Vec<[f64; 4]> {
+        let mut u = v.to_vec();
         for tie in self.ties {
             let follow = |k: usize| tie.to.iter().map(|(n, w)| w * u[*n as usize][k]).sum::<f64>();
             u[tie.node as usize] = [follow(0), follow(1), follow(2), 0.0];
@@ -62,29 +72,38 @@ impl Whole<'_> {
         let mut force: Vec<[f64; 4]> = u.iter().zip(&self.rest).map(|(u, k)| u.map(|u| k * u)).collect();
         self.tangents.iter().for_each(|t| t.add(self.rate_1_s, &u, &mut force));
         constraint::hand_over(self.ties, &mut force);
-        force.iter_mut().zip(&self.light).for_each(|(f, w)| *f = f.map(|f| w * f));
         force
+    }
+
+    /// M⁻¹ f.
+    fn light(&self, force: &[[f64; 4]]) -> Vec<[f64; 4]> {
+        let u: Vec<[f64; 4]> = force.iter().zip(&self.inverse).map(|(f, w)| f.map(|f| w * f)).collect();
+        self.selective.map_or(u.clone(), |selective| selective.smoothed(&u))
     }
 
     /// The largest eigenvalue, from below.
     fn highest_1_s2(&self) -> f64 {
         let draw = |i: usize| [0, 1, 2].map(|k| setup::gaussian(0, (4 * i + k) as u64));
-        let start = |(i, w): (usize, &f64)| if *w > 0.0 { draw(i) } else { [0.0; 3] };
-        let mut v: Vec<[f64; 4]> = self.light.iter().enumerate().map(start).map(|[x, y, z]| [x, y, z, 0.0]).collect();
+        let start = |(i, w): (usize, &f64)| if *w > 0.0 { draw(i).map(|d| d / w) } else { [0.0; 3] };
+        let start = self.inverse.iter().enumerate().map(start).map(|[x, y, z]| [x, y, z, 0.0]);
+        let mut v = self.light(&start.collect::<Vec<_>>());
+        let mut pull = self.stiff(&v);
         let mut before = vec![[0.0; 4]; v.len()];
         let (mut diagonal, mut beside, mut largest) = (Vec::new(), Vec::new(), 0.0);
-        let mut length = norm(&v);
+        let mut length = inner(&v, &pull).sqrt();
         for step in 1..=MOST {
-            v.iter_mut().for_each(|v| *v = v.map(|v| v / length));
-            let mut next = self.times(&v);
-            let own = inner(&next, &v);
+            v.iter_mut().chain(&mut pull).for_each(|v| *v = v.map(|v| v / length));
+            let mut next = self.light(&pull);
+            let own = inner(&next, &pull);
             let last = if step == 1 { 0.0 } else { length };
             for ((next, v), before) in next.iter_mut().zip(&v).zip(&before) {
                 (0..4).for_each(|k| next[k] -= own * v[k] + last * before[k]);
             }
             diagonal.push(own);
             before = std::mem::replace(&mut v, next);
-            length = norm(&v);
+            pull = self.stiff(&v);
+            // Rounding may leave less than nothing.
+            length = inner(&v, &pull).max(0.0).sqrt();
             if !(own.is_finite() && length.is_finite()) {
                 return f64::NAN;
             }
@@ -104,10 +123,6 @@ impl Whole<'_> {
 
 fn inner(a: &[[f64; 4]], b: &[[f64; 4]]) -> f64 {
     a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a * b).sum()
-}
-
-fn norm(a: &[[f64; 4]]) -> f64 {
-    inner(a, a).sqrt()
 }
 
 /// The largest eigenvalue of a symmetric tridiagonal matrix.

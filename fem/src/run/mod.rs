@@ -5,7 +5,7 @@
 //! Δt = cfl · γ · 2/ω · (√(1 + ξ²) − ξ),   ω² = maxᵢ kᵢ/mᵢ      kinetic(n) = ½ Σ m v(n−½)·v(n+½)
 //! ```
 //! α mass damping, ξ viscosity, kᵢ the stiffness bounds of all terms ([`models::Term::stiffness_bound`]), γ ≥ 1 what the
-//! highest mode of the whole mesh allows beyond them (`highest`). With this
+//! highest mode of the whole mesh allows beyond them (`highest`). With selective mass scaling m is a matrix (`selective`). With this
 //! kinetic energy the balance of a linear undamped system is kept to rounding.
 //! Reference: Belytschko, Liu, Moran, Nonlinear Finite Elements, ch. 6.
 
@@ -13,6 +13,7 @@ mod constraint;
 mod guard;
 mod highest;
 mod ledger;
+mod selective;
 mod setup;
 mod step;
 mod team;
@@ -31,6 +32,7 @@ use crate::sheet::Sheet;
 use crate::sheet::order::Order;
 use crate::{FemError, Mesh, Problem};
 use constraint::{Body, Driven};
+use selective::Selective;
 use team::Team;
 
 /// A run in progress.
@@ -56,6 +58,7 @@ pub struct Simulation {
     limits: Limits,
     x: Vec<[f64; 4]>,
     v: Vec<[f64; 4]>,
+    selective: Option<Selective>,
     force: Vec<[f64; 4]>,
     clock: Clock,
     books: Books,
@@ -160,6 +163,7 @@ impl Simulation {
         out.f64s(&[b.damping.sum, b.damping.last, b.support.sum, b.support.last]);
         out.f64s(self.x.as_flattened());
         out.f64s(self.v.as_flattened());
+        self.selective.iter().for_each(|s| out.f64s(&s.save()));
         out.bytes(&self.sheet.save());
         self.others().for_each(|term| out.bytes(&term.save()));
         self.bodies.iter().for_each(|body| out.f64s(&body.save()));
@@ -178,6 +182,9 @@ impl Simulation {
         self.books = Books { kinetic, stored, damping, support, start, scale };
         from.f64s_into(self.x.as_flattened_mut())?;
         from.f64s_into(self.v.as_flattened_mut())?;
+        if let Some(selective) = &mut self.selective {
+            selective.restore(&from.f64s()?)?;
+        }
         self.sheet.restore(from.bytes()?).then_some(())?;
         let contact = self.contact.iter_mut().map(|c| c as &mut dyn Term);
         let contact = contact.chain(self.edges.iter_mut().map(|e| e as &mut dyn Term));
@@ -214,7 +221,11 @@ impl Simulation {
     pub fn elements(&self) -> usize {
         self.sheet.elements.len()
     }
-    /// Mass added by mass scaling over true mass.
+    /// Whether waves of a few elements are heavy ([`crate::problem::Settings::selective_mass`]).
+    pub fn selective_mass(&self) -> bool {
+        self.selective.is_some()
+    }
+    /// Mass added by mass scaling over true mass; without what selective mass scaling adds to short waves.
     pub fn added_mass(&self) -> f64 {
         self.limits.added_mass
     }
@@ -232,7 +243,7 @@ impl Simulation {
     }
 
     /// Sets node velocities in mesh order \[m/s\]; before the first step. A rigid body takes their momentum and angular
-    /// momentum.
+    /// momentum. With selective mass scaling they are smoothed, momentum kept.
     pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) {
         for (place, v) in self.order.new.iter().zip(velocities) {
             self.v[*place as usize][..3].copy_from_slice(v);
@@ -240,6 +251,9 @@ impl Simulation {
         self.bodies.iter_mut().for_each(|body| body.take_velocities(&self.x, &self.v));
         for (node, axes) in &self.fixed {
             (0..3).filter(|k| axes[*k]).for_each(|k| self.v[*node as usize][k] = 0.0);
+        }
+        if let Some(selective) = &mut self.selective {
+            selective.begin(&mut self.v);
         }
     }
 

@@ -2,7 +2,8 @@
 
 use models::{Pose, Term};
 
-use super::constraint::{Body, Driven, bodies, driven};
+use super::constraint::{Body, Driven, bodies, driven, set};
+use super::selective::Selective;
 use super::team::Team;
 use super::{Books, Clock, Limits, Simulation, highest};
 use crate::contact::Contact;
@@ -34,7 +35,8 @@ impl Simulation {
         let mut x: Vec<[f64; 4]> = (0..count).map(|i| mesh.start_of(i)).map(|p| [p[0], p[1], p[2], 0.0]).collect();
         imperfect(&mut x, &mesh, &order, &fixed, settings.imperfection, settings.seed);
         let rest = RestCurvature::new(&mesh, &problem.sections);
-        let Masses { mass, added_mass, gain, dt_s } = masses_and_step(settings, &mesh, &sheet, &rest, &x)?;
+        let still = Still { fixed: listed(&fixed), carried: carried(problem, &mesh, &driven)? };
+        let Masses { mass, added_mass, gain, dt_s } = masses_and_step(settings, &mesh, &sheet, &rest, &x, &still)?;
         mesh.start = x.iter().map(|x| [x[0], x[1], x[2]]).collect();
         let terms = terms(problem, &mesh, &mass, dt_s, rest)?;
         let touching = problem.contact.as_ref();
@@ -50,6 +52,7 @@ impl Simulation {
             arch: pulp::Arch::new(),
             tie_offset: tie_offsets(&mesh, &x),
             v: vec![[0.0; 4]; count],
+            selective: still.selective(settings, &mesh, &mass),
             force: vec![[0.0; 4]; count],
             clock: Clock { step: 0, time_s: 0.0, dt_s, before_s: 0.0, longest_s: dt_s, gain },
             books: Books::default(),
@@ -92,6 +95,7 @@ fn masses_and_step(
     sheet: &Sheet,
     rest: &RestCurvature,
     x: &[[f64; 4]],
+    still: &Still,
 ) -> Result<Masses, FemError> {
     let mut mass = sheet.masses(x.len());
     give_tied_masses(mesh, &mut mass);
@@ -103,7 +107,8 @@ fn masses_and_step(
     give_tied_bounds(mesh, &mut bound);
     let gain = |mass: &[f64]| {
         let nodes = stable_step(&bound, mass, settings.viscosity);
-        (highest::gain(sheet, &mesh.ties, x, others.clone(), mass, nodes), nodes)
+        let selective = still.selective(settings, mesh, mass);
+        (highest::gain(sheet, &mesh.ties, x, others.clone(), mass, nodes, selective.as_ref()), nodes)
     };
     let true_mass: f64 = mass.iter().sum();
     // With masses for the bounds first: what the whole mesh then gains in step, it does not need in mass.
@@ -114,6 +119,30 @@ fn masses_and_step(
     let (gain, nodes) = gain(&mass);
     let dt_s = choose_step(gain * nodes, settings.cfl, settings.dt_s)?;
     Ok(Masses { mass, added_mass, gain, dt_s })
+}
+
+/// What does not move as forces say.
+struct Still {
+    fixed: Vec<(u32, [bool; 3])>,
+    /// Nodes that others set, all axes of them.
+    carried: Vec<bool>,
+}
+
+impl Still {
+    fn selective(&self, settings: &Settings, mesh: &Mesh, mass: &[f64]) -> Option<Selective> {
+        settings.selective_mass.then(|| Selective::new(mesh, mass, &self.fixed, &self.carried))
+    }
+}
+
+/// Nodes of bodies, ties and moving supports.
+fn carried(problem: &Problem, mesh: &Mesh, driven: &[Driven]) -> Result<Vec<bool>, FemError> {
+    let mut carried = vec![false; mesh.points.len()];
+    for rigid in &problem.rigid {
+        set(mesh, &rigid.set, "rigid")?.iter().for_each(|node| carried[*node as usize] = true);
+    }
+    let others = driven.iter().flat_map(|d| &d.nodes).chain(mesh.ties.iter().map(|t| &t.node));
+    others.for_each(|node| carried[*node as usize] = true);
+    Ok(carried)
 }
 
 /// Axes whose velocities are set; `fixed` gets those of bodies and ties, too.

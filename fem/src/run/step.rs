@@ -20,7 +20,7 @@ const RECHECK: u64 = 512;
 const RECHECK_STIFFENING: u64 = 128;
 /// Most nodes per piece of the update; fixed, so that sums have one order. Handing a piece to another thread takes as long as
 /// some hundred nodes.
-const PIECE: usize = 3072;
+pub(super) const PIECE: usize = 3072;
 
 impl Simulation {
     /// Steps until the time is reached or `go_on` (called every few dozen steps, on a thread of the run) returns false.
@@ -119,12 +119,18 @@ impl Simulation {
         for body in &mut self.bodies {
             body.step(dv, dt, self.limits.damping_1_s, &self.force, &self.x, &mut self.v);
         }
-        let before = if self.clock.step == 0 { kinetic(&self.mass, &self.v) } else { 0.0 };
+        let before = if self.clock.step == 0 { self.kinetic_at_start() } else { 0.0 };
         self.hold_driven();
         let update = Update { dv, dt, damping: self.limits.damping_1_s, arch: self.arch };
-        let [kinetic, damped] = update.all(&self.mass, &mut self.force, &mut self.v, &mut self.x);
+        let [kinetic, damped] = match &mut self.selective {
+            Some(selective) => selective.step(update, &mut self.force, &mut self.v, &mut self.x),
+            None => update.all(&self.mass, &mut self.force, &mut self.v, &mut self.x),
+        };
         self.place_driven();
         constraint::follow(&self.mesh.ties, &self.tie_offset, &mut self.x, &mut self.v);
+        if let Some(selective) = &mut self.selective {
+            selective.carry(&self.moved, &self.v);
+        }
         if self.clock.step == 0 {
             self.books.start = stored + before;
         }
@@ -138,6 +144,14 @@ impl Simulation {
 }
 
 impl Simulation {
+    fn kinetic_at_start(&self) -> f64 {
+        let each = |(m, v): (&f64, &[f64; 4])| 0.5 * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        match &self.selective {
+            Some(selective) => 0.5 * selective.twice_j,
+            None => self.mass.iter().zip(&self.v).map(each).sum(),
+        }
+    }
+
     /// Takes the forces off prescribed axes, so that the update leaves what stands still at rest, and remembers the
     /// velocities that supports, bodies and ties set.
     fn hold_driven(&mut self) {
@@ -161,17 +175,16 @@ impl Simulation {
     }
 }
 
-fn kinetic(mass: &[f64], v: &[[f64; 4]]) -> f64 {
-    mass.iter().zip(v).map(|(m, v)| 0.5 * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])).sum()
-}
-
 /// The update of velocities and positions; leaves the forces at zero.
 #[derive(Clone, Copy)]
-struct Update {
-    dv: f64,
-    dt: f64,
-    damping: f64,
-    arch: pulp::Arch,
+pub(super) struct Update {
+    /// Between the mid-steps \[s\].
+    pub dv: f64,
+    /// The step \[s\].
+    pub dt: f64,
+    /// α \[1/s\].
+    pub damping: f64,
+    pub arch: pulp::Arch,
 }
 
 impl Update {

@@ -89,7 +89,7 @@ fn setting(text: &str) -> Result<(String, String), Failure> {
     };
     let (key, value) = (key.trim(), value.trim());
     let known = KEYS.iter().any(|k| k.name == key)
-        || ["loading", "contact", "tip_force_n", "obstacle_mm", "obstacle_friction"].contains(&key);
+        || ["loading", "contact", "selective_mass", "tip_force_n", "obstacle_mm", "obstacle_friction"].contains(&key);
     match known {
         true if key == "loading" => Ok((key.into(), format!("\"{}\"", value.trim_matches('"')))),
         true => Ok((key.into(), value.into())),

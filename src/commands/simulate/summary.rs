@@ -54,6 +54,7 @@ fn physics(case: &Case, running: &Running, robot: Option<&Robot>) -> Value {
         "schema": "ibr.simulate", "version": 1, "name": case.problem.name, "engine": fem::ENGINE, "robot": read,
         "time_s": run.time_s(), "steps": run.step(), "dt_s": run.dt_s(),
         "nodes": mesh.points.len(), "elements": run.elements(), "added_mass_share": run.added_mass(),
+        "selective_mass": run.selective_mass(),
         "quality": quality(case),
         "probes": probes, "chambers": chambers,
         "ledger": rows, "kinetic_j": ledger.kinetic_j, "external_work_j": ledger.external_work_j,
@@ -133,8 +134,9 @@ pub fn text(s: &Value) -> String {
     );
     if number(&s["added_mass_share"]) > 0.0 {
         out.push_str(&format!(
-            "mass added by scaling: {:.1} % of the true mass\n",
-            100.0 * number(&s["added_mass_share"])
+            "mass added by scaling: {:.1} % of the true mass{}\n",
+            100.0 * number(&s["added_mass_share"]),
+            if s["selective_mass"] == true { ", more to waves of a few elements" } else { "" }
         ));
     }
     if let [Some(min), Some(median), Some(max)] = [0, 1, 2].map(|i| s["quality"]["side_mm"][i].as_f64()) {

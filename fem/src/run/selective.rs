@@ -1,0 +1,336 @@
+//! Selective mass scaling: waves of a few elements, which limit the step, are heavy; long ones keep the lumped mass.
+//!
+//! ```text
+//! M⁻¹ = (F² + ε) D⁻¹ / (1 + ε)      F = 1 − D⁻¹ L      L = Σ wᵢⱼ (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ over the sides of the elements
+//! u(n+½) = [u(n−½)(1 − ½αΔt) + Δt f(n)/m] / (1 + ½αΔt)      v = D M⁻¹ u      kinetic(n) = ½ Σ m v(n−½)·u(n+½)
+//! ```
+//! D lumped masses; u = D⁻¹ M v momentum per lumped mass, which is what is stepped; wᵢⱼ = ½ s cᵢⱼ min(mᵢ/dᵢ, mⱼ/dⱼ) with the number
+//! cᵢⱼ of elements at a side, dᵢ = Σ cᵢⱼ and s [`SHARE`]. D⁻¹L is 0 for what moves as one, ½ s (sin²(θ/2) + sin²(φ/2)) for waves of a grid
+//! whose phase grows by θ and φ from element to element, and at most s. A grid's membrane then allows 2.4 times the step, or the
+//! same step with a sixth of the mass. A wave of n elements is slower by 0.9 sin²(π/n), beside (π/n)²/6 of lumping.
+//!
+//! M⁻¹ is symmetric and not negative and acts on each axis alike: momentum, angular momentum (of m u) and energy are kept as
+//! with lumped masses. Nodes that rigid bodies, ties or moving supports carry are left out. Not for `contact::edges`,
+//! which divides by a node's own mass.
+//!
+//! Source: Olovsson, Simonsson, Unosson, Int. J. Numer. Meth. Eng. 63 (2005), and for the inverse, which needs no solver, Tkachuk,
+//! Bischoff, Int. J. Numer. Meth. Eng. 101 (2015); this form: this project.
+
+use super::step::{PIECE, Update};
+use crate::mesh::Mesh;
+
+/// s: waves of two elements along one side of a grid have D⁻¹L = 0.9.
+const SHARE: f64 = 1.8;
+/// ε: no wave is heavier than a hundred times its lumped mass, or it would not settle.
+const LEAST: f64 = 0.01;
+
+/// M⁻¹ of a mesh, and the momenta.
+#[derive(Debug, Clone)]
+pub struct Selective {
+    /// Where the links of a node begin.
+    first: Vec<u32>,
+    /// Nodes at the other ends.
+    ends: Vec<u32>,
+    /// w \[kg\] of the links.
+    weights: Vec<f64>,
+    rows: Vec<Row>,
+    /// Prescribed axes, which stand still or are set by others.
+    fixed: Vec<(u32, [bool; 3])>,
+    /// u \[m/s\].
+    pub u: Vec<[f64; 4]>,
+    /// F u.
+    half: Vec<[f64; 4]>,
+    /// Places of the fixed nodes during a step \[m\].
+    held: Vec<[f64; 4]>,
+    /// Σ m u·v \[J\].
+    pub twice_j: f64,
+}
+
+/// A node's own numbers.
+#[derive(Debug, Clone, Copy)]
+struct Row {
+    mass: f64,
+    /// 1/m; 0 for nodes without mass.
+    inverse: f64,
+    /// 1 − Σ w/m.
+    own: f64,
+}
+
+impl Selective {
+    /// For lumped masses; `carried` nodes are left out.
+    pub fn new(mesh: &Mesh, mass: &[f64], fixed: &[(u32, [bool; 3])], carried: &[bool]) -> Selective {
+        let shared = shared(mesh, |node| mass[node as usize] > 0.0 && !carried[node as usize]);
+        let count: Vec<f64> = shared.iter().map(|row| row.iter().map(|(_, c)| c).sum()).collect();
+        let light = |i: usize| mass[i] / count[i];
+        let (mut first, mut ends, mut weights, mut rows) = (vec![0], Vec::new(), Vec::new(), Vec::new());
+        for (i, row) in shared.iter().enumerate() {
+            let from = weights.len();
+            ends.extend(row.iter().map(|(node, _)| *node));
+            weights.extend(row.iter().map(|(node, c)| 0.5 * SHARE * c * light(i).min(light(*node as usize))));
+            let inverse = if mass[i] > 0.0 { 1.0 / mass[i] } else { 0.0 };
+            rows.push(Row { mass: mass[i], inverse, own: 1.0 - inverse * weights[from..].iter().sum::<f64>() });
+            first.push(ends.len() as u32);
+        }
+        let still = vec![[0.0; 4]; mass.len()];
+        let fixed = fixed.to_vec();
+        Selective { first, ends, weights, rows, fixed, u: still.clone(), half: still, held: Vec::new(), twice_j: 0.0 }
+    }
+
+    /// D M⁻¹ u, with prescribed axes at rest.
+    pub fn smoothed(&self, u: &[[f64; 4]]) -> Vec<[f64; 4]> {
+        let (mut from, mut half, mut to) = (u.to_vec(), u.to_vec(), u.to_vec());
+        self.rest(&mut from);
+        smooth(Smooth { all: self, from: &from, begin: 0, to: &mut half }, pulp::Arch::Scalar);
+        self.rest(&mut half);
+        smooth(Smooth { all: self, from: &half, begin: 0, to: &mut to }, pulp::Arch::Scalar);
+        let mixed = |(to, u): (&[f64; 4], &[f64; 4])| [0, 1, 2, 3].map(|k| mixed(to[k], u[k]));
+        let mut v: Vec<[f64; 4]> = to.iter().zip(&from).map(mixed).collect();
+        self.rest(&mut v);
+        v
+    }
+
+    /// Begins with velocities, which become smooth.
+    pub fn begin(&mut self, v: &mut [[f64; 4]]) {
+        self.u.copy_from_slice(v);
+        v.copy_from_slice(&self.smoothed(&self.u));
+        self.twice_j = self.rows.iter().zip(&self.u).zip(&*v).map(|((row, u), v)| row.mass * dot(u, v)).sum();
+    }
+
+    /// Takes over velocities that others have set.
+    pub fn carry(&mut self, moved: &[(u32, [bool; 3])], v: &[[f64; 4]]) {
+        for (node, axes) in moved {
+            let i = *node as usize;
+            (0..3).filter(|k| axes[*k]).for_each(|k| self.u[i][k] = v[i][k]);
+        }
+    }
+
+    /// Updates velocities and positions and leaves the forces at zero; returns kinetic energy and Σ m ū·v̄.
+    pub fn step(&mut self, update: Update, force: &mut [[f64; 4]], v: &mut [[f64; 4]], x: &mut [[f64; 4]]) -> [f64; 2] {
+        let (mut u, mut half) = (std::mem::take(&mut self.u), std::mem::take(&mut self.half));
+        let across = push(Push { update, rows: &self.rows, force, u: &mut u, v });
+        smooth(Smooth { all: self, from: &u, begin: 0, to: &mut half }, update.arch);
+        self.rest(&mut half);
+        self.held.clear();
+        self.held.extend(self.fixed.iter().map(|(node, _)| x[*node as usize]));
+        let now = place(Place { update, all: self, half: &half, u: &u, begin: 0, v, x });
+        self.rest(v);
+        for ((node, axes), held) in self.fixed.iter().zip(&self.held) {
+            (0..3).filter(|k| axes[*k]).for_each(|k| x[*node as usize][k] = held[k]);
+        }
+        (self.u, self.half) = (u, half);
+        // ū·v̄ of means over the step; M⁻¹ is symmetric, so both mixed products are one.
+        let damped = 0.25 * (self.twice_j + 2.0 * across + now);
+        self.twice_j = now;
+        [0.5 * across, damped]
+    }
+
+    /// For a checkpoint.
+    pub fn save(&self) -> Vec<f64> {
+        [self.u.as_flattened(), &[self.twice_j]].concat()
+    }
+
+    /// From a checkpoint.
+    pub fn restore(&mut self, from: &[f64]) -> Option<()> {
+        let (twice_j, u) = from.split_last()?;
+        (u.len() == 4 * self.u.len()).then(|| self.u.as_flattened_mut().copy_from_slice(u))?;
+        self.twice_j = *twice_j;
+        Some(())
+    }
+
+    fn rest(&self, v: &mut [[f64; 4]]) {
+        for (node, axes) in &self.fixed {
+            (0..3).filter(|k| axes[*k]).for_each(|k| v[*node as usize][k] = 0.0);
+        }
+    }
+
+    /// F `from` at one node.
+    #[inline(always)]
+    fn row(&self, from: &[[f64; 4]], i: usize) -> [f64; 4] {
+        let links = self.first[i] as usize..self.first[i + 1] as usize;
+        let mut sum = [0.0; 4];
+        for (end, w) in self.ends[links.clone()].iter().zip(&self.weights[links]) {
+            let u = &from[*end as usize];
+            for k in 0..4 {
+                sum[k] += w * u[k];
+            }
+        }
+        let (Row { own, inverse, .. }, old, mut new) = (self.rows[i], from[i], [0.0; 4]);
+        for k in 0..4 {
+            new[k] = own * old[k] + inverse * sum[k];
+        }
+        new
+    }
+}
+
+/// (F² u + ε u)/(1 + ε).
+#[inline(always)]
+fn mixed(smooth: f64, u: f64) -> f64 {
+    (1.0 / (1.0 + LEAST)) * (smooth + LEAST * u)
+}
+
+/// Nodes at the other ends of the sides at each node, and how many elements have the side.
+fn shared(mesh: &Mesh, takes_part: impl Fn(u32) -> bool) -> Vec<Vec<(u32, f64)>> {
+    let mut shared: Vec<Vec<(u32, f64)>> = vec![Vec::new(); mesh.points.len()];
+    for part in &mesh.parts {
+        for i in 0..part.len() {
+            let corners = part.nodes(i);
+            for (k, a) in corners.iter().enumerate() {
+                let b = &corners[(k + 1) % corners.len()];
+                if takes_part(*a) && takes_part(*b) {
+                    link(&mut shared[*a as usize], *b);
+                    link(&mut shared[*b as usize], *a);
+                }
+            }
+        }
+    }
+    shared.iter_mut().for_each(|row| row.sort_by_key(|(node, _)| *node));
+    shared
+}
+
+fn link(row: &mut Vec<(u32, f64)>, end: u32) {
+    match row.iter_mut().find(|(node, _)| *node == end) {
+        Some((_, count)) => *count += 1.0,
+        None => row.push((end, 1.0)),
+    }
+}
+
+fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Some nodes whose momenta are pushed.
+struct Push<'a> {
+    update: Update,
+    rows: &'a [Row],
+    force: &'a mut [[f64; 4]],
+    u: &'a mut [[f64; 4]],
+    v: &'a [[f64; 4]],
+}
+
+/// Σ m v(n−½)·u(n+½).
+fn push(piece: Push) -> f64 {
+    let count = piece.rows.len();
+    if count <= PIECE {
+        return piece.update.arch.dispatch(piece);
+    }
+    let Push { update, rows, force, u, v } = piece;
+    let half = count / 2;
+    let (rows, force) = (rows.split_at(half), force.split_at_mut(half));
+    let (u, v) = (u.split_at_mut(half), v.split_at(half));
+    let low = Push { update, rows: rows.0, force: force.0, u: u.0, v: v.0 };
+    let high = Push { update, rows: rows.1, force: force.1, u: u.1, v: v.1 };
+    let (low, high) = rayon::join(|| push(low), || push(high));
+    low + high
+}
+
+impl pulp::WithSimd for Push<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _simd: S) -> f64 {
+        let gain = self.update.dv / (1.0 + 0.5 * self.update.damping * self.update.dv);
+        let (damping, mut across) = (self.update.damping, [0.0; 4]);
+        for (((row, force), u), v) in self.rows.iter().zip(self.force).zip(self.u).zip(self.v) {
+            // Copies: what was just stored by parts cannot be loaded as a whole without waiting.
+            let (mass, inverse, old, f, v) = (row.mass, row.inverse, *u, *force, *v);
+            let mut new = old;
+            for k in 0..4 {
+                new[k] += gain * (inverse * f[k] - damping * old[k]);
+            }
+            for k in 0..4 {
+                across[k] += mass * (v[k] * new[k]);
+            }
+            *force = [0.0; 4];
+            *u = new;
+        }
+        across.iter().sum()
+    }
+}
+
+/// Some nodes whose velocities are smoothed.
+struct Smooth<'a> {
+    all: &'a Selective,
+    from: &'a [[f64; 4]],
+    /// First of the nodes.
+    begin: usize,
+    to: &'a mut [[f64; 4]],
+}
+
+fn smooth(piece: Smooth, arch: pulp::Arch) {
+    let count = piece.to.len();
+    if count <= PIECE {
+        return arch.dispatch(piece);
+    }
+    let Smooth { all, from, begin, to } = piece;
+    let (low, high) = to.split_at_mut(count / 2);
+    let low = Smooth { all, from, begin, to: low };
+    let high = Smooth { all, from, begin: begin + count / 2, to: high };
+    rayon::join(|| smooth(low, arch), || smooth(high, arch));
+}
+
+impl pulp::WithSimd for Smooth<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _simd: S) {
+        for (i, to) in self.to.iter_mut().enumerate() {
+            *to = self.all.row(self.from, self.begin + i);
+        }
+    }
+}
+
+/// Some nodes that get their velocities and move.
+struct Place<'a> {
+    update: Update,
+    all: &'a Selective,
+    half: &'a [[f64; 4]],
+    u: &'a [[f64; 4]],
+    /// First of the nodes.
+    begin: usize,
+    v: &'a mut [[f64; 4]],
+    x: &'a mut [[f64; 4]],
+}
+
+/// Σ m u·v.
+fn place(piece: Place) -> f64 {
+    let count = piece.x.len();
+    if count <= PIECE {
+        return piece.update.arch.dispatch(piece);
+    }
+    let Place { update, all, half, u, begin, v, x } = piece;
+    let middle = count / 2;
+    let (v, x) = (v.split_at_mut(middle), x.split_at_mut(middle));
+    let low = Place { update, all, half, u, begin, v: v.0, x: x.0 };
+    let high = Place { update, all, half, u, begin: begin + middle, v: v.1, x: x.1 };
+    let (low, high) = rayon::join(|| place(low), || place(high));
+    low + high
+}
+
+impl pulp::WithSimd for Place<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _simd: S) -> f64 {
+        let (dt, mut now) = (self.update.dt, [0.0; 4]);
+        for (i, (v, x)) in self.v.iter_mut().zip(self.x).enumerate() {
+            let i = self.begin + i;
+            let (mut new, u, mut place, mass) = (self.all.row(self.half, i), self.u[i], *x, self.all.rows[i].mass);
+            for k in 0..4 {
+                new[k] = mixed(new[k], u[k]);
+            }
+            for k in 0..4 {
+                place[k] += dt * new[k];
+            }
+            for k in 0..4 {
+                now[k] += mass * (u[k] * new[k]);
+            }
+            *v = new;
+            *x = place;
+        }
+        now.iter().sum()
+    }
+}
+
+#[cfg(test)]
+#[path = "selective_tests.rs"]
+mod tests;

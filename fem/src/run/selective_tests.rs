@@ -1,0 +1,157 @@
+#![allow(clippy::unwrap_used)]
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use models::fabrics::{NeoHookean, Orthotropic};
+
+use super::LEAST;
+use crate::mesh::generate;
+use crate::problem::{Amplitude, Contact, NodalForce, Ply, Problem, Rigid, Section, Settings, Support};
+use crate::run::setup::gaussian;
+use crate::{Mesh, Simulation};
+
+const FILM: NeoHookean = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
+
+fn problem(mut mesh: Mesh) -> Problem {
+    mesh.parts.iter_mut().for_each(|part| (part.front, part.back) = (None, None));
+    let plies = vec![Ply { fabric: Arc::new(FILM), angle_rad: 0.0 }];
+    let section = Section { plies, bonded: true, density_kg_m3: 1000.0, bending_factor: 1.0, rest_curvature: false };
+    let mut problem = Problem::new("piece", mesh, vec![section], vec![]);
+    problem.settings = Settings { viscosity: 0.0, selective_mass: true, ..Settings::default() };
+    problem
+}
+
+/// A wave along a grid: (F² + ε)/(1 + ε) is (1 − 0.9 sin²(θ/2))² with ε, θ = 2π over the elements of the wave; what moves as one stays.
+#[test]
+fn waves_of_a_grid_are_smoothed_as_derived() {
+    let run = Simulation::new(&problem(generate::plate(0.24, 0.08, 24, 8, None).unwrap())).unwrap();
+    let selective = run.selective.as_ref().unwrap();
+    for elements in [f64::INFINITY, 24.0, 12.0, 6.0, 3.0, 2.0] {
+        let theta = TAU / elements;
+        let wave: Vec<[f64; 4]> = run.x.iter().map(|x| [(theta * x[0] / 0.01).cos(), 0.0, 1.0, 0.0]).collect();
+        let factor = ((1.0 - 0.9 * (0.5 * theta).sin().powi(2)).powi(2) + LEAST) / (1.0 + LEAST);
+        let smooth = selective.smoothed(&wave);
+        let inner = |i: &usize| (0.02..0.22).contains(&run.x[*i][0]) && (0.02..0.06).contains(&run.x[*i][1]);
+        let far = (0..wave.len()).filter(inner).map(|i| (smooth[i][0] - factor * wave[i][0]).abs()).fold(0.0, f64::max);
+        assert!(far < 1e-14, "{elements}: {far}");
+        assert!(smooth.iter().all(|v| (v[2] - 1.0).abs() < 1e-14));
+    }
+}
+
+/// The largest of s ((1 − 0.9 s)² + ε)/(1 + ε), s = sin²(θ/2), is 0.1667: 2.45 times the step.
+#[test]
+fn a_grid_of_squares_allows_the_step_that_its_waves_allow() {
+    let mut problem = problem(generate::plate(0.2, 0.12, 50, 30, None).unwrap());
+    problem.settings.hourglass = 0.0;
+    let step = |problem: &Problem| Simulation::new(problem).unwrap().dt_s();
+    let with = step(&problem);
+    problem.settings.selective_mass = false;
+    let ratio = with / step(&problem);
+    assert!((2.2..2.5).contains(&ratio), "{ratio}");
+}
+
+/// Kicked at random, free in space: momentum and angular momentum keep to rounding, energy to what steps cost.
+#[test]
+fn a_free_sheet_keeps_momentum_angular_momentum_and_energy() {
+    let mut problem = problem(generate::plate(0.12, 0.08, 15, 9, None).unwrap());
+    problem.settings.cfl = 0.3;
+    // Bending forces of absolute places cancel to their rounding only, with lumped masses too.
+    problem.sections[0].bending_factor = 0.0;
+    let mut run = Simulation::new(&problem).unwrap();
+    let kick = |i: usize, k: usize| 0.1 * gaussian(3, (4 * i + k) as u64);
+    run.set_velocities(&(0..problem.mesh.points.len()).map(|i| [0, 1, 2].map(|k| kick(i, k))).collect::<Vec<_>>());
+    let sums = |run: &Simulation| {
+        let u = &run.selective.as_ref().unwrap().u;
+        let mut sum = [0.0; 6];
+        for ((m, u), x) in run.mass.iter().zip(u).zip(&run.x) {
+            for k in 0..3 {
+                let (a, b) = ((k + 1) % 3, (k + 2) % 3);
+                sum[k] += m * u[k];
+                sum[3 + k] += m * (x[a] * u[b] - x[b] * u[a]);
+            }
+        }
+        sum
+    };
+    let (before, end_s) = (sums(&run), 4000.0 * run.dt_s());
+    run.advance_until(end_s, &mut |_| true).unwrap();
+    let ledger = run.ledger();
+    assert!(ledger.residual_share() < 2e-3, "{}", ledger.residual_share());
+    let scale: f64 = run.mass.iter().sum::<f64>() * 0.1;
+    for (k, (a, b)) in before.iter().zip(sums(&run)).enumerate() {
+        assert!((a - b).abs() < 1e-12 * scale, "{k}: {a} {b}");
+    }
+}
+
+/// The slowest stretching wave of a free strip without lateral contraction, ω = (π/l) √(E/ρ); waves of n elements are slower by
+/// 0.9 sin²(π/n), beside (π/n)²/6 of lumping.
+#[test]
+fn the_slowest_wave_keeps_its_frequency_at_second_order() {
+    let (length, young) = (0.2, 300e6);
+    let exact_s = 2.0 * length / (young / 1000.0_f64).sqrt();
+    let period_s = |along: usize| {
+        let mut problem = problem(generate::plate(length, length / along as f64, along, 1, None).unwrap());
+        problem.sections[0].plies[0].fabric = Arc::new(Orthotropic::new(young, young, 0.0, 1e8, 2e-4));
+        problem.settings.cfl = 0.2;
+        let mut run = Simulation::new(&problem).unwrap();
+        let start: Vec<[f64; 3]> = problem.mesh.points.iter().map(|p| [(PI * p[0] / length).cos(), 0.0, 0.0]).collect();
+        run.set_velocities(&start.iter().map(|v| v.map(|v| 1e-3 * v)).collect::<Vec<_>>());
+        // Projection on the wave: two changes of sign are half a period apart.
+        let mut crossings: Vec<f64> = Vec::new();
+        let mut last = (0.0, 1.0);
+        while crossings.len() < 3 {
+            run.advance_until(run.time_s() + 1.5 * run.dt_s(), &mut |_| true).unwrap();
+            let now: f64 = run.velocities().iter().zip(&start).map(|(v, s)| v[0] * s[0]).sum();
+            if now * last.1 < 0.0 {
+                crossings.push(last.0 + (run.time_s() - last.0) * last.1 / (last.1 - now));
+            }
+            last = (run.time_s(), now);
+        }
+        crossings[2] - crossings[0]
+    };
+    let error = [16, 32].map(|n| period_s(n) / exact_s - 1.0);
+    let derived = [16.0, 32.0].map(|n: f64| (0.9 + 1.0 / 6.0) * (0.5 * PI / n).powi(2));
+    for (found, derived) in error.iter().zip(derived) {
+        assert!((found / derived - 1.0).abs() < 0.05, "{error:?}, derived {derived:?}");
+    }
+}
+
+/// Pulled by a moving support, or with a rigid edge pulled by a force: the work of the support is on the ledger, and at rest it
+/// holds what it holds with lumped masses.
+#[test]
+fn supports_and_rigid_bodies_do_what_they_do_with_lumped_masses() {
+    let force_n = |selective_mass: bool, rigid: bool| {
+        let mut problem = problem(generate::plate(0.1, 0.05, 12, 6, None).unwrap());
+        let still = Amplitude::Constant(0.0);
+        let pull = Amplitude::Smooth(vec![(0.0, 0.0), (0.02, 5e-3)]);
+        let hold = |set: &str, motion| Support { set: set.into(), axes: [true; 3], motion };
+        problem.supports = vec![hold("left", None), hold("right", Some([pull, still.clone(), still]))];
+        if rigid {
+            problem.supports.pop();
+            problem.rigid = vec![Rigid { set: "right".into() }];
+            let amplitude = Amplitude::Smooth(vec![(0.0, 0.0), (0.02, 1.0)]);
+            problem.forces = vec![NodalForce { set: "right".into(), total_n: [40.0, 0.0, 0.0], amplitude }];
+        }
+        problem.settings.selective_mass = selective_mass;
+        problem.settings.mass_damping_1_s = 500.0;
+        let mut run = Simulation::new(&problem).unwrap();
+        run.advance_until(0.04, &mut |_| true).unwrap();
+        assert!(run.ledger().residual_share() < 1e-3, "{selective_mass}: {:?}", run.ledger());
+        match rigid {
+            true => run.positions().iter().map(|x| x[0]).fold(0.0, f64::max),
+            false => run.reaction_n("right").unwrap()[0],
+        }
+    };
+    for rigid in [false, true] {
+        let (lumped, selective) = (force_n(false, rigid), force_n(true, rigid));
+        assert!((selective / lumped - 1.0).abs() < 1e-4, "{rigid}: {selective} {lumped}");
+    }
+}
+
+#[test]
+fn contact_of_edges_is_refused() {
+    let mut problem = problem(generate::plate(0.1, 0.1, 4, 4, None).unwrap());
+    problem.contact = Some(Contact { edges: true, ..Contact::default() });
+    let said = Simulation::new(&problem).err().unwrap().to_string();
+    assert!(said.contains("edges") && said.contains("selective_mass"), "{said}");
+}
