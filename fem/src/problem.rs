@@ -184,8 +184,8 @@ pub struct Settings {
     pub dt_s: Option<f64>,
     /// How masses are raised to lengthen the step.
     pub mass_scaling: MassScaling,
-    /// Selective mass scaling: waves of a few elements are heavy, long ones keep their mass. 2 to 2.6 times the step, or a quarter
-    /// of the mass that [`MassScaling::TargetStep`] adds, for a fifth more time per step. Quasi-static runs only, and not with
+    /// Selective mass scaling: waves of a few elements are heavy, long ones keep their mass. 2 to 2.6 times the step, or an eighth
+    /// and less of the mass that [`MassScaling::TargetStep`] adds to a robot, for a fifth more time per step. Quasi-static runs only, and not with
     /// [`Contact::edges`].
     pub selective_mass: bool,
     /// Mass-proportional damping α \[1/s\]; its work is on the ledger.

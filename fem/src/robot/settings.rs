@@ -84,7 +84,7 @@ impl RobotSettings {
     /// | waviness 0.1 mm | assumed; without it all seeds of a robot take the folds that its mesh prefers |
     /// | welds 3 mm wide | assumed; 4 mm lower cPAM and ePAM by 2 and 4 to 11 %, a line does not converge |
     /// | 0.04 + 0.36 + 0.06 s, masses raised | 24 000 to 47 000 steps; with rate-free fabrics only their number counts |
-    /// | selective masses | the step asks for a quarter of the mass that it asks for without; half the steps change the means by up to ±1 % |
+    /// | selective masses | the step asks for an eighth and less of the mass that it asks for without; half the steps change the means by up to ±1 % |
     /// | ramp floor 2 kPa | the body's pressure: there a robot bends most per pascal, and gussets open |
     /// | mass damping 40 1/s | with the time at full pressure it brings the kinetic share below 1 % |
     /// | hourglass .001 | p R/(E t) of the TPU-coated body; .01 holds 9 to 16 % of the stored energy, .001 up to 2 % |
