@@ -168,7 +168,7 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
         "loading" => {}
         "pressures_kpa" => run.pressures_pa = pressures(value)?,
         "contact" => run.settings.contact = Some(yes_or_no(name, value, "where the pattern folds")?),
-        "selective_mass" => run.settings.selective_mass = yes_or_no(name, value, "true")?,
+        "selective_mass" => run.settings.selective_mass = yes_or_no(name, value, "short waves are heavy then")?,
         "tip_force_n" => run.tip_force_n = triple(name, value, &plain(-1e4, 1e4, "write newtons: [x, y, z]"))?,
         "obstacle_mm" => {
             let [x, y, radius] = triple(name, value, &POSITION)?;
