@@ -30,8 +30,10 @@ fn pillow(threads: usize, selective_mass: bool) -> Problem {
     problem.settings.imperfection = 1e-3;
     problem.settings.threads = threads;
     problem.settings.selective_mass = selective_mass;
-    // Volumes are taken every eight steps, which with selective masses are a tenth of the first ramp.
-    problem.settings.guards.residual = 0.1;
+    if selective_mass {
+        // Volumes are taken every eight steps, which then are a tenth of the first ramp.
+        problem.settings.guards.residual = 0.1;
+    }
     problem
 }
 

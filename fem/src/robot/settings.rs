@@ -79,12 +79,12 @@ impl RobotSettings {
     ///
     /// | number | why |
     /// |---|---|
-    /// | 8 mm on the body, 4 mm on the actuator | 3 mm change the means of cPAM, ePAM and fPAM by +1, +3 and +1 %, 2 mm by another +5, −1 and 0 %; the sPAM stays within 3 % while its seams hold, and snaps once in three on 3 mm |
+    /// | 8 mm on the body, 4 mm on the actuator | 3 mm change the means of cPAM, ePAM and fPAM by +1, +3 and +1 %, 2 mm by another +5, −1 and 0 %; the sPAM stays within 4 % while its seams hold, and snaps once in three on 3 mm |
     /// | rings under a taped sheet at 0.8 of that | seven rows from weld to middle of a pouch leave the sPAM's seams to snap or hold from seed to seed |
     /// | waviness 0.1 mm | assumed; without it all seeds of a robot take the folds that its mesh prefers |
     /// | welds 3 mm wide | assumed; 4 mm lower cPAM and ePAM by 2 and 4 to 11 %, a line does not converge |
     /// | 0.04 + 0.36 + 0.06 s, masses raised | 24 000 to 47 000 steps; with rate-free fabrics only their number counts |
-    /// | selective masses | the step asks for an eighth and less of the mass that it asks for without; half the steps change the means by up to ±1 % |
+    /// | selective masses | the step asks for an eighth and less of the mass that it asks for without; half the steps change the means by 1.2 % at most |
     /// | ramp floor 2 kPa | the body's pressure: there a robot bends most per pascal, and gussets open |
     /// | mass damping 40 1/s | with the time at full pressure it brings the kinetic share below 1 % |
     /// | hourglass .001 | p R/(E t) of the TPU-coated body; .01 holds 9 to 16 % of the stored energy, .001 up to 2 % |
