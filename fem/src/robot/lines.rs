@@ -7,7 +7,7 @@ use models::Scenario;
 use models::actuators::pattern::Pattern;
 
 use super::RobotSettings;
-use super::settings::TAPED_SPACING;
+use super::settings::{FOLDED_ROW, TAPED_SPACING};
 
 /// Largest ratio of neighbouring elements where the size changes.
 const GROWTH: f64 = 1.25;
@@ -33,7 +33,7 @@ pub(super) struct Lines {
 
 impl Lines {
     pub fn of(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) -> Lines {
-        let (x_m, bands) = along(scenario, spacing(pattern, settings), settings);
+        let (x_m, bands) = along(scenario, rows(pattern, settings), settings);
         let nearest = |place: f64| nearest(&x_m, place);
         let welds = bands.iter().map(|band| band.map(nearest)).collect();
         let markers = scenario.markers_m.iter().map(|s| nearest(*s)).collect();
@@ -67,8 +67,15 @@ pub(super) fn spacing(pattern: &Pattern, settings: &RobotSettings) -> f64 {
     settings.ring_spacing.unwrap_or(if pattern.is_taped() { TAPED_SPACING } else { 1.0 })
 }
 
+/// Lengths of the rows at the actuator \[m\]: away from welds, and beside them.
+fn rows(pattern: &Pattern, settings: &RobotSettings) -> [f64; 2] {
+    let row = spacing(pattern, settings) * settings.actuator_size_m;
+    let folded = pattern.folds().then_some(FOLDED_ROW * weld_m(settings)).filter(|row| *row > 0.0);
+    [row, settings.seam_row_m.or(folded).unwrap_or(row).min(row)]
+}
+
 /// Rings, and where each weld begins and ends.
-fn along(scenario: &Scenario, spacing: f64, settings: &RobotSettings) -> (Vec<f64>, Vec<[f64; 2]>) {
+fn along(scenario: &Scenario, [row, beside]: [f64; 2], settings: &RobotSettings) -> (Vec<f64>, Vec<[f64; 2]>) {
     let (actuator, length) = (&scenario.actuator, scenario.length_m);
     let seam = |k: usize| actuator.start_m + k as f64 * actuator.shape.length_m;
     let half = 0.5 * weld_m(settings);
@@ -76,16 +83,25 @@ fn along(scenario: &Scenario, spacing: f64, settings: &RobotSettings) -> (Vec<f6
         (0..=actuator.count).map(|k| [-half, half].map(|w| (seam(k) + w).clamp(0.0, length))).collect();
     let mut cuts = vec![0.0, length];
     bands.iter().flatten().for_each(|place| add(&mut cuts, *place, 1e-9));
-    let ends = [seam(0), seam(actuator.count)];
-    let size = |place: f64| match ends[0] < place && place < ends[1] {
-        true => spacing * settings.actuator_size_m,
-        false => settings.body_size_m,
-    };
+    let [first, last] = [seam(0), seam(actuator.count)];
+    let pouch = |place: f64| first < place && place < last;
+    let size = |place: f64| if pouch(place) { row } else { settings.body_size_m };
     scenario.markers_m.iter().for_each(|place| add(&mut cuts, *place, MERGE * size(*place)));
+    if beside < row {
+        let middle = |pair: &[[f64; 2]]| 0.5 * (pair[0][1] + pair[1][0]);
+        bands.windows(2).map(middle).for_each(|place| add(&mut cuts, place, MERGE * row));
+    }
     cuts.sort_by(f64::total_cmp);
+    let weld = |place: f64| bands.iter().flatten().any(|edge| (edge - place).abs() < 1e-9);
     let mut x_m = vec![0.0];
     for pair in cuts.windows(2) {
-        x_m.extend(divided(pair[0], pair[1], size(0.5 * (pair[0] + pair[1]))).skip(1));
+        let [a, b] = [pair[0], pair[1]];
+        let middle = 0.5 * (a + b);
+        if beside < row && pouch(middle) && weld(a) != weld(b) {
+            x_m.extend(growing(a, b, [beside, row], weld(b)));
+        } else {
+            x_m.extend(divided(a, b, size(middle)).skip(1));
+        }
     }
     (x_m, bands)
 }
@@ -101,6 +117,23 @@ fn add(cuts: &mut Vec<f64>, place: f64, apart: f64) {
 fn divided(a: f64, b: f64, size: f64) -> impl Iterator<Item = f64> {
     let n = ((b - a) / size).round().max(1.0) as usize;
     (0..=n).map(move |i| if i == n { b } else { a + (b - a) * i as f64 / n as f64 })
+}
+
+/// Lines after `a` to `b`, with steps that grow from `from` beside a weld, at `a` or at `b`, to `to`.
+fn growing(a: f64, b: f64, [from, to]: [f64; 2], weld_at_b: bool) -> impl Iterator<Item = f64> {
+    let (mut steps, mut sum) = (vec![from], from);
+    while let Some(step) = steps.last().map(|last| to.min(last * GROWTH)).filter(|step| sum + 0.5 * step < b - a) {
+        steps.push(step);
+        sum += step;
+    }
+    if weld_at_b {
+        steps.reverse();
+    }
+    let (scale, n, mut place) = ((b - a) / sum, steps.len(), a);
+    steps.into_iter().enumerate().map(move |(i, step)| {
+        place += scale * step;
+        if i + 1 == n { b } else { place }
+    })
 }
 
 /// Places across the strip: edges, the welds beside them, folds, and even steps between.

@@ -6,6 +6,10 @@ use crate::problem::Amplitude;
 /// Distance of the rings under a taped sheet over its element size: its margins of stuck plies fold across in the middle of every
 /// pouch, and with seven rows from weld to middle seams snap or hold from seed to seed.
 pub(super) const TAPED_SPACING: f64 = 0.8;
+/// Length of the rows beside the welds of a folded sheet over their width: its pouches fill so far that the welds between them stand
+/// on edge, and the wall beside them turns by a right angle within that width. With half of it, on elements twice as wide, gussets of
+/// long pouches turn inside out.
+pub(super) const FOLDED_ROW: f64 = 2.0 / 3.0;
 
 /// Mesh, fabrication and loading of a robot.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,6 +20,9 @@ pub struct RobotSettings {
     pub actuator_size_m: f64,
     /// Distance of the rings at the actuator over `actuator_size_m`; `None`: 1, and 0.8 under a taped sheet.
     pub ring_spacing: Option<f64>,
+    /// Length of the rows beside welds \[m\], from which rows grow by a quarter each to the distance of the rings; `None`: no shorter
+    /// than those, and two thirds of a weld under a folded sheet.
+    pub seam_row_m: Option<f64>,
     /// Distance between layers at the start \[m\]. Published: 0.01 mm.
     pub layer_gap_m: f64,
     /// Width of the welds across the robot and along the actuator's sides \[m\]; 0 is a line, along which taped plies fold
@@ -28,7 +35,7 @@ pub struct RobotSettings {
     pub compression: f64,
     /// How far taped and glued plies bend as one: 1 without slip, 0 as loose sheets. Assumed.
     pub bond: f64,
-    /// Thickness of the transfer tape \[m\]. Assumed.
+    /// Thickness of the transfer tape \[m\]. Calibrated on the sPAM, with its margin.
     pub tape_m: f64,
     /// Young's modulus of the tape's adhesive \[Pa\]. Assumed.
     pub tape_e_pa: f64,
@@ -79,19 +86,20 @@ impl RobotSettings {
     ///
     /// | number | why |
     /// |---|---|
-    /// | 8 mm on the body, 4 mm on the actuator | 3 mm change the means of cPAM, ePAM and fPAM by +1, +3 and +1 %, 2 mm by another +5, −1 and 0 %; the sPAM stays within 4 % while its seams hold, and snaps once in three on 3 mm |
+    /// | 8 mm on the body, 4 mm on the actuator | 3 mm and 2 mm change the means of all four by up to 3 %: `docs/robots.md` |
     /// | rings under a taped sheet at 0.8 of that | seven rows from weld to middle of a pouch leave the sPAM's seams to snap or hold from seed to seed |
+    /// | rows of 2 mm beside the welds of a folded sheet | full pouches set these welds on edge, which longer rows cannot follow |
     /// | waviness 0.1 mm | assumed; without it all seeds of a robot take the folds that its mesh prefers |
     /// | welds 3 mm wide | assumed; 4 mm lower cPAM and ePAM by 2 and 4 to 11 %, a line does not converge |
     /// | 0.04 + 0.36 + 0.06 s, masses raised | 24 000 to 47 000 steps; with rate-free fabrics only their number counts |
-    /// | selective masses | the step asks for an eighth and less of the mass that it asks for without; half the steps change the means by 1.2 % at most |
+    /// | selective masses | the step asks for an eighth and less of the mass that it asks for without; half the steps change the means by up to 1.2 % |
     /// | ramp floor 2 kPa | the body's pressure: there a robot bends most per pascal, and gussets open |
     /// | mass damping 40 1/s | with the time at full pressure it brings the kinetic share below 1 % |
     /// | hourglass .001 | p R/(E t) of the TPU-coated body; .01 holds 9 to 16 % of the stored energy, .001 up to 2 % |
     /// | 1 % of compression | single sheets wrinkle below the mesh; with all of it the cPAM gains 10 mm for every millimetre off the elements |
     /// | bending factor 0.1 | assumed |
-    /// | tape 0.05 mm | assumed; transfer tapes are sold from 0.02 to 0.25 mm |
-    /// | taped margin 5 mm, ν₁₂ = 0.3 | **calibrated** on the tips of the sPAM and the fPAM, see [`RobotSettings::usual`] |
+    /// | tape 0.025 mm with a margin of 8 mm | **calibrated** on the tip of the sPAM: of the pairs near it the one with which no seam snaps on any mesh |
+    /// | ν₁₂ = 0.3 | **calibrated** on the tip of the fPAM; usual values of both: [`RobotSettings::usual`] |
     ///
     /// `ibr verify --only robots` holds this set against the measured tips.
     pub fn compressed() -> RobotSettings {
@@ -99,14 +107,15 @@ impl RobotSettings {
             body_size_m: 8e-3,
             actuator_size_m: 4e-3,
             ring_spacing: None,
+            seam_row_m: None,
             layer_gap_m: 1e-5,
             weld_m: 3e-3,
             bending_factor: 0.1,
             compression: 0.01,
             bond: 1.0,
-            tape_m: 5e-5,
+            tape_m: 2.5e-5,
             tape_e_pa: 1e6,
-            tape_margin_m: 5e-3,
+            tape_margin_m: 8e-3,
             glue_m: 1e-4,
             glue_e_pa: 1e6,
             nu12: Some(0.3),
@@ -129,7 +138,7 @@ impl RobotSettings {
 
     /// The same with what one would assume of the taped sheet and the weave before seeing a robot bend: nothing is calibrated.
     pub fn usual() -> RobotSettings {
-        RobotSettings { tape_margin_m: 0.0, nu12: Some(0.0), ..RobotSettings::compressed() }
+        RobotSettings { tape_m: 5e-5, tape_margin_m: 0.0, nu12: Some(0.0), ..RobotSettings::compressed() }
     }
 
     /// The published loading, body to 0.1 s and actuator to 1.1 s, with true masses.
@@ -164,6 +173,7 @@ impl RobotSettings {
             ("body_size_m", self.body_size_m, 1e-4, 0.1),
             ("actuator_size_m", self.actuator_size_m, 1e-4, 0.1),
             ("ring_spacing", self.ring_spacing.unwrap_or(1.0), 0.1, 10.0),
+            ("seam_row_m", self.seam_row_m.unwrap_or(1e-3), 1e-4, 0.1),
             ("layer_gap_m", self.layer_gap_m, 1e-7, 1e-3),
             ("weld_m", self.weld_m, 0.0, 0.1),
             ("bending_factor", self.bending_factor, 0.0, 10.0),
@@ -241,13 +251,13 @@ pub const ASSUMED: &[Assumed] = &[
     Assumed {
         name: "tape_m",
         interval: [2e-5, 2.5e-4],
-        reason: "adhesive transfer tapes are sold from 0.02 to 0.25 mm",
+        reason: "adhesive transfer tapes are sold from 0.02 to 0.25 mm; 0.025 mm is calibrated on the sPAM's tip",
         set: |s, v| s.tape_m = v,
     },
     Assumed {
         name: "tape_margin_m",
         interval: [0.0, 0.015],
-        reason: "a sheet cut at its welds to one that is easy to tape; 5 mm is calibrated on the sPAM's tip, 0 usual",
+        reason: "a sheet cut at its welds to one that is easy to tape; 8 mm is calibrated on the sPAM's tip, 0 usual",
         set: |s, v| s.tape_margin_m = v,
     },
     Assumed {

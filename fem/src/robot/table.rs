@@ -59,6 +59,8 @@ pub const KEYS: &[Key] = &[
         |s| s.actuator_size_m, |s, v| s.actuator_size_m = v),
     key("ring_spacing", 1.0, [0.1, 10.0], "distance of the rings at the actuator over its element size",
         |s| s.ring_spacing.unwrap_or(f64::NAN), |s, v| s.ring_spacing = Some(v)),
+    key("seam_row_mm", 1e-3, [0.1, 100.0], "length of the rows beside welds, from which rows grow to the distance of the rings",
+        |s| s.seam_row_m.unwrap_or(f64::NAN), |s, v| s.seam_row_m = Some(v)),
     key("layer_gap_mm", 1e-3, [1e-4, 1.0], "distance between layers at the start",
         |s| s.layer_gap_m, |s, v| s.layer_gap_m = v),
     key("weld_mm", 1e-3, [0.0, 100.0], "width of the welds across the robot; 0: a line", |s| s.weld_m, |s, v| s.weld_m = v),

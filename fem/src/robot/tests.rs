@@ -151,7 +151,7 @@ fn seams_with_a_width_have_the_layers_of_the_pattern() {
 
 #[test]
 fn a_tube_that_is_glued_on_has_no_weld_along_it() {
-    let wide = RobotSettings { weld_m: 5e-3, ..coarse() };
+    let wide = RobotSettings { weld_m: 5e-3, tape_margin_m: 5e-3, ..coarse() };
     let strip = |name: &str| {
         let mesh = robot(name, &wide).mesh;
         area_m2(&mesh, |part| part.starts_with("seam")) / (5e-3 * 0.06)
@@ -249,4 +249,36 @@ fn a_wavy_robot_starts_without_membrane_stress_and_holds_what_the_pattern_holds(
         // A millionth of what 0.2 mm in waves of 60 mm would store, were the pattern stress-free: ½ E t ε² A with 2 %.
         assert!(membrane.energy_j < 1e-6, "{name}: {ledger:?}");
     }
+}
+
+#[test]
+fn rows_beside_the_welds_of_a_folded_sheet_are_two_thirds_of_a_weld_and_grow_by_a_quarter() {
+    let of = |scenario: &Scenario, settings: &RobotSettings| {
+        let pattern = (scenario.actuator.kind.pattern)(&scenario.actuator.shape);
+        Lines::of(scenario, &pattern.between_welds(lines::weld_m(settings)), settings)
+    };
+    let lines = |name: &str, settings: &RobotSettings| of(&shipped(name), settings);
+    let check = |lines: &Lines, first_m: f64, row_m: f64| {
+        for pair in lines.welds.windows(2) {
+            let rows: Vec<f64> = lines.x_m[pair[0][1]..=pair[1][0]].windows(2).map(|x| x[1] - x[0]).collect();
+            let n = rows.len();
+            let ends = [rows[0], rows[n - 1]];
+            assert!(ends.iter().all(|row| (row / first_m - 1.0).abs() < 0.1), "{rows:?}");
+            assert!(rows.windows(2).all(|r| (0.79..1.26).contains(&(r[1] / r[0]))), "{rows:?}");
+            assert!((rows[n / 2] / row_m - 1.0).abs() < 0.1, "{rows:?}");
+        }
+    };
+    let four = RobotSettings::default();
+    check(&lines("cpam", &four), 2e-3, 4e-3);
+    check(&lines("epam", &four), 4e-3, 4e-3);
+    check(&lines("epam", &RobotSettings { seam_row_m: Some(1.5e-3), ..four.clone() }), 1.5e-3, 4e-3);
+    // Shorter elements than these rows stay as they are, and so do those beside a weld without width.
+    check(&lines("cpam", &RobotSettings { actuator_size_m: 1e-3, ..four.clone() }), 1e-3, 1e-3);
+    check(&lines("cpam", &RobotSettings { weld_m: 0.0, ..four.clone() }), 4e-3, 4e-3);
+    // Without a marker in the middle rows grow from both welds all the same.
+    let mut scenario = shipped("cpam");
+    scenario.markers_m = vec![scenario.length_m];
+    let (bare, marked) = (of(&scenario, &four).x_m, lines("cpam", &four).x_m);
+    assert_eq!(bare.len(), marked.len());
+    assert!(bare.iter().zip(&marked).all(|(a, b)| (a - b).abs() < 1e-12), "{bare:?}");
 }

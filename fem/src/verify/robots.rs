@@ -1,13 +1,13 @@
 //! The four robots of du Pasquier, Jeong, Okamura 2023 against their measured tips.
 //!
 //! Read at the last marker, 330 mm from the base: the paper measures at six markers only, each at the middle of a pouch,
-//! which six pouches of 60 mm on 360 mm give. The taped sheet's margin and ν₁₂ are calibrated on two of the tips; cPAM and ePAM see
+//! which six pouches of 60 mm on 360 mm give. The taped sheet (tape and margin) and ν₁₂ are calibrated on two of the tips; cPAM and ePAM see
 //! neither. They are not blind: hourglass control, damping and the station were settled with their tips in view.
 //!
 //! | robot | measured | marker at 330 mm | no margin, ν₁₂ = 0, in steps of 5 kPa |
 //! |---|---|---|---|
-//! | sPAM | 67.5 | 61.2 | 117.1 |
-//! | cPAM | 159.7 | 163.3 | the same |
+//! | sPAM | 67.5 | 63.7 | 117.1 |
+//! | cPAM | 159.7 | 169.3 | the same |
 //! | ePAM | 119.4 | 113.7 | the same |
 //! | fPAM | 67.2 | 67.7 | 55.2 |
 //!

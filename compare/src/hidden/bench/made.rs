@@ -5,8 +5,8 @@
 //!
 //! | robot | not in the model | why it is in the data |
 //! |---|---|---|
-//! | sPAM | `seam_stiffness` | taped plies bend as one; without their margin the marker goes to 117.1 instead of 61.2 mm |
-//! | cPAM | `self_contact` | pouches touch at 30 kPa, of earlier runs; with welds of 3 mm they may not |
+//! | sPAM | `seam_stiffness` | taped plies bend as one; without their margin the marker goes to 117.1 instead of 63.1 mm |
+//! | cPAM | `self_contact` | pouches touch at 30 kPa, of earlier runs; with welds of 3 mm hardly |
 //! | ePAM | `end_constraint` | the pouches' sides are sealed |
 //! | fPAM | `shear_stiffness` | the fabric's shear modulus, 45° to the muscle |
 //!
