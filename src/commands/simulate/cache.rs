@@ -125,9 +125,10 @@ pub fn as_run(summary: &Value, cost: &Value) -> Option<FeRun> {
     let about = &summary["robot"];
     let setting = |key: &str| about["settings"][key].as_f64();
     (!readings.is_empty()).then_some(())?;
-    // The two numbers that `RobotSettings::usual` leaves as one would assume them before seeing a robot bend.
+    // The numbers that `RobotSettings::usual` leaves as one would assume them before seeing a robot bend.
     let fitted = |kind: &str, key: &str, usual: f64| about["actuator"] == kind && setting(key) != Some(usual);
-    let calibrated = fitted("spam", "tape_margin_mm", 0.0) || fitted("fpam", "nu12", 0.0);
+    let sheet = fitted("spam", "tape_margin_mm", 0.0) || fitted("spam", "tape_mm", 0.05);
+    let calibrated = sheet || fitted("fpam", "nu12", 0.0);
     Some(FeRun {
         actuator: about["actuator"].as_str()?.into(),
         scenario: summary["name"].as_str()?.into(),

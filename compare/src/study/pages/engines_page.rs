@@ -226,7 +226,7 @@ pub fn engine_sections(engines: &Engines, files: &mut Files) -> Result<Vec<Secti
 
 const NOTE: &str = "Not printed by the paper and assumed here: pouch count, marker stations, weld width, the taped sheet's margin, \
     stiffness of tape and glue, how far plies bend as one, biaxial coupling, densities. The measured displacement is that of a marker nobody gave \
-    the place of; it is held against the outermost assumed marker. The taped sheet's margin (sPAM) and ν₁₂ (fPAM) are calibrated on \
+    the place of; it is held against the outermost assumed marker. The taped sheet (sPAM: margin and tape) and ν₁₂ (fPAM) are calibrated on \
     these displacements; the usual values are what one would assume without them. One number per robot validates nothing.";
 const SUMMARY_CAPTION: &str = "Displacement of the outermost marker at the pressure of the measurement; finite elements: mean ± \
     standard deviation over seeds of the imperfections; accuracy by the paper's formula beside the paper's own";
