@@ -224,7 +224,7 @@ pub struct Simulate {
     /// Simulated time, for example 0.15s or 150ms; default: the case's
     #[arg(long, allow_hyphen_values = true)]
     pub end: Option<String>,
-    /// Real time between checkpoints
+    /// Real time between checkpoints; more where they would take over a fiftieth of it
     #[arg(long, default_value = "30s", allow_hyphen_values = true)]
     pub checkpoint_every: String,
     /// Write no ParaView frames

@@ -188,6 +188,9 @@ pub struct Settings {
     /// and less of the mass that [`MassScaling::TargetStep`] adds to a robot, for a fifth more time per step. Quasi-static runs only, and not with
     /// [`Contact::edges`].
     pub selective_mass: bool,
+    /// Passes over the elements' sides that selective masses take, 2, 4 or 6: 4 allow 1.4 times the step of 2, 6 1.8 times, and
+    /// waves of up to about twice and three times as many elements are heavy. For meshes much finer than what moves.
+    pub mass_passes: usize,
     /// Mass-proportional damping α \[1/s\]; its work is on the ledger.
     pub mass_damping_1_s: f64,
     /// In-plane viscosity as a share of critical damping of the highest membrane mode (0.06 is usual).
@@ -246,6 +249,7 @@ impl Default for Settings {
             dt_s: None,
             mass_scaling: MassScaling::None,
             selective_mass: false,
+            mass_passes: 2,
             mass_damping_1_s: 0.0,
             viscosity: 0.06,
             hourglass: 0.01,
@@ -364,6 +368,12 @@ impl Settings {
         ];
         if let Some((name, value)) = not_negative.iter().find(|(_, v)| !(*v >= 0.0 && v.is_finite())) {
             return Err(FemError::Problem(format!("settings: {name} must be 0 or more, not {value}")));
+        }
+        if ![2, 4, 6].contains(&self.mass_passes) {
+            return Err(FemError::Problem(format!(
+                "settings: mass_passes must be 2, 4 or 6, not {}",
+                self.mass_passes
+            )));
         }
         if self.cfl > 1.0 {
             return Err(FemError::Problem(format!("settings: cfl {} is over 1, the limit of stability", self.cfl)));

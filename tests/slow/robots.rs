@@ -2,8 +2,10 @@
 //! result.
 
 use crate::alone;
-use crate::support::Folder;
+use crate::support::{Folder, Ran};
 use serde_json::Value;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 /// A tenth of a second of processor time.
 const QUICK: [&str; 9] = [
@@ -50,6 +52,36 @@ fn seeds_and_separate_pressures_are_runs_of_their_own_which_are_kept() {
         assert!(other.stderr.contains(words), "{words}: {}", other.stderr);
     }
     assert!(!folder.path("batch/seed-1-10kPa").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_robot_goes_on_to_the_same_end() {
+    let _alone = alone();
+    let folder = Folder::new();
+    // With the ramps and the hold of every robot.
+    let start = |name: &str, more: &[&str]| {
+        let all = [&["simulate", "epam", "--mesh", "14mm", "--no-frames", "--quiet", "--out", name], more].concat();
+        folder.ibr(&all).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+    };
+    let whole = Ran::from(start("whole", &[]).wait_with_output().unwrap());
+    assert_eq!(whole.code, 0, "{}", whole.stderr);
+    let child = start("run", &[]);
+    let history = folder.path("run/history.csv");
+    let patience = Instant::now();
+    while std::fs::read_to_string(&history).unwrap_or_default().lines().count() < 5 {
+        assert!(patience.elapsed() < Duration::from_secs(60), "no history was written");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let ran = Ran::from(child.wait_with_output().unwrap());
+    assert_eq!(ran.code, 130, "{}", ran.stderr);
+    let ran = Ran::from(start("run", &["--resume"]).wait_with_output().unwrap());
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    for name in ["readings.csv", "markers.csv", "history.csv", "centre_line.csv", "summary.json"] {
+        let [a, b] = ["whole", "run"].map(|run| std::fs::read(folder.path(&format!("{run}/{name}"))).unwrap());
+        assert!(a == b, "{name}");
+    }
 }
 
 #[test]

@@ -145,6 +145,7 @@ pub(super) struct RawSettings {
     pub mass_scaling: Option<Spanned<toml::Value>>,
     pub target_step_s: Option<Num>,
     pub selective_mass: Option<bool>,
+    pub mass_passes: Option<Spanned<i64>>,
     pub mass_damping_1_s: Option<Num>,
     pub viscosity: Option<Num>,
     pub hourglass: Option<Num>,

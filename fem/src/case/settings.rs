@@ -59,6 +59,7 @@ pub(super) fn settings(raw: &RawSettings) -> Checked<Settings> {
     settings.dt_s = optional("dt_s", &raw.dt_s, &STEP)?;
     settings.mass_scaling = mass_scaling(raw)?.unwrap_or(settings.mass_scaling);
     settings.selective_mass = raw.selective_mass.unwrap_or(settings.selective_mass);
+    settings.mass_passes = passes(raw)?.unwrap_or(settings.mass_passes);
     settings.seed = seed(raw)?.unwrap_or(settings.seed);
     settings.guards = guards(raw)?;
     not_too_many(raw, &settings)?;
@@ -89,6 +90,14 @@ fn seed(raw: &RawSettings) -> Checked<Option<u64>> {
     match u64::try_from(*seed.get_ref()) {
         Ok(value) => Ok(Some(value)),
         Err(_) => refuse("seed is below zero", "write a whole number from 0 on", seed.span()),
+    }
+}
+
+fn passes(raw: &RawSettings) -> Checked<Option<usize>> {
+    let Some(passes) = &raw.mass_passes else { return Ok(None) };
+    match passes.get_ref() {
+        2 | 4 | 6 => Ok(Some(*passes.get_ref() as usize)),
+        other => refuse(format!("mass_passes cannot be {other}"), "write 2, 4 or 6", passes.span()),
     }
 }
 

@@ -246,12 +246,15 @@ fn settings_that_exclude_each_other_or_flood_the_disk_are_refused() {
     check(&[
         ("mass_scaling = 4", "mass_scaling = \"much\"", "much", &["not understood", "target_step_s = 4e-6"]),
         ("mass_scaling = 4", "mass_scaling = 0.1", "0.1", &["from 1 to"]),
+        ("mass_scaling = 4", "mass_passes = 3", "3", &["mass_passes cannot be 3", "2, 4 or 6"]),
         ("mass_scaling = 4", "mass_scaling = 4\ntarget_step_s = 4e-6", "4", &["at once", "keep one"]),
         ("seed = 7", "seed = -7", "-7", &["below zero"]),
         ("output_every_s = 0.02", "output_every_s = 1e-6", "1e-6", &["1500000 outputs", "at least 1.5e-5"]),
     ]);
     let with = |text: &str| parse(&WHOLE.replace("mass_scaling = 4", text)).unwrap().problem.settings.mass_scaling;
     assert_eq!(with("mass_scaling = \"none\""), MassScaling::None);
+    let passes = |text: &str| parse(&WHOLE.replace("mass_scaling = 4", text)).unwrap().problem.settings.mass_passes;
+    assert_eq!(["mass_passes = 4", ""].map(passes), [4, 2]);
     assert_eq!(with("target_step_s = 4e-6"), MassScaling::TargetStep(4e-6));
     assert_eq!(with("mass_scaling = 2.5"), MassScaling::Fixed(2.5));
     let quasi_static = WHOLE.replace("mass_scaling = 4", "").replace("\"paper\"", "\"quasi-static\"");

@@ -68,8 +68,9 @@ const SHARE: f64 = 0.05;
 /// Share of critical damping of a pair.
 const DAMPING: f64 = 0.1;
 
-/// Most nodes whose forces are handed over by one thread.
+/// Fewest nodes whose forces are handed over at once, and most pieces: every piece looks at all chunks near it.
 const PIECE: usize = 4096;
+const PIECES: usize = 8;
 
 /// Contact between the layers of a mesh.
 #[derive(Debug, Clone)]
@@ -255,7 +256,9 @@ impl Term for Contact {
         let step = self.step_of(x, tick.dt_s);
         chunks.par_iter_mut().for_each(|chunk| chunk.step(&step));
         self.chunks = chunks;
-        hand_over(&self.chunks, 0, force.as_chunks_mut::<4>().0);
+        let force = force.as_chunks_mut::<4>().0;
+        let most = PIECE.max(force.len().div_ceil(PIECES));
+        hand_over(&self.chunks, 0, force, most);
         self.sums.stored = 0.0;
         for chunk in &self.chunks {
             self.sums.stored += chunk.sums.stored;
@@ -304,13 +307,13 @@ impl Term for Contact {
 
 /// Adds the forces of all chunks to those on the nodes from `first` on; every node gets its own in the order of chunks, whatever
 /// the number of threads.
-fn hand_over(chunks: &[Chunk], first: u32, force: &mut [[f64; 4]]) {
-    if force.len() <= PIECE {
+fn hand_over(chunks: &[Chunk], first: u32, force: &mut [[f64; 4]], most: usize) {
+    if force.len() <= most {
         return chunks.iter().for_each(|chunk| chunk.hand_over(first, force));
     }
     let half = force.len() / 2;
     let (low, high) = force.split_at_mut(half);
-    rayon::join(|| hand_over(chunks, first, low), || hand_over(chunks, first + half as u32, high));
+    rayon::join(|| hand_over(chunks, first, low, most), || hand_over(chunks, first + half as u32, high, most));
 }
 
 fn reaches(settings: &problem::Contact, size_m: f64) -> Reach {

@@ -48,6 +48,7 @@ use crate::mesh::check::{Quality, check_open};
 use crate::output::centre_line::CentreLine;
 use crate::output::picture::View;
 use crate::problem::{Amplitude, Chamber, Contact, MassScaling, Pressure, Settings, Support};
+use crate::run;
 use crate::sheet::reference::mean_stiffness;
 use crate::{FemError, Mesh, Problem};
 use lines::Lines;
@@ -218,10 +219,13 @@ fn numerics(problem: &Problem, settings: &RobotSettings) -> Settings {
     };
     let fastest = problem.sections.iter().map(speed).fold(0.0, f64::max);
     let smallest = settings.body_size_m.min(settings.actuator_size_m);
+    let mass_passes = settings.mass_passes.unwrap_or(if smallest < settings::FINE_M { 6 } else { 2 });
+    let allowed = if settings.selective_mass { run::gain(mass_passes) } else { 1.0 };
     Settings {
         end_s: settings.body_ramp_s + settings.actuator_ramp_s + settings.hold_s,
-        mass_scaling: MassScaling::TargetStep(settings.mass_factor.sqrt() * smallest / fastest),
+        mass_scaling: MassScaling::TargetStep((settings.mass_factor * allowed).sqrt() * smallest / fastest),
         selective_mass: settings.selective_mass,
+        mass_passes,
         mass_damping_1_s: settings.mass_damping_1_s,
         hourglass: settings.hourglass,
         imperfection: settings.imperfection,

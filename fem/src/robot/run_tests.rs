@@ -63,6 +63,7 @@ fn faults_of_the_table_are_refused_with_their_place() {
         ("pressures_kpa = []", "[10, 20, 30]", "[]"),
         ("seed = 1.5", "whole number", "1.5"),
         ("selective_mass = 1", "selective_mass must be true or false", "1"),
+        ("mass_passes = 3", "mass_passes cannot be 3", "3"),
         ("contact = \"yes\"", "leave it out: where the pattern folds", "\"yes\""),
         ("tip_force_n = [1, 2]", "three numbers", "[1, 2]"),
         ("obstacle_friction = 0.2", "add obstacle_mm", "obstacle_friction"),
@@ -70,6 +71,30 @@ fn faults_of_the_table_are_refused_with_their_place() {
         let (message, found) = refused(more);
         assert!(message.contains(words) && found == place, "{more}: {message} at {found}");
     }
+}
+
+/// Elements below 1.5 mm take six passes and half the steps; what is said holds on every mesh.
+#[test]
+fn fine_meshes_take_more_passes_of_selective_masses_and_fewer_steps() {
+    let (scenario, coarse) = parsed("mesh_mm = 16").unwrap();
+    let problem = coarse.problem(&scenario).unwrap();
+    let of = |more: &str| {
+        let settings = numerics(&problem, &parsed(&format!("mesh_mm = 16\n{more}")).unwrap().1.settings);
+        let MassScaling::TargetStep(step_s) = settings.mass_scaling else { panic!("no step") };
+        (settings.mass_passes, step_s)
+    };
+    let [usual, fine, said, more] = [
+        "actuator_mesh_mm = 8",
+        "actuator_mesh_mm = 1.4",
+        "actuator_mesh_mm = 1.4\nmass_passes = 2",
+        "mass_passes = 6",
+    ]
+    .map(of);
+    assert_eq!([usual.0, fine.0, said.0, more.0], [2, 6, 2, 6]);
+    let (longer, same) = (fine.1 / said.1, usual.1 / 8.0 * 1.4 / said.1);
+    assert!((1.8..1.9).contains(&longer) && (same - 1.0).abs() < 1e-12, "{longer} {same}");
+    let (_, run) = parsed("selective_mass = false\nmass_passes = 6").unwrap();
+    assert_eq!((run.settings.selective_mass, run.settings.mass_passes), (false, Some(6)));
 }
 
 #[test]

@@ -10,6 +10,8 @@ pub(super) const TAPED_SPACING: f64 = 0.8;
 /// on edge, and the wall beside them turns by a right angle within that width. With half of it, on elements twice as wide, gussets of
 /// long pouches turn inside out.
 pub(super) const FOLDED_ROW: f64 = 2.0 / 3.0;
+/// Elements shorter than this \[m\] are much finer than what moves: their selective masses take six passes.
+pub(super) const FINE_M: f64 = 1.5e-3;
 
 /// Mesh, fabrication and loading of a robot.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,6 +68,9 @@ pub struct RobotSettings {
     pub mass_factor: f64,
     /// Whether waves of a few elements are heavy in place of everything ([`crate::problem::Settings::selective_mass`]).
     pub selective_mass: bool,
+    /// Passes of the selective masses, 2, 4 or 6 ([`crate::problem::Settings::mass_passes`]), and the longer step that they allow
+    /// beside `mass_factor`; `None`: 2, and 6 for elements below 1.5 mm.
+    pub mass_passes: Option<usize>,
     /// Mass damping \[1/s\].
     pub mass_damping_1_s: f64,
     /// Hourglass coefficient.
@@ -127,6 +132,7 @@ impl RobotSettings {
             hold_s: 0.06,
             mass_factor: 2.4,
             selective_mass: true,
+            mass_passes: None,
             mass_damping_1_s: 40.0,
             hourglass: 1e-3,
             contact: None,

@@ -87,6 +87,8 @@ pub const KEYS: &[Key] = &[
     key("hold_s", 1.0, [0.0, 1e3], "time at each pressure before it is read", |s| s.hold_s, |s, v| s.hold_s = v),
     key("mass_factor", 1.0, [1.0, 1e4], "square of the step over the time of sound through the smallest element",
         |s| s.mass_factor, |s, v| s.mass_factor = v),
+    key("mass_passes", 1.0, [2.0, 6.0], "passes of the selective masses, 2, 4 or 6: more allow longer steps and make longer waves heavy",
+        |s| s.mass_passes.map_or(f64::NAN, |n| n as f64), |s, v| s.mass_passes = Some(v as usize)),
     key("mass_damping_1_s", 1.0, [0.0, 1e5], "mass damping", |s| s.mass_damping_1_s, |s, v| s.mass_damping_1_s = v),
     key("hourglass", 1.0, [0.0, 1.0], "hourglass coefficient", |s| s.hourglass, |s, v| s.hourglass = v),
     key("imperfection", 1.0, [0.0, 0.2], "random offset of the nodes over the element size",
@@ -162,6 +164,9 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
         let si = number(name, plain_number(name, value)?, value.span(), &range)?;
         if name == "seed" && si.fract() != 0.0 {
             return refuse(format!("seed must be a whole number, not {si}"), "write for example 1", value.span());
+        }
+        if name == "mass_passes" && ![2.0, 4.0, 6.0].contains(&si) {
+            return refuse(format!("mass_passes cannot be {si}"), "write 2, 4 or 6", value.span());
         }
         (known.set)(&mut run.settings, si);
         return Ok(());

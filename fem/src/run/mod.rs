@@ -33,6 +33,7 @@ use crate::sheet::order::Order;
 use crate::{FemError, Mesh, Problem};
 use constraint::{Body, Driven};
 use selective::Selective;
+pub(crate) use selective::gain;
 use team::Team;
 
 /// A run in progress.

@@ -130,7 +130,8 @@ struct Still {
 
 impl Still {
     fn selective(&self, settings: &Settings, mesh: &Mesh, mass: &[f64]) -> Option<Selective> {
-        settings.selective_mass.then(|| Selective::new(mesh, mass, &self.fixed, &self.carried))
+        let new = || Selective::new(mesh, mass, settings.mass_passes, &self.fixed, &self.carried);
+        settings.selective_mass.then(new)
     }
 }
 

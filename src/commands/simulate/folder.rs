@@ -283,3 +283,22 @@ fn remove(path: &Path) -> Result<(), Failure> {
     };
     removed.map_err(|cause| write_failure(path, &cause))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_end_of_an_interrupted_run_comes_back_to_the_bit() {
+        let folder = tempfile::tempdir().unwrap();
+        // The robots' end, which is not 0.46, and sums as ramps make them.
+        let ends = [0.04 + 0.36 + 0.06].into_iter().chain((1..500).map(|i| 0.1 * f64::from(i) + 1.0 / f64::from(i)));
+        for end_s in ends {
+            let marker = Marker { case_sha256: "ab".into(), end_s, frames: false };
+            let Ok(Opened::Work(place)) = take(folder.path(), folder.path(), None) else { panic!("not taken") };
+            place.start(&marker, "").unwrap();
+            let Ok(Found::Unfinished(read)) = look(folder.path()) else { panic!("no marker") };
+            assert_eq!(read.end_s.to_bits(), end_s.to_bits(), "{end_s}");
+        }
+    }
+}

@@ -137,7 +137,7 @@ impl<'a> Running<'a> {
         // The last output is the end itself; a whole number of intervals shall not get a second one just before it.
         let last = (end_s / every_s - 1e-6).ceil().max(1.0) as u64;
         let mut teller = Teller::new(&self.run, end_s);
-        let mut saved_at = Instant::now();
+        let (mut saved_at, mut saving) = (Instant::now(), Duration::ZERO);
         while self.next <= last {
             let output_s = if self.next == last { end_s } else { self.next as f64 * every_s };
             let hold_s = self.robot.as_ref().and_then(Watched::next_s).filter(|hold_s| *hold_s <= output_s);
@@ -148,9 +148,12 @@ impl<'a> Running<'a> {
             let advanced = self.run.advance_until(target_s, &mut |run| {
                 teller.tell(run, context);
                 robot.iter_mut().for_each(|robot| robot.watch.sample(run));
-                if saved_at.elapsed() >= checkpoint_every {
+                // A large run writes hundreds of megabytes: not for more than a fiftieth of its time.
+                if saved_at.elapsed() >= checkpoint_every.max(50 * saving) {
+                    let began = Instant::now();
                     fault = files.save(run, next, balances, robot.as_ref(), outside_s + run.cpu_s()).err();
                     saved_at = Instant::now();
+                    saving = saved_at - began;
                 }
                 fault.is_none() && !context.interrupt.asked()
             })?;
