@@ -54,7 +54,11 @@ fn interrupt() {
         return;
     }
     let written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
-    let what = if *written { "the results were already complete" } else { "nothing was written" };
+    let what = match (*written, INTERRUPT.asked()) {
+        (true, _) => "the results were already complete",
+        (false, true) => "--resume goes on from the last checkpoint",
+        (false, false) => "nothing was written",
+    };
     say(&format!("\ninterrupted; {what}\n"));
     std::process::exit(failure::INTERRUPTED.into());
 }

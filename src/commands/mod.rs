@@ -30,8 +30,9 @@ mod verify_fem;
 use crate::cli::{Cli, Command};
 use crate::failure::Failure;
 use clap::CommandFactory;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock};
+use std::time::{Duration, Instant};
 
 /// What a command may use of the outside.
 pub struct Context<'a> {
@@ -45,18 +46,22 @@ pub struct Context<'a> {
     pub interrupt: &'a Interrupt,
 }
 
+/// Signals within this time are one.
+const ONE_REQUEST: Duration = Duration::from_secs(1);
+
 /// How Ctrl-C reaches a command that saves where it stands before it ends.
 #[derive(Debug)]
 pub struct Interrupt {
     /// Runs that will end themselves.
     awaited: AtomicUsize,
-    asked: AtomicBool,
+    /// When it was asked first.
+    asked: OnceLock<Instant>,
 }
 
 impl Interrupt {
     /// Nobody waits for it yet.
     pub const fn new() -> Interrupt {
-        Interrupt { awaited: AtomicUsize::new(0), asked: AtomicBool::new(false) }
+        Interrupt { awaited: AtomicUsize::new(0), asked: OnceLock::new() }
     }
 
     /// One more run will end itself when asked, from now on.
@@ -69,14 +74,15 @@ impl Interrupt {
         self.awaited.fetch_sub(1, Ordering::SeqCst);
     }
 
-    /// Asks the command to end; false if it will not, or was asked before.
+    /// Asks the command to end; false if it will not, or was asked before. Who asks again at once asks once: `timeout` and job
+    /// schedulers signal a program and its group, and a checkpoint shall still be written.
     pub fn ask(&self) -> bool {
-        self.awaited.load(Ordering::SeqCst) > 0 && !self.asked.swap(true, Ordering::SeqCst)
+        self.awaited.load(Ordering::SeqCst) > 0 && self.asked.get_or_init(Instant::now).elapsed() < ONE_REQUEST
     }
 
     /// Whether the command shall end.
-    fn asked(&self) -> bool {
-        self.asked.load(Ordering::SeqCst)
+    pub fn asked(&self) -> bool {
+        self.asked.get().is_some()
     }
 }
 

@@ -73,9 +73,13 @@ fn an_interrupted_robot_goes_on_to_the_same_end() {
         assert!(patience.elapsed() < Duration::from_secs(60), "no history was written");
         std::thread::sleep(Duration::from_millis(2));
     }
-    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    // Twice, as `timeout` does; the second comes when a checkpoint is being written.
+    for _ in 0..2 {
+        assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    }
     let ran = Ran::from(child.wait_with_output().unwrap());
     assert_eq!(ran.code, 130, "{}", ran.stderr);
+    assert!(folder.path("run/checkpoint").exists() && ran.stderr.contains("--resume"), "{}", ran.stderr);
     let ran = Ran::from(start("run", &["--resume"]).wait_with_output().unwrap());
     assert_eq!(ran.code, 0, "{}", ran.stderr);
     for name in ["readings.csv", "markers.csv", "history.csv", "centre_line.csv", "summary.json"] {

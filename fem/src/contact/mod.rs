@@ -188,10 +188,10 @@ impl Contact {
 
     fn search(&mut self, x: &[[f64; 4]]) {
         let pairs = search::pairs(&self.surface, x, self.reach.side_m + self.reach.skin_m);
-        for chunk in &mut self.chunks {
+        self.chunks.par_iter_mut().for_each(|chunk| {
             chunk.unload();
             chunk.close(x);
-        }
+        });
         let clear_m = if self.searches == 0 { f64::NEG_INFINITY } else { self.reach.side_m };
         let old = Memory::new(std::mem::take(&mut self.chunks), x.len(), clear_m);
         let (chunks, lost) = build::chunks(&self.surface, &pairs, &old, &self.penalty);
@@ -256,15 +256,20 @@ impl Term for Contact {
         let step = self.step_of(x, tick.dt_s);
         chunks.par_iter_mut().for_each(|chunk| chunk.step(&step));
         self.chunks = chunks;
-        let force = force.as_chunks_mut::<4>().0;
-        let most = PIECE.max(force.len().div_ceil(PIECES));
-        hand_over(&self.chunks, 0, force, most);
+        // Most chunks of a fine mesh touch nothing.
+        let mut pushing = Vec::new();
         self.sums.stored = 0.0;
         for chunk in &self.chunks {
             self.sums.stored += chunk.sums.stored;
             self.sums.friction += chunk.sums.friction;
             self.sums.damping += chunk.sums.damping;
+            if !chunk.pushes.is_empty() {
+                pushing.push(chunk);
+            }
         }
+        let force = force.as_chunks_mut::<4>().0;
+        let most = PIECE.max(force.len().div_ceil(PIECES));
+        hand_over(&pushing, 0, force, most);
         std::mem::swap(&mut self.before_m, &mut self.now_m);
         self.sums.stored
     }
@@ -305,9 +310,9 @@ impl Term for Contact {
     }
 }
 
-/// Adds the forces of all chunks to those on the nodes from `first` on; every node gets its own in the order of chunks, whatever
+/// Adds the forces of chunks to those on the nodes from `first` on; every node gets its own in the order of chunks, whatever
 /// the number of threads.
-fn hand_over(chunks: &[Chunk], first: u32, force: &mut [[f64; 4]], most: usize) {
+fn hand_over(chunks: &[&Chunk], first: u32, force: &mut [[f64; 4]], most: usize) {
     if force.len() <= most {
         return chunks.iter().for_each(|chunk| chunk.hand_over(first, force));
     }

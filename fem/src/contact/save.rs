@@ -7,7 +7,7 @@ use super::record::Record;
 use crate::output::bytes::{Reader, Writer};
 
 /// Changes with the layout of the bytes.
-const VERSION: u64 = 3;
+const VERSION: u64 = 4;
 
 pub(super) fn write(contact: &Contact) -> Vec<u8> {
     let mut out = Writer::new();

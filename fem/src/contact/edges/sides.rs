@@ -121,12 +121,12 @@ impl Boxes {
     fn near(&self, own: Bounds, out: &mut Vec<u32>) {
         out.clear();
         // A little more than half a box, lest rounding lose a column.
-        let [from, to] = [-1.001, 1.001].map(|side| {
+        let [low, high] = [-1.001, 1.001].map(|side| {
             let corner = own[usize::from(side > 0.0)];
-            self.grid.column_of([0, 1, 2].map(|k| corner[k] + side * self.half_m[k]))
+            [0, 1, 2].map(|k| corner[k] + side * self.half_m[k])
         });
-        for i in from[0]..=to[0] {
-            for Placed { item, .. } in self.grid.row(i, from[1], to[1]) {
+        for column in self.grid.columns(low, high) {
+            for Placed { item, .. } in self.grid.between(column, low, high) {
                 let [low, high] = &self.boxes[*item as usize];
                 let mut touching = true;
                 for k in 0..3 {

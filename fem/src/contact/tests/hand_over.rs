@@ -29,6 +29,6 @@ fn forces_handed_over_in_pieces_are_those_handed_over_at_once() {
         chunks.push(Chunk { nodes, span, pushes, ..Chunk::default() });
     }
     let mut pieces = vec![[0.0; 4]; count as usize];
-    hand_over(&chunks, 0, &mut pieces, PIECE);
+    hand_over(&chunks.iter().collect::<Vec<_>>(), 0, &mut pieces, PIECE);
     assert_eq!(pieces, whole);
 }
