@@ -6,8 +6,8 @@ use std::sync::Arc;
 use models::fabrics::{NeoHookean, Orthotropic};
 
 use super::LEAST;
-use crate::mesh::generate;
-use crate::problem::{Amplitude, Contact, NodalForce, Ply, Problem, Rigid, Section, Settings, Support};
+use crate::mesh::{Part, generate};
+use crate::problem::{Amplitude, Contact, MassScaling, NodalForce, Ply, Problem, Rigid, Section, Settings, Support};
 use crate::run::setup::gaussian;
 use crate::{Mesh, Simulation};
 
@@ -214,6 +214,48 @@ fn supports_and_rigid_bodies_do_what_they_do_with_lumped_masses() {
             assert!((selective / lumped - 1.0).abs() < 1e-4, "{rigid}, {passes}: {selective} {lumped}");
         }
     }
+}
+
+/// A thin sheet with a stiff strip of bonded plies, asked for the step that the thin sheet allows: the strip pays for its bending, the
+/// rest keeps its mass (1.2 times; 6.2 if all nodes are raised alike), and the step holds.
+#[test]
+fn stuck_plies_pay_for_their_own_bending() {
+    let mut mesh = generate::plate(0.03, 0.02, 30, 20, None).unwrap();
+    let strip = |quad: &[u32; 4]| quad.iter().all(|n| (0.0129..0.0171).contains(&mesh.points[*n as usize][0]));
+    let (strip, sheet): (Vec<_>, Vec<_>) = mesh.parts[0].quads.iter().partition(|quad| strip(quad));
+    let whole = problem(mesh.clone());
+    mesh.parts.push(Part { name: "strip".into(), quads: strip, ..mesh.parts[0].clone() });
+    mesh.parts[0].quads = sheet;
+    let mut problem = problem(mesh);
+    problem.sections.push(whole.sections[0].clone());
+    problem.sections[1].plies = vec![problem.sections[0].plies[0].clone(); 4];
+    let thin = |i: usize| !(0.0119..0.0181).contains(&problem.mesh.points[i][0]);
+    let masses = |problem: &Problem| {
+        let run = Simulation::new(problem).unwrap();
+        // The solver has an order of its own.
+        let mut masses = vec![0.0; run.mass.len()];
+        let points = |p: &[f64; 4]| problem.mesh.points.iter().position(|x| (x[0] - p[0]).hypot(x[1] - p[1]) < 1e-6);
+        run.x.iter().zip(&run.mass).for_each(|(x, m)| masses[points(x).unwrap()] = *m);
+        (masses, run.dt_s())
+    };
+    let six = Settings { mass_passes: 6, ..problem.settings.clone() };
+    let step_s = masses(&Problem { settings: six.clone(), ..whole }).1;
+    let (lumped, _) = masses(&problem);
+    let mut scaled = Problem { settings: six, ..problem.clone() };
+    scaled.settings.mass_scaling = MassScaling::TargetStep(step_s);
+    let (mass, dt_s) = masses(&scaled);
+    let raised = |thinly: bool| {
+        let own = (0..mass.len()).filter(|i| thin(*i) == thinly);
+        let sums = own.fold([0.0, 0.0], |[a, b], i| [a + mass[i], b + lumped[i]]);
+        sums[0] / sums[1]
+    };
+    assert!(raised(true) < 1.4 && raised(false) > 4.0, "{} {}", raised(true), raised(false));
+    assert!((0.95..1.2).contains(&(dt_s / step_s)), "{dt_s} {step_s}");
+    let mut run = Simulation::new(&scaled).unwrap();
+    let kick = |i: usize, k: usize| 1e-3 * gaussian(3, (4 * i + k) as u64);
+    run.set_velocities(&(0..mass.len()).map(|i| [0, 1, 2].map(|k| kick(i, k))).collect::<Vec<_>>());
+    run.advance_until(4000.0 * dt_s, &mut |_| true).unwrap();
+    assert!(run.ledger().residual_share() < 0.02, "{}", run.ledger().residual_share());
 }
 
 #[test]

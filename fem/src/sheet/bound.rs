@@ -100,6 +100,11 @@ impl Sheet {
         self.each_ahead(q, bound, |_, (_, bound), _| bound);
     }
 
+    /// Adds each node's part of the bound that is bending's \[N/m\].
+    pub fn add_bending_bound(&self, bound: &mut [f64]) {
+        bound.iter_mut().zip(&self.bending_bound).for_each(|(bound, bending)| *bound += bending);
+    }
+
     /// The material part of the tangent that the bound is of, element by element; adds the bounds of everything else.
     pub(crate) fn tangents(&self, q: &[f64], bound: &mut [f64]) -> Vec<Tangent> {
         let mut all = Vec::with_capacity(self.elements.len());
