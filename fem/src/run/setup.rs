@@ -128,7 +128,8 @@ fn masses_and_step(
         let all: f64 = mass.iter().sum();
         (all, mass)
     };
-    let weights = if settings.mass_passes > 2 { &BENDING[..] } else { &BENDING[..1] };
+    let asked = matches!(settings.mass_scaling, MassScaling::TargetStep(_));
+    let weights = if asked && settings.mass_passes > 2 { &BENDING[..] } else { &BENDING[..1] };
     let lightest = weights.iter().map(scaled).min_by(|a, b| a.0.total_cmp(&b.0));
     let (all, mass) = lightest.unwrap_or((true_mass, mass));
     let added_mass = all / true_mass - 1.0;
