@@ -1,5 +1,7 @@
 //! What a user can type wrong, and what the case says then; and that what is right arrives in SI.
 
+mod document;
+
 use super::*;
 use crate::problem::{Amplitude, MassScaling, ObstacleShape, Pressure};
 
@@ -357,41 +359,6 @@ fn an_empty_or_cut_text_is_an_error_not_a_panic() {
         let _ = parse(&WHOLE[..end]);
     }
     assert!(parse("").unwrap_err().to_string().contains("missing field"));
-}
-
-/// The keys that a table knows, as its refusal of another one lists them.
-fn keys_of(table: &str) -> Vec<String> {
-    let text = format!("{}\n{table}\nqqqqqqqq = 1\n", "kind = \"fem\"");
-    let message = parse(&text).unwrap_err().to_string();
-    let list = message.split_once("known here: ").unwrap_or_else(|| panic!("{table}: {message}")).1;
-    list.lines().next().unwrap_or_default().split(", ").map(String::from).collect()
-}
-
-#[test]
-fn every_key_every_generator_and_every_law_is_in_the_document() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/case.md");
-    let document = std::fs::read_to_string(path).unwrap();
-    let (mut names, mut tables) = (Vec::new(), keys_of(""));
-    assert!(tables.contains(&"mesh".to_string()) && tables.len() > 10, "{tables:?}");
-    tables.retain(|t| !["kind", "name", "notes", "mesh", "fabric"].contains(&t.as_str()));
-    for table in tables {
-        let header = match table.as_str() {
-            "part" | "chamber" => format!("[{table}.x]"),
-            "support" | "rigid" | "force" | "obstacle" => format!("[[{table}]]"),
-            _ => format!("[{table}]"),
-        };
-        names.extend(keys_of(&header));
-    }
-    assert!(names.len() > 50, "{names:?}");
-    names.extend(GENERATORS.iter().flat_map(|g| g.keys.iter().map(|k| k.key).chain([g.name])).map(String::from));
-    let laws = models::fabrics::FABRICS.iter();
-    names.extend(laws.flat_map(|l| {
-        l.parameters.iter().map(|p| p.key).chain(l.curves.iter().map(|c| c.key)).chain([l.name]).map(String::from)
-    }));
-    names.extend(models::fabrics::MATERIALS.iter().map(|m| m.name.to_string()));
-    for name in names.iter().filter(|n| !n.contains("_kpa")) {
-        assert!(document.contains(&format!("`{name}`")) || document.contains(&format!("`\"{name}\"`")), "`{name}`");
-    }
 }
 
 #[test]

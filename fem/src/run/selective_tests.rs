@@ -217,7 +217,7 @@ fn supports_and_rigid_bodies_do_what_they_do_with_lumped_masses() {
 }
 
 /// A thin sheet with a stiff strip of bonded plies, asked for the step that the thin sheet allows: the strip pays for its bending, the
-/// rest keeps its mass (1.2 times; 6.2 if all nodes are raised alike), and the step holds.
+/// rest gets far less than if all were raised alike (the step goes by the root of the mass), and the step holds.
 #[test]
 fn stuck_plies_pay_for_their_own_bending() {
     let mut mesh = generate::plate(0.03, 0.02, 30, 20, None).unwrap();
@@ -240,8 +240,9 @@ fn stuck_plies_pay_for_their_own_bending() {
     };
     let six = Settings { mass_passes: 6, ..problem.settings.clone() };
     let step_s = masses(&Problem { settings: six.clone(), ..whole }).1;
-    let (lumped, _) = masses(&problem);
     let mut scaled = Problem { settings: six, ..problem.clone() };
+    let (lumped, light_s) = masses(&scaled);
+    let alike = (step_s / light_s).powi(2);
     scaled.settings.mass_scaling = MassScaling::TargetStep(step_s);
     let (mass, dt_s) = masses(&scaled);
     let raised = |thinly: bool| {
@@ -249,7 +250,7 @@ fn stuck_plies_pay_for_their_own_bending() {
         let sums = own.fold([0.0, 0.0], |[a, b], i| [a + mass[i], b + lumped[i]]);
         sums[0] / sums[1]
     };
-    assert!(raised(true) < 1.4 && raised(false) > 4.0, "{} {}", raised(true), raised(false));
+    assert!(raised(true) < 0.3 * alike && raised(false) > 0.5 * alike, "{} {} {alike}", raised(true), raised(false));
     assert!((0.95..1.2).contains(&(dt_s / step_s)), "{dt_s} {step_s}");
     let mut run = Simulation::new(&scaled).unwrap();
     let kick = |i: usize, k: usize| 1e-3 * gaussian(3, (4 * i + k) as u64);
