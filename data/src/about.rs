@@ -20,6 +20,9 @@
 //! pressure = true                    # p_act is that of a gauge at the actuator, not the regulator's
 //! frame = true                       # positions in the base's frame: fiducials on the clamp, a checkerboard in the
 //!                                    # markers' plane, their distance from the axis by caliper
+//! [bending]                          # optional: bending stiffness of this robot, measured by itself, at the first body pressure
+//! stiffness_nm2 = 1.35
+//! sd_nm2 = 0.15                      # its standard deviation
 //! [[run]]                            # optional; runs not named have no tip force
 //! id = "1"
 //! tip_force_n = [0, 0.3]
@@ -80,6 +83,8 @@ pub struct About {
     pub gravity_direction: Option<[f64; 2]>,
     /// What was measured directly.
     pub direct: Direct,
+    /// Bending stiffness of this robot at the first body pressure, measured by itself, and its standard deviation \[N·m²\].
+    pub bending_nm2: Option<[f64; 2]>,
     /// Runs with a tip force or a session of their own.
     pub runs: Vec<AboutRun>,
     /// Free text.
@@ -168,6 +173,7 @@ pub fn parse_about(file: &str, text: &str) -> Result<About, DataError> {
         markers: raw.markers.map_or(Ok(Vec::new()), |markers| check.markers(markers))?,
         gravity_direction: raw.gravity.map(|gravity| check.direction(&gravity.direction)).transpose()?,
         direct: raw.direct,
+        bending_nm2: raw.bending.map(|bending| check.bending(&bending)).transpose()?,
         runs: check.runs(raw.run)?,
         title: check.filled("title", &raw.title)?,
         source: check.filled("source", &raw.source)?,
@@ -203,6 +209,7 @@ struct RawAbout {
     gravity: Option<RawGravity>,
     #[serde(default)]
     direct: Direct,
+    bending: Option<RawBending>,
     #[serde(default)]
     run: Vec<RawRun>,
 }
@@ -230,6 +237,13 @@ struct RawMarkers {
 #[serde(deny_unknown_fields)]
 struct RawGravity {
     direction: Spanned<[f64; 2]>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawBending {
+    stiffness_nm2: Spanned<f64>,
+    sd_nm2: Spanned<f64>,
 }
 
 #[derive(Deserialize)]
@@ -323,6 +337,20 @@ impl Check<'_> {
         }
         let help = "write for example direction = [0, -1]; leave [gravity] out if it does not act in the x-y plane";
         Err(self.fault("direction", value, "must be a unit vector", help))
+    }
+
+    fn bending(&self, raw: &RawBending) -> Result<[f64; 2], DataError> {
+        let (stiffness, sd) = (*raw.stiffness_nm2.get_ref(), *raw.sd_nm2.get_ref());
+        if !(stiffness >= 0.0 && stiffness.is_finite()) {
+            let help = "give it in N·m², for example 1.35";
+            return Err(self.fault("stiffness_nm2", &raw.stiffness_nm2, "must not be negative", help));
+        }
+        // Nothing is measured better than to a thousandth: such a number would overrule all markers.
+        if !(sd >= 1e-3 * stiffness && sd > 0.0 && sd.is_finite()) {
+            let help = "give its standard deviation in N·m², from repeats of the bending test";
+            return Err(self.fault("sd_nm2", &raw.sd_nm2, "must be above a thousandth of the stiffness", help));
+        }
+        Ok([stiffness, sd])
     }
 
     fn runs(&self, raw: Vec<RawRun>) -> Result<Vec<AboutRun>, DataError> {

@@ -99,6 +99,9 @@ pub fn about_toml(about: &About) -> String {
         let Direct { pressure, frame } = about.direct;
         text.push_str(&format!("\n[direct]\npressure = {pressure}\nframe = {frame}\n"));
     }
+    if let Some([stiffness, sd]) = about.bending_nm2 {
+        text.push_str(&format!("\n[bending]\nstiffness_nm2 = {stiffness:?}\nsd_nm2 = {sd:?}\n"));
+    }
     if let Some([x, y]) = about.gravity_direction {
         text.push_str(&format!("\n[gravity]\ndirection = [{x:?}, {y:?}]\n"));
     }

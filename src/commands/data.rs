@@ -156,6 +156,7 @@ pub fn about(scenario: &Scenario, dataset: &Dataset, g: &Generator) -> About {
         markers: stations.map(|(m, s)| MarkerStation { name: m.name.clone(), station_m: *s }).collect(),
         gravity_direction: None,
         direct: Direct::default(),
+        bending_nm2: None,
         runs: vec![],
         notes: Some(format!(
             "Not a measurement. Camera noise {} mm per coordinate; run to run: pressure {} %, alignment {} mm, rotation {} mrad. \

@@ -47,6 +47,8 @@ pub struct Case<'a> {
     pub direct: Direct,
     /// Readings of the actuator's pressure in them.
     pub gauge: Option<&'a Gauge>,
+    /// Bending stiffness measured by itself along with them.
+    pub bending_nm2: Option<[f64; 2]>,
     /// Noise of their mean.
     pub noise: NoiseModel,
     /// Further data.
@@ -113,7 +115,8 @@ impl<'a> Case<'a> {
         (candidates, own): (&'a [Candidate], usize),
         options: &Options,
     ) -> Result<Case<'a>, CompareError> {
-        let Source { scenario, dataset, direct, gauge } = sources[0];
+        let Source { scenario, dataset, direct, gauge, bending_nm2 } = sources[0];
+        let known_bending = sources.iter().find_map(|source| source.bending_nm2);
         for source in sources {
             Layout::of(source.dataset)?;
         }
@@ -130,7 +133,7 @@ impl<'a> Case<'a> {
                 blocks.push(whole_block(source, source.dataset.mean_over_runs(), &noise, &body_pa)?);
                 noises.push(noise);
             }
-            let problem = Problem { candidates, blocks, bendings, enough: ENOUGH };
+            let problem = Problem { candidates, blocks, bendings, known_bending, enough: ENOUGH };
             let base = problem.fit_base(&always, &values).ok_or_else(no_base)?;
             Ok((noises, problem, base))
         };
@@ -145,6 +148,7 @@ impl<'a> Case<'a> {
             dataset,
             direct,
             gauge,
+            bending_nm2,
             noise,
             beside,
             always,
@@ -190,7 +194,8 @@ impl<'a> Case<'a> {
 
     /// The first data.
     pub fn source(&self) -> Source<'a> {
-        Source { scenario: self.scenario, dataset: self.dataset, direct: self.direct, gauge: self.gauge }
+        let Case { scenario, dataset, direct, gauge, bending_nm2, .. } = *self;
+        Source { scenario, dataset, direct, gauge, bending_nm2 }
     }
 
     /// Blocks of the data beside the first.
@@ -307,7 +312,7 @@ pub fn block<'a>(
     noise: &NoiseModel,
     body_pa: &[f64],
 ) -> Result<Block<'a>, CompareError> {
-    let Source { scenario, dataset, direct, gauge } = *source;
+    let Source { scenario, dataset, direct, gauge, .. } = *source;
     let width = dataset.values_per_run() / dataset.holds.len();
     let each: Vec<Weights> = holds.iter().flat_map(|h| h * width..(h + 1) * width).map(|i| vec![(i, 1.0)]).collect();
     Ok(Block {

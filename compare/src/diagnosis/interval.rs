@@ -69,6 +69,8 @@ fn half_width(case: &Case, white: &[f64]) -> Option<f64> {
         squares_over_dof += camera * camera / noise.pure_error_dof.max(1) as f64 + run_to_run * run_to_run / run_dof;
         from = to + read;
     }
+    // A bending stiffness measured by itself, of unit variance too.
+    total += square(&white[from..]);
     let dof = total * total / squares_over_dof;
     let t = StudentsT::new(0.0, 1.0, dof.clamp(1.0, MOST_DOF)).ok()?.inverse_cdf(0.975);
     Some(t * total.sqrt())

@@ -159,6 +159,7 @@ struct Part {
     prepared: prepare::Prepared,
     direct: Direct,
     gauge: Option<Gauge>,
+    bending_nm2: Option<[f64; 2]>,
 }
 
 impl Part {
@@ -182,12 +183,14 @@ impl Part {
             direct.pressure = true;
             scenario = without_settled(&scenario, direct);
         }
-        Ok((Part { scenario, prepared, direct, gauge }, warnings))
+        let bending_nm2 = about.and_then(|a| a.bending_nm2);
+        Ok((Part { scenario, prepared, direct, gauge, bending_nm2 }, warnings))
     }
 
     fn source(&self) -> Source<'_> {
-        let Part { scenario, prepared, direct, gauge } = self;
-        Source { scenario, dataset: &prepared.dataset, direct: *direct, gauge: gauge.as_ref() }
+        let Part { scenario, prepared, direct, gauge, bending_nm2 } = self;
+        let (direct, bending_nm2) = (*direct, *bending_nm2);
+        Source { scenario, dataset: &prepared.dataset, direct, gauge: gauge.as_ref(), bending_nm2 }
     }
 }
 

@@ -132,8 +132,11 @@ impl<'a> Expected<'a> {
         let added = usize::from(case.problem.bendings > 0 && body.as_ref().is_some_and(is_new));
         levels.extend(body.filter(|_| added > 0));
         let bendings = case.problem.bendings + added;
-        let mut problem = Problem { candidates: case.problem.candidates, blocks: old, bendings, enough: LAMBDA_ERROR };
         let theta = extended(truth, case.problem.bendings, added);
+        // As the hypothesis has it: what is expected of itself it meets.
+        let known_bending = case.problem.known_bending.zip(theta.first()).map(|([_, sd], b)| [*b, sd]);
+        let Problem { candidates, .. } = case.problem;
+        let mut problem = Problem { candidates, blocks: old, bendings, known_bending, enough: LAMBDA_ERROR };
         for part in parts {
             let planned = planned(case, &problem, part, &levels, (truth, &theta))?;
             problem.blocks.push(planned);

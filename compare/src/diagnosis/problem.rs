@@ -66,6 +66,8 @@ pub struct Problem<'a> {
     pub blocks: Vec<Block<'a>>,
     /// Bending stiffnesses that are fitted; 0 if B is kept as the scenarios say.
     pub bendings: usize,
+    /// The first of them as it was measured by itself, and its standard deviation: one more value that is fitted \[N·m²\].
+    pub known_bending: Option<[f64; 2]>,
     /// A round of a fit that lowers the whitened sum of squares by less is the last one.
     pub enough: f64,
 }
@@ -154,7 +156,7 @@ impl Block<'_> {
 }
 
 impl Problem<'_> {
-    /// Whitened residuals of all blocks, prediction minus target.
+    /// Whitened residuals of all blocks, prediction minus target, and of the measured bending stiffness.
     pub fn residuals(&self, effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
         let mut all = Vec::new();
         for block in &self.blocks {
@@ -162,6 +164,8 @@ impl Problem<'_> {
             all.append(&mut block.whiten(&predicted));
             all.append(&mut block.supply(self.candidates, effects, &theta[self.bendings..]).unwrap_or_default());
         }
+        // Last, so that every block keeps its place.
+        all.extend(self.known_bending.zip(theta[..self.bendings].first()).map(|([known, sd], b)| (b - known) / sd));
         Some(all)
     }
 

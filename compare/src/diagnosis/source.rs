@@ -19,6 +19,8 @@ pub struct Source<'a> {
     pub direct: Direct,
     /// Readings of the actuator's pressure, which the supply's laws must meet.
     pub gauge: Option<&'a Gauge>,
+    /// Bending stiffness at the first body pressure, measured by itself, and its standard deviation \[N·m²\].
+    pub bending_nm2: Option<[f64; 2]>,
 }
 
 impl<'a> Source<'a> {

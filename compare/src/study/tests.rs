@@ -29,6 +29,7 @@ pub(crate) fn about(tip_forces: &[[f64; 2]]) -> About {
         markers: vec![],
         gravity_direction: None,
         direct: Direct::default(),
+        bending_nm2: None,
         runs: tip_forces.iter().enumerate().map(run).collect(),
         notes: None,
     }

@@ -219,11 +219,14 @@ fn numerics(problem: &Problem, settings: &RobotSettings) -> Settings {
     };
     let fastest = problem.sections.iter().map(speed).fold(0.0, f64::max);
     let smallest = settings.body_size_m.min(settings.actuator_size_m);
-    let mass_passes = settings.mass_passes.unwrap_or(if smallest < settings::FINE_M { 6 } else { 2 });
+    let is_fine = smallest < settings::FINE_M;
+    let mass_passes = settings.mass_passes.unwrap_or(if is_fine { 6 } else { 2 });
+    let heavy = is_fine && settings.selective_mass && problem.contact.is_some();
+    let mass_factor = settings.mass_factor.unwrap_or(settings::MASS_FACTOR[usize::from(heavy)]);
     let allowed = if settings.selective_mass { run::gain(mass_passes) } else { 1.0 };
     Settings {
         end_s: settings.body_ramp_s + settings.actuator_ramp_s + settings.hold_s,
-        mass_scaling: MassScaling::TargetStep((settings.mass_factor * allowed).sqrt() * smallest / fastest),
+        mass_scaling: MassScaling::TargetStep((mass_factor * allowed).sqrt() * smallest / fastest),
         selective_mass: settings.selective_mass,
         mass_passes,
         mass_damping_1_s: settings.mass_damping_1_s,

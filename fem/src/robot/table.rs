@@ -86,7 +86,7 @@ pub const KEYS: &[Key] = &[
         |s| s.ramp_floor_pa.unwrap_or(f64::NAN), |s, v| s.ramp_floor_pa = Some(v)),
     key("hold_s", 1.0, [0.0, 1e3], "time at each pressure before it is read", |s| s.hold_s, |s, v| s.hold_s = v),
     key("mass_factor", 1.0, [1.0, 1e4], "square of the step over the time of sound through the smallest element",
-        |s| s.mass_factor, |s, v| s.mass_factor = v),
+        |s| s.mass_factor.unwrap_or(f64::NAN), |s, v| s.mass_factor = Some(v)),
     key("mass_passes", 1.0, [2.0, 6.0], "passes of the selective masses, 2, 4 or 6: more allow longer steps and make longer waves heavy",
         |s| s.mass_passes.map_or(f64::NAN, |n| n as f64), |s, v| s.mass_passes = Some(v as usize)),
     key("mass_damping_1_s", 1.0, [0.0, 1e5], "mass damping", |s| s.mass_damping_1_s, |s, v| s.mass_damping_1_s = v),

@@ -1,14 +1,14 @@
 //! A stiffer base: the clamp holds the wall round and keeps the folds from forming beside it.
 //!
 //! ```text
-//! B(s) = B (1 + b e^{−s/λ})      E = ½ B b e^{−s/λ} κ² per metre      λ = 1.5 R
+//! B(s) = B (1 + b e^{−s/λ})      E = ½ B b e^{−s/λ} κ² per metre      λ = c R
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | b | extra stiffness at the base as a share of B | - |
 //! | s | distance from the base | m |
-//! | λ | length over which it fades, 1.5 body radii (assumed: end effects of tubes fade within one to two) | m |
+//! | c | length over which it fades, in body radii; 1.5 is assumed (end effects of tubes fade within one to two), a fit finds it | - |
 //!
 //! Acts only where B > 0; divides the body into segments, as transverse loads do. **Validity**: linear; s is taken in the middle of
 //! a segment. Derived here.
@@ -22,31 +22,46 @@ pub(super) const ENTRY: Effect = Effect {
     group: Group::Body,
     stage: Stage::Balance,
     history: false,
-    formula: "B(s) = B (1 + b e^{−s/λ}), λ = 1.5 R",
+    formula: "B(s) = B (1 + b e^{−s/λ}), λ = c R",
     sentence: "The clamp at the base stiffens the body next to it.",
     differs: "The first markers bend too little and the others only follow: the missing angle is gained near the base.",
     remedy: "Mark the body densely near the base, or clamp a longer stretch and see the bend move on.",
-    validity: "fades over 1.5 radii; needs B > 0",
+    validity: "fades evenly; needs B > 0",
     reference: "derived here",
-    parameters: &[Parameter {
-        key: "share",
-        symbol: "b",
-        unit: "-",
-        si: 1.0,
-        neutral: 0.0,
-        typical: 2.0,
-        lower: 0.0,
-        upper: 8.0,
-        starts: &[],
-        by_actuator: &[],
-        meaning: "extra stiffness at the base as a share of B",
-    }],
+    parameters: &[
+        Parameter {
+            key: "share",
+            symbol: "b",
+            unit: "-",
+            si: 1.0,
+            neutral: 0.0,
+            typical: 2.0,
+            lower: 0.0,
+            upper: 8.0,
+            starts: &[],
+            by_actuator: &[],
+            meaning: "extra stiffness at the base as a share of B",
+        },
+        REACH,
+    ],
     family: None,
     add,
 };
 
-/// Length over which an end fades, in body radii.
-const FADES: f64 = 1.5;
+/// How far the stiffer stretch reaches, of either end.
+pub(super) const REACH: Parameter = Parameter {
+    key: "reach_radii",
+    symbol: "c",
+    unit: "-",
+    si: 1.0,
+    neutral: 1.5,
+    typical: 1.5,
+    lower: 0.5,
+    upper: 3.0,
+    starts: &[0.8, 2.2],
+    by_actuator: &[],
+    meaning: "length over which the extra stiffness fades, in body radii",
+};
 
 /// A wall that is stiffer towards one place.
 struct Clamp {
@@ -57,17 +72,17 @@ struct Clamp {
 }
 
 fn add(values: &[f64], assembly: &mut Assembly) {
-    clamp(ENTRY.name, values[0], 0.0, assembly);
+    clamp(ENTRY.name, [values[0], values[1]], 0.0, assembly);
 }
 
-/// Stiffens the wall around station `at_m` by a share of its B.
-pub(super) fn clamp(name: &'static str, share: f64, at_m: f64, assembly: &mut Assembly) {
+/// Stiffens the wall around station `at_m` by a share of its B, which fades over so many radii.
+pub(super) fn clamp(name: &'static str, [share, reach]: [f64; 2], at_m: f64, assembly: &mut Assembly) {
     if share == 0.0 {
         return;
     }
     assembly.varies = true;
     for site in &mut assembly.sites {
-        let (stiffness, length_m) = (share * site.bending.stiffness, FADES * site.radius_m);
+        let (stiffness, length_m) = (share * site.bending.stiffness, reach * site.radius_m);
         site.body_terms.push(Box::new(Clamp { name, stiffness, at_m, length_m }));
     }
 }

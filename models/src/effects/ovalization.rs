@@ -39,7 +39,7 @@ pub(super) const ENTRY: Effect = Effect {
         neutral: 0.0,
         typical: 0.02,
         lower: 0.0,
-        upper: 0.18,
+        upper: 0.5,
         starts: &[],
         by_actuator: &[("spam", 0.07), ("epam", 0.014), ("cpam", 0.0078), ("fpam", 0.05)],
         meaning: "flattening per squared curvature",

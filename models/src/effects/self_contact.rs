@@ -1,4 +1,4 @@
-//! Neighbouring pouches touch and block each other.
+//! Neighbouring pouches, or folds on the inside of the bend, touch and block each other.
 //!
 //! The arcs leave a seam at angle θ from their chords; with chords at angle κ₀L₀ to each other they touch when
 //! 2θ + κ₀L₀ = φ. Arcs that meet in a line have φ = π; welds with a stiff rim and ends folded up like a pillow's touch
@@ -15,7 +15,10 @@
 //! | φ | angle at which neighbours touch; π without rim and gap | rad |
 //! | k | contact stiffness of one pouch; large k is a hard stop | N·m/rad |
 //!
-//! Validity: pouches side by side; φ = π is derived here, another value is to be seen on the robot or fitted.
+//! Under a muscle there are no pouches: the inner wall lies in folds, which have closed when a metre of body has turned by φ,
+//! `E = ½ k (κ₀ · 1 m − φ)₊² / 1 m` per metre, k of a metre of body.
+//!
+//! Validity: pouches or folds side by side; for pouches φ = π is derived here, another value is to be seen on the robot or fitted.
 
 use super::{Effect, Group, Parameter, Stage};
 use crate::actuators::Family;
@@ -28,11 +31,11 @@ pub(super) const ENTRY: Effect = Effect {
     group: Group::Actuator,
     stage: Stage::Balance,
     history: false,
-    formula: "E = ½ k (2θ + κL₀ − φ)₊²/L₀ per metre",
-    sentence: "Neighbouring pouches press on each other and stop the bend.",
+    formula: "E = ½ k (2θ + κL₀ − φ)₊²/L₀ per metre; fPAM: E = ½ k (κ·1 m − φ)₊²/1 m",
+    sentence: "Neighbouring pouches (under a muscle: the inner wall's folds) press on each other and stop the bend.",
     differs: "The bend stops at a value that no further pressure exceeds.",
-    remedy: "Look at the side view at full pressure: do the pouches touch?",
-    validity: "pouches side by side; k → large is a hard stop",
+    remedy: "Look at the side view at full pressure: do pouches or folds touch?",
+    validity: "pouches or folds side by side; k → large is a hard stop",
     reference: "derived here",
     parameters: &[
         Parameter {
@@ -46,7 +49,7 @@ pub(super) const ENTRY: Effect = Effect {
             upper: 1000.0,
             starts: &[1.0, 20.0, 300.0],
             by_actuator: &[],
-            meaning: "contact stiffness of one pouch",
+            meaning: "contact stiffness of one pouch, or of a metre of folds",
         },
         Parameter {
             key: "touch_rad",
@@ -59,10 +62,10 @@ pub(super) const ENTRY: Effect = Effect {
             upper: 4.0,
             starts: &[1.0, 1.6, 2.2, 2.7, 3.3],
             by_actuator: &[],
-            meaning: "angle at which neighbours touch",
+            meaning: "angle at which neighbours touch; fPAM: turn of a metre of body",
         },
     ],
-    family: Some(Family::Pouch),
+    family: None,
     add,
 };
 
@@ -70,12 +73,18 @@ struct SelfContact {
     stiffness: f64,
     touch: f64,
     length_m: f64,
+    /// Turn per half arc angle: two arcs of pouches, none of a muscle.
+    arcs: f64,
 }
 
 fn add(values: &[f64], assembly: &mut Assembly) {
-    for site in assembly.active_sites(Family::Pouch) {
-        let length_m = site.shape.length_m;
-        site.actuator_terms.push(Box::new(SelfContact { stiffness: values[0], touch: values[1], length_m }));
+    for site in &mut assembly.sites {
+        let Some(actuator) = site.actuator else { continue };
+        let (length_m, arcs) = match actuator.family {
+            Family::Pouch => (site.shape.length_m, 2.0),
+            Family::Mckibben => (1.0, 0.0),
+        };
+        site.actuator_terms.push(Box::new(SelfContact { stiffness: values[0], touch: values[1], length_m, arcs }));
     }
 }
 
@@ -85,10 +94,10 @@ impl Term for SelfContact {
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let turned = 2.0 * at.q[actuator_q::COORDINATE] + at.q[actuator_q::CURVATURE] * self.length_m;
+        let turned = self.arcs * at.q[actuator_q::COORDINATE] + at.q[actuator_q::CURVATURE] * self.length_m;
         let overlap = (turned - self.touch).max(0.0);
         let moment = self.stiffness * overlap / self.length_m;
-        force[actuator_q::COORDINATE] -= 2.0 * moment;
+        force[actuator_q::COORDINATE] -= self.arcs * moment;
         force[actuator_q::CURVATURE] -= self.length_m * moment;
         0.5 * moment * overlap
     }

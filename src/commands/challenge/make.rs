@@ -162,6 +162,7 @@ fn about(scenario: &Scenario, dataset: &Dataset) -> About {
         markers: stations.map(|(m, s)| MarkerStation { name: m.name.clone(), station_m: *s }).collect(),
         gravity_direction: Some(scenario.gravity_direction),
         direct: Direct::default(),
+        bending_nm2: None,
         runs: vec![],
         notes: Some(
             "Not a measurement. What is hidden is sealed in seal.toml; the recorded pressures are the set ones.".into(),

@@ -10,6 +10,7 @@ use crate::hidden::score::{Answer, Score, score};
 use crate::hidden::truth::{ROBOTS, standard_protocol};
 use crate::hidden::{Draw, HIDDEN, Kind, OUTSIDE, Truth, truth};
 use crate::study::generate;
+use crate::study::generate::Scatter;
 use data::{About, Direct, Provenance};
 
 /// What became of a set.
@@ -64,12 +65,12 @@ pub(super) fn draw(part: Part, seed: u64, stream: u64, index: usize) -> Result<T
     let turn = index / ROBOTS.len();
     let mut truth = Truth::draw(actuator, &mut draw)?;
     match part {
-        Part::Hidden(Kind::One) => {
+        Part::Hidden(Kind::One) | Part::Measured(Kind::One) => {
             let list = truth::applicable(actuator, HIDDEN)?;
             truth.add(list[turn * STRIDE % list.len()].name, draw.between(0.8, 1.5));
         }
         Part::Hidden(Kind::Outside) => truth.add(OUTSIDE[turn * STRIDE % OUTSIDE.len()].name, 1.0),
-        Part::Hidden(kind) => truth.hide(kind, &mut draw)?,
+        Part::Hidden(kind) | Part::Measured(kind) => truth.hide(kind, &mut draw)?,
         Part::HeavyTails => truth.heavy_tails = true,
         Part::Interval => {
             let list = truth::applicable(actuator, HIDDEN)?;
@@ -85,6 +86,7 @@ pub(super) fn draw(part: Part, seed: u64, stream: u64, index: usize) -> Result<T
 pub(super) fn outcome(case: &Case, diagnose: Diagnose) -> Outcome {
     let found = match case.part {
         Part::Hidden(kind) => hidden(&case.truth, kind, diagnose),
+        Part::Measured(_) => measured(&case.truth, diagnose),
         Part::Interval => interval(&case.truth, diagnose),
         Part::HeavyTails => hidden(&case.truth, Kind::Nothing, diagnose),
     };
@@ -123,6 +125,20 @@ fn hidden(truth: &Truth, kind: Kind, diagnose: Diagnose) -> Result<Named, Compar
         }
     }
     Ok(named)
+}
+
+/// Standard deviation of a bending test, as a share of what it finds. Assumed.
+const BENDING_TEST: f64 = 0.1;
+
+/// A set with the robot's bending stiffness measured by itself.
+fn measured(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
+    let data = truth.dataset("hidden", &standard_protocol())?;
+    let error = BENDING_TEST * Scatter::new(truth.seed ^ 0xB).normal();
+    let found_nm2 = truth.bending_nm2 * (1.0 + error);
+    let about = About { bending_nm2: Some([found_nm2, BENDING_TEST * found_nm2]), ..about(truth)? };
+    let options = Options { next_experiment: false, ..Options::default() };
+    let found = diagnose(&truth.told()?, Measured { dataset: &data, about: Some(&about) }, &[], &options)?;
+    Ok(named(truth, &found))
 }
 
 /// Score after an experiment.
@@ -202,6 +218,7 @@ pub(super) fn about(truth: &Truth) -> Result<About, CompareError> {
         markers: Vec::new(),
         gravity_direction: Some(truth.told()?.gravity_direction),
         direct: Direct::default(),
+        bending_nm2: None,
         runs: Vec::new(),
         notes: None,
     })

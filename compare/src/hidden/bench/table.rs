@@ -8,7 +8,17 @@ use Target::{AtLeast, AtMost, Between};
 
 /// The rows, in the order of the table.
 pub(super) fn rows(outcomes: &[Outcome]) -> Vec<Row> {
-    [nothing(outcomes), one(outcomes), after(outcomes), two(outcomes), outside(outcomes), quality(outcomes)].concat()
+    let one = |part| one(outcomes, part);
+    let parts = [
+        nothing(outcomes),
+        one(Part::Hidden(Kind::One)),
+        one(Part::Measured(Kind::One)),
+        after(outcomes),
+        two(outcomes),
+        outside(outcomes),
+        quality(outcomes),
+    ];
+    parts.concat()
 }
 
 /// Sets of a part that were diagnosed.
@@ -26,17 +36,22 @@ fn nothing(outcomes: &[Outcome]) -> Vec<Row> {
     let case = "no hidden effect";
     let alarm = |named: &Named| named.score.alarm;
     let heavy = found(outcomes, Part::HeavyTails);
+    let tested = found(outcomes, Part::Measured(Kind::Nothing));
     vec![
         Row::share("no hidden effect, heavy tails", "false alarms", AtMost(0.05), &shares(&heavy, alarm)),
         Row::share(case, "false alarms, 5 and 10 runs", AtMost(0.03), &shares(&many, alarm)),
         Row::share(case, "false alarms, 3 runs", AtMost(0.05), &shares(&few, alarm)),
+        Row::share("no hidden effect, B measured to 10 %", "false alarms", AtMost(0.05), &shares(&tested, alarm)),
     ]
 }
 
-fn one(outcomes: &[Outcome]) -> Vec<Row> {
-    let all = found(outcomes, Part::Hidden(Kind::One));
+fn one(outcomes: &[Outcome], part: Part) -> Vec<Row> {
+    let all = found(outcomes, part);
     let alarmed: Vec<_> = all.iter().filter(|(_, named)| named.score.alarm).copied().collect();
-    let case = "one hidden effect";
+    let case = match part {
+        Part::Measured(_) => "one hidden effect, B measured to 10 %",
+        _ => "one hidden effect",
+    };
     let top = |most: usize| move |named: &Named| named.score.rank.is_some_and(|rank| rank <= most);
     let sized: Vec<f64> = alarmed.iter().map(|(_, n)| n.score.set_size as f64).filter(|n| *n > 0.0).collect();
     let mean = (!sized.is_empty()).then(|| sized.iter().sum::<f64>() / sized.len() as f64);
