@@ -58,7 +58,13 @@ pub fn distances(
     let (fitted, _) = fit_scenario(scenario, ideal, about)?;
     let options = Options::default();
     let direct = about.map(|a| a.direct).unwrap_or_default();
-    let source = Source { scenario: &fitted, dataset: ideal, direct, gauge: None, bending_nm2: about.and_then(|a| a.bending_nm2) };
+    let source = Source {
+        scenario: &fitted,
+        dataset: ideal,
+        direct,
+        gauge: None,
+        bending_nm2: about.and_then(|a| a.bending_nm2),
+    };
     let (candidates, own) = catalogue(&[source], &options);
     let known = |_: usize, slope: &[f64]| NoiseModel::known(ideal, slope, noise.runs, noise.sigma_m, noise.run_sd);
     let case = Case::with_noise(&[source], &known, (&candidates, own), &options)?;

@@ -51,7 +51,7 @@ fn a_wrong_law_of_a_uniform_robot_leaves_a_time_and_no_place() {
 #[test]
 fn a_stiffness_that_falls_along_the_robot_is_a_place() {
     let plain = robot("epam", 1.35);
-    let [place, _] = left_by_base(&plain, &measured(&plain.with_effect("base_clamp", &[3.0]), 5, 55));
+    let [place, _] = left_by_base(&plain, &measured(&plain.with_effect("base_clamp", &[3.0, 1.5]), 5, 55));
     assert!(place.p_value < 1e-6 && place.words.contains("stiffness changes steadily"), "{place:?}");
 }
 

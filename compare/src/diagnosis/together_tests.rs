@@ -43,6 +43,31 @@ fn a_gauge_tells_supply_from_physics_either_way() {
     assert!(d.indistinguishable.iter().all(|n| group_of(&d, n) != Group::Supply), "{:?}", d.indistinguishable);
 }
 
+/// Information adds: 1/h² of the fitted B with the test is that without it and that of the test. What B could take up before, a lost
+/// share of the pressure, is then seen at a smaller size.
+#[test]
+fn a_bending_test_is_one_more_value_of_the_fit() {
+    let plain = robot("spam");
+    let data = measured(&plain, 5, 305);
+    let alone = run(&plain, &data);
+    let half = |d: &Diagnosis| 0.5 * (d.base.bending[0].hi.unwrap() - d.base.bending[0].lo.unwrap());
+    let sd = 0.5 * half(&alone);
+    let tested = |stiffness: f64| {
+        let about = About { bending_nm2: Some([stiffness, sd]), ..about(Direct::default()) };
+        diagnose(&plain, &data, Some(&about), &quick()).unwrap()
+    };
+    let d = tested(alone.base.bending[0].value_nm2);
+    let expected = (half(&alone).powi(-2) + (1.96 * sd).powi(-2)).powf(-0.5);
+    assert!((half(&d) / expected - 1.0).abs() < 0.15, "{} {expected} of {}", half(&d), half(&alone));
+    let seen = |d: &Diagnosis| {
+        d.undetectable.iter().find(|u| u.effect == "pressure_loss").and_then(|u| u.smallest_detectable).unwrap()
+    };
+    assert!(seen(&d) < 0.9 * seen(&alone), "{} {}", seen(&d), seen(&alone));
+    // A test that found more pulls B towards it by its weight.
+    let up = tested(alone.base.bending[0].value_nm2 + sd).base.bending[0].value_nm2 - d.base.bending[0].value_nm2;
+    assert!(up > 0.3 * sd && up < sd, "{up} {sd}");
+}
+
 #[test]
 fn two_halves_together_say_what_the_whole_says() {
     let plain = robot("spam");

@@ -21,6 +21,9 @@ s_mm = [60, 360]
 direction = [0, -1]
 [direct]
 pressure = true
+[bending]
+stiffness_nm2 = 1.35
+sd_nm2 = 0.15
 [[run]]
 id = "1"
 tip_force_n = [0, 0.3]
@@ -44,6 +47,7 @@ fn a_full_description_is_read_in_si_units() {
     assert_eq!(about.gravity_direction, Some([0.0, -1.0]));
     assert_eq!((about.tip_force_n("1"), about.tip_force_n("2")), ([0.0, 0.3], [0.0, 0.0]));
     assert_eq!(about.direct, Direct { pressure: true, frame: false });
+    assert_eq!(about.bending_nm2, Some([1.35, 0.15]));
     assert_eq!(about.runs[0].session.as_deref(), Some("monday"));
 }
 
@@ -72,6 +76,9 @@ fn each_wrong_value_is_shown_at_its_place() {
         ("[\"1\", \"2\"]", "[\"1\", \"1\"]", "names: marker 1 is there twice"),
         ("[0, -1]", "[0, -9.81]", "direction: must be a unit vector"),
         ("[0, -1]", "[0, nan]", "direction: must be a unit vector"),
+        ("stiffness_nm2 = 1.35", "stiffness_nm2 = -1.35", "stiffness_nm2: must not be negative"),
+        ("sd_nm2 = 0.15", "sd_nm2 = 0", "sd_nm2: must be above a thousandth"),
+        ("sd_nm2 = 0.15\n", "", "missing field `sd_nm2`"),
         ("[0, 0.3]", "[0, inf]", "tip_force_n: must be two finite numbers"),
         ("id = \"2\"", "id = \"1\"", "id: this run is there twice"),
     ];

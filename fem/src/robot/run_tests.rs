@@ -93,6 +93,16 @@ fn fine_meshes_take_more_passes_of_selective_masses_and_fewer_steps() {
     assert_eq!([usual.0, fine.0, said.0, more.0], [2, 6, 2, 6]);
     let (longer, same) = (fine.1 / said.1, usual.1 / 8.0 * 1.4 / said.1);
     assert!((1.8..1.9).contains(&longer) && (same - 1.0).abs() < 1e-12, "{longer} {same}");
+    // Where layers of fine elements touch, masses are raised further; one says how far.
+    let [touching, told] = ["contact = true", "contact = true\nmass_factor = 2.4"].map(|more| {
+        let (scenario, run) = parsed(&format!("mesh_mm = 16\n{more}")).unwrap();
+        let settings = RobotSettings { actuator_size_m: 1.4e-3, ..run.settings.clone() };
+        let MassScaling::TargetStep(step_s) = numerics(&run.problem(&scenario).unwrap(), &settings).mass_scaling else {
+            panic!("no step")
+        };
+        (step_s / fine.1).powi(2)
+    });
+    assert!((touching - 1.5).abs() < 1e-9 && (told - 1.0).abs() < 1e-9, "{touching} {told}");
     let (_, run) = parsed("selective_mass = false\nmass_passes = 6").unwrap();
     assert_eq!((run.settings.selective_mass, run.settings.mass_passes), (false, Some(6)));
 }

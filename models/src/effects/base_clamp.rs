@@ -58,7 +58,7 @@ pub(super) const REACH: Parameter = Parameter {
     typical: 1.5,
     lower: 0.5,
     upper: 3.0,
-    starts: &[0.8, 2.2],
+    starts: &[0.8, 1.5, 2.2],
     by_actuator: &[],
     meaning: "length over which the extra stiffness fades, in body radii",
 };

@@ -74,7 +74,7 @@ fn clamps_hold_their_own_end_and_flattening_bends_more_per_stroke() {
     for actuator in actuators() {
         let base = robot(actuator).bare().with_bending(1.0);
         let curvatures = |name: &str, value: f64| -> Vec<f64> {
-            let model = Model::new(&base.with_effect(name, &[value]));
+            let model = Model::new(&base.with_effect(name, &[value, 1.5]));
             let at = predicted(&model, &Loads::uniform(2e3, 20e3)).unwrap();
             model.curvatures(&at).map(|(_, kappa)| kappa).collect()
         };
@@ -94,6 +94,20 @@ fn clamps_hold_their_own_end_and_flattening_bends_more_per_stroke() {
         let stroke = (site.actuator.unwrap().stroke)(&site.shape, state.coordinate);
         assert!(state.curvature > stroke.contraction / site.linkage.arm_m, "{actuator}: {state:?}");
     }
+}
+
+#[test]
+fn folds_under_a_muscle_stop_it_near_the_turn_at_which_they_close() {
+    let base = robot("fpam").bare();
+    let curvature = |touch: f64, p: f64| {
+        let model = Model::new(&base.with_effect("self_contact", &[1000.0, touch]));
+        model.states(&predicted(&model, &Loads::uniform(2e3, p)).unwrap())[0].curvature
+    };
+    for (touch, p) in [(0.6, 20e3), (1.0, 20e3), (1.0, 30e3)] {
+        let at = curvature(touch, p);
+        assert!(at > touch && at < touch + 0.02, "{touch} {p}: {at}");
+    }
+    assert_eq!(curvature(3.0, 30e3), curvature(4.0, 30e3), "out of reach");
 }
 
 #[test]

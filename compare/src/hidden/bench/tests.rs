@@ -18,6 +18,11 @@ fn all_robots_and_all_effects_take_part_equally() {
         let sigma = case.truth.camera_sd_m;
         assert!((0.5e-3..=2e-3).contains(&sigma) && [3, 5, 10].contains(&case.truth.runs));
     }
+    let tested = plan.iter().filter(|case| case.part == Part::Measured(Kind::One));
+    assert!(
+        tested.map(|case| &case.truth).eq(one.iter().map(|case| &case.truth)),
+        "the same robots, with a bending test"
+    );
     let two = plan.iter().filter(|case| case.part == Part::Hidden(Kind::Two));
     assert!(two.clone().count() == 48 && two.clone().all(|c| c.truth.effects[0].name != c.truth.effects[1].name));
 }
@@ -36,7 +41,7 @@ fn the_plan_follows_from_the_seed() {
 fn a_diagnosis_that_fails_is_counted_and_named() {
     let refuse: Diagnose = |_, _, _, _| Err(CompareError::NoModel);
     let bench = run(&BenchOptions { seed: 1, sets: 2 }, refuse, &|_| ()).unwrap();
-    assert_eq!(bench.failed.len(), 8 + LACKING.len());
+    assert_eq!(bench.failed.len(), 12 + LACKING.len());
     assert!(bench.failed[0].contains("no model is given") && bench.rows.iter().all(|row| row.measured.is_none()));
 }
 
