@@ -1,6 +1,8 @@
 //! What data cannot show, whatever the model.
 
+use super::basis::Basis;
 use super::case::{Case, body_pressures};
+use super::least_squares::square;
 use super::result::Undetectable;
 use crate::comparison::ZERO_PRESSURE_PA;
 use crate::wording::list;
@@ -8,6 +10,8 @@ use data::{Dataset, Phase};
 
 /// A base that leaves more than this share of the measured movement does not fit at all.
 const NO_FIT: f64 = 0.5;
+/// Standard deviations by which a bending test and the markers disagree.
+const DISAGREE: f64 = 3.0;
 
 /// What the protocols hide.
 pub fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Vec<String> {
@@ -44,9 +48,26 @@ pub fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Vec<Strin
     limits
 }
 
+/// Says so if the markers ask for another bending stiffness than the bending test found. The base's B is the mean of both by their
+/// weights, 1/sd² and what the derivatives have beyond it.
+fn bending_test(case: &Case) -> Option<String> {
+    let [found, sd] = case.problem.known_bending.filter(|_| case.problem.bendings > 0)?;
+    let (own, others) = case.base.minimum.jacobian.split_first()?;
+    let weight = square(&Basis::of(others).rest(own)) - 1.0 / (sd * sd);
+    let both = case.base.theta()[0];
+    let markers = both + (both - found) / (sd * sd * weight);
+    let disagree = weight > 0.0 && (markers - found).abs() > DISAGREE * (1.0 / weight + sd * sd).sqrt();
+    disagree.then(|| {
+        format!(
+            "the bending test found B = {found:.2} ± {sd:.2} N·m², without an effect the markers ask for {markers:.2}: something \
+             else resists the bend or drives it, or it was tested at another body pressure"
+        )
+    })
+}
+
 /// Cautions about the base.
 pub fn warnings(case: &Case) -> Vec<String> {
-    let mut warnings = Vec::new();
+    let mut warnings: Vec<String> = bending_test(case).into_iter().collect();
     let target = &case.problem.blocks[0].target_m;
     let moved = |values: &[f64]| -> f64 {
         let y = values.iter().skip(1).step_by(2).map(|y| y * y).sum::<f64>();

@@ -66,6 +66,12 @@ fn a_bending_test_is_one_more_value_of_the_fit() {
     // A test that found more pulls B towards it by its weight.
     let up = tested(alone.base.bending[0].value_nm2 + sd).base.bending[0].value_nm2 - d.base.bending[0].value_nm2;
     assert!(up > 0.3 * sd && up < sd, "{up} {sd}");
+    // One that the markers contradict is said, with what they ask for.
+    let told = |d: &Diagnosis| d.warnings.iter().find(|w| w.contains("bending test")).cloned();
+    let off = told(&tested(alone.base.bending[0].value_nm2 + 10.0 * sd)).unwrap();
+    let asked: f64 = off.split("ask for ").nth(1).and_then(|rest| rest.split(':').next()).unwrap().parse().unwrap();
+    assert!((asked - alone.base.bending[0].value_nm2).abs() < 1.5 * sd, "{off} {}", alone.base.bending[0].value_nm2);
+    assert_eq!(told(&d), None);
 }
 
 #[test]
