@@ -47,8 +47,6 @@ pub struct Case<'a> {
     pub direct: Direct,
     /// Readings of the actuator's pressure in them.
     pub gauge: Option<&'a Gauge>,
-    /// Bending stiffness measured by itself along with them.
-    pub bending_nm2: Option<[f64; 2]>,
     /// Noise of their mean.
     pub noise: NoiseModel,
     /// Further data.
@@ -115,7 +113,7 @@ impl<'a> Case<'a> {
         (candidates, own): (&'a [Candidate], usize),
         options: &Options,
     ) -> Result<Case<'a>, CompareError> {
-        let Source { scenario, dataset, direct, gauge, bending_nm2 } = sources[0];
+        let Source { scenario, dataset, direct, gauge, .. } = sources[0];
         let known_bending = sources.iter().find_map(|source| source.bending_nm2);
         for source in sources {
             Layout::of(source.dataset)?;
@@ -148,7 +146,6 @@ impl<'a> Case<'a> {
             dataset,
             direct,
             gauge,
-            bending_nm2,
             noise,
             beside,
             always,
@@ -194,8 +191,8 @@ impl<'a> Case<'a> {
 
     /// The first data.
     pub fn source(&self) -> Source<'a> {
-        let Case { scenario, dataset, direct, gauge, bending_nm2, .. } = *self;
-        Source { scenario, dataset, direct, gauge, bending_nm2 }
+        let Case { scenario, dataset, direct, gauge, .. } = *self;
+        Source { scenario, dataset, direct, gauge, bending_nm2: self.problem.known_bending }
     }
 
     /// Blocks of the data beside the first.

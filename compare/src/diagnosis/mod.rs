@@ -122,6 +122,12 @@ pub fn diagnose_together(
             continue;
         }
         let (part, told) = Part::of(scenario, measured)?;
+        let tested = parts.iter().find(|known: &&Part| known.bending_nm2.is_some() && part.bending_nm2.is_some());
+        if tested.is_some_and(|known| known.bending_nm2 != part.bending_nm2) {
+            warnings.push(format!(
+                "{name} says something else of [bending] in about.toml than data before it, which stands"
+            ));
+        }
         let of = if i > 0 { format!("{name}: ") } else { String::new() };
         warnings.extend(told.into_iter().map(|warning| format!("{of}{warning}")));
         parts.push(part);

@@ -72,6 +72,16 @@ fn a_bending_test_is_one_more_value_of_the_fit() {
     let asked: f64 = off.split("ask for ").nth(1).and_then(|rest| rest.split(':').next()).unwrap().parse().unwrap();
     assert!((asked - alone.base.bending[0].value_nm2).abs() < 1.5 * sd, "{off} {}", alone.base.bending[0].value_nm2);
     assert_eq!(told(&d), None);
+    // Two tests that contradict each other are.
+    let of = |stiffness: f64| About { bending_nm2: Some([stiffness, sd]), ..about(Direct::default()) };
+    let (more, first, other) = (measured(&plain, 5, 306), of(6.0), of(9.0));
+    let both = |second: &About| {
+        let further = [Measured { dataset: &more, about: Some(second) }];
+        let d =
+            diagnose_together(&plain, Measured { dataset: &data, about: Some(&first) }, &further, &quick()).unwrap();
+        d.warnings.iter().any(|w| w.contains("says something else of [bending]"))
+    };
+    assert!(both(&other) && !both(&first));
 }
 
 #[test]

@@ -12,8 +12,9 @@ pub(super) const TAPED_SPACING: f64 = 0.8;
 pub(super) const FOLDED_ROW: f64 = 2.0 / 3.0;
 /// Elements shorter than this \[m\] are much finer than what moves: their selective masses take six passes.
 pub(super) const FINE_M: f64 = 1.5e-3;
-/// `mass_factor`: of all robots, and of such fine ones whose layers touch. Contact takes half of their step, and stuck plies, which
-/// make a step expensive in mass, are few: the cPAM needs 66 % of mass for 3.6 in place of 31 for 2.4, and ends at the same place.
+/// `mass_factor`: of all robots, and of such fine ones whose layers touch. Contact makes their step
+/// dear, and stuck plies, which make a longer one expensive in mass, are few: the cPAM gets 66 % of mass with 3.6, 31 with 2.4, and ends
+/// where 222 % had left it before.
 pub(super) const MASS_FACTOR: [f64; 2] = [2.4, 3.6];
 
 /// Mesh, fabrication and loading of a robot.

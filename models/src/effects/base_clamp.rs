@@ -26,27 +26,29 @@ pub(super) const ENTRY: Effect = Effect {
     sentence: "The clamp at the base stiffens the body next to it.",
     differs: "The first markers bend too little and the others only follow: the missing angle is gained near the base.",
     remedy: "Mark the body densely near the base, or clamp a longer stretch and see the bend move on.",
-    validity: "fades evenly; needs B > 0",
+    validity: "fades exponentially; needs B > 0",
     reference: "derived here",
-    parameters: &[
-        Parameter {
-            key: "share",
-            symbol: "b",
-            unit: "-",
-            si: 1.0,
-            neutral: 0.0,
-            typical: 2.0,
-            lower: 0.0,
-            upper: 8.0,
-            starts: &[],
-            by_actuator: &[],
-            meaning: "extra stiffness at the base as a share of B",
-        },
-        REACH,
-    ],
+    parameters: &[share("extra stiffness at the base as a share of B"), REACH],
     family: None,
     add,
 };
+
+/// How much stiffer either end is.
+pub(super) const fn share(meaning: &'static str) -> Parameter<'static> {
+    Parameter {
+        key: "share",
+        symbol: "b",
+        unit: "-",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 2.0,
+        lower: 0.0,
+        upper: 8.0,
+        starts: &[],
+        by_actuator: &[],
+        meaning,
+    }
+}
 
 /// How far the stiffer stretch reaches, of either end.
 pub(super) const REACH: Parameter = Parameter {

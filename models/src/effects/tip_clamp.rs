@@ -12,8 +12,8 @@
 //!
 //! Acts only where B > 0; divides the body into segments, as transverse loads do. **Validity**: linear. Derived here.
 
-use super::base_clamp::{REACH, clamp};
-use super::{Effect, Group, Parameter, Stage};
+use super::base_clamp::{REACH, clamp, share};
+use super::{Effect, Group, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -25,24 +25,9 @@ pub(super) const ENTRY: Effect = Effect {
     sentence: "The cap at the tip stiffens the body next to it.",
     differs: "Only the last markers are off: the end of the robot stays straight.",
     remedy: "Mark the body densely near the tip, or leave out the last actuator unit.",
-    validity: "fades evenly; needs B > 0",
+    validity: "fades exponentially; needs B > 0",
     reference: "derived here",
-    parameters: &[
-        Parameter {
-            key: "share",
-            symbol: "b",
-            unit: "-",
-            si: 1.0,
-            neutral: 0.0,
-            typical: 2.0,
-            lower: 0.0,
-            upper: 8.0,
-            starts: &[],
-            by_actuator: &[],
-            meaning: "extra stiffness at the tip as a share of B",
-        },
-        REACH,
-    ],
+    parameters: &[share("extra stiffness at the tip as a share of B"), REACH],
     family: None,
     add,
 };
