@@ -9,7 +9,7 @@ use crate::commands::tables::table;
 use crate::commands::together::{shared, together};
 use crate::commands::{Context, Outcome};
 use crate::failure::{Failure, INTERRUPTED};
-use compare::plots::{Tornado, TornadoBar, tornado};
+use compare::plots::{LineSeries, LineStyle, Lines, Tornado, TornadoBar, lines, tornado};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -42,10 +42,11 @@ pub fn run(
         Err(done) => return Ok(interrupted(done, cases.len(), &manner.folder)),
     };
     let mut outcome = if sensitivity { told(&rows) } else { listed(&rows) };
-    let drawn = sensitivity.then(|| drawn(&base.spec, &rows)).flatten();
-    if let Some(png) = &drawn {
-        data::write_atomically(&manner.folder.join("tornado.png"), png)?;
-        outcome.notes.push(format!("plot: {}", manner.folder.join("tornado.png").display()));
+    let plot =
+        if sensitivity { ("tornado.png", drawn(&base.spec, &rows)) } else { ("mesh.png", meshes(&base.spec, &rows)) };
+    if let (file, Some(png)) = &plot {
+        data::write_atomically(&manner.folder.join(file), png)?;
+        outcome.notes.push(format!("plot: {}", manner.folder.join(file).display()));
     }
     data::write_atomically(&manner.folder.join("table.csv"), csv(&rows).as_bytes())?;
     outcome.notes.push(format!("table: {}", manner.folder.join("table.csv").display()));
@@ -247,6 +248,41 @@ fn drawn(name: &str, rows: &[Row]) -> Option<Vec<u8>> {
         bars,
     };
     tornado(&data).ok().map(|drawn| drawn.png)
+}
+
+/// Outermost marker over the actuator's element size, a line for every pressure; `None` unless there are several sizes.
+fn meshes(name: &str, rows: &[Row]) -> Option<Vec<u8>> {
+    let mut lines_of: BTreeMap<u64, BTreeMap<u64, Vec<f64>>> = BTreeMap::new();
+    for row in rows {
+        let size = row.variation.changes.iter().find(|(key, _)| key == "actuator_mesh_mm")?;
+        let size: f64 = size.1.parse().ok()?;
+        for [kpa, marker, _] in &row.heights {
+            // Positive numbers are in the order of their bits.
+            lines_of.entry(kpa.to_bits()).or_default().entry(size.to_bits()).or_default().push(*marker);
+        }
+    }
+    let series = |(kpa, sizes): (&u64, &BTreeMap<u64, Vec<f64>>)| {
+        let mean = |all: &[f64]| all.iter().sum::<f64>() / all.len() as f64;
+        let spread = |all: &[f64]| {
+            let squares: f64 = all.iter().map(|m| (m - mean(all)).powi(2)).sum();
+            (squares / (all.len() - 1).max(1) as f64).sqrt()
+        };
+        LineSeries {
+            name: format!("{} kPa", f64::from_bits(*kpa)),
+            points: sizes.iter().map(|(size, all)| [f64::from_bits(*size), mean(all)]).collect(),
+            half_width: sizes.values().map(|all| spread(all)).collect(),
+            style: LineStyle::LinePoints,
+            colour: None,
+        }
+    };
+    let several = lines_of.values().any(|sizes| sizes.len() > 1);
+    let data = Lines {
+        title: format!("{name}: outermost marker and the mesh, standard deviation over the seeds"),
+        x_label: "element size at the actuator [mm]".into(),
+        y_label: "displacement of the outermost marker [mm]".into(),
+        series: lines_of.iter().map(series).collect(),
+    };
+    several.then(|| lines(&data).ok().map(|drawn| drawn.png)).flatten()
 }
 
 fn csv(rows: &[Row]) -> String {
