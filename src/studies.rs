@@ -3,6 +3,7 @@
 /// Names, what they are about, and texts.
 pub const STUDIES: &[(&str, &str, &str)] = &[
     ("cpam-11-12-13", "the cPAM in small steps of pressure", include_str!("../studies/cpam-11-12-13.toml")),
+    ("cpam-mesh", "the cPAM on meshes of 4 to 1 mm", include_str!("../studies/cpam-mesh.toml")),
     ("long", "a robot of 2 m with 40 pouches", include_str!("../studies/long.toml")),
     ("tip-load", "a load on the tip", include_str!("../studies/tip-load.toml")),
     ("obstacle", "a cylinder in the way", include_str!("../studies/obstacle.toml")),

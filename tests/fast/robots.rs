@@ -93,7 +93,7 @@ fn every_study_is_listed_printed_read_by_both_engines_and_starts() {
     let listed = folder.run(&["list", "cases", "--json"]).json("ibr.list");
     let names: Vec<&str> =
         listed["cases"]["studies"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
-    assert_eq!(names, ["cpam-11-12-13", "long", "tip-load", "obstacle"]);
+    assert_eq!(names, ["cpam-11-12-13", "cpam-mesh", "long", "tip-load", "obstacle"]);
     for name in names {
         folder.write("mine.toml", folder.run(&["new", name]).stdout);
         let predicted = folder.run(&["predict", "mine.toml"]);

@@ -25,6 +25,8 @@ pub struct RobotRun {
     pub tip_force_n: [f64; 3],
     /// A cylinder along z in the way.
     pub obstacle: Option<Obstacle>,
+    /// Element sizes of body and actuator that a study of the mesh runs beside each other \[m\]; `settings` has those of one run.
+    pub meshes_m: Vec<[f64; 2]>,
 }
 
 /// A moment at which a robot is read: the end of a hold.

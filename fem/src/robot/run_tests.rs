@@ -62,6 +62,10 @@ fn faults_of_the_table_are_refused_with_their_place() {
         ("pressures_kpa = [10000]", "looks like pascals", "[10000]"),
         ("pressures_kpa = []", "[10, 20, 30]", "[]"),
         ("seed = 1.5", "whole number", "1.5"),
+        ("meshes_mm = [4]", "two meshes or more", "[4]"),
+        ("meshes_mm = [[8, 4], [8]]", "needs two sizes", "[[8, 4], [8]]"),
+        ("meshes_mm = [[8, 4], [8, 0.004]]", "meshes_mm must be from 0.5 to 50, not 0.004", "[[8, 4], [8, 0.004]]"),
+        ("meshes_mm = [[8, 4], [8, 4]]", "twice", "[[8, 4], [8, 4]]"),
         ("selective_mass = 1", "selective_mass must be true or false", "1"),
         ("mass_passes = 3", "mass_passes cannot be 3", "3"),
         ("contact = \"yes\"", "leave it out: where the pattern folds", "\"yes\""),
@@ -71,6 +75,16 @@ fn faults_of_the_table_are_refused_with_their_place() {
         let (message, found) = refused(more);
         assert!(message.contains(words) && found == place, "{more}: {message} at {found}");
     }
+}
+
+#[test]
+fn a_study_of_the_mesh_names_its_meshes_and_one_of_them_takes_their_place() {
+    let (_, run) = parsed("meshes_mm = [[8, 4], [4, 1]]").unwrap();
+    assert_eq!(run.meshes_m, [[8e-3, 4e-3], [4e-3, 1e-3]]);
+    assert_eq!(run.settings, RobotSettings::default());
+    let one = with_fem(&text("meshes_mm = [[8, 4], [4, 1]]"), &[("body_mesh_mm", "8"), ("actuator_mesh_mm", "4")]);
+    let one = RobotRun::parse(&one.unwrap(), &Scenario::parse(&text("")).unwrap()).unwrap();
+    assert_eq!((one.meshes_m, one.settings.actuator_size_m), (Vec::new(), 4e-3));
 }
 
 /// Elements below 1.5 mm take six passes and half the steps; what is said holds on every mesh.

@@ -99,8 +99,20 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// Keys that are no single number.
-const OTHERS: [&str; 7] =
-    ["loading", "pressures_kpa", "contact", "selective_mass", "tip_force_n", "obstacle_mm", "obstacle_friction"];
+const OTHERS: [&str; 8] = [
+    "loading",
+    "pressures_kpa",
+    "meshes_mm",
+    "contact",
+    "selective_mass",
+    "tip_force_n",
+    "obstacle_mm",
+    "obstacle_friction",
+];
+
+/// How `meshes_mm` is written.
+const MESHES: &str = "write the element sizes of body and actuator of every run: [[8, 4], [8, 3]]";
+const ELEMENT: Range = Range { si: 1e-3, ..plain(0.5, 50.0, MESHES) };
 
 /// Shortest time at each pressure over the actuator's ramp, unless `hold_s` is given.
 const HOLD: f64 = 0.06;
@@ -124,6 +136,7 @@ pub(super) fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun, FemErro
         pressures_pa: usual_pressures(scenario),
         tip_force_n: [0.0; 3],
         obstacle: None,
+        meshes_m: Vec::new(),
     };
     // What others override or need comes first, whatever their order.
     let first = |name: &str| name == "mesh_mm" || name == "obstacle_mm";
@@ -174,6 +187,7 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
     match name {
         "loading" => {}
         "pressures_kpa" => run.pressures_pa = pressures(value)?,
+        "meshes_mm" => run.meshes_m = meshes(value)?,
         "contact" => run.settings.contact = Some(yes_or_no(name, value, "where the pattern folds")?),
         "selective_mass" => run.settings.selective_mass = yes_or_no(name, value, "short waves are heavy then")?,
         "tip_force_n" => run.tip_force_n = triple(name, value, &plain(-1e4, 1e4, "write newtons: [x, y, z]"))?,
@@ -243,6 +257,20 @@ fn pressures(value: &Spanned<Value>) -> Checked<Vec<f64>> {
     Ok(found)
 }
 
+fn meshes(value: &Spanned<Value>) -> Checked<Vec<[f64; 2]>> {
+    let told = || refuse("meshes_mm needs two meshes or more", MESHES, value.span());
+    let Some(list) = value.get_ref().as_array().filter(|list| list.len() > 1) else { return told() };
+    let one = |pair: &Value| {
+        let sizes = numbers("meshes_mm", &Spanned::new(value.span(), pair.clone()), &ELEMENT)?;
+        sizes.try_into().or_else(|_| refuse("a mesh of meshes_mm needs two sizes", MESHES, value.span()))
+    };
+    let found: Vec<[f64; 2]> = list.iter().map(one).collect::<Checked<_>>()?;
+    match (1..found.len()).find(|i| found[..*i].contains(&found[*i])) {
+        Some(i) => refuse(format!("meshes_mm has {:?} twice", found[i].map(|m| m * 1e3)), MESHES, value.span()),
+        None => Ok(found),
+    }
+}
+
 fn above_body(run: &RobotRun, scenario: &Scenario, table: &Free) -> Checked<()> {
     let Some(low) = run.pressures_pa.iter().find(|p| **p < scenario.p_body_pa) else { return Ok(()) };
     let [low, body] = [*low, scenario.p_body_pa].map(|p| p * 1e-3);
@@ -269,6 +297,10 @@ pub fn with_fem(text: &str, changes: &[(&str, &str)]) -> Option<String> {
         if *key == "mesh_mm" {
             all.remove("body_mesh_mm");
             all.remove("actuator_mesh_mm");
+        }
+        // One mesh in place of a study of several.
+        if ["mesh_mm", "body_mesh_mm", "actuator_mesh_mm"].contains(key) {
+            all.remove("meshes_mm");
         }
         all.insert(key.to_string(), value.to_string());
     }

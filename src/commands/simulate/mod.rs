@@ -29,32 +29,33 @@ pub use robot::{heights_mm, rounded};
 pub use small::{Small, run as small_run};
 
 pub fn run(args: &Simulate, context: &mut Context) -> Result<Outcome, Failure> {
-    let manner = manner(args)?;
-    match plan::plan(args, input::named(&args.case)?)? {
+    let plan = plan::plan(args, input::named(&args.case)?)?;
+    let manner = manner(args, &plan)?;
+    match plan {
         Plan::Single(named) => one(args, &named, &manner, context),
         Plan::Several { base, cases, sensitivity } => batch::run(&base, &cases, sensitivity, &manner, context),
     }
 }
 
-fn manner(args: &Simulate) -> Result<Manner, Failure> {
+fn manner(args: &Simulate, plan: &Plan) -> Result<Manner, Failure> {
     let every = Duration::from_secs_f64(input::seconds("--checkpoint-every", &args.checkpoint_every)?);
     let end_s = args.end.as_deref().map(|text| input::seconds("--end", text)).transpose()?;
-    let folder = args.out.clone().unwrap_or_else(|| default_folder(args));
+    let folder = args.out.clone().unwrap_or_else(|| default_folder(args, plan));
     check_folder(&folder)?;
     let (resume, force, frames, threads) = (args.resume, args.force, !args.no_frames, args.threads as usize);
     Ok(Manner { folder, resume, force, frames, end_s, threads, every })
 }
 
 /// The folder of a case if none is named.
-fn default_folder(args: &Simulate) -> PathBuf {
+fn default_folder(args: &Simulate, plan: &Plan) -> PathBuf {
     let stem = Path::new(&args.case).file_stem().unwrap_or_default().to_string_lossy();
     let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect();
-    let several = args.separate || args.seeds.is_some() || args.mesh.as_ref().is_some_and(|mesh| mesh.contains(','));
-    match (args.sensitivity, several) {
-        (true, _) => PathBuf::from(format!("ibr-report/sensitivity-{name}")),
-        (false, true) => PathBuf::from(format!("ibr-report/batch-{name}")),
-        (false, false) => PathBuf::from(format!("ibr-report/simulate-{name}")),
-    }
+    let kind = match plan {
+        Plan::Several { sensitivity: true, .. } => "sensitivity",
+        Plan::Several { .. } => "batch",
+        Plan::Single(_) => "simulate",
+    };
+    PathBuf::from(format!("ibr-report/{kind}-{name}"))
 }
 
 fn one(args: &Simulate, named: &Named, manner: &Manner, context: &mut Context) -> Result<Outcome, Failure> {

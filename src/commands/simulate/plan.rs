@@ -53,14 +53,18 @@ pub fn plan(args: &Simulate, named: Named) -> Result<Plan, Failure> {
     if let Some(list) = &pressures_kpa {
         common.push(("pressures_kpa".to_string(), format!("{list:?}")));
     }
-    let meshes = args.mesh.as_deref().map(sizes).transpose()?.unwrap_or_default();
-    if let [one] = &meshes[..] {
+    let typed = args.mesh.as_deref().map(sizes).transpose()?;
+    if let Some([one]) = typed.as_deref() {
         common.extend(keys_of(one));
     }
     let base = named.with(&common)?;
     if args.sensitivity {
         return sensitivity(base);
     }
+    let meshes = match typed {
+        Some(meshes) => meshes,
+        None => base.robot_run()?.1.meshes_m.iter().map(|sizes| sizes.map(|m| rounded(m * 1e3))).collect(),
+    };
     let several = meshes.len() > 1 || args.separate || args.seeds.is_some();
     if !several {
         return Ok(Plan::Single(base));
