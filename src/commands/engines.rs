@@ -8,7 +8,8 @@ use crate::failure::{Failure, INTERRUPTED};
 use crate::output::{Input, check_folder, machine, program, today, write_files};
 use compare::study::engines::{CALIBRATED, FeRun, TERMS, runs_json, stored};
 use compare::study::pages::{
-    EngineLine, Engines, HEADS, Imprint, SUMMARY, cells, engines, engines_page, lines, summary,
+    EngineLine, Engines, HEADS, Imprint, SUMMARY, VOLUMES, VOLUMES_CAPTION, cells, engines, engines_page, lines,
+    summary, volume_cells,
 };
 use models::Scenario;
 use serde_json::json;
@@ -36,6 +37,7 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
         json!({
             "schema": "ibr.engines", "version": 1, "lines": all,
             "ledgers": found.robots.iter().map(|r| json!({"robot": r.scenario.name, "pairs": r.pairs})).collect::<Vec<_>>(),
+            "volumes": found.robots.iter().flat_map(|r| &r.bodies).collect::<Vec<_>>(),
         }),
     );
     (context.progress)("drawing the report", None);
@@ -113,7 +115,7 @@ fn text(lines: &[EngineLine], engines: &Engines) -> Result<String, Failure> {
     }
     out.push_str("All pressures that the paper prints\n");
     out.push_str(&table(&HEADS, 1, lines.iter().map(cells).collect()));
-    Ok(out + &ledgers(engines))
+    Ok(out + &ledgers(engines) + &volumes(engines))
 }
 
 fn ledgers(engines: &Engines) -> String {
@@ -145,6 +147,11 @@ fn ledgers(engines: &Engines) -> String {
         out.push_str(&table(&head, 2, rows));
     }
     out
+}
+
+fn volumes(engines: &Engines) -> String {
+    let rows = volume_cells(&engines.robots);
+    if rows.is_empty() { String::new() } else { format!("\n{VOLUMES_CAPTION}\n{}", table(&VOLUMES, 1, rows)) }
 }
 
 /// Runs for other commands: those stored in the program, or those of a folder if one is named.

@@ -11,6 +11,10 @@
 //! does not know of. Where they bend more, the one with the largest lack. **Validity**: a statement about energies, not about
 //! their slopes, which decide the equilibrium; it names what to look at, it proves nothing.
 
+mod volumes;
+
+pub use volumes::{BodyVolumes, Mean, MeanVolumes, Volumes, body_volumes, volumes};
+
 use crate::accuracy::paper_accuracy;
 use crate::error::CompareError;
 use models::{Loads, Model, Scenario, Target};

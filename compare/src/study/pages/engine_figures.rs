@@ -64,6 +64,42 @@ pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>, CompareError> {
     plots::bars(&data).map(Some).map_err(|e| drawing("the displacements", e))
 }
 
+/// Series that a plot holds.
+const MOST_SERIES: usize = 24;
+
+/// χ over actuator pressure, a colour per robot: symbols with the scatter of seeds at its own body pressure, dashed below it
+/// and solid above; `None` where nothing is known of it.
+pub(super) fn displaced(robots: &[EngineRobot]) -> Result<Option<Drawn>, CompareError> {
+    let mut series = Vec::new();
+    for (colour, robot) in robots.iter().enumerate() {
+        for body in &robot.bodies {
+            let known = body.states.iter().filter_map(|v| Some((v.actuator_kpa, v.displaced?)));
+            let (points, half_width): (Vec<[f64; 2]>, Vec<f64>) =
+                known.map(|(kpa, (mean, sd))| ([kpa, mean], sd.unwrap_or(0.0))).unzip();
+            let style = match (body.own, body.body_kpa * 1e3 < robot.scenario.p_body_pa) {
+                (true, _) => plots::LineStyle::LinePoints,
+                (false, true) => plots::LineStyle::Dashed,
+                (false, false) => plots::LineStyle::Line,
+            };
+            let name = format!("{}, body {} kPa", body.actuator, body.body_kpa);
+            series.push((body.own, plots::LineSeries { name, points, half_width, style, colour: Some(colour) }));
+        }
+    }
+    // Of more than a plot holds, robots at their own body pressure come first.
+    series.sort_by_key(|(own, _)| !own);
+    let series: Vec<_> = series.into_iter().map(|s| s.1).filter(|s| !s.points.is_empty()).take(MOST_SERIES).collect();
+    if series.is_empty() {
+        return Ok(None);
+    }
+    let data = plots::Lines {
+        title: "Body volume lost beyond πR³ × turn".into(),
+        x_label: "actuator pressure [kPa]".into(),
+        y_label: "displaced per actuator volume χ [-]".into(),
+        series,
+    };
+    plots::lines(&data).map(Some).map_err(|e| drawing("the volumes", e))
+}
+
 /// Outermost marker over pressure: both engines, every seed of the finite elements.
 pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn, CompareError> {
     let series = |name: &str, points, half_width, style, colour| plots::LineSeries {

@@ -3,7 +3,7 @@
 use super::engines_page::EngineRobot;
 use crate::error::CompareError;
 use crate::plots::Known;
-use crate::study::engines::{Ensemble, accuracy};
+use crate::study::engines::{Ensemble, Mean, accuracy};
 use models::{Loads, Model, Scenario};
 
 /// One line of the comparison.
@@ -109,6 +109,41 @@ pub fn cells(line: &EngineLine) -> Vec<String> {
 /// Heads of these cells.
 pub const HEADS: [&str; 8] =
     ["robot", "kPa", "source", "how known", "marker mm", "sd of seeds mm", "tip mm", "accuracy %"];
+
+/// Heads of [`volume_cells`].
+pub const VOLUMES: [&str; 7] = [
+    "robot",
+    "actuator kPa",
+    "body lost",
+    "πR³ × turn",
+    "actuator",
+    "displaced per actuator volume (χ)",
+    "share of the ideal lens",
+];
+
+/// Caption of that table.
+pub const VOLUMES_CAPTION: &str = "Volumes [cm³], mean over seeds: what the bodies of the finite elements lose, and what the \
+    reduced model knows of it";
+
+/// Volumes of every robot at its own body pressure; quotients with their standard deviation over the seeds.
+pub fn volume_cells(robots: &[EngineRobot]) -> Vec<Vec<String>> {
+    let cm3 = |v: Mean| format!("{:.1}", v.0);
+    let share = |v: Option<Mean>| match v {
+        Some((mean, Some(spread))) => format!("{mean:.3} ± {spread:.3}"),
+        Some((mean, None)) => format!("{mean:.3}"),
+        None => "–".into(),
+    };
+    let mut rows = Vec::new();
+    for body in robots.iter().flat_map(|robot| &robot.bodies).filter(|body| body.own) {
+        for v in &body.states {
+            let mut row = vec![body.actuator.clone(), format!("{:.0}", v.actuator_kpa)];
+            row.extend([v.body_lost_cm3, v.by_bend_cm3, v.actuator_cm3].map(cm3));
+            row.extend([v.displaced, v.lens_share].map(share));
+            rows.push(row);
+        }
+    }
+    rows
+}
 
 /// Lines as CSV.
 pub(super) fn csv(lines: &[EngineLine]) -> String {

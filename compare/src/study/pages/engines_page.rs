@@ -1,12 +1,12 @@
 //! Both engines and the published numbers on one page: displacement, accuracy, ledgers, and where the models part.
 
-use super::engine_figures::{bars, curve, ledger, parting_plot};
-use super::engine_lines::{HEADS, SUMMARY, cells, csv, lines, summary};
+use super::engine_figures::{bars, curve, displaced, ledger, parting_plot};
+use super::engine_lines::{HEADS, SUMMARY, VOLUMES, VOLUMES_CAPTION, cells, csv, lines, summary, volume_cells};
 use super::{Files, Imprint};
 use crate::error::CompareError;
 use crate::plots::Drawn;
 use crate::report::{Align, Block, Callout, Column, Provenance, Report, Section, Table};
-use crate::study::engines::{CALIBRATED, Ensemble, FeRun, Pair, as_it_is, ensembles, pairs};
+use crate::study::engines::{BodyVolumes, CALIBRATED, Ensemble, FeRun, Pair, as_it_is, body_volumes, ensembles, pairs};
 use crate::study::published::{Rung, model_ladder, shipped_scenario};
 use data::{PublishedActuator, published};
 use models::Scenario;
@@ -28,6 +28,8 @@ pub struct EngineRobot {
     pub run: Option<FeRun>,
     /// Both engines at this run's pressures.
     pub pairs: Vec<Pair>,
+    /// What its finite element bodies lose, at every body pressure that was run.
+    pub bodies: Vec<BodyVolumes>,
 }
 
 /// Where the models part, for one robot and one quantity.
@@ -76,7 +78,17 @@ fn robot(scenario: &Scenario, runs: &[FeRun]) -> Result<EngineRobot, CompareErro
     let [ensemble, usual] = ensembles(runs, scenario);
     let run = ensemble.runs.first().cloned();
     let pairs = run.as_ref().map_or(Ok(Vec::new()), |run| pairs(scenario, run))?;
-    Ok(EngineRobot { scenario: scenario.clone(), published: printed, with_effects, ensemble, usual, run, pairs })
+    let bodies = body_volumes(scenario, runs);
+    Ok(EngineRobot {
+        scenario: scenario.clone(),
+        published: printed,
+        with_effects,
+        ensemble,
+        usual,
+        run,
+        pairs,
+        bodies,
+    })
 }
 
 /// Maps over body pressure and over pouch length, each from runs on the finest mesh that has two rows of it.
@@ -211,6 +223,7 @@ pub fn engine_sections(engines: &Engines, files: &mut Files) -> Result<Vec<Secti
     if !ledgers.is_empty() {
         sections.push(section("engine-ledgers", "Ledgers side by side", ledgers));
     }
+    sections.extend(volume_section(&engines.robots, files)?);
     let mut maps = vec![Block::Paragraph(MAPS.into())];
     for (k, map) in engines.maps.iter().enumerate() {
         let drawn = parting_plot(map)?;
@@ -224,6 +237,19 @@ pub fn engine_sections(engines: &Engines, files: &mut Files) -> Result<Vec<Secti
     Ok(sections)
 }
 
+fn volume_section(robots: &[EngineRobot], files: &mut Files) -> Result<Option<Section>, CompareError> {
+    let mut blocks = Vec::new();
+    if let Some(drawn) = displaced(robots)? {
+        files.plot("volumes", &drawn);
+        blocks.push(figure(DISPLACED, "displaced volume over pressure", &drawn));
+    }
+    let rows = volume_cells(robots);
+    if !rows.is_empty() {
+        blocks.push(rows_of(VOLUMES_CAPTION, &VOLUMES, &[0], None, rows));
+    }
+    Ok((!blocks.is_empty()).then(|| section("volumes", "What the bodies lose", blocks)))
+}
+
 const NOTE: &str = "Not printed by the paper and assumed here: pouch count, marker stations, weld width, the taped sheet's margin, \
     stiffness of tape and glue, how far plies bend as one, biaxial coupling, densities. The measured displacement is that of a marker nobody gave \
     the place of; it is held against the outermost assumed marker. The taped sheet (sPAM: margin and tape) and ν₁₂ (fPAM) are calibrated on \
@@ -234,6 +260,10 @@ const LINES_CAPTION: &str = "All pressures printed by the paper. Accuracy a = 1 
 const LEDGER: &str = "Reduced model and finite elements, each at its own bend. Gas is −P ΔV since the body was full; stretch and \
     wall bending of the finite elements likewise. What the finite elements lost in buckling, damping and friction is not stored \
     and not shown.";
+const DISPLACED: &str = "What the body lost since it was full, less the πR³ × turn that the reduced model knows of, over what the \
+    actuator gained. Symbols: the robot's own body pressure, mean and standard deviation of the seeds; dashed below it, solid \
+    above, one seed each where no more were run. Read off the finite elements; it predicts nothing. The share of the ideal lens \
+    in the table is the actuator's volume over that of lenses that contracted as much on the arm at rest.";
 const MAPS: &str = "Cells: how much more the reduced model bends, as shipped, than the finite elements. Beyond 10 % the cell is \
     coloured and names the term in which the finite elements hold more energy at the same bend (or less, where they bend more): \
     pouch gas (the pouches give less work), body folds (the body's gas is squeezed more), wall bending, stretch, contact, or \

@@ -16,7 +16,7 @@ pub use demo_page::{Demo, Story, demo, demo_page};
 pub use diagnosis_figures::ErrorRung;
 pub use diagnosis_page::{Diagnosed, diagnosis_page, diagnosis_sections};
 pub use engine_figures::parting_plot;
-pub use engine_lines::{EngineLine, HEADS, SUMMARY, cells, lines, summary};
+pub use engine_lines::{EngineLine, HEADS, SUMMARY, VOLUMES, VOLUMES_CAPTION, cells, lines, summary, volume_cells};
 pub use engines_page::{EngineRobot, Engines, PartingMap, engine_sections, engines, engines_page, varied};
 pub use figures::tradeoff as tradeoff_plot;
 pub use ladder_page::{LadderPage, ladder_page};

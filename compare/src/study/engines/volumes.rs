@@ -1,0 +1,259 @@
+//! What the bodies of the finite elements lose in volume, and what the reduced model knows of it.
+//!
+//! A reduced body folds about its taut generator and loses `πR³θ` at a turn θ ([`models::body::BodyPressure`]). What the
+//! bodies of the finite elements lose beyond it is counted in volumes of the actuator, and the actuator's volume in that of
+//! ideal lenses ([`models::exact::pouch`]) that have contracted as much:
+//!
+//! ```text
+//! χ = (ΔV_b − πR³θ)/ΔV_a      c = ΔV_a/(n V(ε))      ε = θ D/(n L₀)
+//! V(ε) = L₀² W (t − sin t cos t)/(2t²)               1 − sin t/t = ε
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | ΔV_b, ΔV_a | what the body has lost, and the actuator gained, since the body was full | m³, printed in cm³ |
+//! | θ | turn of the tip | rad |
+//! | R, D | radius of the body, arm of the actuator at rest (2R for pouches) | m |
+//! | n, L₀, W | pouches, their flat length and width | -, m, m |
+//! | χ | body volume that an actuator volume displaces: its gas works against χ p_b, E = χ p_b ΔV_a | - |
+//! | c | share of the ideal lens | - |
+//!
+//! **Validity**: both are read off finished runs and predict nothing. χ is a quotient of totals; what one more cm³ displaces
+//! may be more or less. c holds whatever parts a pouch from a lens of arm D: sealed edges, welds of some width, a shorter
+//! arm. Small turns have neither, being quotients of small differences. Uniform robots only: zones are not looked at.
+
+use super::{FeRun, FeState, ensembles, mean_and_deviation, same};
+use models::Scenario;
+use models::actuators::Family;
+use models::exact::pouch::{MAX_CONTRACTION, Pouch, hinge_theta, volume_m3};
+use serde::Serialize;
+use std::f64::consts::PI;
+
+/// Turn over the last one up to which no quotient is taken: below, the imperfections of a robot bend it as much.
+const SMALLEST_TURN: f64 = 0.1;
+/// Volume of the actuator over the last one up to which no quotient is taken.
+const SMALLEST_VOLUME: f64 = 0.05;
+
+/// Volumes of one state of a finite element run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Volumes {
+    /// Actuator gauge pressure \[kPa\].
+    pub actuator_kpa: f64,
+    /// What the body has lost since it was full \[cm³\].
+    pub body_lost_cm3: f64,
+    /// What a reduced body loses at this turn, πR³θ \[cm³\].
+    pub by_bend_cm3: f64,
+    /// What the actuator has gained since the body was full \[cm³\].
+    pub actuator_cm3: f64,
+    /// χ \[-\]; `None` at small turns.
+    pub displaced: Option<f64>,
+    /// c \[-\]; `None` at small turns, for muscles, and beyond the contraction of a round lens.
+    pub lens_share: Option<f64>,
+}
+
+/// Volumes of every state after the filled one.
+pub fn volumes(scenario: &Scenario, run: &FeRun) -> Vec<Volumes> {
+    let Some((filled, states)) = run.states.split_first() else { return Vec::new() };
+    let last = states.last().unwrap_or(filled);
+    states.iter().map(|state| volumes_of(scenario, filled, state, last)).collect()
+}
+
+fn volumes_of(scenario: &Scenario, filled: &FeState, state: &FeState, last: &FeState) -> Volumes {
+    let body_lost_cm3 = filled.body_cm3 - state.body_cm3;
+    let by_bend_cm3 = PI * scenario.radius_m.powi(3) * state.turn_rad * 1e6;
+    let actuator_cm3 = state.actuator_cm3 - filled.actuator_cm3;
+    let full_cm3 = last.actuator_cm3 - filled.actuator_cm3;
+    let bent =
+        state.turn_rad > SMALLEST_TURN * last.turn_rad.max(0.0) && actuator_cm3 > SMALLEST_VOLUME * full_cm3.max(0.0);
+    let displaced = bent.then(|| (body_lost_cm3 - by_bend_cm3) / actuator_cm3);
+    let lens_cm3 = lens_m3(scenario, state.turn_rad).filter(|_| bent).map(|m3| m3 * 1e6);
+    let lens_share = lens_cm3.map(|cm3| actuator_cm3 / cm3);
+    Volumes { actuator_kpa: state.actuator_kpa, body_lost_cm3, by_bend_cm3, actuator_cm3, displaced, lens_share }
+}
+
+/// Volume n V(ε) of ideal pouches at a turn \[m³\]; `None` for muscles and outside of 0 < ε < 1 − 2/π.
+fn lens_m3(scenario: &Scenario, turn_rad: f64) -> Option<f64> {
+    let actuator = &scenario.actuator;
+    let arm_m = actuator.arm_m.unwrap_or_else(|| (actuator.kind.arm)(scenario.radius_m, &actuator.shape));
+    let count = actuator.count as f64;
+    let contraction = turn_rad * arm_m / (count * actuator.shape.length_m);
+    let inside = contraction > 0.0 && contraction < MAX_CONTRACTION;
+    (inside && actuator.kind.family == Family::Pouch).then(|| {
+        // The film over a hinge folded by α has sin t/t = cos(α/2).
+        let theta = hinge_theta(2.0 * (1.0 - contraction).acos());
+        let pouch = Pouch { length_m: actuator.shape.length_m, width_m: actuator.shape.width_m };
+        count * volume_m3(&pouch, theta)
+    })
+}
+
+/// Mean and standard deviation over seeds, which a single one has not.
+pub type Mean = (f64, Option<f64>);
+
+/// [`Volumes`] over the seeds of an ensemble; the quotients over those that have one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MeanVolumes {
+    /// Actuator gauge pressure \[kPa\].
+    pub actuator_kpa: f64,
+    /// What the body has lost since it was full \[cm³\].
+    pub body_lost_cm3: Mean,
+    /// πR³θ \[cm³\].
+    pub by_bend_cm3: Mean,
+    /// What the actuator has gained since the body was full \[cm³\].
+    pub actuator_cm3: Mean,
+    /// χ \[-\].
+    pub displaced: Option<Mean>,
+    /// c \[-\].
+    pub lens_share: Option<Mean>,
+}
+
+/// A robot at one body pressure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BodyVolumes {
+    /// Name of the scenario.
+    pub robot: String,
+    /// Actuator kind.
+    pub actuator: String,
+    /// Body gauge pressure \[kPa\].
+    pub body_kpa: f64,
+    /// Whether that is the scenario's own.
+    pub own: bool,
+    /// Element size at the actuator \[mm\].
+    pub mesh_mm: f64,
+    /// Seeds.
+    pub seeds: usize,
+    /// Every pressure of its runs.
+    pub states: Vec<MeanVolumes>,
+}
+
+/// A robot at its own body pressure, then at the others that have runs, lowest first; recommended settings.
+pub fn body_volumes(scenario: &Scenario, runs: &[FeRun]) -> Vec<BodyVolumes> {
+    let own_kpa = scenario.p_body_pa * 1e-3;
+    let other = |run: &FeRun| run.scenario == scenario.name && !same(run.body_kpa, own_kpa);
+    let mut others: Vec<f64> = runs.iter().filter(|run| other(run)).map(|run| run.body_kpa).collect();
+    others.sort_by(f64::total_cmp);
+    others.dedup();
+    let at = |body_kpa: f64| {
+        let changed = Scenario { p_body_pa: body_kpa * 1e3, ..scenario.clone() };
+        let [ensemble, _] = ensembles(runs, &changed);
+        let mesh_mm = ensemble.runs.first()?.mesh_mm[1];
+        Some(BodyVolumes {
+            robot: scenario.name.clone(),
+            actuator: scenario.actuator.kind.name.to_string(),
+            body_kpa,
+            own: body_kpa == own_kpa,
+            mesh_mm,
+            seeds: ensemble.runs.len(),
+            states: mean_volumes(&changed, &ensemble.runs),
+        })
+    };
+    std::iter::once(own_kpa).chain(others).filter_map(at).collect()
+}
+
+fn mean_volumes(scenario: &Scenario, runs: &[FeRun]) -> Vec<MeanVolumes> {
+    let all: Vec<Vec<Volumes>> = runs.iter().map(|run| volumes(scenario, run)).collect();
+    let Some(first) = all.first() else { return Vec::new() };
+    let at = |kpa: f64| {
+        let here: Vec<&Volumes> = all.iter().flatten().filter(|v| same(v.actuator_kpa, kpa)).collect();
+        let of = |value: fn(&Volumes) -> f64| mean_and_deviation(&here.iter().map(|v| value(v)).collect::<Vec<_>>());
+        let known = |value: fn(&Volumes) -> Option<f64>| {
+            let found: Vec<f64> = here.iter().filter_map(|v| value(v)).collect();
+            (!found.is_empty()).then(|| mean_and_deviation(&found))
+        };
+        MeanVolumes {
+            actuator_kpa: kpa,
+            body_lost_cm3: of(|v| v.body_lost_cm3),
+            by_bend_cm3: of(|v| v.by_bend_cm3),
+            actuator_cm3: of(|v| v.actuator_cm3),
+            displaced: known(|v| v.displaced),
+            lens_share: known(|v| v.lens_share),
+        }
+    };
+    first.iter().map(|v| at(v.actuator_kpa)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::stored;
+    use super::*;
+    use crate::study::published::shipped_scenario;
+
+    /// A run of the ePAM whose body loses πR³θ + χ ΔV_a, and whose pouches are a share of ideal lenses.
+    fn made_up(scenario: &Scenario, displaced: f64, share: f64) -> FeRun {
+        let filled = FeState { body_cm3: 1800.0, actuator_cm3: -1.5, ..FeState::default() };
+        let mut states = vec![filled.clone()];
+        for (actuator_kpa, turn_rad) in [(5.0, 0.02), (10.0, 0.3), (30.0, 0.9)] {
+            let gained = share * lens_m3(scenario, turn_rad).unwrap() * 1e6;
+            let body_cm3 = filled.body_cm3 - PI * 64.0 * turn_rad - displaced * gained;
+            let actuator_cm3 = filled.actuator_cm3 + gained;
+            states.push(FeState { actuator_kpa, turn_rad, body_cm3, actuator_cm3, ..filled.clone() });
+        }
+        FeRun { states, ..FeRun::default() }
+    }
+
+    #[test]
+    fn a_run_that_displaces_a_multiple_of_its_actuator_gives_it_back_but_for_small_turns() {
+        let scenario = shipped_scenario("epam").unwrap();
+        let [small, bent @ ..] = &volumes(&scenario, &made_up(&scenario, 1.1, 0.6))[..] else { panic!() };
+        assert!(small.displaced.is_none() && small.lens_share.is_none() && bent.len() == 2);
+        for v in bent {
+            assert!((v.displaced.unwrap() - 1.1).abs() < 1e-12 && (v.lens_share.unwrap() - 0.6).abs() < 1e-12, "{v:?}");
+        }
+    }
+
+    #[test]
+    fn a_slack_actuator_a_muscle_and_a_contraction_past_the_round_lens_have_no_share() {
+        let scenario = shipped_scenario("epam").unwrap();
+        let mut run = made_up(&scenario, 1.1, 0.6);
+        run.states[2].actuator_cm3 = 0.04 * run.states[3].actuator_cm3 + run.states[0].actuator_cm3;
+        run.states[3].turn_rad = MAX_CONTRACTION * 0.36 / 0.08 + 1e-6;
+        let found = volumes(&scenario, &run);
+        assert!(found[1].displaced.is_none());
+        assert!(found[2].displaced.is_some() && found[2].lens_share.is_none());
+        let muscle = volumes(&shipped_scenario("fpam").unwrap(), &made_up(&scenario, 1.1, 0.6));
+        assert!(muscle[2].displaced.is_some() && muscle.iter().all(|v| v.lens_share.is_none()));
+    }
+
+    #[test]
+    fn ideal_lenses_contract_as_much_as_the_law_of_the_pouch_says() {
+        let scenario = shipped_scenario("epam").unwrap();
+        let theta = 1.1;
+        let turn_rad = models::exact::pouch::contraction(theta) * 0.36 / 0.08;
+        let stroke = models::actuators::pouch::stroke(&scenario.actuator.shape, theta);
+        let own = lens_m3(&scenario, turn_rad).unwrap();
+        assert!((own / (0.36 * stroke.volume) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn pouches_of_the_stored_epam_hold_one_share_of_the_lens_at_all_pressures() {
+        let scenario = shipped_scenario("epam").unwrap();
+        let [own, ..] = &body_volumes(&scenario, &stored())[..] else { panic!() };
+        assert!(own.own && own.seeds == 5 && own.states.len() == 6);
+        let [ensemble, _] = ensembles(&stored(), &scenario);
+        for v in ensemble.runs.iter().flat_map(|run| volumes(&scenario, run)) {
+            assert!((0.55..0.60).contains(&v.lens_share.unwrap()), "{v:?}");
+        }
+    }
+
+    /// Share η of stroke and volume at once, ΔV_a = η n V(ε/η), by bisection; `None` if no η does it.
+    fn share_of_both(scenario: &Scenario, turn_rad: f64, actuator_cm3: f64) -> Option<f64> {
+        let over = |share: f64| lens_m3(scenario, turn_rad / share).map(|m3| share * m3 * 1e6 - actuator_cm3);
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if over(middle).is_some_and(|cm3| cm3 > 0.0) { high = middle } else { low = middle }
+        }
+        over(high + 1e-9).filter(|cm3| cm3.abs() < 1e-3).map(|_| high)
+    }
+
+    #[test]
+    fn no_single_share_of_stroke_and_volume_gives_the_volumes_of_the_stored_epam() {
+        let scenario = shipped_scenario("epam").unwrap();
+        let [ensemble, _] = ensembles(&stored(), &scenario);
+        let shares: Vec<Option<f64>> = volumes(&scenario, &ensemble.runs[0])
+            .iter()
+            .zip(&ensemble.runs[0].states[1..])
+            .map(|(v, state)| share_of_both(&scenario, state.turn_rad, v.actuator_cm3))
+            .collect();
+        assert!(shares[0].unwrap() < 0.40 && shares[4].unwrap() > 0.50 && shares[5].is_none(), "{shares:?}");
+    }
+}
