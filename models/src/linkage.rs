@@ -3,8 +3,10 @@
 /// How the actuator's contraction becomes curvature of the body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Linkage {
-    /// Share η of the actuator's stroke and volume that is active \[-\]; 1 in the bare model.
+    /// Share η of the actuator's volume that is active \[-\]; 1 in the bare model.
     pub active_fraction: f64,
+    /// Share η_ε of its stroke that is active \[-\]; 1 in the bare model.
+    pub stroke_fraction: f64,
     /// Arm D₀ from the taut generator to the line of action at rest \[m\].
     pub arm_m: f64,
     /// Share β of the actuator's lift by which the arm grows \[-\]; 0 in the bare model.

@@ -291,8 +291,14 @@ pub(crate) fn assemble(scenario: &Scenario, spans: &[Span], segments: usize) -> 
 
 fn site(scenario: &Scenario, span: &Span) -> Site {
     let shape: ActuatorShape = span.shape;
-    let linkage =
-        Linkage { active_fraction: 1.0, arm_m: span.arm_m, arm_growth: 0.0, compliance_per_n: 0.0, flattening_m2: 0.0 };
+    let linkage = Linkage {
+        active_fraction: 1.0,
+        stroke_fraction: 1.0,
+        arm_m: span.arm_m,
+        arm_growth: 0.0,
+        compliance_per_n: 0.0,
+        flattening_m2: 0.0,
+    };
     let pressure = BodyPressure {
         radius_m: span.radius_m,
         hinge_curvature: scenario.hinge_curvature,

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!        actuator side                    linkage                         body side
-//!   a ─► ε(a), v(a), lift(a)      η ε = κ D + c N/W,  D = D₀ + β·lift      κ ─► wall, body pressure
-//!        N = −η ∂U/∂a / (η ε' − κ D')                                     N D + M_load = ∂U/∂κ
+//!   a ─► ε(a), v(a), lift(a)      η_ε ε = κ D + c N/W,  D = D₀ + β·lift    κ ─► wall, body pressure
+//!        N = −η ∂U/∂a / (η_ε ε' − κ D')                                     N D + M_load = ∂U/∂κ
 //! ```
 //!
 //! With a section that flattens, the curvature of the round body g takes the place of κ on the left and κ = g (1 + o g²).
@@ -221,10 +221,11 @@ impl Site {
     /// Start from the actuator's own balance with the wall's moment linearised.
     fn start(&self, actuator: &Actuator, loads: &SiteLoads, memory: &[f64]) -> Start {
         let link = &self.linkage;
-        let available = loads.p_act_pa * (actuator.area)(&self.shape) * link.arm_m;
+        let pull = link.active_fraction / link.stroke_fraction;
+        let available = pull * loads.p_act_pa * (actuator.area)(&self.shape) * link.arm_m;
         let (low, high) = TYPICAL_STROKE;
         let moment = |stroke: f64| {
-            let (curvature, gain) = link.bent(stroke * link.active_fraction / link.arm_m);
+            let (curvature, gain) = link.bent(stroke * link.stroke_fraction / link.arm_m);
             (self.body_moment(curvature, loads, memory) - loads.moment) * gain
         };
         let at_low = moment(low);
@@ -280,8 +281,8 @@ impl Site {
         let link = &self.linkage;
         let arm = link.arm_m + link.arm_growth * stroke.lift;
         let (d_arm, per_arm) = (link.arm_growth * stroke.d_lift, 1.0 / arm);
-        let geometric = link.active_fraction * stroke.contraction * per_arm;
-        let d_geometric = (link.active_fraction * stroke.d_contraction - geometric * d_arm) * per_arm;
+        let geometric = link.stroke_fraction * stroke.contraction * per_arm;
+        let d_geometric = (link.stroke_fraction * stroke.d_contraction - geometric * d_arm) * per_arm;
         let slope = link.active_fraction * self.actuator_slope(a, &stroke, geometric, d_geometric, loads);
         let tension = line_tension(-slope, d_geometric * arm, link.compliance_per_n * d_arm * per_arm);
         let (curvature, gain) = link.bent(geometric - link.compliance_per_n * tension * per_arm);
@@ -306,7 +307,7 @@ impl Site {
     /// Curvature of inextensible fabric at a stroke \[1/m\].
     pub(crate) fn geometric(&self, stroke: &Stroke) -> f64 {
         let arm = self.linkage.arm_m + self.linkage.arm_growth * stroke.lift;
-        self.linkage.bent(self.linkage.active_fraction * stroke.contraction / arm).0
+        self.linkage.bent(self.linkage.stroke_fraction * stroke.contraction / arm).0
     }
 
     /// By how much the moment of the terms with history has fallen since the state `at` was remembered: their share of the
@@ -378,6 +379,7 @@ mod tests {
                 let shape = ActuatorShape { length_m: 0.06, width_m: 0.07, fold_m: 0.0, volume_gain: 1.2 };
                 let linkage = Linkage {
                     active_fraction: 0.9,
+                    stroke_fraction: 0.95,
                     arm_m: 0.08,
                     arm_growth,
                     compliance_per_n: 0.0,

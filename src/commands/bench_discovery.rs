@@ -35,7 +35,7 @@ pub fn run(sets: usize, seed: u64, _context: &mut Context) -> Result<Outcome, Fa
         "schema": "ibr.bench.discovery", "version": 1, "seed": seed, "sets": sets, "rows": bench.rows,
         "confusion": bench.confusion, "breakdown": bench.breakdown, "attainable": bench.attainable,
         "missed_after": bench.missed_after, "missed_by_law": bench.missed_by_law,
-        "made": bench.made, "failed": bench.failed, "time": {"machine": machine(), "row": time},
+        "made": bench.made, "seen": bench.seen, "failed": bench.failed, "time": {"machine": machine(), "row": time},
     });
     Ok(Outcome::new(text, json))
 }

@@ -2,7 +2,7 @@
 
 use super::result::Group;
 use models::Scenario;
-use models::effects::{Effect, Stage};
+use models::effects::{Effect, Fitted, Stage};
 
 /// An effect that can be switched on, with what a fit and a reader need.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,12 +44,16 @@ pub struct Free {
     pub upper: f64,
     /// Where a fit starts beside neutral and typical: thresholds and time scales.
     pub starts: Vec<f64>,
+    /// When a fit may change it.
+    pub fitted: Fitted,
+    /// It stays neutral: the data at hand say nothing of it.
+    pub is_held: bool,
 }
 
 impl Free {
     /// Whether it is fitted: a parameter that is typically zero (a force along the robot) stays there.
     pub fn is_free(&self) -> bool {
-        self.typical != 0.0 || self.neutral != 0.0
+        !self.is_held && (self.typical != 0.0 || self.neutral != 0.0)
     }
 
     /// Length of one step of the fit.
@@ -92,7 +96,7 @@ impl Candidate {
         if clamped(-1.0) != clamped(0.0) {
             starts.push(clamped(-1.0));
         }
-        for (k, p) in self.parameters.iter().enumerate() {
+        for (k, p) in self.parameters.iter().enumerate().filter(|(_, p)| !p.is_held) {
             starts.extend(p.starts.iter().map(|value| {
                 let mut start = clamped(1.0);
                 start[k] = *value;
@@ -101,6 +105,17 @@ impl Candidate {
         }
         starts.dedup();
         starts
+    }
+}
+
+/// Holds parameters at their neutral values that the data do not hold.
+pub fn hold(candidates: &mut [Candidate], gauge: bool, kept_bending: bool) {
+    for p in candidates.iter_mut().flat_map(|candidate| &mut candidate.parameters) {
+        p.is_held = match p.fitted {
+            Fitted::Always => false,
+            Fitted::WithGauge => !gauge,
+            Fitted::WithKeptBending => !kept_bending,
+        };
     }
 }
 
@@ -130,6 +145,8 @@ fn candidate(effect: &Effect, actuator: &str) -> Candidate {
         lower: p.lower * p.si,
         upper: p.upper * p.si,
         starts: p.starts.iter().map(|v| v * p.si).collect(),
+        fitted: p.fitted,
+        is_held: false,
     };
     Candidate {
         name: effect.name.to_string(),

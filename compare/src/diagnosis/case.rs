@@ -1,7 +1,7 @@
 //! A scenario and its datasets made ready for hypotheses: noise, calibrated base, catalogue.
 
 use super::basis::{Basis, cosine};
-use super::candidates::{Candidate, candidates, present};
+use super::candidates::{Candidate, candidates, hold, present};
 use super::options::Options;
 use super::problem::{Block, Fit, Problem, Readings};
 use super::screen::trace;
@@ -78,6 +78,8 @@ pub fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usiz
     list.retain(open);
     let own = list.len();
     list.extend(candidates(scenario).into_iter().filter(open));
+    let gauge = sources.iter().any(|source| source.gauge.is_some());
+    hold(&mut list[own..], gauge, options.keep_bending);
     (list, own)
 }
 

@@ -5,10 +5,11 @@ use super::lack_of_fit::{lack_of_fit, with_supply};
 use super::options::Options;
 use super::order;
 use super::pairs::{another_wanted, fit_pairs, indistinguishable as alike_pairs, p_over};
+use super::patterns::Fault;
 use super::problem::Fit;
 use super::result::{LackOfFit, Verdict};
 use super::singles::{fit_all, indistinguishable};
-use super::stands_out::{StandsOut, stands_out};
+use super::stands_out::{StandsOut, alone, stands_out};
 use crate::error::CompareError;
 use crate::stats::reported_p;
 
@@ -51,6 +52,8 @@ pub struct Decision {
     pub verdict: Option<Verdict>,
     /// One corrected p of "nothing is missing".
     pub p_value: Option<f64>,
+    /// One fault that is a simpler answer than the final model.
+    pub fault: Option<StandsOut>,
     /// Lack of fit of the base.
     pub before: Option<LackOfFit>,
     /// Lack of fit of the final model.
@@ -76,6 +79,7 @@ pub fn decide(case: &Case, options: &Options) -> Result<Decision, CompareError> 
         pair_set: Vec::new(),
         pairs_tried: 0,
         last: None,
+        fault: None,
         verdict: p_value.map(|_| Verdict::None),
         p_value: p_value.map(reported_p),
         before,
@@ -111,10 +115,13 @@ fn explain(case: &Case, options: &Options, decision: &mut Decision, significant:
         let closest = closest(case, decision, last);
         decision.after = test(case, &closest)?;
         decision.last = Some(closest);
-    } else {
-        decision.verdict = Some(Verdict::Effect);
-        decision.last = Some(last);
+        return Ok(());
     }
+    decision.fault = simpler(case, &last);
+    if decision.fault.is_none() {
+        decision.verdict = Some(Verdict::Effect);
+    }
+    decision.last = Some(last);
     Ok(())
 }
 
@@ -147,6 +154,20 @@ fn is_unexplained(case: &Case, fit: &Fit, lof: Option<LackOfFit>, share: (f64, f
 fn is_a_place_left(case: &Case, fit: &Fit, seen: &StandsOut) -> bool {
     let before = case.gain(fit) + seen.gain;
     !seen.is_uniform && seen.gain - 1.0 > PLACE_LEFT * PLACE_LEFT * before
+}
+
+/// One fault with one amplitude that says what the effects say with more. Of two effects a fault that is as good is the simpler
+/// answer. One effect is as simple: a place must be clearly better, for a law that is not quite its formula leaves one now and
+/// then, and a hold says nothing against it, because three pressures and B leave every law one hold to miss.
+fn simpler(case: &Case, last: &Fit) -> Option<StandsOut> {
+    let (kinds, margin): (&[Fault], f64) = match last.effects.len() - case.always.len() {
+        ..=1 => (&[Fault::Place], order::SAME),
+        _ => (&[Fault::Place, Fault::Hold], 0.0),
+    };
+    let fault = alone(case, kinds).filter(|fault| fault.p_value < case.alpha)?;
+    let allowance = order::allowance(case.gain(last).max(fault.gain));
+    let by_fault = order::criterion_of(case, case.base.cost() - fault.gain, 1, allowance);
+    (by_fault + margin < order::criterion(case, last, allowance)).then_some(fault)
 }
 
 /// Takes the best pair in place of the single effect, or of the base, if it is significantly better.

@@ -33,6 +33,22 @@ fn a_gauge_names_the_law_of_the_supply() {
     }
 }
 
+/// Without readings the exponent stays where it is; with them it is fitted.
+#[test]
+fn a_gauge_tells_the_exponent_of_a_loss() {
+    let plain = robot("epam");
+    let truth = plain.with_effect("pressure_loss", &[0.15, 0.7]);
+    let d = run(&plain, &read_along(&truth, 5, 451));
+    assert_eq!(d.indistinguishable[0], "pressure_loss", "{:?}", d.summary);
+    let [f, n] = &d.added[0].parameters[..] else { panic!("{:?}", d.added) };
+    for (found, put_in) in [(f, 0.15), (n, 0.7)] {
+        assert!(found.lo.unwrap() < put_in && put_in < found.hi.unwrap(), "{put_in}: {found:?}");
+    }
+    let d = run(&plain, &generate(&truth, "made", &Generator { runs: 5, seed: 452, ..Generator::default() }).unwrap());
+    let loss = d.ranked.iter().find(|r| r.effect == "pressure_loss").unwrap();
+    assert_eq!(loss.parameters[1].value, 1.0);
+}
+
 #[test]
 fn with_a_gauge_no_supply_is_blamed_for_the_robot() {
     let plain = robot("epam");
@@ -45,12 +61,12 @@ fn with_a_gauge_no_supply_is_blamed_for_the_robot() {
 #[test]
 fn what_the_scenario_says_of_the_supply_is_held_against_the_gauge() {
     let plain = robot("spam");
-    let truth = plain.with_effect("pressure_loss", &[0.15]);
+    let truth = plain.with_effect("pressure_loss", &[0.15, 1.0]);
     let data = read_along(&truth, 5, 421);
     let d = run(&truth, &data);
     assert_eq!(d.verdict, Some(Verdict::None), "{:?}", d.summary);
     assert!(d.gauges[0].before_kpa < 0.3 && d.base.systematic_mm < 0.5, "{:?}", d.gauges);
-    let other = run(&plain.with_effect("pressure_loss", &[0.3]), &data);
+    let other = run(&plain.with_effect("pressure_loss", &[0.3, 1.0]), &data);
     assert!(other.verdict == Some(Verdict::OutOfCatalog) && other.gauges[0].before_kpa > 1.0, "{:?}", other.summary);
     assert!(other.lack_of_fit_after.unwrap().supply.unwrap() < 1e-3);
 }

@@ -260,7 +260,9 @@ fn assemble(
         attempt,
         lack_of_fit_before: decision.before,
         lack_of_fit_after: decision.after,
-        pattern: outside.then(|| stands_out::left_pattern(case, decision.last.as_ref())).flatten(),
+        pattern: outside
+            .then(|| stands_out::left_pattern(case, decision.last.as_ref(), decision.fault.as_ref()))
+            .flatten(),
         leftover,
         residuals_before,
         residuals_after,

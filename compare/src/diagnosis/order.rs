@@ -41,8 +41,13 @@ pub fn allowance(best_gain: f64) -> f64 {
 
 /// C of an explanation, up to a constant.
 pub fn criterion(case: &Case, fit: &Fit, allowance: f64) -> f64 {
+    criterion_of(case, fit.cost(), case.extra(fit), allowance) + oddness(case, fit)
+}
+
+/// The same of a sum of squares and a number of parameters added.
+pub fn criterion_of(case: &Case, cost: f64, added: usize, allowance: f64) -> f64 {
     let values = case.sources().map(|(_, noise)| noise.directions.len()).sum::<usize>() as f64;
-    fit.cost() / allowance + case.extra(fit) as f64 * price(values, allowance) + oddness(case, fit)
+    cost / allowance + added as f64 * price(values, allowance)
 }
 
 /// Schwarz's price of a parameter where the variance of the values is larger by the allowance.
@@ -116,6 +121,8 @@ mod tests {
             lower: -0.5,
             upper: 1.5,
             starts: Vec::new(),
+            fitted: models::effects::Fitted::Always,
+            is_held: false,
         };
         assert_eq!((wrong_sign(&p, 0.3), wrong_sign(&Free { lower: -1.5, ..p.clone() }, -0.3)), (0.0, 0.0));
         assert!((wrong_sign(&p, -0.3) - 2.0 * 3.0_f64.ln()).abs() < 1e-12);

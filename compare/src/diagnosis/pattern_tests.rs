@@ -3,6 +3,8 @@
 use super::case::{Case, catalogue};
 use super::stands_out::{StandsOut, stands_out};
 use super::*;
+use crate::hidden::truth::standard_protocol;
+use crate::hidden::{Draw, Truth};
 use crate::study::{Generator, generate, published::shipped_scenario};
 
 fn robot(kind: &str, bending_nm2: f64) -> Scenario {
@@ -53,6 +55,24 @@ fn a_stiffness_that_falls_along_the_robot_is_a_place() {
     let plain = robot("epam", 1.35);
     let [place, _] = left_by_base(&plain, &measured(&plain.with_effect("base_clamp", &[3.0, 1.5]), 5, 55));
     assert!(place.p_value < 1e-6 && place.words.contains("stiffness changes steadily"), "{place:?}");
+}
+
+/// Two effects with four parameters meet these data as well as the fault does with one.
+#[test]
+fn one_fault_is_a_simpler_answer_than_two_effects() {
+    for (kind, fault, words) in [
+        ("epam", "stiffness_taper", "stiffness changes steadily along the robot"),
+        ("cpam", "stuck_regulator", "the whole robot bends otherwise in hold 3 alone"),
+    ] {
+        let mut truth = Truth::draw(kind, &mut Draw::new(7, 0)).unwrap();
+        truth.add(fault, 1.0);
+        let truth = Truth { runs: 5, camera_sd_m: 1e-3, ..truth };
+        let data = truth.dataset("made", &standard_protocol()).unwrap();
+        let options = Options { next_experiment: false, ..Options::default() };
+        let d = diagnose(&truth.told().unwrap(), &data, None, &options).unwrap();
+        assert_eq!(d.verdict, Some(Verdict::OutOfCatalog), "{fault}: {:?}", d.summary);
+        assert!(d.pattern.as_ref().is_some_and(|p| p.words.contains(words)), "{fault}: {:?}", d.pattern);
+    }
 }
 
 #[test]

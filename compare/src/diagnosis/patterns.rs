@@ -26,8 +26,19 @@ pub struct Pattern {
     pub words: String,
     /// The whole robot bends otherwise at some time: all that a wrong law of a uniform robot can leave. Without it, a place.
     pub is_uniform: bool,
+    /// What broke, if this is what something broken looks like.
+    pub fault: Option<Fault>,
     /// Displacement in run layout, any unit.
     pub direction: Vec<f64>,
+}
+
+/// A fault that one pattern tells by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fault {
+    /// A place of the robot or a marker, with the times of the bending or none of its own.
+    Place,
+    /// One hold: a set point that was not reached.
+    Hold,
 }
 
 /// Where a pattern acts.
@@ -61,10 +72,11 @@ pub fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
     let bent = bending(&layout, prediction_m);
     let stations = order(&case.scenario.markers_m);
     let mut all = Vec::new();
-    let mut add = |words: String, place: Place, time: &Time| {
-        all.push(Pattern { words, is_uniform: false, direction: direction(&layout, &outlines, &place, time) });
-    };
     let always = vec![1.0; layout.holds];
+    let mut add = |words: String, place: Place, time: &Time| {
+        let fault = (*time == always || *time == bent).then_some(Fault::Place);
+        all.push(Pattern { words, is_uniform: false, fault, direction: direction(&layout, &outlines, &place, time) });
+    };
     let n = layout.markers;
     // A rotation before the first marker is one of mount or camera, which the catalogue has.
     for k in 1..n {
@@ -88,10 +100,12 @@ pub fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
         add(format!("the image shifts in x {words}"), Place::All([1.0, 0.0]), time);
         add(format!("the image shifts in y {words}"), Place::All([0.0, 1.0]), time);
     }
-    for (words, time) in &times {
+    for (i, (words, time)) in times.iter().enumerate() {
         let words = format!("the whole robot bends otherwise {words}");
         let direction = direction(&layout, &outlines, &along(|_| 1.0), time);
-        all.push(Pattern { words, is_uniform: true, direction });
+        // Single holds come first.
+        let fault = (i < layout.holds).then_some(Fault::Hold);
+        all.push(Pattern { words, is_uniform: true, fault, direction });
     }
     all
 }
@@ -129,7 +143,7 @@ fn alone(holds: usize, hold: usize) -> Time {
     (0..holds).map(|i| f64::from(u8::from(i == hold))).collect()
 }
 
-/// Times that single out holds, with words.
+/// Times that single out holds, with words; every hold by itself first.
 fn times(case: &Case, bent: &Time) -> Vec<(String, Time)> {
     let holds = &case.dataset.holds;
     let mut all: Vec<(String, Time)> = Vec::new();

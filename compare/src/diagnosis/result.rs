@@ -240,6 +240,8 @@ pub struct LeftPattern {
     pub p_value: f64,
     /// It explains more of the whole misfit than the best of the catalogue does; else it is what that leaves.
     pub instead: bool,
+    /// It is a fault that says what effects of the catalogue say with more: the attempt explains the misfit too.
+    pub simpler: bool,
 }
 
 /// Samples and runs that stand out from the others.

@@ -7,7 +7,7 @@
 use super::basis::Basis;
 use super::case::Case;
 use super::least_squares::{dot, square};
-use super::patterns::{Pattern, patterns, uniform_bending};
+use super::patterns::{Fault, Pattern, patterns, uniform_bending};
 use super::problem::Fit;
 use super::result::LeftPattern;
 use crate::stats::{reported_p, two_sided_p};
@@ -32,6 +32,8 @@ pub struct StandsOut {
     pub words: String,
     /// The whole robot bends otherwise at some time.
     pub is_uniform: bool,
+    /// The fault that looks like it.
+    pub fault: Option<Fault>,
     /// Fall of the whitened sum of squares along it.
     pub gain: f64,
     /// p of the largest of all patterns.
@@ -41,18 +43,30 @@ pub struct StandsOut {
 /// The clearest place and the clearest time in the residuals of a fit; none if p-values cannot be formed. Places are looked for
 /// beside any uniform bending of the holds, which every law of a uniform robot may leave.
 pub fn stands_out(case: &Case, fit: &Fit) -> Vec<StandsOut> {
-    look(case, fit, true)
+    let found = look(case, fit, true);
+    let first = |uniform: bool| found.iter().find(|f| f.is_uniform == uniform).cloned();
+    [first(false), first(true)].into_iter().flatten().collect()
 }
 
-/// In words: what the calibrated base leaves if one pattern alone explains more of it than `last` does, else what `last` leaves.
-pub fn left_pattern(case: &Case, last: Option<&Fit>) -> Option<LeftPattern> {
+/// The clearest fault of some kinds that the calibrated base leaves, as if it were the only cause.
+pub fn alone(case: &Case, kinds: &[Fault]) -> Option<StandsOut> {
+    look(case, &case.base, false).into_iter().find(|seen| seen.fault.is_some_and(|fault| kinds.contains(&fault)))
+}
+
+/// In words: the fault that is a simpler answer than `last`; else what the calibrated base leaves if one pattern alone explains
+/// more of it than `last` does, else what `last` leaves.
+pub fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&StandsOut>) -> Option<LeftPattern> {
     let clearest = |fit: &Fit| look(case, fit, false).into_iter().max_by(|a, b| a.gain.total_cmp(&b.gain));
     let told = |fit: &Fit, seen: StandsOut, instead: bool| LeftPattern {
         share: seen.gain / excess(case.first(&fit.minimum.residual)).max(seen.gain),
         words: seen.words,
         p_value: reported_p(seen.p_value),
         instead,
+        simpler: fault.is_some(),
     };
+    if let Some(fault) = fault {
+        return Some(told(&case.base, fault.clone(), true));
+    }
     let alone = clearest(&case.base)?;
     match last {
         Some(fit) if case.gain(fit) > alone.gain => Some(told(fit, clearest(fit)?, false)),
@@ -76,19 +90,18 @@ fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Vec<StandsOut> {
     }
     let mut found = Vec::new();
     let mut units: Vec<Vec<f64>> = Vec::new();
-    for Pattern { words, is_uniform, direction } in patterns(case, &prediction) {
+    for Pattern { words, is_uniform, fault, direction } in patterns(case, &prediction) {
         let white = whiten(&direction);
         let Some(unit) = unit(if is_uniform { &fitted } else { &bent }, &white) else { continue };
         let t = dot(&unit, case.first(&fit.minimum.residual));
         let p_value = two_sided_p(t, case.noise.pure_error_dof);
-        found.push(StandsOut { words, is_uniform, gain: t * t, p_value });
+        found.push(StandsOut { words, is_uniform, fault, gain: t * t, p_value });
         units.push(unit);
     }
     let tests = independent(&units).unwrap_or(units.len() as f64);
     found.iter_mut().for_each(|f| f.p_value = -(tests * (-f.p_value).ln_1p()).exp_m1());
     found.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-    let first = |uniform: bool| found.iter().find(|f| f.is_uniform == uniform).cloned();
-    [first(false), first(true)].into_iter().flatten().collect()
+    found
 }
 
 /// What whitened residuals have beyond noise.

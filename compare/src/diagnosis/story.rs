@@ -152,7 +152,12 @@ fn outside(d: &Diagnosis) -> Vec<String> {
     let p = d.p_value.map(p_value).unwrap_or_default();
     let tried = list(&d.attempt.iter().map(|a| a.effect.clone()).collect::<Vec<_>>());
     let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
-    let mut told = vec![if d.attempt.is_empty() {
+    let mut told = vec![if d.pattern.as_ref().is_some_and(|pattern| pattern.simpler) {
+        format!(
+            "{tried} would bring it to {after:.2} mm ({p}), but one fault that is not in the catalogue does as well with a single \
+             number."
+        )
+    } else if d.attempt.is_empty() {
         format!("Nothing in the catalogue explains this ({p}): {before:.2} mm remain.")
     } else if after <= MOSTLY * before {
         format!(
@@ -172,7 +177,7 @@ fn outside(d: &Diagnosis) -> Vec<String> {
 }
 
 fn looks_like(pattern: &LeftPattern) -> String {
-    let LeftPattern { words, share, p_value: p, instead } = pattern;
+    let LeftPattern { words, share, p_value: p, instead, .. } = pattern;
     let (what, percent, p) = (if *instead { "It looks" } else { "What is left looks" }, 100.0 * share, p_value(*p));
     format!("{what} as if {words}: that alone makes up {percent:.0} % of it ({p} among all such patterns).")
 }

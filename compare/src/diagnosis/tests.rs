@@ -157,7 +157,7 @@ fn a_stray_sample_is_listed_and_does_not_decide() {
 #[test]
 fn a_value_on_its_bound_is_rejected_and_said_so() {
     let plain = robot("spam");
-    let d = run(&plain, &measured(&plain.with_effect("end_constraint", &[0.9]), 5, 91));
+    let d = run(&plain, &measured(&plain.with_effect("end_constraint", &[0.9, 1.0]), 5, 91));
     let rejected: Vec<&Ranked> = d.ranked.iter().filter(|r| r.at_bound).collect();
     assert!(!rejected.is_empty());
     for r in rejected {
@@ -210,11 +210,11 @@ fn a_base_that_does_not_fit_at_all_is_a_warning() {
 #[test]
 fn effects_of_the_scenario_are_no_candidates_but_are_refitted_on_demand() {
     let plain = robot("spam");
-    let data = measured(&plain.with_effect("end_constraint", &[0.446]), 5, 121);
-    let wrong = plain.with_effect("end_constraint", &[0.2]);
+    let data = measured(&plain.with_effect("end_constraint", &[0.446, 1.0]), 5, 121);
+    let wrong = plain.with_effect("end_constraint", &[0.2, 1.0]);
     let d = run(&wrong, &data);
     assert!(d.ranked.iter().all(|r| r.effect != "end_constraint" && r.effect != "arm_growth"));
-    assert_eq!(run(&plain.with_effect("end_constraint", &[0.446]), &data).verdict, Some(Verdict::None));
+    assert_eq!(run(&plain.with_effect("end_constraint", &[0.446, 1.0]), &data).verdict, Some(Verdict::None));
     let refitted = diagnose(&wrong, &data, None, &Options { refit_present: true, ..quick() }).unwrap();
     assert_eq!(refitted.verdict, Some(Verdict::None));
 }

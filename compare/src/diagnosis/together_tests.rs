@@ -87,7 +87,7 @@ fn a_bending_test_is_one_more_value_of_the_fit() {
 #[test]
 fn two_halves_together_say_what_the_whole_says() {
     let plain = robot("spam");
-    let whole = measured(&plain.with_effect("end_constraint", &[0.446]), 10, 311);
+    let whole = measured(&plain.with_effect("end_constraint", &[0.446, 1.0]), 10, 311);
     let half = |first: usize| Dataset {
         runs: whole.runs[first..first + 5].to_vec(),
         xy_m: (first..first + 5).flat_map(|r| whole.run(r).to_vec()).collect(),
@@ -122,7 +122,7 @@ fn what_all_data_measure_directly_is_no_candidate_and_an_effect_of_it_in_the_sce
     let plain = robot("epam");
     let data = measured(&plain, 5, 361);
     let all = Direct { pressure: true, frame: true };
-    let d = together(&plain.with_effect("pressure_loss", &[0.2]), &[(&data, all)]).unwrap();
+    let d = together(&plain.with_effect("pressure_loss", &[0.2, 1.0]), &[(&data, all)]).unwrap();
     assert_eq!(d.verdict, Some(Verdict::None));
     assert!(d.ranked.iter().all(|r| r.group != Group::Supply && r.effect != "camera_scale"));
 }

@@ -6,7 +6,7 @@ use crate::diagnosis::{Diagnosis, Verdict};
 use serde::Serialize;
 
 /// What a diagnosis says, as far as it is scored.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Answer {
     /// `none`, `effect` or `out_of_catalog`; empty if it gives no verdict.
     pub verdict: String,

@@ -13,7 +13,7 @@
 //! `N = −U'/(ηε' − κD')`. Validity: β from geometry for external actuators (β = 1), unknown for embedded ones.
 //! Derived here.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -38,6 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
         upper: 2.0,
         starts: &[],
         by_actuator: &[],
+        fitted: Fitted::Always,
         meaning: "share of the lift that lengthens the arm",
     }],
     family: None,

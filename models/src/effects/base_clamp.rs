@@ -13,7 +13,7 @@
 //! Acts only where B > 0; divides the body into segments, as transverse loads do. **Validity**: linear; s is taken in the middle of
 //! a segment. Derived here.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
@@ -46,6 +46,7 @@ pub(super) const fn share(meaning: &'static str) -> Parameter<'static> {
         upper: 8.0,
         starts: &[],
         by_actuator: &[],
+        fitted: Fitted::Always,
         meaning,
     }
 }
@@ -62,6 +63,7 @@ pub(super) const REACH: Parameter = Parameter {
     upper: 3.0,
     starts: &[0.8, 1.5, 2.2],
     by_actuator: &[],
+    fitted: Fitted::Always,
     meaning: "length over which the extra stiffness fades, in body radii",
 };
 

@@ -10,7 +10,7 @@
 //!
 //! Validity: rotation about the base point. Geometry.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -35,6 +35,7 @@ pub(super) const ENTRY: Effect = Effect {
         upper: 10.0,
         starts: &[],
         by_actuator: &[],
+        fitted: Fitted::Always,
         meaning: "roll angle of the camera",
     }],
     family: None,

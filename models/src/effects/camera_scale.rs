@@ -10,7 +10,7 @@
 //!
 //! Validity: checkerboard not in the plane of the markers, or wrong square size. Geometry.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -35,6 +35,7 @@ pub(super) const ENTRY: Effect = Effect {
         upper: 0.2,
         starts: &[],
         by_actuator: &[],
+        fitted: Fitted::Always,
         meaning: "relative scale error",
     }],
     family: None,

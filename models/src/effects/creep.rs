@@ -23,7 +23,7 @@
 //! fabrics creep over several decades of time, of which a test sees the one it lasts. Reference: standard linear solid
 //! (Zener 1948); the form over a step is derived here.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Memory, Pose, Term};
 
@@ -50,6 +50,7 @@ pub(super) const ENTRY: Effect = Effect {
             upper: 2.0,
             starts: &[],
             by_actuator: &[],
+            fitted: Fitted::Always,
             meaning: "relaxing stiffness as a share of B",
         },
         Parameter {
@@ -63,6 +64,7 @@ pub(super) const ENTRY: Effect = Effect {
             upper: 30.0,
             starts: &[0.7, 2.0, 6.0, 18.0],
             by_actuator: &[],
+            fitted: Fitted::Always,
             meaning: "relaxation time",
         },
     ],

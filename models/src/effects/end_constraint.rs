@@ -1,23 +1,24 @@
 //! Sealed-edge ("pillow") loss: the closed side seams hold the pouch back.
 //!
-//! A sealed bag cannot take the volume of an open-ended one. Volume and stroke are both scaled by the active fraction
+//! A sealed bag cannot take the volume of an open-ended one. Its volume is scaled by the active fraction η, its stroke by η_ε,
 //!
 //! ```text
-//! pouch:  η = 1 − β e (L₀/W)(1 − 10^(−W/L₀))      fPAM:  η = 1 − 2β (2r₀)/L
+//! pouch:  η = 1 − β e (L₀/W)(1 − 10^(−W/L₀))      fPAM:  η = 1 − 2β (2r₀)/L      η_ε = 1 − σ (1 − η)
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | β | edge-loss coefficient; Robin's paper-bag volume gives 0.142π = 0.446, Kepert's bounds 0.354–0.394 at W = L₀ | - |
+//! | σ | share of the loss that stroke has too: 1 assumed, 0 in finite elements of an ePAM (`docs/robots.md`, what the bodies lose) | - |
 //! | e | edge restraint of the actuator: 1 sealed, 0 freed by gussets | - |
 //! | L₀, W | flat pouch length and width | m |
 //! | L, r₀ | fPAM length and rest radius | m |
 //!
-//! **Validity**: W ≥ L₀ (the bag formula's short side is L₀). Using a *volume* ratio as a *stroke* ratio is an
-//! assumption of this project; a finite element run of one sealed pouch should test it.
+//! **Validity**: W ≥ L₀ (the bag formula's short side is L₀). Using a *volume* ratio as a *stroke* ratio (σ = 1) is an
+//! assumption of this project, which the finite elements do not share.
 //! Reference: A. Robin 2004 (paper bag problem), volume formula; the end factor is derived here.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::actuators::{Actuator, ActuatorShape, Family};
 use crate::assembly::Assembly;
 use std::f64::consts::PI;
@@ -27,25 +28,42 @@ pub(super) const ENTRY: Effect = Effect {
     group: Group::Actuator,
     stage: Stage::Balance,
     history: false,
-    formula: "η = 1 − β e (L₀/W)(1 − 10^(−W/L₀)) on stroke and volume; fPAM: η = 1 − 4β r₀/L",
-    sentence: "The sealed side edges (or tube ends) hold the actuator back, so only part of its stroke is usable.",
-    differs: "The same share of the bend is missing at every pressure and at every place.",
+    formula: "η = 1 − β e (L₀/W)(1 − 10^(−W/L₀)) on volume, 1 − σ (1 − η) on stroke; fPAM: η = 1 − 4β r₀/L",
+    sentence: "The sealed side edges (or tube ends) hold the actuator back, so only part of its volume and stroke is usable.",
+    differs: "The same share of the bend is missing at every pressure (σ = 1), or most at low ones (σ = 0), at every place.",
     remedy: "Compare two pouch widths at the same length: the loss shrinks as W/L₀ grows.",
     validity: "W ≥ L₀; η is kept above 0.05",
     reference: "Robin 2004 (paper bag volume); end factor derived here",
-    parameters: &[Parameter {
-        key: "beta",
-        symbol: "β",
-        unit: "-",
-        si: 1.0,
-        neutral: 0.0,
-        typical: 0.446,
-        lower: 0.0,
-        upper: 1.0,
-        starts: &[],
-        by_actuator: &[],
-        meaning: "edge-loss coefficient",
-    }],
+    parameters: &[
+        Parameter {
+            key: "beta",
+            symbol: "β",
+            unit: "-",
+            si: 1.0,
+            neutral: 0.0,
+            typical: 0.446,
+            lower: 0.0,
+            upper: 1.0,
+            starts: &[],
+            by_actuator: &[],
+            fitted: Fitted::Always,
+            meaning: "edge-loss coefficient",
+        },
+        Parameter {
+            key: "stroke",
+            symbol: "σ",
+            unit: "-",
+            si: 1.0,
+            neutral: 1.0,
+            typical: 1.0,
+            lower: 0.0,
+            upper: 1.0,
+            starts: &[0.0, 0.3, 0.7],
+            by_actuator: &[],
+            fitted: Fitted::WithKeptBending,
+            meaning: "share of the loss that stroke has too",
+        },
+    ],
     family: None,
     add,
 };
@@ -53,7 +71,9 @@ pub(super) const ENTRY: Effect = Effect {
 fn add(values: &[f64], assembly: &mut Assembly) {
     for site in &mut assembly.sites {
         if let Some(actuator) = site.actuator {
-            site.linkage.active_fraction *= active_fraction(actuator, &site.shape, values[0]);
+            let active = active_fraction(actuator, &site.shape, values[0]);
+            site.linkage.active_fraction *= active;
+            site.linkage.stroke_fraction *= if values[1] == 1.0 { active } else { 1.0 - values[1] * (1.0 - active) };
         }
     }
 }

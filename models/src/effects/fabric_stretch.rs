@@ -13,7 +13,7 @@
 //! Validity: linear elastic, uniform over the width. Reference: the pressure correction of Niiyama et al. 2015 has the
 //! same origin; this form is derived here.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -38,6 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
         upper: 3e-4,
         starts: &[],
         by_actuator: &[],
+        fitted: Fitted::Always,
         meaning: "compliance 1/(E t) of the actuator's fabric",
     }],
     family: None,

@@ -13,7 +13,7 @@
 //! Validity: needs a fine enough division (12 segments give 0.1 % of the droop of a 360 mm robot). Vanishes when the
 //! robot bends in a horizontal plane. Derived here; kept as dead load on the deformed shape.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
@@ -39,6 +39,7 @@ pub(super) const ENTRY: Effect = Effect {
         upper: 8.0,
         starts: &[],
         by_actuator: &[],
+        fitted: Fitted::Always,
         meaning: "weight per length",
     }],
     family: None,

@@ -11,7 +11,7 @@
 //!
 //! Acts only where B > 0. Validity: small κ₀. Derived here.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
@@ -37,6 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
         upper: 2.0,
         starts: &[],
         by_actuator: &[("spam", 0.16), ("epam", 0.36), ("cpam", 0.48), ("fpam", 0.19)],
+        fitted: Fitted::Always,
         meaning: "curvature at rest",
     }],
     family: None,

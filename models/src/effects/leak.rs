@@ -12,7 +12,7 @@
 //! loss is steady: use `pressure_loss`. Supply stage. Reference: discharge of a volume through a laminar leak; for small
 //! r t it is 1 − r t.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -37,6 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
         upper: 0.5,
         starts: &[],
         by_actuator: &[],
+        fitted: Fitted::Always,
         meaning: "share of the pressure lost per second",
     }],
     family: None,

@@ -11,7 +11,7 @@
 //!
 //! y is taken relative to the straight robot, where every marker reads 0. Validity: same e for all markers. Geometry.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -36,6 +36,7 @@ pub(super) const ENTRY: Effect = Effect {
         upper: 60.0,
         starts: &[],
         by_actuator: &[],
+        fitted: Fitted::Always,
         meaning: "marker height above the axis",
     }],
     family: None,

@@ -136,8 +136,21 @@ pub struct Parameter<'a> {
     pub starts: &'a [f64],
     /// Typical size for single actuators, where it depends on their curvature and stiffness.
     pub by_actuator: &'a [(&'a str, f64)],
+    /// When a fit may change it; otherwise it stays neutral.
+    pub fitted: Fitted,
     /// What it is.
     pub meaning: &'a str,
+}
+
+/// Which data hold a parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fitted {
+    /// All.
+    Always,
+    /// Only readings of a gauge at the actuator.
+    WithGauge,
+    /// Only data of a robot whose bending stiffness is not fitted: next to it this shape of a law says nothing of its own.
+    WithKeptBending,
 }
 
 /// A physical effect as an entry of the catalogue, or of a scenario's own ([`Catalogue`]).

@@ -12,7 +12,7 @@
 //! A pure bending moment is balanced inside the robot and does not reach the base; what turns it is the hose, the clamp or
 //! the first pouch pressing on it. **Validity**: elastic mount, rotation about the base point. Geometry.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -37,6 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
         upper: 0.35,
         starts: &[],
         by_actuator: &[],
+        fitted: Fitted::Always,
         meaning: "rotation of the base per actuator pressure",
     }],
     family: None,

@@ -17,7 +17,7 @@
 //! the pouches. **Validity**: o g² below about 1; the body's own pressure moment stays that of the round section. Reference:
 //! Brazier 1927 for the squared curvature; this form is derived here.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -42,6 +42,7 @@ pub(super) const ENTRY: Effect = Effect {
         upper: 0.5,
         starts: &[],
         by_actuator: &[("spam", 0.07), ("epam", 0.014), ("cpam", 0.0078), ("fpam", 0.05)],
+        fitted: Fitted::Always,
         meaning: "flattening per squared curvature",
     }],
     family: None,

@@ -15,7 +15,7 @@
 //! `−½Bsκ² − ½Bs(1 − s)m²` beyond, where the largest bend goes along. Acts only where B > 0. **Validity**: creases and
 //! yarns that stay bent; no recovery with time. Reference: linear plastic hardening without threshold; derived here.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Memory, Pose, Term};
 
@@ -41,6 +41,7 @@ pub(super) const ENTRY: Effect = Effect {
         upper: 0.5,
         starts: &[],
         by_actuator: &[],
+        fitted: Fitted::Always,
         meaning: "share of the largest bend that stays",
     }],
     family: None,

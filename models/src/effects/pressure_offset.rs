@@ -10,7 +10,7 @@
 //!
 //! Validity: constant over the range of pressures. Supply stage: acts before the balance. Definition.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -35,6 +35,7 @@ pub(super) const ENTRY: Effect = Effect {
         upper: 8.0,
         starts: &[],
         by_actuator: &[],
+        fitted: Fitted::Always,
         meaning: "set pressure that does not arrive",
     }],
     family: None,

@@ -12,7 +12,7 @@
 //! For small θ the contraction goes as θ²/6, so this is a constant moment 3kD/L₀: there it cannot be told from
 //! `tail_tension`. Validity: elastic folds. Derived here.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -39,6 +39,7 @@ pub(super) const ENTRY: Effect = Effect {
         upper: 3.0,
         starts: &[],
         by_actuator: &[],
+        fitted: Fitted::Always,
         meaning: "fold stiffness of one pouch",
     }],
     family: Some(Family::Pouch),

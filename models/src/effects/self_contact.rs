@@ -20,7 +20,7 @@
 //!
 //! Validity: pouches or folds side by side; for pouches φ = π is derived here, another value is to be seen on the robot or fitted.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -49,6 +49,7 @@ pub(super) const ENTRY: Effect = Effect {
             upper: 1000.0,
             starts: &[1.0, 20.0, 300.0],
             by_actuator: &[],
+            fitted: Fitted::Always,
             meaning: "contact stiffness of one pouch, or of a metre of folds",
         },
         Parameter {
@@ -62,6 +63,7 @@ pub(super) const ENTRY: Effect = Effect {
             upper: 4.0,
             starts: &[1.0, 1.6, 2.2, 2.7, 3.3],
             by_actuator: &[],
+            fitted: Fitted::Always,
             meaning: "angle at which neighbours touch; fPAM: turn of a metre of body",
         },
     ],

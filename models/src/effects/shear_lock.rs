@@ -14,7 +14,7 @@
 //! **Validity**: sudden locking with a large K; yarns that are pressed together little by little have a smaller one. Bias-extension tests lock near 45° for a plain weave, far beyond the muscle's stroke; a coating or
 //! a tight weave locks earlier. Reference: trellis kinematics, Cao et al. 2008; the penalty is an assumption.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -43,6 +43,7 @@ pub(super) const ENTRY: Effect = Effect {
             upper: 1.0,
             starts: &[0.08, 0.14, 0.2, 0.26, 0.32],
             by_actuator: &[],
+            fitted: Fitted::Always,
             meaning: "shear angle at which the yarns touch",
         },
         Parameter {
@@ -56,6 +57,7 @@ pub(super) const ENTRY: Effect = Effect {
             upper: 20e3,
             starts: &[60.0, 200.0, 600.0],
             by_actuator: &[],
+            fitted: Fitted::Always,
             meaning: "stiffness of the jammed weave",
         },
     ],

@@ -13,7 +13,7 @@
 //! Makes the free stroke rise with pressure, which no ideal McKibben law does. Validity: linear in γ, below locking
 //! (about 35–45°). Derived here; modulus relation of an orthotropic sheet at 45° with ν₁₂ ≈ 0.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -41,6 +41,7 @@ pub(super) const ENTRY: Effect = Effect {
         upper: 400.0,
         starts: &[],
         by_actuator: &[],
+        fitted: Fitted::Always,
         meaning: "shear modulus times thickness of the fabric",
     }],
     family: Some(Family::Mckibben),

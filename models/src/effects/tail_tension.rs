@@ -11,7 +11,7 @@
 //!
 //! Validity: tension constant along the robot. Derived here.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::body::soft_step;
 use crate::term::{Pose, Term};
@@ -38,6 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
         upper: 1.5,
         starts: &[],
         by_actuator: &[],
+        fitted: Fitted::Always,
         meaning: "extra resisting moment",
     }],
     family: None,

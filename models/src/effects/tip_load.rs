@@ -10,7 +10,7 @@
 //!
 //! Validity: dead load at the end of the centre line. Statics.
 
-use super::{Effect, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
@@ -42,6 +42,7 @@ const fn force(key: &'static str, symbol: &'static str, typical: f64) -> Paramet
         upper: 5.0,
         starts: &[],
         by_actuator: &[],
+        fitted: Fitted::Always,
         meaning: "force on the tip",
     }
 }

@@ -21,7 +21,7 @@ mod program;
 mod units;
 
 use crate::assembly::Assembly;
-use crate::effects::{Effect, Group, Parameter, Stage};
+use crate::effects::{Effect, Fitted, Group, Parameter, Stage};
 use crate::term::{Pose, Term};
 use compile::{Compiled, Name, compile};
 use program::{Op, run};
@@ -83,6 +83,7 @@ impl FormulaParameter {
             upper: self.upper,
             starts: &[],
             by_actuator: &[],
+            fitted: Fitted::Always,
             meaning: &self.meaning,
         }
     }

@@ -41,10 +41,19 @@ fn bare_embedded_pouches_are_the_hinge_model() {
 #[test]
 fn robins_end_factor_comes_in_through_the_end_constraint() {
     let eta = robin_end_factor(1.0);
-    let sealed = |s: Scenario| s.with_effect("end_constraint", &[0.142 * PI]);
+    let sealed = |s: Scenario| s.with_effect("end_constraint", &[0.142 * PI, 1.0]);
     pouch(&sealed(robot("epam").bare()), unit(Arm::Embedded, eta), "epam, sealed");
     pouch(&sealed(robot("spam")), unit(Arm::External, eta), "spam, sealed");
     pouch(&sealed(robot("cpam").bare()), unit(Arm::Embedded, 1.0), "cpam, free edges");
+}
+
+/// Volume goes with the width and contraction does not: less volume at the same stroke is a narrower pouch.
+#[test]
+fn sealed_edges_that_cost_volume_and_no_stroke_are_a_narrower_pouch() {
+    let eta = robin_end_factor(1.0);
+    let sealed = robot("epam").bare().with_effect("end_constraint", &[0.142 * PI, 0.0]);
+    let narrow = Pouch { length_m: 0.06, width_m: 0.06 * eta };
+    pouch(&sealed, Unit { pouch: narrow, ..unit(Arm::Embedded, 1.0) }, "epam, volume only");
 }
 
 #[test]

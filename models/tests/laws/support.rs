@@ -100,7 +100,7 @@ impl Potential<'_> {
         let site = self.site(segment);
         let stroke = (site.actuator.unwrap().stroke)(&site.shape, a);
         let arm = site.linkage.arm_m + site.linkage.arm_growth * stroke.lift;
-        (site.linkage.bent(site.linkage.active_fraction * stroke.contraction / arm).0, arm)
+        (site.linkage.bent(site.linkage.stroke_fraction * stroke.contraction / arm).0, arm)
     }
 
     /// Π(a, κ) of one segment per length; with extensible fabric a and κ are independent, else κ must be that of `a`.

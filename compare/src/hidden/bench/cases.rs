@@ -12,6 +12,7 @@ use crate::hidden::{Draw, HIDDEN, Kind, OUTSIDE, Truth, truth};
 use crate::study::generate;
 use crate::study::generate::Scatter;
 use data::{About, Direct, Provenance};
+use serde::Serialize;
 
 /// What became of a set.
 #[derive(Debug, Clone)]
@@ -46,13 +47,24 @@ pub struct Named {
     /// Smallest detectable size of the (first) true effect, in typical sizes.
     pub smallest_detectable: Option<f64>,
     /// Score after the recommended next experiment, of ambiguous sets.
-    pub after: Option<Score>,
+    pub after: Option<After>,
     /// How far the truth is from what the catalogue can say, of one hidden effect and of one outside the catalogue.
     pub distances: Option<Distances>,
     /// Shares of all noise in which the truth could be named first, and among three, of one hidden effect that gave alarm.
     pub at_best: Option<[f64; 2]>,
     /// The same experiment with next to no noise, where the truth did not come out on top.
     pub after_in_silence: Option<Score>,
+}
+
+/// What the recommended experiment brought.
+#[derive(Debug, Clone, Serialize)]
+pub struct After {
+    /// The experiment.
+    pub experiment: String,
+    /// The answer to all data.
+    pub answer: Answer,
+    /// Its score.
+    pub score: Score,
 }
 
 /// Step through a list of effects, prime to their numbers, so that a short bench sees different groups.
@@ -118,8 +130,8 @@ fn hidden(truth: &Truth, kind: Kind, diagnose: Diagnose) -> Result<Named, Compar
         let next = found.next_experiment.as_ref().and_then(|next| next.recommended.as_ref());
         if let Some(experiment) = next {
             let after = after(truth, experiment, diagnose)?;
-            if after.rank != Some(1) {
-                named.after_in_silence = Some(self::after(&silent(truth), experiment, diagnose)?);
+            if after.score.rank != Some(1) {
+                named.after_in_silence = Some(self::after(&silent(truth), experiment, diagnose)?.score);
             }
             named.after = Some(after);
         }
@@ -141,14 +153,15 @@ fn measured(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
     Ok(named(truth, &found))
 }
 
-/// Score after an experiment.
-fn after(truth: &Truth, experiment: &Experiment, diagnose: Diagnose) -> Result<Score, CompareError> {
+/// What comes out after an experiment.
+fn after(truth: &Truth, experiment: &Experiment, diagnose: Diagnose) -> Result<After, CompareError> {
     let options = Options { next_experiment: false, ..Options::default() };
     let parts = follow_up(truth, experiment)?;
     let parts: Vec<Measured> =
         parts.iter().map(|(data, about)| Measured { dataset: data, about: Some(about) }).collect();
     let found = diagnose(&truth.told()?, parts[0], &parts[1..], &options)?;
-    Ok(score(truth, &Answer::of(&found)))
+    let answer = Answer::of(&found);
+    Ok(After { experiment: experiment.name.clone(), score: score(truth, &answer), answer })
 }
 
 /// The same robot with a hundredth of the noise and scatter: what is missed then is missed because of the laws.
@@ -167,7 +180,10 @@ fn interval(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
     let missing = || CompareError::NotSimulated { problem: format!("the catalogue has no {name}") };
     let effect = models::effects::by_name(name).ok_or_else(missing)?;
     let told = truth.told()?;
-    let values: Vec<f64> = effect.typical().iter().map(|v| v * truth.effects[0].times_typical).collect();
+    // What only shapes the law stays as it is.
+    let times = truth.effects[0].times_typical;
+    let value = |(typical, neutral): (f64, f64)| if typical == neutral { typical } else { typical * times };
+    let values: Vec<f64> = effect.typical().into_iter().zip(effect.neutral()).map(value).collect();
     let robot = told.with_bending(truth.bending_nm2).with_effect(name, &values);
     let data = generate(&robot, "own law", &truth.measurement(&standard_protocol()).generator)?;
     let options = Options { next_experiment: false, ..Options::default() };

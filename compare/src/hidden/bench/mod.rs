@@ -15,12 +15,13 @@ mod table;
 mod tests;
 
 pub use attainable::Attainable;
-pub use cases::{Named, Outcome};
+pub use cases::{After, Named, Outcome};
 pub use made::{LACKING, Made};
 pub use row::{Row, Target};
 
+use super::score::{Answer, Score};
 use super::truth::{Kind, Truth};
-use crate::diagnosis::{Diagnosis, Measured, Options};
+use crate::diagnosis::{Diagnosis, Distances, Measured, Options};
 use crate::error::CompareError;
 use models::Scenario;
 use rayon::prelude::*;
@@ -71,6 +72,23 @@ pub struct Breakdown {
     pub in_set: f64,
 }
 
+/// One set as it was made and answered.
+#[derive(Debug, Clone, Serialize)]
+pub struct Seen {
+    /// Part of the table.
+    pub part: String,
+    /// What was hidden, in which robot, with which noise.
+    pub truth: Truth,
+    /// What was answered; `None` if the set failed.
+    pub answer: Option<Answer>,
+    /// How good that is.
+    pub score: Option<Score>,
+    /// Answer and score after the recommended next experiment, of ambiguous sets.
+    pub after: Option<After>,
+    /// λ to the nearest explanation of each kind, where it was asked for.
+    pub distances: Option<Distances>,
+}
+
 /// The result.
 #[derive(Debug, Clone, Serialize)]
 pub struct Bench {
@@ -91,6 +109,8 @@ pub struct Bench {
     pub missed_by_law: usize,
     /// Data made by finite elements, robot by robot.
     pub made: Vec<Made>,
+    /// Every set.
+    pub seen: Vec<Seen>,
     /// Sets that could not be made or diagnosed, with the reason.
     pub failed: Vec<String>,
 }
@@ -123,8 +143,21 @@ pub fn run(options: &BenchOptions, diagnose: Diagnose, tell: &(dyn Fn(f64) + Syn
         missed_after: silence.len(),
         missed_by_law: silence.iter().filter(|missed| **missed).count(),
         made,
+        seen: outcomes.iter().map(seen).collect(),
         failed,
     })
+}
+
+fn seen(outcome: &Outcome) -> Seen {
+    let named = outcome.named.as_ref();
+    Seen {
+        part: format!("{:?}", outcome.part),
+        truth: outcome.truth.clone(),
+        answer: named.map(|named| named.answer.clone()),
+        score: named.map(|named| named.score.clone()),
+        after: named.and_then(|named| named.after.clone()),
+        distances: named.and_then(|named| named.distances),
+    }
 }
 
 /// One set of the bench.

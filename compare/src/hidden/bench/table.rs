@@ -72,7 +72,7 @@ fn one(outcomes: &[Outcome], part: Part) -> Vec<Row> {
 
 fn after(outcomes: &[Outcome]) -> Vec<Row> {
     let all = found(outcomes, Part::Hidden(Kind::One));
-    let scores: Vec<_> = all.iter().filter_map(|(_, named)| named.after.as_ref()).collect();
+    let scores: Vec<_> = all.iter().filter_map(|(_, named)| named.after.as_ref()).map(|after| &after.score).collect();
     let top: Vec<bool> = scores.iter().map(|score| score.rank == Some(1)).collect();
     let in_set: Vec<bool> = scores.iter().map(|score| score.in_set).collect();
     let case = "ambiguous, after the next experiment";

@@ -73,7 +73,7 @@ fn the_term_that_holds_more_energy_at_the_same_bend_carries_the_difference() {
 #[test]
 fn between_two_pressures_a_run_that_is_the_reduced_model_has_its_ledger_and_filling_is_in_neither() {
     let plain = shipped_scenario("epam").unwrap();
-    let scenario = plain.with_effect("end_constraint", &[0.4]);
+    let scenario = plain.with_effect("end_constraint", &[0.4, 1.0]);
     let model = Model::new(&scenario);
     let mut at = model.prediction();
     let (_, mut run, _) = run(0, 0.0);
