@@ -10,6 +10,7 @@ use compare::hidden::truth::{ROBOTS, standard_protocol};
 use compare::hidden::{Draw, Truth};
 use cpu_time::ThreadTime;
 use serde_json::json;
+use std::collections::BTreeMap;
 
 /// Time wanted for a full diagnosis on one core \[s\].
 const TIME_S: f64 = 1.0;
@@ -85,6 +86,9 @@ fn text(bench: &Bench, time: &Row) -> String {
          another formula of the catalogue meets the robot's law as well as its own, or better.\n",
         bench.missed_after, bench.missed_by_law
     ));
+    out.push_str("\nAmbiguous, after the next experiment: by what was hidden\n");
+    let rows = after(bench).into_iter().map(|(name, [sets, hits])| vec![name, sets.to_string(), hits.to_string()]);
+    out.push_str(&table(&["hidden", "sets", "truth on top"], 1, rows.collect()));
     out.push_str("\nMade by finite elements, bare model with B = 0: what it lacks, error at held-out pressures\n");
     let rows = bench.made.iter().map(|m| {
         let [before, after] = [m.before_mm, m.after_mm].map(|mm| number(mm, 1));
@@ -99,6 +103,18 @@ fn text(bench: &Bench, time: &Row) -> String {
         out.push_str(&format!("failed: {reason}\n"));
     }
     out
+}
+
+/// Of every hidden effect the ambiguous sets after the next experiment, and those of them with the truth on top.
+fn after(bench: &Bench) -> BTreeMap<String, [usize; 2]> {
+    let mut counts = BTreeMap::new();
+    for (seen, after) in bench.seen.iter().filter_map(|seen| Some((seen, seen.after.as_ref()?))) {
+        let name = seen.truth.effects.first().map_or_else(String::new, |choice| choice.name.clone());
+        let count: &mut [usize; 2] = counts.entry(name).or_default();
+        count[0] += 1;
+        count[1] += usize::from(after.score.rank == Some(1));
+    }
+    counts
 }
 
 /// How many misses of single effects no method could avoid with these data, cell by cell of the table above.

@@ -41,7 +41,8 @@ fn a_robot_is_read_at_every_pressure_of_one_ramp_and_its_markers_are_a_dataset()
         assert!(reading["seam_n_per_m"].as_f64().unwrap() > 1.0);
     }
     let names = assert_hashes(&folder.path("run"));
-    for name in ["readings.csv", "markers.csv", "snaps.csv", "history.png", "side.png", "section.png", "cut.png"] {
+    let tables = ["readings.csv", "markers.csv", "snaps.csv"];
+    for name in tables.into_iter().chain(["history.png", "displacement.png", "side.png", "section.png", "cut.png"]) {
         assert!(names.iter().any(|n| n == name), "{name} of {names:?}");
     }
     let checked = folder.run(&["data", "check", "run/markers.csv"]);

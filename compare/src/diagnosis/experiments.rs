@@ -9,14 +9,32 @@ const TIP_FORCE_N: f64 = 0.3;
 /// Length of a long hold \[s\].
 const LONG_HOLD_S: f64 = 60.0;
 
-/// An experiment: one or more parts, each a protocol under loads.
+/// Standard deviation that is expected of a bending test, as a share of the stiffness. Assumed.
+pub const BENDING_TEST: f64 = 0.1;
+/// Name of that experiment.
+pub const BENDING_TEST_NAME: &str = "bending test";
+
+/// An experiment: one or more parts, each a protocol under loads, or a bending test of the body by itself.
 pub struct Plan {
     /// Short name.
     pub name: String,
     /// What to do.
     pub sentence: String,
-    /// Parts, each measured as often as the data at hand.
+    /// Parts, each measured as often as the data at hand; none of a bending test.
     pub parts: Vec<Part>,
+}
+
+/// The bending stiffness measured by itself.
+pub fn bending_test() -> Plan {
+    Plan {
+        name: BENDING_TEST_NAME.into(),
+        sentence: format!(
+            "measure the bending stiffness by itself, to {:.0} %: hang a known force on the tip of the inflated body, actuator \
+             vented, and write B into [bending] of about.toml",
+            100.0 * BENDING_TEST
+        ),
+        parts: Vec::new(),
+    }
 }
 
 /// A protocol under loads.
@@ -95,9 +113,10 @@ fn protocols(scenario: &Scenario, dataset: &Dataset, direct: Direct) -> Vec<Plan
     ]
 }
 
-/// `0,10,20,30,0@2`, as `ibr data generate --protocol` takes it.
+/// `0,10,20,30,0@2`, as `ibr data generate --protocol` takes it; empty of a bending test.
 pub fn protocol_text(plan: &Plan) -> String {
-    let holds = &plan.parts[0].dataset.holds;
+    let Some(part) = plan.parts.first() else { return String::new() };
+    let holds = &part.dataset.holds;
     let kpa = |p: f64| format!("{}", (p / 100.0).round() / 10.0);
     let list: Vec<String> = holds.iter().map(|h| kpa(h.p_act_pa)).collect();
     format!("{}@{}", list.join(","), kpa(holds[0].p_body_pa))

@@ -7,7 +7,7 @@
 
 use super::case::{Case, fitted_scenarios, nearest, whole_block};
 use super::decide::Decision;
-use super::experiments::{Part, Plan, plans, protocol_text};
+use super::experiments::{BENDING_TEST, Part, Plan, bending_test, plans, protocol_text};
 use super::problem::{Block, Fit, Problem, Readings, with};
 use super::result::{Experiment, NextExperiment, Separation, Verdict};
 use crate::directions::nuisance_directions;
@@ -44,7 +44,9 @@ pub fn next_experiment(case: &Case, decision: &Decision) -> Result<Option<NextEx
     let now = separations(case, None, best, rivals)?;
     let mut tried = Vec::new();
     let set = case.gauge.map_or_else(|| case.dataset.clone(), |gauge| gauge.as_set(case.dataset));
-    for plan in plans(case.scenario, &set, case.direct, instruments(case, &hypotheses)) {
+    let mut plans = plans(case.scenario, &set, case.direct, instruments(case, &hypotheses));
+    plans.extend((case.problem.bendings > 0 && case.problem.known_bending.is_none()).then(bending_test));
+    for plan in plans {
         // A planned pressure without equilibrium is no experiment to propose.
         if let Ok(separations) = separations(case, Some(&plan), best, rivals) {
             tried.push(experiment(case, &plan, separations));
@@ -90,14 +92,15 @@ fn experiment(case: &Case, plan: &Plan, separations: Vec<Separation>) -> Experim
     let within_reach = separations.iter().map(|s| s.lambda).filter(|l| *l >= WORTHLESS).reduce(f64::min);
     let largest = separations.iter().map(|s| s.lambda).fold(0.0, f64::max);
     let runs = |lambda: f64| ((case.noise.runs as f64 * ENOUGH / lambda).ceil() as usize).max(3);
+    let repeated = within_reach.filter(|_| !plan.parts.is_empty());
     Experiment {
         name: plan.name.clone(),
         sentence: plan.sentence.clone(),
         protocol: protocol_text(plan),
-        direct: plan.parts[0].direct,
+        direct: plan.parts.first().map_or(case.direct, |part| part.direct),
         separated,
         lambda: within_reach.unwrap_or(largest),
-        runs_needed: within_reach.map(runs),
+        runs_needed: repeated.map(runs),
         separations,
     }
 }
@@ -134,7 +137,9 @@ impl<'a> Expected<'a> {
         let bendings = case.problem.bendings + added;
         let theta = extended(truth, case.problem.bendings, added);
         // As the hypothesis has it: what is expected of itself it meets.
-        let known_bending = case.problem.known_bending.zip(theta.first()).map(|([_, sd], b)| [*b, sd]);
+        let tested = plan.is_some_and(|plan| plan.parts.is_empty());
+        let sd_nm2 = |b: f64| case.problem.known_bending.map(|[_, sd]| sd).or(tested.then_some(BENDING_TEST * b));
+        let known_bending = theta.first().and_then(|b| sd_nm2(*b).filter(|sd| *sd > 0.0).map(|sd| [*b, sd]));
         let Problem { candidates, .. } = case.problem;
         let mut problem = Problem { candidates, blocks: old, bendings, known_bending, enough: LAMBDA_ERROR };
         for part in parts {
@@ -213,9 +218,9 @@ fn sentence(best: &str, recommended: Option<&Experiment>) -> String {
     let rivals: Vec<String> = e.separations.iter().filter(|s| s.lambda >= WORTHLESS).map(|s| s.rival.clone()).collect();
     let runs = e.runs_needed.map_or(String::new(), |n| format!("; about {n} runs"));
     format!(
-        "Next: {} ({}). It is expected to separate {best} from {} (λ = {:.0}, 16 suffices{runs}).",
+        "Next: {}{}. It is expected to separate {best} from {} (λ = {:.0}, 16 suffices{runs}).",
         e.sentence,
-        e.protocol,
+        if e.protocol.is_empty() { String::new() } else { format!(" ({})", e.protocol) },
         crate::wording::list(&rivals),
         e.lambda
     )

@@ -290,7 +290,7 @@ pub struct Experiment {
     pub name: String,
     /// What to do.
     pub sentence: String,
-    /// Protocol in the form of `ibr data generate --protocol`.
+    /// Protocol in the form of `ibr data generate --protocol`; empty of a bending test.
     pub protocol: String,
     /// What is to be measured directly.
     pub direct: data::Direct,

@@ -137,7 +137,7 @@ fn additions(paper: &Published, actuator: &PublishedActuator) -> Vec<Addition> {
         value: ROBIN,
         range: Some(KEPERT),
         known: Known::Assumed,
-        why: "sealed-bag volume of Robin; the range reaches to Kepert's bounds; that stroke is lost like volume is assumed",
+        why: "sealed-bag volume of Robin; the range reaches to Kepert's bounds; that stroke is lost like volume is assumed, and finite elements lose none",
     };
     let contact = Addition {
         effect: "self_contact",

@@ -276,8 +276,10 @@ fn meshes(name: &str, rows: &[Row]) -> Option<Vec<u8>> {
         }
     };
     let several = lines_of.values().any(|sizes| sizes.len() > 1);
+    let seeds = lines_of.values().flat_map(|sizes| sizes.values()).any(|markers| markers.len() > 1);
+    let spread = if seeds { ", standard deviation over the seeds" } else { "" };
     let data = Lines {
-        title: format!("{name}: outermost marker and the mesh, standard deviation over the seeds"),
+        title: format!("{name}: outermost marker and the mesh{spread}"),
         x_label: "element size at the actuator [mm]".into(),
         y_label: "displacement of the outermost marker [mm]".into(),
         series: lines_of.iter().map(series).collect(),

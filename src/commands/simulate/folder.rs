@@ -25,6 +25,7 @@ const OWN: &[&str] = &[
     "markers.csv",
     "snaps.csv",
     "history.png",
+    "displacement.png",
     "side.png",
     "section.png",
     "cut.png",

@@ -20,19 +20,40 @@ pub fn write(robot: &Robot, watched: &Watched, mesh: &Mesh, run: &Simulation, fo
     text("readings.csv", readings_csv(&readings))?;
     text("markers.csv", markers_csv(robot, &readings))?;
     text("snaps.csv", snaps_csv(&found))?;
-    let history = history(robot, watched, &found);
-    // Drawing the plot takes as long as all pictures.
+    let plots = [
+        ("history.png", history(robot, watched, &found)),
+        ("displacement.png", displacement(&robot.scenario.name, &readings)),
+    ];
+    // Drawing the plots takes as long as all pictures.
     std::thread::scope(|scope| {
-        let drawing = scope.spawn(|| history.as_ref().map(lines).transpose());
+        let draw = |(name, plot): (&'static str, Option<Lines>)| Some((name, lines(&plot?)));
+        let drawing = scope.spawn(move || plots.into_iter().filter_map(draw).collect::<Vec<_>>());
         for (name, image) in pictures(robot, mesh, run)? {
             picture::write_png(&folder.join(name), &image)?;
         }
-        let drawn = drawing.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        let what = "the history".to_string();
-        match drawn.map_err(|e| compare::CompareError::Drawing { what, problem: e.to_string() })? {
-            Some(drawn) => Ok(data::write_atomically(&folder.join("history.png"), &drawn.png)?),
-            None => Ok(()),
+        for (name, drawn) in drawing.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)) {
+            let failed = |problem: String| compare::CompareError::Drawing { what: name.to_string(), problem };
+            data::write_atomically(&folder.join(name), &drawn.map_err(|e| failed(e.to_string()))?.png)?;
         }
+        Ok(())
+    })
+}
+
+/// Displacement of every station over the actuator's pressure; `None` for a single reading.
+fn displacement(name: &str, readings: &[Reading]) -> Option<Lines> {
+    let stations = &readings.first().filter(|_| readings.len() > 2)?.stations_m;
+    let series = |k: usize| LineSeries {
+        name: format!("{:.0} mm", stations[k] * MM),
+        points: readings.iter().map(|r| [r.actuator_pa * 1e-3, r.moved_m[k][1] * MM]).collect(),
+        half_width: Vec::new(),
+        style: LineStyle::LinePoints,
+        colour: None,
+    };
+    Some(Lines {
+        title: format!("{name}: displacement towards the actuator, by distance from the base"),
+        x_label: "actuator pressure [kPa]".into(),
+        y_label: "displacement [mm]".into(),
+        series: (0..stations.len()).map(series).collect(),
     })
 }
 

@@ -1,7 +1,7 @@
 //! One set: drawn, measured, diagnosed.
 
 use super::attainable::distances_of;
-use super::follow::follow_up;
+use super::follow::{follow_up, tested};
 use super::oracle::at_best;
 use super::{Case, Diagnose, Part};
 use crate::diagnosis::{Diagnosis, Distances, Experiment, Measured, Options};
@@ -10,7 +10,6 @@ use crate::hidden::score::{Answer, Score, score};
 use crate::hidden::truth::{ROBOTS, standard_protocol};
 use crate::hidden::{Draw, HIDDEN, Kind, OUTSIDE, Truth, truth};
 use crate::study::generate;
-use crate::study::generate::Scatter;
 use data::{About, Direct, Provenance};
 use serde::Serialize;
 
@@ -139,15 +138,10 @@ fn hidden(truth: &Truth, kind: Kind, diagnose: Diagnose) -> Result<Named, Compar
     Ok(named)
 }
 
-/// Standard deviation of a bending test, as a share of what it finds. Assumed.
-const BENDING_TEST: f64 = 0.1;
-
 /// A set with the robot's bending stiffness measured by itself.
 fn measured(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
-    let error = BENDING_TEST * Scatter::new(truth.seed ^ 0xB).normal();
-    let found_nm2 = truth.bending_nm2 * (1.0 + error);
-    let about = About { bending_nm2: Some([found_nm2, BENDING_TEST * found_nm2]), ..about(truth)? };
+    let about = tested(truth)?;
     let options = Options { next_experiment: false, ..Options::default() };
     let found = diagnose(&truth.told()?, Measured { dataset: &data, about: Some(&about) }, &[], &options)?;
     Ok(named(truth, &found))

@@ -1,18 +1,20 @@
 //! The recommended next experiment, done on the same robot.
 //!
+//! A bending test adds its result to the data at hand.
+//!
 //! What can be recorded in one table (other pressures, another body pressure, longer holds) is measured after the first
 //! protocol in the same runs; "repeat" doubles the runs. A tip force, gravity turned over, a gauge read at the actuator beside
 //! what is set, and positions from the base need a description of their own: these data are new runs, diagnosed together with
 //! the first.
 
 use super::cases::about as description;
-use crate::diagnosis::Experiment;
+use crate::diagnosis::{BENDING_TEST, BENDING_TEST_NAME, Experiment};
 use crate::error::CompareError;
 use crate::hidden::Truth;
 use crate::hidden::camera::Camera;
 use crate::hidden::measure::measure_holds;
 use crate::hidden::truth::standard_protocol;
-use crate::study::generate::{Generator, holds};
+use crate::study::generate::{Generator, Scatter, holds};
 use crate::study::parse_protocol;
 use data::{About, AboutRun, Dataset, Direct, Hold};
 
@@ -26,6 +28,9 @@ const LONG_HOLD_S: f64 = 60.0;
 /// # Errors
 /// A protocol that cannot be read; a hold at which nothing balances.
 pub(super) fn follow_up(truth: &Truth, experiment: &Experiment) -> Result<Vec<(Dataset, About)>, CompareError> {
+    if experiment.name == BENDING_TEST_NAME {
+        return Ok(vec![(truth.dataset("hidden", &standard_protocol())?, tested(truth)?)]);
+    }
     // Its scatter is another one than that of the first data.
     let mut again = Truth { seed: truth.seed ^ 0x5EED, ..truth.clone() };
     let (mut robot, mut about) = (truth.robot()?, description(truth)?);
@@ -69,6 +74,16 @@ pub(super) fn follow_up(truth: &Truth, experiment: &Experiment) -> Result<Vec<(D
         all.insert(0, (truth.dataset("hidden", &standard_protocol())?, description(truth)?));
     }
     Ok(all)
+}
+
+/// The description of a set with the robot's bending stiffness measured by itself.
+///
+/// # Errors
+/// Not an actuator of the bench.
+pub(super) fn tested(truth: &Truth) -> Result<About, CompareError> {
+    let error = BENDING_TEST * Scatter::new(truth.seed ^ 0xB).normal();
+    let found_nm2 = truth.bending_nm2 * (1.0 + error);
+    Ok(About { bending_nm2: Some([found_nm2, BENDING_TEST * found_nm2]), ..description(truth)? })
 }
 
 /// One protocol after the other on one clock.
