@@ -221,9 +221,8 @@ impl Site {
     /// Start from the actuator's own balance with the wall's moment linearised.
     fn start(&self, actuator: &Actuator, loads: &SiteLoads, memory: &[f64]) -> Start {
         let link = &self.linkage;
-        let pull = link.active_fraction / link.stroke_fraction;
-        let available = pull * loads.p_act_pa * (actuator.area)(&self.shape) * link.arm_m;
-        let (low, high) = TYPICAL_STROKE;
+        let (share, (low, high)) = (link.active_fraction / link.stroke_fraction, TYPICAL_STROKE);
+        let available = share * loads.p_act_pa * (actuator.area)(&self.shape) * link.arm_m;
         let moment = |stroke: f64| {
             let (curvature, gain) = link.bent(stroke * link.stroke_fraction / link.arm_m);
             (self.body_moment(curvature, loads, memory) - loads.moment) * gain

@@ -76,6 +76,13 @@ impl Candidate {
         }
     }
 
+    /// What is held stays at these values, those of the scenario that has the effect.
+    pub fn hold_as_given(&mut self, values: &[f64]) {
+        for (p, value) in self.parameters.iter_mut().zip(values).filter(|(p, _)| p.is_held) {
+            (p.neutral, p.typical) = (*value, *value);
+        }
+    }
+
     /// Values `share` of the way from neutral to typical.
     pub fn at(&self, share: f64) -> Vec<f64> {
         self.parameters.iter().map(|p| p.neutral + share * (p.typical - p.neutral)).collect()

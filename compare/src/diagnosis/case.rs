@@ -78,8 +78,8 @@ pub fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usiz
     list.retain(open);
     let own = list.len();
     list.extend(candidates(scenario).into_iter().filter(open));
-    let gauge = sources.iter().any(|source| source.gauge.is_some());
-    hold(&mut list[own..], gauge, options.keep_bending);
+    hold(&mut list, sources.iter().any(|source| source.gauge.is_some()), options.keep_bending);
+    list[..own].iter_mut().for_each(|candidate| candidate.hold_as_given(&own_values(scenario, candidate)));
     (list, own)
 }
 

@@ -219,6 +219,23 @@ fn effects_of_the_scenario_are_no_candidates_but_are_refitted_on_demand() {
     assert_eq!(refitted.verdict, Some(Verdict::None));
 }
 
+/// Beside a fitted B the stroke's share stays what the scenario says, not what is neutral; where B is kept it is fitted.
+#[test]
+fn what_the_data_do_not_hold_of_the_scenarios_own_effects_stays_as_given() {
+    let scenario = robot("epam").with_effect("end_constraint", &[0.4, 0.3]);
+    let data = measured(&scenario, 3, 125);
+    let source =
+        Source { scenario: &scenario, dataset: &data, direct: Direct::default(), gauge: None, bending_nm2: None };
+    let own = |keep_bending: bool| {
+        let options = Options { refit_present: true, keep_bending, ..quick() };
+        let (list, own) = case::catalogue(&[source], &options);
+        assert_eq!((own, list[0].name.as_str()), (1, "end_constraint"));
+        let stroke = &list[0].parameters[1];
+        (stroke.is_free(), stroke.neutral)
+    };
+    assert_eq!((own(false), own(true)), ((false, 0.3), (true, 1.0)));
+}
+
 #[test]
 fn impossible_options_are_refused() {
     let plain = robot("epam");
