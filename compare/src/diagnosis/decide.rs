@@ -27,7 +27,7 @@ const PLACE_LEFT: f64 = 0.1;
 /// Left over by more than this share, a trace along yet another effect says the same as a lack of fit.
 const MOST_LEFT: (f64, f64) = (0.5, 0.05);
 
-/// Another attempt, or a second effect, must bring the error in mm below this share.
+/// Another attempt, or a second effect, must bring the error in mm below this share; a second effect, or within the tolerance.
 const CLOSER: f64 = 0.8;
 
 /// Everything that was fitted, and what follows.
@@ -170,14 +170,18 @@ fn simpler(case: &Case, last: &Fit) -> Option<StandsOut> {
     (by_fault + margin < order::criterion(case, last, allowance)).then_some(fault)
 }
 
-/// Takes the best pair in place of the single effect, or of the base, if it is significantly better.
+/// Takes the best pair in place of the single effect, or of the base, if it is significantly better, and in mm too: by the whitened
+/// sum of squares alone a second name may mend quiet holds and leave the error as it was.
 fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>) {
     let (mut pairs, tried) = fit_pairs(case, &decision.singles);
     decision.pairs_tried = tried;
     let before = last.as_ref().unwrap_or(&case.base);
     let allowance = order::sort(case, &mut pairs, before);
+    let error_mm = |fit: &Fit| case.error_mm(&case.prediction(fit));
+    let enough_mm = last.as_ref().map_or(f64::INFINITY, |one| (CLOSER * error_mm(one)).max(1e3 * case.tolerance_m));
     if let Some(best) = pairs.first()
         && p_over(case, best, before, tried).is_some_and(|p| p < case.alpha)
+        && error_mm(best) < enough_mm
     {
         decision.pair_allowance = allowance;
         decision.pair_set = alike_pairs(case, &pairs, allowance);
