@@ -172,7 +172,12 @@ fn extended(cases: &[Variation], steps: &[Step]) -> Vec<Variation> {
 fn sensitivity(base: Named) -> Result<Plan, Failure> {
     let (_, run) = base.robot_run()?;
     let top = rounded(run.settings.actuator_pa * 1e-3);
-    let base = base.with(&[("pressures_kpa".into(), format!("[{top}]"))])?;
+    let mut common = vec![("pressures_kpa".to_string(), format!("[{top}]"))];
+    if !run.meshes_m.is_empty() {
+        // One mesh, so that a run's own case.toml is that run and no study.
+        common.extend(keys_of(&[run.settings.body_size_m, run.settings.actuator_size_m].map(|m| rounded(m * 1e3))));
+    }
+    let base = base.with(&common)?;
     let mut cases = vec![Variation { label: "as-it-is".into(), ..Variation::default() }];
     for unknown in ASSUMED {
         let Some(key) = key_of(unknown) else { continue };
