@@ -194,7 +194,7 @@ impl<'a> Case<'a> {
     /// The first data.
     pub fn source(&self) -> Source<'a> {
         let Case { scenario, dataset, direct, gauge, .. } = *self;
-        Source { scenario, dataset, direct, gauge, bending_nm2: self.problem.known_bending }
+        Source { scenario, dataset, direct, gauge, rolled: false, bending_nm2: self.problem.known_bending }
     }
 
     /// Blocks of the data beside the first.
@@ -311,13 +311,14 @@ pub fn block<'a>(
     noise: &NoiseModel,
     body_pa: &[f64],
 ) -> Result<Block<'a>, CompareError> {
-    let Source { scenario, dataset, direct, gauge, .. } = *source;
+    let Source { scenario, dataset, direct, gauge, rolled, .. } = *source;
     let width = dataset.values_per_run() / dataset.holds.len();
     let each: Vec<Weights> = holds.iter().flat_map(|h| h * width..(h + 1) * width).map(|i| vec![(i, 1.0)]).collect();
     Ok(Block {
         scenario: scenario.clone(),
         dataset: Cow::Borrowed(dataset),
         direct,
+        rolled,
         holds: holds.to_vec(),
         bending_of: dataset.holds.iter().map(|h| nearest(body_pa, h.p_body_pa)).collect(),
         target_m,

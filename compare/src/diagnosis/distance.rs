@@ -64,6 +64,7 @@ pub fn distances(
         dataset: ideal,
         direct,
         gauge: None,
+        rolled: false,
         bending_nm2: about.and_then(|a| a.bending_nm2),
     };
     let (candidates, own) = catalogue(&[source], &options);

@@ -122,7 +122,10 @@ pub fn diagnose_together(
             ));
             continue;
         }
-        let (part, told) = Part::of(scenario, measured)?;
+        let direction = measured.about.and_then(|a| a.gravity_direction).unwrap_or(scenario.gravity_direction);
+        let lies = Scenario { gravity_direction: direction, ..scenario.clone() };
+        let rolled = parts.first().is_some_and(|first: &Part| source::is_rolled(&lies, &first.scenario));
+        let (part, told) = Part::of(&if rolled { source::seen_rolled(scenario) } else { scenario.clone() }, measured)?;
         let tested = parts.iter().find(|known: &&Part| known.bending_nm2.is_some() && part.bending_nm2.is_some());
         if tested.is_some_and(|known| known.bending_nm2 != part.bending_nm2) {
             warnings.push(format!(
@@ -133,7 +136,7 @@ pub fn diagnose_together(
         warnings.extend(told.into_iter().map(|warning| format!("{of}{warning}")));
         parts.push(part);
     }
-    let sources: Vec<Source> = parts.iter().map(Part::source).collect();
+    let sources: Vec<Source> = parts.iter().map(|part| part.source(&parts[0].scenario)).collect();
     let sessions: Vec<Vec<usize>> = parts.iter().map(|part| part.prepared.sessions.clone()).collect();
     let (candidates, own) = case::catalogue(&sources, options);
     let case = Case::new(&sources, &sessions, (&candidates, own), options)?;
@@ -194,10 +197,11 @@ impl Part {
         Ok((Part { scenario, prepared, direct, gauge, bending_nm2 }, warnings))
     }
 
-    fn source(&self) -> Source<'_> {
+    fn source(&self, first: &Scenario) -> Source<'_> {
         let Part { scenario, prepared, direct, gauge, bending_nm2 } = self;
         let (direct, bending_nm2) = (*direct, *bending_nm2);
-        Source { scenario, dataset: &prepared.dataset, direct, gauge: gauge.as_ref(), bending_nm2 }
+        let rolled = source::is_rolled(scenario, first);
+        Source { scenario, dataset: &prepared.dataset, direct, gauge: gauge.as_ref(), rolled, bending_nm2 }
     }
 }
 

@@ -9,6 +9,7 @@ use super::case::{Case, fitted_scenarios, nearest, whole_block};
 use super::decide::Decision;
 use super::experiments::{BENDING_TEST, Part, Plan, bending_test, plans, protocol_text};
 use super::problem::{Block, Fit, Problem, Readings, with};
+use super::source::is_rolled;
 use super::result::{Experiment, NextExperiment, Separation, Verdict};
 use crate::directions::nuisance_directions;
 use crate::error::CompareError;
@@ -110,7 +111,9 @@ fn separations(case: &Case, plan: Option<&Plan>, best: &Fit, rivals: &[&Fit]) ->
     let mut found = Vec::new();
     for &rival in rivals {
         let theirs = Expected::of(case, plan, rival)?;
-        let lambda = ours.misfit(rival).max(theirs.misfit(best));
+        let (a, b) = (ours.misfit(rival), theirs.misfit(best));
+        let (ga, gb) = (ours.misfit(&case.base), theirs.misfit(&case.base));
+        let lambda = if std::env::var("IBR_A").is_ok() { (a / super::order::allowance(ga)).max(b / super::order::allowance(gb)) } else { a.max(b) };
         found.push(Separation { rival: label(case, rival), lambda });
     }
     Ok(found)
@@ -186,6 +189,7 @@ fn planned<'a>(
     let mut block = Block {
         scenario: without_settled(&part.scenario, part.direct),
         direct: part.direct,
+        rolled: is_rolled(&part.scenario, case.scenario),
         holds: (0..dataset.holds.len()).collect(),
         bending_of: dataset.holds.iter().map(|h| nearest(levels, h.p_body_pa)).collect(),
         target_m: Vec::new(),

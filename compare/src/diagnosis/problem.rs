@@ -4,6 +4,7 @@ use super::basis::Basis;
 use super::candidates::Candidate;
 use super::evaluator::positions;
 use super::least_squares::{Minimum, Range, dot, minimise, square};
+use super::source::is_fixed_to_the_room;
 use crate::error::CompareError;
 use crate::gauge::Gauge;
 use crate::study::predict::is_open;
@@ -30,6 +31,8 @@ pub struct Block<'a> {
     pub dataset: Cow<'a, Dataset>,
     /// What was measured directly: effects there change nothing in this block.
     pub direct: Direct,
+    /// Rolled by 180° against the first block: what is fixed to the room acts the other way.
+    pub rolled: bool,
     /// Holds that are fitted, rising.
     pub holds: Vec<usize>,
     /// Index of the bending stiffness of every hold of the dataset.
@@ -129,7 +132,8 @@ impl Block<'_> {
 
     /// The base of this block with effects at values in SI, one effect's parameters after the other's.
     pub fn with_effects(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Scenario {
-        with(&self.scenario, candidates, effects, values, &|stage| is_open(stage, self.direct))
+        let turned = if self.rolled { turned(candidates, effects, values) } else { values.to_vec() };
+        with(&self.scenario, candidates, effects, &turned, &|stage| is_open(stage, self.direct))
     }
 
     /// Differences of the supply's laws to the readings of the gauge \[Pa\]; none without one.
@@ -226,6 +230,13 @@ impl Problem<'_> {
         let free = effects.iter().flat_map(|e| &self.candidates[*e].parameters).map(|p| p.neutral);
         std::iter::repeat_n(f64::NAN, self.bendings).chain(free).collect()
     }
+}
+
+/// Values as a robot rolled by 180° sees them.
+fn turned(candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Vec<f64> {
+    let chosen = effects.iter().map(|e| &candidates[*e]);
+    let fixed = chosen.flat_map(|c| c.parameters.iter().map(|p| is_fixed_to_the_room(&c.name, &p.key)));
+    fixed.zip(values).map(|(fixed, v)| if fixed { -v } else { *v }).collect()
 }
 
 /// A scenario with those of the effects whose stage is open, at values in SI.

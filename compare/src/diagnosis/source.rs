@@ -8,6 +8,31 @@ use data::{Dataset, Direct};
 use models::Scenario;
 use models::effects::Stage;
 
+/// Whether one robot lies rolled by 180° against the other: gravity pulls it the other way across.
+pub fn is_rolled(one: &Scenario, other: &Scenario) -> bool {
+    let ([ax, ay], [bx, by]) = (one.gravity_direction, other.gravity_direction);
+    ay.abs() > SAME && (ax - bx).abs() < SAME && (ay + by).abs() < SAME
+}
+
+/// A scenario as the robot sees it when it is rolled by 180°: forces and cameras that stay in the room change sides.
+pub fn seen_rolled(scenario: &Scenario) -> Scenario {
+    let mut seen = scenario.clone();
+    for effect in &mut seen.effects {
+        let parameters = models::effects::by_name(&effect.name).map_or(&[][..], |entry| entry.parameters);
+        let fixed = parameters.iter().zip(&mut effect.values).filter(|(p, _)| is_fixed_to_the_room(&effect.name, p.key));
+        fixed.for_each(|(_, value)| *value = -*value);
+    }
+    seen
+}
+
+/// Parameters across the robot that belong to the room: rolled by 180°, the robot sees them with the other sign.
+pub fn is_fixed_to_the_room(effect: &str, key: &str) -> bool {
+    [("tip_load", "force_y_n"), ("camera_rotation", "angle_deg")].contains(&(effect, key))
+}
+
+/// Components of unit vectors that differ by less are the same.
+const SAME: f64 = 0.05;
+
 /// A dataset and the base as it was measured there.
 #[derive(Clone, Copy)]
 pub struct Source<'a> {
@@ -19,6 +44,8 @@ pub struct Source<'a> {
     pub direct: Direct,
     /// Readings of the actuator's pressure, which the supply's laws must meet.
     pub gauge: Option<&'a Gauge>,
+    /// Rolled by 180° against the first data: what is fixed to the room acts the other way.
+    pub rolled: bool,
     /// Bending stiffness at the first body pressure, measured by itself, and its standard deviation \[N·m²\].
     pub bending_nm2: Option<[f64; 2]>,
 }

@@ -79,6 +79,16 @@ impl Robot {
         })
     }
 
+    /// Rolls the robot by 180°: gravity, a pulley, an obstacle and the camera stay where they are in the room.
+    pub fn roll_over(&mut self) {
+        let loads = &mut self.loads;
+        loads.down[1] = -loads.down[1];
+        loads.pulley_m[1] = -loads.pulley_m[1];
+        // It stood on the side to which the robot bent.
+        loads.obstacle_n_per_m = 0.0;
+        self.camera.roll_rad = -self.camera.roll_rad;
+    }
+
     /// Calls `change` on every cell with its middle \[m\].
     pub fn each(&mut self, mut change: impl FnMut(&mut Cell, f64)) {
         for cell in &mut self.cells {

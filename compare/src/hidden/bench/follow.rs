@@ -52,8 +52,8 @@ pub(super) fn follow_up(truth: &Truth, experiment: &Experiment) -> Result<Vec<(D
             about.runs = (1..=again.runs).map(run).collect();
         }
         "turned over" => {
-            robot.loads.down = robot.loads.down.map(|d| -d);
-            about.gravity_direction = about.gravity_direction.map(|g| g.map(|d| -d));
+            robot.roll_over();
+            about.gravity_direction = about.gravity_direction.map(|[x, y]| [x, -y]);
         }
         _ => {}
     }
