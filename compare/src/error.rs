@@ -68,6 +68,14 @@ pub enum CompareError {
         /// Runs it needs.
         needed: usize,
     },
+    /// `about.toml` measures what no effect has.
+    #[error("[measured] of about.toml names an unknown {what}; known: {known}")]
+    UnknownMeasured {
+        /// Effect or parameter.
+        what: String,
+        /// Those that exist.
+        known: String,
+    },
     /// A setting is outside its range.
     #[error("{name} = {value} is not possible: {expected}")]
     BadOption {

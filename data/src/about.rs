@@ -23,12 +23,15 @@
 //! [bending]                          # optional: bending stiffness of this robot, measured by itself, at the first body pressure
 //! stiffness_nm2 = 1.35
 //! sd_nm2 = 0.15                      # its standard deviation
+//! [measured.gravity]                 # optional: parameters of effects, each measured by a test of its own (here a scale)
+//! weight_n_per_m = [1.5, 0.1]        # as the scenario has them: value and standard deviation
 //! [[run]]                            # optional; runs not named have no tip force
 //! id = "1"
 //! tip_force_n = [0, 0.3]
 //! session = "monday"
 //! ```
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -85,6 +88,8 @@ pub struct About {
     pub direct: Direct,
     /// Bending stiffness of this robot at the first body pressure, measured by itself, and its standard deviation \[N·m²\].
     pub bending_nm2: Option<[f64; 2]>,
+    /// Parameters of effects that were measured by themselves.
+    pub measured: Vec<MeasuredValue>,
     /// Runs with a tip force or a session of their own.
     pub runs: Vec<AboutRun>,
     /// Free text.
@@ -100,6 +105,19 @@ pub struct Direct {
     /// Positions are in the frame of the base: fiducials on the clamp, a checkerboard in the plane of the markers, their
     /// distance from the axis by caliper.
     pub frame: bool,
+}
+
+/// A parameter of an effect that a test of its own measured: a strip of fabric, a scale.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredValue {
+    /// Effect, as in scenarios.
+    pub effect: String,
+    /// Its parameter, with the unit in its name.
+    pub key: String,
+    /// What was found, in that unit.
+    pub value: f64,
+    /// Its standard deviation.
+    pub sd: f64,
 }
 
 /// Dimensions of the robot \[m\].
@@ -174,6 +192,7 @@ pub fn parse_about(file: &str, text: &str) -> Result<About, DataError> {
         gravity_direction: raw.gravity.map(|gravity| check.direction(&gravity.direction)).transpose()?,
         direct: raw.direct,
         bending_nm2: raw.bending.map(|bending| check.bending(&bending)).transpose()?,
+        measured: check.measured(raw.measured)?,
         runs: check.runs(raw.run)?,
         title: check.filled("title", &raw.title)?,
         source: check.filled("source", &raw.source)?,
@@ -210,6 +229,8 @@ struct RawAbout {
     #[serde(default)]
     direct: Direct,
     bending: Option<RawBending>,
+    #[serde(default)]
+    measured: BTreeMap<String, BTreeMap<String, Spanned<[f64; 2]>>>,
     #[serde(default)]
     run: Vec<RawRun>,
 }
@@ -351,6 +372,26 @@ impl Check<'_> {
             return Err(self.fault("sd_nm2", &raw.sd_nm2, "must be above a thousandth of the stiffness", help));
         }
         Ok([stiffness, sd])
+    }
+
+    fn measured(
+        &self,
+        raw: BTreeMap<String, BTreeMap<String, Spanned<[f64; 2]>>>,
+    ) -> Result<Vec<MeasuredValue>, DataError> {
+        let mut all = Vec::new();
+        for (effect, parameters) in raw {
+            for (key, pair) in parameters {
+                let [value, sd] = *pair.get_ref();
+                // Nothing is measured better than to a thousandth: such a number would overrule all markers.
+                if !(value.is_finite() && sd.is_finite() && sd > 0.0 && sd >= 1e-3 * value.abs()) {
+                    let help = "write [value, standard deviation], the latter from repeats of the test";
+                    let message = "needs a finite value and a standard deviation above a thousandth of it";
+                    return Err(self.fault(&key, &pair, message, help));
+                }
+                all.push(MeasuredValue { effect: effect.clone(), key, value, sd });
+            }
+        }
+        Ok(all)
     }
 
     fn runs(&self, raw: Vec<RawRun>) -> Result<Vec<AboutRun>, DataError> {

@@ -25,7 +25,7 @@ pub mod write;
 #[cfg(test)]
 mod tests;
 
-pub use about::{About, AboutRun, Direct, Geometry, MarkerStation, Provenance, parse_about, read_about};
+pub use about::{About, AboutRun, Direct, Geometry, MarkerStation, MeasuredValue, Provenance, parse_about, read_about};
 pub use check::{CheckReport, check};
 pub use coupons::{Coupon, CouponDefaults, Direction, Pulled, parse_coupons, read_coupons};
 pub use dataset::{Dataset, Hold, Marker, Phase};

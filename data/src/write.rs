@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::about::{About, Direct};
+use crate::about::{About, Direct, MeasuredValue};
 use crate::dataset::Dataset;
 use crate::error::{DataError, Fault};
 use crate::units::{kpa, mm};
@@ -101,6 +101,14 @@ pub fn about_toml(about: &About) -> String {
     }
     if let Some([stiffness, sd]) = about.bending_nm2 {
         text.push_str(&format!("\n[bending]\nstiffness_nm2 = {stiffness:?}\nsd_nm2 = {sd:?}\n"));
+    }
+    for MeasuredValue { effect, key, value, sd } in &about.measured {
+        // A table is opened once; its parameters follow each other.
+        let header = format!("\n[measured.{effect}]\n");
+        if !text.contains(&header) {
+            text.push_str(&header);
+        }
+        text.push_str(&format!("{key} = [{value:?}, {sd:?}]\n"));
     }
     if let Some([x, y]) = about.gravity_direction {
         text.push_str(&format!("\n[gravity]\ndirection = [{x:?}, {y:?}]\n"));

@@ -157,6 +157,7 @@ pub fn about(scenario: &Scenario, dataset: &Dataset, g: &Generator) -> About {
         gravity_direction: None,
         direct: Direct::default(),
         bending_nm2: None,
+        measured: Vec::new(),
         runs: vec![],
         notes: Some(format!(
             "Not a measurement. Camera noise {} mm per coordinate; run to run: pressure {} %, alignment {} mm, rotation {} mrad. \

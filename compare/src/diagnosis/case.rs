@@ -2,6 +2,8 @@
 
 use super::basis::{Basis, cosine};
 use super::candidates::{Candidate, candidates, hold, present};
+use super::known::known;
+use super::least_squares::square;
 use super::options::Options;
 use super::problem::{Block, Fit, Problem, Readings};
 use super::screen::trace;
@@ -117,6 +119,7 @@ impl<'a> Case<'a> {
     ) -> Result<Case<'a>, CompareError> {
         let Source { scenario, dataset, direct, gauge, .. } = sources[0];
         let known_bending = sources.iter().find_map(|source| source.bending_nm2);
+        let known = known(sources.iter().flat_map(|source| source.measured), candidates, sources[0].as_given())?;
         for source in sources {
             Layout::of(source.dataset)?;
         }
@@ -133,7 +136,7 @@ impl<'a> Case<'a> {
                 blocks.push(whole_block(source, source.dataset.mean_over_runs(), &noise, &body_pa)?);
                 noises.push(noise);
             }
-            let problem = Problem { candidates, blocks, bendings, known_bending, enough: ENOUGH };
+            let problem = Problem { candidates, blocks, bendings, known_bending, known: known.clone(), enough: ENOUGH };
             let base = problem.fit_base(&always, &values).ok_or_else(no_base)?;
             Ok((noises, problem, base))
         };
@@ -194,7 +197,7 @@ impl<'a> Case<'a> {
     /// The first data.
     pub fn source(&self) -> Source<'a> {
         let Case { scenario, dataset, direct, gauge, .. } = *self;
-        Source { scenario, dataset, direct, gauge, rolled: false, bending_nm2: self.problem.known_bending }
+        Source { scenario, dataset, direct, gauge, rolled: false, bending_nm2: self.problem.known_bending, measured: &[] }
     }
 
     /// Blocks of the data beside the first.
@@ -237,8 +240,11 @@ impl<'a> Case<'a> {
     /// Error beyond noise that no scatter between runs explains \[mm\]: from the whitened sum of squares, whose expectation
     /// under noise is its degrees of freedom. Pressure, alignment and rotation of a run do not count.
     pub fn beyond_noise_mm(&self, fit: &Fit) -> f64 {
-        let dof = fit.minimum.residual.len().saturating_sub(fit.theta().len()).max(1) as f64;
-        1e3 * self.noise.unit_m() * (fit.cost() / dof - 1.0).max(0.0).sqrt()
+        // What tests of their own found is no error in mm.
+        let seen = fit.minimum.residual.len() - self.problem.known.len();
+        let cost = fit.cost() - square(&fit.minimum.residual[seen..]);
+        let dof = seen.saturating_sub(fit.theta().len()).max(1) as f64;
+        1e3 * self.noise.unit_m() * (cost / dof - 1.0).max(0.0).sqrt()
     }
 
     /// Fall of the whitened sum of squares against the calibrated base.

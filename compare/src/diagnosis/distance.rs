@@ -66,6 +66,7 @@ pub fn distances(
         gauge: None,
         rolled: false,
         bending_nm2: about.and_then(|a| a.bending_nm2),
+        measured: about.map_or(&[], |a| &a.measured),
     };
     let (candidates, own) = catalogue(&[source], &options);
     let known = |_: usize, slope: &[f64]| NoiseModel::known(ideal, slope, noise.runs, noise.sigma_m, noise.run_sd);

@@ -1,6 +1,7 @@
 //! Experiments that may be proposed, for any robot: its own pressures scaled, not ours.
 
 use crate::comparison::ZERO_PRESSURE_PA;
+use super::known::BenchTest;
 use data::{Dataset, Direct, Hold, Phase};
 use models::Scenario;
 
@@ -22,6 +23,17 @@ pub struct Plan {
     pub sentence: String,
     /// Parts, each measured as often as the data at hand; none of a bending test.
     pub parts: Vec<Part>,
+    /// Tests of their own beside them.
+    pub tests: Vec<&'static BenchTest>,
+}
+
+/// What may be measured beside the markers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Instruments {
+    /// Directly, in the same runs.
+    pub direct: Direct,
+    /// By tests of their own.
+    pub tests: Vec<&'static BenchTest>,
 }
 
 /// The bending stiffness measured by itself.
@@ -34,6 +46,7 @@ pub fn bending_test() -> Plan {
             100.0 * BENDING_TEST
         ),
         parts: Vec::new(),
+        tests: Vec::new(),
     }
 }
 
@@ -49,27 +62,30 @@ pub struct Part {
 
 /// All experiments for the robot and the protocol of the data at hand; then the same with what `instruments` measure directly,
 /// if that is more than in those data.
-pub fn plans(scenario: &Scenario, dataset: &Dataset, at_hand: Direct, instruments: Direct) -> Vec<Plan> {
-    let all = Direct { pressure: at_hand.pressure || instruments.pressure, frame: at_hand.frame || instruments.frame };
+pub fn plans(scenario: &Scenario, dataset: &Dataset, at_hand: Direct, instruments: Instruments) -> Vec<Plan> {
+    let Instruments { direct, tests } = instruments;
+    let all = Direct { pressure: at_hand.pressure || direct.pressure, frame: at_hand.frame || direct.frame };
     let mut plans = protocols(scenario, dataset, at_hand);
-    if all != at_hand {
-        let (name, sentence) = with_instruments(at_hand, all);
+    if all != at_hand || !tests.is_empty() {
+        let (name, sentence) = with_instruments(at_hand, all, &tests);
         plans.extend(protocols(scenario, dataset, all).into_iter().map(|plan| Plan {
             name: format!("{}, {name}", plan.name),
             sentence: format!("{}, {sentence}", plan.sentence),
+            tests: tests.clone(),
             ..plan
         }));
     }
     plans
 }
 
-/// Short and long, what is measured directly for the first time.
-fn with_instruments(before: Direct, now: Direct) -> (String, String) {
+/// Short and long, what is measured directly, or by a test of its own, for the first time.
+fn with_instruments(before: Direct, now: Direct, tests: &[&BenchTest]) -> (String, String) {
     let pressure = (now.pressure && !before.pressure)
         .then_some(("gauge", "with a gauge read at the actuator itself (column p_gauge_kpa)"));
     let frame = (now.frame && !before.frame)
         .then_some(("frame", "with fiducials on the clamp and a checkerboard in the markers' plane"));
-    let both: Vec<_> = [pressure, frame].into_iter().flatten().collect();
+    let tests = tests.iter().map(|test| (test.name, test.sentence));
+    let both: Vec<_> = [pressure, frame].into_iter().flatten().chain(tests).collect();
     let join = |words: Vec<&str>, between| words.join(between);
     (join(both.iter().map(|b| b.0).collect(), ", "), join(both.iter().map(|b| b.1).collect(), " and "))
 }
@@ -98,7 +114,7 @@ fn protocols(scenario: &Scenario, dataset: &Dataset, direct: Direct) -> Vec<Plan
     let turned = vec![part(&flipped, &standard, body, usual)];
     let tipped = [TIP_FORCE_N, -TIP_FORCE_N].map(|force| part(&tipped(scenario, force), &standard, body, usual)).into();
     let other_body = second_body(dataset, body);
-    let plan = |name: &str, sentence: String, parts| Plan { name: name.into(), sentence, parts };
+    let plan = |name: &str, sentence: String, parts| Plan { name: name.into(), sentence, parts, tests: Vec::new() };
     vec![
         plan("finer pressures", format!("repeat in steps of {:.1} kPa", top / 6e3), one(&fine, body, usual)),
         plan(

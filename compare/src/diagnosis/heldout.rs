@@ -116,8 +116,8 @@ fn run_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
 fn problem<'a>(case: &Case<'a>, holds: &[usize], target_m: Vec<f64>) -> Result<Problem<'a>, CompareError> {
     let mut blocks = vec![block(&case.source(), holds, target_m, &case.noise, &case.body_pa)?];
     blocks.extend(case.blocks_beside()?);
-    let Problem { candidates, bendings, known_bending, .. } = case.problem;
-    Ok(Problem { candidates, blocks, bendings, known_bending, enough: ENOUGH })
+    let Problem { candidates, bendings, known_bending, ref known, .. } = case.problem;
+    Ok(Problem { candidates, blocks, bendings, known_bending, known: known.clone(), enough: ENOUGH })
 }
 
 fn same(a: f64, b: f64) -> bool {

@@ -30,6 +30,7 @@ mod heldout;
 mod interval;
 mod lack_of_fit;
 mod least_squares;
+mod known;
 mod limits;
 mod next;
 mod options;
@@ -54,6 +55,7 @@ mod words;
 
 pub use candidates::{Candidate, Free, candidates};
 pub use distance::{Distances, KnownNoise, distances, power};
+pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
 pub use experiments::{BENDING_TEST, BENDING_TEST_NAME};
 pub use fitted::{FittedBeside, GaugeFit, with_fitted};
 pub use options::Options;
@@ -68,7 +70,7 @@ use crate::study::fit_scenario;
 use crate::study::predict::without_settled;
 use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
 use case::Case;
-use data::{About, Dataset, Direct};
+use data::{About, Dataset, Direct, MeasuredValue};
 use decide::{Decision, decide};
 use heldout::HeldOut;
 use models::Scenario;
@@ -170,6 +172,7 @@ struct Part {
     direct: Direct,
     gauge: Option<Gauge>,
     bending_nm2: Option<[f64; 2]>,
+    measured: Vec<MeasuredValue>,
 }
 
 impl Part {
@@ -194,14 +197,15 @@ impl Part {
             scenario = without_settled(&scenario, direct);
         }
         let bending_nm2 = about.and_then(|a| a.bending_nm2);
-        Ok((Part { scenario, prepared, direct, gauge, bending_nm2 }, warnings))
+        let measured = about.map(|a| a.measured.clone()).unwrap_or_default();
+        Ok((Part { scenario, prepared, direct, gauge, bending_nm2, measured }, warnings))
     }
 
     fn source(&self, first: &Scenario) -> Source<'_> {
-        let Part { scenario, prepared, direct, gauge, bending_nm2 } = self;
+        let Part { scenario, prepared, direct, gauge, bending_nm2, measured } = self;
         let (direct, bending_nm2) = (*direct, *bending_nm2);
         let rolled = source::is_rolled(scenario, first);
-        Source { scenario, dataset: &prepared.dataset, direct, gauge: gauge.as_ref(), rolled, bending_nm2 }
+        Source { scenario, dataset: &prepared.dataset, direct, gauge: gauge.as_ref(), rolled, bending_nm2, measured }
     }
 }
 

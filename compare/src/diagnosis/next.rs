@@ -7,10 +7,11 @@
 
 use super::case::{Case, fitted_scenarios, nearest, whole_block};
 use super::decide::Decision;
-use super::experiments::{BENDING_TEST, Part, Plan, bending_test, plans, protocol_text};
+use super::experiments::{BENDING_TEST, Instruments, Part, Plan, bending_test, plans, protocol_text};
+use super::known::{BENCH_TEST, BENCH_TESTS, BenchTest, Known, parameters_of};
 use super::problem::{Block, Fit, Problem, Readings, with};
-use super::source::is_rolled;
 use super::result::{Experiment, NextExperiment, Separation, Verdict};
+use super::source::is_rolled;
 use crate::directions::nuisance_directions;
 use crate::error::CompareError;
 use crate::gauge::Gauge;
@@ -74,13 +75,21 @@ fn hypotheses(decision: &Decision) -> Vec<&Fit> {
     }
 }
 
-/// What would have to be measured directly so that none of the explanations is one of supply or camera.
-fn instruments(case: &Case, hypotheses: &[&Fit]) -> Direct {
-    let has = |stage: Stage| {
-        let tried = |fit: &&&Fit| fit.effects[case.always.len()..].iter().any(|e| case.candidate(*e).stage == stage);
-        hypotheses.iter().any(|fit| tried(&fit))
+/// What would have to be measured directly so that none of the explanations is one of supply or camera, or one that a test of its
+/// own measures.
+fn instruments(case: &Case, hypotheses: &[&Fit]) -> Instruments {
+    let tried: Vec<usize> = hypotheses.iter().flat_map(|fit| &fit.effects[case.always.len()..]).copied().collect();
+    let has = |stage: Stage| tried.iter().any(|e| case.candidate(*e).stage == stage);
+    let is_open = |test: &&BenchTest| {
+        let mut measures = parameters_of(test, case.problem.candidates).into_iter();
+        measures.any(|(e, k)| {
+            tried.contains(&e) && case.problem.known.iter().all(|known| (known.effect, known.parameter) != (e, k))
+        })
     };
-    Direct { pressure: has(Stage::Supply), frame: has(Stage::Camera) }
+    Instruments {
+        direct: Direct { pressure: has(Stage::Supply), frame: has(Stage::Camera) },
+        tests: BENCH_TESTS.iter().filter(is_open).collect(),
+    }
 }
 
 fn label(case: &Case, fit: &Fit) -> String {
@@ -99,6 +108,7 @@ fn experiment(case: &Case, plan: &Plan, separations: Vec<Separation>) -> Experim
         sentence: plan.sentence.clone(),
         protocol: protocol_text(plan),
         direct: plan.parts.first().map_or(case.direct, |part| part.direct),
+        tests: plan.tests.iter().map(|test| test.name.to_string()).collect(),
         separated,
         lambda: within_reach.unwrap_or(largest),
         runs_needed: repeated.map(runs),
@@ -111,9 +121,7 @@ fn separations(case: &Case, plan: Option<&Plan>, best: &Fit, rivals: &[&Fit]) ->
     let mut found = Vec::new();
     for &rival in rivals {
         let theirs = Expected::of(case, plan, rival)?;
-        let (a, b) = (ours.misfit(rival), theirs.misfit(best));
-        let (ga, gb) = (ours.misfit(&case.base), theirs.misfit(&case.base));
-        let lambda = if std::env::var("IBR_A").is_ok() { (a / super::order::allowance(ga)).max(b / super::order::allowance(gb)) } else { a.max(b) };
+        let lambda = ours.misfit(rival).max(theirs.misfit(best));
         found.push(Separation { rival: label(case, rival), lambda });
     }
     Ok(found)
@@ -144,7 +152,8 @@ impl<'a> Expected<'a> {
         let sd_nm2 = |b: f64| case.problem.known_bending.map(|[_, sd]| sd).or(tested.then_some(BENDING_TEST * b));
         let known_bending = theta.first().and_then(|b| sd_nm2(*b).filter(|sd| *sd > 0.0).map(|sd| [*b, sd]));
         let Problem { candidates, .. } = case.problem;
-        let mut problem = Problem { candidates, blocks: old, bendings, known_bending, enough: LAMBDA_ERROR };
+        let known = expected_tests(case, plan, truth);
+        let mut problem = Problem { candidates, blocks: old, bendings, known_bending, known, enough: LAMBDA_ERROR };
         for part in parts {
             let planned = planned(case, &problem, part, &levels, (truth, &theta))?;
             problem.blocks.push(planned);
@@ -158,6 +167,24 @@ impl<'a> Expected<'a> {
         // Without an equilibrium there the rival could not even be measured: nothing is promised.
         self.problem.fit(&other.effects, &[start]).map_or(0.0, |fit| fit.cost())
     }
+}
+
+/// What tests of their own found, and those of a plan, as a hypothesis has it.
+fn expected_tests(case: &Case, plan: Option<&Plan>, truth: &Fit) -> Vec<Known> {
+    let values = &truth.theta()[case.problem.bendings..];
+    let candidates = case.problem.candidates;
+    let at_hand = case.problem.known.iter().copied();
+    let planned = plan.into_iter().flat_map(|plan| &plan.tests).flat_map(|test| parameters_of(test, candidates));
+    let planned = planned.map(|(effect, parameter)| Known { effect, parameter, value: 0.0, sd: f64::NAN });
+    let mut all: Vec<Known> = at_hand.chain(planned).collect();
+    for known in &mut all {
+        known.value = known.of(candidates, &truth.effects, values);
+        if known.sd.is_nan() {
+            let typical = candidates[known.effect].parameters[known.parameter].typical;
+            known.sd = BENCH_TEST * known.value.abs().max(typical.abs());
+        }
+    }
+    all
 }
 
 /// Parameters with the stiffness of a new body pressure, the same as at the first.

@@ -3,6 +3,7 @@
 use super::basis::Basis;
 use super::candidates::Candidate;
 use super::evaluator::positions;
+use super::known::Known;
 use super::least_squares::{Minimum, Range, dot, minimise, square};
 use super::source::is_fixed_to_the_room;
 use crate::error::CompareError;
@@ -71,6 +72,8 @@ pub struct Problem<'a> {
     pub bendings: usize,
     /// The first of them as it was measured by itself, and its standard deviation: one more value that is fitted \[N·m²\].
     pub known_bending: Option<[f64; 2]>,
+    /// Parameters of effects measured by themselves, one more value each.
+    pub known: Vec<Known>,
     /// A round of a fit that lowers the whitened sum of squares by less is the last one.
     pub enough: f64,
 }
@@ -160,7 +163,7 @@ impl Block<'_> {
 }
 
 impl Problem<'_> {
-    /// Whitened residuals of all blocks, prediction minus target, and of the measured bending stiffness.
+    /// Whitened residuals of all blocks, prediction minus target, and of what was measured by itself.
     pub fn residuals(&self, effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
         let mut all = Vec::new();
         for block in &self.blocks {
@@ -170,6 +173,8 @@ impl Problem<'_> {
         }
         // Last, so that every block keeps its place.
         all.extend(self.known_bending.zip(theta[..self.bendings].first()).map(|([known, sd], b)| (b - known) / sd));
+        let values = &theta[self.bendings..];
+        all.extend(self.known.iter().map(|known| known.residual(self.candidates, effects, values)));
         Some(all)
     }
 

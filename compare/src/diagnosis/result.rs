@@ -294,6 +294,8 @@ pub struct Experiment {
     pub protocol: String,
     /// What is to be measured directly.
     pub direct: data::Direct,
+    /// Tests of their own beside it, whose results go into `[measured]` of `about.toml`.
+    pub tests: Vec<String>,
     /// Expected separation λ of the best explanation from each rival, same number of runs.
     pub separations: Vec<Separation>,
     /// Rivals with λ ≥ 16, which are told apart in about nine of ten cases.

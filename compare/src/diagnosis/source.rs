@@ -4,7 +4,7 @@ use crate::error::CompareError;
 use crate::gauge::Gauge;
 use crate::noise::NoiseModel;
 use crate::study::predict::is_open;
-use data::{Dataset, Direct};
+use data::{Dataset, Direct, MeasuredValue};
 use models::Scenario;
 use models::effects::Stage;
 
@@ -48,6 +48,8 @@ pub struct Source<'a> {
     pub rolled: bool,
     /// Bending stiffness at the first body pressure, measured by itself, and its standard deviation \[N·m²\].
     pub bending_nm2: Option<[f64; 2]>,
+    /// Parameters of effects measured by themselves.
+    pub measured: &'a [MeasuredValue],
 }
 
 impl<'a> Source<'a> {

@@ -150,6 +150,13 @@ impl Drive {
         (self.swell_m * x * x / sum, self.swell_m * 2.0 * x * half * half / (sum * sum))
     }
 
+    /// Shear load of the weave at a shear angle \[N/m\].
+    pub(super) fn shear_load(&self, shear: f64) -> f64 {
+        let elastic = self.shear_n_per_m * shear * (1.0 + (shear / 0.3).powi(2));
+        let lock = if self.lock_n_per_m == 0.0 { 0.0 } else { ((shear - 0.22) / 0.035).exp() };
+        elastic + self.lock_n_per_m * lock
+    }
+
     /// dU/da of what the actuator's fabric stores or loses, per length.
     fn resistance(&self, a: f64) -> f64 {
         match self.family {
@@ -157,9 +164,7 @@ impl Drive {
             Family::Mckibben => {
                 let yarn = ((1.0 - a) / SQRT_2).acos();
                 let shear = 2.0 * yarn - FRAC_PI_2;
-                let elastic = self.shear_n_per_m * shear * (1.0 + (shear / 0.3).powi(2));
-                let lock = if self.lock_n_per_m == 0.0 { 0.0 } else { ((shear - 0.22) / 0.035).exp() };
-                2.0 * self.width_m * (elastic + self.lock_n_per_m * lock) * SQRT_2 / yarn.sin()
+                2.0 * self.width_m * self.shear_load(shear) * SQRT_2 / yarn.sin()
             }
         }
     }

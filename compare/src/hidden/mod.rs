@@ -20,6 +20,7 @@ pub mod robot;
 mod root;
 pub mod score;
 pub mod supply;
+mod tested;
 pub mod truth;
 pub mod wall;
 

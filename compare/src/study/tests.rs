@@ -30,6 +30,7 @@ pub(crate) fn about(tip_forces: &[[f64; 2]]) -> About {
         gravity_direction: None,
         direct: Direct::default(),
         bending_nm2: None,
+        measured: Vec::new(),
         runs: tip_forces.iter().enumerate().map(run).collect(),
         notes: None,
     }

@@ -163,6 +163,7 @@ fn about(scenario: &Scenario, dataset: &Dataset) -> About {
         gravity_direction: Some(scenario.gravity_direction),
         direct: Direct::default(),
         bending_nm2: None,
+        measured: Vec::new(),
         runs: vec![],
         notes: Some(
             "Not a measurement. What is hidden is sealed in seal.toml; the recorded pressures are the set ones.".into(),

@@ -229,6 +229,7 @@ pub(super) fn about(truth: &Truth) -> Result<About, CompareError> {
         gravity_direction: Some(truth.told()?.gravity_direction),
         direct: Direct::default(),
         bending_nm2: None,
+        measured: Vec::new(),
         runs: Vec::new(),
         notes: None,
     })

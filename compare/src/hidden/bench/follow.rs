@@ -13,6 +13,7 @@ use crate::error::CompareError;
 use crate::hidden::Truth;
 use crate::hidden::camera::Camera;
 use crate::hidden::measure::measure_holds;
+use crate::hidden::tested::bench_tests;
 use crate::hidden::truth::standard_protocol;
 use crate::study::generate::{Generator, Scatter, holds};
 use crate::study::parse_protocol;
@@ -40,6 +41,7 @@ pub(super) fn follow_up(truth: &Truth, experiment: &Experiment) -> Result<Vec<(D
     let second = holds(&Generator { hold_s, protocol: wanted, ..Generator::default() });
     let Direct { pressure, frame } = experiment.direct;
     about.direct = Direct { pressure: false, frame };
+    about.measured = bench_tests(truth, &experiment.tests)?;
     if frame {
         robot.camera = Camera { length_m: robot.camera.length_m, ..Camera::default() };
     }

@@ -1,0 +1,87 @@
+//! What tests of their own find of a robot: strips of its fabric, a scale. They see the robot's laws, not the catalogue's.
+
+use super::Truth;
+use super::robot::Robot;
+use crate::diagnosis::{BENCH_TEST, BENCH_TESTS};
+use crate::error::CompareError;
+use crate::study::generate::Scatter;
+use data::MeasuredValue;
+
+/// Line load of the tensile test \[N/m\]: what a muscle or a pouch carries at some 20 kPa.
+const PULLED_N_PER_M: f64 = 500.0;
+/// Shear angle at which the shear modulus is read \[rad\].
+const SHEARED_RAD: f64 = 0.05;
+/// Largest shear angle of the test \[rad\]: just beyond the free stroke of a muscle.
+const MOST_RAD: f64 = 0.35;
+/// Shear load at which a weave counts as jammed; its tangent there leads to the locking angle \[N/m\].
+const JAMMED_N_PER_M: f64 = 100.0;
+/// Step of the search for it \[rad\].
+const STEP_RAD: f64 = 1e-3;
+
+/// Results of tests by their names, each with its error.
+///
+/// # Errors
+/// Not an actuator of the bench.
+pub fn bench_tests(truth: &Truth, names: &[String]) -> Result<Vec<MeasuredValue>, CompareError> {
+    let robot = truth.robot()?;
+    let mut scatter = Scatter::new(truth.seed ^ 0xFAB);
+    let mut all = Vec::new();
+    for (effect, key) in BENCH_TESTS.iter().filter(|t| names.iter().any(|n| n == t.name)).flat_map(|t| t.parameters) {
+        let Some(parameter) =
+            models::effects::by_name(effect).and_then(|entry| entry.parameters.iter().find(|p| p.key == *key))
+        else {
+            continue;
+        };
+        let found = found(&robot, effect).unwrap_or(parameter.neutral);
+        let sd = BENCH_TEST * found.abs().max(parameter.typical.abs());
+        let value = found + sd * scatter.normal();
+        all.push(MeasuredValue { effect: (*effect).into(), key: (*key).into(), value, sd });
+    }
+    Ok(all)
+}
+
+/// What a perfect test finds, in the unit of the catalogue; `None`: nothing.
+fn found(robot: &Robot, effect: &str) -> Option<f64> {
+    let drive = robot.cells.iter().find_map(|cell| cell.drive)?;
+    match effect {
+        "fabric_stretch" => Some(drive.stretch(PULLED_N_PER_M * drive.width_m) / PULLED_N_PER_M),
+        "shear_stiffness" => Some(drive.shear_load(SHEARED_RAD) / SHEARED_RAD),
+        "shear_lock" => {
+            let steps = (1..=(MOST_RAD / STEP_RAD) as usize).map(|i| i as f64 * STEP_RAD);
+            let jammed = steps.into_iter().find(|angle| drive.shear_load(*angle) > JAMMED_N_PER_M)?;
+            let slope = (drive.shear_load(jammed) - drive.shear_load(jammed - STEP_RAD)) / STEP_RAD;
+            Some(jammed - drive.shear_load(jammed) / slope)
+        }
+        "gravity" => {
+            let weights = robot.loads.weight_n_per_m.iter().zip(&robot.cells);
+            Some(weights.map(|(w, cell)| w * cell.length_m).sum::<f64>() / robot.length_m)
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hidden::Draw;
+
+    #[test]
+    fn a_test_finds_what_is_there_and_nothing_where_nothing_is() {
+        let plain = Truth::draw("fpam", &mut Draw::new(5, 0)).unwrap();
+        let of = |name: &str, effect: &str| {
+            let mut truth = plain.clone();
+            truth.add(name, 1.0);
+            found(&truth.robot().unwrap(), effect)
+        };
+        // The strain c (0.4 T + 300 (1 − e^(−T/500))) at T = 500 N/m.
+        let wanted = 1e-4 * (0.4 + 0.6 * (1.0 - (-1.0f64).exp()));
+        assert!((of("fabric_stretch", "fabric_stretch").unwrap() / wanted - 1.0).abs() < 1e-12);
+        assert!((of("shear_stiffness", "shear_stiffness").unwrap() / 35.0 - 1.0).abs() < 0.03);
+        assert!((of("gravity", "gravity").unwrap() / 1.5 - 1.0).abs() < 1e-12);
+        // An exponential's tangent leads its length back from where it jams.
+        let wanted = 0.22 + 0.035 * (5.0f64.ln() - 1.0);
+        assert!((of("shear_lock", "shear_lock").unwrap() - wanted).abs() < 2e-3);
+        assert_eq!(of("end_constraint", "shear_lock"), None);
+        assert_eq!(of("end_constraint", "fabric_stretch"), Some(0.0));
+    }
+}
