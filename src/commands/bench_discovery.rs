@@ -139,12 +139,15 @@ fn attainable(limits: &Attainable) -> String {
     let percent = |v: Option<f64>| v.map_or("–".into(), |v| format!("{:.1} %", 100.0 * v));
     let [alarm, any, one, two] = [limits.alarm_known, limits.alarm_any, limits.flag_one, limits.flag_two].map(percent);
     let [top, three] = [limits.on_top, limits.first_three].map(percent);
+    let [one_of_two, both] = [limits.one_of_two, limits.both].map(percent);
     let [median, most] = limits.form.map_or(["–".into(), "–".into()], |f| f.map(|v| percent(Some(v))));
     format!(
         "\nWhat no test could exceed, even told the noise and the truth's shape (mean power of the best test)\n\
          One hidden effect, alarm, 3 % false alarms: {alarm} if it knows the effect, {any} if it looks for one of ten.\n\
          One hidden effect, name, given alarm, with every law as it is in these robots: {top} on top, {three} in the first \
          three.\n\
+         Two hidden effects, names, with every law as it is and told that there are two: one at least right in {one_of_two}, \
+         both in {both}.\n\
          Outside the catalogue, 5 % false flags, laws taken as the catalogue's formulas: {one} if one effect counts as an \
          explanation, {two} if two do.\n\
          Laws are not the formulas: of the misfit that an effect of the catalogue makes here, the nearest formula leaves \

@@ -35,6 +35,10 @@ pub struct Attainable {
     pub on_top: Option<f64>,
     /// The same, in the first three.
     pub first_three: Option<f64>,
+    /// Two hidden effects: one of them at least in the first pair named, for whoever has every law as it is.
+    pub one_of_two: Option<f64>,
+    /// The same, both.
+    pub both: Option<f64>,
     /// Flags outside the catalogue, if no effect or one is an explanation; false flags in 5 %.
     pub flag_one: Option<f64>,
     /// The same if pairs of effects are explanations too.
@@ -77,13 +81,16 @@ pub(super) fn of(outcomes: &[Outcome]) -> Attainable {
     let missed: Vec<Distances> =
         outside.iter().filter(|(named, _)| !named.score.out_of_catalog).map(|(_, d)| *d).collect();
     let is_alike = |d: &&Distances| d.two >= SEEN && form.is_some_and(|[_, most]| left(d.two, d.base) < most);
-    let best = |k: usize| {
-        let shares: Vec<f64> = one.iter().filter_map(|(named, _)| Some(named.at_best?[k])).collect();
+    let best = |kind: Kind, k: usize| {
+        let named = outcomes.iter().filter(|o| o.part == Part::Hidden(kind)).filter_map(|o| o.named.as_ref());
+        let shares: Vec<f64> = named.filter_map(|named| Some(named.at_best?[k])).collect();
         (!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64)
     };
     Attainable {
-        on_top: best(0),
-        first_three: best(1),
+        on_top: best(Kind::One, 0),
+        first_three: best(Kind::One, 1),
+        one_of_two: best(Kind::Two, 0),
+        both: best(Kind::Two, 1),
         alarm_known: mean(&one, &|d| power(d.base, FALSE_ALARMS)),
         alarm_any: mean(&one, &|d| power(d.base, FALSE_ALARMS / KINDS)),
         flag_one: mean(&outside, &|d| power(d.one, FALSE_FLAGS)),

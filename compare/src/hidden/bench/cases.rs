@@ -2,7 +2,7 @@
 
 use super::attainable::distances_of;
 use super::follow::{follow_up, tested};
-use super::oracle::at_best;
+use super::oracle::{at_best, two_at_best};
 use super::{Case, Diagnose, Part};
 use crate::diagnosis::{Diagnosis, Distances, Experiment, Measured, Options};
 use crate::error::CompareError;
@@ -49,7 +49,8 @@ pub struct Named {
     pub after: Option<After>,
     /// How far the truth is from what the catalogue can say, of one hidden effect and of one outside the catalogue.
     pub distances: Option<Distances>,
-    /// Shares of all noise in which the truth could be named first, and among three, of one hidden effect that gave alarm.
+    /// Shares of all noise in which the truth could be named first, and among three, of one hidden effect that gave alarm; of two,
+    /// in which the nearest pair of laws holds one of them, and both.
     pub at_best: Option<[f64; 2]>,
     /// The same experiment with next to no noise, where the truth did not come out on top.
     pub after_in_silence: Option<Score>,
@@ -124,6 +125,9 @@ fn hidden(truth: &Truth, kind: Kind, diagnose: Diagnose) -> Result<Named, Compar
     }
     if kind == Kind::One && named.score.alarm {
         named.at_best = Some(at_best(truth, &data)?);
+    }
+    if kind == Kind::Two {
+        named.at_best = Some(two_at_best(truth, &data)?);
     }
     if next_experiment && named.answer.verdict == "effect" && named.answer.set.len() > 1 {
         let next = found.next_experiment.as_ref().and_then(|next| next.recommended.as_ref());

@@ -94,6 +94,8 @@ fn two(outcomes: &[Outcome]) -> Vec<Row> {
     vec![
         Row::share(case, "at least one named", AtLeast(0.90), &shares(&all, |named| named.score.named >= 1)),
         Row::share(case, "both named", AtLeast(0.40), &shares(&all, |named| named.score.named == 2)),
+        Row::share(case, "at least one in the stated set", AtLeast(0.90), &shares(&all, |named| named.score.in_set)),
+        Row::share(case, "both, as one entry of the stated set", AtLeast(0.40), &shares(&all, |n| n.score.all_in_set)),
         Row::share(case, "a wrong name asserted", AtMost(0.15), &shares(&all, |named| named.score.wrong)),
     ]
 }
