@@ -6,7 +6,7 @@ use super::{Context, Outcome};
 use crate::cli::Characterize;
 use crate::failure::Failure;
 use crate::output::{Input, check_folder, program, write_files};
-use compare::characterize::write::{fabric_toml, shear_table, yarn_table};
+use compare::characterize::write::{fabric_toml, measured_toml, shear_table, yarn_table};
 use compare::characterize::{Characterized, Quantity as Number, Settings, Specimen, characterize, example, pictures};
 use compare::study::pages::Files;
 use data::{Coupon, CouponDefaults, Direction, Table, parse_coupons, read_coupons};
@@ -171,6 +171,7 @@ fn files(found: &Characterized, fabric: Option<&str>) -> Result<Files, Failure> 
         files.files.push((format!("mean_{name}.csv"), csv(&rows)?));
     }
     files.files.extend(fabric.map(|text| ("fabric.toml".to_string(), text.as_bytes().to_vec())));
+    files.files.extend(measured_toml(found, &program()).map(|text| ("measured.toml".to_string(), text.into_bytes())));
     Ok(files)
 }
 
@@ -224,5 +225,6 @@ fn as_json(found: &Characterized, fabric: Option<&str>) -> Value {
         "warnings": found.warnings,
         "notes": found.notes,
         "fabric_toml": fabric,
+        "measured_toml": measured_toml(found, &program()),
     })
 }

@@ -47,6 +47,24 @@ fn the_fabric_that_it_writes_runs_in_a_case() {
 }
 
 #[test]
+fn what_it_writes_for_a_robot_is_read_by_a_diagnosis() {
+    let folder = example();
+    let tests = ["tests/warp.csv", "tests/bias.csv", "tests/fill.csv"];
+    assert_eq!(folder.run(&[&["characterize"], &tests[..], &["--out", "out"]].concat()).code, 0);
+    let measured = std::fs::read_to_string(folder.path("out/measured.toml")).unwrap();
+    std::fs::create_dir(folder.path("set")).unwrap();
+    folder.write("set/markers.csv", data::set_file("synthetic-fpam", "markers.csv").unwrap());
+    folder.write("set/about.toml", data::set_file("synthetic-fpam", "about.toml").unwrap().to_string() + &measured);
+    let answer = folder.run(&["diagnose", "fpam", "set", "--json"]).json("ibr.diagnose");
+    let warnings = answer["warnings"].to_string();
+    // Stretch and shear are there; that the weave locks far beyond a muscle's stroke is no lack of the model.
+    for word in ["fabric_stretch was measured", "shear_stiffness was measured: G_t = 50 ±"] {
+        assert!(warnings.contains(word), "{warnings}");
+    }
+    assert!(measured.contains("lock_rad = [0.78") && !warnings.contains("shear_lock"), "{measured} {warnings}");
+}
+
+#[test]
 fn json_has_every_number_with_interval_and_how_it_is_known() {
     let answer = example().run(&[&FILES[..], &["--json"]].concat()).json("ibr.characterize");
     let quantities = answer["quantities"].as_array().unwrap();

@@ -54,6 +54,30 @@ fn data_of_another_robot_are_refused_and_nothing_is_written() {
 }
 
 #[test]
+fn a_quantity_measured_by_itself_is_read_and_one_that_no_effect_has_is_refused() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("set")).unwrap();
+    folder.write("set/markers.csv", data::set_file("synthetic-epam", "markers.csv").unwrap());
+    let about = data::set_file("synthetic-epam", "about.toml").unwrap();
+    let mut answer = |line: &str| {
+        folder.write("set/about.toml", format!("{about}\n[measured.{line}"));
+        folder.run(&["diagnose", "epam", "set", "--json"])
+    };
+    let ran = answer("fabric_stretch]\ncompliance_m_per_n = [8e-5, 4e-6]\n");
+    let warnings = ran.json("ibr.diagnose")["warnings"].to_string();
+    assert!(warnings.contains("fabric_stretch was measured: c = 8.00e-5 ± 4.00e-6 m/N"), "{warnings}");
+    for (line, words) in [
+        ("fabric_strech]\ncompliance_m_per_n = [8e-5, 4e-6]\n", "fabric_stretch"),
+        ("fabric_stretch]\ncompliance = [8e-5, 4e-6]\n", "compliance_m_per_n"),
+        ("fabric_stretch]\ncompliance_m_per_n = [8e-5, 0]\n", "standard deviation"),
+    ] {
+        let ran = answer(line);
+        assert_eq!(ran.code, 3, "{}", ran.stderr);
+        assert!(ran.stderr.contains(words), "{}", ran.stderr);
+    }
+}
+
+#[test]
 fn further_data_of_the_robot_are_fitted_along_and_those_of_another_are_refused() {
     let folder = Folder::new();
     let typed = ["diagnose", "epam", "synthetic-epam", "--also", "synthetic-epam-two-bodies", "--json"];

@@ -1,7 +1,7 @@
 //! Tests of the characterisation: known truth comes back, published numbers too, and bad specimens are named.
 
 use super::example::{FILL, SHEAR, STRIP, THICKNESS_M, WARP, example};
-use super::write::fabric_toml;
+use super::write::{fabric_toml, measured_toml};
 use super::*;
 use crate::CompareError;
 use data::{Coupon, CouponDefaults, Direction, parse_coupons};
@@ -116,6 +116,18 @@ fn published_moduli_give_the_published_shear_modulus() {
     assert!((value("g12_link") - 1.032).abs() < 5e-4, "{}", value("g12_link"));
     let fragment = fabric_toml(&found, &Settings::default(), "ibr").unwrap();
     assert!(fragment.contains("e45_MPa = 4.05") && fragment.contains("[fabric.fabric-film]"), "{fragment}");
+}
+
+/// 1/(E t) of the mean, and the deviation of one more piece: s √(1 + 1/n) of two specimens at 90 and 110 MPa is 17.32 MPa.
+#[test]
+fn what_a_robot_of_the_fabric_is_told_is_the_value_of_one_more_piece() {
+    let sized = CouponDefaults { thickness_m: Some(5e-5), ..CouponDefaults::default() };
+    let found = characterize(&read(&straight(0, &[90.0, 110.0]), &sized), &Settings::default()).unwrap();
+    let text = measured_toml(&found, "ibr").unwrap();
+    assert!(text.contains("[measured.fabric_stretch]\ncompliance_m_per_n = [0.0002, 0.00003464102]"), "{text}");
+    assert!(!text.contains("shear"), "{text}");
+    let single = characterize(&read(&straight(0, &[100.0]), &sized), &Settings::default()).unwrap();
+    assert_eq!(measured_toml(&single, "ibr"), None);
 }
 
 /// The digitised curves of Cao et al. 2008 may not be passed on with this program; where a copy lies in a folder

@@ -28,6 +28,41 @@ pub fn fabric_toml(found: &Characterized, settings: &Settings, program: &str) ->
     Some(text)
 }
 
+/// `[measured]` tables for the `about.toml` of a robot made of this fabric, from numbers of two specimens or more; none without any.
+///
+/// The standard deviation is that of one more piece, s √(1 + 1/n), as the robot is one: a mean of many specimens says little of it.
+pub fn measured_toml(found: &Characterized, program: &str) -> Option<String> {
+    let one_more = |key: &str| {
+        let scatter = found.quantity(key)?.scatter;
+        let sd = scatter.sd? * (1.0 + 1.0 / scatter.n as f64).sqrt();
+        // A dataset accepts nothing better than a thousandth.
+        (scatter.mean > 0.0).then(|| [scatter.mean, sd.max(2e-3 * scatter.mean)])
+    };
+    let line =
+        |key: &str, [mean, sd]: [f64; 2], note: &str| format!("{key} = [{}, {}]{note}\n", digits(mean), digits(sd));
+    let compliance = |key: &str, along: &str| {
+        let (thickness, [e, sd]) = (found.thickness_m?, one_more(key)?);
+        let c = 1.0 / (1e6 * e * thickness);
+        Some(line("compliance_m_per_n", [c, c * sd / e], &format!("   # {along} along the robot, one layer")))
+    };
+    let angle = one_more("locking").map(|pair| pair.map(f64::to_radians));
+    let tables = [
+        ("fabric_stretch", compliance("e0", "warp").or_else(|| compliance("e90", "fill"))),
+        ("shear_stiffness", one_more("gt").map(|pair| line("shear_n_per_m", pair, ""))),
+        ("shear_lock", angle.map(|pair| line("lock_rad", pair, "   # where two straight lines meet"))),
+    ];
+    let tables: Vec<String> =
+        tables.into_iter().filter_map(|(name, text)| Some(format!("\n[measured.{name}]\n{}", text?))).collect();
+    (!tables.is_empty()).then(|| {
+        format!(
+            "# Made by {program} characterize ({}), for the about.toml of a robot whose actuator is of this fabric: value and\n\
+             # standard deviation of one more piece. Keep what its actuator knows (ibr list effects).\n{}",
+            found.provenance.word(),
+            tables.concat()
+        )
+    })
+}
+
 /// A bare key, or one in quotation marks.
 fn quoted(name: &str) -> String {
     let bare = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';

@@ -2,7 +2,7 @@
 
 use super::basis::{Basis, cosine};
 use super::candidates::{Candidate, candidates, hold, present};
-use super::known::known;
+use super::known::{Known, bound, known};
 use super::least_squares::square;
 use super::options::Options;
 use super::problem::{Block, Fit, Problem, Readings};
@@ -119,7 +119,7 @@ impl<'a> Case<'a> {
     ) -> Result<Case<'a>, CompareError> {
         let Source { scenario, dataset, direct, gauge, .. } = sources[0];
         let known_bending = sources.iter().find_map(|source| source.bending_nm2);
-        let known = known(sources.iter().flat_map(|source| source.measured), candidates, sources[0].as_given())?;
+        let mut known = known(sources.iter().flat_map(|source| source.measured), candidates, sources[0].as_given())?;
         for source in sources {
             Layout::of(source.dataset)?;
         }
@@ -129,20 +129,22 @@ impl<'a> Case<'a> {
         let values: Vec<f64> = candidates[..own].iter().flat_map(|c| own_values(sources[0].as_given(), c)).collect();
         let slopes = sources.iter().map(|s| Ok(predict_dataset(s.scenario, s.dataset)?.d_ln_pressure_m));
         let slopes: Vec<Vec<f64>> = slopes.collect::<Result<_, CompareError>>()?;
-        let fit = |slopes: &[Vec<f64>]| -> Result<(Vec<NoiseModel>, Problem<'a>, Fit), CompareError> {
+        let fit = |slopes: &[Vec<f64>], known: &[Known]| -> Result<(Vec<NoiseModel>, Problem<'a>, Fit), CompareError> {
             let (mut noises, mut blocks) = (Vec::new(), Vec::new());
             for (i, source) in sources.iter().enumerate() {
                 let noise = noise(i, &slopes[i])?;
                 blocks.push(whole_block(source, source.dataset.mean_over_runs(), &noise, &body_pa)?);
                 noises.push(noise);
             }
-            let problem = Problem { candidates, blocks, bendings, known_bending, known: known.clone(), enough: ENOUGH };
+            let problem =
+                Problem { candidates, blocks, bendings, known_bending, known: known.to_vec(), enough: ENOUGH };
             let base = problem.fit_base(&always, &values).ok_or_else(no_base)?;
             Ok((noises, problem, base))
         };
-        let (_, problem, base) = fit(&slopes)?;
+        let (_, problem, base) = fit(&slopes, &known)?;
+        bound(&problem, &base, &mut known);
         let slopes: Result<Vec<_>, _> = problem.blocks.iter().map(|block| derivative(&problem, block, &base)).collect();
-        let (mut noises, problem, base) = fit(&slopes?)?;
+        let (mut noises, problem, base) = fit(&slopes?, &known)?;
         let noise = noises.remove(0);
         let beside = sources[1..].iter().zip(noises).map(|(source, noise)| Beside { source: *source, noise }).collect();
         let d_max_m = Comparison::new(dataset, &noise, &dataset.mean_over_runs())?.d_max_m;
@@ -197,7 +199,15 @@ impl<'a> Case<'a> {
     /// The first data.
     pub fn source(&self) -> Source<'a> {
         let Case { scenario, dataset, direct, gauge, .. } = *self;
-        Source { scenario, dataset, direct, gauge, rolled: false, bending_nm2: self.problem.known_bending, measured: &[] }
+        Source {
+            scenario,
+            dataset,
+            direct,
+            gauge,
+            rolled: false,
+            bending_nm2: self.problem.known_bending,
+            measured: &[],
+        }
     }
 
     /// Blocks of the data beside the first.
@@ -240,11 +250,20 @@ impl<'a> Case<'a> {
     /// Error beyond noise that no scatter between runs explains \[mm\]: from the whitened sum of squares, whose expectation
     /// under noise is its degrees of freedom. Pressure, alignment and rotation of a run do not count.
     pub fn beyond_noise_mm(&self, fit: &Fit) -> f64 {
-        // What tests of their own found is no error in mm.
         let seen = fit.minimum.residual.len() - self.problem.known.len();
-        let cost = fit.cost() - square(&fit.minimum.residual[seen..]);
-        let dof = seen.saturating_sub(fit.theta().len()).max(1) as f64;
+        let (cost, dof) = (self.seen_cost(fit), seen.saturating_sub(fit.theta().len()).max(1) as f64);
         1e3 * self.noise.unit_m() * (cost / dof - 1.0).max(0.0).sqrt()
+    }
+
+    /// Whitened sum of squares without what tests of their own found of effects, which no marker shows.
+    fn seen_cost(&self, fit: &Fit) -> f64 {
+        let residual = &fit.minimum.residual;
+        fit.cost() - square(&residual[residual.len() - self.problem.known.len()..])
+    }
+
+    /// Fall of the sum of squares that the markers show against the calibrated base.
+    pub fn seen_gain(&self, fit: &Fit) -> f64 {
+        (self.seen_cost(&self.base) - self.seen_cost(fit)).max(0.0)
     }
 
     /// Fall of the whitened sum of squares against the calibrated base.

@@ -216,7 +216,7 @@ fn test(case: &Case, fit: &Fit) -> Result<Option<LackOfFit>, CompareError> {
 }
 
 fn p_of(case: &Case, fit: &Fit) -> Option<f64> {
-    case.p_of_gain(case.gain(fit), case.extra(fit), case.tests)
+    case.p_of_gain(case.seen_gain(fit), case.extra(fit), case.tests)
 }
 
 /// Weighted Bonferroni over the two kinds of tests.

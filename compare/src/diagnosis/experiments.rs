@@ -1,7 +1,7 @@
 //! Experiments that may be proposed, for any robot: its own pressures scaled, not ours.
 
-use crate::comparison::ZERO_PRESSURE_PA;
 use super::known::BenchTest;
+use crate::comparison::ZERO_PRESSURE_PA;
 use data::{Dataset, Direct, Hold, Phase};
 use models::Scenario;
 

@@ -1,9 +1,13 @@
 //! Quantities that were measured by themselves: parameters of effects, from a test of their own.
 //!
-//! A parameter p that a test found to be m ± s is one more value that every hypothesis has to meet, `(p − m)/s`: one with the
-//! effect by its own p, one without it by the value at which the effect vanishes.
+//! A parameter p that a test found to be m ± s is one more value that every hypothesis has to meet: `(p − m)/s` where it has the
+//! effect. One without it lacks what is known to be there: it pays `(p₀ − m)/s` with the value p₀ at which the effect vanishes, but no
+//! more than |W Δf|, what the effect of that size changes at the markers. A weave that locks beyond the muscle's stroke changes nothing.
 
 use super::candidates::Candidate;
+use super::least_squares::square;
+use super::problem::{Fit, Problem};
+use super::screen::starts;
 use crate::error::CompareError;
 use data::MeasuredValue;
 use models::Scenario;
@@ -19,6 +23,8 @@ pub struct Known {
     pub value: f64,
     /// Its standard deviation.
     pub sd: f64,
+    /// What a hypothesis without the effect differs from it by, in standard deviations.
+    pub lacking: f64,
 }
 
 /// A test without the robot moving, and what it measures.
@@ -36,7 +42,7 @@ pub struct BenchTest {
 pub const BENCH_TESTS: [BenchTest; 2] = [
     BenchTest {
         name: "fabric test",
-        sentence: "with strips of the actuator's fabric pulled along the body and at 45° to the yarns",
+        sentence: "with strips of the actuator's fabric pulled along the body and at 45° to the yarns (ibr characterize makes [measured] of about.toml)",
         parameters: &[
             ("fabric_stretch", "compliance_m_per_n"),
             ("shear_stiffness", "shear_n_per_m"),
@@ -45,7 +51,7 @@ pub const BENCH_TESTS: [BenchTest; 2] = [
     },
     BenchTest {
         name: "scale",
-        sentence: "with the robot weighed, its weight written as [measured.gravity]",
+        sentence: "with the robot weighed (into [measured.gravity] of about.toml)",
         parameters: &[("gravity", "weight_n_per_m")],
     },
 ];
@@ -56,19 +62,48 @@ pub const BENCH_TEST: f64 = 0.1;
 impl Known {
     /// Difference of a hypothesis to it, in standard deviations; `values` are those of its effects, one after the other.
     pub fn residual(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> f64 {
-        (self.of(candidates, effects, values) - self.value) / self.sd
+        self.of(candidates, effects, values).map_or(self.lacking, |value| (value - self.value) / self.sd)
     }
 
-    /// The parameter as a hypothesis has it.
-    pub fn of(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> f64 {
+    /// The parameter as a hypothesis has it; `None` without the effect.
+    pub fn of(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Option<f64> {
         let mut from = 0;
         for effect in effects {
             if *effect == self.effect {
-                return values[from + self.parameter];
+                return Some(values[from + self.parameter]);
             }
             from += candidates[*effect].parameters.len();
         }
-        candidates[self.effect].parameters[self.parameter].neutral
+        None
+    }
+
+    /// The same with another value.
+    pub fn at(self, candidates: &[Candidate], value: f64, sd: f64) -> Known {
+        let neutral = candidates[self.effect].parameters[self.parameter].neutral;
+        Known { value, sd, lacking: (neutral - value) / sd, ..self }
+    }
+}
+
+/// Bounds what lacking an effect costs by what it changes at the markers where the robot is fitted with it: with the base alone, whose
+/// stiffness has taken its place, it might not act at all.
+pub fn bound(problem: &Problem, base: &Fit, known: &mut [Known]) {
+    for i in 0..known.len() {
+        let effect = known[i].effect;
+        if base.effects.contains(&effect) {
+            continue;
+        }
+        let mut values = problem.candidates[effect].at(1.0);
+        known.iter().filter(|k| k.effect == effect).for_each(|k| values[k.parameter] = k.value);
+        let effects: Vec<usize> = base.effects.iter().copied().chain([effect]).collect();
+        let measured: Vec<f64> = base.theta().iter().copied().chain(values).collect();
+        let starts = [vec![measured], starts(problem, base, effect, true)].concat();
+        let Some(with) = problem.fit(&effects, &starts) else { continue };
+        let own = with.theta().len() - problem.candidates[effect].parameters.len();
+        let Some(without) = problem.residuals(&base.effects, &with.theta()[..own]) else { continue };
+        let seen = without.len() - problem.known.len();
+        let change: Vec<f64> = with.minimum.residual.iter().zip(&without).take(seen).map(|(a, b)| a - b).collect();
+        let most = square(&change).sqrt();
+        known[i].lacking = known[i].lacking.clamp(-most, most);
     }
 }
 
@@ -95,7 +130,8 @@ pub fn known<'m>(
         // Of two tests of one quantity the first stands.
         if all.iter().all(|k| (k.effect, k.parameter) != (effect, parameter)) {
             let si = candidates[effect].parameters[parameter].si;
-            all.push(Known { effect, parameter, value: m.value * si, sd: m.sd * si });
+            let unknown = Known { effect, parameter, value: 0.0, sd: 1.0, lacking: 0.0 };
+            all.push(unknown.at(candidates, m.value * si, m.sd * si));
         }
     }
     Ok(all)
@@ -116,5 +152,8 @@ fn exists(scenario: &Scenario, m: &MeasuredValue) -> Result<(), CompareError> {
         return Ok(());
     }
     let known: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
-    Err(CompareError::UnknownMeasured { what: format!("parameter `{}` of {}", m.key, m.effect), known: known.join(", ") })
+    Err(CompareError::UnknownMeasured {
+        what: format!("parameter `{}` of {}", m.key, m.effect),
+        known: known.join(", "),
+    })
 }

@@ -65,9 +65,27 @@ fn bending_test(case: &Case) -> Option<String> {
     })
 }
 
+/// Effects of the catalogue that a test of its own found and the scenario lacks.
+fn tests_of_their_own(case: &Case) -> Vec<String> {
+    let found = case.problem.known.iter().filter(|known| !case.always.contains(&known.effect));
+    let told = found.filter_map(|known| {
+        let effect = case.candidate(known.effect);
+        let p = &effect.parameters[known.parameter];
+        (known.lacking.abs() > DISAGREE).then(|| {
+            let [value, sd] = [known.value, known.sd].map(|v| super::words::value(v / p.si));
+            format!(
+                "about.toml says that {} was measured: {} = {value} ± {sd} {}, and the scenario lacks it; whether the markers \
+                 show it is a question of its own",
+                effect.name, p.symbol, p.unit
+            )
+        })
+    });
+    told.collect()
+}
+
 /// Cautions about the base.
 pub fn warnings(case: &Case) -> Vec<String> {
-    let mut warnings: Vec<String> = bending_test(case).into_iter().collect();
+    let mut warnings: Vec<String> = bending_test(case).into_iter().chain(tests_of_their_own(case)).collect();
     let target = &case.problem.blocks[0].target_m;
     let moved = |values: &[f64]| -> f64 {
         let y = values.iter().skip(1).step_by(2).map(|y| y * y).sum::<f64>();

@@ -28,9 +28,9 @@ mod fitted;
 mod gauge_tests;
 mod heldout;
 mod interval;
+mod known;
 mod lack_of_fit;
 mod least_squares;
-mod known;
 mod limits;
 mod next;
 mod options;
@@ -55,9 +55,9 @@ mod words;
 
 pub use candidates::{Candidate, Free, candidates};
 pub use distance::{Distances, KnownNoise, distances, power};
-pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
 pub use experiments::{BENDING_TEST, BENDING_TEST_NAME};
 pub use fitted::{FittedBeside, GaugeFit, with_fitted};
+pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
 pub use options::Options;
 pub use result::*;
 

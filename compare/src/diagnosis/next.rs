@@ -175,16 +175,14 @@ fn expected_tests(case: &Case, plan: Option<&Plan>, truth: &Fit) -> Vec<Known> {
     let candidates = case.problem.candidates;
     let at_hand = case.problem.known.iter().copied();
     let planned = plan.into_iter().flat_map(|plan| &plan.tests).flat_map(|test| parameters_of(test, candidates));
-    let planned = planned.map(|(effect, parameter)| Known { effect, parameter, value: 0.0, sd: f64::NAN });
-    let mut all: Vec<Known> = at_hand.chain(planned).collect();
-    for known in &mut all {
-        known.value = known.of(candidates, &truth.effects, values);
-        if known.sd.is_nan() {
-            let typical = candidates[known.effect].parameters[known.parameter].typical;
-            known.sd = BENCH_TEST * known.value.abs().max(typical.abs());
-        }
-    }
-    all
+    let planned = planned.map(|(effect, parameter)| Known { effect, parameter, value: 0.0, sd: 0.0, lacking: 0.0 });
+    let expected = |known: Known| {
+        let p = &candidates[known.effect].parameters[known.parameter];
+        let value = known.of(candidates, &truth.effects, values).unwrap_or(p.neutral);
+        let sd = if known.sd > 0.0 { known.sd } else { BENCH_TEST * value.abs().max(p.typical.abs()) };
+        known.at(candidates, value, sd)
+    };
+    at_hand.chain(planned).map(expected).collect()
 }
 
 /// Parameters with the stiffness of a new body pressure, the same as at the first.

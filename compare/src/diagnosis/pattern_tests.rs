@@ -18,7 +18,15 @@ fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
 /// What the calibrated base leaves: a place, a time.
 fn left_by_base(scenario: &Scenario, data: &Dataset) -> [StandsOut; 2] {
     let options = Options::default();
-    let source = Source { scenario, dataset: data, direct: Direct::default(), gauge: None, rolled: false, bending_nm2: None, measured: &[] };
+    let source = Source {
+        scenario,
+        dataset: data,
+        direct: Direct::default(),
+        gauge: None,
+        rolled: false,
+        bending_nm2: None,
+        measured: &[],
+    };
     let (candidates, own) = catalogue(&[source], &options);
     let case = Case::new(&[source], &[Vec::new()], (&candidates, own), &options).unwrap();
     stands_out(&case, &case.base).try_into().unwrap()

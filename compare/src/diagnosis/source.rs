@@ -19,7 +19,8 @@ pub fn seen_rolled(scenario: &Scenario) -> Scenario {
     let mut seen = scenario.clone();
     for effect in &mut seen.effects {
         let parameters = models::effects::by_name(&effect.name).map_or(&[][..], |entry| entry.parameters);
-        let fixed = parameters.iter().zip(&mut effect.values).filter(|(p, _)| is_fixed_to_the_room(&effect.name, p.key));
+        let fixed =
+            parameters.iter().zip(&mut effect.values).filter(|(p, _)| is_fixed_to_the_room(&effect.name, p.key));
         fixed.for_each(|(_, value)| *value = -*value);
     }
     seen

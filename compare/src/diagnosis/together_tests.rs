@@ -84,6 +84,98 @@ fn a_bending_test_is_one_more_value_of_the_fit() {
     assert!(both(&other) && !both(&first));
 }
 
+fn of(effect: &str, key: &str, value: f64, sd: f64) -> MeasuredValue {
+    MeasuredValue { effect: effect.into(), key: key.into(), value, sd }
+}
+
+/// As of a bending test: 1/h² of a fitted parameter with the test is the sum of both.
+#[test]
+fn a_parameter_measured_by_itself_is_one_more_value_of_the_fit() {
+    let plain = robot("spam");
+    let data = measured(&plain.with_effect("fabric_stretch", &[8e-5]), 5, 381);
+    let found = |d: &Diagnosis| {
+        let r = d.ranked.iter().find(|r| r.effect == "fabric_stretch").unwrap();
+        [r.value, 0.5 * (r.hi.unwrap() - r.lo.unwrap())]
+    };
+    let [value, half] = found(&run(&plain, &data));
+    let sd = 0.5 * half;
+    let about =
+        About { measured: vec![of("fabric_stretch", "compliance_m_per_n", value, sd)], ..about(Direct::default()) };
+    let d = diagnose(&plain, &data, Some(&about), &quick()).unwrap();
+    let expected = (half.powi(-2) + (1.96 * sd).powi(-2)).powf(-0.5);
+    assert!((found(&d)[1] / expected - 1.0).abs() < 0.15, "{:?} {expected} of {half}", found(&d));
+    assert!((found(&d)[0] - value).abs() < 0.1 * sd);
+    assert!(d.warnings.iter().any(|w| w.contains("fabric_stretch was measured")), "{:?}", d.warnings);
+}
+
+#[test]
+fn a_test_that_finds_nothing_takes_an_effect_out_of_the_set_and_one_that_no_marker_shows_gives_no_alarm() {
+    let plain = robot("spam");
+    let data = measured(&plain.with_effect("end_constraint", &[0.446, 1.0]), 5, 383);
+    let alone = run(&plain, &data);
+    assert!(alone.indistinguishable.iter().any(|n| n == "fabric_stretch"), "{:?}", alone.indistinguishable);
+    let tested = |m: MeasuredValue| About { measured: vec![m], ..about(Direct::default()) };
+    let none = tested(of("fabric_stretch", "compliance_m_per_n", 0.0, 5e-6));
+    let d = diagnose(&plain, &data, Some(&none), &quick()).unwrap();
+    assert!(d.indistinguishable.iter().all(|n| n != "fabric_stretch"), "{:?}", d.indistinguishable);
+    assert!(d.indistinguishable.iter().any(|n| n == "end_constraint"), "{:?}", d.indistinguishable);
+    // A hundredth of what these markers can show, to 1 %, is lacked at no cost; ten times as much is said, and is no alarm of theirs.
+    for (weight, told) in [(0.02, false), (20.0, true)] {
+        let weighed = tested(of("gravity", "weight_n_per_m", weight, 0.01 * weight));
+        let quiet = diagnose(&plain, &measured(&plain, 5, 384), Some(&weighed), &quick()).unwrap();
+        assert_eq!(quiet.verdict, Some(Verdict::None), "{weight} {:?}", quiet.indistinguishable);
+        assert_eq!(quiet.warnings.iter().any(|w| w.contains("gravity was measured")), told, "{:?}", quiet.warnings);
+        let others = |d: &Diagnosis| d.ranked.iter().find(|r| r.effect == "creep").unwrap().gain;
+        let plainly = run(&plain, &measured(&plain, 5, 384));
+        assert!((others(&quiet) - others(&plainly)).abs() < 1e-6, "{} {}", others(&quiet), others(&plainly));
+    }
+}
+
+#[test]
+fn a_measured_parameter_that_no_effect_has_is_refused_with_those_that_exist() {
+    let plain = robot("epam");
+    let data = measured(&plain, 3, 385);
+    for (m, word) in [
+        (of("gravitation", "weight_n_per_m", 1.0, 0.1), "gravity, "),
+        (of("gravity", "weight_kg", 1.0, 0.1), "weight_n_per_m"),
+        (of("shear_stiffness", "shear", 1.0, 0.1), "shear_n_per_m"),
+    ] {
+        let about = About { measured: vec![m], ..about(Direct::default()) };
+        let refused = diagnose(&plain, &data, Some(&about), &quick()).unwrap_err().to_string();
+        assert!(refused.contains("[measured]") && refused.contains(word), "{refused}");
+    }
+    // One of another actuator's is there, and of no use.
+    let other = About { measured: vec![of("shear_stiffness", "shear_n_per_m", 0.0, 5.0)], ..about(Direct::default()) };
+    let gains = |d: &Diagnosis| d.ranked.iter().map(|r| r.gain).collect::<Vec<_>>();
+    assert_eq!(gains(&diagnose(&plain, &data, Some(&other), &quick()).unwrap()), gains(&run(&plain, &data)));
+}
+
+/// Rolled by 180° a robot sees what stays in the room with the other sign, and what it carries with the same.
+#[test]
+fn a_rolled_robot_parts_what_pulls_from_outside_from_what_it_carries() {
+    let plain = robot("cpam");
+    let upright = About { gravity_direction: Some([0.0, -1.0]), ..about(Direct::default()) };
+    let rolled = About { gravity_direction: Some([0.0, 1.0]), ..upright.clone() };
+    let both = |scenario: &Scenario, made: [Scenario; 2]| {
+        let [first, second] = [measured(&made[0], 5, 391), measured(&made[1], 5, 392)];
+        let further = [Measured { dataset: &second, about: Some(&rolled) }];
+        diagnose_together(scenario, Measured { dataset: &first, about: Some(&upright) }, &further, &quick()).unwrap()
+    };
+    let pulled = |force: f64| plain.with_effect("tip_load", &[0.0, force]);
+    let bent = plain.with_effect("initial_curvature", &[0.5]);
+    let cases = [("tip_load", [pulled(-0.4), pulled(0.4)]), ("initial_curvature", [bent.clone(), bent])];
+    for (name, made) in cases {
+        let d = both(&plain, made);
+        assert_eq!(d.verdict, Some(Verdict::Effect));
+        assert!(d.indistinguishable.iter().any(|n| n == name), "{:?}", d.indistinguishable);
+        let other = if name == "tip_load" { "initial_curvature" } else { "tip_load" };
+        assert!(d.indistinguishable.iter().all(|n| n != other), "{:?}", d.indistinguishable);
+    }
+    // The scenario's own force turns too.
+    let d = both(&pulled(-0.4), [pulled(-0.4), pulled(0.4)]);
+    assert_eq!(d.verdict, Some(Verdict::None), "{:?}", d.indistinguishable);
+}
+
 #[test]
 fn two_halves_together_say_what_the_whole_says() {
     let plain = robot("spam");

@@ -24,6 +24,11 @@ pressure = true
 [bending]
 stiffness_nm2 = 1.35
 sd_nm2 = 0.15
+[measured.gravity]
+weight_n_per_m = [1.5, 0.1]
+[measured.shear_lock]
+lock_rad = [0.3, 0.02]
+stiffness_n_per_m = [500, 50]
 [[run]]
 id = "1"
 tip_force_n = [0, 0.3]
@@ -49,6 +54,9 @@ fn a_full_description_is_read_in_si_units() {
     assert_eq!(about.direct, Direct { pressure: true, frame: false });
     assert_eq!(about.bending_nm2, Some([1.35, 0.15]));
     assert_eq!(about.runs[0].session.as_deref(), Some("monday"));
+    let measured: Vec<_> = about.measured.iter().map(|m| (m.effect.as_str(), m.key.as_str(), m.value, m.sd)).collect();
+    let lock = [("shear_lock", "lock_rad", 0.3, 0.02), ("shear_lock", "stiffness_n_per_m", 500.0, 50.0)];
+    assert_eq!(measured, [&[("gravity", "weight_n_per_m", 1.5, 0.1)], &lock[..]].concat());
 }
 
 #[test]
@@ -79,6 +87,9 @@ fn each_wrong_value_is_shown_at_its_place() {
         ("stiffness_nm2 = 1.35", "stiffness_nm2 = -1.35", "stiffness_nm2: must not be negative"),
         ("sd_nm2 = 0.15", "sd_nm2 = 0", "sd_nm2: must be above a thousandth"),
         ("sd_nm2 = 0.15\n", "", "missing field `sd_nm2`"),
+        ("[1.5, 0.1]", "[1.5, 0]", "weight_n_per_m: needs a finite value and a standard deviation"),
+        ("[1.5, 0.1]", "[nan, 0.1]", "weight_n_per_m: needs a finite value"),
+        ("[1.5, 0.1]", "1.5", "expected an array of length 2"),
         ("[0, 0.3]", "[0, inf]", "tip_force_n: must be two finite numbers"),
         ("id = \"2\"", "id = \"1\"", "id: this run is there twice"),
     ];

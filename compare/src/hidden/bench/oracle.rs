@@ -113,9 +113,8 @@ fn pair_misfit([aa, ab, bb]: [f64; 3], [ay, by]: [f64; 2]) -> f64 {
         return value(s, t);
     }
     // Convex: otherwise the least is on a side.
-    let sides = [low, high].into_iter().flat_map(|v| {
-        [value(v, best(bb, by - v * ab)), value(best(aa, ay - v * ab), v)]
-    });
+    let sides =
+        [low, high].into_iter().flat_map(|v| [value(v, best(bb, by - v * ab)), value(best(aa, ay - v * ab), v)]);
     sides.fold(f64::INFINITY, f64::min)
 }
 
