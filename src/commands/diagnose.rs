@@ -217,11 +217,11 @@ fn experiments(d: &Diagnosis) -> String {
     let Some(next) = &d.next_experiment else { return String::new() };
     let lambda = |e: &Experiment| -> Vec<String> { e.separations.iter().map(|s| format!("{:.1}", s.lambda)).collect() };
     let now = next.now.iter().map(|s| format!("{:.1}", s.lambda));
-    let mut rows = vec![["data at hand".to_string(), String::new()].into_iter().chain(now).collect::<Vec<_>>()];
+    let mut rows = vec![["data at hand".to_string(), "–".to_string()].into_iter().chain(now).collect::<Vec<_>>()];
     rows.extend(
         next.tried
             .iter()
-            .map(|e| [e.name.clone(), e.protocol.clone()].into_iter().chain(lambda(e)).collect::<Vec<_>>()),
+            .map(|e| [e.name.clone(), e.shown_protocol().to_string()].into_iter().chain(lambda(e)).collect::<Vec<_>>()),
     );
     let mut head = vec!["experiment".to_string(), "protocol [kPa]".to_string()];
     head.extend(next.now.iter().map(|s| s.rival.clone()));

@@ -59,7 +59,7 @@ fn a_quantity_measured_by_itself_is_read_and_one_that_no_effect_has_is_refused()
     std::fs::create_dir(folder.path("set")).unwrap();
     folder.write("set/markers.csv", data::set_file("synthetic-epam", "markers.csv").unwrap());
     let about = data::set_file("synthetic-epam", "about.toml").unwrap();
-    let mut answer = |line: &str| {
+    let answer = |line: &str| {
         folder.write("set/about.toml", format!("{about}\n[measured.{line}"));
         folder.run(&["diagnose", "epam", "set", "--json"])
     };

@@ -75,7 +75,19 @@ pub fn plans(scenario: &Scenario, dataset: &Dataset, at_hand: Direct, instrument
             ..plan
         }));
     }
+    plans.extend((!tests.is_empty()).then(|| alone(tests)));
     plans
+}
+
+/// Tests of their own and nothing else.
+fn alone(tests: Vec<&'static BenchTest>) -> Plan {
+    let all = |what: fn(&BenchTest) -> &'static str| tests.iter().map(|test| what(test)).collect::<Vec<_>>();
+    Plan {
+        name: all(|test| test.name).join(", "),
+        sentence: format!("measure without moving the robot: {}", all(|test| test.sentence).join("; ")),
+        parts: Vec::new(),
+        tests,
+    }
 }
 
 /// Short and long, what is measured directly, or by a test of its own, for the first time.
@@ -84,10 +96,10 @@ fn with_instruments(before: Direct, now: Direct, tests: &[&BenchTest]) -> (Strin
         .then_some(("gauge", "with a gauge read at the actuator itself (column p_gauge_kpa)"));
     let frame = (now.frame && !before.frame)
         .then_some(("frame", "with fiducials on the clamp and a checkerboard in the markers' plane"));
-    let tests = tests.iter().map(|test| (test.name, test.sentence));
-    let both: Vec<_> = [pressure, frame].into_iter().flatten().chain(tests).collect();
-    let join = |words: Vec<&str>, between| words.join(between);
-    (join(both.iter().map(|b| b.0).collect(), ", "), join(both.iter().map(|b| b.1).collect(), " and "))
+    let direct = [pressure, frame].into_iter().flatten().map(|(name, words)| (name, words.to_string()));
+    let tests = tests.iter().map(|test| (test.name, format!("with {}", test.sentence)));
+    let (names, words): (Vec<&str>, Vec<String>) = direct.chain(tests).unzip();
+    (names.join(", "), words.join(" and "))
 }
 
 /// Protocols and loads.

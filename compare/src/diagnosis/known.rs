@@ -32,7 +32,7 @@ pub struct Known {
 pub struct BenchTest {
     /// Short name.
     pub name: &'static str,
-    /// What to do.
+    /// What is looked at.
     pub sentence: &'static str,
     /// Effects and parameters.
     pub parameters: &'static [(&'static str, &'static str)],
@@ -42,7 +42,7 @@ pub struct BenchTest {
 pub const BENCH_TESTS: [BenchTest; 2] = [
     BenchTest {
         name: "fabric test",
-        sentence: "with strips of the actuator's fabric pulled along the body and at 45° to the yarns (ibr characterize makes [measured] of about.toml)",
+        sentence: "strips of the actuator's fabric, pulled along the body and at 45° to the yarns",
         parameters: &[
             ("fabric_stretch", "compliance_m_per_n"),
             ("shear_stiffness", "shear_n_per_m"),
@@ -51,7 +51,7 @@ pub const BENCH_TESTS: [BenchTest; 2] = [
     },
     BenchTest {
         name: "scale",
-        sentence: "with the robot weighed (into [measured.gravity] of about.toml)",
+        sentence: "the robot's weight on a scale",
         parameters: &[("gravity", "weight_n_per_m")],
     },
 ];

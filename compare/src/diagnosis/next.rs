@@ -148,7 +148,7 @@ impl<'a> Expected<'a> {
         let bendings = case.problem.bendings + added;
         let theta = extended(truth, case.problem.bendings, added);
         // As the hypothesis has it: what is expected of itself it meets.
-        let tested = plan.is_some_and(|plan| plan.parts.is_empty());
+        let tested = plan.is_some_and(|plan| plan.parts.is_empty() && plan.tests.is_empty());
         let sd_nm2 = |b: f64| case.problem.known_bending.map(|[_, sd]| sd).or(tested.then_some(BENDING_TEST * b));
         let known_bending = theta.first().and_then(|b| sd_nm2(*b).filter(|sd| *sd > 0.0).map(|sd| [*b, sd]));
         let Problem { candidates, .. } = case.problem;
@@ -237,6 +237,10 @@ fn planned<'a>(
     Ok(block)
 }
 
+/// Where the results of tests of their own go.
+const RESULTS: &str =
+    " What tests of their own find goes into [measured] of about.toml; ibr characterize writes it for a fabric.";
+
 fn sentence(best: &str, recommended: Option<&Experiment>) -> String {
     let Some(e) = recommended else {
         return format!(
@@ -247,10 +251,11 @@ fn sentence(best: &str, recommended: Option<&Experiment>) -> String {
     let rivals: Vec<String> = e.separations.iter().filter(|s| s.lambda >= WORTHLESS).map(|s| s.rival.clone()).collect();
     let runs = e.runs_needed.map_or(String::new(), |n| format!("; about {n} runs"));
     format!(
-        "Next: {}{}. It is expected to separate {best} from {} (λ = {:.0}, 16 suffices{runs}).",
+        "Next: {}{}. It is expected to separate {best} from {} (λ = {:.0}, 16 suffices{runs}).{}",
         e.sentence,
         if e.protocol.is_empty() { String::new() } else { format!(" ({})", e.protocol) },
         crate::wording::list(&rivals),
-        e.lambda
+        e.lambda,
+        if e.tests.is_empty() { "" } else { RESULTS }
     )
 }

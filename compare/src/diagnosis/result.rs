@@ -290,7 +290,7 @@ pub struct Experiment {
     pub name: String,
     /// What to do.
     pub sentence: String,
-    /// Protocol in the form of `ibr data generate --protocol`; empty of a bending test.
+    /// Protocol in the form of `ibr data generate --protocol`; empty of a test by itself.
     pub protocol: String,
     /// What is to be measured directly.
     pub direct: data::Direct,
@@ -304,6 +304,13 @@ pub struct Experiment {
     pub lambda: f64,
     /// Runs needed for λ = 16 there.
     pub runs_needed: Option<usize>,
+}
+
+impl Experiment {
+    /// The protocol for a table: a dash of a test by itself.
+    pub fn shown_protocol(&self) -> &str {
+        if self.protocol.is_empty() { "–" } else { &self.protocol }
+    }
 }
 
 /// Expected separation of two explanations after an experiment.

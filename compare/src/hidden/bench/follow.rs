@@ -1,6 +1,6 @@
 //! The recommended next experiment, done on the same robot.
 //!
-//! A bending test adds its result to the data at hand.
+//! A bending test, of the fabric or a scale by itself, adds its result to the data at hand.
 //!
 //! What can be recorded in one table (other pressures, another body pressure, longer holds) is measured after the first
 //! protocol in the same runs; "repeat" doubles the runs. A tip force, gravity turned over, a gauge read at the actuator beside
@@ -31,6 +31,10 @@ const LONG_HOLD_S: f64 = 60.0;
 pub(super) fn follow_up(truth: &Truth, experiment: &Experiment) -> Result<Vec<(Dataset, About)>, CompareError> {
     if experiment.name == BENDING_TEST_NAME {
         return Ok(vec![(truth.dataset("hidden", &standard_protocol())?, tested(truth)?)]);
+    }
+    if experiment.protocol.is_empty() {
+        let about = About { measured: bench_tests(truth, &experiment.tests)?, ..description(truth)? };
+        return Ok(vec![(truth.dataset("hidden", &standard_protocol())?, about)]);
     }
     // Its scatter is another one than that of the first data.
     let mut again = Truth { seed: truth.seed ^ 0x5EED, ..truth.clone() };

@@ -349,9 +349,11 @@ fn next_blocks(found: &Diagnosed) -> Vec<Block> {
         let cells = |separations: &[crate::diagnosis::Separation]| -> Vec<String> {
             separations.iter().map(|s| format!("{:.1}", s.lambda)).collect()
         };
-        let mut rows = vec![[vec!["data at hand".to_string(), String::new()], cells(&next.now)].concat()];
+        let mut rows = vec![[vec!["data at hand".to_string(), "–".to_string()], cells(&next.now)].concat()];
         rows.extend(
-            next.tried.iter().map(|e| [vec![e.name.clone(), e.protocol.clone()], cells(&e.separations)].concat()),
+            next.tried
+                .iter()
+                .map(|e| [vec![e.name.clone(), e.shown_protocol().to_string()], cells(&e.separations)].concat()),
         );
         let caption = format!("Expected separation λ of {} from its rivals; 16 suffices", next.best);
         blocks.push(Block::Table(Table { caption, columns, rows, how_column: None }));
