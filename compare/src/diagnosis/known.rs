@@ -39,7 +39,7 @@ pub struct BenchTest {
 }
 
 /// Tests that may be proposed.
-pub const BENCH_TESTS: [BenchTest; 2] = [
+pub const BENCH_TESTS: [BenchTest; 3] = [
     BenchTest {
         name: "fabric test",
         sentence: "strips of the actuator's fabric, pulled along the body and at 45° to the yarns",
@@ -53,6 +53,11 @@ pub const BENCH_TESTS: [BenchTest; 2] = [
         name: "scale",
         sentence: "the robot's weight on a scale",
         parameters: &[("gravity", "weight_n_per_m")],
+    },
+    BenchTest {
+        name: "caliper",
+        sentence: "the body's height at its middle by caliper, straight and fully bent",
+        parameters: &[("ovalization", "flattening_m2")],
     },
 ];
 

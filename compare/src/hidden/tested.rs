@@ -1,4 +1,4 @@
-//! What tests of their own find of a robot: strips of its fabric, a scale. They see the robot's laws, not the catalogue's.
+//! What tests of their own find of a robot: strips of its fabric, a scale, a caliper. They see the robot's laws, not the catalogue's.
 
 use super::Truth;
 use super::robot::Robot;
@@ -33,7 +33,7 @@ pub fn bench_tests(truth: &Truth, names: &[String]) -> Result<Vec<MeasuredValue>
             continue;
         };
         let found = found(&robot, effect).unwrap_or(parameter.neutral);
-        let sd = BENCH_TEST * found.abs().max(parameter.typical.abs());
+        let sd = BENCH_TEST * found.abs().max(parameter.typical_for(&truth.actuator).abs());
         let value = found + sd * scatter.normal();
         all.push(MeasuredValue { effect: (*effect).into(), key: (*key).into(), value, sd });
     }
@@ -51,6 +51,12 @@ fn found(robot: &Robot, effect: &str) -> Option<f64> {
             let jammed = steps.into_iter().find(|angle| drive.shear_load(*angle) > JAMMED_N_PER_M)?;
             let slope = (drive.shear_load(jammed) - drive.shear_load(jammed - STEP_RAD)) / STEP_RAD;
             Some(jammed - drive.shear_load(jammed) / slope)
+        }
+        "ovalization" => {
+            // D = D₀/(1 + o g²) with g = κD/D₀, read at the bend of full pressure.
+            let bent = robot.scale_per_m;
+            let left = robot.cells.iter().find(|cell| cell.drive.is_some())?.wall.arm_factor(bent).0;
+            Some((1.0 / left - 1.0) / (left * bent).powi(2))
         }
         "gravity" => {
             let weights = robot.loads.weight_n_per_m.iter().zip(&robot.cells);
@@ -78,6 +84,10 @@ mod tests {
         assert!((of("fabric_stretch", "fabric_stretch").unwrap() / wanted - 1.0).abs() < 1e-12);
         assert!((of("shear_stiffness", "shear_stiffness").unwrap() / 35.0 - 1.0).abs() < 0.03);
         assert!((of("gravity", "gravity").unwrap() / 1.5 - 1.0).abs() < 1e-12);
+        // Half of 0.25 of the arm are lost at the scale κ_c: D/D₀ = 0.875.
+        let bent = plain.robot().unwrap().scale_per_m;
+        let wanted = (1.0 / 0.875 - 1.0) / (0.875 * bent).powi(2);
+        assert!((of("ovalization", "ovalization").unwrap() / wanted - 1.0).abs() < 1e-12);
         // An exponential's tangent leads its length back from where it jams.
         let wanted = 0.22 + 0.035 * (5.0f64.ln() - 1.0);
         assert!((of("shear_lock", "shear_lock").unwrap() - wanted).abs() < 2e-3);
