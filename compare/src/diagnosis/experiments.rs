@@ -1,6 +1,7 @@
 //! Experiments that may be proposed, for any robot: its own pressures scaled, not ours.
 
 use super::known::BenchTest;
+use super::source::seen_rolled;
 use crate::comparison::ZERO_PRESSURE_PA;
 use data::{Dataset, Direct, Hold, Phase};
 use models::Scenario;
@@ -122,8 +123,8 @@ fn protocols(scenario: &Scenario, dataset: &Dataset, direct: Direct) -> Vec<Plan
     let one = |pressures: &[f64], body: f64, hold_s: f64| vec![part(scenario, pressures, body, hold_s)];
     let usual = hold_length_s(dataset);
     let [gravity_x, gravity_y] = scenario.gravity_direction;
-    let flipped = Scenario { gravity_direction: [gravity_x, -gravity_y], ..scenario.clone() };
-    let turned = vec![part(&flipped, &standard, body, usual)];
+    let rolled = Scenario { gravity_direction: [gravity_x, -gravity_y], ..seen_rolled(scenario) };
+    let turned = vec![part(&rolled, &standard, body, usual)];
     let tipped = [TIP_FORCE_N, -TIP_FORCE_N].map(|force| part(&tipped(scenario, force), &standard, body, usual)).into();
     let other_body = second_body(dataset, body);
     let plan = |name: &str, sentence: String, parts| Plan { name: name.into(), sentence, parts, tests: Vec::new() };
@@ -136,7 +137,12 @@ fn protocols(scenario: &Scenario, dataset: &Dataset, direct: Direct) -> Vec<Plan
         ),
         plan("up and down", "lower the pressure in the same steps as it was raised".into(), one(&up_down, body, usual)),
         plan("tip force", format!("repeat with ±{TIP_FORCE_N} N on the tip, across the body"), tipped),
-        plan("turned over", "repeat with the robot rolled by 180°, so that gravity, forces from outside and the camera's roll are reversed".into(), turned),
+        plan(
+            "turned over",
+            "repeat with the robot rolled by 180°: gravity, forces from outside and the camera's roll then act the other way"
+                .into(),
+            turned,
+        ),
         plan("long hold", format!("hold every pressure for {LONG_HOLD_S:.0} s"), one(&standard, body, LONG_HOLD_S)),
         plan("repeat", "repeat the same protocol as often again".into(), one(&standard, body, usual)),
     ]

@@ -134,6 +134,11 @@ pub fn diagnose_together(
                 "{name} says something else of [bending] in about.toml than data before it, which stands"
             ));
         }
+        if let Some(other) = parts.iter().find_map(|known: &Part| contradicted(&known.measured, &part.measured)) {
+            warnings.push(format!(
+                "{name} says something else of [measured.{other}] in about.toml than data before it, which stands"
+            ));
+        }
         let of = if i > 0 { format!("{name}: ") } else { String::new() };
         warnings.extend(told.into_iter().map(|warning| format!("{of}{warning}")));
         parts.push(part);
@@ -163,6 +168,12 @@ pub fn diagnose_together(
     }
     diagnosis.summary = story::story(&diagnosis);
     Ok(diagnosis)
+}
+
+/// An effect of which two descriptions measure the same parameter, and not the same.
+fn contradicted<'m>(before: &[MeasuredValue], now: &'m [MeasuredValue]) -> Option<&'m str> {
+    let same = |a: &MeasuredValue, b: &MeasuredValue| (&a.effect, &a.key) == (&b.effect, &b.key);
+    now.iter().find(|m| before.iter().any(|k| same(k, m) && k != *m)).map(|m| m.effect.as_str())
 }
 
 /// One of the data made ready.

@@ -132,6 +132,20 @@ fn a_test_that_finds_nothing_takes_an_effect_out_of_the_set_and_one_that_no_mark
 }
 
 #[test]
+fn of_two_tests_of_one_quantity_that_contradict_each_other_the_first_stands_and_it_is_said() {
+    let plain = robot("epam");
+    let (data, more) = (measured(&plain, 3, 386), measured(&plain, 3, 387));
+    let weighed = |weight: f64| About { measured: vec![of("gravity", "weight_n_per_m", weight, 0.1)], ..about(GAUGE) };
+    let (first, other) = (weighed(1.0), weighed(2.0));
+    for (second, told) in [(&other, true), (&first, false)] {
+        let further = [Measured { dataset: &more, about: Some(second) }];
+        let d =
+            diagnose_together(&plain, Measured { dataset: &data, about: Some(&first) }, &further, &quick()).unwrap();
+        assert_eq!(d.warnings.iter().any(|w| w.contains("something else of [measured.gravity]")), told);
+    }
+}
+
+#[test]
 fn a_measured_parameter_that_no_effect_has_is_refused_with_those_that_exist() {
     let plain = robot("epam");
     let data = measured(&plain, 3, 385);
