@@ -1,28 +1,26 @@
 //! A scenario and its datasets made ready for hypotheses: noise, calibrated base, catalogue.
 
 use super::basis::{Basis, cosine};
+use super::blocks::{body_pressures, fitted_scenarios, whole_block};
 use super::candidates::{Candidate, candidates, hold, present};
 use super::known::{Known, bound, known};
 use super::least_squares::square;
 use super::options::Options;
-use super::problem::{Block, Fit, Problem, Readings};
+use super::problem::{Block, Fit, Problem};
 use super::screen::trace;
 use super::source::Source;
 use crate::comparison::Comparison;
 use crate::error::CompareError;
 use crate::evaluate::default_tolerance_m;
 use crate::gauge::Gauge;
-use crate::layout::{Layout, Weights};
+use crate::layout::Layout;
 use crate::noise::{NoiseModel, RUNS_FOR_P};
 use crate::stats::f_tail;
 use crate::study::predict_dataset;
 use data::{Dataset, Direct};
 use models::Scenario;
 use nalgebra::{DMatrix, SymmetricEigen};
-use std::borrow::Cow;
 
-/// Body pressures within this fraction share a bending stiffness.
-const SAME_BODY_PRESSURE: f64 = 0.05;
 /// Fits end when a round lowers the whitened sum of squares by less.
 const ENOUGH: f64 = 1e-4;
 /// Rounds of the eigenvalue iteration; a handful suffice.
@@ -309,73 +307,6 @@ fn error_mm(prediction_m: &[f64], mean_m: &[f64], noise: &NoiseModel) -> f64 {
     let squares = prediction_m.iter().zip(mean_m).map(|(f, y)| (f - y).powi(2)).sum::<f64>() / mean_m.len() as f64;
     let expected = noise.mean_square(0..mean_m.len()).unwrap_or(0.0);
     1e3 * (squares - expected).max(0.0).sqrt()
-}
-
-/// The block of all holds of a dataset.
-///
-/// # Errors
-/// If the covariance cannot be decomposed.
-pub fn whole_block<'a>(
-    source: &Source<'a>,
-    target_m: Vec<f64>,
-    noise: &NoiseModel,
-    body_pa: &[f64],
-) -> Result<Block<'a>, CompareError> {
-    let all: Vec<usize> = (0..source.dataset.holds.len()).collect();
-    block(source, &all, target_m, noise, body_pa)
-}
-
-/// The block of a dataset's mean, or of another target at its holds.
-///
-/// # Errors
-/// If the covariance cannot be decomposed.
-pub fn block<'a>(
-    source: &Source<'a>,
-    holds: &[usize],
-    target_m: Vec<f64>,
-    noise: &NoiseModel,
-    body_pa: &[f64],
-) -> Result<Block<'a>, CompareError> {
-    let Source { scenario, dataset, direct, gauge, rolled, .. } = *source;
-    let width = dataset.values_per_run() / dataset.holds.len();
-    let each: Vec<Weights> = holds.iter().flat_map(|h| h * width..(h + 1) * width).map(|i| vec![(i, 1.0)]).collect();
-    Ok(Block {
-        scenario: scenario.clone(),
-        dataset: Cow::Borrowed(dataset),
-        direct,
-        rolled,
-        holds: holds.to_vec(),
-        bending_of: dataset.holds.iter().map(|h| nearest(body_pa, h.p_body_pa)).collect(),
-        target_m,
-        whitener: noise.whitener_of(&each)?,
-        gauge: gauge.map(|gauge| Readings::of(gauge.clone())).transpose()?,
-    })
-}
-
-/// Distinct body pressures in order of appearance \[Pa\].
-pub fn body_pressures<'d>(datasets: impl IntoIterator<Item = &'d Dataset>) -> Vec<f64> {
-    let mut levels: Vec<f64> = Vec::new();
-    for hold in datasets.into_iter().flat_map(|dataset| &dataset.holds) {
-        let p = hold.p_body_pa;
-        if !levels.iter().any(|l| (l - p).abs() <= SAME_BODY_PRESSURE * l.abs().max(100.0)) {
-            levels.push(p);
-        }
-    }
-    levels
-}
-
-/// Index of the nearest level.
-pub fn nearest(levels: &[f64], p: f64) -> usize {
-    (0..levels.len()).min_by(|a, b| (levels[*a] - p).abs().total_cmp(&(levels[*b] - p).abs())).unwrap_or(0)
-}
-
-/// Scenarios of a fit, one per bending stiffness; the scenario's own if B is kept.
-pub fn fitted_scenarios(problem: &Problem, block: &Block, effects: &[usize], theta: &[f64]) -> Vec<Scenario> {
-    let model = block.with_effects(problem.candidates, effects, &theta[problem.bendings..]);
-    match problem.bendings {
-        0 => vec![model],
-        n => theta[..n].iter().map(|b| model.with_bending(*b)).collect(),
-    }
 }
 
 /// ∂f/∂ln p of a fit in a block \[m\].

@@ -85,7 +85,7 @@ fn alone(tests: Vec<&'static BenchTest>) -> Plan {
     let all = |what: fn(&BenchTest) -> &'static str| tests.iter().map(|test| what(test)).collect::<Vec<_>>();
     Plan {
         name: all(|test| test.name).join(", "),
-        sentence: format!("measure without moving the robot: {}", all(|test| test.sentence).join("; ")),
+        sentence: format!("measure by itself: {}", all(|test| test.sentence).join("; ")),
         parts: Vec::new(),
         tests,
     }
@@ -165,7 +165,7 @@ fn tipped(scenario: &Scenario, force_n: f64) -> Scenario {
 
 /// Twice the first body pressure, or the middle of the two that are there.
 fn second_body(dataset: &Dataset, body: f64) -> f64 {
-    let other = super::case::body_pressures([dataset]).get(1).copied();
+    let other = super::blocks::body_pressures([dataset]).get(1).copied();
     other.map_or(2.0 * body, |other| 0.5 * (other + body))
 }
 

@@ -3,6 +3,7 @@
 use super::tests::{quick, robot};
 use super::*;
 use crate::study::{Generator, generate};
+use data::Direct;
 
 fn read_along(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
     let protocol = [0.0, 5e3, 10e3, 15e3, 20e3, 25e3, 30e3, 0.0].map(|p| [2e3, p]).to_vec();

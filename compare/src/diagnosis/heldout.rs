@@ -1,6 +1,7 @@
 //! Error at what a fit has not seen of the first data: pressures left out, runs left out. Data beside them stay in the fit.
 
-use super::case::{Case, block};
+use super::blocks::block;
+use super::case::Case;
 use super::problem::{Fit, Problem};
 use crate::comparison::ZERO_PRESSURE_PA;
 use crate::error::CompareError;

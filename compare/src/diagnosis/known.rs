@@ -27,7 +27,7 @@ pub struct Known {
     pub lacking: f64,
 }
 
-/// A test without the robot moving, and what it measures.
+/// A test beside the markers, and what it measures.
 #[derive(Debug, PartialEq)]
 pub struct BenchTest {
     /// Short name.

@@ -1,7 +1,8 @@
 //! What data cannot show, whatever the model.
 
 use super::basis::Basis;
-use super::case::{Case, body_pressures};
+use super::blocks::body_pressures;
+use super::case::Case;
 use super::least_squares::square;
 use super::result::Undetectable;
 use crate::comparison::ZERO_PRESSURE_PA;

@@ -16,6 +16,7 @@
 //! best, or 95 % of its gain. A name is the best explanation *in the catalogue*, never a proof.
 
 mod basis;
+mod blocks;
 mod candidates;
 mod case;
 mod decide;
@@ -36,11 +37,13 @@ mod next;
 mod options;
 mod order;
 mod pairs;
+mod part;
 #[cfg(test)]
 mod pattern_tests;
 mod patterns;
 mod prepare;
 mod problem;
+mod proposed;
 mod result;
 mod screen;
 mod singles;
@@ -59,21 +62,20 @@ pub use experiments::{BENDING_TEST, BENDING_TEST_NAME};
 pub use fitted::{FittedBeside, GaugeFit, with_fitted};
 pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
 pub use options::Options;
+pub use proposed::*;
 pub use result::*;
 
 use crate::comparison::Comparison;
 use crate::error::CompareError;
-use crate::gauge::Gauge;
 use crate::noise_summary::NoiseSummary;
 use crate::residuals::{ResidualMap, residual_map};
-use crate::study::fit_scenario;
-use crate::study::predict::without_settled;
 use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
 use case::Case;
-use data::{About, Dataset, Direct, MeasuredValue};
+use data::{About, Dataset};
 use decide::{Decision, decide};
 use heldout::HeldOut;
 use models::Scenario;
+use part::{Part, contradicted};
 use problem::Fit;
 use source::Source;
 
@@ -168,56 +170,6 @@ pub fn diagnose_together(
     }
     diagnosis.summary = story::story(&diagnosis);
     Ok(diagnosis)
-}
-
-/// An effect of which two descriptions measure the same parameter, and not the same.
-fn contradicted<'m>(before: &[MeasuredValue], now: &'m [MeasuredValue]) -> Option<&'m str> {
-    let same = |a: &MeasuredValue, b: &MeasuredValue| (&a.effect, &a.key) == (&b.effect, &b.key);
-    now.iter().find(|m| before.iter().any(|k| same(k, m) && k != *m)).map(|m| m.effect.as_str())
-}
-
-/// One of the data made ready.
-struct Part {
-    scenario: Scenario,
-    prepared: prepare::Prepared,
-    direct: Direct,
-    gauge: Option<Gauge>,
-    bending_nm2: Option<[f64; 2]>,
-    measured: Vec<MeasuredValue>,
-}
-
-impl Part {
-    /// With cautions.
-    fn of(scenario: &Scenario, measured: &Measured) -> Result<(Part, Vec<String>), CompareError> {
-        let Measured { dataset, about } = *measured;
-        crate::layout::Layout::of(dataset)?;
-        let (mut scenario, mut warnings) = fit_scenario(scenario, dataset, about)?;
-        let mut prepared = prepare::prepare(dataset, about);
-        warnings.append(&mut prepared.warnings);
-        let mut direct = about.map(|a| a.direct).unwrap_or_default();
-        if direct.pressure && dataset.gauge_pa.is_some() {
-            warnings.push(
-                "about.toml says [direct] pressure, so p_act is the actuator's own and the column p_gauge was not used"
-                    .into(),
-            );
-        }
-        let gauge = Gauge::of(&prepared.dataset, &scenario).filter(|_| !direct.pressure);
-        if let Some(gauge) = &gauge {
-            prepared.dataset = gauge.positions(&prepared.dataset);
-            direct.pressure = true;
-            scenario = without_settled(&scenario, direct);
-        }
-        let bending_nm2 = about.and_then(|a| a.bending_nm2);
-        let measured = about.map(|a| a.measured.clone()).unwrap_or_default();
-        Ok((Part { scenario, prepared, direct, gauge, bending_nm2, measured }, warnings))
-    }
-
-    fn source(&self, first: &Scenario) -> Source<'_> {
-        let Part { scenario, prepared, direct, gauge, bending_nm2, measured } = self;
-        let (direct, bending_nm2) = (*direct, *bending_nm2);
-        let rolled = source::is_rolled(scenario, first);
-        Source { scenario, dataset: &prepared.dataset, direct, gauge: gauge.as_ref(), rolled, bending_nm2, measured }
-    }
 }
 
 fn check(options: &Options) -> Result<(), CompareError> {

@@ -5,12 +5,14 @@
 //! separation λ = min |f_a − f_b|²: the expected difference of the sums of squares. 16 suffices in about nine of ten cases.
 //! It is taken both ways round and the larger counts: a fit of the wrong explanation hides part of the difference.
 
-use super::case::{Case, fitted_scenarios, nearest, whole_block};
+use super::blocks::{fitted_scenarios, nearest, whole_block};
+use super::case::Case;
 use super::decide::Decision;
 use super::experiments::{BENDING_TEST, Instruments, Part, Plan, bending_test, plans, protocol_text};
 use super::known::{BENCH_TEST, BENCH_TESTS, BenchTest, Known, parameters_of};
 use super::problem::{Block, Fit, Problem, Readings, with};
-use super::result::{Experiment, NextExperiment, Separation, Verdict};
+use super::proposed::{Experiment, NextExperiment, Separation};
+use super::result::Verdict;
 use super::source::is_rolled;
 use crate::directions::nuisance_directions;
 use crate::error::CompareError;

@@ -6,6 +6,7 @@ use super::*;
 use crate::hidden::truth::standard_protocol;
 use crate::hidden::{Draw, Truth};
 use crate::study::{Generator, generate, published::shipped_scenario};
+use data::Direct;
 
 fn robot(kind: &str, bending_nm2: f64) -> Scenario {
     shipped_scenario(kind).unwrap().with_bending(bending_nm2)

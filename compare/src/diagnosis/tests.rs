@@ -3,6 +3,7 @@
 
 use super::*;
 use crate::study::{Generator, generate, parse_protocol, published::shipped_scenario};
+use data::Direct;
 
 /// B at which the shipped robots bend about as far as measured \[N·m²\].
 pub(super) fn robot(kind: &str) -> Scenario {

@@ -2,6 +2,7 @@
 
 use super::tests::{measured, quick, robot, run};
 use super::*;
+use data::{Direct, MeasuredValue};
 
 fn about(direct: Direct) -> About {
     About { direct, ..crate::study::tests::about(&[]) }

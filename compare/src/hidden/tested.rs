@@ -53,7 +53,7 @@ fn found(robot: &Robot, effect: &str) -> Option<f64> {
             Some(jammed - drive.shear_load(jammed) / slope)
         }
         "ovalization" => {
-            // D = D₀/(1 + o g²) with g = κD/D₀, read at the bend of full pressure.
+            // D = D₀/(1 + o g²) with g = κD/D₀, read at the bend of a robot without hidden effects at 30 kPa.
             let bent = robot.scale_per_m;
             let left = robot.cells.iter().find(|cell| cell.drive.is_some())?.wall.arm_factor(bent).0;
             Some((1.0 / left - 1.0) / (left * bent).powi(2))

@@ -1,6 +1,6 @@
 //! The recommended next experiment, done on the same robot.
 //!
-//! A bending test, of the fabric or a scale by itself, adds its result to the data at hand.
+//! A test by itself (bending, fabric, scale, caliper) adds its result to the data at hand.
 //!
 //! What can be recorded in one table (other pressures, another body pressure, longer holds) is measured after the first
 //! protocol in the same runs; "repeat" doubles the runs. A tip force, gravity turned over, a gauge read at the actuator beside

@@ -224,17 +224,21 @@ mod tests {
         }
     }
 
+    /// Shares with next to no camera noise, and with 200 mm of it.
+    fn quiet_and_loud(truth: &Truth, at_best: fn(&Truth, &Dataset) -> Result<[f64; 2], CompareError>) -> [[f64; 2]; 2] {
+        [1e-6, 0.2].map(|camera_sd_m| {
+            let truth = Truth { camera_sd_m, ..truth.clone() };
+            at_best(&truth, &truth.dataset("set", &standard_protocol()).unwrap()).unwrap()
+        })
+    }
+
     /// Without noise to speak of both are always named, also where there are rivals.
     #[test]
     fn two_effects_are_named_without_noise_and_less_often_with() {
         let mut truth = Truth::draw("epam", &mut crate::hidden::Draw::new(3, 0)).unwrap();
         truth.add("tip_load", 1.1);
         truth.add("creep", 0.9);
-        let of = |camera_sd_m: f64| {
-            let truth = Truth { camera_sd_m, ..truth.clone() };
-            two_at_best(&truth, &truth.dataset("set", &standard_protocol()).unwrap()).unwrap()
-        };
-        let (quiet, loud) = (of(1e-6), of(0.2));
+        let [quiet, loud] = quiet_and_loud(&truth, two_at_best);
         assert_eq!(quiet, [1.0, 1.0]);
         assert!(loud[1] < 0.5 && loud[1] <= loud[0], "{loud:?}");
     }
@@ -250,11 +254,7 @@ mod tests {
     fn noise_decides_how_often_the_truth_is_named() {
         let mut truth = Truth::draw("epam", &mut crate::hidden::Draw::new(3, 0)).unwrap();
         truth.add("tip_load", 1.1);
-        let of = |camera_sd_m: f64| {
-            let truth = Truth { camera_sd_m, ..truth.clone() };
-            at_best(&truth, &truth.dataset("set", &standard_protocol()).unwrap()).unwrap()
-        };
-        let (quiet, loud) = (of(1e-6), of(0.2));
+        let [quiet, loud] = quiet_and_loud(&truth, at_best);
         assert_eq!(quiet, [1.0, 1.0]);
         assert!(loud[0] < 0.5 && loud[1] < 0.8 && loud[0] <= loud[1], "{loud:?}");
     }

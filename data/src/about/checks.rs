@@ -1,0 +1,143 @@
+//! What the values of an `about.toml` must be, each fault with its place.
+
+use std::collections::BTreeMap;
+
+use toml::Spanned;
+
+use super::{AboutRun, Geometry, MarkerStation, MeasuredValue, RawBending, RawGeometry, RawMarkers, RawRun};
+use crate::error::{DataError, Fault, Location};
+
+/// The text being checked, for the place of faults.
+pub(super) struct Check<'a> {
+    pub file: &'a str,
+    pub text: &'a str,
+}
+
+impl Check<'_> {
+    fn fault<T>(&self, key: &str, value: &Spanned<T>, message: &str, help: &str) -> DataError {
+        let span = value.span();
+        let at = Some((span.start, span.end));
+        let mut fault = Fault::of_text(self.file, self.text, at, format!("{key}: {message}"), help.to_string());
+        let cell = self.text.get(span).map(str::to_string);
+        fault.location = Location { cell, ..fault.location };
+        DataError::About(Box::new(fault))
+    }
+
+    pub fn filled(&self, key: &str, value: &Spanned<String>) -> Result<String, DataError> {
+        let text = value.get_ref().trim();
+        if text.is_empty() {
+            return Err(self.fault(key, value, "is empty", "write one line; every dataset says where it comes from"));
+        }
+        Ok(text.to_string())
+    }
+
+    /// A length in mm, positive and not so small that it must be metres, in metres.
+    fn length_m(&self, key: &str, value: &Spanned<f64>) -> Result<f64, DataError> {
+        let length_mm = *value.get_ref();
+        if !(length_mm.is_finite() && length_mm > 0.0) {
+            return Err(self.fault(key, value, "must be a positive length", "give it in millimetres, for example 60"));
+        }
+        if key.starts_with("body") && length_mm < 2.0 {
+            return Err(self.fault(key, value, "looks like metres", "give it in millimetres: multiply by 1000"));
+        }
+        Ok(length_mm / 1e3)
+    }
+
+    pub fn geometry(&self, raw: RawGeometry) -> Result<Geometry, DataError> {
+        let optional = |key: &str, value: Option<Spanned<f64>>| value.map(|v| self.length_m(key, &v)).transpose();
+        Ok(Geometry {
+            body_radius_m: self.length_m("body_radius_mm", &raw.body_radius_mm)?,
+            body_length_m: self.length_m("body_length_mm", &raw.body_length_mm)?,
+            pouch_length_m: optional("pouch_length_mm", raw.pouch_length_mm)?,
+            pouch_width_m: optional("pouch_width_mm", raw.pouch_width_mm)?,
+            pouches: raw.pouches,
+            fold_m: optional("fold_mm", raw.fold_mm)?,
+            arm_m: optional("arm_mm", raw.arm_mm)?,
+        })
+    }
+
+    pub fn markers(&self, raw: RawMarkers) -> Result<Vec<MarkerStation>, DataError> {
+        let (names, s_mm) = (raw.names.get_ref(), raw.s_mm.get_ref());
+        if names.len() != s_mm.len() {
+            let message = format!("has {} values, names has {}", s_mm.len(), names.len());
+            return Err(self.fault("s_mm", &raw.s_mm, &message, "give one station per marker, in the same order"));
+        }
+        if let Some(twice) = (1..names.len()).find(|&i| names[..i].contains(&names[i])) {
+            let message = format!("marker {} is there twice", names[twice]);
+            return Err(self.fault("names", &raw.names, &message, "name every marker once"));
+        }
+        if s_mm.iter().any(|s| !s.is_finite() || *s < 0.0) {
+            return Err(self.fault(
+                "s_mm",
+                &raw.s_mm,
+                "holds a value below zero",
+                "stations count from the base in mm",
+            ));
+        }
+        let farthest = s_mm.iter().copied().fold(0.0, f64::max);
+        if farthest > 0.0 && farthest < 2.0 {
+            return Err(self.fault("s_mm", &raw.s_mm, "looks like metres", "give millimetres: multiply by 1000"));
+        }
+        let pair = |(name, s): (&String, &f64)| MarkerStation { name: name.clone(), station_m: s / 1e3 };
+        Ok(names.iter().zip(s_mm).map(pair).collect())
+    }
+
+    pub fn direction(&self, value: &Spanned<[f64; 2]>) -> Result<[f64; 2], DataError> {
+        let direction = *value.get_ref();
+        // Written so that NaN is refused as well.
+        if (direction[0].hypot(direction[1]) - 1.0).abs() <= 1e-3 {
+            return Ok(direction);
+        }
+        let help = "write for example direction = [0, -1]; leave [gravity] out if it does not act in the x-y plane";
+        Err(self.fault("direction", value, "must be a unit vector", help))
+    }
+
+    pub fn bending(&self, raw: &RawBending) -> Result<[f64; 2], DataError> {
+        let (stiffness, sd) = (*raw.stiffness_nm2.get_ref(), *raw.sd_nm2.get_ref());
+        if !(stiffness >= 0.0 && stiffness.is_finite()) {
+            let help = "give it in N·m², for example 1.35";
+            return Err(self.fault("stiffness_nm2", &raw.stiffness_nm2, "must not be negative", help));
+        }
+        // Nothing is measured better than to a thousandth: such a number would overrule all markers.
+        if !(sd >= 1e-3 * stiffness && sd > 0.0 && sd.is_finite()) {
+            let help = "give its standard deviation in N·m², from repeats of the bending test";
+            return Err(self.fault("sd_nm2", &raw.sd_nm2, "must be above a thousandth of the stiffness", help));
+        }
+        Ok([stiffness, sd])
+    }
+
+    pub fn measured(
+        &self,
+        raw: BTreeMap<String, BTreeMap<String, Spanned<[f64; 2]>>>,
+    ) -> Result<Vec<MeasuredValue>, DataError> {
+        let mut all = Vec::new();
+        for (effect, parameters) in raw {
+            for (key, pair) in parameters {
+                let [value, sd] = *pair.get_ref();
+                // Nothing is measured better than to a thousandth: such a number would overrule all markers.
+                if !(value.is_finite() && sd.is_finite() && sd > 0.0 && sd >= 1e-3 * value.abs()) {
+                    let help = "write [value, standard deviation], the latter from repeats of the test";
+                    let message = "needs a finite value and a standard deviation above a thousandth of it";
+                    return Err(self.fault(&key, &pair, message, help));
+                }
+                all.push(MeasuredValue { effect: effect.clone(), key, value, sd });
+            }
+        }
+        Ok(all)
+    }
+
+    pub fn runs(&self, raw: Vec<RawRun>) -> Result<Vec<AboutRun>, DataError> {
+        let mut runs: Vec<AboutRun> = Vec::with_capacity(raw.len());
+        for run in raw {
+            if runs.iter().any(|known| known.id == *run.id.get_ref()) {
+                return Err(self.fault("id", &run.id, "this run is there twice", "describe every run once"));
+            }
+            let tip_force_n = run.tip_force_n.as_ref().map_or([0.0; 2], |force| *force.get_ref());
+            if let Some(force) = run.tip_force_n.as_ref().filter(|_| !tip_force_n.iter().all(|f| f.is_finite())) {
+                return Err(self.fault("tip_force_n", force, "must be two finite numbers", "give [fx, fy] in newton"));
+            }
+            runs.push(AboutRun { id: run.id.into_inner(), tip_force_n, session: run.session });
+        }
+        Ok(runs)
+    }
+}
