@@ -66,7 +66,7 @@ impl Draw {
     /// Stream number `index` of a seed.
     pub fn new(seed: u64, index: u64) -> Draw {
         // Steps of an odd constant (2⁶⁴ over the golden ratio) keep neighbouring streams far apart.
-        Draw(Scatter::new(seed.wrapping_add((index + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15))))
+        Draw(Scatter::new(seed.wrapping_add(index.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15))))
     }
 
     /// Uniform in [low, high).
