@@ -34,6 +34,8 @@ pub struct Site {
     pub channel: usize,
     /// Link between contraction and curvature.
     pub linkage: Linkage,
+    /// The actuator stays flat below this share of the body's pressure.
+    pub closed_share: f64,
     /// Terms over [`actuator_q`], J per metre of body at η = 1.
     pub actuator_terms: Vec<Box<dyn Term>>,
     /// Body pressure work; an effect may replace the law.
@@ -166,6 +168,7 @@ impl Site {
             shape,
             channel,
             linkage,
+            closed_share: 0.0,
             actuator_terms: vec![Box::new(ActuatorPressure)],
             body_pressure: BodyLaw::Hinge(body_pressure),
             bending,
@@ -182,9 +185,16 @@ impl Site {
         near: Option<&SiteState>,
     ) -> Result<SiteState, NoRoot> {
         match self.actuator {
-            Some(actuator) if loads.p_act_pa > SLACK_BELOW_PA => self.solve_active(actuator, loads, memory, near),
+            Some(actuator) if self.opening_pa(loads) > SLACK_BELOW_PA => {
+                self.solve_active(actuator, loads, memory, near)
+            }
             _ => self.solve_passive(loads, memory, near),
         }
+    }
+
+    /// Actuator pressure beyond what the body's takes to close it \[Pa\].
+    fn opening_pa(&self, loads: &SiteLoads) -> f64 {
+        loads.p_act_pa - self.closed_share * loads.p_body_pa
     }
 
     fn solve_active(
@@ -222,7 +232,7 @@ impl Site {
     fn start(&self, actuator: &Actuator, loads: &SiteLoads, memory: &[f64]) -> Start {
         let link = &self.linkage;
         let (share, (low, high)) = (link.active_fraction / link.stroke_fraction, TYPICAL_STROKE);
-        let available = share * loads.p_act_pa * (actuator.area)(&self.shape) * link.arm_m;
+        let available = share * self.opening_pa(loads) * (actuator.area)(&self.shape) * link.arm_m;
         let moment = |stroke: f64| {
             let (curvature, gain) = link.bent(stroke * link.stroke_fraction / link.arm_m);
             (self.body_moment(curvature, loads, memory) - loads.moment) * gain

@@ -86,13 +86,14 @@ fn cases(args: &Breakdown) -> Result<Vec<(Named, String)>, Failure> {
     Ok(cases)
 }
 
-fn list(option: &str, text: &str, kind: Quantity, factor: f64) -> Result<Vec<f64>, Failure> {
+/// A list of quantities with units, in `1/factor` SI.
+pub fn list(option: &str, text: &str, kind: Quantity, factor: f64) -> Result<Vec<f64>, Failure> {
     let one = |t: &str| Ok(rounded(quantity(option, t, kind)? * factor));
     text.split(',').filter(|t| !t.trim().is_empty()).map(one).collect()
 }
 
 /// The scenario with another body pressure and as many pouches of another length as fit into the length of its own.
-fn changed(named: &Named, scenario: &Scenario, body_kpa: f64, pouch_mm: Option<f64>) -> Result<Named, Failure> {
+pub fn changed(named: &Named, scenario: &Scenario, body_kpa: f64, pouch_mm: Option<f64>) -> Result<Named, Failure> {
     let unreadable = |_| Failure::usage(format!("{} cannot be changed", named.spec), "check the file with ibr predict");
     let mut all: toml::Table = named.text.parse().map_err(unreadable)?;
     let mut set = |table: &str, key: &str, value: toml::Value| {

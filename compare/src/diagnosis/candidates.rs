@@ -116,12 +116,13 @@ impl Candidate {
 }
 
 /// Holds parameters at their neutral values that the data do not hold.
-pub fn hold(candidates: &mut [Candidate], gauge: bool, kept_bending: bool) {
+pub fn hold(candidates: &mut [Candidate], gauge: bool, kept_bending: bool, body_pressures: usize) {
     for p in candidates.iter_mut().flat_map(|candidate| &mut candidate.parameters) {
         p.is_held = match p.fitted {
             Fitted::Always => false,
             Fitted::WithGauge => !gauge,
             Fitted::WithKeptBending => !kept_bending,
+            Fitted::WithBodyPressures => body_pressures < 2,
         };
     }
 }

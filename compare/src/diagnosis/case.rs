@@ -78,8 +78,11 @@ pub fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usiz
     list.retain(open);
     let own = list.len();
     list.extend(candidates(scenario).into_iter().filter(open));
-    hold(&mut list, sources.iter().any(|source| source.gauge.is_some()), options.keep_bending);
+    let bodies = body_pressures(sources.iter().map(|source| source.dataset)).len();
+    hold(&mut list, sources.iter().any(|source| source.gauge.is_some()), options.keep_bending, bodies);
     list[..own].iter_mut().for_each(|candidate| candidate.hold_as_given(&own_values(scenario, candidate)));
+    let mut seen = (0..list.len()).map(|i| i < own || list[i].count() > 0).collect::<Vec<_>>().into_iter();
+    list.retain(|_| seen.next().unwrap_or(true));
     (list, own)
 }
 

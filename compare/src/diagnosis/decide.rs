@@ -190,9 +190,13 @@ fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>) {
     }
 }
 
-/// Whether a fit leaves more than a share of the base's error, and more than some mm.
+/// Whether a fit leaves more than a share of the base's error, and more than some mm, by both measures: with what scatter between
+/// runs explains taken off, and as it is. By the first alone a misfit that looks like a run's pressure counts for little, and what
+/// is left of it for much.
 fn leaves(case: &Case, fit: &Fit, (share, least_mm): (f64, f64)) -> bool {
-    case.beyond_noise_mm(fit) > least_mm.max(share * case.beyond_noise_mm(&case.base))
+    let error_mm = |fit: &Fit| case.error_mm(&case.prediction(fit));
+    let left = |after: f64, before: f64| after > least_mm.max(share * before);
+    left(case.beyond_noise_mm(fit), case.beyond_noise_mm(&case.base)) && left(error_mm(fit), error_mm(&case.base))
 }
 
 /// Whether what a fit leaves is more than noise, seen by a test for lack of fit or along another effect.

@@ -49,7 +49,10 @@ fn an_effect_three_times_as_large_as_needed_is_in_the_set() {
     let sizes = run(&plain, &measured(&plain, 5, 21)).undetectable;
     let mut tried = 0;
     for (i, candidate) in candidates(&plain).iter().enumerate() {
-        let size = sizes.iter().find(|u| u.effect == candidate.name).unwrap();
+        let Some(size) = sizes.iter().find(|u| u.effect == candidate.name) else {
+            assert_eq!(candidate.name, "displaced_gas", "only at several body pressures");
+            continue;
+        };
         let Some(share) = size.times_typical.map(|share| 3.0 * share) else { continue };
         if candidate.parameters.iter().zip(candidate.at(share)).any(|(p, v)| v > 0.9 * p.upper || v < 0.9 * p.lower) {
             continue;

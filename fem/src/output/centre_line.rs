@@ -16,6 +16,9 @@
 //! On a ring of nodes this is the mean weighted by arc length. **Validity**: exact for any affine motion of the section;
 //! sections are those of the parts named, so that pouches or folds beside a tube need not count. Derived here.
 //!
+//! [`CentreLine::seen`] follows one point of every section instead, where a marker sticks: a wall that an actuator draws in moves
+//! the centroid of its section, but not the markers on its side.
+//!
 //! | column | meaning |
 //! |---|---|
 //! | `time_s`, `step` | time \[s\], steps done |
@@ -69,6 +72,30 @@ impl CentreLine {
         let share = |i: usize| if count == 1 { 0.5 } else { i as f64 / (count - 1) as f64 };
         let stations: Vec<f64> = (0..count).map(|i| low + (high - low) * share(i)).collect();
         CentreLine::new(mesh, parts, axis, &stations)
+    }
+
+    /// As [`CentreLine::new`], but in place of centroids the points of the sections on the side that faces `eye` (any direction
+    /// across the axis): where the half plane through the axis and `eye` meets the wall in the reference shape.
+    ///
+    /// # Errors
+    /// As [`CentreLine::new`]; also for a section that is open to that side.
+    pub fn seen(
+        mesh: &Mesh,
+        parts: &[String],
+        axis: [f64; 3],
+        eye: [f64; 3],
+        stations_m: &[f64],
+    ) -> Result<CentreLine, FemError> {
+        let sections = Sections::of(mesh, parts, axis)?;
+        let (low, high) = sections.range();
+        let side = [0, 1, 2].map(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            axis[i] * eye[j] - axis[j] * eye[i]
+        });
+        let hidden = |s: f64| FemError::Problem(format!("markers: no wall at {} mm on the side {eye:?}", s * 1e3));
+        let weights = stations_m.iter().map(|&s| sections.facing(s, low, high, eye, side).ok_or_else(|| hidden(s)));
+        let weights = weights.collect::<Result<_, _>>()?;
+        Ok(CentreLine { stations_m: stations_m.to_vec(), weights, nodes: mesh.points.len() })
     }
 
     /// Stations \[m\].
@@ -158,6 +185,9 @@ fn choose<'a>(mesh: &'a Mesh, names: &[String]) -> Result<Vec<&'a Part>, FemErro
     names.iter().map(find).collect()
 }
 
+/// Where a plane meets an edge: its nodes, and the share of the way from the first to the second.
+type Cut = (u32, u32, f64);
+
 /// Parts to be cut, and every node's place along the axis.
 struct Sections<'a> {
     mesh: &'a Mesh,
@@ -190,8 +220,8 @@ impl<'a> Sections<'a> {
         places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), c| (low.min(c), high.max(c)))
     }
 
-    /// Weights of the section at `station`; `None` beside the mesh.
-    fn weights(&self, station: f64, low: f64, high: f64) -> Option<Vec<(u32, f64)>> {
+    /// Segments of the section at `station`, one for every element cut; ends as edge and place on it.
+    fn cuts(&self, station: f64, low: f64, high: f64) -> Vec<[Cut; 2]> {
         let near = ON_STATION * (high - low);
         let beyond = |node: u32| {
             let c = self.coordinates[node as usize] - station;
@@ -200,8 +230,7 @@ impl<'a> Sections<'a> {
         // Nodes on the station count as beyond it, so that a ring is met once, from before; at the start from behind.
         let at_start = station <= low + near;
         let above = |c: f64| if at_start { c > 0.0 } else { c >= 0.0 };
-        let mut sums: BTreeMap<u32, f64> = BTreeMap::new();
-        let mut total = 0.0;
+        let mut segments = Vec::new();
         for nodes in self.elements() {
             let mut ends = Vec::with_capacity(4);
             for (k, &i) in nodes.iter().enumerate() {
@@ -211,24 +240,56 @@ impl<'a> Sections<'a> {
                     ends.push((i, j, ci / (ci - cj)));
                 }
             }
-            for segment in ends.chunks_exact(2) {
-                let length = self.distance(segment[0], segment[1]);
-                total += length;
-                for &(i, j, t) in segment {
-                    *sums.entry(i).or_default() += 0.5 * length * (1.0 - t);
-                    *sums.entry(j).or_default() += 0.5 * length * t;
-                }
+            segments.extend(ends.chunks_exact(2).map(|pair| [pair[0], pair[1]]));
+        }
+        segments
+    }
+
+    /// Weights of the section at `station`; `None` beside the mesh.
+    fn weights(&self, station: f64, low: f64, high: f64) -> Option<Vec<(u32, f64)>> {
+        let mut sums: BTreeMap<u32, f64> = BTreeMap::new();
+        let mut total = 0.0;
+        for segment in self.cuts(station, low, high) {
+            let length = self.distance(segment[0], segment[1]);
+            total += length;
+            for (i, j, t) in segment {
+                *sums.entry(i).or_default() += 0.5 * length * (1.0 - t);
+                *sums.entry(j).or_default() += 0.5 * length * t;
             }
         }
         (total > 0.0).then(|| sums.into_iter().filter(|w| w.1 != 0.0).map(|(i, w)| (i, w / total)).collect())
     }
 
-    fn distance(&self, a: (u32, u32, f64), b: (u32, u32, f64)) -> f64 {
-        let place = |(i, j, t): (u32, u32, f64)| {
-            let (p, q) = (self.mesh.points[i as usize], self.mesh.points[j as usize]);
-            [0, 1, 2].map(|k| p[k] + t * (q[k] - p[k]))
-        };
-        let (p, q) = (place(a), place(b));
+    /// Weights of the point of the section at `station` that lies towards `eye`, where `side` (across both) changes sign.
+    fn facing(&self, station: f64, low: f64, high: f64, eye: [f64; 3], side: [f64; 3]) -> Option<Vec<(u32, f64)>> {
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        for segment in self.cuts(station, low, high) {
+            let [a, b] = segment.map(|cut| self.point(cut));
+            let (sa, sb) = (dot(a, side), dot(b, side));
+            if (sa >= 0.0) == (sb >= 0.0) {
+                continue;
+            }
+            let t = sa / (sa - sb);
+            if (1.0 - t) * dot(a, eye) + t * dot(b, eye) <= 0.0 {
+                continue;
+            }
+            let mut sums: BTreeMap<u32, f64> = BTreeMap::new();
+            for ((i, j, u), share) in segment.into_iter().zip([1.0 - t, t]) {
+                *sums.entry(i).or_default() += share * (1.0 - u);
+                *sums.entry(j).or_default() += share * u;
+            }
+            return Some(sums.into_iter().filter(|w| w.1 != 0.0).collect());
+        }
+        None
+    }
+
+    fn point(&self, (i, j, t): Cut) -> [f64; 3] {
+        let (p, q) = (self.mesh.points[i as usize], self.mesh.points[j as usize]);
+        [0, 1, 2].map(|k| p[k] + t * (q[k] - p[k]))
+    }
+
+    fn distance(&self, a: Cut, b: Cut) -> f64 {
+        let (p, q) = (self.point(a), self.point(b));
         (0..3).map(|k| (p[k] - q[k]) * (p[k] - q[k])).sum::<f64>().sqrt()
     }
 }

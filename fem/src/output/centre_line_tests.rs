@@ -139,3 +139,31 @@ fn the_file_holds_every_station_and_resumes_to_the_same_bytes() {
     assert_eq!(row[..3], [0.1, 1.0, 100.0]);
     near([row[3], row[4], row[5]], [100.0, 1000.0 / 3.0, 0.0], 1e-12);
 }
+
+#[test]
+fn a_marker_is_on_the_side_that_the_eye_sees_and_goes_with_its_wall() {
+    let mesh = tube(&[0.0, 0.1, 0.2, 0.35], &circle(64, 0.04), false);
+    let (up, stations) = ([0.0, 0.0, 1.0], [0.0, 0.07, 0.2, 0.31, 0.35]);
+    let line = CentreLine::seen(&mesh, &[], X, up, &stations).unwrap();
+    for (point, s) in line.at(&mesh.points).unwrap().into_iter().zip(stations) {
+        near(point, [s, 0.0, 0.04], 1e-9);
+    }
+    // A wall drawn in on the other side moves the centroid, and not the marker.
+    let drawn: Vec<[f64; 3]> = mesh.points.iter().map(|p| [p[0], p[1], p[2].max(-0.02)]).collect();
+    near(line.at(&drawn).unwrap()[2], [0.2, 0.0, 0.04], 1e-9);
+    assert!(CentreLine::new(&mesh, &[], X, &stations).unwrap().at(&drawn).unwrap()[2][2] > 1e-3);
+    // Between two nodes of a ring that stand on either side of the half plane.
+    let turned = tube(&[0.0, 0.35], &[[0.04, 0.04], [-0.04, 0.04], [-0.04, -0.04], [0.04, -0.04]], true);
+    near(
+        CentreLine::seen(&turned, &[], X, up, &[0.1]).unwrap().at(&turned.points).unwrap()[0],
+        [0.1, 0.0, 0.04],
+        1e-12,
+    );
+    // The open half of a tube.
+    let open = tube(&[0.0, 0.35], &circle(64, 0.04), false);
+    let lower: Vec<[u32; 4]> =
+        open.parts[0].quads.iter().copied().filter(|q| q.iter().all(|n| open.points[*n as usize][2] < 1e-9)).collect();
+    let open = Mesh { parts: vec![Part { quads: lower, ..open.parts[0].clone() }], ..open };
+    let refused = CentreLine::seen(&open, &[], X, up, &[0.1]).unwrap_err().to_string();
+    assert!(refused.contains("no wall at 100 mm"), "{refused}");
+}

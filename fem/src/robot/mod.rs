@@ -124,6 +124,15 @@ pub fn sections(mesh: &Mesh, stations_m: &[f64]) -> Result<CentreLine, FemError>
     CentreLine::new(mesh, &body_parts(mesh), [1.0, 0.0, 0.0], stations_m)
 }
 
+/// Points of the wall where markers stick at stations along it \[m\], at the height of the axis, where a camera beside the
+/// robot sees them.
+///
+/// # Errors
+/// [`FemError::Problem`] for a station off the robot.
+pub fn marker_points(mesh: &Mesh, stations_m: &[f64]) -> Result<CentreLine, FemError> {
+    CentreLine::seen(mesh, &body_parts(mesh), [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], stations_m)
+}
+
 /// What a run of a robot writes: the tip, the centre line at the markers and the tip, frames and a side view.
 pub fn outputs(scenario: &Scenario, mesh: &Mesh) -> Outputs {
     let mut stations_m = scenario.markers_m.clone();

@@ -4,7 +4,7 @@ use models::{RowKind, Scenario};
 use serde::{Deserialize, Serialize};
 
 use super::seams::Seams;
-use super::{sections, sew};
+use super::{marker_points, sections, sew};
 use crate::output::centre_line::CentreLine;
 use crate::{FemError, Mesh, Problem, Simulation};
 
@@ -13,6 +13,8 @@ use crate::{FemError, Mesh, Problem, Simulation};
 pub struct Gauge {
     line: CentreLine,
     start_m: Vec<[f64; 3]>,
+    seen: CentreLine,
+    seen_start_m: Vec<[f64; 3]>,
     rings: Vec<Vec<u32>>,
     tip: Vec<u32>,
     seams: Seams,
@@ -32,6 +34,9 @@ pub struct Reading {
     pub stations_m: Vec<f64>,
     /// Displacement of the section's centroid at each station \[m\].
     pub moved_m: Vec<[f64; 3]>,
+    /// Displacement of the wall where a marker sticks at each marker's station, without the tip \[m\]: on the side that faces a camera.
+    #[serde(default)]
+    pub seen_moved_m: Vec<[f64; 3]>,
     /// Displacement of the mean of the ring of nodes at (or next to) each station \[m\].
     pub ring_moved_m: Vec<[f64; 3]>,
     /// Turn of the tip's ring in the plane of bending \[rad\].
@@ -74,7 +79,9 @@ impl Gauge {
         let line = sections(&mesh, &stations_m)?;
         let start: Vec<[f64; 3]> = (0..mesh.points.len()).map(|node| mesh.start_of(node)).collect();
         let start_m = line.at(&start)?;
-        Ok(Gauge { line, start_m, rings, tip, seams: Seams::of(&mesh), mesh })
+        let seen = marker_points(&mesh, &scenario.markers_m)?;
+        let seen_start_m = seen.at(&start)?;
+        Ok(Gauge { line, start_m, seen, seen_start_m, rings, tip, seams: Seams::of(&mesh), mesh })
     }
 
     /// The welds.
@@ -88,8 +95,10 @@ impl Gauge {
     /// [`FemError::Problem`] if the run is of another mesh.
     pub fn read(&self, run: &Simulation) -> Result<Reading, FemError> {
         let (positions, fields) = (run.positions(), run.element_fields());
-        let now = self.line.at(&positions)?;
-        let moved_m = now.iter().zip(&self.start_m).map(|(a, b)| [0, 1, 2].map(|k| a[k] - b[k])).collect();
+        let moved = |line: &CentreLine, start: &[[f64; 3]]| -> Result<Vec<[f64; 3]>, FemError> {
+            let now = line.at(&positions)?;
+            Ok(now.iter().zip(start).map(|(a, b)| [0, 1, 2].map(|k| a[k] - b[k])).collect())
+        };
         let peak = |values: &[f64]| (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b])).unwrap_or(0);
         let hottest = peak(&fields.von_mises_pa);
         let seam = self.seams.largest(&fields);
@@ -105,7 +114,8 @@ impl Gauge {
             actuator_pa: actuator.as_ref().map_or(0.0, |c| c.pressure_pa),
             body_pa: body.as_ref().map_or(0.0, |c| c.pressure_pa),
             stations_m: self.line.stations_m().to_vec(),
-            moved_m,
+            moved_m: moved(&self.line, &self.start_m)?,
+            seen_moved_m: moved(&self.seen, &self.seen_start_m)?,
             ring_moved_m: self.rings.iter().map(|ring| self.moved(ring, &positions)).collect(),
             tip_angle_rad: self.turn_rad(&positions),
             body_m3: body.map_or(0.0, |c| c.volume_m3),

@@ -8,6 +8,7 @@ mod base_clamp;
 mod camera_rotation;
 mod camera_scale;
 mod creep;
+mod displaced_gas;
 mod end_constraint;
 mod fabric_stretch;
 mod friction;
@@ -43,6 +44,7 @@ pub const EFFECTS: &[Effect] = &[
     shear_stiffness::ENTRY,
     shear_lock::ENTRY,
     seam_stiffness::ENTRY,
+    displaced_gas::ENTRY,
     self_contact::ENTRY,
     wrinkling::ENTRY,
     tail_tension::ENTRY,
@@ -151,6 +153,8 @@ pub enum Fitted {
     WithGauge,
     /// Only data of a robot whose bending stiffness is not fitted: next to it this shape of a law says nothing of its own.
     WithKeptBending,
+    /// Only data at several body pressures: at one it is another effect's curve.
+    WithBodyPressures,
 }
 
 /// A physical effect as an entry of the catalogue, or of a scenario's own ([`Catalogue`]).

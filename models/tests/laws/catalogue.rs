@@ -13,6 +13,7 @@ const NAMES: &[&str] = &[
     "shear_stiffness",
     "shear_lock",
     "seam_stiffness",
+    "displaced_gas",
     "self_contact",
     "wrinkling",
     "tail_tension",

@@ -124,7 +124,9 @@ pub fn as_run(summary: &Value, cost: &Value) -> Option<FeRun> {
     let readings = robot::readings(summary);
     let about = &summary["robot"];
     let setting = |key: &str| about["settings"][key].as_f64();
-    (!readings.is_empty()).then_some(())?;
+    // Runs of before kept no points of the wall.
+    let seen = |r: &Reading| r.seen_moved_m.len() + 1 == r.stations_m.len();
+    (!readings.is_empty() && readings.iter().all(seen)).then_some(())?;
     // The numbers that `RobotSettings::usual` leaves as one would assume them before seeing a robot bend.
     let fitted = |kind: &str, key: &str, usual: f64| about["actuator"] == kind && setting(key) != Some(usual);
     let sheet = fitted("spam", "tape_margin_mm", 0.0) || fitted("spam", "tape_mm", 0.05);
@@ -154,6 +156,7 @@ fn state(r: &Reading) -> FeState {
     let stored = |name: &str| r.ledger.iter().filter(|l| l.0 == name).map(|l| l.2 * 1e3).sum::<f64>();
     let lost = r.ledger.iter().filter(|l| l.1 == "dissipated").map(|l| l.2 * 1e3).sum::<f64>();
     let short = |v: f64| format!("{v:.6e}").parse().unwrap_or(v);
+    let plane = |d: &[f64; 3]| [short(d[0] * 1e3), short(d[1] * 1e3)];
     let energies_mj = [stored("membrane"), stored("bending"), stored("contact"), stored("hourglass"), lost].map(short);
     FeState {
         actuator_kpa: short(r.actuator_pa * 1e-3),
@@ -167,6 +170,7 @@ fn state(r: &Reading) -> FeState {
         von_mises_mpa: short(r.von_mises_pa * 1e-6),
         weld_n_per_m: short(r.seam_n_per_m),
         // The last station is the tip.
-        moved_mm: r.moved_m.iter().rev().skip(1).rev().map(|d| [short(d[0] * 1e3), short(d[1] * 1e3)]).collect(),
+        moved_mm: r.moved_m.iter().rev().skip(1).rev().map(plane).collect(),
+        seen_mm: r.seen_moved_m.iter().map(plane).collect(),
     }
 }

@@ -70,6 +70,11 @@ fn readings_csv(readings: &[Reading]) -> String {
                 line(&format!("ring_{axis}"), robot::rounded(station * MM).to_string(), ring[k] * MM, "mm");
             }
         }
+        for (station, moved) in r.stations_m.iter().zip(&r.seen_moved_m) {
+            for (k, axis) in ["dx", "dy", "dz"].into_iter().enumerate() {
+                line(&format!("seen_{axis}"), robot::rounded(station * MM).to_string(), moved[k] * MM, "mm");
+            }
+        }
         line("tip_turn", String::new(), r.tip_angle_rad.to_degrees(), "deg");
         line("volume", "body".into(), r.body_m3 * 1e6, "cm3");
         line("volume", "actuator".into(), r.actuator_m3 * 1e6, "cm3");
@@ -97,7 +102,8 @@ fn markers_csv(robot: &Robot, readings: &[Reading]) -> String {
         let phase = if r.actuator_pa >= before { "load" } else { "unload" };
         before = r.actuator_pa;
         for (k, station) in robot.scenario.markers_m.iter().enumerate() {
-            let (x, y) = ((station + r.moved_m[k][0]) * MM, r.moved_m[k][1] * MM);
+            let Some(moved) = r.seen_moved_m.get(k) else { continue };
+            let (x, y) = ((station + moved[0]) * MM, moved[1] * MM);
             let (body, actuator) = (robot::rounded(r.body_pa * 1e-3), robot::rounded(r.actuator_pa * 1e-3));
             let s = robot::rounded(station * MM);
             let _ = writeln!(out, "fem,{kind},{},{body},{actuator},{phase},{},{x},{y},{s}", r.time_s, k + 1);

@@ -97,9 +97,12 @@ pub struct FeState {
     pub von_mises_mpa: f64,
     /// Largest pull on a weld \[N/m\].
     pub weld_n_per_m: f64,
-    /// Displacements of the markers in the plane of bending, x along the straight robot, y to the actuator \[mm\].
+    /// Displacements of the sections at the markers in the plane of bending, x along the straight robot, y to the actuator \[mm\].
     #[serde(default)]
     pub moved_mm: Vec<[f64; 2]>,
+    /// Those of the wall where the markers stick, at the height of the axis, on the side that faces a camera \[mm\].
+    #[serde(default)]
+    pub seen_mm: Vec<[f64; 2]>,
 }
 
 fn first_seed() -> u64 {

@@ -25,6 +25,7 @@ fn run(extra: usize, mj: f64) -> (Scenario, FeRun, Pair) {
         von_mises_mpa: 0.0,
         weld_n_per_m: 0.0,
         moved_mm: Vec::new(),
+        seen_mm: Vec::new(),
     };
     let state = FeState {
         actuator_kpa: 20.0,
