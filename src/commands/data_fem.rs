@@ -22,7 +22,12 @@ pub fn run(args: &DataFem, context: &mut Context) -> Result<Outcome, Failure> {
     let truth = inputs::scenario(&args.scenario)?;
     let kpa = pressures(&args.pressure)?;
     let body_kpa = match &args.body_pressure {
-        Some(text) => list("--body-pressure", text, Quantity::Pressure, 1e-3)?,
+        Some(text) => match list("--body-pressure", text, Quantity::Pressure, 1e-3)? {
+            none if none.is_empty() => {
+                return Err(Failure::usage("--body-pressure names no pressure", "write for example 2kPa,4kPa"));
+            }
+            some => some,
+        },
         None => vec![rounded(truth.scenario.p_body_pa * 1e-3)],
     };
     let of_body = |body: &f64| std::iter::once(0.0).chain(kpa.iter().copied()).map(|p| [body * 1e3, p * 1e3]).collect();

@@ -1,6 +1,7 @@
 //! The effects that may be missing: the one place where the diagnosis meets the catalogue.
 
 use super::result::Group;
+use data::MeasuredValue;
 use models::Scenario;
 use models::effects::{Effect, Fitted, Stage};
 
@@ -115,15 +116,30 @@ impl Candidate {
     }
 }
 
+/// What the data hold beside markers at one body pressure.
+pub struct Held<'a> {
+    /// Readings of a gauge at the actuator.
+    pub gauge: bool,
+    /// The bending stiffness is kept.
+    pub kept_bending: bool,
+    /// Several body pressures.
+    pub body_pressures: bool,
+    /// Values that tests of their own found.
+    pub measured: &'a [&'a MeasuredValue],
+}
+
 /// Holds parameters at their neutral values that the data do not hold.
-pub fn hold(candidates: &mut [Candidate], gauge: bool, kept_bending: bool, body_pressures: usize) {
-    for p in candidates.iter_mut().flat_map(|candidate| &mut candidate.parameters) {
-        p.is_held = match p.fitted {
-            Fitted::Always => false,
-            Fitted::WithGauge => !gauge,
-            Fitted::WithKeptBending => !kept_bending,
-            Fitted::WithBodyPressures => body_pressures < 2,
-        };
+pub fn hold(candidates: &mut [Candidate], held: &Held) {
+    for Candidate { name, parameters, .. } in candidates {
+        for p in parameters {
+            let is_measured = held.measured.iter().any(|m| m.effect == *name && m.key == p.key);
+            p.is_held = match p.fitted {
+                Fitted::Always => false,
+                Fitted::WithGauge => !held.gauge,
+                Fitted::WithKeptBending => !held.kept_bending,
+                Fitted::WithBodyPressures => !held.body_pressures && !is_measured,
+            };
+        }
     }
 }
 

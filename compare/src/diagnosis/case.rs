@@ -2,7 +2,7 @@
 
 use super::basis::{Basis, cosine};
 use super::blocks::{body_pressures, fitted_scenarios, whole_block};
-use super::candidates::{Candidate, candidates, hold, present};
+use super::candidates::{Candidate, Held, candidates, hold, present};
 use super::known::{Known, bound, known};
 use super::least_squares::square;
 use super::options::Options;
@@ -78,11 +78,16 @@ pub fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usiz
     list.retain(open);
     let own = list.len();
     list.extend(candidates(scenario).into_iter().filter(open));
-    let bodies = body_pressures(sources.iter().map(|source| source.dataset)).len();
-    hold(&mut list, sources.iter().any(|source| source.gauge.is_some()), options.keep_bending, bodies);
+    let held = Held {
+        gauge: sources.iter().any(|source| source.gauge.is_some()),
+        kept_bending: options.keep_bending,
+        body_pressures: body_pressures(sources.iter().map(|source| source.dataset)).len() > 1,
+        measured: &sources.iter().flat_map(|source| source.measured).collect::<Vec<_>>(),
+    };
+    hold(&mut list, &held);
     list[..own].iter_mut().for_each(|candidate| candidate.hold_as_given(&own_values(scenario, candidate)));
-    let mut seen = (0..list.len()).map(|i| i < own || list[i].count() > 0).collect::<Vec<_>>().into_iter();
-    list.retain(|_| seen.next().unwrap_or(true));
+    let missing = list.split_off(own);
+    list.extend(missing.into_iter().filter(|candidate| candidate.count() > 0));
     (list, own)
 }
 

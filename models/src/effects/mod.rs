@@ -153,7 +153,7 @@ pub enum Fitted {
     WithGauge,
     /// Only data of a robot whose bending stiffness is not fitted: next to it this shape of a law says nothing of its own.
     WithKeptBending,
-    /// Only data at several body pressures: at one it is another effect's curve.
+    /// Only data at several body pressures, or with a test of its own: at one pressure it is another effect's curve.
     WithBodyPressures,
 }
 

@@ -266,12 +266,12 @@ impl Ensemble {
         (!found.is_empty()).then(|| [of(0), of(1)])
     }
 
-    /// Mean and standard deviation of the height of the marker at a station \[mm\]; `None` where no run has it at that pressure.
+    /// Mean and standard deviation of the height of the marker, on the wall, at a station \[mm\]; `None` where no run has it at that pressure.
     pub fn marker_at(&self, station_m: f64, actuator_kpa: f64) -> Option<(f64, Option<f64>)> {
         let here = |run: &FeRun| {
             let k = run.stations_mm.iter().position(|s| (s - station_m * 1e3).abs() < SAME_STATION_MM)?;
             let state = run.states.iter().find(|s| same(s.actuator_kpa, actuator_kpa))?;
-            Some(state.moved_mm.get(k)?[1])
+            Some(state.seen_mm.get(k)?[1])
         };
         let found: Vec<f64> = self.runs.iter().filter_map(here).collect();
         (!found.is_empty()).then(|| mean_and_deviation(&found))

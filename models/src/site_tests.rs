@@ -1,0 +1,29 @@
+use super::*;
+use crate::actuators::ACTUATORS;
+
+#[test]
+fn the_start_value_of_a_place_without_effects_is_its_equilibrium_also_with_a_growing_arm() {
+    for actuator in ACTUATORS {
+        for (stiffness, arm_growth) in [(0.0, 0.0), (0.0, 1.0), (1.35, 0.0), (1.35, 0.5), (0.3, 2.0)] {
+            let shape = ActuatorShape { length_m: 0.06, width_m: 0.07, fold_m: 0.0, volume_gain: 1.2 };
+            let linkage = Linkage {
+                active_fraction: 0.9,
+                stroke_fraction: 0.95,
+                arm_m: 0.08,
+                arm_growth,
+                compliance_per_n: 0.0,
+                flattening_m2: 0.0,
+            };
+            let body = BodyPressure { radius_m: 0.04, hinge_curvature: 1e-4, share: 1.0 };
+            let site = Site::new(0.04, body, Bending { stiffness }, linkage, Some(actuator), shape, 0);
+            for p_act_pa in [5e3, 2e4, 1e5] {
+                let loads = SiteLoads { p_body_pa: 2e3, p_act_pa, moment: 0.01, s_m: 0.0, dt_s: 0.0, stamp: 0 };
+                let start = site.start(actuator, &loads, &[]);
+                let imbalance = |a: f64| site.balance(actuator, a, &loads, &[]).imbalance;
+                let slope = (imbalance(start.x + 1e-5) - imbalance(start.x - 1e-5)) / 2e-5;
+                assert!((imbalance(start.x) / slope).abs() < 1e-14, "{} {stiffness} {arm_growth}", actuator.name);
+                assert!((start.slope / slope - 1.0).abs() < 1e-7, "{} {stiffness} {arm_growth}", actuator.name);
+            }
+        }
+    }
+}
