@@ -324,7 +324,7 @@ pub struct DataFem {
     /// Actuator pressures, rising
     #[arg(long, short, default_value = "5kPa,10kPa,15kPa,20kPa,25kPa,30kPa", allow_hyphen_values = true)]
     pub pressure: String,
-    /// Body pressures, such as 2kPa,4kPa; left out: the scenario's
+    /// Body pressure; left out: the scenario's
     #[arg(long, allow_hyphen_values = true)]
     pub body_pressure: Option<String>,
     /// Seed of camera, pressure and alignment

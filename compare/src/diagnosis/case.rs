@@ -253,6 +253,14 @@ impl<'a> Case<'a> {
         self.beside.iter().enumerate().map(error).collect()
     }
 
+    /// Root mean square of a fit's errors over all values of all data \[mm\].
+    pub fn error_in_all_mm(&self, fit: &Fit) -> f64 {
+        let errors = std::iter::once(self.error_mm(&self.prediction(fit))).chain(self.errors_beside_mm(fit));
+        let counts = self.problem.blocks.iter().map(|block| block.target_m.len() as f64);
+        let (squares, count) = errors.zip(counts).fold((0.0, 0.0), |(s, n), (mm, k)| (s + k * mm * mm, n + k));
+        (squares / count).sqrt()
+    }
+
     /// Error beyond noise that no scatter between runs explains \[mm\]: from the whitened sum of squares, whose expectation
     /// under noise is its degrees of freedom. Pressure, alignment and rotation of a run do not count.
     pub fn beyond_noise_mm(&self, fit: &Fit) -> f64 {

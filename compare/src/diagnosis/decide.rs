@@ -128,7 +128,7 @@ fn explain(case: &Case, options: &Options, decision: &mut Decision, significant:
 /// What comes closest to the measurements in mm, where nothing explains them: the best by the whitened sum of squares may
 /// mend small differences of quiet holds and leave the robot far off where runs scatter.
 fn closest(case: &Case, decision: &Decision, last: Fit) -> Fit {
-    let error_mm = |fit: &Fit| case.error_mm(&case.prediction(fit));
+    let error_mm = |fit: &Fit| case.error_in_all_mm(fit);
     let least = |fits: &[Fit]| {
         let errors = fits.iter().filter(|fit| !case.is_rejected(fit)).map(|fit| (error_mm(fit), fit.clone()));
         errors.min_by(|a, b| a.0.total_cmp(&b.0))
@@ -177,7 +177,7 @@ fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>) {
     decision.pairs_tried = tried;
     let before = last.as_ref().unwrap_or(&case.base);
     let allowance = order::sort(case, &mut pairs, before);
-    let error_mm = |fit: &Fit| case.error_mm(&case.prediction(fit));
+    let error_mm = |fit: &Fit| case.error_in_all_mm(fit);
     let enough_mm = last.as_ref().map_or(f64::INFINITY, |one| (CLOSER * error_mm(one)).max(1e3 * case.tolerance_m));
     if let Some(best) = pairs.first()
         && p_over(case, best, before, tried).is_some_and(|p| p < case.alpha)
@@ -194,7 +194,7 @@ fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>) {
 /// runs explains taken off, and as it is. By the first alone a misfit that looks like a run's pressure counts for little, and what
 /// is left of it for much.
 fn leaves(case: &Case, fit: &Fit, (share, least_mm): (f64, f64)) -> bool {
-    let error_mm = |fit: &Fit| case.error_mm(&case.prediction(fit));
+    let error_mm = |fit: &Fit| case.error_in_all_mm(fit);
     let left = |after: f64, before: f64| after > least_mm.max(share * before);
     left(case.beyond_noise_mm(fit), case.beyond_noise_mm(&case.base)) && left(error_mm(fit), error_mm(&case.base))
 }

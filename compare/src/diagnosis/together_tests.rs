@@ -252,32 +252,29 @@ fn data_beside_others_need_runs_enough_to_know_their_noise() {
     assert!(matches!(refused, CompareError::TooFewRunsBeside { runs: 2, needed: 3, .. }), "{refused}");
 }
 
-/// The bodies of these finite elements lose 1.1 times what the actuator gains (`docs/robots.md`); at one body pressure that is an
-/// offset of the pressure, and no candidate unless it was measured.
+/// The bodies of these finite elements lose more than the turn says, 1.3 times what the sPAM's actuator gains at 2 kPa and 1.1
+/// times at 4 kPa (`docs/robots.md`). At one body pressure that is an offset of the pressure, and no candidate unless measured.
 #[test]
 fn two_body_pressures_name_the_gas_that_the_pouches_of_the_finite_elements_push_aside() {
-    use crate::study::engines::{FeRun, ensembles, stored};
+    use crate::study::engines::{ensembles, stored};
     use crate::study::{Generator, published::shipped_scenario, seen::seen};
-    let scenario = shipped_scenario("epam").unwrap();
-    let markers = |bodies_pa: &[f64]| {
-        let at = |p_body_pa: &f64| {
-            ensembles(&stored(), &Scenario { p_body_pa: *p_body_pa, ..scenario.clone() })[0].runs.clone()
-        };
-        let runs: Vec<FeRun> = bodies_pa.iter().flat_map(at).collect();
-        let steps = |body: &f64| (0..=6).map(|k| [*body, 5e3 * f64::from(k)]).collect::<Vec<_>>();
-        let protocol = bodies_pa.iter().flat_map(steps).collect();
-        seen(&runs, "fem", &Generator { protocol, seed: 21, ..Generator::default() }).unwrap()
+    let scenario = shipped_scenario("spam").unwrap();
+    let markers = |p_body_pa: f64, seed: u64| {
+        let [own, _] = ensembles(&stored(), &Scenario { p_body_pa, ..scenario.clone() });
+        let protocol = (0..=6).map(|k| [p_body_pa, 5e3 * f64::from(k)]).collect();
+        seen(&own.runs, "fem", &Generator { protocol, seed, ..Generator::default() }).unwrap()
     };
-    let d = run(&scenario, &markers(&[2e3, 4e3]));
+    let (low, high) = (markers(2e3, 21), markers(4e3, 22));
+    let beside = [Measured { dataset: &high, about: None }];
+    let d = diagnose_together(&scenario, Measured { dataset: &low, about: None }, &beside, &quick()).unwrap();
     assert_eq!(d.verdict, Some(Verdict::Effect));
-    assert!(d.indistinguishable.iter().all(|entry| entry.contains("displaced_gas")), "{:?}", d.indistinguishable);
+    assert!(d.added.iter().any(|a| a.effect == "displaced_gas"), "{:?}", d.indistinguishable);
     let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
-    assert!(after < 0.1 * before, "{before} to {after} mm");
-    let one = markers(&[2e3]);
+    assert!(after < 0.2 * before, "{before} to {after} mm");
     let is_tried = |about: Option<&About>| {
-        let d = diagnose(&scenario, &one, about, &quick()).unwrap();
+        let d = diagnose(&scenario, &low, about, &quick()).unwrap();
         d.ranked.iter().any(|r| r.effect == "displaced_gas")
     };
-    let volumes = About { measured: vec![of("displaced_gas", "share", 1.1, 0.1)], ..about(Direct::default()) };
+    let volumes = About { measured: vec![of("displaced_gas", "share", 1.28, 0.1)], ..about(Direct::default()) };
     assert!(!is_tried(None) && is_tried(Some(&volumes)));
 }

@@ -1,8 +1,8 @@
 //! Marker data from finite element runs: what a camera would see of them, with the scatter of a real test.
 //!
-//! Every run of the data is one robot with imperfections of its own: the finite element runs of one seed, one for every body
-//! pressure. Markers stick on the wall at the height of the axis, on the side that faces the camera. Between the pressures at
-//! which a run was read, and up to [`BEYOND`] past the highest, they lie on straight lines over pressure:
+//! Every run of the data is one finite element run with imperfections of its own. Markers stick on the wall at the height of the
+//! axis, on the side that faces the camera. Between the pressures at which a run was read, and up to [`BEYOND`] past the highest,
+//! they lie on straight lines over pressure:
 //!
 //! ```text
 //! r(P) = r_k + (r_{k+1} − r_k) (P − P_k)/(P_{k+1} − P_k)       P = set pressure · (1 + ε), one ε per run
@@ -19,7 +19,7 @@ use data::{Dataset, Marker};
 /// How far past the highest pressure that was read a set pressure with its error may lie, over that pressure.
 pub const BEYOND: f64 = 0.10;
 
-/// Makes a dataset from runs of one kind of robot; as many runs as there are seeds among them, whatever the generator says.
+/// Makes a dataset from runs of one robot; their number is that of the runs, whatever the generator says.
 ///
 /// # Errors
 /// No runs, runs without markers or of different robots, a pressure they do not reach.
@@ -41,23 +41,15 @@ pub fn seen(runs: &[FeRun], name: &str, generator: &Generator) -> Result<Dataset
     if runs.iter().any(|run| run.actuator != first.actuator || run.stations_mm != first.stations_mm) {
         return Err(refuse("the finite element runs are of different robots".into()));
     }
-    let mut seeds: Vec<u64> = Vec::new();
-    for run in runs {
-        if !seeds.contains(&run.seed) {
-            seeds.push(run.seed);
-        }
-    }
     let mut eye = Seen::new(generator);
     let mut xy_m = Vec::new();
-    for &seed in &seeds {
+    for run in runs {
         let gain = eye.next_run();
-        let robot = || runs.iter().filter(|run| run.seed == seed);
         for [body_pa, actuator_pa] in &generator.protocol {
-            let kpa = body_pa * 1e-3;
-            let Some(run) = robot().find(|run| (run.body_kpa - kpa).abs() < 1e-6) else {
-                let there: Vec<String> = robot().map(|run| run.body_kpa.to_string()).collect();
-                return Err(refuse(format!("a body at {kpa} kPa; the runs are at {} kPa", there.join(", "))));
-            };
+            if (body_pa * 1e-3 - run.body_kpa).abs() > 1e-6 {
+                let (wanted, there) = (body_pa * 1e-3, run.body_kpa);
+                return Err(refuse(format!("a body at {wanted} kPa; the runs are at {there} kPa")));
+            }
             let markers = at(run, actuator_pa * 1e-3 * gain)?;
             (0..generator.samples).for_each(|_| eye.look(&markers, &mut xy_m));
         }
@@ -66,7 +58,7 @@ pub fn seen(runs: &[FeRun], name: &str, generator: &Generator) -> Result<Dataset
     Ok(Dataset {
         name: name.to_string(),
         actuator: first.actuator.clone(),
-        runs: (1..=seeds.len()).map(|r| r.to_string()).collect(),
+        runs: (1..=runs.len()).map(|r| r.to_string()).collect(),
         holds: holds(generator),
         markers: first.stations_mm.iter().enumerate().map(marker).collect(),
         samples_per_hold: generator.samples,
@@ -110,7 +102,6 @@ mod tests {
             body_kpa: 2.0,
             stations_mm: vec![330.0],
             known: "assumed".into(),
-            seed: slope as u64,
             states: [0.0, 10.0, 20.0, 30.0].map(state).to_vec(),
             ..FeRun::default()
         }
@@ -134,16 +125,6 @@ mod tests {
         let mm: Vec<f64> = data.xy_m.iter().map(|v| (v * 1e6).round() * 1e-3).collect();
         assert_eq!(mm[..8], [330.0, 0.0, 325.0, 10.0, 310.0, 40.0, 300.0, 60.0]);
         assert_eq!(mm[8 + 6..], [300.0, 90.0]);
-    }
-
-    #[test]
-    fn a_robot_is_seen_at_every_body_pressure_it_was_run_at() {
-        let protocol = vec![[2e3, 10e3], [4e3, 10e3]];
-        let softer = FeRun { body_kpa: 4.0, seed: 2, ..run(1.0) };
-        let data = seen(&[run(2.0), softer], "d", &Generator { protocol, ..quiet() }).unwrap();
-        assert_eq!((data.runs.len(), data.holds.len()), (1, 2));
-        let mm: Vec<f64> = data.xy_m.iter().map(|v| (v * 1e6).round() * 1e-3).collect();
-        assert_eq!(mm, [320.0, 20.0, 320.0, 10.0]);
     }
 
     #[test]

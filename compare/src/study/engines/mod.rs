@@ -208,7 +208,8 @@ fn reduced_ledger(model: &Model, loads: &Loads, at: &models::Prediction, gas: f6
     for line in model.ledger(loads, at) {
         let (term, factor) = match line.name {
             "actuator_pressure" => (0, gas),
-            "body_pressure" => (1, 1.0),
+            // What the actuator pushes aside is work against the body's gas.
+            "body_pressure" | "displaced_gas" => (1, 1.0),
             "self_contact" => (4, 1.0),
             "fabric_stretch" | "shear_stiffness" => (3, 1.0),
             _ => (2, 1.0),
