@@ -1,6 +1,7 @@
 //! From fits to a verdict.
 
 use super::case::Case;
+use super::closest::{CLOSER, as_close, closest};
 use super::lack_of_fit::{lack_of_fit, with_supply};
 use super::options::Options;
 use super::order;
@@ -27,9 +28,6 @@ const PLACE_LEFT: f64 = 0.1;
 /// Left over by more than this share, a trace along yet another effect says the same as a lack of fit.
 const MOST_LEFT: (f64, f64) = (0.5, 0.05);
 
-/// Another attempt, or a second effect, must bring the error in mm below this share; a second effect, or within the tolerance.
-const CLOSER: f64 = 0.8;
-
 /// Everything that was fitted, and what follows.
 pub struct Decision {
     /// Single effects, best first.
@@ -48,6 +46,8 @@ pub struct Decision {
     pub pairs_tried: usize,
     /// The final model; `None`: the base.
     pub last: Option<Fit>,
+    /// Where nothing explains the data: what comes as close as the final model, best first.
+    pub as_close: Vec<Fit>,
     /// Verdict; `None` without p-values.
     pub verdict: Option<Verdict>,
     /// One corrected p of "nothing is missing".
@@ -79,6 +79,7 @@ pub fn decide(case: &Case, options: &Options) -> Result<Decision, CompareError> 
         pair_set: Vec::new(),
         pairs_tried: 0,
         last: None,
+        as_close: Vec::new(),
         fault: None,
         verdict: p_value.map(|_| Verdict::None),
         p_value: p_value.map(reported_p),
@@ -114,6 +115,7 @@ fn explain(case: &Case, options: &Options, decision: &mut Decision, significant:
     if is_unexplained(case, &last, decision.after, share) {
         let closest = closest(case, decision, last);
         decision.after = test(case, &closest)?;
+        decision.as_close = as_close(case, decision, &closest);
         decision.last = Some(closest);
         return Ok(());
     }
@@ -123,23 +125,6 @@ fn explain(case: &Case, options: &Options, decision: &mut Decision, significant:
     }
     decision.last = Some(last);
     Ok(())
-}
-
-/// What comes closest to the measurements in mm, where nothing explains them: the best by the whitened sum of squares may
-/// mend small differences of quiet holds and leave the robot far off where runs scatter.
-fn closest(case: &Case, decision: &Decision, last: Fit) -> Fit {
-    let error_mm = |fit: &Fit| case.error_in_all_mm(fit);
-    let least = |fits: &[Fit]| {
-        let errors = fits.iter().filter(|fit| !case.is_rejected(fit)).map(|fit| (error_mm(fit), fit.clone()));
-        errors.min_by(|a, b| a.0.total_cmp(&b.0))
-    };
-    let mut best = (error_mm(&last), last);
-    for found in [least(&decision.singles), least(&decision.pairs)].into_iter().flatten() {
-        if found.0 < CLOSER * best.0 {
-            best = found;
-        }
-    }
-    best.1
 }
 
 /// Whether a fit leaves a share of the error that the tests see as more than noise, at the level that is theirs.

@@ -19,6 +19,7 @@ mod basis;
 mod blocks;
 mod candidates;
 mod case;
+mod closest;
 mod decide;
 mod detect;
 mod distance;
@@ -230,6 +231,7 @@ fn assemble(
         pairs,
         added,
         attempt,
+        attempt_alike: decision.as_close.iter().map(|fit| as_close(case, fit)).collect(),
         lack_of_fit_before: decision.before,
         lack_of_fit_after: decision.after,
         pattern: outside
@@ -324,6 +326,11 @@ fn added(case: &Case, decision: &Decision) -> Vec<Added> {
         Added { effect: candidate.name.clone(), group: candidate.group, parameters }
     };
     last.effects[case.always.len()..].iter().map(entry).collect()
+}
+
+fn as_close(case: &Case, fit: &Fit) -> AsClose {
+    let effects = fit.effects[case.always.len()..].iter().map(|e| case.candidate(*e).name.clone());
+    AsClose { effects: effects.collect(), systematic_after_mm: case.error_in_all_mm(fit) }
 }
 
 /// Names in the set of the verdict, best first; without verdict those of the ranking.

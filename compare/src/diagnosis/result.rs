@@ -157,6 +157,15 @@ pub struct Combination {
     pub cancels: bool,
 }
 
+/// Something that leaves the same distance as an attempt.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AsClose {
+    /// Names.
+    pub effects: Vec<String>,
+    /// Error beyond noise with it \[mm\], over all data.
+    pub systematic_after_mm: f64,
+}
+
 /// An effect that the verdict adds to the model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Added {
@@ -329,6 +338,9 @@ pub struct Diagnosis {
     pub added: Vec<Added>,
     /// With the verdict `out_of_catalog`: the best that the catalogue can do, which is not enough.
     pub attempt: Vec<Added>,
+    /// What comes as close as the attempt, its error over all data to a fifth, nearest first: it is no more a bare name than an
+    /// answer is.
+    pub attempt_alike: Vec<AsClose>,
     /// Lack of fit of the calibrated base.
     pub lack_of_fit_before: Option<LackOfFit>,
     /// Lack of fit of the final model.

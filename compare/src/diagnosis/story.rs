@@ -9,6 +9,8 @@ use crate::wording::{list, p_value};
 
 /// Share of the error left up to which the best of the catalogue is named as a part of the answer.
 const MOSTLY: f64 = 0.25;
+/// What comes as close as an attempt is named up to that many; `diagnosis.json` has all.
+const MOST_AS_CLOSE: usize = 5;
 
 /// The story, one sentence or two per entry.
 pub fn story(d: &Diagnosis) -> Vec<String> {
@@ -170,10 +172,24 @@ fn outside(d: &Diagnosis) -> Vec<String> {
              before."
         )
     }];
+    told.extend(as_close(d));
     told.extend(d.pattern.as_ref().map(looks_like));
     told.extend(d.leftover.iter().map(|s| s.sentence.clone()));
     told.push("Check markers, set-up and protocol there before looking for new physics.".into());
     told
+}
+
+fn as_close(d: &Diagnosis) -> Option<String> {
+    let (first, rest) = d.attempt_alike.split_at(d.attempt_alike.len().min(MOST_AS_CLOSE));
+    let mut names: Vec<String> =
+        first.iter().map(|a| format!("{} ({:.2} mm)", a.effects.join(" + "), a.systematic_after_mm)).collect();
+    if !rest.is_empty() {
+        names.push(format!("{} more", rest.len()));
+    }
+    (!names.is_empty()).then(|| {
+        let of_all = if d.beside.is_empty() { "" } else { " over all data" };
+        format!("As close{of_all}, to a fifth: {}. These data do not choose between them.", list(&names))
+    })
 }
 
 fn looks_like(pattern: &LeftPattern) -> String {

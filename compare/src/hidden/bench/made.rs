@@ -37,7 +37,9 @@ pub struct Made {
     pub stated: Vec<String>,
     /// With the verdict `out_of_catalog`: the best that the catalogue can do, said not to be enough.
     pub attempt: Vec<String>,
-    /// The effect is in it.
+    /// What comes as close, to a fifth; a pair is written `a + b`.
+    pub attempt_alike: Vec<String>,
+    /// The effect is in the stated set.
     pub in_set: bool,
     /// Error beyond noise at pressures left out of the fit, before \[mm\].
     pub before_mm: Option<f64>,
@@ -87,6 +89,7 @@ fn one(robot: &'static str, lacking: &'static str, diagnose: Diagnose) -> Result
         after_mm: found.base.heldout_with_added_mm.filter(|_| !attempt.is_empty() || !found.added.is_empty()),
         stated: found.indistinguishable,
         attempt,
+        attempt_alike: found.attempt_alike.iter().map(|alike| alike.effects.join(" + ")).collect(),
     })
 }
 
