@@ -69,8 +69,10 @@ pub enum CompareError {
         needed: usize,
     },
     /// `about.toml` measures what no effect has.
-    #[error("[measured] of about.toml names an unknown {what}; known: {known}")]
+    #[error("{place}: [measured] names an unknown {what}; known: {known}")]
     UnknownMeasured {
+        /// File and line.
+        place: String,
         /// Effect or parameter.
         what: String,
         /// Those that exist.

@@ -111,7 +111,7 @@ pub struct Direct {
 }
 
 /// A parameter of an effect that a test of its own measured: a strip of fabric, a scale.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct MeasuredValue {
     /// Effect, as in scenarios.
     pub effect: String,
@@ -121,6 +121,15 @@ pub struct MeasuredValue {
     pub value: f64,
     /// Its standard deviation.
     pub sd: f64,
+    /// Where it is written, `about.toml:27`; empty for a value from elsewhere.
+    pub place: String,
+}
+
+/// The same finding, wherever it is written.
+impl PartialEq for MeasuredValue {
+    fn eq(&self, other: &MeasuredValue) -> bool {
+        (&self.effect, &self.key, self.value, self.sd) == (&other.effect, &other.key, other.value, other.sd)
+    }
 }
 
 /// Dimensions of the robot \[m\].

@@ -102,7 +102,7 @@ pub fn about_toml(about: &About) -> String {
     if let Some([stiffness, sd]) = about.bending_nm2 {
         text.push_str(&format!("\n[bending]\nstiffness_nm2 = {stiffness:?}\nsd_nm2 = {sd:?}\n"));
     }
-    for MeasuredValue { effect, key, value, sd } in &about.measured {
+    for MeasuredValue { effect, key, value, sd, .. } in &about.measured {
         // A table is opened once; its parameters follow each other.
         let header = format!("\n[measured.{effect}]\n");
         if !text.contains(&header) {

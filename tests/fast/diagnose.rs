@@ -11,7 +11,17 @@ fn a_diagnosis_as_json_holds_what_programs_build_on() {
     for key in ["noise", "base", "outliers"] {
         assert!(answer[key].is_object(), "{key}");
     }
-    for key in ["indistinguishable", "added", "undetectable", "pairs", "limits", "warnings", "summary"] {
+    for key in [
+        "indistinguishable",
+        "added",
+        "attempt",
+        "attempt_alike",
+        "undetectable",
+        "pairs",
+        "limits",
+        "warnings",
+        "summary",
+    ] {
         assert!(answer[key].is_array(), "{key}");
     }
     assert!(answer.get("next_experiment").is_some());
@@ -66,6 +76,7 @@ fn a_quantity_measured_by_itself_is_read_and_one_that_no_effect_has_is_refused()
     let ran = answer("fabric_stretch]\ncompliance_m_per_n = [8e-5, 4e-6]\n");
     let warnings = ran.json("ibr.diagnose")["warnings"].to_string();
     assert!(warnings.contains("fabric_stretch was measured: c = 8.00e-5 ± 4.00e-6 m/N"), "{warnings}");
+    let place = format!("about.toml:{}: ", about.lines().count() + 3);
     for (line, words) in [
         ("fabric_strech]\ncompliance_m_per_n = [8e-5, 4e-6]\n", "fabric_stretch"),
         ("fabric_stretch]\ncompliance = [8e-5, 4e-6]\n", "compliance_m_per_n"),
@@ -73,7 +84,7 @@ fn a_quantity_measured_by_itself_is_read_and_one_that_no_effect_has_is_refused()
     ] {
         let ran = answer(line);
         assert_eq!(ran.code, 3, "{}", ran.stderr);
-        assert!(ran.stderr.contains(words), "{}", ran.stderr);
+        assert!(ran.stderr.contains(words) && ran.stderr.contains(&place), "{}", ran.stderr);
     }
 }
 

@@ -47,6 +47,8 @@ pub struct Free {
     pub starts: Vec<f64>,
     /// When a fit may change it.
     pub fitted: Fitted,
+    /// A robot rolled by 180° sees it with the other sign.
+    pub in_room: bool,
     /// It stays neutral: the data at hand say nothing of it.
     pub is_held: bool,
 }
@@ -170,6 +172,7 @@ fn candidate(effect: &Effect, actuator: &str) -> Candidate {
         upper: p.upper * p.si,
         starts: p.starts.iter().map(|v| v * p.si).collect(),
         fitted: p.fitted,
+        in_room: p.in_room,
         is_held: false,
     };
     Candidate {

@@ -149,16 +149,13 @@ fn place(candidates: &[Candidate], effect: &str, key: &str) -> Option<(usize, us
 
 fn exists(scenario: &Scenario, m: &MeasuredValue) -> Result<(), CompareError> {
     let catalogue = scenario.catalogue();
-    let Some(effect) = catalogue.effects().find(|effect| effect.name == m.effect) else {
-        let known: Vec<String> = catalogue.effects().map(|effect| effect.name.to_string()).collect();
-        return Err(CompareError::UnknownMeasured { what: format!("effect `{}`", m.effect), known: known.join(", ") });
+    let (what, known): (String, Vec<&str>) = match catalogue.effects().find(|effect| effect.name == m.effect) {
+        Some(effect) if effect.parameters.iter().any(|p| p.key == m.key) => return Ok(()),
+        Some(effect) => {
+            (format!("parameter `{}` of {}", m.key, m.effect), effect.parameters.iter().map(|p| p.key).collect())
+        }
+        None => (format!("effect `{}`", m.effect), catalogue.effects().map(|effect| effect.name).collect()),
     };
-    if effect.parameters.iter().any(|p| p.key == m.key) {
-        return Ok(());
-    }
-    let known: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
-    Err(CompareError::UnknownMeasured {
-        what: format!("parameter `{}` of {}", m.key, m.effect),
-        known: known.join(", "),
-    })
+    let place = if m.place.is_empty() { "about.toml".to_string() } else { m.place.clone() };
+    Err(CompareError::UnknownMeasured { place, what, known: known.join(", ") })
 }

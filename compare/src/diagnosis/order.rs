@@ -122,6 +122,7 @@ mod tests {
             upper: 1.5,
             starts: Vec::new(),
             fitted: models::effects::Fitted::Always,
+            in_room: false,
             is_held: false,
         };
         assert_eq!((wrong_sign(&p, 0.3), wrong_sign(&Free { lower: -1.5, ..p.clone() }, -0.3)), (0.0, 0.0));

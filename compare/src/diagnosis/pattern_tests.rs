@@ -148,7 +148,8 @@ fn an_attempt_comes_closer_in_mm_even_where_quiet_holds_ask_for_something_else()
         let own: Vec<String> = d.attempt.iter().map(|a| a.effect.clone()).collect();
         let told = d.attempt_alike.iter().map(|a| a.systematic_after_mm);
         assert!(told.clone().all(|mm| mm < after / 0.8) && told.is_sorted() && !is_told(&own), "{robot}");
-        let near = |pair: &&Combination| own.len() == 2 && pair.systematic_after_mm < after / 0.8 && pair.effects != own;
+        let near =
+            |pair: &&Combination| own.len() == 2 && pair.systematic_after_mm < after / 0.8 && pair.effects != own;
         assert!(d.pairs.iter().filter(near).all(|pair| is_told(&pair.effects)), "{robot}: {:?}", d.attempt_alike);
     }
 }

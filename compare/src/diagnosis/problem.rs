@@ -5,7 +5,6 @@ use super::candidates::Candidate;
 use super::evaluator::positions;
 use super::known::Known;
 use super::least_squares::{Minimum, Range, dot, minimise, square};
-use super::source::is_fixed_to_the_room;
 use crate::error::CompareError;
 use crate::gauge::Gauge;
 use crate::study::predict::is_open;
@@ -240,8 +239,8 @@ impl Problem<'_> {
 /// Values as a robot rolled by 180° sees them.
 fn turned(candidates: &[Candidate], effects: &[usize], values: &[f64]) -> Vec<f64> {
     let chosen = effects.iter().map(|e| &candidates[*e]);
-    let fixed = chosen.flat_map(|c| c.parameters.iter().map(|p| is_fixed_to_the_room(&c.name, &p.key)));
-    fixed.zip(values).map(|(fixed, v)| if fixed { -v } else { *v }).collect()
+    let in_room = chosen.flat_map(|c| c.parameters.iter().map(|p| p.in_room));
+    in_room.zip(values).map(|(in_room, v)| if in_room { -v } else { *v }).collect()
 }
 
 /// A scenario with those of the effects whose stage is open, at values in SI.

@@ -19,16 +19,10 @@ pub fn seen_rolled(scenario: &Scenario) -> Scenario {
     let mut seen = scenario.clone();
     for effect in &mut seen.effects {
         let parameters = models::effects::by_name(&effect.name).map_or(&[][..], |entry| entry.parameters);
-        let fixed =
-            parameters.iter().zip(&mut effect.values).filter(|(p, _)| is_fixed_to_the_room(&effect.name, p.key));
-        fixed.for_each(|(_, value)| *value = -*value);
+        let in_room = parameters.iter().zip(&mut effect.values).filter(|(p, _)| p.in_room);
+        in_room.for_each(|(_, value)| *value = -*value);
     }
     seen
-}
-
-/// Parameters across the robot that belong to the room: rolled by 180°, the robot sees them with the other sign.
-pub fn is_fixed_to_the_room(effect: &str, key: &str) -> bool {
-    [("tip_load", "force_y_n"), ("camera_rotation", "angle_deg")].contains(&(effect, key))
 }
 
 /// Components of unit vectors that differ by less are the same.

@@ -86,7 +86,7 @@ fn a_bending_test_is_one_more_value_of_the_fit() {
 }
 
 fn of(effect: &str, key: &str, value: f64, sd: f64) -> MeasuredValue {
-    MeasuredValue { effect: effect.into(), key: key.into(), value, sd }
+    MeasuredValue { effect: effect.into(), key: key.into(), value, sd, place: String::new() }
 }
 
 /// As of a bending test: 1/h² of a fitted parameter with the test is the sum of both.

@@ -35,7 +35,7 @@ pub fn bench_tests(truth: &Truth, names: &[String]) -> Result<Vec<MeasuredValue>
         let found = found(&robot, effect).unwrap_or(parameter.neutral);
         let sd = BENCH_TEST * found.abs().max(parameter.typical_for(&truth.actuator).abs());
         let value = found + sd * scatter.normal();
-        all.push(MeasuredValue { effect: (*effect).into(), key: (*key).into(), value, sd });
+        all.push(MeasuredValue { effect: (*effect).into(), key: (*key).into(), value, sd, place: String::new() });
     }
     Ok(all)
 }

@@ -120,7 +120,9 @@ impl Check<'_> {
                     let message = "needs a finite value and a standard deviation above a thousandth of it";
                     return Err(self.fault(&key, &pair, message, help));
                 }
-                all.push(MeasuredValue { effect: effect.clone(), key, value, sd });
+                let line = self.text.get(..pair.span().start).map_or(0, |before| before.matches('\n').count()) + 1;
+                let place = format!("{}:{line}", self.file);
+                all.push(MeasuredValue { effect: effect.clone(), key, value, sd, place });
             }
         }
         Ok(all)

@@ -37,6 +37,10 @@ session = "monday"
 id = "2"
 "#;
 
+fn line_of(measured: &crate::MeasuredValue) -> usize {
+    measured.place.strip_prefix("about.toml:").unwrap().parse().unwrap()
+}
+
 fn parsed(text: &str) -> About {
     parse_about("about.toml", text).unwrap()
 }
@@ -55,6 +59,7 @@ fn a_full_description_is_read_in_si_units() {
     assert_eq!(about.bending_nm2, Some([1.35, 0.15]));
     assert_eq!(about.runs[0].session.as_deref(), Some("monday"));
     let measured: Vec<_> = about.measured.iter().map(|m| (m.effect.as_str(), m.key.as_str(), m.value, m.sd)).collect();
+    assert!(about.measured.iter().all(|m| FULL.lines().nth(line_of(m) - 1).unwrap().starts_with(&m.key)));
     let lock = [("shear_lock", "lock_rad", 0.3, 0.02), ("shear_lock", "stiffness_n_per_m", 500.0, 50.0)];
     assert_eq!(measured, [&[("gravity", "weight_n_per_m", 1.5, 0.1)], &lock[..]].concat());
 }

@@ -39,6 +39,7 @@ pub(super) const ENTRY: Effect = Effect {
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,
+        in_room: false,
         meaning: "share of the lift that lengthens the arm",
     }],
     family: None,

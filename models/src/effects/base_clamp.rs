@@ -47,6 +47,7 @@ pub(super) const fn share(meaning: &'static str) -> Parameter<'static> {
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,
+        in_room: false,
         meaning,
     }
 }
@@ -64,6 +65,7 @@ pub(super) const REACH: Parameter = Parameter {
     starts: &[0.8, 1.5, 2.2],
     by_actuator: &[],
     fitted: Fitted::Always,
+    in_room: false,
     meaning: "length over which the extra stiffness fades, in body radii",
 };
 

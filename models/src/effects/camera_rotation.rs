@@ -36,6 +36,7 @@ pub(super) const ENTRY: Effect = Effect {
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,
+        in_room: true,
         meaning: "roll angle of the camera",
     }],
     family: None,

@@ -51,6 +51,7 @@ pub(super) const ENTRY: Effect = Effect {
             starts: &[],
             by_actuator: &[],
             fitted: Fitted::Always,
+            in_room: false,
             meaning: "relaxing stiffness as a share of B",
         },
         Parameter {
@@ -65,6 +66,7 @@ pub(super) const ENTRY: Effect = Effect {
             starts: &[0.7, 2.0, 6.0, 18.0],
             by_actuator: &[],
             fitted: Fitted::Always,
+            in_room: false,
             meaning: "relaxation time",
         },
     ],

@@ -43,6 +43,7 @@ pub(super) const ENTRY: Effect = Effect {
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::WithBodyPressures,
+        in_room: false,
         meaning: "body volume lost per actuator volume gained",
     }],
     family: None,

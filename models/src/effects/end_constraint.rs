@@ -47,6 +47,7 @@ pub(super) const ENTRY: Effect = Effect {
             starts: &[],
             by_actuator: &[],
             fitted: Fitted::Always,
+            in_room: false,
             meaning: "edge-loss coefficient",
         },
         Parameter {
@@ -61,6 +62,7 @@ pub(super) const ENTRY: Effect = Effect {
             starts: &[0.0, 0.3, 0.7],
             by_actuator: &[],
             fitted: Fitted::WithKeptBending,
+            in_room: false,
             meaning: "share of the loss that stroke has too",
         },
     ],

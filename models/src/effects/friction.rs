@@ -45,6 +45,7 @@ pub(super) const ENTRY: Effect = Effect {
         starts: &[0.05, 0.2, 0.6, 1.5],
         by_actuator: &[("spam", 1.15), ("epam", 0.58), ("cpam", 0.52), ("fpam", 0.07)],
         fitted: Fitted::Always,
+        in_room: false,
         meaning: "moment at which it slides",
     }],
     family: None,

@@ -38,6 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
         starts: &[],
         by_actuator: &[("spam", 0.16), ("epam", 0.36), ("cpam", 0.48), ("fpam", 0.19)],
         fitted: Fitted::Always,
+        in_room: false,
         meaning: "curvature at rest",
     }],
     family: None,

@@ -38,6 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,
+        in_room: false,
         meaning: "share of the pressure lost per second",
     }],
     family: None,

@@ -37,6 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,
+        in_room: false,
         meaning: "marker height above the axis",
     }],
     family: None,

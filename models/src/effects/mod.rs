@@ -140,6 +140,8 @@ pub struct Parameter<'a> {
     pub by_actuator: &'a [(&'a str, f64)],
     /// When a fit may change it; otherwise it stays neutral.
     pub fitted: Fitted,
+    /// It belongs to the room: a robot rolled by 180° sees it with the other sign.
+    pub in_room: bool,
     /// What it is.
     pub meaning: &'a str,
 }

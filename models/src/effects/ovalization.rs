@@ -43,6 +43,7 @@ pub(super) const ENTRY: Effect = Effect {
         starts: &[],
         by_actuator: &[("spam", 0.07), ("epam", 0.014), ("cpam", 0.0078), ("fpam", 0.05)],
         fitted: Fitted::Always,
+        in_room: false,
         meaning: "flattening per squared curvature",
     }],
     family: None,

@@ -42,6 +42,7 @@ pub(super) const ENTRY: Effect = Effect {
             starts: &[],
             by_actuator: &[],
             fitted: Fitted::Always,
+            in_room: false,
             meaning: "share of the set pressure that is lost at 20 kPa",
         },
         Parameter {
@@ -56,6 +57,7 @@ pub(super) const ENTRY: Effect = Effect {
             starts: &[0.5, 0.75, 1.5],
             by_actuator: &[],
             fitted: Fitted::WithGauge,
+            in_room: false,
             meaning: "exponent of the loss",
         },
     ],

@@ -36,6 +36,7 @@ pub(super) const ENTRY: Effect = Effect {
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,
+        in_room: false,
         meaning: "set pressure that does not arrive",
     }],
     family: None,

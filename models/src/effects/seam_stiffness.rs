@@ -40,6 +40,7 @@ pub(super) const ENTRY: Effect = Effect {
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,
+        in_room: false,
         meaning: "fold stiffness of one pouch",
     }],
     family: Some(Family::Pouch),

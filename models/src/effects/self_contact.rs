@@ -50,6 +50,7 @@ pub(super) const ENTRY: Effect = Effect {
             starts: &[1.0, 20.0, 300.0],
             by_actuator: &[],
             fitted: Fitted::Always,
+            in_room: false,
             meaning: "contact stiffness of one pouch, or of a metre of folds",
         },
         Parameter {
@@ -64,6 +65,7 @@ pub(super) const ENTRY: Effect = Effect {
             starts: &[1.0, 1.6, 2.2, 2.7, 3.3],
             by_actuator: &[],
             fitted: Fitted::Always,
+            in_room: false,
             meaning: "angle at which neighbours touch; fPAM: turn of a metre of body",
         },
     ],

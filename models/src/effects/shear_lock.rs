@@ -44,6 +44,7 @@ pub(super) const ENTRY: Effect = Effect {
             starts: &[0.08, 0.14, 0.2, 0.26, 0.32],
             by_actuator: &[],
             fitted: Fitted::Always,
+            in_room: false,
             meaning: "shear angle at which the yarns touch",
         },
         Parameter {
@@ -58,6 +59,7 @@ pub(super) const ENTRY: Effect = Effect {
             starts: &[60.0, 200.0, 600.0],
             by_actuator: &[],
             fitted: Fitted::Always,
+            in_room: false,
             meaning: "stiffness of the jammed weave",
         },
     ],

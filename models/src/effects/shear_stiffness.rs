@@ -42,6 +42,7 @@ pub(super) const ENTRY: Effect = Effect {
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,
+        in_room: false,
         meaning: "shear modulus times thickness of the fabric",
     }],
     family: Some(Family::Mckibben),

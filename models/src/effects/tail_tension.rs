@@ -39,6 +39,7 @@ pub(super) const ENTRY: Effect = Effect {
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,
+        in_room: false,
         meaning: "extra resisting moment",
     }],
     family: None,

@@ -25,12 +25,12 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Hang a known weight on the tip, or take off what hangs there.",
     validity: "dead load at the tip",
     reference: "statics",
-    parameters: &[force("force_x_n", "F_x", 0.0), force("force_y_n", "F_y", -0.4)],
+    parameters: &[force("force_x_n", "F_x", 0.0, false), force("force_y_n", "F_y", -0.4, true)],
     family: None,
     add,
 };
 
-const fn force(key: &'static str, symbol: &'static str, typical: f64) -> Parameter<'static> {
+const fn force(key: &'static str, symbol: &'static str, typical: f64, in_room: bool) -> Parameter<'static> {
     Parameter {
         key,
         symbol,
@@ -43,6 +43,7 @@ const fn force(key: &'static str, symbol: &'static str, typical: f64) -> Paramet
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,
+        in_room,
         meaning: "force on the tip",
     }
 }

@@ -49,6 +49,7 @@ pub(super) const ENTRY: Effect = Effect {
         starts: &[2.3e-5, 1e-4, 4e-4, 1.5e-3],
         by_actuator: &[("spam", 8e-4), ("epam", 1.8e-3), ("cpam", 2.4e-3), ("fpam", 9.5e-4)],
         fitted: Fitted::Always,
+        in_room: false,
         meaning: "compliance 1/(E t) of the body fabric",
     }],
     family: None,

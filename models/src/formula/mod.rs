@@ -84,6 +84,7 @@ impl FormulaParameter {
             starts: &[],
             by_actuator: &[],
             fitted: Fitted::Always,
+            in_room: false,
             meaning: &self.meaning,
         }
     }
