@@ -30,6 +30,7 @@ mod fitted;
 mod gauge_tests;
 mod heldout;
 mod interval;
+mod kept_bending;
 mod known;
 mod lack_of_fit;
 mod least_squares;
@@ -169,6 +170,7 @@ pub fn diagnose_together(
             "about.toml names no [gravity] direction: out of the question if the robot bends in a horizontal plane";
         diagnosis.ranked.iter_mut().filter(|r| r.effect == "gravity").for_each(|r| r.notes.push(words.into()));
     }
+    diagnosis.kept_bending = kept_bending::kept_bending(&diagnosis, scenario, first, further, options)?;
     diagnosis.summary = story::story(&diagnosis);
     Ok(diagnosis)
 }
@@ -242,6 +244,7 @@ fn assemble(
         residuals_after,
         outliers,
         undetectable,
+        kept_bending: None,
         next_experiment: None,
         warnings,
     })

@@ -157,6 +157,17 @@ pub struct Combination {
     pub cancels: bool,
 }
 
+/// An answer that hangs on the bending stiffness.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct KeptBending {
+    /// B of the scenario, which was kept \[N·m²\].
+    pub value_nm2: f64,
+    /// Names that these data cannot tell apart with it, best first.
+    pub indistinguishable: Vec<String>,
+    /// Error beyond noise with the best of them \[mm\].
+    pub systematic_after_mm: f64,
+}
+
 /// Something that leaves the same distance as an attempt.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AsClose {
@@ -341,6 +352,8 @@ pub struct Diagnosis {
     /// What comes as close as the attempt, its error over all data to a fifth, nearest first: it is no more a bare name than an
     /// answer is.
     pub attempt_alike: Vec<AsClose>,
+    /// The answer with the scenario's B, where with a fitted one there is none.
+    pub kept_bending: Option<KeptBending>,
     /// Lack of fit of the calibrated base.
     pub lack_of_fit_before: Option<LackOfFit>,
     /// Lack of fit of the final model.

@@ -3,7 +3,7 @@
 use data::Direct;
 
 use super::fitted::{FittedBeside, GaugeFit};
-use super::result::{Confidence, Diagnosis, Group, LeftPattern, ParameterValue, Ranked, Verdict};
+use super::result::{Confidence, Diagnosis, Group, KeptBending, LeftPattern, ParameterValue, Ranked, Verdict};
 use super::words::quantity;
 use crate::wording::{list, p_value};
 
@@ -173,6 +173,7 @@ fn outside(d: &Diagnosis) -> Vec<String> {
         )
     }];
     told.extend(as_close(d));
+    told.extend(d.kept_bending.as_ref().map(|kept| with_kept_bending(d, kept)));
     told.extend(d.pattern.as_ref().map(looks_like));
     told.extend(d.leftover.iter().map(|s| s.sentence.clone()));
     told.push("Check markers, set-up and protocol there before looking for new physics.".into());
@@ -190,6 +191,19 @@ fn as_close(d: &Diagnosis) -> Option<String> {
         let of_all = if d.beside.is_empty() { "" } else { " over all data" };
         format!("As close{of_all}, to a fifth: {}. These data do not choose between them.", list(&names))
     })
+}
+
+fn with_kept_bending(d: &Diagnosis, kept: &KeptBending) -> String {
+    let fitted: Vec<String> = d.base.bending.iter().map(|b| format!("{:.2}", b.value_nm2)).collect();
+    let alike = if kept.indistinguishable.len() > 1 { ", which these data do not tell apart" } else { "" };
+    format!(
+        "With B kept at the scenario's {:.2} N·m² ({} fitted to the base) there is an answer: {}{alike}, down to {:.2} mm. A \
+         bending test decides: write it as [bending] in about.toml, or add --keep-bending if B is known.",
+        kept.value_nm2,
+        list(&fitted),
+        list(&kept.indistinguishable),
+        kept.systematic_after_mm
+    )
 }
 
 fn looks_like(pattern: &LeftPattern) -> String {
