@@ -94,8 +94,7 @@ fn text(bench: &Bench, time: &Row) -> String {
         let [before, after] = [m.before_mm, m.after_mm].map(|mm| number(mm, 1));
         let yes = if m.in_set { "yes" } else { "no" };
         let stated = if m.stated.is_empty() { "nothing in the catalogue".into() } else { m.stated.join(", ") };
-        let closest: Vec<String> = std::iter::once(m.attempt.join(" + ")).chain(m.attempt_alike.clone()).collect();
-        let attempt = if m.attempt.is_empty() { "-".into() } else { closest.join(", ") };
+        let attempt = if m.attempt_alike.is_empty() { "-".into() } else { m.attempt_alike.join(", ") };
         vec![m.robot.to_string(), m.lacking.to_string(), stated, yes.into(), attempt, before, after]
     });
     let head = ["robot", "lacks", "stated set", "in it", "closest, not enough", "before mm", "after mm"];

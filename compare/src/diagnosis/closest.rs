@@ -11,30 +11,36 @@ use super::problem::Fit;
 /// Another attempt, or a second effect, must bring the error in mm below this share; a second effect, or within the tolerance.
 pub const CLOSER: f64 = 0.8;
 
-/// The final model, or a single effect, or a pair, each only if it comes closer by a fifth.
+/// Two effects if a pair comes closer by a fifth than any single one, else one: the final model if it has as many and none of them
+/// comes closer by a fifth, else the nearest.
 pub fn closest(case: &Case, decision: &Decision, last: Fit) -> Fit {
-    let mut best = (case.error_in_all_mm(&last), last);
-    for fits in [&decision.singles, &decision.pairs] {
-        if let Some((error, fit)) = by_distance(case, fits).into_iter().next()
-            && error < CLOSER * best.0
-        {
-            best = (error, fit.clone());
+    let (singles, pairs) = (by_distance(case, &decision.singles), by_distance(case, &decision.pairs));
+    let least = |fits: &[(f64, &Fit)]| fits.first().map_or(f64::INFINITY, |(error, _)| *error);
+    let wants_two = least(&pairs) < CLOSER * least(&singles);
+    let is_two = last.effects.len() - case.always.len() > 1;
+    match if wants_two { pairs } else { singles }.first() {
+        Some((error, nearest)) if wants_two != is_two || *error < CLOSER * case.error_in_all_mm(&last) => {
+            (*nearest).clone()
         }
+        _ => last,
     }
-    best.1
 }
 
-/// Others with as many effects that leave the same distance to a fifth, nearest first.
+/// The closest, then what leaves the same distance to a fifth and less than the base: single effects, and beside a pair the pairs of
+/// which no member does so alone, nearest first.
 pub fn as_close(case: &Case, decision: &Decision, closest: &Fit) -> Vec<Fit> {
-    let effects = |fit: &Fit| {
-        let mut effects = fit.effects.clone();
-        effects.sort_unstable();
-        effects
+    let added = |fit: &Fit| fit.effects[case.always.len()..].to_vec();
+    let (own, before) = (added(closest), case.error_in_all_mm(&case.base));
+    let most = (case.error_in_all_mm(closest) / CLOSER).min(before);
+    let near = |fits: &[Fit]| -> Vec<Fit> {
+        let all = by_distance(case, fits).into_iter();
+        all.filter(|(error, fit)| *error < most && added(fit) != own).map(|(_, fit)| fit.clone()).collect()
     };
-    let (own, error) = (effects(closest), case.error_in_all_mm(closest));
-    let fits = if own.len() - case.always.len() < 2 { &decision.singles } else { &decision.pairs };
-    let near = by_distance(case, fits).into_iter().filter(|(e, fit)| CLOSER * e < error && effects(fit) != own);
-    near.map(|(_, fit)| fit.clone()).collect()
+    let singles = near(&decision.singles);
+    let pairs = if own.len() > 1 { near(&decision.pairs) } else { Vec::new() };
+    let alone: Vec<usize> = singles.iter().flat_map(&added).collect();
+    let pairs = pairs.into_iter().filter(|pair| !added(pair).iter().any(|effect| alone.contains(effect)));
+    std::iter::once(closest.clone()).chain(singles).chain(pairs).collect()
 }
 
 /// Fits that no bound rejects and their errors in mm, nearest first.

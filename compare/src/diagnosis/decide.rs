@@ -46,7 +46,7 @@ pub struct Decision {
     pub pairs_tried: usize,
     /// The final model; `None`: the base.
     pub last: Option<Fit>,
-    /// Where nothing explains the data: what comes as close as the final model, best first.
+    /// Where nothing explains the data: the final model and what comes as close.
     pub as_close: Vec<Fit>,
     /// Verdict; `None` without p-values.
     pub verdict: Option<Verdict>,

@@ -157,13 +157,16 @@ fn an_attempt_comes_closer_in_mm_even_where_quiet_holds_ask_for_something_else()
             let (name, mm) = (&other.effect, other.systematic_after_mm);
             assert!(mm > 0.8 * after, "{robot}: {name} comes to {mm} mm, {after} with {:?}", d.attempt);
         }
-        // What is reported and comes as close is told beside it, and nothing else.
-        let is_told = |effects: &[String]| d.attempt_alike.iter().any(|a| a.effects == effects);
+        // What comes as close is told beside it, and nothing that leaves the base as it was.
         let own: Vec<String> = d.attempt.iter().map(|a| a.effect.clone()).collect();
-        let told = d.attempt_alike.iter().map(|a| a.systematic_after_mm);
-        assert!(told.clone().all(|mm| mm < after / 0.8) && told.is_sorted() && !is_told(&own), "{robot}");
-        let near =
-            |pair: &&Combination| own.len() == 2 && pair.systematic_after_mm < after / 0.8 && pair.effects != own;
-        assert!(d.pairs.iter().filter(near).all(|pair| is_told(&pair.effects)), "{robot}: {:?}", d.attempt_alike);
+        let (attempt, others) = d.attempt_alike.split_first().unwrap();
+        let told = |effects: &[String]| others.iter().any(|a| a.effects == effects);
+        let most = before.min(after / 0.8);
+        assert!(attempt.effects == own && (attempt.systematic_after_mm - after).abs() < 1e-9, "{robot}: {attempt:?}");
+        assert!(others.iter().all(|a| a.systematic_after_mm < most) && !told(&own), "{robot}");
+        for single in d.ranked.iter().filter(|r| !r.at_bound && own != [r.effect.clone()]) {
+            let (name, mm) = (std::slice::from_ref(&single.effect), single.systematic_after_mm);
+            assert_eq!(told(name), mm < most, "{robot}: {name:?} {mm} mm, {others:?}");
+        }
     }
 }

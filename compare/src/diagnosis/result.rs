@@ -168,7 +168,7 @@ pub struct KeptBending {
     pub systematic_after_mm: f64,
 }
 
-/// Something that leaves the same distance as an attempt.
+/// An attempt, or something that leaves the same distance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AsClose {
     /// Names.
@@ -349,8 +349,8 @@ pub struct Diagnosis {
     pub added: Vec<Added>,
     /// With the verdict `out_of_catalog`: the best that the catalogue can do, which is not enough.
     pub attempt: Vec<Added>,
-    /// What comes as close as the attempt, its error over all data to a fifth, nearest first: it is no more a bare name than an
-    /// answer is.
+    /// The attempt, then what comes as close, its error over all data to a fifth: no more a bare name than an answer is. Empty where
+    /// one fault does as well as the attempt.
     pub attempt_alike: Vec<AsClose>,
     /// The answer with the scenario's B, where with a fitted one there is none.
     pub kept_bending: Option<KeptBending>,

@@ -181,24 +181,26 @@ fn outside(d: &Diagnosis) -> Vec<String> {
 }
 
 fn as_close(d: &Diagnosis) -> Option<String> {
-    let (first, rest) = d.attempt_alike.split_at(d.attempt_alike.len().min(MOST_AS_CLOSE));
+    let (attempt, others) = d.attempt_alike.split_first().filter(|(_, others)| !others.is_empty())?;
+    let (first, rest) = others.split_at(others.len().min(MOST_AS_CLOSE));
     let mut names: Vec<String> =
         first.iter().map(|a| format!("{} ({:.2} mm)", a.effects.join(" + "), a.systematic_after_mm)).collect();
     if !rest.is_empty() {
         names.push(format!("{} more", rest.len()));
     }
-    (!names.is_empty()).then(|| {
-        let of_all = if d.beside.is_empty() { "" } else { " over all data" };
-        format!("As close{of_all}, to a fifth: {}. These data do not choose between them.", list(&names))
-    })
+    let as_close = match d.beside.is_empty() {
+        true => "As close".into(),
+        false => format!("Over all data it leaves {:.2} mm; as close", attempt.systematic_after_mm),
+    };
+    Some(format!("{as_close}, to a fifth: {}. These data do not choose between them.", list(&names)))
 }
 
 fn with_kept_bending(d: &Diagnosis, kept: &KeptBending) -> String {
     let fitted: Vec<String> = d.base.bending.iter().map(|b| format!("{:.2}", b.value_nm2)).collect();
     let alike = if kept.indistinguishable.len() > 1 { ", which these data do not tell apart" } else { "" };
     format!(
-        "With B kept at the scenario's {:.2} N·m² ({} fitted to the base) there is an answer: {}{alike}, down to {:.2} mm. A \
-         bending test decides: write it as [bending] in about.toml, or add --keep-bending if B is known.",
+        "With B kept at the scenario's {:.2} N·m² ({} fitted to the base) there is an answer: {}{alike}, down to {:.2} mm. It \
+         holds if a bending test finds that B: then write it into the scenario and add --keep-bending.",
         kept.value_nm2,
         list(&fitted),
         list(&kept.indistinguishable),

@@ -37,7 +37,7 @@ pub struct Made {
     pub stated: Vec<String>,
     /// With the verdict `out_of_catalog`: the best that the catalogue can do, said not to be enough.
     pub attempt: Vec<String>,
-    /// What comes as close, to a fifth; a pair is written `a + b`.
+    /// The attempt and what comes as close, to a fifth; a pair is written `a + b`.
     pub attempt_alike: Vec<String>,
     /// The effect is in the stated set.
     pub in_set: bool,
