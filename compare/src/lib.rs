@@ -7,6 +7,7 @@
 pub mod accuracy;
 pub mod characterize;
 pub mod comparison;
+mod data_slope;
 pub mod diagnosis;
 pub mod directions;
 pub mod error;

@@ -24,6 +24,7 @@
 //! Validity: normal errors, σ the same at every pressure ([`NoiseModel::uneven_holds`] tells when it is not), scatter
 //! small enough to be linear in U. One run gives no noise at all: the status says so and no p-value is ever formed.
 
+use crate::data_slope::data_slope;
 use crate::directions::{DirectionFit, nuisance_directions};
 use crate::error::CompareError;
 use crate::layout::{Layout, Weights};
@@ -123,7 +124,12 @@ impl NoiseModel {
                 let expected = "the camera noise must be a positive length in metres";
                 Err(CompareError::BadOption { name: "sigma_m", value, expected })
             }
-            _ => Self::measured(dataset, &groups, directions),
+            _ => {
+                let modelled = Self::measured(dataset, &groups, directions)?;
+                let Some(slope) = data_slope(dataset) else { return Ok(modelled) };
+                let read = Self::measured(dataset, &groups, nuisance_directions(&dataset.mean_over_runs(), &slope))?;
+                Ok(if read.sigma_m < modelled.sigma_m { read } else { modelled })
+            }
         }
     }
 
@@ -159,6 +165,11 @@ impl NoiseModel {
         let each: Vec<Weights> = (0..self.directions.len()).map(|i| vec![(i, 1.0)]).collect();
         self.whitener = self.whitener_of(&each)?;
         Ok(self)
+    }
+
+    /// The same with a larger variance of single values, `factor` times the old one, for the fit of a model that misses the data.
+    pub fn wider(&self, factor: f64) -> NoiseModel {
+        NoiseModel { whitener: self.whitener.wider(factor), ..self.clone() }
     }
 
     /// Whitens sums of values, in tests; of every sum the squares of its weights have the same total, and no value is in two.

@@ -8,11 +8,18 @@ use nalgebra::{DMatrix, SymmetricEigen};
 /// Rounds of the eigenvalue iteration over the directions; a handful suffice.
 const EIGEN_ROUNDS: usize = 500;
 
+/// Mean square of whitened residuals from which a fit allows for its own misfit: s² then grows by that factor, so that scatter
+/// between runs, which is no misfit, stays as small as it is beside it. With few runs a law that misses would otherwise hide in it.
+pub const MISFIT: f64 = 2.0;
+/// Rounds in which fit and misfit settle.
+pub const MISFIT_ROUNDS: usize = 3;
+
 /// The prepared transformation.
 #[derive(Debug, Clone)]
 pub struct Whitener {
     unit_m: f64,
-    shrink: Vec<f64>,
+    /// Eigenvalues w \[m²\].
+    spread_m2: Vec<f64>,
     basis: Vec<Vec<f64>>,
 }
 
@@ -44,18 +51,23 @@ impl Whitener {
         let eigen = SymmetricEigen::try_new(&t * t.transpose(), f64::EPSILON, EIGEN_ROUNDS)
             .ok_or(CompareError::Decomposition)?;
         let basis = qr.q() * &eigen.eigenvectors;
-        let shrink = eigen.eigenvalues.iter().map(|w| (1.0 + w.max(0.0) / (unit_m * unit_m)).powf(-0.5) - 1.0);
         Ok(Whitener {
             unit_m,
-            shrink: shrink.collect(),
+            spread_m2: eigen.eigenvalues.iter().map(|w| w.max(0.0)).collect(),
             basis: basis.column_iter().map(|c| c.iter().copied().collect()).collect(),
         })
+    }
+
+    /// The same with a larger s², `factor` times the old one.
+    pub fn wider(&self, factor: f64) -> Whitener {
+        Whitener { unit_m: self.unit_m * factor.sqrt(), ..self.clone() }
     }
 
     /// The residuals \[m\] in units of their standard deviation, uncorrelated.
     pub fn whiten(&self, residual_m: &[f64]) -> Vec<f64> {
         let mut white = residual_m.to_vec();
-        for (b, shrink) in self.basis.iter().zip(&self.shrink) {
+        for (b, w) in self.basis.iter().zip(&self.spread_m2) {
+            let shrink = (1.0 + w / (self.unit_m * self.unit_m)).powf(-0.5) - 1.0;
             let along: f64 = b.iter().zip(residual_m).map(|(b, r)| b * r).sum();
             white.iter_mut().zip(b).for_each(|(w, b)| *w += shrink * along * b);
         }

@@ -253,6 +253,11 @@ fn words(args: &Add, found: &Found, target: &Path) -> String {
     let mut out = found.told.iter().map(|s| format!("{s}\n")).collect::<String>();
     if !found.rungs.is_empty() {
         out.push_str(&format!("\n{}", rungs_text(&found.rungs, found.noise_floor_mm)));
+        if let Some([before, after]) = found.rungs.last_chunk::<2>()
+            && after.training_mm > before.training_mm
+        {
+            out.push_str("The error does not fall with it: this is not what is missing, or not by that much.\n");
+        }
         out.push_str("A smaller error does not prove the name; data the effect was not fitted to do more: ");
         out.push_str(&format!("`ibr validate {} DATA`\n", target.display()));
     }

@@ -217,14 +217,16 @@ fn experiments(d: &Diagnosis) -> String {
     let Some(next) = &d.next_experiment else { return String::new() };
     let lambda = |e: &Experiment| -> Vec<String> { e.separations.iter().map(|s| format!("{:.1}", s.lambda)).collect() };
     let now = next.now.iter().map(|s| format!("{:.1}", s.lambda));
-    let mut rows = vec![["data at hand".to_string(), "–".to_string()].into_iter().chain(now).collect::<Vec<_>>()];
-    rows.extend(
-        next.tried
-            .iter()
-            .map(|e| [e.name.clone(), e.shown_protocol().to_string()].into_iter().chain(lambda(e)).collect::<Vec<_>>()),
-    );
-    let mut head = vec!["experiment".to_string(), "protocol [kPa]".to_string()];
+    let at_hand = ["data at hand".to_string(), "–".to_string(), format!("{:.0}", next.needed_now)];
+    let mut rows = vec![at_hand.into_iter().chain(now).collect::<Vec<_>>()];
+    rows.extend(next.tried.iter().map(|e| {
+        [e.name.clone(), e.shown_protocol().to_string(), format!("{:.0}", e.needed)]
+            .into_iter()
+            .chain(lambda(e))
+            .collect::<Vec<_>>()
+    }));
+    let mut head = vec!["experiment".to_string(), "protocol [kPa]".to_string(), "suffices".to_string()];
     head.extend(next.now.iter().map(|s| s.rival.clone()));
     let head: Vec<&str> = head.iter().map(String::as_str).collect();
-    format!("\nExpected separation λ of {} from (16 suffices):\n{}", next.best, table(&head, 2, rows))
+    format!("\nExpected separation λ of {} from:\n{}", next.best, table(&head, 2, rows))
 }

@@ -16,7 +16,7 @@ use crate::gauge::Gauge;
 use crate::layout::Layout;
 use crate::noise::{NoiseModel, RUNS_FOR_P};
 use crate::stats::f_tail;
-use crate::study::predict_dataset;
+use crate::study::{first_slope, predict_dataset};
 use data::{Dataset, Direct};
 use models::Scenario;
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -133,8 +133,8 @@ impl<'a> Case<'a> {
         let bendings = if options.keep_bending { 0 } else { body_pa.len() };
         let always: Vec<usize> = (0..own).collect();
         let values: Vec<f64> = candidates[..own].iter().flat_map(|c| own_values(sources[0].as_given(), c)).collect();
-        let slopes = sources.iter().map(|s| Ok(predict_dataset(s.scenario, s.dataset)?.d_ln_pressure_m));
-        let slopes: Vec<Vec<f64>> = slopes.collect::<Result<_, CompareError>>()?;
+        let slopes = sources.iter().map(|s| first_slope(s.scenario, s.dataset));
+        let slopes: Vec<Vec<f64>> = slopes.collect::<Result<_, _>>()?;
         let fit = |slopes: &[Vec<f64>], known: &[Known]| -> Result<(Vec<NoiseModel>, Problem<'a>, Fit), CompareError> {
             let (mut noises, mut blocks) = (Vec::new(), Vec::new());
             for (i, source) in sources.iter().enumerate() {

@@ -1,15 +1,26 @@
 //! Error at what a fit has not seen of the first data: pressures left out, runs left out. Data beside them stay in the fit.
+//!
+//! ```text
+//! E |f(θ̂) − y|² = |f − μ|² + noise of y + tr(D C Dᵀ)/n,    C = (JᵀJ)⁻¹
+//! ```
+//!
+//! The first term is the error; the second and third, what was left out scatters and what the fit took over of the scatter of the
+//! rest, are taken off. J is the whitened derivative at the data of the fit, D the plain one \[m\] at the n values left out.
 
 use super::blocks::block;
 use super::case::Case;
+use super::least_squares::{dot, square};
 use super::problem::{Fit, Problem};
 use crate::comparison::ZERO_PRESSURE_PA;
 use crate::error::CompareError;
+use nalgebra::DMatrix;
 
 /// Pressures within this fraction are one level.
 const SAME_PRESSURE: f64 = 0.05;
 /// Parts into which many runs are divided.
 const MOST_FOLDS: usize = 5;
+/// Step of the differences in units of a parameter's scale.
+const DIFFERENCE: f64 = 1e-4;
 /// A coarse end is enough for an error in hundredths of a millimetre.
 const ENOUGH: f64 = 1e-2;
 
@@ -22,6 +33,8 @@ struct Fold<'a> {
     truth_m: Vec<f64>,
     /// Mean square noise of one value of it \[m²\].
     noise_m2: f64,
+    /// The same of the data of the fit: no fit takes over more of it.
+    fitted_m2: f64,
 }
 
 /// The parts of a dataset, made once for all effects.
@@ -58,12 +71,39 @@ fn error_mm(folds: &[Fold], fit: &Fit) -> Option<f64> {
         let (candidates, bendings) = (fold.problem.candidates, fold.problem.bendings);
         let predicted = block.predict_at(&fold.holds, candidates, &fit.effects, refit.theta(), bendings)?;
         let width = predicted.len() / block.dataset.holds.len();
-        for i in fold.holds.iter().flat_map(|h| h * width..(h + 1) * width) {
-            squares += (predicted[i] - fold.truth_m[i]).powi(2) - fold.noise_m2;
-            values += 1.0;
-        }
+        let rows: Vec<usize> = fold.holds.iter().flat_map(|h| h * width..(h + 1) * width).collect();
+        let noise_m2 = fold.noise_m2 + taken_over_m2(fold, &refit, &predicted, &rows).min(fold.fitted_m2);
+        squares += rows.iter().map(|i| (predicted[*i] - fold.truth_m[*i]).powi(2) - noise_m2).sum::<f64>();
+        values += rows.len() as f64;
     }
     (values > 0.0).then(|| 1e3 * (squares.max(0.0) / values).sqrt())
+}
+
+/// tr(D C Dᵀ)/n of the parameters that change anything \[m²\]; infinite if they cannot be told apart.
+fn taken_over_m2(fold: &Fold, fit: &Fit, predicted_m: &[f64], rows: &[usize]) -> f64 {
+    let Problem { blocks, candidates, bendings, .. } = &fold.problem;
+    let ranges = fold.problem.ranges(&fit.effects);
+    let free: Vec<usize> = (0..ranges.len()).filter(|k| square(&fit.minimum.jacobian[*k]) > 0.0).collect();
+    let squares = DMatrix::from_fn(free.len(), free.len(), |i, j| {
+        dot(&fit.minimum.jacobian[free[i]], &fit.minimum.jacobian[free[j]])
+    });
+    let Some(covariance) = squares.try_inverse() else { return f64::INFINITY };
+    let column = |k: &usize| -> Option<Vec<f64>> {
+        let step = DIFFERENCE * ranges[*k].scale;
+        let mut theta = fit.theta().to_vec();
+        theta[*k] += if theta[*k] + step > ranges[*k].upper { -step } else { step };
+        let moved = blocks[0].predict_at(&fold.holds, candidates, &fit.effects, &theta, *bendings)?;
+        let by = theta[*k] - fit.theta()[*k];
+        Some(rows.iter().map(|i| (moved[*i] - predicted_m[*i]) / by).collect())
+    };
+    let Some(columns) = free.iter().map(column).collect::<Option<Vec<_>>>() else { return f64::INFINITY };
+    let mut sum = 0.0;
+    for (i, a) in columns.iter().enumerate() {
+        for (j, b) in columns.iter().enumerate() {
+            sum += covariance[(i, j)] * dot(a, b);
+        }
+    }
+    sum.max(0.0) / rows.len().max(1) as f64
 }
 
 fn pressure_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
@@ -84,7 +124,8 @@ fn pressure_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
         let noise: f64 =
             out.iter().map(|h| case.noise.mean_square(h * width..(h + 1) * width).unwrap_or(0.0)).sum::<f64>();
         let problem = problem(case, &kept, mean.clone())?;
-        Ok(Fold { problem, truth_m: mean.clone(), noise_m2: noise / out.len() as f64, holds: out })
+        let fitted_m2 = case.noise.mean_square(0..mean.len()).unwrap_or(0.0);
+        Ok(Fold { problem, truth_m: mean.clone(), noise_m2: noise / out.len() as f64, fitted_m2, holds: out })
     };
     levels.iter().map(fold).collect()
 }
@@ -109,7 +150,8 @@ fn run_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
         let out = (k..runs).step_by(folds).count() as f64;
         let problem = problem(case, &all, mean_of(&|r| r % folds != k))?;
         let truth_m = mean_of(&|r| r % folds == k);
-        Ok(Fold { problem, holds: all.clone(), truth_m, noise_m2: noise * runs as f64 / out })
+        let [noise_m2, fitted_m2] = [out, runs as f64 - out].map(|count| noise * runs as f64 / count);
+        Ok(Fold { problem, holds: all.clone(), truth_m, noise_m2, fitted_m2 })
     };
     (0..folds).map(fold).collect()
 }

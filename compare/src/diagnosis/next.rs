@@ -2,14 +2,21 @@
 //!
 //! For the best explanation a and a rival b, the data at hand and those of a planned experiment are predicted by a, and b
 //! is fitted to them, its bending stiffnesses too. What b cannot meet, in units of the noise expected there, is the
-//! separation λ = min |f_a − f_b|²: the expected difference of the sums of squares. 16 suffices in about nine of ten cases.
+//! separation λ = min |f_a − f_b|²: the expected difference of the sums of squares.
 //! It is taken both ways round and the larger counts: a fit of the wrong explanation hides part of the difference.
+//!
+//! ```text
+//! λ ± 2√λ ≥ 6 A in nine of ten:    λ ≥ (z + √(z² + 6 A))²,    z = 1.28,    A = 1 + cG
+//! ```
+//!
+//! with the allowance A for the form of laws and the gain G expected of a there ([`super::order`]); 16 where A = 1.
 
 use super::blocks::{fitted_scenarios, nearest, whole_block};
 use super::case::Case;
 use super::decide::Decision;
 use super::experiments::{BENDING_TEST, Instruments, Part, Plan, bending_test, plans, protocol_text};
 use super::known::{BENCH_TEST, BENCH_TESTS, BenchTest, Known, parameters_of};
+use super::order::{SAME, allowance};
 use super::problem::{Block, Fit, Problem, Readings, with};
 use super::proposed::{Experiment, NextExperiment, Separation};
 use super::result::Verdict;
@@ -26,8 +33,10 @@ use models::Supply;
 use models::effects::Stage;
 use std::borrow::Cow;
 
-/// λ that tells two explanations apart in about nine of ten cases.
-const ENOUGH: f64 = 16.0;
+/// Normal quantile of nine in ten.
+const Z_POWER: f64 = 1.2816;
+/// Most times the runs at hand that are proposed.
+const MOST_REPEATS: usize = 20;
 /// λ below which an experiment is not worth its time.
 const WORTHLESS: f64 = 3.0;
 /// Rivals looked at.
@@ -45,15 +54,15 @@ pub fn next_experiment(case: &Case, decision: &Decision) -> Result<Option<NextEx
         return Ok(None);
     }
     let (best, rivals) = (hypotheses[0], &hypotheses[1..hypotheses.len().min(RIVALS + 1)]);
-    let now = separations(case, None, best, rivals)?;
+    let (now, gain_now) = separations(case, None, best, rivals)?;
     let mut tried = Vec::new();
     let set = case.gauge.map_or_else(|| case.dataset.clone(), |gauge| gauge.as_set(case.dataset));
     let mut plans = plans(case.scenario, &set, case.direct, instruments(case, &hypotheses));
     plans.extend((case.problem.bendings > 0 && case.problem.known_bending.is_none()).then(bending_test));
     for plan in plans {
         // A planned pressure without equilibrium is no experiment to propose.
-        if let Ok(separations) = separations(case, Some(&plan), best, rivals) {
-            tried.push(experiment(case, &plan, separations));
+        if let Ok((separations, gain)) = separations(case, Some(&plan), best, rivals) {
+            tried.push(experiment(case, &plan, separations, gain));
         }
     }
     // Beyond enough more is still better, because real laws are not the catalogue's.
@@ -65,7 +74,7 @@ pub fn next_experiment(case: &Case, decision: &Decision) -> Result<Option<NextEx
     let recommended = tried.first().filter(|e| e.separations.iter().any(|s| s.lambda >= WORTHLESS)).cloned();
     let best = label(case, best);
     let sentence = sentence(&best, recommended.as_ref());
-    Ok(Some(NextExperiment { best, recommended, now, tried, sentence }))
+    Ok(Some(NextExperiment { best, recommended, now, needed_now: enough(gain_now), tried, sentence }))
 }
 
 /// The explanations to be told apart, best first.
@@ -99,11 +108,23 @@ fn label(case: &Case, fit: &Fit) -> String {
     names.join(" + ")
 }
 
-fn experiment(case: &Case, plan: &Plan, separations: Vec<Separation>) -> Experiment {
-    let separated = separations.iter().filter(|s| s.lambda >= ENOUGH).count();
+/// λ that tells two explanations apart in about nine of ten cases where the better one gains that much.
+fn enough(gain: f64) -> f64 {
+    (Z_POWER + (Z_POWER * Z_POWER + SAME * allowance(gain)).sqrt()).powi(2)
+}
+
+fn experiment(case: &Case, plan: &Plan, separations: Vec<Separation>, gain: f64) -> Experiment {
+    let needed = enough(gain);
+    let separated = separations.iter().filter(|s| s.lambda >= needed).count();
     let within_reach = separations.iter().map(|s| s.lambda).filter(|l| *l >= WORTHLESS).reduce(f64::min);
     let largest = separations.iter().map(|s| s.lambda).fold(0.0, f64::max);
-    let runs = |lambda: f64| ((case.noise.runs as f64 * ENOUGH / lambda).ceil() as usize).max(3);
+    // More runs make more of λ and of what a law's form shows, which may never be enough.
+    let at_hand = case.noise.runs.max(1);
+    let suffices = |runs: usize, lambda: f64| {
+        let times = runs as f64 / at_hand as f64;
+        times * lambda >= enough(times * gain)
+    };
+    let runs = |lambda: f64| (3..=MOST_REPEATS * at_hand).find(|runs| suffices(*runs, lambda));
     let repeated = within_reach.filter(|_| !plan.parts.is_empty());
     Experiment {
         name: plan.name.clone(),
@@ -111,14 +132,21 @@ fn experiment(case: &Case, plan: &Plan, separations: Vec<Separation>) -> Experim
         protocol: protocol_text(plan),
         direct: plan.parts.first().map_or(case.direct, |part| part.direct),
         tests: plan.tests.iter().map(|test| test.name.to_string()).collect(),
+        needed,
         separated,
         lambda: within_reach.unwrap_or(largest),
-        runs_needed: repeated.map(runs),
+        runs_needed: repeated.and_then(runs),
         separations,
     }
 }
 
-fn separations(case: &Case, plan: Option<&Plan>, best: &Fit, rivals: &[&Fit]) -> Result<Vec<Separation>, CompareError> {
+/// λ from every rival, and the gain expected of the best.
+fn separations(
+    case: &Case,
+    plan: Option<&Plan>,
+    best: &Fit,
+    rivals: &[&Fit],
+) -> Result<(Vec<Separation>, f64), CompareError> {
     let ours = Expected::of(case, plan, best)?;
     let mut found = Vec::new();
     for &rival in rivals {
@@ -126,7 +154,7 @@ fn separations(case: &Case, plan: Option<&Plan>, best: &Fit, rivals: &[&Fit]) ->
         let lambda = ours.misfit(rival).max(theirs.misfit(best));
         found.push(Separation { rival: label(case, rival), lambda });
     }
-    Ok(found)
+    Ok((found, ours.misfit(&case.base)))
 }
 
 /// The data that a hypothesis leads one to expect, at hand and planned.
@@ -250,14 +278,25 @@ fn sentence(best: &str, recommended: Option<&Experiment>) -> String {
              gauge on the actuator, photograph a checkerboard)."
         );
     };
-    let rivals: Vec<String> = e.separations.iter().filter(|s| s.lambda >= WORTHLESS).map(|s| s.rival.clone()).collect();
-    let runs = e.runs_needed.map_or(String::new(), |n| format!("; about {n} runs"));
-    format!(
-        "Next: {}{}. It is expected to separate {best} from {} (λ = {:.0}, 16 suffices{runs}).{}",
-        e.sentence,
-        if e.protocol.is_empty() { String::new() } else { format!(" ({})", e.protocol) },
-        crate::wording::list(&rivals),
-        e.lambda,
-        if e.tests.is_empty() { "" } else { RESULTS }
-    )
+    let above = |least: f64| -> Vec<&Separation> { e.separations.iter().filter(|s| s.lambda >= least).collect() };
+    let names =
+        |found: &[&Separation]| crate::wording::list(&found.iter().map(|s| s.rival.clone()).collect::<Vec<_>>());
+    let protocol = if e.protocol.is_empty() { String::new() } else { format!(" ({})", e.protocol) };
+    let results = if e.tests.is_empty() { "" } else { RESULTS };
+    let lambda = format!("λ = {:.0}, {:.0} suffices", e.lambda, e.needed);
+    let parts = match (e.runs_needed, above(e.needed).is_empty()) {
+        (Some(runs), _) => {
+            format!(
+                "It is expected to separate {best} from {} ({lambda}; about {runs} runs).",
+                names(&above(WORTHLESS))
+            )
+        }
+        (None, false) => format!("It is expected to separate {best} from {} ({lambda}).", names(&above(e.needed))),
+        (None, true) => format!(
+            "It parts {best} from {} more than others do ({lambda}) and will not decide: a twentieth of an effect is granted to \
+             the form of its law, and more runs do not change that.",
+            names(&above(WORTHLESS))
+        ),
+    };
+    format!("Next: {}{protocol}. {parts}{results}", e.sentence)
 }

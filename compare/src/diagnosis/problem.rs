@@ -4,11 +4,11 @@ use super::basis::Basis;
 use super::candidates::Candidate;
 use super::evaluator::positions;
 use super::known::Known;
-use super::least_squares::{Minimum, Range, dot, minimise, square};
+use super::least_squares::{Minimum, Range, dot, jacobian, minimise, square};
 use crate::error::CompareError;
 use crate::gauge::Gauge;
 use crate::study::predict::is_open;
-use crate::whiten::Whitener;
+use crate::whiten::{MISFIT, MISFIT_ROUNDS, Whitener};
 use data::{Dataset, Direct};
 use models::Scenario;
 use models::effects::Stage;
@@ -22,6 +22,9 @@ const BENDING_SCALE: f64 = 0.5;
 const SAME_MINIMUM: f64 = 1.0;
 /// A bound is binding if the data would gain this much beyond it: two standard errors.
 const BINDING: f64 = 4.0;
+
+/// Whitener of the block with that number.
+type WhitenerOf<'w> = dyn Fn(usize) -> Cow<'w, Whitener> + 'w;
 
 /// Measurements under one set of loads, and their noise.
 pub struct Block<'a> {
@@ -153,21 +156,25 @@ impl Block<'_> {
     }
 
     /// Whitened difference of a prediction to the target.
-    pub fn whiten(&self, predicted_m: &[f64]) -> Vec<f64> {
+    fn whiten_by(&self, whitener: &Whitener, predicted_m: &[f64]) -> Vec<f64> {
         let width = predicted_m.len() / self.dataset.holds.len();
         let rows = self.holds.iter().flat_map(|h| h * width..(h + 1) * width);
         let residual: Vec<f64> = rows.map(|i| predicted_m[i] - self.target_m[i]).collect();
-        self.whitener.whiten(&residual)
+        whitener.whiten(&residual)
     }
 }
 
 impl Problem<'_> {
     /// Whitened residuals of all blocks, prediction minus target, and of what was measured by itself.
     pub fn residuals(&self, effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
+        self.residuals_by(&|i| Cow::Borrowed(&self.blocks[i].whitener), effects, theta)
+    }
+
+    fn residuals_by(&self, whitener: &WhitenerOf, effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
         let mut all = Vec::new();
-        for block in &self.blocks {
+        for (i, block) in self.blocks.iter().enumerate() {
             let predicted = block.predict(self.candidates, effects, theta, self.bendings)?;
-            all.append(&mut block.whiten(&predicted));
+            all.append(&mut block.whiten_by(&whitener(i), &predicted));
             all.append(&mut block.supply(self.candidates, effects, &theta[self.bendings..]).unwrap_or_default());
         }
         // Last, so that every block keeps its place.
@@ -210,8 +217,53 @@ impl Problem<'_> {
         let minimum = best?;
         let several_minima = costs.iter().any(|c| c - minimum.cost > SAME_MINIMUM);
         let neutral = self.neutral(effects);
-        let binding = (0..ranges.len()).map(|k| is_binding(&minimum, k, &ranges[k], neutral[k])).collect();
+        let binding = |m: &Minimum| (0..ranges.len()).map(|k| is_binding(m, k, &ranges[k], neutral[k])).collect();
+        let (binding, minimum) = match self.allowing(effects, &ranges, &minimum) {
+            Some(wide) => (binding(&wide), self.at(effects, &ranges, wide.at)?),
+            None => (binding(&minimum), minimum),
+        };
         Some(Fit { effects: effects.to_vec(), minimum, binding, several_minima })
+    }
+
+    /// The fit of a law that misses the data: to it, its misfit is noise ([`MISFIT`]). `None` where none misses.
+    fn allowing(&self, effects: &[usize], ranges: &[Range], least: &Minimum) -> Option<Minimum> {
+        let mut factors = self.factors(&least.residual);
+        if factors.iter().all(|f| *f < MISFIT) {
+            return None;
+        }
+        let mut wide: Option<Minimum> = None;
+        for _ in 0..MISFIT_ROUNDS {
+            let whiteners: Vec<Whitener> =
+                self.blocks.iter().zip(&factors).map(|(block, factor)| block.whitener.wider(*factor)).collect();
+            let start = wide.as_ref().map_or(&least.at, |w| &w.at);
+            let residuals = &mut |theta: &[f64]| self.residuals_by(&|i| Cow::Borrowed(&whiteners[i]), effects, theta);
+            let found = minimise(start, ranges, self.enough / factors.iter().copied().fold(1.0, f64::max), residuals)?;
+            factors = self.factors(&self.residuals(effects, &found.at)?);
+            wide = Some(found);
+        }
+        wide
+    }
+
+    /// Mean square of the whitened residuals of each block, no less than one.
+    fn factors(&self, residual: &[f64]) -> Vec<f64> {
+        let mut from = 0;
+        self.blocks
+            .iter()
+            .map(|block| {
+                let width = block.target_m.len() / block.dataset.holds.len() * block.holds.len();
+                let own = &residual[from..from + width];
+                from += width + block.gauge.as_ref().map_or(0, |g| g.gauge.differences_pa(&g.gauge.scenario).len());
+                (square(own) / width as f64).max(1.0)
+            })
+            .collect()
+    }
+
+    /// Residuals and derivatives at a place.
+    fn at(&self, effects: &[usize], ranges: &[Range], at: Vec<f64>) -> Option<Minimum> {
+        let residual = self.residuals(effects, &at)?;
+        let mut there = Minimum { cost: square(&residual), at, residual, jacobian: Vec::new() };
+        there.jacobian = jacobian(&there, ranges, &mut |theta| self.residuals(effects, theta));
+        Some(there)
     }
 
     /// Fit of the base: B scanned from zero up, evenly in √B, then refined.

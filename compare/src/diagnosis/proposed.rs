@@ -17,11 +17,14 @@ pub struct Experiment {
     pub tests: Vec<String>,
     /// Expected separation λ of the best explanation from each rival, same number of runs.
     pub separations: Vec<Separation>,
-    /// Rivals with λ ≥ 16, which are told apart in about nine of ten cases.
+    /// λ that tells two explanations apart in about nine of ten cases: 16, and more the more of a law's form shows
+    /// ([`super::order`]).
+    pub needed: f64,
+    /// Rivals with as much.
     pub separated: usize,
     /// Smallest λ of the rivals it can tell apart (λ ≥ 3 after up to four times the runs), else the largest of all.
     pub lambda: f64,
-    /// Runs needed for λ = 16 there.
+    /// Runs needed for what suffices there; `None` if no number of runs does, or for a test by itself.
     pub runs_needed: Option<usize>,
 }
 
@@ -50,6 +53,8 @@ pub struct NextExperiment {
     pub recommended: Option<Experiment>,
     /// λ with what is there already.
     pub now: Vec<Separation>,
+    /// λ that would suffice there.
+    pub needed_now: f64,
     /// All that were tried, best first.
     pub tried: Vec<Experiment>,
     /// In words.

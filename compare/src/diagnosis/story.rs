@@ -2,6 +2,7 @@
 
 use data::Direct;
 
+use super::closest::CLOSER;
 use super::fitted::{FittedBeside, GaugeFit};
 use super::result::{Confidence, Diagnosis, Group, KeptBending, LeftPattern, ParameterValue, Ranked, Verdict};
 use super::words::quantity;
@@ -160,7 +161,7 @@ fn outside(d: &Diagnosis) -> Vec<String> {
              number."
         )
     } else if d.attempt.is_empty() {
-        format!("Nothing in the catalogue explains this ({p}): {before:.2} mm remain.")
+        format!("Nothing in the catalogue explains this ({p}), and no effect of it comes closer than {before:.2} mm.")
     } else if after <= MOSTLY * before {
         format!(
             "Adding {tried} takes away most of it, {before:.2} to {after:.2} mm, but nothing in the catalogue explains the rest \
@@ -173,6 +174,7 @@ fn outside(d: &Diagnosis) -> Vec<String> {
         )
     }];
     told.extend(as_close(d));
+    told.extend(at_its_bound(d));
     told.extend(d.kept_bending.as_ref().map(|kept| with_kept_bending(d, kept)));
     told.extend(d.pattern.as_ref().map(looks_like));
     told.extend(d.leftover.iter().map(|s| s.sentence.clone()));
@@ -193,6 +195,22 @@ fn as_close(d: &Diagnosis) -> Option<String> {
         false => format!("Over all data it leaves {:.2} mm; as close", attempt.systematic_after_mm),
     };
     Some(format!("{as_close}, to a fifth: {}. These data do not choose between them.", list(&names)))
+}
+
+/// What comes closer than the attempt, but only at the end of its range.
+fn at_its_bound(d: &Diagnosis) -> Option<String> {
+    let left = |r: &&Ranked| r.systematic_after_mm;
+    let nearest = d.ranked.iter().filter(|r| r.at_bound).min_by(|a, b| left(a).total_cmp(&left(b)))?;
+    let is_closer = nearest.systematic_after_mm < CLOSER * d.base.systematic_with_added_mm;
+    is_closer.then(|| {
+        format!(
+            "{} would leave {:.2} mm, but at the end of its range, {}, and the data push beyond it: more of it than was thought \
+             possible, or something that looks like it.",
+            nearest.effect,
+            nearest.systematic_after_mm,
+            nearest.parameters.iter().map(|p| format!("{} = {}", p.symbol, quantity(p.value, &p.unit))).collect::<Vec<_>>().join(", ")
+        )
+    })
 }
 
 fn with_kept_bending(d: &Diagnosis, kept: &KeptBending) -> String {

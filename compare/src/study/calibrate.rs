@@ -3,7 +3,8 @@
 use crate::error::CompareError;
 use crate::evaluate::EvaluateOptions;
 use crate::noise::NoiseModel;
-use crate::study::predict::predict_dataset;
+use crate::study::predict::{first_slope, predict_dataset};
+use crate::whiten::{MISFIT, MISFIT_ROUNDS};
 use argmin::core::{CostFunction, Executor, State};
 use argmin::solver::brent::BrentOpt;
 use data::Dataset;
@@ -59,16 +60,34 @@ pub fn calibrate_bending(
     dataset: &Dataset,
     options: &EvaluateOptions,
 ) -> Result<Calibration, CompareError> {
-    let start = predict_dataset(scenario, dataset)?;
-    let noise = NoiseModel::estimate(dataset, &start.d_ln_pressure_m, &options.sessions, options.sigma_m)?;
+    let estimate = |slope: &[f64]| NoiseModel::estimate(dataset, slope, &options.sessions, options.sigma_m);
+    // Twice: the noise needs a model that fits, and the scenario's own B shall not matter.
+    let (root, _) = fit(scenario, dataset, estimate(&first_slope(scenario, dataset)?)?)?;
+    let fitted = predict_dataset(&scenario.with_bending(root * root), dataset)?;
+    let (best, noise) = fit(scenario, dataset, estimate(&fitted.d_ln_pressure_m)?)?;
     let misfit = Misfit { scenario, dataset, noise: &noise, mean_m: dataset.mean_over_runs() };
-    let best = minimum(&misfit)?;
     let bending_nm2 = best * best;
     let floor = misfit.at(0.0)?;
     let at_bound = floor <= misfit.at(bending_nm2)? || best > 0.999 * MAX_BENDING.sqrt();
     let bending_nm2 = if floor <= misfit.at(bending_nm2)? { 0.0 } else { bending_nm2 };
     let interval_nm2 = if noise.is_known() { interval(&misfit, bending_nm2)? } else { None };
     Ok(Calibration { bending_nm2, interval_nm2, at_bound })
+}
+
+/// √B, and the noise that it was fitted in: wider if the model misses the data.
+fn fit(scenario: &Scenario, dataset: &Dataset, noise: NoiseModel) -> Result<(f64, NoiseModel), CompareError> {
+    let mean_m = dataset.mean_over_runs();
+    let count = mean_m.len() as f64;
+    let least = Misfit { scenario, dataset, noise: &noise, mean_m };
+    let mut best = minimum(&least)?;
+    let mut wider = noise.clone();
+    if least.at(best * best)? > MISFIT * count {
+        for _ in 0..MISFIT_ROUNDS {
+            wider = noise.wider((least.at(best * best)? / count).max(1.0));
+            best = minimum(&Misfit { noise: &wider, mean_m: least.mean_m.clone(), ..least })?;
+        }
+    }
+    Ok((best, wider))
 }
 
 /// √B of the least misfit: the best of a coarse scan, then Brent's method around it.

@@ -1,5 +1,6 @@
 //! A model's prediction at the holds and markers of a dataset.
 
+use crate::data_slope::data_slope;
 use crate::error::CompareError;
 use data::{About, Dataset, Direct};
 use models::effects::Stage;
@@ -165,6 +166,18 @@ pub fn predict_dataset(scenario: &Scenario, dataset: &Dataset) -> Result<Predict
         }
     }
     Ok(out)
+}
+
+/// ∂f/∂ln P \[m\] to estimate noise with before anything was fitted: the data's own, which no scenario's stiffness moves; the
+/// scenario's where the data do not show it.
+///
+/// # Errors
+/// What the model returns when a hold has no equilibrium.
+pub(crate) fn first_slope(scenario: &Scenario, dataset: &Dataset) -> Result<Vec<f64>, CompareError> {
+    match data_slope(dataset) {
+        Some(slope) => Ok(slope),
+        None => Ok(predict_dataset(scenario, dataset)?.d_ln_pressure_m),
+    }
 }
 
 /// The steps of a dataset's protocol, one per sample, with the actuator pressures times `factor`.

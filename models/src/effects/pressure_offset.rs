@@ -19,7 +19,7 @@ pub(super) const ENTRY: Effect = Effect {
     stage: Stage::Supply,
     history: false,
     formula: "P = max(0, P_set − P₀) for P_set > 0",
-    sentence: "The actuator starts late: dead band, sensor bias, or pouches that open only against the body's pressure.",
+    sentence: "The pressure is off by a constant: dead band, sensor bias, or pouches that open only against the body's pressure; below zero more arrives than is set.",
     differs: "The curve over pressure is shifted sideways: the error is largest where it is steep.",
     remedy: "Put a gauge on the actuator. If it reads the set pressure, change the body's: an offset that grows with it is the pouches'.",
     validity: "constant over the range of pressures",

@@ -344,18 +344,19 @@ fn next_blocks(found: &Diagnosed) -> Vec<Block> {
     let mut blocks = Vec::new();
     if let Some(next) = &d.next_experiment {
         blocks.push(Block::Callout { kind: Callout::Result, text: next.sentence.clone() });
-        let mut columns = vec![words("experiment"), words("protocol [kPa]")];
+        let mut columns = vec![words("experiment"), words("protocol [kPa]"), column("suffices", "")];
         columns.extend(next.now.iter().map(|s| column(&s.rival, "")));
         let cells = |separations: &[crate::diagnosis::Separation]| -> Vec<String> {
             separations.iter().map(|s| format!("{:.1}", s.lambda)).collect()
         };
-        let mut rows = vec![[vec!["data at hand".to_string(), "–".to_string()], cells(&next.now)].concat()];
+        let row = |name: String, protocol: String, needed: f64, found: &[crate::diagnosis::Separation]| {
+            [vec![name, protocol, format!("{needed:.0}")], cells(found)].concat()
+        };
+        let mut rows = vec![row("data at hand".into(), "–".into(), next.needed_now, &next.now)];
         rows.extend(
-            next.tried
-                .iter()
-                .map(|e| [vec![e.name.clone(), e.shown_protocol().to_string()], cells(&e.separations)].concat()),
+            next.tried.iter().map(|e| row(e.name.clone(), e.shown_protocol().to_string(), e.needed, &e.separations)),
         );
-        let caption = format!("Expected separation λ of {} from its rivals; 16 suffices", next.best);
+        let caption = format!("Expected separation λ of {} from its rivals, and what suffices", next.best);
         blocks.push(Block::Table(Table { caption, columns, rows, how_column: None }));
     }
     let [scenario, data] = found.typed;

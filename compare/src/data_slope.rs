@@ -1,0 +1,134 @@
+//! How positions change with pressure, read off the data themselves.
+//!
+//! ```text
+//! ∂y/∂ln P = P/(P + p₀) ∂y/∂u,    u = ln(P + p₀)
+//! ```
+//!
+//! with the slope of a monotone cubic through the holds of one branch of the protocol (Fritsch & Butland 1984; ends: the
+//! parabola through three, cut as in Moler 2004, ch. 3.4). In u, because a robot bends most per pascal while P is about the
+//! body's pressure.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | P | actuator pressure | Pa |
+//! | p₀ | body pressure, no less than a hundredth of the highest P | Pa |
+//!
+//! Validity: two pressures on a branch at least; with steps of 10 kPa good to about a third. A model that fits knows better, one
+//! that does not fit knows less.
+
+use crate::layout::Layout;
+use data::Dataset;
+
+/// Least p₀ over the highest actuator pressure.
+const LEAST_SHIFT: f64 = 0.01;
+/// Coordinates closer than this are the same pressure.
+const SAME: f64 = 1e-6;
+
+/// ∂y/∂ln P of the mean over runs in run layout \[m\], zero in holds without actuator pressure; `None` where no branch has two
+/// pressures.
+pub fn data_slope(dataset: &Dataset) -> Option<Vec<f64>> {
+    let layout = Layout::of(dataset).ok()?;
+    let mean = dataset.mean_over_runs();
+    let means = layout.hold_means(&mean);
+    let width = 2 * layout.markers;
+    let top = dataset.holds.iter().fold(0.0, |most: f64, hold| most.max(hold.p_act_pa));
+    let shift = |h: usize| dataset.holds[h].p_body_pa.max(LEAST_SHIFT * top);
+    let u: Vec<f64> = (0..layout.holds).map(|h| (dataset.holds[h].p_act_pa + shift(h)).ln()).collect();
+    let mut slope = vec![0.0; mean.len()];
+    let mut known = vec![false; layout.holds];
+    for branch in branches(dataset, &u).into_iter().filter(|branch| branch.len() > 1) {
+        let at: Vec<f64> = branch.iter().map(|same| u[same[0]]).collect();
+        for k in 0..width {
+            let values: Vec<f64> = branch
+                .iter()
+                .map(|same| same.iter().map(|h| means[h * width + k]).sum::<f64>() / same.len() as f64)
+                .collect();
+            for (same, d) in branch.iter().zip(slopes(&at, &values)) {
+                for &h in same.iter().filter(|h| !known[**h]) {
+                    let p = dataset.holds[h].p_act_pa;
+                    (0..layout.samples).for_each(|s| slope[layout.index(h, s, 0) + k] = p / (p + shift(h)) * d);
+                }
+            }
+        }
+        branch.iter().flatten().for_each(|h| known[*h] = true);
+    }
+    known.contains(&true).then_some(slope)
+}
+
+/// Holds of one body pressure with rising or with falling actuator pressure; holds at the same pressure stand together. A hold
+/// where the pressure turns ends one branch and begins the next.
+fn branches(dataset: &Dataset, u: &[f64]) -> Vec<Vec<Vec<usize>>> {
+    let mut all: Vec<Vec<Vec<usize>>> = Vec::new();
+    for h in 0..u.len() {
+        let same_body = |g: usize| dataset.holds[g].p_body_pa == dataset.holds[h].p_body_pa;
+        match all.last_mut() {
+            Some(branch) if same_body(branch[0][0]) => {
+                let n = branch.len();
+                let step = u[h] - u[branch[n - 1][0]];
+                if step.abs() < SAME {
+                    branch[n - 1].push(h);
+                } else if n < 2 || step * (u[branch[n - 1][0]] - u[branch[n - 2][0]]) > 0.0 {
+                    branch.push(vec![h]);
+                } else {
+                    let turn = branch[n - 1].clone();
+                    all.push(vec![turn, vec![h]]);
+                }
+            }
+            _ => all.push(vec![vec![h]]),
+        }
+    }
+    all
+}
+
+/// Slopes of the monotone cubic at its nodes; two nodes and more.
+fn slopes(at: &[f64], values: &[f64]) -> Vec<f64> {
+    let lengths: Vec<f64> = at.windows(2).map(|w| w[1] - w[0]).collect();
+    let secants: Vec<f64> = values.windows(2).zip(&lengths).map(|(w, l)| (w[1] - w[0]) / l).collect();
+    let n = secants.len();
+    if n == 1 {
+        return vec![secants[0]; 2];
+    }
+    let mut out = vec![end(lengths[0], lengths[1], secants[0], secants[1])];
+    out.extend((1..n).map(|i| between(lengths[i - 1], lengths[i], secants[i - 1], secants[i])));
+    out.push(end(lengths[n - 1], lengths[n - 2], secants[n - 1], secants[n - 2]));
+    out
+}
+
+/// Between two secants over lengths of one sign: their weighted harmonic mean; zero at an extremum.
+fn between(before: f64, after: f64, left: f64, right: f64) -> f64 {
+    if left * right <= 0.0 {
+        return 0.0;
+    }
+    let (w, v) = (2.0 * after + before, after + 2.0 * before);
+    (w + v) / (w / left + v / right)
+}
+
+/// At an end: the parabola's slope, of the near secant's sign and no more than three times as steep where it turns.
+fn end(near: f64, far: f64, own: f64, next: f64) -> f64 {
+    let slope = ((2.0 * near + far) * own - near * next) / (near + far);
+    if slope * own <= 0.0 {
+        0.0
+    } else if own * next <= 0.0 && slope.abs() > 3.0 * own.abs() {
+        3.0 * own
+    } else {
+        slope
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_has_its_slope_and_a_parabola_nearly() {
+        let at = [0.5, 1.0, 2.0, 2.5];
+        let line: Vec<f64> = at.iter().map(|x| 3.0 * x - 1.0).collect();
+        assert!(slopes(&at, &line).iter().all(|d| (d - 3.0).abs() < 1e-12));
+        let parabola: Vec<f64> = at.iter().map(|x| x * x).collect();
+        for (d, x) in slopes(&at, &parabola).iter().zip(at) {
+            assert!((d / (2.0 * x) - 1.0).abs() < 0.12, "{d} at {x}");
+        }
+        let falling: Vec<f64> = at.iter().map(|x| -x).collect();
+        assert!(slopes(&falling, &parabola).iter().zip(at).all(|(d, x)| (d / (2.0 * x) + 1.0).abs() < 0.12));
+    }
+}
