@@ -136,7 +136,10 @@ fn a_wrong_description_beside_the_table_has_its_place() {
         folder.write("set/about.toml", format!("title = \"t\"\nsource = \"s\"\nlicence = \"l\"\n{about}\n"));
         refuse(&folder, &["compare", "epam", "set", "--out", "report"], 3, words);
     };
-    described("provenance = \"measurd\"", &["about.toml:4", "unknown variant `measurd`", "`measured`"]);
+    described(
+        "provenance = \"measurd\"",
+        &["about.toml:4", "unknown variant `measurd`", "`measured`", "docs/scenario.md"],
+    );
     let measured = "provenance = \"measured\"\n";
     let run = format!("{measured}[[run]]\nid = \"9\"");
     described(&run, &["describes run 9, which has no rows", "correct `id = \"9\"`"]);
