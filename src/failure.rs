@@ -189,6 +189,8 @@ struct Line {
     name: String,
     text: String,
     number: usize,
+    /// Bytes of the line before the text.
+    before: usize,
 }
 
 impl SourceCode for Line {
@@ -199,7 +201,7 @@ impl SourceCode for Line {
         _after: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
         let whole = SourceSpan::from(0..self.text.len());
-        let column = span.offset();
+        let column = self.before + span.offset();
         let line = self.number.saturating_sub(1);
         let text = self.text.as_bytes();
         Ok(Box::new(MietteSpanContents::new_named(self.name.clone(), text, whole, line, column, self.number)))
@@ -209,7 +211,21 @@ impl SourceCode for Line {
 fn data_report(error: &data::DataError, shown: miette::MietteDiagnostic) -> Report {
     let (Some(text), Some((start, end))) = (error.source_line(), error.caret()) else { return Report::new(shown) };
     let place = error.location();
-    let source = Line { name: place.file.clone(), text: text.to_string(), number: place.line as usize };
-    let end = end.max(start + 1).min(text.len());
+    let (cut, before) = part(text, start);
+    let (start, end) = (start.saturating_sub(before), end.saturating_sub(before));
+    let end = end.max(start + 1).min(cut.len());
+    let source = Line { name: place.file.clone(), text: cut.to_string(), number: place.line as usize, before };
     Report::new(shown.with_label(LabeledSpan::at(start.min(end)..end, "here"))).with_source_code(source)
+}
+
+/// Most bytes of a line that are shown, and those of them before the fault.
+const SHOWN: [usize; 2] = [300, 60];
+
+/// The part of a very long line around its byte `at`, and where it begins.
+fn part(text: &str, at: usize) -> (&str, usize) {
+    if text.len() <= SHOWN[0] {
+        return (text, 0);
+    }
+    let from = text.floor_char_boundary(at.saturating_sub(SHOWN[1]));
+    (&text[from..text.floor_char_boundary(from + SHOWN[0])], from)
 }

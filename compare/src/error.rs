@@ -68,15 +68,13 @@ pub enum CompareError {
         /// Runs it needs.
         needed: usize,
     },
-    /// `about.toml` measures what no effect has.
-    #[error("{place}: [measured] names an unknown {what}; known: {known}")]
-    UnknownMeasured {
+    /// `about.toml` measures what cannot be of this robot.
+    #[error("{place}: [measured] {problem}")]
+    WrongMeasured {
         /// File and line.
         place: String,
-        /// Effect or parameter.
-        what: String,
-        /// Those that exist.
-        known: String,
+        /// What is wrong, and what to write.
+        problem: String,
     },
     /// A setting is outside its range.
     #[error("{name} = {value} is not possible: {expected}")]

@@ -221,7 +221,7 @@ pub(crate) fn parse_toml<T: serde::de::DeserializeOwned>(file: &str, text: &str)
     toml::from_str(text).map_err(|cause| {
         let span = cause.span().map(|span| (span.start, span.end));
         let message = cause.message().trim().replace('\n', "; ");
-        let help = "the keys and an example are in the documentation of `data::about`".to_string();
+        let help = "the keys and an example are in docs/scenario.md, under about.toml".to_string();
         DataError::About(Box::new(Fault::of_text(file, text, span, message, help)))
     })
 }

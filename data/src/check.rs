@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::about::About;
-use crate::dataset::{Dataset, Phase};
+use crate::dataset::{Dataset, Hold, Phase};
 use crate::streams::{tolerance_act_pa, tolerance_body_pa};
 use crate::units::{kpa, mm};
 
@@ -119,6 +119,7 @@ pub fn check(dataset: &Dataset, about: Option<&About>) -> CheckReport {
         warnings: Vec::new(),
     };
     report.warnings = warnings(&report, about);
+    report.warnings.extend(contradictions(dataset));
     report
 }
 
@@ -250,6 +251,50 @@ fn identical_runs(dataset: &Dataset) -> Vec<[String; 2]> {
     order.sort_by(compare);
     let same = order.windows(2).filter(|pair| compare(&pair[0], &pair[1]).is_eq());
     same.map(|pair| [dataset.runs[pair[0]].clone(), dataset.runs[pair[1]].clone()]).collect()
+}
+
+/// Holds named in one warning.
+const MOST_NAMED: usize = 3;
+/// Holds this far apart are of a clock in milliseconds, or of a very patient experiment \[s\].
+const PATIENT_S: f64 = 1000.0;
+
+/// What the table says of its holds that cannot be: phases against pressures, times against any protocol. The first hold, and
+/// one that begins before the last (another session), have no pressure before them.
+pub fn contradictions(dataset: &Dataset) -> Vec<String> {
+    let mut found = Vec::new();
+    let (mut wrong, mut gaps) = (Vec::new(), Vec::new());
+    for (i, pair) in dataset.holds.windows(2).enumerate() {
+        let (before, hold) = (&pair[0], &pair[1]);
+        let begins = |hold: &Hold| hold.t_s.first().copied().unwrap_or_default();
+        if begins(hold) < begins(before) {
+            continue;
+        }
+        gaps.push(begins(hold) - begins(before));
+        let (change, least) = (hold.p_act_pa - before.p_act_pa, tolerance_act_pa(before.p_act_pa));
+        let right = if change > least { Phase::Load } else { Phase::Unload };
+        if change.abs() > least && hold.phase != right {
+            let ([from, to], said, right) = ([before, hold].map(|h| kpa(h.p_act_pa)), hold.phase.word(), right.word());
+            wrong.push(format!("hold {} goes from {from:.1} to {to:.1} kPa and says {said}, not {right}", i + 2));
+        }
+    }
+    if !wrong.is_empty() {
+        let (name, count) = (&dataset.name, wrong.len());
+        let more = if count > MOST_NAMED { format!(", and {} more", count - MOST_NAMED) } else { String::new() };
+        wrong.truncate(MOST_NAMED);
+        found.push(format!(
+            "{name}: the column phase contradicts the actuator's pressure in {count} of {} holds: {}{more}. Correct it: load \
+             where the pressure was raised to reach a hold, unload where it was lowered, hold where it stayed",
+            dataset.holds.len(),
+            wrong.join("; ")
+        ));
+    }
+    if !gaps.is_empty() && median(gaps) > PATIENT_S {
+        let name = &dataset.name;
+        found.push(format!(
+            "{name}: holds are more than {PATIENT_S} s apart: if the times are milliseconds, name the column t_ms"
+        ));
+    }
+    found
 }
 
 fn warnings(report: &CheckReport, about: Option<&About>) -> Vec<String> {

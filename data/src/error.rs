@@ -156,13 +156,6 @@ impl DataError {
     }
 }
 
-/// The name nearest to `wanted` by edit distance, if it is near enough to be a misspelling.
-pub(crate) fn nearest<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let distance = |name: &str| strsim::damerau_levenshtein(&wanted.to_lowercase(), &name.to_lowercase());
-    let (found, edits) = names.into_iter().map(|name| (name, distance(name))).min_by_key(|(_, edits)| *edits)?;
-    (edits <= 1 + wanted.len() / 4).then_some(found)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -188,11 +181,5 @@ mod tests {
         let inside = Fault::of_text("a", "é", Some((1, 2)), String::new(), String::new());
         let past = Fault::of_text("a", "é", Some((90, 99)), String::new(), String::new());
         assert_eq!((inside.location.line, past.location.line), (1, 1));
-    }
-
-    #[test]
-    fn nearest_forgives_a_slip_but_not_another_word() {
-        assert_eq!(nearest("p_act_kpa", ["p_atc_kpa", "note"]), Some("p_atc_kpa"));
-        assert_eq!(nearest("x_mm", ["comment", "operator"]), None);
     }
 }

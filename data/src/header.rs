@@ -1,6 +1,6 @@
 //! The header line: which column holds which quantity, in which unit.
 
-use crate::error::{DataError, Fault, nearest};
+use crate::error::{DataError, Fault};
 use crate::lines::{KeptLine, Line, Lines};
 use crate::units::{Dimension, Unit};
 
@@ -211,14 +211,26 @@ fn absent(line: &Line, names: &[String], delimiter: u8, missing: usize) -> DataE
     }
     let expected = QUANTITIES[missing].expected;
     let unknown = names.iter().filter(|name| matches!(meaning(name), Meaning::Extra)).map(String::as_str);
-    let found = names.join(&format!("{} ", delimiter as char));
-    if let Some(near) = nearest(expected, unknown).filter(|near| !near.is_empty()) {
+    let found = listed(names, delimiter);
+    if let Some(near) = spelling::nearest(expected, unknown).filter(|near| !near.is_empty()) {
         let index = names.iter().position(|name| name == near).unwrap_or_default();
         let message = format!("column {expected} is missing; found {found}");
         return column_fault(line, names, index, message, format!("did you mean {expected} where it says {near}?"));
     }
     let message = format!("column {expected} is missing; found {found}");
     DataError::Column(line.fault(message, format!("add it; the columns are {}", wanted())))
+}
+
+/// Column names in a message.
+const MOST_LISTED: usize = 30;
+
+/// The column names, of very many the first.
+fn listed(names: &[String], delimiter: u8) -> String {
+    let shown = names[..names.len().min(MOST_LISTED)].join(&format!("{} ", delimiter as char));
+    match names.len() - names.len().min(MOST_LISTED) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
 }
 
 #[cfg(test)]

@@ -138,6 +138,9 @@ impl<'a> Lines<'a> {
         let mut bytes = self.buffer.strip_suffix(b"\n").unwrap_or(&self.buffer);
         bytes = bytes.strip_suffix(b"\r").unwrap_or(bytes);
         let text = std::str::from_utf8(bytes).map_err(|cause| self.not_utf8(start + cause.valid_up_to(), bytes))?;
+        if self.number == 1 && text.trim_end_matches('\r').contains('\r') {
+            return Err(self.cr_only());
+        }
         let mark = if self.number == 1 && text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
         Ok(Line { file: &self.file, number: self.number, start: start + mark, text: &text[mark..], ended })
     }
@@ -148,7 +151,16 @@ impl<'a> Lines<'a> {
         DataError::File(Box::new(fault.at_line(self.number + 1)))
     }
 
+    fn cr_only(&self) -> DataError {
+        let help = "save the table again as CSV (UTF-8), or convert the line ends: tr '\\r' '\\n' < old.csv > new.csv";
+        let message = "the line ends are CR only, as old Macintosh programs write them: the whole file is one line";
+        DataError::Layout(Box::new(Fault::of_file(&self.file, message, help)))
+    }
+
     fn too_long(&self) -> DataError {
+        if self.number == 1 && self.buffer.contains(&b'\r') {
+            return self.cr_only();
+        }
         let help = "save the table as CSV (UTF-8) with one row per line";
         let fault = Fault::of_file(&self.file, "a line is longer than 1 MiB: this is not a marker table", help);
         DataError::Layout(Box::new(fault.at_line(self.number)))

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::about::{About, read_about};
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault, nearest};
+use crate::error::{DataError, Fault};
 use crate::read::{ReadOptions, parse_markers, read_markers_of};
 use crate::sets::{names, set_about, set_file, shown};
 use crate::table::{TableReader, read_parquet};
@@ -92,7 +92,7 @@ fn load_file(
 
 fn nothing(place: &str) -> DataError {
     let known = names();
-    let meant = nearest(place, known.iter().copied()).map_or(String::new(), |near| format!("did you mean {near}? "));
+    let meant = spelling::meant(place, known.iter().copied());
     let help =
         format!("{meant}give a .csv or .parquet file, a folder with markers.csv, or one of {}", known.join(", "));
     DataError::File(Box::new(Fault::of_file(place, "no such file, folder or embedded set", help)))

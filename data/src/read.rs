@@ -22,7 +22,7 @@ use std::path::Path;
 use crate::about::About;
 use crate::align::align;
 use crate::dataset::Dataset;
-use crate::error::{DataError, Fault, nearest};
+use crate::error::{DataError, Fault};
 use crate::header::{ACTUATOR, read_header};
 use crate::lines::Lines;
 use crate::plausible::{check_units, check_y_up};
@@ -176,8 +176,7 @@ fn check_about_runs(file: &str, recorder: &Recorder, about: Option<&About>) -> R
     let names = &recorder.runs.names;
     let described = about.into_iter().flat_map(|about| &about.runs);
     let Some(unknown) = described.map(|run| &run.id).find(|&id| !names.contains(id)) else { return Ok(()) };
-    let near = nearest(unknown, names.iter().map(String::as_str));
-    let meant = near.map_or(String::new(), |near| format!("did you mean {near}? "));
+    let meant = spelling::meant(unknown, names.iter().map(String::as_str));
     let help =
         format!("{meant}correct `id = \"{unknown}\"` in about.toml; a [[run]] without rows would lose its tip force");
     let message = format!("about.toml describes run {unknown}, which has no rows");

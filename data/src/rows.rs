@@ -79,7 +79,7 @@ impl RowReader {
             run: self.word(line, RUN)?,
             marker: self.word(line, MARKER)?,
             phase: self.phase(line)?,
-            t_s: self.number(line, TIME)?,
+            t_s: self.time(line)?,
             p_body_pa: self.pressure(line, P_BODY)?,
             p_act_pa: self.pressure(line, P_ACT)?,
             x_m: self.length(line, X)?,
@@ -173,6 +173,17 @@ impl RowReader {
             let message = format!("the station of a marker is below zero: {}", self.text(STATION));
             let help = "stations count from the robot's base along the undeformed body".to_string();
             return Err(DataError::Cell(self.cell_fault(line, STATION, message, help)));
+        }
+        Ok(value)
+    }
+
+    fn time(&self, line: &Line) -> Result<f64, DataError> {
+        let value = self.number(line, TIME)?;
+        if value < 0.0 {
+            let message = format!("the time is below zero: {}", self.text(TIME));
+            let help = "times count from the start of the run, when the first pressure was set: add the same number to \
+                        all times of the run";
+            return Err(DataError::Cell(self.cell_fault(line, TIME, message, help.to_string())));
         }
         Ok(value)
     }

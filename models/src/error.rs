@@ -1,5 +1,6 @@
 //! Errors of the models.
 
+use crate::term::Extreme;
 use thiserror::Error;
 
 /// Why a scenario was refused; `span` is the byte range in the text it was read from.
@@ -50,6 +51,22 @@ pub enum Unsolved {
         /// Imbalance at its upper end.
         high: f64,
     },
+    /// The same, because of a formula of the scenario.
+    #[error(
+        "no equilibrium at s = {s_mm:.1} mm for P = {p_act_kpa:.3} kPa, p_b = {p_body_kpa:.3} kPa: the formula {} gives {} at \
+         kappa = {:.2} 1/m (theta = {:.3}); it must stay finite, and within what wall and actuator can carry, at all pressures and bends",
+        extreme.formula, moment(extreme.moment), extreme.kappa, extreme.theta
+    )]
+    Formula {
+        /// Where the formula is largest.
+        extreme: Extreme,
+        /// Place \[mm\].
+        s_mm: f64,
+        /// Actuator pressure there \[kPa\].
+        p_act_kpa: f64,
+        /// Body pressure \[kPa\].
+        p_body_kpa: f64,
+    },
     /// Moments and shape did not settle.
     #[error(
         "moments and shape did not agree after {iterations} iterations at P = {p_act_kpa:.3} kPa: \
@@ -81,4 +98,11 @@ pub enum Unsolved {
         /// Largest pressure searched \[kPa\].
         p_max_kpa: f64,
     },
+}
+
+/// Moments beyond this are those of a pole, to rounding \[N·m\].
+pub(crate) const POLE_NM: f64 = 1e9;
+
+fn moment(size: f64) -> String {
+    if size < POLE_NM { format!("{size:.3e} N·m") } else { "no finite moment".into() }
 }

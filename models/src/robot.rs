@@ -5,7 +5,7 @@ use crate::error::Unsolved;
 use crate::history::History;
 use crate::root::NoRoot;
 use crate::shape::{Arc, advance, arc, turned};
-use crate::site::{SiteLoads, SiteState};
+use crate::site::{Site, SiteLoads, SiteState};
 use crate::term::Pose;
 
 /// Buffers of a prediction; made once, so that predicting allocates nothing.
@@ -197,16 +197,24 @@ fn solve_segment(
     let History { dt_s, stamp, .. } = work.history;
     let loads = SiteLoads { p_body_pa, p_act_pa: work.p_act_pa[index], moment, s_m: segment.middle_m(), dt_s, stamp };
     let memory = work.history.of_segment(index);
-    assembly.sites[segment.site].solve(&loads, memory, near).map_err(|error| unsolved(error, segment.start_m, &loads))
+    let site = &assembly.sites[segment.site];
+    site.solve(&loads, memory, near).map_err(|error| unsolved(error, site, segment.start_m, &loads))
 }
 
-fn unsolved(error: NoRoot, start_m: f64, loads: &SiteLoads) -> Unsolved {
+/// Share of the imbalance above which a formula of the scenario is named: the catalogue's own laws are tested to leave an equilibrium.
+const TO_BLAME: f64 = 0.1;
+
+fn unsolved(error: NoRoot, site: &Site, start_m: f64, loads: &SiteLoads) -> Unsolved {
     let (low, high) = match error {
         NoRoot::SameSign { at_low, at_high } => (at_low, at_high),
         NoRoot::Stalled { f } => (f, f),
     };
-    let (p_act_kpa, p_body_kpa) = (loads.p_act_pa / 1e3, loads.p_body_pa / 1e3);
-    Unsolved::NoEquilibrium { s_mm: start_m * 1e3, p_act_kpa, p_body_kpa, low, high }
+    let (s_mm, p_act_kpa, p_body_kpa) = (start_m * 1e3, loads.p_act_pa / 1e3, loads.p_body_pa / 1e3);
+    let imbalance = low.abs().max(high.abs());
+    match site.extreme(loads).filter(|extreme| extreme.moment > TO_BLAME * imbalance || !imbalance.is_finite()) {
+        Some(extreme) => Unsolved::Formula { extreme, s_mm, p_act_kpa, p_body_kpa },
+        None => Unsolved::NoEquilibrium { s_mm, p_act_kpa, p_body_kpa, low, high },
+    }
 }
 
 /// Integrates the heading along the arc.

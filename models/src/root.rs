@@ -35,6 +35,8 @@ const LAST_STEP: f64 = 1e-7;
 const LAST_ERROR: f64 = 1e-14;
 /// Part of the bracket below which x counts as zero when steps are compared with it.
 const FLOOR: f64 = 1e-6;
+/// A jump of this size is a pole and no root.
+const POLE: f64 = 1e9;
 /// Evaluations after which the bracket must have halved, else it is halved.
 const PATIENCE: usize = 8;
 
@@ -121,7 +123,9 @@ fn end_of_bracket<F: FnMut(f64) -> f64>(
     slope: f64,
 ) -> Result<Root, NoRoot> {
     let (at_low, at_high) = (f(low), f(high));
-    if seen == (true, true) || (at_low >= 0.0 && at_high <= 0.0) {
+    let changes = seen == (true, true) || (at_low >= 0.0 && at_high <= 0.0);
+    // At a pole the sign changes too.
+    if changes && at_low.abs() < POLE && at_high.abs() < POLE {
         let x = 0.5 * (low + high);
         f(x);
         return Ok(Root { x, step: 0.0, slope });
@@ -153,6 +157,12 @@ mod tests {
     fn a_function_without_a_root_is_refused_with_its_end_values() {
         let error = root(|x| 1.0 + x, (0.0, 1.0), 0.5, -1.0).unwrap_err();
         assert!(matches!(error, NoRoot::SameSign { at_high, .. } if at_high > 1.9), "{error:?}");
+    }
+
+    #[test]
+    fn a_pole_and_an_end_of_the_numbers_are_no_roots() {
+        assert!(root(|x| 1.0 / (0.3 - x), (0.0, 1.0), 0.5, -1.0).is_err());
+        assert!(root(|x| if x < 0.3 { 1.0 } else { f64::NAN }, (0.0, 1.0), 0.5, -1.0).is_err());
     }
 
     #[test]

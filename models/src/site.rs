@@ -17,7 +17,7 @@ use crate::body::{Bending, BodyLaw, BodyPressure};
 pub use crate::linkage::Linkage;
 use crate::linkage::line_tension;
 use crate::root::{NoRoot, Root, Start, find_root};
-use crate::term::{Pose, Term, actuator_q};
+use crate::term::{Extreme, Pose, Term, actuator_q};
 
 /// One place of the robot while a model is put together; an effect changes what it owns.
 pub struct Site {
@@ -346,6 +346,18 @@ impl Site {
     /// Further body-side terms.
     pub(crate) fn body_terms(&self) -> impl Iterator<Item = &dyn Term> {
         self.body_terms.iter().map(|term| &**term as &dyn Term)
+    }
+
+    /// Where a formula of the scenario is largest at these loads, over the curvatures that the search for an equilibrium sees.
+    pub(crate) fn extreme(&self, loads: &SiteLoads) -> Option<Extreme> {
+        let within = match self.actuator {
+            Some(actuator) if self.opening_pa(loads) > SLACK_BELOW_PA => {
+                <[f64; 2]>::from(actuator.range).map(|a| self.geometric(&(actuator.stroke)(&self.shape, a)))
+            }
+            _ => [-PASSIVE_RANGE, PASSIVE_RANGE],
+        };
+        let found = self.body_terms().filter_map(|term| term.extreme(&loads.pose(&[0.0]), within));
+        found.max_by(|a, b| a.moment.total_cmp(&b.moment))
     }
 
     /// ∂U/∂κ of all body-side terms \[N·m\].

@@ -89,6 +89,19 @@ impl Memory {
     pub const NONE: Memory = Memory { values: 0, time_s: f64::INFINITY };
 }
 
+/// Where a formula of the scenario is largest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Extreme {
+    /// Name of the formula.
+    pub formula: String,
+    /// Curvature \[1/m\].
+    pub kappa: f64,
+    /// Bend of one actuator unit \[rad\].
+    pub theta: f64,
+    /// Size of its moment there \[N·m\]; infinite where it is no number.
+    pub moment: f64,
+}
+
 /// One physical effect: its energy and its virtual work.
 ///
 /// Law (tested over every term at random poses): the force added equals minus the slope of the returned energy, at fixed
@@ -103,6 +116,12 @@ pub trait Term: Send + Sync {
     /// The force of [`Term::add`] alone, for a term whose energy costs more.
     fn add_force(&self, at: &Pose, force: &mut [f64]) {
         self.add(at, force);
+    }
+
+    /// Where this force is largest over curvatures `within`, or not finite somewhat beyond, for the error of a place without
+    /// equilibrium. Only a formula of the scenario answers: the catalogue's laws are tested over their bounds.
+    fn extreme(&self, _at: &Pose, _within: [f64; 2]) -> Option<Extreme> {
+        None
     }
 
     /// What this term remembers between states of the reduced model; only terms over `[κ]` may.

@@ -235,7 +235,12 @@ fn target(args: &Add, names: &[String]) -> Result<PathBuf, Failure> {
         let message = format!("{} is the scenario itself, which stays as it is", target.display());
         return Err(Failure::usage(message, "choose another file with --out"));
     }
-    if target.is_dir() || (target.exists() && !args.force) {
+    if target.is_dir() {
+        let file = target.join(format!("{stem}-{}.toml", names.join("-")));
+        let message = format!("{} is a folder, not a file", target.display());
+        return Err(Failure::usage(message, format!("give a file, for example --out {}", file.display())));
+    }
+    if target.exists() && !args.force {
         let message = format!("{} exists already", target.display());
         return Err(Failure::usage(message, "choose another file with --out, or replace it with --force"));
     }

@@ -35,7 +35,7 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
     let diagnosis = diagnosed(&named.scenario, &loaded, &options)?;
     let runs = known_runs(args.runs.as_deref())?;
     let witness = witness(&diagnosis, &named.scenario, dataset, about.as_ref(), &runs)?;
-    let answer = to_json(&args.scenario, &diagnosis, witness.as_ref());
+    let answer = to_json(&args.scenario, &loaded, &diagnosis, witness.as_ref());
     let file = format!("{answer:#}\n").into_bytes();
     let mut outcome = Outcome::new(text(&diagnosis, witness.as_ref()), answer);
     outcome.notes.extend(diagnosis.warnings.iter().map(|w| format!("warning: {w}")));
@@ -68,13 +68,14 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
     Ok(outcome)
 }
 
-fn to_json(scenario: &str, diagnosis: &Diagnosis, witness: Option<&Witness>) -> Value {
+fn to_json(scenario: &str, data: &[inputs::Loaded], diagnosis: &Diagnosis, witness: Option<&Witness>) -> Value {
     let mut value = json!(diagnosis);
     if let Some(object) = value.as_object_mut() {
         object.insert("schema".into(), "ibr.diagnose".into());
         object.insert("version".into(), 1.into());
         object.insert("finite_elements".into(), json!(witness));
         object.insert("scenario_file".into(), scenario.into());
+        object.insert("data_sha256".into(), data.iter().map(|data| data.input.sha256.clone()).collect());
     }
     value
 }

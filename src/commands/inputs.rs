@@ -42,8 +42,9 @@ fn scenario_text(spec: &str) -> Result<String, Failure> {
             Err(_) => "it is not a text in UTF-8".to_string(),
         },
     };
-    let names = SHIPPED.iter().map(|s| s.0).collect::<Vec<_>>().join(", ");
-    let help = format!("give a TOML file, or a shipped robot: {names}; `ibr new epam > my.toml` makes a start");
+    let names: Vec<&str> = SHIPPED.iter().map(|s| s.0).collect();
+    let (meant, names) = (spelling::meant(spec, names.iter().copied()), names.join(", "));
+    let help = format!("{meant}give a TOML file, or a shipped robot: {names}; `ibr new epam > my.toml` makes a start");
     Err(Failure::Read { path: spec.into(), cause, help })
 }
 
@@ -117,8 +118,8 @@ pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, String)
     let (name, values) = text.split_once(':').unwrap_or((text, ""));
     let catalogue = scenario.catalogue();
     let Some(effect) = catalogue.by_name(name) else {
-        let known = catalogue.effects().map(|e| e.name).collect::<Vec<_>>().join(", ");
-        return Err(Failure::usage(format!("unknown effect `{name}`"), format!("known: {known}")));
+        let known: Vec<&str> = catalogue.effects().map(|e| e.name).collect();
+        return Err(Failure::usage(format!("unknown effect `{name}`"), spelling::known(name, &known)));
     };
     let kind = scenario.actuator.kind;
     if !effect.applies_to(kind.family) {
@@ -128,10 +129,13 @@ pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, String)
     let mut chosen = if values.is_empty() { effect.typical_for(kind.name) } else { effect.neutral() };
     for pair in values.split(',').filter(|pair| !pair.is_empty()) {
         let (key, number) = pair.split_once('=').unwrap_or((pair, ""));
-        let keys = effect.parameters.iter().map(|p| p.key).collect::<Vec<_>>().join(", ");
+        let keys: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
         let help = format!(
-            "parameters of {name}: {keys}; for example {name}:{}={}",
-            effect.parameters[0].key, effect.parameters[0].typical
+            "{}parameters of {name}: {}; for example {name}:{}={}",
+            if keys.contains(&key.trim()) { String::new() } else { spelling::meant(key, keys.iter().copied()) },
+            keys.join(", "),
+            effect.parameters[0].key,
+            effect.parameters[0].typical
         );
         let Some(index) = effect.parameters.iter().position(|p| p.key == key.trim()) else {
             return Err(Failure::usage(format!("{name} has no parameter `{key}`"), help));

@@ -131,8 +131,8 @@ pub fn new(kind: &str) -> Result<Outcome, Failure> {
         (None, Some(text)) => ("case_toml", text),
         (None, None) => {
             let names = SHIPPED.iter().chain(SHIPPED_CASES).map(|s| s.0).chain(STUDIES.iter().map(|s| s.0));
-            let names = names.collect::<Vec<_>>().join(", ");
-            return Err(Failure::usage(format!("no shipped scenario `{kind}`"), format!("known: {names}")));
+            let help = spelling::known(kind, &names.collect::<Vec<_>>());
+            return Err(Failure::usage(format!("no shipped scenario `{kind}`"), help));
         }
     };
     Ok(Outcome::new(text.to_string(), json!({"schema": "ibr.new", "version": 1, key: text})))

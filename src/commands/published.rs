@@ -9,6 +9,7 @@ use crate::output::{check_folder, write_files};
 use compare::plots::{LineSeries, LineStyle, Lines, lines};
 use compare::study::one_number::{Explanation, OneNumber, one_number};
 use compare::study::pages::Files;
+use models::scenario::SHIPPED;
 use serde_json::json;
 use std::path::Path;
 
@@ -19,7 +20,9 @@ pub fn run(kind: &str, out: Option<&Path>, context: &mut Context) -> Result<Outc
     out.map_or(Ok(()), check_folder)?;
     if models::shipped(kind).is_none() {
         let message = format!("the paper printed no displacement of `{kind}`");
-        return Err(Failure::usage(message, "with --published name spam, cpam, epam or fpam"));
+        let kinds: Vec<&str> = SHIPPED.iter().map(|s| s.0).collect();
+        let help = format!("with --published name a robot of the paper; {}", spelling::known(kind, &kinds));
+        return Err(Failure::usage(message, help));
     }
     let one = one_number(kind)?;
     let outcome = Outcome::new(text(&one), json!({"schema": "ibr.one_number", "version": 1, "result": one}));

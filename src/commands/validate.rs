@@ -77,7 +77,7 @@ fn added(scenario: &Scenario, text: &str, named: &[String]) -> Result<Vec<Origin
         let own: Vec<&str> = scenario.effects.iter().map(|e| e.name.as_str()).collect();
         return Err(Failure::usage(
             format!("the scenario has no effect `{unknown}`"),
-            format!("its effects: {}", own.join(", ")),
+            format!("{}its effects: {}", spelling::meant(unknown, own.iter().copied()), own.join(", ")),
         ));
     }
     let found: Vec<Origin> = match named {

@@ -95,6 +95,7 @@ fn what_cannot_be_added_is_said_and_nothing_is_written() {
     let refusals: &[(&[&str], &str)] = &[
         (&["add", "epam", "frictoin"], "unknown effect `frictoin`"),
         (&["add", "epam", "friction=much"], "is not a number"),
+        (&["add", "epam", "friction", "--force", "--out", "."], ". is a folder, not a file"),
         (&["add", "epam", "friction=50"], "outside its physical bounds"),
         (&["add", "epam", "friction:mu=0.1"], "no parameter `mu`"),
         (&["add", "epam", "shear_stiffness"], "does not exist for the actuator epam"),

@@ -26,6 +26,8 @@ fn pressures_need_a_number_and_a_known_unit() {
 fn effects_need_a_known_name_a_known_parameter_and_a_value_in_bounds() {
     let effect = |text: &str, words: &[&str]| wrong(&["predict", "epam", "--effect", text], words);
     effect("junk", &["unknown effect `junk`", "known: end_constraint"]);
+    effect("frction", &["unknown effect `frction`", "did you mean friction?"]);
+    effect("end_constraint:bta=1", &["no parameter `bta`", "did you mean beta?"]);
     effect("gravité", &["unknown effect `gravité`"]);
     effect("", &["unknown effect ``"]);
     effect("end_constraint:alpha=1", &["end_constraint has no parameter `alpha`", "for example end_constraint:beta="]);
@@ -62,6 +64,9 @@ fn unknown_commands_robots_and_lists_name_the_known_ones() {
     wrong(&["frob"], &["unrecognized subcommand 'frob'"]);
     wrong(&[], &["Usage: ibr", "compare"]);
     wrong(&["predict"], &["<SCENARIO>"]);
+    wrong(&["new", "epm"], &["no shipped scenario `epm`", "did you mean epam?"]);
+    wrong(&["add", "epam", "end_constrain"], &["did you mean end_constraint?"]);
+    refuse(&with_report(), &["predict", "epm"], 3, &["cannot read epm", "did you mean epam?"]);
     wrong(&["new", "nosuch"], &["no shipped scenario `nosuch`", "spam, cpam, epam, fpam, pillow, tube"]);
     wrong(&["list", "nosuch"], &["possible values: actuators, effects, datasets, cases"]);
     wrong(&["completions", "klingon"], &["possible values: bash"]);

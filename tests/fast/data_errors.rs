@@ -136,7 +136,10 @@ fn a_wrong_description_beside_the_table_has_its_place() {
         folder.write("set/about.toml", format!("title = \"t\"\nsource = \"s\"\nlicence = \"l\"\n{about}\n"));
         refuse(&folder, &["compare", "epam", "set", "--out", "report"], 3, words);
     };
-    described("provenance = \"measurd\"", &["about.toml:4", "unknown variant `measurd`", "`measured`"]);
+    described(
+        "provenance = \"measurd\"",
+        &["about.toml:4", "unknown variant `measurd`", "`measured`", "docs/scenario.md"],
+    );
     let measured = "provenance = \"measured\"\n";
     let run = format!("{measured}[[run]]\nid = \"9\"");
     described(&run, &["describes run 9, which has no rows", "correct `id = \"9\"`"]);
@@ -167,4 +170,29 @@ fn data_that_do_not_fit_the_scenario_are_refused() {
     let short = text.replace("length_mm = 360", "length_mm = 300").replace("count = 6", "count = 5");
     folder.write("short.toml", short.replace(", 330]", "]"));
     compare("short.toml", "synthetic-epam", &["marker `6` at s = 330 mm is beyond the robot's end at 300 mm"]);
+}
+
+#[test]
+fn a_very_long_line_is_shown_around_its_fault_only() {
+    let folder = with_report();
+    let long = with_cells(|at, cells| {
+        if at == 2 {
+            cells.extend((0..5000).map(|i| format!("more{i}")));
+        }
+    });
+    folder.write("bad.csv", long);
+    let ran = folder.run(&["data", "check", "bad.csv"]);
+    assert!(ran.code == 3 && ran.stderr.contains("found more than 10"), "{}", &ran.stderr[..500]);
+    assert!(ran.stderr.contains("more1,") && ran.stderr.len() < 2000, "{} bytes", ran.stderr.len());
+}
+
+#[test]
+fn phases_that_contradict_the_pressures_are_a_warning_wherever_data_are_read() {
+    let folder = with_report();
+    folder.write("bad.csv", with_cells(|_, cells| cells[5] = "load".into()));
+    for args in [&["compare", "epam", "bad.csv"][..], &["diagnose", "epam", "bad.csv"], &["data", "check", "bad.csv"]] {
+        let ran = folder.run(args);
+        let words = "contradicts the actuator's pressure in 1 of 5 holds: hold 5 goes from 30.0 to 0.0 kPa";
+        assert!(ran.code == 0 && format!("{}{}", ran.stdout, ran.stderr).contains(words), "{args:?}: {}", ran.stderr);
+    }
 }

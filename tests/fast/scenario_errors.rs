@@ -80,13 +80,13 @@ fn parts_that_do_not_fit_on_the_body_are_refused() {
 fn unknown_actuators_and_effects_are_answered_with_the_list() {
     refused(
         epam_with("\"epam\"", "\"epma\""),
-        &["unknown actuator \"epma\"", "spam, cpam, epam, fpam", "bad.toml:13:8"],
+        &["unknown actuator \"epma\"", "did you mean epam? known: spam, cpam, epam, fpam", "bad.toml:13:8"],
     );
     let effect = |text: &str| format!("{}\n{text}\n", models::shipped("epam").unwrap());
-    refused(effect("[effects.gravty]\na = 1"), &["unknown effect \"gravty\"", "gravity", "bad.toml:25"]);
+    refused(effect("[effects.gravty]\na = 1"), &["unknown effect \"gravty\"", "did you mean gravity?", "bad.toml:25"]);
     refused(
         effect("[effects.end_constraint]\nbta = 1"),
-        &["no parameter \"bta\"", "its parameters: beta", "bad.toml:26"],
+        &["no parameter \"bta\"", "did you mean beta? its parameters: beta", "bad.toml:26"],
     );
     refused(effect("[effects.end_constraint]\nbeta = 5"), &["outside its physical bounds 0 to 1", "bad.toml:26:8"]);
     refused(

@@ -64,6 +64,9 @@ pub const BENCH_TESTS: [BenchTest; 3] = [
 /// Standard deviation that is expected of such a test, as a share of the value and of no less than its typical size. Assumed.
 pub const BENCH_TEST: f64 = 0.1;
 
+/// Standard deviations by which the noise of a test may carry its value beyond a physical bound.
+const BEYOND_BOUNDS: f64 = 2.0;
+
 impl Known {
     /// Difference of a hypothesis to it, in standard deviations; `values` are those of its effects, one after the other.
     pub fn residual(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> f64 {
@@ -120,7 +123,7 @@ pub fn parameters_of(test: &BenchTest, candidates: &[Candidate]) -> Vec<(usize, 
 /// The values measured of effects that may be missing or are refitted.
 ///
 /// # Errors
-/// A name that neither the catalogue nor the scenario has.
+/// A name that neither the catalogue nor the scenario has, an effect that its actuator cannot have, a value beyond its bounds.
 pub fn known<'m>(
     measured: impl IntoIterator<Item = &'m MeasuredValue>,
     candidates: &[Candidate],
@@ -128,10 +131,8 @@ pub fn known<'m>(
 ) -> Result<Vec<Known>, CompareError> {
     let mut all: Vec<Known> = Vec::new();
     for m in measured {
-        let Some((effect, parameter)) = place(candidates, &m.effect, &m.key) else {
-            exists(scenario, m)?;
-            continue;
-        };
+        check(scenario, m)?;
+        let Some((effect, parameter)) = place(candidates, &m.effect, &m.key) else { continue };
         // Of two tests of one quantity the first stands.
         if all.iter().all(|k| (k.effect, k.parameter) != (effect, parameter)) {
             let si = candidates[effect].parameters[parameter].si;
@@ -147,15 +148,33 @@ fn place(candidates: &[Candidate], effect: &str, key: &str) -> Option<(usize, us
     Some((index, candidates[index].parameters.iter().position(|p| p.key == key)?))
 }
 
-fn exists(scenario: &Scenario, m: &MeasuredValue) -> Result<(), CompareError> {
-    let catalogue = scenario.catalogue();
-    let (what, known): (String, Vec<&str>) = match catalogue.effects().find(|effect| effect.name == m.effect) {
-        Some(effect) if effect.parameters.iter().any(|p| p.key == m.key) => return Ok(()),
-        Some(effect) => {
-            (format!("parameter `{}` of {}", m.key, m.effect), effect.parameters.iter().map(|p| p.key).collect())
-        }
-        None => (format!("effect `{}`", m.effect), catalogue.effects().map(|effect| effect.name).collect()),
+/// Whether this robot can have what was measured, at that value.
+fn check(scenario: &Scenario, m: &MeasuredValue) -> Result<(), CompareError> {
+    let (MeasuredValue { effect: name, key, value, sd, .. }, kind) = (m, scenario.actuator.kind);
+    let wrong = |problem: String| {
+        let place = if m.place.is_empty() { "about.toml".to_string() } else { m.place.clone() };
+        Err(CompareError::WrongMeasured { place, problem })
     };
-    let place = if m.place.is_empty() { "about.toml".to_string() } else { m.place.clone() };
-    Err(CompareError::UnknownMeasured { place, what, known: known.join(", ") })
+    let catalogue = scenario.catalogue();
+    let Some(effect) = catalogue.by_name(name) else {
+        let names: Vec<&str> = catalogue.effects().map(|effect| effect.name).collect();
+        return wrong(format!("names an unknown effect `{name}`; {}", spelling::known(name, &names)));
+    };
+    if !effect.applies_to(kind.family) {
+        return wrong(format!("names {name}, which does not exist for the actuator {}: remove it", kind.name));
+    }
+    let Some(p) = effect.parameters.iter().find(|p| p.key == key) else {
+        let keys: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
+        return wrong(format!("names an unknown parameter `{key}` of {name}; {}", spelling::known(key, &keys)));
+    };
+    let noise = BEYOND_BOUNDS * sd;
+    if (p.lower - noise..=p.upper + noise).contains(value) {
+        return Ok(());
+    }
+    let (lower, upper) = (p.lower, p.upper);
+    let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
+    wrong(format!(
+        "{name}: {key} = {value} is outside its physical bounds {lower} to {upper}{unit} by more than {BEYOND_BOUNDS} of its \
+         standard deviations ({sd}): correct the value or its unit"
+    ))
 }

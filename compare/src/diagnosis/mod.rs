@@ -160,6 +160,7 @@ pub fn diagnose_together(
     }));
     warnings.extend(limits::warnings(&case));
     let decision = decide(&case, options)?;
+    warnings.extend(singles::left_out(&case, &decision.singles));
     let outliers = Outliers { runs, ..parts[0].prepared.outliers.clone() };
     let mut diagnosis = assemble(&case, &decision, outliers, warnings)?;
     if options.next_experiment {

@@ -1,6 +1,7 @@
 //! Every effect of the catalogue refitted together with the base, and the set that the data cannot tell apart.
 
 use super::basis::{Basis, cosine};
+use super::blocks::fitted_scenarios;
 use super::case::Case;
 use super::decide::Decision;
 use super::detect;
@@ -11,6 +12,7 @@ use super::problem::Fit;
 use super::result::{ParameterValue, Ranked};
 use super::screen::starts;
 use crate::stats::reported_p;
+use crate::study::predict_dataset;
 
 /// B that moves by more than this with an effect is said so.
 const BENDING_MOVES: f64 = 0.2;
@@ -24,6 +26,23 @@ pub fn fit_all(case: &Case) -> (Vec<Fit>, f64) {
     let mut fits: Vec<Fit> = case.tried.iter().filter_map(fit).collect();
     let allowance = order::sort(case, &mut fits, &case.base);
     (fits, allowance)
+}
+
+/// Effects that no fit could try, and why: without equilibrium at whatever value.
+pub fn left_out(case: &Case, fits: &[Fit]) -> Vec<String> {
+    let Case { problem, base, .. } = case;
+    let is_fitted = |effect: &usize| fits.iter().any(|fit| fit.effects.last() == Some(effect));
+    let why = |effect: usize| {
+        let effects: Vec<usize> = case.always.iter().copied().chain([effect]).collect();
+        let theta = [base.theta(), &case.candidate(effect).at(1.0)].concat();
+        let unsolved = problem.blocks.iter().find_map(|block| {
+            let scenarios = fitted_scenarios(problem, block, &effects, &theta);
+            scenarios.iter().find_map(|scenario| predict_dataset(scenario, &block.dataset).err())
+        });
+        unsolved.map_or("no equilibrium at any of the values tried".into(), |error| error.to_string())
+    };
+    let left_out = case.tried.iter().filter(|effect| !is_fitted(effect));
+    left_out.map(|effect| format!("{} was left out: {}", case.candidate(*effect).name, why(*effect))).collect()
 }
 
 /// Indices of the fits that cannot be told from the best acceptable one, best first; empty if none helps.

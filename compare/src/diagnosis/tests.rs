@@ -255,3 +255,15 @@ fn impossible_options_are_refused() {
         assert!(matches!(diagnose(&plain, &data, None, &options), Err(CompareError::BadOption { .. })));
     }
 }
+
+#[test]
+fn a_formula_that_is_not_finite_at_a_pressure_of_the_data_is_left_out_and_it_is_said_where() {
+    let text = models::shipped("epam").unwrap().to_string()
+        + "[[formula]]\nname = \"own\"\nmoment = \"-k*theta/(p_act/p_body - 10)\"\n\
+           [formula.parameters.k]\nunit = \"N m\"\ntypical = 0.5\nbounds = [0, 20]\n";
+    let scenario = Scenario::parse(&text).unwrap().with_bending(1.35);
+    let d = run(&scenario, &measured(&robot("epam"), 3, 31));
+    assert!(d.ranked.iter().all(|r| r.effect != "own"));
+    let told = d.warnings.iter().find(|w| w.starts_with("own was left out: ")).unwrap();
+    assert!(told.contains("P = 20.000 kPa") && told.contains("the formula own gives no finite moment"), "{told}");
+}

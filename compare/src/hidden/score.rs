@@ -8,8 +8,8 @@ use serde::Serialize;
 /// What a diagnosis says, as far as it is scored.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Answer {
-    /// `none`, `effect` or `out_of_catalog`; empty if it gives no verdict.
-    pub verdict: String,
+    /// `none`, `effect` or `out_of_catalog`; `None` if it gives no verdict.
+    pub verdict: Option<String>,
     /// Effects of the catalogue, best first, those on a bound left out.
     pub ranked: Vec<String>,
     /// The indistinguishable set; a pair is written `a + b`.
@@ -45,15 +45,15 @@ impl Answer {
     /// Of a diagnosis.
     pub fn of(diagnosis: &Diagnosis) -> Answer {
         let verdict = match diagnosis.verdict {
-            Some(Verdict::None) => "none",
-            Some(Verdict::Effect) => "effect",
-            Some(Verdict::OutOfCatalog) => "out_of_catalog",
-            None => "",
+            Some(Verdict::None) => Some("none"),
+            Some(Verdict::Effect) => Some("effect"),
+            Some(Verdict::OutOfCatalog) => Some("out_of_catalog"),
+            None => None,
         };
         let mut ranked: Vec<_> = diagnosis.ranked.iter().filter(|row| !row.at_bound).collect();
         ranked.sort_by(|a, b| a.bic_difference.total_cmp(&b.bic_difference));
         Answer {
-            verdict: verdict.to_string(),
+            verdict: verdict.map(str::to_string),
             ranked: ranked.iter().map(|row| row.effect.clone()).collect(),
             set: diagnosis.indistinguishable.clone(),
             added: diagnosis.added.iter().map(|added| added.effect.clone()).collect(),
@@ -78,11 +78,12 @@ pub fn score(truth: &Truth, answer: &Answer) -> Score {
     let named = true_names.iter().filter(|name| answer.added.iter().any(|added| added == *name)).count();
     let is_true = |name: &String| names.contains(&name.as_str());
     let excused = answer.set.iter().any(|entry| members(entry).iter().all(is_true));
-    let asserted = answer.verdict == "effect" && !answer.added.iter().all(is_true);
+    let verdict = answer.verdict.as_deref();
+    let asserted = verdict == Some("effect") && !answer.added.iter().all(is_true);
     Score {
-        alarm: !answer.verdict.is_empty() && answer.verdict != "none",
-        out_of_catalog: answer.verdict == "out_of_catalog",
-        verdict_right: answer.verdict == right,
+        alarm: verdict.is_some_and(|verdict| verdict != "none"),
+        out_of_catalog: verdict == Some("out_of_catalog"),
+        verdict_right: verdict == Some(right),
         rank: answer.ranked.iter().position(|name| true_names.contains(&name.as_str())).map(|place| place + 1),
         in_set,
         all_in_set: !true_names.is_empty() && answer.set.iter().any(all_of),
@@ -102,7 +103,7 @@ mod tests {
         hidden.iter().for_each(|name| truth.add(name, 1.0));
         let own = |list: &[&str]| list.iter().map(|name| name.to_string()).collect::<Vec<_>>();
         let ranked = own(&["gravity", "creep", "leak"]);
-        score(&truth, &Answer { verdict: verdict.into(), ranked, set: own(set), added: own(added) })
+        score(&truth, &Answer { verdict: Some(verdict.into()), ranked, set: own(set), added: own(added) })
     }
 
     #[test]

@@ -116,7 +116,7 @@ fn what_cannot_be_hidden_is_refused_with_the_known_names() {
     assert!(with("epam", "shear_lock").contains("does not exist for a robot of actuator epam"));
     assert!(with("cpam", "end_constraint").contains("does not exist"));
     assert!(with("spam", "arm_growth").contains("does not exist"));
-    assert!(with("nosuch", "creep").contains("known are spam"));
+    assert!(with("nosuch", "creep").contains("known: spam, cpam, epam, fpam"));
 }
 
 fn plain(actuator: &str) -> Truth {

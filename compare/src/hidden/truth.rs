@@ -211,15 +211,16 @@ pub fn applicable(actuator: &str, list: &[HiddenEffect]) -> Result<Vec<HiddenEff
 /// None has it.
 pub fn known(name: &str) -> Result<&'static HiddenEffect, CompareError> {
     by_name(name).ok_or_else(|| {
-        let names: Vec<_> = HIDDEN.iter().chain(OUTSIDE).map(|effect| effect.name).collect();
-        CompareError::NotSimulated { problem: format!("no hidden effect `{name}`; known: {}", names.join(", ")) }
+        let names: Vec<&str> = HIDDEN.iter().chain(OUTSIDE).map(|effect| effect.name).collect();
+        let problem = format!("no hidden effect `{name}`; {}", spelling::known(name, &names));
+        CompareError::NotSimulated { problem }
     })
 }
 
 fn robot(actuator: &str) -> Result<(Scenario, f64), CompareError> {
     let missing = |problem: String| CompareError::NoScenario { kind: actuator.to_string(), problem };
     let known = ROBOTS.iter().find(|(kind, _)| *kind == actuator);
-    let (kind, usual) = known.ok_or_else(|| missing("known are spam, cpam, epam and fpam".into()))?;
+    let (kind, usual) = known.ok_or_else(|| missing(spelling::known(actuator, &ROBOTS.map(|(kind, _)| kind))))?;
     let text = shipped(kind).ok_or_else(|| missing("it is not shipped".into()))?;
     let scenario = Scenario::parse(text).map_err(|error| missing(error.to_string()))?;
     Ok((scenario, *usual))

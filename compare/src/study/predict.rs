@@ -34,14 +34,14 @@ pub fn fit_scenario(
         return Err(CompareError::WrongActuator { dataset: dataset.name.clone(), data, scenario });
     }
     let mut fitted = scenario.with_markers(&stations(scenario, dataset)?);
-    let mut warnings = Vec::new();
+    let mut warnings = data::check::contradictions(dataset);
     if let Some(about) = about {
         if let Some(direction) = about.gravity_direction {
             fitted.gravity_direction = direction;
         }
         fitted = with_tip_force(fitted, dataset, about)?;
         fitted = without_settled(&fitted, about.direct);
-        warnings = geometry_warnings(scenario, about);
+        warnings.extend(geometry_warnings(scenario, about));
         if about.gravity_direction.is_none() && scenario.effects.iter().any(|e| e.name == "gravity") {
             warnings.push(
                 "the scenario has gravity, the data's about.toml no [gravity] direction: the scenario's is used".into(),
@@ -153,8 +153,9 @@ pub fn predict_dataset(scenario: &Scenario, dataset: &Dataset) -> Result<Predict
             model.predict(&Loads::uniform(hold.p_body_pa, hold.p_act_pa * factor), &mut state)?;
             Ok(state.markers.clone())
         };
-        let (low, high) = (at(1.0 - PRESSURE_STEP)?, at(1.0 + PRESSURE_STEP)?);
+        // First the hold itself: an error shall name its own pressures.
         let middle = at(1.0)?;
+        let (low, high) = (at(1.0 - PRESSURE_STEP)?, at(1.0 + PRESSURE_STEP)?);
         for sample in 0..dataset.samples_per_hold {
             for (m, xy) in middle.iter().enumerate() {
                 let i = dataset.offset(h, sample, m);
@@ -197,7 +198,8 @@ fn predict_in_time(model: &Model, dataset: &Dataset) -> Result<Predicted, Compar
         model.follow(&protocol(dataset, factor), &mut state, &mut take)?;
         Ok(xy_m)
     };
+    let xy_m = positions(1.0)?;
     let (low, high) = (positions(1.0 - PRESSURE_STEP)?, positions(1.0 + PRESSURE_STEP)?);
     let slope = |(high, low): (&f64, &f64)| (high - low) / (2.0 * PRESSURE_STEP);
-    Ok(Predicted { xy_m: positions(1.0)?, d_ln_pressure_m: high.iter().zip(&low).map(slope).collect() })
+    Ok(Predicted { xy_m, d_ln_pressure_m: high.iter().zip(&low).map(slope).collect() })
 }

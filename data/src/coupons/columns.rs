@@ -2,7 +2,7 @@
 
 use super::CouponDefaults;
 use crate::about::Provenance;
-use crate::error::{DataError, Fault, nearest};
+use crate::error::{DataError, Fault};
 use crate::lines::{Line, Lines};
 use crate::units::{Dimension, Unit};
 
@@ -126,7 +126,7 @@ fn note(notes: &mut Notes, comment: &str, line: &Line) -> Result<(), DataError> 
 /// A comment that is nearly a key would be lost without a word.
 fn misspelt(key: &str, value: &str, line: &Line) -> Result<(), DataError> {
     let keys = QUANTITIES[SPECIMEN..].iter().map(|q| q.expected).chain(["provenance"]);
-    match nearest(key, keys).filter(|_| key.contains('_') && !key.contains(' ')) {
+    match spelling::nearest(key, keys).filter(|_| key.contains('_') && !key.contains(' ')) {
         Some(near) => {
             let help =
                 format!("did you mean # {near}: {value}? any other comment is fine without `_` before the colon");
@@ -202,7 +202,7 @@ fn complete(header: &Header, line: &Line) -> Result<(), DataError> {
         return Err(DataError::Column(line.fault(format!("column {name} {trouble}"), help)));
     }
     let expected = QUANTITIES[missing].expected;
-    let near = nearest(expected, header.names.iter().map(String::as_str)).filter(|near| !near.is_empty());
+    let near = spelling::nearest(expected, header.names.iter().map(String::as_str)).filter(|near| !near.is_empty());
     let help = near.map_or(format!("the columns are {WANTED}"), |near| format!("did you mean {expected} for {near}?"));
     Err(DataError::Column(line.fault(format!("column {expected} is missing; found {found}"), help)))
 }

@@ -278,3 +278,27 @@ fn a_gauge_needs_a_unit_and_a_plausible_number_in_every_row() {
     assert!(error.message().starts_with("actuator pressure below zero"), "{error}");
     assert!(read(&with_gauge("p_gauge_kpa", "30000")).unwrap_err().help().contains("p_gauge_pa"));
 }
+
+#[test]
+fn line_ends_of_cr_only_are_said_to_be_so_whatever_the_size() {
+    for copies in [1, 3000] {
+        let text = table(1, 5).repeat(copies).replace('\n', "\r");
+        let error = read(&text).unwrap_err();
+        assert!(error.message().contains("the line ends are CR only"), "{error}");
+        assert!(error.help().contains("tr '\\r' '\\n'") && error.source_line().is_none(), "{}", error.help());
+    }
+}
+
+#[test]
+fn a_time_below_zero_is_refused() {
+    let error = read(&table(1, 5).replacen(",0,2,0,load,1", ",-0.5,2,0,load,1", 1)).unwrap_err();
+    assert_eq!(error.location().column_name.as_deref(), Some("t_s"));
+    assert!(error.message().contains("the time is below zero: -0.5"), "{error}");
+}
+
+#[test]
+fn a_message_lists_few_of_very_many_columns() {
+    let header = (0..500).map(|i| format!("c{i}")).collect::<Vec<_>>().join(",");
+    let error = read(&format!("{header}\n")).unwrap_err();
+    assert!(error.message().ends_with("c29 and 470 more"), "{error}");
+}

@@ -92,3 +92,45 @@ fn good_data_have_hardly_any_outlier() {
         assert!(alarms <= most, "{runs} runs: {alarms} of 200 good datasets have an outlier");
     }
 }
+
+/// The good table with the phases or times changed in the text, and what is said of it.
+fn contradictions(change: impl Fn(String) -> String) -> Vec<String> {
+    crate::check::contradictions(&read(&change(table(3, 5))).unwrap())
+}
+
+#[test]
+fn phases_that_contradict_the_pressures_are_told_with_their_holds() {
+    let told = contradictions(|text| text.replace(",load,", ",unload,"));
+    let words = "markers: the column phase contradicts the actuator's pressure in 3 of 5 holds: hold 2 goes from 0.0 to 10.0 kPa \
+                 and says unload, not load; hold 3 ";
+    assert!(told.len() == 1 && told[0].starts_with(words), "{told:?}");
+    let told = contradictions(|text| text.replace(",unload,", ",load,"));
+    assert!(
+        told[0].contains("in 1 of 5 holds: hold 5 goes from 30.0 to 0.0 kPa and says load, not unload."),
+        "{told:?}"
+    );
+    let report = check(&read(&table(3, 5).replace(",unload,", ",hold,")).unwrap(), None);
+    assert!(report.warnings.iter().any(|w| w.contains("says hold, not unload")), "{:?}", report.warnings);
+}
+
+#[test]
+fn good_phases_pass_and_so_does_another_session_that_starts_over() {
+    assert_eq!(contradictions(|text| text), [""; 0]);
+    for set in crate::sets().into_iter().filter(crate::SetInfo::has_markers) {
+        let (dataset, _) = crate::load(&set.name, &mut |_, _| ()).unwrap();
+        assert_eq!(crate::check::contradictions(&dataset), [""; 0], "{}", set.name);
+    }
+    let mut data = read(&table(3, 5)).unwrap();
+    let again = data.holds[1].clone();
+    data.holds.push(crate::Hold { occurrence: 1, ..again });
+    let first = crate::Hold { phase: crate::Phase::Load, ..data.holds[0].clone() };
+    data.holds.insert(4, first);
+    assert_eq!(crate::check::contradictions(&data), [""; 0]);
+}
+
+#[test]
+fn times_that_look_like_milliseconds_are_told() {
+    let mut data = read(&table(3, 5)).unwrap();
+    data.holds.iter_mut().flat_map(|hold| &mut hold.t_s).for_each(|t| *t *= 1e3);
+    assert!(crate::check::contradictions(&data)[0].contains("name the column t_ms"));
+}

@@ -202,8 +202,8 @@ impl<'a> Reader<'a> {
             return Ok(part);
         }
         let Some(place) = self.names.iter().position(|known| known.name == name) else {
-            let known = self.names.iter().map(|n| n.name).collect::<Vec<_>>().join(", ");
-            return Err(slip(format!("`{name}` is not known"), &format!("known: {known}"), at));
+            let known: Vec<&str> = self.names.iter().map(|n| n.name).collect();
+            return Err(slip(format!("`{name}` is not known"), &spelling::known(name, &known), at));
         };
         self.used[place] = true;
         self.push(Op::Load(place), at)?;
@@ -226,9 +226,8 @@ impl<'a> Reader<'a> {
             return Ok(Part { dimension, value: None, at: (at.0, self.at) });
         }
         let Some(function) = PAIRS.iter().find(|known| known.name == name) else {
-            let known =
-                FUNCTIONS.iter().map(|f| f.name).chain(PAIRS.iter().map(|f| f.name)).collect::<Vec<_>>().join(", ");
-            return Err(slip(format!("there is no function `{name}`"), &format!("functions: {known}"), at));
+            let known: Vec<&str> = FUNCTIONS.iter().map(|f| f.name).chain(PAIRS.iter().map(|f| f.name)).collect();
+            return Err(slip(format!("there is no function `{name}`"), &spelling::known(name, &known), at));
         };
         if self.take(&[',']).is_none() {
             let help = format!("write {name}(a, b)");

@@ -22,7 +22,8 @@ mod units;
 
 use crate::assembly::Assembly;
 use crate::effects::{Effect, Fitted, Group, Parameter, Stage};
-use crate::term::{Pose, Term};
+use crate::error::POLE_NM;
+use crate::term::{Extreme, Pose, Term};
 use compile::{Compiled, Name, compile};
 use program::{Op, run};
 use std::sync::Arc;
@@ -181,12 +182,13 @@ impl Formula {
     /// Adds it to a model under construction; values in SI.
     pub(crate) fn add(&self, values: &[f64], assembly: &mut Assembly) {
         assembly.varies |= self.uses_station;
+        let name: Arc<str> = self.name.as_str().into();
         for site in &mut assembly.sites {
             let mut inputs = [0.0; INPUTS];
             (inputs[5], inputs[6]) = (site.radius_m, site.bending.stiffness);
             inputs[VARIABLES.len()..][..values.len()].copy_from_slice(values);
-            let (program, unit_m) = (Arc::clone(&self.program), site.shape.length_m);
-            site.body_terms.push(Box::new(FormulaTerm { program, unit_m, inputs }));
+            let (name, program, unit_m) = (Arc::clone(&name), Arc::clone(&self.program), site.shape.length_m);
+            site.body_terms.push(Box::new(FormulaTerm { name, program, unit_m, inputs }));
         }
     }
 
@@ -240,6 +242,7 @@ fn units_help(parameters: &[FormulaParameter]) -> String {
 
 /// The formula at one place.
 struct FormulaTerm {
+    name: Arc<str>,
     program: Arc<[Op]>,
     unit_m: f64,
     inputs: [f64; INPUTS],
@@ -272,6 +275,47 @@ impl Term for FormulaTerm {
     fn add_force(&self, at: &Pose, force: &mut [f64]) {
         force[0] += self.moment(&mut self.inputs(at), at.q[0]);
     }
+
+    fn extreme(&self, at: &Pose, within: [f64; 2]) -> Option<Extreme> {
+        let mut inputs = self.inputs(at);
+        let mut size = |kappa: f64| match self.moment(&mut inputs, kappa).abs() {
+            size if size.is_nan() => f64::INFINITY,
+            size => size,
+        };
+        let (near, far) = (largest(&mut size, within), largest(&mut size, within.map(|kappa| BEYOND * kappa)));
+        let (kappa, moment) = if far.1 > POLE_NM { far } else { near };
+        Some(Extreme { formula: self.name.to_string(), kappa, theta: kappa * self.unit_m, moment })
+    }
+}
+
+/// How much farther a pole is looked for: before it a moment grows too.
+const BEYOND: f64 = 1.5;
+/// Points among which the largest value is looked for.
+const POINTS: u32 = 400;
+/// Thirds cut off around the best of them: a pole is found to rounding.
+const THIRDS: u32 = 200;
+
+/// The largest value of f and its place: the best of a grid, then narrowed.
+fn largest(f: &mut dyn FnMut(f64) -> f64, [low, high]: [f64; 2]) -> (f64, f64) {
+    let step = (high - low) / f64::from(POINTS);
+    let mut best = (low, f(low));
+    for i in 1..=POINTS {
+        let x = low + step * f64::from(i);
+        let value = f(x);
+        if value > best.1 {
+            best = (x, value);
+        }
+    }
+    let (mut a, mut b) = ((best.0 - step).max(low), (best.0 + step).min(high));
+    for _ in 0..THIRDS {
+        let (left, right) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
+        let (at_left, at_right) = (f(left), f(right));
+        best = [(left, at_left), (right, at_right)]
+            .into_iter()
+            .fold(best, |best, at| if at.1 > best.1 { at } else { best });
+        if at_left > at_right { b = right } else { a = left }
+    }
+    best
 }
 
 /// Nodes and weights of Lobatto's rule with five points on \[−1, 1\]: it sees the ends, so a corner close to one is not missed.

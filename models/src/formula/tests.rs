@@ -93,6 +93,39 @@ fn no_prefix_of_a_formula_panics() {
 }
 
 #[test]
+fn a_misspelt_variable_or_function_is_answered_with_what_was_meant() {
+    for (moment, meant) in [("-k*kapa", "did you mean kappa? known: kappa, "), ("-k*sqr(theta)", "did you mean sqrt?")]
+    {
+        let slip = Formula::new(draft(moment, &[("k", "N m")])).unwrap_err();
+        assert!(slip.help.starts_with(meant), "{slip:?}");
+    }
+}
+
+/// The formula on an ePAM, at 20 kPa, and why there is no equilibrium.
+fn unsolved(moment: &str, typical: f64) -> String {
+    let text = shipped("epam").unwrap().to_string()
+        + &format!(
+            "[[formula]]\nname = \"own\"\nmoment = \"{moment}\"\n\
+             [formula.parameters.k]\nunit = \"N m\"\ntypical = {typical}\nbounds = [0, 100]\n"
+        );
+    let scenario = Scenario::parse(&text).unwrap().with_bending(1.0);
+    let model = Model::new(&scenario.with_effect("own", &[typical]));
+    model.predict(&Loads::uniform(2e3, 20e3), &mut model.prediction()).unwrap_err().to_string()
+}
+
+#[test]
+fn a_formula_that_leaves_no_equilibrium_is_named_with_the_state_where_it_is_not_finite() {
+    let at_20_kpa = unsolved("-k*theta/(p_act/p_body - 10)", 0.5);
+    assert!(at_20_kpa.contains("the formula own gives no finite moment"), "{at_20_kpa}");
+    for moment in ["-k/(theta - 1)", "k/(theta - 1)^2"] {
+        let pole = unsolved(moment, 50.0);
+        assert!(pole.contains("no finite moment") && pole.contains("theta = 1.000"), "{moment}: {pole}");
+    }
+    let strong = unsolved("k*(1 + theta)", 50.0);
+    assert!(strong.contains("the formula own gives ") && strong.contains("e1 N·m at kappa = 12."), "{strong}");
+}
+
+#[test]
 fn the_force_is_minus_the_slope_of_the_energy_also_at_corners() {
     for (moment, parameters) in [
         ("-k*theta^3", vec![("k", "N m")]),

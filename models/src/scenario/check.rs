@@ -156,8 +156,9 @@ fn gravity(body: &Body) -> Checked<[f64; 2]> {
 fn actuator(raw: &Spanned<RawActuator>, length_m: f64) -> Checked<ActuatorChoice> {
     let a = raw.get_ref();
     let Some(kind) = actuators::by_name(a.kind.get_ref()) else {
-        let known = ACTUATORS.iter().map(|a| a.name).collect::<Vec<_>>().join(", ");
-        return refuse(format!("unknown actuator \"{}\"", a.kind.get_ref()), format!("known: {known}"), a.kind.span());
+        let known: Vec<&str> = ACTUATORS.iter().map(|a| a.name).collect();
+        let message = format!("unknown actuator \"{}\"", a.kind.get_ref());
+        return refuse(message, spelling::known(a.kind.get_ref(), &known), a.kind.span());
     };
     let shape = ActuatorShape {
         length_m: si(&a.length_mm, &LENGTH)?,
@@ -251,8 +252,9 @@ fn effects_of(raw: &Raw, kind: &actuators::Actuator, formulas: &[Arc<Formula>]) 
     let (mut chosen, catalogue) = (Vec::new(), Catalogue::new(formulas));
     for (name, table) in &raw.effects {
         let Some(effect) = catalogue.by_name(name.get_ref()) else {
-            let known = catalogue.effects().map(|e| e.name).collect::<Vec<_>>().join(", ");
-            return refuse(format!("unknown effect \"{}\"", name.get_ref()), format!("known: {known}"), name.span());
+            let known: Vec<&str> = catalogue.effects().map(|e| e.name).collect();
+            let help = spelling::known(name.get_ref(), &known);
+            return refuse(format!("unknown effect \"{}\"", name.get_ref()), help, name.span());
         };
         if !effect.applies_to(kind.family) {
             let message = format!("{} does not exist for actuator {}", effect.name, kind.name);
@@ -266,9 +268,10 @@ fn effects_of(raw: &Raw, kind: &actuators::Actuator, formulas: &[Arc<Formula>]) 
                 ("basis", None) => basis = value.get_ref().as_str().unwrap_or_default().to_string(),
                 (word, None) if REMARKS.contains(&word) => {}
                 (word, None) => {
-                    let keys = effect.parameters.iter().map(|p| p.key).collect::<Vec<_>>().join(", ");
+                    let keys: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
                     let message = format!("{} has no parameter \"{word}\"", effect.name);
-                    return refuse(message, format!("its parameters: {keys}"), key.span());
+                    let meant = spelling::meant(word, keys.iter().copied());
+                    return refuse(message, format!("{meant}its parameters: {}", keys.join(", ")), key.span());
                 }
             }
         }

@@ -54,7 +54,18 @@ fn parameters(raw: &BTreeMap<Spanned<String>, RawParameter>, of: &RawFormula) ->
     }
     let mut sorted: Vec<_> = raw.iter().collect();
     sorted.sort_by_key(|(key, _)| key.span().start);
-    sorted.into_iter().map(|(key, parameter)| checked(key, parameter)).collect()
+    let found = sorted.iter().map(|(key, parameter)| checked(key, parameter)).collect::<Checked<Vec<_>>>()?;
+    // A formula that does nothing at its typical values, and a parameter that is typically zero, are fitted by nobody.
+    let still = |p: &FormulaParameter| p.typical == p.neutral;
+    let all = found.iter().all(still);
+    match found.iter().zip(&sorted).find(|(p, _)| still(p) && (all || p.typical == 0.0)) {
+        Some((p, (_, parameter))) => {
+            let message =
+                format!("typical = {} of {} is its neutral value: the diagnosis would leave it out", p.typical, p.key);
+            refuse(message, "write its usual size as typical, or another neutral value", parameter.typical.span())
+        }
+        None => Ok(found),
+    }
 }
 
 fn checked(key: &Spanned<String>, raw: &RawParameter) -> Checked<FormulaParameter> {

@@ -133,6 +133,8 @@ fn a_slip_in_a_formula_is_shown_under_its_character() {
         ("cubic_spring", "cubic spring", "cannot name", "\"cubic spring\""),
         (".k]", ".kappa]", "cannot name", "kappa"),
         ("typical = 0.5", "typicl = 0.5", "unknown field", "typicl"),
+        ("typical = 0.5", "typical = 0", "typical = 0 of k is its neutral value", "0"),
+        ("typical = 0.5", "typical = 0.5\nneutral = 0.5", "typical = 0.5 of k is its neutral value", "0.5"),
     ] {
         let text = shipped("epam").unwrap().to_string() + &OWN.replace(from, to);
         let error = Scenario::parse(&text).unwrap_err();

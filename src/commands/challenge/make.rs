@@ -2,10 +2,10 @@
 
 use super::super::inputs::quantity;
 use super::super::{Context, Outcome};
-use super::seal::{FILE, SALT, Seal, hex};
+use super::seal::{FILE, SALT, SEALED, Seal};
 use crate::cli::ChallengeNew;
 use crate::failure::Failure;
-use crate::output::{check_folder, write_files};
+use crate::output::{check_folder, sha256, write_files};
 use compare::hidden::truth::{ROBOTS, known, standard_protocol};
 use compare::hidden::{Draw, HiddenEffect, Kind, Truth};
 use compare::study::pages::Files;
@@ -14,7 +14,6 @@ use data::{About, Dataset, Direct, Geometry, MarkerStation, Provenance};
 use models::Scenario;
 use models::scenario::quantity::Quantity;
 use serde_json::json;
-use sha2::{Digest, Sha256};
 use std::hash::{BuildHasher, Hasher};
 
 /// Sizes accepted, in typical sizes.
@@ -34,11 +33,10 @@ pub fn run(args: &ChallengeNew, context: &mut Context) -> Result<Outcome, Failur
     let dataset = truth.dataset(&name, &protocol)?;
     let mut csv = Vec::new();
     data::write_markers_csv(&dataset, &mut csv)?;
-    let seal = Seal::close(&sealed_text(&truth, &csv)?, &salt(args.seed, &mut draw));
-    let mut files = Files::default();
-    files.files.push(("scenario.toml".into(), truth.told_text()?.into_bytes()));
-    files.files.push(("about.toml".into(), data::about_toml(&about(&truth.told()?, &dataset)).into_bytes()));
-    files.files.push(("markers.csv".into(), csv));
+    let about = data::about_toml(&about(&truth.told()?, &dataset));
+    let handed_out = [truth.told_text()?.into_bytes(), about.into_bytes(), csv];
+    let mut files = Files { files: SEALED.map(String::from).into_iter().zip(handed_out).collect(), ..Files::default() };
+    let seal = Seal::close(&sealed_text(&truth, &files)?, &salt(args.seed, &mut draw));
     files.files.push((FILE.into(), seal.to_toml().into_bytes()));
     write_files(&args.out, &files, &[], context)?;
     let folder = args.out.display();
@@ -56,10 +54,11 @@ pub fn run(args: &ChallengeNew, context: &mut Context) -> Result<Outcome, Failur
     ))
 }
 
-/// The truth and the hash of the data it belongs to.
-fn sealed_text(truth: &Truth, csv: &[u8]) -> Result<String, Failure> {
+/// The truth and the hashes of the files it belongs to.
+fn sealed_text(truth: &Truth, files: &Files) -> Result<String, Failure> {
     let text = toml::to_string(truth).map_err(|error| Failure::usage(error.to_string(), "report this"))?;
-    Ok(format!("markers_sha256 = \"{}\"\n{text}", hex(&Sha256::digest(csv))))
+    let hashes: Vec<String> = files.files.iter().map(|(_, bytes)| format!("\"{}\"", sha256(bytes))).collect();
+    Ok(format!("files_sha256 = [{}]\n{text}", hashes.join(", ")))
 }
 
 fn truth(args: &ChallengeNew, draw: &mut Draw) -> Result<Truth, Failure> {
@@ -81,6 +80,10 @@ fn truth(args: &ChallengeNew, draw: &mut Draw) -> Result<Truth, Failure> {
         [one] if one == "random" => truth.hide(kind(draw), draw)?,
         [one] if one == "none" => {}
         typed => {
+            if let Some(alone) = typed.iter().find(|text| ["none", "random"].contains(&text.as_str())) {
+                let message = format!("--effect {alone} stands alone: it cannot be given with others");
+                return Err(Failure::usage(message, "name the effects to hide, or give none or random by itself"));
+            }
             for text in typed {
                 let (name, times) = effect(text, draw)?;
                 if truth.effects.iter().any(|choice| choice.name == name) {

@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 pub fn run(command: &ChallengeCommand, context: &mut Context) -> Result<Outcome, Failure> {
     match command {
         ChallengeCommand::New(args) => make::run(args, context),
-        ChallengeCommand::Reveal { folder, diagnosis } => reveal::run(folder, diagnosis.as_deref()),
+        ChallengeCommand::Reveal { folder, diagnosis } => reveal::run(folder, diagnosis.as_deref(), context),
         ChallengeCommand::List => Ok(list()),
     }
 }

@@ -1,32 +1,34 @@
 //! `ibr challenge reveal`
 
-use super::super::Outcome;
-use super::seal::{FILE, Seal, hex};
+use super::super::{Context, Outcome, inputs};
+use super::seal::{FILE, SEALED, Seal, VERSION};
 use crate::failure::Failure;
+use crate::output::sha256;
 use compare::hidden::truth::known;
 use compare::hidden::{Answer, Score, Truth, score};
 use serde::Deserialize;
 use serde_json::{Value, json};
-use sha2::{Digest, Sha256};
 use std::path::Path;
 
-/// A truth and the hash of its data.
+/// A truth and the hashes of the files it belongs to, in the order of [`SEALED`].
 #[derive(Deserialize)]
 struct Opened {
-    markers_sha256: String,
+    files_sha256: [String; SEALED.len()],
     #[serde(flatten)]
     truth: Truth,
 }
 
-pub fn run(folder: &Path, diagnosis: Option<&Path>) -> Result<Outcome, Failure> {
+pub fn run(folder: &Path, diagnosis: Option<&Path>, context: &mut Context) -> Result<Outcome, Failure> {
     let (opened, seal) = open(folder)?;
     let truth = &opened.truth;
     let mut text = format!("The seal {} is intact.\n{}", seal.sha256, told(truth));
     let mut scored = Value::Null;
     if let Some(path) = diagnosis {
-        let answer = answer(path)?;
-        let score = score(truth, &answer);
-        text.push_str(&verdict(truth, &answer, &score));
+        let (_, _, data) = inputs::dataset(&folder.display().to_string(), context)?;
+        let answer = answer(path, folder, &data.sha256)?;
+        // Without a verdict there is nothing to be right or wrong.
+        let score = answer.verdict.as_ref().map(|_| score(truth, &answer));
+        text.push_str(&verdict(truth, &answer, score.as_ref()));
         scored =
             json!({"answer": {"verdict": answer.verdict, "set": answer.set, "added": answer.added}, "score": score});
     }
@@ -36,32 +38,36 @@ pub fn run(folder: &Path, diagnosis: Option<&Path>) -> Result<Outcome, Failure> 
     Ok(Outcome::new(text, json))
 }
 
-fn read(path: &Path, help: &str) -> Result<String, Failure> {
-    std::fs::read_to_string(path).map_err(|cause| Failure::Read {
-        path: path.display().to_string(),
-        cause: cause.to_string(),
-        help: help.to_string(),
-    })
+fn refused(path: &Path, cause: impl ToString, help: &str) -> Failure {
+    Failure::Read { path: path.display().to_string(), cause: cause.to_string(), help: help.to_string() }
 }
 
-/// Opens the seal of a folder and checks that its data are those of the truth.
+fn read(path: &Path, help: &str) -> Result<Vec<u8>, Failure> {
+    std::fs::read(path).map_err(|cause| refused(path, cause, help))
+}
+
+fn read_text(path: &Path, help: &str) -> Result<String, Failure> {
+    std::fs::read_to_string(path).map_err(|cause| refused(path, cause, help))
+}
+
+/// Opens the seal of a folder and checks that its files are those of the truth.
 fn open(folder: &Path) -> Result<(Opened, Seal), Failure> {
     let path = folder.join(FILE);
-    let broken = |path: &Path, cause: &str, help: &str| Failure::Read {
-        path: path.display().to_string(),
-        cause: cause.to_string(),
-        help: help.to_string(),
-    };
-    let text = read(&path, "give the folder that `ibr challenge new --out FOLDER` made")?;
+    let text = read_text(&path, "give the folder that `ibr challenge new --out FOLDER` made")?;
     let restore = "take the files as they were when the challenge was made";
-    let seal: Seal = toml::from_str(&text).map_err(|error| broken(&path, error.message(), restore))?;
+    let seal: Seal = toml::from_str(&text).map_err(|error| refused(&path, error.message(), restore))?;
+    if seal.version != VERSION {
+        let cause = format!("the seal is of format {}, this program opens format {VERSION}", seal.version);
+        return Err(refused(&path, cause, "open it with the version of ibr that made it, or make a new challenge"));
+    }
     let truth =
-        seal.open().ok_or_else(|| broken(&path, "the seal is broken: its hash does not fit the truth", restore))?;
-    let opened: Opened = toml::from_str(&truth).map_err(|error| broken(&path, error.message(), restore))?;
-    let markers = folder.join("markers.csv");
-    let csv = read(&markers, restore)?;
-    if hex(&Sha256::digest(csv.as_bytes())) != opened.markers_sha256 {
-        return Err(broken(&markers, "the data are not those that were sealed", restore));
+        seal.open().ok_or_else(|| refused(&path, "the seal is broken: its hash does not fit the truth", restore))?;
+    let opened: Opened = toml::from_str(&truth).map_err(|error| refused(&path, error.message(), restore))?;
+    for (name, sealed) in SEALED.iter().zip(&opened.files_sha256) {
+        let file = folder.join(name);
+        if sha256(&read(&file, restore)?) != *sealed {
+            return Err(refused(&file, "the file is not the one that was sealed", restore));
+        }
     }
     Ok((opened, seal))
 }
@@ -91,21 +97,36 @@ fn told(truth: &Truth) -> String {
     text
 }
 
-/// Reads the JSON of `ibr diagnose --json`.
-fn answer(path: &Path) -> Result<Answer, Failure> {
-    let help = "give the file of `ibr diagnose SCENARIO DATA --json > answer.json`";
-    let text = read(path, help)?;
-    let bad = |cause: String| Failure::Read { path: path.display().to_string(), cause, help: help.to_string() };
+/// Reads the JSON of `ibr diagnose --json`, which must be of the data in the folder.
+fn answer(path: &Path, folder: &Path, data_sha256: &str) -> Result<Answer, Failure> {
+    let folder = folder.display();
+    let help = format!("give the file of `ibr diagnose {folder}/scenario.toml {folder} --json > answer.json`");
+    let text = read_text(path, &help)?;
+    let bad = |cause: String| refused(path, cause, &help);
     let value: Value = serde_json::from_str(&text).map_err(|error| bad(format!("not JSON: {error}")))?;
-    let inner = value.get("diagnosis").unwrap_or(&value);
-    let found = inner.get("verdict").ok_or_else(|| bad("it has no `verdict`".into()))?;
+    let verdict = match value.get("verdict") {
+        Some(Value::Null) => None,
+        Some(Value::String(word)) if ["none", "effect", "out_of_catalog"].contains(&word.as_str()) => {
+            Some(word.clone())
+        }
+        Some(other) => return Err(bad(format!("its `verdict` {other} is none of none, effect, out_of_catalog"))),
+        None => return Err(bad("it has no `verdict`".into())),
+    };
+    match value.get("data_sha256").and_then(|hashes| hashes.get(0)?.as_str()) {
+        Some(hash) if hash == data_sha256 => {}
+        Some(_) => {
+            let name = value.get("dataset").and_then(Value::as_str).unwrap_or_default();
+            return Err(bad(format!("it is a diagnosis of other data (`{name}`), not of {folder}")));
+        }
+        None => return Err(bad("it does not say of which data it is: it has no `data_sha256`".into())),
+    }
     let names = |key: &str, field: &str| -> Vec<String> {
-        let list = inner.get(key).and_then(Value::as_array).map(Vec::as_slice).unwrap_or_default();
+        let list = value.get(key).and_then(Value::as_array).map(Vec::as_slice).unwrap_or_default();
         let kept = list.iter().filter(|item| item.get("at_bound") != Some(&Value::Bool(true)));
         kept.filter_map(|item| item.as_str().or_else(|| item.get(field)?.as_str()).map(str::to_string)).collect()
     };
     Ok(Answer {
-        verdict: found.as_str().unwrap_or_default().to_string(),
+        verdict,
         ranked: names("ranked", "effect"),
         set: names("indistinguishable", "effect"),
         added: names("added", "effect"),
@@ -113,8 +134,10 @@ fn answer(path: &Path) -> Result<Answer, Failure> {
 }
 
 /// The score in words.
-fn verdict(truth: &Truth, answer: &Answer, score: &Score) -> String {
-    let said = if answer.verdict.is_empty() { "no verdict" } else { &answer.verdict };
+fn verdict(truth: &Truth, answer: &Answer, score: Option<&Score>) -> String {
+    let (Some(said), Some(score)) = (&answer.verdict, score) else {
+        return "The diagnosis gives no verdict: it is not scored. Three runs or more are needed for one.\n".into();
+    };
     let mut text = format!(
         "The diagnosis says: {said}, {}.\n",
         if score.verdict_right { "which is right" } else { "which is wrong" }

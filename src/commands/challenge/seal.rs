@@ -9,13 +9,16 @@
 
 use sha2::{Digest, Sha256};
 
+/// Format of the seal; 2 covers all files of the challenge, 1 covered the markers alone.
+pub const VERSION: u32 = 2;
+
 /// What `seal.toml` holds.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Seal {
     /// `ibr.challenge`
     pub schema: String,
-    /// 1
+    /// [`VERSION`].
     pub version: u32,
     /// Commitment.
     pub sha256: String,
@@ -27,6 +30,8 @@ pub struct Seal {
 
 /// Name of the file.
 pub const FILE: &str = "seal.toml";
+/// The files handed out with it, all of them sealed.
+pub const SEALED: [&str; 3] = ["scenario.toml", "about.toml", "markers.csv"];
 /// Bytes of the salt.
 pub const SALT: usize = 16;
 
@@ -35,7 +40,7 @@ impl Seal {
     pub fn close(text: &str, salt: &[u8; SALT]) -> Seal {
         Seal {
             schema: "ibr.challenge".into(),
-            version: 1,
+            version: VERSION,
             sha256: hex(&commitment(salt, text.as_bytes())),
             salt: hex(salt),
             truth: hex(&masked(text.as_bytes(), salt)),
@@ -72,7 +77,7 @@ fn masked(text: &[u8], salt: &[u8]) -> Vec<u8> {
     text.iter().zip(stream).map(|(byte, mask)| byte ^ mask).collect()
 }
 
-pub fn hex(bytes: &[u8]) -> String {
+fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

@@ -142,9 +142,11 @@ fn text(spec: &str) -> Result<(String, PathBuf), Failure> {
 
 fn unreadable(spec: &str, cause: &str) -> Failure {
     let shipped = SHIPPED_CASES.iter().chain(models::scenario::SHIPPED).map(|c| c.0);
-    let names = shipped.chain(STUDIES.iter().map(|s| s.0)).collect::<Vec<_>>().join(", ");
+    let names: Vec<&str> = shipped.chain(STUDIES.iter().map(|s| s.0)).collect();
     let help = format!(
-        "give a finite element case or a robot's scenario, or a shipped one: {names}; `ibr new pillow > my.toml` makes a start"
+        "{}give a finite element case or a robot's scenario, or a shipped one: {}; `ibr new pillow > my.toml` makes a start",
+        spelling::meant(spec, names.iter().copied()),
+        names.join(", ")
     );
     Failure::Read { path: spec.into(), cause: cause.into(), help }
 }

@@ -129,7 +129,7 @@ fn hidden(truth: &Truth, kind: Kind, diagnose: Diagnose) -> Result<Named, Compar
     if kind == Kind::Two {
         named.at_best = Some(two_at_best(truth, &data)?);
     }
-    if next_experiment && named.answer.verdict == "effect" && named.answer.set.len() > 1 {
+    if next_experiment && named.answer.verdict.as_deref() == Some("effect") && named.answer.set.len() > 1 {
         let next = found.next_experiment.as_ref().and_then(|next| next.recommended.as_ref());
         if let Some(experiment) = next {
             let after = after(truth, experiment, diagnose)?;

@@ -150,7 +150,7 @@ pub(super) fn confusion(outcomes: &[Outcome]) -> Vec<Confusion> {
     let mut cells: Vec<Count> = Vec::new();
     for (outcome, found) in found(outcomes, Part::Hidden(Kind::One)) {
         let truth = names(&outcome.truth).join(" + ");
-        let named = match found.answer.verdict.as_str() {
+        let named = match found.answer.verdict.as_deref().unwrap_or_default() {
             "effect" => found.answer.ranked.first().cloned().unwrap_or_default(),
             other => other.to_string(),
         };

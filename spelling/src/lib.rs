@@ -1,0 +1,35 @@
+//! Names people type: the nearest known one for a misspelling.
+
+/// The name nearest to `wrong` by edit distance, if it is near enough to be a slip.
+pub fn nearest<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let (wrong, letters) = (wrong.to_lowercase(), wrong.chars().count());
+    let distance = |name: &str| strsim::damerau_levenshtein(&wrong, &name.to_lowercase());
+    let (found, edits) = known.into_iter().map(|name| (name, distance(name))).min_by_key(|(_, edits)| *edits)?;
+    // A word all of whose letters are changed is another word.
+    (edits <= 1 + letters / 4 && edits < letters).then_some(found)
+}
+
+/// "did you mean friction? ", to stand before what is known; empty if nothing is near.
+pub fn meant<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    nearest(wrong, known).map_or(String::new(), |name| format!("did you mean {name}? "))
+}
+
+/// [`meant`] and the list of all names.
+pub fn known(wrong: &str, names: &[&str]) -> String {
+    format!("{}known: {}", meant(wrong, names.iter().copied()), names.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_finds_its_word_and_another_word_finds_none() {
+        assert_eq!(nearest("p_act_kpa", ["p_atc_kpa", "note"]), Some("p_atc_kpa"));
+        assert_eq!(nearest("x_mm", ["comment", "operator"]), None);
+        assert_eq!(nearest("quds", ["nodes", "quads", "set"]), Some("quads"));
+        assert_eq!(nearest("x", ["s", "R"]), None);
+        assert_eq!(known("epm", &["spam", "epam"]), "did you mean epam? known: spam, epam");
+        assert_eq!(known("robot", &["spam"]), "known: spam");
+    }
+}
