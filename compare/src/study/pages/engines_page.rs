@@ -272,7 +272,7 @@ const LINES_CAPTION: &str = "All pressures printed by the paper. Finite elements
 const LEDGER: &str = "Reduced model and finite elements, each at its own bend. Gas is −P ΔV since the body was full; stretch and \
     wall bending of the finite elements likewise. A muscle lies flat then in the finite elements and is round from the start in the \
     reduced model: the volume by which it is ahead at the first pressure is left out of its gas at every pressure, so that both begin \
-    alike there. What the finite elements lost in buckling, damping and friction is not stored and not shown.";
+    alike there; what filling it pushed out of the body stays in the body's folds. What the finite elements lost in buckling, damping and friction is not stored and not shown.";
 const DISPLACED: &str = "What the body lost since it was full, less the πR³ × turn that the reduced model knows of, over what the \
     actuator gained. Symbols: the robot's own body pressure, mean and standard deviation of the seeds; dashed below it, solid \
     above, one seed each where no more were run. Read off the finite elements; it predicts nothing. The share of the ideal lens \
