@@ -37,6 +37,27 @@ pub fn write_files(folder: &Path, files: &Files, inputs: &[Input], context: &mut
     Ok(())
 }
 
+/// Of these names those that an earlier manifest in the folder lists, with the bytes that it lists: files that this program wrote
+/// and nobody changed.
+pub fn earlier(folder: &Path, names: &[String]) -> Vec<String> {
+    let manifest = std::fs::read(folder.join("manifest.json")).unwrap_or_default();
+    let manifest: Value = serde_json::from_slice(&manifest).unwrap_or_default();
+    let listed = manifest["outputs"].as_array().into_iter().flatten();
+    let ours = listed.filter_map(|output| Some((output["name"].as_str()?, output["sha256"].as_str()?)));
+    let same = |name: &str, hash: &str| std::fs::read(folder.join(name)).is_ok_and(|bytes| sha256(&bytes) == hash);
+    let stale = ours.filter(|(name, hash)| names.iter().any(|n| n == name) && same(name, hash));
+    stale.map(|(name, _)| name.to_string()).collect()
+}
+
+/// Removes files from a folder.
+pub fn remove_all<'n>(folder: &Path, names: impl Iterator<Item = &'n String>) -> Result<(), Failure> {
+    for name in names {
+        let removed = std::fs::remove_file(folder.join(name));
+        removed.map_err(|cause| unwritable(folder, &format!("{name}, of an earlier report: {cause}")))?;
+    }
+    Ok(())
+}
+
 /// Refuses a folder that cannot be made, before time is spent on its contents.
 pub fn check_folder(folder: &Path) -> Result<(), Failure> {
     // An empty ancestor is the current folder.
@@ -131,4 +152,25 @@ pub fn machine() -> String {
     });
     let cpu = cpu.unwrap_or_else(|| std::env::consts::ARCH.to_string());
     format!("{cpu}, {cores} cores, {}", std::env::consts::OS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_earlier_report_s_files_are_known_by_name_and_bytes() {
+        let folder = tempfile::tempdir().unwrap();
+        let files =
+            Files { files: vec![("a.png".into(), b"a".to_vec()), ("b.png".into(), b"b".to_vec())], ..Files::default() };
+        let names = ["a.png", "b.png", "c.png"].map(String::from);
+        assert!(earlier(folder.path(), &names).is_empty(), "no report");
+        write_all(folder.path(), &files, &[]).unwrap();
+        std::fs::write(folder.path().join("b.png"), "somebody's own").unwrap();
+        std::fs::write(folder.path().join("c.png"), "never listed").unwrap();
+        assert_eq!(earlier(folder.path(), &names), ["a.png"]);
+        assert!(earlier(folder.path(), &names[1..]).is_empty());
+        remove_all(folder.path(), [names[0].clone()].iter()).unwrap();
+        assert!(!folder.path().join("a.png").exists() && folder.path().join("b.png").exists());
+    }
 }

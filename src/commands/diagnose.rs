@@ -7,12 +7,13 @@ use super::tables::{number, table};
 use super::{Context, Outcome};
 use crate::cli::Diagnose;
 use crate::failure::Failure;
-use crate::output::{check_folder, machine, program, today, write_files};
+use crate::output::{Input, check_folder, earlier, machine, program, remove_all, today, write_files};
 use compare::diagnosis::{Diagnosis, Experiment, Group, Options, Ranked, Verdict};
 use compare::study::engines::TERMS;
-use compare::study::pages::{Diagnosed, Imprint, diagnosis_page};
+use compare::study::pages::{DIAGNOSIS_PICTURES, Diagnosed, Imprint, diagnosis_page};
 use compare::study::witness::{HEIGHTS, Witness, witness};
 use serde_json::{Value, json};
+use std::path::Path;
 
 pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
     let Some(data) = args.data.as_deref() else {
@@ -52,13 +53,14 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
             about: about.as_ref(),
             witness: witness.as_ref(),
             typed: [&args.scenario, data],
+            more: more(args),
         };
-        let imprint = Imprint { program: program(), date: today(), machine: machine() };
-        let mut files = diagnosis_page(&found, &imprint)?;
-        files.files.insert(0, ("diagnosis.json".into(), file));
         let inputs: Vec<_> = std::iter::once(&named.input).chain(loaded.iter().map(|l| &l.input)).cloned().collect();
-        write_files(folder, &files, &inputs, context)?;
-        outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
+        // What was found took long, and is printed where it cannot be written.
+        match report(folder, &found, file, &inputs, context) {
+            Ok(()) => outcome.notes.push(format!("report: {}", folder.join("report.html").display())),
+            Err(failure) => outcome.fail(&failure),
+        }
     }
     if args.sigma.is_some() && dataset.runs.len() > 1 {
         outcome.notes.push(
@@ -66,6 +68,29 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
         );
     }
     Ok(outcome)
+}
+
+/// Writes the report and takes away pictures of an earlier one that this one has not.
+fn report(
+    folder: &Path,
+    found: &Diagnosed,
+    json: Vec<u8>,
+    inputs: &[Input],
+    context: &mut Context,
+) -> Result<(), Failure> {
+    let imprint = Imprint { program: program(), date: today(), machine: machine() };
+    let mut files = diagnosis_page(found, &imprint)?;
+    files.files.insert(0, ("diagnosis.json".into(), json));
+    let pictures = DIAGNOSIS_PICTURES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]);
+    let old = earlier(folder, &pictures.collect::<Vec<_>>());
+    write_files(folder, &files, inputs, context)?;
+    remove_all(folder, old.iter().filter(|name| files.files.iter().all(|(made, _)| made != *name)))
+}
+
+/// What the commands that come next need of what was typed.
+fn more(args: &Diagnose) -> String {
+    let also = args.also.iter().map(|data| format!(" --also {data}"));
+    also.chain(args.keep_bending.then(|| " --keep-bending".into())).collect()
 }
 
 fn to_json(scenario: &str, data: &[inputs::Loaded], diagnosis: &Diagnosis, witness: Option<&Witness>) -> Value {
@@ -118,7 +143,9 @@ const HEAD: [&str; 8] =
     ["", "effect", "value, 95 %", "after mm", "held-out pressure mm", "held-out run mm", "gain", "p corrected"];
 
 fn row(d: &Diagnosis, r: &Ranked) -> Vec<String> {
-    let mark = match (r.in_set && d.verdict != Some(Verdict::None), r.at_bound) {
+    // Where pairs are stated, no single effect is.
+    let alike = r.in_set && d.verdict != Some(Verdict::None) && d.pairs.is_empty();
+    let mark = match (alike, r.at_bound) {
         (_, true) => "!",
         (true, _) => "=",
         _ => "",
@@ -169,8 +196,10 @@ fn details(d: &Diagnosis) -> String {
     if d.verdict == Some(Verdict::None) {
         return out;
     }
-    let added = |r: &&Ranked| r.in_set || d.added.iter().chain(&d.attempt).any(|a| a.effect == r.effect);
-    for r in d.ranked.iter().filter(added) {
+    let told = |r: &Ranked| d.speaks_of(&r.effect) || r.in_set && d.pairs.is_empty();
+    // Notes of an effect's own fit are no notes of a pair's.
+    let notes = |r: &Ranked| if d.pairs.is_empty() { r.notes.clone() } else { Vec::new() };
+    for r in d.ranked.iter().filter(|r| told(r)) {
         out.push_str(&format!(
             "\n{} ({}): {}\n  shows: {}\n  check: {}\n",
             r.effect,
@@ -179,9 +208,9 @@ fn details(d: &Diagnosis) -> String {
             r.differs,
             r.remedy
         ));
-        r.notes.iter().for_each(|n| out.push_str(&format!("  note: {n}\n")));
+        notes(r).iter().for_each(|n| out.push_str(&format!("  note: {n}\n")));
     }
-    for r in d.ranked.iter().filter(|r| r.at_bound && !r.in_set && r.group != Group::Load) {
+    for r in d.ranked.iter().filter(|r| r.at_bound && !told(r) && r.group != Group::Load) {
         out.push_str(&format!("\n{}: {}\n", r.effect, r.notes.first().cloned().unwrap_or_default()));
     }
     out.push_str("\nWhere the final model still fails:\n");

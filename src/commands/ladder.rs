@@ -7,7 +7,7 @@ use crate::cli::Ladder;
 use crate::extended::extended;
 use crate::failure::Failure;
 use crate::output::{check_folder, machine, program, today, write_files};
-use compare::diagnosis::{Confidence, Diagnosis, Group, Options, ParameterValue, Verdict};
+use compare::diagnosis::{Confidence, Diagnosis, Group, KeptBending, Options, ParameterValue, Verdict};
 use compare::plots::Known;
 use compare::study::pages::{Imprint, LadderPage, ladder_page};
 use data::Dataset;
@@ -28,30 +28,47 @@ pub fn run(args: &Ladder, context: &mut Context) -> Result<Outcome, Failure> {
     let mut outcome = Outcome::new(text(&climb), to_json(args, &climb));
     outcome.notes.extend(climb.warnings.iter().map(|w| format!("warning: {w}")));
     if let Some(folder) = folder(args, dataset, context.json) {
-        let imprint = Imprint { program: program(), date: today(), machine: machine() };
-        let page = LadderPage {
-            title: format!("{}: one effect after the other, on {}", named.scenario.name, dataset.name),
-            lead: climb.ending.clone(),
-            rungs: &drawn(&climb.rungs),
-            floor_mm: climb.floor_mm,
-            told: climb.told.clone(),
-            typed: [&args.scenario, &args.data],
-        };
-        let mut files = ladder_page(&page, &imprint)?;
-        for (name, text) in &climb.files {
-            files.files.insert(0, (name.clone(), text.clone().into_bytes()));
+        // What was found took long, and is printed where it cannot be written.
+        match report(args, &folder, (&named, &data), &climb, context) {
+            Ok(notes) => outcome.notes.extend(notes),
+            Err(failure) => outcome.fail(&failure),
         }
-        let inputs = std::iter::once(named.input.clone()).chain(data.iter().map(|data| data.input.clone()));
-        write_files(&folder, &files, &inputs.collect::<Vec<_>>(), context)?;
-        let names: Vec<&str> = climb.files.iter().map(|(name, _)| name.as_str()).collect();
-        outcome.notes.push(format!("scenarios in {}: {}", folder.display(), names.join(", ")));
-        let old = earlier_steps(&folder, &names);
-        if !old.is_empty() {
-            outcome.notes.push(format!("warning: of an earlier ladder, and not of this one: {}", old.join(", ")));
-        }
-        outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
     }
     Ok(outcome)
+}
+
+/// Writes report and scenarios; what to say of them.
+fn report(
+    args: &Ladder,
+    folder: &Path,
+    (named, data): (&NamedScenario, &[Loaded]),
+    climb: &Climb,
+    context: &mut Context,
+) -> Result<Vec<String>, Failure> {
+    let imprint = Imprint { program: program(), date: today(), machine: machine() };
+    let page = LadderPage {
+        title: format!("{}: one effect after the other, on {}", named.scenario.name, data[0].dataset.name),
+        lead: climb.ending.clone(),
+        rungs: &drawn(&climb.rungs),
+        floor_mm: climb.floor_mm,
+        told: climb.told.clone(),
+        typed: [&args.scenario, &args.data],
+        also: &args.also,
+    };
+    let mut files = ladder_page(&page, &imprint)?;
+    for (name, text) in &climb.files {
+        files.files.insert(0, (name.clone(), text.clone().into_bytes()));
+    }
+    let inputs = std::iter::once(named.input.clone()).chain(data.iter().map(|data| data.input.clone()));
+    write_files(folder, &files, &inputs.collect::<Vec<_>>(), context)?;
+    let names: Vec<&str> = climb.files.iter().map(|(name, _)| name.as_str()).collect();
+    let mut notes = vec![format!("scenarios in {}: {}", folder.display(), names.join(", "))];
+    let old = earlier_steps(folder, &names);
+    if !old.is_empty() {
+        notes.push(format!("warning: of an earlier ladder, and not of this one: {}", old.join(", ")));
+    }
+    notes.push(format!("report: {}", folder.join("report.html").display()));
+    Ok(notes)
 }
 
 /// Scenarios in the folder that look like steps and are none of these.
@@ -94,6 +111,8 @@ struct Climb {
     /// Why it ended, for programs and for readers.
     stopped: &'static str,
     ending: String,
+    /// The answer with the B of the last scenario, where with a fitted one there is none.
+    kept_bending: Option<KeptBending>,
     warnings: Vec<String>,
 }
 
@@ -117,6 +136,7 @@ fn climb(
         let left_mm = climb.rungs.last().map_or(d.base.systematic_mm, |r| r.training_mm);
         if let Some((stopped, ending)) = end(&d, left_mm, (count, most)) {
             climb.stopped = stopped;
+            climb.kept_bending = d.kept_bending.clone();
             climb.ending = ending;
             climb.told.push(climb.ending.clone());
             return Ok(climb);
@@ -182,7 +202,9 @@ fn end(d: &Diagnosis, left: f64, (count, most): (usize, usize)) -> Option<(&'sta
         Some(Verdict::OutOfCatalog) => {
             let places: Vec<&str> = d.leftover.iter().map(|s| s.sentence.as_str()).collect();
             let places = places.join(" ");
-            ("out_of_catalog", format!("Nothing in the catalogue explains what is left, {left:.2} mm. {places}"))
+            let of = if count > 0 { " Of the last step's scenario:" } else { "" };
+            let kept = d.told_of_kept_bending().map_or(String::new(), |told| format!("{of} {told}"));
+            ("out_of_catalog", format!("Nothing in the catalogue explains what is left, {left:.2} mm. {places}{kept}"))
         }
         Some(Verdict::Effect) if count + d.added.len() > most => {
             let names: Vec<&str> = d.added.iter().map(|a| a.effect.as_str()).collect();
@@ -249,6 +271,7 @@ fn to_json(args: &Ladder, climb: &Climb) -> Value {
     json!({
         "schema": "ibr.ladder", "version": 1, "scenario_file": args.scenario, "data": args.data, "also": args.also,
         "rungs": climb.rungs, "noise_floor_mm": climb.floor_mm, "steps": climb.steps,
-        "stopped": climb.stopped, "ending": climb.ending, "warnings": climb.warnings,
+        "stopped": climb.stopped, "ending": climb.ending, "kept_bending": climb.kept_bending,
+        "warnings": climb.warnings,
     })
 }

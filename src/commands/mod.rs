@@ -103,6 +103,12 @@ impl Outcome {
     fn new(text: String, json: serde_json::Value) -> Outcome {
         Outcome { text, json: Some(json), notes: Vec::new(), code: 0 }
     }
+
+    /// The result stands, and what failed after it is said below it.
+    fn fail(&mut self, failure: &Failure) {
+        self.notes.push(failure.render().trim_end().to_string());
+        self.code = failure.code();
+    }
 }
 
 /// Runs a command.

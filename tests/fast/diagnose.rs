@@ -100,3 +100,43 @@ fn further_data_of_the_robot_are_fitted_along_and_those_of_another_are_refused()
     assert_eq!(ran.code, 3);
     assert!(ran.stderr.contains("synthetic-spam") && ran.stderr.contains("are of actuator spam"), "{}", ran.stderr);
 }
+
+#[test]
+fn pictures_of_an_earlier_report_that_this_one_has_not_are_taken_away_and_nothing_else_is() {
+    let folder = Folder::new();
+    assert_eq!(folder.run(&["data", "generate", "epam", "--out", "plain", "--seed", "3"]).code, 0);
+    assert_eq!(folder.run(&["diagnose", "epam", "synthetic-epam", "--out", "d"]).code, 0);
+    assert!(folder.path("d/residuals_after.png").exists() && folder.path("d/candidates.svg").exists());
+    folder.write("d/mine.png", "a picture of my own");
+    let ran = folder.run(&["diagnose", "epam", "plain", "--out", "d"]);
+    assert!(ran.code == 0 && ran.stdout.contains("no missing effect detectable"), "{}{}", ran.stdout, ran.stderr);
+    for gone in ["residuals_after.png", "residuals_after.svg", "candidates.png", "candidates.svg", "ledger.png"] {
+        assert!(!folder.path("d").join(gone).exists(), "{gone} is of the earlier report");
+    }
+    for kept in ["mine.png", "residuals_before.png", "report.html"] {
+        assert!(folder.path("d").join(kept).exists(), "{kept}");
+    }
+    crate::support::assert_hashes(&folder.path("d"));
+}
+
+#[test]
+fn a_result_is_printed_although_its_report_cannot_be_written() {
+    let folder = Folder::new();
+    std::fs::create_dir_all(folder.path("d/report.html/in_the_way")).unwrap();
+    let ran = folder.run(&["diagnose", "epam", "synthetic-epam", "--out", "d"]);
+    assert_eq!(ran.code, 3, "{}", ran.stderr);
+    assert!(ran.stdout.contains("Verdict: an effect is missing"), "{}", ran.stdout);
+    assert!(ran.stderr.contains("cannot write to d") && !ran.stderr.contains("report: "), "{}", ran.stderr);
+}
+
+#[test]
+fn an_answer_that_hangs_on_b_is_passed_on_by_the_ladder() {
+    let answer = Folder::new().run(&["ladder", "epam", "fem-epam", "--json"]).json("ibr.ladder");
+    assert_eq!(answer["stopped"], "out_of_catalog");
+    assert!(
+        answer["ending"].as_str().unwrap().contains("With B kept at the scenario's 0.00 N·m²"),
+        "{}",
+        answer["ending"]
+    );
+    assert!(answer["kept_bending"]["indistinguishable"].to_string().contains("end_constraint"), "{answer}");
+}

@@ -15,6 +15,7 @@
 //! neutral value and thresholds make that conservative (Chernoff; Davies). The set is what the data cannot tell apart: BIC within 6 of the
 //! best, or 95 % of its gain. A name is the best explanation *in the catalogue*, never a proof.
 
+mod answers;
 mod basis;
 mod blocks;
 mod candidates;
@@ -58,6 +59,7 @@ mod tests;
 mod together_tests;
 mod words;
 
+pub use answers::{Answer, Standing};
 pub use candidates::{Candidate, Free, candidates};
 pub use distance::{Distances, KnownNoise, distances, power};
 pub use experiments::{BENDING_TEST, BENDING_TEST_NAME};
@@ -205,12 +207,12 @@ fn assemble(
         Some(Verdict::Effect) => (added(case, decision), Vec::new()),
         _ => (Vec::new(), added(case, decision)),
     };
-    let undetectable = undetectable(case, decision, &ranked, &added);
+    let indistinguishable = names(case, decision, &pairs);
+    let undetectable = undetectable(case, &indistinguishable, &added);
     let noise = NoiseSummary::of(&case.noise, &case.dataset.holds);
     warnings.extend(noise.warning.clone());
     let (residuals_before, _) = fails(case, &case.base, decision.before)?;
     let (residuals_after, leftover) = fails(case, last, decision.after)?;
-    let indistinguishable = names(case, decision, &pairs);
     let outside = decision.verdict == Some(Verdict::OutOfCatalog);
     Ok(Diagnosis {
         scenario: case.scenario.name.clone(),
@@ -359,9 +361,10 @@ fn rule_out_first(case: &Case, ranked: &[Ranked], decision: &Decision) -> Vec<St
     ranked.iter().filter(doubtful).map(|r| r.effect.clone()).collect()
 }
 
-fn undetectable(case: &Case, decision: &Decision, ranked: &[Ranked], added: &[Added]) -> Vec<Undetectable> {
+/// Of every effect that neither the set nor a pair in it names; a ranking without verdict finds nothing.
+fn undetectable(case: &Case, stated: &[String], added: &[Added]) -> Vec<Undetectable> {
     let found = |name: &str| {
-        let in_set = decision.verdict == Some(Verdict::Effect) && ranked.iter().any(|r| r.in_set && r.effect == name);
+        let in_set = !added.is_empty() && stated.iter().flat_map(|entry| entry.split(" + ")).any(|part| part == name);
         in_set || added.iter().any(|a| a.effect == name)
     };
     let missed = case.tried.iter().filter(|e| !found(&case.candidate(**e).name));

@@ -91,6 +91,7 @@ pub fn describe(case: &Case, decision: &Decision, single: &Fit) -> Vec<Combinati
         bic_difference: c(fit) - c(&pairs[0]),
         p_corrected: p_over(case, fit, single, tried).map(reported_p),
         systematic_after_mm: case.error_mm(&case.prediction(fit)),
+        bending_nm2: fit.theta()[..case.problem.bendings].to_vec(),
         in_set: set.contains(&i),
         cancels: cancels(case, fit),
     };

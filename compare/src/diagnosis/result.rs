@@ -151,6 +151,8 @@ pub struct Combination {
     pub p_corrected: Option<f64>,
     /// Error beyond noise \[mm\].
     pub systematic_after_mm: f64,
+    /// Effective bending stiffness with them, one per body pressure \[N·m²\].
+    pub bending_nm2: Vec<f64>,
     /// Cannot be told from the best combination with these data.
     pub in_set: bool,
     /// The two terms cancel each other: opposite contributions, nearly the same trace.

@@ -13,6 +13,13 @@ const MOSTLY: f64 = 0.25;
 /// What comes as close as an attempt is named up to that many; `diagnosis.json` has all.
 const MOST_AS_CLOSE: usize = 5;
 
+impl Diagnosis {
+    /// The answer that hangs on B, if there is one, in words.
+    pub fn told_of_kept_bending(&self) -> Option<String> {
+        self.kept_bending.as_ref().map(|kept| with_kept_bending(self, kept))
+    }
+}
+
 /// The story, one sentence or two per entry.
 pub fn story(d: &Diagnosis) -> Vec<String> {
     let mut told = vec![opening(d)];
@@ -175,7 +182,7 @@ fn outside(d: &Diagnosis) -> Vec<String> {
     }];
     told.extend(as_close(d));
     told.extend(at_its_bound(d));
-    told.extend(d.kept_bending.as_ref().map(|kept| with_kept_bending(d, kept)));
+    told.extend(d.told_of_kept_bending());
     told.extend(d.pattern.as_ref().map(looks_like));
     told.extend(d.leftover.iter().map(|s| s.sentence.clone()));
     told.push("Check markers, set-up and protocol there before looking for new physics.".into());

@@ -54,8 +54,6 @@ pub fn ledger(data: &Ledger) -> Result<Drawn, PlotError> {
     for (i, case) in data.cases.iter().enumerate() {
         row(&mut scene, &frame, case, top + ROW * i as f64);
     }
-    let zero = frame.x.at(0.0);
-    scene.line(&[[zero, top], [zero, bottom]], Role::Ink, 1.4);
     paint::paint(&scene)
 }
 
@@ -89,6 +87,9 @@ fn row(scene: &mut Scene, frame: &Frame, case: &LedgerCase, top: f64) {
             scene.text_mid([0.5 * (left + right), 0.5 * (y0 + y1)], &shown, TEXT, Role::Paper, Anchor::Middle);
         }
     }
+    // Beside its own bar only: a line through all rows would cross names and sums.
+    let zero = frame.x.at(0.0);
+    scene.line(&[[zero, y0 - 3.0], [zero, y1 + 3.0]], Role::Ink, 1.4);
 }
 
 /// Case label on the left and its sum on the right, both on paper above the grid.

@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::frame::{AxisLabels, Entry, Frame, Key, RIM, Room, legend, title};
-use super::palette::Role;
+use super::palette::{Role, SERIES};
 use super::scene::{Point, Scene, Symbol};
 use super::{Drawn, PlotError, at_most, paint, same_length};
 
@@ -102,7 +102,9 @@ fn role(series: &LineSeries, i: usize) -> Role {
 }
 
 fn symbol(series: &LineSeries, i: usize) -> Symbol {
-    Symbol::of(series.colour.unwrap_or(i))
+    // Colours come again after a while, then with other symbols.
+    let colour = series.colour.unwrap_or(i);
+    Symbol::of(colour + colour / SERIES)
 }
 
 fn keys(data: &Lines) -> Vec<Entry> {

@@ -1,4 +1,4 @@
-//! Ranking: one bar per hypothesis, best first; those that cannot be told apart in one colour.
+//! Ranking: one bar per hypothesis, in the order given; those that cannot be told apart in one colour.
 
 use super::axis::{Axis, common_decimals, extent, number};
 use super::frame::{Entry, Frame, Key, RIM, TEXT, legend, title};
@@ -10,16 +10,16 @@ const CHART: &str = "ranking";
 const ROW: f64 = 21.0;
 const MOST: usize = 60;
 /// Widest column of names [design px].
-const NAMES: f64 = 190.0;
+const NAMES: f64 = 240.0;
 
-/// Horizontal bars, best first.
+/// Horizontal bars.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Ranking {
     /// Title above the plot; empty for none.
     pub title: String,
     /// Axis label with unit, e.g. `error left [mm]`.
     pub value_label: String,
-    /// Rows from best to worst.
+    /// Rows from top to bottom.
     pub rows: Vec<RankingRow>,
 }
 
@@ -35,12 +35,16 @@ pub struct RankingRow {
 }
 
 /// What the colour of a [`RankingRow`] says.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum RankClass {
     /// One of those that cannot be told apart.
     Alike,
-    /// Fits worse.
+    /// The nearest, which does not explain enough.
+    Attempt,
+    /// Fits worse than those that cannot be told apart.
     Worse,
+    /// What is there beside, where nothing is said to be the best.
+    Other,
     /// Rejected for its value.
     Rejected,
 }
@@ -49,7 +53,8 @@ impl RankClass {
     fn role(self) -> Role {
         match self {
             RankClass::Alike => Role::Series(2),
-            RankClass::Worse => Role::Muted,
+            RankClass::Attempt => Role::Series(1),
+            RankClass::Worse | RankClass::Other => Role::Muted,
             RankClass::Rejected => Role::Grid,
         }
     }
@@ -57,7 +62,9 @@ impl RankClass {
     fn words(self) -> &'static str {
         match self {
             RankClass::Alike => "cannot be told apart",
+            RankClass::Attempt => "attempt, not enough",
             RankClass::Worse => "fits worse",
+            RankClass::Other => "others",
             RankClass::Rejected => "on a physical bound, rejected",
         }
     }
@@ -89,7 +96,7 @@ pub fn ranking(data: &Ranking) -> Result<Drawn, PlotError> {
 }
 
 fn keys(data: &Ranking) -> Vec<Entry> {
-    let classes = [RankClass::Alike, RankClass::Worse, RankClass::Rejected];
+    let classes = [RankClass::Alike, RankClass::Attempt, RankClass::Worse, RankClass::Other, RankClass::Rejected];
     let present = classes.into_iter().filter(|class| data.rows.iter().any(|row| row.class == *class));
     present.map(|c| Entry { key: Key::Patch, role: c.role(), name: c.words().into() }).collect()
 }

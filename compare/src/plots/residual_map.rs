@@ -35,6 +35,8 @@ pub struct MapHold {
     pub p_act_kpa: f64,
     /// Phase of the protocol, e.g. `load` or `unload`.
     pub phase: String,
+    /// What several phases have in common, e.g. `body 2 kPa`; empty for none.
+    pub group: String,
 }
 
 /// Draws the heat map: blue below zero, orange above, the number in each cell.
@@ -129,7 +131,8 @@ fn stations(scene: &mut Scene, data: &ResidualMap, grid: &Grid) {
     }
 }
 
-/// Pressures under the columns and a bracket under each run of columns of one phase; returns the height below.
+/// Pressures under the columns and a bracket under each run of columns of one phase, and of one group where there are several;
+/// returns the height below.
 fn phases(scene: &mut Scene, data: &ResidualMap, grid: &Grid) -> f64 {
     let labels: Vec<String> = data.holds.iter().map(|hold| number(hold.p_act_kpa, 0)).collect();
     let widest = labels.iter().map(|label| text::width(label, TEXT)).fold(1.0, f64::max);
@@ -138,19 +141,31 @@ fn phases(scene: &mut Scene, data: &ResidualMap, grid: &Grid) -> f64 {
         let at = [grid.x(hold) + 0.5 * grid.cell, grid.bottom() + 17.0];
         scene.text(at, label, TEXT, Role::Muted, Anchor::Middle);
     }
-    let (mut start, y) = (0, grid.bottom() + 26.0);
-    for run in data.holds.chunk_by(|a, b| a.phase == b.phase) {
-        let (x0, x1) = (grid.x(start) + 3.0, grid.x(start + run.len()) - 3.0);
-        scene.line(&[[x0, y - 3.0], [x0, y], [x1, y], [x1, y - 3.0]], Role::Axis, 1.2);
-        let name = text::fit(&run[0].phase, TEXT, x1 - x0 + 4.0);
-        scene.text([0.5 * (x0 + x1), y + 16.0], &name, TEXT, Role::Muted, Anchor::Middle);
-        start += run.len();
+    let mut y = grid.bottom() + 26.0;
+    let phases = data.holds.chunk_by(|a, b| (&a.phase, &a.group) == (&b.phase, &b.group));
+    brackets(scene, grid, y, phases.map(|run| (run.len(), run[0].phase.as_str())));
+    let groups = data.holds.chunk_by(|a, b| a.group == b.group);
+    if groups.clone().count() > 1 {
+        y += 24.0;
+        brackets(scene, grid, y, groups.map(|run| (run.len(), run[0].group.as_str())));
     }
     let middle = 0.5 * (grid.left + grid.x(data.holds.len()));
     let name = "actuator pressure [kPa]";
     let half = 0.5 * text::width(name, TEXT);
     scene.text([middle.max(RIM + half), y + 34.0], name, TEXT, Role::Muted, Anchor::Middle);
     y + 40.0
+}
+
+/// A bracket at a height under each run of columns, with its name below it; runs as their lengths and names.
+fn brackets<'n>(scene: &mut Scene, grid: &Grid, y: f64, runs: impl Iterator<Item = (usize, &'n str)>) {
+    let mut start = 0;
+    for (columns, name) in runs {
+        let (x0, x1) = (grid.x(start) + 3.0, grid.x(start + columns) - 3.0);
+        scene.line(&[[x0, y - 3.0], [x0, y], [x1, y], [x1, y - 3.0]], Role::Axis, 1.2);
+        let name = text::fit(name, TEXT, x1 - x0 + 4.0);
+        scene.text([0.5 * (x0 + x1), y + 16.0], &name, TEXT, Role::Muted, Anchor::Middle);
+        start += columns;
+    }
 }
 
 fn colour_bar(scene: &mut Scene, data: &ResidualMap, grid: &Grid, top: f64) {

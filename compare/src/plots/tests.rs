@@ -32,7 +32,8 @@ fn planes(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, PlotError>>
     };
     let shape =
         Shapes { title: label(name), rest_mm: points.clone(), body_radius_mm: v(1), poses: vec![pose.clone(), pose] };
-    let hold = |p: f64| MapHold { p_act_kpa: p, phase: label(name) };
+    let hold =
+        |p: f64| MapHold { p_act_kpa: p, phase: label(name), group: label(if p > 0.0 { name } else { "other" }) };
     let map = ResidualMap {
         title: label(name),
         value_label: label(name),

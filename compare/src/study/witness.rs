@@ -12,7 +12,7 @@
 //! is least for the candidate that spends it as they do. **Validity**: the runs are models too, with assumed numbers; a ledger
 //! compares energies and not their slopes. It speaks for or against a candidate, it proves nothing.
 
-use crate::diagnosis::{Diagnosis, ParameterValue, with_fitted};
+use crate::diagnosis::{Answer, Diagnosis, ParameterValue, Ranked, Standing, with_fitted};
 use crate::error::CompareError;
 use crate::study::engines::{Ensemble, FeRun, TERMS, between, ensembles};
 use crate::study::predict::{fit_scenario, predict_dataset};
@@ -23,7 +23,7 @@ use serde::Serialize;
 
 /// Terms that are physics: all but hourglass control.
 const PHYSICAL: usize = TERMS.len() - 1;
-/// Candidates held against the ledger.
+/// Candidates held against the ledger, those of the stated set before others.
 const MOST: usize = 6;
 /// Finite elements meet a measurement within this share, or within their own spread.
 const MEETS: f64 = 0.10;
@@ -63,6 +63,8 @@ pub struct Beside {
     pub energies_mj: [f64; 6],
     /// Σ of the differences from the finite elements' \[mJ\].
     pub apart_mj: f64,
+    /// The diagnosis names it: one of those that the data do not tell apart, or the attempt.
+    pub named: bool,
 }
 
 /// Finite elements beside a diagnosis.
@@ -133,10 +135,13 @@ pub fn witness(
     let heights = heights([&cases.base, &cases.best], dataset, &ensemble)?;
     let (Some(top), Some(first)) = (heights.last(), ensemble.runs.first()) else { return Ok(None) };
     let kpa = top.actuator_kpa;
-    let mut models: Vec<Beside> =
-        cases.candidates.iter().filter_map(|(name, s)| Some(beside(name, s, &ensemble, kpa)?.0)).collect();
+    let mut models: Vec<Beside> = cases
+        .candidates
+        .iter()
+        .filter_map(|(name, s, named)| Some(beside(name, s, &ensemble, (kpa, *named))?.0))
+        .collect();
     models.sort_by(|a, b| a.apart_mj.total_cmp(&b.apart_mj));
-    let own = beside("base", &cases.base, &ensemble, kpa);
+    let own = beside("base", &cases.base, &ensemble, (kpa, false));
     let fe_mj = own.as_ref().map(|o| o.1);
     match own {
         Some((own, _)) => models.insert(0, own),
@@ -161,28 +166,24 @@ struct Cases {
     base: Scenario,
     /// With everything that is added, supply and camera too.
     best: Scenario,
-    /// With what has a ledger.
-    candidates: Vec<(String, Scenario)>,
+    /// With what has a ledger, and whether the diagnosis names it.
+    candidates: Vec<(String, Scenario, bool)>,
 }
 
 fn cases(d: &Diagnosis, scenario: &Scenario) -> Cases {
     let level = d.level(scenario.p_body_pa * 1e-3);
     let added = if d.added.is_empty() { &d.attempt } else { &d.added };
     let all: Vec<(&str, &[ParameterValue])> = added.iter().map(|a| (&*a.effect, &*a.parameters)).collect();
-    let physical = added.iter().filter(|a| !a.group.is_nuisance());
-    let physical: Vec<(&str, &[ParameterValue])> = physical.map(|a| (&*a.effect, &*a.parameters)).collect();
     let b = d.base.bending_with_added_nm2.get(level).copied();
-    let mut candidates = Vec::new();
-    if !physical.is_empty() {
-        let name = physical.iter().map(|a| format!("+ {}", a.0)).collect::<Vec<_>>().join(" ");
-        candidates.push((name, with_fitted(scenario, &physical, b)));
-    }
-    for r in d.ranked.iter().filter(|r| !r.at_bound && r.gain > 1.0 && !r.group.is_nuisance()).take(MOST) {
-        let name = format!("+ {}", r.effect);
-        if candidates.iter().all(|c| c.0 != name) {
-            candidates.push((name, r.on(scenario, level)));
-        }
-    }
+    let has_ledger = |r: &Ranked| !r.group.is_nuisance();
+    // Beside the stated set single effects: their ledgers say what each of them does.
+    let wanted = |a: &Answer| a.helps() && (a.standing != Standing::Other || a.effects.len() == 1);
+    let answers = d.answers().into_iter().filter(|a| wanted(a) && a.effects.iter().any(|(r, _)| has_ledger(r)));
+    let candidate = |a: Answer| {
+        let name = a.effects.iter().map(|(r, _)| format!("+ {}", r.effect)).collect::<Vec<_>>().join(" ");
+        (name, a.on_with(scenario, level, has_ledger), a.standing != Standing::Other)
+    };
+    let candidates = answers.take(MOST).map(candidate).collect();
     Cases { base: d.calibrated(scenario, level), best: with_fitted(scenario, &all, b), candidates }
 }
 
@@ -219,14 +220,19 @@ fn heights(models: [&Scenario; 2], dataset: &Dataset, ensemble: &Ensemble) -> Re
 }
 
 /// The ledger of a model and that of the finite elements, means over seeds.
-fn beside(name: &str, scenario: &Scenario, ensemble: &Ensemble, kpa: f64) -> Option<(Beside, [f64; 6])> {
+fn beside(
+    name: &str,
+    scenario: &Scenario,
+    ensemble: &Ensemble,
+    (kpa, named): (f64, bool),
+) -> Option<(Beside, [f64; 6])> {
     let ledgers: Vec<[[f64; 6]; 2]> =
         ensemble.runs.iter().map(|run| between(scenario, run, kpa)).collect::<Option<_>>()?;
     let mean =
         |which: usize| std::array::from_fn(|k| ledgers.iter().map(|l| l[which][k]).sum::<f64>() / ledgers.len() as f64);
     let (fe, own): ([f64; 6], [f64; 6]) = (mean(0), mean(1));
     let apart_mj = (0..PHYSICAL).map(|k| (fe[k] - own[k]).abs()).sum();
-    Some((Beside { name: name.into(), energies_mj: own, apart_mj }, fe))
+    Some((Beside { name: name.into(), energies_mj: own, apart_mj, named }, fe))
 }
 
 fn sentences(w: &Witness, d: &Diagnosis) -> Vec<String> {

@@ -8,7 +8,7 @@ use crate::report::{Block, Callout, Provenance, Report, Section};
 use crate::study::calibrate::calibrate_bending;
 use crate::study::predict::{fit_scenario, predict_dataset};
 use data::{About, Dataset};
-use models::{Loads, Scenario};
+use models::Scenario;
 
 /// One model on the data of a [`Study`].
 #[derive(Debug, Clone)]
@@ -135,7 +135,13 @@ pub fn compare_page(study: &Study, imprint: &Imprint) -> Result<Files, CompareEr
         "centre lines of the robot with markers",
         &shapes.svg,
     );
-    let heights = figure("Loading and unloading are drawn apart.", "marker height over pressure", &curve.svg);
+    let drawn_apart = match figures::several_bodies(&study.dataset) {
+        true => {
+            "Loading and unloading are drawn apart. Filled marks and solid lines: the first body pressure; open and dashed: others."
+        }
+        false => "Loading and unloading are drawn apart.",
+    };
+    let heights = figure(drawn_apart, "marker height over pressure", &curve.svg);
     let mut sections = vec![
         section("where", "Where it fails", failure_blocks(first, residuals)),
         section("shape", "Shape", vec![lines, heights]),
@@ -178,11 +184,9 @@ fn additions_section(study: &Study, files: &mut Files) -> Result<Section, Compar
 
 /// The ledger at the highest pressure of the data; nothing if no hold has actuator pressure.
 fn ledger_section(study: &Study, files: &mut Files) -> Result<Option<Section>, CompareError> {
-    let top = study.dataset.holds.iter().max_by(|a, b| a.p_act_pa.total_cmp(&b.p_act_pa));
-    let Some(hold) = top.filter(|hold| hold.p_act_pa > 0.0) else { return Ok(None) };
-    let loads = Loads::uniform(hold.p_body_pa, hold.p_act_pa);
+    let Some((title, loads)) = figures::at_highest(&study.dataset) else { return Ok(None) };
     let cases: Vec<_> = study.variants.iter().map(|v| (v.label.clone(), v.scenario.clone())).collect();
-    let ledger = figures::ledgers("Energy ledger at the highest pressure", &cases, &loads)?;
+    let ledger = figures::ledgers(&title, &cases, &loads)?;
     files.plot("ledger", &ledger);
     let caption = "Potential energies at the highest pressure of the data. The actuator's bar is −PΔV: what its gas gave; \
                    with pressure held constant the other bars need not add up to it.";

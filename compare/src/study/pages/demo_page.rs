@@ -14,7 +14,7 @@ use crate::study::published::{PublishedLadder, model_ladder, published_ladders, 
 use crate::study::tradeoff::{Timing, of_runs, tradeoff};
 use crate::study::witness::witness;
 use data::{About, Dataset};
-use models::{Loads, Scenario};
+use models::Scenario;
 
 /// Everything the demonstration computes.
 #[derive(Debug, Clone)]
@@ -189,21 +189,12 @@ fn study_section(study: &Study, files: &mut Files) -> Result<Section, CompareErr
     let shapes = figures::shapes("Bare model and measured shape", &bare.scenario, &study.dataset)?;
     let ladder = figures::error_ladder("Error beyond noise", &study.variants)?;
     let curve = figures::pressure_curve("Pressure and height", study)?;
-    let top = study
-        .dataset
-        .holds
-        .iter()
-        .fold([2e3, 0.0], |m, h| if h.p_act_pa > m[1] { [h.p_body_pa, h.p_act_pa] } else { m });
     let cases: Vec<_> = study.variants.iter().map(|v| (v.label.clone(), v.scenario.clone())).collect();
-    let ledger = figures::ledgers("Energy ledger at the highest pressure", &cases, &Loads::uniform(top[0], top[1]))?;
-    for (kind, drawn) in [
-        ("map", &map),
-        ("map_after", &after),
-        ("shapes", &shapes),
-        ("ladder", &ladder),
-        ("pressure", &curve),
-        ("ledger", &ledger),
-    ] {
+    let ledger = figures::at_highest(&study.dataset).map(|(title, loads)| figures::ledgers(&title, &cases, &loads));
+    let ledger = ledger.transpose()?;
+    for (kind, drawn) in
+        [("map", &map), ("map_after", &after), ("shapes", &shapes), ("ladder", &ladder), ("pressure", &curve)]
+    {
         files.plot(&format!("{name}_{kind}"), drawn);
     }
     files.table(&format!("{name}_holds"), tables::holds(&study.variants))?;
@@ -220,12 +211,22 @@ fn study_section(study: &Study, files: &mut Files) -> Result<Section, CompareErr
         &ladder.svg,
     ));
     blocks.push(figure("What the last model leaves.", "heat map, markers by holds", &after.svg));
-    blocks.push(figure("All models.", "marker height over pressure", &curve.svg));
+    blocks.push(figure(curve_caption(study), "marker height over pressure", &curve.svg));
     blocks.push(tables::accuracy(bare));
     blocks.push(tables::accuracy(last));
     blocks.push(Block::Paragraph(bare.evaluation.scaling.sentence.clone()));
-    blocks.push(figure("Potential energies; the actuator's bar is −PΔV.", "stacked energies", &ledger.svg));
+    if let Some(ledger) = ledger {
+        files.plot(&format!("{name}_ledger"), &ledger);
+        blocks.push(figure("Potential energies; the actuator's bar is −PΔV.", "stacked energies", &ledger.svg));
+    }
     Ok(Section { id: name.replace(['_', '.'], "-"), heading: format!("Marker set {name}"), blocks })
+}
+
+fn curve_caption(study: &Study) -> &'static str {
+    match figures::several_bodies(&study.dataset) {
+        true => "First and last model. Filled marks and solid lines: the first body pressure; open and dashed: others.",
+        false => "All models.",
+    }
 }
 
 /// The sections of a diagnosis, each named as part of it.
@@ -239,6 +240,7 @@ fn story_sections(story: &Story, files: &mut Files) -> Result<Vec<Section>, Comp
         about,
         witness: witness.as_ref(),
         typed: HIDDEN_IN,
+        more: String::new(),
     };
     let mut sections = diagnosis_sections(&found, "diagnosis_", files)?;
     for section in &mut sections {

@@ -2,12 +2,12 @@
 
 use super::drawing;
 use super::figures::measured;
-use crate::diagnosis::{Diagnosis, Ranked, Verdict};
+use crate::diagnosis::{Answer, Diagnosis, Group, Standing};
 use crate::error::CompareError;
 use crate::plots::{self, Drawn, LineSeries, LineStyle, RankClass};
 use crate::study::engines::TERMS;
 use crate::study::predict::predict_dataset;
-use crate::study::witness::Witness;
+use crate::study::witness::{Beside, Witness};
 use data::{Dataset, Phase};
 use models::{Loads, Model, Scenario};
 
@@ -16,12 +16,16 @@ const MM: f64 = 1e3;
 const POINTS: u32 = 48;
 /// Curves go this much beyond the highest measured pressure, where candidates part.
 const BEYOND: f64 = 1.3;
-/// Candidates drawn as curves.
-const MOST_CURVES: usize = 5;
-/// Ledgers drawn beside that of finite elements: the base and the nearest.
-const MOST_LEDGERS: usize = 4;
-/// Candidates drawn where the set has a single member, so that there is something to compare with.
-const FEWEST_CURVES: usize = 3;
+/// Candidates drawn as curves: as many as have a colour of their own beside the measurement's.
+const MOST_CURVES: usize = 7;
+/// Colour of the measurement.
+const MEASURED: usize = 5;
+/// Ledgers drawn beside that of finite elements: the base, those of the stated set, then the nearest.
+const MOST_LEDGERS: usize = 6;
+/// Of those the others than the base and the stated set, so that there is something to compare with.
+const OTHER_LEDGERS: usize = 2;
+/// Candidates drawn beside the stated set, for the same reason.
+const OTHER_CURVES: usize = 2;
 
 /// Errors of one model on the way from bare to extended \[mm\].
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +40,22 @@ pub struct ErrorRung {
     pub heldout_run_mm: Option<f64>,
 }
 
-/// As given, calibrated, and with what the verdict adds.
+/// What an attempt is called beside answers.
+const NOT_ENOUGH: &str = "attempt, not enough";
+/// What others are called where colours do not say it.
+const FITS_WORSE: &str = "fits worse";
+
+/// Names and standing of what the final model has beyond the base; `None` where that is nothing.
+fn final_label(d: &Diagnosis) -> Option<String> {
+    let (added, word) = match d.added.is_empty() {
+        true => (&d.attempt, NOT_ENOUGH),
+        false => (&d.added, "calibrated"),
+    };
+    let names: Vec<String> = added.iter().map(|a| format!("+ {}", a.effect)).collect();
+    (!names.is_empty()).then(|| format!("{} ({word})", names.join(" ")))
+}
+
+/// As given, calibrated, and with what the verdict adds or what was attempted.
 pub(super) fn rungs_of(d: &Diagnosis) -> Vec<ErrorRung> {
     let base = &d.base;
     let rung = |label: String, training_mm, heldout_pressure_mm, heldout_run_mm| ErrorRung {
@@ -48,16 +67,34 @@ pub(super) fn rungs_of(d: &Diagnosis) -> Vec<ErrorRung> {
     let mut rungs = vec![rung("scenario as given".into(), base.systematic_nominal_mm, None, None)];
     let calibrated = if base.bending.is_empty() { "B as given" } else { "B calibrated" };
     rungs.push(rung(calibrated.into(), base.systematic_mm, base.heldout_mm, base.heldout_run_mm));
-    if !d.added.is_empty() {
-        let names: Vec<String> = d.added.iter().map(|a| format!("+ {}", a.effect)).collect();
-        rungs.push(rung(
-            format!("{} (calibrated)", names.join(" ")),
-            base.systematic_with_added_mm,
-            base.heldout_with_added_mm,
-            base.heldout_run_with_added_mm,
-        ));
-    }
+    rungs.extend(final_label(d).map(|label| {
+        rung(label, base.systematic_with_added_mm, base.heldout_with_added_mm, base.heldout_run_with_added_mm)
+    }));
     rungs
+}
+
+/// Supply against the readings of every gauge, before and after; `None` without a gauge.
+pub(super) fn supply(d: &Diagnosis) -> Result<Option<Drawn>, CompareError> {
+    if d.gauges.is_empty() {
+        return Ok(None);
+    }
+    // An effect of the body leaves the supply's laws as they were.
+    let of_supply = d.added.iter().chain(&d.attempt).any(|a| a.group == Group::Supply);
+    let after = final_label(d).filter(|_| of_supply);
+    let series = |gauge: &crate::diagnosis::GaugeFit| plots::BarSeries {
+        name: format!("gauge in {}", gauge.dataset),
+        values: std::iter::once(gauge.before_kpa).chain(after.as_ref().map(|_| gauge.after_kpa)).collect(),
+        half_width: Vec::new(),
+        reference: false,
+    };
+    let data = plots::Bars {
+        title: "The supply, before and after".into(),
+        value_label: "supply's laws against the gauge, rms [kPa]".into(),
+        groups: std::iter::once("supply of the scenario".to_string()).chain(after.clone()).collect(),
+        series: d.gauges.iter().map(series).collect(),
+        target: None,
+    };
+    plots::bars(&data).map(Some).map_err(|e| drawing("the supply", e))
 }
 
 /// Error of every model, training and left-out data, with the noise of the mean.
@@ -82,23 +119,31 @@ pub(super) fn waterfall(title: &str, rungs: &[ErrorRung], floor_mm: Option<f64>)
     plots::bars(&data).map_err(|e| drawing("the waterfall", e))
 }
 
-/// Gain of every candidate over that of the best one.
+/// Gain of every answer over that of the best one \[%\]; stated ones, the attempt, worse and rejected ones, each by their bars.
+/// `None` where nothing helps.
+pub(super) fn ranking_rows(d: &Diagnosis) -> Option<Vec<plots::RankingRow>> {
+    let answers = d.answers();
+    let possible = answers.iter().filter(|a| a.standing != Standing::Rejected && a.gain.is_finite());
+    let best = possible.map(|a| a.gain).fold(0.0, f64::max);
+    let class = |a: &Answer| match a.standing {
+        Standing::Stated => RankClass::Alike,
+        Standing::Attempt => RankClass::Attempt,
+        Standing::Other if d.indistinguishable.is_empty() => RankClass::Other,
+        Standing::Other => RankClass::Worse,
+        Standing::Rejected => RankClass::Rejected,
+    };
+    let row = |a: &Answer| plots::RankingRow { label: a.name(), value: 100.0 * a.gain / best, class: class(a) };
+    let mut rows: Vec<plots::RankingRow> = answers.iter().map(row).collect();
+    rows.sort_by(|a, b| a.class.cmp(&b.class).then(b.value.total_cmp(&a.value)));
+    (best > 0.0).then_some(rows)
+}
+
+/// The same as bars.
 pub(super) fn ranking(d: &Diagnosis) -> Result<Option<Drawn>, CompareError> {
-    let class = |r: &Ranked| match (r.at_bound, r.in_set && d.verdict != Some(Verdict::None)) {
-        (true, _) => RankClass::Rejected,
-        (_, true) => RankClass::Alike,
-        _ => RankClass::Worse,
-    };
-    let best = d.ranked.iter().filter(|r| !r.at_bound).map(|r| r.gain).fold(0.0, f64::max);
-    if best <= 0.0 {
-        return Ok(None);
-    }
-    let row = |r: &Ranked| plots::RankingRow { label: r.effect.clone(), value: 100.0 * r.gain / best, class: class(r) };
-    let data = plots::Ranking {
-        title: "Misfit that one effect takes away".into(),
-        value_label: "gain, in % of the best".into(),
-        rows: d.ranked.iter().map(row).collect(),
-    };
+    let Some(rows) = ranking_rows(d) else { return Ok(None) };
+    let title = if d.pairs.is_empty() { "What one effect explains" } else { "What one effect or two explain" };
+    let value_label = "gain: fall of the squares, weighted by the noise; % of the best".into();
+    let data = plots::Ranking { title: title.into(), value_label, rows };
     plots::ranking(&data).map(Some).map_err(|e| drawing("the ranking", e))
 }
 
@@ -107,15 +152,23 @@ pub(super) fn first_level(d: &Diagnosis, dataset: &Dataset) -> usize {
     d.level(dataset.holds.first().map_or(0.0, |h| h.p_body_pa * 1e-3))
 }
 
-/// Candidates worth a curve.
-pub(super) fn shown(d: &Diagnosis) -> Vec<&Ranked> {
-    let kept: Vec<&Ranked> = d.ranked.iter().filter(|r| !r.at_bound && r.gain > 1.0).collect();
-    let alike = kept.iter().filter(|r| r.in_set).count();
-    kept.into_iter().take(alike.clamp(FEWEST_CURVES, MOST_CURVES)).collect()
+/// Answers worth a curve: the stated set or the attempt, then the nearest others.
+pub(super) fn shown(d: &Diagnosis) -> Vec<Answer<'_>> {
+    let mut kept: Vec<Answer> = d.answers().into_iter().filter(Answer::helps).collect();
+    let first = kept.iter().filter(|a| a.standing != Standing::Other).count();
+    kept.truncate((first + OTHER_CURVES).min(MOST_CURVES));
+    kept
 }
 
-/// What the candidates predict over pressure, as the difference from the calibrated base: height of the outermost marker
-/// on first loading.
+/// `12 of the 14 that cannot be told apart`, where not all of them are drawn.
+pub(super) fn left_out(d: &Diagnosis, drawn: &[Answer]) -> Option<String> {
+    let stated = |answers: &[Answer]| answers.iter().filter(|a| a.standing == Standing::Stated).count();
+    let (shown, all) = (stated(drawn), d.indistinguishable.len());
+    (shown < all).then(|| format!("Drawn are the first {shown} of the {all} that cannot be told apart."))
+}
+
+/// What the answers predict over pressure, as the difference from the calibrated base: height of the outermost marker on first
+/// loading at the first body pressure.
 pub(super) fn candidate_curves(
     d: &Diagnosis,
     scenario: &Scenario,
@@ -141,39 +194,73 @@ pub(super) fn candidate_curves(
     let base = d.calibrated(scenario, level);
     let zero = heights(&base);
     let mut series = vec![deviations(&base, dataset)?];
-    for (i, r) in candidates.iter().enumerate() {
-        let own = heights(&r.on(scenario, level));
+    for (i, answer) in candidates.iter().enumerate() {
+        let own = heights(&answer.on(scenario, level));
         let point = |k: usize| [1e-3 * top_pa * (k as f64 / f64::from(POINTS)).powi(2), own[k] - zero[k]];
         series.push(LineSeries {
-            name: format!("+ {}", r.effect),
+            name: format!("+ {}{}", answer.name(), attempted(answer)),
             points: (0..own.len()).map(point).collect(),
             half_width: Vec::new(),
-            style: if r.in_set { LineStyle::Line } else { LineStyle::Dashed },
-            colour: Some(i),
+            style: if answer.standing == Standing::Other { LineStyle::Dashed } else { LineStyle::Line },
+            colour: Some(if i < MEASURED { i } else { i + 1 }),
         });
     }
+    let body =
+        if super::figures::several_bodies(dataset) { super::figures::body(first.p_body_pa) } else { String::new() };
+    let with = if d.base.bending.is_empty() { "B as given" } else { "fitted B alone" };
     let data = plots::Lines {
         title: "What the candidates predict differently".into(),
-        x_label: "actuator pressure [kPa]".into(),
-        y_label: "tip marker, above the base [mm]".into(),
+        x_label: format!("actuator pressure{body} [kPa]"),
+        y_label: format!("outermost marker, difference from the model with {with} [mm]"),
         series,
     };
     plots::lines(&data).map(Some).map_err(|e| drawing("the candidates' curves", e))
 }
 
-/// Ledgers of base, the nearest candidates and finite elements at the same bends.
-pub(super) fn witness_ledger(w: &Witness) -> Result<Drawn, CompareError> {
-    let case = |name: &str, e: &[f64; 6]| plots::LedgerCase {
-        label: name.trim_start_matches("+ ").into(),
-        energies_mj: e.to_vec(),
+/// What is said behind the name of an attempt.
+fn attempted(answer: &Answer) -> String {
+    if answer.standing == Standing::Attempt { format!(" ({NOT_ENOUGH})") } else { String::new() }
+}
+
+/// Models of the ledgers at a level of body pressure: the base and the answers of the curves.
+pub(super) fn ledger_cases(d: &Diagnosis, scenario: &Scenario, level: usize) -> Vec<(String, Scenario)> {
+    let mut cases = vec![("base".to_string(), d.calibrated(scenario, level))];
+    cases.extend(shown(d).iter().map(|a| {
+        let worse = a.standing == Standing::Other && !d.indistinguishable.is_empty();
+        let what = if worse { format!(" ({FITS_WORSE})") } else { attempted(a) };
+        (format!("+ {}{what}", a.name()), a.on(scenario, level))
+    }));
+    cases
+}
+
+/// Models of the ledgers beside finite elements: the base, the stated set or the attempt, then the nearest others.
+pub(super) fn witness_cases(w: &Witness, d: &Diagnosis) -> Vec<plots::LedgerCase> {
+    let Some((base, others)) = w.models.split_first() else { return Vec::new() };
+    let named = others.iter().filter(|m| m.named);
+    let nearest = others.iter().filter(|m| !m.named).take(OTHER_LEDGERS);
+    let is_set = !d.indistinguishable.is_empty();
+    let what = |m: &Beside| match (m.named, is_set) {
+        (true, true) | (false, false) => String::new(),
+        (true, false) => format!(" ({NOT_ENOUGH})"),
+        (false, true) => format!(" ({FITS_WORSE})"),
     };
-    let mut cases: Vec<_> = w.models.iter().take(MOST_LEDGERS).map(|m| case(&m.name, &m.energies_mj)).collect();
-    cases.extend(w.fe_mj.iter().map(|fe| case("finite elements", fe)));
+    let case = |label: String, e: &[f64; 6]| plots::LedgerCase { label, energies_mj: e.to_vec() };
+    let mut cases = vec![case(base.name.clone(), &base.energies_mj)];
+    cases.extend(
+        named.chain(nearest).map(|m| case(m.name.trim_start_matches("+ ").to_string() + &what(m), &m.energies_mj)),
+    );
+    cases.truncate(MOST_LEDGERS);
+    cases.extend(w.fe_mj.iter().map(|fe| case("finite elements".into(), fe)));
+    cases
+}
+
+/// Their drawing.
+pub(super) fn witness_ledger(w: &Witness, d: &Diagnosis) -> Result<Drawn, CompareError> {
     let data = plots::Ledger {
         title: format!("Where the energy goes, to {:.0} kPa", w.actuator_kpa),
         value_label: "energy taken up since the first bend [mJ]".into(),
         terms: TERMS.map(String::from).to_vec(),
-        cases,
+        cases: witness_cases(w, d),
     };
     plots::ledger(&data).map_err(|e| drawing("the ledger beside finite elements", e))
 }
@@ -194,5 +281,5 @@ fn deviations(base: &Scenario, dataset: &Dataset) -> Result<LineSeries, CompareE
         half_width.push(spread[1] * MM / (dataset.runs.len() as f64).sqrt());
     }
     let name = "measured (± standard error)".into();
-    Ok(LineSeries { name, points, half_width, style: LineStyle::Points, colour: Some(5) })
+    Ok(LineSeries { name, points, half_width, style: LineStyle::Points, colour: Some(MEASURED) })
 }

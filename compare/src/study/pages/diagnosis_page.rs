@@ -1,9 +1,12 @@
 //! The report of a diagnosis, for people: where it fails, whether anything is missing, what it could be, what to do.
 
-use super::diagnosis_figures::{candidate_curves, first_level, ranking, rungs_of, shown, waterfall, witness_ledger};
+use super::diagnosis_figures::{
+    candidate_curves, ledger_cases, left_out, ranking, rungs_of, shown, supply, waterfall, witness_ledger,
+};
+use super::diagnosis_words::{candidate_blocks, pairs_table, ranking_table, three};
 use super::tables::{column, number, words};
 use super::{Files, Imprint, figures};
-use crate::diagnosis::{Diagnosis, ParameterValue, Ranked, Verdict};
+use crate::diagnosis::{Diagnosis, Verdict};
 use crate::error::CompareError;
 use crate::plots::Drawn;
 use crate::report::{Block, Callout, Provenance, Report, Section, Table};
@@ -13,7 +16,29 @@ use crate::study::predict::fit_scenario;
 use crate::study::witness::{HEIGHTS, Witness};
 use crate::wording::p_value;
 use data::{About, Dataset};
-use models::{Loads, Scenario};
+use models::Scenario;
+
+const RANKING: &str = "Effects added and refitted together with B. A bar is a gain: how much the sum of squared differences falls, each \
+    weighted by its noise. The error in mm (table) weighs all differences alike and may rise where the gain is small or quiet holds \
+    are met at the cost of others. Green: cannot be told apart with these data.";
+const BEFORE_AFTER: &str = "Left-out data were not in the fit of the value drawn. A fall there is worth more than one on the data of the \
+    fit, and neither proves the name.";
+const SUPPLY: &str = "What the supply's laws say of the pressure at the actuator against what the gauge read. Positions are predicted at \
+    the readings, so that their error says nothing of the supply.";
+/// Errors below this are no bar \[mm\].
+const SMALLEST_BAR_MM: f64 = 0.005;
+
+/// Pictures that a report of a diagnosis may have, without prefix and ending.
+pub const DIAGNOSIS_PICTURES: [&str; 8] = [
+    "residuals_before",
+    "residuals_after",
+    "ranking",
+    "before_after",
+    "before_after_supply",
+    "candidates",
+    "ledger",
+    "finite_elements",
+];
 
 /// A diagnosis with what it was made of.
 pub struct Diagnosed<'a> {
@@ -29,6 +54,8 @@ pub struct Diagnosed<'a> {
     pub witness: Option<&'a Witness>,
     /// Scenario and data as typed, for the commands that come next.
     pub typed: [&'a str; 2],
+    /// What else was typed that these commands need, e.g. `--also MORE`; empty for nothing.
+    pub more: String,
 }
 
 /// The page of a diagnosis and its plots.
@@ -81,14 +108,23 @@ pub fn diagnosis_sections(found: &Diagnosed, prefix: &str, files: &mut Files) ->
         ));
     }
     fails.push(Block::List(d.leftover.iter().map(|s| s.sentence.clone()).collect()));
-    let mut bars: Vec<Block> = ranking(d)?.map(|drawn| keep("ranking", "One effect added and refitted together with B, best first. Green ones cannot be told apart with these data.", drawn)).into_iter().collect();
+    let mut bars: Vec<Block> = Vec::new();
+    if let Some(drawn) = ranking(d)? {
+        bars.push(keep("ranking", RANKING, drawn));
+    }
     bars.push(ranking_table(d));
-    let fall = waterfall("Before and after", &rungs_of(d), d.base.noise_floor_mm)?;
-    let fall = vec![keep(
-        "before_after",
-        "Left-out data were not in the fit of the value drawn. A fall there is worth more than one on the data of the fit, and neither proves the name.",
-        fall,
-    )];
+    bars.extend(pairs_table(d));
+    let mut fall: Vec<Block> = Vec::new();
+    if let Some(drawn) = supply(d)? {
+        fall.push(keep("before_after_supply", SUPPLY, drawn));
+    }
+    let rungs = rungs_of(d);
+    if rungs.iter().any(|r| r.training_mm >= SMALLEST_BAR_MM) {
+        let drawn = waterfall("Before and after", &rungs, d.base.noise_floor_mm)?;
+        fall.push(keep("before_after", BEFORE_AFTER, drawn));
+    } else {
+        fall.push(Block::Paragraph("Positions are met to within noise, before and after.".into()));
+    }
     let mut sections = vec![
         section(prefix, "missing", "Is anything missing?", verdict_blocks(d)),
         section(prefix, "where", "Where it fails", fails),
@@ -100,7 +136,7 @@ pub fn diagnosis_sections(found: &Diagnosed, prefix: &str, files: &mut Files) ->
         sections.extend(differently(found, &scenario, prefix, files)?);
     }
     if let Some(witness) = found.witness {
-        let blocks = witness_blocks(witness, prefix, files)?;
+        let blocks = witness_blocks((witness, d), prefix, files)?;
         sections.push(section(prefix, "finite-elements", "The same robot in finite elements", blocks));
     }
     sections.push(section(prefix, "unseen", "What could not be seen", unseen_blocks(d)));
@@ -158,114 +194,16 @@ fn worst(map: &ResidualMap) -> String {
     };
     let at = &map.holds[hold];
     let noise = cell.y.in_noise.map_or(String::new(), |z| format!(", {:.0} times the noise", z.abs()));
+    let several = map.holds.iter().any(|h| h.p_body_kpa != at.p_body_kpa);
+    let body = if several { format!(", body {:.0} kPa", at.p_body_kpa) } else { String::new() };
     format!(
-        "Largest across the robot: {:+.1} mm (model minus measured{noise}) at marker {} of {}, {:.0} kPa {}.",
+        "Largest across the robot: {:+.1} mm (model minus measured{noise}) at marker {} of {}, {:.0} kPa {}{body}.",
         cell.y.mm,
         marker + 1,
         map.cells.len(),
         at.p_act_kpa,
         at.phase
     )
-}
-
-fn with_interval(p: &ParameterValue) -> String {
-    let short = crate::wording::short;
-    let digits = |v: f64| if v.abs() >= 100.0 { short(v) } else { three(v) };
-    let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
-    match (p.lo, p.hi) {
-        (Some(lo), Some(hi)) => format!("{} = {} ({} to {}){unit}", p.symbol, digits(p.value), digits(lo), digits(hi)),
-        _ => format!("{} = {}{unit}", p.symbol, digits(p.value)),
-    }
-}
-
-/// Three significant digits.
-fn three(v: f64) -> String {
-    match v.abs() {
-        0.0 => "0".into(),
-        s if s < 1e-3 => format!("{v:.1e}"),
-        s => format!("{v:.*}", (2 - s.log10().floor() as i32).max(0) as usize),
-    }
-}
-
-fn listed(values: &[ParameterValue]) -> String {
-    values.iter().map(with_interval).collect::<Vec<_>>().join(", ")
-}
-
-fn ranking_table(d: &Diagnosis) -> Block {
-    let row = |r: &Ranked| {
-        let mark = match (r.at_bound, r.in_set && d.verdict != Some(Verdict::None)) {
-            (true, _) => "on a bound: rejected",
-            (_, true) => "cannot be told apart",
-            _ => "",
-        };
-        vec![
-            r.effect.clone(),
-            r.group.word().into(),
-            listed(&r.parameters),
-            number(Some(r.systematic_after_mm), 2),
-            number(r.heldout_mm, 2),
-            number(r.heldout_run_mm, 2),
-            format!("{:.0}", r.gain),
-            r.p_corrected.map_or("–".into(), |p| p_value(p).trim_start_matches("p = ").replace("p < ", "< ")),
-            mark.into(),
-        ]
-    };
-    Block::Table(Table {
-        caption: format!(
-            "Every candidate, refitted with B (without any: {:.2} mm). Values are calibrated on these data",
-            d.base.systematic_mm
-        ),
-        columns: vec![
-            words("effect"),
-            words("group"),
-            words("value, 95 % interval"),
-            column("after", "mm"),
-            column("pressures left out", "mm"),
-            column("runs left out", "mm"),
-            column("gain", ""),
-            column("p corrected", ""),
-            words("note"),
-        ],
-        rows: d.ranked.iter().map(row).collect(),
-        how_column: None,
-    })
-}
-
-fn candidate_blocks(d: &Diagnosis) -> Vec<Block> {
-    if d.verdict == Some(Verdict::None) {
-        return vec![Block::Paragraph("None is needed.".into())];
-    }
-    let added = |r: &Ranked| d.added.iter().chain(&d.attempt).any(|a| a.effect == r.effect);
-    let mut blocks = Vec::new();
-    if !d.rule_out_first.is_empty() {
-        let text = format!("Rule out before physics is blamed: {}.", d.rule_out_first.join(", "));
-        blocks.push(Block::Callout { kind: Callout::Warning, text });
-    }
-    for r in d.ranked.iter().filter(|r| (r.in_set && !r.at_bound) || added(r)) {
-        blocks.push(Block::Paragraph(format!(
-            "**{}** ({}), {}; {:.2} → {:.2} mm. {}",
-            r.effect,
-            r.group.word(),
-            listed(&r.parameters),
-            r.systematic_before_mm,
-            r.systematic_after_mm,
-            r.sentence
-        )));
-        let mut lines = vec![format!("Seen in data: {}", r.differs), format!("Check: {}", r.remedy)];
-        lines.extend(r.notes.iter().map(|n| format!("Note: {n}")));
-        blocks.push(Block::List(lines));
-    }
-    for pair in d.pairs.iter().filter(|p| p.in_set).take(5) {
-        let cancel = if pair.cancels { "; the two cancel each other" } else { "" };
-        let text = format!(
-            "Pair **{}**: {}; {:.2} mm left{cancel}.",
-            pair.effects.join(" + "),
-            listed(&pair.parameters),
-            pair.systematic_after_mm
-        );
-        blocks.push(Block::Paragraph(text));
-    }
-    blocks
 }
 
 fn differently(
@@ -277,37 +215,41 @@ fn differently(
     let d = found.diagnosis;
     let Some(curves) = candidate_curves(d, scenario, found.dataset)? else { return Ok(None) };
     files.plot(&format!("{prefix}candidates"), &curves);
-    let caption = "First loading at the first body pressure, to 1.3 times the highest one measured. Solid: cannot be told apart; dashed: fits worse. Effects with history also differ on the way down.";
-    let mut blocks = vec![Block::Figure {
-        caption: caption.into(),
-        alt: "curves of the candidates over pressure".into(),
-        svg: curves.svg,
-    }];
-    let level = first_level(d, found.dataset);
-    let top = found.dataset.holds.iter().max_by(|a, b| a.p_act_pa.total_cmp(&b.p_act_pa));
-    if let Some(hold) = top.filter(|h| h.p_act_pa > 0.0) {
-        let mut cases = vec![("base".to_string(), d.calibrated(scenario, level))];
-        cases.extend(shown(d).iter().take(3).map(|r| (format!("+ {}", r.effect), r.on(scenario, level))));
-        let loads = Loads::uniform(hold.p_body_pa, hold.p_act_pa);
-        let ledger = figures::ledgers("Energy ledger at the highest pressure", &cases, &loads)?;
+    let drawn = shown(d);
+    let [solid, dashed] = match d.indistinguishable.is_empty() {
+        true => ["the attempt, which is not enough", "others"],
+        false => ["cannot be told apart", "fits worse"],
+    };
+    let caption = format!(
+        "First loading at the first body pressure, to 1.3 times the highest one measured. Solid: {solid}; dashed: {dashed}. {}Effects \
+         with history also differ on the way down.",
+        left_out(d, &drawn).map_or(String::new(), |words| words + " ")
+    );
+    let mut blocks =
+        vec![Block::Figure { caption, alt: "curves of the candidates over pressure".into(), svg: curves.svg }];
+    if let Some((title, loads)) = figures::at_highest(found.dataset) {
+        let level = d.level(1e-3 * loads.body_pa);
+        let ledger = figures::ledgers(&title, &ledger_cases(d, scenario, level), &loads)?;
         files.plot(&format!("{prefix}ledger"), &ledger);
-        let caption = "Where each candidate lets the actuator's work go.";
+        let caption = "Where each candidate lets the actuator's work go, in the order of the curves above.";
         blocks.push(Block::Figure { caption: caption.into(), alt: "stacked energies".into(), svg: ledger.svg });
     }
     Ok(Some(section(prefix, "differently", "What they would predict differently", blocks)))
 }
 
-fn witness_blocks(w: &Witness, prefix: &str, files: &mut Files) -> Result<Vec<Block>, CompareError> {
+fn witness_blocks((w, d): (&Witness, &Diagnosis), prefix: &str, files: &mut Files) -> Result<Vec<Block>, CompareError> {
     let rows = w.height_rows();
     let mut columns = vec![column(HEIGHTS[0], "")];
     columns.extend(HEIGHTS[1..].iter().map(|h| column(h, "mm")));
-    let caption = "Outermost marker on first loading".to_string();
+    let caption = "Outermost marker on first loading. Finite elements: the point of the wall where the marker sticks, on the side that a \
+                   camera sees; the middle of that section may be elsewhere".to_string();
     let mut blocks =
         vec![Block::List(w.sentences.clone()), Block::Table(Table { caption, columns, rows, how_column: None })];
     if w.fe_mj.is_some() {
-        let ledger = witness_ledger(w)?;
+        let ledger = witness_ledger(w, d)?;
         files.plot(&format!("{prefix}finite_elements"), &ledger);
-        let caption = "The work of the gas and where it went, at the bends of the finite elements. Models that bend alike may spend it differently.";
+        let caption = "The work of the gas and where it went, at the bends of the finite elements: the base, what cannot be told apart, then \
+                       the nearest others. Models that bend alike may spend it differently.";
         blocks.push(Block::Figure { caption: caption.into(), alt: "stacked energies".into(), svg: ledger.svg });
         let mut columns = vec![words("model")];
         columns.extend(TERMS.iter().map(|t| column(t, "mJ")));
@@ -359,10 +301,10 @@ fn next_blocks(found: &Diagnosed) -> Vec<Block> {
         let caption = format!("Expected separation λ of {} from its rivals, and what suffices", next.best);
         blocks.push(Block::Table(Table { caption, columns, rows, how_column: None }));
     }
-    let [scenario, data] = found.typed;
+    let ([scenario, data], more) = (found.typed, &found.more);
     let commands = match d.verdict {
         Some(Verdict::Effect) => format!(
-            "ibr add {scenario} best {data}     # writes a new scenario\nibr ladder {scenario} {data}       # until what is left is noise\nibr validate NEW OTHER_DATA    # the strongest evidence: data it was not fitted to"
+            "ibr add {scenario} best {data}{more}     # writes a new scenario\nibr ladder {scenario} {data}{more}       # until what is left is noise\nibr validate NEW OTHER_DATA    # the strongest evidence: data it was not fitted to"
         ),
         Some(Verdict::None) => "ibr diagnose SCENARIO OTHER_DATA   # another pressure, size or body pressure".into(),
         _ => format!("ibr data check {data}"),
@@ -387,6 +329,7 @@ fn provenance(found: &Diagnosed) -> Vec<Provenance> {
         line("data", found.typed[1]),
         line("runs", &found.diagnosis.runs.to_string()),
     ];
+    lines.extend(found.diagnosis.beside.iter().map(|b| line("fitted along", &b.dataset)));
     if let Some(about) = found.about {
         lines.push(line("data are", &format!("{}: {}", about.provenance.word(), about.title)));
         lines.push(line("source", &about.source));

@@ -5,6 +5,7 @@ use super::engines_page::{EngineRobot, Engines, PartingMap};
 use crate::error::CompareError;
 use crate::plots::{self, Drawn};
 use crate::study::engines::{PARTS, Pair, TERMS};
+use models::actuators::Family;
 
 /// Draws a map.
 ///
@@ -136,20 +137,61 @@ pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn, CompareError> {
     plots::lines(&data).map_err(|e| drawing("the pressure curve", e))
 }
 
-/// Ledgers at every pressure.
-pub(super) fn ledger(robot: &EngineRobot) -> Result<Drawn, CompareError> {
+/// Ledgers at every pressure, both engines.
+fn ledger_cases(robot: &EngineRobot) -> Vec<plots::LedgerCase> {
+    let ahead_cm3 = ahead_cm3(robot);
     let mut cases = Vec::new();
     for p in &robot.pairs {
-        for (engine, energies) in [("reduced", p.reduced_mj), ("finite elements", p.fe_mj)] {
+        let mut fe_mj = p.fe_mj;
+        fe_mj[0] += p.actuator_kpa * ahead_cm3;
+        for (engine, energies) in [("reduced", p.reduced_mj), ("finite elements", fe_mj)] {
             let label = format!("{:.0} kPa, {engine}", p.actuator_kpa);
             cases.push(plots::LedgerCase { label, energies_mj: energies.to_vec() });
         }
     }
+    cases
+}
+
+/// By how much the finite elements' muscle, which lies flat at first, has gained more than the reduced model's, which is round
+/// from the start, at the first pressure; pouches are flat in both.
+fn ahead_cm3(robot: &EngineRobot) -> f64 {
+    let is_muscle = robot.scenario.actuator.kind.family == Family::Mckibben;
+    let first = robot.pairs.iter().find(|p| is_muscle && p.actuator_kpa > 0.0);
+    // mJ over kPa are cm³.
+    first.map_or(0.0, |p| (p.reduced_mj[0] - p.fe_mj[0]) / p.actuator_kpa)
+}
+
+/// Their drawing.
+pub(super) fn ledger(robot: &EngineRobot) -> Result<Drawn, CompareError> {
+    let first = robot.pairs.first().map_or(0.0, |p| p.actuator_kpa);
     let data = plots::Ledger {
         title: format!("{}: where the energy is", robot.scenario.actuator.kind.name),
-        value_label: "potential energy [mJ]".into(),
+        value_label: match robot.scenario.actuator.kind.family {
+            Family::Pouch => "potential energy [mJ]".into(),
+            Family::Mckibben => format!("potential energy [mJ]; gas beyond what fills the muscle at {first:.0} kPa"),
+        },
         terms: TERMS.map(String::from).to_vec(),
-        cases,
+        cases: ledger_cases(robot),
     };
     plots::ledger(&data).map_err(|e| drawing("the ledger", e))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::engines_page::engines;
+    use super::*;
+    use crate::study::engines::stored;
+    use crate::study::published::shipped_scenario;
+
+    #[test]
+    fn the_gas_of_a_muscle_is_counted_from_the_same_zero_in_both_engines() {
+        let robots = ["fpam", "epam"].map(|kind| shipped_scenario(kind).unwrap());
+        let robots = engines(&robots, &stored()).unwrap().robots;
+        let gas = |robot: &EngineRobot| ledger_cases(robot).iter().map(|c| c.energies_mj[0]).collect::<Vec<_>>();
+        let [muscle, pouches] = [gas(&robots[0]), gas(&robots[1])];
+        assert!((muscle[0] - muscle[1]).abs() < 1e-9 && muscle[0] < 0.0, "{muscle:?}");
+        assert!(muscle[muscle.len() - 1] < muscle[muscle.len() - 2], "filled more beyond: {muscle:?}");
+        let last = robots[1].pairs.last().unwrap();
+        assert_eq!(pouches[pouches.len() - 2..], [last.reduced_mj[0], last.fe_mj[0]]);
+    }
 }

@@ -206,7 +206,14 @@ pub fn engine_sections(engines: &Engines, files: &mut Files) -> Result<Vec<Secti
     first.push(rows_of(LINES_CAPTION, &HEADS, &[0, 2, 3], Some(3), all.iter().map(cells).collect()));
     if let Some(bars) = bars(engines)? {
         files.plot("engines", &bars);
-        first.insert(0, figure("Outermost marker, 330 mm from the base.", "bars", &bars));
+        first.insert(
+            0,
+            figure(
+                "Outermost marker, 330 mm from the base; of the finite elements the middle of the section there.",
+                "bars",
+                &bars,
+            ),
+        );
     }
     first.push(Block::Callout { kind: Callout::Warning, text: NOTE.into() });
     let mut sections = vec![section("engines", "Both engines and the published numbers", first)];
@@ -215,7 +222,11 @@ pub fn engine_sections(engines: &Engines, files: &mut Files) -> Result<Vec<Secti
         let kind = robot.scenario.actuator.kind.name;
         let curve = curve(robot)?;
         files.plot(&format!("{kind}_engines"), &curve);
-        ledgers.push(figure("Outermost marker over actuator pressure.", "marker over pressure", &curve));
+        ledgers.push(figure(
+            "Outermost marker over actuator pressure; of the finite elements the middle of the section there.",
+            "marker over pressure",
+            &curve,
+        ));
         let drawn = ledger(robot)?;
         files.plot(&format!("{kind}_engines_ledger"), &drawn);
         ledgers.push(figure(LEDGER, "stacked energies", &drawn));
@@ -254,12 +265,14 @@ const NOTE: &str = "Not printed by the paper and assumed here: pouch count, mark
     stiffness of tape and glue, how far plies bend as one, biaxial coupling, densities. The measured displacement is that of a marker nobody gave \
     the place of; it is held against the outermost assumed marker. The taped sheet (sPAM: margin and tape) and ν₁₂ (fPAM) are calibrated on \
     these displacements; the usual values are what one would assume without them. One number per robot validates nothing.";
-const SUMMARY_CAPTION: &str = "Displacement of the outermost marker at the pressure of the measurement; finite elements: mean ± \
-    standard deviation over seeds of the imperfections; accuracy by the paper's formula beside the paper's own";
-const LINES_CAPTION: &str = "All pressures printed by the paper. Accuracy a = 1 − ((y_model − y_measured)/y_model)², the paper's formula for one marker";
+const SUMMARY_CAPTION: &str = "Displacement of the outermost marker at the pressure of the measurement; finite elements: middle of the \
+    section at the marker (a diagnosis takes the point of the wall that a camera sees), mean ± standard deviation over seeds of the \
+    imperfections; accuracy by the paper's formula beside the paper's own";
+const LINES_CAPTION: &str = "All pressures printed by the paper. Finite elements: middle of the section at the outermost marker. Accuracy a = 1 − ((y_model − y_measured)/y_model)², the paper's formula for one marker";
 const LEDGER: &str = "Reduced model and finite elements, each at its own bend. Gas is −P ΔV since the body was full; stretch and \
-    wall bending of the finite elements likewise. What the finite elements lost in buckling, damping and friction is not stored \
-    and not shown.";
+    wall bending of the finite elements likewise. A muscle lies flat then in the finite elements and is round from the start in the \
+    reduced model: the volume by which it is ahead at the first pressure is left out of its gas at every pressure, so that both begin \
+    alike there; what filling it pushed out of the body stays in the body's folds. What the finite elements lost in buckling, damping and friction is not stored and not shown.";
 const DISPLACED: &str = "What the body lost since it was full, less the πR³ × turn that the reduced model knows of, over what the \
     actuator gained. Symbols: the robot's own body pressure, mean and standard deviation of the seeds; dashed below it, solid \
     above, one seed each where no more were run. Read off the finite elements; it predicts nothing. The share of the ideal lens \

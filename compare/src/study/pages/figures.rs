@@ -14,6 +14,12 @@ const MM: f64 = 1e3;
 const LINE_POINTS: usize = 80;
 /// Residuals are drawn to this many times the noise; more is more of the same colour.
 const MAP_LIMIT: f64 = 10.0;
+/// Terms of a ledger that colours tell apart.
+const MOST_TERMS: usize = 8;
+/// Centre lines in one plot.
+const MOST_POSES: usize = 6;
+/// Body pressures are the same within this fraction.
+const SAME_BODY: f64 = 0.05;
 
 /// Hold mean over samples and runs of one marker \[m\], and its standard deviation over runs.
 pub(super) fn measured(dataset: &Dataset, hold: usize, marker: usize) -> ([f64; 2], [f64; 2]) {
@@ -35,15 +41,52 @@ pub(super) fn measured(dataset: &Dataset, hold: usize, marker: usize) -> ([f64; 
     (mean, spread)
 }
 
-/// Pressurised holds reached by loading, at most six, without repeats of a pressure.
-fn shown_holds(dataset: &Dataset) -> Vec<usize> {
-    let mut shown: Vec<usize> = Vec::new();
-    for (h, hold) in dataset.holds.iter().enumerate() {
-        let new = shown.iter().all(|s| dataset.holds[*s].p_act_pa != hold.p_act_pa);
-        if hold.phase != Phase::Unload && hold.p_act_pa > 0.0 && new && shown.len() < 6 {
-            shown.push(h);
+/// Body pressures of a protocol, in its order \[Pa\].
+fn bodies(dataset: &Dataset) -> Vec<f64> {
+    let mut bodies: Vec<f64> = Vec::new();
+    for hold in &dataset.holds {
+        if bodies.iter().all(|p| !same_body(*p, hold.p_body_pa)) {
+            bodies.push(hold.p_body_pa);
         }
     }
+    bodies
+}
+
+fn same_body(a_pa: f64, b_pa: f64) -> bool {
+    (a_pa - b_pa).abs() <= SAME_BODY * a_pa.abs().max(b_pa.abs())
+}
+
+/// Whether a plot has to say which body pressure it means.
+pub(super) fn several_bodies(dataset: &Dataset) -> bool {
+    bodies(dataset).len() > 1
+}
+
+/// `, body 2 kPa`.
+pub(super) fn body(p_body_pa: f64) -> String {
+    format!(", body {} kPa", crate::wording::short(p_body_pa * 1e-3))
+}
+
+/// Pressurised holds reached by loading, without repeats; of more than six the highest pressures of every body pressure.
+fn shown_holds(dataset: &Dataset) -> Vec<usize> {
+    let bodies = bodies(dataset);
+    let mut shown = Vec::new();
+    for p_body in &bodies {
+        let mut own: Vec<usize> = Vec::new();
+        for (h, hold) in dataset.holds.iter().enumerate().filter(|(_, hold)| same_body(hold.p_body_pa, *p_body)) {
+            let new = own.iter().all(|s| dataset.holds[*s].p_act_pa != hold.p_act_pa);
+            if hold.phase != Phase::Unload && hold.p_act_pa > 0.0 && new {
+                own.push(h);
+            }
+        }
+        let most = if bodies.len() == 1 { MOST_POSES } else { (MOST_POSES / bodies.len()).max(1) };
+        if bodies.len() > 1 {
+            own.sort_by(|a, b| dataset.holds[*b].p_act_pa.total_cmp(&dataset.holds[*a].p_act_pa));
+        }
+        own.truncate(most);
+        own.sort_unstable();
+        shown.extend(own);
+    }
+    shown.truncate(MOST_POSES);
     shown
 }
 
@@ -52,6 +95,7 @@ pub(super) fn shapes(title: &str, scenario: &Scenario, dataset: &Dataset) -> Res
     let model = Model::new(scenario);
     let mut state = model.prediction();
     let mut poses = Vec::new();
+    let several = several_bodies(dataset);
     for h in shown_holds(dataset) {
         let hold = &dataset.holds[h];
         model.predict(&Loads::uniform(hold.p_body_pa, hold.p_act_pa), &mut state)?;
@@ -60,7 +104,11 @@ pub(super) fn shapes(title: &str, scenario: &Scenario, dataset: &Dataset) -> Res
             plots::MeasuredPoint { at_mm: mean.map(|v| v * MM), half_width_mm: spread.map(|v| v * MM) }
         });
         poses.push(plots::ShapePose {
-            label: format!("{:.0} kPa", hold.p_act_pa / 1e3),
+            label: if several {
+                format!("{:.0} kPa, body {}", hold.p_act_pa / 1e3, crate::wording::short(hold.p_body_pa / 1e3))
+            } else {
+                format!("{:.0} kPa", hold.p_act_pa / 1e3)
+            },
             curve_mm: mm(&model.centre_line(&state, LINE_POINTS)),
             predicted_mm: mm(&state.markers),
             measured: measured.collect(),
@@ -85,14 +133,20 @@ pub(super) fn map(title: &str, map: &crate::residuals::ResidualMap, dataset: &Da
     let in_noise = map.cells.iter().flatten().all(|c| c.y.in_noise.is_some());
     let value =
         |cell: &crate::residuals::ResidualCell| if in_noise { cell.y.in_noise.unwrap_or(f64::NAN) } else { cell.y.mm };
+    let several = several_bodies(dataset);
+    let group = |h: &crate::residuals::HoldLabel| match several {
+        true => format!("body {} kPa", crate::wording::short(h.p_body_kpa)),
+        false => String::new(),
+    };
+    let hold = |h: &crate::residuals::HoldLabel| plots::MapHold {
+        p_act_kpa: h.p_act_kpa,
+        phase: h.phase.to_string(),
+        group: group(h),
+    };
     let data = plots::ResidualMap {
         title: title.into(),
         value_label: if in_noise { "model − measured, y [times the noise]" } else { "model − measured, y [mm]" }.into(),
-        holds: map
-            .holds
-            .iter()
-            .map(|h| plots::MapHold { p_act_kpa: h.p_act_kpa, phase: h.phase.to_string() })
-            .collect(),
+        holds: map.holds.iter().map(hold).collect(),
         stations_mm: dataset
             .markers
             .iter()
@@ -105,34 +159,35 @@ pub(super) fn map(title: &str, map: &crate::residuals::ResidualMap, dataset: &Da
     plots::residual_map(&data).map_err(|e| drawing("the residual map", e))
 }
 
-/// Height of the outermost marker against actuator pressure: every model, and the measurement with both branches.
+/// Height of the outermost marker against actuator pressure: every model, and the measurement with both branches, at every
+/// body pressure.
 pub(super) fn pressure_curve(title: &str, study: &Study) -> Result<Drawn, CompareError> {
     let dataset = &study.dataset;
-    let tip = dataset.markers.len() - 1;
-    let branch = |unload: bool| -> (Vec<[f64; 2]>, Vec<f64>) {
-        let holds = dataset.holds.iter().enumerate().filter(|(_, h)| (h.phase == Phase::Unload) == unload);
-        holds
-            .map(|(i, h)| {
-                let (mean, spread) = measured(dataset, i, tip);
-                ([h.p_act_pa / 1e3, mean[1] * MM], spread[1] * MM)
-            })
-            .unzip()
-    };
+    let bodies = bodies(dataset);
+    let several = bodies.len() > 1;
+    let named = |name: &str, p_body: f64| if several { format!("{name}{}", body(p_body)) } else { name.to_string() };
     let mut series = Vec::new();
-    for (name, unload) in [("measured, loading", false), ("measured, unloading", true)] {
-        let (points, half_width) = branch(unload);
-        if !points.is_empty() {
-            series.push(plots::LineSeries {
-                name: name.into(),
-                points,
-                half_width,
-                style: plots::LineStyle::Points,
-                colour: Some(usize::from(unload)),
-            });
+    for (k, p_body) in bodies.iter().enumerate() {
+        for (name, unload) in [("measured, loading", false), ("measured, unloading", true)] {
+            let (points, half_width) = branch(dataset, *p_body, unload);
+            if !points.is_empty() {
+                series.push(plots::LineSeries {
+                    name: named(name, *p_body),
+                    points,
+                    half_width,
+                    style: if k == 0 { plots::LineStyle::Points } else { plots::LineStyle::OpenPoints },
+                    colour: Some(usize::from(unload)),
+                });
+            }
         }
     }
-    for (i, variant) in study.variants.iter().enumerate() {
-        series.push(model_curve(&variant.label, &variant.scenario, dataset, i + 2)?);
+    for (i, variant) in shown_variants(study, bodies.len()) {
+        for (k, p_body) in bodies.iter().enumerate() {
+            let style = if k == 0 { plots::LineStyle::Line } else { plots::LineStyle::Dashed };
+            let points = model_curve(&variant.scenario, dataset, *p_body)?;
+            let name = named(&variant.label, *p_body);
+            series.push(plots::LineSeries { name, points, half_width: vec![], style, colour: Some(i + 2) });
+        }
     }
     let lines = plots::Lines {
         title: title.into(),
@@ -143,29 +198,40 @@ pub(super) fn pressure_curve(title: &str, study: &Study) -> Result<Drawn, Compar
     plots::lines(&lines).map_err(|e| drawing("the pressure curve", e))
 }
 
-fn model_curve(
-    name: &str,
-    scenario: &Scenario,
-    dataset: &Dataset,
-    colour: usize,
-) -> Result<plots::LineSeries, CompareError> {
+/// All models, or the first and the last where several body pressures multiply their curves.
+fn shown_variants(study: &Study, bodies: usize) -> Vec<(usize, &Variant)> {
+    let all: Vec<(usize, &Variant)> = study.variants.iter().enumerate().collect();
+    match &all[..] {
+        [first, .., last] if bodies > 1 => vec![*first, *last],
+        _ => all,
+    }
+}
+
+/// Hold means of the outermost marker at a body pressure, over actuator pressure \[kPa, mm\], and their scatter over runs \[mm\].
+fn branch(dataset: &Dataset, p_body_pa: f64, unload: bool) -> (Vec<[f64; 2]>, Vec<f64>) {
+    let tip = dataset.markers.len() - 1;
+    let holds = dataset.holds.iter().enumerate();
+    let own = holds.filter(|(_, h)| (h.phase == Phase::Unload) == unload && same_body(h.p_body_pa, p_body_pa));
+    let point = |(i, h): (usize, &data::Hold)| {
+        let (mean, spread) = measured(dataset, i, tip);
+        ([h.p_act_pa / 1e3, mean[1] * MM], spread[1] * MM)
+    };
+    own.map(point).unzip()
+}
+
+/// Height of the outermost marker up to the highest pressure of the data at a body pressure \[kPa, mm\].
+fn model_curve(scenario: &Scenario, dataset: &Dataset, p_body_pa: f64) -> Result<Vec<[f64; 2]>, CompareError> {
     let model = Model::new(scenario);
     let mut state = model.prediction();
-    let top = dataset.holds.iter().map(|h| h.p_act_pa).fold(0.0, f64::max);
-    let p_body = dataset.holds.first().map_or(scenario.p_body_pa, |h| h.p_body_pa);
+    let own = dataset.holds.iter().filter(|h| same_body(h.p_body_pa, p_body_pa));
+    let top = own.map(|h| h.p_act_pa).fold(0.0, f64::max);
     let mut points = Vec::new();
     for i in 0..=60 {
         let p = top * (f64::from(i) / 60.0).powi(2);
-        model.predict(&Loads::uniform(p_body, p), &mut state)?;
+        model.predict(&Loads::uniform(p_body_pa, p), &mut state)?;
         points.push([p / 1e3, state.markers.last().map_or(f64::NAN, |xy| xy[1] * MM)]);
     }
-    Ok(plots::LineSeries {
-        name: name.into(),
-        points,
-        half_width: vec![],
-        style: plots::LineStyle::Line,
-        colour: Some(colour),
-    })
+    Ok(points)
 }
 
 /// Predicted against published displacement, rung by rung.
@@ -209,6 +275,15 @@ pub(super) fn error_ladder(title: &str, variants: &[Variant]) -> Result<Drawn, C
     plots::ladder(&data).map_err(|e| drawing("the error ladder", e))
 }
 
+/// Highest actuator pressure of the data, and the title of a ledger there; `None` if the actuator is never filled.
+pub(super) fn at_highest(dataset: &Dataset) -> Option<(String, Loads)> {
+    let top = dataset.holds.iter().max_by(|a, b| a.p_act_pa.total_cmp(&b.p_act_pa)).filter(|h| h.p_act_pa > 0.0)?;
+    let body = if several_bodies(dataset) { body(top.p_body_pa) } else { String::new() };
+    let at = crate::wording::short(top.p_act_pa * 1e-3);
+    let title = format!("Energy ledger at the highest pressure, {at} kPa{body}");
+    Some((title, Loads::uniform(top.p_body_pa, top.p_act_pa)))
+}
+
 /// Where the actuator's work goes at the highest loading hold, per model.
 pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) -> Result<Drawn, CompareError> {
     let mut terms: Vec<String> = Vec::new();
@@ -225,8 +300,21 @@ pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) 
         }
         columns.push((label.clone(), lines));
     }
-    let energies = |lines: &[models::LedgerLine]| {
-        terms.iter().map(|t| lines.iter().find(|l| l.name == t).map_or(0.0, |l| l.energy_j * 1e3)).collect()
+    let energy = |lines: &[models::LedgerLine], t: &String| {
+        lines.iter().find(|l| l.name == *t).map_or(0.0, |l| l.energy_j * 1e3)
+    };
+    // More terms than colours: the smallest go together.
+    let mut joined = Vec::new();
+    if terms.len() > MOST_TERMS {
+        let largest = |t: &String| columns.iter().map(|(_, lines)| energy(lines, t).abs()).fold(0.0, f64::max);
+        let mut by_size = terms.clone();
+        by_size.sort_by(|a, b| largest(b).total_cmp(&largest(a)));
+        joined = by_size.split_off(MOST_TERMS - 1);
+        terms.retain(|t| !joined.contains(t));
+    }
+    let energies = |lines: &[models::LedgerLine]| -> Vec<f64> {
+        let rest = (!joined.is_empty()).then(|| joined.iter().map(|t| energy(lines, t)).sum());
+        terms.iter().map(|t| energy(lines, t)).chain(rest).collect()
     };
     let cases =
         columns.iter().map(|(label, lines)| plots::LedgerCase { label: label.clone(), energies_mj: energies(lines) });
@@ -234,7 +322,7 @@ pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) 
         title: title.into(),
         value_label: "potential energy at equilibrium [mJ]".into(),
         cases: cases.collect(),
-        terms: terms.clone(),
+        terms: terms.iter().cloned().chain((!joined.is_empty()).then(|| "others".into())).collect(),
     };
     plots::ledger(&data).map_err(|e| drawing("the ledger", e))
 }

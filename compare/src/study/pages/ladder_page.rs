@@ -21,6 +21,8 @@ pub struct LadderPage<'a> {
     pub told: Vec<String>,
     /// Scenario and data as typed.
     pub typed: [&'a str; 2],
+    /// Data that were fitted along, as typed.
+    pub also: &'a [String],
 }
 
 /// The page of a ladder with its waterfall.
@@ -36,6 +38,8 @@ pub fn ladder_page(page: &LadderPage, imprint: &Imprint) -> Result<Files, Compar
         Block::Figure { caption: caption.into(), alt: "bars of error per model".into(), svg: drawn.svg },
         errors_table(page.rungs),
     ];
+    let mut provenance = vec![line("scenario", page.typed[0]), line("data", page.typed[1])];
+    provenance.extend(page.also.iter().map(|data| line("fitted along", data)));
     let report = Report {
         title: page.title.clone(),
         lead: page.lead.clone(),
@@ -45,7 +49,7 @@ pub fn ladder_page(page: &LadderPage, imprint: &Imprint) -> Result<Files, Compar
             section("", "waterfall", "The fall of the error", blocks),
             section("", "steps", "Step by step", vec![Block::List(page.told.clone())]),
         ],
-        provenance: vec![line("scenario", page.typed[0]), line("data", page.typed[1])],
+        provenance,
     };
     files.report(&report)?;
     Ok(files)

@@ -4,6 +4,9 @@ mod compare_page;
 mod demo_page;
 mod diagnosis_figures;
 mod diagnosis_page;
+#[cfg(test)]
+mod diagnosis_tests;
+mod diagnosis_words;
 mod engine_figures;
 mod engine_lines;
 mod engines_page;
@@ -14,7 +17,7 @@ mod tables;
 pub use compare_page::{Candidate, Study, Variant, compare_page, study};
 pub use demo_page::{Demo, Story, demo, demo_page};
 pub use diagnosis_figures::ErrorRung;
-pub use diagnosis_page::{Diagnosed, diagnosis_page, diagnosis_sections};
+pub use diagnosis_page::{DIAGNOSIS_PICTURES, Diagnosed, diagnosis_page, diagnosis_sections};
 pub use engine_figures::parting_plot;
 pub use engine_lines::{EngineLine, HEADS, SUMMARY, VOLUMES, VOLUMES_CAPTION, cells, lines, summary, volume_cells};
 pub use engines_page::{EngineRobot, Engines, PartingMap, engine_sections, engines, engines_page, varied};

@@ -1,0 +1,131 @@
+//! Answers to what is missing, as they are drawn and told: one effect or two, each at the values of its own fit.
+
+use super::fitted::with_fitted;
+use super::result::{Combination, Diagnosis, ParameterValue, Ranked};
+use models::Scenario;
+
+/// What a diagnosis says of an answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Standing {
+    /// One of those that the verdict names and the data do not tell apart.
+    Stated,
+    /// The best that the catalogue can do, which is not enough.
+    Attempt,
+    /// Fits worse.
+    Other,
+    /// A value sits on a physical bound.
+    Rejected,
+}
+
+/// One effect or two, with the values and the bending stiffness that were fitted together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer<'d> {
+    /// What is known of the effects, and their values.
+    pub effects: Vec<(&'d Ranked, &'d [ParameterValue])>,
+    /// B that was fitted along, one per body pressure \[N·m²\].
+    pub bending_nm2: &'d [f64],
+    /// Fall of the whitened sum of squares against the calibrated base; NaN where it was not kept.
+    pub gain: f64,
+    /// Error beyond noise \[mm\].
+    pub after_mm: f64,
+    /// What is said of it.
+    pub standing: Standing,
+}
+
+impl<'d> Answer<'d> {
+    /// The effects, as the stated set writes them: `a` or `a + b`.
+    pub fn name(&self) -> String {
+        self.effects.iter().map(|(r, _)| r.effect.as_str()).collect::<Vec<_>>().join(" + ")
+    }
+
+    /// The scenario with it, and the B of a level that was fitted with it.
+    pub fn on(&self, scenario: &Scenario, level: usize) -> Scenario {
+        self.on_with(scenario, level, |_| true)
+    }
+
+    /// The same with some of its effects only.
+    pub fn on_with(&self, scenario: &Scenario, level: usize, wanted: impl Fn(&Ranked) -> bool) -> Scenario {
+        let kept = self.effects.iter().filter(|(r, _)| wanted(r));
+        let kept: Vec<(&str, &[ParameterValue])> = kept.map(|(r, values)| (r.effect.as_str(), *values)).collect();
+        with_fitted(scenario, &kept, self.bending_nm2.get(level).copied())
+    }
+
+    /// Whether it changes anything, with values that are possible.
+    pub fn helps(&self) -> bool {
+        self.standing != Standing::Rejected && (self.gain > 1.0 || self.standing == Standing::Attempt)
+    }
+
+    fn single(r: &'d Ranked, standing: Standing) -> Answer<'d> {
+        let effects = vec![(r, r.parameters.as_slice())];
+        Answer { effects, bending_nm2: &r.bending_nm2, gain: r.gain, after_mm: r.systematic_after_mm, standing }
+    }
+}
+
+impl Diagnosis {
+    /// Every effect and every reported pair: what is stated first and in that order, or the attempt and what comes as close; then
+    /// others by their gain; those on a bound last.
+    pub fn answers(&self) -> Vec<Answer<'_>> {
+        let attempt = self.attempt.iter().map(|a| a.effect.as_str()).collect::<Vec<_>>().join(" + ");
+        let standing = |name: &str, at_bound: bool| match () {
+            () if self.indistinguishable.iter().any(|stated| stated == name) => Standing::Stated,
+            () if name == attempt => Standing::Attempt,
+            () if at_bound => Standing::Rejected,
+            () => Standing::Other,
+        };
+        let mut answers: Vec<Answer> =
+            self.ranked.iter().map(|r| Answer::single(r, standing(&r.effect, r.at_bound))).collect();
+        for pair in &self.pairs {
+            let (effects, gain) = (self.members(pair), pair.gain);
+            let standing = standing(&pair.effects.join(" + "), false);
+            let (bending_nm2, after_mm) = (pair.bending_nm2.as_slice(), pair.systematic_after_mm);
+            answers.push(Answer { effects, bending_nm2, gain, after_mm, standing });
+        }
+        if !attempt.is_empty() && answers.iter().all(|a| a.standing != Standing::Attempt) {
+            answers.push(self.unreported_attempt());
+        }
+        let stated = self.indistinguishable.len();
+        let as_close = |a: &Answer| self.attempt_alike.iter().position(|other| other.effects.join(" + ") == a.name());
+        let place = |a: &Answer| match a.standing {
+            Standing::Stated => self.indistinguishable.iter().position(|entry| *entry == a.name()).unwrap_or(0),
+            Standing::Attempt => stated,
+            Standing::Other => stated + 1 + as_close(a).unwrap_or(self.attempt_alike.len()),
+            Standing::Rejected => usize::MAX,
+        };
+        answers.sort_by(|a, b| place(a).cmp(&place(b)).then(b.gain.total_cmp(&a.gain)));
+        answers
+    }
+
+    /// Whether an effect is stated or attempted, alone or as a part of a pair.
+    pub fn speaks_of(&self, effect: &str) -> bool {
+        let stated = self.indistinguishable.iter().flat_map(|entry| entry.split(" + "));
+        let added = self.added.iter().chain(&self.attempt).map(|a| a.effect.as_str());
+        stated.chain(added).any(|name| name == effect)
+    }
+
+    /// The effects of a pair with their share of its values; refitted effects of the scenario come before them.
+    fn members<'d>(&'d self, pair: &'d Combination) -> Vec<(&'d Ranked, &'d [ParameterValue])> {
+        let ranked = |name: &String| self.ranked.iter().find(|r| r.effect == *name);
+        let effects: Vec<&Ranked> = pair.effects.iter().filter_map(ranked).collect();
+        let own: usize = effects.iter().map(|r| r.parameters.len()).sum();
+        let mut values = pair.parameters.get(pair.parameters.len().saturating_sub(own)..).unwrap_or(&[]);
+        let mut member = |r: &'d Ranked| {
+            let (first, rest) = values.split_at(r.parameters.len().min(values.len()));
+            values = rest;
+            (r, first)
+        };
+        effects.into_iter().map(&mut member).collect()
+    }
+
+    /// The closest in mm may be too far down the list of pairs to be in it.
+    fn unreported_attempt(&self) -> Answer<'_> {
+        let member = |a: &'_ super::result::Added| self.ranked.iter().position(|r| r.effect == a.effect);
+        let members = self.attempt.iter().filter_map(|a| Some((&self.ranked[member(a)?], a.parameters.as_slice())));
+        Answer {
+            effects: members.collect(),
+            bending_nm2: &self.base.bending_with_added_nm2,
+            gain: f64::NAN,
+            after_mm: self.base.systematic_with_added_mm,
+            standing: Standing::Attempt,
+        }
+    }
+}
