@@ -300,3 +300,16 @@ fn sentence(best: &str, recommended: Option<&Experiment>) -> String {
     };
     format!("Next: {}{protocol}. {parts}{results}", e.sentence)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sixteen_is_enough_where_laws_are_their_formulas_and_more_where_a_share_is_granted() {
+        assert!((enough(0.0) - 16.0).abs() < 1.0, "{}", enough(0.0));
+        // Of a large gain the granted share decides, six units of noise times A.
+        let gain = 1e6;
+        assert!((enough(gain) / (SAME * allowance(gain)) - 1.0).abs() < 0.02);
+    }
+}

@@ -267,3 +267,32 @@ fn a_formula_that_is_not_finite_at_a_pressure_of_the_data_is_left_out_and_it_is_
     let told = d.warnings.iter().find(|w| w.starts_with("own was left out: ")).unwrap();
     assert!(told.contains("P = 20.000 kPa") && told.contains("the formula own gives no finite moment"), "{told}");
 }
+
+/// A law that misses hides in the scatter between runs as soon as that scatter is taken along its own slope.
+#[test]
+fn the_fitted_base_hangs_neither_on_the_scenarios_stiffness_nor_on_the_scatter_of_the_pressure() {
+    let lossy = robot("epam").with_bending(0.1).with_effect("end_constraint", &[0.4, 1.0]);
+    let data = measured(&lossy, 5, 61);
+    let fitted = |start: f64| run(&robot("epam").with_bending(start), &data);
+    let first = fitted(0.0);
+    let value = first.base.bending[0].value_nm2;
+    for start in [value, 5.0] {
+        let again = fitted(start);
+        assert!((again.base.bending[0].value_nm2 / value - 1.0).abs() < 1e-3, "{start}");
+        assert_eq!(again.indistinguishable, first.indistinguishable);
+    }
+    let options = crate::evaluate::EvaluateOptions::default();
+    let calibrated = crate::study::calibrate_bending(&robot("epam").with_bending(3.0), &data, &options).unwrap();
+    assert!((calibrated.bending_nm2 / value - 1.0).abs() < 0.02, "{} and {value}", calibrated.bending_nm2);
+    // Two per cent were put in.
+    let scatter = first.noise.pressure_pct.unwrap();
+    assert!((0.7..4.0).contains(&scatter), "{scatter} %");
+    let kept = |bending: f64| {
+        let options = Options { keep_bending: true, ..quick() };
+        diagnose(&robot("epam").with_bending(bending), &data, None, &options).unwrap().base.systematic_mm
+    };
+    for factor in [0.7, 0.85, 1.2, 1.5] {
+        let other = kept(factor * value);
+        assert!(first.base.systematic_mm < 1.1 * other, "{factor}: {} and {other}", first.base.systematic_mm);
+    }
+}
