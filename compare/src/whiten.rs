@@ -10,7 +10,7 @@ const EIGEN_ROUNDS: usize = 500;
 
 /// Mean square of whitened residuals from which a fit allows for its own misfit: s² then grows by that factor, so that scatter
 /// between runs, which is no misfit, stays as small as it is beside it. With few runs a law that misses would otherwise hide in it.
-pub const MISFIT: f64 = 2.0;
+pub const MISFIT: f64 = 10.0;
 /// Rounds in which fit and misfit settle.
 pub const MISFIT_ROUNDS: usize = 3;
 
