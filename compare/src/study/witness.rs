@@ -12,7 +12,7 @@
 //! is least for the candidate that spends it as they do. **Validity**: the runs are models too, with assumed numbers; a ledger
 //! compares energies and not their slopes. It speaks for or against a candidate, it proves nothing.
 
-use crate::diagnosis::{Answer, Diagnosis, ParameterValue, Ranked, Standing, with_fitted};
+use crate::diagnosis::{Answer, Diagnosis, ParameterValue, Ranked, Standing, Verdict, with_fitted};
 use crate::error::CompareError;
 use crate::study::engines::{Ensemble, FeRun, TERMS, between, ensembles};
 use crate::study::predict::{fit_scenario, predict_dataset};
@@ -251,7 +251,7 @@ fn sentences(w: &Witness, d: &Diagnosis) -> Vec<String> {
     )];
     out.push(meeting(w));
     if let (Some(fe), [base, others @ ..]) = (w.fe_mj, &w.models[..]) {
-        out.extend(stiffness(base, &fe));
+        out.extend(stiffness(base, &fe).filter(|_| d.verdict != Some(Verdict::None)));
         out.push(nearest(base, others, &fe, d));
     } else {
         out.push(
@@ -291,7 +291,7 @@ fn meeting(w: &Witness) -> String {
 fn stiffness(base: &Beside, fe: &[f64; 6]) -> Option<String> {
     let (own, theirs) = (base.energies_mj[BENDING], fe[BENDING]);
     (own > 2.0 * theirs.max(0.0) && own > 0.1 * fe[GAS].abs()).then(|| {
-        format!("On the way there the calibrated B stores {own:.0} mJ in the wall, theirs {theirs:.0} mJ: this B stands for something that is not bending.")
+        format!("On the way there the calibrated B stores {own:.0} mJ in the wall, theirs {theirs:.0} mJ: in a robot like theirs this B stands for something that is not bending.")
     })
 }
 
