@@ -23,6 +23,8 @@ pub struct Calibration {
 
 /// Largest B searched \[N·m²\]: 100 times what a 0.2 mm coated fabric would need at these sizes.
 const MAX_BENDING: f64 = 200.0;
+/// B that no robot shows \[N·m²\]: as good as none.
+const SMALLEST_BENDING: f64 = 1e-9;
 /// Width of a 95 % interval in standard errors.
 const Z95: f64 = 1.96;
 
@@ -67,9 +69,9 @@ pub fn calibrate_bending(
     let (best, noise) = fit(scenario, dataset, estimate(&fitted.d_ln_pressure_m)?)?;
     let misfit = Misfit { scenario, dataset, noise: &noise, mean_m: dataset.mean_over_runs() };
     let bending_nm2 = best * best;
-    let floor = misfit.at(0.0)?;
-    let at_bound = floor <= misfit.at(bending_nm2)? || best > 0.999 * MAX_BENDING.sqrt();
-    let bending_nm2 = if floor <= misfit.at(bending_nm2)? { 0.0 } else { bending_nm2 };
+    let is_zero = bending_nm2 < SMALLEST_BENDING || misfit.at(0.0)? <= misfit.at(bending_nm2)?;
+    let at_bound = is_zero || best > 0.999 * MAX_BENDING.sqrt();
+    let bending_nm2 = if is_zero { 0.0 } else { bending_nm2 };
     let interval_nm2 = if noise.is_known() { interval(&misfit, bending_nm2)? } else { None };
     Ok(Calibration { bending_nm2, interval_nm2, at_bound })
 }
