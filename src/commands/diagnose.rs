@@ -233,8 +233,11 @@ fn finite_elements(w: &Witness) -> String {
 
 fn unseen(d: &Diagnosis) -> String {
     let rows = d.undetectable.iter().map(|u| {
-        let size =
-            u.smallest_detectable.map_or("not within its bounds".into(), |s| inputs::with_unit(&short(s), &u.unit));
+        let size = u
+            .smallest_detectable
+            .map_or(if d.noise.camera_mm.is_some() { "not within its bounds" } else { "not known" }.into(), |s| {
+                inputs::with_unit(&short(s), &u.unit)
+            });
         vec![u.effect.clone(), size, number(u.times_typical, 2)]
     });
     let mut out = "\nEffects not found; smallest size that would have been seen (90 %):\n".to_string();

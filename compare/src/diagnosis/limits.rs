@@ -1,9 +1,10 @@
 //! What data cannot show, whatever the model.
 
 use super::basis::Basis;
-use super::blocks::body_pressures;
+use super::blocks::{body_pressures, whole_block};
 use super::case::Case;
 use super::least_squares::square;
+use super::problem::Problem;
 use super::result::Undetectable;
 use crate::comparison::ZERO_PRESSURE_PA;
 use crate::wording::list;
@@ -43,20 +44,25 @@ pub fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Vec<Strin
     }
     let unseen: Vec<String> =
         undetectable.iter().filter(|u| u.smallest_detectable.is_none()).map(|u| u.effect.clone()).collect();
-    if !unseen.is_empty() {
+    if datasets.iter().all(|dataset| dataset.runs.len() < 2) && unseen.len() == undetectable.len() {
+        limits.push("what could have been seen is not known: one run shows no noise; add runs, or give --sigma".into());
+    } else if !unseen.is_empty() {
         limits.push(format!("no size within its bounds would be seen: {}", list(&unseen)));
     }
     limits
 }
 
-/// Says so if the markers ask for another bending stiffness than the bending test found. The base's B is the mean of both by their
-/// weights, 1/sd² and what the derivatives have beyond it.
+/// Says so if the markers, fitted without it, ask for another bending stiffness than the bending test found.
 fn bending_test(case: &Case) -> Option<String> {
     let [found, sd] = case.problem.known_bending.filter(|_| case.problem.bendings > 0)?;
-    let (own, others) = case.base.minimum.jacobian.split_first()?;
-    let weight = square(&Basis::of(others).rest(own)) - 1.0 / (sd * sd);
-    let both = case.base.theta()[0];
-    let markers = both + (both - found) / (sd * sd * weight);
+    let sources = case.sources();
+    let blocks = sources.map(|(s, noise)| whole_block(&s, s.dataset.mean_over_runs(), noise, &case.body_pa));
+    let blocks = blocks.collect::<Result<Vec<_>, _>>().ok()?;
+    let Problem { candidates, bendings, ref known, enough, .. } = case.problem;
+    let alone = Problem { candidates, blocks, bendings, known_bending: None, known: known.clone(), enough };
+    let fit = alone.fit(&case.always, &[case.base.theta().to_vec()])?;
+    let (own, others) = fit.minimum.jacobian.split_first()?;
+    let (markers, weight) = (fit.theta()[0], square(&Basis::of(others).rest(own)));
     let disagree = weight > 0.0 && (markers - found).abs() > DISAGREE * (1.0 / weight + sd * sd).sqrt();
     disagree.then(|| {
         format!(

@@ -17,8 +17,8 @@ pub struct Experiment {
     pub tests: Vec<String>,
     /// Expected separation λ of the best explanation from each rival, same number of runs.
     pub separations: Vec<Separation>,
-    /// λ that tells two explanations apart in about nine of ten cases: 16, and more the more of a law's form shows
-    /// ([`super::order`]).
+    /// λ that tells two explanations apart in about nine of ten cases: 16, and more the more a law's form is granted, a
+    /// twentieth of the best gain.
     pub needed: f64,
     /// Rivals with as much.
     pub separated: usize,
