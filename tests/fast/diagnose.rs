@@ -131,7 +131,9 @@ fn a_result_is_printed_although_its_report_cannot_be_written() {
 
 #[test]
 fn an_answer_that_hangs_on_b_is_passed_on_by_the_ladder() {
-    let answer = Folder::new().run(&["ladder", "epam", "fem-epam", "--json"]).json("ibr.ladder");
+    let folder = Folder::new();
+    folder.run(&["data", "fem", "epam", "--stored", "--body-pressure", "4kPa", "--seed", "22", "--out", "four"]);
+    let answer = folder.run(&["ladder", "epam", "fem-epam", "--also", "four", "--json"]).json("ibr.ladder");
     assert_eq!(answer["stopped"], "out_of_catalog");
     assert!(
         answer["ending"].as_str().unwrap().contains("With B kept at the scenario's 0.00 N·m²"),
