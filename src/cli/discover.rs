@@ -27,7 +27,7 @@ pub struct Diagnose {
     /// Camera noise of one coordinate, for data of a single run, for example 1mm
     #[arg(long, allow_hyphen_values = true)]
     pub sigma: Option<String>,
-    /// Differences up to this are good enough; default: the larger of 0.15 mm and 0.5 % of the largest deflection
+    /// What an answer may leave, and a misfit that is too small to matter; default: the larger of 0.15 mm and 0.5 % of the largest deflection
     #[arg(long, allow_hyphen_values = true)]
     pub tolerance: Option<String>,
     /// Folder of finite element runs of the robot, as `compare --engines` makes them; default: those that come with the

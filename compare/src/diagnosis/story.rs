@@ -126,6 +126,12 @@ fn effect(d: &Diagnosis) -> Vec<String> {
             list(&d.indistinguishable)
         ));
     }
+    if d.base.systematic_mm <= d.tolerance_mm && supply.is_none() {
+        told.push(format!(
+            "All of it is within the tolerance of {:.2} mm: more than noise, and too small to matter.",
+            d.tolerance_mm
+        ));
+    }
     if let Some(left) = d.lack_of_fit_after.filter(|left| left.p_value < d.alpha) {
         told.push(format!(
             "What is left, {:.2} mm, is small but more than noise ({}): the real law is not quite the catalogue's, or a second, \

@@ -9,7 +9,7 @@ use crate::study::engines::TERMS;
 use crate::study::predict::predict_dataset;
 use crate::study::witness::{Beside, Witness};
 use data::{Dataset, Phase};
-use models::{Loads, Model, Scenario};
+use models::{Loads, Model, Scenario, Step};
 
 const MM: f64 = 1e3;
 /// Points of a curve over pressure.
@@ -168,7 +168,7 @@ pub(super) fn left_out(d: &Diagnosis, drawn: &[Answer]) -> Option<String> {
 }
 
 /// What the answers predict over pressure, as the difference from the calibrated base: height of the outermost marker on first
-/// loading at the first body pressure.
+/// loading at the first body pressure, after the time that the samples have waited in their holds.
 pub(super) fn candidate_curves(
     d: &Diagnosis,
     scenario: &Scenario,
@@ -181,12 +181,17 @@ pub(super) fn candidate_curves(
     if candidates.is_empty() || top_pa <= 0.0 {
         return Ok(None);
     }
+    let wait_s = waited_s(dataset);
     let heights = |scenario: &Scenario| -> Vec<f64> {
         let model = Model::new(scenario);
         let mut state = model.prediction();
         let mut height = |i: u32| {
             let p = top_pa * (f64::from(i) / f64::from(POINTS)).powi(2);
-            let found = model.predict(&Loads::uniform(first.p_body_pa, p), &mut state);
+            let loads = Loads::uniform(first.p_body_pa, p);
+            let found = match model.has_history() {
+                true => model.follow(&[0.0, wait_s].map(|t_s| Step { t_s, loads }), &mut state, &mut |_, _| {}),
+                false => model.predict(&loads, &mut state),
+            };
             found.ok().and_then(|()| state.markers.last().map(|m| m[1] * MM)).unwrap_or(f64::NAN)
         };
         (0..=POINTS).map(&mut height).collect()
@@ -215,6 +220,19 @@ pub(super) fn candidate_curves(
         series,
     };
     plots::lines(&data).map(Some).map_err(|e| drawing("the candidates' curves", e))
+}
+
+/// Mean time of the samples in their holds under pressure \[s\].
+pub(super) fn waited_s(dataset: &Dataset) -> f64 {
+    let ends = std::iter::once(0.0).chain(dataset.holds.iter().filter_map(|hold| hold.t_s.last().copied()));
+    let under = dataset.holds.iter().zip(ends).filter(|(hold, _)| hold.p_act_pa > 0.0);
+    // A hold before the end of the last one begins a session.
+    let waits = under.flat_map(|(hold, end)| {
+        let begin = if hold.t_s.first().is_some_and(|t| *t >= end) { end } else { 0.0 };
+        hold.t_s.iter().map(move |t| t - begin)
+    });
+    let (sum, count) = waits.fold((0.0, 0.0), |(sum, count), wait| (sum + wait, count + 1.0));
+    if count > 0.0 { sum / count } else { 0.0 }
 }
 
 /// What is said behind the name of an attempt.

@@ -1,6 +1,6 @@
 //! What the pictures and words of a diagnosis put first.
 
-use super::diagnosis_figures::{ranking_rows, rungs_of, shown, supply, witness_cases};
+use super::diagnosis_figures::{ranking_rows, rungs_of, shown, supply, waited_s, witness_cases};
 use super::diagnosis_words::candidate_blocks;
 use super::{Candidate, figures, study};
 use crate::diagnosis::{Diagnosis, GaugeFit, Group, Options, Standing, Verdict, diagnose};
@@ -125,4 +125,20 @@ fn a_gauge_has_bars_in_kilopascal() {
     d.added[0].group = Group::Supply;
     let drawn = supply(&d).unwrap().unwrap();
     assert!(drawn.svg.contains("rms [kPa]") && drawn.svg.contains("gauge in read"), "{}", drawn.svg);
+}
+
+/// A leak acts in the hold: its curve is that of the samples, not that of the moment in which the pressure is set.
+#[test]
+fn samples_have_waited_in_their_own_holds() {
+    let scenario = shipped_scenario("spam").unwrap();
+    let generator = Generator { runs: 1, ..Generator::default() };
+    let mut dataset = generate(&scenario, "made", &generator).unwrap();
+    for (h, hold) in dataset.holds.iter_mut().enumerate() {
+        hold.t_s = vec![10.0 * h as f64 + 2.0, 10.0 * (h + 1) as f64];
+    }
+    dataset.samples_per_hold = 2;
+    assert!((waited_s(&dataset) - 6.0).abs() < 1e-12, "{}", waited_s(&dataset));
+    // The next session begins at time 0 again.
+    dataset.holds.iter_mut().for_each(|hold| hold.t_s = vec![2.0, 10.0]);
+    assert!((waited_s(&dataset) - 6.0).abs() < 1e-12, "{}", waited_s(&dataset));
 }
