@@ -13,8 +13,8 @@
 //! | P | actuator pressure | Pa |
 //! | p₀ | body pressure, no less than a hundredth of the highest P | Pa |
 //!
-//! Validity: two pressures on a branch at least; with steps of 10 kPa good to about a third. A model that fits knows better, one
-//! that does not fit knows less.
+//! Validity: two pressures on a branch at least, and crude with three. A model that fits knows better, one that does not fit knows
+//! less.
 
 use crate::layout::Layout;
 use data::Dataset;

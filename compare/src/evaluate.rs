@@ -69,8 +69,8 @@ pub struct Evaluation {
 /// Hold a prediction against a dataset.
 ///
 /// `prediction_m` is f \[m\] and `dprediction_dlnp` its derivative with respect to the logarithm of the actuator
-/// pressure \[m\], both laid out like [`Dataset::run`]. If the derivative is not available pass zeros: run-to-run
-/// pressure scatter then counts as camera noise.
+/// pressure \[m\], both laid out like [`Dataset::run`]. If the derivative is not available pass zeros: the data's own is
+/// left then, and run-to-run pressure scatter counts as camera noise where they do not show it.
 ///
 /// # Errors
 /// Empty data, arrays of the wrong length or not finite, impossible options.

@@ -12,6 +12,9 @@
 //! | v | run-to-run variances of pressure (relative), alignment x, y and rotation | 1, m², m², rad² |
 //! | R, S, n | runs, sessions, values per run | |
 //!
+//! with ∂f/∂ln p of the model or of the data's own pressures (`data_slope`), whichever leaves the smaller σ: the model's is
+//! wrong where the model is, and a wrong one makes scatter of one kind look like another,
+//!
 //! so that the mean has the covariance Σ_mean = σ²/R · I + U diag(v/R) Uᵀ. With the four coefficients fitted to the
 //! deviations from the session mean, σ² is the remaining scatter with (R − S)(n − 4) degrees of freedom and
 //! v̂_j = mean over sessions of Σ_r c_rj²/(R_s − 1) − σ² (UᵀU)⁻¹_jj, never below zero, x and y pooled. In tests v̂ is
@@ -100,8 +103,8 @@ pub struct NoiseModel {
 impl NoiseModel {
     /// Estimate the noise of a dataset.
     ///
-    /// `dprediction_dlnp` is ∂f/∂ln p \[m\] in run layout (zeros if not available: pressure scatter then counts as
-    /// camera noise). `sessions` holds one label per run, or nothing. `sigma_m` is used only for a single run.
+    /// `dprediction_dlnp` is the model's ∂f/∂ln p \[m\] in run layout (zeros if not available: the data's own is left then, where
+    /// several pressures show it). `sessions` holds one label per run, or nothing. `sigma_m` is used only for a single run.
     ///
     /// # Errors
     /// Empty or non-finite data, wrong lengths, sessions without repeats, a σ that is not positive.
