@@ -119,6 +119,34 @@ fn end(near: f64, far: f64, own: f64, next: f64) -> f64 {
 mod tests {
     use super::*;
 
+    /// y = a ln(P + p₀) is a line in u, on every branch: its slope is a P/(P + p₀), exactly.
+    #[test]
+    fn a_logarithm_has_its_exact_slope_up_and_down_and_at_every_body_pressure() {
+        let scenario = crate::study::published::shipped_scenario("epam").unwrap();
+        let protocol =
+            [(2e3, 0.0), (2e3, 10e3), (2e3, 30e3), (2e3, 30e3), (2e3, 20e3), (2e3, 0.0), (4e3, 20e3), (4e3, 60e3)];
+        let generator = crate::study::Generator {
+            runs: 1,
+            protocol: protocol.iter().map(|(body, actuator)| [*body, *actuator]).collect(),
+            ..Default::default()
+        };
+        let mut dataset = crate::study::generate(&scenario, "made", &generator).unwrap();
+        let width = dataset.values_per_run() / protocol.len();
+        // Another height on every branch: no secant may cross from one to another.
+        for (h, (body, actuator)) in protocol.iter().enumerate() {
+            let height = if h < 6 { 0.0 } else { 1.0 };
+            dataset.xy_m[h * width..(h + 1) * width].fill(height + 0.1 * (actuator + body).ln());
+        }
+        let slope = data_slope(&dataset).unwrap();
+        for (h, (body, actuator)) in protocol.iter().enumerate() {
+            let exact = 0.1 * actuator / (actuator + body);
+            assert!(slope[h * width..(h + 1) * width].iter().all(|d| (d - exact).abs() < 1e-9), "hold {h}");
+        }
+        dataset.holds.truncate(1);
+        dataset.xy_m.truncate(width);
+        assert!(data_slope(&dataset).is_none());
+    }
+
     #[test]
     fn a_line_has_its_slope_and_a_parabola_nearly() {
         let at = [0.5, 1.0, 2.0, 2.5];
