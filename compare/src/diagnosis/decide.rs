@@ -114,7 +114,8 @@ fn explain(case: &Case, options: &Options, decision: &mut Decision, significant:
     let share = LEFT_OVER[usize::from(!decision.pairs.is_empty())];
     if is_unexplained(case, &last, decision.after, share) {
         let closest = closest(case, decision, last);
-        if case.error_in_all_mm(&closest) >= case.error_in_all_mm(&case.base) {
+        // What hardly moves the model is no attempt.
+        if case.error_in_all_mm(&closest) >= CLOSER * case.error_in_all_mm(&case.base) {
             decision.after = decision.before;
             return Ok(());
         }

@@ -156,3 +156,19 @@ fn an_attempt_comes_closer_in_mm_even_where_quiet_holds_ask_for_something_else()
         }
     }
 }
+
+#[test]
+fn what_hardly_moves_the_model_is_no_attempt() {
+    let plain = robot("spam", 6.0);
+    let mut data = generate(&plain, "made", &Generator { seed: 71, ..Generator::default() }).unwrap();
+    // Labels of markers 3 and 4 exchanged: no law of the catalogue does that.
+    for at in (0..data.xy_m.len()).step_by(12) {
+        (4..6).for_each(|k| data.xy_m.swap(at + k, at + k + 2));
+    }
+    let options = Options { next_experiment: false, ..Options::default() };
+    let d = diagnose(&plain, &data, None, &options).unwrap();
+    assert_eq!(d.verdict, Some(Verdict::OutOfCatalog));
+    assert!(d.attempt.is_empty() && d.attempt_alike.is_empty(), "{:?}", d.attempt_alike);
+    assert!(d.summary.iter().any(|s| s.contains("no effect of it takes a fifth")), "{:?}", d.summary);
+    assert_eq!(d.base.systematic_with_added_mm, d.base.systematic_mm);
+}

@@ -174,7 +174,9 @@ fn outside(d: &Diagnosis) -> Vec<String> {
              number."
         )
     } else if d.attempt.is_empty() {
-        format!("Nothing in the catalogue explains this ({p}), and no effect of it comes closer than {before:.2} mm.")
+        format!(
+            "Nothing in the catalogue explains this ({p}): {before:.2} mm remain, and no effect of it takes a fifth off them."
+        )
     } else if after <= MOSTLY * before {
         format!(
             "Adding {tried} takes away most of it, {before:.2} to {after:.2} mm, but nothing in the catalogue explains the rest \
