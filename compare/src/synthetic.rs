@@ -80,6 +80,7 @@ impl Robot {
             samples_per_hold: self.samples,
             xy_m,
             gauge_pa: None,
+            lost: data::Lost::default(),
         }
     }
 

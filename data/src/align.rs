@@ -2,6 +2,7 @@
 
 use crate::dataset::{Dataset, Hold, Marker};
 use crate::error::{DataError, Fault};
+use crate::lost::{Lost, fill};
 use crate::streams::{Recorder, Sample, Segment, Stream, tolerance_act_pa, tolerance_body_pa};
 use crate::units::kpa;
 
@@ -10,10 +11,13 @@ const MOST_SAMPLES_PER_HOLD: usize = 5;
 /// Times that begin later than this are a clock and not a time since the start of a run \[s\].
 const LATEST_START_S: f64 = 3600.0;
 
+/// A marker seen in less than this share of a hold's usual number of frames was lost there.
+const SEEN_ENOUGH: f64 = 0.5;
+
 /// Builds the dataset; `stations_m` in order of `recorder.markers`.
 ///
 /// # Errors
-/// A marker or a hold that one run has and another has not.
+/// A marker or a hold that one run has and another has not, a marker that hardly any run saw.
 pub(crate) fn align(
     file: &str,
     name: String,
@@ -24,18 +28,19 @@ pub(crate) fn align(
     let grid = Grid::new(file, recorder)?;
     let order = marker_order(stations_m);
     let samples = grid.common_samples();
-    let holds = grid.holds(&order, samples);
+    let holds = grid.holds(samples);
     let mut xy_m = Vec::with_capacity(recorder.runs.names.len() * holds.len() * samples * order.len() * 2);
-    let mut gauge_pa = Vec::new();
+    let (mut gauge_pa, mut lost) = (Vec::new(), Vec::new());
     for run in 0..recorder.runs.names.len() {
         for hold in 0..holds.len() {
-            let bins: Vec<_> = order.iter().map(|&m| bins(&grid.segment(run, m, hold).samples, samples)).collect();
+            let seen = |m: &usize| grid.segment(run, *m, hold).map(|segment| bins(&segment.samples, samples));
+            let bins: Vec<_> = order.iter().map(seen).collect();
+            lost.extend((0..order.len()).filter(|m| bins[*m].is_none()).map(|marker| [run, hold, marker]));
             for sample in 0..samples {
-                xy_m.extend(
-                    bins.iter().flat_map(|bins| [mean(bins[sample], |b| b.x_m), mean(bins[sample], |b| b.y_m)]),
-                );
-                let readings = bins.iter().map(|bins| mean(bins[sample], |b| b.gauge_pa));
-                gauge_pa.push(readings.sum::<f64>() / bins.len() as f64);
+                let place = |bin: Sample| [mean(bin, |b| b.x_m), mean(bin, |b| b.y_m)];
+                xy_m.extend(bins.iter().flat_map(|bins| bins.as_ref().map_or([0.0; 2], |bins| place(bins[sample]))));
+                let readings = bins.iter().flatten().map(|bins| mean(bins[sample], |b| b.gauge_pa));
+                gauge_pa.push(readings.sum::<f64>() / bins.iter().flatten().count().max(1) as f64);
             }
         }
     }
@@ -43,7 +48,37 @@ pub(crate) fn align(
     let markers = order.iter().map(marker).collect();
     let runs = recorder.runs.names.clone();
     let gauge_pa = recorder.extremes.gauge.then_some(gauge_pa);
-    Ok(Dataset { name, actuator, runs, holds, markers, samples_per_hold: samples, xy_m, gauge_pa })
+    let none = Lost::default();
+    let mut dataset =
+        Dataset { name, actuator, runs, holds, markers, samples_per_hold: samples, xy_m, gauge_pa, lost: none };
+    if !lost.is_empty() {
+        fill(&mut dataset, &lost);
+        check_seen(file, &dataset)?;
+    }
+    Ok(dataset)
+}
+
+/// # Errors
+/// A marker that too few runs saw in every hold, a hold in which too few runs saw any marker.
+fn check_seen(file: &str, dataset: &Dataset) -> Result<(), DataError> {
+    let (holds, markers) = (0..dataset.holds.len(), 0..dataset.markers.len());
+    let blind = markers.clone().find(|m| holds.clone().all(|h| !dataset.is_seen(h, *m)));
+    let dark = holds.clone().find(|h| markers.clone().all(|m| !dataset.is_seen(*h, m)));
+    let (message, help) = match (blind, dark) {
+        (Some(marker), _) => (
+            format!(
+                "marker {} was seen by fewer than two thirds of the runs in every hold",
+                dataset.markers[marker].name
+            ),
+            "delete its rows, or look for a misspelt label",
+        ),
+        (_, Some(hold)) => (
+            format!("at {:.1} kPa no marker was seen by two thirds of the runs", kpa(dataset.holds[hold].p_act_pa)),
+            "delete the rows of this hold, or the runs that lost the markers",
+        ),
+        _ => return Ok(()),
+    };
+    Err(DataError::Runs(Box::new(Fault::of_file(file, message, help))))
 }
 
 /// By station where all are known, else by first appearance.
@@ -55,56 +90,87 @@ fn marker_order(stations_m: &[Option<f64>]) -> Vec<usize> {
     order
 }
 
-/// Every stream, and which of its segments is which hold of the first stream.
+/// Every stream, and which of its segments is which hold of the protocol.
 struct Grid<'a> {
     /// `[run][marker]`
     streams: Vec<Vec<&'a Stream>>,
-    /// `[run][marker][hold]` → segment
-    segments: Vec<Vec<Vec<usize>>>,
+    /// `[run][marker][hold]` → segment; `None` where the marker was lost
+    segments: Vec<Vec<Vec<Option<usize>>>>,
+    /// The stream with the most holds, which are those of the protocol.
+    reference: &'a [Segment],
 }
 
 impl<'a> Grid<'a> {
     fn new(file: &str, recorder: &'a Recorder) -> Result<Grid<'a>, DataError> {
         let streams = by_run_and_marker(file, recorder)?;
-        let reference: &[Segment] = &streams[0][0].segments;
+        let more = |best: &'a Stream, of: &&'a Stream| if of.segments.len() > best.segments.len() { of } else { best };
+        let fullest: &Stream = streams.iter().flatten().fold(streams[0][0], |best, of| more(best, of));
+        let reference: &[Segment] = &fullest.segments;
         let mut segments = Vec::with_capacity(streams.len());
         for run in &streams {
-            let matched: Result<Vec<_>, _> = run
-                .iter()
-                .map(|stream| {
-                    match_holds(reference, &stream.segments).map_err(|odd| unlike(file, recorder, stream, odd))
-                })
-                .collect();
-            segments.push(matched?);
+            let mut matched = Vec::with_capacity(run.len());
+            for stream in run {
+                let found = match_holds(reference, &stream.segments);
+                matched.push(found.map_err(|surplus| unlike(file, recorder, fullest, stream, surplus))?);
+            }
+            let seen_by_none = |hold: &usize| matched.iter().all(|of: &Vec<Option<usize>>| of[*hold].is_none());
+            if let Some(hold) = (0..reference.len()).find(seen_by_none) {
+                return Err(no_such_hold(file, recorder, fullest, run[0], &reference[hold]));
+            }
+            check_not_run_together(file, recorder, run, &matched)?;
+            segments.push(matched);
         }
-        Ok(Grid { streams, segments })
+        let mut grid = Grid { streams, segments, reference };
+        grid.drop_glimpses();
+        Ok(grid)
     }
 
-    fn segment(&self, run: usize, marker: usize, hold: usize) -> &Segment {
-        &self.streams[run][marker].segments[self.segments[run][marker][hold]]
+    fn segment(&self, run: usize, marker: usize, hold: usize) -> Option<&'a Segment> {
+        Some(&self.streams[run][marker].segments[self.segments[run][marker][hold]?])
+    }
+
+    /// Segments of one hold in all runs and markers.
+    fn of_hold(&self, hold: usize) -> impl Iterator<Item = (usize, &'a Segment)> + '_ {
+        let of_run = move |run: usize| {
+            (0..self.streams[run].len()).filter_map(move |marker| Some((run, self.segment(run, marker, hold)?)))
+        };
+        (0..self.streams.len()).flat_map(of_run)
+    }
+
+    /// A marker that was seen in few frames of a hold would leave few samples of every hold.
+    fn drop_glimpses(&mut self) {
+        for hold in 0..self.reference.len() {
+            let mut rows: Vec<u64> = self.of_hold(hold).map(|(_, segment)| segment.rows).collect();
+            rows.sort_unstable();
+            let enough = SEEN_ENOUGH * rows[rows.len() / 2] as f64;
+            for run in 0..self.streams.len() {
+                for marker in 0..self.streams[run].len() {
+                    if self.segment(run, marker, hold).is_some_and(|segment| (segment.rows as f64) < enough) {
+                        self.segments[run][marker][hold] = None;
+                    }
+                }
+            }
+        }
     }
 
     fn common_samples(&self) -> usize {
-        let segments = self.streams.iter().flatten().flat_map(|stream| &stream.segments);
-        segments.map(|segment| segment.samples.len()).min().unwrap_or(1).min(MOST_SAMPLES_PER_HOLD)
+        let segments = (0..self.reference.len()).flat_map(|hold| self.of_hold(hold));
+        segments.map(|(_, segment)| segment.samples.len()).min().unwrap_or(1).min(MOST_SAMPLES_PER_HOLD)
     }
 
     /// Pressures and times as means over runs and markers; a gauge that reads just below zero counts as zero.
-    fn holds(&self, order: &[usize], samples: usize) -> Vec<Hold> {
+    fn holds(&self, samples: usize) -> Vec<Hold> {
         let shifts = self.time_shifts_s();
-        let reference = &self.streams[0][0].segments;
-        let series = (self.streams.len() * order.len()) as f64;
-        let mut holds: Vec<Hold> = Vec::with_capacity(reference.len());
-        for (index, first) in reference.iter().enumerate() {
+        let mut holds: Vec<Hold> = Vec::with_capacity(self.reference.len());
+        for (index, first) in self.reference.iter().enumerate() {
             let (mut p_body_pa, mut p_act_pa, mut t_s) = (0.0, 0.0, vec![0.0; samples]);
-            for (run, shift) in shifts.iter().enumerate() {
-                for segment in order.iter().map(|&marker| self.segment(run, marker, index)) {
-                    p_body_pa += segment.p_body_pa();
-                    p_act_pa += segment.p_act_pa();
-                    let times = bins(&segment.samples, samples);
-                    t_s.iter_mut().zip(times).for_each(|(t, bin)| *t += mean(bin, |b| b.t_s) - shift);
-                }
+            for (run, segment) in self.of_hold(index) {
+                p_body_pa += segment.p_body_pa();
+                p_act_pa += segment.p_act_pa();
+                let times = bins(&segment.samples, samples);
+                t_s.iter_mut().zip(times).for_each(|(t, bin)| *t += mean(bin, |b| b.t_s) - shifts[run]);
             }
+            let series = self.of_hold(index).count() as f64;
             t_s.iter_mut().for_each(|t| *t /= series);
             let (p_body_pa, p_act_pa) = ((p_body_pa / series).max(0.0), (p_act_pa / series).max(0.0));
             let same = |hold: &&Hold| {
@@ -153,34 +219,21 @@ fn absent_marker(file: &str, recorder: &Recorder, run: usize, marker: usize) -> 
     DataError::Runs(Box::new(fault))
 }
 
-/// Two streams differ: the hold of the reference that is missing, and the index of one the reference has not.
-struct Odd {
-    missing: Option<String>,
-    surplus: Option<usize>,
-}
-
 /// Which segment of `stream` is which of `reference`: in order if they agree in order, else each by pressures (nearest
-/// within tolerance), phase and occurrence.
-fn match_holds(reference: &[Segment], stream: &[Segment]) -> Result<Vec<usize>, Odd> {
+/// within tolerance), phase and occurrence; `None` where the stream has none. An error is the index of a segment too many.
+fn match_holds(reference: &[Segment], stream: &[Segment]) -> Result<Vec<Option<usize>>, usize> {
     let in_order = reference.len() == stream.len() && reference.iter().zip(stream).all(|(a, b)| alike(a, b));
     if in_order {
-        return Ok((0..reference.len()).collect());
+        return Ok((0..reference.len()).map(Some).collect());
     }
     let mut found: Vec<Option<usize>> = vec![None; reference.len()];
-    let mut surplus = None;
     for (index, segment) in stream.iter().enumerate() {
         let free = |&hold: &usize| found[hold].is_none() && alike(&reference[hold], segment);
         let gap = |hold: usize| (reference[hold].p_act_pa() - segment.p_act_pa()).abs();
-        match (0..reference.len()).filter(free).min_by(|&a, &b| gap(a).total_cmp(&gap(b))) {
-            Some(hold) => found[hold] = Some(index),
-            None => surplus = surplus.or(Some(index)),
-        }
+        let hold = (0..reference.len()).filter(free).min_by(|&a, &b| gap(a).total_cmp(&gap(b)));
+        found[hold.ok_or(index)?] = Some(index);
     }
-    let missing = found.iter().position(Option::is_none).map(|hold| describe(&reference[hold]));
-    match found.into_iter().collect::<Option<Vec<usize>>>() {
-        Some(found) if surplus.is_none() => Ok(found),
-        _ => Err(Odd { missing, surplus }),
-    }
+    Ok(found)
 }
 
 /// Same phase, and pressures that can be two readings of one set point, each a tolerance away from it.
@@ -198,21 +251,60 @@ fn describe(segment: &Segment) -> String {
     format!("{} at {act:.1} kPa actuator, {body:.1} kPa body (line {})", segment.phase.word(), segment.first_line)
 }
 
-fn unlike(file: &str, recorder: &Recorder, stream: &Stream, odd: Odd) -> DataError {
-    let first = &recorder.streams[0];
-    let label = |s: &Stream| format!("run {}, marker {}", recorder.runs.names[s.run], recorder.markers.names[s.marker]);
-    let mut parts = Vec::new();
-    if let Some(missing) = &odd.missing {
-        parts.push(format!("{} has no hold like that of {}: {missing}", label(stream), label(first)));
+fn series(recorder: &Recorder, stream: &Stream) -> String {
+    format!("run {}, marker {}", recorder.runs.names[stream.run], recorder.markers.names[stream.marker])
+}
+
+/// What every run needs.
+const SAME_HOLDS: &str = "every run needs the same holds (pressures, phase, number of repetitions): keep only rows recorded while \
+                          the pressures are steady, and put other protocols into files of their own";
+
+fn unlike(file: &str, recorder: &Recorder, fullest: &Stream, stream: &Stream, surplus: usize) -> DataError {
+    let segment = &stream.segments[surplus];
+    let [own, other] = [stream, fullest].map(|stream| series(recorder, stream));
+    let message = format!("{own} has a hold that {other} has not: {}", describe(segment));
+    DataError::Runs(Box::new(Fault::of_file(file, message, SAME_HOLDS).at_line(segment.first_line)))
+}
+
+fn no_such_hold(file: &str, recorder: &Recorder, fullest: &Stream, first: &Stream, hold: &Segment) -> DataError {
+    let [own, other] = [first, fullest].map(|stream| series(recorder, stream));
+    let message = format!("{own} has no hold like that of {other}: {}", describe(hold));
+    DataError::Runs(Box::new(Fault::of_file(file, message, SAME_HOLDS).at_line(first.first_line)))
+}
+
+/// A marker that was lost in a hold between two equal ones has one long hold in place of both.
+///
+/// # Errors
+/// Such a hold.
+fn check_not_run_together(
+    file: &str,
+    recorder: &Recorder,
+    run: &[&Stream],
+    matched: &[Vec<Option<usize>>],
+) -> Result<(), DataError> {
+    if matched.iter().flatten().all(Option::is_some) {
+        return Ok(());
     }
-    let surplus = odd.surplus.map(|index| &stream.segments[index]);
-    if let Some(segment) = surplus {
-        parts.push(format!("{} has a hold that {} has not: {}", label(stream), label(first), describe(segment)));
+    let begin_s = |hold: usize| -> f64 {
+        let seen = run.iter().zip(matched).filter_map(|(stream, of)| Some(&stream.segments[of[hold]?]));
+        seen.map(Segment::first_t_s).fold(f64::INFINITY, f64::min)
+    };
+    let begins_s: Vec<f64> = (0..matched[0].len()).map(begin_s).collect();
+    for (stream, of) in run.iter().zip(matched).filter(|(_, of)| of.iter().any(Option::is_none)) {
+        for (hold, index) in of.iter().enumerate() {
+            let Some(segment) = index.map(|index| &stream.segments[index]) else { continue };
+            let next = begins_s.iter().copied().filter(|t| *t > begins_s[hold]).fold(f64::INFINITY, f64::min);
+            if segment.last_t_s() > next {
+                let message =
+                    format!("{} was lost between two equal holds: {}", series(recorder, stream), describe(segment));
+                let help =
+                    "rows before and after cannot be told apart there: delete those of this marker in one of the two";
+                let fault = Fault::of_file(file, message, help).at_line(segment.first_line);
+                return Err(DataError::Runs(Box::new(fault)));
+            }
+        }
     }
-    let help = "every run needs the same holds (pressures, phase, number of repetitions): keep only rows recorded while \
-                the pressures are steady, and put other protocols into files of their own";
-    let line = surplus.map_or(stream.first_line, |segment| segment.first_line);
-    DataError::Runs(Box::new(Fault::of_file(file, parts.join("; "), help).at_line(line)))
+    Ok(())
 }
 
 /// Consecutive samples in `count` bins of (nearly) equal size.

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::about::About;
 use crate::dataset::{Dataset, Hold, Phase};
+use crate::lost::losses;
 use crate::streams::{tolerance_act_pa, tolerance_body_pa};
 use crate::units::{kpa, mm};
 
@@ -99,7 +100,8 @@ pub fn check(dataset: &Dataset, about: Option<&About>) -> CheckReport {
     let variance_mm2 = variance_of_hold_means_mm2(dataset);
     let (holds, markers) = (dataset.holds.len(), dataset.markers.len());
     let rms = |select: &dyn Fn(usize, usize) -> bool| -> Option<f64> {
-        let cells = (0..holds).flat_map(|h| (0..markers).map(move |m| (h, m))).filter(|&(h, m)| select(h, m));
+        let cells = (0..holds).flat_map(|h| (0..markers).map(move |m| (h, m)));
+        let cells = cells.filter(|&(h, m)| select(h, m) && dataset.is_seen(h, m));
         let values: Vec<f64> = cells.flat_map(|(h, m)| variance_mm2.as_ref().map(|v| v[h * markers + m])).collect();
         (!values.is_empty()).then(|| (values.iter().sum::<f64>() / values.len() as f64).sqrt())
     };
@@ -120,6 +122,7 @@ pub fn check(dataset: &Dataset, about: Option<&About>) -> CheckReport {
     };
     report.warnings = warnings(&report, about);
     report.warnings.extend(contradictions(dataset));
+    report.warnings.extend(losses(dataset));
     report
 }
 

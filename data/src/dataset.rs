@@ -5,6 +5,7 @@
 //! pressures pascals, all times seconds; units are converted where the file is read and nowhere else.
 
 use crate::error::{DataError, Fault};
+use crate::lost::Lost;
 
 /// Whether a hold was reached by raising the actuator pressure, by lowering it, or without changing it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -71,6 +72,8 @@ pub struct Dataset {
     pub xy_m: Vec<f64>,
     /// What a gauge at the actuator read \[Pa\], laid out `[run][hold][sample]`; `None` without one.
     pub gauge_pa: Option<Vec<f64>>,
+    /// Cells that a camera lost for a whole hold.
+    pub lost: Lost,
 }
 
 impl Dataset {
@@ -95,6 +98,25 @@ impl Dataset {
         let i = self.offset(hold, sample, marker);
         let values = self.run(run);
         [values[i], values[i + 1]]
+    }
+
+    /// Whether enough runs saw a marker in a hold; positions where they did not stand for nothing.
+    pub fn is_seen(&self, hold: usize, marker: usize) -> bool {
+        !self.lost.unseen.contains(&[hold, marker])
+    }
+
+    /// Whether this run lost a marker for a whole hold, or too few runs saw it there.
+    pub fn is_lost(&self, run: usize, hold: usize, marker: usize) -> bool {
+        !self.is_seen(hold, marker) || self.lost.filled.contains(&[run, hold, marker])
+    }
+
+    /// Indices in run layout of the values that stand for nothing, x and y of all samples.
+    pub fn unseen_values(&self) -> impl Iterator<Item = usize> + '_ {
+        let samples = move |cell: &[usize; 2]| {
+            let [hold, marker] = *cell;
+            (0..self.samples_per_hold).map(move |sample| self.offset(hold, sample, marker))
+        };
+        self.lost.unseen.iter().flat_map(samples).flat_map(|x| [x, x + 1])
     }
 
     /// Readings of one run of the gauge at the actuator, laid out `[hold][sample]` \[Pa\].

@@ -12,6 +12,7 @@ pub mod error;
 mod header;
 mod lines;
 pub mod load;
+mod lost;
 mod plausible;
 pub mod published;
 pub mod read;
@@ -31,6 +32,7 @@ pub use coupons::{Coupon, CouponDefaults, Direction, Pulled, parse_coupons, read
 pub use dataset::{Dataset, Hold, Marker, Phase};
 pub use error::{DataError, Fault, Location};
 pub use load::load;
+pub use lost::{Lost, losses};
 pub use published::{Published, PublishedActuator, PublishedFabric, published};
 pub use read::{ReadOptions, parse_markers, read_markers};
 pub use sets::{SetInfo, set_about, set_file, sets};

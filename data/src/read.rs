@@ -6,7 +6,7 @@
 //! | `t_s` | time since the start of the run; grows row by row in each (run, marker) |
 //! | `p_body_kpa`, `p_act_kpa` | gauge pressures |
 //! | `phase` | `load`, `hold` or `unload` |
-//! | `x_mm`, `y_mm` | position, x along the undeformed body from its base, y towards the actuator |
+//! | `x_mm`, `y_mm` | position, x along the undeformed body from its base, y towards the actuator; both empty or NaN where the marker was not seen |
 //! | `s_mm` (optional) | station of the marker on the undeformed body |
 //! | `p_gauge_kpa` (optional) | reading of a gauge at the actuator, where `p_act_kpa` is what was set |
 //!
@@ -88,6 +88,7 @@ pub fn parse_markers(
     while let Some(line) = lines.next_filled()? {
         cells.split(&line)?;
         match kind.accept(cells.actuator(&line)?) {
+            Verdict::Take if cells.is_lost() => recorder.lost_frames += 1,
             Verdict::Take => recorder.add(&cells, &line)?,
             Verdict::Skip => {}
             Verdict::Mixed(message, help) => {
@@ -102,7 +103,8 @@ pub fn parse_markers(
     check_about_runs(file, &recorder, options.about)?;
     let stations_m = stations(file, &recorder, options.about)?;
     let stem = Path::new(file).file_stem().map_or(file.to_string(), |stem| stem.to_string_lossy().into_owned());
-    let dataset = align(file, stem, kind.chosen(), &recorder, &stations_m)?;
+    let mut dataset = align(file, stem, kind.chosen(), &recorder, &stations_m)?;
+    dataset.lost.frames = recorder.lost_frames;
     check_kind(file, &dataset.actuator, options.about)?;
     check_y_up(&cells.header, &dataset)?;
     Ok(dataset)
@@ -154,7 +156,7 @@ impl Kind {
 
 fn no_rows(file: &str, kind: &Kind) -> DataError {
     let Some(wanted) = &kind.wanted else {
-        let help = "add one row per run, time and marker below the header";
+        let help = "add one row per run, time and marker below the header, with its position";
         return DataError::Layout(Box::new(Fault::of_file(file, "the file has a header and no rows", help)));
     };
     let seen: Vec<_> = kind.seen.iter().map(String::as_str).collect();

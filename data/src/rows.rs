@@ -67,6 +67,14 @@ impl RowReader {
         self.word(line, ACTUATOR)
     }
 
+    /// Whether the line split last says that its marker was not seen: neither x nor y, or NaN for both.
+    pub fn is_lost(&self) -> bool {
+        [X, Y].iter().all(|axis| {
+            let text = self.text(*axis);
+            text.is_empty() || text.parse::<f64>().is_ok_and(f64::is_nan)
+        })
+    }
+
     /// The observation of the line split last.
     ///
     /// # Errors
@@ -146,11 +154,12 @@ impl RowReader {
             Err(_) => format!("expected a number, found \"{text}\""),
         };
         let name = QUANTITIES[quantity].expected;
+        let lost = if matches!(quantity, X | Y) { "; of a marker that was not seen leave x and y empty" } else { "" };
         let help = if text.replace(',', ".").parse::<f64>().is_ok_and(f64::is_finite) {
             format!("write decimals with a point: {}", text.replace(',', "."))
         } else {
             format!(
-                "type a plain number such as 12.5 (the unit belongs to the column name, as in {name}), or delete the row"
+                "type a plain number such as 12.5 (the unit belongs to the column name, as in {name}), or delete the row{lost}"
             )
         };
         self.cell_fault(line, quantity, message, help)

@@ -59,7 +59,8 @@ pub(crate) struct Segment {
     pub phase: Phase,
     pub first_line: u64,
     pub samples: Vec<Sample>,
-    rows: u64,
+    /// Observations.
+    pub rows: u64,
     /// Observations per sample; doubles whenever neighbours are merged.
     stride: u64,
     p_body_sum: f64,
@@ -80,6 +81,16 @@ impl Segment {
     /// Mean actuator pressure \[Pa\].
     pub fn p_act_pa(&self) -> f64 {
         self.p_act_sum / self.rows.max(1) as f64
+    }
+
+    /// Time of the first sample \[s\].
+    pub fn first_t_s(&self) -> f64 {
+        self.samples.first().map_or(f64::INFINITY, |sample| sample.t_s / sample.count.max(1) as f64)
+    }
+
+    /// Time of the last sample \[s\].
+    pub fn last_t_s(&self) -> f64 {
+        self.samples.last().map_or(f64::NEG_INFINITY, |sample| sample.t_s / sample.count.max(1) as f64)
     }
 
     fn continues_with(&self, row: &Row) -> bool {
@@ -164,6 +175,8 @@ pub(crate) struct Recorder {
     pub stations_m: Vec<Option<f64>>,
     pub extremes: Extremes,
     pub first_row: Option<KeptLine>,
+    /// Rows without a position.
+    pub lost_frames: u64,
     by_pair: HashMap<(usize, usize), usize>,
     series: usize,
 }

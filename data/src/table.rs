@@ -86,7 +86,8 @@ impl Dataset {
         for (run, label) in self.runs.iter().enumerate() {
             for (index, hold) in self.holds.iter().enumerate() {
                 for sample in 0..self.samples_per_hold {
-                    for (marker, described) in self.markers.iter().enumerate() {
+                    let seen = |(marker, _): &(usize, _)| !self.is_lost(run, index, *marker);
+                    for (marker, described) in self.markers.iter().enumerate().filter(seen) {
                         let [x, y] = self.xy(run, index, sample, marker);
                         let words = [label.as_str(), &self.actuator, hold.phase.word(), &described.name];
                         let station = described.station_m.unwrap_or(f64::NAN);

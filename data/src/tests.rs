@@ -4,6 +4,7 @@ mod about;
 mod bad_input;
 mod checks;
 mod good_input;
+mod lost;
 mod writing;
 
 use crate::{DataError, Dataset, ReadOptions, parse_markers};

@@ -12,7 +12,7 @@ use crate::units::{kpa, mm};
 
 /// Writes the tidy marker table of a dataset: mm and kPa with four decimals, so that the same data give the same bytes.
 /// A column `s_mm` follows if every marker has a station, and `p_gauge_kpa` if there are readings of a gauge. The pressures set
-/// are those of the holds (means over runs).
+/// are those of the holds (means over runs). What a run lost has no rows.
 ///
 /// # Errors
 /// The writer fails.
@@ -38,7 +38,7 @@ fn add_rows(text: &mut String, dataset: &Dataset, run: usize, label: &str, hold:
         let state = [t, body, act].map(fixed).join(",");
         let gauge = dataset.gauge(run).map(|all| format!(",{}", fixed(kpa(all[hold * samples_per_hold + sample]))));
         let gauge = gauge.unwrap_or_default();
-        for (index, marker) in markers.iter().enumerate() {
+        for (index, marker) in markers.iter().enumerate().filter(|(m, _)| !dataset.is_lost(run, hold, *m)) {
             let [x, y] = dataset.xy(run, hold, sample, index).map(|value| fixed(mm(value)));
             let (phase, name) = (holds[hold].phase.word(), quoted(&marker.name));
             let station = marker.station_m.filter(|_| stations).map_or(String::new(), |s| format!(",{}", fixed(mm(s))));

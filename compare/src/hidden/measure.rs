@@ -79,6 +79,7 @@ pub fn measure_holds(
         samples_per_hold: g.samples,
         xy_m,
         gauge_pa: g.gauge.then_some(readings),
+        lost: data::Lost::default(),
     };
     Ok(made.checked()?)
 }

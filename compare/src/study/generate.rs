@@ -110,6 +110,7 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
         samples_per_hold: generator.samples,
         xy_m,
         gauge_pa: generator.gauge.then_some(gauge_pa),
+        lost: data::Lost::default(),
     })
 }
 

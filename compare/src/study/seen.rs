@@ -64,6 +64,7 @@ pub fn seen(runs: &[FeRun], name: &str, generator: &Generator) -> Result<Dataset
         samples_per_hold: generator.samples,
         xy_m,
         gauge_pa: None,
+        lost: data::Lost::default(),
     })
 }
 

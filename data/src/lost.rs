@@ -1,0 +1,220 @@
+//! Markers that a camera lost for a whole hold.
+//!
+//! A cell (hold, marker) that at least two thirds of the runs saw is kept, and what the others lost is put in its place: the mean of
+//! the runs that saw it, moved as the run is,
+//!
+//! ```text
+//! y_r = ȳ + U c_r R/(R − 1),    U = [ȳ − ȳ(first hold), δx, δy, δφ·(−y, x)]
+//! ```
+//!
+//! with c_r fitted to the deviations of the run where it was seen: a mean over runs of other composition would look like a misfit
+//! of the model there. A cell that fewer runs saw is left out of everything.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | ȳ | mean over the runs that saw the cell | m |
+//! | c_r | bend, shift and rotation of run r against the mean | -, m, m, rad |
+//! | R | runs | |
+//!
+//! Validity: losses that do not depend on the noise (a marker that leaves the picture at a certain bend, a hand in front of it).
+//! The variance of a filled mean is R/(R − lost) of the others', which is not accounted for.
+
+use crate::dataset::Dataset;
+
+/// Part of a column that must be new for it to be told apart from those before it.
+const SMALLEST_NEW_PART: f64 = 1e-3;
+
+/// Which cells of a dataset were not seen.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Lost {
+    /// (hold, marker) that too few runs saw, in order: left out of everything. The positions there stand for nothing and are the
+    /// same in every run.
+    pub unseen: Vec<[usize; 2]>,
+    /// (run, hold, marker) that this run lost and enough others saw, in order: positions there are made from theirs.
+    pub filled: Vec<[usize; 3]>,
+    /// Rows of the table without a position: frames in which a marker was not seen.
+    pub frames: u64,
+}
+
+impl Lost {
+    /// Whether every marker was seen in every hold of every run.
+    pub fn is_empty(&self) -> bool {
+        self.unseen.is_empty() && self.filled.is_empty()
+    }
+}
+
+/// Fewest runs that must see a cell.
+fn needed(runs: usize) -> usize {
+    (2 * runs).div_ceil(3)
+}
+
+/// Fills the cells (run, hold, marker) that were lost and says which are filled and which left out.
+pub(crate) fn fill(dataset: &mut Dataset, cells: &[[usize; 3]]) {
+    let runs = dataset.runs.len();
+    let is_lost = |cell: [usize; 3]| cells.binary_search(&cell).is_ok();
+    let lost_by = |hold: usize, marker: usize| (0..runs).filter(|run| is_lost([*run, hold, marker])).count();
+    let mut lost = Lost::default();
+    for hold in 0..dataset.holds.len() {
+        for marker in 0..dataset.markers.len() {
+            if runs - lost_by(hold, marker) < needed(runs) {
+                lost.unseen.push([hold, marker]);
+            }
+        }
+    }
+    let is_left_out = |[_, hold, marker]: &[usize; 3]| lost.unseen.contains(&[*hold, *marker]);
+    lost.filled = cells.iter().filter(|cell| !is_left_out(cell)).copied().collect();
+    dataset.lost = lost;
+    let mean = mean_of_seen(dataset, cells);
+    let made = made(dataset, &mean, cells);
+    let n = dataset.values_per_run();
+    for (run, values) in made.iter().enumerate() {
+        for [r, hold, marker] in dataset.lost.filled.iter().filter(|cell| cell[0] == run) {
+            for i in values_of(dataset, *hold, *marker) {
+                dataset.xy_m[r * n + i] = values[i];
+            }
+        }
+    }
+    for [hold, marker] in dataset.lost.unseen.clone() {
+        for i in values_of(dataset, hold, marker) {
+            (0..runs).for_each(|run| dataset.xy_m[run * n + i] = mean[i]);
+        }
+    }
+}
+
+/// Indices of a cell in run layout, x and y of all samples.
+fn values_of(dataset: &Dataset, hold: usize, marker: usize) -> Vec<usize> {
+    let first = |sample: usize| dataset.offset(hold, sample, marker);
+    (0..dataset.samples_per_hold).flat_map(|sample| [first(sample), first(sample) + 1]).collect()
+}
+
+/// Mean over the runs that saw each value; where none did, that of the marker in the nearest hold by pressure that one saw, or zero.
+fn mean_of_seen(dataset: &Dataset, cells: &[[usize; 3]]) -> Vec<f64> {
+    let mut mean = vec![0.0; dataset.values_per_run()];
+    let holds = 0..dataset.holds.len();
+    let seen = |hold: usize, marker: usize| -> Vec<usize> {
+        (0..dataset.runs.len()).filter(|run| cells.binary_search(&[*run, hold, marker]).is_err()).collect()
+    };
+    for marker in 0..dataset.markers.len() {
+        let is_seen = |hold: &usize| !seen(*hold, marker).is_empty();
+        for hold in holds.clone() {
+            let gap = |h: usize| (dataset.holds[h].p_act_pa - dataset.holds[hold].p_act_pa).abs();
+            let nearest = holds.clone().filter(is_seen).min_by(|a, b| gap(*a).total_cmp(&gap(*b)));
+            let from = if is_seen(&hold) { Some(hold) } else { nearest };
+            let Some(from) = from else { continue };
+            let runs = seen(from, marker);
+            for (to, at) in values_of(dataset, hold, marker).into_iter().zip(values_of(dataset, from, marker)) {
+                mean[to] = runs.iter().map(|run| dataset.run(*run)[at]).sum::<f64>() / runs.len() as f64;
+            }
+        }
+    }
+    mean
+}
+
+/// What each run would have seen, in run layout; empty for a run without losses.
+fn made(dataset: &Dataset, mean: &[f64], cells: &[[usize; 3]]) -> Vec<Vec<f64>> {
+    let columns = columns(dataset, mean);
+    let runs = dataset.runs.len();
+    let share = runs as f64 / (runs as f64 - 1.0);
+    let of_run = |run: usize| {
+        let is_lost = |i: &usize| {
+            let (hold, marker) =
+                (i / (2 * dataset.markers.len() * dataset.samples_per_hold), i / 2 % dataset.markers.len());
+            cells.binary_search(&[run, hold, marker]).is_ok() || !dataset.is_seen(hold, marker)
+        };
+        if dataset.lost.filled.iter().all(|cell| cell[0] != run) {
+            return Vec::new();
+        }
+        let used: Vec<usize> = (0..mean.len()).filter(|i| !is_lost(i)).collect();
+        let deviation: Vec<f64> = used.iter().map(|i| dataset.run(run)[*i] - mean[*i]).collect();
+        let here: Vec<Vec<f64>> = columns.iter().map(|c| used.iter().map(|i| c[*i]).collect()).collect();
+        let found = least_squares(&here, deviation);
+        let moved = |i: usize| columns.iter().zip(&found).map(|(c, f)| f * c[i]).sum::<f64>();
+        (0..mean.len()).map(|i| mean[i] + share * moved(i)).collect()
+    };
+    (0..runs).map(of_run).collect()
+}
+
+/// What a run may differ by: more or less bend, shifts, rotation about the base.
+fn columns(dataset: &Dataset, mean: &[f64]) -> [Vec<f64>; 4] {
+    let width = 2 * dataset.markers.len();
+    let first = |marker: usize| {
+        let hold = (0..dataset.holds.len()).find(|hold| dataset.is_seen(*hold, marker)).unwrap_or(0);
+        dataset.offset(hold, 0, marker)
+    };
+    let bend = (0..mean.len()).map(|i| mean[i] - mean[first(i % width / 2) + i % 2]).collect();
+    let axis = |axis: usize| (0..mean.len()).map(|i| f64::from(u8::from(i % 2 == axis))).collect();
+    let turn = (0..mean.len()).map(|i| if i % 2 == 0 { -mean[i + 1] } else { mean[i - 1] }).collect();
+    [bend, axis(0), axis(1), turn]
+}
+
+/// Coefficients of the columns that can be told apart, zero of the others (Gram–Schmidt, shifts first).
+fn least_squares(columns: &[Vec<f64>], mut rest: Vec<f64>) -> Vec<f64> {
+    let mut basis: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
+    let mut found = vec![0.0; columns.len()];
+    for j in (1..columns.len()).chain([0]) {
+        let (mut new, mut inverse) = (columns[j].clone(), vec![0.0; columns.len()]);
+        inverse[j] = 1.0;
+        for _ in 0..2 {
+            for (known, t) in &basis {
+                let along = dot(known, &new);
+                add(&mut new, known, -along);
+                add(&mut inverse, t, -along);
+            }
+        }
+        let length = dot(&new, &new).sqrt();
+        if length > SMALLEST_NEW_PART * dot(&columns[j], &columns[j]).sqrt() {
+            new.iter_mut().chain(&mut inverse).for_each(|v| *v /= length);
+            let along = dot(&new, &rest);
+            add(&mut rest, &new, -along);
+            add(&mut found, &inverse, along);
+            basis.push((new, inverse));
+        }
+    }
+    found
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn add(to: &mut [f64], what: &[f64], times: f64) {
+    to.iter_mut().zip(what).for_each(|(to, w)| *to += times * w);
+}
+
+/// Cells named in one sentence.
+const MOST_NAMED: usize = 4;
+
+/// What was lost, in words; nothing if nothing was.
+pub fn losses(dataset: &Dataset) -> Vec<String> {
+    let Lost { unseen, filled, frames } = &dataset.lost;
+    let name = &dataset.name;
+    let place = |hold: usize, marker: usize| {
+        let h = &dataset.holds[hold];
+        let (kpa, phase) = (h.p_act_pa / 1e3, h.phase.word());
+        format!("marker {} at {kpa:.1} kPa ({phase})", dataset.markers[marker].name)
+    };
+    let list = |places: Vec<String>| match places.len().checked_sub(MOST_NAMED) {
+        Some(more) if more > 0 => format!("{}, and {more} more", places[..MOST_NAMED].join(", ")),
+        _ => places.join(", "),
+    };
+    let mut words = Vec::new();
+    if *frames > 0 {
+        words.push(format!("{name}: {frames} rows have no position and were passed over"));
+    }
+    if !filled.is_empty() {
+        let places =
+            filled.iter().map(|[run, hold, marker]| format!("run {}, {}", dataset.runs[*run], place(*hold, *marker)));
+        words.push(format!(
+            "{name}: {} lost in single runs for a whole hold, and put there as the other runs saw it, moved as the run is: {}",
+            if filled.len() == 1 { "a marker was".into() } else { format!("{} times a marker was", filled.len()) },
+            list(places.collect())
+        ));
+    }
+    if !unseen.is_empty() {
+        words.push(format!(
+            "{name}: seen by fewer than two thirds of the runs and left out: {}",
+            list(unseen.iter().map(|[hold, marker]| place(*hold, *marker)).collect())
+        ));
+    }
+    words
+}
