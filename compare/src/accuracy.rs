@@ -62,7 +62,7 @@ pub fn accuracy_band(c: &Comparison, samples: usize, seed: u64) -> Band {
 
 fn accuracy_of(c: &Comparison, hold: usize, means_m: &[f64]) -> Option<f64> {
     let width = 2 * c.layout.markers;
-    let measured: Vec<f64> = means_m[hold * width..(hold + 1) * width].iter().skip(1).step_by(2).copied().collect();
+    let measured: Vec<f64> = c.seen(hold).map(|marker| means_m[hold * width + 2 * marker + 1]).collect();
     paper_accuracy(&c.deflections(hold).0, &measured)
 }
 

@@ -37,13 +37,16 @@ pub fn data_slope(dataset: &Dataset) -> Option<Vec<f64>> {
     let mut slope = vec![0.0; mean.len()];
     let mut known = vec![false; layout.holds];
     for branch in branches(dataset, &u).into_iter().filter(|branch| branch.len() > 1) {
-        let at: Vec<f64> = branch.iter().map(|same| u[same[0]]).collect();
         for k in 0..width {
-            let values: Vec<f64> = branch
-                .iter()
-                .map(|same| same.iter().map(|h| means[h * width + k]).sum::<f64>() / same.len() as f64)
-                .collect();
-            for (same, d) in branch.iter().zip(slopes(&at, &values)) {
+            let seen = |same: &Vec<usize>| same.iter().copied().filter(|h| dataset.is_seen(*h, k / 2)).collect();
+            let nodes: Vec<Vec<usize>> = branch.iter().map(seen).filter(|same: &Vec<usize>| !same.is_empty()).collect();
+            if nodes.len() < 2 {
+                continue;
+            }
+            let at: Vec<f64> = nodes.iter().map(|same| u[same[0]]).collect();
+            let mean = |same: &Vec<usize>| same.iter().map(|h| means[h * width + k]).sum::<f64>() / same.len() as f64;
+            let values: Vec<f64> = nodes.iter().map(mean).collect();
+            for (same, d) in nodes.iter().zip(slopes(&at, &values)) {
                 for &h in same.iter().filter(|h| !known[**h]) {
                     let p = dataset.holds[h].p_act_pa;
                     (0..layout.samples).for_each(|s| slope[layout.index(h, s, 0) + k] = p / (p + shift(h)) * d);

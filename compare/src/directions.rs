@@ -1,11 +1,20 @@
 //! The nuisance directions of a run and the fit of a run's deviation to them.
 
+use data::Dataset;
+
 /// Part of a unit direction that must be new for it to be told apart from those before it; below this its coefficient
 /// would be a thousand times noisier than the others.
 const SMALLEST_NEW_PART: f64 = 1e-3;
 
 /// Order in which directions claim their part; the pressure comes last because the others exist without a model.
 const PRIORITY: [usize; 4] = [1, 2, 3, 0];
+
+/// U of a dataset, with zeros where too few runs saw a marker: with the residual zero there too, such values are as if they were not.
+pub fn directions_of(dataset: &Dataset, dprediction_dlnp: &[f64]) -> Vec<[f64; 4]> {
+    let mut rows = nuisance_directions(&dataset.mean_over_runs(), dprediction_dlnp);
+    dataset.unseen_values().for_each(|i| rows[i] = [0.0; 4]);
+    rows
+}
 
 /// U: one row \[∂f/∂ln p, δx, δy, rotation about the base\] per value in run layout, from the mean over runs \[m\].
 pub fn nuisance_directions(mean_m: &[f64], dprediction_dlnp: &[f64]) -> Vec<[f64; 4]> {

@@ -27,7 +27,7 @@ use crate::noise::SENSOR_SD;
 use crate::stats::t_inflation;
 use crate::study::generate::held;
 use crate::whiten::Whitener;
-use data::{Dataset, Hold};
+use data::{Dataset, Hold, Lost};
 use models::{Scenario, Supply};
 
 /// Standard deviation of a gauge's gain. Assumed: 0.3 % of the reading.
@@ -147,6 +147,7 @@ impl Gauge {
                 |hold: &Hold| hold.t_s.iter().map(|t| Hold { t_s: vec![*t], ..hold.clone() }).collect::<Vec<_>>();
             read.holds = dataset.holds.iter().flat_map(each).collect();
             read.samples_per_hold = 1;
+            read.lost = of_samples(&dataset.lost, dataset.samples_per_hold);
         }
         for hold in read.holds.iter_mut().filter(|hold| hold.p_act_pa <= ZERO_PRESSURE_PA) {
             hold.p_act_pa = 0.0;
@@ -165,7 +166,14 @@ impl Gauge {
     /// The dataset of [`Gauge::positions`] with its holds as they were set.
     pub fn as_set(&self, positions: &Dataset) -> Dataset {
         let samples_per_hold = self.set.first().map_or(1, |hold| hold.t_s.len());
-        Dataset { holds: self.set.clone(), samples_per_hold, ..positions.clone() }
+        let mut lost = positions.lost.clone();
+        if self.split {
+            lost.unseen.iter_mut().for_each(|cell| cell[0] /= samples_per_hold);
+            lost.filled.iter_mut().for_each(|cell| cell[1] /= samples_per_hold);
+            lost.unseen.dedup();
+            lost.filled.dedup();
+        }
+        Dataset { holds: self.set.clone(), samples_per_hold, lost, ..positions.clone() }
     }
 
     /// What one standard deviation of each error of the gauge does to positions predicted at its readings \[m\], from
@@ -203,6 +211,14 @@ impl Gauge {
         let supply = Supply::of(scenario);
         self.readings.iter().map(|r| supply.pressure(r.set_pa, r.held_s) - r.read_pa).collect()
     }
+}
+
+/// What was lost, where every sample is a hold of its own.
+fn of_samples(lost: &Lost, samples: usize) -> Lost {
+    let holds = |hold: usize| hold * samples..(hold + 1) * samples;
+    let unseen = lost.unseen.iter().flat_map(|[hold, marker]| holds(*hold).map(move |h| [h, *marker]));
+    let filled = lost.filled.iter().flat_map(|[run, hold, marker]| holds(*hold).map(move |h| [*run, h, *marker]));
+    Lost { unseen: unseen.collect(), filled: filled.collect(), frames: lost.frames }
 }
 
 #[cfg(test)]

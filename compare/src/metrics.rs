@@ -49,7 +49,7 @@ pub struct HoldMetrics {
     pub systematic_mm: Option<f64>,
     /// RMSE relative to the largest measured deflection of all holds \[%\].
     pub nrmse_pct: Option<f64>,
-    /// y of the model minus y measured at the outermost marker \[mm\].
+    /// y of the model minus y measured at the outermost marker that was seen \[mm\].
     pub tip_error_mm: f64,
     /// The same for x \[mm\].
     pub tip_error_x_mm: f64,
@@ -135,8 +135,9 @@ fn hold_metrics(c: &Comparison, hold: usize, band: &Band) -> Result<HoldMetrics,
     let (far_model, far_measured) = far_markers(c, &model, &measured);
     let range = c.layout.hold_range(hold);
     let size = Size::of(c, range.clone());
-    let [tip_x, tip_y] = c.error(hold, c.tip);
-    let fit = Fit::of(c, &c.noise.whiten_range(&c.residual_m, range)?, 0);
+    let [tip_x, tip_y] = c.error(hold, c.tips[hold]);
+    let values = c.noise.seen(range.clone());
+    let fit = Fit::of(c, &c.noise.whiten_range(&c.residual_m, range)?, values, 0);
     let protocol = &c.dataset.holds[hold];
     Ok(HoldMetrics {
         p_act_kpa: 1e-3 * protocol.p_act_pa,
@@ -167,7 +168,8 @@ fn overall_metrics(c: &Comparison, holds: &[HoldMetrics], band: &Band, fitted: u
     let ceilings: Vec<f64> = counted().filter_map(|h| h.noise_ceiling).collect();
     let accuracy = mean(&accuracies);
     let size = Size::of(c, 0..c.residual_m.len());
-    let fit = Fit::of(c, &c.noise.whiten(&c.residual_m), fitted);
+    let values = c.noise.seen(0..c.residual_m.len());
+    let fit = Fit::of(c, &c.noise.whiten(&c.residual_m), values, fitted);
     let tips = holds.iter().map(|h| h.tip_error_mm);
     OverallMetrics {
         paper_accuracy: accuracy,
@@ -191,7 +193,7 @@ fn overall_metrics(c: &Comparison, holds: &[HoldMetrics], band: &Band, fitted: u
 fn noise_ceiling(c: &Comparison, hold: usize, model_y: &[f64]) -> Option<f64> {
     let exact = paper_accuracy(model_y, model_y)?;
     let mut loss = 0.0;
-    for (marker, y) in model_y.iter().enumerate() {
+    for (marker, y) in c.seen(hold).zip(model_y) {
         loss += c.noise.variance(&c.layout.mean_weights(hold, marker, 1))? / (y * y);
     }
     Some(exact - loss / model_y.len() as f64)
@@ -215,7 +217,7 @@ struct Size {
 impl Size {
     fn of(c: &Comparison, range: std::ops::Range<usize>) -> Size {
         let residual = &c.residual_m[range.clone()];
-        let square = residual.iter().map(|r| r * r).sum::<f64>() / residual.len() as f64;
+        let square = residual.iter().map(|r| r * r).sum::<f64>() / c.noise.seen(range.clone()).max(1) as f64;
         let noise = c.noise.mean_square(range);
         Size {
             rmse_mm: 1e3 * square.sqrt(),
@@ -234,8 +236,8 @@ struct Fit {
 }
 
 impl Fit {
-    fn of(c: &Comparison, white: &[f64], fitted: usize) -> Fit {
-        let dof = white.len().saturating_sub(fitted);
+    fn of(c: &Comparison, white: &[f64], values: usize, fitted: usize) -> Fit {
+        let dof = values.saturating_sub(fitted);
         let reduced = white.iter().map(|w| w * w).sum::<f64>() / dof.max(1) as f64;
         let reduced_chi2 = (dof > 0 && c.noise.is_known()).then_some(reduced);
         let tested = reduced_chi2.filter(|_| c.noise.gives_p_values());

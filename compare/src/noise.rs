@@ -28,7 +28,7 @@
 //! small enough to be linear in U. One run gives no noise at all: the status says so and no p-value is ever formed.
 
 use crate::data_slope::data_slope;
-use crate::directions::{DirectionFit, nuisance_directions};
+use crate::directions::{DirectionFit, directions_of};
 use crate::error::CompareError;
 use crate::layout::{Layout, Weights};
 use crate::run_scatter::{between_sessions, pooled, session_groups, within_sessions};
@@ -117,7 +117,7 @@ impl NoiseModel {
         let layout = Layout::of(dataset)?;
         layout.check("the derivative with respect to ln p", dprediction_dlnp)?;
         let groups = session_groups(sessions, dataset.runs.len())?;
-        let directions = nuisance_directions(&dataset.mean_over_runs(), dprediction_dlnp);
+        let directions = directions_of(dataset, dprediction_dlnp);
         match (dataset.runs.len(), sigma_m) {
             (1, None) => Self::without_scatter(NoiseStatus::Unknown, None, directions),
             (1, Some(sigma)) if sigma.is_finite() && sigma > 0.0 => {
@@ -130,7 +130,7 @@ impl NoiseModel {
             _ => {
                 let modelled = Self::measured(dataset, &groups, directions)?;
                 let Some(slope) = data_slope(dataset) else { return Ok(modelled) };
-                let read = Self::measured(dataset, &groups, nuisance_directions(&dataset.mean_over_runs(), &slope))?;
+                let read = Self::measured(dataset, &groups, directions_of(dataset, &slope))?;
                 Ok(if read.sigma_m < modelled.sigma_m { read } else { modelled })
             }
         }
@@ -149,7 +149,7 @@ impl NoiseModel {
         run_sd: [f64; 4],
     ) -> Result<NoiseModel, CompareError> {
         Layout::of(dataset)?.check("the derivative with respect to ln p", dprediction_dlnp)?;
-        let directions = nuisance_directions(&dataset.mean_over_runs(), dprediction_dlnp);
+        let directions = directions_of(dataset, dprediction_dlnp);
         let variance = run_sd.map(|sd| sd * sd / runs.max(1) as f64);
         let whitener = Whitener::new(&directions, sigma_m / (runs.max(1) as f64).sqrt(), &variance)?;
         let plain = Self::without_scatter(NoiseStatus::Supplied, Some(sigma_m), directions)?;
@@ -231,7 +231,17 @@ impl NoiseModel {
         let rows = &self.directions[range.clone()];
         let shared: f64 = rows.iter().map(|u| quadratic(u, &self.mean_variance)).sum();
         let read: f64 = self.gauge_errors.iter().flat_map(|c| &c[range.clone()]).map(|e| e * e).sum();
-        Some(self.sigma_m?.powi(2) / self.runs as f64 + (shared + read) / rows.len() as f64)
+        Some(self.sigma_m?.powi(2) / self.runs as f64 + (shared + read) / self.seen(range).max(1) as f64)
+    }
+
+    /// Whether enough runs saw a value, by its index in run layout: an alignment error moves every value that was seen.
+    pub fn is_seen(&self, value: usize) -> bool {
+        self.directions[value] != [0.0; 4]
+    }
+
+    /// Values that enough runs saw.
+    pub fn seen(&self, range: std::ops::Range<usize>) -> usize {
+        self.directions[range].iter().filter(|u| **u != [0.0; 4]).count()
     }
 
     /// The noisiest and the quietest hold, if their scatter differs by more than chance (F test, p < 0.01 after

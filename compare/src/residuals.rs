@@ -49,6 +49,8 @@ pub struct ResidualCell {
     pub norm_mm: f64,
     /// Length of the vector of the two standardised errors.
     pub norm_in_noise: Option<f64>,
+    /// Enough runs saw the marker in this hold; where not, all else is zero.
+    pub seen: bool,
 }
 
 /// A hold as labelled in tables and plots.
@@ -129,7 +131,8 @@ pub fn residual_map(c: &Comparison) -> ResidualMap {
         tip: c.tip,
         cells: deviations[..drift_start]
             .chunks(2 * holds)
-            .map(|row| row.chunks(2).map(|xy| cell(xy[0], xy[1])).collect())
+            .enumerate()
+            .map(|(m, row)| row.chunks(2).enumerate().map(|(h, xy)| cell(xy, c.dataset.is_seen(h, m))).collect())
             .collect(),
         drifts: (0..drifting).map(drift).collect(),
         loops: pairs.iter().enumerate().map(gap).collect(),
@@ -161,14 +164,16 @@ fn deviations(c: &Comparison, contrasts: &[Weights]) -> Vec<Deviation> {
     (0..values.len()).map(|i| Deviation { mm: 1e3 * values[i], in_noise: in_noise[i], p_corrected: p(i) }).collect()
 }
 
-fn cell(x: Deviation, y: Deviation) -> ResidualCell {
-    ResidualCell { x, y, norm_mm: x.mm.hypot(y.mm), norm_in_noise: x.in_noise.zip(y.in_noise).map(|(x, y)| x.hypot(y)) }
+fn cell(xy: &[Deviation], seen: bool) -> ResidualCell {
+    let (x, y) = (xy[0], xy[1]);
+    let norm_in_noise = x.in_noise.zip(y.in_noise).map(|(x, y)| x.hypot(y));
+    ResidualCell { x, y, norm_mm: x.mm.hypot(y.mm), norm_in_noise, seen }
 }
 
 /// Weight of each marker's y: the measured shape of the most bent hold, absolute values summing to one. Bending,
 /// creep and hysteresis all have about this shape, so it gathers them with the least noise.
 fn bending_weights(c: &Comparison) -> Vec<f64> {
-    let shapes = (0..c.layout.holds).map(|h| c.deflections(h).1);
+    let shapes = (0..c.layout.holds).map(|h| (0..c.layout.markers).map(|m| c.pair(h, m).1[1]).collect::<Vec<f64>>());
     let size = |y: &Vec<f64>| y.iter().map(|y| y.abs()).sum::<f64>();
     let shape = shapes.max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or_default();
     match size(&shape) {
@@ -181,7 +186,7 @@ fn drift_weights(c: &Comparison, hold: usize, shape: &[f64]) -> Weights {
     let samples = c.layout.samples;
     let third = (samples / 3).max(1);
     let mut weights = Vec::with_capacity(2 * third * shape.len());
-    for (marker, w) in shape.iter().enumerate() {
+    for (marker, w) in shape.iter().enumerate().filter(|(marker, _)| c.dataset.is_seen(hold, *marker)) {
         for k in 0..third {
             weights.push((c.layout.index(hold, samples - 1 - k, marker) + 1, w / third as f64));
             weights.push((c.layout.index(hold, k, marker) + 1, -w / third as f64));
@@ -192,7 +197,8 @@ fn drift_weights(c: &Comparison, hold: usize, shape: &[f64]) -> Weights {
 
 fn gap_weights(c: &Comparison, load: usize, unload: usize, shape: &[f64]) -> Weights {
     let signed = |hold: usize, sign: f64| {
-        let markers = shape.iter().enumerate();
+        let seen = move |(m, _): &(usize, &f64)| [load, unload].iter().all(|h| c.dataset.is_seen(*h, *m));
+        let markers = shape.iter().enumerate().filter(seen);
         let weights = markers
             .flat_map(move |(m, w)| c.layout.mean_weights(hold, m, 1).into_iter().map(move |(i, v)| (i, sign * w * v)));
         weights.collect::<Weights>()

@@ -20,6 +20,10 @@ pub struct Within {
 pub fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &DirectionFit) -> Within {
     let holds = dataset.holds.len();
     let mut within = Within { sigma2: 0.0, hold_sigma2: vec![0.0; holds], dof: 0, coefficient_variance: [0.0; 4] };
+    let per_marker = 2 * dataset.samples_per_hold;
+    let seen_in = |hold: usize| (0..dataset.markers.len()).filter(|m| dataset.is_seen(hold, *m)).count() * per_marker;
+    let seen: Vec<usize> = (0..holds).map(seen_in).collect();
+    let filled = &dataset.lost.filled;
     let repeated = groups.iter().filter(|g| g.len() > 1).count() as f64;
     for group in groups.iter().filter(|g| g.len() > 1) {
         let mean = mean_of(dataset, group);
@@ -33,12 +37,16 @@ pub fn within_sessions(dataset: &Dataset, groups: &[Vec<usize>], fit: &Direction
                 *v += c * c / (group.len() - 1) as f64 / repeated;
             }
         }
-        within.dof += (group.len() - 1) * (mean.len() - fit.count());
+        let values: usize = seen.iter().sum();
+        let filled = filled.iter().filter(|[run, ..]| group.contains(run)).count() * per_marker;
+        within.dof += ((group.len() - 1) * (values - fit.count())).saturating_sub(filled);
     }
-    // All holds have the same number of values, so each has the same share of the degrees of freedom.
-    let dof_per_hold = within.dof.max(1) as f64 / holds as f64;
-    within.hold_sigma2.iter_mut().for_each(|s| *s /= dof_per_hold);
-    within.sigma2 = within.hold_sigma2.iter().sum::<f64>() / holds as f64;
+    // Every hold has its share of the degrees of freedom.
+    within.sigma2 = within.hold_sigma2.iter().sum::<f64>() / within.dof.max(1) as f64;
+    let values = seen.iter().sum::<usize>() as f64;
+    for (square, seen) in within.hold_sigma2.iter_mut().zip(seen) {
+        *square /= (within.dof.max(1) as f64 * seen as f64 / values).max(1.0);
+    }
     within
 }
 

@@ -53,7 +53,7 @@ pub struct ScalingPair {
     pub largest_mm: f64,
     /// Root-mean-square difference of one coordinate \[mm\].
     pub rms_mm: f64,
-    /// Tip: y at the high body pressure minus y at the low one \[mm\].
+    /// Outermost marker that both saw: y at the high body pressure minus y at the low one \[mm\].
     pub tip_mm: f64,
     /// χ²/dof of the difference; `None` if the noise is unknown or for a model.
     pub reduced_chi2: Option<f64>,
@@ -81,14 +81,14 @@ pub struct ScalingCheck {
 pub fn scaling_of_data(dataset: &Dataset, noise: &NoiseModel, alpha: f64) -> Result<ScalingCheck, CompareError> {
     let layout = Layout::of(dataset)?;
     let mean = dataset.mean_over_runs();
-    let mut pairs = matching_pairs(&dataset.holds, &layout, &mean);
+    let mut pairs = matching_pairs(&dataset.holds, &layout, &mean, &|hold, marker| dataset.is_seen(hold, marker));
     if pairs.is_empty() {
         return Ok(cannot_be_checked(&dataset.holds));
     }
     let mut raw = Vec::new();
     for pair in &mut pairs {
         let chi2 = chi_square(dataset, &layout, noise, &mean, pair)?;
-        let dof = 2 * layout.markers;
+        let dof = 2 * seen_in_both(dataset, pair).count();
         pair.reduced_chi2 = noise.is_known().then_some(chi2 / dof as f64);
         raw.push(f_tail(chi2 / dof as f64, dof, noise.pure_error_dof));
     }
@@ -119,7 +119,7 @@ pub fn scaling_of_model(
 ) -> Result<ScalingCheck, CompareError> {
     layout.check("the prediction", prediction_m)?;
     layout.check("the derivative with respect to ln p", dprediction_dlnp)?;
-    let pairs = matching_pairs(holds, layout, prediction_m);
+    let pairs = matching_pairs(holds, layout, prediction_m, &|_, _| true);
     if pairs.is_empty() {
         return Ok(cannot_be_checked(holds));
     }
@@ -148,7 +148,11 @@ pub fn scaling_of_model(
     Ok(ScalingCheck { verdict, sentence, pairs })
 }
 
-fn matching_pairs(holds: &[Hold], layout: &Layout, values: &[f64]) -> Vec<ScalingPair> {
+/// Whether a marker was seen in a hold.
+type Seen<'s> = dyn Fn(usize, usize) -> bool + 's;
+
+/// Pairs of holds that show one marker at least.
+fn matching_pairs(holds: &[Hold], layout: &Layout, values: &[f64], is_seen: &Seen) -> Vec<ScalingPair> {
     let usable = |h: &Hold| h.p_act_pa > ZERO_PRESSURE_PA && h.p_body_pa > ZERO_PRESSURE_PA;
     let unloading = |h: &Hold| h.phase == Phase::Unload;
     let means = layout.hold_means(values);
@@ -159,28 +163,41 @@ fn matching_pairs(holds: &[Hold], layout: &Layout, values: &[f64]) -> Vec<Scalin
             let apart = comparable && (a.p_body_pa / b.p_body_pa).ln().abs() > BODY_DIFFERENCE;
             if apart && (ratio(a) / ratio(b)).ln().abs() <= RATIO_TOLERANCE {
                 let (low, high) = if a.p_body_pa < b.p_body_pa { (i, j) } else { (j, i) };
-                pairs.push(pair(holds, layout, &means, low, high));
+                pairs.extend(pair(holds, layout, &means, (low, high), is_seen));
             }
         }
     }
     pairs
 }
 
-fn pair(holds: &[Hold], layout: &Layout, means: &[f64], low_hold: usize, high_hold: usize) -> ScalingPair {
+fn pair(
+    holds: &[Hold],
+    layout: &Layout,
+    means: &[f64],
+    (low_hold, high_hold): (usize, usize),
+    is_seen: &Seen,
+) -> Option<ScalingPair> {
     let (low, high) = (hold_part(means, layout, low_hold), hold_part(means, layout, high_hold));
-    let difference: Vec<f64> = high.iter().zip(low).map(|(h, l)| h - l).collect();
+    let seen = |i: &usize| is_seen(low_hold, i / 2) && is_seen(high_hold, i / 2);
+    let difference: Vec<f64> = (0..high.len()).filter(seen).map(|i| high[i] - low[i]).collect();
     let squares: f64 = difference.iter().map(|d| d * d).sum();
-    ScalingPair {
+    Some(ScalingPair {
         low_hold,
         high_hold,
         ratio: 0.5 * (ratio(&holds[low_hold]) + ratio(&holds[high_hold])),
         p_body_kpa: [1e-3 * holds[low_hold].p_body_pa, 1e-3 * holds[high_hold].p_body_pa],
         largest_mm: 1e3 * largest_norm(&difference),
         rms_mm: 1e3 * (squares / difference.len() as f64).sqrt(),
-        tip_mm: 1e3 * difference[difference.len() - 1],
+        tip_mm: 1e3 * difference.last()?,
         reduced_chi2: None,
         p_corrected: None,
-    }
+    })
+}
+
+/// Markers that were seen in both holds of a pair.
+fn seen_in_both<'d>(dataset: &'d Dataset, pair: &ScalingPair) -> impl Iterator<Item = usize> + 'd {
+    let holds = [pair.low_hold, pair.high_hold];
+    (0..dataset.markers.len()).filter(move |marker| holds.iter().all(|hold| dataset.is_seen(*hold, *marker)))
 }
 
 /// χ² of the shape difference: covariance (2σ²/samples I + ΔU diag(v) ΔUᵀ) of the mean, plus the ratio mismatch as a
@@ -194,7 +211,7 @@ fn chi_square(
 ) -> Result<f64, CompareError> {
     let mut difference = Vec::new();
     let mut rows = Vec::new();
-    for marker in 0..layout.markers {
+    for marker in seen_in_both(dataset, pair) {
         for axis in 0..2 {
             let mut weights: Weights = layout.mean_weights(pair.high_hold, marker, axis);
             let low = layout.mean_weights(pair.low_hold, marker, axis);

@@ -256,7 +256,7 @@ impl<'a> Case<'a> {
     /// Root mean square of a fit's errors over all values of all data \[mm\].
     pub fn error_in_all_mm(&self, fit: &Fit) -> f64 {
         let errors = std::iter::once(self.error_mm(&self.prediction(fit))).chain(self.errors_beside_mm(fit));
-        let counts = self.problem.blocks.iter().map(|block| block.target_m.len() as f64);
+        let counts = self.sources().map(|(_, noise)| noise.seen(0..noise.directions.len()) as f64);
         let (squares, count) = errors.zip(counts).fold((0.0, 0.0), |(s, n), (mm, k)| (s + k * mm * mm, n + k));
         (squares / count).sqrt()
     }
@@ -264,7 +264,9 @@ impl<'a> Case<'a> {
     /// Error beyond noise that no scatter between runs explains \[mm\]: from the whitened sum of squares, whose expectation
     /// under noise is its degrees of freedom. Pressure, alignment and rotation of a run do not count.
     pub fn beyond_noise_mm(&self, fit: &Fit) -> f64 {
-        let seen = fit.minimum.residual.len() - self.problem.known.len();
+        let unseen = |noise: &NoiseModel| noise.directions.len() - noise.seen(0..noise.directions.len());
+        let unseen: usize = self.sources().map(|(_, noise)| unseen(noise)).sum();
+        let seen = fit.minimum.residual.len() - self.problem.known.len() - unseen;
         let (cost, dof) = (self.seen_cost(fit), seen.saturating_sub(fit.theta().len()).max(1) as f64);
         1e3 * self.noise.unit_m() * (cost / dof - 1.0).max(0.0).sqrt()
     }
@@ -320,7 +322,8 @@ fn independent_tests(problem: &Problem, base: &Fit, tried: std::ops::Range<usize
 
 /// Root-mean-square error of a prediction beyond the noise of the mean \[mm\].
 fn error_mm(prediction_m: &[f64], mean_m: &[f64], noise: &NoiseModel) -> f64 {
-    let squares = prediction_m.iter().zip(mean_m).map(|(f, y)| (f - y).powi(2)).sum::<f64>() / mean_m.len() as f64;
+    let squares = prediction_m.iter().zip(mean_m).map(|(f, y)| (f - y).powi(2)).sum::<f64>();
+    let squares = squares / noise.seen(0..mean_m.len()) as f64;
     let expected = noise.mean_square(0..mean_m.len()).unwrap_or(0.0);
     1e3 * (squares - expected).max(0.0).sqrt()
 }

@@ -4,15 +4,22 @@
 //! pressures share one equilibrium, unless the model has history: then the whole protocol is walked.
 
 use crate::error::CompareError;
-use crate::study::predict::protocol;
+use crate::study::predict::{as_in_data, protocol};
 use data::Dataset;
 use models::{Loads, Model, Prediction, Scenario};
 
-/// Fills `out`, in run layout, at the given holds \[m\]; other values stay as they are.
+/// Fills `out`, in run layout, at the given holds \[m\]; other values stay as they are. Where too few runs saw a marker stands what
+/// stands in the data.
 ///
 /// # Errors
 /// What the model returns when a hold has no equilibrium.
 pub fn positions(scenario: &Scenario, dataset: &Dataset, holds: &[usize], out: &mut [f64]) -> Result<(), CompareError> {
+    everywhere(scenario, dataset, holds, out)?;
+    as_in_data(dataset, out);
+    Ok(())
+}
+
+fn everywhere(scenario: &Scenario, dataset: &Dataset, holds: &[usize], out: &mut [f64]) -> Result<(), CompareError> {
     let model = Model::new(scenario);
     let width = dataset.values_per_run() / dataset.holds.len();
     if model.has_history() {

@@ -3,7 +3,7 @@
 use super::known::BenchTest;
 use super::source::seen_rolled;
 use crate::comparison::ZERO_PRESSURE_PA;
-use data::{Dataset, Direct, Hold, Phase};
+use data::{Dataset, Direct, Hold, Lost, Phase};
 use models::Scenario;
 
 /// Known force hung on the tip \[N\].
@@ -188,7 +188,14 @@ fn protocol(dataset: &Dataset, pressures: &[f64], body: f64, hold_s: f64) -> Dat
         t_s: (0..samples).map(|k| hold_s * (i as f64 + (k + 1) as f64 / samples as f64)).collect(),
     };
     let holds: Vec<Hold> = pressures.iter().enumerate().map(hold).collect();
-    let mut planned = Dataset { runs: vec!["1".into()], holds, xy_m: Vec::new(), gauge_pa: None, ..dataset.clone() };
+    let mut planned = Dataset {
+        runs: vec!["1".into()],
+        holds,
+        xy_m: Vec::new(),
+        gauge_pa: None,
+        lost: Lost::default(),
+        ..dataset.clone()
+    };
     planned.xy_m = vec![0.0; planned.values_per_run()];
     planned
 }

@@ -35,6 +35,8 @@ struct Fold<'a> {
     noise_m2: f64,
     /// The same of the data of the fit: no fit takes over more of it.
     fitted_m2: f64,
+    /// Values that too few runs saw.
+    unseen: Vec<usize>,
 }
 
 /// The parts of a dataset, made once for all effects.
@@ -71,7 +73,8 @@ fn error_mm(folds: &[Fold], fit: &Fit) -> Option<f64> {
         let (candidates, bendings) = (fold.problem.candidates, fold.problem.bendings);
         let predicted = block.predict_at(&fold.holds, candidates, &fit.effects, refit.theta(), bendings)?;
         let width = predicted.len() / block.dataset.holds.len();
-        let rows: Vec<usize> = fold.holds.iter().flat_map(|h| h * width..(h + 1) * width).collect();
+        let seen = |i: &usize| !fold.unseen.contains(i);
+        let rows: Vec<usize> = fold.holds.iter().flat_map(|h| h * width..(h + 1) * width).filter(seen).collect();
         let noise_m2 = fold.noise_m2 + taken_over_m2(fold, &refit, &predicted, &rows).min(fold.fitted_m2);
         squares += rows.iter().map(|i| (predicted[*i] - fold.truth_m[*i]).powi(2) - noise_m2).sum::<f64>();
         values += rows.len() as f64;
@@ -121,11 +124,13 @@ fn pressure_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
     let fold = |level: &f64| {
         let is_out = |h: &usize| same(*level, case.dataset.holds[*h].p_act_pa);
         let (out, kept): (Vec<usize>, Vec<usize>) = (0..case.dataset.holds.len()).partition(is_out);
-        let noise: f64 =
-            out.iter().map(|h| case.noise.mean_square(h * width..(h + 1) * width).unwrap_or(0.0)).sum::<f64>();
+        let count = |h: &usize| case.noise.seen(h * width..(h + 1) * width) as f64;
+        let of_hold = |h: &usize| case.noise.mean_square(h * width..(h + 1) * width).unwrap_or(0.0) * count(h);
+        let noise_m2 = out.iter().map(of_hold).sum::<f64>() / out.iter().map(count).sum::<f64>().max(1.0);
         let problem = problem(case, &kept, mean.clone())?;
         let fitted_m2 = case.noise.mean_square(0..mean.len()).unwrap_or(0.0);
-        Ok(Fold { problem, truth_m: mean.clone(), noise_m2: noise / out.len() as f64, fitted_m2, holds: out })
+        let unseen = case.dataset.unseen_values().collect();
+        Ok(Fold { problem, truth_m: mean.clone(), noise_m2, fitted_m2, holds: out, unseen })
     };
     levels.iter().map(fold).collect()
 }
@@ -151,7 +156,8 @@ fn run_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
         let problem = problem(case, &all, mean_of(&|r| r % folds != k))?;
         let truth_m = mean_of(&|r| r % folds == k);
         let [noise_m2, fitted_m2] = [out, runs as f64 - out].map(|count| noise * runs as f64 / count);
-        Ok(Fold { problem, holds: all.clone(), truth_m, noise_m2, fitted_m2 })
+        let unseen = case.dataset.unseen_values().collect();
+        Ok(Fold { problem, holds: all.clone(), truth_m, noise_m2, fitted_m2, unseen })
     };
     (0..folds).map(fold).collect()
 }

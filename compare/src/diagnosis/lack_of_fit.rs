@@ -36,9 +36,11 @@ pub fn lack_of_fit(
         return Ok(None);
     }
     let c = Comparison::new(dataset, noise, prediction_m)?;
-    let all = p_of(&noise.whiten(&c.residual_m), fitted, noise);
-    let hold_means = p_of(&whitened(&c, &hold_means(&c.layout))?, fitted, noise);
-    let marker_means = p_of(&whitened(&c, &marker_means(&c.layout))?, 0, noise);
+    let values = noise.seen(0..c.residual_m.len());
+    let all = p_of(&noise.whiten(&c.residual_m), values.saturating_sub(fitted), noise);
+    let means = values / c.layout.samples;
+    let hold_means = p_of(&whitened(&c, &hold_means(&c.layout))?, means.saturating_sub(fitted), noise);
+    let marker_means = p_of(&whitened(&c, &marker_means(&c))?, 2 * c.layout.markers, noise);
     let drift = drift(&c, noise);
     let least = [all, hold_means, drift, marker_means].into_iter().fold(1.0, f64::min);
     let p_value = reported_p(4.0 * least);
@@ -53,8 +55,7 @@ pub fn with_supply(lof: LackOfFit, gauge: &Gauge, white: &[f64]) -> LackOfFit {
     LackOfFit { supply: Some(reported_p(p)), p_value: (1.25 * lof.p_value).min(reported_p(5.0 * p)), ..lof }
 }
 
-fn p_of(white: &[f64], fitted: usize, noise: &NoiseModel) -> f64 {
-    let dof = white.len().saturating_sub(fitted);
+fn p_of(white: &[f64], dof: usize, noise: &NoiseModel) -> f64 {
     let chi2: f64 = white.iter().map(|w| w * w).sum();
     if dof == 0 { 1.0 } else { f_tail(chi2 / dof as f64, dof, noise.pure_error_dof) }
 }
@@ -64,10 +65,13 @@ fn hold_means(layout: &Layout) -> Vec<Weights> {
     cells.flat_map(|(h, m)| [0, 1].map(|axis| layout.mean_weights(h, m, axis))).collect()
 }
 
-fn marker_means(layout: &Layout) -> Vec<Weights> {
-    let share = 1.0 / layout.holds as f64;
+/// Of the holds in which a marker was seen; their squares have the same total for every marker.
+fn marker_means(c: &Comparison) -> Vec<Weights> {
+    let layout = &c.layout;
     let mean = |m: usize, axis: usize| -> Weights {
-        let holds = (0..layout.holds).flat_map(|h| layout.mean_weights(h, m, axis));
+        let seen: Vec<usize> = (0..layout.holds).filter(|h| c.dataset.is_seen(*h, m)).collect();
+        let share = 1.0 / (layout.holds as f64 * seen.len() as f64).sqrt();
+        let holds = seen.into_iter().flat_map(|h| layout.mean_weights(h, m, axis));
         holds.map(|(i, w)| (i, share * w)).collect()
     };
     (0..layout.markers).flat_map(|m| [0, 1].map(|axis| mean(m, axis))).collect()
@@ -81,5 +85,5 @@ fn whitened(c: &Comparison, means: &[Weights]) -> Result<Vec<f64>, CompareError>
 
 fn drift(c: &Comparison, noise: &NoiseModel) -> f64 {
     let z: Vec<f64> = residual_map(c).drifts.iter().filter_map(|d| d.deviation.in_noise).collect();
-    p_of(&z, 0, noise)
+    p_of(&z, z.len(), noise)
 }

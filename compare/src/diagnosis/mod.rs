@@ -36,6 +36,8 @@ mod known;
 mod lack_of_fit;
 mod least_squares;
 mod limits;
+#[cfg(test)]
+mod lost_tests;
 mod next;
 mod options;
 mod order;

@@ -46,7 +46,7 @@ pub fn criterion(case: &Case, fit: &Fit, allowance: f64) -> f64 {
 
 /// The same of a sum of squares and a number of parameters added.
 pub fn criterion_of(case: &Case, cost: f64, added: usize, allowance: f64) -> f64 {
-    let values = case.sources().map(|(_, noise)| noise.directions.len()).sum::<usize>() as f64;
+    let values = case.sources().map(|(_, noise)| noise.seen(0..noise.directions.len())).sum::<usize>() as f64;
     cost / allowance + added as f64 * price(values, allowance)
 }
 

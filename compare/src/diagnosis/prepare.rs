@@ -66,7 +66,7 @@ pub fn outlying_runs(dataset: &Dataset, noise: &NoiseModel) -> Vec<OutlyingRun> 
         })
         .collect();
     let total: f64 = squares.iter().sum();
-    let dof = mean.len() - fit.count();
+    let dof = noise.seen(0..mean.len()) - fit.count();
     let outlying = |(run, s): (usize, &f64)| {
         let ratio = s * (runs - 1) as f64 / (total - s);
         let p = (runs as f64 * f_tail(ratio, dof, (runs - 1) * dof)).min(1.0);

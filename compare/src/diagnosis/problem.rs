@@ -252,8 +252,11 @@ impl Problem<'_> {
             .map(|block| {
                 let width = block.target_m.len() / block.dataset.holds.len() * block.holds.len();
                 let own = &residual[from..from + width];
+                let unseen = |h: &&usize| block.dataset.lost.unseen.iter().filter(|[hold, _]| hold == *h).count();
+                let unseen: usize = block.holds.iter().map(|h| unseen(&h)).sum();
+                let seen = width - unseen * 2 * block.dataset.samples_per_hold;
                 from += width + block.gauge.as_ref().map_or(0, |g| g.gauge.differences_pa(&g.gauge.scenario).len());
-                (square(own) / width as f64).max(1.0)
+                (square(own) / seen as f64).max(1.0)
             })
             .collect()
     }

@@ -58,7 +58,7 @@ pub fn alone(case: &Case, kinds: &[Fault]) -> Option<StandsOut> {
 pub fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&StandsOut>) -> Option<LeftPattern> {
     let clearest = |fit: &Fit| look(case, fit, false).into_iter().max_by(|a, b| a.gain.total_cmp(&b.gain));
     let told = |fit: &Fit, seen: StandsOut, instead: bool| LeftPattern {
-        share: seen.gain / excess(case.first(&fit.minimum.residual)).max(seen.gain),
+        share: seen.gain / excess(case, case.first(&fit.minimum.residual)).max(seen.gain),
         words: seen.words,
         p_value: reported_p(seen.p_value),
         instead,
@@ -80,7 +80,12 @@ fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Vec<StandsOut> {
         return Vec::new();
     }
     let prediction = case.prediction(fit);
-    let whiten = |direction: &[f64]| case.problem.blocks[0].whitener.whiten(direction);
+    let unseen: Vec<usize> = case.dataset.unseen_values().collect();
+    let whiten = |direction: &[f64]| {
+        let mut seen = direction.to_vec();
+        unseen.iter().for_each(|i| seen[*i] = 0.0);
+        case.problem.blocks[0].whitener.whiten(&seen)
+    };
     let fitted = Basis::of(&fit.minimum.jacobian.iter().map(|column| case.first(column).to_vec()).collect::<Vec<_>>());
     let mut bent = fitted.clone();
     if beside_bending {
@@ -105,8 +110,8 @@ fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Vec<StandsOut> {
 }
 
 /// What whitened residuals have beyond noise.
-fn excess(white: &[f64]) -> f64 {
-    square(white) - white.len() as f64
+fn excess(case: &Case, white: &[f64]) -> f64 {
+    square(white) - case.noise.seen(0..white.len()) as f64
 }
 
 /// Unit vector along what a fit leaves of a pattern; `None` if that is next to nothing.

@@ -79,7 +79,7 @@ pub fn calibrate_bending(
 /// √B, and the noise that it was fitted in: wider if the model misses the data.
 fn fit(scenario: &Scenario, dataset: &Dataset, noise: NoiseModel) -> Result<(f64, NoiseModel), CompareError> {
     let mean_m = dataset.mean_over_runs();
-    let count = mean_m.len() as f64;
+    let count = noise.seen(0..mean_m.len()) as f64;
     let least = Misfit { scenario, dataset, noise: &noise, mean_m };
     let mut best = minimum(&least)?;
     let mut wider = noise.clone();

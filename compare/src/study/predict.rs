@@ -35,6 +35,7 @@ pub fn fit_scenario(
     }
     let mut fitted = scenario.with_markers(&stations(scenario, dataset)?);
     let mut warnings = data::check::contradictions(dataset);
+    warnings.extend(data::losses(dataset));
     if let Some(about) = about {
         if let Some(direction) = about.gravity_direction {
             fitted.gravity_direction = direction;
@@ -136,11 +137,23 @@ fn geometry_warnings(scenario: &Scenario, about: &About) -> Vec<String> {
 /// Every sample of a hold gets the same prediction, unless the model has history: then the holds are walked in order at
 /// their sample times ([`Model::follow`]). The robot starts at rest when the first hold's pressures are set, at time 0; a
 /// gap between two holds, of one session or of two, passes at the pressures of the second; a hold whose times lie before
-/// those of the hold before starts a new session at rest.
+/// those of the hold before starts a new session at rest. Where too few runs saw a marker stands what stands in the data.
 ///
 /// # Errors
 /// What the model returns when a hold has no equilibrium.
 pub fn predict_dataset(scenario: &Scenario, dataset: &Dataset) -> Result<Predicted, CompareError> {
+    let mut predicted = predict_everywhere(scenario, dataset)?;
+    as_in_data(dataset, &mut predicted.xy_m);
+    dataset.unseen_values().for_each(|i| predicted.d_ln_pressure_m[i] = 0.0);
+    Ok(predicted)
+}
+
+/// Puts what stands in the data where too few runs saw a marker: the residual is zero there.
+pub(crate) fn as_in_data(dataset: &Dataset, predicted_m: &mut [f64]) {
+    dataset.unseen_values().for_each(|i| predicted_m[i] = dataset.xy_m[i]);
+}
+
+fn predict_everywhere(scenario: &Scenario, dataset: &Dataset) -> Result<Predicted, CompareError> {
     let model = Model::new(scenario);
     if model.has_history() {
         return predict_in_time(&model, dataset);

@@ -203,7 +203,8 @@ fn heights(models: [&Scenario; 2], dataset: &Dataset, ensemble: &Ensemble) -> Re
         let nearest = pressures().min_by(|a, b| (a - kpa).abs().total_cmp(&(b - kpa).abs()));
         let Some(shared) = nearest.filter(|p| (p - kpa).abs() < SAME_PRESSURE * p) else { continue };
         let Some((fe_mm, fe_sd_mm)) = ensemble.marker_at(stations[marker], shared) else { continue };
-        if !body || hold.phase == Phase::Unload || found.iter().any(|f| f.actuator_kpa == shared) {
+        let unseen = !dataset.is_seen(h, marker);
+        if !body || unseen || hold.phase == Phase::Unload || found.iter().any(|f| f.actuator_kpa == shared) {
             continue;
         }
         let samples = dataset.samples_per_hold;

@@ -290,7 +290,8 @@ fn deviations(base: &Scenario, dataset: &Dataset) -> Result<LineSeries, CompareE
     let body = dataset.holds[0].p_body_pa;
     let (mut points, mut half_width) = (Vec::new(), Vec::new());
     for (h, hold) in dataset.holds.iter().enumerate() {
-        if hold.phase == Phase::Unload || (hold.p_body_pa - body).abs() > 0.05 * body {
+        let unseen = !dataset.is_seen(h, tip);
+        if unseen || hold.phase == Phase::Unload || (hold.p_body_pa - body).abs() > 0.05 * body {
             continue;
         }
         let (mean, spread) = measured(dataset, h, tip);

@@ -99,7 +99,8 @@ pub(super) fn shapes(title: &str, scenario: &Scenario, dataset: &Dataset) -> Res
     for h in shown_holds(dataset) {
         let hold = &dataset.holds[h];
         model.predict(&Loads::uniform(hold.p_body_pa, hold.p_act_pa), &mut state)?;
-        let measured = (0..dataset.markers.len()).map(|m| {
+        let seen = (0..dataset.markers.len()).filter(|m| dataset.is_seen(h, *m));
+        let measured = seen.map(|m| {
             let (mean, spread) = measured(dataset, h, m);
             plots::MeasuredPoint { at_mm: mean.map(|v| v * MM), half_width_mm: spread.map(|v| v * MM) }
         });
@@ -131,8 +132,11 @@ pub(super) fn residual_map(title: &str, evaluation: &Evaluation, dataset: &Datas
 /// The same for residuals at hand.
 pub(super) fn map(title: &str, map: &crate::residuals::ResidualMap, dataset: &Dataset) -> Result<Drawn, CompareError> {
     let in_noise = map.cells.iter().flatten().all(|c| c.y.in_noise.is_some());
-    let value =
-        |cell: &crate::residuals::ResidualCell| if in_noise { cell.y.in_noise.unwrap_or(f64::NAN) } else { cell.y.mm };
+    let value = |cell: &crate::residuals::ResidualCell| match cell.y.in_noise {
+        _ if !cell.seen => f64::NAN,
+        Some(z) if in_noise => z,
+        _ => cell.y.mm,
+    };
     let several = several_bodies(dataset);
     let group = |h: &crate::residuals::HoldLabel| match several {
         true => format!("body {} kPa", crate::wording::short(h.p_body_kpa)),
@@ -210,7 +214,7 @@ fn shown_variants(study: &Study, bodies: usize) -> Vec<(usize, &Variant)> {
 /// Hold means of the outermost marker at a body pressure, over actuator pressure \[kPa, mm\], and their scatter over runs \[mm\].
 fn branch(dataset: &Dataset, p_body_pa: f64, unload: bool) -> (Vec<[f64; 2]>, Vec<f64>) {
     let tip = dataset.markers.len() - 1;
-    let holds = dataset.holds.iter().enumerate();
+    let holds = dataset.holds.iter().enumerate().filter(|(i, _)| dataset.is_seen(*i, tip));
     let own = holds.filter(|(_, h)| (h.phase == Phase::Unload) == unload && same_body(h.p_body_pa, p_body_pa));
     let point = |(i, h): (usize, &data::Hold)| {
         let (mean, spread) = measured(dataset, i, tip);
