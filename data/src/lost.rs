@@ -48,7 +48,24 @@ fn needed(runs: usize) -> usize {
     (2 * runs).div_ceil(3)
 }
 
-/// Fills the cells (run, hold, marker) that were lost and says which are filled and which left out.
+impl Dataset {
+    /// The same as a camera sees it that lost these markers: cells (run, hold, marker), each for the whole hold.
+    ///
+    /// ```
+    /// let (set, _) = data::load("synthetic-epam", &mut |_, _| {}).unwrap();
+    /// let lost = set.losing(&[[0, 3, 5]]);
+    /// assert_eq!((lost.lost.filled.len(), lost.lost.unseen.len()), (1, 0));
+    /// ```
+    pub fn losing(mut self, cells: &[[usize; 3]]) -> Dataset {
+        let mut sorted = cells.to_vec();
+        sorted.sort_unstable();
+        sorted.dedup();
+        fill(&mut self, &sorted);
+        self
+    }
+}
+
+/// Fills the cells (run, hold, marker), in order, that were lost and says which are filled and which left out.
 pub(crate) fn fill(dataset: &mut Dataset, cells: &[[usize; 3]]) {
     let runs = dataset.runs.len();
     let is_lost = |cell: [usize; 3]| cells.binary_search(&cell).is_ok();

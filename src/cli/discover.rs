@@ -175,6 +175,9 @@ pub struct ChallengeNew {
     /// Camera noise with heavy tails: now and then a marker is seen far off
     #[arg(long)]
     pub heavy_tails: bool,
+    /// A camera that loses one marker in twenty for a whole hold, and the outermost one at the highest pressure
+    #[arg(long)]
+    pub lost_markers: bool,
     /// Actuator pressures in kPa at a body pressure in kPa; default: 0,10,20,30,0@2
     #[arg(long)]
     pub protocol: Option<String>,

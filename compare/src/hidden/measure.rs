@@ -15,7 +15,14 @@ pub struct Measurement {
     /// Camera noise from Student's t with 3 degrees of freedom, scaled to the same standard deviation: now and then a
     /// marker is seen far off.
     pub heavy_tails: bool,
+    /// One in twenty markers is lost for a whole hold of a run, and the outermost one leaves the picture at the highest pressure.
+    pub lost_markers: bool,
 }
+
+/// Share of (run, hold, marker) that a camera loses.
+const LOST: f64 = 0.05;
+/// Sets the losses apart from the scatter, which is the same without them.
+const LOSSES: u64 = 0x1057;
 
 /// Degrees of freedom of heavy-tailed noise: the least with a variance.
 const HEAVY_DOF: usize = 3;
@@ -81,7 +88,23 @@ pub fn measure_holds(
         gauge_pa: g.gauge.then_some(readings),
         lost: data::Lost::default(),
     };
-    Ok(made.checked()?)
+    let made = made.checked()?;
+    let cells = if measurement.lost_markers { lost(&made, g.seed) } else { Vec::new() };
+    Ok(if cells.is_empty() { made } else { made.losing(&cells) })
+}
+
+/// Cells (run, hold, marker) that the camera loses.
+fn lost(dataset: &Dataset, seed: u64) -> Vec<[usize; 3]> {
+    let mut scatter = Scatter::new(seed ^ LOSSES);
+    let top_pa = dataset.holds.iter().fold(0.0, |top: f64, hold| top.max(hold.p_act_pa));
+    let (holds, markers) = (dataset.holds.len(), dataset.markers.len());
+    let cells = (0..dataset.runs.len()).flat_map(|run| (0..holds).map(move |hold| (run, hold)));
+    let cells = cells.flat_map(|(run, hold)| (0..markers).map(move |marker| [run, hold, marker]));
+    let mut is_lost = |[_, hold, marker]: &[usize; 3]| {
+        let occluded = scatter.uniform() < LOST;
+        occluded || *marker == markers - 1 && dataset.holds[*hold].p_act_pa == top_pa
+    };
+    cells.filter(|cell| is_lost(cell)).collect()
 }
 
 /// Readings of one run, `[hold][sample]` \[Pa\]; `gain` is the run's factor on the pressure.

@@ -1,6 +1,6 @@
 //! The generator against the model, and against what must hold in general.
 
-use super::truth::HiddenChoice;
+use super::truth::{HiddenChoice, standard_protocol};
 use super::*;
 use crate::study::generate::{Generator, generate};
 use models::{Scenario, shipped};
@@ -123,4 +123,21 @@ fn plain(actuator: &str) -> Truth {
     let mut truth = Truth::draw(actuator, &mut Draw::new(7, 0)).unwrap();
     truth.runs = 2;
     truth
+}
+
+#[test]
+fn a_camera_that_loses_markers_leaves_the_others_as_they_were() {
+    let whole = Truth::draw("epam", &mut Draw::new(3, 1)).unwrap();
+    let seen = |lost_markers: bool| {
+        Truth { runs: 10, lost_markers, ..whole.clone() }.dataset("d", &standard_protocol()).unwrap()
+    };
+    let (all, lossy) = (seen(false), seen(true));
+    assert_eq!(lossy.lost.unseen[..], [[3, 5]], "the outermost one leaves the picture at 30 kPa");
+    let filled = lossy.lost.filled.len();
+    assert!((5..=25).contains(&filled), "{filled} of about 300 times 0.05");
+    let n = all.values_per_run();
+    for (i, (a, b)) in all.xy_m.iter().zip(&lossy.xy_m).enumerate() {
+        let (run, hold, marker) = (i / n, i % n / (n / 5), i / 2 % 6);
+        assert!(a == b || lossy.is_lost(run, hold, marker), "{run} {hold} {marker}");
+    }
 }

@@ -50,6 +50,9 @@ pub struct Truth {
     pub camera_sd_m: f64,
     /// Heavy-tailed camera noise (Student's t, 3 degrees of freedom).
     pub heavy_tails: bool,
+    /// A camera that loses markers ([`Measurement::lost_markers`]).
+    #[serde(default)]
+    pub lost_markers: bool,
     /// Run-to-run relative error of the pressure \[-\].
     pub pressure_sd: f64,
     /// Run-to-run shift of the camera \[m\].
@@ -95,6 +98,7 @@ impl Truth {
             runs: *draw.one_of(&[3, 5, 10]),
             camera_sd_m: *draw.one_of(&[0.5e-3, 1e-3, 2e-3]),
             heavy_tails: false,
+            lost_markers: false,
             pressure_sd: 0.02,
             alignment_sd_m: 0.5e-3,
             effects: Vec::new(),
@@ -179,7 +183,7 @@ impl Truth {
             protocol: protocol.to_vec(),
             ..Generator::default()
         };
-        Measurement { generator, heavy_tails: self.heavy_tails }
+        Measurement { generator, heavy_tails: self.heavy_tails, lost_markers: self.lost_markers }
     }
 
     /// The dataset under a protocol.

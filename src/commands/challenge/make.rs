@@ -75,6 +75,7 @@ fn truth(args: &ChallengeNew, draw: &mut Draw) -> Result<Truth, Failure> {
         };
     }
     truth.heavy_tails = args.heavy_tails;
+    truth.lost_markers = args.lost_markers;
     match args.effect.as_slice() {
         [] => truth.hide(kind(draw), draw)?,
         [one] if one == "random" => truth.hide(kind(draw), draw)?,

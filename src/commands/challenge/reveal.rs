@@ -75,12 +75,13 @@ fn open(folder: &Path) -> Result<(Opened, Seal), Failure> {
 /// The truth in words.
 fn told(truth: &Truth) -> String {
     let mut text = format!(
-        "Robot: actuator {}, bending stiffness {:.3} N m², {} runs, camera noise {:.2} mm{}.\n",
+        "Robot: actuator {}, bending stiffness {:.3} N m², {} runs, camera noise {:.2} mm{}{}.\n",
         truth.actuator,
         truth.bending_nm2,
         truth.runs,
         truth.camera_sd_m * 1e3,
-        if truth.heavy_tails { " with heavy tails" } else { "" }
+        if truth.heavy_tails { " with heavy tails" } else { "" },
+        if truth.lost_markers { ", markers lost" } else { "" }
     );
     if truth.effects.is_empty() {
         text.push_str("Hidden: nothing.\n");

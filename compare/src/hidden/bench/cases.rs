@@ -84,6 +84,12 @@ pub(super) fn draw(part: Part, seed: u64, stream: u64, index: usize) -> Result<T
         Part::Hidden(Kind::Outside) => truth.add(OUTSIDE[turn * STRIDE % OUTSIDE.len()].name, 1.0),
         Part::Hidden(kind) | Part::Measured(kind) => truth.hide(kind, &mut draw)?,
         Part::HeavyTails => truth.heavy_tails = true,
+        Part::LostMarkers(Kind::One) => {
+            let list = truth::applicable(actuator, HIDDEN)?;
+            truth.add(list[turn * STRIDE % list.len()].name, draw.between(0.8, 1.5));
+            truth.lost_markers = true;
+        }
+        Part::LostMarkers(_) => truth.lost_markers = true,
         Part::Interval => {
             let list = truth::applicable(actuator, HIDDEN)?;
             let known = |name: &str| models::effects::by_name(name).is_some();
@@ -101,6 +107,7 @@ pub(super) fn outcome(case: &Case, diagnose: Diagnose) -> Outcome {
         Part::Measured(_) => measured(&case.truth, diagnose),
         Part::Interval => interval(&case.truth, diagnose),
         Part::HeavyTails => hidden(&case.truth, Kind::Nothing, diagnose),
+        Part::LostMarkers(_) => lossy(&case.truth, diagnose),
     };
     let (named, failed) = match found {
         Ok(named) => (Some(named), None),
@@ -140,6 +147,14 @@ fn hidden(truth: &Truth, kind: Kind, diagnose: Diagnose) -> Result<Named, Compar
         }
     }
     Ok(named)
+}
+
+/// A set without a next experiment.
+fn lossy(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
+    let data = truth.dataset("hidden", &standard_protocol())?;
+    let options = Options { next_experiment: false, ..Options::default() };
+    let about = about(truth)?;
+    Ok(named(truth, &diagnose(&truth.told()?, Measured { dataset: &data, about: Some(&about) }, &[], &options)?))
 }
 
 /// A set with the robot's bending stiffness measured by itself.

@@ -180,6 +180,8 @@ pub enum Part {
     Interval,
     /// Nothing, seen by a camera with heavy-tailed noise.
     HeavyTails,
+    /// Nothing, or the same effects, seen by a camera that loses markers.
+    LostMarkers(Kind),
 }
 
 fn plan(options: &BenchOptions) -> Result<Vec<Case>, CompareError> {
@@ -193,10 +195,12 @@ fn plan(options: &BenchOptions) -> Result<Vec<Case>, CompareError> {
         (Part::HeavyTails, half),
         (Part::Measured(Kind::Nothing), options.sets),
         (Part::Measured(Kind::One), options.sets),
+        (Part::LostMarkers(Kind::Nothing), half),
+        (Part::LostMarkers(Kind::One), half),
     ];
     let mut plan = Vec::new();
     for (number, (part, sets)) in parts.into_iter().enumerate() {
-        let same = |other: &(Part, usize)| matches!(part, Part::Measured(kind) if other.0 == Part::Hidden(kind));
+        let same = |other: &(Part, usize)| matches!(part, Part::Measured(kind) | Part::LostMarkers(kind) if other.0 == Part::Hidden(kind));
         let number = parts.iter().position(same).unwrap_or(number);
         for index in 0..sets {
             let stream = ((number as u64) << 32) + index as u64;

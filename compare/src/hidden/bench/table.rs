@@ -13,6 +13,7 @@ pub(super) fn rows(outcomes: &[Outcome]) -> Vec<Row> {
         nothing(outcomes),
         one(Part::Hidden(Kind::One)),
         one(Part::Measured(Kind::One)),
+        lossy(outcomes),
         after(outcomes),
         two(outcomes),
         outside(outcomes),
@@ -37,7 +38,9 @@ fn nothing(outcomes: &[Outcome]) -> Vec<Row> {
     let alarm = |named: &Named| named.score.alarm;
     let heavy = found(outcomes, Part::HeavyTails);
     let tested = found(outcomes, Part::Measured(Kind::Nothing));
+    let lossy = found(outcomes, Part::LostMarkers(Kind::Nothing));
     vec![
+        Row::share("no hidden effect, markers lost", "false alarms", AtMost(0.05), &shares(&lossy, alarm)),
         Row::share("no hidden effect, heavy tails", "false alarms", AtMost(0.05), &shares(&heavy, alarm)),
         Row::share(case, "false alarms, 5 and 10 runs", AtMost(0.03), &shares(&many, alarm)),
         Row::share(case, "false alarms, 3 runs", AtMost(0.05), &shares(&few, alarm)),
@@ -61,6 +64,22 @@ fn one(outcomes: &[Outcome], part: Part) -> Vec<Row> {
         Row::share(case, "given alarm: truth in the first three", AtLeast(0.92), &shares(&alarmed, top(3))),
         Row::share(case, "given alarm: truth in the stated set", AtLeast(0.93), &shares(&alarmed, |n| n.score.in_set)),
         Row::number(case, "mean size of the stated set", AtMost(2.5), mean, sized.len()),
+        Row::share(
+            case,
+            "given alarm: called outside the catalogue",
+            AtMost(0.05),
+            &shares(&alarmed, |n| n.score.out_of_catalog),
+        ),
+    ]
+}
+
+fn lossy(outcomes: &[Outcome]) -> Vec<Row> {
+    let all = found(outcomes, Part::LostMarkers(Kind::One));
+    let alarmed: Vec<_> = all.iter().filter(|(_, named)| named.score.alarm).copied().collect();
+    let case = "one hidden effect, markers lost";
+    vec![
+        Row::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
+        Row::share(case, "given alarm: truth in the stated set", AtLeast(0.93), &shares(&alarmed, |n| n.score.in_set)),
         Row::share(
             case,
             "given alarm: called outside the catalogue",

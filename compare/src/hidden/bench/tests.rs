@@ -41,7 +41,7 @@ fn the_plan_follows_from_the_seed() {
 fn a_diagnosis_that_fails_is_counted_and_named() {
     let refuse: Diagnose = |_, _, _, _| Err(CompareError::NoModel);
     let bench = run(&BenchOptions { seed: 1, sets: 2 }, refuse, &|_| ()).unwrap();
-    assert_eq!(bench.failed.len(), 12 + LACKING.len());
+    assert_eq!(bench.failed.len(), 14 + LACKING.len());
     assert!(bench.failed[0].contains("no model is given") && bench.rows.iter().all(|row| row.measured.is_none()));
 }
 
