@@ -142,3 +142,34 @@ fn an_answer_that_hangs_on_b_is_passed_on_by_the_ladder() {
     );
     assert!(answer["kept_bending"]["indistinguishable"].to_string().contains("end_constraint"), "{answer}");
 }
+
+/// A marker out of the picture at the highest pressure, another behind a hand in one run, one that a tracker wrote as NaN.
+#[test]
+fn markers_that_were_lost_are_told_and_the_answer_stays() {
+    let folder = Folder::new();
+    let line = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        let (run, pressure, marker) = (cells[0], cells[4], cells[6]);
+        match (run, marker, pressure) {
+            (_, "6", "30.0000") | ("2", "5", "20.0000") => String::new(),
+            ("3", "4", "10.0000") => format!("{},NaN,NaN,{}\n", cells[..7].join(","), cells[9]),
+            _ => format!("{line}\n"),
+        }
+    };
+    let table: String = data::set_file("synthetic-epam", "markers.csv").unwrap().lines().map(line).collect();
+    folder.write("lossy/markers.csv", table);
+    folder.write("lossy/about.toml", data::set_file("synthetic-epam", "about.toml").unwrap());
+    let ran = folder.run(&["diagnose", "epam", "lossy", "--json", "--out", "report"]);
+    for words in
+        ["left out: marker 6 at 30.0 kPa (load)", "run 2, marker 5 at 20.0 kPa (load)", "5 rows have no position"]
+    {
+        assert!(ran.stderr.contains(words), "{words}: {}", ran.stderr);
+    }
+    let answer = ran.json("ibr.diagnose");
+    assert_eq!(answer["added"][0]["effect"], "end_constraint");
+    let beta = answer["ranked"].as_array().unwrap().iter().find(|r| r["effect"] == "end_constraint").unwrap();
+    assert!(beta["lo"].as_f64().unwrap() < 0.4 && beta["hi"].as_f64().unwrap() > 0.4, "{beta}");
+    assert!(std::fs::read_to_string(folder.path("report/diagnosis.json")).unwrap().contains("\"seen\": false"));
+    let compared = folder.run(&["compare", "epam", "lossy", "--calibrate"]);
+    assert_eq!(compared.code, 0, "{}", compared.stderr);
+}
