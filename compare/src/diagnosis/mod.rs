@@ -49,6 +49,7 @@ mod problem;
 mod proposed;
 mod result;
 mod screen;
+mod shapes;
 mod singles;
 mod source;
 mod stands_out;
@@ -57,6 +58,7 @@ mod story;
 mod tests;
 #[cfg(test)]
 mod together_tests;
+mod traces;
 mod words;
 
 pub use answers::{Answer, Standing};
