@@ -99,20 +99,24 @@ pub fn decide(case: &Case, options: &Options) -> Result<Decision, CompareError> 
 fn explain(case: &Case, options: &Options, decision: &mut Decision, significant: bool) -> Result<(), CompareError> {
     let single = decision.set.first().filter(|_| significant).map(|i| decision.singles[*i].clone());
     let mut last = single.clone();
+    let mut of_one = None;
     let one_is_enough = match &single {
-        Some(fit) => {
-            let wanted = leaves(case, fit, WORTH_A_SECOND) && is_significant(case, fit)?;
-            !wanted && !is_unexplained(case, fit, test(case, fit)?, LEFT_OVER[0])
+        Some(fit) if !(leaves(case, fit, WORTH_A_SECOND) && is_significant(case, fit)?) => {
+            !*of_one.insert(is_unexplained(case, fit, test(case, fit)?, LEFT_OVER[0]))
         }
-        None => false,
+        _ => false,
     };
     if options.pairs && !one_is_enough {
         add_second(case, decision, &mut last);
     }
     let Some(last) = last else { return Ok(()) };
     decision.after = test(case, &last)?;
-    let share = LEFT_OVER[usize::from(!decision.pairs.is_empty())];
-    if is_unexplained(case, &last, decision.after, share) {
+    let unexplained = match of_one {
+        // No pair has taken its place: the same question.
+        Some(answer) if decision.pairs.is_empty() => answer,
+        _ => is_unexplained(case, &last, decision.after, LEFT_OVER[usize::from(!decision.pairs.is_empty())]),
+    };
+    if unexplained {
         let closest = closest(case, decision, last);
         // What hardly moves the model is no attempt.
         if case.error_in_all_mm(&closest) >= CLOSER * case.error_in_all_mm(&case.base) {
