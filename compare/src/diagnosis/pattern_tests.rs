@@ -17,7 +17,7 @@ fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
 }
 
 /// What the calibrated base leaves, as `look` sees it.
-fn of_base<T>(scenario: &Scenario, data: &Dataset, look: impl Fn(&Case) -> T) -> T {
+pub fn of_base<T>(scenario: &Scenario, data: &Dataset, look: impl Fn(&Case) -> T) -> T {
     let options = Options::default();
     let source = Source {
         scenario,
@@ -55,6 +55,18 @@ fn a_marker_that_sits_elsewhere_is_outside_the_catalogue_and_is_named() {
     assert!(pattern.words.contains("marker 4 sits elsewhere") && pattern.instead, "{pattern:?}");
     assert!(pattern.share > 0.9 && pattern.share <= 1.0 && pattern.p_value <= 1e-6, "{pattern:?}");
     assert!(d.summary.iter().any(|s| s.contains("It looks as if marker 4 sits elsewhere")), "{:?}", d.summary);
+}
+
+#[test]
+fn one_of_sixty_markers_that_stands_alone_is_named() {
+    let plain = robot("spam", 6.0);
+    let told = plain.with_markers(&(0..60).map(|i| plain.length_m * (f64::from(i) + 0.5) / 60.0).collect::<Vec<_>>());
+    let mut data = measured(&told, 3, 72);
+    data.xy_m.iter_mut().skip(2 * 40 + 1).step_by(2 * 60).for_each(|y| *y += 2e-3);
+    let options = Options { next_experiment: false, ..Options::default() };
+    let d = diagnose(&told, &data, None, &options).unwrap();
+    assert_eq!(d.verdict, Some(Verdict::OutOfCatalog), "{:?}", d.summary);
+    assert!(d.pattern.is_some_and(|p| p.words == "marker 41 stands alone in y" && p.p_value <= 1e-6));
 }
 
 #[test]

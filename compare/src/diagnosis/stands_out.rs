@@ -123,17 +123,9 @@ pub fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&(StandsOut, 
 
 fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Look {
     let prediction = case.prediction(fit);
-    let whitener = &case.problem.blocks[0].whitener;
-    let residual = case.first(&fit.minimum.residual);
-    let fitted = Basis::of(&fit.minimum.jacobian.iter().map(|column| case.first(column).to_vec()).collect::<Vec<_>>());
-    let mut of_places = fitted.clone();
-    if beside_bending {
-        for column in uniform_bending(case, &prediction) {
-            of_places.add(&whitener.whiten(&column));
-        }
-    }
     let patterns = if case.gives_p_values() { patterns(case, &prediction) } else { Patterns::default() };
-    let traces = Traces::of(patterns, &Beside { whitener, fitted: &fitted, of_places: &of_places, residual });
+    let [fitted, of_places] = fitted_out(case, fit, &prediction, beside_bending);
+    let traces = Traces::of(patterns, &beside(case, fit, &fitted, &of_places));
     let mut seen: Vec<StandsOut> = Vec::new();
     for trace in &traces.left {
         let Pattern { words, is_uniform, fault, .. } = traces.pattern(trace);
@@ -142,6 +134,23 @@ fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Look {
     }
     seen.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     Look { seen, traces, tests: OnceCell::new() }
+}
+
+/// What is fitted out of every pattern, and out of places.
+fn fitted_out(case: &Case, fit: &Fit, prediction_m: &[f64], beside_bending: bool) -> [Basis; 2] {
+    let fitted = Basis::of(&fit.minimum.jacobian.iter().map(|column| case.first(column).to_vec()).collect::<Vec<_>>());
+    let mut of_places = fitted.clone();
+    if beside_bending {
+        for column in uniform_bending(case, prediction_m) {
+            of_places.add(&case.problem.blocks[0].whitener.whiten(&column));
+        }
+    }
+    [fitted, of_places]
+}
+
+fn beside<'a>(case: &'a Case, fit: &'a Fit, fitted: &'a Basis, of_places: &'a Basis) -> Beside<'a> {
+    let residual = case.first(&fit.minimum.residual);
+    Beside { whitener: &case.problem.blocks[0].whitener, fitted, of_places, residual }
 }
 
 /// p of the clearest of several independent ones.
@@ -190,7 +199,55 @@ fn largest_of(factor: &[Vec<f64>], noise: &[[f64; TOGETHER]]) -> [f64; TOGETHER]
 
 #[cfg(test)]
 mod tests {
+    use super::super::least_squares::dot;
+    use super::super::pattern_tests::of_base;
+    use super::super::traces::plain;
     use super::*;
+    use crate::study::{Generator, generate, published::shipped_scenario};
+
+    /// Whitened, projected and multiplied at length, one by one.
+    #[test]
+    fn many_patterns_at_once_are_the_same_as_one_by_one() {
+        let usual = Generator::default();
+        // Pressures scatter a thousand times as much as the camera: nearly all of some patterns is taken off.
+        let scattered = Generator { camera_sd_m: 2e-5, pressure_sd: 0.1, ..usual.clone() };
+        for (kind, bending, effect, value, generator) in [
+            ("spam", 6.0, "end_constraint", 0.1, &usual),
+            ("fpam", 0.3, "friction", 0.3, &usual),
+            ("epam", 1.35, "base_clamp", 1.0, &scattered),
+        ] {
+            let plain = shipped_scenario(kind).unwrap().with_bending(bending);
+            let length_m = plain.markers_m.last().copied().unwrap();
+            let told = plain.with_markers(&(1..=14).map(|i| length_m * f64::from(i) / 14.0).collect::<Vec<_>>());
+            let candidate = models::effects::EFFECTS.iter().find(|e| e.name == effect).unwrap();
+            let values = [&[value], &candidate.typical()[1..]].concat();
+            let data = generate(&told.with_effect(effect, &values), "made", generator).unwrap();
+            of_base(&told, &data, |case| [true, false].into_iter().for_each(|bent| agree(case, bent)));
+        }
+    }
+
+    fn agree(case: &Case, beside_bending: bool) {
+        let prediction = case.prediction(&case.base);
+        let [fitted, of_places] = fitted_out(case, &case.base, &prediction, beside_bending);
+        let beside = beside(case, &case.base, &fitted, &of_places);
+        let units = plain::units(&patterns(case, &prediction), &beside);
+        let traces = Traces::of(patterns(case, &prediction), &beside);
+        assert!(units.len() > 60 && units.iter().map(|u| u.0).eq(traces.left.iter().map(|t| t.pattern)));
+        let largest = traces.left.iter().map(|t| t.t.abs()).fold(1.0, f64::max);
+        for (trace, (_, unit)) in traces.left.iter().zip(&units) {
+            let t = dot(unit, beside.residual);
+            assert!((trace.t - t).abs() < 1e-9 * largest, "{}: {} {t}", traces.pattern(trace).words, trace.t);
+        }
+        let (fast, slow) = (traces.correlations(), plain::correlations(&units));
+        assert!((&fast - &slow).amax() < 1e-9, "{}", (&fast - &slow).amax());
+        // What bounds answer is what the number of tests answers.
+        let look = look(case, &case.base, beside_bending);
+        for seen in &look.seen {
+            let p = of_several(seen.p_alone, look.tests());
+            assert_eq!(look.p_value(seen), reported_p(p));
+            assert!([0.002, 0.01, 0.2].iter().all(|level| look.is_below(seen, *level) == (p < *level)));
+        }
+    }
 
     #[test]
     fn equal_patterns_count_once_and_perpendicular_ones_each() {
