@@ -29,6 +29,7 @@ use crate::study::generate::held;
 use crate::whiten::Whitener;
 use data::{Dataset, Hold, Lost};
 use models::{Scenario, Supply};
+use std::collections::BTreeSet;
 
 /// Standard deviation of a gauge's gain. Assumed: 0.3 % of the reading.
 pub const GAIN_SD: f64 = SENSOR_SD[0];
@@ -168,10 +169,10 @@ impl Gauge {
         let samples_per_hold = self.set.first().map_or(1, |hold| hold.t_s.len());
         let mut lost = positions.lost.clone();
         if self.split {
-            lost.unseen.iter_mut().for_each(|cell| cell[0] /= samples_per_hold);
-            lost.filled.iter_mut().for_each(|cell| cell[1] /= samples_per_hold);
-            lost.unseen.dedup();
-            lost.filled.dedup();
+            let unseen = lost.unseen.iter().map(|[sample, marker]| [sample / samples_per_hold, *marker]);
+            lost.unseen = unseen.collect::<BTreeSet<_>>().into_iter().collect();
+            let filled = lost.filled.iter().map(|[run, sample, marker]| [*run, sample / samples_per_hold, *marker]);
+            lost.filled = filled.collect::<BTreeSet<_>>().into_iter().collect();
         }
         Dataset { holds: self.set.clone(), samples_per_hold, lost, ..positions.clone() }
     }
@@ -218,7 +219,10 @@ fn of_samples(lost: &Lost, samples: usize) -> Lost {
     let holds = |hold: usize| hold * samples..(hold + 1) * samples;
     let unseen = lost.unseen.iter().flat_map(|[hold, marker]| holds(*hold).map(move |h| [h, *marker]));
     let filled = lost.filled.iter().flat_map(|[run, hold, marker]| holds(*hold).map(move |h| [*run, h, *marker]));
-    Lost { unseen: unseen.collect(), filled: filled.collect(), frames: lost.frames }
+    let (mut unseen, mut filled): (Vec<_>, Vec<_>) = (unseen.collect(), filled.collect());
+    unseen.sort_unstable();
+    filled.sort_unstable();
+    Lost { unseen, filled, frames: lost.frames }
 }
 
 #[cfg(test)]
@@ -244,6 +248,17 @@ mod tests {
         // Widening of the regulator's scatter takes one of fifteen readings down a little.
         let mean = squares / f64::from(count as u32);
         assert!((0.93..1.03).contains(&mean), "{mean}");
+    }
+
+    #[test]
+    fn what_was_lost_is_lost_in_every_sample_and_back() {
+        let robot = shipped_scenario("spam").unwrap().with_bending(6.0).with_effect("leak", &[0.1]);
+        let data = read(&robot, 3, 1).losing(&[[0, 1, 2], [0, 3, 5], [1, 3, 5], [0, 3, 4], [1, 3, 4]]);
+        let gauge = Gauge::of(&data, &robot).unwrap();
+        let at = gauge.positions(&data);
+        assert!(gauge.split && at.lost.unseen.is_sorted() && at.lost.unseen.len() == 2 * data.samples_per_hold);
+        assert!(at.unseen_values().eq(data.unseen_values().collect::<std::collections::BTreeSet<_>>()));
+        assert_eq!(gauge.as_set(&at).lost, data.lost);
     }
 
     #[test]

@@ -102,12 +102,12 @@ impl Dataset {
 
     /// Whether enough runs saw a marker in a hold; positions where they did not stand for nothing.
     pub fn is_seen(&self, hold: usize, marker: usize) -> bool {
-        !self.lost.unseen.contains(&[hold, marker])
+        self.lost.unseen.binary_search(&[hold, marker]).is_err()
     }
 
     /// Whether this run lost a marker for a whole hold, or too few runs saw it there.
     pub fn is_lost(&self, run: usize, hold: usize, marker: usize) -> bool {
-        !self.is_seen(hold, marker) || self.lost.filled.contains(&[run, hold, marker])
+        !self.is_seen(hold, marker) || self.lost.filled.binary_search(&[run, hold, marker]).is_ok()
     }
 
     /// Indices in run layout of the values that stand for nothing, x and y of all samples.

@@ -52,8 +52,8 @@ pub struct Decision {
     pub verdict: Option<Verdict>,
     /// One corrected p of "nothing is missing".
     pub p_value: Option<f64>,
-    /// One fault that is a simpler answer than the final model.
-    pub fault: Option<StandsOut>,
+    /// One fault that is a simpler answer than the final model, and its p as reported.
+    pub fault: Option<(StandsOut, f64)>,
     /// Lack of fit of the base.
     pub before: Option<LackOfFit>,
     /// Lack of fit of the final model.
@@ -99,20 +99,24 @@ pub fn decide(case: &Case, options: &Options) -> Result<Decision, CompareError> 
 fn explain(case: &Case, options: &Options, decision: &mut Decision, significant: bool) -> Result<(), CompareError> {
     let single = decision.set.first().filter(|_| significant).map(|i| decision.singles[*i].clone());
     let mut last = single.clone();
+    let mut of_one = None;
     let one_is_enough = match &single {
-        Some(fit) => {
-            let wanted = leaves(case, fit, WORTH_A_SECOND) && is_significant(case, fit)?;
-            !wanted && !is_unexplained(case, fit, test(case, fit)?, LEFT_OVER[0])
+        Some(fit) if !(leaves(case, fit, WORTH_A_SECOND) && is_significant(case, fit)?) => {
+            !*of_one.insert(is_unexplained(case, fit, test(case, fit)?, LEFT_OVER[0]))
         }
-        None => false,
+        _ => false,
     };
     if options.pairs && !one_is_enough {
         add_second(case, decision, &mut last);
     }
     let Some(last) = last else { return Ok(()) };
     decision.after = test(case, &last)?;
-    let share = LEFT_OVER[usize::from(!decision.pairs.is_empty())];
-    if is_unexplained(case, &last, decision.after, share) {
+    let unexplained = match of_one {
+        // No pair has taken its place: the same question.
+        Some(answer) if decision.pairs.is_empty() => answer,
+        _ => is_unexplained(case, &last, decision.after, LEFT_OVER[usize::from(!decision.pairs.is_empty())]),
+    };
+    if unexplained {
         let closest = closest(case, decision, last);
         // What hardly moves the model is no attempt.
         if case.error_in_all_mm(&closest) >= CLOSER * case.error_in_all_mm(&case.base) {
@@ -137,27 +141,35 @@ fn is_unexplained(case: &Case, fit: &Fit, lof: Option<LackOfFit>, share: (f64, f
     let level = (1.0 - SHARE_OF_EFFECTS) * case.alpha;
     let lacks = lof.is_some_and(|lof| lof.p_value < level);
     leaves(case, fit, share) && (lacks || leaves(case, fit, MOST_LEFT) && another_wanted(case, fit) < level)
-        || stands_out(case, fit).iter().any(|seen| seen.p_value < level && is_a_place_left(case, fit, seen))
+        || leaves_a_place(case, fit, level)
 }
 
-/// Whether a pattern that a fit leaves is a place with a share of the error; amplitudes, as far as they were seen.
+/// Whether a place stands out of what a fit leaves, at a level.
+fn leaves_a_place(case: &Case, fit: &Fit, level: f64) -> bool {
+    let look = stands_out(case, fit);
+    look.first(false).is_some_and(|seen| is_a_place_left(case, fit, seen) && look.is_below(seen, level))
+}
+
+/// Whether a place that a fit leaves has a share of the error; amplitudes, as far as they were seen.
 fn is_a_place_left(case: &Case, fit: &Fit, seen: &StandsOut) -> bool {
     let before = case.gain(fit) + seen.gain;
-    !seen.is_uniform && seen.gain - 1.0 > PLACE_LEFT * PLACE_LEFT * before
+    seen.gain - 1.0 > PLACE_LEFT * PLACE_LEFT * before
 }
 
 /// One fault with one amplitude that says what the effects say with more. Of two effects a fault that is as good is the simpler
 /// answer. One effect is as simple: a place must be clearly better, for a law that is not quite its formula leaves one now and
 /// then, and a hold says nothing against it, because three pressures and B leave every law one hold to miss.
-fn simpler(case: &Case, last: &Fit) -> Option<StandsOut> {
+fn simpler(case: &Case, last: &Fit) -> Option<(StandsOut, f64)> {
     let (kinds, margin): (&[Fault], f64) = match last.effects.len() - case.always.len() {
         ..=1 => (&[Fault::Place], order::SAME),
         _ => (&[Fault::Place, Fault::Hold], 0.0),
     };
-    let fault = alone(case, kinds).filter(|fault| fault.p_value < case.alpha)?;
-    let allowance = order::allowance(case.gain(last).max(fault.gain));
-    let by_fault = order::criterion_of(case, case.base.cost() - fault.gain, 1, allowance);
-    (by_fault + margin < order::criterion(case, last, allowance)).then_some(fault)
+    let is_simpler = |fault: &StandsOut| {
+        let allowance = order::allowance(case.gain(last).max(fault.gain));
+        let by_fault = order::criterion_of(case, case.base.cost() - fault.gain, 1, allowance);
+        by_fault + margin < order::criterion(case, last, allowance)
+    };
+    alone(case, kinds, case.alpha, &is_simpler)
 }
 
 /// Takes the best pair in place of the single effect, or of the base, if it is significantly better, and in mm too: by the whitened

@@ -51,6 +51,7 @@ mod problem;
 mod proposed;
 mod result;
 mod screen;
+mod shapes;
 mod singles;
 mod source;
 mod stands_out;
@@ -59,6 +60,7 @@ mod story;
 mod tests;
 #[cfg(test)]
 mod together_tests;
+mod traces;
 mod words;
 
 pub use answers::{Answer, Standing};

@@ -14,6 +14,7 @@
 //! No pattern knows an effect. A misfit along one of them more than along all effects is what "outside the catalogue" means.
 
 use super::case::Case;
+use super::shapes::Shape;
 use crate::comparison::ZERO_PRESSURE_PA;
 use crate::layout::Layout;
 
@@ -28,8 +29,19 @@ pub struct Pattern {
     pub is_uniform: bool,
     /// What broke, if this is what something broken looks like.
     pub fault: Option<Fault>,
-    /// Displacement in run layout, any unit.
-    pub direction: Vec<f64>,
+    /// Its place, as an index into [`Patterns::shapes`].
+    pub shape: usize,
+    /// When: one factor per hold.
+    pub time: Vec<f64>,
+}
+
+/// All patterns, and the displacements of their places \[any unit\].
+#[derive(Default)]
+pub struct Patterns {
+    /// What may be seen.
+    pub all: Vec<Pattern>,
+    /// Where it acts.
+    pub shapes: Vec<Shape>,
 }
 
 /// A fault that one pattern tells by itself.
@@ -43,7 +55,9 @@ pub enum Fault {
 
 /// Where a pattern acts.
 enum Place {
-    /// Rotations at the points halfway between neighbouring markers, the first between base and first marker.
+    /// A rotation halfway between neighbouring markers, 0 between base and first marker.
+    Bend(usize),
+    /// Rotations at all of these points.
     Bends(Vec<f64>),
     /// One marker in x or y.
     Marker(usize, [f64; 2]),
@@ -59,6 +73,10 @@ type Time = Vec<f64>;
 /// The robot seen in one sample: base and markers in the order of their stations.
 struct Outline {
     xy: Vec<[f64; 2]>,
+    /// Halfway from every one of them to the next.
+    middle: Vec<[f64; 2]>,
+    /// Unit vector from every one of them to the next.
+    along: Vec<[f64; 2]>,
     /// Approach per turn \[m\], with the sign of the bending.
     shorter_m: f64,
     /// Place in the outline of every marker of the data.
@@ -66,48 +84,56 @@ struct Outline {
 }
 
 /// All patterns for a prediction in run layout \[m\]; none for data of another shape.
-pub fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
-    let Ok(layout) = Layout::of(case.dataset) else { return Vec::new() };
+pub fn patterns(case: &Case, prediction_m: &[f64]) -> Patterns {
+    let Ok(layout) = Layout::of(case.dataset) else { return Patterns::default() };
     let (names, outlines) = (&case.dataset.markers, outlines(case, &layout, prediction_m));
     let bent = bending(&layout, prediction_m);
     let stations = order(&case.scenario.markers_m);
-    let mut all = Vec::new();
     let always = vec![1.0; layout.holds];
-    let mut add = |words: String, place: Place, time: &Time| {
+    let mut found = Patterns::default();
+    let place = |place: Place| shape(case, &layout, &outlines, &place);
+    let mut add = |words: String, shape: usize, time: &Time| {
         let fault = (*time == always || *time == bent).then_some(Fault::Place);
-        all.push(Pattern { words, is_uniform: false, fault, direction: direction(&layout, &outlines, &place, time) });
+        found.all.push(Pattern { words, is_uniform: false, fault, shape, time: time.clone() });
     };
-    let n = layout.markers;
+    let mut shapes = Vec::new();
+    let mut next = |shape: Shape| {
+        shapes.push(shape);
+        shapes.len() - 1
+    };
     // A rotation before the first marker is one of mount or camera, which the catalogue has.
-    for k in 1..n {
+    for k in 1..layout.markers {
         let at = between(&stations, k, |m| &names[m].name);
-        let one: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == k))).collect();
-        add(format!("the robot bends otherwise {at} in proportion to its bending"), Place::Bends(one.clone()), &bent);
-        add(format!("the robot has a fixed kink {at}"), Place::Bends(one), &always);
+        let one = next(place(Place::Bend(k)));
+        add(format!("the robot bends otherwise {at} in proportion to its bending"), one, &bent);
+        add(format!("the robot has a fixed kink {at}"), one, &always);
     }
-    let along = |f: fn(f64) -> f64| Place::Bends(stretches(case).iter().map(|[s, ds]| f(*s) * ds).collect());
-    add("stiffness changes steadily along the robot".into(), along(|s| 1.0 - 2.0 * s), &bent);
-    add("the robot's middle bends otherwise than its ends".into(), along(|s| 1.0 - 6.0 * s + 6.0 * s * s), &bent);
+    let along = |f: fn(f64) -> f64| place(Place::Bends(stretches(case).iter().map(|[s, ds]| f(*s) * ds).collect()));
+    add("stiffness changes steadily along the robot".into(), next(along(|s| 1.0 - 2.0 * s)), &bent);
+    let middle = next(along(|s| 1.0 - 6.0 * s + 6.0 * s * s));
+    add("the robot's middle bends otherwise than its ends".into(), middle, &bent);
     for (m, marker) in names.iter().enumerate() {
         let name = &marker.name;
-        add(format!("marker {name} sits elsewhere along the robot"), Place::Along(m), &always);
-        add(format!("marker {name} stands alone in x"), Place::Marker(m, [1.0, 0.0]), &always);
-        add(format!("marker {name} stands alone in y"), Place::Marker(m, [0.0, 1.0]), &always);
+        add(format!("marker {name} sits elsewhere along the robot"), next(place(Place::Along(m))), &always);
+        add(format!("marker {name} stands alone in x"), next(place(Place::Marker(m, [1.0, 0.0]))), &always);
+        add(format!("marker {name} stands alone in y"), next(place(Place::Marker(m, [0.0, 1.0]))), &always);
     }
     let times = times(case, &bent);
+    let tip = next(along(|s| 1.0 - s));
+    let [x, y] = [[1.0, 0.0], [0.0, 1.0]].map(|d| next(place(Place::All(d))));
     for (words, time) in &times {
-        add(format!("something bends the robot from its tip {words}"), along(|s| 1.0 - s), time);
-        add(format!("the image shifts in x {words}"), Place::All([1.0, 0.0]), time);
-        add(format!("the image shifts in y {words}"), Place::All([0.0, 1.0]), time);
+        add(format!("something bends the robot from its tip {words}"), tip, time);
+        add(format!("the image shifts in x {words}"), x, time);
+        add(format!("the image shifts in y {words}"), y, time);
     }
-    for (i, (words, time)) in times.iter().enumerate() {
+    let whole = next(along(|_| 1.0));
+    for (i, (words, time)) in times.into_iter().enumerate() {
         let words = format!("the whole robot bends otherwise {words}");
-        let direction = direction(&layout, &outlines, &along(|_| 1.0), time);
         // Single holds come first.
         let fault = (i < layout.holds).then_some(Fault::Hold);
-        all.push(Pattern { words, is_uniform: true, fault, direction });
+        found.all.push(Pattern { words, is_uniform: true, fault, shape: whole, time });
     }
-    all
+    Patterns { shapes, ..found }
 }
 
 /// Uniform bending of every hold by itself, what any law of a uniform robot may do: of the outline, and as the model bends with
@@ -115,13 +141,13 @@ pub fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
 pub fn uniform_bending(case: &Case, prediction_m: &[f64]) -> Vec<Vec<f64>> {
     let Ok(layout) = Layout::of(case.dataset) else { return Vec::new() };
     let outlines = outlines(case, &layout, prediction_m);
-    let bent = Place::Bends(stretches(case).iter().map(|[_, ds]| *ds).collect());
+    let bent = shape(case, &layout, &outlines, &Place::Bends(stretches(case).iter().map(|[_, ds]| *ds).collect()));
     let by_model = |h: usize| {
         let own = layout.hold_range(h);
         let slope = case.noise.directions.iter().enumerate();
         slope.map(|(i, u)| if own.contains(&i) { u[0] } else { 0.0 }).collect()
     };
-    let by_outline = |h: usize| direction(&layout, &outlines, &bent, &alone(layout.holds, h));
+    let by_outline = |h: usize| bent.direction(&alone(layout.holds, h));
     (0..layout.holds).flat_map(|h| [by_outline(h), by_model(h)]).collect()
 }
 
@@ -186,8 +212,11 @@ fn outlines(case: &Case, layout: &Layout, prediction_m: &[f64]) -> Vec<Outline> 
         xy.extend(order.iter().map(|m| [sample[2 * m], sample[2 * m + 1]]));
         let mut place = vec![0; order.len()];
         order.iter().enumerate().for_each(|(at, m)| place[*m] = at + 1);
+        let pairs = || xy.windows(2).map(|pair| (pair[0], pair[1]));
+        let middle = pairs().map(|(a, b)| [0, 1].map(|axis| 0.5 * (a[axis] + b[axis]))).collect();
+        let along = pairs().map(|(a, b)| towards(a, b)).collect();
         let shorter_m = xy.last().map_or(0.0, |tip| if tip[1] < 0.0 { -centre_m } else { centre_m });
-        Outline { xy, shorter_m, place }
+        Outline { middle, along, shorter_m, place, xy }
     };
     prediction_m.chunks_exact(2 * layout.markers).map(outline).collect()
 }
@@ -204,35 +233,43 @@ fn bending(layout: &Layout, prediction_m: &[f64]) -> Time {
     if most > 0.0 { all.iter().map(|b| b / most).collect() } else { all }
 }
 
-fn direction(layout: &Layout, outlines: &[Outline], place: &Place, time: &Time) -> Vec<f64> {
-    let mut out = Vec::with_capacity(layout.values());
-    for (i, outline) in outlines.iter().enumerate() {
-        let factor = time[i / layout.samples];
-        for m in 0..layout.markers {
-            out.extend(displacement(outline, place, m).map(|d| factor * d));
-        }
-    }
-    out
+/// Of markers where they were seen.
+fn shape(case: &Case, layout: &Layout, outlines: &[Outline], place: &Place) -> Shape {
+    let beyond = |m: &usize| {
+        outlines.first().is_some_and(|outline| match place {
+            Place::Bend(k) => outline.place[*m] > *k,
+            Place::Marker(own, _) | Place::Along(own) => own == m,
+            Place::Bends(_) | Place::All(_) => true,
+        })
+    };
+    let moved: Vec<usize> = (0..layout.markers).filter(beyond).collect();
+    Shape::of(layout, &moved, &|sample, marker| match case.dataset.is_seen(sample / layout.samples, marker) {
+        true => displacement(&outlines[sample], place, marker),
+        false => [0.0; 2],
+    })
 }
 
 fn displacement(outline: &Outline, place: &Place, marker: usize) -> [f64; 2] {
     let (xy, at) = (&outline.xy, outline.place[marker]);
     match place {
+        Place::Bend(k) if *k < at => turned([0.0; 2], outline, at, *k, 1.0),
         Place::Bends(turns) => {
-            let mut sum = [0.0; 2];
-            for (k, turn) in turns.iter().enumerate().take(at) {
-                let middle = [0, 1].map(|axis| 0.5 * (xy[k][axis] + xy[k + 1][axis]));
-                let along = towards(xy[k], xy[k + 1]);
-                sum[0] -= turn * (xy[at][1] - middle[1] + outline.shorter_m * along[0]);
-                sum[1] += turn * (xy[at][0] - middle[0] - outline.shorter_m * along[1]);
-            }
-            sum
+            turns[..at].iter().enumerate().fold([0.0; 2], |sum, (k, turn)| turned(sum, outline, at, k, *turn))
         }
         Place::Marker(own, d) => d.map(|d| if *own == marker { d } else { 0.0 }),
         Place::Along(own) if *own == marker => towards(xy[at - 1], xy[(at + 1).min(xy.len() - 1)]),
-        Place::Along(_) => [0.0; 2],
+        Place::Bend(_) | Place::Along(_) => [0.0; 2],
         Place::All(d) => *d,
     }
+}
+
+/// A displacement and, on top, that of a point of the outline by a turn at point k before it.
+fn turned(sum: [f64; 2], outline: &Outline, at: usize, k: usize, turn: f64) -> [f64; 2] {
+    let Outline { xy, middle, along, shorter_m, .. } = outline;
+    [
+        sum[0] - turn * (xy[at][1] - middle[k][1] + shorter_m * along[k][0]),
+        sum[1] + turn * (xy[at][0] - middle[k][0] - shorter_m * along[k][1]),
+    ]
 }
 
 /// Unit vector from one point to another; zero if they are one.

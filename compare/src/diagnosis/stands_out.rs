@@ -6,18 +6,20 @@
 
 use super::basis::Basis;
 use super::case::Case;
-use super::least_squares::{dot, square};
-use super::patterns::{Fault, Pattern, patterns, uniform_bending};
+use super::least_squares::square;
+use super::patterns::{Fault, Pattern, Patterns, patterns, uniform_bending};
 use super::problem::Fit;
 use super::result::LeftPattern;
-use crate::stats::{reported_p, two_sided_p};
+use super::traces::{Beside, Traces};
+use crate::stats::{SMALLEST_P, reported_p, two_sided_p};
 use crate::study::generate::Scatter;
 use nalgebra::{DMatrix, SymmetricEigen};
+use std::cell::OnceCell;
 
-/// A pattern of which fits leave less than this share cannot be told from them.
-const LEFT: f64 = 0.02;
 /// Simulated sets of noise: the 99 % quantile of the largest is known to a tenth.
 const SIMULATED: usize = 1000;
+/// Of these, side by side; no matter for the result.
+const TOGETHER: usize = 8;
 /// Quantile that sets the number of independent patterns.
 const QUANTILE: f64 = 0.99;
 /// Seed of the simulation.
@@ -36,77 +38,124 @@ pub struct StandsOut {
     pub fault: Option<Fault>,
     /// Fall of the whitened sum of squares along it.
     pub gain: f64,
-    /// p of the largest of all patterns.
-    pub p_value: f64,
+    /// p of it as if it were the only one.
+    pub p_alone: f64,
 }
 
-/// The clearest place and the clearest time in the residuals of a fit; none if p-values cannot be formed. Places are looked for
-/// beside any uniform bending of the holds, which every law of a uniform robot may leave.
-pub fn stands_out(case: &Case, fit: &Fit) -> Vec<StandsOut> {
-    let found = look(case, fit, true);
-    let first = |uniform: bool| found.iter().find(|f| f.is_uniform == uniform).cloned();
-    [first(false), first(true)].into_iter().flatten().collect()
+/// Everything that may be seen in the residuals of a fit.
+pub struct Look {
+    /// The clearest first.
+    pub seen: Vec<StandsOut>,
+    traces: Traces,
+    tests: OnceCell<f64>,
 }
 
-/// The clearest fault of some kinds that the calibrated base leaves, as if it were the only cause.
-pub fn alone(case: &Case, kinds: &[Fault]) -> Option<StandsOut> {
-    look(case, &case.base, false).into_iter().find(|seen| seen.fault.is_some_and(|fault| kinds.contains(&fault)))
+impl Look {
+    /// The clearest place or the clearest time.
+    pub fn first(&self, uniform: bool) -> Option<&StandsOut> {
+        self.seen.iter().find(|seen| seen.is_uniform == uniform)
+    }
+
+    /// p of the largest of all patterns, as reported.
+    pub fn p_value(&self, seen: &StandsOut) -> f64 {
+        if self.at_most(seen) <= SMALLEST_P { SMALLEST_P } else { reported_p(of_several(seen.p_alone, self.tests())) }
+    }
+
+    /// Whether that p is below a level. The number of tests, which takes long with many markers, lies between one and that of the
+    /// patterns; most questions are answered by that.
+    pub fn is_below(&self, seen: &StandsOut, level: f64) -> bool {
+        let p_value = || of_several(seen.p_alone, self.tests());
+        of_several(seen.p_alone, 1.0) < level && (self.at_most(seen) < level || p_value() < level)
+    }
+
+    fn at_most(&self, seen: &StandsOut) -> f64 {
+        of_several(seen.p_alone, self.seen.len() as f64)
+    }
+
+    fn tests(&self) -> f64 {
+        *self.tests.get_or_init(|| independent(self.traces.correlations()).unwrap_or(self.seen.len() as f64))
+    }
+}
+
+/// What stands out in the residuals of a fit; nothing if p-values cannot be formed. Places are looked for beside any uniform
+/// bending of the holds, which every law of a uniform robot may leave.
+pub fn stands_out(case: &Case, fit: &Fit) -> Look {
+    look(case, fit, true)
+}
+
+/// The clearest fault of some kinds that the calibrated base leaves, as if it were the only cause, with the p of it as
+/// reported: if that is below a level and it is wanted.
+pub fn alone(
+    case: &Case,
+    kinds: &[Fault],
+    level: f64,
+    is_wanted: &dyn Fn(&StandsOut) -> bool,
+) -> Option<(StandsOut, f64)> {
+    let look = look(case, &case.base, false);
+    let clearest = look.seen.iter().find(|seen| seen.fault.is_some_and(|fault| kinds.contains(&fault)))?;
+    let told = is_wanted(clearest) && look.is_below(clearest, level);
+    told.then(|| (clearest.clone(), look.p_value(clearest)))
 }
 
 /// In words: the fault that is a simpler answer than `last`; else what the calibrated base leaves if one pattern alone explains
 /// more of it than `last` does, else what `last` leaves.
-pub fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&StandsOut>) -> Option<LeftPattern> {
-    let clearest = |fit: &Fit| look(case, fit, false).into_iter().max_by(|a, b| a.gain.total_cmp(&b.gain));
-    let told = |fit: &Fit, seen: StandsOut, instead: bool| LeftPattern {
+pub fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&(StandsOut, f64)>) -> Option<LeftPattern> {
+    let told = |fit: &Fit, seen: &StandsOut, p_value: f64, instead: bool| LeftPattern {
         share: seen.gain / excess(case, case.first(&fit.minimum.residual)).max(seen.gain),
-        words: seen.words,
-        p_value: reported_p(seen.p_value),
+        words: seen.words.clone(),
+        p_value,
         instead,
         simpler: fault.is_some(),
     };
-    if let Some(fault) = fault {
-        return Some(told(&case.base, fault.clone(), true));
+    if let Some((fault, p_value)) = fault {
+        return Some(told(&case.base, fault, *p_value, true));
     }
-    let alone = clearest(&case.base)?;
-    match last {
-        Some(fit) if case.gain(fit) > alone.gain => Some(told(fit, clearest(fit)?, false)),
-        _ => Some(told(&case.base, alone, true)),
-    }
-    .filter(|pattern| pattern.p_value < case.alpha)
+    let clearest = |look: &Look| look.seen.iter().max_by(|a, b| a.gain.total_cmp(&b.gain)).cloned();
+    let of_base = look(case, &case.base, false);
+    let alone = clearest(&of_base)?;
+    let (fit, look, instead) = match last {
+        Some(fit) if case.gain(fit) > alone.gain => (fit, look(case, fit, false), false),
+        _ => (&case.base, of_base, true),
+    };
+    let seen = clearest(&look)?;
+    look.is_below(&seen, case.alpha).then(|| told(fit, &seen, look.p_value(&seen), instead))
 }
 
-fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Vec<StandsOut> {
-    if !case.gives_p_values() {
-        return Vec::new();
-    }
+fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Look {
     let prediction = case.prediction(fit);
-    let unseen: Vec<usize> = case.dataset.unseen_values().collect();
-    let whiten = |direction: &[f64]| {
-        let mut seen = direction.to_vec();
-        unseen.iter().for_each(|i| seen[*i] = 0.0);
-        case.problem.blocks[0].whitener.whiten(&seen)
-    };
+    let patterns = if case.gives_p_values() { patterns(case, &prediction) } else { Patterns::default() };
+    let [fitted, of_places] = fitted_out(case, fit, &prediction, beside_bending);
+    let traces = Traces::of(patterns, &beside(case, fit, &fitted, &of_places));
+    let mut seen: Vec<StandsOut> = Vec::new();
+    for trace in &traces.left {
+        let Pattern { words, is_uniform, fault, .. } = traces.pattern(trace);
+        let (gain, p_alone) = (trace.t * trace.t, two_sided_p(trace.t, case.noise.pure_error_dof));
+        seen.push(StandsOut { words: words.clone(), is_uniform: *is_uniform, fault: *fault, gain, p_alone });
+    }
+    seen.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    Look { seen, traces, tests: OnceCell::new() }
+}
+
+/// What is fitted out of every pattern, and out of places.
+fn fitted_out(case: &Case, fit: &Fit, prediction_m: &[f64], beside_bending: bool) -> [Basis; 2] {
     let fitted = Basis::of(&fit.minimum.jacobian.iter().map(|column| case.first(column).to_vec()).collect::<Vec<_>>());
-    let mut bent = fitted.clone();
+    let mut of_places = fitted.clone();
     if beside_bending {
-        for column in uniform_bending(case, &prediction) {
-            bent.add(&whiten(&column));
+        for column in uniform_bending(case, prediction_m) {
+            of_places.add(&case.problem.blocks[0].whitener.whiten(&column));
         }
     }
-    let mut found = Vec::new();
-    let mut units: Vec<Vec<f64>> = Vec::new();
-    for Pattern { words, is_uniform, fault, direction } in patterns(case, &prediction) {
-        let white = whiten(&direction);
-        let Some(unit) = unit(if is_uniform { &fitted } else { &bent }, &white) else { continue };
-        let t = dot(&unit, case.first(&fit.minimum.residual));
-        let p_value = two_sided_p(t, case.noise.pure_error_dof);
-        found.push(StandsOut { words, is_uniform, fault, gain: t * t, p_value });
-        units.push(unit);
-    }
-    let tests = independent(&units).unwrap_or(units.len() as f64);
-    found.iter_mut().for_each(|f| f.p_value = -(tests * (-f.p_value).ln_1p()).exp_m1());
-    found.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-    found
+    [fitted, of_places]
+}
+
+fn beside<'a>(case: &'a Case, fit: &'a Fit, fitted: &'a Basis, of_places: &'a Basis) -> Beside<'a> {
+    let residual = case.first(&fit.minimum.residual);
+    Beside { whitener: &case.problem.blocks[0].whitener, fitted, of_places, residual }
+}
+
+/// p of the clearest of several independent ones.
+fn of_several(p: f64, tests: f64) -> f64 {
+    -(tests * (-p).ln_1p()).exp_m1()
 }
 
 /// What whitened residuals have beyond noise.
@@ -114,45 +163,97 @@ fn excess(case: &Case, white: &[f64]) -> f64 {
     square(white) - case.noise.seen(0..white.len()) as f64
 }
 
-/// Unit vector along what a fit leaves of a pattern; `None` if that is next to nothing.
-fn unit(fitted: &Basis, white: &[f64]) -> Option<Vec<f64>> {
-    let rest = fitted.rest(white);
-    let left = square(&rest);
-    (left > LEFT * LEFT * square(white) && left > 0.0).then(|| rest.iter().map(|v| v / left.sqrt()).collect())
-}
-
-/// Number of independent normals whose largest has the same 99 % quantile.
-fn independent(units: &[Vec<f64>]) -> Option<f64> {
-    let m = units.len();
-    let correlations = DMatrix::from_fn(m, m, |i, j| dot(&units[i], &units[j]));
+/// Number of independent normals whose largest has the same 99 % quantile as that of normals so correlated.
+fn independent(correlations: DMatrix<f64>) -> Option<f64> {
+    let m = correlations.nrows();
     let eigen = SymmetricEigen::try_new(correlations, f64::EPSILON, EIGEN_ROUNDS)?;
     let kept: Vec<usize> = (0..m).filter(|k| eigen.eigenvalues[*k] > 1e-9 * m as f64).collect();
     let factor: Vec<Vec<f64>> = (0..m)
         .map(|i| kept.iter().map(|k| eigen.eigenvectors[(i, *k)] * eigen.eigenvalues[*k].sqrt()).collect())
         .collect();
     let mut scatter = Scatter::new(SEED);
-    let mut largest: Vec<f64> = (0..SIMULATED)
-        .map(|_| {
-            let noise: Vec<f64> = kept.iter().map(|_| scatter.normal()).collect();
-            factor.iter().map(|row| dot(row, &noise).abs()).fold(0.0, f64::max)
-        })
-        .collect();
+    let mut largest: Vec<f64> = Vec::with_capacity(SIMULATED);
+    for _ in 0..SIMULATED.div_ceil(TOGETHER) {
+        let mut noise = vec![[0.0; TOGETHER]; kept.len()];
+        (0..TOGETHER).for_each(|set| noise.iter_mut().for_each(|noise| noise[set] = scatter.normal()));
+        largest.extend(largest_of(&factor, &noise));
+    }
+    largest.truncate(SIMULATED);
     largest.sort_by(f64::total_cmp);
     let quantile = crate::stats::quantile(&largest, QUANTILE)?;
     Some((QUANTILE.ln() / (-two_sided_p(quantile, 0)).ln_1p()).clamp(1.0, m as f64))
 }
 
+/// The largest |normal| of some sets of noise.
+fn largest_of(factor: &[Vec<f64>], noise: &[[f64; TOGETHER]]) -> [f64; TOGETHER] {
+    let mut largest = [0.0_f64; TOGETHER];
+    for row in factor {
+        let mut sums = [0.0; TOGETHER];
+        for (f, noise) in row.iter().zip(noise) {
+            (0..TOGETHER).for_each(|set| sums[set] += f * noise[set]);
+        }
+        (0..TOGETHER).for_each(|set| largest[set] = largest[set].max(sums[set].abs()));
+    }
+    largest
+}
+
 #[cfg(test)]
 mod tests {
+    use super::super::least_squares::dot;
+    use super::super::pattern_tests::of_base;
+    use super::super::traces::plain;
     use super::*;
+    use crate::study::{Generator, generate, published::shipped_scenario};
+
+    /// Whitened, projected and multiplied at length, one by one.
+    #[test]
+    fn many_patterns_at_once_are_the_same_as_one_by_one() {
+        let usual = Generator::default();
+        // Pressures scatter a thousand times as much as the camera: nearly all of some patterns is taken off.
+        let scattered = Generator { camera_sd_m: 2e-5, pressure_sd: 0.1, ..usual.clone() };
+        for (kind, bending, effect, value, generator) in [
+            ("spam", 6.0, "end_constraint", 0.1, &usual),
+            ("fpam", 0.3, "friction", 0.3, &usual),
+            ("epam", 1.35, "base_clamp", 1.0, &scattered),
+        ] {
+            let plain = shipped_scenario(kind).unwrap().with_bending(bending);
+            let length_m = plain.markers_m.last().copied().unwrap();
+            let told = plain.with_markers(&(1..=14).map(|i| length_m * f64::from(i) / 14.0).collect::<Vec<_>>());
+            let candidate = models::effects::EFFECTS.iter().find(|e| e.name == effect).unwrap();
+            let values = [&[value], &candidate.typical()[1..]].concat();
+            let data = generate(&told.with_effect(effect, &values), "made", generator).unwrap();
+            of_base(&told, &data, |case| [true, false].into_iter().for_each(|bent| agree(case, bent)));
+        }
+    }
+
+    fn agree(case: &Case, beside_bending: bool) {
+        let prediction = case.prediction(&case.base);
+        let [fitted, of_places] = fitted_out(case, &case.base, &prediction, beside_bending);
+        let beside = beside(case, &case.base, &fitted, &of_places);
+        let units = plain::units(&patterns(case, &prediction), &beside);
+        let traces = Traces::of(patterns(case, &prediction), &beside);
+        assert!(units.len() > 60 && units.iter().map(|u| u.0).eq(traces.left.iter().map(|t| t.pattern)));
+        let largest = traces.left.iter().map(|t| t.t.abs()).fold(1.0, f64::max);
+        for (trace, (_, unit)) in traces.left.iter().zip(&units) {
+            let t = dot(unit, beside.residual);
+            assert!((trace.t - t).abs() < 1e-9 * largest, "{}: {} {t}", traces.pattern(trace).words, trace.t);
+        }
+        let (fast, slow) = (traces.correlations(), plain::correlations(&units));
+        assert!((&fast - &slow).amax() < 1e-9, "{}", (&fast - &slow).amax());
+        // What bounds answer is what the number of tests answers.
+        let look = look(case, &case.base, beside_bending);
+        for seen in &look.seen {
+            let p = of_several(seen.p_alone, look.tests());
+            assert_eq!(look.p_value(seen), reported_p(p));
+            assert!([0.002, 0.01, 0.2].iter().all(|level| look.is_below(seen, *level) == (p < *level)));
+        }
+    }
 
     #[test]
     fn equal_patterns_count_once_and_perpendicular_ones_each() {
-        let axis = |k: usize| (0..8).map(|i| f64::from(u8::from(i == k))).collect::<Vec<f64>>();
-        let same: Vec<Vec<f64>> = (0..6).map(|_| axis(0)).collect();
-        assert!((independent(&same).unwrap() - 1.0).abs() < 0.5);
-        let apart: Vec<Vec<f64>> = (0..8).map(axis).collect();
-        let m = independent(&apart).unwrap();
+        let same = DMatrix::from_element(6, 6, 1.0);
+        assert!((independent(same).unwrap() - 1.0).abs() < 0.5);
+        let m = independent(DMatrix::identity(8, 8)).unwrap();
         assert!((5.0..=8.0).contains(&m), "{m}: eight independent patterns, within what 1000 simulations know");
     }
 }
