@@ -10,7 +10,7 @@ use super::patterns::Fault;
 use super::problem::Fit;
 use super::result::{LackOfFit, Verdict};
 use super::singles::{fit_all, indistinguishable};
-use super::stands_out::{StandsOut, alone, stands_out};
+use super::stands_out::{Simpler, StandsOut, alone, stands_out};
 use crate::error::CompareError;
 use crate::stats::reported_p;
 
@@ -53,7 +53,7 @@ pub struct Decision {
     /// One corrected p of "nothing is missing".
     pub p_value: Option<f64>,
     /// One fault that is a simpler answer than the final model.
-    pub fault: Option<StandsOut>,
+    pub fault: Option<Simpler>,
     /// Lack of fit of the base.
     pub before: Option<LackOfFit>,
     /// Lack of fit of the final model.
@@ -149,7 +149,7 @@ fn is_a_place_left(case: &Case, fit: &Fit, seen: &StandsOut) -> bool {
 /// One fault with one amplitude that says what the effects say with more. Of two effects a fault that is as good is the simpler
 /// answer. One effect is as simple: a place must be clearly better, for a law that is not quite its formula leaves one now and
 /// then, and a hold says nothing against it, because three pressures and B leave every law one hold to miss.
-fn simpler(case: &Case, last: &Fit) -> Option<StandsOut> {
+fn simpler(case: &Case, last: &Fit) -> Option<Simpler> {
     let (kinds, margin): (&[Fault], f64) = match last.effects.len() - case.always.len() {
         ..=1 => (&[Fault::Place], order::SAME),
         _ => (&[Fault::Place, Fault::Hold], 0.0),
@@ -157,7 +157,10 @@ fn simpler(case: &Case, last: &Fit) -> Option<StandsOut> {
     let fault = alone(case, kinds).filter(|fault| fault.p_value < case.alpha)?;
     let allowance = order::allowance(case.gain(last).max(fault.gain));
     let by_fault = order::criterion_of(case, case.base.cost() - fault.gain, 1, allowance);
-    (by_fault + margin < order::criterion(case, last, allowance)).then_some(fault)
+    let is_simpler = by_fault + margin < order::criterion(case, last, allowance);
+    // By the sums of squares alone, without what numbers cost.
+    let either = (fault.gain - case.gain(last)) / allowance < order::SAME;
+    is_simpler.then_some(Simpler { fault, either })
 }
 
 /// Takes the best pair in place of the single effect, or of the base, if it is significantly better, and in mm too: by the whitened

@@ -36,6 +36,7 @@ mod known;
 mod lack_of_fit;
 mod least_squares;
 mod limits;
+mod look;
 mod next;
 mod options;
 mod order;
@@ -165,15 +166,15 @@ pub fn diagnose_together(
     warnings.extend(singles::left_out(&case, &decision.singles));
     let outliers = Outliers { runs, ..parts[0].prepared.outliers.clone() };
     let mut diagnosis = assemble(&case, &decision, outliers, warnings)?;
-    if options.next_experiment {
-        diagnosis.next_experiment = next::next_experiment(&case, &decision)?;
-    }
     if first.about.is_some_and(|a| a.gravity_direction.is_none()) {
         let words =
             "about.toml names no [gravity] direction: out of the question if the robot bends in a horizontal plane";
         diagnosis.ranked.iter_mut().filter(|r| r.effect == "gravity").for_each(|r| r.notes.push(words.into()));
     }
     diagnosis.kept_bending = kept_bending::kept_bending(&diagnosis, scenario, first, further, options)?;
+    if options.next_experiment {
+        diagnosis.next_experiment = next::next_experiment(&case, &decision, look::next(&diagnosis))?;
+    }
     diagnosis.summary = story::story(&diagnosis);
     Ok(diagnosis)
 }

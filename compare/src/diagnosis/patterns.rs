@@ -14,9 +14,12 @@
 //! No pattern knows an effect. A misfit along one of them more than along all effects is what "outside the catalogue" means.
 
 use super::case::Case;
+use super::look;
 use crate::comparison::ZERO_PRESSURE_PA;
 use crate::layout::Layout;
 
+/// Directions of the image.
+const AXES: [(&str, [f64; 2]); 2] = [("x", [1.0, 0.0]), ("y", [0.0, 1.0])];
 /// Pressures within this fraction are one level.
 const SAME_PRESSURE: f64 = 0.05;
 
@@ -24,6 +27,8 @@ const SAME_PRESSURE: f64 = 0.05;
 pub struct Pattern {
     /// What it looks like, to follow "What is left looks as if".
     pub words: String,
+    /// What would show it, to follow "Next:".
+    pub check: String,
     /// The whole robot bends otherwise at some time: all that a wrong law of a uniform robot can leave. Without it, a place.
     pub is_uniform: bool,
     /// What broke, if this is what something broken looks like.
@@ -56,6 +61,15 @@ enum Place {
 /// When: one factor per hold.
 type Time = Vec<f64>;
 
+/// A time that singles out holds.
+struct When {
+    /// To follow what happens then.
+    words: String,
+    /// How it would be shown.
+    check: String,
+    time: Time,
+}
+
 /// The robot seen in one sample: base and markers in the order of their stations.
 struct Outline {
     xy: Vec<[f64; 2]>,
@@ -73,39 +87,47 @@ pub fn patterns(case: &Case, prediction_m: &[f64]) -> Vec<Pattern> {
     let stations = order(&case.scenario.markers_m);
     let mut all = Vec::new();
     let always = vec![1.0; layout.holds];
-    let mut add = |words: String, place: Place, time: &Time| {
+    let mut add = |words: String, check: String, place: Place, time: &Time| {
         let fault = (*time == always || *time == bent).then_some(Fault::Place);
-        all.push(Pattern { words, is_uniform: false, fault, direction: direction(&layout, &outlines, &place, time) });
+        let direction = direction(&layout, &outlines, &place, time);
+        all.push(Pattern { words, check, is_uniform: false, fault, direction });
     };
     let n = layout.markers;
     // A rotation before the first marker is one of mount or camera, which the catalogue has.
     for k in 1..n {
         let at = between(&stations, k, |m| &names[m].name);
         let one: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == k))).collect();
-        add(format!("the robot bends otherwise {at} in proportion to its bending"), Place::Bends(one.clone()), &bent);
-        add(format!("the robot has a fixed kink {at}"), Place::Bends(one), &always);
+        let words = format!("the robot bends otherwise {at} in proportion to its bending");
+        add(words, look::stretch(&at), Place::Bends(one.clone()), &bent);
+        add(format!("the robot has a fixed kink {at}"), look::kink(&at), Place::Bends(one), &always);
     }
     let along = |f: fn(f64) -> f64| Place::Bends(stretches(case).iter().map(|[s, ds]| f(*s) * ds).collect());
-    add("stiffness changes steadily along the robot".into(), along(|s| 1.0 - 2.0 * s), &bent);
-    add("the robot's middle bends otherwise than its ends".into(), along(|s| 1.0 - 6.0 * s + 6.0 * s * s), &bent);
+    let words = "stiffness changes steadily along the robot";
+    add(words.into(), look::along(), along(|s| 1.0 - 2.0 * s), &bent);
+    let words = "the robot's middle bends otherwise than its ends";
+    add(words.into(), look::along(), along(|s| 1.0 - 6.0 * s + 6.0 * s * s), &bent);
     for (m, marker) in names.iter().enumerate() {
         let name = &marker.name;
-        add(format!("marker {name} sits elsewhere along the robot"), Place::Along(m), &always);
-        add(format!("marker {name} stands alone in x"), Place::Marker(m, [1.0, 0.0]), &always);
-        add(format!("marker {name} stands alone in y"), Place::Marker(m, [0.0, 1.0]), &always);
+        add(format!("marker {name} sits elsewhere along the robot"), look::station(name), Place::Along(m), &always);
+        for (axis, unit) in AXES {
+            let words = format!("marker {name} stands alone in {axis}");
+            add(words, look::marker(name), Place::Marker(m, unit), &always);
+        }
     }
     let times = times(case, &bent);
-    for (words, time) in &times {
-        add(format!("something bends the robot from its tip {words}"), along(|s| 1.0 - s), time);
-        add(format!("the image shifts in x {words}"), Place::All([1.0, 0.0]), time);
-        add(format!("the image shifts in y {words}"), Place::All([0.0, 1.0]), time);
+    for When { words, check, time } in &times {
+        add(format!("something bends the robot from its tip {words}"), look::tip(check), along(|s| 1.0 - s), time);
+        for (axis, unit) in AXES {
+            add(format!("the image shifts in {axis} {words}"), look::image(check), Place::All(unit), time);
+        }
     }
-    for (i, (words, time)) in times.iter().enumerate() {
-        let words = format!("the whole robot bends otherwise {words}");
+    let read = case.sources().any(|(source, _)| source.gauge.is_some());
+    for (i, When { words, check, time }) in times.iter().enumerate() {
+        let (words, check) = (format!("the whole robot bends otherwise {words}"), look::whole(check, read));
         let direction = direction(&layout, &outlines, &along(|_| 1.0), time);
         // Single holds come first.
         let fault = (i < layout.holds).then_some(Fault::Hold);
-        all.push(Pattern { words, is_uniform: true, fault, direction });
+        all.push(Pattern { words, check, is_uniform: true, fault, direction });
     }
     all
 }
@@ -144,13 +166,16 @@ fn alone(holds: usize, hold: usize) -> Time {
 }
 
 /// Times that single out holds, with words; every hold by itself first.
-fn times(case: &Case, bent: &Time) -> Vec<(String, Time)> {
+fn times(case: &Case, bent: &Time) -> Vec<When> {
     let holds = &case.dataset.holds;
-    let mut all: Vec<(String, Time)> = Vec::new();
+    let mut all: Vec<When> = Vec::new();
     for (h, hold) in holds.iter().enumerate() {
-        all.push((format!("in hold {} alone ({:.0} kPa)", h + 1, hold.p_act_pa / 1e3), alone(holds.len(), h)));
+        let (words, check) =
+            (format!("in hold {} alone ({:.0} kPa)", h + 1, hold.p_act_pa / 1e3), look::one_hold(h + 1, hold));
+        all.push(When { words, check, time: alone(holds.len(), h) });
     }
-    all.push(("faster than its bending".into(), bent.iter().map(|b| b * b).collect()));
+    let time = bent.iter().map(|b| b * b).collect();
+    all.push(When { words: "faster than its bending".into(), check: look::finer(None), time });
     let mut levels: Vec<f64> = Vec::new();
     for p in holds.iter().map(|h| h.p_act_pa).filter(|p| *p > ZERO_PRESSURE_PA) {
         if !levels.iter().any(|l| (l - p).abs() < SAME_PRESSURE * l) {
@@ -160,8 +185,8 @@ fn times(case: &Case, bent: &Time) -> Vec<(String, Time)> {
     levels.sort_by(f64::total_cmp);
     // Above the last but one level there is one hold level left, which stands alone already.
     for from in levels.iter().take(levels.len().saturating_sub(2)) {
-        let beyond = holds.iter().map(|h| (h.p_act_pa - from).max(0.0)).collect();
-        all.push((format!("from {:.0} kPa on", from / 1e3), beyond));
+        let time = holds.iter().map(|h| (h.p_act_pa - from).max(0.0)).collect();
+        all.push(When { words: format!("from {:.0} kPa on", from / 1e3), check: look::finer(Some(*from)), time });
     }
     all
 }

@@ -114,6 +114,7 @@ pub fn parameter_values(case: &Case, fit: &Fit, profiled: bool) -> Vec<Parameter
             symbol: p.symbol.clone(),
             unit: p.unit.clone(),
             value: fit.theta()[from + k] / p.si,
+            held: !p.is_free(),
             lo: intervals[from + k].map(|i| i[0] / p.si),
             hi: intervals[from + k].map(|i| i[1] / p.si),
             at_bound: fit.binding[from + k],

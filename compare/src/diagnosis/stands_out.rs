@@ -30,6 +30,8 @@ const EIGEN_ROUNDS: usize = 1000;
 pub struct StandsOut {
     /// What it looks like.
     pub words: String,
+    /// What would show it.
+    pub check: String,
     /// The whole robot bends otherwise at some time.
     pub is_uniform: bool,
     /// The fault that looks like it.
@@ -38,6 +40,15 @@ pub struct StandsOut {
     pub gain: f64,
     /// p of the largest of all patterns.
     pub p_value: f64,
+}
+
+/// A fault that is a simpler answer than effects.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Simpler {
+    /// The fault.
+    pub fault: StandsOut,
+    /// It explains no more than they do, and is preferred for its single number.
+    pub either: bool,
 }
 
 /// The clearest place and the clearest time in the residuals of a fit; none if p-values cannot be formed. Places are looked for
@@ -55,16 +66,18 @@ pub fn alone(case: &Case, kinds: &[Fault]) -> Option<StandsOut> {
 
 /// In words: the fault that is a simpler answer than `last`; else what the calibrated base leaves if one pattern alone explains
 /// more of it than `last` does, else what `last` leaves.
-pub fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&StandsOut>) -> Option<LeftPattern> {
+pub fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&Simpler>) -> Option<LeftPattern> {
     let clearest = |fit: &Fit| look(case, fit, false).into_iter().max_by(|a, b| a.gain.total_cmp(&b.gain));
     let told = |fit: &Fit, seen: StandsOut, instead: bool| LeftPattern {
         share: seen.gain / excess(case.first(&fit.minimum.residual)).max(seen.gain),
         words: seen.words,
+        check: seen.check,
         p_value: reported_p(seen.p_value),
         instead,
         simpler: fault.is_some(),
+        either: fault.is_some_and(|fault| fault.either),
     };
-    if let Some(fault) = fault {
+    if let Some(Simpler { fault, .. }) = fault {
         return Some(told(&case.base, fault.clone(), true));
     }
     let alone = clearest(&case.base)?;
@@ -90,12 +103,12 @@ fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Vec<StandsOut> {
     }
     let mut found = Vec::new();
     let mut units: Vec<Vec<f64>> = Vec::new();
-    for Pattern { words, is_uniform, fault, direction } in patterns(case, &prediction) {
+    for Pattern { words, check, is_uniform, fault, direction } in patterns(case, &prediction) {
         let white = whiten(&direction);
         let Some(unit) = unit(if is_uniform { &fitted } else { &bent }, &white) else { continue };
         let t = dot(&unit, case.first(&fit.minimum.residual));
         let p_value = two_sided_p(t, case.noise.pure_error_dof);
-        found.push(StandsOut { words, is_uniform, fault, gain: t * t, p_value });
+        found.push(StandsOut { words, check, is_uniform, fault, gain: t * t, p_value });
         units.push(unit);
     }
     let tests = independent(&units).unwrap_or(units.len() as f64);

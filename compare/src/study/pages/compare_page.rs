@@ -126,7 +126,7 @@ pub fn compare_page(study: &Study, imprint: &Imprint) -> Result<Files, CompareEr
     }
     files.table("holds", tables::holds(&study.variants))?;
     let residuals = figure(
-        "Signed residual of every marker in every hold. Blue: the robot bends more than the model; orange: less.",
+        &format!("Signed residual of every marker in every hold. {}", figures::MAP_COLOURS),
         "heat map of residuals, markers by holds",
         &map.svg,
     );
