@@ -110,7 +110,9 @@ fn text(d: &Diagnosis, witness: Option<&Witness>) -> String {
     let verdict = match d.verdict {
         Some(Verdict::None) => "no missing effect detectable",
         Some(Verdict::Effect) => "an effect is missing",
-        Some(Verdict::OutOfCatalog) if d.is_either() => "something is missing: a fault that is not in the catalogue, or effects",
+        Some(Verdict::OutOfCatalog) if d.is_either() => {
+            "something is missing: a fault that is not in the catalogue, or effects"
+        }
         Some(Verdict::OutOfCatalog) => "something is missing that is not in the catalogue",
         None => "none: ranking only",
     };

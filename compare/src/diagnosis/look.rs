@@ -52,7 +52,9 @@ pub fn marker(name: &str) -> String {
 
 /// Something at the tip, at some time.
 pub fn tip(when: &str) -> String {
-    format!("look for what touches or pulls the tip (a hose, a cable, the floor), and {when}, also with ±{TIP_FORCE_N} N on the tip")
+    format!(
+        "look for what touches or pulls the tip (a hose, a cable, the floor), and {when}, also with ±{TIP_FORCE_N} N on the tip"
+    )
 }
 
 /// An image that moves, at some time.

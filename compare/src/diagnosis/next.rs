@@ -57,7 +57,8 @@ pub fn next_experiment(
     let hypotheses = hypotheses(decision);
     let is_separable = hypotheses.len() > 1 && case.noise.is_known();
     if !is_separable {
-        let only = |sentence| NextExperiment { best: String::new(), needed_now: enough(0.0), sentence, ..Default::default() };
+        let only =
+            |sentence| NextExperiment { best: String::new(), needed_now: enough(0.0), sentence, ..Default::default() };
         return Ok(outside.map(only));
     }
     let (best, rivals) = (hypotheses[0], &hypotheses[1..hypotheses.len().min(RIVALS + 1)]);

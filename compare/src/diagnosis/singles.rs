@@ -126,10 +126,9 @@ fn notes(case: &Case, fit: &Fit, own: &[ParameterValue]) -> Vec<String> {
     let mut notes = Vec::new();
     for p in own.iter().filter(|p| p.at_bound) {
         notes.push(format!(
-            "rejected: the best {} sits on its physical bound {} {}, and the data push beyond it",
+            "rejected: the best {} sits on its physical bound {}, and the data push beyond it",
             p.symbol,
-            super::words::value(p.value),
-            p.unit
+            super::words::quantity(p.value, &p.unit)
         ));
     }
     for (group, (with, without)) in fit.theta().iter().zip(case.base.theta()).take(case.problem.bendings).enumerate() {

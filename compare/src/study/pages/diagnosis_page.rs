@@ -207,7 +207,13 @@ fn largest(map: &ResidualMap, of: fn(&ResidualCell) -> Deviation) -> Option<Stri
     let several = map.holds.iter().any(|h| h.p_body_kpa != at.p_body_kpa);
     let body = if several { format!(", body {:.0} kPa", at.p_body_kpa) } else { String::new() };
     let of_all = map.cells.len();
-    Some(format!("{:+.1} mm{noise} at marker {} of {of_all}, {:.0} kPa {}{body}", d.mm, marker + 1, at.p_act_kpa, at.phase))
+    Some(format!(
+        "{:+.1} mm{noise} at marker {} of {of_all}, {:.0} kPa {}{body}",
+        d.mm,
+        marker + 1,
+        at.p_act_kpa,
+        at.phase
+    ))
 }
 
 fn differently(

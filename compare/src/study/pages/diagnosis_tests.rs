@@ -44,7 +44,9 @@ fn a_marker_that_slid_along_the_body_is_seen_in_the_residual_map() {
     let cell = evaluation.residual_map.cells[2][straight];
     assert!((cell.x.mm + 5.0).abs() < 1.0 && cell.y.mm.abs() < 1.0, "{cell:?}");
     let svg = figures::residual_map("slid", evaluation, &study.dataset).unwrap().svg;
-    for shown in ["y, across the robot", "x, along the straight robot", &format!("−{:.1}", cell.x.in_noise.unwrap().abs())] {
+    for shown in
+        ["y, across the robot", "x, along the straight robot", &format!("−{:.1}", cell.x.in_noise.unwrap().abs())]
+    {
         assert!(svg.contains(shown), "{shown}");
     }
 }
