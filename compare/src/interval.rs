@@ -1,7 +1,7 @@
 //! 95 % intervals of fitted parameters.
 //!
 //! The fit is linear near its end: a parameter is wᵀȳ with weights w from the whitened Jacobian. Its variance is noise and, where
-//! the law misses the data by more than [`MISFIT`], what it misses by:
+//! the law misses the data by more than noise, what it misses by:
 //!
 //! ```text
 //! var = σ²/R |w|² + Σ_j v_j (wᵀu_j)² + max(s² (f − 1) Σ_c (Σ_{i∈c} w_i)², G/(G − q) Σ_g (Σ_{i∈g} w_i r_i)²)
@@ -23,7 +23,8 @@
 //! one by one and markers are the unit; samples of a hold never are.
 //!
 //! t has the degrees of freedom of the sum (Welch–Satterthwaite), so that three runs, or three pressures, give wide intervals. Where a bound
-//! is near or the interval exceeds 30 % of the value, the profile of the sum of squares replaces the linear one.
+//! is near or the interval exceeds 30 % of the value, the profile of the sum of squares replaces the linear one; not where the law
+//! misses, because that sum's rise is then no measure of it.
 
 use crate::noise::{NoiseModel, SENSOR_SD};
 use data::Dataset;
@@ -36,6 +37,9 @@ const HALVINGS: usize = 10;
 /// Degrees of freedom beyond which t is normal to three digits. The quantile of `statrs` is 1.83 in place of 1.96 at 1e7, and at
 /// 1e8 it does not return.
 const MOST_DOF: f64 = 1e4;
+/// Mean square of whitened residuals from which a misfit counts: as much again as the noise, which several hundred values never are by
+/// chance.
+const MISSES: f64 = 2.0;
 /// Pressures within this fraction are one.
 const SAME_PRESSURE: f64 = 0.05;
 /// A pressure tells of a parameter if its share of the squared weights is above this.
@@ -55,9 +59,18 @@ pub struct Fitted<'a> {
     pub readings: usize,
 }
 
-/// Half-width of the interval of a parameter, `white` being its weights on values whitened with noise and misfit, those of all data
+/// Half of an interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Half {
+    /// Half-width.
+    pub width: f64,
+    /// What the law misses by is in it.
+    pub misses: bool,
+}
+
+/// Half of the interval of a parameter, `white` being its weights on values whitened with noise and misfit, those of all data
 /// one after the other, then those of what was measured by itself; `None` if the noise is unknown.
-pub fn half_width(data: &[Fitted], white: &[f64], parameters: usize) -> Option<f64> {
+pub fn half_width(data: &[Fitted], white: &[f64], parameters: usize) -> Option<Half> {
     let (mut total, mut squares_over_dof, mut from) = (0.0, 0.0, 0);
     let (mut each, mut cells, mut pressures) = (0.0, 0, Vec::new());
     for part in data {
@@ -84,9 +97,10 @@ pub fn half_width(data: &[Fitted], white: &[f64], parameters: usize) -> Option<f
         let run_dof = noise.runs.saturating_sub(noise.sessions).max(1) as f64;
         total += camera + run_to_run;
         squares_over_dof += camera * camera / noise.pure_error_dof.max(1) as f64 + run_to_run * run_to_run / run_dof;
-        if part.misfit > 1.0 {
+        let missed = square(&noise.whiten(&part.residual_m)) / weights.len() as f64;
+        if missed > MISSES {
             let sums = part.by_cell(&weights);
-            each += noise.unit_m().powi(2) * (part.misfit - 1.0) * square(&sums);
+            each += noise.unit_m().powi(2) * (missed - 1.0) * square(&sums);
             cells += sums.iter().filter(|sum| **sum != 0.0).count();
             pressures.extend(part.by_pressure(&weights));
         }
@@ -99,7 +113,7 @@ pub fn half_width(data: &[Fitted], white: &[f64], parameters: usize) -> Option<f
     squares_over_dof += misfit * misfit / dof;
     let dof = total * total / squares_over_dof;
     let t = StudentsT::new(0.0, 1.0, dof.clamp(1.0, MOST_DOF)).ok()?.inverse_cdf(0.975);
-    Some(t * total.sqrt())
+    Some(Half { width: t * total.sqrt(), misses: !pressures.is_empty() })
 }
 
 impl Fitted<'_> {
@@ -147,12 +161,13 @@ fn misfit(pressures: &[[f64; 2]], (each, cells): (f64, usize), parameters: usize
 /// The interval of a parameter: `squares` is the least sum of squares' second derivative by half, `rise` how far it has risen above
 /// that of the fit with the parameter at a place; without it the interval is linear.
 pub fn interval(
-    (value, half, squares): (f64, f64, f64),
+    (value, half, squares): (f64, Half, f64),
     [lower, upper]: [f64; 2],
     rise: Option<&mut dyn FnMut(f64) -> f64>,
 ) -> [f64; 2] {
+    let Half { width: half, misses } = half;
     let is_free = value - half >= lower && value + half <= upper;
-    match rise.filter(|_| !(is_free && half <= WIDE * value.abs())) {
+    match rise.filter(|_| !misses && !(is_free && half <= WIDE * value.abs())) {
         None => [(value - half).max(lower), (value + half).min(upper)],
         Some(rise) => {
             let most = half * half * squares;
@@ -208,11 +223,14 @@ mod tests {
 
     #[test]
     fn near_a_bound_or_where_it_is_wide_the_profile_is_followed() {
-        let linear = interval((5.0, 1.0, 4.0), [0.0, 9.0], Some(&mut |_| unreachable!()));
+        let half = |width: f64| Half { width, misses: false };
+        let linear = interval((5.0, half(1.0), 4.0), [0.0, 9.0], Some(&mut |_| unreachable!()));
         assert_eq!(linear, [4.0, 6.0]);
         let mut cube = |x: f64| 4.0 * (x - 1.0).powi(2) * x;
-        let [low, high] = interval((1.0, 1.0, 4.0), [0.0, 9.0], Some(&mut cube));
+        let [low, high] = interval((1.0, half(1.0), 4.0), [0.0, 9.0], Some(&mut cube));
         assert!(low == 0.0 && (cube(high) / 4.0 - 1.0).abs() < 0.01, "{low} {high}");
-        assert_eq!(interval((1.0, 2.0, 4.0), [0.0, 9.0], None), [0.0, 3.0]);
+        assert_eq!(interval((1.0, half(2.0), 4.0), [0.0, 9.0], None), [0.0, 3.0]);
+        let misses = Half { width: 2.0, misses: true };
+        assert_eq!(interval((1.0, misses, 4.0), [0.0, 9.0], Some(&mut cube)), [0.0, 3.0]);
     }
 }
