@@ -150,6 +150,7 @@ pub fn diagnose_together(
         warnings.extend(told.into_iter().map(|warning| format!("{of}{warning}")));
         parts.push(part);
     }
+    warnings.extend(parts.iter().flat_map(|part| known::unusual(&part.measured, scenario)));
     let sources: Vec<Source> = parts.iter().map(|part| part.source(&parts[0].scenario)).collect();
     let sessions: Vec<Vec<usize>> = parts.iter().map(|part| part.prepared.sessions.clone()).collect();
     let (candidates, own) = case::catalogue(&sources, options);

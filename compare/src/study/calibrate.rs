@@ -16,8 +16,10 @@ use models::Scenario;
 pub struct Calibration {
     /// Effective bending stiffness B \[N·m²\].
     pub bending_nm2: f64,
-    /// Its 95 % interval \[N·m²\], which holds what the model misses by; `None` when the noise is unknown.
+    /// Its 95 % interval \[N·m²\]; `None` when the noise is unknown.
     pub interval_nm2: Option<[f64; 2]>,
+    /// The model misses the data by more than noise, and the interval holds that.
+    pub misses: bool,
     /// The fit ended on a bound: B does not explain the data.
     pub at_bound: bool,
 }
@@ -78,8 +80,9 @@ pub fn calibrate_bending(
     let is_zero = bending_nm2 < SMALLEST_BENDING || misfit.at(0.0)? <= misfit.at(bending_nm2)?;
     let at_bound = is_zero || best > 0.999 * MAX_BENDING.sqrt();
     let bending_nm2 = if is_zero { 0.0 } else { bending_nm2 };
-    let interval_nm2 = if noise.is_known() { interval_of(&misfit, bending_nm2, (&noise, factor))? } else { None };
-    Ok(Calibration { bending_nm2, interval_nm2, at_bound })
+    let found = interval_of(&misfit, bending_nm2, (&noise, factor))?;
+    let interval_nm2 = found.map(|(ends, _)| ends);
+    Ok(Calibration { bending_nm2, interval_nm2, misses: found.is_some_and(|(_, misses)| misses), at_bound })
 }
 
 /// √B, the noise that it was fitted in, wider if the model misses the data, and by which factor.
@@ -114,12 +117,12 @@ fn minimum(misfit: &Misfit) -> Result<f64, CompareError> {
     Ok(run.state.get_best_param().copied().unwrap_or(grid[best]))
 }
 
-/// Its interval, from the noise and the factor by which it was widened.
+/// Its interval, and whether a misfit is in it, from the noise and the factor by which it was widened; `None` if the noise is unknown.
 fn interval_of(
     misfit: &Misfit,
     bending: f64,
     (noise, factor): (&NoiseModel, f64),
-) -> Result<Option<[f64; 2]>, CompareError> {
+) -> Result<Option<([f64; 2], bool)>, CompareError> {
     let residual_m = misfit.residual_m(bending)?;
     let moved = misfit.residual_m(bending + STEP)?;
     let slope: Vec<f64> = moved.iter().zip(&residual_m).map(|(a, b)| (a - b) / STEP).collect();
@@ -134,5 +137,5 @@ fn interval_of(
     };
     let least = misfit.at(bending)?;
     let mut rise = |b: f64| misfit.at(b).map_or(f64::INFINITY, |cost| cost - least);
-    Ok(Some(interval((bending, half, squares), [0.0, MAX_BENDING], Some(&mut rise))))
+    Ok(Some((interval((bending, half, squares), [0.0, MAX_BENDING], Some(&mut rise)), half.misses)))
 }

@@ -82,6 +82,7 @@ impl FormulaParameter {
             typical: self.typical,
             lower: self.lower,
             upper: self.upper,
+            possible: [self.lower, self.upper],
             starts: &[],
             by_actuator: &[],
             fitted: Fitted::Always,

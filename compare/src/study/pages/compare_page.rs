@@ -100,7 +100,9 @@ fn calibrated(scenario: &Scenario, dataset: &Dataset, options: &EvaluateOptions)
     let scenario = scenario.with_bending(fit.bending_nm2);
     let options = EvaluateOptions { fitted_parameters: options.fitted_parameters + 1, ..options.clone() };
     let evaluation = held(&scenario, dataset, &options)?;
-    let interval = fit.interval_nm2.map_or(String::new(), |i| format!(", 95 % interval {:.3}–{:.3}", i[0], i[1]));
+    let misses = if fit.misses { ", wide because the model misses by more than noise" } else { "" };
+    let interval =
+        fit.interval_nm2.map_or(String::new(), |i| format!(", 95 % interval {:.3}–{:.3}{misses}", i[0], i[1]));
     let bound = if fit.at_bound { "; at its bound: a stiffness does not explain these data" } else { "" };
     Ok(Variant {
         label: format!("+ bending B = {:.3} N m²", fit.bending_nm2),
