@@ -167,7 +167,7 @@ pub fn interval(
 ) -> [f64; 2] {
     let Half { width: half, misses } = half;
     let is_free = value - half >= lower && value + half <= upper;
-    match rise.filter(|_| !misses && !(is_free && half <= WIDE * value.abs())) {
+    match rise.filter(|_| !(misses || is_free && half <= WIDE * value.abs())) {
         None => [(value - half).max(lower), (value + half).min(upper)],
         Some(rise) => {
             let most = half * half * squares;
