@@ -14,6 +14,7 @@ pub mod error;
 pub mod evaluate;
 pub mod gauge;
 pub mod hidden;
+mod interval;
 pub mod layout;
 pub mod metrics;
 pub mod noise;

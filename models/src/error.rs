@@ -1,5 +1,6 @@
 //! Errors of the models.
 
+use crate::root::POLE;
 use crate::term::Extreme;
 use thiserror::Error;
 
@@ -100,9 +101,6 @@ pub enum Unsolved {
     },
 }
 
-/// Moments beyond this are those of a pole, to rounding \[N·m\].
-pub(crate) const POLE_NM: f64 = 1e9;
-
 fn moment(size: f64) -> String {
-    if size < POLE_NM { format!("{size:.3e} N·m") } else { "no finite moment".into() }
+    if size < POLE { format!("{size:.3e} N·m") } else { "no finite moment".into() }
 }

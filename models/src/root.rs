@@ -35,8 +35,8 @@ const LAST_STEP: f64 = 1e-7;
 const LAST_ERROR: f64 = 1e-14;
 /// Part of the bracket below which x counts as zero when steps are compared with it.
 const FLOOR: f64 = 1e-6;
-/// A jump of this size is a pole and no root.
-const POLE: f64 = 1e9;
+/// A value beyond this, found by narrowing to rounding, is that of a pole: no root, and no moment of a law (SI).
+pub(crate) const POLE: f64 = 1e9;
 /// Evaluations after which the bracket must have halved, else it is halved.
 const PATIENCE: usize = 8;
 

@@ -110,6 +110,9 @@ fn text(d: &Diagnosis, witness: Option<&Witness>) -> String {
     let verdict = match d.verdict {
         Some(Verdict::None) => "no missing effect detectable",
         Some(Verdict::Effect) => "an effect is missing",
+        Some(Verdict::OutOfCatalog) if d.is_either() => {
+            "something is missing: a fault that is not in the catalogue, or effects"
+        }
         Some(Verdict::OutOfCatalog) => "something is missing that is not in the catalogue",
         None => "none: ranking only",
     };
@@ -247,7 +250,7 @@ fn unseen(d: &Diagnosis) -> String {
 }
 
 fn experiments(d: &Diagnosis) -> String {
-    let Some(next) = &d.next_experiment else { return String::new() };
+    let Some(next) = d.next_experiment.as_ref().filter(|next| !next.tried.is_empty()) else { return String::new() };
     let lambda = |e: &Experiment| -> Vec<String> { e.separations.iter().map(|s| format!("{:.1}", s.lambda)).collect() };
     let now = next.now.iter().map(|s| format!("{:.1}", s.lambda));
     let at_hand = ["data at hand".to_string(), "–".to_string(), format!("{:.0}", next.needed_now)];

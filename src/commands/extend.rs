@@ -78,7 +78,10 @@ impl<'a> Ground<'a> {
 
     /// An effect whose values were fitted.
     pub fn calibrated(&self, name: &str, values: &[ParameterValue]) -> Addition {
-        let interval = |p: &ParameterValue| Some(format!("{} {} to {} (95 %)", p.key, short(p.lo?), short(p.hi?)));
+        let interval = |p: &ParameterValue| match p.held {
+            true => Some(format!("{} held, not fitted", p.key)),
+            false => Some(format!("{} {} to {} (95 %)", p.key, short(p.lo?), short(p.hi?))),
+        };
         let plain = values.iter().map(|p| (p.key.clone(), p.value)).collect();
         Addition {
             interval: values.iter().filter_map(interval).collect::<Vec<_>>().join(", "),
@@ -194,11 +197,11 @@ pub fn ranked<'a>(d: &'a Diagnosis, name: &str) -> Result<&'a Ranked, Failure> {
     Ok(r)
 }
 
-/// `M_f = 0.51 N m (0.50…0.52)`.
+/// `M_f = 0.51 N m (0.50…0.52)`, `n = 1.00 (held)`.
 pub fn value(p: &ParameterValue) -> String {
     let interval = match (p.lo, p.hi) {
         (Some(lo), Some(hi)) => format!(" ({}…{})", short(lo), short(hi)),
-        _ => String::new(),
+        _ => p.held_mark().into(),
     };
     format!("{} = {}{interval}", p.symbol, with_unit(&short(p.value), &p.unit))
 }

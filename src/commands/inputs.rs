@@ -142,10 +142,14 @@ pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, String)
         };
         let p = &effect.parameters[index];
         match number.trim().parse::<f64>() {
-            Ok(v) if (p.lower..=p.upper).contains(&v) => chosen[index] = v * p.si,
+            Ok(v) if p.is_usual(v) => chosen[index] = v * p.si,
+            Ok(v) if p.is_possible(v) => {
+                let message = format!("{key} = {v} is outside its usual bounds {}", p.usual_words());
+                let found = "one that was found on the robot goes into the scenario, with basis = \"measured\"";
+                return Err(Failure::usage(message, format!("{help}; {found}")));
+            }
             Ok(v) => {
-                let bounds = with_unit(&format!("{} to {}", p.lower, p.upper), p.unit);
-                let message = format!("{key} = {v} is outside its physical bounds {bounds}");
+                let message = format!("{key} = {v} is outside its physical bounds {}", p.possible_words());
                 return Err(Failure::usage(message, help));
             }
             Err(_) => return Err(Failure::usage(format!("{key} = `{number}` is not a number"), help)),

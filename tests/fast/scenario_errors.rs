@@ -90,6 +90,14 @@ fn unknown_actuators_and_effects_are_answered_with_the_list() {
     );
     refused(effect("[effects.end_constraint]\nbeta = 5"), &["outside its physical bounds 0 to 1", "bad.toml:26:8"]);
     refused(
+        effect("[effects.gravity]\nweight_n_per_m = 11"),
+        &["outside its usual bounds 0 to 8 N/m", "basis = \"measured\"", "bad.toml:26"],
+    );
+    refused(
+        effect("[effects.gravity]\nweight_n_per_m = -1\nbasis = \"measured\""),
+        &["outside its physical bounds 0 N/m and above", "bad.toml:26"],
+    );
+    refused(
         effect("[effects.shear_stiffness]"),
         &["does not exist for actuator epam", "remove [effects.shear_stiffness]"],
     );

@@ -95,6 +95,20 @@ impl Diagnosis {
         answers
     }
 
+    /// Whether effects and a fault outside the catalogue explain the data about as well.
+    pub fn is_either(&self) -> bool {
+        self.pattern.as_ref().is_some_and(|pattern| pattern.either)
+    }
+
+    /// What an attempt is called beside answers.
+    pub fn attempt_words(&self) -> &'static str {
+        match &self.pattern {
+            Some(pattern) if pattern.either => "attempt; one fault explains as much",
+            Some(pattern) if pattern.simpler => "attempt; one fault explains more",
+            _ => "attempt, not enough",
+        }
+    }
+
     /// Whether an effect is stated or attempted, alone or as a part of a pair.
     pub fn speaks_of(&self, effect: &str) -> bool {
         let stated = self.indistinguishable.iter().flat_map(|entry| entry.split(" + "));

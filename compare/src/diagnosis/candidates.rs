@@ -39,9 +39,9 @@ pub struct Free {
     pub neutral: f64,
     /// Typical size.
     pub typical: f64,
-    /// Physical lower bound.
+    /// Lower bound of a fit.
     pub lower: f64,
-    /// Physical upper bound.
+    /// Upper bound of a fit.
     pub upper: f64,
     /// Where a fit starts beside neutral and typical: thresholds and time scales.
     pub starts: Vec<f64>,
@@ -79,10 +79,13 @@ impl Candidate {
         }
     }
 
-    /// What is held stays at these values, those of the scenario that has the effect.
-    pub fn hold_as_given(&mut self, values: &[f64]) {
-        for (p, value) in self.parameters.iter_mut().zip(values).filter(|(p, _)| p.is_held) {
-            (p.neutral, p.typical) = (*value, *value);
+    /// What is held stays at these values, those of the scenario that has the effect; of what is fitted they lie within the bounds.
+    pub fn as_given(&mut self, values: &[f64]) {
+        for (p, value) in self.parameters.iter_mut().zip(values) {
+            if p.is_held {
+                (p.neutral, p.typical) = (*value, *value);
+            }
+            (p.lower, p.upper) = (p.lower.min(*value), p.upper.max(*value));
         }
     }
 

@@ -3,7 +3,7 @@
 use super::basis::{Basis, cosine};
 use super::blocks::{body_pressures, fitted_scenarios, whole_block};
 use super::candidates::{Candidate, Held, candidates, hold, present};
-use super::known::{Known, bound, known};
+use super::known::{Known, bound, known, make_room};
 use super::least_squares::square;
 use super::options::Options;
 use super::problem::{Block, Fit, Problem};
@@ -85,7 +85,8 @@ pub fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usiz
         measured: &sources.iter().flat_map(|source| source.measured).collect::<Vec<_>>(),
     };
     hold(&mut list, &held);
-    list[..own].iter_mut().for_each(|candidate| candidate.hold_as_given(&own_values(scenario, candidate)));
+    make_room(&mut list, held.measured, scenario);
+    list[..own].iter_mut().for_each(|candidate| candidate.as_given(&own_values(scenario, candidate)));
     let missing = list.split_off(own);
     list.extend(missing.into_iter().filter(|candidate| candidate.count() > 0));
     (list, own)

@@ -10,7 +10,7 @@ use super::patterns::Fault;
 use super::problem::Fit;
 use super::result::{LackOfFit, Verdict};
 use super::singles::{fit_all, indistinguishable};
-use super::stands_out::{StandsOut, alone, stands_out};
+use super::stands_out::{Simpler, StandsOut, alone, stands_out};
 use crate::error::CompareError;
 use crate::stats::reported_p;
 
@@ -52,8 +52,8 @@ pub struct Decision {
     pub verdict: Option<Verdict>,
     /// One corrected p of "nothing is missing".
     pub p_value: Option<f64>,
-    /// One fault that is a simpler answer than the final model, and its p as reported.
-    pub fault: Option<(StandsOut, f64)>,
+    /// One fault that is a simpler answer than the final model.
+    pub fault: Option<Simpler>,
     /// Lack of fit of the base.
     pub before: Option<LackOfFit>,
     /// Lack of fit of the final model.
@@ -159,17 +159,21 @@ fn is_a_place_left(case: &Case, fit: &Fit, seen: &StandsOut) -> bool {
 /// One fault with one amplitude that says what the effects say with more. Of two effects a fault that is as good is the simpler
 /// answer. One effect is as simple: a place must be clearly better, for a law that is not quite its formula leaves one now and
 /// then, and a hold says nothing against it, because three pressures and B leave every law one hold to miss.
-fn simpler(case: &Case, last: &Fit) -> Option<(StandsOut, f64)> {
+fn simpler(case: &Case, last: &Fit) -> Option<Simpler> {
     let (kinds, margin): (&[Fault], f64) = match last.effects.len() - case.always.len() {
         ..=1 => (&[Fault::Place], order::SAME),
         _ => (&[Fault::Place, Fault::Hold], 0.0),
     };
+    let allowance = |fault: &StandsOut| order::allowance(case.gain(last).max(fault.gain));
     let is_simpler = |fault: &StandsOut| {
-        let allowance = order::allowance(case.gain(last).max(fault.gain));
+        let allowance = allowance(fault);
         let by_fault = order::criterion_of(case, case.base.cost() - fault.gain, 1, allowance);
         by_fault + margin < order::criterion(case, last, allowance)
     };
-    alone(case, kinds, case.alpha, &is_simpler)
+    let (fault, p_value) = alone(case, kinds, case.alpha, &is_simpler)?;
+    // By the sums of squares alone, without what numbers cost.
+    let either = (fault.gain - case.gain(last)) / allowance(&fault) < order::SAME;
+    Some(Simpler { fault, p_value, either })
 }
 
 /// Takes the best pair in place of the single effect, or of the base, if it is significantly better, and in mm too: by the whitened

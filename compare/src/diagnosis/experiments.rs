@@ -7,7 +7,7 @@ use data::{Dataset, Direct, Hold, Lost, Phase};
 use models::Scenario;
 
 /// Known force hung on the tip \[N\].
-const TIP_FORCE_N: f64 = 0.3;
+pub const TIP_FORCE_N: f64 = 0.3;
 /// Length of a long hold \[s\].
 const LONG_HOLD_S: f64 = 60.0;
 

@@ -47,7 +47,9 @@ fn a_gauge_tells_the_exponent_of_a_loss() {
     }
     let d = run(&plain, &generate(&truth, "made", &Generator { runs: 5, seed: 452, ..Generator::default() }).unwrap());
     let loss = d.ranked.iter().find(|r| r.effect == "pressure_loss").unwrap();
-    assert_eq!(loss.parameters[1].value, 1.0);
+    let [f, n] = &loss.parameters[..] else { panic!("{loss:?}") };
+    assert!(!f.held && n.held && n.value == 1.0 && n.lo.is_none(), "{loss:?}");
+    assert!(super::story::with_interval(n) == "n = 1 (held)" && !super::story::with_interval(f).contains("held"));
 }
 
 #[test]

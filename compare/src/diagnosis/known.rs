@@ -165,14 +165,51 @@ fn check(scenario: &Scenario, m: &MeasuredValue) -> Result<(), CompareError> {
         let keys: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
         return wrong(format!("names an unknown parameter `{key}` of {name}; {}", spelling::known(key, &keys)));
     };
-    let noise = BEYOND_BOUNDS * sd;
-    if (p.lower - noise..=p.upper + noise).contains(value) {
+    let (noise, [lower, upper]) = (BEYOND_BOUNDS * sd, p.possible);
+    if value.is_finite() && (lower - noise..=upper + noise).contains(value) {
         return Ok(());
     }
-    let (lower, upper) = (p.lower, p.upper);
-    let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
     wrong(format!(
-        "{name}: {key} = {value} is outside its physical bounds {lower} to {upper}{unit} by more than {BEYOND_BOUNDS} of its \
-         standard deviations ({sd}): correct the value or its unit"
+        "{name}: {key} = {value} is outside its physical bounds {} by more than {BEYOND_BOUNDS} of its standard deviations \
+         ({sd}): correct the value or its unit",
+        p.possible_words()
     ))
+}
+
+/// What was measured to be more than fits look for: possible, and perhaps another unit.
+pub fn unusual(measured: &[MeasuredValue], scenario: &Scenario) -> Vec<String> {
+    let catalogue = scenario.catalogue();
+    let told = measured.iter().filter_map(|m| {
+        let effect = catalogue.by_name(&m.effect)?;
+        let p = effect.parameters.iter().find(|p| p.key == m.key)?;
+        let noise = BEYOND_BOUNDS * m.sd;
+        (!(p.lower - noise..=p.upper + noise).contains(&m.value)).then(|| {
+            format!(
+                "about.toml says that {} has {} = {}, and robots like these have {}: taken as it is, check its unit",
+                m.effect,
+                m.key,
+                m.value,
+                p.usual_words()
+            )
+        })
+    });
+    told.collect()
+}
+
+/// Room for what was measured beyond the bounds of a fit, as far as that is possible.
+pub fn make_room(candidates: &mut [Candidate], measured: &[&MeasuredValue], scenario: &Scenario) {
+    let catalogue = scenario.catalogue();
+    for m in measured {
+        let Some((effect, parameter)) = place(candidates, &m.effect, &m.key) else { continue };
+        let Some(entry) = catalogue.by_name(&m.effect) else { continue };
+        let ([lower, upper], free) =
+            (entry.parameters[parameter].possible, &mut candidates[effect].parameters[parameter]);
+        let [low, high] = [-1.0, 1.0].map(|side| (m.value + side * BEYOND_BOUNDS * m.sd).clamp(lower, upper) * free.si);
+        if m.value * free.si < free.lower {
+            free.lower = free.lower.min(low);
+        }
+        if m.value * free.si > free.upper {
+            free.upper = free.upper.max(high);
+        }
+    }
 }

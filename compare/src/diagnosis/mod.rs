@@ -36,6 +36,7 @@ mod known;
 mod lack_of_fit;
 mod least_squares;
 mod limits;
+mod look;
 #[cfg(test)]
 mod lost_tests;
 mod next;
@@ -153,6 +154,7 @@ pub fn diagnose_together(
         warnings.extend(told.into_iter().map(|warning| format!("{of}{warning}")));
         parts.push(part);
     }
+    warnings.extend(parts.iter().flat_map(|part| known::unusual(&part.measured, scenario)));
     let sources: Vec<Source> = parts.iter().map(|part| part.source(&parts[0].scenario)).collect();
     let sessions: Vec<Vec<usize>> = parts.iter().map(|part| part.prepared.sessions.clone()).collect();
     let (candidates, own) = case::catalogue(&sources, options);
@@ -169,15 +171,15 @@ pub fn diagnose_together(
     warnings.extend(singles::left_out(&case, &decision.singles));
     let outliers = Outliers { runs, ..parts[0].prepared.outliers.clone() };
     let mut diagnosis = assemble(&case, &decision, outliers, warnings)?;
-    if options.next_experiment {
-        diagnosis.next_experiment = next::next_experiment(&case, &decision)?;
-    }
     if first.about.is_some_and(|a| a.gravity_direction.is_none()) {
         let words =
             "about.toml names no [gravity] direction: out of the question if the robot bends in a horizontal plane";
         diagnosis.ranked.iter_mut().filter(|r| r.effect == "gravity").for_each(|r| r.notes.push(words.into()));
     }
     diagnosis.kept_bending = kept_bending::kept_bending(&diagnosis, scenario, first, further, options)?;
+    if options.next_experiment {
+        diagnosis.next_experiment = next::next_experiment(&case, &decision, look::next(&diagnosis))?;
+    }
     diagnosis.summary = story::story(&diagnosis);
     Ok(diagnosis)
 }

@@ -44,17 +44,30 @@ const RIVALS: usize = 5;
 /// Accuracy of λ.
 const LAMBDA_ERROR: f64 = 0.05;
 
-/// Looks for the experiment; `None` if there is nothing to separate or the noise is unknown.
+/// Looks for the experiment; `None` if there is nothing to separate or the noise is unknown. Where the answer is outside the
+/// catalogue the names at hand are wrong anyhow: nothing is computed to separate them, and `outside` says what to look at.
 ///
 /// # Errors
 /// What the model returns for a planned experiment.
-pub fn next_experiment(case: &Case, decision: &Decision) -> Result<Option<NextExperiment>, CompareError> {
+pub fn next_experiment(
+    case: &Case,
+    decision: &Decision,
+    outside: Option<String>,
+) -> Result<Option<NextExperiment>, CompareError> {
     let hypotheses = hypotheses(decision);
-    if hypotheses.len() < 2 || !case.noise.is_known() {
-        return Ok(None);
+    let is_separable = hypotheses.len() > 1 && case.noise.is_known();
+    if !is_separable {
+        let only =
+            |sentence| NextExperiment { best: String::new(), needed_now: enough(0.0), sentence, ..Default::default() };
+        return Ok(outside.map(only));
     }
     let (best, rivals) = (hypotheses[0], &hypotheses[1..hypotheses.len().min(RIVALS + 1)]);
     let (now, gain_now) = separations(case, None, best, rivals)?;
+    let needed_now = enough(gain_now);
+    if let Some(sentence) = outside {
+        let best = label(case, best);
+        return Ok(Some(NextExperiment { best, now, needed_now, sentence, ..Default::default() }));
+    }
     let mut tried = Vec::new();
     let set = case.gauge.map_or_else(|| case.dataset.clone(), |gauge| gauge.as_set(case.dataset));
     let mut plans = plans(case.scenario, &set, case.direct, instruments(case, &hypotheses));
@@ -74,7 +87,7 @@ pub fn next_experiment(case: &Case, decision: &Decision) -> Result<Option<NextEx
     let recommended = tried.first().filter(|e| e.separations.iter().any(|s| s.lambda >= WORTHLESS)).cloned();
     let best = label(case, best);
     let sentence = sentence(&best, recommended.as_ref());
-    Ok(Some(NextExperiment { best, recommended, now, needed_now: enough(gain_now), tried, sentence }))
+    Ok(Some(NextExperiment { best, recommended, now, needed_now, tried, sentence }))
 }
 
 /// The explanations to be told apart, best first.

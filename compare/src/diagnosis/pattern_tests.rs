@@ -48,9 +48,18 @@ fn a_marker_that_sits_elsewhere_is_outside_the_catalogue_and_is_named() {
     stations[3] += 0.008;
     let mut data = measured(&told.with_markers(&stations), 5, 51);
     data.markers[3].station_m = Some(told.markers_m[3]);
-    let options = Options { next_experiment: false, ..Options::default() };
-    let d = diagnose(&told, &data, None, &options).unwrap();
+    let d = diagnose(&told, &data, None, &Options::default()).unwrap();
     assert_eq!(d.verdict, Some(Verdict::OutOfCatalog));
+    let next = d.next_experiment.as_ref().unwrap();
+    assert!(
+        next.recommended.is_none() && next.tried.is_empty(),
+        "names that are wrong are not to be separated: {next:?}"
+    );
+    assert!(
+        next.sentence.contains("station of marker 4") && d.summary.last() == Some(&next.sentence),
+        "{}",
+        next.sentence
+    );
     let pattern = d.pattern.as_ref().unwrap();
     assert!(pattern.words.contains("marker 4 sits elsewhere") && pattern.instead, "{pattern:?}");
     assert!(pattern.share > 0.9 && pattern.share <= 1.0 && pattern.p_value <= 1e-6, "{pattern:?}");
@@ -100,7 +109,10 @@ fn one_fault_is_a_simpler_answer_than_two_effects() {
         let options = Options { next_experiment: false, ..Options::default() };
         let d = diagnose(&truth.told().unwrap(), &data, None, &options).unwrap();
         assert_eq!(d.verdict, Some(Verdict::OutOfCatalog), "{fault}: {:?}", d.summary);
-        assert!(d.pattern.as_ref().is_some_and(|p| p.words.contains(words)), "{fault}: {:?}", d.pattern);
+        let pattern = d.pattern.as_ref().unwrap();
+        assert!(pattern.words.contains(words), "{fault}: {pattern:?}");
+        let either = d.summary.iter().any(|s| s.starts_with("Either ") && s.contains(" or one fault"));
+        assert_eq!((either, d.is_either()), (pattern.either, pattern.either), "{:?}", d.summary);
     }
 }
 

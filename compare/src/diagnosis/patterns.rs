@@ -14,10 +14,13 @@
 //! No pattern knows an effect. A misfit along one of them more than along all effects is what "outside the catalogue" means.
 
 use super::case::Case;
+use super::look;
 use super::shapes::Shape;
 use crate::comparison::ZERO_PRESSURE_PA;
 use crate::layout::Layout;
 
+/// Directions of the image.
+const AXES: [(&str, [f64; 2]); 2] = [("x", [1.0, 0.0]), ("y", [0.0, 1.0])];
 /// Pressures within this fraction are one level.
 const SAME_PRESSURE: f64 = 0.05;
 
@@ -25,6 +28,8 @@ const SAME_PRESSURE: f64 = 0.05;
 pub struct Pattern {
     /// What it looks like, to follow "What is left looks as if".
     pub words: String,
+    /// What would show it, to follow "Next:".
+    pub check: String,
     /// The whole robot bends otherwise at some time: all that a wrong law of a uniform robot can leave. Without it, a place.
     pub is_uniform: bool,
     /// What broke, if this is what something broken looks like.
@@ -70,6 +75,15 @@ enum Place {
 /// When: one factor per hold.
 type Time = Vec<f64>;
 
+/// A time that singles out holds.
+struct When {
+    /// To follow what happens then.
+    words: String,
+    /// How it would be shown.
+    check: String,
+    time: Time,
+}
+
 /// The robot seen in one sample: base and markers in the order of their stations.
 struct Outline {
     xy: Vec<[f64; 2]>,
@@ -92,9 +106,9 @@ pub fn patterns(case: &Case, prediction_m: &[f64]) -> Patterns {
     let always = vec![1.0; layout.holds];
     let mut found = Patterns::default();
     let place = |place: Place| shape(case, &layout, &outlines, &place);
-    let mut add = |words: String, shape: usize, time: &Time| {
+    let mut add = |words: String, check: String, shape: usize, time: &Time| {
         let fault = (*time == always || *time == bent).then_some(Fault::Place);
-        found.all.push(Pattern { words, is_uniform: false, fault, shape, time: time.clone() });
+        found.all.push(Pattern { words, check, is_uniform: false, fault, shape, time: time.clone() });
     };
     let mut shapes = Vec::new();
     let mut next = |shape: Shape| {
@@ -105,33 +119,40 @@ pub fn patterns(case: &Case, prediction_m: &[f64]) -> Patterns {
     for k in 1..layout.markers {
         let at = between(&stations, k, |m| &names[m].name);
         let one = next(place(Place::Bend(k)));
-        add(format!("the robot bends otherwise {at} in proportion to its bending"), one, &bent);
-        add(format!("the robot has a fixed kink {at}"), one, &always);
+        let words = format!("the robot bends otherwise {at} in proportion to its bending");
+        add(words, look::stretch(&at), one, &bent);
+        add(format!("the robot has a fixed kink {at}"), look::kink(&at), one, &always);
     }
     let along = |f: fn(f64) -> f64| place(Place::Bends(stretches(case).iter().map(|[s, ds]| f(*s) * ds).collect()));
-    add("stiffness changes steadily along the robot".into(), next(along(|s| 1.0 - 2.0 * s)), &bent);
+    let steady = next(along(|s| 1.0 - 2.0 * s));
+    add("stiffness changes steadily along the robot".into(), look::along(), steady, &bent);
     let middle = next(along(|s| 1.0 - 6.0 * s + 6.0 * s * s));
-    add("the robot's middle bends otherwise than its ends".into(), middle, &bent);
+    add("the robot's middle bends otherwise than its ends".into(), look::along(), middle, &bent);
     for (m, marker) in names.iter().enumerate() {
         let name = &marker.name;
-        add(format!("marker {name} sits elsewhere along the robot"), next(place(Place::Along(m))), &always);
-        add(format!("marker {name} stands alone in x"), next(place(Place::Marker(m, [1.0, 0.0]))), &always);
-        add(format!("marker {name} stands alone in y"), next(place(Place::Marker(m, [0.0, 1.0]))), &always);
+        let station = next(place(Place::Along(m)));
+        add(format!("marker {name} sits elsewhere along the robot"), look::station(name), station, &always);
+        for (axis, unit) in AXES {
+            let words = format!("marker {name} stands alone in {axis}");
+            add(words, look::marker(name), next(place(Place::Marker(m, unit))), &always);
+        }
     }
     let times = times(case, &bent);
     let tip = next(along(|s| 1.0 - s));
-    let [x, y] = [[1.0, 0.0], [0.0, 1.0]].map(|d| next(place(Place::All(d))));
-    for (words, time) in &times {
-        add(format!("something bends the robot from its tip {words}"), tip, time);
-        add(format!("the image shifts in x {words}"), x, time);
-        add(format!("the image shifts in y {words}"), y, time);
+    let images = AXES.map(|(axis, unit)| (axis, next(place(Place::All(unit)))));
+    for When { words, check, time } in &times {
+        add(format!("something bends the robot from its tip {words}"), look::tip(check), tip, time);
+        for (axis, image) in images {
+            add(format!("the image shifts in {axis} {words}"), look::image(check), image, time);
+        }
     }
     let whole = next(along(|_| 1.0));
-    for (i, (words, time)) in times.into_iter().enumerate() {
-        let words = format!("the whole robot bends otherwise {words}");
+    let read = case.sources().any(|(source, _)| source.gauge.is_some());
+    for (i, When { words, check, time }) in times.into_iter().enumerate() {
+        let (words, check) = (format!("the whole robot bends otherwise {words}"), look::whole(&check, read));
         // Single holds come first.
         let fault = (i < layout.holds).then_some(Fault::Hold);
-        found.all.push(Pattern { words, is_uniform: true, fault, shape: whole, time });
+        found.all.push(Pattern { words, check, is_uniform: true, fault, shape: whole, time });
     }
     Patterns { shapes, ..found }
 }
@@ -170,13 +191,16 @@ fn alone(holds: usize, hold: usize) -> Time {
 }
 
 /// Times that single out holds, with words; every hold by itself first.
-fn times(case: &Case, bent: &Time) -> Vec<(String, Time)> {
+fn times(case: &Case, bent: &Time) -> Vec<When> {
     let holds = &case.dataset.holds;
-    let mut all: Vec<(String, Time)> = Vec::new();
+    let mut all: Vec<When> = Vec::new();
     for (h, hold) in holds.iter().enumerate() {
-        all.push((format!("in hold {} alone ({:.0} kPa)", h + 1, hold.p_act_pa / 1e3), alone(holds.len(), h)));
+        let (words, check) =
+            (format!("in hold {} alone ({:.0} kPa)", h + 1, hold.p_act_pa / 1e3), look::one_hold(h + 1, hold));
+        all.push(When { words, check, time: alone(holds.len(), h) });
     }
-    all.push(("faster than its bending".into(), bent.iter().map(|b| b * b).collect()));
+    let time = bent.iter().map(|b| b * b).collect();
+    all.push(When { words: "faster than its bending".into(), check: look::finer(None), time });
     let mut levels: Vec<f64> = Vec::new();
     for p in holds.iter().map(|h| h.p_act_pa).filter(|p| *p > ZERO_PRESSURE_PA) {
         if !levels.iter().any(|l| (l - p).abs() < SAME_PRESSURE * l) {
@@ -186,8 +210,8 @@ fn times(case: &Case, bent: &Time) -> Vec<(String, Time)> {
     levels.sort_by(f64::total_cmp);
     // Above the last but one level there is one hold level left, which stands alone already.
     for from in levels.iter().take(levels.len().saturating_sub(2)) {
-        let beyond = holds.iter().map(|h| (h.p_act_pa - from).max(0.0)).collect();
-        all.push((format!("from {:.0} kPa on", from / 1e3), beyond));
+        let time = holds.iter().map(|h| (h.p_act_pa - from).max(0.0)).collect();
+        all.push(When { words: format!("from {:.0} kPa on", from / 1e3), check: look::finer(Some(*from)), time });
     }
     all
 }

@@ -87,6 +87,8 @@ pub struct Fit {
     pub effects: Vec<usize>,
     /// Where the fit ended; residuals are whitened.
     pub minimum: Minimum,
+    /// Mean square of the whitened residuals of each block by which the fit allowed for its misfit; 1 where it did not.
+    pub misfit: Vec<f64>,
     /// Parameters on a bound against which the data push.
     pub binding: Vec<bool>,
     /// Different starts ended in different minima.
@@ -218,30 +220,48 @@ impl Problem<'_> {
         let several_minima = costs.iter().any(|c| c - minimum.cost > SAME_MINIMUM);
         let neutral = self.neutral(effects);
         let binding = |m: &Minimum| (0..ranges.len()).map(|k| is_binding(m, k, &ranges[k], neutral[k])).collect();
-        let (binding, minimum) = match self.allowing(effects, &ranges, &minimum) {
-            Some(wide) => (binding(&wide), self.at(effects, &ranges, wide.at)?),
-            None => (binding(&minimum), minimum),
+        let (binding, minimum, misfit) = match self.allowing(effects, &ranges, &minimum) {
+            Some((wide, misfit)) => (binding(&wide), self.at(effects, &ranges, wide.at)?, misfit),
+            None => (binding(&minimum), minimum, vec![1.0; self.blocks.len()]),
         };
-        Some(Fit { effects: effects.to_vec(), minimum, binding, several_minima })
+        Some(Fit { effects: effects.to_vec(), minimum, misfit, binding, several_minima })
     }
 
-    /// The fit of a law that misses the data: to it, its misfit is noise ([`MISFIT`]). `None` where none misses.
-    fn allowing(&self, effects: &[usize], ranges: &[Range], least: &Minimum) -> Option<Minimum> {
+    /// The fit of a law that misses the data, and by how much: to it, its misfit is noise ([`MISFIT`]). `None` where none misses.
+    fn allowing(&self, effects: &[usize], ranges: &[Range], least: &Minimum) -> Option<(Minimum, Vec<f64>)> {
         let mut factors = self.factors(&least.residual);
         if factors.iter().all(|f| *f < MISFIT) {
             return None;
         }
         let mut wide: Option<Minimum> = None;
         for _ in 0..MISFIT_ROUNDS {
-            let whiteners: Vec<Whitener> =
-                self.blocks.iter().zip(&factors).map(|(block, factor)| block.whitener.wider(*factor)).collect();
             let start = wide.as_ref().map_or(&least.at, |w| &w.at);
-            let residuals = &mut |theta: &[f64]| self.residuals_by(&|i| Cow::Borrowed(&whiteners[i]), effects, theta);
+            let residuals = &mut |theta: &[f64]| self.residuals_allowing(&factors, effects, theta);
             let found = minimise(start, ranges, self.enough / factors.iter().copied().fold(1.0, f64::max), residuals)?;
             factors = self.factors(&self.residuals(effects, &found.at)?);
             wide = Some(found);
         }
-        wide
+        Some((wide?, factors))
+    }
+
+    /// Whitened residuals in units of noise and misfit.
+    pub fn residuals_allowing(&self, misfit: &[f64], effects: &[usize], theta: &[f64]) -> Option<Vec<f64>> {
+        let whitener = |i: usize| match &self.blocks[i].whitener {
+            own if misfit[i] > 1.0 => Cow::Owned(own.wider(misfit[i])),
+            own => Cow::Borrowed(own),
+        };
+        self.residuals_by(&whitener, effects, theta)
+    }
+
+    /// Derivatives of these at the end of a fit.
+    pub fn jacobian_allowing(&self, fit: &Fit) -> Option<Vec<Vec<f64>>> {
+        if fit.misfit.iter().all(|factor| *factor == 1.0) {
+            return Some(fit.minimum.jacobian.clone());
+        }
+        let residuals = &mut |theta: &[f64]| self.residuals_allowing(&fit.misfit, &fit.effects, theta);
+        let residual = residuals(fit.theta())?;
+        let there = Minimum { cost: square(&residual), at: fit.theta().to_vec(), residual, jacobian: Vec::new() };
+        Some(jacobian(&there, &self.ranges(&fit.effects), residuals))
     }
 
     /// Mean square of the whitened residuals of each block, no less than one.

@@ -45,17 +45,17 @@ pub struct Separation {
 }
 
 /// What to measure next.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct NextExperiment {
-    /// The explanation the rivals are to be told from.
+    /// The explanation the rivals are to be told from; empty where there are none.
     pub best: String,
-    /// The recommended one; `None` if no listed experiment separates anything.
+    /// The recommended one; `None` if no listed experiment separates anything, and where no effect of the catalogue is the answer.
     pub recommended: Option<Experiment>,
     /// λ with what is there already.
     pub now: Vec<Separation>,
     /// λ that would suffice there.
     pub needed_now: f64,
-    /// All that were tried, best first.
+    /// All that were tried, best first; none for an answer outside the catalogue.
     pub tried: Vec<Experiment>,
     /// In words.
     pub sentence: String,

@@ -65,7 +65,7 @@ pub enum Confidence {
     IdentifiedInCatalog,
 }
 
-/// One fitted parameter, in the unit of the scenario.
+/// One parameter of a fit, in the unit of the scenario.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ParameterValue {
     /// Key in the scenario, with the unit as suffix.
@@ -74,14 +74,23 @@ pub struct ParameterValue {
     pub symbol: String,
     /// Unit.
     pub unit: String,
-    /// Best value; **calibrated** on these data.
+    /// Best value; **calibrated** on these data unless it was held.
     pub value: f64,
-    /// Lower end of the 95 % interval; `None` if the noise is unknown.
+    /// It was not fitted, because these data do not hold it: it stays neutral, or as the scenario has it.
+    pub held: bool,
+    /// Lower end of the 95 % interval; `None` if the noise is unknown, or if it was held.
     pub lo: Option<f64>,
     /// Upper end of the 95 % interval.
     pub hi: Option<f64>,
     /// The best value sits on a physical bound and the data push against it.
     pub at_bound: bool,
+}
+
+impl ParameterValue {
+    /// What follows a value that was not fitted; empty for others.
+    pub fn held_mark(&self) -> &'static str {
+        if self.held { " (held)" } else { "" }
+    }
 }
 
 /// One effect of the catalogue, refitted together with the base.
@@ -257,6 +266,8 @@ pub struct LackOfFit {
 pub struct LeftPattern {
     /// What it looks like.
     pub words: String,
+    /// Where to look and what to take again.
+    pub check: String,
     /// Share of the squares beyond noise that this one pattern explains.
     pub share: f64,
     /// p of the largest of all patterns under noise.
@@ -265,6 +276,8 @@ pub struct LeftPattern {
     pub instead: bool,
     /// It is a fault that says what effects of the catalogue say with more: the attempt explains the misfit too.
     pub simpler: bool,
+    /// Of these two the fault explains no more than the attempt, and is told first for its single number alone.
+    pub either: bool,
 }
 
 /// Samples and runs that stand out from the others.

@@ -114,6 +114,7 @@ pub fn parameter_values(case: &Case, fit: &Fit, profiled: bool) -> Vec<Parameter
             symbol: p.symbol.clone(),
             unit: p.unit.clone(),
             value: fit.theta()[from + k] / p.si,
+            held: !p.is_free(),
             lo: intervals[from + k].map(|i| i[0] / p.si),
             hi: intervals[from + k].map(|i| i[1] / p.si),
             at_bound: fit.binding[from + k],
@@ -125,10 +126,9 @@ fn notes(case: &Case, fit: &Fit, own: &[ParameterValue]) -> Vec<String> {
     let mut notes = Vec::new();
     for p in own.iter().filter(|p| p.at_bound) {
         notes.push(format!(
-            "rejected: the best {} sits on its physical bound {} {}, and the data push beyond it",
+            "rejected: the best {} sits on its physical bound {}, and the data push beyond it",
             p.symbol,
-            super::words::value(p.value),
-            p.unit
+            super::words::quantity(p.value, &p.unit)
         ));
     }
     for (group, (with, without)) in fit.theta().iter().zip(case.base.theta()).take(case.problem.bendings).enumerate() {

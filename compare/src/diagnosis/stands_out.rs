@@ -32,6 +32,8 @@ const EIGEN_ROUNDS: usize = 1000;
 pub struct StandsOut {
     /// What it looks like.
     pub words: String,
+    /// What would show it.
+    pub check: String,
     /// The whole robot bends otherwise at some time.
     pub is_uniform: bool,
     /// The fault that looks like it.
@@ -40,6 +42,17 @@ pub struct StandsOut {
     pub gain: f64,
     /// p of it as if it were the only one.
     pub p_alone: f64,
+}
+
+/// A fault that is a simpler answer than effects.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Simpler {
+    /// The fault.
+    pub fault: StandsOut,
+    /// Its p as reported.
+    pub p_value: f64,
+    /// It explains no more than they do, and is preferred for its single number.
+    pub either: bool,
 }
 
 /// Everything that may be seen in the residuals of a fit.
@@ -99,15 +112,17 @@ pub fn alone(
 
 /// In words: the fault that is a simpler answer than `last`; else what the calibrated base leaves if one pattern alone explains
 /// more of it than `last` does, else what `last` leaves.
-pub fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&(StandsOut, f64)>) -> Option<LeftPattern> {
+pub fn left_pattern(case: &Case, last: Option<&Fit>, fault: Option<&Simpler>) -> Option<LeftPattern> {
     let told = |fit: &Fit, seen: &StandsOut, p_value: f64, instead: bool| LeftPattern {
         share: seen.gain / excess(case, case.first(&fit.minimum.residual)).max(seen.gain),
         words: seen.words.clone(),
+        check: seen.check.clone(),
         p_value,
         instead,
         simpler: fault.is_some(),
+        either: fault.is_some_and(|fault| fault.either),
     };
-    if let Some((fault, p_value)) = fault {
+    if let Some(Simpler { fault, p_value, .. }) = fault {
         return Some(told(&case.base, fault, *p_value, true));
     }
     let clearest = |look: &Look| look.seen.iter().max_by(|a, b| a.gain.total_cmp(&b.gain)).cloned();
@@ -128,9 +143,16 @@ fn look(case: &Case, fit: &Fit, beside_bending: bool) -> Look {
     let traces = Traces::of(patterns, &beside(case, fit, &fitted, &of_places));
     let mut seen: Vec<StandsOut> = Vec::new();
     for trace in &traces.left {
-        let Pattern { words, is_uniform, fault, .. } = traces.pattern(trace);
+        let Pattern { words, check, is_uniform, fault, .. } = traces.pattern(trace);
         let (gain, p_alone) = (trace.t * trace.t, two_sided_p(trace.t, case.noise.pure_error_dof));
-        seen.push(StandsOut { words: words.clone(), is_uniform: *is_uniform, fault: *fault, gain, p_alone });
+        seen.push(StandsOut {
+            words: words.clone(),
+            check: check.clone(),
+            is_uniform: *is_uniform,
+            fault: *fault,
+            gain,
+            p_alone,
+        });
     }
     seen.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     Look { seen, traces, tests: OnceCell::new() }

@@ -168,10 +168,16 @@ fn outside(d: &Diagnosis) -> Vec<String> {
     let p = d.p_value.map(p_value).unwrap_or_default();
     let tried = list(&d.attempt.iter().map(|a| a.effect.clone()).collect::<Vec<_>>());
     let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
-    let mut told = vec![if d.pattern.as_ref().is_some_and(|pattern| pattern.simpler) {
+    let simpler = d.pattern.as_ref().filter(|pattern| pattern.simpler);
+    let mut told = vec![if simpler.is_some_and(|pattern| pattern.either) {
         format!(
-            "{tried} would bring it to {after:.2} mm ({p}), but one fault that is not in the catalogue does as well with a single \
-             number."
+            "Either {tried}, which would bring it to {after:.2} mm ({p}), or one fault that is not in the catalogue: they explain \
+             these data about as well, and the fault needs a single number."
+        )
+    } else if simpler.is_some() {
+        format!(
+            "{tried} would bring it to {after:.2} mm ({p}), but one fault that is not in the catalogue explains more, with a \
+             single number."
         )
     } else if d.attempt.is_empty() {
         format!(
@@ -223,7 +229,7 @@ fn at_its_bound(d: &Diagnosis) -> Option<String> {
              possible, or something that looks like it.",
             nearest.effect,
             nearest.systematic_after_mm,
-            nearest.parameters.iter().map(|p| format!("{} = {}", p.symbol, quantity(p.value, &p.unit))).collect::<Vec<_>>().join(", ")
+            nearest.parameters.iter().filter(|p| !p.held).map(|p| format!("{} = {}", p.symbol, quantity(p.value, &p.unit))).collect::<Vec<_>>().join(", ")
         )
     })
 }
@@ -247,12 +253,12 @@ fn looks_like(pattern: &LeftPattern) -> String {
     format!("{what} as if {words}: that alone makes up {percent:.0} % of it ({p} among all such patterns).")
 }
 
-/// `β = 0.42 (0.40 to 0.44)`.
+/// `β = 0.42 (0.40 to 0.44)`, `n = 1 (held)`.
 pub fn with_interval(p: &ParameterValue) -> String {
     let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
     let range = match (p.lo, p.hi) {
-        (Some(lo), Some(hi)) => format!(" ({} to {})", super::words::value(lo), super::words::value(hi)),
-        _ => String::new(),
+        (Some(lo), Some(hi)) => format!(" ({} to {}){unit}", super::words::value(lo), super::words::value(hi)),
+        _ => format!("{unit}{}", p.held_mark()),
     };
-    format!("{} = {}{range}{unit}", p.symbol, super::words::value(p.value))
+    format!("{} = {}{range}", p.symbol, super::words::value(p.value))
 }

@@ -155,16 +155,40 @@ fn a_measured_value_that_the_robot_cannot_have_is_refused_with_what_it_can() {
         (of("gravty", "weight_n_per_m", 1.0, 0.1), "did you mean gravity?"),
         (of("gravity", "weight_kg", 1.0, 0.1), "weight_n_per_m"),
         (of("end_constraint", "beta", 7.0, 0.02), "beta = 7 is outside its physical bounds 0 to 1"),
-        (of("gravity", "weight_n_per_m", -0.6, 0.1), "-0.6 is outside its physical bounds 0 to 8 N/m"),
+        (of("gravity", "weight_n_per_m", -0.6, 0.1), "-0.6 is outside its physical bounds 0 N/m and above"),
     ] {
         let about = About { measured: vec![m], ..about(Direct::default()) };
         let refused = diagnose(&plain, &data, Some(&about), &quick()).unwrap_err().to_string();
         assert!(refused.contains("[measured]") && refused.contains(word), "{refused}");
     }
+    let endless = of("gravity", "weight_n_per_m", f64::INFINITY, 0.1);
+    let about_endless = About { measured: vec![endless], ..about(Direct::default()) };
+    assert!(diagnose(&plain, &data, Some(&about_endless), &quick()).is_err());
     // Noise may carry a value beyond its bound, and a test of the fabric tells of effects that pouches do not have.
     let noisy = vec![of("gravity", "weight_n_per_m", -0.15, 0.1), of("shear_stiffness", "shear_n_per_m", 0.0, 5.0)];
     let noisy = About { measured: noisy, ..about(Direct::default()) };
     assert_eq!(diagnose(&plain, &data, Some(&noisy), &quick()).unwrap().verdict, Some(Verdict::None));
+}
+
+/// Fits look for a weight up to 8 N/m; a scale may find more.
+#[test]
+fn what_a_test_finds_beyond_where_fits_look_is_taken_as_it_is() {
+    let plain = robot("spam").with_bending(6.0);
+    let data = measured(&plain.with_effect("gravity", &[11.0]), 5, 388);
+    let weighed = About { measured: vec![of("gravity", "weight_n_per_m", 11.0, 0.3)], ..about(Direct::default()) };
+    let d = diagnose(&plain, &data, Some(&weighed), &quick()).unwrap();
+    assert!(
+        d.warnings.iter().any(|w| w.contains("weight_n_per_m = 11") && w.contains("0 to 8 N/m")),
+        "{:?}",
+        d.warnings
+    );
+    assert_eq!((d.verdict, d.indistinguishable[0].as_str()), (Some(Verdict::Effect), "gravity"), "{:?}", d.summary);
+    let weight = &d.added[0].parameters[0];
+    assert!((weight.value - 11.0).abs() < 0.6 && !weight.at_bound, "{weight:?}");
+    // A robot that has it, and whose scenario says so.
+    let refit = Options { refit_present: true, ..quick() };
+    let d = diagnose(&plain.with_effect("gravity", &[11.0]), &data, Some(&weighed), &refit).unwrap();
+    assert_eq!(d.verdict, Some(Verdict::None), "{:?}", d.summary);
 }
 
 /// Rolled by 180° a robot sees what stays in the room with the other sign, and what it carries with the same.

@@ -32,7 +32,7 @@ pub use ledger::{Ledger, LedgerCase, ledger};
 pub use lines::{LineSeries, LineStyle, Lines, lines};
 pub use palette::{Theme, css_variables, with_css_variables};
 pub use ranking::{RankClass, Ranking, RankingRow, ranking};
-pub use residual_map::{MapHold, ResidualMap, residual_map};
+pub use residual_map::{MapHold, MapPanel, ResidualMap, residual_map};
 pub use shapes::{MeasuredPoint, ShapePose, Shapes, shapes};
 pub use tornado::{Tornado, TornadoBar, tornado};
 pub use tradeoff::{Tradeoff, TradeoffPoint, tradeoff};

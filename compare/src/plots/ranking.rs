@@ -62,7 +62,7 @@ impl RankClass {
     fn words(self) -> &'static str {
         match self {
             RankClass::Alike => "cannot be told apart",
-            RankClass::Attempt => "attempt, not enough",
+            RankClass::Attempt => "attempt",
             RankClass::Worse => "fits worse",
             RankClass::Other => "others",
             RankClass::Rejected => "on a physical bound, rejected",

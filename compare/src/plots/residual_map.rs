@@ -8,10 +8,14 @@ use super::{Drawn, PlotError, WIDTH, at_most, paint, same_length, text};
 
 const CHART: &str = "residual map";
 const ROW: f64 = 30.0;
+/// Height of the line above a panel [design px].
+const HEAD: f64 = 24.0;
+/// Blank between panels [design px].
+const BETWEEN: f64 = 8.0;
 /// Most columns and rows that still show their colours on a phone.
 const MOST: usize = 60;
 
-/// Heat map marker × hold of residuals divided by their noise.
+/// Heat maps marker × hold of residuals divided by their noise, one under the other with the same columns and colours.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ResidualMap {
     /// Title above the plot; empty for none.
@@ -22,10 +26,19 @@ pub struct ResidualMap {
     pub holds: Vec<MapHold>,
     /// Marker stations along the robot in mm, base first.
     pub stations_mm: Vec<f64>,
-    /// Cell values by marker, then by hold, in units of noise; non-finite cells show "–".
-    pub values: Vec<Vec<f64>>,
+    /// One heat map per direction.
+    pub panels: Vec<MapPanel>,
     /// Magnitude at which the colour saturates, in units of noise, e.g. 10; must be positive.
     pub limit: f64,
+}
+
+/// One direction of a [`ResidualMap`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct MapPanel {
+    /// Which, e.g. `y, across the robot`.
+    pub label: String,
+    /// Cell values by marker, then by hold, in units of noise; non-finite cells show "–".
+    pub values: Vec<Vec<f64>>,
 }
 
 /// One column of a [`ResidualMap`].
@@ -39,29 +52,40 @@ pub struct MapHold {
     pub group: String,
 }
 
-/// Draws the heat map: blue below zero, orange above, the number in each cell.
+/// Draws the heat maps: blue below zero, orange above, the number in each cell.
 ///
 /// Errors: no finite cell, rows or columns that do not match the stations and holds, over 60 of either.
 pub fn residual_map(data: &ResidualMap) -> Result<Drawn, PlotError> {
-    same_length(CHART, "rows", data.stations_mm.len(), data.values.len())?;
-    for row in &data.values {
-        same_length(CHART, "cells in a row", data.holds.len(), row.len())?;
+    for MapPanel { values, .. } in &data.panels {
+        same_length(CHART, "rows", data.stations_mm.len(), values.len())?;
+        for row in values {
+            same_length(CHART, "cells in a row", data.holds.len(), row.len())?;
+        }
     }
     at_most(CHART, "holds", MOST, data.holds.len())?;
     at_most(CHART, "markers", MOST, data.stations_mm.len())?;
-    extent(data.values.iter().flatten().copied(), CHART)?;
+    extent(all_values(data), CHART)?;
     let mut scene = Scene::new();
     let top = title(&mut scene, &data.title);
-    let grid = Grid::new(data, top + 24.0);
     scene.text([RIM, top + 14.0], "marker station [mm]", TEXT, Role::Muted, Anchor::Start);
-    cells(&mut scene, data, &grid);
-    stations(&mut scene, data, &grid);
+    let mut grid = Grid::new(data, top + HEAD);
+    for (i, panel) in data.panels.iter().enumerate() {
+        grid.top = if i == 0 { grid.top + HEAD } else { grid.bottom() + BETWEEN + HEAD };
+        let label = text::fit(&panel.label, TEXT, WIDTH - RIM - grid.left);
+        scene.text([grid.left, grid.top - 7.0], &label, TEXT, Role::Ink, Anchor::Start);
+        cells(&mut scene, data, panel, &grid);
+        stations(&mut scene, data, &grid);
+    }
     let below = phases(&mut scene, data, &grid);
     colour_bar(&mut scene, data, &grid, below);
     paint::paint(&scene)
 }
 
-/// Pixel layout of the cells; the tip is the top row.
+fn all_values(data: &ResidualMap) -> impl Iterator<Item = f64> {
+    data.panels.iter().flat_map(|panel| &panel.values).flatten().copied()
+}
+
+/// Pixel layout of the cells of a panel; the tip is the top row.
 struct Grid {
     left: f64,
     top: f64,
@@ -100,13 +124,12 @@ fn heat(scene: &mut Scene, corner: [f64; 2], size: [f64; 2], value: f64, limit: 
     scene.rect(corner, [corner[0] + size[0], corner[1] + size[1]], role, strength);
 }
 
-fn cells(scene: &mut Scene, data: &ResidualMap, grid: &Grid) {
+fn cells(scene: &mut Scene, data: &ResidualMap, panel: &MapPanel, grid: &Grid) {
     let gap = if grid.cell > 14.0 { 2.0 } else { 0.5 };
     let shown = |value: f64| number(value, usize::from(value.abs() < 99.95 && grid.cell >= 34.0));
-    let all = data.values.iter().flatten();
-    let widest = all.map(|v| text::width(&shown(*v), 1.0)).fold(1.0, f64::max);
+    let widest = all_values(data).map(|v| text::width(&shown(v), 1.0)).fold(1.0, f64::max);
     let size = ((grid.cell - 5.0) / widest).min(TEXT);
-    for (marker, row) in data.values.iter().enumerate() {
+    for (marker, row) in panel.values.iter().enumerate() {
         for (hold, value) in row.iter().enumerate() {
             let corner = [grid.x(hold) + 0.5 * gap, grid.y(marker) + 0.5 * gap];
             let extent = [grid.cell - gap, ROW - gap];

@@ -39,7 +39,9 @@ fn planes(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, PlotError>>
         value_label: label(name),
         holds: vec![hold(v(0)), hold(v(1))],
         stations_mm: vec![v(2), v(3)],
-        values: vec![vec![v(0), v(1)], vec![v(2), v(3)]],
+        panels: [0, 1]
+            .map(|k| MapPanel { label: label(name), values: vec![vec![v(k), v(1)], vec![v(2), v(3)]] })
+            .to_vec(),
         limit: v(4),
     };
     let point = |i: usize| TradeoffPoint { label: label(name), group: label(name), run_time_s: v(i), error: v(i + 1) };

@@ -2,6 +2,7 @@
 
 use crate::error::CompareError;
 use crate::evaluate::EvaluateOptions;
+use crate::interval::{Fitted, half_width, interval};
 use crate::noise::NoiseModel;
 use crate::study::predict::{first_slope, predict_dataset};
 use crate::whiten::{MISFIT, MISFIT_ROUNDS};
@@ -15,8 +16,10 @@ use models::Scenario;
 pub struct Calibration {
     /// Effective bending stiffness B \[N·m²\].
     pub bending_nm2: f64,
-    /// Its 95 % interval from the curvature of the whitened misfit \[N·m²\]; `None` when the noise is unknown.
+    /// Its 95 % interval \[N·m²\]; `None` when the noise is unknown.
     pub interval_nm2: Option<[f64; 2]>,
+    /// The model misses the data by more than noise, and the interval holds that.
+    pub misses: bool,
     /// The fit ended on a bound: B does not explain the data.
     pub at_bound: bool,
 }
@@ -25,8 +28,8 @@ pub struct Calibration {
 const MAX_BENDING: f64 = 200.0;
 /// B that no robot shows \[N·m²\]: as good as none.
 const SMALLEST_BENDING: f64 = 1e-9;
-/// Width of a 95 % interval in standard errors.
-const Z95: f64 = 1.96;
+/// Step of B in its derivative \[N·m²\].
+const STEP: f64 = 1e-4;
 
 /// Whitened sum of squares over `s = √B`, which makes small B as easy to find as large.
 struct Misfit<'a> {
@@ -38,9 +41,13 @@ struct Misfit<'a> {
 
 impl Misfit<'_> {
     fn at(&self, bending: f64) -> Result<f64, CompareError> {
+        Ok(self.noise.whiten(&self.residual_m(bending)?).iter().map(|r| r * r).sum())
+    }
+
+    /// Prediction minus mean \[m\].
+    fn residual_m(&self, bending: f64) -> Result<Vec<f64>, CompareError> {
         let predicted = predict_dataset(&self.scenario.with_bending(bending), self.dataset)?;
-        let residual: Vec<f64> = self.mean_m.iter().zip(&predicted.xy_m).map(|(y, f)| y - f).collect();
-        Ok(self.noise.whiten(&residual).iter().map(|r| r * r).sum())
+        Ok(predicted.xy_m.iter().zip(&self.mean_m).map(|(f, y)| f - y).collect())
     }
 }
 
@@ -64,32 +71,35 @@ pub fn calibrate_bending(
 ) -> Result<Calibration, CompareError> {
     let estimate = |slope: &[f64]| NoiseModel::estimate(dataset, slope, &options.sessions, options.sigma_m);
     // Twice: the noise needs a model that fits, and the scenario's own B shall not matter.
-    let (root, _) = fit(scenario, dataset, estimate(&first_slope(scenario, dataset)?)?)?;
+    let (root, ..) = fit(scenario, dataset, estimate(&first_slope(scenario, dataset)?)?)?;
     let fitted = predict_dataset(&scenario.with_bending(root * root), dataset)?;
-    let (best, noise) = fit(scenario, dataset, estimate(&fitted.d_ln_pressure_m)?)?;
-    let misfit = Misfit { scenario, dataset, noise: &noise, mean_m: dataset.mean_over_runs() };
+    let noise = estimate(&fitted.d_ln_pressure_m)?;
+    let (best, wider, factor) = fit(scenario, dataset, noise.clone())?;
+    let misfit = Misfit { scenario, dataset, noise: &wider, mean_m: dataset.mean_over_runs() };
     let bending_nm2 = best * best;
     let is_zero = bending_nm2 < SMALLEST_BENDING || misfit.at(0.0)? <= misfit.at(bending_nm2)?;
     let at_bound = is_zero || best > 0.999 * MAX_BENDING.sqrt();
     let bending_nm2 = if is_zero { 0.0 } else { bending_nm2 };
-    let interval_nm2 = if noise.is_known() { interval(&misfit, bending_nm2)? } else { None };
-    Ok(Calibration { bending_nm2, interval_nm2, at_bound })
+    let found = interval_of(&misfit, bending_nm2, (&noise, factor))?;
+    let interval_nm2 = found.map(|(ends, _)| ends);
+    Ok(Calibration { bending_nm2, interval_nm2, misses: found.is_some_and(|(_, misses)| misses), at_bound })
 }
 
-/// √B, and the noise that it was fitted in: wider if the model misses the data.
-fn fit(scenario: &Scenario, dataset: &Dataset, noise: NoiseModel) -> Result<(f64, NoiseModel), CompareError> {
+/// √B, the noise that it was fitted in, wider if the model misses the data, and by which factor.
+fn fit(scenario: &Scenario, dataset: &Dataset, noise: NoiseModel) -> Result<(f64, NoiseModel, f64), CompareError> {
     let mean_m = dataset.mean_over_runs();
     let count = noise.seen(0..mean_m.len()) as f64;
     let least = Misfit { scenario, dataset, noise: &noise, mean_m };
     let mut best = minimum(&least)?;
-    let mut wider = noise.clone();
+    let (mut wider, mut factor) = (noise.clone(), 1.0);
     if least.at(best * best)? > MISFIT * count {
         for _ in 0..MISFIT_ROUNDS {
-            wider = noise.wider((least.at(best * best)? / count).max(1.0));
+            factor = (least.at(best * best)? / count).max(1.0);
+            wider = noise.wider(factor);
             best = minimum(&Misfit { noise: &wider, mean_m: least.mean_m.clone(), ..least })?;
         }
     }
-    Ok((best, wider))
+    Ok((best, wider, factor))
 }
 
 /// √B of the least misfit: the best of a coarse scan, then Brent's method around it.
@@ -107,11 +117,25 @@ fn minimum(misfit: &Misfit) -> Result<f64, CompareError> {
     Ok(run.state.get_best_param().copied().unwrap_or(grid[best]))
 }
 
-/// B ± 1.96 standard errors: half the second derivative of the misfit is the information.
-fn interval(misfit: &Misfit, bending: f64) -> Result<Option<[f64; 2]>, CompareError> {
-    let step = (0.02 * bending).max(1e-3);
-    let (low, middle, high) = (misfit.at((bending - step).max(0.0))?, misfit.at(bending)?, misfit.at(bending + step)?);
-    let curvature = (low - 2.0 * middle + high) / (step * step);
-    let half = Z95 * (2.0 / curvature).sqrt();
-    Ok((curvature > 0.0).then(|| [(bending - half).max(0.0), bending + half]))
+/// Its interval, and whether a misfit is in it, from the noise and the factor by which it was widened; `None` if the noise is unknown.
+fn interval_of(
+    misfit: &Misfit,
+    bending: f64,
+    (noise, factor): (&NoiseModel, f64),
+) -> Result<Option<([f64; 2], bool)>, CompareError> {
+    let residual_m = misfit.residual_m(bending)?;
+    let moved = misfit.residual_m(bending + STEP)?;
+    let slope: Vec<f64> = moved.iter().zip(&residual_m).map(|(a, b)| (a - b) / STEP).collect();
+    let own = misfit.noise.whiten(&slope);
+    let squares: f64 = own.iter().map(|v| v * v).sum();
+    if squares == 0.0 {
+        return Ok(None);
+    }
+    let data = [Fitted { dataset: misfit.dataset, noise, residual_m, misfit: factor, readings: 0 }];
+    let Some(half) = half_width(&data, &own.iter().map(|v| v / squares).collect::<Vec<_>>(), 1) else {
+        return Ok(None);
+    };
+    let least = misfit.at(bending)?;
+    let mut rise = |b: f64| misfit.at(b).map_or(f64::INFINITY, |cost| cost - least);
+    Ok(Some((interval((bending, half, squares), [0.0, MAX_BENDING], Some(&mut rise)), half.misses)))
 }

@@ -36,6 +36,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.8,
         lower: 0.0,
         upper: 2.0,
+        possible: [0.0, 2.0],
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,

@@ -13,7 +13,7 @@
 //! Acts only where B > 0; divides the body into segments, as transverse loads do. **Validity**: linear; s is taken in the middle of
 //! a segment. Derived here.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
@@ -44,6 +44,7 @@ pub(super) const fn share(meaning: &'static str) -> Parameter<'static> {
         typical: 2.0,
         lower: 0.0,
         upper: 8.0,
+        possible: POSITIVE,
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,
@@ -62,6 +63,7 @@ pub(super) const REACH: Parameter = Parameter {
     typical: 1.5,
     lower: 0.5,
     upper: 3.0,
+    possible: [0.5, 3.0],
     starts: &[0.8, 1.5, 2.2],
     by_actuator: &[],
     fitted: Fitted::Always,

@@ -33,6 +33,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 1.2,
         lower: -10.0,
         upper: 10.0,
+        possible: [-180.0, 180.0],
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,

@@ -33,6 +33,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.025,
         lower: -0.2,
         upper: 0.2,
+        possible: [-1.0, f64::INFINITY],
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,

@@ -23,7 +23,7 @@
 //! fabrics creep over several decades of time, of which a test sees the one it lasts. Reference: standard linear solid
 //! (Zener 1948); the form over a step is derived here.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{ABOVE_ZERO, Effect, Fitted, Group, POSITIVE, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Memory, Pose, Term};
 
@@ -48,6 +48,7 @@ pub(super) const ENTRY: Effect = Effect {
             typical: 0.25,
             lower: 0.0,
             upper: 2.0,
+            possible: POSITIVE,
             starts: &[],
             by_actuator: &[],
             fitted: Fitted::Always,
@@ -63,6 +64,7 @@ pub(super) const ENTRY: Effect = Effect {
             typical: 2.0,
             lower: 0.4,
             upper: 30.0,
+            possible: ABOVE_ZERO,
             starts: &[0.7, 2.0, 6.0, 18.0],
             by_actuator: &[],
             fitted: Fitted::Always,

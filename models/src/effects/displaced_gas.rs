@@ -15,7 +15,7 @@
 //! the wall in, χ is larger (finite elements at 2 kPa: 0.5 cPAM, 0.9 fPAM, 1.1 ePAM, 1.3 sPAM; `docs/robots.md`).
 //! **Validity**: one χ for all pressures; a body that is kept at its pressure. Derived here.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -40,6 +40,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 1.0,
         lower: 0.0,
         upper: 2.5,
+        possible: POSITIVE,
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::WithBodyPressures,

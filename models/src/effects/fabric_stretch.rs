@@ -13,7 +13,7 @@
 //! Validity: linear elastic, uniform over the width. Reference: the pressure correction of Niiyama et al. 2015 has the
 //! same origin; this form is derived here.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -36,6 +36,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 8e-5,
         lower: 0.0,
         upper: 3e-4,
+        possible: POSITIVE,
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,

@@ -18,7 +18,7 @@
 //! gradual onset. Reference: Coulomb's law with elastic slide (Prandtl); friction of the braid of McKibben muscles: Tondu
 //! & Lopez 2000.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Memory, Pose, Term};
 
@@ -42,6 +42,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.5,
         lower: 0.0,
         upper: 5.0,
+        possible: POSITIVE,
         starts: &[0.05, 0.2, 0.6, 1.5],
         by_actuator: &[("spam", 1.15), ("epam", 0.58), ("cpam", 0.52), ("fpam", 0.07)],
         fitted: Fitted::Always,

@@ -13,7 +13,7 @@
 //! Validity: needs a fine enough division (12 segments give 0.1 % of the droop of a 360 mm robot). Vanishes when the
 //! robot bends in a horizontal plane. Derived here; kept as dead load on the deformed shape.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
@@ -37,6 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 1.5,
         lower: 0.0,
         upper: 8.0,
+        possible: POSITIVE,
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,

@@ -11,7 +11,7 @@
 //!
 //! Acts only where B > 0. Validity: small κ₀. Derived here.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{ANY, Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
@@ -35,6 +35,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.3,
         lower: -2.0,
         upper: 2.0,
+        possible: ANY,
         starts: &[],
         by_actuator: &[("spam", 0.16), ("epam", 0.36), ("cpam", 0.48), ("fpam", 0.19)],
         fitted: Fitted::Always,

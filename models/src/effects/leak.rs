@@ -12,7 +12,7 @@
 //! loss is steady: use `pressure_loss`. Supply stage. Reference: discharge of a volume through a laminar leak; for small
 //! r t it is 1 − r t.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -35,6 +35,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.02,
         lower: 0.0,
         upper: 0.5,
+        possible: POSITIVE,
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,

@@ -11,7 +11,7 @@
 //!
 //! y is taken relative to the straight robot, where every marker reads 0. Validity: same e for all markers. Geometry.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{ANY, Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -34,6 +34,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 10.0,
         lower: -60.0,
         upper: 60.0,
+        possible: ANY,
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,

@@ -130,10 +130,12 @@ pub struct Parameter<'a> {
     pub neutral: f64,
     /// Typical size where the effect matters.
     pub typical: f64,
-    /// Physical lower bound.
+    /// From here a fit looks, and a value is taken whose source is not told.
     pub lower: f64,
-    /// Physical upper bound.
+    /// To there.
     pub upper: f64,
+    /// What is physically possible: a test of its own may find that much.
+    pub possible: [f64; 2],
     /// Where a fit starts if one start is not enough: thresholds and time scales; empty: at the typical size.
     pub starts: &'a [f64],
     /// Typical size for single actuators, where it depends on their curvature and stiffness.
@@ -145,6 +147,13 @@ pub struct Parameter<'a> {
     /// What it is.
     pub meaning: &'a str,
 }
+
+/// What is possible of a stiffness, a weight, a friction.
+const POSITIVE: [f64; 2] = [0.0, f64::INFINITY];
+/// Of a time, or of a stiffness that is never nothing.
+const ABOVE_ZERO: [f64; 2] = [f64::MIN_POSITIVE, f64::INFINITY];
+/// Of what has a direction.
+const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// Which data hold a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -197,6 +206,41 @@ pub fn by_name(name: &str) -> Option<&'static Effect<'static>> {
 }
 
 impl Parameter<'_> {
+    /// Whether a value is where a fit looks.
+    pub fn is_usual(&self, value: f64) -> bool {
+        (self.lower..=self.upper).contains(&value)
+    }
+
+    /// Whether there can be such a value.
+    pub fn is_possible(&self, value: f64) -> bool {
+        value.is_finite() && (self.possible[0]..=self.possible[1]).contains(&value)
+    }
+
+    /// `0 to 8 N/m`: where a fit looks.
+    pub fn usual_words(&self) -> String {
+        self.words(self.lower, self.upper)
+    }
+
+    /// `0 to 1`, `0 N/m and above`: what is possible.
+    pub fn possible_words(&self) -> String {
+        let [low, high] = self.possible;
+        match (low.is_finite(), high.is_finite()) {
+            (true, true) => self.words(low, high),
+            (true, false) if low == f64::MIN_POSITIVE => format!("above 0{}", self.after()),
+            (true, false) => format!("{low}{} and above", self.after()),
+            _ => "any number".into(),
+        }
+    }
+
+    fn words(&self, low: f64, high: f64) -> String {
+        format!("{low} to {high}{}", self.after())
+    }
+
+    /// The unit after a number.
+    fn after(&self) -> String {
+        if self.unit == "-" { String::new() } else { format!(" {}", self.unit) }
+    }
+
     /// Typical size on an actuator, in `unit`.
     pub fn typical_for(&self, actuator: &str) -> f64 {
         self.by_actuator.iter().find(|(name, _)| *name == actuator).map_or(self.typical, |(_, typical)| *typical)

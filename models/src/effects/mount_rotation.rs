@@ -12,7 +12,7 @@
 //! A pure bending moment is balanced inside the robot and does not reach the base; what turns it is the hose, the clamp or
 //! the first pouch pressing on it. **Validity**: elastic mount, rotation about the base point. Geometry.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{ANY, Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -35,6 +35,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.05,
         lower: -0.35,
         upper: 0.35,
+        possible: ANY,
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,

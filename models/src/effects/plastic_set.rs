@@ -39,6 +39,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.12,
         lower: 0.0,
         upper: 0.5,
+        possible: [0.0, 1.0],
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,

@@ -10,7 +10,7 @@
 //!
 //! Validity: constant over the range of pressures. Supply stage: acts before the balance. Definition.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{ANY, Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -33,6 +33,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 2.0,
         lower: -5.0,
         upper: 8.0,
+        possible: ANY,
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,

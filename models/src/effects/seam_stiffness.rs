@@ -12,7 +12,7 @@
 //! For small θ the contraction goes as θ²/6, so this is a constant moment 3kD/L₀: there it cannot be told from
 //! `tail_tension`. Validity: elastic folds. Derived here.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -37,6 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.5,
         lower: 0.0,
         upper: 3.0,
+        possible: POSITIVE,
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,

@@ -14,7 +14,7 @@
 //! **Validity**: sudden locking with a large K; yarns that are pressed together little by little have a smaller one. Bias-extension tests lock near 45° for a plain weave, far beyond the muscle's stroke; a coating or
 //! a tight weave locks earlier. Reference: trellis kinematics, Cao et al. 2008; the penalty is an assumption.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{ABOVE_ZERO, Effect, Fitted, Group, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -41,6 +41,7 @@ pub(super) const ENTRY: Effect = Effect {
             typical: 0.22,
             lower: 0.05,
             upper: 1.0,
+            possible: [0.0, FRAC_PI_2],
             starts: &[0.08, 0.14, 0.2, 0.26, 0.32],
             by_actuator: &[],
             fitted: Fitted::Always,
@@ -56,6 +57,7 @@ pub(super) const ENTRY: Effect = Effect {
             typical: JAMMED,
             lower: 20.0,
             upper: 20e3,
+            possible: ABOVE_ZERO,
             starts: &[60.0, 200.0, 600.0],
             by_actuator: &[],
             fitted: Fitted::Always,

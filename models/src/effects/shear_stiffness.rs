@@ -13,7 +13,7 @@
 //! Makes the free stroke rise with pressure, which no ideal McKibben law does. Validity: linear in γ, below locking
 //! (about 35–45°). Derived here; modulus relation of an orthotropic sheet at 45° with ν₁₂ ≈ 0.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -39,6 +39,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 45.0,
         lower: 0.0,
         upper: 400.0,
+        possible: POSITIVE,
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,

@@ -11,7 +11,7 @@
 //!
 //! Validity: tension constant along the robot. Derived here.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{ANY, Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::body::soft_step;
 use crate::term::{Pose, Term};
@@ -36,6 +36,7 @@ pub(super) const ENTRY: Effect = Effect {
         typical: 0.45,
         lower: -0.3,
         upper: 1.5,
+        possible: ANY,
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,

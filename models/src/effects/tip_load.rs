@@ -10,7 +10,7 @@
 //!
 //! Validity: dead load at the end of the centre line. Statics.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{ANY, Effect, Fitted, Group, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
@@ -40,6 +40,7 @@ const fn force(key: &'static str, symbol: &'static str, typical: f64, in_room: b
         typical,
         lower: -5.0,
         upper: 5.0,
+        possible: ANY,
         starts: &[],
         by_actuator: &[],
         fitted: Fitted::Always,

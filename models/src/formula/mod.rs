@@ -22,7 +22,7 @@ mod units;
 
 use crate::assembly::Assembly;
 use crate::effects::{Effect, Fitted, Group, Parameter, Stage};
-use crate::error::POLE_NM;
+use crate::root::POLE;
 use crate::term::{Extreme, Pose, Term};
 use compile::{Compiled, Name, compile};
 use program::{Op, run};
@@ -82,6 +82,7 @@ impl FormulaParameter {
             typical: self.typical,
             lower: self.lower,
             upper: self.upper,
+            possible: [self.lower, self.upper],
             starts: &[],
             by_actuator: &[],
             fitted: Fitted::Always,
@@ -283,7 +284,7 @@ impl Term for FormulaTerm {
             size => size,
         };
         let (near, far) = (largest(&mut size, within), largest(&mut size, within.map(|kappa| BEYOND * kappa)));
-        let (kappa, moment) = if far.1 > POLE_NM { far } else { near };
+        let (kappa, moment) = if far.1 > POLE { far } else { near };
         Some(Extreme { formula: self.name.to_string(), kappa, theta: kappa * self.unit_m, moment })
     }
 }

@@ -247,6 +247,8 @@ fn segments(raw: &Raw) -> Checked<usize> {
 
 /// Words that may stand beside the parameters of an effect: how they are known.
 const REMARKS: &[&str] = &["basis", "interval", "data", "date", "note"];
+/// Words of `basis` with which a value may lie beyond the usual bounds.
+const KNOWN: &[&str] = &["measured", "calibrated"];
 
 fn effects_of(raw: &Raw, kind: &actuators::Actuator, formulas: &[Arc<Formula>]) -> Checked<Vec<EffectChoice>> {
     let (mut chosen, catalogue) = (Vec::new(), Catalogue::new(formulas));
@@ -262,9 +264,11 @@ fn effects_of(raw: &Raw, kind: &actuators::Actuator, formulas: &[Arc<Formula>]) 
         }
         let mut values = effect.neutral();
         let mut basis = String::new();
+        let word = |v: &Spanned<toml::Value>| v.get_ref().as_str().is_some_and(|basis| KNOWN.contains(&basis));
+        let is_known = table.iter().any(|(key, value)| key.get_ref() == "basis" && word(value));
         for (key, value) in table {
             match (key.get_ref().as_str(), effect.parameters.iter().position(|p| p.key == key.get_ref())) {
-                (_, Some(i)) => values[i] = parameter(&effect, i, value)?,
+                (_, Some(i)) => values[i] = parameter(&effect, i, value, is_known)?,
                 ("basis", None) => basis = value.get_ref().as_str().unwrap_or_default().to_string(),
                 (word, None) if REMARKS.contains(&word) => {}
                 (word, None) => {
@@ -281,7 +285,7 @@ fn effects_of(raw: &Raw, kind: &actuators::Actuator, formulas: &[Arc<Formula>]) 
     Ok(chosen)
 }
 
-fn parameter(effect: &Effect, index: usize, value: &Spanned<toml::Value>) -> Checked<f64> {
+fn parameter(effect: &Effect, index: usize, value: &Spanned<toml::Value>, is_known: bool) -> Checked<f64> {
     let p = &effect.parameters[index];
     let number = match value.get_ref() {
         toml::Value::Float(v) => *v,
@@ -291,10 +295,15 @@ fn parameter(effect: &Effect, index: usize, value: &Spanned<toml::Value>) -> Che
             return refuse(message, format!("for example {} = {}", p.key, p.typical), value.span());
         }
     };
-    if !(p.lower..=p.upper).contains(&number) {
-        let message =
-            format!("{} = {number} is outside its physical bounds {} to {}{}", p.key, p.lower, p.upper, unit(p.unit));
-        return refuse(message, format!("{}; typical {}{}", p.meaning, p.typical, unit(p.unit)), value.span());
+    let help = format!("{}; typical {}{}", p.meaning, p.typical, unit(p.unit));
+    if !p.is_possible(number) {
+        let message = format!("{} = {number} is outside its physical bounds {}", p.key, p.possible_words());
+        return refuse(message, help, value.span());
+    }
+    if !is_known && !p.is_usual(number) {
+        let message = format!("{} = {number} is outside its usual bounds {}", p.key, p.usual_words());
+        let help = format!("{help}; if that was found on the robot, say so: basis = \"measured\"");
+        return refuse(message, help, value.span());
     }
     Ok(number * p.si)
 }

@@ -145,3 +145,15 @@ fn a_slip_in_a_formula_is_shown_under_its_character() {
     let twice = shipped("epam").unwrap().to_string() + OWN + OWN;
     assert!(Scenario::parse(&twice).unwrap_err().message.contains("two formulas"));
 }
+
+#[test]
+fn a_value_beyond_the_usual_bounds_is_taken_if_it_was_found_on_the_robot() {
+    let with = |basis: &str| {
+        let text = shipped("epam").unwrap();
+        Scenario::parse(&format!("{text}\n[effects.gravity]\nbasis = \"{basis}\"\nweight_n_per_m = 11\n"))
+    };
+    for basis in ["measured", "calibrated"] {
+        assert_eq!(with(basis).unwrap().effects.last().unwrap().values, [11.0]);
+    }
+    assert!(with("assumed").unwrap_err().to_string().contains("usual bounds 0 to 8 N/m"));
+}

@@ -53,6 +53,8 @@ fn every_entry_has_its_words_and_its_numbers_within_bounds() {
             let sizes =
                 p.by_actuator.iter().map(|(_, v)| *v).chain(p.starts.iter().copied()).chain([p.typical, p.neutral]);
             assert!(sizes.into_iter().all(inside), "{} {}", effect.name, p.key);
+            let possible = p.possible[0] <= p.lower && p.upper <= p.possible[1] && !p.is_possible(f64::NAN);
+            assert!(possible && !p.is_possible(f64::INFINITY), "{} {}", effect.name, p.key);
             assert!(p.by_actuator.iter().all(|(name, _)| actuators().any(|a| a == *name)), "{}", effect.name);
             assert!(p.starts.is_empty() || (3..=5).contains(&p.starts.len()), "{} {}", effect.name, p.key);
         }

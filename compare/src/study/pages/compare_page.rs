@@ -100,7 +100,9 @@ fn calibrated(scenario: &Scenario, dataset: &Dataset, options: &EvaluateOptions)
     let scenario = scenario.with_bending(fit.bending_nm2);
     let options = EvaluateOptions { fitted_parameters: options.fitted_parameters + 1, ..options.clone() };
     let evaluation = held(&scenario, dataset, &options)?;
-    let interval = fit.interval_nm2.map_or(String::new(), |i| format!(", 95 % interval {:.3}–{:.3}", i[0], i[1]));
+    let misses = if fit.misses { ", wide because the model misses by more than noise" } else { "" };
+    let interval =
+        fit.interval_nm2.map_or(String::new(), |i| format!(", 95 % interval {:.3}–{:.3}{misses}", i[0], i[1]));
     let bound = if fit.at_bound { "; at its bound: a stiffness does not explain these data" } else { "" };
     Ok(Variant {
         label: format!("+ bending B = {:.3} N m²", fit.bending_nm2),
@@ -126,7 +128,7 @@ pub fn compare_page(study: &Study, imprint: &Imprint) -> Result<Files, CompareEr
     }
     files.table("holds", tables::holds(&study.variants))?;
     let residuals = figure(
-        "Signed residual of every marker in every hold. Blue: the robot bends more than the model; orange: less.",
+        &format!("Signed residual of every marker in every hold. {}", figures::MAP_COLOURS),
         "heat map of residuals, markers by holds",
         &map.svg,
     );

@@ -201,7 +201,11 @@ fn study_section(study: &Study, files: &mut Files) -> Result<Section, CompareErr
     let mut blocks = vec![Block::Paragraph(lead(study))];
     let statements = bare.evaluation.where_it_fails.iter().map(|s| s.sentence.clone());
     blocks.push(Block::List(statements.collect()));
-    blocks.push(figure("Signed residual in units of the noise.", "heat map, markers by holds", &map.svg));
+    blocks.push(figure(
+        &format!("Signed residual in units of the noise. {}", figures::MAP_COLOURS),
+        "heat map, markers by holds",
+        &map.svg,
+    ));
     blocks.push(figure("Lines and open marks: bare model. Filled marks: mean over runs.", "centre lines", &shapes.svg));
     blocks.push(tables::variants(&study.variants));
     blocks.push(tables::origins(study.variants.iter().map(|v| (v.label.as_str(), v.known, v.why.as_str()))));

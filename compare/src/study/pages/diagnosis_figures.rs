@@ -40,15 +40,13 @@ pub struct ErrorRung {
     pub heldout_run_mm: Option<f64>,
 }
 
-/// What an attempt is called beside answers.
-const NOT_ENOUGH: &str = "attempt, not enough";
 /// What others are called where colours do not say it.
 const FITS_WORSE: &str = "fits worse";
 
 /// Names and standing of what the final model has beyond the base; `None` where that is nothing.
 fn final_label(d: &Diagnosis) -> Option<String> {
     let (added, word) = match d.added.is_empty() {
-        true => (&d.attempt, NOT_ENOUGH),
+        true => (&d.attempt, d.attempt_words()),
         false => (&d.added, "calibrated"),
     };
     let names: Vec<String> = added.iter().map(|a| format!("+ {}", a.effect)).collect();
@@ -203,7 +201,7 @@ pub(super) fn candidate_curves(
         let own = heights(&answer.on(scenario, level));
         let point = |k: usize| [1e-3 * top_pa * (k as f64 / f64::from(POINTS)).powi(2), own[k] - zero[k]];
         series.push(LineSeries {
-            name: format!("+ {}{}", answer.name(), attempted(answer)),
+            name: format!("+ {}{}", answer.name(), attempted(d, answer)),
             points: (0..own.len()).map(point).collect(),
             half_width: Vec::new(),
             style: if answer.standing == Standing::Other { LineStyle::Dashed } else { LineStyle::Line },
@@ -236,8 +234,8 @@ pub(super) fn waited_s(dataset: &Dataset) -> f64 {
 }
 
 /// What is said behind the name of an attempt.
-fn attempted(answer: &Answer) -> String {
-    if answer.standing == Standing::Attempt { format!(" ({NOT_ENOUGH})") } else { String::new() }
+fn attempted(d: &Diagnosis, answer: &Answer) -> String {
+    if answer.standing == Standing::Attempt { format!(" ({})", d.attempt_words()) } else { String::new() }
 }
 
 /// Models of the ledgers at a level of body pressure: the base and the answers of the curves.
@@ -245,7 +243,7 @@ pub(super) fn ledger_cases(d: &Diagnosis, scenario: &Scenario, level: usize) -> 
     let mut cases = vec![("base".to_string(), d.calibrated(scenario, level))];
     cases.extend(shown(d).iter().map(|a| {
         let worse = a.standing == Standing::Other && !d.indistinguishable.is_empty();
-        let what = if worse { format!(" ({FITS_WORSE})") } else { attempted(a) };
+        let what = if worse { format!(" ({FITS_WORSE})") } else { attempted(d, a) };
         (format!("+ {}{what}", a.name()), a.on(scenario, level))
     }));
     cases
@@ -259,7 +257,7 @@ pub(super) fn witness_cases(w: &Witness, d: &Diagnosis) -> Vec<plots::LedgerCase
     let is_set = !d.indistinguishable.is_empty();
     let what = |m: &Beside| match (m.named, is_set) {
         (true, true) | (false, false) => String::new(),
-        (true, false) => format!(" ({NOT_ENOUGH})"),
+        (true, false) => format!(" ({})", d.attempt_words()),
         (false, true) => format!(" ({FITS_WORSE})"),
     };
     let case = |label: String, e: &[f64; 6]| plots::LedgerCase { label, energies_mj: e.to_vec() };

@@ -10,7 +10,7 @@ use crate::diagnosis::{Diagnosis, Verdict};
 use crate::error::CompareError;
 use crate::plots::Drawn;
 use crate::report::{Block, Callout, Provenance, Report, Section, Table};
-use crate::residuals::ResidualMap;
+use crate::residuals::{Deviation, ResidualCell, ResidualMap};
 use crate::study::engines::TERMS;
 use crate::study::predict::fit_scenario;
 use crate::study::witness::{HEIGHTS, Witness};
@@ -95,7 +95,7 @@ pub fn diagnosis_sections(found: &Diagnosed, prefix: &str, files: &mut Files) ->
         Block::Paragraph(worst(&d.residuals_before)),
         keep(
             "residuals_before",
-            "Residuals after fitting B, marker × hold. Blue: the robot bends more than the model; orange: less.",
+            &format!("Residuals after fitting B, marker × hold. {}", figures::MAP_COLOURS),
             before,
         ),
     ];
@@ -158,6 +158,9 @@ fn verdict_blocks(d: &Diagnosis) -> Vec<Block> {
     let answer = match d.verdict {
         Some(Verdict::None) => "**No**: no missing effect is detectable in these data.",
         Some(Verdict::Effect) => "**Yes**: an effect is missing, and the catalogue has an explanation.",
+        Some(Verdict::OutOfCatalog) if d.is_either() => {
+            "**Yes**: something is missing, a fault that is not in the catalogue or effects that explain the data about as well."
+        }
         Some(Verdict::OutOfCatalog) => "**Yes**: something is missing, and nothing in the catalogue explains it.",
         None => "**No answer**: too few runs for p-values. What follows is a ranking, not a test.",
     };
@@ -186,24 +189,31 @@ fn verdict_blocks(d: &Diagnosis) -> Vec<Block> {
     ]
 }
 
-/// The largest residual in words.
+/// The largest residuals in words.
 fn worst(map: &ResidualMap) -> String {
-    let cells = map.cells.iter().enumerate().flat_map(|(m, row)| row.iter().enumerate().map(move |(h, c)| (m, h, c)));
-    let Some((marker, hold, cell)) = cells.max_by(|a, b| a.2.y.mm.abs().total_cmp(&b.2.y.mm.abs())) else {
-        return "There is no residual to show.".into();
-    };
+    match (largest(map, |cell| cell.y), largest(map, |cell| cell.x)) {
+        (Some(y), Some(x)) => format!("Largest, model minus measured: across the robot {y}; along it {x}."),
+        _ => "There is no residual to show.".into(),
+    }
+}
+
+/// `+9.1 mm (12 times the noise) at marker 5 of 5, 10 kPa load`: the largest in one direction.
+fn largest(map: &ResidualMap, of: fn(&ResidualCell) -> Deviation) -> Option<String> {
+    let cells = map.cells.iter().enumerate();
+    let all = cells.flat_map(|(m, row)| row.iter().enumerate().map(move |(h, cell)| (m, h, of(cell))));
+    let (marker, hold, d) = all.max_by(|a, b| a.2.mm.abs().total_cmp(&b.2.mm.abs()))?;
     let at = &map.holds[hold];
-    let noise = cell.y.in_noise.map_or(String::new(), |z| format!(", {:.0} times the noise", z.abs()));
+    let noise = d.in_noise.map_or(String::new(), |z| format!(" ({:.0} times the noise)", z.abs()));
     let several = map.holds.iter().any(|h| h.p_body_kpa != at.p_body_kpa);
     let body = if several { format!(", body {:.0} kPa", at.p_body_kpa) } else { String::new() };
-    format!(
-        "Largest across the robot: {:+.1} mm (model minus measured{noise}) at marker {} of {}, {:.0} kPa {}{body}.",
-        cell.y.mm,
+    let of_all = map.cells.len();
+    Some(format!(
+        "{:+.1} mm{noise} at marker {} of {of_all}, {:.0} kPa {}{body}",
+        d.mm,
         marker + 1,
-        map.cells.len(),
         at.p_act_kpa,
         at.phase
-    )
+    ))
 }
 
 fn differently(
@@ -217,7 +227,7 @@ fn differently(
     files.plot(&format!("{prefix}candidates"), &curves);
     let drawn = shown(d);
     let [solid, dashed] = match d.indistinguishable.is_empty() {
-        true => ["the attempt, which is not enough", "others"],
+        true => [d.attempt_words(), "others"],
         false => ["cannot be told apart", "fits worse"],
     };
     let caption = format!(
@@ -286,6 +296,8 @@ fn next_blocks(found: &Diagnosed) -> Vec<Block> {
     let mut blocks = Vec::new();
     if let Some(next) = &d.next_experiment {
         blocks.push(Block::Callout { kind: Callout::Result, text: next.sentence.clone() });
+    }
+    if let Some(next) = d.next_experiment.as_ref().filter(|next| !next.tried.is_empty()) {
         let mut columns = vec![words("experiment"), words("protocol [kPa]"), column("suffices", "")];
         columns.extend(next.now.iter().map(|s| column(&s.rival, "")));
         let cells = |separations: &[crate::diagnosis::Separation]| -> Vec<String> {

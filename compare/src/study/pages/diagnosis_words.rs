@@ -15,7 +15,7 @@ pub(super) fn ranking_table(d: &Diagnosis) -> Block {
         let mark = match () {
             () if d.indistinguishable.contains(&r.effect) => "cannot be told apart",
             () if d.indistinguishable.iter().any(stated) => "in a pair that cannot be told apart",
-            () if d.attempt.iter().any(|a| a.effect == r.effect) => "in the attempt, not enough",
+            () if d.attempt.iter().any(|a| a.effect == r.effect) => d.attempt_words(),
             () if r.at_bound => "on a bound: rejected",
             () => "",
         };
@@ -129,7 +129,7 @@ fn fitted(d: &Diagnosis, answer: &Answer) -> String {
     format!(
         "**{}**{}: {}; {before:.2} → {after:.2} mm{}.",
         answer.name(),
-        if answer.standing == Standing::Attempt { ", an attempt that is not enough" } else { "" },
+        if answer.standing == Standing::Attempt { format!(", {}", d.attempt_words()) } else { String::new() },
         values.join("; "),
         if cancels { "; the two cancel each other" } else { "" }
     )
@@ -156,7 +156,7 @@ fn with_interval(p: &ParameterValue) -> String {
     let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
     match (p.lo, p.hi) {
         (Some(lo), Some(hi)) => format!("{} = {} ({} to {}){unit}", p.symbol, digits(p.value), digits(lo), digits(hi)),
-        _ => format!("{} = {}{unit}", p.symbol, digits(p.value)),
+        _ => format!("{} = {}{unit}{}", p.symbol, digits(p.value), p.held_mark()),
     }
 }
 

@@ -5,6 +5,7 @@ use super::drawing;
 use crate::error::CompareError;
 use crate::evaluate::Evaluation;
 use crate::plots::{self, Drawn, Known};
+use crate::residuals::{Deviation, ResidualCell};
 use crate::study::published::PublishedLadder;
 use data::{Dataset, Phase};
 use models::{Loads, Model, Scenario};
@@ -14,6 +15,9 @@ const MM: f64 = 1e3;
 const LINE_POINTS: usize = 80;
 /// Residuals are drawn to this many times the noise; more is more of the same colour.
 const MAP_LIMIT: f64 = 10.0;
+/// What the colours of a residual map mean.
+pub(super) const MAP_COLOURS: &str = "Across (y), blue: the robot bends more than the model; orange: less. Along (x), blue: the \
+    robot's marker lies farther out than the model's; orange: nearer to the base.";
 /// Terms of a ledger that colours tell apart.
 const MOST_TERMS: usize = 8;
 /// Centre lines in one plot.
@@ -124,18 +128,22 @@ fn mm(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     points.iter().map(|p| p.map(|v| v * MM)).collect()
 }
 
-/// Signed y residuals marker × hold in units of noise (in mm when the noise is unknown).
+/// Signed residuals marker × hold, across the robot and along it, in units of noise (in mm when the noise is unknown).
 pub(super) fn residual_map(title: &str, evaluation: &Evaluation, dataset: &Dataset) -> Result<Drawn, CompareError> {
     map(title, &evaluation.residual_map, dataset)
 }
 
 /// The same for residuals at hand.
 pub(super) fn map(title: &str, map: &crate::residuals::ResidualMap, dataset: &Dataset) -> Result<Drawn, CompareError> {
-    let in_noise = map.cells.iter().flatten().all(|c| c.y.in_noise.is_some());
-    let value = |cell: &crate::residuals::ResidualCell| match cell.y.in_noise {
-        _ if !cell.seen => f64::NAN,
+    let in_noise = map.cells.iter().flatten().all(|c| c.x.in_noise.is_some() && c.y.in_noise.is_some());
+    let value = |seen: bool, d: Deviation| match d.in_noise {
+        _ if !seen => f64::NAN,
         Some(z) if in_noise => z,
-        _ => cell.y.mm,
+        _ => d.mm,
+    };
+    let panel = |label: &str, of: fn(&ResidualCell) -> Deviation| plots::MapPanel {
+        label: label.into(),
+        values: map.cells.iter().map(|row| row.iter().map(|cell| value(cell.seen, of(cell))).collect()).collect(),
     };
     let several = several_bodies(dataset);
     let group = |h: &crate::residuals::HoldLabel| match several {
@@ -149,7 +157,7 @@ pub(super) fn map(title: &str, map: &crate::residuals::ResidualMap, dataset: &Da
     };
     let data = plots::ResidualMap {
         title: title.into(),
-        value_label: if in_noise { "model − measured, y [times the noise]" } else { "model − measured, y [mm]" }.into(),
+        value_label: if in_noise { "model − measured [times the noise]" } else { "model − measured [mm]" }.into(),
         holds: map.holds.iter().map(hold).collect(),
         stations_mm: dataset
             .markers
@@ -157,7 +165,7 @@ pub(super) fn map(title: &str, map: &crate::residuals::ResidualMap, dataset: &Da
             .enumerate()
             .map(|(i, m)| m.station_m.map_or(i as f64 + 1.0, |s| s * MM))
             .collect(),
-        values: map.cells.iter().map(|row| row.iter().map(value).collect()).collect(),
+        panels: vec![panel("y, across the robot", |cell| cell.y), panel("x, along the straight robot", |cell| cell.x)],
         limit: MAP_LIMIT,
     };
     plots::residual_map(&data).map_err(|e| drawing("the residual map", e))
