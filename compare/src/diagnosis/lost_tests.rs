@@ -61,6 +61,10 @@ fn a_marker_lost_everywhere_is_as_if_it_were_not_there() {
             // A fit ends where a round lowers the sum of squares by less than 1e-4.
             let same = |a: f64, b: f64| close(a, b) || (a - b).abs() < 1e-4;
             assert!(same(a.gain, b.gain) && same(a.value, b.value), "{}: {} {}", a.effect, a.gain, b.gain);
+            for (a, b) in [(a.lo, b.lo), (a.hi, b.hi)] {
+                assert!(a.zip(b).is_none_or(|(a, b)| (a - b).abs() < 1e-3 * b.abs().max(1e-3)), "{a:?} {b:?}");
+                assert_eq!(a.is_some(), b.is_some());
+            }
             assert!(same(a.bic_difference, b.bic_difference), "{}", a.effect);
         }
     }
