@@ -19,7 +19,8 @@ pub(super) fn labels(seen: &mut Seen) -> Vec<String> {
     let mut found: Vec<Exchange> = Vec::new();
     for run in 0..seen.points.len() {
         for hold in 0..seen.points[run].len() {
-            while let Some((pair, squares)) = exchanged(seen, &seen.points[run][hold]) {
+            let (pairs, squares) = exchanged(seen, &seen.points[run][hold]);
+            for pair in pairs {
                 seen.points[run][hold].swap(pair[0], pair[1]);
                 let known = found.iter().position(|exchange| exchange.pair == pair);
                 let at = known.unwrap_or(found.len());
@@ -34,25 +35,40 @@ pub(super) fn labels(seen: &mut Seen) -> Vec<String> {
     found.iter().map(|exchange| words(seen, exchange)).collect()
 }
 
-/// The exchange that leaves least, if it leaves far less, and no less than what the two are apart can do it.
-fn exchanged(seen: &Seen, points: &[[f64; 2]]) -> Option<([usize; 2], [f64; 2])> {
+/// Exchanges that together leave far less, with the sums of squares without and with them \[m²\].
+fn exchanged(seen: &Seen, points: &[[f64; 2]]) -> (Vec<[usize; 2]>, [f64; 2]) {
+    let (mut points, mut pairs) = (points.to_vec(), Vec::new());
+    let laid = seen.body.lay(&points, true).squares;
+    let mut left = laid;
+    while let Some((pair, after)) = best(seen, &points, left).filter(|_| pairs.len() < points.len()) {
+        points.swap(pair[0], pair[1]);
+        pairs.push(pair);
+        left = after;
+    }
+    if left > FAR_LESS * FAR_LESS * laid {
+        pairs.clear();
+    }
+    (pairs, [laid, left])
+}
+
+/// The exchange that leaves least, if it takes away what two markers leave that are as far apart.
+fn best(seen: &Seen, points: &[[f64; 2]], left: f64) -> Option<([usize; 2], f64)> {
     let count = points.len();
-    let laid = seen.body.lay(points, count > 1).squares;
-    // Wherever a body is laid, two markers that are exchanged are this far off together: half of their distance, squared, each.
-    if count < 3 || laid < 2.0 * (FAR_LESS * seen.half_apart()).powi(2) {
+    // Wherever a body is laid, two markers that are exchanged are off by half of their distance each, or more.
+    let least = |apart: f64| 2.0 * (0.5 * FAR_LESS * apart).powi(2);
+    if count < 3 || left < least(2.0 * seen.half_apart()) {
         return None;
     }
     let near = if count > ALL_PAIRS { NEAR } else { count };
     let pairs = (0..count).flat_map(|a| (a + 1..count.min(a + 1 + near)).map(move |b| [a, b]));
-    let left = |pair: [usize; 2]| {
+    let with = |pair: [usize; 2]| {
         let mut other = points.to_vec();
         other.swap(pair[0], pair[1]);
         (pair, seen.body.lay(&other, true).squares)
     };
-    let (pair, after) = pairs.map(left).min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let (pair, after) = pairs.map(with).min_by(|a, b| a.1.total_cmp(&b.1))?;
     let apart = (seen.body.stations_m[pair[0]] - seen.body.stations_m[pair[1]]).abs();
-    let enough = laid - after > 2.0 * (0.5 * apart).powi(2) * FAR_LESS;
-    (enough && after < FAR_LESS * FAR_LESS * laid).then_some((pair, [laid, after]))
+    (left - after > least(apart).max(f64::MIN_POSITIVE)).then_some((pair, after))
 }
 
 fn words(seen: &Seen, exchange: &Exchange) -> String {
@@ -74,7 +90,7 @@ fn words(seen: &Seen, exchange: &Exchange) -> String {
     let stations = if everywhere { ", or their stations s_mm," } else { " of these rows" };
     format!(
         "markers {a} and {b} look exchanged {place}: {} (rms from a uniformly bent robot with these stations, wherever its \
-         base is) with the two the other way round. Look at the pictures; if so, exchange their labels in the column \
+         base is) with the labels set right. Look at the pictures; if so, exchange the two in the column \
          marker{stations} before believing a diagnosis",
         become_mm(rms)
     )

@@ -147,7 +147,7 @@ fn words(seen: &Seen, alike: &[&Found]) -> String {
         let unit = UNITS.iter().find(|(unit, _)| *unit == way.factor).map(|(_, words)| *words);
         let of = unit.unwrap_or("pixels, or a scale that was not set");
         looks.push(format!("positions look like {of}"));
-        with.push(format!("{:.4} times the numbers", way.factor));
+        with.push(format!("{} times the numbers", (1e4 * way.factor).round() / 1e4));
         help.push("name the columns x and y by their unit, or convert them".into());
     }
     format!(
