@@ -146,6 +146,7 @@ pub fn diagnose_together(
             ));
         }
         let of = if i > 0 { format!("{name}: ") } else { String::new() };
+        warnings.extend(part.slips.iter().cloned());
         warnings.extend(told.into_iter().map(|warning| format!("{of}{warning}")));
         parts.push(part);
     }
@@ -174,6 +175,7 @@ pub fn diagnose_together(
         diagnosis.ranked.iter_mut().filter(|r| r.effect == "gravity").for_each(|r| r.notes.push(words.into()));
     }
     diagnosis.kept_bending = kept_bending::kept_bending(&diagnosis, scenario, first, further, options)?;
+    diagnosis.slips = parts.iter().flat_map(|part| part.slips.clone()).collect();
     diagnosis.summary = story::story(&diagnosis);
     Ok(diagnosis)
 }
@@ -249,6 +251,7 @@ fn assemble(
         undetectable,
         kept_bending: None,
         next_experiment: None,
+        slips: Vec::new(),
         warnings,
     })
 }

@@ -14,7 +14,7 @@ pub(super) fn upside(seen: &mut Seen) -> Vec<String> {
     let mut found = Vec::new();
     for run in down.clone() {
         let (before, after) = (from_others(seen, run, &down, 1.0), from_others(seen, run, &down, -1.0));
-        if after < FAR_LESS * before && after < FAR_LESS * seen.half_apart().max(before) {
+        if before > FAR_LESS * seen.half_apart() && after < FAR_LESS * before {
             found.push((run, [before, after]));
         }
     }

@@ -2,7 +2,6 @@
 
 use crate::data_slope::data_slope;
 use crate::error::CompareError;
-use crate::slips::slips;
 use data::{About, Dataset, Direct};
 use models::effects::Stage;
 use models::{Loads, Model, Prediction, Scenario, Step};
@@ -34,10 +33,8 @@ pub fn fit_scenario(
         let (data, scenario) = (dataset.actuator.clone(), kind.to_string());
         return Err(CompareError::WrongActuator { dataset: dataset.name.clone(), data, scenario });
     }
-    let stations_m = stations(scenario, dataset)?;
-    let mut fitted = scenario.with_markers(&stations_m);
+    let mut fitted = scenario.with_markers(&stations(scenario, dataset)?);
     let mut warnings = data::check::contradictions(dataset);
-    warnings.extend(slips(dataset, &stations_m, scenario.radius_m));
     if let Some(about) = about {
         if let Some(direction) = about.gravity_direction {
             fitted.gravity_direction = direction;
