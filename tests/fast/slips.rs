@@ -5,8 +5,7 @@ use crate::support::Folder;
 /// The embedded set with every row, cut into its cells, edited.
 fn set(folder: &Folder, edit: impl Fn(&mut Vec<String>)) {
     folder.write("set/about.toml", data::set_file("synthetic-epam", "about.toml").unwrap());
-    let bytes = data::set_file("synthetic-epam", "markers.csv").unwrap();
-    let table = String::from_utf8(bytes.to_vec()).unwrap();
+    let table = data::set_file("synthetic-epam", "markers.csv").unwrap();
     let row = |(i, line): (usize, &str)| {
         let mut cells: Vec<String> = line.split(',').map(str::to_string).collect();
         if i > 0 {

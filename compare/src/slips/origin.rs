@@ -18,9 +18,9 @@ use nalgebra::{DMatrix, DVector};
 
 /// Chance of the shift where nothing is shifted, above which nothing is told.
 const CHANCE: f64 = 1e-3;
-/// Share that a shift may leave of the mean over runs. A lens that bulges the image is off at the base too, grows otherwise from
-/// there, and leaves a third without any noise.
-const LITTLE: f64 = 0.25;
+/// Share that a shift may leave of the mean over runs. A lens that bulges the image is off at the base too, grows otherwise
+/// from there, and leaves a third without any noise; 1300 sets of `ibr bench discovery` without a slip left 0.28 or more.
+const LITTLE: f64 = 0.2;
 /// Holds within this share of the highest pressure of the lowest are the lowest.
 const LOWEST: f64 = 0.02;
 /// Heading of the last marker beyond which a hold is not nearly straight \[rad\].
