@@ -1,7 +1,7 @@
 //! Slips in a table of markers: another origin, exchanged labels, turned axes, another unit of length.
 //!
 //! A slip is no physics, and a diagnosis can only give it the name of some effect, or none. But it shows in geometry, before any
-//! model of the actuator: every robot of these stations is nearly *some* uniformly bent body ([`arc`]), and data with a slip
+//! model of the actuator: every robot of these stations is nearly *some* uniformly bent body (`arc`), and data with a slip
 //! are not, by the size of the slip, until it is undone. So the evidence is one number before and after, in mm.
 //!
 //! Nothing is corrected here; what was found is undone for the slips that are looked for next only.
