@@ -24,6 +24,7 @@ pub mod report;
 pub mod residuals;
 mod run_scatter;
 pub mod scaling;
+pub mod slips;
 pub mod stats;
 pub mod study;
 pub mod where_it_fails;

@@ -65,7 +65,8 @@ fn check_small_pressures(cells: &RowReader, p_body: f64, p_act: f64) -> Result<(
 /// Refuses a table whose last marker moves to negative y when the actuator is inflated.
 ///
 /// # Errors
-/// At the highest actuator pressure it is more than 5 mm below its place in the first hold (mean over runs).
+/// At the highest actuator pressure it is more than 5 mm below its place in the first hold (mean over runs). Markers that lie
+/// along y rather than x in that hold are told apart from a y that points down.
 pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<(), DataError> {
     let holds = &dataset.holds;
     let by_pressure = |&a: &usize, &b: &usize| holds[a].p_act_pa.total_cmp(&holds[b].p_act_pa);
@@ -83,6 +84,19 @@ pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<(), DataE
     let moved_m = at(highest, last, 1) - at(0, last, 1);
     if moved_m >= -SURELY_DOWN_M {
         return Ok(());
+    }
+    let markers = 0..dataset.markers.len();
+    let length_m = |axis: usize| {
+        let places = markers.clone().map(|marker| at(0, marker, axis));
+        places.clone().fold(f64::NEG_INFINITY, f64::max) - places.fold(f64::INFINITY, f64::min)
+    };
+    if length_m(1) > length_m(0) {
+        let [along_x, along_y] = [0, 1].map(|axis| mm(length_m(axis)));
+        let message = format!(
+            "x and y look exchanged: in the first hold the markers take up {along_y:.1} mm of y and {along_x:.1} mm of x"
+        );
+        let help = "x runs from the base along the straight robot, y towards the actuator: exchange the names of the two columns";
+        return Err(DataError::Unit(column_fault(header, Y, message, help.to_string())));
     }
     let message = format!(
         "y points down: at {:.1} kPa marker {} has moved by {:.1} mm",

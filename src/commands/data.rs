@@ -6,6 +6,7 @@ use super::{Context, Outcome, list};
 use crate::cli::{DataCommand, Generate};
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
+use compare::slips::slips;
 use compare::study::generate::{Generator, generate, parse_protocol};
 use compare::study::pages::Files;
 use data::{About, CheckReport, Dataset, Direct, Geometry, MarkerStation, Provenance};
@@ -25,7 +26,12 @@ pub fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome, Fail
 
 fn check(spec: &str, context: &mut Context) -> Result<Outcome, Failure> {
     let (dataset, about, _) = inputs::dataset(spec, context)?;
-    let report = data::check(&dataset, about.as_ref());
+    let mut report = data::check(&dataset, about.as_ref());
+    let stations_m: Option<Vec<f64>> = dataset.markers.iter().map(|marker| marker.station_m).collect();
+    let radius_m = about.as_ref().and_then(|about| about.geometry.as_ref()).map(|geometry| geometry.body_radius_m);
+    if let Some((stations_m, radius_m)) = stations_m.zip(radius_m) {
+        report.warnings.extend(slips(&dataset, &stations_m, radius_m));
+    }
     Ok(Outcome::new(check_text(&report), json!({"schema": "ibr.data.check", "version": 1, "check": report})))
 }
 

@@ -39,7 +39,8 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
     let answer = to_json(&args.scenario, &loaded, &diagnosis, witness.as_ref());
     let file = format!("{answer:#}\n").into_bytes();
     let mut outcome = Outcome::new(text(&diagnosis, witness.as_ref()), answer);
-    outcome.notes.extend(diagnosis.warnings.iter().map(|w| format!("warning: {w}")));
+    let told_first = |warning: &&String| diagnosis.slips.contains(warning);
+    outcome.notes.extend(diagnosis.warnings.iter().filter(|w| !told_first(w)).map(|w| format!("warning: {w}")));
     if let (Some(folder), None) = (&args.runs, &witness) {
         let why = "is of this robot at a pressure of the data";
         outcome.notes.push(format!("warning: no finite element run in {} {why}", folder.display()));
@@ -116,6 +117,7 @@ fn text(d: &Diagnosis, witness: Option<&Witness>) -> String {
         Some(Verdict::OutOfCatalog) => "something is missing that is not in the catalogue",
         None => "none: ranking only",
     };
+    d.slips.iter().for_each(|slip| out.push_str(&format!("Before the verdict, look at the data. {slip}\n\n")));
     out.push_str(&format!("Verdict: {verdict}\n"));
     d.summary.iter().for_each(|s| out.push_str(&format!("  - {s}\n")));
     out.push_str(&ranking(d));

@@ -1,7 +1,8 @@
 //! Tests of the command `ibr` as a user meets it.
 //!
 //! A new test belongs into the module of what the user was doing: `json` if a program reads the answer, `predict`,
-//! `compare`, `characterize`, `diagnose`, `add`, `generate`, `simulate` and `robots` for what those commands promise, `scenario_errors` and
+//! `compare`, `characterize`, `diagnose`, `add`, `generate`, `simulate` and `robots` for what those commands promise, `slips` for data that are
+//! not what they say, `scenario_errors` and
 //! `data_errors` for files that are wrong, `arguments` for wrong options, `output` for what lands on disk, `shell` for help,
 //! completions and pipes.
 //! Whatever needs an optimised build or more than a few seconds belongs into `tests/slow`.
@@ -24,5 +25,6 @@ mod robots;
 mod scenario_errors;
 mod shell;
 mod simulate;
+mod slips;
 #[path = "../support/mod.rs"]
 mod support;

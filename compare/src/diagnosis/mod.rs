@@ -151,6 +151,7 @@ pub fn diagnose_together(
             ));
         }
         let of = if i > 0 { format!("{name}: ") } else { String::new() };
+        warnings.extend(part.slips.iter().cloned());
         warnings.extend(told.into_iter().map(|warning| format!("{of}{warning}")));
         parts.push(part);
     }
@@ -180,6 +181,7 @@ pub fn diagnose_together(
     if options.next_experiment {
         diagnosis.next_experiment = next::next_experiment(&case, &decision, look::next(&diagnosis))?;
     }
+    diagnosis.slips = parts.iter().flat_map(|part| part.slips.clone()).collect();
     diagnosis.summary = story::story(&diagnosis);
     Ok(diagnosis)
 }
@@ -255,6 +257,7 @@ fn assemble(
         undetectable,
         kept_bending: None,
         next_experiment: None,
+        slips: Vec::new(),
         warnings,
     })
 }

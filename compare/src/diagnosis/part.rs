@@ -4,6 +4,7 @@ use super::source::{Source, is_rolled};
 use super::{Measured, prepare};
 use crate::error::CompareError;
 use crate::gauge::Gauge;
+use crate::slips::slips;
 use crate::study::fit_scenario;
 use crate::study::predict::without_settled;
 use data::{Direct, MeasuredValue};
@@ -23,6 +24,7 @@ pub(super) struct Part {
     gauge: Option<Gauge>,
     pub bending_nm2: Option<[f64; 2]>,
     pub measured: Vec<MeasuredValue>,
+    pub slips: Vec<String>,
 }
 
 impl Part {
@@ -31,6 +33,7 @@ impl Part {
         let Measured { dataset, about } = *measured;
         crate::layout::Layout::of(dataset)?;
         let (mut scenario, mut warnings) = fit_scenario(scenario, dataset, about)?;
+        let slips = slips(dataset, &scenario.markers_m, scenario.radius_m);
         let mut prepared = prepare::prepare(dataset, about);
         warnings.append(&mut prepared.warnings);
         let mut direct = about.map(|a| a.direct).unwrap_or_default();
@@ -48,11 +51,11 @@ impl Part {
         }
         let bending_nm2 = about.and_then(|a| a.bending_nm2);
         let measured = about.map(|a| a.measured.clone()).unwrap_or_default();
-        Ok((Part { scenario, prepared, direct, gauge, bending_nm2, measured }, warnings))
+        Ok((Part { scenario, prepared, direct, gauge, bending_nm2, measured, slips }, warnings))
     }
 
     pub fn source(&self, first: &Scenario) -> Source<'_> {
-        let Part { scenario, prepared, direct, gauge, bending_nm2, measured } = self;
+        let Part { scenario, prepared, direct, gauge, bending_nm2, measured, .. } = self;
         let (direct, bending_nm2) = (*direct, *bending_nm2);
         let rolled = is_rolled(scenario, first);
         Source { scenario, dataset: &prepared.dataset, direct, gauge: gauge.as_ref(), rolled, bending_nm2, measured }

@@ -389,6 +389,8 @@ pub struct Diagnosis {
     pub next_experiment: Option<NextExperiment>,
     /// What these data cannot show, whatever the model.
     pub limits: Vec<String>,
+    /// Cautions that come before the verdict: slips in the data, that no effect of a robot is. They are in `warnings` too.
+    pub slips: Vec<String>,
     /// Cautions.
     pub warnings: Vec<String>,
 }

@@ -170,6 +170,18 @@ fn pressure_below_zero_is_refused() {
 }
 
 #[test]
+fn exchanged_x_and_y_are_not_called_a_y_that_points_down() {
+    let rows =
+        "1,spam,0,2,0,load,1,60,0\n1,spam,0,2,0,load,2,360,0\n1,spam,1,2,30,load,1,60,5\n1,spam,1,2,30,load,2,340,60\n";
+    let error = read(&format!("{}{rows}", HEAD.replace("x_mm,y_mm", "y_mm,x_mm"))).unwrap_err();
+    assert_eq!(
+        error.message(),
+        "x and y look exchanged: in the first hold the markers take up 300.0 mm of y and 0.0 mm of x"
+    );
+    assert!(error.help().ends_with("exchange the names of the two columns"), "{}", error.help());
+}
+
+#[test]
 fn y_pointing_down_is_noticed_either_way() {
     let rows = "1,spam,0,2,0,load,1,60,0\n1,spam,0,2,0,load,2,360,0\n1,spam,1,2,30,load,1,60,-1\n1,spam,1,2,30,load,2,340,-60\n";
     let error = read(&format!("{HEAD}{rows}")).unwrap_err();

@@ -5,6 +5,7 @@ use crate::error::CompareError;
 use crate::evaluate::{EvaluateOptions, Evaluation, evaluate};
 use crate::plots::Known;
 use crate::report::{Block, Callout, Provenance, Report, Section};
+use crate::slips::slips;
 use crate::study::calibrate::calibrate_bending;
 use crate::study::predict::{fit_scenario, predict_dataset};
 use data::{About, Dataset};
@@ -68,7 +69,10 @@ pub fn study(
     let mut study = Study { dataset, about, variants: Vec::new(), warnings: Vec::new() };
     for c in candidates {
         let (scenario, warnings) = fit_scenario(c.scenario, &study.dataset, study.about.as_ref())?;
-        study.warnings.extend(warnings.into_iter().filter(|_| study.variants.is_empty()));
+        if study.variants.is_empty() {
+            study.warnings.extend(slips(&study.dataset, &scenario.markers_m, scenario.radius_m));
+            study.warnings.extend(warnings);
+        }
         let evaluation = held(&scenario, &study.dataset, options)?;
         let (label, why) = (c.label.to_string(), c.why.to_string());
         study.variants.push(Variant { label, known: c.known, why, scenario, evaluation });

@@ -182,11 +182,17 @@ fn verdict_blocks(d: &Diagnosis) -> Vec<Block> {
         rows,
         how_column: None,
     };
-    vec![
+    let slip = |slip: &String| Block::Callout {
+        kind: Callout::Warning,
+        text: format!("Before the verdict, look at the data. {slip}"),
+    };
+    let mut blocks: Vec<Block> = d.slips.iter().map(slip).collect();
+    blocks.extend([
         Block::Callout { kind: Callout::Result, text: answer.into() },
         Block::List(d.summary.clone()),
         Block::Table(evidence),
-    ]
+    ]);
+    blocks
 }
 
 /// The largest residuals in words.
@@ -327,7 +333,8 @@ fn next_blocks(found: &Diagnosed) -> Vec<Block> {
 
 fn noise_blocks(d: &Diagnosis) -> Vec<Block> {
     let mut blocks = vec![Block::Paragraph(d.noise.sentence.clone())];
-    blocks.extend(d.warnings.iter().map(|w| Block::Callout { kind: Callout::Warning, text: w.clone() }));
+    let left = d.warnings.iter().filter(|warning| !d.slips.contains(warning));
+    blocks.extend(left.map(|w| Block::Callout { kind: Callout::Warning, text: w.clone() }));
     blocks
 }
 

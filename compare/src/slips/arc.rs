@@ -1,0 +1,119 @@
+//! The plainest inflated robot: bent by the same curvature everywhere, of whatever size.
+//!
+//! ```text
+//! ψ = κ s      (x, y) = (1 − |κ| R) s · ( sinψ/ψ , (1 − cosψ)/ψ )
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | s | station on the undeformed body | m |
+//! | κ | heading change per length of the taut generator, free in every hold | 1/m |
+//! | R | radius of the body | m |
+//!
+//! No stiffness, no actuator, no pressure: it is what every robot of this length looks like to a millimetre or a few, and what
+//! one with two labels exchanged does not by the distance of the two.
+
+use data::Dataset;
+
+/// Steps of the search for κ between its bounds, before it is refined.
+const STEPS: usize = 24;
+/// Halvings of the interval around the best step: to 1e-6 of it.
+const REFINED: usize = 28;
+/// Largest |κ| R: the near side of the body has no length left at 1.
+const MOST_SHORTENED: f64 = 0.9;
+/// Share of the golden section.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// A robot's markers and radius \[m\].
+#[derive(Debug, Clone, Copy)]
+pub struct Body<'a> {
+    /// Stations of the markers.
+    pub stations_m: &'a [f64],
+    /// R.
+    pub radius_m: f64,
+}
+
+/// A uniformly bent body laid through some markers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Laid {
+    /// κ \[1/m\].
+    pub curvature: f64,
+    /// Sum of squares of the distances of the markers from their places on it \[m²\].
+    pub squares: f64,
+}
+
+impl Body<'_> {
+    /// The bend that leaves least, starting at the base or, `loose`, anywhere but heading along x.
+    pub fn lay(&self, points: &[[f64; 2]], loose: bool) -> Laid {
+        let longest = self.stations_m.iter().fold(1e-9, |l: f64, s| l.max(*s));
+        let most = (MOST_SHORTENED / self.radius_m).min(1.5 * std::f64::consts::PI / longest);
+        let left = |curvature: f64| self.squares(points, curvature, loose);
+        let step = 2.0 * most / STEPS as f64;
+        let at = |i: usize| i as f64 * step - most;
+        let best = (0..=STEPS).map(|i| (at(i), left(at(i)))).min_by(|a, b| a.1.total_cmp(&b.1));
+        let (mut low, mut high) = best.map_or((-step, step), |(k, _)| ((k - step).max(-most), (k + step).min(most)));
+        for _ in 0..REFINED {
+            let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+            if left(a) < left(b) { high = b } else { low = a }
+        }
+        let curvature = 0.5 * (low + high);
+        Laid { curvature, squares: left(curvature) }
+    }
+
+    /// Where a marker that was lost would be, beside those that were seen.
+    pub fn beside(&self, dataset: &Dataset, hold: usize, points: &[[f64; 2]], lost: usize) -> [f64; 2] {
+        let seen: Vec<usize> = (0..points.len()).filter(|marker| dataset.is_seen(hold, *marker)).collect();
+        let stations_m: Vec<f64> = seen.iter().map(|marker| self.stations_m[*marker]).collect();
+        let of_seen: Vec<[f64; 2]> = seen.iter().map(|marker| points[*marker]).collect();
+        let curvature = Body { stations_m: &stations_m, ..*self }.lay(&of_seen, true).curvature;
+        let own = self.place(self.stations_m[lost], curvature);
+        let off = |axis: usize| {
+            let off = of_seen.iter().zip(&stations_m).map(|(point, s)| point[axis] - self.place(*s, curvature)[axis]);
+            off.sum::<f64>() / seen.len().max(1) as f64
+        };
+        [own[0] + off(0), own[1] + off(1)]
+    }
+
+    fn squares(&self, points: &[[f64; 2]], curvature: f64, loose: bool) -> f64 {
+        let (mut squares, mut sum) = (0.0, [0.0; 2]);
+        for (point, s) in points.iter().zip(self.stations_m) {
+            let place = self.place(*s, curvature);
+            for axis in 0..2 {
+                let off = point[axis] - place[axis];
+                squares += off * off;
+                sum[axis] += off;
+            }
+        }
+        let taken = (sum[0] * sum[0] + sum[1] * sum[1]) / points.len() as f64;
+        if loose { (squares - taken).max(0.0) } else { squares }
+    }
+
+    /// Where it has the marker at a station \[m\].
+    pub fn place(&self, s: f64, curvature: f64) -> [f64; 2] {
+        let (psi, length) = (curvature * s, (1.0 - curvature.abs() * self.radius_m) * s);
+        if psi.abs() < 1e-6 {
+            return [length, 0.5 * length * psi];
+        }
+        [length * psi.sin() / psi, length * (1.0 - psi.cos()) / psi]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bent_body_is_found_by_its_markers_wherever_it_begins() {
+        let stations_m = [0.03, 0.09, 0.15, 0.21, 0.27, 0.33];
+        let body = Body { stations_m: &stations_m, radius_m: 0.04 };
+        for curvature in [-1.0, 0.0, 0.02, 2.0, 6.0] {
+            let points: Vec<[f64; 2]> = stations_m.iter().map(|s| body.place(*s, curvature)).collect();
+            let elsewhere: Vec<[f64; 2]> = points.iter().map(|[x, y]| [x + 0.4, y - 0.2]).collect();
+            for (points, loose) in [(&points, false), (&elsewhere, true)] {
+                let laid = body.lay(points, loose);
+                assert!((laid.curvature - curvature).abs() < 1e-4, "{curvature} {loose}: {laid:?}");
+                assert!(laid.squares < 1e-9, "{curvature} {loose}: {laid:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Labels of two markers exchanged, in every hold or where a tracker lost them.
+
+use super::{FAR_LESS, Seen, become_mm};
+use crate::wording::list;
+
+/// With more markers only near ones are tried: trackers confuse what is close.
+const ALL_PAIRS: usize = 12;
+/// How near, in places along the body.
+const NEAR: usize = 3;
+
+/// Two markers, and the (run, hold) in which they look exchanged with the sums of squares of both ways \[m²\].
+struct Exchange {
+    pair: [usize; 2],
+    cells: Vec<(usize, usize)>,
+    squares: [f64; 2],
+}
+
+pub(super) fn labels(seen: &mut Seen) -> Vec<String> {
+    let mut found: Vec<Exchange> = Vec::new();
+    for run in 0..seen.points.len() {
+        for hold in 0..seen.points[run].len() {
+            let (pairs, squares) = exchanged(seen, &seen.points[run][hold]);
+            for pair in pairs {
+                seen.points[run][hold].swap(pair[0], pair[1]);
+                let known = found.iter().position(|exchange| exchange.pair == pair);
+                let at = known.unwrap_or(found.len());
+                if known.is_none() {
+                    found.push(Exchange { pair, cells: Vec::new(), squares: [0.0; 2] });
+                }
+                found[at].cells.push((run, hold));
+                (0..2).for_each(|i| found[at].squares[i] += squares[i]);
+            }
+        }
+    }
+    found.iter().map(|exchange| words(seen, exchange)).collect()
+}
+
+/// Exchanges that together leave far less, with the sums of squares without and with them \[m²\].
+fn exchanged(seen: &Seen, points: &[[f64; 2]]) -> (Vec<[usize; 2]>, [f64; 2]) {
+    let (mut points, mut pairs) = (points.to_vec(), Vec::new());
+    let laid = seen.body.lay(&points, true).squares;
+    let mut left = laid;
+    while let Some((pair, after)) = best(seen, &points, left).filter(|_| pairs.len() < points.len()) {
+        points.swap(pair[0], pair[1]);
+        pairs.push(pair);
+        left = after;
+    }
+    if left > FAR_LESS * FAR_LESS * laid {
+        pairs.clear();
+    }
+    (pairs, [laid, left])
+}
+
+/// The exchange that leaves least, if it takes away what two markers leave that are as far apart.
+fn best(seen: &Seen, points: &[[f64; 2]], left: f64) -> Option<([usize; 2], f64)> {
+    let count = points.len();
+    // Wherever a body is laid, two markers that are exchanged are off by half of their distance each, or more.
+    let least = |apart: f64| 2.0 * (0.5 * FAR_LESS * apart).powi(2);
+    if count < 3 || left < least(2.0 * seen.half_apart()) {
+        return None;
+    }
+    let near = if count > ALL_PAIRS { NEAR } else { count };
+    let pairs = (0..count).flat_map(|a| (a + 1..count.min(a + 1 + near)).map(move |b| [a, b]));
+    let with = |pair: [usize; 2]| {
+        let mut other = points.to_vec();
+        other.swap(pair[0], pair[1]);
+        (pair, seen.body.lay(&other, true).squares)
+    };
+    let (pair, after) = pairs.map(with).min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let apart = (seen.body.stations_m[pair[0]] - seen.body.stations_m[pair[1]]).abs();
+    (left - after > least(apart).max(f64::MIN_POSITIVE)).then_some((pair, after))
+}
+
+fn words(seen: &Seen, exchange: &Exchange) -> String {
+    let [a, b] = exchange.pair.map(|marker| seen.dataset.markers[marker].name.clone());
+    let holds = seen.dataset.holds.len();
+    let mut runs: Vec<usize> = exchange.cells.iter().map(|(run, _)| *run).collect();
+    runs.dedup();
+    let of = |run: usize| exchange.cells.iter().filter(|(r, _)| *r == run).map(|(_, hold)| *hold).collect::<Vec<_>>();
+    let everywhere = exchange.cells.len() == seen.points.len() * holds;
+    let place = if runs.iter().all(|run| of(*run) == of(runs[0])) {
+        let which = of(runs[0]);
+        let at = if which.len() == holds { String::new() } else { format!(", {}", ranges(&which)) };
+        format!("{}{at}", seen.in_runs(&runs))
+    } else {
+        let each = runs.iter().map(|run| format!("{} ({})", seen.in_runs(&[*run]), ranges(&of(*run))));
+        list(&each.collect::<Vec<_>>())
+    };
+    let rms = exchange.squares.map(|squares| seen.rms(squares, exchange.cells.len()));
+    let stations = if everywhere { ", or their stations s_mm," } else { " of these rows" };
+    format!(
+        "markers {a} and {b} look exchanged {place}: {} (rms from a uniformly bent robot with these stations, wherever its \
+         base is) with the labels set right. Look at the pictures; if so, exchange the two in the column \
+         marker{stations} before believing a diagnosis",
+        become_mm(rms)
+    )
+}
+
+/// `hold 3`, `holds 1 to 4 and 7`, counted from 1.
+fn ranges(holds: &[usize]) -> String {
+    let mut words: Vec<[usize; 2]> = Vec::new();
+    for &hold in holds {
+        match words.last_mut() {
+            Some([_, to]) if *to + 1 == hold => *to = hold,
+            _ => words.push([hold, hold]),
+        }
+    }
+    let word = |[from, to]: &[usize; 2]| match to - from {
+        0 => format!("{}", from + 1),
+        _ => format!("{} to {}", from + 1, to + 1),
+    };
+    let words: Vec<String> = words.iter().map(word).collect();
+    format!("{} {}", if holds.len() == 1 { "hold" } else { "holds" }, list(&words))
+}

@@ -1,0 +1,94 @@
+//! Slips in a table of markers: another origin, exchanged labels, turned axes, another unit of length.
+//!
+//! A slip is no physics, and a diagnosis can only give it the name of some effect, or none. But it shows in geometry, before any
+//! model of the actuator: every robot of these stations is nearly *some* uniformly bent body (`arc`), and data with a slip
+//! are not, by the size of the slip, until it is undone. So the evidence is one number before and after, in mm.
+//!
+//! Nothing is corrected here; what was found is undone for the slips that are looked for next only.
+
+mod arc;
+mod labels;
+mod origin;
+#[cfg(test)]
+mod tests;
+mod turned;
+mod upside;
+
+use crate::wording::short;
+use arc::Body;
+use data::Dataset;
+
+/// What is looked for, in this order: each sees the data with the slips before it undone.
+const SLIPS: [fn(&mut Seen) -> Vec<String>; 4] = [turned::turned, upside::upside, labels::labels, origin::origin];
+
+/// A distance that undoing a slip takes to less than this share of it is called far less. Undoing a slip that is not there
+/// leaves more than before, so that anything below 1 would do without noise.
+const FAR_LESS: f64 = 0.5;
+
+/// The data as these tests see them.
+struct Seen<'a> {
+    dataset: &'a Dataset,
+    body: Body<'a>,
+    /// `[run][hold][marker]`: mean over the samples \[m\].
+    points: Vec<Vec<Vec<[f64; 2]>>>,
+}
+
+/// What looks like a slip, with the evidence and what to do.
+pub fn slips(dataset: &Dataset, stations_m: &[f64], radius_m: f64) -> Vec<String> {
+    let body = Body { stations_m, radius_m };
+    let mut seen = Seen { dataset, body, points: points(dataset) };
+    for [hold, marker] in &dataset.lost.unseen {
+        seen.points.iter_mut().for_each(|run| run[*hold][*marker] = body.beside(dataset, *hold, &run[*hold], *marker));
+    }
+    SLIPS.iter().flat_map(|slip| slip(&mut seen)).map(|words| format!("{}: {words}", dataset.name)).collect()
+}
+
+fn points(dataset: &Dataset) -> Vec<Vec<Vec<[f64; 2]>>> {
+    let samples = dataset.samples_per_hold;
+    let mean = |run: usize, hold: usize, marker: usize| {
+        let sum =
+            (0..samples).map(|s| dataset.xy(run, hold, s, marker)).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+        sum.map(|v| v / samples as f64)
+    };
+    let hold = |run, hold| (0..dataset.markers.len()).map(|marker| mean(run, hold, marker)).collect();
+    (0..dataset.runs.len()).map(|run| (0..dataset.holds.len()).map(|h| hold(run, h)).collect()).collect()
+}
+
+impl Seen<'_> {
+    /// Root mean square over markers and holds of a sum of squares \[m\].
+    fn rms(&self, squares: f64, holds: usize) -> f64 {
+        (squares / (holds * self.body.stations_m.len()) as f64).sqrt()
+    }
+
+    /// Half of the smallest distance of two markers: what is nearer to its place than that is nearer to it than to any other \[m\].
+    fn half_apart(&self) -> f64 {
+        let mut sorted = self.body.stations_m.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let apart = sorted.windows(2).map(|pair| pair[1] - pair[0]).filter(|d| *d > 0.0);
+        0.5 * apart.fold(self.body.stations_m.iter().fold(0.0, |l: f64, s| l.max(*s)), f64::min)
+    }
+
+    /// Whether a run bends towards positive y as its actuator is inflated: Σ (P − mean P) κ > 0.
+    fn bends_up(&self, run: &[Vec<[f64; 2]>]) -> bool {
+        let pressures = self.dataset.holds.iter().map(|hold| hold.p_act_pa);
+        let mean = pressures.clone().sum::<f64>() / run.len() as f64;
+        let curvature = run.iter().map(|points| self.body.lay(points, true).curvature);
+        pressures.zip(curvature).map(|(p, k)| (p - mean) * k).sum::<f64>() >= 0.0
+    }
+
+    /// `in all 5 runs`, `in run 2`, `in runs 2 and 4`.
+    fn in_runs(&self, runs: &[usize]) -> String {
+        let labels: Vec<String> = runs.iter().map(|run| self.dataset.runs[*run].clone()).collect();
+        match (runs.len(), self.dataset.runs.len()) {
+            (1, 1) => "in the only run".into(),
+            (some, all) if some == all => format!("in all {all} runs"),
+            (1, _) => format!("in run {}", labels[0]),
+            _ => format!("in runs {}", crate::wording::list(&labels)),
+        }
+    }
+}
+
+/// `31 mm become 2.1 mm`.
+fn become_mm([before_m, after_m]: [f64; 2]) -> String {
+    format!("{} mm become {} mm", short(1e3 * before_m), short(1e3 * after_m))
+}
