@@ -1,6 +1,6 @@
 //! One scenario held against one dataset: numbers, files and the page.
 
-use super::{Files, Imprint, drawing, figures, tables};
+use super::{Files, Imprint, drawing, figures, residual_figure, tables};
 use crate::error::CompareError;
 use crate::evaluate::{EvaluateOptions, Evaluation, evaluate};
 use crate::plots::Known;
@@ -125,14 +125,14 @@ pub fn compare_page(study: &Study, imprint: &Imprint) -> Result<Files, CompareEr
     let mut files = Files::default();
     let first = &study.variants[0];
     let shapes = figures::shapes("Predicted and measured shape", &first.scenario, &study.dataset)?;
-    let map = figures::residual_map("Where the model misses", &first.evaluation, &study.dataset)?;
+    let map = residual_figure::map("Where the model misses", &first.evaluation.residual_map, &study.dataset)?;
     let curve = figures::pressure_curve("Pressure and height", study)?;
     for (name, drawn) in [("shapes", &shapes), ("residual_map", &map), ("pressure", &curve)] {
         files.plot(name, drawn);
     }
     files.table("holds", tables::holds(&study.variants))?;
     let residuals = figure(
-        &format!("Signed residual of every marker in every hold. {}", figures::MAP_COLOURS),
+        &format!("Signed residual of every marker in every hold. {}", residual_figure::MAP_COLOURS),
         "heat map of residuals, markers by holds",
         &map.svg,
     );

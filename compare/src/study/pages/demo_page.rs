@@ -3,7 +3,7 @@
 use super::compare_page::{Candidate, Study, figure, lead, study};
 use super::diagnosis_page::{Diagnosed, diagnosis_sections};
 use super::engines_page::{Engines, engine_sections, engines};
-use super::{Files, Imprint, figures, tables};
+use super::{Files, Imprint, figures, residual_figure, tables};
 use crate::diagnosis::{Diagnosis, Options, diagnose};
 use crate::error::CompareError;
 use crate::evaluate::EvaluateOptions;
@@ -184,8 +184,8 @@ fn study_section(study: &Study, files: &mut Files) -> Result<Section, CompareErr
     let name = &study.dataset.name;
     let bare = &study.variants[0];
     let last = study.variants.last().unwrap_or(bare);
-    let map = figures::residual_map("Bare model: where it misses", &bare.evaluation, &study.dataset)?;
-    let after = figures::residual_map("Last model: what is left", &last.evaluation, &study.dataset)?;
+    let map = residual_figure::map("Bare model: where it misses", &bare.evaluation.residual_map, &study.dataset)?;
+    let after = residual_figure::map("Last model: what is left", &last.evaluation.residual_map, &study.dataset)?;
     let shapes = figures::shapes("Bare model and measured shape", &bare.scenario, &study.dataset)?;
     let ladder = figures::error_ladder("Error beyond noise", &study.variants)?;
     let curve = figures::pressure_curve("Pressure and height", study)?;
@@ -202,7 +202,7 @@ fn study_section(study: &Study, files: &mut Files) -> Result<Section, CompareErr
     let statements = bare.evaluation.where_it_fails.iter().map(|s| s.sentence.clone());
     blocks.push(Block::List(statements.collect()));
     blocks.push(figure(
-        &format!("Signed residual in units of the noise. {}", figures::MAP_COLOURS),
+        &format!("Signed residual in units of the noise. {}", residual_figure::MAP_COLOURS),
         "heat map, markers by holds",
         &map.svg,
     ));

@@ -5,7 +5,7 @@ use super::diagnosis_figures::{
 };
 use super::diagnosis_words::{candidate_blocks, pairs_table, ranking_table, three};
 use super::tables::{column, number, words};
-use super::{Files, Imprint, figures};
+use super::{Files, Imprint, figures, residual_figure};
 use crate::diagnosis::{Diagnosis, Verdict};
 use crate::error::CompareError;
 use crate::plots::Drawn;
@@ -89,13 +89,13 @@ pub fn diagnosis_sections(found: &Diagnosed, prefix: &str, files: &mut Files) ->
         files.plot(&format!("{prefix}{name}"), &drawn);
         Block::Figure { caption: caption.into(), alt: caption.into(), svg: drawn.svg }
     };
-    let before = figures::map("The calibrated model misses here", &d.residuals_before, found.dataset)?;
-    let after = figures::map("What is left with the best explanation", &d.residuals_after, found.dataset)?;
+    let before = residual_figure::map("The calibrated model misses here", &d.residuals_before, found.dataset)?;
+    let after = residual_figure::map("What is left with the best explanation", &d.residuals_after, found.dataset)?;
     let mut fails = vec![
         Block::Paragraph(worst(&d.residuals_before)),
         keep(
             "residuals_before",
-            &format!("Residuals after fitting B, marker × hold. {}", figures::MAP_COLOURS),
+            &format!("Residuals after fitting B, marker × hold. {}", residual_figure::MAP_COLOURS),
             before,
         ),
     ];

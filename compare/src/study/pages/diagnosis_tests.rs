@@ -2,7 +2,7 @@
 
 use super::diagnosis_figures::{ranking_rows, rungs_of, shown, supply, waited_s, witness_cases};
 use super::diagnosis_words::candidate_blocks;
-use super::{Candidate, figures, study};
+use super::{Candidate, figures, residual_figure, study};
 use crate::diagnosis::{Diagnosis, GaugeFit, Group, Options, Standing, Verdict, diagnose};
 use crate::evaluate::EvaluateOptions;
 use crate::plots::{Known, RankClass};
@@ -22,7 +22,7 @@ fn every_body_pressure_has_its_shapes_points_and_curves() {
     }
     let candidate = Candidate { label: "bare", known: Known::Predicted, why: "", scenario: &scenario };
     let study = study(&[candidate], dataset, None, &EvaluateOptions::default(), true).unwrap();
-    let map = figures::residual_map("both", &study.variants[0].evaluation, &study.dataset).unwrap();
+    let map = residual_figure::map("both", &study.variants[0].evaluation.residual_map, &study.dataset).unwrap();
     let curve = figures::pressure_curve("both", &study).unwrap();
     for body in ["body 2 kPa", "body 4 kPa"] {
         assert!(map.svg.contains(body) && curve.svg.contains(&format!("bare, {body}")), "{body}");
@@ -43,7 +43,7 @@ fn a_marker_that_slid_along_the_body_is_seen_in_the_residual_map() {
     let (evaluation, straight) = (&study.variants[0].evaluation, 0);
     let cell = evaluation.residual_map.cells[2][straight];
     assert!((cell.x.mm + 5.0).abs() < 1.0 && cell.y.mm.abs() < 1.0, "{cell:?}");
-    let svg = figures::residual_map("slid", evaluation, &study.dataset).unwrap().svg;
+    let svg = residual_figure::map("slid", &evaluation.residual_map, &study.dataset).unwrap().svg;
     for shown in
         ["y, across the robot", "x, along the straight robot", &format!("−{:.1}", cell.x.in_noise.unwrap().abs())]
     {

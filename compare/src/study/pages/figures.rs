@@ -3,9 +3,7 @@
 use super::compare_page::{Study, Variant};
 use super::drawing;
 use crate::error::CompareError;
-use crate::evaluate::Evaluation;
 use crate::plots::{self, Drawn, Known};
-use crate::residuals::{Deviation, ResidualCell};
 use crate::study::published::PublishedLadder;
 use data::{Dataset, Phase};
 use models::{Loads, Model, Scenario};
@@ -13,11 +11,6 @@ use models::{Loads, Model, Scenario};
 const MM: f64 = 1e3;
 /// Points of a drawn centre line.
 const LINE_POINTS: usize = 80;
-/// Residuals are drawn to this many times the noise; more is more of the same colour.
-const MAP_LIMIT: f64 = 10.0;
-/// What the colours of a residual map mean.
-pub(super) const MAP_COLOURS: &str = "Across (y), blue: the robot bends more than the model; orange: less. Along (x), blue: the \
-    robot's marker lies farther out than the model's; orange: nearer to the base.";
 /// Terms of a ledger that colours tell apart.
 const MOST_TERMS: usize = 8;
 /// Centre lines in one plot.
@@ -126,49 +119,6 @@ pub(super) fn shapes(title: &str, scenario: &Scenario, dataset: &Dataset) -> Res
 
 fn mm(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     points.iter().map(|p| p.map(|v| v * MM)).collect()
-}
-
-/// Signed residuals marker × hold, across the robot and along it, in units of noise (in mm when the noise is unknown).
-pub(super) fn residual_map(title: &str, evaluation: &Evaluation, dataset: &Dataset) -> Result<Drawn, CompareError> {
-    map(title, &evaluation.residual_map, dataset)
-}
-
-/// The same for residuals at hand.
-pub(super) fn map(title: &str, map: &crate::residuals::ResidualMap, dataset: &Dataset) -> Result<Drawn, CompareError> {
-    let in_noise = map.cells.iter().flatten().all(|c| c.x.in_noise.is_some() && c.y.in_noise.is_some());
-    let value = |seen: bool, d: Deviation| match d.in_noise {
-        _ if !seen => f64::NAN,
-        Some(z) if in_noise => z,
-        _ => d.mm,
-    };
-    let panel = |label: &str, of: fn(&ResidualCell) -> Deviation| plots::MapPanel {
-        label: label.into(),
-        values: map.cells.iter().map(|row| row.iter().map(|cell| value(cell.seen, of(cell))).collect()).collect(),
-    };
-    let several = several_bodies(dataset);
-    let group = |h: &crate::residuals::HoldLabel| match several {
-        true => format!("body {} kPa", crate::wording::short(h.p_body_kpa)),
-        false => String::new(),
-    };
-    let hold = |h: &crate::residuals::HoldLabel| plots::MapHold {
-        p_act_kpa: h.p_act_kpa,
-        phase: h.phase.to_string(),
-        group: group(h),
-    };
-    let data = plots::ResidualMap {
-        title: title.into(),
-        value_label: if in_noise { "model − measured [times the noise]" } else { "model − measured [mm]" }.into(),
-        holds: map.holds.iter().map(hold).collect(),
-        stations_mm: dataset
-            .markers
-            .iter()
-            .enumerate()
-            .map(|(i, m)| m.station_m.map_or(i as f64 + 1.0, |s| s * MM))
-            .collect(),
-        panels: vec![panel("y, across the robot", |cell| cell.y), panel("x, along the straight robot", |cell| cell.x)],
-        limit: MAP_LIMIT,
-    };
-    plots::residual_map(&data).map_err(|e| drawing("the residual map", e))
 }
 
 /// Height of the outermost marker against actuator pressure: every model, and the measurement with both branches, at every

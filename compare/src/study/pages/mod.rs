@@ -12,6 +12,7 @@ mod engine_lines;
 mod engines_page;
 mod figures;
 mod ladder_page;
+mod residual_figure;
 mod tables;
 
 pub use compare_page::{Candidate, Study, Variant, compare_page, study};
