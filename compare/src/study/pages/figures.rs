@@ -13,6 +13,8 @@ const MM: f64 = 1e3;
 const LINE_POINTS: usize = 80;
 /// Terms of a ledger that colours tell apart.
 const MOST_TERMS: usize = 8;
+/// Markers on a centre line; of more, every few from the outermost one on.
+const MOST_DRAWN: usize = 24;
 /// Centre lines in one plot.
 const MOST_POSES: usize = 6;
 /// Body pressures are the same within this fraction.
@@ -96,7 +98,9 @@ pub(super) fn shapes(title: &str, scenario: &Scenario, dataset: &Dataset) -> Res
     for h in shown_holds(dataset) {
         let hold = &dataset.holds[h];
         model.predict(&Loads::uniform(hold.p_body_pa, hold.p_act_pa), &mut state)?;
-        let seen = (0..dataset.markers.len()).filter(|m| dataset.is_seen(h, *m));
+        let drawn = (0..dataset.markers.len()).rev().step_by(dataset.markers.len().div_ceil(MOST_DRAWN).max(1));
+        let predicted: Vec<[f64; 2]> = drawn.clone().map(|m| state.markers[m]).collect();
+        let seen = drawn.filter(|m| dataset.is_seen(h, *m));
         let measured = seen.map(|m| {
             let (mean, spread) = measured(dataset, h, m);
             plots::MeasuredPoint { at_mm: mean.map(|v| v * MM), half_width_mm: spread.map(|v| v * MM) }
@@ -108,7 +112,7 @@ pub(super) fn shapes(title: &str, scenario: &Scenario, dataset: &Dataset) -> Res
                 format!("{:.0} kPa", hold.p_act_pa / 1e3)
             },
             curve_mm: mm(&model.centre_line(&state, LINE_POINTS)),
-            predicted_mm: mm(&state.markers),
+            predicted_mm: mm(&predicted),
             measured: measured.collect(),
         });
     }

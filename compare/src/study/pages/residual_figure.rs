@@ -9,7 +9,7 @@ use data::Dataset;
 
 const MM: f64 = 1e3;
 /// Rows that a page can show one under the other.
-const MOST_MARKERS: usize = 40;
+const MOST_MARKERS: usize = 24;
 /// Columns that a page can show beside each other.
 const MOST_HOLDS: usize = 40;
 /// Residuals are drawn to this many times the noise; more is more of the same colour.
