@@ -2,6 +2,7 @@
 
 use super::inputs::{self, positive, with_effect};
 use super::tables::{number, table};
+use super::validate::{Fall, fall};
 use super::{Context, Outcome};
 use crate::cli::Compare;
 use crate::failure::{Failure, MISSED};
@@ -27,7 +28,9 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
     let study = study(&candidates, dataset, about, &options, args.calibrate)?;
     let folder = out_folder(args, &study, context.json);
     let warnings = warnings(args, data_spec, &study);
-    let mut outcome = Outcome::new(text(&study), to_json(scenario_spec, &study, &warnings));
+    let fall = fall(&named, &study, &input.sha256, sigma_m);
+    let mut outcome =
+        Outcome::new(text(&study, fall.as_ref()), to_json(scenario_spec, &study, &warnings, fall.as_ref()));
     if let Some(folder) = folder {
         (context.progress)("drawing the report", None);
         let imprint = Imprint { program: program(), date: today(), machine: machine() };
@@ -134,13 +137,16 @@ fn out_folder(args: &Compare, study: &Study, json: bool) -> Option<PathBuf> {
     }
 }
 
-fn text(study: &Study) -> String {
+fn text(study: &Study, fall: Option<&Fall>) -> String {
     let first = &study.variants[0];
     let mut out = format!("{} held against {}\n", first.scenario.name, study.dataset.name);
     out.push_str(&format!("{}\n", first.evaluation.noise.sentence));
     for variant in &study.variants {
         out.push_str(&format!("\n{} ({}): {}\n", variant.label, variant.known.word(), variant.why));
         out.push_str(&holds(variant));
+    }
+    if let Some(fall) = fall {
+        out.push_str(&format!("\n{}.\n", fall.sentence));
     }
     out.push_str("\nWhere the scenario's model fails:\n");
     for statement in &first.evaluation.where_it_fails {
@@ -179,7 +185,7 @@ fn holds(variant: &Variant) -> String {
     table(&head, 1, rows.collect())
 }
 
-fn to_json(scenario: &str, study: &Study, warnings: &[String]) -> Value {
+fn to_json(scenario: &str, study: &Study, warnings: &[String], fall: Option<&Fall>) -> Value {
     let variant = |v: &Variant| {
         json!({
             "label": v.label, "how_known": v.known.word(), "why": v.why,
@@ -198,6 +204,6 @@ fn to_json(scenario: &str, study: &Study, warnings: &[String]) -> Value {
         "pairing": first.metrics.pairing, "residual_map": first.residual_map,
         "where_it_fails": first.where_it_fails, "scaling": first.scaling,
         "models": study.variants.iter().map(variant).collect::<Vec<_>>(),
-        "warnings": warnings,
+        "added": fall, "warnings": warnings,
     })
 }

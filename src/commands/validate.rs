@@ -1,6 +1,6 @@
 //! `ibr validate`
 
-use super::inputs::{self, positive};
+use super::inputs::{self, NamedScenario, positive};
 use super::tables::{number, table};
 use super::{Context, Outcome};
 use crate::cli::Validate;
@@ -102,6 +102,34 @@ fn without(scenario: &Scenario, added: &[Origin]) -> Scenario {
     before.effects.retain(|e| !added.iter().any(|o| o.effect == e.name));
     before.bending_stiffness = added.iter().find_map(|o| o.bending_without_nm2).unwrap_or(scenario.bending_stiffness);
     before
+}
+
+/// What the effects that `ibr add` wrote bring on data, for a comparison.
+#[derive(Debug, Serialize)]
+pub(super) struct Fall {
+    effects: Vec<String>,
+    before: Fit,
+    after: Fit,
+    fitted_to_these: bool,
+    /// In words.
+    #[serde(skip)]
+    pub sentence: String,
+}
+
+/// `None` if it wrote none, or if the robot has no equilibrium without them.
+pub(super) fn fall(named: &NamedScenario, study: &Study, sha256: &str, sigma_m: Option<f64>) -> Option<Fall> {
+    let is_there = |o: &Origin| named.scenario.effects.iter().any(|e| e.name == o.effect);
+    let added: Vec<Origin> = origins(&named.text).into_iter().filter(is_there).collect();
+    if added.is_empty() {
+        return None;
+    }
+    let fitted_to_these = added.iter().any(|o| o.data_sha256.iter().any(|own| own == sha256));
+    let before = without(&named.scenario, &added);
+    let data = (study.dataset.clone(), study.about.clone());
+    let (trial, _) = trial("", [&before, &named.scenario], data, sigma_m, fitted_to_these).ok()?;
+    let effects: Vec<String> = added.into_iter().map(|o| o.effect).collect();
+    let sentence = format!("Error beyond noise without → with {}: {}", effects.join(", "), trial.sentence);
+    Some(Fall { effects, before: trial.before, after: trial.after, fitted_to_these, sentence })
 }
 
 fn trial(

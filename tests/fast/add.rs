@@ -46,6 +46,18 @@ fn an_effect_is_fitted_written_and_seen_to_help_and_the_old_scenario_stays() {
         answer["overall"]["systematic_mm"].as_f64().unwrap()
     };
     assert!(compare("mine-end_constraint.toml") < 0.1 * compare("mine.toml"));
+    for (data, own) in [("two", true), ("four", false)] {
+        let answer = folder.run(&["compare", "mine-end_constraint.toml", data, "--json"]).json("ibr.compare");
+        let added = &answer["added"];
+        assert_eq!((&added["effects"][0], &added["fitted_to_these"]), (&"end_constraint".into(), &own.into()));
+        let error = |key: &str| added[key]["beyond_noise_mm"].as_f64().unwrap();
+        assert!(error("after") < 0.5 * error("before"), "{added}");
+    }
+    let told = folder.run(&["compare", "mine-end_constraint.toml", "four", "--out", "c"]);
+    assert!(
+        told.stdout.contains("without → with end_constraint") && told.stdout.contains("helps where it was not fitted")
+    );
+    assert!(folder.run(&["compare", "mine.toml", "two", "--json"]).json("ibr.compare")["added"].is_null());
 
     let answer = folder.run(&["validate", "mine-end_constraint.toml", "two", "four", "--json"]).json("ibr.validate");
     let sets = answer["datasets"].as_array().unwrap();
