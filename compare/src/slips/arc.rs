@@ -74,6 +74,18 @@ impl Body<'_> {
         [own[0] + off(0), own[1] + off(1)]
     }
 
+    /// How far every marker is from its place on the body laid through all of them, wherever that starts \[m\].
+    pub fn off(&self, points: &[[f64; 2]]) -> Vec<f64> {
+        let curvature = self.lay(points, true).curvature;
+        let each = |(point, s): (&[f64; 2], &f64)| {
+            let place = self.place(*s, curvature);
+            [point[0] - place[0], point[1] - place[1]]
+        };
+        let off: Vec<[f64; 2]> = points.iter().zip(self.stations_m).map(each).collect();
+        let mean = [0, 1].map(|axis| off.iter().map(|d| d[axis]).sum::<f64>() / points.len().max(1) as f64);
+        off.iter().map(|d| (d[0] - mean[0]).hypot(d[1] - mean[1])).collect()
+    }
+
     fn squares(&self, points: &[[f64; 2]], curvature: f64, loose: bool) -> f64 {
         let (mut squares, mut sum) = (0.0, [0.0; 2]);
         for (point, s) in points.iter().zip(self.stations_m) {

@@ -7,6 +7,9 @@ use crate::wording::list;
 const ALL_PAIRS: usize = 12;
 /// How near, in places along the body.
 const NEAR: usize = 3;
+/// Then half of their distance must be this many times what a marker is usually off: of markers closer together than the noise no
+/// label can be told.
+const CLEAR: f64 = 3.0;
 
 /// Two markers, and the (run, hold) in which they look exchanged with the sums of squares of both ways \[m²\].
 struct Exchange {
@@ -59,16 +62,27 @@ fn best(seen: &Seen, points: &[[f64; 2]], left: f64) -> Option<([usize; 2], f64)
     if count < 3 || left < least(2.0 * seen.half_apart()) {
         return None;
     }
-    let near = if count > ALL_PAIRS { NEAR } else { count };
+    let off = seen.body.off(points);
+    let (near, usual) = if count > ALL_PAIRS { (NEAR, median(&off)) } else { (count, 0.0) };
     let pairs = (0..count).flat_map(|a| (a + 1..count.min(a + 1 + near)).map(move |b| [a, b]));
+    let apart = |pair: [usize; 2]| (seen.body.stations_m[pair[0]] - seen.body.stations_m[pair[1]]).abs();
+    let pairs = pairs.filter(|pair| {
+        let half = 0.5 * apart(*pair);
+        half > CLEAR * usual && pair.iter().all(|marker| off[*marker] > FAR_LESS * half)
+    });
     let with = |pair: [usize; 2]| {
         let mut other = points.to_vec();
         other.swap(pair[0], pair[1]);
         (pair, seen.body.lay(&other, true).squares)
     };
     let (pair, after) = pairs.map(with).min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let apart = (seen.body.stations_m[pair[0]] - seen.body.stations_m[pair[1]]).abs();
-    (left - after > least(apart).max(f64::MIN_POSITIVE)).then_some((pair, after))
+    (left - after > least(apart(pair)).max(f64::MIN_POSITIVE)).then_some((pair, after))
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted[sorted.len() / 2]
 }
 
 fn words(seen: &Seen, exchange: &Exchange) -> String {
