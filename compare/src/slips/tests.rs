@@ -157,3 +157,22 @@ fn a_marker_that_was_lost_is_no_slip_and_hides_none() {
         assert_only(&slips(&lossy, &stations_m, 0.04), &["origin", "x +30"]);
     }
 }
+
+/// Fifty markers seven millimetres apart can be told from each other, a thousand a third of a millimetre apart cannot.
+#[test]
+fn labels_are_told_as_far_as_noise_lets_them() {
+    let told = |markers: usize| {
+        let stations_m: Vec<f64> = (1..=markers).map(|i| 0.35 * i as f64 / markers as f64).collect();
+        let robot =
+            crate::study::published::shipped_scenario("epam").unwrap().with_bending(1.35).with_markers(&stations_m);
+        let usual = crate::study::Generator { runs: 3, ..Default::default() };
+        let mut data = crate::study::generate(&robot, "made", &usual).unwrap();
+        let (width, last) = (2 * markers, data.xy_m.len());
+        for at in (0..last).step_by(width) {
+            (0..2).for_each(|axis| data.xy_m.swap(at + 40 + axis, at + 42 + axis));
+        }
+        slips(&data, &stations_m, robot.radius_m)
+    };
+    assert_only(&told(50), &["markers 21 and 22 look exchanged", "in all 3 runs"]);
+    assert!(told(1000).is_empty());
+}
