@@ -2,8 +2,8 @@
 # Remakes the pictures of docs/diagnosis.md and README.md; with --check, names those that would change and fails.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+[ "${IBR:-}" ] || cargo build --release --quiet
 ibr="${IBR:-target/release/ibr}"
-[ -x "$ibr" ] || cargo build --release
 made="$(mktemp -d)"
 trap 'rm -rf "$made"' EXIT
 

@@ -234,12 +234,7 @@ impl NoiseModel {
         Some(self.sigma_m?.powi(2) / self.runs as f64 + (shared + read) / self.seen(range).max(1) as f64)
     }
 
-    /// Whether enough runs saw a value, by its index in run layout: an alignment error moves every value that was seen.
-    pub fn is_seen(&self, value: usize) -> bool {
-        self.directions[value] != [0.0; 4]
-    }
-
-    /// Values that enough runs saw.
+    /// Values that enough runs saw: an alignment error moves each of them, so that its row of U is not zero.
     pub fn seen(&self, range: std::ops::Range<usize>) -> usize {
         self.directions[range].iter().filter(|u| **u != [0.0; 4]).count()
     }

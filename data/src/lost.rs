@@ -36,13 +36,6 @@ pub struct Lost {
     pub frames: u64,
 }
 
-impl Lost {
-    /// Whether every marker was seen in every hold of every run.
-    pub fn is_empty(&self) -> bool {
-        self.unseen.is_empty() && self.filled.is_empty()
-    }
-}
-
 /// Fewest runs that must see a cell.
 fn needed(runs: usize) -> usize {
     (2 * runs).div_ceil(3)

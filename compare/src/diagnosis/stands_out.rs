@@ -16,7 +16,8 @@ use crate::study::generate::Scatter;
 use nalgebra::DMatrix;
 use std::cell::OnceCell;
 
-/// Simulated sets of noise: the number of independent patterns is known to a sixth.
+/// Simulated sets of noise: 40 of them lie above the quantile, give or take six, so the number of independent patterns is known to
+/// about a sixth.
 const SIMULATED: usize = 4000;
 /// Of these, side by side; no matter for the result.
 const TOGETHER: usize = 8;
@@ -202,7 +203,7 @@ fn independent(correlations: &DMatrix<f64>) -> Option<f64> {
 }
 
 /// L of C = L Lᵀ, row by row to the diagonal, without what rounding leaves of patterns that the ones before them contain. Unlike
-/// eigenvectors, whose signs hang on the last bit, it is the same on every machine.
+/// that of eigenvectors, whose signs hang on the last bit, it moves as little as C does.
 fn factor(correlations: &DMatrix<f64>) -> Vec<Vec<f64>> {
     let mut rows: Vec<Vec<f64>> = Vec::with_capacity(correlations.nrows());
     for i in 0..correlations.nrows() {

@@ -1,7 +1,7 @@
 //! Markers that a camera lost.
 
 use super::{read, table};
-use crate::{DataError, Dataset, check, write_markers_csv};
+use crate::{DataError, Dataset, Lost, check, write_markers_csv};
 
 /// A robot that bends as y = (1 + c) P s/90 with another c, shift and roll in every run, seen without noise.
 fn robot(runs: usize, is_kept: &dyn Fn(usize, usize, usize) -> bool) -> Dataset {
@@ -34,7 +34,7 @@ fn what_one_run_lost_is_put_where_that_run_would_have_seen_it() {
     let whole = robot(5, &|_, _, _| true);
     let lossy = robot(5, &|run, hold, marker| (run, hold, marker) != (0, 3, 3) && (run, hold, marker) != (1, 2, 1));
     assert_eq!(lossy.lost.filled, [[0, 3, 3], [1, 2, 1]]);
-    assert!(lossy.lost.unseen.is_empty() && whole.lost.is_empty());
+    assert!(lossy.lost.unseen.is_empty() && whole.lost == Lost::default());
     let n = whole.values_per_run();
     for [run, hold, marker] in [[0, 3, 3], [1, 2, 1]] {
         let i = run * n + whole.offset(hold, 0, marker);

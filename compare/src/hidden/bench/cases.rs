@@ -33,6 +33,8 @@ pub struct Named {
     pub answer: Answer,
     /// Its score.
     pub score: Score,
+    /// Something in the data was told to look like a slip.
+    pub slip: bool,
     /// Error beyond noise of the calibrated base and of the final model \[mm\].
     pub systematic_mm: [f64; 2],
     /// The same on runs left out, where the diagnosis gives both.
@@ -217,6 +219,7 @@ fn named(truth: &Truth, found: &Diagnosis) -> Named {
     let now = found.next_experiment.iter().flat_map(|next| &next.now);
     Named {
         score: score(truth, &answer),
+        slip: !found.slips.is_empty(),
         systematic_mm: [found.base.systematic_mm, found.base.systematic_with_added_mm],
         heldout_mm: found.base.heldout_run_mm.zip(first.and_then(|row| row.heldout_run_mm)).map(|(a, b)| [a, b]),
         covered: None,

@@ -18,6 +18,7 @@ pub(super) fn rows(outcomes: &[Outcome]) -> Vec<Row> {
         two(outcomes),
         outside(outcomes),
         quality(outcomes),
+        slips(outcomes),
     ];
     parts.concat()
 }
@@ -143,6 +144,17 @@ fn quality(outcomes: &[Outcome]) -> Vec<Row> {
         ),
         Row::number(case, "median of after / before", AtMost(0.10), median(&fitted), fitted.len()),
         Row::number(case, "the same on held-out runs", AtMost(0.10), median(&held), held.len()),
+    ]
+}
+
+/// Exchanged labels are the slip among what is hidden.
+fn slips(outcomes: &[Outcome]) -> Vec<Row> {
+    let all = outcomes.iter().filter_map(|o| Some((o, o.named.as_ref()?)));
+    let (slipped, right): (Vec<_>, Vec<_>) =
+        all.partition(|(o, _)| o.truth.effects.iter().any(|choice| choice.name == "swapped_markers"));
+    vec![
+        Row::share("labels exchanged", "told as a slip", AtLeast(0.90), &shares(&slipped, |named| named.slip)),
+        Row::share("all other sets", "told a slip that is none", AtMost(0.01), &shares(&right, |named| named.slip)),
     ]
 }
 
