@@ -22,7 +22,7 @@ fn diagnosis(c: &mut Criterion) {
             let plain = Scenario::parse(shipped("spam").expect("shipped")).expect("shipped scenarios parse");
             let station = |i: u32| plain.length_m * (f64::from(i) + 0.5) / f64::from(*markers);
             let told = plain.with_bending(STIFFNESS).with_markers(&(0..*markers).map(station).collect::<Vec<_>>());
-            let data = generate(&told.with_effect("end_constraint", &[value]), "made", &Generator::default());
+            let data = generate(&told.with_effect("end_constraint", &[value, 1.0]), "made", &Generator::default());
             let data = data.expect("the robot has an equilibrium");
             group.bench_function(BenchmarkId::new(missing, format!("spam/{markers}")), |b| {
                 b.iter(|| diagnose(black_box(&told), &data, None, &Options::default()));

@@ -18,8 +18,8 @@
 //! A law that misses does so at a pressure as a whole: all samples and markers there err together, and its error at one pressure
 //! says nothing of that at the next. So pressures are the unit of a misfit as runs are of noise (cluster-robust variance, Liang &
 //! Zeger 1986, with the correction for few clusters), and the interval holds what the value would be at other pressures.
-//! Counting every value of the misfit by itself says a fraction of that: of `synthetic-epam` without sealed edges, B is 0.60, 0.86
-//! and 1.14 N·m² at 10, 20 and 30 kPa alone, and 0.94 ± 0.04 by such a count. Where parameters are as many as pressures, these are met
+//! Counting every value of the misfit by itself says a fraction of that: of `synthetic-epam` without sealed edges, B is 0.60, 0.87
+//! and 1.15 N·m² at 10, 20 and 30 kPa alone, and 0.94 ± 0.04 by such a count. Where parameters are as many as pressures, these are met
 //! one by one and markers are the unit; samples of a hold never are.
 //!
 //! t has the degrees of freedom of the sum (Welch–Satterthwaite), so that three runs, or three pressures, give wide intervals. Where a bound

@@ -215,3 +215,29 @@ fn bag_volume_coefficients_give_the_known_end_factors() {
     assert!((eta(ROBIN) - 0.598504459).abs() < 5e-10);
     assert!((eta(KEPERT[0]) - 0.6817).abs() < 1e-12 && (eta(KEPERT[1]) - 0.6456).abs() < 1e-12);
 }
+
+/// A law that misses fits another stiffness at every pressure; an interval of noise alone would hold one of them.
+#[test]
+fn the_interval_of_a_stiffness_that_misses_holds_what_each_pressure_asks_for() {
+    let (whole, about) = data::load("synthetic-epam", &mut |_, _| {}).unwrap();
+    let (scenario, _) = fit_scenario(&shipped_scenario("epam").unwrap(), &whole, about.as_ref()).unwrap();
+    let fit = |dataset: &Dataset| calibrate_bending(&scenario, dataset, &EvaluateOptions::default()).unwrap();
+    let width = whole.values_per_run() / whole.holds.len();
+    let at = |pressure_pa: f64| {
+        let is_kept =
+            |h: &usize| whole.holds[*h].p_act_pa == 0.0 || (whole.holds[*h].p_act_pa - pressure_pa).abs() < 1.0;
+        let kept: Vec<usize> = (0..whole.holds.len()).filter(is_kept).collect();
+        let rows = |run: usize| kept.iter().flat_map(move |h| h * width..(h + 1) * width).map(move |i| (run, i));
+        let xy_m = (0..whole.runs.len()).flat_map(|run| rows(run).collect::<Vec<_>>());
+        let xy_m = xy_m.map(|(run, i)| whole.run(run)[i]).collect();
+        let holds = kept.iter().map(|h| whole.holds[*h].clone()).collect();
+        fit(&Dataset { holds, xy_m, ..whole.clone() }).bending_nm2
+    };
+    let alone = [10e3, 20e3, 30e3].map(at);
+    let of_all = fit(&whole);
+    let [low, high] = of_all.interval_nm2.unwrap();
+    assert!(of_all.misses && alone.iter().all(|b| (low..=high).contains(b)), "{alone:?} in {low} to {high}");
+    for (found, told) in alone.into_iter().chain([of_all.bending_nm2]).zip([0.60, 0.87, 1.15, 0.94]) {
+        assert!((found - told).abs() < 0.01, "{alone:?}, as docs/diagnosis.md says");
+    }
+}
