@@ -34,5 +34,7 @@ else
   ./target/release/ibr bench discovery --sets 8
   step benches compile
   cargo bench --no-run --quiet
+  step each case of the diagnosis bench runs
+  cargo bench --quiet --bench diagnose -- --test > /dev/null
 fi
 printf '\nall checks passed in %ss\n' "$SECONDS"
