@@ -97,7 +97,7 @@ pub fn parse_markers(
         }
     }
     if recorder.streams.is_empty() {
-        return Err(no_rows(file, &kind));
+        return Err(no_rows(file, &kind, recorder.lost_frames));
     }
     check_units(&cells, &recorder)?;
     check_about_runs(file, &recorder, options.about)?;
@@ -154,9 +154,14 @@ impl Kind {
     }
 }
 
-fn no_rows(file: &str, kind: &Kind) -> DataError {
+fn no_rows(file: &str, kind: &Kind, lost_frames: u64) -> DataError {
+    if lost_frames > 0 {
+        let help = "fill in x and y where the marker was seen";
+        let message = format!("none of the {lost_frames} rows has a position");
+        return DataError::Layout(Box::new(Fault::of_file(file, message, help)));
+    }
     let Some(wanted) = &kind.wanted else {
-        let help = "add one row per run, time and marker below the header, with its position";
+        let help = "add one row per run, time and marker below the header";
         return DataError::Layout(Box::new(Fault::of_file(file, "the file has a header and no rows", help)));
     };
     let seen: Vec<_> = kind.seen.iter().map(String::as_str).collect();

@@ -138,3 +138,12 @@ fn written_and_read_again_the_losses_are_the_same() {
     assert!(pairs.map(|(_, (a, b))| (a - b).abs()).all(|d| d < 1e-6));
     assert_eq!(data.to_table().rows(), bytes.iter().filter(|b| **b == b'\n').count() - 1);
 }
+
+#[test]
+fn a_table_without_any_position_is_refused_as_that() {
+    let line = |row: &str| format!("{},,\n", row.split(',').take(7).collect::<Vec<_>>().join(","));
+    let text = table(2, 3);
+    let (header, rows) = text.split_once('\n').unwrap();
+    let error = read(&format!("{header}\n{}", rows.lines().map(line).collect::<String>())).unwrap_err();
+    assert_eq!(error.message(), "none of the 60 rows has a position");
+}
