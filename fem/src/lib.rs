@@ -44,7 +44,7 @@ pub use problem::Problem;
 pub use run::Simulation;
 
 /// Raised whenever the same problem gives other numbers than before: stored results of an older engine are then not used.
-pub const ENGINE: u32 = 9;
+pub const ENGINE: u32 = 10;
 
 /// Numbers per node in position, velocity and force arrays: x, y, z and one of padding (always 0).
 pub const NODE: usize = 4;

@@ -12,7 +12,7 @@ use crate::problem::{MassScaling, Settings};
 use crate::sheet::order::{Order, renumber};
 use crate::sheet::reference::{cross, dot};
 use crate::sheet::{Sheet, reference};
-use crate::terms::{Gravity, NodalForces, Obstacles, RestCurvature, penalty_stiffness_n_m};
+use crate::terms::{Folds, Gravity, NodalForces, Obstacles, RestCurvature, penalty_stiffness_n_m};
 use crate::{FemError, Mesh, Problem};
 
 /// Penalty stiffness of obstacles as a share of m/dt².
@@ -34,11 +34,11 @@ impl Simulation {
         let driven = driven(problem, &mesh, &mut fixed)?;
         let mut x: Vec<[f64; 4]> = (0..count).map(|i| mesh.start_of(i)).map(|p| [p[0], p[1], p[2], 0.0]).collect();
         imperfect(&mut x, &mesh, &order, &fixed, settings.imperfection, settings.seed);
-        let rest = RestCurvature::new(&mesh, &problem.sections);
+        let bent = bent(problem, &mesh, &sheet);
         let still = Still { fixed: listed(&fixed), carried: carried(problem, &mesh, &driven)? };
-        let Masses { mass, added_mass, gain, dt_s } = masses_and_step(settings, &mesh, &sheet, &rest, &x, &still)?;
+        let Masses { mass, added_mass, gain, dt_s } = masses_and_step(settings, &mesh, &sheet, &bent, &x, &still)?;
         mesh.start = x.iter().map(|x| [x[0], x[1], x[2]]).collect();
-        let terms = terms(problem, &mesh, &mass, dt_s, rest)?;
+        let terms = terms(problem, &mesh, &mass, dt_s, bent)?;
         let touching = problem.contact.as_ref();
         let contact = touching.map(|c| contact(problem, c, &mesh, &order, &mass, dt_s)).transpose()?;
         sheet.start(x.as_flattened());
@@ -97,7 +97,7 @@ fn masses_and_step(
     settings: &Settings,
     mesh: &Mesh,
     sheet: &Sheet,
-    rest: &RestCurvature,
+    bent: &[Box<dyn Term>],
     x: &[[f64; 4]],
     still: &Still,
 ) -> Result<Masses, FemError> {
@@ -105,7 +105,7 @@ fn masses_and_step(
     give_tied_masses(mesh, &mut mass);
     let pose = Pose::nodes(x.as_flattened());
     let mut others = vec![0.0; x.len()];
-    rest.stiffness_bound(&pose, &mut others);
+    bent.iter().for_each(|term| term.stiffness_bound(&pose, &mut others));
     let mut bound = others.clone();
     sheet.stiffness_bound(&pose, &mut bound);
     give_tied_bounds(mesh, &mut bound);
@@ -206,15 +206,14 @@ fn contact(
     })
 }
 
-/// The terms beside shells and contact.
+/// The terms beside shells and contact: what bends, then loads and obstacles.
 fn terms(
     problem: &Problem,
     mesh: &Mesh,
     mass: &[f64],
     dt_s: f64,
-    rest: RestCurvature,
+    mut terms: Vec<Box<dyn Term>>,
 ) -> Result<Vec<Box<dyn Term>>, FemError> {
-    let mut terms: Vec<Box<dyn Term>> = Vec::new();
     if !problem.forces.is_empty() {
         terms.push(Box::new(NodalForces::new(mesh, &problem.forces)?));
     }
@@ -225,10 +224,22 @@ fn terms(
         let stiffness = penalty_stiffness_n_m(mass, dt_s, OBSTACLE_SHARE);
         terms.push(Box::new(Obstacles::new(mesh, &problem.obstacles, &stiffness)?));
     }
+    Ok(terms)
+}
+
+/// What bending has beside the shells' constant matrix.
+fn bent(problem: &Problem, mesh: &Mesh, sheet: &Sheet) -> Vec<Box<dyn Term>> {
+    let mut terms: Vec<Box<dyn Term>> = Vec::new();
+    let rest = RestCurvature::new(mesh, &problem.sections);
     if !rest.is_empty() {
         terms.push(Box::new(rest));
     }
-    Ok(terms)
+    let stiffness: Vec<f64> = problem.sections.iter().map(reference::bending_stiffness).collect();
+    let folds = Folds::new(mesh, sheet, &stiffness);
+    if !folds.is_empty() {
+        terms.push(Box::new(folds));
+    }
+    terms
 }
 
 /// Largest stable step \[s\] from the nodes' stiffness bounds \[N/m\] and masses \[kg\].

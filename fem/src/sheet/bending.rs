@@ -12,9 +12,9 @@
 //! | D | bending stiffness | N m |
 //!
 //! The fabric hardly stretches, so the reference weights stay valid and K is constant: 12 neighbours per node on a
-//! regular grid. At free edges, seams and welds the fabric hinges freely about the edge and bends along it: a node there
-//! has the curvature along the edge instead (see [`super::edge`]), so that a strip of width b has the stiffness D b. At
-//! corners there is neither. **Do not use it when stretch changes the element size by tens of per cent.**
+//! regular grid. At free edges, and where another layer or another stiffness begins, the fabric hinges freely about the edge and bends
+//! along it: a node there has the curvature along the edge instead (see [`super::edge`]), so that a strip of width b has the
+//! stiffness D b. At corners there is neither. What a jump of stiffness does to the turn across the edge is in [`crate::terms::Folds`]. **Do not use it when stretch changes the element size by tens of per cent.**
 //!
 //! (κ₁ + κ₂)² is the energy of a plate less a multiple of its Gaussian curvature, which only matters where an edge is
 //! free: there the sheet curls across as if ν were 1, over a width of about √(t/κ) that its membrane keeps small. **Do not
@@ -68,44 +68,42 @@ pub struct BendingMatrix {
 
 /// Curvature rows of every node that bends; `stiffness[part]` is D of each part \[N m\].
 pub fn curvature_rows(mesh: &Mesh, stiffness: &[f64]) -> Vec<CurvatureRow> {
-    let mut layers: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    let mut pieces: BTreeMap<(u32, u64), Vec<usize>> = BTreeMap::new();
     for (index, part) in mesh.parts.iter().enumerate().filter(|(index, _)| stiffness[*index] > 0.0) {
-        layers.entry(part.layer).or_default().push(index);
+        pieces.entry((part.layer, stiffness[index].to_bits())).or_default().push(index);
     }
-    layers.values().flat_map(|parts| layer_rows(mesh, parts, stiffness)).collect()
+    pieces.values().flat_map(|parts| piece_rows(mesh, parts, stiffness[parts[0]])).collect()
 }
 
-/// What a node sees of the elements of one layer.
+/// What a node sees of the elements of one piece: parts of one layer that bend alike.
 #[derive(Default)]
 struct Fan {
     area: f64,
-    stiffness_area: f64,
     weights: BTreeMap<u32, f64>,
     /// Elements on each spoke (edge from the node); a closed fan has two on every one.
     spokes: BTreeMap<u32, u32>,
     facets: Vec<Facet>,
 }
 
-fn layer_rows(mesh: &Mesh, parts: &[usize], stiffness: &[f64]) -> Vec<CurvatureRow> {
+fn piece_rows(mesh: &Mesh, parts: &[usize], stiffness: f64) -> Vec<CurvatureRow> {
     let mut fans: BTreeMap<u32, Fan> = BTreeMap::new();
     for part in parts {
         for i in 0..mesh.parts[*part].len() {
-            add_element(mesh, mesh.parts[*part].nodes(i), *part, stiffness[*part], &mut fans);
+            add_element(mesh, mesh.parts[*part].nodes(i), *part, &mut fans);
         }
     }
-    fans.into_iter().filter_map(|(node, fan)| fan.row(mesh, node)).collect()
+    fans.into_iter().filter_map(|(node, fan)| fan.row(mesh, node, stiffness)).collect()
 }
 
 impl Fan {
     /// The mean curvature where the fan is closed, the curvature along the edge where it is open.
-    fn row(self, mesh: &Mesh, node: u32) -> Option<CurvatureRow> {
+    fn row(self, mesh: &Mesh, node: u32, stiffness: f64) -> Option<CurvatureRow> {
         let weights =
             if self.spokes.values().all(|n| *n == 2) { self.weights.clone() } else { self.along_edge(mesh, node)? };
         // The diagonals of rectangles carry rounding only; without them a row has 12 neighbours instead of 24.
         let spokes: Vec<(u32, f64)> = weights.into_iter().filter(|(_, w)| w.abs() > 1e-12).collect();
         let sum: f64 = spokes.iter().map(|s| s.1).sum();
         let weights = std::iter::once((node, -sum)).chain(spokes).collect();
-        let stiffness = self.stiffness_area / self.area;
         Some(CurvatureRow { node, area: self.area, stiffness, weights, facets: self.facets })
     }
 
@@ -136,7 +134,7 @@ impl Facet {
     }
 }
 
-fn add_element(mesh: &Mesh, nodes: &[u32], part: usize, stiffness: f64, fans: &mut BTreeMap<u32, Fan>) {
+fn add_element(mesh: &Mesh, nodes: &[u32], part: usize, fans: &mut BTreeMap<u32, Fan>) {
     let count = nodes.len();
     for k in 0..count {
         let fan = fans.entry(nodes[k]).or_default();
@@ -145,10 +143,10 @@ fn add_element(mesh: &Mesh, nodes: &[u32], part: usize, stiffness: f64, fans: &m
         fan.facets.push(facet(nodes, part));
     }
     if count == 3 {
-        return add_triangle(mesh, [nodes[0], nodes[1], nodes[2]], 1.0, stiffness, fans);
+        return add_triangle(mesh, [nodes[0], nodes[1], nodes[2]], 1.0, fans);
     }
     for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]] {
-        add_triangle(mesh, [nodes[a], nodes[b], nodes[c]], 0.5, stiffness, fans);
+        add_triangle(mesh, [nodes[a], nodes[b], nodes[c]], 0.5, fans);
     }
 }
 
@@ -160,7 +158,7 @@ fn facet(nodes: &[u32], part: usize) -> Facet {
 }
 
 /// Adds `share` of a triangle's cotangent weights, ½ cot(angle opposite the edge), and a third of its area to each corner.
-fn add_triangle(mesh: &Mesh, nodes: [u32; 3], share: f64, stiffness: f64, fans: &mut BTreeMap<u32, Fan>) {
+fn add_triangle(mesh: &Mesh, nodes: [u32; 3], share: f64, fans: &mut BTreeMap<u32, Fan>) {
     let x = nodes.map(|n| mesh.points[n as usize]);
     let normal = cross(sub(x[1], x[0]), sub(x[2], x[0]));
     let twice_area = dot(normal, normal).sqrt();
@@ -170,10 +168,7 @@ fn add_triangle(mesh: &Mesh, nodes: [u32; 3], share: f64, stiffness: f64, fans: 
         let weight = 0.5 * share * dot(to_i, to_j) / twice_area;
         *fans.entry(nodes[i]).or_default().weights.entry(nodes[j]).or_default() += weight;
         *fans.entry(nodes[j]).or_default().weights.entry(nodes[i]).or_default() += weight;
-        let fan = fans.entry(nodes[i]).or_default();
-        let area = share * twice_area / 6.0;
-        fan.area += area;
-        fan.stiffness_area += stiffness * area;
+        fans.entry(nodes[i]).or_default().area += share * twice_area / 6.0;
     }
 }
 

@@ -1,12 +1,14 @@
-//! Loads, obstacles, rest curvature: the small entries of the list of terms.
+//! Folds, loads, obstacles, rest curvature: the small entries of the list of terms.
 
 mod coulomb;
+mod folds;
 mod gravity;
 mod nodal_forces;
 mod obstacles;
 mod rest_curvature;
 
 pub(crate) use coulomb::slide;
+pub use folds::Folds;
 pub use gravity::Gravity;
 pub use nodal_forces::NodalForces;
 pub use obstacles::Obstacles;

@@ -101,6 +101,6 @@ fn bend(name: &str, settings: &RobotSettings) -> Result<End, FemError> {
         y_mm: [0, 1].map(|k| 1e3 * (end[k][1] - start[k][1])),
         kinetic: ledger.kinetic_share(),
         residual: ledger.residual_share(),
-        hourglass: hourglass / (row("membrane") + row("bending") + hourglass),
+        hourglass: hourglass / (row("membrane") + row("bending") + row("folds") + hourglass),
     })
 }

@@ -157,7 +157,8 @@ fn state(r: &Reading) -> FeState {
     let lost = r.ledger.iter().filter(|l| l.1 == "dissipated").map(|l| l.2 * 1e3).sum::<f64>();
     let short = |v: f64| format!("{v:.6e}").parse().unwrap_or(v);
     let plane = |d: &[f64; 3]| [short(d[0] * 1e3), short(d[1] * 1e3)];
-    let energies_mj = [stored("membrane"), stored("bending"), stored("contact"), stored("hourglass"), lost].map(short);
+    let bending = stored("bending") + stored("folds");
+    let energies_mj = [stored("membrane"), bending, stored("contact"), stored("hourglass"), lost].map(short);
     FeState {
         actuator_kpa: short(r.actuator_pa * 1e-3),
         marker_mm: short(marker_mm),
