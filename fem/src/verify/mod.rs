@@ -12,6 +12,7 @@ mod cantilever;
 mod coupons;
 mod drops;
 mod energy;
+mod fold;
 pub(crate) mod folded;
 mod gradient;
 mod inflated;
@@ -109,12 +110,14 @@ pub struct Curve {
 pub const CHECKS: &[Check] = &[
     patch::UNIFORM,
     patch::BENDING,
+    patch::TWO,
     patch::RIGID,
     gradient::CHECK,
     energy::CHECK,
     strip::SMALL,
     strip::LARGE,
     strip::ROLL,
+    fold::STRIP,
     coupons::LINEAR,
     coupons::RUBBER,
     coupons::WOVEN,
@@ -133,6 +136,7 @@ pub const CHECKS: &[Check] = &[
     cantilever::SLOPE,
     bias_tube::CHECK,
     balloon::CHECK,
+    fold::SEALED,
     pillow::CHECK,
     cantilever::WRINKLING,
     bias::CHECK,
@@ -196,7 +200,7 @@ mod tests {
 
     #[test]
     fn the_checks_that_take_milliseconds_pass() {
-        for check in [patch::UNIFORM, patch::BENDING, patch::RIGID, gradient::CHECK] {
+        for check in [patch::UNIFORM, patch::BENDING, patch::TWO, patch::RIGID, gradient::CHECK] {
             for line in (check.run)().unwrap().lines {
                 assert!(line.passes(), "{}: {line:?}", check.name);
             }

@@ -5,8 +5,11 @@ use models::{Fabric, Pose, Term};
 
 use super::setup::{largest, placed, rate, section, shells};
 use super::{Check, Line, Outcome};
+use crate::mesh::Part;
 use crate::mesh::generate::{Distortion, plate};
 use crate::sheet::bending::{BendingMatrix, curvature_rows};
+use crate::sheet::reference::bending_stiffness;
+use crate::terms::Folds;
 use crate::{FemError, Mesh, Problem};
 
 pub(super) const UNIFORM: Check = Check {
@@ -23,6 +26,14 @@ pub(super) const BENDING: Check = Check {
     source: "ibr: closed form; the chords of an arc lack (h/R)²/12",
     slow: false,
     run: bending,
+};
+
+pub(super) const TWO: Check = Check {
+    name: "patch-two-thicknesses",
+    sentence: "A plate of two thicknesses side by side, rolled across and along the line between them, stores ½ D κ² of each.",
+    source: "ibr: closed form; one moment across the line, one curvature along it",
+    slow: false,
+    run: two_thicknesses,
 };
 
 pub(super) const RIGID: Check = Check {
@@ -115,6 +126,52 @@ fn bending() -> Result<Outcome, FemError> {
         Line::at_least("rate", rate(errors[1], errors[2], 2.0), 1.95),
         Line::value("the same, elements distorted by 10 %", stored(&fine, SIDES_M[0] / 40.0), 1.0, 0.05),
     ];
+    Ok(Outcome { lines, figure: None })
+}
+
+fn two_thicknesses() -> Result<Outcome, FemError> {
+    let thick = 2.0;
+    let fabric = |scale: f64| Orthotropic::isotropic(1e8, 0.3, scale * 2e-4);
+    let radius = 0.05;
+    let mut lines = Vec::new();
+    for (across, name) in [(0, "rolled across the line"), (1, "rolled along the line")] {
+        let mut mesh = plate(SIDES_M[0], SIDES_M[1], 40, 20, None)?;
+        let left = |quad: &[u32; 4]| quad.iter().map(|n| mesh.points[*n as usize][0]).sum::<f64>() < 2.0 * SIDES_M[0];
+        let (thin, rest): (Vec<_>, Vec<_>) = mesh.parts[0].quads.iter().partition(|quad| left(quad));
+        let part = |name: &str, quads| Part { name: name.into(), quads, ..Part::default() };
+        mesh.parts = vec![part("thin", thin), part("thick", rest)];
+        let sections = vec![section(fabric(1.0), 1.0), section(fabric(thick), 1.0)];
+        let stiffness: Vec<f64> = sections.iter().map(bending_stiffness).collect();
+        let (sheet, mesh) = shells(&Problem::new("two thicknesses", mesh, sections, vec![]))?;
+        let q = placed(&mesh.points, |p| {
+            // Across the line both sides carry one moment, so that the thick one bends less.
+            let mut turned = p;
+            let middle = 0.5 * SIDES_M[0];
+            let r = if across == 0 && p[0] > middle { radius * stiffness[1] / stiffness[0] } else { radius };
+            let s = if across == 0 { p[0] - middle } else { p[1] };
+            turned[across] = r * (s / r).sin();
+            turned[2] = r * (1.0 - (s / r).cos());
+            turned
+        });
+        let pose = Pose::nodes(&q);
+        let mut unused = vec![0.0; q.len()];
+        let rows = BendingMatrix::new(mesh.points.len(), &curvature_rows(&mesh, &stiffness));
+        let folds = Folds::new(&mesh, &sheet, &stiffness).add(&pose, &mut unused);
+        let stored = rows.add(q.as_chunks().0, unused.as_chunks_mut().0) + folds;
+        let half = 0.5 * SIDES_M[0] * SIDES_M[1] * 0.5 / (radius * radius);
+        // Rows at free edges bend along them only: half an element each where the roll ends there.
+        let exact = match across {
+            0 => {
+                (half - 0.25 * SIDES_M[1] * SIDES_M[0] / 40.0 / (radius * radius))
+                    * stiffness[0]
+                    * (1.0 + stiffness[0] / stiffness[1])
+            }
+            _ => {
+                (half - 0.5 * SIDES_M[0] * 0.5 * SIDES_M[1] / 20.0 / (radius * radius)) * (stiffness[0] + stiffness[1])
+            }
+        };
+        lines.push(Line::value(&format!("{name}: energy over ½ ∫ D κ²"), stored / exact, 1.0, 2e-3));
+    }
     Ok(Outcome { lines, figure: None })
 }
 

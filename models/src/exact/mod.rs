@@ -10,7 +10,7 @@
 //! |---|---|
 //! | tube, its ends, its bending | [`tube`], [`shell`], [`beam`], [`inflated_cantilever`] |
 //! | pouch, balloon, airbag | [`pouch`], [`elastic_pouch`], [`balloon`], [`pillow`] |
-//! | strip in bending | [`plate`], [`elastica`] |
+//! | strip in bending | [`plate`], [`elastica`], [`fold`] |
 //! | fabric in a testing machine | [`coupon`], [`membrane`] |
 //! | actuators | [`hinge`], [`mckibben`], [`fpam`] |
 //! | contact | [`sliding`] |
@@ -20,6 +20,7 @@ pub mod beam;
 pub mod coupon;
 pub mod elastic_pouch;
 pub mod elastica;
+pub mod fold;
 pub mod fpam;
 pub mod hinge;
 pub mod inflated_cantilever;

@@ -8,6 +8,7 @@ pub mod beam;
 pub mod coupon;
 pub mod elastic_pouch;
 pub mod elastica;
+pub mod fold;
 pub mod fpam;
 pub mod hinge;
 pub mod inflated_cantilever;
@@ -54,6 +55,7 @@ pub fn oracle_table() -> Vec<OracleRow> {
         inflated_cantilever::rows(),
         shell::rows(),
         elastica::rows(),
+        fold::rows(),
         coupon::rows(),
         membrane::rows(),
         balloon::rows(),

@@ -4,7 +4,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::super::pouch::{
     KEPERT_VOLUME_HIGH, KEPERT_VOLUME_LOW, MAX_CONTRACTION, Pouch, contraction, elastic_contraction, force_n,
-    hinge_theta, hinge_torque_nm, robin_end_factor, square_end_factor, theta_from_force, volume_m3,
+    hinge_theta, hinge_torque_nm, robin_end_factor, sealed_theta, sealed_volume_m3, square_end_factor,
+    theta_from_force, volume_m3,
 };
 use super::{OracleRow, section};
 
@@ -12,7 +13,27 @@ const SQUARE: Pouch = Pouch { length_m: 0.06, width_m: 0.06 };
 
 /// Rows of [`super::super::pouch`].
 pub fn rows() -> Vec<OracleRow> {
-    [linear(), loaded(), hinge(), ends()].concat()
+    [linear(), loaded(), hinge(), ends(), sealed()].concat()
+}
+
+/// Simpson's rule with 400 intervals and a golden section, not this crate's quadrature and root.
+fn sealed() -> Vec<OracleRow> {
+    let free = |ratio: f64| Pouch { length_m: 1.0, width_m: ratio };
+    let ends = |ratio: f64| contraction(sealed_theta(&free(ratio)));
+    let holds = |ratio: f64| sealed_volume_m3(&free(ratio), sealed_theta(&free(ratio)));
+    section(
+        "sealed pouch, free",
+        [
+            ("ε at W/L₀ = 1", "0.218834", ends(1.0)),
+            ("ε at W/L₀ = 1.5", "0.276814", ends(1.5)),
+            ("ε at W/L₀ = 2", "0.303037", ends(2.0)),
+            ("ε at W/L₀ = 4", "0.336628", ends(4.0)),
+            ("V/L₀³ at W/L₀ = 1", "0.19609504", holds(1.0)),
+            ("V/L₀³ at W/L₀ = 1.5", "0.34937148", holds(1.5)),
+            ("V/L₀³ at W/L₀ = 2", "0.50625229", holds(2.0)),
+            ("V/L₀³ at W/L₀ = 4", "1.14017416", holds(4.0)),
+        ],
+    )
 }
 
 fn linear() -> Vec<OracleRow> {
