@@ -29,13 +29,13 @@ pub fn energy_j_m(stiffness_nm: f64, pull_n_m: f64, angle: f64) -> f64 {
     4.0 * (stiffness_nm * pull_n_m).sqrt() * (1.0 - (0.5 * angle).cos())
 }
 
-/// Moment per width at the clamp of a strip of stiffness `stiff_nm` and length `length_m` that a soft sheet goes on from \[N\].
-pub fn stiffened_moment_n(soft_nm: f64, stiff_nm: f64, length_m: f64, pull_n_m: f64, angle: f64) -> f64 {
+/// Moments per width at the clamp of a strip of stiffness `stiff_nm` and length `length_m`, and where a soft sheet goes on from it \[N\].
+pub fn stiffened_moments_n(soft_nm: f64, stiff_nm: f64, length_m: f64, pull_n_m: f64, angle: f64) -> [f64; 2] {
     let square = |meet: f64, phi: f64| {
         moment_n(soft_nm, pull_n_m, meet).powi(2) + 2.0 * stiff_nm * pull_n_m * (meet.cos() - phi.cos())
     };
     let reach = |meet: f64| integral(|phi| stiff_nm / square(meet, phi).sqrt(), meet, angle, 40);
     // The nearer the angle where they meet is to the clamp's, the shorter the strip.
     let meet = falling_root(|meet| reach(meet) - length_m, 0.0, angle);
-    square(meet, angle).sqrt()
+    [square(meet, angle).sqrt(), moment_n(soft_nm, pull_n_m, meet)]
 }
