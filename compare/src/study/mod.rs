@@ -10,6 +10,7 @@ pub mod predict;
 pub mod published;
 pub mod seen;
 pub mod tradeoff;
+pub mod uncertain;
 pub mod witness;
 
 pub use calibrate::{Calibration, calibrate_bending};

@@ -20,6 +20,7 @@
 //!
 //! Where elements around are of one size, the mean of a ring is the centre line; [`sections`] gives it for any mesh.
 
+mod assumed;
 mod lines;
 mod loading;
 mod plies;
@@ -31,10 +32,11 @@ mod snaps;
 mod table;
 mod waviness;
 
+pub use assumed::{ASSUMED, Assumed, Spread, hypercube};
 pub use loading::{Hold, RobotRun};
 pub use reading::{Gauge, Reading};
 pub use seams::{SeamForce, Seams};
-pub use settings::{ASSUMED, Assumed, RobotSettings};
+pub use settings::RobotSettings;
 pub use snaps::{Sample, Snap, Watch, snaps};
 pub use table::{KEYS, Key, with_fem};
 
@@ -71,7 +73,10 @@ const FEWEST_ROWS: usize = 4;
 /// ```
 pub fn problem(scenario: &Scenario, settings: &RobotSettings) -> Result<Problem, FemError> {
     let pattern = (scenario.actuator.kind.pattern)(&scenario.actuator.shape);
-    sewn(scenario, &pattern, settings)
+    match settings.taped_at_seams && pattern.is_taped() {
+        true => sewn(scenario, &pattern.taped_at_seams(), settings),
+        false => sewn(scenario, &pattern, settings),
+    }
 }
 
 /// A robot that comes with the program, by name, and its problem.

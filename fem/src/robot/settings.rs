@@ -47,6 +47,8 @@ pub struct RobotSettings {
     pub tape_e_pa: f64,
     /// Width of the taped sheet beyond the welds along its sides \[m\]. Calibrated on the sPAM.
     pub tape_margin_m: f64,
+    /// Whether tape holds separate pouches at their seams only, and not over their whole face. The paper prints neither.
+    pub taped_at_seams: bool,
     /// Thickness of the glue film \[m\]. Assumed.
     pub glue_m: f64,
     /// Young's modulus of the glue (silicone) \[Pa\]. Assumed.
@@ -119,15 +121,16 @@ impl RobotSettings {
             seam_row_m: None,
             layer_gap_m: 1e-5,
             weld_m: 3e-3,
-            bending_factor: 0.1,
+            bending_factor: 0.2,
             compression: 0.01,
             bond: 1.0,
-            tape_m: 2.5e-5,
+            tape_m: 5e-5,
             tape_e_pa: 1e6,
-            tape_margin_m: 8e-3,
+            tape_margin_m: 0.0,
+            taped_at_seams: false,
             glue_m: 1e-4,
             glue_e_pa: 1e6,
-            nu12: Some(0.3),
+            nu12: Some(0.2),
             density_kg_m3: 1000.0,
             actuator_pa: 30e3,
             body_ramp_s: 0.04,
@@ -218,76 +221,3 @@ impl Default for RobotSettings {
         RobotSettings::compressed()
     }
 }
-
-/// A number that nobody printed, and the interval it may lie in.
-#[derive(Debug, Clone, Copy)]
-pub struct Assumed {
-    /// Field of [`RobotSettings`].
-    pub name: &'static str,
-    /// Smallest and largest plausible value, SI.
-    pub interval: [f64; 2],
-    /// Where the interval comes from.
-    pub reason: &'static str,
-    /// Writes a value.
-    pub set: fn(&mut RobotSettings, f64),
-}
-
-/// What the four robots leave open, besides pouch count and marker stations, which are in the scenario.
-pub const ASSUMED: &[Assumed] = &[
-    Assumed {
-        name: "weld_m",
-        interval: [0.0, 0.008],
-        reason: "a line to a wide impulse seal; ultrasonic wheels are a few millimetres wide",
-        set: |s, v| s.weld_m = v,
-    },
-    Assumed {
-        name: "bending_factor",
-        interval: [0.02, 1.0],
-        reason: "yarns that slide in a thin coat to a solid film",
-        set: |s, v| s.bending_factor = v,
-    },
-    Assumed {
-        name: "compression",
-        interval: [0.01, 1.0],
-        reason: "sheets that wrinkle below the mesh, as far as it was tried, to sheets that carry all of it",
-        set: |s, v| s.compression = v,
-    },
-    Assumed {
-        name: "bond",
-        interval: [0.0, 1.0],
-        reason: "plies that slide to plies without slip; shear lag through 0.05 mm of adhesive is about 2 mm",
-        set: |s, v| s.bond = v,
-    },
-    Assumed {
-        name: "tape_m",
-        interval: [2e-5, 2.5e-4],
-        reason: "adhesive transfer tapes are sold from 0.02 to 0.25 mm; 0.025 mm is calibrated on the sPAM's tip",
-        set: |s, v| s.tape_m = v,
-    },
-    Assumed {
-        name: "tape_margin_m",
-        interval: [0.0, 0.015],
-        reason: "a sheet cut at its welds to one that is easy to tape; 8 mm is calibrated on the sPAM's tip, 0 usual",
-        set: |s, v| s.tape_margin_m = v,
-    },
-    Assumed {
-        name: "waviness_m",
-        interval: [0.0, 2e-4],
-        reason: "a perfect pattern to a thickness of the fabric",
-        set: |s, v| s.waviness_m = v,
-    },
-    Assumed { name: "glue_m", interval: [5e-5, 5e-4], reason: "a film spread by hand", set: |s, v| s.glue_m = v },
-    Assumed { name: "glue_e_pa", interval: [3e5, 3e6], reason: "silicone adhesives", set: |s, v| s.glue_e_pa = v },
-    Assumed {
-        name: "nu12",
-        interval: [0.0, 0.4],
-        reason: "woven fabrics pulled in one direction; 0 is yarns that do not cross; 0.3 is calibrated on the fPAM's tip",
-        set: |s, v| s.nu12 = Some(v),
-    },
-    Assumed {
-        name: "density_kg_m3",
-        interval: [700.0, 1300.0],
-        reason: "nylon 1140, coats 900 to 1200, air between yarns",
-        set: |s, v| s.density_kg_m3 = v,
-    },
-];

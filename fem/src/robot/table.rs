@@ -99,8 +99,9 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// Keys that are no single number.
-const OTHERS: [&str; 8] = [
+const OTHERS: [&str; 9] = [
     "loading",
+    "taped",
     "pressures_kpa",
     "meshes_mm",
     "contact",
@@ -189,6 +190,7 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
         "pressures_kpa" => run.pressures_pa = pressures(value)?,
         "meshes_mm" => run.meshes_m = meshes(value)?,
         "contact" => run.settings.contact = Some(yes_or_no(name, value, "where the pattern folds")?),
+        "taped" => run.settings.taped_at_seams = at_seams(value)?,
         "selective_mass" => run.settings.selective_mass = yes_or_no(name, value, "short waves are heavy then")?,
         "tip_force_n" => run.tip_force_n = triple(name, value, &plain(-1e4, 1e4, "write newtons: [x, y, z]"))?,
         "obstacle_mm" => {
@@ -217,6 +219,14 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
 fn yes_or_no(name: &str, value: &Spanned<Value>, without: &str) -> Checked<bool> {
     let told = || refuse(format!("{name} must be true or false"), format!("leave it out: {without}"), value.span());
     value.get_ref().as_bool().map_or_else(told, Ok)
+}
+
+fn at_seams(value: &Spanned<Value>) -> Checked<bool> {
+    match value.get_ref().as_str() {
+        Some("seams") => Ok(true),
+        Some("face") => Ok(false),
+        _ => refuse(format!("unknown place of the tape {}", value.get_ref()), "known: face, seams", value.span()),
+    }
 }
 
 fn plain_number(name: &str, value: &Spanned<Value>) -> Checked<f64> {

@@ -1,10 +1,10 @@
 //! Several runs of one robot in one folder: a finished one is kept and skipped, an interrupted one goes on.
 
 use super::input::Named;
-use super::plan::Variation;
+use super::plan::{About, Variation};
 use super::robot::heights_mm;
 use super::single::{self, Done, Manner};
-use super::{robot, write_failure};
+use super::{robot, uncertain, write_failure};
 use crate::commands::tables::table;
 use crate::commands::together::{shared, together};
 use crate::commands::{Context, Outcome};
@@ -28,7 +28,7 @@ struct Row {
 pub fn run(
     base: &Named,
     cases: &[Variation],
-    sensitivity: bool,
+    about: &About,
     manner: &Manner,
     context: &mut Context,
 ) -> Result<Outcome, Failure> {
@@ -37,10 +37,14 @@ pub fn run(
         let help = "choose another folder with --out; several runs get a folder each inside it".into();
         return Err(Failure::Write { path, cause: "it holds a single run".into(), help });
     }
+    if let About::Uncertain(numbers, cube) = about {
+        return uncertain::run(base, cases, (numbers, cube), manner, context);
+    }
     let rows = match rows(base, cases, manner, context)? {
         Ok(rows) => rows,
         Err(done) => return Ok(interrupted(done, cases.len(), &manner.folder)),
     };
+    let sensitivity = matches!(about, About::Sensitivity);
     let mut outcome = if sensitivity { told(&rows) } else { listed(&rows) };
     let plot =
         if sensitivity { ("tornado.png", drawn(&base.spec, &rows)) } else { ("mesh.png", meshes(&base.spec, &rows)) };
@@ -132,7 +136,7 @@ fn heights(summary: &Value) -> Vec<[f64; 3]> {
     read.iter().filter(|r| r.actuator_pa > 0.0).map(row).collect()
 }
 
-fn interrupted(done: usize, all: usize, folder: &Path) -> Outcome {
+pub fn interrupted(done: usize, all: usize, folder: &Path) -> Outcome {
     let note = format!(
         "interrupted; {done} of {all} runs are complete in {}; the same command goes on there",
         folder.display()

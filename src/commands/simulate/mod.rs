@@ -11,12 +11,13 @@ mod single;
 mod small;
 mod stepping;
 mod summary;
+mod uncertain;
 
 use super::{Context, Outcome};
 use crate::cli::Simulate;
 use crate::failure::{Failure, INTERRUPTED};
 use crate::output::check_folder;
-use plan::Plan;
+use plan::{About, Plan};
 use serde_json::json;
 use single::{Done, Manner};
 use std::path::{Path, PathBuf};
@@ -33,7 +34,7 @@ pub fn run(args: &Simulate, context: &mut Context) -> Result<Outcome, Failure> {
     let manner = manner(args, &plan)?;
     match plan {
         Plan::Single(named) => one(args, &named, &manner, context),
-        Plan::Several { base, cases, sensitivity } => batch::run(&base, &cases, sensitivity, &manner, context),
+        Plan::Several { base, cases, about } => batch::run(&base, &cases, &about, &manner, context),
     }
 }
 
@@ -51,7 +52,8 @@ fn default_folder(args: &Simulate, plan: &Plan) -> PathBuf {
     let stem = Path::new(&args.case).file_stem().unwrap_or_default().to_string_lossy();
     let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect();
     let kind = match plan {
-        Plan::Several { sensitivity: true, .. } => "sensitivity",
+        Plan::Several { about: About::Sensitivity, .. } => "sensitivity",
+        Plan::Several { about: About::Uncertain(..), .. } => "uncertain",
         Plan::Several { .. } => "batch",
         Plan::Single(_) => "simulate",
     };

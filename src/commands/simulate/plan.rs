@@ -5,7 +5,8 @@ use super::robot::rounded;
 use crate::cli::Simulate;
 use crate::commands::inputs::quantity;
 use crate::failure::Failure;
-use fem::robot::{ASSUMED, Assumed, KEYS, Key, RobotSettings};
+use compare::study::uncertain::Varied;
+use fem::robot::{ASSUMED, Assumed, KEYS, Key, RobotSettings, hypercube};
 use models::scenario::quantity::Quantity;
 
 /// One run of several.
@@ -29,9 +30,19 @@ pub enum Plan {
         base: Named,
         /// The runs.
         cases: Vec<Variation>,
-        /// Whether they are the two ends of every assumed number.
-        sensitivity: bool,
+        /// What they are about.
+        about: About,
     },
+}
+
+/// What several runs are about.
+pub enum About {
+    /// Seeds, meshes, single pressures.
+    Table,
+    /// The two ends of every assumed number.
+    Sensitivity,
+    /// A hypercube over these numbers, a row of shares for every run.
+    Uncertain(Vec<Varied>, Vec<Vec<f64>>),
 }
 
 /// Reads the options.
@@ -61,6 +72,9 @@ pub fn plan(args: &Simulate, named: Named) -> Result<Plan, Failure> {
     if args.sensitivity {
         return sensitivity(base);
     }
+    if let Some(robots) = args.uncertain {
+        return uncertain(base, &args.set, robots as usize);
+    }
     let meshes = match typed {
         Some(meshes) => meshes,
         None => base.robot_run()?.1.meshes_m.iter().map(|sizes| sizes.map(|m| rounded(m * 1e3))).collect(),
@@ -70,7 +84,7 @@ pub fn plan(args: &Simulate, named: Named) -> Result<Plan, Failure> {
         return Ok(Plan::Single(base));
     }
     let cases = product(&base, args, &meshes)?;
-    Ok(Plan::Several { base, cases, sensitivity: false })
+    Ok(Plan::Several { base, cases, about: About::Table })
 }
 
 /// An option that only robots have.
@@ -82,6 +96,7 @@ fn robot_option(args: &Simulate) -> Option<&'static str> {
         ("--mesh", args.mesh.is_some()),
         ("--set", !args.set.is_empty()),
         ("--sensitivity", args.sensitivity),
+        ("--uncertain", args.uncertain.is_some()),
     ];
     given.iter().find(|(_, given)| *given).map(|(option, _)| *option)
 }
@@ -93,9 +108,10 @@ fn setting(text: &str) -> Result<(String, String), Failure> {
     };
     let (key, value) = (key.trim(), value.trim());
     let known = KEYS.iter().any(|k| k.name == key)
-        || ["loading", "contact", "selective_mass", "tip_force_n", "obstacle_mm", "obstacle_friction"].contains(&key);
+        || ["loading", "taped", "contact", "selective_mass", "tip_force_n", "obstacle_mm", "obstacle_friction"]
+            .contains(&key);
     match known {
-        true if key == "loading" => Ok((key.into(), format!("\"{}\"", value.trim_matches('"')))),
+        true if ["loading", "taped"].contains(&key) => Ok((key.into(), format!("\"{}\"", value.trim_matches('"')))),
         true => Ok((key.into(), value.into())),
         false => Err(Failure::usage(format!("--set: unknown key `{key}`"), help())),
     }
@@ -172,12 +188,7 @@ fn extended(cases: &[Variation], steps: &[Step]) -> Vec<Variation> {
 fn sensitivity(base: Named) -> Result<Plan, Failure> {
     let (_, run) = base.robot_run()?;
     let top = rounded(run.settings.actuator_pa * 1e-3);
-    let mut common = vec![("pressures_kpa".to_string(), format!("[{top}]"))];
-    if !run.meshes_m.is_empty() {
-        // One mesh, so that a run's own case.toml is that run and no study.
-        common.extend(keys_of(&[run.settings.body_size_m, run.settings.actuator_size_m].map(|m| rounded(m * 1e3))));
-    }
-    let base = base.with(&common)?;
+    let base = one_mesh(base)?.with(&[("pressures_kpa".to_string(), format!("[{top}]"))])?;
     let mut cases = vec![Variation { label: "as-it-is".into(), ..Variation::default() }];
     for unknown in ASSUMED {
         let Some(key) = key_of(unknown) else { continue };
@@ -188,7 +199,55 @@ fn sensitivity(base: Named) -> Result<Plan, Failure> {
             cases.push(Variation { label, changes, group: key.name.into() });
         }
     }
-    Ok(Plan::Several { base, cases, sensitivity: true })
+    Ok(Plan::Several { base, cases, about: About::Sensitivity })
+}
+
+/// One mesh, so that a run's own case.toml is that run and no study.
+fn one_mesh(base: Named) -> Result<Named, Failure> {
+    let (_, run) = base.robot_run()?;
+    match run.meshes_m.is_empty() {
+        true => Ok(base),
+        false => {
+            base.with(&keys_of(&[run.settings.body_size_m, run.settings.actuator_size_m].map(|m| rounded(m * 1e3))))
+        }
+    }
+}
+
+/// Seed of the hypercube: the robots of a scenario are the same ones on every machine.
+const CUBE: u64 = 1;
+
+/// Robots that fill the intervals of all assumed numbers that this one feels and nobody set.
+fn uncertain(base: Named, set: &[String], robots: usize) -> Result<Plan, Failure> {
+    let base = one_mesh(base)?;
+    let known = |key: &Key| set.iter().any(|text| text.split('=').next().is_some_and(|name| name.trim() == key.name));
+    let mut numbers = Vec::new();
+    for unknown in ASSUMED {
+        let Some(key) = key_of(unknown).filter(|key| !known(key)) else { continue };
+        let print = |si: f64| {
+            let changed = base.with(&[(key.name.to_string(), rounded(si / key.si).to_string())])?;
+            Ok::<u64, Failure>(changed.load()?.case.problem.fingerprint())
+        };
+        if print(unknown.interval[0])? != print(unknown.interval[1])? {
+            numbers.push((unknown, key));
+        }
+    }
+    let cube = hypercube(robots, numbers.len(), CUBE);
+    let mut cases = Vec::with_capacity(robots);
+    for (index, shares) in cube.iter().enumerate() {
+        let value = |((unknown, key), share): (&(&Assumed, &Key), &f64)| {
+            (key.name.to_string(), format!("{:.4e}", unknown.at(*share) / key.si))
+        };
+        let mut changes: Vec<(String, String)> = numbers.iter().zip(shares).map(value).collect();
+        changes.push(("seed".into(), (index + 1).to_string()));
+        cases.push(Variation { label: format!("robot-{}", index + 1), changes, group: String::new() });
+    }
+    let varied = |(unknown, key): &(&Assumed, &Key)| Varied {
+        name: key.name.into(),
+        interval: unknown.interval.map(|si| rounded(si / key.si)),
+        meaning: key.meaning.into(),
+        reason: unknown.reason.into(),
+    };
+    Ok(Plan::Several { base, cases, about: About::Uncertain(numbers.iter().map(varied).collect(), cube) })
 }
 
 /// The key that writes what an assumed number writes.

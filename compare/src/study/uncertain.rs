@@ -1,0 +1,318 @@
+//! What finite elements say about a robot of which not everything was measured: quantiles over a hypercube of all assumed numbers.
+//!
+//! Every robot of the hypercube has another value of every assumed number (`hypercube` in `fem::robot`). The 80 % interval of a marker lies
+//! between the 10 % and the 90 % quantile of what they say. It holds what the numbers may be, by the intervals that were assumed; it does
+//! not hold what the finite elements get wrong. Which number to measure first: the shares of the variance, Σ by least squares,
+//!
+//! ```text
+//! y = a + Σ_k b_k u_k + rest        share_k = b_k² var(u_k)/var(y)        swing_k = 0.8 b_k
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | y | height of the outermost marker | mm |
+//! | u_k | place of number k in its interval, 0 to 1 | – |
+//! | swing_k | what number k does from the tenth to the ninth tenth of its interval | mm |
+//!
+//! **Validity**: shares of a straight law; the rest is bends of it, couplings and the scatter of folds.
+
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+
+use crate::plots::{Drawn, LineSeries, LineStyle, Lines, PlotError, Tornado, TornadoBar, lines, tornado};
+use crate::stats::quantile;
+
+/// Version of the record.
+const VERSION: u32 = 1;
+/// Ends of the interval that is told, and its middle.
+pub const QUANTILES: [f64; 3] = [0.1, 0.5, 0.9];
+/// Pressures that are the same reading \[kPa\].
+const SAME_KPA: f64 = 0.05;
+/// Runs beyond the numbers that a straight law needs to say anything.
+const SPARE: usize = 5;
+
+/// A number that nobody measured.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Varied {
+    /// Key of `[fem]`, with its unit.
+    pub name: String,
+    /// Ends of its interval in that unit.
+    pub interval: [f64; 2],
+    /// What it is.
+    pub meaning: String,
+    /// Where the interval comes from.
+    pub reason: String,
+}
+
+/// One robot of the hypercube.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Member {
+    /// Places of the numbers in their intervals, 0 to 1.
+    pub shares: Vec<f64>,
+    /// What it did; empty if it stopped.
+    pub states: Vec<MemberState>,
+    /// Why it stopped.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stopped: Option<String>,
+}
+
+/// A robot at a pressure.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MemberState {
+    /// Actuator gauge pressure \[kPa\].
+    pub actuator_kpa: f64,
+    /// Displacements of the sections at the markers, x along the straight robot, y towards the actuator \[mm\].
+    pub moved_mm: Vec<[f64; 2]>,
+}
+
+/// A hypercube of robots.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Uncertain {
+    /// Version of this record.
+    pub version: u32,
+    /// Number of the engine that made it.
+    pub engine: u32,
+    /// Actuator kind.
+    pub actuator: String,
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Element sizes of body and actuator \[mm\].
+    pub mesh_mm: [f64; 2],
+    /// Body gauge pressure \[kPa\].
+    pub body_kpa: f64,
+    /// Stations of the markers along the straight robot \[mm\].
+    pub stations_mm: Vec<f64>,
+    /// What was varied.
+    pub numbers: Vec<Varied>,
+    /// The robots.
+    pub members: Vec<Member>,
+}
+
+/// What one number does.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Weight {
+    /// Its place in [`Uncertain::numbers`].
+    pub number: usize,
+    /// From a tenth to nine tenths of its interval \[mm\].
+    pub swing_mm: f64,
+    /// Share of the variance.
+    pub share: f64,
+}
+
+/// Hypercubes of the paper's robots that come with the program, made by `ibr simulate NAME --uncertain`.
+///
+/// A record of another version is left out.
+pub fn stored() -> Vec<Uncertain> {
+    include_str!("../../assets/fem-uncertain.jsonl").lines().filter_map(|line| read(line).ok()).collect()
+}
+
+/// Reads a record.
+///
+/// # Errors
+/// What is wrong with it, with its field, or its version.
+pub fn read(text: &str) -> Result<Uncertain, String> {
+    let found: Uncertain = serde_json::from_str(text).map_err(|e| e.to_string())?;
+    match found.version {
+        VERSION => Ok(found),
+        other => Err(format!("version {other} of this record is not known; this program reads {VERSION}")),
+    }
+}
+
+impl Uncertain {
+    /// The version that is written.
+    pub const VERSION: u32 = VERSION;
+
+    /// Robots that reached a pressure, as what they are there.
+    fn at(&self, actuator_kpa: f64) -> Vec<(&Member, &MemberState)> {
+        let here = |m: &'_ Member| m.states.iter().position(|s| (s.actuator_kpa - actuator_kpa).abs() < SAME_KPA);
+        self.members.iter().filter_map(|m| here(m).map(|k| (m, &m.states[k]))).collect()
+    }
+
+    /// Pressures that were read \[kPa\].
+    pub fn pressures_kpa(&self) -> Vec<f64> {
+        let longest = self.members.iter().max_by_key(|m| m.states.len());
+        longest.map_or(Vec::new(), |m| m.states.iter().map(|s| s.actuator_kpa).collect())
+    }
+
+    /// 10 %, 50 % and 90 % quantile of a marker's displacement along x (0) or y (1) \[mm\]; `None` where nothing was read.
+    pub fn quantiles_mm(&self, actuator_kpa: f64, marker: usize, axis: usize) -> Option<[f64; 3]> {
+        let found = self.at(actuator_kpa);
+        let mut values: Vec<f64> = found.iter().filter_map(|(_, s)| s.moved_mm.get(marker).map(|m| m[axis])).collect();
+        values.sort_by(f64::total_cmp);
+        let [low, middle, high] = QUANTILES.map(|q| quantile(&values, q));
+        Some([low?, middle?, high?])
+    }
+
+    /// The same of the outermost marker's height.
+    pub fn tip_mm(&self, actuator_kpa: f64) -> Option<[f64; 3]> {
+        self.quantiles_mm(actuator_kpa, self.stations_mm.len().checked_sub(1)?, 1)
+    }
+
+    /// What every number does to the outermost marker's height at a pressure, largest first, and the share of the variance that a
+    /// straight law leaves; `None` with too few robots.
+    pub fn weights(&self, actuator_kpa: f64) -> Option<(Vec<Weight>, f64)> {
+        let found = self.at(actuator_kpa);
+        let last = self.stations_mm.len().checked_sub(1)?;
+        let (n, k) = (found.len(), self.numbers.len());
+        if n < k + SPARE {
+            return None;
+        }
+        let y = DVector::from_iterator(n, found.iter().map(|(_, s)| s.moved_mm.get(last).map_or(f64::NAN, |m| m[1])));
+        let design = DMatrix::from_fn(n, k + 1, |i, j| if j == 0 { 1.0 } else { found[i].0.shares[j - 1] });
+        let slopes = design.clone().svd(true, true).solve(&y, 1e-12).ok()?;
+        let variance = |v: &DVector<f64>| v.variance();
+        let all = variance(&y);
+        let rest = variance(&(&y - &design * &slopes)) / all;
+        let weight = |number: usize| {
+            let slope = slopes[number + 1];
+            let spread = design.column(number + 1).variance();
+            Weight { number, swing_mm: (QUANTILES[2] - QUANTILES[0]) * slope, share: slope * slope * spread / all }
+        };
+        let mut weights: Vec<Weight> = (0..k).map(weight).collect();
+        weights.sort_by(|a, b| b.swing_mm.abs().total_cmp(&a.swing_mm.abs()));
+        Some((weights, rest))
+    }
+
+    /// Heights of all markers at all pressures, median and 80 % interval, beside measured ones.
+    ///
+    /// # Errors
+    /// [`PlotError`] if nothing was read.
+    pub fn draw(&self, measured: &[(f64, [f64; 2])]) -> Result<Drawn, PlotError> {
+        let mut series = Vec::new();
+        for (colour, kpa) in self.pressures_kpa().into_iter().filter(|kpa| *kpa > 0.0).enumerate() {
+            let found: Vec<(f64, [f64; 3])> = self
+                .stations_mm
+                .iter()
+                .enumerate()
+                .filter_map(|(m, s)| Some((*s, self.quantiles_mm(kpa, m, 1)?)))
+                .collect();
+            let line = |name: String, k: usize, style| LineSeries {
+                name,
+                points: found.iter().map(|(s, q)| [*s, q[k]]).collect(),
+                half_width: Vec::new(),
+                style,
+                colour: Some(colour),
+            };
+            series.push(line(format!("{kpa} kPa, median"), 1, LineStyle::LinePoints));
+            series.push(line(String::new(), 0, LineStyle::Dashed));
+            series.push(line(String::new(), 2, LineStyle::Dashed));
+            let own = measured.iter().filter(|(at, _)| (at - kpa).abs() < SAME_KPA).map(|(_, point)| *point);
+            let points: Vec<[f64; 2]> = own.collect();
+            if !points.is_empty() {
+                let name = format!("{kpa} kPa, measured");
+                series.push(LineSeries {
+                    name,
+                    points,
+                    half_width: Vec::new(),
+                    style: LineStyle::OpenPoints,
+                    colour: Some(colour),
+                });
+            }
+        }
+        let data = Lines {
+            title: format!("{}: median and 80 % interval over what nobody measured", self.scenario),
+            x_label: "marker along the straight robot [mm]".into(),
+            y_label: "displacement towards the actuator [mm]".into(),
+            series,
+        };
+        lines(&data)
+    }
+
+    /// What every number does to the outermost marker at a pressure.
+    ///
+    /// # Errors
+    /// [`PlotError`] with too few robots.
+    pub fn draw_weights(&self, actuator_kpa: f64) -> Result<Drawn, PlotError> {
+        let base = self.tip_mm(actuator_kpa).map_or(f64::NAN, |q| q[1]);
+        let (weights, rest) = self.weights(actuator_kpa).unwrap_or_default();
+        let bar = |w: &Weight| {
+            let number = &self.numbers[w.number];
+            let half = 0.5 * w.swing_mm;
+            TornadoBar {
+                name: number.name.clone(),
+                ends: number.interval.map(|v| format!("{v}")),
+                values: [base - half, base + half],
+            }
+        };
+        let data = Tornado {
+            title: format!(
+                "{} at {actuator_kpa} kPa: what to measure first ({:.0} % is not of a straight law)",
+                self.scenario,
+                100.0 * rest
+            ),
+            value_label: "outermost marker [mm], from a tenth to nine tenths of each interval".into(),
+            base,
+            bars: weights.iter().map(bar).collect(),
+        };
+        tornado(&data)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(name: &str) -> Varied {
+        Varied { name: name.into(), interval: [0.0, 8.0], meaning: String::new(), reason: String::new() }
+    }
+
+    /// Robots whose outermost marker is at 100 + 40 u₀ − 10 u₁ at 30 kPa.
+    fn robots(count: usize) -> Uncertain {
+        let member = |shares: &Vec<f64>| Member {
+            shares: shares.clone(),
+            states: vec![MemberState {
+                actuator_kpa: 30.0,
+                moved_mm: vec![[0.0, 1.0], [-5.0, 100.0 + 40.0 * shares[0] - 10.0 * shares[1]]],
+            }],
+            stopped: None,
+        };
+        let even = |i: usize| ((i as f64 + 0.5) / count as f64, (i as f64 * 0.618_033_988_75).fract());
+        let mut members: Vec<Member> = (0..count).map(even).map(|(a, b)| member(&vec![a, b])).collect();
+        members.push(Member { shares: vec![0.5, 0.5], states: Vec::new(), stopped: Some("turned inside out".into()) });
+        Uncertain {
+            version: VERSION,
+            engine: 0,
+            actuator: "epam".into(),
+            scenario: "made up".into(),
+            mesh_mm: [8.0, 4.0],
+            body_kpa: 2.0,
+            stations_mm: vec![30.0, 330.0],
+            numbers: vec![number("weld_mm"), number("bond")],
+            members,
+        }
+    }
+
+    #[test]
+    fn the_interval_is_that_of_the_law_and_robots_that_stopped_say_nothing() {
+        let [low, middle, high] = robots(400).tip_mm(30.0).unwrap();
+        // The sum of two even numbers, of which a tenth of the area lies below this.
+        let exact = 90.0 + (0.1_f64 * 2.0 * 40.0 * 10.0).sqrt();
+        assert!((low - exact).abs() < 0.5 && (high - (230.0 - exact)).abs() < 0.5, "{low} {exact} {high}");
+        assert!((middle - 115.0).abs() < 0.5, "{middle}");
+        assert_eq!(robots(400).tip_mm(20.0), None);
+    }
+
+    #[test]
+    fn a_straight_law_is_told_with_its_slopes_and_leaves_nothing() {
+        let (weights, rest) = robots(30).weights(30.0).unwrap();
+        assert_eq!((weights[0].number, weights[1].number), (0, 1));
+        assert!((weights[0].swing_mm - 32.0).abs() < 1e-9 && (weights[1].swing_mm + 8.0).abs() < 1e-9, "{weights:?}");
+        assert!(rest < 1e-18);
+        assert!(robots(6).weights(30.0).is_none(), "too few to say");
+    }
+
+    #[test]
+    fn a_record_of_another_version_or_without_a_field_is_refused_by_its_name() {
+        let text = serde_json::to_string(&robots(5)).unwrap();
+        assert_eq!(read(&text).unwrap(), robots(5));
+        assert!(read(&text.replace("\"version\":1", "\"version\":7")).unwrap_err().contains("version 7"));
+        assert!(read(&text.replace("stations_mm", "stations")).unwrap_err().contains("stations_mm"));
+        assert!(read(&text[..text.len() / 2]).is_err());
+    }
+
+    #[test]
+    fn what_comes_with_the_program_is_whole() {
+        let lines = include_str!("../../assets/fem-uncertain.jsonl").lines().count();
+        assert_eq!(stored().len(), lines);
+    }
+}

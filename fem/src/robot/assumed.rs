@@ -1,0 +1,180 @@
+//! What nobody measured about the published robots: numbers with intervals, and a hypercube over all of them.
+//!
+//! A Latin hypercube of n robots cuts the interval of every number into n parts of equal probability and gives every robot one part of
+//! each, in an order that is drawn for every number anew; within its part a number is drawn, too. So n robots say about each number what n
+//! values say, whatever the others do. Reference: McKay, Beckman, Conover 1979.
+
+use super::RobotSettings;
+
+/// A number that nobody printed, and the interval it may lie in.
+#[derive(Debug, Clone, Copy)]
+pub struct Assumed {
+    /// Field of [`RobotSettings`].
+    pub name: &'static str,
+    /// Smallest and largest plausible value, SI.
+    pub interval: [f64; 2],
+    /// How values are spread over it.
+    pub spread: Spread,
+    /// Where the interval comes from.
+    pub reason: &'static str,
+    /// Writes a value.
+    pub set: fn(&mut RobotSettings, f64),
+}
+
+/// How values are spread over an interval.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spread {
+    /// Every difference alike.
+    Even,
+    /// Every factor alike, where the ends differ by a factor of five and more.
+    Factor,
+}
+
+impl Assumed {
+    /// The value at a share 0 to 1 of the interval.
+    pub fn at(&self, share: f64) -> f64 {
+        let [low, high] = self.interval;
+        match self.spread {
+            Spread::Even => low + share * (high - low),
+            Spread::Factor => low * (high / low).powf(share),
+        }
+    }
+}
+
+/// What the four robots leave open, besides pouch count and marker stations, which are in the scenario.
+pub const ASSUMED: &[Assumed] = &[
+    Assumed {
+        name: "weld_m",
+        interval: [0.0, 0.008],
+        spread: Spread::Even,
+        reason: "a line to a wide impulse seal; ultrasonic wheels are a few millimetres wide",
+        set: |s, v| s.weld_m = v,
+    },
+    Assumed {
+        name: "bending_factor",
+        interval: [0.1, 0.5],
+        spread: Spread::Factor,
+        reason: "droop of a heat-bondable coated nylon, measured by others (Farrell et al., programmable surface dimpling of textile metamaterials)",
+        set: |s, v| s.bending_factor = v,
+    },
+    Assumed {
+        name: "compression",
+        interval: [0.01, 1.0],
+        spread: Spread::Factor,
+        reason: "sheets that wrinkle below the mesh, as far as it was tried, to sheets that carry all of it",
+        set: |s, v| s.compression = v,
+    },
+    Assumed {
+        name: "bond",
+        interval: [0.0, 1.0],
+        spread: Spread::Even,
+        reason: "plies that slide to plies without slip; shear lag through 0.05 mm of adhesive is about 2 mm",
+        set: |s, v| s.bond = v,
+    },
+    Assumed {
+        name: "tape_m",
+        interval: [2e-5, 2.5e-4],
+        spread: Spread::Factor,
+        reason: "adhesive transfer tapes are sold from 0.02 to 0.25 mm",
+        set: |s, v| s.tape_m = v,
+    },
+    Assumed {
+        name: "tape_margin_m",
+        interval: [0.0, 0.015],
+        spread: Spread::Even,
+        reason: "a sheet cut at its welds to one that is easy to tape",
+        set: |s, v| s.tape_margin_m = v,
+    },
+    Assumed {
+        name: "waviness_m",
+        interval: [0.0, 2e-4],
+        spread: Spread::Even,
+        reason: "a perfect pattern to a thickness of the fabric",
+        set: |s, v| s.waviness_m = v,
+    },
+    Assumed {
+        name: "glue_m",
+        interval: [5e-5, 5e-4],
+        spread: Spread::Factor,
+        reason: "a film spread by hand",
+        set: |s, v| s.glue_m = v,
+    },
+    Assumed {
+        name: "glue_e_pa",
+        interval: [3e5, 3e6],
+        spread: Spread::Factor,
+        reason: "silicone adhesives",
+        set: |s, v| s.glue_e_pa = v,
+    },
+    Assumed {
+        name: "nu12",
+        interval: [0.0, 0.4],
+        spread: Spread::Even,
+        reason: "woven fabrics pulled in one direction; 0 is yarns that do not cross",
+        set: |s, v| s.nu12 = Some(v),
+    },
+    Assumed {
+        name: "density_kg_m3",
+        interval: [700.0, 1300.0],
+        spread: Spread::Even,
+        reason: "nylon 1140, coats 900 to 1200, air between yarns",
+        set: |s, v| s.density_kg_m3 = v,
+    },
+];
+
+/// Shares 0 to 1 of the interval of each of `numbers` numbers for `robots` robots; the same seed gives the same hypercube everywhere.
+pub fn hypercube(robots: usize, numbers: usize, seed: u64) -> Vec<Vec<f64>> {
+    let mut draws = Draws(seed);
+    let mut cube = vec![Vec::with_capacity(numbers); robots];
+    for _ in 0..numbers {
+        let mut parts: Vec<usize> = (0..robots).collect();
+        // Fisher and Yates.
+        for i in (1..robots).rev() {
+            parts.swap(i, (draws.next() * (i + 1) as f64) as usize);
+        }
+        for (robot, part) in cube.iter_mut().zip(parts) {
+            robot.push((part as f64 + draws.next()) / robots as f64);
+        }
+    }
+    cube
+}
+
+/// Even random numbers in [0, 1): SplitMix64.
+struct Draws(u64);
+
+impl Draws {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_number_has_one_robot_in_each_part_of_its_interval() {
+        let cube = hypercube(30, 5, 7);
+        for number in 0..5 {
+            let mut parts: Vec<usize> = cube.iter().map(|robot| (robot[number] * 30.0) as usize).collect();
+            assert!(parts.windows(2).any(|pair| pair[1] != pair[0] + 1), "in an order of its own");
+            parts.sort_unstable();
+            assert_eq!(parts, (0..30).collect::<Vec<_>>());
+        }
+        assert_eq!(cube, hypercube(30, 5, 7));
+        assert_ne!(cube, hypercube(30, 5, 8));
+    }
+
+    #[test]
+    fn shares_reach_both_ends_of_every_interval() {
+        for number in ASSUMED {
+            for (share, end) in [(0.0, number.interval[0]), (1.0, number.interval[1])] {
+                assert!((number.at(share) - end).abs() <= 1e-12 * end, "{}", number.name);
+            }
+        }
+    }
+}
