@@ -178,9 +178,6 @@ pub struct Compare {
     /// With --engines: runs of every robot, with other random imperfections each
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1000))]
     pub seeds: u64,
-    /// With --engines: also with usual values in place of those calibrated on the published displacements
-    #[arg(long, requires = "engines")]
-    pub usual: bool,
     /// With --engines: actuator pressures of the runs; default: the scenario's
     #[arg(long, requires = "engines", allow_hyphen_values = true)]
     pub pressure: Option<String>,

@@ -76,6 +76,8 @@ pub struct Uncertain {
     pub actuator: String,
     /// Name of the scenario.
     pub scenario: String,
+    /// Settings that make it another robot than the recommended one, as typed; empty for that one.
+    pub variant: String,
     /// Element sizes of body and actuator \[mm\].
     pub mesh_mm: [f64; 2],
     /// Body gauge pressure \[kPa\].
@@ -274,6 +276,7 @@ mod tests {
             engine: 0,
             actuator: "epam".into(),
             scenario: "made up".into(),
+            variant: String::new(),
             mesh_mm: [8.0, 4.0],
             body_kpa: 2.0,
             stations_mm: vec![30.0, 330.0],

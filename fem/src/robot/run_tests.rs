@@ -57,7 +57,7 @@ fn faults_of_the_table_are_refused_with_their_place() {
         ("weld_m = 0.001", "did you mean `weld_mm`?", "weld_m"),
         ("mesh_mm = 0.004", "mesh_mm must be from 0.5 to 50, not 0.004", "0.004"),
         ("bond = \"all\"", "bond must be a number", "\"all\""),
-        ("loading = \"fast\"", "known: compressed, usual, published", "\"fast\""),
+        ("loading = \"fast\"", "known: compressed, published", "\"fast\""),
         ("pressures_kpa = [10, 1]", "an actuator at 1 kPa in a body at 2 kPa stays flat", "[10, 1]"),
         ("pressures_kpa = [10000]", "looks like pascals", "[10000]"),
         ("pressures_kpa = []", "[10, 20, 30]", "[]"),

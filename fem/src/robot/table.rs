@@ -162,11 +162,8 @@ fn loading(table: &Free) -> Checked<RobotSettings> {
     };
     match value.get_ref().as_str() {
         Some("compressed") => Ok(RobotSettings::compressed()),
-        Some("usual") => Ok(RobotSettings::usual()),
         Some("published") => Ok(RobotSettings::published()),
-        _ => {
-            refuse(format!("unknown loading {}", value.get_ref()), "known: compressed, usual, published", value.span())
-        }
+        _ => refuse(format!("unknown loading {}", value.get_ref()), "known: compressed, published", value.span()),
     }
 }
 

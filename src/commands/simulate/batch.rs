@@ -37,8 +37,8 @@ pub fn run(
         let help = "choose another folder with --out; several runs get a folder each inside it".into();
         return Err(Failure::Write { path, cause: "it holds a single run".into(), help });
     }
-    if let About::Uncertain(numbers, cube) = about {
-        return uncertain::run(base, cases, (numbers, cube), manner, context);
+    if let About::Uncertain(numbers, cube, variant) = about {
+        return uncertain::run(base, cases, (numbers, cube, variant), manner, context);
     }
     let rows = match rows(base, cases, manner, context)? {
         Ok(rows) => rows,

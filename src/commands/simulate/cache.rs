@@ -127,10 +127,6 @@ pub fn as_run(summary: &Value, cost: &Value) -> Option<FeRun> {
     // Runs of before kept no points of the wall.
     let seen = |r: &Reading| r.seen_moved_m.len() + 1 == r.stations_m.len();
     (!readings.is_empty() && readings.iter().all(seen)).then_some(())?;
-    // The numbers that `RobotSettings::usual` leaves as one would assume them before seeing a robot bend.
-    let fitted = |kind: &str, key: &str, usual: f64| about["actuator"] == kind && setting(key) != Some(usual);
-    let sheet = fitted("spam", "tape_margin_mm", 0.0) || fitted("spam", "tape_mm", 0.05);
-    let calibrated = sheet || fitted("fpam", "nu12", 0.0);
     Some(FeRun {
         actuator: about["actuator"].as_str()?.into(),
         scenario: summary["name"].as_str()?.into(),
@@ -146,7 +142,7 @@ pub fn as_run(summary: &Value, cost: &Value) -> Option<FeRun> {
         count: about["count"].as_u64()? as usize,
         seed: setting("seed")? as u64,
         stations_mm: readings[0].stations_m.iter().rev().skip(1).rev().map(|s| robot::rounded(s * 1e3)).collect(),
-        known: if calibrated { "calibrated" } else { "assumed" }.into(),
+        known: "assumed".into(),
         states: readings.iter().map(state).collect(),
     })
 }

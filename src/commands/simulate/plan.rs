@@ -41,8 +41,8 @@ pub enum About {
     Table,
     /// The two ends of every assumed number.
     Sensitivity,
-    /// A hypercube over these numbers, a row of shares for every run.
-    Uncertain(Vec<Varied>, Vec<Vec<f64>>),
+    /// A hypercube over these numbers, a row of shares for every run; what was set beside it, as typed.
+    Uncertain(Vec<Varied>, Vec<Vec<f64>>, Vec<String>),
 }
 
 /// Reads the options.
@@ -247,7 +247,7 @@ fn uncertain(base: Named, set: &[String], robots: usize) -> Result<Plan, Failure
         meaning: key.meaning.into(),
         reason: unknown.reason.into(),
     };
-    Ok(Plan::Several { base, cases, about: About::Uncertain(numbers.iter().map(varied).collect(), cube) })
+    Ok(Plan::Several { base, cases, about: About::Uncertain(numbers.iter().map(varied).collect(), cube, set.to_vec()) })
 }
 
 /// The key that writes what an assumed number writes.

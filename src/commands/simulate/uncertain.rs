@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 pub fn run(
     base: &Named,
     cases: &[Variation],
-    (numbers, cube): (&[Varied], &[Vec<f64>]),
+    (numbers, cube, variant): (&[Varied], &[Vec<f64>], &[String]),
     manner: &Manner,
     context: &mut Context,
 ) -> Result<Outcome, Failure> {
@@ -44,6 +44,7 @@ pub fn run(
         engine: fem::ENGINE,
         actuator: scenario.actuator.kind.name.into(),
         scenario: scenario.name.clone(),
+        variant: variant.join(" "),
         mesh_mm: mesh_mm(&robot_run),
         body_kpa: robot::rounded(scenario.p_body_pa * 1e-3),
         stations_mm: scenario.markers_m.iter().map(|s| robot::rounded(s * 1e3)).collect(),

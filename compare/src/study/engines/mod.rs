@@ -292,13 +292,10 @@ fn mean_and_deviation(values: &[f64]) -> (f64, Option<f64>) {
     (mean, (values.len() > 1).then_some(square.sqrt()))
 }
 
-/// The runs of a shipped robot as it is to 30 kPa, on the finest mesh there is: with the recommended settings, and with usual
-/// values in place of calibrated ones, which is empty for a robot that no calibrated number concerns.
-pub fn ensembles(runs: &[FeRun], scenario: &Scenario) -> [Ensemble; 2] {
+/// The runs of a shipped robot as it is to 30 kPa, on the finest mesh there is.
+pub fn ensemble(runs: &[FeRun], scenario: &Scenario) -> Ensemble {
     let mine = runs.iter().filter(|r| as_it_is(r, scenario) && r.states.last().is_some_and(|s| s.actuator_kpa > 29.9));
-    let fitted = CALIBRATED.contains(&scenario.actuator.kind.name);
-    let (usual, own): (Vec<&FeRun>, Vec<&FeRun>) = mine.partition(|r| fitted && r.known != "calibrated");
-    [own, usual].map(finest)
+    finest(mine.collect())
 }
 
 /// Of the runs on the finest mesh those read at the most pressures, one for every seed: that with the most steps.
@@ -311,9 +308,6 @@ fn finest(runs: Vec<&FeRun>) -> Ensemble {
     kept.dedup_by_key(|r| r.seed);
     Ensemble { runs: kept }
 }
-
-/// Robots with a number fitted to the tip they are compared with: the taped sheet's margin of the sPAM, ν₁₂ of the fPAM.
-pub const CALIBRATED: [&str; 2] = ["spam", "fpam"];
 
 /// Whether a run is of this robot at its own body pressure.
 pub fn as_it_is(run: &FeRun, scenario: &Scenario) -> bool {
