@@ -86,7 +86,7 @@ fn runs(
     context: &mut Context,
 ) -> Result<Option<Vec<FeRun>>, Failure> {
     if args.stored {
-        let own = ensemble(&stored(), scenario);
+        let own = ensemble(&stored()?, scenario);
         let found: Vec<FeRun> = own.runs.into_iter().take(args.seeds as usize).collect();
         if found.len() < args.seeds as usize {
             let (there, what) = (found.len(), &args.scenario);

@@ -73,13 +73,13 @@ pub fn robots(specs: &[String]) -> Result<(Vec<Robot>, Vec<Input>), Failure> {
 /// Stored runs, or those of the folder, which gets what is missing.
 fn runs(args: &Compare, scenarios: &[(Named, Scenario)], context: &mut Context) -> Result<Option<Vec<FeRun>>, Failure> {
     if args.stored {
-        return Ok(Some(stored()));
+        return Ok(Some(stored()?));
     }
     let keeper = Keeper { folder: args.runs.clone(), threads: args.threads as usize };
     let Ok(own) = keeper.run_all(&cases(args, scenarios)?, context)? else { return Ok(None) };
     let mut own = own.into_iter().collect::<Result<Vec<FeRun>, Failure>>()?;
     // Runs of the map are there if they were made.
-    let others = all_runs(&args.runs).into_iter().filter(|r| !own.contains(r)).collect::<Vec<_>>();
+    let others = all_runs(&args.runs)?.into_iter().filter(|r| !own.contains(r)).collect::<Vec<_>>();
     own.extend(others);
     Ok(Some(own))
 }
@@ -152,8 +152,8 @@ fn volumes(engines: &Engines) -> String {
 
 /// Runs for other commands: those stored in the program, or those of a folder if one is named.
 pub fn known_runs(folder: Option<&Path>) -> Result<Vec<FeRun>, Failure> {
-    let Some(folder) = folder else { return Ok(stored()) };
-    let found = all_runs(folder);
+    let Some(folder) = folder else { return Ok(stored()?) };
+    let found = all_runs(folder)?;
     if found.is_empty() {
         let message = format!("{}: no finished finite element run of a robot", folder.display());
         let make = format!("make them with: ibr compare --engines SCENARIO --runs {}", folder.display());

@@ -27,7 +27,7 @@ pub const BEYOND: f64 = 0.10;
 /// ```
 /// use compare::study::{Generator, engines::{ensemble, stored}, published::shipped_scenario, seen::seen};
 /// let scenario = shipped_scenario("epam")?;
-/// let runs = ensemble(&stored(), &scenario);
+/// let runs = ensemble(&stored()?, &scenario);
 /// let data = seen(&runs.runs, "mine", &Generator::default())?;
 /// assert_eq!(data.runs.len(), runs.runs.len());
 /// # Ok::<(), compare::CompareError>(())

@@ -177,17 +177,9 @@ fn merged(rows: &[Row]) -> Vec<(String, f64)> {
     let column = |&(name, kind, sum): &(&str, RowKind, f64)| {
         let plain = name.replace([' ', ',', ';', '"'], "_");
         let alone = sums.iter().filter(|(other, _, _)| *other == name).count() == 1;
-        (if alone { format!("{plain}_J") } else { format!("{plain}_{}_J", word(kind)) }, sum)
+        (if alone { format!("{plain}_J") } else { format!("{plain}_{}_J", kind.word()) }, sum)
     };
     sums.iter().map(column).collect()
-}
-
-fn word(kind: RowKind) -> &'static str {
-    match kind {
-        RowKind::Stored => "stored",
-        RowKind::Dissipated => "dissipated",
-        RowKind::Supplied => "supplied",
-    }
 }
 
 #[cfg(test)]

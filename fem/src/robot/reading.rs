@@ -1,6 +1,6 @@
 //! What a robot looks like at one moment: markers, tip, volumes, stresses, weld forces, energies.
 
-use models::{RowKind, Scenario};
+use models::Scenario;
 use serde::{Deserialize, Serialize};
 
 use super::seams::Seams;
@@ -35,7 +35,6 @@ pub struct Reading {
     /// Displacement of the section's centroid at each station \[m\].
     pub moved_m: Vec<[f64; 3]>,
     /// Displacement of the wall where a marker sticks at each marker's station, without the tip \[m\]: on the side that faces a camera.
-    #[serde(default)]
     pub seen_moved_m: Vec<[f64; 3]>,
     /// Displacement of the mean of the ring of nodes at (or next to) each station \[m\].
     pub ring_moved_m: Vec<[f64; 3]>,
@@ -108,7 +107,7 @@ impl Gauge {
         let (body, actuator) = (chamber(sew::BODY), chamber(sew::ACTUATOR));
         let ledger = run.ledger();
         let mut rows = vec![("kinetic".to_string(), "stored".to_string(), ledger.kinetic_j)];
-        rows.extend(ledger.rows.iter().map(|r| (r.name.to_string(), word(r.kind).to_string(), r.energy_j)));
+        rows.extend(ledger.rows.iter().map(|r| (r.name.to_string(), r.kind.word().to_string(), r.energy_j)));
         Ok(Reading {
             time_s: run.time_s(),
             actuator_pa: actuator.as_ref().map_or(0.0, |c| c.pressure_pa),
@@ -173,12 +172,4 @@ impl Gauge {
 
 fn ring(mesh: &Mesh, name: &str) -> Vec<u32> {
     mesh.sets.get(name).cloned().unwrap_or_default()
-}
-
-fn word(kind: RowKind) -> &'static str {
-    match kind {
-        RowKind::Stored => "stored",
-        RowKind::Dissipated => "dissipated",
-        RowKind::Supplied => "supplied",
-    }
 }

@@ -87,6 +87,12 @@ enum Found {
     Foreign(String),
 }
 
+/// Whether the folder holds a complete run, whatever else is in it.
+pub fn is_finished(folder: &Path) -> bool {
+    let has = |name| folder.join(name).exists();
+    !has(MARKER) && has(LAST) && has("summary.json")
+}
+
 /// Finds out what can be done with the folder, and takes it.
 ///
 /// # Errors

@@ -15,14 +15,14 @@ const MM: f64 = 1e3;
 
 /// Writes all of them.
 pub fn write(robot: &Robot, watched: &Watched, mesh: &Mesh, run: &Simulation, folder: &Path) -> Result<(), Failure> {
-    let (readings, found) = (watched.readings(), watched.snaps());
+    let (readings, found) = (&watched.readings, watched.snaps());
     let text = |name: &str, text: String| data::write_atomically(&folder.join(name), text.as_bytes());
-    text("readings.csv", readings_csv(&readings))?;
-    text("markers.csv", markers_csv(robot, &readings))?;
+    text("readings.csv", readings_csv(readings))?;
+    text("markers.csv", markers_csv(robot, readings))?;
     text("snaps.csv", snaps_csv(&found))?;
     let plots = [
         ("history.png", history(robot, watched, &found)),
-        ("displacement.png", displacement(&robot.scenario.name, &readings)),
+        ("displacement.png", displacement(&robot.scenario.name, readings)),
     ];
     // Drawing the plots takes as long as all pictures.
     std::thread::scope(|scope| {

@@ -5,13 +5,14 @@ use super::input::Named;
 use super::plan::Variation;
 use super::robot;
 use super::single::Manner;
+use super::summary::Summary;
 use crate::commands::tables::table;
 use crate::commands::together::{shared, together};
 use crate::commands::{Context, Outcome};
 use crate::failure::Failure;
 use compare::study::uncertain::{Member, MemberState, Uncertain, Varied};
 use fem::robot::RobotRun;
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// Runs what is missing and tells quantiles and weights.
 pub fn run(
@@ -27,7 +28,7 @@ pub fn run(
     let found = together(cases.len(), workers, context, &|job, inner: &mut Context| {
         let what = format!("{} of {}", job + 1, cases.len());
         match one(&loaded[job], &cases[job].label, &each, &what, inner) {
-            Ok(done) => Ok(done.map(|(summary, _)| Ok(summary))),
+            Ok(done) => Ok(done.map(|finished| Ok(finished.summary))),
             // A robot that cannot be run says so in its row; the others go on.
             Err(Failure::Stopped { error, .. }) => Ok(Some(Err(error.to_string()))),
             Err(other) => Err(other),
@@ -58,7 +59,7 @@ fn mesh_mm(run: &RobotRun) -> [f64; 2] {
     [run.settings.body_size_m, run.settings.actuator_size_m].map(|m| robot::rounded(m * 1e3))
 }
 
-fn member(summary: Result<Value, String>, shares: &[f64]) -> Member {
+fn member(summary: Result<Summary, String>, shares: &[f64]) -> Member {
     // Five digits, as a camera will never see them.
     let short = |m: f64| format!("{:.4e}", m * 1e3).parse().unwrap_or(f64::NAN);
     let state = |r: &fem::robot::Reading| MemberState {
@@ -69,7 +70,8 @@ fn member(summary: Result<Value, String>, shares: &[f64]) -> Member {
     let rounded = shares.iter().map(|s| format!("{s:.5}").parse().unwrap_or(*s)).collect();
     match summary {
         Ok(summary) => {
-            let states = robot::readings(&summary).iter().filter(|r| r.actuator_pa > 0.0).map(state).collect();
+            let readings = summary.robot.iter().flat_map(|robot| &robot.readings);
+            let states = readings.filter(|r| r.actuator_pa > 0.0).map(state).collect();
             Member { shares: rounded, states, stopped: None }
         }
         Err(reason) => Member { shares: rounded, states: Vec::new(), stopped: Some(reason) },

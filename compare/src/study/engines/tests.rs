@@ -123,7 +123,7 @@ fn an_ensemble_is_of_the_finest_mesh_and_of_runs_with_what_is_recommended() {
 
 #[test]
 fn stored_runs_can_be_read_and_are_of_shipped_robots() {
-    let runs = stored();
+    let runs = stored().unwrap();
     assert!(!runs.is_empty());
     for run in &runs {
         let scenario = shipped_scenario(&run.actuator).unwrap();

@@ -226,9 +226,9 @@ mod tests {
     #[test]
     fn pouches_of_the_stored_epam_hold_one_share_of_the_lens_at_all_pressures() {
         let scenario = shipped_scenario("epam").unwrap();
-        let [own, ..] = &body_volumes(&scenario, &stored())[..] else { panic!() };
+        let [own, ..] = &body_volumes(&scenario, &stored().unwrap())[..] else { panic!() };
         assert!(own.own && own.seeds == 5 && own.states.len() == 6);
-        let ensemble = ensemble(&stored(), &scenario);
+        let ensemble = ensemble(&stored().unwrap(), &scenario);
         for v in ensemble.runs.iter().flat_map(|run| volumes(&scenario, run)) {
             assert!((0.55..0.60).contains(&v.lens_share.unwrap()), "{v:?}");
         }
@@ -248,7 +248,7 @@ mod tests {
     #[test]
     fn no_single_share_of_stroke_and_volume_gives_the_volumes_of_the_stored_epam() {
         let scenario = shipped_scenario("epam").unwrap();
-        let ensemble = ensemble(&stored(), &scenario);
+        let ensemble = ensemble(&stored().unwrap(), &scenario);
         let shares: Vec<Option<f64>> = volumes(&scenario, &ensemble.runs[0])
             .iter()
             .zip(&ensemble.runs[0].states[1..])

@@ -186,7 +186,7 @@ mod tests {
     #[test]
     fn the_gas_of_a_muscle_is_counted_from_the_same_zero_in_both_engines() {
         let robots = ["fpam", "epam"].map(|kind| shipped_scenario(kind).unwrap());
-        let robots = engines(&robots, &stored()).unwrap().robots;
+        let robots = engines(&robots, &stored().unwrap()).unwrap().robots;
         let gas = |robot: &EngineRobot| ledger_cases(robot).iter().map(|c| c.energies_mj[0]).collect::<Vec<_>>();
         let [muscle, pouches] = [gas(&robots[0]), gas(&robots[1])];
         assert!((muscle[0] - muscle[1]).abs() < 1e-9 && muscle[0] < 0.0, "{muscle:?}");
