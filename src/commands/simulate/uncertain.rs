@@ -10,7 +10,7 @@ use crate::commands::tables::table;
 use crate::commands::together::{shared, together};
 use crate::commands::{Context, Outcome};
 use crate::failure::Failure;
-use compare::study::uncertain::{Member, MemberState, Uncertain, Varied};
+use compare::study::uncertain::{Member, MemberState, Uncertain, Varied, Weight};
 use fem::robot::RobotRun;
 use serde_json::json;
 
@@ -41,7 +41,6 @@ pub fn run(
     let (scenario, robot_run) = base.robot_run()?;
     let members = summaries.into_iter().zip(cube).map(|(summary, shares)| member(summary, shares)).collect();
     let all = Uncertain {
-        version: Uncertain::VERSION,
         engine: fem::ENGINE,
         actuator: scenario.actuator.kind.name.into(),
         scenario: scenario.name.clone(),
@@ -80,10 +79,10 @@ fn member(summary: Result<Summary, String>, shares: &[f64]) -> Member {
 
 fn outcome(all: &Uncertain, manner: &Manner) -> Result<Outcome, Failure> {
     let measured = measured(all);
-    let (text, record) = (text(all, &measured), serde_json::to_string(all).unwrap_or_default());
+    let text = text(all, &measured);
     let top = all.pressures_kpa().into_iter().fold(0.0, f64::max);
     let mut notes = Vec::new();
-    let mut files = vec![("uncertain.json", record.into_bytes())];
+    let mut files = vec![("uncertain.json", all.record().into_bytes())];
     if let Ok(drawn) = all.draw(&measured) {
         files.push(("markers.png", drawn.png));
     }
@@ -146,7 +145,7 @@ fn text(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> String {
     let top = all.pressures_kpa().into_iter().fold(0.0, f64::max);
     if let Some((weights, rest)) = all.weights(top) {
         out.push_str(&format!("\nWhat to measure first: outermost marker at {top} kPa\n"));
-        let row = |w: &compare::study::uncertain::Weight| {
+        let row = |w: &Weight| {
             let number = &all.numbers[w.number];
             vec![
                 number.name.clone(),
@@ -158,10 +157,28 @@ fn text(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> String {
         };
         let head = ["assumed", "interval", "10 % to 90 % of it: mm", "of the variance %", "why this interval"];
         out.push_str(&table(&head, 2, weights.iter().map(row).collect()));
+        out.push_str(&calibrated(all, measured, &weights));
         out.push_str(&format!("{:.0} % of the variance is not of a straight law\n", 100.0 * rest));
     }
     for member in stopped {
         out.push_str(&format!("stopped: {}\n", member.stopped.as_deref().unwrap_or_default()));
     }
+    out
+}
+
+/// What one number would have to be for the measured displacement, all others in the middle of their intervals.
+fn calibrated(all: &Uncertain, measured: &[(f64, [f64; 2])], weights: &[Weight]) -> String {
+    let Some((kpa, [_, y])) = measured.last() else { return String::new() };
+    let mut out = format!(
+        "\nCalibration, no prediction: what one number would have to be for the measured {y:.1} mm at {kpa} kPa, by a straight law\n"
+    );
+    let rows = weights.iter().map(|w| {
+        let number = &all.numbers[w.number];
+        let wanted = all.share_for(*kpa, w.number, *y).filter(|share| (0.0..=1.0).contains(share));
+        let place =
+            wanted.map_or("none in its interval".into(), |share| format!("{:.0} % of its interval", 100.0 * share));
+        vec![number.name.clone(), place]
+    });
+    out.push_str(&table(&["assumed", "wanted"], 2, rows.collect()));
     out
 }

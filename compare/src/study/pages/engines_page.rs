@@ -77,7 +77,7 @@ fn robot(scenario: &Scenario, runs: &[FeRun]) -> Result<EngineRobot, CompareErro
         with_effects = model_ladder(kind)?.pop();
     }
     let ensemble = ensemble(runs, scenario);
-    let uncertain = if shipped { uncertain::stored() } else { Vec::new() };
+    let uncertain = if shipped { uncertain::stored()? } else { Vec::new() };
     let uncertain = uncertain.into_iter().filter(|u| u.scenario == scenario.name).collect();
     let run = ensemble.runs.first().cloned();
     let pairs = run.as_ref().map_or(Ok(Vec::new()), |run| pairs(scenario, run))?;
