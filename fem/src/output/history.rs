@@ -75,13 +75,13 @@ impl History {
         Ok(History { table: Table::create(path)?, probes })
     }
 
-    /// Goes on after `step` of the checkpoint; later rows are dropped.
+    /// Goes on after `step` of the checkpoint, until which so many `rows` were written; later ones are dropped.
     ///
     /// # Errors
-    /// As [`History::create`]; [`FemError::MeshFile`] if the file was edited into something else.
-    pub fn resume(path: &Path, mesh: &Mesh, probes: &[String], step: u64) -> Result<History, FemError> {
+    /// As [`History::create`], and for rows that are missing; [`FemError::MeshFile`] if the file was edited into something else.
+    pub fn resume(path: &Path, mesh: &Mesh, probes: &[String], step: u64, rows: usize) -> Result<History, FemError> {
         let probes = find_probes(mesh, probes)?;
-        Ok(History { table: Table::resume(path, step)?, probes })
+        Ok(History { table: Table::resume(path, step, rows)?, probes })
     }
 
     /// Adds a row; a step that has a row already is not written again.
@@ -141,7 +141,7 @@ impl History {
 }
 
 /// Mean of a property of some nodes; `None` without nodes or if one has none.
-pub(super) fn mean(nodes: &[u32], of: impl Fn(usize) -> Option<[f64; 3]>) -> Option<[f64; 3]> {
+fn mean(nodes: &[u32], of: impl Fn(usize) -> Option<[f64; 3]>) -> Option<[f64; 3]> {
     let mut sum = [0.0; 3];
     for &node in nodes {
         let point = of(node as usize)?;

@@ -1,11 +1,12 @@
 //! Several runs of one robot in one folder: a finished one is kept and skipped, an interrupted one goes on.
 
+use super::folder;
 use super::input::Named;
 use super::plan::{About, Variation};
 use super::robot::{heights_mm, rounded};
 use super::single::{self, Done, Finished, Manner};
 use super::summary::Summary;
-use super::{uncertain, write_failure};
+use super::uncertain;
 use crate::commands::tables::table;
 use crate::commands::together::{shared, together};
 use crate::commands::{Context, Outcome};
@@ -119,8 +120,7 @@ pub fn one(
 
 /// Whether the folder holds a run of another case, which is an error unless it may be overwritten.
 fn holds_another(named: &Named, folder: &Path, force: bool) -> Result<bool, Failure> {
-    let case = folder.join("case.toml");
-    let other = case.exists() && std::fs::read_to_string(&case).map_err(|e| write_failure(&case, &e))? != named.text;
+    let other = folder::is_of(folder, &named.text)? == Some(false);
     if other && !force {
         let cause = "it holds a run of another case, or the case has changed".into();
         let help = "choose another folder with --out, or add --force to run it again".into();

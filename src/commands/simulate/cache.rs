@@ -62,12 +62,10 @@ impl Keeper {
         if let Some(run) = finished(&folder)? {
             return Ok(Some(run));
         }
-        let case = folder.join("case.toml");
-        let begun = std::fs::read_to_string(&case).is_ok_and(|text| text == named.text);
-        let force = case.exists() && !begun;
+        let begun = folder::is_of(&folder, &named.text)?;
+        let (resume, force) = (begun == Some(true), begun == Some(false));
         let every = Duration::from_secs(30);
-        let manner =
-            Manner { folder: folder.clone(), resume: begun, force, frames: false, end_s: None, threads, every };
+        let manner = Manner { folder: folder.clone(), resume, force, frames: false, end_s: None, threads, every };
         let Context { json, progress, written, interrupt } = context;
         let mut tell = |text: &str, share: Option<f64>| progress(&format!("{what}: {text}"), share);
         let mut inner = Context { json: *json, progress: &mut tell, written, interrupt };

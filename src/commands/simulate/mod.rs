@@ -2,6 +2,7 @@
 
 mod batch;
 mod cache;
+mod exchange;
 mod folder;
 mod input;
 mod plan;

@@ -87,7 +87,9 @@ impl Watched {
 
     /// For the summary.
     pub fn summary(&self, Robot { scenario, run, .. }: &Robot) -> RobotSummary {
-        let setting = |key: &Key| (key.name.to_string(), rounded((key.get)(&run.settings) / key.si));
+        let setting = |key: &Key| {
+            (key.name.to_string(), Some(rounded((key.get)(&run.settings) / key.si)).filter(|v| v.is_finite()))
+        };
         RobotSummary {
             actuator: scenario.actuator.kind.name.into(),
             length_m: scenario.length_m,
@@ -119,27 +121,27 @@ pub struct RobotSummary {
     pub pouch_m: f64,
     /// Units in series.
     pub count: usize,
-    /// Keys of `[fem]`, in the units of their names.
+    /// Keys of `[fem]`, in the units of their names; what has no bound is null.
     #[serde(deserialize_with = "with_needed")]
-    settings: BTreeMap<String, f64>,
+    settings: BTreeMap<String, Option<f64>>,
     /// States, by time.
     pub readings: Vec<Reading>,
     snaps: Vec<Snap>,
 }
 
 /// Settings that a comparison asks for.
-const NEEDED: [&str; 6] = ["body_mesh_mm", "actuator_mesh_mm", "seed", "tape_margin_mm", "tape_mm", "nu12"];
+const NEEDED: [&str; 3] = ["body_mesh_mm", "actuator_mesh_mm", "seed"];
 
-fn with_needed<'de, D: Deserializer<'de>>(from: D) -> Result<BTreeMap<String, f64>, D::Error> {
-    let found = BTreeMap::<String, f64>::deserialize(from)?;
-    let lacks = NEEDED.into_iter().find(|key| !found.contains_key(*key));
+fn with_needed<'de, D: Deserializer<'de>>(from: D) -> Result<BTreeMap<String, Option<f64>>, D::Error> {
+    let found = BTreeMap::<String, Option<f64>>::deserialize(from)?;
+    let lacks = NEEDED.into_iter().find(|key| found.get(*key).copied().flatten().is_none());
     lacks.map_or(Ok(found), |key| Err(serde::de::Error::missing_field(key)))
 }
 
 impl RobotSummary {
     /// A key of `[fem]`, in the unit of its name.
     pub fn setting(&self, key: &str) -> f64 {
-        self.settings.get(key).copied().unwrap_or(f64::NAN)
+        self.settings.get(key).copied().flatten().unwrap_or(f64::NAN)
     }
 }
 

@@ -101,7 +101,10 @@ pub fn run(mut loaded: Loaded, manner: &Manner, context: &mut Context) -> Result
     loaded.case.outputs.frames = marker.frames;
     let robot = loaded.robot.as_ref().map(|robot| robot.watch(&loaded.case.problem));
     let mut running = match &place.interrupted {
-        Some(_) => Running::resume(&loaded.case, fresh, &place.folder, robot)?,
+        Some(_) => {
+            place.keep_case(&text)?;
+            Running::resume(&loaded.case, fresh, &place.folder, robot)?
+        }
         None => {
             place.start(&marker, &text)?;
             Running::start(&loaded.case, fresh, &place.folder, robot)?
@@ -165,9 +168,10 @@ fn finish(
     let mut sheet = manifest(&outputs, std::slice::from_ref(&loaded.named.input));
     sheet["cost"] = json!(cost);
     let folder = place.target().to_path_buf();
-    place.complete(&sheet)?;
+    let older = place.complete(&sheet)?;
     *written = true;
     let mut notes = running.notices.clone();
+    notes.extend(older);
     notes.extend(picture.map(|name| format!("picture: {}", folder.join(name).display())));
     let (open, file) = match running.has_frames() {
         true => ("open in ParaView", "run.pvd"),
