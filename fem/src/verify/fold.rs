@@ -50,7 +50,12 @@ fn strip() -> Result<Outcome, FemError> {
     for elements in [2, 6, 12, 24, 48] {
         let [middle, edge] = strip_moments_n(elements)?;
         let size = SOFT_M / elements as f64 / FOLD_M;
-        lines.push(Line::value(&format!("moment per width at the edge, elements of {size} √(D/T) [N]"), edge, at_edge, 0.03));
+        lines.push(Line::value(
+            &format!("moment per width at the edge, elements of {size} √(D/T) [N]"),
+            edge,
+            at_edge,
+            0.03,
+        ));
         lines.push(Line::value("at the middle [N]", middle, at_middle, 0.03));
         errors.push(edge - at_edge);
     }

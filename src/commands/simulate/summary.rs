@@ -38,6 +38,14 @@ fn physics(case: &Case, running: &Running, robot: Option<&Robot>) -> Value {
         .iter()
         .map(|c| json!({"name": c.name, "pressure_kpa": c.pressure_pa / 1e3, "volume_cm3": c.volume_m3 * 1e6}))
         .collect();
+    let reactions: Vec<Value> = run
+        .reactions()
+        .iter()
+        .map(|r| {
+            let held = [0, 1, 2].map(|k| r.axes[k].then_some(r.force_n[k]));
+            json!({"set": r.set, "force_n": held, "moment_nm": r.moment_nm})
+        })
+        .collect();
     let positions = run.positions();
     let probes: Vec<Value> = case
         .outputs
@@ -56,7 +64,7 @@ fn physics(case: &Case, running: &Running, robot: Option<&Robot>) -> Value {
         "nodes": mesh.points.len(), "elements": run.elements(), "added_mass_share": run.added_mass(),
         "selective_mass": run.selective_mass(),
         "quality": quality(case),
-        "probes": probes, "chambers": chambers,
+        "probes": probes, "chambers": chambers, "reactions": reactions,
         "ledger": rows, "kinetic_j": ledger.kinetic_j, "external_work_j": ledger.external_work_j,
         "residual_j": ledger.residual_j, "residual_share": ledger.residual_share(), "residual_share_peak": largest,
         "kinetic_share": kinetic(&running.balances),
@@ -156,10 +164,23 @@ pub fn text(s: &Value) -> String {
         vec![name(&c["name"]), format!("{:.3}", number(&c["pressure_kpa"])), format!("{volume:.3}")]
     });
     out.push_str(&section(&["chamber", "pressure kPa", "volume cm³"], 1, rows.collect()));
+    let rows = list(&s["reactions"]).map(|r| {
+        let force = list(&r["force_n"]).map(|n| n.as_f64().map_or("–".into(), signed));
+        let moment = list(&r["moment_nm"]).map(|n| signed(number(n)));
+        std::iter::once(name(&r["set"])).chain(force).chain(moment).collect()
+    });
+    let head = ["force of the support on", "x N", "y N", "z N", "about x N·m", "about y", "about z"];
+    out.push_str(&section(&head, 1, rows.collect()));
     out.push_str(&robot::text(s));
     out.push_str(&section(&["energy", "", "J"], 2, ledger(s)));
     out.push_str(&judgement(s));
     out
+}
+
+/// With its sign, unless it is zero in these digits.
+fn signed(value: f64) -> String {
+    let text = format!("{value:+.4}");
+    if text.ends_with("0.0000") && value.abs() < 1.0 { "0".into() } else { text }
 }
 
 fn section(head: &[&str], left: usize, rows: Vec<Vec<String>>) -> String {
