@@ -76,8 +76,11 @@ pub fn shipped_case(name: &str) -> Option<&'static str> {
 }
 
 /// Names and texts of the shipped cases.
-pub const SHIPPED_CASES: &[(&str, &str)] =
-    &[("pillow", include_str!("../../cases/pillow.toml")), ("tube", include_str!("../../cases/tube.toml"))];
+pub const SHIPPED_CASES: &[(&str, &str)] = &[
+    ("pillow", include_str!("../../cases/pillow.toml")),
+    ("tube", include_str!("../../cases/tube.toml")),
+    ("blocked-pouch", include_str!("../../cases/blocked-pouch.toml")),
+];
 
 /// True if the text says that it is a finite element case, whether or not it is a right one.
 pub fn is_case(text: &str) -> bool {

@@ -102,12 +102,12 @@ pub fn sewn(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) ->
     rows(&lines, pattern, settings)?;
     let mut mesh = sew::sew(scenario, pattern, settings, &lines)?;
     mesh.membrane = waviness::wavy(&mesh.points, settings.waviness_m, settings.seed);
-    check_open(&mesh, &[sew::BODY, sew::ACTUATOR], &["base"])?;
+    check_open(&mesh, &[sew::BODY, sew::ACTUATOR], &[sew::BASE])?;
     let plies = Plies::of(pattern, settings)?;
     let sections = mesh.parts.iter().map(|part| plies.section(&part.name)).collect();
     let mut problem = Problem::new(&scenario.name, mesh, sections, chambers(scenario, settings));
-    problem.open = vec!["base".into()];
-    problem.supports = vec![Support { set: "base".into(), axes: [true; 3], motion: None }];
+    problem.open = vec![sew::BASE.into()];
+    problem.supports = vec![Support { set: sew::BASE.into(), axes: [true; 3], motion: None }];
     problem.contact = contact(&problem.mesh, pattern, settings);
     problem.settings = numerics(&problem, settings);
     Ok(problem)
@@ -118,7 +118,7 @@ pub fn sewn(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) ->
 /// # Errors
 /// [`FemError::Mesh`] naming the first fault.
 pub fn quality(problem: &Problem) -> Result<Quality, FemError> {
-    check_open(&problem.mesh, &[sew::BODY, sew::ACTUATOR], &["base"])
+    check_open(&problem.mesh, &[sew::BODY, sew::ACTUATOR], &[sew::BASE])
 }
 
 /// Centre line of the body at stations along it \[m\]: centroids of the wall's sections, the actuator's sheet left out.

@@ -56,6 +56,12 @@ pub struct Reading {
     pub seam_part: String,
     /// Its place along the straight robot \[m\].
     pub seam_at_m: f64,
+    /// Force of the support at the base on the robot \[N\]; 0 in readings that did not keep it.
+    #[serde(default)]
+    pub base_n: [f64; 3],
+    /// Its moment about the middle of the base \[N·m\].
+    #[serde(default)]
+    pub base_nm: [f64; 3],
     /// Ledger: name, `stored`, `dissipated` or `supplied`, and energy \[J\].
     pub ledger: Vec<(String, String, f64)>,
     /// Kinetic over kinetic and stored energy.
@@ -105,6 +111,7 @@ impl Gauge {
         let (seam_part, seam_at_m) = seam.map_or((String::new(), 0.0), |s| self.place(s.element));
         let chamber = |name: &str| run.chambers().into_iter().find(|c| c.name == name);
         let (body, actuator) = (chamber(sew::BODY), chamber(sew::ACTUATOR));
+        let base = run.reactions().iter().find(|r| r.set == sew::BASE);
         let ledger = run.ledger();
         let mut rows = vec![("kinetic".to_string(), "stored".to_string(), ledger.kinetic_j)];
         rows.extend(ledger.rows.iter().map(|r| (r.name.to_string(), r.kind.word().to_string(), r.energy_j)));
@@ -125,6 +132,8 @@ impl Gauge {
             seam_n_per_m: seam.map_or(0.0, |s| s.n_per_m),
             seam_part,
             seam_at_m,
+            base_n: base.map_or([0.0; 3], |r| r.force_n),
+            base_nm: base.map_or([0.0; 3], |r| r.moment_nm),
             ledger: rows,
             kinetic_share: ledger.kinetic_share(),
         })

@@ -169,6 +169,8 @@ fn state(r: &Reading) -> FeState {
         kinetic_share: short(r.kinetic_share),
         von_mises_mpa: short(r.von_mises_pa * 1e-6),
         weld_n_per_m: short(r.seam_n_per_m),
+        base_n: r.base_n.map(short),
+        base_nm: r.base_nm.map(short),
         // The last station is the tip.
         moved_mm: r.moved_m.iter().rev().skip(1).rev().map(plane).collect(),
         seen_mm: r.seen_moved_m.iter().map(plane).collect(),

@@ -85,6 +85,10 @@ fn readings_csv(readings: &[Reading]) -> String {
             "MPa",
         );
         line("weld_force_max", format!("{} at {:.0} mm", r.seam_part, r.seam_at_m * MM), r.seam_n_per_m, "N/m");
+        for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            line(&format!("reaction_{axis}"), "base".into(), r.base_n[k], "N");
+            line(&format!("reaction_m{axis}"), "base".into(), r.base_nm[k], "N m");
+        }
         line("kinetic_share", String::new(), r.kinetic_share, "1");
         for (name, kind, energy) in &r.ledger {
             line(&format!("energy {kind}"), name.clone(), *energy, "J");

@@ -37,6 +37,8 @@ pub struct Summary {
     quality: Option<Quality>,
     probes: Vec<Probe>,
     chambers: Vec<Chamber>,
+    #[serde(default)]
+    reactions: Vec<Reaction>,
     ledger: Vec<Energy>,
     kinetic_j: f64,
     external_work_j: f64,
@@ -67,6 +69,14 @@ struct Chamber {
     name: String,
     pressure_kpa: f64,
     volume_cm3: f64,
+}
+
+/// Force of a support on the structure, along the axes that it holds, and its moment about the middle of the set.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Reaction {
+    set: String,
+    force_n: [Option<f64>; 3],
+    moment_nm: [f64; 3],
 }
 
 /// One line of the ledger.
@@ -118,6 +128,11 @@ impl Summary {
             pressure_kpa: c.pressure_pa / 1e3,
             volume_cm3: c.volume_m3 * 1e6,
         };
+        let reaction = |r: &fem::run::Reaction| Reaction {
+            set: r.set.clone(),
+            force_n: [0, 1, 2].map(|k| r.axes[k].then_some(r.force_n[k])),
+            moment_nm: r.moment_nm,
+        };
         let positions = run.positions();
         let probe = |set: &String| {
             let moved = mean_displacement(mesh, mesh.sets.get(set)?, &positions);
@@ -137,6 +152,7 @@ impl Summary {
             quality: quality(case),
             probes: case.outputs.probes.iter().filter_map(probe).collect(),
             chambers: run.chambers().into_iter().map(chamber).collect(),
+            reactions: run.reactions().iter().map(reaction).collect(),
             ledger: ledger.rows.iter().map(energy).collect(),
             kinetic_j: ledger.kinetic_j,
             external_work_j: ledger.external_work_j,
@@ -229,10 +245,22 @@ pub fn text(s: &Summary) -> String {
     out.push_str(&section(&["probe", "dx mm", "dy mm", "dz mm"], 1, s.probes.iter().map(probe).collect()));
     let chamber = |c: &Chamber| vec![c.name.clone(), format!("{:.3}", c.pressure_kpa), format!("{:.3}", c.volume_cm3)];
     out.push_str(&section(&["chamber", "pressure kPa", "volume cm³"], 1, s.chambers.iter().map(chamber).collect()));
+    let force = |r: &Reaction| {
+        let held = r.force_n.map(|n| n.map_or("–".into(), signed));
+        std::iter::once(r.set.clone()).chain(held).chain(r.moment_nm.map(signed)).collect()
+    };
+    let head = ["force of the support on", "x N", "y N", "z N", "about x N·m", "about y", "about z"];
+    out.push_str(&section(&head, 1, s.reactions.iter().map(force).collect()));
     out.push_str(&s.robot.as_ref().map(robot::text).unwrap_or_default());
     out.push_str(&section(&["energy", "", "J"], 2, ledger(s)));
     out.push_str(&judgement(s));
     out
+}
+
+/// With its sign, unless it is zero in these digits.
+fn signed(value: f64) -> String {
+    let text = format!("{value:+.4}");
+    if text.ends_with("0.0000") && value.abs() < 1.0 { "0".into() } else { text }
 }
 
 fn section(head: &[&str], left: usize, rows: Vec<Vec<String>>) -> String {

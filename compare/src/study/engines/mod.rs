@@ -95,6 +95,12 @@ pub struct FeState {
     pub von_mises_mpa: f64,
     /// Largest pull on a weld \[N/m\].
     pub weld_n_per_m: f64,
+    /// Force of the support at the base on the robot \[N\]; 0 in runs that did not keep it.
+    #[serde(default)]
+    pub base_n: [f64; 3],
+    /// Its moment about the middle of the base \[N·m\].
+    #[serde(default)]
+    pub base_nm: [f64; 3],
     /// Displacements of the sections at the markers in the plane of bending, x along the straight robot, y to the actuator \[mm\].
     pub moved_mm: Vec<[f64; 2]>,
     /// Those of the wall where the markers stick, at the height of the axis, on the side that faces a camera \[mm\].
