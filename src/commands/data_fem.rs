@@ -59,7 +59,7 @@ pub fn run(args: &DataFem, context: &mut Context) -> Result<Outcome, Failure> {
         dataset.runs.len(),
         args.out.display()
     );
-    let answer = json!({"schema": "ibr.data.fem", "version": 1, "folder": args.out, "runs": dataset.runs.len()});
+    let answer = json!({"schema": "ibr.data.fem", "version": 1, "folder": args.out.display().to_string(), "runs": dataset.runs.len()});
     Ok(Outcome::new(text, answer))
 }
 
