@@ -57,6 +57,12 @@ impl Watched {
         self.holds.get(self.readings.len()).map(|hold| hold.time_s)
     }
 
+    /// Pressure of the hold that a moment leads to or lies in \[Pa\].
+    pub fn hold_pa(&self, time_s: f64) -> Option<f64> {
+        let ahead = self.holds.iter().find(|hold| time_s <= hold.time_s + NOW_S);
+        ahead.or(self.holds.last()).map(|hold| hold.pressure_pa)
+    }
+
     /// Reads the robot.
     pub fn read(&mut self, run: &Simulation) -> Result<(), FemError> {
         self.readings.push(self.gauge.read(run)?);

@@ -192,7 +192,8 @@ impl<'a> Running<'a> {
             line.append(record.step, record.time_s, &record.positions)?;
         }
         if let Some(series) = &mut self.files.series {
-            series.push(&self.case.problem.mesh, &Frame::of(&self.run))?;
+            let hold_pa = self.robot.as_ref().and_then(|robot| robot.hold_pa(record.time_s));
+            series.push(&self.case.problem.mesh, &Frame { hold_pa, ..Frame::of(&self.run) })?;
         }
         self.next += 1;
         Ok(())

@@ -13,20 +13,7 @@ fn run(extra: usize, mj: f64) -> (Scenario, FeRun, Pair) {
     let [gas, body, bending, ..] = reduced_ledger(&model, &loads, &at, 1.0);
     let mut energies_mj = [0.0, bending, 0.0, 0.0, 0.0];
     energies_mj[extra] += mj;
-    let filled = FeState {
-        actuator_kpa: 0.0,
-        marker_mm: 0.0,
-        tip_mm: 0.0,
-        turn_rad: 0.0,
-        body_cm3: 1800.0,
-        actuator_cm3: 0.0,
-        energies_mj: [0.0; 5],
-        kinetic_share: 0.0,
-        von_mises_mpa: 0.0,
-        weld_n_per_m: 0.0,
-        moved_mm: Vec::new(),
-        seen_mm: Vec::new(),
-    };
+    let filled = FeState { body_cm3: 1800.0, ..FeState::default() };
     let state = FeState {
         actuator_kpa: 20.0,
         tip_mm: at.tip.y_m * 1e3,
