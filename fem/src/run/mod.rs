@@ -15,12 +15,14 @@ mod highest;
 mod ledger;
 mod selective;
 mod setup;
+mod sides;
 mod step;
 mod team;
 
 pub use crate::sheet::fields::ElementFields;
 pub use ledger::Ledger;
 pub(crate) use setup::gaussian;
+pub use sides::ChangedSides;
 
 use models::{Pose, Row, RowKind, Term};
 

@@ -59,8 +59,18 @@ fn physics(case: &Case, running: &Running, robot: Option<&Robot>) -> Value {
         "probes": probes, "chambers": chambers,
         "ledger": rows, "kinetic_j": ledger.kinetic_j, "external_work_j": ledger.external_work_j,
         "residual_j": ledger.residual_j, "residual_share": ledger.residual_share(), "residual_share_peak": largest,
-        "kinetic_share": kinetic(&running.balances),
+        "kinetic_share": kinetic(&running.balances), "changed_sides": changed_sides(run),
     })
+}
+
+/// Nodes that came through a layer; null without contact.
+fn changed_sides(run: &fem::Simulation) -> Option<Value> {
+    let changed = run.changed_sides()?;
+    let first = changed.first.map(|f| {
+        json!({"node": f.node, "part": f.part, "time_s": f.time_s, "place_mm": f.place_m.map(|c| c * 1e3),
+            "text": f.to_string()})
+    });
+    Some(json!({"nodes": changed.nodes, "share": changed.share, "first": first}))
 }
 
 /// Shape of the elements; the run would not have started with a mesh that does not pass.
@@ -198,6 +208,16 @@ fn judgement(s: &Value) -> String {
         &k["below_10_pct_of_internal"],
     ));
     out.push_str(&rule("below 1 % of total energy (what the paper kept)", &k["below_1_pct_of_total"]));
+    if let Some(first) = s["changed_sides"]["first"]["text"].as_str() {
+        out.push_str(&format!(
+            "warning: nodes that came through a layer: {}, {} of those in contact; the first: {first}. Smaller elements, or \
+             edges = true in [contact], hold them\n",
+            s["changed_sides"]["nodes"],
+            percent(&s["changed_sides"]["share"])
+        ));
+    } else if s["changed_sides"].is_object() {
+        out.push_str("nodes that came through a layer: none\n");
+    }
     out
 }
 
