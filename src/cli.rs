@@ -113,7 +113,7 @@ pub struct BenchArgs {
     /// With discovery: seed of everything
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// With fem: also whole runs, a pillow of the nodes of 80 000 triangles and the four robots, about two minutes
+    /// With fem: also whole runs, pillows of the nodes of up to 80 000 triangles and the four robots, about two minutes
     #[arg(long)]
     pub all: bool,
 }

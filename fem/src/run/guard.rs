@@ -125,7 +125,7 @@ impl Simulation {
         Ok(())
     }
 
-    fn stopped(&self, reason: String) -> FemError {
+    pub(super) fn stopped(&self, reason: String) -> FemError {
         FemError::Stopped { step: self.clock.step, time_s: self.clock.time_s, reason }
     }
 }

@@ -16,6 +16,7 @@ mod ledger;
 mod reaction;
 mod selective;
 mod setup;
+mod sides;
 mod step;
 mod team;
 
@@ -23,6 +24,7 @@ pub use crate::sheet::fields::ElementFields;
 pub use ledger::Ledger;
 pub use reaction::Reaction;
 pub(crate) use setup::gaussian;
+pub use sides::ChangedSides;
 
 use models::{Pose, Row, RowKind, Term};
 

@@ -67,6 +67,7 @@ impl Simulation {
         while self.is_before(time_s) && began.elapsed() < STRETCH {
             let steps = LOOK - self.clock.step % LOOK;
             self.burst(steps, time_s);
+            self.guard_sides()?;
             self.guard()?;
             if self.clock.step.is_multiple_of(recheck) {
                 self.recheck()?;

@@ -46,6 +46,40 @@ pub struct Summary {
     residual_share: f64,
     residual_share_peak: f64,
     kinetic_share: Kinetic,
+    /// Without contact `None`.
+    #[serde(default)]
+    changed_sides: Option<ChangedSides>,
+}
+
+/// Nodes that came through a layer.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct ChangedSides {
+    nodes: usize,
+    share: f64,
+    first: Option<FirstThrough>,
+}
+
+impl ChangedSides {
+    fn of(found: fem::run::ChangedSides) -> ChangedSides {
+        let first = found.first.map(|first| FirstThrough {
+            text: first.to_string(),
+            node: first.node,
+            part: first.part,
+            time_s: first.time_s,
+            place_mm: first.place_m.map(|c| c * 1e3),
+        });
+        ChangedSides { nodes: found.nodes, share: found.share, first }
+    }
+}
+
+/// The first of them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct FirstThrough {
+    node: usize,
+    part: String,
+    time_s: f64,
+    place_mm: [f64; 3],
+    text: String,
 }
 
 /// Shape of the elements: smallest, median and largest side, and the worst of each.
@@ -160,6 +194,7 @@ impl Summary {
             residual_share: ledger.residual_share(),
             residual_share_peak: running.balances.iter().fold(0.0, |most, b| b.residual_share.max(most)),
             kinetic_share: kinetic(&running.balances),
+            changed_sides: run.changed_sides().map(ChangedSides::of),
         }
     }
 }
@@ -300,6 +335,18 @@ fn judgement(s: &Summary) -> String {
         &k.below_10_pct_of_internal,
     ));
     out.push_str(&rule("below 1 % of total energy (what the paper kept)", &k.below_1_pct_of_total));
+    if let Some(changed) = &s.changed_sides {
+        out.push_str(&match &changed.first {
+            None => "nodes that came through a layer: none\n".to_string(),
+            Some(first) => format!(
+                "warning: nodes that came through a layer: {}, {} of those in contact; the first: {}. Smaller elements, or edges = \
+                 true in [contact], hold them\n",
+                changed.nodes,
+                percent(changed.share),
+                first.text
+            ),
+        });
+    }
     out
 }
 
