@@ -38,6 +38,8 @@ pub struct Varied {
     pub name: String,
     /// Ends of its interval in that unit.
     pub interval: [f64; 2],
+    /// Its values at a tenth and at nine tenths of that.
+    pub tenths: [f64; 2],
     /// What it is.
     pub meaning: String,
     /// Where the interval comes from.
@@ -230,7 +232,7 @@ impl Uncertain {
             }
         }
         let data = Lines {
-            title: format!("{}: median and 80 % interval over what nobody measured", self.scenario),
+            title: format!("{}: median and 80 % interval (dashed) over what nobody measured", self.scenario),
             x_label: "marker along the straight robot [mm]".into(),
             y_label: "displacement towards the actuator [mm]".into(),
             series,
@@ -250,7 +252,7 @@ impl Uncertain {
             let half = 0.5 * w.swing_mm;
             TornadoBar {
                 name: number.name.clone(),
-                ends: number.interval.map(|v| format!("{v}")),
+                ends: number.tenths.map(|v| format!("{v}")),
                 values: [base - half, base + half],
             }
         };
@@ -273,7 +275,7 @@ mod tests {
     use super::*;
 
     fn number(name: &str) -> Varied {
-        Varied { name: name.into(), interval: [0.0, 8.0], meaning: String::new(), reason: String::new() }
+        Varied { name: name.into(), interval: [0.0, 8.0], tenths: [0.8, 7.2], meaning: String::new(), reason: String::new() }
     }
 
     /// Robots whose outermost marker is at 100 + 40 u₀ − 10 u₁ at 30 kPa.

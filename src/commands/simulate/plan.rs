@@ -244,6 +244,7 @@ fn uncertain(base: Named, set: &[String], robots: usize) -> Result<Plan, Failure
     let varied = |(unknown, key): &(&Assumed, &Key)| Varied {
         name: key.name.into(),
         interval: unknown.interval.map(|si| rounded(si / key.si)),
+        tenths: [0.1, 0.9].map(|share| format!("{:.2e}", unknown.at(share) / key.si).parse().unwrap_or(f64::NAN)),
         meaning: key.meaning.into(),
         reason: unknown.reason.into(),
     };
