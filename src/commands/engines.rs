@@ -95,7 +95,7 @@ fn cases(args: &Compare, scenarios: &[Robot]) -> Result<Vec<(Named, String)>, Fa
             }
             cases.push((named.with(&changes)?, format!("{}, seed {seed}", scenario.name)));
             if args.usual && CALIBRATED.contains(&scenario.actuator.kind.name) {
-                changes.push(("loading".into(), "\"usual\"".into()));
+                changes.push(("model".into(), "\"usual\"".into()));
                 cases.push((named.with(&changes)?, format!("{}, usual values, seed {seed}", scenario.name)));
             }
         }

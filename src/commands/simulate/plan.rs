@@ -5,7 +5,7 @@ use super::robot::rounded;
 use crate::cli::Simulate;
 use crate::commands::inputs::quantity;
 use crate::failure::Failure;
-use fem::robot::{ASSUMED, Assumed, KEYS, Key, RobotSettings};
+use fem::robot::{ASSUMED, Assumed, KEYS, Key, OTHERS, RobotRun, RobotSettings};
 use models::scenario::quantity::Quantity;
 
 /// One run of several.
@@ -61,15 +61,14 @@ pub fn plan(args: &Simulate, named: Named) -> Result<Plan, Failure> {
     if args.sensitivity {
         return sensitivity(base);
     }
-    let meshes = match typed {
-        Some(meshes) => meshes,
-        None => base.robot_run()?.1.meshes_m.iter().map(|sizes| sizes.map(|m| rounded(m * 1e3))).collect(),
-    };
-    let several = meshes.len() > 1 || args.separate || args.seeds.is_some();
-    if !several {
+    let (_, run) = base.robot_run()?;
+    let of_run = || run.meshes_m.iter().map(|sizes| sizes.map(|m| rounded(m * 1e3))).collect();
+    let meshes = typed.unwrap_or_else(of_run);
+    let separate = args.separate || (run.separate && run.pressures_pa.len() > 1);
+    if meshes.len() < 2 && !separate && args.seeds.is_none() {
         return Ok(Plan::Single(base));
     }
-    let cases = product(&base, args, &meshes)?;
+    let cases = product(&run, args.seeds, separate, &meshes);
     Ok(Plan::Several { base, cases, sensitivity: false })
 }
 
@@ -92,17 +91,15 @@ fn setting(text: &str) -> Result<(String, String), Failure> {
         return Err(Failure::usage(format!("--set {text}: there is no ="), help()));
     };
     let (key, value) = (key.trim(), value.trim());
-    let known = KEYS.iter().any(|k| k.name == key)
-        || ["loading", "contact", "selective_mass", "tip_force_n", "obstacle_mm", "obstacle_friction"].contains(&key);
-    match known {
-        true if key == "loading" => Ok((key.into(), format!("\"{}\"", value.trim_matches('"')))),
+    match KEYS.iter().any(|k| k.name == key) || OTHERS.contains(&key) {
+        true if ["model", "base"].contains(&key) => Ok((key.into(), format!("\"{}\"", value.trim_matches('"')))),
         true => Ok((key.into(), value.into())),
         false => Err(Failure::usage(format!("--set: unknown key `{key}`"), help())),
     }
 }
 
 fn names() -> String {
-    KEYS.iter().map(|k| k.name).collect::<Vec<_>>().join(", ")
+    OTHERS.into_iter().chain(KEYS.iter().map(|k| k.name)).collect::<Vec<_>>().join(", ")
 }
 
 /// Pressures as typed \[kPa\].
@@ -130,8 +127,7 @@ pub fn keys_of([body_mm, actuator_mm]: &[f64; 2]) -> [(String, String); 2] {
 }
 
 /// Every mesh with every seed at every single pressure.
-fn product(base: &Named, args: &Simulate, meshes: &[[f64; 2]]) -> Result<Vec<Variation>, Failure> {
-    let (_, run) = base.robot_run()?;
+fn product(run: &RobotRun, seeds: Option<u64>, separate: bool, meshes: &[[f64; 2]]) -> Vec<Variation> {
     let mut cases = vec![Variation::default()];
     if meshes.len() > 1 {
         let label = |[body, actuator]: &[f64; 2]| match body == actuator {
@@ -141,18 +137,18 @@ fn product(base: &Named, args: &Simulate, meshes: &[[f64; 2]]) -> Result<Vec<Var
         let of = |mm: &[f64; 2]| (label(mm), keys_of(mm).to_vec(), true);
         cases = extended(&cases, &meshes.iter().map(of).collect::<Vec<_>>());
     }
-    if let Some(count) = args.seeds {
+    if let Some(count) = seeds {
         let of = |seed: u64| (format!("seed-{seed}"), vec![("seed".into(), seed.to_string())], false);
         cases = extended(&cases, &(1..=count).map(of).collect::<Vec<_>>());
     }
-    if args.separate {
+    if separate {
         let of = |pa: &f64| {
             let kpa = rounded(pa * 1e-3);
             (format!("{kpa}kPa"), vec![("pressures_kpa".into(), format!("[{kpa}]"))], false)
         };
         cases = extended(&cases, &run.pressures_pa.iter().map(of).collect::<Vec<_>>());
     }
-    Ok(cases)
+    cases
 }
 
 /// Label, keys of `[fem]`, and whether means are taken apart for it.

@@ -106,6 +106,7 @@ impl Watched {
             "actuator": scenario.actuator.kind.name, "length_m": scenario.length_m, "body_pa": scenario.p_body_pa,
             "radius_m": scenario.radius_m, "width_m": scenario.actuator.shape.width_m,
             "pouch_m": scenario.actuator.shape.length_m, "count": scenario.actuator.count,
+            "model": run.model.name(), "set": run.set, "base": if run.settings.encastre { "encastre" } else { "pinned" },
             "settings": settings, "readings": self.readings(), "snaps": self.snaps(),
         })
     }
