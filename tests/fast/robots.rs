@@ -62,6 +62,7 @@ fn wrong_settings_are_refused_before_anything_is_run() {
         (["--mesh", "4"], ["--mesh", "no unit"]),
         (["--mesh", "40mm"], ["elements", "lower actuator_size_m"]),
         (["--set", "bnd=1"], ["unknown key `bnd`", "hourglass"]),
+        (["--set", "model=papers"], ["unknown model", "known: recommended, usual, paper"]),
         (["--set", "bond=2"], ["bond must be from 0 to 1, not 2", "here"]),
         (["--set", "weld_mm=70"], ["welds of 70 mm every 60 mm overlap", "below 60 mm"]),
     ] {
@@ -98,7 +99,9 @@ fn every_study_is_listed_printed_read_by_both_engines_and_starts() {
     let listed = folder.run(&["list", "cases", "--json"]).json("ibr.list");
     let names: Vec<&str> =
         listed["cases"]["studies"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
-    assert_eq!(names, ["cpam-11-12-13", "cpam-mesh", "long", "tip-load", "obstacle"]);
+    let paper = ["spam-paper", "cpam-paper", "epam-paper", "fpam-paper"];
+    let own = ["long", "tip-load", "obstacle"];
+    assert_eq!(names, [&["cpam-11-12-13", "cpam-mesh"], &paper[..], &own].concat());
     for name in names {
         folder.write("mine.toml", folder.run(&["new", name]).stdout);
         let predicted = folder.run(&["predict", "mine.toml"]);

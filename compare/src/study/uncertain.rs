@@ -275,7 +275,13 @@ mod tests {
     use super::*;
 
     fn number(name: &str) -> Varied {
-        Varied { name: name.into(), interval: [0.0, 8.0], tenths: [0.8, 7.2], meaning: String::new(), reason: String::new() }
+        Varied {
+            name: name.into(),
+            interval: [0.0, 8.0],
+            tenths: [0.8, 7.2],
+            meaning: String::new(),
+            reason: String::new(),
+        }
     }
 
     /// Robots whose outermost marker is at 100 + 40 u₀ − 10 u₁ at 30 kPa.

@@ -14,7 +14,7 @@
 //!
 //! | set | nodes |
 //! |---|---|
-//! | `base` | pinned ring |
+//! | `base` | pinned ring; with `encastre` the row beside it is held too |
 //! | `tip`, `marker_1` … | rings of the body at its end and at (or next to) the scenario's stations |
 //! | `far_generator` | the taut line opposite the actuator |
 //!
@@ -23,6 +23,7 @@
 mod assumed;
 mod lines;
 mod loading;
+mod model;
 mod plies;
 mod reading;
 mod seams;
@@ -34,18 +35,19 @@ mod waviness;
 
 pub use assumed::{ASSUMED, Assumed, Spread, hypercube};
 pub use loading::{Hold, RobotRun};
+pub use model::Model;
 pub use reading::{Gauge, Reading};
 pub use seams::{SeamForce, Seams};
 pub use settings::RobotSettings;
 pub use snaps::{Sample, Snap, Watch, snaps};
-pub use table::{KEYS, Key, with_fem};
+pub use table::{KEYS, Key, OTHERS, with_fem};
 
 use std::f64::consts::PI;
 
 use models::Scenario;
 use models::actuators::pattern::Pattern;
 
-use crate::case::Outputs;
+use crate::case::{Outputs, encastre};
 use crate::mesh::check::{Quality, check_open};
 use crate::output::centre_line::CentreLine;
 use crate::output::picture::View;
@@ -107,7 +109,8 @@ pub fn sewn(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) ->
     let sections = mesh.parts.iter().map(|part| plies.section(&part.name)).collect();
     let mut problem = Problem::new(&scenario.name, mesh, sections, chambers(scenario, settings));
     problem.open = vec![sew::BASE.into()];
-    problem.supports = vec![Support { set: sew::BASE.into(), axes: [true; 3], motion: None }];
+    let set = if settings.encastre { encastre(&mut problem.mesh, sew::BASE) } else { sew::BASE.into() };
+    problem.supports = vec![Support { set, axes: [true; 3], motion: None }];
     problem.contact = contact(&problem.mesh, pattern, settings);
     problem.settings = numerics(&problem, settings);
     Ok(problem)

@@ -104,6 +104,9 @@ impl Watched {
             width_m: scenario.actuator.shape.width_m,
             pouch_m: scenario.actuator.shape.length_m,
             count: scenario.actuator.count,
+            model: run.model.name().into(),
+            set: run.set.clone(),
+            base: if run.settings.encastre { "encastre" } else { "pinned" }.into(),
             settings: KEYS.iter().filter(|key| key.name != "mesh_mm").map(setting).collect(),
             readings: self.readings.clone(),
             snaps: self.snaps(),
@@ -127,6 +130,15 @@ pub struct RobotSummary {
     pub pouch_m: f64,
     /// Units in series.
     pub count: usize,
+    /// Preset of `[fem]`, and the keys that were set beside it.
+    #[serde(default)]
+    pub model: String,
+    /// See there.
+    #[serde(default)]
+    pub set: Vec<String>,
+    /// How the base is held.
+    #[serde(default)]
+    pub base: String,
     /// Keys of `[fem]`, in the units of their names; what has no bound is null.
     #[serde(deserialize_with = "with_needed")]
     settings: BTreeMap<String, Option<f64>>,
