@@ -68,7 +68,9 @@ fn parse<T: DeserializeOwned>(file: &str, text: &str, help: &str) -> Result<T, D
         let end = format!(" at line {} column {}", fault.line(), fault.column());
         let what = match fault.classify() {
             // In the middle of a number it is no end for the parser.
-            kind if !whole && (kind == Category::Eof || !text.trim_end().ends_with('}')) => "the file is cut short".to_string(),
+            kind if !whole && (kind == Category::Eof || !text.trim_end().ends_with('}')) => {
+                "the file is cut short".to_string()
+            }
             _ => fault.to_string().trim_end_matches(&end).replace('`', "\""),
         };
         let message = path.map_or(what.clone(), |path| format!("{path}: {what}"));
