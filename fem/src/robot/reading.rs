@@ -59,7 +59,7 @@ pub struct Reading {
     /// Force of the support at the base on the robot \[N\]; 0 in readings that did not keep it.
     #[serde(default)]
     pub base_n: [f64; 3],
-    /// Its moment about the middle of the base \[N·m\].
+    /// Its moment about the middle of the nodes that are held \[N·m\].
     #[serde(default)]
     pub base_nm: [f64; 3],
     /// Ledger: name, `stored`, `dissipated` or `supplied`, and energy \[J\].
@@ -111,7 +111,8 @@ impl Gauge {
         let (seam_part, seam_at_m) = seam.map_or((String::new(), 0.0), |s| self.place(s.element));
         let chamber = |name: &str| run.chambers().into_iter().find(|c| c.name == name);
         let (body, actuator) = (chamber(sew::BODY), chamber(sew::ACTUATOR));
-        let base = run.reactions().iter().find(|r| r.set == sew::BASE);
+        // The base is the only thing that is held, with one row of nodes or two.
+        let base = run.reactions().first();
         let ledger = run.ledger();
         let mut rows = vec![("kinetic".to_string(), "stored".to_string(), ledger.kinetic_j)];
         rows.extend(ledger.rows.iter().map(|r| (r.name.to_string(), r.kind.word().to_string(), r.energy_j)));

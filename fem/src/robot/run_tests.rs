@@ -186,6 +186,22 @@ fn an_encastre_base_holds_the_row_beside_its_ring() {
     assert!(rows == 2 * ring && at_base == 0.0 && (0.004..0.009).contains(&beside), "{ring} {rows} {beside}");
 }
 
+/// The body is open at its base: filled, it pulls on what holds it with p π R².
+#[test]
+fn the_base_holds_the_filled_body_however_it_is_held() {
+    for base in ["pinned", "encastre"] {
+        let (scenario, run) = parsed(&format!("mesh_mm = 8\nbase = \"{base}\"")).unwrap();
+        let problem = run.problem(&scenario).unwrap();
+        let gauge = crate::robot::Gauge::new(&scenario, &problem).unwrap();
+        let mut body = crate::Simulation::new(&problem).unwrap();
+        body.advance_until(run.holds()[0].time_s, &mut |_| true).unwrap();
+        let reading = gauge.read(&body).unwrap();
+        let pull = scenario.p_body_pa * std::f64::consts::PI * scenario.radius_m.powi(2);
+        assert!((reading.base_n[0] / -pull - 1.0).abs() < 0.05, "{base}: {:?}, {pull}", reading.base_n);
+        assert!(reading.base_n[1].hypot(reading.base_n[2]) < 0.05 * pull, "{base}: {:?}", reading.base_n);
+    }
+}
+
 #[test]
 fn loads_of_the_outlook_reach_the_problem() {
     let (scenario, run) =

@@ -98,7 +98,7 @@ pub struct FeState {
     /// Force of the support at the base on the robot \[N\]; 0 in runs that did not keep it.
     #[serde(default)]
     pub base_n: [f64; 3],
-    /// Its moment about the middle of the base \[N·m\].
+    /// Its moment about the middle of the nodes that are held \[N·m\].
     #[serde(default)]
     pub base_nm: [f64; 3],
     /// Displacements of the sections at the markers in the plane of bending, x along the straight robot, y to the actuator \[mm\].

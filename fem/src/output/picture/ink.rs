@@ -126,6 +126,6 @@ mod tests {
         let ink: f64 = image.rgb.chunks(3).map(|p| 1.0 - f64::from(p[0]) / 255.0).sum();
         // Round ends.
         assert!((ink - (300.0 + 1.5 * 1.5 * std::f64::consts::PI)).abs() < 6.0, "{ink}");
-        assert_eq!(inked(&image), (19, 120));
+        assert_eq!(inked(&image), (18, 121));
     }
 }
