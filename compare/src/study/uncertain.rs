@@ -105,7 +105,13 @@ pub struct Weight {
 const RECORD: Shape = Shape { schema: "ibr.uncertain", version: 1 };
 
 /// Hypercubes of the paper's robots, as `ibr simulate NAME --uncertain` wrote them.
-const STORED: &[&str] = &[];
+const STORED: &[&str] = &[
+    include_str!("../../assets/uncertain/spam.json"),
+    include_str!("../../assets/uncertain/spam-face.json"),
+    include_str!("../../assets/uncertain/spam-seams.json"),
+    include_str!("../../assets/uncertain/epam.json"),
+    include_str!("../../assets/uncertain/fpam.json"),
+];
 
 /// Hypercubes that come with the program.
 ///
@@ -343,7 +349,7 @@ mod tests {
     fn what_comes_with_the_program_can_be_read_and_most_of_its_robots_ran() {
         for cube in stored().unwrap() {
             let ran = cube.members.iter().filter(|m| m.stopped.is_none()).count();
-            assert!(ran >= 24 && cube.members.len() >= ran && cube.tip_mm(30.0).is_some(), "{}", cube.scenario);
+            assert!(ran >= 10 && 5 * ran >= 4 * cube.members.len() && cube.tip_mm(30.0).is_some(), "{}", cube.scenario);
         }
     }
 }

@@ -310,6 +310,43 @@ fn ledger(s: &Summary) -> Vec<Vec<String>> {
     rows
 }
 
+/// Hourglass share of the stored energy that is warned of, and from which the shape is that of hourglass control.
+const HOURGLASS: [f64; 2] = [0.05, 0.15];
+/// Added mass over true mass that is warned of.
+const ADDED: f64 = 1.0;
+
+/// What a user should know before believing the numbers: hourglass control, motion at the end, added mass.
+fn warnings(s: &Summary) -> String {
+    let stored = |name: &str| {
+        let rows = s.ledger.iter().filter(|r| r.kind == "stored" && (name.is_empty() || r.name == name));
+        rows.map(|r| r.energy_j).sum::<f64>()
+    };
+    let share = if stored("") > 0.0 { stored("hourglass") / stored("") } else { 0.0 };
+    let mut out = format!("hourglass share of stored energy: {:.3} %\n", 100.0 * share);
+    let [much, too_much] = HOURGLASS;
+    if share > much {
+        let shape = if share > too_much {
+            "the shape is as much that of hourglass control as of the fabric"
+        } else {
+            "it is no longer small"
+        };
+        out.push_str(&format!(
+            "warning: over {:.0} %: {shape}. Write a tenth of hourglass in [settings], or make the elements smaller, and compare\n",
+            100.0 * if share > too_much { too_much } else { much }
+        ));
+    }
+    if let Some(end) = s.kinetic_share.end.filter(|end| *end > HUNDREDTH) {
+        out.push_str(&format!(
+            "warning: {:.1} % of the energy still moves at the end: this is no state of rest. Simulate longer, load more slowly, or add mass_damping_1_s\n",
+            100.0 * end
+        ));
+    }
+    if s.added_mass_share > ADDED {
+        out.push_str("warning: more mass was added than there is: weight and speed are not those of the fabric, and slow motions are late\n");
+    }
+    out
+}
+
 fn judgement(s: &Summary) -> String {
     let percent = |v: f64| format!("{:.3} %", 100.0 * v);
     let k = &s.kinetic_share;
@@ -335,6 +372,7 @@ fn judgement(s: &Summary) -> String {
         &k.below_10_pct_of_internal,
     ));
     out.push_str(&rule("below 1 % of total energy (what the paper kept)", &k.below_1_pct_of_total));
+    out.push_str(&warnings(s));
     if let Some(changed) = &s.changed_sides {
         out.push_str(&match &changed.first {
             None => "nodes that came through a layer: none\n".to_string(),
