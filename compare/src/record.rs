@@ -39,6 +39,13 @@ impl Shape {
         serde_json::to_value(Stamped { schema: self.schema, version: self.version, body }).unwrap_or_default()
     }
 
+    /// A record of this shape whose body is one list, an entry a line.
+    pub fn listed<T: Serialize>(self, key: &str, list: &[T]) -> String {
+        let lines: Vec<String> = list.iter().filter_map(|entry| serde_json::to_string(entry).ok()).collect();
+        let Shape { schema, version } = self;
+        format!("{{\"schema\":\"{schema}\",\"version\":{version},\"{key}\":[\n{}\n]}}\n", lines.join(",\n"))
+    }
+
     /// Reads the record in `text`, the content of `file`; `help` says what to do if it cannot be.
     ///
     /// # Errors

@@ -75,11 +75,11 @@ fn runs(args: &Compare, scenarios: &[(Named, Scenario)], context: &mut Context) 
     if args.stored {
         return Ok(Some(stored()?));
     }
-    let keeper = Keeper { folder: args.runs.clone(), threads: args.threads as usize };
+    let keeper = Keeper { folder: args.runs_folder(), threads: args.threads as usize };
     let Ok(own) = keeper.run_all(&cases(args, scenarios)?, context)? else { return Ok(None) };
     let mut own = own.into_iter().collect::<Result<Vec<FeRun>, Failure>>()?;
     // Runs of the map are there if they were made.
-    let others = all_runs(&args.runs)?.into_iter().filter(|r| !own.contains(r)).collect::<Vec<_>>();
+    let others = all_runs(&keeper.folder)?.into_iter().filter(|r| !own.contains(r)).collect::<Vec<_>>();
     own.extend(others);
     Ok(Some(own))
 }

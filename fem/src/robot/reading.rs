@@ -50,6 +50,9 @@ pub struct Reading {
     pub von_mises_part: String,
     /// Its place along the straight robot \[m\].
     pub von_mises_at_m: f64,
+    /// Whether it lies beside a weld.
+    #[serde(default)]
+    pub von_mises_on_seam: bool,
     /// Largest pull on a weld \[N/m\].
     pub seam_n_per_m: f64,
     /// Part of the element that pulls.
@@ -130,6 +133,7 @@ impl Gauge {
             von_mises_pa: fields.von_mises_pa.get(hottest).copied().unwrap_or(0.0),
             von_mises_part,
             von_mises_at_m,
+            von_mises_on_seam: self.seams.elements().binary_search(&hottest).is_ok(),
             seam_n_per_m: seam.map_or(0.0, |s| s.n_per_m),
             seam_part,
             seam_at_m,

@@ -2,6 +2,7 @@
 
 use super::folder;
 use super::input::{Loaded, Named};
+use super::paper_runs::is_paper;
 use super::robot::{heights_mm, rounded};
 use super::single::{self, Done, Finished, Manner};
 use crate::commands::Context;
@@ -104,8 +105,8 @@ impl Job {
     }
 }
 
-/// The complete run of a robot in a folder, if it is one of the present engine.
-fn finished(folder: &Path) -> Result<Option<FeRun>, Failure> {
+/// The complete run in a folder, if it is one of the present engine.
+pub fn complete(folder: &Path) -> Result<Option<Finished>, Failure> {
     #[derive(Deserialize)]
     struct Made {
         engine: u32,
@@ -116,19 +117,26 @@ fn finished(folder: &Path) -> Result<Option<FeRun>, Failure> {
     if of_another || !folder::is_finished(folder) {
         return Ok(None);
     }
-    Ok(as_run(&Finished::read(folder)?))
+    Finished::read(folder).map(Some)
 }
 
-/// All complete runs of robots in a folder, by name.
+/// The complete run of a robot in a folder.
+fn finished(folder: &Path) -> Result<Option<FeRun>, Failure> {
+    Ok(complete(folder)?.as_ref().and_then(as_run))
+}
+
+/// All complete runs of robots in a folder, by name; those of the paper's own model are compared elsewhere.
 pub fn all(folder: &Path) -> Result<Vec<FeRun>, Failure> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Ok(Vec::new()) };
     let mut folders: Vec<PathBuf> = entries.filter_map(|e| Some(e.ok()?.path())).collect();
     folders.sort();
-    folders.iter().filter_map(|folder| finished(folder).transpose()).collect()
+    let found: Vec<Finished> =
+        folders.iter().filter_map(|folder| complete(folder).transpose()).collect::<Result<_, _>>()?;
+    Ok(found.iter().filter(|run| !is_paper(&run.summary)).filter_map(as_run).collect())
 }
 
 /// A run as the comparison wants it; `None` if it is not one of a robot.
-fn as_run(Finished { summary, cost }: &Finished) -> Option<FeRun> {
+pub fn as_run(Finished { summary, cost }: &Finished) -> Option<FeRun> {
     let about = summary.robot.as_ref().filter(|robot| !robot.readings.is_empty())?;
     Some(FeRun {
         actuator: about.actuator.clone(),

@@ -5,6 +5,7 @@ mod cache;
 mod exchange;
 mod folder;
 mod input;
+mod paper_runs;
 mod plan;
 mod robot;
 mod robot_files;
@@ -27,6 +28,7 @@ use summary::SUMMARY;
 
 pub use cache::{Keeper, all as all_runs};
 pub use input::{Named, named};
+pub use paper_runs::all as paper_runs;
 pub use plan::{keys_of, pressures, sizes};
 pub use robot::{heights_mm, rounded};
 pub use small::{Small, run as small_run};

@@ -32,7 +32,8 @@ pub struct Summary {
     nodes: usize,
     /// Elements.
     pub elements: usize,
-    added_mass_share: f64,
+    /// Over the true mass.
+    pub added_mass_share: f64,
     selective_mass: bool,
     quality: Option<Quality>,
     probes: Vec<Probe>,
@@ -45,7 +46,8 @@ pub struct Summary {
     residual_j: f64,
     residual_share: f64,
     residual_share_peak: f64,
-    kinetic_share: Kinetic,
+    /// Kinetic energy while it moved.
+    pub kinetic_share: Kinetic,
     /// Without contact `None`.
     #[serde(default)]
     changed_sides: Option<ChangedSides>,
@@ -123,19 +125,25 @@ struct Energy {
 
 /// Kinetic energy over kinetic and stored energy at the outputs after the start, held against the two rules.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Kinetic {
-    outputs: usize,
+pub struct Kinetic {
+    /// How many.
+    pub outputs: usize,
     median: Option<f64>,
-    end: Option<f64>,
+    /// At the end.
+    pub end: Option<f64>,
     peak: Option<f64>,
     peak_time_s: Option<f64>,
-    below_10_pct_of_internal: Rule,
-    below_1_pct_of_total: Rule,
+    /// The rule of the paper's source.
+    pub below_10_pct_of_internal: Rule,
+    /// The paper's own.
+    pub below_1_pct_of_total: Rule,
 }
 
+/// A bound of the kinetic energy.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Rule {
-    kept_at: usize,
+pub struct Rule {
+    /// Outputs that keep it.
+    pub kept_at: usize,
     last_broken_s: Option<f64>,
 }
 

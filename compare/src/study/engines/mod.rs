@@ -262,9 +262,7 @@ pub fn read_runs(file: &str, text: &str) -> Result<Vec<FeRun>, DataError> {
 
 /// Runs as they are stored: one a line.
 pub fn runs_json(runs: &[FeRun]) -> String {
-    let lines: Vec<String> = runs.iter().filter_map(|run| serde_json::to_string(run).ok()).collect();
-    let Shape { schema, version } = RUNS;
-    format!("{{\"schema\":\"{schema}\",\"version\":{version},\"runs\":[\n{}\n]}}\n", lines.join(",\n"))
+    RUNS.listed("runs", runs)
 }
 
 /// Runs of one robot as it is that differ in their seed only.
