@@ -66,6 +66,7 @@ impl Membrane {
         self.triangles.len()
     }
     /// Length of a step \[s\].
+    #[allow(dead_code, reason = "a bench has no test harness and drops the test")]
     pub fn dt_s(&self) -> f64 {
         self.dt_s
     }
@@ -149,6 +150,7 @@ impl Triangle {
 
 #[cfg(test)]
 mod tests {
+    #[allow(unused_imports, reason = "a bench has no test harness and drops the test")]
     use super::*;
 
     #[test]

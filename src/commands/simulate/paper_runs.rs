@@ -29,8 +29,8 @@ fn below(folder: &Path, depth: usize, found: &mut Vec<PaperRun>) -> Result<(), F
         return Ok(());
     }
     let entries = std::fs::read_dir(folder).into_iter().flatten();
-    let folders = entries.filter_map(|entry| Some(entry.ok()?.path())).filter(|path| path.is_dir());
-    folders.map(|inner| below(&inner, depth - 1, found)).collect()
+    let mut folders = entries.filter_map(|entry| Some(entry.ok()?.path())).filter(|path| path.is_dir());
+    folders.try_for_each(|inner| below(&inner, depth - 1, found))
 }
 
 /// Whether a run is one of the paper's model, whatever else was set.
