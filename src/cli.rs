@@ -113,7 +113,7 @@ pub struct BenchArgs {
     /// With discovery: seed of everything
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// With fem: also whole runs, a pillow of the nodes of 80 000 triangles and the four robots, about two minutes
+    /// With fem: also whole runs, pillows of the nodes of up to 80 000 triangles and the four robots, about two minutes
     #[arg(long)]
     pub all: bool,
 }
@@ -163,26 +163,30 @@ pub struct Predict {
 /// `ibr compare`
 #[derive(Debug, Args)]
 pub struct Compare {
-    /// Scenario file or shipped robot, then marker data; with --engines any number of scenarios, those of the paper if none
+    /// Scenario file or shipped robot, then marker data; with --engines or --paper any number of scenarios, those of the paper if none
     #[arg(value_name = "SCENARIO DATA")]
     pub inputs: Vec<String>,
     /// Hold the reduced model and finite element runs against each other and against the published numbers
     #[arg(long, visible_alias = "published", conflicts_with_all = ["calibrate", "effect", "sigma", "max_error"])]
     pub engines: bool,
-    /// With --engines: folder of finished runs; missing ones are made there
-    #[arg(long, default_value = "ibr-report/runs")]
-    pub runs: PathBuf,
+    /// The paper's finite elements, reproduced: runs with its own modelling choices beside what it prints, fact by fact
+    #[arg(long, conflicts_with_all = ["engines", "calibrate", "effect", "sigma", "max_error"])]
+    pub paper: bool,
+    /// Folder of finished runs; missing ones are made there. Default: ibr-report/runs; with --paper the runs that come
+    /// with the program
+    #[arg(long)]
+    pub runs: Option<PathBuf>,
+    /// With --paper and --runs: meshes of the runs, body and actuator; the paper's final one is 4mm/1mm and takes hours
+    #[arg(long, value_name = "[BODY/]ACTUATOR", requires_all = ["paper", "runs"], default_value = "4mm", allow_hyphen_values = true)]
+    pub mesh: String,
     /// With --engines: only the runs that come with the program
     #[arg(long, requires = "engines")]
     pub stored: bool,
     /// With --engines: runs of every robot, with other random imperfections each
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1000))]
     pub seeds: u64,
-    /// With --engines: also with usual values in place of those calibrated on the published displacements
-    #[arg(long, requires = "engines")]
-    pub usual: bool,
-    /// With --engines: actuator pressures of the runs; default: the scenario's
-    #[arg(long, requires = "engines", allow_hyphen_values = true)]
+    /// Actuator pressures of the runs; default: the scenario's, and with --paper also 11, 12 and 13 kPa of the cPAM
+    #[arg(long, allow_hyphen_values = true)]
     pub pressure: Option<String>,
     /// With --engines: threads, shared by runs beside each other; 0: one per core
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
@@ -202,6 +206,13 @@ pub struct Compare {
     /// Folder for the report, plots and tables; default: ibr-report/compare-<data>, with --json: none
     #[arg(long)]
     pub out: Option<PathBuf>,
+}
+
+impl Compare {
+    /// Where runs are kept.
+    pub fn runs_folder(&self) -> PathBuf {
+        self.runs.clone().unwrap_or_else(|| PathBuf::from("ibr-report/runs"))
+    }
 }
 
 /// `ibr simulate`

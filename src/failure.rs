@@ -1,5 +1,6 @@
 //! What can go wrong in the command, as the user sees it, with its exit code.
 
+use crate::printable::printable;
 use miette::{
     GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, NamedSource, Report,
     SourceCode, SourceSpan, SpanContents,
@@ -129,32 +130,32 @@ impl Failure {
         let handler = GraphicalReportHandler::new_themed(theme).with_links(false).with_width(110);
         match handler.render_report(&mut text, self.diagnostic().as_ref()) {
             Ok(()) => text,
-            Err(_) => format!("error: {self}\n"),
+            Err(_) => printable(&format!("error: {self}\n")),
         }
     }
 
     fn diagnostic(&self) -> Report {
-        let base = miette::MietteDiagnostic::new(self.to_string());
+        let base = miette::MietteDiagnostic::new(printable(&self.to_string()));
         match self {
             Failure::Usage { help, .. } | Failure::Read { help, .. } | Failure::Write { help, .. } => {
-                Report::new(base.with_help(help))
+                Report::new(base.with_help(printable(help)))
             }
             Failure::Scenario { file, text, error } => {
                 let help = error.help.as_deref().unwrap_or_else(|| what_to_type(&error.message));
                 let span = error.span.map(|(start, end)| start..end);
-                in_source(base.with_help(help), file, text, span)
+                in_source(base.with_help(printable(help)), file, text, span)
             }
             Failure::Case { file, text, message, span } => {
                 let help = message.lines().skip(1).collect::<Vec<_>>().join(" ");
-                let shown = if help.is_empty() { base } else { base.with_help(help) };
+                let shown = if help.is_empty() { base } else { base.with_help(printable(&help)) };
                 in_source(shown, file, text, span.clone())
             }
-            Failure::Data(error) => data_report(error, base.with_help(error.help())),
+            Failure::Data(error) => data_report(error, base.with_help(printable(error.help()))),
             Failure::Stopped { folder, .. } => {
                 let help = format!(
                     "what was written until then is in {folder}; change the case and run it again with --force"
                 );
-                Report::new(base.with_help(help))
+                Report::new(base.with_help(printable(&help)))
             }
             Failure::Compare(_) | Failure::Unsolved(_) | Failure::Fem(_) => Report::new(base),
         }
@@ -170,7 +171,7 @@ fn in_source(shown: miette::MietteDiagnostic, file: &str, text: &str, span: Opti
         Some(span) => shown.with_label(label(span)),
         None => shown,
     };
-    Report::new(shown).with_source_code(NamedSource::new(file, text.to_string()))
+    Report::new(shown).with_source_code(NamedSource::new(printable(file), printable(text)))
 }
 
 /// Help for TOML errors that bring none.
@@ -214,7 +215,7 @@ fn data_report(error: &data::DataError, shown: miette::MietteDiagnostic) -> Repo
     let (cut, before) = part(text, start);
     let (start, end) = (start.saturating_sub(before), end.saturating_sub(before));
     let end = end.max(start + 1).min(cut.len());
-    let source = Line { name: place.file.clone(), text: cut.to_string(), number: place.line as usize, before };
+    let source = Line { name: printable(&place.file), text: printable(cut), number: place.line as usize, before };
     Report::new(shown.with_label(LabeledSpan::at(start.min(end)..end, "here"))).with_source_code(source)
 }
 

@@ -6,11 +6,13 @@ mod cost;
 mod extended;
 mod failure;
 mod output;
+mod printable;
 mod studies;
 
 use clap::Parser;
 use cli::Cli;
 use commands::{Context, Interrupt, Outcome};
+use printable::printable;
 use std::io::Write;
 use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
@@ -29,7 +31,7 @@ fn main() -> ExitCode {
     let bar = (!cli.quiet && !cli.json).then(progress_bar);
     let mut tell = |text: &str, share: Option<f64>| {
         if let Some(bar) = &bar {
-            bar.set_message(text.to_string());
+            bar.set_message(printable(text));
             bar.set_position((1000.0 * share.unwrap_or(0.0)) as u64);
         }
     };
@@ -67,11 +69,11 @@ fn interrupt() {
 fn finish(outcome: &Outcome, json: bool) -> ExitCode {
     let text = match (&outcome.json, json) {
         (Some(value), true) => format!("{value:#}\n"),
-        _ => outcome.text.clone(),
+        _ => printable(&outcome.text),
     };
     let mut stdout = std::io::stdout().lock();
     let written = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
-    outcome.notes.iter().for_each(|note| say(&format!("{note}\n")));
+    outcome.notes.iter().for_each(|note| say(&format!("{}\n", printable(note))));
     match written {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             say(&format!("cannot print: {error}\n"));

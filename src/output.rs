@@ -2,6 +2,7 @@
 
 use crate::commands::Context;
 use crate::failure::Failure;
+use compare::record::Shape;
 use compare::study::pages::Files;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -118,19 +119,20 @@ pub fn output(name: &str, bytes: &[u8]) -> Value {
     json!({"name": name, "sha256": sha256(bytes)})
 }
 
+/// `manifest.json`.
+pub const MANIFEST: Shape = Shape { schema: "ibr.manifest", version: 1 };
+
 /// What made these files, from what, where and when.
 pub fn manifest(outputs: &[Value], inputs: &[Input]) -> Value {
     let inputs: Vec<Value> = inputs.iter().map(|i| json!({"name": i.name, "sha256": i.sha256})).collect();
-    json!({
-        "schema": "ibr.manifest",
-        "version": 1,
+    MANIFEST.stamped(&json!({
         "program": program(),
         "date": today(),
         "machine": machine(),
-        "command": std::env::args().collect::<Vec<_>>().join(" "),
+        "command": std::env::args_os().map(|a| a.to_string_lossy().into_owned()).collect::<Vec<_>>().join(" "),
         "inputs": inputs,
         "outputs": outputs,
-    })
+    }))
 }
 
 /// Program and version.

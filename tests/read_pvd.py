@@ -18,7 +18,7 @@ def main(path):
         names.append(os.path.join(os.path.dirname(path), entry.get("file")))
     assert names, "the series names no frame"
     assert all(a < b for a, b in zip(times, times[1:])), "the times do not rise"
-    shape = None
+    shape, places = None, []
     for name in names:
         frame = read(name)
         found = (frame.GetNumberOfPoints(), frame.GetNumberOfCells(), arrays(frame))
@@ -26,6 +26,9 @@ def main(path):
         assert found[0] > 0 and found[1] > 0 and found[2], f"{name} is empty"
         shape = found
         check_finite(name, frame)
+        places.append(frame.GetBounds())
+        check_parts(name, frame)
+    assert places[0] != places[-1], "nothing moves"
     print(f"{len(names)} frames of {shape[0]} points and {shape[1]} cells from t = {times[0]} to {times[-1]} s")
     print("arrays:", ", ".join(shape[2]))
 
@@ -47,6 +50,12 @@ def arrays(frame):
         for data in (frame.GetPointData(), frame.GetCellData())
         for i in range(data.GetNumberOfArrays())
     )
+
+
+def check_parts(name, frame):
+    names, numbers = frame.GetFieldData().GetAbstractArray("part_names"), frame.GetCellData().GetArray("part_id")
+    parts = {names.GetValue(i) for i in range(names.GetNumberOfValues())}
+    assert len(parts) == 1 + numbers.GetRange()[1] and "" not in parts, f"{name}: parts {parts}"
 
 
 def check_finite(name, frame):

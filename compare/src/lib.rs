@@ -20,6 +20,7 @@ pub mod metrics;
 pub mod noise;
 pub mod noise_summary;
 pub mod plots;
+pub mod record;
 pub mod report;
 pub mod residuals;
 mod run_scatter;

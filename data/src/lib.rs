@@ -33,7 +33,7 @@ pub use dataset::{Dataset, Hold, Marker, Phase};
 pub use error::{DataError, Fault, Location};
 pub use load::load;
 pub use lost::{Lost, losses};
-pub use published::{Published, PublishedActuator, PublishedFabric, published};
+pub use published::{Published, PublishedActuator, PublishedFabric, PublishedFact, published};
 pub use read::{ReadOptions, parse_markers, read_markers};
 pub use sets::{SetInfo, set_about, set_file, sets};
 pub use table::{Column, Table, read_parquet};

@@ -34,6 +34,22 @@ pub struct Published {
     pub fabrics: Vec<PublishedFabric>,
     /// Settings of the paper's own simulation (Section III-A).
     pub simulation: PublishedSimulation,
+    /// Sentences of the text and the captions with something to check.
+    pub facts: Vec<PublishedFact>,
+}
+
+/// A sentence with something to check.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PublishedFact {
+    /// Name, unique.
+    pub id: String,
+    /// Section, table or figure.
+    pub place: String,
+    /// As printed, shortened.
+    pub says: String,
+    /// Its numbers in the printed units (kPa, mm, %).
+    pub numbers: Vec<f64>,
 }
 
 /// One column of Table II and one row of Table III.
@@ -137,6 +153,7 @@ fn parse_published(file: &str, text: &str) -> Result<Published, DataError> {
         fabrics: raw.fabric.into_iter().map(RawFabric::in_si).collect(),
         actuator_pressures_pa: pressures_pa,
         simulation,
+        facts: raw.fact,
     })
 }
 
@@ -149,6 +166,7 @@ struct RawPublished {
     simulation: RawSimulation,
     fabric: Vec<RawFabric>,
     actuator: Vec<RawActuator>,
+    fact: Vec<PublishedFact>,
 }
 
 #[derive(Deserialize)]
@@ -264,6 +282,17 @@ mod tests {
         assert_eq!(all.fold(1.0, f64::min), 0.807, "abstract: 80.7 % at lower pressures");
         let fpam = paper.actuator("fpam").unwrap();
         assert!(fpam.accuracy.iter().all(|(_, a)| *a >= 0.967), "abstract: at least 96.7 %");
+    }
+
+    #[test]
+    fn every_fact_has_a_name_of_its_own_a_place_and_a_sentence() {
+        let facts = published().unwrap().facts;
+        assert!(facts.len() > 30);
+        for (k, fact) in facts.iter().enumerate() {
+            assert!(facts[..k].iter().all(|other| other.id != fact.id), "{}", fact.id);
+            let known = ["Abstract", "Section", "Fig.", "Table"].iter().any(|word| fact.place.contains(word));
+            assert!(known && !fact.says.is_empty(), "{}", fact.id);
+        }
     }
 
     #[test]

@@ -41,7 +41,7 @@ pub mod verify;
 pub use error::FemError;
 pub use mesh::{Mesh, Part};
 pub use problem::Problem;
-pub use run::Simulation;
+pub use run::{ChangedSides, Simulation};
 
 /// Raised whenever the same problem gives other numbers than before: stored results of an older engine are then not used.
 pub const ENGINE: u32 = 10;

@@ -233,11 +233,13 @@ pub struct Guards {
     pub speed_m_s: f64,
     /// Stop at an element that lost its area or turned inside out.
     pub inverted: bool,
+    /// Share of the nodes in contact that may change side of a layer (0.05).
+    pub sides: f64,
 }
 
 impl Default for Guards {
     fn default() -> Guards {
-        Guards { residual: 0.02, residual_floor_j: 1e-6, speed_m_s: 0.0, inverted: true }
+        Guards { residual: 0.02, residual_floor_j: 1e-6, speed_m_s: 0.0, inverted: true, sides: 0.05 }
     }
 }
 

@@ -277,3 +277,26 @@ fn fabrics_of_a_case_out_of_range_are_refused_with_their_line() {
         }
     }
 }
+
+#[test]
+fn layers_that_pass_through_each_other_stop_the_run_with_the_place_and_the_option_that_holds_them() {
+    let (mut mesh, upper) =
+        (generate::plate(0.1, 0.1, 10, 10, None).unwrap(), generate::plate(0.1, 0.1, 9, 9, None).unwrap());
+    let first = mesh.points.len() as u32;
+    mesh.points.extend(upper.points.iter().map(|[x, y, _]| [*x, *y, 2e-3]));
+    let quads = upper.parts[0].quads.iter().map(|q| q.map(|n| n + first)).collect();
+    mesh.parts.push(fem::mesh::Part { name: "upper".into(), layer: 1, quads, ..upper.parts[0].clone() });
+    let mut thrown = problem(mesh, Amplitude::Constant(0.0));
+    thrown.contact = Some(Contact::default());
+    let speed = |n: usize| if n < first as usize { [0.0; 3] } else { [0.0, 0.0, -400.0] };
+    let velocities: Vec<_> = (0..thrown.mesh.points.len()).map(speed).collect();
+    let reason = stopped(&thrown, 1e-2, Some(velocities.clone()));
+    says(&reason, &["changed side of a layer", "node ", "part `", "mm", "edges = true", "guard_sides"]);
+    thrown.settings.guards.sides = 1.0;
+    thrown.settings.guards.residual = 1.0;
+    let mut run = Simulation::new(&thrown).unwrap();
+    run.set_velocities(&velocities);
+    run.advance_until(64.0 * run.dt_s(), &mut |_| true).unwrap();
+    let changed = run.changed_sides().unwrap();
+    assert!(changed.nodes > 100 && changed.share > 0.5 && changed.first.is_some(), "{changed:?}");
+}

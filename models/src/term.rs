@@ -186,6 +186,17 @@ pub enum RowKind {
     Supplied,
 }
 
+impl RowKind {
+    /// Its word in files and tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            RowKind::Stored => "stored",
+            RowKind::Dissipated => "dissipated",
+            RowKind::Supplied => "supplied",
+        }
+    }
+}
+
 /// One line of the energy ledger.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {

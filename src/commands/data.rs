@@ -98,7 +98,7 @@ fn make(args: &Generate, context: &mut Context) -> Result<Outcome, Failure> {
     files.files.push(("truth.toml".into(), named.text.into_bytes()));
     write_files(&args.out, &files, &[named.input], context)?;
     let text = format!("{} values of {} runs in {}\n", dataset.xy_m.len(), dataset.runs.len(), args.out.display());
-    let json = json!({"schema": "ibr.data.generate", "version": 1, "folder": args.out, "runs": dataset.runs.len()});
+    let json = json!({"schema": "ibr.data.generate", "version": 1, "folder": args.out.display().to_string(), "runs": dataset.runs.len()});
     Ok(Outcome::new(text, json))
 }
 

@@ -9,7 +9,7 @@ use crate::cli::DataFem;
 use crate::failure::{Failure, INTERRUPTED};
 use crate::output::{check_folder, write_files};
 use compare::study::Generator;
-use compare::study::engines::{FeRun, ensembles, stored};
+use compare::study::engines::{FeRun, ensemble, stored};
 use compare::study::pages::Files;
 use compare::study::seen::seen;
 use models::Scenario;
@@ -59,7 +59,7 @@ pub fn run(args: &DataFem, context: &mut Context) -> Result<Outcome, Failure> {
         dataset.runs.len(),
         args.out.display()
     );
-    let answer = json!({"schema": "ibr.data.fem", "version": 1, "folder": args.out, "runs": dataset.runs.len()});
+    let answer = json!({"schema": "ibr.data.fem", "version": 1, "folder": args.out.display().to_string(), "runs": dataset.runs.len()});
     Ok(Outcome::new(text, answer))
 }
 
@@ -86,7 +86,7 @@ fn runs(
     context: &mut Context,
 ) -> Result<Option<Vec<FeRun>>, Failure> {
     if args.stored {
-        let [own, _] = ensembles(&stored(), scenario);
+        let own = ensemble(&stored()?, scenario);
         let found: Vec<FeRun> = own.runs.into_iter().take(args.seeds as usize).collect();
         if found.len() < args.seeds as usize {
             let (there, what) = (found.len(), &args.scenario);

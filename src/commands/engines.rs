@@ -6,7 +6,7 @@ use super::{Context, Outcome};
 use crate::cli::Compare;
 use crate::failure::{Failure, INTERRUPTED};
 use crate::output::{Input, check_folder, machine, program, today, write_files};
-use compare::study::engines::{CALIBRATED, FeRun, TERMS, runs_json, stored};
+use compare::study::engines::{FeRun, TERMS, runs_json, stored};
 use compare::study::pages::{
     EngineLine, Engines, HEADS, Imprint, SUMMARY, VOLUMES, VOLUMES_CAPTION, cells, engines, engines_page, lines,
     summary, volume_cells,
@@ -73,18 +73,18 @@ pub fn robots(specs: &[String]) -> Result<(Vec<Robot>, Vec<Input>), Failure> {
 /// Stored runs, or those of the folder, which gets what is missing.
 fn runs(args: &Compare, scenarios: &[(Named, Scenario)], context: &mut Context) -> Result<Option<Vec<FeRun>>, Failure> {
     if args.stored {
-        return Ok(Some(stored()));
+        return Ok(Some(stored()?));
     }
-    let keeper = Keeper { folder: args.runs.clone(), threads: args.threads as usize };
+    let keeper = Keeper { folder: args.runs_folder(), threads: args.threads as usize };
     let Ok(own) = keeper.run_all(&cases(args, scenarios)?, context)? else { return Ok(None) };
     let mut own = own.into_iter().collect::<Result<Vec<FeRun>, Failure>>()?;
     // Runs of the map are there if they were made.
-    let others = all_runs(&args.runs).into_iter().filter(|r| !own.contains(r)).collect::<Vec<_>>();
+    let others = all_runs(&keeper.folder)?.into_iter().filter(|r| !own.contains(r)).collect::<Vec<_>>();
     own.extend(others);
     Ok(Some(own))
 }
 
-/// Every robot with every seed, and with usual values in place of calibrated ones if that is wanted.
+/// Every robot with every seed.
 fn cases(args: &Compare, scenarios: &[Robot]) -> Result<Vec<(Named, String)>, Failure> {
     let mut cases = Vec::new();
     for (named, scenario) in scenarios {
@@ -94,10 +94,6 @@ fn cases(args: &Compare, scenarios: &[Robot]) -> Result<Vec<(Named, String)>, Fa
                 changes.push(("pressures_kpa".into(), format!("{:?}", pressures(list)?)));
             }
             cases.push((named.with(&changes)?, format!("{}, seed {seed}", scenario.name)));
-            if args.usual && CALIBRATED.contains(&scenario.actuator.kind.name) {
-                changes.push(("loading".into(), "\"usual\"".into()));
-                cases.push((named.with(&changes)?, format!("{}, usual values, seed {seed}", scenario.name)));
-            }
         }
     }
     Ok(cases)
@@ -105,10 +101,10 @@ fn cases(args: &Compare, scenarios: &[Robot]) -> Result<Vec<(Named, String)>, Fa
 
 fn text(lines: &[EngineLine], engines: &Engines) -> Result<String, Failure> {
     let mut out = String::new();
-    let short = engines.robots.iter().filter_map(|r| summary(r).transpose()).collect::<Result<Vec<_>, _>>()?;
+    let short: Vec<Vec<String>> = engines.robots.iter().map(summary).collect::<Result<Vec<_>, _>>()?.concat();
     if !short.is_empty() {
         out.push_str(
-            "Outermost marker at 30 kPa; finite elements: mean ± standard deviation over seeds; accuracy by the paper's formula\n",
+            "Outermost marker at 30 kPa; finite elements: median and 80 % interval over all numbers that nobody measured; as recommended: mean ± standard deviation over seeds\n",
         );
         out.push_str(&table(&SUMMARY, 1, short));
         out.push('\n');
@@ -156,8 +152,8 @@ fn volumes(engines: &Engines) -> String {
 
 /// Runs for other commands: those stored in the program, or those of a folder if one is named.
 pub fn known_runs(folder: Option<&Path>) -> Result<Vec<FeRun>, Failure> {
-    let Some(folder) = folder else { return Ok(stored()) };
-    let found = all_runs(folder);
+    let Some(folder) = folder else { return Ok(stored()?) };
+    let found = all_runs(folder)?;
     if found.is_empty() {
         let message = format!("{}: no finished finite element run of a robot", folder.display());
         let make = format!("make them with: ibr compare --engines SCENARIO --runs {}", folder.display());

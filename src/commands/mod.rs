@@ -17,6 +17,7 @@ mod extend;
 mod inputs;
 mod ladder;
 mod list;
+mod paper;
 mod predict;
 mod published;
 mod simulate;
@@ -116,6 +117,7 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
     match command {
         Command::Demo(out) => demo::run(&out.out, context),
         Command::Predict(args) => predict::run(args, context),
+        Command::Compare(args) if args.paper => paper::run(args, context),
         Command::Compare(args) if args.engines => engines::run(args, context),
         Command::Compare(args) => compare::run(args, context),
         Command::Diagnose(args) => diagnose::run(args, context),

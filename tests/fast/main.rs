@@ -22,6 +22,7 @@ mod output;
 mod predict;
 mod refused;
 mod robots;
+mod runs;
 mod scenario_errors;
 mod shell;
 mod simulate;

@@ -66,3 +66,23 @@ fn a_plot_of_a_prediction_is_written_where_it_is_wanted() {
     let names: Vec<_> = folder.contents().into_keys().map(|p| p.file_name().unwrap().to_owned()).collect();
     assert_eq!(names, ["manifest.json", "shapes.png", "shapes.svg"]);
 }
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_folder_whose_name_is_no_utf_8_is_as_good_as_any() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = Folder::new();
+    folder.write("my.toml", crate::simulate::small());
+    let commands: [(&[&str], &str); 3] = [
+        (&["simulate", "my.toml", "--json"], "summary.json"),
+        (&["data", "generate", "epam", "--json"], "markers.csv"),
+        (&["compare", "epam", "synthetic-epam", "--json"], "report.html"),
+    ];
+    for (k, (args, file)) in commands.into_iter().enumerate() {
+        let name = [b"out-\xff".as_slice(), &[b'0' + k as u8]].concat();
+        let out = std::ffi::OsStr::from_bytes(&name);
+        let ran = crate::support::Ran::from(folder.ibr(args).arg("--out").arg(out).output().unwrap());
+        assert_eq!(ran.code, 0, "{args:?}: {}", ran.stderr);
+        assert!(folder.path("").join(out).join(file).exists(), "{args:?}");
+    }
+}

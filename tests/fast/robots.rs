@@ -62,6 +62,7 @@ fn wrong_settings_are_refused_before_anything_is_run() {
         (["--mesh", "4"], ["--mesh", "no unit"]),
         (["--mesh", "40mm"], ["elements", "lower actuator_size_m"]),
         (["--set", "bnd=1"], ["unknown key `bnd`", "hourglass"]),
+        (["--set", "model=papers"], ["unknown model", "known: recommended, usual, paper"]),
         (["--set", "bond=2"], ["bond must be from 0 to 1, not 2", "here"]),
         (["--set", "weld_mm=70"], ["welds of 70 mm every 60 mm overlap", "below 60 mm"]),
     ] {
@@ -93,12 +94,33 @@ fn both_engines_stand_beside_the_published_numbers_from_stored_runs() {
 }
 
 #[test]
+fn the_papers_own_model_makes_a_run_of_every_pressure_and_its_table_comes_from_stored_ones() {
+    let folder = Folder::new();
+    let more = ["--mesh", "14mm", "--end", "0.1ms", "--no-frames", "--quiet", "--out", "batch"];
+    let ran = folder.run(&[&["simulate", "epam-paper"], &more[..]].concat());
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    for kpa in ["10", "20", "30"] {
+        let summary: Value = serde_json::from_str(&read(&folder, &format!("batch/{kpa}kPa/summary.json"))).unwrap();
+        assert_eq!(summary["robot"]["model"], "paper");
+    }
+    let answer = folder.run(&["compare", "--paper", "--out", "page", "--json"]).json("ibr.paper");
+    let facts = answer["facts"].as_array().unwrap();
+    assert!(facts.iter().any(|f| f["id"] == "footprint" && f["verdict"]["is"] == "contradicts_itself"), "{facts:?}");
+    assert_eq!(answer["heights"].as_array().unwrap().is_empty(), answer["runs"] == 0);
+    assert_hashes(&folder.path("page"));
+    let wrong = folder.run(&["compare", "--paper", "epam"]);
+    assert!(wrong.code == 2 && wrong.stderr.contains("add --runs FOLDER"), "{}", wrong.stderr);
+}
+
+#[test]
 fn every_study_is_listed_printed_read_by_both_engines_and_starts() {
     let folder = Folder::new();
     let listed = folder.run(&["list", "cases", "--json"]).json("ibr.list");
     let names: Vec<&str> =
         listed["cases"]["studies"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
-    assert_eq!(names, ["cpam-11-12-13", "cpam-mesh", "long", "tip-load", "obstacle"]);
+    let paper = ["spam-paper", "cpam-paper", "epam-paper", "fpam-paper"];
+    let own = ["long", "tip-load", "obstacle"];
+    assert_eq!(names, [&["cpam-11-12-13", "cpam-mesh"], &paper[..], &own].concat());
     for name in names {
         folder.write("mine.toml", folder.run(&["new", name]).stdout);
         let predicted = folder.run(&["predict", "mine.toml"]);

@@ -32,6 +32,29 @@ fn an_unknown_key_is_shown_with_the_known_ones() {
 }
 
 #[test]
+fn a_word_of_basis_that_means_nothing_is_refused() {
+    let text = |basis: &str| {
+        format!("{}\n[effects.gravity]\nweight_n_per_m = 11\nbasis = {basis}\n", models::shipped("epam").unwrap())
+    };
+    refused(
+        text("\"mesured\""),
+        &["basis \"mesured\"", "did you mean measured?", "assumed, calibrated, geometry", "bad.toml:27:9"],
+    );
+    refused(text("1"), &["basis must be a word", "bad.toml:27:9"]);
+}
+
+#[test]
+fn a_terminal_is_not_told_what_to_do_by_a_name() {
+    let folder = with_report();
+    folder.write("bad\u{1b}[2J.toml", epam_with("radius_mm = 40", "radius_mm = \"\u{1b}[31m\u{9b}0c\""));
+    refuse(&folder, &["predict", "bad\u{1b}[2J.toml"], 3, &["bad?[2J.toml", "?[31m??0c"]);
+    folder.write("my.toml", epam_with("name = \"", "name = \"\\u001b]0;title\\u0007"));
+    let ran = folder.run(&["predict", "my.toml"]);
+    assert!(ran.code == 0 && ran.stdout.contains("?]0;title?"), "{}{}", ran.stdout, ran.stderr);
+    assert!(!ran.stdout.contains(['\u{1b}', '\u{7}']));
+}
+
+#[test]
 fn a_wrong_type_is_shown_with_the_wanted_one() {
     let number = "write a plain number without quotation marks";
     refused(epam_with("radius_mm = 40", "radius_mm = \"40\""), &["string \"40\"", "bad.toml:7:13", number]);

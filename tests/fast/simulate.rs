@@ -195,13 +195,41 @@ fn a_run_that_cannot_be_trusted_stops_with_4_and_keeps_what_it_wrote() {
     assert_eq!(folder.run(&["simulate", "my.toml", "--out", "run", "--force"]).code, 0);
 }
 
+/// Exact: p λ L₀ W cos θ/θ at the θ where 1 − λ sin θ/θ is the share of 60 mm that the ends came closer.
+#[test]
+fn the_force_of_a_blocked_pouch_is_in_history_and_summary() {
+    use models::exact::{elastic_pouch, pouch::Pouch};
+    let (pouch, film) = (Pouch { length_m: 0.06, width_m: 0.01 }, elastic_pouch::Film::Linear(2e9 * 1e-4));
+    let (mut low, mut high) = (0.1, 1.5);
+    while high - low > 1e-12 {
+        let middle = 0.5 * (low + high);
+        let far = elastic_pouch::contraction(&pouch, film, middle, 20e3) > 9.5 / 60.0;
+        if far { high = middle } else { low = middle }
+    }
+    let exact = elastic_pouch::force_n(&pouch, film, low, 20e3);
+    assert!((exact - 6.38).abs() < 0.005, "{exact}");
+    let folder = Folder::new();
+    let answer = folder.run(&["simulate", "blocked-pouch", "--out", "run", "--json"]).json("ibr.simulate");
+    let close = |force: f64| (force / exact - 1.0).abs() < 2e-3;
+    let reaction = |set: &str| {
+        let rows = answer["reactions"].as_array().unwrap();
+        rows.iter().find(|r| r["set"] == set).unwrap()["force_n"].clone()
+    };
+    assert!(close(reaction("right")[0].as_f64().unwrap()) && close(-reaction("left")[0].as_f64().unwrap()), "{answer}");
+    assert!(reaction("open_0")[0].is_null(), "not held along x");
+    let history = String::from_utf8(std::fs::read(folder.path("run/history.csv")).unwrap()).unwrap();
+    let column = history.lines().next().unwrap().split(',').position(|name| name == "right_x_N").unwrap();
+    let last: f64 = history.lines().last().unwrap().split(',').nth(column).unwrap().parse().unwrap();
+    assert!(close(last), "{last}, exact {exact}");
+}
+
 #[test]
 fn every_shipped_case_is_listed_printed_and_runs() {
     let folder = Folder::new();
     let listed = folder.run(&["list", "cases", "--json"]).json("ibr.list");
     let names: Vec<_> =
         listed["cases"]["shipped"].as_array().unwrap().iter().map(|c| c["name"].as_str().unwrap()).collect();
-    assert_eq!(names, ["pillow", "tube"]);
+    assert_eq!(names, ["pillow", "tube", "blocked-pouch"]);
     for name in names {
         folder.write("mine.toml", folder.run(&["new", name]).stdout);
         let [mine, shipped] = ["mine.toml", name].map(|case| {

@@ -8,7 +8,7 @@ use super::PlotError;
 
 /// Family name under which the font is registered, and which SVG viewers look up first.
 pub(super) const FAMILY: &str = "DejaVu Sans";
-const BYTES: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
+const BYTES: &[u8] = include_bytes!("../../../assets/DejaVuSans-subset.ttf");
 
 /// The font, registered with plotters on the first call.
 pub(super) fn font() -> Result<&'static FontRef<'static>, PlotError> {

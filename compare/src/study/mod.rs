@@ -6,6 +6,7 @@ pub mod engines;
 pub mod generate;
 pub mod one_number;
 pub mod pages;
+pub mod paper;
 pub mod predict;
 pub mod published;
 pub mod seen;

@@ -108,7 +108,7 @@ pub fn one_number(kind: &str) -> Result<OneNumber, CompareError> {
         }
     }
     met_by.sort_by(|a, b| size(a).total_cmp(&size(b)));
-    let fe_ledger = engines(&[shipped], &stored())?.robots.first().and_then(|r| r.pairs.last()?.carrier());
+    let fe_ledger = engines(&[shipped], &stored()?)?.robots.first().and_then(|r| r.pairs.last()?.carrier());
     Ok(OneNumber {
         robot: actuator.printed_name.clone(),
         actuator: kind.into(),

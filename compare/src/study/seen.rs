@@ -25,9 +25,9 @@ pub const BEYOND: f64 = 0.10;
 /// No runs, runs without markers or of different robots, a pressure they do not reach.
 ///
 /// ```
-/// use compare::study::{Generator, engines::{ensembles, stored}, published::shipped_scenario, seen::seen};
+/// use compare::study::{Generator, engines::{ensemble, stored}, published::shipped_scenario, seen::seen};
 /// let scenario = shipped_scenario("epam")?;
-/// let [runs, _] = ensembles(&stored(), &scenario);
+/// let runs = ensemble(&stored()?, &scenario);
 /// let data = seen(&runs.runs, "mine", &Generator::default())?;
 /// assert_eq!(data.runs.len(), runs.runs.len());
 /// # Ok::<(), compare::CompareError>(())

@@ -1,7 +1,7 @@
 //! Run time against accuracy of every model present.
 
 use crate::error::CompareError;
-use crate::study::engines::{Ensemble, FeRun, as_it_is, ensembles};
+use crate::study::engines::{Ensemble, FeRun, as_it_is, ensemble};
 use crate::study::published::{PublishedLadder, Rung};
 use models::{Loads, Model, Scenario};
 use std::time::Instant;
@@ -65,7 +65,7 @@ pub fn tradeoff(ladders: &[PublishedLadder]) -> Result<Vec<Timing>, CompareError
     Ok(timings)
 }
 
-/// Finite element runs of the published robots at their own body pressure, at 30 kPa: on every mesh, and with usual values.
+/// Finite element runs of the published robots at their own body pressure, at 30 kPa, on every mesh.
 pub fn of_runs(ladders: &[PublishedLadder], runs: &[FeRun]) -> Vec<Timing> {
     let mut timings = Vec::new();
     for ladder in ladders {
@@ -76,9 +76,7 @@ pub fn of_runs(ladders: &[PublishedLadder], runs: &[FeRun]) -> Vec<Timing> {
         meshes.dedup();
         for mesh in meshes {
             let of_mesh: Vec<FeRun> = own.iter().filter(|r| r.mesh_mm[1] == mesh).map(|r| (*r).clone()).collect();
-            let [with, without] = ensembles(&of_mesh, &rung.scenario);
-            timings.extend(of_ensemble(ladder, &with, format!("FE {mesh} mm")));
-            timings.extend(of_ensemble(ladder, &without, format!("FE {mesh} mm, usual values")));
+            timings.extend(of_ensemble(ladder, &ensemble(&of_mesh, &rung.scenario), format!("FE {mesh} mm")));
         }
     }
     timings

@@ -20,10 +20,10 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use crate::plots::{Drawn, LineSeries, LineStyle, Lines, PlotError, Tornado, TornadoBar, lines, tornado};
+use crate::record::Shape;
 use crate::stats::quantile;
+use data::DataError;
 
-/// Version of the record.
-const VERSION: u32 = 1;
 /// Ends of the interval that is told, and its middle.
 pub const QUANTILES: [f64; 3] = [0.1, 0.5, 0.9];
 /// Pressures that are the same reading \[kPa\].
@@ -38,6 +38,8 @@ pub struct Varied {
     pub name: String,
     /// Ends of its interval in that unit.
     pub interval: [f64; 2],
+    /// Its values at a tenth and at nine tenths of that.
+    pub tenths: [f64; 2],
     /// What it is.
     pub meaning: String,
     /// Where the interval comes from.
@@ -68,14 +70,14 @@ pub struct MemberState {
 /// A hypercube of robots.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Uncertain {
-    /// Version of this record.
-    pub version: u32,
     /// Number of the engine that made it.
     pub engine: u32,
     /// Actuator kind.
     pub actuator: String,
     /// Name of the scenario.
     pub scenario: String,
+    /// Settings that make it another robot than the recommended one, as typed; empty for that one.
+    pub variant: String,
     /// Element sizes of body and actuator \[mm\].
     pub mesh_mm: [f64; 2],
     /// Body gauge pressure \[kPa\].
@@ -99,28 +101,45 @@ pub struct Weight {
     pub share: f64,
 }
 
-/// Hypercubes of the paper's robots that come with the program, made by `ibr simulate NAME --uncertain`.
+/// Records of hypercubes.
+const RECORD: Shape = Shape { schema: "ibr.uncertain", version: 1 };
+
+/// Hypercubes of the paper's robots, as `ibr simulate NAME --uncertain` wrote them.
+const STORED: &[&str] = &[
+    include_str!("../../assets/uncertain/spam.json"),
+    include_str!("../../assets/uncertain/spam-face.json"),
+    include_str!("../../assets/uncertain/spam-seams.json"),
+    include_str!("../../assets/uncertain/epam.json"),
+    include_str!("../../assets/uncertain/fpam.json"),
+];
+
+/// Hypercubes that come with the program.
 ///
-/// A record of another version is left out.
-pub fn stored() -> Vec<Uncertain> {
-    include_str!("../../assets/fem-uncertain.jsonl").lines().filter_map(|line| read(line).ok()).collect()
+/// # Errors
+/// Those of [`read`], for a program whose hypercubes were not made anew with its records.
+pub fn stored() -> Result<Vec<Uncertain>, DataError> {
+    STORED.iter().map(|text| read("a hypercube that comes with the program", text)).collect()
 }
 
 /// Reads a record.
 ///
 /// # Errors
-/// What is wrong with it, with its field, or its version.
-pub fn read(text: &str) -> Result<Uncertain, String> {
-    let found: Uncertain = serde_json::from_str(text).map_err(|e| e.to_string())?;
-    match found.version {
-        VERSION => Ok(found),
-        other => Err(format!("version {other} of this record is not known; this program reads {VERSION}")),
-    }
+/// [`DataError::Record`] with the line and the field, or the version.
+pub fn read(file: &str, text: &str) -> Result<Uncertain, DataError> {
+    RECORD.read(file, text, "make the file again: `ibr simulate ROBOT --uncertain` writes uncertain.json")
 }
 
 impl Uncertain {
-    /// The version that is written.
-    pub const VERSION: u32 = VERSION;
+    /// As it is stored, one robot a line.
+    pub fn record(&self) -> String {
+        let mut head = RECORD.stamped(&Uncertain { members: Vec::new(), ..self.clone() });
+        if let Some(head) = head.as_object_mut() {
+            head.remove("members");
+        }
+        let members: Vec<String> = self.members.iter().filter_map(|m| serde_json::to_string(m).ok()).collect();
+        let head = head.to_string();
+        format!("{},\n\"members\":[\n{}\n]}}\n", head.trim_end_matches('}'), members.join(",\n"))
+    }
 
     /// Robots that reached a pressure, as what they are there.
     fn at(&self, actuator_kpa: f64) -> Vec<(&Member, &MemberState)> {
@@ -173,6 +192,15 @@ impl Uncertain {
         Some((weights, rest))
     }
 
+    /// Where in its interval one number would have to be for a height of the outermost marker, all others in the middle of theirs, by the
+    /// straight law: a calibration, and no prediction; beyond 0 to 1 where no value of the interval does it.
+    pub fn share_for(&self, actuator_kpa: f64, number: usize, y_mm: f64) -> Option<f64> {
+        let (weights, _) = self.weights(actuator_kpa)?;
+        let swing = weights.iter().find(|w| w.number == number)?.swing_mm;
+        let slope = swing / (QUANTILES[2] - QUANTILES[0]);
+        Some(0.5 + (y_mm - self.tip_mm(actuator_kpa)?[1]) / slope)
+    }
+
     /// Heights of all markers at all pressures, median and 80 % interval, beside measured ones.
     ///
     /// # Errors
@@ -210,7 +238,7 @@ impl Uncertain {
             }
         }
         let data = Lines {
-            title: format!("{}: median and 80 % interval over what nobody measured", self.scenario),
+            title: format!("{}: median and 80 % interval (dashed) over what nobody measured", self.scenario),
             x_label: "marker along the straight robot [mm]".into(),
             y_label: "displacement towards the actuator [mm]".into(),
             series,
@@ -230,7 +258,7 @@ impl Uncertain {
             let half = 0.5 * w.swing_mm;
             TornadoBar {
                 name: number.name.clone(),
-                ends: number.interval.map(|v| format!("{v}")),
+                ends: number.tenths.map(|v| format!("{v}")),
                 values: [base - half, base + half],
             }
         };
@@ -253,7 +281,13 @@ mod tests {
     use super::*;
 
     fn number(name: &str) -> Varied {
-        Varied { name: name.into(), interval: [0.0, 8.0], meaning: String::new(), reason: String::new() }
+        Varied {
+            name: name.into(),
+            interval: [0.0, 8.0],
+            tenths: [0.8, 7.2],
+            meaning: String::new(),
+            reason: String::new(),
+        }
     }
 
     /// Robots whose outermost marker is at 100 + 40 u₀ − 10 u₁ at 30 kPa.
@@ -270,10 +304,10 @@ mod tests {
         let mut members: Vec<Member> = (0..count).map(even).map(|(a, b)| member(&vec![a, b])).collect();
         members.push(Member { shares: vec![0.5, 0.5], states: Vec::new(), stopped: Some("turned inside out".into()) });
         Uncertain {
-            version: VERSION,
             engine: 0,
             actuator: "epam".into(),
             scenario: "made up".into(),
+            variant: String::new(),
             mesh_mm: [8.0, 4.0],
             body_kpa: 2.0,
             stations_mm: vec![30.0, 330.0],
@@ -303,16 +337,19 @@ mod tests {
 
     #[test]
     fn a_record_of_another_version_or_without_a_field_is_refused_by_its_name() {
-        let text = serde_json::to_string(&robots(5)).unwrap();
-        assert_eq!(read(&text).unwrap(), robots(5));
-        assert!(read(&text.replace("\"version\":1", "\"version\":7")).unwrap_err().contains("version 7"));
-        assert!(read(&text.replace("stations_mm", "stations")).unwrap_err().contains("stations_mm"));
-        assert!(read(&text[..text.len() / 2]).is_err());
+        let text = robots(5).record();
+        let refused = |text: &str| read("R/uncertain.json", text).unwrap_err().to_string();
+        assert_eq!(read("R/uncertain.json", &text).unwrap(), robots(5));
+        assert!(refused(&text.replace("\"version\":1", "\"version\":7")).contains("version 7"));
+        assert!(refused(&text.replace("stations_mm", "stations")).contains("stations_mm"));
+        assert!(refused(&text[..text.len() / 2]).contains("cut short"));
     }
 
     #[test]
-    fn what_comes_with_the_program_is_whole() {
-        let lines = include_str!("../../assets/fem-uncertain.jsonl").lines().count();
-        assert_eq!(stored().len(), lines);
+    fn what_comes_with_the_program_can_be_read_and_most_of_its_robots_ran() {
+        for cube in stored().unwrap() {
+            let ran = cube.members.iter().filter(|m| m.stopped.is_none()).count();
+            assert!(ran >= 10 && 5 * ran >= 4 * cube.members.len() && cube.tip_mm(30.0).is_some(), "{}", cube.scenario);
+        }
     }
 }

@@ -14,7 +14,7 @@
 
 use crate::diagnosis::{Answer, Diagnosis, ParameterValue, Ranked, Standing, Verdict, with_fitted};
 use crate::error::CompareError;
-use crate::study::engines::{Ensemble, FeRun, TERMS, between, ensembles};
+use crate::study::engines::{Ensemble, FeRun, TERMS, between, ensemble};
 use crate::study::predict::{fit_scenario, predict_dataset};
 use crate::wording::{list, short};
 use data::{About, Dataset, Phase};
@@ -130,7 +130,7 @@ pub fn witness(
     runs: &[FeRun],
 ) -> Result<Option<Witness>, CompareError> {
     let (scenario, _) = fit_scenario(scenario, dataset, about)?;
-    let [ensemble, _] = ensembles(runs, &scenario);
+    let ensemble = ensemble(runs, &scenario);
     let cases = cases(d, &scenario);
     let heights = heights([&cases.base, &cases.best], dataset, &ensemble)?;
     let (Some(top), Some(first)) = (heights.last(), ensemble.runs.first()) else { return Ok(None) };
@@ -270,11 +270,6 @@ fn meeting(w: &Witness) -> String {
     };
     let (met, missed) = (of(true), of(false));
     let contain = "They contain sealed edges, folds, contact, stretch and shear of the fabric, but no supply, no camera and no memory.";
-    let fitted = if w.known == "calibrated" && !met.is_empty() {
-        " One of their numbers was fitted to the published displacement of such a robot: meeting it at that pressure is little evidence."
-    } else {
-        ""
-    };
     let first = match (&met[..], &missed[..]) {
         ([_], []) => "They meet the measurement at the one shared pressure, which decides little.".into(),
         (_, []) => "They meet the measurement at every shared pressure: what is missing can be among what they contain.".into(),
@@ -285,7 +280,7 @@ fn meeting(w: &Witness) -> String {
             list(&missed)
         ),
     };
-    format!("{first} {contain}{fitted}")
+    format!("{first} {contain}")
 }
 
 /// A calibrated B that holds far more energy than the wall.

@@ -92,9 +92,7 @@ fn support(table: &Spanned<RawSupport>, mesh: &mut Mesh) -> Checked<Support> {
         if axes != [true; 3] {
             return refuse("an encastre edge holds all three axes", "remove axes or encastre", table.span());
         }
-        let wider = with_next_row(mesh, &mesh.sets[&set]);
-        set = format!("{set} and the row beside it");
-        mesh.sets.insert(set.clone(), wider);
+        set = encastre(mesh, &set);
     }
     Ok(Support { set, axes, motion: motion(raw)? })
 }
@@ -107,6 +105,14 @@ fn axes(text: &Text) -> Checked<[bool; 3]> {
         return refuse(message, "write the held ones of x, y and z, for example \"xyz\" or \"z\"", text.span());
     }
     Ok(held)
+}
+
+/// Adds the set of an edge that cannot turn, and names it.
+pub(crate) fn encastre(mesh: &mut Mesh, set: &str) -> String {
+    let wider = with_next_row(mesh, &mesh.sets[set]);
+    let name = format!("{set} and the row beside it");
+    mesh.sets.insert(name.clone(), wider);
+    name
 }
 
 /// The nodes, and all that share an element with them: shells have no rotations, so two rows make a clamped edge.

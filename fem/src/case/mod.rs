@@ -33,6 +33,7 @@ pub(crate) mod raw;
 mod section;
 mod settings;
 
+pub(crate) use load::encastre;
 pub use mesh::{GENERATORS, Generator, Key};
 
 use crate::output::picture::View;
@@ -76,8 +77,11 @@ pub fn shipped_case(name: &str) -> Option<&'static str> {
 }
 
 /// Names and texts of the shipped cases.
-pub const SHIPPED_CASES: &[(&str, &str)] =
-    &[("pillow", include_str!("../../cases/pillow.toml")), ("tube", include_str!("../../cases/tube.toml"))];
+pub const SHIPPED_CASES: &[(&str, &str)] = &[
+    ("pillow", include_str!("../../cases/pillow.toml")),
+    ("tube", include_str!("../../cases/tube.toml")),
+    ("blocked-pouch", include_str!("../../cases/blocked-pouch.toml")),
+];
 
 /// True if the text says that it is a finite element case, whether or not it is a right one.
 pub fn is_case(text: &str) -> bool {

@@ -156,6 +156,7 @@ pub(super) struct RawSettings {
     pub guard_residual_floor_j: Option<Num>,
     pub guard_speed_m_s: Option<Num>,
     pub guard_inverted: Option<bool>,
+    pub guard_sides: Option<Num>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -51,6 +51,8 @@ pub(super) struct Chunk {
     /// Forces of the step.
     pub pushes: Vec<Push>,
     pub sums: Sums,
+    /// Nodes that looks of the step found on the wrong side of an element.
+    pub passed: Vec<(u32, u32)>,
     /// Room for a look.
     pub asked: Vec<Question>,
     pub square_m2: Vec<Lane>,
@@ -195,7 +197,9 @@ impl Chunk {
             let record = &mut self.records[own[0].record as usize];
             let squares = &self.square_m2.as_flattened()[first..first + own.len()];
             let element = choose(own, squares, &mut self.candidates, self.way_m);
-            look_at(record, element, step, &mut self.sums);
+            if look_at(record, element, step, &mut self.sums) {
+                self.passed.push((record.node, element));
+            }
             record.within_m -= self.way_m;
             record.due_m = self.way_m + record.free_m(&step.reach);
             first += own.len();
@@ -274,9 +278,10 @@ fn closest(step: &Step, node: u32, element: u32) -> Closest {
     describe(step.surface, step.x, p, element, &now, step.reach.flat_m)
 }
 
-/// Takes the closest feature of one record over.
-fn look_at(record: &mut Record, element: u32, step: &Step, sums: &mut Sums) {
+/// Takes the closest feature of one record over; true if the node came through it.
+fn look_at(record: &mut Record, element: u32, step: &Step, sums: &mut Sums) -> bool {
     let found = closest(step, record.node, element);
+    let passed = record.has_passed(&found, &step.reach);
     let held = (record.side, record.slide_j());
     let depth_m = if held.0 == 0 { 0.0 } else { touch(record, step.x).depth_m };
     record.settle(step.surface, &found, &step.reach);
@@ -293,6 +298,7 @@ fn look_at(record: &mut Record, element: u32, step: &Step, sums: &mut Sums) {
         sums.friction += record.slide_j();
         (record.spring_m, record.damped_n) = ([0.0; 3], 0.0);
     }
+    passed
 }
 
 /// Distance of a record's node from its feature.

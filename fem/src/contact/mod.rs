@@ -41,6 +41,7 @@ mod closest;
 pub mod edges;
 mod follow;
 mod pack;
+mod passed;
 mod press;
 mod record;
 mod save;
@@ -58,6 +59,8 @@ use crate::{FemError, Mesh};
 use build::{Memory, Penalty};
 use chunk::{Chunk, Step, touch};
 use follow::{farthest_m, follow};
+pub(crate) use passed::Passage;
+use passed::Passed;
 use press::{Sums, motion, push};
 use record::{Reach, Record};
 use surface::Surface;
@@ -91,6 +94,7 @@ pub struct Contact {
     search_due_m: f64,
     searches: u64,
     sums: Sums,
+    passed: Passed,
 }
 
 impl Contact {
@@ -121,6 +125,7 @@ impl Contact {
             search_due_m: 0.0,
             searches: 0,
             sums: Sums::default(),
+            passed: Passed::default(),
         };
         let start = std::mem::take(&mut contact.placed_m);
         contact.search(&start);
@@ -154,6 +159,12 @@ impl Contact {
     /// Pairs that are evaluated every step now.
     pub fn near_pairs(&self) -> usize {
         self.chunks.iter().map(|chunk| chunk.near.len()).sum()
+    }
+
+    /// Nodes that changed side of a layer so far, nodes that could, and the first that did with the part that it came through.
+    pub(crate) fn passed(&self) -> (usize, usize, Option<(Passage, u32)>) {
+        let part = |first: Passage| (first, self.surface.origin[first.element as usize].0);
+        (self.passed.nodes.len(), self.surface.nodes, self.passed.first.map(part))
     }
 
     fn near(&self) -> impl Iterator<Item = &Record> {
@@ -255,6 +266,7 @@ impl Term for Contact {
         let mut chunks = std::mem::take(&mut self.chunks);
         let step = self.step_of(x, tick.dt_s);
         chunks.par_iter_mut().for_each(|chunk| chunk.step(&step));
+        self.passed.take(&mut chunks, tick.time_s, x);
         self.chunks = chunks;
         // Most chunks of a fine mesh touch nothing.
         let mut pushing = Vec::new();

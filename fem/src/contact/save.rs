@@ -3,11 +3,12 @@
 use super::Contact;
 use super::chunk::{Candidate, Chunk};
 use super::closest::Feature;
+use super::passed::Passed;
 use super::record::Record;
 use crate::output::bytes::{Reader, Writer};
 
 /// Changes with the layout of the bytes.
-const VERSION: u64 = 4;
+const VERSION: u64 = 5;
 
 pub(super) fn write(contact: &Contact) -> Vec<u8> {
     let mut out = Writer::new();
@@ -18,6 +19,7 @@ pub(super) fn write(contact: &Contact) -> Vec<u8> {
     out.f64s(&[contact.path_m, contact.search_due_m, sums.stored, sums.friction, sums.damping]);
     out.f64s(contact.placed_m.as_flattened());
     out.f64s(contact.before_m.as_flattened());
+    contact.passed.write(&mut out);
     out.u64(contact.chunks.len() as u64);
     for chunk in &contact.chunks {
         let mut chunk = chunk.clone();
@@ -46,6 +48,7 @@ pub(super) fn read(contact: &mut Contact, saved: &[u8]) -> Option<()> {
     if placed.len() != 4 * nodes || !(before.is_empty() || before.len() == 4 * nodes) {
         return None;
     }
+    let passed = Passed::read(&mut from, nodes as u32, contact.surface.elements.len() as u32)?;
     let count = from.u64()?;
     let mut chunks = Vec::new();
     for _ in 0..count {
@@ -54,7 +57,7 @@ pub(super) fn read(contact: &mut Contact, saved: &[u8]) -> Option<()> {
     from.is_empty().then_some(())?;
     contact.placed_m = placed.as_chunks::<4>().0.to_vec();
     contact.before_m = before.as_chunks::<4>().0.to_vec();
-    contact.searches = searches;
+    (contact.searches, contact.passed) = (searches, passed);
     [contact.path_m, contact.search_due_m, contact.sums.stored, contact.sums.friction, contact.sums.damping] = sums;
     let kept = chunks.clone();
     contact.chunks = chunks;

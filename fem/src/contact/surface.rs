@@ -20,6 +20,8 @@ pub(super) struct Surface {
     pub across: Vec<[u32; 4]>,
     /// Elements at each node.
     pub around: Lists,
+    /// Number of nodes that have some.
+    pub nodes: usize,
     /// Nodes of its own layer that never touch an element, ascending: two rings.
     pub skip: Lists,
     /// Place of each node in an order that keeps neighbours of a layer together.
@@ -78,6 +80,7 @@ impl Surface {
             }
         }
         surface.around = Lists::new(mesh.points.len(), &surface.corner_pairs());
+        surface.nodes = (0..mesh.points.len()).filter(|n| !surface.around.of(*n).is_empty()).count();
         surface.border(mesh)?;
         surface.skip = surface.rings(mesh.points.len());
         surface.measure(&mesh.points);

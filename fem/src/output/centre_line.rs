@@ -138,12 +138,14 @@ impl CentreLineFile {
         Ok(CentreLineFile { line, table: Table::create(path)? })
     }
 
-    /// Goes on after `step` of the checkpoint; later rows are dropped.
+    /// Goes on after `step` of the checkpoint, until which rows of so many `outputs` were written; later ones are dropped.
     ///
     /// # Errors
-    /// [`FemError::Io`]; [`FemError::MeshFile`] if the file was edited into something else.
-    pub fn resume(path: &Path, line: CentreLine, step: u64) -> Result<CentreLineFile, FemError> {
-        Ok(CentreLineFile { line, table: Table::resume(path, step)? })
+    /// [`FemError::Problem`] for rows that are missing; [`FemError::Io`]; [`FemError::MeshFile`] if the file was edited into
+    /// something else.
+    pub fn resume(path: &Path, line: CentreLine, step: u64, outputs: usize) -> Result<CentreLineFile, FemError> {
+        let rows = outputs * line.stations_m.len();
+        Ok(CentreLineFile { line, table: Table::resume(path, step, rows)? })
     }
 
     /// Adds one row per station; a step that is in the file already is not written again.

@@ -1,6 +1,6 @@
 //! The state of all nodes and elements at one moment, checked before it is written.
 
-use crate::run::ElementFields;
+use crate::run::{ChamberState, ElementFields};
 use crate::{FemError, Mesh, Simulation};
 
 /// The state of all nodes and elements at one moment, in mesh order.
@@ -18,6 +18,10 @@ pub struct Frame {
     pub fields: ElementFields,
     /// Contact pressure at every node \[Pa\]; empty without contact.
     pub contact_pressure_pa: Vec<f64>,
+    /// Chambers.
+    pub chambers: Vec<ChamberState>,
+    /// Pressure of the hold that the moment leads to or lies in \[Pa\], of a robot that is read at holds.
+    pub hold_pa: Option<f64>,
 }
 
 impl Frame {
@@ -30,6 +34,8 @@ impl Frame {
             velocities: run.velocities(),
             fields: run.element_fields(),
             contact_pressure_pa: run.contact_pressure_pa(),
+            chambers: run.chambers(),
+            hold_pa: None,
         }
     }
 
@@ -51,6 +57,10 @@ impl Frame {
         for (name, values) in scalars {
             self.finite(name, "element", elements, values.iter().map(std::slice::from_ref))?;
         }
+        let chambers: Vec<[f64; 2]> = self.chambers.iter().map(|c| [c.pressure_pa, c.volume_m3]).collect();
+        self.finite("pressure or volume", "chamber", chambers.len(), chambers.iter().map(<[f64; 2]>::as_slice))?;
+        let directions = fields.principal_direction.iter().map(|d| d.as_flattened());
+        self.finite("principal direction", "element", elements, directions)?;
         let pairs = [("principal stress", &fields.principal_stress_pa), ("strain", &fields.principal_strain)];
         for (name, values) in pairs {
             self.finite(name, "element", elements, values.iter().map(<[f64; 2]>::as_slice))?;
@@ -122,11 +132,16 @@ pub(super) mod samples {
             fields: ElementFields {
                 von_mises_pa: scalar(3),
                 principal_stress_pa: pair(4),
+                principal_direction: (0..3).map(|i| [triple(i + 20), triple(i + 30)]).collect(),
                 principal_strain: pair(6),
                 thickness_m: scalar(8),
                 wrinkle_state: vec![0, 2, 1],
             },
             contact_pressure_pa: (0..mesh.points.len()).map(|i| noise(i, 9)).collect(),
+            chambers: [("body", 2e3), ("Aktor ü", -7e3)]
+                .map(|(name, pressure_pa)| ChamberState { name: name.into(), pressure_pa, volume_m3: 1e-3 / 3.0 })
+                .to_vec(),
+            hold_pa: Some(10e3),
         }
     }
 
@@ -145,6 +160,8 @@ pub(super) mod samples {
         add("strain of element 1", &|f| f.fields.principal_strain[0][0] = f64::NAN);
         add("thickness of element 1", &|f| f.fields.thickness_m[0] = f64::NAN);
         add("contact pressure of node 1", &|f| f.contact_pressure_pa[0] = f64::NAN);
+        add("pressure or volume of chamber 2", &|f| f.chambers[1].volume_m3 = f64::NAN);
+        add("principal direction of element 2", &|f| f.fields.principal_direction[1][1][0] = f64::NAN);
         add("time of run 1", &|f| f.time_s = f64::NAN);
         add("7 values of position for 6 nodes", &|f| f.positions.push([0.0; 3]));
         add("4 values of wrinkle state for 3 elements", &|f| f.fields.wrinkle_state.push(0));

@@ -8,6 +8,8 @@
 //! | `external_work_J`, `residual_J` | work from outside so far; what the balance misses |
 //! | `residual_share`, `kinetic_share` | residual and kinetic energy over the largest external work so far; 0 before any |
 //! | `<chamber>_kPa`, `<chamber>_cm3` | gauge pressure and volume |
+//! | `<set>_x_N`, `_y_N`, `_z_N` | force that the supports of a node set exert on the structure, along the axes that they hold |
+//! | `<set>_mx_Nm`, `_my_Nm`, `_mz_Nm` | their moment about the set's mean place, where all three axes are held |
 //! | `<set>_dx_mm`, `_dy_mm`, `_dz_mm` | mean displacement of a probed node set from its start |
 //!
 //! Numbers have the digits that give the same bits when read back.
@@ -17,8 +19,10 @@ use std::path::Path;
 use models::{Row, RowKind};
 
 use super::table::{Table, check_label, number};
-use crate::run::{ChamberState, Ledger};
+use crate::run::{ChamberState, Ledger, Reaction};
 use crate::{FemError, Mesh, Simulation};
+
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// What one row is made of.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +37,8 @@ pub struct Record {
     pub ledger: Ledger,
     /// Chambers.
     pub chambers: Vec<ChamberState>,
+    /// What supports do to the structure.
+    pub reactions: Vec<Reaction>,
     /// Node positions in mesh order \[m\]; not looked at without probes.
     pub positions: Vec<[f64; 3]>,
 }
@@ -46,6 +52,7 @@ impl Record {
             dt_s: run.dt_s(),
             ledger: run.ledger(),
             chambers: run.chambers(),
+            reactions: run.reactions().to_vec(),
             positions: run.positions(),
         }
     }
@@ -75,13 +82,13 @@ impl History {
         Ok(History { table: Table::create(path)?, probes })
     }
 
-    /// Goes on after `step` of the checkpoint; later rows are dropped.
+    /// Goes on after `step` of the checkpoint, until which so many `rows` were written; later ones are dropped.
     ///
     /// # Errors
-    /// As [`History::create`]; [`FemError::MeshFile`] if the file was edited into something else.
-    pub fn resume(path: &Path, mesh: &Mesh, probes: &[String], step: u64) -> Result<History, FemError> {
+    /// As [`History::create`], and for rows that are missing; [`FemError::MeshFile`] if the file was edited into something else.
+    pub fn resume(path: &Path, mesh: &Mesh, probes: &[String], step: u64, rows: usize) -> Result<History, FemError> {
         let probes = find_probes(mesh, probes)?;
-        Ok(History { table: Table::resume(path, step)?, probes })
+        Ok(History { table: Table::resume(path, step, rows)?, probes })
     }
 
     /// Adds a row; a step that has a row already is not written again.
@@ -128,11 +135,14 @@ impl History {
             cells.push((format!("{}_kPa", chamber.name), chamber.pressure_pa * 1e-3));
             cells.push((format!("{}_cm3", chamber.name), chamber.volume_m3 * 1e6));
         }
+        for reaction in &record.reactions {
+            cells.extend(of_support(reaction)?);
+        }
         for probe in &self.probes {
             let now = mean(&probe.nodes, |node| record.positions.get(node).copied()).ok_or_else(|| {
                 FemError::Problem(format!("probe `{}`: these positions belong to another mesh", probe.name))
             })?;
-            for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            for (k, axis) in AXES.into_iter().enumerate() {
                 cells.push((format!("{}_d{axis}_mm", probe.name), (now[k] - probe.start[k]) * 1e3));
             }
         }
@@ -140,8 +150,18 @@ impl History {
     }
 }
 
+/// Columns of a support: forces along held axes, moments where all are.
+fn of_support(reaction: &Reaction) -> Result<Vec<(String, f64)>, FemError> {
+    check_label(&reaction.set, "the node set of the support")?;
+    let set = reaction.set.replace(' ', "_");
+    let forces = (0..3).filter(|k| reaction.axes[*k]).map(|k| (format!("{set}_{}_N", AXES[k]), reaction.force_n[k]));
+    let moments = (0..3).filter(|_| reaction.axes == [true; 3]);
+    let moments = moments.map(|k| (format!("{set}_m{}_Nm", AXES[k]), reaction.moment_nm[k]));
+    Ok(forces.chain(moments).collect())
+}
+
 /// Mean of a property of some nodes; `None` without nodes or if one has none.
-pub(super) fn mean(nodes: &[u32], of: impl Fn(usize) -> Option<[f64; 3]>) -> Option<[f64; 3]> {
+fn mean(nodes: &[u32], of: impl Fn(usize) -> Option<[f64; 3]>) -> Option<[f64; 3]> {
     let mut sum = [0.0; 3];
     for &node in nodes {
         let point = of(node as usize)?;
@@ -177,17 +197,9 @@ fn merged(rows: &[Row]) -> Vec<(String, f64)> {
     let column = |&(name, kind, sum): &(&str, RowKind, f64)| {
         let plain = name.replace([' ', ',', ';', '"'], "_");
         let alone = sums.iter().filter(|(other, _, _)| *other == name).count() == 1;
-        (if alone { format!("{plain}_J") } else { format!("{plain}_{}_J", word(kind)) }, sum)
+        (if alone { format!("{plain}_J") } else { format!("{plain}_{}_J", kind.word()) }, sum)
     };
     sums.iter().map(column).collect()
-}
-
-fn word(kind: RowKind) -> &'static str {
-    match kind {
-        RowKind::Stored => "stored",
-        RowKind::Dissipated => "dissipated",
-        RowKind::Supplied => "supplied",
-    }
 }
 
 #[cfg(test)]

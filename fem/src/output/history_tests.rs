@@ -5,6 +5,10 @@ fn mesh() -> Mesh {
     Mesh { sets: [("tip".to_string(), vec![1, 2])].into(), ..samples::mesh() }
 }
 
+fn reaction(set: &str, axes: [bool; 3], t: f64) -> Reaction {
+    Reaction { set: set.into(), axes, force_n: [t.sin(), t.cos(), t / 7.0], moment_nm: [t / 3.0, -t, t.tan()] }
+}
+
 fn record(step: u64) -> Record {
     let t = step as f64 * 0.1;
     let row = |name, kind, share: f64| Row { name, kind, energy_j: share * t.exp() };
@@ -21,6 +25,7 @@ fn record(step: u64) -> Record {
         dt_s: 1e-6 / 3.0,
         ledger: Ledger { kinetic_j: 0.3 * t, rows, residual_j: -1e-4 * t, external_work_j: 1.5 * t, scale_j: 2.0 * t },
         chambers: vec![ChamberState { name: "body".into(), pressure_pa: 2e3 * t.sin(), volume_m3: 1e-3 + t / 3.0 }],
+        reactions: vec![reaction("end 1", [true; 3], t), reaction("side", [false, true, false], -t)],
         positions: samples::frame(t).positions,
     }
 }
@@ -41,7 +46,8 @@ fn every_number_of_the_record_is_in_its_column_to_the_bit() {
     assert_eq!(
         text.lines().next().unwrap(),
         "time_s,step,dt_s,kinetic_J,membrane_J,contact_stored_J,contact_dissipated_J,yarn_hysteresis_J,external_work_J,\
-         residual_J,residual_share,kinetic_share,body_kPa,body_cm3,tip_dx_mm,tip_dy_mm,tip_dz_mm"
+         residual_J,residual_share,kinetic_share,body_kPa,body_cm3,end_1_x_N,end_1_y_N,end_1_z_N,\
+         end_1_mx_Nm,end_1_my_Nm,end_1_mz_Nm,side_y_N,tip_dx_mm,tip_dy_mm,tip_dz_mm"
     );
     let (row, r) = (cells(&text, 2), record(2));
     assert_eq!((row["time_s"], row["step"], row["dt_s"]), (r.time_s, 2.0, r.dt_s));
@@ -51,6 +57,9 @@ fn every_number_of_the_record_is_in_its_column_to_the_bit() {
     assert_eq!(row["residual_share"], r.ledger.residual_j / r.ledger.scale_j);
     assert_eq!(row["kinetic_share"], r.ledger.kinetic_j / r.ledger.scale_j);
     assert_eq!((row["body_kPa"], row["body_cm3"]), (r.chambers[0].pressure_pa * 1e-3, r.chambers[0].volume_m3 * 1e6));
+    assert_eq!(row["end_1_z_N"], r.reactions[0].force_n[2]);
+    assert_eq!(row["end_1_mx_Nm"], r.reactions[0].moment_nm[0]);
+    assert_eq!(row["side_y_N"], r.reactions[1].force_n[1]);
     let mean_y = (r.positions[1][1] + r.positions[2][1]) / 2.0;
     assert_eq!(row["tip_dy_mm"], (mean_y - 0.05) * 1e3);
     assert_eq!(cells(&text, 0)["residual_share"], 0.0, "no work yet: no share");
@@ -66,7 +75,7 @@ fn an_interrupted_and_resumed_history_has_the_bytes_of_an_uninterrupted_one() {
     let mut history = History::create(&cut, &mesh(), &probes).unwrap();
     (0..6).for_each(|step| history.append(&record(step)).unwrap());
     drop(history);
-    let mut history = History::resume(&cut, &mesh(), &probes, 3).unwrap();
+    let mut history = History::resume(&cut, &mesh(), &probes, 3, 4).unwrap();
     (3..8).for_each(|step| history.append(&record(step)).unwrap());
     assert_eq!(std::fs::read(&whole).unwrap(), std::fs::read(&cut).unwrap());
 }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`vtu`], [`pvd`] | frames for ParaView and their time series |
 //! | [`history`] | `history.csv`: energies, balance, chambers and probes over time |
-//! | [`centre_line`], [`markers`] | `centre_line.csv`; `markers.csv`, read back as a dataset |
+//! | [`centre_line`] | `centre_line.csv`: the middle of every section over time |
 //! | [`checkpoint`] | where a stopped run goes on, to the bit |
 //! | [`picture`] | a PNG of the deformed mesh |
 //! | [`bytes`] | numbers as bytes, for everything that is saved |
@@ -19,8 +19,6 @@ pub mod centre_line;
 pub mod checkpoint;
 mod frame;
 pub mod history;
-pub mod markers;
-
 pub mod picture;
 pub mod pvd;
 mod table;

@@ -26,24 +26,20 @@ impl Series {
         Ok(series)
     }
 
-    /// Goes on with the series in `folder` from `time_s` \[s\]: later frames are dropped from the list and written anew as
-    /// the run reaches them. Without a list it starts one.
+    /// Goes on with the series in `folder` after the frames of `times_s` \[s\]: the list is written anew, and later frames as the
+    /// run reaches them.
     ///
     /// # Errors
-    /// [`FemError::Io`]; [`FemError::MeshFile`] if the list was edited into something else.
-    pub fn resume(folder: &Path, time_s: f64) -> Result<Series, FemError> {
-        let path = folder.join("run.pvd");
-        if !path.exists() {
-            return Series::create(folder);
+    /// [`FemError::Problem`] for a frame that is not there; [`FemError::Io`].
+    pub fn resume(folder: &Path, times_s: &[f64]) -> Result<Series, FemError> {
+        let missing = (0..times_s.len()).map(|index| folder.join(file_name(index))).find(|path| !path.is_file());
+        if let Some(path) = missing {
+            return Err(FemError::Problem(format!(
+                "{} is missing, a frame of the interrupted run: put the file back, or start again with --force",
+                path.display()
+            )));
         }
-        let text = std::fs::read_to_string(&path).map_err(|source| FemError::Io { path: path.clone(), source })?;
-        let mut times_s = parse(&text).map_err(|line| FemError::MeshFile {
-            path,
-            line,
-            message: "not a list of frames as this program writes it: delete the file to start a new list".into(),
-        })?;
-        times_s.retain(|&t| t <= time_s);
-        let series = Series { folder: folder.to_path_buf(), times_s };
+        let series = Series { folder: folder.to_path_buf(), times_s: times_s.to_vec() };
         make_folder(&folder.join("frames"))?;
         series.write_list()?;
         Ok(series)
@@ -89,21 +85,6 @@ fn file_name(index: usize) -> String {
     format!("frames/run_{index:05}.vtu")
 }
 
-/// Times of a list; the number of the first line that is not as [`Series`] writes it.
-fn parse(text: &str) -> Result<Vec<f64>, usize> {
-    let mut times: Vec<f64> = Vec::new();
-    for (at, line) in text.lines().enumerate().filter(|(_, line)| line.starts_with("<DataSet")) {
-        let time = line.strip_prefix("<DataSet timestep=\"").and_then(|rest| rest.split_once('"'));
-        let time = time.filter(|(_, rest)| rest.contains(&format!("\"{}\"", file_name(times.len()))));
-        let time = time.and_then(|(number, _)| number.parse().ok()).ok_or(at + 1)?;
-        if times.last().is_some_and(|&last| time <= last) {
-            return Err(at + 1);
-        }
-        times.push(time);
-    }
-    if text.ends_with("</VTKFile>\n") { Ok(times) } else { Err(text.lines().count()) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -127,7 +108,7 @@ mod tests {
         TIMES.iter().for_each(|&t| drop(series.push(&mesh(), &frame(t)).unwrap()));
         let mut series = Series::create(cut.path()).unwrap();
         TIMES[..3].iter().for_each(|&t| drop(series.push(&mesh(), &frame(t)).unwrap()));
-        let mut series = Series::resume(cut.path(), 0.15).unwrap();
+        let mut series = Series::resume(cut.path(), &TIMES[..2]).unwrap();
         assert_eq!(series.times_s(), &TIMES[..2]);
         TIMES[1..].iter().for_each(|&t| drop(series.push(&mesh(), &frame(t)).unwrap()));
         assert_eq!(files(whole.path()), files(cut.path()));
@@ -144,20 +125,21 @@ mod tests {
         assert!(series.push(&mesh(), &bad).is_err());
         assert_eq!(series.times_s(), [0.0]);
         assert!(series.push(&mesh(), &frame(-0.1)).is_err());
-        assert_eq!(Series::resume(folder.path(), 9.0).unwrap().times_s(), [0.0]);
     }
 
     #[test]
-    fn a_foreign_or_cut_list_is_refused_with_its_line() {
+    fn a_lost_list_is_made_again_and_a_lost_frame_is_named() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("run.pvd");
         let mut series = Series::create(folder.path()).unwrap();
         TIMES.iter().for_each(|&t| drop(series.push(&mesh(), &frame(t)).unwrap()));
         let good = std::fs::read_to_string(&path).unwrap();
-        for bad in [good.replace("run_00001", "other"), good.replace("1e-1", "x"), good[..good.len() - 9].to_string()] {
-            std::fs::write(&path, bad).unwrap();
-            let error = Series::resume(folder.path(), 1.0).unwrap_err();
-            assert!(error.to_string().contains("delete the file"), "{error}");
-        }
+        std::fs::write(&path, &good[..good.len() - 9]).unwrap();
+        assert_eq!(Series::resume(folder.path(), &TIMES).unwrap(), series);
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), good);
+        std::fs::remove_file(folder.path().join(file_name(2))).unwrap();
+        let error = Series::resume(folder.path(), &TIMES).unwrap_err().to_string();
+        assert!(error.contains("run_00002.vtu is missing") && error.contains("--force"), "{error}");
+        assert!(Series::resume(folder.path(), &TIMES[..2]).is_ok(), "a later one is written anew");
     }
 }

@@ -23,18 +23,26 @@ impl Table {
         Table::open(path, String::new(), None)
     }
 
-    /// Goes on after `step`: later rows, and a last line that a kill cut short, are dropped. Without a file it starts one.
-    pub fn resume(path: &Path, step: u64) -> Result<Table, FemError> {
-        if !path.exists() {
-            return Table::create(path);
-        }
-        let text = std::fs::read_to_string(path).map_err(|source| io(path, source))?;
+    /// Goes on after `step`: later rows, and a last line that a kill cut short, are dropped. The file must have as many `rows`
+    /// until then as the run wrote; without any and without a file it starts one.
+    pub fn resume(path: &Path, step: u64, rows: usize) -> Result<Table, FemError> {
+        let there = path.exists();
+        let text =
+            if there { std::fs::read_to_string(path).map_err(|source| io(path, source))? } else { String::new() };
         let (header, last_step, kept) = cut(&text, step).map_err(|line| FemError::MeshFile {
             path: path.to_path_buf(),
             line,
             message: "not a row as this program writes it, so it cannot go on in this file: move it away".into(),
         })?;
-        if kept.len() < text.len() {
+        let found = kept.lines().count().saturating_sub(1);
+        if found != rows {
+            return Err(FemError::Problem(format!(
+                "{} has {found} rows until step {step}, where the interrupted run wrote {rows}: put the file back as it was, or \
+                 start again with --force",
+                path.display()
+            )));
+        }
+        if kept.len() < text.len() || !there {
             replace(path, &mut |out| out.write_all(kept.as_bytes()))?;
         }
         Table::open(path, header.to_string(), last_step)
@@ -138,7 +146,10 @@ mod tests {
             // What is on the disk has at least the rows up to the checkpoint; the last line may be half written.
             for step in (0..6).filter(|&step| whole(0..step + 1).len() <= length) {
                 std::fs::write(&path, &all[..length]).unwrap();
-                let mut table = Table::resume(&path, step).unwrap();
+                let wrong = Table::resume(&path, step, 2 * step as usize + 1).unwrap_err().to_string();
+                assert!(wrong.contains(&format!("t.csv has {} rows until step {step}", 2 * (step + 1))), "{wrong}");
+                assert_eq!(std::fs::read_to_string(&path).unwrap(), all[..length], "left alone");
+                let mut table = Table::resume(&path, step, 2 * (step as usize + 1)).unwrap();
                 assert_eq!(std::fs::read_to_string(&path).unwrap(), whole(0..step + 1));
                 (step..6).for_each(|step| table.append(step, HEADER, &rows(step)).unwrap());
                 table.sync().unwrap();
@@ -164,7 +175,7 @@ mod tests {
         let path = folder.path().join("t.csv");
         for (text, line) in [("a,b\n1,2\n", 1), ("time_s,step\n0,1\n0,one\n", 3)] {
             std::fs::write(&path, text).unwrap();
-            let error = Table::resume(&path, 9).unwrap_err().to_string();
+            let error = Table::resume(&path, 9, 1).unwrap_err().to_string();
             assert!(error.contains(&format!("t.csv:{line}: ")), "{error}");
             assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
         }

@@ -1,70 +1,118 @@
 use super::*;
 use crate::output::frame::samples::{frame, mesh, spoilt};
 
-/// The bytes of one array, its length checked.
-fn array(text: &str, name: &str) -> Vec<u8> {
-    let at = text.find(&format!("Name=\"{name}\"")).unwrap_or_else(|| panic!("no {name}"));
-    let body = text[at..].split_once('>').unwrap().1.split_once('<').unwrap().0;
-    let bytes = STANDARD.decode(body).unwrap();
-    let (length, values) = bytes.split_first_chunk::<8>().unwrap();
-    assert_eq!(u64::from_le_bytes(*length), values.len() as u64, "{name}");
-    values.to_vec()
+/// A file as a reader sees it: its tags, and what is behind them.
+struct File {
+    tags: String,
+    appended: Vec<u8>,
 }
 
-fn numbers(text: &str, name: &str) -> Vec<f64> {
-    array(text, name).as_chunks::<8>().0.iter().map(|b| f64::from_le_bytes(*b)).collect()
-}
+impl File {
+    fn written(mesh: &Mesh, frame: &Frame) -> File {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("frame.vtu");
+        write_vtu(&path, mesh, frame).unwrap();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing temporary stays");
+        let bytes = std::fs::read(path).unwrap();
+        let begin = b"<AppendedData encoding=\"raw\">\n_";
+        let at = bytes.windows(begin.len()).position(|window| window == begin).unwrap() + begin.len();
+        let end = bytes.len() - b"\n</AppendedData>\n</VTKFile>\n".len();
+        assert_eq!(&bytes[end..], b"\n</AppendedData>\n</VTKFile>\n");
+        File { tags: String::from_utf8(bytes[..at].to_vec()).unwrap(), appended: bytes[at..end].to_vec() }
+    }
 
-fn longs(text: &str, name: &str) -> Vec<i64> {
-    array(text, name).as_chunks::<8>().0.iter().map(|b| i64::from_le_bytes(*b)).collect()
-}
+    /// The bytes of one array, unpacked; sizes checked.
+    fn bytes(&self, kind: &str, name: &str) -> Vec<u8> {
+        let tag =
+            self.tags.lines().find(|l| l.contains(&format!("Name=\"{name}\""))).unwrap_or_else(|| panic!("no {name}"));
+        assert!(tag.contains(&format!("type=\"{kind}\"")), "{tag}");
+        let at: usize = tag.split_once("offset=\"").unwrap().1.split_once('"').unwrap().0.parse().unwrap();
+        let head = self.appended[at..].as_chunks::<8>().0[..4].iter().map(|b| u64::from_le_bytes(*b) as usize);
+        let [blocks, size, last, packed] = head.collect::<Vec<_>>().try_into().unwrap();
+        assert_eq!((blocks, last), (1, 0));
+        let packed = &self.appended[at + 32..at + 32 + packed];
+        let bytes = miniz_oxide::inflate::decompress_to_vec_zlib(packed).unwrap();
+        assert_eq!(bytes.len(), size, "{name}");
+        bytes
+    }
 
-fn written(mesh: &Mesh, frame: &Frame) -> String {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("frame.vtu");
-    write_vtu(&path, mesh, frame).unwrap();
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing temporary stays");
-    std::fs::read_to_string(path).unwrap()
-}
+    fn floats(&self, name: &str) -> Vec<f32> {
+        self.bytes("Float32", name).as_chunks::<4>().0.iter().map(|b| f32::from_le_bytes(*b)).collect()
+    }
 
-#[test]
-fn every_value_is_read_back_to_the_bit() {
-    let (mut mesh, frame) = (mesh(), frame(0.25));
-    mesh.start = mesh.points.iter().map(|p| [p[0], p[1], p[2] + 0.003]).collect();
-    let text = written(&mesh, &frame);
-    assert_eq!(numbers(&text, "TimeValue"), [0.25]);
-    assert_eq!(numbers(&text, "Points"), mesh.start.concat());
-    let moved: Vec<f64> =
-        frame.positions.iter().zip(&mesh.start).flat_map(|(x, s)| [0, 1, 2].map(|k| (x[k] - s[k]) * 1e3)).collect();
-    assert_eq!(numbers(&text, "U_mm"), moved);
-    assert_eq!(numbers(&text, "velocity_m_s"), frame.velocities.concat());
-    let scaled = |values: &[f64], by: f64| values.iter().map(|v| v * by).collect::<Vec<_>>();
-    assert_eq!(numbers(&text, "contact_pressure_kPa"), scaled(&frame.contact_pressure_pa, 1e-3));
-    assert_eq!(numbers(&text, "von_mises_MPa"), scaled(&frame.fields.von_mises_pa, 1e-6));
-    assert_eq!(numbers(&text, "thickness_mm"), scaled(&frame.fields.thickness_m, 1e3));
-    for k in 0..2 {
-        let stress: Vec<f64> = frame.fields.principal_stress_pa.iter().map(|s| s[k] * 1e-6).collect();
-        let strain: Vec<f64> = frame.fields.principal_strain.iter().map(|e| e[k]).collect();
-        assert_eq!(numbers(&text, &format!("stress_{}_MPa", k + 1)), stress);
-        assert_eq!(numbers(&text, &format!("strain_{}", k + 1)), strain);
+    fn doubles(&self, name: &str) -> Vec<f64> {
+        self.bytes("Float64", name).as_chunks::<8>().0.iter().map(|b| f64::from_le_bytes(*b)).collect()
+    }
+
+    fn integers(&self, name: &str) -> Vec<i32> {
+        self.bytes("Int32", name).as_chunks::<4>().0.iter().map(|b| i32::from_le_bytes(*b)).collect()
+    }
+
+    fn texts(&self, name: &str) -> Vec<String> {
+        let text = String::from_utf8(self.bytes("String", name)).unwrap();
+        text.split_terminator('\0').map(String::from).collect()
     }
 }
 
 #[test]
-fn elements_come_part_by_part_with_their_kind() {
-    let text = written(&mesh(), &frame(0.0));
-    assert!(text.contains(r#"<Piece NumberOfPoints="6" NumberOfCells="3">"#));
-    assert_eq!(longs(&text, "connectivity"), [0, 1, 2, 3, 1, 4, 2, 3, 2, 5]);
-    assert_eq!(longs(&text, "offsets"), [4, 7, 10]);
-    assert_eq!(array(&text, "types"), [QUAD, TRIANGLE, TRIANGLE]);
-    assert_eq!(longs(&text, "part_id"), [0, 0, 1]);
-    assert_eq!(longs(&text, "wrinkle_state"), [0, 2, 1]);
+fn every_value_is_read_back_with_the_bits_that_are_kept() {
+    let (mut mesh, frame) = (mesh(), Frame { hold_pa: None, ..frame(0.25) });
+    mesh.start = mesh.points.iter().map(|p| [p[0], p[1], p[2] + 0.003]).collect();
+    let file = File::written(&mesh, &frame);
+    let fields = |name: &str, wanted: Vec<f64>| {
+        assert_eq!(file.floats(name), wanted.iter().map(|v| kept(*v)).collect::<Vec<_>>(), "{name}");
+        let near = |(a, b): (&f32, &f64)| (f64::from(*a) - b).abs() <= 5e-4 * b.abs();
+        assert!(file.floats(name).iter().zip(&wanted).all(near), "{name}");
+    };
+    let places = |name: &str, wanted: Vec<f64>| {
+        // The largest coordinate is 200 mm.
+        let near = |(a, b): (&f32, &f64)| (f64::from(*a) - b).abs() <= 0.5 * 128.0 / 131_072.0 + 1e-7 * b.abs();
+        assert!(file.floats(name).iter().zip(&wanted).all(near) && wanted.len() == file.floats(name).len(), "{name}");
+        assert!(file.floats(name).iter().all(|x| (x * 1024.0).fract() == 0.0), "{name}");
+    };
+    let scaled = |values: &[f64], by: f64| values.iter().map(|v| v * by).collect::<Vec<_>>();
+    let moved = frame.positions.iter().zip(&mesh.start).map(|(x, s)| [0, 1, 2].map(|k| x[k] - s[k]));
+    assert_eq!(file.doubles("TimeValue"), [0.25]);
+    places("Points", scaled(frame.positions.as_flattened(), 1e3));
+    places("displacement_mm", scaled(moved.collect::<Vec<_>>().as_flattened(), 1e3));
+    fields("velocity_m_s", scaled(frame.velocities.as_flattened(), 1.0));
+    fields("contact_pressure_kPa", scaled(&frame.contact_pressure_pa, 1e-3));
+    fields("von_mises_MPa", scaled(&frame.fields.von_mises_pa, 1e-6));
+    fields("thickness_mm", scaled(&frame.fields.thickness_m, 1e3));
+    for k in 0..2 {
+        let of = |name: &str| format!("{name}_{}", k + 1);
+        fields(&(of("stress") + "_MPa"), frame.fields.principal_stress_pa.iter().map(|s| s[k] * 1e-6).collect());
+        fields(&of("strain"), frame.fields.principal_strain.iter().map(|e| e[k]).collect());
+        let wanted: Vec<i8> =
+            frame.fields.principal_direction.iter().flat_map(|d| d[k].map(|v| (127.0 * v).round() as i8)).collect();
+        let found: Vec<i8> = file.bytes("Int8", &of("direction")).into_iter().map(u8::cast_signed).collect();
+        assert_eq!(found, wanted);
+    }
 }
 
 #[test]
-fn without_contact_there_is_no_contact_pressure() {
-    let plain = Frame { contact_pressure_pa: Vec::new(), ..frame(0.0) };
-    assert!(!written(&mesh(), &plain).contains("contact_pressure"));
+fn what_the_frame_is_of_is_in_it() {
+    let file = File::written(&mesh(), &frame(0.25));
+    assert_eq!(file.texts("part_names"), ["body", "cap"]);
+    assert_eq!(file.texts("chamber_names"), ["body", "Aktor ü"]);
+    assert_eq!(file.doubles("chamber_kPa"), [2.0, -7.0]);
+    assert_eq!(file.doubles("chamber_cm3"), [1e-3 / 3.0 * 1e6; 2]);
+    assert_eq!(file.doubles("hold_kPa"), [10.0]);
+    assert!(!file.tags.contains("velocity"), "a robot is read at rest");
+    let plain = Frame { chambers: vec![], hold_pa: None, contact_pressure_pa: vec![], ..frame(0.25) };
+    let file = File::written(&mesh(), &plain);
+    assert!(!file.tags.contains("chamber") && !file.tags.contains("hold") && !file.tags.contains("contact_pressure"));
+}
+
+#[test]
+fn elements_come_part_by_part_with_their_kind() {
+    let file = File::written(&mesh(), &frame(0.0));
+    assert!(file.tags.contains(r#"<Piece NumberOfPoints="6" NumberOfCells="3">"#));
+    assert_eq!(file.integers("connectivity"), [0, 1, 2, 3, 1, 4, 2, 3, 2, 5]);
+    assert_eq!(file.integers("offsets"), [4, 7, 10]);
+    assert_eq!(file.bytes("UInt8", "types"), [QUAD, TRIANGLE, TRIANGLE]);
+    assert_eq!(file.integers("part_id"), [0, 0, 1]);
+    assert_eq!(file.bytes("UInt8", "wrinkle_state"), [0, 2, 1]);
 }
 
 #[test]

@@ -54,7 +54,7 @@ pub const ASSUMED: &[Assumed] = &[
         name: "bending_factor",
         interval: [0.1, 0.5],
         spread: Spread::Factor,
-        reason: "droop of a heat-bondable coated nylon, measured by others (Farrell et al., programmable surface dimpling of textile metamaterials)",
+        reason: "droop of a heat-bondable coated nylon, measured by Farrell et al.",
         set: |s, v| s.bending_factor = v,
     },
     Assumed {

@@ -6,7 +6,7 @@
 
 use models::Scenario;
 
-use super::{RobotSettings, problem, sew, table};
+use super::{Model, RobotSettings, problem, sew, table};
 use crate::problem::{Amplitude, NodalForce, Obstacle, Pressure};
 use crate::{FemError, Problem};
 
@@ -17,8 +17,14 @@ const SHORTEST: f64 = 1.0 / 6.0;
 /// Everything about a robot's run: its numbers and its loads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotRun {
+    /// Where the settings come from that no key of `[fem]` sets.
+    pub model: Model,
+    /// Keys of `[fem]` beside `model`.
+    pub set: Vec<String>,
     /// Mesh, fabrication, numerics.
     pub settings: RobotSettings,
+    /// Whether every pressure is a run of its own.
+    pub separate: bool,
     /// Actuator pressures that are read, in this order \[Pa\].
     pub pressures_pa: Vec<f64>,
     /// Dead load on the tip's ring, which grows while the body is filled \[N\].
@@ -71,8 +77,13 @@ impl RobotRun {
     /// The problem, ready to run.
     ///
     /// # Errors
-    /// As [`problem`].
+    /// As [`problem`]; several pressures that are to be runs of their own.
     pub fn problem(&self, scenario: &Scenario) -> Result<Problem, FemError> {
+        if self.separate && self.pressures_pa.len() > 1 {
+            let message = "robot: every pressure is a run of its own here (`separate`, which model = \"paper\" sets); \
+                           name one pressure, or write separate = false for one ramp through all";
+            return Err(FemError::Problem(message.into()));
+        }
         let mut made = problem(scenario, &self.settings)?;
         let holds = self.holds();
         let mut points = vec![(holds[0].time_s, 0.0)];

@@ -1,6 +1,6 @@
 //! What a robot looks like at one moment: markers, tip, volumes, stresses, weld forces, energies.
 
-use models::{RowKind, Scenario};
+use models::Scenario;
 use serde::{Deserialize, Serialize};
 
 use super::seams::Seams;
@@ -35,7 +35,6 @@ pub struct Reading {
     /// Displacement of the section's centroid at each station \[m\].
     pub moved_m: Vec<[f64; 3]>,
     /// Displacement of the wall where a marker sticks at each marker's station, without the tip \[m\]: on the side that faces a camera.
-    #[serde(default)]
     pub seen_moved_m: Vec<[f64; 3]>,
     /// Displacement of the mean of the ring of nodes at (or next to) each station \[m\].
     pub ring_moved_m: Vec<[f64; 3]>,
@@ -51,12 +50,21 @@ pub struct Reading {
     pub von_mises_part: String,
     /// Its place along the straight robot \[m\].
     pub von_mises_at_m: f64,
+    /// Whether it lies beside a weld.
+    #[serde(default)]
+    pub von_mises_on_seam: bool,
     /// Largest pull on a weld \[N/m\].
     pub seam_n_per_m: f64,
     /// Part of the element that pulls.
     pub seam_part: String,
     /// Its place along the straight robot \[m\].
     pub seam_at_m: f64,
+    /// Force of the support at the base on the robot \[N\]; 0 in readings that did not keep it.
+    #[serde(default)]
+    pub base_n: [f64; 3],
+    /// Its moment about the middle of the nodes that are held \[N·m\].
+    #[serde(default)]
+    pub base_nm: [f64; 3],
     /// Ledger: name, `stored`, `dissipated` or `supplied`, and energy \[J\].
     pub ledger: Vec<(String, String, f64)>,
     /// Kinetic over kinetic and stored energy.
@@ -106,9 +114,11 @@ impl Gauge {
         let (seam_part, seam_at_m) = seam.map_or((String::new(), 0.0), |s| self.place(s.element));
         let chamber = |name: &str| run.chambers().into_iter().find(|c| c.name == name);
         let (body, actuator) = (chamber(sew::BODY), chamber(sew::ACTUATOR));
+        // The base is the only thing that is held, with one row of nodes or two.
+        let base = run.reactions().first();
         let ledger = run.ledger();
         let mut rows = vec![("kinetic".to_string(), "stored".to_string(), ledger.kinetic_j)];
-        rows.extend(ledger.rows.iter().map(|r| (r.name.to_string(), word(r.kind).to_string(), r.energy_j)));
+        rows.extend(ledger.rows.iter().map(|r| (r.name.to_string(), r.kind.word().to_string(), r.energy_j)));
         Ok(Reading {
             time_s: run.time_s(),
             actuator_pa: actuator.as_ref().map_or(0.0, |c| c.pressure_pa),
@@ -123,9 +133,12 @@ impl Gauge {
             von_mises_pa: fields.von_mises_pa.get(hottest).copied().unwrap_or(0.0),
             von_mises_part,
             von_mises_at_m,
+            von_mises_on_seam: self.seams.elements().binary_search(&hottest).is_ok(),
             seam_n_per_m: seam.map_or(0.0, |s| s.n_per_m),
             seam_part,
             seam_at_m,
+            base_n: base.map_or([0.0; 3], |r| r.force_n),
+            base_nm: base.map_or([0.0; 3], |r| r.moment_nm),
             ledger: rows,
             kinetic_share: ledger.kinetic_share(),
         })
@@ -173,12 +186,4 @@ impl Gauge {
 
 fn ring(mesh: &Mesh, name: &str) -> Vec<u32> {
     mesh.sets.get(name).cloned().unwrap_or_default()
-}
-
-fn word(kind: RowKind) -> &'static str {
-    match kind {
-        RowKind::Stored => "stored",
-        RowKind::Dissipated => "dissipated",
-        RowKind::Supplied => "supplied",
-    }
 }

@@ -24,15 +24,12 @@ fn refused(more: &str) -> (String, String) {
 #[test]
 fn keys_of_the_table_become_settings_in_si_over_the_preset() {
     let (_, run) = parsed(
-        "actuator_mesh_mm = 3\nmesh_mm = 5\nloading = \"published\"\nbond = 0.25\nseed = 7\nnu12 = 0.1\ncontact = true\nselective_mass = true",
+        "actuator_mesh_mm = 3\nmesh_mm = 5\nmodel = \"paper\"\nbond = 0.25\nseed = 7\nnu12 = 0.1\ncontact = true\nselective_mass = true",
     )
     .unwrap();
     let s = &run.settings;
     assert_eq!((s.body_size_m, s.actuator_size_m, s.bond, s.seed), (5e-3, 3e-3, 0.25, 7));
-    assert_eq!(
-        (s.nu12, s.contact, s.selective_mass, s.actuator_ramp_s),
-        (Some(0.1), Some(true), true, RobotSettings::published().actuator_ramp_s)
-    );
+    assert_eq!((s.nu12, s.contact, s.selective_mass, s.actuator_ramp_s), (Some(0.1), Some(true), true, 1.0));
     assert_eq!(run.pressures_pa, [10e3, 20e3, 30e3], "those that the scenario predicts at");
     let (_, plain) = parsed("").unwrap();
     assert_eq!(plain.settings, RobotSettings::default());
@@ -57,7 +54,9 @@ fn faults_of_the_table_are_refused_with_their_place() {
         ("weld_m = 0.001", "did you mean `weld_mm`?", "weld_m"),
         ("mesh_mm = 0.004", "mesh_mm must be from 0.5 to 50, not 0.004", "0.004"),
         ("bond = \"all\"", "bond must be a number", "\"all\""),
-        ("loading = \"fast\"", "known: compressed, usual, published", "\"fast\""),
+        ("model = \"fast\"", "known: recommended, paper", "\"fast\""),
+        ("base = \"glued\"", "write \"pinned\" or \"encastre\"", "\"glued\""),
+        ("separate = 1", "separate must be true or false", "1"),
         ("pressures_kpa = [10, 1]", "an actuator at 1 kPa in a body at 2 kPa stays flat", "[10, 1]"),
         ("pressures_kpa = [10000]", "looks like pascals", "[10000]"),
         ("pressures_kpa = []", "[10, 20, 30]", "[]"),
@@ -141,11 +140,66 @@ fn one_ramp_leads_through_all_pressures_at_one_rate_and_rests_at_each() {
 }
 
 #[test]
-fn published_loading_is_the_papers_smooth_step() {
-    let (scenario, run) = parsed("loading = \"published\"\nmesh_mm = 8\npressures_kpa = [30]").unwrap();
+fn the_papers_model_sets_its_modelling_choices_and_other_keys_override_them() {
+    let (_, run) = parsed("model = \"paper\"").unwrap();
+    let s = &run.settings;
+    assert_eq!((run.model, run.separate, run.pressures_pa.len()), (Model::Paper, true, 3));
+    assert_eq!([s.body_size_m, s.actuator_size_m, s.layer_gap_m], [4e-3, 4e-3, 1e-5]);
+    assert_eq!([s.bending_factor, s.compression, s.bond], [1.0, 1.0, 1.0]);
+    assert_eq!([s.weld_m, s.tape_m, s.tape_margin_m, s.waviness_m], [0.0, 1e-6, 0.0, 0.0]);
+    assert_eq!([s.body_ramp_s, s.actuator_ramp_s, s.hold_s], [0.1, 1.0, 0.0]);
+    assert_eq!((s.nu12, s.ring_spacing, s.ramp_floor_pa), (Some(0.0), Some(1.0), None));
+    assert_eq!((s.selective_mass, s.mass_factor, s.encastre), (true, None, false));
+    let (_, run) = parsed("bending_factor = 0.5\nmodel = \"paper\"\nbase = \"encastre\"").unwrap();
+    assert_eq!(run.settings, RobotSettings { bending_factor: 0.5, encastre: true, ..RobotSettings::paper() });
+    let mut keys = run.set.clone();
+    keys.sort();
+    assert_eq!(keys, ["base", "bending_factor"]);
+}
+
+#[test]
+fn the_papers_pressures_are_runs_of_their_own_in_its_smooth_steps() {
+    let (scenario, run) = parsed("model = \"paper\"\nmesh_mm = 8\npressures_kpa = [20]").unwrap();
     let problem = run.problem(&scenario).unwrap();
     let Pressure::Set(Amplitude::Smooth(points)) = &problem.chambers[1].pressure else { panic!("no smooth step") };
-    assert_eq!(points[..2], [(0.1, 0.0), (1.1, 30e3)]);
+    assert_eq!(points[..], [(0.1, 0.0), (1.1, 20e3)]);
+    assert_eq!(problem.settings.end_s, 1.1);
+    let (_, several) = parsed("model = \"paper\"\nmesh_mm = 8").unwrap();
+    let told = several.problem(&scenario).unwrap_err().to_string();
+    assert!(told.contains("write separate = false"), "{told}");
+    let (_, one) = parsed("model = \"paper\"\nmesh_mm = 8\nseparate = false").unwrap();
+    assert_eq!(one.problem(&scenario).unwrap().settings.end_s, one.holds()[3].time_s);
+}
+
+#[test]
+fn an_encastre_base_holds_the_row_beside_its_ring() {
+    let held = |base: &str| {
+        let (scenario, run) = parsed(&format!("mesh_mm = 8\nbase = \"{base}\"")).unwrap();
+        let problem = run.problem(&scenario).unwrap();
+        let nodes = &problem.mesh.sets[&problem.supports[0].set];
+        let wall =
+            |n: &&u32| problem.mesh.points[**n as usize][1..].iter().map(|x| x * x).sum::<f64>().sqrt() < 0.040_001;
+        let furthest = nodes.iter().map(|n| problem.mesh.points[*n as usize][0]).fold(0.0, f64::max);
+        (nodes.iter().filter(wall).count(), furthest)
+    };
+    let ((ring, at_base), (rows, beside)) = (held("pinned"), held("encastre"));
+    assert!(rows == 2 * ring && at_base == 0.0 && (0.004..0.009).contains(&beside), "{ring} {rows} {beside}");
+}
+
+/// The body is open at its base: filled, it pulls on what holds it with p π R².
+#[test]
+fn the_base_holds_the_filled_body_however_it_is_held() {
+    for base in ["pinned", "encastre"] {
+        let (scenario, run) = parsed(&format!("mesh_mm = 8\nbase = \"{base}\"")).unwrap();
+        let problem = run.problem(&scenario).unwrap();
+        let gauge = crate::robot::Gauge::new(&scenario, &problem).unwrap();
+        let mut body = crate::Simulation::new(&problem).unwrap();
+        body.advance_until(run.holds()[0].time_s, &mut |_| true).unwrap();
+        let reading = gauge.read(&body).unwrap();
+        let pull = scenario.p_body_pa * std::f64::consts::PI * scenario.radius_m.powi(2);
+        assert!((reading.base_n[0] / -pull - 1.0).abs() < 0.05, "{base}: {:?}, {pull}", reading.base_n);
+        assert!(reading.base_n[1].hypot(reading.base_n[2]) < 0.05 * pull, "{base}: {:?}", reading.base_n);
+    }
 }
 
 #[test]

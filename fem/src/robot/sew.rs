@@ -12,6 +12,8 @@ use crate::mesh::{Mesh, Part};
 /// Names of the chambers.
 pub(super) const BODY: &str = "body";
 pub(super) const ACTUATOR: &str = "actuator";
+/// The ring at the base, open there and held.
+pub(super) const BASE: &str = "base";
 /// Parts made of the wall: beside the actuator, and under it.
 pub(super) const WALL: &str = "wall";
 pub(super) const FACE: &str = "face";

@@ -7,7 +7,7 @@
 //! bond = 0.5
 //! ```
 //!
-//! `loading` is read first, every other key overrides it. All keys: [`KEYS`] and `docs/scenario.md`.
+//! `model` is read first, every other key overrides it. All keys: [`KEYS`] and `docs/scenario.md`.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use models::Scenario;
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
-use super::{RobotRun, RobotSettings};
+use super::{Model, RobotRun, RobotSettings};
 use crate::FemError;
 use crate::case::range::{Checked, LENGTH, POSITION, PRESSURE, Range, number, plain, refuse};
 use crate::case::raw::{Free, unknown};
@@ -99,11 +99,13 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// Keys that are no single number.
-const OTHERS: [&str; 9] = [
-    "loading",
+pub const OTHERS: [&str; 11] = [
+    "model",
     "taped",
     "pressures_kpa",
+    "separate",
     "meshes_mm",
+    "base",
     "contact",
     "selective_mass",
     "tip_force_n",
@@ -132,8 +134,12 @@ pub(super) fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun, FemErro
         .map_err(|error| FemError::Case { message: format!("{}\n", error.message()), span: error.span() })?;
     let empty = Free::new();
     let table = file.fem.as_ref().map_or(&empty, |table| table.get_ref());
+    let model = model(table)?;
     let mut run = RobotRun {
-        settings: loading(table)?,
+        model,
+        set: table.keys().map(|key| key.get_ref().clone()).filter(|key| key != "model").collect(),
+        settings: model.settings(),
+        separate: model.separate(),
         pressures_pa: usual_pressures(scenario),
         tip_force_n: [0.0; 3],
         obstacle: None,
@@ -143,7 +149,7 @@ pub(super) fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun, FemErro
     let first = |name: &str| name == "mesh_mm" || name == "obstacle_mm";
     let (before, after): (Vec<_>, Vec<_>) = table.iter().partition(|(key, _)| first(key.get_ref()));
     before.into_iter().chain(after).try_for_each(|(key, value)| read(&mut run, key, value))?;
-    if !table.keys().any(|key| key.get_ref() == "hold_s") {
+    if run.settings.hold_s > 0.0 && run.set.iter().all(|key| key != "hold_s") {
         run.settings.hold_s = run.settings.hold_s.max(HOLD * run.settings.actuator_ramp_s);
     }
     run.settings.actuator_pa = run.pressures_pa.iter().copied().fold(0.0, f64::max);
@@ -156,18 +162,13 @@ fn usual_pressures(scenario: &Scenario) -> Vec<f64> {
     if above.is_empty() { vec![RobotSettings::default().actuator_pa] } else { above }
 }
 
-fn loading(table: &Free) -> Checked<RobotSettings> {
-    let Some((_, value)) = table.iter().find(|(key, _)| key.get_ref() == "loading") else {
-        return Ok(RobotSettings::default());
+fn model(table: &Free) -> Checked<Model> {
+    let Some((_, value)) = table.iter().find(|(key, _)| key.get_ref() == "model") else {
+        return Ok(Model::default());
     };
-    match value.get_ref().as_str() {
-        Some("compressed") => Ok(RobotSettings::compressed()),
-        Some("usual") => Ok(RobotSettings::usual()),
-        Some("published") => Ok(RobotSettings::published()),
-        _ => {
-            refuse(format!("unknown loading {}", value.get_ref()), "known: compressed, usual, published", value.span())
-        }
-    }
+    let known = || format!("known: {}", Model::ALL.map(Model::name).join(", "));
+    let unknown = || refuse(format!("unknown model {}", value.get_ref()), known(), value.span());
+    value.get_ref().as_str().and_then(Model::named).map_or_else(unknown, Ok)
 }
 
 fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Checked<()> {
@@ -186,7 +187,9 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
         return Ok(());
     }
     match name {
-        "loading" => {}
+        "model" => {}
+        "separate" => run.separate = yes_or_no(name, value, "as the model has it")?,
+        "base" => run.settings.encastre = encastre(value)?,
         "pressures_kpa" => run.pressures_pa = pressures(value)?,
         "meshes_mm" => run.meshes_m = meshes(value)?,
         "contact" => run.settings.contact = Some(yes_or_no(name, value, "where the pattern folds")?),
@@ -214,6 +217,14 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
         }
     }
     Ok(())
+}
+
+fn encastre(value: &Spanned<Value>) -> Checked<bool> {
+    match value.get_ref().as_str() {
+        Some("pinned") => Ok(false),
+        Some("encastre") => Ok(true),
+        _ => refuse(format!("base cannot be {}", value.get_ref()), "write \"pinned\" or \"encastre\"", value.span()),
+    }
 }
 
 fn yes_or_no(name: &str, value: &Spanned<Value>, without: &str) -> Checked<bool> {

@@ -1,8 +1,8 @@
 //! Stops for runs whose result cannot be trusted.
 
-use models::{Pose, Term};
+use models::{Pose, Row, RowKind, Term};
 
-use super::{Simulation, highest, setup};
+use super::{Ledger, Simulation, highest, setup};
 use crate::FemError;
 use crate::sheet::reference::{cross, dot};
 
@@ -11,6 +11,52 @@ const COLLAPSED: f64 = 1e-4;
 
 /// Steps between two estimates of the highest mode of the whole mesh: in the robots it changes by some hundredths in between.
 const WHOLE: u64 = 8192;
+
+/// A mesh longer than this was hardly meant in metres \[m\].
+const HUGE_M: f64 = 20.0;
+/// Share of the stored energy in contact from which contact is the likely cause.
+const PRESSED: f64 = 0.2;
+/// Added mass over true mass from which it is.
+const HEAVY: f64 = 1.0;
+
+/// What a run shows of why it went wrong.
+struct Evidence {
+    extent_m: f64,
+    forced_dt_s: Option<f64>,
+    added_mass: f64,
+    /// Contact's share of the stored energy.
+    contact_share: f64,
+}
+
+impl Evidence {
+    /// The likely cause, and what to do about it: the first that there is evidence of.
+    fn cause(&self) -> String {
+        let percent = |share: f64| 100.0 * share;
+        if self.extent_m > HUGE_M {
+            return format!(
+                "The mesh is {:.0} m long: if that is millimetres, write the mesh in metres",
+                self.extent_m
+            );
+        }
+        if let Some(dt_s) = self.forced_dt_s {
+            return format!("The step is forced to {dt_s:e} s: leave dt_s out, then it adapts");
+        }
+        if self.contact_share > PRESSED {
+            let share = percent(self.contact_share);
+            return format!(
+                "Contact holds {share:.0} % of the stored energy: layers start too deep in each other, or press harder than \
+                their elements can carry; start them farther apart (gap_mm), or make the elements smaller"
+            );
+        }
+        if self.added_mass > HEAVY {
+            let share = percent(self.added_mass);
+            return format!(
+                "{share:.0} % of mass were added for a longer step: ask for a shorter one, or load more slowly"
+            );
+        }
+        "Look for a load in the wrong unit, for elements that are too coarse for what they do, or shorten the step (cfl)".into()
+    }
+}
 
 impl Simulation {
     /// Judges the last step.
@@ -24,11 +70,11 @@ impl Simulation {
         let guards = &self.limits.guards;
         if ledger.scale_j > guards.residual_floor_j && ledger.residual_share() > guards.residual {
             return Err(self.stopped(format!(
-                "the energy balance misses {:.3e} J, {:.1} % of the external work (limit {} %). Shorten the step (cfl), \
-                 or look for elements that are too coarse for what they do",
+                "the energy balance misses {:.3e} J, {:.1} % of the external work (limit {} %). {}",
                 ledger.residual_j,
                 100.0 * ledger.residual_share(),
-                100.0 * guards.residual
+                100.0 * guards.residual,
+                self.evidence(&ledger).cause()
             )));
         }
         self.guard_speed()
@@ -43,11 +89,28 @@ impl Simulation {
             return Ok(());
         }
         Err(self.stopped(format!(
-            "node {} moves at {speed:.0} m/s; sound in the fabric travels at {:.0} m/s. The step is unstable or a load \
-             is in the wrong unit",
+            "node {} moves at {speed:.0} m/s; sound in the fabric travels at {:.0} m/s. {}",
             self.order.old[fastest] + 1,
-            self.limits.speed_m_s
+            self.limits.speed_m_s,
+            self.evidence(&self.ledger()).cause()
         )))
+    }
+
+    fn evidence(&self, ledger: &Ledger) -> Evidence {
+        let along = |k: usize| {
+            let each = || self.mesh.points.iter().map(|p| p[k]);
+            each().fold(f64::NEG_INFINITY, f64::max) - each().fold(f64::INFINITY, f64::min)
+        };
+        let stored = |wanted: &dyn Fn(&Row) -> bool| {
+            let rows = ledger.rows.iter().filter(|r| r.kind == RowKind::Stored && wanted(r));
+            rows.map(|r| r.energy_j.abs()).sum::<f64>()
+        };
+        Evidence {
+            extent_m: (0..3).map(along).fold(0.0, f64::max),
+            forced_dt_s: self.limits.forced_dt_s,
+            added_mass: self.limits.added_mass,
+            contact_share: stored(&|r| r.name.contains("contact")) / stored(&|_| true).max(f64::MIN_POSITIVE),
+        }
     }
 
     fn not_a_number(&self) -> String {
@@ -125,7 +188,26 @@ impl Simulation {
         Ok(())
     }
 
-    fn stopped(&self, reason: String) -> FemError {
+    pub(super) fn stopped(&self, reason: String) -> FemError {
         FemError::Stopped { step: self.clock.step, time_s: self.clock.time_s, reason }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stop_names_what_the_run_shows_and_not_always_the_step() {
+        let plain = || Evidence { extent_m: 0.4, forced_dt_s: None, added_mass: 0.3, contact_share: 0.01 };
+        for (evidence, words) in [
+            (plain(), "load in the wrong unit"),
+            (Evidence { extent_m: 360.0, ..plain() }, "The mesh is 360 m long"),
+            (Evidence { forced_dt_s: Some(1e-5), ..plain() }, "leave dt_s out"),
+            (Evidence { contact_share: 0.4, ..plain() }, "Contact holds 40 %"),
+            (Evidence { added_mass: 4.0, ..plain() }, "400 % of mass were added"),
+        ] {
+            assert!(evidence.cause().contains(words), "{}", evidence.cause());
+        }
     }
 }

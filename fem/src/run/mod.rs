@@ -13,14 +13,18 @@ mod constraint;
 mod guard;
 mod highest;
 mod ledger;
+mod reaction;
 mod selective;
 mod setup;
+mod sides;
 mod step;
 mod team;
 
 pub use crate::sheet::fields::ElementFields;
 pub use ledger::Ledger;
+pub use reaction::Reaction;
 pub(crate) use setup::gaussian;
+pub use sides::ChangedSides;
 
 use models::{Pose, Row, RowKind, Term};
 
@@ -32,6 +36,7 @@ use crate::sheet::Sheet;
 use crate::sheet::order::Order;
 use crate::{FemError, Mesh, Problem};
 use constraint::{Body, Driven};
+use reaction::Reactions;
 use selective::Selective;
 pub(crate) use selective::gain;
 use team::Team;
@@ -46,6 +51,7 @@ pub struct Simulation {
     edges: Option<Edges>,
     driven: Vec<Driven>,
     bodies: Vec<Body>,
+    reactions: Reactions,
     tie_offset: Vec<[f64; 3]>,
     /// Mass of each node, scaling included \[kg\].
     mass: Vec<f64>,
@@ -168,6 +174,7 @@ impl Simulation {
         out.bytes(&self.sheet.save());
         self.others().for_each(|term| out.bytes(&term.save()));
         self.bodies.iter().for_each(|body| out.f64s(&body.save()));
+        out.f64s(&self.reactions.save());
         out.into_bytes()
     }
 
@@ -197,6 +204,7 @@ impl Simulation {
             (numbers.len() == 13).then_some(())?;
             body.restore(&numbers);
         }
+        self.reactions.restore(&from.f64s()?)?;
         from.is_empty().then_some(())
     }
 
@@ -286,21 +294,15 @@ impl Simulation {
         self.sheet.fields(self.x.as_flattened())
     }
 
-    /// Force with which supports hold or drive a node set \[N\]: minus what everything else does to its nodes at the
-    /// present positions. Inertia, viscosity and mass damping are left out, so the state should be quiet. `None` for a set
-    /// that the mesh does not have.
+    /// Force and moment that supports exert on the structure, one for every node set that they name, at the positions of the last
+    /// step before the present moment; 0 before the first.
+    pub fn reactions(&self) -> &[Reaction] {
+        self.reactions.all()
+    }
+
+    /// The force of [`Simulation::reactions`] at a node set \[N\]; `None` for a set that no support names.
     pub fn reaction_n(&self, set: &str) -> Option<[f64; 3]> {
-        let nodes = self.mesh.sets.get(set)?;
-        let pose = Pose::nodes(self.x.as_flattened());
-        let mut force = vec![[0.0; 4]; self.x.len()];
-        self.sheet.add(&pose, force.as_flattened_mut());
-        self.others().for_each(|term| {
-            term.add(&pose, force.as_flattened_mut());
-        });
-        constraint::hand_over(&self.mesh.ties, &mut force);
-        let mut sum = [0.0; 3];
-        nodes.iter().for_each(|n| (0..3).for_each(|k| sum[k] -= force[*n as usize][k]));
-        Some(sum)
+        self.reactions().iter().find(|r| r.set == set).map(|r| r.force_n)
     }
 
     /// Contact pressure at every node in mesh order \[Pa\]; empty without contact.

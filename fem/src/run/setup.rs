@@ -3,6 +3,7 @@
 use models::{Pose, Term};
 
 use super::constraint::{Body, Driven, bodies, driven, set};
+use super::reaction::Reactions;
 use super::selective::Selective;
 use super::team::Team;
 use super::{Books, Clock, Limits, Simulation, highest};
@@ -44,6 +45,7 @@ impl Simulation {
         sheet.start(x.as_flattened());
         let bodies = bodies(problem, &mesh, &mass)?;
         let moved = moved(&driven, &bodies, &mesh, &mut fixed);
+        let reactions = Reactions::new(problem, &mesh)?;
         let edges = touching.filter(|c| c.edges).map(|c| Edges::new(&mesh, c, &mass, dt_s, &fixed)).transpose()?;
         let mut run = Simulation {
             fixed: listed(&fixed),
@@ -67,6 +69,7 @@ impl Simulation {
             edges,
             driven,
             bodies,
+            reactions,
             mass,
             x,
         };

@@ -67,6 +67,7 @@ impl Simulation {
         while self.is_before(time_s) && began.elapsed() < STRETCH {
             let steps = LOOK - self.clock.step % LOOK;
             self.burst(steps, time_s);
+            self.guard_sides()?;
             self.guard()?;
             if self.clock.step.is_multiple_of(recheck) {
                 self.recheck()?;
@@ -90,7 +91,7 @@ impl Simulation {
         }
     }
 
-    fn one_step(&mut self) {
+    pub(super) fn one_step(&mut self) {
         let (t, dt) = (self.clock.time_s, self.clock.dt_s);
         let dv = 0.5 * (self.clock.before_s + dt);
         let pose = Pose::nodes(self.x.as_flattened());
@@ -111,11 +112,22 @@ impl Simulation {
             let step = hold::Step { x: &self.x, v: &self.v, dv_s: dv, dt_s: dt, damping_1_s: self.limits.damping_1_s };
             edges.hold(&step, &mut self.force);
         }
+        // Only where somebody will look: before the supports set velocities, and after.
+        let look = self.sheet.measure;
+        if look {
+            let (mass, v, force) = (&self.mass, &self.v, &self.force);
+            self.reactions.clear();
+            self.reactions.add(&self.x, |i| [0, 1, 2].map(|k| -mass[i] * v[i][k] / dv - force[i][k]));
+        }
         let mut support = 0.0;
         for driven in &self.driven {
             support += driven.step(t + dt, dt, &self.mass, &self.force, &self.x, &mut self.v);
         }
         self.books.support.add(support);
+        if look {
+            let (mass, v) = (&self.mass, &self.v);
+            self.reactions.add(&self.x, |i| [0, 1, 2].map(|k| mass[i] * v[i][k] / dv));
+        }
         for body in &mut self.bodies {
             body.step(dv, dt, self.limits.damping_1_s, &self.force, &self.x, &mut self.v);
         }

@@ -1,6 +1,6 @@
 //! Stress, strain, thickness and wrinkling of every element, for pictures and reports.
 
-use super::reference::dot;
+use super::reference::{add_scaled, cross, dot, unit};
 use super::{Element, Sheet};
 
 /// Element results in mesh order (parts one after the other, quads before triangles), averaged over plies.
@@ -10,6 +10,8 @@ pub struct ElementFields {
     pub von_mises_pa: Vec<f64>,
     /// Principal Cauchy stresses, larger first \[Pa\].
     pub principal_stress_pa: Vec<[f64; 2]>,
+    /// Unit vectors along them, in the sheet; the first has no component against the fabric's warp.
+    pub principal_direction: Vec<[[f64; 3]; 2]>,
     /// Principal Green–Lagrange strains, larger first.
     pub principal_strain: Vec<[f64; 2]>,
     /// Current thickness of the section (incompressible) \[m\].
@@ -44,6 +46,7 @@ impl Sheet {
         let [s1, s2] = cauchy(s, c).map(|n| n / fabric.thickness_m());
         fields.von_mises_pa.push((s1 * s1 - s1 * s2 + s2 * s2).sqrt());
         fields.principal_stress_pa.push([s1, s2]);
+        fields.principal_direction.push(directions(s, c, f));
         fields.principal_strain.push(principal([e[0], e[1], 0.5 * e[2]]));
         fields.thickness_m.push(fabric.thickness_m() / area_ratio.max(f64::MIN_POSITIVE));
         fields.wrinkle_state.push(if s1 <= 0.0 { 2 } else { u8::from(s2 <= 0.0) });
@@ -72,8 +75,53 @@ fn cauchy(s: [f64; 3], c: [f64; 3]) -> [f64; 2] {
     [0.5 * trace + root, 0.5 * trace - root]
 }
 
+/// Unit vectors along the principal stresses: F α with (S C) α = λ₁ α, and across it. Along the warp where all directions are equal,
+/// and 0 for an element that has collapsed.
+fn directions(s: [f64; 3], c: [f64; 3], f: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
+    let a = [
+        [s[0] * c[0] + s[2] * c[2], s[0] * c[2] + s[2] * c[1]],
+        [s[2] * c[0] + s[1] * c[2], s[2] * c[2] + s[1] * c[1]],
+    ];
+    let largest = cauchy(s, c)[0];
+    let [p, q] = [[a[0][1], largest - a[0][0]], [largest - a[1][1], a[1][0]]];
+    let [alpha, beta] = if p[0].hypot(p[1]) > q[0].hypot(q[1]) { p } else { q };
+    let along = add_scaled(f[0].map(|x| alpha * x), beta, f[1]);
+    let along = if dot(along, along) > 0.0 { along } else { f[0] };
+    let along = if dot(along, f[0]) < 0.0 { along.map(|x| -x) } else { along };
+    let across = cross(cross(f[0], f[1]), along);
+    [along, across].map(|v| if dot(v, v) > 0.0 { unit(v) } else { [0.0; 3] })
+}
+
 /// Eigenvalues of the symmetric matrix (a, b; off-diagonal c), larger first.
 fn principal([a, b, c]: [f64; 3]) -> [f64; 2] {
     let root = (0.25 * (a - b) * (a - b) + c * c).sqrt();
     [0.5 * (a + b) + root, 0.5 * (a + b) - root]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// σ t = F S Fᵀ is put together again from principal values and directions.
+    #[test]
+    fn principal_stresses_along_their_directions_are_the_stress() {
+        let f = [[1.1, 0.2, -0.1], [-0.15, 0.3, 0.9]];
+        let c = [dot(f[0], f[0]), dot(f[1], f[1]), dot(f[0], f[1])];
+        for s in [[3.0, 1.0, 0.4], [1.0, 3.0, -0.7], [-2.0, -1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]] {
+            let (values, [along, across]) = (cauchy(s, c), directions(s, c, f));
+            assert!(
+                dot(along, f[0]) >= 0.0 && dot(along, across).abs() < 1e-12 && (dot(along, along) - 1.0).abs() < 1e-12
+            );
+            for i in 0..3 {
+                for j in 0..3 {
+                    let pull = |a: usize, b: usize| f[a][i] * f[b][j];
+                    let whole = s[0] * pull(0, 0) + s[1] * pull(1, 1) + s[2] * (pull(0, 1) + pull(1, 0));
+                    let found = values[0] * along[i] * along[j] + values[1] * across[i] * across[j];
+                    assert!((found - whole).abs() < 1e-12, "{s:?}: {found} {whole}");
+                }
+            }
+        }
+        assert_eq!(directions([0.0; 3], c, f)[0], unit(f[0]), "without stress along the warp");
+        assert_eq!(directions([0.0; 3], [0.0; 3], [[0.0; 3]; 2]), [[0.0; 3]; 2]);
+    }
 }

@@ -141,6 +141,7 @@ pub const CHECKS: &[Check] = &[
     cantilever::WRINKLING,
     bias::CHECK,
     robots::CHECK,
+    robots::FOLDS,
 ];
 
 impl Line {

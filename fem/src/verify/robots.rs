@@ -1,90 +1,143 @@
-//! The four robots of du Pasquier, Jeong, Okamura 2023 against their measured tips.
+//! The four robots of du Pasquier, Jeong, Okamura 2023 as recommended: their books close, and the ePAM's folds hold what the elastica says.
 //!
-//! Read at the last marker, 330 mm from the base: the paper measures at six markers only, each at the middle of a pouch,
-//! which six pouches of 60 mm on 360 mm give. The taped sheet (tape and margin) and ν₁₂ are calibrated on two of the tips; cPAM and ePAM see
-//! neither. They are not blind: hourglass control, damping and the station were settled with their tips in view.
-//!
-//! | robot | measured | marker at 330 mm | no margin, ν₁₂ = 0, in steps of 5 kPa |
-//! |---|---|---|---|
-//! | sPAM | 67.5 | 63.7 | 117.1 |
-//! | cPAM | 159.7 | 169.3 | the same |
-//! | ePAM | 119.4 | 113.7 | the same |
-//! | fPAM | 67.2 | 67.7 | 55.2 |
-//!
-//! \[mm\]. Raised in steps, other seeds, meshes and ramps: `docs/robots.md`.
+//! Whether they bend as far as measured is no check of the engine: most of what decides it was assumed. `ibr compare --engines` holds them
+//! against the published displacements, with the interval that the assumed numbers leave.
 
+use std::collections::BTreeMap;
+
+use models::Fabric;
+use models::exact::fold::energy_j_m;
+
+use super::setup::shells;
 use super::{Check, Curve, Figure, Line, Outcome};
 use crate::robot::{RobotSettings, sections, shipped};
-use crate::{FemError, Simulation};
+use crate::sheet::Element;
+use crate::sheet::order::Order;
+use crate::sheet::reference::bending_stiffness;
+use crate::vec3::{V3, add, along, dot, node, norm, scale, sub};
+use crate::{FemError, Problem, Simulation};
 
 pub(super) const CHECK: Check = Check {
     name: "robots",
-    sentence: "The four robots at 30 kPa bend as far as measured, with one set of settings; the figure has the usual values too.",
-    source: "du Pasquier, Jeong, Okamura 2023, Table III, d_max: measured",
+    sentence: "The four robots at 30 kPa are at rest, lose no energy and do not lean on hourglass control.",
+    source: "energy balance",
     slow: true,
     run,
 };
 
-/// Scenario, measured tip \[mm\], seeds: the sPAM's seams are nearest to snapping, so it is the mean of three.
-const MEASURED: [(&str, f64, u64); 4] = [("spam", 67.5, 3), ("cpam", 159.7, 1), ("epam", 119.4, 1), ("fpam", 67.2, 1)];
-/// Robots that one of the calibrated numbers concerns.
-const CALIBRATED: [&str; 2] = ["spam", "fpam"];
+pub(super) const FOLDS: Check = Check {
+    name: "robot-folds",
+    sentence: "The folds of the ePAM at 10 kPa hold what the elastica says of their angles and tensions, and it bends less with ten times the stiffness.",
+    source: "models::exact::fold, from the deformed mesh",
+    slow: true,
+    run: folds,
+};
 
-/// End of a robot's runs.
+const ROBOTS: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
+
+/// A robot at the end of its ramp.
 struct End {
-    /// At the last marker and at the tip ring, mean over the seeds \[mm\].
-    y_mm: [f64; 2],
-    /// These shares are the largest of all seeds.
-    kinetic: f64,
-    residual: f64,
-    hourglass: f64,
+    run: Simulation,
+    problem: Problem,
+    /// Height of the outermost marker \[mm\].
+    y_mm: f64,
+}
+
+impl End {
+    fn row(&self, name: &str) -> f64 {
+        self.run.ledger().rows.iter().filter(|r| r.name == name).map(|r| r.energy_j).sum()
+    }
 }
 
 fn run() -> Result<Outcome, FemError> {
-    let mut outcome = Outcome::default();
-    let (mut set, mut usual, mut ring) = (Vec::new(), Vec::new(), Vec::new());
-    for (name, measured, seeds) in MEASURED {
-        let end = mean(name, &RobotSettings::compressed(), seeds)?;
+    let (mut lines, mut tips) = (Vec::new(), Vec::new());
+    for (k, name) in ROBOTS.into_iter().enumerate() {
+        let end = bend(name, &RobotSettings::default())?;
+        let hourglass = end.row("hourglass");
+        let stored = end.row("membrane") + end.row("bending") + end.row("folds") + hourglass;
+        let ledger = end.run.ledger();
         let of = |what: &str| format!("{name}: {what}");
-        outcome.lines.extend([
-            Line::value(&of(&format!("marker at 330 mm (seeds: {seeds}) [mm]")), end.y_mm[0], measured, 0.10),
-            Line::at_most(&of("kinetic share at the end"), end.kinetic, 0.01),
-            Line::at_most(&of("energy residual over external work"), end.residual, 0.02),
-            Line::at_most(&of("hourglass share of stored energy"), end.hourglass, 0.10),
+        lines.extend([
+            Line::at_most(&of("kinetic share at the end"), ledger.kinetic_share(), 0.01),
+            Line::at_most(&of("energy residual over external work"), ledger.residual_share(), 1e-3),
+            Line::at_most(&of("hourglass share of stored energy"), hourglass / stored, 0.05),
         ]);
-        set.push([measured, end.y_mm[0]]);
-        ring.push([measured, end.y_mm[1]]);
-        if CALIBRATED.contains(&name) {
-            usual.push([measured, mean(name, &RobotSettings::usual(), 1)?.y_mm[0]]);
-        }
+        tips.push([k as f64 + 1.0, end.y_mm]);
     }
-    let curve = |label: &str, points, exact| Curve { label: label.into(), points, exact };
-    outcome.figure = Some(Figure {
-        title: "Four robots at 30 kPa".into(),
-        x: "measured [mm]".into(),
-        y: "finite elements [mm]".into(),
-        curves: vec![
-            curve("as measured", vec![[60.0, 60.0], [165.0, 165.0]], true),
-            curve("marker at 330 mm", set, false),
-            curve("tip ring at 360 mm", ring, false),
-            curve("marker, no margin and nu12 = 0", usual, false),
-        ],
-    });
-    Ok(outcome)
+    let figure = Figure {
+        title: "Four robots at 30 kPa, as recommended".into(),
+        x: "sPAM, cPAM, ePAM, fPAM".into(),
+        y: "outermost marker [mm]".into(),
+        curves: vec![Curve { label: "finite elements".into(), points: tips, exact: false }],
+    };
+    Ok(Outcome { lines, figure: Some(figure) })
 }
 
-fn mean(name: &str, settings: &RobotSettings, seeds: u64) -> Result<End, FemError> {
-    let mut sum = End { y_mm: [0.0; 2], kinetic: 0.0, residual: 0.0, hourglass: 0.0 };
-    for seed in 1..=seeds {
-        let end = bend(name, &RobotSettings { seed, ..settings.clone() })?;
-        (0..2).for_each(|k| sum.y_mm[k] += end.y_mm[k] / seeds as f64);
-        sum.kinetic = sum.kinetic.max(end.kinetic);
-        sum.residual = sum.residual.max(end.residual);
-        sum.hourglass = sum.hourglass.max(end.hourglass);
+fn folds() -> Result<Outcome, FemError> {
+    let low = RobotSettings { actuator_pa: 10e3, ..RobotSettings::default() };
+    let stiff = RobotSettings { bending_factor: 10.0 * low.bending_factor, ..low.clone() };
+    let [soft, stiff] = [bend("epam", &low)?, bend("epam", &stiff)?];
+    let lines = vec![
+        Line::value("energy of the folds [mJ]", 1e3 * soft.row("folds"), 1e3 * elastica_j(&soft)?, 0.03),
+        Line::at_least("less height with ten times the stiffness", 1.0 - stiff.y_mm / soft.y_mm, 0.1),
+    ];
+    Ok(Outcome { lines, figure: None })
+}
+
+/// Σ b 4 √(D T) (1 − cos ½φ) over the edges where stiff meets soft, the stiff side's own fold in series \[J\]; angles between the
+/// elements' directions across the edge and tensions by their fabric, both from the deformed mesh.
+fn elastica_j(end: &End) -> Result<f64, FemError> {
+    let problem = &end.problem;
+    let (sheet, mesh) = shells(problem)?;
+    let order = Order::of(&problem.mesh);
+    let mut x = vec![[0.0; 4]; mesh.points.len()];
+    order.new.iter().zip(end.run.positions()).for_each(|(place, p)| x[*place as usize][..3].copy_from_slice(&p));
+    let stiffness: Vec<f64> = problem.sections.iter().map(bending_stiffness).collect();
+    let mut beside: BTreeMap<[u32; 2], Vec<&Element>> = BTreeMap::new();
+    for element in &sheet.elements {
+        let nodes = element.nodes();
+        for k in 0..nodes.len() {
+            let (a, b) = (nodes[k], nodes[(k + 1) % nodes.len()]);
+            beside.entry([a.min(b), a.max(b)]).or_default().push(element);
+        }
+    }
+    let of = |e: &&Element| stiffness[e.part];
+    let mut sum = 0.0;
+    for (ends, elements) in beside {
+        let Some(hard) = elements.iter().copied().max_by(|a, b| of(a).total_cmp(&of(b))) else { continue };
+        for soft in elements.iter().copied().filter(|e| of(e) < 0.999 * of(&hard)) {
+            let [a, b] = [soft, hard].map(|e| across(ends, e, |n| node(&x, n as usize)));
+            let turn = std::f64::consts::PI - dot(a, b).clamp(-1.0, 1.0).acos();
+            let length = norm(sub(mesh.points[ends[1] as usize], mesh.points[ends[0] as usize]));
+            let [soft_n, hard_n] = [soft, hard].map(|e| {
+                let reference = across(ends, e, |n| mesh.points[n as usize]);
+                energy_j_m(of(&e), pull_n_m(e, &*sheet.fabrics[e.part], reference, &x), turn)
+            });
+            sum += length * soft_n * hard_n / (soft_n + hard_n).max(f64::MIN_POSITIVE);
+        }
     }
     Ok(sum)
 }
 
+/// Unit vector from an edge to the middle of the element's other corners, perpendicular to the edge.
+fn across(ends: [u32; 2], element: &Element, at: impl Fn(u32) -> V3) -> V3 {
+    let others: Vec<V3> = element.nodes().iter().filter(|n| !ends.contains(n)).map(|n| at(*n)).collect();
+    let far = others.iter().fold([0.0; 3], |sum, p| along(sum, 1.0 / others.len() as f64, *p));
+    let reach = sub(far, scale(add(at(ends[0]), at(ends[1])), 0.5));
+    let edge = sub(at(ends[1]), at(ends[0]));
+    let square = along(reach, -dot(reach, edge) / dot(edge, edge), edge);
+    scale(square, 1.0 / norm(square))
+}
+
+/// Tension of an element along a direction of its reference shape \[N/m\].
+fn pull_n_m(element: &Element, fabric: &dyn Fabric, direction: V3, x: &[[f64; 4]]) -> f64 {
+    let f = element.deformation(x);
+    let s = fabric.tension([0.5 * (dot(f[0], f[0]) - 1.0), 0.5 * (dot(f[1], f[1]) - 1.0), dot(f[0], f[1])], &[0.0; 2]);
+    let [a, b] = [0, 1].map(|k| dot(direction, element.reference.axes[k]));
+    (a * a * s[0] + b * b * s[1] + 2.0 * a * b * s[2]).max(0.0)
+}
+
+/// A robot at the end of one ramp.
 fn bend(name: &str, settings: &RobotSettings) -> Result<End, FemError> {
     let (scenario, mut problem) = shipped(name, settings)?;
     problem.settings.threads = 1;
@@ -94,13 +147,5 @@ fn bend(name: &str, settings: &RobotSettings) -> Result<End, FemError> {
     let start = line.at(&run.positions())?;
     run.advance_until(problem.settings.end_s, &mut |_| true)?;
     let end = line.at(&run.positions())?;
-    let ledger = run.ledger();
-    let row = |name: &str| ledger.rows.iter().filter(|r| r.name == name).map(|r| r.energy_j).sum::<f64>();
-    let hourglass = row("hourglass");
-    Ok(End {
-        y_mm: [0, 1].map(|k| 1e3 * (end[k][1] - start[k][1])),
-        kinetic: ledger.kinetic_share(),
-        residual: ledger.residual_share(),
-        hourglass: hourglass / (row("membrane") + row("bending") + row("folds") + hourglass),
-    })
+    Ok(End { run, problem, y_mm: 1e3 * (end[0][1] - start[0][1]) })
 }

@@ -247,7 +247,9 @@ fn segments(raw: &Raw) -> Checked<usize> {
 
 /// Words that may stand beside the parameters of an effect: how they are known.
 const REMARKS: &[&str] = &["basis", "interval", "data", "date", "note"];
-/// Words of `basis` with which a value may lie beyond the usual bounds.
+/// Words of `basis`.
+const BASES: &[&str] = &["assumed", "calibrated", "geometry", "measured"];
+/// Those with which a value may lie beyond the usual bounds.
 const KNOWN: &[&str] = &["measured", "calibrated"];
 
 fn effects_of(raw: &Raw, kind: &actuators::Actuator, formulas: &[Arc<Formula>]) -> Checked<Vec<EffectChoice>> {
@@ -263,13 +265,12 @@ fn effects_of(raw: &Raw, kind: &actuators::Actuator, formulas: &[Arc<Formula>]) 
             return refuse(message, format!("remove [effects.{}]", effect.name), name.span());
         }
         let mut values = effect.neutral();
-        let mut basis = String::new();
-        let word = |v: &Spanned<toml::Value>| v.get_ref().as_str().is_some_and(|basis| KNOWN.contains(&basis));
-        let is_known = table.iter().any(|(key, value)| key.get_ref() == "basis" && word(value));
+        let basis = table.iter().find(|(key, _)| key.get_ref() == "basis").map(|(_, value)| basis_of(value));
+        let basis = basis.transpose()?.unwrap_or_default();
+        let is_known = KNOWN.contains(&basis.as_str());
         for (key, value) in table {
             match (key.get_ref().as_str(), effect.parameters.iter().position(|p| p.key == key.get_ref())) {
                 (_, Some(i)) => values[i] = parameter(&effect, i, value, is_known)?,
-                ("basis", None) => basis = value.get_ref().as_str().unwrap_or_default().to_string(),
                 (word, None) if REMARKS.contains(&word) => {}
                 (word, None) => {
                     let keys: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
@@ -283,6 +284,17 @@ fn effects_of(raw: &Raw, kind: &actuators::Actuator, formulas: &[Arc<Formula>]) 
     }
     chosen.sort_by_key(|e| order(&e.name, formulas));
     Ok(chosen)
+}
+
+fn basis_of(value: &Spanned<toml::Value>) -> Checked<String> {
+    match value.get_ref().as_str() {
+        Some(word) if BASES.contains(&word) => Ok(word.to_string()),
+        Some(word) => {
+            let message = format!("basis \"{word}\" is none of the words that say how a value is known");
+            refuse(message, spelling::known(word, BASES), value.span())
+        }
+        None => refuse("basis must be a word".into(), format!("write one of {}", BASES.join(", ")), value.span()),
+    }
 }
 
 fn parameter(effect: &Effect, index: usize, value: &Spanned<toml::Value>, is_known: bool) -> Checked<f64> {

@@ -50,7 +50,7 @@ pub fn run(args: &ChallengeNew, context: &mut Context) -> Result<Outcome, Failur
     );
     Ok(Outcome::new(
         text,
-        json!({"schema": "ibr.challenge.new", "version": 1, "folder": args.out, "sha256": seal.sha256, "runs": dataset.runs.len()}),
+        json!({"schema": "ibr.challenge.new", "version": 1, "folder": args.out.display().to_string(), "sha256": seal.sha256, "runs": dataset.runs.len()}),
     ))
 }
 

@@ -1,15 +1,18 @@
 //! Several runs of one robot in one folder: a finished one is kept and skipped, an interrupted one goes on.
 
+use super::folder;
 use super::input::Named;
 use super::plan::{About, Variation};
-use super::robot::heights_mm;
-use super::single::{self, Done, Manner};
-use super::{robot, uncertain, write_failure};
+use super::robot::{heights_mm, rounded};
+use super::single::{self, Done, Finished, Manner};
+use super::summary::Summary;
+use super::uncertain;
 use crate::commands::tables::table;
 use crate::commands::together::{shared, together};
 use crate::commands::{Context, Outcome};
 use crate::failure::{Failure, INTERRUPTED};
 use compare::plots::{LineSeries, LineStyle, Lines, Tornado, TornadoBar, lines, tornado};
+use fem::robot::Reading;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -37,8 +40,8 @@ pub fn run(
         let help = "choose another folder with --out; several runs get a folder each inside it".into();
         return Err(Failure::Write { path, cause: "it holds a single run".into(), help });
     }
-    if let About::Uncertain(numbers, cube) = about {
-        return uncertain::run(base, cases, (numbers, cube), manner, context);
+    if let About::Uncertain(numbers, cube, variant) = about {
+        return uncertain::run(base, cases, (numbers, cube, variant), manner, context);
     }
     let rows = match rows(base, cases, manner, context)? {
         Ok(rows) => rows,
@@ -82,15 +85,15 @@ fn rows(
         let (index, label) = (jobs[job], &cases[jobs[job]].label);
         one(&loaded[index].0, label, &each, &format!("{} of {}, {label}", index + 1, cases.len()), inner)
     })?;
-    let found: BTreeMap<usize, (Value, Value)> = match found {
+    let found: BTreeMap<usize, Finished> = match found {
         Ok(found) => jobs.into_iter().zip(found).collect(),
         Err(done) => return Ok(Err(done)),
     };
     let row = |(index, case): (usize, &Variation)| {
-        let (own, (summary, cost)) = (first(index) == index, &found[&first(index)]);
-        let cpu_s = if own { cost["cpu_s_of_all_sessions"].as_f64().unwrap_or(0.0) } else { 0.0 };
+        let (own, run) = (first(index) == index, &found[&first(index)]);
+        let cpu_s = if own { run.cost.cpu_s_of_all_sessions } else { 0.0 };
         let folder = if own { case.label.clone() } else { String::new() };
-        Row { variation: case.clone(), heights: heights(summary), folder, cpu_s }
+        Row { variation: case.clone(), heights: heights(&run.summary), folder, cpu_s }
     };
     Ok(Ok(cases.iter().enumerate().map(row).collect()))
 }
@@ -102,7 +105,7 @@ pub fn one(
     manner: &Manner,
     what: &str,
     context: &mut Context,
-) -> Result<Option<(Value, Value)>, Failure> {
+) -> Result<Option<Finished>, Failure> {
     let folder = manner.folder.join(label);
     let other = holds_another(named, &folder, manner.force)?;
     let manner = Manner { folder, resume: !other, force: other, ..manner.clone() };
@@ -110,15 +113,14 @@ pub fn one(
     let mut tell = |text: &str, share: Option<f64>| progress(&format!("{what}: {text}"), share);
     let mut inner = Context { json: *json, progress: &mut tell, written, interrupt };
     match single::run(named.load()?, &manner, &mut inner)? {
-        Done::Now { summary, cost, .. } | Done::Before { summary, cost } => Ok(Some((summary, cost))),
+        Done::Now(run, _) | Done::Before(run) => Ok(Some(run)),
         Done::Interrupted { .. } => Ok(None),
     }
 }
 
 /// Whether the folder holds a run of another case, which is an error unless it may be overwritten.
 fn holds_another(named: &Named, folder: &Path, force: bool) -> Result<bool, Failure> {
-    let case = folder.join("case.toml");
-    let other = case.exists() && std::fs::read_to_string(&case).map_err(|e| write_failure(&case, &e))? != named.text;
+    let other = folder::is_of(folder, &named.text)? == Some(false);
     if other && !force {
         let cause = "it holds a run of another case, or the case has changed".into();
         let help = "choose another folder with --out, or add --force to run it again".into();
@@ -127,13 +129,13 @@ fn holds_another(named: &Named, folder: &Path, force: bool) -> Result<bool, Fail
     Ok(other)
 }
 
-fn heights(summary: &Value) -> Vec<[f64; 3]> {
-    let read = robot::readings(summary);
-    let row = |r: &fem::robot::Reading| {
+fn heights(summary: &Summary) -> Vec<[f64; 3]> {
+    let read = summary.robot.iter().flat_map(|robot| &robot.readings);
+    let row = |r: &Reading| {
         let [marker, tip] = heights_mm(r);
-        [robot::rounded(r.actuator_pa * 1e-3), marker, tip]
+        [rounded(r.actuator_pa * 1e-3), marker, tip]
     };
-    read.iter().filter(|r| r.actuator_pa > 0.0).map(row).collect()
+    read.filter(|r| r.actuator_pa > 0.0).map(row).collect()
 }
 
 pub fn interrupted(done: usize, all: usize, folder: &Path) -> Outcome {

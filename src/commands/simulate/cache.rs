@@ -1,14 +1,16 @@
 //! Finished runs of robots, kept in a folder under the hash of problem and engine, so that asking twice costs nothing.
 
+use super::folder;
 use super::input::{Loaded, Named};
-use super::robot;
-use super::single::{self, Done, Manner};
+use super::paper_runs::is_paper;
+use super::robot::{heights_mm, rounded};
+use super::single::{self, Done, Finished, Manner};
 use crate::commands::Context;
 use crate::commands::together::{shared, together};
 use crate::failure::Failure;
 use compare::study::engines::{FeRun, FeState};
 use fem::robot::Reading;
-use serde_json::Value;
+use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -58,21 +60,22 @@ impl Keeper {
         let kind = loaded.robot.as_ref().map_or("case", |r| r.scenario.actuator.kind.name);
         let key = format!("{kind}-{:016x}-{}", loaded.case.problem.fingerprint(), fem::ENGINE);
         let folder = self.folder.join(key);
-        if let Some(run) = finished(&folder) {
+        if let Some(run) = finished(&folder)? {
             return Ok(Some(run));
         }
-        let case = folder.join("case.toml");
-        let begun = std::fs::read_to_string(&case).is_ok_and(|text| text == named.text);
-        let force = case.exists() && !begun;
+        let begun = folder::is_of(&folder, &named.text)?;
+        let (resume, force) = (begun == Some(true), begun == Some(false));
         let every = Duration::from_secs(30);
-        let manner =
-            Manner { folder: folder.clone(), resume: begun, force, frames: false, end_s: None, threads, every };
+        let manner = Manner { folder: folder.clone(), resume, force, frames: false, end_s: None, threads, every };
         let Context { json, progress, written, interrupt } = context;
         let mut tell = |text: &str, share: Option<f64>| progress(&format!("{what}: {text}"), share);
         let mut inner = Context { json: *json, progress: &mut tell, written, interrupt };
         match single::run(loaded, &manner, &mut inner)? {
             Done::Interrupted { .. } => Ok(None),
-            Done::Now { summary, cost, .. } | Done::Before { summary, cost } => Ok(as_run(&summary, &cost)),
+            Done::Now(run, _) | Done::Before(run) => match as_run(&run) {
+                None => Err(Failure::usage(format!("{} is no robot", named.spec), "name the scenario of a robot")),
+                run => Ok(run),
+            },
         }
     }
 }
@@ -102,57 +105,61 @@ impl Job {
     }
 }
 
-/// A finished run of the present engine in a folder.
-pub fn finished(folder: &Path) -> Option<FeRun> {
-    let read =
-        |name: &str| -> Option<Value> { serde_json::from_str(&std::fs::read_to_string(folder.join(name)).ok()?).ok() };
-    let (summary, manifest) = (read("summary.json")?, read("manifest.json")?);
-    (summary["engine"] == fem::ENGINE).then_some(())?;
-    as_run(&summary, &manifest["cost"])
+/// The complete run in a folder, if it is one of the present engine.
+pub fn complete(folder: &Path) -> Result<Option<Finished>, Failure> {
+    #[derive(Deserialize)]
+    struct Made {
+        engine: u32,
+    }
+    let text = std::fs::read(folder.join("summary.json")).unwrap_or_default();
+    // Runs of other engines may be records of another shape, and are nobody's fault.
+    let of_another = serde_json::from_slice(&text).is_ok_and(|Made { engine }| engine != fem::ENGINE);
+    if of_another || !folder::is_finished(folder) {
+        return Ok(None);
+    }
+    Finished::read(folder).map(Some)
 }
 
-/// All finished runs in a folder, by name.
-pub fn all(folder: &Path) -> Vec<FeRun> {
-    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+/// The complete run of a robot in a folder.
+fn finished(folder: &Path) -> Result<Option<FeRun>, Failure> {
+    Ok(complete(folder)?.as_ref().and_then(as_run))
+}
+
+/// All complete runs of robots in a folder, by name; those of the paper's own model are compared elsewhere.
+pub fn all(folder: &Path) -> Result<Vec<FeRun>, Failure> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Ok(Vec::new()) };
     let mut folders: Vec<PathBuf> = entries.filter_map(|e| Some(e.ok()?.path())).collect();
     folders.sort();
-    folders.iter().filter_map(|folder| finished(folder)).collect()
+    let found: Vec<Finished> =
+        folders.iter().filter_map(|folder| complete(folder).transpose()).collect::<Result<_, _>>()?;
+    Ok(found.iter().filter(|run| !is_paper(&run.summary)).filter_map(as_run).collect())
 }
 
 /// A run as the comparison wants it; `None` if it is not one of a robot.
-pub fn as_run(summary: &Value, cost: &Value) -> Option<FeRun> {
-    let readings = robot::readings(summary);
-    let about = &summary["robot"];
-    let setting = |key: &str| about["settings"][key].as_f64();
-    // Runs of before kept no points of the wall.
-    let seen = |r: &Reading| r.seen_moved_m.len() + 1 == r.stations_m.len();
-    (!readings.is_empty() && readings.iter().all(seen)).then_some(())?;
-    // The numbers that `RobotSettings::usual` leaves as one would assume them before seeing a robot bend.
-    let fitted = |kind: &str, key: &str, usual: f64| about["actuator"] == kind && setting(key) != Some(usual);
-    let sheet = fitted("spam", "tape_margin_mm", 0.0) || fitted("spam", "tape_mm", 0.05);
-    let calibrated = sheet || fitted("fpam", "nu12", 0.0);
+pub fn as_run(Finished { summary, cost }: &Finished) -> Option<FeRun> {
+    let about = summary.robot.as_ref().filter(|robot| !robot.readings.is_empty())?;
     Some(FeRun {
-        actuator: about["actuator"].as_str()?.into(),
-        scenario: summary["name"].as_str()?.into(),
-        mesh_mm: [setting("body_mesh_mm")?, setting("actuator_mesh_mm")?],
-        elements: summary["elements"].as_u64()?,
-        steps: summary["steps"].as_u64()?,
-        cpu_s: robot::rounded(cost["cpu_s_of_all_sessions"].as_f64().unwrap_or(0.0)),
-        engine: summary["engine"].as_u64()?,
-        body_kpa: robot::rounded(about["body_pa"].as_f64()? * 1e-3),
-        radius_mm: robot::rounded(about["radius_m"].as_f64().unwrap_or(0.0) * 1e3),
-        width_mm: robot::rounded(about["width_m"].as_f64().unwrap_or(0.0) * 1e3),
-        pouch_mm: robot::rounded(about["pouch_m"].as_f64()? * 1e3),
-        count: about["count"].as_u64()? as usize,
-        seed: setting("seed")? as u64,
-        stations_mm: readings[0].stations_m.iter().rev().skip(1).rev().map(|s| robot::rounded(s * 1e3)).collect(),
-        known: if calibrated { "calibrated" } else { "assumed" }.into(),
-        states: readings.iter().map(state).collect(),
+        actuator: about.actuator.clone(),
+        scenario: summary.name.clone(),
+        mesh_mm: [about.setting("body_mesh_mm"), about.setting("actuator_mesh_mm")],
+        elements: summary.elements as u64,
+        steps: summary.steps,
+        cpu_s: rounded(cost.cpu_s_of_all_sessions),
+        engine: summary.engine.into(),
+        body_kpa: rounded(about.body_pa * 1e-3),
+        radius_mm: rounded(about.radius_m * 1e3),
+        width_mm: rounded(about.width_m * 1e3),
+        pouch_mm: rounded(about.pouch_m * 1e3),
+        count: about.count,
+        seed: about.setting("seed") as u64,
+        stations_mm: about.readings[0].stations_m.iter().rev().skip(1).rev().map(|s| rounded(s * 1e3)).collect(),
+        known: "assumed".into(),
+        states: about.readings.iter().map(state).collect(),
     })
 }
 
 fn state(r: &Reading) -> FeState {
-    let [marker_mm, tip_mm] = robot::heights_mm(r);
+    let [marker_mm, tip_mm] = heights_mm(r);
     let stored = |name: &str| r.ledger.iter().filter(|l| l.0 == name).map(|l| l.2 * 1e3).sum::<f64>();
     let lost = r.ledger.iter().filter(|l| l.1 == "dissipated").map(|l| l.2 * 1e3).sum::<f64>();
     let short = |v: f64| format!("{v:.6e}").parse().unwrap_or(v);
@@ -170,6 +177,8 @@ fn state(r: &Reading) -> FeState {
         kinetic_share: short(r.kinetic_share),
         von_mises_mpa: short(r.von_mises_pa * 1e-6),
         weld_n_per_m: short(r.seam_n_per_m),
+        base_n: r.base_n.map(short),
+        base_nm: r.base_nm.map(short),
         // The last station is the tip.
         moved_mm: r.moved_m.iter().rev().skip(1).rev().map(plane).collect(),
         seen_mm: r.seen_moved_m.iter().map(plane).collect(),

@@ -1,21 +1,27 @@
 //! The folder of a run: what it holds, who may write to it, and how a complete run takes the place of an older one.
 
+use super::exchange::{exchange, mend};
 use super::write_failure;
 use crate::failure::Failure;
 use crate::output::sha256;
-use serde_json::{Value, json};
+use compare::record::Shape;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
 /// There while a run is not complete; says what it is a run of.
 const MARKER: &str = "unfinished.json";
+const UNFINISHED: Shape = Shape { schema: "ibr.unfinished", version: 1 };
 /// The last file of a complete run.
 const LAST: &str = "manifest.json";
 /// Held by the process that writes to the folder.
 const LOCK: &str = ".lock";
+/// The case of the run; the mark of an unfinished one is believed only beside it, or alone.
+const CASE: &str = "case.toml";
 /// Everything that a run leaves behind, folders too.
 const OWN: &[&str] = &[
-    "case.toml",
+    CASE,
     "history.csv",
     "centre_line.csv",
     "run.pvd",
@@ -35,7 +41,7 @@ const OWN: &[&str] = &[
 ];
 
 /// What tells one run from another, besides the case itself.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Marker {
     /// SHA-256 of the case's text.
     pub case_sha256: String,
@@ -87,16 +93,34 @@ enum Found {
     Foreign(String),
 }
 
+/// Whether the folder holds a complete run, whatever else is in it.
+pub fn is_finished(folder: &Path) -> bool {
+    let has = |name| folder.join(name).exists();
+    !has(MARKER) && has(LAST) && has("summary.json")
+}
+
+/// Whether the run in the folder, complete or not, is of this case; `None` if there is none.
+pub fn is_of(folder: &Path, text: &str) -> Result<Option<bool>, Failure> {
+    Ok(match look(folder)? {
+        Found::Unfinished(marker) => Some(marker.case_sha256 == sha256(text.as_bytes())),
+        Found::Finished => Some(case_sha256(folder).is_some_and(|of| of == sha256(text.as_bytes()))),
+        Found::Nothing | Found::Foreign(_) => None,
+    })
+}
+
 /// Finds out what can be done with the folder, and takes it.
 ///
 /// # Errors
 /// The folder holds another run, or files that are none of ours, or another process writes to it.
 pub fn open(wish: &Wish) -> Result<Opened, Failure> {
     let refuse = |cause: &str, help: &str| Err(refused(wish.folder, cause, help));
+    if matches!(look(&aside(wish.folder))?, Found::Finished) {
+        mend(wish.folder, &aside(wish.folder)).map_err(|cause| write_failure(wish.folder, &cause))?;
+    }
     match (look(wish.folder)?, wish.resume, wish.force) {
         (Found::Nothing, ..) => take(wish.folder, wish.folder, None),
         (Found::Unfinished(marker), true, _) => {
-            same_case(wish, &marker)?;
+            same_case(wish, &marker.case_sha256)?;
             take(wish.folder, wish.folder, Some(marker))
         }
         (Found::Unfinished(_), false, true) => take(wish.folder, wish.folder, None),
@@ -105,6 +129,7 @@ pub fn open(wish: &Wish) -> Result<Opened, Failure> {
         }
         (Found::Finished, _, true) => open_beside(wish),
         (Found::Finished, true, false) => {
+            same_case(wish, &case_sha256(wish.folder).unwrap_or_default())?;
             // A kill after the last file of the run leaves them.
             remove(&wish.folder.join("checkpoint"))?;
             remove(&wish.folder.join("checkpoint.previous"))?;
@@ -122,12 +147,10 @@ pub fn open(wish: &Wish) -> Result<Opened, Failure> {
 
 /// The new run is made beside the finished one, which stays until then.
 fn open_beside(wish: &Wish) -> Result<Opened, Failure> {
-    let mut name = wish.folder.file_name().unwrap_or_default().to_os_string();
-    name.push(".new");
-    let beside = wish.folder.with_file_name(name);
+    let beside = named_like(wish.folder, ".new");
     match look(&beside)? {
         Found::Unfinished(marker) if wish.resume => {
-            same_case(&Wish { folder: &beside, ..*wish }, &marker)?;
+            same_case(&Wish { folder: &beside, ..*wish }, &marker.case_sha256)?;
             take(&beside, wish.folder, Some(marker))
         }
         Found::Foreign(name) => {
@@ -137,48 +160,74 @@ fn open_beside(wish: &Wish) -> Result<Opened, Failure> {
     }
 }
 
+fn named_like(folder: &Path, more: &str) -> PathBuf {
+    let mut name = folder.file_name().unwrap_or_default().to_os_string();
+    name.push(more);
+    folder.with_file_name(name)
+}
+
+/// Where an older run lies for a moment while a new one takes its place, where folders cannot be exchanged.
+fn aside(folder: &Path) -> PathBuf {
+    named_like(folder, ".new-replaces")
+}
+
 fn refused(folder: &Path, cause: &str, help: &str) -> Failure {
     Failure::Write { path: folder.display().to_string(), cause: cause.into(), help: help.into() }
 }
 
-fn same_case(wish: &Wish, marker: &Marker) -> Result<(), Failure> {
-    if marker.case_sha256 == sha256(wish.text.as_bytes()) {
+fn same_case(wish: &Wish, case_sha256: &str) -> Result<(), Failure> {
+    if case_sha256 == sha256(wish.text.as_bytes()) {
         return Ok(());
     }
     let own = wish.folder.join("case.toml");
     let help = format!("give the case it was started with: {}; or start again with --force", own.display());
-    Err(refused(wish.folder, "the interrupted run in it is of another case, or the case has changed", &help))
+    Err(refused(wish.folder, "the run in it is of another case, or the case has changed", &help))
 }
 
 fn look(folder: &Path) -> Result<Found, Failure> {
-    let names = match std::fs::read_dir(folder) {
-        Ok(entries) => entries.filter_map(|e| Some(e.ok()?.file_name().to_string_lossy().into_owned())),
-        Err(_) if !folder.exists() => return Ok(Found::Nothing),
-        Err(cause) => return Err(write_failure(folder, &cause)),
-    };
-    let has_marker = folder.join(MARKER).exists();
+    if !folder.exists() {
+        return Ok(Found::Nothing);
+    }
     // What a kill between two files can leave behind is of no use to anyone.
-    let names: Vec<String> = names.filter(|n| n != LOCK && !is_leftover(n)).collect();
-    if has_marker {
-        let text = std::fs::read_to_string(folder.join(MARKER)).map_err(|cause| write_failure(folder, &cause))?;
-        return Ok(read_marker(&text).map_or_else(|| Found::Foreign(MARKER.into()), Found::Unfinished));
+    let names: Vec<String> = sorted(folder)?.into_iter().filter(|n| n != LOCK && !is_leftover(n)).collect();
+    let has = |name: &str| names.iter().any(|n| n == name);
+    if let Some(name) = foreign(folder, &names)? {
+        return Ok(Found::Foreign(name));
     }
-    match names.iter().find(|n| !OWN.contains(&n.as_str()) && *n != LAST) {
-        Some(foreign) => Ok(Found::Foreign(foreign.clone())),
-        None if names.is_empty() => Ok(Found::Nothing),
-        None if names.iter().any(|n| n == LAST) && names.iter().any(|n| n == "summary.json") => Ok(Found::Finished),
-        None => Ok(Found::Foreign(names[0].clone())),
-    }
+    Ok(match names.first() {
+        None => Found::Nothing,
+        Some(_) if has(MARKER) => match read_marker(folder).filter(|m| is_believed(m, folder, &names)) {
+            Some(marker) => Found::Unfinished(marker),
+            None => Found::Foreign(format!("{MARKER}, and not the {CASE} that it names")),
+        },
+        Some(_) if has(LAST) && has("summary.json") => Found::Finished,
+        Some(first) => Found::Foreign(first.clone()),
+    })
 }
 
-fn read_marker(text: &str) -> Option<Marker> {
-    let value: Value = serde_json::from_str(text).ok()?;
-    (value["schema"] == "ibr.unfinished" && value["version"] == 1).then_some(())?;
-    Some(Marker {
-        case_sha256: value["case_sha256"].as_str()?.into(),
-        end_s: value["end_s"].as_f64()?,
-        frames: value["frames"].as_bool()?,
-    })
+/// A file that no run wrote, in the folder or among its frames.
+fn foreign(folder: &Path, names: &[String]) -> Result<Option<String>, Failure> {
+    let ours = |n: &String| OWN.contains(&n.as_str()) || n == LAST || n == MARKER;
+    if let Some(name) = names.iter().find(|n| !ours(n)) {
+        return Ok(Some(name.clone()));
+    }
+    let frames = folder.join("frames");
+    let frames = if frames.is_dir() { sorted(&frames)? } else { Vec::new() };
+    let is_frame = |n: &String| n.starts_with("run_") && n.ends_with(".vtu") || is_leftover(n);
+    Ok(frames.iter().find(|n| !is_frame(n)).map(|n| format!("frames/{n}")))
+}
+
+/// A run that was killed before it wrote its case has written nothing else.
+fn is_believed(marker: &Marker, folder: &Path, names: &[String]) -> bool {
+    case_sha256(folder).map_or(names.len() == 1, |sha256| sha256 == marker.case_sha256)
+}
+
+fn case_sha256(folder: &Path) -> Option<String> {
+    std::fs::read(folder.join(CASE)).ok().map(|bytes| sha256(&bytes))
+}
+
+fn read_marker(folder: &Path) -> Option<Marker> {
+    UNFINISHED.read(MARKER, &std::fs::read_to_string(folder.join(MARKER)).ok()?, "").ok()
 }
 
 fn take(folder: &Path, target: &Path, interrupted: Option<Marker>) -> Result<Opened, Failure> {
@@ -197,25 +246,46 @@ fn take(folder: &Path, target: &Path, interrupted: Option<Marker>) -> Result<Ope
     Ok(Opened::Work(Workplace { folder: folder.to_path_buf(), interrupted, target, _lock: lock }))
 }
 
+/// One change to a folder.
+type Step<'a> = &'a dyn Fn() -> Result<(), Failure>;
+
 impl Workplace {
     /// Where the complete run goes in the end.
     pub fn target(&self) -> &Path {
         &self.target
     }
 
-    /// Clears away an earlier run and marks the folder as that of a run in progress.
+    /// Clears away an earlier run and marks the folder as that of a run in progress. Killed at any point, the folder is known as
+    /// that of an unfinished run: of the earlier case until its files are gone, then of this one.
     pub fn start(&self, marker: &Marker, text: &str) -> Result<(), Failure> {
-        let value = json!({
-            "schema": "ibr.unfinished", "version": 1, "case_sha256": marker.case_sha256,
-            "end_s": marker.end_s, "frames": marker.frames,
-        });
-        // First the mark: whatever is killed from here on leaves a folder that is known as an unfinished run.
-        data::write_atomically(&self.folder.join(MARKER), format!("{value:#}\n").as_bytes())?;
-        for name in OWN.iter().chain(&[LAST]) {
-            remove(&self.folder.join(name))?;
+        self.begin(marker, text, &mut |step| step())
+    }
+
+    fn begin(
+        &self,
+        marker: &Marker,
+        text: &str,
+        take: &mut dyn FnMut(Step) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        if let (Some(case_sha256), false) = (case_sha256(&self.folder), self.folder.join(MARKER).exists()) {
+            take(&|| self.mark(&Marker { case_sha256: case_sha256.clone(), ..marker.clone() }))?;
         }
-        data::write_atomically(&self.folder.join("case.toml"), text.as_bytes())?;
-        Ok(())
+        // The case is the first of its files.
+        for name in [LAST].iter().chain(OWN.iter().rev()) {
+            take(&|| remove(&self.folder.join(name)))?;
+        }
+        take(&|| self.mark(marker))?;
+        take(&|| self.keep_case(text))
+    }
+
+    fn mark(&self, marker: &Marker) -> Result<(), Failure> {
+        let text = format!("{:#}\n", UNFINISHED.stamped(marker));
+        Ok(data::write_atomically(&self.folder.join(MARKER), text.as_bytes())?)
+    }
+
+    /// Writes the case, which a kill right after the mark leaves out.
+    pub fn keep_case(&self, text: &str) -> Result<(), Failure> {
+        Ok(data::write_atomically(&self.folder.join(CASE), text.as_bytes())?)
     }
 
     /// The files of the run, for its manifest.
@@ -236,22 +306,21 @@ impl Workplace {
         Ok(found)
     }
 
-    /// Writes the manifest, and lets the complete run take its place.
-    pub fn complete(self, manifest: &Value) -> Result<(), Failure> {
+    /// Writes the manifest, and lets the complete run take its place; what to tell of an older one that was there.
+    pub fn complete(self, manifest: &Value) -> Result<Option<String>, Failure> {
         data::write_atomically(&self.folder.join(LAST), format!("{manifest:#}\n").as_bytes())?;
         for name in [MARKER, "checkpoint", "checkpoint.previous", LOCK] {
             remove(&self.folder.join(name))?;
         }
         if self.folder == self.target {
-            return Ok(());
+            return Ok(None);
         }
-        let mut old = self.folder.as_os_str().to_os_string();
-        old.push("-replaces");
-        let old = PathBuf::from(old);
-        remove(&old)?;
-        let moved = std::fs::rename(&self.target, &old).and_then(|()| std::fs::rename(&self.folder, &self.target));
-        moved.map_err(|cause| write_failure(&self.target, &cause))?;
-        remove(&old)
+        let exchanged = exchange(&self.folder, &self.target, &aside(&self.target));
+        exchanged.map_err(|cause| write_failure(&self.target, &cause))?;
+        match look(&self.folder)? {
+            Found::Finished => remove(&self.folder).map(|()| None),
+            _ => Ok(Some(format!("kept the older run in {}: other files are with it", self.folder.display()))),
+        }
     }
 }
 
@@ -286,20 +355,5 @@ fn remove(path: &Path) -> Result<(), Failure> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_end_of_an_interrupted_run_comes_back_to_the_bit() {
-        let folder = tempfile::tempdir().unwrap();
-        // The robots' end, which is not 0.46, and sums as ramps make them.
-        let ends = [0.04 + 0.36 + 0.06].into_iter().chain((1..500).map(|i| 0.1 * f64::from(i) + 1.0 / f64::from(i)));
-        for end_s in ends {
-            let marker = Marker { case_sha256: "ab".into(), end_s, frames: false };
-            let Ok(Opened::Work(place)) = take(folder.path(), folder.path(), None) else { panic!("not taken") };
-            place.start(&marker, "").unwrap();
-            let Ok(Found::Unfinished(read)) = look(folder.path()) else { panic!("no marker") };
-            assert_eq!(read.end_s.to_bits(), end_s.to_bits(), "{end_s}");
-        }
-    }
-}
+#[path = "folder_tests.rs"]
+mod tests;

@@ -2,8 +2,10 @@
 
 mod batch;
 mod cache;
+mod exchange;
 mod folder;
 mod input;
+mod paper_runs;
 mod plan;
 mod robot;
 mod robot_files;
@@ -19,12 +21,14 @@ use crate::failure::{Failure, INTERRUPTED};
 use crate::output::check_folder;
 use plan::{About, Plan};
 use serde_json::json;
-use single::{Done, Manner};
+use single::{Done, Finished, Manner};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+use summary::SUMMARY;
 
 pub use cache::{Keeper, all as all_runs};
 pub use input::{Named, named};
+pub use paper_runs::all as paper_runs;
 pub use plan::{keys_of, pressures, sizes};
 pub use robot::{heights_mm, rounded};
 pub use small::{Small, run as small_run};
@@ -62,15 +66,15 @@ fn default_folder(args: &Simulate, plan: &Plan) -> PathBuf {
 
 fn one(args: &Simulate, named: &Named, manner: &Manner, context: &mut Context) -> Result<Outcome, Failure> {
     match single::run(named.load()?, manner, context)? {
-        Done::Now { summary, cost, notes } => {
+        Done::Now(Finished { summary, cost }, notes) => {
             let text = summary::text(&summary) + &summary::cost_text(&cost);
-            let mut answer = summary;
-            answer["cost"] = cost;
+            let mut answer = SUMMARY.stamped(&summary);
+            answer["cost"] = json!(cost);
             answer["folder"] = json!(manner.folder.display().to_string());
             Ok(Outcome { text, json: Some(answer), notes, code: 0 })
         }
-        Done::Before { summary, .. } => {
-            let mut outcome = Outcome::new(summary::text(&summary), summary);
+        Done::Before(Finished { summary, .. }) => {
+            let mut outcome = Outcome::new(summary::text(&summary), SUMMARY.stamped(&summary));
             outcome.notes.push(format!("the run in {} is complete; nothing was done", manner.folder.display()));
             Ok(outcome)
         }

@@ -6,7 +6,7 @@ use crate::cli::Simulate;
 use crate::commands::inputs::quantity;
 use crate::failure::Failure;
 use compare::study::uncertain::Varied;
-use fem::robot::{ASSUMED, Assumed, KEYS, Key, RobotSettings, hypercube};
+use fem::robot::{ASSUMED, Assumed, KEYS, Key, OTHERS, RobotRun, RobotSettings, hypercube};
 use models::scenario::quantity::Quantity;
 
 /// One run of several.
@@ -41,8 +41,8 @@ pub enum About {
     Table,
     /// The two ends of every assumed number.
     Sensitivity,
-    /// A hypercube over these numbers, a row of shares for every run.
-    Uncertain(Vec<Varied>, Vec<Vec<f64>>),
+    /// A hypercube over these numbers, a row of shares for every run; what was set beside it, as typed.
+    Uncertain(Vec<Varied>, Vec<Vec<f64>>, Vec<String>),
 }
 
 /// Reads the options.
@@ -75,15 +75,14 @@ pub fn plan(args: &Simulate, named: Named) -> Result<Plan, Failure> {
     if let Some(robots) = args.uncertain {
         return uncertain(base, &args.set, robots as usize);
     }
-    let meshes = match typed {
-        Some(meshes) => meshes,
-        None => base.robot_run()?.1.meshes_m.iter().map(|sizes| sizes.map(|m| rounded(m * 1e3))).collect(),
-    };
-    let several = meshes.len() > 1 || args.separate || args.seeds.is_some();
-    if !several {
+    let (_, run) = base.robot_run()?;
+    let of_run = || run.meshes_m.iter().map(|sizes| sizes.map(|m| rounded(m * 1e3))).collect();
+    let meshes = typed.unwrap_or_else(of_run);
+    let separate = args.separate || (run.separate && run.pressures_pa.len() > 1);
+    if meshes.len() < 2 && !separate && args.seeds.is_none() {
         return Ok(Plan::Single(base));
     }
-    let cases = product(&base, args, &meshes)?;
+    let cases = product(&run, args.seeds, separate, &meshes);
     Ok(Plan::Several { base, cases, about: About::Table })
 }
 
@@ -107,18 +106,17 @@ fn setting(text: &str) -> Result<(String, String), Failure> {
         return Err(Failure::usage(format!("--set {text}: there is no ="), help()));
     };
     let (key, value) = (key.trim(), value.trim());
-    let known = KEYS.iter().any(|k| k.name == key)
-        || ["loading", "taped", "contact", "selective_mass", "tip_force_n", "obstacle_mm", "obstacle_friction"]
-            .contains(&key);
-    match known {
-        true if ["loading", "taped"].contains(&key) => Ok((key.into(), format!("\"{}\"", value.trim_matches('"')))),
+    match KEYS.iter().any(|k| k.name == key) || OTHERS.contains(&key) {
+        true if ["model", "base", "taped"].contains(&key) => {
+            Ok((key.into(), format!("\"{}\"", value.trim_matches('"'))))
+        }
         true => Ok((key.into(), value.into())),
         false => Err(Failure::usage(format!("--set: unknown key `{key}`"), help())),
     }
 }
 
 fn names() -> String {
-    KEYS.iter().map(|k| k.name).collect::<Vec<_>>().join(", ")
+    OTHERS.into_iter().chain(KEYS.iter().map(|k| k.name)).collect::<Vec<_>>().join(", ")
 }
 
 /// Pressures as typed \[kPa\].
@@ -146,8 +144,7 @@ pub fn keys_of([body_mm, actuator_mm]: &[f64; 2]) -> [(String, String); 2] {
 }
 
 /// Every mesh with every seed at every single pressure.
-fn product(base: &Named, args: &Simulate, meshes: &[[f64; 2]]) -> Result<Vec<Variation>, Failure> {
-    let (_, run) = base.robot_run()?;
+fn product(run: &RobotRun, seeds: Option<u64>, separate: bool, meshes: &[[f64; 2]]) -> Vec<Variation> {
     let mut cases = vec![Variation::default()];
     if meshes.len() > 1 {
         let label = |[body, actuator]: &[f64; 2]| match body == actuator {
@@ -157,18 +154,18 @@ fn product(base: &Named, args: &Simulate, meshes: &[[f64; 2]]) -> Result<Vec<Var
         let of = |mm: &[f64; 2]| (label(mm), keys_of(mm).to_vec(), true);
         cases = extended(&cases, &meshes.iter().map(of).collect::<Vec<_>>());
     }
-    if let Some(count) = args.seeds {
+    if let Some(count) = seeds {
         let of = |seed: u64| (format!("seed-{seed}"), vec![("seed".into(), seed.to_string())], false);
         cases = extended(&cases, &(1..=count).map(of).collect::<Vec<_>>());
     }
-    if args.separate {
+    if separate {
         let of = |pa: &f64| {
             let kpa = rounded(pa * 1e-3);
             (format!("{kpa}kPa"), vec![("pressures_kpa".into(), format!("[{kpa}]"))], false)
         };
         cases = extended(&cases, &run.pressures_pa.iter().map(of).collect::<Vec<_>>());
     }
-    Ok(cases)
+    cases
 }
 
 /// Label, keys of `[fem]`, and whether means are taken apart for it.
@@ -244,10 +241,11 @@ fn uncertain(base: Named, set: &[String], robots: usize) -> Result<Plan, Failure
     let varied = |(unknown, key): &(&Assumed, &Key)| Varied {
         name: key.name.into(),
         interval: unknown.interval.map(|si| rounded(si / key.si)),
+        tenths: [0.1, 0.9].map(|share| format!("{:.2e}", unknown.at(share) / key.si).parse().unwrap_or(f64::NAN)),
         meaning: key.meaning.into(),
         reason: unknown.reason.into(),
     };
-    Ok(Plan::Several { base, cases, about: About::Uncertain(numbers.iter().map(varied).collect(), cube) })
+    Ok(Plan::Several { base, cases, about: About::Uncertain(numbers.iter().map(varied).collect(), cube, set.to_vec()) })
 }
 
 /// The key that writes what an assumed number writes.

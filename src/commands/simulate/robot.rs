@@ -1,10 +1,11 @@
 //! What is read of a robot while it runs, and how it is told.
 
 use crate::commands::tables::table;
-use fem::robot::{Gauge, Hold, Reading, RobotRun, Snap, Watch, snaps};
+use fem::robot::{Gauge, Hold, KEYS, Key, Reading, RobotRun, Snap, Watch, snaps};
 use fem::{FemError, Problem, Simulation};
 use models::Scenario;
-use serde_json::{Value, json};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::collections::BTreeMap;
 
 const MM: f64 = 1e3;
 /// A hold this near to the present counts as reached \[s\].
@@ -46,8 +47,8 @@ pub struct Watched {
     filled_s: f64,
     gauge: Gauge,
     holds: Vec<Hold>,
-    /// As JSON: what goes through a checkpoint shall come out with the same digits.
-    readings: Vec<String>,
+    /// Readings so far.
+    pub readings: Vec<Reading>,
 }
 
 impl Watched {
@@ -56,21 +57,16 @@ impl Watched {
         self.holds.get(self.readings.len()).map(|hold| hold.time_s)
     }
 
-    /// Reads the robot.
-    pub fn read(&mut self, run: &Simulation) -> Result<(), FemError> {
-        let reading = self.gauge.read(run)?;
-        let stopped = |cause: serde_json::Error| FemError::Stopped {
-            step: run.step(),
-            time_s: run.time_s(),
-            reason: format!("the robot cannot be read: {cause}"),
-        };
-        self.readings.push(serde_json::to_string(&reading).map_err(stopped)?);
-        Ok(())
+    /// Pressure of the hold that a moment leads to or lies in \[Pa\].
+    pub fn hold_pa(&self, time_s: f64) -> Option<f64> {
+        let ahead = self.holds.iter().find(|hold| time_s <= hold.time_s + NOW_S);
+        ahead.or(self.holds.last()).map(|hold| hold.pressure_pa)
     }
 
-    /// All readings.
-    pub fn readings(&self) -> Vec<Reading> {
-        self.readings.iter().filter_map(|text| serde_json::from_str(text).ok()).collect()
+    /// Reads the robot.
+    pub fn read(&mut self, run: &Simulation) -> Result<(), FemError> {
+        self.readings.push(self.gauge.read(run)?);
+        Ok(())
     }
 
     /// Buckling while the actuator is filled.
@@ -82,7 +78,8 @@ impl Watched {
     pub fn save(&self) -> Vec<u8> {
         let mut out = fem::output::bytes::Writer::new();
         out.f64s(&self.watch.save());
-        out.bytes(self.readings.join("\n").as_bytes());
+        // Numbers keep their bits in JSON; what is not finite is refused on the way back.
+        out.bytes(&serde_json::to_vec(&self.readings).unwrap_or_default());
         out.into_bytes()
     }
 
@@ -90,40 +87,85 @@ impl Watched {
     pub fn restore(&mut self, saved: &[u8]) -> Option<()> {
         let mut from = fem::output::bytes::Reader::new(saved);
         self.watch.restore(&from.f64s()?);
-        let text = std::str::from_utf8(from.bytes()?).ok()?;
-        self.readings = text.lines().map(str::to_string).collect();
+        self.readings = serde_json::from_slice(from.bytes()?).ok()?;
         from.is_empty().then_some(())
     }
 
     /// For the summary.
-    pub fn to_json(&self, scenario: &Scenario, run: &RobotRun) -> Value {
-        let settings: serde_json::Map<String, Value> = fem::robot::KEYS
-            .iter()
-            .filter(|key| key.name != "mesh_mm")
-            .map(|key| (key.name.to_string(), json!(rounded((key.get)(&run.settings) / key.si))))
-            .collect();
-        json!({
-            "actuator": scenario.actuator.kind.name, "length_m": scenario.length_m, "body_pa": scenario.p_body_pa,
-            "radius_m": scenario.radius_m, "width_m": scenario.actuator.shape.width_m,
-            "pouch_m": scenario.actuator.shape.length_m, "count": scenario.actuator.count,
-            "settings": settings, "readings": self.readings(), "snaps": self.snaps(),
-        })
+    pub fn summary(&self, Robot { scenario, run, .. }: &Robot) -> RobotSummary {
+        let setting = |key: &Key| {
+            (key.name.to_string(), Some(rounded((key.get)(&run.settings) / key.si)).filter(|v| v.is_finite()))
+        };
+        RobotSummary {
+            actuator: scenario.actuator.kind.name.into(),
+            length_m: scenario.length_m,
+            body_pa: scenario.p_body_pa,
+            radius_m: scenario.radius_m,
+            width_m: scenario.actuator.shape.width_m,
+            pouch_m: scenario.actuator.shape.length_m,
+            count: scenario.actuator.count,
+            model: run.model.name().into(),
+            set: run.set.clone(),
+            base: if run.settings.encastre { "encastre" } else { "pinned" }.into(),
+            settings: KEYS.iter().filter(|key| key.name != "mesh_mm").map(setting).collect(),
+            readings: self.readings.clone(),
+            snaps: self.snaps(),
+        }
+    }
+}
+
+/// A robot's part of a run's summary.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RobotSummary {
+    /// Actuator kind.
+    pub actuator: String,
+    length_m: f64,
+    /// Body gauge pressure \[Pa\].
+    pub body_pa: f64,
+    /// Radius of the body \[m\].
+    pub radius_m: f64,
+    /// Width of one unit of the actuator \[m\].
+    pub width_m: f64,
+    /// Length of one unit \[m\].
+    pub pouch_m: f64,
+    /// Units in series.
+    pub count: usize,
+    /// Preset of `[fem]`, and the keys that were set beside it.
+    #[serde(default)]
+    pub model: String,
+    /// See there.
+    #[serde(default)]
+    pub set: Vec<String>,
+    /// How the base is held.
+    #[serde(default)]
+    pub base: String,
+    /// Keys of `[fem]`, in the units of their names; what has no bound is null.
+    #[serde(deserialize_with = "with_needed")]
+    settings: BTreeMap<String, Option<f64>>,
+    /// States, by time.
+    pub readings: Vec<Reading>,
+    snaps: Vec<Snap>,
+}
+
+/// Settings that a comparison asks for.
+const NEEDED: [&str; 3] = ["body_mesh_mm", "actuator_mesh_mm", "seed"];
+
+fn with_needed<'de, D: Deserializer<'de>>(from: D) -> Result<BTreeMap<String, Option<f64>>, D::Error> {
+    let found = BTreeMap::<String, Option<f64>>::deserialize(from)?;
+    let lacks = NEEDED.into_iter().find(|key| found.get(*key).copied().flatten().is_none());
+    lacks.map_or(Ok(found), |key| Err(serde::de::Error::missing_field(key)))
+}
+
+impl RobotSummary {
+    /// A key of `[fem]`, in the unit of its name.
+    pub fn setting(&self, key: &str) -> f64 {
+        self.settings.get(key).copied().flatten().unwrap_or(f64::NAN)
     }
 }
 
 /// Without the digits that a change of unit leaves behind.
 pub fn rounded(value: f64) -> f64 {
     format!("{value:.9e}").parse().unwrap_or(value)
-}
-
-/// Readings of a summary, if it is one of a robot.
-pub fn readings(summary: &Value) -> Vec<Reading> {
-    serde_json::from_value(summary["robot"]["readings"].clone()).unwrap_or_default()
-}
-
-/// Buckling events of a summary.
-pub fn events(summary: &Value) -> Vec<Snap> {
-    serde_json::from_value(summary["robot"]["snaps"].clone()).unwrap_or_default()
 }
 
 /// Height of the outermost marker and of the tip of a reading \[mm\].
@@ -133,8 +175,8 @@ pub fn heights_mm(reading: &Reading) -> [f64; 2] {
 }
 
 /// What a robot's run came to, as text.
-pub fn text(summary: &Value) -> String {
-    let readings = readings(summary);
+pub fn text(robot: &RobotSummary) -> String {
+    let readings = &robot.readings;
     let Some(last) = readings.last() else { return String::new() };
     let mut out = String::new();
     out.push_str(
@@ -153,8 +195,8 @@ pub fn text(summary: &Value) -> String {
     });
     out.push_str(&table(&head.iter().map(String::as_str).collect::<Vec<_>>(), 0, rows.collect()));
     out.push('\n');
-    out.push_str(&state(&readings));
-    out.push_str(&buckling(&events(summary)));
+    out.push_str(&state(readings));
+    out.push_str(&buckling(&robot.snaps));
     out
 }
 

@@ -9,20 +9,20 @@ use fem::{Mesh, Simulation};
 use std::fmt::Write;
 use std::path::Path;
 
-/// Stress at the end of the colour scale of every picture of a robot \[MPa\].
-const MOST_MPA: f64 = 20.0;
+/// Share of the elements whose stress lies within the colour scale: a few at the ends of welds are far above all others.
+const WITHIN: f64 = 0.99;
 const MM: f64 = 1e3;
 
 /// Writes all of them.
 pub fn write(robot: &Robot, watched: &Watched, mesh: &Mesh, run: &Simulation, folder: &Path) -> Result<(), Failure> {
-    let (readings, found) = (watched.readings(), watched.snaps());
+    let (readings, found) = (&watched.readings, watched.snaps());
     let text = |name: &str, text: String| data::write_atomically(&folder.join(name), text.as_bytes());
-    text("readings.csv", readings_csv(&readings))?;
-    text("markers.csv", markers_csv(robot, &readings))?;
+    text("readings.csv", readings_csv(readings))?;
+    text("markers.csv", markers_csv(robot, readings))?;
     text("snaps.csv", snaps_csv(&found))?;
     let plots = [
         ("history.png", history(robot, watched, &found)),
-        ("displacement.png", displacement(&robot.scenario.name, &readings)),
+        ("displacement.png", displacement(&robot.scenario.name, readings)),
     ];
     // Drawing the plots takes as long as all pictures.
     std::thread::scope(|scope| {
@@ -85,6 +85,10 @@ fn readings_csv(readings: &[Reading]) -> String {
             "MPa",
         );
         line("weld_force_max", format!("{} at {:.0} mm", r.seam_part, r.seam_at_m * MM), r.seam_n_per_m, "N/m");
+        for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            line(&format!("reaction_{axis}"), "base".into(), r.base_n[k], "N");
+            line(&format!("reaction_m{axis}"), "base".into(), r.base_nm[k], "N m");
+        }
         line("kinetic_share", String::new(), r.kinetic_share, "1");
         for (name, kind, energy) in &r.ledger {
             line(&format!("energy {kind}"), name.clone(), *energy, "J");
@@ -153,7 +157,7 @@ fn history(robot: &Robot, watched: &Watched, found: &[Snap]) -> Option<Lines> {
     })
 }
 
-/// Side view, cross-section through the middle of a unit, and cut along the robot, in one colour scale.
+/// Side view, cross-section through the middle of a unit, and cut along the robot.
 fn pictures(robot: &Robot, mesh: &Mesh, run: &Simulation) -> Result<Vec<(&'static str, Image)>, Failure> {
     let (stress_mpa, positions) = (stress_mpa(run), run.positions());
     let actuator = &robot.scenario.actuator;
@@ -161,23 +165,29 @@ fn pictures(robot: &Robot, mesh: &Mesh, run: &Simulation) -> Result<Vec<(&'stati
     let middle_m = actuator.start_m + ((actuator.count - 1) / 2) as f64 * unit + 0.5 * unit;
     let across = picture::Cut { normal: [1.0, 0.0, 0.0], at_m: middle_m };
     let along = picture::Cut { normal: [0.0, 0.0, 1.0], at_m: 0.0 };
-    let end = Look { view: View::End, ..look(robot, &format!("section that was at {:.0} mm", middle_m * MM)) };
+    let look = |what: &str| look(robot, what, &stress_mpa);
+    let end = Look { view: View::End, ..look(&format!("section that was at {:.0} mm", middle_m * MM)) };
     let section = picture::section(mesh, &positions, &stress_mpa, &across, &end)?;
-    let cut = picture::section(mesh, &positions, &stress_mpa, &along, &look(robot, "middle plane"))?;
+    let cut = picture::section(mesh, &positions, &stress_mpa, &along, &look("middle plane"))?;
     Ok(vec![("side.png", side_view(robot, mesh, run)?), ("section.png", section), ("cut.png", cut)])
 }
 
 /// The robot from the side.
 pub fn side_view(robot: &Robot, mesh: &Mesh, run: &Simulation) -> Result<Image, Failure> {
-    Ok(picture::render(mesh, &run.positions(), &stress_mpa(run), &look(robot, &robot.scenario.name))?)
+    let stress_mpa = stress_mpa(run);
+    Ok(picture::render(mesh, &run.positions(), &stress_mpa, &look(robot, &robot.scenario.name, &stress_mpa))?)
 }
 
 fn stress_mpa(run: &Simulation) -> Vec<f64> {
     run.element_fields().von_mises_pa.iter().map(|s| s * 1e-6).collect()
 }
 
-fn look(robot: &Robot, what: &str) -> Look {
+/// One colour scale for all pictures of a run: from 0 to a round number above nearly all stresses.
+fn look(robot: &Robot, what: &str, stress_mpa: &[f64]) -> Look {
+    let mut sorted = stress_mpa.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let nearly_all = sorted.get((WITHIN * sorted.len() as f64) as usize).copied().unwrap_or(0.0);
     let pressure = robot.run.pressures_pa.last().map_or(0.0, |p| p * 1e-3);
     let title = format!("{what}, von Mises [MPa], {pressure:.0} kPa");
-    Look { view: View::Side, limits: Some((0.0, MOST_MPA)), title, ..Look::default() }
+    Look { view: View::Side, limits: Some((0.0, picture::round_above(nearly_all))), title, ..Look::default() }
 }

@@ -3,11 +3,13 @@
 use super::folder::{self, Marker, Opened, Wish, Workplace};
 use super::input::Loaded;
 use super::stepping::{Ended, Running};
-use super::{robot_files, summary, write_failure};
+use super::summary::{Cost, SUMMARY, Summary};
+use super::{robot_files, write_failure};
 use crate::commands::Context;
 use crate::failure::Failure;
-use crate::output::{manifest, output, sha256};
-use serde_json::Value;
+use crate::output::{MANIFEST, manifest, output, sha256};
+use serde::Deserialize;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::sync::PoisonError;
 use std::time::{Duration, Instant};
@@ -33,22 +35,10 @@ pub struct Manner {
 
 /// How it ended.
 pub enum Done {
-    /// Now.
-    Now {
-        /// The physics, `summary.json`.
-        summary: Value,
-        /// What it took.
-        cost: Value,
-        /// What to tell.
-        notes: Vec<String>,
-    },
+    /// Now, and what to tell.
+    Now(Finished, Vec<String>),
     /// It was complete before.
-    Before {
-        /// The physics, `summary.json`.
-        summary: Value,
-        /// What it took.
-        cost: Value,
-    },
+    Before(Finished),
     /// The user asked to stop.
     Interrupted {
         /// Time and step reached.
@@ -56,6 +46,36 @@ pub enum Done {
         /// What to tell.
         notes: Vec<String>,
     },
+}
+
+/// A complete run.
+#[derive(Debug, Clone)]
+pub struct Finished {
+    /// The physics, `summary.json`.
+    pub summary: Summary,
+    /// What it took, of `manifest.json`.
+    pub cost: Cost,
+}
+
+impl Finished {
+    /// Reads the complete run in a folder.
+    pub fn read(folder: &Path) -> Result<Finished, Failure> {
+        #[derive(Deserialize)]
+        struct Made {
+            cost: Cost,
+        }
+        let text = |name: &str| {
+            let path = folder.join(name);
+            let text = std::fs::read_to_string(&path).map_err(|cause| write_failure(&path, &cause))?;
+            Ok::<_, Failure>((path.display().to_string(), text))
+        };
+        let help =
+            format!("delete {} and give the command again: that run is made anew, others are kept", folder.display());
+        let (file, summary) = text("summary.json")?;
+        let summary = SUMMARY.read(&file, &summary, &help)?;
+        let (file, manifest) = text("manifest.json")?;
+        Ok(Finished { summary, cost: MANIFEST.read::<Made>(&file, &manifest, &help)?.cost })
+    }
 }
 
 /// Runs it.
@@ -73,7 +93,7 @@ pub fn run(mut loaded: Loaded, manner: &Manner, context: &mut Context) -> Result
     loaded.case.problem.settings.threads = manner.threads;
     let fresh = fem::Simulation::new(&loaded.case.problem).map_err(|error| loaded.named.in_case(error))?;
     let place = match folder::open(&wish)? {
-        Opened::Complete => return before(&manner.folder),
+        Opened::Complete => return Finished::read(&manner.folder).map(Done::Before),
         Opened::Work(place) => place,
     };
     let marker = same_run(&place, marker, manner)?;
@@ -81,7 +101,10 @@ pub fn run(mut loaded: Loaded, manner: &Manner, context: &mut Context) -> Result
     loaded.case.outputs.frames = marker.frames;
     let robot = loaded.robot.as_ref().map(|robot| robot.watch(&loaded.case.problem));
     let mut running = match &place.interrupted {
-        Some(_) => Running::resume(&loaded.case, fresh, &place.folder, robot)?,
+        Some(_) => {
+            place.keep_case(&text)?;
+            Running::resume(&loaded.case, fresh, &place.folder, robot)?
+        }
         None => {
             place.start(&marker, &text)?;
             Running::start(&loaded.case, fresh, &place.folder, robot)?
@@ -122,16 +145,6 @@ fn stopped(error: Failure, place: &Workplace) -> Failure {
     }
 }
 
-/// A run that needs nothing more.
-fn before(folder: &Path) -> Result<Done, Failure> {
-    let read = |name: &str| -> Result<Value, Failure> {
-        let path = folder.join(name);
-        let text = std::fs::read_to_string(&path).map_err(|cause| write_failure(&path, &cause))?;
-        Ok(serde_json::from_str(&text).unwrap_or_default())
-    };
-    Ok(Done::Before { summary: read("summary.json")?, cost: read("manifest.json")?["cost"].clone() })
-}
-
 /// Writes summary, pictures and manifest, and puts the run where it belongs.
 fn finish(
     loaded: &Loaded,
@@ -140,10 +153,11 @@ fn finish(
     started: Instant,
     context: &mut Context,
 ) -> Result<Done, Failure> {
-    let found = summary::Summary::of(&loaded.case, &running, loaded.robot.as_ref(), started.elapsed());
+    let summary = Summary::of(&loaded.case, &running, loaded.robot.as_ref());
+    let cost = Cost::of(&loaded.case, &running, started.elapsed());
     (context.progress)("writing the summary", Some(1.0));
     let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
-    let text = format!("{:#}\n", found.physics);
+    let text = format!("{:#}\n", SUMMARY.stamped(&summary));
     data::write_atomically(&place.folder.join("summary.json"), text.as_bytes())?;
     let mut picture = running.picture(&place.folder)?;
     if let (Some(robot), Some(seen)) = (&loaded.robot, &running.robot) {
@@ -152,16 +166,17 @@ fn finish(
     }
     let outputs: Vec<Value> = place.files()?.iter().map(|(name, bytes)| output(name, bytes)).collect();
     let mut sheet = manifest(&outputs, std::slice::from_ref(&loaded.named.input));
-    sheet["cost"] = found.cost.clone();
+    sheet["cost"] = json!(cost);
     let folder = place.target().to_path_buf();
-    place.complete(&sheet)?;
+    let older = place.complete(&sheet)?;
     *written = true;
     let mut notes = running.notices.clone();
+    notes.extend(older);
     notes.extend(picture.map(|name| format!("picture: {}", folder.join(name).display())));
     let (open, file) = match running.has_frames() {
         true => ("open in ParaView", "run.pvd"),
         false => ("history", "history.csv"),
     };
     notes.push(format!("{open}: {}", folder.join(file).display()));
-    Ok(Done::Now { summary: found.physics, cost: found.cost, notes })
+    Ok(Done::Now(Finished { summary, cost }, notes))
 }

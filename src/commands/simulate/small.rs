@@ -46,7 +46,7 @@ pub fn run(robot: &str, changes: &[(&str, &str)], context: &mut Context) -> Resu
         watched.read(&run)?;
     }
     let picture = png_bytes(&side_view(robot, &problem.mesh, &run)?);
-    let (readings, snaps) = (watched.readings(), watched.snaps().len());
+    let (readings, snaps) = (watched.readings.clone(), watched.snaps().len());
     let residual_share = run.ledger().residual_share();
     Ok(Small { readings, snaps, elements: run.elements(), cpu_s: cpu_seconds() - began, residual_share, picture })
 }

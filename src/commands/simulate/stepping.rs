@@ -101,7 +101,7 @@ impl<'a> Running<'a> {
         let Some(loaded) = read_checkpoint(folder, fingerprint)? else {
             return Running::start(case, fresh, folder, robot);
         };
-        let Checkpoint { step, time_s, payload, .. } = loaded.checkpoint;
+        let Checkpoint { step, payload, .. } = loaded.checkpoint;
         let foreign = || FemError::Checkpoint {
             path: folder.join("checkpoint"),
             reason: "it holds something else than this program writes; start again with --force".into(),
@@ -112,10 +112,14 @@ impl<'a> Running<'a> {
         }
         let run = Simulation::resume(&case.problem, saved.run)?;
         let mesh = &case.problem.mesh;
-        let history = History::resume(&folder.join("history.csv"), mesh, &case.outputs.probes, step)?;
-        let series = case.outputs.frames.then(|| Series::resume(folder, time_s)).transpose()?;
+        // Outputs of the same step are one row and one frame.
+        let mut times_s: Vec<f64> = saved.balances.iter().map(|b| b.time_s).collect();
+        times_s.dedup();
+        let rows = times_s.len();
+        let history = History::resume(&folder.join("history.csv"), mesh, &case.outputs.probes, step, rows)?;
+        let series = case.outputs.frames.then(|| Series::resume(folder, &times_s)).transpose()?;
         let path = folder.join("centre_line.csv");
-        let centre_line = centre_line(case)?.map(|line| CentreLineFile::resume(&path, line, step)).transpose()?;
+        let centre_line = centre_line(case)?.map(|line| CentreLineFile::resume(&path, line, step, rows)).transpose()?;
         let files = Files { folder: folder.into(), history, series, centre_line, fingerprint };
         Ok(Running {
             began: (run.step(), thread_seconds()),
@@ -188,7 +192,8 @@ impl<'a> Running<'a> {
             line.append(record.step, record.time_s, &record.positions)?;
         }
         if let Some(series) = &mut self.files.series {
-            series.push(&self.case.problem.mesh, &Frame::of(&self.run))?;
+            let hold_pa = self.robot.as_ref().and_then(|robot| robot.hold_pa(record.time_s));
+            series.push(&self.case.problem.mesh, &Frame { hold_pa, ..Frame::of(&self.run) })?;
         }
         self.next += 1;
         Ok(())

@@ -1,11 +1,11 @@
-//! What a run came to.
+//! What a run came to: the record `summary.json`, and its text.
 
-use super::robot::{self, Robot};
+use super::robot::{self, Robot, RobotSummary};
 use super::stepping::{Balance, Running};
 use crate::commands::tables::table;
+use compare::record::Shape;
 use fem::case::Case;
-use models::RowKind;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
 /// Kinetic over internal energy above which the paper's source calls a run invalid.
@@ -13,67 +13,213 @@ const TENTH: f64 = 0.10;
 /// Kinetic over total energy that the paper kept its runs below.
 const HUNDREDTH: f64 = 0.01;
 
-/// A complete run in numbers.
+/// `summary.json`.
+pub const SUMMARY: Shape = Shape { schema: "ibr.simulate", version: 1 };
+
+/// A complete run in numbers that depend on the case alone: the same to the bit however often it was interrupted.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
-    /// What depends on the case alone: the same to the bit however often the run was interrupted.
-    pub physics: Value,
-    /// What it took.
-    pub cost: Value,
+    /// Name of the case.
+    pub name: String,
+    /// Number of the engine that made it.
+    pub engine: u32,
+    /// What was read of a robot.
+    pub robot: Option<RobotSummary>,
+    time_s: f64,
+    /// Steps.
+    pub steps: u64,
+    dt_s: f64,
+    nodes: usize,
+    /// Elements.
+    pub elements: usize,
+    /// Over the true mass.
+    pub added_mass_share: f64,
+    selective_mass: bool,
+    quality: Option<Quality>,
+    probes: Vec<Probe>,
+    chambers: Vec<Chamber>,
+    #[serde(default)]
+    reactions: Vec<Reaction>,
+    ledger: Vec<Energy>,
+    kinetic_j: f64,
+    external_work_j: f64,
+    residual_j: f64,
+    residual_share: f64,
+    residual_share_peak: f64,
+    /// Kinetic energy while it moved.
+    pub kinetic_share: Kinetic,
+    /// Without contact `None`.
+    #[serde(default)]
+    changed_sides: Option<ChangedSides>,
+}
+
+/// Nodes that came through a layer.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct ChangedSides {
+    nodes: usize,
+    share: f64,
+    first: Option<FirstThrough>,
+}
+
+impl ChangedSides {
+    fn of(found: fem::run::ChangedSides) -> ChangedSides {
+        let first = found.first.map(|first| FirstThrough {
+            text: first.to_string(),
+            node: first.node,
+            part: first.part,
+            time_s: first.time_s,
+            place_mm: first.place_m.map(|c| c * 1e3),
+        });
+        ChangedSides { nodes: found.nodes, share: found.share, first }
+    }
+}
+
+/// The first of them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct FirstThrough {
+    node: usize,
+    part: String,
+    time_s: f64,
+    place_mm: [f64; 3],
+    text: String,
+}
+
+/// Shape of the elements: smallest, median and largest side, and the worst of each.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Quality {
+    side_mm: [f64; 3],
+    aspect: f64,
+    jacobian_ratio: f64,
+    warpage: f64,
+}
+
+/// Mean displacement of a node set from where it started.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Probe {
+    set: String,
+    displacement_mm: [f64; 3],
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Chamber {
+    name: String,
+    pressure_kpa: f64,
+    volume_cm3: f64,
+}
+
+/// Force of a support on the structure, along the axes that it holds, and its moment about the middle of the set.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Reaction {
+    set: String,
+    force_n: [Option<f64>; 3],
+    moment_nm: [f64; 3],
+}
+
+/// One line of the ledger.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Energy {
+    name: String,
+    kind: String,
+    energy_j: f64,
+}
+
+/// Kinetic energy over kinetic and stored energy at the outputs after the start, held against the two rules.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Kinetic {
+    /// How many.
+    pub outputs: usize,
+    median: Option<f64>,
+    /// At the end.
+    pub end: Option<f64>,
+    peak: Option<f64>,
+    peak_time_s: Option<f64>,
+    /// The rule of the paper's source.
+    pub below_10_pct_of_internal: Rule,
+    /// The paper's own.
+    pub below_1_pct_of_total: Rule,
+}
+
+/// A bound of the kinetic energy.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Rule {
+    /// Outputs that keep it.
+    pub kept_at: usize,
+    last_broken_s: Option<f64>,
+}
+
+/// What a run took; it stands in the manifest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Cost {
+    cpu_s: f64,
+    /// Processor time of all sessions \[s\].
+    pub cpu_s_of_all_sessions: f64,
+    wall_s: f64,
+    threads: usize,
+    resumed_at_step: u64,
+    element_steps_per_cpu_s: f64,
 }
 
 impl Summary {
     /// Reads a run that has reached its end.
-    pub fn of(case: &Case, running: &Running, robot: Option<&Robot>, wall: Duration) -> Summary {
-        Summary { physics: physics(case, running, robot), cost: cost(case, running, wall) }
+    pub fn of(case: &Case, running: &Running, robot: Option<&Robot>) -> Summary {
+        let (run, mesh) = (&running.run, &case.problem.mesh);
+        let ledger = run.ledger();
+        let energy = |r: &models::Row| Energy { name: r.name.into(), kind: r.kind.word().into(), energy_j: r.energy_j };
+        let chamber = |c: fem::run::ChamberState| Chamber {
+            name: c.name,
+            pressure_kpa: c.pressure_pa / 1e3,
+            volume_cm3: c.volume_m3 * 1e6,
+        };
+        let reaction = |r: &fem::run::Reaction| Reaction {
+            set: r.set.clone(),
+            force_n: [0, 1, 2].map(|k| r.axes[k].then_some(r.force_n[k])),
+            moment_nm: r.moment_nm,
+        };
+        let positions = run.positions();
+        let probe = |set: &String| {
+            let moved = mean_displacement(mesh, mesh.sets.get(set)?, &positions);
+            Some(Probe { set: set.clone(), displacement_mm: moved.map(|d| d * 1e3) })
+        };
+        Summary {
+            name: case.problem.name.clone(),
+            engine: fem::ENGINE,
+            robot: robot.zip(running.robot.as_ref()).map(|(robot, seen)| seen.summary(robot)),
+            time_s: run.time_s(),
+            steps: run.step(),
+            dt_s: run.dt_s(),
+            nodes: mesh.points.len(),
+            elements: run.elements(),
+            added_mass_share: run.added_mass(),
+            selective_mass: run.selective_mass(),
+            quality: quality(case),
+            probes: case.outputs.probes.iter().filter_map(probe).collect(),
+            chambers: run.chambers().into_iter().map(chamber).collect(),
+            reactions: run.reactions().iter().map(reaction).collect(),
+            ledger: ledger.rows.iter().map(energy).collect(),
+            kinetic_j: ledger.kinetic_j,
+            external_work_j: ledger.external_work_j,
+            residual_j: ledger.residual_j,
+            residual_share: ledger.residual_share(),
+            residual_share_peak: running.balances.iter().fold(0.0, |most, b| b.residual_share.max(most)),
+            kinetic_share: kinetic(&running.balances),
+            changed_sides: run.changed_sides().map(ChangedSides::of),
+        }
     }
 }
 
-fn physics(case: &Case, running: &Running, robot: Option<&Robot>) -> Value {
-    let (run, mesh) = (&running.run, &case.problem.mesh);
-    let ledger = run.ledger();
-    let rows: Vec<Value> =
-        ledger.rows.iter().map(|r| json!({"name": r.name, "kind": word(r.kind), "energy_j": r.energy_j})).collect();
-    let chambers: Vec<Value> = run
-        .chambers()
-        .iter()
-        .map(|c| json!({"name": c.name, "pressure_kpa": c.pressure_pa / 1e3, "volume_cm3": c.volume_m3 * 1e6}))
-        .collect();
-    let positions = run.positions();
-    let probes: Vec<Value> = case
-        .outputs
-        .probes
-        .iter()
-        .filter_map(|name| {
-            let moved = mean_displacement(mesh, mesh.sets.get(name)?, &positions);
-            Some(json!({"set": name, "displacement_mm": moved.map(|d| d * 1e3)}))
-        })
-        .collect();
-    let largest = running.balances.iter().fold(0.0_f64, |most, b| most.max(b.residual_share));
-    let read = robot.zip(running.robot.as_ref()).map(|(robot, seen)| seen.to_json(&robot.scenario, &robot.run));
-    json!({
-        "schema": "ibr.simulate", "version": 1, "name": case.problem.name, "engine": fem::ENGINE, "robot": read,
-        "time_s": run.time_s(), "steps": run.step(), "dt_s": run.dt_s(),
-        "nodes": mesh.points.len(), "elements": run.elements(), "added_mass_share": run.added_mass(),
-        "selective_mass": run.selective_mass(),
-        "quality": quality(case),
-        "probes": probes, "chambers": chambers,
-        "ledger": rows, "kinetic_j": ledger.kinetic_j, "external_work_j": ledger.external_work_j,
-        "residual_j": ledger.residual_j, "residual_share": ledger.residual_share(), "residual_share_peak": largest,
-        "kinetic_share": kinetic(&running.balances),
-    })
-}
-
 /// Shape of the elements; the run would not have started with a mesh that does not pass.
-fn quality(case: &Case) -> Option<Value> {
+fn quality(case: &Case) -> Option<Quality> {
     let problem = &case.problem;
     let chambers: Vec<&str> = problem.chambers.iter().map(|c| c.name.as_str()).collect();
     let open: Vec<&str> = problem.open.iter().map(String::as_str).collect();
     let quality = fem::mesh::check::check_open(&problem.mesh, &chambers, &open).ok()?;
     let side = &quality.side_m;
-    Some(json!({
-        "side_mm": [side.min * 1e3, side.median * 1e3, side.max * 1e3], "aspect": quality.aspect.value,
-        "jacobian_ratio": quality.jacobian_ratio.value, "warpage": quality.warpage.value,
-    }))
+    Some(Quality {
+        side_mm: [side.min * 1e3, side.median * 1e3, side.max * 1e3],
+        aspect: quality.aspect.value,
+        jacobian_ratio: quality.jacobian_ratio.value,
+        warpage: quality.warpage.value,
+    })
 }
 
 /// Mean displacement of a node set from where it started \[m\].
@@ -86,8 +232,7 @@ fn mean_displacement(mesh: &fem::Mesh, nodes: &[u32], positions: &[[f64; 3]]) ->
     sum
 }
 
-/// Kinetic energy over kinetic and stored energy at the outputs after the start, held against the two rules.
-fn kinetic(balances: &[Balance]) -> Value {
+fn kinetic(balances: &[Balance]) -> Kinetic {
     let later: Vec<&Balance> = balances.iter().filter(|b| b.time_s > 0.0).collect();
     let mut shares: Vec<f64> = later.iter().map(|b| b.kinetic_share).collect();
     shares.sort_by(f64::total_cmp);
@@ -95,130 +240,168 @@ fn kinetic(balances: &[Balance]) -> Value {
     // K < r·U is the same as K/(K + U) < r/(1 + r).
     let rule = |limit: f64| {
         let broken: Vec<f64> = later.iter().filter(|b| b.kinetic_share >= limit).map(|b| b.time_s).collect();
-        json!({"kept_at": later.len() - broken.len(), "last_broken_s": broken.last()})
+        Rule { kept_at: later.len() - broken.len(), last_broken_s: broken.last().copied() }
     };
-    json!({
-        "outputs": later.len(),
-        "median": shares.get(shares.len() / 2), "end": later.last().map(|b| b.kinetic_share),
-        "peak": peak.map(|b| b.kinetic_share), "peak_time_s": peak.map(|b| b.time_s),
-        "below_10_pct_of_internal": rule(TENTH / (1.0 + TENTH)), "below_1_pct_of_total": rule(HUNDREDTH),
-    })
+    Kinetic {
+        outputs: later.len(),
+        median: shares.get(shares.len() / 2).copied(),
+        end: later.last().map(|b| b.kinetic_share),
+        peak: peak.map(|b| b.kinetic_share),
+        peak_time_s: peak.map(|b| b.time_s),
+        below_10_pct_of_internal: rule(TENTH / (1.0 + TENTH)),
+        below_1_pct_of_total: rule(HUNDREDTH),
+    }
 }
 
-fn cost(case: &Case, running: &Running, wall: Duration) -> Value {
-    let (run, cpu_s) = (&running.run, running.cpu_s());
-    let element_steps = (run.step() - running.began.0) as f64 * run.elements() as f64;
-    json!({
-        "cpu_s": cpu_s, "cpu_s_of_all_sessions": running.cpu_before_s + cpu_s, "wall_s": wall.as_secs_f64(),
-        "threads": case.problem.settings.threads, "resumed_at_step": running.began.0,
-        "element_steps_per_cpu_s": if cpu_s > 0.0 { element_steps / cpu_s } else { 0.0 },
-    })
-}
-
-fn word(kind: RowKind) -> &'static str {
-    match kind {
-        RowKind::Stored => "stored",
-        RowKind::Dissipated => "dissipated",
-        RowKind::Supplied => "supplied",
+impl Cost {
+    /// Of this session and those before.
+    pub fn of(case: &Case, running: &Running, wall: Duration) -> Cost {
+        let (run, cpu_s) = (&running.run, running.cpu_s());
+        let element_steps = (run.step() - running.began.0) as f64 * run.elements() as f64;
+        Cost {
+            cpu_s,
+            cpu_s_of_all_sessions: running.cpu_before_s + cpu_s,
+            wall_s: wall.as_secs_f64(),
+            threads: case.problem.settings.threads,
+            resumed_at_step: running.began.0,
+            element_steps_per_cpu_s: if cpu_s > 0.0 { element_steps / cpu_s } else { 0.0 },
+        }
     }
 }
 
 /// The physics of a run as text.
-pub fn text(s: &Value) -> String {
-    let mut out = format!(
-        "{}\n{} elements, {} steps to t = {:.6} s\n",
-        s["name"].as_str().unwrap_or_default(),
-        s["elements"],
-        s["steps"],
-        number(&s["time_s"])
-    );
-    if number(&s["added_mass_share"]) > 0.0 {
+pub fn text(s: &Summary) -> String {
+    let Summary { name, elements, steps, time_s, .. } = s;
+    let mut out = format!("{name}\n{elements} elements, {steps} steps to t = {time_s:.6} s\n");
+    if s.added_mass_share > 0.0 {
+        let selective = if s.selective_mass { ", more to waves of a few elements" } else { "" };
+        let percent = 100.0 * s.added_mass_share;
+        out.push_str(&format!("mass added by scaling: {percent:.1} % of the true mass{selective}\n"));
+    }
+    if let Some(Quality { side_mm: [min, median, max], aspect, jacobian_ratio, .. }) = &s.quality {
         out.push_str(&format!(
-            "mass added by scaling: {:.1} % of the true mass{}\n",
-            100.0 * number(&s["added_mass_share"]),
-            if s["selective_mass"] == true { ", more to waves of a few elements" } else { "" }
+            "element sides {min:.2} to {max:.2} mm, median {median:.2}; worst aspect {aspect:.1}, worst Jacobian ratio {jacobian_ratio:.2}\n"
         ));
     }
-    if let [Some(min), Some(median), Some(max)] = [0, 1, 2].map(|i| s["quality"]["side_mm"][i].as_f64()) {
-        out.push_str(&format!(
-            "element sides {min:.2} to {max:.2} mm, median {median:.2}; worst aspect {:.1}, worst Jacobian ratio {:.2}\n",
-            number(&s["quality"]["aspect"]),
-            number(&s["quality"]["jacobian_ratio"])
-        ));
-    }
-    let rows = list(&s["probes"]).map(|p| {
-        let moved = list(&p["displacement_mm"]).map(|d| format!("{:+.3}", number(d)));
-        std::iter::once(name(&p["set"])).chain(moved).collect()
-    });
-    out.push_str(&section(&["probe", "dx mm", "dy mm", "dz mm"], 1, rows.collect()));
-    let rows = list(&s["chambers"]).map(|c| {
-        let volume = number(&c["volume_cm3"]);
-        vec![name(&c["name"]), format!("{:.3}", number(&c["pressure_kpa"])), format!("{volume:.3}")]
-    });
-    out.push_str(&section(&["chamber", "pressure kPa", "volume cm³"], 1, rows.collect()));
-    out.push_str(&robot::text(s));
+    let probe =
+        |p: &Probe| std::iter::once(p.set.clone()).chain(p.displacement_mm.map(|d| format!("{d:+.3}"))).collect();
+    out.push_str(&section(&["probe", "dx mm", "dy mm", "dz mm"], 1, s.probes.iter().map(probe).collect()));
+    let chamber = |c: &Chamber| vec![c.name.clone(), format!("{:.3}", c.pressure_kpa), format!("{:.3}", c.volume_cm3)];
+    out.push_str(&section(&["chamber", "pressure kPa", "volume cm³"], 1, s.chambers.iter().map(chamber).collect()));
+    let force = |r: &Reaction| {
+        let held = r.force_n.map(|n| n.map_or("–".into(), signed));
+        std::iter::once(r.set.clone()).chain(held).chain(r.moment_nm.map(signed)).collect()
+    };
+    let head = ["force of the support on", "x N", "y N", "z N", "about x N·m", "about y", "about z"];
+    out.push_str(&section(&head, 1, s.reactions.iter().map(force).collect()));
+    out.push_str(&s.robot.as_ref().map(robot::text).unwrap_or_default());
     out.push_str(&section(&["energy", "", "J"], 2, ledger(s)));
     out.push_str(&judgement(s));
     out
+}
+
+/// With its sign, unless it is zero in these digits.
+fn signed(value: f64) -> String {
+    let text = format!("{value:+.4}");
+    if text.ends_with("0.0000") && value.abs() < 1.0 { "0".into() } else { text }
 }
 
 fn section(head: &[&str], left: usize, rows: Vec<Vec<String>>) -> String {
     if rows.is_empty() { String::new() } else { format!("\n{}", table(head, left, rows)) }
 }
 
-fn ledger(s: &Value) -> Vec<Vec<String>> {
-    let line = |name: String, kind: &str, energy: &Value| vec![name, kind.into(), format!("{:.6}", number(energy))];
-    let mut rows = vec![line("kinetic".into(), "stored", &s["kinetic_j"])];
-    rows.extend(list(&s["ledger"]).map(|r| line(name(&r["name"]), r["kind"].as_str().unwrap_or(""), &r["energy_j"])));
-    rows.push(line("residual".into(), "missing", &s["residual_j"]));
+fn ledger(s: &Summary) -> Vec<Vec<String>> {
+    let line = |name: &str, kind: &str, energy_j: f64| vec![name.into(), kind.into(), format!("{energy_j:.6}")];
+    let mut rows = vec![line("kinetic", "stored", s.kinetic_j)];
+    rows.extend(s.ledger.iter().map(|r| line(&r.name, &r.kind, r.energy_j)));
+    rows.push(line("residual", "missing", s.residual_j));
     rows
 }
 
-fn judgement(s: &Value) -> String {
-    let percent = |v: &Value| format!("{:.3} %", 100.0 * number(v));
-    let k = &s["kinetic_share"];
-    let rule = |title: &str, rule: &Value| {
-        let last = rule["last_broken_s"].as_f64().map_or(String::new(), |t| format!(", last broken at t = {t:.6} s"));
-        format!("  {title}: kept at {} of {} outputs{last}\n", rule["kept_at"], k["outputs"])
+/// Hourglass share of the stored energy that is warned of, and from which the shape is that of hourglass control.
+const HOURGLASS: [f64; 2] = [0.05, 0.15];
+/// Added mass over true mass that is warned of.
+const ADDED: f64 = 1.0;
+
+/// What a user should know before believing the numbers: hourglass control, motion at the end, added mass.
+fn warnings(s: &Summary) -> String {
+    let stored = |name: &str| {
+        let rows = s.ledger.iter().filter(|r| r.kind == "stored" && (name.is_empty() || r.name == name));
+        rows.map(|r| r.energy_j).sum::<f64>()
+    };
+    let share = if stored("") > 0.0 { stored("hourglass") / stored("") } else { 0.0 };
+    let mut out = format!("hourglass share of stored energy: {:.3} %\n", 100.0 * share);
+    let [much, too_much] = HOURGLASS;
+    if share > much {
+        let shape = if share > too_much {
+            "the shape is as much that of hourglass control as of the fabric"
+        } else {
+            "it is no longer small"
+        };
+        out.push_str(&format!(
+            "warning: over {:.0} %: {shape}. Write a tenth of hourglass in [settings], or make the elements smaller, and compare\n",
+            100.0 * if share > too_much { too_much } else { much }
+        ));
+    }
+    if let Some(end) = s.kinetic_share.end.filter(|end| *end > HUNDREDTH) {
+        out.push_str(&format!(
+            "warning: {:.1} % of the energy still moves at the end: this is no state of rest. Simulate longer, load more slowly, or add mass_damping_1_s\n",
+            100.0 * end
+        ));
+    }
+    if s.added_mass_share > ADDED {
+        out.push_str("warning: more mass was added than there is: weight and speed are not those of the fabric, and slow motions are late\n");
+    }
+    out
+}
+
+fn judgement(s: &Summary) -> String {
+    let percent = |v: f64| format!("{:.3} %", 100.0 * v);
+    let k = &s.kinetic_share;
+    let share = |v: Option<f64>| percent(v.unwrap_or(0.0));
+    let rule = |title: &str, rule: &Rule| {
+        let last = rule.last_broken_s.map_or(String::new(), |t| format!(", last broken at t = {t:.6} s"));
+        format!("  {title}: kept at {} of {} outputs{last}\n", rule.kept_at, k.outputs)
     };
     let mut out = format!(
         "\nresidual over external work: {} at the end, {} at most\n",
-        percent(&s["residual_share"]),
-        percent(&s["residual_share_peak"])
+        percent(s.residual_share),
+        percent(s.residual_share_peak)
     );
     out.push_str(&format!(
         "kinetic share of kinetic and stored energy: median {}, end {}, peak {} at t = {:.6} s\n",
-        percent(&k["median"]),
-        percent(&k["end"]),
-        percent(&k["peak"]),
-        number(&k["peak_time_s"])
+        share(k.median),
+        share(k.end),
+        share(k.peak),
+        k.peak_time_s.unwrap_or(0.0)
     ));
     out.push_str(&rule(
         "below 10 % of internal energy (the paper's rule for a valid run)",
-        &k["below_10_pct_of_internal"],
+        &k.below_10_pct_of_internal,
     ));
-    out.push_str(&rule("below 1 % of total energy (what the paper kept)", &k["below_1_pct_of_total"]));
+    out.push_str(&rule("below 1 % of total energy (what the paper kept)", &k.below_1_pct_of_total));
+    out.push_str(&warnings(s));
+    if let Some(changed) = &s.changed_sides {
+        out.push_str(&match &changed.first {
+            None => "nodes that came through a layer: none\n".to_string(),
+            Some(first) => format!(
+                "warning: nodes that came through a layer: {}, {} of those in contact; the first: {}. Smaller elements, or edges = \
+                 true in [contact], hold them\n",
+                changed.nodes,
+                percent(changed.share),
+                first.text
+            ),
+        });
+    }
     out
 }
 
 /// What a run took, as text.
-pub fn cost_text(cost: &Value) -> String {
+pub fn cost_text(cost: &Cost) -> String {
     format!(
         "\n{:.1} CPU seconds, {:.1} s; {:.2} million element-steps per CPU second\n",
-        number(&cost["cpu_s"]),
-        number(&cost["wall_s"]),
-        number(&cost["element_steps_per_cpu_s"]) / 1e6
+        cost.cpu_s,
+        cost.wall_s,
+        cost.element_steps_per_cpu_s / 1e6
     )
-}
-
-fn list(value: &Value) -> impl Iterator<Item = &Value> {
-    value.as_array().into_iter().flatten()
-}
-
-fn name(value: &Value) -> String {
-    value.as_str().unwrap_or_default().to_string()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or(0.0)
 }

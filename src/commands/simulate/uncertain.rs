@@ -5,19 +5,20 @@ use super::input::Named;
 use super::plan::Variation;
 use super::robot;
 use super::single::Manner;
+use super::summary::Summary;
 use crate::commands::tables::table;
 use crate::commands::together::{shared, together};
 use crate::commands::{Context, Outcome};
 use crate::failure::Failure;
-use compare::study::uncertain::{Member, MemberState, Uncertain, Varied};
+use compare::study::uncertain::{Member, MemberState, Uncertain, Varied, Weight};
 use fem::robot::RobotRun;
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// Runs what is missing and tells quantiles and weights.
 pub fn run(
     base: &Named,
     cases: &[Variation],
-    (numbers, cube): (&[Varied], &[Vec<f64>]),
+    (numbers, cube, variant): (&[Varied], &[Vec<f64>], &[String]),
     manner: &Manner,
     context: &mut Context,
 ) -> Result<Outcome, Failure> {
@@ -27,7 +28,7 @@ pub fn run(
     let found = together(cases.len(), workers, context, &|job, inner: &mut Context| {
         let what = format!("{} of {}", job + 1, cases.len());
         match one(&loaded[job], &cases[job].label, &each, &what, inner) {
-            Ok(done) => Ok(done.map(|(summary, _)| Ok(summary))),
+            Ok(done) => Ok(done.map(|finished| Ok(finished.summary))),
             // A robot that cannot be run says so in its row; the others go on.
             Err(Failure::Stopped { error, .. }) => Ok(Some(Err(error.to_string()))),
             Err(other) => Err(other),
@@ -40,10 +41,10 @@ pub fn run(
     let (scenario, robot_run) = base.robot_run()?;
     let members = summaries.into_iter().zip(cube).map(|(summary, shares)| member(summary, shares)).collect();
     let all = Uncertain {
-        version: Uncertain::VERSION,
         engine: fem::ENGINE,
         actuator: scenario.actuator.kind.name.into(),
         scenario: scenario.name.clone(),
+        variant: variant.join(" "),
         mesh_mm: mesh_mm(&robot_run),
         body_kpa: robot::rounded(scenario.p_body_pa * 1e-3),
         stations_mm: scenario.markers_m.iter().map(|s| robot::rounded(s * 1e3)).collect(),
@@ -57,7 +58,7 @@ fn mesh_mm(run: &RobotRun) -> [f64; 2] {
     [run.settings.body_size_m, run.settings.actuator_size_m].map(|m| robot::rounded(m * 1e3))
 }
 
-fn member(summary: Result<Value, String>, shares: &[f64]) -> Member {
+fn member(summary: Result<Summary, String>, shares: &[f64]) -> Member {
     // Five digits, as a camera will never see them.
     let short = |m: f64| format!("{:.4e}", m * 1e3).parse().unwrap_or(f64::NAN);
     let state = |r: &fem::robot::Reading| MemberState {
@@ -68,7 +69,8 @@ fn member(summary: Result<Value, String>, shares: &[f64]) -> Member {
     let rounded = shares.iter().map(|s| format!("{s:.5}").parse().unwrap_or(*s)).collect();
     match summary {
         Ok(summary) => {
-            let states = robot::readings(&summary).iter().filter(|r| r.actuator_pa > 0.0).map(state).collect();
+            let readings = summary.robot.iter().flat_map(|robot| &robot.readings);
+            let states = readings.filter(|r| r.actuator_pa > 0.0).map(state).collect();
             Member { shares: rounded, states, stopped: None }
         }
         Err(reason) => Member { shares: rounded, states: Vec::new(), stopped: Some(reason) },
@@ -77,10 +79,10 @@ fn member(summary: Result<Value, String>, shares: &[f64]) -> Member {
 
 fn outcome(all: &Uncertain, manner: &Manner) -> Result<Outcome, Failure> {
     let measured = measured(all);
-    let (text, record) = (text(all, &measured), serde_json::to_string(all).unwrap_or_default());
+    let text = text(all, &measured);
     let top = all.pressures_kpa().into_iter().fold(0.0, f64::max);
     let mut notes = Vec::new();
-    let mut files = vec![("uncertain.json", record.into_bytes())];
+    let mut files = vec![("uncertain.json", all.record().into_bytes())];
     if let Ok(drawn) = all.draw(&measured) {
         files.push(("markers.png", drawn.png));
     }
@@ -143,7 +145,7 @@ fn text(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> String {
     let top = all.pressures_kpa().into_iter().fold(0.0, f64::max);
     if let Some((weights, rest)) = all.weights(top) {
         out.push_str(&format!("\nWhat to measure first: outermost marker at {top} kPa\n"));
-        let row = |w: &compare::study::uncertain::Weight| {
+        let row = |w: &Weight| {
             let number = &all.numbers[w.number];
             vec![
                 number.name.clone(),
@@ -155,10 +157,28 @@ fn text(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> String {
         };
         let head = ["assumed", "interval", "10 % to 90 % of it: mm", "of the variance %", "why this interval"];
         out.push_str(&table(&head, 2, weights.iter().map(row).collect()));
+        out.push_str(&calibrated(all, measured, &weights));
         out.push_str(&format!("{:.0} % of the variance is not of a straight law\n", 100.0 * rest));
     }
     for member in stopped {
         out.push_str(&format!("stopped: {}\n", member.stopped.as_deref().unwrap_or_default()));
     }
+    out
+}
+
+/// What one number would have to be for the measured displacement, all others in the middle of their intervals.
+fn calibrated(all: &Uncertain, measured: &[(f64, [f64; 2])], weights: &[Weight]) -> String {
+    let Some((kpa, [_, y])) = measured.last() else { return String::new() };
+    let mut out = format!(
+        "\nCalibration, no prediction: what one number would have to be for the measured {y:.1} mm at {kpa} kPa, by a straight law\n"
+    );
+    let rows = weights.iter().map(|w| {
+        let number = &all.numbers[w.number];
+        let wanted = all.share_for(*kpa, w.number, *y).filter(|share| (0.0..=1.0).contains(share));
+        let place =
+            wanted.map_or("none in its interval".into(), |share| format!("{:.0} % of its interval", 100.0 * share));
+        vec![number.name.clone(), place]
+    });
+    out.push_str(&table(&["assumed", "wanted"], 2, rows.collect()));
     out
 }

@@ -17,6 +17,8 @@ pub use volumes::{BodyVolumes, Mean, MeanVolumes, Volumes, body_volumes, volumes
 
 use crate::accuracy::paper_accuracy;
 use crate::error::CompareError;
+use crate::record::Shape;
+use data::DataError;
 use models::{Loads, Model, Scenario, Target};
 use serde::{Deserialize, Serialize};
 
@@ -52,21 +54,17 @@ pub struct FeRun {
     pub engine: u64,
     /// Body gauge pressure \[kPa\].
     pub body_kpa: f64,
-    /// Radius of the body \[mm\]; 0 in runs that did not keep it.
-    #[serde(default)]
+    /// Radius of the body \[mm\].
     pub radius_mm: f64,
-    /// Width of one unit of the actuator \[mm\]; 0 in runs that did not keep it.
-    #[serde(default)]
+    /// Width of one unit of the actuator \[mm\].
     pub width_mm: f64,
     /// Length of one unit of the actuator \[mm\].
     pub pouch_mm: f64,
     /// Units in series.
     pub count: usize,
     /// Seed of its imperfections.
-    #[serde(default = "first_seed")]
     pub seed: u64,
-    /// Marker stations along the robot \[mm\]; empty in runs that kept none.
-    #[serde(default)]
+    /// Marker stations along the robot \[mm\].
     pub stations_mm: Vec<f64>,
     /// `calibrated` if a number of the run was fitted to the tip it is compared with, else `assumed`.
     pub known: String,
@@ -97,16 +95,16 @@ pub struct FeState {
     pub von_mises_mpa: f64,
     /// Largest pull on a weld \[N/m\].
     pub weld_n_per_m: f64,
-    /// Displacements of the sections at the markers in the plane of bending, x along the straight robot, y to the actuator \[mm\].
+    /// Force of the support at the base on the robot \[N\]; 0 in runs that did not keep it.
     #[serde(default)]
+    pub base_n: [f64; 3],
+    /// Its moment about the middle of the nodes that are held \[N·m\].
+    #[serde(default)]
+    pub base_nm: [f64; 3],
+    /// Displacements of the sections at the markers in the plane of bending, x along the straight robot, y to the actuator \[mm\].
     pub moved_mm: Vec<[f64; 2]>,
     /// Those of the wall where the markers stick, at the height of the axis, on the side that faces a camera \[mm\].
-    #[serde(default)]
     pub seen_mm: Vec<[f64; 2]>,
-}
-
-fn first_seed() -> u64 {
-    1
 }
 
 /// Both engines in one state.
@@ -237,15 +235,34 @@ pub fn accuracy(model_mm: f64, measured_mm: f64) -> Option<f64> {
     paper_accuracy(&[model_mm], &[measured_mm])
 }
 
+/// Files of finite element runs.
+const RUNS: Shape = Shape { schema: "ibr.fem_runs", version: 1 };
+
+#[derive(Deserialize)]
+struct Runs {
+    runs: Vec<FeRun>,
+}
+
 /// Finite element runs that come with the program, made by its own commands (`ibr breakdown`, `ibr simulate`).
-pub fn stored() -> Vec<FeRun> {
-    serde_json::from_str(include_str!("../../../assets/fem-runs.json")).unwrap_or_default()
+///
+/// # Errors
+/// Those of [`read_runs`], for a program whose runs were not made anew with its records.
+pub fn stored() -> Result<Vec<FeRun>, DataError> {
+    read_runs("the runs that come with the program", include_str!("../../../assets/fem-runs.json"))
+}
+
+/// Reads runs as [`runs_json`] writes them.
+///
+/// # Errors
+/// [`DataError::Record`] with the line and the field.
+pub fn read_runs(file: &str, text: &str) -> Result<Vec<FeRun>, DataError> {
+    let help = "make the file again: `ibr compare --engines --runs FOLDER` writes runs.json beside its report";
+    Ok(RUNS.read::<Runs>(file, text, help)?.runs)
 }
 
 /// Runs as they are stored: one a line.
 pub fn runs_json(runs: &[FeRun]) -> String {
-    let lines: Vec<String> = runs.iter().filter_map(|run| serde_json::to_string(run).ok()).collect();
-    format!("[\n{}\n]\n", lines.join(",\n"))
+    RUNS.listed("runs", runs)
 }
 
 /// Runs of one robot as it is that differ in their seed only.
@@ -292,13 +309,10 @@ fn mean_and_deviation(values: &[f64]) -> (f64, Option<f64>) {
     (mean, (values.len() > 1).then_some(square.sqrt()))
 }
 
-/// The runs of a shipped robot as it is to 30 kPa, on the finest mesh there is: with the recommended settings, and with usual
-/// values in place of calibrated ones, which is empty for a robot that no calibrated number concerns.
-pub fn ensembles(runs: &[FeRun], scenario: &Scenario) -> [Ensemble; 2] {
+/// The runs of a shipped robot as it is to 30 kPa, on the finest mesh there is.
+pub fn ensemble(runs: &[FeRun], scenario: &Scenario) -> Ensemble {
     let mine = runs.iter().filter(|r| as_it_is(r, scenario) && r.states.last().is_some_and(|s| s.actuator_kpa > 29.9));
-    let fitted = CALIBRATED.contains(&scenario.actuator.kind.name);
-    let (usual, own): (Vec<&FeRun>, Vec<&FeRun>) = mine.partition(|r| fitted && r.known != "calibrated");
-    [own, usual].map(finest)
+    finest(mine.collect())
 }
 
 /// Of the runs on the finest mesh those read at the most pressures, one for every seed: that with the most steps.
@@ -312,20 +326,16 @@ fn finest(runs: Vec<&FeRun>) -> Ensemble {
     Ensemble { runs: kept }
 }
 
-/// Robots with a number fitted to the tip they are compared with: the taped sheet's margin of the sPAM, ν₁₂ of the fPAM.
-pub const CALIBRATED: [&str; 2] = ["spam", "fpam"];
-
 /// Whether a run is of this robot at its own body pressure.
 pub fn as_it_is(run: &FeRun, scenario: &Scenario) -> bool {
     let near = |a: f64, b: f64| (a - b).abs() < 1e-6 * b.abs();
-    let kept = |a: f64, b: f64| a == 0.0 || near(a, b);
     run.actuator == scenario.actuator.kind.name
         && run.scenario == scenario.name
         && run.count == scenario.actuator.count
         && near(run.body_kpa, scenario.p_body_pa * 1e-3)
         && near(run.pouch_mm, scenario.actuator.shape.length_m * 1e3)
-        && kept(run.radius_mm, scenario.radius_m * 1e3)
-        && kept(run.width_mm, scenario.actuator.shape.width_m * 1e3)
+        && near(run.radius_mm, scenario.radius_m * 1e3)
+        && near(run.width_mm, scenario.actuator.shape.width_m * 1e3)
 }
 
 #[cfg(test)]

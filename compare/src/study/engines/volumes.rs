@@ -22,7 +22,7 @@
 //! may be more or less. c holds whatever parts a pouch from a lens of arm D: sealed edges, welds of some width, a shorter
 //! arm. Small turns have neither, being quotients of small differences. Uniform robots only: zones are not looked at.
 
-use super::{FeRun, FeState, ensembles, mean_and_deviation, same};
+use super::{FeRun, FeState, ensemble, mean_and_deviation, same};
 use models::Scenario;
 use models::actuators::Family;
 use models::exact::pouch::{MAX_CONTRACTION, Pouch, hinge_theta, volume_m3};
@@ -134,7 +134,7 @@ pub fn body_volumes(scenario: &Scenario, runs: &[FeRun]) -> Vec<BodyVolumes> {
     others.dedup();
     let at = |body_kpa: f64| {
         let changed = Scenario { p_body_pa: body_kpa * 1e3, ..scenario.clone() };
-        let [ensemble, _] = ensembles(runs, &changed);
+        let ensemble = ensemble(runs, &changed);
         let mesh_mm = ensemble.runs.first()?.mesh_mm[1];
         Some(BodyVolumes {
             robot: scenario.name.clone(),
@@ -226,9 +226,9 @@ mod tests {
     #[test]
     fn pouches_of_the_stored_epam_hold_one_share_of_the_lens_at_all_pressures() {
         let scenario = shipped_scenario("epam").unwrap();
-        let [own, ..] = &body_volumes(&scenario, &stored())[..] else { panic!() };
+        let [own, ..] = &body_volumes(&scenario, &stored().unwrap())[..] else { panic!() };
         assert!(own.own && own.seeds == 5 && own.states.len() == 6);
-        let [ensemble, _] = ensembles(&stored(), &scenario);
+        let ensemble = ensemble(&stored().unwrap(), &scenario);
         for v in ensemble.runs.iter().flat_map(|run| volumes(&scenario, run)) {
             assert!((0.55..0.60).contains(&v.lens_share.unwrap()), "{v:?}");
         }
@@ -248,7 +248,7 @@ mod tests {
     #[test]
     fn no_single_share_of_stroke_and_volume_gives_the_volumes_of_the_stored_epam() {
         let scenario = shipped_scenario("epam").unwrap();
-        let [ensemble, _] = ensembles(&stored(), &scenario);
+        let ensemble = ensemble(&stored().unwrap(), &scenario);
         let shares: Vec<Option<f64>> = volumes(&scenario, &ensemble.runs[0])
             .iter()
             .zip(&ensemble.runs[0].states[1..])

@@ -78,7 +78,7 @@ pub fn demo(progress: &mut dyn FnMut(&str)) -> Result<Demo, CompareError> {
     progress("run times");
     let mut timings = tradeoff(&ladders)?;
     progress("finite elements");
-    let runs = stored();
+    let runs = stored()?;
     timings.extend(of_runs(&ladders, &runs));
     let scenarios = ladders.iter().map(|l| shipped_scenario(&l.published.kind)).collect::<Result<Vec<_>, _>>()?;
     let engines = engines(&scenarios, &runs)?;
@@ -236,7 +236,7 @@ fn curve_caption(study: &Study) -> &'static str {
 /// The sections of a diagnosis, each named as part of it.
 fn story_sections(story: &Story, files: &mut Files) -> Result<Vec<Section>, CompareError> {
     let (d, about) = (&story.diagnosis, story.about.as_ref());
-    let witness = witness(d, &story.scenario, &story.dataset, about, &stored())?;
+    let witness = witness(d, &story.scenario, &story.dataset, about, &stored()?)?;
     let found = Diagnosed {
         diagnosis: d,
         scenario: &story.scenario,

@@ -121,7 +121,7 @@ fn the_ledgers_beside_finite_elements_begin_with_the_whole_stated_set() {
     let options = Options { next_experiment: false, ..Options::default() };
     let d = diagnose(&scenario, &dataset, about.as_ref(), &options).unwrap();
     assert_eq!(d.indistinguishable, ["end_constraint", "self_contact"]);
-    let w = witness(&d, &scenario, &dataset, about.as_ref(), &stored()).unwrap().unwrap();
+    let w = witness(&d, &scenario, &dataset, about.as_ref(), &stored().unwrap()).unwrap().unwrap();
     let labels: Vec<String> = witness_cases(&w, &d).into_iter().map(|case| case.label).collect();
     assert_eq!(labels[..3], ["base", "end_constraint", "self_contact"]);
     assert!(labels[3..labels.len() - 1].iter().all(|l| l.ends_with("(fits worse)")), "{labels:?}");

@@ -113,16 +113,16 @@ pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn, CompareError> {
     let reduced = robot.pairs.iter().map(|p| [p.actuator_kpa, p.reduced_mm[0]]);
     let reduced = std::iter::once([0.0, 0.0]).chain(reduced).collect();
     let mut all = vec![series("reduced, as shipped", reduced, vec![], plots::LineStyle::LinePoints, 0)];
-    for (ensemble, words, colour) in [(&robot.ensemble, "", 1), (&robot.usual, ", usual values", 2)] {
-        let Some(run) = ensemble.runs.first() else { continue };
+    let ensemble = &robot.ensemble;
+    if let Some(run) = ensemble.runs.first() {
         let states = run.states.iter().filter_map(|s| Some((s.actuator_kpa, ensemble.at(s.actuator_kpa)?[0])));
         let (points, spread): (Vec<[f64; 2]>, Vec<f64>) =
             states.map(|(kpa, (mean, sd))| ([kpa, mean], sd.unwrap_or(0.0))).unzip();
         let name = match ensemble.runs.len() {
-            1 => format!("finite elements{words}"),
-            n => format!("finite elements{words}, mean and sd of {n} seeds"),
+            1 => "finite elements".to_string(),
+            n => format!("finite elements, mean and sd of {n} seeds"),
         };
-        all.push(series(&name, points, spread, plots::LineStyle::LinePoints, colour));
+        all.push(series(&name, points, spread, plots::LineStyle::LinePoints, 1));
     }
     if let Some(p) = &robot.published {
         let at = vec![[p.d_max_pressure_pa * 1e-3, p.d_max_m * 1e3]];
@@ -186,7 +186,7 @@ mod tests {
     #[test]
     fn the_gas_of_a_muscle_is_counted_from_the_same_zero_in_both_engines() {
         let robots = ["fpam", "epam"].map(|kind| shipped_scenario(kind).unwrap());
-        let robots = engines(&robots, &stored()).unwrap().robots;
+        let robots = engines(&robots, &stored().unwrap()).unwrap().robots;
         let gas = |robot: &EngineRobot| ledger_cases(robot).iter().map(|c| c.energies_mj[0]).collect::<Vec<_>>();
         let [muscle, pouches] = [gas(&robots[0]), gas(&robots[1])];
         assert!((muscle[0] - muscle[1]).abs() < 1e-9 && muscle[0] < 0.0, "{muscle:?}");

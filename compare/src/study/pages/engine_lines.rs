@@ -4,6 +4,7 @@ use super::engines_page::EngineRobot;
 use crate::error::CompareError;
 use crate::plots::Known;
 use crate::study::engines::{Ensemble, Mean, accuracy};
+use crate::study::uncertain::Uncertain;
 use models::{Loads, Model, Scenario};
 
 /// One line of the comparison.
@@ -43,52 +44,68 @@ pub fn lines(robot: &EngineRobot) -> Result<Vec<EngineLine>, CompareError> {
     Ok(out)
 }
 
-/// One robot in one row: the displacement at the pressure of the measurement; `None` without one.
+/// One robot in a row for every way that it may be made: the displacement at the pressure of the measurement; none without one.
 ///
 /// # Errors
 /// A model without equilibrium.
-pub fn summary(robot: &EngineRobot) -> Result<Option<Vec<String>>, CompareError> {
-    let Some(printed) = &robot.published else { return Ok(None) };
+pub fn summary(robot: &EngineRobot) -> Result<Vec<Vec<String>>, CompareError> {
+    let Some(printed) = &robot.published else { return Ok(Vec::new()) };
     let (kpa, measured) = (printed.d_max_pressure_pa * 1e-3, printed.d_max_m * 1e3);
     let loads = Loads::uniform(robot.scenario.p_body_pa, printed.d_max_pressure_pa);
     let with = robot.with_effects.as_ref().map(|rung| heights(&rung.scenario, &loads)).transpose()?;
-    let near = |a: &&(f64, f64)| (a.0 - printed.d_max_pressure_pa).abs() < 50.0;
-    let paper = printed.accuracy.iter().find(near).map(|a| a.1);
-    let fe = |ensemble: &Ensemble| ensemble.at(kpa).map(|[marker, _]| marker);
-    let own = fe(&robot.ensemble);
-    let shown = |found: Option<(f64, Option<f64>)>| match found {
+    let bare = heights(&robot.scenario.bare(), &loads)?[0];
+    let recommended = match robot.ensemble.at(kpa).map(|[marker, _]| marker) {
         Some((mean, Some(spread))) => format!("{mean:.1} ± {spread:.1}"),
         Some((mean, None)) => format!("{mean:.1}"),
         None => "–".into(),
     };
-    let percent = |v: Option<f64>| v.map_or("–".into(), |v| format!("{:.1}", 100.0 * v));
-    let known = robot.run.as_ref().map_or("–", |run| &run.known);
-    Ok(Some(vec![
-        printed.printed_name.clone(),
-        format!("{measured:.1}"),
-        format!("{:.1}", heights(&robot.scenario.bare(), &loads)?[0]),
-        with.map_or("–".into(), |mm| format!("{:.1}", mm[0])),
-        shown(own),
-        known.into(),
-        own.map_or("–".into(), |(mm, _)| format!("{:+.0}", 100.0 * (mm / measured - 1.0))),
-        percent(own.and_then(|(mm, _)| accuracy(mm, measured))),
-        percent(paper),
-        shown(fe(&robot.usual).or(own)),
-    ]))
+    let row = |made: &str, interval: Option<[f64; 3]>, recommended: &str| {
+        let [middle, ends, inside] = match interval {
+            Some([low, middle, high]) => [
+                format!("{middle:.1}"),
+                format!(
+                    "{low:.1} to {high:.1} ({:+.0} to {:+.0} %)",
+                    100.0 * (low / middle - 1.0),
+                    100.0 * (high / middle - 1.0)
+                ),
+                if (low..=high).contains(&measured) { "inside" } else { "outside" }.to_string(),
+            ],
+            None => ["–"; 3].map(String::from),
+        };
+        let reduced = with.map_or("–".into(), |mm| format!("{:.1}", mm[0]));
+        let name = printed.printed_name.clone();
+        vec![
+            name,
+            made.into(),
+            format!("{measured:.1}"),
+            format!("{bare:.1}"),
+            reduced,
+            middle,
+            ends,
+            inside,
+            recommended.into(),
+        ]
+    };
+    if robot.uncertain.is_empty() {
+        return Ok(vec![row("as recommended", None, &recommended)]);
+    }
+    let own = |cube: &Uncertain| if cube.variant.is_empty() { recommended.clone() } else { "–".into() };
+    let made =
+        |cube: &Uncertain| if cube.variant.is_empty() { "as recommended".to_string() } else { cube.variant.clone() };
+    Ok(robot.uncertain.iter().map(|cube| row(&made(cube), cube.tip_mm(kpa), &own(cube))).collect())
 }
 
 /// Heads of [`summary`].
-pub const SUMMARY: [&str; 10] = [
+pub const SUMMARY: [&str; 9] = [
     "robot",
+    "made",
     "measured mm, published",
     "bare model mm, predicted",
     "with effects mm, assumed",
-    "finite elements mm",
-    "how known",
-    "error %",
-    "accuracy %",
-    "the paper's %, published",
-    "usual values mm, assumed",
+    "finite elements, median mm, assumed",
+    "80 % interval mm",
+    "measured",
+    "as recommended mm, assumed",
 ];
 
 /// Cells of a line: robot, pressure, source, how known, marker, its spread, tip, accuracy.
@@ -183,9 +200,8 @@ fn at_pressure(robot: &EngineRobot, kpa: f64, out: &mut Vec<EngineLine>) -> Resu
         let [marker, tip] = heights(&rung.scenario, &loads)?.map(Some);
         line("reduced, with effects", Known::Assumed.word(), [marker, None, tip], None);
     }
-    for (ensemble, with) in [(&robot.ensemble, ""), (&robot.usual, ", usual values")] {
-        let (Some(first), Some([marker, tip])) = (ensemble.runs.first(), ensemble.at(kpa)) else { continue };
-        let source = format!("finite elements, {} mm{with}, {}", first.mesh_mm[1], seeds(ensemble));
+    if let (Some(first), Some([marker, tip])) = (robot.ensemble.runs.first(), robot.ensemble.at(kpa)) {
+        let source = format!("finite elements, {} mm, {}", first.mesh_mm[1], seeds(&robot.ensemble));
         line(&source, &first.known, [Some(marker.0), marker.1, Some(tip.0)], None);
     }
     Ok(())

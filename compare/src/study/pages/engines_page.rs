@@ -2,12 +2,13 @@
 
 use super::engine_figures::{bars, curve, displaced, ledger, parting_plot};
 use super::engine_lines::{HEADS, SUMMARY, VOLUMES, VOLUMES_CAPTION, cells, csv, lines, summary, volume_cells};
-use super::{Files, Imprint};
+use super::{Files, Imprint, drawing};
 use crate::error::CompareError;
 use crate::plots::Drawn;
 use crate::report::{Align, Block, Callout, Column, Provenance, Report, Section, Table};
-use crate::study::engines::{BodyVolumes, CALIBRATED, Ensemble, FeRun, Pair, as_it_is, body_volumes, ensembles, pairs};
+use crate::study::engines::{BodyVolumes, Ensemble, FeRun, Pair, as_it_is, body_volumes, ensemble, pairs};
 use crate::study::published::{Rung, model_ladder, shipped_scenario};
+use crate::study::uncertain::{self, Uncertain};
 use data::{PublishedActuator, published};
 use models::Scenario;
 
@@ -22,8 +23,8 @@ pub struct EngineRobot {
     pub with_effects: Option<Rung>,
     /// Its finite element runs with the recommended settings.
     pub ensemble: Ensemble,
-    /// The same with usual values in place of calibrated ones.
-    pub usual: Ensemble,
+    /// Hypercubes over what nobody measured that come with the program, one for every way that the robot may be made.
+    pub uncertain: Vec<Uncertain>,
     /// The first run, if there is one.
     pub run: Option<FeRun>,
     /// Both engines at this run's pressures.
@@ -75,7 +76,9 @@ fn robot(scenario: &Scenario, runs: &[FeRun]) -> Result<EngineRobot, CompareErro
         printed = published()?.actuator(kind).cloned();
         with_effects = model_ladder(kind)?.pop();
     }
-    let [ensemble, usual] = ensembles(runs, scenario);
+    let ensemble = ensemble(runs, scenario);
+    let uncertain = if shipped { uncertain::stored()? } else { Vec::new() };
+    let uncertain = uncertain.into_iter().filter(|u| u.scenario == scenario.name).collect();
     let run = ensemble.runs.first().cloned();
     let pairs = run.as_ref().map_or(Ok(Vec::new()), |run| pairs(scenario, run))?;
     let bodies = body_volumes(scenario, runs);
@@ -84,7 +87,7 @@ fn robot(scenario: &Scenario, runs: &[FeRun]) -> Result<EngineRobot, CompareErro
         published: printed,
         with_effects,
         ensemble,
-        usual,
+        uncertain,
         run,
         pairs,
         bodies,
@@ -94,9 +97,7 @@ fn robot(scenario: &Scenario, runs: &[FeRun]) -> Result<EngineRobot, CompareErro
 /// Maps over body pressure and over pouch length, each from runs on the finest mesh that has two rows of it.
 fn parting_maps(scenario: &Scenario, runs: &[FeRun]) -> Result<Vec<PartingMap>, CompareError> {
     let kind = scenario.actuator.kind.name;
-    let usual = |r: &FeRun| CALIBRATED.contains(&kind) && r.known != "calibrated";
-    let mine: Vec<&FeRun> =
-        runs.iter().filter(|r| r.scenario == scenario.name && r.actuator == kind && !usual(r)).collect();
+    let mine: Vec<&FeRun> = runs.iter().filter(|r| r.scenario == scenario.name && r.actuator == kind).collect();
     let own_pouch = |r: &&FeRun| (r.pouch_mm * 1e-3 - scenario.actuator.shape.length_m).abs() < 1e-6;
     let own_body = |r: &&FeRun| (r.body_kpa * 1e3 - scenario.p_body_pa).abs() < 1e-3;
     let body: Vec<&FeRun> = mine.iter().copied().filter(own_pouch).collect();
@@ -198,10 +199,16 @@ pub fn engine_sections(engines: &Engines, files: &mut Files) -> Result<Vec<Secti
         all.extend(lines(robot)?);
     }
     files.text("engines.csv", csv(&all));
-    let rows = engines.robots.iter().filter_map(|robot| summary(robot).transpose()).collect::<Result<Vec<_>, _>>()?;
+    let (mut rows, mut intervals) = (Vec::new(), Vec::new());
+    for robot in &engines.robots {
+        rows.extend(summary(robot)?);
+        for cube in &robot.uncertain {
+            intervals.extend(cube_figures(robot, cube, files)?);
+        }
+    }
     let mut first = Vec::new();
     if !rows.is_empty() {
-        first.push(rows_of(SUMMARY_CAPTION, &SUMMARY, &[0, 5], Some(5), rows));
+        first.push(rows_of(SUMMARY_CAPTION, &SUMMARY, &[0, 1, 6], None, rows));
     }
     first.push(rows_of(LINES_CAPTION, &HEADS, &[0, 2, 3], Some(3), all.iter().map(cells).collect()));
     if let Some(bars) = bars(engines)? {
@@ -217,6 +224,9 @@ pub fn engine_sections(engines: &Engines, files: &mut Files) -> Result<Vec<Secti
     }
     first.push(Block::Callout { kind: Callout::Warning, text: NOTE.into() });
     let mut sections = vec![section("engines", "Both engines and the published numbers", first)];
+    if !intervals.is_empty() {
+        sections.push(section("intervals", "What nobody measured", intervals));
+    }
     let mut ledgers = Vec::new();
     for robot in engines.robots.iter().filter(|r| !r.pairs.is_empty()) {
         let kind = robot.scenario.actuator.kind.name;
@@ -248,6 +258,21 @@ pub fn engine_sections(engines: &Engines, files: &mut Files) -> Result<Vec<Secti
     Ok(sections)
 }
 
+/// Heights of all markers with their intervals, and what to measure first.
+fn cube_figures(robot: &EngineRobot, cube: &Uncertain, files: &mut Files) -> Result<Vec<Block>, CompareError> {
+    let last = cube.stations_mm.last().copied().unwrap_or(f64::NAN);
+    let own = robot.published.iter().map(|p| (p.d_max_pressure_pa * 1e-3, [last, p.d_max_m * 1e3]));
+    let words: String = cube.variant.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
+    let name = [cube.actuator.as_str(), &words].iter().filter(|w| !w.is_empty()).copied().collect::<Vec<_>>().join("-");
+    let markers = cube.draw(&own.collect::<Vec<_>>()).map_err(|e| drawing("the markers' intervals", e))?;
+    files.plot(&format!("{name}_uncertain"), &markers);
+    let top = cube.pressures_kpa().into_iter().fold(0.0, f64::max);
+    let weights = cube.draw_weights(top).map_err(|e| drawing("what to measure first", e))?;
+    files.plot(&format!("{name}_tornado"), &weights);
+    let caption = format!("{} robots whose assumed numbers fill their intervals. {}", cube.members.len(), cube.variant);
+    Ok(vec![figure(caption.trim(), "markers with intervals", &markers), figure(WEIGHTS, "bars", &weights)])
+}
+
 fn volume_section(robots: &[EngineRobot], files: &mut Files) -> Result<Option<Section>, CompareError> {
     let mut blocks = Vec::new();
     if let Some(drawn) = displaced(robots)? {
@@ -261,14 +286,17 @@ fn volume_section(robots: &[EngineRobot], files: &mut Files) -> Result<Option<Se
     Ok((!blocks.is_empty()).then(|| section("volumes", "What the bodies lose", blocks)))
 }
 
-const NOTE: &str = "Not printed by the paper and assumed here: pouch count, marker stations, weld width, the taped sheet's margin, \
+const NOTE: &str = "Not printed by the paper and assumed here: pouch count, marker stations, weld width, where the tape is, \
     stiffness of tape and glue, how far plies bend as one, biaxial coupling, densities. The measured displacement is that of a marker nobody gave \
-    the place of; it is held against the outermost assumed marker. The taped sheet (sPAM: margin and tape) and ν₁₂ (fPAM) are calibrated on \
-    these displacements; the usual values are what one would assume without them. One number per robot validates nothing.";
+    the place of; it is held against the outermost assumed marker. Nothing is calibrated on \
+    these displacements. What nobody measured is an interval: the finite elements' median and 80 % interval are those of a Latin hypercube \
+    over all of these numbers. One number per robot validates nothing.";
 const SUMMARY_CAPTION: &str = "Displacement of the outermost marker at the pressure of the measurement; finite elements: middle of the \
-    section at the marker (a diagnosis takes the point of the wall that a camera sees), mean ± standard deviation over seeds of the \
-    imperfections; accuracy by the paper's formula beside the paper's own";
+    section at the marker (a diagnosis takes the point of the wall that a camera sees), median and 80 % interval over all numbers that nobody \
+    measured, and the robot as recommended, mean ± standard deviation over seeds";
 const LINES_CAPTION: &str = "All pressures printed by the paper. Finite elements: middle of the section at the outermost marker. Accuracy a = 1 − ((y_model − y_measured)/y_model)², the paper's formula for one marker";
+const WEIGHTS: &str = "What each number does to the outermost marker between a tenth and nine tenths of its interval, by a straight law \
+    through all of these robots: the longest bar is what to measure first.";
 const LEDGER: &str = "Reduced model and finite elements, each at its own bend. Gas is −P ΔV since the body was full; stretch and \
     wall bending of the finite elements likewise. A muscle lies flat then in the finite elements and is round from the start in the \
     reduced model: the volume by which it is ahead at the first pressure is left out of its gas at every pressure, so that both begin \

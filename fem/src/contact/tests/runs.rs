@@ -1,9 +1,11 @@
 use super::laws::settings;
 use super::rig::{Noise, Rig, flat, sheet};
+use crate::contact::Contact;
 use crate::contact::closest;
 use crate::contact::closest::nearest;
 use crate::mesh::Mesh;
 use crate::vec3::add;
+use models::Term;
 
 /// Lowest height of `nodes` over the front of a layer, by asking every element; nodes beyond its rim do not count.
 fn lowest(rig: &Rig, nodes: std::ops::Range<usize>, layer: u32) -> f64 {
@@ -47,6 +49,30 @@ fn two_crossed_strips_thrown_at_each_other_never_pass_through() {
     assert!((0..lower).map(|i| rig.v[i][2] * rig.mass[i]).sum::<f64>() < 0.0, "the lower strip was hit");
     let miss = rig.residual(start);
     assert!(miss.abs() < 0.01 * start, "{miss} of {start}; {:?}", rig.rows());
+    assert_eq!(rig.contact.passed(), (0, all, None));
+}
+
+#[test]
+fn nodes_that_come_through_a_layer_are_counted_with_the_place_of_the_first_and_resumed() {
+    let mut mesh = Mesh::default();
+    flat(&mut mesh, 0, 20, 0.08, [0.0; 3], 0.0);
+    flat(&mut mesh, 1, 8, 0.03, [0.001, 0.0005, 1e-3], 0.1);
+    let (below, all) = (441, 441 + 81);
+    let mut rig = Rig::new(mesh, &settings(0.0)).unwrap();
+    rig.throw(below..all, [0.0, 0.0, -250.0]);
+    while rig.p(all - 1)[2] > -4e-3 && rig.step < 100 {
+        rig.run(1);
+    }
+    let (nodes, could, first) = rig.contact.passed();
+    let (first, part) = first.unwrap();
+    assert!(lowest(&rig, below..all, 0) < -1.5e-3, "springs hold no such throw");
+    // Nodes of the thrown sheet came through the other, and nodes of the other near its middle through it.
+    assert!(nodes >= 81 && could == all, "{nodes} of {could}");
+    assert_eq!(part == 0, first.node >= 441);
+    assert!(first.place_m[2].abs() < 1.5e-3 && first.time_s < 3e-5, "{first:?}");
+    let mut other = Contact::new(&rig.mesh, &settings(0.0), &rig.mass, rig.dt).unwrap();
+    assert!(other.restore(&rig.contact.save()));
+    assert_eq!(other.passed(), rig.contact.passed());
 }
 
 #[test]

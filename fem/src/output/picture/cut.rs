@@ -4,7 +4,7 @@
 //! present positions. What a plane through a bent robot would cut elsewhere does not come in.
 
 use super::raster::Canvas;
-use super::{FINE, Image, Look, Placing, check, colour, dot, minus, range, share, viridis};
+use super::{FINE, Image, Look, Placing, check, dot, minus, range, share, viridis};
 use crate::{FemError, Mesh};
 
 /// Width of a line \[pixels\].
@@ -56,10 +56,9 @@ pub fn section(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], cut: &Cut, l
         canvas.element(&corners, colour, 0.0, 0.0);
     }
     let mut image = canvas.averaged(FINE);
-    if with_bar {
-        colour::draw_bar(&mut image, limits);
-    }
-    colour::draw_title(&mut image, &look.title);
+    // Only what is cut counts: the rest is not seen.
+    let cut: Vec<f64> = pieces.iter().filter_map(|p| values.get(p.element).copied()).collect();
+    super::notes::draw(&mut image, look, &place, axes, super::bar(&cut, limits, with_bar));
     Ok(image)
 }
 

@@ -16,10 +16,13 @@
 
 mod colour;
 mod cut;
+mod ink;
+mod notes;
 mod raster;
 
 pub use colour::viridis;
 pub use cut::{Cut, section};
+pub use notes::round_above;
 
 use std::path::Path;
 
@@ -82,9 +85,11 @@ pub struct Look {
     pub bounds: Option<([f64; 3], [f64; 3])>,
     /// Draw the outlines of elements where they are large enough.
     pub edges: bool,
-    /// Draw the colour map with its limits at the right.
+    /// Draw the colour map with numbers at the right; a value beyond the limits is told by ≥.
     pub bar: bool,
-    /// Line at the top: what is shown, and in which unit the colours are. Letters of western Europe.
+    /// Draw the axes and a length at the bottom left.
+    pub scale: bool,
+    /// Line at the top: what is shown, and in which unit the colours are.
     pub title: String,
 }
 
@@ -99,6 +104,7 @@ impl Default for Look {
             bounds: None,
             edges: true,
             bar: true,
+            scale: true,
             title: String::new(),
         }
     }
@@ -137,10 +143,7 @@ pub fn render(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &Look) 
         canvas.element(&corners, base.map(|c| c * light), edge, SHORTEST_EDGE * FINE as f64);
     }
     let mut image = canvas.averaged(FINE);
-    if with_bar {
-        colour::draw_bar(&mut image, limits);
-    }
-    colour::draw_title(&mut image, &look.title);
+    notes::draw(&mut image, look, &place, axes, bar(values, limits, with_bar));
     Ok(image)
 }
 
@@ -209,6 +212,11 @@ fn range(values: &[f64]) -> (f64, f64) {
     if low < high { (low, high) } else { (low, low + low.abs().max(1e-300) * 1e-3) }
 }
 
+/// What the colour bar shows: the limits, and whether values go beyond them.
+fn bar(values: &[f64], limits: (f64, f64), with_bar: bool) -> Option<((f64, f64), bool)> {
+    with_bar.then(|| (limits, values.iter().any(|v| *v > limits.1)))
+}
+
 /// Where a value lies between the limits, 0 to 1.
 fn share(value: f64, (low, high): (f64, f64)) -> f64 {
     ((value - low) / (high - low)).clamp(0.0, 1.0)
@@ -255,14 +263,20 @@ impl Placing {
             shown.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p[k]), high.max(p[k])))
         });
         let margin = 0.04 * look.width.min(look.height) as f64;
-        let width = look.width as f64 - if with_bar { colour::bar_width(look.height) as f64 } else { 0.0 };
-        let room = [width - 2.0 * margin, look.height as f64 - 2.0 * margin];
+        let [top, right, bottom] = notes::room(look, with_bar);
+        let (width, height) = (look.width as f64 - right, look.height as f64 - top - bottom);
+        let room = [width - 2.0 * margin, height - 2.0 * margin];
         let scale = (room[0] / (x.1 - x.0)).min(room[1] / (y.1 - y.0));
         // A mesh without extent, or without nodes, is drawn at any scale.
         let scale = if scale.is_finite() && scale > 0.0 { scale } else { 1.0 };
         let fine = FINE as f64;
         let middle = [0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1)];
-        Placing { scale: scale * fine, middle, centre: [0.5 * width * fine, 0.5 * look.height as f64 * fine] }
+        Placing { scale: scale * fine, middle, centre: [0.5 * width * fine, (top + 0.5 * height) * fine] }
+    }
+
+    /// Of the finished image.
+    fn pixels_per_m(&self) -> f64 {
+        self.scale / FINE as f64
     }
 
     fn on_canvas(&self, p: [f64; 3]) -> Corner {

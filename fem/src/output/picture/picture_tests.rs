@@ -12,7 +12,7 @@ fn sheet(n: usize, at: impl Fn(f64, f64) -> [f64; 3]) -> Mesh {
 }
 
 fn bare(view: View) -> Look {
-    Look { view, width: 400, height: 300, edges: false, bar: false, ..Look::default() }
+    Look { view, width: 400, height: 300, edges: false, bar: false, scale: false, ..Look::default() }
 }
 
 fn pixel(image: &Image, x: usize, y: usize) -> [u8; 3] {
@@ -82,6 +82,19 @@ fn axes_of_every_view_are_right_handed_and_of_unit_length() {
         assert!((0..3).all(|k| (cross[k] - out[k]).abs() < 1e-15), "{view:?}");
         assert!((dot(right, right) - 1.0).abs() < 1e-15 && (dot(up, up) - 1.0).abs() < 1e-15);
     }
+}
+
+/// The scale says how long something is: a sheet of 0.1 m has five times the length of a scale of 20 mm.
+#[test]
+fn the_scale_has_the_length_that_it_says() {
+    let mesh = sheet(1, |a, b| [0.1 * a, 0.01 * b, 0.0]);
+    let look = Look { scale: true, ..bare(View::Side) };
+    let image = render(&mesh, &mesh.points, &[], &look).unwrap();
+    let ink = |x: &usize, y: usize| pixel(&image, *x, y)[0] < 100;
+    // Letters are a fortieth of the height and at least 10 pixels; the line is 1.6 of them above the edge, right of the axes.
+    let scale = (60..image.width).filter(|x| ink(x, 284)).count();
+    let sheet = (0..image.width).filter(|x| pixel(&image, *x, 125) != [255; 3]).count();
+    assert!((sheet as f64 / scale as f64 - 5.0).abs() < 0.2, "{sheet} pixels, scale {scale}");
 }
 
 #[test]

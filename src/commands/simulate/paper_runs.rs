@@ -1,0 +1,67 @@
+//! Runs of the paper's own model, wherever below a folder they were made: by `ibr compare --paper` or by `ibr simulate`.
+
+use super::cache::{as_run, complete};
+use super::robot::rounded;
+use super::single::Finished;
+use super::summary::Summary;
+use crate::failure::Failure;
+use compare::study::engines::as_it_is;
+use compare::study::paper::{Kinetic, PaperRun, Peak};
+use compare::study::published::shipped_scenario;
+use fem::robot::Model;
+use std::path::Path;
+
+/// Keys of `[fem]` that leave the paper's modelling choices as they are: loads, sizes, supports, seeds.
+const FREE: [&str; 7] = ["pressures_kpa", "separate", "mesh_mm", "body_mesh_mm", "actuator_mesh_mm", "base", "seed"];
+/// Folders in folders: `ibr simulate` puts several runs into one.
+const DEPTH: usize = 3;
+
+/// All finished ones of the present engine.
+pub fn all(folder: &Path) -> Result<Vec<PaperRun>, Failure> {
+    let mut found = Vec::new();
+    below(folder, DEPTH, &mut found)?;
+    Ok(found)
+}
+
+fn below(folder: &Path, depth: usize, found: &mut Vec<PaperRun>) -> Result<(), Failure> {
+    found.extend(complete(folder)?.as_ref().and_then(paper_run));
+    if depth == 0 {
+        return Ok(());
+    }
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    let folders = entries.filter_map(|entry| Some(entry.ok()?.path())).filter(|path| path.is_dir());
+    folders.map(|inner| below(&inner, depth - 1, found)).collect()
+}
+
+/// Whether a run is one of the paper's model, whatever else was set.
+pub fn is_paper(summary: &Summary) -> bool {
+    summary.robot.as_ref().is_some_and(|robot| robot.model == Model::Paper.name())
+}
+
+/// A run of a robot of the paper at one pressure with nothing of the preset changed; `None` if it is another.
+fn paper_run(made: &Finished) -> Option<PaperRun> {
+    let Summary { robot, kinetic_share: shares, added_mass_share, .. } = &made.summary;
+    let robot = robot.as_ref()?;
+    let unchanged = robot.set.iter().all(|key| FREE.contains(&key.as_str()));
+    (is_paper(&made.summary) && unchanged).then_some(())?;
+    let run = as_run(made)?;
+    as_it_is(&run, &shipped_scenario(&run.actuator).ok()?).then_some(())?;
+    // The filled body and one pressure: a ramp through several is another loading.
+    let [_, last] = &robot.readings[..] else { return None };
+    Some(PaperRun {
+        run,
+        encastre: robot.base == "encastre",
+        added_mass_share: rounded(*added_mass_share),
+        kinetic: Kinetic {
+            outputs: shares.outputs as u64,
+            below_10_pct_of_internal: shares.below_10_pct_of_internal.kept_at as u64,
+            below_1_pct_of_total: shares.below_1_pct_of_total.kept_at as u64,
+            at_end: rounded(shares.end?),
+        },
+        peak: Peak {
+            part: last.von_mises_part.clone(),
+            at_mm: rounded(last.von_mises_at_m * 1e3),
+            on_seam: last.von_mises_on_seam,
+        },
+    })
+}
