@@ -75,9 +75,9 @@ fn rows_and_frames_that_are_missing_are_told_before_an_interrupted_run_goes_on()
     let fewer: String =
         history.split_inclusive('\n').enumerate().filter(|(i, _)| *i != 1).map(|(_, line)| line).collect();
     folder.write("run/history.csv", fewer);
-    refuse(&folder, &RESUME, 3, &["run/history.csv has ", "rows until step", "put the file back", "--force"]);
+    refuse(&folder, &RESUME, 3, &["run/history.csv has lost the row of 0 s", "put the file back", "--force"]);
     std::fs::remove_file(folder.path("run/history.csv")).unwrap();
-    refuse(&folder, &RESUME, 3, &["run/history.csv has 0 rows"]);
+    refuse(&folder, &RESUME, 3, &["run/history.csv has lost the row"]);
     folder.write("run/history.csv", history);
     for name in ["run/frames/run_00000.vtu", "run/centre_line.csv"] {
         let bytes = std::fs::read(folder.path(name)).unwrap();

@@ -138,14 +138,14 @@ impl CentreLineFile {
         Ok(CentreLineFile { line, table: Table::create(path)? })
     }
 
-    /// Goes on after `step` of the checkpoint, until which rows of so many `outputs` were written; later ones are dropped.
+    /// Goes on after the rows of `times_s` \[s\], which the checkpoint knows of; later ones are dropped.
     ///
     /// # Errors
     /// [`FemError::Problem`] for rows that are missing; [`FemError::Io`]; [`FemError::MeshFile`] if the file was edited into
     /// something else.
-    pub fn resume(path: &Path, line: CentreLine, step: u64, outputs: usize) -> Result<CentreLineFile, FemError> {
-        let rows = outputs * line.stations_m.len();
-        Ok(CentreLineFile { line, table: Table::resume(path, step, rows)? })
+    pub fn resume(path: &Path, line: CentreLine, times_s: &[f64]) -> Result<CentreLineFile, FemError> {
+        let table = Table::resume(path, times_s, line.stations_m.len())?;
+        Ok(CentreLineFile { line, table })
     }
 
     /// Adds one row per station; a step that is in the file already is not written again.

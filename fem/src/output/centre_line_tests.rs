@@ -130,7 +130,7 @@ fn the_file_holds_every_station_and_resumes_to_the_same_bytes() {
     (0..6).for_each(|step| add(&mut file, step));
     let mut file = CentreLineFile::create(&cut, line.clone()).unwrap();
     (0..4).for_each(|step| add(&mut file, step));
-    let mut file = CentreLineFile::resume(&cut, line, 2, 3).unwrap();
+    let mut file = CentreLineFile::resume(&cut, line, &[0, 1, 2].map(|step| step as f64 * 0.1)).unwrap();
     (2..6).for_each(|step| add(&mut file, step));
     let text = std::fs::read_to_string(&whole).unwrap();
     assert_eq!(text, std::fs::read_to_string(&cut).unwrap());

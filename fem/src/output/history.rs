@@ -82,13 +82,13 @@ impl History {
         Ok(History { table: Table::create(path)?, probes })
     }
 
-    /// Goes on after `step` of the checkpoint, until which so many `rows` were written; later ones are dropped.
+    /// Goes on after the rows of `times_s` \[s\], which the checkpoint knows of; later ones are dropped.
     ///
     /// # Errors
     /// As [`History::create`], and for rows that are missing; [`FemError::MeshFile`] if the file was edited into something else.
-    pub fn resume(path: &Path, mesh: &Mesh, probes: &[String], step: u64, rows: usize) -> Result<History, FemError> {
+    pub fn resume(path: &Path, mesh: &Mesh, probes: &[String], times_s: &[f64]) -> Result<History, FemError> {
         let probes = find_probes(mesh, probes)?;
-        Ok(History { table: Table::resume(path, step, rows)?, probes })
+        Ok(History { table: Table::resume(path, times_s, 1)?, probes })
     }
 
     /// Adds a row; a step that has a row already is not written again.

@@ -75,7 +75,7 @@ fn an_interrupted_and_resumed_history_has_the_bytes_of_an_uninterrupted_one() {
     let mut history = History::create(&cut, &mesh(), &probes).unwrap();
     (0..6).for_each(|step| history.append(&record(step)).unwrap());
     drop(history);
-    let mut history = History::resume(&cut, &mesh(), &probes, 3, 4).unwrap();
+    let mut history = History::resume(&cut, &mesh(), &probes, &[0, 1, 2, 3].map(|step| step as f64 * 0.1)).unwrap();
     (3..8).for_each(|step| history.append(&record(step)).unwrap());
     assert_eq!(std::fs::read(&whole).unwrap(), std::fs::read(&cut).unwrap());
 }

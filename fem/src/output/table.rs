@@ -23,25 +23,24 @@ impl Table {
         Table::open(path, String::new(), None)
     }
 
-    /// Goes on after `step`: later rows, and a last line that a kill cut short, are dropped. The file must have as many `rows`
-    /// until then as the run wrote; without any and without a file it starts one.
-    pub fn resume(path: &Path, step: u64, rows: usize) -> Result<Table, FemError> {
+    /// Goes on after the outputs at `times_s` \[s\], of so many rows each, which must be there: later rows, and a last line that a
+    /// kill cut short, are dropped. Without any output and without a file it starts one.
+    pub fn resume(path: &Path, times_s: &[f64], rows_each: usize) -> Result<Table, FemError> {
         let there = path.exists();
         let text =
             if there { std::fs::read_to_string(path).map_err(|source| io(path, source))? } else { String::new() };
-        let (header, last_step, kept) = cut(&text, step).map_err(|line| FemError::MeshFile {
-            path: path.to_path_buf(),
-            line,
-            message: "not a row as this program writes it, so it cannot go on in this file: move it away".into(),
-        })?;
-        let found = kept.lines().count().saturating_sub(1);
-        if found != rows {
-            return Err(FemError::Problem(format!(
-                "{} has {found} rows until step {step}, where the interrupted run wrote {rows}: put the file back as it was, or \
-                 start again with --force",
+        let (header, last_step, kept) = cut(&text, times_s, rows_each).map_err(|lost| match lost {
+            Lost::Foreign { line } => FemError::MeshFile {
+                path: path.to_path_buf(),
+                line,
+                message: "not a row as this program writes it, so it cannot go on in this file: move it away".into(),
+            },
+            Lost::Row { time_s } => FemError::Problem(format!(
+                "{} has lost the row of {time_s} s that the interrupted run wrote: put the file back as it was, or start again \
+                 with --force",
                 path.display()
-            )));
-        }
+            )),
+        })?;
         if kept.len() < text.len() || !there {
             replace(path, &mut |out| out.write_all(kept.as_bytes()))?;
         }
@@ -85,23 +84,34 @@ impl Table {
     }
 }
 
-/// Header, step of the last kept row and the kept text; or the number of the line that is no row.
-fn cut(text: &str, step: u64) -> Result<(&str, Option<u64>, &str), usize> {
+/// Why a table cannot go on.
+enum Lost {
+    /// A line that is no row.
+    Foreign { line: usize },
+    /// A row that is not there.
+    Row { time_s: f64 },
+}
+
+/// Header, step of the last kept row and the kept text.
+fn cut<'t>(text: &'t str, times_s: &[f64], rows_each: usize) -> Result<(&'t str, Option<u64>, &'t str), Lost> {
     let mut lines = text.split_inclusive('\n').take_while(|line| line.ends_with('\n'));
-    let Some(header) = lines.next() else { return Ok(("", None, "")) };
-    let column = header.trim_end().split(',').position(|name| name == "step").ok_or(1_usize)?;
+    let Some(&first_s) = times_s.first() else { return Ok(("", None, "")) };
+    let header = lines.next().ok_or(Lost::Row { time_s: first_s })?;
+    let column = |wanted| header.trim_end().split(',').position(|name| name == wanted);
+    let (time, step) = column("time_s").zip(column("step")).ok_or(Lost::Foreign { line: 1 })?;
     let (mut kept, mut last) = (header.len(), None);
-    for (index, line) in lines.enumerate() {
-        let found = line.split(',').nth(column).and_then(|cell| cell.trim_end().parse().ok()).ok_or(index + 2)?;
-        if found > step {
-            break;
+    for index in 0..times_s.len() * rows_each {
+        let time_s = times_s[index / rows_each];
+        let line = lines.next().ok_or(Lost::Row { time_s })?;
+        let cell = |column: usize| line.split(',').nth(column).map(str::trim_end);
+        let at: f64 = cell(time).and_then(|cell| cell.parse().ok()).ok_or(Lost::Foreign { line: index + 2 })?;
+        last = Some(cell(step).and_then(|cell| cell.parse().ok()).ok_or(Lost::Foreign { line: index + 2 })?);
+        if at != time_s {
+            return Err(Lost::Row { time_s });
         }
-        (kept, last) = (kept + line.len(), Some(found));
+        kept += line.len();
     }
-    match last {
-        None => Ok(("", None, "")),
-        last => Ok((header.trim_end(), last, &text[..kept])),
-    }
+    Ok((header.trim_end(), last, &text[..kept]))
 }
 
 /// The shortest digits that give the same bits when read back.
@@ -133,6 +143,10 @@ mod tests {
         (0..2).map(|k| format!("{},{step},{k}\n", number(step as f64 * 0.1))).collect()
     }
 
+    fn times(steps: u64) -> Vec<f64> {
+        (0..steps).map(|step| step as f64 * 0.1).collect()
+    }
+
     fn whole(steps: std::ops::Range<u64>) -> String {
         format!("{HEADER}\n{}", steps.map(rows).collect::<String>())
     }
@@ -146,10 +160,7 @@ mod tests {
             // What is on the disk has at least the rows up to the checkpoint; the last line may be half written.
             for step in (0..6).filter(|&step| whole(0..step + 1).len() <= length) {
                 std::fs::write(&path, &all[..length]).unwrap();
-                let wrong = Table::resume(&path, step, 2 * step as usize + 1).unwrap_err().to_string();
-                assert!(wrong.contains(&format!("t.csv has {} rows until step {step}", 2 * (step + 1))), "{wrong}");
-                assert_eq!(std::fs::read_to_string(&path).unwrap(), all[..length], "left alone");
-                let mut table = Table::resume(&path, step, 2 * (step as usize + 1)).unwrap();
+                let mut table = Table::resume(&path, &times(step + 1), 2).unwrap();
                 assert_eq!(std::fs::read_to_string(&path).unwrap(), whole(0..step + 1));
                 (step..6).for_each(|step| table.append(step, HEADER, &rows(step)).unwrap());
                 table.sync().unwrap();
@@ -175,9 +186,26 @@ mod tests {
         let path = folder.path().join("t.csv");
         for (text, line) in [("a,b\n1,2\n", 1), ("time_s,step\n0,1\n0,one\n", 3)] {
             std::fs::write(&path, text).unwrap();
-            let error = Table::resume(&path, 9, 1).unwrap_err().to_string();
+            let error = Table::resume(&path, &[0.0], 2).unwrap_err().to_string();
             assert!(error.contains(&format!("t.csv:{line}: ")), "{error}");
             assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
         }
+    }
+
+    #[test]
+    fn a_table_that_lost_a_row_is_refused_and_left_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        let all = whole(0..6);
+        for line in 1..=8 {
+            let fewer: String = all.split_inclusive('\n').enumerate().filter(|l| l.0 != line).map(|l| l.1).collect();
+            std::fs::write(&path, &fewer).unwrap();
+            let error = Table::resume(&path, &times(4), 2).unwrap_err().to_string();
+            assert!(error.contains(&format!("the row of {} s", ((line - 1) / 2) as f64 * 0.1)), "{error}");
+            assert_eq!(std::fs::read_to_string(&path).unwrap(), fewer);
+        }
+        std::fs::remove_file(&path).unwrap();
+        assert!(Table::resume(&path, &times(1), 2).unwrap_err().to_string().contains("the row of 0 s"));
+        assert!(!path.exists() && Table::resume(&path, &[], 2).is_ok() && path.exists());
     }
 }

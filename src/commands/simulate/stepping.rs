@@ -101,7 +101,7 @@ impl<'a> Running<'a> {
         let Some(loaded) = read_checkpoint(folder, fingerprint)? else {
             return Running::start(case, fresh, folder, robot);
         };
-        let Checkpoint { step, payload, .. } = loaded.checkpoint;
+        let Checkpoint { payload, .. } = loaded.checkpoint;
         let foreign = || FemError::Checkpoint {
             path: folder.join("checkpoint"),
             reason: "it holds something else than this program writes; start again with --force".into(),
@@ -115,11 +115,10 @@ impl<'a> Running<'a> {
         // Outputs of the same step are one row and one frame.
         let mut times_s: Vec<f64> = saved.balances.iter().map(|b| b.time_s).collect();
         times_s.dedup();
-        let rows = times_s.len();
-        let history = History::resume(&folder.join("history.csv"), mesh, &case.outputs.probes, step, rows)?;
+        let history = History::resume(&folder.join("history.csv"), mesh, &case.outputs.probes, &times_s)?;
         let series = case.outputs.frames.then(|| Series::resume(folder, &times_s)).transpose()?;
         let path = folder.join("centre_line.csv");
-        let centre_line = centre_line(case)?.map(|line| CentreLineFile::resume(&path, line, step, rows)).transpose()?;
+        let centre_line = centre_line(case)?.map(|line| CentreLineFile::resume(&path, line, &times_s)).transpose()?;
         let files = Files { folder: folder.into(), history, series, centre_line, fingerprint };
         Ok(Running {
             began: (run.step(), thread_seconds()),
