@@ -256,7 +256,7 @@ fn triangle<S: Simd, L: Law>(
         (push + (p2 + p3)).store(&mut out[0][k], part);
         (push - p2).store(&mut out[1][k], part);
         (push - p3).store(&mut out[2][k], part);
-        let flux = V::all(simd, 0.1) * (x[0][k] + x[1][k] + x[2][k]) * normal[k];
+        let flux = V::all(simd, 1.0 / 6.0) * (x[0][k] + x[1][k] + x[2][k]) * normal[k];
         (V::load(simd, &tally.flux[k], part) + own * flux).store(&mut tally.flux[k], part);
     }
 }
