@@ -47,7 +47,7 @@ impl<'a> PlainSheet<'a> {
         area * fabric.energy(e, &[0.0; 2])
     }
 
-    /// U = ½ k G + ⅒ f G⁵, G = Σ_a (F_a·q)², q = Σ_n γ_n x_n.
+    /// U = ½ k Σ_a (F_a·q)², q = Σ_n γ_n x_n.
     fn hourglass(&self, element: &Element, q: &[[f64; 4]], force: &mut [[f64; 4]]) -> f64 {
         if element.corners == 3 {
             return 0.0;
@@ -61,15 +61,13 @@ impl<'a> PlainSheet<'a> {
         }
         let f = element.deformation(q);
         let g = [dot(f[0], mode), dot(f[1], mode)];
-        let square = dot2(g, g);
-        let (stiffness, growth) = (element.hourglass[0], element.hourglass[1] * square.powi(4));
         for (n, node) in element.nodes().iter().enumerate() {
             for k in 0..3 {
                 let slope = (0..2).map(|a| g[a] * (gamma[n] * f[a][k] + b(n)[a] * mode[k])).sum::<f64>();
-                force[*node as usize][k] -= (stiffness + growth) * slope;
+                force[*node as usize][k] -= element.hourglass * slope;
             }
         }
-        square * (0.5 * stiffness + 0.1 * growth)
+        0.5 * element.hourglass * dot2(g, g)
     }
 
     /// p ∫ N_n n dA on the nodes; returns −p ∫ ⅓ x·n dA.

@@ -195,9 +195,9 @@ pub struct Settings {
     pub mass_damping_1_s: f64,
     /// In-plane viscosity as a share of critical damping of the highest membrane mode (0.06 is usual).
     pub viscosity: f64,
-    /// Hourglass coefficient; .05 and more lock. `None`: .01 for walls without pressure, less for others as what they carry
-    /// asks for (`sheet::hourglass`).
-    pub hourglass: Option<f64>,
+    /// Hourglass coefficient; .01 does not lock, .05 and more do. Where the wall wrinkles at the scale of the
+    /// mesh it needs less: p R/(E t) for a bent tube, a tenth of that for a pleated balloon (measured, see [`crate::verify`]).
+    pub hourglass: f64,
     /// Time between outputs \[s\].
     pub output_every_s: f64,
     /// Threads; 0: as many as the machine has. Results do not depend on it.
@@ -254,7 +254,7 @@ impl Default for Settings {
             mass_passes: 2,
             mass_damping_1_s: 0.0,
             viscosity: 0.06,
-            hourglass: None,
+            hourglass: 0.01,
             output_every_s: 0.01,
             threads: 1,
             imperfection: 0.0,
@@ -365,7 +365,7 @@ impl Settings {
         let not_negative = [
             ("mass_damping_1_s", self.mass_damping_1_s),
             ("viscosity", self.viscosity),
-            ("hourglass", self.hourglass.unwrap_or(0.0)),
+            ("hourglass", self.hourglass),
             ("imperfection", self.imperfection),
         ];
         if let Some((name, value)) = not_negative.iter().find(|(_, v)| !(*v >= 0.0 && v.is_finite())) {

@@ -217,7 +217,7 @@ fn sections_and_settings_out_of_range_are_refused() {
         |p| p.settings.end_s = f64::NAN,
         |p| p.settings.cfl = 1.5,
         |p| p.settings.viscosity = -0.1,
-        |p| p.settings.hourglass = Some(f64::INFINITY),
+        |p| p.settings.hourglass = f64::INFINITY,
         |p| p.settings.output_every_s = 0.0,
     ];
     for (change, name) in wrong.iter().zip(["end_s", "cfl", "viscosity", "hourglass", "output_every_s"]) {

@@ -54,7 +54,7 @@ pub(super) fn settings(raw: &RawSettings) -> Checked<Settings> {
     set(&mut settings.cfl, optional("cfl", &raw.cfl, &CFL)?);
     set(&mut settings.mass_damping_1_s, optional("mass_damping_1_s", &raw.mass_damping_1_s, &DAMPING)?);
     set(&mut settings.viscosity, optional("viscosity", &raw.viscosity, &VISCOSITY)?);
-    settings.hourglass = optional("hourglass", &raw.hourglass, &HOURGLASS)?;
+    set(&mut settings.hourglass, optional("hourglass", &raw.hourglass, &HOURGLASS)?);
     set(&mut settings.output_every_s, optional("output_every_s", &raw.output_every_s, &EVERY)?);
     set(&mut settings.imperfection, optional("imperfection", &raw.imperfection, &IMPERFECTION)?);
     settings.dt_s = optional("dt_s", &raw.dt_s, &STEP)?;

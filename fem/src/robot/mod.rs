@@ -247,7 +247,7 @@ fn numerics(problem: &Problem, settings: &RobotSettings) -> Settings {
         selective_mass: settings.selective_mass,
         mass_passes,
         mass_damping_1_s: settings.mass_damping_1_s,
-        hourglass: Some(settings.hourglass),
+        hourglass: settings.hourglass,
         imperfection: settings.imperfection,
         seed: settings.seed,
         // Crumpled gussets pass each other between nodes; how many is told with every run, and no robot is lost by it.

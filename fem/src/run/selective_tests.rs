@@ -95,7 +95,7 @@ fn selective_masses_are_symmetric_and_heavier_than_lumped_ones() {
 #[test]
 fn a_grid_of_squares_allows_the_step_that_its_waves_allow() {
     let mut problem = problem(generate::plate(0.2, 0.12, 50, 30, None).unwrap());
-    problem.settings.hourglass = Some(0.0);
+    problem.settings.hourglass = 0.0;
     let step = |problem: &Problem| Simulation::new(problem).unwrap().dt_s();
     let mut with = |passes: usize| {
         (problem.settings.selective_mass, problem.settings.mass_passes) = (true, passes);

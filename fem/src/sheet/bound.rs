@@ -42,7 +42,7 @@ impl At<'_> {
         let s = self.fabric.tension(self.e, &self.past);
         let tension = largest(s[0], s[1], s[2]).max(0.0);
         let stretch = largest(self.c[0], self.c[1], self.c[2]);
-        element.reference.area * tension * largest(g[0], g[1], g[2]) + element.hourglass[0] * stretch * 0.5
+        element.reference.area * tension * largest(g[0], g[1], g[2]) + element.hourglass * stretch * 0.5
     }
 
     fn all(&self, element: &Element) -> f64 {
@@ -130,8 +130,7 @@ impl Sheet {
             let e = [0.5 * (c[0] - 1.0), 0.5 * (c[1] - 1.0), c[2]];
             let here = At { fabric, e, past: past.get(index).copied().unwrap_or_default(), c };
             // Follower pressure: ∂(p N n)/∂x is of the order of p times an edge.
-            let grown = 0.5 * item.hourglass_growth(f, q) * largest(c[0], c[1], c[2]);
-            let k = of(item, ahead(item, here), f) + grown + pressure * item.reference.area.sqrt();
+            let k = of(item, ahead(item, here), f) + pressure * item.reference.area.sqrt();
             item.nodes().iter().for_each(|n| bound[*n as usize] += k);
         }
         bound.iter_mut().zip(&self.bending_bound).for_each(|(bound, bending)| *bound += bending);

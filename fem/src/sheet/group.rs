@@ -31,8 +31,6 @@ pub struct Shape {
     pub area: Lane,
     /// Hourglass stiffness k \[N/m\]; 0 for an empty lane.
     pub hourglass: Lane,
-    /// Its growth f \[N/m⁹\]; 0 for an empty lane.
-    pub growth: Lane,
     /// Viscosity times area η A \[N m s\]; 0 for an empty lane.
     pub viscosity: Lane,
 }
@@ -60,8 +58,8 @@ pub struct Item {
     pub reference: Reference,
     /// What the law's answer is per, and the share of compression that a film does not carry.
     pub law: [f64; 2],
-    /// Hourglass stiffness k \[N/m\], and its growth f \[N/m⁹\].
-    pub hourglass: [f64; 2],
+    /// Hourglass stiffness \[N/m\].
+    pub hourglass: f64,
     /// Viscosity \[N s/m\].
     pub viscosity: f64,
     /// Whether this patch counts its energy.
@@ -89,8 +87,7 @@ impl Shape {
     /// finite and its forces vanish.
     pub fn pack(items: &[Item]) -> Shape {
         let zero = [0.0; LANES];
-        let mut shape =
-            Shape { b: [[zero; 2]; 2], s: [zero; 2], area: zero, hourglass: zero, growth: zero, viscosity: zero };
+        let mut shape = Shape { b: [[zero; 2]; 2], s: [zero; 2], area: zero, hourglass: zero, viscosity: zero };
         for lane in 0..LANES {
             let item = &items[lane.min(items.len() - 1)];
             for a in 0..2 {
@@ -100,7 +97,7 @@ impl Shape {
             }
             if lane < items.len() {
                 shape.area[lane] = item.reference.area;
-                [shape.hourglass[lane], shape.growth[lane]] = item.hourglass;
+                shape.hourglass[lane] = item.hourglass;
                 shape.viscosity[lane] = item.viscosity * item.reference.area;
             }
         }
@@ -116,7 +113,7 @@ impl Shape {
             let size = self.area[lane].sqrt();
             key.extend(self.b.as_flattened().iter().map(|b| steps(b[lane] * size)));
             key.extend(self.s.iter().map(|s| steps(s[lane] / size)));
-            key.extend([self.area, self.hourglass, self.growth, self.viscosity].map(|of| leading_bits(of[lane])));
+            key.extend([self.area, self.hourglass, self.viscosity].map(|of| leading_bits(of[lane])));
         }
         key
     }

@@ -4,8 +4,8 @@
 //!
 //! ```text
 //! E = ½(FᵀF − 1)        S = ∂W/∂E + (η/Δt) ΔE          T_a = A Σ_b S_ab F_b
-//! q = ¼(h·x − Σ s_a F_a)     g_a = F_a·q     U_h of [`super::hourglass`]     k_a = ∂U_h/∂g_a     T_a += k_a q
-//! f_n = −Σ_a B_na T_a − γ_n Σ k_a F_a  + p ∫ N_n n dA
+//! q = ¼(h·x − Σ s_a F_a)     g_a = F_a·q     U_h = ½ k (g₁² + g₂²)     T_a += k g_a q     G = k Σ g_a F_a
+//! f_n = −Σ_a B_na T_a − γ_n G  + p ∫ N_n n dA
 //! ∫ N_n n dA = a×b + ⅓ ξ_n a×c + ⅓ η_n c×b,   a = ∂x/∂ξ, b = ∂x/∂η at the centre, c = ¼ h·x
 //! ```
 //!
@@ -152,16 +152,11 @@ fn quad<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
     let (s1, s2) = (V::load(simd, &shape.s[0], part), V::load(simd, &shape.s[1], part));
     let q = axes!(k => V::all(simd, 0.25) * (h[k] - s1 * f1[k] - s2 * f2[k]));
     let (g1, g2) = (inner(f1, q), inner(f2, q));
-    let square = g1 * g1 + g2 * g2;
-    let fourth = square * square;
-    let (linear, growth) =
-        (V::load(simd, &shape.hourglass, part), V::load(simd, &shape.growth, part) * (fourth * fourth));
-    let stiffness = linear + growth;
+    let stiffness = V::load(simd, &shape.hourglass, part);
     let (k1, k2) = (stiffness * g1, stiffness * g2);
     if BOOKS {
         (V::load(simd, &tally.membrane, part) + own * amount * w).store(&mut tally.membrane, part);
-        (V::load(simd, &tally.hourglass, part)
-            + own * square * (V::all(simd, 0.5) * linear + V::all(simd, 0.1) * growth))
+        (V::load(simd, &tally.hourglass, part) + V::all(simd, 0.5) * own * (k1 * g1 + k2 * g2))
             .store(&mut tally.hourglass, part);
     }
 

@@ -9,7 +9,6 @@ pub mod chamber;
 pub mod edge;
 pub mod fields;
 pub mod group;
-mod hourglass;
 mod kernel;
 pub(crate) mod lanes;
 mod law;
@@ -43,8 +42,8 @@ pub struct Element {
     pub part: usize,
     /// Reference data.
     pub reference: Reference,
-    /// k \[N/m\] and f \[N/m⁹\] of [`hourglass`].
-    pub hourglass: [f64; 2],
+    /// Hourglass stiffness k \[N/m\].
+    pub hourglass: f64,
 }
 
 impl Element {
@@ -91,7 +90,7 @@ impl Sheet {
         let fabrics = sections.iter().map(fabric_of).collect::<Result<Vec<Arc<dyn Fabric>>, FemError>>()?;
         let weight = |s: &Section| s.density_kg_m3 * s.plies.iter().map(|p| p.fabric.thickness_m()).sum::<f64>();
         let areal_density: Vec<f64> = sections.iter().map(weight).collect();
-        let elements = elements(mesh, sections, &fabrics, chambers, settings);
+        let elements = elements(mesh, sections, &fabrics, settings);
         let stiffness: Vec<f64> = sections.iter().map(reference::bending_stiffness).collect();
         let bending = BendingMatrix::new(mesh.points.len(), &bending::curvature_rows(mesh, &stiffness));
         let mut sheet = Sheet {
@@ -315,33 +314,29 @@ fn key_of(fabric: usize, part: &crate::mesh::Part, chambers: &[Chamber]) -> Resu
     Ok(Key { corners: 4, fabric, front: find(&part.front)?, back: find(&part.back)? })
 }
 
-fn elements(
-    mesh: &Mesh,
-    sections: &[Section],
-    fabrics: &[Arc<dyn Fabric>],
-    chambers: &[Chamber],
-    settings: &Settings,
-) -> Vec<Element> {
+fn elements(mesh: &Mesh, sections: &[Section], fabrics: &[Arc<dyn Fabric>], settings: &Settings) -> Vec<Element> {
     let mut all = Vec::with_capacity(mesh.elements());
-    let mut areas = vec![0.0; mesh.parts.len()];
     for (p, part) in mesh.parts.iter().enumerate() {
         // One ply: its axes are the element's. Several: the laminate turns each into the part's axes.
         let angle = if sections[p].plies.len() == 1 { sections[p].plies[0].angle_rad } else { 0.0 };
+        let stiffness = mean_stiffness(&*fabrics[p]);
         for i in 0..part.len() {
             let nodes = part.nodes(i);
             let corner: Vec<[f64; 3]> = nodes.iter().map(|n| mesh.free_of(*n as usize)).collect();
             let reference = Reference::new(&corner, part.warp_of(i), angle);
+            let hourglass = if nodes.len() == 4 { hourglass(&reference, settings.hourglass * stiffness) } else { 0.0 };
             let node = std::array::from_fn(|k| nodes[k.min(nodes.len() - 1)]);
-            areas[p] += reference.area;
-            all.push(Element { node, corners: nodes.len(), part: p, reference, hourglass: [0.0; 2] });
+            all.push(Element { node, corners: nodes.len(), part: p, reference, hourglass });
         }
     }
-    let stiffness: Vec<f64> = fabrics.iter().map(|fabric| mean_stiffness(&**fabric)).collect();
-    let h = hourglass::coefficients(mesh, chambers, settings.hourglass, &areas, &stiffness);
-    for element in all.iter_mut().filter(|element| element.corners == 4) {
-        element.hourglass = hourglass::of_element(&element.reference, h[element.part], stiffness[element.part]);
-    }
     all
+}
+
+/// k = 4 hg A·λ_max(Σ B Bᵀ)·A₁₁: hg = ⅓ would be the stiffness of a fully integrated square.
+fn hourglass(reference: &Reference, stiffness: f64) -> f64 {
+    let [g11, g22, g12] = reference.metric(4);
+    let largest = 0.5 * (g11 + g22) + (0.25 * (g11 - g22) * (g11 - g22) + g12 * g12).sqrt();
+    4.0 * stiffness * reference.area * largest
 }
 
 /// Runs `job` over all patches with their slices of `force`, in parallel.

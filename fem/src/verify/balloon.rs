@@ -73,6 +73,7 @@ fn inflate(fabric: Arc<dyn Fabric>, n: usize) -> Result<[f64; 3], FemError> {
     let mesh = generate::disc_balloon(RADIUS_M, n)?;
     let mut problem = Problem::new("Mylar balloon", mesh, vec![sheet.clone(), sheet], vec![air]);
     problem.settings.mass_damping_1_s = 300.0;
+    problem.settings.hourglass = 0.001;
     problem.settings.imperfection = 0.01;
     let mut run = Simulation::new(&problem)?;
     advance(&mut run, 0.06)?;

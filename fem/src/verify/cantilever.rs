@@ -226,7 +226,7 @@ fn problem(mesh: Mesh, hourglass: f64, deflections_m: &[f64]) -> Problem {
     problem.supports =
         vec![hold("base_cap", [true; 3]), Support { set: "hung".into(), axes: [false, false, true], motion }];
     problem.settings.mass_damping_1_s = 500.0;
-    problem.settings.hourglass = Some(hourglass);
+    problem.settings.hourglass = hourglass;
     problem.settings.imperfection = 1e-3;
     problem
 }

@@ -158,7 +158,7 @@ fn blown(pouch: &Pouch) -> Result<[f64; 2], FemError> {
     problem.supports = vec![hold("end_0", [true; 3])];
     problem.rigid = vec![Rigid { set: "end_1".into() }];
     problem.settings.mass_damping_1_s = 100.0;
-    problem.settings.hourglass = Some(5e-4);
+    problem.settings.hourglass = 5e-4;
     problem.settings.imperfection = 1e-3;
     problem.settings.end_s = 0.15;
     let run = settle(&problem)?;

@@ -97,7 +97,7 @@ fn widened(along: usize) -> Result<Vec<[f64; 2]>, FemError> {
     problem.supports = vec![hold("base_clamp", [true; 3])];
     problem.rigid = vec![Rigid { set: "tip_clamp".into() }];
     // Hourglass control grows with the square of the elements' aspect, here up to 20, and would act as a tension.
-    problem.settings.hourglass = Some(1e-4);
+    problem.settings.hourglass = 1e-4;
     problem.settings.mass_damping_1_s = 1.2e4;
     problem.settings.end_s = 2.5e-3;
     let x = settle(&problem)?.positions();

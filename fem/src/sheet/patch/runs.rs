@@ -115,7 +115,7 @@ mod tests {
             node: n.to_vec(),
             reference,
             law: [1.0, 0.0],
-            hourglass: [0.0; 2],
+            hourglass: 0.0,
             viscosity: 0.0,
             own: true,
             part: 0,
