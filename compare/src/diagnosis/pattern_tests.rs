@@ -149,16 +149,6 @@ fn an_effect_by_its_own_formula_is_at_no_distance_from_the_catalogue_and_far_fro
     assert!((closer.base / friction.base / 4.0 - 1.0).abs() < 0.01, "λ grows with the runs: {closer:?} {friction:?}");
 }
 
-#[test]
-fn the_best_of_the_catalogue_is_named_as_a_part_where_it_takes_most_of_the_error_away() {
-    let (data, about) = data::load("fem-cpam", &mut |_, _| {}).unwrap();
-    let options = Options { next_experiment: false, ..Options::default() };
-    let d = diagnose(&shipped_scenario("cpam").unwrap().bare(), &data, about.as_ref(), &options).unwrap();
-    assert_eq!(d.verdict, Some(Verdict::OutOfCatalog));
-    assert!(d.base.systematic_with_added_mm < 0.25 * d.base.systematic_mm && d.added.is_empty());
-    assert!(d.summary.iter().any(|s| s.contains("takes away most of it")), "{:?}", d.summary);
-}
-
 /// By the whitened sum of squares alone `camera_rotation + marker_height` came first on an earlier set of the cPAM, and left 31 mm
 /// of 16.
 #[test]

@@ -174,7 +174,7 @@ fn the_papers_pressures_are_runs_of_their_own_in_its_smooth_steps() {
 #[test]
 fn an_encastre_base_holds_the_row_beside_its_ring() {
     let held = |base: &str| {
-        let (scenario, run) = parsed(&format!("mesh_mm = 8\nbase = \"{base}\"")).unwrap();
+        let (scenario, run) = parsed(&format!("mesh_mm = 8\nbody_ramp_s = 0.2\nbase = \"{base}\"")).unwrap();
         let problem = run.problem(&scenario).unwrap();
         let nodes = &problem.mesh.sets[&problem.supports[0].set];
         let wall =
@@ -190,7 +190,7 @@ fn an_encastre_base_holds_the_row_beside_its_ring() {
 #[test]
 fn the_base_holds_the_filled_body_however_it_is_held() {
     for base in ["pinned", "encastre"] {
-        let (scenario, run) = parsed(&format!("mesh_mm = 8\nbase = \"{base}\"")).unwrap();
+        let (scenario, run) = parsed(&format!("mesh_mm = 8\nbody_ramp_s = 0.2\nbase = \"{base}\"")).unwrap();
         let problem = run.problem(&scenario).unwrap();
         let gauge = crate::robot::Gauge::new(&scenario, &problem).unwrap();
         let mut body = crate::Simulation::new(&problem).unwrap();

@@ -224,13 +224,13 @@ mod tests {
     }
 
     #[test]
-    fn pouches_of_the_stored_epam_hold_one_share_of_the_lens_at_all_pressures() {
+    fn pouches_of_the_stored_epam_hold_six_tenths_of_the_lens_at_all_pressures() {
         let scenario = shipped_scenario("epam").unwrap();
         let [own, ..] = &body_volumes(&scenario, &stored().unwrap())[..] else { panic!() };
         assert!(own.own && own.seeds == 5 && own.states.len() == 6);
         let ensemble = ensemble(&stored().unwrap(), &scenario);
         for v in ensemble.runs.iter().flat_map(|run| volumes(&scenario, run)) {
-            assert!((0.55..0.60).contains(&v.lens_share.unwrap()), "{v:?}");
+            assert!((0.57..0.65).contains(&v.lens_share.unwrap()), "{v:?}");
         }
     }
 
@@ -246,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn no_single_share_of_stroke_and_volume_gives_the_volumes_of_the_stored_epam() {
+    fn the_share_of_stroke_and_volume_that_gives_the_volumes_of_the_stored_epam_rises_with_pressure() {
         let scenario = shipped_scenario("epam").unwrap();
         let ensemble = ensemble(&stored().unwrap(), &scenario);
         let shares: Vec<Option<f64>> = volumes(&scenario, &ensemble.runs[0])
@@ -254,6 +254,7 @@ mod tests {
             .zip(&ensemble.runs[0].states[1..])
             .map(|(v, state)| share_of_both(&scenario, state.turn_rad, v.actuator_cm3))
             .collect();
-        assert!(shares[0].unwrap() < 0.40 && shares[4].unwrap() > 0.50 && shares[5].is_none(), "{shares:?}");
+        let found: Vec<f64> = shares.iter().flatten().copied().collect();
+        assert!(found.len() == 6 && found.is_sorted() && found[0] < 0.47 && found[5] > 0.51, "{shares:?}");
     }
 }
