@@ -109,6 +109,7 @@ const STORED: &[&str] = &[
     include_str!("../../assets/uncertain/spam.json"),
     include_str!("../../assets/uncertain/spam-face.json"),
     include_str!("../../assets/uncertain/spam-seams.json"),
+    include_str!("../../assets/uncertain/cpam.json"),
     include_str!("../../assets/uncertain/epam.json"),
     include_str!("../../assets/uncertain/fpam.json"),
 ];
