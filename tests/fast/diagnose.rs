@@ -129,20 +129,6 @@ fn a_result_is_printed_although_its_report_cannot_be_written() {
     assert!(ran.stderr.contains("cannot write to d") && !ran.stderr.contains("report: "), "{}", ran.stderr);
 }
 
-#[test]
-fn an_answer_that_hangs_on_b_is_passed_on_by_the_ladder() {
-    let folder = Folder::new();
-    folder.run(&["data", "fem", "epam", "--stored", "--body-pressure", "4kPa", "--seed", "22", "--out", "four"]);
-    let answer = folder.run(&["ladder", "epam", "fem-epam", "--also", "four", "--json"]).json("ibr.ladder");
-    assert_eq!(answer["stopped"], "out_of_catalog");
-    assert!(
-        answer["ending"].as_str().unwrap().contains("With B kept at the scenario's 0.00 N·m²"),
-        "{}",
-        answer["ending"]
-    );
-    assert!(answer["kept_bending"]["indistinguishable"].to_string().contains("end_constraint"), "{answer}");
-}
-
 /// A marker out of the picture at the highest pressure, another behind a hand in one run, one that a tracker wrote as NaN.
 #[test]
 fn markers_that_were_lost_are_told_and_the_answer_stays() {

@@ -22,7 +22,10 @@ pub fn refuse(folder: &Folder, args: &[&str], code: i32, words: &[&str]) {
         assert!(message.contains(part), "{args:?}: no `{part}` in: {message}");
     }
     assert!(!message.contains("panicked") && !message.contains("RUST_BACKTRACE"), "{message}");
-    assert!(folder.contents() == before, "{args:?}: files have changed");
+    let after = folder.contents();
+    let changed: Vec<_> =
+        before.iter().filter(|(file, bytes)| after.get(*file) != Some(*bytes)).map(|(file, _)| file).collect();
+    assert!(after == before, "{args:?}: files have changed: {changed:?}, {} were, {} are", before.len(), after.len());
 }
 
 /// A message without the frame and the line breaks that are drawn around it.

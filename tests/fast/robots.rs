@@ -62,11 +62,11 @@ fn wrong_settings_are_refused_before_anything_is_run() {
         (["--mesh", "4"], ["--mesh", "no unit"]),
         (["--mesh", "40mm"], ["elements", "lower actuator_size_m"]),
         (["--set", "bnd=1"], ["unknown key `bnd`", "hourglass"]),
-        (["--set", "model=papers"], ["unknown model", "known: recommended, usual, paper"]),
+        (["--set", "model=papers"], ["unknown model", "known: recommended, paper"]),
         (["--set", "bond=2"], ["bond must be from 0 to 1, not 2", "here"]),
         (["--set", "weld_mm=70"], ["welds of 70 mm every 60 mm overlap", "below 60 mm"]),
     ] {
-        let code = if words[0].starts_with("--") || words[0].starts_with("unknown") { 2 } else { 3 };
+        let code = if words[0].starts_with("--") || words[0].starts_with("unknown key") { 2 } else { 3 };
         refuse(&folder, &[&["simulate", "epam"], &args[..]].concat(), code, &words);
     }
     refuse(&folder, &["simulate", "pillow", "--seeds", "3"], 2, &["--seeds is for robots", "case file"]);

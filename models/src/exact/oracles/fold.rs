@@ -13,7 +13,7 @@ pub fn rows() -> Vec<OracleRow> {
             ("M/√(DT) behind 7.5 √(D/T) of 60 D, 0.5 rad", "3.04125142", behind(0.5)[0]),
             ("M/√(DT) behind 7.5 √(D/T) of 60 D, 1.0 rad", "5.74163142", behind(1.0)[0]),
             ("M/√(DT) behind 7.5 √(D/T) of 60 D, 1.5 rad", "7.74386021", behind(1.5)[0]),
-            ("M/√(DT) where they meet, 1.0 rad", "0.613407", behind(1.0)[1]),
+            ("M/√(DT) where they meet, 1.0 rad", "0.613373", behind(1.0)[1]),
         ],
     )
 }
