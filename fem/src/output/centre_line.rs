@@ -138,6 +138,14 @@ impl CentreLineFile {
         Ok(CentreLineFile { line, table: Table::create(path)? })
     }
 
+    /// Refuses a file that [`CentreLineFile::resume`] refuses, and touches nothing.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn check(path: &Path, line: &CentreLine, times_s: &[f64]) -> Result<(), FemError> {
+        Table::check(path, times_s, line.stations_m.len())
+    }
+
     /// Goes on after the rows of `times_s` \[s\], which the checkpoint knows of; later ones are dropped.
     ///
     /// # Errors

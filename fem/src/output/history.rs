@@ -91,6 +91,14 @@ impl History {
         Ok(History { table: Table::resume(path, times_s, 1)?, probes })
     }
 
+    /// Refuses a file that [`History::resume`] refuses, and touches nothing.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn check(path: &Path, times_s: &[f64]) -> Result<(), FemError> {
+        Table::check(path, times_s, 1)
+    }
+
     /// Adds a row; a step that has a row already is not written again.
     ///
     /// # Errors

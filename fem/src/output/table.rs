@@ -26,25 +26,17 @@ impl Table {
     /// Goes on after the outputs at `times_s` \[s\], of so many rows each, which must be there: later rows, and a last line that a
     /// kill cut short, are dropped. Without any output and without a file it starts one.
     pub fn resume(path: &Path, times_s: &[f64], rows_each: usize) -> Result<Table, FemError> {
-        let there = path.exists();
-        let text =
-            if there { std::fs::read_to_string(path).map_err(|source| io(path, source))? } else { String::new() };
-        let (header, last_step, kept) = cut(&text, times_s, rows_each).map_err(|lost| match lost {
-            Lost::Foreign { line } => FemError::MeshFile {
-                path: path.to_path_buf(),
-                line,
-                message: "not a row as this program writes it, so it cannot go on in this file: move it away".into(),
-            },
-            Lost::Row { time_s } => FemError::Problem(format!(
-                "{} has lost the row of {time_s} s that the interrupted run wrote: put the file back as it was, or start again \
-                 with --force",
-                path.display()
-            )),
-        })?;
-        if kept.len() < text.len() || !there {
+        let text = content(path)?;
+        let (header, last_step, kept) = kept(path, &text, times_s, rows_each)?;
+        if kept.len() < text.len() || !path.exists() {
             replace(path, &mut |out| out.write_all(kept.as_bytes()))?;
         }
         Table::open(path, header.to_string(), last_step)
+    }
+
+    /// Refuses what [`Table::resume`] refuses, and touches nothing.
+    pub fn check(path: &Path, times_s: &[f64], rows_each: usize) -> Result<(), FemError> {
+        kept(path, &content(path)?, times_s, rows_each).map(|_| ())
     }
 
     fn open(path: &Path, header: String, last_step: Option<u64>) -> Result<Table, FemError> {
@@ -131,6 +123,31 @@ pub(super) fn check_label(label: &str, what: &str) -> Result<(), FemError> {
 
 fn io(path: &Path, source: Error) -> FemError {
     FemError::Io { path: path.to_path_buf(), source }
+}
+
+fn content(path: &Path) -> Result<String, FemError> {
+    if path.exists() { std::fs::read_to_string(path).map_err(|source| io(path, source)) } else { Ok(String::new()) }
+}
+
+/// Header, last step and rows that an interrupted run goes on after.
+fn kept<'a>(
+    path: &Path,
+    text: &'a str,
+    times_s: &[f64],
+    rows_each: usize,
+) -> Result<(&'a str, Option<u64>, &'a str), FemError> {
+    cut(text, times_s, rows_each).map_err(|lost| match lost {
+            Lost::Foreign { line } => FemError::MeshFile {
+                path: path.to_path_buf(),
+                line,
+                message: "not a row as this program writes it, so it cannot go on in this file: move it away".into(),
+            },
+            Lost::Row { time_s } => FemError::Problem(format!(
+                "{} has lost the row of {time_s} s that the interrupted run wrote: put the file back as it was, or start again \
+                 with --force",
+                path.display()
+            )),
+        })
 }
 
 #[cfg(test)]

@@ -115,10 +115,14 @@ impl<'a> Running<'a> {
         // Outputs of the same step are one row and one frame.
         let mut times_s: Vec<f64> = saved.balances.iter().map(|b| b.time_s).collect();
         times_s.dedup();
-        let history = History::resume(&folder.join("history.csv"), mesh, &case.outputs.probes, &times_s)?;
+        let (history, path) = (folder.join("history.csv"), folder.join("centre_line.csv"));
+        let line = centre_line(case)?;
+        // What is lost is told before anything is cut.
+        History::check(&history, &times_s)?;
+        line.iter().try_for_each(|line| CentreLineFile::check(&path, line, &times_s))?;
         let series = case.outputs.frames.then(|| Series::resume(folder, &times_s)).transpose()?;
-        let path = folder.join("centre_line.csv");
-        let centre_line = centre_line(case)?.map(|line| CentreLineFile::resume(&path, line, &times_s)).transpose()?;
+        let history = History::resume(&history, mesh, &case.outputs.probes, &times_s)?;
+        let centre_line = line.map(|line| CentreLineFile::resume(&path, line, &times_s)).transpose()?;
         let files = Files { folder: folder.into(), history, series, centre_line, fingerprint };
         Ok(Running {
             began: (run.step(), thread_seconds()),
