@@ -20,7 +20,7 @@
 //! | `TimeValue` | frame | time \[s\] |
 //!
 //! Numbers of the frame are f64, all others f32 without the digits that would be noise and not compress: places in steps of at most
-//! 8e-6 of the largest coordinate at the start (1 µm in a robot), other numbers with 11 bits (0.05 % of each value). History and
+//! 8e-6 of the largest coordinate at the start (2 µm in a robot), other numbers with 11 bits (0.05 % of each value). History and
 //! readings have all digits.
 //!
 //! Format: VTK file formats, <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
