@@ -256,13 +256,10 @@ pub struct Simulate {
     /// Robots: another value of a key of [fem], for example bond=0.5; repeatable
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Robots: every assumed number at both ends of its interval, one at a time
-    #[arg(long, conflicts_with_all = ["separate", "seeds"])]
-    pub sensitivity: bool,
     /// Robots: so many robots (30) whose assumed numbers fill their intervals as a Latin hypercube: median and 80 % interval of every
     /// marker, and which number to measure first
     #[arg(long, num_args = 0..=1, default_missing_value = "30", value_name = "ROBOTS",
-          value_parser = clap::value_parser!(u64).range(5..=1000), conflicts_with_all = ["separate", "seeds", "sensitivity"])]
+          value_parser = clap::value_parser!(u64).range(5..=1000), conflicts_with_all = ["separate", "seeds"])]
     pub uncertain: Option<u64>,
 }
 

@@ -37,6 +37,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use spelling::Exactly;
 use toml::Spanned;
 
 use crate::error::{DataError, Fault};
@@ -242,7 +243,7 @@ struct RawAbout {
     direct: Direct,
     bending: Option<RawBending>,
     #[serde(default)]
-    measured: BTreeMap<String, BTreeMap<String, Spanned<[f64; 2]>>>,
+    measured: BTreeMap<String, BTreeMap<String, Spanned<Exactly<2>>>>,
     #[serde(default)]
     run: Vec<RawRun>,
 }
@@ -269,7 +270,7 @@ struct RawMarkers {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawGravity {
-    direction: Spanned<[f64; 2]>,
+    direction: Spanned<Exactly<2>>,
 }
 
 #[derive(Deserialize)]
@@ -283,6 +284,6 @@ struct RawBending {
 #[serde(deny_unknown_fields)]
 struct RawRun {
     id: Spanned<String>,
-    tip_force_n: Option<Spanned<[f64; 2]>>,
+    tip_force_n: Option<Spanned<Exactly<2>>>,
     session: Option<String>,
 }

@@ -1,4 +1,27 @@
-//! Names people type: the nearest known one for a misspelling.
+//! What people type: the nearest known name for a misspelling, rows of exactly so many numbers.
+
+use serde::{Deserialize, Deserializer, de::Error};
+use std::ops::Deref;
+
+/// So many numbers, neither more nor fewer: an array of a TOML file would drop what is too much without a word.
+#[derive(Debug, Clone, Copy)]
+pub struct Exactly<const N: usize>(pub [f64; N]);
+
+impl<'de, const N: usize> Deserialize<'de> for Exactly<N> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let given = Vec::<f64>::deserialize(from)?;
+        let count = given.len();
+        let fault = |_| D::Error::custom(format!("{N} numbers are needed here, not {count}"));
+        given.try_into().map(Exactly).map_err(fault)
+    }
+}
+
+impl<const N: usize> Deref for Exactly<N> {
+    type Target = [f64; N];
+    fn deref(&self) -> &[f64; N] {
+        &self.0
+    }
+}
 
 /// The name nearest to `wrong` by edit distance, if it is near enough to be a slip.
 pub fn nearest<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {

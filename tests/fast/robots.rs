@@ -60,7 +60,7 @@ fn wrong_settings_are_refused_before_anything_is_run() {
         (["--pressure", "1kPa"], ["1 kPa in a body at 2 kPa", "raise the actuator pressure"]),
         (["--pressure", "10"], ["--pressure", "no unit"]),
         (["--mesh", "4"], ["--mesh", "no unit"]),
-        (["--mesh", "40mm"], ["elements", "lower actuator_size_m"]),
+        (["--mesh", "40mm"], ["elements", "lower actuator_mesh_mm from 40"]),
         (["--set", "bnd=1"], ["unknown key `bnd`", "hourglass"]),
         (["--set", "model=papers"], ["unknown model", "known: recommended, paper"]),
         (["--set", "bond=2"], ["bond must be from 0 to 1, not 2", "here"]),

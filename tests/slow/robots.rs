@@ -89,23 +89,24 @@ fn an_interrupted_robot_goes_on_to_the_same_end() {
 }
 
 #[test]
-fn sensitivity_tells_what_each_assumed_number_does_and_which_do_nothing_here() {
+fn a_hypercube_tells_intervals_and_weights_goes_on_and_leaves_what_is_known_alone() {
     let _alone = alone();
     let folder = Folder::new();
-    let answer = simulate(&folder, &["--sensitivity", "--out", "s"]);
-    let runs = answer["runs"].as_array().unwrap();
-    assert_eq!(runs.len(), 1 + 2 * fem::robot::ASSUMED.len());
-    let base = answer["tip_mm"].as_f64().unwrap();
-    let tip = |name: &str| {
-        let run = runs.iter().find(|r| r["run"].as_str().unwrap().starts_with(name)).unwrap();
-        run["heights"][0]["tip_mm"].as_f64().unwrap()
-    };
-    assert_eq!(tip("glue_mm"), base, "an ePAM has no glue");
-    assert_ne!(tip("bending_factor"), base);
-    assert!(
-        folder.path("s/tornado.png").exists()
-            && std::fs::read_to_string(folder.path("s/table.csv")).unwrap().contains("bending_factor=0.02")
-    );
+    let robots = |more: &[&str]| simulate(&folder, &[&["--uncertain", "12", "--out", "u"], more].concat());
+    let first = robots(&["--set", "weld_mm=3"]);
+    let names: Vec<&str> = first["numbers"].as_array().unwrap().iter().map(|n| n["name"].as_str().unwrap()).collect();
+    assert!(names.contains(&"bending_factor") && !names.contains(&"glue_mm"), "an ePAM has no glue: {names:?}");
+    assert!(!names.contains(&"weld_mm"), "its width is known");
+    let tip = &first["pressures"][0]["markers_mm"].as_array().unwrap().last().unwrap()[1];
+    let [low, middle, high] = [0, 1, 2].map(|k| tip[k].as_f64().unwrap());
+    assert!(low < middle && middle < high, "{tip}");
+    assert_eq!(first["weights"].as_array().unwrap().len(), names.len());
+    let record = || std::fs::read(folder.path("u/uncertain.json")).unwrap();
+    let kept = record();
+    assert!(folder.path("u/markers.png").exists() && folder.path("u/tornado.png").exists());
+    std::fs::remove_dir_all(folder.path("u/robot-3")).unwrap();
+    assert_eq!(robots(&["--set", "weld_mm=3"]), first, "one run is made again, the others are kept");
+    assert!(record() == kept);
 }
 
 #[test]

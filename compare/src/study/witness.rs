@@ -273,9 +273,9 @@ fn meeting(w: &Witness) -> String {
     let first = match (&met[..], &missed[..]) {
         ([_], []) => "They meet the measurement at the one shared pressure, which decides little.".into(),
         (_, []) => "They meet the measurement at every shared pressure: what is missing can be among what they contain.".into(),
-        ([], _) => "They miss it everywhere: the robot is not the one they were given, one of their assumed numbers is wrong (`ibr simulate ROBOT --sensitivity`), or what is missing is something they lack too.".into(),
+        ([], _) => "They miss it everywhere: the robot is not the one they were given, one of their assumed numbers is wrong (`ibr simulate ROBOT --uncertain`), or what is missing is something they lack too.".into(),
         _ => format!(
-            "They meet the measurement at {} kPa and miss it at {} kPa: they lack something too, or one of their assumed numbers is wrong (`ibr simulate ROBOT --sensitivity`).",
+            "They meet the measurement at {} kPa and miss it at {} kPa: they lack something too, or one of their assumed numbers is wrong (`ibr simulate ROBOT --uncertain`).",
             list(&met),
             list(&missed)
         ),

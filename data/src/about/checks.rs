@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use spelling::Exactly;
 use toml::Spanned;
 
 use super::{AboutRun, Geometry, MarkerStation, MeasuredValue, RawBending, RawGeometry, RawMarkers, RawRun};
@@ -82,8 +83,8 @@ impl Check<'_> {
         Ok(names.iter().zip(s_mm).map(pair).collect())
     }
 
-    pub fn direction(&self, value: &Spanned<[f64; 2]>) -> Result<[f64; 2], DataError> {
-        let direction = *value.get_ref();
+    pub fn direction(&self, value: &Spanned<Exactly<2>>) -> Result<[f64; 2], DataError> {
+        let direction = **value.get_ref();
         // Written so that NaN is refused as well.
         if (direction[0].hypot(direction[1]) - 1.0).abs() <= 1e-3 {
             return Ok(direction);
@@ -108,12 +109,12 @@ impl Check<'_> {
 
     pub fn measured(
         &self,
-        raw: BTreeMap<String, BTreeMap<String, Spanned<[f64; 2]>>>,
+        raw: BTreeMap<String, BTreeMap<String, Spanned<Exactly<2>>>>,
     ) -> Result<Vec<MeasuredValue>, DataError> {
         let mut all = Vec::new();
         for (effect, parameters) in raw {
             for (key, pair) in parameters {
-                let [value, sd] = *pair.get_ref();
+                let [value, sd] = **pair.get_ref();
                 // Nothing is measured better than to a thousandth: such a number would overrule all markers.
                 if !(value.is_finite() && sd.is_finite() && sd > 0.0 && sd >= 1e-3 * value.abs()) {
                     let help = "write [value, standard deviation], the latter from repeats of the test";
@@ -134,7 +135,7 @@ impl Check<'_> {
             if runs.iter().any(|known| known.id == *run.id.get_ref()) {
                 return Err(self.fault("id", &run.id, "this run is there twice", "describe every run once"));
             }
-            let tip_force_n = run.tip_force_n.as_ref().map_or([0.0; 2], |force| *force.get_ref());
+            let tip_force_n = run.tip_force_n.as_ref().map_or([0.0; 2], |force| **force.get_ref());
             if let Some(force) = run.tip_force_n.as_ref().filter(|_| !tip_force_n.iter().all(|f| f.is_finite())) {
                 return Err(self.fault("tip_force_n", force, "must be two finite numbers", "give [fx, fy] in newton"));
             }

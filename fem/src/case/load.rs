@@ -9,6 +9,7 @@ use crate::mesh::Mesh;
 use crate::problem::{
     Amplitude, Chamber, Contact, Gravity, NodalForce, Obstacle, ObstacleShape, Pressure, Rigid, Support,
 };
+use spelling::Exactly;
 use std::collections::BTreeSet;
 use toml::Spanned;
 
@@ -138,10 +139,10 @@ fn motion(raw: &RawSupport) -> Checked<Option<[Amplitude; 3]>> {
             return refuse("a smooth and a linear motion at once", "keep one of the two", second.span());
         }
     };
-    let times: Vec<f64> = rows.get_ref().iter().map(|r| r[0]).collect();
+    let times: Vec<f64> = rows.get_ref().iter().map(|r| r.0[0]).collect();
     rising(&times, rows.span())?;
     let axis = |k: usize| -> Checked<Amplitude> {
-        let point = |r: &[f64; 4]| Ok((r[0], number("a displacement", r[k], rows.span(), &POSITION)?));
+        let point = |Exactly(r): &Exactly<4>| Ok((r[0], number("a displacement", r[k], rows.span(), &POSITION)?));
         let points = rows.get_ref().iter().map(point).collect::<Checked<Vec<_>>>()?;
         Ok(if smooth { Amplitude::Smooth(points) } else { Amplitude::Linear(points) })
     };

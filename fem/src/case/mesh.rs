@@ -4,7 +4,7 @@ use super::ReadMesh;
 use super::law::plain_number;
 use super::range::{Checked, LENGTH, Range, number, plain, refuse, unknown_name};
 use super::raw::{Free, Text};
-use crate::mesh::check::check_open;
+use crate::mesh::check::{check_open, rim};
 use crate::mesh::generate::{self, Around, Cap, Tube};
 use crate::problem::Chamber;
 use crate::{FemError, Mesh};
@@ -181,15 +181,42 @@ pub(super) fn mesh(table: &Spanned<Free>, read_mesh: ReadMesh) -> Checked<Mesh> 
 /// Refuses a mesh that cannot be simulated: bad elements, chambers that leak.
 pub(super) fn check(table: &Spanned<Free>, mesh: &Mesh, chambers: &[Chamber]) -> Checked<()> {
     let names: Vec<&str> = chambers.iter().map(|c| c.name.as_str()).collect();
-    // Where a chamber may be open, its edges must lie in planes; which sets they belong to does not matter.
-    let open: Vec<&str> = match chambers.iter().any(|c| c.open_axis.is_some()) {
-        true => mesh.sets.keys().map(String::as_str).collect(),
-        false => Vec::new(),
-    };
-    match check_open(mesh, &names, &open) {
-        Err(FemError::Mesh(message)) => Err(FemError::Case { message, span: Some(table.span()) }),
+    match check_open(mesh, &names, &open_at(mesh, chambers)) {
+        Err(FemError::Mesh(message)) => {
+            // Every set may be an opening: does the mesh close then?
+            let all: Vec<&str> = mesh.sets.keys().map(String::as_str).collect();
+            let opens = chambers.iter().all(|c| c.open_axis.is_none()) && check_open(mesh, &names, &all).is_ok();
+            let axis = if opens { open_axis(mesh, &names) } else { None };
+            let help = axis.map_or(String::new(), |(chamber, axis)| {
+                format!("\nit is open between planes: write open_axis = \"{axis}\" in [chamber.{chamber}]")
+            });
+            Err(FemError::Case { message: message + &help, span: Some(table.span()) })
+        }
         other => other.map(|_| ()),
     }
+}
+
+/// Sets at which chambers may be open: where one may be, its edges must lie in planes, and which sets they belong to does not matter.
+pub(super) fn open_at<'a>(mesh: &'a Mesh, chambers: &[Chamber]) -> Vec<&'a str> {
+    match chambers.iter().any(|c| c.open_axis.is_some()) {
+        true => mesh.sets.keys().map(String::as_str).collect(),
+        false => Vec::new(),
+    }
+}
+
+/// The first chamber with open edges, and the axis that they are perpendicular to.
+fn open_axis<'a>(mesh: &Mesh, chambers: &[&'a str]) -> Option<(&'a str, char)> {
+    chambers.iter().find_map(|name| {
+        let rim = rim(mesh, name);
+        let flat = |k: usize| {
+            // Two planes: every node at one end or the other.
+            let along = || rim.iter().map(|n| mesh.start_of(*n as usize)[k]);
+            let (low, high) = (along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max));
+            along().all(|x| (x - low).min(high - x) <= 1e-6 * (high - low))
+        };
+        let axis = (0..3).find(|k| !rim.is_empty() && flat(*k))?;
+        Some((*name, ['x', 'y', 'z'][axis]))
+    })
 }
 
 /// A text of the table, if it is there.
@@ -211,8 +238,31 @@ fn from_file(table: &Spanned<Free>, file: &Text, read_mesh: ReadMesh) -> Checked
             refuse(message, "the path counts from the folder of the case file", file.span())
         }
         Err(FemError::Mesh(message)) => Err(FemError::Case { message, span: Some(file.span()) }),
+        Ok(mesh) => match median_side_m(&mesh) {
+            side if side > LONGEST_SIDE_M => refuse(
+                format!("half of the elements of this mesh have sides over {side:.2} m: it looks like millimetres"),
+                "the file is in metres: divide its coordinates by 1000",
+                file.span(),
+            ),
+            _ => Ok(mesh),
+        },
         other => other,
     }
+}
+
+/// Elements of a mesh in metres are smaller \[m\].
+const LONGEST_SIDE_M: f64 = 0.5;
+
+fn median_side_m(mesh: &Mesh) -> f64 {
+    let mut sides: Vec<f64> = Vec::new();
+    for part in &mesh.parts {
+        for nodes in (0..part.len()).map(|i| part.nodes(i)) {
+            let [a, b] = [nodes[0], nodes[1]].map(|n| mesh.points[n as usize]);
+            sides.push((0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt());
+        }
+    }
+    sides.sort_by(f64::total_cmp);
+    sides.get(sides.len() / 2).copied().unwrap_or(0.0)
 }
 
 fn generated(table: &Spanned<Free>, name: &Text) -> Checked<Mesh> {

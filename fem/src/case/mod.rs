@@ -107,8 +107,7 @@ impl Case {
         let sections = section::sections(&raw, &mesh)?;
         let outputs = settings::outputs(&raw.output, &mesh)?;
         let supports = load::supports(&raw, &mut mesh)?;
-        // Generators name cuts by planes of symmetry open_…; a mesh file may do the same.
-        let open = mesh.sets.keys().filter(|name| name.starts_with("open_")).cloned().collect();
+        let open = mesh::open_at(&mesh, &chambers).into_iter().map(String::from).collect();
         let problem = Problem {
             name: raw.name.clone(),
             open,

@@ -3,6 +3,7 @@
 use super::raw::{Num, Points, unknown};
 use crate::FemError;
 use crate::problem::Amplitude;
+use spelling::Exactly;
 use std::ops::Range as Span;
 use toml::Spanned;
 
@@ -112,14 +113,14 @@ pub(crate) fn optional(key: &str, value: &Option<Num>, range: &Range) -> Checked
 }
 
 /// Three coordinates in SI.
-pub(crate) fn vector(key: &str, value: &Spanned<[f64; 3]>, range: &Range) -> Checked<[f64; 3]> {
-    let [x, y, z] = *value.get_ref();
+pub(crate) fn vector(key: &str, value: &Spanned<Exactly<3>>, range: &Range) -> Checked<[f64; 3]> {
+    let Exactly([x, y, z]) = *value.get_ref();
     let one = |v: f64| number(key, v, value.span(), range);
     Ok([one(x)?, one(y)?, one(z)?])
 }
 
 /// A direction: three numbers, not all zero.
-pub(crate) fn direction(key: &str, value: &Spanned<[f64; 3]>) -> Checked<[f64; 3]> {
+pub(crate) fn direction(key: &str, value: &Spanned<Exactly<3>>) -> Checked<[f64; 3]> {
     let v = vector(key, value, &plain(-1e6, 1e6, "for example [0, 0, 1]"))?;
     match v.iter().all(|x| x.abs() < 1e-9) {
         true => refuse(format!("{key} has no direction: {v:?}"), "write for example [0, 0, 1]", value.span()),
@@ -139,7 +140,7 @@ pub(crate) fn amplitude(smooth: &Option<Points>, linear: &Option<Points>, range:
 
 /// (time, value) rows in SI, times rising.
 fn curve(points: &Points, range: &Range) -> Checked<Vec<(f64, f64)>> {
-    let rows: Vec<(f64, f64)> = points.get_ref().iter().map(|p| (p[0], p[1])).collect();
+    let rows: Vec<(f64, f64)> = points.get_ref().iter().map(|Exactly([t, v])| (*t, *v)).collect();
     let times: Vec<f64> = rows.iter().map(|r| r.0).collect();
     rising(&times, points.span())?;
     rows.iter().map(|(t, v)| Ok((*t, number("the second number of a row", *v, points.span(), range)?))).collect()

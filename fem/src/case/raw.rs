@@ -3,13 +3,14 @@
 use super::range::{Checked, nearest};
 use crate::FemError;
 use serde::Deserialize;
+use spelling::Exactly;
 use std::collections::BTreeMap;
 use toml::Spanned;
 
 pub(crate) type Num = Spanned<f64>;
 pub(crate) type Text = Spanned<String>;
 /// Rows of (time \[s\], value).
-pub(super) type Points = Spanned<Vec<[f64; 2]>>;
+pub(super) type Points = Spanned<Vec<Exactly<2>>>;
 /// A table whose keys depend on one of its values: a mesh generator, a fabric law.
 pub(crate) type Free = BTreeMap<Text, Spanned<toml::Value>>;
 
@@ -86,8 +87,8 @@ pub(super) struct RawSupport {
     pub set: Text,
     pub axes: Option<Text>,
     pub encastre: Option<bool>,
-    pub smooth_s_mm: Option<Spanned<Vec<[f64; 4]>>>,
-    pub linear_s_mm: Option<Spanned<Vec<[f64; 4]>>>,
+    pub smooth_s_mm: Option<Spanned<Vec<Exactly<4>>>>,
+    pub linear_s_mm: Option<Spanned<Vec<Exactly<4>>>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -100,7 +101,7 @@ pub(super) struct RawRigid {
 #[serde(deny_unknown_fields)]
 pub(super) struct RawForce {
     pub set: Text,
-    pub total_n: Spanned<[f64; 3]>,
+    pub total_n: Spanned<Exactly<3>>,
     pub smooth_s: Option<Points>,
     pub linear_s: Option<Points>,
 }
@@ -108,7 +109,7 @@ pub(super) struct RawForce {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawGravity {
-    pub g_m_s2: Spanned<[f64; 3]>,
+    pub g_m_s2: Spanned<Exactly<3>>,
     pub smooth_s: Option<Points>,
     pub linear_s: Option<Points>,
 }
@@ -117,9 +118,9 @@ pub(super) struct RawGravity {
 #[serde(deny_unknown_fields)]
 pub(super) struct RawObstacle {
     pub shape: Text,
-    pub point_mm: Spanned<[f64; 3]>,
-    pub normal: Option<Spanned<[f64; 3]>>,
-    pub axis: Option<Spanned<[f64; 3]>>,
+    pub point_mm: Spanned<Exactly<3>>,
+    pub normal: Option<Spanned<Exactly<3>>>,
+    pub axis: Option<Spanned<Exactly<3>>>,
     pub radius_mm: Option<Num>,
     pub friction: Option<Num>,
 }
@@ -168,7 +169,7 @@ pub(super) struct RawOutput {
     pub stations_mm: Vec<Num>,
     #[serde(default)]
     pub station_parts: Vec<Text>,
-    pub station_axis: Option<Spanned<[f64; 3]>>,
+    pub station_axis: Option<Spanned<Exactly<3>>>,
     pub frames: Option<bool>,
     pub pictures: Option<bool>,
     pub view: Option<Text>,
@@ -195,6 +196,8 @@ fn explain(message: &str) -> String {
         "write a plain number without quotation marks; the unit is in the name of the key"
     } else if message.contains("expected i64") {
         "write a whole number without quotation marks"
+    } else if message.contains("numbers are needed here") {
+        "a row of a curve is time and value, one of a motion time, x, y, z, a vector x, y, z"
     } else if message.contains("missing field `kind`") {
         "a finite element case begins with kind = \"fem\""
     } else {

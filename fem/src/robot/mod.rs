@@ -205,7 +205,7 @@ fn rows(lines: &Lines, pattern: &Pattern, settings: &RobotSettings) -> Result<()
         return Ok(());
     }
     Err(FemError::Problem(format!(
-        "robot: a pouch of {fewest} elements; lower actuator_size_m from {} mm or ring_spacing from {} so that it has {FEWEST_ROWS} or more",
+        "robot: a pouch of {fewest} elements; lower actuator_mesh_mm from {} or ring_spacing from {} so that it has {FEWEST_ROWS} or more",
         settings.actuator_size_m * 1e3,
         lines::spacing(pattern, settings)
     )))

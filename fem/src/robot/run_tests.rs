@@ -39,11 +39,11 @@ fn keys_of_the_table_become_settings_in_si_over_the_preset() {
 fn every_key_is_read_back_as_written_and_within_its_bounds() {
     let defaults = RobotSettings::default();
     for key in KEYS {
-        let value = (key.get)(&defaults) / key.si;
-        assert!(value.is_nan() || (key.bounds[0]..=key.bounds[1]).contains(&value), "{}: {value}", key.name);
+        let value = (key.get)(&defaults).map(|value| value / key.si);
+        assert!(value.is_none_or(|v| (key.bounds[0]..=key.bounds[1]).contains(&v)), "{}: {value:?}", key.name);
         let middle = if key.name == "seed" { 3.0 } else { 0.5 * (key.bounds[0] + key.bounds[1]) };
         let (_, run) = parsed(&format!("{} = {middle}", key.name)).unwrap();
-        assert!(((key.get)(&run.settings) / (middle * key.si) - 1.0).abs() < 1e-12, "{}", key.name);
+        assert!(((key.get)(&run.settings).unwrap() / (middle * key.si) - 1.0).abs() < 1e-12, "{}", key.name);
     }
 }
 

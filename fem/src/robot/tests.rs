@@ -203,7 +203,7 @@ fn what_cannot_be_built_or_run_is_refused_with_its_number() {
     let long = refused("epam", |s, _| s.actuator.count = 7);
     assert!(long.contains("7 units that end at 420.0 mm"), "{long}");
     let large = refused("epam", |_, s| s.actuator_size_m = 0.05);
-    assert!(large.contains("lower actuator_size_m from 50 mm"), "{large}");
+    assert!(large.contains("lower actuator_mesh_mm from 50 or"), "{large}");
     let nan = refused("epam", |_, s| s.bond = f64::NAN);
     assert!(nan.contains("bond is NaN; write a number from 0 to 1"), "{nan}");
     let coupling = refused("fpam", |_, s| s.nu12 = Some(0.95));

@@ -1,6 +1,6 @@
 //! Stops for runs whose result cannot be trusted.
 
-use models::{Pose, Row, RowKind, Term};
+use models::{Pose, Term};
 
 use super::{Ledger, Simulation, highest, setup};
 use crate::FemError;
@@ -101,15 +101,11 @@ impl Simulation {
             let each = || self.mesh.points.iter().map(|p| p[k]);
             each().fold(f64::NEG_INFINITY, f64::max) - each().fold(f64::INFINITY, f64::min)
         };
-        let stored = |wanted: &dyn Fn(&Row) -> bool| {
-            let rows = ledger.rows.iter().filter(|r| r.kind == RowKind::Stored && wanted(r));
-            rows.map(|r| r.energy_j.abs()).sum::<f64>()
-        };
         Evidence {
             extent_m: (0..3).map(along).fold(0.0, f64::max),
             forced_dt_s: self.limits.forced_dt_s,
             added_mass: self.limits.added_mass,
-            contact_share: stored(&|r| r.name.contains("contact")) / stored(&|_| true).max(f64::MIN_POSITIVE),
+            contact_share: ledger.share_of(|name| name.contains("contact")),
         }
     }
 

@@ -33,10 +33,25 @@ impl Ledger {
         if self.scale_j > 0.0 { self.residual_j.abs() / self.scale_j } else { 0.0 }
     }
 
-    /// Kinetic energy over stored energy; 0 while nothing is stored.
+    /// Kinetic energy over kinetic and stored energy; 0 while there is none.
     pub fn kinetic_share(&self) -> f64 {
-        let stored = self.rows.iter().filter(|r| r.kind == RowKind::Stored).map(|r| r.energy_j).sum::<f64>();
-        let all = stored + self.kinetic_j;
+        let all = self.stored_j(|_| true) + self.kinetic_j;
         if all > 0.0 { self.kinetic_j / all } else { 0.0 }
+    }
+
+    /// Energy of hourglass control over all stored energy; 0 while nothing is stored.
+    pub fn hourglass_share(&self) -> f64 {
+        self.share_of(|name| name == "hourglass")
+    }
+
+    /// Stored energy of the rows of some names over all stored energy; 0 while nothing is stored.
+    pub(super) fn share_of(&self, wanted: impl Fn(&str) -> bool) -> f64 {
+        let all = self.stored_j(|_| true);
+        if all > 0.0 { self.stored_j(wanted) / all } else { 0.0 }
+    }
+
+    fn stored_j(&self, wanted: impl Fn(&str) -> bool) -> f64 {
+        let rows = self.rows.iter().filter(|r| r.kind == RowKind::Stored && wanted(r.name));
+        rows.map(|r| r.energy_j).sum()
     }
 }

@@ -25,6 +25,8 @@ use crate::{FemError, Mesh};
 
 /// Nodes per parallel chunk.
 const CHUNK: usize = 1024;
+/// Nodes this deep at the start only touch \[m\].
+const TOUCHING_M: f64 = 1e-5;
 
 /// All obstacles of a run.
 #[derive(Debug, Clone)]
@@ -76,6 +78,30 @@ impl Obstacles {
             stored_j: 0.0,
             friction_j: 0.0,
         })
+    }
+    /// Refuses nodes that start inside an obstacle.
+    ///
+    /// # Errors
+    /// [`FemError::Problem`] with the deepest node (from 1), its place, the obstacle (from 1) and what to do.
+    pub fn check(mesh: &Mesh, obstacles: &[Obstacle]) -> Result<(), FemError> {
+        for (number, obstacle) in obstacles.iter().enumerate() {
+            let solid = Solid::new(number, obstacle)?;
+            let depth = |node: usize| {
+                let [x, y, z] = mesh.start_of(node);
+                solid.touch(&[x, y, z, 0.0]).depth_m
+            };
+            let deepest = (0..mesh.points.len()).max_by(|a, b| depth(*a).total_cmp(&depth(*b)));
+            let Some(node) = deepest.filter(|node| depth(*node) > TOUCHING_M) else { continue };
+            let [x, y, z] = mesh.start_of(node).map(|c| c * 1e3);
+            return Err(FemError::Problem(format!(
+                "[[obstacle]] {}: node {} starts {:.3} mm inside it, at ({x:.2}, {y:.2}, {z:.2}) mm. Move the obstacle, or turn the \
+                 normal of a plane to its free side",
+                number + 1,
+                node + 1,
+                depth(node) * 1e3
+            )));
+        }
+        Ok(())
     }
     /// Energy lost to friction so far \[J\].
     pub fn friction_j(&self) -> f64 {

@@ -145,12 +145,13 @@ fn radius(value: &Spanned<f64>) -> Checked<f64> {
 
 fn gravity(body: &Body) -> Checked<[f64; 2]> {
     let Some(direction) = &body.gravity else { return Ok([0.0, -1.0]) };
-    let [x, y] = *direction.get_ref();
-    if ((x * x + y * y) - 1.0).abs() > 1e-3 {
-        let message = format!("gravity must be a unit vector in the x–y plane, not [{x}, {y}]");
-        return refuse(message, "[0, -1] points against the bend, [1, 0] along the robot", direction.span());
+    let [x, y] = **direction.get_ref();
+    // Written so that NaN is refused as well.
+    if (x.hypot(y) - 1.0).abs() <= 1e-3 {
+        return Ok([x, y]);
     }
-    Ok([x, y])
+    let message = format!("gravity must be a unit vector in the x–y plane, not [{x}, {y}]");
+    refuse(message, "[0, -1] points against the bend, [1, 0] along the robot", direction.span())
 }
 
 fn actuator(raw: &Spanned<RawActuator>, length_m: f64) -> Checked<ActuatorChoice> {

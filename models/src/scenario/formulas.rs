@@ -80,7 +80,7 @@ fn checked(key: &Spanned<String>, raw: &RawParameter) -> Checked<FormulaParamete
             "known: 1 or -, %, rad, deg, mN, N, kN, mm, cm, m, Pa, kPa, MPa, J, g, kg, s; for example \"N m/rad^3\"";
         refuse(format!("the unit \"{}\" is not understood at \"{part}\"", raw.unit.get_ref()), help, raw.unit.span())
     })?;
-    let [lower, upper] = *raw.bounds.get_ref();
+    let [lower, upper] = **raw.bounds.get_ref();
     if !(lower.is_finite() && upper.is_finite() && lower < upper) {
         return refuse(
             format!("bounds of {name} must rise, not [{lower}, {upper}]"),

@@ -2,6 +2,7 @@
 
 use crate::error::ScenarioError;
 use serde::Deserialize;
+use spelling::Exactly;
 use std::collections::BTreeMap;
 use toml::Spanned;
 
@@ -42,7 +43,7 @@ pub(super) struct Body {
     pub hinge_curvature_per_m: Option<Num>,
     pub hinge_moment_share: Option<Num>,
     pub centre_line_mm: Option<Num>,
-    pub gravity: Option<Spanned<[f64; 2]>>,
+    pub gravity: Option<Spanned<Exactly<2>>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -108,7 +109,7 @@ pub(super) struct RawParameter {
     pub unit: Spanned<String>,
     pub neutral: Option<Num>,
     pub typical: Num,
-    pub bounds: Spanned<[f64; 2]>,
+    pub bounds: Spanned<Exactly<2>>,
     pub meaning: Option<String>,
 }
 

@@ -11,7 +11,7 @@ use crate::commands::tables::table;
 use crate::commands::together::{shared, together};
 use crate::commands::{Context, Outcome};
 use crate::failure::{Failure, INTERRUPTED};
-use compare::plots::{LineSeries, LineStyle, Lines, Tornado, TornadoBar, lines, tornado};
+use compare::plots::{LineSeries, LineStyle, Lines, lines};
 use fem::robot::Reading;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -47,13 +47,11 @@ pub fn run(
         Ok(rows) => rows,
         Err(done) => return Ok(interrupted(done, cases.len(), &manner.folder)),
     };
-    let sensitivity = matches!(about, About::Sensitivity);
-    let mut outcome = if sensitivity { told(&rows) } else { listed(&rows) };
-    let plot =
-        if sensitivity { ("tornado.png", drawn(&base.spec, &rows)) } else { ("mesh.png", meshes(&base.spec, &rows)) };
-    if let (file, Some(png)) = &plot {
-        data::write_atomically(&manner.folder.join(file), png)?;
-        outcome.notes.push(format!("plot: {}", manner.folder.join(file).display()));
+    let mut outcome = listed(&rows);
+    if let Some(png) = meshes(&base.spec, &rows) {
+        let path = manner.folder.join("mesh.png");
+        data::write_atomically(&path, &png)?;
+        outcome.notes.push(format!("plot: {}", path.display()));
     }
     data::write_atomically(&manner.folder.join("table.csv"), csv(&rows).as_bytes())?;
     outcome.notes.push(format!("table: {}", manner.folder.join("table.csv").display()));
@@ -210,50 +208,6 @@ fn groups(rows: &[Row]) -> Vec<Group> {
         }
     }
     groups
-}
-
-/// Tip at the highest pressure of the first run, and with each assumed number at both ends.
-fn told(rows: &[Row]) -> Outcome {
-    let Some((first, others)) = rows.split_first() else { return Outcome::default() };
-    let base = tip(first);
-    let mut lines = Vec::new();
-    for pair in others.chunks(2) {
-        let value = |row: &Row| row.variation.changes.first().map_or(String::new(), |c| c.1.clone());
-        let [Some(low), Some(high)] = [pair.first(), pair.get(1)] else { continue };
-        let swing = (tip(high) - base).abs().max((tip(low) - base).abs());
-        let swing = if swing == 0.0 { "none".into() } else { format!("{:.1} %", 100.0 * swing / base) };
-        let mm = |row: &Row| format!("{:.1}", tip(row));
-        lines.push(vec![low.variation.group.clone(), value(low), mm(low), value(high), mm(high), swing]);
-    }
-    let mut text =
-        format!("Tip at the highest pressure: {base:.1} mm; with each assumed number at the ends of its interval\n");
-    text.push_str(&table(&["assumed", "from", "tip mm", "to", "tip mm", "largest change"], 1, lines));
-    Outcome::new(text, json!({"schema": "ibr.sensitivity", "version": 1, "tip_mm": base, "runs": as_json(rows)}))
-}
-
-fn tip(row: &Row) -> f64 {
-    row.heights.last().map_or(f64::NAN, |h| h[2])
-}
-
-fn drawn(name: &str, rows: &[Row]) -> Option<Vec<u8>> {
-    let (first, others) = rows.split_first()?;
-    let bar = |pair: &[Row]| {
-        let value = |row: &Row| row.variation.changes.first().map_or(String::new(), |c| c.1.clone());
-        let [low, high] = [pair.first()?, pair.get(1)?];
-        Some(TornadoBar {
-            name: low.variation.group.clone(),
-            ends: [value(low), value(high)],
-            values: [tip(low), tip(high)],
-        })
-    };
-    let bars: Vec<TornadoBar> = others.chunks(2).filter_map(bar).collect();
-    let data = Tornado {
-        title: format!("{name}: what each assumed number does to the tip"),
-        value_label: "tip displacement at the highest pressure [mm]".into(),
-        base: tip(first),
-        bars,
-    };
-    tornado(&data).ok().map(|drawn| drawn.png)
 }
 
 /// Outermost marker over the actuator's element size, a line for every pressure; `None` unless there are several sizes.

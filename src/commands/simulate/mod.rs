@@ -56,7 +56,6 @@ fn default_folder(args: &Simulate, plan: &Plan) -> PathBuf {
     let stem = Path::new(&args.case).file_stem().unwrap_or_default().to_string_lossy();
     let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect();
     let kind = match plan {
-        Plan::Several { about: About::Sensitivity, .. } => "sensitivity",
         Plan::Several { about: About::Uncertain(..), .. } => "uncertain",
         Plan::Several { .. } => "batch",
         Plan::Single(_) => "simulate",

@@ -39,8 +39,6 @@ pub enum Plan {
 pub enum About {
     /// Seeds, meshes, single pressures.
     Table,
-    /// The two ends of every assumed number.
-    Sensitivity,
     /// A hypercube over these numbers, a row of shares for every run; what was set beside it, as typed.
     Uncertain(Vec<Varied>, Vec<Vec<f64>>, Vec<String>),
 }
@@ -69,9 +67,6 @@ pub fn plan(args: &Simulate, named: Named) -> Result<Plan, Failure> {
         common.extend(keys_of(one));
     }
     let base = named.with(&common)?;
-    if args.sensitivity {
-        return sensitivity(base);
-    }
     if let Some(robots) = args.uncertain {
         return uncertain(base, &args.set, robots as usize);
     }
@@ -94,7 +89,6 @@ fn robot_option(args: &Simulate) -> Option<&'static str> {
         ("--seeds", args.seeds.is_some()),
         ("--mesh", args.mesh.is_some()),
         ("--set", !args.set.is_empty()),
-        ("--sensitivity", args.sensitivity),
         ("--uncertain", args.uncertain.is_some()),
     ];
     given.iter().find(|(_, given)| *given).map(|(option, _)| *option)
@@ -179,24 +173,6 @@ fn extended(cases: &[Variation], steps: &[Step]) -> Vec<Variation> {
         group: if *grouping { joined(&case.group, label) } else { case.group.clone() },
     };
     cases.iter().flat_map(|case| steps.iter().map(|step| with(case, step)).collect::<Vec<_>>()).collect()
-}
-
-/// The scenario at its highest pressure, and there with every assumed number at both ends of its interval.
-fn sensitivity(base: Named) -> Result<Plan, Failure> {
-    let (_, run) = base.robot_run()?;
-    let top = rounded(run.settings.actuator_pa * 1e-3);
-    let base = one_mesh(base)?.with(&[("pressures_kpa".to_string(), format!("[{top}]"))])?;
-    let mut cases = vec![Variation { label: "as-it-is".into(), ..Variation::default() }];
-    for unknown in ASSUMED {
-        let Some(key) = key_of(unknown) else { continue };
-        for si in unknown.interval {
-            let value = rounded(si / key.si);
-            let label = format!("{}-{value}", key.name);
-            let changes = vec![(key.name.to_string(), value.to_string())];
-            cases.push(Variation { label, changes, group: key.name.into() });
-        }
-    }
-    Ok(Plan::Several { base, cases, about: About::Sensitivity })
 }
 
 /// One mesh, so that a run's own case.toml is that run and no study.

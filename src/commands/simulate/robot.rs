@@ -93,9 +93,7 @@ impl Watched {
 
     /// For the summary.
     pub fn summary(&self, Robot { scenario, run, .. }: &Robot) -> RobotSummary {
-        let setting = |key: &Key| {
-            (key.name.to_string(), Some(rounded((key.get)(&run.settings) / key.si)).filter(|v| v.is_finite()))
-        };
+        let setting = |key: &Key| (key.name.to_string(), (key.get)(&run.settings).map(|value| rounded(value / key.si)));
         RobotSummary {
             actuator: scenario.actuator.kind.name.into(),
             length_m: scenario.length_m,

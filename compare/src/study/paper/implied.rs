@@ -115,7 +115,7 @@ fn verdict(implied: &Implied, height_mm: f64) -> String {
         let [low, high] = implied.would_mean_mm(height_mm);
         return match height_mm <= implied.at_most_mm {
             true => format!("no y_EXP printed; would mean {low:.0} or {high:.0} measured"),
-            false => format!("misses: above the most that is possible by {:.0} mm", height_mm - implied.at_most_mm),
+            false => format!("misses: above the most that is possible by {:.1} mm", height_mm - implied.at_most_mm),
         };
     };
     let (branch, percent) = (if high { "high" } else { "low" }, 100.0 * off);

@@ -62,6 +62,14 @@ pub(super) fn check(mesh: &Mesh, chambers: &[&str], open: &[&str]) -> Result<Clo
     Ok(closed)
 }
 
+/// Nodes of the edges at which one chamber ends, ties left out.
+pub fn rim(mesh: &Mesh, chamber: &str) -> std::collections::BTreeSet<u32> {
+    let (uses, tied) = (uses(mesh, chamber), tied(mesh));
+    let edges = uses.chunk_by(|a, b| (a.low, a.high) == (b.low, b.high)).filter(|edge| edge.len() == 1);
+    let free = edges.map(|edge| [edge[0].low, edge[0].high]).filter(|ends| !ends.iter().all(|n| tied[*n as usize]));
+    free.flatten().collect()
+}
+
 /// +1 if the element's normal points out of the chamber, −1 if into it, 0 if it does not bound it.
 fn side(part: &Part, chamber: &str) -> f64 {
     let [front, back] = [&part.front, &part.back].map(|name| name.as_deref() == Some(chamber));

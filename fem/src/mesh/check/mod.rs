@@ -15,6 +15,7 @@ mod chamber;
 mod elements;
 mod quality;
 
+pub use chamber::rim;
 pub use quality::{PartCount, Quality, Spread, Worst};
 
 use crate::FemError;
