@@ -191,17 +191,17 @@ impl Side {
         let [a, b] = self.across;
         (a * a * s[0] + b * b * s[1] + 2.0 * a * b * s[2]).max(0.0)
     }
+}
 
-    /// k of this side alone \[N\].
-    fn stiffness_n(&self) -> f64 {
-        let r = 0.5 * self.height_m * (self.tension_n_m / self.stiffness_nm).sqrt();
-        let root = (1.0 + r * r).sqrt();
-        2.0 * self.stiffness_nm / self.height_m * (r + root) / (1.0 + r / (1.0 + root))
-    }
+/// k of one side alone \[N\]: bending stiffness D \[N m\], tension T across the edge \[N/m\], length h of the element \[m\].
+pub(crate) fn edge_stiffness_n(bending_nm: f64, tension_n_m: f64, height_m: f64) -> f64 {
+    let r = 0.5 * height_m * (tension_n_m / bending_nm).sqrt();
+    let root = (1.0 + r * r).sqrt();
+    2.0 * bending_nm / height_m * (r + root) / (1.0 + r / (1.0 + root))
 }
 
 fn in_series(sides: &[Side; 2]) -> f64 {
-    let [a, b] = [sides[0].stiffness_n(), sides[1].stiffness_n()];
+    let [a, b] = [0, 1].map(|k| edge_stiffness_n(sides[k].stiffness_nm, sides[k].tension_n_m, sides[k].height_m));
     a * b / (a + b)
 }
 
