@@ -1,6 +1,7 @@
 //! What people type: the nearest known name for a misspelling, rows of exactly so many numbers.
 
-use serde::{Deserialize, Deserializer, de::Error};
+use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
+use std::fmt;
 use std::ops::Deref;
 
 /// So many numbers, neither more nor fewer: an array of a TOML file would drop what is too much without a word.
@@ -9,10 +10,24 @@ pub struct Exactly<const N: usize>(pub [f64; N]);
 
 impl<'de, const N: usize> Deserialize<'de> for Exactly<N> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let given = Vec::<f64>::deserialize(from)?;
+        from.deserialize_seq(Numbers)
+    }
+}
+
+struct Numbers<const N: usize>;
+
+impl<'de, const N: usize> Visitor<'de> for Numbers<N> {
+    type Value = Exactly<N>;
+    fn expecting(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(to, "an array of length {N}")
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut row: A) -> Result<Exactly<N>, A::Error> {
+        let mut given = Vec::new();
+        while let Some(number) = row.next_element()? {
+            given.push(number);
+        }
         let count = given.len();
-        let fault = |_| D::Error::custom(format!("{N} numbers are needed here, not {count}"));
-        given.try_into().map(Exactly).map_err(fault)
+        given.try_into().map(Exactly).map_err(|_| A::Error::invalid_length(count, &self))
     }
 }
 

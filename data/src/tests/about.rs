@@ -95,6 +95,9 @@ fn each_wrong_value_is_shown_at_its_place() {
         ("[1.5, 0.1]", "[1.5, 0]", "weight_n_per_m: needs a finite value and a standard deviation"),
         ("[1.5, 0.1]", "[nan, 0.1]", "weight_n_per_m: needs a finite value"),
         ("[1.5, 0.1]", "1.5", "expected an array of length 2"),
+        ("[1.5, 0.1]", "[1.5, 0.1, 99]", "invalid length 3, expected an array of length 2"),
+        ("[0, -1]", "[0, -1, 0]", "invalid length 3, expected an array of length 2"),
+        ("[0, 0.3]", "[0, 0.3, 5]", "invalid length 3, expected an array of length 2"),
         ("[0, 0.3]", "[0, inf]", "tip_force_n: must be two finite numbers"),
         ("id = \"2\"", "id = \"1\"", "id: this run is there twice"),
     ];

@@ -196,7 +196,7 @@ fn explain(message: &str) -> String {
         "write a plain number without quotation marks; the unit is in the name of the key"
     } else if message.contains("expected i64") {
         "write a whole number without quotation marks"
-    } else if message.contains("numbers are needed here") {
+    } else if message.contains("an array of length") {
         "a row of a curve is time and value, one of a motion time, x, y, z, a vector x, y, z"
     } else if message.contains("missing field `kind`") {
         "a finite element case begins with kind = \"fem\""
