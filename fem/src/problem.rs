@@ -235,11 +235,13 @@ pub struct Guards {
     pub inverted: bool,
     /// Share of the nodes in contact that may change side of a layer (0.05).
     pub sides: f64,
+    /// Share of the stored energy that hourglass control may hold at the end (0.15).
+    pub hourglass: f64,
 }
 
 impl Default for Guards {
     fn default() -> Guards {
-        Guards { residual: 0.02, residual_floor_j: 1e-6, speed_m_s: 0.0, inverted: true, sides: 0.05 }
+        Guards { residual: 0.02, residual_floor_j: 1e-6, speed_m_s: 0.0, inverted: true, sides: 0.05, hourglass: 0.15 }
     }
 }
 
