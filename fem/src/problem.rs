@@ -162,8 +162,8 @@ pub struct Contact {
     pub thickness_m: f64,
     /// Parts that take part; empty: all.
     pub parts: Vec<String>,
-    /// Sides of elements against sides as well, and no step in which anything passes through anything, at 3 to 4 times the
-    /// CPU time. For layers that start apart: see `contact::edges`.
+    /// Sides of elements against sides as well, and no step in which anything passes through anything, at 8 times the
+    /// CPU time per step. For layers that start apart: see `contact::edges`.
     pub edges: bool,
 }
 
