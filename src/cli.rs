@@ -152,6 +152,9 @@ pub struct Predict {
     /// Find the pressure instead: tip=100mm (height) or angle=60deg (total bend)
     #[arg(long, short, conflicts_with = "pressure")]
     pub inverse: Option<String>,
+    /// How long the robot may grow before gravity and tip_load fold it, straight and at each pressure
+    #[arg(long, conflicts_with_all = ["inverse", "out"])]
+    pub limits: bool,
     /// Add an effect or change its values: name or name:key=value[,key=value]; repeatable
     #[arg(long, short)]
     pub effect: Vec<String>,

@@ -16,6 +16,7 @@ mod engines;
 mod extend;
 mod inputs;
 mod ladder;
+mod limits;
 mod list;
 mod paper;
 mod predict;

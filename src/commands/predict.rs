@@ -2,14 +2,14 @@
 
 use super::inputs::{self, quantity, with_effect};
 use super::tables::table;
-use super::{Context, Outcome};
+use super::{Context, Outcome, limits};
 use crate::cli::Predict;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
 use compare::plots::{ShapePose, Shapes, shapes};
 use compare::study::pages::Files;
 use models::scenario::quantity::{Quantity, parse_pressures};
-use models::{CHANNELS, Loads, Model, Prediction, RowKind, Scenario, Step, Target, TipSlope};
+use models::{Beyond, CHANNELS, Limit, Loads, Model, Prediction, RowKind, Scenario, Step, Target, TipSlope};
 use serde_json::{Value, json};
 
 /// One predicted state, ready to print.
@@ -29,6 +29,9 @@ pub fn run(args: &Predict, context: &mut Context) -> Result<Outcome, Failure> {
     if let Some(text) = &args.body_pressure {
         scenario.p_body_pa = quantity("--body-pressure", text, Quantity::Pressure)?;
     }
+    if args.limits {
+        return limits::run(&args.scenario, &scenario, &wanted(&scenario, args.pressure.as_deref())?);
+    }
     let model = Model::new(&scenario);
     let states = match &args.inverse {
         Some(wanted) => vec![inverse(&model, &scenario, wanted)?],
@@ -40,25 +43,36 @@ pub fn run(args: &Predict, context: &mut Context) -> Result<Outcome, Failure> {
     }
     let mut outcome = Outcome::new(text(&scenario, &states), to_json(&args.scenario, &model, &scenario, &states));
     outcome.notes.extend(above_limit(&scenario, &states));
+    outcome.notes.extend(states.iter().flat_map(|s| beyond_words(&model, s)));
     Ok(outcome)
 }
 
 fn forward(model: &Model, scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<State>, Failure> {
-    let pressures = match pressures {
+    let loads = wanted(scenario, pressures)?;
+    if model.has_history() { path(model, &loads) } else { loads.into_iter().map(|loads| solve(model, loads)).collect() }
+}
+
+/// The pressures of the command line, else of the scenario; a beam has none to be asked for.
+fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<Loads>, Failure> {
+    let mut pressures = match pressures {
         Some(text) => {
             parse_pressures(text).map_err(|m| Failure::usage(format!("--pressure: {m}"), "see ibr predict --help"))?
         }
         None => scenario.pressures_pa.iter().map(|p| [*p; CHANNELS]).collect(),
     };
+    if !scenario.actuator.exists() {
+        if pressures.iter().flatten().any(|p| *p > 0.0) {
+            return Err(Failure::usage("an actuator pressure for a beam without [actuator]", "leave it out"));
+        }
+        pressures = vec![[0.0; CHANNELS]];
+    }
     if pressures.is_empty() {
         return Err(Failure::usage(
             "no pressure given",
             "add --pressure 10kPa,20kPa or [predict] pressures_kpa to the scenario",
         ));
     }
-    let loads: Vec<Loads> =
-        pressures.into_iter().map(|p| Loads { body_pa: scenario.p_body_pa, actuator_pa: p }).collect();
-    if model.has_history() { path(model, &loads) } else { loads.into_iter().map(|loads| solve(model, loads)).collect() }
+    Ok(pressures.into_iter().map(|p| Loads { body_pa: scenario.p_body_pa, actuator_pa: p }).collect())
 }
 
 /// Time for which `ibr predict` holds each pressure of a model with history \[s\]: the hold of the usual protocol.
@@ -93,6 +107,23 @@ fn above_limit(scenario: &Scenario, states: &[State]) -> Option<String> {
         .then(|| format!("warning: {} kPa is above max_pressure_kpa = {} of the scenario", highest / 1e3, limit / 1e3))
 }
 
+/// A note for every stretch of a pose that the robot would not hold.
+fn beyond_words(model: &Model, state: &State) -> Vec<String> {
+    let words = |beyond: Beyond| {
+        let (from, to) = (beyond.start_m * 1e3, (beyond.start_m + beyond.length_m) * 1e3);
+        let what = match beyond.limit {
+            Limit::Collapse => "the loads carry {} times the moment at which the inflated body folds, π p_b R³",
+            Limit::Fold => "κR is {}: the body is bent about its own axis",
+        };
+        let what = what.replace("{}", &format!("{:.2}", beyond.share));
+        format!(
+            "warning: {} kPa, s = {from:.0} to {to:.0} mm: {what}; do not trust this pose",
+            pressure_words(&state.loads)
+        )
+    };
+    model.beyond(&state.loads, &state.prediction).into_iter().map(words).collect()
+}
+
 fn inverse(model: &Model, scenario: &Scenario, wanted: &str) -> Result<State, Failure> {
     let help = "write tip=100mm (height) or angle=60deg (total bend)";
     let target = match wanted.split_once('=') {
@@ -114,10 +145,11 @@ fn text(scenario: &Scenario, states: &[State]) -> String {
             format!("{:.2}", tip.x_m * 1e3),
             format!("{:.2}", tip.y_m * 1e3),
             format!("{:.3}", tip.angle_rad.to_degrees()),
-            format!("{:.3}", total_slope(s) * 1e6),
+            slope_words(total_slope(s) * 1e6),
         ]
     });
-    let mut out = format!("{} at body pressure {} kPa\n", scenario.name, scenario.p_body_pa / 1e3);
+    let mut out =
+        format!("{} at body pressure {} kPa{}\n", scenario.name, scenario.p_body_pa / 1e3, wall_words(scenario));
     out.push_str(&table(&head, 0, rows.collect()));
     if !scenario.markers_m.is_empty() {
         let mut head = vec!["marker at s [mm]".to_string()];
@@ -134,12 +166,26 @@ fn text(scenario: &Scenario, states: &[State]) -> String {
     out
 }
 
+/// A slope; none where a pouch is flat.
+fn slope_words(mm_per_kpa: f64) -> String {
+    if mm_per_kpa.is_nan() { "-".into() } else { format!("{mm_per_kpa:.3}") }
+}
+
+/// What the scenario says of the body's fabric.
+fn wall_words(scenario: &Scenario) -> String {
+    let wall = &scenario.wall;
+    let part = |name: &str, value: Option<f64>| value.map(|v| format!(", {name} {v:.0} N/m"));
+    let parts = [part("E t", wall.stiffness_n_per_m), part("G t", wall.shear_n_per_m)];
+    let parts: String = parts.into_iter().flatten().collect();
+    if parts.is_empty() { parts } else { format!("{parts} ({})", wall.basis) }
+}
+
 /// ∂y/∂P with all channels moved together \[m/Pa\].
 fn total_slope(state: &State) -> f64 {
     state.slopes.iter().map(|s| s.y_per_pa).sum()
 }
 
-fn pressure_words(loads: &Loads) -> String {
+pub(super) fn pressure_words(loads: &Loads) -> String {
     let p = loads.actuator_pa;
     if p.iter().all(|x| *x == p[0]) {
         return format!("{:.3}", p[0] / 1e3);
@@ -180,11 +226,22 @@ fn state_json(model: &Model, scenario: &Scenario, s: &State) -> Value {
             json!({"x_mm_per_kpa": j.x_per_pa * 1e6, "y_mm_per_kpa": j.y_per_pa * 1e6, "angle_deg_per_kpa": angle})
         })
         .collect();
+    let beyond: Vec<Value> = model.beyond(&s.loads, &s.prediction).iter().map(beyond_json).collect();
     json!({
         "p_act_kpa": channels[0], "p_act_channels_kpa": channels, "p_body_kpa": s.loads.body_pa / 1e3,
         "markers": markers,
         "tip": {"x_mm": tip.x_m * 1e3, "y_mm": tip.y_m * 1e3, "angle_deg": tip.angle_rad.to_degrees()},
-        "curvature_per_m": curvature, "segments": segments, "jacobian": slopes, "ledger": ledger,
+        "curvature_per_m": curvature, "segments": segments, "jacobian": slopes, "ledger": ledger, "beyond": beyond,
+    })
+}
+
+fn beyond_json(beyond: &Beyond) -> Value {
+    let limit = match beyond.limit {
+        Limit::Collapse => "collapse",
+        Limit::Fold => "fold",
+    };
+    json!({
+        "limit": limit, "s_mm": beyond.start_m * 1e3, "length_mm": beyond.length_m * 1e3, "share": beyond.share,
     })
 }
 

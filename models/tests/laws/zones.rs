@@ -66,7 +66,7 @@ fn each_channel_drives_its_own_zone() {
         }
         let slopes = model.jacobian(&loads, &mut model.prediction()).unwrap();
         assert!(slopes[2].y_per_pa > 0.0 && slopes[1].y_per_pa == 0.0 && slopes[3].y_per_pa == 0.0);
-        assert!(slopes[0].y_per_pa > slopes[2].y_per_pa, "the idle channel is the steeper one");
+        assert!(slopes[0].y_per_pa.is_nan(), "a flat pouch rises with an infinite slope: none is given");
     }
 }
 
