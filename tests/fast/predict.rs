@@ -93,3 +93,49 @@ fn units_of_one_pressure_give_one_answer() {
         answer["states"].as_array().unwrap().iter().map(|s| s["tip"]["y_mm"].as_f64().unwrap()).collect();
     assert!(heights.iter().all(|y| (y - heights[0]).abs() < 1e-6), "{heights:?}");
 }
+
+#[test]
+fn a_pole_of_a_formula_is_no_equilibrium() {
+    let folder = with_report();
+    let own = "[[formula]]\nname = \"own\"\nmoment = \"A*kappa/(1 - kappa*R*10)\"\n[formula.parameters.A]\nunit = \"N m2\"\n\
+               typical = 0.5\nbounds = [0, 20]\n[effects.own]\nA = 0.5\n";
+    folder.write("pole.toml", format!("{}\n{own}", models::shipped("epam").unwrap()));
+    let words = ["no equilibrium", "the formula own", "kappa = 2.50 1/m"];
+    refuse(&folder, &["predict", "pole.toml", "--pressure", "10kPa", "--out", "report"], 4, &words);
+}
+
+#[test]
+fn an_offset_below_zero_is_continuous_and_the_inverse_gives_what_was_asked() {
+    let found = state(&["predict", "epam", "--effect", "pressure_offset:offset_kpa=-1", "--inverse", "tip=30mm"]);
+    assert!((found["tip"]["y_mm"].as_f64().unwrap() - 30.0).abs() < 1e-6, "{found}");
+}
+
+#[test]
+fn a_pose_beyond_collapse_is_told_and_a_flat_pouch_has_no_slope() {
+    let folder = Folder::new();
+    let beam = "[body]\nradius_mm = 80\nlength_mm = 1000\npressure_kpa = 30\nbending_stiffness_nm2 = 50\n\
+                wall_stiffness_n_per_m = 178000\n[effects.tip_load]\nforce_y_n = -60\nbasis = \"measured\"\n";
+    folder.write("beam.toml", beam);
+    let ran = folder.run(&["predict", "beam.toml"]);
+    assert!(
+        ran.code == 0 && ran.stderr.contains("times the moment at which the inflated body folds"),
+        "{}",
+        ran.stderr
+    );
+    let flat = folder.run(&["predict", "epam", "--pressure", "0kPa", "--json"]).json("ibr.predict");
+    assert!(
+        flat["states"][0]["jacobian"][0]["y_mm_per_kpa"].is_null()
+            && flat["states"][0]["beyond"] == serde_json::json!([])
+    );
+}
+
+#[test]
+fn a_straight_robot_folds_where_its_weight_reaches_the_moment_of_the_pressure() {
+    let args = ["predict", "epam", "--limits", "--effect", "gravity:weight_n_per_m=1.5", "--json"];
+    let answer = Folder::new().run(&args).json("ibr.predict.limits");
+    let length = |i: usize| answer["collapse"][i]["length_mm"].as_f64().unwrap();
+    // w L²/2 = π p_b R³, longer by what its sag shortens the lever.
+    let straight = 1e3 * (2.0 * std::f64::consts::PI * 2e3 * 0.04_f64.powi(3) / 1.5).sqrt();
+    assert!(length(0) > straight && length(0) < 1.02 * straight, "{} {straight}", length(0));
+    assert!(length(3) > length(0), "a steered robot has a shorter lever");
+}

@@ -38,7 +38,12 @@ fn a_word_of_basis_that_means_nothing_is_refused() {
     };
     refused(
         text("\"mesured\""),
-        &["basis \"mesured\"", "did you mean measured?", "assumed, calibrated, geometry", "bad.toml:27:9"],
+        &[
+            "basis \"mesured\"",
+            "did you mean measured?",
+            "assumed, calibrated, measured, predicted, published",
+            "bad.toml:27:9",
+        ],
     );
     refused(text("1"), &["basis must be a word", "bad.toml:27:9"]);
 }

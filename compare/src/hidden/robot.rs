@@ -57,6 +57,11 @@ impl Robot {
     /// # Errors
     /// Another effect in the scenario; no equilibrium at the top of the standard protocol.
     pub fn new(scenario: &Scenario) -> Result<Robot, CompareError> {
+        if scenario.wall != models::scenario::Wall::default() || !scenario.actuator.exists() {
+            let problem =
+                "the generator knows neither wall_stiffness_n_per_m nor a beam without [actuator]".to_string();
+            return Err(CompareError::NotSimulated { problem });
+        }
         let mut lift_share = 0.0;
         for effect in &scenario.effects {
             if effect.name != "arm_growth" {

@@ -113,7 +113,8 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
         hinge_curvature: optional(&body.hinge_curvature_per_m, &HINGE)?.unwrap_or(0.05),
         hinge_share: optional(&body.hinge_moment_share, &SHARE)?.unwrap_or(1.0),
         wall: wall(body)?,
-        centre_line_m: optional(&body.centre_line_mm, &POSITION)?,
+        // A beam has no actuator's side opposite which a generator stays taut: its axis keeps its length.
+        centre_line_m: optional(&body.centre_line_mm, &POSITION)?.or((!actuator.exists()).then_some(0.0)),
         gravity_direction: gravity(body)?,
         actuator,
         zones,

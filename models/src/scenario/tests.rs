@@ -152,8 +152,38 @@ fn a_value_beyond_the_usual_bounds_is_taken_if_it_was_found_on_the_robot() {
         let text = shipped("epam").unwrap();
         Scenario::parse(&format!("{text}\n[effects.gravity]\nbasis = \"{basis}\"\nweight_n_per_m = 11\n"))
     };
-    for basis in ["measured", "calibrated"] {
+    for basis in ["measured", "published", "calibrated"] {
         assert_eq!(with(basis).unwrap().effects.last().unwrap().values, [11.0]);
     }
     assert!(with("assumed").unwrap_err().to_string().contains("usual bounds 0 to 8 N/m"));
+}
+
+#[test]
+fn geometry_that_cannot_be_built_is_refused_in_the_words_of_the_pattern() {
+    let cases = [
+        ("width_mm = 60 ", "width_mm = 130 ", "a pouch of 130 mm is wider than half of the body, 125.664 mm"),
+        ("width_mm = 60 ", "width_mm = 60\narm_mm = 1 ", "an arm of 1 mm from the far side of the body ends inside it"),
+    ];
+    for (from, to, words) in cases {
+        let error = broken(from, to);
+        assert!(error.message.contains(words) && error.span.is_some(), "{error:?}");
+    }
+}
+
+#[test]
+fn a_wall_is_told_once_and_with_how_it_is_known() {
+    let with =
+        |keys: &str| Scenario::parse(&shipped("epam").unwrap().replace("[actuator]", &format!("{keys}\n[actuator]")));
+    let wall = with("wall_stiffness_n_per_m = 41600").unwrap().wall;
+    assert_eq!((wall.stiffness_n_per_m, wall.basis.as_str()), (Some(41600.0), "assumed"));
+    let refused = [
+        ("wall_stiffness_n_per_m = 41.6", "wall stiffness must be", "N/mm"),
+        ("wall_stiffness_n_per_m = 41600\nhinge_curvature_per_m = 0.1", "says the same twice", "remove"),
+        ("wall_stiffness_n_per_m = 41600\nwall_basis = \"geometry\"", "is none of the words", "predicted"),
+        ("wall_basis = \"measured\"", "wall_basis without a wall", "add"),
+    ];
+    for (keys, message, help) in refused {
+        let error = with(keys).unwrap_err();
+        assert!(error.message.contains(message) && error.help.unwrap_or_default().contains(help), "{keys}");
+    }
 }
