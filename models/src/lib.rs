@@ -25,6 +25,7 @@ mod history;
 mod inverse;
 mod linkage;
 mod model;
+pub mod muscle;
 mod robot;
 mod root;
 pub mod scenario;

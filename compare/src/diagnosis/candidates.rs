@@ -143,6 +143,7 @@ pub fn hold(candidates: &mut [Candidate], held: &Held) {
                 Fitted::WithGauge => !held.gauge,
                 Fitted::WithKeptBending => !held.kept_bending,
                 Fitted::WithBodyPressures => !held.body_pressures && !is_measured,
+                Fitted::FromDesign => true,
             };
         }
     }
@@ -153,7 +154,12 @@ pub fn candidates(scenario: &Scenario) -> Vec<Candidate> {
     let family = scenario.actuator.kind.family;
     let absent = |effect: &Effect| !scenario.effects.iter().any(|e| e.name == effect.name);
     let (catalogue, actuator) = (scenario.catalogue(), scenario.actuator.kind.name);
-    catalogue.effects().filter(|e| e.applies_to(family)).filter(absent).map(|e| candidate(&e, actuator)).collect()
+    catalogue
+        .effects()
+        .filter(|e| e.applies_to(family) && e.is_fitted())
+        .filter(absent)
+        .map(|e| candidate(&e, actuator))
+        .collect()
 }
 
 /// The scenario's own effects, to be fitted along with the base; known forces stay known.

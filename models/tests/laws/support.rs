@@ -36,6 +36,13 @@ pub fn everything(actuator: &str) -> Scenario {
     all.with_effect("displaced_gas", &[0.02])
 }
 
+/// The same without the cell of a muscle: with yarns that do not give, no glue and no flat ends.
+pub fn without_cell(scenario: &Scenario) -> Scenario {
+    let mut stiff = scenario.clone();
+    stiff.effects.retain(|e| !["yarn_stretch", "glued_face", "flat_ends"].contains(&e.name.as_str()));
+    stiff
+}
+
 /// A prediction, or why there is none.
 pub fn predicted(model: &Model, loads: &Loads) -> Result<Prediction, Unsolved> {
     let mut out = model.prediction();
