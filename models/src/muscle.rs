@@ -4,6 +4,7 @@
 //! ```text
 //! fabric      xᵤ = y − κh,  xₗ = y + κh            lengths of the free and the glued half, y that of the axis, h = 2r/π
 //! yarns       m = cos²α₀ (x² − 1)/2 + sin²α₀ e     Green strain of both families; hoop strain e = (s − 1)/2, s = hoop stretch²
+//! shear       + ½ G_t sin²2α₀ (e − (x² − 1)/2)² over each half
 //! halves      Fᵤ/W = m²/c − ½τ s                   τ = P r₀ y: pressure work of half the tube, −½P v
 //!             Fₗ/W = m²/c + ½K e² − ½τ s + ½K ((xₗ² − 1)/2)₊²      K: the wall it is glued to, yarns along and across
 //! hoop        ∂F/∂s = 0:   mᵤ = cτ/(2 sin²α₀),   mₗ = c (τ sin²α₀ + Kp)/(2 sin⁴α₀ + Kc),  p = cos²α₀ (xₗ² − 1)/2
@@ -15,6 +16,7 @@
 //! |---|---|---|
 //! | c | compliance of the yarns, strain of both per tension in both, (1 − ν)/(E t); effect `yarn_stretch` | m/N |
 //! | K | E t of the wall to which half of the muscle is glued; effect `glued_face` | N/m |
+//! | G_t | shear modulus × thickness; effect `shear_stiffness`, on what the fabric shears and not on what the line shortens | N/m |
 //! | n | ends that are sealed flat; effect `flat_ends` | – |
 //! | ΔA | area that the body's section loses to the muscle; effect `sunk_muscle` | m² |
 //! | r, r₀ | radius under pressure, √(mean s) r₀ at rest length, and at rest, W/π | m |
@@ -48,6 +50,15 @@ pub struct Weave {
     pub flat_ends: f64,
     /// Area ΔA that the body's section loses to the muscle \[m²\].
     pub drawn_in_m2: f64,
+    /// Shear stiffness G t of its fabric \[N/m\], where the cell takes it over from a term of its own.
+    pub shear_n_per_m: f64,
+}
+
+impl Weave {
+    /// Whether the cell stands in for the tube with stiff yarns.
+    pub(crate) fn is_cell(&self) -> bool {
+        [self.compliance_m_per_n, self.wall_n_per_m, self.flat_ends] != [0.0; 3]
+    }
 }
 
 /// The cell of one site as a term over the contraction.
@@ -67,8 +78,7 @@ struct Muscle {
 /// Puts the cell in place of the tube with stiff yarns wherever an effect asks for one.
 pub(crate) fn complete(assembly: &mut Assembly) {
     for site in &mut assembly.sites {
-        let Weave { compliance_m_per_n, wall_n_per_m, flat_ends, .. } = site.weave;
-        if site.actuator.is_some() && [compliance_m_per_n, wall_n_per_m, flat_ends] != [0.0; 3] {
+        if site.actuator.is_some() && site.weave.is_cell() {
             site.actuator_terms.push(Box::new(Muscle::of(site)));
         }
     }
@@ -111,13 +121,19 @@ impl Muscle {
         let hoop = (c * pull - along) / s2;
         let taut = (0.5 * (x * x - 1.0)).max(0.0);
         let d_pull = (thrust * s2 + wall * d_along) * per;
-        let d_hoop = (c * d_pull - d_along) / s2;
+        let [by_tau, by_x] = [c * thrust * per, (c * wall * d_along * per - d_along) / s2];
+        let d_hoop = by_tau + by_x;
+        // Shear of the weave in its own axes; its stiffness is too small to move the hoop.
+        let turn = 4.0 * c2 * s2 * self.weave.shear_n_per_m;
+        let shear = hoop - 0.5 * (x * x - 1.0);
         let d_taut = if taut > 0.0 { x } else { 0.0 };
         Half {
-            energy: c * pull * pull + 0.5 * wall * (hoop * hoop + taut * taut) - tau * (0.5 + hoop),
-            by_axis: -thrust * (0.5 + hoop),
-            by_own: 2.0 * pull * d_along + wall * taut * x,
-            stiffness: 2.0 * (d_pull * d_along + pull * c2) + wall * (d_taut * x + taut) - thrust * d_hoop,
+            energy: c * pull * pull + 0.5 * wall * (hoop * hoop + taut * taut) - tau * (0.5 + hoop)
+                + 0.5 * turn * shear * shear,
+            by_axis: -thrust * (0.5 + hoop) + turn * shear * by_tau,
+            by_own: 2.0 * pull * d_along + wall * taut * x + turn * shear * (by_x - x),
+            stiffness: 2.0 * (d_pull * d_along + pull * c2) + wall * (d_taut * x + taut) - thrust * d_hoop
+                + turn * (d_hoop - x) * (d_hoop - x),
             hoop2: 1.0 + 2.0 * hoop,
         }
     }

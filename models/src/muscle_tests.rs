@@ -86,6 +86,20 @@ fn what_the_supply_gives_is_stored_in_the_yarns_or_pulled_out() {
 }
 
 #[test]
+fn shear_in_the_cell_is_that_of_the_exact_tube() {
+    let (e_pa, thickness_m, shear_n_per_m) = (108.25e6, 50e-6, 51.4);
+    let fabric = Orthotropic::new(e_pa, e_pa, 0.0, shear_n_per_m / thickness_m, thickness_m);
+    let tube = ClosedTube { radius_m: 0.06 / PI, warp_angle: PI / 4.0, fabric: &fabric };
+    let cell = muscle(45.0, Weave { shear_n_per_m, ..stretchy(1.0 / (e_pa * thickness_m)) });
+    for p in [3e3, 10e3, 30e3] {
+        let exact = inflate(&tube, p, Ends::Free(0.0)).unwrap().contraction();
+        let free = root(|contraction| pull_n(&cell, contraction, p), 0.0, 0.3);
+        // The hoop does not feel the shear here: of the order G_t c.
+        assert!((free - exact).abs() < 2.0 * shear_n_per_m / (e_pa * thickness_m) * exact, "{p}: {free} {exact}");
+    }
+}
+
+#[test]
 fn a_flat_end_is_the_shape_of_most_volume() {
     let r = 0.02;
     // Without a pull the profile A/cosψ = const, by quadrature over v = 1 − u: singular only in s, not in the shortening.
@@ -134,7 +148,13 @@ fn a_stiff_wall_keeps_the_length_and_the_width_of_the_half_that_is_glued_to_it()
 
 #[test]
 fn the_force_is_minus_the_slope_of_the_energy_with_all_of_it_on() {
-    let weave = Weave { compliance_m_per_n: YARNS, wall_n_per_m: 5400.0, flat_ends: 2.0, drawn_in_m2: 1.47e-3 };
+    let weave = Weave {
+        compliance_m_per_n: YARNS,
+        wall_n_per_m: 5400.0,
+        flat_ends: 2.0,
+        drawn_in_m2: 1.47e-3,
+        shear_n_per_m: 51.4,
+    };
     for bias_deg in [35.0, 45.0] {
         for p in [1e3, 3e3, 10e3, 30e3, 90e3] {
             for contraction in [-0.02, 0.01, 0.05, 0.08, 0.2] {

@@ -56,6 +56,10 @@ struct ShearStiffness {
 
 fn add(values: &[f64], assembly: &mut Assembly) {
     for site in assembly.active_sites(Family::Mckibben) {
+        if site.weave.is_cell() {
+            site.weave.shear_n_per_m = values[0];
+            continue;
+        }
         let shape = site.shape;
         site.actuator_terms.push(Box::new(ShearStiffness { shear_n_per_m: values[0], shape }));
     }
