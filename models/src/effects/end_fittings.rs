@@ -11,7 +11,7 @@
 //! | L, r₀ | length and radius at rest | m |
 //!
 //! A **prior**: published of another muscle, the 10 mm Festo one. Its author's fit, made without dimension by its diameter;
-//! the single force printed at L/2r₀ = 5.4 (103 N) is half of what that fit says (220 N). **Validity**: L/2r₀ from 4 to 60.
+//! the single force printed at L/2r₀ = 5.4 (103 N) is half of what that fit says (220 N), so there it may claim too much. **Validity**: L/2r₀ from 4 to 60.
 //! Reference: Bolen 2026 (Actuators), [`crate::exact::mckibben::BOLEN_10_MM`]; that it scales with the diameter is assumed.
 
 use super::{Effect, Fitted, Group, Parameter, Stage};
