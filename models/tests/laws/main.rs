@@ -9,6 +9,7 @@ mod closed_forms;
 mod forces;
 mod history;
 mod inverse;
+mod muscle;
 mod neutral;
 mod scaling;
 mod solver;
