@@ -26,6 +26,7 @@ mod inverse;
 mod limits;
 mod linkage;
 mod model;
+pub mod muscle;
 mod reach;
 mod robot;
 mod root;

@@ -71,6 +71,7 @@ impl Model {
     fn of(scenario: &Scenario, spans: Vec<Span>) -> Model {
         let mut assembly = assemble(scenario, &spans, scenario.segments);
         scenario.add_effects(&mut assembly);
+        crate::muscle::complete(&mut assembly);
         // Without transverse loads and terms that vary along it every stretch of equal design is one arc.
         if assembly.node_terms.is_empty() && !assembly.varies {
             assembly.segments = divide(&spans, 1);

@@ -16,6 +16,7 @@ use crate::actuators::{Actuator, ActuatorShape, Demand, Stroke};
 use crate::body::{Bending, BodyLaw, BodyPressure};
 pub use crate::linkage::Linkage;
 use crate::linkage::line_tension;
+use crate::muscle::Weave;
 use crate::root::{NoRoot, Root, Start, find_root};
 use crate::term::{Extreme, Pose, Term, actuator_q};
 use std::f64::consts::PI;
@@ -31,6 +32,8 @@ pub struct Site {
     pub actuator: Option<&'static Actuator>,
     /// Dimensions of one actuator unit.
     pub shape: ActuatorShape,
+    /// What effects make of a muscle's tube.
+    pub weave: Weave,
     /// Supply channel.
     pub channel: usize,
     /// Link between contraction and curvature.
@@ -169,6 +172,7 @@ impl Site {
             centre_line_m: radius_m,
             actuator,
             shape,
+            weave: Weave::default(),
             channel,
             linkage,
             closed_share: 0.0,

@@ -5,7 +5,13 @@ use crate::actuators::ACTUATORS;
 fn the_start_value_of_a_place_without_effects_is_its_equilibrium_also_with_a_growing_arm() {
     for actuator in ACTUATORS {
         for (stiffness, arm_growth) in [(0.0, 0.0), (0.0, 1.0), (1.35, 0.0), (1.35, 0.5), (0.3, 2.0)] {
-            let shape = ActuatorShape { length_m: 0.06, width_m: 0.07, fold_m: 0.0, volume_gain: 1.2 };
+            let shape = ActuatorShape {
+                length_m: 0.06,
+                width_m: 0.07,
+                fold_m: 0.0,
+                volume_gain: 1.2,
+                bias_rad: std::f64::consts::FRAC_PI_4,
+            };
             let linkage = Linkage {
                 active_fraction: 0.9,
                 stroke_fraction: 0.95,

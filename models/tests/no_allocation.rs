@@ -55,7 +55,7 @@ fn main() {
                 }
                 let target = Target::TipHeight(out.tip.y_m);
                 model.pressure_for(target, 2e3, &mut out).unwrap();
-                model.pressure_for(Target::Angle(0.1), 2e3, &mut out).unwrap();
+                model.pressure_for(Target::Angle(0.02), 2e3, &mut out).unwrap();
                 model.jacobian(&sweep[20], &mut out).unwrap();
                 model.predict_batch(&sweep, &mut batch).unwrap();
             });

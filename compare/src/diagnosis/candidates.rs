@@ -143,6 +143,7 @@ pub fn hold(candidates: &mut [Candidate], held: &Held) {
                 Fitted::WithGauge => !held.gauge,
                 Fitted::WithKeptBending => !held.kept_bending,
                 Fitted::WithBodyPressures => !held.body_pressures && !is_measured,
+                Fitted::FromDesign => true,
             };
         }
     }
@@ -152,7 +153,8 @@ pub fn hold(candidates: &mut [Candidate], held: &Held) {
 pub fn candidates(scenario: &Scenario) -> Vec<Candidate> {
     let absent = |effect: &Effect| !scenario.effects.iter().any(|e| e.name == effect.name);
     let (catalogue, actuator) = (scenario.catalogue(), scenario.actuator.kind.name);
-    catalogue.effects().filter(|e| scenario.actuator.takes(e)).filter(absent).map(|e| candidate(&e, actuator)).collect()
+    let fits = |e: &Effect| scenario.actuator.takes(e) && e.is_fitted();
+    catalogue.effects().filter(fits).filter(absent).map(|e| candidate(&e, actuator)).collect()
 }
 
 /// The scenario's own effects, to be fitted along with the base; known forces stay known.

@@ -90,7 +90,10 @@ pub fn one_number(kind: &str) -> Result<OneNumber, CompareError> {
         let [effect, key, unit] = ["bending_stiffness", "bending_stiffness_nm2", "N m²"].map(String::from);
         met_by.push(Explanation { effect, key, unit, value, times_typical: None, y_mm });
     }
-    for effect in models::effects::EFFECTS.iter().filter(|e| e.applies_to(bare.actuator.kind.family) && !has(e.name)) {
+    for effect in models::effects::EFFECTS
+        .iter()
+        .filter(|e| e.applies_to(bare.actuator.kind.family) && e.is_fitted() && !has(e.name))
+    {
         match aim.meets(&bare, effect) {
             Some((p, value)) => {
                 let y_mm = curve(&with(&bare, effect, p, value))?;

@@ -72,6 +72,14 @@ const FEWEST_ROWS: usize = 4;
 /// # Ok::<(), fem::FemError>(())
 /// ```
 pub fn problem(scenario: &Scenario, settings: &RobotSettings) -> Result<Problem, FemError> {
+    let bias = scenario.actuator.shape.bias_rad;
+    if bias != models::actuators::BIAS {
+        let message = format!(
+            "a muscle with yarns at +{0:.1} and -{0:.1} degrees cannot be cut from a weave; write bias_deg = 45 or leave it out",
+            bias.to_degrees()
+        );
+        return Err(FemError::Problem(message));
+    }
     let pattern = (scenario.actuator.kind.pattern)(&scenario.actuator.shape);
     match settings.taped_at_seams && pattern.is_taped() {
         true => sewn(scenario, &pattern.taped_at_seams(), settings),

@@ -208,6 +208,8 @@ fn what_cannot_be_built_or_run_is_refused_with_its_number() {
     assert!(nan.contains("bond is NaN; write a number from 0 to 1"), "{nan}");
     let coupling = refused("fpam", |_, s| s.nu12 = Some(0.95));
     assert!(coupling.contains("nu12"), "{coupling}");
+    let braid = refused("fpam", |s, _| s.actuator.shape.bias_rad = 0.7);
+    assert!(braid.contains("yarns at +40.1 and -40.1 degrees") && braid.contains("bias_deg = 45"), "{braid}");
 }
 
 #[test]

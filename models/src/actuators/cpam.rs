@@ -54,11 +54,12 @@ fn pattern(shape: &ActuatorShape) -> Pattern {
 
 #[cfg(test)]
 mod tests {
+    use super::super::BIAS;
     use super::*;
 
     #[test]
     fn the_published_fold_frees_the_edges_and_no_fold_does_not() {
-        let shape = |fold_m| ActuatorShape { length_m: 0.06, width_m: 0.06, fold_m, volume_gain: 1.0 };
+        let shape = |fold_m| ActuatorShape { length_m: 0.06, width_m: 0.06, fold_m, volume_gain: 1.0, bias_rad: BIAS };
         assert_eq!(edge_restraint(&shape(0.024)), 0.0);
         assert_eq!(edge_restraint(&shape(0.0)), 1.0);
     }

@@ -287,6 +287,7 @@ fn mm(length_m: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::BIAS;
     use super::*;
     use crate::Scenario;
     use crate::scenario::SHIPPED;
@@ -360,7 +361,7 @@ mod tests {
     #[test]
     fn folds_deeper_than_half_the_pouch_are_refused() {
         let (kind, radius_m) = (crate::actuators::by_name("cpam").unwrap(), 0.04);
-        let shape = ActuatorShape { length_m: 0.06, width_m: 0.06, fold_m: 0.035, volume_gain: 1.0 };
+        let shape = ActuatorShape { length_m: 0.06, width_m: 0.06, fold_m: 0.035, volume_gain: 1.0, bias_rad: BIAS };
         let error = (kind.pattern)(&shape).check(radius_m, 0.0).unwrap_err();
         assert!(error.contains("lie over each other by 10 mm at level 2"), "{error}");
     }

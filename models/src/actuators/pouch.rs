@@ -119,11 +119,12 @@ pub(super) fn arm(radius_m: f64, _shape: &ActuatorShape) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::BIAS;
     use super::*;
 
     #[test]
     fn the_guess_meets_its_demand_to_rounding() {
-        let shape = ActuatorShape { length_m: 0.06, width_m: 0.05, fold_m: 0.0, volume_gain: 1.0 };
+        let shape = ActuatorShape { length_m: 0.06, width_m: 0.05, fold_m: 0.0, volume_gain: 1.0, bias_rad: BIAS };
         for constant in [0.0, 0.0465, 0.5, 1.0, 30.0, 1e4] {
             for per_contraction in [0.0, 0.01, 2.0, 25.0, 1e4] {
                 let (theta, slope) = guess(&shape, &Demand { constant, per_contraction, growth: 0.0 });
@@ -143,7 +144,7 @@ mod tests {
 
     #[test]
     fn the_series_meets_the_closed_form_where_they_join() {
-        let shape = ActuatorShape { length_m: 0.06, width_m: 0.05, fold_m: 0.0, volume_gain: 1.0 };
+        let shape = ActuatorShape { length_m: 0.06, width_m: 0.05, fold_m: 0.0, volume_gain: 1.0, bias_rad: BIAS };
         let (a, b) = (stroke_series(&shape, SERIES_BELOW), stroke(&shape, SERIES_BELOW));
         for (series, closed) in [
             (a.contraction, b.contraction),

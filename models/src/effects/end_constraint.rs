@@ -96,13 +96,14 @@ fn active_fraction(actuator: &Actuator, shape: &ActuatorShape, beta: f64) -> f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::actuators::by_name;
+    use crate::actuators::{BIAS, by_name};
 
     #[test]
     fn robins_coefficient_gives_the_known_end_factors() {
         let epam = by_name("epam").unwrap();
         for (aspect, eta) in [(1.0, 0.598504459), (2.0, 0.779177452), (46.0 / 17.25, 0.833070606), (5.0, 0.910779661)] {
-            let shape = ActuatorShape { length_m: 0.06, width_m: 0.06 * aspect, fold_m: 0.0, volume_gain: 1.0 };
+            let shape =
+                ActuatorShape { length_m: 0.06, width_m: 0.06 * aspect, fold_m: 0.0, volume_gain: 1.0, bias_rad: BIAS };
             let computed = active_fraction(epam, &shape, 0.142 * PI);
             assert!((computed - eta).abs() < 1e-9, "{aspect}: {computed}");
         }

@@ -11,8 +11,11 @@ mod camera_scale;
 mod creep;
 mod displaced_gas;
 mod end_constraint;
+mod end_fittings;
 mod fabric_stretch;
+mod flat_ends;
 mod friction;
+mod glued_face;
 mod gravity;
 mod initial_curvature;
 mod leak;
@@ -27,10 +30,12 @@ mod seam_stiffness;
 mod self_contact;
 mod shear_lock;
 mod shear_stiffness;
+mod sunk_muscle;
 mod tail_tension;
 mod tip_clamp;
 mod tip_load;
 mod wrinkling;
+mod yarn_stretch;
 
 use crate::actuators::Family;
 use crate::assembly::Assembly;
@@ -39,7 +44,12 @@ pub use own::Catalogue;
 /// The list, in the order in which effects are added to a model.
 pub const EFFECTS: &[Effect] = &[
     end_constraint::ENTRY,
+    end_fittings::ENTRY,
     arm_growth::ENTRY,
+    sunk_muscle::ENTRY,
+    yarn_stretch::ENTRY,
+    glued_face::ENTRY,
+    flat_ends::ENTRY,
     fabric_stretch::ENTRY,
     ovalization::ENTRY,
     shear_stiffness::ENTRY,
@@ -168,6 +178,8 @@ pub enum Fitted {
     WithKeptBending,
     /// Only data at several body pressures, or with a test of its own: at one pressure it is another effect's curve.
     WithBodyPressures,
+    /// None: it follows from how the robot is cut and joined, or from a test of its fabric.
+    FromDesign,
 }
 
 /// A physical effect as an entry of the catalogue, or of a scenario's own ([`Catalogue`]).
@@ -268,6 +280,11 @@ impl Effect<'_> {
     /// Typical values of all parameters on an actuator, SI.
     pub fn typical_for(&self, actuator: &str) -> Vec<f64> {
         self.parameters.iter().map(|p| p.typical_for(actuator) * p.si).collect()
+    }
+
+    /// Whether a fit may change one of its parameters.
+    pub fn is_fitted(&self) -> bool {
+        self.parameters.iter().any(|p| p.fitted != Fitted::FromDesign)
     }
 
     /// Whether it acts in an actuator or on its supply: a passive beam has neither.

@@ -1,12 +1,13 @@
 //! Shear locking of an fPAM's weave: beyond an angle the yarns jam and the muscle shortens no further.
 //!
 //! ```text
-//! cosα = (1 − ε)/√2      γ = 2α − π/2      E = K (γ − γ_L)²₊ W per metre   (½K(γ − γ_L)² over both layers, 2W)
+//! cosα = (1 − ε) cosα₀      γ = 2(α − α₀)      E = K (γ − γ_L)²₊ W per metre   (½K(γ − γ_L)² over both layers, 2W)
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | γ | shear angle; 0.34 rad at the free stroke of an ideal muscle | rad |
+//! | α, α₀ | yarn angle to the axis, at rest | rad |
+//! | γ | shear angle; 0.34 rad at the free stroke of an ideal muscle cut at 45° | rad |
 //! | γ_L | angle at which the yarns touch; above 0.34 rad it is never reached | rad |
 //! | K | stiffness of the jammed weave; 2000 N/m, some 40 times a coated weave's, is a hard stop | N/m |
 //! | W | flat width | m |
@@ -15,17 +16,17 @@
 //! a tight weave locks earlier. Reference: trellis kinematics, Cao et al. 2008; the penalty is an assumption.
 
 use super::{ABOVE_ZERO, Effect, Fitted, Group, Parameter, Stage};
-use crate::actuators::Family;
+use crate::actuators::{ActuatorShape, Family};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
-use std::f64::consts::{FRAC_PI_2, SQRT_2};
+use std::f64::consts::FRAC_PI_2;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "shear_lock",
     group: Group::Actuator,
     stage: Stage::Balance,
     history: false,
-    formula: "E = K (γ − γ_L)²₊ W per metre, γ = 2α − π/2, cosα = (1 − ε)/√2",
+    formula: "E = K (γ − γ_L)²₊ W per metre, γ = 2(α − α₀), cosα = (1 − ε) cosα₀",
     sentence: "The yarns of the muscle jam at a certain shear angle and stop it.",
     differs: "The bend stops at a value that no further pressure exceeds; below it nothing changes.",
     remedy: "Take the locking angle from a bias-extension test of the fabric.",
@@ -75,13 +76,13 @@ const JAMMED: f64 = 2000.0;
 struct ShearLock {
     lock: f64,
     stiffness: f64,
-    width_m: f64,
+    shape: ActuatorShape,
 }
 
 fn add(values: &[f64], assembly: &mut Assembly) {
     for site in assembly.active_sites(Family::Mckibben) {
-        let width_m = site.shape.width_m;
-        site.actuator_terms.push(Box::new(ShearLock { lock: values[0], stiffness: values[1], width_m }));
+        let shape = site.shape;
+        site.actuator_terms.push(Box::new(ShearLock { lock: values[0], stiffness: values[1], shape }));
     }
 }
 
@@ -91,10 +92,9 @@ impl Term for ShearLock {
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let cos = (1.0 - at.q[actuator_q::CONTRACTION]) / SQRT_2;
-        let beyond = (2.0 * cos.acos() - FRAC_PI_2 - self.lock).max(0.0);
-        let d_shear = SQRT_2 / (1.0 - cos * cos).sqrt();
-        let moment = 2.0 * self.stiffness * self.width_m * beyond;
+        let [shear, d_shear] = self.shape.yarn_shear(at.q[actuator_q::CONTRACTION]);
+        let beyond = (shear - self.lock).max(0.0);
+        let moment = 2.0 * self.stiffness * self.shape.width_m * beyond;
         force[actuator_q::CONTRACTION] -= moment * d_shear;
         0.5 * moment * beyond
     }

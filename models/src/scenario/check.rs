@@ -3,7 +3,7 @@
 use super::formulas::formulas;
 use super::raw::{Body, Raw, RawActuator, RawZone};
 use super::{ActuatorChoice, BASES, EffectChoice, Scenario, Wall, Zone, order};
-use crate::actuators::{self, ACTUATORS, ActuatorShape};
+use crate::actuators::{self, ACTUATORS, ActuatorShape, BIAS, Family};
 use crate::effects::{Catalogue, Effect};
 use crate::error::ScenarioError;
 use crate::formula::Formula;
@@ -94,6 +94,16 @@ const GAIN: Range = Range {
     high: 20.0,
     too_small: "1 is the plain pouch",
     too_large: "1 is the plain pouch",
+};
+
+const BIAS_ANGLE: Range = Range {
+    name: "bias angle",
+    unit: "deg",
+    si: std::f64::consts::PI / 180.0,
+    low: 15.0,
+    high: 75.0,
+    too_small: "write degrees from the axis; a bias cut has 45",
+    too_large: "write degrees from the axis; a muscle with yarns beyond 54.7 lengthens",
 };
 
 pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
@@ -205,6 +215,7 @@ fn actuator(raw: &Spanned<RawActuator>, length_m: f64) -> Checked<ActuatorChoice
         width_m: si(&a.width_mm, &LENGTH)?,
         fold_m: optional(&a.fold_mm, &POSITION)?.unwrap_or(0.0),
         volume_gain: optional(&a.volume_gain, &GAIN)?.unwrap_or(1.0),
+        bias_rad: bias(a, kind)?,
     };
     let count = *a.count.get_ref();
     if !(1..=10_000).contains(&count) {
@@ -224,6 +235,16 @@ fn actuator(raw: &Spanned<RawActuator>, length_m: f64) -> Checked<ActuatorChoice
     }
     let (arm_m, channel) = (optional(&a.arm_mm, &LENGTH)?, channel(&a.channel)?.unwrap_or(0));
     Ok(ActuatorChoice { kind, shape, count: count as usize, start_m, arm_m, channel })
+}
+
+fn bias(a: &RawActuator, kind: &actuators::Actuator) -> Checked<f64> {
+    match &a.bias_deg {
+        Some(angle) if kind.family == Family::Pouch => {
+            let message = format!("bias_deg is the angle of a muscle's yarns; a {} has none", kind.name);
+            refuse(message, "leave the line out", angle.span())
+        }
+        angle => Ok(optional(angle, &BIAS_ANGLE)?.unwrap_or(BIAS)),
+    }
 }
 
 fn channel(value: &Option<Spanned<i64>>) -> Checked<Option<usize>> {

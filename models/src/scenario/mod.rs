@@ -107,7 +107,13 @@ impl ActuatorChoice {
     /// A scenario without `[actuator]`: a passive beam.
     pub const NONE: ActuatorChoice = ActuatorChoice {
         kind: &BEAM,
-        shape: ActuatorShape { length_m: 0.0, width_m: 0.0, fold_m: 0.0, volume_gain: 1.0 },
+        shape: ActuatorShape {
+            length_m: 0.0,
+            width_m: 0.0,
+            fold_m: 0.0,
+            volume_gain: 1.0,
+            bias_rad: crate::actuators::BIAS,
+        },
         count: 0,
         start_m: 0.0,
         arm_m: None,

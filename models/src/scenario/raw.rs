@@ -60,6 +60,7 @@ pub(super) struct RawActuator {
     pub arm_mm: Option<Num>,
     pub fold_mm: Option<Num>,
     pub volume_gain: Option<Num>,
+    pub bias_deg: Option<Num>,
     pub channel: Option<Spanned<i64>>,
     pub max_pressure_kpa: Option<Num>,
 }

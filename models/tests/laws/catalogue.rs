@@ -7,7 +7,12 @@ use models::{Loads, Model};
 /// Names in the order of the catalogue.
 const NAMES: &[&str] = &[
     "end_constraint",
+    "end_fittings",
     "arm_growth",
+    "sunk_muscle",
+    "yarn_stretch",
+    "glued_face",
+    "flat_ends",
     "fabric_stretch",
     "ovalization",
     "shear_stiffness",

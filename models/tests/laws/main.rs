@@ -10,6 +10,7 @@ mod closed_forms;
 mod forces;
 mod history;
 mod inverse;
+mod muscle;
 mod neutral;
 mod random_inverse;
 mod scaling;

@@ -6,7 +6,9 @@ use models::{Loads, Model};
 #[test]
 fn contraction_and_curvature_rise_with_pressure() {
     for actuator in actuators() {
-        for scenario in [robot(actuator).bare(), robot(actuator).with_bending(1.0), everything(actuator)] {
+        // Yarns that give lengthen a muscle again at high pressure.
+        let all = without_cell(&everything(actuator));
+        for scenario in [robot(actuator).bare(), robot(actuator).with_bending(1.0), all] {
             let model = Model::new(&scenario);
             let first = |p: f64| {
                 let state = predicted(&model, &Loads::uniform(2e3, p)).unwrap();

@@ -54,9 +54,10 @@ fn every_effect_at_typical_and_at_its_bounds_converges_over_all_pressures() {
                     let values = values(effect, pick);
                     let name = format!("{actuator} B = {} {} {values:?}", base.bending_stiffness, effect.name);
                     let refused = sweep(&name, &base.with_effect(effect.name, &values));
-                    // A constant moment can exceed what an unpressurised wall carries, as an initial curvature does.
-                    let may_collapse = ["tail_tension", "initial_curvature"].contains(&effect.name);
-                    assert!(refused == 0 || may_collapse, "{name}: {refused} refused");
+                    // A constant moment can exceed what an unpressurised wall carries, as an initial curvature does; at hundreds
+                    // of kPa yarns would have to stretch by half, and the muscle with them.
+                    let may_refuse = ["tail_tension", "initial_curvature", "yarn_stretch"].contains(&effect.name);
+                    assert!(refused == 0 || may_refuse, "{name}: {refused} refused");
                 }
             }
         }

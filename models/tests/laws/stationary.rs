@@ -91,8 +91,9 @@ fn transverse_loads_are_balanced_in_any_direction_and_on_a_passive_stretch() {
 #[test]
 fn the_ledger_holds_the_same_potential() {
     // What stretches of fabric, folds and weight store is in the ledger: its sum changes with pressure as −ΔV dP.
+    // A muscle's cell has part of the pressure's work in its own line; `muscle_tests.rs` closes its books.
     for actuator in actuators() {
-        let model = Model::new(&everything(actuator));
+        let model = Model::new(&without_cell(&everything(actuator)));
         let ledger = |p: f64| {
             let loads = Loads::uniform(2e3, p);
             model.ledger(&loads, &predicted(&model, &loads).unwrap())

@@ -11,9 +11,11 @@ pub fn actuators() -> impl Iterator<Item = &'static str> {
     ACTUATORS.iter().map(|a| a.name)
 }
 
-/// The shipped robot of that actuator.
+/// The shipped robot of that actuator; a muscle on its body and with stiff yarns, whose bend rises with every pressure. What
+/// the shipped one has more is visited effect by effect, and as it is in `muscle.rs`.
 pub fn robot(actuator: &str) -> Scenario {
-    Scenario::parse(shipped(actuator).unwrap()).unwrap()
+    let shipped = Scenario::parse(shipped(actuator).unwrap()).unwrap();
+    if actuator == "fpam" { shipped.bare().with_effect("arm_growth", &[1.0]) } else { shipped }
 }
 
 /// Effects that exist for the actuator of `scenario`.
@@ -34,6 +36,13 @@ pub fn everything(actuator: &str) -> Scenario {
     let all = applicable(&bent).filter(in_balance).fold(bent.clone(), |s, e| s.with_effect(e.name, &e.typical()));
     // At its typical share an actuator stays flat below the body's pressure, and there is no balance to look at.
     all.with_effect("displaced_gas", &[0.02])
+}
+
+/// The same without the cell of a muscle: with yarns that do not give, no glue and no flat ends.
+pub fn without_cell(scenario: &Scenario) -> Scenario {
+    let mut stiff = scenario.clone();
+    stiff.effects.retain(|e| !["yarn_stretch", "glued_face", "flat_ends"].contains(&e.name.as_str()));
+    stiff
 }
 
 /// A prediction, or why there is none.

@@ -4,7 +4,8 @@ use crate::support::*;
 use models::{Loads, Model, Scenario};
 
 fn with_zones(actuator: &str, zones: &str) -> Scenario {
-    Scenario::parse(&format!("{}\n{zones}", models::shipped(actuator).unwrap())).unwrap()
+    let text = format!("{}\n{zones}", models::shipped(actuator).unwrap());
+    Scenario { zones: Scenario::parse(&text).unwrap().zones, ..robot(actuator) }
 }
 
 fn differ(a: &Scenario, b: &Scenario, loads: &Loads) -> f64 {

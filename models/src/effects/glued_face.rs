@@ -1,0 +1,57 @@
+//! Glued face: half of a fabric muscle is stuck to the body's wall, whose yarns along and across hold it.
+//!
+//! ```text
+//! xᵤ = y − κh,  xₗ = y + κh,  h = 2r/π      E adds ½K e² + ½K ((xₗ² − 1)/2)₊² over the glued half, per metre and width
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | K | E t of the wall along its yarns | N/m |
+//! | y, xᵤ, xₗ | lengths of the axis, the free half and the glued half per flat length | – |
+//! | e | Green strain of the glued half around the tube | – |
+//!
+//! The wall's yarns across keep the glued half from widening, those along from lengthening; along the body it may fold. So
+//! only the free half shears, and a muscle that is glued over its whole width shortens a quarter as much as a free one.
+//! [`crate::muscle`] has the law. **Validity**: glued over the flat width to a wall with yarns along and across. A muscle that
+//! is glued along a line, or hangs in loops, has none of it. Derived here.
+
+use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use crate::actuators::Family;
+use crate::assembly::Assembly;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "glued_face",
+    group: Group::Actuator,
+    stage: Stage::Balance,
+    history: false,
+    formula: "E += ½K e² + ½K ((xₗ² − 1)/2)₊² per metre and width of the glued half",
+    sentence: "Half of the muscle is stuck to the wall of the body, whose yarns keep that half from shearing.",
+    differs: "Most bend is missing at every pressure, as if the muscle were weaker.",
+    remedy: "Take E t of the body along its yarns from tensile tests; look whether the muscle is glued over its whole width.",
+    validity: "glued over the whole flat width to a wall with yarns along and across",
+    reference: "derived here",
+    parameters: &[Parameter {
+        key: "wall_n_per_m",
+        symbol: "K",
+        unit: "N/m",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 5400.0,
+        lower: 0.0,
+        upper: 3e4,
+        possible: POSITIVE,
+        starts: &[],
+        by_actuator: &[],
+        fitted: Fitted::FromDesign,
+        in_room: false,
+        meaning: "E t of the wall along its yarns",
+    }],
+    family: Some(Family::Mckibben),
+    add,
+};
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    for site in assembly.active_sites(Family::Mckibben) {
+        site.weave.wall_n_per_m = values[0];
+    }
+}

@@ -1,0 +1,152 @@
+//! Sunk muscle: a tube glued over its flat width draws the wall in and lies half in the body.
+//!
+//! ```text
+//! wall     an arc s = 2πR − W closed by the chord w = 2r₀:  w/s = sinβ/(π − β),  R' = s/(2(π − β))
+//!          A = R'² (π − β + sinβ cosβ)      ȳ = R' − 2R'³ sin³β/(3A)      D = R' (1 + cosβ)
+//! body     A_b = A − πr₀²/2,  A_b ȳ_b = Aȳ − (πr₀²/2)(D − 4r₀/3π)         hinge p_b A_b ȳ_b in place of p_b πR³
+//! gas      ΔA = πR² − A_b        what a flat end must push aside (`flat_ends`)
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | R, W, r₀ | radius of the body, flat width and radius W/π of the muscle | m |
+//! | β | half of the angle that the chord takes from the wall's circle of radius R' | rad |
+//! | D | distance of the chord, and the muscle's axis, from the far side: 68.3 mm for R = 40, W = 60, not 2R + r₀ = 99 | m |
+//! | ȳ, ȳ_b | centroids of the section and of the body's part of it, from the far side | m |
+//! | σ | 1: in the wall; 0: on it | – |
+//!
+//! At either edge three tensions meet: P r above, (P − p_b) r below, p_b R' from the wall. The upper two pull up and down
+//! and cancel but for p_b r; the wall pulls outwards, and up by p_b R' cosβ, at most p_b R. Against P r both are small once P is a few p_b:
+//! the tube is round, its widest place is the wall's chord, and nothing is left that could lift it. **Validity**: P above some
+//! 3 p_b; glued over the whole flat width; an arm that the scenario gives is replaced. Finite elements of the shipped robot at
+//! 30 kPa: axis 70 mm from the far side. Derived here.
+
+use super::{Effect, Fitted, Group, Parameter, Stage};
+use crate::actuators::Family;
+use crate::assembly::Assembly;
+use crate::body::BodyLaw;
+use std::f64::consts::PI;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "sunk_muscle",
+    group: Group::Actuator,
+    stage: Stage::Balance,
+    history: false,
+    formula: "D = R' (1 + cosβ), 2r₀/(2πR − W) = sinβ/(π − β); hinge p_b A_b ȳ_b",
+    sentence: "The muscle is glued over its whole width, draws the wall in and lies half inside the body, nearer to the far side.",
+    differs: "More bend per stroke than an arm outside the body allows, and a body that resists less.",
+    remedy: "Measure the distance from the far wall to the middle of the muscle at full pressure.",
+    validity: "glued over the whole flat width; P above some 3 p_b",
+    reference: "derived here",
+    parameters: &[Parameter {
+        key: "share",
+        symbol: "σ",
+        unit: "-",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 1.0,
+        lower: 0.0,
+        upper: 1.0,
+        possible: [0.0, 1.0],
+        starts: &[],
+        by_actuator: &[],
+        fitted: Fitted::FromDesign,
+        in_room: false,
+        meaning: "1: half in the wall, 0: on it",
+    }],
+    family: Some(Family::Mckibben),
+    add,
+};
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    if values[0] == 0.0 {
+        return;
+    }
+    for site in assembly.active_sites(Family::Mckibben) {
+        let (radius_m, width_m) = (site.radius_m, site.shape.width_m);
+        let Some(body) = drawn_in(radius_m, width_m) else { continue };
+        let part = |on: f64, sunk: f64| on + values[0] * (sunk - on);
+        let lost_m2 = PI * radius_m.powi(2) - body.area_m2;
+        site.linkage.arm_m = part(site.linkage.arm_m, body.chord_m);
+        site.weave.drawn_in_m2 = values[0] * lost_m2;
+        if let BodyLaw::Hinge(hinge) = &mut site.body_pressure {
+            hinge.share *= part(1.0, body.area_m2 * body.centroid_m / (PI * radius_m.powi(3)));
+        }
+    }
+}
+
+/// Section of the body beside a muscle, heights from the far side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Section {
+    area_m2: f64,
+    centroid_m: f64,
+    /// Height of the chord.
+    chord_m: f64,
+}
+
+/// The body's part of the section with a muscle half in its wall; `None` where the muscle is too wide for the body.
+fn drawn_in(radius_m: f64, width_m: f64) -> Option<Section> {
+    let tube_m = width_m / PI;
+    let whole = closed_by_chord(2.0 * PI * radius_m - width_m, 2.0 * tube_m)?;
+    let half = 0.5 * PI * tube_m.powi(2);
+    let area_m2 = whole.area_m2 - half;
+    let moment = whole.area_m2 * whole.centroid_m - half * (whole.chord_m - 4.0 * tube_m / (3.0 * PI));
+    Some(Section { area_m2, centroid_m: moment / area_m2, chord_m: whole.chord_m })
+}
+
+/// A section of wall, an arc that a chord closes; `None` if the chord is not the shorter one.
+fn closed_by_chord(arc_m: f64, chord_m: f64) -> Option<Section> {
+    if !(arc_m > 0.0 && chord_m > 0.0 && chord_m < arc_m) {
+        return None;
+    }
+    // sinβ/(π − β) rises from 0 to 1.
+    let (mut low, mut high) = (0.0, PI);
+    for _ in 0..60 {
+        let middle: f64 = 0.5 * (low + high);
+        if middle.sin() / (PI - middle) < chord_m / arc_m { low = middle } else { high = middle }
+    }
+    let (sin, cos) = low.sin_cos();
+    let radius = arc_m / (2.0 * (PI - low));
+    let area_m2 = radius.powi(2) * (PI - low + sin * cos);
+    let centroid_m = radius - 2.0 * (radius * sin).powi(3) / (3.0 * area_m2);
+    Some(Section { area_m2, centroid_m, chord_m: radius * (1.0 + cos) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_short_chord_leaves_a_circle_and_a_long_one_a_half() {
+        let radius = 0.03;
+        let round = closed_by_chord(2.0 * PI * radius, 1e-7).unwrap();
+        assert!((round.chord_m / (2.0 * radius) - 1.0).abs() < 1e-6 && (round.centroid_m / radius - 1.0).abs() < 1e-6);
+        let half = closed_by_chord(PI * radius, 2.0 * radius).unwrap();
+        assert!((half.chord_m / radius - 1.0).abs() < 1e-12);
+        assert!((half.area_m2 / (0.5 * PI * radius * radius) - 1.0).abs() < 1e-12);
+        assert!((half.centroid_m / (radius * (1.0 - 4.0 / (3.0 * PI))) - 1.0).abs() < 1e-12);
+        assert_eq!(closed_by_chord(0.05, 0.06), None);
+    }
+
+    #[test]
+    fn area_and_centroid_are_those_of_strips_of_the_section() {
+        let (arc, chord) = (0.19, 0.038);
+        let at = closed_by_chord(arc, chord).unwrap();
+        let radius = (0.25 * chord * chord + at.chord_m.powi(2)) / (2.0 * at.chord_m);
+        let (mut area, mut moment, n) = (0.0, 0.0, 200_000);
+        for i in 0..n {
+            let y = at.chord_m * (f64::from(i) + 0.5) / f64::from(n);
+            let strip = 2.0 * (radius * radius - (radius - y).powi(2)).sqrt() * at.chord_m / f64::from(n);
+            (area, moment) = (area + strip, moment + strip * y);
+        }
+        assert!((area / at.area_m2 - 1.0).abs() < 1e-6 && (moment / area / at.centroid_m - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_shipped_muscle_lies_where_the_finite_elements_have_it() {
+        // At 30 kPa the section of `ibr simulate fpam` has far side, bottom and top of the tube at −27.9, 20.9 and 64.0 mm.
+        let axis = 0.5 * (20.9 + 64.0) + 27.9;
+        let arm = 1e3 * drawn_in(0.04, 0.06).unwrap().chord_m;
+        assert!((arm / axis - 1.0).abs() < 0.035, "{arm} {axis}");
+    }
+}

@@ -1,0 +1,172 @@
+//! The cell against exact tubes, quadrature and its own energy.
+
+use super::*;
+use crate::exact::mckibben::{max_contraction, tondu_lopez_force_n};
+use crate::exact::tube::{ClosedTube, Ends, inflate};
+use crate::fabrics::Orthotropic;
+
+const YARNS: f64 = 1.48e-4;
+
+fn muscle(bias_deg: f64, weave: Weave) -> Muscle {
+    let double = bias_deg.to_radians().sin().powi(2);
+    let bias = [1.0 - double, double];
+    Muscle { weave, radius_m: 0.06 / PI, length_m: 0.3, arm_m: 0.068, volume_gain: 1.0, bias }
+}
+
+fn stretchy(compliance_m_per_n: f64) -> Weave {
+    Weave { compliance_m_per_n, ..Weave::default() }
+}
+
+/// Pull at a contraction \[N\].
+fn pull_n(at: &Muscle, contraction: f64, p_act_pa: f64) -> f64 {
+    -at.potential(contraction, p_act_pa, 0.0).1
+}
+
+fn root(mut f: impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if f(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    low
+}
+
+#[test]
+fn stiff_yarns_make_the_ideal_muscle_at_every_bias_angle() {
+    for bias_deg in [25.0_f64, 42.5, 45.0, 50.0] {
+        let (at, bias) = (muscle(bias_deg, Weave::default()), bias_deg.to_radians());
+        for contraction in [-0.03, 0.0, 0.07, 0.15] {
+            let braid = tondu_lopez_force_n(at.radius_m, bias, contraction, 30e3, 1.0);
+            assert!((pull_n(&at, contraction, 30e3) - braid).abs() < 1e-10, "{bias_deg} {contraction}");
+        }
+        assert!(pull_n(&at, max_contraction(bias), 30e3).abs() < 1e-11, "{bias_deg}");
+    }
+}
+
+#[test]
+fn a_free_tube_with_yarns_that_give_is_the_exact_closed_tube() {
+    let (e_pa, thickness_m) = (108.25e6, 50e-6);
+    for (nu, p) in [(0.0, 3e3), (0.0, 30e3), (0.2, 30e3), (0.3, 60e3)] {
+        let fabric = Orthotropic::new(e_pa, e_pa, nu, 1.0, thickness_m);
+        let tube = ClosedTube { radius_m: 0.06 / PI, warp_angle: PI / 4.0, fabric: &fabric };
+        let exact = inflate(&tube, p, Ends::Free(0.0)).unwrap().contraction();
+        let cell = muscle(45.0, stretchy((1.0 - nu) / (e_pa * thickness_m)));
+        let free = root(|contraction| pull_n(&cell, contraction, p), 0.0, 0.3);
+        assert!((free - exact).abs() < 2e-6, "{nu} {p}: {free} {exact}");
+    }
+}
+
+#[test]
+fn what_the_supply_gives_is_stored_in_the_yarns_or_pulled_out() {
+    // At fixed pressure −∂E/∂P is the volume, so E + P v is what the yarns store: m²/c over both halves.
+    let (cell, contraction, p) = (muscle(45.0, stretchy(YARNS)), 0.06, 30e3);
+    let energy = |contraction: f64, p: f64| cell.potential(contraction, p, 0.0).0;
+    let volume = (energy(contraction, p - 1.0) - energy(contraction, p + 1.0)) / 2.0;
+    let halves = cell.halves(1.0 - contraction, 0.0, p * cell.radius_m);
+    let shape = PI * cell.radius_m.powi(2) * 0.5 * (halves[0].hoop2 + halves[1].hoop2) * (1.0 - contraction);
+    assert!((volume / shape - 1.0).abs() < 1e-8, "{volume} {shape}");
+    let strain = YARNS * p * cell.radius_m * (1.0 - contraction);
+    let stored = 2.0 * PI * cell.radius_m * strain.powi(2) / YARNS;
+    assert!(((energy(contraction, p) + p * volume) / stored - 1.0).abs() < 1e-6);
+    // Round a loop of contraction and pressure no work is left over.
+    let corners = [(0.02, 10e3), (0.08, 10e3), (0.08, 40e3), (0.02, 40e3), (0.02, 10e3)];
+    let mut work = 0.0;
+    for side in corners.windows(2) {
+        for i in 0..2000 {
+            let along = |t: f64| {
+                let [from, to] = [side[0], side[1]];
+                (from.0 + t * (to.0 - from.0), from.1 + t * (to.1 - from.1))
+            };
+            let (middle, dp) = (along((f64::from(i) + 0.5) / 2000.0), (side[1].1 - side[0].1) / 2000.0);
+            let de = (side[1].0 - side[0].0) / 2000.0;
+            let volume = (energy(middle.0, middle.1 - 1.0) - energy(middle.0, middle.1 + 1.0)) / 2.0;
+            work += pull_n(&cell, middle.0, middle.1) * de + volume * dp;
+        }
+    }
+    assert!(work.abs() < 1e-7, "{work:e} J/m");
+}
+
+#[test]
+fn shear_in_the_cell_is_that_of_the_exact_tube() {
+    let (e_pa, thickness_m, shear_n_per_m) = (108.25e6, 50e-6, 51.4);
+    let fabric = Orthotropic::new(e_pa, e_pa, 0.0, shear_n_per_m / thickness_m, thickness_m);
+    let tube = ClosedTube { radius_m: 0.06 / PI, warp_angle: PI / 4.0, fabric: &fabric };
+    let cell = muscle(45.0, Weave { shear_n_per_m, ..stretchy(1.0 / (e_pa * thickness_m)) });
+    for p in [3e3, 10e3, 30e3] {
+        let exact = inflate(&tube, p, Ends::Free(0.0)).unwrap().contraction();
+        let free = root(|contraction| pull_n(&cell, contraction, p), 0.0, 0.3);
+        // The hoop does not feel the shear here: of the order G_t c.
+        assert!((free - exact).abs() < 2.0 * shear_n_per_m / (e_pa * thickness_m) * exact, "{p}: {free} {exact}");
+    }
+}
+
+#[test]
+fn a_flat_end_is_the_shape_of_most_volume() {
+    let r = 0.02;
+    // Without a pull the profile A/cosψ = const, by quadrature over v = 1 − u: singular only in s, not in the shortening.
+    let (mut shorter, mut missing, n) = (0.0, 0.0, 100_000);
+    for i in 0..n {
+        let v = (f64::from(i) + 0.5) / f64::from(n);
+        let cos = 1.0 - v * v;
+        let sin = (1.0 - cos * cos).sqrt();
+        shorter += (1.0 - cos) / sin * r / f64::from(n);
+        missing += v / sin * r / f64::from(n);
+    }
+    assert!((shorter / ((SQRT_2 - 1.0) * r) - 1.0).abs() < 1e-6);
+    assert!((missing / (FRAC_PI_4 * r) - 1.0).abs() < 1e-6);
+    assert!(end_pull(SQRT_2 - 1.0)[0].abs() < 1e-15);
+    for pull in [-0.3, 0.0, 0.5, 4.0] {
+        let m = 2.0 + 2.0 * pull;
+        let d = f64::sqrt(m) - (m - 1.0).sqrt();
+        assert!((end_pull(d)[0] - pull).abs() < 1e-12, "{pull}");
+        let slope = (end_work(d + 1e-6) - end_work(d - 1e-6)) / 2e-6;
+        assert!((slope - pull).abs() < 1e-7, "{pull} {slope}");
+    }
+}
+
+#[test]
+fn a_free_muscle_with_flat_ends_is_shorter_by_their_closed_form() {
+    let cell = muscle(45.0, Weave { flat_ends: 2.0, ..Weave::default() });
+    let free = root(|contraction| pull_n(&cell, contraction, 30e3), 0.0, 0.5);
+    let [one, other] = cell.halves(1.0, 0.0, 30e3 * cell.radius_m);
+    assert_eq!([one.hoop2, other.hoop2], [1.0; 2]);
+    let ends = 2.0 * (SQRT_2 - 1.0) * cell.radius_m / cell.length_m;
+    let idle = 2.0 * FRAC_PI_4 * cell.radius_m / cell.length_m;
+    let weave = (1.0 - idle) * max_contraction(FRAC_PI_4);
+    assert!((free - weave - ends).abs() < 1e-12, "{free} {weave} {ends}");
+}
+
+#[test]
+fn a_stiff_wall_keeps_the_length_and_the_width_of_the_half_that_is_glued_to_it() {
+    let cell = muscle(45.0, Weave { wall_n_per_m: 1e12, compliance_m_per_n: YARNS, ..Weave::default() });
+    let half = cell.half(1.0, 1.0, 1e12, 30e3 * cell.radius_m);
+    // All of the hoop tension is then the wall's, e = P r₀/K.
+    assert!((half.hoop2 - 1.0 - 2.0 * 30e3 * cell.radius_m / 1e12).abs() < 1e-12);
+    // Longer than its yarns it resists with the wall's stiffness, shorter it folds.
+    let longer = cell.half(1.001, 1.0, 1e12, 30e3 * cell.radius_m);
+    assert!((longer.by_own / 1e9 - 1.0).abs() < 0.01 && cell.half(0.999, 1.0, 5400.0, 573.0).by_own.abs() < 573.0);
+}
+
+#[test]
+fn the_force_is_minus_the_slope_of_the_energy_with_all_of_it_on() {
+    let weave = Weave {
+        compliance_m_per_n: YARNS,
+        wall_n_per_m: 5400.0,
+        flat_ends: 2.0,
+        drawn_in_m2: 1.47e-3,
+        shear_n_per_m: 51.4,
+    };
+    for bias_deg in [35.0, 45.0] {
+        for p in [1e3, 3e3, 10e3, 30e3, 90e3] {
+            for contraction in [-0.02, 0.01, 0.05, 0.08, 0.2] {
+                let cell = muscle(bias_deg, weave);
+                let energy =
+                    |contraction: f64| cell.add(&Pose::new(&[0.0, contraction, 0.0, 0.0], 2e3, p), &mut [0.0; 4]);
+                let mut force = [0.0; 4];
+                cell.add(&Pose::new(&[0.0, contraction, 0.0, 0.0], 2e3, p), &mut force);
+                let central = |h: f64| (energy(contraction + h) - energy(contraction - h)) / (2.0 * h);
+                let slope = (4.0 * central(1e-4) - central(2e-4)) / 3.0;
+                assert!((force[1] + slope).abs() < 1e-6 * (force[1].abs() + p * 1e-3), "{bias_deg} {p} {contraction}");
+            }
+        }
+    }
+}
