@@ -99,7 +99,7 @@ fn wrong_tests_are_refused_and_earlier_results_stay() {
         (bias.replace("length_mm: 250", "length_mm: 30"), &["H = 30.000 mm", "W = 20.000 mm"]),
         (bias.replace("displacement_mm,", "displacement,"), &["displacement has no unit", "displacement_mm"]),
         (warp.replace("# direction_deg: 0\n", ""), &["direction of the pull is not known", "--direction 0"]),
-        (warp.replace("# direction_deg: 0\n", "# direction_deg: 30\n"), &["30 degrees"]),
+        (warp.replace("# direction_deg: 0\n", "# direction_deg: 120\n"), &["120 degrees"]),
         (warp.lines().take(10).collect::<Vec<_>>().join("\n"), &["has 3 rows"]),
         (String::new(), &["the file is empty"]),
     ] {

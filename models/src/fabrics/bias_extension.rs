@@ -35,6 +35,7 @@
 use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
 use super::Fabric;
+use crate::exact::coupon;
 
 /// Iterations that more than suffice: the yarns' stretch is a contraction of its own small size.
 const MOST: usize = 60;
@@ -129,6 +130,24 @@ impl BiasExtension {
         }
         let stiff = (1.0 + sin).sqrt();
         [self.length_m * (stretch(lambda) - stiff), lambda[0] * lambda[1] * stiff / stretch(lambda)]
+    }
+
+    /// The way back: displacement \[m\] and force \[N\] of this strip at a shear angle, for a law F_sh(γ) \[N/m\].
+    pub fn pulled(&self, angle: f64, law_n_per_m: impl Fn(f64) -> f64, yarns: Option<&dyn Fabric>) -> [f64; 2] {
+        let strip = coupon::Bias { length_m: self.length_m, width_m: self.width_m };
+        let stiff_n = coupon::bias_force_n(&strip, angle, law_n_per_m);
+        let Some(yarns) = yarns else { return [self.displacement_m(angle), stiff_n] };
+        let (mut pull_n, mut stretch_m) = (stiff_n, 0.0);
+        for _ in 0..MOST {
+            let share;
+            [stretch_m, share] = self.yarn_stretch(angle, pull_n, yarns);
+            let done = (stiff_n / share - pull_n).abs() < 1e-14 * stiff_n;
+            pull_n = stiff_n / share;
+            if done {
+                break;
+            }
+        }
+        [self.displacement_m(angle) + stretch_m, pull_n]
     }
 
     /// Displacement at a shear angle, d = L₀ (√2 cos(π/4 − γ/2) − 1) \[m\].
@@ -244,6 +263,8 @@ mod tests {
         for [angle, force] in &found[1..] {
             assert!((force * angle.cos() / t / (slope * angle) - 1.0).abs() < 1e-5, "{angle}: {}", force / angle / t);
         }
+        let back = strip.pulled(found[20][0], |angle| t * slope * angle / angle.cos(), Some(&yarns));
+        assert!([0, 1].iter().all(|&k| (back[k] / rows[20][k] - 1.0).abs() < 1e-5), "{back:?} {:?}", rows[20]);
         let stiff = strip.shear(&rows).unwrap();
         assert!(stiff[20][1] / (slope * stiff[20][0]) < 0.85);
     }
