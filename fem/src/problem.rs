@@ -162,8 +162,8 @@ pub struct Contact {
     pub thickness_m: f64,
     /// Parts that take part; empty: all.
     pub parts: Vec<String>,
-    /// Sides of elements against sides as well, and no step in which anything passes through anything, at 3 to 4 times the
-    /// CPU time. For layers that start apart: see `contact::edges`.
+    /// Sides of elements against sides as well, and no step in which anything passes through anything, at 8 times the
+    /// CPU time per step. For layers that start apart: see `contact::edges`.
     pub edges: bool,
 }
 
@@ -235,11 +235,13 @@ pub struct Guards {
     pub inverted: bool,
     /// Share of the nodes in contact that may change side of a layer (0.05).
     pub sides: f64,
+    /// Share of the stored energy that hourglass control may hold at the end (0.15).
+    pub hourglass: f64,
 }
 
 impl Default for Guards {
     fn default() -> Guards {
-        Guards { residual: 0.02, residual_floor_j: 1e-6, speed_m_s: 0.0, inverted: true, sides: 0.05 }
+        Guards { residual: 0.02, residual_floor_j: 1e-6, speed_m_s: 0.0, inverted: true, sides: 0.05, hourglass: 0.15 }
     }
 }
 

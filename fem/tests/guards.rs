@@ -153,6 +153,27 @@ fn energy_out_of_nothing_stops_the_run() {
 }
 
 #[test]
+fn a_shape_that_is_that_of_hourglass_control_is_no_result_unless_it_is_allowed() {
+    let judged = |hourglass: f64, limit: Option<f64>| {
+        let mut problem = pillow(1e3);
+        (problem.settings.mass_damping_1_s, problem.settings.hourglass) = (300.0, hourglass);
+        problem.settings.guards.residual_floor_j = 1e-3;
+        limit.into_iter().for_each(|limit| problem.settings.guards.hourglass = limit);
+        let mut run = Simulation::new(&problem).unwrap();
+        run.advance_until(0.03, &mut |_| true).unwrap();
+        (run.ledger().hourglass_share(), run.judge_end())
+    };
+    let (much, Err(error)) = judged(0.1, None) else { panic!("not stopped") };
+    says(
+        &error.to_string(),
+        &[&format!("{:.0} % of the stored energy", 100.0 * much), "limit 15 %", "guard_hourglass"],
+    );
+    assert!(judged(0.1, Some(1.0)).1.is_ok());
+    let (little, fine) = judged(0.0, None);
+    assert!(fine.is_ok() && little == 0.0 && much > 0.15, "{little} {much}");
+}
+
+#[test]
 fn meshes_that_cannot_be_simulated_are_refused_with_their_element() {
     let faulty = |change: &dyn Fn(&mut Mesh)| {
         let mut problem = pillow(1e3);

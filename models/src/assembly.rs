@@ -48,6 +48,8 @@ pub struct Assembly {
     pub node_terms: Vec<Box<dyn Term>>,
     /// Supply laws in order.
     pub supply: Vec<SupplyLaw>,
+    /// Set body pressure that does not arrive \[Pa\].
+    pub body_offset_pa: f64,
     /// Camera laws in order.
     pub camera: Vec<CameraLaw>,
     /// Whether a supply law depends on the time in a hold.
@@ -66,6 +68,7 @@ impl Assembly {
             segments: Vec::new(),
             node_terms: Vec::new(),
             supply: Vec::new(),
+            body_offset_pa: 0.0,
             camera: Vec::new(),
             timed: false,
             varies: false,

@@ -108,7 +108,7 @@ impl Model {
     fn reach(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Result<(), Unsolved> {
         self.solve(loads, out, warm)?;
         let work = &mut out.work;
-        work.history.remember(self.assembly(), loads.body_pa, &work.states, &work.p_act_pa);
+        work.history.remember(self.assembly(), self.body_pa(loads), &work.states, &work.p_act_pa);
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 
 use crate::actuators::ActuatorShape;
 use crate::assembly::{Assembly, Segment, Sighting};
-use crate::body::{Bending, BodyPressure};
+use crate::body::{Bending, BodyLaw, BodyPressure, BodyWall};
 use crate::error::Unsolved;
 use crate::robot::{Workspace, equilibrium, place};
 use crate::scenario::{Scenario, Span};
@@ -56,7 +56,19 @@ pub struct LedgerLine {
 impl Model {
     /// Puts a scenario together.
     pub fn new(scenario: &Scenario) -> Model {
-        let spans = scenario.spans();
+        Model::of(scenario, scenario.spans())
+    }
+
+    /// The same robot with all lengths along the body times a factor: more units, not longer ones.
+    pub(crate) fn stretched(scenario: &Scenario, factor: f64) -> Model {
+        let mut spans = scenario.spans();
+        for span in &mut spans {
+            (span.start_m, span.length_m) = (span.start_m * factor, span.length_m * factor);
+        }
+        Model::of(scenario, spans)
+    }
+
+    fn of(scenario: &Scenario, spans: Vec<Span>) -> Model {
         let mut assembly = assemble(scenario, &spans, scenario.segments);
         scenario.add_effects(&mut assembly);
         // Without transverse loads and terms that vary along it every stretch of equal design is one arc.
@@ -99,7 +111,7 @@ impl Model {
     /// The equilibrium with what `out` remembers.
     pub(crate) fn solve(&self, loads: &Loads, out: &mut Prediction, warm: bool) -> Result<(), Unsolved> {
         self.supply(loads, &mut out.work);
-        equilibrium(&self.assembly, loads.body_pa, &mut out.work, warm)
+        equilibrium(&self.assembly, self.body_pa(loads), &mut out.work, warm)
     }
 
     /// Tip and markers of the equilibrium in `out`.
@@ -118,13 +130,16 @@ impl Model {
     /// [`Model::follow`] a term with history has two lines, what it stores and what it has lost since the start; in one of
     /// [`Model::predict`] its line is the sum.
     pub fn ledger(&self, loads: &Loads, at: &Prediction) -> Vec<LedgerLine> {
-        let mut lines = Vec::new();
+        let (mut lines, body_pa) = (Vec::new(), self.body_pa(loads));
         for (i, segment) in self.assembly.segments.iter().enumerate() {
             let site = &self.assembly.sites[segment.site];
-            self.site_energies(site, segment, loads.body_pa, &at.work, i, &mut lines);
+            self.site_energies(site, segment, body_pa, &at.work, i, &mut lines);
         }
         self.lost_energies(&at.work, &mut lines);
-        let pose = Pose::new(&at.work.nodes, loads.body_pa, 0.0);
+        if at.work.is_sheared() {
+            post(&mut lines, "wall_shear", RowKind::Stored, self.shear_energy(body_pa, &at.work));
+        }
+        let pose = Pose::new(&at.work.nodes, body_pa, 0.0);
         let rest = self.rest_nodes();
         for term in &self.assembly.node_terms {
             let mut unused = vec![0.0; rest.len()];
@@ -165,6 +180,12 @@ impl Model {
         &self.assembly
     }
 
+    /// Body pressure after the supply stage \[Pa\].
+    #[inline]
+    pub(crate) fn body_pa(&self, loads: &Loads) -> f64 {
+        (loads.body_pa - self.assembly.body_offset_pa).max(0.0)
+    }
+
     pub(crate) fn marker_count(&self) -> usize {
         self.markers.len()
     }
@@ -182,7 +203,9 @@ impl Model {
     fn stretch(&self, work: &Workspace, segment: usize) -> Stretch {
         let offset_m = self.assembly.sites[self.assembly.segments[segment].site].centre_line_m;
         let from = [work.nodes[2 * segment], work.nodes[2 * segment + 1]];
-        Stretch::new(from, work.directions[segment], work.headings[segment], work.states[segment].curvature, offset_m)
+        let stretch =
+            Stretch::new(from, work.directions[segment], work.headings[segment], work.states[segment].curvature, offset_m);
+        stretch.sheared(work.shear(segment))
     }
 
     /// The markers as the camera sees them.
@@ -247,6 +270,16 @@ impl Model {
         }
     }
 
+    /// ½ K γ² over the length \[J\].
+    fn shear_energy(&self, p_body_pa: f64, work: &Workspace) -> f64 {
+        let of = |(i, segment): (usize, &Segment)| {
+            let shear = work.shear(i);
+            let stiffness = self.assembly.sites[segment.site].shear_stiffness_n(p_body_pa);
+            if shear == 0.0 { 0.0 } else { 0.5 * stiffness * shear * shear * segment.length_m }
+        };
+        self.assembly.segments.iter().enumerate().map(of).sum()
+    }
+
     fn rest_nodes(&self) -> Vec<f64> {
         let mut x = 0.0;
         let mut nodes = vec![0.0, 0.0];
@@ -308,6 +341,11 @@ fn site(scenario: &Scenario, span: &Span) -> Site {
     debug_assert!(span.channel < CHANNELS);
     let mut site = Site::new(span.radius_m, pressure, bending, linkage, span.actuator, shape, span.channel);
     site.centre_line_m = span.centre_line_m;
+    site.wall_shear_n_per_m = scenario.wall.shear_n_per_m;
+    if let Some(stiffness_n_per_m) = scenario.wall.stiffness_n_per_m {
+        let wall = BodyWall { radius_m: span.radius_m, stiffness_n_per_m, share: scenario.hinge_share };
+        site.body_pressure = BodyLaw::Wall(wall);
+    }
     site
 }
 

@@ -39,12 +39,15 @@ struct Coupled {
     /// ∂Gᵢ/∂κⱼ for i < j, divided by hⱼ; and ∂Gᵢ/∂κᵢ.
     coupling: Vec<f64>,
     diagonal: Vec<f64>,
+    /// Shear angle per segment; empty where the wall is rigid in shear.
+    shear: Vec<f64>,
 }
 
 impl Workspace {
     pub fn new(assembly: &Assembly) -> Workspace {
         let (segments, coupled) = (assembly.segments.len(), !assembly.node_terms.is_empty());
         let n = if coupled { segments } else { 0 };
+        let shears = assembly.sites.iter().any(|site| site.wall_shear_n_per_m.is_some());
         Workspace {
             states: vec![SiteState::REST; segments],
             p_act_pa: vec![0.0; segments],
@@ -60,8 +63,20 @@ impl Workspace {
                 residual: vec![0.0; n],
                 coupling: vec![0.0; n],
                 diagonal: vec![0.0; n],
+                shear: vec![0.0; if shears { n } else { 0 }],
             },
         }
+    }
+
+    /// Shear angle of a segment.
+    #[inline]
+    pub fn shear(&self, index: usize) -> f64 {
+        self.coupled.shear.get(index).copied().unwrap_or(0.0)
+    }
+
+    /// Whether transverse loads shear the body.
+    pub fn is_sheared(&self) -> bool {
+        !self.coupled.shear.is_empty()
     }
 }
 
@@ -181,6 +196,10 @@ fn disagreement(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) -> f6
     for term in &assembly.node_terms {
         term.add(&pose, &mut work.coupled.forces);
     }
+    if work.is_sheared() {
+        shear(assembly, p_body_pa, work);
+        place_nodes(assembly, work);
+    }
     load_moments(assembly, work);
     work.coupled.residual.iter().fold(0.0, |w, r| if r.abs() > w || r.is_nan() { r.abs() } else { w })
 }
@@ -235,13 +254,26 @@ fn place_nodes(assembly: &Assembly, work: &mut Workspace) {
                 [step.along, step.across, step.turn[0], step.turn[1]]
             }
         };
-        xy = advance(xy, direction, along, across);
+        xy = advance(xy, direction, along, across + work.shear(i) * segment.length_m);
         heading += kappa * segment.length_m;
         direction = turned(direction, [sin, cos]);
         work.nodes[2 * i + 2] = xy[0];
         work.nodes[2 * i + 3] = xy[1];
         work.headings[i + 1] = heading;
         work.directions[i + 1] = direction;
+    }
+}
+
+/// Shear angles γ = V/K, V the force on all nodes beyond across the start of the segment: a segment slides across its start,
+/// so that its own bend does not turn the slide. The loads are dead: sheared nodes change none of them.
+fn shear(assembly: &Assembly, p_body_pa: f64, work: &mut Workspace) {
+    let mut beyond = [0.0; 2];
+    for i in (0..assembly.segments.len()).rev() {
+        let node = 2 * (i + 1);
+        beyond = [beyond[0] + work.coupled.forces[node], beyond[1] + work.coupled.forces[node + 1]];
+        let [cos, sin] = work.directions[i];
+        let stiffness = assembly.sites[assembly.segments[i].site].shear_stiffness_n(p_body_pa);
+        work.coupled.shear[i] = (beyond[1] * cos - beyond[0] * sin) / stiffness;
     }
 }
 

@@ -87,6 +87,8 @@ pub(crate) struct Stretch {
     /// 1 − κR, and that over κ (not used where κ is small).
     line: f64,
     line_radius: f64,
+    /// Shear angle: every point moves across by it times its distance from the start.
+    shear: f64,
 }
 
 impl Stretch {
@@ -94,7 +96,13 @@ impl Stretch {
     #[inline(always)]
     pub fn new(from: [f64; 2], direction: [f64; 2], heading: f64, kappa: f64, radius: f64) -> Stretch {
         let line = 1.0 - kappa * radius;
-        Stretch { from, direction, heading, kappa, line, line_radius: line / kappa }
+        Stretch { from, direction, heading, kappa, line, line_radius: line / kappa, shear: 0.0 }
+    }
+
+    /// The same, sheared.
+    #[inline(always)]
+    pub fn sheared(self, shear: f64) -> Stretch {
+        Stretch { shear, ..self }
     }
 
     /// Position and heading at a taut length from its start.
@@ -108,7 +116,7 @@ impl Stretch {
             let (sin, cos) = sin_cos(u);
             (self.line_radius * sin, self.line_radius * (1.0 - cos))
         };
-        (advance(self.from, self.direction, along, across), self.heading + u)
+        (advance(self.from, self.direction, along, across + self.shear * offset), self.heading + u)
     }
 }
 

@@ -18,6 +18,7 @@ pub use crate::linkage::Linkage;
 use crate::linkage::line_tension;
 use crate::root::{NoRoot, Root, Start, find_root};
 use crate::term::{Extreme, Pose, Term, actuator_q};
+use std::f64::consts::PI;
 
 /// One place of the robot while a model is put together; an effect changes what it owns.
 pub struct Site {
@@ -44,6 +45,8 @@ pub struct Site {
     pub bending: Bending,
     /// Further terms over `[κ]`, J per metre of body.
     pub body_terms: Vec<Box<dyn Term>>,
+    /// Shear stiffness of the wall G t \[N/m\]; `None`: transverse loads do not shear the body.
+    pub wall_shear_n_per_m: Option<f64>,
 }
 
 /// The pressure work of the actuator, `E = −P v`.
@@ -173,7 +176,16 @@ impl Site {
             body_pressure: BodyLaw::Hinge(body_pressure),
             bending,
             body_terms: Vec::new(),
+            wall_shear_n_per_m: None,
         }
+    }
+
+    /// Shear stiffness of the body `πR²p_b + πR G t` \[N\]; infinite where it is rigid.
+    ///
+    /// Fichter 1966; Le van & Wielgosz 2005: the pressure's part is exact for a membrane, a round wall's is half of its area.
+    pub fn shear_stiffness_n(&self, p_body_pa: f64) -> f64 {
+        let (r, wall) = (self.radius_m, self.wall_shear_n_per_m);
+        wall.map_or(f64::INFINITY, |wall| PI * r * (r * p_body_pa + wall))
     }
 
     /// Curvature at which actuator, wall and external moment balance; `memory` is what the body's terms remember here,
@@ -358,6 +370,16 @@ impl Site {
         };
         let found = self.body_terms().filter_map(|term| term.extreme(&loads.pose(&[0.0]), within));
         found.max_by(|a, b| a.moment.total_cmp(&b.moment))
+    }
+
+    /// Moment of the outer loads at a state, and that of the wall, their sum with the actuator's \[N·m\].
+    pub(crate) fn moments(&self, state: &SiteState, memory: &[f64]) -> [f64; 2] {
+        [state.loads.moment, self.body_moment(state.curvature, &state.loads, memory)]
+    }
+
+    /// Whether an actuator here is open at these pressures: a flat one has no slope.
+    pub(crate) fn is_open(&self, p_body_pa: f64, p_act_pa: f64) -> bool {
+        p_act_pa - self.closed_share * p_body_pa > SLACK_BELOW_PA
     }
 
     /// ∂U/∂κ of all body-side terms \[N·m\].

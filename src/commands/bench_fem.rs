@@ -19,9 +19,9 @@ use reference::Membrane;
 const REPEATS: usize = 7;
 /// Turns of a repeat, in which both sides of a ratio alternate and the best of each counts: a shared machine is disturbed for
 /// seconds on end, and both of its cores are rarely free, so many short ones.
-const TURNS: usize = 10;
-/// Steps of a turn.
-const TURN_STEPS: u64 = 100;
+const TURNS: usize = 6;
+/// Steps of a turn: a few looks of the guards.
+const TURN_STEPS: u64 = 192;
 /// Whole runs of the folded cPAM, whose cost changes along the run, and stretches of each.
 const WHOLE_RUNS: usize = 5;
 const STRETCHES: usize = 40;

@@ -117,7 +117,7 @@ fn basis(scenario: &Scenario) -> Known {
     if says("calibrated") {
         return Known::Calibrated;
     }
-    if scenario.effects.iter().all(|e| matches!(e.basis.as_str(), "geometry" | "measured")) {
+    if scenario.effects.iter().all(|e| matches!(e.basis.as_str(), "measured" | "predicted" | "published")) {
         return if scenario.bending_stiffness > 0.0 { Known::Assumed } else { Known::Predicted };
     }
     Known::Assumed

@@ -122,7 +122,7 @@ pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, String)
         return Err(Failure::usage(format!("unknown effect `{name}`"), spelling::known(name, &known)));
     };
     let kind = scenario.actuator.kind;
-    if !effect.applies_to(kind.family) {
+    if !scenario.actuator.takes(&effect) {
         let message = format!("{name} does not exist for the actuator {}", kind.name);
         return Err(Failure::usage(message, "`ibr list effects` says what each effect is for"));
     }

@@ -6,13 +6,15 @@ use crate::support::{Folder, assert_hashes, assert_opens_offline};
 use serde_json::Value;
 
 /// A tenth of a second of processor time.
-const QUICK: [&str; 9] = [
+const QUICK: [&str; 11] = [
     "--mesh",
     "14mm",
     "--set",
     "body_ramp_s=0.004",
     "--set",
     "actuator_ramp_s=0.006",
+    "--set",
+    "guard_hourglass=1",
     "--no-frames",
     "--quiet",
     "--json",

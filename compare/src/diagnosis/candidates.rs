@@ -150,10 +150,9 @@ pub fn hold(candidates: &mut [Candidate], held: &Held) {
 
 /// Effects of the catalogue and formulas of the scenario that exist for this actuator and are not in the scenario yet.
 pub fn candidates(scenario: &Scenario) -> Vec<Candidate> {
-    let family = scenario.actuator.kind.family;
     let absent = |effect: &Effect| !scenario.effects.iter().any(|e| e.name == effect.name);
     let (catalogue, actuator) = (scenario.catalogue(), scenario.actuator.kind.name);
-    catalogue.effects().filter(|e| e.applies_to(family)).filter(absent).map(|e| candidate(&e, actuator)).collect()
+    catalogue.effects().filter(|e| scenario.actuator.takes(e)).filter(absent).map(|e| candidate(&e, actuator)).collect()
 }
 
 /// The scenario's own effects, to be fitted along with the base; known forces stay known.

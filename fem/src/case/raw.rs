@@ -158,6 +158,7 @@ pub(super) struct RawSettings {
     pub guard_speed_m_s: Option<Num>,
     pub guard_inverted: Option<bool>,
     pub guard_sides: Option<Num>,
+    pub guard_hourglass: Option<Num>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -24,6 +24,7 @@ const DAMPING: Range = plain(0.0, 1e5, "1/s; 5 for a robot, 100 for an airbag th
 const VISCOSITY: Range = plain(0.0, 1.0, "a share of critical damping; 0.06 is usual");
 const HOURGLASS: Range = plain(0.0, 1.0, "0.01 is usual; 0.05 and more lock");
 const IMPERFECTION: Range = plain(0.0, 0.2, "a share of the element size; 0.001 is usual, 0 is a perfect start");
+const CONTROL: Range = plain(0.0, 1.0, "share of the stored energy that hourglass control may hold; 0.15 is usual");
 const SIDES: Range = plain(0.0, 1.0, "share of the nodes in contact that may change side of a layer; 0.05 is usual");
 const RESIDUAL: Range = plain(1e-6, 1.0, "energy missing from the balance over the work done; 0.02 is usual");
 const FLOOR: Range = plain(0.0, 1e3, "J; 1e-6 is usual");
@@ -111,6 +112,7 @@ fn guards(raw: &RawSettings) -> Checked<Guards> {
         speed_m_s: optional("guard_speed_m_s", &raw.guard_speed_m_s, &SPEED)?.unwrap_or(usual.speed_m_s),
         inverted: raw.guard_inverted.unwrap_or(usual.inverted),
         sides: optional("guard_sides", &raw.guard_sides, &SIDES)?.unwrap_or(usual.sides),
+        hourglass: optional("guard_hourglass", &raw.guard_hourglass, &CONTROL)?.unwrap_or(usual.hourglass),
     })
 }
 

@@ -84,8 +84,8 @@ pub(super) struct Touch {
 
 impl Chunk {
     /// Starts the way at zero again, at positions `x`.
-    pub fn close(&mut self, x: &[[f64; 4]]) {
-        let way_m = if self.seen_m.is_empty() { f64::INFINITY } else { self.way_m + self.parted_m(x) };
+    pub fn close(&mut self, arch: pulp::Arch, x: &[[f64; 4]]) {
+        let way_m = if self.seen_m.is_empty() { f64::INFINITY } else { self.way_m + self.parted_m(arch, x) };
         for record in &mut self.records {
             record.due_m -= way_m;
             record.within_m += way_m;
@@ -163,7 +163,7 @@ impl Chunk {
 
     /// Measures how far nodes moved against each other and looks, or puts the next measurement off.
     fn look_if_due(&mut self, step: &Step) {
-        let moved_m = if self.seen_m.is_empty() { 0.0 } else { self.parted_m(step.x) };
+        let moved_m = if self.seen_m.is_empty() { 0.0 } else { self.parted_m(step.arch, step.x) };
         let left_m = self.next_m - (self.way_m + moved_m);
         if left_m > 0.05 * step.reach.slack_m {
             // Two nodes may part at twice the pace of the fastest node.
@@ -175,17 +175,8 @@ impl Chunk {
     }
 
     /// No two nodes moved more than this against each other since the last look: diagonal of the box of all motions.
-    fn parted_m(&self, x: &[[f64; 4]]) -> f64 {
-        let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
-        for (n, seen) in self.nodes.iter().zip(&self.seen_m) {
-            let p = &x[*n as usize];
-            for k in 0..4 {
-                let moved = p[k] - seen[k];
-                low[k] = if moved < low[k] { moved } else { low[k] };
-                high[k] = if moved > high[k] { moved } else { high[k] };
-            }
-        }
-        norm([high[0] - low[0], high[1] - low[1], high[2] - low[2]])
+    fn parted_m(&self, arch: pulp::Arch, x: &[[f64; 4]]) -> f64 {
+        arch.dispatch(Parted { chunk: self, x })
     }
 
     /// Finds the closest feature of the records that are due, or nearly, and the records that may touch soon.
@@ -331,6 +322,29 @@ fn round_touch(record: &Record, p: V3, a: V3, b: V3) -> Touch {
     let length = norm(r);
     let normal = if length > 0.0 { scale(r, record.sign / length) } else { [0.0; 3] };
     Touch { depth_m: record.rest_m - record.sign * length, normal, weights: [1.0 - t, t, 0.0] }
+}
+
+/// The box of all motions of a chunk since the last look.
+struct Parted<'a> {
+    chunk: &'a Chunk,
+    x: &'a [[f64; 4]],
+}
+
+impl pulp::WithSimd for Parted<'_> {
+    type Output = f64;
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> f64 {
+        let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
+        for (n, seen) in self.chunk.nodes.iter().zip(&self.chunk.seen_m) {
+            let p = &self.x[*n as usize];
+            for k in 0..4 {
+                let moved = p[k] - seen[k];
+                low[k] = if moved < low[k] { moved } else { low[k] };
+                high[k] = if moved > high[k] { moved } else { high[k] };
+            }
+        }
+        norm([high[0] - low[0], high[1] - low[1], high[2] - low[2]])
+    }
 }
 
 /// The packs of a chunk in one step.

@@ -199,9 +199,10 @@ impl Contact {
 
     fn search(&mut self, x: &[[f64; 4]]) {
         let pairs = search::pairs(&self.surface, x, self.reach.side_m + self.reach.skin_m);
+        let arch = self.arch;
         self.chunks.par_iter_mut().for_each(|chunk| {
             chunk.unload();
-            chunk.close(x);
+            chunk.close(arch, x);
         });
         let clear_m = if self.searches == 0 { f64::NEG_INFINITY } else { self.reach.side_m };
         let old = Memory::new(std::mem::take(&mut self.chunks), x.len(), clear_m);

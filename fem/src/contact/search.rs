@@ -69,10 +69,9 @@ fn ask(
     let far = corners.iter().map(|n| sub(node(x, *n as usize), middle)).map(|r| dot(r, r)).fold(0.0, f64::max);
     let limit = (far.sqrt() + radius_m).powi(2);
     let (low, high) = (low.map(|v| v - radius_m), high.map(|v| v + radius_m));
-    for column in grid.columns(low, high) {
+    for nodes in grid.rows(low, high) {
         // Written without jumps: most nodes are missed, and nobody can tell which.
         let mut end = out.len();
-        let nodes = grid.between(column, low, high);
         out.resize(end + nodes.len(), (NONE, NONE));
         for Placed { place: p, item: node } in nodes {
             let r = sub(*p, middle);
@@ -90,13 +89,12 @@ fn ask(
 /// Columns per point at most.
 const COLUMNS: f64 = 4.0;
 
-/// Points sorted into columns along the direction in which they are spread least, and along each column.
+/// Points sorted into columns along the direction in which they are spread least.
 pub(super) struct Grid {
     low: V3,
     per_m: f64,
     /// The two directions across the columns, and the number of columns in each.
     across: [usize; 2],
-    short: usize,
     count: [usize; 2],
     start: Vec<u32>,
     points: Vec<Placed>,
@@ -124,15 +122,8 @@ impl Grid {
         let size_m = size_m.max((a * b / most).sqrt()).max(a.max(b) / most).max(f64::MIN_POSITIVE);
         let count = [a, b].map(|l| (l / size_m) as usize + 1);
         let start = vec![0; count[0] * count[1] + 1];
-        let mut grid = Grid {
-            low,
-            per_m: 1.0 / size_m,
-            across,
-            short,
-            count,
-            start,
-            points: vec![Placed::default(); places.len()],
-        };
+        let mut grid =
+            Grid { low, per_m: 1.0 / size_m, across, count, start, points: vec![Placed::default(); places.len()] };
         let columns: Vec<usize> = places.iter().map(|p| grid.number(grid.column_of(p.place))).collect();
         columns.iter().for_each(|c| grid.start[c + 1] += 1);
         (1..grid.start.len()).for_each(|i| grid.start[i] += grid.start[i - 1]);
@@ -140,10 +131,6 @@ impl Grid {
         for (place, column) in places.into_iter().zip(columns) {
             grid.points[next[column] as usize] = place;
             next[column] += 1;
-        }
-        for column in grid.start.windows(2) {
-            grid.points[column[0] as usize..column[1] as usize]
-                .sort_unstable_by(|a, b| a.place[short].total_cmp(&b.place[short]).then(a.item.cmp(&b.item)));
         }
         grid
     }
@@ -160,18 +147,13 @@ impl Grid {
         i * self.count[1] + j
     }
 
-    /// Columns that a box from `low` to `high` meets.
-    pub fn columns(&self, low: V3, high: V3) -> impl Iterator<Item = [usize; 2]> + use<> {
+    /// Points of all columns that a box from `low` to `high` meets, row by row: columns hold few points and those of a row
+    /// lie together, so that looking at all of them is faster than looking for the first and the last.
+    pub fn rows(&self, low: V3, high: V3) -> impl Iterator<Item = &[Placed]> {
         let (from, to) = (self.column_of(low), self.column_of(high));
-        (from[0]..=to[0]).flat_map(move |i| (from[1]..=to[1]).map(move |j| [i, j]))
-    }
-
-    /// Points of a column that are not below `low` nor above `high`.
-    pub fn between(&self, column: [usize; 2], low: V3, high: V3) -> &[Placed] {
-        let (number, k) = (self.number(column), self.short);
-        let points = &self.points[self.start[number] as usize..self.start[number + 1] as usize];
-        let from = points.partition_point(|p| p.place[k] < low[k]);
-        let points = &points[from..];
-        &points[..points.partition_point(|p| p.place[k] <= high[k])]
+        (from[0]..=to[0]).map(move |i| {
+            let (first, last) = (self.number([i, from[1]]), self.number([i, to[1]]));
+            &self.points[self.start[first] as usize..self.start[last + 1] as usize]
+        })
     }
 }

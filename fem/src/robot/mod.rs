@@ -251,7 +251,7 @@ fn numerics(problem: &Problem, settings: &RobotSettings) -> Settings {
         imperfection: settings.imperfection,
         seed: settings.seed,
         // Crumpled gussets pass each other between nodes; how many is told with every run, and no robot is lost by it.
-        guards: Guards { sides: 1.0, ..Guards::default() },
+        guards: Guards { sides: 1.0, hourglass: settings.guard_hourglass, ..Guards::default() },
         ..Settings::default()
     }
 }

@@ -2,7 +2,7 @@
 
 use super::table::KEYS;
 use crate::FemError;
-use crate::problem::Amplitude;
+use crate::problem::{Amplitude, Guards};
 
 /// Distance of the rings under a taped sheet over its element size: its margins of stuck plies fold across in the middle of every
 /// pouch, and with seven rows from weld to middle seams snap or hold from seed to seed.
@@ -84,6 +84,8 @@ pub struct RobotSettings {
     pub mass_damping_1_s: f64,
     /// Hourglass coefficient.
     pub hourglass: f64,
+    /// Share of the stored energy that hourglass control may hold at the end ([`crate::problem::Guards::hourglass`]).
+    pub guard_hourglass: f64,
     /// Whether layers touch; `None`: where the pattern folds.
     pub contact: Option<bool>,
     /// Whether the base ring cannot turn either: the row beside it is held too. Published: no difference, so pinned.
@@ -147,6 +149,7 @@ impl RobotSettings {
             mass_passes: None,
             mass_damping_1_s: 40.0,
             hourglass: 1e-3,
+            guard_hourglass: Guards::default().hourglass,
             contact: None,
             encastre: false,
             imperfection: 2e-4,

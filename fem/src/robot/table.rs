@@ -91,6 +91,8 @@ pub const KEYS: &[Key] = &[
         |s| s.mass_passes.map(|n| n as f64), |s, v| s.mass_passes = Some(v as usize)),
     key("mass_damping_1_s", 1.0, [0.0, 1e5], "mass damping", |s| Some(s.mass_damping_1_s), |s, v| s.mass_damping_1_s = v),
     key("hourglass", 1.0, [0.0, 1.0], "hourglass coefficient", |s| Some(s.hourglass), |s, v| s.hourglass = v),
+    key("guard_hourglass", 1.0, [0.0, 1.0], "share of the stored energy that hourglass control may hold at the end",
+        |s| Some(s.guard_hourglass), |s, v| s.guard_hourglass = v),
     key("imperfection", 1.0, [0.0, 0.2], "random offset of the nodes over the element size",
         |s| Some(s.imperfection), |s, v| s.imperfection = v),
     key("waviness_mm", 1e-3, [0.0, 1.0], "departure of the sewn shape from the pattern, root mean square along each axis",

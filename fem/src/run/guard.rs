@@ -80,6 +80,23 @@ impl Simulation {
         self.guard_speed()
     }
 
+    /// Judges a run that came to its end: is its shape that of the fabric, or of hourglass control?
+    ///
+    /// # Errors
+    /// [`FemError::Stopped`] with the share, the limit and what to type.
+    pub fn judge_end(&self) -> Result<(), FemError> {
+        let (share, limit) = (self.ledger().hourglass_share(), self.limits.guards.hourglass);
+        if share <= limit {
+            return Ok(());
+        }
+        Err(self.stopped(format!(
+            "hourglass control holds {:.0} % of the stored energy (limit {:.0} %): the shape is as much its own as the fabric's. \
+             Make the elements smaller, or compare with a tenth of hourglass; to take the result nevertheless, raise guard_hourglass",
+            100.0 * share,
+            100.0 * limit
+        )))
+    }
+
     fn guard_speed(&self) -> Result<(), FemError> {
         let square = |v: &[f64; 4]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
         let fastest =

@@ -25,7 +25,7 @@ pub struct Group {
 pub struct Shape {
     /// Shape gradients, see [`Reference::b`] \[1/m\].
     pub b: [[Lane; 2]; 2],
-    /// Hourglass offsets s_a \[m\].
+    /// A quarter of the hourglass offsets s_a \[m\].
     pub s: [Lane; 2],
     /// Reference area \[m²\]; 0 for an empty lane.
     pub area: Lane,
@@ -93,7 +93,7 @@ impl Shape {
             for a in 0..2 {
                 shape.b[0][a][lane] = item.reference.b[0][a];
                 shape.b[1][a][lane] = item.reference.b[1][a];
-                shape.s[a][lane] = item.reference.s[a];
+                shape.s[a][lane] = 0.25 * item.reference.s[a];
             }
             if lane < items.len() {
                 shape.area[lane] = item.reference.area;

@@ -80,6 +80,14 @@ pub fn quads<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
     mut out: Corners,
     tally: &mut Tally,
 ) {
+    // All of one length, so that a place is checked once and not for every array.
+    let nodes = batch.x[0].len();
+    let place = axes!(k => &batch.x[k][..nodes]);
+    if let Corners::Rows(rows) = &mut out {
+        for row in rows.as_flattened_mut() {
+            *row = &mut std::mem::take(row)[..nodes];
+        }
+    }
     for (index, (group, strain)) in batch.groups.iter().zip(strains).enumerate() {
         let of = (&batch.shapes[group.shape as usize], &batch.stocks[group.stock as usize]);
         for part in 0..LANES / S::F64_LANES {
@@ -88,7 +96,7 @@ pub fn quads<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
             for c in 0..4 {
                 first[c] = group.node[0][c] as usize + part * S::F64_LANES;
                 if ROWS {
-                    x[c] = axes!(k => V::load_from(simd, batch.x[k], first[c]));
+                    x[c] = axes!(k => V::load_from(simd, place[k], first[c]));
                 } else {
                     x[c] = V::gather(simd, batch.x, &group.node, c, part);
                 }
@@ -150,7 +158,8 @@ fn quad<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
     let t = with_viscosity(simd, batch.rate, (shape, stock), part, e, s, strain, tally);
 
     let (s1, s2) = (V::load(simd, &shape.s[0], part), V::load(simd, &shape.s[1], part));
-    let q = axes!(k => V::all(simd, 0.25) * (h[k] - s1 * f1[k] - s2 * f2[k]));
+    let warp = axes!(k => V::all(simd, 0.25) * h[k]);
+    let q = axes!(k => warp[k] - s1 * f1[k] - s2 * f2[k]);
     let (g1, g2) = (inner(f1, q), inner(f2, q));
     let stiffness = V::load(simd, &shape.hourglass, part);
     let (k1, k2) = (stiffness * g1, stiffness * g2);
@@ -162,7 +171,6 @@ fn quad<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
 
     let a = axes!(k => V::all(simd, 0.25) * (d24[k] - d13[k]));
     let c = axes!(k => V::all(simd, -0.25) * (d13[k] + d24[k]));
-    let warp = axes!(k => V::all(simd, 0.25) * h[k]);
     let (n0, n1, n2) = (product(a, c), product(a, warp), product(warp, c));
     // Regular rows have no empty lanes.
     let p = V::all(simd, batch.pressure);
@@ -170,9 +178,10 @@ fn quad<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
     let third = p * V::all(simd, 1.0 / 3.0);
     let mut force = [[V::all(simd, 0.0); 3]; 4];
     for k in 0..3 {
-        let quarter = V::all(simd, 0.25) * (k1 * f1[k] + k2 * f2[k]);
-        let r1 = t[0] * f1[k] + t[2] * f2[k] + k1 * q[k] - s1 * quarter;
-        let r2 = t[2] * f1[k] + t[1] * f2[k] + k2 * q[k] - s2 * quarter;
+        let whole = k1 * f1[k] + k2 * f2[k];
+        let quarter = V::all(simd, 0.25) * whole;
+        let r1 = t[0] * f1[k] + t[2] * f2[k] + k1 * q[k] - s1 * whole;
+        let r2 = t[2] * f1[k] + t[1] * f2[k] + k2 * q[k] - s2 * whole;
         let p13 = b[0][0] * r1 + b[0][1] * r2;
         let p24 = b[1][0] * r1 + b[1][1] * r2;
         let (m0, m1, m2) = (p * n0[k], third * n1[k], third * n2[k]);

@@ -3,6 +3,7 @@
 //! An actuator states its **stroke law**: how contraction, volume and the lift of its line of action follow from one
 //! coordinate. Everything else (pressure work, arm, body, effects) is common.
 
+mod beam;
 mod cpam;
 mod epam;
 mod fpam;
@@ -12,6 +13,8 @@ mod spam;
 
 /// The list: what `ibr list`, the scenarios, the tests and the benches know.
 pub const ACTUATORS: &[Actuator] = &[spam::ENTRY, cpam::ENTRY, epam::ENTRY, fpam::ENTRY];
+
+pub use beam::BEAM;
 
 /// What makes the actuator contract.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

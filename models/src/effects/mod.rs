@@ -5,6 +5,7 @@
 
 mod arm_growth;
 mod base_clamp;
+mod body_pressure_offset;
 mod camera_rotation;
 mod camera_scale;
 mod creep;
@@ -58,6 +59,7 @@ pub const EFFECTS: &[Effect] = &[
     tip_load::ENTRY,
     pressure_offset::ENTRY,
     pressure_loss::ENTRY,
+    body_pressure_offset::ENTRY,
     leak::ENTRY,
     marker_height::ENTRY,
     mount_rotation::ENTRY,
@@ -266,6 +268,12 @@ impl Effect<'_> {
     /// Typical values of all parameters on an actuator, SI.
     pub fn typical_for(&self, actuator: &str) -> Vec<f64> {
         self.parameters.iter().map(|p| p.typical_for(actuator) * p.si).collect()
+    }
+
+    /// Whether it acts in an actuator or on its supply: a passive beam has neither.
+    pub fn needs_actuator(&self) -> bool {
+        let of_body = self.name == "body_pressure_offset";
+        self.family.is_some() || self.group == Group::Actuator || (self.group == Group::Supply && !of_body)
     }
 
     /// Whether the effect exists for an actuator of this family.

@@ -1,7 +1,8 @@
 //! Dead band or sensor bias: part of the set pressure never reaches the actuator.
 //!
 //! ```text
-//! P = max(0, P_set − P₀) for P_set > 0
+//! P = max(0, P_set − P₀)          P₀ ≥ 0
+//! P = P_set + min(−P₀, P_set)      P₀ < 0: nothing arrives where nothing is set
 //! ```
 //!
 //! | symbol | meaning | unit |
@@ -18,7 +19,7 @@ pub(super) const ENTRY: Effect = Effect {
     group: Group::Supply,
     stage: Stage::Supply,
     history: false,
-    formula: "P = max(0, P_set − P₀) for P_set > 0",
+    formula: "P = max(0, P_set − P₀); for P₀ < 0 P_set + min(−P₀, P_set)",
     sentence: "The pressure is off by a constant: dead band, sensor bias, or pouches that open only against the body's pressure; below zero more arrives than is set.",
     differs: "The curve over pressure is shifted sideways: the error is largest where it is steep.",
     remedy: "Put a gauge on the actuator. If it reads the set pressure, change the body's: an offset that grows with it is the pouches'.",
@@ -46,5 +47,6 @@ pub(super) const ENTRY: Effect = Effect {
 
 fn add(values: &[f64], assembly: &mut Assembly) {
     let offset = values[0];
-    assembly.supply.push(Box::new(move |p, _| if p > 0.0 { (p - offset).max(0.0) } else { p }));
+    // A vented line stays vented, and from there the pressure rises without a jump.
+    assembly.supply.push(Box::new(move |p, _| if p > 0.0 { (p - offset.max(-p)).max(0.0) } else { p }));
 }

@@ -2,7 +2,7 @@
 
 use super::formulas::formulas;
 use super::raw::{Body, Raw, RawActuator, RawZone};
-use super::{ActuatorChoice, EffectChoice, Scenario, Zone, order};
+use super::{ActuatorChoice, BASES, EffectChoice, Scenario, Wall, Zone, order};
 use crate::actuators::{self, ACTUATORS, ActuatorShape};
 use crate::effects::{Catalogue, Effect};
 use crate::error::ScenarioError;
@@ -76,6 +76,16 @@ const SHARE: Range = Range {
     too_small: "1 is the collapse moment πp_bR³, 0.5 the first wrinkle",
     too_large: "1 is the collapse moment πp_bR³, 0.5 the first wrinkle",
 };
+const WALL: Range = Range {
+    name: "wall stiffness",
+    unit: "N/m",
+    si: 1.0,
+    low: 100.0,
+    high: 1e8,
+    too_small: "this looks like N/mm: write N/m, for example 40000 for 200 MPa x 0.2 mm",
+    too_large: "write N/m, for example 40000 for 200 MPa x 0.2 mm",
+};
+const SHEAR: Range = Range { name: "wall shear stiffness", low: 0.0, too_small: "a stiffness is not negative", ..WALL };
 const GAIN: Range = Range {
     name: "volume gain",
     unit: "-",
@@ -90,10 +100,10 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
     let body = raw.body.get_ref();
     let length_m = si(&body.length_mm, &LENGTH)?;
     let radius_m = radius(&body.radius_mm)?;
-    let actuator = actuator(&raw.actuator, length_m)?;
-    let zones = raw.zone.iter().map(|z| zone(z, length_m)).collect::<Checked<Vec<_>>>()?;
+    let actuator = raw.actuator.as_ref().map_or(Ok(ActuatorChoice::NONE), |a| actuator(a, length_m))?;
+    let zones = raw.zone.iter().map(|z| zone(z, length_m, &actuator)).collect::<Checked<Vec<_>>>()?;
     let formulas = formulas(raw, text)?;
-    let p_max = raw.actuator.get_ref().max_pressure_kpa.as_ref();
+    let p_max = raw.actuator.as_ref().and_then(|a| a.get_ref().max_pressure_kpa.as_ref());
     Ok(Scenario {
         name: raw.name.clone(),
         radius_m,
@@ -102,6 +112,7 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
         bending_stiffness: optional(&body.bending_stiffness_nm2, &STIFFNESS)?.unwrap_or(0.0),
         hinge_curvature: optional(&body.hinge_curvature_per_m, &HINGE)?.unwrap_or(0.05),
         hinge_share: optional(&body.hinge_moment_share, &SHARE)?.unwrap_or(1.0),
+        wall: wall(body)?,
         centre_line_m: optional(&body.centre_line_mm, &POSITION)?,
         gravity_direction: gravity(body)?,
         actuator,
@@ -110,7 +121,7 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
         pressures_pa: raw.predict.pressures_kpa.iter().map(|p| si(p, &PRESSURE)).collect::<Checked<Vec<_>>>()?,
         segments: segments(raw)?,
         p_max_pa: p_max.map(|p| si(p, &PRESSURE)).transpose()?.unwrap_or(100e3),
-        effects: effects_of(raw, actuator.kind, &formulas)?,
+        effects: effects_of(raw, &actuator, &formulas)?,
         formulas,
     })
 }
@@ -141,6 +152,25 @@ fn optional(value: &Option<Spanned<f64>>, range: &Range) -> Checked<Option<f64>>
 
 fn radius(value: &Spanned<f64>) -> Checked<f64> {
     si(value, &Range { name: "radius", high: 1000.0, ..LENGTH })
+}
+
+fn wall(body: &Body) -> Checked<Wall> {
+    let stiffness_n_per_m = optional(&body.wall_stiffness_n_per_m, &WALL)?;
+    let shear_n_per_m = optional(&body.wall_shear_n_per_m, &SHEAR)?;
+    if let (Some(wall), Some(hinge)) = (&body.wall_stiffness_n_per_m, &body.hinge_curvature_per_m) {
+        let message = format!("hinge_curvature_per_m beside a wall of {} N/m says the same twice", wall.get_ref());
+        return refuse(message, "remove it: a wall has its own, pressure_kpa over E t", hinge.span());
+    }
+    let is_known = stiffness_n_per_m.or(shear_n_per_m).is_some();
+    let basis = match &body.wall_basis {
+        Some(word) if !is_known => {
+            return refuse("wall_basis without a wall".into(), "add wall_stiffness_n_per_m, or remove it", word.span());
+        }
+        Some(word) => basis_of(word)?,
+        None if is_known => "assumed".into(),
+        None => String::new(),
+    };
+    Ok(Wall { stiffness_n_per_m, shear_n_per_m, basis })
 }
 
 fn gravity(body: &Body) -> Checked<[f64; 2]> {
@@ -195,8 +225,12 @@ fn channel(value: &Option<Spanned<i64>>) -> Checked<Option<usize>> {
     }
 }
 
-fn zone(raw: &Spanned<RawZone>, length_m: f64) -> Checked<Zone> {
+fn zone(raw: &Spanned<RawZone>, length_m: f64, actuator: &ActuatorChoice) -> Checked<Zone> {
     let z = raw.get_ref();
+    let sizes = [&z.length_mm, &z.width_mm, &z.fold_mm, &z.arm_mm].into_iter().any(Option::is_some);
+    if !actuator.exists() && (sizes || z.channel.is_some() || z.passive == Some(false)) {
+        return refuse("a zone of an actuator that is not there".into(), "add [actuator]", raw.span());
+    }
     let (from_m, to_m) = (si(&z.from_mm, &POSITION)?, si(&z.to_mm, &POSITION)?);
     if from_m >= to_m || to_m > length_m * (1.0 + 1e-9) {
         let message = format!("a zone from {} to {} mm is not on the body", from_m * 1e3, to_m * 1e3);
@@ -248,12 +282,10 @@ fn segments(raw: &Raw) -> Checked<usize> {
 
 /// Words that may stand beside the parameters of an effect: how they are known.
 const REMARKS: &[&str] = &["basis", "interval", "data", "date", "note"];
-/// Words of `basis`.
-const BASES: &[&str] = &["assumed", "calibrated", "geometry", "measured"];
 /// Those with which a value may lie beyond the usual bounds.
-const KNOWN: &[&str] = &["measured", "calibrated"];
+const KNOWN: &[&str] = &["measured", "published", "calibrated"];
 
-fn effects_of(raw: &Raw, kind: &actuators::Actuator, formulas: &[Arc<Formula>]) -> Checked<Vec<EffectChoice>> {
+fn effects_of(raw: &Raw, actuator: &ActuatorChoice, formulas: &[Arc<Formula>]) -> Checked<Vec<EffectChoice>> {
     let (mut chosen, catalogue) = (Vec::new(), Catalogue::new(formulas));
     for (name, table) in &raw.effects {
         let Some(effect) = catalogue.by_name(name.get_ref()) else {
@@ -261,8 +293,8 @@ fn effects_of(raw: &Raw, kind: &actuators::Actuator, formulas: &[Arc<Formula>]) 
             let help = spelling::known(name.get_ref(), &known);
             return refuse(format!("unknown effect \"{}\"", name.get_ref()), help, name.span());
         };
-        if !effect.applies_to(kind.family) {
-            let message = format!("{} does not exist for actuator {}", effect.name, kind.name);
+        if !actuator.takes(&effect) {
+            let message = format!("{} does not exist for actuator {}", effect.name, actuator.kind.name);
             return refuse(message, format!("remove [effects.{}]", effect.name), name.span());
         }
         let mut values = effect.neutral();

@@ -26,9 +26,9 @@ mod spans;
 
 pub use spans::Span;
 
-use crate::actuators::{Actuator, ActuatorShape};
+use crate::actuators::{Actuator, ActuatorShape, BEAM};
 use crate::assembly::Assembly;
-use crate::effects::{Catalogue, EFFECTS};
+use crate::effects::{Catalogue, EFFECTS, Effect};
 use crate::error::ScenarioError;
 use crate::formula::Formula;
 use std::sync::Arc;
@@ -50,6 +50,8 @@ pub struct Scenario {
     pub hinge_curvature: f64,
     /// Restoring moment of the base law as a share of πp_bR³ \[-\].
     pub hinge_share: f64,
+    /// The fabric of the body, where it is known.
+    pub wall: Wall,
     /// Distance of the centre line from the taut generator \[m\]; `None`: the radius, 0: it does not shorten.
     pub centre_line_m: Option<f64>,
     /// Unit vector of gravity in the x–y plane.
@@ -72,6 +74,17 @@ pub struct Scenario {
     pub formulas: Vec<Arc<Formula>>,
 }
 
+/// What is known of the body's fabric.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Wall {
+    /// Membrane stiffness E t along the body \[N/m\]: the body is then a [`crate::body::BodyWall`].
+    pub stiffness_n_per_m: Option<f64>,
+    /// In-plane shear stiffness G t \[N/m\]: transverse loads then shear the body by V/(πR²p_b + πR G t).
+    pub shear_n_per_m: Option<f64>,
+    /// How they are known: a word of `basis`; empty without either.
+    pub basis: String,
+}
+
 /// The actuator of a scenario.
 #[derive(Debug, Clone, Copy)]
 pub struct ActuatorChoice {
@@ -87,6 +100,28 @@ pub struct ActuatorChoice {
     pub arm_m: Option<f64>,
     /// Supply channel.
     pub channel: usize,
+}
+
+impl ActuatorChoice {
+    /// A scenario without `[actuator]`: a passive beam.
+    pub const NONE: ActuatorChoice = ActuatorChoice {
+        kind: &BEAM,
+        shape: ActuatorShape { length_m: 0.0, width_m: 0.0, fold_m: 0.0, volume_gain: 1.0 },
+        count: 0,
+        start_m: 0.0,
+        arm_m: None,
+        channel: 0,
+    };
+
+    /// Whether there is an actuator.
+    pub fn exists(&self) -> bool {
+        self.count > 0
+    }
+
+    /// Whether an effect can act on this robot: those of a family, and all that act in an actuator, need one.
+    pub fn takes(&self, effect: &Effect) -> bool {
+        effect.applies_to(self.kind.family) && (self.exists() || !effect.needs_actuator())
+    }
 }
 
 impl PartialEq for ActuatorChoice {
@@ -129,9 +164,12 @@ pub struct EffectChoice {
     pub name: String,
     /// Parameter values in catalogue order, SI.
     pub values: Vec<f64>,
-    /// How the values are known: `assumed`, `calibrated`, `geometry`, `measured`, or empty.
+    /// How the values are known: a word of [`BASES`], or empty.
     pub basis: String,
 }
+
+/// The words of `basis`, which say how a value is known.
+pub const BASES: &[&str] = &["assumed", "calibrated", "measured", "predicted", "published"];
 
 /// The scenarios that come with the library: the four robots of du Pasquier 2023, by actuator name.
 pub fn shipped(name: &str) -> Option<&'static str> {

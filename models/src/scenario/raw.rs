@@ -17,7 +17,7 @@ pub(super) struct Raw {
     #[serde(default, rename = "notes")]
     pub _notes: String,
     pub body: Spanned<Body>,
-    pub actuator: Spanned<RawActuator>,
+    pub actuator: Option<Spanned<RawActuator>>,
     #[serde(default)]
     pub zone: Vec<Spanned<RawZone>>,
     #[serde(default)]
@@ -42,6 +42,9 @@ pub(super) struct Body {
     pub bending_stiffness_nm2: Option<Num>,
     pub hinge_curvature_per_m: Option<Num>,
     pub hinge_moment_share: Option<Num>,
+    pub wall_stiffness_n_per_m: Option<Num>,
+    pub wall_shear_n_per_m: Option<Num>,
+    pub wall_basis: Option<Spanned<toml::Value>>,
     pub centre_line_mm: Option<Num>,
     pub gravity: Option<Spanned<Exactly<2>>>,
 }

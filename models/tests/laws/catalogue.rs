@@ -27,6 +27,7 @@ const NAMES: &[&str] = &[
     "tip_load",
     "pressure_offset",
     "pressure_loss",
+    "body_pressure_offset",
     "leak",
     "marker_height",
     "mount_rotation",

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod base;
+mod beams;
 mod batch;
 mod catalogue;
 mod closed_forms;

@@ -177,6 +177,7 @@ impl<'a> Running<'a> {
                 _ => self.output()?,
             }
         }
+        self.run.judge_end()?;
         Ok(Ended::Complete)
     }
 

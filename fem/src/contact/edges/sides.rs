@@ -45,10 +45,10 @@ impl Sides {
         let sides = Boxes::new(self.list.iter().map(|s| s.as_slice()), x, radius_m);
         let side = |i: u32, near: &mut Vec<u32>| {
             let own = self.list[i as usize];
-            sides.near(bounds(x, &own), near);
+            sides.near(bounds(x, &own), i + 1, near);
             near.retain(|j| {
                 let other = self.list[*j as usize];
-                let apart = *j > i && !other.iter().any(|n| own.contains(n));
+                let apart = !other.iter().any(|n| own.contains(n));
                 apart && touch(false, [own[0], own[1], other[0], other[1]].map(place)).distance_m <= radius_m
             });
             i
@@ -56,7 +56,7 @@ impl Sides {
         let triangles = Boxes::new(self.triangles.iter().map(|t| t.as_slice()), x, radius_m);
         let point = |i: u32, near: &mut Vec<u32>| {
             let own = self.nodes[i as usize];
-            triangles.near(bounds(x, &[own]), near);
+            triangles.near(bounds(x, &[own]), 0, near);
             near.retain(|j| {
                 let [a, b, c] = self.triangles[*j as usize];
                 ![a, b, c].contains(&own) && touch(true, [own, a, b, c].map(place)).distance_m <= radius_m
@@ -93,6 +93,10 @@ struct Boxes {
     half_m: V3,
 }
 
+fn touch_each_other(a: Bounds, b: Bounds) -> bool {
+    (0..3).all(|k| a[0][k] <= b[1][k] && b[0][k] <= a[1][k])
+}
+
 fn bounds(x: &[[f64; 4]], nodes: &[u32]) -> Bounds {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for n in nodes {
@@ -117,24 +121,21 @@ impl Boxes {
         Boxes { grid: Grid::new(places, size_m), boxes, half_m }
     }
 
-    /// Items whose boxes touch `own`.
-    fn near(&self, own: Bounds, out: &mut Vec<u32>) {
+    /// Items from number `first` on whose boxes touch `own`.
+    fn near(&self, own: Bounds, first: u32, out: &mut Vec<u32>) {
         out.clear();
         // A little more than half a box, lest rounding lose a column.
         let [low, high] = [-1.001, 1.001].map(|side| {
             let corner = own[usize::from(side > 0.0)];
             [0, 1, 2].map(|k| corner[k] + side * self.half_m[k])
         });
-        for column in self.grid.columns(low, high) {
-            for Placed { item, .. } in self.grid.between(column, low, high) {
-                let [low, high] = &self.boxes[*item as usize];
-                let mut touching = true;
-                for k in 0..3 {
-                    touching &= (own[0][k] <= high[k]) & (low[k] <= own[1][k]);
-                }
-                if touching {
-                    out.push(*item);
-                }
+        for Placed { place, item } in self.grid.rows(low, high).flatten() {
+            let mut near = *item >= first;
+            for k in 0..3 {
+                near &= (place[k] >= low[k]) & (place[k] <= high[k]);
+            }
+            if near && touch_each_other(own, self.boxes[*item as usize]) {
+                out.push(*item);
             }
         }
     }

@@ -12,8 +12,8 @@ use super::room::Gaps;
 
 /// Weights that differ by less than this share are rounding of the same weight.
 const ALIKE: f64 = 1e-12;
-/// Eight rows go together if they have at most this many shifts per row that is new: a row alone costs as much as five.
-const SHIFTS_PER_ROW: usize = 4;
+/// Eight rows go together if they have at most this many shifts per row that is new: a row alone costs more.
+const SHIFTS_PER_ROW: usize = 6;
 
 /// Shifts to the neighbours of a node in the numbering, ascending, and their weights.
 type Row = Vec<(i32, f64)>;
@@ -129,6 +129,11 @@ impl Bend {
     /// `q` those of all places.
     #[inline(always)]
     pub fn apply<S: Simd>(&self, simd: S, x: [&[f64]; 3], q: &[[f64; 4]], kx: [&mut [f64]; 3]) {
+        // All of one length, so that a place is checked once and not for every axis.
+        let [kx0, kx1, kx2] = kx;
+        let nodes = x[0].len();
+        let x = [&x[0][..nodes], &x[1][..nodes], &x[2][..nodes]];
+        let kx = [&mut kx0[..nodes], &mut kx1[..nodes], &mut kx2[..nodes]];
         for stencil in &self.stencils {
             let entries = stencil.entries.start as usize..stencil.entries.end as usize;
             let (shifts, common) = (&self.shifts[entries.clone()], &self.common[entries]);
@@ -168,9 +173,9 @@ fn weigh<S: Simd, const OWN: bool>(
     part: usize,
 ) -> [V<S>; 3] {
     let mut sum = [V::all(simd, 0.0); 3];
-    for entry in 0..shifts.len() {
-        let weight = if OWN { V::load(simd, &own[entry], part) } else { V::all(simd, common[entry]) };
-        let at = (first as i32 + shifts[entry]) as usize;
+    for (entry, (shift, common)) in shifts.iter().zip(common).enumerate() {
+        let weight = if OWN { V::load(simd, &own[entry], part) } else { V::all(simd, *common) };
+        let at = (first as i32 + shift) as usize;
         for k in 0..3 {
             sum[k] = sum[k] + weight * V::load_from(simd, x[k], at);
         }

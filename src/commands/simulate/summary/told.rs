@@ -53,8 +53,8 @@ fn ledger(s: &Summary) -> Vec<Vec<String>> {
     rows
 }
 
-/// Hourglass share of the stored energy that is warned of, and from which the shape is that of hourglass control.
-const HOURGLASS: [f64; 2] = [0.05, 0.15];
+/// Hourglass share of the stored energy that is warned of.
+const HOURGLASS: f64 = 0.05;
 /// Added mass over true mass that is warned of.
 const ADDED: f64 = 1.0;
 
@@ -62,17 +62,10 @@ const ADDED: f64 = 1.0;
 fn warnings(s: &Summary) -> String {
     let share = s.hourglass_share;
     let mut out = format!("hourglass share of stored energy: {:.3} %\n", 100.0 * share);
-    let [much, too_much] = HOURGLASS;
-    if share > much {
-        let shape = if share > too_much {
-            "the shape is as much that of hourglass control as of the fabric"
-        } else {
-            "it is no longer small"
-        };
-        out.push_str(&format!(
-            "warning: over {:.0} %: {shape}. Write a tenth of hourglass in [settings], or make the elements smaller, and compare\n",
-            100.0 * if share > too_much { too_much } else { much }
-        ));
+    if share > HOURGLASS {
+        out.push_str(
+            "warning: over 5 %, it is no longer small. Compare with smaller elements, or with a tenth of hourglass\n",
+        );
     }
     if let Some(end) = s.kinetic_share.end.filter(|end| *end > HUNDREDTH) {
         out.push_str(&format!(

@@ -1,0 +1,50 @@
+//! The body's gauge is off: part of its set pressure never arrives, or more than that is there.
+//!
+//! ```text
+//! p_b = max(0, p_set − p₀)
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | p₀ | set body pressure that does not arrive | kPa |
+//!
+//! At the moments of the hinge alone it is the constant moment πR³p₀ of `tail_tension`; beside a wall, gas displaced or loads
+//! near collapse it is not. **Validity**: the same at all pressures. Supply stage: acts before the balance. Definition.
+
+use super::{ANY, Effect, Fitted, Group, Parameter, Stage};
+use crate::assembly::Assembly;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "body_pressure_offset",
+    group: Group::Supply,
+    stage: Stage::Supply,
+    history: false,
+    formula: "p_b = max(0, p_set − p₀)",
+    sentence: "The body holds another pressure than its gauge says.",
+    differs: "A steady moment is missing or too much, alike at all actuator pressures.",
+    remedy: "Put a gauge on the body itself, not on its supply line.",
+    validity: "the same at all pressures; like tail_tension where the hinge is all that resists",
+    reference: "definition",
+    parameters: &[Parameter {
+        key: "offset_kpa",
+        symbol: "p₀",
+        unit: "kPa",
+        si: 1e3,
+        neutral: 0.0,
+        typical: 0.3,
+        lower: -3.0,
+        upper: 1.5,
+        possible: ANY,
+        starts: &[],
+        by_actuator: &[],
+        fitted: Fitted::WithBodyPressures,
+        in_room: false,
+        meaning: "set body pressure that does not arrive",
+    }],
+    family: None,
+    add,
+};
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    assembly.body_offset_pa = values[0];
+}
