@@ -11,7 +11,8 @@ use compare::characterize::{
     Characterized, Quantity as Number, Replay, Settings, Specimen, characterize, example, pictures,
 };
 use compare::study::pages::Files;
-use data::{Coupon, CouponDefaults, Direction, Table, parse_coupons, read_coupons};
+use data::bench::bending_lengths_m;
+use data::{Bench, Coupon, CouponDefaults, Direction, Table, bench, parse_coupons, read_coupons};
 use models::scenario::quantity::Quantity;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -25,9 +26,12 @@ pub fn run(args: &Characterize, context: &mut Context) -> Result<Outcome, Failur
     }
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let settings = settings(args)?;
-    let (coupons, inputs) = read(args, context)?;
+    let Read { coupons, bent, inputs } = read(args, context)?;
     (context.progress)("reducing", None);
-    let found = characterize(&coupons, &settings)?;
+    let mut found = characterize(&coupons, &settings)?;
+    for table in &bent {
+        found.bend(&bending_lengths_m(table), table.provenance.word());
+    }
     let fabric = fabric_toml(&found, &settings, &program());
     let mut text = text(&found);
     if fabric.is_none() {
@@ -58,7 +62,15 @@ fn settings(args: &Characterize) -> Result<Settings, Failure> {
     Ok(Settings { name, modulus_strain, any_modulus: args.any_modulus })
 }
 
-fn read(args: &Characterize, context: &mut Context) -> Result<(Vec<Coupon>, Vec<Input>), Failure> {
+/// What the files hold.
+struct Read {
+    coupons: Vec<Coupon>,
+    /// Cantilever tests.
+    bent: Vec<Bench>,
+    inputs: Vec<Input>,
+}
+
+fn read(args: &Characterize, context: &mut Context) -> Result<Read, Failure> {
     let length = |option: &str, text: &Option<String>| {
         text.as_ref().map(|text| quantity(option, text, Quantity::Length)).transpose()
     };
@@ -69,9 +81,18 @@ fn read(args: &Characterize, context: &mut Context) -> Result<(Vec<Coupon>, Vec<
         thickness_m: length("--thickness", &args.thickness)?,
         columns: args.columns.iter().map(|name| name.trim().to_string()).collect(),
     };
-    let (mut coupons, mut inputs) = (Vec::new(), Vec::new());
+    let (mut coupons, mut bent, mut inputs) = (Vec::new(), Vec::new(), Vec::new());
     for file in &args.files {
         (context.progress)(&format!("reading {file}"), None);
+        if let Some(table) = bench(file)? {
+            if table.kind.name != "bending_length" {
+                let message = format!("{file} is a {} table, not a test of a fabric", table.kind.name);
+                return Err(Failure::usage(message, format!("`ibr compare {file}` holds it against its model")));
+            }
+            inputs.push(Input::of(file, &std::fs::read(file).unwrap_or_default()));
+            bent.push(table);
+            continue;
+        }
         // The bytes are hashed for the manifest; a file that cannot be read is refused by the reader.
         coupons.extend(match std::fs::read(file) {
             Ok(bytes) => {
@@ -81,7 +102,7 @@ fn read(args: &Characterize, context: &mut Context) -> Result<(Vec<Coupon>, Vec<
             Err(_) => read_coupons(Path::new(file), &defaults, &mut |_, _| ())?,
         });
     }
-    Ok((coupons, inputs))
+    Ok(Read { coupons, bent, inputs })
 }
 
 fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {

@@ -91,6 +91,8 @@ pub fn characterize(coupons: &[Coupon], settings: &Settings) -> Result<Character
     reach(&mut found);
     slack(&mut found);
     found.replays = replay::replays(&found, settings);
+    let law = found.replays.iter().filter(|r| r.law == settings.name && !r.used).map(|r| r.at_end);
+    warn::checks(law, &mut found.warnings);
     Ok(found)
 }
 
@@ -113,6 +115,14 @@ fn strips(found: &mut Characterized, taut: &[Coupon], settings: &Settings) -> Re
 }
 
 impl Characterized {
+    /// Adds bending lengths c \[m\] of specimens with weights per area w \[N/m²\]: c, and D = w c³.
+    pub fn bend(&mut self, lengths: &[[f64; 2]], word: &str) {
+        let c = Scatter::of(&lengths.iter().map(|[c, _]| 1e3 * c).collect::<Vec<_>>());
+        let d = Scatter::of(&lengths.iter().map(|[c, w]| 1e6 * w * c.powi(3)).collect::<Vec<_>>());
+        self.add("bending_length", "bending length c", "mm", c, format!("{word}: cantilever test, Peirce"));
+        self.add("bending_stiffness", "bending stiffness D, per width", "µN·m", d, format!("{word}: D = w c³"));
+    }
+
     /// Specimens of a direction.
     pub fn of(&self, direction: Direction) -> impl Iterator<Item = &Specimen> {
         self.specimens.iter().filter(move |s| s.direction == direction)

@@ -85,6 +85,20 @@ pub(super) fn directions(specimens: &[Specimen]) -> Vec<Direction> {
     all
 }
 
+/// Tests at other angles than the law was made from, each by how much the law is off at the end.
+pub(super) fn checks(off: impl Iterator<Item = f64>, warnings: &mut Vec<String>) {
+    const MUCH: f64 = 0.1;
+    let [low, high] = off.fold([0.0_f64, 0.0_f64], |[a, b], o| [a.min(o), b.max(o)]);
+    if low < -MUCH || high > MUCH {
+        warnings.push(format!(
+            "tests at other angles than the law was made from: it is off by {:+.0} to {:+.0} % at their ends; not asked yet: a \
+             Poisson's ratio that was not measured, yarns cut at the edges of a strip as narrow as the weave is coarse",
+            100.0 * low,
+            100.0 * high
+        ));
+    }
+}
+
 /// Two shear moduli of one fabric: of the zones of a bias extension, and of three moduli.
 pub(super) fn two_shear_moduli([zones, moduli]: [f64; 2], warnings: &mut Vec<String>) {
     /// Above what the two reductions differ by on a fabric that both describe.

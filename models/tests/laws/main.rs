@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod base;
-mod beams;
 mod batch;
+mod beams;
 mod catalogue;
 mod closed_forms;
 mod forces;
