@@ -203,8 +203,13 @@ impl Model {
     fn stretch(&self, work: &Workspace, segment: usize) -> Stretch {
         let offset_m = self.assembly.sites[self.assembly.segments[segment].site].centre_line_m;
         let from = [work.nodes[2 * segment], work.nodes[2 * segment + 1]];
-        let stretch =
-            Stretch::new(from, work.directions[segment], work.headings[segment], work.states[segment].curvature, offset_m);
+        let stretch = Stretch::new(
+            from,
+            work.directions[segment],
+            work.headings[segment],
+            work.states[segment].curvature,
+            offset_m,
+        );
         stretch.sheared(work.shear(segment))
     }
 

@@ -3,14 +3,15 @@
 #![allow(clippy::unwrap_used)]
 
 mod base;
-mod beams;
 mod batch;
+mod beams;
 mod catalogue;
 mod closed_forms;
 mod forces;
 mod history;
 mod inverse;
 mod neutral;
+mod random_inverse;
 mod scaling;
 mod solver;
 mod stationary;
