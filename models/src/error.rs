@@ -99,6 +99,29 @@ pub enum Unsolved {
         /// Largest pressure searched \[kPa\].
         p_max_kpa: f64,
     },
+    /// The wanted tip lies where the robot jumps, or between stretches without equilibrium.
+    #[error(
+        "{what} {wanted:.4} {unit} is passed over: it is {below:.4} {unit} at {low_kpa:.6} kPa and {above:.4} {unit} at {high_kpa:.6} kPa, \
+         with {between} between"
+    )]
+    Jump {
+        /// Which quantity.
+        what: &'static str,
+        /// Wanted value.
+        wanted: f64,
+        /// Unit of the values.
+        unit: &'static str,
+        /// Pressure before \[kPa\].
+        low_kpa: f64,
+        /// Value there.
+        below: f64,
+        /// Pressure beyond \[kPa\].
+        high_kpa: f64,
+        /// Value there.
+        above: f64,
+        /// What is between the two.
+        between: &'static str,
+    },
 }
 
 fn moment(size: f64) -> String {

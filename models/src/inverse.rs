@@ -2,7 +2,8 @@
 
 use crate::error::Unsolved;
 use crate::model::{Model, Prediction};
-use crate::root::{NoRoot, Root, Start, find_root};
+use crate::reach::{MET, Reach, SAMPLES, reach};
+use crate::root::{Start, find_root};
 use crate::term::{CHANNELS, Loads};
 
 /// What the tip shall do.
@@ -28,16 +29,13 @@ pub struct TipSlope {
 /// Step of the wider central difference relative to the pressure: short, because the laws have corners; rounding is
 /// below 1e-8 there.
 const JACOBIAN_STEP: f64 = 4e-4;
-/// Step from zero pressure \[Pa\].
-const LEAST_STEP_PA: f64 = 0.1;
 /// First pressure tried, as a share of the largest.
 const START: f64 = 0.2;
-/// A target missed by no more than this is met \[m or rad\]: a picometre.
-const MET: f64 = 1e-12;
-/// Pressures sampled when the ends of the search interval do not bracket the target.
-const SAMPLES: usize = 32;
 
 impl TipSlope {
+    /// Of a flat actuator: it rises with an infinite slope, or not at all.
+    pub const NONE: TipSlope = TipSlope { x_per_pa: f64::NAN, y_per_pa: f64::NAN, angle_per_pa: f64::NAN };
+
     fn combine(&self, a: f64, other: &TipSlope, b: f64) -> TipSlope {
         TipSlope {
             x_per_pa: a * self.x_per_pa + b * other.x_per_pa,
@@ -62,6 +60,32 @@ impl Target {
         }
     }
 
+    fn is_met(self, at: &Prediction) -> bool {
+        (self.of(at) - self.value()).abs() <= MET
+    }
+
+    /// Why it was not reached.
+    fn missed(self, found: &Reach, p_max_pa: f64) -> Unsolved {
+        let (what, unit, factor) = self.words();
+        let wanted = self.value() * factor;
+        match found {
+            Reach::Gap { low, high, between } => {
+                let (low_kpa, high_kpa) = (low.0 / 1e3, high.0 / 1e3);
+                let (below, above) = (low.1 * factor, high.1 * factor);
+                Unsolved::Jump { what, wanted, unit, low_kpa, below, high_kpa, above, between }
+            }
+            Reach::Beyond { least, most } => {
+                let (lowest, highest) = (least * factor, most * factor);
+                Unsolved::OutOfReach { what, wanted, lowest, highest, unit, p_max_kpa: p_max_pa / 1e3 }
+            }
+            Reach::At(_) | Reach::Nowhere => {
+                let nothing = f64::NAN;
+                let (lowest, highest) = (nothing, nothing);
+                Unsolved::OutOfReach { what, wanted, lowest, highest, unit, p_max_kpa: p_max_pa / 1e3 }
+            }
+        }
+    }
+
     /// Name, unit and factor for messages.
     fn words(self) -> (&'static str, &'static str, f64) {
         match self {
@@ -72,52 +96,71 @@ impl Target {
 }
 
 impl Model {
-    /// Actuator pressure \[Pa\], the same in every channel, at which the tip is where it is wanted; `out` is then that
-    /// state. Searches 0 to [`Model::p_max_pa`]; where several pressures do it, one of them.
+    /// Actuator pressure \[Pa\], the same in every channel, at which the tip is where it is wanted, within [`MET`]; `out` is
+    /// then that state, on the first loading from rest. Searches 0 to [`Model::p_max_pa`]; where several pressures do it, one
+    /// of them.
     ///
     /// # Errors
-    /// [`Unsolved::OutOfReach`] with the reachable range, or what [`Model::predict`] returns.
+    /// [`Unsolved::OutOfReach`] with the reachable range, [`Unsolved::Jump`] with both sides of what lies in between, or what
+    /// [`Model::predict`] returns.
     pub fn pressure_for(&self, target: Target, p_body_pa: f64, out: &mut Prediction) -> Result<f64, Unsolved> {
-        let mut reach = Reach { least: f64::INFINITY, most: f64::NEG_INFINITY, failed: None };
+        let most = self.p_max_pa();
         let mut warm = false;
-        let mut short = |p: f64| match self.settle(&Loads::uniform(p_body_pa, p), out, warm) {
-            Ok(()) => {
-                warm = true;
-                target.value() - reach.note(target.of(out))
-            }
+        let mut short = |p: f64| {
+            let settled = self.settle(&Loads::uniform(p_body_pa, p), out, warm);
+            warm = settled.is_ok();
+            settled.map_or(f64::NAN, |()| target.value() - target.of(out))
+        };
+        // The response rises steeply from zero and flattens, so start low, with half the slope of the chord from zero.
+        let x = START * most;
+        let known = short(x);
+        let start = Start { x, f: Some(known), slope: -0.5 * (target.value() - known) / x };
+        let quick = find_root(&mut short, (0.0, most), start).ok().map(|root| root.x + root.step);
+        // What was found from state to state counts if it is met from rest.
+        let quick = quick.filter(|p| *p <= most * (1.0 + 1e-12)).map(|p| p.clamp(0.0, most));
+        if let Some(p) = quick
+            && self.predict(&Loads::uniform(p_body_pa, p), out).is_ok()
+            && target.is_met(out)
+        {
+            return Ok(p);
+        }
+        let mut failed = None;
+        let mut value = |p: f64| match self.settle(&Loads::uniform(p_body_pa, p), out, false) {
+            Ok(()) => target.of(out),
             Err(error) => {
-                reach.failed.get_or_insert(error);
+                failed.get_or_insert(error);
                 f64::NAN
             }
         };
-        let whole = (0.0, self.p_max_pa());
-        let found = search(&mut short, whole, target);
-        match found.filter(|p| *p <= whole.1 * (1.0 + 1e-12)).map(|p| p.clamp(whole.0, whole.1)) {
-            Some(p) => {
+        let samples = SAMPLES[usize::from(!self.assembly().node_terms.is_empty())];
+        let found = reach(&mut value, target.value(), most, samples);
+        match (found, failed) {
+            (Reach::At(p), _) => {
                 self.predict(&Loads::uniform(p_body_pa, p), out)?;
                 Ok(p)
             }
-            None => Err(reach.error(target, whole.1)),
+            (Reach::Nowhere, Some(error)) => Err(error),
+            (found, _) => Err(target.missed(&found, most)),
         }
     }
 
-    /// Slopes of the tip pose by each channel's pressure, by Richardson-extrapolated central differences (forward ones
-    /// at zero pressure); `out` is overwritten.
+    /// Slopes of the tip pose by each channel's pressure, by Richardson-extrapolated central differences; [`TipSlope::NONE`]
+    /// where an actuator of the channel is flat. `out` is overwritten.
     ///
     /// # Errors
     /// What [`Model::predict`] returns.
     pub fn jacobian(&self, loads: &Loads, out: &mut Prediction) -> Result<[TipSlope; CHANNELS], Unsolved> {
         let mut slopes = [TipSlope { x_per_pa: 0.0, y_per_pa: 0.0, angle_per_pa: 0.0 }; CHANNELS];
         self.settle(loads, out, false)?;
+        let flat = self.flat(loads, out);
         for (channel, slope) in slopes.iter_mut().enumerate().filter(|(channel, _)| self.uses(*channel)) {
             let step = JACOBIAN_STEP * loads.actuator_pa[channel];
-            *slope = if step > 0.0 {
-                let (wide, narrow) =
-                    (self.chord(loads, channel, step, out)?, self.chord(loads, channel, 0.5 * step, out)?);
-                narrow.combine(4.0 / 3.0, &wide, -1.0 / 3.0)
-            } else {
-                self.chord(loads, channel, LEAST_STEP_PA, out)?
-            };
+            if flat[channel] {
+                *slope = TipSlope::NONE;
+                continue;
+            }
+            let (wide, narrow) = (self.chord(loads, channel, step, out)?, self.chord(loads, channel, 0.5 * step, out)?);
+            *slope = narrow.combine(4.0 / 3.0, &wide, -1.0 / 3.0);
         }
         Ok(slopes)
     }
@@ -138,74 +181,19 @@ impl Model {
         })
     }
 
+    /// Channels with an actuator that its pressure has not opened.
+    fn flat(&self, loads: &Loads, at: &Prediction) -> [bool; CHANNELS] {
+        let (mut flat, body_pa) = ([false; CHANNELS], self.body_pa(loads));
+        for (segment, p) in self.assembly().segments.iter().zip(&at.work.p_act_pa) {
+            let site = &self.assembly().sites[segment.site];
+            flat[site.channel] |= site.actuator.is_some() && !site.is_open(body_pa, *p);
+        }
+        flat
+    }
+
     fn uses(&self, channel: usize) -> bool {
         self.assembly().sites.iter().any(|site| site.actuator.is_some() && site.channel == channel)
     }
-}
-
-/// What the search has seen.
-struct Reach {
-    least: f64,
-    most: f64,
-    failed: Option<Unsolved>,
-}
-
-impl Reach {
-    fn note(&mut self, value: f64) -> f64 {
-        self.least = self.least.min(value);
-        self.most = self.most.max(value);
-        value
-    }
-
-    /// Nothing was predicted: why; else the range that was seen.
-    fn error(self, target: Target, p_max_pa: f64) -> Unsolved {
-        match self.failed {
-            Some(error) if self.least > self.most => error,
-            _ => out_of_reach(target, (self.least, self.most), p_max_pa),
-        }
-    }
-}
-
-/// Secant over the whole interval, and if its ends do not bracket the target, over a pair of samples that does.
-fn search(short: &mut dyn FnMut(f64) -> f64, whole: (f64, f64), target: Target) -> Option<f64> {
-    let mut f = |p: f64| short(p);
-    // The response rises steeply from zero and flattens, so start low, with half the slope of the chord from zero.
-    let x = START * whole.1;
-    let known = f(x);
-    let start = Start { x, f: Some(known), slope: -0.5 * (target.value() - known) / x };
-    let root = find_root(&mut f, whole, start).or_else(|_| {
-        let (low, high) = bracket(&mut f, whole).ok_or(NoRoot::Stalled { f: f64::NAN })?;
-        if low == high {
-            return Ok(Root { x: low, step: 0.0, slope: f64::NAN });
-        }
-        find_root(&mut f, (low, high), Start { x: 0.5 * (low + high), f: None, slope: f64::NAN })
-    });
-    root.ok().map(|root| root.x + root.step)
-}
-
-/// Two neighbouring samples between which the target is passed upwards; the same one twice where it is met.
-fn bracket(short: &mut dyn FnMut(f64) -> f64, (low, high): (f64, f64)) -> Option<(f64, f64)> {
-    let mut before = (low, short(low));
-    if before.1.abs() <= MET {
-        return Some((low, low));
-    }
-    for i in 1..=SAMPLES {
-        // Dense at low pressure, where the response is steepest.
-        let p = low + (high - low) * (i as f64 / SAMPLES as f64).powi(3);
-        let miss = short(p);
-        if before.1 >= 0.0 && miss <= 0.0 {
-            return Some((before.0, p));
-        }
-        before = (p, miss);
-    }
-    None
-}
-
-fn out_of_reach(target: Target, (least, most): (f64, f64), p_max_pa: f64) -> Unsolved {
-    let (what, unit, factor) = target.words();
-    let wanted = target.value() * factor;
-    let (lowest, highest) = (least * factor, most * factor);
-    Unsolved::OutOfReach { what, wanted, lowest, highest, unit, p_max_kpa: p_max_pa / 1e3 }
 }
 
 #[cfg(test)]

@@ -26,6 +26,7 @@ mod inverse;
 mod limits;
 mod linkage;
 mod model;
+mod reach;
 mod robot;
 mod root;
 pub mod scenario;

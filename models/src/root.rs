@@ -80,7 +80,9 @@ pub(crate) fn find_root<F: FnMut(f64) -> f64>(f: &mut F, bracket: (f64, f64), st
         let (change, bend) = (slope - last, bend(slope - last, x1, x0, oldest));
         let tangent = if slope + bend < 0.0 { slope + bend } else { slope };
         let step = if f1 == 0.0 { 0.0 } else { -f1 / tangent };
-        if tangent < 0.0 && settled(step, change / tangent, bend / tangent, x1.abs() + floor) {
+        let short = settled(step, change / tangent, bend / tangent, x1.abs() + floor);
+        // Across a pole the secant falls as well, and its steps end there.
+        if tangent < 0.0 && short && f1.abs() < POLE {
             return Ok(Root { x: x1, step, slope: tangent });
         }
         if high - low <= 4.0 * f64::EPSILON * (low.abs() + high.abs()) + f64::MIN_POSITIVE {

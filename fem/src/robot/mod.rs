@@ -42,8 +42,6 @@ pub use settings::RobotSettings;
 pub use snaps::{Sample, Snap, Watch, snaps};
 pub use table::{KEYS, Key, OTHERS, with_fem};
 
-use std::f64::consts::PI;
-
 use models::Scenario;
 use models::actuators::pattern::Pattern;
 
@@ -166,17 +164,9 @@ fn body_parts(mesh: &Mesh) -> Vec<String> {
 /// Refuses what the scenario and the pattern do not allow together.
 fn fits(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) -> Result<(), FemError> {
     let refuse = |message: String| Err(FemError::Problem(format!("robot: {message}")));
-    let sewn = |p: &Pattern| p.check(scenario.radius_m, settings.weld_m);
-    if let Err(fault) = sewn(pattern).and_then(|()| sewn(&pattern.between_welds(settings.weld_m))) {
-        return refuse(fault);
-    }
     let taped_m = if pattern.is_taped() { settings.tape_margin_m } else { 0.0 };
-    let (edge_m, half_m) = (0.5 * (pattern.width_m + settings.weld_m) + taped_m, PI * scenario.radius_m);
-    if edge_m > half_m {
-        let (edge, half) = (edge_m * 1e3, half_m * 1e3);
-        return refuse(format!(
-            "the sheet's edges are {edge:.1} mm from the middle of the strip and meet behind the body, at {half:.1} mm; make the pouch, weld_mm or tape_margin_mm narrower"
-        ));
+    if let Err(fault) = scenario.fits(pattern, settings.weld_m, taped_m) {
+        return refuse(fault);
     }
     if !scenario.zones.is_empty() {
         return refuse(format!("{} zones; zones exist in the reduced model only, remove them", scenario.zones.len()));
@@ -184,16 +174,6 @@ fn fits(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) -> Res
     if settings.actuator_pa < scenario.p_body_pa {
         let [actuator, body] = [settings.actuator_pa, scenario.p_body_pa].map(|p| p * 1e-3);
         return refuse(format!("an actuator at {actuator} kPa in a body at {body} kPa stays flat; raise actuator_pa"));
-    }
-    let end_m = scenario.length_m * (1.0 + 1e-9);
-    if let Some(s) = scenario.markers_m.iter().find(|s| !(0.0..=end_m).contains(*s)) {
-        let length = scenario.length_m * 1e3;
-        return refuse(format!("a marker at {} mm is off the body of {length} mm", s * 1e3));
-    }
-    let last_m = scenario.actuator.start_m + scenario.actuator.count as f64 * pattern.pitch_m;
-    if scenario.actuator.count == 0 || scenario.actuator.start_m < 0.0 || last_m > end_m {
-        let (count, length) = (scenario.actuator.count, scenario.length_m * 1e3);
-        return refuse(format!("{count} units that end at {:.1} mm do not fit the body of {length} mm", last_m * 1e3));
     }
     Ok(())
 }

@@ -272,7 +272,7 @@ impl Effect<'_> {
 
     /// Whether it acts in an actuator or on its supply: a passive beam has neither.
     pub fn needs_actuator(&self) -> bool {
-        let of_body = self.name == "body_pressure_offset";
+        let of_body = self.name == body_pressure_offset::ENTRY.name;
         self.family.is_some() || self.group == Group::Actuator || (self.group == Group::Supply && !of_body)
     }
 

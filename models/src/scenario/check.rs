@@ -104,7 +104,7 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
     let zones = raw.zone.iter().map(|z| zone(z, length_m, &actuator)).collect::<Checked<Vec<_>>>()?;
     let formulas = formulas(raw, text)?;
     let p_max = raw.actuator.as_ref().and_then(|a| a.get_ref().max_pressure_kpa.as_ref());
-    Ok(Scenario {
+    let scenario = Scenario {
         name: raw.name.clone(),
         radius_m,
         length_m,
@@ -123,7 +123,13 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
         p_max_pa: p_max.map(|p| si(p, &PRESSURE)).transpose()?.unwrap_or(100e3),
         effects: effects_of(raw, &actuator, &formulas)?,
         formulas,
-    })
+    };
+    match (scenario.can_be_built(), &raw.actuator) {
+        (Err(fault), Some(actuator)) => {
+            refuse(format!("robot: {fault}"), "change the sizes of the body, the actuator or its zones", actuator.span())
+        }
+        _ => Ok(scenario),
+    }
 }
 
 pub(super) fn refuse<T>(message: String, help: impl Into<String>, span: std::ops::Range<usize>) -> Checked<T> {

@@ -18,6 +18,7 @@
 //! basis = "assumed"
 //! ```
 
+mod built;
 mod check;
 mod formulas;
 pub mod quantity;

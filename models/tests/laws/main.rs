@@ -11,6 +11,7 @@ mod forces;
 mod history;
 mod inverse;
 mod neutral;
+mod random_inverse;
 mod scaling;
 mod solver;
 mod stationary;

@@ -1,0 +1,59 @@
+//! What cannot be built: one place for the scenario and for the finite elements.
+
+use super::Scenario;
+use crate::actuators::pattern::Pattern;
+use std::f64::consts::PI;
+
+impl Scenario {
+    /// Refuses what this robot and a sewing pattern do not allow together, with welds `weld_m` wide and the sheet's edge
+    /// `margin_m` beyond them.
+    ///
+    /// # Errors
+    /// The fault with its number, and what to change.
+    pub fn fits(&self, pattern: &Pattern, weld_m: f64, margin_m: f64) -> Result<(), String> {
+        if !self.actuator.exists() {
+            return Err("a beam without [actuator] has no sewing pattern; add one".into());
+        }
+        sewn(pattern, self.radius_m, weld_m, margin_m)?;
+        let end_m = self.length_m * (1.0 + 1e-9);
+        let length = self.length_m * 1e3;
+        if let Some(s) = self.markers_m.iter().find(|s| !(0.0..=end_m).contains(*s)) {
+            return Err(format!("a marker at {} mm is off the body of {length} mm", s * 1e3));
+        }
+        let last_m = self.actuator.start_m + self.actuator.count as f64 * pattern.pitch_m;
+        if self.actuator.start_m < 0.0 || last_m > end_m {
+            let count = self.actuator.count;
+            return Err(format!("{count} units that end at {:.1} mm do not fit the body of {length} mm", last_m * 1e3));
+        }
+        Ok(())
+    }
+
+    /// The same for every stretch of the reduced model, whose welds are lines; and the actuator's line of action lies beyond
+    /// the body's axis.
+    pub(super) fn can_be_built(&self) -> Result<(), String> {
+        for span in self.spans() {
+            let Some(actuator) = span.actuator else { continue };
+            sewn(&(actuator.pattern)(&span.shape), span.radius_m, 0.0, 0.0)?;
+            if span.arm_m < span.radius_m {
+                let (arm, radius) = (span.arm_m * 1e3, span.radius_m * 1e3);
+                return Err(format!(
+                    "an arm of {arm} mm from the far side of the body ends inside it, below its axis at {radius} mm"
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn sewn(pattern: &Pattern, radius_m: f64, weld_m: f64, margin_m: f64) -> Result<(), String> {
+    pattern.check(radius_m, weld_m)?;
+    pattern.between_welds(weld_m).check(radius_m, weld_m)?;
+    let (edge_m, half_m) = (0.5 * (pattern.width_m + weld_m) + margin_m, PI * radius_m);
+    if edge_m > half_m {
+        let (edge, half) = (edge_m * 1e3, half_m * 1e3);
+        return Err(format!(
+            "the sheet's edges are {edge:.1} mm from the middle of the strip and meet behind the body, at {half:.1} mm; make the pouch, weld_mm or tape_margin_mm narrower"
+        ));
+    }
+    Ok(())
+}
