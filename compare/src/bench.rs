@@ -170,7 +170,8 @@ fn muscles(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Resul
                 let help = "add bias_deg and diameter_mm, name a scenario before the table, or add --calibrate";
                 return refuse(bench, "a muscle needs its size and its yarns' angle", help);
             };
-            let size = row.get("diameter").map_or(String::new(), |d| format!("{:.0} mm, ", 1e3 * d));
+            let told = |key, word| row.get(key).map_or(String::new(), |v| format!("{:.0} mm {word}, ", 1e3 * v));
+            let size = told("diameter", "thick") + &told("length", "long");
             let p = 1e-3 * row.value("p_act");
             let fitted = fitted.is_some_and(|f| f.line == row.line);
             rows.push(if row.value("force") == 0.0 {

@@ -296,14 +296,9 @@ fn other_angles_check_the_law_and_change_nothing_of_it() {
     assert_eq!(law(&three), law(&seven));
     let checks: Vec<_> = seven.replays.iter().filter(|r| r.law == "fabric" && !r.used).collect();
     assert_eq!(checks.len(), 4);
-    for r in checks {
-        println!(
-            "{}: {:+.1} % at the end, {:.1} % rms",
-            seven.specimens[r.specimen].name,
-            100.0 * r.at_end,
-            100.0 * r.rms
-        );
-    }
+    // What the law misses at angles it was not made from is told, not fitted.
+    assert!(checks.iter().all(|r| r.at_end.abs() < 0.3) && checks.iter().any(|r| r.at_end.abs() > 0.1));
+    assert!(seven.warnings.iter().any(|w| w.contains("tests at other angles")), "{:?}", seven.warnings);
 }
 
 #[test]

@@ -71,7 +71,7 @@ fn arm() -> Result<Option<Held>, CompareError> {
         });
     }
     Ok(Some(Held {
-        title: format!("fPAM arm, {} against {SET}", scenario.name),
+        title: format!("{} against {SET}", scenario.name),
         quantity: "tip height mm".into(),
         known: Known::Assumed,
         rows,

@@ -125,9 +125,11 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
         formulas,
     };
     match (scenario.can_be_built(), &raw.actuator) {
-        (Err(fault), Some(actuator)) => {
-            refuse(format!("robot: {fault}"), "change the sizes of the body, the actuator or its zones", actuator.span())
-        }
+        (Err(fault), Some(actuator)) => refuse(
+            format!("robot: {fault}"),
+            "change the sizes of the body, the actuator or its zones",
+            actuator.span(),
+        ),
         _ => Ok(scenario),
     }
 }
