@@ -23,6 +23,9 @@ pub(super) struct Specimens<'a> {
     found: Vec<Raw>,
 }
 
+/// Rows of a curve, the widths beside them, and how many rows were left out.
+type Kept = (Vec<[f64; 2]>, Vec<f64>, usize);
+
 /// One specimen with its line numbers.
 struct Raw {
     name: String,
@@ -146,7 +149,7 @@ impl<'a> Specimens<'a> {
     }
 
     /// Zeroed on the first row; steps back that are noise left out.
-    fn rows(&self, raw: &Raw, specimen: &str) -> Result<(Vec<[f64; 2]>, Vec<f64>, usize), DataError> {
+    fn rows(&self, raw: &Raw, specimen: &str) -> Result<Kept, DataError> {
         let [x, _] = self.header.curve();
         let (column, first) = (self.header.name(x), raw.rows[0].0);
         let range = raw.rows.iter().map(|(row, _)| (row[0] - first[0]).abs()).fold(0.0, f64::max);
