@@ -89,7 +89,7 @@ pub fn characterize(coupons: &[Coupon], settings: &Settings) -> Result<Character
     strips(&mut found, &taut, settings)?;
     shear(&mut found);
     reach(&mut found);
-    slack(&mut found);
+    found.notes.extend(warn::slack(&found.specimens));
     found.replays = replay::replays(&found, settings);
     let law = found.replays.iter().filter(|r| r.law == settings.name && !r.used).map(|r| r.at_end);
     warn::checks(law, &mut found.warnings);
@@ -272,20 +272,6 @@ fn poisson(found: &mut Characterized) {
         None => format!("{word}: width under load, pulled along fill, times E0/E90"),
     };
     found.add("nu12", "Poisson's ratio nu12", "–", warp.or(turned), known);
-}
-
-/// Slack that was taken off.
-fn slack(found: &mut Characterized) {
-    let told: Vec<String> = found
-        .specimens
-        .iter()
-        .filter(|s| s.slack > 0.0)
-        .map(|s| format!("{} ({}°) {:.3} %", s.name, s.direction.degrees(), 100.0 * s.slack))
-        .collect();
-    if !told.is_empty() {
-        let text = told.join(", ");
-        found.notes.push(format!("slack taken off, a soft start before the specimen is taut: {text}"));
-    }
 }
 
 /// C₁₀ of warp and fill together: the mean of the two directions' means.

@@ -37,6 +37,17 @@ pub(super) fn slips(coupon: &Coupon, rows: &[[f64; 2]], warnings: &mut Vec<Strin
     }
 }
 
+/// Slack that was taken off.
+pub(super) fn slack(specimens: &[Specimen]) -> Option<String> {
+    let told: Vec<String> = specimens
+        .iter()
+        .filter(|s| s.slack > 0.0)
+        .map(|s| format!("{} ({}°) {:.3} %", s.name, s.direction.degrees(), 100.0 * s.slack))
+        .collect();
+    let text = told.join(", ");
+    (!told.is_empty()).then(|| format!("slack taken off, a soft start before the specimen is taut: {text}"))
+}
+
 /// Specimens that deviate from the others of their direction; directions that look confused.
 pub(super) fn deviations(specimens: &[Specimen], warnings: &mut Vec<String>) {
     for direction in directions(specimens) {
