@@ -63,7 +63,22 @@ fn an_interrupted_robot_goes_on_to_the_same_end() {
     let folder = Folder::new();
     // With the ramps and the hold of every robot.
     let start = |name: &str, more: &[&str]| {
-        let all = [&["simulate", "epam", "--mesh", "14mm", "--no-frames", "--quiet", "--out", name], more].concat();
+        let all = [
+            &[
+                "simulate",
+                "epam",
+                "--mesh",
+                "14mm",
+                "--set",
+                "guard_hourglass=1",
+                "--no-frames",
+                "--quiet",
+                "--out",
+                name,
+            ],
+            more,
+        ]
+        .concat();
         folder.ibr(&all).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
     };
     let whole = Ran::from(start("whole", &[]).wait_with_output().unwrap());
