@@ -272,7 +272,7 @@ pub struct Characterize {
     /// CSV files of tensile tests: strain_pct,stress_mpa or displacement_mm,force_n, several specimens each
     #[arg(required_unless_present = "example")]
     pub files: Vec<String>,
-    /// Direction of the pull in degrees to the warp where a file does not say: 0, 45 or 90
+    /// Direction of the pull in degrees to the warp where a file does not say: 0, 45, 90, or between (a check of the law)
     #[arg(long, allow_hyphen_values = true)]
     pub direction: Option<f64>,
     /// Width of the specimens where a file does not say, for example 20mm

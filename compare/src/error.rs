@@ -9,6 +9,16 @@ pub enum CompareError {
         /// Name of the dataset.
         name: String,
     },
+    /// A table of bench tests cannot be held against what was given.
+    #[error("{file}: {problem}: {help}")]
+    Bench {
+        /// The table.
+        file: String,
+        /// What is wrong.
+        problem: String,
+        /// What to do.
+        help: String,
+    },
     /// An array does not have the shape of one run.
     #[error(
         "{what} has {found} values, one run of the data has {expected} ({holds} holds x {samples} samples x {markers} \

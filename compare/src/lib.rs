@@ -5,6 +5,7 @@
 //! [`evaluate`](mod@evaluate), which bundles them. Predictions arrive as plain slices in run layout.
 
 pub mod accuracy;
+pub mod bench;
 pub mod characterize;
 pub mod comparison;
 mod data_slope;

@@ -5,6 +5,7 @@
 
 pub mod about;
 mod align;
+pub mod bench;
 pub mod check;
 pub mod coupons;
 pub mod dataset;
@@ -27,6 +28,7 @@ pub mod write;
 mod tests;
 
 pub use about::{About, AboutRun, Direct, Geometry, MarkerStation, MeasuredValue, Provenance, parse_about, read_about};
+pub use bench::{Bench, bench, parse_bench};
 pub use check::{CheckReport, check};
 pub use coupons::{Coupon, CouponDefaults, Direction, Pulled, parse_coupons, read_coupons};
 pub use dataset::{Dataset, Hold, Marker, Phase};

@@ -91,6 +91,15 @@ impl std::ops::Deref for BodyLaw {
 }
 
 impl BodyLaw {
+    /// The moment of the gas is another than that of a round section by a factor; a replaced law keeps its own.
+    pub(crate) fn scale(&mut self, factor: f64) {
+        match self {
+            BodyLaw::Hinge(law) => law.share *= factor,
+            BodyLaw::Wall(law) => law.share *= factor,
+            BodyLaw::Replaced(_) => {}
+        }
+    }
+
     /// Adds the force alone; the hinge needs no logarithm then.
     #[inline]
     pub(crate) fn add_force(&self, at: &Pose, force: &mut [f64]) {

@@ -31,6 +31,7 @@ mod reach;
 mod robot;
 mod root;
 pub mod scenario;
+mod section;
 mod shape;
 pub mod site;
 mod supply;

@@ -7,9 +7,12 @@ use crate::cli::Characterize;
 use crate::failure::Failure;
 use crate::output::{Input, check_folder, program, write_files};
 use compare::characterize::write::{fabric_toml, measured_toml, shear_table, yarn_table};
-use compare::characterize::{Characterized, Quantity as Number, Settings, Specimen, characterize, example, pictures};
+use compare::characterize::{
+    Characterized, Quantity as Number, Replay, Settings, Specimen, characterize, example, pictures,
+};
 use compare::study::pages::Files;
-use data::{Coupon, CouponDefaults, Direction, Table, parse_coupons, read_coupons};
+use data::bench::bending_lengths_m;
+use data::{Bench, Coupon, CouponDefaults, Direction, Table, bench, parse_coupons, read_coupons};
 use models::scenario::quantity::Quantity;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -23,9 +26,12 @@ pub fn run(args: &Characterize, context: &mut Context) -> Result<Outcome, Failur
     }
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let settings = settings(args)?;
-    let (coupons, inputs) = read(args, context)?;
+    let Read { coupons, bent, inputs } = read(args, context)?;
     (context.progress)("reducing", None);
-    let found = characterize(&coupons, &settings)?;
+    let mut found = characterize(&coupons, &settings)?;
+    for table in &bent {
+        found.bend(&bending_lengths_m(table), table.provenance.word());
+    }
     let fabric = fabric_toml(&found, &settings, &program());
     let mut text = text(&found);
     if fabric.is_none() {
@@ -56,7 +62,15 @@ fn settings(args: &Characterize) -> Result<Settings, Failure> {
     Ok(Settings { name, modulus_strain, any_modulus: args.any_modulus })
 }
 
-fn read(args: &Characterize, context: &mut Context) -> Result<(Vec<Coupon>, Vec<Input>), Failure> {
+/// What the files hold.
+struct Read {
+    coupons: Vec<Coupon>,
+    /// Cantilever tests.
+    bent: Vec<Bench>,
+    inputs: Vec<Input>,
+}
+
+fn read(args: &Characterize, context: &mut Context) -> Result<Read, Failure> {
     let length = |option: &str, text: &Option<String>| {
         text.as_ref().map(|text| quantity(option, text, Quantity::Length)).transpose()
     };
@@ -67,9 +81,18 @@ fn read(args: &Characterize, context: &mut Context) -> Result<(Vec<Coupon>, Vec<
         thickness_m: length("--thickness", &args.thickness)?,
         columns: args.columns.iter().map(|name| name.trim().to_string()).collect(),
     };
-    let (mut coupons, mut inputs) = (Vec::new(), Vec::new());
+    let (mut coupons, mut bent, mut inputs) = (Vec::new(), Vec::new(), Vec::new());
     for file in &args.files {
         (context.progress)(&format!("reading {file}"), None);
+        if let Some(table) = bench(file)? {
+            if table.kind.name != "bending_length" {
+                let message = format!("{file} is a {} table, not a test of a fabric", table.kind.name);
+                return Err(Failure::usage(message, format!("`ibr compare {file}` holds it against its model")));
+            }
+            inputs.push(Input::of(file, &std::fs::read(file).unwrap_or_default()));
+            bent.push(table);
+            continue;
+        }
         // The bytes are hashed for the manifest; a file that cannot be read is refused by the reader.
         coupons.extend(match std::fs::read(file) {
             Ok(bytes) => {
@@ -79,7 +102,7 @@ fn read(args: &Characterize, context: &mut Context) -> Result<(Vec<Coupon>, Vec<
             Err(_) => read_coupons(Path::new(file), &defaults, &mut |_, _| ())?,
         });
     }
-    Ok((coupons, inputs))
+    Ok(Read { coupons, bent, inputs })
 }
 
 fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
@@ -110,7 +133,7 @@ fn missing(found: &Characterized) -> &'static str {
 
 fn text(found: &Characterized) -> String {
     let count = |d: Direction| format!("{} at {}°", found.of(d).count(), d.degrees());
-    let directions = [Direction::Warp, Direction::Bias, Direction::Fill].map(count).join(", ");
+    let directions = found.directions().into_iter().map(count).collect::<Vec<_>>().join(", ");
     let mut text = format!("Specimens: {directions} ({})\n", found.provenance.word());
     let row = |q: &Number| {
         let interval =
@@ -129,13 +152,34 @@ fn text(found: &Characterized) -> String {
     let head = ["quantity", "how known", "mean", "unit", "95 % interval of the mean", "sd", "n"];
     text.push_str(&table(&head, 2, found.quantities.iter().map(row).collect()));
     text.push_str(&table(
-        &["specimen", "direction", "modulus [MPa]", "C10 [MPa]", "largest strain [%]", "locking [°]"],
+        &["specimen", "direction", "slack [%]", "modulus [MPa]", "C10 [MPa]", "largest strain [%]", "locking [°]"],
         1,
         found.specimens.iter().map(specimen_row).collect(),
     ));
+    if !found.replays.is_empty() {
+        text.push_str(
+            "Every test by the law that was made of them: law over test, at the end and rms of the largest stress\n",
+        );
+        text.push_str(&table(&["law", "specimen", "direction", "used", "at the end", "rms"], 4, replay_rows(found)));
+    }
     found.warnings.iter().for_each(|w| text.push_str(&format!("look at: {w}\n")));
     found.notes.iter().for_each(|n| text.push_str(&format!("note: {n}\n")));
     text
+}
+
+fn replay_rows(found: &Characterized) -> Vec<Vec<String>> {
+    let row = |r: &Replay| {
+        let s = &found.specimens[r.specimen];
+        vec![
+            r.law.clone(),
+            s.name.clone(),
+            format!("{}°", s.direction.degrees()),
+            if r.used { "for the law" } else { "check" }.into(),
+            format!("{:+.1} %", 100.0 * r.at_end),
+            format!("{:.1} %", 100.0 * r.rms),
+        ]
+    };
+    found.replays.iter().map(row).collect()
 }
 
 fn specimen_row(s: &Specimen) -> Vec<String> {
@@ -146,6 +190,7 @@ fn specimen_row(s: &Specimen) -> Vec<String> {
     vec![
         s.name.clone(),
         format!("{}°", s.direction.degrees()),
+        if s.slack > 0.0 { format!("{:.3}", 100.0 * s.slack) } else { "–".into() },
         s.modulus_pa.map_or("–".into(), |e| digits(1e-6 * e)),
         s.c10_pa.map_or("–".into(), |c| digits(1e-6 * c[0])),
         number(strain.map(|e| 100.0 * e), 1),
@@ -205,9 +250,15 @@ fn as_json(found: &Characterized, fabric: Option<&str>) -> Value {
         let strip = s.strip.as_ref();
         json!({
             "specimen": s.name, "file": s.file, "direction_deg": s.direction.degrees(), "modulus_pa": s.modulus_pa,
-            "modulus_to_strain": s.modulus_strain, "c10_pa": s.c10_pa.map(|c| c[0]),
+            "modulus_to_strain": s.modulus_strain, "slack_strain": s.slack, "poisson": s.poisson, "c10_pa": s.c10_pa.map(|c| c[0]),
             "locking_rad": strip.and_then(|s| s.locking).map(|l| l.angle),
             "shear_rad_n_per_m": strip.map(|s| &s.shear),
+        })
+    };
+    let replay = |r: &Replay| {
+        json!({
+            "law": r.law, "specimen": found.specimens[r.specimen].name, "used_for_the_law": r.used,
+            "direction_deg": found.specimens[r.specimen].direction.degrees(), "at_end": r.at_end, "rms": r.rms,
         })
     };
     let yarn = |direction| found.yarns.iter().find(|y| y.direction == direction).map(|y| &y.rows);
@@ -222,6 +273,7 @@ fn as_json(found: &Characterized, fabric: Option<&str>) -> Value {
         "shear_rad_n_per_m": found.shear.as_ref().map(|s| &s.rows),
         "shear_rad_pa": found.shear.as_ref().and_then(|s| s.moment_pa.as_ref()),
         "thickness_m": found.thickness_m,
+        "replays": found.replays.iter().map(replay).collect::<Vec<_>>(),
         "warnings": found.warnings,
         "notes": found.notes,
         "fabric_toml": fabric,

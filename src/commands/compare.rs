@@ -15,11 +15,14 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 
 pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
+    if let Some(outcome) = super::held::run(args, context)? {
+        return Ok(outcome);
+    }
     let (scenario_spec, data_spec) = both(args)?;
     let limit_m = args.max_error.as_deref().map(|t| positive("--max-error", t)).transpose()?;
     let sigma_m = args.sigma.as_deref().map(|t| positive("--sigma", t)).transpose()?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
-    let named = inputs::scenario(scenario_spec)?;
+    let named = inputs::scenario_or_own(scenario_spec, data_spec)?;
     let models = models(&named.scenario, &args.effect)?;
     let (dataset, about, input) = inputs::dataset(data_spec, context)?;
     (context.progress)("comparing", None);
@@ -52,6 +55,7 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
 /// Scenario and data.
 fn both(args: &Compare) -> Result<(&str, &str), Failure> {
     match &args.inputs[..] {
+        [data] if inputs::own_scenario(data).is_some() => Ok(("its own", data)),
         [scenario, data] => Ok((scenario, data)),
         other => {
             let message = format!("ibr compare takes a scenario and data, not {} names", other.len());

@@ -25,6 +25,12 @@ pub fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome, Fail
 }
 
 fn check(spec: &str, context: &mut Context) -> Result<Outcome, Failure> {
+    if let Some(bench) = data::bench::bench(spec)? {
+        let words =
+            format!("{spec}: {}, {} rows ({})\n", bench.kind.sentence, bench.rows.len(), bench.provenance.word());
+        let check = json!({"kind": bench.kind.name, "rows": bench.rows.len(), "provenance": bench.provenance.word()});
+        return Ok(Outcome::new(words, json!({"schema": "ibr.data.check", "version": 1, "check": check})));
+    }
     let (dataset, about, _) = inputs::dataset(spec, context)?;
     let mut report = data::check(&dataset, about.as_ref());
     let stations_m: Option<Vec<f64>> = dataset.markers.iter().map(|marker| marker.station_m).collect();

@@ -2,7 +2,7 @@
 
 use super::simulate::{Small, heights_mm, small_run};
 use super::tables::{number, table};
-use super::{Context, Outcome};
+use super::{Context, Outcome, held};
 use crate::failure::Failure;
 use crate::output::{check_folder, machine, program, today, write_files};
 use compare::plots::Known;
@@ -69,7 +69,12 @@ pub fn published_text(ladders: &[PublishedLadder]) -> String {
 }
 
 fn text(demo: &Demo) -> String {
-    let mut out = String::from("Displacement at 30 kPa against the published measurement (du Pasquier et al. 2023)\n");
+    let mut out = String::from("Measured things first\n");
+    demo.measured.iter().for_each(|h| {
+        out.push('\n');
+        out.push_str(&if h.rows.len() > 8 { format!("{}\n{}", h.title, held::closing(h)) } else { held::text(h) });
+    });
+    out.push_str("\nDisplacement at 30 kPa against the published measurement (du Pasquier et al. 2023)\n");
     out.push_str(&published_text(&demo.ladders));
     out.push_str("\nSynthetic marker sets: error beyond noise as effects are added\n");
     let head = ["data", "model", "how known", "paper acc. %", "beyond noise mm", "χ²/dof", "largest tip error mm"];
@@ -132,6 +137,7 @@ fn to_json(demo: &Demo, small: &Small) -> Value {
         .collect();
     json!({
         "schema": "ibr.demo", "version": 1,
+        "measured": demo.measured.iter().map(held::as_json).collect::<Vec<_>>(),
         "published": demo.ladders.iter().map(ladder).collect::<Vec<_>>(),
         "marker_sets": studies, "diagnosis": demo.diagnosed.diagnosis, "timings": demo.timings,
         "small_run": {

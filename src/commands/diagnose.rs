@@ -19,6 +19,7 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
     let Some(data) = args.data.as_deref() else {
         return super::published::run(&args.scenario, args.out.as_deref(), context);
     };
+    super::held::needs_markers(data)?;
     let sigma_m = args.sigma.as_deref().map(|t| positive("--sigma", t)).transpose()?;
     let tolerance_m = args.tolerance.as_deref().map(|t| positive("--tolerance", t)).transpose()?;
     let named = inputs::scenario(&args.scenario)?;

@@ -32,6 +32,23 @@ pub fn scenario(spec: &str) -> Result<NamedScenario, Failure> {
     }
 }
 
+/// A scenario, or that beside the data if `spec` is not one and the data have one.
+pub fn scenario_or_own(spec: &str, data: &str) -> Result<NamedScenario, Failure> {
+    match own_scenario(data).filter(|_| spec == "its own") {
+        None => scenario(spec),
+        Some(text) => {
+            let input = Input::of(&format!("{data}/scenario.toml"), text.as_bytes());
+            Ok(NamedScenario { scenario: super::held::own(data, &text)?, text, input })
+        }
+    }
+}
+
+/// The scenario that an embedded set or a folder of data has.
+pub fn own_scenario(data: &str) -> Option<String> {
+    let of_set = || data::set_file(data, "scenario.toml").ok().map(str::to_string);
+    std::fs::read_to_string(Path::new(data).join("scenario.toml")).ok().or_else(of_set)
+}
+
 fn scenario_text(spec: &str) -> Result<String, Failure> {
     let cause = match (std::fs::read(spec), models::shipped(spec).or(crate::studies::study(spec))) {
         (Err(_), Some(text)) if !Path::new(spec).exists() => return Ok(text.to_string()),

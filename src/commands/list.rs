@@ -79,7 +79,10 @@ fn datasets() -> (String, Value) {
     let sets = data::sets();
     let mut text = String::from("DATASETS\n");
     for s in &sets {
-        let kind = if s.has_markers() { "markers" } else { "published numbers" };
+        let table = data::bench::KINDS.iter().find(|k| s.files.contains(&format!("{}.csv", k.name))).map(|k| k.name);
+        let coupons = s.files.iter().any(|f| f.starts_with("coupon_")).then_some("tensile tests");
+        let markers = s.has_markers().then_some("markers");
+        let kind = markers.or(table).or(coupons).unwrap_or("published numbers");
         text.push_str(&format!(
             "  {:<28} {} ({}, {kind})\n    {}; licence {}\n",
             s.name,

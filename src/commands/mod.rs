@@ -14,6 +14,7 @@ mod demo;
 mod diagnose;
 mod engines;
 mod extend;
+mod held;
 mod inputs;
 mod ladder;
 mod limits;

@@ -17,6 +17,7 @@ mod compare;
 mod data_errors;
 mod diagnose;
 mod generate;
+mod held;
 mod json;
 mod output;
 mod predict;

@@ -1,8 +1,7 @@
 //! Made-up tests of a fabric whose truth is known: to learn the formats, and to test the reduction.
 
 use data::Direction;
-use models::exact::coupon;
-use models::fabrics::Curve;
+use models::fabrics::{BiasExtension, Curve, Woven, Yarn};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 use std::fmt::Write as _;
@@ -12,7 +11,7 @@ pub const SPECIMENS: usize = 5;
 /// Thickness \[m\].
 pub const THICKNESS_M: f64 = 5e-5;
 /// Strip of all directions: that of the paper.
-pub const STRIP: coupon::Bias = coupon::Bias { length_m: 0.25, width_m: 0.02 };
+pub const STRIP: BiasExtension = BiasExtension { length_m: 0.25, width_m: 0.02, thickness_m: THICKNESS_M };
 /// Nominal strain and stress \[Pa\] along warp; the first slope is E0 = 96.5 MPa.
 pub const WARP: [[f64; 2]; 4] = [[0.0, 0.0], [0.05, 4.825e6], [0.15, 13e6], [0.25, 19e6]];
 /// The same along fill; E90 = 120 MPa.
@@ -63,11 +62,18 @@ fn point(direction: Direction, at: f64, factor: f64) -> [f64; 2] {
     match direction {
         Direction::Warp => [100.0 * at, 1e-6 * table(&WARP, at)],
         Direction::Fill => [100.0 * at, 1e-6 * table(&FILL, at)],
-        Direction::Bias => {
+        Direction::Bias | Direction::Between(_) => {
             let law = |angle: f64| table(&SHEAR, angle) * THICKNESS_M / angle.cos();
-            [1e3 * coupon::lengthening_m(&STRIP, at), coupon::bias_force_n(&STRIP, at, law)]
+            let [d, f] = STRIP.pulled(at, law, yarns().as_ref().map(|y| y as _));
+            [1e3 * d, f]
         }
     }
+}
+
+/// Yarns that stretch as the tables say.
+fn yarns() -> Option<Woven> {
+    let yarn = |rows: &[[f64; 2]]| Yarn::new(Curve::table(rows).ok()?, None).ok();
+    Woven::new([yarn(&WARP)?, yarn(&FILL)?], Curve::linear(1e6), 0.0, THICKNESS_M).ok()
 }
 
 fn largest(direction: Direction) -> f64 {

@@ -1,12 +1,14 @@
 //! From pulled specimens to the numbers and curves of a fabric law, each with its scatter and how it is known.
 //!
 //! One specimen at a time ([`specimen`]: stress over strain, modulus, C₁₀, shear curve of a bias extension), then over
-//! specimens ([`reduce`]: the specimen is the unit, mean ± t s/√n at 95 %), then out ([`mod@write`], [`pictures`]). Formulas are
+//! specimens ([`reduce`]: the specimen is the unit, mean ± t s/√n at 95 %), then every test by the law that came of them
+//! ([`mod@replay`]), then out ([`mod@write`], [`pictures`]). Formulas are
 //! those of `models::fabrics::specimen` and `models::fabrics::BiasExtension`.
 
 pub mod example;
 pub mod pictures;
 pub mod reduce;
+pub mod replay;
 pub mod scatter;
 pub mod specimen;
 #[cfg(test)]
@@ -16,6 +18,7 @@ mod warn;
 pub mod write;
 
 pub use reduce::{Characterized, MeanCurve, ShearCurve, characterize};
+pub use replay::Replay;
 pub use scatter::{Quantity, Scatter};
 pub use specimen::{Specimen, Strip};
 

@@ -1,7 +1,6 @@
 //! Plots: all specimens, their mean, the fit, and where the reduction stops being valid.
 
-use models::exact::coupon;
-use models::fabrics::specimen as fit;
+use models::fabrics::{Fabric, specimen as fit};
 
 use super::reduce::Characterized;
 use super::{OPTICAL_LIMIT_RAD, PAPER_LIMIT_RAD};
@@ -67,9 +66,13 @@ fn bias(found: &Characterized) -> Option<Lines> {
     let alike: Vec<_> = found.strips().filter(|(_, strip)| same(strip)).collect();
     let all = alike.iter().map(|(_, s)| scaled(&s.pulled, [100.0 / first.length_m, 1.0]));
     let mut series = vec![specimens(&count(alike.len()), all, 0)];
-    let strip = coupon::Bias { length_m: first.length_m, width_m: first.width_m };
-    let strain = |angle: f64| 100.0 * coupon::lengthening_m(&strip, angle) / first.length_m;
-    let force = |row: &[f64; 2]| [strain(row[0]), coupon::bias_force_n(&strip, row[0], |x| fit::at(&shear.rows, x))];
+    let strain = |angle: f64| 100.0 * first.displacement_m(angle) / first.length_m;
+    let yarns = found.yarns_alone();
+    let yarns = yarns.as_ref().map(|y| y as &dyn Fabric);
+    let force = |row: &[f64; 2]| {
+        let [d, f] = first.pulled(row[0], |x| fit::at(&shear.rows, x), yarns);
+        [100.0 * d / first.length_m, f]
+    };
     series.push(LineSeries {
         name: "from the mean shear curve".into(),
         points: shear.rows.iter().map(force).collect(),

@@ -2,11 +2,11 @@
 
 use data::{Coupon, DataError, Direction, Fault, Provenance};
 use models::exact::coupon::shear_modulus_from_bias_pa;
-use models::fabrics::specimen as fit;
+use models::fabrics::{Curve, Fabric, Woven, Yarn, specimen as fit};
 
 use super::scatter::{Quantity, Scatter};
 use super::specimen::{self, Specimen, Strip};
-use super::{PAPER_LIMIT_RAD, Settings, warn};
+use super::{PAPER_LIMIT_RAD, Replay, Settings, replay, warn};
 use crate::CompareError;
 
 /// Rows of a mean curve: a law's table, fine enough for any bend of a fabric.
@@ -25,6 +25,8 @@ pub struct Characterized {
     pub shear: Option<ShearCurve>,
     /// Mean thickness \[m\], if any specimen has one.
     pub thickness_m: Option<f64>,
+    /// Every test by every law that these tests make.
+    pub replays: Vec<Replay>,
     /// How the curves came to be.
     pub provenance: Provenance,
     /// What to look at before the numbers are believed.
@@ -62,15 +64,18 @@ pub struct ShearCurve {
 pub fn characterize(coupons: &[Coupon], settings: &Settings) -> Result<Characterized, CompareError> {
     different(coupons)?;
     let mut warnings = Vec::new();
+    let (taut, slacks): (Vec<Coupon>, Vec<f64>) = coupons.iter().map(|c| specimen::taut(c, settings)).unzip();
     let reduced: Result<Vec<Specimen>, DataError> =
-        coupons.iter().map(|coupon| specimen::reduce(coupon, settings, &mut warnings)).collect();
-    let specimens = reduced?;
+        taut.iter().map(|coupon| specimen::reduce(coupon, settings, &mut warnings)).collect();
+    let mut specimens = reduced?;
+    specimens.iter_mut().zip(slacks).for_each(|(s, slack)| s.slack = slack);
     warn::deviations(&specimens, &mut warnings);
     let thickness_m = thickness(&specimens, &mut warnings);
     let provenance = coupons.iter().map(|c| c.provenance).find(|p| *p != Provenance::Measured);
     let mut found = Characterized {
         yarns: [Direction::Warp, Direction::Fill].into_iter().filter_map(|d| mean_curve(&specimens, d)).collect(),
-        shear: shear_curve(&specimens, thickness_m),
+        shear: None,
+        replays: Vec::new(),
         quantities: Vec::new(),
         provenance: provenance.unwrap_or(Provenance::Measured),
         notes: Vec::new(),
@@ -79,13 +84,45 @@ pub fn characterize(coupons: &[Coupon], settings: &Settings) -> Result<Character
         warnings,
     };
     moduli(&mut found);
+    poisson(&mut found);
     rubber(&mut found);
+    strips(&mut found, &taut, settings)?;
     shear(&mut found);
     reach(&mut found);
+    found.notes.extend(warn::slack(&found.specimens));
+    found.replays = replay::replays(&found, settings);
+    let law = found.replays.iter().filter(|r| r.law == settings.name && !r.used).map(|r| r.at_end);
+    warn::checks(law, &mut found.warnings);
     Ok(found)
 }
 
+/// The shear of the bias tests, the yarns' stretch taken out where both yarns were pulled.
+fn strips(found: &mut Characterized, taut: &[Coupon], settings: &Settings) -> Result<(), DataError> {
+    let yarns = found.yarns_alone();
+    let yarns = yarns.as_ref().map(|y| y as &dyn Fabric);
+    for (i, coupon) in taut.iter().enumerate() {
+        found.specimens[i].strip = specimen::strip(coupon, yarns, settings, &mut found.warnings)?;
+    }
+    if yarns.is_none() && found.strips().next().is_some() {
+        found.notes.push(
+            "the shear curve takes yarns that do not stretch, as nothing says how they do: give specimens of 0° and 90° and \
+             the thickness"
+                .into(),
+        );
+    }
+    found.shear = shear_curve(&found.specimens, found.thickness_m);
+    Ok(())
+}
+
 impl Characterized {
+    /// Adds bending lengths c \[m\] of specimens with weights per area w \[N/m²\]: c, and D = w c³.
+    pub fn bend(&mut self, lengths: &[[f64; 2]], word: &str) {
+        let c = Scatter::of(&lengths.iter().map(|[c, _]| 1e3 * c).collect::<Vec<_>>());
+        let d = Scatter::of(&lengths.iter().map(|[c, w]| 1e6 * w * c.powi(3)).collect::<Vec<_>>());
+        self.add("bending_length", "bending length c", "mm", c, format!("{word}: cantilever test, Peirce"));
+        self.add("bending_stiffness", "bending stiffness D, per width", "µN·m", d, format!("{word}: D = w c³"));
+    }
+
     /// Specimens of a direction.
     pub fn of(&self, direction: Direction) -> impl Iterator<Item = &Specimen> {
         self.specimens.iter().filter(move |s| s.direction == direction)
@@ -101,8 +138,28 @@ impl Characterized {
         self.quantities.iter().find(|q| q.key == key)
     }
 
-    fn add(&mut self, key: &'static str, name: &str, unit: &'static str, scatter: Option<Scatter>, known: String) {
-        let quantity = |scatter| Quantity { key, name: name.to_string(), unit, scatter, known };
+    /// Directions that were pulled, by angle.
+    pub fn directions(&self) -> Vec<Direction> {
+        warn::directions(&self.specimens)
+    }
+
+    /// ν₁₂: measured, else 0.
+    pub fn nu12(&self) -> f64 {
+        self.quantity("nu12").map_or(0.0, |q| q.scatter.mean.max(0.0))
+    }
+
+    /// The yarns as a fabric, with a shear that does not matter; none unless both were pulled.
+    pub fn yarns_alone(&self) -> Option<Woven> {
+        let yarn = |direction| {
+            let rows = &self.yarns.iter().find(|y| y.direction == direction)?.rows;
+            Yarn::new(Curve::table(rows).ok()?, None).ok()
+        };
+        let yarns = [yarn(Direction::Warp)?, yarn(Direction::Fill)?];
+        Woven::new(yarns, Curve::linear(1e6), self.nu12(), self.thickness_m?).ok()
+    }
+
+    fn add(&mut self, key: &str, name: &str, unit: &'static str, scatter: Option<Scatter>, known: String) {
+        let quantity = |scatter| Quantity { key: key.to_string(), name: name.to_string(), unit, scatter, known };
         self.quantities.extend(scatter.map(quantity));
     }
 
@@ -180,16 +237,41 @@ fn shear_curve(specimens: &[Specimen], thickness_m: Option<f64>) -> Option<Shear
 
 fn moduli(found: &mut Characterized) {
     let word = found.provenance.word();
-    for (direction, key, name) in [
-        (Direction::Warp, "e0", "modulus E0, pulled along warp"),
-        (Direction::Fill, "e90", "modulus E90, pulled along fill"),
-        (Direction::Bias, "e45", "modulus E45, pulled at 45°"),
-    ] {
+    for direction in found.directions() {
+        let degrees = direction.degrees();
+        let how = match direction {
+            Direction::Warp | Direction::Fill => format!("along {}", direction.word()),
+            Direction::Bias | Direction::Between(_) => format!("at {degrees}°"),
+        };
         let to = found.of(direction).map(|s| s.modulus_strain).fold(0.0, f64::max);
         let known = format!("{word}: slope to {:.1} % strain", 100.0 * to);
         let scatter = found.modulus(direction).map(|s| s.scaled(1e-6));
-        found.add(key, name, "MPa", scatter, known);
+        found.add(&format!("e{degrees}"), &format!("modulus E{degrees}, pulled {how}"), "MPa", scatter, known);
     }
+}
+
+/// ν₁₂ from the width under load: of warp, else of fill by ν₁₂ = ν₂₁ E0/E90.
+fn poisson(found: &mut Characterized) {
+    let word = found.provenance.word();
+    let of = |found: &Characterized, direction| {
+        Scatter::of(&found.of(direction).filter_map(|s| s.poisson).collect::<Vec<f64>>())
+    };
+    let (warp, fill) = (of(found, Direction::Warp), of(found, Direction::Fill));
+    let ratio = found.modulus(Direction::Warp).zip(found.modulus(Direction::Fill)).map(|(a, b)| a.mean / b.mean);
+    let turned = fill.zip(ratio).map(|(nu21, ratio)| nu21.scaled(ratio));
+    if let (Some(a), Some(b)) = (warp, turned)
+        && (a.mean - b.mean).abs() > 0.1
+    {
+        found.warnings.push(format!(
+            "nu12 is {:.3} pulled along warp and {:.3} along fill (nu21 E0/E90): they should agree; the first is used",
+            a.mean, b.mean
+        ));
+    }
+    let known = match warp {
+        Some(_) => format!("{word}: width under load, pulled along warp"),
+        None => format!("{word}: width under load, pulled along fill, times E0/E90"),
+    };
+    found.add("nu12", "Poisson's ratio nu12", "–", warp.or(turned), known);
 }
 
 /// C₁₀ of warp and fill together: the mean of the two directions' means.
@@ -261,7 +343,8 @@ fn shear(found: &mut Characterized) {
 fn link(found: &mut Characterized) {
     let all = [Direction::Bias, Direction::Warp, Direction::Fill].map(|d| found.modulus(d));
     let [Some(e45), Some(e0), Some(e90)] = all else { return };
-    let g = shear_modulus_from_bias_pa(e45.mean, e0.mean, e90.mean, 0.0);
+    let nu12 = found.nu12();
+    let g = shear_modulus_from_bias_pa(e45.mean, e0.mean, e90.mean, nu12);
     if !(g > 0.0 && g.is_finite()) {
         found.warnings.push(format!(
             "E45 = {:.4} MPa is too large for E0 = {:.4} and E90 = {:.4} MPa (at most {:.4}): no shear modulus follows; are \
@@ -275,7 +358,13 @@ fn link(found: &mut Characterized) {
     }
     let slope = |e: Scatter, factor: f64| (e, factor * (g / e.mean).powi(2));
     let scatter = Scatter::carried(g, &[slope(e45, 4.0), slope(e0, -1.0), slope(e90, -1.0)]);
-    let known = "calibrated: 1/G = 4/E45 − 1/E0 − 1/E90; nu12 = 0 assumed".to_string();
+    let known = match found.quantity("nu12") {
+        Some(_) => "calibrated: 1/G = 4/E45 − 1/E0 − 1/E90 + 2 nu12/E0".to_string(),
+        None => "calibrated: 1/G = 4/E45 − 1/E0 − 1/E90; nu12 = 0 assumed".to_string(),
+    };
+    if let Some(zones) = found.quantity("g12").map(|q| q.scatter.mean) {
+        warn::two_shear_moduli([zones, 1e-6 * g], &mut found.warnings);
+    }
     found.add("g12_link", "G12 from the moduli, free edges", "MPa", Some(scatter.scaled(1e-6)), known);
 }
 
@@ -290,12 +379,9 @@ fn reach(found: &mut Characterized) {
         let word = found.provenance.word().to_string();
         found.add(key, name, "%", Scatter::of(&ends), word);
     }
-    let single: Vec<&str> = [Direction::Warp, Direction::Bias, Direction::Fill]
-        .into_iter()
-        .filter(|d| found.of(*d).count() == 1)
-        .map(Direction::word)
-        .collect();
+    let alone = found.directions().into_iter().filter(|d| found.of(*d).count() == 1);
+    let single: Vec<String> = alone.map(|d| format!("{}°", d.degrees())).collect();
     if !single.is_empty() {
-        found.notes.push(format!("one specimen only along {}: no interval can be given", single.join(", ")));
+        found.notes.push(format!("one specimen only at {}: no interval can be given", single.join(", ")));
     }
 }

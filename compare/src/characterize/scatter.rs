@@ -19,7 +19,7 @@ pub struct Scatter {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
     /// Short name, as in JSON.
-    pub key: &'static str,
+    pub key: String,
     /// What it is.
     pub name: String,
     /// Unit.

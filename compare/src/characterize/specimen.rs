@@ -1,7 +1,7 @@
 //! One specimen: stress over strain, modulus, C₁₀, and the shear curve of a bias extension.
 
 use data::{Coupon, DataError, Direction, Fault, Pulled};
-use models::fabrics::{BiasExtension, specimen as fit};
+use models::fabrics::{BiasExtension, Fabric, specimen as fit};
 
 use super::{Settings, units};
 
@@ -27,6 +27,10 @@ pub struct Specimen {
     pub modulus_pa: Option<f64>,
     /// Strain up to which the modulus was taken.
     pub modulus_strain: f64,
+    /// Strain before the specimen was taut, taken off.
+    pub slack: f64,
+    /// Contraction across per stretch along, where the width under load is known.
+    pub poisson: Option<f64>,
     /// C₁₀ by stress and by share \[Pa\], along yarns.
     pub c10_pa: Option<[f64; 2]>,
     /// Bias extension, where width and length are known.
@@ -42,7 +46,7 @@ pub struct Strip {
     pub size: BiasExtension,
     /// Rows displacement \[m\], force \[N\] that were used.
     pub pulled: Vec<[f64; 2]>,
-    /// Rows shear angle \[rad\], shear force per length \[N/m\].
+    /// Rows shear angle \[rad\], shear force per length \[N/m\], the yarns' stretch taken out where it is known.
     pub shear: Vec<[f64; 2]>,
     /// Slope of the shear force at small angles \[N/m\].
     pub slope_n_per_m: Option<f64>,
@@ -50,12 +54,12 @@ pub struct Strip {
     pub locking: Option<fit::Locking>,
 }
 
-/// Reduces one specimen; adds to `warnings` what a user should look at.
+/// Reduces one specimen, but for the shear of a bias test; adds to `warnings` what a user should look at.
 ///
 /// # Errors
-/// A size that is missing, a strip with H < 2W, a modulus that only another unit explains.
+/// A size that is missing, a modulus that only another unit explains.
 pub(super) fn reduce(coupon: &Coupon, settings: &Settings, warnings: &mut Vec<String>) -> Result<Specimen, DataError> {
-    let bias = coupon.direction == Direction::Bias;
+    let along = coupon.direction.along_yarn();
     let whole = stresses(coupon)?;
     let mut used = up_to_peak(whole.as_deref().unwrap_or(coupon.pulled.rows()));
     if used.len() < FEWEST {
@@ -64,9 +68,11 @@ pub(super) fn reduce(coupon: &Coupon, settings: &Settings, warnings: &mut Vec<St
         return Err(fault(coupon, message, help));
     }
     super::warn::slips(coupon, &used, warnings);
+    let up_to = settings.modulus_strain * if along { 1.0 } else { 2.0 };
+    let poisson = poisson(coupon, whole.as_deref().unwrap_or_default(), up_to);
     used = fit::thinned(&used, MOST_ROWS);
     let stress = if whole.is_some() { used } else { Vec::new() };
-    let (modulus_pa, modulus_strain) = modulus(&stress, settings.modulus_strain * if bias { 2.0 } else { 1.0 });
+    let (modulus_pa, modulus_strain) = modulus(&stress, up_to);
     if let Some(modulus_pa) = modulus_pa
         && !settings.any_modulus
     {
@@ -77,13 +83,41 @@ pub(super) fn reduce(coupon: &Coupon, settings: &Settings, warnings: &mut Vec<St
         name: coupon.specimen.clone(),
         file: coupon.file.clone(),
         direction: coupon.direction,
-        c10_pa: if bias { None } else { both(&stress) },
-        strip: if bias { strip(coupon, settings, warnings)? } else { None },
+        c10_pa: if along { both(&stress) } else { None },
+        slack: 0.0,
+        poisson,
+        strip: None,
         thickness_m: coupon.thickness_m,
         stress,
         modulus_pa,
         modulus_strain,
     })
+}
+
+/// The coupon from where it is taut, and the strain before.
+pub(super) fn taut(coupon: &Coupon, settings: &Settings) -> (Coupon, f64) {
+    let scale = match &coupon.pulled {
+        Pulled::Stress(_) => 1.0,
+        Pulled::Force(_) => coupon.length_m.unwrap_or(f64::NAN),
+    };
+    let mut coupon = coupon.clone();
+    let Some(slack) = fit::slack(coupon.pulled.rows(), settings.modulus_strain * scale) else { return (coupon, 0.0) };
+    let rows = coupon.pulled.rows_mut();
+    let behind = rows[slack.from..].iter().map(|[x, y]| [x - slack.at, *y]);
+    *rows = [[0.0, 0.0]].into_iter().chain(behind).collect();
+    if coupon.loaded_width_m.len() > slack.from {
+        // The width of the taut specimen at no load is the first that was measured.
+        coupon.loaded_width_m.drain(1..slack.from);
+    }
+    (coupon, slack.at / scale)
+}
+
+/// −slope of the strain across over the strain along.
+fn poisson(coupon: &Coupon, stress: &[[f64; 2]], up_to: f64) -> Option<f64> {
+    let first = *coupon.loaded_width_m.first()?;
+    let rows: Vec<[f64; 2]> = stress.iter().zip(&coupon.loaded_width_m).map(|(r, w)| [r[0], w / first - 1.0]).collect();
+    let within = rows.partition_point(|row| row[0] <= up_to).max(FEWEST.min(rows.len()));
+    fit::slope(&rows[..within]).map(|slope| -slope)
 }
 
 /// A fault of a specimen.
@@ -127,7 +161,19 @@ fn modulus(stress: &[[f64; 2]], up_to: f64) -> (Option<f64>, f64) {
     (fit::slope(&stress[..within]), stress[..within].last().map_or(up_to, |row| row[0]))
 }
 
-fn strip(coupon: &Coupon, settings: &Settings, warnings: &mut Vec<String>) -> Result<Option<Strip>, DataError> {
+/// The bias extension of a coupon pulled at 45° whose sizes are known; the stretch of `yarns` is taken out.
+///
+/// # Errors
+/// A strip with H < 2W.
+pub(super) fn strip(
+    coupon: &Coupon,
+    yarns: Option<&dyn Fabric>,
+    settings: &Settings,
+    warnings: &mut Vec<String>,
+) -> Result<Option<Strip>, DataError> {
+    if coupon.direction != Direction::Bias {
+        return Ok(None);
+    }
     let (Some(length_m), Some(width_m)) = (coupon.length_m, coupon.width_m) else { return Ok(None) };
     if length_m < 2.0 * width_m {
         let message = format!(
@@ -145,9 +191,12 @@ fn strip(coupon: &Coupon, settings: &Settings, warnings: &mut Vec<String>) -> Re
     };
     let size = BiasExtension { length_m, width_m, thickness_m: coupon.thickness_m.unwrap_or(1.0) };
     let pulled = fit::thinned(&sheared(coupon, &size, up_to_peak(&rows), warnings), MOST_ROWS);
-    let shear = size.shear_force(&pulled).map_err(|message| fault(coupon, message, "check length_mm and width_mm"))?;
-    let small = shear.partition_point(|row| size.displacement_m(row[0]) <= 2.0 * settings.modulus_strain * length_m);
-    let slope_n_per_m = fit::slope(&shear[..small.max(FEWEST.min(shear.len()))]);
+    let refused = |message| fault(coupon, message, "check length_mm and width_mm");
+    let shear = size.shear_force(&pulled, yarns).map_err(refused)?;
+    // Every row of the reduction rests on those before it alone.
+    let small = pulled.partition_point(|row| row[0] <= 2.0 * settings.modulus_strain * length_m);
+    let start = size.shear_force(&pulled[..small.max(FEWEST.min(pulled.len()))], yarns).map_err(refused)?;
+    let slope_n_per_m = fit::slope(&start);
     let locking = fit::locking(&shear);
     Ok(Some(Strip { size, pulled, shear, slope_n_per_m, locking }))
 }

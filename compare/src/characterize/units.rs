@@ -13,7 +13,11 @@ const STRESSES: [(&str, f64); 3] = [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6)];
 
 /// Refuses a modulus far from any fabric, and says which unit would make sense of it.
 pub(super) fn plausible(coupon: &Coupon, modulus_pa: f64) -> Result<(), DataError> {
-    let range = if coupon.direction == Direction::Bias { BIAS_PA } else { ALONG_PA };
+    let range = match coupon.direction {
+        Direction::Warp | Direction::Fill => ALONG_PA,
+        Direction::Bias => BIAS_PA,
+        Direction::Between(_) => [BIAS_PA[0], ALONG_PA[1]],
+    };
     let fits = |pa: f64| (range[0]..=range[1]).contains(&pa);
     if fits(modulus_pa) {
         return Ok(());

@@ -21,7 +21,7 @@ pub(super) fn slips(coupon: &Coupon, rows: &[[f64; 2]], warnings: &mut Vec<Strin
     let pct = |x: f64| 100.0 * x / length_m;
     let even = fit::thinned(rows, 2000);
     let slip = fit::drop(&even);
-    let found = slip.or_else(|| (coupon.direction != Direction::Bias).then(|| fit::plateau(&even)).flatten());
+    let found = slip.or_else(|| coupon.direction.along_yarn().then(|| fit::plateau(&even)).flatten());
     if let Some(Slip { at, until, lost }) = found {
         let how = if lost > 0.0 {
             format!("the force drops by {:.0} %", 100.0 * lost)
@@ -37,9 +37,20 @@ pub(super) fn slips(coupon: &Coupon, rows: &[[f64; 2]], warnings: &mut Vec<Strin
     }
 }
 
+/// Slack that was taken off.
+pub(super) fn slack(specimens: &[Specimen]) -> Option<String> {
+    let told: Vec<String> = specimens
+        .iter()
+        .filter(|s| s.slack > 0.0)
+        .map(|s| format!("{} ({}°) {:.3} %", s.name, s.direction.degrees(), 100.0 * s.slack))
+        .collect();
+    let text = told.join(", ");
+    (!told.is_empty()).then(|| format!("slack taken off, a soft start before the specimen is taut: {text}"))
+}
+
 /// Specimens that deviate from the others of their direction; directions that look confused.
 pub(super) fn deviations(specimens: &[Specimen], warnings: &mut Vec<String>) {
-    for direction in [Direction::Warp, Direction::Bias, Direction::Fill] {
+    for direction in directions(specimens) {
         let same: Vec<&Specimen> = specimens.iter().filter(|s| s.direction == direction).collect();
         let with: Vec<(&Specimen, f64)> = same.iter().filter_map(|s| Some((*s, s.modulus_pa?))).collect();
         let values: Vec<f64> = with.iter().map(|(_, v)| *v).collect();
@@ -74,5 +85,41 @@ fn nearest_direction(specimens: &[Specimen], own: Direction, value: f64) -> Opti
         (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
     };
     let near = |d: &Direction| mean(*d).is_some_and(|m| (value / m - 1.0).abs() < 0.2);
-    [Direction::Warp, Direction::Bias, Direction::Fill].into_iter().filter(|d| *d != own).find(near)
+    directions(specimens).into_iter().filter(|d| *d != own).find(near)
+}
+
+/// Directions that were pulled, by angle.
+pub(super) fn directions(specimens: &[Specimen]) -> Vec<Direction> {
+    let mut all: Vec<Direction> = specimens.iter().map(|s| s.direction).collect();
+    all.sort_by(|a, b| a.degrees().total_cmp(&b.degrees()));
+    all.dedup();
+    all
+}
+
+/// Tests at other angles than the law was made from, each by how much the law is off at the end.
+pub(super) fn checks(off: impl Iterator<Item = f64>, warnings: &mut Vec<String>) {
+    const MUCH: f64 = 0.1;
+    let [low, high] = off.fold([0.0_f64, 0.0_f64], |[a, b], o| [a.min(o), b.max(o)]);
+    if low < -MUCH || high > MUCH {
+        warnings.push(format!(
+            "tests at other angles than the law was made from: it is off by {:+.0} to {:+.0} % at their ends; not asked yet: a \
+             Poisson's ratio that was not measured, yarns cut at the edges of a strip as narrow as the weave is coarse",
+            100.0 * low,
+            100.0 * high
+        ));
+    }
+}
+
+/// Two shear moduli of one fabric: of the zones of a bias extension, and of three moduli.
+pub(super) fn two_shear_moduli([zones, moduli]: [f64; 2], warnings: &mut Vec<String>) {
+    /// Above what the two reductions differ by on a fabric that both describe.
+    const APART: f64 = 0.1;
+    if (zones / moduli - 1.0).abs() > APART {
+        warnings.push(format!(
+            "two shear moduli that disagree by {:.0} %: {zones:.2} MPa from the zones of the bias extension (it goes into the \
+             law -linear), {moduli:.2} MPa from E0, E45 and E90: the curves bend within the strain of the modulus, or the grips, \
+             a Poisson's ratio or a direction are not what was assumed; the replay below says which law returns the tests",
+            100.0 * (zones / moduli - 1.0).abs()
+        ));
+    }
 }

@@ -93,9 +93,10 @@ fn woven(found: &Characterized) -> Option<String> {
     let word = found.provenance.word();
     Some(format!(
         "law = \"woven\"\n\
-         nu12 = 0                      # assumed: needs a biaxial test\n\
+         {}\
          # nominal strain, MPa: mean of the specimens, {word}\n\
          warp = {}\nfill = {}\n{shear}",
+        poisson(found),
         rows_of(&warp.rows, [1.0, 1e-6]),
         rows_of(&fill.rows, [1.0, 1e-6])
     ))
@@ -113,8 +114,16 @@ fn linear(found: &Characterized) -> Option<String> {
         "law = \"orthotropic\"\n\
          e0_MPa = {e0:.6}                # {word}\n\
          e90_MPa = {e90:.6}                # {word}\n\
-         nu12 = 0                      # assumed: needs a biaxial test\n{shear}"
+         {}{shear}",
+        poisson(found)
     ))
+}
+
+fn poisson(found: &Characterized) -> String {
+    match found.quantity("nu12") {
+        Some(q) => format!("nu12 = {:.6}                # {}\n", found.nu12(), q.known),
+        None => "nu12 = 0                      # assumed: needs the width under load, or a biaxial test\n".into(),
+    }
 }
 
 fn film(found: &Characterized) -> Option<String> {

@@ -4,6 +4,7 @@
 pub mod calibrate;
 pub mod engines;
 pub mod generate;
+pub mod measured;
 pub mod one_number;
 pub mod pages;
 pub mod paper;

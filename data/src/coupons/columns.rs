@@ -27,8 +27,9 @@ pub(super) const DIRECTION: usize = 5;
 pub(super) const WIDTH: usize = 6;
 pub(super) const LENGTH: usize = 7;
 pub(super) const THICKNESS: usize = 8;
+pub(super) const LOADED_WIDTH: usize = 9;
 
-pub(super) const QUANTITIES: [Quantity; 9] = [
+pub(super) const QUANTITIES: [Quantity; 10] = [
     number("strain", "strain_pct", Dimension::Ratio),
     number("stress", "stress_mpa", Dimension::Pressure),
     number("displacement", "displacement_mm", Dimension::Length),
@@ -38,10 +39,11 @@ pub(super) const QUANTITIES: [Quantity; 9] = [
     number("width", "width_mm", Dimension::Length),
     number("length", "length_mm", Dimension::Length),
     number("thickness", "thickness_mm", Dimension::Length),
+    number("loaded_width", "loaded_width_mm", Dimension::Length),
 ];
 
 const WANTED: &str = "strain_pct,stress_mpa or displacement_mm,force_n, and if you like specimen, direction_deg, \
-                      width_mm, length_mm, thickness_mm";
+                      width_mm, length_mm, thickness_mm, loaded_width_mm";
 
 /// A column that holds a quantity.
 #[derive(Debug, Clone, Copy)]

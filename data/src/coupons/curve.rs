@@ -1,7 +1,9 @@
 //! Rows become the curves of specimens, each checked as a whole.
 
 use super::cells::Cells;
-use super::columns::{DIRECTION, Header, LENGTH, Notes, QUANTITIES, Quantity, SPECIMEN, STRAIN, THICKNESS, WIDTH};
+use super::columns::{
+    DIRECTION, Header, LENGTH, LOADED_WIDTH, Notes, QUANTITIES, Quantity, SPECIMEN, STRAIN, THICKNESS, WIDTH,
+};
 use super::{Coupon, CouponDefaults, Direction, Pulled};
 use crate::error::{DataError, Fault};
 use std::path::Path;
@@ -21,10 +23,15 @@ pub(super) struct Specimens<'a> {
     found: Vec<Raw>,
 }
 
+/// Rows of a curve, the widths beside them, and how many rows were left out.
+type Kept = (Vec<[f64; 2]>, Vec<f64>, usize);
+
 /// One specimen with its line numbers.
 struct Raw {
     name: String,
     rows: Vec<([f64; 2], u64)>,
+    /// One for every row, or none at all.
+    widths_m: Vec<f64>,
     /// By quantity: direction, width, length, thickness.
     numbers: [Option<f64>; QUANTITIES.len()],
 }
@@ -44,7 +51,12 @@ impl<'a> Specimens<'a> {
             return Err(DataError::Cell(cells.fault(SPECIMEN, "the cell is empty".into(), help)));
         }
         let index = self.found.iter().rposition(|raw| raw.name == name).unwrap_or_else(|| {
-            self.found.push(Raw { name: name.to_string(), rows: Vec::new(), numbers: Default::default() });
+            self.found.push(Raw {
+                name: name.to_string(),
+                rows: Vec::new(),
+                widths_m: Vec::new(),
+                numbers: Default::default(),
+            });
             self.found.len() - 1
         });
         let raw = &mut self.found[index];
@@ -59,6 +71,7 @@ impl<'a> Specimens<'a> {
                 return Err(DataError::Cell(cells.fault(quantity, message, help.to_string())));
             }
         }
+        raw.widths_m.extend(cells.number(LOADED_WIDTH)?);
         raw.rows.push((row, cells.line.number));
         Ok(())
     }
@@ -76,7 +89,7 @@ impl<'a> Specimens<'a> {
         let specimen = self.specimen(raw);
         let said = |quantity: usize, typed: Option<f64>| self.number(raw, &specimen, quantity, typed);
         let direction = self.direction(&specimen, said(DIRECTION, defaults.direction_deg)?, raw)?;
-        let (rows, jitter) = self.rows(raw, &specimen)?;
+        let (rows, loaded_width_m, jitter) = self.rows(raw, &specimen)?;
         let [x, y] = self.header.curve();
         Ok(Coupon {
             file: self.file.clone(),
@@ -84,6 +97,7 @@ impl<'a> Specimens<'a> {
             direction,
             pulled: if x == STRAIN { Pulled::Stress(rows) } else { Pulled::Force(rows) },
             columns: [self.header.name(x), self.header.name(y)],
+            loaded_width_m,
             width_m: said(WIDTH, defaults.width_m)?,
             length_m: said(LENGTH, defaults.length_m)?,
             thickness_m: said(THICKNESS, defaults.thickness_m)?,
@@ -124,8 +138,9 @@ impl<'a> Specimens<'a> {
     }
 
     fn direction(&self, specimen: &str, degrees: Option<f64>, raw: &Raw) -> Result<Direction, DataError> {
-        let help = "write 0 (pulled along the warp), 45 (bias) or 90 (along the fill): as a column direction_deg, as a \
-                    comment # direction_deg: 0 above the header, or as --direction 0 for all files without one";
+        let help = "write 0 (pulled along the warp), 45 (bias), 90 (along the fill) or an angle between (60 for 120, the weave \
+                    is the same): as a column direction_deg, as a comment # direction_deg: 0 above the header, or as \
+                    --direction 0 for all files without one";
         let Some(degrees) = degrees else {
             return Err(self.fault(raw, format!("specimen {specimen}: the direction of the pull is not known"), help));
         };
@@ -134,7 +149,7 @@ impl<'a> Specimens<'a> {
     }
 
     /// Zeroed on the first row; steps back that are noise left out.
-    fn rows(&self, raw: &Raw, specimen: &str) -> Result<(Vec<[f64; 2]>, usize), DataError> {
+    fn rows(&self, raw: &Raw, specimen: &str) -> Result<Kept, DataError> {
         let [x, _] = self.header.curve();
         let (column, first) = (self.header.name(x), raw.rows[0].0);
         let range = raw.rows.iter().map(|(row, _)| (row[0] - first[0]).abs()).fold(0.0, f64::max);
@@ -149,12 +164,14 @@ impl<'a> Specimens<'a> {
             return Err(self.fault(raw, message, help));
         }
         let mut rows = vec![[0.0, 0.0]];
+        let mut widths: Vec<f64> = raw.widths_m.first().copied().into_iter().collect();
         let mut jitter = 0;
-        for (row, line) in &raw.rows[1..] {
+        for (i, (row, line)) in raw.rows.iter().enumerate().skip(1) {
             let moved = [row[0] - first[0], row[1] - first[1]];
             let last = rows[rows.len() - 1][0];
             if moved[0] > last {
                 rows.push(moved);
+                widths.extend(raw.widths_m.get(i));
             } else if last - moved[0] <= JITTER * range {
                 jitter += 1;
             } else {
@@ -169,7 +186,7 @@ impl<'a> Specimens<'a> {
             let message = format!("specimen {specimen} has {} rows that rise in {column}", rows.len());
             return Err(self.fault(raw, message, format!("give at least {FEWEST}, from the start of the pull")));
         }
-        Ok((rows, jitter))
+        Ok((rows, widths, jitter))
     }
 
     fn fault(&self, raw: &Raw, message: String, help: impl Into<String>) -> DataError {

@@ -5,9 +5,10 @@
 //! | `strain_pct` and `stress_mpa` | nominal strain and stress (force over first cross-section), or |
 //! | `displacement_mm` and `force_n` | of the grip |
 //! | `specimen` | label; the name of the file if there is no such column |
-//! | `direction_deg` | of the pull to the warp: 0 warp, 45 bias, 90 fill |
+//! | `direction_deg` | of the pull to the warp: 0 warp, 45 bias, 90 fill, or any angle between |
 //! | `width_mm`, `thickness_mm` | of the specimen |
 //! | `length_mm` | free length between the grips (gauge length) |
+//! | `loaded_width_mm` | width under load in its middle, row by row: for Poisson's ratio |
 //!
 //! Other units by suffix: `strain_ratio`; kPa, Pa, MPa, psi, bar; mm, cm, m; N, kN, lbf. Everything but the two curves may
 //! instead stand in a comment above the header, `# width_mm: 20`, or come from the caller. `# provenance: digitised` says
@@ -35,6 +36,8 @@ pub enum Direction {
     Warp,
     /// 45°.
     Bias,
+    /// Between them \[thousandths of a degree\]; it checks the law that the others make.
+    Between(u32),
     /// 90°.
     Fill,
 }
@@ -61,6 +64,8 @@ pub struct Coupon {
     pub direction: Direction,
     /// Its curve.
     pub pulled: Pulled,
+    /// Width under load at every row \[m\]; empty without that column.
+    pub loaded_width_m: Vec<f64>,
     /// The columns of x and y as the file names them.
     pub columns: [String; 2],
     /// Width \[m\].
@@ -92,30 +97,45 @@ pub struct CouponDefaults {
 
 impl Direction {
     /// Angle to the warp \[deg\].
-    pub fn degrees(self) -> u32 {
+    pub fn degrees(self) -> f64 {
         match self {
-            Direction::Warp => 0,
-            Direction::Bias => 45,
-            Direction::Fill => 90,
+            Direction::Warp => 0.0,
+            Direction::Bias => 45.0,
+            Direction::Between(thousandths) => 1e-3 * f64::from(thousandths),
+            Direction::Fill => 90.0,
         }
     }
 
-    /// `warp`, `bias` or `fill`.
+    /// `warp`, `bias`, `fill`, or `off-axis`.
     pub fn word(self) -> &'static str {
         match self {
             Direction::Warp => "warp",
             Direction::Bias => "bias",
+            Direction::Between(_) => "off-axis",
             Direction::Fill => "fill",
         }
     }
 
+    /// Whether the pull is along a yarn.
+    pub fn along_yarn(self) -> bool {
+        matches!(self, Direction::Warp | Direction::Fill)
+    }
+
     fn of(degrees: f64) -> Option<Direction> {
-        let all = [Direction::Warp, Direction::Bias, Direction::Fill];
-        all.into_iter().find(|direction| f64::from(direction.degrees()) == degrees)
+        let named = [Direction::Warp, Direction::Bias, Direction::Fill].into_iter().find(|d| d.degrees() == degrees);
+        let between = || (degrees > 0.0 && degrees < 90.0).then(|| Direction::Between((1e3 * degrees).round() as u32));
+        named.or_else(between)
     }
 }
 
 impl Pulled {
+    /// The rows, to be changed.
+    pub fn rows_mut(&mut self) -> &mut Vec<[f64; 2]> {
+        match self {
+            Pulled::Stress(rows) | Pulled::Force(rows) => rows,
+        }
+    }
+
     /// The rows.
     pub fn rows(&self) -> &[[f64; 2]] {
         match self {

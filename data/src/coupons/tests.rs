@@ -92,12 +92,21 @@ fn bad_rows_are_refused_with_line_and_remedy() {
     refused(&format!("{head}0,0\n1,1\n2,2\n"), &["has 3 rows", "at least 6"]);
     refused(&format!("{head}{ROWS}1,2\n0.5,1\n"), &["a.csv:9, column strain_pct", "goes back", "loading only"]);
     refused(&format!("strain_pct,stress_mpa\n{ROWS}"), &["direction", "not known", "--direction 0"]);
-    refused(&format!("# direction_deg: 30\nstrain_pct,stress_mpa\n{ROWS}"), &["30 degrees", "45 (bias)"]);
+    refused(&format!("# direction_deg: 120\nstrain_pct,stress_mpa\n{ROWS}"), &["120 degrees", "60 for 120"]);
     refused(
         &format!("# direction_deg: 0\nstrain_ratio,stress_mpa\n{}", ROWS.replace("2.5", "12")),
         &["1200", "strain_pct"],
     );
     refused(&format!("# direction_deg: 0\n# width_mm: -2\nstrain_pct,stress_mpa\n{ROWS}"), &["width is -2"]);
+}
+
+#[test]
+fn any_angle_and_the_width_under_load_are_read() {
+    let rows: String = (0..7).map(|i| format!("{i},{i},{}\n", 20.0 - 0.01 * f64::from(i))).collect();
+    let found = read(&format!("# direction_deg: 22.5\nstrain_pct,stress_mpa,loaded_width_mm\n{rows}")).unwrap();
+    assert_eq!((found[0].direction.degrees(), found[0].direction.word()), (22.5, "off-axis"));
+    assert_eq!(found[0].loaded_width_m.len(), found[0].pulled.rows().len());
+    assert!((found[0].loaded_width_m[6] - 0.01994).abs() < 1e-15);
 }
 
 #[test]

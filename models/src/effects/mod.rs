@@ -8,12 +8,14 @@ mod base_clamp;
 mod body_pressure_offset;
 mod camera_rotation;
 mod camera_scale;
+mod chord_arm;
 mod creep;
 mod displaced_gas;
 mod end_constraint;
 mod end_fittings;
 mod fabric_stretch;
 mod flat_ends;
+mod fold_energy;
 mod friction;
 mod glued_face;
 mod gravity;
@@ -26,6 +28,7 @@ mod own;
 mod plastic_set;
 mod pressure_loss;
 mod pressure_offset;
+mod sealed_sides;
 mod seam_stiffness;
 mod self_contact;
 mod shear_lock;
@@ -34,6 +37,7 @@ mod sunk_muscle;
 mod tail_tension;
 mod tip_clamp;
 mod tip_load;
+mod weld_width;
 mod wrinkling;
 mod yarn_stretch;
 
@@ -43,6 +47,8 @@ pub use own::Catalogue;
 
 /// The list, in the order in which effects are added to a model.
 pub const EFFECTS: &[Effect] = &[
+    weld_width::ENTRY,
+    chord_arm::ENTRY,
     end_constraint::ENTRY,
     end_fittings::ENTRY,
     arm_growth::ENTRY,
@@ -56,6 +62,8 @@ pub const EFFECTS: &[Effect] = &[
     shear_lock::ENTRY,
     seam_stiffness::ENTRY,
     displaced_gas::ENTRY,
+    sealed_sides::ENTRY,
+    fold_energy::ENTRY,
     self_contact::ENTRY,
     wrinkling::ENTRY,
     tail_tension::ENTRY,

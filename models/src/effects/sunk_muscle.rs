@@ -24,7 +24,7 @@
 use super::{Effect, Fitted, Group, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
-use crate::body::BodyLaw;
+use crate::section::Section;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -69,78 +69,23 @@ fn add(values: &[f64], assembly: &mut Assembly) {
         let lost_m2 = PI * radius_m.powi(2) - body.area_m2;
         site.linkage.arm_m = part(site.linkage.arm_m, body.chord_m);
         site.weave.drawn_in_m2 = values[0] * lost_m2;
-        if let BodyLaw::Hinge(hinge) = &mut site.body_pressure {
-            hinge.share *= part(1.0, body.area_m2 * body.centroid_m / (PI * radius_m.powi(3)));
-        }
+        site.body_pressure.scale(part(1.0, body.moment_share(radius_m)));
     }
-}
-
-/// Section of the body beside a muscle, heights from the far side.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Section {
-    area_m2: f64,
-    centroid_m: f64,
-    /// Height of the chord.
-    chord_m: f64,
 }
 
 /// The body's part of the section with a muscle half in its wall; `None` where the muscle is too wide for the body.
 fn drawn_in(radius_m: f64, width_m: f64) -> Option<Section> {
     let tube_m = width_m / PI;
-    let whole = closed_by_chord(2.0 * PI * radius_m - width_m, 2.0 * tube_m)?;
+    let whole = Section::drawn_in(radius_m, width_m, 2.0 * tube_m)?;
     let half = 0.5 * PI * tube_m.powi(2);
     let area_m2 = whole.area_m2 - half;
     let moment = whole.area_m2 * whole.centroid_m - half * (whole.chord_m - 4.0 * tube_m / (3.0 * PI));
-    Some(Section { area_m2, centroid_m: moment / area_m2, chord_m: whole.chord_m })
-}
-
-/// A section of wall, an arc that a chord closes; `None` if the chord is not the shorter one.
-fn closed_by_chord(arc_m: f64, chord_m: f64) -> Option<Section> {
-    if !(arc_m > 0.0 && chord_m > 0.0 && chord_m < arc_m) {
-        return None;
-    }
-    // sinβ/(π − β) rises from 0 to 1.
-    let (mut low, mut high) = (0.0, PI);
-    for _ in 0..60 {
-        let middle: f64 = 0.5 * (low + high);
-        if middle.sin() / (PI - middle) < chord_m / arc_m { low = middle } else { high = middle }
-    }
-    let (sin, cos) = low.sin_cos();
-    let radius = arc_m / (2.0 * (PI - low));
-    let area_m2 = radius.powi(2) * (PI - low + sin * cos);
-    let centroid_m = radius - 2.0 * (radius * sin).powi(3) / (3.0 * area_m2);
-    Some(Section { area_m2, centroid_m, chord_m: radius * (1.0 + cos) })
+    Some(Section { area_m2, centroid_m: moment / area_m2, ..whole })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_short_chord_leaves_a_circle_and_a_long_one_a_half() {
-        let radius = 0.03;
-        let round = closed_by_chord(2.0 * PI * radius, 1e-7).unwrap();
-        assert!((round.chord_m / (2.0 * radius) - 1.0).abs() < 1e-6 && (round.centroid_m / radius - 1.0).abs() < 1e-6);
-        let half = closed_by_chord(PI * radius, 2.0 * radius).unwrap();
-        assert!((half.chord_m / radius - 1.0).abs() < 1e-12);
-        assert!((half.area_m2 / (0.5 * PI * radius * radius) - 1.0).abs() < 1e-12);
-        assert!((half.centroid_m / (radius * (1.0 - 4.0 / (3.0 * PI))) - 1.0).abs() < 1e-12);
-        assert_eq!(closed_by_chord(0.05, 0.06), None);
-    }
-
-    #[test]
-    fn area_and_centroid_are_those_of_strips_of_the_section() {
-        let (arc, chord) = (0.19, 0.038);
-        let at = closed_by_chord(arc, chord).unwrap();
-        let radius = (0.25 * chord * chord + at.chord_m.powi(2)) / (2.0 * at.chord_m);
-        let (mut area, mut moment, n) = (0.0, 0.0, 200_000);
-        for i in 0..n {
-            let y = at.chord_m * (f64::from(i) + 0.5) / f64::from(n);
-            let strip = 2.0 * (radius * radius - (radius - y).powi(2)).sqrt() * at.chord_m / f64::from(n);
-            (area, moment) = (area + strip, moment + strip * y);
-        }
-        assert!((area / at.area_m2 - 1.0).abs() < 1e-6 && (moment / area / at.centroid_m - 1.0).abs() < 1e-6);
-    }
 
     #[test]
     fn the_shipped_muscle_lies_where_the_finite_elements_have_it() {

@@ -11,6 +11,7 @@
 //! | P, ε | nominal stress (force over first cross-section), nominal strain | Pa, – |
 //! | C₁₀ | constant of the reduced polynomial of order one (neo-Hookean), U = C₁₀ (Ī₁ − 3), incompressible (D₁₀ = 0) | Pa |
 //! | E | modulus of the pulled direction | Pa |
+//! | x_S | slack: where the line through the straight rows behind a soft toe meets zero force | – |
 //! | x, y | shear angle and shear force per length of a bias extension test | rad, N/m |
 //!
 //! C₁₀ is fitted over the *whole* curve, so 6 C₁₀ is not the modulus unless the curve has the law's shape. Two weights: that
@@ -54,6 +55,57 @@ pub fn slope(rows: &[[f64; 2]]) -> Option<f64> {
     let along: f64 = rows.iter().map(|row| (row[0] - x).powi(2)).sum();
     let across: f64 = rows.iter().map(|row| (row[0] - x) * (row[1] - y)).sum();
     (along > 0.0).then(|| across / along)
+}
+
+/// The slack that a specimen starts with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slack {
+    /// x at which the straight line behind the toe meets zero force.
+    pub at: f64,
+    /// First row of that line.
+    pub from: usize,
+}
+
+/// Toe of a curve within `up_to`: a soft start after which the curve is straight (toe compensation of ASTM D882, annex A1).
+///
+/// None unless the first slope is below three quarters of the steepest by more than the rows' noise, and the steep part takes a
+/// third of the range at least: a curve that goes on to stiffen is a fabric's crimp and stays.
+pub fn slack(rows: &[[f64; 2]], up_to: f64) -> Option<Slack> {
+    const SOFT: f64 = 0.75;
+    const STEEP: f64 = 0.9;
+    let within = rows.partition_point(|row| row[0] <= up_to);
+    let width = (within / 6).max(3);
+    if within < 2 * width {
+        return None;
+    }
+    let slopes: Vec<f64> = rows[..within].windows(width).filter_map(slope).collect();
+    let steepest = slopes.iter().copied().fold(0.0, f64::max);
+    let from = slopes.iter().position(|s| *s >= STEEP * steepest)?;
+    let soft = slopes[0] < SOFT * steepest && steepest - slopes[0] > 5.7 * slope_error(&rows[..within], width);
+    if !(soft && 3 * (within - from) >= within && slopes[from..].iter().all(|s| *s >= SOFT * steepest)) {
+        return None;
+    }
+    // The first steep window still has the end of the toe in it: the line is taken behind it.
+    let from = (from + width).min(within - width);
+    let line = &rows[from..from + width];
+    let [x, y] = [0, 1].map(|k| line.iter().map(|row| row[k]).sum::<f64>() / width as f64);
+    let at = x - y / slope(line)?;
+    (at > 0.0 && at < rows[from][0]).then_some(Slack { at, from })
+}
+
+/// Standard error of a slope over `width` rows, by the second differences of rows that are evenly spaced.
+fn slope_error(rows: &[[f64; 2]], width: usize) -> f64 {
+    let mut bends: Vec<f64> = rows.windows(3).map(|r| (r[2][1] - 2.0 * r[1][1] + r[0][1]).abs()).collect();
+    bends.sort_by(f64::total_cmp);
+    let [Some(bend), Some(first), Some(last)] =
+        [bends.get(bends.len() / 2).copied(), rows.first().map(|r| r[0]), rows.last().map(|r| r[0])]
+    else {
+        return 0.0;
+    };
+    // Median of |N(0, 6σ²)|.
+    let noise = bend / (0.6745 * 6.0_f64.sqrt());
+    let (n, step) = (width as f64, (last - first) / (rows.len() - 1) as f64);
+    noise * (12.0 / (n * (n * n - 1.0))).sqrt() / step
 }
 
 /// What grips add to the modulus at 45°: clamped over free specimen, for yarns much stiffer than shear.

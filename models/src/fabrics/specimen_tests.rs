@@ -98,3 +98,24 @@ fn thinning_keeps_a_straight_line_and_reading_is_straight_between_rows() {
     assert_eq!(thinned(&[[0.0, 1.0]], 4), [[0.0, 1.0]]);
     assert_eq!([0.5, -1.0, 3.0].map(|x| at(&[[0.0, 0.0], [1.0, 2.0]], x)), [1.0, 0.0, 2.0]);
 }
+
+/// A line that starts late, with a soft toe before it: the slack is where the line would start.
+#[test]
+fn slack_is_where_the_straight_line_behind_a_soft_toe_starts() {
+    let toe = |x: f64| if x < 0.002 { 0.25 * x * x / 0.001 } else { x - 0.001 };
+    let rows: Vec<[f64; 2]> = (0..=60).map(|i| 2.5e-4 * f64::from(i)).map(|x| [x, 1e8 * toe(x)]).collect();
+    let found = slack(&rows, 0.01).unwrap();
+    assert!((found.at - 0.001).abs() < 2.5e-5, "{found:?}");
+    // A straight line, a noisy one, a softening curve and one that goes on to stiffen have none.
+    let noise = |i: i32| 2e4 * f64::from((i * 7919) % 13 - 6);
+    let made = |law: &dyn Fn(i32) -> f64| (0..=60).map(|i| [2.5e-4 * f64::from(i), law(i)]).collect::<Vec<[f64; 2]>>();
+    let x = |i: i32| 2.5e-4 * f64::from(i);
+    for rows in [
+        made(&|i| 1e8 * x(i)),
+        made(&|i| 1e8 * x(i) + noise(i)),
+        made(&|i| 1e8 * x(i) * (1.0 - 20.0 * x(i))),
+        made(&|i| 1e10 * x(i).powi(2)),
+    ] {
+        assert_eq!(slack(&rows, 0.01), None, "{rows:?}");
+    }
+}

@@ -4,12 +4,14 @@ use super::compare_page::{Candidate, Study, figure, lead, study};
 use super::diagnosis_page::{Diagnosed, diagnosis_sections};
 use super::engines_page::{Engines, engine_sections, engines};
 use super::{Files, Imprint, figures, residual_figure, tables};
+use crate::bench::Held;
 use crate::diagnosis::{Diagnosis, Options, diagnose};
 use crate::error::CompareError;
 use crate::evaluate::EvaluateOptions;
 use crate::plots::Known;
 use crate::report::{Block, Callout, Provenance, Report, Section};
 use crate::study::engines::stored;
+use crate::study::measured::measured_things;
 use crate::study::published::{PublishedLadder, model_ladder, published_ladders, shipped_scenario};
 use crate::study::tradeoff::{Timing, of_runs, tradeoff};
 use crate::study::witness::witness;
@@ -19,6 +21,8 @@ use models::Scenario;
 /// Everything the demonstration computes.
 #[derive(Debug, Clone)]
 pub struct Demo {
+    /// Real things beside their models.
+    pub measured: Vec<Held>,
     /// Published displacements.
     pub ladders: Vec<PublishedLadder>,
     /// Embedded marker sets.
@@ -59,11 +63,14 @@ fn story() -> Result<Story, CompareError> {
 /// # Errors
 /// Damaged embedded data or a model without equilibrium.
 pub fn demo(progress: &mut dyn FnMut(&str)) -> Result<Demo, CompareError> {
+    progress("measured things");
+    let measured = measured_things()?;
     progress("published displacements");
     let ladders = published_ladders()?;
     let mut studies = Vec::new();
-    // What the finite elements made is the matter of the diagnosis and its bench.
-    for set in data::sets().iter().filter(|set| set.has_markers() && !set.name.starts_with("fem-")) {
+    // What the finite elements made is the matter of the diagnosis and its bench; measured robots have models of their own.
+    let made = |set: &&data::SetInfo| set.provenance == data::Provenance::Synthetic && !set.name.starts_with("fem-");
+    for set in data::sets().iter().filter(|set| set.has_markers()).filter(made) {
         progress(&set.name);
         let (dataset, about) = data::load(&set.name, &mut |_, _| {})?;
         let rungs = model_ladder(&dataset.actuator)?;
@@ -82,7 +89,7 @@ pub fn demo(progress: &mut dyn FnMut(&str)) -> Result<Demo, CompareError> {
     timings.extend(of_runs(&ladders, &runs));
     let scenarios = ladders.iter().map(|l| shipped_scenario(&l.published.kind)).collect::<Result<Vec<_>, _>>()?;
     let engines = engines(&scenarios, &runs)?;
-    Ok(Demo { ladders, studies, timings, diagnosed, engines })
+    Ok(Demo { measured, ladders, studies, timings, diagnosed, engines })
 }
 
 /// The page of the demonstration and its plots.
@@ -92,7 +99,8 @@ pub fn demo(progress: &mut dyn FnMut(&str)) -> Result<Demo, CompareError> {
 pub fn demo_page(demo: &Demo, imprint: &Imprint, progress: &mut dyn FnMut(&str)) -> Result<Files, CompareError> {
     let mut files = Files::default();
     progress("plots of the published displacements");
-    let mut sections = vec![published_section(demo, &mut files)?, ladder_section(demo, &mut files)?];
+    let mut sections =
+        vec![tables::measured(&demo.measured), published_section(demo, &mut files)?, ladder_section(demo, &mut files)?];
     progress("plots of both engines");
     sections.extend(engine_sections(&demo.engines, &mut files)?);
     for study in &demo.studies {

@@ -1,9 +1,10 @@
 //! Results → tables of a report, and CSV.
 
 use super::compare_page::Variant;
+use crate::bench::{Held, HeldRow};
 use crate::metrics::HoldMetrics;
 use crate::plots::Known;
-use crate::report::{Align, Block, Column, Table};
+use crate::report::{Align, Block, Column, Section, Table};
 use crate::study::Timing;
 use crate::study::published::PublishedLadder;
 
@@ -25,6 +26,23 @@ fn hold_name(hold: &HoldMetrics, several_bodies: bool) -> String {
     let again = if hold.occurrence > 0 { format!(" ({})", hold.occurrence + 1) } else { String::new() };
     let body = if several_bodies { format!(", body {:.0} kPa", hold.p_body_kpa) } else { String::new() };
     format!("{:.0} kPa {}{again}{body}", hold.p_act_kpa, hold.phase)
+}
+
+/// Real things beside their models: every row.
+pub(super) fn measured(all: &[Held]) -> Section {
+    let cells = |r: &HeldRow| {
+        let off = r.off().map_or("–".into(), |o| format!("{:+.1}", 100.0 * o));
+        vec![r.at.clone(), number(Some(r.measured), 2), number(r.model, 2), off, r.verdict()]
+    };
+    let table = |h: &Held| {
+        let columns =
+            vec![words(&h.quantity), column("measured", ""), column("model", ""), column("off", "%"), words("verdict")];
+        let rows = h.rows.iter().map(cells).collect();
+        Block::Table(Table { caption: h.title.clone(), columns, rows, how_column: None })
+    };
+    let notes = |h: &Held| h.notes.iter().map(|n| Block::Paragraph(n.clone())).collect::<Vec<_>>();
+    let blocks = all.iter().flat_map(|h| [vec![table(h)], notes(h)].concat()).collect();
+    Section { id: "measured".into(), heading: "Measured things first".into(), blocks }
 }
 
 /// The paper's accuracy per hold, and its companions.

@@ -1,0 +1,102 @@
+//! Every test by the laws that `fabric.toml` holds: what comes back is what a user of the law will get.
+//!
+//! A bias extension whose size is known is replayed by its zones ([`models::fabrics::BiasExtension`]), any other test as a long
+//! specimen with free edges ([`Pull`]). The laws are read from the text that is written, digits and all.
+
+use std::sync::Arc;
+
+use models::fabrics::{self, BiasExtension, Fabric, Pull, Recipe, specimen as fit};
+
+use super::reduce::Characterized;
+use super::specimen::{Specimen, Strip};
+use super::write::fabric_toml;
+use super::{PAPER_LIMIT_RAD, Settings};
+
+/// Places of a replay: a mean curve has fewer rows.
+const PLACES: usize = 48;
+
+/// One test by one law.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Replay {
+    /// Place of the specimen.
+    pub specimen: usize,
+    /// Name of the law in the fragment.
+    pub law: String,
+    /// Whether the law was made from tests of this direction; else it is a check.
+    pub used: bool,
+    /// Law over test at the end, less one: up to 36° of shear in a bias extension.
+    pub at_end: f64,
+    /// Root mean square of the difference over the test's largest stress.
+    pub rms: f64,
+    /// Rows nominal strain, nominal stress by the law \[Pa\].
+    pub rows: Vec<[f64; 2]>,
+}
+
+/// Every specimen with a stress, by every law.
+pub(super) fn replays(found: &Characterized, settings: &Settings) -> Vec<Replay> {
+    let mut all = Vec::new();
+    for (law, fabric) in laws(found, settings) {
+        let tests = found.specimens.iter().enumerate().filter(|(_, s)| s.stress.len() > 1);
+        all.extend(tests.filter_map(|(i, test)| replayed(i, test, &law, &fabric)));
+    }
+    all
+}
+
+/// The laws of the fragment, made.
+pub(super) fn laws(found: &Characterized, settings: &Settings) -> Vec<(String, Arc<dyn Fabric>)> {
+    let text = fabric_toml(found, settings, "").unwrap_or_default();
+    let table: toml::Table = text.parse().unwrap_or_default();
+    let fabrics = table.get("fabric").and_then(toml::Value::as_table).into_iter().flatten();
+    let order = |name: &str| ["-linear", "-film"].iter().position(|suffix| name.ends_with(suffix)).map_or(0, |i| i + 1);
+    let mut made: Vec<_> = fabrics.filter_map(|(name, law)| Some((name.clone(), make(law.as_table()?)?))).collect();
+    made.sort_by_key(|(name, _)| order(name));
+    made
+}
+
+fn make(table: &toml::Table) -> Option<Arc<dyn Fabric>> {
+    let number = |v: &toml::Value| v.as_float().or(v.as_integer().map(|i| i as f64));
+    let mut recipe = Recipe::default();
+    for (key, value) in table {
+        if let Some(rows) = value.as_array() {
+            let row = |r: &toml::Value| Some([number(r.get(0)?)?, number(r.get(1)?)?]);
+            recipe.curves.insert(key.clone(), rows.iter().filter_map(row).collect());
+        } else if let Some(value) = number(value) {
+            recipe.numbers.insert(key.clone(), value);
+        }
+    }
+    (fabrics::by_name(table.get("law")?.as_str()?)?.make)(&recipe).ok()
+}
+
+fn replayed(place: usize, test: &Specimen, law: &str, fabric: &Arc<dyn Fabric>) -> Option<Replay> {
+    let end = test.stress.last()?[0];
+    let rows = match (&test.strip, test.thickness_m) {
+        (Some(strip), Some(thickness_m)) => zones(strip, thickness_m, end, fabric)?,
+        _ => free(test, end, fabric)?,
+    };
+    let [x, y] = *rows.last()?;
+    let largest = test.stress.iter().map(|row| row[1]).fold(f64::MIN_POSITIVE, f64::max);
+    let squares: f64 = rows.iter().map(|[x, y]| (y - fit::at(&test.stress, *x)).powi(2)).sum();
+    let (at_end, rms) = (y / fit::at(&test.stress, x) - 1.0, (squares / rows.len() as f64).sqrt() / largest);
+    let used = test.direction.along_yarn() || test.direction == data::Direction::Bias;
+    Some(Replay { specimen: place, law: law.to_string(), used, at_end, rms, rows })
+}
+
+fn free(test: &Specimen, end: f64, fabric: &Arc<dyn Fabric>) -> Option<Vec<[f64; 2]>> {
+    let mut pull = Pull::new(fabric.clone(), test.direction.degrees().to_radians()).ok()?;
+    let strain = |i: usize| end * i as f64 / PLACES as f64;
+    (0..=PLACES).map(strain).map(|e| Some([e, pull.stress_pa(e)?])).collect()
+}
+
+/// By shear angle, as far as the test went and the reduction holds: F_sh is the law's S₁₂ where its yarns have not stretched.
+fn zones(strip: &Strip, thickness_m: f64, end: f64, fabric: &Arc<dyn Fabric>) -> Option<Vec<[f64; 2]>> {
+    let size: &BiasExtension = &strip.size;
+    let shear = |angle: f64| fabric.tension([0.0, 0.0, angle.sin()], &[0.0; 2])[2];
+    let last = size.angle(end * size.length_m).unwrap_or(PAPER_LIMIT_RAD).min(PAPER_LIMIT_RAD);
+    let row = |i: usize| {
+        let [d, f] = size.pulled(last * i as f64 / PLACES as f64, shear, Some(&**fabric));
+        [d / size.length_m, f / (size.width_m * thickness_m)]
+    };
+    let rows: Vec<[f64; 2]> =
+        (0..=PLACES).map(row).take_while(|[x, y]| x.is_finite() && y.is_finite() && *x <= end).collect();
+    (rows.len() > 1).then_some(rows)
+}

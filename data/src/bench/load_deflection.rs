@@ -1,0 +1,38 @@
+//! A beam: tip deflection under a transverse load, at a body pressure. One end is clamped.
+
+use super::{Field, Kind, Row, field, plain, scatter};
+use crate::units::Dimension::{Force, Length, Pressure};
+
+pub(super) const ENTRY: Kind = Kind {
+    name: "load_deflection",
+    sentence: "tip deflection of an inflated cantilever under a transverse tip load",
+    columns: COLUMNS,
+    check,
+};
+
+const COLUMNS: &[Field] = &[
+    field("p_body", "p_body_kpa", Pressure, true),
+    field("load", "load_n", Force, true),
+    field("deflection", "deflection_mm", Length, true),
+    field("deflection_sd", "deflection_sd_mm", Length, false),
+    plain("n", false),
+    field("radius", "radius_mm", Length, false),
+];
+
+fn check(row: &Row) -> Result<(), [String; 2]> {
+    let (p, f, v) = (row.value("p_body"), row.value("load"), row.value("deflection"));
+    if p <= 0.0 {
+        let message = format!("the body pressure is {} kPa", 1e-3 * p);
+        return Err([message, "write a gauge pressure above 0: a beam without pressure carries nothing".into()]);
+    }
+    if f < 0.0 || v < 0.0 {
+        let message = format!("a load of {f} N and a deflection of {} mm", 1e3 * v);
+        return Err([message, "write both as positive numbers along the load".into()]);
+    }
+    match row.get("radius") {
+        Some(r) if !(r > 0.0 && r < 10.0) => {
+            Err([format!("the radius is {} mm", 1e3 * r), "write the body's radius, for example radius_mm = 80".into()])
+        }
+        _ => scatter(row, "deflection_sd"),
+    }
+}

@@ -1,0 +1,207 @@
+//! Bench tests beside marker tables: a load and a deflection, a force and a contraction, a bending length.
+//!
+//! To add a kind: one file here with its columns and its check, and one line in [`KINDS`]. What is the same in all rows may
+//! stand in a comment above the header, `# radius_mm: 80`; `# provenance: measured` says how the numbers came to be
+//! (measured, published, digitised, synthetic; measured if nothing is said).
+
+mod bending_length;
+mod force_contraction;
+mod load_deflection;
+mod read;
+
+use std::path::Path;
+
+use crate::about::Provenance;
+use crate::error::{DataError, Fault};
+use crate::sets;
+use crate::units::Dimension;
+
+pub use bending_length::bending_lengths_m;
+
+/// The list.
+pub const KINDS: &[Kind] = &[load_deflection::ENTRY, force_contraction::ENTRY, bending_length::ENTRY];
+
+/// A kind of table.
+#[derive(Debug, Clone, Copy)]
+pub struct Kind {
+    /// Name, also of the file in a folder of data: `load_deflection` is `load_deflection.csv`.
+    pub name: &'static str,
+    /// One plain sentence.
+    pub sentence: &'static str,
+    /// Its columns.
+    pub columns: &'static [Field],
+    /// What a row must fulfil beyond its columns: message and what to write.
+    check: fn(&Row) -> Result<(), [String; 2]>,
+}
+
+/// A column.
+#[derive(Debug, Clone, Copy)]
+pub struct Field {
+    /// Name without unit; the whole name of a number without one.
+    pub base: &'static str,
+    /// Name as usually written.
+    pub expected: &'static str,
+    dimension: Option<Dimension>,
+    /// Whether a table of this kind has it always.
+    pub needed: bool,
+}
+
+const fn field(base: &'static str, expected: &'static str, dimension: Dimension, needed: bool) -> Field {
+    Field { base, expected, dimension: Some(dimension), needed }
+}
+
+const fn plain(name: &'static str, needed: bool) -> Field {
+    Field { base: name, expected: name, dimension: None, needed }
+}
+
+/// One row in SI units (ratios as 1, angles in degrees), by the columns of its kind.
+#[derive(Debug, Clone)]
+pub struct Row {
+    kind: &'static Kind,
+    values: Vec<Option<f64>>,
+    /// Line in the file, from 1.
+    pub line: u64,
+}
+
+impl Row {
+    /// The value of a column; none where the table has none.
+    pub fn get(&self, base: &str) -> Option<f64> {
+        self.kind.columns.iter().position(|f| f.base == base).and_then(|i| self.values[i])
+    }
+
+    /// The value of a column that the kind needs.
+    pub fn value(&self, base: &str) -> f64 {
+        self.get(base).unwrap_or(f64::NAN)
+    }
+}
+
+/// A table of bench tests.
+#[derive(Debug, Clone)]
+pub struct Bench {
+    /// Its kind.
+    pub kind: &'static Kind,
+    /// File it was read from.
+    pub file: String,
+    /// How its numbers came to be.
+    pub provenance: Provenance,
+    /// Its rows, in the order of the file.
+    pub rows: Vec<Row>,
+    /// The robot of the folder or set it came from, as a scenario's text.
+    pub scenario: Option<String>,
+}
+
+/// Reads a table of bench tests: a CSV file, a folder or an embedded set with one. `None` if it is something else (markers).
+///
+/// # Errors
+/// A fault of the table, with line, column and what to write.
+pub fn bench(spec: &str) -> Result<Option<Bench>, DataError> {
+    let path = Path::new(spec);
+    if path.is_file() {
+        let Some(text) = std::fs::read(path).ok().and_then(|bytes| String::from_utf8(bytes).ok()) else {
+            return Ok(None);
+        };
+        let beside = path.parent().and_then(|folder| std::fs::read_to_string(folder.join("scenario.toml")).ok());
+        return read::parse(spec, &text).map(|found| found.map(|bench| Bench { scenario: beside, ..bench }));
+    }
+    for kind in KINDS {
+        let name = format!("{}.csv", kind.name);
+        let (shown, text, scenario) = if path.is_dir() {
+            let file = path.join(&name);
+            (
+                file.display().to_string(),
+                std::fs::read_to_string(&file).ok(),
+                std::fs::read_to_string(path.join("scenario.toml")).ok(),
+            )
+        } else {
+            let of_set = |file: &str| sets::set_file(spec, file).ok().map(str::to_string);
+            (sets::shown(spec, &name), of_set(&name), of_set("scenario.toml"))
+        };
+        let Some(text) = text else { continue };
+        let found = read::parse(&shown, &text)?.filter(|bench| bench.kind.name == kind.name);
+        let wrong = || {
+            let message = format!("the columns are not those of a {} table", kind.name);
+            DataError::Column(Box::new(Fault::of_file(&shown, message, format!("write {}", read::wanted(kind)))))
+        };
+        return found.map(|bench| Some(Bench { scenario, ..bench })).ok_or_else(wrong);
+    }
+    Ok(None)
+}
+
+/// Reads the text of a table; `None` if its header is of no kind.
+///
+/// # Errors
+/// As [`bench`].
+pub fn parse_bench(file: &str, text: &str) -> Result<Option<Bench>, DataError> {
+    read::parse(file, text)
+}
+
+/// A mean with its scatter makes sense with both numbers only.
+fn scatter(row: &Row, sd: &str) -> Result<(), [String; 2]> {
+    let wrong = |message: String| Err([message, format!("write {sd} above 0 and n of 2 or more, or leave both out")]);
+    match (row.get(sd), row.get("n")) {
+        (Some(sd), Some(n)) if sd > 0.0 && n >= 2.0 && n.fract() == 0.0 => Ok(()),
+        (None, None) => Ok(()),
+        (None, Some(_)) | (Some(_), None) => wrong("a standard deviation and a number of tests belong together".into()),
+        (Some(value), Some(n)) => wrong(format!("a standard deviation of {value} of {n} tests")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(text: &str, words: &[&str]) {
+        let error = parse_bench("a.csv", text).unwrap_err();
+        let said = format!("{error} | {}", error.help());
+        assert!(words.iter().all(|word| said.contains(word)), "{said}");
+    }
+
+    #[test]
+    fn every_kind_reads_its_own_columns_in_any_unit() {
+        let text = "# radius_mm: 80\n# provenance: published\np_body_bar;load_n;deflection_cm\n0.2;8.72;1.284\n";
+        let found = parse_bench("a.csv", text).unwrap().unwrap();
+        let row = &found.rows[0];
+        assert_eq!((found.kind.name, found.provenance, row.line), ("load_deflection", Provenance::Published, 4));
+        let near = |base: &str, value: f64| assert!((row.value(base) / value - 1.0).abs() < 1e-12, "{base}");
+        [("p_body", 2e4), ("load", 8.72), ("deflection", 0.01284), ("radius", 0.08)]
+            .into_iter()
+            .for_each(|(b, v)| near(b, v));
+        let muscle = parse_bench("a.csv", "p_act_kpa,contraction_pct,force_n,force_sd_n,n\n620,5,300,4,3\n");
+        let muscle = muscle.unwrap().unwrap();
+        assert_eq!((muscle.kind.name, muscle.rows[0].get("n")), ("force_contraction", Some(3.0)));
+        assert!((muscle.rows[0].value("contraction") - 0.05).abs() < 1e-15);
+        let text = "# areal_mass_g_m2: 155\noverhang_mm,droop_deg\n75,59.04\n60,41.5\n";
+        assert_eq!(parse_bench("a.csv", text).unwrap().unwrap().kind.name, "bending_length");
+        assert!(parse_bench("a.csv", "run,t_s,p_act_kpa,marker,x_mm,y_mm\n").unwrap().is_none());
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_with_place_and_remedy() {
+        let head = "p_body_kpa,load_n,deflection_mm";
+        refused(&format!("{head}\n20,1,x\n"), &["a.csv:2, column deflection_mm", "found \"x\""]);
+        refused(&format!("{head}\n20,1\n"), &["a.csv:2", "2 cells, the header 3"]);
+        refused(&format!("{head}\n"), &["no rows"]);
+        refused(&format!("{head}\n-2,1,1\n"), &["a.csv:2", "body pressure is -2 kPa"]);
+        refused(&format!("{head},deflection_sd_mm\n20,1,1,0.1\n"), &["belong together", "n of 2 or more"]);
+        refused(&format!("{head},deflection_sd_mm,n\n20,1,1,0.1,1\n"), &["of 1 tests"]);
+        refused("p_body,load_n,deflection_mm\n20,1,1\n", &["p_body has no unit", "p_body_kpa"]);
+        refused(&format!("# radius_mm: wide\n{head}\n20,1,1\n"), &["a.csv:1", "wide"]);
+        refused("p_act_kpa,contraction_ratio,force_n\n620,5,300\n", &["contraction is 500 %", "contraction_pct"]);
+        refused("# areal_mass_g_m2: 155\noverhang_mm,droop_deg\n75,0\n", &["droops by 0", "41.5"]);
+        refused("overhang_mm,droop_deg\n75,41\n", &["areal_mass_g_m2 is missing", "# areal_mass_g_m2: 155"]);
+    }
+
+    #[test]
+    fn the_embedded_tables_are_read_with_their_scenarios() {
+        for (set, kind, rows) in [
+            ("breukels-2011-beams", "load_deflection", 36),
+            ("festo-bolen-2026", "force_contraction", 4),
+            ("mckibben-free", "force_contraction", 31),
+        ] {
+            let found = bench(set).unwrap().unwrap();
+            assert_eq!((found.kind.name, found.rows.len()), (kind, rows), "{set}");
+            assert_ne!(found.provenance, Provenance::Measured, "{set}: numbers in print");
+        }
+        assert!(bench("synthetic-epam").unwrap().is_none() && bench("no-such-thing").unwrap().is_none());
+    }
+}

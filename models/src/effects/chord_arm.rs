@@ -1,0 +1,62 @@
+//! Chord arm: a taut weld line is a chord of the wall, not its arc, so the actuator sits nearer to the far side.
+//!
+//! ```text
+//! D = D₀ − 2R + R' (1 + cosα)     hinge p_b A ȳ in place of p_b πR³     α, R', A, ȳ of an arc 2πR − w closed by a chord w
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | w | width of wall that is pulled straight: the weld line | m |
+//! | D₀, D | arm of a round body, arm of the drawn-in one; 80 and 69.3 mm for R = 40, w = 60 | m |
+//!
+//! The pull of the actuator along the body leaves its line no reason to stay on the arc: the wall's hoop tension at both of its
+//! ends, p_b R', pulls it straight, and the line carries it. **Validity**: actuators whose welds run across the wall and stay
+//! taut; finite elements of the shipped robots have 69 to 70 mm (ePAM) and 68 to 69 mm (cPAM). Derived here, geometry in
+//! `section.rs`.
+
+use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use crate::actuators::Family;
+use crate::assembly::Assembly;
+use crate::section::Section;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "chord_arm",
+    group: Group::Actuator,
+    stage: Stage::Balance,
+    history: false,
+    formula: "D = D₀ − 2R + R' (1 + cosα), w/(2πR − w) = sinα/(π − α); hinge p_b A ȳ",
+    sentence: "The weld lines are pulled straight across the body, so the actuator sits nearer to the far side than a diameter.",
+    differs: "More bend per stroke and a weaker pull than a round body gives.",
+    remedy: "Measure the distance from the far wall to a weld at full pressure.",
+    validity: "weld lines across the wall that stay taut",
+    reference: "derived here",
+    parameters: &[Parameter {
+        key: "width_mm",
+        symbol: "w",
+        unit: "mm",
+        si: 1e-3,
+        neutral: 0.0,
+        typical: 60.0,
+        lower: 0.0,
+        upper: 200.0,
+        possible: POSITIVE,
+        starts: &[],
+        by_actuator: &[],
+        fitted: Fitted::FromDesign,
+        in_room: false,
+        meaning: "width of wall that is pulled straight",
+    }],
+    family: Some(Family::Pouch),
+    add,
+};
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    if values[0] == 0.0 {
+        return;
+    }
+    for site in assembly.active_sites(Family::Pouch) {
+        let Some(drawn) = Section::drawn_in(site.radius_m, values[0], values[0]) else { continue };
+        site.linkage.arm_m += drawn.chord_m - 2.0 * site.radius_m;
+        site.body_pressure.scale(drawn.moment_share(site.radius_m));
+    }
+}

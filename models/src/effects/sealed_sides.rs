@@ -1,0 +1,199 @@
+//! Sealed sides: a pouch closed at its sides is round there too, which costs volume, stroke and width of the wall.
+//!
+//! Each section of the lens, half height a, is flat in its middle and closes at either side by a quarter of a circle of radius a. That
+//! takes ½πa of the width of each sheet and spans a:
+//!
+//! ```text
+//! section   half area a W − ½πa²     chord w = W − (π − 2) a     a = r (cosφ − cosθ)     r = L/2θ
+//! E = −e σ [ (P − χ p_b) ΔV_a + p_b ΔV_b ] per pitch
+//! ΔV_a = −π I₂     ΔV_b = ∫ (ΔA − κ ΔQ) dx/(1 − κD),  ΔA = −A' (π − 2) a + ½A'' (π − 2)² a²,  ΔQ alike
+//! I₁ = ∫ a dx = r² (θ − sinθ cosθ)     I₂ = ∫ a² dx = 2r³ (sinθ − ⅓sin³θ − θ cosθ)
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | σ | 1: sealed sides, 0: sides that open freely | – |
+//! | e | edge restraint of the actuator: 1 sealed, 0 freed by gussets | – |
+//! | L, W | flat length and width of the pouch | m |
+//! | A(w), Q(w) | area and moment of area Aȳ of the body's section with a chord w (`section.rs`), derivatives at W | m², m³ |
+//! | χ | share of the pouch that lies in the body (`displaced_gas`) | – |
+//!
+//! The wall pulls the sides apart with p_b R' cosα, so that their arcs have a radius of a + ρ₀, ρ₀ = p_b R' cosα/2P̄, and end before
+//! they are level: the section then loses ½(4 − π) ρ₀² more, 1 % at P = 5 p_b, which is left out. Without a body the volume is
+//! largest at 21.9 % of contraction for W = L (36.3 % with free sides): sealed sides cost *stroke* more than volume.
+//! **Validity**: inextensible fabric; a ≤ W/π, so W ≥ ⅔L. Derived here; `exact::pouch::sealed_volume_m3` is its volume.
+
+use super::{Effect, Fitted, Group, Parameter, Stage};
+use crate::actuators::Family;
+use crate::assembly::Assembly;
+use crate::section::Section;
+use crate::site::Site;
+use crate::term::{Pose, Term, actuator_q};
+use crate::trig::sin_cos;
+use std::f64::consts::PI;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "sealed_sides",
+    group: Group::Actuator,
+    stage: Stage::Balance,
+    history: false,
+    formula: "E = (P − χ p_b) π∫a²dx − p_b ∫(ΔA − κΔQ)dx/(1 − κD) per pitch, a = r(cosφ − cosθ), w = W − (π − 2)a",
+    sentence: "The sealed sides of a pouch are round as well, so it cannot become a free lens: it contracts less and holds less.",
+    differs: "Much of the bend is missing at high pressures, where the free lens would still contract.",
+    remedy: "Compare with pouches whose sides are freed by gussets, or that are wider.",
+    validity: "inextensible fabric; at least two thirds as wide as long",
+    reference: "derived here",
+    parameters: &[Parameter {
+        key: "share",
+        symbol: "σ",
+        unit: "-",
+        si: 1.0,
+        neutral: 0.0,
+        typical: 1.0,
+        lower: 0.0,
+        upper: 1.0,
+        possible: [0.0, 1.0],
+        starts: &[],
+        by_actuator: &[],
+        fitted: Fitted::FromDesign,
+        in_room: false,
+        meaning: "1: sealed sides, 0: sides that open freely",
+    }],
+    family: Some(Family::Pouch),
+    add,
+};
+
+struct SealedSides {
+    /// e σ/L \[1/m\].
+    share: f64,
+    length_m: f64,
+    arm_m: f64,
+    /// χ.
+    inner: f64,
+    /// ΔA and ΔQ as factors of a and a².
+    area: [f64; 2],
+    moment: [f64; 2],
+}
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    for site in assembly.active_sites(Family::Pouch) {
+        let restraint = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
+        if values[0] * restraint > 0.0 {
+            let term = SealedSides::new(values[0] * restraint, site);
+            site.actuator_terms.push(Box::new(term));
+        }
+    }
+}
+
+impl SealedSides {
+    fn new(share: f64, site: &Site) -> SealedSides {
+        let (length_m, width_m) = (site.shape.length_m, site.shape.width_m);
+        let at = |chord_m: f64| Section::drawn_in(site.radius_m, width_m, chord_m);
+        let step = 1e-3 * width_m;
+        // A pouch too wide for the body leaves its section alone.
+        let sections = at(width_m - step).zip(at(width_m)).zip(at(width_m + step));
+        let factors = |of: fn(&Section) -> f64| {
+            let Some(((low, middle), high)) = &sections else { return [0.0; 2] };
+            let (low, middle, high) = (of(low), of(middle), of(high));
+            [
+                -NARROWED * (high - low) / (2.0 * step),
+                0.5 * NARROWED * NARROWED * (high - 2.0 * middle + low) / (step * step),
+            ]
+        };
+        SealedSides {
+            share: share / length_m,
+            length_m,
+            arm_m: site.linkage.arm_m,
+            inner: site.closed_share,
+            area: factors(|s| s.area_m2),
+            moment: factors(|s| s.area_m2 * s.centroid_m),
+        }
+    }
+
+    /// I₁ and I₂ with their derivatives by θ.
+    fn integrals(&self, theta: f64) -> [[f64; 2]; 2] {
+        if theta < SERIES_BELOW {
+            let (half, t2) = (0.5 * self.length_m, theta * theta);
+            let first = half * half * theta * (2.0 / 3.0 - t2 * (2.0 / 15.0 - t2 * 4.0 / 315.0));
+            let d_first = half * half * (2.0 / 3.0 - t2 * (2.0 / 5.0 - t2 * 4.0 / 63.0));
+            let second = half.powi(3) * t2 * (4.0 / 15.0 - t2 * (22.0 / 315.0 - t2 * 17.0 / 1890.0));
+            let d_second = half.powi(3) * theta * (8.0 / 15.0 - t2 * (88.0 / 315.0 - t2 * 17.0 / 315.0));
+            return [[first, d_first], [second, d_second]];
+        }
+        let (sin, cos) = sin_cos(theta);
+        let per = 1.0 / theta;
+        let radius = 0.5 * self.length_m * per;
+        let square = radius * radius;
+        let first = square * (theta - sin * cos);
+        let second = 2.0 * square * radius * (sin - sin * sin * sin * (1.0 / 3.0) - theta * cos);
+        let d_first = 2.0 * (square * sin * sin - first * per);
+        let d_second = 2.0 * square * radius * sin * (theta - sin * cos) - 3.0 * second * per;
+        [[first, d_first], [second, d_second]]
+    }
+}
+
+/// Width that a pair of quarter circles takes of the chord, over a.
+const NARROWED: f64 = PI - 2.0;
+/// Below this angle the closed forms lose more digits to cancellation than the series to truncation.
+const SERIES_BELOW: f64 = 0.05;
+
+impl Term for SealedSides {
+    fn name(&self) -> &'static str {
+        ENTRY.name
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        let kappa = at.q[actuator_q::CURVATURE];
+        let [first, second] = self.integrals(at.q[actuator_q::COORDINATE]);
+        let gas = PI * (at.p_act_pa - self.inner * at.p_body_pa);
+        let stretch = 1.0 / (1.0 - kappa * self.arm_m);
+        let pull = at.p_body_pa * stretch;
+        let of = |factors: &[f64; 2], k: usize| factors[0] * first[k] + factors[1] * second[k];
+        let body = |k: usize| of(&self.area, k) - kappa * of(&self.moment, k);
+        force[actuator_q::COORDINATE] -= self.share * (gas * second[1] - pull * body(1));
+        force[actuator_q::CURVATURE] += self.share * pull * (body(0) * self.arm_m * stretch - of(&self.moment, 0));
+        self.share * (gas * second[0] - pull * body(0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::pouch::{Pouch, contraction, sealed_volume_m3, volume_m3};
+
+    fn pouch(width_m: f64) -> (Pouch, SealedSides) {
+        let sides = SealedSides {
+            share: 1.0 / 0.06,
+            length_m: 0.06,
+            arm_m: 0.07,
+            inner: 0.5,
+            area: [1e-2, 0.3],
+            moment: [4e-4, 1e-2],
+        };
+        (Pouch { length_m: 0.06, width_m }, sides)
+    }
+
+    #[test]
+    fn without_a_body_it_is_the_sealed_pouch_and_its_known_contractions() {
+        for (aspect, known) in [(1.0, 0.219), (1.5, 0.277), (2.0, 0.303), (4.0, 0.337)] {
+            let (flat, sides) = pouch(0.06 * aspect);
+            let lost =
+                |theta: f64| -sides.length_m * sides.add(&Pose::new(&[theta, 0.0, 0.0, 0.0], 0.0, 1.0), &mut [0.0; 4]);
+            let volume = |theta: f64| volume_m3(&flat, theta) + lost(theta);
+            for theta in [0.3, 0.8, 1.1] {
+                assert!((volume(theta) / sealed_volume_m3(&flat, theta) - 1.0).abs() < 1e-9, "{aspect} {theta}");
+            }
+            let largest = (0..4000).map(|i| 0.8 + 2e-4 * f64::from(i)).max_by(|a, b| volume(*a).total_cmp(&volume(*b)));
+            assert!((contraction(largest.unwrap()) - known).abs() < 6e-4, "{aspect}: {largest:?}");
+        }
+    }
+
+    #[test]
+    fn series_and_closed_form_meet() {
+        let (_, sides) = pouch(0.06);
+        let [low, high] = [SERIES_BELOW * (1.0 - 1e-12), SERIES_BELOW].map(|theta| sides.integrals(theta));
+        for (series, closed) in low.as_flattened().iter().zip(high.as_flattened()) {
+            assert!((series / closed - 1.0).abs() < 1e-8, "{series} {closed}");
+        }
+    }
+}

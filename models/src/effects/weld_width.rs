@@ -1,0 +1,82 @@
+//! Weld width: what the welds take of the pitch neither contracts nor fills.
+//!
+//! ```text
+//! L = L₀ − b     W' = W − b     ε = (L/L₀)(1 − sinθ/θ)     V = W' L² (θ − sinθ cosθ)/(2θ²) per pitch L₀
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | b | width of the welds between two pouches, and of both side welds together | m |
+//! | L₀, W | pitch of the pouches, width of the strip | m |
+//!
+//! **Validity**: welds that keep their length, b < L₀. Derived here.
+
+use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use crate::actuators::Family;
+use crate::assembly::Assembly;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "weld_width",
+    group: Group::Actuator,
+    stage: Stage::Balance,
+    history: false,
+    formula: "L = L₀ − b, W' = W − b; ε = (L/L₀)(1 − sinθ/θ)",
+    sentence: "Welds have a width: what they take of the strip neither contracts nor fills.",
+    differs: "A little of the bend is missing at every pressure, more of it with more and shorter pouches.",
+    remedy: "Measure the width of the welds.",
+    validity: "welds that keep their length",
+    reference: "derived here",
+    parameters: &[Parameter {
+        key: "width_mm",
+        symbol: "b",
+        unit: "mm",
+        si: 1e-3,
+        neutral: 0.0,
+        typical: 3.0,
+        lower: 0.0,
+        upper: 10.0,
+        possible: POSITIVE,
+        starts: &[],
+        by_actuator: &[],
+        fitted: Fitted::FromDesign,
+        in_room: false,
+        meaning: "width of the welds",
+    }],
+    family: Some(Family::Pouch),
+    add,
+};
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    for site in assembly.active_sites(Family::Pouch) {
+        let pitch_m = site.shape.length_m;
+        let weld_m = values[0].min(MOST * pitch_m.min(site.shape.width_m));
+        site.shape.length_m -= weld_m;
+        site.shape.width_m -= weld_m;
+        let pouch = site.shape.length_m / pitch_m;
+        site.linkage.active_fraction *= pouch;
+        site.linkage.stroke_fraction *= pouch;
+    }
+}
+
+/// Wider welds leave no pouch.
+const MOST: f64 = 0.9;
+
+#[cfg(test)]
+mod tests {
+    use crate::{Loads, Model, Scenario};
+
+    #[test]
+    fn without_a_wall_the_stroke_falls_by_the_share_of_the_pitch() {
+        // Where nothing resists, the pouch is as round as it gets: cosθ = 0, however long it is.
+        let text = crate::scenario::SHIPPED.iter().find(|s| s.0 == "cpam").unwrap().1;
+        let bare = text.split("[effects").next().unwrap().replace("pressure_kpa = 2 ", "pressure_kpa = 0.5 ");
+        let turn = |more: &str| {
+            let model = Model::new(&Scenario::parse(&format!("{bare}{more}")).unwrap());
+            let mut at = model.prediction();
+            model.predict(&Loads::uniform(1.0, 30e3), &mut at).unwrap();
+            at.tip.angle_rad
+        };
+        let share = turn("[effects.weld_width]\nwidth_mm = 6\n") / turn("");
+        assert!((share - 0.9).abs() < 1e-4, "{share}");
+    }
+}
