@@ -38,6 +38,8 @@ pub struct Site {
     pub channel: usize,
     /// Link between contraction and curvature.
     pub linkage: Linkage,
+    /// Share χ of the actuator's volume that lies in the body and works against its pressure.
+    pub inner_share: f64,
     /// The actuator stays flat below this share of the body's pressure.
     pub closed_share: f64,
     /// Terms over [`actuator_q`], J per metre of body at η = 1.
@@ -175,6 +177,7 @@ impl Site {
             weave: Weave::default(),
             channel,
             linkage,
+            inner_share: 0.0,
             closed_share: 0.0,
             actuator_terms: vec![Box::new(ActuatorPressure)],
             body_pressure: BodyLaw::Hinge(body_pressure),
@@ -232,7 +235,14 @@ impl Site {
             Some(state) => state.start(self, loads, memory),
             None => self.start(actuator, loads, memory),
         };
-        let mut root = find_root(&mut imbalance, actuator.range, start)?;
+        let mut root = match find_root(&mut imbalance, actuator.range, start) {
+            Ok(root) => root,
+            // Even flat it is held shut: by the body's gas at its sides, or by its folds.
+            Err(_) if self.balance(actuator, actuator.range.0, loads, memory).imbalance < 0.0 => {
+                return self.solve_passive(loads, memory, None);
+            }
+            Err(none) => return Err(none),
+        };
         if self.linkage.compliance_per_n != 0.0 && root.step != 0.0 {
             // Stretching fabric has no explicit dκ/da: the last step is evaluated, and a secant is the slope.
             at = self.balance(actuator, root.x + root.step, loads, memory);

@@ -58,7 +58,7 @@ struct DisplacedGas {
 fn add(values: &[f64], assembly: &mut Assembly) {
     for family in [Family::Pouch, Family::Mckibben] {
         for site in assembly.active_sites(family) {
-            site.closed_share = values[0];
+            (site.inner_share, site.closed_share) = (values[0], values[0]);
             site.actuator_terms.push(Box::new(DisplacedGas { share: values[0] }));
         }
     }

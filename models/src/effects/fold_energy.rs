@@ -3,15 +3,17 @@
 //! ```text
 //! U = 4 √(D T) (1 − cos ½φ) per width of each sheet at each edge
 //! ends   φ = θ,  T = P r outside, (P − p_b) r inside,  r = L/2θ,  two edges of width W
-//! sides  φ = ½π,  T = P̄ a,  P̄ = P − χ p_b,  two sheets on two sides:
-//!        ∫ √a dx = ½π √a₀ r sinθ (1 + θ²/32 + 13 θ⁴/3072 + …),  a₀ = r (1 − cosθ)
+//! sides  φ = ψ₀,  T = P̄ ρ,  P̄ = P − χ p_b,  two sheets on two sides:  ∫ (…) dx ≈ (…)₀ ½π r sinθ (1 + θ²/32 + 13 θ⁴/3072)
+//!        ρ = a₀ + ρ₀,  cosψ₀ = ρ₀/ρ,  a₀ = r (1 − cosθ),  ρ₀ = p_b R' cosα/2P̄
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | D | bending stiffness of one sheet | N·m |
 //! | T | tension across the fold | N/m |
-//! | a, a₀ | half height of the lens, in its middle | m |
+//! | a₀ | half height of the lens in its middle | m |
+//! | ρ, ψ₀ | radius and angle of the arcs at the sides there; where ρ₀ is small, ½π, and the sum over the sides is exact to θ⁶ | m, rad |
+//! | R', α | radius and half chord angle of the wall's section (`section.rs`) | m, rad |
 //!
 //! Includes the work of T on the way that the round of the fold cuts short; the tension follows the pressure. **Validity**: folds
 //! farther apart than √(D/T), a fraction of a millimetre at high pressures; stiff welds; 0 < θ < π. Elastica: Love 1927, §262, in
@@ -20,16 +22,17 @@
 use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
+use crate::section::Section;
 use crate::term::{Pose, Term, actuator_q};
 use crate::trig::sin_cos;
-use std::f64::consts::SQRT_2;
+use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "fold_energy",
     group: Group::Actuator,
     stage: Stage::Balance,
     history: false,
-    formula: "U = 4 √(D T)(1 − cos ½φ) per width of each fold; ends φ = θ, T = P r and (P − p_b) r; sides φ = ½π, T = P̄ a",
+    formula: "U = 4 √(D T)(1 − cos ½φ) per width of each fold; ends φ = θ, T = P r and (P − p_b) r; sides φ = ψ₀, T = P̄ρ",
     sentence: "The sheets must be folded at the welds, and a fabric that is stiff in bending resists.",
     differs: "The bend comes late and less, more so at low pressures and with stiff fabrics.",
     remedy: "Measure the bending length of the fabric: let a strip droop over an edge.",
@@ -64,6 +67,8 @@ struct FoldEnergy {
     sealed: f64,
     /// χ.
     inner: f64,
+    /// ½ R' cosα \[m\].
+    wall_m: f64,
 }
 
 fn add(values: &[f64], assembly: &mut Assembly) {
@@ -76,14 +81,40 @@ fn add(values: &[f64], assembly: &mut Assembly) {
             length_m: site.shape.length_m,
             width_m: site.shape.width_m,
             sealed: site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape)),
-            inner: site.closed_share,
+            inner: site.inner_share,
+            wall_m: Section::drawn_in(site.radius_m, site.shape.width_m, site.shape.width_m)
+                .map_or(0.0, |flat| 0.5 * flat.radius_m * flat.cos),
         };
         site.actuator_terms.push(Box::new(term));
     }
 }
 
-/// 1 − cos 45°, four sheets at 4, half the circle of the parabola.
-const SIDES: f64 = 16.0 * (1.0 - std::f64::consts::FRAC_1_SQRT_2) * std::f64::consts::FRAC_PI_2;
+impl FoldEnergy {
+    /// Energy of the sides over √D and its derivative by θ, from sine and cosine of ½θ.
+    fn sides(&self, theta: f64, (sin, cos): (f64, f64), at: &Pose) -> [f64; 2] {
+        let across = (at.p_act_pa - self.inner * at.p_body_pa).max(0.0);
+        if self.sealed * across == 0.0 {
+            return [0.0; 2];
+        }
+        let (radius, t2) = (0.5 * self.length_m / theta, theta * theta);
+        let (height, chord) = (2.0 * radius * sin * sin, 2.0 * radius * sin * cos);
+        let (d_height, d_chord) = (chord - height / theta, radius * (cos * cos - sin * sin) - chord / theta);
+        let rho0 = at.p_body_pa * self.wall_m / across;
+        let (rho, share) = (height + rho0, rho0 / (height + rho0));
+        let (half, root) = ((0.5 * (1.0 + share)).sqrt(), rho.sqrt());
+        // 1 − cos ½ψ₀ without cancellation.
+        let turned = 0.5 * (height / rho) / (1.0 + half);
+        let d_turned = 0.25 * share / (rho * half) * d_height;
+        let round = 1.0 + t2 * (1.0 / 32.0 + t2 * (13.0 / 3072.0));
+        let d_round = theta * (1.0 / 16.0 + t2 * (13.0 / 768.0));
+        let (along, d_along) = (chord * round, d_chord * round + chord * d_round);
+        let d_value = d_turned * root * along + turned * (0.5 * d_height / root * along + root * d_along);
+        [turned * root * along, d_value].map(|value| SIDES * self.sealed * across.sqrt() * value)
+    }
+}
+
+/// Four sheets at 4, and π/2.
+const SIDES: f64 = 8.0 * PI;
 
 impl Term for FoldEnergy {
     fn name(&self) -> &'static str {
@@ -94,19 +125,13 @@ impl Term for FoldEnergy {
         let theta = at.q[actuator_q::COORDINATE];
         let root = |pressure: f64| pressure.max(0.0).sqrt();
         let (sin, cos) = sin_cos(0.5 * theta);
-        let radius = 0.5 * self.length_m / theta;
-        let scale = self.root * radius.sqrt() / self.length_m;
-        let ends = 8.0 * self.width_m * (root(at.p_act_pa) + root(at.p_act_pa - at.p_body_pa));
-        // √a₀ = √(2r) sin ½θ and sinθ = 2 sin ½θ cos ½θ.
-        let sides = 2.0 * SQRT_2 * SIDES * self.sealed * root(at.p_act_pa - self.inner * at.p_body_pa) * radius;
-        let [folded, chord] = [1.0 - cos, sin * sin * cos];
-        let d_folded = 0.5 * (sin - folded / theta);
-        let (t2, d_chord) = (theta * theta, sin * (cos * cos - 0.5 * sin * sin) - 1.5 * chord / theta);
-        let round = 1.0 + t2 * (1.0 / 32.0 + t2 * (13.0 / 3072.0));
-        let d_round = theta * (1.0 / 16.0 + t2 * (13.0 / 768.0));
-        let [chord, d_chord] = [chord * round, d_chord * round + chord * d_round];
-        force[actuator_q::COORDINATE] -= scale * (ends * d_folded + sides * d_chord);
-        scale * (ends * folded + sides * chord)
+        let pull = root(at.p_act_pa) + root(at.p_act_pa - at.p_body_pa);
+        let ends = 8.0 * self.width_m * pull * (0.5 * self.length_m / theta).sqrt();
+        let folded = sin * sin / (1.0 + cos);
+        let [sides, d_sides] = self.sides(theta, (sin, cos), at);
+        let scale = self.root / self.length_m;
+        force[actuator_q::COORDINATE] -= scale * (ends * 0.5 * (sin - folded / theta) + d_sides);
+        scale * (ends * folded + sides)
     }
 }
 
@@ -119,7 +144,14 @@ mod tests {
     #[test]
     fn it_is_the_elastica_at_every_weld_and_side() {
         let (length, width, bending, p_act, p_body) = (0.057, 0.05, 6e-5, 20e3, 2e3);
-        let term = FoldEnergy { root: f64::sqrt(bending), length_m: length, width_m: width, sealed: 1.0, inner: 0.5 };
+        let term = FoldEnergy {
+            root: f64::sqrt(bending),
+            length_m: length,
+            width_m: width,
+            sealed: 1.0,
+            inner: 0.5,
+            wall_m: 0.0,
+        };
         for theta in [0.2, 0.7, 1.2] {
             let radius = 0.5 * length / theta;
             let ends: f64 =

@@ -6,7 +6,7 @@
 //! ```text
 //! section   half area a W − ½πa²     chord w = W − (π − 2) a     a = r (cosφ − cosθ)     r = L/2θ
 //! E = −e σ [ (P − χ p_b) ΔV_a + p_b ΔV_b ] per pitch
-//! ΔV_a = −π I₂     ΔV_b = ∫ (ΔA − κ ΔQ) dx/(1 − κD),  ΔA = −A' (π − 2) a + ½A'' (π − 2)² a²,  ΔQ alike
+//! ΔV_a = −π I₂     ΔV_b = ∫ (ΔA − κ ΔQ) dx (1 + κD + κ²D²),  ΔA = −A' (π − 2) a + ½A'' (π − 2)² a²,  ΔQ alike
 //! I₁ = ∫ a dx = r² (θ − sinθ cosθ)     I₂ = ∫ a² dx = 2r³ (sinθ − ⅓sin³θ − θ cosθ)
 //! ```
 //!
@@ -21,6 +21,7 @@
 //! The wall pulls the sides apart with p_b R' cosα, so that their arcs have a radius of a + ρ₀, ρ₀ = p_b R' cosα/2P̄, and end before
 //! they are level: the section then loses ½(4 − π) ρ₀² more, 1 % at P = 5 p_b, which is left out. Without a body the volume is
 //! largest at 21.9 % of contraction for W = L (36.3 % with free sides): sealed sides cost *stroke* more than volume.
+//! Below P = p_b (χ + (π − 2) A'/2W), A' = R' cosα, the body's gas at the sides keeps the pouch flat.
 //! **Validity**: inextensible fabric; a ≤ W/π, so W ≥ ⅔L. Derived here; `exact::pouch::sealed_volume_m3` is its volume.
 
 use super::{Effect, Fitted, Group, Parameter, Stage};
@@ -37,7 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
     group: Group::Actuator,
     stage: Stage::Balance,
     history: false,
-    formula: "E = (P − χ p_b) π∫a²dx − p_b ∫(ΔA − κΔQ)dx/(1 − κD) per pitch, a = r(cosφ − cosθ), w = W − (π − 2)a",
+    formula: "E = (P − χ p_b) π∫a²dx − p_b ∫(ΔA − κΔQ)dx(1 + κD + κ²D²) per pitch, a = r(cosφ − cosθ), w = W − (π − 2)a",
     sentence: "The sealed sides of a pouch are round as well, so it cannot become a free lens: it contracts less and holds less.",
     differs: "Much of the bend is missing at high pressures, where the free lens would still contract.",
     remedy: "Compare with pouches whose sides are freed by gussets, or that are wider.",
@@ -80,6 +81,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
         let restraint = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
         if values[0] * restraint > 0.0 {
             let term = SealedSides::new(values[0] * restraint, site);
+            // At a → 0 the gas of the body resists with −½ΔA/(W a) of its pressure.
+            site.closed_share += (-0.5 * values[0] * restraint * term.area[0] / site.shape.width_m).max(0.0);
             site.actuator_terms.push(Box::new(term));
         }
     }
@@ -104,7 +107,7 @@ impl SealedSides {
             share: share / length_m,
             length_m,
             arm_m: site.linkage.arm_m,
-            inner: site.closed_share,
+            inner: site.inner_share,
             area: factors(|s| s.area_m2),
             moment: factors(|s| s.area_m2 * s.centroid_m),
         }
@@ -146,12 +149,15 @@ impl Term for SealedSides {
         let kappa = at.q[actuator_q::CURVATURE];
         let [first, second] = self.integrals(at.q[actuator_q::COORDINATE]);
         let gas = PI * (at.p_act_pa - self.inner * at.p_body_pa);
-        let stretch = 1.0 / (1.0 - kappa * self.arm_m);
+        // Length along the far side over that of the chord, 1/(1 − κD), without its pole.
+        let turn = kappa * self.arm_m;
+        let (stretch, d_stretch) = (1.0 + turn * (1.0 + turn), self.arm_m * (1.0 + 2.0 * turn));
         let pull = at.p_body_pa * stretch;
         let of = |factors: &[f64; 2], k: usize| factors[0] * first[k] + factors[1] * second[k];
         let body = |k: usize| of(&self.area, k) - kappa * of(&self.moment, k);
         force[actuator_q::COORDINATE] -= self.share * (gas * second[1] - pull * body(1));
-        force[actuator_q::CURVATURE] += self.share * pull * (body(0) * self.arm_m * stretch - of(&self.moment, 0));
+        force[actuator_q::CURVATURE] +=
+            self.share * at.p_body_pa * (body(0) * d_stretch - of(&self.moment, 0) * stretch);
         self.share * (gas * second[0] - pull * body(0))
     }
 }

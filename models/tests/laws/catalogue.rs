@@ -6,6 +6,8 @@ use models::{Loads, Model};
 
 /// Names in the order of the catalogue.
 const NAMES: &[&str] = &[
+    "weld_width",
+    "chord_arm",
     "end_constraint",
     "end_fittings",
     "arm_growth",
@@ -19,6 +21,8 @@ const NAMES: &[&str] = &[
     "shear_lock",
     "seam_stiffness",
     "displaced_gas",
+    "sealed_sides",
+    "fold_energy",
     "self_contact",
     "wrinkling",
     "tail_tension",

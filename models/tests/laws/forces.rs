@@ -78,9 +78,18 @@ fn the_force_of_every_term_is_minus_the_slope_of_its_energy() {
             }
         }
     }
-    // Six effects change the linkage, one replaces the body pressure and three are the cell `muscle` together; all others must
+    // Eight effects change the linkage, one replaces the body pressure and three are the cell `muscle` together; all others must
     // have been visited as terms.
-    let linkage = ["end_constraint", "end_fittings", "arm_growth", "sunk_muscle", "fabric_stretch", "ovalization"];
+    let linkage = [
+        "weld_width",
+        "chord_arm",
+        "end_constraint",
+        "end_fittings",
+        "arm_growth",
+        "sunk_muscle",
+        "fabric_stretch",
+        "ovalization",
+    ];
     let other = [&linkage[..], &["wrinkling", "yarn_stretch", "glued_face", "flat_ends"]].concat();
     let balance = EFFECTS.iter().filter(|e| e.stage == Stage::Balance && !other.contains(&e.name)).map(|e| e.name);
     for name in balance.chain(["actuator_pressure", "body_pressure", "bending", "muscle"]) {

@@ -34,14 +34,19 @@ pub fn everything(actuator: &str) -> Scenario {
     let bent = robot(actuator).with_bending(0.7);
     let in_balance = |e: &&Effect| e.stage == Stage::Balance;
     let all = applicable(&bent).filter(in_balance).fold(bent.clone(), |s, e| s.with_effect(e.name, &e.typical()));
-    // At its typical share an actuator stays flat below the body's pressure, and there is no balance to look at.
-    all.with_effect("displaced_gas", &[0.02])
+    // At typical sizes an actuator stays flat below about the body's pressure, and there is no balance to look at.
+    let small = [("displaced_gas", 0.02), ("sealed_sides", 0.02), ("fold_energy", 1e-8)];
+    let has = |name: &str| all.effects.iter().any(|e| e.name == name);
+    small.iter().filter(|(name, _)| has(name)).fold(all.clone(), |s, (name, value)| s.with_effect(name, &[*value]))
 }
 
-/// The same without the cell of a muscle: with yarns that do not give, no glue and no flat ends.
+/// The same without what hangs on the actuator's pressure beside its work on the ideal volume: the cell of a muscle, with yarns
+/// that give, glue and flat ends, and the sides and folds of a pouch.
 pub fn without_cell(scenario: &Scenario) -> Scenario {
     let mut stiff = scenario.clone();
-    stiff.effects.retain(|e| !["yarn_stretch", "glued_face", "flat_ends"].contains(&e.name.as_str()));
+    stiff.effects.retain(|e| {
+        !["yarn_stretch", "glued_face", "flat_ends", "sealed_sides", "fold_energy"].contains(&e.name.as_str())
+    });
     stiff
 }
 
