@@ -114,6 +114,9 @@ pub struct Breakdown {
     /// Folder for maps and tables
     #[arg(long, default_value = "ibr-report/breakdown")]
     pub out: PathBuf,
+    /// Only the runs that come with the program, one seed each: nothing is simulated
+    #[arg(long, conflicts_with_all = ["runs", "pressure", "body_pressure", "pouch", "mesh"])]
+    pub stored: bool,
     /// Folder of finished runs; missing ones are made there
     #[arg(long, default_value = "ibr-report/runs")]
     pub runs: PathBuf,

@@ -8,26 +8,40 @@ use super::{Context, Outcome};
 use crate::cli::Breakdown;
 use crate::failure::{Failure, INTERRUPTED};
 use crate::output::{check_folder, write_files};
-use compare::study::engines::{FeRun, Pair, pairs, runs_json};
+use compare::study::engines::{FeRun, Pair, pairs, runs_json, stored};
 use compare::study::pages::{Files, engines, parting_plot, varied};
+use compare::study::with_mechanics;
 use models::Scenario;
 use models::actuators::Family;
 use models::scenario::quantity::Quantity;
 use serde_json::{Value, json};
 
+/// One run at one pressure.
+struct Cell<'a> {
+    run: &'a FeRun,
+    /// The scenario as it is.
+    own: Pair,
+    /// With the mechanics of its actuator kind in place of its own effects.
+    full: Pair,
+}
+
 pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> {
     check_folder(&args.out)?;
-    let cases = cases(args)?;
-    let keeper = Keeper { folder: args.runs.clone(), threads: args.threads as usize };
-    let found = match keeper.run_all(&cases, context)? {
-        Ok(found) => found,
-        Err(done) => return Ok(interrupted(done, cases.len())),
-    };
     let (mut runs, mut stopped): (Vec<FeRun>, Vec<Failure>) = (Vec::new(), Vec::new());
-    for run in found {
-        match run {
-            Ok(run) => runs.push(run),
-            Err(error) => stopped.push(error),
+    if args.stored {
+        runs.extend(stored()?.into_iter().filter(|run| run.seed == 1));
+    } else {
+        let cases = cases(args)?;
+        let keeper = Keeper { folder: args.runs.clone(), threads: args.threads as usize };
+        let found = match keeper.run_all(&cases, context)? {
+            Ok(found) => found,
+            Err(done) => return Ok(interrupted(done, cases.len())),
+        };
+        for run in found {
+            match run {
+                Ok(run) => runs.push(run),
+                Err(error) => stopped.push(error),
+            }
         }
     }
     if runs.is_empty() && !stopped.is_empty() {
@@ -37,9 +51,9 @@ pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> 
     let mut rows = Vec::new();
     for run in &runs {
         let Some(scenario) = scenarios.iter().find(|s| s.name == run.scenario) else { continue };
-        for pair in pairs(&varied(scenario, run), run)? {
-            rows.push((run, pair));
-        }
+        let scenario = varied(scenario, run);
+        let full = pairs(&with_mechanics(&scenario)?, run)?;
+        rows.extend(pairs(&scenario, run)?.into_iter().zip(full).map(|(own, full)| Cell { run, own, full }));
     }
     let mut files = Files::default();
     for (k, map) in engines(&scenarios, &runs)?.maps.iter().enumerate() {
@@ -124,7 +138,7 @@ fn percent(pair: &Pair) -> String {
     pair.difference().map_or("–".into(), |d| format!("{:+.0}", 100.0 * d))
 }
 
-fn text(rows: &[(&FeRun, Pair)]) -> String {
+fn text(rows: &[Cell]) -> String {
     let head = [
         "robot",
         "mesh mm",
@@ -135,8 +149,10 @@ fn text(rows: &[(&FeRun, Pair)]) -> String {
         "FE tip mm",
         "difference %",
         "carried by",
+        "with mechanics mm",
+        "difference %",
     ];
-    let row = |(run, p): &(&FeRun, Pair)| {
+    let row = |Cell { run, own: p, full }: &Cell| {
         vec![
             run.actuator.clone(),
             run.mesh_mm[1].to_string(),
@@ -147,19 +163,21 @@ fn text(rows: &[(&FeRun, Pair)]) -> String {
             format!("{:.1}", p.fe_mm[1]),
             percent(p),
             p.carrier().unwrap_or("–").into(),
+            format!("{:.1}", full.reduced_mm[1]),
+            percent(full),
         ]
     };
     table(&head, 1, rows.iter().map(row).collect())
 }
 
-fn csv(rows: &[(&FeRun, Pair)]) -> String {
+fn csv(rows: &[Cell]) -> String {
     let mut out = String::from(
-        "robot,mesh_mm,p_body_kpa,pouch_mm,p_act_kpa,reduced_tip_mm,fe_tip_mm,difference_pct,carried_by\n",
+        "robot,mesh_mm,p_body_kpa,pouch_mm,p_act_kpa,reduced_tip_mm,fe_tip_mm,difference_pct,carried_by,mechanics_tip_mm\n",
     );
-    for (run, p) in rows {
+    for Cell { run, own: p, full } in rows {
         let difference = p.difference().map_or(String::new(), |d| (100.0 * d).to_string());
         out.push_str(&format!(
-            "{},{},{},{},{},{},{},{difference},{}\n",
+            "{},{},{},{},{},{},{},{difference},{},{}\n",
             run.actuator,
             run.mesh_mm[1],
             run.body_kpa,
@@ -167,18 +185,20 @@ fn csv(rows: &[(&FeRun, Pair)]) -> String {
             p.actuator_kpa,
             p.reduced_mm[1],
             p.fe_mm[1],
-            p.carrier().unwrap_or_default()
+            p.carrier().unwrap_or_default(),
+            full.reduced_mm[1]
         ));
     }
     out
 }
 
-fn as_json(rows: &[(&FeRun, Pair)]) -> Value {
-    let row = |(run, p): &(&FeRun, Pair)| {
+fn as_json(rows: &[Cell]) -> Value {
+    let row = |Cell { run, own: p, full }: &Cell| {
         json!({
             "robot": run.actuator, "mesh_mm": run.mesh_mm[1], "body_kpa": run.body_kpa, "pouch_mm": run.pouch_mm,
             "actuator_kpa": p.actuator_kpa, "reduced_tip_mm": p.reduced_mm[1], "fe_tip_mm": p.fe_mm[1],
             "difference": p.difference(), "carried_by": p.carrier(), "excess_mj": p.excess_mj,
+            "mechanics_tip_mm": full.reduced_mm[1], "mechanics_difference": full.difference(),
         })
     };
     json!({"schema": "ibr.breakdown", "version": 1, "cells": rows.iter().map(row).collect::<Vec<_>>()})

@@ -5,6 +5,7 @@ pub mod calibrate;
 pub mod engines;
 pub mod generate;
 pub mod measured;
+mod mechanics;
 pub mod one_number;
 pub mod pages;
 pub mod paper;
@@ -17,6 +18,7 @@ pub mod witness;
 
 pub use calibrate::{Calibration, calibrate_bending};
 pub use generate::{Generator, generate, parse_protocol};
+pub use mechanics::with_mechanics;
 pub(crate) use predict::first_slope;
 pub use predict::{Predicted, fit_scenario, predict_dataset};
 pub use published::{Rung, published_ladders};

@@ -6,6 +6,7 @@
 
 use crate::error::CompareError;
 use crate::plots::Known;
+use crate::study::mechanics::{additions, with};
 use data::{Published, PublishedActuator, published};
 use models::{Loads, Model, Scenario, shipped};
 
@@ -37,11 +38,6 @@ pub struct PublishedLadder {
     pub calibrated_bending: Option<f64>,
 }
 
-/// Robin's paper-bag volume as an edge-loss coefficient, 0.142π.
-pub const ROBIN: f64 = 0.142 * std::f64::consts::PI;
-/// Edge-loss coefficients of Kepert's bounds on the volume of a square bag, by the same formula at W = L₀.
-pub const KEPERT: [f64; 2] = [(1.0 - 0.6817) / 0.9, (1.0 - 0.6456) / 0.9];
-
 /// Ladders of all published actuators.
 ///
 /// # Errors
@@ -67,18 +63,11 @@ pub fn model_ladder(kind: &str) -> Result<Vec<Rung>, CompareError> {
     Ok(rungs)
 }
 
-/// The scenario with an effect whose first parameter has a value; others stay neutral.
-fn with(scenario: &Scenario, effect: &str, value: f64) -> Scenario {
-    let mut values = models::effects::by_name(effect).map_or_else(Vec::new, |e| e.neutral());
-    values.iter_mut().take(1).for_each(|first| *first = value);
-    scenario.with_effect(effect, &values)
-}
-
 fn ladder(paper: &Published, actuator: &PublishedActuator) -> Result<PublishedLadder, CompareError> {
     let scenario = shipped_scenario(&actuator.kind)?;
     let loads = Loads::uniform(paper.body_pressure_pa, actuator.d_max_pressure_pa);
     let mut rungs = vec![start(&scenario, &loads)?];
-    for addition in additions(paper, actuator) {
+    for addition in additions(paper, &actuator.kind, &scenario.actuator.shape) {
         let before = &rungs[rungs.len() - 1].scenario;
         let next = with(before, addition.effect, addition.value);
         let range_m = match addition.range {
@@ -113,72 +102,6 @@ fn start(scenario: &Scenario, loads: &Loads) -> Result<Rung, CompareError> {
     let y_m = height(&bare, loads)?;
     let why = "stroke law, constant arm, body pressure; nothing fitted".to_string();
     Ok(Rung { label: "bare model".into(), scenario: bare, y_m, range_m: None, known: Known::Predicted, why })
-}
-
-/// An effect to add, with the origin of its value.
-struct Addition {
-    effect: &'static str,
-    value: f64,
-    range: Option<[f64; 2]>,
-    known: Known,
-    why: &'static str,
-}
-
-fn additions(paper: &Published, actuator: &PublishedActuator) -> Vec<Addition> {
-    let growth = Addition {
-        effect: "arm_growth",
-        value: 1.0,
-        range: None,
-        known: Known::Predicted,
-        why: "geometry of an actuator outside the body: its axis rides on its own bulge",
-    };
-    let ends = Addition {
-        effect: "end_constraint",
-        value: ROBIN,
-        range: Some(KEPERT),
-        known: Known::Assumed,
-        why: "sealed-bag volume of Robin; the range reaches to Kepert's bounds; that stroke is lost like volume is assumed, and finite elements lose none",
-    };
-    let contact = Addition {
-        effect: "self_contact",
-        value: 1000.0,
-        range: None,
-        known: Known::Assumed,
-        why: "pouches side by side without a gap, hard stop",
-    };
-    let mut list = match actuator.kind.as_str() {
-        "spam" => vec![growth, ends],
-        "epam" => vec![ends],
-        "cpam" => vec![contact],
-        _ => vec![growth],
-    };
-    if let Some(fabric) = paper.fabrics.iter().find(|f| f.name == actuator.fabric) {
-        list.extend(fabric_effects(fabric));
-    }
-    list
-}
-
-/// What the published moduli of the fabric say.
-fn fabric_effects(fabric: &data::PublishedFabric) -> Vec<Addition> {
-    match fabric.e45_pa {
-        Some(e45) => {
-            let shear = models::exact::fpam::shear_modulus_from_bias_pa(e45, fabric.e0_pa, fabric.e90_pa);
-            vec![Addition {
-                effect: "shear_stiffness",
-                value: shear * fabric.thickness_m,
-                range: None,
-                known: Known::Predicted,
-                why: "shear modulus from the published E0, E45, E90 and the published thickness",
-            }]
-        }
-        None => vec![Addition {
-            effect: "fabric_stretch",
-            value: 1.0 / (fabric.e0_pa * fabric.thickness_m),
-            range: None,
-            known: Known::Predicted,
-            why: "compliance from the published E0 and the published thickness",
-        }],
-    }
 }
 
 pub(crate) fn height(scenario: &Scenario, loads: &Loads) -> Result<f64, CompareError> {

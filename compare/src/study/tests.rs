@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::evaluate::EvaluateOptions;
-use crate::study::published::{KEPERT, ROBIN, shipped_scenario};
+use crate::study::published::shipped_scenario;
 use data::{About, AboutRun, Dataset, Direct, Provenance};
 use models::exact::hinge;
 
@@ -207,13 +207,6 @@ fn a_calibrated_rung_meets_the_number_it_was_fitted_to_and_says_so() {
             assert!((rung.y_m - ladder.published.d_max_m).abs() < 1e-6 && rung.why.contains("fitted"));
         }
     }
-}
-
-#[test]
-fn bag_volume_coefficients_give_the_known_end_factors() {
-    let eta = |beta: f64| 1.0 - 0.9 * beta;
-    assert!((eta(ROBIN) - 0.598504459).abs() < 5e-10);
-    assert!((eta(KEPERT[0]) - 0.6817).abs() < 1e-12 && (eta(KEPERT[1]) - 0.6456).abs() < 1e-12);
 }
 
 /// A law that misses fits another stiffness at every pressure; an interval of noise alone would hold one of them.
