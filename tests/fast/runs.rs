@@ -8,7 +8,7 @@ use sha2::Digest;
 /// An ePAM on a coarse mesh, inflated in a hundredth of a second: what it gives is no result.
 fn with_robot() -> Folder {
     let folder = Folder::new();
-    let quick = "\n[fem]\nbody_mesh_mm = 14\nactuator_mesh_mm = 14\nbody_ramp_s = 0.004\nactuator_ramp_s = 0.006\npressures_kpa = [10]\n";
+    let quick = "\n[fem]\nbody_mesh_mm = 14\nactuator_mesh_mm = 14\nbody_ramp_s = 0.004\nactuator_ramp_s = 0.006\nguard_hourglass = 1\npressures_kpa = [10]\n";
     folder.write("my.toml", models::shipped("epam").unwrap().to_string() + quick);
     folder
 }

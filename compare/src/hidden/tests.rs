@@ -3,10 +3,10 @@
 use super::truth::{HiddenChoice, standard_protocol};
 use super::*;
 use crate::study::generate::{Generator, generate};
-use models::Scenario;
+use models::{Scenario, shipped};
 
 fn scenario(kind: &str, bending: f64) -> Scenario {
-    Scenario::parse(&truth::plain(kind).unwrap()).unwrap().with_bending(bending)
+    Scenario::parse(shipped(kind).unwrap()).unwrap().with_bending(bending)
 }
 
 fn model(scenario: &Scenario) -> Vec<f64> {

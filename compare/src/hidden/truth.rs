@@ -150,7 +150,7 @@ impl Truth {
             true => format!("bending_stiffness_nm2 = {usual}    # assumed: usual for such a robot; fit it\n"),
             false => format!("{line}\n"),
         };
-        Ok(plain(&self.actuator).unwrap_or_default().lines().map(line).collect())
+        Ok(shipped(&self.actuator).unwrap_or_default().lines().map(line).collect())
     }
 
     /// The robot as it is.
@@ -221,19 +221,11 @@ pub fn known(name: &str) -> Result<&'static HiddenEffect, CompareError> {
     })
 }
 
-/// The shipped scenario as this generator knows its physics: a muscle on its body, with stiff yarns.
-pub(super) fn plain(kind: &str) -> Option<String> {
-    let text = shipped(kind)?;
-    let head = text.split("[effects.").next().unwrap_or(text);
-    let outside = "[effects.arm_growth]\nbeta = 1.0\nbasis = \"geometry\"\n";
-    Some(if kind == "fpam" { format!("{head}{outside}") } else { text.to_string() })
-}
-
 fn robot(actuator: &str) -> Result<(Scenario, f64), CompareError> {
     let missing = |problem: String| CompareError::NoScenario { kind: actuator.to_string(), problem };
     let known = ROBOTS.iter().find(|(kind, _)| *kind == actuator);
     let (kind, usual) = known.ok_or_else(|| missing(spelling::known(actuator, &ROBOTS.map(|(kind, _)| kind))))?;
-    let text = plain(kind).ok_or_else(|| missing("it is not shipped".into()))?;
-    let scenario = Scenario::parse(&text).map_err(|error| missing(error.to_string()))?;
+    let text = shipped(kind).ok_or_else(|| missing("it is not shipped".into()))?;
+    let scenario = Scenario::parse(text).map_err(|error| missing(error.to_string()))?;
     Ok((scenario, *usual))
 }
