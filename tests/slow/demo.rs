@@ -16,9 +16,10 @@ fn demo_tells_the_story_in_text_json_and_a_report_in_less_than_two_minutes() {
         let found = ran.stdout.lines().find(|line| line.starts_with("| ePAMs") && line.contains(model));
         found.unwrap_or_else(|| panic!("no row {model} in {}", ran.stdout)).to_string()
     };
-    let (bare, sealed) = (row("bare model"), row("+ end_constraint"));
+    let (bare, weld, sealed) = (row("bare model"), row("+ weld_width"), row("+ sealed_sides"));
     assert!(bare.contains("161.6") && bare.contains("119.4") && bare.contains("predicted"), "{bare}");
-    assert!(sealed.contains("116.0") && sealed.contains("119.4") && sealed.contains("assumed"), "{sealed}");
+    assert!(weld.contains("156.8") && weld.contains("assumed"), "{weld}");
+    assert!(sealed.contains("117.9") && sealed.contains("119.4") && sealed.contains("predicted"), "{sealed}");
     assert!(ran.stdout.contains("calibrated"), "what was fitted is called so");
 
     let names = assert_hashes(&folder.path("report"));
@@ -27,7 +28,7 @@ fn demo_tells_the_story_in_text_json_and_a_report_in_less_than_two_minutes() {
     }
     let page = std::fs::read_to_string(folder.path("report/report.html")).unwrap();
     assert_opens_offline(&page);
-    for number in ["161.6", "116.0", "119.4", "159.7", "67.5", "67.2"] {
+    for number in ["161.6", "117.9", "119.4", "159.7", "67.5", "67.2"] {
         assert!(page.contains(number), "{number}");
     }
 

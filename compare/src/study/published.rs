@@ -67,7 +67,7 @@ fn ladder(paper: &Published, actuator: &PublishedActuator) -> Result<PublishedLa
     let scenario = shipped_scenario(&actuator.kind)?;
     let loads = Loads::uniform(paper.body_pressure_pa, actuator.d_max_pressure_pa);
     let mut rungs = vec![start(&scenario, &loads)?];
-    for addition in additions(paper, &actuator.kind, &scenario.actuator.shape) {
+    for addition in additions(paper, &scenario.actuator) {
         let before = &rungs[rungs.len() - 1].scenario;
         let next = with(before, addition.effect, addition.value);
         let range_m = match addition.range {
