@@ -96,7 +96,7 @@ impl Target {
 }
 
 impl Model {
-    /// Actuator pressure \[Pa\], the same in every channel, at which the tip is where it is wanted, within [`MET`]; `out` is
+    /// Actuator pressure \[Pa\], the same in every channel, at which the tip is where it is wanted, to 1e-9 of it; `out` is
     /// then that state, on the first loading from rest. Searches 0 to [`Model::p_max_pa`]; where several pressures do it, one
     /// of them.
     ///

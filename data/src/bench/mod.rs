@@ -9,6 +9,7 @@ mod force_contraction;
 mod load_deflection;
 mod read;
 
+use std::io::Read;
 use std::path::Path;
 
 use crate::about::Provenance;
@@ -97,9 +98,20 @@ pub struct Bench {
 pub fn bench(spec: &str) -> Result<Option<Bench>, DataError> {
     let path = Path::new(spec);
     if path.is_file() {
-        let Some(text) = std::fs::read(path).ok().and_then(|bytes| String::from_utf8(bytes).ok()) else {
-            return Ok(None);
+        let first = |most: u64| {
+            let mut bytes = Vec::new();
+            std::fs::File::open(path).ok()?.take(most).read_to_end(&mut bytes).ok().map(|_| bytes)
         };
+        // A table of markers may be of gigabytes: its beginning says that it is none of these.
+        let start = first(HEADER).unwrap_or_default();
+        if start.len() as u64 == HEADER {
+            let lines = String::from_utf8_lossy(&start);
+            let end = lines.rfind('\n').map_or(lines.len(), |end| end + 1);
+            if matches!(read::parse(spec, &lines[..end]), Ok(None)) {
+                return Ok(None);
+            }
+        }
+        let Some(text) = first(u64::MAX).and_then(|bytes| String::from_utf8(bytes).ok()) else { return Ok(None) };
         let beside = path.parent().and_then(|folder| std::fs::read_to_string(folder.join("scenario.toml")).ok());
         return read::parse(spec, &text).map(|found| found.map(|bench| Bench { scenario: beside, ..bench }));
     }
@@ -127,10 +139,13 @@ pub fn bench(spec: &str) -> Result<Option<Bench>, DataError> {
     Ok(None)
 }
 
+/// Bytes that hold the header of any table, comments included.
+const HEADER: u64 = 1 << 16;
+
 /// Reads the text of a table; `None` if its header is of no kind.
 ///
 /// # Errors
-/// As [`bench`].
+/// As [`bench()`].
 pub fn parse_bench(file: &str, text: &str) -> Result<Option<Bench>, DataError> {
     read::parse(file, text)
 }
