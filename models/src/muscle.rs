@@ -221,12 +221,12 @@ fn shortening(at: &dyn Fn(f64) -> [Half; 2], width: f64, gain: f64, drive: f64) 
         }
         let step = excess / (width * gain * (free.stiffness + glued.stiffness) - drive * stiffness);
         let next = d - step;
-        let inside = low < next && next < high;
-        let next = if inside { next } else { 0.5 * (low + high) };
-        if (next - d).abs() < 1e-15 {
+        // What the next step would be is the square of this one: rounding, which a bracket as narrow would only halve.
+        if step.abs() < 1e-10 {
             return next;
         }
-        d = next;
+        let inside = low < next && next < high;
+        d = if inside { next } else { 0.5 * (low + high) };
     }
     d
 }
