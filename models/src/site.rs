@@ -12,6 +12,8 @@
 //! the actuator's line of action. One unknown, the actuator's coordinate `a`, decides everything, because every law is
 //! explicit in it; the balance is one scalar equation per place.
 
+mod wall;
+
 use crate::actuators::{Actuator, ActuatorShape, Demand, Stroke};
 use crate::body::{Bending, BodyLaw, BodyPressure};
 pub use crate::linkage::Linkage;
@@ -345,35 +347,6 @@ impl Site {
         self.linkage.bent(self.linkage.stroke_fraction * stroke.contraction / arm).0
     }
 
-    /// By how much the moment of the terms with history has fallen since the state `at` was remembered: their share of the
-    /// imbalance when time passes. `None` if they do not remember that very state.
-    fn relaxed(&self, at: &SiteState, loads: &SiteLoads, memory: &[f64]) -> Option<f64> {
-        if memory.is_empty() || loads.stamp != at.loads.stamp.wrapping_add(1) {
-            return None;
-        }
-        let q = [at.curvature];
-        let now = SiteLoads { dt_s: 0.0, ..*loads };
-        Some(self.term_force(&loads.pose(&q), memory, false) - self.term_force(&now.pose(&q), memory, false))
-    }
-
-    /// Force of all body terms, or of those with history.
-    fn term_force(&self, at: &Pose, memory: &[f64], all: bool) -> f64 {
-        let (mut force, mut rest, mut pose) = ([0.0], memory, *at);
-        for term in &self.body_terms {
-            let count = term.memory().values;
-            if all || count > 0 {
-                (pose.memory, rest) = rest.split_at(count);
-                term.add_force(&pose, &mut force);
-            }
-        }
-        force[0]
-    }
-
-    /// Further body-side terms.
-    pub(crate) fn body_terms(&self) -> impl Iterator<Item = &dyn Term> {
-        self.body_terms.iter().map(|term| &**term as &dyn Term)
-    }
-
     /// Where a formula of the scenario is largest at these loads, over the curvatures that the search for an equilibrium sees.
     pub(crate) fn extreme(&self, loads: &SiteLoads) -> Option<Extreme> {
         let within = match self.actuator {
@@ -386,30 +359,9 @@ impl Site {
         found.max_by(|a, b| a.moment.total_cmp(&b.moment))
     }
 
-    /// Moment of the outer loads at a state, and that of the wall, their sum with the actuator's \[N·m\].
-    pub(crate) fn moments(&self, state: &SiteState, memory: &[f64]) -> [f64; 2] {
-        [state.loads.moment, self.body_moment(state.curvature, &state.loads, memory)]
-    }
-
     /// Whether an actuator here is open at these pressures: a flat one has no slope.
     pub(crate) fn is_open(&self, p_body_pa: f64, p_act_pa: f64) -> bool {
         p_act_pa - self.closed_share * p_body_pa > SLACK_BELOW_PA
-    }
-
-    /// ∂U/∂κ of all body-side terms \[N·m\].
-    fn body_moment(&self, curvature: f64, loads: &SiteLoads, memory: &[f64]) -> f64 {
-        let q = [curvature];
-        let mut force = [0.0];
-        let pose = loads.pose(&q);
-        self.body_pressure.add_force(&pose, &mut force);
-        self.bending.add(&pose, &mut force);
-        if !memory.is_empty() {
-            return -force[0] - self.term_force(&pose, memory, true);
-        }
-        for term in &self.body_terms {
-            term.add_force(&pose, &mut force);
-        }
-        -force[0]
     }
 }
 

@@ -1,0 +1,57 @@
+//! The body's side of a place: moments of its wall and of its further terms.
+
+use super::{Site, SiteLoads, SiteState};
+use crate::term::{Pose, Term};
+
+impl Site {
+    /// By how much the moment of the terms with history has fallen since the state `at` was remembered: their share of the
+    /// imbalance when time passes. `None` if they do not remember that very state.
+    pub(super) fn relaxed(&self, at: &SiteState, loads: &SiteLoads, memory: &[f64]) -> Option<f64> {
+        if memory.is_empty() || loads.stamp != at.loads.stamp.wrapping_add(1) {
+            return None;
+        }
+        let q = [at.curvature];
+        let now = SiteLoads { dt_s: 0.0, ..*loads };
+        Some(self.term_force(&loads.pose(&q), memory, false) - self.term_force(&now.pose(&q), memory, false))
+    }
+
+    /// Force of all body terms, or of those with history.
+    fn term_force(&self, at: &Pose, memory: &[f64], all: bool) -> f64 {
+        let (mut force, mut rest, mut pose) = ([0.0], memory, *at);
+        for term in &self.body_terms {
+            let count = term.memory().values;
+            if all || count > 0 {
+                (pose.memory, rest) = rest.split_at(count);
+                term.add_force(&pose, &mut force);
+            }
+        }
+        force[0]
+    }
+
+    /// Further body-side terms.
+    pub(crate) fn body_terms(&self) -> impl Iterator<Item = &dyn Term> {
+        self.body_terms.iter().map(|term| &**term as &dyn Term)
+    }
+
+    /// Moment of the outer loads at a state, and that of the wall, their sum with the actuator's \[N·m\].
+    pub(crate) fn moments(&self, state: &SiteState, memory: &[f64]) -> [f64; 2] {
+        [state.loads.moment, self.body_moment(state.curvature, &state.loads, memory)]
+    }
+
+    /// ∂U/∂κ of all body-side terms \[N·m\].
+    #[inline]
+    pub(super) fn body_moment(&self, curvature: f64, loads: &SiteLoads, memory: &[f64]) -> f64 {
+        let q = [curvature];
+        let mut force = [0.0];
+        let pose = loads.pose(&q);
+        self.body_pressure.add_force(&pose, &mut force);
+        self.bending.add(&pose, &mut force);
+        if !memory.is_empty() {
+            return -force[0] - self.term_force(&pose, memory, true);
+        }
+        for term in &self.body_terms {
+            term.add_force(&pose, &mut force);
+        }
+        -force[0]
+    }
+}
