@@ -82,7 +82,7 @@ mod tests {
     use crate::{Loads, Model};
 
     fn shipped(effect: &str) -> Model {
-        let text = crate::scenario::SHIPPED.iter().find(|s| s.0 == "cpam").map(|s| s.1).unwrap_or_default();
+        let text = crate::shipped("cpam-textbook").unwrap_or_default();
         Model::new(&Scenario::parse(&format!("{text}\n{effect}")).unwrap())
     }
 

@@ -68,8 +68,7 @@ mod tests {
     #[test]
     fn without_a_wall_the_stroke_falls_by_the_share_of_the_pitch() {
         // Where nothing resists, the pouch is as round as it gets: cosθ = 0, however long it is.
-        let text = crate::scenario::SHIPPED.iter().find(|s| s.0 == "cpam").unwrap().1;
-        let bare = text.split("[effects").next().unwrap().replace("pressure_kpa = 2 ", "pressure_kpa = 0.5 ");
+        let bare = crate::shipped("cpam-textbook").unwrap().replace("pressure_kpa = 2 ", "pressure_kpa = 0.5 ");
         let turn = |more: &str| {
             let model = Model::new(&Scenario::parse(&format!("{bare}{more}")).unwrap());
             let mut at = model.prediction();

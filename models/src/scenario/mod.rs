@@ -179,9 +179,16 @@ pub struct EffectChoice {
 pub const BASES: &[&str] = &["assumed", "calibrated", "measured", "predicted", "published"];
 
 /// The scenarios that come with the library: the four robots of du Pasquier 2023, by actuator name.
+///
+/// `epam-textbook` is the same robot without the mechanics that textbook models lack: its text up to that part.
 pub fn shipped(name: &str) -> Option<&'static str> {
-    SHIPPED.iter().find(|(key, _)| *key == name).map(|(_, text)| *text)
+    let of = |name: &str| SHIPPED.iter().find(|(key, _)| *key == name).map(|(_, text)| *text);
+    let textbook = |name| of(name).map(|text| text.split_once(BEYOND_TEXTBOOK).map_or(text, |(before, _)| before));
+    of(name).or_else(|| textbook(name.strip_suffix("-textbook")?))
 }
+
+/// The line with which that part begins.
+const BEYOND_TEXTBOOK: &str = "\n# Beyond the textbook";
 
 /// Names and texts of the shipped scenarios.
 pub const SHIPPED: &[(&str, &str)] = &[

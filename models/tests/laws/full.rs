@@ -1,0 +1,64 @@
+//! The shipped robots as they are, with all that their textbook models lack.
+
+use crate::solver::sweep;
+use crate::stationary::imbalance;
+use crate::support::*;
+use models::{Loads, Model, Target};
+
+#[test]
+fn they_find_their_equilibrium_at_every_pressure_that_an_inverse_may_ask_for() {
+    for actuator in actuators() {
+        for scenario in [full(actuator), full(actuator).with_bending(0.5)] {
+            let model = Model::new(&scenario);
+            for p_body in [500.0, 1e3, 2e3, 4e3, 8e3] {
+                for i in 0..=200 {
+                    let loads = Loads::uniform(p_body, 500.0 * f64::from(i));
+                    let tip = predicted(&model, &loads).unwrap_or_else(|e| panic!("{actuator}: {e}")).tip;
+                    assert!(tip.y_m.is_finite() && tip.y_m >= 0.0, "{actuator} {loads:?}: {tip:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn their_potential_is_stationary() {
+    for actuator in actuators() {
+        for (p_body, p_act) in [(1e3, 20e3), (2e3, 5e3), (2e3, 30e3), (4e3, 20e3), (8e3, 30e3)] {
+            for scenario in [full(actuator), full(actuator).with_bending(0.5).with_effect("tip_load", &[0.1, -0.2])] {
+                let error = imbalance(&scenario, Loads::uniform(p_body, p_act));
+                assert!(error < 1e-6, "{actuator} at {p_body} {p_act}: {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_pouch_that_has_opened_bends_more_with_every_pressure_and_the_inverse_returns_it() {
+    for actuator in ["spam", "cpam", "epam"] {
+        let model = Model::new(&full(actuator));
+        let (mut out, mut before) = (model.prediction(), 0.0);
+        for i in 1..=100 {
+            let p = 1e3 * f64::from(i);
+            let tip = predicted(&model, &Loads::uniform(2e3, p)).unwrap().tip;
+            assert!(tip.angle_rad > before || (tip.angle_rad == 0.0 && p < 4e3), "{actuator} at {p}: {tip:?}");
+            before = tip.angle_rad;
+            if tip.angle_rad > 0.0 {
+                let found = model.pressure_for(Target::Angle(tip.angle_rad), 2e3, &mut out).unwrap();
+                assert!((found / p - 1.0).abs() < 1e-6, "{actuator} at {p}: {found}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_effect_beside_them_converges() {
+    for actuator in actuators() {
+        let base = full(actuator).with_bending(0.8);
+        for effect in applicable(&base).filter(|e| !base.effects.iter().any(|own| own.name == e.name)) {
+            let refused = sweep(effect.name, &base.with_effect(effect.name, &effect.typical()));
+            let may_refuse = ["gravity", "tip_load", "tail_tension", "initial_curvature", "yarn_stretch"];
+            assert!(refused == 0 || may_refuse.contains(&effect.name), "{actuator} {}: {refused} refused", effect.name);
+        }
+    }
+}
