@@ -85,6 +85,7 @@ fn add(values: &[f64], assembly: &mut Assembly) {
             wall_m: Section::drawn_in(site.radius_m, site.shape.width_m, site.shape.width_m)
                 .map_or(0.0, |flat| 0.5 * flat.radius_m * flat.cos),
         };
+        site.guess_fails = true;
         site.actuator_terms.push(Box::new(term));
     }
 }

@@ -83,6 +83,7 @@ fn add(values: &[f64], assembly: &mut Assembly) {
             let term = SealedSides::new(values[0] * restraint, site);
             // At a → 0 the gas of the body resists with −½ΔA/(W a) of its pressure.
             site.closed_share += (-0.5 * values[0] * restraint * term.area[0] / site.shape.width_m).max(0.0);
+            site.guess_fails = true;
             site.actuator_terms.push(Box::new(term));
         }
     }
