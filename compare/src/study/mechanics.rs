@@ -7,7 +7,6 @@ use crate::error::CompareError;
 use crate::plots::Known;
 use data::{Published, PublishedFabric, published};
 use models::Scenario;
-use models::actuators::ActuatorShape;
 use models::scenario::ActuatorChoice;
 
 /// An effect to add, with the origin of its value (SI).
@@ -28,15 +27,15 @@ const NU12: f64 = 0.2;
 
 /// What to add to the bare model of an actuator kind, in this order; nothing for one that is not published.
 pub(super) fn additions(paper: &Published, actuator: &ActuatorChoice) -> Vec<Addition> {
-    let (kind, shape) = (actuator.kind.name, &actuator.shape);
-    let restraint = (actuator.kind.edge_restraint)(shape);
+    let kind = actuator.kind.name;
+    let restraint = (actuator.kind.edge_restraint)(&actuator.shape);
     let Some(fabric) = paper.actuator(kind).and_then(|a| paper.fabrics.iter().find(|f| f.name == a.fabric)) else {
         return Vec::new();
     };
     match kind {
         "fpam" => muscle(fabric),
-        "spam" => std::iter::once(GROWTH).chain(pouch(fabric, shape, restraint)).collect(),
-        _ => pouch(fabric, shape, restraint),
+        "spam" => std::iter::once(GROWTH).chain(pouch(fabric, restraint)).collect(),
+        _ => pouch(fabric, restraint),
     }
 }
 
@@ -48,7 +47,7 @@ const GROWTH: Addition = Addition {
     why: "geometry of an actuator outside the body: its axis rides on its own bulge",
 };
 
-fn pouch(fabric: &PublishedFabric, shape: &ActuatorShape, restraint: f64) -> Vec<Addition> {
+fn pouch(fabric: &PublishedFabric, restraint: f64) -> Vec<Addition> {
     let predicted = |effect, value, why| Addition { effect, value, range: None, known: Known::Predicted, why };
     let assumed =
         |effect, value, range, why| Addition { effect, value, range: Some(range), known: Known::Assumed, why };
@@ -57,7 +56,7 @@ fn pouch(fabric: &PublishedFabric, shape: &ActuatorShape, restraint: f64) -> Vec
     let bending = |factor: f64| factor * modulus_pa * fabric.thickness_m.powi(3) / 12.0;
     let mut list = vec![
         assumed("weld_width", WELD_M.0, WELD_M.1, "welds of 3 mm; a line to a wide impulse seal"),
-        predicted("chord_arm", shape.width_m, "the weld lines are chords of the body, not arcs"),
+        predicted("chord_arm", 1.0, "the weld lines are chords of the body, not arcs"),
         predicted("displaced_gas", 0.5, "half of a lens in the wall lies in the body"),
     ];
     if restraint > 0.0 {

@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::evaluate::EvaluateOptions;
-use crate::study::published::textbook_scenario;
+use crate::study::published::{shipped_scenario, textbook_scenario};
+use crate::study::with_mechanics;
 use data::{About, AboutRun, Dataset, Direct, Provenance};
 use models::exact::hinge;
 
@@ -199,6 +200,19 @@ fn the_published_ladders_start_at_the_hinge_model() {
     assert!(least < epam.rungs[1].y_m && (most - epam.rungs[0].y_m).abs() < 1e-12, "{least} {most}");
     let spam = ladders.iter().find(|l| l.published.kind == "spam").unwrap();
     assert!((spam.rungs[1].y_m - height(unit(1.0, hinge::Arm::External))).abs() < 1e-9);
+}
+
+#[test]
+fn the_shipped_pouches_are_the_top_of_their_ladders() {
+    for kind in ["spam", "cpam", "epam"] {
+        let [shipped, top] =
+            [shipped_scenario(kind), with_mechanics(&textbook_scenario(kind).unwrap())].map(Result::unwrap);
+        assert_eq!(shipped.effects.len(), top.effects.len(), "{kind}");
+        for (own, rung) in shipped.effects.iter().zip(&top.effects) {
+            let close = (own.values[0] / rung.values[0] - 1.0).abs() < 5e-3;
+            assert!(own.name == rung.name && close, "{kind}: {own:?} {rung:?}");
+        }
+    }
 }
 
 #[test]

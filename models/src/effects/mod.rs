@@ -47,8 +47,9 @@ pub use own::Catalogue;
 
 /// The list, in the order in which effects are added to a model.
 pub const EFFECTS: &[Effect] = &[
-    weld_width::ENTRY,
+    // Over the whole width, before welds take of it.
     chord_arm::ENTRY,
+    weld_width::ENTRY,
     end_constraint::ENTRY,
     end_fittings::ENTRY,
     arm_growth::ENTRY,
