@@ -75,7 +75,8 @@ impl Target {
                 Unsolved::Jump { what, wanted, unit, low_kpa, below, high_kpa, above, between }
             }
             Reach::Beyond { least, most } => {
-                let (lowest, highest) = (least * factor, most * factor);
+                // A zero of either sign is told as zero.
+                let (lowest, highest) = (least * factor + 0.0, most * factor + 0.0);
                 Unsolved::OutOfReach { what, wanted, lowest, highest, unit, p_max_kpa: p_max_pa / 1e3 }
             }
             Reach::At(_) | Reach::Nowhere => {
