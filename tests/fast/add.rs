@@ -10,7 +10,7 @@ fn own() -> &'static str {
 /// A folder with an ePAM of the user's own and data of it, five runs at 2 and at 4 kPa body pressure.
 fn robot() -> Folder {
     let folder = Folder::new();
-    folder.write("mine.toml", format!("# my robot\n{own()}"));
+    folder.write("mine.toml", format!("# my robot\n{}", own()));
     let truth = own().replace("bending_stiffness_nm2 = 0 ", "bending_stiffness_nm2 = 1 ");
     folder.write("truth.toml", format!("{truth}\n[effects.end_constraint]\nbeta = 0.4\n"));
     for (name, body) in [("two", "2"), ("four", "4")] {
