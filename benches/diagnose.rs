@@ -19,7 +19,7 @@ fn diagnosis(c: &mut Criterion) {
     group.sample_size(10);
     for (missing, value, all) in MISSING {
         for markers in all {
-            let plain = Scenario::parse(shipped("spam").expect("shipped")).expect("shipped scenarios parse");
+            let plain = Scenario::parse(shipped("spam-textbook").expect("shipped")).expect("shipped scenarios parse");
             let station = |i: u32| plain.length_m * (f64::from(i) + 0.5) / f64::from(*markers);
             let told = plain.with_bending(STIFFNESS).with_markers(&(0..*markers).map(station).collect::<Vec<_>>());
             let data = generate(&told.with_effect("end_constraint", &[value, 1.0]), "made", &Generator::default());

@@ -25,7 +25,11 @@ fn pressures() -> impl Iterator<Item = f64> {
 /// Equilibrium and six markers, no transverse load; without and with bending stiffness.
 fn predict(c: &mut Criterion) {
     for (name, size) in ROBOTS {
-        for (kind, scenario) in [("predict", robot(name)), ("predict_stiff", robot(name).with_bending(STIFFNESS))] {
+        for (kind, scenario) in [
+            ("predict", robot(name)),
+            ("predict_textbook", robot(&format!("{name}-textbook"))),
+            ("predict_stiff", robot(name).with_bending(STIFFNESS)),
+        ] {
             let model = Model::new(&scenario);
             let (mut out, mut p) = (model.prediction(), pressures());
             c.bench_function(&format!("{kind}/{name}/{size}"), |b| {

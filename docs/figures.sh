@@ -7,8 +7,8 @@ ibr="${IBR:-target/release/ibr}"
 made="$(mktemp -d)"
 trap 'rm -rf "$made"' EXIT
 
-"$ibr" --quiet diagnose epam synthetic-epam --out "$made/diagnosis" > "$made/text"
-"$ibr" --quiet ladder epam synthetic-epam --out "$made/ladder" > "$made/text"
+"$ibr" --quiet diagnose epam-textbook synthetic-epam --out "$made/diagnosis" > "$made/text"
+"$ibr" --quiet ladder epam-textbook synthetic-epam --out "$made/ladder" > "$made/text"
 "$ibr" --quiet diagnose epam --published --out "$made/published" > "$made/text"
 "$ibr" --quiet demo --out "$made/demo" > "$made/text"
 

@@ -155,6 +155,9 @@ pub struct Predict {
     /// How long the robot may grow before gravity and tip_load fold it, straight and at each pressure
     #[arg(long, conflicts_with_all = ["inverse", "out"])]
     pub limits: bool,
+    /// Without the scenario's own effects; --effect adds to that
+    #[arg(long)]
+    pub bare: bool,
     /// Add an effect or change its values: name or name:key=value[,key=value]; repeatable
     #[arg(long, short)]
     pub effect: Vec<String>,

@@ -125,7 +125,7 @@ mod tests {
     /// y = a ln(P + p₀) is a line in u, on every branch: its slope is a P/(P + p₀), exactly.
     #[test]
     fn a_logarithm_has_its_exact_slope_up_and_down_and_at_every_body_pressure() {
-        let scenario = crate::study::published::shipped_scenario("epam").unwrap();
+        let scenario = crate::study::published::textbook_scenario("epam").unwrap();
         let protocol =
             [(2e3, 0.0), (2e3, 10e3), (2e3, 30e3), (2e3, 30e3), (2e3, 20e3), (2e3, 0.0), (4e3, 20e3), (4e3, 60e3)];
         let generator = crate::study::Generator {

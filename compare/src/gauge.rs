@@ -228,7 +228,7 @@ fn of_samples(lost: &Lost, samples: usize) -> Lost {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::published::shipped_scenario;
+    use crate::study::published::textbook_scenario;
     use crate::study::{Generator, generate, predict_dataset};
 
     fn read(scenario: &Scenario, runs: usize, seed: u64) -> Dataset {
@@ -237,7 +237,7 @@ mod tests {
 
     #[test]
     fn readings_whitened_have_the_variance_of_noise() {
-        let robot = shipped_scenario("epam").unwrap().with_bending(1.35);
+        let robot = textbook_scenario("epam").unwrap().with_bending(1.35);
         let (mut squares, mut count) = (0.0, 0);
         for seed in 0..300 {
             let gauge = Gauge::of(&read(&robot, 10, seed), &robot).unwrap();
@@ -252,7 +252,7 @@ mod tests {
 
     #[test]
     fn what_was_lost_is_lost_in_every_sample_and_back() {
-        let robot = shipped_scenario("spam").unwrap().with_bending(6.0).with_effect("leak", &[0.1]);
+        let robot = textbook_scenario("spam").unwrap().with_bending(6.0).with_effect("leak", &[0.1]);
         let data = read(&robot, 3, 1).losing(&[[0, 1, 2], [0, 3, 5], [1, 3, 5], [0, 3, 4], [1, 3, 4]]);
         let gauge = Gauge::of(&data, &robot).unwrap();
         let at = gauge.positions(&data);
@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn errors_of_the_gauge_move_the_markers_as_much_as_the_model_says() {
-        let robot = shipped_scenario("spam").unwrap().with_bending(6.0);
+        let robot = textbook_scenario("spam").unwrap().with_bending(6.0);
         let data = read(&robot, 5, 1);
         let gauge = Gauge::of(&data, &robot).unwrap();
         let at = gauge.positions(&data);
@@ -282,7 +282,7 @@ mod tests {
 
     #[test]
     fn a_pressure_that_runs_down_is_followed_sample_by_sample() {
-        let robot = shipped_scenario("epam").unwrap().with_bending(1.35);
+        let robot = textbook_scenario("epam").unwrap().with_bending(1.35);
         let steady = read(&robot, 5, 2);
         let gauge = Gauge::of(&steady, &robot).unwrap();
         assert_eq!(gauge.positions(&steady).holds.len(), steady.holds.len());

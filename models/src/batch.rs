@@ -35,7 +35,7 @@ impl Model {
     /// the number of threads. On one thread it allocates nothing.
     ///
     /// ```
-    /// let model = models::Model::new(&models::Scenario::parse(models::shipped("epam").unwrap()).unwrap());
+    /// let model = models::Model::new(&models::Scenario::parse(models::shipped("epam-textbook").unwrap()).unwrap());
     /// let loads: Vec<_> = (0..31).map(|kpa| models::Loads::uniform(2e3, 1e3 * f64::from(kpa))).collect();
     /// let mut batch = model.batch(loads.len(), 1);
     /// model.predict_batch(&loads, &mut batch).unwrap();

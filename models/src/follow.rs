@@ -36,7 +36,7 @@ impl Model {
     ///
     /// ```
     /// use models::{Loads, Model, Scenario, Step, shipped};
-    /// let robot = Scenario::parse(shipped("epam").unwrap()).unwrap().with_bending(1.0);
+    /// let robot = Scenario::parse(shipped("epam-textbook").unwrap()).unwrap().with_bending(1.0);
     /// let model = Model::new(&robot.with_effect("friction", &[0.55]));
     /// let steps = [0.0, 30e3, 0.0].map(|p| Step { t_s: 0.0, loads: Loads::uniform(2e3, p) });
     /// let mut tips = Vec::new();

@@ -75,7 +75,8 @@ impl Target {
                 Unsolved::Jump { what, wanted, unit, low_kpa, below, high_kpa, above, between }
             }
             Reach::Beyond { least, most } => {
-                let (lowest, highest) = (least * factor, most * factor);
+                // A zero of either sign is told as zero.
+                let (lowest, highest) = (least * factor + 0.0, most * factor + 0.0);
                 Unsolved::OutOfReach { what, wanted, lowest, highest, unit, p_max_kpa: p_max_pa / 1e3 }
             }
             Reach::At(_) | Reach::Nowhere => {
@@ -122,7 +123,7 @@ impl Model {
             && self.predict(&Loads::uniform(p_body_pa, p), out).is_ok()
             && target.is_met(out)
         {
-            return Ok(p);
+            return self.at_rest_too(target, p_body_pa, p, out);
         }
         let mut failed = None;
         let mut value = |p: f64| match self.settle(&Loads::uniform(p_body_pa, p), out, false) {
@@ -142,6 +143,18 @@ impl Model {
             (Reach::Nowhere, Some(error)) => Err(error),
             (found, _) => Err(target.missed(&found, most)),
         }
+    }
+
+    /// Zero where the target is met by flat actuators: all pressures up to `p` that leave them flat do the same.
+    fn at_rest_too(&self, target: Target, p_body_pa: f64, p: f64, out: &mut Prediction) -> Result<f64, Unsolved> {
+        if self.states(out).iter().any(|state| state.coordinate != 0.0) {
+            return Ok(p);
+        }
+        let rest = self.predict(&Loads::uniform(p_body_pa, 0.0), out);
+        if rest.is_ok() && target.is_met(out) {
+            return Ok(0.0);
+        }
+        self.predict(&Loads::uniform(p_body_pa, p), out).map(|()| p)
     }
 
     /// Slopes of the tip pose by each channel's pressure, by Richardson-extrapolated central differences; [`TipSlope::NONE`]
@@ -219,7 +232,7 @@ mod tests {
 
     #[test]
     fn a_long_robot_that_curls_up_is_reached_on_its_steep_start() {
-        let text = shipped("epam").unwrap().replace("length_mm = 360", "length_mm = 2400");
+        let text = shipped("epam-textbook").unwrap().replace("length_mm = 360", "length_mm = 2400");
         let text = text.replace("count = 6 ", "count = 40 ");
         let model = Model::new(&Scenario::parse(&text).unwrap());
         let mut state = model.prediction();

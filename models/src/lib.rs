@@ -4,7 +4,7 @@
 //! controller links this crate alone.
 //!
 //! ```
-//! let scenario = models::Scenario::parse(models::shipped("epam").unwrap()).unwrap();
+//! let scenario = models::Scenario::parse(models::shipped("epam-textbook").unwrap()).unwrap();
 //! let model = models::Model::new(&scenario);
 //! let mut state = model.prediction();
 //! model.predict(&models::Loads::uniform(2e3, 30e3), &mut state).unwrap();

@@ -72,6 +72,7 @@ impl Model {
         let mut assembly = assemble(scenario, &spans, scenario.segments);
         scenario.add_effects(&mut assembly);
         crate::muscle::complete(&mut assembly);
+        assembly.sites.iter_mut().for_each(|site| site.tabulate(scenario.p_body_pa, scenario.p_max_pa));
         // Without transverse loads and terms that vary along it every stretch of equal design is one arc.
         if assembly.node_terms.is_empty() && !assembly.varies {
             assembly.segments = divide(&spans, 1);

@@ -12,6 +12,7 @@
 //! the actuator's line of action. One unknown, the actuator's coordinate `a`, decides everything, because every law is
 //! explicit in it; the balance is one scalar equation per place.
 
+mod starts;
 mod wall;
 
 use crate::actuators::{Actuator, ActuatorShape, Demand, Stroke};
@@ -21,6 +22,7 @@ use crate::linkage::line_tension;
 use crate::muscle::Weave;
 use crate::root::{NoRoot, Root, Start, find_root};
 use crate::term::{Extreme, Pose, Term, actuator_q};
+use starts::Starts;
 use std::f64::consts::PI;
 
 /// One place of the robot while a model is put together; an effect changes what it owns.
@@ -44,6 +46,10 @@ pub struct Site {
     pub inner_share: f64,
     /// The actuator stays flat below this share of the body's pressure.
     pub closed_share: f64,
+    /// An effect shifts the actuator's balance in a way that its guess does not know.
+    pub guess_fails: bool,
+    /// Starts in place of that guess.
+    starts: Option<Starts>,
     /// Terms over [`actuator_q`], J per metre of body at η = 1.
     pub actuator_terms: Vec<Box<dyn Term>>,
     /// Body pressure work; an effect may replace the law.
@@ -181,6 +187,8 @@ impl Site {
             linkage,
             inner_share: 0.0,
             closed_share: 0.0,
+            guess_fails: false,
+            starts: None,
             actuator_terms: vec![Box::new(ActuatorPressure)],
             body_pressure: BodyLaw::Hinge(body_pressure),
             bending,
@@ -235,7 +243,7 @@ impl Site {
         };
         let start = match near {
             Some(state) => state.start(self, loads, memory),
-            None => self.start(actuator, loads, memory),
+            None => self.tabulated(loads, memory).unwrap_or_else(|| self.start(actuator, loads, memory)),
         };
         let mut root = match find_root(&mut imbalance, actuator.range, start) {
             Ok(root) => root,
@@ -246,12 +254,14 @@ impl Site {
             Err(none) => return Err(none),
         };
         if self.linkage.compliance_per_n != 0.0 && root.step != 0.0 {
-            // Stretching fabric has no explicit dκ/da: the last step is evaluated, and a secant is the slope.
-            at = self.balance(actuator, root.x + root.step, loads, memory);
+            // Stretching fabric has no explicit dκ/da: a last step that is not tiny is evaluated, and a secant is the slope.
+            if root.step.abs() > CARRIED * root.x.abs() {
+                at = self.balance(actuator, root.x + root.step, loads, memory);
+                root = Root { x: at.coordinate, step: 0.0, ..root };
+            }
             if at.coordinate != before.coordinate && before.weight != 0.0 {
                 at.d_curvature = (at.curvature - before.curvature) / (at.coordinate - before.coordinate);
             }
-            root = Root { x: at.coordinate, step: 0.0, ..root };
         }
         Ok(self.settle(loads, &root, &at, &before))
     }
@@ -365,6 +375,8 @@ impl Site {
     }
 }
 
+/// A last step that is smaller than this part of the coordinate is carried along the tangent: its square is below rounding.
+const CARRIED: f64 = 1e-9;
 /// Actuator pressure up to which a pouch is slack \[Pa\]: far below any gauge, far above underflow.
 const SLACK_BELOW_PA: f64 = 1e-12;
 /// Curvature beyond which a passive stretch counts as folded \[1/m\]: a bend radius of 10 mm.

@@ -24,7 +24,7 @@ impl Supply {
     /// Pressure in the actuator \[Pa\] when `set_pa` has been set for `held_s` seconds.
     ///
     /// ```
-    /// let robot = models::Scenario::parse(models::shipped("epam").unwrap()).unwrap();
+    /// let robot = models::Scenario::parse(models::shipped("epam-textbook").unwrap()).unwrap();
     /// let lossy = models::Supply::of(&robot.with_effect("pressure_loss", &[0.1, 1.0]));
     /// assert!((lossy.pressure(30e3, 0.0) - 27e3).abs() < 1e-9);
     /// ```
@@ -40,7 +40,7 @@ mod tests {
     /// A leak through a hole: twice the pressure loses √2 times as much; a pressure that is lost altogether is none.
     #[test]
     fn a_loss_with_an_exponent_is_its_share_at_20_kpa_and_never_more_than_there_is() {
-        let robot = Scenario::parse(crate::shipped("epam").unwrap()).unwrap();
+        let robot = Scenario::parse(crate::shipped("epam-textbook").unwrap()).unwrap();
         let lost = |n: f64, pa: f64| pa - Supply::of(&robot.with_effect("pressure_loss", &[0.1, n])).pressure(pa, 0.0);
         for n in [0.5, 0.75, 1.0, 2.0] {
             assert!((lost(n, 20e3) - 2e3).abs() < 1e-9, "{n}");

@@ -25,8 +25,10 @@ pub fn run(context: &mut Context) -> Result<Outcome, Failure> {
     let mut figures = Vec::new();
     for kind in models::actuators::ACTUATORS.iter().map(|a| a.name) {
         (context.progress)(kind, None);
-        let scenario = shipped_scenario(kind)?;
-        figures.extend(measure(kind, &scenario)?);
+        // The model without its mechanics beside it, in the same run.
+        for name in [format!("{kind}-textbook"), kind.to_string()] {
+            figures.extend(measure(&name, &shipped_scenario(&name)?)?);
+        }
     }
     let rows = figures.iter().map(|f| {
         let met = if f.median_us <= f.target_us { "yes" } else { "no" };

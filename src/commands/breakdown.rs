@@ -10,7 +10,6 @@ use crate::failure::{Failure, INTERRUPTED};
 use crate::output::{check_folder, write_files};
 use compare::study::engines::{FeRun, Pair, pairs, runs_json, stored};
 use compare::study::pages::{Files, engines, parting_plot, varied};
-use compare::study::with_mechanics;
 use models::Scenario;
 use models::actuators::Family;
 use models::scenario::quantity::Quantity;
@@ -19,10 +18,10 @@ use serde_json::{Value, json};
 /// One run at one pressure.
 struct Cell<'a> {
     run: &'a FeRun,
+    /// The scenario without its effects.
+    bare: Pair,
     /// The scenario as it is.
     own: Pair,
-    /// With the mechanics of its actuator kind in place of its own effects.
-    full: Pair,
 }
 
 pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> {
@@ -52,8 +51,8 @@ pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> 
     for run in &runs {
         let Some(scenario) = scenarios.iter().find(|s| s.name == run.scenario) else { continue };
         let scenario = varied(scenario, run);
-        let full = pairs(&with_mechanics(&scenario)?, run)?;
-        rows.extend(pairs(&scenario, run)?.into_iter().zip(full).map(|(own, full)| Cell { run, own, full }));
+        let bare = pairs(&scenario.bare(), run)?;
+        rows.extend(pairs(&scenario, run)?.into_iter().zip(bare).map(|(own, bare)| Cell { run, bare, own }));
     }
     let mut files = Files::default();
     for (k, map) in engines(&scenarios, &runs)?.maps.iter().enumerate() {
@@ -145,26 +144,26 @@ fn text(rows: &[Cell]) -> String {
         "body kPa",
         "pouch mm",
         "actuator kPa",
-        "reduced tip mm",
         "FE tip mm",
+        "bare tip mm",
+        "difference %",
+        "reduced tip mm",
         "difference %",
         "carried by",
-        "with mechanics mm",
-        "difference %",
     ];
-    let row = |Cell { run, own: p, full }: &Cell| {
+    let row = |Cell { run, bare, own: p }: &Cell| {
         vec![
             run.actuator.clone(),
             run.mesh_mm[1].to_string(),
             run.body_kpa.to_string(),
             run.pouch_mm.to_string(),
             format!("{:.0}", p.actuator_kpa),
-            format!("{:.1}", p.reduced_mm[1]),
             format!("{:.1}", p.fe_mm[1]),
+            format!("{:.1}", bare.reduced_mm[1]),
+            percent(bare),
+            format!("{:.1}", p.reduced_mm[1]),
             percent(p),
             p.carrier().unwrap_or("–").into(),
-            format!("{:.1}", full.reduced_mm[1]),
-            percent(full),
         ]
     };
     table(&head, 1, rows.iter().map(row).collect())
@@ -172,9 +171,9 @@ fn text(rows: &[Cell]) -> String {
 
 fn csv(rows: &[Cell]) -> String {
     let mut out = String::from(
-        "robot,mesh_mm,p_body_kpa,pouch_mm,p_act_kpa,reduced_tip_mm,fe_tip_mm,difference_pct,carried_by,mechanics_tip_mm\n",
+        "robot,mesh_mm,p_body_kpa,pouch_mm,p_act_kpa,reduced_tip_mm,fe_tip_mm,difference_pct,carried_by,bare_tip_mm\n",
     );
-    for Cell { run, own: p, full } in rows {
+    for Cell { run, bare, own: p } in rows {
         let difference = p.difference().map_or(String::new(), |d| (100.0 * d).to_string());
         out.push_str(&format!(
             "{},{},{},{},{},{},{},{difference},{},{}\n",
@@ -186,19 +185,19 @@ fn csv(rows: &[Cell]) -> String {
             p.reduced_mm[1],
             p.fe_mm[1],
             p.carrier().unwrap_or_default(),
-            full.reduced_mm[1]
+            bare.reduced_mm[1]
         ));
     }
     out
 }
 
 fn as_json(rows: &[Cell]) -> Value {
-    let row = |Cell { run, own: p, full }: &Cell| {
+    let row = |Cell { run, bare, own: p }: &Cell| {
         json!({
             "robot": run.actuator, "mesh_mm": run.mesh_mm[1], "body_kpa": run.body_kpa, "pouch_mm": run.pouch_mm,
             "actuator_kpa": p.actuator_kpa, "reduced_tip_mm": p.reduced_mm[1], "fe_tip_mm": p.fe_mm[1],
             "difference": p.difference(), "carried_by": p.carrier(), "excess_mj": p.excess_mj,
-            "mechanics_tip_mm": full.reduced_mm[1], "mechanics_difference": full.difference(),
+            "bare_tip_mm": bare.reduced_mm[1], "bare_difference": bare.difference(),
         })
     };
     json!({"schema": "ibr.breakdown", "version": 1, "cells": rows.iter().map(row).collect::<Vec<_>>()})

@@ -6,6 +6,7 @@ use crate::output::Input;
 use compare::diagnosis::{Diagnosis, Measured, Options, diagnose_together};
 use data::{About, Dataset};
 use models::Scenario;
+use models::actuators::Family;
 use models::scenario::SHIPPED;
 use models::scenario::quantity::{Quantity, parse};
 use std::path::Path;
@@ -128,6 +129,19 @@ pub fn positive(option: &str, text: &str) -> Result<f64, Failure> {
 /// A value and its unit, which is `-` for a pure number.
 pub fn with_unit(value: &str, unit: &str) -> String {
     if unit == "-" { value.to_string() } else { format!("{value} {unit}") }
+}
+
+/// A note on an effect whose share stands for mechanics that another has.
+pub fn superseded(scenario: &Scenario) -> Option<String> {
+    let has = |name: &str| scenario.effects.iter().any(|e| e.name == name && e.values[0] > 0.0);
+    let also = if has("sealed_sides") { ", and both together count it twice" } else { "" };
+    let pouches = scenario.actuator.kind.family == Family::Pouch;
+    (pouches && has("end_constraint")).then(|| {
+        format!(
+            "note: end_constraint is a share, taken from measured bags, of what sealed sides cost{also}; the effect sealed_sides \
+             (share = 1) derives it"
+        )
+    })
 }
 
 /// Adds an effect typed as `name` (typical values) or `name:key=value,…`; says how its values are known.

@@ -22,7 +22,7 @@ struct State {
 pub fn run(args: &Predict, context: &mut Context) -> Result<Outcome, Failure> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let named = inputs::scenario(&args.scenario)?;
-    let mut scenario = named.scenario;
+    let mut scenario = if args.bare { named.scenario.bare() } else { named.scenario };
     for text in &args.effect {
         scenario = with_effect(&scenario, text)?.0;
     }
@@ -42,6 +42,7 @@ pub fn run(args: &Predict, context: &mut Context) -> Result<Outcome, Failure> {
         write_files(folder, &files, &[named.input], context)?;
     }
     let mut outcome = Outcome::new(text(&scenario, &states), to_json(&args.scenario, &model, &scenario, &states));
+    outcome.notes.extend(inputs::superseded(&scenario));
     outcome.notes.extend(above_limit(&scenario, &states));
     outcome.notes.extend(states.iter().flat_map(|s| beyond_words(&model, s)));
     Ok(outcome)

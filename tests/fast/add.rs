@@ -3,13 +3,15 @@
 use crate::support::{Folder, assert_hashes, assert_opens_offline};
 use sha2::{Digest, Sha256};
 
-const OWN: &str = include_str!("../../models/scenarios/epam.toml");
+fn own() -> &'static str {
+    models::shipped("epam-textbook").unwrap()
+}
 
 /// A folder with an ePAM of the user's own and data of it, five runs at 2 and at 4 kPa body pressure.
 fn robot() -> Folder {
     let folder = Folder::new();
-    folder.write("mine.toml", format!("# my robot\n{OWN}"));
-    let truth = OWN.replace("bending_stiffness_nm2 = 0 ", "bending_stiffness_nm2 = 1 ");
+    folder.write("mine.toml", format!("# my robot\n{}", own()));
+    let truth = own().replace("bending_stiffness_nm2 = 0 ", "bending_stiffness_nm2 = 1 ");
     folder.write("truth.toml", format!("{truth}\n[effects.end_constraint]\nbeta = 0.4\n"));
     for (name, body) in [("two", "2"), ("four", "4")] {
         let protocol = format!("0,10,20,30,0@{body}");
@@ -35,7 +37,7 @@ fn an_effect_is_fitted_written_and_seen_to_help_and_the_old_scenario_stays() {
 
     let text = std::fs::read_to_string(folder.path("mine-end_constraint.toml")).unwrap();
     assert!(text.starts_with("# my robot\n") && text.contains("basis = \"calibrated\""), "{text}");
-    for line in OWN.lines().filter(|l| !l.starts_with("bending")) {
+    for line in own().lines().filter(|l| !l.starts_with("bending")) {
         assert!(text.contains(line), "{line}");
     }
     let hash = answer["data"]["sha256"].as_str().unwrap();
@@ -67,7 +69,7 @@ fn an_effect_is_fitted_written_and_seen_to_help_and_the_old_scenario_stays() {
 #[test]
 fn finite_elements_of_the_same_robot_stand_beside_the_diagnosis_and_their_ledger_speaks() {
     let folder = Folder::new();
-    let answer = folder.run(&["diagnose", "epam", "synthetic-epam", "--json"]).json("ibr.diagnose");
+    let answer = folder.run(&["diagnose", "epam-textbook", "synthetic-epam", "--json"]).json("ibr.diagnose");
     let beside = &answer["finite_elements"];
     let models = beside["models"].as_array().unwrap();
     let apart = |k: usize| models[k]["apart_mj"].as_f64().unwrap();
@@ -75,10 +77,10 @@ fn finite_elements_of_the_same_robot_stand_beside_the_diagnosis_and_their_ledger
     assert!(apart(1) < 0.5 * apart(0) && apart(1) < 0.5 * apart(2), "{beside}");
     assert_eq!(beside["heights"].as_array().unwrap().len(), 3, "{beside}");
 
-    folder.write("mine.toml", OWN.replace("radius_mm = ", "radius_mm = 1"));
+    folder.write("mine.toml", own().replace("radius_mm = ", "radius_mm = 1"));
     let other = folder.run(&["diagnose", "mine.toml", "synthetic-epam", "--json"]);
     assert!(other.code != 0 || other.json("ibr.diagnose")["finite_elements"].is_null(), "{}", other.stdout);
-    let none = folder.run(&["diagnose", "epam", "synthetic-epam", "--runs", "nowhere"]);
+    let none = folder.run(&["diagnose", "epam-textbook", "synthetic-epam", "--runs", "nowhere"]);
     assert!(none.code == 2 && none.stderr.contains("--runs nowhere"), "{}", none.stderr);
 }
 
@@ -105,18 +107,18 @@ fn a_value_given_is_called_assumed_and_no_file_is_replaced_unless_told() {
 fn what_cannot_be_added_is_said_and_nothing_is_written() {
     let folder = Folder::new();
     let refusals: &[(&[&str], &str)] = &[
-        (&["add", "epam", "frictoin"], "unknown effect `frictoin`"),
-        (&["add", "epam", "friction=much"], "is not a number"),
-        (&["add", "epam", "friction", "--force", "--out", "."], ". is a folder, not a file"),
-        (&["add", "epam", "friction=50"], "outside its usual bounds 0 to 5 N m"),
-        (&["add", "epam", "friction=-1"], "outside its physical bounds 0 N m and above"),
-        (&["add", "epam", "friction:mu=0.1"], "no parameter `mu`"),
-        (&["add", "epam", "shear_stiffness"], "does not exist for the actuator epam"),
-        (&["add", "epam", "best"], "needs data"),
-        (&["add", "spam", "arm_growth"], "has arm_growth already"),
-        (&["add", "epam", "friction", "synthetic-epam"], "do not ask for friction"),
-        (&["validate", "epam", "synthetic-epam"], "was written by `ibr add`"),
-        (&["validate", "epam", "synthetic-epam", "--without", "gravity"], "has no effect `gravity`"),
+        (&["add", "epam-textbook", "frictoin"], "unknown effect `frictoin`"),
+        (&["add", "epam-textbook", "friction=much"], "is not a number"),
+        (&["add", "epam-textbook", "friction", "--force", "--out", "."], ". is a folder, not a file"),
+        (&["add", "epam-textbook", "friction=50"], "outside its usual bounds 0 to 5 N m"),
+        (&["add", "epam-textbook", "friction=-1"], "outside its physical bounds 0 N m and above"),
+        (&["add", "epam-textbook", "friction:mu=0.1"], "no parameter `mu`"),
+        (&["add", "epam-textbook", "shear_stiffness"], "does not exist for the actuator epam"),
+        (&["add", "epam-textbook", "best"], "needs data"),
+        (&["add", "spam-textbook", "arm_growth"], "has arm_growth already"),
+        (&["add", "epam-textbook", "friction", "synthetic-epam"], "do not ask for friction"),
+        (&["validate", "epam-textbook", "synthetic-epam"], "was written by `ibr add`"),
+        (&["validate", "epam-textbook", "synthetic-epam", "--without", "gravity"], "has no effect `gravity`"),
     ];
     for (args, words) in refusals {
         let ran = folder.run(args);
@@ -124,7 +126,7 @@ fn what_cannot_be_added_is_said_and_nothing_is_written() {
         assert!(ran.stderr.replace("\n  │ ", " ").contains(words), "{args:?}: {}", ran.stderr);
     }
     assert!(folder.contents().is_empty());
-    assert_eq!(folder.run(&["add", "epam", "friction=0.1", "synthetic-spam"]).code, 3);
+    assert_eq!(folder.run(&["add", "epam-textbook", "friction=0.1", "synthetic-spam"]).code, 3);
     assert!(folder.contents().is_empty());
 }
 
@@ -171,7 +173,8 @@ fn two_runs_make_no_ladder_beyond_calibration_and_no_interval_is_claimed() {
 #[test]
 fn the_report_of_a_diagnosis_is_one_page_with_its_plots_and_the_answer_for_programs() {
     let folder = Folder::new();
-    let answer = folder.run(&["diagnose", "epam", "synthetic-epam", "--out", "page", "--json"]).json("ibr.diagnose");
+    let answer =
+        folder.run(&["diagnose", "epam-textbook", "synthetic-epam", "--out", "page", "--json"]).json("ibr.diagnose");
     let names = assert_hashes(&folder.path("page"));
     for plot in ["residuals_before", "residuals_after", "ranking", "before_after", "candidates", "ledger"] {
         for ending in ["svg", "png"] {
@@ -184,12 +187,12 @@ fn the_report_of_a_diagnosis_is_one_page_with_its_plots_and_the_answer_for_progr
         assert!(page.contains(&format!("id=\"{id}\"")), "{id}");
     }
     let first = answer["ranked"][0]["effect"].as_str().unwrap();
-    assert!(page.contains(first) && page.contains("ibr add epam best synthetic-epam"));
+    assert!(page.contains(first) && page.contains("ibr add epam-textbook best synthetic-epam"));
     let kept: serde_json::Value =
         serde_json::from_slice(&std::fs::read(folder.path("page/diagnosis.json")).unwrap()).unwrap();
     assert_eq!(kept, answer);
     folder.write("file", "x");
-    let ran = folder.run(&["diagnose", "epam", "synthetic-epam", "--out", "file"]);
+    let ran = folder.run(&["diagnose", "epam-textbook", "synthetic-epam", "--out", "file"]);
     assert_eq!(ran.code, 3, "{}", ran.stderr);
 }
 
@@ -204,7 +207,7 @@ fn one_published_displacement_is_met_by_several_effects_that_part_at_other_press
     assert!(folder.path("page/one_number_epam.png").exists());
     let ran = folder.run(&["diagnose", "mine.toml", "--published"]);
     assert_eq!(ran.code, 2, "{}", ran.stderr);
-    assert_eq!(folder.run(&["diagnose", "epam"]).code, 2);
+    assert_eq!(folder.run(&["diagnose", "epam-textbook"]).code, 2);
 }
 
 #[test]

@@ -25,7 +25,7 @@ fn pressures_need_a_number_and_a_known_unit() {
 #[test]
 fn effects_need_a_known_name_a_known_parameter_and_a_value_in_bounds() {
     let effect = |text: &str, words: &[&str]| wrong(&["predict", "epam", "--effect", text], words);
-    effect("junk", &["unknown effect `junk`", "known: weld_width"]);
+    effect("junk", &["unknown effect `junk`", "known: chord_arm"]);
     effect("frction", &["unknown effect `frction`", "did you mean friction?"]);
     effect("end_constraint:bta=1", &["no parameter `bta`", "did you mean beta?"]);
     effect("gravité", &["unknown effect `gravité`"]);

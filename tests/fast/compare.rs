@@ -15,7 +15,7 @@ fn table(keep: impl Fn(&[&str]) -> bool) -> String {
 fn compared(csv: &str, more: &[&str]) -> Ran {
     let folder = Folder::new();
     folder.write("some.csv", csv);
-    folder.run(&[&["compare", "epam", "some.csv", "--json"], more].concat())
+    folder.run(&[&["compare", "epam-textbook", "some.csv", "--json"], more].concat())
 }
 
 #[test]
@@ -106,7 +106,8 @@ fn a_sample_far_from_the_other_runs_is_warned_of() {
 
 #[test]
 fn an_effect_that_made_the_data_takes_the_error_away() {
-    let args = ["compare", "epam", "synthetic-epam", "--effect", "end_constraint:beta=0.4", "--calibrate", "--json"];
+    let args =
+        ["compare", "epam-textbook", "synthetic-epam", "--effect", "end_constraint:beta=0.4", "--calibrate", "--json"];
     let answer = Folder::new().run(&args).json("ibr.compare");
     let error = |model: &serde_json::Value| model["overall"]["systematic_mm"].as_f64().unwrap();
     let models = answer["models"].as_array().unwrap();

@@ -5,7 +5,7 @@ use crate::support::Folder;
 #[test]
 fn a_diagnosis_as_json_holds_what_programs_build_on() {
     let folder = Folder::new();
-    let answer = folder.run(&["diagnose", "spam", "synthetic-spam", "--json"]).json("ibr.diagnose");
+    let answer = folder.run(&["diagnose", "spam-textbook", "synthetic-spam", "--json"]).json("ibr.diagnose");
     assert!(["none", "effect", "out_of_catalog"].contains(&answer["verdict"].as_str().unwrap()));
     assert!(answer["p_value"].as_f64().unwrap() <= 1.0);
     for key in ["noise", "base", "outliers"] {
@@ -45,7 +45,7 @@ fn a_diagnosis_as_json_holds_what_programs_build_on() {
 
 #[test]
 fn the_text_puts_supply_and_measurement_before_physics_and_says_what_was_not_seen() {
-    let ran = Folder::new().run(&["diagnose", "epam", "synthetic-epam"]);
+    let ran = Folder::new().run(&["diagnose", "epam-textbook", "synthetic-epam"]);
     assert_eq!(ran.code, 0, "{}", ran.stderr);
     let place = |words: &str| ran.stdout.find(words).unwrap_or_else(|| panic!("`{words}` in\n{}", ran.stdout));
     assert!(place("Supply and measurement") < place("Physics and loads"));
@@ -55,10 +55,10 @@ fn the_text_puts_supply_and_measurement_before_physics_and_says_what_was_not_see
 #[test]
 fn data_of_another_robot_are_refused_and_nothing_is_written() {
     let folder = Folder::new();
-    let ran = folder.run(&["diagnose", "epam", "synthetic-spam"]);
+    let ran = folder.run(&["diagnose", "epam-textbook", "synthetic-spam"]);
     assert_eq!(ran.code, 3);
     assert!(ran.stderr.contains("are of actuator spam"), "{}", ran.stderr);
-    let ran = folder.run(&["diagnose", "epam", "synthetic-epam", "--tolerance", "0mm"]);
+    let ran = folder.run(&["diagnose", "epam-textbook", "synthetic-epam", "--tolerance", "0mm"]);
     assert_eq!(ran.code, 2);
     assert!(!folder.path("ibr-report").exists());
 }
@@ -71,7 +71,7 @@ fn a_quantity_measured_by_itself_is_read_and_one_that_no_effect_has_is_refused()
     let about = data::set_file("synthetic-epam", "about.toml").unwrap();
     let answer = |line: &str| {
         folder.write("set/about.toml", format!("{about}\n[measured.{line}"));
-        folder.run(&["diagnose", "epam", "set", "--json"])
+        folder.run(&["diagnose", "epam-textbook", "set", "--json"])
     };
     let ran = answer("fabric_stretch]\ncompliance_m_per_n = [8e-5, 4e-6]\n");
     let warnings = ran.json("ibr.diagnose")["warnings"].to_string();
@@ -91,12 +91,12 @@ fn a_quantity_measured_by_itself_is_read_and_one_that_no_effect_has_is_refused()
 #[test]
 fn further_data_of_the_robot_are_fitted_along_and_those_of_another_are_refused() {
     let folder = Folder::new();
-    let typed = ["diagnose", "epam", "synthetic-epam", "--also", "synthetic-epam-two-bodies", "--json"];
+    let typed = ["diagnose", "epam-textbook", "synthetic-epam", "--also", "synthetic-epam-two-bodies", "--json"];
     let answer = folder.run(&typed).json("ibr.diagnose");
     let beside = answer["beside"].as_array().unwrap();
     assert_eq!((beside.len(), &beside[0]["dataset"]), (1, &"synthetic-epam-two-bodies".into()));
     assert_eq!(answer["base"]["bending"].as_array().unwrap().len(), 2, "one for each body pressure of all data");
-    let ran = folder.run(&["diagnose", "epam", "synthetic-epam", "--also", "synthetic-spam"]);
+    let ran = folder.run(&["diagnose", "epam-textbook", "synthetic-epam", "--also", "synthetic-spam"]);
     assert_eq!(ran.code, 3);
     assert!(ran.stderr.contains("synthetic-spam") && ran.stderr.contains("are of actuator spam"), "{}", ran.stderr);
 }
@@ -104,11 +104,11 @@ fn further_data_of_the_robot_are_fitted_along_and_those_of_another_are_refused()
 #[test]
 fn pictures_of_an_earlier_report_that_this_one_has_not_are_taken_away_and_nothing_else_is() {
     let folder = Folder::new();
-    assert_eq!(folder.run(&["data", "generate", "epam", "--out", "plain", "--seed", "3"]).code, 0);
-    assert_eq!(folder.run(&["diagnose", "epam", "synthetic-epam", "--out", "d"]).code, 0);
+    assert_eq!(folder.run(&["data", "generate", "epam-textbook", "--out", "plain", "--seed", "3"]).code, 0);
+    assert_eq!(folder.run(&["diagnose", "epam-textbook", "synthetic-epam", "--out", "d"]).code, 0);
     assert!(folder.path("d/residuals_after.png").exists() && folder.path("d/candidates.svg").exists());
     folder.write("d/mine.png", "a picture of my own");
-    let ran = folder.run(&["diagnose", "epam", "plain", "--out", "d"]);
+    let ran = folder.run(&["diagnose", "epam-textbook", "plain", "--out", "d"]);
     assert!(ran.code == 0 && ran.stdout.contains("no missing effect detectable"), "{}{}", ran.stdout, ran.stderr);
     for gone in ["residuals_after.png", "residuals_after.svg", "candidates.png", "candidates.svg", "ledger.png"] {
         assert!(!folder.path("d").join(gone).exists(), "{gone} is of the earlier report");
@@ -123,7 +123,7 @@ fn pictures_of_an_earlier_report_that_this_one_has_not_are_taken_away_and_nothin
 fn a_result_is_printed_although_its_report_cannot_be_written() {
     let folder = Folder::new();
     std::fs::create_dir_all(folder.path("d/report.html/in_the_way")).unwrap();
-    let ran = folder.run(&["diagnose", "epam", "synthetic-epam", "--out", "d"]);
+    let ran = folder.run(&["diagnose", "epam-textbook", "synthetic-epam", "--out", "d"]);
     assert_eq!(ran.code, 3, "{}", ran.stderr);
     assert!(ran.stdout.contains("Verdict: an effect is missing"), "{}", ran.stdout);
     assert!(ran.stderr.contains("cannot write to d") && !ran.stderr.contains("report: "), "{}", ran.stderr);
@@ -145,7 +145,7 @@ fn markers_that_were_lost_are_told_and_the_answer_stays() {
     let table: String = data::set_file("synthetic-epam", "markers.csv").unwrap().lines().map(line).collect();
     folder.write("lossy/markers.csv", table);
     folder.write("lossy/about.toml", data::set_file("synthetic-epam", "about.toml").unwrap());
-    let ran = folder.run(&["diagnose", "epam", "lossy", "--json", "--out", "report"]);
+    let ran = folder.run(&["diagnose", "epam-textbook", "lossy", "--json", "--out", "report"]);
     for words in
         ["left out: marker 6 at 30.0 kPa (load)", "run 2, marker 5 at 20.0 kPa (load)", "5 rows have no position"]
     {
@@ -156,6 +156,6 @@ fn markers_that_were_lost_are_told_and_the_answer_stays() {
     let beta = answer["ranked"].as_array().unwrap().iter().find(|r| r["effect"] == "end_constraint").unwrap();
     assert!(beta["lo"].as_f64().unwrap() < 0.4 && beta["hi"].as_f64().unwrap() > 0.4, "{beta}");
     assert!(std::fs::read_to_string(folder.path("report/diagnosis.json")).unwrap().contains("\"seen\": false"));
-    let compared = folder.run(&["compare", "epam", "lossy", "--calibrate"]);
+    let compared = folder.run(&["compare", "epam-textbook", "lossy", "--calibrate"]);
     assert_eq!(compared.code, 0, "{}", compared.stderr);
 }

@@ -29,7 +29,8 @@ fn every_synthetic_set_is_made_again_byte_for_byte_from_its_truth() {
 fn every_finite_element_set_is_made_again_byte_for_byte_from_the_stored_runs() {
     for robot in ["spam", "cpam", "epam", "fpam"] {
         let (folder, name) = (Folder::new(), format!("fem-{robot}"));
-        let ran = folder.run(&["data", "fem", robot, "--stored", "--seed", "21", "--out", &name]);
+        let ran =
+            folder.run(&["data", "fem", &format!("{robot}-textbook"), "--stored", "--seed", "21", "--out", &name]);
         assert_eq!(ran.code, 0, "{}", ran.stderr);
         for file in ["markers.csv", "about.toml", "truth.toml"] {
             let made = std::fs::read(folder.path(&name).join(file)).unwrap();

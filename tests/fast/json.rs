@@ -7,10 +7,10 @@ use serde_json::Value;
 fn every_command_that_prints_results_prints_one_json_object_and_nothing_else() {
     let folder = Folder::new();
     let commands: [(&[&str], &str); 13] = [
-        (&["predict", "epam"], "ibr.predict"),
+        (&["predict", "epam-textbook"], "ibr.predict"),
         (&["predict", "fpam", "--inverse", "tip=50mm"], "ibr.predict"),
-        (&["compare", "epam", "synthetic-epam"], "ibr.compare"),
-        (&["diagnose", "epam", "synthetic-epam"], "ibr.diagnose"),
+        (&["compare", "epam-textbook", "synthetic-epam"], "ibr.compare"),
+        (&["diagnose", "epam-textbook", "synthetic-epam"], "ibr.diagnose"),
         (&["data", "check", "synthetic-cpam"], "ibr.data.check"),
         (&["data", "list"], "ibr.list"),
         (&["data", "generate", "spam", "--out", "made"], "ibr.data.generate"),
@@ -30,7 +30,7 @@ fn every_command_that_prints_results_prints_one_json_object_and_nothing_else() {
 
 #[test]
 fn a_prediction_holds_per_state_pressures_markers_tip_curvature_and_ledger() {
-    let ran = Folder::new().run(&["predict", "epam", "--pressure", "10kPa,20kPa,30kPa", "--json"]);
+    let ran = Folder::new().run(&["predict", "epam-textbook", "--pressure", "10kPa,20kPa,30kPa", "--json"]);
     let answer = ran.json("ibr.predict");
     let states = answer["states"].as_array().unwrap();
     assert_eq!(states.iter().map(|s| number(&s["p_act_kpa"])).collect::<Vec<_>>(), [10.0, 20.0, 30.0]);
@@ -62,7 +62,7 @@ fn heading_deg(state: &Value) -> f64 {
 
 #[test]
 fn a_comparison_holds_per_hold_the_accuracy_and_its_companions_and_a_residual_map() {
-    let ran = Folder::new().run(&["compare", "epam", "synthetic-epam", "--json"]);
+    let ran = Folder::new().run(&["compare", "epam-textbook", "synthetic-epam", "--json"]);
     let answer = ran.json("ibr.compare");
     let holds = answer["holds"].as_array().unwrap();
     let protocol: Vec<_> = holds.iter().map(|h| (number(&h["p_act_kpa"]), h["phase"].as_str().unwrap())).collect();
@@ -86,8 +86,8 @@ fn a_comparison_holds_per_hold_the_accuracy_and_its_companions_and_a_residual_ma
 #[test]
 fn accuracy_and_rmse_of_a_hold_come_out_of_the_printed_positions_by_hand() {
     let folder = Folder::new();
-    let predicted = folder.run(&["predict", "epam", "--pressure", "30kPa", "--json"]).json("ibr.predict");
-    let compared = folder.run(&["compare", "epam", "synthetic-epam", "--json"]).json("ibr.compare");
+    let predicted = folder.run(&["predict", "epam-textbook", "--pressure", "30kPa", "--json"]).json("ibr.predict");
+    let compared = folder.run(&["compare", "epam-textbook", "synthetic-epam", "--json"]).json("ibr.compare");
     let table = data::set_file("synthetic-epam", "markers.csv").unwrap();
     // [marker][sample][x, y], mean over the five runs [mm]
     let mut mean = vec![vec![[0.0; 2]; 5]; 6];
@@ -111,11 +111,11 @@ fn accuracy_and_rmse_of_a_hold_come_out_of_the_printed_positions_by_hand() {
 
 #[test]
 fn a_missed_threshold_still_prints_its_json_and_exits_with_1() {
-    let ran = Folder::new().run(&["compare", "epam", "synthetic-epam", "--max-error", "5mm", "--json"]);
+    let ran = Folder::new().run(&["compare", "epam-textbook", "synthetic-epam", "--max-error", "5mm", "--json"]);
     assert_eq!(ran.code, 1);
     assert!(serde_json::from_str::<Value>(&ran.stdout).is_ok());
     assert!(ran.stderr.contains("exceeds --max-error 5.00 mm"), "{}", ran.stderr);
-    let ran = Folder::new().run(&["compare", "epam", "synthetic-epam", "--max-error", "5cm", "--json"]);
+    let ran = Folder::new().run(&["compare", "epam-textbook", "synthetic-epam", "--max-error", "5cm", "--json"]);
     assert_eq!(ran.code, 0);
 }
 

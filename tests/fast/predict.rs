@@ -26,15 +26,15 @@ fn the_pressure_for_a_wanted_tip_gives_that_tip_when_predicted() {
 #[test]
 fn a_tip_out_of_reach_is_answered_with_the_reachable_range() {
     let words = ["tip height 900", "out of reach", "pressures from 0 to 100 kPa give 0.0000 to 190.2"];
-    refuse(&with_report(), &["predict", "epam", "--inverse", "tip=900mm", "--out", "report"], 4, &words);
+    refuse(&with_report(), &["predict", "epam-textbook", "--inverse", "tip=900mm", "--out", "report"], 4, &words);
     let words = ["bending angle 200", "out of reach", "91.4", "deg"];
-    refuse(&with_report(), &["predict", "epam", "--inverse", "angle=200deg"], 4, &words);
+    refuse(&with_report(), &["predict", "epam-textbook", "--inverse", "angle=200deg"], 4, &words);
 }
 
 #[test]
 fn a_load_that_the_body_cannot_carry_is_said_to_be_close_to_collapse() {
     let folder = with_report();
-    let text = models::shipped("epam").unwrap();
+    let text = models::shipped("epam-textbook").unwrap();
     let long = text.replace("length_mm = 360", "length_mm = 2400").replace("count = 6", "count = 40");
     folder.write("long.toml", long);
     let args = ["predict", "long.toml", "--pressure", "1kPa", "--effect", "gravity", "--out", "report"];
@@ -44,12 +44,12 @@ fn a_load_that_the_body_cannot_carry_is_said_to_be_close_to_collapse() {
 #[test]
 fn a_robot_of_two_metres_and_forty_pouches_is_predicted() {
     let folder = Folder::new();
-    let text = models::shipped("epam").unwrap();
+    let text = models::shipped("epam-textbook").unwrap();
     folder.write("long.toml", text.replace("length_mm = 360", "length_mm = 2400").replace("count = 6", "count = 40"));
     let ran = folder.run(&["predict", "long.toml", "--pressure", "1kPa", "--json"]);
     let tip = &ran.json("ibr.predict")["states"][0]["tip"];
     // Same pressure, same curvature: the angle grows with the length.
-    let short = state(&["predict", "epam", "--pressure", "1kPa"]);
+    let short = state(&["predict", "epam-textbook", "--pressure", "1kPa"]);
     let ratio = tip["angle_deg"].as_f64().unwrap() / short["tip"]["angle_deg"].as_f64().unwrap();
     assert!((ratio - 2400.0 / 360.0).abs() < 1e-9, "{ratio}");
 }
@@ -57,7 +57,7 @@ fn a_robot_of_two_metres_and_forty_pouches_is_predicted() {
 #[test]
 fn supply_channels_and_zones_are_told_apart() {
     let folder = Folder::new();
-    let mut text = models::shipped("epam").unwrap().to_string();
+    let mut text = models::shipped("epam-textbook").unwrap().to_string();
     text.push_str("\n[[zone]]\nfrom_mm = 180\nto_mm = 360\nchannel = 1\n");
     folder.write("two.toml", text);
     let angle = |pressure: &str| {
@@ -71,7 +71,8 @@ fn supply_channels_and_zones_are_told_apart() {
 #[test]
 fn ten_thousand_pressures_are_predicted_in_one_call() {
     let list: Vec<String> = (1..=10_000).map(|i| format!("{}Pa", 3 * i)).collect();
-    let answer = Folder::new().run(&["predict", "epam", "--pressure", &list.join(","), "--json"]).json("ibr.predict");
+    let answer =
+        Folder::new().run(&["predict", "epam-textbook", "--pressure", &list.join(","), "--json"]).json("ibr.predict");
     let states = answer["states"].as_array().unwrap();
     let heights: Vec<f64> = states.iter().map(|s| s["tip"]["y_mm"].as_f64().unwrap()).collect();
     assert_eq!(heights.len(), 10_000);
@@ -80,7 +81,7 @@ fn ten_thousand_pressures_are_predicted_in_one_call() {
 
 #[test]
 fn a_pressure_above_the_limit_of_the_scenario_is_predicted_with_a_warning() {
-    let ran = Folder::new().run(&["predict", "epam", "--pressure", "250kPa"]);
+    let ran = Folder::new().run(&["predict", "epam-textbook", "--pressure", "250kPa"]);
     assert_eq!(ran.code, 0);
     assert!(ran.stderr.contains("250 kPa is above max_pressure_kpa = 100"), "{}", ran.stderr);
 }
@@ -88,7 +89,8 @@ fn a_pressure_above_the_limit_of_the_scenario_is_predicted_with_a_warning() {
 #[test]
 fn units_of_one_pressure_give_one_answer() {
     let pressures = "10kPa,0.1bar,10000Pa,0.01MPa,1.450377377psi";
-    let answer = Folder::new().run(&["predict", "cpam", "--pressure", pressures, "--json"]).json("ibr.predict");
+    let answer =
+        Folder::new().run(&["predict", "cpam-textbook", "--pressure", pressures, "--json"]).json("ibr.predict");
     let heights: Vec<f64> =
         answer["states"].as_array().unwrap().iter().map(|s| s["tip"]["y_mm"].as_f64().unwrap()).collect();
     assert!(heights.iter().all(|y| (y - heights[0]).abs() < 1e-6), "{heights:?}");
@@ -99,14 +101,15 @@ fn a_pole_of_a_formula_is_no_equilibrium() {
     let folder = with_report();
     let own = "[[formula]]\nname = \"own\"\nmoment = \"A*kappa/(1 - kappa*R*10)\"\n[formula.parameters.A]\nunit = \"N m2\"\n\
                typical = 0.5\nbounds = [0, 20]\n[effects.own]\nA = 0.5\n";
-    folder.write("pole.toml", format!("{}\n{own}", models::shipped("epam").unwrap()));
+    folder.write("pole.toml", format!("{}\n{own}", models::shipped("epam-textbook").unwrap()));
     let words = ["no equilibrium", "the formula own", "kappa = 2.50 1/m"];
     refuse(&folder, &["predict", "pole.toml", "--pressure", "10kPa", "--out", "report"], 4, &words);
 }
 
 #[test]
 fn an_offset_below_zero_is_continuous_and_the_inverse_gives_what_was_asked() {
-    let found = state(&["predict", "epam", "--effect", "pressure_offset:offset_kpa=-1", "--inverse", "tip=30mm"]);
+    let found =
+        state(&["predict", "epam-textbook", "--effect", "pressure_offset:offset_kpa=-1", "--inverse", "tip=30mm"]);
     assert!((found["tip"]["y_mm"].as_f64().unwrap() - 30.0).abs() < 1e-6, "{found}");
 }
 
@@ -122,7 +125,7 @@ fn a_pose_beyond_collapse_is_told_and_a_flat_pouch_has_no_slope() {
         "{}",
         ran.stderr
     );
-    let flat = folder.run(&["predict", "epam", "--pressure", "0kPa", "--json"]).json("ibr.predict");
+    let flat = folder.run(&["predict", "epam-textbook", "--pressure", "0kPa", "--json"]).json("ibr.predict");
     assert!(
         flat["states"][0]["jacobian"][0]["y_mm_per_kpa"].is_null()
             && flat["states"][0]["beyond"] == serde_json::json!([])
@@ -131,7 +134,7 @@ fn a_pose_beyond_collapse_is_told_and_a_flat_pouch_has_no_slope() {
 
 #[test]
 fn a_straight_robot_folds_where_its_weight_reaches_the_moment_of_the_pressure() {
-    let args = ["predict", "epam", "--limits", "--effect", "gravity:weight_n_per_m=1.5", "--json"];
+    let args = ["predict", "epam-textbook", "--limits", "--effect", "gravity:weight_n_per_m=1.5", "--json"];
     let answer = Folder::new().run(&args).json("ibr.predict.limits");
     let length = |i: usize| answer["collapse"][i]["length_mm"].as_f64().unwrap();
     // w L²/2 = π p_b R³, longer by what its sag shortens the lever.

@@ -72,7 +72,7 @@ fn wrong_settings_are_refused_before_anything_is_run() {
         refuse(&folder, &[&["simulate", "epam"], &args[..]].concat(), code, &words);
     }
     refuse(&folder, &["simulate", "pillow", "--seeds", "3"], 2, &["--seeds is for robots", "case file"]);
-    folder.write("my.toml", format!("{}\n[fem]\nhourglas = 0.1\n", models::shipped("epam").unwrap()));
+    folder.write("my.toml", format!("{}\n[fem]\nhourglas = 0.1\n", models::shipped("epam-textbook").unwrap()));
     refuse(&folder, &["simulate", "my.toml"], 3, &["my.toml:26:1", "did you mean `hourglass`?"]);
 }
 

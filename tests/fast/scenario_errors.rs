@@ -18,7 +18,7 @@ fn refused(bytes: impl AsRef<[u8]>, words: &[&str]) {
 
 /// The shipped ePAM with one piece of text replaced, which must be there.
 fn epam_with(old: &str, new: &str) -> String {
-    let text = models::shipped("epam").unwrap();
+    let text = models::shipped("epam-textbook").unwrap();
     assert_eq!(text.matches(old).count(), 1, "{old}");
     text.replace(old, new)
 }
@@ -34,7 +34,10 @@ fn an_unknown_key_is_shown_with_the_known_ones() {
 #[test]
 fn a_word_of_basis_that_means_nothing_is_refused() {
     let text = |basis: &str| {
-        format!("{}\n[effects.gravity]\nweight_n_per_m = 11\nbasis = {basis}\n", models::shipped("epam").unwrap())
+        format!(
+            "{}\n[effects.gravity]\nweight_n_per_m = 11\nbasis = {basis}\n",
+            models::shipped("epam-textbook").unwrap()
+        )
     };
     refused(
         text("\"mesured\""),
@@ -99,7 +102,7 @@ fn parts_that_do_not_fit_on_the_body_are_refused() {
     );
     refused(epam_with("330]", "400]"), &["marker at 400 mm is off the body of 360 mm", "bad.toml:20"]);
     refused(epam_with("330]", "200]"), &["marker stations must rise", "sort them from base to tip"]);
-    let zone = |text: &str| format!("{}\n[[zone]]\n{text}\n", models::shipped("epam").unwrap());
+    let zone = |text: &str| format!("{}\n[[zone]]\n{text}\n", models::shipped("epam-textbook").unwrap());
     refused(zone("from_mm = 100\nto_mm = 50"), &["a zone from 100 to 50 mm is not on the body", "to_mm ≤ 360"]);
     refused(zone("from_mm = 0\nto_mm = 50\nchannel = 9"), &["channel must be 0 to 3"]);
 }
@@ -110,7 +113,7 @@ fn unknown_actuators_and_effects_are_answered_with_the_list() {
         epam_with("\"epam\"", "\"epma\""),
         &["unknown actuator \"epma\"", "did you mean epam? known: spam, cpam, epam, fpam", "bad.toml:13:8"],
     );
-    let effect = |text: &str| format!("{}\n{text}\n", models::shipped("epam").unwrap());
+    let effect = |text: &str| format!("{}\n{text}\n", models::shipped("epam-textbook").unwrap());
     refused(effect("[effects.gravty]\na = 1"), &["unknown effect \"gravty\"", "did you mean gravity?", "bad.toml:25"]);
     refused(
         effect("[effects.end_constraint]\nbta = 1"),

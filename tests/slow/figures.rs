@@ -12,7 +12,7 @@ fn predictions_and_inverses_are_as_fast_as_a_controller_needs() {
     let answer = Folder::new().run(&["bench", "--json"]).json("ibr.bench");
     println!("{}", answer["machine"]);
     let figures = answer["figures"].as_array().unwrap();
-    assert_eq!(figures.len(), 16, "four figures of four actuators");
+    assert_eq!(figures.len(), 32, "four figures of four robots and of their textbook models");
     for figure in figures {
         let [median, target] = ["median_us", "target_us"].map(|key| figure[key].as_f64().unwrap());
         println!("{}: {median:.3} µs, wanted {target} µs", figure["id"]);

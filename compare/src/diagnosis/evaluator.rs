@@ -65,12 +65,12 @@ fn pressures(dataset: &Dataset, hold: usize) -> [f64; 2] {
 mod tests {
     use super::*;
     use crate::study::predict_dataset;
-    use crate::study::{Generator, generate, published::shipped_scenario};
+    use crate::study::{Generator, generate, published::textbook_scenario};
 
     #[test]
     fn the_fast_predictions_are_those_of_the_study() {
         for kind in ["spam", "cpam", "epam", "fpam"] {
-            let plain = shipped_scenario(kind).unwrap().with_bending(1.0);
+            let plain = textbook_scenario(kind).unwrap().with_bending(1.0);
             for effect in models::effects::EFFECTS.iter().filter(|e| e.applies_to(plain.actuator.kind.family)) {
                 let scenario = plain.with_effect(effect.name, &effect.typical());
                 let dataset = generate(&scenario, "made", &Generator { runs: 1, ..Generator::default() }).unwrap();

@@ -2,7 +2,7 @@
 
 use super::{Diagnosis, Options, Verdict, diagnose_together};
 use crate::diagnosis::Measured;
-use crate::study::published::shipped_scenario;
+use crate::study::published::textbook_scenario;
 use crate::{EvaluateOptions, Evaluation, evaluate};
 use data::Dataset;
 
@@ -33,7 +33,7 @@ fn blind(marker: usize) -> Dataset {
 
 fn diagnosed(dataset: &Dataset) -> Diagnosis {
     let options = Options { next_experiment: false, ..Options::default() };
-    diagnose_together(&shipped_scenario("epam").unwrap(), Measured { dataset, about: None }, &[], &options).unwrap()
+    diagnose_together(&textbook_scenario("epam").unwrap(), Measured { dataset, about: None }, &[], &options).unwrap()
 }
 
 fn close(a: f64, b: f64) -> bool {
@@ -71,7 +71,7 @@ fn a_marker_lost_everywhere_is_as_if_it_were_not_there() {
 }
 
 fn evaluated(dataset: &Dataset) -> Evaluation {
-    let scenario = shipped_scenario("epam").unwrap().with_bending(1.0);
+    let scenario = textbook_scenario("epam").unwrap().with_bending(1.0);
     let (scenario, _) = crate::study::fit_scenario(&scenario, dataset, None).unwrap();
     let predicted = crate::study::predict_dataset(&scenario, dataset).unwrap();
     evaluate(dataset, &predicted.xy_m, &predicted.d_ln_pressure_m, &EvaluateOptions::default()).unwrap()

@@ -5,11 +5,11 @@ use super::stands_out::{StandsOut, stands_out};
 use super::*;
 use crate::hidden::truth::standard_protocol;
 use crate::hidden::{Draw, Truth};
-use crate::study::{Generator, generate, published::shipped_scenario};
+use crate::study::{Generator, generate, published::textbook_scenario};
 use data::Direct;
 
 fn robot(kind: &str, bending_nm2: f64) -> Scenario {
-    shipped_scenario(kind).unwrap().with_bending(bending_nm2)
+    textbook_scenario(kind).unwrap().with_bending(bending_nm2)
 }
 
 fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
@@ -156,7 +156,7 @@ fn an_attempt_comes_closer_in_mm_even_where_quiet_holds_ask_for_something_else()
     let options = Options { keep_bending: true, next_experiment: false, ..Options::default() };
     for robot in ["cpam", "fpam"] {
         let (data, about) = data::load(&format!("fem-{robot}"), &mut |_, _| {}).unwrap();
-        let d = diagnose(&shipped_scenario(robot).unwrap().bare(), &data, about.as_ref(), &options).unwrap();
+        let d = diagnose(&textbook_scenario(robot).unwrap().bare(), &data, about.as_ref(), &options).unwrap();
         assert!(d.verdict == Some(Verdict::OutOfCatalog) && !d.attempt.is_empty(), "{robot}");
         let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
         // The fPAM's markers on the wall leave more than half of their error with the best there is.

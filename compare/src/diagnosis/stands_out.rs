@@ -238,7 +238,7 @@ mod tests {
     use super::super::pattern_tests::of_base;
     use super::super::traces::plain;
     use super::*;
-    use crate::study::{Generator, generate, published::shipped_scenario};
+    use crate::study::{Generator, generate, published::textbook_scenario};
 
     /// Whitened, projected and multiplied at length, one by one.
     #[test]
@@ -251,7 +251,7 @@ mod tests {
             ("fpam", 0.3, "friction", 0.3, &usual),
             ("epam", 1.35, "base_clamp", 1.0, &scattered),
         ] {
-            let plain = shipped_scenario(kind).unwrap().with_bending(bending);
+            let plain = textbook_scenario(kind).unwrap().with_bending(bending);
             let length_m = plain.markers_m.last().copied().unwrap();
             let told = plain.with_markers(&(1..=14).map(|i| length_m * f64::from(i) / 14.0).collect::<Vec<_>>());
             let candidate = models::effects::EFFECTS.iter().find(|e| e.name == effect).unwrap();

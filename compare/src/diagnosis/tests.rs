@@ -2,14 +2,14 @@
 //! hold the statistics, not the physics. Everything is seeded.
 
 use super::*;
-use crate::study::{Generator, generate, parse_protocol, published::shipped_scenario};
+use crate::study::{Generator, generate, parse_protocol, published::textbook_scenario};
 use data::Direct;
 
 /// B at which the shipped robots bend about as far as measured \[N·m²\].
 pub(super) fn robot(kind: &str) -> Scenario {
     let bending = [("spam", 6.0), ("epam", 1.35), ("cpam", 0.9), ("fpam", 0.3)];
     let bending = bending.iter().find(|(name, _)| *name == kind).unwrap().1;
-    shipped_scenario(kind).unwrap().with_bending(bending)
+    textbook_scenario(kind).unwrap().with_bending(bending)
 }
 
 pub(super) fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
@@ -259,7 +259,7 @@ fn impossible_options_are_refused() {
 
 #[test]
 fn a_formula_that_is_not_finite_at_a_pressure_of_the_data_is_left_out_and_it_is_said_where() {
-    let text = models::shipped("epam").unwrap().to_string()
+    let text = models::shipped("epam-textbook").unwrap().to_string()
         + "[[formula]]\nname = \"own\"\nmoment = \"-k*theta/(p_act/p_body - 10)\"\n\
            [formula.parameters.k]\nunit = \"N m\"\ntypical = 0.5\nbounds = [0, 20]\n";
     let scenario = Scenario::parse(&text).unwrap().with_bending(1.35);

@@ -281,8 +281,8 @@ fn data_beside_others_need_runs_enough_to_know_their_noise() {
 /// Markers of the finite elements of a robot at 2 and at 4 kPa body pressure.
 fn at_two_body_pressures(robot: &str) -> (Scenario, [Dataset; 2]) {
     use crate::study::engines::{ensemble, stored};
-    use crate::study::{Generator, published::shipped_scenario, seen::seen};
-    let scenario = shipped_scenario(robot).unwrap();
+    use crate::study::{Generator, published::textbook_scenario, seen::seen};
+    let scenario = textbook_scenario(robot).unwrap();
     let markers = |(p_body_pa, seed): (f64, u64)| {
         let own = ensemble(&stored().unwrap(), &Scenario { p_body_pa, ..scenario.clone() });
         let protocol = (0..=6).map(|k| [p_body_pa, 5e3 * f64::from(k)]).collect();

@@ -6,7 +6,7 @@ use crate::study::generate::{Generator, generate};
 use models::{Scenario, shipped};
 
 fn scenario(kind: &str, bending: f64) -> Scenario {
-    Scenario::parse(shipped(kind).unwrap()).unwrap().with_bending(bending)
+    Scenario::parse(shipped(&format!("{kind}-textbook")).unwrap()).unwrap().with_bending(bending)
 }
 
 fn model(scenario: &Scenario) -> Vec<f64> {

@@ -150,7 +150,7 @@ impl Truth {
             true => format!("bending_stiffness_nm2 = {usual}    # assumed: usual for such a robot; fit it\n"),
             false => format!("{line}\n"),
         };
-        Ok(shipped(&self.actuator).unwrap_or_default().lines().map(line).collect())
+        Ok(plain(&self.actuator).unwrap_or_default().lines().map(line).collect())
     }
 
     /// The robot as it is.
@@ -221,11 +221,16 @@ pub fn known(name: &str) -> Result<&'static HiddenEffect, CompareError> {
     })
 }
 
+/// The shipped robot as this generator knows its physics.
+fn plain(kind: &str) -> Option<&'static str> {
+    shipped(&format!("{kind}-textbook"))
+}
+
 fn robot(actuator: &str) -> Result<(Scenario, f64), CompareError> {
     let missing = |problem: String| CompareError::NoScenario { kind: actuator.to_string(), problem };
     let known = ROBOTS.iter().find(|(kind, _)| *kind == actuator);
     let (kind, usual) = known.ok_or_else(|| missing(spelling::known(actuator, &ROBOTS.map(|(kind, _)| kind))))?;
-    let text = shipped(kind).ok_or_else(|| missing("it is not shipped".into()))?;
+    let text = plain(kind).ok_or_else(|| missing("it is not shipped".into()))?;
     let scenario = Scenario::parse(text).map_err(|error| missing(error.to_string()))?;
     Ok((scenario, *usual))
 }

@@ -164,7 +164,7 @@ fn labels_are_told_as_far_as_noise_lets_them() {
     let told = |markers: usize| {
         let stations_m: Vec<f64> = (1..=markers).map(|i| 0.35 * i as f64 / markers as f64).collect();
         let robot =
-            crate::study::published::shipped_scenario("epam").unwrap().with_bending(1.35).with_markers(&stations_m);
+            crate::study::published::textbook_scenario("epam").unwrap().with_bending(1.35).with_markers(&stations_m);
         let usual = crate::study::Generator { runs: 3, ..Default::default() };
         let mut data = crate::study::generate(&robot, "made", &usual).unwrap();
         let (width, last) = (2 * markers, data.xy_m.len());

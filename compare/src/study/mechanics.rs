@@ -3,11 +3,9 @@
 //! Values follow from the geometry of the pattern and from the published fabric; what nobody printed is assumed as in the
 //! finite elements: welds of 3 mm, a bending stiffness of 0.2 of that of a solid sheet, ν₁₂ = 0.2.
 
-use crate::error::CompareError;
 use crate::plots::Known;
-use data::{Published, PublishedFabric, published};
+use data::{Published, PublishedFabric};
 use models::Scenario;
-use models::actuators::ActuatorShape;
 use models::scenario::ActuatorChoice;
 
 /// An effect to add, with the origin of its value (SI).
@@ -28,15 +26,14 @@ const NU12: f64 = 0.2;
 
 /// What to add to the bare model of an actuator kind, in this order; nothing for one that is not published.
 pub(super) fn additions(paper: &Published, actuator: &ActuatorChoice) -> Vec<Addition> {
-    let (kind, shape) = (actuator.kind.name, &actuator.shape);
-    let restraint = (actuator.kind.edge_restraint)(shape);
+    let kind = actuator.kind.name;
     let Some(fabric) = paper.actuator(kind).and_then(|a| paper.fabrics.iter().find(|f| f.name == a.fabric)) else {
         return Vec::new();
     };
     match kind {
         "fpam" => muscle(fabric),
-        "spam" => std::iter::once(GROWTH).chain(pouch(fabric, shape, restraint)).collect(),
-        _ => pouch(fabric, shape, restraint),
+        "spam" => std::iter::once(GROWTH).chain(pouch(fabric)).collect(),
+        _ => pouch(fabric),
     }
 }
 
@@ -48,22 +45,18 @@ const GROWTH: Addition = Addition {
     why: "geometry of an actuator outside the body: its axis rides on its own bulge",
 };
 
-fn pouch(fabric: &PublishedFabric, shape: &ActuatorShape, restraint: f64) -> Vec<Addition> {
+fn pouch(fabric: &PublishedFabric) -> Vec<Addition> {
     let predicted = |effect, value, why| Addition { effect, value, range: None, known: Known::Predicted, why };
     let assumed =
         |effect, value, range, why| Addition { effect, value, range: Some(range), known: Known::Assumed, why };
     // A neo-Hookean sheet in its plane is 8 C10 stiff, as in the finite elements.
     let modulus_pa = fabric.c10_printed.map_or(0.5 * (fabric.e0_pa + fabric.e90_pa), |c10| 8e6 * c10);
     let bending = |factor: f64| factor * modulus_pa * fabric.thickness_m.powi(3) / 12.0;
-    let mut list = vec![
+    vec![
         assumed("weld_width", WELD_M.0, WELD_M.1, "welds of 3 mm; a line to a wide impulse seal"),
-        predicted("chord_arm", shape.width_m, "the weld lines are chords of the body, not arcs"),
+        predicted("chord_arm", 1.0, "the weld lines are chords of the body, not arcs"),
         predicted("displaced_gas", 0.5, "half of a lens in the wall lies in the body"),
-    ];
-    if restraint > 0.0 {
-        list.push(predicted("sealed_sides", 1.0, "the sides are sealed as the ends are"));
-    }
-    list.extend([
+        predicted("sealed_sides", 1.0, "the sides are sealed as the ends are; gussets free them"),
         assumed(
             "fold_energy",
             bending(BENDING.0),
@@ -75,8 +68,7 @@ fn pouch(fabric: &PublishedFabric, shape: &ActuatorShape, restraint: f64) -> Vec
             1.0 / (fabric.e0_pa * fabric.thickness_m),
             "compliance from the published E0 and the published thickness",
         ),
-    ]);
-    list
+    ]
 }
 
 fn muscle(fabric: &PublishedFabric) -> Vec<Addition> {
@@ -113,13 +105,4 @@ pub(super) fn with(scenario: &Scenario, effect: &str, value: f64) -> Scenario {
     let mut values = models::effects::by_name(effect).map_or_else(Vec::new, |e| e.neutral());
     values.iter_mut().take(1).for_each(|first| *first = value);
     scenario.with_effect(effect, &values)
-}
-
-/// The scenario without its own effects and with all mechanics of its actuator kind; as it is if the kind is not published.
-///
-/// # Errors
-/// A damaged embedded set.
-pub fn with_mechanics(scenario: &Scenario) -> Result<Scenario, CompareError> {
-    let list = additions(&published()?, &scenario.actuator);
-    Ok(list.iter().fold(scenario.bare(), |s, addition| with(&s, addition.effect, addition.value)))
 }

@@ -18,7 +18,6 @@ pub mod witness;
 
 pub use calibrate::{Calibration, calibrate_bending};
 pub use generate::{Generator, generate, parse_protocol};
-pub use mechanics::with_mechanics;
 pub(crate) use predict::first_slope;
 pub use predict::{Predicted, fit_scenario, predict_dataset};
 pub use published::{Rung, published_ladders};

@@ -7,7 +7,7 @@
 use crate::error::CompareError;
 use crate::study::engines::stored;
 use crate::study::pages::engines;
-use crate::study::published::{height, shipped_scenario};
+use crate::study::published::{height, textbook_scenario};
 use data::{PublishedActuator, published};
 use models::effects::{Effect, Parameter};
 use models::{Loads, Scenario};
@@ -74,7 +74,7 @@ pub fn one_number(kind: &str) -> Result<OneNumber, CompareError> {
     let paper = published()?;
     let missing = || CompareError::NoScenario { kind: kind.into(), problem: "nothing is published about it".into() };
     let actuator: &PublishedActuator = paper.actuator(kind).ok_or_else(missing)?;
-    let shipped = shipped_scenario(kind)?;
+    let shipped = textbook_scenario(kind)?;
     let bare = shipped.with_bending(0.0);
     let mut pressures: Vec<f64> =
         paper.actuator_pressures_pa.iter().copied().filter(|p| *p > 0.0 && *p < actuator.d_max_pressure_pa).collect();

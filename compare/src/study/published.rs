@@ -96,6 +96,14 @@ pub fn shipped_scenario(kind: &str) -> Result<Scenario, CompareError> {
     Scenario::parse(text).map_err(|e| missing(e.to_string()))
 }
 
+/// The same without the mechanics that textbook models lack.
+///
+/// # Errors
+/// An unknown kind.
+pub fn textbook_scenario(kind: &str) -> Result<Scenario, CompareError> {
+    shipped_scenario(&format!("{kind}-textbook"))
+}
+
 /// The bare law: constant arm, nothing added.
 fn start(scenario: &Scenario, loads: &Loads) -> Result<Rung, CompareError> {
     let bare = scenario.bare();

@@ -25,8 +25,8 @@ pub const BEYOND: f64 = 0.10;
 /// No runs, runs without markers or of different robots, a pressure they do not reach.
 ///
 /// ```
-/// use compare::study::{Generator, engines::{ensemble, stored}, published::shipped_scenario, seen::seen};
-/// let scenario = shipped_scenario("epam")?;
+/// use compare::study::{Generator, engines::{ensemble, stored}, published::textbook_scenario, seen::seen};
+/// let scenario = textbook_scenario("epam")?;
 /// let runs = ensemble(&stored()?, &scenario);
 /// let data = seen(&runs.runs, "mine", &Generator::default())?;
 /// assert_eq!(data.runs.len(), runs.runs.len());

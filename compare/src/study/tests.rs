@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::evaluate::EvaluateOptions;
-use crate::study::published::shipped_scenario;
+use crate::study::published::{shipped_scenario, textbook_scenario};
 use data::{About, AboutRun, Dataset, Direct, Provenance};
 use models::exact::hinge;
 
@@ -39,7 +39,7 @@ pub(crate) fn about(tip_forces: &[[f64; 2]]) -> About {
 #[test]
 fn a_model_meets_the_data_it_made() {
     for kind in ["spam", "cpam", "epam", "fpam"] {
-        let scenario = shipped_scenario(kind).unwrap();
+        let scenario = textbook_scenario(kind).unwrap();
         let dataset = generate(&scenario, "made", &quiet(3)).unwrap();
         let predicted = predict_dataset(&scenario, &dataset).unwrap();
         let worst =
@@ -52,7 +52,7 @@ fn a_model_meets_the_data_it_made() {
 fn a_model_with_history_meets_the_data_it_made_sample_by_sample() {
     let generator = Generator { protocol: [0.0, 10e3, 30e3, 10e3, 0.0].map(|p| [2e3, p]).to_vec(), ..quiet(3) };
     for kind in ["spam", "cpam", "epam", "fpam"] {
-        let base = shipped_scenario(kind).unwrap().with_bending(1.0);
+        let base = textbook_scenario(kind).unwrap().with_bending(1.0);
         for (effect, values) in
             [("friction", vec![0.3]), ("creep", vec![0.5, 2.0]), ("plastic_set", vec![0.2]), ("leak", vec![0.02])]
         {
@@ -71,7 +71,7 @@ fn a_model_with_history_meets_the_data_it_made_sample_by_sample() {
 
 #[test]
 fn the_same_seed_gives_the_same_data_and_another_seed_does_not() {
-    let scenario = shipped_scenario("epam").unwrap();
+    let scenario = textbook_scenario("epam").unwrap();
     let made = |seed| generate(&scenario, "made", &Generator { seed, ..Generator::default() }).unwrap();
     assert_eq!(made(3), made(3));
     assert_ne!(made(3).xy_m, made(4).xy_m);
@@ -79,7 +79,7 @@ fn the_same_seed_gives_the_same_data_and_another_seed_does_not() {
 
 #[test]
 fn the_scatter_put_in_is_the_scatter_found() {
-    let scenario = shipped_scenario("epam").unwrap();
+    let scenario = textbook_scenario("epam").unwrap();
     let generator = Generator { runs: 400, ..Generator::default() };
     let dataset = generate(&scenario, "made", &generator).unwrap();
     let tip = |run| dataset.xy(run, 0, 0, 5)[1];
@@ -93,7 +93,7 @@ fn the_scatter_put_in_is_the_scatter_found() {
 #[test]
 fn calibration_returns_the_stiffness_that_made_the_data() {
     for (kind, stiffness) in [("epam", 0.7), ("spam", 3.0), ("fpam", 0.2)] {
-        let bare = shipped_scenario(kind).unwrap();
+        let bare = textbook_scenario(kind).unwrap();
         let generator =
             Generator { pressure_sd: 0.003, camera_sd_m: 1e-4, alignment_sd_m: 1e-4, ..Generator::default() };
         let dataset = generate(&bare.with_bending(stiffness), "made", &generator).unwrap();
@@ -106,7 +106,7 @@ fn calibration_returns_the_stiffness_that_made_the_data() {
 
 #[test]
 fn a_stiffness_that_is_not_there_is_at_its_bound() {
-    let scenario = shipped_scenario("epam").unwrap();
+    let scenario = textbook_scenario("epam").unwrap();
     // More bend than the bare model: any stiffness makes it worse.
     let generator = Generator { pressure_sd: 0.003, ..Generator::default() };
     let dataset = generate(&scenario.with_effect("pressure_offset", &[-4e3]), "made", &generator).unwrap();
@@ -116,7 +116,7 @@ fn a_stiffness_that_is_not_there_is_at_its_bound() {
 
 #[test]
 fn a_known_tip_force_enters_the_model_and_mixed_ones_are_refused() {
-    let scenario = shipped_scenario("epam").unwrap();
+    let scenario = textbook_scenario("epam").unwrap();
     let dataset = generate(&scenario, "made", &quiet(2)).unwrap();
     let (loaded, _) = fit_scenario(&scenario, &dataset, Some(&about(&[[0.0, -0.2], [0.0, -0.2]]))).unwrap();
     assert_eq!(loaded.effects.iter().find(|e| e.name == "tip_load").unwrap().values, [0.0, -0.2]);
@@ -126,7 +126,7 @@ fn a_known_tip_force_enters_the_model_and_mixed_ones_are_refused() {
 
 #[test]
 fn sessions_of_the_description_reach_the_noise_model() {
-    let scenario = shipped_scenario("epam").unwrap();
+    let scenario = textbook_scenario("epam").unwrap();
     let dataset = generate(&scenario, "made", &Generator { runs: 4, ..Generator::default() }).unwrap();
     let labelled = |labels: [&str; 4]| {
         let mut about = about(&[[0.0; 2]; 4]);
@@ -142,7 +142,7 @@ fn sessions_of_the_description_reach_the_noise_model() {
 
 #[test]
 fn nothing_to_compare_is_said_and_every_shipped_actuator_has_a_ladder() {
-    let scenario = shipped_scenario("epam").unwrap();
+    let scenario = textbook_scenario("epam").unwrap();
     let dataset = generate(&scenario, "made", &quiet(2)).unwrap();
     let none = pages::study(&[], dataset, None, &EvaluateOptions::default(), true);
     assert_eq!(none.unwrap_err(), crate::CompareError::NoModel);
@@ -154,9 +154,9 @@ fn nothing_to_compare_is_said_and_every_shipped_actuator_has_a_ladder() {
 
 #[test]
 fn data_of_another_actuator_or_with_unknown_stations_are_refused() {
-    let scenario = shipped_scenario("epam").unwrap();
+    let scenario = textbook_scenario("epam").unwrap();
     let dataset = generate(&scenario, "made", &quiet(2)).unwrap();
-    let other = fit_scenario(&shipped_scenario("fpam").unwrap(), &dataset, None);
+    let other = fit_scenario(&textbook_scenario("fpam").unwrap(), &dataset, None);
     assert!(other.unwrap_err().to_string().contains("matching scenario"));
     let mut lost = dataset.clone();
     lost.markers.iter_mut().for_each(|m| m.station_m = None);
@@ -202,6 +202,19 @@ fn the_published_ladders_start_at_the_hinge_model() {
 }
 
 #[test]
+fn the_shipped_pouches_are_the_top_of_their_ladders() {
+    for kind in ["spam", "cpam", "epam"] {
+        let shipped = shipped_scenario(kind).unwrap();
+        let top = published::model_ladder(kind).unwrap().pop().unwrap().scenario;
+        assert_eq!(shipped.effects.len(), top.effects.len(), "{kind}");
+        for (own, rung) in shipped.effects.iter().zip(&top.effects) {
+            let close = (own.values[0] / rung.values[0] - 1.0).abs() < 5e-3;
+            assert!(own.name == rung.name && close, "{kind}: {own:?} {rung:?}");
+        }
+    }
+}
+
+#[test]
 fn a_calibrated_rung_meets_the_number_it_was_fitted_to_and_says_so() {
     for ladder in published_ladders().unwrap() {
         let calibrated = ladder.rungs.iter().find(|r| r.known == crate::plots::Known::Calibrated);
@@ -216,7 +229,7 @@ fn a_calibrated_rung_meets_the_number_it_was_fitted_to_and_says_so() {
 #[test]
 fn the_interval_of_a_stiffness_that_misses_holds_what_each_pressure_asks_for() {
     let (whole, about) = data::load("synthetic-epam", &mut |_, _| {}).unwrap();
-    let (scenario, _) = fit_scenario(&shipped_scenario("epam").unwrap(), &whole, about.as_ref()).unwrap();
+    let (scenario, _) = fit_scenario(&textbook_scenario("epam").unwrap(), &whole, about.as_ref()).unwrap();
     let fit = |dataset: &Dataset| calibrate_bending(&scenario, dataset, &EvaluateOptions::default()).unwrap();
     let width = whole.values_per_run() / whole.holds.len();
     let at = |pressure_pa: f64| {

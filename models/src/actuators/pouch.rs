@@ -16,7 +16,7 @@
 //! | P | actuator gauge pressure | Pa |
 //!
 //! **Validity**: inextensible film, no bending stiffness, quasi-static, and no restraint by the sealed side edges (that
-//! is the effect `end_constraint`). **Do not use** for pouches much longer than wide: there the side seams decide.
+//! is the effect `sealed_sides`). **Do not use** for pouches much longer than wide: there the side seams decide.
 //! Reference: Niiyama et al., Soft Robotics 2(2), 2015 (pouch motor); the volume and its derivative are derived here.
 
 use super::{ActuatorShape, Demand, Stroke, converged};

@@ -13,7 +13,7 @@
 //! `N = −U'/(ηε' − κD')`. Validity: β from geometry for external actuators (β = 1), unknown for embedded ones.
 //! Derived here.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -31,17 +31,11 @@ pub(super) const ENTRY: Effect = Effect {
         key: "beta",
         symbol: "β",
         unit: "-",
-        si: 1.0,
-        neutral: 0.0,
         typical: 0.8,
-        lower: 0.0,
         upper: 2.0,
         possible: [0.0, 2.0],
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "share of the lift that lengthens the arm",
+        ..PLAIN
     }],
     family: None,
     add,

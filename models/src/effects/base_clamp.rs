@@ -13,7 +13,7 @@
 //! Acts only where B > 0; divides the body into segments, as transverse loads do. **Validity**: linear; s is taken in the middle of
 //! a segment. Derived here.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
@@ -35,22 +35,7 @@ pub(super) const ENTRY: Effect = Effect {
 
 /// How much stiffer either end is.
 pub(super) const fn share(meaning: &'static str) -> Parameter<'static> {
-    Parameter {
-        key: "share",
-        symbol: "b",
-        unit: "-",
-        si: 1.0,
-        neutral: 0.0,
-        typical: 2.0,
-        lower: 0.0,
-        upper: 8.0,
-        possible: POSITIVE,
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::Always,
-        in_room: false,
-        meaning,
-    }
+    Parameter { key: "share", symbol: "b", unit: "-", typical: 2.0, upper: 8.0, meaning, ..PLAIN }
 }
 
 /// How far the stiffer stretch reaches, of either end.
@@ -58,17 +43,14 @@ pub(super) const REACH: Parameter = Parameter {
     key: "reach_radii",
     symbol: "c",
     unit: "-",
-    si: 1.0,
     neutral: 1.5,
     typical: 1.5,
     lower: 0.5,
     upper: 3.0,
     possible: [0.5, 3.0],
     starts: &[0.8, 1.5, 2.2],
-    by_actuator: &[],
-    fitted: Fitted::Always,
-    in_room: false,
     meaning: "length over which the extra stiffness fades, in body radii",
+    ..PLAIN
 };
 
 /// A wall that is stiffer towards one place.

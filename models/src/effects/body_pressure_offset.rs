@@ -11,7 +11,7 @@
 //! At the moments of the hinge alone it is the constant moment πR³p₀ of `tail_tension`; beside a wall, gas displaced or loads
 //! near collapse it is not. **Validity**: the same at all pressures. Supply stage: acts before the balance. Definition.
 
-use super::{ANY, Effect, Fitted, Group, Parameter, Stage};
+use super::{ANY, Effect, Fitted, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -30,16 +30,13 @@ pub(super) const ENTRY: Effect = Effect {
         symbol: "p₀",
         unit: "kPa",
         si: 1e3,
-        neutral: 0.0,
         typical: 0.3,
         lower: -3.0,
         upper: 1.5,
         possible: ANY,
-        starts: &[],
-        by_actuator: &[],
         fitted: Fitted::WithBodyPressures,
-        in_room: false,
         meaning: "set body pressure that does not arrive",
+        ..PLAIN
     }],
     family: None,
     add,

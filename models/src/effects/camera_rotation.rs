@@ -10,7 +10,7 @@
 //!
 //! Validity: rotation about the base point. Geometry.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -29,16 +29,13 @@ pub(super) const ENTRY: Effect = Effect {
         symbol: "δ",
         unit: "deg",
         si: std::f64::consts::PI / 180.0,
-        neutral: 0.0,
         typical: 1.2,
         lower: -10.0,
         upper: 10.0,
         possible: [-180.0, 180.0],
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::Always,
         in_room: true,
         meaning: "roll angle of the camera",
+        ..PLAIN
     }],
     family: None,
     add,

@@ -10,7 +10,7 @@
 //!
 //! Validity: checkerboard not in the plane of the markers, or wrong square size. Geometry.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -28,17 +28,12 @@ pub(super) const ENTRY: Effect = Effect {
         key: "scale_error",
         symbol: "s",
         unit: "-",
-        si: 1.0,
-        neutral: 0.0,
         typical: 0.025,
         lower: -0.2,
         upper: 0.2,
         possible: [-1.0, f64::INFINITY],
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "relative scale error",
+        ..PLAIN
     }],
     family: None,
     add,

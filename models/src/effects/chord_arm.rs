@@ -6,7 +6,7 @@
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | w | width of wall that is pulled straight: the weld line | m |
+//! | w | width of wall that is pulled straight: a share of the pouch's, all of it where the weld line is taut | m |
 //! | D₀, D | arm of a round body, arm of the drawn-in one; 80 and 69.3 mm for R = 40, w = 60 | m |
 //!
 //! The pull of the actuator along the body leaves its line no reason to stay on the arc: the wall's hoop tension at both of its
@@ -14,7 +14,7 @@
 //! taut; finite elements of the shipped robots have 69 to 70 mm (ePAM) and 68 to 69 mm (cPAM). Derived here, geometry in
 //! `section.rs`.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Group, Parameter, SHARE, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::section::Section;
@@ -24,28 +24,13 @@ pub(super) const ENTRY: Effect = Effect {
     group: Group::Actuator,
     stage: Stage::Balance,
     history: false,
-    formula: "D = D₀ − 2R + R' (1 + cosα), w/(2πR − w) = sinα/(π − α); hinge p_b A ȳ",
+    formula: "D = D₀ − 2R + R' (1 + cosα), w/(2πR − w) = sinα/(π − α), w = share × width; hinge p_b A ȳ",
     sentence: "The weld lines are pulled straight across the body, so the actuator sits nearer to the far side than a diameter.",
     differs: "More bend per stroke and a weaker pull than a round body gives.",
     remedy: "Measure the distance from the far wall to a weld at full pressure.",
     validity: "weld lines across the wall that stay taut",
     reference: "derived here",
-    parameters: &[Parameter {
-        key: "width_mm",
-        symbol: "w",
-        unit: "mm",
-        si: 1e-3,
-        neutral: 0.0,
-        typical: 60.0,
-        lower: 0.0,
-        upper: 200.0,
-        possible: POSITIVE,
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::FromDesign,
-        in_room: false,
-        meaning: "width of wall that is pulled straight",
-    }],
+    parameters: &[Parameter { symbol: "w/W", meaning: "share of the pouch's width that is pulled straight", ..SHARE }],
     family: Some(Family::Pouch),
     add,
 };
@@ -55,7 +40,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
         return;
     }
     for site in assembly.active_sites(Family::Pouch) {
-        let Some(drawn) = Section::drawn_in(site.radius_m, values[0], values[0]) else { continue };
+        let width_m = values[0] * site.shape.width_m;
+        let Some(drawn) = Section::drawn_in(site.radius_m, width_m, width_m) else { continue };
         site.linkage.arm_m += drawn.chord_m - 2.0 * site.radius_m;
         site.body_pressure.scale(drawn.moment_share(site.radius_m));
     }

@@ -23,7 +23,7 @@
 //! fabrics creep over several decades of time, of which a test sees the one it lasts. Reference: standard linear solid
 //! (Zener 1948); the form over a step is derived here.
 
-use super::{ABOVE_ZERO, Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{ABOVE_ZERO, Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Memory, Pose, Term};
 
@@ -43,33 +43,23 @@ pub(super) const ENTRY: Effect = Effect {
             key: "share",
             symbol: "a",
             unit: "-",
-            si: 1.0,
-            neutral: 0.0,
             typical: 0.25,
-            lower: 0.0,
             upper: 2.0,
-            possible: POSITIVE,
-            starts: &[],
-            by_actuator: &[],
-            fitted: Fitted::Always,
-            in_room: false,
             meaning: "relaxing stiffness as a share of B",
+            ..PLAIN
         },
         Parameter {
             key: "time_s",
             symbol: "τ",
             unit: "s",
-            si: 1.0,
             neutral: 2.0,
             typical: 2.0,
             lower: 0.4,
             upper: 30.0,
             possible: ABOVE_ZERO,
             starts: &[0.7, 2.0, 6.0, 18.0],
-            by_actuator: &[],
-            fitted: Fitted::Always,
-            in_room: false,
             meaning: "relaxation time",
+            ..PLAIN
         },
     ],
     family: None,

@@ -15,7 +15,7 @@
 //! the wall in, χ is larger (finite elements at 2 kPa: 0.5 cPAM, 0.9 fPAM, 1.1 ePAM, 1.3 sPAM; `docs/robots.md`).
 //! **Validity**: one χ for all pressures; a body that is kept at its pressure. Derived here.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Fitted, Group, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -35,17 +35,11 @@ pub(super) const ENTRY: Effect = Effect {
         key: "share",
         symbol: "χ",
         unit: "-",
-        si: 1.0,
-        neutral: 0.0,
         typical: 1.0,
-        lower: 0.0,
         upper: 2.5,
-        possible: POSITIVE,
-        starts: &[],
-        by_actuator: &[],
         fitted: Fitted::WithBodyPressures,
-        in_room: false,
         meaning: "body volume lost per actuator volume gained",
+        ..PLAIN
     }],
     family: None,
     add,
@@ -82,7 +76,7 @@ mod tests {
     use crate::{Loads, Model};
 
     fn shipped(effect: &str) -> Model {
-        let text = crate::scenario::SHIPPED.iter().find(|s| s.0 == "cpam").map(|s| s.1).unwrap_or_default();
+        let text = crate::shipped("cpam-textbook").unwrap_or_default();
         Model::new(&Scenario::parse(&format!("{text}\n{effect}")).unwrap())
     }
 

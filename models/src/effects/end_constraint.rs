@@ -9,16 +9,16 @@
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | β | edge-loss coefficient; Robin's paper-bag volume gives 0.142π = 0.446, Kepert's bounds 0.354–0.394 at W = L₀ | - |
-//! | σ | share of the loss that stroke has too: 1 assumed, 0 in finite elements of an ePAM (`docs/robots.md`, what the bodies lose) | - |
+//! | σ | share of the loss that stroke has too, 1 assumed | - |
 //! | e | edge restraint of the actuator: 1 sealed, 0 freed by gussets | - |
 //! | L₀, W | flat pouch length and width | m |
 //! | L, r₀ | fPAM length and rest radius | m |
 //!
 //! **Validity**: W ≥ L₀ (the bag formula's short side is L₀). Using a *volume* ratio as a *stroke* ratio (σ = 1) is an
-//! assumption of this project, which the finite elements do not share.
+//! assumption of this project. For pouches `sealed_sides` derives both from mechanics; the two together count it twice.
 //! Reference: A. Robin 2004 (paper bag problem), volume formula; the end factor is derived here.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, PLAIN, Parameter, Stage};
 use crate::actuators::{Actuator, ActuatorShape, Family};
 use crate::assembly::Assembly;
 use std::f64::consts::PI;
@@ -39,33 +39,24 @@ pub(super) const ENTRY: Effect = Effect {
             key: "beta",
             symbol: "β",
             unit: "-",
-            si: 1.0,
-            neutral: 0.0,
             typical: 0.446,
-            lower: 0.0,
             upper: 1.0,
             possible: [0.0, 1.0],
-            starts: &[],
-            by_actuator: &[],
-            fitted: Fitted::Always,
-            in_room: false,
             meaning: "edge-loss coefficient",
+            ..PLAIN
         },
         Parameter {
             key: "stroke",
             symbol: "σ",
             unit: "-",
-            si: 1.0,
             neutral: 1.0,
             typical: 1.0,
-            lower: 0.0,
             upper: 1.0,
             possible: [0.0, 1.0],
             starts: &[0.0, 0.3, 0.7],
-            by_actuator: &[],
             fitted: Fitted::WithKeptBending,
-            in_room: false,
             meaning: "share of the loss that stroke has too",
+            ..PLAIN
         },
     ],
     family: None,

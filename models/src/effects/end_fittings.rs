@@ -14,7 +14,7 @@
 //! the single force printed at L/2r₀ = 5.4 (103 N) is half of what that fit says (220 N), so there it may claim too much. **Validity**: L/2r₀ from 4 to 60.
 //! Reference: Bolen 2026 (Actuators), [`crate::exact::mckibben::BOLEN_10_MM`]; that it scales with the diameter is assumed.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Group, Parameter, SHARE, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::exact::mckibben::{BOLEN_10_MM, bolen_full_force_n};
@@ -31,22 +31,7 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Pull muscles of two lengths at the same pressure.",
     validity: "L/2r₀ from 4 to 60; ends on plugs; a prior from another muscle",
     reference: "Bolen 2026 (Festo muscle of 10 mm); scaling with the diameter assumed",
-    parameters: &[Parameter {
-        key: "share",
-        symbol: "σ",
-        unit: "-",
-        si: 1.0,
-        neutral: 0.0,
-        typical: 1.0,
-        lower: 0.0,
-        upper: 1.0,
-        possible: [0.0, 1.0],
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::FromDesign,
-        in_room: false,
-        meaning: "share of the loss of plugs",
-    }],
+    parameters: &[Parameter { meaning: "share of the loss of plugs", ..SHARE }],
     family: Some(Family::Mckibben),
     add,
 };

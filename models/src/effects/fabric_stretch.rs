@@ -13,7 +13,7 @@
 //! Validity: linear elastic, uniform over the width. Reference: the pressure correction of Niiyama et al. 2015 has the
 //! same origin; this form is derived here.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -31,17 +31,10 @@ pub(super) const ENTRY: Effect = Effect {
         key: "compliance_m_per_n",
         symbol: "c",
         unit: "m/N",
-        si: 1.0,
-        neutral: 0.0,
         typical: 8e-5,
-        lower: 0.0,
         upper: 3e-4,
-        possible: POSITIVE,
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "compliance 1/(E t) of the actuator's fabric",
+        ..PLAIN
     }],
     family: None,
     add,

@@ -19,7 +19,7 @@
 //! farther apart than √(D/T), a fraction of a millimetre at high pressures; stiff welds; 0 < θ < π. Elastica: Love 1927, §262, in
 //! `exact::fold`; the sum derived here.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Fitted, Group, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::section::Section;
@@ -42,17 +42,11 @@ pub(super) const ENTRY: Effect = Effect {
         key: "bending_nm",
         symbol: "D",
         unit: "N m",
-        si: 1.0,
-        neutral: 0.0,
         typical: 1e-4,
-        lower: 0.0,
         upper: 1e-2,
-        possible: POSITIVE,
-        starts: &[],
-        by_actuator: &[],
         fitted: Fitted::FromDesign,
-        in_room: false,
         meaning: "bending stiffness of one sheet",
+        ..PLAIN
     }],
     family: Some(Family::Pouch),
     add,
@@ -85,6 +79,7 @@ fn add(values: &[f64], assembly: &mut Assembly) {
             wall_m: Section::drawn_in(site.radius_m, site.shape.width_m, site.shape.width_m)
                 .map_or(0.0, |flat| 0.5 * flat.radius_m * flat.cos),
         };
+        site.guess_fails = true;
         site.actuator_terms.push(Box::new(term));
     }
 }
@@ -96,19 +91,22 @@ impl FoldEnergy {
         if self.sealed * across == 0.0 {
             return [0.0; 2];
         }
-        let (radius, t2) = (0.5 * self.length_m / theta, theta * theta);
+        let (per_theta, t2) = (1.0 / theta, theta * theta);
+        let radius = 0.5 * self.length_m * per_theta;
         let (height, chord) = (2.0 * radius * sin * sin, 2.0 * radius * sin * cos);
-        let (d_height, d_chord) = (chord - height / theta, radius * (cos * cos - sin * sin) - chord / theta);
+        let (d_height, d_chord) = (chord - height * per_theta, radius * (cos * cos - sin * sin) - chord * per_theta);
         let rho0 = at.p_body_pa * self.wall_m / across;
-        let (rho, share) = (height + rho0, rho0 / (height + rho0));
-        let (half, root) = ((0.5 * (1.0 + share)).sqrt(), rho.sqrt());
+        let rho = height + rho0;
+        let (per_rho, root) = (1.0 / rho, rho.sqrt());
+        let share = rho0 * per_rho;
+        let half = (0.5 * (1.0 + share)).sqrt();
         // 1 − cos ½ψ₀ without cancellation.
-        let turned = 0.5 * (height / rho) / (1.0 + half);
-        let d_turned = 0.25 * share / (rho * half) * d_height;
+        let turned = 0.5 * height * per_rho / (1.0 + half);
+        let d_turned = 0.25 * share * per_rho / half * d_height;
         let round = 1.0 + t2 * (1.0 / 32.0 + t2 * (13.0 / 3072.0));
         let d_round = theta * (1.0 / 16.0 + t2 * (13.0 / 768.0));
         let (along, d_along) = (chord * round, d_chord * round + chord * d_round);
-        let d_value = d_turned * root * along + turned * (0.5 * d_height / root * along + root * d_along);
+        let d_value = root * (d_turned * along + turned * (0.5 * d_height * per_rho * along + d_along));
         [turned * root * along, d_value].map(|value| SIDES * self.sealed * across.sqrt() * value)
     }
 }

@@ -18,7 +18,7 @@
 //! gradual onset. Reference: Coulomb's law with elastic slide (Prandtl); friction of the braid of McKibben muscles: Tondu
 //! & Lopez 2000.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Memory, Pose, Term};
 
@@ -37,17 +37,12 @@ pub(super) const ENTRY: Effect = Effect {
         key: "moment_nm",
         symbol: "M_f",
         unit: "N m",
-        si: 1.0,
-        neutral: 0.0,
         typical: 0.5,
-        lower: 0.0,
         upper: 5.0,
-        possible: POSITIVE,
         starts: &[0.05, 0.2, 0.6, 1.5],
         by_actuator: &[("spam", 1.15), ("epam", 0.58), ("cpam", 0.52), ("fpam", 0.07)],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "moment at which it slides",
+        ..PLAIN
     }],
     family: None,
     add,

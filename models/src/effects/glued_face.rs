@@ -15,7 +15,7 @@
 //! [`crate::muscle`] has the law. **Validity**: glued over the flat width to a wall with yarns along and across. A muscle that
 //! is glued along a line, or hangs in loops, has none of it. Derived here.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Fitted, Group, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 
@@ -34,17 +34,11 @@ pub(super) const ENTRY: Effect = Effect {
         key: "wall_n_per_m",
         symbol: "K",
         unit: "N/m",
-        si: 1.0,
-        neutral: 0.0,
         typical: 5400.0,
-        lower: 0.0,
         upper: 3e4,
-        possible: POSITIVE,
-        starts: &[],
-        by_actuator: &[],
         fitted: Fitted::FromDesign,
-        in_room: false,
         meaning: "E t of the wall along its yarns",
+        ..PLAIN
     }],
     family: Some(Family::Mckibben),
     add,

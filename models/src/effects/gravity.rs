@@ -13,7 +13,7 @@
 //! Validity: needs a fine enough division (12 segments give 0.1 % of the droop of a 360 mm robot). Vanishes when the
 //! robot bends in a horizontal plane. Derived here; kept as dead load on the deformed shape.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
@@ -32,17 +32,10 @@ pub(super) const ENTRY: Effect = Effect {
         key: "weight_n_per_m",
         symbol: "w",
         unit: "N/m",
-        si: 1.0,
-        neutral: 0.0,
         typical: 1.5,
-        lower: 0.0,
         upper: 8.0,
-        possible: POSITIVE,
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "weight per length",
+        ..PLAIN
     }],
     family: None,
     add,

@@ -11,7 +11,7 @@
 //!
 //! Acts only where B > 0. Validity: small κ₀. Derived here.
 
-use super::{ANY, Effect, Fitted, Group, Parameter, Stage};
+use super::{ANY, Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
@@ -30,17 +30,13 @@ pub(super) const ENTRY: Effect = Effect {
         key: "curvature_per_m",
         symbol: "κ₀",
         unit: "1/m",
-        si: 1.0,
-        neutral: 0.0,
         typical: 0.3,
         lower: -2.0,
         upper: 2.0,
         possible: ANY,
-        starts: &[],
         by_actuator: &[("spam", 0.16), ("epam", 0.36), ("cpam", 0.48), ("fpam", 0.19)],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "curvature at rest",
+        ..PLAIN
     }],
     family: None,
     add,

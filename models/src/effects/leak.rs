@@ -12,7 +12,7 @@
 //! loss is steady: use `pressure_loss`. Supply stage. Reference: discharge of a volume through a laminar leak; for small
 //! r t it is 1 − r t.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -30,17 +30,10 @@ pub(super) const ENTRY: Effect = Effect {
         key: "rate_per_s",
         symbol: "r",
         unit: "1/s",
-        si: 1.0,
-        neutral: 0.0,
         typical: 0.02,
-        lower: 0.0,
         upper: 0.5,
-        possible: POSITIVE,
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "share of the pressure lost per second",
+        ..PLAIN
     }],
     family: None,
     add,

@@ -11,7 +11,7 @@
 //!
 //! y is taken relative to the straight robot, where every marker reads 0. Validity: same e for all markers. Geometry.
 
-use super::{ANY, Effect, Fitted, Group, Parameter, Stage};
+use super::{ANY, Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -30,16 +30,12 @@ pub(super) const ENTRY: Effect = Effect {
         symbol: "e",
         unit: "mm",
         si: 1e-3,
-        neutral: 0.0,
         typical: 10.0,
         lower: -60.0,
         upper: 60.0,
         possible: ANY,
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "marker height above the axis",
+        ..PLAIN
     }],
     family: None,
     add,

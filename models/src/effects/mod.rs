@@ -47,8 +47,9 @@ pub use own::Catalogue;
 
 /// The list, in the order in which effects are added to a model.
 pub const EFFECTS: &[Effect] = &[
-    weld_width::ENTRY,
+    // Over the whole width, before welds take of it.
     chord_arm::ENTRY,
+    weld_width::ENTRY,
     end_constraint::ENTRY,
     end_fittings::ENTRY,
     arm_growth::ENTRY,
@@ -167,6 +168,27 @@ pub struct Parameter<'a> {
     /// What it is.
     pub meaning: &'a str,
 }
+
+/// What most parameters are; entries say how they differ.
+const PLAIN: Parameter<'static> = Parameter {
+    key: "",
+    symbol: "",
+    unit: "-",
+    si: 1.0,
+    neutral: 0.0,
+    typical: 1.0,
+    lower: 0.0,
+    upper: 1.0,
+    possible: POSITIVE,
+    starts: &[],
+    by_actuator: &[],
+    fitted: Fitted::Always,
+    in_room: false,
+    meaning: "",
+};
+/// Whether a mechanism is there, from 0 to 1, by design.
+const SHARE: Parameter<'static> =
+    Parameter { key: "share", symbol: "σ", possible: [0.0, 1.0], fitted: Fitted::FromDesign, ..PLAIN };
 
 /// What is possible of a stiffness, a weight, a friction.
 const POSITIVE: [f64; 2] = [0.0, f64::INFINITY];

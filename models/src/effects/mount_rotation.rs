@@ -12,7 +12,7 @@
 //! A pure bending moment is balanced inside the robot and does not reach the base; what turns it is the hose, the clamp or
 //! the first pouch pressing on it. **Validity**: elastic mount, rotation about the base point. Geometry.
 
-use super::{ANY, Effect, Fitted, Group, Parameter, Stage};
+use super::{ANY, Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -31,16 +31,12 @@ pub(super) const ENTRY: Effect = Effect {
         symbol: "c",
         unit: "deg/kPa",
         si: std::f64::consts::PI / 180e3,
-        neutral: 0.0,
         typical: 0.05,
         lower: -0.35,
         upper: 0.35,
         possible: ANY,
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "rotation of the base per actuator pressure",
+        ..PLAIN
     }],
     family: None,
     add,

@@ -17,7 +17,7 @@
 //! the pouches. **Validity**: o g² below about 1; the body's own pressure moment stays that of the round section. Reference:
 //! Brazier 1927 for the squared curvature; this form is derived here.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -35,17 +35,11 @@ pub(super) const ENTRY: Effect = Effect {
         key: "flattening_m2",
         symbol: "o",
         unit: "m²",
-        si: 1.0,
-        neutral: 0.0,
         typical: 0.02,
-        lower: 0.0,
         upper: 0.5,
-        possible: POSITIVE,
-        starts: &[],
         by_actuator: &[("spam", 0.07), ("epam", 0.014), ("cpam", 0.0078), ("fpam", 0.05)],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "flattening per squared curvature",
+        ..PLAIN
     }],
     family: None,
     add,

@@ -7,7 +7,7 @@ use std::sync::Arc;
 /// Every effect that a scenario may use: [`EFFECTS`] and its own formulas, in the order in which they are added to a model.
 ///
 /// ```
-/// let text = models::shipped("epam").unwrap().to_string() + r#"
+/// let text = models::shipped("epam-textbook").unwrap().to_string() + r#"
 /// [[formula]]
 /// name = "cubic_spring"
 /// moment = "-k * theta^3"

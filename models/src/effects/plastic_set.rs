@@ -15,7 +15,7 @@
 //! `−½Bsκ² − ½Bs(1 − s)m²` beyond, where the largest bend goes along. Acts only where B > 0. **Validity**: creases and
 //! yarns that stay bent; no recovery with time. Reference: linear plastic hardening without threshold; derived here.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Memory, Pose, Term};
 
@@ -34,17 +34,11 @@ pub(super) const ENTRY: Effect = Effect {
         key: "share",
         symbol: "s",
         unit: "-",
-        si: 1.0,
-        neutral: 0.0,
         typical: 0.12,
-        lower: 0.0,
         upper: 0.5,
         possible: [0.0, 1.0],
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "share of the largest bend that stays",
+        ..PLAIN
     }],
     family: None,
     add,

@@ -12,7 +12,7 @@
 //! **Validity**: steady flow, small gauge pressures. With n = 1 it looks like a stiffer body. Supply stage: acts before the balance.
 //! Reference: Hagen–Poiseuille and orifice flow in series, incompressible.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Fitted, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 /// Pressure at which the lost share is f \[Pa\].
@@ -34,33 +34,25 @@ pub(super) const ENTRY: Effect = Effect {
             key: "fraction",
             symbol: "f",
             unit: "-",
-            si: 1.0,
-            neutral: 0.0,
             typical: 0.15,
-            lower: 0.0,
             upper: 0.8,
             possible: [0.0, 1.0],
-            starts: &[],
-            by_actuator: &[],
-            fitted: Fitted::Always,
-            in_room: false,
             meaning: "share of the set pressure that is lost at 20 kPa",
+            ..PLAIN
         },
         Parameter {
             key: "exponent",
             symbol: "n",
             unit: "-",
-            si: 1.0,
             neutral: 1.0,
             typical: 1.0,
             lower: 0.5,
             upper: 2.0,
             possible: [0.5, 2.0],
             starts: &[0.5, 0.75, 1.5],
-            by_actuator: &[],
             fitted: Fitted::WithGauge,
-            in_room: false,
             meaning: "exponent of the loss",
+            ..PLAIN
         },
     ],
     family: None,

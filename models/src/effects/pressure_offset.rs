@@ -11,7 +11,7 @@
 //!
 //! Validity: constant over the range of pressures. Supply stage: acts before the balance. Definition.
 
-use super::{ANY, Effect, Fitted, Group, Parameter, Stage};
+use super::{ANY, Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -30,16 +30,12 @@ pub(super) const ENTRY: Effect = Effect {
         symbol: "P₀",
         unit: "kPa",
         si: 1e3,
-        neutral: 0.0,
         typical: 2.0,
         lower: -5.0,
         upper: 8.0,
         possible: ANY,
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "set pressure that does not arrive",
+        ..PLAIN
     }],
     family: None,
     add,

@@ -24,7 +24,7 @@
 //! Below P = p_b (χ + (π − 2) A'/2W), A' = R' cosα, the body's gas at the sides keeps the pouch flat.
 //! **Validity**: inextensible fabric; a ≤ W/π, so W ≥ ⅔L. Derived here; `exact::pouch::sealed_volume_m3` is its volume.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Group, Parameter, SHARE, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::section::Section;
@@ -44,22 +44,7 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Compare with pouches whose sides are freed by gussets, or that are wider.",
     validity: "inextensible fabric; at least two thirds as wide as long",
     reference: "derived here",
-    parameters: &[Parameter {
-        key: "share",
-        symbol: "σ",
-        unit: "-",
-        si: 1.0,
-        neutral: 0.0,
-        typical: 1.0,
-        lower: 0.0,
-        upper: 1.0,
-        possible: [0.0, 1.0],
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::FromDesign,
-        in_room: false,
-        meaning: "1: sealed sides, 0: sides that open freely",
-    }],
+    parameters: &[Parameter { meaning: "1: sealed sides, 0: sides that open freely", ..SHARE }],
     family: Some(Family::Pouch),
     add,
 };
@@ -83,6 +68,7 @@ fn add(values: &[f64], assembly: &mut Assembly) {
             let term = SealedSides::new(values[0] * restraint, site);
             // At a → 0 the gas of the body resists with −½ΔA/(W a) of its pressure.
             site.closed_share += (-0.5 * values[0] * restraint * term.area[0] / site.shape.width_m).max(0.0);
+            site.guess_fails = true;
             site.actuator_terms.push(Box::new(term));
         }
     }

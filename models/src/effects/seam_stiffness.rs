@@ -12,7 +12,7 @@
 //! For small θ the contraction goes as θ²/6, so this is a constant moment 3kD/L₀: there it cannot be told from
 //! `tail_tension`. Validity: elastic folds. Derived here.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Group, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -32,17 +32,10 @@ pub(super) const ENTRY: Effect = Effect {
         key: "stiffness_nm_per_rad",
         symbol: "k",
         unit: "N m/rad",
-        si: 1.0,
-        neutral: 0.0,
         typical: 0.5,
-        lower: 0.0,
         upper: 3.0,
-        possible: POSITIVE,
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "fold stiffness of one pouch",
+        ..PLAIN
     }],
     family: Some(Family::Pouch),
     add,

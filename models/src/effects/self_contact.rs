@@ -20,7 +20,7 @@
 //!
 //! Validity: pouches or folds side by side; for pouches φ = π is derived here, another value is to be seen on the robot or fitted.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Group, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -42,33 +42,24 @@ pub(super) const ENTRY: Effect = Effect {
             key: "stiffness_nm_per_rad",
             symbol: "k",
             unit: "N m/rad",
-            si: 1.0,
-            neutral: 0.0,
             typical: 20.0,
-            lower: 0.0,
             upper: 1000.0,
-            possible: POSITIVE,
             starts: &[1.0, 20.0, 300.0],
-            by_actuator: &[],
-            fitted: Fitted::Always,
-            in_room: false,
             meaning: "contact stiffness of one pouch, or of a metre of folds",
+            ..PLAIN
         },
         Parameter {
             key: "touch_rad",
             symbol: "φ",
             unit: "rad",
-            si: 1.0,
             neutral: PI,
             typical: PI,
             lower: 0.5,
             upper: 4.0,
             possible: [0.5, 4.0],
             starts: &[1.0, 1.6, 2.2, 2.7, 3.3],
-            by_actuator: &[],
-            fitted: Fitted::Always,
-            in_room: false,
             meaning: "angle at which neighbours touch; fPAM: turn of a metre of body",
+            ..PLAIN
         },
     ],
     family: None,

@@ -15,7 +15,7 @@
 //! **Validity**: sudden locking with a large K; yarns that are pressed together little by little have a smaller one. Bias-extension tests lock near 45° for a plain weave, far beyond the muscle's stroke; a coating or
 //! a tight weave locks earlier. Reference: trellis kinematics, Cao et al. 2008; the penalty is an assumption.
 
-use super::{ABOVE_ZERO, Effect, Fitted, Group, Parameter, Stage};
+use super::{ABOVE_ZERO, Effect, Group, PLAIN, Parameter, Stage};
 use crate::actuators::{ActuatorShape, Family};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -37,33 +37,27 @@ pub(super) const ENTRY: Effect = Effect {
             key: "lock_rad",
             symbol: "γ_L",
             unit: "rad",
-            si: 1.0,
             neutral: 1.0,
             typical: 0.22,
             lower: 0.05,
             upper: 1.0,
             possible: [0.0, FRAC_PI_2],
             starts: &[0.08, 0.14, 0.2, 0.26, 0.32],
-            by_actuator: &[],
-            fitted: Fitted::Always,
-            in_room: false,
             meaning: "shear angle at which the yarns touch",
+            ..PLAIN
         },
         Parameter {
             key: "stiffness_n_per_m",
             symbol: "K",
             unit: "N/m",
-            si: 1.0,
             neutral: JAMMED,
             typical: JAMMED,
             lower: 20.0,
             upper: 20e3,
             possible: ABOVE_ZERO,
             starts: &[60.0, 200.0, 600.0],
-            by_actuator: &[],
-            fitted: Fitted::Always,
-            in_room: false,
             meaning: "stiffness of the jammed weave",
+            ..PLAIN
         },
     ],
     family: Some(Family::Mckibben),

@@ -13,7 +13,7 @@
 //! Makes the free stroke rise with pressure, which no ideal McKibben law does. Validity: linear in γ, below locking
 //! (about 35–45°). Derived here; modulus relation of an orthotropic sheet at 45° with ν₁₂ ≈ 0.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Group, PLAIN, Parameter, Stage};
 use crate::actuators::{ActuatorShape, Family};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -33,17 +33,10 @@ pub(super) const ENTRY: Effect = Effect {
         key: "shear_n_per_m",
         symbol: "G_t",
         unit: "N/m",
-        si: 1.0,
-        neutral: 0.0,
         typical: 45.0,
-        lower: 0.0,
         upper: 400.0,
-        possible: POSITIVE,
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "shear modulus times thickness of the fabric",
+        ..PLAIN
     }],
     family: Some(Family::Mckibben),
     add,

@@ -21,7 +21,7 @@
 //! 3 p_b; glued over the whole flat width; an arm that the scenario gives is replaced. Finite elements of the shipped robot at
 //! 30 kPa: axis 70 mm from the far side. Derived here.
 
-use super::{Effect, Fitted, Group, Parameter, Stage};
+use super::{Effect, Group, Parameter, SHARE, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::section::Section;
@@ -38,22 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
     remedy: "Measure the distance from the far wall to the middle of the muscle at full pressure.",
     validity: "glued over the whole flat width; P above some 3 p_b",
     reference: "derived here",
-    parameters: &[Parameter {
-        key: "share",
-        symbol: "σ",
-        unit: "-",
-        si: 1.0,
-        neutral: 0.0,
-        typical: 1.0,
-        lower: 0.0,
-        upper: 1.0,
-        possible: [0.0, 1.0],
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::FromDesign,
-        in_room: false,
-        meaning: "1: half in the wall, 0: on it",
-    }],
+    parameters: &[Parameter { meaning: "1: half in the wall, 0: on it", ..SHARE }],
     family: Some(Family::Mckibben),
     add,
 };

@@ -11,7 +11,7 @@
 //!
 //! Validity: tension constant along the robot. Derived here.
 
-use super::{ANY, Effect, Fitted, Group, Parameter, Stage};
+use super::{ANY, Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::body::soft_step;
 use crate::term::{Pose, Term};
@@ -31,17 +31,12 @@ pub(super) const ENTRY: Effect = Effect {
         key: "moment_nm",
         symbol: "ΔM",
         unit: "N m",
-        si: 1.0,
-        neutral: 0.0,
         typical: 0.45,
         lower: -0.3,
         upper: 1.5,
         possible: ANY,
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "extra resisting moment",
+        ..PLAIN
     }],
     family: None,
     add,

@@ -10,7 +10,7 @@
 //!
 //! Validity: dead load at the end of the centre line. Statics.
 
-use super::{ANY, Effect, Fitted, Group, Parameter, Stage};
+use super::{ANY, Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
@@ -35,17 +35,13 @@ const fn force(key: &'static str, symbol: &'static str, typical: f64, in_room: b
         key,
         symbol,
         unit: "N",
-        si: 1.0,
-        neutral: 0.0,
         typical,
         lower: -5.0,
         upper: 5.0,
         possible: ANY,
-        starts: &[],
-        by_actuator: &[],
-        fitted: Fitted::Always,
         in_room,
         meaning: "force on the tip",
+        ..PLAIN
     }
 }
 

@@ -11,7 +11,7 @@
 //!
 //! **Validity**: welds that keep their length, b < L₀. Derived here.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Fitted, Group, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 
@@ -31,16 +31,11 @@ pub(super) const ENTRY: Effect = Effect {
         symbol: "b",
         unit: "mm",
         si: 1e-3,
-        neutral: 0.0,
         typical: 3.0,
-        lower: 0.0,
         upper: 10.0,
-        possible: POSITIVE,
-        starts: &[],
-        by_actuator: &[],
         fitted: Fitted::FromDesign,
-        in_room: false,
         meaning: "width of the welds",
+        ..PLAIN
     }],
     family: Some(Family::Pouch),
     add,
@@ -68,8 +63,7 @@ mod tests {
     #[test]
     fn without_a_wall_the_stroke_falls_by_the_share_of_the_pitch() {
         // Where nothing resists, the pouch is as round as it gets: cosθ = 0, however long it is.
-        let text = crate::scenario::SHIPPED.iter().find(|s| s.0 == "cpam").unwrap().1;
-        let bare = text.split("[effects").next().unwrap().replace("pressure_kpa = 2 ", "pressure_kpa = 0.5 ");
+        let bare = crate::shipped("cpam-textbook").unwrap().replace("pressure_kpa = 2 ", "pressure_kpa = 0.5 ");
         let turn = |more: &str| {
             let model = Model::new(&Scenario::parse(&format!("{bare}{more}")).unwrap());
             let mut at = model.prediction();

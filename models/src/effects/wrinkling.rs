@@ -19,7 +19,7 @@
 //! are those of a wall that does: κ_w half of the curvature at which the robots work.
 //! **Validity**: membrane without bending stiffness, circular section. Reference: Comer & Levy, AIAA Journal 1(7), 1963.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Group, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::body::BodyLaw;
 use crate::exact::beam::{gamma0_from_curvature_ratio, moment_ratio};
@@ -41,17 +41,12 @@ pub(super) const ENTRY: Effect = Effect {
         key: "compliance_m_per_n",
         symbol: "c",
         unit: "m/N",
-        si: 1.0,
-        neutral: 0.0,
         typical: 1e-3,
-        lower: 0.0,
         upper: 5e-3,
-        possible: POSITIVE,
         starts: &[2.3e-5, 1e-4, 4e-4, 1.5e-3],
         by_actuator: &[("spam", 8e-4), ("epam", 1.8e-3), ("cpam", 2.4e-3), ("fpam", 9.5e-4)],
-        fitted: Fitted::Always,
-        in_room: false,
         meaning: "compliance 1/(E t) of the body fabric",
+        ..PLAIN
     }],
     family: None,
     add,

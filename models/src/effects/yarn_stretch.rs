@@ -16,7 +16,7 @@
 //! the sign. (96.5 + 120)/2 MPa × 50 µm and ν = 0.2 give 1.48e-4 m/N; [`crate::muscle`] has the derivation. **Validity**: yarns
 //! linear in Green strain, equal in both families (unequal ones twist: [`crate::exact::tube`]). Derived here.
 
-use super::{Effect, Fitted, Group, POSITIVE, Parameter, Stage};
+use super::{Effect, Fitted, Group, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 
@@ -35,17 +35,11 @@ pub(super) const ENTRY: Effect = Effect {
         key: "compliance_m_per_n",
         symbol: "c",
         unit: "m/N",
-        si: 1.0,
-        neutral: 0.0,
         typical: 1.5e-4,
-        lower: 0.0,
         upper: 3e-4,
-        possible: POSITIVE,
-        starts: &[],
-        by_actuator: &[],
         fitted: Fitted::FromDesign,
-        in_room: false,
         meaning: "compliance of the yarns, (1 − ν)/(E t)",
+        ..PLAIN
     }],
     family: Some(Family::Mckibben),
     add,

@@ -103,7 +103,7 @@ fn a_misspelt_variable_or_function_is_answered_with_what_was_meant() {
 
 /// The formula on an ePAM, at 20 kPa, and why there is no equilibrium.
 fn unsolved(moment: &str, typical: f64) -> String {
-    let text = shipped("epam").unwrap().to_string()
+    let text = shipped("epam-textbook").unwrap().to_string()
         + &format!(
             "[[formula]]\nname = \"own\"\nmoment = \"{moment}\"\n\
              [formula.parameters.k]\nunit = \"N m\"\ntypical = {typical}\nbounds = [0, 100]\n"
@@ -135,7 +135,7 @@ fn the_force_is_minus_the_slope_of_the_energy_also_at_corners() {
         ("-k*sqrt(abs(theta))*sign(theta)", vec![("k", "N m")]),
     ] {
         let formula = Formula::new(draft(moment, &parameters)).unwrap_or_else(|e| panic!("{moment}: {e:?}"));
-        let robot = Scenario::parse(shipped("epam").unwrap()).unwrap();
+        let robot = Scenario::parse(shipped("epam-textbook").unwrap()).unwrap();
         let mut assembly = crate::model::assemble(&robot, &robot.spans(), 12);
         formula.add(&vec![0.5; parameters.len()], &mut assembly);
         let term = assembly.sites[0].body_terms.last().unwrap();
@@ -156,7 +156,7 @@ fn the_force_is_minus_the_slope_of_the_energy_also_at_corners() {
 
 #[test]
 fn a_formula_of_the_catalogues_law_predicts_the_same() {
-    let text = shipped("epam").unwrap().to_string()
+    let text = shipped("epam-textbook").unwrap().to_string()
         + "[[formula]]\nname = \"own_tension\"\nmoment = \"-m*tanh(kappa/k0)\"\n\
            [formula.parameters.m]\nunit = \"N m\"\ntypical = 0.45\nbounds = [-1, 2]\n\
            [formula.parameters.k0]\nunit = \"1/m\"\nneutral = 0.05\ntypical = 0.05\nbounds = [0.01, 1]\n";

@@ -179,12 +179,30 @@ pub struct EffectChoice {
 pub const BASES: &[&str] = &["assumed", "calibrated", "measured", "predicted", "published"];
 
 /// The scenarios that come with the library: the four robots of du Pasquier 2023, by actuator name.
+///
+/// `epam-textbook` is the same robot without the mechanics that textbook models lack.
 pub fn shipped(name: &str) -> Option<&'static str> {
-    SHIPPED.iter().find(|(key, _)| *key == name).map(|(_, text)| *text)
+    let of = |list: &[(&str, &'static str)], name: &str| list.iter().find(|(key, _)| *key == name).map(|s| s.1);
+    of(SHIPPED, name).or_else(|| of(TEXTBOOK, name.strip_suffix("-textbook")?))
+}
+
+/// A scenario and the mechanics of a pouch in a pressurised wall.
+macro_rules! in_the_wall {
+    ($file:literal) => {
+        concat!(include_str!($file), include_str!("../../scenarios/pouch-mechanics.toml"))
+    };
 }
 
 /// Names and texts of the shipped scenarios.
 pub const SHIPPED: &[(&str, &str)] = &[
+    ("spam", in_the_wall!("../../scenarios/spam.toml")),
+    ("cpam", in_the_wall!("../../scenarios/cpam.toml")),
+    ("epam", in_the_wall!("../../scenarios/epam.toml")),
+    ("fpam", include_str!("../../scenarios/fpam.toml")),
+];
+
+/// The same robots as textbooks model them.
+const TEXTBOOK: &[(&str, &str)] = &[
     ("spam", include_str!("../../scenarios/spam.toml")),
     ("cpam", include_str!("../../scenarios/cpam.toml")),
     ("epam", include_str!("../../scenarios/epam.toml")),

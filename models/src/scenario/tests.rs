@@ -3,7 +3,7 @@
 use super::*;
 
 fn broken(from: &str, to: &str) -> ScenarioError {
-    let text = shipped("epam").unwrap();
+    let text = shipped("epam-textbook").unwrap();
     assert!(text.contains(from), "{from}");
     Scenario::parse(&text.replace(from, to)).unwrap_err()
 }
@@ -50,7 +50,7 @@ fn each_slip_is_refused_with_its_place_and_a_hint() {
 #[test]
 #[should_panic(expected = "no effect `end_constrain`")]
 fn a_misspelt_effect_in_code_is_not_ignored() {
-    let _ = Scenario::parse(shipped("epam").unwrap()).unwrap().with_effect("end_constrain", &[0.4]);
+    let _ = Scenario::parse(shipped("epam-textbook").unwrap()).unwrap().with_effect("end_constrain", &[0.4]);
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn an_empty_or_cut_text_is_an_error_not_a_panic() {
 fn zones_cut_the_body_and_override_what_they_name() {
     let text = format!(
         "{}\n[[zone]]\nfrom_mm = 60\nto_mm = 120\npassive = true\n[[zone]]\nfrom_mm = 240\nto_mm = 360\nradius_mm = 30\nchannel = 2\n",
-        shipped("epam").unwrap()
+        shipped("epam-textbook").unwrap()
     );
     let spans = Scenario::parse(&text).unwrap().spans();
     let starts: Vec<f64> = spans.iter().map(|s| (s.start_m * 1e3).round()).collect();
@@ -79,7 +79,7 @@ fn zones_cut_the_body_and_override_what_they_name() {
 
 #[test]
 fn the_base_law_is_set_from_the_scenario() {
-    let text = |more: &str| shipped("epam").unwrap().replace("[actuator]", &format!("{more}\n[actuator]"));
+    let text = |more: &str| shipped("epam-textbook").unwrap().replace("[actuator]", &format!("{more}\n[actuator]"));
     let y = |more: &str| {
         let model = crate::Model::new(&Scenario::parse(&text(more)).unwrap());
         let mut state = model.prediction();
@@ -110,7 +110,8 @@ bounds = [0, 20]
 
 #[test]
 fn a_formula_of_the_scenario_joins_the_catalogue_and_can_be_switched_on() {
-    let text = shipped("epam").unwrap().to_string() + OWN + "[effects.cubic_spring]\nk = 2\nbasis = \"assumed\"\n";
+    let text =
+        shipped("epam-textbook").unwrap().to_string() + OWN + "[effects.cubic_spring]\nk = 2\nbasis = \"assumed\"\n";
     let scenario = Scenario::parse(&text).unwrap();
     assert_eq!(scenario.formulas.len(), 1);
     let chosen = scenario.effects.iter().find(|e| e.name == "cubic_spring").unwrap();
@@ -136,20 +137,20 @@ fn a_slip_in_a_formula_is_shown_under_its_character() {
         ("typical = 0.5", "typical = 0", "typical = 0 of k is its neutral value", "0"),
         ("typical = 0.5", "typical = 0.5\nneutral = 0.5", "typical = 0.5 of k is its neutral value", "0.5"),
     ] {
-        let text = shipped("epam").unwrap().to_string() + &OWN.replace(from, to);
+        let text = shipped("epam-textbook").unwrap().to_string() + &OWN.replace(from, to);
         let error = Scenario::parse(&text).unwrap_err();
         let (start, end) = error.span.unwrap_or_else(|| panic!("{to}: {error:?}"));
         assert!(error.message.contains(message), "{to}: {error:?}");
         assert_eq!(&text[start..end], at, "{to}: {error:?}");
     }
-    let twice = shipped("epam").unwrap().to_string() + OWN + OWN;
+    let twice = shipped("epam-textbook").unwrap().to_string() + OWN + OWN;
     assert!(Scenario::parse(&twice).unwrap_err().message.contains("two formulas"));
 }
 
 #[test]
 fn a_value_beyond_the_usual_bounds_is_taken_if_it_was_found_on_the_robot() {
     let with = |basis: &str| {
-        let text = shipped("epam").unwrap();
+        let text = shipped("epam-textbook").unwrap();
         Scenario::parse(&format!("{text}\n[effects.gravity]\nbasis = \"{basis}\"\nweight_n_per_m = 11\n"))
     };
     for basis in ["measured", "published", "calibrated"] {
@@ -172,8 +173,9 @@ fn geometry_that_cannot_be_built_is_refused_in_the_words_of_the_pattern() {
 
 #[test]
 fn a_wall_is_told_once_and_with_how_it_is_known() {
-    let with =
-        |keys: &str| Scenario::parse(&shipped("epam").unwrap().replace("[actuator]", &format!("{keys}\n[actuator]")));
+    let with = |keys: &str| {
+        Scenario::parse(&shipped("epam-textbook").unwrap().replace("[actuator]", &format!("{keys}\n[actuator]")))
+    };
     let wall = with("wall_stiffness_n_per_m = 41600").unwrap().wall;
     assert_eq!((wall.stiffness_n_per_m, wall.basis.as_str()), (Some(41600.0), "assumed"));
     let refused = [

@@ -6,8 +6,8 @@ use models::{Loads, Model};
 
 /// Names in the order of the catalogue.
 const NAMES: &[&str] = &[
-    "weld_width",
     "chord_arm",
+    "weld_width",
     "end_constraint",
     "end_fittings",
     "arm_growth",

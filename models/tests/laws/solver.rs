@@ -8,7 +8,7 @@ const ACT: [f64; 12] = [0.0, 1.0, 10.0, 100.0, 1e3, 3e3, 1e4, 3e4, 6e4, 1e5, 2e5
 const BODY: [f64; 6] = [50.0, 500.0, 2e3, 8e3, 3e4, 1e5];
 
 /// Predicts at every pressure; returns how many had no equilibrium.
-fn sweep(name: &str, scenario: &Scenario) -> usize {
+pub fn sweep(name: &str, scenario: &Scenario) -> usize {
     let model = Model::new(scenario);
     let mut out = model.prediction();
     let mut refused = 0;

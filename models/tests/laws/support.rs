@@ -11,11 +11,15 @@ pub fn actuators() -> impl Iterator<Item = &'static str> {
     ACTUATORS.iter().map(|a| a.name)
 }
 
-/// The shipped robot of that actuator; a muscle on its body and with stiff yarns, whose bend rises with every pressure. What
-/// the shipped one has more is visited effect by effect, and as it is in `muscle.rs`.
+/// The textbook model of that actuator's robot; what the shipped one has more is visited effect by effect, and as it is where
+/// a law says `full`.
 pub fn robot(actuator: &str) -> Scenario {
-    let shipped = Scenario::parse(shipped(actuator).unwrap()).unwrap();
-    if actuator == "fpam" { shipped.bare().with_effect("arm_growth", &[1.0]) } else { shipped }
+    Scenario::parse(shipped(&format!("{actuator}-textbook")).unwrap()).unwrap()
+}
+
+/// The shipped robot of that actuator.
+pub fn full(actuator: &str) -> Scenario {
+    Scenario::parse(shipped(actuator).unwrap()).unwrap()
 }
 
 /// Effects that exist for the actuator of `scenario`.

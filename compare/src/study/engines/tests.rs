@@ -1,11 +1,11 @@
 //! Both engines on runs that are the reduced model itself.
 
 use super::*;
-use crate::study::published::shipped_scenario;
+use crate::study::published::textbook_scenario;
 
 /// A run that is the reduced model itself, but for one term.
 fn run(extra: usize, mj: f64) -> (Scenario, FeRun, Pair) {
-    let scenario = shipped_scenario("epam").unwrap().with_bending(0.4);
+    let scenario = textbook_scenario("epam").unwrap().with_bending(0.4);
     let model = Model::new(&scenario);
     let mut at = model.prediction();
     let loads = Loads::uniform(2e3, 20e3);
@@ -60,7 +60,7 @@ fn the_term_that_holds_more_energy_at_the_same_bend_carries_the_difference() {
 
 #[test]
 fn between_two_pressures_a_run_that_is_the_reduced_model_has_its_ledger_and_filling_is_in_neither() {
-    let plain = shipped_scenario("epam").unwrap();
+    let plain = textbook_scenario("epam").unwrap();
     let scenario = plain.with_effect("end_constraint", &[0.4, 1.0]);
     let model = Model::new(&scenario);
     let mut at = model.prediction();
@@ -113,7 +113,7 @@ fn stored_runs_can_be_read_and_are_of_shipped_robots() {
     let runs = stored().unwrap();
     assert!(!runs.is_empty());
     for run in &runs {
-        let scenario = shipped_scenario(&run.actuator).unwrap();
+        let scenario = textbook_scenario(&run.actuator).unwrap();
         assert_eq!(run.scenario, scenario.name);
         assert!(run.states.len() > 1 && run.states[0].actuator_kpa == 0.0);
     }

@@ -175,7 +175,7 @@ fn mean_volumes(scenario: &Scenario, runs: &[FeRun]) -> Vec<MeanVolumes> {
 mod tests {
     use super::super::stored;
     use super::*;
-    use crate::study::published::shipped_scenario;
+    use crate::study::published::textbook_scenario;
 
     /// A run of the ePAM whose body loses πR³θ + χ ΔV_a, and whose pouches are a share of ideal lenses.
     fn made_up(scenario: &Scenario, displaced: f64, share: f64) -> FeRun {
@@ -192,7 +192,7 @@ mod tests {
 
     #[test]
     fn a_run_that_displaces_a_multiple_of_its_actuator_gives_it_back_but_for_small_turns() {
-        let scenario = shipped_scenario("epam").unwrap();
+        let scenario = textbook_scenario("epam").unwrap();
         let [small, bent @ ..] = &volumes(&scenario, &made_up(&scenario, 1.1, 0.6))[..] else { panic!() };
         assert!(small.displaced.is_none() && small.lens_share.is_none() && bent.len() == 2);
         for v in bent {
@@ -202,20 +202,20 @@ mod tests {
 
     #[test]
     fn a_slack_actuator_a_muscle_and_a_contraction_past_the_round_lens_have_no_share() {
-        let scenario = shipped_scenario("epam").unwrap();
+        let scenario = textbook_scenario("epam").unwrap();
         let mut run = made_up(&scenario, 1.1, 0.6);
         run.states[2].actuator_cm3 = 0.04 * run.states[3].actuator_cm3 + run.states[0].actuator_cm3;
         run.states[3].turn_rad = MAX_CONTRACTION * 0.36 / 0.08 + 1e-6;
         let found = volumes(&scenario, &run);
         assert!(found[1].displaced.is_none());
         assert!(found[2].displaced.is_some() && found[2].lens_share.is_none());
-        let muscle = volumes(&shipped_scenario("fpam").unwrap(), &made_up(&scenario, 1.1, 0.6));
+        let muscle = volumes(&textbook_scenario("fpam").unwrap(), &made_up(&scenario, 1.1, 0.6));
         assert!(muscle[2].displaced.is_some() && muscle.iter().all(|v| v.lens_share.is_none()));
     }
 
     #[test]
     fn ideal_lenses_contract_as_much_as_the_law_of_the_pouch_says() {
-        let scenario = shipped_scenario("epam").unwrap();
+        let scenario = textbook_scenario("epam").unwrap();
         let theta = 1.1;
         let turn_rad = models::exact::pouch::contraction(theta) * 0.36 / 0.08;
         let stroke = models::actuators::pouch::stroke(&scenario.actuator.shape, theta);
@@ -225,7 +225,7 @@ mod tests {
 
     #[test]
     fn pouches_of_the_stored_epam_hold_six_tenths_of_the_lens_at_all_pressures() {
-        let scenario = shipped_scenario("epam").unwrap();
+        let scenario = textbook_scenario("epam").unwrap();
         let [own, ..] = &body_volumes(&scenario, &stored().unwrap())[..] else { panic!() };
         assert!(own.own && own.seeds == 5 && own.states.len() == 6);
         let ensemble = ensemble(&stored().unwrap(), &scenario);
@@ -247,7 +247,7 @@ mod tests {
 
     #[test]
     fn the_share_of_stroke_and_volume_that_gives_the_volumes_of_the_stored_epam_rises_with_pressure() {
-        let scenario = shipped_scenario("epam").unwrap();
+        let scenario = textbook_scenario("epam").unwrap();
         let ensemble = ensemble(&stored().unwrap(), &scenario);
         let shares: Vec<Option<f64>> = volumes(&scenario, &ensemble.runs[0])
             .iter()

@@ -12,7 +12,7 @@ use crate::plots::Known;
 use crate::report::{Block, Callout, Provenance, Report, Section};
 use crate::study::engines::stored;
 use crate::study::measured::measured_things;
-use crate::study::published::{PublishedLadder, model_ladder, published_ladders, shipped_scenario};
+use crate::study::published::{PublishedLadder, model_ladder, published_ladders, shipped_scenario, textbook_scenario};
 use crate::study::tradeoff::{Timing, of_runs, tradeoff};
 use crate::study::witness::witness;
 use data::{About, Dataset};
@@ -52,7 +52,7 @@ pub struct Story {
 const HIDDEN_IN: [&str; 2] = ["epam", "synthetic-epam"];
 
 fn story() -> Result<Story, CompareError> {
-    let scenario = shipped_scenario(HIDDEN_IN[0])?;
+    let scenario = textbook_scenario(HIDDEN_IN[0])?;
     let (dataset, about) = data::load(HIDDEN_IN[1], &mut |_, _| {})?;
     let diagnosis = diagnose(&scenario, &dataset, about.as_ref(), &Options::default())?;
     Ok(Story { diagnosis, scenario, dataset, about })

@@ -9,13 +9,13 @@ use crate::plots::{Known, RankClass};
 use crate::report::Block;
 use crate::study::engines::stored;
 use crate::study::witness::witness;
-use crate::study::{Generator, generate, published::shipped_scenario};
+use crate::study::{Generator, generate, published::textbook_scenario};
 use models::Scenario;
 
 #[test]
 fn every_body_pressure_has_its_shapes_points_and_curves() {
     let (dataset, _) = data::load("synthetic-epam-two-bodies", &mut |_, _| {}).unwrap();
-    let scenario = shipped_scenario("epam").unwrap();
+    let scenario = textbook_scenario("epam").unwrap();
     let drawn = figures::shapes("both", &scenario, &dataset).unwrap();
     for label in ["30 kPa, body 2", "20 kPa, body 2", "20 kPa, body 4", "60 kPa, body 4"] {
         assert!(drawn.svg.contains(label), "{label}");
@@ -33,7 +33,7 @@ fn every_body_pressure_has_its_shapes_points_and_curves() {
 
 #[test]
 fn a_marker_that_slid_along_the_body_is_seen_in_the_residual_map() {
-    let scenario = shipped_scenario("epam").unwrap().with_bending(1.0);
+    let scenario = textbook_scenario("epam").unwrap().with_bending(1.0);
     let mut slid = scenario.clone();
     slid.markers_m[2] += 0.005;
     let mut dataset = generate(&slid, "slid", &Generator { runs: 5, seed: 4, ..Generator::default() }).unwrap();
@@ -53,7 +53,7 @@ fn a_marker_that_slid_along_the_body_is_seen_in_the_residual_map() {
 
 /// A diagnosis of data with two effects that the scenario lacks, and the scenario.
 fn of_two() -> (Diagnosis, Scenario) {
-    let plain = shipped_scenario("spam").unwrap().with_bending(6.0);
+    let plain = textbook_scenario("spam").unwrap().with_bending(6.0);
     let truth = plain.with_effect("seam_stiffness", &[0.6]).with_effect("camera_scale", &[0.03]);
     let data = generate(&truth, "two", &Generator { runs: 5, seed: 7, ..Generator::default() }).unwrap();
     let options = Options { next_experiment: false, ..Options::default() };
@@ -117,7 +117,7 @@ fn an_attempt_has_a_bar_that_says_it_is_not_enough() {
 #[test]
 fn the_ledgers_beside_finite_elements_begin_with_the_whole_stated_set() {
     let (dataset, about) = data::load("synthetic-epam", &mut |_, _| {}).unwrap();
-    let scenario = shipped_scenario("epam").unwrap();
+    let scenario = textbook_scenario("epam").unwrap();
     let options = Options { next_experiment: false, ..Options::default() };
     let d = diagnose(&scenario, &dataset, about.as_ref(), &options).unwrap();
     assert_eq!(d.indistinguishable, ["end_constraint", "self_contact"]);
@@ -150,7 +150,7 @@ fn a_gauge_has_bars_in_kilopascal() {
 /// A leak acts in the hold: its curve is that of the samples, not that of the moment in which the pressure is set.
 #[test]
 fn samples_have_waited_in_their_own_holds() {
-    let scenario = shipped_scenario("spam").unwrap();
+    let scenario = textbook_scenario("spam").unwrap();
     let generator = Generator { runs: 1, ..Generator::default() };
     let mut dataset = generate(&scenario, "made", &generator).unwrap();
     for (h, hold) in dataset.holds.iter_mut().enumerate() {
