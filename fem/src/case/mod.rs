@@ -127,4 +127,6 @@ impl Case {
 }
 
 #[cfg(test)]
+mod start_tests;
+#[cfg(test)]
 mod tests;
