@@ -327,3 +327,19 @@ fn the_same_tests_give_the_same_bytes() {
     assert_eq!(both[0], both[1]);
     assert!(pictures::pictures(&made(1)).unwrap().iter().map(|p| p.0).eq(["tension", "bias", "shear"]));
 }
+
+/// A solid plate of a fabric bends by E t³/12: with that D the factor is 1.
+#[test]
+fn a_bending_length_is_written_as_what_finite_elements_and_the_fold_take() {
+    let mut found = nylon(&[0, 45, 90]);
+    assert!(!fabric_toml(&found, &Settings::default(), "ibr").unwrap().contains("bending_factor"));
+    let mean = |key: &str| 1e6 * found.quantity(key).unwrap().scatter.mean;
+    let plate = 0.5 * (mean("e0") + mean("e90")) * found.thickness_m.unwrap().powi(3) / 12.0;
+    // D = w c³.
+    found.bend(&[[0.03, plate / 0.03_f64.powi(3)]], "measured");
+    let text = fabric_toml(&found, &Settings::default(), "ibr").unwrap();
+    assert!(text.contains("bending_factor = 1.000,"), "{text}");
+    let told: f64 =
+        text.split("bending_nm = ").nth(1).unwrap().lines().next().unwrap().trim_end_matches('.').parse().unwrap();
+    assert!((told / plate - 1.0).abs() < 1e-6);
+}

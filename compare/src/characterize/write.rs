@@ -20,6 +20,7 @@ pub fn fabric_toml(found: &Characterized, settings: &Settings, program: &str) ->
         found.specimens.len(),
         found.provenance.word()
     );
+    text.push_str(&bending(found).unwrap_or_default());
     for (suffix, law) in ["", "-linear", "-film"].iter().zip(laws) {
         let Some(lines) = law else { continue };
         let name = quoted(&format!("{}{suffix}", settings.name));
@@ -124,6 +125,22 @@ fn poisson(found: &Characterized) -> String {
         Some(q) => format!("nu12 = {:.6}                # {}\n", found.nu12(), q.known),
         None => "nu12 = 0                      # assumed: needs the width under load, or a biaxial test\n".into(),
     }
+}
+
+/// What D of the cantilever test is where it is used: over that of a plate, D = factor E t³/12, and in the reduced model.
+fn bending(found: &Characterized) -> Option<String> {
+    let (d, t) = (1e-6 * value(found, "bending_stiffness")?, found.thickness_m?);
+    let moduli: Vec<f64> = ["e0", "e90"].iter().filter_map(|key| value(found, key)).collect();
+    let plate = 1e6 * moduli.iter().sum::<f64>() / moduli.len() as f64 * t.powi(3) / 12.0;
+    plate.is_finite().then(|| {
+        format!(
+            "# Bending stiffness of the cantilever test, D = {} N·m: its part has bending_factor = {:.3},\n\
+             # a robot in finite elements the same in [fem], and the effect fold_energy bending_nm = {}.\n",
+            digits(d),
+            d / plate,
+            digits(d)
+        )
+    })
 }
 
 fn film(found: &Characterized) -> Option<String> {

@@ -11,7 +11,7 @@ pub(super) const ENTRY: Actuator = Actuator {
     sentence: "Two concentric bodies welded in a pattern: the pouches are part of the wall.",
     formula: "ε = 1 − sinθ/θ;  N = P W L₀ cosθ/θ;  arm = 2R",
     reference: "Niiyama et al. 2015 (pouch); Abrar et al. 2021 (ePAM; its model text was not available here)",
-    validity: "Sealed side edges are not in the bare law: expect it to over-predict (see end_constraint).",
+    validity: "Sealed side edges are not in the bare law, which bends too far: see sealed_sides.",
     family: Family::Pouch,
     stroke: pouch::stroke,
     range: pouch::RANGE,

@@ -13,7 +13,7 @@ pub(super) const ENTRY: Actuator = Actuator {
     sentence: "Flat pouches in series, welded at their ends and taped onto the body; each becomes a lens and shortens.",
     formula: "ε = 1 − sinθ/θ;  N = P W L₀ cosθ/θ;  arm = 2R + β h/2, h = L₀(1 − cosθ)/θ",
     reference: "Niiyama et al. 2015 (pouch motor); arm of an external pouch derived here",
-    validity: "Sealed side edges and stiff tape are not in the bare law: expect it to over-predict (see end_constraint).",
+    validity: "Sealed side edges and stiff tape are not in the bare law, which bends too far: see sealed_sides.",
     family: Family::Pouch,
     stroke: pouch::stroke,
     range: pouch::RANGE,
