@@ -3,7 +3,7 @@
 use crate::commands::tables::table;
 use fem::robot::{Gauge, Hold, KEYS, Key, Reading, RobotRun, Snap, Watch, snaps};
 use fem::{FemError, Problem, Simulation};
-use models::Scenario;
+use models::{Scenario, scenario::Wall};
 use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeMap;
 
@@ -25,6 +25,15 @@ impl Robot {
     /// For its problem.
     pub fn new(scenario: &Scenario, run: &RobotRun, problem: &Problem) -> Result<Robot, FemError> {
         Ok(Robot { scenario: scenario.clone(), run: run.clone(), gauge: Gauge::new(scenario, problem)? })
+    }
+
+    /// What the scenario says to the reduced model alone.
+    pub fn left_out(&self) -> Option<String> {
+        let effects = self.scenario.effects.iter().map(|e| e.name.clone());
+        let wall = self.scenario.wall != Wall::default();
+        let names: Vec<String> = wall.then(|| "[body] wall_…".into()).into_iter().chain(effects).collect();
+        let text = format!("read by the reduced model alone, not by finite elements: {}", names.join(", "));
+        (!names.is_empty()).then_some(text)
     }
 
     /// Starts to watch a run.

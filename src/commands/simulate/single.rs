@@ -2,6 +2,7 @@
 
 use super::folder::{self, Marker, Opened, Wish, Workplace};
 use super::input::Loaded;
+use super::robot::Robot;
 use super::stepping::{Ended, Running};
 use super::summary::{Cost, SUMMARY, Summary};
 use super::{robot_files, write_failure};
@@ -172,6 +173,7 @@ fn finish(
     *written = true;
     let mut notes = running.notices.clone();
     notes.extend(older);
+    notes.extend(loaded.robot.as_ref().and_then(Robot::left_out));
     notes.extend(picture.map(|name| format!("picture: {}", folder.join(name).display())));
     let (open, file) = match running.has_frames() {
         true => ("open in ParaView", "run.pvd"),
