@@ -8,12 +8,12 @@ use std::process::Command;
 #[test]
 fn no_table_plot_optimiser_or_command_line_library_is_pulled_in() {
     let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml");
-    let arguments = ["tree", "--manifest-path", manifest, "-p", "models", "-e", "normal,build", "--prefix", "none"];
+    let arguments = ["tree", "--manifest-path", manifest, "-p", "ibr-models", "-e", "normal,build", "--prefix", "none"];
     let output = Command::new(env!("CARGO")).args(arguments).arg("--offline").output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let tree = String::from_utf8(output.stdout).unwrap();
     let names: Vec<&str> = tree.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    assert!(names.contains(&"models") && names.contains(&"toml"), "{tree}");
+    assert!(names.contains(&"ibr-models") && names.contains(&"toml"), "{tree}");
     for unwanted in ["polars", "plotters", "argmin", "clap", "nalgebra", "rayon"] {
         assert!(!names.iter().any(|name| name.starts_with(unwanted)), "{unwanted} in\n{tree}");
     }

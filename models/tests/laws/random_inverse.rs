@@ -114,7 +114,7 @@ fn asked(seed: u64, robots: usize) -> Wrong {
 
 #[test]
 fn the_inverse_of_random_robots_is_right_or_says_truly_why_not() {
-    // 1e5 robots take minutes: `IBR_ROBOTS=100000 cargo test --release -p models random_inverse -- --nocapture`.
+    // 1e5 robots take minutes: `IBR_ROBOTS=100000 cargo test --release -p ibr-models random_inverse -- --nocapture`.
     let robots = std::env::var("IBR_ROBOTS").ok().and_then(|n| n.parse().ok()).unwrap_or(300);
     let wrong = asked(34, robots);
     println!("{robots} robots: {wrong:?}");
