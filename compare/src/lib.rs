@@ -14,7 +14,6 @@ pub mod directions;
 pub mod error;
 pub mod evaluate;
 pub mod gauge;
-pub mod hidden;
 mod interval;
 pub mod layout;
 pub mod metrics;

@@ -3,8 +3,6 @@
 use super::case::{Case, catalogue};
 use super::stands_out::{StandsOut, stands_out};
 use super::*;
-use crate::hidden::truth::standard_protocol;
-use crate::hidden::{Draw, Truth};
 use crate::study::{Generator, generate, published::textbook_scenario};
 use data::Direct;
 
@@ -93,27 +91,6 @@ fn a_stiffness_that_falls_along_the_robot_is_a_place() {
     let plain = robot("epam", 1.35);
     let [(place, p_value), _] = left_by_base(&plain, &measured(&plain.with_effect("base_clamp", &[3.0, 1.5]), 5, 55));
     assert!(p_value <= 1e-6 && place.words.contains("stiffness changes steadily"), "{place:?}");
-}
-
-/// Two effects with four parameters meet these data as well as the fault does with one.
-#[test]
-fn one_fault_is_a_simpler_answer_than_two_effects() {
-    for (kind, fault, words) in [
-        ("epam", "stiffness_taper", "stiffness changes steadily along the robot"),
-        ("cpam", "stuck_regulator", "the whole robot bends otherwise in hold 3 alone"),
-    ] {
-        let mut truth = Truth::draw(kind, &mut Draw::new(7, 0)).unwrap();
-        truth.add(fault, 1.0);
-        let truth = Truth { runs: 5, camera_sd_m: 1e-3, ..truth };
-        let data = truth.dataset("made", &standard_protocol()).unwrap();
-        let options = Options { next_experiment: false, ..Options::default() };
-        let d = diagnose(&truth.told().unwrap(), &data, None, &options).unwrap();
-        assert_eq!(d.verdict, Some(Verdict::OutOfCatalog), "{fault}: {:?}", d.summary);
-        let pattern = d.pattern.as_ref().unwrap();
-        assert!(pattern.words.contains(words), "{fault}: {pattern:?}");
-        let either = d.summary.iter().any(|s| s.starts_with("Either ") && s.contains(" or one fault"));
-        assert_eq!((either, d.is_either()), (pattern.either, pattern.either), "{:?}", d.summary);
-    }
 }
 
 #[test]

@@ -116,7 +116,7 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
 
 /// Set pressure of every sample \[Pa\], and for how long it has been held \[s\]; the time between two holds belongs to the
 /// second, and a clock that jumps back starts anew, as in [`Model::follow`].
-pub(crate) fn held(holds: &[Hold]) -> Vec<(f64, f64)> {
+pub fn held(holds: &[Hold]) -> Vec<(f64, f64)> {
     let mut end_s = 0.0;
     let mut all = Vec::new();
     for hold in holds {
@@ -128,7 +128,7 @@ pub(crate) fn held(holds: &[Hold]) -> Vec<(f64, f64)> {
 }
 
 /// A small digital gauge: one error of its zero and of its gain, and scatter of every reading.
-pub(crate) struct Manometer {
+pub struct Manometer {
     scatter: Scatter,
     zero_pa: f64,
     gain: f64,
@@ -138,7 +138,8 @@ impl Manometer {
     /// Standard deviations of zero \[Pa\], gain \[-\] and reading \[Pa\].
     const SD: [f64; 3] = [100.0, 0.003, 50.0];
 
-    pub(crate) fn new(seed: u64) -> Manometer {
+    /// From a seed.
+    pub fn new(seed: u64) -> Manometer {
         // Other numbers than the camera's, which are the same with and without a gauge.
         let mut scatter = Scatter::new(seed ^ 0x6A06E);
         let (zero_pa, gain) = (Self::SD[0] * scatter.normal(), 1.0 + Self::SD[1] * scatter.normal());
@@ -146,7 +147,7 @@ impl Manometer {
     }
 
     /// What it shows at a pressure \[Pa\].
-    pub(crate) fn read(&mut self, p_pa: f64) -> f64 {
+    pub fn read(&mut self, p_pa: f64) -> f64 {
         self.gain * p_pa + self.zero_pa + Self::SD[2] * self.scatter.normal()
     }
 }
@@ -194,13 +195,13 @@ fn steps(generator: &Generator, gain: f64) -> Vec<Step> {
 }
 
 /// The markers of a scenario, counted from 1.
-pub(crate) fn markers(scenario: &Scenario) -> Vec<Marker> {
+pub fn markers(scenario: &Scenario) -> Vec<Marker> {
     let marker = |(i, s): (usize, &f64)| Marker { name: (i + 1).to_string(), station_m: Some(*s) };
     scenario.markers_m.iter().enumerate().map(marker).collect()
 }
 
 /// The holds of a protocol, with the times of their samples.
-pub(crate) fn holds(generator: &Generator) -> Vec<Hold> {
+pub fn holds(generator: &Generator) -> Vec<Hold> {
     let mut holds: Vec<Hold> = Vec::new();
     for (i, [p_body_pa, p_act_pa]) in generator.protocol.iter().enumerate() {
         let before = if i == 0 { 0.0 } else { generator.protocol[i - 1][1] };
@@ -221,24 +222,25 @@ pub(crate) fn holds(generator: &Generator) -> Vec<Hold> {
 }
 
 /// Standard normal numbers by the polar method, from a generator whose stream is fixed by its definition.
-pub(crate) struct Scatter {
+pub struct Scatter {
     rng: ChaCha8Rng,
     spare: Option<f64>,
 }
 
 impl Scatter {
-    pub(crate) fn new(seed: u64) -> Scatter {
+    /// From a seed.
+    pub fn new(seed: u64) -> Scatter {
         Scatter { rng: ChaCha8Rng::seed_from_u64(seed), spare: None }
     }
 
     /// Uniform in [0, 1).
-    pub(crate) fn uniform(&mut self) -> f64 {
+    pub fn uniform(&mut self) -> f64 {
         // 53 random bits: every double in [0, 1) of that spacing.
         (self.rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }
 
     /// Standard normal.
-    pub(crate) fn normal(&mut self) -> f64 {
+    pub fn normal(&mut self) -> f64 {
         if let Some(value) = self.spare.take() {
             return value;
         }

@@ -8,7 +8,7 @@ use super::tables::table;
 use super::{Context, Outcome};
 use crate::cli::ChallengeCommand;
 use crate::failure::Failure;
-use compare::hidden::{HIDDEN, HiddenEffect, OUTSIDE};
+use challenge::{HIDDEN, HiddenEffect, OUTSIDE};
 use serde_json::{Value, json};
 
 pub fn run(command: &ChallengeCommand, context: &mut Context) -> Result<Outcome, Failure> {

@@ -2,8 +2,8 @@
 
 use super::march;
 use super::robot::Robot;
-use crate::error::CompareError;
-use crate::study::generate::{Generator, Manometer, Scatter, holds, markers};
+use compare::error::CompareError;
+use compare::study::generate::{Generator, Manometer, Scatter, holds, markers};
 use data::{Dataset, Hold};
 use models::Scenario;
 

@@ -1,7 +1,7 @@
 //! Effects that no entry of the catalogue describes: local, or of the measurement.
 
 use super::HiddenEffect;
-use crate::hidden::robot::Robot;
+use crate::robot::Robot;
 
 /// Factor on the actuator's pressure between two shares of the body length.
 fn weaken(robot: &mut Robot, from: f64, to: f64, strength: f64) {

@@ -3,8 +3,8 @@
 use super::effects::{HIDDEN, HiddenEffect, OUTSIDE, by_name};
 use super::measure::{Measurement, measure};
 use super::robot::Robot;
-use crate::error::CompareError;
-use crate::study::generate::{Generator, Scatter};
+use compare::error::CompareError;
+use compare::study::generate::{Generator, Scatter};
 use data::Dataset;
 use models::{Scenario, shipped};
 use serde::{Deserialize, Serialize};

@@ -3,7 +3,7 @@
 use super::cases::{Named, Outcome, names};
 use super::row::{Row, Target};
 use super::{Breakdown, Confusion, Part};
-use crate::hidden::Kind;
+use crate::Kind;
 use Target::{AtLeast, AtMost, Between};
 
 /// The rows, in the order of the table.

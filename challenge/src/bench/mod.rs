@@ -21,8 +21,8 @@ pub use row::{Row, Target};
 
 use super::score::{Answer, Score};
 use super::truth::{Kind, Truth};
-use crate::diagnosis::{Diagnosis, Distances, Measured, Options};
-use crate::error::CompareError;
+use compare::diagnosis::{Diagnosis, Distances, Measured, Options};
+use compare::error::CompareError;
 use models::Scenario;
 use rayon::prelude::*;
 use serde::Serialize;

@@ -4,12 +4,12 @@ use super::attainable::distances_of;
 use super::follow::{follow_up, tested};
 use super::oracle::{at_best, two_at_best};
 use super::{Case, Diagnose, Part};
-use crate::diagnosis::{Diagnosis, Distances, Experiment, Measured, Options};
-use crate::error::CompareError;
-use crate::hidden::score::{Answer, Score, score};
-use crate::hidden::truth::{ROBOTS, standard_protocol};
-use crate::hidden::{Draw, HIDDEN, Kind, OUTSIDE, Truth, truth};
-use crate::study::generate;
+use crate::score::{Answer, Score, score};
+use crate::truth::{ROBOTS, standard_protocol};
+use crate::{Draw, HIDDEN, Kind, OUTSIDE, Truth, truth};
+use compare::diagnosis::{Diagnosis, Distances, Experiment, Measured, Options};
+use compare::error::CompareError;
+use compare::study::generate;
 use data::{About, Direct, Provenance};
 use serde::Serialize;
 

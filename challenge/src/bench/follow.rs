@@ -8,15 +8,15 @@
 //! the first.
 
 use super::cases::about as description;
-use crate::diagnosis::{BENDING_TEST, BENDING_TEST_NAME, Experiment};
-use crate::error::CompareError;
-use crate::hidden::Truth;
-use crate::hidden::camera::Camera;
-use crate::hidden::measure::measure_holds;
-use crate::hidden::tested::bench_tests;
-use crate::hidden::truth::standard_protocol;
-use crate::study::generate::{Generator, Scatter, holds};
-use crate::study::parse_protocol;
+use crate::Truth;
+use crate::camera::Camera;
+use crate::measure::measure_holds;
+use crate::tested::bench_tests;
+use crate::truth::standard_protocol;
+use compare::diagnosis::{BENDING_TEST, BENDING_TEST_NAME, Experiment};
+use compare::error::CompareError;
+use compare::study::generate::{Generator, Scatter, holds};
+use compare::study::parse_protocol;
 use data::{About, AboutRun, Dataset, Direct, Hold};
 
 /// Known force of the experiment "tip force" \[N\].

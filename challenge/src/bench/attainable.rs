@@ -1,17 +1,17 @@
 //! What no test could exceed: from the true means without noise and the true noise, which no diagnosis knows.
 //!
-//! Of every set the distance λ of the truth to the nearest explanation of a kind is known ([`crate::diagnosis::distances`]), so the
+//! Of every set the distance λ of the truth to the nearest explanation of a kind is known ([`compare::diagnosis::distances`]), so the
 //! power of the best test of a level is Φ(√λ − z). Its mean over the sets bounds a row of the table. Laws count as the
 //! catalogue's formulas here: how far the catalogue's own effects are from their formulas is given beside it, because a
 //! diagnosis must not call that "outside the catalogue".
 
 use super::Part;
 use super::cases::{Named, Outcome, names};
-use crate::diagnosis::{Distances, KnownNoise, distances, power};
-use crate::error::CompareError;
-use crate::hidden::measure::ideal;
-use crate::hidden::truth::standard_protocol;
-use crate::hidden::{Kind, Truth};
+use crate::measure::ideal;
+use crate::truth::standard_protocol;
+use crate::{Kind, Truth};
+use compare::diagnosis::{Distances, KnownNoise, distances, power};
+use compare::error::CompareError;
 use data::Dataset;
 use serde::Serialize;
 
@@ -76,7 +76,7 @@ pub(super) fn of(outcomes: &[Outcome]) -> Attainable {
     let left = |nearest: f64, base: f64| if base > 0.0 { (nearest / base).sqrt() } else { 0.0 };
     let mut forms: Vec<f64> = one.iter().filter(|(_, d)| d.base > SEEN).map(|(_, d)| left(d.one, d.base)).collect();
     forms.sort_by(f64::total_cmp);
-    let quantile = |share: f64| crate::stats::quantile(&forms, share);
+    let quantile = |share: f64| compare::stats::quantile(&forms, share);
     let form = quantile(0.5).zip(quantile(0.9)).map(|(median, most)| [median, most]);
     let missed: Vec<Distances> =
         outside.iter().filter(|(named, _)| !named.score.out_of_catalog).map(|(_, d)| *d).collect();

@@ -1,7 +1,7 @@
 //! Effects of the body.
 
 use super::HiddenEffect;
-use crate::hidden::robot::Robot;
+use crate::robot::Robot;
 use std::f64::consts::TAU;
 
 /// B κ_c of the softest cell \[N·m\]: the wall's moment in a full bend.

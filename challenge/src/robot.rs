@@ -6,7 +6,7 @@ use super::loads::DeadLoads;
 use super::root::root;
 use super::supply::Supply;
 use super::wall::{Memory, Wall};
-use crate::error::CompareError;
+use compare::error::CompareError;
 use models::actuators::Family;
 use models::{Loads, Model, Scenario};
 use std::f64::consts::PI;

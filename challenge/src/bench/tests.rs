@@ -1,7 +1,7 @@
 //! The bench itself: what it draws, and that it reports what fails.
 
 use super::*;
-use crate::hidden::HIDDEN;
+use crate::HIDDEN;
 
 #[test]
 fn all_robots_and_all_effects_take_part_equally() {
@@ -13,7 +13,7 @@ fn all_robots_and_all_effects_take_part_equally() {
         assert!((1..=8).contains(&count), "{}: {count}", effect.name);
     }
     for case in &plan {
-        let size = |c: &crate::hidden::truth::HiddenChoice| (0.8..1.5).contains(&c.times_typical);
+        let size = |c: &crate::truth::HiddenChoice| (0.8..1.5).contains(&c.times_typical);
         assert!(case.truth.effects.iter().all(size), "{:?}", case.truth);
         let sigma = case.truth.camera_sd_m;
         assert!((0.5e-3..=2e-3).contains(&sigma) && [3, 5, 10].contains(&case.truth.runs));
@@ -48,7 +48,7 @@ fn a_diagnosis_that_fails_is_counted_and_named() {
 #[test]
 fn the_finite_element_sets_are_diagnosed_and_what_is_named_lowers_the_held_out_error() {
     let mut failed = Vec::new();
-    let made = made::made(crate::diagnosis::diagnose_together, &mut failed);
+    let made = made::made(compare::diagnosis::diagnose_together, &mut failed);
     assert!(failed.is_empty(), "{failed:?}");
     assert_eq!(made.iter().map(|m| m.robot).collect::<Vec<_>>(), ["spam", "cpam", "epam", "fpam"]);
     assert!(made[0].in_set && made[0].halved_as_stated(), "{:?}", made[0]);
@@ -63,7 +63,7 @@ fn the_finite_element_sets_are_diagnosed_and_what_is_named_lowers_the_held_out_e
 #[test]
 fn a_robot_whose_loads_and_shape_agree_slowly_is_no_failure() {
     let truth = cases::draw(Part::Hidden(Kind::One), 4, (1 << 32) + 154, 154).unwrap();
-    let found = cases::outcome(&Case { part: Part::Hidden(Kind::One), truth }, crate::diagnosis::diagnose_together);
+    let found = cases::outcome(&Case { part: Part::Hidden(Kind::One), truth }, compare::diagnosis::diagnose_together);
     assert!(found.failed.is_none(), "{:?}", found.failed);
     assert!(found.named.unwrap().after.is_some());
 }

@@ -9,13 +9,13 @@
 //!
 //! Of two hidden effects the same is asked of all pairs, in a world where effects add up and grow in proportion to their size.
 
-use crate::error::CompareError;
-use crate::hidden::march;
-use crate::hidden::measure::ideal;
-use crate::hidden::truth::{HiddenChoice, standard_protocol};
-use crate::hidden::{HIDDEN, Truth, truth};
-use crate::noise::NoiseModel;
-use crate::study::generate::{Generator, Scatter, holds};
+use crate::march;
+use crate::measure::ideal;
+use crate::truth::{HiddenChoice, standard_protocol};
+use crate::{HIDDEN, Truth, truth};
+use compare::error::CompareError;
+use compare::noise::NoiseModel;
+use compare::study::generate::{Generator, Scatter, holds};
 use data::Dataset;
 
 /// Sizes at which the laws are asked \[typical sizes\]: the range that is drawn from.
@@ -235,7 +235,7 @@ mod tests {
     /// Without noise to speak of both are always named, also where there are rivals.
     #[test]
     fn two_effects_are_named_without_noise_and_less_often_with() {
-        let mut truth = Truth::draw("epam", &mut crate::hidden::Draw::new(3, 0)).unwrap();
+        let mut truth = Truth::draw("epam", &mut crate::Draw::new(3, 0)).unwrap();
         truth.add("tip_load", 1.1);
         truth.add("creep", 0.9);
         let [quiet, loud] = quiet_and_loud(&truth, two_at_best);
@@ -252,7 +252,7 @@ mod tests {
     /// Without noise to speak of the truth is always named; drowned in noise it is not.
     #[test]
     fn noise_decides_how_often_the_truth_is_named() {
-        let mut truth = Truth::draw("epam", &mut crate::hidden::Draw::new(3, 0)).unwrap();
+        let mut truth = Truth::draw("epam", &mut crate::Draw::new(3, 0)).unwrap();
         truth.add("tip_load", 1.1);
         let [quiet, loud] = quiet_and_loud(&truth, at_best);
         assert_eq!(quiet, [1.0, 1.0]);

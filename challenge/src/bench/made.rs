@@ -15,9 +15,9 @@
 
 use super::Diagnose;
 use super::row::{Row, Target};
-use crate::diagnosis::{Added, Measured, Options, Verdict};
-use crate::error::CompareError;
-use crate::study::published::shipped_scenario;
+use compare::diagnosis::{Added, Measured, Options, Verdict};
+use compare::error::CompareError;
+use compare::study::published::shipped_scenario;
 use serde::Serialize;
 
 /// Robots, and what their bare model lacks.

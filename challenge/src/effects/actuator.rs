@@ -1,8 +1,8 @@
 //! Effects of the actuator.
 
 use super::HiddenEffect;
-use crate::hidden::drive::Drive;
-use crate::hidden::robot::Robot;
+use crate::drive::Drive;
+use crate::robot::Robot;
 use models::actuators::Family;
 
 fn drives(robot: &mut Robot, change: impl Fn(&mut Drive)) {

@@ -2,7 +2,8 @@
 
 use super::truth::{HiddenChoice, standard_protocol};
 use super::*;
-use crate::study::generate::{Generator, generate};
+use compare::diagnosis::{Options, Verdict, diagnose};
+use compare::study::generate::{Generator, generate};
 use models::{Scenario, shipped};
 
 fn scenario(kind: &str, bending: f64) -> Scenario {
@@ -101,7 +102,7 @@ fn heavy_tails_have_the_same_spread_and_more_far_points() {
     let sd = (normal.iter().map(|v| v * v).sum::<f64>() / normal.len() as f64).sqrt();
     assert!((sd / 1e-3 - 1.0).abs() < 0.05, "{sd}");
     // 4 mm of noise of 1 mm are 4√3 of Student's t; counts scatter by their root.
-    let expected = normal.len() as f64 * crate::stats::two_sided_p(4.0 * 3f64.sqrt(), 3);
+    let expected = normal.len() as f64 * compare::stats::two_sided_p(4.0 * 3f64.sqrt(), 3);
     let off = (far(&heavy) as f64 - expected).abs();
     assert!(far(&normal) < 12 && off < 4.0 * expected.sqrt(), "{} {} {expected}", far(&normal), far(&heavy));
 }
@@ -139,5 +140,26 @@ fn a_camera_that_loses_markers_leaves_the_others_as_they_were() {
     for (i, (a, b)) in all.xy_m.iter().zip(&lossy.xy_m).enumerate() {
         let (run, hold, marker) = (i / n, i % n / (n / 5), i / 2 % 6);
         assert!(a == b || lossy.is_lost(run, hold, marker), "{run} {hold} {marker}");
+    }
+}
+
+/// Two effects with four parameters meet these data as well as the fault does with one.
+#[test]
+fn one_fault_is_a_simpler_answer_than_two_effects() {
+    for (kind, fault, words) in [
+        ("epam", "stiffness_taper", "stiffness changes steadily along the robot"),
+        ("cpam", "stuck_regulator", "the whole robot bends otherwise in hold 3 alone"),
+    ] {
+        let mut truth = Truth::draw(kind, &mut Draw::new(7, 0)).unwrap();
+        truth.add(fault, 1.0);
+        let truth = Truth { runs: 5, camera_sd_m: 1e-3, ..truth };
+        let data = truth.dataset("made", &standard_protocol()).unwrap();
+        let options = Options { next_experiment: false, ..Options::default() };
+        let d = diagnose(&truth.told().unwrap(), &data, None, &options).unwrap();
+        assert_eq!(d.verdict, Some(Verdict::OutOfCatalog), "{fault}: {:?}", d.summary);
+        let pattern = d.pattern.as_ref().unwrap();
+        assert!(pattern.words.contains(words), "{fault}: {pattern:?}");
+        let either = d.summary.iter().any(|s| s.starts_with("Either ") && s.contains(" or one fault"));
+        assert_eq!((either, d.is_either()), (pattern.either, pattern.either), "{:?}", d.summary);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::effects::by_name;
 use super::truth::Truth;
-use crate::diagnosis::{Diagnosis, Verdict};
+use compare::diagnosis::{Diagnosis, Verdict};
 use serde::Serialize;
 
 /// What a diagnosis says, as far as it is scored.
@@ -96,7 +96,7 @@ pub fn score(truth: &Truth, answer: &Answer) -> Score {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hidden::Draw;
+    use crate::Draw;
 
     fn scored(hidden: &[&str], verdict: &str, set: &[&str], added: &[&str]) -> Score {
         let mut truth = Truth::draw("epam", &mut Draw::new(1, 1)).unwrap();

@@ -3,7 +3,7 @@
 use super::loads::Shape;
 use super::robot::{Acting, Robot};
 use super::wall::Memory;
-use crate::error::CompareError;
+use compare::error::CompareError;
 use data::Hold;
 
 /// Time in which a regulator reaches a new set pressure \[s\].

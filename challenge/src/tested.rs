@@ -2,9 +2,9 @@
 
 use super::Truth;
 use super::robot::Robot;
-use crate::diagnosis::{BENCH_TEST, BENCH_TESTS};
-use crate::error::CompareError;
-use crate::study::generate::Scatter;
+use compare::diagnosis::{BENCH_TEST, BENCH_TESTS};
+use compare::error::CompareError;
+use compare::study::generate::Scatter;
 use data::MeasuredValue;
 
 /// Line load of the tensile test \[N/m\]: what a muscle or a pouch carries at some 20 kPa.
@@ -69,7 +69,7 @@ fn found(robot: &Robot, effect: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hidden::Draw;
+    use crate::Draw;
 
     #[test]
     fn a_test_finds_what_is_there_and_nothing_where_nothing_is() {
