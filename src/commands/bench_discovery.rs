@@ -2,7 +2,7 @@
 
 use super::tables::{number, table};
 use super::{Context, Outcome};
-use crate::failure::Failure;
+use crate::failure::{Failure, MISSED};
 use crate::output::machine;
 use challenge::bench::{Attainable, Bench, BenchOptions, Confusion, Row, Target, run as run_bench};
 use challenge::truth::{ROBOTS, standard_protocol};
@@ -38,7 +38,8 @@ pub fn run(sets: usize, seed: u64, _context: &mut Context) -> Result<Outcome, Fa
         "missed_after": bench.missed_after, "missed_by_law": bench.missed_by_law,
         "made": bench.made, "seen": bench.seen, "failed": bench.failed, "time": {"machine": machine(), "row": time},
     });
-    Ok(Outcome::new(text, json))
+    let missed = bench.rows.iter().chain([&time]).any(|row| row.met == Some(false)) || !bench.failed.is_empty();
+    Ok(Outcome { code: if missed { MISSED } else { 0 }, ..Outcome::new(text, json) })
 }
 
 /// Median CPU time of a diagnosis, one set with a hidden effect for every actuator.

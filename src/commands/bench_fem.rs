@@ -3,7 +3,7 @@
 use super::tables::table;
 use super::{Context, Outcome};
 use crate::cost::{cpu_seconds, resident_bytes};
-use crate::failure::Failure;
+use crate::failure::{Failure, MISSED};
 use crate::output::machine;
 use fem::robot::RobotSettings;
 use fem::{Simulation, speed};
@@ -121,7 +121,9 @@ fn report(figures: &[Figure]) -> Outcome {
     text.push_str(&table(&head, 1, figures.iter().map(Figure::row).collect()));
     text.push_str(&roofline(figures));
     let list: Vec<_> = figures.iter().map(Figure::json).collect();
-    Outcome::new(text, json!({"schema": "ibr.bench.fem", "version": 2, "machine": machine(), "figures": list}))
+    let answer = json!({"schema": "ibr.bench.fem", "version": 2, "machine": machine(), "figures": list});
+    let code = if figures.iter().any(|f| f.met() == Some(false)) { MISSED } else { 0 };
+    Outcome { code, ..Outcome::new(text, answer) }
 }
 
 /// A pillow with `n` elements along a side, past its first steps.

