@@ -2,10 +2,12 @@
 
 mod data;
 mod discover;
+mod groups;
 
 use clap::{Args, Parser, Subcommand};
 pub use data::{Characterize, DataCommand, DataFem, Generate};
 pub use discover::{Add, Breakdown, ChallengeCommand, ChallengeNew, Diagnose, Ladder, Validate};
+pub use groups::{command, parsed};
 use std::path::PathBuf;
 
 /// Models of pneumatic bending actuators on inflated-beam robots, held against measurements.
@@ -30,30 +32,30 @@ pub struct Cli {
 /// Subcommands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// The whole story on embedded data: every actuator against published and synthetic measurements
+    /// The whole story on embedded data, with a report
     Demo(OutDir),
     /// Shape and markers at given pressures, or the pressure for a wanted tip
     Predict(Predict),
-    /// Hold a model against measurements: accuracy, residual map, where it fails; or both engines against each other
+    /// Hold a model against measurements: how far off, and where
     Compare(Compare),
-    /// Which physical effect is missing: ranking, what the data cannot tell apart, what to measure next
+    /// Which physical effect is missing, what the data cannot tell apart, what to measure next
     Diagnose(Diagnose),
-    /// Write a new scenario with one more effect, fitted on data or given; the old one stays as it is
+    /// Write a new scenario with one more effect, fitted on data or given
     Add(Add),
     /// Diagnose and add until what is left is noise: the fall of the error, bare to extended
     Ladder(Ladder),
-    /// Does an added effect help on data it was not fitted to: nothing refitted, error before and after
+    /// Does an added effect help on data that it was not fitted to?
     Validate(Validate),
-    /// Where the reduced model parts from finite elements, over pressures and pouches, and which energy carries it
+    /// Where the reduced model parts from finite elements, and which energy carries it
     Breakdown(Breakdown),
     /// Run a finite element case through time: ParaView frames, energy balance, checkpoints
     Simulate(Simulate),
-    /// From tensile tests of a fabric to its moduli, C10, curves along warp and fill, shear curve, and a table for cases
+    /// From tensile tests of a fabric to its moduli, curves and a table for cases
     Characterize(Characterize),
     /// Look at, list or make marker data
     #[command(subcommand)]
     Data(DataCommand),
-    /// Data with a hidden effect, sealed: for testing a diagnosis, for teaching, for reviewers
+    /// Data with a hidden effect, sealed: for teaching, for reviewers
     #[command(subcommand)]
     Challenge(ChallengeCommand),
     /// Actuators, effects, datasets and finite element cases with their formulas
@@ -69,9 +71,9 @@ pub enum Command {
     },
     /// Run time against accuracy of every model present
     Tradeoff(Tradeoff),
-    /// Check the closed forms against their known numbers, and the finite element engine against the closed forms
+    /// Hold closed forms and finite elements against known numbers
     Verify(VerifyArgs),
-    /// Measure the speed on this machine: of the model, or of the finite element engine
+    /// Measure the speed on this machine, or how often a diagnosis is right
     Bench(BenchArgs),
     /// Shell completions on standard output
     Completions {

@@ -9,8 +9,6 @@ mod output;
 mod printable;
 mod studies;
 
-use clap::Parser;
-use cli::Cli;
 use commands::{Context, Interrupt, Outcome};
 use printable::printable;
 use std::io::Write;
@@ -27,7 +25,7 @@ fn main() -> ExitCode {
     if let Err(error) = ctrlc::set_handler(interrupt) {
         say(&format!("warning: an interrupt cannot be caught here: {error}\n"));
     }
-    let cli = Cli::parse();
+    let cli = cli::parsed();
     let bar = (!cli.quiet && !cli.json).then(progress_bar);
     let mut tell = |text: &str, share: Option<f64>| {
         if let Some(bar) = &bar {

@@ -147,7 +147,7 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
 
 fn completions(shell: clap_complete::Shell) -> Outcome {
     let mut bytes = Vec::new();
-    clap_complete::generate(shell, &mut Cli::command(), "ibr", &mut bytes);
+    clap_complete::generate(shell, &mut crate::cli::command(), "ibr", &mut bytes);
     Outcome { text: String::from_utf8_lossy(&bytes).into_owned(), ..Outcome::default() }
 }
 
@@ -158,12 +158,12 @@ fn man(out: Option<&std::path::Path>, context: &mut Context) -> Result<Outcome, 
     };
     let failed = |e: std::io::Error| Failure::usage(format!("the manual cannot be made: {e}"), "report this");
     let Some(folder) = out else {
-        let bytes = page(Cli::command()).map_err(failed)?;
+        let bytes = page(crate::cli::command()).map_err(failed)?;
         return Ok(Outcome { text: String::from_utf8_lossy(&bytes).into_owned(), ..Outcome::default() });
     };
     let mut files = ::compare::study::pages::Files::default();
-    files.files.push(("ibr.1".into(), page(Cli::command()).map_err(failed)?));
-    for sub in Cli::command().get_subcommands() {
+    files.files.push(("ibr.1".into(), page(crate::cli::command()).map_err(failed)?));
+    for sub in crate::cli::command().get_subcommands() {
         let name = format!("ibr-{}", sub.get_name());
         files.files.push((format!("{name}.1"), page(sub.clone().name(name)).map_err(failed)?));
     }

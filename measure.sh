@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# The size of this repository: lines and characters of code without tests, in one format for every version; modules that
+# import each other in a circle; named constants; the binary. `./measure.sh build` times a clean build too.
+# Needs rustfmt, awk and tsort.
+set -euo pipefail
+cd "$(dirname "$0")"
+product="models fem data compare src spelling"
+development="challenge"
+copy=$(mktemp -d)
+trap 'rm -rf "$copy"' EXIT
+
+# Without test files and without what stands behind `#[cfg(test)]` at the end of a file.
+for part in $product $development; do
+  find "$part" -path '*/target' -prune -o -name '*.rs' -print | grep '/src/\|^src/' |
+    grep -v '/tests/\|tests\.rs$\|/tests.rs$' | while read -r file; do
+    mkdir -p "$copy/$(dirname "$file")"
+    awk '/^#\[cfg\(test\)\]/ { held = $0; next }
+         held && /^mod .*\{/ { exit }
+         held && /^mod / { held = ""; next }
+         held { print held; held = "" }
+         { print }' "$file" > "$copy/$file"
+  done
+done
+find "$copy" -name '*.rs' -print0 | xargs -0 -n 64 rustfmt --edition 2024 --config max_width=100,use_small_heuristics=Default,skip_children=true 2> /dev/null ||
+  find "$copy" -name '*.rs' -print0 | xargs -0 -n 1 rustfmt --edition 2024 --config max_width=100,use_small_heuristics=Default > /dev/null 2>&1 || true
+
+lines() { for part in "$@"; do find "$copy/$part" -name '*.rs' -exec cat {} +; done | wc -l; }
+code() { for part in "$@"; do find "$copy/$part" -name '*.rs' -exec cat {} +; done | sed 's,^ *//.*,,; s/^ *//' | tr -d '\n' | wc -c; }
+printf '%-44s %s\n' "lines of the product, without tests, width 100" "$(lines $product)"
+printf '%-44s %s\n' "lines of the development crates" "$(lines $development)"
+printf '%-44s %s\n' "characters of code of the product" "$(code $product)"
+
+# Modules of a crate: files or folders below src; `crate::NAME` in one of them is an arrow.
+circles=0
+for crate in models fem data compare challenge src; do
+  root=$([ "$crate" = src ] && echo src || echo "$crate/src")
+  arrows=$(cd "$copy/$root" && grep -ro 'crate::[a-z_][a-z_0-9]*' --include='*.rs' . |
+    sed -E 's,^\./([a-z_0-9]+)(\.rs|/[^:]*):crate::([a-z_0-9]+)$,\1 \3,' | grep -v '^lib \|^main ' |
+    awk 'NF == 2 && $1 != $2' | sort -u | while read -r from to; do
+      if [ -e "$to.rs" ] || [ -d "$to" ]; then echo "$from $to"; fi
+    done)
+  found=$(tsort <<< "$arrows" 2>&1 > /dev/null | grep -c 'loop' || true)
+  circles=$((circles + found))
+done
+printf '%-44s %s\n' "circles between modules" "$circles"
+printf '%-44s %s\n' "named constants of numbers" "$(grep -rhE '^\s*(pub )?(pub\([a-z]+\) )?const [A-Z_0-9]+: (f64|usize|u32|u64)' "$copy" | wc -l)"
+printf '%-44s %s\n' "files over 400 lines" "$(find $product $development -name '*.rs' -not -path '*/target/*' | xargs wc -l | awk '$1 > 400 && $2 != "total"' | wc -l)"
+printf '%-44s %s\n' "words of documents" "$(cat README.md ARCHITECTURE.md CONTRIBUTING.md docs/*.md | wc -w)"
+if [ "${1:-}" = build ]; then
+  target=$(mktemp -d)
+  trap 'rm -rf "$copy" "$target"' EXIT
+  TIMEFORMAT='%U user CPU-s of a clean release build'
+  time CARGO_TARGET_DIR="$target" cargo build --release --quiet
+  printf '%-44s %s MB\n' "binary" "$(($(stat -c %s "$target/release/ibr") / 1000000))"
+fi

@@ -1,0 +1,54 @@
+//! `ibr --help`: the commands by what they are for.
+
+use super::Cli;
+use clap::{CommandFactory, FromArgMatches};
+
+/// Every command once, in the order of a session.
+const GROUPS: &[(&str, &[&str])] = &[
+    ("Start here", &["demo", "new", "list"]),
+    ("Predict", &["predict", "simulate"]),
+    ("Measurements", &["data", "characterize"]),
+    ("What is missing?", &["compare", "diagnose", "add", "validate", "ladder"]),
+    ("Both engines", &["breakdown", "tradeoff"]),
+    ("Trust it?", &["verify", "bench", "challenge"]),
+    ("For your shell", &["completions", "man", "help"]),
+];
+
+/// The command line, with its help by groups.
+pub fn command() -> clap::Command {
+    let mut command = Cli::command();
+    command.build();
+    let line = |name: &&str| {
+        let found = command.find_subcommand(name);
+        format!("  {name:<14}{}\n", found.and_then(|c| c.get_about()).map(ToString::to_string).unwrap_or_default())
+    };
+    let group = |(title, names): &(&str, &[&str])| format!("{title}\n{}", names.iter().map(line).collect::<String>());
+    let groups = GROUPS.iter().map(group).collect::<Vec<_>>().join("\n");
+    let template =
+        format!("{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{groups}\nOptions:\n{{options}}{{after-help}}");
+    Cli::command().help_template(template)
+}
+
+/// What was typed; ends the program with help or an error.
+pub fn parsed() -> Cli {
+    Cli::from_arg_matches(&command().get_matches()).unwrap_or_else(|error| error.exit())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_command_is_in_one_group_and_every_line_fits() {
+        let mut command = Cli::command();
+        command.build();
+        let mut there: Vec<&str> = command.get_subcommands().map(|c| c.get_name()).collect();
+        let mut grouped: Vec<&str> = GROUPS.iter().flat_map(|g| g.1.iter().copied()).collect();
+        there.sort_unstable();
+        grouped.sort_unstable();
+        assert_eq!(there, grouped);
+        let help = super::command().render_help().to_string();
+        let wide: Vec<&str> = help.lines().filter(|line| line.chars().count() > 100).collect();
+        assert!(wide.is_empty() && help.contains("\nWhat is missing?\n  compare"), "{wide:?}\n{help}");
+    }
+}
