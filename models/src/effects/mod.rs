@@ -28,7 +28,7 @@ mod own;
 mod plastic_set;
 mod pressure_loss;
 mod pressure_offset;
-mod sealed_sides;
+pub(crate) mod sealed_sides;
 mod seam_stiffness;
 mod self_contact;
 mod shear_lock;
