@@ -135,7 +135,7 @@ impl Model {
         let (mut lines, body_pa) = (Vec::new(), self.body_pa(loads));
         for (i, segment) in self.assembly.segments.iter().enumerate() {
             let site = &self.assembly.sites[segment.site];
-            self.site_energies(site, segment, body_pa, &at.work, i, &mut lines);
+            self.site_energies(site, segment, [body_pa, at.work.p_act_pa[i]], &at.work, i, &mut lines);
         }
         self.lost_energies(&at.work, &mut lines);
         if at.work.is_sheared() {
@@ -234,16 +234,17 @@ impl Model {
         }
     }
 
-    fn site_energies(
+    /// Energies of a segment in its state, at the pressures of body and actuator.
+    pub(crate) fn site_energies(
         &self,
         site: &Site,
         segment: &Segment,
-        p_body_pa: f64,
+        [p_body_pa, p_act_pa]: [f64; 2],
         work: &Workspace,
         index: usize,
         lines: &mut Vec<LedgerLine>,
     ) {
-        let (state, p_act_pa, h) = (&work.states[index], work.p_act_pa[index], segment.length_m);
+        let (state, h) = (&work.states[index], segment.length_m);
         let mut unused = [0.0; actuator_q::LEN];
         if let Some(actuator) = site.actuator.filter(|_| p_act_pa > 0.0) {
             let stroke = (actuator.stroke)(&site.shape, state.coordinate);

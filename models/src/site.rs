@@ -44,6 +44,10 @@ pub struct Site {
     pub linkage: Linkage,
     /// Share χ of the actuator's volume that lies in the body and works against its pressure.
     pub inner_share: f64,
+    /// Share of the sides that are sealed: round where the pouch is inflated.
+    pub sealed_share: f64,
+    /// Area of the section at rest \[m²\]: a circle's, unless the actuator draws it in.
+    pub area_m2: f64,
     /// The actuator stays flat below this share of the body's pressure.
     pub closed_share: f64,
     /// An effect shifts the actuator's balance in a way that its guess does not know.
@@ -186,6 +190,8 @@ impl Site {
             channel,
             linkage,
             inner_share: 0.0,
+            sealed_share: 0.0,
+            area_m2: PI * radius_m * radius_m,
             closed_share: 0.0,
             guess_fails: false,
             starts: None,

@@ -8,7 +8,7 @@ use super::{Context, Outcome};
 use crate::cli::Breakdown;
 use crate::failure::{Failure, INTERRUPTED};
 use crate::output::{check_folder, write_files};
-use compare::study::engines::{FeRun, Pair, pairs, runs_json, stored};
+use compare::study::engines::{FeRun, Pair, SHAPE, pairs, runs_json, stored};
 use compare::study::pages::{Files, engines, parting_plot, varied};
 use models::Scenario;
 use models::actuators::Family;
@@ -166,7 +166,33 @@ fn text(rows: &[Cell]) -> String {
             p.carrier().unwrap_or("–").into(),
         ]
     };
-    table(&head, 1, rows.iter().map(row).collect())
+    let shapes = shapes(rows);
+    table(&head, 1, rows.iter().map(row).collect()) + &shapes
+}
+
+/// Arm, width, height and volumes of both, where a run kept them.
+fn shapes(rows: &[Cell]) -> String {
+    let row = |cell: &Cell| {
+        let [own, fe] = cell.own.shape?;
+        let Cell { run, own: p, .. } = cell;
+        let place =
+            [&run.actuator, &run.body_kpa.to_string(), &run.pouch_mm.to_string(), &format!("{:.0}", p.actuator_kpa)];
+        let both = own.iter().zip(fe).map(|(own, fe)| format!("{own:.1} / {fe:.1} ({:+.1})", 100.0 * (own / fe - 1.0)));
+        Some(place.into_iter().cloned().chain(both).collect::<Vec<_>>())
+    };
+    let found: Vec<_> = rows.iter().filter_map(row).collect();
+    if found.is_empty() {
+        return String::new();
+    }
+    let of = |name: &str, unit: &str| format!("{name} {unit}");
+    let names = SHAPE.iter().enumerate().map(|(k, name)| of(name, if k < 3 { "mm" } else { "cm³" }));
+    let head: Vec<String> =
+        ["robot", "body kPa", "pouch mm", "actuator kPa"].map(String::from).into_iter().chain(names).collect();
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
+    format!(
+        "\nInflated pouches and body: reduced model / finite elements (difference in %)\n{}",
+        table(&head, 1, found)
+    )
 }
 
 fn csv(rows: &[Cell]) -> String {
@@ -198,6 +224,7 @@ fn as_json(rows: &[Cell]) -> Value {
             "actuator_kpa": p.actuator_kpa, "reduced_tip_mm": p.reduced_mm[1], "fe_tip_mm": p.fe_mm[1],
             "difference": p.difference(), "carried_by": p.carrier(), "excess_mj": p.excess_mj,
             "bare_tip_mm": bare.reduced_mm[1], "bare_difference": bare.difference(),
+            "shape": p.shape.map(|[reduced, fe]| json!({"names": SHAPE, "reduced": reduced, "fe": fe})),
         })
     };
     json!({"schema": "ibr.breakdown", "version": 1, "cells": rows.iter().map(row).collect::<Vec<_>>()})

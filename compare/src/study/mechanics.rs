@@ -63,6 +63,12 @@ fn pouch(fabric: &PublishedFabric) -> Vec<Addition> {
             BENDING.1.map(bending),
             "0.2 of a solid sheet; droop of a coated nylon, measured by others: 0.1 to 0.5",
         ),
+        assumed(
+            "crimped_sides",
+            0.5 * modulus_pa * fabric.thickness_m.powi(3) * WELD_M.0,
+            WELD_M.1.map(|width_m| 0.5 * modulus_pa * fabric.thickness_m.powi(3) * width_m),
+            "two bonded plies in side welds as wide as the others",
+        ),
         predicted(
             "fabric_stretch",
             1.0 / (fabric.e0_pa * fabric.thickness_m),

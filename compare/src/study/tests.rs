@@ -191,9 +191,10 @@ fn the_published_ladders_start_at_the_hinge_model() {
     };
     let epam = ladders.iter().find(|l| l.published.kind == "epam").unwrap();
     assert!((epam.rungs[0].y_m - height(unit(1.0, hinge::Arm::Embedded))).abs() < 1e-9);
-    let names = ["weld_width", "chord_arm", "displaced_gas", "sealed_sides", "fold_energy", "fabric_stretch"];
+    let names =
+        ["weld_width", "chord_arm", "displaced_gas", "sealed_sides", "fold_energy", "crimped_sides", "fabric_stretch"];
     let labels: Vec<String> = names.iter().map(|name| format!("+ {name}")).collect();
-    assert_eq!(epam.rungs[1..7].iter().map(|r| r.label.clone()).collect::<Vec<_>>(), labels);
+    assert_eq!(epam.rungs[1..8].iter().map(|r| r.label.clone()).collect::<Vec<_>>(), labels);
     // A wider weld bends less, none is the bare model.
     let [least, most] = epam.rungs[1].range_m.unwrap();
     assert!(least < epam.rungs[1].y_m && (most - epam.rungs[0].y_m).abs() < 1e-12, "{least} {most}");

@@ -21,6 +21,7 @@
 //! Where elements around are of one size, the mean of a ring is the centre line; [`sections`] gives it for any mesh.
 
 mod assumed;
+mod inflated;
 mod lines;
 mod loading;
 mod model;
@@ -34,6 +35,7 @@ mod table;
 mod waviness;
 
 pub use assumed::{ASSUMED, Assumed, Spread, hypercube};
+pub use inflated::Inflated;
 pub use loading::{Hold, RobotRun};
 pub use model::Model;
 pub use reading::{Gauge, Reading};

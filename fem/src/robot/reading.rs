@@ -3,6 +3,7 @@
 use models::Scenario;
 use serde::{Deserialize, Serialize};
 
+use super::inflated::{Inflated, Tape};
 use super::seams::Seams;
 use super::{marker_points, sections, sew};
 use crate::output::centre_line::CentreLine;
@@ -18,6 +19,7 @@ pub struct Gauge {
     rings: Vec<Vec<u32>>,
     tip: Vec<u32>,
     seams: Seams,
+    tape: Option<Tape>,
     mesh: Mesh,
 }
 
@@ -65,6 +67,9 @@ pub struct Reading {
     /// Its moment about the middle of the nodes that are held \[N·m\].
     #[serde(default)]
     pub base_nm: [f64; 3],
+    /// Shape of the pouches; `None` for one unit, and in readings that did not keep it.
+    #[serde(default)]
+    pub inflated: Option<Inflated>,
     /// Ledger: name, `stored`, `dissipated` or `supplied`, and energy \[J\].
     pub ledger: Vec<(String, String, f64)>,
     /// Kinetic over kinetic and stored energy.
@@ -89,7 +94,17 @@ impl Gauge {
         let start_m = line.at(&start)?;
         let seen = marker_points(&mesh, &scenario.markers_m)?;
         let seen_start_m = seen.at(&start)?;
-        Ok(Gauge { line, start_m, seen, seen_start_m, rings, tip, seams: Seams::of(&mesh), mesh })
+        Ok(Gauge {
+            line,
+            start_m,
+            seen,
+            seen_start_m,
+            rings,
+            tip,
+            seams: Seams::of(&mesh),
+            tape: Tape::of(scenario, &mesh),
+            mesh,
+        })
     }
 
     /// The welds.
@@ -139,6 +154,7 @@ impl Gauge {
             seam_at_m,
             base_n: base.map_or([0.0; 3], |r| r.force_n),
             base_nm: base.map_or([0.0; 3], |r| r.moment_nm),
+            inflated: self.tape.as_ref().map(|tape| tape.read(&positions)),
             ledger: rows,
             kinetic_share: ledger.kinetic_share(),
         })

@@ -43,6 +43,7 @@ fn add(values: &[f64], assembly: &mut Assembly) {
         let width_m = values[0] * site.shape.width_m;
         let Some(drawn) = Section::drawn_in(site.radius_m, width_m, width_m) else { continue };
         site.linkage.arm_m += drawn.chord_m - 2.0 * site.radius_m;
+        site.area_m2 = drawn.area_m2;
         site.body_pressure.scale(drawn.moment_share(site.radius_m));
     }
 }

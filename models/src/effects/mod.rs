@@ -10,6 +10,7 @@ mod camera_rotation;
 mod camera_scale;
 mod chord_arm;
 mod creep;
+mod crimped_sides;
 mod displaced_gas;
 mod end_constraint;
 mod end_fittings;
@@ -28,7 +29,7 @@ mod own;
 mod plastic_set;
 mod pressure_loss;
 mod pressure_offset;
-mod sealed_sides;
+pub(crate) mod sealed_sides;
 mod seam_stiffness;
 mod self_contact;
 mod shear_lock;
@@ -65,6 +66,7 @@ pub const EFFECTS: &[Effect] = &[
     displaced_gas::ENTRY,
     sealed_sides::ENTRY,
     fold_energy::ENTRY,
+    crimped_sides::ENTRY,
     self_contact::ENTRY,
     wrinkling::ENTRY,
     tail_tension::ENTRY,

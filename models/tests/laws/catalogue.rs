@@ -23,6 +23,7 @@ const NAMES: &[&str] = &[
     "displaced_gas",
     "sealed_sides",
     "fold_energy",
+    "crimped_sides",
     "self_contact",
     "wrinkling",
     "tail_tension",

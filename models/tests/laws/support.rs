@@ -49,7 +49,8 @@ pub fn everything(actuator: &str) -> Scenario {
 pub fn without_cell(scenario: &Scenario) -> Scenario {
     let mut stiff = scenario.clone();
     stiff.effects.retain(|e| {
-        !["yarn_stretch", "glued_face", "flat_ends", "sealed_sides", "fold_energy"].contains(&e.name.as_str())
+        !["yarn_stretch", "glued_face", "flat_ends", "sealed_sides", "fold_energy", "crimped_sides"]
+            .contains(&e.name.as_str())
     });
     stiff
 }

@@ -179,6 +179,7 @@ fn state(r: &Reading) -> FeState {
         weld_n_per_m: short(r.seam_n_per_m),
         base_n: r.base_n.map(short),
         base_nm: r.base_nm.map(short),
+        inflated_mm: r.inflated.map(|i| [i.arm_m, i.width_m, i.height_m].map(|m| short(m * 1e3))),
         // The last station is the tip.
         moved_mm: r.moved_m.iter().rev().skip(1).rev().map(plane).collect(),
         seen_mm: r.seen_moved_m.iter().map(plane).collect(),

@@ -85,6 +85,11 @@ fn readings_csv(readings: &[Reading]) -> String {
             "MPa",
         );
         line("weld_force_max", format!("{} at {:.0} mm", r.seam_part, r.seam_at_m * MM), r.seam_n_per_m, "N/m");
+        if let Some(i) = r.inflated {
+            for (name, m) in [("arm", i.arm_m), ("pouch_width", i.width_m), ("pouch_height", i.height_m)] {
+                line(name, "inner".into(), m * MM, "mm");
+            }
+        }
         for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
             line(&format!("reaction_{axis}"), "base".into(), r.base_n[k], "N");
             line(&format!("reaction_m{axis}"), "base".into(), r.base_nm[k], "N m");

@@ -101,6 +101,9 @@ pub struct FeState {
     /// Its moment about the middle of the nodes that are held \[N·m\].
     #[serde(default)]
     pub base_nm: [f64; 3],
+    /// Arm, width and height of the pouches between others \[mm\]; `None` for one unit, and in runs that did not keep it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inflated_mm: Option<[f64; 3]>,
     /// Displacements of the sections at the markers in the plane of bending, x along the straight robot, y to the actuator \[mm\].
     pub moved_mm: Vec<[f64; 2]>,
     /// Those of the wall where the markers stick, at the height of the axis, on the side that faces a camera \[mm\].
@@ -124,7 +127,12 @@ pub struct Pair {
     pub excess_mj: Option<[f64; 6]>,
     /// What the finite elements have lost since the body was full \[mJ\].
     pub lost_mj: f64,
+    /// Reduced model and finite elements in [`SHAPE`]; `None` without pouches, and for runs that did not keep it.
+    pub shape: Option<[[f64; 5]; 2]>,
 }
+
+/// Quantities of [`Pair::shape`]; lengths in mm, volumes in cm³.
+pub const SHAPE: [&str; 5] = ["arm", "width", "height", "actuator", "body"];
 
 impl Pair {
     /// Reduced minus finite element tip over the latter; `None` where the tip hardly moves.
@@ -160,12 +168,17 @@ fn pair(scenario: &Scenario, run: &FeRun, filled: &FeState, state: &FeState) -> 
     let marker = at.markers.last().map_or(at.tip.y_m, |xy| xy[1]);
     let reduced_mm = [marker * 1e3, at.tip.y_m * 1e3];
     let reduced_mj = reduced_ledger(&model, &loads, &at, 1.0);
+    let shape = model.pouch_shape(&loads, &at).zip(state.inflated_mm).map(|(own, [arm, width, height])| {
+        let reduced =
+            [own.arm_m * 1e3, own.width_m * 1e3, own.height_m * 1e3, own.actuator_m3 * 1e6, own.body_m3 * 1e6];
+        [reduced, [arm, width, height, state.actuator_cm3 - filled.actuator_cm3, state.body_cm3]]
+    });
     let fe_mj = fe_ledger(run, filled, state);
     let at_this_bend = reduced_at(&model, run, state, state.actuator_kpa, &mut at);
     let excess_mj = at_this_bend.map(|reduced| std::array::from_fn(|k| fe_mj[k] - reduced[k]));
     let lost_mj = state.energies_mj[4] - filled.energies_mj[4];
     let fe_mm = [state.marker_mm, state.tip_mm];
-    Ok(Pair { actuator_kpa: state.actuator_kpa, reduced_mm, fe_mm, reduced_mj, fe_mj, excess_mj, lost_mj })
+    Ok(Pair { actuator_kpa: state.actuator_kpa, reduced_mm, fe_mm, reduced_mj, fe_mj, excess_mj, lost_mj, shape })
 }
 
 /// Ledger of the reduced model at the bend of a state, its gas at a pressure in the volume that this bend takes \[mJ\];

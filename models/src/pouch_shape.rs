@@ -1,0 +1,127 @@
+//! What a predicted pose looks like: arm, width and height of the pouches, volumes of actuator and body.
+//!
+//! At a fixed pose the energy Π of all terms knows the gas by its pressures, so its slopes are the volumes, whatever effects
+//! there are:
+//!
+//! ```text
+//! V_a = −∂Π/∂P      V_b = A₀ l − ∂Π/∂p_b      a₀ = r (1 − cosθ)      width W − σe (π − 2) a₀      height 2 a₀
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | P, p_b | gauge pressures of actuator and body | Pa |
+//! | A₀, l | section at rest, drawn in by the weld lines where `chord_arm` acts; length | m², m |
+//! | a₀, r, θ | half height of the lens in its middle, radius, half arc angle | m, m, rad |
+//! | W, σe | width between the side welds, share of the sides that are sealed | m, – |
+//!
+//! **Validity**: regulated pressures. Volumes of folds that round off are in it, as their tension follows the pressure. Derived here
+//! (the envelope theorem); the finite elements measure the same on their mesh, `fem::robot::Inflated`.
+
+use crate::actuators::Family;
+use crate::assembly::Segment;
+use crate::effects::sealed_sides::NARROWED;
+use crate::model::{Model, Prediction};
+use crate::site::Site;
+use crate::term::Loads;
+
+/// Shape of a predicted pose; lengths are means over the robot's active stretches.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct PouchShape {
+    /// From the actuator's line of action to the far side \[m\].
+    pub arm_m: f64,
+    /// Between the sides of a pouch in its middle \[m\].
+    pub width_m: f64,
+    /// Of a pouch in its middle \[m\].
+    pub height_m: f64,
+    /// Gas of the whole actuator \[m³\].
+    pub actuator_m3: f64,
+    /// Gas of the body \[m³\].
+    pub body_m3: f64,
+}
+
+/// Step of the slopes over pressure, as a share of it: energies are linear in pressures, folds go with their roots.
+const STEP: f64 = 1e-3;
+
+impl Model {
+    /// Shape of a state of [`Model::predict`] at its loads; `None` without pouches.
+    pub fn pouch_shape(&self, loads: &Loads, at: &Prediction) -> Option<PouchShape> {
+        let (mut shape, mut active_m) = (PouchShape::default(), 0.0);
+        let body_pa = self.body_pa(loads);
+        for (index, segment) in self.assembly().segments.iter().enumerate() {
+            let site = &self.assembly().sites[segment.site];
+            let [actuator_m3, lost_m3] = self.volumes(site, segment, body_pa, at, index);
+            shape.actuator_m3 += actuator_m3;
+            shape.body_m3 += site.area_m2 * segment.length_m - lost_m3;
+            let Some(actuator) = site.actuator.filter(|a| a.family == Family::Pouch) else { continue };
+            let stroke = (actuator.stroke)(&site.shape, at.work.states[index].coordinate.max(actuator.range.0));
+            let of_length = segment.length_m;
+            active_m += of_length;
+            shape.arm_m += of_length * (site.linkage.arm_m + site.linkage.arm_growth * stroke.lift);
+            shape.width_m += of_length * (site.shape.width_m - site.sealed_share * NARROWED * stroke.lift);
+            shape.height_m += of_length * 2.0 * stroke.lift;
+        }
+        for mean in [&mut shape.arm_m, &mut shape.width_m, &mut shape.height_m] {
+            *mean /= active_m;
+        }
+        (active_m > 0.0).then_some(shape)
+    }
+
+    /// What the actuator of a segment holds, and what the body has lost there \[m³\].
+    fn volumes(&self, site: &Site, segment: &Segment, body_pa: f64, at: &Prediction, index: usize) -> [f64; 2] {
+        let own = [body_pa, at.work.p_act_pa[index]];
+        let energy = |pressures: [f64; 2]| {
+            let mut lines = Vec::new();
+            self.site_energies(site, segment, pressures, &at.work, index, &mut lines);
+            lines.iter().map(|line| line.energy_j).sum::<f64>()
+        };
+        let slope = |k: usize| {
+            let step = STEP * own[k];
+            let moved = |sign: f64| std::array::from_fn(|i| if i == k { own[i] + sign * step } else { own[i] });
+            if step > 0.0 { (energy(moved(1.0)) - energy(moved(-1.0))) / (2.0 * step) } else { 0.0 }
+        };
+        [-slope(1), slope(0)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Loads, Model, Scenario};
+    use std::f64::consts::PI;
+
+    fn shape(text: &str, loads: &Loads) -> (super::PouchShape, f64, f64) {
+        let model = Model::new(&Scenario::parse(text).unwrap());
+        let mut at = model.prediction();
+        model.predict(loads, &mut at).unwrap();
+        let theta = model.states(&at)[0].coordinate;
+        (model.pouch_shape(loads, &at).unwrap(), theta, at.tip.angle_rad)
+    }
+
+    #[test]
+    fn the_textbook_robot_has_free_lenses_on_a_body_that_folds_about_its_far_side() {
+        let (at, theta, turn) = shape(crate::shipped("epam-textbook").unwrap(), &Loads::uniform(2e3, 10e3));
+        let flat = crate::exact::pouch::Pouch { length_m: 0.06, width_m: 0.06 };
+        let lenses = 6.0 * crate::exact::pouch::volume_m3(&flat, theta);
+        // The pouch starts at θ = 1e-6, not at nothing.
+        assert!((at.actuator_m3 / lenses - 1.0).abs() < 2e-6, "{at:?} {lenses}");
+        // The hinge sets in over 0.05 1/m, on which it loses ln 2 of that.
+        let folded = turn - 0.36 * 0.05 * std::f64::consts::LN_2;
+        assert!((at.body_m3 / (PI * 1.6e-3 * (0.36 - 0.04 * folded)) - 1.0).abs() < 1e-6, "{at:?}");
+        assert!((at.arm_m - 0.08).abs() < 1e-12 && at.width_m == 0.06);
+        assert!((at.height_m / (0.06 * (1.0 - theta.cos()) / theta) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_sealed_pouch_in_a_wall_holds_its_known_volume_and_half_of_it_displaces_the_body() {
+        let text = "
+            [effects.displaced_gas]
+            share = 0.5
+            [effects.sealed_sides]
+            share = 1";
+        let (at, theta, _) =
+            shape(&format!("{}{text}", crate::shipped("epam-textbook").unwrap()), &Loads::uniform(2e3, 10e3));
+        let flat = crate::exact::pouch::Pouch { length_m: 0.06, width_m: 0.06 };
+        let sealed = 6.0 * crate::exact::pouch::sealed_volume_m3(&flat, theta);
+        assert!((at.actuator_m3 / sealed - 1.0).abs() < 2e-6, "{at:?} {sealed}");
+        assert!((at.width_m - (0.06 - (PI - 2.0) * 0.5 * at.height_m)).abs() < 1e-12);
+    }
+}
