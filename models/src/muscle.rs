@@ -73,97 +73,169 @@ struct Muscle {
     volume_gain: f64,
     /// cos²α₀, sin²α₀.
     bias: [f64; 2],
+    /// The free half and the glued one.
+    halves: [Half; 2],
 }
 
 /// Puts the cell in place of the tube with stiff yarns wherever an effect asks for one.
 pub(crate) fn complete(assembly: &mut Assembly) {
     for site in &mut assembly.sites {
         if site.actuator.is_some() && site.weave.is_cell() {
+            site.guess_fails = true;
             site.actuator_terms.push(Box::new(Muscle::of(site)));
         }
     }
 }
 
-/// One half of the tube per unit of its width: energy, pressure work included, and derivatives.
-#[derive(Debug, Clone, Copy, Default)]
+/// One half of the tube per unit of its width, its yarns and hoop eliminated.
+#[derive(Debug, Clone, Copy)]
 struct Half {
-    energy: f64,
-    /// By the length of the axis.
-    by_axis: f64,
-    /// By its own length alone.
+    /// a/τ and k: e = a τ + k ε.
+    hoop: [f64; 2],
+    /// A, B, C.
+    by: [f64; 3],
+    /// K, yarns along the wall: taut alone.
+    wall: f64,
+}
+
+/// Derivatives of a half by τ and by its own length, and the second and third by the axis, with which both move.
+struct Slopes {
+    by_thrust: f64,
     by_own: f64,
-    /// Second derivative by the axis, the half moving along.
-    stiffness: f64,
-    /// Hoop stretch squared.
-    hoop2: f64,
+    second: f64,
+    third: f64,
+}
+
+impl Half {
+    /// A half glued to a wall of stiffness K.
+    fn new(weave: &Weave, [c2, s2]: [f64; 2], wall: f64) -> Half {
+        let c = weave.compliance_m_per_n;
+        let per = 1.0 / (2.0 * s2 * s2 + wall * c);
+        let [a, k] = [c * per, -2.0 * c2 * s2 * per];
+        // Shear of the weave in its own axes; its stiffness is too small to move the hoop.
+        let turn = 4.0 * c2 * s2 * weave.shear_n_per_m;
+        let own = 2.0 * c2 * c2 * wall * per + turn * (k - 1.0) * (k - 1.0);
+        Half { hoop: [a, k], by: [a - turn * a * a, turn * a * (k - 1.0) - k, own], wall }
+    }
+
+    /// Energy at the thrust τ and the length x, pressure work included.
+    fn energy(&self, tau: f64, x: f64) -> f64 {
+        let ([a, b, c], strain) = (self.by, 0.5 * (x * x - 1.0));
+        let taut = strain.max(0.0);
+        0.5 * (c * strain * strain + self.wall * taut * taut - tau) + tau * (b * strain - 0.5 * a * tau)
+    }
+
+    /// Slopes at the axis y, `thrust` = P r₀.
+    #[inline]
+    fn slopes(&self, x: f64, y: f64, thrust: f64) -> Slopes {
+        let ([a, b, c], strain, tau) = (self.by, 0.5 * (x * x - 1.0), thrust * y);
+        let wall = if strain > 0.0 { c + self.wall } else { c };
+        let pull = b * tau + wall * strain;
+        let second = pull + wall * x * x + thrust * (2.0 * b * x - a * thrust);
+        let third = 3.0 * (b * thrust + wall * x);
+        Slopes { by_thrust: b * strain - a * tau - 0.5, by_own: pull * x, second, third }
+    }
+}
+
+/// The cell at given pressures and line: everything but the shortening of its ends.
+struct Held<'a> {
+    halves: &'a [Half; 2],
+    thrust: f64,
+    /// Contraction of what bends, and h over its arm.
+    line: f64,
+    lever: f64,
+    /// n r/L', and (P π r² − p_b ΔA)/W.
+    gain: f64,
+    drive: f64,
+}
+
+impl Held<'_> {
+    /// Length of the axis at a shortening of each end over r, and those of both halves.
+    #[inline]
+    fn lengths(&self, d: f64) -> [f64; 3] {
+        let (y, bend) = (1.0 - self.line + self.gain * d, self.lever * self.line);
+        [y, y - bend, y + bend]
+    }
+
+    /// Pull of the tube per width, its slope and bend over the axis, and how much more the glued half pulls by its own length.
+    #[inline]
+    fn tube(&self, d: f64) -> [f64; 4] {
+        let [y, free, glued] = self.lengths(d);
+        let (free, glued) = (self.halves[0].slopes(free, y, self.thrust), self.halves[1].slopes(glued, y, self.thrust));
+        let pull = self.thrust * (free.by_thrust + glued.by_thrust) + free.by_own + glued.by_own;
+        [pull, free.second + glued.second, free.third + glued.third, glued.by_own - free.by_own]
+    }
+
+    /// Shortening of each end over r at which it pulls as the tube does: Halley within a bracket.
+    fn shortening(&self) -> f64 {
+        if self.gain == 0.0 || self.drive <= 0.0 {
+            return 0.0;
+        }
+        let ([mut low, mut high], mut d, mut ends) = (ENDS, IDLE_END, IDLE_PULL);
+        for _ in 0..80 {
+            let ([pull, tube, tube_bend, _], [end, by, bend]) = (self.tube(d), ends);
+            let excess = pull - self.drive * end;
+            *(if excess > 0.0 { &mut high } else { &mut low }) = d;
+            let slope = self.gain * tube - self.drive * by;
+            let bend = self.gain * self.gain * tube_bend - self.drive * bend;
+            let next = d - excess * slope / (slope * slope - 0.5 * excess * bend);
+            // What the next step would be is some ten times the cube of this one.
+            if (next - d).abs() < LAST_STEP {
+                return next;
+            }
+            d = if low < next && next < high { next } else { 0.5 * (low + high) };
+            ends = end_pull(d);
+        }
+        d
+    }
 }
 
 impl Muscle {
     fn of(site: &Site) -> Muscle {
-        let shape = &site.shape;
+        let (shape, weave) = (&site.shape, site.weave);
+        let bias = shape.bias_squares();
         Muscle {
-            weave: site.weave,
+            weave,
             radius_m: shape.width_m / PI,
             length_m: shape.length_m,
             arm_m: site.linkage.arm_m,
             volume_gain: shape.volume_gain,
-            bias: shape.bias_squares(),
+            bias,
+            halves: [0.0, weave.wall_n_per_m].map(|wall| Half::new(&weave, bias, wall)),
         }
     }
 
-    /// A half of length x at the axis y, glued to a wall of stiffness K; `thrust` = P r₀.
-    fn half(&self, x: f64, y: f64, wall: f64, thrust: f64) -> Half {
-        let ([c2, s2], c) = (self.bias, self.weave.compliance_m_per_n);
-        let (tau, along, d_along) = (thrust * y, 0.5 * c2 * (x * x - 1.0), c2 * x);
-        let per = 1.0 / (2.0 * s2 * s2 + wall * c);
-        // m/c, which stays finite with stiff yarns, and m.
-        let pull = (tau * s2 + wall * along) * per;
-        let hoop = (c * pull - along) / s2;
-        let taut = (0.5 * (x * x - 1.0)).max(0.0);
-        let d_pull = (thrust * s2 + wall * d_along) * per;
-        let [by_tau, by_x] = [c * thrust * per, (c * wall * d_along * per - d_along) / s2];
-        let d_hoop = by_tau + by_x;
-        // Shear of the weave in its own axes; its stiffness is too small to move the hoop.
-        let turn = 4.0 * c2 * s2 * self.weave.shear_n_per_m;
-        let shear = hoop - 0.5 * (x * x - 1.0);
-        let d_taut = if taut > 0.0 { x } else { 0.0 };
-        Half {
-            energy: c * pull * pull + 0.5 * wall * (hoop * hoop + taut * taut) - tau * (0.5 + hoop)
-                + 0.5 * turn * shear * shear,
-            by_axis: -thrust * (0.5 + hoop) + turn * shear * by_tau,
-            by_own: 2.0 * pull * d_along + wall * taut * x + turn * shear * (by_x - x),
-            stiffness: 2.0 * (d_pull * d_along + pull * c2) + wall * (d_taut * x + taut) - thrust * d_hoop
-                + turn * (d_hoop - x) * (d_hoop - x),
-            hoop2: 1.0 + 2.0 * hoop,
-        }
-    }
-
-    /// Both halves at the axis length y and the bend κh.
-    fn halves(&self, y: f64, bend: f64, thrust: f64) -> [Half; 2] {
-        [self.half(y - bend, y, 0.0, thrust), self.half(y + bend, y, self.weave.wall_n_per_m, thrust)]
+    /// The cell at a contraction of the line, and its share of the flat length.
+    #[inline]
+    fn held(&self, contraction: f64, p_act_pa: f64, p_body_pa: f64) -> (Held<'_>, f64) {
+        let Muscle { radius_m, length_m, arm_m, weave, halves, .. } = self;
+        let p = self.volume_gain * p_act_pa;
+        let thrust = p * radius_m;
+        // At rest length, where the strain is 0.
+        let radius = radius_m * (1.0 + thrust * (halves[0].hoop[0] + halves[1].hoop[0])).sqrt();
+        let bends = 1.0 - (weave.flat_ends * FRAC_PI_4 * radius / length_m).min(MOST_IDLE);
+        let line = contraction / bends;
+        let lever = if weave.wall_n_per_m == 0.0 { 0.0 } else { 2.0 * radius / (PI * arm_m) };
+        let drive = (p * PI * radius * radius - p_body_pa * weave.drawn_in_m2) / (PI * radius_m);
+        let gain = weave.flat_ends * radius / (length_m * bends);
+        (Held { halves, thrust, line, lever, gain, drive }, bends)
     }
 
     /// Potential per metre of body at a contraction of the line, and its slope.
     fn potential(&self, contraction: f64, p_act_pa: f64, p_body_pa: f64) -> (f64, f64) {
-        let Muscle { radius_m, length_m, arm_m, weave, .. } = *self;
-        let (width, p) = (PI * radius_m, self.volume_gain * p_act_pa);
-        let thrust = p * radius_m;
-        let [free, glued] = self.halves(1.0, 0.0, thrust);
-        let radius = radius_m * (0.5 * (free.hoop2 + glued.hoop2)).sqrt();
-        let idle = (weave.flat_ends * FRAC_PI_4 * radius / length_m).min(MOST_IDLE);
-        let line = contraction / (1.0 - idle);
-        let lever = if weave.wall_n_per_m == 0.0 { 0.0 } else { 2.0 * radius / (PI * arm_m) };
-        let gain = weave.flat_ends * radius / (length_m * (1.0 - idle));
-        let drive = p * PI * radius * radius - p_body_pa * weave.drawn_in_m2;
-        let at = |d: f64| self.halves(1.0 - line + gain * d, lever * line, thrust);
-        let d = if gain == 0.0 || drive <= 0.0 { 0.0 } else { shortening(&at, width, gain, drive) };
-        let [free, glued] = at(d);
-        let pull = |half: Half| half.by_axis + half.by_own;
-        let mut energy = (1.0 - idle) * width * (free.energy + glued.energy);
-        if d > 0.0 {
-            energy -= (1.0 - idle) * gain * drive * end_work(d);
-        }
-        (energy, width * (lever * (glued.by_own - free.by_own) - pull(free) - pull(glued)))
+        let (held, bends) = self.held(contraction, p_act_pa, p_body_pa);
+        let d = held.shortening();
+        let ([y, free, glued], [one, other]) = (held.lengths(d), held.halves);
+        let tube = one.energy(held.thrust * y, free) + other.energy(held.thrust * y, glued);
+        let ends = if d > 0.0 { held.gain * held.drive * end_work(d) } else { 0.0 };
+        (PI * self.radius_m * bends * (tube - ends), self.slope(&held, d))
+    }
+
+    /// Slope of the potential over the contraction, at the ends' own balance.
+    #[inline]
+    fn slope(&self, held: &Held, d: f64) -> f64 {
+        let [pull, .., couple] = held.tube(d);
+        PI * self.radius_m * (held.lever * couple - pull)
     }
 
     /// v − v₀ and dv/dε of the tube with stiff yarns, which the term stands in for.
@@ -188,47 +260,35 @@ impl Term for Muscle {
         let at_rest = self.volume_gain * at.p_act_pa * PI * self.radius_m.powi(2);
         energy + at_rest + at.p_act_pa * gained
     }
+
+    fn add_force(&self, at: &Pose, force: &mut [f64]) {
+        let contraction = at.q[actuator_q::CONTRACTION];
+        let (held, _) = self.held(contraction, at.p_act_pa, at.p_body_pa);
+        let slope = self.slope(&held, held.shortening());
+        force[actuator_q::CONTRACTION] -= slope + at.p_act_pa * self.stiff(contraction).1;
+    }
 }
 
 /// Largest share of a muscle that its ends may take.
 const MOST_IDLE: f64 = 0.9;
 /// Range of the shortening of a flat end over r: at 1 it pushes as hard as it can.
 const ENDS: [f64; 2] = [1e-4, 1.0];
+/// Where it starts: an end without a pull.
+const IDLE_END: f64 = SQRT_2 - 1.0;
+const IDLE_PULL: [f64; 3] = [0.0, -(2.0 + SQRT_2), 13.0 + 9.0 * SQRT_2];
+/// Step of that shortening whose cube is rounding.
+const LAST_STEP: f64 = 3e-6;
 
 /// `g(d) = (d³/3 + 2d − 1/d)/8 − d`: work of a flat end over P π r³.
 fn end_work(d: f64) -> f64 {
     (d * d * d / 3.0 + 2.0 * d - 1.0 / d) / 8.0 - d
 }
 
-/// `g' = (d + 1/d)²/8 − 1`, its pull over P π r², and its slope.
-fn end_pull(d: f64) -> [f64; 2] {
-    let inverse = 1.0 / d;
-    [0.125 * (d + inverse) * (d + inverse) - 1.0, 0.25 * (d + inverse) * (1.0 - inverse * inverse)]
-}
-
-/// Shortening of each end at which it pulls as the tube does: Newton within a bracket.
-fn shortening(at: &dyn Fn(f64) -> [Half; 2], width: f64, gain: f64, drive: f64) -> f64 {
-    let ([mut low, mut high], mut d) = (ENDS, SQRT_2 - 1.0);
-    for _ in 0..80 {
-        let [free, glued] = at(d);
-        let [pull, stiffness] = end_pull(d);
-        let tube = width * (free.by_axis + free.by_own + glued.by_axis + glued.by_own);
-        let excess = tube - drive * pull;
-        if excess > 0.0 {
-            high = d
-        } else {
-            low = d
-        }
-        let step = excess / (width * gain * (free.stiffness + glued.stiffness) - drive * stiffness);
-        let next = d - step;
-        // What the next step would be is the square of this one: rounding, which a bracket as narrow would only halve.
-        if step.abs() < 1e-10 {
-            return next;
-        }
-        let inside = low < next && next < high;
-        d = if inside { next } else { 0.5 * (low + high) };
-    }
-    d
+/// `g' = (d + 1/d)²/8 − 1`, its pull over P π r², and two derivatives.
+#[inline]
+fn end_pull(d: f64) -> [f64; 3] {
+    let (square, per) = (d * d, 1.0 / (d * d));
+    [0.125 * (square + per) - 0.75, 0.25 * d * (1.0 - per * per), 0.25 + 0.75 * per * per]
 }
 
 #[cfg(test)]

@@ -346,7 +346,7 @@ impl Site {
         let mut force = [0.0; actuator_q::LEN];
         let pose = loads.pose(&q);
         for term in &self.actuator_terms {
-            term.add(&pose, &mut force);
+            term.add_force(&pose, &mut force);
         }
         -(force[0] + force[1] * stroke.d_contraction + force[2] * stroke.d_volume + force[3] * (d_geometric * gain))
     }
