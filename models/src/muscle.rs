@@ -34,8 +34,8 @@
 //! **Validity**: both halves round with one radius, (√sᵤ + √sₗ)² taken as 2(sᵤ + sₗ) (0.3 % at the stretches of an fPAM);
 //! yarns linear in Green strain; a wall that takes no compression along the body. Derived here.
 
+use crate::actuators::ActuatorShape;
 use crate::assembly::Assembly;
-use crate::site::Site;
 use crate::term::{Pose, Term, actuator_q};
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 
@@ -64,13 +64,13 @@ impl Weave {
 /// The cell of one site as a term over the contraction.
 #[derive(Debug, Clone, Copy)]
 struct Muscle {
-    weave: Weave,
     /// r₀ \[m\].
     radius_m: f64,
-    length_m: f64,
-    /// Arm D \[m\].
-    arm_m: f64,
     volume_gain: f64,
+    /// n/L and h/(rD) \[1/m\].
+    per_m: [f64; 2],
+    /// ΔA/W \[m\].
+    drawn_in_m: f64,
     /// cos²α₀, sin²α₀.
     bias: [f64; 2],
     /// The free half and the glued one.
@@ -82,7 +82,7 @@ pub(crate) fn complete(assembly: &mut Assembly) {
     for site in &mut assembly.sites {
         if site.actuator.is_some() && site.weave.is_cell() {
             site.guess_fails = true;
-            site.actuator_terms.push(Box::new(Muscle::of(site)));
+            site.actuator_terms.push(Box::new(Muscle::of(&site.weave, &site.shape, site.linkage.arm_m)));
         }
     }
 }
@@ -191,33 +191,33 @@ impl Held<'_> {
 }
 
 impl Muscle {
-    fn of(site: &Site) -> Muscle {
-        let (shape, weave) = (&site.shape, site.weave);
+    fn of(weave: &Weave, shape: &ActuatorShape, arm_m: f64) -> Muscle {
         let bias = shape.bias_squares();
+        let lever = if weave.wall_n_per_m == 0.0 { 0.0 } else { 2.0 / (PI * arm_m) };
         Muscle {
-            weave,
             radius_m: shape.width_m / PI,
-            length_m: shape.length_m,
-            arm_m: site.linkage.arm_m,
             volume_gain: shape.volume_gain,
+            per_m: [weave.flat_ends / shape.length_m, lever],
+            drawn_in_m: weave.drawn_in_m2 / shape.width_m,
             bias,
-            halves: [0.0, weave.wall_n_per_m].map(|wall| Half::new(&weave, bias, wall)),
+            halves: [0.0, weave.wall_n_per_m].map(|wall| Half::new(weave, bias, wall)),
         }
     }
 
     /// The cell at a contraction of the line, and its share of the flat length.
     #[inline]
     fn held(&self, contraction: f64, p_act_pa: f64, p_body_pa: f64) -> (Held<'_>, f64) {
-        let Muscle { radius_m, length_m, arm_m, weave, halves, .. } = self;
+        let Muscle { radius_m, halves, per_m: [ends, lever], .. } = self;
         let p = self.volume_gain * p_act_pa;
         let thrust = p * radius_m;
         // At rest length, where the strain is 0.
-        let radius = radius_m * (1.0 + thrust * (halves[0].hoop[0] + halves[1].hoop[0])).sqrt();
-        let bends = 1.0 - (weave.flat_ends * FRAC_PI_4 * radius / length_m).min(MOST_IDLE);
-        let line = contraction / bends;
-        let lever = if weave.wall_n_per_m == 0.0 { 0.0 } else { 2.0 * radius / (PI * arm_m) };
-        let drive = (p * PI * radius * radius - p_body_pa * weave.drawn_in_m2) / (PI * radius_m);
-        let gain = weave.flat_ends * radius / (length_m * bends);
+        let spread = 1.0 + thrust * (halves[0].hoop[0] + halves[1].hoop[0]);
+        let radius = radius_m * spread.sqrt();
+        let bends = 1.0 - (FRAC_PI_4 * ends * radius).min(MOST_IDLE);
+        let per = 1.0 / bends;
+        // Over the width πr₀.
+        let drive = thrust * spread - p_body_pa * self.drawn_in_m;
+        let (line, lever, gain) = (contraction * per, lever * radius, ends * radius * per);
         (Held { halves, thrust, line, lever, gain, drive }, bends)
     }
 
