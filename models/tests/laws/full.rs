@@ -5,17 +5,9 @@ use crate::stationary::imbalance;
 use crate::support::*;
 use models::{Loads, Model, Scenario, Target};
 
-/// The shipped robots, and the muscle with the mechanics that its shipped robot has not.
+/// The shipped robots.
 fn all() -> impl Iterator<Item = (&'static str, Scenario)> {
-    let mechanics: [(&str, &[f64]); 5] = [
-        ("sunk_muscle", &[1.0]),
-        ("flat_ends", &[2.0]),
-        ("yarn_stretch", &[1.48e-4]),
-        ("glued_face", &[5410.0]),
-        ("shear_stiffness", &[51.6]),
-    ];
-    let muscle = mechanics.iter().fold(full("fpam").bare(), |s, (name, values)| s.with_effect(name, values));
-    actuators().map(|actuator| (actuator, full(actuator))).chain([("muscle in the wall", muscle)])
+    actuators().map(|actuator| (actuator, full(actuator)))
 }
 
 #[test]
