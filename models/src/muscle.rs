@@ -98,10 +98,11 @@ struct Half {
     wall: f64,
 }
 
-/// Derivatives of a half by τ and by its own length, and the second and third by the axis, with which both move.
+/// Derivatives of a half by τ, and by its own length with two more by the axis, with which both move; second and third by
+/// the axis.
 struct Slopes {
     by_thrust: f64,
-    by_own: f64,
+    own: [f64; 3],
     second: f64,
     third: f64,
 }
@@ -131,9 +132,10 @@ impl Half {
         let ([a, b, c], strain, tau) = (self.by, 0.5 * (x * x - 1.0), thrust * y);
         let wall = if strain > 0.0 { c + self.wall } else { c };
         let pull = b * tau + wall * strain;
-        let second = pull + wall * x * x + thrust * (2.0 * b * x - a * thrust);
-        let third = 3.0 * (b * thrust + wall * x);
-        Slopes { by_thrust: b * strain - a * tau - 0.5, by_own: pull * x, second, third }
+        let (mixed, bend) = (b * thrust, b * thrust + wall * x);
+        let own = [pull * x, pull + x * bend, 2.0 * bend + wall * x];
+        let second = own[1] + mixed * x - a * thrust * thrust;
+        Slopes { by_thrust: b * strain - a * tau - 0.5, own, second, third: 3.0 * bend }
     }
 }
 
@@ -157,36 +159,44 @@ impl Held<'_> {
         [y, y - bend, y + bend]
     }
 
-    /// Pull of the tube per width, its slope and bend over the axis, and how much more the glued half pulls by its own length.
+    /// Pull of the tube per width and by how much more the glued half pulls by its own length, each with two derivatives by
+    /// the axis.
     #[inline]
-    fn tube(&self, d: f64) -> [f64; 4] {
+    fn tube(&self, d: f64) -> [[f64; 3]; 2] {
         let [y, free, glued] = self.lengths(d);
         let (free, glued) = (self.halves[0].slopes(free, y, self.thrust), self.halves[1].slopes(glued, y, self.thrust));
-        let pull = self.thrust * (free.by_thrust + glued.by_thrust) + free.by_own + glued.by_own;
-        [pull, free.second + glued.second, free.third + glued.third, glued.by_own - free.by_own]
+        let pull = self.thrust * (free.by_thrust + glued.by_thrust) + free.own[0] + glued.own[0];
+        let more = [0, 1, 2].map(|i| glued.own[i] - free.own[i]);
+        [[pull, free.second + glued.second, free.third + glued.third], more]
     }
 
-    /// Shortening of each end over r at which it pulls as the tube does: Halley within a bracket.
-    fn shortening(&self) -> f64 {
+    /// Shortening of each end over r at which it pulls as the tube does, and the pulls of [`Held::tube`] there: Halley within
+    /// a bracket.
+    fn settled(&self) -> [f64; 3] {
+        let still = |d: f64| self.tube(d).map(|of| of[0]);
         if self.gain == 0.0 || self.drive <= 0.0 {
-            return 0.0;
+            let [pull, more] = still(0.0);
+            return [0.0, pull, more];
         }
-        let ([mut low, mut high], mut d, mut ends) = (ENDS, IDLE_END, IDLE_PULL);
+        let ([mut low, mut high], mut d, mut end) = (ENDS, IDLE_END, IDLE_PULL);
         for _ in 0..80 {
-            let ([pull, tube, tube_bend, _], [end, by, bend]) = (self.tube(d), ends);
-            let excess = pull - self.drive * end;
+            let [pull, more] = self.tube(d);
+            let excess = pull[0] - self.drive * end[0];
             *(if excess > 0.0 { &mut high } else { &mut low }) = d;
-            let slope = self.gain * tube - self.drive * by;
-            let bend = self.gain * self.gain * tube_bend - self.drive * bend;
-            let next = d - excess * slope / (slope * slope - 0.5 * excess * bend);
-            // What the next step would be is some ten times the cube of this one.
-            if (next - d).abs() < LAST_STEP {
-                return next;
+            let slope = self.gain * pull[1] - self.drive * end[1];
+            let bend = self.gain * self.gain * pull[2] - self.drive * end[2];
+            let step = -excess * slope / (slope * slope - 0.5 * excess * bend);
+            // What the next step would be, and what is left out here, is some ten times the cube of this one.
+            if step.abs() < LAST_STEP {
+                let moved = self.gain * step;
+                let at = |[f, by, bend]: [f64; 3]| f + moved * (by + 0.5 * moved * bend);
+                return [d + step, at(pull), at(more)];
             }
-            d = if low < next && next < high { next } else { 0.5 * (low + high) };
-            ends = end_pull(d);
+            d = if low < d + step && d + step < high { d + step } else { 0.5 * (low + high) };
+            end = end_pull(d);
         }
-        d
+        let [pull, more] = still(d);
+        [d, pull, more]
     }
 }
 
@@ -224,18 +234,12 @@ impl Muscle {
     /// Potential per metre of body at a contraction of the line, and its slope.
     fn potential(&self, contraction: f64, p_act_pa: f64, p_body_pa: f64) -> (f64, f64) {
         let (held, bends) = self.held(contraction, p_act_pa, p_body_pa);
-        let d = held.shortening();
+        let [d, pull, more] = held.settled();
         let ([y, free, glued], [one, other]) = (held.lengths(d), held.halves);
         let tube = one.energy(held.thrust * y, free) + other.energy(held.thrust * y, glued);
         let ends = if d > 0.0 { held.gain * held.drive * end_work(d) } else { 0.0 };
-        (PI * self.radius_m * bends * (tube - ends), self.slope(&held, d))
-    }
-
-    /// Slope of the potential over the contraction, at the ends' own balance.
-    #[inline]
-    fn slope(&self, held: &Held, d: f64) -> f64 {
-        let [pull, .., couple] = held.tube(d);
-        PI * self.radius_m * (held.lever * couple - pull)
+        let width = PI * self.radius_m;
+        (width * bends * (tube - ends), width * (held.lever * more - pull))
     }
 
     /// v − v₀ and dv/dε of the tube with stiff yarns, which the term stands in for.
@@ -264,7 +268,8 @@ impl Term for Muscle {
     fn add_force(&self, at: &Pose, force: &mut [f64]) {
         let contraction = at.q[actuator_q::CONTRACTION];
         let (held, _) = self.held(contraction, at.p_act_pa, at.p_body_pa);
-        let slope = self.slope(&held, held.shortening());
+        let [_, pull, more] = held.settled();
+        let slope = PI * self.radius_m * (held.lever * more - pull);
         force[actuator_q::CONTRACTION] -= slope + at.p_act_pa * self.stiff(contraction).1;
     }
 }

@@ -241,9 +241,12 @@ impl Site {
             at = self.balance(actuator, a, loads, memory);
             at.imbalance
         };
-        let start = match near {
-            Some(state) => state.start(self, loads, memory),
-            None => self.tabulated(loads, memory).unwrap_or_else(|| self.start(actuator, loads, memory)),
+        // The table is nearer than a state at another pressure.
+        let moved = near.is_none_or(|state| state.loads.p_act_pa != loads.p_act_pa);
+        let start = match (near, moved.then(|| self.tabulated(loads, memory)).flatten()) {
+            (_, Some(start)) => start,
+            (Some(state), None) => state.start(self, loads, memory),
+            (None, None) => self.start(actuator, loads, memory),
         };
         let mut root = match find_root(&mut imbalance, actuator.range, start) {
             Ok(root) => root,

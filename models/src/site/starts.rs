@@ -5,7 +5,7 @@
 //! ```
 //!
 //! M_b is the body's moment at a typical bend. A start decides speed, never the result. Exact but for the interpolation at the
-//! scenario's body pressure; at others the folds shift it a little.
+//! scenario's body pressure; at others the folds of a pouch shift it a little, and the yarns of a muscle more.
 
 use super::{Site, SiteLoads, SiteState, TYPICAL_STROKE};
 use crate::root::Start;

@@ -38,6 +38,23 @@ fn their_potential_is_stationary() {
     }
 }
 
+/// The table of starts is that of the scenario's body pressure and of the largest actuator pressure; the answer knows neither.
+#[test]
+fn the_table_of_starts_changes_no_answer() {
+    for (actuator, robot) in all() {
+        let of = |p_body_pa: f64, p_max_pa: f64| Model::new(&Scenario { p_body_pa, p_max_pa, ..robot.clone() });
+        let models = [of(robot.p_body_pa, robot.p_max_pa), of(3.3e3, robot.p_max_pa), of(1e3, 40e3)];
+        for i in 1..=200 {
+            for p_body in [1e3, 2e3, 4e3] {
+                let loads = Loads::uniform(p_body, 300.0 * f64::from(i));
+                let angle = |model: &Model| predicted(model, &loads).unwrap().tip.angle_rad;
+                let [own, others @ ..] = models.each_ref().map(angle);
+                assert!(others.iter().all(|a| (a - own).abs() < 1e-11), "{actuator} {loads:?}: {own} {others:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_pouch_that_has_opened_bends_more_with_every_pressure_and_the_inverse_returns_it() {
     for actuator in ["spam", "cpam", "epam"] {
