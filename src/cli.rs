@@ -200,10 +200,8 @@ pub struct Compare {
     /// With --engines: threads, shared by runs beside each other; 0: one per core
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
     pub threads: u64,
-    /// Also fit one number to these data and show what that brings: the bending stiffness B, or with =body-pressure that of
-    /// the body, where it was not measured
-    #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true, default_missing_value = "bending",
-        value_parser = knob)]
+    /// Also fit the bending stiffness B to these data, or with =body-pressure that of the body, and show what that brings
+    #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true, default_missing_value = "bending")]
     pub calibrate: Option<Knob>,
     /// Also hold the model with this effect against the data: name or name:key=value[,key=value]; repeatable, cumulative
     #[arg(long, short)]

@@ -8,6 +8,8 @@
 //! halves      Fᵤ/W = m²/c − ½τ s                   τ = P r₀ y: pressure work of half the tube, −½P v
 //!             Fₗ/W = m²/c + ½K e² − ½τ s + ½K ((xₗ² − 1)/2)₊²      K: the wall it is glued to, yarns along and across
 //! hoop        ∂F/∂s = 0:   mᵤ = cτ/(2 sin²α₀),   mₗ = c (τ sin²α₀ + Kp)/(2 sin⁴α₀ + Kc),  p = cos²α₀ (xₗ² − 1)/2
+//! half        F/W = −½τ − ½Aτ² + Bτε + ½Cε² + ½Kε₊²,  ε = (x² − 1)/2    with hoop, yarns and shear g = G_t sin²2α₀ in
+//!             a = c/N, k = −2 sin²α₀ cos²α₀/N, N = 2 sin⁴α₀ + Kc:  A = a − ga²,  B = ga(k − 1) − k,  C = 2K cos⁴α₀/N + g(k − 1)²
 //! flat ends   −(P π r² − p_b ΔA) r g(d) each,  g = (d³/3 + 2d − 1/d)/8 − d:  they shorten the muscle by d r
 //! line        κD = 1 − y + n d r/L';               ∂/∂d = 0:  ∂(Fᵤ + Fₗ)/∂y = (P π r² − p_b ΔA) g'(d)
 //! ```

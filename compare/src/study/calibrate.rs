@@ -20,6 +20,18 @@ pub enum Knob {
     BodyPressure,
 }
 
+impl std::str::FromStr for Knob {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Knob, String> {
+        match text {
+            "bending" => Ok(Knob::Bending),
+            "body-pressure" => Ok(Knob::BodyPressure),
+            _ => Err("known: bending, body-pressure".into()),
+        }
+    }
+}
+
 impl Knob {
     /// Name in messages.
     fn word(self) -> &'static str {
