@@ -5,6 +5,7 @@ mod discover;
 mod groups;
 
 use clap::{Args, Parser, Subcommand};
+use compare::study::Knob;
 pub use data::{Characterize, DataCommand, DataFem, Generate};
 pub use discover::{Add, Breakdown, ChallengeCommand, ChallengeNew, Diagnose, Ladder, Validate};
 pub use groups::{command, parsed};
@@ -201,9 +202,9 @@ pub struct Compare {
     /// With --engines: threads, shared by runs beside each other; 0: one per core
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
     pub threads: u64,
-    /// Also fit the bending stiffness B to these data and show what that brings
-    #[arg(long)]
-    pub calibrate: bool,
+    /// Also fit the bending stiffness B to these data, or with =body-pressure that of the body, and show what that brings
+    #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true, default_missing_value = "bending")]
+    pub calibrate: Option<Knob>,
     /// Also hold the model with this effect against the data: name or name:key=value[,key=value]; repeatable, cumulative
     #[arg(long, short)]
     pub effect: Vec<String>,

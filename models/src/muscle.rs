@@ -8,6 +8,8 @@
 //! halves      Fᵤ/W = m²/c − ½τ s                   τ = P r₀ y: pressure work of half the tube, −½P v
 //!             Fₗ/W = m²/c + ½K e² − ½τ s + ½K ((xₗ² − 1)/2)₊²      K: the wall it is glued to, yarns along and across
 //! hoop        ∂F/∂s = 0:   mᵤ = cτ/(2 sin²α₀),   mₗ = c (τ sin²α₀ + Kp)/(2 sin⁴α₀ + Kc),  p = cos²α₀ (xₗ² − 1)/2
+//! half        F/W = −½τ − ½Aτ² + Bτε + ½Cε² + ½Kε₊²,  ε = (x² − 1)/2    with hoop, yarns and shear g = G_t sin²2α₀ in
+//!             a = c/N, k = −2 sin²α₀ cos²α₀/N, N = 2 sin⁴α₀ + Kc:  A = a − ga²,  B = ga(k − 1) − k,  C = 2K cos⁴α₀/N + g(k − 1)²
 //! flat ends   −(P π r² − p_b ΔA) r g(d) each,  g = (d³/3 + 2d − 1/d)/8 − d:  they shorten the muscle by d r
 //! line        κD = 1 − y + n d r/L';               ∂/∂d = 0:  ∂(Fᵤ + Fₗ)/∂y = (P π r² − p_b ΔA) g'(d)
 //! ```
@@ -34,8 +36,8 @@
 //! **Validity**: both halves round with one radius, (√sᵤ + √sₗ)² taken as 2(sᵤ + sₗ) (0.3 % at the stretches of an fPAM);
 //! yarns linear in Green strain; a wall that takes no compression along the body. Derived here.
 
+use crate::actuators::ActuatorShape;
 use crate::assembly::Assembly;
-use crate::site::Site;
 use crate::term::{Pose, Term, actuator_q};
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 
@@ -64,106 +66,182 @@ impl Weave {
 /// The cell of one site as a term over the contraction.
 #[derive(Debug, Clone, Copy)]
 struct Muscle {
-    weave: Weave,
     /// r₀ \[m\].
     radius_m: f64,
-    length_m: f64,
-    /// Arm D \[m\].
-    arm_m: f64,
     volume_gain: f64,
+    /// n/L and h/(rD) \[1/m\].
+    per_m: [f64; 2],
+    /// ΔA/W \[m\].
+    drawn_in_m: f64,
     /// cos²α₀, sin²α₀.
     bias: [f64; 2],
+    /// The free half and the glued one.
+    halves: [Half; 2],
 }
 
 /// Puts the cell in place of the tube with stiff yarns wherever an effect asks for one.
 pub(crate) fn complete(assembly: &mut Assembly) {
     for site in &mut assembly.sites {
         if site.actuator.is_some() && site.weave.is_cell() {
-            site.actuator_terms.push(Box::new(Muscle::of(site)));
+            site.guess_fails = true;
+            site.actuator_terms.push(Box::new(Muscle::of(&site.weave, &site.shape, site.linkage.arm_m)));
         }
     }
 }
 
-/// One half of the tube per unit of its width: energy, pressure work included, and derivatives.
-#[derive(Debug, Clone, Copy, Default)]
+/// One half of the tube per unit of its width, its yarns and hoop eliminated.
+#[derive(Debug, Clone, Copy)]
 struct Half {
-    energy: f64,
-    /// By the length of the axis.
-    by_axis: f64,
-    /// By its own length alone.
-    by_own: f64,
-    /// Second derivative by the axis, the half moving along.
-    stiffness: f64,
-    /// Hoop stretch squared.
-    hoop2: f64,
+    /// a/τ and k: e = a τ + k ε.
+    hoop: [f64; 2],
+    /// A, B, C.
+    by: [f64; 3],
+    /// K, yarns along the wall: taut alone.
+    wall: f64,
+}
+
+/// Derivatives of a half by τ, and by its own length with two more by the axis, with which both move; second and third by
+/// the axis.
+struct Slopes {
+    by_thrust: f64,
+    own: [f64; 3],
+    second: f64,
+    third: f64,
+}
+
+impl Half {
+    /// A half glued to a wall of stiffness K.
+    fn new(weave: &Weave, [c2, s2]: [f64; 2], wall: f64) -> Half {
+        let c = weave.compliance_m_per_n;
+        let per = 1.0 / (2.0 * s2 * s2 + wall * c);
+        let [a, k] = [c * per, -2.0 * c2 * s2 * per];
+        // Shear of the weave in its own axes; its stiffness is too small to move the hoop.
+        let turn = 4.0 * c2 * s2 * weave.shear_n_per_m;
+        let own = 2.0 * c2 * c2 * wall * per + turn * (k - 1.0) * (k - 1.0);
+        Half { hoop: [a, k], by: [a - turn * a * a, turn * a * (k - 1.0) - k, own], wall }
+    }
+
+    /// Energy at the thrust τ and the length x, pressure work included.
+    fn energy(&self, tau: f64, x: f64) -> f64 {
+        let ([a, b, c], strain) = (self.by, 0.5 * (x * x - 1.0));
+        let taut = strain.max(0.0);
+        0.5 * (c * strain * strain + self.wall * taut * taut - tau) + tau * (b * strain - 0.5 * a * tau)
+    }
+
+    /// Slopes at the axis y, `thrust` = P r₀.
+    #[inline]
+    fn slopes(&self, x: f64, y: f64, thrust: f64) -> Slopes {
+        let ([a, b, c], strain, tau) = (self.by, 0.5 * (x * x - 1.0), thrust * y);
+        let wall = if strain > 0.0 { c + self.wall } else { c };
+        let pull = b * tau + wall * strain;
+        let (mixed, bend) = (b * thrust, b * thrust + wall * x);
+        let own = [pull * x, pull + x * bend, 2.0 * bend + wall * x];
+        let second = own[1] + mixed * x - a * thrust * thrust;
+        Slopes { by_thrust: b * strain - a * tau - 0.5, own, second, third: 3.0 * bend }
+    }
+}
+
+/// The cell at given pressures and line: everything but the shortening of its ends.
+struct Held<'a> {
+    halves: &'a [Half; 2],
+    thrust: f64,
+    /// Contraction of what bends, and h over its arm.
+    line: f64,
+    lever: f64,
+    /// n r/L', and (P π r² − p_b ΔA)/W.
+    gain: f64,
+    drive: f64,
+}
+
+impl Held<'_> {
+    /// Length of the axis at a shortening of each end over r, and those of both halves.
+    #[inline]
+    fn lengths(&self, d: f64) -> [f64; 3] {
+        let (y, bend) = (1.0 - self.line + self.gain * d, self.lever * self.line);
+        [y, y - bend, y + bend]
+    }
+
+    /// Pull of the tube per width and by how much more the glued half pulls by its own length, each with two derivatives by
+    /// the axis.
+    #[inline]
+    fn tube(&self, d: f64) -> [[f64; 3]; 2] {
+        let [y, free, glued] = self.lengths(d);
+        let (free, glued) = (self.halves[0].slopes(free, y, self.thrust), self.halves[1].slopes(glued, y, self.thrust));
+        let pull = self.thrust * (free.by_thrust + glued.by_thrust) + free.own[0] + glued.own[0];
+        let more = [0, 1, 2].map(|i| glued.own[i] - free.own[i]);
+        [[pull, free.second + glued.second, free.third + glued.third], more]
+    }
+
+    /// Shortening of each end over r at which it pulls as the tube does, and the pulls of [`Held::tube`] there: Halley within
+    /// a bracket.
+    fn settled(&self) -> [f64; 3] {
+        let still = |d: f64| self.tube(d).map(|of| of[0]);
+        if self.gain == 0.0 || self.drive <= 0.0 {
+            let [pull, more] = still(0.0);
+            return [0.0, pull, more];
+        }
+        let ([mut low, mut high], mut d, mut end) = (ENDS, IDLE_END, IDLE_PULL);
+        for _ in 0..80 {
+            let [pull, more] = self.tube(d);
+            let excess = pull[0] - self.drive * end[0];
+            *(if excess > 0.0 { &mut high } else { &mut low }) = d;
+            let slope = self.gain * pull[1] - self.drive * end[1];
+            let bend = self.gain * self.gain * pull[2] - self.drive * end[2];
+            let step = -excess * slope / (slope * slope - 0.5 * excess * bend);
+            // What the next step would be, and what is left out here, is some ten times the cube of this one.
+            if step.abs() < LAST_STEP {
+                let moved = self.gain * step;
+                let at = |[f, by, bend]: [f64; 3]| f + moved * (by + 0.5 * moved * bend);
+                return [d + step, at(pull), at(more)];
+            }
+            d = if low < d + step && d + step < high { d + step } else { 0.5 * (low + high) };
+            end = end_pull(d);
+        }
+        let [pull, more] = still(d);
+        [d, pull, more]
+    }
 }
 
 impl Muscle {
-    fn of(site: &Site) -> Muscle {
-        let shape = &site.shape;
+    fn of(weave: &Weave, shape: &ActuatorShape, arm_m: f64) -> Muscle {
+        let bias = shape.bias_squares();
+        let lever = if weave.wall_n_per_m == 0.0 { 0.0 } else { 2.0 / (PI * arm_m) };
         Muscle {
-            weave: site.weave,
             radius_m: shape.width_m / PI,
-            length_m: shape.length_m,
-            arm_m: site.linkage.arm_m,
             volume_gain: shape.volume_gain,
-            bias: shape.bias_squares(),
+            per_m: [weave.flat_ends / shape.length_m, lever],
+            drawn_in_m: weave.drawn_in_m2 / shape.width_m,
+            bias,
+            halves: [0.0, weave.wall_n_per_m].map(|wall| Half::new(weave, bias, wall)),
         }
     }
 
-    /// A half of length x at the axis y, glued to a wall of stiffness K; `thrust` = P r₀.
-    fn half(&self, x: f64, y: f64, wall: f64, thrust: f64) -> Half {
-        let ([c2, s2], c) = (self.bias, self.weave.compliance_m_per_n);
-        let (tau, along, d_along) = (thrust * y, 0.5 * c2 * (x * x - 1.0), c2 * x);
-        let per = 1.0 / (2.0 * s2 * s2 + wall * c);
-        // m/c, which stays finite with stiff yarns, and m.
-        let pull = (tau * s2 + wall * along) * per;
-        let hoop = (c * pull - along) / s2;
-        let taut = (0.5 * (x * x - 1.0)).max(0.0);
-        let d_pull = (thrust * s2 + wall * d_along) * per;
-        let [by_tau, by_x] = [c * thrust * per, (c * wall * d_along * per - d_along) / s2];
-        let d_hoop = by_tau + by_x;
-        // Shear of the weave in its own axes; its stiffness is too small to move the hoop.
-        let turn = 4.0 * c2 * s2 * self.weave.shear_n_per_m;
-        let shear = hoop - 0.5 * (x * x - 1.0);
-        let d_taut = if taut > 0.0 { x } else { 0.0 };
-        Half {
-            energy: c * pull * pull + 0.5 * wall * (hoop * hoop + taut * taut) - tau * (0.5 + hoop)
-                + 0.5 * turn * shear * shear,
-            by_axis: -thrust * (0.5 + hoop) + turn * shear * by_tau,
-            by_own: 2.0 * pull * d_along + wall * taut * x + turn * shear * (by_x - x),
-            stiffness: 2.0 * (d_pull * d_along + pull * c2) + wall * (d_taut * x + taut) - thrust * d_hoop
-                + turn * (d_hoop - x) * (d_hoop - x),
-            hoop2: 1.0 + 2.0 * hoop,
-        }
-    }
-
-    /// Both halves at the axis length y and the bend κh.
-    fn halves(&self, y: f64, bend: f64, thrust: f64) -> [Half; 2] {
-        [self.half(y - bend, y, 0.0, thrust), self.half(y + bend, y, self.weave.wall_n_per_m, thrust)]
+    /// The cell at a contraction of the line, and its share of the flat length.
+    #[inline]
+    fn held(&self, contraction: f64, p_act_pa: f64, p_body_pa: f64) -> (Held<'_>, f64) {
+        let Muscle { radius_m, halves, per_m: [ends, lever], .. } = self;
+        let p = self.volume_gain * p_act_pa;
+        let thrust = p * radius_m;
+        // At rest length, where the strain is 0.
+        let spread = 1.0 + thrust * (halves[0].hoop[0] + halves[1].hoop[0]);
+        let radius = radius_m * spread.sqrt();
+        let bends = 1.0 - (FRAC_PI_4 * ends * radius).min(MOST_IDLE);
+        let per = 1.0 / bends;
+        // Over the width πr₀.
+        let drive = thrust * spread - p_body_pa * self.drawn_in_m;
+        let (line, lever, gain) = (contraction * per, lever * radius, ends * radius * per);
+        (Held { halves, thrust, line, lever, gain, drive }, bends)
     }
 
     /// Potential per metre of body at a contraction of the line, and its slope.
     fn potential(&self, contraction: f64, p_act_pa: f64, p_body_pa: f64) -> (f64, f64) {
-        let Muscle { radius_m, length_m, arm_m, weave, .. } = *self;
-        let (width, p) = (PI * radius_m, self.volume_gain * p_act_pa);
-        let thrust = p * radius_m;
-        let [free, glued] = self.halves(1.0, 0.0, thrust);
-        let radius = radius_m * (0.5 * (free.hoop2 + glued.hoop2)).sqrt();
-        let idle = (weave.flat_ends * FRAC_PI_4 * radius / length_m).min(MOST_IDLE);
-        let line = contraction / (1.0 - idle);
-        let lever = if weave.wall_n_per_m == 0.0 { 0.0 } else { 2.0 * radius / (PI * arm_m) };
-        let gain = weave.flat_ends * radius / (length_m * (1.0 - idle));
-        let drive = p * PI * radius * radius - p_body_pa * weave.drawn_in_m2;
-        let at = |d: f64| self.halves(1.0 - line + gain * d, lever * line, thrust);
-        let d = if gain == 0.0 || drive <= 0.0 { 0.0 } else { shortening(&at, width, gain, drive) };
-        let [free, glued] = at(d);
-        let pull = |half: Half| half.by_axis + half.by_own;
-        let mut energy = (1.0 - idle) * width * (free.energy + glued.energy);
-        if d > 0.0 {
-            energy -= (1.0 - idle) * gain * drive * end_work(d);
-        }
-        (energy, width * (lever * (glued.by_own - free.by_own) - pull(free) - pull(glued)))
+        let (held, bends) = self.held(contraction, p_act_pa, p_body_pa);
+        let [d, pull, more] = held.settled();
+        let ([y, free, glued], [one, other]) = (held.lengths(d), held.halves);
+        let tube = one.energy(held.thrust * y, free) + other.energy(held.thrust * y, glued);
+        let ends = if d > 0.0 { held.gain * held.drive * end_work(d) } else { 0.0 };
+        let width = PI * self.radius_m;
+        (width * bends * (tube - ends), width * (held.lever * more - pull))
     }
 
     /// v − v₀ and dv/dε of the tube with stiff yarns, which the term stands in for.
@@ -188,47 +266,36 @@ impl Term for Muscle {
         let at_rest = self.volume_gain * at.p_act_pa * PI * self.radius_m.powi(2);
         energy + at_rest + at.p_act_pa * gained
     }
+
+    fn add_force(&self, at: &Pose, force: &mut [f64]) {
+        let contraction = at.q[actuator_q::CONTRACTION];
+        let (held, _) = self.held(contraction, at.p_act_pa, at.p_body_pa);
+        let [_, pull, more] = held.settled();
+        let slope = PI * self.radius_m * (held.lever * more - pull);
+        force[actuator_q::CONTRACTION] -= slope + at.p_act_pa * self.stiff(contraction).1;
+    }
 }
 
 /// Largest share of a muscle that its ends may take.
 const MOST_IDLE: f64 = 0.9;
 /// Range of the shortening of a flat end over r: at 1 it pushes as hard as it can.
 const ENDS: [f64; 2] = [1e-4, 1.0];
+/// Where it starts: an end without a pull.
+const IDLE_END: f64 = SQRT_2 - 1.0;
+const IDLE_PULL: [f64; 3] = [0.0, -(2.0 + SQRT_2), 13.0 + 9.0 * SQRT_2];
+/// Step of that shortening whose cube is rounding.
+const LAST_STEP: f64 = 3e-6;
 
 /// `g(d) = (d³/3 + 2d − 1/d)/8 − d`: work of a flat end over P π r³.
 fn end_work(d: f64) -> f64 {
     (d * d * d / 3.0 + 2.0 * d - 1.0 / d) / 8.0 - d
 }
 
-/// `g' = (d + 1/d)²/8 − 1`, its pull over P π r², and its slope.
-fn end_pull(d: f64) -> [f64; 2] {
-    let inverse = 1.0 / d;
-    [0.125 * (d + inverse) * (d + inverse) - 1.0, 0.25 * (d + inverse) * (1.0 - inverse * inverse)]
-}
-
-/// Shortening of each end at which it pulls as the tube does: Newton within a bracket.
-fn shortening(at: &dyn Fn(f64) -> [Half; 2], width: f64, gain: f64, drive: f64) -> f64 {
-    let ([mut low, mut high], mut d) = (ENDS, SQRT_2 - 1.0);
-    for _ in 0..80 {
-        let [free, glued] = at(d);
-        let [pull, stiffness] = end_pull(d);
-        let tube = width * (free.by_axis + free.by_own + glued.by_axis + glued.by_own);
-        let excess = tube - drive * pull;
-        if excess > 0.0 {
-            high = d
-        } else {
-            low = d
-        }
-        let step = excess / (width * gain * (free.stiffness + glued.stiffness) - drive * stiffness);
-        let next = d - step;
-        // What the next step would be is the square of this one: rounding, which a bracket as narrow would only halve.
-        if step.abs() < 1e-10 {
-            return next;
-        }
-        let inside = low < next && next < high;
-        d = if inside { next } else { 0.5 * (low + high) };
-    }
-    d
+/// `g' = (d + 1/d)²/8 − 1`, its pull over P π r², and two derivatives.
+#[inline]
+fn end_pull(d: f64) -> [f64; 3] {
+    let (square, per) = (d * d, 1.0 / (d * d));
+    [0.125 * (square + per) - 0.75, 0.25 * d * (1.0 - per * per), 0.25 + 0.75 * per * per]
 }
 
 #[cfg(test)]

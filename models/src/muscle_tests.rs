@@ -6,11 +6,17 @@ use crate::exact::tube::{ClosedTube, Ends, inflate};
 use crate::fabrics::Orthotropic;
 
 const YARNS: f64 = 1.48e-4;
+const LENGTH_M: f64 = 0.3;
 
 fn muscle(bias_deg: f64, weave: Weave) -> Muscle {
-    let double = bias_deg.to_radians().sin().powi(2);
-    let bias = [1.0 - double, double];
-    Muscle { weave, radius_m: 0.06 / PI, length_m: 0.3, arm_m: 0.068, volume_gain: 1.0, bias }
+    let bias_rad = bias_deg.to_radians();
+    let shape = ActuatorShape { length_m: LENGTH_M, width_m: 0.06, fold_m: 0.0, volume_gain: 1.0, bias_rad };
+    Muscle::of(&weave, &shape, 0.068)
+}
+
+/// Squared stretch around the tube of a half of length x.
+fn hoop2(half: &Half, tau: f64, x: f64) -> f64 {
+    1.0 + 2.0 * half.hoop[0] * tau + half.hoop[1] * (x * x - 1.0)
 }
 
 fn stretchy(compliance_m_per_n: f64) -> Weave {
@@ -61,8 +67,9 @@ fn what_the_supply_gives_is_stored_in_the_yarns_or_pulled_out() {
     let (cell, contraction, p) = (muscle(45.0, stretchy(YARNS)), 0.06, 30e3);
     let energy = |contraction: f64, p: f64| cell.potential(contraction, p, 0.0).0;
     let volume = (energy(contraction, p - 1.0) - energy(contraction, p + 1.0)) / 2.0;
-    let halves = cell.halves(1.0 - contraction, 0.0, p * cell.radius_m);
-    let shape = PI * cell.radius_m.powi(2) * 0.5 * (halves[0].hoop2 + halves[1].hoop2) * (1.0 - contraction);
+    let y = 1.0 - contraction;
+    let around = cell.halves.map(|half| hoop2(&half, p * cell.radius_m * y, y));
+    let shape = PI * cell.radius_m.powi(2) * 0.5 * (around[0] + around[1]) * y;
     assert!((volume / shape - 1.0).abs() < 1e-8, "{volume} {shape}");
     let strain = YARNS * p * cell.radius_m * (1.0 - contraction);
     let stored = 2.0 * PI * cell.radius_m * strain.powi(2) / YARNS;
@@ -127,23 +134,23 @@ fn a_flat_end_is_the_shape_of_most_volume() {
 fn a_free_muscle_with_flat_ends_is_shorter_by_their_closed_form() {
     let cell = muscle(45.0, Weave { flat_ends: 2.0, ..Weave::default() });
     let free = root(|contraction| pull_n(&cell, contraction, 30e3), 0.0, 0.5);
-    let [one, other] = cell.halves(1.0, 0.0, 30e3 * cell.radius_m);
-    assert_eq!([one.hoop2, other.hoop2], [1.0; 2]);
-    let ends = 2.0 * (SQRT_2 - 1.0) * cell.radius_m / cell.length_m;
-    let idle = 2.0 * FRAC_PI_4 * cell.radius_m / cell.length_m;
+    assert_eq!(cell.halves.map(|half| hoop2(&half, 30e3 * cell.radius_m, 1.0)), [1.0; 2]);
+    let ends = 2.0 * (SQRT_2 - 1.0) * cell.radius_m / LENGTH_M;
+    let idle = 2.0 * FRAC_PI_4 * cell.radius_m / LENGTH_M;
     let weave = (1.0 - idle) * max_contraction(FRAC_PI_4);
     assert!((free - weave - ends).abs() < 1e-12, "{free} {weave} {ends}");
 }
 
 #[test]
 fn a_stiff_wall_keeps_the_length_and_the_width_of_the_half_that_is_glued_to_it() {
-    let cell = muscle(45.0, Weave { wall_n_per_m: 1e12, compliance_m_per_n: YARNS, ..Weave::default() });
-    let half = cell.half(1.0, 1.0, 1e12, 30e3 * cell.radius_m);
+    let weave = Weave { wall_n_per_m: 1e12, compliance_m_per_n: YARNS, ..Weave::default() };
+    let cell = muscle(45.0, weave);
+    let (half, thrust) = (cell.halves[1], 30e3 * cell.radius_m);
     // All of the hoop tension is then the wall's, e = P r₀/K.
-    assert!((half.hoop2 - 1.0 - 2.0 * 30e3 * cell.radius_m / 1e12).abs() < 1e-12);
+    assert!((hoop2(&half, thrust, 1.0) - 1.0 - 2.0 * thrust / 1e12).abs() < 1e-12);
     // Longer than its yarns it resists with the wall's stiffness, shorter it folds.
-    let longer = cell.half(1.001, 1.0, 1e12, 30e3 * cell.radius_m);
-    assert!((longer.by_own / 1e9 - 1.0).abs() < 0.01 && cell.half(0.999, 1.0, 5400.0, 573.0).by_own.abs() < 573.0);
+    assert!((half.slopes(1.001, 1.0, thrust).own[0] / 1e9 - 1.0).abs() < 0.01);
+    assert!(Half::new(&weave, cell.bias, 5400.0).slopes(0.999, 1.0, 573.0).own[0].abs() < 573.0);
 }
 
 #[test]

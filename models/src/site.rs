@@ -247,9 +247,12 @@ impl Site {
             at = self.balance(actuator, a, loads, memory);
             at.imbalance
         };
-        let start = match near {
-            Some(state) => state.start(self, loads, memory),
-            None => self.tabulated(loads, memory).unwrap_or_else(|| self.start(actuator, loads, memory)),
+        // The table is nearer than a state at another pressure.
+        let moved = near.is_none_or(|state| state.loads.p_act_pa != loads.p_act_pa);
+        let start = match (near, moved.then(|| self.tabulated(loads, memory)).flatten()) {
+            (_, Some(start)) => start,
+            (Some(state), None) => state.start(self, loads, memory),
+            (None, None) => self.start(actuator, loads, memory),
         };
         let mut root = match find_root(&mut imbalance, actuator.range, start) {
             Ok(root) => root,
@@ -352,7 +355,7 @@ impl Site {
         let mut force = [0.0; actuator_q::LEN];
         let pose = loads.pose(&q);
         for term in &self.actuator_terms {
-            term.add(&pose, &mut force);
+            term.add_force(&pose, &mut force);
         }
         -(force[0] + force[1] * stroke.d_contraction + force[2] * stroke.d_volume + force[3] * (d_geometric * gain))
     }

@@ -6,6 +6,7 @@ use super::{Context, Outcome};
 use crate::cli::Compare;
 use crate::failure::Failure;
 use compare::bench::{Held, HeldRow, held};
+use compare::study::Knob;
 use models::Scenario;
 use serde_json::{Value, json};
 
@@ -31,7 +32,7 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Option<Outcome>, Fai
         };
         scenario = Some(with_effect(before, text)?.0);
     }
-    let held = held(&bench, scenario.as_ref(), args.calibrate)?;
+    let held = held(&bench, scenario.as_ref(), args.calibrate.is_some())?;
     let answer = json!({"schema": "ibr.compare.bench", "version": 1, "data": data_spec, "kind": bench.kind.name,
         "provenance": bench.provenance.word(), "held": as_json(&held)});
     Ok(Some(Outcome::new(text(&held), answer)))
@@ -44,8 +45,12 @@ pub fn own(data_spec: &str, text: &str) -> Result<Scenario, Failure> {
 }
 
 fn marker_option(args: &Compare) -> Option<&'static str> {
-    let given =
-        [("--sigma", args.sigma.is_some()), ("--max-error", args.max_error.is_some()), ("--out", args.out.is_some())];
+    let given = [
+        ("--sigma", args.sigma.is_some()),
+        ("--max-error", args.max_error.is_some()),
+        ("--out", args.out.is_some()),
+        ("--calibrate=body-pressure", args.calibrate == Some(Knob::BodyPressure)),
+    ];
     given.into_iter().find(|(_, given)| *given).map(|(name, _)| name)
 }
 

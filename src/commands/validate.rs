@@ -146,7 +146,7 @@ fn trial(
     let candidate = |label: &'static str, scenario| Candidate { label, known: Known::Predicted, why: "", scenario };
     let candidates = [candidate("before", &sized[0]), candidate("after", &sized[1])];
     let options = EvaluateOptions { sigma_m, bootstrap_samples: 0, ..EvaluateOptions::default() };
-    let study = study(&candidates, dataset, about, &options, false)?;
+    let study = study(&candidates, dataset, about, &options, None)?;
     let [before, after] = [0, 1].map(|k| fit(&study, k));
     let all = &study.variants[1].evaluation.metrics.overall;
     let tolerance_mm = 1e3 * default_tolerance_m(1e-3 * all.d_max_mm);

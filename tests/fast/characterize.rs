@@ -55,7 +55,7 @@ fn what_it_writes_for_a_robot_is_read_by_a_diagnosis() {
     std::fs::create_dir(folder.path("set")).unwrap();
     folder.write("set/markers.csv", data::set_file("synthetic-fpam", "markers.csv").unwrap());
     folder.write("set/about.toml", data::set_file("synthetic-fpam", "about.toml").unwrap().to_string() + &measured);
-    let answer = folder.run(&["diagnose", "fpam", "set", "--json"]).json("ibr.diagnose");
+    let answer = folder.run(&["diagnose", "fpam-textbook", "set", "--json"]).json("ibr.diagnose");
     let warnings = answer["warnings"].to_string();
     // Stretch and shear are there; that the weave locks far beyond a muscle's stroke is no lack of the model.
     for word in ["fabric_stretch was measured", "shear_stiffness was measured: G_t = 49.6 ±"] {

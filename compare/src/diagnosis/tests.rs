@@ -283,11 +283,13 @@ fn the_fitted_base_hangs_neither_on_the_scenarios_stiffness_nor_on_the_scatter_o
         assert_eq!(again.indistinguishable, first.indistinguishable);
     }
     let options = crate::evaluate::EvaluateOptions::default();
-    let calibrated = crate::study::calibrate_bending(&robot("epam").with_bending(3.0), &data, &options).unwrap();
-    assert!((calibrated.bending_nm2 / value - 1.0).abs() < 0.02, "{} and {value}", calibrated.bending_nm2);
+    let calibrated =
+        crate::study::calibrate(&robot("epam").with_bending(3.0), &data, &options, crate::study::Knob::Bending)
+            .unwrap();
+    assert!((calibrated.value / value - 1.0).abs() < 0.02, "{} and {value}", calibrated.value);
     // The interval holds what the law misses by: B at every pressure by itself.
     let (low, high) = (first.base.bending[0].lo.unwrap(), first.base.bending[0].hi.unwrap());
-    let ends = calibrated.interval_nm2.unwrap();
+    let ends = calibrated.interval.unwrap();
     assert!((ends[0] - low).abs() < 0.03 * value && (ends[1] - high).abs() < 0.03 * value, "{ends:?}, {low} to {high}");
     for p_act_pa in [10e3, 20e3, 30e3] {
         let mut one = data.clone();
@@ -301,7 +303,7 @@ fn the_fitted_base_hangs_neither_on_the_scenarios_stiffness_nor_on_the_scatter_o
             .filter(|(i, _)| keep(i % data.holds.len()))
             .flat_map(|(_, own)| own.to_vec())
             .collect();
-        let alone = crate::study::calibrate_bending(&robot("epam"), &one, &options).unwrap().bending_nm2;
+        let alone = crate::study::calibrate(&robot("epam"), &one, &options, crate::study::Knob::Bending).unwrap().value;
         assert!(low < alone && alone < high, "{alone} at {p_act_pa} Pa, {low} to {high}");
     }
     // Two per cent were put in.

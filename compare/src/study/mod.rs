@@ -16,7 +16,7 @@ pub mod tradeoff;
 pub mod uncertain;
 pub mod witness;
 
-pub use calibrate::{Calibration, calibrate_bending};
+pub use calibrate::{Calibration, Knob, calibrate};
 pub use generate::{Generator, generate, parse_protocol};
 pub(crate) use predict::first_slope;
 pub use predict::{Predicted, fit_scenario, predict_dataset};

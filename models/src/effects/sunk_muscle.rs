@@ -4,6 +4,7 @@
 //! wall     an arc s = 2πR − W closed by the chord w = 2r₀:  w/s = sinβ/(π − β),  R' = s/(2(π − β))
 //!          A = R'² (π − β + sinβ cosβ)      ȳ = R' − 2R'³ sin³β/(3A)      D = R' (1 + cosβ)
 //! body     A_b = A − πr₀²/2,  A_b ȳ_b = Aȳ − (πr₀²/2)(D − 4r₀/3π)         hinge p_b A_b ȳ_b in place of p_b πR³
+//! arm      D alone: the axis stays in the chord, nothing is left of `arm_growth`
 //! gas      ΔA = πR² − A_b        what a flat end must push aside (`flat_ends`)
 //! ```
 //!
@@ -53,6 +54,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
         let part = |on: f64, sunk: f64| on + values[0] * (sunk - on);
         let lost_m2 = PI * radius_m.powi(2) - body.area_m2;
         site.linkage.arm_m = part(site.linkage.arm_m, body.chord_m);
+        // The axis stays in the wall's chord however wide the tube is.
+        site.linkage.arm_growth = part(site.linkage.arm_growth, 0.0);
         site.weave.drawn_in_m2 = values[0] * lost_m2;
         site.body_pressure.scale(part(1.0, body.moment_share(radius_m)));
     }

@@ -186,19 +186,19 @@ pub fn shipped(name: &str) -> Option<&'static str> {
     of(SHIPPED, name).or_else(|| of(TEXTBOOK, name.strip_suffix("-textbook")?))
 }
 
-/// A scenario and the mechanics of a pouch in a pressurised wall.
+/// A scenario and the mechanics of a pouch or a muscle in a pressurised wall.
 macro_rules! in_the_wall {
-    ($file:literal) => {
-        concat!(include_str!($file), include_str!("../../scenarios/pouch-mechanics.toml"))
+    ($file:literal, $mechanics:literal) => {
+        concat!(include_str!($file), include_str!($mechanics))
     };
 }
 
 /// Names and texts of the shipped scenarios.
 pub const SHIPPED: &[(&str, &str)] = &[
-    ("spam", in_the_wall!("../../scenarios/spam.toml")),
-    ("cpam", in_the_wall!("../../scenarios/cpam.toml")),
-    ("epam", in_the_wall!("../../scenarios/epam.toml")),
-    ("fpam", include_str!("../../scenarios/fpam.toml")),
+    ("spam", in_the_wall!("../../scenarios/spam.toml", "../../scenarios/pouch-mechanics.toml")),
+    ("cpam", in_the_wall!("../../scenarios/cpam.toml", "../../scenarios/pouch-mechanics.toml")),
+    ("epam", in_the_wall!("../../scenarios/epam.toml", "../../scenarios/pouch-mechanics.toml")),
+    ("fpam", in_the_wall!("../../scenarios/fpam.toml", "../../scenarios/muscle-mechanics.toml")),
 ];
 
 /// The same robots as textbooks model them.

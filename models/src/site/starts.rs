@@ -5,7 +5,7 @@
 //! ```
 //!
 //! M_b is the body's moment at a typical bend. A start decides speed, never the result. Exact but for the interpolation at the
-//! scenario's body pressure; at others the folds shift it a little.
+//! scenario's body pressure; at others the folds of a pouch shift it a little, and the yarns of a muscle more.
 
 use super::{Site, SiteLoads, SiteState, TYPICAL_STROKE};
 use crate::root::Start;
@@ -20,7 +20,7 @@ pub(super) struct Starts {
 }
 
 /// So many starts are within some 1e-6 of the root; each costs a microsecond at set-up.
-const NODES: usize = 25;
+const NODES: usize = 41;
 
 impl Starts {
     /// From `solved`, coordinate and slope at an actuator pressure, between two pressures at a resisting moment; `None` if a
@@ -70,7 +70,8 @@ impl Site {
         }
         let loads = |p_act_pa: f64| SiteLoads { p_body_pa, p_act_pa, ..SiteState::REST.loads };
         let moment = self.resisting(&loads(0.0), &[]);
-        let opened = (2.0 * self.closed_share * p_body_pa).max(LOWEST_SHARE * p_max_pa);
+        let drawn_in = self.weave.drawn_in_m2 / self.actuator.map_or(1.0, |actuator| (actuator.area)(&self.shape));
+        let opened = ((2.0 * self.closed_share).max(drawn_in) * p_body_pa).max(LOWEST_SHARE * p_max_pa);
         let mut near = None;
         self.starts = Starts::new(moment, [opened, p_max_pa], |p_act_pa| {
             let state = self.solve(&loads(p_act_pa), &[], near.as_ref()).ok().filter(|state| state.slope < 0.0)?;

@@ -6,7 +6,7 @@ use crate::evaluate::{EvaluateOptions, Evaluation, evaluate};
 use crate::plots::Known;
 use crate::report::{Block, Callout, Provenance, Report, Section};
 use crate::slips::slips;
-use crate::study::calibrate::calibrate_bending;
+use crate::study::calibrate::{Knob, calibrate};
 use crate::study::predict::{fit_scenario, predict_dataset};
 use data::{About, Dataset};
 use models::Scenario;
@@ -51,7 +51,7 @@ pub struct Candidate<'a> {
     pub scenario: &'a Scenario,
 }
 
-/// Holds candidates against a dataset; with `calibrate`, also the last one with B fitted to these data.
+/// Holds candidates against a dataset; with a knob, also the last one with that number fitted to these data.
 ///
 /// # Errors
 /// What does not match, does not balance or cannot be evaluated.
@@ -60,7 +60,7 @@ pub fn study(
     dataset: Dataset,
     about: Option<About>,
     options: &EvaluateOptions,
-    calibrate: bool,
+    knob: Option<Knob>,
 ) -> Result<Study, CompareError> {
     if candidates.is_empty() {
         return Err(CompareError::NoModel);
@@ -77,8 +77,8 @@ pub fn study(
         let (label, why) = (c.label.to_string(), c.why.to_string());
         study.variants.push(Variant { label, known: c.known, why, scenario, evaluation });
     }
-    if let Some(last) = study.variants.last().filter(|_| calibrate) {
-        let variant = calibrated(&last.scenario, &study.dataset, options)?;
+    if let (Some(last), Some(knob)) = (study.variants.last(), knob) {
+        let variant = calibrated(&last.scenario, &study.dataset, options, knob)?;
         study.variants.push(variant);
     }
     Ok(study)
@@ -99,20 +99,29 @@ fn held(scenario: &Scenario, dataset: &Dataset, options: &EvaluateOptions) -> Re
     evaluate(dataset, &predicted.xy_m, &predicted.d_ln_pressure_m, options)
 }
 
-fn calibrated(scenario: &Scenario, dataset: &Dataset, options: &EvaluateOptions) -> Result<Variant, CompareError> {
-    let fit = calibrate_bending(scenario, dataset, options)?;
-    let scenario = scenario.with_bending(fit.bending_nm2);
+fn calibrated(
+    scenario: &Scenario,
+    dataset: &Dataset,
+    options: &EvaluateOptions,
+    knob: Knob,
+) -> Result<Variant, CompareError> {
+    let fit = calibrate(scenario, dataset, options, knob)?;
     let options = EvaluateOptions { fitted_parameters: options.fitted_parameters + 1, ..options.clone() };
-    let evaluation = held(&scenario, dataset, &options)?;
+    let evaluation = held(&fit.scenario, dataset, &options)?;
     let misses = if fit.misses { ", wide because the model misses by more than noise" } else { "" };
-    let interval =
-        fit.interval_nm2.map_or(String::new(), |i| format!(", 95 % interval {:.3}–{:.3}{misses}", i[0], i[1]));
-    let bound = if fit.at_bound { "; at its bound: a stiffness does not explain these data" } else { "" };
+    let interval = fit.interval.map_or(String::new(), |i| format!(", 95 % interval {:.3}–{:.3}{misses}", i[0], i[1]));
+    let (symbol, unit, what) = match knob {
+        Knob::Bending => ("bending B", "N m²", "a stiffness"),
+        Knob::BodyPressure => ("body pressure p_b", "kPa", "another body pressure"),
+    };
+    let short = symbol.rsplit(' ').next().unwrap_or(symbol);
+    let bound =
+        if fit.at_bound { format!("; at its bound: {what} does not explain these data") } else { String::new() };
     Ok(Variant {
-        label: format!("+ bending B = {:.3} N m²", fit.bending_nm2),
+        label: format!("+ {symbol} = {:.3} {unit}", fit.value),
         known: Known::Calibrated,
-        why: format!("B fitted to these data{interval}{bound}"),
-        scenario,
+        why: format!("{short} fitted to these data{interval}{bound}"),
+        scenario: fit.scenario,
         evaluation,
     })
 }

@@ -10,6 +10,7 @@ use crate::error::CompareError;
 use crate::evaluate::EvaluateOptions;
 use crate::plots::Known;
 use crate::report::{Block, Callout, Provenance, Report, Section};
+use crate::study::calibrate::Knob;
 use crate::study::engines::stored;
 use crate::study::measured::measured_things;
 use crate::study::published::{PublishedLadder, model_ladder, published_ladders, shipped_scenario, textbook_scenario};
@@ -78,7 +79,7 @@ pub fn demo(progress: &mut dyn FnMut(&str)) -> Result<Demo, CompareError> {
             .iter()
             .map(|r| Candidate { label: &r.label, known: r.known, why: &r.why, scenario: &r.scenario })
             .collect();
-        studies.push(study(&candidates, dataset, about, &EvaluateOptions::default(), true)?);
+        studies.push(study(&candidates, dataset, about, &EvaluateOptions::default(), Some(Knob::Bending))?);
     }
     progress("what is missing");
     let diagnosed = story()?;

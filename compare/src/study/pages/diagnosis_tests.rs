@@ -7,6 +7,7 @@ use crate::diagnosis::{Diagnosis, GaugeFit, Group, Options, Standing, Verdict, d
 use crate::evaluate::EvaluateOptions;
 use crate::plots::{Known, RankClass};
 use crate::report::Block;
+use crate::study::calibrate::Knob;
 use crate::study::engines::stored;
 use crate::study::witness::witness;
 use crate::study::{Generator, generate, published::textbook_scenario};
@@ -21,7 +22,7 @@ fn every_body_pressure_has_its_shapes_points_and_curves() {
         assert!(drawn.svg.contains(label), "{label}");
     }
     let candidate = Candidate { label: "bare", known: Known::Predicted, why: "", scenario: &scenario };
-    let study = study(&[candidate], dataset, None, &EvaluateOptions::default(), true).unwrap();
+    let study = study(&[candidate], dataset, None, &EvaluateOptions::default(), Some(Knob::Bending)).unwrap();
     let map = residual_figure::map("both", &study.variants[0].evaluation.residual_map, &study.dataset).unwrap();
     let curve = figures::pressure_curve("both", &study).unwrap();
     for body in ["body 2 kPa", "body 4 kPa"] {
@@ -39,7 +40,7 @@ fn a_marker_that_slid_along_the_body_is_seen_in_the_residual_map() {
     let mut dataset = generate(&slid, "slid", &Generator { runs: 5, seed: 4, ..Generator::default() }).unwrap();
     dataset.markers[2].station_m = Some(scenario.markers_m[2]);
     let candidate = Candidate { label: "bare", known: Known::Predicted, why: "", scenario: &scenario };
-    let study = study(&[candidate], dataset, None, &EvaluateOptions::default(), false).unwrap();
+    let study = study(&[candidate], dataset, None, &EvaluateOptions::default(), None).unwrap();
     let (evaluation, straight) = (&study.variants[0].evaluation, 0);
     let cell = evaluation.residual_map.cells[2][straight];
     assert!((cell.x.mm + 5.0).abs() < 1.0 && cell.y.mm.abs() < 1.0, "{cell:?}");
