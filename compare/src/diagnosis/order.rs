@@ -18,7 +18,7 @@
 //! is likelier than the same curve met by a rival of five times its own. The prior is weak (a factor of three is one standard
 //! deviation): it orders twins, and never excludes one from the set by itself unless its size is absurd.
 
-use super::candidates::{Candidate, Free};
+use super::candidates::Free;
 use super::case::Case;
 use super::detect::lead;
 use super::problem::Fit;
@@ -68,30 +68,23 @@ pub fn sort(case: &Case, fits: &mut [Fit], over: &Fit) -> f64 {
     allowance
 }
 
-/// Σ (ln u / ln 3)² over the effects that were added.
+/// Σ (ln u / ln 3)² over the effects that were added. Where a threshold or a time shapes the law too, the first parameter
+/// alone is no measure of its size.
 fn oddness(case: &Case, fit: &Fit) -> f64 {
     let mut from = case.problem.bendings;
     let mut sum = 0.0;
     for (i, effect) in fit.effects.iter().enumerate() {
         let candidate = case.candidate(*effect);
-        if i >= case.always.len() {
-            sum += oddness_of(candidate, &fit.theta()[from..]);
+        let k = lead(candidate);
+        let p = &candidate.parameters[k];
+        let size = (fit.theta()[from + k] - p.neutral).abs() / p.scale();
+        if i >= case.always.len() && candidate.count() == 1 {
+            sum += (size.clamp(1.0 / ODDEST, ODDEST).ln() / SIZE_FACTOR.ln()).powi(2);
+            sum += wrong_sign(p, fit.theta()[from + k]);
         }
         from += candidate.parameters.len();
     }
     sum
-}
-
-/// (ln u / ln 3)² of one effect. Where a threshold or a time shapes the law too, the first parameter alone is no measure of its
-/// size.
-pub fn oddness_of(candidate: &Candidate, values: &[f64]) -> f64 {
-    if candidate.count() != 1 {
-        return 0.0;
-    }
-    let k = lead(candidate);
-    let p = &candidate.parameters[k];
-    let size = (values[k] - p.neutral).abs() / p.scale();
-    (size.clamp(1.0 / ODDEST, ODDEST).ln() / SIZE_FACTOR.ln()).powi(2) + wrong_sign(p, values[k])
 }
 
 /// 2 ln of how much further the bounds reach on the typical side, for a value on the other one.

@@ -1,6 +1,7 @@
 //! What may be missing on a bench: effects of the catalogue, and numbers of the scenario that are usually not known.
 
 use crate::diagnosis::candidates::{Candidate, Free, Held, candidate, hold};
+use crate::diagnosis::detect::lead;
 use crate::diagnosis::result::Group;
 use data::Bench;
 use models::Scenario;
@@ -119,6 +120,18 @@ const NUMBERS: &[Number] = &[
 ];
 
 impl Law {
+    /// Where fits start: as of markers, and at the bounds: where a beam has folded no slope leads back.
+    pub fn starts(&self) -> Vec<Vec<f64>> {
+        let mut starts = self.candidate.starts();
+        let k = lead(&self.candidate);
+        for bound in [self.candidate.parameters[k].lower, self.candidate.parameters[k].upper] {
+            let mut start = self.candidate.at(1.0);
+            start[k] = bound;
+            starts.push(start);
+        }
+        starts
+    }
+
     /// The trial with this law at these values, SI.
     pub fn apply(&self, trial: &mut Trial, values: &[f64]) {
         match self.number {
@@ -154,6 +167,7 @@ pub fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Law>, Vec<u
     for chosen in &scenario.effects {
         effects.iter_mut().filter(|c| c.name == chosen.name).for_each(|c| c.as_given(&chosen.values));
     }
+    effects.retain(|candidate| candidate.count() > 0);
     let mut laws: Vec<Law> = effects.into_iter().map(|candidate| Law { candidate, number: None }).collect();
     let mut always: Vec<usize> = (0..laws.len()).filter(|i| has(&laws[*i].candidate.name)).collect();
     for number in NUMBERS.iter().filter(|n| n.table == bench.kind.name) {
@@ -165,7 +179,6 @@ pub fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Law>, Vec<u
         }
         laws.push(Law { candidate: number.candidate(given), number: Some(number) });
     }
-    laws.retain(|law| law.candidate.count() > 0);
     (laws, always)
 }
 

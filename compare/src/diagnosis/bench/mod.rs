@@ -10,6 +10,7 @@
 //! ([`crate::interval`]). The unit of what was left out is a pressure or a specimen; with one of each, a fifth of the loads.
 
 mod laws;
+mod scatter;
 mod story;
 mod table;
 #[cfg(test)]
@@ -48,7 +49,7 @@ impl Default for BenchOptions {
 pub struct LeftOut {
     /// `pressure`, `specimen` or `load`.
     pub what: &'static str,
-    /// Rms share by which it is off, all parts together.
+    /// Typical factor by which it is off, less one, all parts together.
     pub off: f64,
     /// Parts in which no other law of the table was better in the fit.
     pub first_in: usize,
@@ -73,7 +74,7 @@ pub struct BenchRanked {
     pub parameters: Vec<ParameterValue>,
     /// A value sits on its physical bound and the data push beyond: rejected.
     pub at_bound: bool,
-    /// Rms share by which the model is off with it.
+    /// Typical factor by which the model is off with it, less one.
     pub off: f64,
     /// Fall of the whitened sum of squares against the base.
     pub gain: f64,
@@ -104,7 +105,7 @@ pub struct BenchDiagnosis {
     pub p_value: Option<f64>,
     /// Level at which it is judged.
     pub alpha: f64,
-    /// Rms share by which the base is off.
+    /// Typical factor by which the base is off, less one: the rms of logarithms.
     pub off: f64,
     /// Rms standard deviation of the means, as a share.
     pub noise: Option<f64>,
@@ -171,7 +172,7 @@ pub fn diagnose_bench(
         .collect();
     let best = set.first().map(|i| &fits[*i]);
     let places = |fit: &Fit| off(&table, fit).map(|off| story::places(&table, &off)).unwrap_or_default();
-    let shares: Vec<f64> = table.readings.iter().filter_map(|r| Some(r.error?[0] / r.scale)).collect();
+    let shares: Vec<f64> = table.readings.iter().filter_map(|r| r.noise()).collect();
     let spare = table.readings.len().saturating_sub(table.count(None)).max(1) as f64;
     let mut found = BenchDiagnosis {
         table: bench.file.clone(),
@@ -183,7 +184,7 @@ pub fn diagnose_bench(
         p_value: judged.p_value,
         alpha: options.alpha,
         off: rms_off(&table, &base),
-        noise: table.known.then(|| rms(&shares)),
+        noise: table.known.then(|| rms(&shares).exp_m1()),
         reduced_chi2: table.known.then(|| base.minimum.cost / spare),
         base: table.values(&base),
         left_out: left_out.iter().map(|parts| parts[0].clone()).collect(),
@@ -207,7 +208,8 @@ struct Judged {
 
 fn judge(table: &Table, base: &Fit, best: Option<&Fit>, alpha: f64) -> Judged {
     let lack = |fit: &Fit| chi2_tail(fit.minimum.cost, table.readings.len().saturating_sub(table.count(fit.law)));
-    let left = best.map_or(1.0, |fit| rms_off(table, fit) / rms_off(table, base).max(f64::MIN_POSITIVE));
+    let left =
+        best.map_or(1.0, |fit| rms_off(table, fit).ln_1p() / rms_off(table, base).ln_1p().max(f64::MIN_POSITIVE));
     let little = left <= LEFT_OVER[0].0;
     if !table.known {
         return Judged { verdict: None, p_value: None, explains: little };
@@ -238,12 +240,10 @@ fn sort(table: &Table, base: &Fit, fits: &mut [Fit]) -> f64 {
     allowance
 }
 
+/// Typical sizes of the catalogue are those of robots: on a bench they count for nothing.
 fn criterion(table: &Table, fit: &Fit, allowance: f64) -> f64 {
-    let Some(law) = fit.law else { return fit.minimum.cost / allowance };
-    let candidate = &table.laws[law].candidate;
-    let own = &fit.minimum.at[fit.minimum.at.len() - candidate.parameters.len()..];
-    order::criterion_from(table.readings.len(), fit.minimum.cost, candidate.count(), allowance)
-        + order::oddness_of(candidate, own)
+    let added = table.count(fit.law) - table.count(None);
+    order::criterion_from(table.readings.len(), fit.minimum.cost, added, allowance)
 }
 
 /// Fits that cannot be told from the best one that no bound rejects; none where none of them gains.
@@ -279,7 +279,7 @@ fn off(table: &Table, fit: &Fit) -> Option<Vec<f64>> {
 }
 
 fn rms_off(table: &Table, fit: &Fit) -> f64 {
-    off(table, fit).map_or(f64::INFINITY, |off| rms(&off))
+    off(table, fit).map_or(f64::INFINITY, |off| rms(&off).exp_m1())
 }
 
 fn rms(values: &[f64]) -> f64 {
@@ -320,6 +320,6 @@ fn left_out_by(table: &Table, base: &Fit, fits: &[Fit], what: &'static str, part
         first_in[best] += 1;
     }
     let rows = table.readings.len() as f64;
-    let of = |(s, n): (f64, usize)| LeftOut { what, off: (s / rows).sqrt(), first_in: n, parts: parts.len() };
+    let of = |(s, n): (f64, usize)| LeftOut { what, off: (s / rows).sqrt().exp_m1(), first_in: n, parts: parts.len() };
     squares.into_iter().zip(first_in).map(of).collect()
 }

@@ -2,8 +2,10 @@
 
 use super::table::{Reading, Table, groups};
 use super::{BenchDiagnosis, BenchRanked, LeftOut};
+use crate::bench::is_free;
 use crate::diagnosis::result::Verdict;
 use crate::diagnosis::story::with_interval;
+use crate::diagnosis::words::quantity;
 use crate::wording::{list, p_value, short};
 
 /// Share of the squares of a misfit that a pattern must hold to be told.
@@ -72,10 +74,26 @@ fn of_best(d: &BenchDiagnosis, best: &BenchRanked) -> Vec<String> {
     let mut told = vec![format!("{}: {}. {}", best.effect, values.join(", "), best.sentence)];
     told.extend(d.left_out.iter().zip(&best.left_out).map(|(before, after)| holds(before, after, &best.effect)));
     let others: Vec<String> = d.set().map(|r| format!("{} ({})", r.effect, percent(r.off))).collect();
-    told.push(match others.len() {
-        0 | 1 => "Best explanation in this catalogue, without a rival in it. Another effect that is not listed may look the same.".into(),
+    told.push(match (others.len(), d.explains) {
+        (0 | 1, true) => "Best explanation in this catalogue, without a rival in it. Another effect that is not listed may look the same.".into(),
+        (0 | 1, false) => "It is the best of the catalogue, and not enough: another law, several effects, or the table.".into(),
         _ => format!("Equally good with this table: {}. The data do not choose between them.", list(&others)),
     });
+    let beyond = d.ranked.iter().filter(|r| r.at_bound && r.off < best.off);
+    told.extend(beyond.min_by(|a, b| a.off.total_cmp(&b.off)).map(|r| {
+        let at: Vec<String> = r
+            .parameters
+            .iter()
+            .filter(|p| p.at_bound)
+            .map(|p| format!("{} = {}", p.symbol, quantity(p.value, &p.unit)))
+            .collect();
+        format!(
+            "{} would bring it to {}, but at the end of its range, {}, and the data push beyond it.",
+            r.effect,
+            percent(r.off),
+            list(&at)
+        )
+    }));
     told
 }
 
@@ -95,9 +113,10 @@ fn holds(before: &LeftOut, after: &LeftOut, effect: &str) -> String {
     )
 }
 
-/// Where errors, as shares of the measured, are: on the whole, by load, pressure and specimen, and the largest.
+/// Where errors d ([`super::table`]) are: on the whole, by load, pressure and specimen, and the largest.
 pub fn places(table: &Table, off: &[f64]) -> Vec<String> {
     let beam = table.readings[0].row.get("load").is_some();
+    let free = table.readings.iter().any(|r| is_free(r.row));
     let mean = mean(off, &(0..off.len()).collect::<Vec<_>>());
     let below = off.iter().filter(|o| **o < 0.0).count();
     let most = below.max(off.len() - below);
@@ -107,12 +126,12 @@ pub fn places(table: &Table, off: &[f64]) -> Vec<String> {
         (false, true) => ("below", "too weak"),
         (false, false) => ("above", "too strong"),
     };
-    let mut told = vec![format!("mean {:+.1} %", 100.0 * mean)];
+    let mut told = vec![format!("mean {:+.1} %", 100.0 * mean.exp_m1())];
     if 4 * most >= 3 * off.len() {
         told[0] = format!(
             "the model is {word} the table in {most} of {} rows, mean {:+.1} %: {why}",
             off.len(),
-            100.0 * mean
+            100.0 * mean.exp_m1()
         );
     }
     let of_drive = |v: f64| {
@@ -121,13 +140,14 @@ pub fn places(table: &Table, off: &[f64]) -> Vec<String> {
     let kpa = |v: f64| format!("{} kPa", short(1e-3 * v));
     let ordered = [
         by_level(table, off, &|r| r.drive, &of_drive)
+            .filter(|_| beam || !free)
             .map(|s| format!("by {}: {s}", if beam { "load" } else { "contraction" })),
         by_level(table, off, &|r| r.pressure_pa, &kpa).map(|s| format!("by pressure: {s}")),
         by_specimen(table, off).map(|s| format!("by specimen: {s}")),
     ];
     told.extend(ordered.into_iter().flatten());
     if let Some((r, o)) = table.readings.iter().zip(off).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())) {
-        told.push(format!("largest in line {} ({}): {:+.1} %", r.row.line, r.at, 100.0 * o));
+        told.push(format!("largest in line {} ({}): {:+.1} %", r.row.line, r.at, 100.0 * o.exp_m1()));
     }
     told
 }
@@ -143,7 +163,7 @@ fn told(off: &[f64], levels: &[(String, Vec<usize>)]) -> Option<String> {
     let between: f64 = levels.iter().map(|(_, rows)| rows.len() as f64 * (mean(off, rows) - all).powi(2)).sum();
     let share = between / squares.max(f64::MIN_POSITIVE);
     let words: Vec<String> =
-        levels.iter().map(|(w, rows)| format!("{:+.1} % at {w}", 100.0 * mean(off, rows))).collect();
+        levels.iter().map(|(w, rows)| format!("{:+.1} % at {w}", 100.0 * mean(off, rows).exp_m1())).collect();
     (levels.len() > 1 && share > TELLS)
         .then(|| format!("{} ({:.0} % of the scatter about the mean)", list(&words), 100.0 * share))
 }

@@ -1,14 +1,15 @@
 //! A table of bench tests as a least-squares problem.
 //!
 //! ```text
-//! r = z((f − y)/(s/√n); n − 1)   with a standard deviation s of n tests        r = (f − y)/(σ u)   without
+//! r = z((f − y)/(s/√n); n − 1)   with a standard deviation s of n tests        r = d/σ   without        d = asinh f/e − asinh y/e
 //! ```
 //!
-//! f model, y measured, z the normal score of Student's t ([`normal_score`]), u the measured value, or a twentieth of the largest
-//! of its kind where that is more. Without standard deviations σ is what the best explanation leaves: differences are then
-//! ordered, and no p-value is formed.
+//! f model, y measured, z the normal score of Student's t ([`normal_score`]), e a twentieth of the largest y of its kind. d is ln(f/y)
+//! where both are well above e, and a share of e below: half and double are as far off. Without standard deviations σ is what
+//! the best explanation leaves: differences are then ordered, and no p-value is formed.
 
 use super::laws::{Law, Trial, laws};
+use super::scatter::steadied;
 use crate::CompareError;
 use crate::bench::{ANY_WIDTH_M, is_free, measured, modelled, own_or_braid, place, refuse, specimen};
 use crate::diagnosis::basis::Basis;
@@ -21,24 +22,26 @@ use data::Bench;
 use data::bench::Row;
 use models::Scenario;
 
-/// Share of the largest value below which an error counts like one of it.
+/// Share of the largest value below which errors are no longer ratios.
 const LEAST_SHARE: f64 = 0.05;
 /// Error that a table without standard deviations has at least, as a share.
 const LEAST_SIGMA: f64 = 1e-3;
 /// A change of a prediction by less than this share is none.
 const CHANGES: f64 = 1e-7;
 /// A round of a fit that lowers the sum of squares by less is the last one.
-const ENOUGH: f64 = 1e-6;
+const ENOUGH: f64 = 1e-3;
+/// Starts that are followed, the best of all.
+const STARTS: usize = 3;
 
 /// One row.
 pub struct Reading<'a> {
     pub row: &'a Row,
     /// As measured, SI.
     pub measured: f64,
-    /// What an error is a share of.
-    pub scale: f64,
-    /// Standard error of the mean and its degrees of freedom.
-    pub error: Option<[f64; 2]>,
+    /// e.
+    small: f64,
+    /// Standard error of the mean and its degrees of freedom; of d where these are infinite.
+    error: Option<[f64; 2]>,
     /// Actuator's or body's \[Pa\].
     pub pressure_pa: f64,
     /// Size and number of the specimen.
@@ -84,6 +87,7 @@ impl<'a> Table<'a> {
             return refuse(bench, "no model is held against it", "ibr characterize reads it");
         }
         let scenario = own_or_braid(bench, scenario)?;
+        let scenario = Scenario { segments: scenario.segments.min(SEGMENTS), ..scenario };
         let (laws, always) = laws(bench, &scenario, refit);
         let trial = Trial { scenario, bias_rad: None };
         let largest = |free: bool| {
@@ -96,13 +100,15 @@ impl<'a> Table<'a> {
         };
         let mut readings = Vec::new();
         for row in &bench.rows {
-            let scale = measured(row).abs().max(LEAST_SHARE * largest(is_free(row)));
-            readings.push(Reading::new(row, &trial.scenario, scale, sigma));
+            readings.push(Reading::new(row, &trial.scenario, LEAST_SHARE * largest(is_free(row)), sigma));
+        }
+        for free in [false, true] {
+            steady(readings.iter_mut().filter(|r| is_free(r.row) == free));
         }
         let known = readings.iter().all(|r| r.error.is_some());
         let mut table = Table { readings, laws, always, trial, unsized_laws: Vec::new(), known, sigma: 0.01 };
         table.check(bench)?;
-        let base = table.starts(None).into_iter().next().unwrap_or_default();
+        let base = table.starts().into_iter().next().unwrap_or_default();
         let before = table.predicted(None, &base);
         let mut acting: Vec<usize> = (0..table.laws.len()).collect();
         acting.retain(|i| table.always.contains(i) || table.acts(*i, &base, before.as_deref()));
@@ -134,11 +140,11 @@ impl<'a> Table<'a> {
     /// Whether a law changes a prediction at any of the values from which it is fitted.
     fn acts(&self, law: usize, base: &[f64], before: Option<&[f64]>) -> bool {
         let Some(before) = before else { return true };
-        self.laws[law].candidate.starts().iter().any(|values| {
+        self.laws[law].starts().iter().any(|values| {
             let after = self.predicted(Some(law), &[base, values].concat());
             let changed = |after: Vec<f64>| {
                 let mut rows = after.iter().zip(before).zip(&self.readings);
-                rows.any(|((a, b), r)| (a - b).abs() > CHANGES * r.scale)
+                rows.any(|((a, b), r)| (a - b).abs() > CHANGES * r.small)
             };
             after.is_some_and(changed)
         })
@@ -194,19 +200,19 @@ impl<'a> Table<'a> {
         self.readings.iter().map(of).collect()
     }
 
-    /// Errors as shares, model less measured.
+    /// Errors d of every row.
     pub fn off(&self, law: Option<usize>, theta: &[f64]) -> Option<Vec<f64>> {
-        let of = |(f, r): (f64, &Reading)| (f - r.measured) / r.scale;
-        Some(self.predicted(law, theta)?.into_iter().zip(&self.readings).map(of).collect())
+        Some(self.predicted(law, theta)?.into_iter().zip(&self.readings).map(|(f, r)| r.off(f)).collect())
     }
 
     fn residuals(&self, law: Option<usize>, theta: &[f64], rows: &[usize]) -> Option<Vec<f64>> {
         let f = self.predicted(law, theta)?;
         let of = |i: &usize| {
-            let (r, off) = (&self.readings[*i], f[*i] - self.readings[*i].measured);
+            let (r, f) = (&self.readings[*i], f[*i]);
             match r.error.filter(|_| self.known) {
-                Some([error, dof]) => normal_score(off / error, dof),
-                None => off / (r.scale * self.sigma),
+                Some([error, dof]) if dof.is_finite() => normal_score((f - r.measured) / error, dof),
+                Some([sigma, _]) => r.off(f) / sigma,
+                None => r.off(f) / self.sigma,
             }
         };
         Some(rows.iter().map(of).collect())
@@ -220,26 +226,25 @@ impl<'a> Table<'a> {
         self.of(law).flat_map(|l| l.candidate.parameters.iter().map(range)).collect()
     }
 
-    fn starts(&self, law: Option<usize>) -> Vec<Vec<f64>> {
-        self.of(law).fold(vec![Vec::new()], |before, law| {
-            let own = law.candidate.starts();
+    fn starts(&self) -> Vec<Vec<f64>> {
+        self.of(None).fold(vec![Vec::new()], |before, law| {
+            let own = law.starts();
             before.iter().flat_map(|b| own.iter().map(|o| [b.as_slice(), o].concat())).collect()
         })
     }
 
     /// The best fit from several starts; from the base's own values where there is a base.
     pub fn fit(&self, law: Option<usize>, base: Option<&Fit>) -> Option<Fit> {
-        let starts = match (base, law) {
-            (Some(base), Some(i)) => self.laws[i]
-                .candidate
-                .starts()
-                .into_iter()
-                .map(|own| [base.minimum.at.as_slice(), &own].concat())
-                .collect(),
-            _ => self.starts(law),
+        let mut starts = match (base, law) {
+            (Some(base), Some(i)) => {
+                self.laws[i].starts().into_iter().map(|own| [base.minimum.at.as_slice(), &own].concat()).collect()
+            }
+            _ => self.starts(),
         };
         let all: Vec<usize> = (0..self.readings.len()).collect();
-        let fits = starts.iter().filter_map(|start| self.refit(law, start, &all));
+        let cost = |theta: &Vec<f64>| self.residuals(law, theta, &all).map_or(f64::INFINITY, |r| square(&r));
+        starts.sort_by_cached_key(|theta| cost(theta).to_bits());
+        let fits = starts.iter().take(STARTS).filter_map(|start| self.refit(law, start, &all));
         let minimum = fits.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
         Some(self.finished(law, minimum))
     }
@@ -316,9 +321,10 @@ impl<'a> Table<'a> {
         let each = if self.known { (missed - 1.0).max(0.0) * square(&weights) } else { 0.0 };
         let (more, dof) = misfit(&curves, (each, weights.len()), self.count(fit.law));
         let (more, dof) = if misses { (more, dof) } else { (0.0, f64::INFINITY) };
-        let total = 1.0 / squares + more;
+        let noise = self.widening() / squares;
+        let total = noise + more;
         let spare = weights.len().saturating_sub(self.count(fit.law)).max(1) as f64;
-        let of_noise = if self.known { 0.0 } else { (1.0 / squares).powi(2) / spare };
+        let of_noise = if self.known { 0.0 } else { noise * noise / spare };
         let dof = total * total / (more * more / dof + of_noise);
         let half = Half { width: t_975(if dof < 1e4 { dof.max(1.0) as usize } else { 0 }) * total.sqrt(), misses };
         let ranges = self.ranges(fit.law);
@@ -332,9 +338,34 @@ impl<'a> Table<'a> {
         Some(interval((at[k], half, squares), [ranges[k].lower, ranges[k].upper], Some(&mut rise)))
     }
 
+    /// How much more a fit scatters than its slopes say, because it leans on rows that showed a small deviation by chance:
+    /// ν(ν + 1)/(ν − 1)², from the moments of x/(νs² + x²).
+    fn widening(&self) -> f64 {
+        let of = |r: &Reading| match r.error.filter(|[_, dof]| self.known && dof.is_finite()) {
+            Some([_, dof]) => dof * (dof + 1.0) / (dof - 1.0).max(0.5).powi(2),
+            None => 1.0,
+        };
+        self.readings.iter().map(of).sum::<f64>() / self.readings.len() as f64
+    }
+
     /// Rows of one specimen at one pressure.
     fn curves(&self) -> Vec<Vec<usize>> {
         groups(self.readings.iter().map(|r| (r.specimen.clone(), r.pressure_pa.to_bits())))
+    }
+}
+
+/// Segments of a beam, at most: its deflection is then within a thousandth.
+const SEGMENTS: usize = 60;
+
+/// Standard errors of rows of one kind, each steadied by the others.
+fn steady<'r, 'a: 'r>(readings: impl Iterator<Item = &'r mut Reading<'a>>) {
+    let mut told: Vec<&mut Reading> = readings.filter(|r| r.error.is_some_and(|[_, dof]| dof.is_finite())).collect();
+    let rows: Vec<[f64; 3]> = told
+        .iter()
+        .filter_map(|r| r.error.map(|[error, dof]| [error * (dof + 1.0).sqrt(), dof, r.measured.hypot(r.small)]))
+        .collect();
+    for ((r, [sd, dof]), [_, own, _]) in told.iter_mut().zip(steadied(&rows)).zip(&rows) {
+        r.error = Some([sd / (own + 1.0).sqrt(), dof]);
     }
 }
 
@@ -354,7 +385,17 @@ pub fn groups<K: PartialEq>(keys: impl Iterator<Item = K>) -> Vec<Vec<usize>> {
 }
 
 impl<'a> Reading<'a> {
-    fn new(row: &'a Row, scenario: &Scenario, scale: f64, sigma: Option<f64>) -> Reading<'a> {
+    fn off(&self, model: f64) -> f64 {
+        (model / self.small).asinh() - (self.measured / self.small).asinh()
+    }
+
+    /// Standard error as a ratio.
+    pub fn noise(&self) -> Option<f64> {
+        let [error, dof] = self.error?;
+        Some(if dof.is_finite() { error / self.measured.hypot(self.small) } else { error })
+    }
+
+    fn new(row: &'a Row, scenario: &Scenario, small: f64, sigma: Option<f64>) -> Reading<'a> {
         let beam = row.get("load").is_some();
         let sized = specimen(row, scenario, None).unwrap_or_else(|_| scenario.clone());
         let sd = row.get(if beam { "deflection_sd" } else { "force_sd" }).filter(|_| !is_free(row));
@@ -365,8 +406,8 @@ impl<'a> Reading<'a> {
         let words = if beam { size("radius") } else { format!("{number}{}{}", size("diameter"), size("length")) };
         Reading {
             measured: measured(row),
-            scale,
-            error: told.or(sigma.map(|s| [s * scale, f64::INFINITY])),
+            small,
+            error: told.or(sigma.map(|s| [s, f64::INFINITY])),
             pressure_pa: row.get("p_body").or(row.get("p_act")).unwrap_or(0.0),
             specimen: words.trim_end().to_string(),
             drive: if beam { row.value("load") / collapse_n } else { row.value("contraction") },
