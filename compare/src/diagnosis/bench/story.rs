@@ -18,7 +18,7 @@ const MOST_LEVELS: usize = 4;
 /// The answer, a sentence or two per entry.
 pub fn story(d: &BenchDiagnosis) -> Vec<String> {
     let mut told = vec![opening(d)];
-    told.extend(d.base.iter().map(|p| format!("Fitted along, because nobody told it: {}.", with_interval(p))));
+    told.extend(d.base.iter().map(|p| format!("Fitted along: {}.", with_interval(p))));
     let best = d.set().next();
     told.push(verdict(d, best));
     told.extend(best.filter(|_| d.verdict != Some(Verdict::None)).map(|best| of_best(d, best)).unwrap_or_default());
