@@ -22,6 +22,7 @@ pub fn story(d: &BenchDiagnosis) -> Vec<String> {
     let best = d.set().next();
     told.push(verdict(d, best));
     told.extend(best.filter(|_| d.verdict != Some(Verdict::None)).map(|best| of_best(d, best)).unwrap_or_default());
+    told.extend(at_its_bound(d, best.map_or(d.off, |b| b.off)).filter(|_| d.verdict != Some(Verdict::None)));
     if !d.unsized_laws.is_empty() {
         told.push(format!(
             "Not tried, because they act by the muscle's size, which neither table nor scenario tells: {}. Add # diameter_mm: and a \
@@ -65,7 +66,7 @@ fn verdict(d: &BenchDiagnosis, best: Option<&BenchRanked>) -> String {
         (None, Some(to)) => format!(
             "No single effect of the catalogue takes four fifths of it: {to}. The table cannot say what is noise; --sigma 3% can."
         ),
-        (None, None) => "No single effect of the catalogue lowers it.".into(),
+        (None, None) => "No single effect of the catalogue lowers it within its range.".into(),
     }
 }
 
@@ -79,22 +80,17 @@ fn of_best(d: &BenchDiagnosis, best: &BenchRanked) -> Vec<String> {
         (0 | 1, false) => "It is the best of the catalogue, and not enough: another law, several effects, or the table.".into(),
         _ => format!("Equally good with this table: {}. The data do not choose between them.", list(&others)),
     });
-    let beyond = d.ranked.iter().filter(|r| r.at_bound && r.off < best.off);
-    told.extend(beyond.min_by(|a, b| a.off.total_cmp(&b.off)).map(|r| {
-        let at: Vec<String> = r
-            .parameters
-            .iter()
-            .filter(|p| p.at_bound)
-            .map(|p| format!("{} = {}", p.symbol, quantity(p.value, &p.unit)))
-            .collect();
-        format!(
-            "{} would bring it to {}, but at the end of its range, {}, and the data push beyond it.",
-            r.effect,
-            percent(r.off),
-            list(&at)
-        )
-    }));
     told
+}
+
+/// What would come closer, but only at the end of its range.
+fn at_its_bound(d: &BenchDiagnosis, off: f64) -> Option<String> {
+    let closer = d.ranked.iter().filter(|r| r.at_bound && r.off < off);
+    let r = closer.min_by(|a, b| a.off.total_cmp(&b.off))?;
+    let bounds = r.parameters.iter().filter(|p| p.at_bound);
+    let at: Vec<String> = bounds.map(|p| format!("{} = {}", p.symbol, quantity(p.value, &p.unit))).collect();
+    let (effect, to, at) = (&r.effect, percent(r.off), list(&at));
+    Some(format!("{effect} would bring it to {to}, but at the end of its range, {at}, and the data push beyond it."))
 }
 
 fn holds(before: &LeftOut, after: &LeftOut, effect: &str) -> String {
@@ -147,7 +143,8 @@ pub fn places(table: &Table, off: &[f64]) -> Vec<String> {
     ];
     told.extend(ordered.into_iter().flatten());
     if let Some((r, o)) = table.readings.iter().zip(off).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())) {
-        told.push(format!("largest in line {} ({}): {:+.1} %", r.row.line, r.at, 100.0 * o.exp_m1()));
+        let share = if beam { format!(", {}", of_drive(r.drive)) } else { String::new() };
+        told.push(format!("largest in line {} ({}{share}): {:+.1} %", r.row.line, r.at, 100.0 * o.exp_m1()));
     }
     told
 }
