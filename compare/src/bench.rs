@@ -1,13 +1,16 @@
 //! Bench tests held against a model: a beam under a load, a muscle in a testing machine.
 //!
-//! The model of a beam is that of a scenario: `[body]`, loaded at its tip. The model of a muscle is the ideal braid (Chou and
-//! Hannaford 1996) where the table tells its diameter and its yarns' angle, else the stroke law of the scenario's actuator.
-//! A mean with its standard deviation and n gets a verdict: is the model within the 95 % interval of the mean?
+//! The model of a beam is that of a scenario: `[body]`, loaded at its tip. The model of a muscle is the scenario's actuator alone
+//! between two grips ([`models::Machine`]), in the size that the table tells; without a scenario the ideal braid (Chou and Hannaford
+//! 1996). A mean with its standard deviation and n gets a verdict: is the model within the 95 % interval of the mean?
 
 use data::Bench;
 use data::bench::Row;
-use models::exact::mckibben::{max_contraction, rest_angle_from_max_contraction, tondu_lopez_force_n};
-use models::{Loads, Model, Scenario};
+use models::actuators::{ActuatorShape, Family};
+use models::exact::mckibben::rest_angle_from_max_contraction;
+use models::scenario::ActuatorChoice;
+use models::{Loads, Machine, Model, Scenario};
+use std::f64::consts::FRAC_PI_2;
 
 use crate::CompareError;
 use crate::plots::Known;
@@ -87,7 +90,7 @@ pub fn held(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Resu
     }
 }
 
-fn refuse<T>(bench: &Bench, problem: &str, help: &str) -> Result<T, CompareError> {
+pub(crate) fn refuse<T>(bench: &Bench, problem: &str, help: &str) -> Result<T, CompareError> {
     Err(CompareError::Bench { file: bench.file.clone(), problem: problem.into(), help: help.into() })
 }
 
@@ -96,16 +99,104 @@ fn half(row: &Row, sd: &str, unit: f64) -> Option<f64> {
     Some(unit * t_975(n as usize - 1) * sd / n.sqrt())
 }
 
-fn beams(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Result<Held, CompareError> {
-    let Some(scenario) = scenario else {
+/// What a row measured: a deflection \[m\], a force \[N\] or, without a force, a contraction \[-\].
+pub(crate) fn measured(row: &Row) -> f64 {
+    let force = |row: &Row| if is_free(row) { row.value("contraction") } else { row.value("force") };
+    row.get("deflection").unwrap_or_else(|| force(row))
+}
+
+/// Whether a muscle is free: its contraction was measured, not its force.
+pub(crate) fn is_free(row: &Row) -> bool {
+    row.get("force") == Some(0.0)
+}
+
+/// What the model of a row's specimen says of it; none where it finds no equilibrium.
+pub(crate) fn modelled(row: &Row, specimen: &Scenario) -> Option<f64> {
+    match row.get("load") {
+        Some(load) => deflection_m(specimen, load),
+        None => {
+            let machine = Machine::new(specimen)?;
+            let p = row.value("p_act");
+            if is_free(row) { Some(machine.free_contraction(p)) } else { machine.pull_n(p, row.value("contraction")) }
+        }
+    }
+}
+
+/// The scenario in the size and at the pressure of a row; `bias_rad` goes before the angle of the table.
+///
+/// # Errors
+/// What is missing, and what to add.
+pub(crate) fn specimen(row: &Row, scenario: &Scenario, bias_rad: Option<f64>) -> Result<Scenario, [&'static str; 2]> {
+    if row.get("load").is_some() {
+        let radius_m = row.get("radius").unwrap_or(scenario.radius_m);
+        return Ok(Scenario { p_body_pa: row.value("p_body"), radius_m, ..scenario.clone() });
+    }
+    let ActuatorChoice { kind, shape, .. } = scenario.actuator;
+    let (diameter, bias) = (row.get("diameter"), bias_rad.or(row.get("bias").map(f64::to_radians)));
+    if !scenario.actuator.exists() {
+        return Err(["the scenario has no actuator", "name one with [actuator], or none"]);
+    }
+    if kind.family == Family::Pouch && diameter.or(bias).is_some() {
+        let help = "name a scenario with kind = \"fpam\", or none";
+        return Err(["the table tells of a tube of yarns, and the scenario's actuator is a pouch", help]);
+    }
+    let (bias_rad, width_m) = (bias.unwrap_or(shape.bias_rad), diameter.map_or(shape.width_m, |d| FRAC_PI_2 * d));
+    // What pulls nothing may have any size.
+    let width_m = if width_m.is_nan() && is_free(row) { ANY_WIDTH_M } else { width_m };
+    if bias_rad.is_nan() || width_m.is_nan() {
+        let help = "add bias_deg and diameter_mm, name a scenario before the table, or add --calibrate";
+        return Err(["a muscle needs its size and its yarns' angle", help]);
+    }
+    let told = row.get("length").unwrap_or(shape.length_m);
+    let length_m = if told.is_nan() { LONG * width_m } else { told };
+    let shape = ActuatorShape { length_m, width_m, bias_rad, ..shape };
+    let actuator = ActuatorChoice { shape, count: 1, start_m: 0.0, ..scenario.actuator };
+    Ok(Scenario { length_m, actuator, zones: Vec::new(), ..scenario.clone() })
+}
+
+/// Flat width of a free muscle of unknown size \[m\].
+pub(crate) const ANY_WIDTH_M: f64 = 0.02;
+/// Length over width of a muscle whose ends nobody tells of.
+const LONG: f64 = 1e4;
+
+/// The scenario that a table without one is held against: for a muscle the ideal braid, whose size and angle the table must tell.
+///
+/// # Errors
+/// A beam without a scenario.
+pub(crate) fn own_or_braid(bench: &Bench, scenario: Option<&Scenario>) -> Result<Scenario, CompareError> {
+    if let Some(scenario) = scenario {
+        return Ok(scenario.clone());
+    }
+    let braid = models::shipped("fpam-textbook").and_then(|text| Scenario::parse(text).ok());
+    let Some(mut braid) = braid.filter(|_| bench.kind.name == "force_contraction") else {
         return refuse(bench, "a beam needs a scenario", "put scenario.toml beside the table, or name one before it");
     };
+    let shape = &mut braid.actuator.shape;
+    (shape.width_m, shape.length_m, shape.bias_rad) = (f64::NAN, f64::NAN, f64::NAN);
+    Ok(Scenario { name: "ideal braid".into(), ..braid.bare() })
+}
+
+/// A row in words: size, pressure, load.
+pub(crate) fn place(row: &Row, specimen: &Scenario) -> String {
+    if let Some(load) = row.get("load") {
+        return format!("{:.0} mm, {:.0} kPa, {load:.2} N", 1e3 * specimen.radius_m, 1e-3 * specimen.p_body_pa);
+    }
+    let told = |key, word| row.get(key).map_or(String::new(), |v| format!("{:.0} mm {word}, ", 1e3 * v));
+    let muscle = row.get("muscle").map_or(String::new(), |n| format!("muscle {n}, "));
+    let at = match is_free(row) {
+        true => "free: contraction %".into(),
+        false => format!("{:.1} %: force N", 100.0 * row.value("contraction")),
+    };
+    format!("{muscle}{}{}{:.0} kPa, {at}", told("diameter", "thick"), told("length", "long"), 1e-3 * row.value("p_act"))
+}
+
+fn beams(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Result<Held, CompareError> {
+    let scenario = own_or_braid(bench, scenario)?;
     let mut rows = Vec::new();
     let mut notes = Vec::new();
     let same = |a: &Row, b: &Row| a.get("p_body") == b.get("p_body") && a.get("radius") == b.get("radius");
     for group in bench.rows.chunk_by(same) {
-        let mut beam = Scenario { p_body_pa: group[0].value("p_body"), ..scenario.clone() };
-        beam.radius_m = group[0].get("radius").unwrap_or(beam.radius_m);
+        let mut beam = specimen(&group[0], &scenario, None).or_else(|[problem, help]| refuse(bench, problem, help))?;
         let loaded = group.iter().filter(|r| r.value("load") > 0.0 && r.value("deflection") > 0.0);
         let first = loaded.min_by(|a, b| a.value("load").total_cmp(&b.value("load"))).filter(|_| calibrate);
         if let Some(row) = first {
@@ -118,9 +209,9 @@ fn beams(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Result<
             });
         }
         rows.extend(group.iter().map(|row| HeldRow {
-            at: format!("{:.0} mm, {:.0} kPa, {:.2} N", 1e3 * beam.radius_m, 1e-3 * beam.p_body_pa, row.value("load")),
+            at: place(row, &beam),
             measured: 1e3 * row.value("deflection"),
-            model: deflection_m(&beam, row.value("load")).map(|v| 1e3 * v),
+            model: modelled(row, &beam).map(|v| 1e3 * v),
             half: half(row, "deflection_sd", 1e3),
             fitted: first.is_some_and(|f| f.line == row.line),
         }));
@@ -130,12 +221,17 @@ fn beams(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Result<
     Ok(Held { title, quantity: "deflection mm".into(), known, rows, notes })
 }
 
-/// Tip deflection under a force across the tip; none beyond collapse.
+/// Tip deflection from where the tip is without the force, under a force across it; none beyond collapse.
 fn deflection_m(beam: &Scenario, force_n: f64) -> Option<f64> {
-    let model = Model::new(&beam.with_effect("tip_load", &[0.0, -force_n]));
-    let mut out = model.prediction();
-    model.predict(&Loads::uniform(beam.p_body_pa, 0.0), &mut out).ok()?;
-    (out.tip.x_m > 0.0).then_some(-out.tip.y_m)
+    let known = beam.effects.iter().find(|e| e.name == "tip_load").map_or([0.0; 2], |e| [e.values[0], e.values[1]]);
+    let tip = |force_n: f64| {
+        let model = Model::new(&beam.with_effect("tip_load", &[known[0], known[1] - force_n]));
+        let mut out = model.prediction();
+        model.predict(&Loads::uniform(beam.p_body_pa, 0.0), &mut out).ok()?;
+        (out.tip.x_m > 0.0).then_some(out.tip.y_m)
+    };
+    let at_rest = if beam.effects.is_empty() { 0.0 } else { tip(0.0)? };
+    Some(at_rest - tip(force_n)?)
 }
 
 /// E t that gives a deflection under a load \[N/m\]; it falls with E t.
@@ -157,78 +253,35 @@ fn wall_n_per_m(beam: &Scenario, force_n: f64, wanted_m: f64) -> Option<f64> {
 }
 
 fn muscles(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Result<Held, CompareError> {
+    let scenario = own_or_braid(bench, scenario)?;
     let mut rows = Vec::new();
     let mut notes = Vec::new();
     for group in bench.rows.chunk_by(|a, b| a.get("muscle") == b.get("muscle")) {
         let most = group.iter().max_by(|a, b| a.value("contraction").total_cmp(&b.value("contraction")));
-        let fitted = most.filter(|row| calibrate && row.value("force") == 0.0 && row.get("bias").is_none());
+        let fitted = most.filter(|row| calibrate && is_free(row) && row.get("bias").is_none());
         let bias = fitted.map(|row| rest_angle_from_max_contraction(row.value("contraction")));
         notes.extend(bias.map(|b| format!("yarns at {:.1}°, calibrated on the largest contraction", b.to_degrees())));
         for row in group {
-            let bias = row.get("bias").map(f64::to_radians).or(bias);
-            let Some(model) = muscle(row, bias, scenario) else {
-                let help = "add bias_deg and diameter_mm, name a scenario before the table, or add --calibrate";
-                return refuse(bench, "a muscle needs its size and its yarns' angle", help);
-            };
-            let told = |key, word| row.get(key).map_or(String::new(), |v| format!("{:.0} mm {word}, ", 1e3 * v));
-            let size = told("diameter", "thick") + &told("length", "long");
-            let p = 1e-3 * row.value("p_act");
-            let fitted = fitted.is_some_and(|f| f.line == row.line);
-            rows.push(if row.value("force") == 0.0 {
-                let at = format!("{size}{p:.0} kPa, free: contraction %");
-                HeldRow {
-                    at,
-                    measured: 100.0 * row.value("contraction"),
-                    model: Some(100.0 * model),
-                    half: None,
-                    fitted,
-                }
-            } else {
-                let at = format!("{size}{p:.0} kPa, {:.1} %: force N", 100.0 * row.value("contraction"));
-                let half = half(row, "force_sd", 1.0);
-                HeldRow { at, measured: row.value("force"), model: Some(model), half, fitted }
+            let muscle = specimen(row, &scenario, bias).or_else(|[problem, help]| refuse(bench, problem, help))?;
+            let unit = if is_free(row) { 100.0 } else { 1.0 };
+            rows.push(HeldRow {
+                at: place(row, &muscle),
+                measured: unit * measured(row),
+                model: modelled(row, &muscle).map(|v| unit * v),
+                half: if is_free(row) { None } else { half(row, "force_sd", 1.0) },
+                fitted: fitted.is_some_and(|f| f.line == row.line),
             });
         }
     }
-    let law = scenario.map_or("ideal braid", |s| s.name.as_str());
     let known = if notes.is_empty() { Known::Assumed } else { Known::Calibrated };
-    let title = format!("Muscle, {law} against {}", bench.file);
+    let title = format!("Muscle, {} against {}", scenario.name, bench.file);
     Ok(Held { title, quantity: "value".into(), known, rows, notes })
-}
-
-/// Force \[N\] at a contraction, or the free contraction where the force is 0.
-fn muscle(row: &Row, bias: Option<f64>, scenario: Option<&Scenario>) -> Option<f64> {
-    let free = row.value("force") == 0.0;
-    match (bias, row.get("diameter"), scenario) {
-        (Some(bias), _, _) if free => Some(max_contraction(bias)),
-        (Some(bias), Some(d), _) => {
-            Some(tondu_lopez_force_n(0.5 * d, bias, row.value("contraction"), row.value("p_act"), 1.0))
-        }
-        (_, _, Some(scenario)) => stroke(scenario, if free { None } else { Some(row) }),
-        _ => None,
-    }
-}
-
-/// Of the stroke law F = P dV/dε/L₀ alone: the force at a row's contraction, or the contraction without force.
-fn stroke(scenario: &Scenario, row: Option<&Row>) -> Option<f64> {
-    let choice = &scenario.actuator;
-    let law = |a: f64| (choice.kind.stroke)(&choice.shape, a);
-    let (mut low, mut high) = choice.kind.range;
-    let beyond = |a: f64| match row {
-        Some(row) => law(a).contraction > row.value("contraction"),
-        None => law(a).d_volume < 0.0,
-    };
-    for _ in 0..80 {
-        let middle = 0.5 * (low + high);
-        *(if beyond(middle) { &mut high } else { &mut low }) = middle;
-    }
-    let at = law(0.5 * (low + high));
-    Some(row.map_or(at.contraction, |row| row.value("p_act") * at.d_volume / at.d_contraction))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use models::exact::mckibben::tondu_lopez_force_n;
 
     fn set(name: &str) -> (Bench, Option<Scenario>) {
         let bench = data::bench::bench(name).unwrap().unwrap();

@@ -150,7 +150,7 @@ impl Fitted<'_> {
 }
 
 /// What a misfit adds to the variance, and its degrees of freedom.
-fn misfit(pressures: &[[f64; 2]], (each, cells): (f64, usize), parameters: usize) -> (f64, f64) {
+pub fn misfit(pressures: &[[f64; 2]], (each, cells): (f64, usize), parameters: usize) -> (f64, f64) {
     let all: f64 = pressures.iter().map(|[squares, _]| squares).sum();
     let count = pressures.iter().filter(|[squares, _]| *squares > TELLS * all).count();
     let spare = count.saturating_sub(parameters) as f64;

@@ -349,7 +349,14 @@ impl Site {
     }
 
     /// dU/da of all actuator-side terms at η = 1, by the chain rule.
-    fn actuator_slope(&self, a: f64, stroke: &Stroke, geometric: f64, d_geometric: f64, loads: &SiteLoads) -> f64 {
+    pub(crate) fn actuator_slope(
+        &self,
+        a: f64,
+        stroke: &Stroke,
+        geometric: f64,
+        d_geometric: f64,
+        loads: &SiteLoads,
+    ) -> f64 {
         let (curvature, gain) = self.linkage.bent(geometric);
         let q = [a, stroke.contraction, stroke.volume, curvature];
         let mut force = [0.0; actuator_q::LEN];

@@ -6,10 +6,10 @@ use std::path::PathBuf;
 /// `ibr diagnose`
 #[derive(Debug, Args)]
 pub struct Diagnose {
-    /// Scenario file or shipped robot
+    /// Scenario file or shipped robot; a table of bench tests that has its own may stand alone
+    #[arg(value_name = "SCENARIO")]
     pub scenario: String,
-    /// Marker data
-    #[arg(required_unless_present = "published")]
+    /// Marker data, or a table of bench tests: load_deflection of a beam, force_contraction of a muscle
     pub data: Option<String>,
     /// Further data of the same robot, each with its own protocol, loads and direct measurements (about.toml), fitted along;
     /// may be given several times
@@ -24,7 +24,8 @@ pub struct Diagnose {
     /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
     #[arg(long)]
     pub keep_bending: bool,
-    /// Camera noise of one coordinate, for data of a single run, for example 1mm
+    /// Camera noise of one coordinate, for data of a single run, for example 1mm; of a table of bench tests what a row without a
+    /// standard deviation scatters by, for example 3%
     #[arg(long, allow_hyphen_values = true)]
     pub sigma: Option<String>,
     /// What an answer may leave, and a misfit that is too small to matter; default: the larger of 0.15 mm and 0.5 % of the largest deflection

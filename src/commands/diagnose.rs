@@ -16,10 +16,17 @@ use serde_json::{Value, json};
 use std::path::Path;
 
 pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
-    let Some(data) = args.data.as_deref() else {
+    if args.published {
         return super::published::run(&args.scenario, args.out.as_deref(), context);
+    }
+    if let Some(outcome) = super::diagnose_bench::run(args, context)? {
+        return Ok(outcome);
+    }
+    let Some(data) = args.data.as_deref() else {
+        let message = format!("{} alone is no table of bench tests, and markers need a scenario", args.scenario);
+        let help = "for example `ibr diagnose epam synthetic-epam`, `ibr diagnose festo-bolen-2026`, `ibr diagnose epam --published`";
+        return Err(Failure::usage(message, help));
     };
-    super::held::needs_markers(data)?;
     let sigma_m = args.sigma.as_deref().map(|t| positive("--sigma", t)).transpose()?;
     let tolerance_m = args.tolerance.as_deref().map(|t| positive("--tolerance", t)).transpose()?;
     let named = inputs::scenario(&args.scenario)?;
@@ -169,7 +176,7 @@ fn row(d: &Diagnosis, r: &Ranked) -> Vec<String> {
     ]
 }
 
-fn p_text(p: f64) -> String {
+pub fn p_text(p: f64) -> String {
     match p {
         p if p <= 1e-6 => "< 1e-6".into(),
         p if p < 1e-3 => format!("{p:.0e}"),

@@ -12,6 +12,7 @@ mod data;
 mod data_fem;
 mod demo;
 mod diagnose;
+mod diagnose_bench;
 mod engines;
 mod extend;
 mod held;

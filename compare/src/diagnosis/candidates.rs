@@ -164,7 +164,7 @@ pub fn present(scenario: &Scenario) -> Vec<Candidate> {
     catalogue.effects().filter(own).map(|e| candidate(&e, actuator)).collect()
 }
 
-fn candidate(effect: &Effect, actuator: &str) -> Candidate {
+pub(super) fn candidate(effect: &Effect, actuator: &str) -> Candidate {
     let free = |p: &models::effects::Parameter| Free {
         key: p.key.to_string(),
         symbol: p.symbol.to_string(),

@@ -15,13 +15,13 @@ use crate::error::CompareError;
 use crate::stats::reported_p;
 
 /// Of the level α, the share that the effects get; the tests for lack of fit get the rest.
-const SHARE_OF_EFFECTS: f64 = 0.8;
+pub(super) const SHARE_OF_EFFECTS: f64 = 0.8;
 /// A second effect is looked for if more than this share of the error is left, and more than that many mm: the catalogue's
 /// laws are not the real ones to the last twentieth.
 const WORTH_A_SECOND: (f64, f64) = (0.05, 0.15);
 /// More than this share of the error left by one effect, or by two, and more than that many mm, means that the catalogue
 /// does not explain it. Errors are those beyond noise and scatter between runs.
-const LEFT_OVER: [(f64, f64); 2] = [(0.2, 0.05), (0.15, 0.05)];
+pub(super) const LEFT_OVER: [(f64, f64); 2] = [(0.2, 0.05), (0.15, 0.05)];
 /// A place that stands out with more than this share of the error is not explained: the law of a uniform robot, however wrong
 /// its form, leaves uniform bending.
 const PLACE_LEFT: f64 = 0.1;
@@ -230,6 +230,6 @@ fn p_of(case: &Case, fit: &Fit) -> Option<f64> {
 }
 
 /// Weighted Bonferroni over the two kinds of tests.
-fn combined(p_effect: f64, p_lack_of_fit: f64) -> f64 {
+pub(super) fn combined(p_effect: f64, p_lack_of_fit: f64) -> f64 {
     (p_effect / SHARE_OF_EFFECTS).min(p_lack_of_fit / (1.0 - SHARE_OF_EFFECTS)).min(1.0)
 }

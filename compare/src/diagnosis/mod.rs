@@ -17,6 +17,7 @@
 
 mod answers;
 mod basis;
+mod bench;
 mod blocks;
 mod candidates;
 mod case;
@@ -65,6 +66,7 @@ mod traces;
 mod words;
 
 pub use answers::{Answer, Standing};
+pub use bench::{BenchDiagnosis, BenchOptions, BenchRanked, LeftOut, diagnose_bench};
 pub use candidates::{Candidate, Free, candidates};
 pub use distance::{Distances, KnownNoise, distances, power};
 pub use experiments::{BENDING_TEST, BENDING_TEST_NAME};

@@ -46,8 +46,13 @@ pub fn criterion(case: &Case, fit: &Fit, allowance: f64) -> f64 {
 
 /// The same of a sum of squares and a number of parameters added.
 pub fn criterion_of(case: &Case, cost: f64, added: usize, allowance: f64) -> f64 {
-    let values = case.sources().map(|(_, noise)| noise.seen(0..noise.directions.len())).sum::<usize>() as f64;
-    cost / allowance + added as f64 * price(values, allowance)
+    let values = case.sources().map(|(_, noise)| noise.seen(0..noise.directions.len())).sum::<usize>();
+    criterion_from(values, cost, added, allowance)
+}
+
+/// The same of so many values.
+pub fn criterion_from(values: usize, cost: f64, added: usize, allowance: f64) -> f64 {
+    cost / allowance + added as f64 * price(values as f64, allowance)
 }
 
 /// Schwarz's price of a parameter where the variance of the values is larger by the allowance.

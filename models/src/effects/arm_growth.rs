@@ -13,7 +13,7 @@
 //! `N = −U'/(ηε' − κD')`. Validity: β from geometry for external actuators (β = 1), unknown for embedded ones.
 //! Derived here.
 
-use super::{Effect, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -37,7 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "share of the lift that lengthens the arm",
         ..PLAIN
     }],
-    family: None,
+    needs: Needs::Actuator,
     add,
 };
 

@@ -13,7 +13,7 @@
 //! Acts only where B > 0; divides the body into segments, as transverse loads do. **Validity**: linear; s is taken in the middle of
 //! a segment. Derived here.
 
-use super::{Effect, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
@@ -29,7 +29,7 @@ pub(super) const ENTRY: Effect = Effect {
     validity: "fades exponentially; needs B > 0",
     reference: "derived here",
     parameters: &[share("extra stiffness at the base as a share of B"), REACH],
-    family: None,
+    needs: Needs::Body,
     add,
 };
 

@@ -11,7 +11,7 @@
 //! At the moments of the hinge alone it is the constant moment πR³p₀ of `tail_tension`; beside a wall, gas displaced or loads
 //! near collapse it is not. **Validity**: the same at all pressures. Supply stage: acts before the balance. Definition.
 
-use super::{ANY, Effect, Fitted, Group, PLAIN, Parameter, Stage};
+use super::{ANY, Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -38,7 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "set body pressure that does not arrive",
         ..PLAIN
     }],
-    family: None,
+    needs: Needs::Body,
     add,
 };
 

@@ -10,7 +10,7 @@
 //!
 //! Validity: rotation about the base point. Geometry.
 
-use super::{Effect, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -37,7 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "roll angle of the camera",
         ..PLAIN
     }],
-    family: None,
+    needs: Needs::Body,
     add,
 };
 

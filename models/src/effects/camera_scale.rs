@@ -10,7 +10,7 @@
 //!
 //! Validity: checkerboard not in the plane of the markers, or wrong square size. Geometry.
 
-use super::{Effect, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -35,7 +35,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "relative scale error",
         ..PLAIN
     }],
-    family: None,
+    needs: Needs::Body,
     add,
 };
 

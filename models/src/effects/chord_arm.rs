@@ -14,7 +14,7 @@
 //! taut; finite elements of the shipped robots have 69 to 70 mm (ePAM) and 68 to 69 mm (cPAM). Derived here, geometry in
 //! `section.rs`.
 
-use super::{Effect, Group, Parameter, SHARE, Stage};
+use super::{Effect, Group, Needs, Parameter, SHARE, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::section::Section;
@@ -31,7 +31,7 @@ pub(super) const ENTRY: Effect = Effect {
     validity: "weld lines across the wall that stay taut",
     reference: "derived here",
     parameters: &[Parameter { symbol: "w/W", meaning: "share of the pouch's width that is pulled straight", ..SHARE }],
-    family: Some(Family::Pouch),
+    needs: Needs::Family(Family::Pouch),
     add,
 };
 

@@ -15,7 +15,7 @@
 //! the wall in, χ is larger (finite elements at 2 kPa: 0.5 cPAM, 0.9 fPAM, 1.1 ePAM, 1.3 sPAM; `docs/robots.md`).
 //! **Validity**: one χ for all pressures; a body that is kept at its pressure. Derived here.
 
-use super::{Effect, Fitted, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -41,7 +41,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "body volume lost per actuator volume gained",
         ..PLAIN
     }],
-    family: None,
+    needs: Needs::Actuator,
     add,
 };
 

@@ -18,7 +18,7 @@
 //! assumption of this project. For pouches `sealed_sides` derives both from mechanics; the two together count it twice.
 //! Reference: A. Robin 2004 (paper bag problem), volume formula; the end factor is derived here.
 
-use super::{Effect, Fitted, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::{Actuator, ActuatorShape, Family};
 use crate::assembly::Assembly;
 use std::f64::consts::PI;
@@ -59,7 +59,7 @@ pub(super) const ENTRY: Effect = Effect {
             ..PLAIN
         },
     ],
-    family: None,
+    needs: Needs::Actuator,
     add,
 };
 

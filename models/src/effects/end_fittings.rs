@@ -14,7 +14,7 @@
 //! the single force printed at L/2r₀ = 5.4 (103 N) is half of what that fit says (220 N), so there it may claim too much. **Validity**: L/2r₀ from 4 to 60.
 //! Reference: Bolen 2026 (Actuators), [`crate::exact::mckibben::BOLEN_10_MM`]; that it scales with the diameter is assumed.
 
-use super::{Effect, Group, Parameter, SHARE, Stage};
+use super::{Effect, Group, Needs, Parameter, SHARE, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::exact::mckibben::{BOLEN_10_MM, bolen_full_force_n};
@@ -32,7 +32,7 @@ pub(super) const ENTRY: Effect = Effect {
     validity: "L/2r₀ from 4 to 60; ends on plugs; a prior from another muscle",
     reference: "Bolen 2026 (Festo muscle of 10 mm); scaling with the diameter assumed",
     parameters: &[Parameter { meaning: "share of the loss of plugs", ..SHARE }],
-    family: Some(Family::Mckibben),
+    needs: Needs::Family(Family::Mckibben),
     add,
 };
 

@@ -13,7 +13,7 @@
 //! Validity: linear elastic, uniform over the width. Reference: the pressure correction of Niiyama et al. 2015 has the
 //! same origin; this form is derived here.
 
-use super::{Effect, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -36,7 +36,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "compliance 1/(E t) of the actuator's fabric",
         ..PLAIN
     }],
-    family: None,
+    needs: Needs::Actuator,
     add,
 };
 

@@ -19,7 +19,7 @@
 //! farther apart than √(D/T), a fraction of a millimetre at high pressures; stiff welds; 0 < θ < π. Elastica: Love 1927, §262, in
 //! `exact::fold`; the sum derived here.
 
-use super::{Effect, Fitted, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::section::Section;
@@ -48,7 +48,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "bending stiffness of one sheet",
         ..PLAIN
     }],
-    family: Some(Family::Pouch),
+    needs: Needs::Family(Family::Pouch),
     add,
 };
 

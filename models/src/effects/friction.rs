@@ -18,7 +18,7 @@
 //! gradual onset. Reference: Coulomb's law with elastic slide (Prandtl); friction of the braid of McKibben muscles: Tondu
 //! & Lopez 2000.
 
-use super::{Effect, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Memory, Pose, Term};
 
@@ -44,7 +44,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "moment at which it slides",
         ..PLAIN
     }],
-    family: None,
+    needs: Needs::Body,
     add,
 };
 

@@ -15,7 +15,7 @@
 //! [`crate::muscle`] has the law. **Validity**: glued over the flat width to a wall with yarns along and across. A muscle that
 //! is glued along a line, or hangs in loops, has none of it. Derived here.
 
-use super::{Effect, Fitted, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 
@@ -40,7 +40,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "E t of the wall along its yarns",
         ..PLAIN
     }],
-    family: Some(Family::Mckibben),
+    needs: Needs::Family(Family::Mckibben),
     add,
 };
 

@@ -11,7 +11,7 @@
 //!
 //! Acts only where B > 0. Validity: small κ₀. Derived here.
 
-use super::{ANY, Effect, Group, PLAIN, Parameter, Stage};
+use super::{ANY, Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
@@ -38,7 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "curvature at rest",
         ..PLAIN
     }],
-    family: None,
+    needs: Needs::Body,
     add,
 };
 

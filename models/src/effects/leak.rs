@@ -12,7 +12,7 @@
 //! loss is steady: use `pressure_loss`. Supply stage. Reference: discharge of a volume through a laminar leak; for small
 //! r t it is 1 − r t.
 
-use super::{Effect, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -35,7 +35,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "share of the pressure lost per second",
         ..PLAIN
     }],
-    family: None,
+    needs: Needs::Actuator,
     add,
 };
 

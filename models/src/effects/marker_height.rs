@@ -11,7 +11,7 @@
 //!
 //! y is taken relative to the straight robot, where every marker reads 0. Validity: same e for all markers. Geometry.
 
-use super::{ANY, Effect, Group, PLAIN, Parameter, Stage};
+use super::{ANY, Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -37,7 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "marker height above the axis",
         ..PLAIN
     }],
-    family: None,
+    needs: Needs::Body,
     add,
 };
 

@@ -214,6 +214,17 @@ pub enum Fitted {
     FromDesign,
 }
 
+/// What an effect acts in: without it there is nothing to change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Needs {
+    /// Any body, a passive beam too.
+    Body,
+    /// Any actuator, or its supply.
+    Actuator,
+    /// An actuator of this contraction mechanism.
+    Family(Family),
+}
+
 /// A physical effect as an entry of the catalogue, or of a scenario's own ([`Catalogue`]).
 #[derive(Debug, Clone, Copy)]
 pub struct Effect<'a> {
@@ -240,8 +251,8 @@ pub struct Effect<'a> {
     pub reference: &'a str,
     /// Parameters in the order `add` takes them.
     pub parameters: &'a [Parameter<'a>],
-    /// Contraction mechanism it needs; `None`: any.
-    pub family: Option<Family>,
+    /// What it acts in.
+    pub needs: Needs,
     /// Adds it to a model under construction; values in SI. A formula adds itself.
     pub(crate) add: fn(&[f64], &mut Assembly),
 }
@@ -321,12 +332,11 @@ impl Effect<'_> {
 
     /// Whether it acts in an actuator or on its supply: a passive beam has neither.
     pub fn needs_actuator(&self) -> bool {
-        let of_body = self.name == body_pressure_offset::ENTRY.name;
-        self.family.is_some() || self.group == Group::Actuator || (self.group == Group::Supply && !of_body)
+        self.needs != Needs::Body
     }
 
     /// Whether the effect exists for an actuator of this family.
     pub fn applies_to(&self, family: Family) -> bool {
-        self.family.is_none_or(|needed| needed == family)
+        !matches!(self.needs, Needs::Family(needed) if needed != family)
     }
 }

@@ -12,7 +12,7 @@
 //! A pure bending moment is balanced inside the robot and does not reach the base; what turns it is the hose, the clamp or
 //! the first pouch pressing on it. **Validity**: elastic mount, rotation about the base point. Geometry.
 
-use super::{ANY, Effect, Group, PLAIN, Parameter, Stage};
+use super::{ANY, Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -38,7 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "rotation of the base per actuator pressure",
         ..PLAIN
     }],
-    family: None,
+    needs: Needs::Body,
     add,
 };
 

@@ -12,7 +12,7 @@
 //! **Validity**: steady flow, small gauge pressures. With n = 1 it looks like a stiffer body. Supply stage: acts before the balance.
 //! Reference: Hagen–Poiseuille and orifice flow in series, incompressible.
 
-use super::{Effect, Fitted, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 /// Pressure at which the lost share is f \[Pa\].
@@ -55,7 +55,7 @@ pub(super) const ENTRY: Effect = Effect {
             ..PLAIN
         },
     ],
-    family: None,
+    needs: Needs::Actuator,
     add,
 };
 

@@ -11,7 +11,7 @@
 //!
 //! Validity: constant over the range of pressures. Supply stage: acts before the balance. Definition.
 
-use super::{ANY, Effect, Group, PLAIN, Parameter, Stage};
+use super::{ANY, Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -37,7 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "set pressure that does not arrive",
         ..PLAIN
     }],
-    family: None,
+    needs: Needs::Actuator,
     add,
 };
 

@@ -24,7 +24,7 @@
 //! Below P = p_b (χ + (π − 2) A'/2W), A' = R' cosα, the body's gas at the sides keeps the pouch flat.
 //! **Validity**: inextensible fabric; a ≤ W/π, so W ≥ ⅔L. Derived here; `exact::pouch::sealed_volume_m3` is its volume.
 
-use super::{Effect, Group, Parameter, SHARE, Stage};
+use super::{Effect, Group, Needs, Parameter, SHARE, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::section::Section;
@@ -45,7 +45,7 @@ pub(super) const ENTRY: Effect = Effect {
     validity: "inextensible fabric; at least two thirds as wide as long",
     reference: "derived here",
     parameters: &[Parameter { meaning: "1: sealed sides, 0: sides that open freely", ..SHARE }],
-    family: Some(Family::Pouch),
+    needs: Needs::Family(Family::Pouch),
     add,
 };
 

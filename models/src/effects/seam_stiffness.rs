@@ -12,7 +12,7 @@
 //! For small θ the contraction goes as θ²/6, so this is a constant moment 3kD/L₀: there it cannot be told from
 //! `tail_tension`. Validity: elastic folds. Derived here.
 
-use super::{Effect, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -37,7 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "fold stiffness of one pouch",
         ..PLAIN
     }],
-    family: Some(Family::Pouch),
+    needs: Needs::Family(Family::Pouch),
     add,
 };
 

@@ -20,7 +20,7 @@
 //!
 //! Validity: pouches or folds side by side; for pouches φ = π is derived here, another value is to be seen on the robot or fitted.
 
-use super::{Effect, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -62,7 +62,7 @@ pub(super) const ENTRY: Effect = Effect {
             ..PLAIN
         },
     ],
-    family: None,
+    needs: Needs::Actuator,
     add,
 };
 

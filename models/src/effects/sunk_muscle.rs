@@ -22,7 +22,7 @@
 //! 3 p_b; glued over the whole flat width; an arm that the scenario gives is replaced. Finite elements of the shipped robot at
 //! 30 kPa: axis 70 mm from the far side. Derived here.
 
-use super::{Effect, Group, Parameter, SHARE, Stage};
+use super::{Effect, Group, Needs, Parameter, SHARE, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::section::Section;
@@ -40,7 +40,7 @@ pub(super) const ENTRY: Effect = Effect {
     validity: "glued over the whole flat width; P above some 3 p_b",
     reference: "derived here",
     parameters: &[Parameter { meaning: "1: half in the wall, 0: on it", ..SHARE }],
-    family: Some(Family::Mckibben),
+    needs: Needs::Family(Family::Mckibben),
     add,
 };
 

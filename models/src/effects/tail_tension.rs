@@ -11,7 +11,7 @@
 //!
 //! Validity: tension constant along the robot. Derived here.
 
-use super::{ANY, Effect, Group, PLAIN, Parameter, Stage};
+use super::{ANY, Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::body::soft_step;
 use crate::term::{Pose, Term};
@@ -38,7 +38,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "extra resisting moment",
         ..PLAIN
     }],
-    family: None,
+    needs: Needs::Body,
     add,
 };
 

@@ -13,7 +13,7 @@
 //! Acts only where B > 0; divides the body into segments, as transverse loads do. **Validity**: linear. Derived here.
 
 use super::base_clamp::{REACH, clamp, share};
-use super::{Effect, Group, Stage};
+use super::{Effect, Group, Needs, Stage};
 use crate::assembly::Assembly;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -28,7 +28,7 @@ pub(super) const ENTRY: Effect = Effect {
     validity: "fades exponentially; needs B > 0",
     reference: "derived here",
     parameters: &[share("extra stiffness at the tip as a share of B"), REACH],
-    family: None,
+    needs: Needs::Body,
     add,
 };
 

@@ -10,7 +10,7 @@
 //!
 //! Validity: dead load at the end of the centre line. Statics.
 
-use super::{ANY, Effect, Group, PLAIN, Parameter, Stage};
+use super::{ANY, Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term};
 
@@ -26,7 +26,7 @@ pub(super) const ENTRY: Effect = Effect {
     validity: "dead load at the tip",
     reference: "statics",
     parameters: &[force("force_x_n", "F_x", 0.0, false), force("force_y_n", "F_y", -0.4, true)],
-    family: None,
+    needs: Needs::Body,
     add,
 };
 

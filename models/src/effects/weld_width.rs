@@ -11,7 +11,7 @@
 //!
 //! **Validity**: welds that keep their length, b < L₀. Derived here.
 
-use super::{Effect, Fitted, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 
@@ -37,7 +37,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "width of the welds",
         ..PLAIN
     }],
-    family: Some(Family::Pouch),
+    needs: Needs::Family(Family::Pouch),
     add,
 };
 

@@ -19,7 +19,7 @@
 //! are those of a wall that does: κ_w half of the curvature at which the robots work.
 //! **Validity**: membrane without bending stiffness, circular section. Reference: Comer & Levy, AIAA Journal 1(7), 1963.
 
-use super::{Effect, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::body::BodyLaw;
 use crate::exact::beam::{gamma0_from_curvature_ratio, moment_ratio};
@@ -48,7 +48,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "compliance 1/(E t) of the body fabric",
         ..PLAIN
     }],
-    family: None,
+    needs: Needs::Body,
     add,
 };
 

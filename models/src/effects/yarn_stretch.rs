@@ -16,7 +16,7 @@
 //! the sign. (96.5 + 120)/2 MPa × 50 µm and ν = 0.2 give 1.48e-4 m/N; [`crate::muscle`] has the derivation. **Validity**: yarns
 //! linear in Green strain, equal in both families (unequal ones twist: [`crate::exact::tube`]). Derived here.
 
-use super::{Effect, Fitted, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 
@@ -41,7 +41,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "compliance of the yarns, (1 − ν)/(E t)",
         ..PLAIN
     }],
-    family: Some(Family::Mckibben),
+    needs: Needs::Family(Family::Mckibben),
     add,
 };
 

@@ -21,7 +21,7 @@ mod program;
 mod units;
 
 use crate::assembly::Assembly;
-use crate::effects::{Effect, Fitted, Group, Parameter, Stage};
+use crate::effects::{Effect, Fitted, Group, Needs, Parameter, Stage};
 use crate::root::POLE;
 use crate::term::{Extreme, Pose, Term};
 use compile::{Compiled, Name, compile};
@@ -171,7 +171,7 @@ impl Formula {
             validity: "what the author of the formula says",
             reference: "the scenario's own formula",
             parameters,
-            family: None,
+            needs: Needs::Body,
             add: |_, _| {},
         }
     }

@@ -1,0 +1,212 @@
+//! What may be missing on a bench: effects of the catalogue, and numbers of the scenario that are usually not known.
+
+use crate::diagnosis::candidates::{Candidate, Free, Held, candidate, hold};
+use crate::diagnosis::detect::lead;
+use crate::diagnosis::result::Group;
+use data::Bench;
+use models::Scenario;
+use models::effects::{Effect, Fitted, Stage};
+
+/// A scenario with something tried, and a yarn angle that goes before the table's.
+#[derive(Clone)]
+pub struct Trial {
+    pub scenario: Scenario,
+    pub bias_rad: Option<f64>,
+}
+
+/// An effect, or a number of the scenario.
+pub struct Law {
+    pub candidate: Candidate,
+    number: Option<&'static Number>,
+}
+
+/// A number of a scenario that a bench tells.
+struct Number {
+    /// Of which kind of table.
+    table: &'static str,
+    name: &'static str,
+    key: &'static str,
+    symbol: &'static str,
+    unit: &'static str,
+    si: f64,
+    typical: f64,
+    bounds: [f64; 2],
+    starts: &'static [f64],
+    group: Group,
+    words: [&'static str; 3],
+    /// The value that a scenario has, SI.
+    given: fn(&Scenario) -> Option<f64>,
+    set: fn(&mut Trial, f64),
+}
+
+/// The list: one entry a number. Bounds are those of a scenario's keys, as far as fabrics reach.
+const NUMBERS: &[Number] = &[
+    Number {
+        table: "load_deflection",
+        name: "wall_stiffness",
+        key: "wall_stiffness_n_per_m",
+        symbol: "E t",
+        unit: "N/m",
+        si: 1.0,
+        typical: 1e5,
+        bounds: [1e3, 1e7],
+        starts: &[3e3, 1e4, 3e4, 3e5, 1e6],
+        group: Group::Body,
+        words: [
+            "The wall stretches along the body, and softens as it buckles and creases.",
+            "More deflection at every load, and a curve that bends over before collapse.",
+            "Take E t of the body's fabric from a tensile test along the body.",
+        ],
+        given: |s| s.wall.stiffness_n_per_m,
+        set: |trial, v| trial.scenario.wall.stiffness_n_per_m = Some(v),
+    },
+    Number {
+        table: "load_deflection",
+        name: "wall_shear",
+        key: "wall_shear_n_per_m",
+        symbol: "G t",
+        unit: "N/m",
+        si: 1.0,
+        typical: 1e3,
+        bounds: [10.0, 1e6],
+        starts: &[50.0, 200.0, 5e3, 3e4],
+        group: Group::Body,
+        words: [
+            "A transverse load shears the wall, and the body with it.",
+            "More deflection in proportion to the load, most in short beams.",
+            "Take G t of the body's fabric from a 45° tensile test, or load beams of two lengths.",
+        ],
+        given: |s| s.wall.shear_n_per_m,
+        set: |trial, v| trial.scenario.wall.shear_n_per_m = Some(v),
+    },
+    Number {
+        table: "load_deflection",
+        name: "bending_stiffness",
+        key: "bending_stiffness_nm2",
+        symbol: "B",
+        unit: "N·m²",
+        si: 1.0,
+        typical: 1.0,
+        bounds: [0.0, 1e3],
+        starts: &[0.1, 10.0, 100.0],
+        group: Group::Body,
+        words: [
+            "Something elastic beside the pressure holds the body: folds, glue, a liner.",
+            "Less deflection, most beyond the collapse load of the pressure.",
+            "Load the body at two pressures: what does not grow with pressure is B.",
+        ],
+        given: |s| (s.bending_stiffness > 0.0).then_some(s.bending_stiffness),
+        set: |trial, v| trial.scenario.bending_stiffness = v,
+    },
+    Number {
+        table: "force_contraction",
+        name: "bias_angle",
+        key: "bias_deg",
+        symbol: "α₀",
+        unit: "deg",
+        si: std::f64::consts::PI / 180.0,
+        typical: 27.0,
+        bounds: [15.0, 53.0],
+        starts: &[20.0, 35.0, 45.0],
+        group: Group::Actuator,
+        words: [
+            "The yarns lie at another angle to the axis than the table or the scenario says.",
+            "Force and stroke are both off: a smaller angle pulls harder and shortens more.",
+            "Measure the angle on the muscle without pressure, on a photograph.",
+        ],
+        given: |s| Some(s.actuator.shape.bias_rad).filter(|bias| bias.is_finite()),
+        set: |trial, v| trial.bias_rad = Some(v),
+    },
+];
+
+impl Law {
+    /// Where fits start: as of markers, and at the bounds: where a beam has folded no slope leads back.
+    pub fn starts(&self) -> Vec<Vec<f64>> {
+        let mut starts = self.candidate.starts();
+        let k = lead(&self.candidate);
+        for bound in [self.candidate.parameters[k].lower, self.candidate.parameters[k].upper] {
+            let mut start = self.candidate.at(1.0);
+            start[k] = bound;
+            starts.push(start);
+        }
+        starts
+    }
+
+    /// The trial with this law at these values, SI.
+    pub fn apply(&self, trial: &mut Trial, values: &[f64]) {
+        match self.number {
+            Some(number) => (number.set)(trial, values[0]),
+            None => trial.scenario = self.candidate.apply(&trial.scenario, values),
+        }
+    }
+}
+
+/// Every law that may act on a table, and which of them are fitted along: what no model can do without and nobody told, and with
+/// `refit` what the scenario has.
+pub fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Law>, Vec<usize>) {
+    let beam = bench.kind.name == "load_deflection";
+    let has = |name: &str| scenario.effects.iter().any(|e| e.name == name);
+    // The machine's own load is no unknown; what a camera does to markers no dial gauge sees.
+    let may = |e: &Effect| {
+        e.name != "tip_load"
+            && e.stage != Stage::Camera
+            && scenario.actuator.takes(e)
+            && (beam || e.needs_actuator())
+            && (refit || !has(e.name))
+    };
+    let catalogue = scenario.catalogue();
+    let mut effects: Vec<Candidate> =
+        catalogue.effects().filter(may).map(|e| candidate(&e, scenario.actuator.kind.name)).collect();
+    let first = bench.rows[0].get("p_body");
+    let body_pressures = bench.rows.iter().any(|row| row.get("p_body") != first);
+    // A testing machine is the test of its own that a design number waits for.
+    effects.iter_mut().flat_map(|c| &mut c.parameters).filter(|p| p.fitted == Fitted::FromDesign).for_each(|p| {
+        p.fitted = Fitted::Always;
+    });
+    hold(&mut effects, &Held { gauge: false, kept_bending: true, body_pressures, measured: &[] });
+    for chosen in &scenario.effects {
+        effects.iter_mut().filter(|c| c.name == chosen.name).for_each(|c| c.as_given(&chosen.values));
+    }
+    effects.retain(|candidate| candidate.count() > 0);
+    let mut laws: Vec<Law> = effects.into_iter().map(|candidate| Law { candidate, number: None }).collect();
+    let mut always: Vec<usize> = (0..laws.len()).filter(|i| has(&laws[*i].candidate.name)).collect();
+    for number in NUMBERS.iter().filter(|n| n.table == bench.kind.name) {
+        let given = (number.given)(scenario);
+        let angle_untold =
+            number.key == "bias_deg" && given.is_none() && bench.rows.iter().any(|r| r.get("bias").is_none());
+        if angle_untold || refit && given.is_some() {
+            always.push(laws.len());
+        }
+        laws.push(Law { candidate: number.candidate(given), number: Some(number) });
+    }
+    (laws, always)
+}
+
+impl Number {
+    fn candidate(&self, given: Option<f64>) -> Candidate {
+        let starts = self.starts.iter().map(|v| v * self.si).chain(given);
+        let free = Free {
+            key: self.key.into(),
+            symbol: self.symbol.into(),
+            unit: self.unit.into(),
+            si: self.si,
+            neutral: 0.0,
+            typical: self.typical * self.si,
+            lower: self.bounds[0] * self.si,
+            upper: self.bounds[1] * self.si,
+            starts: starts.collect(),
+            fitted: Fitted::Always,
+            in_room: false,
+            is_held: false,
+        };
+        Candidate {
+            name: self.name.into(),
+            group: self.group,
+            stage: Stage::Balance,
+            sentence: self.words[0].into(),
+            differs: self.words[1].into(),
+            remedy: self.words[2].into(),
+            parameters: vec![free],
+        }
+    }
+}

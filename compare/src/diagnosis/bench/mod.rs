@@ -1,0 +1,325 @@
+//! Which effect is missing in the model of a bench test: a beam under a load, a muscle in a testing machine.
+//!
+//! ```text
+//! table, scenario ─► residuals in standard errors ─► every law that acts, alone ─► one p ─► set ─► verdict
+//!   (table)             (table)                         (laws)                               └─► left-out curves, places (story)
+//! ```
+//!
+//! The statistics are those of a diagnosis of markers: gains of the whitened sum of squares against the base, one p corrected for
+//! all laws tried, a set of what the data cannot tell apart ([`super::order`]), intervals with what the law misses by
+//! ([`crate::interval`]). The unit of what was left out is a pressure or a specimen; with one of each, a fifth of the loads.
+
+mod laws;
+mod scatter;
+mod story;
+mod table;
+#[cfg(test)]
+mod tests;
+
+use super::decide::{LEFT_OVER, SHARE_OF_EFFECTS, combined};
+use super::order;
+use super::result::{Group, ParameterValue, Verdict};
+use crate::CompareError;
+use crate::bench::refuse;
+use crate::stats::{chi2_tail, reported_p};
+use data::Bench;
+use models::Scenario;
+use serde::Serialize;
+use table::{Fit, Table, groups};
+
+/// Settings of [`diagnose_bench`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BenchOptions {
+    /// Level of the one corrected p-value.
+    pub alpha: f64,
+    /// Standard deviation of a row that states none, as a share of the measured value.
+    pub sigma: Option<f64>,
+    /// Fit what the scenario has along with every law.
+    pub refit: bool,
+}
+
+impl Default for BenchOptions {
+    fn default() -> Self {
+        BenchOptions { alpha: super::Options::default().alpha, sigma: None, refit: false }
+    }
+}
+
+/// Errors of a model at what its fit had not seen.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LeftOut {
+    /// `pressure`, `specimen` or `load`.
+    pub what: &'static str,
+    /// Typical factor by which it is off, less one, all parts together.
+    pub off: f64,
+    /// Parts in which no other law of the table was better in the fit.
+    pub first_in: usize,
+    /// Parts.
+    pub parts: usize,
+}
+
+/// One law fitted alone.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BenchRanked {
+    /// Name of the effect, or of the number of the scenario.
+    pub effect: String,
+    /// What it belongs to.
+    pub group: Group,
+    /// One plain sentence.
+    pub sentence: String,
+    /// What measurements show where it is missing.
+    pub differs: String,
+    /// What to measure.
+    pub remedy: String,
+    /// Its parameters.
+    pub parameters: Vec<ParameterValue>,
+    /// A value sits on its physical bound and the data push beyond: rejected.
+    pub at_bound: bool,
+    /// Typical factor by which the model is off with it, less one.
+    pub off: f64,
+    /// Fall of the whitened sum of squares against the base.
+    pub gain: f64,
+    /// p of the gain, corrected for all laws tried; `None` without standard deviations.
+    pub p_corrected: Option<f64>,
+    /// At what was left out of the fit.
+    pub left_out: Vec<LeftOut>,
+    /// Cannot be told from the best.
+    pub in_set: bool,
+}
+
+/// Everything a diagnosis of a table found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BenchDiagnosis {
+    /// Table.
+    pub table: String,
+    /// Its kind.
+    pub kind: &'static str,
+    /// Model that it was held against.
+    pub scenario: String,
+    /// Rows.
+    pub rows: usize,
+    /// Whether all rows have a standard deviation.
+    pub noise_known: bool,
+    /// Verdict; `None` without standard deviations.
+    pub verdict: Option<Verdict>,
+    /// One p of "nothing is missing", corrected for everything that was tried.
+    pub p_value: Option<f64>,
+    /// Level at which it is judged.
+    pub alpha: f64,
+    /// Typical factor by which the base is off, less one: the rms of logarithms.
+    pub off: f64,
+    /// Rms standard deviation of the means, as a share.
+    pub noise: Option<f64>,
+    /// Mean square of the base's residuals in standard errors.
+    pub reduced_chi2: Option<f64>,
+    /// What was fitted to make the base.
+    pub base: Vec<ParameterValue>,
+    /// The base at what was left out.
+    pub left_out: Vec<LeftOut>,
+    /// Laws, best first.
+    pub ranked: Vec<BenchRanked>,
+    /// Whether the best of them leaves noise, or less than a fifth of the error.
+    pub explains: bool,
+    /// Effects that would act, by a size that neither table nor scenario tells.
+    pub unsized_laws: Vec<String>,
+    /// The answer in sentences.
+    pub summary: Vec<String>,
+    /// Where the model as it is fails.
+    pub where_it_fails: Vec<String>,
+    /// Where it fails with the best law.
+    pub leftover: Vec<String>,
+}
+
+impl BenchDiagnosis {
+    /// Laws that cannot be told from the best, best first.
+    pub fn set(&self) -> impl Iterator<Item = &BenchRanked> {
+        self.ranked.iter().filter(|r| r.in_set)
+    }
+}
+
+/// Diagnoses a table of bench tests.
+///
+/// # Errors
+/// A kind without a model, a scenario or a size that is missing, a row that the model cannot have.
+pub fn diagnose_bench(
+    bench: &Bench,
+    scenario: Option<&Scenario>,
+    options: &BenchOptions,
+) -> Result<BenchDiagnosis, CompareError> {
+    let mut table = Table::new(bench, scenario, options.sigma, options.refit)?;
+    let Some(base) = table.fit(None, None) else {
+        return refuse(
+            bench,
+            "the model has no answer to a row of it",
+            "look for a contraction beyond the muscle's range",
+        );
+    };
+    let mut fits: Vec<Fit> = table.tried_laws().filter_map(|law| table.fit(Some(law), Some(&base))).collect();
+    fits.push(base);
+    table.take_for_noise(&mut fits);
+    let Some(base) = fits.pop() else { return refuse(bench, "nothing was fitted", "add rows") };
+    let allowance = sort(&table, &base, &mut fits);
+    let set = set(&table, &base, &fits, allowance);
+    let judged = judge(&table, &base, set.first().map(|i| &fits[*i]), options.alpha);
+    let left_out = left_out(&table, &base, &fits);
+    let ranked: Vec<BenchRanked> = fits
+        .iter()
+        .enumerate()
+        .map(|(i, fit)| BenchRanked {
+            left_out: left_out.iter().map(|parts| parts[i + 1].clone()).collect(),
+            in_set: set.contains(&i),
+            ..ranked(&table, &base, fit)
+        })
+        .collect();
+    let best = set.first().map(|i| &fits[*i]);
+    let places = |fit: &Fit| off(&table, fit).map(|off| story::places(&table, &off)).unwrap_or_default();
+    let shares: Vec<f64> = table.readings.iter().filter_map(|r| r.noise()).collect();
+    let spare = table.readings.len().saturating_sub(table.count(None)).max(1) as f64;
+    let mut found = BenchDiagnosis {
+        table: bench.file.clone(),
+        kind: bench.kind.name,
+        scenario: table.name().to_string(),
+        rows: table.readings.len(),
+        noise_known: table.known,
+        verdict: judged.verdict,
+        p_value: judged.p_value,
+        alpha: options.alpha,
+        off: rms_off(&table, &base),
+        noise: table.known.then(|| rms(&shares).exp_m1()),
+        reduced_chi2: table.known.then(|| base.minimum.cost / spare),
+        base: table.values(&base),
+        left_out: left_out.iter().map(|parts| parts[0].clone()).collect(),
+        ranked,
+        explains: judged.explains,
+        unsized_laws: table.unsized_laws.clone(),
+        summary: Vec::new(),
+        where_it_fails: places(&base),
+        leftover: best.map(places).unwrap_or_default(),
+    };
+    found.summary = story::story(&found);
+    Ok(found)
+}
+
+/// Verdict and what it rests on.
+struct Judged {
+    verdict: Option<Verdict>,
+    p_value: Option<f64>,
+    explains: bool,
+}
+
+fn judge(table: &Table, base: &Fit, best: Option<&Fit>, alpha: f64) -> Judged {
+    let lack = |fit: &Fit| chi2_tail(fit.minimum.cost, table.readings.len().saturating_sub(table.count(fit.law)));
+    let left =
+        best.map_or(1.0, |fit| rms_off(table, fit).ln_1p() / rms_off(table, base).ln_1p().max(f64::MIN_POSITIVE));
+    let little = left <= LEFT_OVER[0].0;
+    if !table.known {
+        return Judged { verdict: None, p_value: None, explains: little };
+    }
+    let p_effect = best.map_or(1.0, |fit| p_of(table, base, fit));
+    let p = combined(p_effect, lack(base));
+    let explains = best.is_some_and(|fit| little || lack(fit) >= (1.0 - SHARE_OF_EFFECTS) * alpha);
+    let verdict = match () {
+        () if p >= alpha => Verdict::None,
+        () if explains && p_effect < SHARE_OF_EFFECTS * alpha => Verdict::Effect,
+        () => Verdict::OutOfCatalog,
+    };
+    Judged { verdict: Some(verdict), p_value: Some(reported_p(p)), explains: explains && verdict == Verdict::Effect }
+}
+
+/// p of a gain, corrected for all laws tried.
+fn p_of(table: &Table, base: &Fit, fit: &Fit) -> f64 {
+    let added = table.count(fit.law) - table.count(None);
+    let tests = table.tried_laws().count() as f64;
+    (tests * chi2_tail(base.minimum.cost - fit.minimum.cost, added)).min(1.0)
+}
+
+/// Sorts fits, and returns the allowance for the form of laws.
+fn sort(table: &Table, base: &Fit, fits: &mut [Fit]) -> f64 {
+    let gains = fits.iter().filter(|f| !f.binding.contains(&true)).map(|f| base.minimum.cost - f.minimum.cost);
+    let allowance = order::allowance(gains.fold(0.0, f64::max));
+    fits.sort_by(|a, b| criterion(table, a, allowance).total_cmp(&criterion(table, b, allowance)));
+    allowance
+}
+
+/// Typical sizes of the catalogue are those of robots: on a bench they count for nothing.
+fn criterion(table: &Table, fit: &Fit, allowance: f64) -> f64 {
+    let added = table.count(fit.law) - table.count(None);
+    order::criterion_from(table.readings.len(), fit.minimum.cost, added, allowance)
+}
+
+/// Fits that cannot be told from the best one that no bound rejects; none where none of them gains.
+fn set(table: &Table, base: &Fit, fits: &[Fit], allowance: f64) -> Vec<usize> {
+    let acceptable = |i: &usize| !fits[*i].binding.contains(&true) && base.minimum.cost - fits[*i].minimum.cost > 1.0;
+    let c = |i: usize| criterion(table, &fits[i], allowance);
+    let Some(best) = (0..fits.len()).find(acceptable) else { return Vec::new() };
+    (0..fits.len()).filter(acceptable).filter(|i| c(*i) - c(best) < order::SAME).collect()
+}
+
+fn ranked(table: &Table, base: &Fit, fit: &Fit) -> BenchRanked {
+    let candidate = &table.laws[fit.law.unwrap_or_default()].candidate;
+    let values = table.values(fit);
+    let parameters = values[values.len() - candidate.parameters.len()..].to_vec();
+    BenchRanked {
+        effect: candidate.name.clone(),
+        group: candidate.group,
+        sentence: candidate.sentence.clone(),
+        differs: candidate.differs.clone(),
+        remedy: candidate.remedy.clone(),
+        at_bound: fit.binding.contains(&true),
+        parameters,
+        off: rms_off(table, fit),
+        gain: base.minimum.cost - fit.minimum.cost,
+        p_corrected: table.known.then(|| reported_p(p_of(table, base, fit))),
+        left_out: Vec::new(),
+        in_set: false,
+    }
+}
+
+fn off(table: &Table, fit: &Fit) -> Option<Vec<f64>> {
+    table.off(fit.law, &fit.minimum.at)
+}
+
+fn rms_off(table: &Table, fit: &Fit) -> f64 {
+    off(table, fit).map_or(f64::INFINITY, |off| rms(&off).exp_m1())
+}
+
+fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}
+
+/// Parts into which the loads of a single curve are divided.
+const LOAD_PARTS: usize = 5;
+
+/// Of every way to leave something out the base's errors and those of all fits.
+fn left_out(table: &Table, base: &Fit, fits: &[Fit]) -> Vec<Vec<LeftOut>> {
+    let readings = || table.readings.iter();
+    let pressures = groups(readings().map(|r| r.pressure_pa.to_bits()));
+    let mut ways = vec![("pressure", pressures), ("specimen", groups(readings().map(|r| r.specimen.clone())))];
+    ways.retain(|(_, parts)| parts.len() > 1);
+    if ways.is_empty() {
+        let mut order: Vec<usize> = (0..table.readings.len()).collect();
+        order.sort_by(|a, b| table.readings[*a].drive.total_cmp(&table.readings[*b].drive));
+        let size = order.len().div_ceil(LOAD_PARTS).max(1);
+        ways.push(("load", order.chunks(size).map(<[usize]>::to_vec).collect()));
+    }
+    ways.iter().map(|(what, parts)| left_out_by(table, base, fits, what, parts)).collect()
+}
+
+fn left_out_by(table: &Table, base: &Fit, fits: &[Fit], what: &'static str, parts: &[Vec<usize>]) -> Vec<LeftOut> {
+    let all: Vec<&Fit> = std::iter::once(base).chain(fits).collect();
+    let (mut squares, mut first_in) = (vec![0.0; all.len()], vec![0; all.len()]);
+    for part in parts {
+        let kept: Vec<usize> = (0..table.readings.len()).filter(|i| !part.contains(i)).collect();
+        let mut costs = vec![f64::INFINITY; all.len()];
+        for (i, fit) in all.iter().enumerate() {
+            let refitted = table.refit(fit.law, &fit.minimum.at, &kept);
+            let off = refitted.as_ref().and_then(|m| table.off(fit.law, &m.at));
+            squares[i] += off.map_or(f64::INFINITY, |off| part.iter().map(|k| off[*k].powi(2)).sum());
+            costs[i] = refitted.filter(|_| !fit.binding.contains(&true)).map_or(f64::INFINITY, |m| m.cost);
+        }
+        let best = (0..all.len()).min_by(|a, b| costs[*a].total_cmp(&costs[*b])).unwrap_or_default();
+        first_in[best] += 1;
+    }
+    let rows = table.readings.len() as f64;
+    let of = |(s, n): (f64, usize)| LeftOut { what, off: (s / rows).sqrt().exp_m1(), first_in: n, parts: parts.len() };
+    squares.into_iter().zip(first_in).map(of).collect()
+}

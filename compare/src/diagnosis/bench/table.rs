@@ -1,0 +1,418 @@
+//! A table of bench tests as a least-squares problem.
+//!
+//! ```text
+//! r = z((f − y)/(s/√n); n − 1)   with a standard deviation s of n tests        r = d/σ   without        d = asinh f/e − asinh y/e
+//! ```
+//!
+//! f model, y measured, z the normal score of Student's t ([`normal_score`]), e a twentieth of the largest y of its kind. d is ln(f/y)
+//! where both are well above e, and a share of e below: half and double are as far off. Without standard deviations σ is what
+//! the best explanation leaves: differences are then ordered, and no p-value is formed.
+
+use super::laws::{Law, Trial, laws};
+use super::scatter::steadied;
+use crate::CompareError;
+use crate::bench::{ANY_WIDTH_M, is_free, measured, modelled, own_or_braid, place, refuse, specimen};
+use crate::diagnosis::basis::Basis;
+use crate::diagnosis::least_squares::{Minimum, Range, minimise, square};
+use crate::diagnosis::problem::is_binding;
+use crate::diagnosis::result::ParameterValue;
+use crate::interval::{Half, interval, misfit};
+use crate::stats::{normal_score, t_975};
+use data::Bench;
+use data::bench::Row;
+use models::Scenario;
+
+/// Share of the largest value below which errors are no longer ratios.
+const LEAST_SHARE: f64 = 0.05;
+/// Error that a table without standard deviations has at least, as a share.
+const LEAST_SIGMA: f64 = 1e-3;
+/// A change of a prediction by less than this share is none.
+const CHANGES: f64 = 1e-7;
+/// A round of a fit that lowers the sum of squares by less is the last one.
+const ENOUGH: f64 = 1e-3;
+/// Starts that are followed, the best of all.
+const STARTS: usize = 3;
+
+/// One row.
+pub struct Reading<'a> {
+    pub row: &'a Row,
+    /// As measured, SI.
+    pub measured: f64,
+    /// e.
+    small: f64,
+    /// Standard error of the mean and its degrees of freedom; of d where these are infinite.
+    error: Option<[f64; 2]>,
+    /// Actuator's or body's \[Pa\].
+    pub pressure_pa: f64,
+    /// Size and number of the specimen.
+    pub specimen: String,
+    /// Load over collapse load, or contraction.
+    pub drive: f64,
+    /// In words.
+    pub at: String,
+}
+
+/// A table and everything that may be tried on it.
+pub struct Table<'a> {
+    pub readings: Vec<Reading<'a>>,
+    pub laws: Vec<Law>,
+    /// Fitted along with every law.
+    pub always: Vec<usize>,
+    trial: Trial,
+    /// Laws that act by a size which nobody told.
+    pub unsized_laws: Vec<String>,
+    /// Whether every row has a standard error.
+    pub known: bool,
+    /// Relative error of a row where not.
+    sigma: f64,
+}
+
+/// The base, or the base with one law.
+#[derive(Clone)]
+pub struct Fit {
+    pub law: Option<usize>,
+    pub minimum: Minimum,
+    pub binding: Vec<bool>,
+}
+
+impl<'a> Table<'a> {
+    /// Reads a table; `sigma` is the relative standard deviation of rows that state none.
+    pub fn new(
+        bench: &'a Bench,
+        scenario: Option<&Scenario>,
+        sigma: Option<f64>,
+        refit: bool,
+    ) -> Result<Table<'a>, CompareError> {
+        if bench.kind.columns.iter().all(|c| c.base != "load" && c.base != "contraction") {
+            return refuse(bench, "no model is held against it", "ibr characterize reads it");
+        }
+        let scenario = own_or_braid(bench, scenario)?;
+        let scenario = Scenario { segments: scenario.segments.min(SEGMENTS), ..scenario };
+        let (laws, always) = laws(bench, &scenario, refit);
+        let trial = Trial { scenario, bias_rad: None };
+        let largest = |free: bool| {
+            bench
+                .rows
+                .iter()
+                .filter(|r| is_free(r) == free)
+                .map(|r| measured(r).abs())
+                .fold(f64::MIN_POSITIVE, f64::max)
+        };
+        let mut readings = Vec::new();
+        for row in &bench.rows {
+            readings.push(Reading::new(row, &trial.scenario, LEAST_SHARE * largest(is_free(row)), sigma));
+        }
+        for free in [false, true] {
+            steady(readings.iter_mut().filter(|r| is_free(r.row) == free));
+        }
+        let known = readings.iter().all(|r| r.error.is_some());
+        let mut table = Table { readings, laws, always, trial, unsized_laws: Vec::new(), known, sigma: 0.01 };
+        table.check(bench)?;
+        let base = table.starts().into_iter().next().unwrap_or_default();
+        let before = table.predicted(None, &base);
+        let mut acting: Vec<usize> = (0..table.laws.len()).collect();
+        acting.retain(|i| table.always.contains(i) || table.acts(*i, &base, before.as_deref()));
+        if table.trial.scenario.actuator.shape.width_m.is_nan() {
+            let hangs = |i: &usize| !table.always.contains(i) && table.hangs_on_size(*i, &base);
+            let (untold, told): (Vec<usize>, Vec<usize>) = acting.iter().partition(|i| hangs(i));
+            table.unsized_laws = untold.iter().map(|i| table.laws[*i].candidate.name.clone()).collect();
+            acting = told;
+        }
+        table.always = table.always.iter().filter_map(|i| acting.iter().position(|j| j == i)).collect();
+        let mut i = 0..;
+        table.laws.retain(|_| i.next().is_some_and(|i| acting.contains(&i)));
+        Ok(table)
+    }
+
+    /// Every row has a specimen, the base's own number in it where nobody told it.
+    fn check(&self, bench: &Bench) -> Result<(), CompareError> {
+        let theta: Vec<f64> = self.always.iter().flat_map(|i| self.laws[*i].candidate.at(1.0)).collect();
+        let trial = self.tried(None, &theta);
+        for r in &self.readings {
+            if let Err([problem, help]) = specimen(r.row, &trial.scenario, trial.bias_rad) {
+                let help = help.replace(", or add --calibrate", "");
+                return refuse(bench, &format!("line {}: {problem}", r.row.line), &help);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a law changes a prediction at any of the values from which it is fitted.
+    fn acts(&self, law: usize, base: &[f64], before: Option<&[f64]>) -> bool {
+        let Some(before) = before else { return true };
+        self.laws[law].starts().iter().any(|values| {
+            let after = self.predicted(Some(law), &[base, values].concat());
+            let changed = |after: Vec<f64>| {
+                let mut rows = after.iter().zip(before).zip(&self.readings);
+                rows.any(|((a, b), r)| (a - b).abs() > CHANGES * r.small)
+            };
+            after.is_some_and(changed)
+        })
+    }
+
+    /// Whether another width of the muscle makes another prediction with a law, where no table and no scenario tells it.
+    fn hangs_on_size(&self, law: usize, base: &[f64]) -> bool {
+        let theta = [base, &self.laws[law].candidate.at(1.0)].concat();
+        let [thin, thick] = [0.5, 2.0].map(|factor| {
+            let mut trial = self.tried(Some(law), &theta);
+            trial.scenario.actuator.shape.width_m = factor * ANY_WIDTH_M;
+            self.predicted_by(&trial)
+        });
+        let differ = |(a, b): (Vec<f64>, Vec<f64>)| a.iter().zip(&b).any(|(a, b)| (a - b).abs() > CHANGES);
+        thin.zip(thick).is_none_or(differ)
+    }
+
+    /// Name of the model.
+    pub fn name(&self) -> &str {
+        &self.trial.scenario.name
+    }
+
+    /// Laws that are tried, and not fitted along anyhow.
+    pub fn tried_laws(&self) -> impl Iterator<Item = usize> {
+        (0..self.laws.len()).filter(|i| !self.always.contains(i))
+    }
+
+    fn of(&self, law: Option<usize>) -> impl Iterator<Item = &Law> {
+        self.always.iter().copied().chain(law).map(|i| &self.laws[i])
+    }
+
+    fn tried(&self, law: Option<usize>, theta: &[f64]) -> Trial {
+        let (mut trial, mut rest) = (self.trial.clone(), theta);
+        for law in self.of(law) {
+            let (own, after) = rest.split_at(law.candidate.parameters.len());
+            law.apply(&mut trial, own);
+            rest = after;
+        }
+        trial
+    }
+
+    /// What the model says of every row, SI; `None` where it has no answer to one.
+    pub fn predicted(&self, law: Option<usize>, theta: &[f64]) -> Option<Vec<f64>> {
+        self.predicted_by(&self.tried(law, theta))
+    }
+
+    fn predicted_by(&self, trial: &Trial) -> Option<Vec<f64>> {
+        let of = |r: &Reading| {
+            let specimen = specimen(r.row, &trial.scenario, trial.bias_rad).ok()?;
+            // A beam that has folded hangs from its clamp.
+            modelled(r.row, &specimen).or(r.row.get("load").map(|_| specimen.length_m)).filter(|v| v.is_finite())
+        };
+        self.readings.iter().map(of).collect()
+    }
+
+    /// Errors d of every row.
+    pub fn off(&self, law: Option<usize>, theta: &[f64]) -> Option<Vec<f64>> {
+        Some(self.predicted(law, theta)?.into_iter().zip(&self.readings).map(|(f, r)| r.off(f)).collect())
+    }
+
+    fn residuals(&self, law: Option<usize>, theta: &[f64], rows: &[usize]) -> Option<Vec<f64>> {
+        let f = self.predicted(law, theta)?;
+        let of = |i: &usize| {
+            let (r, f) = (&self.readings[*i], f[*i]);
+            match r.error.filter(|_| self.known) {
+                Some([error, dof]) if dof.is_finite() => normal_score((f - r.measured) / error, dof),
+                Some([sigma, _]) => r.off(f) / sigma,
+                None => r.off(f) / self.sigma,
+            }
+        };
+        Some(rows.iter().map(of).collect())
+    }
+
+    fn ranges(&self, law: Option<usize>) -> Vec<Range> {
+        let range = |p: &crate::diagnosis::candidates::Free| match p.is_free() {
+            true => Range { lower: p.lower, upper: p.upper, scale: p.scale() },
+            false => Range { lower: p.neutral, upper: p.neutral, scale: p.scale() },
+        };
+        self.of(law).flat_map(|l| l.candidate.parameters.iter().map(range)).collect()
+    }
+
+    fn starts(&self) -> Vec<Vec<f64>> {
+        self.of(None).fold(vec![Vec::new()], |before, law| {
+            let own = law.starts();
+            before.iter().flat_map(|b| own.iter().map(|o| [b.as_slice(), o].concat())).collect()
+        })
+    }
+
+    /// The best fit from several starts; from the base's own values where there is a base.
+    pub fn fit(&self, law: Option<usize>, base: Option<&Fit>) -> Option<Fit> {
+        let mut starts = match (base, law) {
+            (Some(base), Some(i)) => {
+                self.laws[i].starts().into_iter().map(|own| [base.minimum.at.as_slice(), &own].concat()).collect()
+            }
+            _ => self.starts(),
+        };
+        let all: Vec<usize> = (0..self.readings.len()).collect();
+        let cost = |theta: &Vec<f64>| self.residuals(law, theta, &all).map_or(f64::INFINITY, |r| square(&r));
+        starts.sort_by_cached_key(|theta| cost(theta).to_bits());
+        let fits = starts.iter().take(STARTS).filter_map(|start| self.refit(law, start, &all));
+        let minimum = fits.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+        Some(self.finished(law, minimum))
+    }
+
+    fn finished(&self, law: Option<usize>, minimum: Minimum) -> Fit {
+        let ranges = self.ranges(law);
+        let neutral: Vec<f64> = self.of(law).flat_map(|l| l.candidate.parameters.iter().map(|p| p.neutral)).collect();
+        let binding = |k: usize| ranges[k].lower < ranges[k].upper && is_binding(&minimum, k, &ranges[k], neutral[k]);
+        Fit { law, binding: (0..ranges.len()).map(binding).collect(), minimum }
+    }
+
+    /// A fit to some rows.
+    pub fn refit(&self, law: Option<usize>, start: &[f64], rows: &[usize]) -> Option<Minimum> {
+        minimise(start, &self.ranges(law), ENOUGH, &mut |theta| self.residuals(law, theta, rows))
+    }
+
+    /// Without standard deviations what the best fit leaves is taken for noise.
+    pub fn take_for_noise(&mut self, fits: &mut [Fit]) {
+        let spare = |f: &Fit| self.readings.len().saturating_sub(self.count(f.law)).max(1) as f64;
+        let variances = fits.iter().filter(|f| !f.binding.contains(&true)).map(|f| f.minimum.cost / spare(f));
+        let Some(least) = variances.reduce(f64::min).filter(|_| !self.known) else { return };
+        let factor = least.sqrt().max(LEAST_SIGMA / self.sigma);
+        self.sigma *= factor;
+        for fit in fits {
+            fit.minimum.cost /= factor * factor;
+            let columns = fit.minimum.jacobian.iter_mut().chain([&mut fit.minimum.residual]);
+            columns.flatten().for_each(|v| *v /= factor);
+        }
+    }
+
+    /// Parameters that a fit has free.
+    pub fn count(&self, law: Option<usize>) -> usize {
+        self.of(law).map(|l| l.candidate.count()).sum()
+    }
+
+    /// Parameters of a fit, the base's first, with 95 % intervals.
+    pub fn values(&self, fit: &Fit) -> Vec<ParameterValue> {
+        let free = self.of(fit.law).flat_map(|l| &l.candidate.parameters);
+        let of = |(k, p): (usize, &crate::diagnosis::candidates::Free)| {
+            let interval = if p.is_free() { self.interval(fit, k) } else { None };
+            ParameterValue {
+                key: p.key.clone(),
+                symbol: p.symbol.clone(),
+                unit: p.unit.clone(),
+                value: fit.minimum.at[k] / p.si,
+                held: !p.is_free(),
+                lo: interval.map(|i| i[0] / p.si),
+                hi: interval.map(|i| i[1] / p.si),
+                at_bound: fit.binding[k],
+            }
+        };
+        free.enumerate().map(of).collect()
+    }
+
+    /// Noise and, where the law misses by more or the noise is not known, what it misses by, with curves as the unit.
+    fn interval(&self, fit: &Fit, k: usize) -> Option<[f64; 2]> {
+        let Minimum { at, residual, cost, jacobian } = &fit.minimum;
+        let others: Vec<Vec<f64>> = (0..at.len()).filter(|j| *j != k).map(|j| jacobian[j].clone()).collect();
+        let own = Basis::of(&others).rest(&jacobian[k]);
+        let squares = square(&own);
+        if squares <= 1e-9 * square(&jacobian[k]) || squares == 0.0 {
+            return None;
+        }
+        let missed = cost / residual.len() as f64;
+        let misses = !self.known || missed > MISSES;
+        let weights: Vec<f64> = own.iter().map(|v| v / squares).collect();
+        let curves: Vec<[f64; 2]> = self
+            .curves()
+            .iter()
+            .map(|rows| {
+                rows.iter().fold([0.0; 2], |s, i| [s[0] + weights[*i].powi(2), s[1] + weights[*i] * residual[*i]])
+            })
+            .collect();
+        let each = if self.known { (missed - 1.0).max(0.0) * square(&weights) } else { 0.0 };
+        let (more, dof) = misfit(&curves, (each, weights.len()), self.count(fit.law));
+        let (more, dof) = if misses { (more, dof) } else { (0.0, f64::INFINITY) };
+        let noise = self.widening() / squares;
+        let total = noise + more;
+        let spare = weights.len().saturating_sub(self.count(fit.law)).max(1) as f64;
+        let of_noise = if self.known { 0.0 } else { noise * noise / spare };
+        let dof = total * total / (more * more / dof + of_noise);
+        let half = Half { width: t_975(if dof < 1e4 { dof.max(1.0) as usize } else { 0 }) * total.sqrt(), misses };
+        let ranges = self.ranges(fit.law);
+        let all: Vec<usize> = (0..self.readings.len()).collect();
+        let (mut theta, mut held) = (at.clone(), self.ranges(fit.law));
+        let mut rise = |x: f64| {
+            (held[k].lower, held[k].upper, theta[k]) = (x, x, x);
+            let mut residuals = |at: &[f64]| self.residuals(fit.law, at, &all);
+            minimise(&theta, &held, 1e-2, &mut residuals).map_or(f64::INFINITY, |found| found.cost - cost)
+        };
+        Some(interval((at[k], half, squares), [ranges[k].lower, ranges[k].upper], Some(&mut rise)))
+    }
+
+    /// How much more a fit scatters than its slopes say, because it leans on rows that showed a small deviation by chance:
+    /// ν(ν + 1)/(ν − 1)², from the moments of x/(νs² + x²).
+    fn widening(&self) -> f64 {
+        let of = |r: &Reading| match r.error.filter(|[_, dof]| self.known && dof.is_finite()) {
+            Some([_, dof]) => dof * (dof + 1.0) / (dof - 1.0).max(0.5).powi(2),
+            None => 1.0,
+        };
+        self.readings.iter().map(of).sum::<f64>() / self.readings.len() as f64
+    }
+
+    /// Rows of one specimen at one pressure.
+    fn curves(&self) -> Vec<Vec<usize>> {
+        groups(self.readings.iter().map(|r| (r.specimen.clone(), r.pressure_pa.to_bits())))
+    }
+}
+
+/// Segments of a beam, at most: its deflection is then within a thousandth.
+const SEGMENTS: usize = 60;
+
+/// Standard errors of rows of one kind, each steadied by the others.
+fn steady<'r, 'a: 'r>(readings: impl Iterator<Item = &'r mut Reading<'a>>) {
+    let mut told: Vec<&mut Reading> = readings.filter(|r| r.error.is_some_and(|[_, dof]| dof.is_finite())).collect();
+    let rows: Vec<[f64; 3]> = told
+        .iter()
+        .filter_map(|r| r.error.map(|[error, dof]| [error * (dof + 1.0).sqrt(), dof, r.measured.hypot(r.small)]))
+        .collect();
+    for ((r, [sd, dof]), [_, own, _]) in told.iter_mut().zip(steadied(&rows)).zip(&rows) {
+        r.error = Some([sd / (own + 1.0).sqrt(), dof]);
+    }
+}
+
+/// Mean square of the residuals from which a misfit counts.
+const MISSES: f64 = 2.0;
+
+/// Indices of equal keys, in the order in which these come.
+pub fn groups<K: PartialEq>(keys: impl Iterator<Item = K>) -> Vec<Vec<usize>> {
+    let mut found: Vec<(K, Vec<usize>)> = Vec::new();
+    for (i, key) in keys.enumerate() {
+        match found.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, rows)) => rows.push(i),
+            None => found.push((key, vec![i])),
+        }
+    }
+    found.into_iter().map(|(_, rows)| rows).collect()
+}
+
+impl<'a> Reading<'a> {
+    fn off(&self, model: f64) -> f64 {
+        (model / self.small).asinh() - (self.measured / self.small).asinh()
+    }
+
+    /// Standard error as a ratio.
+    pub fn noise(&self) -> Option<f64> {
+        let [error, dof] = self.error?;
+        Some(if dof.is_finite() { error / self.measured.hypot(self.small) } else { error })
+    }
+
+    fn new(row: &'a Row, scenario: &Scenario, small: f64, sigma: Option<f64>) -> Reading<'a> {
+        let beam = row.get("load").is_some();
+        let sized = specimen(row, scenario, None).unwrap_or_else(|_| scenario.clone());
+        let sd = row.get(if beam { "deflection_sd" } else { "force_sd" }).filter(|_| !is_free(row));
+        let told = sd.zip(row.get("n")).map(|(sd, n)| [sd / n.sqrt(), n - 1.0]);
+        let collapse_n = std::f64::consts::PI * sized.p_body_pa * sized.radius_m.powi(3) / sized.length_m;
+        let size = |key| row.get(key).map_or(String::new(), |v| format!("{:.0} mm ", 1e3 * v));
+        let number = row.get("muscle").map_or(String::new(), |n| format!("muscle {n} "));
+        let words = if beam { size("radius") } else { format!("{number}{}{}", size("diameter"), size("length")) };
+        Reading {
+            measured: measured(row),
+            small,
+            error: told.or(sigma.map(|s| [s, f64::INFINITY])),
+            pressure_pa: row.get("p_body").or(row.get("p_act")).unwrap_or(0.0),
+            specimen: words.trim_end().to_string(),
+            drive: if beam { row.value("load") / collapse_n } else { row.value("contraction") },
+            at: place(row, &sized),
+            row,
+        }
+    }
+}
