@@ -31,9 +31,8 @@ mod validate;
 mod verify;
 mod verify_fem;
 
-use crate::cli::{Cli, Command};
+use crate::cli::Command;
 use crate::failure::Failure;
-use clap::CommandFactory;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
