@@ -22,7 +22,7 @@
 //! third of ε, is not taken off, nor is the bending of the sheets beside the weld added. Beam on a foundation: Hetényi 1946, §7; foundation derived
 //! here.
 
-use super::{Effect, Fitted, Group, PLAIN, Parameter, Stage};
+use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Pose, Term, actuator_q};
@@ -49,7 +49,7 @@ pub(super) const ENTRY: Effect = Effect {
         meaning: "bending stiffness of one side weld along the robot",
         ..PLAIN
     }],
-    family: Some(Family::Pouch),
+    needs: Needs::Family(Family::Pouch),
     add,
 };
 
