@@ -39,7 +39,7 @@ pub enum Command {
     Predict(Predict),
     /// Hold a model against measurements: how far off, and where
     Compare(Compare),
-    /// Which physical effect is missing, what the data cannot tell apart, what to measure next
+    /// Which physical effect is missing, what cannot be told apart, what to measure next
     Diagnose(Diagnose),
     /// Write a new scenario with one more effect, fitted on data or given
     Add(Add),
