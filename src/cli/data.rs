@@ -1,0 +1,137 @@
+//! Measurements: fabric tests and marker data.
+
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
+
+/// `ibr characterize`
+#[derive(Debug, Args)]
+pub struct Characterize {
+    /// CSV files of tensile tests: strain_pct,stress_mpa or displacement_mm,force_n, several specimens each
+    #[arg(required_unless_present = "example")]
+    pub files: Vec<String>,
+    /// Direction of the pull in degrees to the warp where a file does not say: 0, 45, 90, or between (a check of the law)
+    #[arg(long, allow_hyphen_values = true)]
+    pub direction: Option<f64>,
+    /// Width of the specimens where a file does not say, for example 20mm
+    #[arg(long, allow_hyphen_values = true)]
+    pub width: Option<String>,
+    /// Free length between the grips where a file does not say, for example 250mm
+    #[arg(long, allow_hyphen_values = true)]
+    pub length: Option<String>,
+    /// Thickness where a file does not say, for example 0.05mm
+    #[arg(long, allow_hyphen_values = true)]
+    pub thickness: Option<String>,
+    /// Names of the columns in place of those in the files, for example displacement_mm,force_n
+    #[arg(long, value_delimiter = ',')]
+    pub columns: Vec<String>,
+    /// Strain up to which a modulus is taken along yarns, in per cent; twice that at 45 degrees
+    #[arg(long, default_value_t = 1.0, allow_negative_numbers = true, value_name = "PERCENT")]
+    pub modulus_to: f64,
+    /// Accept moduli that no coated fabric has
+    #[arg(long)]
+    pub any_modulus: bool,
+    /// Name of the fabric in fabric.toml
+    #[arg(long, default_value = "fabric")]
+    pub name: String,
+    /// Folder for plots, tables and fabric.toml
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+    /// Instead, write made-up tests of a fabric with known truth into this folder
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["files", "out"])]
+    pub example: Option<PathBuf>,
+}
+
+/// `ibr data`
+#[derive(Debug, Subcommand)]
+pub enum DataCommand {
+    /// Read data and say what is in them
+    Check {
+        /// Marker data
+        data: String,
+    },
+    /// Embedded datasets
+    List,
+    /// Make a synthetic dataset from a scenario
+    Generate(Generate),
+    /// Make marker data from finite element runs of a robot, with the scatter of a real test
+    Fem(DataFem),
+}
+
+/// `ibr data fem`
+#[derive(Debug, Args)]
+pub struct DataFem {
+    /// Robot's scenario file or shipped robot: the truth of the data
+    pub scenario: String,
+    /// Folder for markers.csv, about.toml and truth.toml
+    #[arg(long)]
+    pub out: PathBuf,
+    /// Only the finite element runs that come with the program
+    #[arg(long)]
+    pub stored: bool,
+    /// Folder of finished runs; missing ones are made there
+    #[arg(long, default_value = "ibr-report/runs")]
+    pub runs: PathBuf,
+    /// Runs, each with other random imperfections
+    #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    pub seeds: u64,
+    /// Actuator pressures, rising
+    #[arg(long, short, default_value = "5kPa,10kPa,15kPa,20kPa,25kPa,30kPa", allow_hyphen_values = true)]
+    pub pressure: String,
+    /// Body pressure; left out: the scenario's
+    #[arg(long, allow_hyphen_values = true)]
+    pub body_pressure: Option<String>,
+    /// Seed of camera, pressure and alignment
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Noise
+    #[command(flatten)]
+    pub scatter: Scatter,
+    /// Threads of a run; 0: one per core
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
+    pub threads: u64,
+    /// Replace existing files
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Noise of made data.
+#[derive(Debug, Args)]
+pub struct Scatter {
+    /// Camera noise of one coordinate
+    #[arg(long, default_value = "1mm", allow_hyphen_values = true)]
+    pub sigma: String,
+    /// Run-to-run scatter of the actuator pressure in per cent
+    #[arg(long, default_value_t = 2.0, allow_negative_numbers = true)]
+    pub pressure_scatter: f64,
+    /// Run-to-run shift of the camera
+    #[arg(long, default_value = "0.5mm", allow_hyphen_values = true)]
+    pub alignment: String,
+}
+
+/// `ibr data generate`
+#[derive(Debug, Args)]
+pub struct Generate {
+    /// Scenario file or shipped robot: the truth of the data
+    pub scenario: String,
+    /// Folder for markers.csv, about.toml and truth.toml
+    #[arg(long)]
+    pub out: PathBuf,
+    /// Seed of the scatter
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Runs
+    #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    pub runs: u64,
+    /// Actuator pressures in kPa at a body pressure in kPa
+    #[arg(long, default_value = "0,10,20,30,0@2")]
+    pub protocol: String,
+    /// A gauge at the actuator is read along: column p_gauge_kpa
+    #[arg(long)]
+    pub gauge: bool,
+    /// Noise
+    #[command(flatten)]
+    pub scatter: Scatter,
+    /// Replace existing files
+    #[arg(long)]
+    pub force: bool,
+}
