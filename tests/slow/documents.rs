@@ -17,7 +17,11 @@ fn every_ibr_command_line_of_the_documents_runs() {
         for (line, shown) in command_lines(&text) {
             let printed = run(&folder, &document, &line);
             for part in &shown {
-                assert!(printed.contains(part.trim_end_matches('…')), "{}: {line}\n{part}\n{printed}", document.display());
+                assert!(
+                    printed.contains(part.trim_end_matches('…')),
+                    "{}: {line}\n{part}\n{printed}",
+                    document.display()
+                );
             }
             (tried, compared) = (tried + 1, compared + shown.len());
         }
