@@ -51,9 +51,9 @@ fn blocks(text: &str) -> Vec<String> {
 /// Numbers of words of the sentences of a block; code in backquotes and a link are a word each, signs are none.
 fn sentences(block: &str) -> Vec<(usize, String)> {
     let plain: String = block.split('`').enumerate().map(|(i, s)| if i % 2 == 0 { s } else { "x" }).collect();
-    let ends = plain.replace("et al.", "et al");
+    let plain = plain.replace("et al.", "et al");
     let words = |s: &str| s.split_whitespace().filter(|w| w.contains(char::is_alphanumeric)).count();
-    let parts = ends.split_inclusive(&[' '][..]).fold(vec![String::new()], |mut parts, word| {
+    let parts = plain.split_inclusive(' ').fold(vec![String::new()], |mut parts, word| {
         parts.last_mut().unwrap().push_str(word);
         if word.trim_end().trim_end_matches([')', '*', '"']).ends_with(['.', '?', '!']) {
             parts.push(String::new());
@@ -117,27 +117,19 @@ fn files_that_are_named_exist() {
     for path in documents().iter().filter(|path| !path.ends_with(WITHOUT_PROSE)) {
         let text = fs::read_to_string(path).unwrap();
         let tokens = text.split(|c: char| c.is_whitespace() || matches!(c, '`' | '(' | ')' | ';' | ','));
-        let named = tokens.filter(|t| folders.iter().any(|folder| t.starts_with(folder)) && !t.contains(['<', '*']));
-        faults.extend(
-            named
-                .filter(|t| {
-                    !(root().join(t).exists() || path.parent().unwrap().join(t.split('#').next().unwrap()).exists())
-                })
-                .map(|t| format!("{}: {t}", path.display())),
-        );
+        let named =
+            tokens.filter(|t| folders.iter().any(|folder| t.starts_with(folder)) && !t.contains(['<', '*', '#']));
+        let exists = |t: &str| [root(), path.parent().unwrap().into()].iter().any(|folder| folder.join(t).exists());
+        faults.extend(named.filter(|t| !exists(t)).map(|t| format!("{}: {t}", path.display())));
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
 /// Names of headings as links have them.
 fn anchors(text: &str) -> Vec<String> {
-    let headings = text.lines().filter(|line| line.starts_with('#'));
+    let headings = text.lines().filter(|line| line.starts_with('#')).map(|line| line.trim_start_matches('#').trim());
     let kept = |c: &char| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_');
-    headings
-        .map(|h| {
-            h.trim_start_matches('#').trim().to_lowercase().chars().filter(kept).collect::<String>().replace(' ', "-")
-        })
-        .collect()
+    headings.map(|h| h.to_lowercase().replace(' ', "-").chars().filter(kept).collect()).collect()
 }
 
 #[test]

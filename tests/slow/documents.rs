@@ -31,6 +31,23 @@ fn every_ibr_command_line_of_the_documents_runs() {
     assert!(compared >= 5, "and what they print: {compared} lines found");
 }
 
+#[test]
+fn the_table_of_robots_in_the_readme_is_what_the_command_prints() {
+    let _alone = alone();
+    let printed = Folder::new().run(&["compare", "--engines", "--stored"]).stdout;
+    let readme = std::fs::read_to_string(repository().join("README.md")).unwrap();
+    for name in ["| sPAM", "| cPAM", "| ePAM", "| fPAM"] {
+        let row = |text: &str| text.lines().find(|line| line.starts_with(name)).map(numbers).unwrap();
+        let (told, known) = (row(&readme), row(&printed));
+        assert!(told.len() >= 5 && told.iter().all(|n| known.contains(n)), "{name}: {told:?}, printed {known:?}");
+    }
+}
+
+fn numbers(line: &str) -> Vec<String> {
+    let parts = line.split(|c: char| !c.is_ascii_digit() && c != '.').filter(|part| part.contains('.'));
+    parts.map(String::from).collect()
+}
+
 fn documents() -> Vec<std::path::PathBuf> {
     let folders = [repository(), repository().join("docs")];
     let entries = folders.iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten();
