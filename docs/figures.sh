@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Remakes the pictures of docs/diagnosis.md and README.md; with --check, names those that would change and fails.
+# Remakes the pictures of docs/guide.md, docs/accuracy.md and README.md; with --check, names those that would change and fails.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 [ "${IBR:-}" ] || cargo build --release --quiet

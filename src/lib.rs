@@ -5,9 +5,9 @@
 //! | crate | what it is |
 //! |---|---|
 //! | [`models`] | reduced-order virtual-work model: a list of physical effects; microseconds; no files, no printing |
-//! | [`fem`] | explicit finite element engine (not built yet) |
-//! | [`data`] | measurements as plain structs |
-//! | [`compare`] | the only crate that knows both: accuracy, noise, where the model fails, reports |
+//! | [`fem`] | explicit finite element engine for thin fabric: meshes, shells, contact, robots, cases |
+//! | [`data`] | measurements as plain structs: marker tables, bench tests, descriptions |
+//! | [`compare`] | the only crate that knows both sides: accuracy, noise, diagnosis, extension, reports |
 //!
 //! ```
 //! use ibr::models::{Loads, Model, Scenario, Target, shipped};

@@ -16,7 +16,7 @@ pub struct Report {
     pub title: String,
     /// The answer in one paragraph.
     pub lead: String,
-    /// Program and version, e.g. `ibr 0.1.0`.
+    /// Program and version, for example `ibr 0.2.0`.
     pub generated_by: String,
     /// Date or date and time, as it should be read.
     pub generated_on: String,

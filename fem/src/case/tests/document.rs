@@ -1,4 +1,4 @@
-//! Whether the document names what a case knows.
+//! Whether the documents name what a case and the table `[fem]` know.
 
 use super::*;
 
@@ -34,5 +34,24 @@ fn every_key_every_generator_and_every_law_is_in_the_document() {
     names.extend(models::fabrics::MATERIALS.iter().map(|m| m.name.to_string()));
     for name in names.iter().filter(|n| !n.contains("_kpa")) {
         assert!(document.contains(&format!("`{name}`")) || document.contains(&format!("`\"{name}\"`")), "`{name}`");
+    }
+}
+
+#[test]
+fn every_key_of_the_table_fem_is_in_the_document() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/scenario.md");
+    let document = std::fs::read_to_string(path).unwrap();
+    let rows: Vec<_> = document.lines().filter(|line| line.starts_with("| `")).collect();
+    for key in crate::robot::KEYS {
+        let row = rows
+            .iter()
+            .find(|row| row.split(" | ").next().is_some_and(|cell| cell.contains(&format!("`{}`", key.name))));
+        let row = row.unwrap_or_else(|| panic!("docs/scenario.md has no row `{}`: {}", key.name, key.meaning));
+        let cell = row.split(" | ").nth(2).unwrap_or_default().split(',').next().unwrap_or_default();
+        let told: Vec<f64> = cell.replace(' ', "").split('–').map(|bound| bound.parse().unwrap_or(f64::NAN)).collect();
+        assert_eq!(told, key.bounds, "bounds of `{}`: {row}", key.name);
+    }
+    for key in crate::robot::OTHERS {
+        assert!(document.contains(&format!("`{key}`")), "docs/scenario.md: `{key}`");
     }
 }
