@@ -43,7 +43,7 @@ pub enum Command {
     Diagnose(Diagnose),
     /// Write a new scenario with one more effect, fitted on data or given
     Add(Add),
-    /// Diagnose and add until what is left is noise: the fall of the error, bare to extended
+    /// Diagnose and add until what is left is noise, and show the fall of the error
     Ladder(Ladder),
     /// Does an added effect help on data that it was not fitted to?
     Validate(Validate),

@@ -320,7 +320,7 @@ mod tests {
         let error = held(&bench, None, false).unwrap_err().to_string();
         assert!(error.contains("--calibrate") && error.contains("bias_deg"), "{error}");
         assert_eq!(held(&bench, None, true).unwrap().rows.iter().filter(|r| r.fitted).count(), 3);
-        let fpam = Scenario::parse(models::shipped("fpam").unwrap()).unwrap();
+        let fpam = Scenario::parse(models::shipped("fpam-textbook").unwrap()).unwrap();
         let free = held(&bench, Some(&fpam), false).unwrap().rows[0].model.unwrap();
         assert!((free - 100.0 * (1.0 - (2.0_f64 / 3.0).sqrt())).abs() < 1e-6, "{free}");
     }

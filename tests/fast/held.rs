@@ -89,8 +89,9 @@ fn an_effect_of_the_scenario_changes_what_a_muscle_pulls() {
     let folder = Folder::new();
     folder.write("muscle.csv", "# diameter_mm: 38\np_act_kpa,contraction_pct,force_n\n20,5,30\n");
     let pull = |more: &[&str]| {
-        let answer =
-            folder.run(&[&["compare", "fpam", "muscle.csv", "--json"], more].concat()).json("ibr.compare.bench");
+        let answer = folder
+            .run(&[&["compare", "fpam-textbook", "muscle.csv", "--json"], more].concat())
+            .json("ibr.compare.bench");
         answer["held"]["rows"][0]["model"].as_f64().unwrap()
     };
     let (plain, lossy) = (pull(&[]), pull(&["-e", "pressure_loss:fraction=0.1,exponent=1"]));

@@ -79,6 +79,12 @@ fn ladder(paper: &Published, actuator: &PublishedActuator) -> Result<PublishedLa
             None => None,
         };
         let y_m = height(&next, &loads)?;
+        let last = rungs.len() - 1;
+        if y_m == rungs[last].y_m && range_m.is_none_or(|[low, high]| low == high) {
+            // What does nothing in this actuator, as sealed sides do where gussets free them, is no rung.
+            rungs[last].scenario = next;
+            continue;
+        }
         let label = format!("+ {}", addition.effect);
         rungs.push(Rung { label, scenario: next, y_m, range_m, known: addition.known, why: addition.why.into() });
     }
