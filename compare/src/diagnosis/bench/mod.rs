@@ -10,6 +10,7 @@
 //! ([`crate::interval`]). The unit of what was left out is a pressure or a specimen; with one of each, a fifth of the loads.
 
 mod laws;
+mod reading;
 mod scatter;
 mod story;
 mod table;
@@ -24,8 +25,9 @@ use crate::bench::refuse;
 use crate::stats::{chi2_tail, reported_p};
 use data::Bench;
 use models::Scenario;
+use reading::groups;
 use serde::Serialize;
-use table::{Fit, Table, groups};
+use table::{Fit, Table};
 
 /// Settings of [`diagnose_bench`].
 #[derive(Debug, Clone, Copy, PartialEq)]

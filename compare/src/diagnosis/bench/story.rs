@@ -1,6 +1,7 @@
 //! The diagnosis of a table in sentences, and where a model fails.
 
-use super::table::{Reading, Table, groups};
+use super::reading::{Reading, groups};
+use super::table::Table;
 use super::{BenchDiagnosis, BenchRanked, LeftOut};
 use crate::bench::is_free;
 use crate::diagnosis::result::Verdict;

@@ -9,9 +9,9 @@
 //! the best explanation leaves: differences are then ordered, and no p-value is formed.
 
 use super::laws::{Law, Trial, laws};
-use super::scatter::steadied;
+use super::reading::{Reading, groups, steady};
 use crate::CompareError;
-use crate::bench::{ANY_WIDTH_M, is_free, measured, modelled, own_or_braid, place, refuse, specimen};
+use crate::bench::{ANY_WIDTH_M, is_free, measured, modelled, own_or_braid, refuse, specimen};
 use crate::diagnosis::basis::Basis;
 use crate::diagnosis::least_squares::{Minimum, Range, minimise, square};
 use crate::diagnosis::problem::is_binding;
@@ -19,7 +19,6 @@ use crate::diagnosis::result::ParameterValue;
 use crate::interval::{Half, interval, misfit};
 use crate::stats::{normal_score, t_975};
 use data::Bench;
-use data::bench::Row;
 use models::Scenario;
 
 /// Share of the largest value below which errors are no longer ratios.
@@ -32,25 +31,6 @@ const CHANGES: f64 = 1e-7;
 const ENOUGH: f64 = 1e-3;
 /// Starts that are followed, the best of all.
 const STARTS: usize = 3;
-
-/// One row.
-pub struct Reading<'a> {
-    pub row: &'a Row,
-    /// As measured, SI.
-    pub measured: f64,
-    /// e.
-    small: f64,
-    /// Standard error of the mean and its degrees of freedom; of d where these are infinite.
-    error: Option<[f64; 2]>,
-    /// Actuator's or body's \[Pa\].
-    pub pressure_pa: f64,
-    /// Size and number of the specimen.
-    pub specimen: String,
-    /// Load over collapse load, or contraction.
-    pub drive: f64,
-    /// In words.
-    pub at: String,
-}
 
 /// A table and everything that may be tried on it.
 pub struct Table<'a> {
@@ -357,62 +337,5 @@ impl<'a> Table<'a> {
 /// Segments of a beam, at most: its deflection is then within a thousandth.
 const SEGMENTS: usize = 60;
 
-/// Standard errors of rows of one kind, each steadied by the others.
-fn steady<'r, 'a: 'r>(readings: impl Iterator<Item = &'r mut Reading<'a>>) {
-    let mut told: Vec<&mut Reading> = readings.filter(|r| r.error.is_some_and(|[_, dof]| dof.is_finite())).collect();
-    let rows: Vec<[f64; 3]> = told
-        .iter()
-        .filter_map(|r| r.error.map(|[error, dof]| [error * (dof + 1.0).sqrt(), dof, r.measured.hypot(r.small)]))
-        .collect();
-    for ((r, [sd, dof]), [_, own, _]) in told.iter_mut().zip(steadied(&rows)).zip(&rows) {
-        r.error = Some([sd / (own + 1.0).sqrt(), dof]);
-    }
-}
-
 /// Mean square of the residuals from which a misfit counts.
 const MISSES: f64 = 2.0;
-
-/// Indices of equal keys, in the order in which these come.
-pub fn groups<K: PartialEq>(keys: impl Iterator<Item = K>) -> Vec<Vec<usize>> {
-    let mut found: Vec<(K, Vec<usize>)> = Vec::new();
-    for (i, key) in keys.enumerate() {
-        match found.iter_mut().find(|(known, _)| *known == key) {
-            Some((_, rows)) => rows.push(i),
-            None => found.push((key, vec![i])),
-        }
-    }
-    found.into_iter().map(|(_, rows)| rows).collect()
-}
-
-impl<'a> Reading<'a> {
-    fn off(&self, model: f64) -> f64 {
-        (model / self.small).asinh() - (self.measured / self.small).asinh()
-    }
-
-    /// Standard error as a ratio.
-    pub fn noise(&self) -> Option<f64> {
-        let [error, dof] = self.error?;
-        Some(if dof.is_finite() { error / self.measured.hypot(self.small) } else { error })
-    }
-
-    fn new(row: &'a Row, scenario: &Scenario, small: f64, sigma: Option<f64>) -> Reading<'a> {
-        let beam = row.get("load").is_some();
-        let sized = specimen(row, scenario, None).unwrap_or_else(|_| scenario.clone());
-        let sd = row.get(if beam { "deflection_sd" } else { "force_sd" }).filter(|_| !is_free(row));
-        let told = sd.zip(row.get("n")).map(|(sd, n)| [sd / n.sqrt(), n - 1.0]);
-        let collapse_n = std::f64::consts::PI * sized.p_body_pa * sized.radius_m.powi(3) / sized.length_m;
-        let size = |key| row.get(key).map_or(String::new(), |v| format!("{:.0} mm ", 1e3 * v));
-        let number = row.get("muscle").map_or(String::new(), |n| format!("muscle {n} "));
-        let words = if beam { size("radius") } else { format!("{number}{}{}", size("diameter"), size("length")) };
-        Reading {
-            measured: measured(row),
-            small,
-            error: told.or(sigma.map(|s| [s, f64::INFINITY])),
-            pressure_pa: row.get("p_body").or(row.get("p_act")).unwrap_or(0.0),
-            specimen: words.trim_end().to_string(),
-            drive: if beam { row.value("load") / collapse_n } else { row.value("contraction") },
-            at: place(row, &sized),
-            row,
-        }
-    }
-}
