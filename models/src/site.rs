@@ -310,28 +310,6 @@ impl Site {
         }
     }
 
-    /// Without actuator pressure the pouch is slack: only the wall resists.
-    fn solve_passive(&self, loads: &SiteLoads, memory: &[f64], near: Option<&SiteState>) -> Result<SiteState, NoRoot> {
-        let mut imbalance = |k: f64| loads.moment - self.body_moment(k, loads, memory);
-        let stiffness = |k: f64| -> f64 {
-            let moment = |k: f64| self.body_moment(k, loads, memory);
-            let rise = moment(k + PASSIVE_STEP) - moment(k - PASSIVE_STEP);
-            (rise / (2.0 * PASSIVE_STEP)).max(LEAST_STIFFNESS)
-        };
-        // A wall that remembers rests where it was bent to, not straight.
-        let x = near.filter(|_| !memory.is_empty()).map_or(0.0, |state| state.curvature);
-        let at_rest = imbalance(x);
-        let curvature = if at_rest == 0.0 {
-            x
-        } else {
-            let slope = -stiffness(x);
-            let start = Start { x, f: Some(at_rest), slope };
-            let root = find_root(&mut imbalance, (-PASSIVE_RANGE, PASSIVE_RANGE), start)?;
-            root.x + root.step
-        };
-        Ok(SiteState { curvature, compliance: 1.0 / stiffness(curvature), loads: *loads, ..SiteState::REST })
-    }
-
     fn balance(&self, actuator: &Actuator, a: f64, loads: &SiteLoads, memory: &[f64]) -> Balance {
         let stroke = (actuator.stroke)(&self.shape, a);
         let link = &self.linkage;
@@ -397,10 +375,6 @@ const CARRIED: f64 = 1e-9;
 const SLACK_BELOW_PA: f64 = 1e-12;
 /// Curvature beyond which a passive stretch counts as folded \[1/m\]: a bend radius of 10 mm.
 const PASSIVE_RANGE: f64 = 100.0;
-/// Half step of the passive stiffness \[1/m\], well inside the hinge's step.
-const PASSIVE_STEP: f64 = 1e-5;
-/// Stiffness below which a passive stretch counts as free \[N·m²\]; keeps the compliance finite.
-const LEAST_STIFFNESS: f64 = 1e-12;
 /// Contractions at which the wall's moment is sampled for the start value: in the working range of every actuator here.
 const TYPICAL_STROKE: (f64, f64) = (0.1, 0.3);
 

@@ -1,6 +1,7 @@
 //! The body's side of a place: moments of its wall and of its further terms.
 
-use super::{Site, SiteLoads, SiteState};
+use super::{PASSIVE_RANGE, Site, SiteLoads, SiteState};
+use crate::root::{NoRoot, Start, find_root};
 use crate::term::{Pose, Term};
 
 impl Site {
@@ -54,4 +55,36 @@ impl Site {
         }
         -force[0]
     }
+
+    /// Without actuator pressure the pouch is slack: only the wall resists.
+    pub(super) fn solve_passive(
+        &self,
+        loads: &SiteLoads,
+        memory: &[f64],
+        near: Option<&SiteState>,
+    ) -> Result<SiteState, NoRoot> {
+        let mut imbalance = |k: f64| loads.moment - self.body_moment(k, loads, memory);
+        let stiffness = |k: f64| -> f64 {
+            let moment = |k: f64| self.body_moment(k, loads, memory);
+            let rise = moment(k + PASSIVE_STEP) - moment(k - PASSIVE_STEP);
+            (rise / (2.0 * PASSIVE_STEP)).max(LEAST_STIFFNESS)
+        };
+        // A wall that remembers rests where it was bent to, not straight.
+        let x = near.filter(|_| !memory.is_empty()).map_or(0.0, |state| state.curvature);
+        let at_rest = imbalance(x);
+        let curvature = if at_rest == 0.0 {
+            x
+        } else {
+            let slope = -stiffness(x);
+            let start = Start { x, f: Some(at_rest), slope };
+            let root = find_root(&mut imbalance, (-PASSIVE_RANGE, PASSIVE_RANGE), start)?;
+            root.x + root.step
+        };
+        Ok(SiteState { curvature, compliance: 1.0 / stiffness(curvature), loads: *loads, ..SiteState::REST })
+    }
 }
+
+/// Half step of the passive stiffness \[1/m\], well inside the hinge's step.
+const PASSIVE_STEP: f64 = 1e-5;
+/// Stiffness below which a passive stretch counts as free \[N·m²\]; keeps the compliance finite.
+const LEAST_STIFFNESS: f64 = 1e-12;
