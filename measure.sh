@@ -32,17 +32,26 @@ printf '%-44s %s\n' "characters of code of the product" "$(code $product)"
 
 # Modules of a crate: files or folders below src; `crate::NAME` in one of them is an arrow.
 circles=0
+where=
 for crate in models fem data compare challenge src; do
   root=$([ "$crate" = src ] && echo src || echo "$crate/src")
-  arrows=$(cd "$copy/$root" && grep -ro 'crate::[a-z_][a-z_0-9]*' --include='*.rs' . |
-    sed -E 's,^\./([a-z_0-9]+)(\.rs|/[^:]*):crate::([a-z_0-9]+)$,\1 \3,' | grep -v '^lib \|^main ' |
-    awk 'NF == 2 && $1 != $2' | sort -u | while read -r from to; do
+  arrows=$(cd "$copy/$root" && find . -name '*.rs' -exec awk '
+    /^ *\/\// { next }
+    { line = $0
+      while (match(line, /crate::[a-z_][a-z_0-9]*/)) {
+        from = FILENAME; sub(/^\.\//, "", from); sub(/(\.rs|\/.*)$/, "", from)
+        print from, substr(line, RSTART + 7, RLENGTH - 7)
+        line = substr(line, RSTART + RLENGTH)
+      } }' {} + | awk '$1 != $2 && $1 != "lib" && $1 != "main"' | sort -u | while read -r from to; do
       if [ -e "$to.rs" ] || [ -d "$to" ]; then echo "$from $to"; fi
     done)
-  found=$(tsort <<< "$arrows" 2>&1 > /dev/null | grep -c 'loop' || true)
-  circles=$((circles + found))
+  while read -r circle; do
+    circles=$((circles + 1))
+    where="$where\n  $crate: $circle"
+  done < <(tsort <<< "$arrows" 2>&1 > /dev/null | sed 's/^tsort: //' | awk '/loop/ { if (held) print held; held = ""; next } { held = held " " $0 } END { if (held) print held }')
 done
 printf '%-44s %s\n' "circles between modules" "$circles"
+printf '%b\n' "$where" | sed '/^$/d'
 printf '%-44s %s\n' "named constants of numbers" "$(grep -rhE '^\s*(pub )?(pub\([a-z]+\) )?const [A-Z_0-9]+: (f64|usize|u32|u64)' "$copy" | wc -l)"
 printf '%-44s %s\n' "files over 400 lines" "$(find $product $development -name '*.rs' -not -path '*/target/*' | xargs wc -l | awk '$1 > 400 && $2 != "total"' | wc -l)"
 printf '%-44s %s\n' "words of documents" "$(cat README.md ARCHITECTURE.md CONTRIBUTING.md docs/*.md | wc -w)"
