@@ -2,6 +2,7 @@
 
 mod cli;
 mod commands;
+mod context;
 mod cost;
 mod extended;
 mod failure;
@@ -9,7 +10,7 @@ mod output;
 mod printable;
 mod studies;
 
-use commands::{Context, Interrupt, Outcome};
+use context::{Context, Interrupt, Outcome};
 use printable::printable;
 use std::io::Write;
 use std::process::ExitCode;

@@ -1,6 +1,6 @@
 //! Results to disk: everything is ready in memory before the first byte is written.
 
-use crate::commands::Context;
+use crate::context::Context;
 use crate::failure::Failure;
 use compare::record::Shape;
 use compare::study::pages::Files;

@@ -1,8 +1,8 @@
 //! From streams of holds to the dense tensor: the same holds in every run, the same markers, the same sample count.
 
-use crate::dataset::{Dataset, Hold, Marker};
+use crate::dataset::{Dataset, Hold, Lost, Marker};
 use crate::error::{DataError, Fault};
-use crate::lost::{Lost, fill};
+use crate::lost::fill;
 use crate::streams::{Recorder, Sample, Segment, Stream, tolerance_act_pa, tolerance_body_pa};
 use crate::units::kpa;
 

@@ -5,7 +5,6 @@
 //! pressures pascals, all times seconds; units are converted where the file is read and nowhere else.
 
 use crate::error::{DataError, Fault};
-use crate::lost::Lost;
 
 /// Whether a hold was reached by raising the actuator pressure, by lowering it, or without changing it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -168,4 +167,16 @@ impl Dataset {
             _ => Ok(self),
         }
     }
+}
+
+/// Which cells of a dataset were not seen.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Lost {
+    /// (hold, marker) that too few runs saw, in order: left out of everything. The positions there stand for nothing and are the
+    /// same in every run.
+    pub unseen: Vec<[usize; 2]>,
+    /// (run, hold, marker) that this run lost and enough others saw, in order: positions there are made from theirs.
+    pub filled: Vec<[usize; 3]>,
+    /// Rows of the table without a position: frames in which a marker was not seen.
+    pub frames: u64,
 }

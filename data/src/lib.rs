@@ -31,10 +31,10 @@ pub use about::{About, AboutRun, Direct, Geometry, MarkerStation, MeasuredValue,
 pub use bench::{Bench, bench, parse_bench};
 pub use check::{CheckReport, check};
 pub use coupons::{Coupon, CouponDefaults, Direction, Pulled, parse_coupons, read_coupons};
-pub use dataset::{Dataset, Hold, Marker, Phase};
+pub use dataset::{Dataset, Hold, Lost, Marker, Phase};
 pub use error::{DataError, Fault, Location};
 pub use load::load;
-pub use lost::{Lost, losses};
+pub use lost::losses;
 pub use published::{Published, PublishedActuator, PublishedFabric, PublishedFact, published};
 pub use read::{ReadOptions, parse_markers, read_markers};
 pub use sets::{SetInfo, set_about, set_file, sets};

@@ -19,22 +19,10 @@
 //! Validity: losses that do not depend on the noise (a marker that leaves the picture at a certain bend, a hand in front of it).
 //! The variance of a filled mean is R/(R − lost) of the others', which is not accounted for.
 
-use crate::dataset::Dataset;
+use crate::dataset::{Dataset, Lost};
 
 /// Part of a column that must be new for it to be told apart from those before it.
 const SMALLEST_NEW_PART: f64 = 1e-3;
-
-/// Which cells of a dataset were not seen.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Lost {
-    /// (hold, marker) that too few runs saw, in order: left out of everything. The positions there stand for nothing and are the
-    /// same in every run.
-    pub unseen: Vec<[usize; 2]>,
-    /// (run, hold, marker) that this run lost and enough others saw, in order: positions there are made from theirs.
-    pub filled: Vec<[usize; 3]>,
-    /// Rows of the table without a position: frames in which a marker was not seen.
-    pub frames: u64,
-}
 
 /// Fewest runs that must see a cell.
 fn needed(runs: usize) -> usize {

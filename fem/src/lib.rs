@@ -15,6 +15,7 @@
 //! | [`contact`] | node-to-face contact with side memory and Coulomb friction |
 //! | [`robot`] | robots from scenarios and sewing patterns |
 //! | [`run`] | time stepping, stable step, ledger, guards |
+//! | [`bytes`] | the bytes of a checkpoint |
 //! | [`output`] | vtu, pvd, history, checkpoints |
 //! | [`verify`] | problems with known answers |
 //! | [`speed`] | workloads whose speed is measured |
@@ -23,6 +24,8 @@
 //! `fem` never sees a measurement.
 
 mod amplitude;
+mod atomic;
+pub mod bytes;
 pub mod case;
 pub mod contact;
 pub mod error;

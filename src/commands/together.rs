@@ -96,7 +96,7 @@ pub fn shared(threads: usize, jobs: usize) -> (usize, usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::commands::Interrupt;
+    use crate::context::Interrupt;
     use std::sync::Mutex;
 
     type Found = Result<Result<Vec<usize>, usize>, Failure>;

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use super::chunk::Chunk;
 use super::closest::{Closest, Feature};
 use super::record::{Reach, Record};
-use crate::output::bytes::{Reader, Writer};
+use crate::bytes::{Reader, Writer};
 use crate::vec3::V3;
 
 /// A node and a face that it came through.

@@ -5,7 +5,7 @@ use super::chunk::{Candidate, Chunk};
 use super::closest::Feature;
 use super::passed::Passed;
 use super::record::Record;
-use crate::output::bytes::{Reader, Writer};
+use crate::bytes::{Reader, Writer};
 
 /// Changes with the layout of the bytes.
 const VERSION: u64 = 5;

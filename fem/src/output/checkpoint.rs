@@ -11,9 +11,9 @@
 use std::io::{Error, Write};
 use std::path::{Path, PathBuf};
 
-use super::atomic::{make_folder, partial_name, sync_folder, write_whole};
-use super::bytes::{Reader, Writer};
 use crate::FemError;
+use crate::atomic::{make_folder, partial_name, sync_folder, write_whole};
+use crate::bytes::{Reader, Writer};
 
 const MAGIC: &[u8; 8] = b"ibr-fem\n";
 /// Raised whenever the meaning of the bytes changes.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::output::atomic::FullAfter;
+use crate::atomic::FullAfter;
 
 const PROBLEM: u64 = 0xfeed_beef;
 

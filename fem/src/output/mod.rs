@@ -13,8 +13,6 @@
 //! full disk or a kill never meets half a file. Tables grow line by line and are cut back to the checkpoint on resume:
 //! an interrupted and resumed run leaves the same bytes as an uninterrupted one.
 
-pub(crate) mod atomic;
-pub mod bytes;
 pub mod centre_line;
 pub mod checkpoint;
 mod frame;

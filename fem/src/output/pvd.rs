@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::atomic::{make_folder, replace};
 use super::frame::Frame;
 use super::vtu::write_vtu;
+use crate::atomic::{make_folder, replace};
 use crate::{FemError, Mesh};
 
 /// A growing series of frames in one folder.

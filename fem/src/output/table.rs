@@ -4,8 +4,8 @@ use std::fs::{File, OpenOptions};
 use std::io::{Error, Write};
 use std::path::{Path, PathBuf};
 
-use super::atomic::replace;
 use crate::FemError;
+use crate::atomic::replace;
 
 /// A growing table with a column `step`. Rows of one step are written in one go and handed to the system at once.
 #[derive(Debug)]

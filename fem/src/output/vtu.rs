@@ -28,8 +28,8 @@
 use std::io::{Error, Write};
 use std::path::Path;
 
-use super::atomic::replace;
 use super::frame::Frame;
+use crate::atomic::replace;
 use crate::mesh::Part;
 use crate::{FemError, Mesh};
 

@@ -28,9 +28,9 @@ pub use sides::ChangedSides;
 
 use models::{Pose, Row, RowKind, Term};
 
+use crate::bytes::{Reader, Writer};
 use crate::contact::Contact;
 use crate::contact::edges::Edges;
-use crate::output::bytes::{Reader, Writer};
 use crate::problem::Guards;
 use crate::sheet::Sheet;
 use crate::sheet::order::Order;

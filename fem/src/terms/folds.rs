@@ -35,7 +35,7 @@ use std::sync::Arc;
 use models::{Fabric, Pose, Row, RowKind, Term, Tick};
 
 use crate::Mesh;
-use crate::output::bytes::{Reader, Writer};
+use crate::bytes::{Reader, Writer};
 use crate::sheet::{Element, Sheet};
 use crate::vec3::{V3, add, along, dot, node, norm, scale, sub};
 

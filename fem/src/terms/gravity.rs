@@ -15,7 +15,7 @@
 use models::{Pose, Row, RowKind, Term, Tick};
 
 use crate::FemError;
-use crate::output::bytes::{Reader, Writer};
+use crate::bytes::{Reader, Writer};
 use crate::problem::{self, Amplitude};
 
 /// Weight of every node.

@@ -14,7 +14,7 @@
 
 use models::{Pose, Row, RowKind, Term, Tick};
 
-use crate::output::bytes::{Reader, Writer};
+use crate::bytes::{Reader, Writer};
 use crate::problem::{Amplitude, NodalForce};
 use crate::{FemError, Mesh};
 

@@ -18,7 +18,7 @@ use models::{Pose, Row, RowKind, Term, Tick};
 use rayon::prelude::*;
 
 use super::coulomb::slide;
-use crate::output::bytes::{Reader, Writer};
+use crate::bytes::{Reader, Writer};
 use crate::problem::{Obstacle, ObstacleShape};
 use crate::vec3::{V3, along, cross, dot, scale, sub, unit};
 use crate::{FemError, Mesh};

@@ -85,7 +85,7 @@ impl Watched {
 
     /// For a checkpoint.
     pub fn save(&self) -> Vec<u8> {
-        let mut out = fem::output::bytes::Writer::new();
+        let mut out = fem::bytes::Writer::new();
         out.f64s(&self.watch.save());
         // Numbers keep their bits in JSON; what is not finite is refused on the way back.
         out.bytes(&serde_json::to_vec(&self.readings).unwrap_or_default());
@@ -94,7 +94,7 @@ impl Watched {
 
     /// From a checkpoint.
     pub fn restore(&mut self, saved: &[u8]) -> Option<()> {
-        let mut from = fem::output::bytes::Reader::new(saved);
+        let mut from = fem::bytes::Reader::new(saved);
         self.watch.restore(&from.f64s()?);
         self.readings = serde_json::from_slice(from.bytes()?).ok()?;
         from.is_empty().then_some(())

@@ -3,7 +3,7 @@
 use super::Edges;
 use super::chunk::Chunk;
 use super::pair::Pair;
-use crate::output::bytes::{Reader, Writer};
+use crate::bytes::{Reader, Writer};
 
 /// Changes with the layout of the bytes.
 const VERSION: u64 = 2;

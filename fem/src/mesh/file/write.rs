@@ -4,9 +4,9 @@ use std::fmt::{Display, Write};
 use std::path::Path;
 
 use crate::FemError;
+use crate::atomic::replace;
 use crate::mesh::check::numbers;
 use crate::mesh::{Mesh, Part};
-use crate::output::atomic::replace;
 
 /// Node numbers on one line of a set.
 const PER_LINE: usize = 16;

@@ -26,7 +26,7 @@ pub use notes::round_above;
 
 use std::path::Path;
 
-use super::atomic::replace;
+use crate::atomic::replace;
 use crate::{FemError, Mesh};
 use raster::{Canvas, Corner};
 

@@ -4,7 +4,7 @@
 //! and never allocates more than the bytes at hand could fill.
 //!
 //! ```
-//! use fem::output::bytes::{Reader, Writer};
+//! use fem::bytes::{Reader, Writer};
 //! let mut writer = Writer::new();
 //! writer.u64(7);
 //! writer.f64s(&[1.0, -0.0]);

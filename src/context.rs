@@ -1,0 +1,84 @@
+//! What commands share: the outside that they may use, the wish to end, and what they have to say.
+
+use crate::failure::Failure;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock};
+use std::time::{Duration, Instant};
+
+/// What a command may use of the outside.
+pub struct Context<'a> {
+    /// JSON is wanted.
+    pub json: bool,
+    /// Told what is being done, and which share of the whole is done if known.
+    pub progress: &'a mut (dyn FnMut(&str, Option<f64>) + Send),
+    /// Held while files are written; true once they are.
+    pub written: &'a Mutex<bool>,
+    /// For commands that end themselves on Ctrl-C.
+    pub interrupt: &'a Interrupt,
+}
+
+/// Signals within this time are one.
+const ONE_REQUEST: Duration = Duration::from_secs(1);
+
+/// How Ctrl-C reaches a command that saves where it stands before it ends.
+#[derive(Debug)]
+pub struct Interrupt {
+    /// Runs that will end themselves.
+    awaited: AtomicUsize,
+    /// When it was asked first.
+    asked: OnceLock<Instant>,
+}
+
+impl Interrupt {
+    /// Nobody waits for it yet.
+    pub const fn new() -> Interrupt {
+        Interrupt { awaited: AtomicUsize::new(0), asked: OnceLock::new() }
+    }
+
+    /// One more run will end itself when asked, from now on.
+    pub fn await_one(&self) {
+        self.awaited.fetch_add(1, Ordering::SeqCst);
+    }
+
+    /// One less.
+    pub fn let_one_go(&self) {
+        self.awaited.fetch_sub(1, Ordering::SeqCst);
+    }
+
+    /// Asks the command to end; false if it will not, or was asked before. Who asks again at once asks once: `timeout` and job
+    /// schedulers signal a program and its group, and a checkpoint shall still be written.
+    pub fn ask(&self) -> bool {
+        self.awaited.load(Ordering::SeqCst) > 0 && self.asked.get_or_init(Instant::now).elapsed() < ONE_REQUEST
+    }
+
+    /// Whether the command shall end.
+    pub fn asked(&self) -> bool {
+        self.asked.get().is_some()
+    }
+}
+
+/// What a command has to say.
+#[derive(Debug, Default)]
+pub struct Outcome {
+    /// Text for standard output.
+    pub text: String,
+    /// The same as JSON.
+    pub json: Option<serde_json::Value>,
+    /// Lines for standard error.
+    pub notes: Vec<String>,
+    /// Exit code.
+    pub code: u8,
+}
+
+impl Outcome {
+    /// A text, and the same as JSON.
+    pub fn new(text: String, json: serde_json::Value) -> Outcome {
+        Outcome { text, json: Some(json), notes: Vec::new(), code: 0 }
+    }
+
+    /// The result stands, and what failed after it is said below it.
+    pub fn fail(&mut self, failure: &Failure) {
+        self.notes.push(failure.render().trim_end().to_string());
+        self.code = failure.code();
+    }
+}
