@@ -7,7 +7,6 @@
 //! | [`centre_line`] | `centre_line.csv`: the middle of every section over time |
 //! | [`checkpoint`] | where a stopped run goes on, to the bit |
 //! | [`picture`] | a PNG of the deformed mesh |
-//! | [`bytes`] | numbers as bytes, for everything that is saved |
 //!
 //! Files that are replaced (frames, series, checkpoints) are written under another name and renamed, so that a reader, a
 //! full disk or a kill never meets half a file. Tables grow line by line and are cut back to the checkpoint on resume:
