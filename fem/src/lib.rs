@@ -1,7 +1,7 @@
 //! The explicit finite element engine of `ibr`: thin inflated fabric with buckling and contact.
 //!
 //! A [`Problem`] says what is simulated (mesh, fabrics, chambers, supports, loads, settings); a [`Simulation`] steps it
-//! through time by central differences with lumped masses. A run is a list of [`models::Term`]s over the node positions
+//! through time by central differences with lumped masses. A run is a list of [`Transient`] terms over the node positions
 //! `[x₀, y₀, z₀, 0, x₁, …]` ([`NODE`] numbers per node, the fourth is padding for the vector units), and keeps the same
 //! energy ledger as the reduced model: nothing is simulated that is not on the balance.
 //!
@@ -38,6 +38,7 @@ pub mod run;
 pub mod sheet;
 pub mod speed;
 pub mod terms;
+mod transient;
 mod vec3;
 pub mod verify;
 
@@ -45,6 +46,7 @@ pub use error::FemError;
 pub use mesh::{Mesh, Part};
 pub use problem::Problem;
 pub use run::{ChangedSides, Simulation};
+pub use transient::{Tick, Transient};
 
 /// Raised whenever the same problem gives other numbers than before: stored results of an older engine are then not used.
 pub const ENGINE: u32 = 10;

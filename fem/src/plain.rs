@@ -3,7 +3,7 @@
 //! Same energies as [`crate::sheet`], written from their definitions: gradients of all corners, the pressure force by
 //! 2×2 Gauss points on the bilinear surface, bending from the curvature vectors. **Use it to understand, not to run.**
 
-use models::{Pose, Term};
+use models::{Account, LedgerLine, Pose, Term};
 
 use crate::sheet::bending::{CurvatureRow, curvature_rows};
 use crate::sheet::reference::{bending_stiffness, cross, dot};
@@ -100,8 +100,8 @@ impl<'a> PlainSheet<'a> {
 }
 
 impl Term for PlainSheet<'_> {
-    fn name(&self) -> &'static str {
-        "plain shells"
+    fn line(&self) -> LedgerLine {
+        LedgerLine { name: "plain shells", account: Account::Stretch }
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

@@ -10,7 +10,7 @@ use fem::plain::PlainSheet;
 use fem::problem::{Amplitude, Chamber, Ply, Pressure, Problem, Section};
 use fem::sheet::Sheet;
 use fem::sheet::order::{Order, renumber};
-use fem::{Mesh, NODE};
+use fem::{Mesh, NODE, Transient};
 use models::fabrics::{FABRICS, Laminate, NeoHookean, Orthotropic, WrinklingFilm};
 use models::{Fabric, Pose, Term};
 

@@ -1,6 +1,6 @@
 //! The body's own terms: pressure work, with a step that is numerical or the wall's own, and the bending stiffness B.
 
-use crate::term::{Pose, Term};
+use crate::term::{Account, LedgerLine, Pose, Term};
 use std::f64::consts::{LN_2, PI};
 
 /// Pressure work of a tube that folds about its taut generator.
@@ -69,6 +69,9 @@ pub struct BodyWall {
     pub share: f64,
 }
 
+/// The ledger's line of every law of the body pressure.
+pub(crate) const BODY_PRESSURE: LedgerLine = LedgerLine { name: "body_pressure", account: Account::BodyGas };
+
 /// Law of the body pressure: its own, or what an effect puts in its place.
 pub enum BodyLaw {
     /// The hinge, its step numerical.
@@ -123,8 +126,8 @@ impl BodyPressure {
 }
 
 impl Term for BodyPressure {
-    fn name(&self) -> &'static str {
-        "body_pressure"
+    fn line(&self) -> LedgerLine {
+        BODY_PRESSURE
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
@@ -149,8 +152,8 @@ impl BodyWall {
 }
 
 impl Term for BodyWall {
-    fn name(&self) -> &'static str {
-        "body_pressure"
+    fn line(&self) -> LedgerLine {
+        BODY_PRESSURE
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
@@ -217,8 +220,8 @@ pub struct Bending {
 }
 
 impl Term for Bending {
-    fn name(&self) -> &'static str {
-        "bending"
+    fn line(&self) -> LedgerLine {
+        LedgerLine { name: "bending", account: Account::Wall }
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

@@ -8,7 +8,7 @@ use crate::robot::{Workspace, equilibrium, place};
 use crate::scenario::{Scenario, Span};
 use crate::shape::Stretch;
 use crate::site::{Linkage, Site, SiteState};
-use crate::term::{CHANNELS, Loads, Pose, RowKind, Term, actuator_q};
+use crate::term::{Account, CHANNELS, LedgerLine, Loads, Pose, Row, RowKind, Term, actuator_q};
 
 /// A robot with its list of terms. Made once from a scenario; predicting does not change it.
 pub struct Model {
@@ -40,17 +40,6 @@ pub struct Prediction {
     /// End of the centre line.
     pub tip: Tip,
     pub(crate) work: Workspace,
-}
-
-/// One line of the energy ledger.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LedgerLine {
-    /// Name of the term.
-    pub name: &'static str,
-    /// Held now, or lost since the start of the protocol.
-    pub kind: RowKind,
-    /// Potential energy at equilibrium \[J\]; for the actuator pressure it is −PΔV, the negative of its work.
-    pub energy_j: f64,
 }
 
 impl Model {
@@ -131,7 +120,7 @@ impl Model {
     /// Potential energy of every term at a predicted state \[J\], in the order in which terms were added. In a state of
     /// [`Model::follow`] a term with history has two lines, what it stores and what it has lost since the start; in one of
     /// [`Model::predict`] its line is the sum.
-    pub fn ledger(&self, loads: &Loads, at: &Prediction) -> Vec<LedgerLine> {
+    pub fn ledger(&self, loads: &Loads, at: &Prediction) -> Vec<Row> {
         let (mut lines, body_pa) = (Vec::new(), self.body_pa(loads));
         for (i, segment) in self.assembly.segments.iter().enumerate() {
             let site = &self.assembly.sites[segment.site];
@@ -139,14 +128,14 @@ impl Model {
         }
         self.lost_energies(&at.work, &mut lines);
         if at.work.is_sheared() {
-            post(&mut lines, "wall_shear", RowKind::Stored, self.shear_energy(body_pa, &at.work));
+            post(&mut lines, WALL_SHEAR, RowKind::Stored, self.shear_energy(body_pa, &at.work));
         }
         let pose = Pose::new(&at.work.nodes, body_pa, 0.0);
         let rest = self.rest_nodes();
         for term in &self.assembly.node_terms {
             let mut unused = vec![0.0; rest.len()];
             let energy = term.add(&pose, &mut unused) - term.add(&Pose { q: &rest, ..pose }, &mut unused);
-            post(&mut lines, term.name(), RowKind::Stored, energy);
+            post(&mut lines, term.line(), RowKind::Stored, energy);
         }
         lines
     }
@@ -242,7 +231,7 @@ impl Model {
         [p_body_pa, p_act_pa]: [f64; 2],
         work: &Workspace,
         index: usize,
-        lines: &mut Vec<LedgerLine>,
+        lines: &mut Vec<Row>,
     ) {
         let (state, h) = (&work.states[index], segment.length_m);
         let mut unused = [0.0; actuator_q::LEN];
@@ -253,28 +242,31 @@ impl Model {
             for term in &site.actuator_terms {
                 let pose = Pose { s_m: segment.middle_m(), ..Pose::new(&q, p_body_pa, p_act_pa) };
                 let energy = term.add(&pose, &mut unused) * site.linkage.active_fraction;
-                post(lines, term.name(), RowKind::Stored, energy * h);
+                post(lines, term.line(), RowKind::Stored, energy * h);
             }
             let stretch = 0.5 * site.linkage.compliance_per_n * state.tension * state.tension;
             if stretch != 0.0 {
-                post(lines, "fabric_stretch", RowKind::Stored, stretch * h);
+                post(lines, FABRIC_STRETCH, RowKind::Stored, stretch * h);
             }
         }
         let q = [state.curvature];
         let mut pose = Pose { s_m: segment.middle_m(), ..Pose::new(&q, p_body_pa, p_act_pa) };
         let mut rest = work.history.of_segment(index);
-        for term in [&*site.body_pressure, &site.bending as &dyn Term].into_iter().chain(site.body_terms()) {
+        for term in [&*site.body_pressure, &site.bending as &dyn Term] {
+            post(lines, term.line(), RowKind::Stored, term.add(&pose, &mut unused) * h);
+        }
+        for term in &site.body_terms {
             // At the memory of this very state and without time: what is stored.
             (pose.memory, rest) = rest.split_at(term.memory().values.min(rest.len()));
-            post(lines, term.name(), RowKind::Stored, term.add(&pose, &mut unused) * h);
+            post(lines, term.line(), RowKind::Stored, term.add(&pose, &mut unused) * h);
         }
     }
 
-    fn lost_energies(&self, work: &Workspace, lines: &mut Vec<LedgerLine>) {
+    fn lost_energies(&self, work: &Workspace, lines: &mut Vec<Row>) {
         let places = self.assembly.segments.iter().map(|segment| &self.assembly.sites[segment.site]);
-        let terms = places.flat_map(Site::body_terms).filter(|term| term.memory().values > 0);
+        let terms = places.flat_map(|site| &site.body_terms).filter(|term| term.memory().values > 0);
         for (term, lost) in terms.zip(work.history.lost()).filter(|_| work.history.awake) {
-            post(lines, term.name(), RowKind::Dissipated, lost);
+            post(lines, term.line(), RowKind::Dissipated, lost);
         }
     }
 
@@ -316,11 +308,15 @@ pub(crate) fn check(loads: &Loads) -> Result<(), Unsolved> {
     }
 }
 
-/// Adds to the line of that name and kind, or opens it.
-fn post(lines: &mut Vec<LedgerLine>, name: &'static str, kind: RowKind, energy_j: f64) {
-    match lines.iter_mut().find(|line| line.name == name && line.kind == kind) {
-        Some(line) => line.energy_j += energy_j,
-        None => lines.push(LedgerLine { name, kind, energy_j }),
+/// Ledger lines of what is no term: its energy follows from the equilibrium.
+const FABRIC_STRETCH: LedgerLine = LedgerLine { name: "fabric_stretch", account: Account::Stretch };
+const WALL_SHEAR: LedgerLine = LedgerLine { name: "wall_shear", account: Account::Wall };
+
+/// Adds to the row of that name and kind, or opens it.
+fn post(rows: &mut Vec<Row>, line: LedgerLine, kind: RowKind, energy_j: f64) {
+    match rows.iter_mut().find(|row| row.name == line.name && row.kind == kind) {
+        Some(row) => row.energy_j += energy_j,
+        None => rows.push(line.row(kind, energy_j)),
     }
 }
 

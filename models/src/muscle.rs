@@ -38,7 +38,7 @@
 
 use crate::actuators::ActuatorShape;
 use crate::assembly::Assembly;
-use crate::term::{Pose, Term, actuator_q};
+use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 
 /// What effects make of a muscle; nothing of it in the bare model.
@@ -254,8 +254,8 @@ impl Muscle {
 }
 
 impl Term for Muscle {
-    fn name(&self) -> &'static str {
-        "muscle"
+    fn line(&self) -> LedgerLine {
+        LedgerLine { name: "muscle", account: Account::Wall }
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

@@ -21,7 +21,7 @@ pub use crate::linkage::Linkage;
 use crate::linkage::line_tension;
 use crate::muscle::Weave;
 use crate::root::{NoRoot, Root, Start, find_root};
-use crate::term::{Extreme, Pose, Term, actuator_q};
+use crate::term::{Account, Extreme, LedgerLine, Pose, Remembering, Term, actuator_q};
 use starts::Starts;
 use std::f64::consts::PI;
 
@@ -61,7 +61,7 @@ pub struct Site {
     /// Effective bending stiffness.
     pub bending: Bending,
     /// Further terms over `[κ]`, J per metre of body.
-    pub body_terms: Vec<Box<dyn Term>>,
+    pub body_terms: Vec<Box<dyn Remembering>>,
     /// Shear stiffness of the wall G t \[N/m\]; `None`: transverse loads do not shear the body.
     pub wall_shear_n_per_m: Option<f64>,
 }
@@ -70,8 +70,8 @@ pub struct Site {
 pub(crate) struct ActuatorPressure;
 
 impl Term for ActuatorPressure {
-    fn name(&self) -> &'static str {
-        "actuator_pressure"
+    fn line(&self) -> LedgerLine {
+        LedgerLine { name: "actuator_pressure", account: Account::ActuatorGas }
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
@@ -359,7 +359,7 @@ impl Site {
             }
             _ => [-PASSIVE_RANGE, PASSIVE_RANGE],
         };
-        let found = self.body_terms().filter_map(|term| term.extreme(&loads.pose(&[0.0]), within));
+        let found = self.body_terms.iter().filter_map(|term| term.extreme(&loads.pose(&[0.0]), within));
         found.max_by(|a, b| a.moment.total_cmp(&b.moment))
     }
 

@@ -12,8 +12,8 @@
 //! | `[x₀, y₀, z₀, 0, x₁, …]`: nodes of a finite element mesh \[m\] | shells, follower pressure, contact | J |
 //!
 //! Some effects depend on what came before (friction, creep). The reduced model keeps their memory outside of the terms,
-//! in a [`crate::Prediction`], and walks a protocol with [`crate::Model::follow`]. The finite element engine steps through
-//! time and its terms keep their own: see [`Term::advance`].
+//! in a [`crate::Prediction`], and walks a protocol with [`crate::Model::follow`]: [`Remembering`]. The finite element
+//! engine steps through time and its terms keep their own memory: `fem::Transient`.
 
 /// Gauge pressures acting on the robot \[Pa\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,7 +70,7 @@ pub struct Pose<'a> {
     pub s_m: f64,
     /// Time since the state that [`Pose::memory`] remembers \[s\]; 0: at once.
     pub dt_s: f64,
-    /// What this term remembers of the states before, in its own layout ([`Term::memory`]); empty: nothing has happened
+    /// What this term remembers of the states before, in its own layout ([`Remembering::memory`]); empty: nothing has happened
     /// yet, all values are 0.
     pub memory: &'a [f64],
 }
@@ -102,14 +102,13 @@ pub struct Extreme {
     pub moment: f64,
 }
 
-/// One physical effect: its energy and its virtual work.
+/// One physical effect: its energy and its virtual work. Both engines build on it.
 ///
 /// Law (tested over every term at random poses): the force added equals minus the slope of the returned energy, at fixed
-/// memory. A term with history returns its **incremental potential**: what it stores now and loses on the way from the
-/// state it remembers. At its new memory and without time it returns what it stores.
+/// memory.
 pub trait Term: Send + Sync {
-    /// Name in the energy ledger.
-    fn name(&self) -> &'static str;
+    /// Its line in the energy ledger.
+    fn line(&self) -> LedgerLine;
     /// Adds `−∂E/∂q` to `force` (same length as `at.q`) and returns the energy E.
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64;
 
@@ -117,14 +116,14 @@ pub trait Term: Send + Sync {
     fn add_force(&self, at: &Pose, force: &mut [f64]) {
         self.add(at, force);
     }
+}
 
-    /// Where this force is largest over curvatures `within`, or not finite somewhat beyond, for the error of a place without
-    /// equilibrium. Only a formula of the scenario answers: the catalogue's laws are tested over their bounds.
-    fn extreme(&self, _at: &Pose, _within: [f64; 2]) -> Option<Extreme> {
-        None
-    }
-
-    /// What this term remembers between states of the reduced model; only terms over `[κ]` may.
+/// A term over `[κ]` of the reduced model, which may remember the states before; nothing unless it says so.
+///
+/// One with history returns its **incremental potential**: what it stores now and loses on the way from the state it
+/// remembers. At its new memory and without time it returns what it stores.
+pub trait Remembering: Term {
+    /// What it remembers between states.
     fn memory(&self) -> Memory {
         Memory::NONE
     }
@@ -135,44 +134,46 @@ pub trait Term: Send + Sync {
         0.0
     }
 
-    /// One time step of the finite element engine: what [`Term::add`] does, plus whatever depends on rate or history
-    /// (viscosity, friction, hysteresis, the work of a load). Called once per step.
-    fn advance(&mut self, at: &Pose, _tick: &Tick, force: &mut [f64]) -> f64 {
-        self.add(at, force)
-    }
-
-    /// This term's lines of the energy ledger, evaluated at `at`. One stored energy unless the term says otherwise.
-    fn ledger(&self, at: &Pose) -> Vec<Row> {
-        let mut unused = vec![0.0; at.q.len()];
-        vec![Row { name: self.name(), kind: RowKind::Stored, energy_j: self.add(at, &mut unused) }]
-    }
-
-    /// Adds to `bound[i]` a stiffness kᵢ \[N/m\] of node i such that `u·K u ≤ Σᵢ kᵢ |uᵢ|²` for this term's tangent K at
-    /// `at`. The stable step of central differences then is at least `2/√(maxᵢ kᵢ/mᵢ)`.
-    fn stiffness_bound(&self, _at: &Pose, _bound: &mut [f64]) {}
-
-    /// What a checkpoint must keep of this term, so that a resumed run ends bit-identical. Empty without memory.
-    fn save(&self) -> Vec<u8> {
-        Vec::new()
-    }
-
-    /// Takes back what [`Term::save`] gave; false if it does not fit this term.
-    fn restore(&mut self, saved: &[u8]) -> bool {
-        saved.is_empty()
+    /// Where its force is largest over curvatures `within`, or not finite somewhat beyond, for the error of a place without
+    /// equilibrium. Only a formula of the scenario answers: the catalogue's laws are tested over their bounds.
+    fn extreme(&self, _at: &Pose, _within: [f64; 2]) -> Option<Extreme> {
+        None
     }
 }
 
-/// Where the time integration stands when a term is advanced.
-#[derive(Debug, Clone, Copy)]
-pub struct Tick<'a> {
-    /// Steps done before this one.
-    pub step: u64,
-    /// Time of the positions \[s\].
-    pub time_s: f64,
-    /// Length of the step \[s\].
-    pub dt_s: f64,
-    /// Velocities half a step earlier, laid out like the positions \[m/s\].
-    pub v: &'a [f64],
+/// What energy it is: lines of both engines on the same account stand side by side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Account {
+    /// Gas of the actuator, or of all chambers.
+    ActuatorGas,
+    /// Gas of the body.
+    BodyGas,
+    /// Walls, welds and folds as they bend, and fabric that locks.
+    Wall,
+    /// Stretch and shear of fabric.
+    Stretch,
+    /// What touches.
+    Contact,
+    /// What numbers need and nature has not.
+    Numerical,
+    /// What pulls or stops the structure from outside.
+    Load,
+}
+
+/// How a term calls itself in the energy ledger.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LedgerLine {
+    /// Where the energy is or went.
+    pub name: &'static str,
+    /// What energy it is.
+    pub account: Account,
+}
+
+impl LedgerLine {
+    /// Its row with an energy \[J\].
+    pub fn row(self, kind: RowKind, energy_j: f64) -> Row {
+        Row { name: self.name, account: self.account, kind, energy_j }
+    }
 }
 
 /// What a ledger row does to the balance `kinetic + Σ stored + Σ dissipated = Σ supplied`.
@@ -197,15 +198,24 @@ impl RowKind {
     }
 }
 
-/// One line of the energy ledger.
+/// One row of the energy ledger.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
     /// Where the energy is or went.
     pub name: &'static str,
+    /// What energy it is.
+    pub account: Account,
     /// Which side of the balance it is on.
     pub kind: RowKind,
-    /// Energy \[J\].
+    /// Energy \[J\]; in the reduced model the gas of the actuator has −PΔV, the negative of its work.
     pub energy_j: f64,
+}
+
+impl Row {
+    /// Its name as plain words.
+    pub fn words(&self) -> String {
+        self.name.replace('_', " ")
+    }
 }
 
 /// Layout of the coordinates of an actuator-side term. Only the first is independent; the others follow from it, so a

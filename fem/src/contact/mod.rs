@@ -49,13 +49,14 @@ mod search;
 mod start;
 mod surface;
 
-use models::{Pose, Row, RowKind, Term, Tick};
+use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
 use rayon::prelude::*;
 
 use crate::problem;
 use crate::terms::slide;
 use crate::vec3::{dot, norm, scale};
 use crate::{FemError, Mesh};
+use crate::{Tick, Transient};
 use build::{Memory, Penalty};
 use chunk::{Chunk, Step, touch};
 use follow::{farthest_m, follow};
@@ -226,8 +227,8 @@ impl Contact {
 }
 
 impl Term for Contact {
-    fn name(&self) -> &'static str {
-        "contact"
+    fn line(&self) -> LedgerLine {
+        LedgerLine { name: "contact", account: Account::Contact }
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
@@ -255,7 +256,9 @@ impl Term for Contact {
         }
         energy_j
     }
+}
 
+impl Transient for Contact {
     fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64 {
         let x = at.q.as_chunks::<4>().0;
         if self.before_m.is_empty() {
@@ -291,11 +294,11 @@ impl Term for Contact {
     fn ledger(&self, at: &Pose) -> Vec<Row> {
         let first = self.before_m.is_empty();
         let stored = if first { self.add(at, &mut vec![0.0; at.q.len()]) } else { self.sums.stored };
-        let row = |name, kind, energy_j| Row { name, kind, energy_j };
+        let row = |name, account, kind, energy_j| Row { name, account, kind, energy_j };
         vec![
-            row("contact", RowKind::Stored, stored),
-            row("friction", RowKind::Dissipated, self.sums.friction),
-            row("contact damping", RowKind::Dissipated, self.sums.damping),
+            row("contact", Account::Contact, RowKind::Stored, stored),
+            row("friction", Account::Contact, RowKind::Dissipated, self.sums.friction),
+            row("contact damping", Account::Contact, RowKind::Dissipated, self.sums.damping),
         ]
     }
 

@@ -1,5 +1,6 @@
 use super::*;
 use crate::output::frame::samples;
+use models::{Account, LedgerLine};
 
 fn mesh() -> Mesh {
     Mesh { sets: [("tip".to_string(), vec![1, 2])].into(), ..samples::mesh() }
@@ -11,7 +12,7 @@ fn reaction(set: &str, axes: [bool; 3], t: f64) -> Reaction {
 
 fn record(step: u64) -> Record {
     let t = step as f64 * 0.1;
-    let row = |name, kind, share: f64| Row { name, kind, energy_j: share * t.exp() };
+    let row = |name, kind, share: f64| LedgerLine { name, account: Account::Stretch }.row(kind, share * t.exp());
     let rows = vec![
         row("membrane", RowKind::Stored, 1.0),
         row("contact", RowKind::Stored, 0.1),

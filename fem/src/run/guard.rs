@@ -1,10 +1,10 @@
 //! Stops for runs whose result cannot be trusted.
 
-use models::{Pose, Term};
+use models::{Account, Pose};
 
 use super::{Ledger, Simulation, highest, setup};
-use crate::FemError;
 use crate::sheet::reference::{cross, dot};
+use crate::{FemError, Transient};
 
 /// Share of its reference area below which an element counts as collapsed.
 const COLLAPSED: f64 = 1e-4;
@@ -122,7 +122,7 @@ impl Simulation {
             extent_m: (0..3).map(along).fold(0.0, f64::max),
             forced_dt_s: self.limits.forced_dt_s,
             added_mass: self.limits.added_mass,
-            contact_share: ledger.share_of(|name| name.contains("contact")),
+            contact_share: ledger.share_of(Account::Contact),
         }
     }
 

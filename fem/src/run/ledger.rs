@@ -1,6 +1,6 @@
 //! The energy balance of a run.
 
-use models::{Row, RowKind};
+use models::{Account, Row, RowKind};
 
 /// The energy balance at one moment: kinetic + Σ stored + Σ dissipated = Σ supplied + residual.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,17 +41,17 @@ impl Ledger {
 
     /// Energy of hourglass control over all stored energy; 0 while nothing is stored.
     pub fn hourglass_share(&self) -> f64 {
-        self.share_of(|name| name == "hourglass")
+        self.share_of(Account::Numerical)
     }
 
-    /// Stored energy of the rows of some names over all stored energy; 0 while nothing is stored.
-    pub(super) fn share_of(&self, wanted: impl Fn(&str) -> bool) -> f64 {
+    /// Stored energy on an account over all stored energy; 0 while nothing is stored.
+    pub(super) fn share_of(&self, account: Account) -> f64 {
         let all = self.stored_j(|_| true);
-        if all > 0.0 { self.stored_j(wanted) / all } else { 0.0 }
+        if all > 0.0 { self.stored_j(|row| row.account == account) / all } else { 0.0 }
     }
 
-    fn stored_j(&self, wanted: impl Fn(&str) -> bool) -> f64 {
-        let rows = self.rows.iter().filter(|r| r.kind == RowKind::Stored && wanted(r.name));
+    fn stored_j(&self, wanted: impl Fn(&Row) -> bool) -> f64 {
+        let rows = self.rows.iter().filter(|r| r.kind == RowKind::Stored && wanted(r));
         rows.map(|r| r.energy_j).sum()
     }
 }

@@ -4,7 +4,7 @@
 //! v(n+½) = [v(n−½)(1 − ½αΔt) + Δt F(n)/m] / (1 + ½αΔt)        x(n+1) = x(n) + Δt v(n+½)
 //! Δt = cfl · γ · 2/ω · (√(1 + ξ²) − ξ),   ω² = maxᵢ kᵢ/mᵢ      kinetic(n) = ½ Σ m v(n−½)·v(n+½)
 //! ```
-//! α mass damping, ξ viscosity, kᵢ the stiffness bounds of all terms ([`models::Term::stiffness_bound`]), γ ≥ 1 what the
+//! α mass damping, ξ viscosity, kᵢ the stiffness bounds of all terms ([`crate::Transient::stiffness_bound`]), γ ≥ 1 what the
 //! highest mode of the whole mesh allows beyond them (`highest`). With selective mass scaling m is a matrix (`selective`). With this
 //! kinetic energy the balance of a linear undamped system is kept to rounding.
 //! Reference: Belytschko, Liu, Moran, Nonlinear Finite Elements, ch. 6.
@@ -26,7 +26,7 @@ pub use reaction::Reaction;
 pub(crate) use setup::gaussian;
 pub use sides::ChangedSides;
 
-use models::{Pose, Row, RowKind, Term};
+use models::{Account, Pose, Row, RowKind};
 
 use crate::bytes::{Reader, Writer};
 use crate::contact::Contact;
@@ -34,7 +34,7 @@ use crate::contact::edges::Edges;
 use crate::problem::Guards;
 use crate::sheet::Sheet;
 use crate::sheet::order::Order;
-use crate::{FemError, Mesh, Problem};
+use crate::{FemError, Mesh, Problem, Transient};
 use constraint::{Body, Driven};
 use reaction::Reactions;
 use selective::Selective;
@@ -46,7 +46,7 @@ pub struct Simulation {
     order: Order,
     mesh: Mesh,
     sheet: Sheet,
-    terms: Vec<Box<dyn Term>>,
+    terms: Vec<Box<dyn Transient>>,
     contact: Option<Contact>,
     edges: Option<Edges>,
     driven: Vec<Driven>,
@@ -194,9 +194,9 @@ impl Simulation {
             selective.restore(&from.f64s()?)?;
         }
         self.sheet.restore(from.bytes()?).then_some(())?;
-        let contact = self.contact.iter_mut().map(|c| c as &mut dyn Term);
-        let contact = contact.chain(self.edges.iter_mut().map(|e| e as &mut dyn Term));
-        for term in self.terms.iter_mut().map(|t| &mut **t as &mut dyn Term).chain(contact) {
+        let contact = self.contact.iter_mut().map(|c| c as &mut dyn Transient);
+        let contact = contact.chain(self.edges.iter_mut().map(|e| e as &mut dyn Transient));
+        for term in self.terms.iter_mut().map(|t| &mut **t as &mut dyn Transient).chain(contact) {
             term.restore(from.bytes()?).then_some(())?;
         }
         for body in &mut self.bodies {
@@ -271,10 +271,10 @@ impl Simulation {
         let pose = Pose::nodes(self.x.as_flattened());
         let mut rows = self.sheet.ledger(&pose);
         rows.extend(self.others().flat_map(|term| term.ledger(&pose)));
-        let row = |name, kind, energy_j| Row { name, kind, energy_j };
-        rows.push(row("mass damping", RowKind::Dissipated, self.books.damping.sum));
+        let row = |name, account, kind, energy_j| Row { name, account, kind, energy_j };
+        rows.push(row("mass damping", Account::Numerical, RowKind::Dissipated, self.books.damping.sum));
         if !self.driven.is_empty() {
-            rows.push(row("supports", RowKind::Supplied, self.books.support.sum));
+            rows.push(row("supports", Account::Load, RowKind::Supplied, self.books.support.sum));
         }
         Ledger::close(self.books.kinetic, rows, self.books.start, self.books.scale)
     }
@@ -313,9 +313,9 @@ impl Simulation {
     }
 
     /// The terms beside the shells.
-    fn others(&self) -> impl Iterator<Item = &dyn Term> {
-        let contact = self.contact.iter().map(|c| c as &dyn Term);
-        let contact = contact.chain(self.edges.iter().map(|e| e as &dyn Term));
-        self.terms.iter().map(|t| &**t as &dyn Term).chain(contact)
+    fn others(&self) -> impl Iterator<Item = &dyn Transient> {
+        let contact = self.contact.iter().map(|c| c as &dyn Transient);
+        let contact = contact.chain(self.edges.iter().map(|e| e as &dyn Transient));
+        self.terms.iter().map(|t| &**t as &dyn Transient).chain(contact)
     }
 }

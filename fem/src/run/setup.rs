@@ -1,6 +1,6 @@
 //! From a problem to a run: order, masses, time step, constraints, terms.
 
-use models::{Pose, Term};
+use models::Pose;
 
 use super::constraint::{Body, Driven, bodies, driven, set};
 use super::reaction::Reactions;
@@ -14,7 +14,7 @@ use crate::sheet::order::{Order, renumber};
 use crate::sheet::reference::{cross, dot};
 use crate::sheet::{Sheet, reference};
 use crate::terms::{Folds, Gravity, NodalForces, Obstacles, RestCurvature, penalty_stiffness_n_m};
-use crate::{FemError, Mesh, Problem};
+use crate::{FemError, Mesh, Problem, Transient};
 
 /// Penalty stiffness of obstacles as a share of m/dt².
 const OBSTACLE_SHARE: f64 = 0.1;
@@ -100,7 +100,7 @@ fn masses_and_step(
     settings: &Settings,
     mesh: &Mesh,
     sheet: &Sheet,
-    bent: &[Box<dyn Term>],
+    bent: &[Box<dyn Transient>],
     x: &[[f64; 4]],
     still: &Still,
 ) -> Result<Masses, FemError> {
@@ -215,8 +215,8 @@ fn terms(
     mesh: &Mesh,
     mass: &[f64],
     dt_s: f64,
-    mut terms: Vec<Box<dyn Term>>,
-) -> Result<Vec<Box<dyn Term>>, FemError> {
+    mut terms: Vec<Box<dyn Transient>>,
+) -> Result<Vec<Box<dyn Transient>>, FemError> {
     if !problem.forces.is_empty() {
         terms.push(Box::new(NodalForces::new(mesh, &problem.forces)?));
     }
@@ -231,8 +231,8 @@ fn terms(
 }
 
 /// What bending has beside the shells' constant matrix.
-fn bent(problem: &Problem, mesh: &Mesh, sheet: &Sheet) -> Vec<Box<dyn Term>> {
-    let mut terms: Vec<Box<dyn Term>> = Vec::new();
+fn bent(problem: &Problem, mesh: &Mesh, sheet: &Sheet) -> Vec<Box<dyn Transient>> {
+    let mut terms: Vec<Box<dyn Transient>> = Vec::new();
     let rest = RestCurvature::new(mesh, &problem.sections);
     if !rest.is_empty() {
         terms.push(Box::new(rest));

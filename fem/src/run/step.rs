@@ -2,13 +2,13 @@
 
 use std::time::{Duration, Instant};
 
-use models::{Pose, Term, Tick};
+use models::Pose;
 
 use super::{Advance, Simulation, constraint};
-use crate::FemError;
 use crate::contact::edges::hold;
 use crate::sheet::group::{LANES, Lane};
 use crate::sheet::lanes::{V, sum};
+use crate::{FemError, Tick, Transient};
 
 /// Wall time that the threads of a run stay together: waking them costs 0.1 ms.
 const STRETCH: Duration = Duration::from_millis(50);

@@ -20,11 +20,12 @@ pub mod tangent;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use models::{Fabric, Pose, Row, RowKind, Term, Tick};
+use models::{Account, Fabric, LedgerLine, Pose, Row, RowKind, Term};
 
 use crate::mesh::Mesh;
 use crate::problem::{Chamber, Section, Settings};
 use crate::{FemError, NODE};
+use crate::{Tick, Transient};
 use bending::BendingMatrix;
 use chamber::Air;
 use group::Item;
@@ -206,8 +207,8 @@ impl Sheet {
 const BOOKS_EVERY: u64 = 8;
 
 impl Term for Sheet {
-    fn name(&self) -> &'static str {
-        "shells"
+    fn line(&self) -> LedgerLine {
+        LedgerLine { name: "shells", account: Account::Stretch }
     }
 
     /// Membrane, hourglass and bending energy minus Σ pV at the pressures of the last step, without viscosity.
@@ -217,7 +218,9 @@ impl Term for Sheet {
         let work: f64 = copy.air.iter().zip(copy.volumes()).map(|(air, v)| air.pressure_pa * v).sum();
         copy.stored().iter().sum::<f64>() - work
     }
+}
 
+impl Transient for Sheet {
     fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64 {
         self.air.iter_mut().for_each(|air| air.set_pressure(tick.time_s));
         let books = self.measure || tick.step.is_multiple_of(BOOKS_EVERY) || self.air.iter().any(Air::wants_volume);
@@ -232,19 +235,24 @@ impl Term for Sheet {
 
     fn ledger(&self, _at: &Pose) -> Vec<Row> {
         let [membrane, bending, hourglass] = self.stored();
-        let row = |name, kind, energy_j| Row { name, kind, energy_j };
+        let row = |name, account, kind, energy_j| Row { name, account, kind, energy_j };
         let mut rows = vec![
-            row("membrane", RowKind::Stored, membrane),
-            row("bending", RowKind::Stored, bending),
-            row("hourglass", RowKind::Stored, hourglass),
-            row("viscosity", RowKind::Dissipated, self.viscous_j),
+            row("membrane", Account::Stretch, RowKind::Stored, membrane),
+            row("bending", Account::Wall, RowKind::Stored, bending),
+            row("hourglass", Account::Numerical, RowKind::Stored, hourglass),
+            row("viscosity", Account::Numerical, RowKind::Dissipated, self.viscous_j),
         ];
         if self.fabrics.iter().any(|f| f.has_memory()) {
             let lost = self.patches.iter().map(|p| p.sums.hysteresis).sum();
-            rows.push(row("fabric hysteresis", RowKind::Dissipated, lost));
+            rows.push(row("fabric hysteresis", Account::Stretch, RowKind::Dissipated, lost));
         }
         if !self.air.is_empty() {
-            rows.push(row("pressure", RowKind::Supplied, self.air.iter().map(|a| a.work_j).sum()));
+            rows.push(row(
+                "pressure",
+                Account::ActuatorGas,
+                RowKind::Supplied,
+                self.air.iter().map(|a| a.work_j).sum(),
+            ));
         }
         rows
     }

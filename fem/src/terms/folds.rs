@@ -32,12 +32,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use models::{Fabric, Pose, Row, RowKind, Term, Tick};
+use models::{Account, Fabric, LedgerLine, Pose, Row, RowKind, Term};
 
 use crate::Mesh;
 use crate::bytes::{Reader, Writer};
 use crate::sheet::{Element, Sheet};
 use crate::vec3::{V3, add, along, dot, node, norm, scale, sub};
+use crate::{Tick, Transient};
 
 /// Steps between two looks at the tensions.
 const EVERY: u64 = 32;
@@ -226,8 +227,8 @@ impl Edge {
 }
 
 impl Term for Folds {
-    fn name(&self) -> &'static str {
-        "folds"
+    fn line(&self) -> LedgerLine {
+        LedgerLine { name: "folds", account: Account::Wall }
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
@@ -245,7 +246,9 @@ impl Term for Folds {
         }
         stored
     }
+}
 
+impl Transient for Folds {
     fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64 {
         // Not in the first step, whose energy is the one that the ledger starts from.
         if (tick.step + 1).is_multiple_of(EVERY) {
@@ -261,8 +264,8 @@ impl Term for Folds {
         let x = at.q.as_chunks::<4>().0;
         let energy_j = self.stored_j.unwrap_or_else(|| self.edges.iter().map(|e| e.energy_j(x)).sum());
         vec![
-            Row { name: self.name(), kind: RowKind::Stored, energy_j },
-            Row { name: "tension of folds", kind: RowKind::Supplied, energy_j: self.tension_work_j },
+            self.line().row(RowKind::Stored, energy_j),
+            LedgerLine { name: "tension of folds", account: Account::Wall }.row(RowKind::Supplied, self.tension_work_j),
         ]
     }
 

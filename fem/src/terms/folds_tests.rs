@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use models::fabrics::Orthotropic;
-use models::{Pose, Term, Tick};
+use models::{Pose, Term};
 
 use super::Folds;
 use crate::mesh::generate::plate;
@@ -10,6 +10,7 @@ use crate::problem::{Ply, Problem, Section};
 use crate::sheet::Sheet;
 use crate::sheet::order::{Order, renumber};
 use crate::sheet::reference::bending_stiffness;
+use crate::{Tick, Transient};
 
 const SOFT: f64 = 1.0;
 const HARD: f64 = 60.0;

@@ -12,11 +12,12 @@
 //!
 //! **Validity**: uniform field. With scaled masses the weight is scaled too: give the unscaled masses where that matters.
 
-use models::{Pose, Row, RowKind, Term, Tick};
+use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
 
 use crate::FemError;
 use crate::bytes::{Reader, Writer};
 use crate::problem::{self, Amplitude};
+use crate::{Tick, Transient};
 
 /// Weight of every node.
 #[derive(Debug, Clone)]
@@ -68,13 +69,16 @@ impl Gravity {
 }
 
 impl Term for Gravity {
-    fn name(&self) -> &'static str {
-        "gravity"
+    fn line(&self) -> LedgerLine {
+        LedgerLine { name: "gravity", account: Account::Load }
     }
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
         let amplitude = self.amplitude.at(self.time_s);
         -amplitude * self.pull(amplitude, at.q, force)
     }
+}
+
+impl Transient for Gravity {
     fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64 {
         self.time_s = tick.time_s;
         let amplitude = self.amplitude.at(tick.time_s);
@@ -85,7 +89,7 @@ impl Term for Gravity {
         -amplitude * s
     }
     fn ledger(&self, _at: &Pose) -> Vec<Row> {
-        vec![Row { name: self.name(), kind: RowKind::Supplied, energy_j: self.work_j }]
+        vec![self.line().row(RowKind::Supplied, self.work_j)]
     }
     fn save(&self) -> Vec<u8> {
         let mut writer = Writer::new();

@@ -12,11 +12,12 @@
 //! **Validity**: dead load. The work of a step is exact for an amplitude and a motion that are straight within the step,
 //! and is what central differences take from the load.
 
-use models::{Pose, Row, RowKind, Term, Tick};
+use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
 
 use crate::bytes::{Reader, Writer};
 use crate::problem::{Amplitude, NodalForce};
 use crate::{FemError, Mesh};
+use crate::{Tick, Transient};
 
 /// All nodal forces of a run.
 #[derive(Debug, Clone)]
@@ -50,12 +51,15 @@ impl NodalForces {
 }
 
 impl Term for NodalForces {
-    fn name(&self) -> &'static str {
-        "nodal forces"
+    fn line(&self) -> LedgerLine {
+        LedgerLine { name: "nodal forces", account: Account::Load }
     }
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
         self.loads.iter().map(|load| load.add(load.amplitude.at(self.time_s), at.q, force)).sum()
     }
+}
+
+impl Transient for NodalForces {
     fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64 {
         self.time_s = tick.time_s;
         let mut energy_j = 0.0;
@@ -70,7 +74,7 @@ impl Term for NodalForces {
         energy_j
     }
     fn ledger(&self, _at: &Pose) -> Vec<Row> {
-        vec![Row { name: self.name(), kind: RowKind::Supplied, energy_j: self.work_j }]
+        vec![self.line().row(RowKind::Supplied, self.work_j)]
     }
     fn save(&self) -> Vec<u8> {
         let mut writer = Writer::new();

@@ -14,7 +14,7 @@
 //! **Validity**: depths well below the radius; nodes do not touch the solid between them, so elements must be smaller
 //! than its curvature. Friction: see the return map in `coulomb`.
 
-use models::{Pose, Row, RowKind, Term, Tick};
+use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
 use rayon::prelude::*;
 
 use super::coulomb::slide;
@@ -22,6 +22,7 @@ use crate::bytes::{Reader, Writer};
 use crate::problem::{Obstacle, ObstacleShape};
 use crate::vec3::{V3, along, cross, dot, scale, sub, unit};
 use crate::{FemError, Mesh};
+use crate::{Tick, Transient};
 
 /// Nodes per parallel chunk.
 const CHUNK: usize = 1024;
@@ -126,8 +127,8 @@ impl Obstacles {
 }
 
 impl Term for Obstacles {
-    fn name(&self) -> &'static str {
-        "obstacles"
+    fn line(&self) -> LedgerLine {
+        LedgerLine { name: "obstacles", account: Account::Load }
     }
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
         let (x, force) = (at.q.as_chunks::<4>().0, force.as_chunks_mut::<4>().0);
@@ -140,6 +141,9 @@ impl Term for Obstacles {
         }
         energy_j
     }
+}
+
+impl Transient for Obstacles {
     fn advance(&mut self, at: &Pose, _tick: &Tick, force: &mut [f64]) -> f64 {
         let (x, force) = (at.q.as_chunks::<4>().0, force.as_chunks_mut::<4>().0);
         if self.before_m.is_empty() {
@@ -160,8 +164,8 @@ impl Term for Obstacles {
         let first = self.before_m.is_empty();
         let stored = if first { self.add(at, &mut vec![0.0; at.q.len()]) } else { self.stored_j };
         vec![
-            Row { name: self.name(), kind: RowKind::Stored, energy_j: stored },
-            Row { name: "obstacle friction", kind: RowKind::Dissipated, energy_j: self.friction_j },
+            self.line().row(RowKind::Stored, stored),
+            LedgerLine { name: "obstacle friction", account: Account::Load }.row(RowKind::Dissipated, self.friction_j),
         ]
     }
     fn stiffness_bound(&self, at: &Pose, bound: &mut [f64]) {

@@ -17,13 +17,14 @@
 //! **Validity**: that of the bending; where elements are so irregular that H and N are not parallel in the reference shape,
 //! it keeps a stress of the order of the element size. Derived here.
 
-use models::{Pose, Row, RowKind, Term, Tick};
+use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
 
 use crate::mesh::Mesh;
 use crate::problem::Section;
 use crate::sheet::bending::{CurvatureRow, curvature_rows};
 use crate::sheet::reference::bending_stiffness;
 use crate::vec3::{V3, add, along, cross, dot, node, norm, scale, sub};
+use crate::{Tick, Transient};
 
 /// Rest curvature of all nodes that have one.
 #[derive(Debug, Clone)]
@@ -152,13 +153,16 @@ impl Rest {
 }
 
 impl Term for RestCurvature {
-    fn name(&self) -> &'static str {
-        "rest curvature"
+    fn line(&self) -> LedgerLine {
+        LedgerLine { name: "rest curvature", account: Account::Wall }
     }
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
         let (x, force) = (at.q.as_chunks::<4>().0, force.as_chunks_mut::<4>().0);
         self.nodes.iter().map(|rest| rest.add(x, force)).sum()
     }
+}
+
+impl Transient for RestCurvature {
     fn advance(&mut self, at: &Pose, _tick: &Tick, force: &mut [f64]) -> f64 {
         let energy_j = self.add(at, force);
         self.stored_j = Some(energy_j);
@@ -168,7 +172,7 @@ impl Term for RestCurvature {
     fn ledger(&self, at: &Pose) -> Vec<Row> {
         let x = at.q.as_chunks::<4>().0;
         let energy_j = self.stored_j.unwrap_or_else(|| self.nodes.iter().map(|rest| rest.energy(x)).sum());
-        vec![Row { name: self.name(), kind: RowKind::Stored, energy_j }]
+        vec![self.line().row(RowKind::Stored, energy_j)]
     }
     fn stiffness_bound(&self, at: &Pose, bound: &mut [f64]) {
         self.nodes.iter().for_each(|rest| rest.bound(at.q.as_chunks::<4>().0, bound));

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use models::fabrics::Orthotropic;
-use models::{Pose, Term, Tick};
+use models::{Pose, Term};
 
 use super::RestCurvature;
 use crate::Mesh;
@@ -9,6 +9,7 @@ use crate::mesh::generate;
 use crate::problem::{Ply, Section};
 use crate::sheet::bending::{BendingMatrix, curvature_rows};
 use crate::sheet::reference::bending_stiffness;
+use crate::{Tick, Transient};
 
 fn section() -> Section {
     let plies = vec![Ply { fabric: Arc::new(Orthotropic::isotropic(208e6, 0.3, 2e-4)), angle_rad: 0.0 }];

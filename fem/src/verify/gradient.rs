@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use models::fabrics::{NeoHookean, Orthotropic};
-use models::{Pose, Term, Tick};
+use models::{Pose, Term};
 
 use super::setup::{chamber, noise, section, shells, slope_error};
 use super::{Check, Line, Outcome};
@@ -13,6 +13,7 @@ use crate::plain::PlainSheet;
 use crate::problem::{self, Amplitude, NodalForce, Obstacle, ObstacleShape, Ply, Section};
 use crate::terms::{Gravity, NodalForces, Obstacles, RestCurvature};
 use crate::{FemError, Mesh, Problem};
+use crate::{Tick, Transient};
 
 pub(super) const CHECK: Check = Check {
     name: "force-is-slope",
@@ -56,7 +57,7 @@ fn run() -> Result<Outcome, FemError> {
     judge("plain shells", &plain, &q, 2e-7);
     judge("rest curvature", &rest, &q, 1e-4);
     for term in loads(&mesh, &sheet.masses(mesh.points.len()))? {
-        judge(term.name(), &*term, &q, 1e-6);
+        judge(term.line().name, &*term, &q, 1e-6);
     }
     let (contact, x) = pressed()?;
     judge("contact", &contact, &x, 5e-10);

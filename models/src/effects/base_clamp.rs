@@ -15,7 +15,7 @@
 
 use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
-use crate::term::{Pose, Term};
+use crate::term::{Account, LedgerLine, Pose, Remembering, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "base_clamp",
@@ -78,8 +78,8 @@ pub(super) fn clamp(name: &'static str, [share, reach]: [f64; 2], at_m: f64, ass
 }
 
 impl Term for Clamp {
-    fn name(&self) -> &'static str {
-        self.name
+    fn line(&self) -> LedgerLine {
+        LedgerLine { name: self.name, account: Account::Wall }
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
@@ -88,3 +88,5 @@ impl Term for Clamp {
         0.5 * moment * at.q[0]
     }
 }
+
+impl Remembering for Clamp {}

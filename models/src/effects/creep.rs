@@ -25,7 +25,7 @@
 
 use super::{ABOVE_ZERO, Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
-use crate::term::{Memory, Pose, Term};
+use crate::term::{Account, LedgerLine, Memory, Pose, Remembering, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "creep",
@@ -112,8 +112,8 @@ fn squared(before: f64, c: f64, x: f64) -> f64 {
 }
 
 impl Term for Creep {
-    fn name(&self) -> &'static str {
-        ENTRY.name
+    fn line(&self) -> LedgerLine {
+        ENTRY.line(Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
@@ -122,7 +122,9 @@ impl Term for Creep {
         force[0] -= self.stiffness * (stretch * left + change * mean);
         self.stiffness * (0.5 * stretch * stretch + change * (stretch * left + 0.5 * mean * change))
     }
+}
 
+impl Remembering for Creep {
     fn memory(&self) -> Memory {
         Memory { values: 2, time_s: self.time_s }
     }

@@ -25,7 +25,7 @@
 use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
-use crate::term::{Pose, Term, actuator_q};
+use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -75,8 +75,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
 }
 
 impl Term for CrimpedSides {
-    fn name(&self) -> &'static str {
-        ENTRY.name
+    fn line(&self) -> LedgerLine {
+        ENTRY.line(Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

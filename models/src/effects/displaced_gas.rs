@@ -18,7 +18,7 @@
 use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
-use crate::term::{Pose, Term, actuator_q};
+use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "displaced_gas",
@@ -59,8 +59,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
 }
 
 impl Term for DisplacedGas {
-    fn name(&self) -> &'static str {
-        ENTRY.name
+    fn line(&self) -> LedgerLine {
+        ENTRY.line(Account::BodyGas)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

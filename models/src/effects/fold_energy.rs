@@ -23,7 +23,7 @@ use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::section::Section;
-use crate::term::{Pose, Term, actuator_q};
+use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 use crate::trig::sin_cos;
 use std::f64::consts::PI;
 
@@ -115,8 +115,8 @@ impl FoldEnergy {
 const SIDES: f64 = 8.0 * PI;
 
 impl Term for FoldEnergy {
-    fn name(&self) -> &'static str {
-        ENTRY.name
+    fn line(&self) -> LedgerLine {
+        ENTRY.line(Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

@@ -20,7 +20,7 @@
 
 use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
-use crate::term::{Memory, Pose, Term};
+use crate::term::{Account, LedgerLine, Memory, Pose, Remembering, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "friction",
@@ -73,8 +73,8 @@ impl Friction {
 }
 
 impl Term for Friction {
-    fn name(&self) -> &'static str {
-        ENTRY.name
+    fn line(&self) -> LedgerLine {
+        ENTRY.line(Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
@@ -85,7 +85,9 @@ impl Term for Friction {
         force[0] -= moment;
         0.5 * moment * elastic + self.moment * slip.abs()
     }
+}
 
+impl Remembering for Friction {
     fn memory(&self) -> Memory {
         Memory { values: 1, time_s: f64::INFINITY }
     }

@@ -15,7 +15,7 @@
 
 use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
-use crate::term::{Pose, Term};
+use crate::term::{Account, LedgerLine, Pose, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "gravity",
@@ -56,8 +56,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
 }
 
 impl Term for Gravity {
-    fn name(&self) -> &'static str {
-        ENTRY.name
+    fn line(&self) -> LedgerLine {
+        ENTRY.line(Account::Load)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

@@ -13,7 +13,7 @@
 
 use super::{ANY, Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
-use crate::term::{Pose, Term};
+use crate::term::{Account, LedgerLine, Pose, Remembering, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "initial_curvature",
@@ -54,8 +54,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
 }
 
 impl Term for InitialCurvature {
-    fn name(&self) -> &'static str {
-        ENTRY.name
+    fn line(&self) -> LedgerLine {
+        ENTRY.line(Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
@@ -63,3 +63,5 @@ impl Term for InitialCurvature {
         -self.moment * at.q[0]
     }
 }
+
+impl Remembering for InitialCurvature {}

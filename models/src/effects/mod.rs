@@ -44,6 +44,7 @@ mod yarn_stretch;
 
 use crate::actuators::Family;
 use crate::assembly::Assembly;
+use crate::term::{Account, LedgerLine};
 pub use own::Catalogue;
 
 /// The list, in the order in which effects are added to a model.
@@ -306,6 +307,13 @@ impl Parameter<'_> {
     /// Where a fit starts for an actuator, in `unit`: at least one value.
     pub fn starts_for(&self, actuator: &str) -> Vec<f64> {
         if self.starts.is_empty() { vec![self.typical_for(actuator)] } else { self.starts.to_vec() }
+    }
+}
+
+impl Effect<'static> {
+    /// Line of its term in the energy ledger.
+    const fn line(&self, account: Account) -> LedgerLine {
+        LedgerLine { name: self.name, account }
     }
 }
 

@@ -17,7 +17,7 @@
 
 use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
-use crate::term::{Memory, Pose, Term};
+use crate::term::{Account, LedgerLine, Memory, Pose, Remembering, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "plastic_set",
@@ -60,8 +60,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
 }
 
 impl Term for PlasticSet {
-    fn name(&self) -> &'static str {
-        ENTRY.name
+    fn line(&self) -> LedgerLine {
+        ENTRY.line(Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
@@ -74,7 +74,9 @@ impl Term for PlasticSet {
             -0.5 * (moment * kappa + self.stiffness * self.share * (1.0 - self.share) * before * before)
         }
     }
+}
 
+impl Remembering for PlasticSet {
     fn memory(&self) -> Memory {
         Memory { values: 1, time_s: f64::INFINITY }
     }

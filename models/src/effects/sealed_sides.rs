@@ -29,7 +29,7 @@ use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::section::Section;
 use crate::site::Site;
-use crate::term::{Pose, Term, actuator_q};
+use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 use crate::trig::sin_cos;
 use std::f64::consts::PI;
 
@@ -128,8 +128,8 @@ pub(crate) const NARROWED: f64 = PI - 2.0;
 const SERIES_BELOW: f64 = 0.05;
 
 impl Term for SealedSides {
-    fn name(&self) -> &'static str {
-        ENTRY.name
+    fn line(&self) -> LedgerLine {
+        ENTRY.line(Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

@@ -15,7 +15,7 @@
 use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
-use crate::term::{Pose, Term, actuator_q};
+use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "seam_stiffness",
@@ -53,8 +53,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
 }
 
 impl Term for SeamStiffness {
-    fn name(&self) -> &'static str {
-        ENTRY.name
+    fn line(&self) -> LedgerLine {
+        ENTRY.line(Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

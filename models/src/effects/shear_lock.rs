@@ -18,7 +18,7 @@
 use super::{ABOVE_ZERO, Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::{ActuatorShape, Family};
 use crate::assembly::Assembly;
-use crate::term::{Pose, Term, actuator_q};
+use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 use std::f64::consts::FRAC_PI_2;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -81,8 +81,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
 }
 
 impl Term for ShearLock {
-    fn name(&self) -> &'static str {
-        ENTRY.name
+    fn line(&self) -> LedgerLine {
+        ENTRY.line(Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

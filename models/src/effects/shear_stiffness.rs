@@ -16,7 +16,7 @@
 use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::{ActuatorShape, Family};
 use crate::assembly::Assembly;
-use crate::term::{Pose, Term, actuator_q};
+use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "shear_stiffness",
@@ -59,8 +59,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
 }
 
 impl Term for ShearStiffness {
-    fn name(&self) -> &'static str {
-        ENTRY.name
+    fn line(&self) -> LedgerLine {
+        ENTRY.line(Account::Stretch)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

@@ -14,7 +14,7 @@
 use super::{ANY, Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::body::soft_step;
-use crate::term::{Pose, Term};
+use crate::term::{Account, LedgerLine, Pose, Remembering, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "tail_tension",
@@ -56,8 +56,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
 }
 
 impl Term for TailTension {
-    fn name(&self) -> &'static str {
-        ENTRY.name
+    fn line(&self) -> LedgerLine {
+        ENTRY.line(Account::Wall)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
@@ -66,3 +66,5 @@ impl Term for TailTension {
         self.moment * energy
     }
 }
+
+impl Remembering for TailTension {}

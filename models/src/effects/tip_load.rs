@@ -12,7 +12,7 @@
 
 use super::{ANY, Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
-use crate::term::{Pose, Term};
+use crate::term::{Account, LedgerLine, Pose, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "tip_load",
@@ -56,8 +56,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
 }
 
 impl Term for TipLoad {
-    fn name(&self) -> &'static str {
-        ENTRY.name
+    fn line(&self) -> LedgerLine {
+        ENTRY.line(Account::Load)
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

@@ -21,9 +21,9 @@
 
 use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
-use crate::body::BodyLaw;
+use crate::body::{BODY_PRESSURE, BodyLaw};
 use crate::exact::beam::{gamma0_from_curvature_ratio, moment_ratio};
-use crate::term::{Pose, Term};
+use crate::term::{LedgerLine, Pose, Term};
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {
@@ -69,8 +69,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
 }
 
 impl Term for Wrinkling {
-    fn name(&self) -> &'static str {
-        "body_pressure"
+    fn line(&self) -> LedgerLine {
+        BODY_PRESSURE
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {

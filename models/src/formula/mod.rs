@@ -23,7 +23,7 @@ mod units;
 use crate::assembly::Assembly;
 use crate::effects::{Effect, Fitted, Group, Needs, Parameter, Stage};
 use crate::root::POLE;
-use crate::term::{Extreme, Pose, Term};
+use crate::term::{Account, Extreme, LedgerLine, Pose, Remembering, Term};
 use compile::{Compiled, Name, compile};
 use program::{Op, run};
 use std::sync::Arc;
@@ -263,8 +263,8 @@ impl FormulaTerm {
 }
 
 impl Term for FormulaTerm {
-    fn name(&self) -> &'static str {
-        "formula"
+    fn line(&self) -> LedgerLine {
+        LedgerLine { name: "formula", account: Account::Wall }
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
@@ -276,7 +276,9 @@ impl Term for FormulaTerm {
     fn add_force(&self, at: &Pose, force: &mut [f64]) {
         force[0] += self.moment(&mut self.inputs(at), at.q[0]);
     }
+}
 
+impl Remembering for FormulaTerm {
     fn extreme(&self, at: &Pose, within: [f64; 2]) -> Option<Extreme> {
         let mut inputs = self.inputs(at);
         let mut size = |kappa: f64| match self.moment(&mut inputs, kappa).abs() {

@@ -29,11 +29,6 @@ impl Site {
         force[0]
     }
 
-    /// Further body-side terms.
-    pub(crate) fn body_terms(&self) -> impl Iterator<Item = &dyn Term> {
-        self.body_terms.iter().map(|term| &**term as &dyn Term)
-    }
-
     /// Moment of the outer loads at a state, and that of the wall, their sum with the actuator's \[N·m\].
     pub(crate) fn moments(&self, state: &SiteState, memory: &[f64]) -> [f64; 2] {
         [state.loads.moment, self.body_moment(state.curvature, &state.loads, memory)]

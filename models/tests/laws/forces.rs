@@ -38,8 +38,8 @@ fn check(scenario: &Scenario, random: &mut Random) -> BTreeSet<&'static str> {
     let mut seen = BTreeSet::new();
     let mut hold = |term: &dyn Term, q: &[f64], p_body_pa: f64, p_act_pa: f64| {
         let error = worst_error(term, q, p_body_pa, p_act_pa);
-        assert!(error < 1e-6, "{} {} at {q:?}, {p_body_pa} Pa: {error:e}", scenario.name, term.name());
-        seen.insert(term.name());
+        assert!(error < 1e-6, "{} {} at {q:?}, {p_body_pa} Pa: {error:e}", scenario.name, term.line().name);
+        seen.insert(term.line().name);
     };
     for site in &model.assembly().sites {
         for _ in 0..POSES {
@@ -53,7 +53,7 @@ fn check(scenario: &Scenario, random: &mut Random) -> BTreeSet<&'static str> {
             site.actuator_terms.iter().for_each(|t| hold(&**t, &q, p_body_pa, p_act_pa));
             let kappa = random.decades(1e-6, 20.0) * if random.unit() < 0.5 { -1.0 } else { 1.0 };
             let body = [&*site.body_pressure, &site.bending as &dyn Term].into_iter();
-            body.chain(site.body_terms.iter().map(|t| &**t)).for_each(|t| hold(t, &[kappa], p_body_pa, 0.0));
+            body.chain(site.body_terms.iter().map(|t| &**t as &dyn Term)).for_each(|t| hold(t, &[kappa], p_body_pa, 0.0));
         }
     }
     for term in &model.assembly().node_terms {

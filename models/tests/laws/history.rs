@@ -3,7 +3,7 @@
 use crate::support::*;
 use models::effects::{EFFECTS, Stage, by_name};
 use models::term::RowKind;
-use models::{Loads, Model, Pose, Prediction, Scenario, Step, Term};
+use models::{Loads, Model, Pose, Prediction, Remembering, Scenario, Step};
 
 const BODY: f64 = 2e3;
 
@@ -310,7 +310,7 @@ fn at_any_memory_the_force_is_minus_the_slope_of_the_energy_and_the_stored_energ
     }
 }
 
-fn hold_at(term: &dyn Term, kappa: f64, dt_s: f64, memory: &[f64], name: &str) {
+fn hold_at(term: &dyn Remembering, kappa: f64, dt_s: f64, memory: &[f64], name: &str) {
     let at = |kappa: f64, dt_s: f64, memory: &[f64]| {
         let mut force = [0.0];
         let q = [kappa];

@@ -19,7 +19,7 @@ use crate::accuracy::paper_accuracy;
 use crate::error::CompareError;
 use crate::record::Shape;
 use data::DataError;
-use models::{Loads, Model, Scenario, Target};
+use models::{Account, Loads, Model, Scenario, Target};
 use serde::{Deserialize, Serialize};
 
 /// Terms of the common ledger.
@@ -217,13 +217,14 @@ fn same(a_kpa: f64, b_kpa: f64) -> bool {
 fn reduced_ledger(model: &Model, loads: &Loads, at: &models::Prediction, gas: f64) -> [f64; 6] {
     let mut out = [0.0; 6];
     for line in model.ledger(loads, at) {
-        let (term, factor) = match line.name {
-            "actuator_pressure" => (0, gas),
-            // What the actuator pushes aside is work against the body's gas.
-            "body_pressure" | "displaced_gas" => (1, 1.0),
-            "self_contact" => (4, 1.0),
-            "fabric_stretch" | "shear_stiffness" => (3, 1.0),
-            _ => (2, 1.0),
+        let (term, factor) = match line.account {
+            Account::ActuatorGas => (0, gas),
+            Account::BodyGas => (1, 1.0),
+            // The runs have no loads beside their gas.
+            Account::Wall | Account::Load => (2, 1.0),
+            Account::Stretch => (3, 1.0),
+            Account::Contact => (4, 1.0),
+            Account::Numerical => (5, 1.0),
         };
         out[term] += factor * line.energy_j * 1e3;
     }

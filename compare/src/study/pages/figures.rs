@@ -266,7 +266,7 @@ pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) 
         }
         columns.push((label.clone(), lines));
     }
-    let energy = |lines: &[models::LedgerLine], t: &String| {
+    let energy = |lines: &[models::Row], t: &String| {
         lines.iter().find(|l| l.name == *t).map_or(0.0, |l| l.energy_j * 1e3)
     };
     // More terms than colours: the smallest go together.
@@ -278,7 +278,7 @@ pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) 
         joined = by_size.split_off(MOST_TERMS - 1);
         terms.retain(|t| !joined.contains(t));
     }
-    let energies = |lines: &[models::LedgerLine]| -> Vec<f64> {
+    let energies = |lines: &[models::Row]| -> Vec<f64> {
         let rest = (!joined.is_empty()).then(|| joined.iter().map(|t| energy(lines, t)).sum());
         terms.iter().map(|t| energy(lines, t)).chain(rest).collect()
     };

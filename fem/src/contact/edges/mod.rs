@@ -43,13 +43,14 @@ mod sides;
 #[cfg(test)]
 mod tests;
 
-use models::{Pose, Row, RowKind, Term, Tick};
+use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
 use rayon::prelude::*;
 
 use super::follow::farthest_m;
 use super::push;
 use super::surface::Surface;
 use crate::{FemError, Mesh, problem};
+use crate::{Tick, Transient};
 use chunk::{Chunk, PAIRS};
 use pair::Pair;
 use sides::Sides;
@@ -205,8 +206,8 @@ impl Edges {
 }
 
 impl Term for Edges {
-    fn name(&self) -> &'static str {
-        "edge contact"
+    fn line(&self) -> LedgerLine {
+        LedgerLine { name: "edge contact", account: Account::Contact }
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
@@ -224,7 +225,9 @@ impl Term for Edges {
         }
         energy_j
     }
+}
 
+impl Transient for Edges {
     fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64 {
         let (x, force) = (at.q.as_chunks::<4>().0, force.as_chunks_mut::<4>().0);
         self.search_if_due(x);
@@ -243,11 +246,11 @@ impl Term for Edges {
 
     /// Lines at the positions of the last step.
     fn ledger(&self, _at: &Pose) -> Vec<Row> {
-        let row = |name, kind, energy_j| Row { name, kind, energy_j };
+        let row = |name, account, kind, energy_j| Row { name, account, kind, energy_j };
         vec![
-            row("edge contact", RowKind::Stored, self.stored_j),
-            row("edge damping", RowKind::Dissipated, self.lost_j),
-            row("collisions", RowKind::Dissipated, self.held.lost_j),
+            row("edge contact", Account::Contact, RowKind::Stored, self.stored_j),
+            row("edge damping", Account::Contact, RowKind::Dissipated, self.lost_j),
+            row("collisions", Account::Contact, RowKind::Dissipated, self.held.lost_j),
         ]
     }
 

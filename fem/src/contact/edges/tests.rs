@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use models::fabrics::NeoHookean;
-use models::{Pose, Term, Tick};
+use models::{Pose, Term};
 
 use super::Edges;
 use super::hold::Step;
@@ -10,6 +10,7 @@ use crate::problem::{self, Ply, Section};
 use crate::vec3::{add, cross, node};
 use crate::verify::folded::{piercings, pouch};
 use crate::{Mesh, Problem, Simulation};
+use crate::{Tick, Transient};
 
 const DT_S: f64 = 4e-6;
 

@@ -1,10 +1,11 @@
-use models::{Pose, Term, Tick};
+use models::{Pose, Term};
 
 use super::rig::{Noise, Rig, flat, masses};
 use crate::contact::Contact;
 use crate::mesh::Mesh;
 use crate::problem;
 use crate::vec3::{add, cross, node};
+use crate::{Tick, Transient};
 
 pub fn settings(friction: f64) -> problem::Contact {
     problem::Contact { friction, ..problem::Contact::default() }

@@ -1,11 +1,12 @@
 //! A mass-spring fabric stepped by central differences, small enough to live in a test.
 
-use models::{Pose, RowKind, Term, Tick};
+use models::{Pose, RowKind};
 
 use crate::contact::Contact;
 use crate::mesh::{Mesh, Part};
 use crate::vec3::{V3, add, along, cross, dot, norm, scale, sub};
 use crate::{FemError, problem};
+use crate::{Tick, Transient};
 
 /// Areal mass \[kg/m²\] and stretching stiffness \[N/m\] of the fabric: 0.2 mm at 1000 kg/m³ and 50 MPa.
 pub const AREAL: f64 = 0.2;

@@ -1,11 +1,11 @@
 use super::laws::settings;
 use super::rig::{Noise, Rig, flat, sheet};
+use crate::Transient;
 use crate::contact::Contact;
 use crate::contact::closest;
 use crate::contact::closest::nearest;
 use crate::mesh::Mesh;
 use crate::vec3::add;
-use models::Term;
 
 /// Lowest height of `nodes` over the front of a layer, by asking every element; nodes beyond its rim do not count.
 fn lowest(rig: &Rig, nodes: std::ops::Range<usize>, layer: u32) -> f64 {

@@ -1,8 +1,9 @@
-use models::{Pose, Term, Tick};
+use models::Pose;
 
 use super::laws::settings;
 use super::rig::{Noise, Rig, flat, sheet};
 use crate::mesh::Mesh;
+use crate::{Tick, Transient};
 
 /// Two coincident square sheets welded along the rim, air between them, fronts outward.
 pub fn pillow(n: usize, side: f64, chamber: bool, layers: [u32; 2]) -> Mesh {

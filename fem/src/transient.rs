@@ -1,0 +1,36 @@
+//! What a term of the finite element engine is beside its energy: it steps through time and keeps its own memory.
+
+use models::{Pose, Row, Term};
+
+/// Where the time integration stands when a term is advanced.
+#[derive(Debug, Clone, Copy)]
+pub struct Tick<'a> {
+    /// Steps done before this one.
+    pub step: u64,
+    /// Time of the positions \[s\].
+    pub time_s: f64,
+    /// Length of the step \[s\].
+    pub dt_s: f64,
+    /// Velocities half a step earlier, laid out like the positions \[m/s\].
+    pub v: &'a [f64],
+}
+
+/// A term over the nodes of a mesh, stepped in time.
+pub trait Transient: Term {
+    /// One time step: what [`Term::add`] does, plus whatever depends on rate or history (viscosity, friction, hysteresis,
+    /// the work of a load). Called once per step.
+    fn advance(&mut self, at: &Pose, tick: &Tick, force: &mut [f64]) -> f64;
+
+    /// This term's rows of the energy ledger, at the positions of the last step (at `at` before the first).
+    fn ledger(&self, at: &Pose) -> Vec<Row>;
+
+    /// Adds to `bound[i]` a stiffness kᵢ \[N/m\] of node i such that `u·K u ≤ Σᵢ kᵢ |uᵢ|²` for this term's tangent K at
+    /// `at`. The stable step of central differences then is at least `2/√(maxᵢ kᵢ/mᵢ)`. Nothing for loads.
+    fn stiffness_bound(&self, _at: &Pose, _bound: &mut [f64]) {}
+
+    /// What a checkpoint must keep, so that a resumed run ends bit-identical.
+    fn save(&self) -> Vec<u8>;
+
+    /// Takes back what [`Transient::save`] gave; false if it does not fit this term.
+    fn restore(&mut self, saved: &[u8]) -> bool;
+}
