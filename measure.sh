@@ -4,7 +4,7 @@
 # Needs rustfmt, awk and tsort.
 set -euo pipefail
 cd "$(dirname "$0")"
-product="models fem data compare src spelling"
+product="models fem data compare report src spelling"
 development="challenge"
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
@@ -33,7 +33,7 @@ printf '%-44s %s\n' "characters of code of the product" "$(code $product)"
 # Modules of a crate: files or folders below src; `crate::NAME` in one of them is an arrow.
 circles=0
 where=
-for crate in models fem data compare challenge src; do
+for crate in models fem data compare report challenge src; do
   root=$([ "$crate" = src ] && echo src || echo "$crate/src")
   arrows=$(cd "$copy/$root" && find . -name '*.rs' -exec awk '
     /^ *\/\// { next }

@@ -88,6 +88,9 @@ pub enum Failure {
     /// The comparison failed.
     #[error(transparent)]
     Compare(compare::CompareError),
+    /// A picture or page could not be made.
+    #[error(transparent)]
+    Drawing(#[from] report::ReportError),
     /// The model has no equilibrium.
     #[error(transparent)]
     Unsolved(#[from] models::Unsolved),
@@ -99,6 +102,15 @@ impl From<compare::CompareError> for Failure {
             compare::CompareError::Data(error) => Failure::Data(error),
             compare::CompareError::Unsolved(error) => Failure::Unsolved(error),
             other => Failure::Compare(other),
+        }
+    }
+}
+
+impl From<ibr::pages::PageError> for Failure {
+    fn from(error: ibr::pages::PageError) -> Failure {
+        match error {
+            ibr::pages::PageError::Compare(error) => error.into(),
+            ibr::pages::PageError::Report(error) => Failure::Drawing(error),
         }
     }
 }
@@ -117,7 +129,7 @@ impl Failure {
             Failure::Unsolved(_) | Failure::Stopped { .. } => UNSOLVED,
             Failure::Fem(fem::FemError::Stopped { .. }) => UNSOLVED,
             Failure::Read { .. } | Failure::Write { .. } => BAD_INPUT,
-            Failure::Scenario { .. } | Failure::Data(_) | Failure::Compare(_) => BAD_INPUT,
+            Failure::Scenario { .. } | Failure::Data(_) | Failure::Compare(_) | Failure::Drawing(_) => BAD_INPUT,
             Failure::Case { .. } | Failure::Fem(_) => BAD_INPUT,
         }
     }
@@ -157,7 +169,7 @@ impl Failure {
                 );
                 Report::new(base.with_help(printable(&help)))
             }
-            Failure::Compare(_) | Failure::Unsolved(_) | Failure::Fem(_) => Report::new(base),
+            Failure::Compare(_) | Failure::Unsolved(_) | Failure::Fem(_) | Failure::Drawing(_) => Report::new(base),
         }
     }
 }

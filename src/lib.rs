@@ -20,7 +20,10 @@
 //! assert!((pressure_pa - 20e3).abs() < 1e-3);
 //! ```
 
+pub mod pages;
+
 pub use compare;
 pub use data;
 pub use fem;
 pub use models;
+pub use report;

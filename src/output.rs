@@ -3,7 +3,7 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use compare::record::Shape;
-use compare::study::pages::Files;
+use ibr::pages::Files;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use std::path::Path;

@@ -13,7 +13,7 @@ use models::{Loads, Machine, Model, Scenario};
 use std::f64::consts::FRAC_PI_2;
 
 use crate::CompareError;
-use crate::plots::Known;
+use crate::known::Known;
 use crate::stats::t_975;
 
 /// A table beside its model.

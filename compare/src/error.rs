@@ -184,12 +184,4 @@ pub enum CompareError {
         /// Why.
         problem: String,
     },
-    /// A picture or page could not be made.
-    #[error("could not draw {what}: {problem}")]
-    Drawing {
-        /// Which picture.
-        what: String,
-        /// Why.
-        problem: String,
-    },
 }

@@ -15,13 +15,12 @@ pub mod error;
 pub mod evaluate;
 pub mod gauge;
 mod interval;
+pub mod known;
 pub mod layout;
 pub mod metrics;
 pub mod noise;
 pub mod noise_summary;
-pub mod plots;
 pub mod record;
-pub mod report;
 pub mod residuals;
 mod run_scatter;
 pub mod scaling;
@@ -30,7 +29,7 @@ pub mod stats;
 pub mod study;
 pub mod where_it_fails;
 pub mod whiten;
-mod wording;
+pub mod wording;
 
 #[cfg(test)]
 mod monte_carlo;

@@ -8,7 +8,7 @@ use crate::extended::{Addition, NewBending, extended};
 use crate::failure::Failure;
 use crate::output::today;
 use compare::diagnosis::{Diagnosis, Options, ParameterValue};
-use compare::plots::Known;
+use compare::known::Known;
 use models::Scenario;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};

@@ -7,12 +7,10 @@ use crate::cli::Characterize;
 use crate::failure::Failure;
 use crate::output::{Input, check_folder, program, write_files};
 use compare::characterize::write::{fabric_toml, measured_toml, shear_table, yarn_table};
-use compare::characterize::{
-    Characterized, Quantity as Number, Replay, Settings, Specimen, characterize, example, pictures,
-};
-use compare::study::pages::Files;
+use compare::characterize::{Characterized, Quantity as Number, Replay, Settings, Specimen, characterize, example};
 use data::bench::bending_lengths_m;
 use data::{Bench, Coupon, CouponDefaults, Direction, Table, bench, parse_coupons, read_coupons};
+use ibr::pages::Files;
 use models::scenario::quantity::Quantity;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -206,7 +204,7 @@ fn digits(x: f64) -> String {
 
 fn files(found: &Characterized, fabric: Option<&str>) -> Result<Files, Failure> {
     let mut files = Files::default();
-    for (name, drawn) in pictures::pictures(found)? {
+    for (name, drawn) in ibr::pages::pictures(found)? {
         files.files.push((format!("{name}.svg"), drawn.svg.into_bytes()));
         files.files.push((format!("{name}.png"), drawn.png));
     }

@@ -5,9 +5,10 @@ use super::tables::{number, table};
 use super::{Context, Outcome, held};
 use crate::failure::Failure;
 use crate::output::{check_folder, machine, program, today, write_files};
-use compare::plots::Known;
-use compare::study::pages::{Demo, Imprint, demo, demo_page};
+use compare::known::Known;
+use compare::study::demo::{Demo, demo};
 use compare::study::published::PublishedLadder;
+use ibr::pages::{Imprint, demo_page};
 use serde_json::{Value, json};
 use std::path::Path;
 

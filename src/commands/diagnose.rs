@@ -10,8 +10,8 @@ use crate::failure::Failure;
 use crate::output::{Input, check_folder, earlier, machine, program, remove_all, today, write_files};
 use compare::diagnosis::{Diagnosis, Experiment, Group, Options, Ranked, Verdict};
 use compare::study::engines::TERMS;
-use compare::study::pages::{DIAGNOSIS_PICTURES, Diagnosed, Imprint, diagnosis_page};
 use compare::study::witness::{HEIGHTS, Witness, witness};
+use ibr::pages::{DIAGNOSIS_PICTURES, Diagnosed, Imprint, diagnosis_page};
 use serde_json::{Value, json};
 use std::path::Path;
 

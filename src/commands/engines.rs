@@ -6,11 +6,11 @@ use super::{Context, Outcome};
 use crate::cli::Compare;
 use crate::failure::{Failure, INTERRUPTED};
 use crate::output::{Input, check_folder, machine, program, today, write_files};
-use compare::study::engines::{FeRun, TERMS, runs_json, stored};
-use compare::study::pages::{
-    EngineLine, Engines, HEADS, Imprint, SUMMARY, VOLUMES, VOLUMES_CAPTION, cells, engines, engines_page, lines,
-    summary, volume_cells,
+use compare::study::engines::{
+    EngineLine, Engines, HEADS, SUMMARY, VOLUMES, VOLUMES_CAPTION, cells, engines, lines, summary, volume_cells,
 };
+use compare::study::engines::{FeRun, TERMS, runs_json, stored};
+use ibr::pages::{Imprint, engines_page};
 use models::Scenario;
 use serde_json::json;
 use std::path::{Path, PathBuf};

@@ -82,7 +82,7 @@ fn man(out: Option<&std::path::Path>, context: &mut Context) -> Result<Outcome, 
         let bytes = page(crate::cli::command()).map_err(failed)?;
         return Ok(Outcome { text: String::from_utf8_lossy(&bytes).into_owned(), ..Outcome::default() });
     };
-    let mut files = ::compare::study::pages::Files::default();
+    let mut files = ibr::pages::Files::default();
     files.files.push(("ibr.1".into(), page(crate::cli::command()).map_err(failed)?));
     for sub in crate::cli::command().get_subcommands() {
         let name = format!("ibr-{}", sub.get_name());

@@ -7,10 +7,10 @@ use super::{Context, Outcome};
 use crate::cli::Compare;
 use crate::failure::{Failure, INTERRUPTED};
 use crate::output::{check_folder, write_files};
-use ::compare::study::pages::Files;
 use ::compare::study::paper::{
     Against, MESHES_MM, NEAR, PaperRun, Row, facts, heights, mesh_name, ordered, runs_json, stored,
 };
+use ibr::pages::Files;
 use serde_json::json;
 
 /// Pressures between 10 and 20 kPa at which the paper looks at the cPAM \[kPa\].

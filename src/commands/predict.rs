@@ -6,10 +6,10 @@ use super::{Context, Outcome, limits};
 use crate::cli::Predict;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
-use compare::plots::{ShapePose, Shapes, shapes};
-use compare::study::pages::Files;
+use ibr::pages::Files;
 use models::scenario::quantity::{Quantity, parse_pressures};
 use models::{Beyond, CHANNELS, Limit, Loads, Model, Prediction, RowKind, Scenario, Step, Target, TipSlope};
+use report::{ShapePose, Shapes, shapes};
 use serde_json::{Value, json};
 
 /// One predicted state, ready to print.

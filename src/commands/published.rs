@@ -6,10 +6,10 @@ use super::tables::{number, table};
 use super::{Context, Outcome};
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
-use compare::plots::{LineSeries, LineStyle, Lines, lines};
 use compare::study::one_number::{Explanation, OneNumber, one_number};
-use compare::study::pages::Files;
+use ibr::pages::Files;
 use models::scenario::SHIPPED;
+use report::{LineSeries, LineStyle, Lines, lines};
 use serde_json::json;
 use std::path::Path;
 

@@ -6,9 +6,9 @@ use super::{Context, Outcome};
 use crate::cli::Tradeoff;
 use crate::failure::Failure;
 use crate::output::{check_folder, machine, write_files};
-use compare::study::pages::{Files, tradeoff_plot};
 use compare::study::published::published_ladders;
 use compare::study::tradeoff::{of_runs, tradeoff};
+use ibr::pages::{Files, tradeoff_plot};
 use serde_json::json;
 
 pub fn run(args: &Tradeoff, context: &mut Context) -> Result<Outcome, Failure> {

@@ -5,9 +5,9 @@ use super::tables::table;
 use crate::cli::VerifyArgs;
 use crate::cost::cpu_seconds;
 use crate::failure::Failure;
-use ::compare::plots::{self, LineSeries, LineStyle, Lines};
-use ::compare::study::pages::Files;
 use fem::verify::{Against, CHECKS, Check, Figure, Line, Outcome};
+use ibr::pages::Files;
+use report::{LineSeries, LineStyle, Lines};
 use serde_json::{Value, json};
 
 /// What the checks of the engine came to.
@@ -129,7 +129,5 @@ fn draw(figure: &Figure) -> Result<Vec<u8>, Failure> {
         y_label: figure.y.clone(),
         series: series.collect(),
     };
-    let failed =
-        |e: plots::PlotError| ::compare::CompareError::Drawing { what: figure.title.clone(), problem: e.to_string() };
-    Ok(plots::lines(&lines).map_err(failed)?.png)
+    Ok(report::lines(&lines)?.png)
 }

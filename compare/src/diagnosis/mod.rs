@@ -52,6 +52,7 @@ mod prepare;
 mod problem;
 mod proposed;
 mod result;
+mod rungs;
 mod screen;
 mod shapes;
 mod singles;
@@ -75,6 +76,7 @@ pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
 pub use options::Options;
 pub use proposed::*;
 pub use result::*;
+pub use rungs::ErrorRung;
 
 use crate::comparison::Comparison;
 use crate::error::CompareError;

@@ -6,7 +6,7 @@ use models::{Loads, Model, Scenario};
 use crate::CompareError;
 use crate::bench::{Held, HeldRow, held};
 use crate::characterize::{Settings, characterize};
-use crate::plots::Known;
+use crate::known::Known;
 
 /// Beam, muscle, fabric, arm.
 ///

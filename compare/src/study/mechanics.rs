@@ -3,7 +3,7 @@
 //! Values follow from the geometry of the pattern and from the published fabric; what nobody printed is assumed as in the
 //! finite elements: welds of 3 mm, a bending stiffness of 0.2 of that of a solid sheet, ν₁₂ = 0.2.
 
-use crate::plots::Known;
+use crate::known::Known;
 use data::{Published, PublishedFabric};
 use models::Scenario;
 use models::scenario::ActuatorChoice;

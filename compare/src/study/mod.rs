@@ -2,12 +2,13 @@
 //! numbers, run time against accuracy, and the pages made of them.
 
 pub mod calibrate;
+pub mod comparing;
+pub mod demo;
 pub mod engines;
 pub mod generate;
 pub mod measured;
 mod mechanics;
 pub mod one_number;
-pub mod pages;
 pub mod paper;
 pub mod predict;
 pub mod published;
@@ -17,6 +18,7 @@ pub mod uncertain;
 pub mod witness;
 
 pub use calibrate::{Calibration, Knob, calibrate};
+pub use comparing::{Candidate, Study, Variant, study};
 pub use generate::{Generator, generate, parse_protocol};
 pub(crate) use predict::first_slope;
 pub use predict::{Predicted, fit_scenario, predict_dataset};

@@ -5,8 +5,7 @@
 //! *calibrated* on that one number, so meeting it is no evidence for any of them.
 
 use crate::error::CompareError;
-use crate::study::engines::stored;
-use crate::study::pages::engines;
+use crate::study::engines::{engines, stored};
 use crate::study::published::{height, textbook_scenario};
 use data::{PublishedActuator, published};
 use models::effects::{Effect, Parameter};

@@ -5,7 +5,7 @@
 //! *calibrated*), does to the prediction.
 
 use crate::error::CompareError;
-use crate::plots::Known;
+use crate::known::Known;
 use crate::study::mechanics::{additions, with};
 use data::{Published, PublishedActuator, published};
 use models::{Loads, Model, Scenario, shipped};

@@ -142,9 +142,8 @@ fn sessions_of_the_description_reach_the_noise_model() {
     let labelled = |labels: [&str; 4]| {
         let mut about = about(&[[0.0; 2]; 4]);
         about.runs.iter_mut().zip(labels).for_each(|(run, label)| run.session = Some(label.into()));
-        let first =
-            pages::Candidate { label: "bare", known: crate::plots::Known::Predicted, why: "", scenario: &scenario };
-        pages::study(&[first], dataset.clone(), Some(about), &EvaluateOptions::default(), None)
+        let first = Candidate { label: "bare", known: crate::known::Known::Predicted, why: "", scenario: &scenario };
+        study(&[first], dataset.clone(), Some(about), &EvaluateOptions::default(), None)
     };
     let two = labelled(["a", "b", "a", "b"]).unwrap();
     assert_eq!(two.variants[0].evaluation.noise.sessions, 2);
@@ -155,7 +154,7 @@ fn sessions_of_the_description_reach_the_noise_model() {
 fn nothing_to_compare_is_said_and_every_shipped_actuator_has_a_ladder() {
     let scenario = textbook_scenario("epam").unwrap();
     let dataset = generate(&scenario, "made", &quiet(2)).unwrap();
-    let none = pages::study(&[], dataset, None, &EvaluateOptions::default(), Some(Knob::Bending));
+    let none = study(&[], dataset, None, &EvaluateOptions::default(), Some(Knob::Bending));
     assert_eq!(none.unwrap_err(), crate::CompareError::NoModel);
     for (kind, _) in models::scenario::SHIPPED {
         assert!(!published::model_ladder(kind).unwrap().is_empty(), "{kind}");
@@ -231,7 +230,7 @@ fn the_shipped_robots_are_the_top_of_their_ladders() {
 #[test]
 fn a_calibrated_rung_meets_the_number_it_was_fitted_to_and_says_so() {
     for ladder in published_ladders().unwrap() {
-        let calibrated = ladder.rungs.iter().find(|r| r.known == crate::plots::Known::Calibrated);
+        let calibrated = ladder.rungs.iter().find(|r| r.known == crate::known::Known::Calibrated);
         assert_eq!(calibrated.is_some(), ladder.calibrated_bending.is_some());
         if let Some(rung) = calibrated {
             assert!((rung.y_m - ladder.published.d_max_m).abs() < 1e-6 && rung.why.contains("fitted"));

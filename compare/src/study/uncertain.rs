@@ -19,7 +19,6 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use crate::plots::{Drawn, LineSeries, LineStyle, Lines, PlotError, Tornado, TornadoBar, lines, tornado};
 use crate::record::Shape;
 use crate::stats::quantile;
 use data::DataError;
@@ -27,7 +26,7 @@ use data::DataError;
 /// Ends of the interval that is told, and its middle.
 pub const QUANTILES: [f64; 3] = [0.1, 0.5, 0.9];
 /// Pressures that are the same reading \[kPa\].
-const SAME_KPA: f64 = 0.05;
+pub const SAME_KPA: f64 = 0.05;
 /// Runs beyond the numbers that a straight law needs to say anything.
 const SPARE: usize = 5;
 
@@ -200,80 +199,6 @@ impl Uncertain {
         let swing = weights.iter().find(|w| w.number == number)?.swing_mm;
         let slope = swing / (QUANTILES[2] - QUANTILES[0]);
         Some(0.5 + (y_mm - self.tip_mm(actuator_kpa)?[1]) / slope)
-    }
-
-    /// Heights of all markers at all pressures, median and 80 % interval, beside measured ones.
-    ///
-    /// # Errors
-    /// [`PlotError`] if nothing was read.
-    pub fn draw(&self, measured: &[(f64, [f64; 2])]) -> Result<Drawn, PlotError> {
-        let mut series = Vec::new();
-        for (colour, kpa) in self.pressures_kpa().into_iter().filter(|kpa| *kpa > 0.0).enumerate() {
-            let found: Vec<(f64, [f64; 3])> = self
-                .stations_mm
-                .iter()
-                .enumerate()
-                .filter_map(|(m, s)| Some((*s, self.quantiles_mm(kpa, m, 1)?)))
-                .collect();
-            let line = |name: String, k: usize, style| LineSeries {
-                name,
-                points: found.iter().map(|(s, q)| [*s, q[k]]).collect(),
-                half_width: Vec::new(),
-                style,
-                colour: Some(colour),
-            };
-            series.push(line(format!("{kpa} kPa, median"), 1, LineStyle::LinePoints));
-            series.push(line(String::new(), 0, LineStyle::Dashed));
-            series.push(line(String::new(), 2, LineStyle::Dashed));
-            let own = measured.iter().filter(|(at, _)| (at - kpa).abs() < SAME_KPA).map(|(_, point)| *point);
-            let points: Vec<[f64; 2]> = own.collect();
-            if !points.is_empty() {
-                let name = format!("{kpa} kPa, measured");
-                series.push(LineSeries {
-                    name,
-                    points,
-                    half_width: Vec::new(),
-                    style: LineStyle::OpenPoints,
-                    colour: Some(colour),
-                });
-            }
-        }
-        let data = Lines {
-            title: format!("{}: median and 80 % interval (dashed) over what nobody measured", self.scenario),
-            x_label: "marker along the straight robot [mm]".into(),
-            y_label: "displacement towards the actuator [mm]".into(),
-            series,
-        };
-        lines(&data)
-    }
-
-    /// What every number does to the outermost marker at a pressure.
-    ///
-    /// # Errors
-    /// [`PlotError`] with too few robots.
-    pub fn draw_weights(&self, actuator_kpa: f64) -> Result<Drawn, PlotError> {
-        let base = self.tip_mm(actuator_kpa).map_or(f64::NAN, |q| q[1]);
-        let (weights, rest) = self.weights(actuator_kpa).unwrap_or_default();
-        let bar = |w: &Weight| {
-            let number = &self.numbers[w.number];
-            let half = 0.5 * w.swing_mm;
-            TornadoBar {
-                name: number.name.clone(),
-                ends: number.tenths.map(|v| format!("{v}")),
-                values: [base - half, base + half],
-            }
-        };
-        let data = Tornado {
-            title: format!(
-                "{} at {actuator_kpa} kPa: what to measure first ({:.0} % is not of a straight law)",
-                self.scenario,
-                100.0 * rest
-            ),
-            value_label: "outermost marker [mm], from a tenth to nine tenths of each interval".into(),
-            base,
-            bars: weights.iter().map(bar).collect(),
-        };
-        tornado(&data)
     }
 }
 

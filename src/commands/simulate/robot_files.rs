@@ -2,10 +2,10 @@
 
 use super::robot::{self, Robot, Watched};
 use crate::failure::Failure;
-use compare::plots::{LineSeries, LineStyle, Lines, lines};
 use fem::output::picture::{self, Image, Look, View};
 use fem::robot::{Reading, Snap};
 use fem::{Mesh, Simulation};
+use report::{LineSeries, LineStyle, Lines, lines};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -32,8 +32,7 @@ pub fn write(robot: &Robot, watched: &Watched, mesh: &Mesh, run: &Simulation, fo
             picture::write_png(&folder.join(name), &image)?;
         }
         for (name, drawn) in drawing.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)) {
-            let failed = |problem: String| compare::CompareError::Drawing { what: name.to_string(), problem };
-            data::write_atomically(&folder.join(name), &drawn.map_err(|e| failed(e.to_string()))?.png)?;
+            data::write_atomically(&folder.join(name), &drawn?.png)?;
         }
         Ok(())
     })

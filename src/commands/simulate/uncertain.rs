@@ -83,10 +83,10 @@ fn outcome(all: &Uncertain, manner: &Manner) -> Result<Outcome, Failure> {
     let top = all.pressures_kpa().into_iter().fold(0.0, f64::max);
     let mut notes = Vec::new();
     let mut files = vec![("uncertain.json", all.record().into_bytes())];
-    if let Ok(drawn) = all.draw(&measured) {
+    if let Ok(drawn) = ibr::pages::marker_intervals(all, &measured) {
         files.push(("markers.png", drawn.png));
     }
-    if let Ok(drawn) = all.draw_weights(top) {
+    if let Ok(drawn) = ibr::pages::what_to_measure(all, top) {
         files.push(("tornado.png", drawn.png));
     }
     for (name, bytes) in files {

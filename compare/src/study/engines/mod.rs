@@ -11,8 +11,12 @@
 //! does not know of. Where they bend more, the one with the largest lack. **Validity**: a statement about energies, not about
 //! their slopes, which decide the equilibrium; it names what to look at, it proves nothing.
 
+mod lines;
+mod robots;
 mod volumes;
 
+pub use lines::*;
+pub use robots::{EngineRobot, Engines, PartingMap, engines, varied};
 pub use volumes::{BodyVolumes, Mean, MeanVolumes, Volumes, body_volumes, volumes};
 
 use crate::accuracy::paper_accuracy;

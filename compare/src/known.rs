@@ -1,0 +1,29 @@
+//! How a number came to be known; measured, published, assumed, calibrated and predicted never mix.
+
+/// How a number came to be known; every report keeps these apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Known {
+    /// Measured by the user or in the named dataset.
+    Measured,
+    /// Printed in a publication.
+    Published,
+    /// Taken as likely, without a measurement.
+    Assumed,
+    /// Fitted to named data.
+    Calibrated,
+    /// Computed from inputs that were not fitted to what it is compared with.
+    Predicted,
+}
+
+impl Known {
+    /// The word used in tables and plots.
+    pub fn word(self) -> &'static str {
+        match self {
+            Known::Measured => "measured",
+            Known::Published => "published",
+            Known::Assumed => "assumed",
+            Known::Calibrated => "calibrated",
+            Known::Predicted => "predicted",
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Robots with both engines: what is printed of them, their finite element runs, and where the models part.
+
+use super::{BodyVolumes, Ensemble, FeRun, Pair, as_it_is, body_volumes, ensemble, pairs};
+use crate::error::CompareError;
+use crate::study::published::{Rung, model_ladder, shipped_scenario};
+use crate::study::uncertain::{self, Uncertain};
+use data::{PublishedActuator, published};
+use models::Scenario;
+
+/// One robot with both engines.
+#[derive(Debug, Clone)]
+pub struct EngineRobot {
+    /// The robot.
+    pub scenario: Scenario,
+    /// What is printed about it; `None` for a robot that is not one of the paper's.
+    pub published: Option<PublishedActuator>,
+    /// The reduced model with effects of which none is fitted.
+    pub with_effects: Option<Rung>,
+    /// Its finite element runs with the recommended settings.
+    pub ensemble: Ensemble,
+    /// Hypercubes over what nobody measured that come with the program, one for every way that the robot may be made.
+    pub uncertain: Vec<Uncertain>,
+    /// The first run, if there is one.
+    pub run: Option<FeRun>,
+    /// Both engines at this run's pressures.
+    pub pairs: Vec<Pair>,
+    /// What its finite element bodies lose, at every body pressure that was run.
+    pub bodies: Vec<BodyVolumes>,
+}
+
+/// Where the models part, for one robot and one quantity.
+#[derive(Debug, Clone)]
+pub struct PartingMap {
+    /// Actuator kind.
+    pub actuator: String,
+    /// Head of the rows, with unit.
+    pub row_label: String,
+    /// Value of every row and its pairs.
+    pub rows: Vec<(String, Vec<Pair>)>,
+    /// Element size of the runs \[mm\].
+    pub mesh_mm: f64,
+}
+
+/// Everything the page shows.
+#[derive(Debug, Clone)]
+pub struct Engines {
+    /// Robots.
+    pub robots: Vec<EngineRobot>,
+    /// Maps of those that have runs for them.
+    pub maps: Vec<PartingMap>,
+}
+
+/// Puts robots and runs together.
+///
+/// # Errors
+/// A damaged embedded set or a model without equilibrium.
+pub fn engines(scenarios: &[Scenario], runs: &[FeRun]) -> Result<Engines, CompareError> {
+    let robots = scenarios.iter().map(|s| robot(s, runs)).collect::<Result<_, _>>()?;
+    let mut maps = Vec::new();
+    for scenario in scenarios {
+        maps.extend(parting_maps(scenario, runs)?);
+    }
+    Ok(Engines { robots, maps })
+}
+
+fn robot(scenario: &Scenario, runs: &[FeRun]) -> Result<EngineRobot, CompareError> {
+    let kind = scenario.actuator.kind.name;
+    let shipped = shipped_scenario(kind).ok().is_some_and(|s| s == *scenario);
+    let (mut printed, mut with_effects) = (None, None);
+    if shipped {
+        printed = published()?.actuator(kind).cloned();
+        with_effects = model_ladder(kind)?.pop();
+    }
+    let ensemble = ensemble(runs, scenario);
+    let uncertain = if shipped { uncertain::stored()? } else { Vec::new() };
+    let uncertain = uncertain.into_iter().filter(|u| u.scenario == scenario.name).collect();
+    let run = ensemble.runs.first().cloned();
+    let pairs = run.as_ref().map_or(Ok(Vec::new()), |run| pairs(scenario, run))?;
+    let bodies = body_volumes(scenario, runs);
+    Ok(EngineRobot {
+        scenario: scenario.clone(),
+        published: printed,
+        with_effects,
+        ensemble,
+        uncertain,
+        run,
+        pairs,
+        bodies,
+    })
+}
+
+/// Maps over body pressure and over pouch length, each from runs on the finest mesh that has two rows of it.
+fn parting_maps(scenario: &Scenario, runs: &[FeRun]) -> Result<Vec<PartingMap>, CompareError> {
+    let kind = scenario.actuator.kind.name;
+    let mine: Vec<&FeRun> = runs.iter().filter(|r| r.scenario == scenario.name && r.actuator == kind).collect();
+    let own_pouch = |r: &&FeRun| (r.pouch_mm * 1e-3 - scenario.actuator.shape.length_m).abs() < 1e-6;
+    let own_body = |r: &&FeRun| (r.body_kpa * 1e3 - scenario.p_body_pa).abs() < 1e-3;
+    let body: Vec<&FeRun> = mine.iter().copied().filter(own_pouch).collect();
+    let pouch: Vec<&FeRun> = mine.iter().copied().filter(own_body).collect();
+    let mut maps = Vec::new();
+    for (row_label, runs, value) in [
+        ("rows: body pressure [kPa]", body, (|r: &FeRun| r.body_kpa) as fn(&FeRun) -> f64),
+        ("rows: length of a pouch [mm]", pouch, |r: &FeRun| r.pouch_mm),
+    ] {
+        let rows = one_per_value(runs, value);
+        let Some(mesh_mm) = rows.first().map(|r| r.mesh_mm[1]) else { continue };
+        let rows = rows.iter().map(|r| Ok((format!("{}", value(r)), pairs(&varied(scenario, r), r)?)));
+        let rows = rows.collect::<Result<Vec<_>, CompareError>>()?;
+        maps.push(PartingMap { actuator: kind.to_string(), row_label: row_label.into(), rows, mesh_mm });
+    }
+    Ok(maps)
+}
+
+/// One run per value, largest first, on the finest mesh that has two; of several runs that with the most states, then the
+/// smallest seed.
+fn one_per_value(mut runs: Vec<&FeRun>, value: fn(&FeRun) -> f64) -> Vec<&FeRun> {
+    runs.sort_by(|a, b| {
+        let rank = |r: &FeRun| (std::cmp::Reverse(r.states.len()), r.seed);
+        a.mesh_mm[1].total_cmp(&b.mesh_mm[1]).then(value(b).total_cmp(&value(a))).then(rank(a).cmp(&rank(b)))
+    });
+    runs.dedup_by(|a, b| a.mesh_mm[1] == b.mesh_mm[1] && value(a) == value(b));
+    let of_mesh = runs.chunk_by(|a, b| a.mesh_mm[1] == b.mesh_mm[1]).find(|rows| rows.len() > 1);
+    of_mesh.map(<[&FeRun]>::to_vec).unwrap_or_default()
+}
+
+/// The scenario at a run's body pressure and pouch length.
+pub fn varied(scenario: &Scenario, run: &FeRun) -> Scenario {
+    let mut changed = scenario.clone();
+    if !as_it_is(run, scenario) {
+        changed.p_body_pa = run.body_kpa * 1e3;
+        changed.actuator.shape.length_m = run.pouch_mm * 1e-3;
+        changed.actuator.count = run.count;
+    }
+    changed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_map_takes_one_run_per_row_from_the_finest_mesh_with_two() {
+        let run =
+            |mesh: f64, body_kpa: f64, seed: u64| FeRun { mesh_mm: [8.0, mesh], body_kpa, seed, ..FeRun::default() };
+        let runs = [run(6.0, 1.0, 1), run(6.0, 2.0, 1), run(3.0, 2.0, 2), run(3.0, 2.0, 1)];
+        let rows = |more: &[FeRun]| -> Vec<(f64, f64, u64)> {
+            let picked = one_per_value(runs.iter().chain(more).collect(), |r| r.body_kpa);
+            picked.iter().map(|r| (r.mesh_mm[1], r.body_kpa, r.seed)).collect()
+        };
+        assert_eq!(rows(&[]), [(6.0, 2.0, 1), (6.0, 1.0, 1)]);
+        assert_eq!(rows(&[run(3.0, 4.0, 1)]), [(3.0, 4.0, 1), (3.0, 2.0, 1)]);
+        assert!(one_per_value(runs[..1].iter().collect(), |r| r.body_kpa).is_empty());
+    }
+}

@@ -1,0 +1,86 @@
+//! Plain text to HTML: everything escaped, `code` and **bold** marked up.
+
+const TAGS: [&str; 5] = ["measured", "published", "assumed", "calibrated", "predicted"];
+
+/// The text with `&`, `<`, `>` and quotes escaped.
+pub(crate) fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            _ => out.push(letter),
+        }
+    }
+    out
+}
+
+/// The text escaped, with `` `code` `` and `**bold**` spans; a mark without its partner stays as it is.
+pub(crate) fn inline(text: &str) -> String {
+    let mut out = String::new();
+    let mut parts = text.split('`').peekable();
+    let mut code = false;
+    while let Some(part) = parts.next() {
+        let closed = parts.peek().is_some();
+        match (code, closed) {
+            (true, true) => out.push_str(&format!("<code>{}</code>", escape(part))),
+            (true, false) => out.push_str(&format!("`{}", bold(part))),
+            (false, _) => out.push_str(&bold(part)),
+        }
+        code = !code;
+    }
+    out
+}
+
+fn bold(text: &str) -> String {
+    let parts: Vec<&str> = text.split("**").collect();
+    let mut out = String::new();
+    for (i, part) in parts.iter().enumerate() {
+        match (i % 2 == 1, i + 1 < parts.len()) {
+            (true, true) => out.push_str(&format!("<strong>{}</strong>", escape(part))),
+            (true, false) => out.push_str(&format!("**{}", escape(part))),
+            (false, _) => out.push_str(&escape(part)),
+        }
+    }
+    out
+}
+
+/// A cell of the column "how do we know": [`inline`], with the five words as tags.
+pub(crate) fn with_tags(text: &str) -> String {
+    text.split(' ').map(tagged).collect::<Vec<_>>().join(" ")
+}
+
+fn tagged(word: &str) -> String {
+    let bare = word.trim_end_matches([',', ';', ':', '.']);
+    match TAGS.iter().find(|known| known.eq_ignore_ascii_case(bare)) {
+        Some(known) => {
+            let rest = &word[bare.len()..];
+            format!("<span class=\"tag tag-{}\">{}</span>{}", known, escape(bare), escape(rest))
+        }
+        None => inline(word),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marked_spans_are_rendered_and_everything_else_is_escaped() {
+        assert_eq!(inline("a **b** `c<d>` & e"), "a <strong>b</strong> <code>c&lt;d&gt;</code> &amp; e");
+        assert_eq!(inline("2 ** 3 and `open"), "2 ** 3 and `open");
+        assert_eq!(inline("`**`"), "<code>**</code>");
+    }
+
+    #[test]
+    fn the_five_words_become_tags() {
+        let cell = with_tags("Assumed, not measured: x<y");
+        assert_eq!(
+            cell,
+            "<span class=\"tag tag-assumed\">Assumed</span>, not <span class=\"tag tag-measured\">measured</span>: x&lt;y"
+        );
+    }
+}

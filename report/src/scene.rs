@@ -1,0 +1,170 @@
+//! A drawing as a list of marks in design pixels; charts fill it, `paint` puts it on a backend.
+
+use crate::palette::Role;
+use crate::text;
+
+/// A point in design pixels, x to the right, y downwards.
+pub(crate) type Point = [f64; 2];
+
+/// Which end of a text its position names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// Marker shapes, in the order in which series take them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Symbol {
+    Circle,
+    Square,
+    Diamond,
+    Triangle,
+}
+
+impl Symbol {
+    /// The shape of series `i`.
+    pub(crate) fn of(i: usize) -> Self {
+        [Symbol::Circle, Symbol::Square, Symbol::Diamond, Symbol::Triangle][i % 4]
+    }
+}
+
+/// One thing to draw; lengths in design pixels.
+pub(crate) enum Mark {
+    Line { points: Vec<Point>, role: Role, width: f64 },
+    Fill { points: Vec<Point>, role: Role, alpha: f64 },
+    Disc { centre: Point, radius: f64, role: Role },
+    Text { at: Point, text: String, size: f64, role: Role, anchor: Anchor },
+}
+
+/// A drawing of `width` × `height` design pixels.
+pub(crate) struct Scene {
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+    pub(crate) marks: Vec<Mark>,
+}
+
+impl Scene {
+    /// An empty drawing of the common width; its height is set when the layout is known.
+    pub(crate) fn new() -> Self {
+        Scene { width: super::WIDTH, height: 0.0, marks: Vec::new() }
+    }
+
+    /// A solid line through the points.
+    pub(crate) fn line(&mut self, points: &[Point], role: Role, width: f64) {
+        self.marks.push(Mark::Line { points: points.to_vec(), role, width });
+    }
+
+    /// A dashed line with dashes of `on` and gaps of `off`.
+    pub(crate) fn dashed(&mut self, points: &[Point], role: Role, width: f64, [on, off]: [f64; 2]) {
+        let (mut drawing, mut left, mut dash) = (true, on, points.first().copied().into_iter().collect::<Vec<_>>());
+        for pair in points.windows(2) {
+            let (mut a, b) = (pair[0], pair[1]);
+            let mut rest = distance(a, b);
+            while rest > left {
+                a = between(a, b, left / rest);
+                rest -= left;
+                dash.push(a);
+                let done = std::mem::replace(&mut dash, vec![a]);
+                if drawing {
+                    self.line(&done, role, width);
+                }
+                drawing = !drawing;
+                left = if drawing { on } else { off };
+            }
+            left -= rest;
+            dash.push(b);
+        }
+        if drawing {
+            self.line(&dash, role, width);
+        }
+    }
+
+    /// A filled rectangle between two opposite corners.
+    pub(crate) fn rect(&mut self, [x0, y0]: Point, [x1, y1]: Point, role: Role, alpha: f64) {
+        self.fill(&[[x0, y0], [x1, y0], [x1, y1], [x0, y1]], role, alpha);
+    }
+
+    /// A filled polygon.
+    pub(crate) fn fill(&mut self, points: &[Point], role: Role, alpha: f64) {
+        self.marks.push(Mark::Fill { points: points.to_vec(), role, alpha });
+    }
+
+    /// A marker of half-width `radius`; an open one has a coloured rim on paper.
+    pub(crate) fn symbol(&mut self, symbol: Symbol, centre: Point, radius: f64, role: Role, open: bool) {
+        self.solid(symbol, centre, radius, role);
+        if open {
+            self.solid(symbol, centre, radius - 1.6, Role::Paper);
+        }
+    }
+
+    fn solid(&mut self, symbol: Symbol, centre: Point, radius: f64, role: Role) {
+        let corner = |x: f64, y: f64| [centre[0] + x * radius, centre[1] + y * radius];
+        match symbol {
+            Symbol::Circle => self.marks.push(Mark::Disc { centre, radius, role }),
+            Symbol::Square => self.rect(corner(-0.9, -0.9), corner(0.9, 0.9), role, 1.0),
+            Symbol::Diamond => {
+                self.fill(&[corner(0.0, -1.25), corner(1.25, 0.0), corner(0.0, 1.25), corner(-1.25, 0.0)], role, 1.0);
+            }
+            Symbol::Triangle => self.fill(&[corner(0.0, -1.2), corner(1.15, 0.85), corner(-1.15, 0.85)], role, 1.0),
+        }
+    }
+
+    /// A horizontal error bar with a rim of paper, to be seen on a filled bar in both themes.
+    pub(crate) fn error_bar_on_fill(&mut self, [x, y]: Point, half: f64) {
+        self.line(&[[x - half, y], [x + half, y]], Role::Paper, 2.9);
+        for end in [x - half, x + half] {
+            self.line(&[[end, y - 3.3], [end, y + 3.3]], Role::Paper, 2.9);
+        }
+        self.error_bar([x, y], half, false, Role::Ink);
+    }
+
+    /// An error bar along y (`vertical`) or x, with caps.
+    pub(crate) fn error_bar(&mut self, [x, y]: Point, half: f64, vertical: bool, role: Role) {
+        let turn = |along: f64, across: f64| if vertical { [x + across, y + along] } else { [x + along, y + across] };
+        self.line(&[turn(-half, 0.0), turn(half, 0.0)], role, 1.3);
+        for end in [-half, half] {
+            self.line(&[turn(end, -2.5), turn(end, 2.5)], role, 1.3);
+        }
+    }
+
+    /// A text on its baseline.
+    pub(crate) fn text(&mut self, at: Point, text: &str, size: f64, role: Role, anchor: Anchor) {
+        let text = text::fit(text, size, self.width);
+        self.marks.push(Mark::Text { at, text, size, role, anchor });
+    }
+
+    /// A text whose capitals are centred on `at[1]`.
+    pub(crate) fn text_mid(&mut self, at: Point, text: &str, size: f64, role: Role, anchor: Anchor) {
+        self.text([at[0], at[1] + 0.36 * size], text, size, role, anchor);
+    }
+}
+
+fn distance(a: Point, b: Point) -> f64 {
+    (b[0] - a[0]).hypot(b[1] - a[1])
+}
+
+fn between(a: Point, b: Point, t: f64) -> Point {
+    [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dashes_cover_the_drawn_share_of_a_line() {
+        let mut scene = Scene::new();
+        scene.dashed(&[[0.0, 0.0], [50.0, 0.0], [50.0, 50.0]], Role::Ink, 1.0, [6.0, 4.0]);
+        let drawn: f64 = scene
+            .marks
+            .iter()
+            .map(|mark| match mark {
+                Mark::Line { points, .. } => points.windows(2).map(|p| distance(p[0], p[1])).sum(),
+                _ => 0.0,
+            })
+            .sum();
+        assert!((drawn - 60.0).abs() < 1e-9, "{drawn}");
+    }
+}

@@ -1,0 +1,146 @@
+//! Plots: all specimens, their mean, the fit, and where the reduction stops being valid.
+
+use models::fabrics::{Fabric, specimen as fit};
+
+use compare::characterize::{Characterized, OPTICAL_LIMIT_RAD, PAPER_LIMIT_RAD, Strip};
+use report::{Drawn, LineSeries, LineStyle, Lines, ReportError, lines};
+
+/// Colour of all limits.
+const LIMIT: usize = 5;
+
+/// Every plot that the specimens allow, with its name.
+///
+/// # Errors
+/// A drawing that fails.
+pub fn pictures(found: &Characterized) -> Result<Vec<(&'static str, Drawn)>, ReportError> {
+    let mut drawn = Vec::new();
+    for (name, plot) in [("tension", tension(found)), ("bias", bias(found)), ("shear", shear(found))] {
+        let Some(plot) = plot else { continue };
+        drawn.push((name, lines(&plot)?));
+    }
+    Ok(drawn)
+}
+
+/// Stress over strain along warp and fill.
+fn tension(found: &Characterized) -> Option<Lines> {
+    let mut series = Vec::new();
+    for (k, yarn) in found.yarns.iter().enumerate() {
+        let word = yarn.direction.word();
+        let all = found.of(yarn.direction).map(|s| scaled(&s.stress, [100.0, 1e-6]));
+        series.push(specimens(&format!("{word}, {}", count(found.of(yarn.direction).count())), all, 2 * k));
+        series.push(LineSeries {
+            name: format!("{word}, mean{}", if found.of(yarn.direction).count() > 1 { " ± sd" } else { "" }),
+            points: scaled(&yarn.rows, [100.0, 1e-6]),
+            half_width: yarn.sd_pa.iter().map(|s| s.map_or(0.0, |s| 1e-6 * s)).collect(),
+            style: LineStyle::Points,
+            colour: Some(2 * k),
+        });
+    }
+    let reach = found.yarns.iter().filter_map(|y| y.rows.last()).map(|row| row[0]).fold(0.0, f64::max);
+    let c10 = found.quantity("c10").map(|q| q.scatter.mean)?;
+    let law = (0..=60).map(|i| reach * f64::from(i) / 60.0).map(|e| [100.0 * e, fit::neo_hookean_pa(c10, e)]);
+    series.push(LineSeries {
+        name: format!("neo-Hookean, C10 = {c10:.1} MPa"),
+        points: law.collect(),
+        style: LineStyle::Dashed,
+        colour: Some(1),
+        ..LineSeries::default()
+    });
+    Some(Lines {
+        title: "Pulled along the yarns".into(),
+        x_label: "nominal strain [%]".into(),
+        y_label: "nominal stress [MPa]".into(),
+        series,
+    })
+}
+
+/// The 45° test as it was made: force over strain, and the force that the mean shear curve gives back.
+fn bias(found: &Characterized) -> Option<Lines> {
+    let shear = found.shear.as_ref()?;
+    let first = found.strips().next()?.1.size;
+    let same = |s: &Strip| (s.size.length_m - first.length_m).abs() + (s.size.width_m - first.width_m).abs() < 1e-6;
+    let alike: Vec<_> = found.strips().filter(|(_, strip)| same(strip)).collect();
+    let all = alike.iter().map(|(_, s)| scaled(&s.pulled, [100.0 / first.length_m, 1.0]));
+    let mut series = vec![specimens(&count(alike.len()), all, 0)];
+    let strain = |angle: f64| 100.0 * first.displacement_m(angle) / first.length_m;
+    let yarns = found.yarns_alone();
+    let yarns = yarns.as_ref().map(|y| y as &dyn Fabric);
+    let force = |row: &[f64; 2]| {
+        let [d, f] = first.pulled(row[0], |x| fit::at(&shear.rows, x), yarns);
+        [100.0 * d / first.length_m, f]
+    };
+    series.push(LineSeries {
+        name: "from the mean shear curve".into(),
+        points: shear.rows.iter().map(force).collect(),
+        style: LineStyle::Points,
+        colour: Some(1),
+        ..LineSeries::default()
+    });
+    let top = highest(&series);
+    let limit = strain(PAPER_LIMIT_RAD);
+    series.push(upright(&format!("validity limit: {limit:.0} % here is 36°"), limit, top, LIMIT));
+    Some(Lines {
+        title: format!("Bias extension, {:.0} mm by {:.0} mm", 1e3 * first.length_m, 1e3 * first.width_m),
+        x_label: "displacement over free length [%]".into(),
+        y_label: "force [N]".into(),
+        series,
+    })
+}
+
+/// Shear force over shear angle, with the angles at which it stops being true.
+fn shear(found: &Characterized) -> Option<Lines> {
+    let shear = found.shear.as_ref()?;
+    let degrees = 180.0 / std::f64::consts::PI;
+    let all = found.strips().map(|(_, s)| scaled(&s.shear, [degrees, 1.0]));
+    let mut series = vec![specimens(&count(found.strips().count()), all, 0)];
+    series.push(LineSeries {
+        name: if found.strips().count() > 1 { "mean ± sd" } else { "rows of the table" }.into(),
+        points: scaled(&shear.rows, [degrees, 1.0]),
+        half_width: shear.sd_n_per_m.iter().map(|s| s.unwrap_or(0.0)).collect(),
+        style: LineStyle::Points,
+        colour: Some(1),
+    });
+    let top = highest(&series);
+    let last = shear.rows.last().map_or(0.0, |row| row[0]);
+    for (name, angle) in [
+        ("30°: optical angles agree within 5°", OPTICAL_LIMIT_RAD),
+        ("36°: validity limit (24 % of the paper)", PAPER_LIMIT_RAD),
+    ] {
+        let near = angle < 1.3 * last;
+        let colour = if angle == PAPER_LIMIT_RAD { LIMIT } else { 4 };
+        series.extend(near.then(|| upright(name, angle * degrees, top, colour)));
+    }
+    if let Some(locking) = found.quantity("locking") {
+        let at = locking.scatter.mean;
+        series.push(upright(&format!("locking at {at:.0}°"), at, top, 3));
+    }
+    Some(Lines {
+        title: "Shear from bias extension".into(),
+        x_label: "shear angle [°]".into(),
+        y_label: "shear force per length [N/m]".into(),
+        series,
+    })
+}
+
+fn count(n: usize) -> String {
+    if n == 1 { "1 specimen".into() } else { format!("{n} specimens") }
+}
+
+fn scaled(rows: &[[f64; 2]], by: [f64; 2]) -> Vec<[f64; 2]> {
+    rows.iter().map(|r| [r[0] * by[0], r[1] * by[1]]).collect()
+}
+
+/// All curves as one series: a point that is not finite lifts the pen.
+fn specimens(name: &str, curves: impl Iterator<Item = Vec<[f64; 2]>>, colour: usize) -> LineSeries {
+    let points = curves.flat_map(|curve| curve.into_iter().chain([[f64::NAN; 2]])).collect();
+    LineSeries { name: name.into(), points, colour: Some(colour), ..LineSeries::default() }
+}
+
+fn highest(series: &[LineSeries]) -> f64 {
+    series.iter().flat_map(|s| &s.points).map(|p| p[1]).filter(|y| y.is_finite()).fold(0.0, f64::max)
+}
+
+fn upright(name: &str, x: f64, top: f64, colour: usize) -> LineSeries {
+    let points = vec![[x, 0.0], [x, top]];
+    LineSeries { name: name.into(), points, style: LineStyle::Dashed, colour: Some(colour), ..LineSeries::default() }
+}

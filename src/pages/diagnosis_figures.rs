@@ -1,0 +1,261 @@
+//! A diagnosis → plots.
+
+use super::PageError;
+use super::figures::measured;
+use compare::diagnosis::ErrorRung;
+use compare::diagnosis::{Answer, Diagnosis, Group, Standing};
+use compare::study::engines::TERMS;
+use compare::study::predict::predict_dataset;
+use compare::study::witness::{Beside, Witness};
+use data::{Dataset, Phase};
+use models::{Loads, Model, Scenario, Step};
+use report::{self as plots, Drawn, LineSeries, LineStyle, RankClass};
+
+const MM: f64 = 1e3;
+/// Points of a curve over pressure.
+const POINTS: u32 = 48;
+/// Curves go this much beyond the highest measured pressure, where candidates part.
+const BEYOND: f64 = 1.3;
+/// Candidates drawn as curves: as many as have a colour of their own beside the measurement's.
+const MOST_CURVES: usize = 7;
+/// Colour of the measurement.
+const MEASURED: usize = 5;
+/// Ledgers drawn beside that of finite elements: the base, those of the stated set, then the nearest.
+const MOST_LEDGERS: usize = 6;
+/// Of those the others than the base and the stated set, so that there is something to compare with.
+const OTHER_LEDGERS: usize = 2;
+/// Candidates drawn beside the stated set, for the same reason.
+const OTHER_CURVES: usize = 2;
+
+/// What others are called where colours do not say it.
+const FITS_WORSE: &str = "fits worse";
+
+/// Supply against the readings of every gauge, before and after; `None` without a gauge.
+pub(super) fn supply(d: &Diagnosis) -> Result<Option<Drawn>, PageError> {
+    if d.gauges.is_empty() {
+        return Ok(None);
+    }
+    // An effect of the body leaves the supply's laws as they were.
+    let of_supply = d.added.iter().chain(&d.attempt).any(|a| a.group == Group::Supply);
+    let after = d.final_label().filter(|_| of_supply);
+    let series = |gauge: &compare::diagnosis::GaugeFit| plots::BarSeries {
+        name: format!("gauge in {}", gauge.dataset),
+        values: std::iter::once(gauge.before_kpa).chain(after.as_ref().map(|_| gauge.after_kpa)).collect(),
+        half_width: Vec::new(),
+        reference: false,
+    };
+    let data = plots::Bars {
+        title: "The supply, before and after".into(),
+        value_label: "supply's laws against the gauge, rms [kPa]".into(),
+        groups: std::iter::once("supply of the scenario".to_string()).chain(after.clone()).collect(),
+        series: d.gauges.iter().map(series).collect(),
+        target: None,
+    };
+    plots::bars(&data).map(Some).map_err(PageError::from)
+}
+
+/// Error of every model, training and left-out data, with the noise of the mean.
+pub(super) fn waterfall(title: &str, rungs: &[ErrorRung], floor_mm: Option<f64>) -> Result<Drawn, PageError> {
+    let series = |name: &str, of: fn(&ErrorRung) -> f64| plots::BarSeries {
+        name: name.into(),
+        values: rungs.iter().map(of).collect(),
+        half_width: Vec::new(),
+        reference: false,
+    };
+    let data = plots::Bars {
+        title: title.into(),
+        value_label: "error beyond noise [mm]".into(),
+        groups: rungs.iter().map(|r| r.label.clone()).collect(),
+        series: vec![
+            series("data of the fit", |r| r.training_mm),
+            series("pressures left out", |r| r.heldout_pressure_mm.unwrap_or(f64::NAN)),
+            series("runs left out", |r| r.heldout_run_mm.unwrap_or(f64::NAN)),
+        ],
+        target: floor_mm.map(|value| plots::LadderTarget { label: "noise of the mean".into(), value, half_width: 0.0 }),
+    };
+    plots::bars(&data).map_err(PageError::from)
+}
+
+/// Gain of every answer over that of the best one \[%\]; stated ones, the attempt, worse and rejected ones, each by their bars.
+/// `None` where nothing helps.
+pub(super) fn ranking_rows(d: &Diagnosis) -> Option<Vec<plots::RankingRow>> {
+    let answers = d.answers();
+    let possible = answers.iter().filter(|a| a.standing != Standing::Rejected && a.gain.is_finite());
+    let best = possible.map(|a| a.gain).fold(0.0, f64::max);
+    let class = |a: &Answer| match a.standing {
+        Standing::Stated => RankClass::Alike,
+        Standing::Attempt => RankClass::Attempt,
+        Standing::Other if d.indistinguishable.is_empty() => RankClass::Other,
+        Standing::Other => RankClass::Worse,
+        Standing::Rejected => RankClass::Rejected,
+    };
+    let row = |a: &Answer| plots::RankingRow { label: a.name(), value: 100.0 * a.gain / best, class: class(a) };
+    let mut rows: Vec<plots::RankingRow> = answers.iter().map(row).collect();
+    rows.sort_by(|a, b| a.class.cmp(&b.class).then(b.value.total_cmp(&a.value)));
+    (best > 0.0).then_some(rows)
+}
+
+/// The same as bars.
+pub(super) fn ranking(d: &Diagnosis) -> Result<Option<Drawn>, PageError> {
+    let Some(rows) = ranking_rows(d) else { return Ok(None) };
+    let title = if d.pairs.is_empty() { "What one effect explains" } else { "What one effect or two explain" };
+    let value_label = "gain: fall of the squares, weighted by the noise; % of the best".into();
+    let data = plots::Ranking { title: title.into(), value_label, rows };
+    plots::ranking(&data).map(Some).map_err(PageError::from)
+}
+
+/// Which fitted B belongs to the first hold.
+pub(super) fn first_level(d: &Diagnosis, dataset: &Dataset) -> usize {
+    d.level(dataset.holds.first().map_or(0.0, |h| h.p_body_pa * 1e-3))
+}
+
+/// Answers worth a curve: the stated set or the attempt, then the nearest others.
+pub(super) fn shown(d: &Diagnosis) -> Vec<Answer<'_>> {
+    let mut kept: Vec<Answer> = d.answers().into_iter().filter(Answer::helps).collect();
+    let first = kept.iter().filter(|a| a.standing != Standing::Other).count();
+    kept.truncate((first + OTHER_CURVES).min(MOST_CURVES));
+    kept
+}
+
+/// `12 of the 14 that cannot be told apart`, where not all of them are drawn.
+pub(super) fn left_out(d: &Diagnosis, drawn: &[Answer]) -> Option<String> {
+    let stated = |answers: &[Answer]| answers.iter().filter(|a| a.standing == Standing::Stated).count();
+    let (shown, all) = (stated(drawn), d.indistinguishable.len());
+    (shown < all).then(|| format!("Drawn are the first {shown} of the {all} that cannot be told apart."))
+}
+
+/// What the answers predict over pressure, as the difference from the calibrated base: height of the outermost marker on first
+/// loading at the first body pressure, after the time that the samples have waited in their holds.
+pub(super) fn candidate_curves(
+    d: &Diagnosis,
+    scenario: &Scenario,
+    dataset: &Dataset,
+) -> Result<Option<Drawn>, PageError> {
+    let level = first_level(d, dataset);
+    let Some(first) = dataset.holds.first() else { return Ok(None) };
+    let top_pa = BEYOND * dataset.holds.iter().map(|h| h.p_act_pa).fold(0.0, f64::max);
+    let candidates = shown(d);
+    if candidates.is_empty() || top_pa <= 0.0 {
+        return Ok(None);
+    }
+    let wait_s = waited_s(dataset);
+    let heights = |scenario: &Scenario| -> Vec<f64> {
+        let model = Model::new(scenario);
+        let mut state = model.prediction();
+        let mut height = |i: u32| {
+            let p = top_pa * (f64::from(i) / f64::from(POINTS)).powi(2);
+            let loads = Loads::uniform(first.p_body_pa, p);
+            let found = match model.has_history() {
+                true => model.follow(&[0.0, wait_s].map(|t_s| Step { t_s, loads }), &mut state, &mut |_, _| {}),
+                false => model.predict(&loads, &mut state),
+            };
+            found.ok().and_then(|()| state.markers.last().map(|m| m[1] * MM)).unwrap_or(f64::NAN)
+        };
+        (0..=POINTS).map(&mut height).collect()
+    };
+    let base = d.calibrated(scenario, level);
+    let zero = heights(&base);
+    let mut series = vec![deviations(&base, dataset)?];
+    for (i, answer) in candidates.iter().enumerate() {
+        let own = heights(&answer.on(scenario, level));
+        let point = |k: usize| [1e-3 * top_pa * (k as f64 / f64::from(POINTS)).powi(2), own[k] - zero[k]];
+        series.push(LineSeries {
+            name: format!("+ {}{}", answer.name(), attempted(d, answer)),
+            points: (0..own.len()).map(point).collect(),
+            half_width: Vec::new(),
+            style: if answer.standing == Standing::Other { LineStyle::Dashed } else { LineStyle::Line },
+            colour: Some(if i < MEASURED { i } else { i + 1 }),
+        });
+    }
+    let body =
+        if super::figures::several_bodies(dataset) { super::figures::body(first.p_body_pa) } else { String::new() };
+    let with = if d.base.bending.is_empty() { "B as given" } else { "fitted B alone" };
+    let data = plots::Lines {
+        title: "What the candidates predict differently".into(),
+        x_label: format!("actuator pressure{body} [kPa]"),
+        y_label: format!("outermost marker, difference from the model with {with} [mm]"),
+        series,
+    };
+    plots::lines(&data).map(Some).map_err(PageError::from)
+}
+
+/// Mean time of the samples in their holds under pressure \[s\].
+pub(super) fn waited_s(dataset: &Dataset) -> f64 {
+    let ends = std::iter::once(0.0).chain(dataset.holds.iter().filter_map(|hold| hold.t_s.last().copied()));
+    let under = dataset.holds.iter().zip(ends).filter(|(hold, _)| hold.p_act_pa > 0.0);
+    // A hold before the end of the last one begins a session.
+    let waits = under.flat_map(|(hold, end)| {
+        let begin = if hold.t_s.first().is_some_and(|t| *t >= end) { end } else { 0.0 };
+        hold.t_s.iter().map(move |t| t - begin)
+    });
+    let (sum, count) = waits.fold((0.0, 0.0), |(sum, count), wait| (sum + wait, count + 1.0));
+    if count > 0.0 { sum / count } else { 0.0 }
+}
+
+/// What is said behind the name of an attempt.
+fn attempted(d: &Diagnosis, answer: &Answer) -> String {
+    if answer.standing == Standing::Attempt { format!(" ({})", d.attempt_words()) } else { String::new() }
+}
+
+/// Models of the ledgers at a level of body pressure: the base and the answers of the curves.
+pub(super) fn ledger_cases(d: &Diagnosis, scenario: &Scenario, level: usize) -> Vec<(String, Scenario)> {
+    let mut cases = vec![("base".to_string(), d.calibrated(scenario, level))];
+    cases.extend(shown(d).iter().map(|a| {
+        let worse = a.standing == Standing::Other && !d.indistinguishable.is_empty();
+        let what = if worse { format!(" ({FITS_WORSE})") } else { attempted(d, a) };
+        (format!("+ {}{what}", a.name()), a.on(scenario, level))
+    }));
+    cases
+}
+
+/// Models of the ledgers beside finite elements: the base, the stated set or the attempt, then the nearest others.
+pub(super) fn witness_cases(w: &Witness, d: &Diagnosis) -> Vec<plots::LedgerCase> {
+    let Some((base, others)) = w.models.split_first() else { return Vec::new() };
+    let named = others.iter().filter(|m| m.named);
+    let nearest = others.iter().filter(|m| !m.named).take(OTHER_LEDGERS);
+    let is_set = !d.indistinguishable.is_empty();
+    let what = |m: &Beside| match (m.named, is_set) {
+        (true, true) | (false, false) => String::new(),
+        (true, false) => format!(" ({})", d.attempt_words()),
+        (false, true) => format!(" ({FITS_WORSE})"),
+    };
+    let case = |label: String, e: &[f64; 6]| plots::LedgerCase { label, energies_mj: e.to_vec() };
+    let mut cases = vec![case(base.name.clone(), &base.energies_mj)];
+    cases.extend(
+        named.chain(nearest).map(|m| case(m.name.trim_start_matches("+ ").to_string() + &what(m), &m.energies_mj)),
+    );
+    cases.truncate(MOST_LEDGERS);
+    cases.extend(w.fe_mj.iter().map(|fe| case("finite elements".into(), fe)));
+    cases
+}
+
+/// Their drawing.
+pub(super) fn witness_ledger(w: &Witness, d: &Diagnosis) -> Result<Drawn, PageError> {
+    let data = plots::Ledger {
+        title: format!("Where the energy goes, to {:.0} kPa", w.actuator_kpa),
+        value_label: "energy taken up since the first bend [mJ]".into(),
+        terms: TERMS.map(String::from).to_vec(),
+        cases: witness_cases(w, d),
+    };
+    plots::ledger(&data).map_err(PageError::from)
+}
+
+/// Measured minus calibrated base at the loading holds of the first body pressure.
+fn deviations(base: &Scenario, dataset: &Dataset) -> Result<LineSeries, PageError> {
+    let predicted = predict_dataset(base, dataset)?.xy_m;
+    let tip = dataset.markers.len() - 1;
+    let body = dataset.holds[0].p_body_pa;
+    let (mut points, mut half_width) = (Vec::new(), Vec::new());
+    for (h, hold) in dataset.holds.iter().enumerate() {
+        let unseen = !dataset.is_seen(h, tip);
+        if unseen || hold.phase == Phase::Unload || (hold.p_body_pa - body).abs() > 0.05 * body {
+            continue;
+        }
+        let (mean, spread) = measured(dataset, h, tip);
+        let model: f64 = (0..dataset.samples_per_hold).map(|s| predicted[dataset.offset(h, s, tip) + 1]).sum();
+        points.push([hold.p_act_pa * 1e-3, MM * (mean[1] - model / dataset.samples_per_hold as f64)]);
+        half_width.push(spread[1] * MM / (dataset.runs.len() as f64).sqrt());
+    }
+    let name = "measured (± standard error)".into();
+    Ok(LineSeries { name, points, half_width, style: LineStyle::Points, colour: Some(MEASURED) })
+}

@@ -1,0 +1,196 @@
+//! Plots of both engines.
+
+use super::PageError;
+use compare::study::engines::{EngineRobot, Engines, PartingMap};
+use compare::study::engines::{PARTS, Pair, TERMS};
+use models::actuators::Family;
+use report::{self as plots, Drawn};
+
+/// Draws a map.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn parting_plot(map: &PartingMap) -> Result<Drawn, PageError> {
+    let mut columns: Vec<f64> = map.rows.iter().flat_map(|r| r.1.iter().map(|p| p.actuator_kpa)).collect();
+    columns.sort_by(f64::total_cmp);
+    columns.dedup_by(|a, b| (*a - *b).abs() < 0.05);
+    let cell = |pairs: &[Pair], kpa: f64| {
+        let found = pairs.iter().find(|p| (p.actuator_kpa - kpa).abs() < 0.05);
+        plots::BreakdownCell {
+            percent: found.and_then(Pair::difference).map_or(f64::NAN, |d| 100.0 * d),
+            carrier: found.and_then(Pair::carrier).unwrap_or_default().into(),
+        }
+    };
+    let data = plots::Breakdown {
+        title: format!("{}: where the models part", map.actuator),
+        value_label: "reduced tip minus finite element tip, over the latter; below: what carries it".into(),
+        column_label: "actuator pressure [kPa]".into(),
+        row_label: map.row_label.clone(),
+        columns: columns.iter().map(|kpa| format!("{kpa:.0}")).collect(),
+        rows: map.rows.iter().map(|r| r.0.clone()).collect(),
+        cells: map.rows.iter().map(|r| columns.iter().map(|kpa| cell(&r.1, *kpa)).collect()).collect(),
+        parts: 100.0 * PARTS,
+        limit: 150.0,
+    };
+    plots::breakdown(&data).map_err(PageError::from)
+}
+
+/// Displacements at the highest pressure; `None` without runs.
+pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>, PageError> {
+    let shown: Vec<&EngineRobot> =
+        engines.robots.iter().filter(|r| r.published.is_some() && !r.pairs.is_empty()).collect();
+    if shown.is_empty() {
+        return Ok(None);
+    }
+    let series = |name: &str, of: &dyn Fn(&EngineRobot) -> f64, reference| plots::BarSeries {
+        name: name.into(),
+        values: shown.iter().map(|r| of(r)).collect(),
+        half_width: vec![],
+        reference,
+    };
+    let last = |r: &EngineRobot| r.pairs.last().cloned();
+    let data = plots::Bars {
+        title: "Outermost marker at 30 kPa".into(),
+        value_label: "displacement [mm]".into(),
+        groups: shown.iter().map(|r| r.published.as_ref().map_or(String::new(), |p| p.printed_name.clone())).collect(),
+        series: vec![
+            series("reduced, as shipped", &|r| last(r).map_or(f64::NAN, |p| p.reduced_mm[0]), false),
+            series("reduced, with effects", &|r| r.with_effects.as_ref().map_or(f64::NAN, |g| g.y_m * 1e3), false),
+            series("finite elements", &|r| r.ensemble.at(30.0).map_or(f64::NAN, |[marker, _]| marker.0), false),
+            series("measured", &|r| r.published.as_ref().map_or(f64::NAN, |p| p.d_max_m * 1e3), true),
+        ],
+        target: None,
+    };
+    plots::bars(&data).map(Some).map_err(PageError::from)
+}
+
+/// Series that a plot holds.
+const MOST_SERIES: usize = 24;
+
+/// χ over actuator pressure, a colour per robot: symbols with the scatter of seeds at its own body pressure, dashed below it
+/// and solid above; `None` where nothing is known of it.
+pub(super) fn displaced(robots: &[EngineRobot]) -> Result<Option<Drawn>, PageError> {
+    let mut series = Vec::new();
+    for (colour, robot) in robots.iter().enumerate() {
+        for body in &robot.bodies {
+            let known = body.states.iter().filter_map(|v| Some((v.actuator_kpa, v.displaced?)));
+            let (points, half_width): (Vec<[f64; 2]>, Vec<f64>) =
+                known.map(|(kpa, (mean, sd))| ([kpa, mean], sd.unwrap_or(0.0))).unzip();
+            let style = match (body.own, body.body_kpa * 1e3 < robot.scenario.p_body_pa) {
+                (true, _) => plots::LineStyle::LinePoints,
+                (false, true) => plots::LineStyle::Dashed,
+                (false, false) => plots::LineStyle::Line,
+            };
+            let name = format!("{}, body {} kPa", body.actuator, body.body_kpa);
+            series.push((body.own, plots::LineSeries { name, points, half_width, style, colour: Some(colour) }));
+        }
+    }
+    // Of more than a plot holds, robots at their own body pressure come first.
+    series.sort_by_key(|(own, _)| !own);
+    let series: Vec<_> = series.into_iter().map(|s| s.1).filter(|s| !s.points.is_empty()).take(MOST_SERIES).collect();
+    if series.is_empty() {
+        return Ok(None);
+    }
+    let data = plots::Lines {
+        title: "Body volume lost beyond πR³ × turn".into(),
+        x_label: "actuator pressure [kPa]".into(),
+        y_label: "displaced per actuator volume χ [-]".into(),
+        series,
+    };
+    plots::lines(&data).map(Some).map_err(PageError::from)
+}
+
+/// Outermost marker over pressure: both engines, every seed of the finite elements.
+pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn, PageError> {
+    let series = |name: &str, points, half_width, style, colour| plots::LineSeries {
+        name: name.into(),
+        points,
+        half_width,
+        style,
+        colour: Some(colour),
+    };
+    let reduced = robot.pairs.iter().map(|p| [p.actuator_kpa, p.reduced_mm[0]]);
+    let reduced = std::iter::once([0.0, 0.0]).chain(reduced).collect();
+    let mut all = vec![series("reduced, as shipped", reduced, vec![], plots::LineStyle::LinePoints, 0)];
+    let ensemble = &robot.ensemble;
+    if let Some(run) = ensemble.runs.first() {
+        let states = run.states.iter().filter_map(|s| Some((s.actuator_kpa, ensemble.at(s.actuator_kpa)?[0])));
+        let (points, spread): (Vec<[f64; 2]>, Vec<f64>) =
+            states.map(|(kpa, (mean, sd))| ([kpa, mean], sd.unwrap_or(0.0))).unzip();
+        let name = match ensemble.runs.len() {
+            1 => "finite elements".to_string(),
+            n => format!("finite elements, mean and sd of {n} seeds"),
+        };
+        all.push(series(&name, points, spread, plots::LineStyle::LinePoints, 1));
+    }
+    if let Some(p) = &robot.published {
+        let at = vec![[p.d_max_pressure_pa * 1e-3, p.d_max_m * 1e3]];
+        all.push(series("measured", at, vec![], plots::LineStyle::OpenPoints, 3));
+    }
+    let data = plots::Lines {
+        title: format!("{}: outermost marker over pressure", robot.scenario.actuator.kind.name),
+        x_label: "actuator pressure [kPa]".into(),
+        y_label: "displacement of the outermost marker [mm]".into(),
+        series: all,
+    };
+    plots::lines(&data).map_err(PageError::from)
+}
+
+/// Ledgers at every pressure, both engines.
+fn ledger_cases(robot: &EngineRobot) -> Vec<plots::LedgerCase> {
+    let ahead_cm3 = ahead_cm3(robot);
+    let mut cases = Vec::new();
+    for p in &robot.pairs {
+        let mut fe_mj = p.fe_mj;
+        fe_mj[0] += p.actuator_kpa * ahead_cm3;
+        for (engine, energies) in [("reduced", p.reduced_mj), ("finite elements", fe_mj)] {
+            let label = format!("{:.0} kPa, {engine}", p.actuator_kpa);
+            cases.push(plots::LedgerCase { label, energies_mj: energies.to_vec() });
+        }
+    }
+    cases
+}
+
+/// By how much the finite elements' muscle, which lies flat at first, has gained more than the reduced model's, which is round
+/// from the start, at the first pressure; pouches are flat in both.
+fn ahead_cm3(robot: &EngineRobot) -> f64 {
+    let is_muscle = robot.scenario.actuator.kind.family == Family::Mckibben;
+    let first = robot.pairs.iter().find(|p| is_muscle && p.actuator_kpa > 0.0);
+    // mJ over kPa are cm³.
+    first.map_or(0.0, |p| (p.reduced_mj[0] - p.fe_mj[0]) / p.actuator_kpa)
+}
+
+/// Their drawing.
+pub(super) fn ledger(robot: &EngineRobot) -> Result<Drawn, PageError> {
+    let first = robot.pairs.first().map_or(0.0, |p| p.actuator_kpa);
+    let data = plots::Ledger {
+        title: format!("{}: where the energy is", robot.scenario.actuator.kind.name),
+        value_label: match robot.scenario.actuator.kind.family {
+            Family::Pouch => "potential energy [mJ]".into(),
+            Family::Mckibben => format!("potential energy [mJ]; gas beyond what fills the muscle at {first:.0} kPa"),
+        },
+        terms: TERMS.map(String::from).to_vec(),
+        cases: ledger_cases(robot),
+    };
+    plots::ledger(&data).map_err(PageError::from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::engines_page::engines;
+    use super::*;
+    use compare::study::engines::stored;
+    use compare::study::published::shipped_scenario;
+
+    #[test]
+    fn the_gas_of_a_muscle_is_counted_from_the_same_zero_in_both_engines() {
+        let robots = ["fpam", "epam"].map(|kind| shipped_scenario(kind).unwrap());
+        let robots = engines(&robots, &stored().unwrap()).unwrap().robots;
+        let gas = |robot: &EngineRobot| ledger_cases(robot).iter().map(|c| c.energies_mj[0]).collect::<Vec<_>>();
+        let [muscle, pouches] = [gas(&robots[0]), gas(&robots[1])];
+        assert!((muscle[0] - muscle[1]).abs() < 1e-9 && muscle[0] < 0.0, "{muscle:?}");
+        assert!(muscle[muscle.len() - 1] < muscle[muscle.len() - 2], "filled more beyond: {muscle:?}");
+        let last = robots[1].pairs.last().unwrap();
+        assert_eq!(pouches[pouches.len() - 2..], [last.reduced_mj[0], last.fe_mj[0]]);
+    }
+}

@@ -1,0 +1,94 @@
+//! The residual map of a page.
+
+use super::PageError;
+use super::figures::several_bodies;
+use compare::residuals::{Deviation, HoldLabel, ResidualCell, ResidualMap};
+use data::Dataset;
+use report::{self as plots, Drawn};
+
+const MM: f64 = 1e3;
+/// Rows that a page can show one under the other.
+const MOST_MARKERS: usize = 24;
+/// Columns that a page can show beside each other.
+const MOST_HOLDS: usize = 40;
+/// Residuals are drawn to this many times the noise; more is more of the same colour.
+const MAP_LIMIT: f64 = 10.0;
+/// What the colours of a residual map mean.
+pub(super) const MAP_COLOURS: &str = "Across (y), blue: the robot bends more than the model; orange: less. Along (x), blue: the \
+    robot's marker lies farther out than the model's; orange: nearer to the base.";
+
+/// Signed residuals marker × hold, across the robot and along it, in units of noise (in mm when the noise is unknown). Of more
+/// markers or holds than fit, the one of every few neighbours that is farthest off.
+pub(super) fn map(title: &str, map: &ResidualMap, dataset: &Dataset) -> Result<Drawn, PageError> {
+    let in_noise = map.cells.iter().flatten().all(|c| c.x.in_noise.is_some() && c.y.in_noise.is_some());
+    let value = |seen: bool, d: Deviation| match d.in_noise {
+        _ if !seen => f64::NAN,
+        Some(z) if in_noise => z,
+        _ => d.mm,
+    };
+    let farthest = |cells: &mut dyn Iterator<Item = &ResidualCell>| {
+        let size = |cell: &ResidualCell| if in_noise { cell.norm_in_noise.unwrap_or(0.0) } else { cell.norm_mm };
+        cells.fold(0.0, |most: f64, cell| most.max(size(cell)))
+    };
+    let (rows, each_row) = shown(map.markers.len(), MOST_MARKERS, &|m| farthest(&mut map.cells[m].iter()));
+    let of_hold = |h: usize| farthest(&mut map.cells.iter().map(|row| &row[h]));
+    let (columns, each_column) = shown(map.holds.len(), MOST_HOLDS, &of_hold);
+    let panel = |label: &str, of: fn(&ResidualCell) -> Deviation| {
+        let row =
+            |m: &usize| columns.iter().map(|h| &map.cells[*m][*h]).map(|cell| value(cell.seen, of(cell))).collect();
+        plots::MapPanel { label: label.into(), values: rows.iter().map(row).collect() }
+    };
+    let several = several_bodies(dataset);
+    let hold = |h: &HoldLabel| plots::MapHold {
+        p_act_kpa: h.p_act_kpa,
+        phase: h.phase.to_string(),
+        group: match several {
+            true => format!("body {} kPa", compare::wording::short(h.p_body_kpa)),
+            false => String::new(),
+        },
+    };
+    let station = |m: &usize| dataset.markers[*m].station_m.map_or(*m as f64 + 1.0, |s| s * MM);
+    let unit = if in_noise { "[times the noise]" } else { "[mm]" };
+    let data = plots::ResidualMap {
+        title: format!("{title}{}", chosen(each_row, each_column)),
+        value_label: format!("model − measured {unit}"),
+        holds: columns.iter().map(|h| hold(&map.holds[*h])).collect(),
+        stations_mm: rows.iter().map(station).collect(),
+        panels: vec![panel("y, across the robot", |cell| cell.y), panel("x, along the straight robot", |cell| cell.x)],
+        limit: MAP_LIMIT,
+    };
+    plots::residual_map(&data).map_err(PageError::from)
+}
+
+/// Of every few neighbours, as many as leave no more than `most`, the one that is farthest off; and how many they are.
+fn shown(count: usize, most: usize, off: &dyn Fn(usize) -> f64) -> (Vec<usize>, usize) {
+    let each = count.div_ceil(most).max(1);
+    let all: Vec<usize> = (0..count).collect();
+    let farthest = |group: &[usize]| group.iter().copied().max_by(|a, b| off(*a).total_cmp(&off(*b)));
+    (all.chunks(each).filter_map(farthest).collect(), each)
+}
+
+/// What was left out, to follow a title.
+fn chosen(each_row: usize, each_column: usize) -> String {
+    match (each_row, each_column) {
+        (1, 1) => String::new(),
+        (rows, 1) => format!(" (of every {rows} markers the one farthest off)"),
+        (1, columns) => format!(" (of every {columns} holds the one farthest off)"),
+        (rows, columns) => format!(" (of every {rows} markers and {columns} holds those farthest off)"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_many_markers_those_farthest_off_are_shown_and_of_few_all() {
+        let off = |m: usize| f64::from(u8::from(m == 123 || m == 399)) + 1e-3 * (m % 7) as f64;
+        let (rows, each) = shown(400, 40, &off);
+        assert_eq!((rows.len(), each), (40, 10));
+        assert!(rows.contains(&123) && rows.contains(&399) && rows.is_sorted());
+        assert_eq!(shown(40, 40, &off), ((0..40).collect(), 1));
+        assert_eq!(shown(41, 40, &off).0.len(), 21);
+    }
+}

@@ -1,0 +1,74 @@
+//! What finite elements say about a robot of which not everything was measured, drawn.
+
+use compare::study::uncertain::{SAME_KPA, Uncertain, Weight};
+use report::{Drawn, LineSeries, LineStyle, Lines, ReportError, Tornado, TornadoBar, lines, tornado};
+
+/// Heights of all markers at all pressures, median and 80 % interval, beside measured ones.
+///
+/// # Errors
+/// [`ReportError`] if nothing was read.
+pub fn marker_intervals(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> Result<Drawn, ReportError> {
+    let mut series = Vec::new();
+    for (colour, kpa) in all.pressures_kpa().into_iter().filter(|kpa| *kpa > 0.0).enumerate() {
+        let found: Vec<(f64, [f64; 3])> =
+            all.stations_mm.iter().enumerate().filter_map(|(m, s)| Some((*s, all.quantiles_mm(kpa, m, 1)?))).collect();
+        let line = |name: String, k: usize, style| LineSeries {
+            name,
+            points: found.iter().map(|(s, q)| [*s, q[k]]).collect(),
+            half_width: Vec::new(),
+            style,
+            colour: Some(colour),
+        };
+        series.push(line(format!("{kpa} kPa, median"), 1, LineStyle::LinePoints));
+        series.push(line(String::new(), 0, LineStyle::Dashed));
+        series.push(line(String::new(), 2, LineStyle::Dashed));
+        let own = measured.iter().filter(|(at, _)| (at - kpa).abs() < SAME_KPA).map(|(_, point)| *point);
+        let points: Vec<[f64; 2]> = own.collect();
+        if !points.is_empty() {
+            let name = format!("{kpa} kPa, measured");
+            series.push(LineSeries {
+                name,
+                points,
+                half_width: Vec::new(),
+                style: LineStyle::OpenPoints,
+                colour: Some(colour),
+            });
+        }
+    }
+    let data = Lines {
+        title: format!("{}: median and 80 % interval (dashed) over what nobody measured", all.scenario),
+        x_label: "marker along the straight robot [mm]".into(),
+        y_label: "displacement towards the actuator [mm]".into(),
+        series,
+    };
+    lines(&data)
+}
+
+/// What every number does to the outermost marker at a pressure.
+///
+/// # Errors
+/// [`ReportError`] with too few robots.
+pub fn what_to_measure(all: &Uncertain, actuator_kpa: f64) -> Result<Drawn, ReportError> {
+    let base = all.tip_mm(actuator_kpa).map_or(f64::NAN, |q| q[1]);
+    let (weights, rest) = all.weights(actuator_kpa).unwrap_or_default();
+    let bar = |w: &Weight| {
+        let number = &all.numbers[w.number];
+        let half = 0.5 * w.swing_mm;
+        TornadoBar {
+            name: number.name.clone(),
+            ends: number.tenths.map(|v| format!("{v}")),
+            values: [base - half, base + half],
+        }
+    };
+    let data = Tornado {
+        title: format!(
+            "{} at {actuator_kpa} kPa: what to measure first ({:.0} % is not of a straight law)",
+            all.scenario,
+            100.0 * rest
+        ),
+        value_label: "outermost marker [mm], from a tenth to nine tenths of each interval".into(),
+        base,
+        bars: weights.iter().map(bar).collect(),
+    };
+    tornado(&data)
+}
