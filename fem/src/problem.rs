@@ -1,5 +1,6 @@
 //! What a run needs besides the mesh: sections, chambers, supports, loads, contact, settings.
 
+pub(crate) mod solid;
 mod start;
 
 use crate::FemError;
@@ -327,7 +328,7 @@ impl Problem {
         crate::mesh::check::check_open(&self.mesh, &chambers, &open)?;
         self.check_rims()?;
         self.check_supports()?;
-        crate::terms::Obstacles::check(&self.mesh, &self.obstacles)?;
+        solid::check(&self.mesh, &self.obstacles)?;
         if self.settings.selective_mass && self.contact.as_ref().is_some_and(|c| c.edges) {
             let message = "contact: edges need each node's own mass; leave out edges, or selective_mass";
             return refuse(message.into());

@@ -15,6 +15,7 @@ pub mod actuators;
 pub mod assembly;
 mod batch;
 pub mod body;
+mod catalogue;
 pub mod effects;
 pub mod error;
 pub mod exact;
@@ -39,8 +40,10 @@ pub mod site;
 mod supply;
 pub mod term;
 mod trig;
+pub mod weave;
 
 pub use batch::Batch;
+pub use catalogue::Catalogue;
 pub use error::{ScenarioError, Unsolved};
 pub use fabrics::Fabric;
 pub use follow::Step;

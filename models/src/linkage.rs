@@ -1,7 +1,7 @@
-//! The linkage between an actuator and the body: arm, active share, compliance, flattening.
+//! The linkage between an actuator and the body: arm, active share, compliance, law of the section.
 
 /// How the actuator's contraction becomes curvature of the body.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub struct Linkage {
     /// Share η of the actuator's volume that is active \[-\]; 1 in the bare model.
     pub active_fraction: f64,
@@ -13,16 +13,24 @@ pub struct Linkage {
     pub arm_growth: f64,
     /// Line compliance of the actuator's fabric c/W \[1/N\], contraction lost per newton; 0 in the bare model.
     pub compliance_per_n: f64,
-    /// Flattening of the section per squared curvature o \[m²\]; 0 in the bare model.
-    pub flattening_m2: f64,
+    /// What an effect makes of the section as the body bends; `None`: it stays as it is.
+    pub section: Option<SectionLaw>,
+}
+
+/// How a section that changes as the body bends turns the curvature `g` of one that does not into κ.
+#[derive(Debug, Clone, Copy)]
+pub struct SectionLaw {
+    /// κ and dκ/dg from the law's parameter and `g`.
+    pub law: fn(f64, f64) -> (f64, f64),
+    /// That parameter, SI.
+    pub parameter: f64,
 }
 
 impl Linkage {
-    /// Curvature κ of the body where a round one would have curvature `g`, and dκ/dg.
+    /// Curvature κ of the body where one whose section stays as it is would have curvature `g`, and dκ/dg.
     #[inline]
     pub fn bent(&self, g: f64) -> (f64, f64) {
-        let flat = self.flattening_m2 * g * g;
-        (g + flat * g, 1.0 + 3.0 * flat)
+        self.section.map_or((g, 1.0), |section| (section.law)(section.parameter, g))
     }
 }
 

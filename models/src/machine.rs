@@ -36,8 +36,8 @@ impl Machine {
         scenario.add_effects(&mut assembly);
         for site in &mut assembly.sites {
             (site.weave.wall_n_per_m, site.weave.drawn_in_m2) = (0.0, 0.0);
+            crate::muscle::complete(site);
         }
-        crate::muscle::complete(&mut assembly);
         let place = assembly.sites.iter().position(|site| site.actuator.is_some())?;
         let actuator = assembly.sites[place].actuator?;
         Some(Machine { assembly, place, actuator })

@@ -60,8 +60,10 @@ impl Model {
     fn of(scenario: &Scenario, spans: Vec<Span>) -> Model {
         let mut assembly = assemble(scenario, &spans, scenario.segments);
         scenario.add_effects(&mut assembly);
-        crate::muscle::complete(&mut assembly);
-        assembly.sites.iter_mut().for_each(|site| site.tabulate(scenario.p_body_pa, scenario.p_max_pa));
+        for site in &mut assembly.sites {
+            crate::muscle::complete(site);
+            site.tabulate(scenario.p_body_pa, scenario.p_max_pa);
+        }
         // Without transverse loads and terms that vary along it every stretch of equal design is one arc.
         if assembly.node_terms.is_empty() && !assembly.varies {
             assembly.segments = divide(&spans, 1);
@@ -334,7 +336,7 @@ fn site(scenario: &Scenario, span: &Span) -> Site {
         arm_m: span.arm_m,
         arm_growth: 0.0,
         compliance_per_n: 0.0,
-        flattening_m2: 0.0,
+        section: None,
     };
     let pressure = BodyPressure {
         radius_m: span.radius_m,

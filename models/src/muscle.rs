@@ -37,31 +37,10 @@
 //! yarns linear in Green strain; a wall that takes no compression along the body. Derived here.
 
 use crate::actuators::ActuatorShape;
-use crate::assembly::Assembly;
+use crate::site::{Besides, Site};
 use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
+use crate::weave::Weave;
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
-
-/// What effects make of a muscle; nothing of it in the bare model.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Weave {
-    /// Compliance c of its yarns \[m/N\].
-    pub compliance_m_per_n: f64,
-    /// E t of the wall to which one half is glued \[N/m\]; 0: it is not.
-    pub wall_n_per_m: f64,
-    /// Ends that are sealed flat.
-    pub flat_ends: f64,
-    /// Area ΔA that the body's section loses to the muscle \[m²\].
-    pub drawn_in_m2: f64,
-    /// Shear stiffness G t of its fabric \[N/m\], where the cell takes it over from a term of its own.
-    pub shear_n_per_m: f64,
-}
-
-impl Weave {
-    /// Whether the cell stands in for the tube with stiff yarns.
-    pub(crate) fn is_cell(&self) -> bool {
-        [self.compliance_m_per_n, self.wall_n_per_m, self.flat_ends] != [0.0; 3]
-    }
-}
 
 /// The cell of one site as a term over the contraction.
 #[derive(Debug, Clone, Copy)]
@@ -79,13 +58,12 @@ struct Muscle {
     halves: [Half; 2],
 }
 
-/// Puts the cell in place of the tube with stiff yarns wherever an effect asks for one.
-pub(crate) fn complete(assembly: &mut Assembly) {
-    for site in &mut assembly.sites {
-        if site.actuator.is_some() && site.weave.is_cell() {
-            site.guess_fails = true;
-            site.actuator_terms.push(Box::new(Muscle::of(&site.weave, &site.shape, site.linkage.arm_m)));
-        }
+/// Puts the cell in place of the tube with stiff yarns where an effect asks for one.
+pub(crate) fn complete(site: &mut Site) {
+    if let Some(actuator) = site.actuator.filter(|_| site.weave.is_cell()) {
+        let tabulated_from = site.weave.drawn_in_m2 / (actuator.area)(&site.shape);
+        let cell = Muscle::of(&site.weave, &site.shape, site.linkage.arm_m);
+        site.act(cell, Besides { unforeseen: true, tabulated_from, ..Besides::default() });
     }
 }
 

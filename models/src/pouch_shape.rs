@@ -19,7 +19,6 @@
 
 use crate::actuators::Family;
 use crate::assembly::Segment;
-use crate::effects::sealed_sides::NARROWED;
 use crate::model::{Model, Prediction};
 use crate::site::Site;
 use crate::term::Loads;
@@ -57,7 +56,7 @@ impl Model {
             let of_length = segment.length_m;
             active_m += of_length;
             shape.arm_m += of_length * (site.linkage.arm_m + site.linkage.arm_growth * stroke.lift);
-            shape.width_m += of_length * (site.shape.width_m - site.sealed_share * NARROWED * stroke.lift);
+            shape.width_m += of_length * (site.shape.width_m - site.besides.narrows * stroke.lift);
             shape.height_m += of_length * 2.0 * stroke.lift;
         }
         for mean in [&mut shape.arm_m, &mut shape.width_m, &mut shape.height_m] {

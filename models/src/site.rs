@@ -6,7 +6,7 @@
 //!        N = −η ∂U/∂a / (η_ε ε' − κ D')                                     N D + M_load = ∂U/∂κ
 //! ```
 //!
-//! With a section that flattens, the curvature of the round body g takes the place of κ on the left and κ = g (1 + o g²).
+//! With a section that changes as it bends, the curvature g of one that does not takes the place of κ on the left: [`SectionLaw`].
 //!
 //! The taut generator on the far side keeps its length; κ is the heading change per length of it, D the arm from it to
 //! the actuator's line of action. One unknown, the actuator's coordinate `a`, decides everything, because every law is
@@ -17,11 +17,11 @@ mod wall;
 
 use crate::actuators::{Actuator, ActuatorShape, Demand, Stroke};
 use crate::body::{Bending, BodyLaw, BodyPressure};
-pub use crate::linkage::Linkage;
 use crate::linkage::line_tension;
-use crate::muscle::Weave;
+pub use crate::linkage::{Linkage, SectionLaw};
 use crate::root::{NoRoot, Root, Start, find_root};
 use crate::term::{Account, Extreme, LedgerLine, Pose, Remembering, Term, actuator_q};
+use crate::weave::Weave;
 use starts::Starts;
 use std::f64::consts::PI;
 
@@ -44,17 +44,13 @@ pub struct Site {
     pub linkage: Linkage,
     /// Share χ of the actuator's volume that lies in the body and works against its pressure.
     pub inner_share: f64,
-    /// Share of the sides that are sealed: round where the pouch is inflated.
-    pub sealed_share: f64,
     /// Area of the section at rest \[m²\]: a circle's, unless the actuator draws it in.
     pub area_m2: f64,
-    /// The actuator stays flat below this share of the body's pressure.
-    pub closed_share: f64,
-    /// An effect shifts the actuator's balance in a way that its guess does not know.
-    pub guess_fails: bool,
-    /// Starts in place of that guess.
+    /// What its terms do beside their energy.
+    pub(crate) besides: Besides,
+    /// Starts in place of the actuator's guess.
     starts: Option<Starts>,
-    /// Terms over [`actuator_q`], J per metre of body at η = 1.
+    /// Terms over [`actuator_q`], J per metre of body at η = 1; [`Site::act`] adds one.
     pub actuator_terms: Vec<Box<dyn Term>>,
     /// Body pressure work; an effect may replace the law.
     pub body_pressure: BodyLaw,
@@ -64,6 +60,19 @@ pub struct Site {
     pub body_terms: Vec<Box<dyn Remembering>>,
     /// Shear stiffness of the wall G t \[N/m\]; `None`: transverse loads do not shear the body.
     pub wall_shear_n_per_m: Option<f64>,
+}
+
+/// What a term of the actuator does beside its energy; nothing unless it says so.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Besides {
+    /// The actuator stays flat below this share of the body's pressure; terms add up.
+    pub closes: f64,
+    /// Width of a pouch that it takes per half height of its middle; terms add up.
+    pub narrows: f64,
+    /// It shifts the balance in a way that the actuator's guess does not know: starts are tabulated.
+    pub unforeseen: bool,
+    /// Share of the body's pressure from which they are, where it does not close; the largest counts.
+    pub tabulated_from: f64,
 }
 
 /// The pressure work of the actuator, `E = −P v`.
@@ -190,10 +199,8 @@ impl Site {
             channel,
             linkage,
             inner_share: 0.0,
-            sealed_share: 0.0,
             area_m2: PI * radius_m * radius_m,
-            closed_share: 0.0,
-            guess_fails: false,
+            besides: Besides::default(),
             starts: None,
             actuator_terms: vec![Box::new(ActuatorPressure)],
             body_pressure: BodyLaw::Hinge(body_pressure),
@@ -201,6 +208,16 @@ impl Site {
             body_terms: Vec::new(),
             wall_shear_n_per_m: None,
         }
+    }
+
+    /// Adds a term over [`actuator_q`], and what it does besides.
+    pub(crate) fn act(&mut self, term: impl Term + 'static, besides: Besides) {
+        let all = &mut self.besides;
+        all.closes += besides.closes;
+        all.narrows += besides.narrows;
+        all.unforeseen |= besides.unforeseen;
+        all.tabulated_from = all.tabulated_from.max(besides.tabulated_from);
+        self.actuator_terms.push(Box::new(term));
     }
 
     /// Shear stiffness of the body `πR²p_b + πR G t` \[N\]; infinite where it is rigid.
@@ -229,7 +246,7 @@ impl Site {
 
     /// Actuator pressure beyond what the body's takes to close it \[Pa\].
     fn opening_pa(&self, loads: &SiteLoads) -> f64 {
-        loads.p_act_pa - self.closed_share * loads.p_body_pa
+        loads.p_act_pa - self.besides.closes * loads.p_body_pa
     }
 
     fn solve_active(
@@ -365,7 +382,7 @@ impl Site {
 
     /// Whether an actuator here is open at these pressures: a flat one has no slope.
     pub(crate) fn is_open(&self, p_body_pa: f64, p_act_pa: f64) -> bool {
-        p_act_pa - self.closed_share * p_body_pa > SLACK_BELOW_PA
+        p_act_pa - self.besides.closes * p_body_pa > SLACK_BELOW_PA
     }
 }
 

@@ -18,7 +18,7 @@ fn the_start_value_of_a_place_without_effects_is_its_equilibrium_also_with_a_gro
                 arm_m: 0.08,
                 arm_growth,
                 compliance_per_n: 0.0,
-                flattening_m2: 0.0,
+                section: None,
             };
             let body = BodyPressure { radius_m: 0.04, hinge_curvature: 1e-4, share: 1.0 };
             let site = Site::new(0.04, body, Bending { stiffness }, linkage, Some(actuator), shape, 0);

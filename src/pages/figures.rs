@@ -266,9 +266,8 @@ pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) 
         }
         columns.push((label.clone(), lines));
     }
-    let energy = |lines: &[models::Row], t: &String| {
-        lines.iter().find(|l| l.name == *t).map_or(0.0, |l| l.energy_j * 1e3)
-    };
+    let energy =
+        |lines: &[models::Row], t: &String| lines.iter().find(|l| l.name == *t).map_or(0.0, |l| l.energy_j * 1e3);
     // More terms than colours: the smallest go together.
     let mut joined = Vec::new();
     if terms.len() > MOST_TERMS {

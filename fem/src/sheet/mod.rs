@@ -24,8 +24,7 @@ use models::{Account, Fabric, LedgerLine, Pose, Row, RowKind, Term};
 
 use crate::mesh::Mesh;
 use crate::problem::{Chamber, Section, Settings};
-use crate::{FemError, NODE};
-use crate::{Tick, Transient};
+use crate::{FemError, NODE, Tick, Transient};
 use bending::BendingMatrix;
 use chamber::Air;
 use group::Item;
@@ -247,12 +246,8 @@ impl Transient for Sheet {
             rows.push(row("fabric hysteresis", Account::Stretch, RowKind::Dissipated, lost));
         }
         if !self.air.is_empty() {
-            rows.push(row(
-                "pressure",
-                Account::ActuatorGas,
-                RowKind::Supplied,
-                self.air.iter().map(|a| a.work_j).sum(),
-            ));
+            let work = self.air.iter().map(|a| a.work_j).sum();
+            rows.push(row("pressure", Account::ActuatorGas, RowKind::Supplied, work));
         }
         rows
     }

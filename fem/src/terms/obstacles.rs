@@ -19,15 +19,14 @@ use rayon::prelude::*;
 
 use super::coulomb::slide;
 use crate::bytes::{Reader, Writer};
-use crate::problem::{Obstacle, ObstacleShape};
-use crate::vec3::{V3, along, cross, dot, scale, sub, unit};
+use crate::problem::Obstacle;
+use crate::problem::solid::Solid;
+use crate::vec3::{V3, dot};
 use crate::{FemError, Mesh};
 use crate::{Tick, Transient};
 
 /// Nodes per parallel chunk.
 const CHUNK: usize = 1024;
-/// Nodes this deep at the start only touch \[m\].
-const TOUCHING_M: f64 = 1e-5;
 
 /// All obstacles of a run.
 #[derive(Debug, Clone)]
@@ -42,21 +41,6 @@ pub struct Obstacles {
     sums: Vec<[f64; 2]>,
     stored_j: f64,
     friction_j: f64,
-}
-
-#[derive(Debug, Clone)]
-struct Solid {
-    point: V3,
-    /// Normal or axis, unit.
-    axis: V3,
-    radius_m: Option<f64>,
-    friction: f64,
-}
-
-/// Where a node is with respect to a solid.
-struct Touch {
-    depth_m: f64,
-    normal: V3,
 }
 
 impl Obstacles {
@@ -79,30 +63,6 @@ impl Obstacles {
             stored_j: 0.0,
             friction_j: 0.0,
         })
-    }
-    /// Refuses nodes that start inside an obstacle.
-    ///
-    /// # Errors
-    /// [`FemError::Problem`] with the deepest node (from 1), its place, the obstacle (from 1) and what to do.
-    pub fn check(mesh: &Mesh, obstacles: &[Obstacle]) -> Result<(), FemError> {
-        for (number, obstacle) in obstacles.iter().enumerate() {
-            let solid = Solid::new(number, obstacle)?;
-            let depth = |node: usize| {
-                let [x, y, z] = mesh.start_of(node);
-                solid.touch(&[x, y, z, 0.0]).depth_m
-            };
-            let deepest = (0..mesh.points.len()).max_by(|a, b| depth(*a).total_cmp(&depth(*b)));
-            let Some(node) = deepest.filter(|node| depth(*node) > TOUCHING_M) else { continue };
-            let [x, y, z] = mesh.start_of(node).map(|c| c * 1e3);
-            return Err(FemError::Problem(format!(
-                "[[obstacle]] {}: node {} starts {:.3} mm inside it, at ({x:.2}, {y:.2}, {z:.2}) mm. Move the obstacle, or turn the \
-                 normal of a plane to its free side",
-                number + 1,
-                node + 1,
-                depth(node) * 1e3
-            )));
-        }
-        Ok(())
     }
     /// Energy lost to friction so far \[J\].
     pub fn friction_j(&self) -> f64 {
@@ -214,33 +174,6 @@ impl Obstacles {
 }
 
 impl Solid {
-    fn new(index: usize, obstacle: &Obstacle) -> Result<Solid, FemError> {
-        let bad = |what: &str| FemError::Problem(format!("obstacle {}: {what}", index + 1));
-        if !(obstacle.friction >= 0.0 && obstacle.friction.is_finite()) {
-            return Err(bad("friction must be 0 or more"));
-        }
-        let (point, axis, radius_m) = match obstacle.shape {
-            ObstacleShape::Plane { point, normal } => (point, normal, None),
-            ObstacleShape::Cylinder { point, axis, radius_m } => (point, axis, Some(radius_m)),
-        };
-        if point.iter().any(|x| !x.is_finite()) {
-            return Err(bad("its point is not finite"));
-        }
-        if radius_m.is_some_and(|r| !(r > 0.0 && r.is_finite())) {
-            return Err(bad("the radius must be positive"));
-        }
-        let axis = unit(axis).ok_or_else(|| bad("its normal or axis has no length; write for example [0, 0, 1]"))?;
-        Ok(Solid { point, axis, radius_m, friction: obstacle.friction })
-    }
-    fn touch(&self, x: &[f64; 4]) -> Touch {
-        let r = sub([x[0], x[1], x[2]], self.point);
-        let height = dot(r, self.axis);
-        let Some(radius) = self.radius_m else { return Touch { depth_m: -height, normal: self.axis } };
-        let out = along(r, -height, self.axis);
-        let distance = dot(out, out).sqrt();
-        let normal = if distance > 0.0 { scale(out, 1.0 / distance) } else { any_across(self.axis) };
-        Touch { depth_m: radius - distance, normal }
-    }
     /// One step: force, energy and loss; the spring is updated.
     #[inline]
     fn step(&self, x: &[f64; 4], before: &[f64; 4], k: f64, spring: &mut V3, force: &mut [f64; 4]) -> [f64; 2] {
@@ -271,11 +204,6 @@ fn push(force: &mut [f64; 4], normal_n: f64, normal: V3, k: f64, spring: &V3) {
     for axis in 0..3 {
         force[axis] += normal_n * normal[axis] - k * spring[axis];
     }
-}
-
-fn any_across(axis: V3) -> V3 {
-    let other = if axis[0].abs() < 0.5 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
-    unit(cross(axis, other)).unwrap_or([0.0, 0.0, 1.0])
 }
 
 #[cfg(test)]

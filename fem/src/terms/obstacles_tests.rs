@@ -1,4 +1,5 @@
 use super::*;
+use crate::problem::ObstacleShape;
 
 const G: f64 = 9.81;
 

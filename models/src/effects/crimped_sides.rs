@@ -25,6 +25,7 @@
 use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
+use crate::site::Besides;
 use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 use std::f64::consts::PI;
 
@@ -68,8 +69,8 @@ fn add(values: &[f64], assembly: &mut Assembly) {
         let restraint = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
         if values[0] * restraint > 0.0 {
             let sides = 4.0 * restraint * (FOUNDATION * values[0]).sqrt();
-            site.guess_fails = true;
-            site.actuator_terms.push(Box::new(CrimpedSides { sides, inner: site.inner_share }));
+            let term = CrimpedSides { sides, inner: site.inner_share };
+            site.act(term, Besides { unforeseen: true, ..Besides::default() });
         }
     }
 }

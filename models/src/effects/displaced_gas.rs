@@ -18,6 +18,7 @@
 use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
+use crate::site::Besides;
 use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 
 pub(super) const ENTRY: Effect = Effect {
@@ -52,8 +53,8 @@ struct DisplacedGas {
 fn add(values: &[f64], assembly: &mut Assembly) {
     for family in [Family::Pouch, Family::Mckibben] {
         for site in assembly.active_sites(family) {
-            (site.inner_share, site.closed_share) = (values[0], values[0]);
-            site.actuator_terms.push(Box::new(DisplacedGas { share: values[0] }));
+            site.inner_share = values[0];
+            site.act(DisplacedGas { share: values[0] }, Besides { closes: values[0], ..Besides::default() });
         }
     }
 }

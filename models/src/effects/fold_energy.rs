@@ -23,6 +23,7 @@ use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::section::Section;
+use crate::site::Besides;
 use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 use crate::trig::sin_cos;
 use std::f64::consts::PI;
@@ -79,8 +80,7 @@ fn add(values: &[f64], assembly: &mut Assembly) {
             wall_m: Section::drawn_in(site.radius_m, site.shape.width_m, site.shape.width_m)
                 .map_or(0.0, |flat| 0.5 * flat.radius_m * flat.cos),
         };
-        site.guess_fails = true;
-        site.actuator_terms.push(Box::new(term));
+        site.act(term, Besides { unforeseen: true, ..Besides::default() });
     }
 }
 

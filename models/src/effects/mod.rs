@@ -25,7 +25,6 @@ mod leak;
 mod marker_height;
 mod mount_rotation;
 mod ovalization;
-mod own;
 mod plastic_set;
 mod pressure_loss;
 mod pressure_offset;
@@ -45,7 +44,6 @@ mod yarn_stretch;
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::term::{Account, LedgerLine};
-pub use own::Catalogue;
 
 /// The list, in the order in which effects are added to a model.
 pub const EFFECTS: &[Effect] = &[
@@ -226,7 +224,7 @@ pub enum Needs {
     Family(Family),
 }
 
-/// A physical effect as an entry of the catalogue, or of a scenario's own ([`Catalogue`]).
+/// A physical effect as an entry of the catalogue, or of a scenario's own ([`crate::Catalogue`]).
 #[derive(Debug, Clone, Copy)]
 pub struct Effect<'a> {
     /// Name in scenarios.

@@ -19,6 +19,7 @@
 
 use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
+use crate::site::SectionLaw;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "ovalization",
@@ -47,6 +48,12 @@ pub(super) const ENTRY: Effect = Effect {
 
 fn add(values: &[f64], assembly: &mut Assembly) {
     for site in &mut assembly.sites {
-        site.linkage.flattening_m2 += values[0];
+        site.linkage.section = Some(SectionLaw { law: flattened, parameter: values[0] });
     }
+}
+
+/// κ = g (1 + o g²) and dκ/dg.
+fn flattened(flattening_m2: f64, g: f64) -> (f64, f64) {
+    let flat = flattening_m2 * g * g;
+    (g + flat * g, 1.0 + 3.0 * flat)
 }

@@ -28,7 +28,7 @@ use super::{Effect, Group, Needs, Parameter, SHARE, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::section::Section;
-use crate::site::Site;
+use crate::site::{Besides, Site};
 use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 use crate::trig::sin_cos;
 use std::f64::consts::PI;
@@ -65,12 +65,12 @@ fn add(values: &[f64], assembly: &mut Assembly) {
     for site in assembly.active_sites(Family::Pouch) {
         let restraint = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
         if values[0] * restraint > 0.0 {
-            site.sealed_share = values[0] * restraint;
-            let term = SealedSides::new(site.sealed_share, site);
+            let share = values[0] * restraint;
+            let term = SealedSides::new(share, site);
             // At a → 0 the gas of the body resists with −½ΔA/(W a) of its pressure.
-            site.closed_share += (-0.5 * values[0] * restraint * term.area[0] / site.shape.width_m).max(0.0);
-            site.guess_fails = true;
-            site.actuator_terms.push(Box::new(term));
+            let closes = (-0.5 * values[0] * restraint * term.area[0] / site.shape.width_m).max(0.0);
+            let besides = Besides { closes, narrows: share * NARROWED, unforeseen: true, ..Besides::default() };
+            site.act(term, besides);
         }
     }
 }
@@ -123,7 +123,7 @@ impl SealedSides {
 }
 
 /// Width that a pair of quarter circles takes of the chord, over a.
-pub(crate) const NARROWED: f64 = PI - 2.0;
+const NARROWED: f64 = PI - 2.0;
 /// Below this angle the closed forms lose more digits to cancellation than the series to truncation.
 const SERIES_BELOW: f64 = 0.05;
 

@@ -29,7 +29,8 @@ pub use spans::Span;
 
 use crate::actuators::{Actuator, ActuatorShape, BEAM};
 use crate::assembly::Assembly;
-use crate::effects::{Catalogue, EFFECTS, Effect};
+use crate::catalogue::Catalogue;
+use crate::effects::{EFFECTS, Effect};
 use crate::error::ScenarioError;
 use crate::formula::Formula;
 use std::sync::Arc;

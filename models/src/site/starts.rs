@@ -7,7 +7,7 @@
 //! M_b is the body's moment at a typical bend. A start decides speed, never the result. Exact but for the interpolation at the
 //! scenario's body pressure; at others the folds of a pouch shift it a little, and the yarns of a muscle more.
 
-use super::{Site, SiteLoads, SiteState, TYPICAL_STROKE};
+use super::{Besides, Site, SiteLoads, SiteState, TYPICAL_STROKE};
 use crate::root::Start;
 use crate::term::Memory;
 
@@ -65,13 +65,13 @@ impl Site {
     /// Tabulates starts for this body pressure and actuator pressures up to `p_max_pa`, where the guess fails.
     pub(crate) fn tabulate(&mut self, p_body_pa: f64, p_max_pa: f64) {
         let remembers = self.body_terms.iter().any(|term| term.memory() != Memory::NONE);
-        if !self.guess_fails || remembers {
+        if !self.besides.unforeseen || remembers {
             return;
         }
         let loads = |p_act_pa: f64| SiteLoads { p_body_pa, p_act_pa, ..SiteState::REST.loads };
         let moment = self.resisting(&loads(0.0), &[]);
-        let drawn_in = self.weave.drawn_in_m2 / self.actuator.map_or(1.0, |actuator| (actuator.area)(&self.shape));
-        let opened = ((2.0 * self.closed_share).max(drawn_in) * p_body_pa).max(LOWEST_SHARE * p_max_pa);
+        let Besides { closes, tabulated_from, .. } = self.besides;
+        let opened = ((2.0 * closes).max(tabulated_from) * p_body_pa).max(LOWEST_SHARE * p_max_pa);
         let mut near = None;
         self.starts = Starts::new(moment, [opened, p_max_pa], |p_act_pa| {
             let state = self.solve(&loads(p_act_pa), &[], near.as_ref()).ok().filter(|state| state.slope < 0.0)?;

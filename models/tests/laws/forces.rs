@@ -53,7 +53,8 @@ fn check(scenario: &Scenario, random: &mut Random) -> BTreeSet<&'static str> {
             site.actuator_terms.iter().for_each(|t| hold(&**t, &q, p_body_pa, p_act_pa));
             let kappa = random.decades(1e-6, 20.0) * if random.unit() < 0.5 { -1.0 } else { 1.0 };
             let body = [&*site.body_pressure, &site.bending as &dyn Term].into_iter();
-            body.chain(site.body_terms.iter().map(|t| &**t as &dyn Term)).for_each(|t| hold(t, &[kappa], p_body_pa, 0.0));
+            body.chain(site.body_terms.iter().map(|t| &**t as &dyn Term))
+                .for_each(|t| hold(t, &[kappa], p_body_pa, 0.0));
         }
     }
     for term in &model.assembly().node_terms {

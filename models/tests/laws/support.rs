@@ -3,7 +3,7 @@
 use models::actuators::ACTUATORS;
 use models::assembly::Assembly;
 use models::effects::{EFFECTS, Effect, Stage};
-use models::site::Site;
+use models::site::{Linkage, Site};
 use models::{Loads, Model, Pose, Prediction, Scenario, Unsolved, shipped};
 
 /// Names of the four actuators.
@@ -145,8 +145,8 @@ impl Potential<'_> {
         sum += site.linkage.active_fraction * stored;
         let compliance = site.linkage.compliance_per_n;
         if compliance > 0.0 {
-            let flattening = site.linkage.flattening_m2;
-            sum += 0.5 * ((round(geometric, flattening) - round(kappa, flattening)) * arm).powi(2) / compliance;
+            let round = |kappa| round(kappa, &site.linkage);
+            sum += 0.5 * ((round(geometric) - round(kappa)) * arm).powi(2) / compliance;
         }
         sum
     }
@@ -169,7 +169,8 @@ impl Potential<'_> {
     }
 }
 
-/// Curvature g of the round body where a flattened one has κ = g + o g³, by Newton.
-fn round(kappa: f64, flattening: f64) -> f64 {
-    (0..60).fold(kappa, |g, _| g - (g + flattening * g.powi(3) - kappa) / (1.0 + 3.0 * flattening * g * g))
+/// Curvature g of the body whose section stays as it is where that of `linkage` has κ, by Newton.
+fn round(kappa: f64, linkage: &Linkage) -> f64 {
+    let step = |(bent, slope): (f64, f64)| (bent - kappa) / slope;
+    (0..60).fold(kappa, |g, _| g - step(linkage.bent(g)))
 }

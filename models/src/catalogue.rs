@@ -1,6 +1,6 @@
 //! The catalogue of one scenario: the effects of all, and its own formulas.
 
-use super::{EFFECTS, Effect, Parameter};
+use crate::effects::{EFFECTS, Effect, Parameter};
 use crate::formula::Formula;
 use std::sync::Arc;
 
