@@ -1,6 +1,9 @@
 //! What commands share: the outside that they may use, the wish to end, and what they have to say.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, INTERRUPTED};
+use fem::FemError;
+use fem::session::Progress;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
@@ -15,6 +18,20 @@ pub struct Context<'a> {
     pub written: &'a Mutex<bool>,
     /// For commands that end themselves on Ctrl-C.
     pub interrupt: &'a Interrupt,
+}
+
+impl Context<'_> {
+    /// Makes finite element runs. Ctrl-C asks them to end from here on, which they do with a checkpoint.
+    pub fn fem<T>(&mut self, make: impl FnOnce(Progress) -> Result<T, FemError>) -> Result<T, FemError> {
+        let Context { progress, interrupt, .. } = self;
+        interrupt.await_one();
+        let made = make(&mut |text, share| {
+            progress(text, share);
+            if interrupt.asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        interrupt.let_one_go();
+        made
+    }
 }
 
 /// Signals within this time are one.
@@ -74,6 +91,11 @@ impl Outcome {
     /// A text, and the same as JSON.
     pub fn new(text: String, json: serde_json::Value) -> Outcome {
         Outcome { text, json: Some(json), notes: Vec::new(), code: 0 }
+    }
+
+    /// Nothing to show, and how to go on.
+    pub fn interrupted(note: String) -> Outcome {
+        Outcome { notes: vec![note], code: INTERRUPTED, ..Outcome::default() }
     }
 
     /// The result stands, and what failed after it is said below it.

@@ -5,11 +5,6 @@ pub fn cpu_seconds() -> f64 {
     cpu_time::ProcessTime::try_now().map_or(0.0, |t| t.as_duration().as_secs_f64())
 }
 
-/// Processor seconds of the calling thread.
-pub fn thread_seconds() -> f64 {
-    cpu_time::ThreadTime::try_now().map_or(0.0, |t| t.as_duration().as_secs_f64())
-}
-
 /// Memory in use \[bytes\]; 0 where the system does not say.
 pub fn resident_bytes() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -1,6 +1,8 @@
 //! What can go wrong in the command, as the user sees it, with its exit code.
 
 use crate::printable::printable;
+use fem::FemError;
+use fem::error::Refusal;
 use miette::{
     GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, NamedSource, Report,
     SourceCode, SourceSpan, SpanContents,
@@ -59,29 +61,9 @@ pub enum Failure {
         /// Why.
         error: models::ScenarioError,
     },
-    /// A finite element case that was refused.
-    #[error("{}", message.lines().next().unwrap_or_default())]
-    Case {
-        /// File or name of the case.
-        file: String,
-        /// Its text.
-        text: String,
-        /// Why, and in the second line what to type.
-        message: String,
-        /// Where.
-        span: Option<std::ops::Range<usize>>,
-    },
     /// A finite element run that cannot be made or was stopped.
     #[error(transparent)]
     Fem(#[from] fem::FemError),
-    /// A finite element run that was stopped because its result could not be trusted.
-    #[error("{error}")]
-    Stopped {
-        /// Why.
-        error: fem::FemError,
-        /// Where its files are.
-        folder: String,
-    },
     /// Data that were refused, or a file that could not be written.
     #[error(transparent)]
     Data(#[from] data::DataError),
@@ -126,16 +108,20 @@ impl Failure {
         match self {
             Failure::Usage { .. } | Failure::Compare(compare::CompareError::BadProtocol { .. }) => USAGE,
             Failure::Unsolved(models::Unsolved::BadPressure { .. }) => USAGE,
-            Failure::Unsolved(_) | Failure::Stopped { .. } => UNSOLVED,
-            Failure::Fem(fem::FemError::Stopped { .. }) => UNSOLVED,
-            Failure::Read { .. } | Failure::Write { .. } => BAD_INPUT,
+            Failure::Unsolved(_) => UNSOLVED,
+            Failure::Fem(FemError::Interrupted { .. }) => INTERRUPTED,
+            Failure::Fem(FemError::Setting { .. }) => USAGE,
+            Failure::Fem(error) if error.is_stop() => UNSOLVED,
+            Failure::Read { .. } | Failure::Write { .. } | Failure::Fem(_) => BAD_INPUT,
             Failure::Scenario { .. } | Failure::Data(_) | Failure::Compare(_) | Failure::Drawing(_) => BAD_INPUT,
-            Failure::Case { .. } | Failure::Fem(_) => BAD_INPUT,
         }
     }
 
     /// The error with its place in the file and what to type.
     pub fn render(&self) -> String {
+        if let Failure::Fem(error @ FemError::Interrupted { .. }) = self {
+            return format!("{error}; {}\n", error.help().unwrap_or_default());
+        }
         let mut text = String::new();
         let plain = std::env::var_os("NO_COLOR").is_some() || !std::io::IsTerminal::is_terminal(&std::io::stderr());
         let theme = if plain { GraphicalTheme::unicode_nocolor() } else { GraphicalTheme::unicode() };
@@ -148,6 +134,7 @@ impl Failure {
 
     fn diagnostic(&self) -> Report {
         let base = miette::MietteDiagnostic::new(printable(&self.to_string()));
+        let error_help = if let Failure::Fem(error) = self { error.help().unwrap_or_default() } else { "" };
         match self {
             Failure::Usage { help, .. } | Failure::Read { help, .. } | Failure::Write { help, .. } => {
                 Report::new(base.with_help(printable(help)))
@@ -157,21 +144,21 @@ impl Failure {
                 let span = error.span.map(|(start, end)| start..end);
                 in_source(base.with_help(printable(help)), file, text, span)
             }
-            Failure::Case { file, text, message, span } => {
-                let help = message.lines().skip(1).collect::<Vec<_>>().join(" ");
-                let shown = if help.is_empty() { base } else { base.with_help(printable(&help)) };
-                in_source(shown, file, text, span.clone())
+            Failure::Fem(FemError::Refused(refusal)) => {
+                let Refusal { file, text, message, span, .. } = &**refusal;
+                let base = miette::MietteDiagnostic::new(printable(message));
+                in_source(with_help(base, error_help), file, text, span.clone())
             }
             Failure::Data(error) => data_report(error, base.with_help(printable(error.help()))),
-            Failure::Stopped { folder, .. } => {
-                let help = format!(
-                    "what was written until then is in {folder}; change the case and run it again with --force"
-                );
-                Report::new(base.with_help(printable(&help)))
-            }
-            Failure::Compare(_) | Failure::Unsolved(_) | Failure::Fem(_) | Failure::Drawing(_) => Report::new(base),
+            Failure::Compare(compare::CompareError::Fem { help, .. }) => Report::new(with_help(base, help)),
+            Failure::Fem(_) => Report::new(with_help(base, error_help)),
+            Failure::Compare(_) | Failure::Unsolved(_) | Failure::Drawing(_) => Report::new(base),
         }
     }
+}
+
+fn with_help(shown: miette::MietteDiagnostic, help: &str) -> miette::MietteDiagnostic {
+    if help.is_empty() { shown } else { shown.with_help(printable(help)) }
 }
 
 /// A message with the place in a text file.

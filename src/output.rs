@@ -2,33 +2,12 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
-use compare::record::Shape;
+pub use fem::session::{FileHash as Input, sha256};
+use fem::session::{MANIFEST, Maker, Manifest};
 use ibr::pages::Files;
-use serde_json::{Value, json};
-use sha2::{Digest, Sha256};
+use serde::Deserialize;
 use std::path::Path;
 use std::sync::PoisonError;
-
-/// An input named in the manifest.
-#[derive(Debug, Clone)]
-pub struct Input {
-    /// File or embedded name.
-    pub name: String,
-    /// Its bytes' SHA-256.
-    pub sha256: String,
-}
-
-impl Input {
-    /// An input with known contents.
-    pub fn of(name: &str, bytes: &[u8]) -> Input {
-        Input { name: name.to_string(), sha256: sha256(bytes) }
-    }
-}
-
-/// SHA-256 in hex.
-pub fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
-}
 
 /// Writes all files into a folder, the report last; each replaces its older one only when complete.
 pub fn write_files(folder: &Path, files: &Files, inputs: &[Input], context: &mut Context) -> Result<(), Failure> {
@@ -41,13 +20,15 @@ pub fn write_files(folder: &Path, files: &Files, inputs: &[Input], context: &mut
 /// Of these names those that an earlier manifest in the folder lists, with the bytes that it lists: files that this program wrote
 /// and nobody changed.
 pub fn earlier(folder: &Path, names: &[String]) -> Vec<String> {
-    let manifest = std::fs::read(folder.join("manifest.json")).unwrap_or_default();
-    let manifest: Value = serde_json::from_slice(&manifest).unwrap_or_default();
-    let listed = manifest["outputs"].as_array().into_iter().flatten();
-    let ours = listed.filter_map(|output| Some((output["name"].as_str()?, output["sha256"].as_str()?)));
+    #[derive(Deserialize)]
+    struct Listed {
+        outputs: Vec<Input>,
+    }
+    let text = std::fs::read_to_string(folder.join("manifest.json")).unwrap_or_default();
+    let listed = MANIFEST.read::<Listed>("manifest.json", &text, "").map_or(Vec::new(), |manifest| manifest.outputs);
     let same = |name: &str, hash: &str| std::fs::read(folder.join(name)).is_ok_and(|bytes| sha256(&bytes) == hash);
-    let stale = ours.filter(|(name, hash)| names.iter().any(|n| n == name) && same(name, hash));
-    stale.map(|(name, _)| name.to_string()).collect()
+    let stale = listed.into_iter().filter(|ours| names.contains(&ours.name) && same(&ours.name, &ours.sha256));
+    stale.map(|ours| ours.name).collect()
 }
 
 /// Removes files from a folder.
@@ -100,11 +81,11 @@ fn stage(staging: &Path, files: &Files, inputs: &[Input]) -> Result<Vec<String>,
         let path = staging.join(name);
         table.to_parquet(&path)?;
         let bytes = std::fs::read(&path).map_err(|cause| unwritable(staging, &format!("{name}: {cause}")))?;
-        outputs.push(output(name, &bytes));
+        outputs.push(Input::of(name, &bytes));
         names.push(name.clone());
     }
-    outputs.extend(files.files.iter().map(|(name, bytes)| output(name, bytes)));
-    let manifest = format!("{:#}\n", manifest(&outputs, inputs));
+    outputs.extend(files.files.iter().map(|(name, bytes)| Input::of(name, bytes)));
+    let manifest = Manifest { maker: maker(), inputs: inputs.to_vec(), outputs, cost: None }.text();
     data::write_atomically(&staging.join("manifest.json"), manifest.as_bytes())?;
     names.push("manifest.json".into());
     for (name, bytes) in &files.files {
@@ -114,25 +95,10 @@ fn stage(staging: &Path, files: &Files, inputs: &[Input]) -> Result<Vec<String>,
     Ok(names)
 }
 
-/// A file as a manifest names it.
-pub fn output(name: &str, bytes: &[u8]) -> Value {
-    json!({"name": name, "sha256": sha256(bytes)})
-}
-
-/// `manifest.json`.
-pub const MANIFEST: Shape = Shape { schema: "ibr.manifest", version: 1 };
-
-/// What made these files, from what, where and when.
-pub fn manifest(outputs: &[Value], inputs: &[Input]) -> Value {
-    let inputs: Vec<Value> = inputs.iter().map(|i| json!({"name": i.name, "sha256": i.sha256})).collect();
-    MANIFEST.stamped(&json!({
-        "program": program(),
-        "date": today(),
-        "machine": machine(),
-        "command": std::env::args_os().map(|a| a.to_string_lossy().into_owned()).collect::<Vec<_>>().join(" "),
-        "inputs": inputs,
-        "outputs": outputs,
-    }))
+/// Who makes files.
+pub fn maker() -> Maker {
+    let command = std::env::args_os().map(|a| a.to_string_lossy().into_owned()).collect::<Vec<_>>().join(" ");
+    Maker { program: program(), date: today(), machine: machine(), command }
 }
 
 /// Program and version.

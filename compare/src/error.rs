@@ -159,6 +159,14 @@ pub enum CompareError {
     /// Data that cannot be read.
     #[error("{0}")]
     Data(#[from] data::DataError),
+    /// A finite element run cannot be made, or its record not be read.
+    #[error("{message}")]
+    Fem {
+        /// What is wrong, and where.
+        message: String,
+        /// What to do.
+        help: String,
+    },
     /// The generator of hidden-effect data cannot make this robot or this run.
     #[error("the data cannot be generated: {problem}")]
     NotSimulated {
@@ -184,4 +192,10 @@ pub enum CompareError {
         /// Why.
         problem: String,
     },
+}
+
+impl From<fem::FemError> for CompareError {
+    fn from(error: fem::FemError) -> CompareError {
+        CompareError::Fem { message: error.to_string(), help: error.help().unwrap_or_default().into() }
+    }
 }

@@ -20,7 +20,6 @@ pub mod layout;
 pub mod metrics;
 pub mod noise;
 pub mod noise_summary;
-pub mod record;
 pub mod residuals;
 mod run_scatter;
 pub mod scaling;

@@ -108,9 +108,6 @@ pub enum DataError {
     /// A TOML description is wrong.
     #[error("{0}")]
     About(Box<Fault>),
-    /// A file that this program wrote before is not as it wrote it.
-    #[error("{0}")]
-    Record(Box<Fault>),
     /// The crate was built without the feature this needs.
     #[error("{0}")]
     Feature(Box<Fault>),
@@ -119,9 +116,9 @@ pub enum DataError {
 impl DataError {
     /// The fault inside.
     pub fn fault(&self) -> &Fault {
-        use DataError::{About, Cell, Column, Feature, File, Layout, Record, Runs, Unit};
+        use DataError::{About, Cell, Column, Feature, File, Layout, Runs, Unit};
         match self {
-            File(f) | Layout(f) | Column(f) | Cell(f) | Unit(f) | Runs(f) | About(f) | Record(f) | Feature(f) => f,
+            File(f) | Layout(f) | Column(f) | Cell(f) | Unit(f) | Runs(f) | About(f) | Feature(f) => f,
         }
     }
 

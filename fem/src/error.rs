@@ -21,14 +21,25 @@ pub enum FemError {
     /// A case file was refused; `span` is a byte range in its text.
     #[error("{message}")]
     Case {
-        /// What is wrong and what to write.
+        /// What is wrong and, in further lines, what to write.
         message: String,
         /// Where.
         span: Option<std::ops::Range<usize>>,
     },
+    /// What was to be simulated was refused.
+    #[error("{}", .0.place())]
+    Refused(Box<Refusal>),
     /// The problem is inconsistent or a parameter is out of range.
     #[error("{0}")]
     Problem(String),
+    /// Settings of a run that cannot be had together.
+    #[error("{message}")]
+    Setting {
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        help: String,
+    },
     /// The run was stopped because its result could not be trusted.
     #[error("stopped at step {step}, t = {time_s:.6} s: {reason}")]
     Stopped {
@@ -39,6 +50,26 @@ pub enum FemError {
         /// What was seen, where, and what to change.
         reason: String,
     },
+    /// The same, of a run in a folder.
+    #[error("{error}")]
+    StoppedIn {
+        /// Why.
+        error: Box<FemError>,
+        /// What to do.
+        help: String,
+    },
+    /// Whoever was told the progress asked to end.
+    #[error("interrupted{}", so_far(*time_s, *step, *done, *of))]
+    Interrupted {
+        /// Simulated time that the last one reached \[s\].
+        time_s: f64,
+        /// Its steps.
+        step: u64,
+        /// Runs that are complete.
+        done: usize,
+        /// Runs in all.
+        of: usize,
+    },
     /// A checkpoint cannot be used.
     #[error("checkpoint {}: {reason}", path.display())]
     Checkpoint {
@@ -47,6 +78,19 @@ pub enum FemError {
         /// What is wrong and what to do.
         reason: String,
     },
+    /// A folder of a run that cannot be written to.
+    #[error("cannot write to {}: {cause}", path.display())]
+    Folder {
+        /// The folder, or the file in it.
+        path: PathBuf,
+        /// Why.
+        cause: String,
+        /// What to do.
+        help: String,
+    },
+    /// A record of a run cannot be read.
+    #[error("{}", .0.place())]
+    Record(Box<crate::record::Damage>),
     /// A file could not be read or written.
     #[error("{}: {source}", path.display())]
     Io {
@@ -55,4 +99,61 @@ pub enum FemError {
         /// What the system said.
         source: std::io::Error,
     },
+}
+
+/// How far it came.
+fn so_far(time_s: f64, step: u64, done: usize, of: usize) -> String {
+    match of {
+        1 => format!(" at t = {time_s:.6} s, step {step}"),
+        _ => format!("; {done} of {of} runs are complete"),
+    }
+}
+
+/// What is wrong with the text of a case or a scenario.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Refusal {
+    /// File, or name of what comes with the program.
+    pub file: String,
+    /// Its text.
+    pub text: String,
+    /// What is wrong.
+    pub message: String,
+    /// What to write; may be empty.
+    pub help: String,
+    /// Bytes of the text.
+    pub span: Option<std::ops::Range<usize>>,
+}
+
+impl Refusal {
+    /// File, line and what is wrong.
+    fn place(&self) -> String {
+        let Refusal { file, text, message, span, .. } = self;
+        let line = |at: usize| text.bytes().take(at).filter(|byte| *byte == b'\n').count() + 1;
+        span.as_ref().map_or_else(|| message.clone(), |span| format!("{file}:{}: {message}", line(span.start)))
+    }
+}
+
+impl FemError {
+    /// What to do about it, where the message does not say it itself.
+    pub fn help(&self) -> Option<&str> {
+        match self {
+            FemError::Setting { help, .. } | FemError::StoppedIn { help, .. } | FemError::Folder { help, .. } => {
+                Some(help)
+            }
+            FemError::Refused(refusal) => Some(refusal.help.as_str()).filter(|help| !help.is_empty()),
+            FemError::Record(damage) => Some(&damage.help),
+            FemError::Interrupted { .. } => Some("what is complete is kept, the same command goes on"),
+            _ => None,
+        }
+    }
+
+    /// Whether a guard stopped the run: the problem was sound, its result is not.
+    pub fn is_stop(&self) -> bool {
+        matches!(self, FemError::Stopped { .. } | FemError::StoppedIn { .. })
+    }
+
+    /// A setting that is not possible, and what to do.
+    pub(crate) fn setting(message: impl Into<String>, help: impl Into<String>) -> FemError {
+        FemError::Setting { message: message.into(), help: help.into() }
+    }
 }

@@ -1,16 +1,16 @@
 //! `ibr data fem`: marker data from finite element runs.
 
-use super::breakdown::{changed, list};
 use super::data::{about, folder_is_free, pressure_scatter, scatter};
+use super::fem_inputs::{kept, list, pressures, source};
 use super::inputs;
-use super::simulate::{Keeper, Named, named, pressures};
 use super::{Context, Outcome};
 use crate::cli::DataFem;
-use crate::failure::{Failure, INTERRUPTED};
+use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
 use compare::study::Generator;
-use compare::study::engines::{FeRun, ensemble, stored};
+use compare::study::engines::{FeRun, ensemble, runs_of, seed_jobs, stored};
 use compare::study::seen::seen;
+use fem::session::Source;
 use ibr::pages::Files;
 use models::Scenario;
 use models::scenario::quantity::Quantity;
@@ -32,9 +32,9 @@ pub fn run(args: &DataFem, context: &mut Context) -> Result<Outcome, Failure> {
         pressure_sd: pressure_scatter(args.scatter.pressure_scatter)?,
         ..Generator::default()
     };
-    let Some(runs) = runs(args, &robot, &scenario, &kpa, context)? else {
-        let note = "interrupted; finished runs are kept, the same command goes on".to_string();
-        return Ok(Outcome { notes: vec![note], code: INTERRUPTED, ..Outcome::default() });
+    let runs = match args.stored {
+        true => of_the_program(args, &scenario)?,
+        false => made(args, &robot, &scenario, &kpa, context)?,
     };
     let name = args.out.file_name().map_or("fem".into(), |n| n.to_string_lossy().into_owned());
     let dataset = seen(&runs, &name, &generator)?;
@@ -64,48 +64,45 @@ pub fn run(args: &DataFem, context: &mut Context) -> Result<Outcome, Failure> {
 }
 
 /// The robot, at another body pressure if one is named.
-fn robot(args: &DataFem) -> Result<(Named, Scenario), Failure> {
-    let robot = named(&args.scenario)?;
-    let (scenario, _) = robot.robot_run()?;
-    let Some(text) = &args.body_pressure else { return Ok((robot, scenario)) };
-    let [body_kpa] = list("--body-pressure", text, Quantity::Pressure, 1e-3)?[..] else {
-        let help = "write for example 4kPa; data at several are datasets of their own, diagnosed together with --also";
-        return Err(Failure::usage("--body-pressure takes one pressure", help));
-    };
-    let robot = changed(&robot, &scenario, body_kpa, None)?;
+fn robot(args: &DataFem) -> Result<(Source, Scenario), Failure> {
+    let mut robot = source(&args.scenario)?;
+    if let Some(text) = &args.body_pressure {
+        let [body_kpa] = list("--body-pressure", text, Quantity::Pressure, 1e-3)?[..] else {
+            let help =
+                "write for example 4kPa; data at several are datasets of their own, diagnosed together with --also";
+            return Err(Failure::usage("--body-pressure takes one pressure", help));
+        };
+        robot = robot.varied(body_kpa, None)?;
+    }
     let (scenario, _) = robot.robot_run()?;
     Ok((robot, scenario))
 }
 
-/// One run for every seed, those that come with the program or those of a folder, which gets what is missing.
-fn runs(
+/// One run for every seed of those that come with the program.
+fn of_the_program(args: &DataFem, scenario: &Scenario) -> Result<Vec<FeRun>, Failure> {
+    let own = ensemble(&stored()?, scenario);
+    let found: Vec<FeRun> = own.runs.into_iter().take(args.seeds as usize).collect();
+    if found.len() == args.seeds as usize {
+        return Ok(found);
+    }
+    let (there, what) = (found.len(), &args.scenario);
+    let (body_kpa, wanted) = (scenario.p_body_pa * 1e-3, args.seeds);
+    let message = format!(
+        "{there} finite element runs of {what} at {body_kpa} kPa body pressure come with the program, not {wanted}"
+    );
+    Err(Failure::usage(message, "lower --seeds, or leave --stored out to make them: minutes each"))
+}
+
+/// One run for every seed in a folder, which gets what is missing.
+fn made(
     args: &DataFem,
-    robot: &Named,
+    robot: &Source,
     scenario: &Scenario,
     kpa: &[f64],
     context: &mut Context,
-) -> Result<Option<Vec<FeRun>>, Failure> {
-    if args.stored {
-        let own = ensemble(&stored()?, scenario);
-        let found: Vec<FeRun> = own.runs.into_iter().take(args.seeds as usize).collect();
-        if found.len() < args.seeds as usize {
-            let (there, what) = (found.len(), &args.scenario);
-            let (body_kpa, wanted) = (scenario.p_body_pa * 1e-3, args.seeds);
-            let message = format!(
-                "{there} finite element runs of {what} at {body_kpa} kPa body pressure come with the program, not {wanted}"
-            );
-            return Err(Failure::usage(message, "lower --seeds, or leave --stored out to make them: minutes each"));
-        }
-        return Ok(Some(found));
-    }
-    let keeper = Keeper { folder: args.runs.clone(), threads: args.threads as usize };
-    let mut cases = Vec::new();
-    for seed in 1..=args.seeds {
-        let case = robot.with(&[("seed".into(), seed.to_string()), ("pressures_kpa".into(), format!("{kpa:?}"))])?;
-        cases.push((case, format!("seed {seed}")));
-    }
-    match keeper.run_all(&cases, context)? {
-        Ok(made) => made.into_iter().collect::<Result<Vec<FeRun>, Failure>>().map(Some),
-        Err(_) => Ok(None),
-    }
+) -> Result<Vec<FeRun>, Failure> {
+    let jobs = seed_jobs(&[(robot.clone(), scenario.clone())], args.seeds, Some(kpa))?;
+    let settings = kept(&args.runs, args.threads);
+    let found = context.fem(|progress| runs_of(&jobs, &settings, progress))?;
+    Ok(found.into_iter().collect::<Result<Vec<FeRun>, _>>()?)
 }

@@ -1,24 +1,27 @@
 //! `ibr demo`
 
-use super::simulate::{Small, heights_mm, small_run};
 use super::tables::{number, table};
-use super::{Context, Outcome, held};
+use super::told::held;
+use super::{Context, Outcome};
 use crate::failure::Failure;
 use crate::output::{check_folder, machine, program, today, write_files};
 use compare::known::Known;
 use compare::study::demo::{Demo, demo};
 use compare::study::published::PublishedLadder;
+use fem::session::{FeRun, Settings, Source, heights_mm, simulate};
 use ibr::pages::{Imprint, demo_page};
 use serde_json::{Value, json};
+use std::ops::ControlFlow;
 use std::path::Path;
 
 pub fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
     check_folder(folder)?;
     let computed = demo(&mut |what| (context.progress)(what, Some(0.1)))?;
-    let small = small_run("epam", SMALL, context)?;
+    let small = small_run(context)?;
     let imprint = Imprint { program: program(), date: today(), machine: machine() };
     let mut files = demo_page(&computed, &imprint, &mut |what| (context.progress)(what, Some(0.5)))?;
-    files.files.insert(0, ("small_run.png".into(), small.picture.clone()));
+    let picture = small.files.iter().find(|(name, _)| name == "side.png");
+    files.files.splice(0..0, picture.map(|(_, png)| ("small_run.png".to_string(), png.clone())));
     write_files(folder, &files, &[], context)?;
     let mut outcome = Outcome::new(text(&computed) + &small_text(&small), to_json(&computed, &small));
     outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
@@ -26,26 +29,39 @@ pub fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
 }
 
 /// The run that is made here and now: a little coarse and fast, to be quick.
-const SMALL: &[(&str, &str)] = &[
+const SMALL: [(&str, &str); 4] = [
     ("actuator_mesh_mm", "4"),
     ("body_ramp_s", "0.02"),
     ("actuator_ramp_s", "0.18"),
     ("pressures_kpa", "[10, 20, 30]"),
 ];
 
-fn small_text(small: &Small) -> String {
-    let tips = small.readings.iter().filter(|r| r.actuator_pa > 0.0);
+fn small_run(context: &mut Context) -> Result<FeRun, Failure> {
+    let changes = SMALL.map(|(key, value)| (key.to_string(), value.to_string()));
+    let robot = Source::new("epam", models::shipped("epam").unwrap_or_default()).with(&changes)?;
+    Ok(simulate(&robot, &Settings::default(), &mut |_, share| {
+        (context.progress)("a small finite element run", share);
+        ControlFlow::Continue(())
+    })?)
+}
+
+fn small_text(small: &FeRun) -> String {
+    let tips = small.readings().iter().filter(|r| r.actuator_pa > 0.0);
     let tips: Vec<String> =
         tips.map(|r| format!("{:.1} mm at {:.0} kPa", heights_mm(r)[1], r.actuator_pa * 1e-3)).collect();
     format!(
         "\nA finite element run of the ePAM made just now, {} elements, 4 mm at the actuator, {:.1} CPU s: tip {}; {} buckling \
          events, energy balance missing {:.3} %\n",
-        small.elements,
-        small.cpu_s,
+        small.summary.elements,
+        small.cost.cpu_s,
         tips.join(", "),
-        small.snaps,
-        100.0 * small.residual_share
+        snaps(small),
+        100.0 * small.summary.residual_share
     )
+}
+
+fn snaps(small: &FeRun) -> usize {
+    small.summary.robot.as_ref().map_or(0, |robot| robot.snaps.len())
 }
 
 /// Published displacement against every rung.
@@ -107,7 +123,7 @@ fn text(demo: &Demo) -> String {
     out
 }
 
-fn to_json(demo: &Demo, small: &Small) -> Value {
+fn to_json(demo: &Demo, small: &FeRun) -> Value {
     let ladder = |l: &PublishedLadder| {
         let rungs: Vec<Value> = l
             .rungs
@@ -142,8 +158,8 @@ fn to_json(demo: &Demo, small: &Small) -> Value {
         "published": demo.ladders.iter().map(ladder).collect::<Vec<_>>(),
         "marker_sets": studies, "diagnosis": demo.diagnosed.diagnosis, "timings": demo.timings,
         "small_run": {
-            "elements": small.elements, "cpu_s": small.cpu_s, "residual_share": small.residual_share,
-            "buckling_events": small.snaps, "readings": small.readings,
+            "elements": small.summary.elements, "cpu_s": small.cost.cpu_s, "residual_share": small.summary.residual_share,
+            "buckling_events": snaps(small), "readings": small.readings(),
         },
     })
 }

@@ -1,6 +1,5 @@
 //! `ibr diagnose`
 
-use super::engines::known_runs;
 use super::extend::{short, value};
 use super::inputs::{self, diagnosed, positive};
 use super::tables::{number, table};
@@ -9,7 +8,7 @@ use crate::cli::Diagnose;
 use crate::failure::Failure;
 use crate::output::{Input, check_folder, earlier, machine, program, remove_all, today, write_files};
 use compare::diagnosis::{Diagnosis, Experiment, Group, Options, Ranked, Verdict};
-use compare::study::engines::TERMS;
+use compare::study::engines::{TERMS, known_runs};
 use compare::study::witness::{HEIGHTS, Witness, witness};
 use ibr::pages::{DIAGNOSIS_PICTURES, Diagnosed, Imprint, diagnosis_page};
 use serde_json::{Value, json};

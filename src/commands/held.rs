@@ -1,14 +1,14 @@
 //! Bench tests in `ibr compare`: a beam, a muscle.
 
 use super::inputs::{self, with_effect};
-use super::tables::table;
+use super::told::held::{as_json, text};
 use super::{Context, Outcome};
 use crate::cli::Compare;
 use crate::failure::Failure;
-use compare::bench::{Held, HeldRow, held};
+use compare::bench::held;
 use compare::study::Knob;
 use models::Scenario;
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// The comparison, if the data are a table of bench tests.
 pub fn run(args: &Compare, context: &mut Context) -> Result<Option<Outcome>, Failure> {
@@ -63,57 +63,4 @@ pub fn needs_markers(data_spec: &str) -> Result<(), Failure> {
             Err(Failure::usage(message, format!("`ibr compare {data_spec}` holds it against its model")))
         }
     }
-}
-
-/// A table, and how far the model is off where it was not fitted.
-pub fn text(held: &Held) -> String {
-    let percent = |r: &HeldRow| r.off().map_or("–".into(), |o| format!("{:+.1}", 100.0 * o));
-    let row = |r: &HeldRow| {
-        let model = r.model.map_or("–".into(), |m| format!("{m:.2}"));
-        vec![r.at.clone(), format!("{:.2}", r.measured), model, percent(r), r.verdict()]
-    };
-    let quantity = &held.quantity;
-    let head = [quantity.as_str(), "measured", "model", "off %", "verdict"];
-    format!(
-        "{} ({})\n{}{}",
-        held.title,
-        held.known.word(),
-        table(&head, 1, held.rows.iter().map(row).collect()),
-        closing(held)
-    )
-}
-
-/// Rms and notes.
-pub fn closing(held: &Held) -> String {
-    let mut out = String::new();
-    if let Some(rms) = held.rms() {
-        let fitted = held.rows.iter().filter(|r| r.fitted).count();
-        let least = held
-            .rows
-            .iter()
-            .filter(|r| !r.fitted)
-            .filter_map(HeldRow::off)
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], o| [a.min(o), b.max(o)]);
-        out.push_str(&format!(
-            "rms off {:.1} % ({:+.1} to {:+.1} %) of {} rows that nothing was fitted to; {fitted} fitted\n",
-            100.0 * rms,
-            100.0 * least[0],
-            100.0 * least[1],
-            held.rows.len() - fitted
-        ));
-    }
-    held.notes.iter().for_each(|n| out.push_str(&format!("note: {n}\n")));
-    out
-}
-
-/// For JSON.
-pub fn as_json(held: &Held) -> Value {
-    let row = |r: &HeldRow| {
-        json!({"at": r.at, "measured": r.measured, "model": r.model, "off": r.off(), "interval_half": r.half,
-            "fitted": r.fitted, "verdict": r.verdict()})
-    };
-    json!({
-        "title": held.title, "quantity": held.quantity, "how_known": held.known.word(), "rms_off": held.rms(),
-        "rows": held.rows.iter().map(row).collect::<Vec<_>>(), "notes": held.notes,
-    })
 }

@@ -1,11 +1,11 @@
 //! `ibr tradeoff`
 
-use super::engines::known_runs;
 use super::tables::table;
 use super::{Context, Outcome};
 use crate::cli::Tradeoff;
 use crate::failure::Failure;
 use crate::output::{check_folder, machine, write_files};
+use compare::study::engines::known_runs;
 use compare::study::published::published_ladders;
 use compare::study::tradeoff::{of_runs, tradeoff};
 use ibr::pages::{Files, tradeoff_plot};

@@ -13,6 +13,7 @@ mod engines_page;
 mod figures;
 mod ladder_page;
 mod residual_figure;
+mod run_plots;
 mod tables;
 mod uncertain;
 
@@ -24,6 +25,7 @@ pub use engine_figures::parting_plot;
 pub use engines_page::{engine_sections, engines_page};
 pub use figures::tradeoff as tradeoff_plot;
 pub use ladder_page::{LadderPage, ladder_page};
+pub use run_plots::{mesh_plot, run_plots};
 pub use uncertain::{marker_intervals, what_to_measure};
 
 use report::Drawn;

@@ -1,6 +1,7 @@
 //! Where model and measurement meet: predictions at the points of a dataset, calibration, generated data, the published
 //! numbers, run time against accuracy, and the pages made of them.
 
+pub mod breakdown;
 pub mod calibrate;
 pub mod comparing;
 pub mod demo;

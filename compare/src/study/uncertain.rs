@@ -16,12 +16,16 @@
 //!
 //! **Validity**: shares of a straight law; the rest is bends of it, couplings and the scatter of folds.
 
+mod of_run;
+
+pub use of_run::Intervals;
+
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use crate::record::Shape;
 use crate::stats::quantile;
-use data::DataError;
+use fem::FemError;
+use fem::record::Shape;
 
 /// Ends of the interval that is told, and its middle.
 pub const QUANTILES: [f64; 3] = [0.1, 0.5, 0.9];
@@ -117,15 +121,15 @@ const STORED: &[&str] = &[
 ///
 /// # Errors
 /// Those of [`read`], for a program whose hypercubes were not made anew with its records.
-pub fn stored() -> Result<Vec<Uncertain>, DataError> {
+pub fn stored() -> Result<Vec<Uncertain>, FemError> {
     STORED.iter().map(|text| read("a hypercube that comes with the program", text)).collect()
 }
 
 /// Reads a record.
 ///
 /// # Errors
-/// [`DataError::Record`] with the line and the field, or the version.
-pub fn read(file: &str, text: &str) -> Result<Uncertain, DataError> {
+/// [`FemError::Record`] with the line and the field, or the version.
+pub fn read(file: &str, text: &str) -> Result<Uncertain, FemError> {
     RECORD.read(file, text, "make the file again: `ibr simulate ROBOT --uncertain` writes uncertain.json")
 }
 

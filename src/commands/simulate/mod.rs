@@ -1,54 +1,44 @@
 //! `ibr simulate`
 
-mod batch;
-mod cache;
-mod exchange;
-mod folder;
-mod input;
-mod paper_runs;
 mod plan;
-mod robot;
-mod robot_files;
-mod single;
-mod small;
-mod stepping;
-mod summary;
-mod uncertain;
+mod several;
+mod told;
+mod told_robot;
+mod told_several;
 
+use super::fem_inputs::{seconds, source};
 use super::{Context, Outcome};
 use crate::cli::Simulate;
-use crate::failure::{Failure, INTERRUPTED};
-use crate::output::check_folder;
-use plan::{About, Plan};
+use crate::failure::Failure;
+use crate::output::{check_folder, maker};
+use fem::FemError;
+use fem::session::{FeRun, Further, SUMMARY, Settings, Source, simulate};
+use ibr::pages::run_plots;
+use plan::Plan;
 use serde_json::json;
-use single::{Done, Finished, Manner};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-use summary::SUMMARY;
-
-pub use cache::{Keeper, all as all_runs};
-pub use input::{Named, named};
-pub use paper_runs::all as paper_runs;
-pub use plan::{keys_of, pressures, sizes};
-pub use robot::{heights_mm, rounded};
-pub use small::{Small, run as small_run};
 
 pub fn run(args: &Simulate, context: &mut Context) -> Result<Outcome, Failure> {
-    let plan = plan::plan(args, input::named(&args.case)?)?;
-    let manner = manner(args, &plan)?;
-    match plan {
-        Plan::Single(named) => one(args, &named, &manner, context),
-        Plan::Several { base, cases, about } => batch::run(&base, &cases, &about, &manner, context),
-    }
-}
-
-fn manner(args: &Simulate, plan: &Plan) -> Result<Manner, Failure> {
-    let every = Duration::from_secs_f64(input::seconds("--checkpoint-every", &args.checkpoint_every)?);
-    let end_s = args.end.as_deref().map(|text| input::seconds("--end", text)).transpose()?;
-    let folder = args.out.clone().unwrap_or_else(|| default_folder(args, plan));
+    let plan = plan::plan(args, source(&args.case)?)?;
+    let folder = args.out.clone().unwrap_or_else(|| default_folder(args, &plan));
+    let settings = Settings {
+        resume: args.resume,
+        force: args.force,
+        frames: !args.no_frames,
+        end_s: args.end.as_deref().map(|text| seconds("--end", text)).transpose()?,
+        threads: args.threads as usize,
+        checkpoint_every: Duration::from_secs_f64(seconds("--checkpoint-every", &args.checkpoint_every)?),
+        further: Some(run_plots as Further),
+        maker: maker(),
+        folder: Some(folder.clone()),
+    };
     check_folder(&folder)?;
-    let (resume, force, frames, threads) = (args.resume, args.force, !args.no_frames, args.threads as usize);
-    Ok(Manner { folder, resume, force, frames, end_s, threads, every })
+    match plan {
+        Plan::Single(source) => one(args, &source, &settings, context),
+        Plan::Table(base, variations) => several::table(&base, &variations, &settings, context),
+        Plan::Uncertain(cube) => several::uncertain(&cube, &args.set, settings, context),
+    }
 }
 
 /// The folder of a case if none is named.
@@ -56,55 +46,57 @@ fn default_folder(args: &Simulate, plan: &Plan) -> PathBuf {
     let stem = Path::new(&args.case).file_stem().unwrap_or_default().to_string_lossy();
     let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect();
     let kind = match plan {
-        Plan::Several { about: About::Uncertain(..), .. } => "uncertain",
-        Plan::Several { .. } => "batch",
+        Plan::Uncertain(_) => "uncertain",
+        Plan::Table(..) => "batch",
         Plan::Single(_) => "simulate",
     };
     PathBuf::from(format!("ibr-report/{kind}-{name}"))
 }
 
-fn one(args: &Simulate, named: &Named, manner: &Manner, context: &mut Context) -> Result<Outcome, Failure> {
-    match single::run(named.load()?, manner, context)? {
-        Done::Now(Finished { summary, cost }, notes) => {
-            let text = summary::text(&summary) + &summary::cost_text(&cost);
-            let mut answer = SUMMARY.stamped(&summary);
-            answer["cost"] = json!(cost);
-            answer["folder"] = json!(manner.folder.display().to_string());
-            Ok(Outcome { text, json: Some(answer), notes, code: 0 })
-        }
-        Done::Before(Finished { summary, .. }) => {
-            let mut outcome = Outcome::new(summary::text(&summary), SUMMARY.stamped(&summary));
-            outcome.notes.push(format!("the run in {} is complete; nothing was done", manner.folder.display()));
-            Ok(outcome)
-        }
-        Done::Interrupted { at: (time_s, step), mut notes } => {
-            notes.push(format!(
-                "interrupted at t = {time_s:.6} s, step {step}; go on with: ibr simulate {}{} --out {} --resume{}",
+fn one(args: &Simulate, source: &Source, settings: &Settings, context: &mut Context) -> Result<Outcome, Failure> {
+    let folder = settings.folder.as_deref().unwrap_or(Path::new(""));
+    let run = match context.fem(|progress| simulate(source, settings, progress)) {
+        Err(FemError::Interrupted { time_s, step, .. }) => {
+            let force = if args.force { " --force" } else { "" };
+            return Ok(Outcome::interrupted(format!(
+                "interrupted at t = {time_s:.6} s, step {step}; go on with: ibr simulate {}{} --out {} --resume{force}",
                 args.case,
                 typed_again(args),
-                manner.folder.display(),
-                if args.force { " --force" } else { "" }
-            ));
-            Ok(Outcome { notes, code: INTERRUPTED, ..Outcome::default() })
+                folder.display(),
+            )));
         }
+        other => other?,
+    };
+    let mut outcome = Outcome::new(told::text(&run.summary), SUMMARY.stamped(&run.summary));
+    if !run.fresh {
+        outcome.notes.push(format!("the run in {} is complete; nothing was done", folder.display()));
+        return Ok(outcome);
     }
+    outcome.text.push_str(&told::cost_text(&run.cost));
+    if let Some(answer) = &mut outcome.json {
+        answer["cost"] = json!(run.cost);
+        answer["folder"] = json!(folder.display().to_string());
+    }
+    outcome.notes = notes(&run, folder);
+    Ok(outcome)
+}
+
+/// What to know about a run, and what to open.
+fn notes(run: &FeRun, folder: &Path) -> Vec<String> {
+    let mut notes = run.notices.clone();
+    let there = |name: &&str| folder.join(name).exists();
+    let open = |what: &str, name: &str| format!("{what}: {}", folder.join(name).display());
+    notes.extend(["side.png", "picture.png"].iter().find(|name| there(name)).map(|name| open("picture", name)));
+    notes.push(match there(&"run.pvd") {
+        true => open("open in ParaView", "run.pvd"),
+        false => open("history", "history.csv"),
+    });
+    notes
 }
 
 /// Options that make the case what it is.
 fn typed_again(args: &Simulate) -> String {
-    let mut out = String::new();
-    let mut add = |option: &str, value: &str| out.push_str(&format!(" {option} {value}"));
-    args.pressure.iter().for_each(|p| add("--pressure", p));
-    args.mesh.iter().for_each(|m| add("--mesh", m));
-    args.set.iter().for_each(|s| add("--set", s));
-    out
-}
-
-/// A file of the run that cannot be written, or read back.
-fn write_failure(path: &Path, cause: &std::io::Error) -> Failure {
-    Failure::Write {
-        path: path.display().to_string(),
-        cause: cause.to_string(),
-        help: "choose another folder with --out".into(),
-    }
+    let pressure = args.pressure.iter().map(|p| ("pressure", p));
+    let others = args.mesh.iter().map(|m| ("mesh", m)).chain(args.set.iter().map(|s| ("set", s)));
+    pressure.chain(others).map(|(option, value)| format!(" --{option} {value}")).collect()
 }

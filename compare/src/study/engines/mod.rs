@@ -12,17 +12,20 @@
 //! their slopes, which decide the equilibrium; it names what to look at, it proves nothing.
 
 mod lines;
+mod of_run;
 mod robots;
 mod volumes;
 
 pub use lines::*;
+pub(in crate::study) use of_run::is_paper;
+pub use of_run::{all_runs, as_run, known_runs, runs_of, seed_jobs};
 pub use robots::{EngineRobot, Engines, PartingMap, engines, varied};
 pub use volumes::{BodyVolumes, Mean, MeanVolumes, Volumes, body_volumes, volumes};
 
 use crate::accuracy::paper_accuracy;
 use crate::error::CompareError;
-use crate::record::Shape;
-use data::DataError;
+use fem::FemError;
+use fem::record::Shape;
 use models::{Account, Loads, Model, Scenario, Target};
 use serde::{Deserialize, Serialize};
 
@@ -265,15 +268,15 @@ struct Runs {
 ///
 /// # Errors
 /// Those of [`read_runs`], for a program whose runs were not made anew with its records.
-pub fn stored() -> Result<Vec<FeRun>, DataError> {
+pub fn stored() -> Result<Vec<FeRun>, FemError> {
     read_runs("the runs that come with the program", include_str!("../../../assets/fem-runs.json"))
 }
 
 /// Reads runs as [`runs_json`] writes them.
 ///
 /// # Errors
-/// [`DataError::Record`] with the line and the field.
-pub fn read_runs(file: &str, text: &str) -> Result<Vec<FeRun>, DataError> {
+/// [`FemError::Record`] with the line and the field.
+pub fn read_runs(file: &str, text: &str) -> Result<Vec<FeRun>, FemError> {
     let help = "make the file again: `ibr compare --engines --runs FOLDER` writes runs.json beside its report";
     Ok(RUNS.read::<Runs>(file, text, help)?.runs)
 }

@@ -5,13 +5,17 @@ mod facts;
 mod implied;
 mod in_print;
 mod in_runs;
+mod jobs;
+mod of_run;
 
 pub use facts::{Row, Verdict, facts};
 pub use implied::{Against, Implied, NEAR, against, heights};
+pub use jobs::jobs;
+pub use of_run::runs_below;
 
-use crate::record::Shape;
 use crate::study::engines::{FeRun, FeState};
-use data::DataError;
+use fem::FemError;
+use fem::record::Shape;
 use serde::{Deserialize, Serialize};
 
 /// Meshes of the paper: the coarsest of its study on body and actuator, and the final one \[mm\].
@@ -70,15 +74,15 @@ struct Runs {
 ///
 /// # Errors
 /// Those of [`read_runs`], for a program whose runs were not made anew with its records.
-pub fn stored() -> Result<Vec<PaperRun>, DataError> {
+pub fn stored() -> Result<Vec<PaperRun>, FemError> {
     read_runs("the paper's runs that come with the program", include_str!("../../../assets/paper-runs.json"))
 }
 
 /// Reads runs as [`runs_json`] writes them.
 ///
 /// # Errors
-/// [`DataError::Record`] with the line and the field.
-pub fn read_runs(file: &str, text: &str) -> Result<Vec<PaperRun>, DataError> {
+/// [`FemError::Record`] with the line and the field.
+pub fn read_runs(file: &str, text: &str) -> Result<Vec<PaperRun>, FemError> {
     let help = "make the file again: `ibr compare --paper --runs FOLDER --out PAGE` writes PAGE/paper-runs.json";
     Ok(RUNS.read::<Runs>(file, text, help)?.runs)
 }

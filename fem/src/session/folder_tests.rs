@@ -55,7 +55,7 @@ fn a_start_over_an_earlier_run_leaves_a_folder_that_is_known_wherever_it_is_kill
         assert!(matches!(look(folder.path()), Ok(Found::Finished)));
         let mut left = done;
         let begun = place(folder.path()).begin(&marker("new", 1.0), "new", &mut |step| {
-            left = i32::checked_sub(left, 1).filter(|l| *l >= 0).ok_or_else(|| Failure::usage("killed", ""))?;
+            left = i32::checked_sub(left, 1).filter(|l| *l >= 0).ok_or_else(|| FemError::setting("killed", ""))?;
             step()
         });
         match (begun, look(folder.path()).unwrap()) {

@@ -1,20 +1,20 @@
 //! What a run came to: the record `summary.json`.
 
-mod told;
-
-use super::robot::{Robot, RobotSummary};
 use super::stepping::{Balance, Running};
-use compare::record::Shape;
-use fem::case::Case;
+use super::watch::{Robot, RobotSummary};
+use crate::case::Case;
+use crate::record::Shape;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
-
-pub use told::{cost_text, text};
 
 /// Kinetic over internal energy above which the paper's source calls a run invalid.
 const TENTH: f64 = 0.10;
 /// Kinetic over total energy that the paper kept its runs below.
 const HUNDREDTH: f64 = 0.01;
+/// Hourglass share of the stored energy that is warned of.
+const HOURGLASS: f64 = 0.05;
+/// Added mass over true mass that is warned of.
+const ADDED: f64 = 1.0;
 
 /// `summary.json`.
 pub const SUMMARY: Shape = Shape { schema: "ibr.simulate", version: 1 };
@@ -28,47 +28,64 @@ pub struct Summary {
     pub engine: u32,
     /// What was read of a robot.
     pub robot: Option<RobotSummary>,
-    time_s: f64,
+    /// Simulated time \[s\].
+    pub time_s: f64,
     /// Steps.
     pub steps: u64,
-    dt_s: f64,
-    nodes: usize,
+    /// Last step \[s\].
+    pub dt_s: f64,
+    /// Nodes.
+    pub nodes: usize,
     /// Elements.
     pub elements: usize,
     /// Over the true mass.
     pub added_mass_share: f64,
-    selective_mass: bool,
-    quality: Option<Quality>,
-    probes: Vec<Probe>,
-    chambers: Vec<Chamber>,
+    /// Whether waves of a few elements are heavy in place of everything.
+    pub selective_mass: bool,
+    /// Shape of the elements.
+    pub quality: Option<MeshQuality>,
+    /// Node sets that the case asks for.
+    pub probes: Vec<ProbeEnd>,
+    /// Chambers at the end.
+    pub chambers: Vec<ChamberEnd>,
+    /// Supports at the end.
     #[serde(default)]
-    reactions: Vec<Reaction>,
-    ledger: Vec<Energy>,
-    kinetic_j: f64,
-    external_work_j: f64,
-    residual_j: f64,
-    residual_share: f64,
-    residual_share_peak: f64,
+    pub reactions: Vec<ReactionEnd>,
+    /// Where the energy is.
+    pub ledger: Vec<EnergyLine>,
+    /// Kinetic energy at the end \[J\].
+    pub kinetic_j: f64,
+    /// Work done from outside \[J\].
+    pub external_work_j: f64,
+    /// What the balance misses \[J\].
+    pub residual_j: f64,
+    /// The same over what it is judged against.
+    pub residual_share: f64,
+    /// Its largest at the outputs.
+    pub residual_share_peak: f64,
     /// Energy of hourglass control over all that is stored.
     #[serde(default)]
-    hourglass_share: f64,
+    pub hourglass_share: f64,
     /// Kinetic energy while it moved.
-    pub kinetic_share: Kinetic,
-    /// Without contact `None`.
+    pub kinetic_share: KineticShares,
+    /// Nodes that came through a layer; without contact `None`.
     #[serde(default)]
-    changed_sides: Option<ChangedSides>,
+    pub changed_sides: Option<Through>,
 }
 
 /// Nodes that came through a layer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct ChangedSides {
-    nodes: usize,
-    share: f64,
-    first: Option<FirstThrough>,
+pub struct Through {
+    /// How many.
+    pub nodes: usize,
+    /// Share of those in contact.
+    pub share: f64,
+    /// The first of them.
+    pub first: Option<FirstThrough>,
 }
 
-impl ChangedSides {
-    fn of(found: fem::run::ChangedSides) -> ChangedSides {
+impl Through {
+    fn of(found: crate::run::ChangedSides) -> Through {
         let first = found.first.map(|first| FirstThrough {
             text: first.to_string(),
             node: first.node,
@@ -76,69 +93,93 @@ impl ChangedSides {
             time_s: first.time_s,
             place_mm: first.place_m.map(|c| c * 1e3),
         });
-        ChangedSides { nodes: found.nodes, share: found.share, first }
+        Through { nodes: found.nodes, share: found.share, first }
     }
 }
 
 /// The first of them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct FirstThrough {
-    node: usize,
-    part: String,
-    time_s: f64,
-    place_mm: [f64; 3],
-    text: String,
+pub struct FirstThrough {
+    /// Node.
+    pub node: usize,
+    /// Part.
+    pub part: String,
+    /// When \[s\].
+    pub time_s: f64,
+    /// Where \[mm\].
+    pub place_mm: [f64; 3],
+    /// The same in words.
+    pub text: String,
 }
 
 /// Shape of the elements: smallest, median and largest side, and the worst of each.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Quality {
-    side_mm: [f64; 3],
-    aspect: f64,
-    jacobian_ratio: f64,
-    warpage: f64,
+pub struct MeshQuality {
+    /// Smallest, median and largest side \[mm\].
+    pub side_mm: [f64; 3],
+    /// Worst aspect ratio.
+    pub aspect: f64,
+    /// Worst ratio of Jacobians.
+    pub jacobian_ratio: f64,
+    /// Worst warpage.
+    pub warpage: f64,
 }
 
 /// Mean displacement of a node set from where it started.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Probe {
-    set: String,
-    displacement_mm: [f64; 3],
+pub struct ProbeEnd {
+    /// Node set.
+    pub set: String,
+    /// x, y, z \[mm\].
+    pub displacement_mm: [f64; 3],
 }
 
+/// A volume of air.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Chamber {
-    name: String,
-    pressure_kpa: f64,
-    volume_cm3: f64,
+pub struct ChamberEnd {
+    /// Name.
+    pub name: String,
+    /// Gauge pressure \[kPa\].
+    pub pressure_kpa: f64,
+    /// Volume \[cm³\].
+    pub volume_cm3: f64,
 }
 
 /// Force of a support on the structure, along the axes that it holds, and its moment about the middle of the set.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Reaction {
-    set: String,
-    force_n: [Option<f64>; 3],
-    moment_nm: [f64; 3],
+pub struct ReactionEnd {
+    /// Node set.
+    pub set: String,
+    /// Force along the axes that are held \[N\].
+    pub force_n: [Option<f64>; 3],
+    /// Moment \[N·m\].
+    pub moment_nm: [f64; 3],
 }
 
 /// One line of the ledger.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Energy {
-    name: String,
-    kind: String,
-    energy_j: f64,
+pub struct EnergyLine {
+    /// Term.
+    pub name: String,
+    /// `stored`, `dissipated` or `supplied`.
+    pub kind: String,
+    /// Energy \[J\].
+    pub energy_j: f64,
 }
 
 /// Kinetic energy over kinetic and stored energy at the outputs after the start, held against the two rules.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Kinetic {
+pub struct KineticShares {
     /// How many.
     pub outputs: usize,
-    median: Option<f64>,
+    /// Median.
+    pub median: Option<f64>,
     /// At the end.
     pub end: Option<f64>,
-    peak: Option<f64>,
-    peak_time_s: Option<f64>,
+    /// Largest.
+    pub peak: Option<f64>,
+    /// When that was \[s\].
+    pub peak_time_s: Option<f64>,
     /// The rule of the paper's source.
     pub below_10_pct_of_internal: Rule,
     /// The paper's own.
@@ -150,33 +191,40 @@ pub struct Kinetic {
 pub struct Rule {
     /// Outputs that keep it.
     pub kept_at: usize,
-    last_broken_s: Option<f64>,
+    /// Last output that does not \[s\].
+    pub last_broken_s: Option<f64>,
 }
 
 /// What a run took; it stands in the manifest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Cost {
-    cpu_s: f64,
+    /// Processor time of this session \[s\].
+    pub cpu_s: f64,
     /// Processor time of all sessions \[s\].
     pub cpu_s_of_all_sessions: f64,
-    wall_s: f64,
-    threads: usize,
-    resumed_at_step: u64,
-    element_steps_per_cpu_s: f64,
+    /// Real time of this session \[s\].
+    pub wall_s: f64,
+    /// Threads asked for; 0: one per core.
+    pub threads: usize,
+    /// Step at which this session began.
+    pub resumed_at_step: u64,
+    /// Speed of this session.
+    pub element_steps_per_cpu_s: f64,
 }
 
 impl Summary {
     /// Reads a run that has reached its end.
-    pub fn of(case: &Case, running: &Running, robot: Option<&Robot>) -> Summary {
+    pub(super) fn of(case: &Case, running: &Running, robot: Option<&Robot>) -> Summary {
         let (run, mesh) = (&running.run, &case.problem.mesh);
         let ledger = run.ledger();
-        let energy = |r: &models::Row| Energy { name: r.name.into(), kind: r.kind.word().into(), energy_j: r.energy_j };
-        let chamber = |c: fem::run::ChamberState| Chamber {
+        let energy =
+            |r: &models::Row| EnergyLine { name: r.name.into(), kind: r.kind.word().into(), energy_j: r.energy_j };
+        let chamber = |c: crate::run::ChamberState| ChamberEnd {
             name: c.name,
             pressure_kpa: c.pressure_pa / 1e3,
             volume_cm3: c.volume_m3 * 1e6,
         };
-        let reaction = |r: &fem::run::Reaction| Reaction {
+        let reaction = |r: &crate::run::Reaction| ReactionEnd {
             set: r.set.clone(),
             force_n: [0, 1, 2].map(|k| r.axes[k].then_some(r.force_n[k])),
             moment_nm: r.moment_nm,
@@ -184,11 +232,11 @@ impl Summary {
         let positions = run.positions();
         let probe = |set: &String| {
             let moved = mean_displacement(mesh, mesh.sets.get(set)?, &positions);
-            Some(Probe { set: set.clone(), displacement_mm: moved.map(|d| d * 1e3) })
+            Some(ProbeEnd { set: set.clone(), displacement_mm: moved.map(|d| d * 1e3) })
         };
         Summary {
             name: case.problem.name.clone(),
-            engine: fem::ENGINE,
+            engine: crate::ENGINE,
             robot: robot.zip(running.robot.as_ref()).map(|(robot, seen)| seen.summary(robot)),
             time_s: run.time_s(),
             steps: run.step(),
@@ -209,19 +257,47 @@ impl Summary {
             residual_share_peak: running.balances.iter().fold(0.0, |most, b| b.residual_share.max(most)),
             hourglass_share: ledger.hourglass_share(),
             kinetic_share: kinetic(&running.balances),
-            changed_sides: run.changed_sides().map(ChangedSides::of),
+            changed_sides: run.changed_sides().map(Through::of),
         }
     }
 }
 
+impl Summary {
+    /// What to know before believing the numbers: hourglass control, motion at the end, added mass, layers that were passed.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        if self.hourglass_share > HOURGLASS {
+            let rule = "over 5 %, it is no longer small. Compare with smaller elements, or with a tenth of hourglass";
+            found.push(rule.to_string());
+        }
+        if let Some(end) = self.kinetic_share.end.filter(|end| *end > HUNDREDTH) {
+            found.push(format!(
+                "{:.1} % of the energy still moves at the end: this is no state of rest. Simulate longer, load more slowly, or add mass_damping_1_s",
+                100.0 * end
+            ));
+        }
+        if self.added_mass_share > ADDED {
+            found.push("more mass was added than there is: weight and speed are not those of the fabric, and slow motions are late".into());
+        }
+        if let Some(Through { nodes, share, first: Some(first) }) = &self.changed_sides {
+            found.push(format!(
+                "nodes that came through a layer: {nodes}, {:.3} % of those in contact; the first: {}. Smaller elements, or edges = \
+                 true in [contact], hold them",
+                100.0 * share, first.text
+            ));
+        }
+        found
+    }
+}
+
 /// Shape of the elements; the run would not have started with a mesh that does not pass.
-fn quality(case: &Case) -> Option<Quality> {
+fn quality(case: &Case) -> Option<MeshQuality> {
     let problem = &case.problem;
     let chambers: Vec<&str> = problem.chambers.iter().map(|c| c.name.as_str()).collect();
     let open: Vec<&str> = problem.open.iter().map(String::as_str).collect();
-    let quality = fem::mesh::check::check_open(&problem.mesh, &chambers, &open).ok()?;
+    let quality = crate::mesh::check::check_open(&problem.mesh, &chambers, &open).ok()?;
     let side = &quality.side_m;
-    Some(Quality {
+    Some(MeshQuality {
         side_mm: [side.min * 1e3, side.median * 1e3, side.max * 1e3],
         aspect: quality.aspect.value,
         jacobian_ratio: quality.jacobian_ratio.value,
@@ -230,7 +306,7 @@ fn quality(case: &Case) -> Option<Quality> {
 }
 
 /// Mean displacement of a node set from where it started \[m\].
-fn mean_displacement(mesh: &fem::Mesh, nodes: &[u32], positions: &[[f64; 3]]) -> [f64; 3] {
+fn mean_displacement(mesh: &crate::Mesh, nodes: &[u32], positions: &[[f64; 3]]) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for node in nodes {
         let (now, start) = (positions[*node as usize], mesh.start_of(*node as usize));
@@ -239,7 +315,7 @@ fn mean_displacement(mesh: &fem::Mesh, nodes: &[u32], positions: &[[f64; 3]]) ->
     sum
 }
 
-fn kinetic(balances: &[Balance]) -> Kinetic {
+fn kinetic(balances: &[Balance]) -> KineticShares {
     let later: Vec<&Balance> = balances.iter().filter(|b| b.time_s > 0.0).collect();
     let mut shares: Vec<f64> = later.iter().map(|b| b.kinetic_share).collect();
     shares.sort_by(f64::total_cmp);
@@ -249,7 +325,7 @@ fn kinetic(balances: &[Balance]) -> Kinetic {
         let broken: Vec<f64> = later.iter().filter(|b| b.kinetic_share >= limit).map(|b| b.time_s).collect();
         Rule { kept_at: later.len() - broken.len(), last_broken_s: broken.last().copied() }
     };
-    Kinetic {
+    KineticShares {
         outputs: later.len(),
         median: shares.get(shares.len() / 2).copied(),
         end: later.last().map(|b| b.kinetic_share),
@@ -262,7 +338,7 @@ fn kinetic(balances: &[Balance]) -> Kinetic {
 
 impl Cost {
     /// Of this session and those before.
-    pub fn of(case: &Case, running: &Running, wall: Duration) -> Cost {
+    pub(super) fn of(case: &Case, running: &Running, wall: Duration) -> Cost {
         let (run, cpu_s) = (&running.run, running.cpu_s());
         let element_steps = (run.step() - running.began.0) as f64 * run.elements() as f64;
         Cost {

@@ -1,12 +1,11 @@
 //! The folder of a run: what it holds, who may write to it, and how a complete run takes the place of an older one.
 
 use super::exchange::{exchange, mend};
-use super::write_failure;
-use crate::failure::Failure;
-use crate::output::sha256;
-use compare::record::Shape;
+use super::manifest::{Manifest, sha256};
+use crate::FemError;
+use crate::atomic::replace;
+use crate::record::Shape;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
@@ -100,7 +99,7 @@ pub fn is_finished(folder: &Path) -> bool {
 }
 
 /// Whether the run in the folder, complete or not, is of this case; `None` if there is none.
-pub fn is_of(folder: &Path, text: &str) -> Result<Option<bool>, Failure> {
+pub fn is_of(folder: &Path, text: &str) -> Result<Option<bool>, FemError> {
     Ok(match look(folder)? {
         Found::Unfinished(marker) => Some(marker.case_sha256 == sha256(text.as_bytes())),
         Found::Finished => Some(case_sha256(folder).is_some_and(|of| of == sha256(text.as_bytes()))),
@@ -112,10 +111,10 @@ pub fn is_of(folder: &Path, text: &str) -> Result<Option<bool>, Failure> {
 ///
 /// # Errors
 /// The folder holds another run, or files that are none of ours, or another process writes to it.
-pub fn open(wish: &Wish) -> Result<Opened, Failure> {
+pub fn open(wish: &Wish) -> Result<Opened, FemError> {
     let refuse = |cause: &str, help: &str| Err(refused(wish.folder, cause, help));
     if matches!(look(&aside(wish.folder))?, Found::Finished) {
-        mend(wish.folder, &aside(wish.folder)).map_err(|cause| write_failure(wish.folder, &cause))?;
+        mend(wish.folder, &aside(wish.folder)).map_err(|cause| unwritable(wish.folder, &cause))?;
     }
     match (look(wish.folder)?, wish.resume, wish.force) {
         (Found::Nothing, ..) => take(wish.folder, wish.folder, None),
@@ -146,7 +145,7 @@ pub fn open(wish: &Wish) -> Result<Opened, Failure> {
 }
 
 /// The new run is made beside the finished one, which stays until then.
-fn open_beside(wish: &Wish) -> Result<Opened, Failure> {
+fn open_beside(wish: &Wish) -> Result<Opened, FemError> {
     let beside = named_like(wish.folder, ".new");
     match look(&beside)? {
         Found::Unfinished(marker) if wish.resume => {
@@ -171,11 +170,21 @@ fn aside(folder: &Path) -> PathBuf {
     named_like(folder, ".new-replaces")
 }
 
-fn refused(folder: &Path, cause: &str, help: &str) -> Failure {
-    Failure::Write { path: folder.display().to_string(), cause: cause.into(), help: help.into() }
+/// Writes a file, whole or not at all.
+pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), FemError> {
+    replace(path, &mut |out| out.write_all(bytes))
 }
 
-fn same_case(wish: &Wish, case_sha256: &str) -> Result<(), Failure> {
+/// A file of the run that cannot be written, or read back.
+pub(super) fn unwritable(path: &Path, cause: &std::io::Error) -> FemError {
+    refused(path, &cause.to_string(), "choose another folder with --out")
+}
+
+fn refused(folder: &Path, cause: &str, help: &str) -> FemError {
+    FemError::Folder { path: folder.into(), cause: cause.into(), help: help.into() }
+}
+
+fn same_case(wish: &Wish, case_sha256: &str) -> Result<(), FemError> {
     if case_sha256 == sha256(wish.text.as_bytes()) {
         return Ok(());
     }
@@ -184,7 +193,7 @@ fn same_case(wish: &Wish, case_sha256: &str) -> Result<(), Failure> {
     Err(refused(wish.folder, "the run in it is of another case, or the case has changed", &help))
 }
 
-fn look(folder: &Path) -> Result<Found, Failure> {
+fn look(folder: &Path) -> Result<Found, FemError> {
     if !folder.exists() {
         return Ok(Found::Nothing);
     }
@@ -206,7 +215,7 @@ fn look(folder: &Path) -> Result<Found, Failure> {
 }
 
 /// A file that no run wrote, in the folder or among its frames.
-fn foreign(folder: &Path, names: &[String]) -> Result<Option<String>, Failure> {
+fn foreign(folder: &Path, names: &[String]) -> Result<Option<String>, FemError> {
     let ours = |n: &String| OWN.contains(&n.as_str()) || n == LAST || n == MARKER;
     if let Some(name) = names.iter().find(|n| !ours(n)) {
         return Ok(Some(name.clone()));
@@ -230,9 +239,9 @@ fn read_marker(folder: &Path) -> Option<Marker> {
     UNFINISHED.read(MARKER, &std::fs::read_to_string(folder.join(MARKER)).ok()?, "").ok()
 }
 
-fn take(folder: &Path, target: &Path, interrupted: Option<Marker>) -> Result<Opened, Failure> {
-    std::fs::create_dir_all(folder).map_err(|cause| write_failure(folder, &cause))?;
-    let lock = File::create(folder.join(LOCK)).map_err(|cause| write_failure(folder, &cause))?;
+fn take(folder: &Path, target: &Path, interrupted: Option<Marker>) -> Result<Opened, FemError> {
+    std::fs::create_dir_all(folder).map_err(|cause| unwritable(folder, &cause))?;
+    let lock = File::create(folder.join(LOCK)).map_err(|cause| unwritable(folder, &cause))?;
     if let Err(std::fs::TryLockError::WouldBlock) = lock.try_lock() {
         return Err(refused(
             folder,
@@ -247,7 +256,7 @@ fn take(folder: &Path, target: &Path, interrupted: Option<Marker>) -> Result<Ope
 }
 
 /// One change to a folder.
-type Step<'a> = &'a dyn Fn() -> Result<(), Failure>;
+type Step<'a> = &'a dyn Fn() -> Result<(), FemError>;
 
 impl Workplace {
     /// Where the complete run goes in the end.
@@ -257,7 +266,7 @@ impl Workplace {
 
     /// Clears away an earlier run and marks the folder as that of a run in progress. Killed at any point, the folder is known as
     /// that of an unfinished run: of the earlier case until its files are gone, then of this one.
-    pub fn start(&self, marker: &Marker, text: &str) -> Result<(), Failure> {
+    pub fn start(&self, marker: &Marker, text: &str) -> Result<(), FemError> {
         self.begin(marker, text, &mut |step| step())
     }
 
@@ -265,8 +274,8 @@ impl Workplace {
         &self,
         marker: &Marker,
         text: &str,
-        take: &mut dyn FnMut(Step) -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
+        take: &mut dyn FnMut(Step) -> Result<(), FemError>,
+    ) -> Result<(), FemError> {
         if let (Some(case_sha256), false) = (case_sha256(&self.folder), self.folder.join(MARKER).exists()) {
             take(&|| self.mark(&Marker { case_sha256: case_sha256.clone(), ..marker.clone() }))?;
         }
@@ -278,18 +287,18 @@ impl Workplace {
         take(&|| self.keep_case(text))
     }
 
-    fn mark(&self, marker: &Marker) -> Result<(), Failure> {
+    fn mark(&self, marker: &Marker) -> Result<(), FemError> {
         let text = format!("{:#}\n", UNFINISHED.stamped(marker));
-        Ok(data::write_atomically(&self.folder.join(MARKER), text.as_bytes())?)
+        write(&self.folder.join(MARKER), text.as_bytes())
     }
 
     /// Writes the case, which a kill right after the mark leaves out.
-    pub fn keep_case(&self, text: &str) -> Result<(), Failure> {
-        Ok(data::write_atomically(&self.folder.join(CASE), text.as_bytes())?)
+    pub fn keep_case(&self, text: &str) -> Result<(), FemError> {
+        write(&self.folder.join(CASE), text.as_bytes())
     }
 
     /// The files of the run, for its manifest.
-    pub fn files(&self) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+    pub fn files(&self) -> Result<Vec<(String, Vec<u8>)>, FemError> {
         let mut found = Vec::new();
         for name in OWN.iter().filter(|name| !name.starts_with("checkpoint")) {
             let path = self.folder.join(name);
@@ -299,7 +308,7 @@ impl Workplace {
                 false => Vec::new(),
             };
             for file in inner {
-                let bytes = std::fs::read(self.folder.join(&file)).map_err(|cause| write_failure(&path, &cause))?;
+                let bytes = std::fs::read(self.folder.join(&file)).map_err(|cause| unwritable(&path, &cause))?;
                 found.push((file, bytes));
             }
         }
@@ -307,8 +316,8 @@ impl Workplace {
     }
 
     /// Writes the manifest, and lets the complete run take its place; what to tell of an older one that was there.
-    pub fn complete(self, manifest: &Value) -> Result<Option<String>, Failure> {
-        data::write_atomically(&self.folder.join(LAST), format!("{manifest:#}\n").as_bytes())?;
+    pub fn complete(self, manifest: &Manifest) -> Result<Option<String>, FemError> {
+        write(&self.folder.join(LAST), manifest.text().as_bytes())?;
         for name in [MARKER, "checkpoint", "checkpoint.previous", LOCK] {
             remove(&self.folder.join(name))?;
         }
@@ -316,7 +325,7 @@ impl Workplace {
             return Ok(None);
         }
         let exchanged = exchange(&self.folder, &self.target, &aside(&self.target));
-        exchanged.map_err(|cause| write_failure(&self.target, &cause))?;
+        exchanged.map_err(|cause| unwritable(&self.target, &cause))?;
         match look(&self.folder)? {
             Found::Finished => remove(&self.folder).map(|()| None),
             _ => Ok(Some(format!("kept the older run in {}: other files are with it", self.folder.display()))),
@@ -330,14 +339,14 @@ fn is_leftover(name: &str) -> bool {
 }
 
 /// Removes what a kill left behind.
-fn sweep(folder: &Path) -> Result<(), Failure> {
+fn sweep(folder: &Path) -> Result<(), FemError> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
     let leftovers = entries.filter_map(|e| Some(e.ok()?.path()));
     leftovers.filter(|p| is_leftover(&p.file_name().unwrap_or_default().to_string_lossy())).try_for_each(|p| remove(&p))
 }
 
-fn sorted(folder: &Path) -> Result<Vec<String>, Failure> {
-    let entries = std::fs::read_dir(folder).map_err(|cause| write_failure(folder, &cause))?;
+fn sorted(folder: &Path) -> Result<Vec<String>, FemError> {
+    let entries = std::fs::read_dir(folder).map_err(|cause| unwritable(folder, &cause))?;
     let mut names: Vec<String> =
         entries.filter_map(|e| Some(e.ok()?.file_name().to_string_lossy().into_owned())).collect();
     names.sort();
@@ -345,13 +354,13 @@ fn sorted(folder: &Path) -> Result<Vec<String>, Failure> {
 }
 
 /// Removes a file or a folder that a run made, if it is there.
-fn remove(path: &Path) -> Result<(), Failure> {
+fn remove(path: &Path) -> Result<(), FemError> {
     let removed = match path.symlink_metadata() {
         Err(_) => return Ok(()),
         Ok(about) if about.is_dir() => std::fs::remove_dir_all(path),
         Ok(_) => std::fs::remove_file(path),
     };
-    removed.map_err(|cause| write_failure(path, &cause))
+    removed.map_err(|cause| unwritable(path, &cause))
 }
 
 #[cfg(test)]

@@ -1,39 +1,26 @@
 //! A run on its way: rows, frames and checkpoints as it goes, so that it can go on where it was interrupted.
 
-use super::robot::Watched;
-use crate::commands::Context;
-use crate::cost::thread_seconds;
-use crate::failure::Failure;
-use fem::bytes::{Reader, Writer};
-use fem::case::Case;
-use fem::output::Frame;
-use fem::output::centre_line::{CentreLine, CentreLineFile};
-use fem::output::checkpoint::{Checkpoint, read_checkpoint, write_checkpoint};
-use fem::output::history::{History, Record};
-use fem::output::picture::{self, Look};
-use fem::output::pvd::Series;
-use fem::run::Advance;
-use fem::{FemError, Simulation};
+use super::Progress;
+use super::watch::Watched;
+use crate::bytes::{Reader, Writer};
+use crate::case::Case;
+use crate::output::Frame;
+use crate::output::centre_line::{CentreLine, CentreLineFile};
+use crate::output::checkpoint::{Checkpoint, read_checkpoint, write_checkpoint};
+use crate::output::history::{History, Record};
+use crate::output::pvd::Series;
+use crate::run::Advance;
+use crate::{FemError, Simulation};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The end state, coloured by von Mises stress.
-const PICTURE: &str = "picture.png";
 /// Time between two lines of progress.
 const TELL_EVERY: Duration = Duration::from_millis(200);
 
-/// How stepping ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ended {
-    /// The end was reached.
-    Complete,
-    /// The user asked to stop; a checkpoint is written.
-    Interrupted,
-}
-
 /// Energies at one output, for the judgement at the end.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Balance {
+pub(super) struct Balance {
     /// Time \[s\].
     pub time_s: f64,
     /// Kinetic energy over kinetic and stored energy.
@@ -43,7 +30,7 @@ pub struct Balance {
 }
 
 /// A run and its files.
-pub struct Running<'a> {
+pub(super) struct Running<'a> {
     /// The run.
     pub run: Simulation,
     /// Energies at all outputs so far.
@@ -57,7 +44,7 @@ pub struct Running<'a> {
     /// What is read of a robot.
     pub robot: Option<Watched>,
     case: &'a Case,
-    files: Files,
+    files: Option<Files>,
     /// Number of the next output.
     next: u64,
 }
@@ -75,16 +62,10 @@ impl<'a> Running<'a> {
     pub fn start(
         case: &'a Case,
         run: Simulation,
-        folder: &Path,
+        folder: Option<&Path>,
         robot: Option<Watched>,
-    ) -> Result<Running<'a>, Failure> {
-        let mesh = &case.problem.mesh;
-        let history = History::create(&folder.join("history.csv"), mesh, &case.outputs.probes)?;
-        let series = case.outputs.frames.then(|| Series::create(folder)).transpose()?;
-        let path = folder.join("centre_line.csv");
-        let centre_line = centre_line(case)?.map(|line| CentreLineFile::create(&path, line)).transpose()?;
-        let files =
-            Files { folder: folder.into(), history, series, centre_line, fingerprint: case.problem.fingerprint() };
+    ) -> Result<Running<'a>, FemError> {
+        let files = folder.map(|folder| Files::create(case, folder)).transpose()?;
         let began = (0, thread_seconds());
         let (balances, notices) = (Vec::new(), Vec::new());
         Ok(Running { run, balances, cpu_before_s: 0.0, notices, began, robot, case, files, next: 0 })
@@ -96,10 +77,10 @@ impl<'a> Running<'a> {
         fresh: Simulation,
         folder: &Path,
         mut robot: Option<Watched>,
-    ) -> Result<Running<'a>, Failure> {
+    ) -> Result<Running<'a>, FemError> {
         let fingerprint = case.problem.fingerprint();
         let Some(loaded) = read_checkpoint(folder, fingerprint)? else {
-            return Running::start(case, fresh, folder, robot);
+            return Running::start(case, fresh, Some(folder), robot);
         };
         let Checkpoint { payload, .. } = loaded.checkpoint;
         let foreign = || FemError::Checkpoint {
@@ -111,19 +92,10 @@ impl<'a> Running<'a> {
             robot.restore(saved.robot).ok_or_else(foreign)?;
         }
         let run = Simulation::resume(&case.problem, saved.run)?;
-        let mesh = &case.problem.mesh;
         // Outputs of the same step are one row and one frame.
         let mut times_s: Vec<f64> = saved.balances.iter().map(|b| b.time_s).collect();
         times_s.dedup();
-        let (history, path) = (folder.join("history.csv"), folder.join("centre_line.csv"));
-        let line = centre_line(case)?;
-        // What is lost is told before anything is cut.
-        History::check(&history, &times_s)?;
-        line.iter().try_for_each(|line| CentreLineFile::check(&path, line, &times_s))?;
-        let series = case.outputs.frames.then(|| Series::resume(folder, &times_s)).transpose()?;
-        let history = History::resume(&history, mesh, &case.outputs.probes, &times_s)?;
-        let centre_line = line.map(|line| CentreLineFile::resume(&path, line, &times_s)).transpose()?;
-        let files = Files { folder: folder.into(), history, series, centre_line, fingerprint };
+        let files = Some(Files::resume(case, folder, &times_s)?);
         Ok(Running {
             began: (run.step(), thread_seconds()),
             run,
@@ -137,48 +109,55 @@ impl<'a> Running<'a> {
         })
     }
 
-    /// Steps to the end of the case, or until the user interrupts.
-    pub fn step_on(&mut self, checkpoint_every: Duration, context: &mut Context) -> Result<Ended, Failure> {
+    /// Steps to the end of the case, or until `progress` asks to end, which is [`FemError::Interrupted`].
+    pub fn step_on(&mut self, checkpoint_every: Duration, progress: Progress) -> Result<(), FemError> {
         let settings = &self.case.problem.settings;
         let (end_s, every_s) = (settings.end_s, settings.output_every_s);
         // The last output is the end itself; a whole number of intervals shall not get a second one just before it.
         let last = (end_s / every_s - 1e-6).ceil().max(1.0) as u64;
         let mut teller = Teller::new(&self.run, end_s);
-        let (mut saved_at, mut saving) = (Instant::now(), Duration::ZERO);
+        let mut keeper = Keeper { every: checkpoint_every, saved_at: Instant::now(), saving: Duration::ZERO };
         while self.next <= last {
             let output_s = if self.next == last { end_s } else { self.next as f64 * every_s };
             let hold_s = self.robot.as_ref().and_then(Watched::next_s).filter(|hold_s| *hold_s <= output_s);
-            let target_s = hold_s.unwrap_or(output_s);
-            let (next, balances, files, robot) = (self.next, &self.balances, &self.files, &mut self.robot);
-            let outside_s = self.cpu_before_s + thread_seconds() - self.began.1;
-            let mut fault = None;
-            let advanced = self.run.advance_until(target_s, &mut |run| {
-                teller.tell(run, context);
-                robot.iter_mut().for_each(|robot| robot.watch.sample(run));
-                // A large run writes hundreds of megabytes: not for more than a fiftieth of its time.
-                if saved_at.elapsed() >= checkpoint_every.max(50 * saving) {
-                    let began = Instant::now();
-                    fault = files.save(run, next, balances, robot.as_ref(), outside_s + run.cpu_s()).err();
-                    saved_at = Instant::now();
-                    saving = saved_at - began;
-                }
-                fault.is_none() && !context.interrupt.asked()
-            })?;
-            if let Some(fault) = fault {
-                return Err(fault.into());
-            }
-            if advanced == Advance::Interrupted {
-                let cpu_s = self.cpu_before_s + self.cpu_s();
-                self.files.save(&self.run, self.next, &self.balances, self.robot.as_ref(), cpu_s)?;
-                return Ok(Ended::Interrupted);
+            if self.advance(hold_s.unwrap_or(output_s), &mut teller, &mut keeper, progress)? == Advance::Interrupted {
+                self.save(self.cpu_before_s + self.cpu_s())?;
+                return Err(FemError::Interrupted { time_s: self.run.time_s(), step: self.run.step(), done: 0, of: 1 });
             }
             match &mut self.robot {
                 Some(robot) if hold_s.is_some() => robot.read(&self.run)?,
                 _ => self.output()?,
             }
         }
-        self.run.judge_end()?;
-        Ok(Ended::Complete)
+        self.run.judge_end()
+    }
+
+    /// Steps to a moment, with checkpoints on the way.
+    fn advance(
+        &mut self,
+        target_s: f64,
+        teller: &mut Teller,
+        keeper: &mut Keeper,
+        progress: Progress,
+    ) -> Result<Advance, FemError> {
+        let (next, balances, files, robot) = (self.next, &self.balances, &self.files, &mut self.robot);
+        let outside_s = self.cpu_before_s + thread_seconds() - self.began.1;
+        let mut fault = None;
+        let advanced = self.run.advance_until(target_s, &mut |run| {
+            let flow = teller.tell(run, progress);
+            robot.iter_mut().for_each(|robot| robot.watch.sample(run));
+            if let Some(files) = files.as_ref().filter(|_| keeper.is_due()) {
+                let cpu_s = outside_s + run.cpu_s();
+                fault = keeper.keep(|| files.save(run, next, balances, robot.as_ref(), cpu_s)).err();
+            }
+            fault.is_none() && flow.is_continue()
+        })?;
+        fault.map_or(Ok(advanced), Err)
+    }
+
+    fn save(&self, cpu_s: f64) -> Result<(), FemError> {
+        let mut files = self.files.iter();
+        files.try_for_each(|files| files.save(&self.run, self.next, &self.balances, self.robot.as_ref(), cpu_s))
     }
 
     /// Writes one output.
@@ -191,34 +170,17 @@ impl<'a> Running<'a> {
             kinetic_share: record.ledger.kinetic_share(),
             residual_share: if judged { record.ledger.residual_share() } else { 0.0 },
         });
-        self.files.history.append(&record)?;
-        if let Some(line) = &mut self.files.centre_line {
+        self.next += 1;
+        let Some(files) = &mut self.files else { return Ok(()) };
+        files.history.append(&record)?;
+        if let Some(line) = &mut files.centre_line {
             line.append(record.step, record.time_s, &record.positions)?;
         }
-        if let Some(series) = &mut self.files.series {
+        if let Some(series) = &mut files.series {
             let hold_pa = self.robot.as_ref().and_then(|robot| robot.hold_pa(record.time_s));
             series.push(&self.case.problem.mesh, &Frame { hold_pa, ..Frame::of(&self.run) })?;
         }
-        self.next += 1;
         Ok(())
-    }
-
-    /// Draws the end state; its name in the folder.
-    pub fn picture(&self, folder: &Path) -> Result<Option<&'static str>, FemError> {
-        if !self.case.outputs.pictures {
-            return Ok(None);
-        }
-        let stress_mpa: Vec<f64> = self.run.element_fields().von_mises_pa.iter().map(|s| s * 1e-6).collect();
-        let title = format!("{}, von Mises stress [MPa] at {:.4} s", self.case.problem.name, self.run.time_s());
-        let look = Look { view: self.case.outputs.view, title, ..Look::default() };
-        let image = picture::render(&self.case.problem.mesh, &self.run.positions(), &stress_mpa, &look)?;
-        picture::write_png(&folder.join(PICTURE), &image)?;
-        Ok(Some(PICTURE))
-    }
-
-    /// Whether frames are written.
-    pub fn has_frames(&self) -> bool {
-        self.files.series.is_some()
     }
 
     /// Processor seconds of this session: of the steps, and of this thread, which writes.
@@ -228,6 +190,31 @@ impl<'a> Running<'a> {
 }
 
 impl Files {
+    fn create(case: &Case, folder: &Path) -> Result<Files, FemError> {
+        let path = folder.join("centre_line.csv");
+        Ok(Files {
+            folder: folder.into(),
+            history: History::create(&folder.join("history.csv"), &case.problem.mesh, &case.outputs.probes)?,
+            series: case.outputs.frames.then(|| Series::create(folder)).transpose()?,
+            centre_line: centre_line(case)?.map(|line| CentreLineFile::create(&path, line)).transpose()?,
+            fingerprint: case.problem.fingerprint(),
+        })
+    }
+
+    /// Files of an interrupted run after its outputs at `times_s`; what is lost is told before anything is cut.
+    fn resume(case: &Case, folder: &Path, times_s: &[f64]) -> Result<Files, FemError> {
+        let (history, path, line) = (folder.join("history.csv"), folder.join("centre_line.csv"), centre_line(case)?);
+        History::check(&history, times_s)?;
+        line.iter().try_for_each(|line| CentreLineFile::check(&path, line, times_s))?;
+        Ok(Files {
+            folder: folder.into(),
+            series: case.outputs.frames.then(|| Series::resume(folder, times_s)).transpose()?,
+            history: History::resume(&history, &case.problem.mesh, &case.outputs.probes, times_s)?,
+            centre_line: line.map(|line| CentreLineFile::resume(&path, line, times_s)).transpose()?,
+            fingerprint: case.problem.fingerprint(),
+        })
+    }
+
     fn save(
         &self,
         run: &Simulation,
@@ -279,6 +266,34 @@ fn centre_line(case: &Case) -> Result<Option<CentreLine>, FemError> {
     (!wanted.stations_m.is_empty()).then(make).transpose()
 }
 
+/// When to write a checkpoint.
+struct Keeper {
+    every: Duration,
+    saved_at: Instant,
+    /// What the last one took.
+    saving: Duration,
+}
+
+impl Keeper {
+    /// A large run writes hundreds of megabytes: not for more than a fiftieth of its time.
+    fn is_due(&self) -> bool {
+        self.saved_at.elapsed() >= self.every.max(50 * self.saving)
+    }
+
+    fn keep(&mut self, save: impl FnOnce() -> Result<(), FemError>) -> Result<(), FemError> {
+        let began = Instant::now();
+        let saved = save();
+        self.saved_at = Instant::now();
+        self.saving = self.saved_at - began;
+        saved
+    }
+}
+
+/// Processor seconds of the calling thread.
+fn thread_seconds() -> f64 {
+    cpu_time::ThreadTime::try_now().map_or(0.0, |t| t.as_duration().as_secs_f64())
+}
+
 /// Tells how far a run is.
 struct Teller {
     began: Instant,
@@ -292,9 +307,9 @@ impl Teller {
         Teller { began: Instant::now(), from_s: run.time_s(), end_s, last: None }
     }
 
-    fn tell(&mut self, run: &Simulation, context: &mut Context) {
+    fn tell(&mut self, run: &Simulation, progress: Progress) -> ControlFlow<()> {
         if self.last.is_some_and(|last| last.elapsed() < TELL_EVERY) {
-            return;
+            return ControlFlow::Continue(());
         }
         self.last = Some(Instant::now());
         let (t, ledger) = (run.time_s(), run.ledger());
@@ -310,7 +325,7 @@ impl Teller {
             100.0 * ledger.residual_share(),
             clock(left_s)
         );
-        (context.progress)(&text, Some(t / self.end_s));
+        progress(&text, Some(t / self.end_s))
     }
 }
 

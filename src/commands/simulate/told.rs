@@ -1,8 +1,8 @@
 //! A run's summary in words, and what a user should know before believing it.
 
-use super::{Chamber, Cost, HUNDREDTH, Probe, Quality, Reaction, Rule, Summary};
-use crate::commands::simulate::robot;
+use super::told_robot;
 use crate::commands::tables::table;
+use fem::session::{ChamberEnd, Cost, MeshQuality, ProbeEnd, ReactionEnd, Rule, Summary};
 
 /// The physics of a run as text.
 pub fn text(s: &Summary) -> String {
@@ -13,23 +13,24 @@ pub fn text(s: &Summary) -> String {
         let percent = 100.0 * s.added_mass_share;
         out.push_str(&format!("mass added by scaling: {percent:.1} % of the true mass{selective}\n"));
     }
-    if let Some(Quality { side_mm: [min, median, max], aspect, jacobian_ratio, .. }) = &s.quality {
+    if let Some(MeshQuality { side_mm: [min, median, max], aspect, jacobian_ratio, .. }) = &s.quality {
         out.push_str(&format!(
             "element sides {min:.2} to {max:.2} mm, median {median:.2}; worst aspect {aspect:.1}, worst Jacobian ratio {jacobian_ratio:.2}\n"
         ));
     }
     let probe =
-        |p: &Probe| std::iter::once(p.set.clone()).chain(p.displacement_mm.map(|d| format!("{d:+.3}"))).collect();
+        |p: &ProbeEnd| std::iter::once(p.set.clone()).chain(p.displacement_mm.map(|d| format!("{d:+.3}"))).collect();
     out.push_str(&section(&["probe", "dx mm", "dy mm", "dz mm"], 1, s.probes.iter().map(probe).collect()));
-    let chamber = |c: &Chamber| vec![c.name.clone(), format!("{:.3}", c.pressure_kpa), format!("{:.3}", c.volume_cm3)];
+    let chamber =
+        |c: &ChamberEnd| vec![c.name.clone(), format!("{:.3}", c.pressure_kpa), format!("{:.3}", c.volume_cm3)];
     out.push_str(&section(&["chamber", "pressure kPa", "volume cm³"], 1, s.chambers.iter().map(chamber).collect()));
-    let force = |r: &Reaction| {
+    let force = |r: &ReactionEnd| {
         let held = r.force_n.map(|n| n.map_or("–".into(), signed));
         std::iter::once(r.set.clone()).chain(held).chain(r.moment_nm.map(signed)).collect()
     };
     let head = ["force of the support on", "x N", "y N", "z N", "about x N·m", "about y", "about z"];
     out.push_str(&section(&head, 1, s.reactions.iter().map(force).collect()));
-    out.push_str(&s.robot.as_ref().map(robot::text).unwrap_or_default());
+    out.push_str(&s.robot.as_ref().map(told_robot::text).unwrap_or_default());
     out.push_str(&section(&["energy", "", "J"], 2, ledger(s)));
     out.push_str(&judgement(s));
     out
@@ -51,32 +52,6 @@ fn ledger(s: &Summary) -> Vec<Vec<String>> {
     rows.extend(s.ledger.iter().map(|r| line(&r.name, &r.kind, r.energy_j)));
     rows.push(line("residual", "missing", s.residual_j));
     rows
-}
-
-/// Hourglass share of the stored energy that is warned of.
-const HOURGLASS: f64 = 0.05;
-/// Added mass over true mass that is warned of.
-const ADDED: f64 = 1.0;
-
-/// What a user should know before believing the numbers: hourglass control, motion at the end, added mass.
-fn warnings(s: &Summary) -> String {
-    let share = s.hourglass_share;
-    let mut out = format!("hourglass share of stored energy: {:.3} %\n", 100.0 * share);
-    if share > HOURGLASS {
-        out.push_str(
-            "warning: over 5 %, it is no longer small. Compare with smaller elements, or with a tenth of hourglass\n",
-        );
-    }
-    if let Some(end) = s.kinetic_share.end.filter(|end| *end > HUNDREDTH) {
-        out.push_str(&format!(
-            "warning: {:.1} % of the energy still moves at the end: this is no state of rest. Simulate longer, load more slowly, or add mass_damping_1_s\n",
-            100.0 * end
-        ));
-    }
-    if s.added_mass_share > ADDED {
-        out.push_str("warning: more mass was added than there is: weight and speed are not those of the fabric, and slow motions are late\n");
-    }
-    out
 }
 
 fn judgement(s: &Summary) -> String {
@@ -104,18 +79,10 @@ fn judgement(s: &Summary) -> String {
         &k.below_10_pct_of_internal,
     ));
     out.push_str(&rule("below 1 % of total energy (what the paper kept)", &k.below_1_pct_of_total));
-    out.push_str(&warnings(s));
-    if let Some(changed) = &s.changed_sides {
-        out.push_str(&match &changed.first {
-            None => "nodes that came through a layer: none\n".to_string(),
-            Some(first) => format!(
-                "warning: nodes that came through a layer: {}, {} of those in contact; the first: {}. Smaller elements, or edges = \
-                 true in [contact], hold them\n",
-                changed.nodes,
-                percent(changed.share),
-                first.text
-            ),
-        });
+    out.push_str(&format!("hourglass share of stored energy: {:.3} %\n", 100.0 * s.hourglass_share));
+    s.warnings().iter().for_each(|warning| out.push_str(&format!("warning: {warning}\n")));
+    if s.changed_sides.as_ref().is_some_and(|changed| changed.first.is_none()) {
+        out.push_str("nodes that came through a layer: none\n");
     }
     out
 }

@@ -1,13 +1,14 @@
-//! What is read of a robot while it runs, and how it is told.
+//! What is read of a robot while it runs.
 
-use crate::commands::tables::table;
-use fem::robot::{Gauge, Hold, KEYS, Key, Reading, RobotRun, Snap, Watch, snaps};
-use fem::{FemError, Problem, Simulation};
-use models::{Scenario, scenario::Wall};
+use super::rounded;
+use crate::bytes::{Reader, Writer};
+use crate::robot::{Gauge, Hold, KEYS, Key, Reading, RobotRun, Snap, Watch, snaps};
+use crate::{FemError, Problem, Simulation};
+use models::Scenario;
+use models::scenario::Wall;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeMap;
 
-const MM: f64 = 1e3;
 /// A hold this near to the present counts as reached \[s\].
 const NOW_S: f64 = 1e-12;
 
@@ -23,12 +24,12 @@ pub struct Robot {
 
 impl Robot {
     /// For its problem.
-    pub fn new(scenario: &Scenario, run: &RobotRun, problem: &Problem) -> Result<Robot, FemError> {
+    pub(super) fn new(scenario: &Scenario, run: &RobotRun, problem: &Problem) -> Result<Robot, FemError> {
         Ok(Robot { scenario: scenario.clone(), run: run.clone(), gauge: Gauge::new(scenario, problem)? })
     }
 
     /// What the scenario says to the reduced model alone.
-    pub fn left_out(&self) -> Option<String> {
+    pub(super) fn left_out(&self) -> Option<String> {
         let effects = self.scenario.effects.iter().map(|e| e.name.clone());
         let wall = self.scenario.wall != Wall::default();
         let names: Vec<String> = wall.then(|| "[body] wall_…".into()).into_iter().chain(effects).collect();
@@ -37,7 +38,7 @@ impl Robot {
     }
 
     /// Starts to watch a run.
-    pub fn watch(&self, problem: &Problem) -> Watched {
+    pub(super) fn watch(&self, problem: &Problem) -> Watched {
         let holds = self.run.holds().into_iter().filter(|hold| hold.time_s <= problem.settings.end_s + NOW_S);
         Watched {
             filled_s: self.run.settings.body_ramp_s,
@@ -50,7 +51,7 @@ impl Robot {
 }
 
 /// Readings of a run so far.
-pub struct Watched {
+pub(super) struct Watched {
     /// Energies between outputs.
     pub watch: Watch,
     filled_s: f64,
@@ -85,7 +86,7 @@ impl Watched {
 
     /// For a checkpoint.
     pub fn save(&self) -> Vec<u8> {
-        let mut out = fem::bytes::Writer::new();
+        let mut out = Writer::new();
         out.f64s(&self.watch.save());
         // Numbers keep their bits in JSON; what is not finite is refused on the way back.
         out.bytes(&serde_json::to_vec(&self.readings).unwrap_or_default());
@@ -94,7 +95,7 @@ impl Watched {
 
     /// From a checkpoint.
     pub fn restore(&mut self, saved: &[u8]) -> Option<()> {
-        let mut from = fem::bytes::Reader::new(saved);
+        let mut from = Reader::new(saved);
         self.watch.restore(&from.f64s()?);
         self.readings = serde_json::from_slice(from.bytes()?).ok()?;
         from.is_empty().then_some(())
@@ -126,7 +127,8 @@ impl Watched {
 pub struct RobotSummary {
     /// Actuator kind.
     pub actuator: String,
-    length_m: f64,
+    /// Length of the robot \[m\].
+    pub length_m: f64,
     /// Body gauge pressure \[Pa\].
     pub body_pa: f64,
     /// Radius of the body \[m\].
@@ -151,7 +153,8 @@ pub struct RobotSummary {
     settings: BTreeMap<String, Option<f64>>,
     /// States, by time.
     pub readings: Vec<Reading>,
-    snaps: Vec<Snap>,
+    /// Buckling while the actuator is filled.
+    pub snaps: Vec<Snap>,
 }
 
 /// Settings that a comparison asks for.
@@ -168,91 +171,4 @@ impl RobotSummary {
     pub fn setting(&self, key: &str) -> f64 {
         self.settings.get(key).copied().flatten().unwrap_or(f64::NAN)
     }
-}
-
-/// Without the digits that a change of unit leaves behind.
-pub fn rounded(value: f64) -> f64 {
-    format!("{value:.9e}").parse().unwrap_or(value)
-}
-
-/// Height of the outermost marker and of the tip of a reading \[mm\].
-pub fn heights_mm(reading: &Reading) -> [f64; 2] {
-    let y = |from_end: usize| reading.moved_m.iter().rev().nth(from_end).map_or(f64::NAN, |d| d[1] * MM);
-    [y(1), y(0)]
-}
-
-/// What a robot's run came to, as text.
-pub fn text(robot: &RobotSummary) -> String {
-    let readings = &robot.readings;
-    let Some(last) = readings.last() else { return String::new() };
-    let mut out = String::new();
-    out.push_str(
-        "\nDisplacement towards the actuator [mm]: section at the station; at the tip also the mean of its ring\n",
-    );
-    let mut head = vec!["actuator kPa".to_string()];
-    head.extend(last.stations_m.iter().map(|s| format!("s = {:.0}", s * MM)));
-    head.extend(["tip ring", "tip x", "turn deg"].map(String::from));
-    let rows = readings.iter().map(|r| {
-        let mut row = vec![format!("{:.0}", r.actuator_pa * 1e-3)];
-        row.extend(r.moved_m.iter().map(|d| format!("{:.1}", d[1] * MM)));
-        row.push(r.ring_moved_m.last().map_or("–".into(), |d| format!("{:.1}", d[1] * MM)));
-        row.push(r.moved_m.last().map_or("–".into(), |d| format!("{:.1}", d[0] * MM)));
-        row.push(format!("{:.1}", r.tip_angle_rad.to_degrees()));
-        row
-    });
-    out.push_str(&table(&head.iter().map(String::as_str).collect::<Vec<_>>(), 0, rows.collect()));
-    out.push('\n');
-    out.push_str(&state(readings));
-    out.push_str(&buckling(&robot.snaps));
-    out
-}
-
-fn state(readings: &[Reading]) -> String {
-    let head = [
-        "actuator kPa",
-        "body cm³",
-        "actuator cm³",
-        "von Mises MPa",
-        "in",
-        "at mm",
-        "weld N/m",
-        "in",
-        "at mm",
-        "kinetic %",
-    ];
-    let rows = readings.iter().map(|r| {
-        vec![
-            format!("{:.0}", r.actuator_pa * 1e-3),
-            format!("{:.1}", r.body_m3 * 1e6),
-            format!("{:.1}", r.actuator_m3 * 1e6),
-            format!("{:.1}", r.von_mises_pa * 1e-6),
-            r.von_mises_part.clone(),
-            format!("{:.0}", r.von_mises_at_m * MM),
-            format!("{:.0}", r.seam_n_per_m),
-            r.seam_part.clone(),
-            format!("{:.0}", r.seam_at_m * MM),
-            format!("{:.2}", 100.0 * r.kinetic_share),
-        ]
-    });
-    table(&head, 0, rows.collect())
-}
-
-fn buckling(found: &[Snap]) -> String {
-    if found.is_empty() {
-        return "\nno buckling event while the actuator is filled\n".into();
-    }
-    let mut largest: Vec<&Snap> = found.iter().collect();
-    largest.sort_by(|a, b| b.released_j.total_cmp(&a.released_j));
-    let released_mj: f64 = found.iter().map(|s| s.released_j * 1e3).sum();
-    let mut out = format!("\n{} buckling events, {released_mj:.0} mJ released in all; the largest:\n", found.len());
-    let rows = largest.iter().take(8).map(|s| {
-        vec![
-            format!("{:.3}", s.time_s),
-            format!("{:.0}", s.place_m * MM),
-            format!("{:.1}", s.released_j * 1e3),
-            format!("{:.1}", s.kinetic_j * 1e3),
-        ]
-    });
-    out.push_str(&table(&["time s", "at mm", "released mJ", "walls' kinetic peak mJ"], 0, rows.collect()));
-    out
 }

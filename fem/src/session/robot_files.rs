@@ -1,59 +1,58 @@
-//! Files of a robot's run beside those of every run: readings, markers as a dataset, buckling events, plots, pictures.
+//! Files of a complete run beside those of every run: readings, markers as a dataset, buckling events, pictures.
 
-use super::robot::{self, Robot, Watched};
-use crate::failure::Failure;
-use fem::output::picture::{self, Image, Look, View};
-use fem::robot::{Reading, Snap};
-use fem::{Mesh, Simulation};
-use report::{LineSeries, LineStyle, Lines, lines};
+use super::{FeRun, Further, Loaded, Robot, rounded};
+use crate::output::picture::{self, Image, Look, View};
+use crate::robot::{Reading, Snap};
+use crate::{FemError, Mesh, Simulation};
 use std::fmt::Write;
-use std::path::Path;
 
 /// Share of the elements whose stress lies within the colour scale: a few at the ends of welds are far above all others.
 const WITHIN: f64 = 0.99;
 const MM: f64 = 1e3;
 
-/// Writes all of them.
-pub fn write(robot: &Robot, watched: &Watched, mesh: &Mesh, run: &Simulation, folder: &Path) -> Result<(), Failure> {
-    let (readings, found) = (&watched.readings, watched.snaps());
-    let text = |name: &str, text: String| data::write_atomically(&folder.join(name), text.as_bytes());
-    text("readings.csv", readings_csv(readings))?;
-    text("markers.csv", markers_csv(robot, readings))?;
-    text("snaps.csv", snaps_csv(&found))?;
-    let plots = [
-        ("history.png", history(robot, watched, &found)),
-        ("displacement.png", displacement(&robot.scenario.name, readings)),
-    ];
-    // Drawing the plots takes as long as all pictures.
+/// All of them, by name; further ones are made beside the pictures, which take as long.
+pub(super) fn files(
+    loaded: &Loaded,
+    run: &FeRun,
+    state: &Simulation,
+    further: Option<Further>,
+) -> Result<Vec<(String, Vec<u8>)>, FemError> {
     std::thread::scope(|scope| {
-        let draw = |(name, plot): (&'static str, Option<Lines>)| Some((name, lines(&plot?)));
-        let drawing = scope.spawn(move || plots.into_iter().filter_map(draw).collect::<Vec<_>>());
-        for (name, image) in pictures(robot, mesh, run)? {
-            picture::write_png(&folder.join(name), &image)?;
+        let making = further.map(|make| scope.spawn(move || make(loaded, run)));
+        let mut found = own(loaded, run, state)?;
+        if let Some(making) = making {
+            let made = making.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            found.extend(made.map_err(FemError::Problem)?);
         }
-        for (name, drawn) in drawing.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)) {
-            data::write_atomically(&folder.join(name), &drawn?.png)?;
-        }
-        Ok(())
+        Ok(found)
     })
 }
 
-/// Displacement of every station over the actuator's pressure; `None` for a single reading.
-fn displacement(name: &str, readings: &[Reading]) -> Option<Lines> {
-    let stations = &readings.first().filter(|_| readings.len() > 2)?.stations_m;
-    let series = |k: usize| LineSeries {
-        name: format!("{:.0} mm", stations[k] * MM),
-        points: readings.iter().map(|r| [r.actuator_pa * 1e-3, r.moved_m[k][1] * MM]).collect(),
-        half_width: Vec::new(),
-        style: LineStyle::LinePoints,
-        colour: None,
+fn own(loaded: &Loaded, run: &FeRun, state: &Simulation) -> Result<Vec<(String, Vec<u8>)>, FemError> {
+    let mesh = &loaded.case.problem.mesh;
+    let (mut found, pictures) = match (&loaded.robot, &run.summary.robot) {
+        (Some(robot), Some(read)) => {
+            let tables = [
+                ("readings.csv", readings_csv(&read.readings)),
+                ("markers.csv", markers_csv(robot, &read.readings)),
+                ("snaps.csv", snaps_csv(&read.snaps)),
+            ];
+            let tables = tables.map(|(name, text)| (name.to_string(), text.into_bytes())).to_vec();
+            (tables, pictures(robot, mesh, state)?)
+        }
+        _ if loaded.case.outputs.pictures => (Vec::new(), vec![end(loaded, state)?]),
+        _ => (Vec::new(), Vec::new()),
     };
-    Some(Lines {
-        title: format!("{name}: displacement towards the actuator, by distance from the base"),
-        x_label: "actuator pressure [kPa]".into(),
-        y_label: "displacement [mm]".into(),
-        series: (0..stations.len()).map(series).collect(),
-    })
+    found.extend(pictures.iter().map(|(name, image)| (name.to_string(), picture::png_bytes(image))));
+    Ok(found)
+}
+
+/// The end state of a case, coloured by von Mises stress.
+fn end(loaded: &Loaded, state: &Simulation) -> Result<(&'static str, Image), FemError> {
+    let problem = &loaded.case.problem;
+    let title = format!("{}, von Mises stress [MPa] at {:.4} s", problem.name, state.time_s());
+    let look = Look { view: loaded.case.outputs.view, title, ..Look::default() };
+    Ok(("picture.png", picture::render(&problem.mesh, &state.positions(), &stress_mpa(state), &look)?))
 }
 
 fn readings_csv(readings: &[Reading]) -> String {
@@ -65,13 +64,13 @@ fn readings_csv(readings: &[Reading]) -> String {
         };
         for ((station, moved), ring) in r.stations_m.iter().zip(&r.moved_m).zip(&r.ring_moved_m) {
             for (k, axis) in ["dx", "dy", "dz"].into_iter().enumerate() {
-                line(axis, robot::rounded(station * MM).to_string(), moved[k] * MM, "mm");
-                line(&format!("ring_{axis}"), robot::rounded(station * MM).to_string(), ring[k] * MM, "mm");
+                line(axis, rounded(station * MM).to_string(), moved[k] * MM, "mm");
+                line(&format!("ring_{axis}"), rounded(station * MM).to_string(), ring[k] * MM, "mm");
             }
         }
         for (station, moved) in r.stations_m.iter().zip(&r.seen_moved_m) {
             for (k, axis) in ["dx", "dy", "dz"].into_iter().enumerate() {
-                line(&format!("seen_{axis}"), robot::rounded(station * MM).to_string(), moved[k] * MM, "mm");
+                line(&format!("seen_{axis}"), rounded(station * MM).to_string(), moved[k] * MM, "mm");
             }
         }
         line("tip_turn", String::new(), r.tip_angle_rad.to_degrees(), "deg");
@@ -112,8 +111,8 @@ fn markers_csv(robot: &Robot, readings: &[Reading]) -> String {
         for (k, station) in robot.scenario.markers_m.iter().enumerate() {
             let Some(moved) = r.seen_moved_m.get(k) else { continue };
             let (x, y) = ((station + moved[0]) * MM, moved[1] * MM);
-            let (body, actuator) = (robot::rounded(r.body_pa * 1e-3), robot::rounded(r.actuator_pa * 1e-3));
-            let s = robot::rounded(station * MM);
+            let (body, actuator) = (rounded(r.body_pa * 1e-3), rounded(r.actuator_pa * 1e-3));
+            let s = rounded(station * MM);
             let _ = writeln!(out, "fem,{kind},{},{body},{actuator},{phase},{},{x},{y},{s}", r.time_s, k + 1);
         }
     }
@@ -128,41 +127,8 @@ fn snaps_csv(found: &[Snap]) -> String {
     out
 }
 
-/// Stored and kinetic energy over time with the buckling events.
-fn history(robot: &Robot, watched: &Watched, found: &[Snap]) -> Option<Lines> {
-    let samples = watched.watch.samples();
-    if samples.is_empty() {
-        return None;
-    }
-    let series = |name: &str, points: Vec<[f64; 2]>, style, colour| LineSeries {
-        name: name.into(),
-        points,
-        half_width: Vec::new(),
-        style,
-        colour: Some(colour),
-    };
-    let stored = samples.iter().map(|s| [s.time_s, s.stored_j * 1e3]).collect();
-    let kinetic = samples.iter().map(|s| [s.time_s, s.kinetic_j * 1e3]).collect();
-    let walls = samples.iter().map(|s| [s.time_s, s.walls_j * 1e3]).collect();
-    let marks: Vec<[f64; 2]> = found.iter().map(|s| [s.time_s, s.kinetic_j * 1e3]).collect();
-    let mut all = vec![
-        series("stored", stored, LineStyle::Line, 0),
-        series("kinetic", kinetic, LineStyle::Line, 1),
-        series("kinetic, walls", walls, LineStyle::Line, 2),
-    ];
-    if !marks.is_empty() {
-        all.push(series("buckling", marks, LineStyle::Points, 3));
-    }
-    Some(Lines {
-        title: format!("{}: energy over time", robot.scenario.name),
-        x_label: "time [s]".into(),
-        y_label: "energy [mJ]".into(),
-        series: all,
-    })
-}
-
 /// Side view, cross-section through the middle of a unit, and cut along the robot.
-fn pictures(robot: &Robot, mesh: &Mesh, run: &Simulation) -> Result<Vec<(&'static str, Image)>, Failure> {
+fn pictures(robot: &Robot, mesh: &Mesh, run: &Simulation) -> Result<Vec<(&'static str, Image)>, FemError> {
     let (stress_mpa, positions) = (stress_mpa(run), run.positions());
     let actuator = &robot.scenario.actuator;
     let unit = actuator.shape.length_m;
@@ -173,13 +139,8 @@ fn pictures(robot: &Robot, mesh: &Mesh, run: &Simulation) -> Result<Vec<(&'stati
     let end = Look { view: View::End, ..look(&format!("section that was at {:.0} mm", middle_m * MM)) };
     let section = picture::section(mesh, &positions, &stress_mpa, &across, &end)?;
     let cut = picture::section(mesh, &positions, &stress_mpa, &along, &look("middle plane"))?;
-    Ok(vec![("side.png", side_view(robot, mesh, run)?), ("section.png", section), ("cut.png", cut)])
-}
-
-/// The robot from the side.
-pub fn side_view(robot: &Robot, mesh: &Mesh, run: &Simulation) -> Result<Image, Failure> {
-    let stress_mpa = stress_mpa(run);
-    Ok(picture::render(mesh, &run.positions(), &stress_mpa, &look(robot, &robot.scenario.name, &stress_mpa))?)
+    let side = picture::render(mesh, &positions, &stress_mpa, &look(&robot.scenario.name))?;
+    Ok(vec![("side.png", side), ("section.png", section), ("cut.png", cut)])
 }
 
 fn stress_mpa(run: &Simulation) -> Vec<f64> {

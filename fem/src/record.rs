@@ -3,7 +3,7 @@
 //! Read in two goes: first shape and version, so that a record of another program is refused as that and not for the first
 //! key it lacks; then the rest, where a fault is told with its line and its path, `runs[3].states[0].tip_mm`.
 
-use data::{DataError, Fault};
+use crate::FemError;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::error::Category;
@@ -16,6 +16,31 @@ pub struct Shape {
     pub schema: &'static str,
     /// Goes up whenever a record of before can no longer be read as it was meant.
     pub version: u64,
+}
+
+/// What is wrong with a record, and where.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Damage {
+    /// The file.
+    pub file: String,
+    /// Line, counted from 1; `None` if the whole file is of another kind.
+    pub line: Option<u64>,
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub help: String,
+}
+
+impl Damage {
+    fn error(file: &str, line: Option<u64>, message: String, help: &str) -> FemError {
+        FemError::Record(Box::new(Damage { file: file.into(), line, message, help: help.into() }))
+    }
+
+    /// File, line and what is wrong.
+    pub(crate) fn place(&self) -> String {
+        let Damage { file, line, message, .. } = self;
+        line.map_or_else(|| format!("{file}: {message}"), |line| format!("{file}:{line}: {message}"))
+    }
 }
 
 #[derive(Serialize)]
@@ -49,20 +74,20 @@ impl Shape {
     /// Reads the record in `text`, the content of `file`; `help` says what to do if it cannot be.
     ///
     /// # Errors
-    /// [`DataError::Record`]: another shape or version, a file cut short, a key missing or of another type.
-    pub fn read<T: DeserializeOwned>(self, file: &str, text: &str, help: &str) -> Result<T, DataError> {
+    /// [`FemError::Record`]: another shape or version, a file cut short, a key missing or of another type.
+    pub fn read<T: DeserializeOwned>(self, file: &str, text: &str, help: &str) -> Result<T, FemError> {
         let Stamp { schema, version } = parse(file, text, help)?;
         let Shape { schema: wanted, version: known } = self;
         if (schema.as_str(), version) != (wanted, known) {
             let message =
                 format!("holds {schema}, version {version}, where this program reads {wanted}, version {known}");
-            return Err(DataError::Record(Box::new(Fault::of_file(file, message, help))));
+            return Err(Damage::error(file, None, message, help));
         }
         parse(file, text, help)
     }
 }
 
-fn parse<T: DeserializeOwned>(file: &str, text: &str, help: &str) -> Result<T, DataError> {
+fn parse<T: DeserializeOwned>(file: &str, text: &str, help: &str) -> Result<T, FemError> {
     let mut from = serde_json::Deserializer::from_str(text);
     let found = deserialize(&mut from).map_err(|fault| {
         let path = Some(fault.path().to_string()).filter(|path| path != "." && path != "?");
@@ -81,7 +106,7 @@ fn parse<T: DeserializeOwned>(file: &str, text: &str, help: &str) -> Result<T, D
             _ => fault.to_string().trim_end_matches(&end).replace('`', "\""),
         };
         let message = path.map_or(what.clone(), |path| format!("{path}: {what}"));
-        DataError::Record(Box::new(Fault::of_file(file, message, help).at_line(fault.line() as u64)))
+        Damage::error(file, Some(fault.line() as u64), message, help)
     })
 }
 
@@ -103,7 +128,7 @@ mod tests {
 
     fn refused(text: &str) -> String {
         let error = SHAPE.read::<Body>("R/a.json", text, "delete R").unwrap_err();
-        assert_eq!(error.help(), "delete R");
+        assert_eq!(error.help(), Some("delete R"));
         error.to_string()
     }
 

@@ -1,14 +1,10 @@
 //! Runs of the paper's own model, wherever below a folder they were made: by `ibr compare --paper` or by `ibr simulate`.
 
-use super::cache::{as_run, complete};
-use super::robot::rounded;
-use super::single::Finished;
-use super::summary::Summary;
-use crate::failure::Failure;
-use compare::study::engines::as_it_is;
-use compare::study::paper::{Kinetic, PaperRun, Peak};
-use compare::study::published::shipped_scenario;
-use fem::robot::Model;
+use super::{Kinetic, PaperRun, Peak};
+use crate::study::engines::{as_it_is, as_run, is_paper};
+use crate::study::published::shipped_scenario;
+use fem::FemError;
+use fem::session::{FeRun, Summary, finished_below, rounded};
 use std::path::Path;
 
 /// Keys of `[fem]` that leave the paper's modelling choices as they are: loads, sizes, supports, seeds.
@@ -17,29 +13,15 @@ const FREE: [&str; 7] = ["pressures_kpa", "separate", "mesh_mm", "body_mesh_mm",
 const DEPTH: usize = 3;
 
 /// All finished ones of the present engine.
-pub fn all(folder: &Path) -> Result<Vec<PaperRun>, Failure> {
-    let mut found = Vec::new();
-    below(folder, DEPTH, &mut found)?;
-    Ok(found)
-}
-
-fn below(folder: &Path, depth: usize, found: &mut Vec<PaperRun>) -> Result<(), Failure> {
-    found.extend(complete(folder)?.as_ref().and_then(paper_run));
-    if depth == 0 {
-        return Ok(());
-    }
-    let entries = std::fs::read_dir(folder).into_iter().flatten();
-    let mut folders = entries.filter_map(|entry| Some(entry.ok()?.path())).filter(|path| path.is_dir());
-    folders.try_for_each(|inner| below(&inner, depth - 1, found))
-}
-
-/// Whether a run is one of the paper's model, whatever else was set.
-pub fn is_paper(summary: &Summary) -> bool {
-    summary.robot.as_ref().is_some_and(|robot| robot.model == Model::Paper.name())
+///
+/// # Errors
+/// [`FemError::Record`] for one that is damaged.
+pub fn runs_below(folder: &Path) -> Result<Vec<PaperRun>, FemError> {
+    Ok(finished_below(folder, DEPTH)?.iter().filter_map(paper_run).collect())
 }
 
 /// A run of a robot of the paper at one pressure with nothing of the preset changed; `None` if it is another.
-fn paper_run(made: &Finished) -> Option<PaperRun> {
+fn paper_run(made: &FeRun) -> Option<PaperRun> {
     let Summary { robot, kinetic_share: shares, added_mass_share, .. } = &made.summary;
     let robot = robot.as_ref()?;
     let unchanged = robot.set.iter().all(|key| FREE.contains(&key.as_str()));

@@ -1,0 +1,154 @@
+//! Over which pressures and pouches the reduced model parts from the finite elements.
+
+use super::engines::{FeRun, Pair, SHAPE, pairs, varied};
+use crate::error::CompareError;
+use fem::FemError;
+use fem::session::{Job, Source, mesh_keys, rounded};
+use models::Scenario;
+use models::actuators::Family;
+use serde::Serialize;
+
+/// What is run of every robot.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Ranges {
+    /// Body pressures beside its own \[kPa\].
+    pub body_kpa: Vec<f64>,
+    /// Lengths of a pouch beside its own, at its own body pressure \[mm\].
+    pub pouch_mm: Vec<f64>,
+    /// Actuator pressures, of which those from the body's up are run \[kPa\].
+    pub actuator_kpa: Vec<f64>,
+    /// Element sizes of body and actuator, if not its own \[mm\].
+    pub mesh_mm: Option<[f64; 2]>,
+}
+
+/// Every robot at every body pressure, and with every pouch length at its own.
+///
+/// # Errors
+/// [`FemError::Setting`] for pouches longer than the actuator.
+pub fn jobs(robots: &[(Source, Scenario)], ranges: &Ranges) -> Result<Vec<Job>, FemError> {
+    let mut jobs = Vec::new();
+    for (source, scenario) in robots {
+        for (body_kpa, pouch_mm) in places(scenario, ranges) {
+            let above: Vec<f64> = ranges.actuator_kpa.iter().copied().filter(|p| *p >= body_kpa).collect();
+            let mut changes = vec![("pressures_kpa".to_string(), format!("{above:?}"))];
+            changes.extend(ranges.mesh_mm.iter().flat_map(mesh_keys));
+            let source = source.varied(body_kpa, pouch_mm)?.with(&changes)?;
+            jobs.push(Job { source, what: scenario.name.clone(), folder: None });
+        }
+    }
+    Ok(jobs)
+}
+
+fn places(scenario: &Scenario, ranges: &Ranges) -> Vec<(f64, Option<f64>)> {
+    let own = rounded(scenario.p_body_pa * 1e-3);
+    let bodies = ranges.body_kpa.iter().copied().filter(|p| *p != own);
+    let mut wanted: Vec<(f64, Option<f64>)> = std::iter::once(own).chain(bodies).map(|p| (p, None)).collect();
+    // An actuator of one piece has no pouches to divide.
+    if scenario.actuator.kind.family == Family::Pouch {
+        let other = |mm: &&f64| (**mm * 1e-3 - scenario.actuator.shape.length_m).abs() > 1e-9;
+        wanted.extend(ranges.pouch_mm.iter().filter(other).map(|mm| (own, Some(*mm))));
+    }
+    wanted
+}
+
+/// One run at one pressure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parting {
+    /// The run.
+    pub run: FeRun,
+    /// The scenario without its effects.
+    pub bare: Pair,
+    /// The scenario as it is.
+    pub own: Pair,
+}
+
+/// Every run of one of these robots at every pressure.
+///
+/// # Errors
+/// A model without equilibrium.
+pub fn partings(scenarios: &[Scenario], runs: &[FeRun]) -> Result<Vec<Parting>, CompareError> {
+    let mut rows = Vec::new();
+    for run in runs {
+        let Some(scenario) = scenarios.iter().find(|s| s.name == run.scenario) else { continue };
+        let scenario = varied(scenario, run);
+        let bare = pairs(&scenario.bare(), run)?;
+        let both = pairs(&scenario, run)?.into_iter().zip(bare);
+        rows.extend(both.map(|(own, bare)| Parting { run: run.clone(), bare, own }));
+    }
+    Ok(rows)
+}
+
+/// `breakdown.csv`.
+pub fn csv(rows: &[Parting]) -> String {
+    let mut out = String::from(
+        "robot,mesh_mm,p_body_kpa,pouch_mm,p_act_kpa,reduced_tip_mm,fe_tip_mm,difference_pct,carried_by,bare_tip_mm\n",
+    );
+    for cell in rows.iter().map(PartingCell::of) {
+        let difference = cell.difference.map_or(String::new(), |d| (100.0 * d).to_string());
+        let PartingCell { robot, mesh_mm, body_kpa, pouch_mm, actuator_kpa, reduced_tip_mm, fe_tip_mm, .. } = cell;
+        let (carrier, bare) = (cell.carried_by.unwrap_or_default(), cell.bare_tip_mm);
+        out.push_str(&format!("{robot},{mesh_mm},{body_kpa},{pouch_mm},{actuator_kpa},"));
+        out.push_str(&format!("{reduced_tip_mm},{fe_tip_mm},{difference},{carrier},{bare}\n"));
+    }
+    out
+}
+
+/// A [`Parting`] as it is told.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PartingCell<'a> {
+    /// Actuator kind.
+    pub robot: &'a str,
+    /// Element size at the actuator \[mm\].
+    pub mesh_mm: f64,
+    /// Body gauge pressure \[kPa\].
+    pub body_kpa: f64,
+    /// Length of a pouch \[mm\].
+    pub pouch_mm: f64,
+    /// Actuator gauge pressure \[kPa\].
+    pub actuator_kpa: f64,
+    /// Tip of the scenario as it is \[mm\].
+    pub reduced_tip_mm: f64,
+    /// Tip of the finite elements \[mm\].
+    pub fe_tip_mm: f64,
+    /// Reduced minus finite elements over the latter.
+    pub difference: Option<f64>,
+    /// The term that carries it.
+    pub carried_by: Option<&'static str>,
+    /// Excess of every term \[mJ\].
+    pub excess_mj: Option<[f64; 6]>,
+    /// Tip of the scenario without its effects \[mm\].
+    pub bare_tip_mm: f64,
+    /// Its difference.
+    pub bare_difference: Option<f64>,
+    /// Inflated shape in both.
+    pub shape: Option<PartingShape>,
+}
+
+/// Inflated pouches and body in both engines, in [`SHAPE`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PartingShape {
+    names: [&'static str; 5],
+    reduced: [f64; 5],
+    fe: [f64; 5],
+}
+
+impl PartingCell<'_> {
+    /// Of a parting.
+    pub fn of(Parting { run, bare, own }: &Parting) -> PartingCell<'_> {
+        PartingCell {
+            robot: &run.actuator,
+            mesh_mm: run.mesh_mm[1],
+            body_kpa: run.body_kpa,
+            pouch_mm: run.pouch_mm,
+            actuator_kpa: own.actuator_kpa,
+            reduced_tip_mm: own.reduced_mm[1],
+            fe_tip_mm: own.fe_mm[1],
+            difference: own.difference(),
+            carried_by: own.carrier(),
+            excess_mj: own.excess_mj,
+            bare_tip_mm: bare.reduced_mm[1],
+            bare_difference: bare.difference(),
+            shape: own.shape.map(|[reduced, fe]| PartingShape { names: SHAPE, reduced, fe }),
+        }
+    }
+}

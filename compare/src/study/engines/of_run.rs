@@ -1,0 +1,125 @@
+//! A finite element run as a comparison wants it, and the runs of a folder or of the program.
+
+use super::{FeRun, FeState, stored};
+use fem::FemError;
+use fem::robot::{Model, Reading};
+use fem::session::{Job, Many, Progress, Settings, Source, Summary, finished_below, heights_mm, rounded, simulate_all};
+use models::Scenario;
+use std::path::Path;
+
+/// A run as the comparison wants it; `None` if it is not one of a robot.
+pub fn as_run(run: &fem::session::FeRun) -> Option<FeRun> {
+    let summary = &run.summary;
+    let about = summary.robot.as_ref().filter(|robot| !robot.readings.is_empty())?;
+    Some(FeRun {
+        actuator: about.actuator.clone(),
+        scenario: summary.name.clone(),
+        mesh_mm: [about.setting("body_mesh_mm"), about.setting("actuator_mesh_mm")],
+        elements: summary.elements as u64,
+        steps: summary.steps,
+        cpu_s: rounded(run.cost.cpu_s_of_all_sessions),
+        engine: summary.engine.into(),
+        body_kpa: rounded(about.body_pa * 1e-3),
+        radius_mm: rounded(about.radius_m * 1e3),
+        width_mm: rounded(about.width_m * 1e3),
+        pouch_mm: rounded(about.pouch_m * 1e3),
+        count: about.count,
+        seed: about.setting("seed") as u64,
+        stations_mm: about.readings[0].stations_m.iter().rev().skip(1).rev().map(|s| rounded(s * 1e3)).collect(),
+        known: "assumed".into(),
+        states: about.readings.iter().map(state).collect(),
+    })
+}
+
+fn state(r: &Reading) -> FeState {
+    let [marker_mm, tip_mm] = heights_mm(r);
+    let stored = |name: &str| r.ledger.iter().filter(|l| l.0 == name).map(|l| l.2 * 1e3).sum::<f64>();
+    let lost = r.ledger.iter().filter(|l| l.1 == "dissipated").map(|l| l.2 * 1e3).sum::<f64>();
+    let short = |v: f64| format!("{v:.6e}").parse().unwrap_or(v);
+    let plane = |d: &[f64; 3]| [short(d[0] * 1e3), short(d[1] * 1e3)];
+    let bending = stored("bending") + stored("folds");
+    let energies_mj = [stored("membrane"), bending, stored("contact"), stored("hourglass"), lost].map(short);
+    FeState {
+        actuator_kpa: short(r.actuator_pa * 1e-3),
+        marker_mm: short(marker_mm),
+        tip_mm: short(tip_mm),
+        turn_rad: short(r.tip_angle_rad),
+        body_cm3: short(r.body_m3 * 1e6),
+        actuator_cm3: short(r.actuator_m3 * 1e6),
+        energies_mj,
+        kinetic_share: short(r.kinetic_share),
+        von_mises_mpa: short(r.von_mises_pa * 1e-6),
+        weld_n_per_m: short(r.seam_n_per_m),
+        base_n: r.base_n.map(short),
+        base_nm: r.base_nm.map(short),
+        inflated_mm: r.inflated.map(|i| [i.arm_m, i.width_m, i.height_m].map(|m| short(m * 1e3))),
+        // The last station is the tip.
+        moved_mm: r.moved_m.iter().rev().skip(1).rev().map(plane).collect(),
+        seen_mm: r.seen_moved_m.iter().map(plane).collect(),
+    }
+}
+
+/// Whether a run is one of the paper's model, whatever else was set.
+pub(in crate::study) fn is_paper(summary: &Summary) -> bool {
+    summary.robot.as_ref().is_some_and(|robot| robot.model == Model::Paper.name())
+}
+
+/// Every robot with every seed, at its own pressures or at these \[kPa\].
+///
+/// # Errors
+/// [`FemError::Setting`] for a scenario whose `[fem]` cannot be changed.
+pub fn seed_jobs(
+    robots: &[(Source, Scenario)],
+    seeds: u64,
+    pressures_kpa: Option<&[f64]>,
+) -> Result<Vec<Job>, FemError> {
+    let mut jobs = Vec::new();
+    for (source, scenario) in robots {
+        for seed in 1..=seeds {
+            let mut changes = vec![("seed".to_string(), seed.to_string())];
+            changes.extend(pressures_kpa.map(|kpa| ("pressures_kpa".to_string(), format!("{kpa:?}"))));
+            let what = format!("{}, seed {seed}", scenario.name);
+            jobs.push(Job { source: source.with(&changes)?, what, folder: None });
+        }
+    }
+    Ok(jobs)
+}
+
+/// Runs of robots, each problem once: read if they are there, made or gone on with if not. A run that a guard stopped is its
+/// error.
+///
+/// # Errors
+/// Those of [`simulate_all`].
+pub fn runs_of(
+    jobs: &[Job],
+    settings: &Settings,
+    progress: Progress,
+) -> Result<Vec<Result<FeRun, FemError>>, FemError> {
+    let Many { runs, .. } = simulate_all(jobs, settings, progress)?;
+    Ok(runs.into_iter().filter_map(|run| run.map(|run| as_run(&run)).transpose()).collect())
+}
+
+/// All complete runs of robots in a folder, by name; those of the paper's own model are compared elsewhere.
+///
+/// # Errors
+/// [`FemError::Record`] for one that is damaged.
+pub fn all_runs(folder: &Path) -> Result<Vec<FeRun>, FemError> {
+    let found = finished_below(folder, 1)?;
+    Ok(found.iter().filter(|run| !is_paper(&run.summary)).filter_map(as_run).collect())
+}
+
+/// Runs that come with the program, or those of a folder if one is named.
+///
+/// # Errors
+/// [`FemError::Setting`] for a folder without any; else as [`all_runs`].
+pub fn known_runs(folder: Option<&Path>) -> Result<Vec<FeRun>, FemError> {
+    let Some(folder) = folder else { return stored() };
+    let found = all_runs(folder)?;
+    if found.is_empty() {
+        let shown = folder.display();
+        let message = format!("{shown}: no finished finite element run of a robot");
+        let help = format!("make them with: ibr compare --engines SCENARIO --runs {shown}");
+        return Err(FemError::Setting { message, help });
+    }
+    Ok(found)
+}

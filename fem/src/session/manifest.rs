@@ -1,0 +1,65 @@
+//! `manifest.json`: what made the files of a folder, from what, where and when.
+
+use super::summary::Cost;
+use crate::record::Shape;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+/// Of a manifest.
+pub const MANIFEST: Shape = Shape { schema: "ibr.manifest", version: 1 };
+
+/// A file, as a manifest names it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileHash {
+    /// File, or name of what comes with the program.
+    pub name: String,
+    /// SHA-256 of its bytes.
+    pub sha256: String,
+}
+
+impl FileHash {
+    /// A file with known contents.
+    pub fn of(name: &str, bytes: &[u8]) -> FileHash {
+        FileHash { name: name.to_string(), sha256: sha256(bytes) }
+    }
+}
+
+/// SHA-256 in hex.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
+}
+
+/// Who makes files.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Maker {
+    /// Program and version.
+    pub program: String,
+    /// Today, UTC.
+    pub date: String,
+    /// Processor and number of cores.
+    pub machine: String,
+    /// What was typed.
+    pub command: String,
+}
+
+/// `manifest.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// Who made the files.
+    #[serde(flatten)]
+    pub maker: Maker,
+    /// What they were made of.
+    pub inputs: Vec<FileHash>,
+    /// The files.
+    pub outputs: Vec<FileHash>,
+    /// What a finite element run took.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cost: Option<Cost>,
+}
+
+impl Manifest {
+    /// The file's text.
+    pub fn text(&self) -> String {
+        format!("{:#}\n", MANIFEST.stamped(self))
+    }
+}

@@ -1,0 +1,149 @@
+//! Several runs beside each other, each in a folder of its own below one: by name, or by the hash of problem and engine, so that
+//! asking twice costs nothing. A finished one is kept, an interrupted one goes on.
+
+use super::together::{shared, together};
+use super::{FeRun, Loaded, Progress, Settings, Source, folder, simulate};
+use crate::FemError;
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+
+/// A run to be made.
+#[derive(Debug, Clone)]
+pub struct Job {
+    /// What is simulated.
+    pub source: Source,
+    /// What to call it while it runs.
+    pub what: String,
+    /// Name of its folder. `None`: by the hash of problem and engine; a finished run of this problem is then taken whatever
+    /// text described it, and one of another text goes.
+    pub folder: Option<String>,
+}
+
+/// Several runs.
+#[derive(Debug)]
+pub struct Many {
+    /// Each problem once, in the order of the first jobs: the run, or the error of the guard that stopped it.
+    pub runs: Vec<Result<FeRun, FemError>>,
+    /// Which of them each job has.
+    pub of: Vec<usize>,
+}
+
+/// Runs what is not there yet, below [`Settings::folder`] and those first that will take longest.
+///
+/// # Errors
+/// [`FemError::Refused`] and [`FemError::Folder`] before the first run costs time; [`FemError::Interrupted`].
+pub fn simulate_all(jobs: &[Job], settings: &Settings, progress: Progress) -> Result<Many, FemError> {
+    let root = settings.folder.clone().unwrap_or_default();
+    if jobs.iter().any(|job| job.folder.is_some()) && root.join("case.toml").exists() {
+        let help = "choose another folder with --out; several runs get a folder each inside it".into();
+        return Err(FemError::Folder { path: root, cause: "it holds a single run".into(), help });
+    }
+    let mut tasks: Vec<Task> = Vec::new();
+    let mut of = Vec::new();
+    for (at, job) in jobs.iter().enumerate() {
+        let loaded = job.source.load()?;
+        let fingerprint = loaded.case.problem.fingerprint();
+        let known = tasks.iter().position(|task| task.fingerprint == fingerprint);
+        of.push(known.unwrap_or(tasks.len()));
+        if known.is_none() {
+            tasks.push(Task::of(at, job, &loaded, &root));
+        }
+    }
+    if !settings.force {
+        tasks.iter().filter(|task| jobs[task.at].folder.is_some()).try_for_each(|task| task.check(jobs))?;
+    }
+    let mut order: Vec<usize> = (0..tasks.len()).collect();
+    order.sort_by(|a, b| tasks[*b].effort.total_cmp(&tasks[*a].effort));
+    let (workers, threads) = shared(settings.threads, tasks.len());
+    let each = Settings { threads, ..settings.clone() };
+    let found =
+        together(tasks.len(), workers, progress, &|k, tell: Progress| match tasks[order[k]].run(jobs, &each, tell) {
+            Err(stopped) if stopped.is_stop() => Ok(Err(stopped)),
+            other => other.map(Ok),
+        })?;
+    let mut runs: Vec<(usize, Result<FeRun, FemError>)> = order.into_iter().zip(found).collect();
+    runs.sort_by_key(|run| run.0);
+    Ok(Many { runs: runs.into_iter().map(|run| run.1).collect(), of })
+}
+
+/// What a step with contact costs, in steps without.
+const CONTACT: f64 = 2.5;
+
+/// A problem to be run.
+struct Task {
+    /// Its first job.
+    at: usize,
+    fingerprint: u64,
+    /// Grows with the time it will take.
+    effort: f64,
+    folder: PathBuf,
+}
+
+impl Task {
+    fn of(at: usize, job: &Job, loaded: &Loaded, root: &Path) -> Task {
+        let problem = &loaded.case.problem;
+        let contact = if problem.contact.is_some() { CONTACT } else { 1.0 };
+        // Smaller elements need more steps as well.
+        let effort = contact * problem.settings.end_s * (problem.mesh.elements() as f64).powf(1.5);
+        let fingerprint = problem.fingerprint();
+        let kind = loaded.robot.as_ref().map_or("case", |r| r.scenario.actuator.kind.name);
+        let by_hash = || format!("{kind}-{fingerprint:016x}-{}", crate::ENGINE);
+        let folder = root.join(job.folder.clone().unwrap_or_else(by_hash));
+        Task { at, fingerprint, effort, folder }
+    }
+
+    /// Refuses a folder with a run of another case.
+    fn check(&self, jobs: &[Job]) -> Result<(), FemError> {
+        if folder::is_of(&self.folder, &jobs[self.at].source.text)? != Some(false) {
+            return Ok(());
+        }
+        let cause = "it holds a run of another case, or the case has changed".into();
+        let help = "choose another folder with --out, or add --force to run it again".into();
+        Err(FemError::Folder { path: self.folder.clone(), cause, help })
+    }
+
+    fn run(&self, jobs: &[Job], settings: &Settings, tell: Progress) -> Result<FeRun, FemError> {
+        let job = &jobs[self.at];
+        if job.folder.is_none()
+            && let Some(run) = finished(&self.folder)?
+        {
+            return Ok(run);
+        }
+        let other = folder::is_of(&self.folder, &job.source.text)? == Some(false);
+        let settings = Settings { folder: Some(self.folder.clone()), resume: !other, force: other, ..settings.clone() };
+        let what = format!("{} of {}, {}", self.at + 1, jobs.len(), job.what);
+        simulate(&job.source, &settings, &mut |text, share| tell(&format!("{what}: {text}"), share))
+    }
+}
+
+/// The complete run in a folder, if it is one of the present engine.
+fn finished(folder: &Path) -> Result<Option<FeRun>, FemError> {
+    #[derive(Deserialize)]
+    struct Made {
+        engine: u32,
+    }
+    let text = std::fs::read(folder.join("summary.json")).unwrap_or_default();
+    // Runs of other engines may be records of another shape, and are nobody's fault.
+    let of_another = serde_json::from_slice(&text).is_ok_and(|Made { engine }| engine != crate::ENGINE);
+    if of_another || !folder::is_finished(folder) {
+        return Ok(None);
+    }
+    FeRun::read(folder).map(Some)
+}
+
+/// All complete runs of the present engine in a folder and in those below it down to `depth`, by name.
+///
+/// # Errors
+/// [`FemError::Record`] for one that is damaged.
+pub fn finished_below(folder: &Path, depth: usize) -> Result<Vec<FeRun>, FemError> {
+    let mut found: Vec<FeRun> = finished(folder)?.into_iter().collect();
+    if depth > 0 {
+        let entries = std::fs::read_dir(folder).into_iter().flatten();
+        let mut folders: Vec<PathBuf> = entries.filter_map(|e| Some(e.ok()?.path())).filter(|p| p.is_dir()).collect();
+        folders.sort();
+        for inner in folders {
+            found.extend(finished_below(&inner, depth - 1)?);
+        }
+    }
+    Ok(found)
+}

@@ -1,0 +1,309 @@
+//! A finite element run from its text to its result: the same for a program, a library and a browser.
+//!
+//! ```no_run
+//! use fem::session::{Settings, Source, simulate};
+//! use std::ops::ControlFlow;
+//!
+//! let robot = Source::new("epam", models::shipped("epam").unwrap());
+//! let settings = Settings { folder: Some("epam-run".into()), resume: true, ..Settings::default() };
+//! let run = simulate(&robot, &settings, &mut |what, _share| {
+//!     println!("{what}");
+//!     ControlFlow::Continue(())
+//! })?;
+//! for reading in run.readings() {
+//!     println!("{} Pa: tip at {:?}", reading.actuator_pa, reading.moved_m.last());
+//! }
+//! # Ok::<(), fem::FemError>(())
+//! ```
+//!
+//! | file | holds |
+//! |---|---|
+//! | `source` | the text of a case or a robot's scenario, and what it describes |
+//! | `stepping` | rows, frames and checkpoints as a run goes |
+//! | `watch`, `robot_files` | what is read of a robot, its tables and pictures |
+//! | `folder`, `exchange` | who may write to a run's folder, and how a new run takes the place of an older one |
+//! | `summary` | the records `summary.json` and the cost of a run |
+//! | `plan`, `many`, `table` | runs that differ in seed, pressure, mesh or assumed numbers; several beside each other; the cache by hash; what they gave |
+//!
+//! A run in a folder is marked as unfinished until its last file is written; killed at any moment it can go on with
+//! [`Settings::resume`], and ends with the same bits.
+
+mod exchange;
+mod folder;
+mod manifest;
+mod many;
+mod plan;
+mod robot_files;
+mod source;
+mod stepping;
+mod summary;
+mod table;
+mod together;
+mod watch;
+
+pub use manifest::{FileHash, MANIFEST, Maker, Manifest, sha256};
+pub use many::{Job, Many, finished_below, simulate_all};
+pub use plan::{Changes, Cube, Felt, Variation, cube, mesh_keys, product};
+pub use source::{Loaded, Source};
+pub use summary::{
+    ChamberEnd, Cost, EnergyLine, FirstThrough, KineticShares, MeshQuality, ProbeEnd, ReactionEnd, Rule, SUMMARY,
+    Summary, Through,
+};
+pub use table::{Heights, RunRow, RunTable, SeedGroup};
+pub use watch::{Robot, RobotSummary};
+
+use crate::robot::{Reading, Sample};
+use crate::{FemError, Simulation};
+use folder::{Marker, Opened, Wish, Workplace};
+use serde::Deserialize;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+use stepping::Running;
+
+/// Told what is being done and, if known, which share of the whole is done, some times a second; says whether to go on.
+pub type Progress<'a> = &'a mut (dyn FnMut(&str, Option<f64>) -> ControlFlow<()> + Send);
+
+/// Further files of a complete run, by name, made before it is marked as complete: plots.
+pub type Further = fn(&Loaded, &FeRun) -> Result<Vec<(String, Vec<u8>)>, String>;
+
+/// How a run is made.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    /// Folder of the run. `None`: nothing is written, files of the end are in [`FeRun::files`], and energies are judged at the
+    /// start, at the holds and at the end.
+    pub folder: Option<PathBuf>,
+    /// Go on with an interrupted run.
+    pub resume: bool,
+    /// Replace a run.
+    pub force: bool,
+    /// Write frames, if the case wants them.
+    pub frames: bool,
+    /// Simulated time, if not the case's \[s\].
+    pub end_s: Option<f64>,
+    /// Threads; 0: one per core. Results do not depend on it.
+    pub threads: usize,
+    /// Real time between checkpoints; more where they would take over a fiftieth of it.
+    pub checkpoint_every: Duration,
+    /// Makes further files.
+    pub further: Option<Further>,
+    /// For the manifest.
+    pub maker: Maker,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            folder: None,
+            resume: false,
+            force: false,
+            frames: true,
+            end_s: None,
+            threads: 0,
+            checkpoint_every: Duration::from_secs(30),
+            further: None,
+            maker: Maker { program: concat!("ibr-fem ", env!("CARGO_PKG_VERSION")).into(), ..Maker::default() },
+        }
+    }
+}
+
+/// A complete run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FeRun {
+    /// The physics, `summary.json`.
+    pub summary: Summary,
+    /// What it took.
+    pub cost: Cost,
+    /// Its folder.
+    pub folder: Option<PathBuf>,
+    /// False if it was complete before, and nothing was done.
+    pub fresh: bool,
+    /// What to know about how it was made.
+    pub notices: Vec<String>,
+    /// Energies of a robot every few dozen steps; empty for a run that was complete before.
+    pub energies: Vec<Sample>,
+    /// Files of the end by name, where there is no folder.
+    pub files: Vec<(String, Vec<u8>)>,
+}
+
+impl FeRun {
+    /// The complete run in a folder.
+    ///
+    /// # Errors
+    /// [`FemError::Folder`] if it cannot be read, [`FemError::Record`] with the place if it is damaged.
+    pub fn read(folder: &Path) -> Result<FeRun, FemError> {
+        #[derive(Deserialize)]
+        struct Made {
+            cost: Cost,
+        }
+        let text = |name: &str| {
+            let path = folder.join(name);
+            let text = std::fs::read_to_string(&path).map_err(|cause| folder::unwritable(&path, &cause))?;
+            Ok::<_, FemError>((path.display().to_string(), text))
+        };
+        let help =
+            format!("delete {} and give the command again: that run is made anew, others are kept", folder.display());
+        let (file, summary) = text("summary.json")?;
+        let summary = SUMMARY.read(&file, &summary, &help)?;
+        let (file, manifest) = text("manifest.json")?;
+        let cost = MANIFEST.read::<Made>(&file, &manifest, &help)?.cost;
+        let (notices, energies, files) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(FeRun { summary, cost, folder: Some(folder.into()), fresh: false, notices, energies, files })
+    }
+
+    /// A robot with its markers at every hold, by time; empty for other cases.
+    pub fn readings(&self) -> &[Reading] {
+        self.summary.robot.as_ref().map_or(&[], |robot| &robot.readings)
+    }
+
+    /// The deformed meshes of the outputs in its folder, by time; `run.pvd` there says when each is.
+    pub fn frames(&self) -> Vec<PathBuf> {
+        let entries = self.folder.iter().filter_map(|folder| std::fs::read_dir(folder.join("frames")).ok()).flatten();
+        let mut found: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+        found.sort();
+        found
+    }
+}
+
+/// Runs it, from its start or its last checkpoint to its summary.
+///
+/// # Errors
+/// [`FemError::Refused`] for a text that describes no sound problem, before a folder is touched; [`FemError::Folder`] for a
+/// folder that holds something else; [`FemError::StoppedIn`] by a guard; [`FemError::Interrupted`] if `progress` asked to
+/// end: a checkpoint is written then.
+pub fn simulate(source: &Source, settings: &Settings, progress: Progress) -> Result<FeRun, FemError> {
+    run(source.load()?, settings, progress)
+}
+
+fn run(mut loaded: Loaded, settings: &Settings, progress: Progress) -> Result<FeRun, FemError> {
+    let started = Instant::now();
+    let numerics = &mut loaded.case.problem.settings;
+    numerics.end_s = settings.end_s.unwrap_or(numerics.end_s);
+    numerics.threads = settings.threads;
+    loaded.case.outputs.frames &= settings.frames;
+    let fresh = Simulation::new(&loaded.case.problem).map_err(|error| loaded.source.refused(error))?;
+    let Some(folder) = &settings.folder else { return in_memory(&mut loaded, fresh, settings, started, progress) };
+    let text = loaded.source.text.clone();
+    let place = match folder::open(&Wish { folder, text: &text, resume: settings.resume, force: settings.force })? {
+        Opened::Complete => return FeRun::read(folder),
+        Opened::Work(place) => place,
+    };
+    let marker = same_run(&place, &loaded, settings)?;
+    loaded.case.problem.settings.end_s = marker.end_s;
+    loaded.case.outputs.frames = marker.frames;
+    let robot = loaded.robot.as_ref().map(|robot| robot.watch(&loaded.case.problem));
+    let mut running = match &place.interrupted {
+        Some(_) => {
+            place.keep_case(&text)?;
+            Running::resume(&loaded.case, fresh, &place.folder, robot)?
+        }
+        None => {
+            place.start(&marker, &text)?;
+            Running::start(&loaded.case, fresh, Some(&place.folder), robot)?
+        }
+    };
+    running.step_on(settings.checkpoint_every, progress).map_err(|error| stopped(error, &place))?;
+    finish(&loaded, running, Some(place), settings, started, progress)
+}
+
+/// Holds are read as in a folder; energies are told at the start and at the end.
+fn in_memory(
+    loaded: &mut Loaded,
+    fresh: Simulation,
+    settings: &Settings,
+    started: Instant,
+    progress: Progress,
+) -> Result<FeRun, FemError> {
+    loaded.case.problem.settings.output_every_s = loaded.case.problem.settings.end_s;
+    let robot = loaded.robot.as_ref().map(|robot| robot.watch(&loaded.case.problem));
+    let mut running = Running::start(&loaded.case, fresh, None, robot)?;
+    running.step_on(settings.checkpoint_every, progress)?;
+    finish(loaded, running, None, settings, started, progress)
+}
+
+/// The run that was asked for, or the interrupted one if the settings agree with it.
+fn same_run(place: &Workplace, loaded: &Loaded, settings: &Settings) -> Result<Marker, FemError> {
+    let asked = Marker {
+        case_sha256: sha256(loaded.source.text.as_bytes()),
+        end_s: loaded.case.problem.settings.end_s,
+        frames: loaded.case.outputs.frames,
+    };
+    let Some(begun) = &place.interrupted else { return Ok(asked) };
+    if settings.end_s.is_some() && asked.end_s != begun.end_s {
+        let message = format!("the interrupted run ends at {} s, not at {} s", begun.end_s, asked.end_s);
+        return Err(FemError::setting(message, "leave --end out, or start again with --force"));
+    }
+    if !settings.frames && begun.frames {
+        let message = "the interrupted run writes frames";
+        return Err(FemError::setting(message, "leave --no-frames out, or start again with --force"));
+    }
+    Ok(begun.clone())
+}
+
+/// A run that was stopped keeps what it has written.
+fn stopped(error: FemError, place: &Workplace) -> FemError {
+    let folder = place.folder.display();
+    let help = format!("what was written until then is in {folder}; change the case and run it again with --force");
+    if error.is_stop() { FemError::StoppedIn { error: Box::new(error), help } } else { error }
+}
+
+/// Makes summary and pictures, writes them with the manifest, and puts the run where it belongs.
+fn finish(
+    loaded: &Loaded,
+    running: Running,
+    place: Option<Workplace>,
+    settings: &Settings,
+    started: Instant,
+    progress: Progress,
+) -> Result<FeRun, FemError> {
+    // What is nearly complete is not worth an interrupt.
+    let _ = progress("writing the summary", Some(1.0));
+    let mut run = FeRun {
+        summary: Summary::of(&loaded.case, &running, loaded.robot.as_ref()),
+        cost: Cost::of(&loaded.case, &running, started.elapsed()),
+        folder: None,
+        fresh: true,
+        notices: running.notices.clone(),
+        energies: running.robot.as_ref().map_or(Vec::new(), |seen| seen.watch.samples().to_vec()),
+        files: Vec::new(),
+    };
+    let mut files = vec![("summary.json".to_string(), format!("{:#}\n", SUMMARY.stamped(&run.summary)).into_bytes())];
+    files.extend(robot_files::files(loaded, &run, &running.run, settings.further)?);
+    match place {
+        Some(place) => complete(loaded, &mut run, files, place, settings)?,
+        None => run.files = files,
+    }
+    run.notices.extend(loaded.robot.as_ref().and_then(Robot::left_out));
+    Ok(run)
+}
+
+/// Writes the last files of a run.
+fn complete(
+    loaded: &Loaded,
+    run: &mut FeRun,
+    files: Vec<(String, Vec<u8>)>,
+    place: Workplace,
+    settings: &Settings,
+) -> Result<(), FemError> {
+    files.iter().try_for_each(|(name, bytes)| folder::write(&place.folder.join(name), bytes))?;
+    let manifest = Manifest {
+        maker: settings.maker.clone(),
+        inputs: vec![FileHash::of(&loaded.source.name, loaded.source.text.as_bytes())],
+        outputs: place.files()?.iter().map(|(name, bytes)| FileHash::of(name, bytes)).collect(),
+        cost: Some(run.cost.clone()),
+    };
+    run.folder = Some(place.target().to_path_buf());
+    run.notices.extend(place.complete(&manifest)?);
+    Ok(())
+}
+
+/// Without the digits that a change of unit leaves behind.
+pub fn rounded(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
+}
+
+/// Height of the outermost marker and of the tip of a reading \[mm\].
+pub fn heights_mm(reading: &Reading) -> [f64; 2] {
+    let y = |from_end: usize| reading.moved_m.iter().rev().nth(from_end).map_or(f64::NAN, |d| d[1] * 1e3);
+    [y(1), y(0)]
+}

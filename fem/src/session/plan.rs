@@ -1,0 +1,135 @@
+//! Runs of one robot that differ in mesh, seed, pressure, or in the numbers that nobody measured.
+
+use super::{Source, rounded};
+use crate::FemError;
+use crate::robot::{ASSUMED, Assumed, KEYS, Key, RobotRun, RobotSettings, hypercube};
+
+/// Keys of `[fem]` and their values as in TOML.
+pub type Changes = Vec<(String, String)>;
+
+/// One run of several.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Variation {
+    /// Name of its folder.
+    pub label: String,
+    /// Keys of `[fem]` that differ from the scenario with the common options.
+    pub changes: Changes,
+    /// Group of runs that differ in seed or in single pressures only.
+    pub group: String,
+}
+
+/// Element sizes of body and actuator \[mm\] as keys of `[fem]`.
+pub fn mesh_keys([body_mm, actuator_mm]: &[f64; 2]) -> [(String, String); 2] {
+    [("body_mesh_mm".into(), body_mm.to_string()), ("actuator_mesh_mm".into(), actuator_mm.to_string())]
+}
+
+/// Every mesh \[mm\] with every seed at every pressure of `run`, if these are `separate` runs.
+pub fn product(run: &RobotRun, seeds: Option<u64>, separate: bool, meshes: &[[f64; 2]]) -> Vec<Variation> {
+    let mut cases = vec![Variation::default()];
+    if meshes.len() > 1 {
+        let label = |[body, actuator]: &[f64; 2]| match body == actuator {
+            true => format!("mesh-{actuator}mm"),
+            false => format!("mesh-{body}-{actuator}mm"),
+        };
+        let of = |mm: &[f64; 2]| (label(mm), mesh_keys(mm).to_vec(), true);
+        cases = extended(&cases, &meshes.iter().map(of).collect::<Vec<_>>());
+    }
+    if let Some(count) = seeds {
+        let of = |seed: u64| (format!("seed-{seed}"), vec![("seed".into(), seed.to_string())], false);
+        cases = extended(&cases, &(1..=count).map(of).collect::<Vec<_>>());
+    }
+    if separate {
+        let of = |pa: &f64| {
+            let kpa = rounded(pa * 1e-3);
+            (format!("{kpa}kPa"), vec![("pressures_kpa".into(), format!("[{kpa}]"))], false)
+        };
+        cases = extended(&cases, &run.pressures_pa.iter().map(of).collect::<Vec<_>>());
+    }
+    cases
+}
+
+/// Label, keys of `[fem]`, and whether means are taken apart for it.
+type Way = (String, Changes, bool);
+
+fn extended(cases: &[Variation], ways: &[Way]) -> Vec<Variation> {
+    let joined = |a: &str, b: &str| if a.is_empty() { b.to_string() } else { format!("{a}-{b}") };
+    let with = |case: &Variation, (label, keys, grouping): &Way| Variation {
+        label: joined(&case.label, label),
+        changes: case.changes.iter().chain(keys).cloned().collect(),
+        group: if *grouping { joined(&case.group, label) } else { case.group.clone() },
+    };
+    cases.iter().flat_map(|case| ways.iter().map(|way| with(case, way)).collect::<Vec<_>>()).collect()
+}
+
+/// Seed of the hypercube: the robots of a scenario are the same ones on every machine.
+const CUBE: u64 = 1;
+
+/// A number that nobody measured and that a robot feels, and the key that writes it.
+pub type Felt = (&'static Assumed, &'static Key);
+
+/// Robots that fill the intervals of assumed numbers as a Latin hypercube.
+#[derive(Debug, Clone)]
+pub struct Cube {
+    /// The scenario, with one mesh.
+    pub base: Source,
+    /// The numbers.
+    pub numbers: Vec<Felt>,
+    /// A row for every robot: where each number lies in its interval, 0 to 1.
+    pub shares: Vec<Vec<f64>>,
+    /// The robots.
+    pub robots: Vec<Variation>,
+}
+
+/// So many robots over all assumed numbers that this one feels, but for the keys that are known.
+///
+/// # Errors
+/// A scenario that is refused with one of the numbers at an end of its interval.
+pub fn cube(base: Source, known: &[&str], robots: usize) -> Result<Cube, FemError> {
+    let base = base.of_one_mesh()?;
+    let mut numbers = Vec::new();
+    for unknown in ASSUMED {
+        let Some(key) = key_of(unknown).filter(|key| !known.contains(&key.name)) else { continue };
+        let print = |si: f64| {
+            let changed = base.with(&[(key.name.to_string(), rounded(si / key.si).to_string())])?;
+            Ok::<u64, FemError>(changed.load()?.case.problem.fingerprint())
+        };
+        if print(unknown.interval[0])? != print(unknown.interval[1])? {
+            numbers.push((unknown, key));
+        }
+    }
+    let shares = hypercube(robots, numbers.len(), CUBE);
+    let robots = shares.iter().enumerate().map(|(index, shares)| robot(index + 1, &numbers, shares)).collect();
+    Ok(Cube { base, numbers, shares, robots })
+}
+
+fn robot(number: usize, numbers: &[Felt], shares: &[f64]) -> Variation {
+    let value =
+        |((unknown, key), share): (&Felt, &f64)| (key.name.to_string(), format!("{:.4e}", unknown.at(*share) / key.si));
+    let mut changes: Changes = numbers.iter().zip(shares).map(value).collect();
+    changes.push(("seed".into(), number.to_string()));
+    Variation { label: format!("robot-{number}"), changes, group: String::new() }
+}
+
+/// The key that writes what an assumed number writes.
+fn key_of(unknown: &Assumed) -> Option<&'static Key> {
+    let after = |set: fn(&mut RobotSettings, f64), value: f64| {
+        let mut changed = RobotSettings::default();
+        set(&mut changed, value);
+        changed
+    };
+    // One end may be the default of several keys.
+    let fits = |key: &&Key| unknown.interval.iter().all(|v| after(key.set, *v) == after(unknown.set, *v));
+    KEYS.iter().find(fits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_assumed_number_has_a_key_of_its_own() {
+        let keys: Vec<&str> = ASSUMED.iter().filter_map(|unknown| Some(key_of(unknown)?.name)).collect();
+        assert_eq!(keys.len(), ASSUMED.len(), "{keys:?}");
+        assert!(keys.iter().enumerate().all(|(i, key)| !keys[..i].contains(key)), "{keys:?}");
+    }
+}

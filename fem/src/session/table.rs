@@ -1,0 +1,115 @@
+//! What several runs of a robot gave: heights of each, mean and spread of those that differ in their seed only.
+
+use super::{FeRun, Many, Variation, heights_mm, rounded};
+use crate::FemError;
+use serde::Serialize;
+
+/// A robot's heights at one pressure.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Heights {
+    /// Actuator gauge pressure \[kPa\].
+    pub actuator_kpa: f64,
+    /// Outermost marker \[mm\].
+    pub marker_mm: f64,
+    /// Tip \[mm\].
+    pub tip_mm: f64,
+}
+
+/// Heights of one run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunRow {
+    /// What it is.
+    pub variation: Variation,
+    /// By time.
+    pub heights: Vec<Heights>,
+    /// Folder; empty if the run is that of another row.
+    pub folder: String,
+    /// Processor time \[s\]; 0 if the run is that of another row.
+    pub cpu_s: f64,
+}
+
+/// Runs that differ in their seed only, at one pressure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SeedGroup {
+    /// Name of the group.
+    pub group: String,
+    /// Actuator gauge pressure \[kPa\].
+    pub actuator_kpa: f64,
+    /// How many.
+    pub runs: usize,
+    /// Mean of the tips \[mm\].
+    pub tip_mean_mm: f64,
+    /// Standard deviation of the sample; 0 for one.
+    pub tip_sd_mm: f64,
+}
+
+/// Several runs of a robot.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct RunTable {
+    /// Runs.
+    pub rows: Vec<RunRow>,
+}
+
+impl RunTable {
+    /// Of variations and what [`super::simulate_all`] made of them.
+    ///
+    /// # Errors
+    /// That of the first run that was stopped.
+    pub fn of(variations: &[Variation], many: Many) -> Result<RunTable, FemError> {
+        let runs = many.runs.into_iter().collect::<Result<Vec<FeRun>, FemError>>()?;
+        let first = |index: usize| many.of.iter().position(|of| *of == many.of[index]) == Some(index);
+        let row = |(index, variation): (usize, &Variation)| {
+            let run = &runs[many.of[index]];
+            let folder = if first(index) { variation.label.clone() } else { String::new() };
+            let cpu_s = if first(index) { run.cost.cpu_s_of_all_sessions } else { 0.0 };
+            RunRow { variation: variation.clone(), heights: heights(run), folder, cpu_s }
+        };
+        Ok(RunTable { rows: variations.iter().enumerate().map(row).collect() })
+    }
+
+    /// Mean and spread of the tips, group by group and pressure by pressure.
+    pub fn groups(&self) -> Vec<SeedGroup> {
+        let mut tips: Vec<(&str, f64, Vec<f64>)> = Vec::new();
+        for row in &self.rows {
+            for h in &row.heights {
+                match tips.iter_mut().find(|g| g.0 == row.variation.group && g.1 == h.actuator_kpa) {
+                    Some(group) => group.2.push(h.tip_mm),
+                    None => tips.push((&row.variation.group, h.actuator_kpa, vec![h.tip_mm])),
+                }
+            }
+        }
+        tips.iter().map(|(group, kpa, tips)| SeedGroup::of(group, *kpa, tips)).collect()
+    }
+
+    /// `table.csv`.
+    pub fn csv(&self) -> String {
+        let mut out = String::from("run,changes,p_act_kpa,marker_mm,tip_mm,cpu_s\n");
+        for RunRow { variation: Variation { label, changes, .. }, heights, cpu_s, .. } in &self.rows {
+            let changes: Vec<String> = changes.iter().map(|(k, v)| format!("{k}={v}").replace(',', ";")).collect();
+            let changes = changes.join(" ");
+            for Heights { actuator_kpa, marker_mm, tip_mm } in heights {
+                out.push_str(&format!("{label},{changes},{actuator_kpa},{marker_mm},{tip_mm},{cpu_s}\n"));
+            }
+        }
+        out
+    }
+}
+
+impl SeedGroup {
+    fn of(group: &str, actuator_kpa: f64, tips: &[f64]) -> SeedGroup {
+        let n = tips.len() as f64;
+        let tip_mean_mm = tips.iter().sum::<f64>() / n;
+        let sum: f64 = tips.iter().map(|t| (t - tip_mean_mm).powi(2)).sum();
+        let tip_sd_mm = if n > 1.0 { (sum / (n - 1.0)).sqrt() } else { 0.0 };
+        SeedGroup { group: group.into(), actuator_kpa, runs: tips.len(), tip_mean_mm, tip_sd_mm }
+    }
+}
+
+fn heights(run: &FeRun) -> Vec<Heights> {
+    let pressed = run.readings().iter().filter(|r| r.actuator_pa > 0.0);
+    let of = pressed.map(|r| {
+        let [marker_mm, tip_mm] = heights_mm(r);
+        Heights { actuator_kpa: rounded(r.actuator_pa * 1e-3), marker_mm, tip_mm }
+    });
+    of.collect()
+}

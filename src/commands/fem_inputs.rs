@@ -1,0 +1,108 @@
+//! What finite element commands are given: cases and robots by name, pressures, sizes, times.
+
+use super::inputs::quantity;
+use crate::failure::Failure;
+use crate::output::{Input, maker};
+use crate::studies::{STUDIES, study};
+use fem::case::{SHIPPED_CASES, shipped_case};
+use fem::session::{Settings, Source, rounded};
+use models::Scenario;
+use models::scenario::SHIPPED;
+use models::scenario::quantity::Quantity;
+use std::path::Path;
+
+/// The robots of the paper.
+const PUBLISHED: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
+
+/// Reads a case file or the scenario of a robot, or takes a shipped one by name.
+pub fn source(spec: &str) -> Result<Source, Failure> {
+    let path = Path::new(spec);
+    let cause = match (std::fs::read(path), shipped_case(spec).or(models::shipped(spec)).or(study(spec))) {
+        (Err(_), Some(text)) if !path.exists() => return Ok(Source::new(spec, text)),
+        (Err(cause), _) => cause.to_string(),
+        (Ok(bytes), _) => match String::from_utf8(bytes) {
+            Ok(text) if text.trim().is_empty() => "the file is empty".to_string(),
+            Ok(text) => {
+                let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
+                return Ok(Source { folder, ..Source::new(spec, &text) });
+            }
+            Err(_) => "it is not a text in UTF-8".to_string(),
+        },
+    };
+    let names: Vec<&str> =
+        SHIPPED_CASES.iter().chain(SHIPPED).map(|c| c.0).chain(STUDIES.iter().map(|s| s.0)).collect();
+    let help = format!(
+        "{}give a finite element case or a robot's scenario, or a shipped one: {}; `ibr new pillow > my.toml` makes a start",
+        spelling::meant(spec, names.iter().copied()),
+        names.join(", ")
+    );
+    Err(Failure::Read { path: spec.into(), cause, help })
+}
+
+/// Robots as typed and as read, and what the manifest says of them.
+type Robots = (Vec<(Source, Scenario)>, Vec<Input>);
+
+/// Robots by name, or those of the paper.
+pub fn robots(specs: &[String]) -> Result<Robots, Failure> {
+    let own: Vec<String> = PUBLISHED.map(String::from).to_vec();
+    let specs = if specs.is_empty() { &own } else { specs };
+    let (mut found, mut inputs) = (Vec::new(), Vec::new());
+    for spec in specs {
+        let source = source(spec)?;
+        if !source.is_robot() {
+            let message = format!("{spec} is not the scenario of a robot");
+            return Err(Failure::usage(message, "give scenarios such as spam cpam epam fpam"));
+        }
+        inputs.push(Input::of(spec, source.text.as_bytes()));
+        let (scenario, _) = source.robot_run()?;
+        found.push((source, scenario));
+    }
+    Ok((found, inputs))
+}
+
+/// How runs are made that are kept in a folder by their hash.
+pub fn kept(folder: &Path, threads: u64) -> Settings {
+    let further = Some(ibr::pages::run_plots as fem::session::Further);
+    let (folder, threads) = (Some(folder.to_path_buf()), threads as usize);
+    Settings { folder, threads, frames: false, further, maker: maker(), ..Settings::default() }
+}
+
+/// Pressures as typed \[kPa\].
+pub fn pressures(text: &str) -> Result<Vec<f64>, Failure> {
+    let one = |p: &str| Ok(rounded(quantity("--pressure", p, Quantity::Pressure)? / 1e3));
+    text.split(',').map(one).collect()
+}
+
+/// A list of quantities with units, in `1/factor` SI.
+pub fn list(option: &str, text: &str, kind: Quantity, factor: f64) -> Result<Vec<f64>, Failure> {
+    let one = |t: &str| Ok(rounded(quantity(option, t, kind)? * factor));
+    text.split(',').filter(|t| !t.trim().is_empty()).map(one).collect()
+}
+
+/// Element sizes of body and actuator \[mm\], from `3mm` for both or `8mm/3mm`; several with commas between.
+pub fn sizes(text: &str) -> Result<Vec<[f64; 2]>, Failure> {
+    let one = |size: &str| match rounded(quantity("--mesh", size, Quantity::Length)? * 1e3) {
+        mm if (0.5..=50.0).contains(&mm) => Ok(mm),
+        mm => Err(Failure::usage(format!("--mesh {mm}mm is out of range"), "write 0.5mm to 50mm, for example 8mm/3mm")),
+    };
+    let pair = |text: &str| {
+        let (body, actuator) = text.split_once('/').unwrap_or((text, text));
+        Ok([one(body)?, one(actuator)?])
+    };
+    text.split(',').map(pair).collect()
+}
+
+/// A time typed with its unit, above zero.
+pub fn seconds(option: &str, text: &str) -> Result<f64, Failure> {
+    let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0)];
+    let typed = text.trim();
+    let found = units.iter().find_map(|(unit, factor)| Some((typed.strip_suffix(unit)?.trim(), factor)));
+    let value = found.and_then(|(number, factor)| Some(number.parse::<f64>().ok()? * factor));
+    let (message, help) = match value {
+        // A year is more than any run or checkpoint needs, and less than a duration can hold.
+        Some(v) if v > 0.0 && v < 3.2e7 => return Ok(v),
+        Some(v) if v.is_finite() => (format!("{option} {typed} is out of range"), "write"),
+        _ => (format!("{option}: `{typed}` is not a time"), "write a number and one of the units s, ms, min,"),
+    };
+    Err(Failure::usage(message, format!("{help} for example {option} 30s")))
+}

@@ -1,0 +1,96 @@
+//! Several runs of one robot: those that differ in seed, mesh or pressure, and hypercubes.
+
+use super::told_several::{table_text, uncertain_text};
+use crate::commands::{Context, Outcome};
+use crate::failure::Failure;
+use compare::study::uncertain::Uncertain;
+use fem::session::{Cube, Heights, Job, RunTable, Settings, Source, Variation, simulate_all};
+use ibr::pages::{marker_intervals, mesh_plot, what_to_measure};
+use report::lines;
+use serde::Serialize;
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+fn jobs(base: &Source, variations: &[Variation]) -> Result<Vec<Job>, Failure> {
+    let job = |v: &Variation| {
+        let (what, folder) = (v.label.clone(), Some(v.label.clone()));
+        Ok(Job { source: base.with(&v.changes)?, what, folder })
+    };
+    variations.iter().map(job).collect()
+}
+
+pub fn table(
+    base: &Source,
+    variations: &[Variation],
+    settings: &Settings,
+    context: &mut Context,
+) -> Result<Outcome, Failure> {
+    let jobs = jobs(base, variations)?;
+    let many = context.fem(|progress| simulate_all(&jobs, settings, progress))?;
+    let table = RunTable::of(variations, many)?;
+    let mut outcome = Outcome::new(
+        table_text(&table),
+        json!({"schema": "ibr.simulations", "version": 1, "runs": records(&table), "groups": table.groups()}),
+    );
+    let png = mesh_plot(&base.name, &table).and_then(|plot| lines(&plot).ok()).map(|drawn| drawn.png);
+    let files = [("plot", "mesh.png", png), ("table", "table.csv", Some(table.csv().into_bytes()))];
+    write(&mut outcome, settings, files.into_iter().filter_map(|(what, name, bytes)| Some((what, name, bytes?))))?;
+    Ok(outcome)
+}
+
+#[derive(Serialize)]
+struct RunRecord<'a> {
+    run: &'a str,
+    changes: BTreeMap<&'a str, &'a str>,
+    folder: &'a str,
+    heights: &'a [Heights],
+    cpu_s: f64,
+}
+
+fn records(table: &RunTable) -> Vec<RunRecord<'_>> {
+    let record = table.rows.iter().map(|row| RunRecord {
+        run: &row.variation.label,
+        changes: row.variation.changes.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect(),
+        folder: &row.folder,
+        heights: &row.heights,
+        cpu_s: row.cpu_s,
+    });
+    record.collect()
+}
+
+pub fn uncertain(cube: &Cube, set: &[String], settings: Settings, context: &mut Context) -> Result<Outcome, Failure> {
+    let settings = Settings { frames: false, ..settings };
+    let jobs = jobs(&cube.base, &cube.robots)?;
+    let many = context.fem(|progress| simulate_all(&jobs, &settings, progress))?;
+    let all = Uncertain::of(cube, &many, set)?;
+    let (measured, top) = (all.measured(), all.top_kpa());
+    let weights = all.weights(top);
+    let mut outcome = Outcome::new(
+        uncertain_text(&all, &measured),
+        json!({
+            "schema": "ibr.uncertain", "version": 1, "robots": all.members.len(), "numbers": all.numbers,
+            "pressures": all.intervals(), "weights": weights.as_ref().map(|w| &w.0), "rest": weights.as_ref().map(|w| w.1),
+        }),
+    );
+    let markers = marker_intervals(&all, &measured).map(|drawn| ("written", "markers.png", drawn.png));
+    let tornado = what_to_measure(&all, top).map(|drawn| ("written", "tornado.png", drawn.png));
+    let record = ("written", "uncertain.json", all.record().into_bytes());
+    write(&mut outcome, &settings, std::iter::once(record).chain(markers).chain(tornado))?;
+    Ok(outcome)
+}
+
+/// Writes files beside the runs.
+fn write(
+    outcome: &mut Outcome,
+    settings: &Settings,
+    files: impl Iterator<Item = (&'static str, &'static str, Vec<u8>)>,
+) -> Result<(), Failure> {
+    let folder = settings.folder.as_deref().unwrap_or(Path::new(""));
+    for (what, name, bytes) in files {
+        let path = folder.join(name);
+        data::write_atomically(&path, &bytes)?;
+        outcome.notes.push(format!("{what}: {}", path.display()));
+    }
+    Ok(())
+}

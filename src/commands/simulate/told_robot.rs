@@ -1,0 +1,83 @@
+//! A robot's run in words.
+
+use crate::commands::tables::table;
+use fem::robot::{Reading, Snap};
+use fem::session::RobotSummary;
+
+const MM: f64 = 1e3;
+
+/// What a robot's run came to, as text.
+pub fn text(robot: &RobotSummary) -> String {
+    let readings = &robot.readings;
+    let Some(last) = readings.last() else { return String::new() };
+    let mut out = String::new();
+    out.push_str(
+        "\nDisplacement towards the actuator [mm]: section at the station; at the tip also the mean of its ring\n",
+    );
+    let mut head = vec!["actuator kPa".to_string()];
+    head.extend(last.stations_m.iter().map(|s| format!("s = {:.0}", s * MM)));
+    head.extend(["tip ring", "tip x", "turn deg"].map(String::from));
+    let rows = readings.iter().map(|r| {
+        let mut row = vec![format!("{:.0}", r.actuator_pa * 1e-3)];
+        row.extend(r.moved_m.iter().map(|d| format!("{:.1}", d[1] * MM)));
+        row.push(r.ring_moved_m.last().map_or("–".into(), |d| format!("{:.1}", d[1] * MM)));
+        row.push(r.moved_m.last().map_or("–".into(), |d| format!("{:.1}", d[0] * MM)));
+        row.push(format!("{:.1}", r.tip_angle_rad.to_degrees()));
+        row
+    });
+    out.push_str(&table(&head.iter().map(String::as_str).collect::<Vec<_>>(), 0, rows.collect()));
+    out.push('\n');
+    out.push_str(&state(readings));
+    out.push_str(&buckling(&robot.snaps));
+    out
+}
+
+fn state(readings: &[Reading]) -> String {
+    let head = [
+        "actuator kPa",
+        "body cm³",
+        "actuator cm³",
+        "von Mises MPa",
+        "in",
+        "at mm",
+        "weld N/m",
+        "in",
+        "at mm",
+        "kinetic %",
+    ];
+    let rows = readings.iter().map(|r| {
+        vec![
+            format!("{:.0}", r.actuator_pa * 1e-3),
+            format!("{:.1}", r.body_m3 * 1e6),
+            format!("{:.1}", r.actuator_m3 * 1e6),
+            format!("{:.1}", r.von_mises_pa * 1e-6),
+            r.von_mises_part.clone(),
+            format!("{:.0}", r.von_mises_at_m * MM),
+            format!("{:.0}", r.seam_n_per_m),
+            r.seam_part.clone(),
+            format!("{:.0}", r.seam_at_m * MM),
+            format!("{:.2}", 100.0 * r.kinetic_share),
+        ]
+    });
+    table(&head, 0, rows.collect())
+}
+
+fn buckling(found: &[Snap]) -> String {
+    if found.is_empty() {
+        return "\nno buckling event while the actuator is filled\n".into();
+    }
+    let mut largest: Vec<&Snap> = found.iter().collect();
+    largest.sort_by(|a, b| b.released_j.total_cmp(&a.released_j));
+    let released_mj: f64 = found.iter().map(|s| s.released_j * 1e3).sum();
+    let mut out = format!("\n{} buckling events, {released_mj:.0} mJ released in all; the largest:\n", found.len());
+    let rows = largest.iter().take(8).map(|s| {
+        vec![
+            format!("{:.3}", s.time_s),
+            format!("{:.0}", s.place_m * MM),
+            format!("{:.1}", s.released_j * 1e3),
+            format!("{:.1}", s.kinetic_j * 1e3),
+        ]
+    });
+    out.push_str(&table(&["time s", "at mm", "released mJ", "walls' kinetic peak mJ"], 0, rows.collect()));
+    out
+}

@@ -1,0 +1,107 @@
+//! Plots of finite element runs of robots.
+
+use fem::session::{FeRun, Loaded, RunTable};
+use report::{LineSeries, LineStyle, Lines, lines};
+use std::collections::BTreeMap;
+
+/// `history.png` and `displacement.png` of a complete run of a robot.
+///
+/// # Errors
+/// Which plot cannot be drawn, and why.
+pub fn run_plots(loaded: &Loaded, run: &FeRun) -> Result<Vec<(String, Vec<u8>)>, String> {
+    let Some(robot) = &loaded.robot else { return Ok(Vec::new()) };
+    let name = &robot.scenario.name;
+    let plots = [("history.png", history(name, run)), ("displacement.png", displacement(name, run))];
+    let wanted = plots.into_iter().filter_map(|(file, plot)| Some((file, plot?)));
+    let drawn = wanted.map(|(file, plot)| match lines(&plot) {
+        Ok(drawn) => Ok((file.to_string(), drawn.png)),
+        Err(problem) => Err(format!("could not draw {file}: {problem}")),
+    });
+    drawn.collect()
+}
+
+/// Displacement of every station over the actuator's pressure; `None` for a single reading.
+fn displacement(name: &str, run: &FeRun) -> Option<Lines> {
+    let readings = run.readings();
+    let stations = &readings.first().filter(|_| readings.len() > 2)?.stations_m;
+    let series = |k: usize| LineSeries {
+        name: format!("{:.0} mm", stations[k] * 1e3),
+        points: readings.iter().map(|r| [r.actuator_pa * 1e-3, r.moved_m[k][1] * 1e3]).collect(),
+        half_width: Vec::new(),
+        style: LineStyle::LinePoints,
+        colour: None,
+    };
+    Some(Lines {
+        title: format!("{name}: displacement towards the actuator, by distance from the base"),
+        x_label: "actuator pressure [kPa]".into(),
+        y_label: "displacement [mm]".into(),
+        series: (0..stations.len()).map(series).collect(),
+    })
+}
+
+/// Stored and kinetic energy over time with the buckling events.
+fn history(name: &str, run: &FeRun) -> Option<Lines> {
+    let samples = &run.energies;
+    if samples.is_empty() {
+        return None;
+    }
+    let series = |name: &str, points: Vec<[f64; 2]>, style, colour| LineSeries {
+        name: name.into(),
+        points,
+        half_width: Vec::new(),
+        style,
+        colour: Some(colour),
+    };
+    let over = |energy: fn(&fem::robot::Sample) -> f64| samples.iter().map(|s| [s.time_s, energy(s) * 1e3]).collect();
+    let found = run.summary.robot.iter().flat_map(|robot| &robot.snaps);
+    let marks: Vec<[f64; 2]> = found.map(|s| [s.time_s, s.kinetic_j * 1e3]).collect();
+    let mut all = vec![
+        series("stored", over(|s| s.stored_j), LineStyle::Line, 0),
+        series("kinetic", over(|s| s.kinetic_j), LineStyle::Line, 1),
+        series("kinetic, walls", over(|s| s.walls_j), LineStyle::Line, 2),
+    ];
+    if !marks.is_empty() {
+        all.push(series("buckling", marks, LineStyle::Points, 3));
+    }
+    Some(Lines {
+        title: format!("{name}: energy over time"),
+        x_label: "time [s]".into(),
+        y_label: "energy [mJ]".into(),
+        series: all,
+    })
+}
+
+/// Outermost marker over the actuator's element size, a line for every pressure; `None` unless there are several sizes.
+pub fn mesh_plot(name: &str, table: &RunTable) -> Option<Lines> {
+    let mut lines_of: BTreeMap<u64, BTreeMap<u64, Vec<f64>>> = BTreeMap::new();
+    for row in &table.rows {
+        let size = row.variation.changes.iter().find(|(key, _)| key == "actuator_mesh_mm")?;
+        let size: f64 = size.1.parse().ok()?;
+        for heights in &row.heights {
+            // Positive numbers are in the order of their bits.
+            let line = lines_of.entry(heights.actuator_kpa.to_bits()).or_default();
+            line.entry(size.to_bits()).or_default().push(heights.marker_mm);
+        }
+    }
+    let mean = |all: &[f64]| all.iter().sum::<f64>() / all.len() as f64;
+    let spread = |all: &[f64]| {
+        let squares: f64 = all.iter().map(|m| (m - mean(all)).powi(2)).sum();
+        (squares / (all.len() - 1).max(1) as f64).sqrt()
+    };
+    let series = |(kpa, sizes): (&u64, &BTreeMap<u64, Vec<f64>>)| LineSeries {
+        name: format!("{} kPa", f64::from_bits(*kpa)),
+        points: sizes.iter().map(|(size, all)| [f64::from_bits(*size), mean(all)]).collect(),
+        half_width: sizes.values().map(|all| spread(all)).collect(),
+        style: LineStyle::LinePoints,
+        colour: None,
+    };
+    let several = lines_of.values().any(|sizes| sizes.len() > 1);
+    let seeds = lines_of.values().flat_map(|sizes| sizes.values()).any(|markers| markers.len() > 1);
+    let spread = if seeds { ", standard deviation over the seeds" } else { "" };
+    several.then(|| Lines {
+        title: format!("{name}: outermost marker and the mesh{spread}"),
+        x_label: "element size at the actuator [mm]".into(),
+        y_label: "displacement of the outermost marker [mm]".into(),
+        series: lines_of.iter().map(series).collect(),
+    })
+}
