@@ -15,7 +15,8 @@
 //! | [`contact`] | node-to-face contact with side memory and Coulomb friction |
 //! | [`robot`] | robots from scenarios and sewing patterns |
 //! | [`run`] | time stepping, stable step, ledger, guards |
-//! | [`bytes`] | the bytes of a checkpoint |
+//! | [`session`] | a run, or several, from text to typed result: folder, checkpoints, cache |
+//! | [`record`] | files that are written and read again, with their version |
 //! | [`output`] | vtu, pvd, history, checkpoints |
 //! | [`verify`] | problems with known answers |
 //! | [`speed`] | workloads whose speed is measured |
@@ -25,7 +26,7 @@
 
 mod amplitude;
 mod atomic;
-pub mod bytes;
+mod bytes;
 pub mod case;
 pub mod contact;
 pub mod error;

@@ -18,7 +18,7 @@ pub(super) const RECORDS: usize = 64;
 const EARLY: f64 = 0.3;
 
 /// An element near a record's node.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Candidate {
     pub element: u32,
     /// Distance when it was measured, plus the way of the chunk then: it is no closer than this less the way now.

@@ -4,7 +4,7 @@ use super::surface::{NONE, Surface};
 use crate::vec3::{V3, add, along, cross, dot, node, norm, scale, sub, unit};
 
 /// Where on an element the closest point lies, and how the distance from it is measured until the next look.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[repr(u8)]
 pub(super) enum Feature {
     /// Distance to the plane of the triangle.

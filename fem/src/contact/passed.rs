@@ -5,16 +5,16 @@
 //! it has come through: its spring pulls it back, or it goes on and is forgotten. Within one layer, whose own folds leave
 //! less to tell front from back, nothing is counted; nor with `edges`, where nothing passes.
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 use super::chunk::Chunk;
 use super::closest::{Closest, Feature};
 use super::record::{Reach, Record};
-use crate::bytes::{Reader, Writer};
 use crate::vec3::V3;
 
 /// A node and a face that it came through.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Passage {
     pub node: u32,
     pub element: u32,
@@ -23,7 +23,7 @@ pub(crate) struct Passage {
 }
 
 /// All nodes that ever were on the wrong side, in the solver's order, and the first of them.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Passed {
     pub nodes: BTreeSet<u32>,
     pub first: Option<Passage>,
@@ -47,22 +47,10 @@ impl Passed {
         }
     }
 
-    pub fn write(&self, out: &mut Writer) {
-        out.u32s(&self.nodes.iter().copied().collect::<Vec<_>>());
+    /// Whether all of it is of a surface of so many nodes and elements.
+    pub fn fits(&self, nodes: u32, elements: u32) -> bool {
         let first = self.first.as_ref();
-        out.u32s(&first.map_or(Vec::new(), |f| vec![f.node, f.element]));
-        out.f64s(&first.map_or(Vec::new(), |f| vec![f.time_s, f.place_m[0], f.place_m[1], f.place_m[2]]));
-    }
-
-    pub fn read(from: &mut Reader, nodes: u32, elements: u32) -> Option<Passed> {
-        let all: BTreeSet<u32> = from.u32s()?.into_iter().collect();
-        let first = match (&from.u32s()?[..], &from.f64s()?[..]) {
-            ([], []) => None,
-            (&[node, element], &[time_s, x, y, z]) => Some(Passage { node, element, time_s, place_m: [x, y, z] }),
-            _ => return None,
-        };
-        let fits = all.iter().chain(first.as_ref().map(|f| &f.node)).all(|n| *n < nodes)
-            && first.as_ref().is_none_or(|f| f.element < elements);
-        fits.then_some(Passed { nodes: all, first })
+        self.nodes.iter().chain(first.map(|f| &f.node)).all(|n| *n < nodes)
+            && first.is_none_or(|f| f.element < elements)
     }
 }

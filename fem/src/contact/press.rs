@@ -19,7 +19,7 @@ pub(super) struct Push {
 }
 
 /// Energies of a chunk in one step \[J\].
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Sums {
     pub stored: f64,
     pub friction: f64,

@@ -26,7 +26,7 @@ pub(super) struct Reach {
 }
 
 /// A node and a connected piece of one layer.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Record {
     pub node: u32,
     /// Corners of the triangle that is touched.

@@ -1,8 +1,8 @@
 //! Checkpoints: where a stopped run goes on.
 //!
 //! ```text
-//! "ibr-fem\n" | version | fingerprint | step | time | length | payload … | CRC-32 of all before
-//!   8 bytes      u64       u64           u64    f64    u64                  u32, little-endian
+//! "ibr-fem\n" | version             | the checkpoint as `postcard` … | CRC-32 of all before
+//!   8 bytes      u64, little-endian                                   u32, little-endian
 //! ```
 //!
 //! A folder holds `checkpoint` and the one before it, `checkpoint.previous`. A new one is written under a third name and
@@ -13,15 +13,16 @@ use std::path::{Path, PathBuf};
 
 use crate::FemError;
 use crate::atomic::{make_folder, partial_name, sync_folder, write_whole};
-use crate::bytes::{Reader, Writer};
+use crate::bytes::{pack, unpack};
+use serde::{Deserialize, Serialize};
 
 const MAGIC: &[u8; 8] = b"ibr-fem\n";
 /// Raised whenever the meaning of the bytes changes.
-const VERSION: u64 = 4;
+const VERSION: u64 = 5;
 const CHECK: usize = 4;
 
 /// Everything a checkpoint holds.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
     /// Number that stands for the problem; a run of another problem must not go on from here.
     pub fingerprint: u64,
@@ -117,14 +118,7 @@ fn write_through(folder: &Path, checkpoint: &Checkpoint, put: Put) -> Result<Pat
 }
 
 fn encode(checkpoint: &Checkpoint) -> Vec<u8> {
-    let mut writer = Writer::new();
-    writer.u64(u64::from_le_bytes(*MAGIC));
-    writer.u64(VERSION);
-    writer.u64(checkpoint.fingerprint);
-    writer.u64(checkpoint.step);
-    writer.f64(checkpoint.time_s);
-    writer.bytes(&checkpoint.payload);
-    let mut bytes = writer.into_bytes();
+    let mut bytes = [&MAGIC[..], &VERSION.to_le_bytes(), &pack(checkpoint)].concat();
     let check = crc32fast::hash(&bytes);
     bytes.extend(check.to_le_bytes());
     bytes
@@ -157,12 +151,16 @@ fn decode(bytes: &[u8], fingerprint: u64) -> Found {
     if crc32fast::hash(body) != u32::from_le_bytes(*check) {
         return Found::Damaged(format!("is cut off or damaged (checksum of {} bytes differs)", bytes.len()));
     }
-    let mut reader = Reader::new(&body[MAGIC.len()..]);
-    match reader.u64() {
-        Some(VERSION) => {}
-        other => return Found::Foreign(of_version(other)),
+    let Some((version, state)) = body[MAGIC.len()..].split_first_chunk().map(|(v, s)| (u64::from_le_bytes(*v), s))
+    else {
+        return Found::Damaged("is cut off before its version".into());
+    };
+    if version != VERSION {
+        return Found::Foreign(of_version(version));
     }
-    let Some(checkpoint) = fields(reader) else { return Found::Damaged("has fields of the wrong length".into()) };
+    let Some(checkpoint) = unpack::<Checkpoint>(state) else {
+        return Found::Damaged("has fields of the wrong length".into());
+    };
     if checkpoint.fingerprint != fingerprint {
         return Found::Foreign(format!(
             "it belongs to another problem ({:016x}, this one is {fingerprint:016x}): the case or mesh was changed. Undo \
@@ -173,18 +171,11 @@ fn decode(bytes: &[u8], fingerprint: u64) -> Found {
     Found::Good(checkpoint)
 }
 
-fn of_version(found: Option<u64>) -> String {
-    let found = found.map_or("missing".to_string(), |version| version.to_string());
+fn of_version(found: u64) -> String {
     format!(
         "its format version is {found}, this program reads {VERSION}: go on with the program that wrote it, or start anew \
          with --force"
     )
-}
-
-fn fields(mut reader: Reader) -> Option<Checkpoint> {
-    let (fingerprint, step, time_s) = (reader.u64()?, reader.u64()?, reader.f64()?);
-    let payload = reader.bytes()?.to_vec();
-    reader.is_empty().then_some(Checkpoint { fingerprint, step, time_s, payload })
 }
 
 #[cfg(test)]

@@ -25,7 +25,7 @@ const VALLEY: f64 = 0.5;
 const SMALLEST_DROP: f64 = 0.005;
 
 /// Energies at one moment \[s, J\], and where the fastest nodes are along the straight robot \[m\] (NaN: not looked for).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Sample {
     /// Time \[s\].
     pub time_s: f64,
@@ -89,21 +89,9 @@ impl Watch {
         &self.samples
     }
 
-    /// For a checkpoint.
-    pub fn save(&self) -> Vec<f64> {
-        self.samples.iter().flat_map(|s| [s.time_s, s.kinetic_j, s.walls_j, s.stored_j, s.place_m]).collect()
-    }
-
     /// From a checkpoint.
-    pub fn restore(&mut self, saved: &[f64]) {
-        let sample = |&[time_s, kinetic_j, walls_j, stored_j, place_m]: &[f64; 5]| Sample {
-            time_s,
-            kinetic_j,
-            walls_j,
-            stored_j,
-            place_m,
-        };
-        self.samples = saved.as_chunks::<5>().0.iter().map(sample).collect();
+    pub(crate) fn restore(&mut self, samples: Vec<Sample>) {
+        self.samples = samples;
     }
 
     /// |v − v̄|² and |v|² of every node.

@@ -184,12 +184,14 @@ impl Body {
     }
 
     /// For a checkpoint.
-    pub fn save(&self) -> Vec<f64> {
-        [&self.centre[..], &self.velocity, &self.spin, &self.turn].concat()
+    pub fn save(&self) -> [f64; 13] {
+        let ([x, y, z], [u, v, w], [p, q, r]) = (self.centre, self.velocity, self.spin);
+        let [a, b, c, d] = self.turn;
+        [x, y, z, u, v, w, p, q, r, a, b, c, d]
     }
 
-    /// From a checkpoint (13 numbers).
-    pub fn restore(&mut self, from: &[f64]) {
+    /// From a checkpoint.
+    pub fn restore(&mut self, from: &[f64; 13]) {
         self.centre.copy_from_slice(&from[0..3]);
         self.velocity.copy_from_slice(&from[3..6]);
         self.spin.copy_from_slice(&from[6..9]);

@@ -27,8 +27,9 @@ pub(crate) use setup::gaussian;
 pub use sides::ChangedSides;
 
 use models::{Account, Pose, Row, RowKind};
+use serde::{Deserialize, Serialize};
 
-use crate::bytes::{Reader, Writer};
+use crate::bytes::{pack, unpack};
 use crate::contact::Contact;
 use crate::contact::edges::Edges;
 use crate::problem::Guards;
@@ -89,7 +90,7 @@ struct Limits {
 }
 
 /// Where the run stands.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Clock {
     step: u64,
     time_s: f64,
@@ -103,7 +104,7 @@ struct Clock {
 }
 
 /// Energies that only stepping can add up \[J\].
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 struct Books {
     kinetic: f64,
     stored: f64,
@@ -114,7 +115,7 @@ struct Books {
 }
 
 /// A sum of what happens from half a step before to half a step after each moment, read at the moments.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 struct Halves {
     sum: f64,
     last: f64,
@@ -125,6 +126,20 @@ impl Halves {
         self.sum += 0.5 * (self.last + whole);
         self.last = whole;
     }
+}
+
+/// What a checkpoint holds of a run.
+#[derive(Serialize, Deserialize)]
+struct State {
+    clock: Clock,
+    books: Books,
+    x: Vec<[f64; 4]>,
+    v: Vec<[f64; 4]>,
+    selective: Option<Vec<f64>>,
+    sheet: Vec<u8>,
+    terms: Vec<Vec<u8>>,
+    bodies: Vec<[f64; 13]>,
+    reactions: Vec<f64>,
 }
 
 /// Why [`Simulation::advance_until`] returned.
@@ -162,50 +177,40 @@ impl Simulation {
 
     /// Everything a bit-identical continuation needs.
     pub fn save(&self) -> Vec<u8> {
-        let mut out = Writer::new();
-        let (c, b) = (&self.clock, &self.books);
-        out.u64(c.step);
-        out.f64s(&[c.time_s, c.dt_s, c.before_s, c.longest_s, c.gain]);
-        out.f64s(&[b.kinetic, b.stored, b.start, b.scale]);
-        out.f64s(&[b.damping.sum, b.damping.last, b.support.sum, b.support.last]);
-        out.f64s(self.x.as_flattened());
-        out.f64s(self.v.as_flattened());
-        self.selective.iter().for_each(|s| out.f64s(&s.save()));
-        out.bytes(&self.sheet.save());
-        self.others().for_each(|term| out.bytes(&term.save()));
-        self.bodies.iter().for_each(|body| out.f64s(&body.save()));
-        out.f64s(&self.reactions.save());
-        out.into_bytes()
+        pack(&State {
+            clock: self.clock,
+            books: self.books,
+            x: self.x.clone(),
+            v: self.v.clone(),
+            selective: self.selective.as_ref().map(Selective::save),
+            sheet: self.sheet.save(),
+            terms: self.others().map(|term| term.save()).collect(),
+            bodies: self.bodies.iter().map(Body::save).collect(),
+            reactions: self.reactions.save(),
+        })
     }
 
     fn restore(&mut self, saved: &[u8]) -> Option<()> {
-        let mut from = Reader::new(saved);
-        let step = from.u64()?;
-        let [time_s, dt_s, before_s, longest_s, gain] = from.f64s()?.try_into().ok()?;
-        self.clock = Clock { step, time_s, dt_s, before_s, longest_s, gain };
-        let [kinetic, stored, start, scale] = from.f64s()?.try_into().ok()?;
-        let [damping, damping_last, support, support_last] = from.f64s()?.try_into().ok()?;
-        let (damping, support) =
-            (Halves { sum: damping, last: damping_last }, Halves { sum: support, last: support_last });
-        self.books = Books { kinetic, stored, damping, support, start, scale };
-        from.f64s_into(self.x.as_flattened_mut())?;
-        from.f64s_into(self.v.as_flattened_mut())?;
-        if let Some(selective) = &mut self.selective {
-            selective.restore(&from.f64s()?)?;
-        }
-        self.sheet.restore(from.bytes()?).then_some(())?;
+        let state: State = unpack(saved)?;
         let contact = self.contact.iter_mut().map(|c| c as &mut dyn Transient);
         let contact = contact.chain(self.edges.iter_mut().map(|e| e as &mut dyn Transient));
-        for term in self.terms.iter_mut().map(|t| &mut **t as &mut dyn Transient).chain(contact) {
-            term.restore(from.bytes()?).then_some(())?;
+        let mut terms: Vec<&mut dyn Transient> =
+            self.terms.iter_mut().map(|t| &mut **t as &mut dyn Transient).chain(contact).collect();
+        let fits = [state.x.len(), state.v.len()] == [self.x.len(), self.v.len()]
+            && state.terms.len() == terms.len()
+            && state.bodies.len() == self.bodies.len()
+            && terms.iter_mut().zip(&state.terms).all(|(term, saved)| term.restore(saved))
+            && self.sheet.restore(&state.sheet);
+        fits.then_some(())?;
+        match (&mut self.selective, &state.selective) {
+            (Some(selective), Some(saved)) => selective.restore(saved)?,
+            (None, None) => {}
+            _ => return None,
         }
-        for body in &mut self.bodies {
-            let numbers = from.f64s()?;
-            (numbers.len() == 13).then_some(())?;
-            body.restore(&numbers);
-        }
-        self.reactions.restore(&from.f64s()?)?;
-        from.is_empty().then_some(())
+        self.bodies.iter_mut().zip(&state.bodies).for_each(|(body, saved)| body.restore(saved));
+        self.reactions.restore(&state.reactions)?;
+        (self.clock, self.books, self.x, self.v) = (state.clock, state.books, state.x, state.v);
+        Some(())
     }
 
     /// Simulated time \[s\].

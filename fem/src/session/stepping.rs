@@ -1,8 +1,8 @@
 //! A run on its way: rows, frames and checkpoints as it goes, so that it can go on where it was interrupted.
 
 use super::Progress;
-use super::watch::Watched;
-use crate::bytes::{Reader, Writer};
+use super::watch::{Watched, WatchedState};
+use crate::bytes::{pack, unpack};
 use crate::case::Case;
 use crate::output::Frame;
 use crate::output::centre_line::{CentreLine, CentreLineFile};
@@ -11,6 +11,7 @@ use crate::output::history::{History, Record};
 use crate::output::pvd::Series;
 use crate::run::Advance;
 use crate::{FemError, Simulation};
+use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -19,7 +20,7 @@ use std::time::{Duration, Instant};
 const TELL_EVERY: Duration = Duration::from_millis(200);
 
 /// Energies at one output, for the judgement at the end.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Balance {
     /// Time \[s\].
     pub time_s: f64,
@@ -87,11 +88,13 @@ impl<'a> Running<'a> {
             path: folder.join("checkpoint"),
             reason: "it holds something else than this program writes; start again with --force".into(),
         };
-        let saved = Saved::read(&payload).ok_or_else(foreign)?;
-        if let Some(robot) = &mut robot {
-            robot.restore(saved.robot).ok_or_else(foreign)?;
+        let saved: Saved = unpack(&payload).ok_or_else(foreign)?;
+        match (&mut robot, saved.robot) {
+            (Some(robot), Some(state)) => robot.restore(state),
+            (None, None) => {}
+            _ => return Err(foreign()),
         }
-        let run = Simulation::resume(&case.problem, saved.run)?;
+        let run = Simulation::resume(&case.problem, &saved.run)?;
         // Outputs of the same step are one row and one frame.
         let mut times_s: Vec<f64> = saved.balances.iter().map(|b| b.time_s).collect();
         times_s.dedup();
@@ -225,39 +228,22 @@ impl Files {
     ) -> Result<(), FemError> {
         self.history.sync()?;
         self.centre_line.as_ref().map_or(Ok(()), CentreLineFile::sync)?;
-        let mut payload = Writer::new();
-        payload.u64(next);
-        payload.f64(cpu_s);
-        let flat: Vec<f64> = balances.iter().flat_map(|b| [b.time_s, b.kinetic_share, b.residual_share]).collect();
-        payload.f64s(&flat);
-        payload.bytes(&robot.map(Watched::save).unwrap_or_default());
-        payload.bytes(&run.save());
+        let robot = robot.map(Watched::save);
+        let payload = pack(&Saved { next, cpu_s, balances: balances.to_vec(), robot, run: run.save() });
         let (step, time_s) = (run.step(), run.time_s());
-        let checkpoint = Checkpoint { fingerprint: self.fingerprint, step, time_s, payload: payload.into_bytes() };
+        let checkpoint = Checkpoint { fingerprint: self.fingerprint, step, time_s, payload };
         write_checkpoint(&self.folder, &checkpoint).map(|_| ())
     }
 }
 
-/// What a checkpoint of this command holds.
-struct Saved<'a> {
+/// What a checkpoint of a session holds.
+#[derive(Serialize, Deserialize)]
+struct Saved {
     next: u64,
     cpu_s: f64,
     balances: Vec<Balance>,
-    robot: &'a [u8],
-    run: &'a [u8],
-}
-
-impl Saved<'_> {
-    fn read(payload: &[u8]) -> Option<Saved<'_>> {
-        let mut from = Reader::new(payload);
-        let (next, cpu_s, flat) = (from.u64()?, from.f64()?, from.f64s()?);
-        let (robot, run) = (from.bytes()?, from.bytes()?);
-        let (rows, rest) = flat.as_chunks::<3>();
-        (rest.is_empty() && from.is_empty()).then_some(())?;
-        let balance =
-            |&[time_s, kinetic_share, residual_share]: &[f64; 3]| Balance { time_s, kinetic_share, residual_share };
-        Some(Saved { next, cpu_s, balances: rows.iter().map(balance).collect(), robot, run })
-    }
+    robot: Option<WatchedState>,
+    run: Vec<u8>,
 }
 
 fn centre_line(case: &Case) -> Result<Option<CentreLine>, FemError> {

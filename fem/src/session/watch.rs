@@ -1,8 +1,7 @@
 //! What is read of a robot while it runs.
 
 use super::rounded;
-use crate::bytes::{Reader, Writer};
-use crate::robot::{Gauge, Hold, KEYS, Key, Reading, RobotRun, Snap, Watch, snaps};
+use crate::robot::{Gauge, Hold, KEYS, Key, Reading, RobotRun, Sample, Snap, Watch, snaps};
 use crate::{FemError, Problem, Simulation};
 use models::Scenario;
 use models::scenario::Wall;
@@ -61,6 +60,13 @@ pub(super) struct Watched {
     pub readings: Vec<Reading>,
 }
 
+/// What a checkpoint holds of them.
+#[derive(Serialize, Deserialize)]
+pub(super) struct WatchedState {
+    samples: Vec<Sample>,
+    readings: Vec<Reading>,
+}
+
 impl Watched {
     /// When the robot is to be read next \[s\].
     pub fn next_s(&self) -> Option<f64> {
@@ -85,20 +91,14 @@ impl Watched {
     }
 
     /// For a checkpoint.
-    pub fn save(&self) -> Vec<u8> {
-        let mut out = Writer::new();
-        out.f64s(&self.watch.save());
-        // Numbers keep their bits in JSON; what is not finite is refused on the way back.
-        out.bytes(&serde_json::to_vec(&self.readings).unwrap_or_default());
-        out.into_bytes()
+    pub fn save(&self) -> WatchedState {
+        WatchedState { samples: self.watch.samples().to_vec(), readings: self.readings.clone() }
     }
 
     /// From a checkpoint.
-    pub fn restore(&mut self, saved: &[u8]) -> Option<()> {
-        let mut from = Reader::new(saved);
-        self.watch.restore(&from.f64s()?);
-        self.readings = serde_json::from_slice(from.bytes()?).ok()?;
-        from.is_empty().then_some(())
+    pub fn restore(&mut self, state: WatchedState) {
+        self.watch.restore(state.samples);
+        self.readings = state.readings;
     }
 
     /// For the summary.

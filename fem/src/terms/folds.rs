@@ -35,7 +35,7 @@ use std::sync::Arc;
 use models::{Account, Fabric, LedgerLine, Pose, Row, RowKind, Term};
 
 use crate::Mesh;
-use crate::bytes::{Reader, Writer};
+use crate::bytes::{pack, unpack};
 use crate::sheet::{Element, Sheet};
 use crate::vec3::{V3, add, along, dot, node, norm, scale, sub};
 use crate::{Tick, Transient};
@@ -281,25 +281,19 @@ impl Transient for Folds {
     }
 
     fn save(&self) -> Vec<u8> {
-        let mut writer = Writer::new();
-        writer.f64(self.tension_work_j);
-        writer.f64s(&self.stored_j.iter().copied().collect::<Vec<f64>>());
-        writer.f64s(&self.sides.as_flattened().iter().map(|side| side.tension_n_m).collect::<Vec<f64>>());
-        writer.into_bytes()
+        let tensions: Vec<f64> = self.sides.as_flattened().iter().map(|side| side.tension_n_m).collect();
+        pack(&(self.tension_work_j, self.stored_j, tensions))
     }
 
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let mut reader = Reader::new(saved);
-        let (Some(work_j), Some(stored), Some(tensions)) = (reader.f64(), reader.f64s(), reader.f64s()) else {
-            return false;
-        };
+        let Some((work_j, stored_j, tensions)) = unpack::<(f64, Option<f64>, Vec<f64>)>(saved) else { return false };
         let sides = self.sides.as_flattened_mut();
-        if !reader.is_empty() || stored.len() > 1 || tensions.len() != sides.len() {
+        if tensions.len() != sides.len() {
             return false;
         }
         sides.iter_mut().zip(tensions).for_each(|(side, tension)| side.tension_n_m = tension);
         self.edges.iter_mut().zip(&self.sides).for_each(|(edge, sides)| edge.stiffness_n = in_series(sides));
-        (self.tension_work_j, self.stored_j) = (work_j, stored.first().copied());
+        (self.tension_work_j, self.stored_j) = (work_j, stored_j);
         true
     }
 }

@@ -15,7 +15,7 @@
 use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
 
 use crate::FemError;
-use crate::bytes::{Reader, Writer};
+use crate::bytes::{pack, unpack};
 use crate::problem::{self, Amplitude};
 use crate::{Tick, Transient};
 
@@ -92,29 +92,12 @@ impl Transient for Gravity {
         vec![self.line().row(RowKind::Supplied, self.work_j)]
     }
     fn save(&self) -> Vec<u8> {
-        let mut writer = Writer::new();
-        writer.f64s(&[self.time_s, self.work_j]);
-        writer.f64s(self.last.as_ref().map_or(&[], |last| last));
-        writer.into_bytes()
+        pack(&(self.time_s, self.work_j, self.last))
     }
     fn restore(&mut self, saved: &[u8]) -> bool {
-        self.take(saved).is_some()
-    }
-}
-
-impl Gravity {
-    fn take(&mut self, saved: &[u8]) -> Option<()> {
-        let mut reader = Reader::new(saved);
-        let mut own = [0.0; 2];
-        reader.f64s_into(&mut own)?;
-        let last = reader.f64s()?;
-        let last = if last.is_empty() { None } else { Some(<[f64; 2]>::try_from(last).ok()?) };
-        if !reader.is_empty() {
-            return None;
-        }
-        [self.time_s, self.work_j] = own;
-        self.last = last;
-        Some(())
+        let Some(state) = unpack(saved) else { return false };
+        (self.time_s, self.work_j, self.last) = state;
+        true
     }
 }
 

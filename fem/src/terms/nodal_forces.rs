@@ -14,7 +14,7 @@
 
 use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
 
-use crate::bytes::{Reader, Writer};
+use crate::bytes::{pack, unpack};
 use crate::problem::{Amplitude, NodalForce};
 use crate::{FemError, Mesh};
 use crate::{Tick, Transient};
@@ -77,36 +77,16 @@ impl Transient for NodalForces {
         vec![self.line().row(RowKind::Supplied, self.work_j)]
     }
     fn save(&self) -> Vec<u8> {
-        let mut writer = Writer::new();
-        writer.f64s(&[self.time_s, self.work_j]);
-        for load in &self.loads {
-            writer.f64s(load.last.as_ref().map_or(&[], |last| last));
-        }
-        writer.into_bytes()
+        pack(&(self.time_s, self.work_j, self.loads.iter().map(|load| load.last).collect::<Vec<_>>()))
     }
     fn restore(&mut self, saved: &[u8]) -> bool {
-        self.take(saved).is_some()
-    }
-}
-
-impl NodalForces {
-    fn take(&mut self, saved: &[u8]) -> Option<()> {
-        let mut reader = Reader::new(saved);
-        let mut own = [0.0; 2];
-        reader.f64s_into(&mut own)?;
-        let mut lasts = Vec::with_capacity(self.loads.len());
-        for _ in &self.loads {
-            let last = reader.f64s()?;
-            lasts.push(if last.is_empty() { None } else { Some(<[f64; 2]>::try_from(last).ok()?) });
+        let Some((time_s, work_j, lasts)) = unpack::<(f64, f64, Vec<Option<[f64; 2]>>)>(saved) else { return false };
+        if lasts.len() != self.loads.len() {
+            return false;
         }
-        if !reader.is_empty() {
-            return None;
-        }
-        [self.time_s, self.work_j] = own;
-        for (load, last) in self.loads.iter_mut().zip(lasts) {
-            load.last = last;
-        }
-        Some(())
+        (self.time_s, self.work_j) = (time_s, work_j);
+        self.loads.iter_mut().zip(lasts).for_each(|(load, last)| load.last = last);
+        true
     }
 }
 

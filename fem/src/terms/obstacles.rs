@@ -18,7 +18,7 @@ use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
 use rayon::prelude::*;
 
 use super::coulomb::slide;
-use crate::bytes::{Reader, Writer};
+use crate::bytes::{pack, unpack};
 use crate::problem::Obstacle;
 use crate::problem::solid::Solid;
 use crate::vec3::{V3, dot};
@@ -139,39 +139,22 @@ impl Transient for Obstacles {
         }
     }
     fn save(&self) -> Vec<u8> {
-        let mut writer = Writer::new();
-        writer.f64s(&[self.stored_j, self.friction_j]);
-        writer.f64s(self.before_m.as_flattened());
-        for springs in &self.springs_m {
-            writer.f64s(springs.as_flattened());
-        }
-        writer.into_bytes()
+        pack(&(self.stored_j, self.friction_j, &self.before_m, &self.springs_m))
     }
     fn restore(&mut self, saved: &[u8]) -> bool {
-        self.take(saved).is_some()
+        let Some((stored_j, friction_j, before_m, springs_m)) = unpack::<Saved>(saved) else { return false };
+        let lengths = |springs: &[Vec<V3>]| springs.iter().map(Vec::len).collect::<Vec<_>>();
+        let fits = before_m.is_empty() || before_m.len() == self.stiffness_n_m.len();
+        if !fits || lengths(&springs_m) != lengths(&self.springs_m) {
+            return false;
+        }
+        (self.stored_j, self.friction_j, self.before_m, self.springs_m) = (stored_j, friction_j, before_m, springs_m);
+        true
     }
 }
 
-impl Obstacles {
-    fn take(&mut self, saved: &[u8]) -> Option<()> {
-        let mut reader = Reader::new(saved);
-        let [stored_j, friction_j] = reader.f64s()?.try_into().ok()?;
-        let before = reader.f64s()?;
-        if !before.is_empty() && before.len() != 4 * self.stiffness_n_m.len() {
-            return None;
-        }
-        let mut springs_m = self.springs_m.clone();
-        for springs in &mut springs_m {
-            reader.f64s_into(springs.as_flattened_mut())?;
-        }
-        if !reader.is_empty() {
-            return None;
-        }
-        self.before_m = before.as_chunks::<4>().0.to_vec();
-        (self.springs_m, self.stored_j, self.friction_j) = (springs_m, stored_j, friction_j);
-        Some(())
-    }
-}
+/// Stored and lost energy, positions before, springs.
+type Saved = (f64, f64, Vec<[f64; 4]>, Vec<Vec<V3>>);
 
 impl Solid {
     /// One step: force, energy and loss; the spring is updated.

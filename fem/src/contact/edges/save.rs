@@ -3,86 +3,111 @@
 use super::Edges;
 use super::chunk::Chunk;
 use super::pair::Pair;
-use crate::bytes::{Reader, Writer};
+use crate::bytes::{pack, unpack};
+use crate::vec3::V3;
+use serde::{Deserialize, Serialize};
 
-/// Changes with the layout of the bytes.
-const VERSION: u64 = 2;
-const NUMBERS: usize = 5;
+/// What edges cannot find again from positions.
+#[derive(Serialize, Deserialize)]
+struct State {
+    sides: usize,
+    searches: u64,
+    path_m: f64,
+    search_due_m: f64,
+    stored_j: f64,
+    lost_j: f64,
+    held_lost_j: f64,
+    placed_m: Vec<[f64; 4]>,
+    before_m: Vec<[f64; 4]>,
+    forces: Vec<(u32, V3)>,
+    chunks: Vec<ChunkState>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct ChunkState {
+    way_m: f64,
+    press_due_m: f64,
+    cross_due_m: f64,
+    seen_m: Vec<[f64; 4]>,
+    press_at_m: Vec<f64>,
+    cross_at_m: Vec<f64>,
+    pairs: Vec<PairState>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct PairState {
+    key: [u32; 2],
+    face: bool,
+    on: bool,
+    rest_m: f64,
+    wanted_m: f64,
+    last_m: f64,
+    deep_m: f64,
+    damped_n: f64,
+}
 
 pub(super) fn write(edges: &Edges) -> Vec<u8> {
-    let mut out = Writer::new();
-    out.u64(VERSION);
-    out.u64(edges.sides.list.len() as u64);
-    out.u64(edges.searches);
-    out.f64s(&[edges.path_m, edges.search_due_m, edges.stored_j, edges.lost_j, edges.held.lost_j]);
-    out.f64s(edges.placed_m.as_flattened());
-    out.f64s(edges.held.before_m.as_flattened());
-    out.u32s(&edges.held.forces.iter().map(|f| f.0).collect::<Vec<_>>());
-    out.f64s(&edges.held.forces.iter().flat_map(|f| f.1).collect::<Vec<_>>());
-    out.u64(edges.chunks.len() as u64);
-    for chunk in &edges.chunks {
-        out.f64s(&[chunk.way_m, chunk.press_due_m, chunk.cross_due_m]);
-        out.f64s(chunk.seen_m.as_flattened());
-        out.f64s(&chunk.press_at_m);
-        out.f64s(&chunk.cross_at_m);
-        out.u32s(&chunk.pairs.iter().flat_map(integers).collect::<Vec<_>>());
-        out.f64s(&chunk.pairs.iter().flat_map(numbers).collect::<Vec<_>>());
-    }
-    out.into_bytes()
+    let pair = |&Pair { key, face, on, rest_m, wanted_m, last_m, deep_m, damped_n, .. }: &Pair| PairState {
+        key,
+        face,
+        on,
+        rest_m,
+        wanted_m,
+        last_m,
+        deep_m,
+        damped_n,
+    };
+    let chunk = |chunk: &Chunk| ChunkState {
+        way_m: chunk.way_m,
+        press_due_m: chunk.press_due_m,
+        cross_due_m: chunk.cross_due_m,
+        seen_m: chunk.seen_m.clone(),
+        press_at_m: chunk.press_at_m.clone(),
+        cross_at_m: chunk.cross_at_m.clone(),
+        pairs: chunk.pairs.iter().map(pair).collect(),
+    };
+    pack(&State {
+        sides: edges.sides.list.len(),
+        searches: edges.searches,
+        path_m: edges.path_m,
+        search_due_m: edges.search_due_m,
+        stored_j: edges.stored_j,
+        lost_j: edges.lost_j,
+        held_lost_j: edges.held.lost_j,
+        placed_m: edges.placed_m.clone(),
+        before_m: edges.held.before_m.clone(),
+        forces: edges.held.forces.clone(),
+        chunks: edges.chunks.iter().map(chunk).collect(),
+    })
 }
 
 pub(super) fn read(edges: &mut Edges, saved: &[u8]) -> Option<()> {
-    let mut from = Reader::new(saved);
-    let fits = from.u64()? == VERSION && from.u64()? == edges.sides.list.len() as u64;
-    fits.then_some(())?;
-    let searches = from.u64()?;
-    let mut sums = [0.0; 5];
-    from.f64s_into(&mut sums)?;
-    let (placed, before) = (from.f64s()?, from.f64s()?);
+    let state: State = unpack(saved)?;
     let count = edges.placed_m.len();
-    let length = 4 * count;
-    (placed.len() == length && (before.is_empty() || before.len() == length)).then_some(())?;
-    let (held, forces) = (from.u32s()?, from.f64s()?);
-    (3 * held.len() == forces.len() && held.iter().all(|n| (*n as usize) < count)).then_some(())?;
-    let chunks = from.u64()?;
-    let chunks = (0..chunks).map(|_| chunk(edges, &mut from)).collect::<Option<Vec<_>>>()?;
-    from.is_empty().then_some(())?;
-    edges.placed_m = placed.as_chunks::<4>().0.to_vec();
-    edges.held.before_m = before.as_chunks::<4>().0.to_vec();
-    edges.held.forces = held.into_iter().zip(forces.as_chunks::<3>().0.iter().copied()).collect();
-    (edges.searches, edges.chunks) = (searches, chunks);
-    [edges.path_m, edges.search_due_m, edges.stored_j, edges.lost_j, edges.held.lost_j] = sums;
+    let fits = state.sides == edges.sides.list.len()
+        && state.placed_m.len() == count
+        && (state.before_m.is_empty() || state.before_m.len() == count)
+        && state.forces.iter().all(|(node, _)| (*node as usize) < count);
+    fits.then_some(())?;
+    edges.chunks = state.chunks.into_iter().map(|saved| chunk(edges, saved)).collect::<Option<_>>()?;
+    (edges.searches, edges.path_m, edges.search_due_m) = (state.searches, state.path_m, state.search_due_m);
+    (edges.stored_j, edges.lost_j, edges.held.lost_j) = (state.stored_j, state.lost_j, state.held_lost_j);
+    (edges.placed_m, edges.held.before_m, edges.held.forces) = (state.placed_m, state.before_m, state.forces);
     Some(())
 }
 
-fn chunk(edges: &Edges, from: &mut Reader) -> Option<Chunk> {
-    let [way_m, press_due_m, cross_due_m] = from.f64s()?.try_into().ok()?;
-    let seen_m = from.f64s()?.as_chunks::<4>().0.to_vec();
-    let (press_at_m, cross_at_m) = (from.f64s()?, from.f64s()?);
-    let (whole, real) = (from.u32s()?, from.f64s()?);
-    let (whole, real) = (whole.as_chunks::<3>().0, real.as_chunks::<NUMBERS>().0);
-    (whole.len() == real.len()).then_some(())?;
-    let pairs: Vec<Pair> = whole.iter().zip(real).map(|(i, n)| pair(edges, *i, n)).collect::<Option<_>>()?;
+fn chunk(edges: &Edges, saved: ChunkState) -> Option<Chunk> {
+    let ChunkState { way_m, press_due_m, cross_due_m, seen_m, press_at_m, cross_at_m, pairs } = saved;
+    let pairs: Vec<Pair> = pairs.iter().map(|saved| pair(edges, saved)).collect::<Option<_>>()?;
     (press_at_m.len() == pairs.len() && cross_at_m.len() == pairs.len()).then_some(())?;
     let chunk = Chunk { seen_m, press_at_m, cross_at_m, way_m, press_due_m, cross_due_m, ..Chunk::new(pairs) };
     (chunk.seen_m.is_empty() || chunk.seen_m.len() == chunk.nodes.len()).then_some(chunk)
 }
 
-/// Key, then kind and state as one number.
-fn integers(pair: &Pair) -> [u32; 3] {
-    [pair.key[0], pair.key[1], u32::from(pair.face) + 2 * u32::from(pair.on)]
-}
-
-fn numbers(pair: &Pair) -> [f64; NUMBERS] {
-    [pair.rest_m, pair.wanted_m, pair.last_m, pair.deep_m, pair.damped_n]
-}
-
-fn pair(edges: &Edges, [first, second, state]: [u32; 3], numbers: &[f64; NUMBERS]) -> Option<Pair> {
-    let face = state % 2 == 1;
+fn pair(edges: &Edges, saved: &PairState) -> Option<Pair> {
+    let &PairState { key, face, on, rest_m, wanted_m, last_m, deep_m, damped_n } = saved;
     let (sides, triangles, nodes) = (edges.sides.list.len(), edges.sides.triangles.len(), edges.mass_kg.len());
     let most = if face { [nodes, triangles] } else { [sides, sides] };
-    ((first as usize) < most[0] && (second as usize) < most[1] && state < 4).then_some(())?;
-    let [rest_m, wanted_m, last_m, deep_m, damped_n] = *numbers;
-    let fresh = edges.fresh([first, second], face);
-    Some(Pair { on: state >= 2, rest_m, wanted_m, last_m, deep_m, damped_n, ..fresh })
+    ((key[0] as usize) < most[0] && (key[1] as usize) < most[1]).then_some(())?;
+    Some(Pair { on, rest_m, wanted_m, last_m, deep_m, damped_n, ..edges.fresh(key, face) })
 }
