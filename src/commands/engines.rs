@@ -6,9 +6,7 @@ use super::{Context, Outcome};
 use crate::cli::Compare;
 use crate::failure::Failure;
 use crate::output::{check_folder, machine, program, today, write_files};
-use compare::study::engines::{
-    EngineLine, FeRun, all_runs, engines, lines, runs_json, runs_of, seed_jobs, stored,
-};
+use compare::study::engines::{EngineLine, FeRun, all_runs, engines, lines, runs_json, runs_of, seed_jobs, stored};
 use fem::session::Source;
 use ibr::pages::{Imprint, engines_page};
 use models::Scenario;

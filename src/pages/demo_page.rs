@@ -5,6 +5,7 @@ use super::compare_page::{figure, lead};
 use super::diagnosis_page::{Diagnosed, diagnosis_sections};
 use super::engines_page::engine_sections;
 use super::{Files, Imprint, figures, residual_figure, tables};
+use compare::CompareError;
 use compare::known::Known;
 use compare::study::Study;
 use compare::study::demo::{Demo, HIDDEN_IN, Story};
@@ -165,7 +166,7 @@ fn curve_caption(study: &Study) -> &'static str {
 /// The sections of a diagnosis, each named as part of it.
 fn story_sections(story: &Story, files: &mut Files) -> Result<Vec<Section>, PageError> {
     let (d, about) = (&story.diagnosis, story.about.as_ref());
-    let witness = witness(d, &story.scenario, &story.dataset, about, &stored()?)?;
+    let witness = witness(d, &story.scenario, &story.dataset, about, &stored().map_err(CompareError::from)?)?;
     let found = Diagnosed {
         diagnosis: d,
         scenario: &story.scenario,

@@ -2,8 +2,8 @@
 
 use crate::commands::tables::table;
 use crate::failure::Failure;
-use compare::study::engines::{TERMS, 
-    EngineLine, Engines, HEADS, SUMMARY, VOLUMES, VOLUMES_CAPTION, cells, summary, volume_cells,
+use compare::study::engines::{
+    EngineLine, Engines, HEADS, SUMMARY, TERMS, VOLUMES, VOLUMES_CAPTION, cells, summary, volume_cells,
 };
 
 /// Tables of a comparison of both engines.
