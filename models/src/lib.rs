@@ -22,6 +22,7 @@ pub mod exact;
 pub mod fabrics;
 mod follow;
 pub mod formula;
+mod gusset;
 mod history;
 mod inverse;
 mod limits;

@@ -6,6 +6,7 @@
 //! ```text
 //! V_a = −∂Π/∂P      V_b = A₀ l − ∂Π/∂p_b      a₀ = r (1 − cosθ)      width W − σe (π − 2) a₀      height 2 a₀
 //! ```
+//! Gussets narrow the width by a law of their own (`gusset.rs`).
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -19,6 +20,7 @@
 
 use crate::actuators::Family;
 use crate::assembly::Segment;
+use crate::gusset;
 use crate::model::{Model, Prediction};
 use crate::site::Site;
 use crate::term::Loads;
@@ -52,11 +54,13 @@ impl Model {
             shape.actuator_m3 += actuator_m3;
             shape.body_m3 += site.area_m2 * segment.length_m - lost_m3;
             let Some(actuator) = site.actuator.filter(|a| a.family == Family::Pouch) else { continue };
-            let stroke = (actuator.stroke)(&site.shape, at.work.states[index].coordinate.max(actuator.range.0));
+            let theta = at.work.states[index].coordinate.max(actuator.range.0);
+            let stroke = (actuator.stroke)(&site.shape, theta);
+            let folded = site.gusset_share * gusset::narrowing_m(site.shape.length_m, site.shape.fold_m, theta);
             let of_length = segment.length_m;
             active_m += of_length;
             shape.arm_m += of_length * (site.linkage.arm_m + site.linkage.arm_growth * stroke.lift);
-            shape.width_m += of_length * (site.shape.width_m - site.besides.narrows * stroke.lift);
+            shape.width_m += of_length * (site.shape.width_m - site.besides.narrows * stroke.lift - folded);
             shape.height_m += of_length * 2.0 * stroke.lift;
         }
         for mean in [&mut shape.arm_m, &mut shape.width_m, &mut shape.height_m] {

@@ -44,6 +44,8 @@ pub struct Site {
     pub linkage: Linkage,
     /// Share χ of the actuator's volume that lies in the body and works against its pressure.
     pub inner_share: f64,
+    /// Share of the sides that are gussets which their ends hold.
+    pub gusset_share: f64,
     /// Area of the section at rest \[m²\]: a circle's, unless the actuator draws it in.
     pub area_m2: f64,
     /// What its terms do beside their energy.
@@ -199,6 +201,7 @@ impl Site {
             channel,
             linkage,
             inner_share: 0.0,
+            gusset_share: 0.0,
             area_m2: PI * radius_m * radius_m,
             besides: Besides::default(),
             starts: None,

@@ -56,7 +56,8 @@ fn pouch(fabric: &PublishedFabric) -> Vec<Addition> {
         assumed("weld_width", WELD_M.0, WELD_M.1, "welds of 3 mm; a line to a wide impulse seal"),
         predicted("chord_arm", 1.0, "the weld lines are chords of the body, not arcs"),
         predicted("displaced_gas", 0.5, "half of a lens in the wall lies in the body"),
-        predicted("sealed_sides", 1.0, "the sides are sealed as the ends are; gussets free them"),
+        predicted("gussets", 1.0, "side folds open as far as the diagonals allow which the ends hold"),
+        predicted("sealed_sides", 1.0, "the sides are sealed as the ends are; with gussets it does nothing"),
         assumed(
             "fold_energy",
             bending(BENDING.0),

@@ -20,7 +20,7 @@ pub(super) const ENTRY: Actuator = Actuator {
     sentence: "Folded pouches in the wall: side gussets unfold, so that the edges do not hold the pouch back.",
     formula: "ε = 1 − sinθ/θ;  N = P W L₀ cosθ/θ;  arm = 2R;  edge restraint = max(0, 1 − πf/L₀)",
     reference: "Kübler et al. 2023 (cPAM; equations not available here); gusset reading derived here",
-    validity: "Fold stiffness and the partial unfolding below about 10 kPa are ignored.",
+    validity: "Textbook: folds that open at once and weigh nothing; how far they open is the effect `gussets`.",
     family: Family::Pouch,
     stroke: pouch::stroke,
     range: pouch::RANGE,

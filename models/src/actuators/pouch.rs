@@ -24,7 +24,7 @@ use crate::trig::sin_cos;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// θ stays below a full circle; at π the two arcs would meet.
-pub(super) const RANGE: (f64, f64) = (1e-6, PI - 1e-6);
+pub(crate) const RANGE: (f64, f64) = (1e-6, PI - 1e-6);
 
 /// The pouch law at half arc angle `theta` \[rad\].
 pub fn stroke(shape: &ActuatorShape, theta: f64) -> Stroke {

@@ -20,6 +20,7 @@ mod fold_energy;
 mod friction;
 mod glued_face;
 mod gravity;
+mod gussets;
 mod initial_curvature;
 mod leak;
 mod marker_height;
@@ -28,7 +29,7 @@ mod ovalization;
 mod plastic_set;
 mod pressure_loss;
 mod pressure_offset;
-pub(crate) mod sealed_sides;
+mod sealed_sides;
 mod seam_stiffness;
 mod self_contact;
 mod shear_lock;
@@ -63,6 +64,7 @@ pub const EFFECTS: &[Effect] = &[
     shear_lock::ENTRY,
     seam_stiffness::ENTRY,
     displaced_gas::ENTRY,
+    gussets::ENTRY,
     sealed_sides::ENTRY,
     fold_energy::ENTRY,
     crimped_sides::ENTRY,

@@ -27,6 +27,7 @@
 use super::{Effect, Group, Needs, Parameter, SHARE, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
+use crate::gusset::NARROWED;
 use crate::section::Section;
 use crate::site::{Besides, Site};
 use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
@@ -49,26 +50,26 @@ pub(super) const ENTRY: Effect = Effect {
     add,
 };
 
-struct SealedSides {
+pub(super) struct SealedSides {
     /// e σ/L \[1/m\].
-    share: f64,
-    length_m: f64,
+    pub share: f64,
+    pub length_m: f64,
     arm_m: f64,
     /// χ.
-    inner: f64,
+    pub inner: f64,
     /// ΔA and ΔQ as factors of a and a².
-    area: [f64; 2],
-    moment: [f64; 2],
+    pub area: [f64; 2],
+    pub moment: [f64; 2],
 }
 
 fn add(values: &[f64], assembly: &mut Assembly) {
     for site in assembly.active_sites(Family::Pouch) {
         let restraint = site.actuator.map_or(0.0, |actuator| (actuator.edge_restraint)(&site.shape));
-        if values[0] * restraint > 0.0 {
-            let share = values[0] * restraint;
+        // What `gussets` says of these sides it says better.
+        let share = values[0] * restraint * (1.0 - site.gusset_share);
+        if share > 0.0 {
             let term = SealedSides::new(share, site);
-            // At a → 0 the gas of the body resists with −½ΔA/(W a) of its pressure.
-            let closes = (-0.5 * values[0] * restraint * term.area[0] / site.shape.width_m).max(0.0);
+            let closes = term.closes(share, site.shape.width_m);
             let besides = Besides { closes, narrows: share * NARROWED, unforeseen: true, ..Besides::default() };
             site.act(term, besides);
         }
@@ -76,7 +77,7 @@ fn add(values: &[f64], assembly: &mut Assembly) {
 }
 
 impl SealedSides {
-    fn new(share: f64, site: &Site) -> SealedSides {
+    pub fn new(share: f64, site: &Site) -> SealedSides {
         let (length_m, width_m) = (site.shape.length_m, site.shape.width_m);
         let at = |chord_m: f64| Section::drawn_in(site.radius_m, width_m, chord_m);
         let step = 1e-3 * width_m;
@@ -98,6 +99,17 @@ impl SealedSides {
             area: factors(|s| s.area_m2),
             moment: factors(|s| s.area_m2 * s.centroid_m),
         }
+    }
+
+    /// At a → 0 the gas of the body resists with −½ΔA/(W a) of its pressure.
+    pub fn closes(&self, share: f64, width_m: f64) -> f64 {
+        (-0.5 * share * self.area[0] / width_m).max(0.0)
+    }
+
+    /// Length along the far side over that of the chord, 1/(1 − κD) without its pole, and its slope over κ.
+    pub fn stretch(&self, kappa: f64) -> [f64; 2] {
+        let turn = kappa * self.arm_m;
+        [1.0 + turn * (1.0 + turn), self.arm_m * (1.0 + 2.0 * turn)]
     }
 
     /// I₁ and I₂ with their derivatives by θ.
@@ -122,8 +134,6 @@ impl SealedSides {
     }
 }
 
-/// Width that a pair of quarter circles takes of the chord, over a.
-const NARROWED: f64 = PI - 2.0;
 /// Below this angle the closed forms lose more digits to cancellation than the series to truncation.
 const SERIES_BELOW: f64 = 0.05;
 
@@ -136,9 +146,7 @@ impl Term for SealedSides {
         let kappa = at.q[actuator_q::CURVATURE];
         let [first, second] = self.integrals(at.q[actuator_q::COORDINATE]);
         let gas = PI * (at.p_act_pa - self.inner * at.p_body_pa);
-        // Length along the far side over that of the chord, 1/(1 − κD), without its pole.
-        let turn = kappa * self.arm_m;
-        let (stretch, d_stretch) = (1.0 + turn * (1.0 + turn), self.arm_m * (1.0 + 2.0 * turn));
+        let [stretch, d_stretch] = self.stretch(kappa);
         let pull = at.p_body_pa * stretch;
         let of = |factors: &[f64; 2], k: usize| factors[0] * first[k] + factors[1] * second[k];
         let body = |k: usize| of(&self.area, k) - kappa * of(&self.moment, k);

@@ -21,6 +21,7 @@ const NAMES: &[&str] = &[
     "shear_lock",
     "seam_stiffness",
     "displaced_gas",
+    "gussets",
     "sealed_sides",
     "fold_energy",
     "crimped_sides",

@@ -39,7 +39,7 @@ pub fn everything(actuator: &str) -> Scenario {
     let in_balance = |e: &&Effect| e.stage == Stage::Balance;
     let all = applicable(&bent).filter(in_balance).fold(bent.clone(), |s, e| s.with_effect(e.name, &e.typical()));
     // At typical sizes an actuator stays flat below about the body's pressure, and there is no balance to look at.
-    let small = [("displaced_gas", 0.02), ("sealed_sides", 0.02), ("fold_energy", 1e-8)];
+    let small = [("displaced_gas", 0.02), ("gussets", 0.02), ("sealed_sides", 0.02), ("fold_energy", 1e-8)];
     let has = |name: &str| all.effects.iter().any(|e| e.name == name);
     small.iter().filter(|(name, _)| has(name)).fold(all.clone(), |s, (name, value)| s.with_effect(name, &[*value]))
 }
@@ -49,7 +49,7 @@ pub fn everything(actuator: &str) -> Scenario {
 pub fn without_cell(scenario: &Scenario) -> Scenario {
     let mut stiff = scenario.clone();
     stiff.effects.retain(|e| {
-        !["yarn_stretch", "glued_face", "flat_ends", "sealed_sides", "fold_energy", "crimped_sides"]
+        !["yarn_stretch", "glued_face", "flat_ends", "gussets", "sealed_sides", "fold_energy", "crimped_sides"]
             .contains(&e.name.as_str())
     });
     stiff

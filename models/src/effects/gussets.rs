@@ -1,0 +1,188 @@
+//! Gussets: folded sides of a pouch open as far as the diagonals of their folds allow, which the welds across hold.
+//!
+//! Fold, wall and sheet are welded together at both ends of a pouch, where the fold keeps its depth f. In between the sides are round,
+//! half circles of radius a, as `sealed_sides`; what a fold has given by then, u, moves each of them outwards. What is left, f − u, is a
+//! flap of two layers with the pouch's gas on both sides: nothing holds it but its length. From a corner at an end to its root
+//! at the side the flap is flat fabric before and a straight line at most after:
+//!
+//! ```text
+//! M² + (f − u)² ≥ (B − (f − u))²     u = f − (B² − M²)/(2B), f where M ≥ B     B = 2f − (½π − 1) a
+//! M² = r² [(θ − φ)² − (sinθ − sinφ)²]     length along the robot that the pouch has hidden up to there, squared
+//! section  sealed + 4 a u     chord  W − (π − 2) a + 2a (u/a − 1 + cos(u/a))
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | σ | 1: folds with these diagonals, 0: sides that open freely | – |
+//! | f, u | depth of a fold, how much of it has opened | m |
+//! | a, r, θ, φ | half height, radius, half angle, place of the lens (`sealed_sides`) | m, m, –, – |
+//!
+//! Without a fold it is the sealed pouch. A flat pouch opens a seventh of its half height, u = (π − 2) a/4, and a deep fold opens
+//! late: a shallow one can hold more. The wall's sheet reaches up the side by W/2, so its weld is the end of the chord.
+//! **Validity**: inextensible fabric; half circles are taken from sections of finite elements, where a free membrane would dent at the
+//! flap. The welds sit below the middle of the pouch, which displaces less of the body's gas than `displaced_gas` says; that is left
+//! out. Derived here.
+
+use super::sealed_sides::SealedSides;
+use super::{Effect, Group, Needs, Parameter, SHARE, Stage};
+use crate::actuators::Family;
+use crate::actuators::pouch::RANGE;
+use crate::assembly::Assembly;
+use crate::gusset::{GATHERED, Lens, Sloped, Sums, narrowed};
+use crate::site::Besides;
+use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
+use std::f64::consts::PI;
+
+pub(super) const ENTRY: Effect = Effect {
+    name: "gussets",
+    group: Group::Actuator,
+    stage: Stage::Balance,
+    history: false,
+    formula: "sealed_sides with 4 a u more of section, u = min(f, f − (B² − M²)/(2B)), B = 2f − (½π − 1) a, M² = r²[(θ − φ)² − (sinθ − sinφ)²]",
+    sentence: "Side gussets are welded shut at both ends of a pouch, so they open only as far as their diagonals allow.",
+    differs: "Folded pouches hold less than free ones and bend less, most at low pressures and where they are short.",
+    remedy: "Try another depth of the folds: a shallower one opens earlier.",
+    validity: "inextensible fabric, round sides; pouches with side folds",
+    reference: "derived here",
+    parameters: &[Parameter { meaning: "1: folds that their ends hold, 0: sides that open freely", ..SHARE }],
+    needs: Needs::Family(Family::Pouch),
+    add,
+};
+
+struct Gussets {
+    sealed: SealedSides,
+    /// Cubics in θ, one to a step: [`Sums`].
+    pieces: Vec<[[f64; 4]; 3]>,
+}
+
+fn add(values: &[f64], assembly: &mut Assembly) {
+    for site in assembly.active_sites(Family::Pouch) {
+        if values[0] * site.shape.fold_m > 0.0 {
+            site.gusset_share = values[0];
+            let sealed = SealedSides::new(values[0], site);
+            // As with sealed sides; a flat pouch narrows by less.
+            let closes = sealed.closes(values[0], site.shape.width_m) * narrowed(1.0, 0.5 * GATHERED);
+            let term = Gussets::new(sealed, site.shape.fold_m);
+            site.act(term, Besides { closes, unforeseen: true, ..Besides::default() });
+        }
+    }
+}
+
+impl Gussets {
+    /// Tabulates the integrals: they depend on θ alone, and a prediction has no time for them.
+    fn new(sealed: SealedSides, fold_m: f64) -> Gussets {
+        let nodes: Vec<Sums> =
+            (0..=STEPS).map(|i| Lens::new(sealed.length_m, (STEP * i as f64).max(RANGE.0)).sums(fold_m)).collect();
+        let cubic = |[v, d]: Sloped, [w, e]: Sloped| {
+            let (d, e) = (STEP * d, STEP * e);
+            [v, d, 3.0 * (w - v) - 2.0 * d - e, 2.0 * (v - w) + d + e]
+        };
+        let pieces = nodes.windows(2).map(|at| [0, 1, 2].map(|k| cubic(at[0][k], at[1][k]))).collect();
+        Gussets { sealed, pieces }
+    }
+
+    fn sums(&self, theta: f64) -> Sums {
+        let place = theta * (1.0 / STEP);
+        let index = (place as usize).min(STEPS - 1);
+        let t = place - index as f64;
+        self.pieces[index].map(|[c0, c1, c2, c3]| {
+            [c0 + t * (c1 + t * (c2 + t * c3)), (c1 + t * (2.0 * c2 + t * (3.0 * c3))) * (1.0 / STEP)]
+        })
+    }
+}
+
+/// Steps of the table up to θ = π: integrals within some 1e-6.
+const STEPS: usize = 64;
+const STEP: f64 = PI / STEPS as f64;
+
+impl Term for Gussets {
+    fn line(&self) -> LedgerLine {
+        ENTRY.line(Account::Wall)
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        let kappa = at.q[actuator_q::CURVATURE];
+        let [section, first, second] = self.sums(at.q[actuator_q::COORDINATE]);
+        let gas = at.p_act_pa - self.sealed.inner * at.p_body_pa;
+        let [stretch, d_stretch] = self.sealed.stretch(kappa);
+        let of = |factors: &[f64; 2], k: usize| factors[0] * first[k] + factors[1] * second[k];
+        let body = |k: usize| of(&self.sealed.area, k) - kappa * of(&self.sealed.moment, k);
+        let (share, pull) = (self.sealed.share, at.p_body_pa * stretch);
+        force[actuator_q::COORDINATE] += share * (gas * section[1] + pull * body(1));
+        force[actuator_q::CURVATURE] +=
+            share * at.p_body_pa * (body(0) * d_stretch - of(&self.sealed.moment, 0) * stretch);
+        -share * (gas * section[0] + pull * body(0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::pouch::{Pouch, sealed_volume_m3, volume_m3};
+    use crate::{Loads, Model, Scenario};
+
+    fn shipped(robot: &str, more: &str) -> Model {
+        Model::new(&Scenario::parse(&format!("{}\n{more}", crate::shipped(robot).unwrap())).unwrap())
+    }
+
+    /// The term of a cPAM with folds of that depth, without effects that change its size.
+    fn term(fold_m: f64) -> Gussets {
+        let model = shipped("cpam-textbook", "");
+        Gussets::new(SealedSides::new(1.0, &model.assembly().sites[0]), fold_m)
+    }
+
+    /// Gas of a pouch by ∂E/∂P.
+    fn volume(term: &Gussets, theta: f64) -> f64 {
+        let flat = Pouch { length_m: term.sealed.length_m, width_m: 0.06 };
+        let lost = term.add(&Pose::new(&[theta, 0.0, 0.0, 0.0], 0.0, 1.0), &mut [0.0; 4]) * flat.length_m;
+        volume_m3(&flat, theta) - lost
+    }
+
+    #[test]
+    fn shallower_and_shallower_folds_end_in_a_sealed_pouch() {
+        for theta in [0.2, 0.8, 1.3] {
+            let flat = Pouch { length_m: 0.06, width_m: 0.06 };
+            let sealed = sealed_volume_m3(&flat, theta);
+            let more = [1e-3, 1e-5, 1e-7].map(|fold_m| volume(&term(fold_m), theta) / sealed - 1.0);
+            assert!(more[0] > more[1] && more[1] > more[2] && more[2].abs() < 1e-5, "{theta}: {more:?}");
+            // A shallow fold opens to its bottom almost everywhere: 4f more of each section.
+            let lens = volume_m3(&flat, theta) / flat.width_m;
+            assert!(((more[1] * sealed) / (2.0 * 1e-5 * lens) - 1.0).abs() < 2e-2, "{theta}: {more:?}");
+        }
+    }
+
+    #[test]
+    fn force_is_the_slope_of_energy_with_folds_held_everywhere_and_open_in_the_middle() {
+        for (fold_m, theta) in [(0.024, 0.3), (0.024, 1.2), (0.014, 1.2), (0.006, 0.9)] {
+            let term = term(fold_m);
+            let energy =
+                |theta: f64, kappa: f64| term.add(&Pose::new(&[theta, 0.0, 0.0, kappa], 2e3, 1e4), &mut [0.0; 4]);
+            let mut force = [0.0; 4];
+            term.add(&Pose::new(&[theta, 0.0, 0.0, 3.0], 2e3, 1e4), &mut force);
+            let h = 1e-5;
+            let by_theta = (energy(theta + h, 3.0) - energy(theta - h, 3.0)) / (2.0 * h);
+            let by_kappa = (energy(theta, 3.0 + h) - energy(theta, 3.0 - h)) / (2.0 * h);
+            assert!((force[0] / -by_theta - 1.0).abs() < 1e-6, "{fold_m} {theta}: {} {by_theta}", force[0]);
+            assert!((force[3] / -by_kappa - 1.0).abs() < 1e-6, "{fold_m}: {} {by_kappa}", force[3]);
+        }
+    }
+
+    #[test]
+    fn the_table_is_fine_enough_and_the_deepest_fold_is_not_the_best() {
+        let term = term(0.024);
+        for theta in [0.42, 1.01, 1.43, 2.1] {
+            let sums = Lens::new(0.06, theta).sums(0.024);
+            for ((read, made), power) in term.sums(theta).iter().zip(sums).zip([3, 2, 3]) {
+                assert!((read[0] - made[0]).abs() < 1e-6 * f64::powi(0.06, power), "{theta}: {read:?} {made:?}");
+            }
+        }
+        let tip = |fold: &str| {
+            let text = crate::shipped("cpam").unwrap().replace("fold_mm = 24 ", &format!("fold_mm = {fold} "));
+            let model = Model::new(&Scenario::parse(&text).unwrap());
+            let mut at = model.prediction();
+            model.predict(&Loads::uniform(2e3, 30e3), &mut at).unwrap();
+            at.tip.y_m
+        };
+        assert!(tip("18") > tip("24") && tip("18") > tip("12"));
+    }
+}
