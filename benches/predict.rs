@@ -3,11 +3,17 @@
 #![allow(missing_docs)]
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use models::actuators::ACTUATORS;
 use models::{Loads, Model, Scenario, Step, Target, shipped};
 use std::hint::black_box;
 
 /// The shipped robots and the size of their actuators.
-const ROBOTS: [(&str, &str); 4] = [("spam", "6x60mm"), ("cpam", "6x60mm"), ("epam", "6x60mm"), ("fpam", "1x300mm")];
+fn robots() -> impl Iterator<Item = (&'static str, String)> {
+    ACTUATORS.iter().map(|kind| {
+        let actuator = robot(kind.name).actuator;
+        (kind.name, format!("{}x{:.0}mm", actuator.count, actuator.shape.length_m * 1e3))
+    })
+}
 /// Bending stiffness of the robots that are not bare \[N·m²\], near the calibrated ones.
 const STIFFNESS: f64 = 1.35;
 const BODY_PA: f64 = 2e3;
@@ -24,7 +30,7 @@ fn pressures() -> impl Iterator<Item = f64> {
 
 /// Equilibrium and six markers, no transverse load; without and with bending stiffness.
 fn predict(c: &mut Criterion) {
-    for (name, size) in ROBOTS {
+    for (name, size) in robots() {
         for (kind, scenario) in [
             ("predict", robot(name)),
             ("predict_textbook", robot(&format!("{name}-textbook"))),
@@ -41,7 +47,7 @@ fn predict(c: &mut Criterion) {
 
 /// Gravity and a tip load: all segments coupled.
 fn loaded(c: &mut Criterion) {
-    for (name, size) in ROBOTS {
+    for (name, size) in robots() {
         for segments in [12, 48] {
             let loads = [("gravity", vec![1.5]), ("tip_load", vec![0.0, -0.2])];
             let stiff = robot(name).with_bending(STIFFNESS);
@@ -57,7 +63,7 @@ fn loaded(c: &mut Criterion) {
 }
 
 fn inverse(c: &mut Criterion) {
-    for (name, size) in ROBOTS {
+    for (name, size) in robots() {
         let model = Model::new(&robot(name).with_bending(STIFFNESS));
         let (mut out, mut p) = (model.prediction(), pressures());
         c.bench_function(&format!("inverse/{name}/{size}"), |b| {
@@ -71,7 +77,7 @@ fn inverse(c: &mut Criterion) {
 }
 
 fn jacobian(c: &mut Criterion) {
-    for (name, size) in ROBOTS {
+    for (name, size) in robots() {
         let model = Model::new(&robot(name).with_bending(STIFFNESS));
         let (mut out, mut p) = (model.prediction(), pressures());
         c.bench_function(&format!("jacobian/{name}/{size}"), |b| {
@@ -84,7 +90,7 @@ fn jacobian(c: &mut Criterion) {
 fn batch(c: &mut Criterion) {
     let mut group = c.benchmark_group("batch");
     group.throughput(Throughput::Elements(BATCH as u64)).sample_size(20);
-    for (name, size) in ROBOTS {
+    for (name, size) in robots() {
         let model = Model::new(&robot(name));
         let loads: Vec<Loads> = pressures().take(BATCH).map(|p| Loads::uniform(BODY_PA, p)).collect();
         for threads in [1, 2] {
@@ -105,7 +111,7 @@ fn set_up(c: &mut Criterion) {
 
 /// Six holds of five samples with an effect that has history.
 fn protocol(c: &mut Criterion) {
-    for (name, size) in ROBOTS {
+    for (name, size) in robots() {
         for (effect, values) in [("friction", vec![0.3]), ("creep", vec![0.25, 2.0])] {
             let model = Model::new(&robot(name).with_bending(STIFFNESS).with_effect(effect, &values));
             let step = |i: usize, p: f64, k: usize| Step {

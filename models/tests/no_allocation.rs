@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+use models::actuators::ACTUATORS;
 use models::effects::EFFECTS;
 use models::{Loads, Model, Scenario, Step, Target, shipped};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
@@ -41,7 +42,7 @@ fn allocations(work: impl FnOnce()) -> usize {
 // Without the test harness, whose own thread allocates at any time and would be counted too.
 fn main() {
     assert!(allocations(|| drop(std::hint::black_box(vec![1.0]))) > 0, "the counter counts");
-    for name in ["spam", "cpam", "epam", "fpam"] {
+    for name in ACTUATORS.iter().map(|actuator| actuator.name) {
         let shipped = Scenario::parse(shipped(name).unwrap()).unwrap();
         let with_formula = Scenario::parse(&(self::shipped(name).unwrap().to_string() + FORMULA)).unwrap();
         for scenario in [shipped.bare(), shipped.clone(), everything(&shipped), everything(&with_formula)] {

@@ -46,7 +46,7 @@ fn integrate(segment: Segment, from: Vector3<f64>, length_m: f64) -> Vector3<f64
 
 #[test]
 fn integrating_the_heading_gives_the_same_tip() {
-    for name in ["spam", "cpam", "epam", "fpam"] {
+    for name in models::actuators::ACTUATORS.iter().map(|actuator| actuator.name) {
         let shipped = Scenario::parse(shipped(name).unwrap()).unwrap();
         let loaded = shipped.with_bending(0.6).with_effect("gravity", &[1.5]).with_effect("tip_load", &[0.1, -0.3]);
         for scenario in [shipped, loaded] {

@@ -16,7 +16,6 @@
 //! **Validity**: one χ for all pressures; a body that is kept at its pressure. Derived here.
 
 use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
-use crate::actuators::Family;
 use crate::assembly::Assembly;
 use crate::site::Besides;
 use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
@@ -51,11 +50,9 @@ struct DisplacedGas {
 }
 
 fn add(values: &[f64], assembly: &mut Assembly) {
-    for family in [Family::Pouch, Family::Mckibben] {
-        for site in assembly.active_sites(family) {
-            site.inner_share = values[0];
-            site.act(DisplacedGas { share: values[0] }, Besides { closes: values[0], ..Besides::default() });
-        }
+    for site in assembly.sites.iter_mut().filter(|site| site.actuator.is_some()) {
+        site.inner_share = values[0];
+        site.act(DisplacedGas { share: values[0] }, Besides { closes: values[0], ..Besides::default() });
     }
 }
 

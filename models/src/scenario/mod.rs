@@ -183,8 +183,9 @@ pub const BASES: &[&str] = &["assumed", "calibrated", "measured", "predicted", "
 ///
 /// `epam-textbook` is the same robot without the mechanics that textbook models lack.
 pub fn shipped(name: &str) -> Option<&'static str> {
-    let of = |list: &[(&str, &'static str)], name: &str| list.iter().find(|(key, _)| *key == name).map(|s| s.1);
-    of(SHIPPED, name).or_else(|| of(TEXTBOOK, name.strip_suffix("-textbook")?))
+    let of = |name: &str| SHIPPED.iter().find(|(key, _)| *key == name).map(|s| s.1);
+    let textbook = |full: &'static str| MECHANICS.iter().find_map(|more| full.strip_suffix(more)).unwrap_or(full);
+    of(name).or_else(|| of(name.strip_suffix("-textbook")?).map(textbook))
 }
 
 /// A scenario and the mechanics of a pouch or a muscle in a pressurised wall.
@@ -202,13 +203,9 @@ pub const SHIPPED: &[(&str, &str)] = &[
     ("fpam", in_the_wall!("../../scenarios/fpam.toml", "../../scenarios/muscle-mechanics.toml")),
 ];
 
-/// The same robots as textbooks model them.
-const TEXTBOOK: &[(&str, &str)] = &[
-    ("spam", include_str!("../../scenarios/spam.toml")),
-    ("cpam", include_str!("../../scenarios/cpam.toml")),
-    ("epam", include_str!("../../scenarios/epam.toml")),
-    ("fpam", include_str!("../../scenarios/fpam.toml")),
-];
+/// What textbooks leave out.
+const MECHANICS: [&str; 2] =
+    [include_str!("../../scenarios/pouch-mechanics.toml"), include_str!("../../scenarios/muscle-mechanics.toml")];
 
 impl Scenario {
     /// Reads a scenario from TOML text.

@@ -9,7 +9,14 @@ fn broken(from: &str, to: &str) -> ScenarioError {
 }
 
 #[test]
-fn every_shipped_scenario_parses() {
+fn every_actuator_has_a_shipped_scenario_and_all_parse() {
+    for actuator in crate::actuators::ACTUATORS {
+        let name = actuator.name;
+        assert!(
+            shipped(name).is_some(),
+            "the actuator {name} has no scenario: write models/scenarios/{name}.toml and name it in SHIPPED, models/src/scenario/mod.rs"
+        );
+    }
     for (name, text) in SHIPPED {
         let scenario = Scenario::parse(text).unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_eq!(scenario.actuator.kind.name, *name);
