@@ -2,7 +2,8 @@
 
 use crate::error::{DataError, Fault};
 use crate::lines::{KeptLine, Line, Lines};
-use crate::units::{Dimension, Unit};
+use crate::units::Measured;
+use spelling::units::Unit;
 
 /// A quantity of the tidy marker table.
 pub(crate) struct Quantity {
@@ -10,7 +11,7 @@ pub(crate) struct Quantity {
     pub base: &'static str,
     /// Column name as documented.
     pub expected: &'static str,
-    dimension: Option<Dimension>,
+    dimension: Option<Measured>,
     required: bool,
 }
 
@@ -18,11 +19,11 @@ const fn text(name: &'static str) -> Quantity {
     Quantity { base: name, expected: name, dimension: None, required: true }
 }
 
-const fn number(base: &'static str, expected: &'static str, dimension: Dimension) -> Quantity {
+const fn number(base: &'static str, expected: &'static str, dimension: Measured) -> Quantity {
     Quantity { base, expected, dimension: Some(dimension), required: true }
 }
 
-const fn optional(base: &'static str, expected: &'static str, dimension: Dimension) -> Quantity {
+const fn optional(base: &'static str, expected: &'static str, dimension: Measured) -> Quantity {
     Quantity { base, expected, dimension: Some(dimension), required: false }
 }
 
@@ -43,15 +44,15 @@ pub(crate) const GAUGE: usize = 10;
 pub(crate) const QUANTITIES: [Quantity; 11] = [
     text("run"),
     text("actuator"),
-    number("t", "t_s", Dimension::Time),
-    number("p_body", "p_body_kpa", Dimension::Pressure),
-    number("p_act", "p_act_kpa", Dimension::Pressure),
+    number("t", "t_s", Measured::Time),
+    number("p_body", "p_body_kpa", Measured::Pressure),
+    number("p_act", "p_act_kpa", Measured::Pressure),
     text("phase"),
     text("marker"),
-    number("x", "x_mm", Dimension::Length),
-    number("y", "y_mm", Dimension::Length),
-    optional("s", "s_mm", Dimension::Length),
-    optional("p_gauge", "p_gauge_kpa", Dimension::Pressure),
+    number("x", "x_mm", Measured::Length),
+    number("y", "y_mm", Measured::Length),
+    optional("s", "s_mm", Measured::Length),
+    optional("p_gauge", "p_gauge_kpa", Measured::Pressure),
 ];
 
 /// A column that holds a quantity.
@@ -191,7 +192,7 @@ fn column_fault(line: &Line, names: &[String], index: usize, message: String, he
 /// The fault of a column that names a quantity without a unit, or with one that is not known.
 fn without_unit(line: &Line, names: &[String], missing: usize) -> Option<DataError> {
     let Quantity { expected, dimension, .. } = &QUANTITIES[missing];
-    let units = dimension.map(Dimension::sentence).unwrap_or_default();
+    let units = dimension.map(Measured::sentence).unwrap_or_default();
     names.iter().enumerate().find_map(|(index, name)| match meaning(name) {
         Meaning::NoUnit { quantity } if quantity == missing => {
             let help = format!("name it {expected}; {units}");
@@ -251,7 +252,7 @@ mod tests {
         let header = header(text).unwrap();
         assert_eq!(header.delimiter, b';');
         assert_eq!(header.columns[RUN].as_ref().unwrap().index, 1);
-        assert_eq!(header.columns[P_ACT].as_ref().unwrap().unit.unwrap().name, "bar");
+        assert_eq!(header.columns[P_ACT].as_ref().unwrap().unit.unwrap().symbol, "bar");
         assert_eq!(header.columns[STATION].as_ref().unwrap().index, 10);
         assert!(!header.y_down && super::tests::header(&GOOD.replace("y_mm", "y_down_mm")).unwrap().y_down);
         assert_eq!(super::tests::header(&GOOD.replace(',', "\t")).unwrap().delimiter, b'\t');

@@ -24,7 +24,7 @@ const LOOKS_LIKE: [(f64, f64, &str); 3] = [(0.6, 7.0, "psi"), (0.06, 1.0, "bar")
 /// Metres in a millimetre column or millimetres in a metre column; psi, bar or MPa in the kPa columns.
 pub(crate) fn check_units(cells: &RowReader, recorder: &Recorder) -> Result<(), DataError> {
     let extremes = &recorder.extremes;
-    let unit = |quantity: usize| cells.header.columns[quantity].as_ref().and_then(|c| c.unit).map_or("", |u| u.name);
+    let unit = |quantity: usize| cells.header.columns[quantity].as_ref().and_then(|c| c.unit).map_or("", |u| u.symbol);
     let known_robot = extremes.p_act_pa > 0.0 || recorder.stations_m.iter().any(Option::is_some);
     let looks = |quantity, value, word: &str| Err(unit_error(&cells.header, quantity, value, word));
     if unit(X) == "mm" && known_robot && extremes.x_m < SHORTEST_ROBOT_M && extremes.y_m < SHORTEST_ROBOT_M {
@@ -38,7 +38,7 @@ pub(crate) fn check_units(cells: &RowReader, recorder: &Recorder) -> Result<(), 
             return looks(quantity, value_m, "millimetres");
         }
     }
-    if unit(P_ACT) == "kpa" && unit(P_BODY) == "kpa" {
+    if unit(P_ACT) == "kPa" && unit(P_BODY) == "kPa" {
         return check_small_pressures(cells, extremes.p_body_pa * 1e-3, extremes.p_act_pa * 1e-3);
     }
     Ok(())
@@ -104,7 +104,7 @@ pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<(), DataE
         dataset.markers[last].name,
         mm(moved_m)
     );
-    let unit = header.columns[Y].as_ref().and_then(|column| column.unit).map_or("mm", |unit| unit.name);
+    let unit = header.columns[Y].as_ref().and_then(|column| column.unit).map_or("mm", |unit| unit.symbol);
     let help = if header.y_down {
         format!("y_down_{unit} means the values grow downwards; here they grow upwards: name the column y_{unit}")
     } else {

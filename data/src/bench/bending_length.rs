@@ -8,7 +8,7 @@
 //! bending stiffness per width \[N·m\]. At 41.5° the formula has 0.509, so the convention makes D 5 % smaller.
 
 use super::{Bench, Field, Kind, Row, field, plain};
-use crate::units::Dimension::{Angle, Length};
+use crate::units::Measured::{Angle, Length};
 
 pub(super) const ENTRY: Kind = Kind {
     name: "bending_length",

@@ -1,7 +1,7 @@
 //! A muscle: force over contraction at an actuator pressure, in a testing machine. Force 0 is free contraction.
 
 use super::{Field, Kind, Row, field, plain, scatter};
-use crate::units::Dimension::{Angle, Force, Length, Pressure, Ratio};
+use crate::units::Measured::{Angle, Force, Length, Pressure, Ratio};
 
 pub(super) const ENTRY: Kind = Kind {
     name: "force_contraction",

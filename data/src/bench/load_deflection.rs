@@ -1,7 +1,7 @@
 //! A beam: tip deflection under a transverse load, at a body pressure. One end is clamped.
 
 use super::{Field, Kind, Row, field, plain, scatter};
-use crate::units::Dimension::{Force, Length, Pressure};
+use crate::units::Measured::{Force, Length, Pressure};
 
 pub(super) const ENTRY: Kind = Kind {
     name: "load_deflection",

@@ -15,7 +15,7 @@ use std::path::Path;
 use crate::about::Provenance;
 use crate::error::{DataError, Fault};
 use crate::sets;
-use crate::units::Dimension;
+use crate::units::Measured;
 
 pub use bending_length::bending_lengths_m;
 
@@ -42,12 +42,12 @@ pub struct Field {
     pub base: &'static str,
     /// Name as usually written.
     pub expected: &'static str,
-    dimension: Option<Dimension>,
+    dimension: Option<Measured>,
     /// Whether a table of this kind has it always.
     pub needed: bool,
 }
 
-const fn field(base: &'static str, expected: &'static str, dimension: Dimension, needed: bool) -> Field {
+const fn field(base: &'static str, expected: &'static str, dimension: Measured, needed: bool) -> Field {
     Field { base, expected, dimension: Some(dimension), needed }
 }
 

@@ -4,16 +4,17 @@ use super::CouponDefaults;
 use crate::about::Provenance;
 use crate::error::{DataError, Fault};
 use crate::lines::{Line, Lines};
-use crate::units::{Dimension, Unit};
+use crate::units::Measured;
+use spelling::units::Unit;
 
 /// A quantity of a tensile test.
 pub(super) struct Quantity {
     pub base: &'static str,
     pub expected: &'static str,
-    pub dimension: Option<Dimension>,
+    pub dimension: Option<Measured>,
 }
 
-const fn number(base: &'static str, expected: &'static str, dimension: Dimension) -> Quantity {
+const fn number(base: &'static str, expected: &'static str, dimension: Measured) -> Quantity {
     Quantity { base, expected, dimension: Some(dimension) }
 }
 
@@ -30,16 +31,16 @@ pub(super) const THICKNESS: usize = 8;
 pub(super) const LOADED_WIDTH: usize = 9;
 
 pub(super) const QUANTITIES: [Quantity; 10] = [
-    number("strain", "strain_pct", Dimension::Ratio),
-    number("stress", "stress_mpa", Dimension::Pressure),
-    number("displacement", "displacement_mm", Dimension::Length),
-    number("force", "force_n", Dimension::Force),
+    number("strain", "strain_pct", Measured::Ratio),
+    number("stress", "stress_mpa", Measured::Pressure),
+    number("displacement", "displacement_mm", Measured::Length),
+    number("force", "force_n", Measured::Force),
     Quantity { base: "specimen", expected: "specimen", dimension: None },
-    number("direction", "direction_deg", Dimension::Angle),
-    number("width", "width_mm", Dimension::Length),
-    number("length", "length_mm", Dimension::Length),
-    number("thickness", "thickness_mm", Dimension::Length),
-    number("loaded_width", "loaded_width_mm", Dimension::Length),
+    number("direction", "direction_deg", Measured::Angle),
+    number("width", "width_mm", Measured::Length),
+    number("length", "length_mm", Measured::Length),
+    number("thickness", "thickness_mm", Measured::Length),
+    number("loaded_width", "loaded_width_mm", Measured::Length),
 ];
 
 const WANTED: &str = "strain_pct,stress_mpa or displacement_mm,force_n, and if you like specimen, direction_deg, \
@@ -196,7 +197,7 @@ fn complete(header: &Header, line: &Line) -> Result<(), DataError> {
             Meaning::OtherUnit(quantity) => ("has an unknown unit", quantity),
             _ => continue,
         };
-        let units = QUANTITIES[quantity].dimension.map(Dimension::sentence).unwrap_or_default();
+        let units = QUANTITIES[quantity].dimension.map(Measured::sentence).unwrap_or_default();
         let help = format!(
             "name it {}; {units}. Without touching the file: --columns displacement_mm,force_n names all columns",
             QUANTITIES[quantity].expected

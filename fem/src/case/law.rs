@@ -1,6 +1,6 @@
 //! Fabrics: the numbers and tables of one law, read by the catalogue of `models::fabrics`.
 
-use super::range::{ANGLE, Checked, Range, THICKNESS, number, optional, refuse, unknown_name};
+use super::range::{ANGLE, Checked, Range, THICKNESS, number, optional, plain, refuse, unknown_name};
 use super::raw::{Free, RawPly, Text};
 use crate::FemError;
 use models::Fabric;
@@ -139,8 +139,9 @@ fn value_of(p: &Parameter, value: &Spanned<Value>) -> Checked<f64> {
     if p.key == "thickness_mm" {
         number(p.key, v, value.span(), &THICKNESS)?;
     }
-    let range = Range { unit: p.unit, si: 1.0, low: p.lower, high: p.upper, too_small: p.meaning, too_large: slip(p) };
-    number(p.key, v, value.span(), &Range { unit: if p.unit == "-" { "" } else { p.unit }, ..range })
+    let unit = if p.unit == "-" { "" } else { p.unit };
+    let range = Range { unit, too_small: p.meaning, ..plain(p.lower, p.upper, slip(p)) };
+    number(p.key, v, value.span(), &range)
 }
 
 /// What was probably meant by a number that is too large.

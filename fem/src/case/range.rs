@@ -4,28 +4,14 @@ use super::raw::{Num, Points, unknown};
 use crate::FemError;
 use crate::problem::Amplitude;
 use spelling::Exactly;
+pub(crate) use spelling::units::Range;
 use std::ops::Range as Span;
 use toml::Spanned;
 
 pub(crate) type Checked<T> = Result<T, FemError>;
 
-/// Accepted interval of a quantity as typed, its factor to SI, and the slip to suspect outside.
-#[derive(Clone, Copy)]
-pub(crate) struct Range {
-    pub unit: &'static str,
-    pub si: f64,
-    pub low: f64,
-    pub high: f64,
-    pub too_small: &'static str,
-    pub too_large: &'static str,
-}
-
-const METRES: &str = "this looks like metres: write millimetres, for example 60 for 0.06 m";
-const ANY: &str = "any number of this size is accepted with its sign";
-
 /// Edge lengths, diameters.
-pub(crate) const LENGTH: Range =
-    Range { unit: "mm", si: 1e-3, low: 1.0, high: 1e5, too_small: METRES, too_large: "write millimetres" };
+pub(crate) const LENGTH: Range = Range::LENGTH;
 /// Thicknesses of fabric.
 pub(crate) const THICKNESS: Range = Range {
     low: 0.002,
@@ -37,16 +23,10 @@ pub(crate) const THICKNESS: Range = Range {
 /// Gaps between layers.
 pub(crate) const GAP: Range = Range { low: 1e-5, high: 10.0, ..THICKNESS };
 /// Coordinates.
-pub(crate) const POSITION: Range = Range { low: -1e5, too_small: ANY, ..LENGTH };
+pub(crate) const POSITION: Range =
+    Range { low: -1e5, too_small: "any number of this size is accepted with its sign", ..LENGTH };
 /// Gauge pressures.
-pub(crate) const PRESSURE: Range = Range {
-    unit: "kPa",
-    si: 1e3,
-    low: 0.0,
-    high: 500.0,
-    too_small: "pressures are gauge pressures and not negative",
-    too_large: "this looks like pascals: write kilopascals, for example 5 for 5000 Pa",
-};
+pub(crate) const PRESSURE: Range = Range::PRESSURE;
 /// Pressure of the surroundings.
 pub(crate) const ATMOSPHERE: Range = Range {
     low: 1.0,
@@ -58,28 +38,21 @@ pub(crate) const ATMOSPHERE: Range = Range {
 /// Times.
 pub(crate) const TIME: Range = Range {
     unit: "s",
-    si: 1.0,
-    low: 0.0,
-    high: 1000.0,
     too_small: "time starts at 0",
-    too_large: "this looks like milliseconds: write seconds",
+    ..plain(0.0, 1000.0, "this looks like milliseconds: write seconds")
 };
 /// Mass per volume.
 pub(crate) const DENSITY: Range = Range {
     unit: "kg/m³",
-    si: 1.0,
-    low: 50.0,
-    high: 20_000.0,
     too_small: "this looks like g/cm³ or kg/m²: write kg/m³, for example 1140 for nylon; kg/m² over the thickness in m",
-    too_large: "write kg/m³, for example 1140 for nylon",
+    ..plain(50.0, 20_000.0, "write kg/m³, for example 1140 for nylon")
 };
-
 /// Angles.
 pub(crate) const ANGLE: Range = Range { si: std::f64::consts::PI / 180.0, ..plain(-360.0, 360.0, "write degrees") };
 
 /// A pure number.
 pub(crate) const fn plain(low: f64, high: f64, usual: &'static str) -> Range {
-    Range { unit: "", si: 1.0, low, high, too_small: usual, too_large: usual }
+    Range::plain(low, high, usual)
 }
 
 /// A refusal: what is wrong, what to type, where.
@@ -94,17 +67,7 @@ pub(crate) fn si(key: &str, value: &Num, range: &Range) -> Checked<f64> {
 
 /// A number in SI, whose place is that of a larger thing.
 pub(crate) fn number(key: &str, v: f64, span: Span<usize>, range: &Range) -> Checked<f64> {
-    if (range.low..=range.high).contains(&v) {
-        return Ok(v * range.si);
-    }
-    let help = match v {
-        _ if v.is_nan() => "write a number",
-        _ if v < 0.0 && range.low >= 0.0 => "a negative value means nothing here",
-        _ if v < range.low => range.too_small,
-        _ => range.too_large,
-    };
-    let unit = if range.unit.is_empty() { String::new() } else { format!(" {}", range.unit) };
-    refuse(format!("{key} must be from {} to {}{unit}, not {v}", range.low, range.high), help, span)
+    range.si(key, v).or_else(|(message, help)| refuse(message, help, span))
 }
 
 /// A number that may be left out.

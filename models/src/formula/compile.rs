@@ -6,7 +6,7 @@
 //! ```
 
 use super::program::{DEPTH, FUNCTIONS, Op, PAIRS};
-use super::units::Dimension;
+use spelling::units::Dimension;
 
 /// What is wrong, what to type, and where: byte range in the formula.
 #[derive(Debug, Clone, PartialEq)]

@@ -18,7 +18,6 @@
 
 mod compile;
 mod program;
-mod units;
 
 use crate::assembly::Assembly;
 use crate::effects::{Effect, Fitted, Group, Needs, Parameter, Stage};
@@ -26,8 +25,8 @@ use crate::root::POLE;
 use crate::term::{Account, Extreme, LedgerLine, Pose, Remembering, Term};
 use compile::{Compiled, Name, compile};
 use program::{Op, run};
+use spelling::units::{self, Dimension};
 use std::sync::Arc;
-use units::Dimension;
 
 pub(crate) use compile::Slip;
 
@@ -118,11 +117,6 @@ const INPUTS: usize = VARIABLES.len() + MOST_PARAMETERS;
 /// Whether a name means something in every formula.
 pub(crate) fn is_variable(name: &str) -> bool {
     VARIABLES.iter().any(|(known, _)| *known == name)
-}
-
-/// Factor to SI of a unit; the error is the part that is not known.
-pub(crate) fn unit(text: &str) -> Result<f64, String> {
-    units::parse(text).map(|(si, _)| si)
 }
 
 /// What the text says of a formula, its parameters checked.

@@ -9,41 +9,15 @@ use crate::effects::Effect;
 use crate::error::ScenarioError;
 use crate::formula::Formula;
 use crate::term::CHANNELS;
+use spelling::units::Range;
 use std::sync::Arc;
 use toml::Spanned;
 
 pub(super) type Checked<T> = Result<T, ScenarioError>;
 
-/// Accepted interval of a quantity, and the slip to suspect below or above it.
-struct Range {
-    name: &'static str,
-    unit: &'static str,
-    si: f64,
-    low: f64,
-    high: f64,
-    too_small: &'static str,
-    too_large: &'static str,
-}
-
-const LENGTH: Range = Range {
-    name: "length",
-    unit: "mm",
-    si: 1e-3,
-    low: 1.0,
-    high: 1e5,
-    too_small: "this looks like metres: write millimetres, for example 60 for 0.06 m",
-    too_large: "write millimetres",
-};
+const LENGTH: Range = Range::LENGTH;
 const POSITION: Range = Range { name: "position", low: 0.0, too_small: "positions count from the base", ..LENGTH };
-const PRESSURE: Range = Range {
-    name: "pressure",
-    unit: "kPa",
-    si: 1e3,
-    low: 0.0,
-    high: 500.0,
-    too_small: "pressures are gauge pressures and not negative",
-    too_large: "this looks like pascals: write kilopascals, for example 30 for 30000 Pa",
-};
+const PRESSURE: Range = Range::PRESSURE;
 const BODY_PRESSURE: Range = Range {
     low: 0.5,
     high: 100.0,
@@ -53,58 +27,33 @@ const BODY_PRESSURE: Range = Range {
 const STIFFNESS: Range = Range {
     name: "bending stiffness",
     unit: "N m²",
-    si: 1.0,
-    low: 0.0,
-    high: 1e3,
     too_small: "a stiffness is not negative",
-    too_large: "write N·m²; 1 N·m² is 1e6 N·mm²",
+    ..Range::plain(0.0, 1e3, "write N·m²; 1 N·m² is 1e6 N·mm²")
 };
 const HINGE: Range = Range {
     name: "hinge curvature",
     unit: "1/m",
-    si: 1.0,
-    low: 1e-6,
-    high: 10.0,
     too_small: "it must be positive; 0.05 is the usual value",
-    too_large: "write 1/m; 0.05 is the usual value",
+    ..Range::plain(1e-6, 10.0, "write 1/m; 0.05 is the usual value")
 };
 const SHARE: Range = Range {
     name: "hinge moment share",
-    unit: "-",
-    si: 1.0,
-    low: 0.0,
-    high: 2.0,
-    too_small: "1 is the collapse moment πp_bR³, 0.5 the first wrinkle",
-    too_large: "1 is the collapse moment πp_bR³, 0.5 the first wrinkle",
+    ..Range::plain(0.0, 2.0, "1 is the collapse moment πp_bR³, 0.5 the first wrinkle")
 };
 const WALL: Range = Range {
     name: "wall stiffness",
     unit: "N/m",
-    si: 1.0,
-    low: 100.0,
-    high: 1e8,
     too_small: "this looks like N/mm: write N/m, for example 40000 for 200 MPa x 0.2 mm",
-    too_large: "write N/m, for example 40000 for 200 MPa x 0.2 mm",
+    ..Range::plain(100.0, 1e8, "write N/m, for example 40000 for 200 MPa x 0.2 mm")
 };
 const SHEAR: Range = Range { name: "wall shear stiffness", low: 0.0, too_small: "a stiffness is not negative", ..WALL };
-const GAIN: Range = Range {
-    name: "volume gain",
-    unit: "-",
-    si: 1.0,
-    low: 0.05,
-    high: 20.0,
-    too_small: "1 is the plain pouch",
-    too_large: "1 is the plain pouch",
-};
-
+const GAIN: Range = Range { name: "volume gain", ..Range::plain(0.05, 20.0, "1 is the plain pouch") };
 const BIAS_ANGLE: Range = Range {
     name: "bias angle",
     unit: "deg",
     si: std::f64::consts::PI / 180.0,
-    low: 15.0,
-    high: 75.0,
     too_small: "write degrees from the axis; a bias cut has 45",
-    too_large: "write degrees from the axis; a muscle with yarns beyond 54.7 lengthens",
+    ..Range::plain(15.0, 75.0, "write degrees from the axis; a muscle with yarns beyond 54.7 lengthens")
 };
 
 pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
@@ -151,14 +100,7 @@ pub(super) fn refuse<T>(message: String, help: impl Into<String>, span: std::ops
 }
 
 fn si(value: &Spanned<f64>, range: &Range) -> Checked<f64> {
-    let v = *value.get_ref();
-    if (range.low..=range.high).contains(&v) {
-        return Ok(v * range.si);
-    }
-    let help = if v < range.low { range.too_small } else { range.too_large };
-    let message = format!("{} must be from {} to {}{}, not {v}", range.name, range.low, range.high, unit(range.unit));
-    let help = if v < 0.0 && range.low >= 0.0 { "a negative value means nothing here" } else { help };
-    refuse(message, help, value.span())
+    range.si(range.name, *value.get_ref()).or_else(|(message, help)| refuse(message, help, value.span()))
 }
 
 /// A unit after its number; nothing where there is none.

@@ -75,9 +75,9 @@ fn checked(key: &Spanned<String>, raw: &RawParameter) -> Checked<FormulaParamete
             "letters, digits and _, starting with a letter; kappa, theta, p_act, p_body, s, R and B have a meaning";
         return refuse(format!("\"{name}\" cannot name a parameter"), help, key.span());
     }
-    let si = formula::unit(raw.unit.get_ref()).or_else(|part| {
+    let (si, _) = spelling::units::parse(raw.unit.get_ref()).or_else(|part| {
         let help =
-            "known: 1 or -, %, rad, deg, mN, N, kN, mm, cm, m, Pa, kPa, MPa, J, g, kg, s; for example \"N m/rad^3\"";
+            "known: 1 or -, %, rad, deg, mN, N, kN, mm, cm, m, Pa, kPa, MPa, J, g, kg, s, ms, min; for example \"N m/rad^3\"";
         refuse(format!("the unit \"{}\" is not understood at \"{part}\"", raw.unit.get_ref()), help, raw.unit.span())
     })?;
     let [lower, upper] = **raw.bounds.get_ref();

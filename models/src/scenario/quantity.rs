@@ -1,5 +1,7 @@
 //! Quantities typed with their unit, as on a command line: `30kPa`, `100mm`, `45deg`.
 
+use spelling::units::{ANGLES, Dimension, Unit, units_of};
+
 /// What a quantity measures; fixes the units that are understood.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
@@ -11,18 +13,15 @@ pub enum Quantity {
     Angle,
 }
 
-const UNITS: &[(Quantity, &str, f64)] = &[
-    (Quantity::Pressure, "kPa", 1e3),
-    (Quantity::Pressure, "MPa", 1e6),
-    (Quantity::Pressure, "Pa", 1.0),
-    (Quantity::Pressure, "psi", 6894.757293168),
-    (Quantity::Pressure, "bar", 1e5),
-    (Quantity::Length, "mm", 1e-3),
-    (Quantity::Length, "cm", 1e-2),
-    (Quantity::Length, "m", 1.0),
-    (Quantity::Angle, "deg", std::f64::consts::PI / 180.0),
-    (Quantity::Angle, "rad", 1.0),
-];
+impl Quantity {
+    fn units(self) -> Vec<Unit> {
+        match self {
+            Quantity::Pressure => units_of(Dimension::PRESSURE).collect(),
+            Quantity::Length => units_of(Dimension::LENGTH).collect(),
+            Quantity::Angle => ANGLES.to_vec(),
+        }
+    }
+}
 
 /// Reads one quantity into SI.
 ///
@@ -38,14 +37,15 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, String> {
     let text = text.trim();
     let split = text.find(|c: char| c.is_alphabetic() && c != 'e' && c != 'E').unwrap_or(text.len());
     let (number, unit) = text.split_at(split);
-    let units: Vec<&str> = UNITS.iter().filter(|u| u.0 == quantity).map(|u| u.1).collect();
-    let example = format!("write a number and one of the units {}, for example 30{}", units.join(", "), units[0]);
+    let units = quantity.units();
+    let symbols: Vec<&str> = units.iter().map(|u| u.symbol).collect();
+    let example = format!("write a number and one of the units {}, for example 30{}", symbols.join(", "), symbols[0]);
     let value: f64 = number.trim().parse().map_err(|_| format!("`{text}` is not a quantity: {example}"))?;
     if unit.trim().is_empty() {
         return Err(format!("`{text}` has no unit: {example}"));
     }
-    let known = UNITS.iter().find(|u| u.0 == quantity && u.1.eq_ignore_ascii_case(unit.trim()));
-    let factor = known.map(|u| u.2).ok_or_else(|| format!("`{text}` has an unknown unit: {example}"))?;
+    let known = units.iter().find(|u| u.symbol.eq_ignore_ascii_case(unit.trim()));
+    let factor = known.map(|u| u.factor()).ok_or_else(|| format!("`{text}` has an unknown unit: {example}"))?;
     if value.is_finite() { Ok(value * factor) } else { Err(format!("`{text}` is not finite: {example}")) }
 }
 

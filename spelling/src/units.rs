@@ -1,0 +1,255 @@
+//! One table of units for column names, formulas and typed quantities; accepted intervals of numbers in files.
+
+use std::f64::consts::PI;
+
+/// Powers of kilogram, metre and second; an angle has none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dimension(pub [f64; 3]);
+
+impl Dimension {
+    /// Of a pure number or an angle.
+    pub const NONE: Dimension = Dimension([0.0; 3]);
+    /// Of a length.
+    pub const LENGTH: Dimension = Dimension([0.0, 1.0, 0.0]);
+    /// Of a time.
+    pub const TIME: Dimension = Dimension([0.0, 0.0, 1.0]);
+    /// Of a force.
+    pub const FORCE: Dimension = Dimension([1.0, 1.0, -2.0]);
+    /// Of a pressure or a stress.
+    pub const PRESSURE: Dimension = Dimension([1.0, -1.0, -2.0]);
+    /// Of a moment or an energy.
+    pub const MOMENT: Dimension = Dimension([1.0, 2.0, -2.0]);
+    /// Of a mass.
+    pub const MASS: Dimension = Dimension([1.0, 0.0, 0.0]);
+
+    /// Dimension of a product with the `power` of another.
+    pub fn times(self, other: Dimension, power: f64) -> Dimension {
+        let part = |i: usize| self.0[i] + power * other.0[i];
+        Dimension([part(0), part(1), part(2)])
+    }
+
+    /// Whether it is that of another.
+    pub fn is(self, other: Dimension) -> bool {
+        self.0.iter().zip(other.0).all(|(a, b)| (a - b).abs() < 1e-9)
+    }
+
+    /// As a user would write it.
+    pub fn words(self) -> String {
+        if self.is(Dimension::NONE) {
+            return "a pure number".into();
+        }
+        if let Some(unit) = UNITS.iter().find(|unit| unit.factor() == 1.0 && self.is(unit.dimension)) {
+            return unit.symbol.into();
+        }
+        // With the newton first, as mechanics has it.
+        let newton = self.0[0];
+        let rest = [("N", newton), ("m", self.0[1] - newton), ("s", self.0[2] + 2.0 * newton)];
+        let part = |(name, power): &(&str, f64)| match *power {
+            1.0 => name.to_string(),
+            power => format!("{name}^{power}"),
+        };
+        rest.iter().filter(|(_, power)| power.abs() > 1e-9).map(part).collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// A unit: `value_SI = value · numerator / denominator`, a ratio so that whole millimetres are rounded once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    /// As printed.
+    pub symbol: &'static str,
+    /// What it measures.
+    pub dimension: Dimension,
+    numerator: f64,
+    denominator: f64,
+}
+
+impl Unit {
+    /// A unit of so much SI.
+    pub const fn new(symbol: &'static str, dimension: Dimension, numerator: f64, denominator: f64) -> Unit {
+        Unit { symbol, dimension, numerator, denominator }
+    }
+
+    /// `value` of this unit in SI.
+    pub fn to_si(self, value: f64) -> f64 {
+        value * self.numerator / self.denominator
+    }
+
+    /// This unit in SI.
+    pub fn factor(self) -> f64 {
+        self.numerator / self.denominator
+    }
+}
+
+/// Units of everything but pure numbers and angles; of each dimension the house unit first.
+pub const UNITS: &[Unit] = &[
+    Unit::new("mm", Dimension::LENGTH, 1.0, 1e3),
+    Unit::new("cm", Dimension::LENGTH, 1.0, 1e2),
+    Unit::new("m", Dimension::LENGTH, 1.0, 1.0),
+    Unit::new("kPa", Dimension::PRESSURE, 1e3, 1.0),
+    Unit::new("Pa", Dimension::PRESSURE, 1.0, 1.0),
+    Unit::new("MPa", Dimension::PRESSURE, 1e6, 1.0),
+    // 1 psi = 1 lbf/in² (NIST SP 811, B.8).
+    Unit::new("psi", Dimension::PRESSURE, 6_894.757_293_168, 1.0),
+    Unit::new("bar", Dimension::PRESSURE, 1e5, 1.0),
+    Unit::new("s", Dimension::TIME, 1.0, 1.0),
+    Unit::new("ms", Dimension::TIME, 1.0, 1e3),
+    Unit::new("min", Dimension::TIME, 60.0, 1.0),
+    Unit::new("N", Dimension::FORCE, 1.0, 1.0),
+    Unit::new("kN", Dimension::FORCE, 1e3, 1.0),
+    Unit::new("mN", Dimension::FORCE, 1.0, 1e3),
+    // NIST SP 811, B.8.
+    Unit::new("lbf", Dimension::FORCE, 4.448_221_615_260_5, 1.0),
+    Unit::new("J", Dimension::MOMENT, 1.0, 1.0),
+    Unit::new("kg", Dimension::MASS, 1.0, 1.0),
+    Unit::new("g", Dimension::MASS, 1.0, 1e3),
+];
+
+/// Angles in radians.
+pub const ANGLES: &[Unit] =
+    &[Unit::new("deg", Dimension::NONE, PI, 180.0), Unit::new("rad", Dimension::NONE, 1.0, 1.0)];
+
+/// Pure numbers.
+const PURE: &[Unit] = &[
+    Unit::new("1", Dimension::NONE, 1.0, 1.0),
+    Unit::new("-", Dimension::NONE, 1.0, 1.0),
+    Unit::new("%", Dimension::NONE, 1.0, 1e2),
+];
+
+/// Units of a dimension, the house unit first.
+pub fn units_of(dimension: Dimension) -> impl Iterator<Item = Unit> + Clone {
+    UNITS.iter().copied().filter(move |unit| unit.dimension == dimension)
+}
+
+/// Accepted interval of a quantity as typed, its factor to SI, and the slip to suspect outside.
+#[derive(Debug, Clone, Copy)]
+pub struct Range {
+    /// What it is, where no key says so.
+    pub name: &'static str,
+    /// Unit after the number; empty for a pure one.
+    pub unit: &'static str,
+    /// Factor to SI.
+    pub si: f64,
+    /// Least accepted.
+    pub low: f64,
+    /// Largest accepted.
+    pub high: f64,
+    /// What to type instead of something smaller.
+    pub too_small: &'static str,
+    /// What to type instead of something larger.
+    pub too_large: &'static str,
+}
+
+impl Range {
+    /// Lengths.
+    pub const LENGTH: Range = Range {
+        name: "length",
+        unit: "mm",
+        si: 1e-3,
+        too_small: "this looks like metres: write millimetres, for example 60 for 0.06 m",
+        ..Range::plain(1.0, 1e5, "write millimetres")
+    };
+    /// Gauge pressures.
+    pub const PRESSURE: Range = Range {
+        name: "pressure",
+        unit: "kPa",
+        si: 1e3,
+        too_small: "pressures are gauge pressures and not negative",
+        ..Range::plain(0.0, 500.0, "this looks like pascals: write kilopascals, for example 30 for 30000 Pa")
+    };
+
+    /// A pure number.
+    pub const fn plain(low: f64, high: f64, usual: &'static str) -> Range {
+        Range { name: "", unit: "", si: 1.0, low, high, too_small: usual, too_large: usual }
+    }
+
+    /// A number in SI.
+    ///
+    /// # Errors
+    /// What is wrong with the number called `name`, and what to type.
+    pub fn si(&self, name: &str, value: f64) -> Result<f64, (String, &'static str)> {
+        let Range { unit, low, high, .. } = self;
+        if (*low..=*high).contains(&value) {
+            return Ok(value * self.si);
+        }
+        let help = match value {
+            _ if value.is_nan() => "write a number",
+            _ if value < 0.0 && *low >= 0.0 => "a negative value means nothing here",
+            _ if value < *low => self.too_small,
+            _ => self.too_large,
+        };
+        let space = if unit.is_empty() { "" } else { " " };
+        Err((format!("{name} must be from {low} to {high}{space}{unit}, not {value}"), help))
+    }
+}
+
+/// Factor to SI and dimension of a unit like `N m/rad^3`, `1/m`, `kPa` or `-`; a slash divides by the next factor alone.
+///
+/// # Errors
+/// The part that is not known.
+pub fn parse(text: &str) -> Result<(f64, Dimension), String> {
+    let (mut si, mut dimension) = (1.0, Dimension::NONE);
+    let spaced = text.replace('/', " /").replace(['·', '*'], " ");
+    for word in spaced.split_whitespace() {
+        let (over, word) = word.strip_prefix('/').map_or((1.0, word), |rest| (-1.0, rest));
+        let (name, power) = split_power(word).ok_or_else(|| word.to_string())?;
+        let known = [PURE, ANGLES, UNITS].into_iter().flatten().find(|unit| unit.symbol == name);
+        let unit = known.ok_or_else(|| word.to_string())?;
+        si *= unit.factor().powf(over * power);
+        dimension = dimension.times(unit.dimension, over * power);
+    }
+    if text.trim().is_empty() { Err("nothing".into()) } else { Ok((si, dimension)) }
+}
+
+/// `m`, `m2`, `m^2`, `m²` → name and power.
+fn split_power(word: &str) -> Option<(&str, f64)> {
+    for (mark, power) in [("²", 2.0), ("³", 3.0)] {
+        if let Some(name) = word.strip_suffix(mark) {
+            return Some((name, power));
+        }
+    }
+    if let Some((name, power)) = word.split_once('^') {
+        return power.parse().ok().filter(|p: &f64| p.is_finite()).map(|power| (name, power));
+    }
+    let name = word.trim_end_matches(|c: char| c.is_ascii_digit());
+    if name.is_empty() || name.len() == word.len() {
+        return Some((word, 1.0));
+    }
+    word[name.len()..].parse().ok().map(|power| (name, power))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_have_their_factor_and_dimension() {
+        for (text, si, powers) in [
+            ("N m", 1.0, [1.0, 2.0, -2.0]),
+            ("N m/rad^3", 1.0, [1.0, 2.0, -2.0]),
+            ("N·m²", 1.0, [1.0, 3.0, -2.0]),
+            ("N m2", 1.0, [1.0, 3.0, -2.0]),
+            ("1/m", 1.0, [0.0, -1.0, 0.0]),
+            ("N/mm", 1e3, [1.0, 0.0, -2.0]),
+            ("mm^2/kPa", 1e-9, [-1.0, 3.0, 2.0]),
+            ("-", 1.0, [0.0; 3]),
+        ] {
+            let (factor, dimension) = parse(text).unwrap();
+            assert!(
+                (factor / si - 1.0).abs() < 1e-12 && dimension.is(Dimension(powers)),
+                "{text}: {factor} {dimension:?}"
+            );
+        }
+        for text in ["", "furlong", "N m/x", "m^", "m^x"] {
+            assert!(parse(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn dimensions_are_said_in_newtons_and_metres() {
+        let words = |text: &str| parse(text).unwrap().1.words();
+        assert_eq!(
+            ["N", "N m", "N m2", "1/m", "kPa", "deg"].map(words),
+            ["N", "J", "N m^2", "m^-1", "Pa", "a pure number"]
+        );
+    }
+}
