@@ -17,7 +17,6 @@
 //! | [`run`] | time stepping, stable step, ledger, guards |
 //! | [`session`] | a run, or several, from text to typed result: folder, checkpoints, cache |
 //! | [`record`] | files that are written and read again, with their version |
-//! | [`output`] | vtu, pvd, history, checkpoints |
 //! | [`verify`] | problems with known answers |
 //! | [`speed`] | workloads whose speed is measured |
 //! | [`case`] | the TOML file that describes a run |
@@ -31,7 +30,7 @@ pub mod case;
 pub mod contact;
 pub mod error;
 pub mod mesh;
-pub mod output;
+mod output;
 pub mod plain;
 pub mod problem;
 pub mod record;

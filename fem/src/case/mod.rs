@@ -36,7 +36,7 @@ mod settings;
 pub(crate) use load::encastre;
 pub use mesh::{GENERATORS, Generator, Key};
 
-use crate::output::picture::View;
+pub use crate::output::picture::View;
 use crate::{FemError, Mesh, Problem};
 use std::path::Path;
 

@@ -63,17 +63,6 @@ impl CentreLine {
         Ok(CentreLine { stations_m: stations_m.to_vec(), weights, nodes: mesh.points.len() })
     }
 
-    /// `count` stations evenly from end to end of the parts, otherwise as [`CentreLine::new`].
-    ///
-    /// # Errors
-    /// As [`CentreLine::new`].
-    pub fn even(mesh: &Mesh, parts: &[String], axis: [f64; 3], count: usize) -> Result<CentreLine, FemError> {
-        let (low, high) = Sections::of(mesh, parts, axis)?.range();
-        let share = |i: usize| if count == 1 { 0.5 } else { i as f64 / (count - 1) as f64 };
-        let stations: Vec<f64> = (0..count).map(|i| low + (high - low) * share(i)).collect();
-        CentreLine::new(mesh, parts, axis, &stations)
-    }
-
     /// As [`CentreLine::new`], but in place of centroids the points of the sections on the side that faces `eye` (any direction
     /// across the axis): where the half plane through the axis and `eye` meets the wall in the reference shape.
     ///
@@ -124,42 +113,29 @@ impl CentreLine {
 
 /// The growing file `centre_line.csv`.
 #[derive(Debug)]
-pub struct CentreLineFile {
+pub(crate) struct CentreLineFile {
     line: CentreLine,
     table: Table,
 }
 
 impl CentreLineFile {
     /// An empty file at `path`.
-    ///
-    /// # Errors
-    /// [`FemError::Io`].
     pub fn create(path: &Path, line: CentreLine) -> Result<CentreLineFile, FemError> {
         Ok(CentreLineFile { line, table: Table::create(path)? })
     }
 
     /// Refuses a file that [`CentreLineFile::resume`] refuses, and touches nothing.
-    ///
-    /// # Errors
-    /// As there.
     pub fn check(path: &Path, line: &CentreLine, times_s: &[f64]) -> Result<(), FemError> {
         Table::check(path, times_s, line.stations_m.len())
     }
 
     /// Goes on after the rows of `times_s` \[s\], which the checkpoint knows of; later ones are dropped.
-    ///
-    /// # Errors
-    /// [`FemError::Problem`] for rows that are missing; [`FemError::Io`]; [`FemError::MeshFile`] if the file was edited into
-    /// something else.
     pub fn resume(path: &Path, line: CentreLine, times_s: &[f64]) -> Result<CentreLineFile, FemError> {
         let table = Table::resume(path, times_s, line.stations_m.len())?;
         Ok(CentreLineFile { line, table })
     }
 
     /// Adds one row per station; a step that is in the file already is not written again.
-    ///
-    /// # Errors
-    /// [`FemError::Stopped`] if a centroid is not finite; [`FemError::Problem`] for another mesh; [`FemError::Io`].
     pub fn append(&mut self, step: u64, time_s: f64, positions: &[[f64; 3]]) -> Result<(), FemError> {
         let mut rows = String::new();
         for (point, station) in self.line.at(positions)?.iter().zip(&self.line.stations_m) {
@@ -174,9 +150,6 @@ impl CentreLineFile {
     }
 
     /// Waits until the disk has all rows; to be called before a checkpoint is written.
-    ///
-    /// # Errors
-    /// [`FemError::Io`].
     pub fn sync(&self) -> Result<(), FemError> {
         self.table.sync()
     }

@@ -110,10 +110,10 @@ fn mistakes_are_told_with_what_to_write() {
     for s in [-0.01, 0.101, f64::NAN] {
         assert!(say(&[], X, s).contains("reaches from 0 to 100 mm"), "{}", say(&[], X, s));
     }
-    let line = CentreLine::even(&mesh, &[], X, 3).unwrap();
+    let line = even(&mesh, &[], X, 3).unwrap();
     assert_eq!(line.stations_m(), [0.0, 0.05, 0.1]);
     assert!(line.at(&mesh.points[1..]).is_err());
-    assert!(CentreLine::even(&Mesh::default(), &[], X, 3).is_err());
+    assert!(even(&Mesh::default(), &[], X, 3).is_err());
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn the_file_holds_every_station_and_resumes_to_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, cut) = (folder.path().join("a.csv"), folder.path().join("b.csv"));
     let mesh = tube(&[0.0, 0.1, 0.2], &circle(8, 0.04), false);
-    let line = CentreLine::even(&mesh, &[], X, 5).unwrap();
+    let line = even(&mesh, &[], X, 5).unwrap();
     let add = |file: &mut CentreLineFile, step: u64| {
         let moved: Vec<_> = mesh.points.iter().map(|p| [p[0], p[1] + step as f64 / 3.0, p[2]]).collect();
         file.append(step, step as f64 * 0.1, &moved).unwrap();
@@ -166,4 +166,12 @@ fn a_marker_is_on_the_side_that_the_eye_sees_and_goes_with_its_wall() {
     let open = Mesh { parts: vec![Part { quads: lower, ..open.parts[0].clone() }], ..open };
     let refused = CentreLine::seen(&open, &[], X, up, &[0.1]).unwrap_err().to_string();
     assert!(refused.contains("no wall at 100 mm"), "{refused}");
+}
+
+/// `count` stations evenly from end to end of the parts.
+fn even(mesh: &Mesh, parts: &[String], axis: [f64; 3], count: usize) -> Result<CentreLine, FemError> {
+    let (low, high) = Sections::of(mesh, parts, axis)?.range();
+    let share = |i: usize| if count == 1 { 0.5 } else { i as f64 / (count - 1) as f64 };
+    let stations: Vec<f64> = (0..count).map(|i| low + (high - low) * share(i)).collect();
+    CentreLine::new(mesh, parts, axis, &stations)
 }

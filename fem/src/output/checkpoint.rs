@@ -44,18 +44,11 @@ pub struct Loaded {
 }
 
 /// Writes `checkpoint` to `folder`, which is created; the one before it is kept.
-///
-/// # Errors
-/// [`FemError::Io`]: the disk is full or refuses. The earlier checkpoint is then untouched.
 pub fn write_checkpoint(folder: &Path, checkpoint: &Checkpoint) -> Result<PathBuf, FemError> {
     write_through(folder, checkpoint, &mut |out, bytes| out.write_all(bytes))
 }
 
 /// Reads the newest good checkpoint of the problem with this `fingerprint`; `None` if the folder has none.
-///
-/// # Errors
-/// [`FemError::Checkpoint`] if none is good, or if the newest belongs to another problem or program version;
-/// [`FemError::Io`].
 pub fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<Loaded>, FemError> {
     let (newest, previous) = names(folder);
     let fault = match read_file(&newest, fingerprint)? {

@@ -40,9 +40,6 @@ impl Frame {
     }
 
     /// Checks that the frame fits the mesh and that every number is finite.
-    ///
-    /// # Errors
-    /// [`FemError::Stopped`] naming the quantity and the node or element (counted from 1).
     pub fn check(&self, mesh: &Mesh) -> Result<(), FemError> {
         let (nodes, elements) = (mesh.points.len(), mesh.elements());
         let Frame { fields, .. } = self;

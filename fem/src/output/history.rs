@@ -74,35 +74,23 @@ struct Probe {
 
 impl History {
     /// An empty history at `path`, with the node sets of `mesh` named in `probes`.
-    ///
-    /// # Errors
-    /// [`FemError::Problem`] for a set that is not in the mesh or empty; [`FemError::Io`].
     pub fn create(path: &Path, mesh: &Mesh, probes: &[String]) -> Result<History, FemError> {
         let probes = find_probes(mesh, probes)?;
         Ok(History { table: Table::create(path)?, probes })
     }
 
     /// Goes on after the rows of `times_s` \[s\], which the checkpoint knows of; later ones are dropped.
-    ///
-    /// # Errors
-    /// As [`History::create`], and for rows that are missing; [`FemError::MeshFile`] if the file was edited into something else.
     pub fn resume(path: &Path, mesh: &Mesh, probes: &[String], times_s: &[f64]) -> Result<History, FemError> {
         let probes = find_probes(mesh, probes)?;
         Ok(History { table: Table::resume(path, times_s, 1)?, probes })
     }
 
     /// Refuses a file that [`History::resume`] refuses, and touches nothing.
-    ///
-    /// # Errors
-    /// As there.
     pub fn check(path: &Path, times_s: &[f64]) -> Result<(), FemError> {
         Table::check(path, times_s, 1)
     }
 
     /// Adds a row; a step that has a row already is not written again.
-    ///
-    /// # Errors
-    /// [`FemError::Stopped`] if a number is not finite, [`FemError::Problem`] if the columns changed, [`FemError::Io`].
     pub fn append(&mut self, record: &Record) -> Result<(), FemError> {
         let cells = self.cells(record)?;
         if let Some((name, value)) = cells.iter().find(|(_, value)| !value.is_finite()) {
@@ -117,9 +105,6 @@ impl History {
     }
 
     /// Waits until the disk has all rows; to be called before a checkpoint is written.
-    ///
-    /// # Errors
-    /// [`FemError::Io`].
     pub fn sync(&self) -> Result<(), FemError> {
         self.table.sync()
     }

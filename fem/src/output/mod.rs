@@ -19,6 +19,6 @@ pub mod history;
 pub mod picture;
 pub mod pvd;
 mod table;
-pub mod vtu;
+mod vtu;
 
 pub use frame::Frame;

@@ -16,9 +16,6 @@ pub struct Series {
 
 impl Series {
     /// A series without frames in `folder`, which is created. A series of an earlier run in it is replaced.
-    ///
-    /// # Errors
-    /// [`FemError::Io`].
     pub fn create(folder: &Path) -> Result<Series, FemError> {
         let series = Series { folder: folder.to_path_buf(), times_s: Vec::new() };
         make_folder(&folder.join("frames"))?;
@@ -28,9 +25,6 @@ impl Series {
 
     /// Goes on with the series in `folder` after the frames of `times_s` \[s\]: the list is written anew, and later frames as the
     /// run reaches them.
-    ///
-    /// # Errors
-    /// [`FemError::Problem`] for a frame that is not there; [`FemError::Io`].
     pub fn resume(folder: &Path, times_s: &[f64]) -> Result<Series, FemError> {
         let missing = (0..times_s.len()).map(|index| folder.join(file_name(index))).find(|path| !path.is_file());
         if let Some(path) = missing {
@@ -46,9 +40,6 @@ impl Series {
     }
 
     /// Adds a frame: its file first, then the list that names it. A frame of the time of the last one replaces it.
-    ///
-    /// # Errors
-    /// Those of [`write_vtu`]; [`FemError::Stopped`] for a frame earlier than the last one.
     pub fn push(&mut self, mesh: &Mesh, frame: &Frame) -> Result<PathBuf, FemError> {
         let last = self.times_s.last().copied();
         if last.is_some_and(|last| frame.time_s < last) {
@@ -62,11 +53,6 @@ impl Series {
         self.times_s.push(frame.time_s);
         self.write_list()?;
         Ok(path)
-    }
-
-    /// Times of the frames so far \[s\].
-    pub fn times_s(&self) -> &[f64] {
-        &self.times_s
     }
 
     fn write_list(&self) -> Result<(), FemError> {
@@ -109,7 +95,7 @@ mod tests {
         let mut series = Series::create(cut.path()).unwrap();
         TIMES[..3].iter().for_each(|&t| drop(series.push(&mesh(), &frame(t)).unwrap()));
         let mut series = Series::resume(cut.path(), &TIMES[..2]).unwrap();
-        assert_eq!(series.times_s(), &TIMES[..2]);
+        assert_eq!(series.times_s, &TIMES[..2]);
         TIMES[1..].iter().for_each(|&t| drop(series.push(&mesh(), &frame(t)).unwrap()));
         assert_eq!(files(whole.path()), files(cut.path()));
         assert_eq!(files(cut.path()).len(), 5);
@@ -123,7 +109,7 @@ mod tests {
         let mut bad = frame(0.1);
         bad.positions[0][0] = f64::NAN;
         assert!(series.push(&mesh(), &bad).is_err());
-        assert_eq!(series.times_s(), [0.0]);
+        assert_eq!(series.times_s, [0.0]);
         assert!(series.push(&mesh(), &frame(-0.1)).is_err());
     }
 

@@ -45,10 +45,6 @@ const PLACE_BITS: i32 = 17;
 const DIRECTION: f64 = 127.0;
 
 /// Writes one frame to `path`, whole or not at all.
-///
-/// # Errors
-/// [`FemError::Stopped`] if a number is not finite or the frame does not fit the mesh; [`FemError::Io`] if the disk
-/// refuses. An earlier file at `path` is then untouched.
 pub fn write_vtu(path: &Path, mesh: &Mesh, frame: &Frame) -> Result<(), FemError> {
     frame.check(mesh)?;
     let bytes = Grid::of(mesh, frame);

@@ -49,7 +49,7 @@ use models::actuators::pattern::Pattern;
 
 use crate::case::{Outputs, encastre};
 use crate::mesh::check::{Quality, check_open};
-use crate::output::centre_line::CentreLine;
+pub use crate::output::centre_line::CentreLine;
 use crate::output::picture::View;
 use crate::problem::{Amplitude, Chamber, Contact, Guards, MassScaling, Pressure, Settings, Support};
 use crate::run;

@@ -27,14 +27,11 @@
 //! ```
 //!
 //! Blocks `membrane N` and `start N` after `nodes` give the places at which the membrane is free of stress and at which the
-//! nodes start, if they differ. `#` starts a comment; empty lines are skipped; spaces are free. Numbers are written with as
-//! many digits as they need to be read back bit by bit.
+//! nodes start, if they differ. `#` starts a comment; empty lines are skipped; spaces are free.
 
 mod read;
-mod write;
 
 pub use read::{parse, read};
-pub use write::{text, write};
 
 /// Words that begin a block.
 const KEYWORDS: [&str; 14] = [

@@ -1,9 +1,12 @@
+mod write;
+
 use std::path::Path;
 
 use super::*;
 use crate::FemError;
 use crate::mesh::generate::{Around, Cap, Distortion, Tube, crossed_sheets, disc_balloon, pillow, plate, sphere, tube};
 use crate::mesh::{Mesh, Tie};
+use write::{text, write};
 
 /// The example of the format description, without its comments.
 const SMALL: &str = "mesh 1

@@ -20,9 +20,6 @@ pub struct Cut {
 }
 
 /// Draws a cut. Across the view (its normal along the view's depth at the start) the section is turned to face the viewer.
-///
-/// # Errors
-/// [`FemError::Problem`] as [`super::render`], or if the plane misses the mesh.
 pub fn section(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], cut: &Cut, look: &Look) -> Result<Image, FemError> {
     check(mesh, positions, values, look)?;
     let pieces = pieces(mesh, positions, cut);

@@ -2,17 +2,6 @@
 //!
 //! Elements have one colour each, from a perceptually even colour map between two limits, darkened where they turn away
 //! from the light. Nothing here feeds back into a run.
-//!
-//! ```
-//! use fem::output::picture::{Look, render};
-//! use fem::{Mesh, Part};
-//! let points = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-//! let part = Part { quads: vec![[0, 1, 2, 3]], ..Part::default() };
-//! let mesh = Mesh { points: points.clone(), parts: vec![part], ..Mesh::default() };
-//! let image = render(&mesh, &points, &[0.7], &Look { limits: Some((0.0, 1.0)), ..Look::default() })?;
-//! assert_eq!(image.rgb.len(), 3 * image.width * image.height);
-//! # Ok::<(), fem::FemError>(())
-//! ```
 
 mod colour;
 mod cut;
@@ -24,9 +13,6 @@ pub use colour::viridis;
 pub use cut::{Cut, section};
 pub use notes::round_above;
 
-use std::path::Path;
-
-use crate::atomic::replace;
 use crate::{FemError, Mesh};
 use raster::{Canvas, Corner};
 
@@ -122,9 +108,6 @@ pub struct Image {
 }
 
 /// Draws the mesh with its nodes at `positions` \[m\], elements coloured by `values` (mesh order, any unit; empty: grey).
-///
-/// # Errors
-/// [`FemError::Problem`] for a size, limit or position that cannot be drawn, or values of another mesh.
 pub fn render(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &Look) -> Result<Image, FemError> {
     check(mesh, positions, values, look)?;
     let limits = look.limits.unwrap_or_else(|| range(values));
@@ -145,14 +128,6 @@ pub fn render(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &Look) 
     let mut image = canvas.averaged(FINE);
     notes::draw(&mut image, look, &place, axes, bar(values, limits, with_bar));
     Ok(image)
-}
-
-/// Writes an image as PNG, whole or not at all.
-///
-/// # Errors
-/// [`FemError::Io`].
-pub fn write_png(path: &Path, image: &Image) -> Result<(), FemError> {
-    replace(path, &mut |out| encode(image, out))
 }
 
 /// The bytes of an image as PNG; empty if it cannot be encoded, which only an image of another size than it says can.

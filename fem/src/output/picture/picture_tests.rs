@@ -122,7 +122,7 @@ fn a_written_png_is_read_back_pixel_by_pixel() {
     let mesh = sheet(8, |a, b| [a, 0.3 * (3.0 * a).sin() * b, b]);
     let values: Vec<f64> = (0..64).map(f64::from).collect();
     let image = render(&mesh, &mesh.points, &values, &Look::default()).unwrap();
-    write_png(&path, &image).unwrap();
+    std::fs::write(&path, png_bytes(&image)).unwrap();
     let file = std::io::BufReader::new(std::fs::File::open(path).unwrap());
     let mut reader = png::Decoder::new(file).read_info().unwrap();
     let mut rgb = vec![0; reader.output_buffer_size().unwrap()];
