@@ -7,7 +7,7 @@ use crate::cli::Breakdown;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
 use compare::study::breakdown::{PartingCell, Ranges, csv, jobs, partings};
-use compare::study::engines::{FeRun, engines, runs_json, runs_of, stored};
+use compare::study::engines::{EngineRun, engines, runs_json, runs_of, stored};
 use ibr::pages::{Files, parting_plot};
 use models::Scenario;
 use models::scenario::quantity::Quantity;
@@ -33,7 +33,7 @@ pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> 
 }
 
 /// Runs that come with the program or those of the folder, which gets what is missing; and what stopped.
-fn runs(args: &Breakdown, context: &mut Context) -> Result<(Vec<FeRun>, Vec<Failure>), Failure> {
+fn runs(args: &Breakdown, context: &mut Context) -> Result<(Vec<EngineRun>, Vec<Failure>), Failure> {
     if args.stored {
         return Ok((stored()?.into_iter().filter(|run| run.seed == 1).collect(), Vec::new()));
     }

@@ -8,7 +8,7 @@ use crate::cli::DataFem;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
 use compare::study::Generator;
-use compare::study::engines::{FeRun, ensemble, runs_of, seed_jobs, stored};
+use compare::study::engines::{EngineRun, ensemble, runs_of, seed_jobs, stored};
 use compare::study::seen::seen;
 use fem::session::Source;
 use ibr::pages::Files;
@@ -79,9 +79,9 @@ fn robot(args: &DataFem) -> Result<(Source, Scenario), Failure> {
 }
 
 /// One run for every seed of those that come with the program.
-fn of_the_program(args: &DataFem, scenario: &Scenario) -> Result<Vec<FeRun>, Failure> {
+fn of_the_program(args: &DataFem, scenario: &Scenario) -> Result<Vec<EngineRun>, Failure> {
     let own = ensemble(&stored()?, scenario);
-    let found: Vec<FeRun> = own.runs.into_iter().take(args.seeds as usize).collect();
+    let found: Vec<EngineRun> = own.runs.into_iter().take(args.seeds as usize).collect();
     if found.len() == args.seeds as usize {
         return Ok(found);
     }
@@ -100,9 +100,9 @@ fn made(
     scenario: &Scenario,
     kpa: &[f64],
     context: &mut Context,
-) -> Result<Vec<FeRun>, Failure> {
+) -> Result<Vec<EngineRun>, Failure> {
     let jobs = seed_jobs(&[(robot.clone(), scenario.clone())], args.seeds, Some(kpa))?;
     let settings = kept(&args.runs, args.threads);
     let found = context.fem(|progress| runs_of(&jobs, &settings, progress))?;
-    Ok(found.into_iter().collect::<Result<Vec<FeRun>, _>>()?)
+    Ok(found.into_iter().collect::<Result<Vec<EngineRun>, _>>()?)
 }

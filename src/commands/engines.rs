@@ -6,7 +6,7 @@ use super::{Context, Outcome};
 use crate::cli::Compare;
 use crate::failure::Failure;
 use crate::output::{check_folder, machine, program, today, write_files};
-use compare::study::engines::{EngineLine, FeRun, all_runs, engines, lines, runs_json, runs_of, seed_jobs, stored};
+use compare::study::engines::{EngineLine, EngineRun, all_runs, engines, lines, runs_json, runs_of, seed_jobs, stored};
 use fem::session::Source;
 use ibr::pages::{Imprint, engines_page};
 use models::Scenario;
@@ -42,12 +42,12 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
 }
 
 /// Runs of the folder, which gets what is missing.
-fn made(args: &Compare, robots: &[(Source, Scenario)], context: &mut Context) -> Result<Vec<FeRun>, Failure> {
+fn made(args: &Compare, robots: &[(Source, Scenario)], context: &mut Context) -> Result<Vec<EngineRun>, Failure> {
     let kpa = args.pressure.as_deref().map(pressures).transpose()?;
     let (jobs, folder) = (seed_jobs(robots, args.seeds, kpa.as_deref())?, args.runs_folder());
     let settings = kept(&folder, args.threads);
     let own = context.fem(|progress| runs_of(&jobs, &settings, progress))?;
-    let mut own = own.into_iter().collect::<Result<Vec<FeRun>, _>>()?;
+    let mut own = own.into_iter().collect::<Result<Vec<EngineRun>, _>>()?;
     // Runs of the map are there if they were made.
     let others = all_runs(&folder)?.into_iter().filter(|r| !own.contains(r)).collect::<Vec<_>>();
     own.extend(others);

@@ -1,6 +1,6 @@
 //! Over which pressures and pouches the reduced model parts from the finite elements.
 
-use super::engines::{FeRun, Pair, SHAPE, pairs, varied};
+use super::engines::{EngineRun, Pair, SHAPE, pairs, varied};
 use crate::error::CompareError;
 use fem::FemError;
 use fem::session::{Job, Source, mesh_keys, rounded};
@@ -55,7 +55,7 @@ fn places(scenario: &Scenario, ranges: &Ranges) -> Vec<(f64, Option<f64>)> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parting {
     /// The run.
-    pub run: FeRun,
+    pub run: EngineRun,
     /// The scenario without its effects.
     pub bare: Pair,
     /// The scenario as it is.
@@ -66,7 +66,7 @@ pub struct Parting {
 ///
 /// # Errors
 /// A model without equilibrium.
-pub fn partings(scenarios: &[Scenario], runs: &[FeRun]) -> Result<Vec<Parting>, CompareError> {
+pub fn partings(scenarios: &[Scenario], runs: &[EngineRun]) -> Result<Vec<Parting>, CompareError> {
     let mut rows = Vec::new();
     for run in runs {
         let Some(scenario) = scenarios.iter().find(|s| s.name == run.scenario) else { continue };

@@ -11,7 +11,7 @@
 //! What is added to that is what [`generate`](super::generate()) adds to a reduced model: pressure error, shift and roll of the
 //! camera per run, camera noise per sample. Seeded: the same call gives the same bytes. **Validity**: first loading only.
 
-use super::engines::FeRun;
+use super::engines::EngineRun;
 use super::generate::{Generator, Seen, holds};
 use crate::error::CompareError;
 use data::{Dataset, Marker};
@@ -32,7 +32,7 @@ pub const BEYOND: f64 = 0.10;
 /// assert_eq!(data.runs.len(), runs.runs.len());
 /// # Ok::<(), compare::CompareError>(())
 /// ```
-pub fn seen(runs: &[FeRun], name: &str, generator: &Generator) -> Result<Dataset, CompareError> {
+pub fn seen(runs: &[EngineRun], name: &str, generator: &Generator) -> Result<Dataset, CompareError> {
     let refuse = |problem: String| CompareError::NotSimulated { problem };
     let first = runs.first().ok_or_else(|| refuse("there is no finite element run to look at".into()))?;
     if first.stations_mm.is_empty() {
@@ -69,7 +69,7 @@ pub fn seen(runs: &[FeRun], name: &str, generator: &Generator) -> Result<Dataset
 }
 
 /// Marker positions of a run at a pressure \[m\].
-fn at(run: &FeRun, kpa: f64) -> Result<Vec<[f64; 2]>, CompareError> {
+fn at(run: &EngineRun, kpa: f64) -> Result<Vec<[f64; 2]>, CompareError> {
     let mut states: Vec<_> = run.states.iter().filter(|s| s.seen_mm.len() == run.stations_mm.len()).collect();
     let rising = states.windows(2).take_while(|pair| pair[1].actuator_kpa > pair[0].actuator_kpa).count();
     states.truncate(rising + 1);
@@ -91,20 +91,20 @@ fn at(run: &FeRun, kpa: f64) -> Result<Vec<[f64; 2]>, CompareError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::engines::FeState;
+    use crate::study::engines::EngineState;
 
     /// A run whose only marker rises by 2 mm per kPa and shifts by −1.
-    fn run(slope: f64) -> FeRun {
+    fn run(slope: f64) -> EngineRun {
         let seen_mm = |kpa: f64| vec![[-kpa, slope * kpa]];
-        let state = |kpa: f64| FeState { actuator_kpa: kpa, seen_mm: seen_mm(kpa), ..FeState::default() };
-        FeRun {
+        let state = |kpa: f64| EngineState { actuator_kpa: kpa, seen_mm: seen_mm(kpa), ..EngineState::default() };
+        EngineRun {
             actuator: "epam".into(),
             scenario: "a robot".into(),
             body_kpa: 2.0,
             stations_mm: vec![330.0],
             known: "assumed".into(),
             states: [0.0, 10.0, 20.0, 30.0].map(state).to_vec(),
-            ..FeRun::default()
+            ..EngineRun::default()
         }
     }
 
@@ -144,7 +144,7 @@ mod tests {
             (vec![run(2.0)], high, "up to 30.0 kPa"),
             (vec![run(2.0)], body, "a body at 4 kPa"),
             (vec![], quiet(), "no finite element run"),
-            (vec![FeRun { stations_mm: vec![], ..run(2.0) }], quiet(), "kept no markers"),
+            (vec![EngineRun { stations_mm: vec![], ..run(2.0) }], quiet(), "kept no markers"),
         ] {
             let error = seen(&runs, "d", &generator).unwrap_err().to_string();
             assert!(error.contains(words), "{error}");

@@ -1,7 +1,7 @@
 //! Run time against accuracy of every model present.
 
 use crate::error::CompareError;
-use crate::study::engines::{Ensemble, FeRun, as_it_is, ensemble};
+use crate::study::engines::{EngineRun, Ensemble, as_it_is, ensemble};
 use crate::study::published::{PublishedLadder, Rung};
 use models::{Loads, Model, Scenario};
 use std::time::Instant;
@@ -66,16 +66,16 @@ pub fn tradeoff(ladders: &[PublishedLadder]) -> Result<Vec<Timing>, CompareError
 }
 
 /// Finite element runs of the published robots at their own body pressure, at 30 kPa, on every mesh.
-pub fn of_runs(ladders: &[PublishedLadder], runs: &[FeRun]) -> Vec<Timing> {
+pub fn of_runs(ladders: &[PublishedLadder], runs: &[EngineRun]) -> Vec<Timing> {
     let mut timings = Vec::new();
     for ladder in ladders {
         let Some(rung) = ladder.rungs.first() else { continue };
-        let own: Vec<&FeRun> = runs.iter().filter(|run| as_it_is(run, &rung.scenario)).collect();
+        let own: Vec<&EngineRun> = runs.iter().filter(|run| as_it_is(run, &rung.scenario)).collect();
         let mut meshes: Vec<f64> = own.iter().map(|run| run.mesh_mm[1]).collect();
         meshes.sort_by(|a, b| b.total_cmp(a));
         meshes.dedup();
         for mesh in meshes {
-            let of_mesh: Vec<FeRun> = own.iter().filter(|r| r.mesh_mm[1] == mesh).map(|r| (*r).clone()).collect();
+            let of_mesh: Vec<EngineRun> = own.iter().filter(|r| r.mesh_mm[1] == mesh).map(|r| (*r).clone()).collect();
             timings.extend(of_ensemble(ladder, &ensemble(&of_mesh, &rung.scenario), format!("FE {mesh} mm")));
         }
     }

@@ -14,7 +14,7 @@
 
 use crate::diagnosis::{Answer, Diagnosis, ParameterValue, Ranked, Standing, Verdict, with_fitted};
 use crate::error::CompareError;
-use crate::study::engines::{Ensemble, FeRun, TERMS, between, ensemble};
+use crate::study::engines::{EngineRun, Ensemble, TERMS, between, ensemble};
 use crate::study::predict::{fit_scenario, predict_dataset};
 use crate::wording::{list, short};
 use data::{About, Dataset, Phase};
@@ -127,7 +127,7 @@ pub fn witness(
     scenario: &Scenario,
     dataset: &Dataset,
     about: Option<&About>,
-    runs: &[FeRun],
+    runs: &[EngineRun],
 ) -> Result<Option<Witness>, CompareError> {
     let (scenario, _) = fit_scenario(scenario, dataset, about)?;
     let ensemble = ensemble(runs, &scenario);

@@ -44,7 +44,7 @@ const SMALLEST_TIP_M: f64 = 5e-3;
 
 /// A finished finite element run of a robot.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct FeRun {
+pub struct EngineRun {
     /// Actuator kind.
     pub actuator: String,
     /// Name of the scenario.
@@ -76,12 +76,12 @@ pub struct FeRun {
     /// `calibrated` if a number of the run was fitted to the tip it is compared with, else `assumed`.
     pub known: String,
     /// States, the filled body without actuator pressure first.
-    pub states: Vec<FeState>,
+    pub states: Vec<EngineState>,
 }
 
 /// One state of a finite element run.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct FeState {
+pub struct EngineState {
     /// Actuator gauge pressure \[kPa\].
     pub actuator_kpa: f64,
     /// Height of the outermost marker \[mm\].
@@ -162,12 +162,12 @@ impl Pair {
 ///
 /// # Errors
 /// A model without equilibrium.
-pub fn pairs(scenario: &Scenario, run: &FeRun) -> Result<Vec<Pair>, CompareError> {
+pub fn pairs(scenario: &Scenario, run: &EngineRun) -> Result<Vec<Pair>, CompareError> {
     let Some((filled, states)) = run.states.split_first() else { return Ok(Vec::new()) };
     states.iter().map(|state| pair(scenario, run, filled, state)).collect()
 }
 
-fn pair(scenario: &Scenario, run: &FeRun, filled: &FeState, state: &FeState) -> Result<Pair, CompareError> {
+fn pair(scenario: &Scenario, run: &EngineRun, filled: &EngineState, state: &EngineState) -> Result<Pair, CompareError> {
     let model = Model::new(scenario);
     let mut at = model.prediction();
     let loads = Loads::uniform(run.body_kpa * 1e3, state.actuator_kpa * 1e3);
@@ -192,8 +192,8 @@ fn pair(scenario: &Scenario, run: &FeRun, filled: &FeState, state: &FeState) -> 
 /// `None` if it cannot bend so.
 fn reduced_at(
     model: &Model,
-    run: &FeRun,
-    state: &FeState,
+    run: &EngineRun,
+    state: &EngineState,
     gas_kpa: f64,
     at: &mut models::Prediction,
 ) -> Option<[f64; 6]> {
@@ -205,11 +205,11 @@ fn reduced_at(
 /// Ledgers of finite elements and of the reduced model at the same bends, from the first pressure that bends the robot by
 /// `FIRST_BEND` of the turn at the given one to that one \[mJ\]: what filling a slack actuator takes is in neither. `None` if
 /// the run lacks the two states or the model cannot bend so.
-pub fn between(scenario: &Scenario, run: &FeRun, actuator_kpa: f64) -> Option<[[f64; 6]; 2]> {
+pub fn between(scenario: &Scenario, run: &EngineRun, actuator_kpa: f64) -> Option<[[f64; 6]; 2]> {
     let model = Model::new(&Scenario { p_max_pa: HIGHEST_PA, ..scenario.clone() });
     let mut at = model.prediction();
     let high = run.states.iter().find(|s| same(s.actuator_kpa, actuator_kpa))?;
-    let bent = |s: &&FeState| s.actuator_kpa > 0.0 && s.turn_rad > FIRST_BEND * high.turn_rad;
+    let bent = |s: &&EngineState| s.actuator_kpa > 0.0 && s.turn_rad > FIRST_BEND * high.turn_rad;
     let low = run.states.iter().find(bent).filter(|s| s.actuator_kpa < high.actuator_kpa)?;
     let from = reduced_at(&model, run, low, actuator_kpa, &mut at)?;
     let to = reduced_at(&model, run, high, actuator_kpa, &mut at)?;
@@ -239,7 +239,7 @@ fn reduced_ledger(model: &Model, loads: &Loads, at: &models::Prediction, gas: f6
 }
 
 /// Gas −P ΔV in mJ (kPa·cm³ is mJ), the rest as stored since the body was full.
-fn fe_ledger(run: &FeRun, filled: &FeState, state: &FeState) -> [f64; 6] {
+fn fe_ledger(run: &EngineRun, filled: &EngineState, state: &EngineState) -> [f64; 6] {
     let since = |k: usize| state.energies_mj[k] - filled.energies_mj[k];
     [
         -state.actuator_kpa * (state.actuator_cm3 - filled.actuator_cm3),
@@ -261,14 +261,14 @@ const RUNS: Shape = Shape { schema: "ibr.fem_runs", version: 1 };
 
 #[derive(Deserialize)]
 struct Runs {
-    runs: Vec<FeRun>,
+    runs: Vec<EngineRun>,
 }
 
 /// Finite element runs that come with the program, made by its own commands (`ibr breakdown`, `ibr simulate`).
 ///
 /// # Errors
 /// Those of [`read_runs`], for a program whose runs were not made anew with its records.
-pub fn stored() -> Result<Vec<FeRun>, FemError> {
+pub fn stored() -> Result<Vec<EngineRun>, FemError> {
     read_runs("the runs that come with the program", include_str!("../../../assets/fem-runs.json"))
 }
 
@@ -276,13 +276,13 @@ pub fn stored() -> Result<Vec<FeRun>, FemError> {
 ///
 /// # Errors
 /// [`FemError::Record`] with the line and the field.
-pub fn read_runs(file: &str, text: &str) -> Result<Vec<FeRun>, FemError> {
+pub fn read_runs(file: &str, text: &str) -> Result<Vec<EngineRun>, FemError> {
     let help = "make the file again: `ibr compare --engines --runs FOLDER` writes runs.json beside its report";
     Ok(RUNS.read::<Runs>(file, text, help)?.runs)
 }
 
 /// Runs as they are stored: one a line.
-pub fn runs_json(runs: &[FeRun]) -> String {
+pub fn runs_json(runs: &[EngineRun]) -> String {
     RUNS.listed("runs", runs)
 }
 
@@ -290,14 +290,14 @@ pub fn runs_json(runs: &[FeRun]) -> String {
 #[derive(Debug, Clone, Default)]
 pub struct Ensemble {
     /// Runs, by seed.
-    pub runs: Vec<FeRun>,
+    pub runs: Vec<EngineRun>,
 }
 
 impl Ensemble {
     /// Mean and standard deviation of the outermost marker and of the tip at a pressure \[mm\]; the deviation is `None` for
     /// a single run, everything where no run was read there.
     pub fn at(&self, actuator_kpa: f64) -> Option<[(f64, Option<f64>); 2]> {
-        let here = |run: &FeRun| {
+        let here = |run: &EngineRun| {
             run.states.iter().find(|s| same(s.actuator_kpa, actuator_kpa)).map(|s| [s.marker_mm, s.tip_mm])
         };
         let found: Vec<[f64; 2]> = self.runs.iter().filter_map(here).collect();
@@ -307,7 +307,7 @@ impl Ensemble {
 
     /// Mean and standard deviation of the height of the marker, on the wall, at a station \[mm\]; `None` where no run has it at that pressure.
     pub fn marker_at(&self, station_m: f64, actuator_kpa: f64) -> Option<(f64, Option<f64>)> {
-        let here = |run: &FeRun| {
+        let here = |run: &EngineRun| {
             let k = run.stations_mm.iter().position(|s| (s - station_m * 1e3).abs() < SAME_STATION_MM)?;
             let state = run.states.iter().find(|s| same(s.actuator_kpa, actuator_kpa))?;
             Some(state.seen_mm.get(k)?[1])
@@ -331,15 +331,15 @@ fn mean_and_deviation(values: &[f64]) -> (f64, Option<f64>) {
 }
 
 /// The runs of a shipped robot as it is to 30 kPa, on the finest mesh there is.
-pub fn ensemble(runs: &[FeRun], scenario: &Scenario) -> Ensemble {
+pub fn ensemble(runs: &[EngineRun], scenario: &Scenario) -> Ensemble {
     let mine = runs.iter().filter(|r| as_it_is(r, scenario) && r.states.last().is_some_and(|s| s.actuator_kpa > 29.9));
     finest(mine.collect())
 }
 
 /// Of the runs on the finest mesh those read at the most pressures, one for every seed: that with the most steps.
-fn finest(runs: Vec<&FeRun>) -> Ensemble {
+fn finest(runs: Vec<&EngineRun>) -> Ensemble {
     let mesh = runs.iter().map(|r| r.mesh_mm[1]).fold(f64::INFINITY, f64::min);
-    let mut kept: Vec<FeRun> = runs.into_iter().filter(|r| r.mesh_mm[1] == mesh).cloned().collect();
+    let mut kept: Vec<EngineRun> = runs.into_iter().filter(|r| r.mesh_mm[1] == mesh).cloned().collect();
     let read = kept.iter().map(|r| r.states.len()).max().unwrap_or(0);
     kept.retain(|r| r.states.len() == read);
     kept.sort_by_key(|r| (r.seed, std::cmp::Reverse(r.steps)));
@@ -348,7 +348,7 @@ fn finest(runs: Vec<&FeRun>) -> Ensemble {
 }
 
 /// Whether a run is of this robot at its own body pressure.
-pub fn as_it_is(run: &FeRun, scenario: &Scenario) -> bool {
+pub fn as_it_is(run: &EngineRun, scenario: &Scenario) -> bool {
     let near = |a: f64, b: f64| (a - b).abs() < 1e-6 * b.abs();
     run.actuator == scenario.actuator.kind.name
         && run.scenario == scenario.name

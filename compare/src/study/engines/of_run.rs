@@ -1,17 +1,19 @@
 //! A finite element run as a comparison wants it, and the runs of a folder or of the program.
 
-use super::{FeRun, FeState, stored};
+use super::{EngineRun, EngineState, stored};
 use fem::FemError;
 use fem::robot::{Model, Reading};
-use fem::session::{Job, Many, Progress, Settings, Source, Summary, finished_below, heights_mm, rounded, simulate_all};
+use fem::session::{
+    FeRun, Job, Many, Progress, Settings, Source, Summary, finished_below, heights_mm, rounded, simulate_all,
+};
 use models::Scenario;
 use std::path::Path;
 
 /// A run as the comparison wants it; `None` if it is not one of a robot.
-pub fn as_run(run: &fem::session::FeRun) -> Option<FeRun> {
+pub fn as_run(run: &FeRun) -> Option<EngineRun> {
     let summary = &run.summary;
     let about = summary.robot.as_ref().filter(|robot| !robot.readings.is_empty())?;
-    Some(FeRun {
+    Some(EngineRun {
         actuator: about.actuator.clone(),
         scenario: summary.name.clone(),
         mesh_mm: [about.setting("body_mesh_mm"), about.setting("actuator_mesh_mm")],
@@ -31,7 +33,7 @@ pub fn as_run(run: &fem::session::FeRun) -> Option<FeRun> {
     })
 }
 
-fn state(r: &Reading) -> FeState {
+fn state(r: &Reading) -> EngineState {
     let [marker_mm, tip_mm] = heights_mm(r);
     let stored = |name: &str| r.ledger.iter().filter(|l| l.0 == name).map(|l| l.2 * 1e3).sum::<f64>();
     let lost = r.ledger.iter().filter(|l| l.1 == "dissipated").map(|l| l.2 * 1e3).sum::<f64>();
@@ -39,7 +41,7 @@ fn state(r: &Reading) -> FeState {
     let plane = |d: &[f64; 3]| [short(d[0] * 1e3), short(d[1] * 1e3)];
     let bending = stored("bending") + stored("folds");
     let energies_mj = [stored("membrane"), bending, stored("contact"), stored("hourglass"), lost].map(short);
-    FeState {
+    EngineState {
         actuator_kpa: short(r.actuator_pa * 1e-3),
         marker_mm: short(marker_mm),
         tip_mm: short(tip_mm),
@@ -94,7 +96,7 @@ pub fn runs_of(
     jobs: &[Job],
     settings: &Settings,
     progress: Progress,
-) -> Result<Vec<Result<FeRun, FemError>>, FemError> {
+) -> Result<Vec<Result<EngineRun, FemError>>, FemError> {
     let Many { runs, .. } = simulate_all(jobs, settings, progress)?;
     Ok(runs.into_iter().filter_map(|run| run.map(|run| as_run(&run)).transpose()).collect())
 }
@@ -103,7 +105,7 @@ pub fn runs_of(
 ///
 /// # Errors
 /// [`FemError::Record`] for one that is damaged.
-pub fn all_runs(folder: &Path) -> Result<Vec<FeRun>, FemError> {
+pub fn all_runs(folder: &Path) -> Result<Vec<EngineRun>, FemError> {
     let found = finished_below(folder, 1)?;
     Ok(found.iter().filter(|run| !is_paper(&run.summary)).filter_map(as_run).collect())
 }
@@ -112,7 +114,7 @@ pub fn all_runs(folder: &Path) -> Result<Vec<FeRun>, FemError> {
 ///
 /// # Errors
 /// [`FemError::Setting`] for a folder without any; else as [`all_runs`].
-pub fn known_runs(folder: Option<&Path>) -> Result<Vec<FeRun>, FemError> {
+pub fn known_runs(folder: Option<&Path>) -> Result<Vec<EngineRun>, FemError> {
     let Some(folder) = folder else { return stored() };
     let found = all_runs(folder)?;
     if found.is_empty() {

@@ -1,6 +1,6 @@
 //! Robots with both engines: what is printed of them, their finite element runs, and where the models part.
 
-use super::{BodyVolumes, Ensemble, FeRun, Pair, as_it_is, body_volumes, ensemble, pairs};
+use super::{BodyVolumes, EngineRun, Ensemble, Pair, as_it_is, body_volumes, ensemble, pairs};
 use crate::error::CompareError;
 use crate::study::published::{Rung, model_ladder, shipped_scenario};
 use crate::study::uncertain::{self, Uncertain};
@@ -21,7 +21,7 @@ pub struct EngineRobot {
     /// Hypercubes over what nobody measured that come with the program, one for every way that the robot may be made.
     pub uncertain: Vec<Uncertain>,
     /// The first run, if there is one.
-    pub run: Option<FeRun>,
+    pub run: Option<EngineRun>,
     /// Both engines at this run's pressures.
     pub pairs: Vec<Pair>,
     /// What its finite element bodies lose, at every body pressure that was run.
@@ -54,7 +54,7 @@ pub struct Engines {
 ///
 /// # Errors
 /// A damaged embedded set or a model without equilibrium.
-pub fn engines(scenarios: &[Scenario], runs: &[FeRun]) -> Result<Engines, CompareError> {
+pub fn engines(scenarios: &[Scenario], runs: &[EngineRun]) -> Result<Engines, CompareError> {
     let robots = scenarios.iter().map(|s| robot(s, runs)).collect::<Result<_, _>>()?;
     let mut maps = Vec::new();
     for scenario in scenarios {
@@ -63,7 +63,7 @@ pub fn engines(scenarios: &[Scenario], runs: &[FeRun]) -> Result<Engines, Compar
     Ok(Engines { robots, maps })
 }
 
-fn robot(scenario: &Scenario, runs: &[FeRun]) -> Result<EngineRobot, CompareError> {
+fn robot(scenario: &Scenario, runs: &[EngineRun]) -> Result<EngineRobot, CompareError> {
     let kind = scenario.actuator.kind.name;
     let shipped = shipped_scenario(kind).ok().is_some_and(|s| s == *scenario);
     let (mut printed, mut with_effects) = (None, None);
@@ -90,17 +90,17 @@ fn robot(scenario: &Scenario, runs: &[FeRun]) -> Result<EngineRobot, CompareErro
 }
 
 /// Maps over body pressure and over pouch length, each from runs on the finest mesh that has two rows of it.
-fn parting_maps(scenario: &Scenario, runs: &[FeRun]) -> Result<Vec<PartingMap>, CompareError> {
+fn parting_maps(scenario: &Scenario, runs: &[EngineRun]) -> Result<Vec<PartingMap>, CompareError> {
     let kind = scenario.actuator.kind.name;
-    let mine: Vec<&FeRun> = runs.iter().filter(|r| r.scenario == scenario.name && r.actuator == kind).collect();
-    let own_pouch = |r: &&FeRun| (r.pouch_mm * 1e-3 - scenario.actuator.shape.length_m).abs() < 1e-6;
-    let own_body = |r: &&FeRun| (r.body_kpa * 1e3 - scenario.p_body_pa).abs() < 1e-3;
-    let body: Vec<&FeRun> = mine.iter().copied().filter(own_pouch).collect();
-    let pouch: Vec<&FeRun> = mine.iter().copied().filter(own_body).collect();
+    let mine: Vec<&EngineRun> = runs.iter().filter(|r| r.scenario == scenario.name && r.actuator == kind).collect();
+    let own_pouch = |r: &&EngineRun| (r.pouch_mm * 1e-3 - scenario.actuator.shape.length_m).abs() < 1e-6;
+    let own_body = |r: &&EngineRun| (r.body_kpa * 1e3 - scenario.p_body_pa).abs() < 1e-3;
+    let body: Vec<&EngineRun> = mine.iter().copied().filter(own_pouch).collect();
+    let pouch: Vec<&EngineRun> = mine.iter().copied().filter(own_body).collect();
     let mut maps = Vec::new();
     for (row_label, runs, value) in [
-        ("rows: body pressure [kPa]", body, (|r: &FeRun| r.body_kpa) as fn(&FeRun) -> f64),
-        ("rows: length of a pouch [mm]", pouch, |r: &FeRun| r.pouch_mm),
+        ("rows: body pressure [kPa]", body, (|r: &EngineRun| r.body_kpa) as fn(&EngineRun) -> f64),
+        ("rows: length of a pouch [mm]", pouch, |r: &EngineRun| r.pouch_mm),
     ] {
         let rows = one_per_value(runs, value);
         let Some(mesh_mm) = rows.first().map(|r| r.mesh_mm[1]) else { continue };
@@ -113,18 +113,18 @@ fn parting_maps(scenario: &Scenario, runs: &[FeRun]) -> Result<Vec<PartingMap>, 
 
 /// One run per value, largest first, on the finest mesh that has two; of several runs that with the most states, then the
 /// smallest seed.
-fn one_per_value(mut runs: Vec<&FeRun>, value: fn(&FeRun) -> f64) -> Vec<&FeRun> {
+fn one_per_value(mut runs: Vec<&EngineRun>, value: fn(&EngineRun) -> f64) -> Vec<&EngineRun> {
     runs.sort_by(|a, b| {
-        let rank = |r: &FeRun| (std::cmp::Reverse(r.states.len()), r.seed);
+        let rank = |r: &EngineRun| (std::cmp::Reverse(r.states.len()), r.seed);
         a.mesh_mm[1].total_cmp(&b.mesh_mm[1]).then(value(b).total_cmp(&value(a))).then(rank(a).cmp(&rank(b)))
     });
     runs.dedup_by(|a, b| a.mesh_mm[1] == b.mesh_mm[1] && value(a) == value(b));
     let of_mesh = runs.chunk_by(|a, b| a.mesh_mm[1] == b.mesh_mm[1]).find(|rows| rows.len() > 1);
-    of_mesh.map(<[&FeRun]>::to_vec).unwrap_or_default()
+    of_mesh.map(<[&EngineRun]>::to_vec).unwrap_or_default()
 }
 
 /// The scenario at a run's body pressure and pouch length.
-pub fn varied(scenario: &Scenario, run: &FeRun) -> Scenario {
+pub fn varied(scenario: &Scenario, run: &EngineRun) -> Scenario {
     let mut changed = scenario.clone();
     if !as_it_is(run, scenario) {
         changed.p_body_pa = run.body_kpa * 1e3;
@@ -140,10 +140,14 @@ mod tests {
 
     #[test]
     fn a_map_takes_one_run_per_row_from_the_finest_mesh_with_two() {
-        let run =
-            |mesh: f64, body_kpa: f64, seed: u64| FeRun { mesh_mm: [8.0, mesh], body_kpa, seed, ..FeRun::default() };
+        let run = |mesh: f64, body_kpa: f64, seed: u64| EngineRun {
+            mesh_mm: [8.0, mesh],
+            body_kpa,
+            seed,
+            ..EngineRun::default()
+        };
         let runs = [run(6.0, 1.0, 1), run(6.0, 2.0, 1), run(3.0, 2.0, 2), run(3.0, 2.0, 1)];
-        let rows = |more: &[FeRun]| -> Vec<(f64, f64, u64)> {
+        let rows = |more: &[EngineRun]| -> Vec<(f64, f64, u64)> {
             let picked = one_per_value(runs.iter().chain(more).collect(), |r| r.body_kpa);
             picked.iter().map(|r| (r.mesh_mm[1], r.body_kpa, r.seed)).collect()
         };

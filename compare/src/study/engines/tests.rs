@@ -4,7 +4,7 @@ use super::*;
 use crate::study::published::textbook_scenario;
 
 /// A run that is the reduced model itself, but for one term.
-fn run(extra: usize, mj: f64) -> (Scenario, FeRun, Pair) {
+fn run(extra: usize, mj: f64) -> (Scenario, EngineRun, Pair) {
     let scenario = textbook_scenario("epam").unwrap().with_bending(0.4);
     let model = Model::new(&scenario);
     let mut at = model.prediction();
@@ -13,8 +13,8 @@ fn run(extra: usize, mj: f64) -> (Scenario, FeRun, Pair) {
     let [gas, body, bending, ..] = reduced_ledger(&model, &loads, &at, 1.0);
     let mut energies_mj = [0.0, bending, 0.0, 0.0, 0.0];
     energies_mj[extra] += mj;
-    let filled = FeState { body_cm3: 1800.0, ..FeState::default() };
-    let state = FeState {
+    let filled = EngineState { body_cm3: 1800.0, ..EngineState::default() };
+    let state = EngineState {
         actuator_kpa: 20.0,
         tip_mm: at.tip.y_m * 1e3,
         turn_rad: at.tip.angle_rad,
@@ -23,7 +23,7 @@ fn run(extra: usize, mj: f64) -> (Scenario, FeRun, Pair) {
         energies_mj,
         ..filled.clone()
     };
-    let run = FeRun {
+    let run = EngineRun {
         actuator: "epam".into(),
         scenario: scenario.name.clone(),
         mesh_mm: [4.0; 2],
@@ -34,7 +34,7 @@ fn run(extra: usize, mj: f64) -> (Scenario, FeRun, Pair) {
         count: 6,
         known: "assumed".into(),
         states: vec![filled, state],
-        ..FeRun::default()
+        ..EngineRun::default()
     };
     let pair = pairs(&scenario, &run).unwrap().remove(0);
     (scenario, run, pair)
@@ -72,7 +72,7 @@ fn between_two_pressures_a_run_that_is_the_reduced_model_has_its_ledger_and_fill
         let [gas, body, bending, ..] = reduced_ledger(&model, &loads, &at, 1.0);
         let energies_mj = [0.0, bending, 0.0, 0.0, 0.0];
         let [body_cm3, actuator_cm3] = [1800.0 - body / 2.0, filling_cm3 - gas / kpa];
-        FeState {
+        EngineState {
             actuator_kpa: kpa,
             turn_rad: at.tip.angle_rad,
             body_cm3,
@@ -96,7 +96,7 @@ fn between_two_pressures_a_run_that_is_the_reduced_model_has_its_ledger_and_fill
 fn an_ensemble_is_of_the_finest_mesh_and_of_runs_with_what_is_recommended() {
     let (scenario, run, _) = run(0, 0.0);
     let of = |seed: u64, mesh: f64, tip_mm: f64| {
-        let mut run = FeRun { seed, mesh_mm: [mesh; 2], ..run.clone() };
+        let mut run = EngineRun { seed, mesh_mm: [mesh; 2], ..run.clone() };
         run.states[1].actuator_kpa = 30.0;
         run.states[1].tip_mm = tip_mm;
         run

@@ -22,7 +22,7 @@
 //! may be more or less. c holds whatever parts a pouch from a lens of arm D: sealed edges, welds of some width, a shorter
 //! arm. Small turns have neither, being quotients of small differences. Uniform robots only: zones are not looked at.
 
-use super::{FeRun, FeState, ensemble, mean_and_deviation, same};
+use super::{EngineRun, EngineState, ensemble, mean_and_deviation, same};
 use models::Scenario;
 use models::actuators::Family;
 use models::exact::pouch::{MAX_CONTRACTION, Pouch, hinge_theta, volume_m3};
@@ -52,13 +52,13 @@ pub struct Volumes {
 }
 
 /// Volumes of every state after the filled one.
-pub fn volumes(scenario: &Scenario, run: &FeRun) -> Vec<Volumes> {
+pub fn volumes(scenario: &Scenario, run: &EngineRun) -> Vec<Volumes> {
     let Some((filled, states)) = run.states.split_first() else { return Vec::new() };
     let last = states.last().unwrap_or(filled);
     states.iter().map(|state| volumes_of(scenario, filled, state, last)).collect()
 }
 
-fn volumes_of(scenario: &Scenario, filled: &FeState, state: &FeState, last: &FeState) -> Volumes {
+fn volumes_of(scenario: &Scenario, filled: &EngineState, state: &EngineState, last: &EngineState) -> Volumes {
     let body_lost_cm3 = filled.body_cm3 - state.body_cm3;
     let by_bend_cm3 = PI * scenario.radius_m.powi(3) * state.turn_rad * 1e6;
     let actuator_cm3 = state.actuator_cm3 - filled.actuator_cm3;
@@ -126,9 +126,9 @@ pub struct BodyVolumes {
 }
 
 /// A robot at its own body pressure, then at the others that have runs, lowest first; recommended settings.
-pub fn body_volumes(scenario: &Scenario, runs: &[FeRun]) -> Vec<BodyVolumes> {
+pub fn body_volumes(scenario: &Scenario, runs: &[EngineRun]) -> Vec<BodyVolumes> {
     let own_kpa = scenario.p_body_pa * 1e-3;
-    let other = |run: &FeRun| run.scenario == scenario.name && !same(run.body_kpa, own_kpa);
+    let other = |run: &EngineRun| run.scenario == scenario.name && !same(run.body_kpa, own_kpa);
     let mut others: Vec<f64> = runs.iter().filter(|run| other(run)).map(|run| run.body_kpa).collect();
     others.sort_by(f64::total_cmp);
     others.dedup();
@@ -149,7 +149,7 @@ pub fn body_volumes(scenario: &Scenario, runs: &[FeRun]) -> Vec<BodyVolumes> {
     std::iter::once(own_kpa).chain(others).filter_map(at).collect()
 }
 
-fn mean_volumes(scenario: &Scenario, runs: &[FeRun]) -> Vec<MeanVolumes> {
+fn mean_volumes(scenario: &Scenario, runs: &[EngineRun]) -> Vec<MeanVolumes> {
     let all: Vec<Vec<Volumes>> = runs.iter().map(|run| volumes(scenario, run)).collect();
     let Some(first) = all.first() else { return Vec::new() };
     let at = |kpa: f64| {
@@ -178,16 +178,16 @@ mod tests {
     use crate::study::published::textbook_scenario;
 
     /// A run of the ePAM whose body loses πR³θ + χ ΔV_a, and whose pouches are a share of ideal lenses.
-    fn made_up(scenario: &Scenario, displaced: f64, share: f64) -> FeRun {
-        let filled = FeState { body_cm3: 1800.0, actuator_cm3: -1.5, ..FeState::default() };
+    fn made_up(scenario: &Scenario, displaced: f64, share: f64) -> EngineRun {
+        let filled = EngineState { body_cm3: 1800.0, actuator_cm3: -1.5, ..EngineState::default() };
         let mut states = vec![filled.clone()];
         for (actuator_kpa, turn_rad) in [(5.0, 0.02), (10.0, 0.3), (30.0, 0.9)] {
             let gained = share * lens_m3(scenario, turn_rad).unwrap() * 1e6;
             let body_cm3 = filled.body_cm3 - PI * 64.0 * turn_rad - displaced * gained;
             let actuator_cm3 = filled.actuator_cm3 + gained;
-            states.push(FeState { actuator_kpa, turn_rad, body_cm3, actuator_cm3, ..filled.clone() });
+            states.push(EngineState { actuator_kpa, turn_rad, body_cm3, actuator_cm3, ..filled.clone() });
         }
-        FeRun { states, ..FeRun::default() }
+        EngineRun { states, ..EngineRun::default() }
     }
 
     #[test]

@@ -13,7 +13,7 @@ pub use implied::{Against, Implied, NEAR, against, heights};
 pub use jobs::jobs;
 pub use of_run::runs_below;
 
-use crate::study::engines::{FeRun, FeState};
+use crate::study::engines::{EngineRun, EngineState};
 use fem::FemError;
 use fem::record::Shape;
 use serde::{Deserialize, Serialize};
@@ -27,7 +27,7 @@ const SAME: f64 = 0.05;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PaperRun {
     /// The run as other comparisons have it.
-    pub run: FeRun,
+    pub run: EngineRun,
     /// Whether the base ring cannot turn.
     pub encastre: bool,
     /// Mass added by scaling, over the true mass.
@@ -106,7 +106,7 @@ pub fn ordered(mut runs: Vec<PaperRun>) -> Vec<PaperRun> {
 
 impl PaperRun {
     /// Its one pressure.
-    pub fn end(&self) -> Option<&FeState> {
+    pub fn end(&self) -> Option<&EngineState> {
         self.run.states.last()
     }
 

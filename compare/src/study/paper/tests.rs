@@ -2,23 +2,23 @@ use super::*;
 use data::published;
 
 fn run(kind: &str, mesh_mm: [f64; 2], kpa: f64, marker_mm: f64) -> PaperRun {
-    let filled = FeState { body_cm3: 1800.0, ..FeState::default() };
-    let end = FeState {
+    let filled = EngineState { body_cm3: 1800.0, ..EngineState::default() };
+    let end = EngineState {
         actuator_kpa: kpa,
         marker_mm,
         tip_mm: 1.1 * marker_mm,
         body_cm3: 1700.0,
         von_mises_mpa: 30.0,
         moved_mm: vec![[0.0, 0.2 * marker_mm], [0.0, marker_mm]],
-        ..FeState::default()
+        ..EngineState::default()
     };
-    let run = FeRun {
+    let run = EngineRun {
         actuator: kind.into(),
         mesh_mm,
         cpu_s: 10.0,
         states: vec![filled, end],
         stations_mm: vec![330.0],
-        ..FeRun::default()
+        ..EngineRun::default()
     };
     PaperRun {
         run,
