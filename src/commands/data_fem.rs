@@ -8,7 +8,7 @@ use crate::cli::DataFem;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
 use compare::study::Generator;
-use compare::study::engines::{EngineRun, ensemble, runs_of, seed_jobs, stored};
+use compare::study::engines::{EngineRun, of_the_program, runs_of, seed_jobs};
 use compare::study::seen::seen;
 use fem::session::Source;
 use ibr::pages::Files;
@@ -33,7 +33,7 @@ pub fn run(args: &DataFem, context: &mut Context) -> Result<Outcome, Failure> {
         ..Generator::default()
     };
     let runs = match args.stored {
-        true => of_the_program(args, &scenario)?,
+        true => of_the_program(&scenario, args.seeds as usize)?,
         false => made(args, &robot, &scenario, &kpa, context)?,
     };
     let name = args.out.file_name().map_or("fem".into(), |n| n.to_string_lossy().into_owned());
@@ -76,21 +76,6 @@ fn robot(args: &DataFem) -> Result<(Source, Scenario), Failure> {
     }
     let (scenario, _) = robot.robot_run()?;
     Ok((robot, scenario))
-}
-
-/// One run for every seed of those that come with the program.
-fn of_the_program(args: &DataFem, scenario: &Scenario) -> Result<Vec<EngineRun>, Failure> {
-    let own = ensemble(&stored()?, scenario);
-    let found: Vec<EngineRun> = own.runs.into_iter().take(args.seeds as usize).collect();
-    if found.len() == args.seeds as usize {
-        return Ok(found);
-    }
-    let (there, what) = (found.len(), &args.scenario);
-    let (body_kpa, wanted) = (scenario.p_body_pa * 1e-3, args.seeds);
-    let message = format!(
-        "{there} finite element runs of {what} at {body_kpa} kPa body pressure come with the program, not {wanted}"
-    );
-    Err(Failure::usage(message, "lower --seeds, or leave --stored out to make them: minutes each"))
 }
 
 /// One run for every seed in a folder, which gets what is missing.

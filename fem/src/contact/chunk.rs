@@ -25,20 +25,24 @@ pub(super) struct Candidate {
     pub clear_m: f64,
 }
 
-/// Records in order of their nodes.
-#[derive(Debug, Clone, Default)]
+/// Records in order of their nodes; a checkpoint leaves out what they and the positions give again.
+#[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Chunk {
     pub records: Vec<Record>,
     pub candidates: Vec<Candidate>,
     /// Nodes of the records and of their candidates.
+    #[serde(skip)]
     pub nodes: Vec<u32>,
     /// From the first of them to the last.
+    #[serde(skip)]
     pub span: Range<u32>,
     /// Records that may touch before the next look: on faces first, then on edges and corners.
     pub near: Vec<u32>,
     /// Those on faces, ready to be stepped.
+    #[serde(skip)]
     pub packs: Vec<Pack>,
     /// Their number.
+    #[serde(skip)]
     pub faces: u32,
     /// Positions at the last look.
     pub seen_m: Vec<[f64; 4]>,
@@ -49,12 +53,17 @@ pub(super) struct Chunk {
     /// Path of the fastest node at which the motion must be measured again.
     pub due_m: f64,
     /// Forces of the step.
+    #[serde(skip)]
     pub pushes: Vec<Push>,
+    #[serde(skip)]
     pub sums: Sums,
     /// Nodes that looks of the step found on the wrong side of an element.
+    #[serde(skip)]
     pub passed: Vec<(u32, u32)>,
     /// Room for a look.
+    #[serde(skip)]
     pub asked: Vec<Question>,
+    #[serde(skip)]
     pub square_m2: Vec<Lane>,
 }
 

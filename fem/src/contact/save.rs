@@ -1,7 +1,7 @@
 //! Contact as bytes and back.
 
 use super::Contact;
-use super::chunk::{Candidate, Chunk};
+use super::chunk::Chunk;
 use super::closest::Feature;
 use super::passed::Passed;
 use super::press::Sums;
@@ -20,27 +20,12 @@ struct State {
     placed_m: Vec<[f64; 4]>,
     before_m: Vec<[f64; 4]>,
     passed: Passed,
-    chunks: Vec<ChunkState>,
-}
-
-#[derive(Serialize, Deserialize)]
-struct ChunkState {
-    way_m: f64,
-    next_m: f64,
-    due_m: f64,
-    seen_m: Vec<[f64; 4]>,
-    near: Vec<u32>,
-    candidates: Vec<Candidate>,
-    records: Vec<Record>,
+    chunks: Vec<Chunk>,
 }
 
 pub(super) fn write(contact: &Contact) -> Vec<u8> {
-    let chunks = contact.chunks.iter().map(|chunk| {
-        let mut chunk = chunk.clone();
-        chunk.unload();
-        let Chunk { way_m, next_m, due_m, seen_m, near, candidates, records, .. } = chunk;
-        ChunkState { way_m, next_m, due_m, seen_m, near, candidates, records }
-    });
+    let mut chunks = contact.chunks.clone();
+    chunks.iter_mut().for_each(Chunk::unload);
     pack(&State {
         elements: contact.surface.elements.len(),
         searches: contact.searches,
@@ -50,7 +35,7 @@ pub(super) fn write(contact: &Contact) -> Vec<u8> {
         placed_m: contact.placed_m.clone(),
         before_m: contact.before_m.clone(),
         passed: contact.passed.clone(),
-        chunks: chunks.collect(),
+        chunks,
     })
 }
 
@@ -62,7 +47,7 @@ pub(super) fn read(contact: &mut Contact, saved: &[u8]) -> Option<()> {
         && (before_m.is_empty() || before_m.len() == nodes)
         && passed.fits(nodes as u32, elements as u32);
     fits.then_some(())?;
-    let chunks = chunks.into_iter().map(|saved| chunk(contact, saved)).collect::<Option<Vec<_>>>()?;
+    let chunks = chunks.into_iter().map(|saved| checked(contact, saved)).collect::<Option<Vec<_>>>()?;
     (contact.searches, contact.path_m, contact.search_due_m) = (searches, path_m, search_due_m);
     (contact.sums, contact.placed_m, contact.before_m, contact.passed) = (sums, placed_m, before_m, passed);
     let kept = chunks.clone();
@@ -79,9 +64,9 @@ pub(super) fn read(contact: &mut Contact, saved: &[u8]) -> Option<()> {
     Some(())
 }
 
-fn chunk(contact: &Contact, saved: ChunkState) -> Option<Chunk> {
-    let ChunkState { way_m, next_m, due_m, seen_m, near, candidates, records } = saved;
+fn checked(contact: &Contact, mut chunk: Chunk) -> Option<Chunk> {
     let (nodes, elements) = (contact.placed_m.len() as u32, contact.surface.elements.len() as u32);
+    let Chunk { near, candidates, records, .. } = &chunk;
     let fits = |r: &Record| {
         let last = u64::from(r.first) + u64::from(r.count);
         r.node < nodes
@@ -95,6 +80,6 @@ fn chunk(contact: &Contact, saved: ChunkState) -> Option<Chunk> {
         && near.iter().all(|at| (*at as usize) < records.len());
     good.then_some(())?;
     let on_face = |at: &u32| records[*at as usize].feature == Feature::Face;
-    let faces = near.iter().take_while(|at| on_face(at)).count() as u32;
-    Some(Chunk { faces, records, candidates, near, seen_m, way_m, next_m, due_m, ..Chunk::default() })
+    chunk.faces = near.iter().take_while(|at| on_face(at)).count() as u32;
+    Some(chunk)
 }

@@ -16,12 +16,12 @@ use fem::session::{FeRun, Further, SUMMARY, Settings, Source, simulate};
 use ibr::pages::run_plots;
 use plan::Plan;
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 pub fn run(args: &Simulate, context: &mut Context) -> Result<Outcome, Failure> {
     let plan = plan::plan(args, source(&args.case)?)?;
-    let folder = args.out.clone().unwrap_or_else(|| default_folder(args, &plan));
+    let folder = args.out.clone().unwrap_or_else(|| plan.folder(&args.case));
     let settings = Settings {
         resume: args.resume,
         force: args.force,
@@ -39,18 +39,6 @@ pub fn run(args: &Simulate, context: &mut Context) -> Result<Outcome, Failure> {
         Plan::Table(base, variations) => several::table(&base, &variations, &settings, context),
         Plan::Uncertain(cube) => several::uncertain(&cube, &args.set, settings, context),
     }
-}
-
-/// The folder of a case if none is named.
-fn default_folder(args: &Simulate, plan: &Plan) -> PathBuf {
-    let stem = Path::new(&args.case).file_stem().unwrap_or_default().to_string_lossy();
-    let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect();
-    let kind = match plan {
-        Plan::Uncertain(_) => "uncertain",
-        Plan::Table(..) => "batch",
-        Plan::Single(_) => "simulate",
-    };
-    PathBuf::from(format!("ibr-report/{kind}-{name}"))
 }
 
 fn one(args: &Simulate, source: &Source, settings: &Settings, context: &mut Context) -> Result<Outcome, Failure> {

@@ -5,6 +5,7 @@ use crate::commands::fem_inputs::{pressures, sizes};
 use crate::failure::Failure;
 use fem::robot::{KEYS, OTHERS};
 use fem::session::{Cube, Source, Variation, cube, mesh_keys, product, rounded};
+use std::path::{Path, PathBuf};
 
 /// What is to be run.
 pub enum Plan {
@@ -14,6 +15,20 @@ pub enum Plan {
     Table(Source, Vec<Variation>),
     /// A hypercube over what nobody measured.
     Uncertain(Cube),
+}
+
+impl Plan {
+    /// The folder of a case if none is named.
+    pub fn folder(&self, case: &str) -> PathBuf {
+        let stem = Path::new(case).file_stem().unwrap_or_default().to_string_lossy();
+        let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect();
+        let kind = match self {
+            Plan::Uncertain(_) => "uncertain",
+            Plan::Table(..) => "batch",
+            Plan::Single(_) => "simulate",
+        };
+        PathBuf::from(format!("ibr-report/{kind}-{name}"))
+    }
 }
 
 /// Reads the options.

@@ -18,7 +18,7 @@ mod volumes;
 
 pub use lines::*;
 pub(in crate::study) use of_run::is_paper;
-pub use of_run::{all_runs, as_run, known_runs, runs_of, seed_jobs};
+pub use of_run::{all_runs, as_run, known_runs, of_the_program, runs_of, seed_jobs};
 pub use robots::{EngineRobot, Engines, PartingMap, engines, varied};
 pub use volumes::{BodyVolumes, Mean, MeanVolumes, Volumes, body_volumes, volumes};
 

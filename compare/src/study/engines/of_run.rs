@@ -1,6 +1,6 @@
 //! A finite element run as a comparison wants it, and the runs of a folder or of the program.
 
-use super::{EngineRun, EngineState, stored};
+use super::{EngineRun, EngineState, ensemble, stored};
 use fem::FemError;
 use fem::robot::{Model, Reading};
 use fem::session::{
@@ -124,4 +124,21 @@ pub fn known_runs(folder: Option<&Path>) -> Result<Vec<EngineRun>, FemError> {
         return Err(FemError::Setting { message, help });
     }
     Ok(found)
+}
+
+/// Runs of a robot as it is that come with the program, one for every seed.
+///
+/// # Errors
+/// [`FemError::Setting`] if there are fewer than wanted.
+pub fn of_the_program(scenario: &Scenario, wanted: usize) -> Result<Vec<EngineRun>, FemError> {
+    let mut found = ensemble(&stored()?, scenario).runs;
+    found.truncate(wanted);
+    if found.len() == wanted {
+        return Ok(found);
+    }
+    let (there, kind, body_kpa) = (found.len(), scenario.actuator.kind.name, scenario.p_body_pa * 1e-3);
+    let message = format!(
+        "{there} finite element runs of {kind} at {body_kpa} kPa body pressure come with the program, not {wanted}"
+    );
+    Err(FemError::Setting { message, help: "lower --seeds, or leave --stored out to make them: minutes each".into() })
 }

@@ -38,14 +38,15 @@ pub(super) struct Look<'a> {
     pub least_m: f64,
 }
 
-/// Pairs in order of their keys.
-#[derive(Debug, Clone, Default)]
+/// Pairs in order of their keys; a checkpoint leaves out what they give again.
+#[derive(Debug, Clone, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Chunk {
     pub pairs: Vec<Pair>,
     /// Way at which the spring of each pair may push, and at which the two may meet.
     pub press_at_m: Vec<f64>,
     pub cross_at_m: Vec<f64>,
     /// Nodes of the pairs, ascending.
+    #[serde(skip)]
     pub nodes: Vec<u32>,
     /// Positions when the way was summed up last.
     pub seen_m: Vec<[f64; 4]>,
@@ -55,9 +56,12 @@ pub(super) struct Chunk {
     pub press_due_m: f64,
     pub cross_due_m: f64,
     /// Forces of the last step.
+    #[serde(skip)]
     pub pushes: Vec<Push>,
     /// Energy stored, and lost in the last step \[J\].
+    #[serde(skip)]
     pub sums: [f64; 2],
+    #[serde(skip)]
     pub hits: Vec<Hit>,
 }
 

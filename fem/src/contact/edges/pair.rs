@@ -11,17 +11,20 @@ const GROWTH: f64 = 0.02;
 const SLACK: f64 = 0.25;
 
 /// Two sides, or a node and a triangle.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
 pub(super) struct Pair {
     /// True for a node and a triangle.
     pub face: bool,
     /// Numbers of the sides; of the node and the triangle.
     pub key: [u32; 2],
+    #[serde(skip)]
     pub nodes: [u32; 4],
     /// Distance that the spring keeps now, and the one that is wanted \[m\]; 0 if there is no spring.
     pub rest_m: f64,
     pub wanted_m: f64,
+    #[serde(skip)]
     pub stiffness_n_m: f64,
+    #[serde(skip)]
     pub damping_n_s_m: f64,
     /// True while closest points are within both sides.
     pub on: bool,

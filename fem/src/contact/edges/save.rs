@@ -20,52 +20,10 @@ struct State {
     placed_m: Vec<[f64; 4]>,
     before_m: Vec<[f64; 4]>,
     forces: Vec<(u32, V3)>,
-    chunks: Vec<ChunkState>,
-}
-
-#[derive(Serialize, Deserialize)]
-struct ChunkState {
-    way_m: f64,
-    press_due_m: f64,
-    cross_due_m: f64,
-    seen_m: Vec<[f64; 4]>,
-    press_at_m: Vec<f64>,
-    cross_at_m: Vec<f64>,
-    pairs: Vec<PairState>,
-}
-
-#[derive(Serialize, Deserialize)]
-struct PairState {
-    key: [u32; 2],
-    face: bool,
-    on: bool,
-    rest_m: f64,
-    wanted_m: f64,
-    last_m: f64,
-    deep_m: f64,
-    damped_n: f64,
+    chunks: Vec<Chunk>,
 }
 
 pub(super) fn write(edges: &Edges) -> Vec<u8> {
-    let pair = |&Pair { key, face, on, rest_m, wanted_m, last_m, deep_m, damped_n, .. }: &Pair| PairState {
-        key,
-        face,
-        on,
-        rest_m,
-        wanted_m,
-        last_m,
-        deep_m,
-        damped_n,
-    };
-    let chunk = |chunk: &Chunk| ChunkState {
-        way_m: chunk.way_m,
-        press_due_m: chunk.press_due_m,
-        cross_due_m: chunk.cross_due_m,
-        seen_m: chunk.seen_m.clone(),
-        press_at_m: chunk.press_at_m.clone(),
-        cross_at_m: chunk.cross_at_m.clone(),
-        pairs: chunk.pairs.iter().map(pair).collect(),
-    };
     pack(&State {
         sides: edges.sides.list.len(),
         searches: edges.searches,
@@ -77,7 +35,7 @@ pub(super) fn write(edges: &Edges) -> Vec<u8> {
         placed_m: edges.placed_m.clone(),
         before_m: edges.held.before_m.clone(),
         forces: edges.held.forces.clone(),
-        chunks: edges.chunks.iter().map(chunk).collect(),
+        chunks: edges.chunks.clone(),
     })
 }
 
@@ -96,18 +54,20 @@ pub(super) fn read(edges: &mut Edges, saved: &[u8]) -> Option<()> {
     Some(())
 }
 
-fn chunk(edges: &Edges, saved: ChunkState) -> Option<Chunk> {
-    let ChunkState { way_m, press_due_m, cross_due_m, seen_m, press_at_m, cross_at_m, pairs } = saved;
-    let pairs: Vec<Pair> = pairs.iter().map(|saved| pair(edges, saved)).collect::<Option<_>>()?;
-    (press_at_m.len() == pairs.len() && cross_at_m.len() == pairs.len()).then_some(())?;
-    let chunk = Chunk { seen_m, press_at_m, cross_at_m, way_m, press_due_m, cross_due_m, ..Chunk::new(pairs) };
-    (chunk.seen_m.is_empty() || chunk.seen_m.len() == chunk.nodes.len()).then_some(chunk)
+fn chunk(edges: &Edges, saved: Chunk) -> Option<Chunk> {
+    let pairs: Vec<Pair> = saved.pairs.iter().map(|saved| pair(edges, *saved)).collect::<Option<_>>()?;
+    let nodes = Chunk::new(pairs.clone()).nodes;
+    let fits = saved.press_at_m.len() == pairs.len()
+        && saved.cross_at_m.len() == pairs.len()
+        && (saved.seen_m.is_empty() || saved.seen_m.len() == nodes.len());
+    fits.then_some(Chunk { pairs, nodes, ..saved })
 }
 
-fn pair(edges: &Edges, saved: &PairState) -> Option<Pair> {
-    let &PairState { key, face, on, rest_m, wanted_m, last_m, deep_m, damped_n } = saved;
+fn pair(edges: &Edges, saved: Pair) -> Option<Pair> {
     let (sides, triangles, nodes) = (edges.sides.list.len(), edges.sides.triangles.len(), edges.mass_kg.len());
-    let most = if face { [nodes, triangles] } else { [sides, sides] };
-    ((key[0] as usize) < most[0] && (key[1] as usize) < most[1]).then_some(())?;
-    Some(Pair { on, rest_m, wanted_m, last_m, deep_m, damped_n, ..edges.fresh(key, face) })
+    let most = if saved.face { [nodes, triangles] } else { [sides, sides] };
+    let [first, second] = saved.key.map(|k| k as usize);
+    (first < most[0] && second < most[1]).then_some(())?;
+    let Pair { nodes, stiffness_n_m, damping_n_s_m, .. } = edges.fresh(saved.key, saved.face);
+    Some(Pair { nodes, stiffness_n_m, damping_n_s_m, ..saved })
 }
