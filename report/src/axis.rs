@@ -33,6 +33,13 @@ impl Axis {
         Axis { range, pixels: [0.0, 1.0], log: false, seconds: false }
     }
 
+    /// A linear axis over all finite values with a small rim.
+    pub(crate) fn padded(values: impl Iterator<Item = f64>, chart: &'static str) -> Result<Self, ReportError> {
+        let [low, high] = extent(values, chart)?;
+        let pad = if high > low { 0.04 * (high - low) } else { 0.1 * high.abs().max(1.0) };
+        Ok(Axis::exact([low - pad, high + pad]))
+    }
+
     /// A logarithmic axis over all positive finite values, at least one decade wide, with a margin.
     pub(crate) fn log(values: impl Iterator<Item = f64>, chart: &'static str) -> Result<Self, ReportError> {
         let [low, high] = extent(values.filter(|v| *v > 0.0).map(f64::log10), chart)?;
@@ -111,7 +118,7 @@ fn step_decimals(step: f64) -> usize {
 }
 
 /// A number with fixed decimals, a true minus sign and thin-spaced thousands from 10 000 on.
-pub(crate) fn number(value: f64, decimals: usize) -> String {
+pub fn number(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return "–".to_owned();
     }
@@ -134,7 +141,7 @@ pub(crate) fn common_decimals(largest: f64) -> usize {
 }
 
 /// A number with about three significant digits.
-pub(crate) fn short_number(value: f64) -> String {
+pub fn short_number(value: f64) -> String {
     match value.abs() {
         v if v >= 99.95 || v == 0.0 => number(value, 0),
         v if v >= 9.995 => number(value, 1),

@@ -1,47 +1,30 @@
-//! Charts of reports, drawn once and given out as SVG and PNG.
+//! Charts and pages from plain structs: nothing here knows a model, a dataset or a diagnosis.
 //!
-//! Every chart is a plain struct of finished numbers in display units (mm, kPa, …) and one function that draws it.
-//! Plots read reports, never models: nothing here knows a model or a dataset. Non-finite values are left out of lines
-//! and shown as "–" in cells and bars; a chart with nothing left is [`ReportError::NothingToDraw`].
-//! The drawings are 520 design pixels wide, so that text stays readable at 360 px (9 px) and at 1200 px.
+//! A figure is data: a [`chart::Chart`] is marks over two axes and a legend in display units (mm, kPa, …), and one painter gives it
+//! out as SVG and PNG. Non-finite values are left out of lines and shown as "–" in cells and bars; a chart with nothing left is
+//! [`ReportError::NothingToDraw`]. The drawings are 520 design pixels wide, so that text stays readable at 360 px and at 1200 px.
+//! A page is a template of `templates/`, which has its words, filled with plain values ([`page::render`]).
 
 mod axis;
-mod bars;
-mod breakdown;
-#[cfg(test)]
-mod chart_tests;
-mod frame;
-mod ladder;
-mod ledger;
-mod lines;
+pub mod chart;
+mod draw;
+mod figures;
 mod markup;
 pub mod page;
-#[cfg(test)]
-mod page_tests;
 mod paint;
 mod palette;
 mod place;
-mod ranking;
-mod residual_map;
+mod plane;
+mod rows;
 mod scene;
-mod shapes;
-mod svg;
+#[cfg(test)]
+mod tests;
 mod text;
-mod tornado;
-mod tradeoff;
-mod view;
 
-pub use bars::{BarSeries, Bars, bars};
-pub use breakdown::{Breakdown, BreakdownCell, breakdown};
-pub use ladder::{Ladder, LadderStep, LadderTarget, ladder};
-pub use ledger::{Ledger, LedgerCase, ledger};
-pub use lines::{LineSeries, LineStyle, Lines, lines};
-pub use palette::{Theme, css_variables, with_css_variables};
-pub use ranking::{RankClass, Ranking, RankingRow, ranking};
-pub use residual_map::{MapHold, MapPanel, ResidualMap, residual_map};
-pub use shapes::{MeasuredPoint, ShapePose, Shapes, shapes};
-pub use tornado::{Tornado, TornadoBar, tornado};
-pub use tradeoff::{Tradeoff, TradeoffPoint, tradeoff};
+pub use axis::{number, short_number};
+pub use figures::*;
+pub use palette::Ink;
+pub use scene::Symbol;
 
 /// Width of every drawing [design px].
 const WIDTH: f64 = 520.0;
@@ -95,32 +78,6 @@ pub enum ReportError {
         most: usize,
         /// Given number.
         found: usize,
-    },
-    /// A section's anchor is empty, used twice or has other characters than allowed.
-    #[error("section id `{id}` is empty, repeated or has other characters than a-z, 0-9 and -: rename it")]
-    Id {
-        /// The anchor.
-        id: String,
-    },
-    /// A row does not fit its table.
-    #[error("row {row} of table `{caption}` has {found} cells for {expected} columns: give one cell per column")]
-    Cells {
-        /// Caption of the table.
-        caption: String,
-        /// Row, counted from 1.
-        row: usize,
-        /// Number of columns.
-        expected: usize,
-        /// Number of cells.
-        found: usize,
-    },
-    /// A plot holds something that a plot of this crate cannot hold.
-    #[error("figure `{caption}` is not a plot this program draws ({reason}): pass the SVG of a plot unchanged")]
-    Svg {
-        /// Caption of the figure.
-        caption: String,
-        /// What was found.
-        reason: String,
     },
     /// The page template failed.
     #[error("the report page cannot be filled in: {0}")]

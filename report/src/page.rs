@@ -1,130 +1,78 @@
-//! The self-contained HTML report: inline plots, no external resource, no script, light and dark.
+//! Pages: self-contained HTML with inline plots, no external resource, no script, light and dark.
 //!
-//! A report is plain data; [`render`] turns it into one page. Every text is escaped. The only markup in a text is
-//! `` `code` `` and `**bold**`. Plots given as SVG are rewritten so that they follow the colours of the page.
+//! Words stand in `templates/`. Every value is escaped; the only markup in one is `` `code` `` and `**bold**`. A template that names
+//! a value which is not there is an error, not a blank.
 
-use crate::{ReportError, view};
+use crate::palette::{Theme, css_variables, with_css_variables};
+use crate::{ReportError, markup};
+use minijinja::value::{Serde, Value};
+use minijinja::{Environment, Error, ErrorKind, UndefinedBehavior};
+use serde::Serialize;
+use std::collections::BTreeMap;
 
-/// A report, from its answer to its provenance.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Report {
-    /// Title of the page.
-    pub title: String,
-    /// The answer in one paragraph.
-    pub lead: String,
-    /// Program and version, for example `ibr 0.2.0`.
-    pub generated_by: String,
-    /// Date or date and time, as it should be read.
-    pub generated_on: String,
-    /// The body, in order.
-    pub sections: Vec<Section>,
-    /// Inputs, versions, machine: shown as a list of names and values at the end.
-    pub provenance: Vec<Provenance>,
-}
+/// Name and text of every template.
+const TEMPLATES: [(&str, &str); 7] = [
+    ("base.html", include_str!("../templates/base.html")),
+    ("parts.html", include_str!("../templates/parts.html")),
+    ("compare.html", include_str!("../templates/compare.html")),
+    ("demo.html", include_str!("../templates/demo.html")),
+    ("diagnosis.html", include_str!("../templates/diagnosis.html")),
+    ("engines.html", include_str!("../templates/engines.html")),
+    ("ladder.html", include_str!("../templates/ladder.html")),
+];
 
-/// One line of the provenance of a [`Report`].
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Provenance {
-    /// What, e.g. `scenario`.
-    pub name: String,
-    /// Which, e.g. `cpam.toml`.
-    pub value: String,
-}
-
-/// A part of a [`Report`] with its own heading.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Section {
-    /// Anchor: lower-case letters, digits and hyphens, unique in the report.
-    pub id: String,
-    /// Heading.
-    pub heading: String,
-    /// Contents, in order.
-    pub blocks: Vec<Block>,
-}
-
-/// A piece of a [`Section`].
-#[derive(Debug, Clone, PartialEq)]
-pub enum Block {
-    /// A paragraph.
-    Paragraph(String),
-    /// A paragraph that stands out.
-    Callout {
-        /// What it is.
-        kind: Callout,
-        /// Its text.
-        text: String,
-    },
-    /// A table.
-    Table(Table),
-    /// A plot.
-    Figure {
-        /// Text under the plot.
-        caption: String,
-        /// What the plot shows, for those who cannot see it.
-        alt: String,
-        /// The plot, as given by [`crate::Drawn::svg`].
-        svg: String,
-    },
-    /// A list with bullets.
-    List(Vec<String>),
-    /// Commands or other preformatted text.
-    Code(String),
-}
-
-/// Kind of a [`Block::Callout`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Callout {
-    /// What was found.
-    Result,
-    /// Something to know.
-    Note,
-    /// Something that limits what may be concluded.
-    Warning,
-}
-
-/// A table; the first column names the rows.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Table {
-    /// Text above the table.
-    pub caption: String,
-    /// Columns from left to right.
-    pub columns: Vec<Column>,
-    /// Cells by row; each row has one cell per column.
-    pub rows: Vec<Vec<String>>,
-    /// Index of the column "how do we know", whose words measured, published, assumed, calibrated and predicted are
-    /// shown as coloured tags.
-    pub how_column: Option<usize>,
-}
-
-/// Head of a column of a [`Table`].
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Column {
-    /// Name of the quantity.
-    pub heading: String,
-    /// Unit, without brackets; empty for none.
-    pub unit: String,
-    /// Side to which cells are flush.
-    pub align: Align,
-}
-
-/// Alignment of a [`Column`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Align {
-    /// Words.
-    #[default]
-    Left,
-    /// Numbers.
-    Right,
-    /// Marks.
-    Centre,
-}
-
-const TEMPLATE: &str = include_str!("../templates/page.html");
-
-/// The report as one HTML page.
+/// A template filled with values and figures: SVG documents of [`crate::Drawn`] by name. A figure that was not drawn is left out.
 ///
-/// Errors: a bad section id, a row of the wrong length, an SVG that is not one of this crate's plots.
-pub fn render(report: &Report) -> Result<String, ReportError> {
-    let page = minijinja::value::Serde(view::page(report)?);
-    Ok(minijinja::Environment::new().render_named_str("report.html", TEMPLATE, page)?)
+/// # Errors
+/// A value that the template needs and does not find.
+pub fn render(
+    template: &str,
+    values: &impl Serialize,
+    figures: BTreeMap<String, String>,
+) -> Result<String, ReportError> {
+    Ok(environment(figures)?.get_template(template)?.render(Serde(values))?)
+}
+
+fn environment(figures: BTreeMap<String, String>) -> Result<Environment<'static>, ReportError> {
+    let mut env = Environment::new();
+    env.set_undefined_behavior(UndefinedBehavior::Strict);
+    for (name, text) in TEMPLATES {
+        env.add_template(name, text)?;
+    }
+    env.add_global("css_light", css_variables(Theme::Light));
+    env.add_global("css_dark", css_variables(Theme::Dark));
+    env.add_filter("inline", |text: &str| Value::from_safe_string(markup::inline(text)));
+    env.add_filter("tags", |text: &str| Value::from_safe_string(markup::with_tags(text)));
+    env.add_filter("effect", |text: &str| text.replace('_', " "));
+    env.add_filter("fixed", |value: Value, digits: usize| number(&value, 1.0, |v| format!("{v:.digits$}")));
+    env.add_filter("signed", |value: Value, digits: usize| number(&value, 1.0, |v| format!("{v:+.digits$}")));
+    env.add_filter("percent", |value: Value, digits: usize| number(&value, 100.0, |v| format!("{v:.digits$}")));
+    let names: Vec<String> = figures.keys().cloned().collect();
+    env.add_function("drawn", move |name: &str| names.iter().any(|n| n == name));
+    env.add_function("picture", move |name: &str, alt: &str| match figures.get(name) {
+        Some(svg) => Ok(Value::from_safe_string(inline(svg, alt))),
+        None => Err(Error::new(ErrorKind::InvalidOperation, format!("there is no figure {name}"))),
+    });
+    Ok(env)
+}
+
+/// A number in words; a dash where there is none.
+fn number(value: &Value, scale: f64, words: impl Fn(f64) -> String) -> String {
+    let number = f64::try_from(value.clone()).ok().filter(|v| v.is_finite());
+    let text = number.map_or_else(|| "–".into(), |v| words(scale * v));
+    // Nothing has no sign.
+    match text.contains(|c: char| ('1'..='9').contains(&c)) {
+        true => text.replace('-', "−"),
+        false => text.replace(['-', '+'], ""),
+    }
+}
+
+/// A plot as part of a page: its colours and its font, as wide as its column, with an accessible title.
+fn inline(svg: &str, alt: &str) -> String {
+    let (head, body) = svg.split_once('>').unwrap_or(("", svg));
+    let view = head.split_once("viewBox=\"").and_then(|(_, rest)| rest.split_once('"')).map_or("", |(view, _)| view);
+    let alt = markup::escape(alt);
+    let font = format!(" font-family=\"{}, Verdana, sans-serif\"", crate::text::FAMILY);
+    let body = with_css_variables(body).replace(&font, "");
+    format!("<svg role=\"img\" aria-label=\"{alt}\" viewBox=\"{view}\"><title>{alt}</title>{body}")
 }

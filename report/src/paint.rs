@@ -107,15 +107,15 @@ fn marks<DB: DrawingBackend>(
     root.fill(&WHITE).map_err(drawing)?;
     for mark in &scene.marks {
         match mark {
-            Mark::Line { points, role, width } => stroke(root, surface, points, role.rgb(), *width)?,
-            Mark::Fill { points, role, alpha } => {
-                let [r, g, b] = role.rgb();
+            Mark::Line { points, ink, width } => stroke(root, surface, points, ink.rgb(), *width)?,
+            Mark::Fill { points, ink, alpha } => {
+                let [r, g, b] = ink.rgb();
                 let corners = surface.distinct(points);
                 if corners.len() > 2 {
                     root.draw(&Polygon::new(corners, RGBColor(r, g, b).mix(*alpha).filled())).map_err(drawing)?;
                 }
             }
-            Mark::Disc { centre, radius, role } => disc(root, surface, *centre, *radius, role.rgb())?,
+            Mark::Disc { centre, radius, ink } => disc(root, surface, *centre, *radius, ink.rgb())?,
             Mark::Text { .. } => letters(root, surface, mark)?,
         }
     }
@@ -161,8 +161,8 @@ fn letters<DB: DrawingBackend>(
     surface: &Surface,
     mark: &Mark,
 ) -> Result<(), ReportError> {
-    let Mark::Text { at, text, size, role, anchor } = mark else { return Ok(()) };
-    let [r, g, b] = role.rgb();
+    let Mark::Text { at, text, size, ink, anchor } = mark else { return Ok(()) };
+    let [r, g, b] = ink.rgb();
     let pixel_size = size * surface.size_per_em * surface.scale;
     let top = at[1] - size * surface.baseline_em;
     let horizontal = match anchor {

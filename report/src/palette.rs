@@ -1,11 +1,12 @@
-//! Colours by role. Every plot is drawn with the light values; a web page may replace them by CSS variables.
+//! Colours by what they are for. Every plot is drawn with the light values; a web page may replace them by CSS variables.
 
-/// What a colour is used for; [`ROLES`] gives its light and dark value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Role {
+/// What a colour is used for; [`INKS`] gives its light and dark value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Ink {
     /// Background.
     Paper,
     /// Text and main marks.
+    #[default]
     Ink,
     /// Secondary text.
     Muted,
@@ -27,9 +28,9 @@ pub(crate) enum Role {
 pub(crate) const SERIES: usize = 8;
 const FIRST_SERIES: usize = 8;
 
-/// CSS variable, light value, dark value, in the order of [`Role`]. Series hues are dark (light theme) or light
+/// CSS variable, light value, dark value, in the order of [`Ink`]. Series hues are dark (light theme) or light
 /// (dark theme) enough for text, differ in lightness and hue, and avoid a red–green pair of equal lightness.
-const ROLES: [(&str, [u8; 3], [u8; 3]); FIRST_SERIES + SERIES] = [
+const INKS: [(&str, [u8; 3], [u8; 3]); FIRST_SERIES + SERIES] = [
     ("--paper", [0xFF, 0xFF, 0xFF], [0x14, 0x18, 0x1D]),
     ("--ink", [0x1B, 0x1F, 0x24], [0xE8, 0xEB, 0xEF]),
     ("--muted", [0x5B, 0x64, 0x70], [0xA3, 0xAD, 0xB8]),
@@ -48,30 +49,30 @@ const ROLES: [(&str, [u8; 3], [u8; 3]); FIRST_SERIES + SERIES] = [
     ("--series-8", [0x8C, 0x2F, 0x39], [0xF0, 0x91, 0x9B]),
 ];
 
-impl Role {
+impl Ink {
     /// Light value, red, green, blue.
     pub(crate) fn rgb(self) -> [u8; 3] {
-        ROLES[self.index()].1
+        INKS[self.index()].1
     }
 
     fn index(self) -> usize {
         match self {
-            Role::Paper => 0,
-            Role::Ink => 1,
-            Role::Muted => 2,
-            Role::Axis => 3,
-            Role::Grid => 4,
-            Role::Soft => 5,
-            Role::HeatNegative => 6,
-            Role::HeatPositive => 7,
-            Role::Series(i) => FIRST_SERIES + i % SERIES,
+            Ink::Paper => 0,
+            Ink::Ink => 1,
+            Ink::Muted => 2,
+            Ink::Axis => 3,
+            Ink::Grid => 4,
+            Ink::Soft => 5,
+            Ink::HeatNegative => 6,
+            Ink::HeatPositive => 7,
+            Ink::Series(i) => FIRST_SERIES + i % SERIES,
         }
     }
 }
 
 /// Whether a theme is light or dark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Theme {
+pub(crate) enum Theme {
     /// Dark text on white.
     Light,
     /// Light text on near-black.
@@ -79,14 +80,14 @@ pub enum Theme {
 }
 
 /// CSS declarations of every plot colour, e.g. `--ink:#1B1F24;…`, for a rule of a page that inlines plots.
-pub fn css_variables(theme: Theme) -> String {
+pub(crate) fn css_variables(theme: Theme) -> String {
     let pick = |light, dark| if theme == Theme::Light { light } else { dark };
-    ROLES.iter().map(|(name, light, dark)| format!("{name}:{};", hex(pick(*light, *dark)))).collect()
+    INKS.iter().map(|(name, light, dark)| format!("{name}:{};", hex(pick(*light, *dark)))).collect()
 }
 
 /// The plot with its colours replaced by `var(--ink)` and so on, so that it follows the theme of the page.
-pub fn with_css_variables(svg: &str) -> String {
-    ROLES.iter().fold(svg.to_owned(), |svg, (name, light, _)| {
+pub(crate) fn with_css_variables(svg: &str) -> String {
+    INKS.iter().fold(svg.to_owned(), |svg, (name, light, _)| {
         svg.replace(&format!("\"{}\"", hex(*light)), &format!("\"var({name})\""))
     })
 }
@@ -110,16 +111,16 @@ mod tests {
         a.max(b) / a.min(b)
     }
 
-    fn value(role: Role, theme: Theme) -> [u8; 3] {
-        let (_, light, dark) = ROLES[role.index()];
+    fn value(role: Ink, theme: Theme) -> [u8; 3] {
+        let (_, light, dark) = INKS[role.index()];
         if theme == Theme::Light { light } else { dark }
     }
 
     #[test]
     fn text_colours_reach_contrast_aa_on_paper_and_on_soft_fills() {
         for theme in [Theme::Light, Theme::Dark] {
-            for role in [Role::Ink, Role::Muted].into_iter().chain((0..SERIES).map(Role::Series)) {
-                for ground in [Role::Paper, Role::Soft] {
+            for role in [Ink::Ink, Ink::Muted].into_iter().chain((0..SERIES).map(Ink::Series)) {
+                for ground in [Ink::Paper, Ink::Soft] {
                     let ratio = contrast(value(role, theme), value(ground, theme));
                     assert!(ratio >= 4.5, "{role:?} on {ground:?} in {theme:?}: {ratio:.2}");
                 }
@@ -130,17 +131,17 @@ mod tests {
     #[test]
     fn cell_numbers_reach_contrast_aa_on_the_strongest_heat() {
         for theme in [Theme::Light, Theme::Dark] {
-            for heat in [Role::HeatNegative, Role::HeatPositive] {
-                let ratio = contrast(value(Role::Ink, theme), value(heat, theme));
+            for heat in [Ink::HeatNegative, Ink::HeatPositive] {
+                let ratio = contrast(value(Ink::Ink, theme), value(heat, theme));
                 assert!(ratio >= 4.5, "{heat:?} in {theme:?}: {ratio:.2}");
             }
         }
     }
 
     #[test]
-    fn no_two_roles_share_a_light_value() {
-        for (i, a) in ROLES.iter().enumerate() {
-            assert!(ROLES[i + 1..].iter().all(|b| b.1 != a.1), "{} is not unique", a.0);
+    fn no_two_inks_share_a_light_value() {
+        for (i, a) in INKS.iter().enumerate() {
+            assert!(INKS[i + 1..].iter().all(|b| b.1 != a.1), "{} is not unique", a.0);
         }
     }
 

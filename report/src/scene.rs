@@ -1,6 +1,6 @@
 //! A drawing as a list of marks in design pixels; charts fill it, `paint` puts it on a backend.
 
-use crate::palette::Role;
+use crate::palette::Ink;
 use crate::text;
 
 /// A point in design pixels, x to the right, y downwards.
@@ -16,26 +16,30 @@ pub(crate) enum Anchor {
 
 /// Marker shapes, in the order in which series take them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Symbol {
+pub enum Symbol {
+    /// ●
     Circle,
+    /// ■
     Square,
+    /// ◆
     Diamond,
+    /// ▲
     Triangle,
 }
 
 impl Symbol {
     /// The shape of series `i`.
-    pub(crate) fn of(i: usize) -> Self {
+    pub fn of(i: usize) -> Self {
         [Symbol::Circle, Symbol::Square, Symbol::Diamond, Symbol::Triangle][i % 4]
     }
 }
 
 /// One thing to draw; lengths in design pixels.
 pub(crate) enum Mark {
-    Line { points: Vec<Point>, role: Role, width: f64 },
-    Fill { points: Vec<Point>, role: Role, alpha: f64 },
-    Disc { centre: Point, radius: f64, role: Role },
-    Text { at: Point, text: String, size: f64, role: Role, anchor: Anchor },
+    Line { points: Vec<Point>, ink: Ink, width: f64 },
+    Fill { points: Vec<Point>, ink: Ink, alpha: f64 },
+    Disc { centre: Point, radius: f64, ink: Ink },
+    Text { at: Point, text: String, size: f64, ink: Ink, anchor: Anchor },
 }
 
 /// A drawing of `width` × `height` design pixels.
@@ -48,16 +52,16 @@ pub(crate) struct Scene {
 impl Scene {
     /// An empty drawing of the common width; its height is set when the layout is known.
     pub(crate) fn new() -> Self {
-        Scene { width: super::WIDTH, height: 0.0, marks: Vec::new() }
+        Scene { width: crate::WIDTH, height: 0.0, marks: Vec::new() }
     }
 
     /// A solid line through the points.
-    pub(crate) fn line(&mut self, points: &[Point], role: Role, width: f64) {
-        self.marks.push(Mark::Line { points: points.to_vec(), role, width });
+    pub(crate) fn line(&mut self, points: &[Point], ink: Ink, width: f64) {
+        self.marks.push(Mark::Line { points: points.to_vec(), ink, width });
     }
 
     /// A dashed line with dashes of `on` and gaps of `off`.
-    pub(crate) fn dashed(&mut self, points: &[Point], role: Role, width: f64, [on, off]: [f64; 2]) {
+    pub(crate) fn dashed(&mut self, points: &[Point], ink: Ink, width: f64, [on, off]: [f64; 2]) {
         let (mut drawing, mut left, mut dash) = (true, on, points.first().copied().into_iter().collect::<Vec<_>>());
         for pair in points.windows(2) {
             let (mut a, b) = (pair[0], pair[1]);
@@ -68,7 +72,7 @@ impl Scene {
                 dash.push(a);
                 let done = std::mem::replace(&mut dash, vec![a]);
                 if drawing {
-                    self.line(&done, role, width);
+                    self.line(&done, ink, width);
                 }
                 drawing = !drawing;
                 left = if drawing { on } else { off };
@@ -77,67 +81,67 @@ impl Scene {
             dash.push(b);
         }
         if drawing {
-            self.line(&dash, role, width);
+            self.line(&dash, ink, width);
         }
     }
 
     /// A filled rectangle between two opposite corners.
-    pub(crate) fn rect(&mut self, [x0, y0]: Point, [x1, y1]: Point, role: Role, alpha: f64) {
-        self.fill(&[[x0, y0], [x1, y0], [x1, y1], [x0, y1]], role, alpha);
+    pub(crate) fn rect(&mut self, [x0, y0]: Point, [x1, y1]: Point, ink: Ink, alpha: f64) {
+        self.fill(&[[x0, y0], [x1, y0], [x1, y1], [x0, y1]], ink, alpha);
     }
 
     /// A filled polygon.
-    pub(crate) fn fill(&mut self, points: &[Point], role: Role, alpha: f64) {
-        self.marks.push(Mark::Fill { points: points.to_vec(), role, alpha });
+    pub(crate) fn fill(&mut self, points: &[Point], ink: Ink, alpha: f64) {
+        self.marks.push(Mark::Fill { points: points.to_vec(), ink, alpha });
     }
 
     /// A marker of half-width `radius`; an open one has a coloured rim on paper.
-    pub(crate) fn symbol(&mut self, symbol: Symbol, centre: Point, radius: f64, role: Role, open: bool) {
-        self.solid(symbol, centre, radius, role);
+    pub(crate) fn symbol(&mut self, symbol: Symbol, centre: Point, radius: f64, ink: Ink, open: bool) {
+        self.solid(symbol, centre, radius, ink);
         if open {
-            self.solid(symbol, centre, radius - 1.6, Role::Paper);
+            self.solid(symbol, centre, radius - 1.6, Ink::Paper);
         }
     }
 
-    fn solid(&mut self, symbol: Symbol, centre: Point, radius: f64, role: Role) {
+    fn solid(&mut self, symbol: Symbol, centre: Point, radius: f64, ink: Ink) {
         let corner = |x: f64, y: f64| [centre[0] + x * radius, centre[1] + y * radius];
         match symbol {
-            Symbol::Circle => self.marks.push(Mark::Disc { centre, radius, role }),
-            Symbol::Square => self.rect(corner(-0.9, -0.9), corner(0.9, 0.9), role, 1.0),
+            Symbol::Circle => self.marks.push(Mark::Disc { centre, radius, ink }),
+            Symbol::Square => self.rect(corner(-0.9, -0.9), corner(0.9, 0.9), ink, 1.0),
             Symbol::Diamond => {
-                self.fill(&[corner(0.0, -1.25), corner(1.25, 0.0), corner(0.0, 1.25), corner(-1.25, 0.0)], role, 1.0);
+                self.fill(&[corner(0.0, -1.25), corner(1.25, 0.0), corner(0.0, 1.25), corner(-1.25, 0.0)], ink, 1.0);
             }
-            Symbol::Triangle => self.fill(&[corner(0.0, -1.2), corner(1.15, 0.85), corner(-1.15, 0.85)], role, 1.0),
+            Symbol::Triangle => self.fill(&[corner(0.0, -1.2), corner(1.15, 0.85), corner(-1.15, 0.85)], ink, 1.0),
         }
     }
 
     /// A horizontal error bar with a rim of paper, to be seen on a filled bar in both themes.
     pub(crate) fn error_bar_on_fill(&mut self, [x, y]: Point, half: f64) {
-        self.line(&[[x - half, y], [x + half, y]], Role::Paper, 2.9);
+        self.line(&[[x - half, y], [x + half, y]], Ink::Paper, 2.9);
         for end in [x - half, x + half] {
-            self.line(&[[end, y - 3.3], [end, y + 3.3]], Role::Paper, 2.9);
+            self.line(&[[end, y - 3.3], [end, y + 3.3]], Ink::Paper, 2.9);
         }
-        self.error_bar([x, y], half, false, Role::Ink);
+        self.error_bar([x, y], half, false, Ink::Ink);
     }
 
     /// An error bar along y (`vertical`) or x, with caps.
-    pub(crate) fn error_bar(&mut self, [x, y]: Point, half: f64, vertical: bool, role: Role) {
+    pub(crate) fn error_bar(&mut self, [x, y]: Point, half: f64, vertical: bool, ink: Ink) {
         let turn = |along: f64, across: f64| if vertical { [x + across, y + along] } else { [x + along, y + across] };
-        self.line(&[turn(-half, 0.0), turn(half, 0.0)], role, 1.3);
+        self.line(&[turn(-half, 0.0), turn(half, 0.0)], ink, 1.3);
         for end in [-half, half] {
-            self.line(&[turn(end, -2.5), turn(end, 2.5)], role, 1.3);
+            self.line(&[turn(end, -2.5), turn(end, 2.5)], ink, 1.3);
         }
     }
 
     /// A text on its baseline.
-    pub(crate) fn text(&mut self, at: Point, text: &str, size: f64, role: Role, anchor: Anchor) {
+    pub(crate) fn text(&mut self, at: Point, text: &str, size: f64, ink: Ink, anchor: Anchor) {
         let text = text::fit(text, size, self.width);
-        self.marks.push(Mark::Text { at, text, size, role, anchor });
+        self.marks.push(Mark::Text { at, text, size, ink, anchor });
     }
 
     /// A text whose capitals are centred on `at[1]`.
-    pub(crate) fn text_mid(&mut self, at: Point, text: &str, size: f64, role: Role, anchor: Anchor) {
-        self.text([at[0], at[1] + 0.36 * size], text, size, role, anchor);
+    pub(crate) fn text_mid(&mut self, at: Point, text: &str, size: f64, ink: Ink, anchor: Anchor) {
+        self.text([at[0], at[1] + 0.36 * size], text, size, ink, anchor);
     }
 }
 
@@ -156,7 +160,7 @@ mod tests {
     #[test]
     fn dashes_cover_the_drawn_share_of_a_line() {
         let mut scene = Scene::new();
-        scene.dashed(&[[0.0, 0.0], [50.0, 0.0], [50.0, 50.0]], Role::Ink, 1.0, [6.0, 4.0]);
+        scene.dashed(&[[0.0, 0.0], [50.0, 0.0], [50.0, 50.0]], Ink::Ink, 1.0, [6.0, 4.0]);
         let drawn: f64 = scene
             .marks
             .iter()

@@ -20,7 +20,7 @@ pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> 
     let rows = partings(&scenarios, &runs)?;
     let mut files = Files::default();
     for (k, map) in engines(&scenarios, &runs)?.maps.iter().enumerate() {
-        files.plot(&format!("breakdown_{}_{k}", map.actuator), &parting_plot(map)?);
+        files.plot(&format!("breakdown_{}_{k}", map.actuator), parting_plot(map)?);
     }
     files.text("breakdown.csv", csv(&rows));
     files.text("runs.json", runs_json(&runs));

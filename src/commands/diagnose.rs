@@ -10,7 +10,7 @@ use crate::output::{Input, check_folder, earlier, machine, program, remove_all, 
 use compare::diagnosis::{Diagnosis, Experiment, Group, Options, Ranked, Verdict};
 use compare::study::engines::{TERMS, known_runs};
 use compare::study::witness::{HEIGHTS, Witness, witness};
-use ibr::pages::{DIAGNOSIS_PICTURES, Diagnosed, Imprint, diagnosis_page};
+use ibr::pages::{Diagnosed, Imprint, diagnosis_page, diagnosis_pictures};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -89,7 +89,7 @@ fn report(
     let imprint = Imprint { program: program(), date: today(), machine: machine() };
     let mut files = diagnosis_page(found, &imprint)?;
     files.files.insert(0, ("diagnosis.json".into(), json));
-    let pictures = DIAGNOSIS_PICTURES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]);
+    let pictures = diagnosis_pictures().into_iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]);
     let old = earlier(folder, &pictures.collect::<Vec<_>>());
     write_files(folder, &files, inputs, context)?;
     remove_all(folder, old.iter().filter(|name| files.files.iter().all(|(made, _)| made != *name)))

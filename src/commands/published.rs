@@ -29,7 +29,7 @@ pub fn run(kind: &str, out: Option<&Path>, context: &mut Context) -> Result<Outc
     if let Some(folder) = out {
         let mut files = Files::default();
         let drawn = lines(&curves(&one)).map_err(|e| Failure::usage(format!("the curves: {e}"), "report this"))?;
-        files.plot(&format!("one_number_{kind}"), &drawn);
+        files.plot(&format!("one_number_{kind}"), drawn);
         write_files(folder, &files, &[], context)?;
         outcome.notes.push(format!("plot: {}", folder.join(format!("one_number_{kind}.png")).display()));
     }

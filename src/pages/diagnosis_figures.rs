@@ -9,7 +9,8 @@ use compare::study::predict::predict_dataset;
 use compare::study::witness::{Beside, Witness};
 use data::{Dataset, Phase};
 use models::{Loads, Model, Scenario, Step};
-use report::{self as plots, Drawn, LineSeries, LineStyle, RankClass};
+use report::chart::{Bar, Key, Look, Mark, Row};
+use report::{self as plots, Drawn, Ink, LineSeries, LineStyle};
 
 const MM: f64 = 1e3;
 /// Points of a curve over pressure.
@@ -38,11 +39,9 @@ pub(super) fn supply(d: &Diagnosis) -> Result<Option<Drawn>, PageError> {
     // An effect of the body leaves the supply's laws as they were.
     let of_supply = d.added.iter().chain(&d.attempt).any(|a| a.group == Group::Supply);
     let after = d.final_label().filter(|_| of_supply);
-    let series = |gauge: &compare::diagnosis::GaugeFit| plots::BarSeries {
-        name: format!("gauge in {}", gauge.dataset),
-        values: std::iter::once(gauge.before_kpa).chain(after.as_ref().map(|_| gauge.after_kpa)).collect(),
-        half_width: Vec::new(),
-        reference: false,
+    let series = |gauge: &compare::diagnosis::GaugeFit| {
+        let values = std::iter::once(gauge.before_kpa).chain(after.as_ref().map(|_| gauge.after_kpa));
+        (format!("gauge in {}", gauge.dataset), values.collect(), false)
     };
     let data = plots::Bars {
         title: "The supply, before and after".into(),
@@ -51,47 +50,60 @@ pub(super) fn supply(d: &Diagnosis) -> Result<Option<Drawn>, PageError> {
         series: d.gauges.iter().map(series).collect(),
         target: None,
     };
-    plots::bars(&data).map(Some).map_err(PageError::from)
+    Ok(Some(plots::bars(&data)?))
 }
 
 /// Error of every model, training and left-out data, with the noise of the mean.
 pub(super) fn waterfall(title: &str, rungs: &[ErrorRung], floor_mm: Option<f64>) -> Result<Drawn, PageError> {
-    let series = |name: &str, of: fn(&ErrorRung) -> f64| plots::BarSeries {
-        name: name.into(),
-        values: rungs.iter().map(of).collect(),
-        half_width: Vec::new(),
-        reference: false,
-    };
+    let series = |name: &str, of: fn(&ErrorRung) -> f64| (name.to_string(), rungs.iter().map(of).collect(), false);
     let data = plots::Bars {
         title: title.into(),
         value_label: "error beyond noise [mm]".into(),
-        groups: rungs.iter().map(|r| r.label.clone()).collect(),
+        groups: rungs.iter().map(|r| super::effect(&r.label)).collect(),
         series: vec![
             series("data of the fit", |r| r.training_mm),
             series("pressures left out", |r| r.heldout_pressure_mm.unwrap_or(f64::NAN)),
             series("runs left out", |r| r.heldout_run_mm.unwrap_or(f64::NAN)),
         ],
-        target: floor_mm.map(|value| plots::LadderTarget { label: "noise of the mean".into(), value, half_width: 0.0 }),
+        target: floor_mm.map(|value| ("noise of the mean".into(), value)),
     };
-    plots::bars(&data).map_err(PageError::from)
+    Ok(plots::bars(&data)?)
 }
 
-/// Gain of every answer over that of the best one \[%\]; stated ones, the attempt, worse and rejected ones, each by their bars.
-/// `None` where nothing helps.
-pub(super) fn ranking_rows(d: &Diagnosis) -> Option<Vec<plots::RankingRow>> {
+/// What the colour of a bar of the ranking says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Rank {
+    Alike,
+    Attempt,
+    Worse,
+    Other,
+    Rejected,
+}
+
+/// What each is called and its colour.
+const RANKS: [(Rank, &str, Ink); 5] = [
+    (Rank::Alike, "cannot be told apart", Ink::Series(2)),
+    (Rank::Attempt, "attempt", Ink::Series(1)),
+    (Rank::Worse, FITS_WORSE, Ink::Muted),
+    (Rank::Other, "others", Ink::Muted),
+    (Rank::Rejected, "on a physical bound, rejected", Ink::Grid),
+];
+
+/// Name, rank and gain of every answer over that of the best one \[%\]; stated ones, the attempt, worse and rejected ones, each by
+/// their bars. `None` where nothing helps.
+pub(super) fn ranking_rows(d: &Diagnosis) -> Option<Vec<(String, Rank, f64)>> {
     let answers = d.answers();
     let possible = answers.iter().filter(|a| a.standing != Standing::Rejected && a.gain.is_finite());
     let best = possible.map(|a| a.gain).fold(0.0, f64::max);
-    let class = |a: &Answer| match a.standing {
-        Standing::Stated => RankClass::Alike,
-        Standing::Attempt => RankClass::Attempt,
-        Standing::Other if d.indistinguishable.is_empty() => RankClass::Other,
-        Standing::Other => RankClass::Worse,
-        Standing::Rejected => RankClass::Rejected,
+    let rank = |a: &Answer| match a.standing {
+        Standing::Stated => Rank::Alike,
+        Standing::Attempt => Rank::Attempt,
+        Standing::Other if d.indistinguishable.is_empty() => Rank::Other,
+        Standing::Other => Rank::Worse,
+        Standing::Rejected => Rank::Rejected,
     };
-    let row = |a: &Answer| plots::RankingRow { label: a.name(), value: 100.0 * a.gain / best, class: class(a) };
-    let mut rows: Vec<plots::RankingRow> = answers.iter().map(row).collect();
-    rows.sort_by(|a, b| a.class.cmp(&b.class).then(b.value.total_cmp(&a.value)));
+    let mut rows: Vec<_> = answers.iter().map(|a| (a.name(), rank(a), 100.0 * a.gain / best)).collect();
+    rows.sort_by(|a, b| a.1.cmp(&b.1).then(b.2.total_cmp(&a.2)));
     (best > 0.0).then_some(rows)
 }
 
@@ -99,9 +111,17 @@ pub(super) fn ranking_rows(d: &Diagnosis) -> Option<Vec<plots::RankingRow>> {
 pub(super) fn ranking(d: &Diagnosis) -> Result<Option<Drawn>, PageError> {
     let Some(rows) = ranking_rows(d) else { return Ok(None) };
     let title = if d.pairs.is_empty() { "What one effect explains" } else { "What one effect or two explain" };
-    let value_label = "gain: fall of the squares, weighted by the noise; % of the best".into();
-    let data = plots::Ranking { title: title.into(), value_label, rows };
-    plots::ranking(&data).map(Some).map_err(PageError::from)
+    let digits = plots::decimals(rows.iter().map(|row| row.2));
+    let bar = |(row, (_, rank, value)): (usize, &(String, Rank, f64))| {
+        let (_, _, ink) = RANKS[*rank as usize];
+        Mark::Bar(Bar { row, ink, text: plots::number(*value, digits), ..Bar::to(*value) })
+    };
+    let marks = rows.iter().enumerate().map(bar).collect();
+    let present = RANKS.iter().filter(|(rank, ..)| rows.iter().any(|row| row.1 == *rank));
+    let keys = present.map(|(_, words, ink)| Key::new(Look::Patch, *ink, words)).collect();
+    let names = rows.iter().map(|row| Row::beside(&super::effect(&row.0))).collect();
+    let label = "gain: fall of the squares, weighted by the noise; % of the best";
+    Ok(Some(plots::rows(title, label, names, marks, keys).draw("ranking")?))
 }
 
 /// Which fitted B belongs to the first hold.
@@ -160,7 +180,7 @@ pub(super) fn candidate_curves(
         let own = heights(&answer.on(scenario, level));
         let point = |k: usize| [1e-3 * top_pa * (k as f64 / f64::from(POINTS)).powi(2), own[k] - zero[k]];
         series.push(LineSeries {
-            name: format!("+ {}{}", answer.name(), attempted(d, answer)),
+            name: format!("+ {}{}", super::effect(&answer.name()), attempted(d, answer)),
             points: (0..own.len()).map(point).collect(),
             half_width: Vec::new(),
             style: if answer.standing == Standing::Other { LineStyle::Dashed } else { LineStyle::Line },
@@ -176,7 +196,7 @@ pub(super) fn candidate_curves(
         y_label: format!("outermost marker, difference from the model with {with} [mm]"),
         series,
     };
-    plots::lines(&data).map(Some).map_err(PageError::from)
+    Ok(Some(plots::lines(&data)?))
 }
 
 /// Mean time of the samples in their holds under pressure \[s\].
@@ -231,13 +251,15 @@ pub(super) fn witness_cases(w: &Witness, d: &Diagnosis) -> Vec<plots::LedgerCase
 
 /// Their drawing.
 pub(super) fn witness_ledger(w: &Witness, d: &Diagnosis) -> Result<Drawn, PageError> {
+    let cases = witness_cases(w, d).into_iter();
+    let cases = cases.map(|case| plots::LedgerCase { label: super::effect(&case.label), ..case });
     let data = plots::Ledger {
         title: format!("Where the energy goes, to {:.0} kPa", w.actuator_kpa),
         value_label: "energy taken up since the first bend [mJ]".into(),
         terms: TERMS.map(String::from).to_vec(),
-        cases: witness_cases(w, d),
+        cases: cases.collect(),
     };
-    plots::ledger(&data).map_err(PageError::from)
+    Ok(plots::ledger(&data)?)
 }
 
 /// Measured minus calibrated base at the loading holds of the first body pressure.

@@ -1,17 +1,17 @@
 //! What the pictures and words of a diagnosis put first.
 
-use super::diagnosis_figures::{ranking_rows, rungs_of, shown, supply, waited_s, witness_cases};
-use super::diagnosis_words::candidate_blocks;
-use super::{Candidate, figures, residual_figure, study};
+use super::diagnosis::{Diagnosed, diagnosis_page};
+use super::diagnosis_figures::{Rank, ranking_rows, shown, supply, waited_s, witness_cases};
+use super::{Imprint, figures, residual_figure};
 use compare::diagnosis::{Diagnosis, GaugeFit, Group, Options, Standing, Verdict, diagnose};
 use compare::evaluate::EvaluateOptions;
+use compare::known::Known;
 use compare::study::calibrate::Knob;
 use compare::study::engines::stored;
 use compare::study::witness::witness;
-use compare::study::{Generator, generate, published::textbook_scenario};
+use compare::study::{Candidate, Generator, generate, published::textbook_scenario, study};
+use data::Dataset;
 use models::Scenario;
-use report::page::Block;
-use report::{Known, RankClass};
 
 #[test]
 fn every_body_pressure_has_its_shapes_points_and_curves() {
@@ -52,18 +52,26 @@ fn a_marker_that_slid_along_the_body_is_seen_in_the_residual_map() {
     }
 }
 
+/// The report of a diagnosis.
+fn page(diagnosis: &Diagnosis, scenario: &Scenario, dataset: &Dataset) -> String {
+    let typed = ["S", "D"];
+    let found = Diagnosed { diagnosis, scenario, dataset, about: None, witness: None, typed, more: String::new() };
+    let mut files = diagnosis_page(&found, &Imprint::default()).unwrap().files;
+    String::from_utf8(files.pop().unwrap().1).unwrap()
+}
+
 /// A diagnosis of data with two effects that the scenario lacks, and the scenario.
-fn of_two() -> (Diagnosis, Scenario) {
+fn of_two() -> (Diagnosis, Scenario, Dataset) {
     let plain = textbook_scenario("spam").unwrap().with_bending(6.0);
     let truth = plain.with_effect("seam_stiffness", &[0.6]).with_effect("camera_scale", &[0.03]);
     let data = generate(&truth, "two", &Generator { runs: 5, seed: 7, ..Generator::default() }).unwrap();
     let options = Options { next_experiment: false, ..Options::default() };
-    (diagnose(&plain, &data, None, &options).unwrap(), plain)
+    (diagnose(&plain, &data, None, &options).unwrap(), plain, data)
 }
 
 #[test]
 fn stated_pairs_come_first_with_the_values_of_their_own_fit() {
-    let (d, scenario) = of_two();
+    let (d, scenario, dataset) = of_two();
     println!("{:?} {:?}", d.verdict, d.indistinguishable);
     assert!(!d.pairs.is_empty() && !d.indistinguishable.is_empty(), "{:?}", d.summary);
     let drawn = shown(&d);
@@ -82,37 +90,37 @@ fn stated_pairs_come_first_with_the_values_of_their_own_fit() {
     }
     let found = |effect: &str| d.indistinguishable.iter().any(|entry| entry.split(" + ").any(|part| part == effect));
     assert!(d.undetectable.iter().all(|u| !found(&u.effect)), "what is stated was found: {:?}", d.undetectable);
-    let told = format!("{:?}", candidate_blocks(&d));
+    let told = page(&d, &scenario, &dataset);
     for entry in d.indistinguishable.iter().take(6) {
-        assert!(told.contains(&format!("**{entry}**")), "{entry} in {told}");
+        assert!(told.contains(&format!("<strong>{}</strong>", entry.replace('_', " "))), "{entry} in {told}");
     }
     for effect in d.ranked.iter().filter(|r| found(&r.effect)) {
-        assert!(told.contains(&effect.sentence), "what {} is", effect.effect);
+        assert!(told.contains(&effect.sentence.replace('\'', "&#39;")), "what {} is", effect.effect);
     }
 }
 
 #[test]
 fn bars_of_a_ranking_fall_within_each_block_and_the_set_is_on_top() {
-    let (d, _) = of_two();
+    let (d, ..) = of_two();
     let rows = ranking_rows(&d).unwrap();
-    let alike = rows.iter().take_while(|row| row.class == RankClass::Alike).count();
+    let alike = rows.iter().take_while(|row| row.1 == Rank::Alike).count();
     assert_eq!(alike, d.indistinguishable.len());
-    for block in rows.chunk_by(|a, b| a.class == b.class) {
-        assert!(block.windows(2).all(|pair| pair[0].value >= pair[1].value), "{block:?}");
+    for block in rows.chunk_by(|a, b| a.1 == b.1) {
+        assert!(block.windows(2).all(|pair| pair[0].2 >= pair[1].2), "{block:?}");
     }
 }
 
 #[test]
 fn an_attempt_has_a_bar_that_says_it_is_not_enough() {
-    let (mut d, _) = of_two();
+    let (mut d, scenario, dataset) = of_two();
     (d.verdict, d.attempt) = (Some(Verdict::OutOfCatalog), std::mem::take(&mut d.added));
     d.indistinguishable.clear();
     d.rule_out_first.clear();
-    let rungs = rungs_of(&d);
+    let rungs = d.rungs();
     assert!(rungs.len() == 3 && rungs[2].label.ends_with("(attempt, not enough)"), "{rungs:?}");
     assert_eq!(shown(&d)[0].standing, Standing::Attempt);
-    let told = candidate_blocks(&d);
-    assert!(matches!(&told[0], Block::Paragraph(text) if text.contains(", attempt, not enough")), "{told:?}");
+    let told = page(&d, &scenario, &dataset);
+    assert!(told.contains("</strong>, attempt, not enough: "), "{told}");
 }
 
 #[test]
@@ -131,7 +139,7 @@ fn the_ledgers_beside_finite_elements_begin_with_the_whole_stated_set() {
 
 #[test]
 fn a_gauge_has_bars_in_kilopascal() {
-    let (mut d, _) = of_two();
+    let (mut d, ..) = of_two();
     assert!(supply(&d).unwrap().is_none());
     let gauge = GaugeFit {
         dataset: "read".into(),

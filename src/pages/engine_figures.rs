@@ -4,7 +4,11 @@ use super::PageError;
 use compare::study::engines::{EngineRobot, Engines, PartingMap};
 use compare::study::engines::{PARTS, Pair, TERMS};
 use models::actuators::Family;
-use report::{self as plots, Drawn};
+use report::chart::{Chart, Column, Mark, Row, Space};
+use report::{self as plots, Drawn, number};
+
+/// Share at which the colour of a map saturates.
+const STRONGEST: f64 = 1.5;
 
 /// Draws a map.
 ///
@@ -14,25 +18,31 @@ pub fn parting_plot(map: &PartingMap) -> Result<Drawn, PageError> {
     let mut columns: Vec<f64> = map.rows.iter().flat_map(|r| r.1.iter().map(|p| p.actuator_kpa)).collect();
     columns.sort_by(f64::total_cmp);
     columns.dedup_by(|a, b| (*a - *b).abs() < 0.05);
-    let cell = |pairs: &[Pair], kpa: f64| {
-        let found = pairs.iter().find(|p| (p.actuator_kpa - kpa).abs() < 0.05);
-        plots::BreakdownCell {
-            percent: found.and_then(Pair::difference).map_or(f64::NAN, |d| 100.0 * d),
-            carrier: found.and_then(Pair::carrier).unwrap_or_default().into(),
+    let mut marks = Vec::new();
+    for (row, (_, pairs)) in map.rows.iter().enumerate() {
+        for (column, kpa) in columns.iter().enumerate() {
+            let found = pairs.iter().find(|p| (p.actuator_kpa - kpa).abs() < 0.05);
+            let share = found.and_then(Pair::difference).unwrap_or(f64::NAN);
+            // Where the models do not part, the cell is pale.
+            let strength =
+                if share.abs() > PARTS { share.signum() * (share.abs() / STRONGEST).max(0.15) } else { 0.0 * share };
+            let sign = if share > 0.0 { "+" } else { "" };
+            let words = if share.is_finite() { format!("{sign}{} %", number(100.0 * share, 0)) } else { "–".into() };
+            let carrier = found.and_then(Pair::carrier).unwrap_or_default();
+            marks.push(Mark::Cell([row, column], strength, words, carrier.into()));
         }
-    };
-    let data = plots::Breakdown {
+    }
+    let head = |kpa: &f64| Column { name: format!("{kpa:.0}"), ..Column::default() };
+    let chart = Chart {
         title: format!("{}: where the models part", map.actuator),
-        value_label: "reduced tip minus finite element tip, over the latter; below: what carries it".into(),
-        column_label: "actuator pressure [kPa]".into(),
-        row_label: map.row_label.clone(),
-        columns: columns.iter().map(|kpa| format!("{kpa:.0}")).collect(),
-        rows: map.rows.iter().map(|r| r.0.clone()).collect(),
-        cells: map.rows.iter().map(|r| columns.iter().map(|kpa| cell(&r.1, *kpa)).collect()).collect(),
-        parts: 100.0 * PARTS,
-        limit: 150.0,
+        x_label: "actuator pressure [kPa]".into(),
+        y_label: map.row_label.clone(),
+        space: Space::Grid(map.rows.iter().map(|r| Row::beside(&r.0)).collect(), columns.iter().map(head).collect()),
+        marks,
+        heat: Some(("reduced tip minus finite element tip [% of the latter]".into(), 100.0 * STRONGEST)),
+        ..Chart::default()
     };
-    plots::breakdown(&data).map_err(PageError::from)
+    Ok(chart.draw("breakdown map")?)
 }
 
 /// Displacements at the highest pressure; `None` without runs.
@@ -42,11 +52,8 @@ pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>, PageError> {
     if shown.is_empty() {
         return Ok(None);
     }
-    let series = |name: &str, of: &dyn Fn(&EngineRobot) -> f64, reference| plots::BarSeries {
-        name: name.into(),
-        values: shown.iter().map(|r| of(r)).collect(),
-        half_width: vec![],
-        reference,
+    let series = |name: &str, of: &dyn Fn(&EngineRobot) -> f64, grey| {
+        (name.to_string(), shown.iter().map(|r| of(r)).collect(), grey)
     };
     let last = |r: &EngineRobot| r.pairs.last().cloned();
     let data = plots::Bars {
@@ -61,7 +68,7 @@ pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>, PageError> {
         ],
         target: None,
     };
-    plots::bars(&data).map(Some).map_err(PageError::from)
+    Ok(Some(plots::bars(&data)?))
 }
 
 /// Series that a plot holds.
@@ -97,7 +104,7 @@ pub(super) fn displaced(robots: &[EngineRobot]) -> Result<Option<Drawn>, PageErr
         y_label: "displaced per actuator volume χ [-]".into(),
         series,
     };
-    plots::lines(&data).map(Some).map_err(PageError::from)
+    Ok(Some(plots::lines(&data)?))
 }
 
 /// Outermost marker over pressure: both engines, every seed of the finite elements.
@@ -133,7 +140,7 @@ pub(super) fn curve(robot: &EngineRobot) -> Result<Drawn, PageError> {
         y_label: "displacement of the outermost marker [mm]".into(),
         series: all,
     };
-    plots::lines(&data).map_err(PageError::from)
+    Ok(plots::lines(&data)?)
 }
 
 /// Ledgers at every pressure, both engines.
@@ -172,7 +179,7 @@ pub(super) fn ledger(robot: &EngineRobot) -> Result<Drawn, PageError> {
         terms: TERMS.map(String::from).to_vec(),
         cases: ledger_cases(robot),
     };
-    plots::ledger(&data).map_err(PageError::from)
+    Ok(plots::ledger(&data)?)
 }
 
 #[cfg(test)]

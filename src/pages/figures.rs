@@ -2,11 +2,13 @@
 
 use super::PageError;
 use compare::known::Known;
+use compare::study::Timing;
 use compare::study::published::PublishedLadder;
 use compare::study::{Study, Variant};
 use data::{Dataset, Phase};
 use models::{Loads, Model, Scenario};
-use report::{self as plots, Drawn};
+use report::chart::{Chart, Key, Look, Mark, Space};
+use report::{self as plots, Drawn, Ink, Symbol};
 
 const MM: f64 = 1e3;
 /// Points of a drawn centre line.
@@ -118,7 +120,7 @@ pub(super) fn shapes(title: &str, scenario: &Scenario, dataset: &Dataset) -> Res
     }
     let rest_mm = vec![[0.0, 0.0], [scenario.length_m * MM, 0.0]];
     let shapes = plots::Shapes { title: title.into(), rest_mm, body_radius_mm: scenario.radius_m * MM, poses };
-    plots::shapes(&shapes).map_err(PageError::from)
+    Ok(plots::shapes(&shapes)?)
 }
 
 fn mm(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
@@ -161,7 +163,7 @@ pub(super) fn pressure_curve(title: &str, study: &Study) -> Result<Drawn, PageEr
         y_label: "height of the outermost marker [mm]".into(),
         series,
     };
-    plots::lines(&lines).map_err(PageError::from)
+    Ok(plots::lines(&lines)?)
 }
 
 /// All models, or the first and the last where several body pressures multiply their curves.
@@ -200,45 +202,50 @@ fn model_curve(scenario: &Scenario, dataset: &Dataset, p_body_pa: f64) -> Result
     Ok(points)
 }
 
+/// How a number is known, as figures say it.
+pub(super) fn known(known: Known) -> (&'static str, Ink) {
+    let ink = match known {
+        Known::Measured => Ink::Ink,
+        Known::Published => Ink::Series(5),
+        Known::Assumed => Ink::Series(4),
+        Known::Calibrated => Ink::Series(3),
+        Known::Predicted => Ink::Series(0),
+    };
+    (known.word(), ink)
+}
+
 /// Predicted against published displacement, rung by rung.
 pub(super) fn published_ladder(ladder: &PublishedLadder) -> Result<Drawn, PageError> {
-    let step = |rung: &compare::study::published::Rung| plots::LadderStep {
-        label: rung.label.clone(),
+    let step = |rung: &compare::study::Rung| plots::LadderStep {
+        label: super::effect(&rung.label),
         value: rung.y_m * MM,
         range: rung.range_m.map(|r| r.map(|v| v * MM)),
-        known: rung.known.word(),
+        known: known(rung.known),
     };
     let data = plots::Ladder {
         title: format!("{}: displacement at 30 kPa", ladder.published.printed_name),
         value_label: "displacement of the outermost marker [mm]".into(),
         steps: ladder.rungs.iter().map(step).collect(),
-        target: Some(plots::LadderTarget {
-            label: "measured (published)".into(),
-            value: ladder.published.d_max_m * MM,
-            half_width: 0.0,
-        }),
+        target: Some(("measured (published)".into(), ladder.published.d_max_m * MM)),
     };
-    plots::ladder(&data).map_err(PageError::from)
+    Ok(plots::ladder(&data)?)
 }
 
 /// Error beyond noise, rung by rung, with the noise floor.
 pub(super) fn error_ladder(title: &str, variants: &[Variant]) -> Result<Drawn, PageError> {
-    let error =
-        |v: &Variant| v.evaluation.metrics.overall.systematic_mm.unwrap_or(v.evaluation.metrics.overall.rmse_mm);
+    let step = |v: &Variant| {
+        let all = &v.evaluation.metrics.overall;
+        let value = all.systematic_mm.unwrap_or(all.rmse_mm);
+        plots::LadderStep { label: super::effect(&v.label), value, range: None, known: known(v.known) }
+    };
     let floor = variants.first().and_then(|v| v.evaluation.metrics.overall.noise_floor_mm);
-    let steps = variants.iter().map(|v| plots::LadderStep {
-        label: v.label.clone(),
-        value: error(v),
-        range: None,
-        known: v.known.word(),
-    });
     let data = plots::Ladder {
         title: title.into(),
         value_label: "error beyond noise, all markers and holds [mm]".into(),
-        steps: steps.collect(),
-        target: floor.map(|value| plots::LadderTarget { label: "noise of the mean".into(), value, half_width: 0.0 }),
+        steps: variants.iter().map(step).collect(),
+        target: floor.map(|value| ("noise of the mean".into(), value)),
     };
-    plots::ladder(&data).map_err(PageError::from)
+    Ok(plots::ladder(&data)?)
 }
 
 /// Highest actuator pressure of the data, and the title of a ledger there; `None` if the actuator is never filled.
@@ -250,93 +257,125 @@ pub(super) fn at_highest(dataset: &Dataset) -> Option<(String, Loads)> {
     Some((title, Loads::uniform(top.p_body_pa, top.p_act_pa)))
 }
 
-/// Where the actuator's work goes at the highest loading hold, per model.
+/// Where the actuator's work goes at the highest loading hold, per model; of more terms than colours the smallest go together.
 pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) -> Result<Drawn, PageError> {
-    let mut terms: Vec<String> = Vec::new();
     let mut columns = Vec::new();
+    let mut largest: Vec<(&str, f64)> = Vec::new();
     for (label, scenario) in cases {
         let model = Model::new(scenario);
         let mut state = model.prediction();
         model.predict(loads, &mut state)?;
-        let lines = model.ledger(loads, &state);
-        for line in &lines {
-            if line.energy_j != 0.0 && !terms.iter().any(|t| t == line.name) {
-                terms.push(line.name.to_string());
+        let rows = model.ledger(loads, &state);
+        for row in rows.iter().filter(|row| row.energy_j != 0.0) {
+            match largest.iter_mut().find(|(name, _)| *name == row.name) {
+                Some((_, most)) => *most = most.max(row.energy_j.abs()),
+                None => largest.push((row.name, row.energy_j.abs())),
             }
         }
-        columns.push((label.clone(), lines));
+        columns.push((label, rows));
     }
-    let energy =
-        |lines: &[models::Row], t: &String| lines.iter().find(|l| l.name == *t).map_or(0.0, |l| l.energy_j * 1e3);
-    // More terms than colours: the smallest go together.
-    let mut joined = Vec::new();
-    if terms.len() > MOST_TERMS {
-        let largest = |t: &String| columns.iter().map(|(_, lines)| energy(lines, t).abs()).fold(0.0, f64::max);
-        let mut by_size = terms.clone();
-        by_size.sort_by(|a, b| largest(b).total_cmp(&largest(a)));
-        joined = by_size.split_off(MOST_TERMS - 1);
-        terms.retain(|t| !joined.contains(t));
-    }
-    let energies = |lines: &[models::Row]| -> Vec<f64> {
-        let rest = (!joined.is_empty()).then(|| joined.iter().map(|t| energy(lines, t)).sum());
-        terms.iter().map(|t| energy(lines, t)).chain(rest).collect()
+    let mut by_size = largest.clone();
+    by_size.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let small: Vec<&str> = match largest.len() > MOST_TERMS {
+        true => by_size.split_off(MOST_TERMS - 1).into_iter().map(|(name, _)| name).collect(),
+        false => Vec::new(),
     };
-    let cases =
-        columns.iter().map(|(label, lines)| plots::LedgerCase { label: label.clone(), energies_mj: energies(lines) });
+    let large: Vec<&str> = largest.iter().map(|(name, _)| *name).filter(|name| !small.contains(name)).collect();
+    let case = |(label, rows): (&String, Vec<models::Row>)| {
+        let energy = |name: &&str| rows.iter().find(|row| row.name == *name).map_or(0.0, |row| row.energy_j * 1e3);
+        let others = (!small.is_empty()).then(|| small.iter().map(energy).sum());
+        plots::LedgerCase { label: super::effect(label), energies_mj: large.iter().map(energy).chain(others).collect() }
+    };
+    let others = (!small.is_empty()).then(|| "others".to_string());
     let data = plots::Ledger {
         title: title.into(),
         value_label: "potential energy at equilibrium [mJ]".into(),
-        cases: cases.collect(),
-        terms: terms.iter().cloned().chain((!joined.is_empty()).then(|| "others".into())).collect(),
+        terms: large.iter().map(|name| super::effect(name)).chain(others).collect(),
+        cases: columns.into_iter().map(case).collect(),
     };
-    plots::ledger(&data).map_err(PageError::from)
+    Ok(plots::ledger(&data)?)
 }
 
 /// Bare, last uncalibrated and published displacement of the four actuators.
 pub(super) fn published_bars(ladders: &[PublishedLadder]) -> Result<Drawn, PageError> {
-    let last =
-        |l: &PublishedLadder| l.rungs.iter().rfind(|r| r.known != Known::Calibrated).map_or(f64::NAN, |r| r.y_m * MM);
-    let series = |name: &str, values: Vec<f64>, reference| plots::BarSeries {
-        name: name.into(),
-        values,
-        half_width: vec![],
-        reference,
+    let series = |name: &str, of: fn(&PublishedLadder) -> f64, grey| {
+        (name.to_string(), ladders.iter().map(|l| of(l) * MM).collect(), grey)
     };
     let data = plots::Bars {
         title: "Displacement at 30 kPa: models and measurement".into(),
         value_label: "displacement of the outermost marker [mm]".into(),
         groups: ladders.iter().map(|l| l.published.printed_name.clone()).collect(),
         series: vec![
-            series("bare model", ladders.iter().map(|l| l.rungs[0].y_m * MM).collect(), false),
-            series("with effects, nothing fitted", ladders.iter().map(last).collect(), false),
-            series("measured (published)", ladders.iter().map(|l| l.published.d_max_m * MM).collect(), true),
+            series("bare model", |l| l.rungs[0].y_m, false),
+            series("with effects, nothing fitted", |l| last(l).map_or(f64::NAN, |rung| rung.y_m), false),
+            series("measured (published)", |l| l.published.d_max_m, true),
         ],
         target: None,
     };
-    plots::bars(&data).map_err(PageError::from)
+    Ok(plots::bars(&data)?)
 }
 
-/// Run time against error.
-pub fn tradeoff(timings: &[compare::study::Timing]) -> Result<Drawn, PageError> {
-    let shown: Vec<_> =
-        timings.iter().filter(|t| t.engine != "reduced" || t.known != Known::Calibrated.word()).collect();
-    let point = |(k, t): (usize, &&compare::study::Timing)| {
+/// The last rung of which nothing is fitted.
+pub(super) fn last(ladder: &PublishedLadder) -> Option<&compare::study::Rung> {
+    ladder.rungs.iter().rfind(|rung| rung.known != Known::Calibrated)
+}
+
+/// Run time against error, with a staircase through the points that no other beats in both. Calibrated reduced models have none.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn tradeoff(timings: &[Timing]) -> Result<Drawn, PageError> {
+    let is_reduced = |t: &&Timing| t.engine == "reduced";
+    let shown: Vec<&Timing> =
+        timings.iter().filter(|t| !is_reduced(t) || t.known != Known::Calibrated.word()).collect();
+    let mut groups: Vec<&str> = Vec::new();
+    shown.iter().for_each(|t| {
+        if !groups.contains(&t.actuator.as_str()) {
+            groups.push(&t.actuator)
+        }
+    });
+    let at = |t: &Timing| [t.prediction_us * 1e-6, t.error_pct.abs()];
+    let point = |(k, t): (usize, &&Timing)| {
         // The rungs of a ladder lie close together: the first and the last are named.
-        let alike = |other: Option<&&compare::study::Timing>| {
-            other.is_some_and(|o| o.engine == "reduced" && o.actuator == t.actuator)
-        };
-        let between = t.engine == "reduced" && k > 0 && alike(shown.get(k - 1)) && alike(shown.get(k + 1));
-        plots::TradeoffPoint {
-            label: if between { String::new() } else { t.model.clone() },
-            group: t.actuator.clone(),
-            run_time_s: t.prediction_us * 1e-6,
-            error: t.error_pct.abs(),
+        let alike = |other: Option<&&Timing>| other.is_some_and(|o| is_reduced(o) && o.actuator == t.actuator);
+        let between = is_reduced(t) && k > 0 && alike(shown.get(k - 1)) && alike(shown.get(k + 1));
+        let group = groups.iter().position(|name| *name == t.actuator).unwrap_or(0);
+        Mark::Point {
+            at: at(t),
+            error: [0.0; 2],
+            ink: Ink::Series(group),
+            symbol: Symbol::of(group),
+            open: false,
+            label: if between { String::new() } else { super::effect(&t.model) },
         }
     };
-    let data = plots::Tradeoff {
+    let mut marks = vec![front(shown.iter().map(|t| at(t)).collect())];
+    marks.extend(shown.iter().enumerate().map(point));
+    let key = |(i, name): (usize, &&str)| Key::new(Look::Symbol(Symbol::of(i), false), Ink::Series(i), name);
+    let chart = Chart {
         title: "Run time against error".into(),
-        error_label: "error of the published displacement [%]".into(),
-        points: shown.iter().enumerate().map(point).collect(),
+        x_label: "run time of one prediction".into(),
+        y_label: "error of the published displacement [%]".into(),
+        space: Space::Log,
+        marks,
+        keys: groups.iter().enumerate().map(key).collect(),
+        ..Chart::default()
     };
-    plots::tradeoff(&data).map_err(PageError::from)
+    Ok(chart.draw("trade-off")?)
+}
+
+/// Staircase through the points that are the most accurate at their run time or less.
+fn front(mut points: Vec<[f64; 2]>) -> Mark {
+    points.retain(|p| p[0] > 0.0 && p[1] > 0.0);
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let mut path: Vec<[f64; 2]> = Vec::new();
+    for point in &points {
+        let above = path.last().copied();
+        if above.is_none_or(|last| point[1] < last[1]) {
+            path.extend(above.map(|last| [point[0], last[1]]));
+            path.push(*point);
+        }
+    }
+    path.extend(path.last().zip(points.last()).map(|(last, end)| [end[0], last[1]]));
+    Mark::Line { points: path, ink: Ink::Axis, dashed: true }
 }

@@ -1,35 +1,34 @@
-//! Pages and files made of results: one report and the plots and tables beside it.
+//! Pages and files made of results: one report and the plots and tables beside it. Words stand in the templates of `report`.
 
 mod characterize;
-mod compare_page;
-mod demo_page;
+mod compare;
+mod demo;
+mod diagnosis;
 mod diagnosis_figures;
-mod diagnosis_page;
 #[cfg(test)]
 mod diagnosis_tests;
-mod diagnosis_words;
 mod engine_figures;
-mod engines_page;
+mod engines;
 mod figures;
-mod ladder_page;
+mod ladder;
 mod residual_figure;
 mod run_plots;
 mod tables;
 mod uncertain;
 
 pub use characterize::pictures;
-pub use compare_page::compare_page;
-pub use demo_page::demo_page;
-pub use diagnosis_page::{DIAGNOSIS_PICTURES, Diagnosed, diagnosis_page, diagnosis_sections};
+pub use compare::compare_page;
+pub use demo::demo_page;
+pub use diagnosis::{Diagnosed, diagnosis_page, diagnosis_pictures};
 pub use engine_figures::parting_plot;
-pub use engines_page::{engine_sections, engines_page};
+pub use engines::engines_page;
 pub use figures::tradeoff as tradeoff_plot;
-pub use ladder_page::{LadderPage, ladder_page};
+pub use ladder::{LadderPage, ladder_page};
 pub use run_plots::{mesh_plot, run_plots};
 pub use uncertain::{marker_intervals, what_to_measure};
 
 use report::Drawn;
-use report::page::{Report, render};
+use serde_json::{Value, json};
 
 /// Files of one result, in memory until all are done; the report is last.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -42,9 +41,9 @@ pub struct Files {
 
 impl Files {
     /// Adds a plot as `<name>.svg` and `<name>.png`.
-    pub fn plot(&mut self, name: &str, drawn: &Drawn) {
-        self.files.push((format!("{name}.svg"), drawn.svg.clone().into_bytes()));
-        self.files.push((format!("{name}.png"), drawn.png.clone()));
+    pub fn plot(&mut self, name: &str, drawn: Drawn) {
+        self.files.push((format!("{name}.svg"), drawn.svg.into_bytes()));
+        self.files.push((format!("{name}.png"), drawn.png));
     }
 
     /// Adds a text.
@@ -61,8 +60,15 @@ impl Files {
         Ok(())
     }
 
-    fn report(&mut self, report: &Report) -> Result<(), PageError> {
-        let page = render(report).map_err(PageError::from)?;
+    /// Adds the page of a template, with the plots that were added before.
+    fn page(&mut self, template: &str, mut values: Value, imprint: &Imprint) -> Result<(), PageError> {
+        for (key, text) in [("program", &imprint.program), ("date", &imprint.date), ("machine", &imprint.machine)] {
+            values[key] = json!(text);
+        }
+        let svg = |(name, bytes): &(String, Vec<u8>)| {
+            Some((name.strip_suffix(".svg")?.to_string(), String::from_utf8(bytes.clone()).ok()?))
+        };
+        let page = report::page::render(template, &values, self.files.iter().filter_map(svg).collect())?;
         self.text("report.html", page);
         Ok(())
     }
@@ -73,7 +79,7 @@ impl Files {
 pub enum PageError {
     /// A model without equilibrium, or data that were refused.
     #[error(transparent)]
-    Compare(#[from] compare::CompareError),
+    Compare(#[from] ::compare::CompareError),
     /// What cannot be drawn.
     #[error(transparent)]
     Report(#[from] report::ReportError),
@@ -100,4 +106,20 @@ pub struct Imprint {
     pub date: String,
     /// Machine in words, for timings.
     pub machine: String,
+}
+
+/// A number with `digits` decimals, or a dash where there is none.
+fn number(value: Option<f64>, digits: usize) -> String {
+    value.map_or_else(|| "–".into(), |v| format!("{v:.digits$}"))
+}
+
+/// An effect as it is called in words.
+fn effect(name: &str) -> String {
+    name.replace('_', " ")
+}
+
+/// A sentence with its effects called so.
+fn in_words(sentence: &str) -> String {
+    let names = models::effects::EFFECTS.iter().map(|e| e.name);
+    names.fold(sentence.to_string(), |text, name| text.replace(name, &effect(name)))
 }

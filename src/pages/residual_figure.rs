@@ -2,10 +2,15 @@
 
 use super::PageError;
 use super::figures::several_bodies;
-use compare::residuals::{Deviation, HoldLabel, ResidualCell, ResidualMap};
+use compare::residuals::{Deviation, ResidualCell, ResidualMap};
+use compare::wording::short;
 use data::Dataset;
-use report::{self as plots, Drawn};
+use report::chart::{Chart, Column, Mark, Place, Row, Space};
+use report::{Drawn, number};
 
+/// Panels of the map, and what their cells show.
+const DIRECTIONS: [(&str, fn(&ResidualCell) -> Deviation); 2] =
+    [("y, across the robot", |cell| cell.y), ("x, along the straight robot", |cell| cell.x)];
 const MM: f64 = 1e3;
 /// Rows that a page can show one under the other.
 const MOST_MARKERS: usize = 24;
@@ -33,31 +38,38 @@ pub(super) fn map(title: &str, map: &ResidualMap, dataset: &Dataset) -> Result<D
     let (rows, each_row) = shown(map.markers.len(), MOST_MARKERS, &|m| farthest(&mut map.cells[m].iter()));
     let of_hold = |h: usize| farthest(&mut map.cells.iter().map(|row| &row[h]));
     let (columns, each_column) = shown(map.holds.len(), MOST_HOLDS, &of_hold);
-    let panel = |label: &str, of: fn(&ResidualCell) -> Deviation| {
-        let row =
-            |m: &usize| columns.iter().map(|h| &map.cells[*m][*h]).map(|cell| value(cell.seen, of(cell))).collect();
-        plots::MapPanel { label: label.into(), values: rows.iter().map(row).collect() }
-    };
     let several = several_bodies(dataset);
-    let hold = |h: &HoldLabel| plots::MapHold {
-        p_act_kpa: h.p_act_kpa,
-        phase: h.phase.to_string(),
-        group: match several {
-            true => format!("body {} kPa", compare::wording::short(h.p_body_kpa)),
-            false => String::new(),
-        },
+    let column = |h: &usize| {
+        let hold = &map.holds[*h];
+        let body = if several { format!("body {} kPa", short(hold.p_body_kpa)) } else { String::new() };
+        Column { name: number(hold.p_act_kpa, 0), groups: [hold.phase.to_string(), body] }
     };
-    let station = |m: &usize| dataset.markers[*m].station_m.map_or(*m as f64 + 1.0, |s| s * MM);
+    let (mut places, mut marks) = (Vec::new(), Vec::new());
+    for (label, of) in DIRECTIONS {
+        places.push(Row { name: label.into(), place: Place::Heading, ..Row::default() });
+        // The tip is the top row.
+        for m in rows.iter().rev() {
+            for (k, h) in columns.iter().enumerate() {
+                let cell = &map.cells[*m][*h];
+                let off = value(cell.seen, of(cell));
+                let words = number(off, usize::from(off.abs() < 99.95 && columns.len() < 15));
+                marks.push(Mark::Cell([places.len(), k], off / MAP_LIMIT, words, String::new()));
+            }
+            let station = dataset.markers[*m].station_m.map_or(*m as f64 + 1.0, |s| s * MM);
+            places.push(Row::beside(&number(station, 0)));
+        }
+    }
     let unit = if in_noise { "[times the noise]" } else { "[mm]" };
-    let data = plots::ResidualMap {
+    let chart = Chart {
         title: format!("{title}{}", chosen(each_row, each_column)),
-        value_label: format!("model − measured {unit}"),
-        holds: columns.iter().map(|h| hold(&map.holds[*h])).collect(),
-        stations_mm: rows.iter().map(station).collect(),
-        panels: vec![panel("y, across the robot", |cell| cell.y), panel("x, along the straight robot", |cell| cell.x)],
-        limit: MAP_LIMIT,
+        x_label: "actuator pressure [kPa]".into(),
+        y_label: "marker station [mm]".into(),
+        space: Space::Grid(places, columns.iter().map(column).collect()),
+        marks,
+        heat: Some((format!("model − measured {unit}"), MAP_LIMIT)),
+        ..Chart::default()
     };
-    plots::residual_map(&data).map_err(PageError::from)
+    Ok(chart.draw("residual map")?)
 }
 
 /// Of every few neighbours, as many as leave no more than `most`, the one that is farthest off; and how many they are.

@@ -1,7 +1,8 @@
 //! What finite elements say about a robot of which not everything was measured, drawn.
 
-use compare::study::uncertain::{SAME_KPA, Uncertain, Weight};
-use report::{Drawn, LineSeries, LineStyle, Lines, ReportError, Tornado, TornadoBar, lines, tornado};
+use compare::study::uncertain::{SAME_KPA, Uncertain};
+use report::chart::{Bar, Mark, Row};
+use report::{Drawn, Ink, LineSeries, LineStyle, Lines, ReportError, lines};
 
 /// Heights of all markers at all pressures, median and 80 % interval, beside measured ones.
 ///
@@ -51,24 +52,22 @@ pub fn marker_intervals(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> Result
 pub fn what_to_measure(all: &Uncertain, actuator_kpa: f64) -> Result<Drawn, ReportError> {
     let base = all.tip_mm(actuator_kpa).map_or(f64::NAN, |q| q[1]);
     let (weights, rest) = all.weights(actuator_kpa).unwrap_or_default();
-    let bar = |w: &Weight| {
-        let number = &all.numbers[w.number];
-        let half = 0.5 * w.swing_mm;
-        TornadoBar {
-            name: number.name.clone(),
-            ends: number.tenths.map(|v| format!("{v}")),
-            values: [base - half, base + half],
+    let (mut marks, mut rows) = (Vec::new(), Vec::new());
+    for (row, w) in weights.iter().enumerate() {
+        let (number, half) = (&all.numbers[w.number], 0.5 * w.swing_mm);
+        let values = [base - half, base + half].map(|v| report::number(v, 1));
+        let [low, high] = number.tenths;
+        let words = format!("{}: {low} → {}, {high} → {}", number.name, values[0], values[1]);
+        rows.push(Row { name: words, lanes: 1, ..Row::default() });
+        for (sign, ink) in [(-1.0, Ink::HeatNegative), (1.0, Ink::HeatPositive)] {
+            let span = [base, base + sign * half];
+            marks.push(Mark::Bar(Bar { row, span, ink, alpha: 0.75, ..Bar::default() }));
         }
-    };
-    let data = Tornado {
-        title: format!(
-            "{} at {actuator_kpa} kPa: what to measure first ({:.0} % is not of a straight law)",
-            all.scenario,
-            100.0 * rest
-        ),
-        value_label: "outermost marker [mm], from a tenth to nine tenths of each interval".into(),
-        base,
-        bars: weights.iter().map(bar).collect(),
-    };
-    tornado(&data)
+    }
+    marks.push(Mark::Rule(base));
+    let left = 100.0 * rest;
+    let title =
+        format!("{} at {actuator_kpa} kPa: what to measure first ({left:.0} % is not of a straight law)", all.scenario);
+    let label = "outermost marker [mm], from a tenth to nine tenths of each interval";
+    report::rows(&title, label, rows, marks, Vec::new()).draw("tornado")
 }

@@ -3,7 +3,7 @@
 use super::Diagnosis;
 
 /// Errors of one model on the way from bare to extended \[mm\].
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct ErrorRung {
     /// In words.
     pub label: String,

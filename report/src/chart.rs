@@ -1,0 +1,243 @@
+//! The one grammar of charts: marks over two axes, and a legend. A figure is data; [`Chart::draw`] is its one painter.
+
+use crate::axis::{Axis, extent};
+use crate::palette::Ink;
+use crate::scene::Symbol;
+use crate::{Drawn, ReportError, draw, paint};
+
+/// Marks over two axes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Chart {
+    /// Title above the plot; empty for none.
+    pub title: String,
+    /// Label of the horizontal axis, with unit.
+    pub x_label: String,
+    /// Label of the vertical axis or of the rows' names, with unit.
+    pub y_label: String,
+    /// What the axes measure.
+    pub space: Space,
+    /// Marks, the lowest first.
+    pub marks: Vec<Mark>,
+    /// Legend.
+    pub keys: Vec<Key>,
+    /// What the colours of cells say, and the value of the strongest.
+    pub heat: Option<(String, f64)>,
+    /// A line below the plot; empty for none.
+    pub note: String,
+}
+
+/// The two axes of a [`Chart`].
+#[derive(Debug, Clone, PartialEq)]
+pub enum Space {
+    /// Two axes of numbers.
+    Plane,
+    /// Two lengths to the same scale.
+    Equal,
+    /// Seconds and a positive number, both logarithmic.
+    Log,
+    /// Rows over an axis of numbers.
+    Rows(Vec<Row>),
+    /// Rows and columns.
+    Grid(Vec<Row>, Vec<Column>),
+}
+
+impl Default for Space {
+    fn default() -> Self {
+        Space::Plane
+    }
+}
+
+/// A row of bars or cells.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Row {
+    /// What it is called.
+    pub name: String,
+    /// Where its name stands.
+    pub place: Place,
+    /// Bars below each other.
+    pub lanes: usize,
+    /// What else is said of it, at the right.
+    pub aside: String,
+    /// Colour of that.
+    pub ink: Ink,
+}
+
+/// Where the name of a [`Row`] stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Place {
+    /// In a line of its own above the bars.
+    #[default]
+    Above,
+    /// On the left of them.
+    Beside,
+    /// Above the rows that follow; it has no marks.
+    Heading,
+}
+
+/// A column of cells.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Column {
+    /// What it is called.
+    pub name: String,
+    /// What it and its neighbours have in common, from narrow to wide; empty for nothing.
+    pub groups: [String; 2],
+}
+
+/// One mark of a [`Chart`]; numbers in the units of the axes. What is not finite is left out, and lifts the pen of a line.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Mark {
+    /// A line.
+    Line {
+        /// Its points.
+        points: Vec<[f64; 2]>,
+        /// Colour.
+        ink: Ink,
+        /// Whether it has gaps.
+        dashed: bool,
+    },
+    /// A filled outline.
+    Band(Vec<[f64; 2]>),
+    /// A symbol with error bars and a label beside it.
+    Point {
+        /// Where.
+        at: [f64; 2],
+        /// Half-widths of its error bars.
+        error: [f64; 2],
+        /// Colour.
+        ink: Ink,
+        /// Shape.
+        symbol: Symbol,
+        /// Whether only its rim is drawn.
+        open: bool,
+        /// Label; empty for none.
+        label: String,
+    },
+    /// A label at the right edge, joined to its point.
+    Tip {
+        /// The point.
+        at: [f64; 2],
+        /// What it says.
+        label: String,
+        /// Colour.
+        ink: Ink,
+    },
+    /// A bar of a row.
+    Bar(Bar),
+    /// A cell: row, column, strength of its colour from −1 to 1 (not finite: nothing is known), what it says, and small words below.
+    Cell([usize; 2], f64, String, String),
+    /// A dashed line across all rows.
+    Rule(f64),
+}
+
+/// A bar of a [`Chart`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Bar {
+    /// Row.
+    pub row: usize,
+    /// Which of the row's bars below each other.
+    pub lane: usize,
+    /// From where to where.
+    pub span: [f64; 2],
+    /// Colour.
+    pub ink: Ink,
+    /// Opacity, 0 to 1; the one of a change, e.g., is pale.
+    pub alpha: f64,
+    /// Lower and upper end of its range, if one is known.
+    pub range: Option<[f64; 2]>,
+    /// What is said at its end, or in it.
+    pub text: String,
+    /// Whether that stands in it, where there is room.
+    pub inside: bool,
+}
+
+/// An entry of the legend.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Key {
+    /// What is shown.
+    pub look: Look,
+    /// Colour.
+    pub ink: Ink,
+    /// What it means.
+    pub name: String,
+}
+
+/// How a [`Key`] shows a series.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Look {
+    /// A line.
+    Line,
+    /// A line with gaps.
+    Dashed,
+    /// A symbol, open or filled.
+    Symbol(Symbol, bool),
+    /// A symbol with error bars.
+    Measured(Symbol),
+    /// A symbol, open or filled, on a line.
+    SymbolLine(Symbol, bool),
+    /// A patch of colour.
+    Patch,
+}
+
+impl Key {
+    /// An entry.
+    pub fn new(look: Look, ink: Ink, name: &str) -> Key {
+        Key { look, ink, name: name.into() }
+    }
+}
+
+impl Chart {
+    /// Draws it; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// No finite value, values beyond 1e15, more marks than can be told apart.
+    pub fn draw(&self, name: &'static str) -> Result<Drawn, ReportError> {
+        const MOST: usize = 20_000;
+        crate::at_most(name, "marks", MOST, self.marks.len())?;
+        extent(self.marks.iter().flat_map(Mark::own), name)?;
+        let reach = |k: usize| self.marks.iter().flat_map(move |mark| mark.reach(k));
+        let axes = match &self.space {
+            Space::Plane => [Axis::linear(reach(0), name)?, Axis::linear(reach(1), name)?],
+            Space::Equal => [Axis::padded(reach(0), name)?, Axis::padded(reach(1), name)?],
+            Space::Log => [Axis::log(reach(0), name)?.in_seconds(), Axis::log(reach(1), name)?],
+            Space::Rows(_) => [Axis::linear(reach(0), name)?, Axis::exact([0.0, 1.0])],
+            Space::Grid(..) => [Axis::exact([0.0, 1.0]), Axis::exact([0.0, 1.0])],
+        };
+        paint::paint(&draw::scene(self, axes))
+    }
+}
+
+impl Mark {
+    /// Numbers without which there is nothing to draw.
+    fn own(&self) -> Vec<f64> {
+        match self {
+            Mark::Line { points, .. } | Mark::Band(points) => {
+                points.iter().filter(|p| finite(p)).flatten().copied().collect()
+            }
+            Mark::Point { at, .. } if finite(at) => at.to_vec(),
+            Mark::Bar(bar) => vec![bar.span[1]],
+            Mark::Cell(_, strength, ..) => vec![*strength],
+            Mark::Point { .. } | Mark::Tip { .. } | Mark::Rule(_) => Vec::new(),
+        }
+    }
+
+    /// What an axis has to hold.
+    fn reach(&self, k: usize) -> Vec<f64> {
+        match self {
+            Mark::Line { points, .. } | Mark::Band(points) => {
+                points.iter().filter(|p| finite(p)).map(|p| p[k]).collect()
+            }
+            Mark::Point { at, error, .. } if finite(at) => {
+                let half = if error[k].is_finite() { error[k] } else { 0.0 };
+                vec![at[k] - half, at[k] + half]
+            }
+            Mark::Bar(bar) => bar.span.into_iter().chain(bar.range.into_iter().flatten()).collect(),
+            Mark::Rule(value) => vec![*value],
+            Mark::Point { .. } | Mark::Tip { .. } | Mark::Cell(..) => Vec::new(),
+        }
+    }
+}
+
+/// Whether both coordinates are.
+pub(crate) fn finite(point: &[f64; 2]) -> bool {
+    point.iter().all(|v| v.is_finite())
+}

@@ -1,0 +1,373 @@
+//! Figures that several pages have, as charts.
+
+use crate::axis::{common_decimals, number, short_number};
+use crate::chart::{Bar, Chart, Key, Look, Mark, Place, Row, Space, finite};
+use crate::palette::{Ink, SERIES};
+use crate::scene::Symbol;
+use crate::{Drawn, ReportError, at_most, same_length};
+
+/// Most series, poses, bars and cases of a figure: more cannot be told apart.
+const MOST_SERIES: usize = 24;
+const MOST_POSES: usize = 6;
+const MOST_BARS: usize = 120;
+/// Series colours in the order of rising pressure, from cool to warm.
+const WARMER: [usize; MOST_POSES] = [0, 2, 4, 1, 3, 5];
+
+/// Several series over common axes, e.g. tip against pressure on loading and unloading.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Lines {
+    /// Title above the plot; empty for none.
+    pub title: String,
+    /// Label of the x axis with unit, e.g. `actuator pressure [kPa]`.
+    pub x_label: String,
+    /// Label of the y axis with unit, e.g. `tip displacement [mm]`.
+    pub y_label: String,
+    /// Up to 24 series.
+    pub series: Vec<LineSeries>,
+}
+
+/// One series of [`Lines`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LineSeries {
+    /// Name in the legend; empty for none.
+    pub name: String,
+    /// Points x, y in the units of the axes; a non-finite point breaks the line.
+    pub points: Vec<[f64; 2]>,
+    /// Half-widths of error bars along y, one per point, or empty for none.
+    pub half_width: Vec<f64>,
+    /// How it is drawn.
+    pub style: LineStyle,
+    /// Colour number, so that related series (load and unload) can share one; the default is its place in the list.
+    pub colour: Option<usize>,
+}
+
+/// How a [`LineSeries`] is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LineStyle {
+    /// Solid line.
+    #[default]
+    Line,
+    /// Dashed line.
+    Dashed,
+    /// Filled symbols.
+    Points,
+    /// Open symbols.
+    OpenPoints,
+    /// Solid line with filled symbols.
+    LinePoints,
+}
+
+/// Draws the series.
+///
+/// # Errors
+/// No finite point, error bars that do not match the points, over 24 series, values beyond 1e15.
+pub fn lines(data: &Lines) -> Result<Drawn, ReportError> {
+    at_most("lines", "series", MOST_SERIES, data.series.len())?;
+    let (mut marks, mut points, mut keys) = (Vec::new(), Vec::new(), Vec::new());
+    for (i, series) in data.series.iter().enumerate() {
+        if !series.half_width.is_empty() {
+            same_length("lines", "error bars in a series", series.points.len(), series.half_width.len())?;
+        }
+        // Colours come again after a while, then with other symbols.
+        let colour = series.colour.unwrap_or(i);
+        let (ink, symbol) = (Ink::Series(colour), Symbol::of(colour + colour / SERIES));
+        let half = |k: usize| series.half_width.get(k).copied().filter(|h| h.is_finite()).map_or(0.0, f64::abs);
+        if !matches!(series.style, LineStyle::Points | LineStyle::OpenPoints) {
+            let dashed = series.style == LineStyle::Dashed;
+            marks.push(Mark::Line { points: series.points.clone(), ink, dashed });
+        }
+        if !matches!(series.style, LineStyle::Line | LineStyle::Dashed) {
+            let open = series.style == LineStyle::OpenPoints;
+            let point = |(k, at): (usize, &[f64; 2])| Mark::Point {
+                at: *at,
+                error: [0.0, half(k)],
+                ink,
+                symbol,
+                open,
+                label: String::new(),
+            };
+            points.extend(series.points.iter().enumerate().map(point));
+        }
+        let look = match series.style {
+            LineStyle::Line => Look::Line,
+            LineStyle::Dashed => Look::Dashed,
+            LineStyle::Points if !series.half_width.is_empty() => Look::Measured(symbol),
+            LineStyle::Points => Look::Symbol(symbol, false),
+            LineStyle::OpenPoints => Look::Symbol(symbol, true),
+            LineStyle::LinePoints => Look::SymbolLine(symbol, false),
+        };
+        keys.push(Key::new(look, ink, series.name.trim()));
+    }
+    keys.retain(|key| !key.name.is_empty());
+    marks.extend(points);
+    let [title, x_label, y_label] = [&data.title, &data.x_label, &data.y_label].map(String::clone);
+    Chart { title, x_label, y_label, marks, keys, ..Chart::default() }.draw("lines")
+}
+
+/// Shapes of one robot in the x–y plane, x along the robot at rest. All lengths in mm.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Shapes {
+    /// Title above the plot; empty for none.
+    pub title: String,
+    /// Centre line at rest.
+    pub rest_mm: Vec<[f64; 2]>,
+    /// Body radius, drawn as a soft band about the line at rest; 0 for none.
+    pub body_radius_mm: f64,
+    /// One to six poses in the order of rising pressure.
+    pub poses: Vec<ShapePose>,
+}
+
+/// One pose of [`Shapes`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ShapePose {
+    /// Direct label at the tip, e.g. `30 kPa`.
+    pub label: String,
+    /// Predicted centre line; may be empty.
+    pub curve_mm: Vec<[f64; 2]>,
+    /// Predicted markers; may be empty.
+    pub predicted_mm: Vec<[f64; 2]>,
+    /// Measured markers; may be empty.
+    pub measured: Vec<MeasuredPoint>,
+}
+
+/// A measured marker of [`ShapePose`].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MeasuredPoint {
+    /// Position.
+    pub at_mm: [f64; 2],
+    /// Half-widths of the error bars along x and y; 0 for none.
+    pub half_width_mm: [f64; 2],
+}
+
+/// Draws centre lines with measured and predicted markers, both axes to the same scale.
+///
+/// # Errors
+/// Nothing finite to draw, more than six poses, values beyond 1e15.
+pub fn shapes(data: &Shapes) -> Result<Drawn, ReportError> {
+    at_most("shapes", "poses", MOST_POSES, data.poses.len())?;
+    let mut marks = rest(data);
+    let inked = || data.poses.iter().zip(WARMER.map(Ink::Series));
+    let lines = inked().map(|(pose, ink)| Mark::Line { points: pose.curve_mm.clone(), ink, dashed: false });
+    marks.extend(lines);
+    for (pose, ink) in inked() {
+        let point =
+            |at, error, open| Mark::Point { at, error, ink, symbol: Symbol::Circle, open, label: String::new() };
+        marks.extend(pose.predicted_mm.iter().map(|at| point(*at, [0.0; 2], true)));
+        marks.extend(pose.measured.iter().map(|m| point(m.at_mm, m.half_width_mm.map(f64::abs), false)));
+        marks.extend(tip(pose).map(|at| Mark::Tip { at, label: pose.label.clone(), ink }));
+    }
+    let some = |of: fn(&ShapePose) -> bool| data.poses.iter().any(of);
+    let predicted = match (some(|p| !p.predicted_mm.is_empty()), some(|p| !p.curve_mm.is_empty())) {
+        (true, true) => Some((Look::SymbolLine(Symbol::Circle, true), "predicted centre line and markers")),
+        (true, false) => Some((Look::Symbol(Symbol::Circle, true), "predicted")),
+        (false, true) => Some((Look::Line, "predicted centre line")),
+        (false, false) => None,
+    };
+    let measured = some(|p| !p.measured.is_empty()).then_some((Look::Measured(Symbol::Circle), "measured"));
+    let at_rest = (!data.rest_mm.is_empty()).then_some((Look::Dashed, "at rest"));
+    let keys = [measured, predicted, at_rest].into_iter().flatten();
+    Chart {
+        title: data.title.clone(),
+        x_label: "x along the robot at rest [mm]".into(),
+        y_label: "y sideways [mm]".into(),
+        space: Space::Equal,
+        marks,
+        keys: keys.map(|(look, name)| Key::new(look, Ink::Muted, name)).collect(),
+        ..Chart::default()
+    }
+    .draw("shapes")
+}
+
+/// The body at rest and the clamp at its base.
+fn rest(data: &Shapes) -> Vec<Mark> {
+    let radius = if data.body_radius_mm.is_finite() { data.body_radius_mm.max(0.0) } else { 0.0 };
+    let line: Vec<[f64; 2]> = data.rest_mm.iter().copied().filter(finite).collect();
+    let side = |sign: f64| line.iter().map(move |p| [p[0], p[1] + sign * radius]);
+    let mut marks = vec![Mark::Band(side(1.0).chain(side(-1.0).rev()).collect())];
+    marks.push(Mark::Line { points: line.clone(), ink: Ink::Muted, dashed: true });
+    if let [[x, y], _, ..] = line[..] {
+        let half = 1.15 * radius.max(1.0);
+        marks.push(Mark::Line { points: vec![[x, y - half], [x, y + half]], ink: Ink::Muted, dashed: false });
+    }
+    marks
+}
+
+/// The tip of a pose: end of its centre line, else its last marker.
+fn tip(pose: &ShapePose) -> Option<[f64; 2]> {
+    let last = |points: &[[f64; 2]]| points.iter().copied().rfind(finite);
+    last(&pose.curve_mm).or_else(|| last(&pose.predicted_mm)).or_else(|| pose.measured.last().map(|m| m.at_mm))
+}
+
+/// Grouped bars, e.g. predicted beside published displacement for each actuator.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Bars {
+    /// Title above the plot; empty for none.
+    pub title: String,
+    /// Axis label with unit, e.g. `largest displacement [mm]`.
+    pub value_label: String,
+    /// Names of the groups.
+    pub groups: Vec<String>,
+    /// Name, values per group (non-finite ones show "–"), and whether it is in grey, for what was measured or published.
+    pub series: Vec<(String, Vec<f64>, bool)>,
+    /// What to compare with, as a dashed line: its name and value.
+    pub target: Option<(String, f64)>,
+}
+
+/// Draws grouped horizontal bars from zero.
+///
+/// # Errors
+/// No finite value, a series whose length differs from the groups, over 120 bars, values beyond 1e15.
+pub fn bars(data: &Bars) -> Result<Drawn, ReportError> {
+    at_most("bars", "bars", MOST_BARS, data.groups.len().saturating_mul(data.series.len()))?;
+    let all = || data.series.iter().flat_map(|(_, values, _)| values.iter().copied());
+    let digits = decimals(all());
+    let (mut marks, mut keys, mut colour) = (Vec::new(), Vec::new(), 0);
+    for (lane, (name, values, grey)) in data.series.iter().enumerate() {
+        same_length("bars", "values in a series", data.groups.len(), values.len())?;
+        let ink = if *grey { Ink::Muted } else { Ink::Series(colour) };
+        colour += usize::from(!grey);
+        keys.push(Key::new(Look::Patch, ink, name));
+        let bar = |(row, value): (usize, &f64)| {
+            Mark::Bar(Bar { row, lane, ink, text: number(*value, digits), ..Bar::to(*value) })
+        };
+        marks.extend(values.iter().enumerate().map(bar));
+    }
+    target(data.target.as_ref(), &mut marks, &mut keys);
+    let row = |name: &String| Row { name: name.clone(), lanes: data.series.len(), ..Row::default() };
+    rows(&data.title, &data.value_label, data.groups.iter().map(row).collect(), marks, keys).draw("bars")
+}
+
+/// Waterfall of a value over a growing list of effects.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Ladder {
+    /// Title above the plot; empty for none.
+    pub title: String,
+    /// Axis label with unit, e.g. `tip displacement [mm]`.
+    pub value_label: String,
+    /// Steps from the bare model on.
+    pub steps: Vec<LadderStep>,
+    /// What the steps should reach: its name and value.
+    pub target: Option<(String, f64)>,
+}
+
+/// One step of a [`Ladder`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LadderStep {
+    /// What is added, e.g. `+ sealed-edge loss, η = 0.60`.
+    pub label: String,
+    /// Value after this step, in the unit of the axis.
+    pub value: f64,
+    /// Lower and upper end of its range, if one is known.
+    pub range: Option<[f64; 2]>,
+    /// How it is known, in a word, and the colour of that.
+    pub known: (&'static str, Ink),
+}
+
+/// Draws the ladder, one row per step: its bar, and in pale what it changes.
+///
+/// # Errors
+/// No finite value, more than 120 steps, values beyond 1e15.
+pub fn ladder(data: &Ladder) -> Result<Drawn, ReportError> {
+    at_most("ladder", "steps", MOST_BARS, data.steps.len())?;
+    let digits = decimals(data.steps.iter().map(|step| step.value));
+    let (mut marks, mut keys, mut rungs, mut before) = (Vec::new(), Vec::new(), Vec::new(), None);
+    for (row, step) in data.steps.iter().enumerate() {
+        let (word, ink) = step.known;
+        let change = before.map(|from: f64| step.value - from).filter(|change| change.is_finite());
+        let sign = |change: f64| if change > 0.0 { "+" } else { "" };
+        let change = change.map_or(String::new(), |c| format!("\u{a0}\u{a0}({}{})", sign(c), number(c, digits)));
+        let text = format!("{}{change}", number(step.value, digits));
+        marks.push(Mark::Bar(Bar { row, ink, range: step.range, text, ..Bar::to(step.value) }));
+        if let (Some(from), true) = (before, step.value.is_finite()) {
+            marks.push(Mark::Bar(Bar { row, ink, span: [step.value, from], alpha: 0.22, ..Bar::default() }));
+        }
+        rungs.push(Row { name: step.label.clone(), lanes: 1, aside: word.into(), ink, ..Row::default() });
+        before = Some(step.value).filter(|v| v.is_finite()).or(before);
+    }
+    target(data.target.as_ref(), &mut marks, &mut keys);
+    rows(&data.title, &data.value_label, rungs, marks, keys).draw("ladder")
+}
+
+/// The energy ledger: stacked bars of signed energies, one bar per case.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Ledger {
+    /// Title above the plot; empty for none.
+    pub title: String,
+    /// Axis label with unit, e.g. `energy [mJ], stored or spent → positive`.
+    pub value_label: String,
+    /// Names of up to eight terms; more cannot be told apart by colour, so join the small ones.
+    pub terms: Vec<String>,
+    /// One bar per case, e.g. per pressure or per engine.
+    pub cases: Vec<LedgerCase>,
+}
+
+/// One bar of a [`Ledger`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LedgerCase {
+    /// Label above the bar, e.g. `30 kPa`.
+    pub label: String,
+    /// Energy of each term, in mJ; positive values stack to the right, negative ones to the left.
+    pub energies_mj: Vec<f64>,
+}
+
+/// Draws the ledger with the sum of each case at the right, which is zero when the balance closes.
+///
+/// # Errors
+/// No finite value, a case whose length differs from the terms, over 8 terms or 24 cases.
+pub fn ledger(data: &Ledger) -> Result<Drawn, ReportError> {
+    at_most("ledger", "terms", SERIES, data.terms.len())?;
+    at_most("ledger", "cases", MOST_SERIES, data.cases.len())?;
+    let (mut marks, mut cases) = (Vec::new(), Vec::new());
+    for (row, case) in data.cases.iter().enumerate() {
+        same_length("ledger", "energies in a case", data.terms.len(), case.energies_mj.len())?;
+        let mut reached = [0.0, 0.0];
+        let own = case.energies_mj.iter().copied().enumerate().filter(|(_, energy)| energy.is_finite());
+        let (mut sum, mut largest) = (0.0, 0.0_f64);
+        for (term, energy) in own {
+            let from = &mut reached[usize::from(energy > 0.0)];
+            let (span, ink) = ([*from, *from + energy], Ink::Series(term));
+            *from += energy;
+            (sum, largest) = (sum + energy, largest.max(energy.abs()));
+            let (text, alpha) = (short_number(energy), 1.0);
+            marks.push(Mark::Bar(Bar { row, span, ink, alpha, text, inside: true, ..Bar::default() }));
+        }
+        let shown = if sum.abs() < 1e-4 * largest { number(0.0, 0) } else { short_number(sum) };
+        let (name, aside) = (case.label.clone(), format!("sum {shown}"));
+        cases.push(Row { name, lanes: 1, aside, ink: Ink::Muted, ..Row::default() });
+    }
+    let key = |(i, name): (usize, &String)| Key::new(Look::Patch, Ink::Series(i), name);
+    let keys = data.terms.iter().enumerate().map(key).collect();
+    rows(&data.title, &data.value_label, cases, marks, keys).draw("ledger")
+}
+
+/// A chart of rows.
+pub fn rows(title: &str, value_label: &str, rows: Vec<Row>, marks: Vec<Mark>, keys: Vec<Key>) -> Chart {
+    let (title, x_label) = (title.into(), value_label.into());
+    Chart { title, x_label, space: Space::Rows(rows), marks, keys, ..Chart::default() }
+}
+
+/// Decimals that suit the largest of some values, the same for all.
+pub fn decimals(values: impl Iterator<Item = f64>) -> usize {
+    common_decimals(values.filter(|v| v.is_finite()).fold(0.0, |a, b| f64::max(a, b.abs())))
+}
+
+fn target(target: Option<&(String, f64)>, marks: &mut Vec<Mark>, keys: &mut Vec<Key>) {
+    if let Some((name, value)) = target.filter(|(_, value)| value.is_finite()) {
+        marks.push(Mark::Rule(*value));
+        keys.push(Key::new(Look::Dashed, Ink::Ink, name));
+    }
+}
+
+impl Bar {
+    /// A solid bar from zero.
+    pub fn to(value: f64) -> Bar {
+        Bar { span: [0.0, value], alpha: 1.0, ..Bar::default() }
+    }
+}
+
+impl Row {
+    /// A row with its name on the left.
+    pub fn beside(name: &str) -> Row {
+        Row { name: name.into(), place: Place::Beside, lanes: 1, ..Row::default() }
+    }
+}

@@ -1,0 +1,88 @@
+//! The page of a scenario held against a dataset.
+
+use super::{Files, Imprint, PageError, figures, number, residual_figure, tables};
+use ::compare::metrics::HoldMetrics;
+use ::compare::study::{Study, Variant};
+use serde_json::{Value, json};
+
+/// The page of a comparison and the files beside it.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn compare_page(study: &Study, imprint: &Imprint) -> Result<Files, PageError> {
+    let mut files = Files::default();
+    let (first, dataset) = (&study.variants[0], &study.dataset);
+    files.plot("shapes", figures::shapes("Predicted and measured shape", &first.scenario, dataset)?);
+    let map = residual_figure::map("Where the model misses", &first.evaluation.residual_map, dataset)?;
+    files.plot("residual_map", map);
+    files.plot("pressure", figures::pressure_curve("Pressure and height", study)?);
+    files.table("holds", tables::holds(&study.variants))?;
+    if study.variants.len() > 1 {
+        files.plot("ladder", figures::error_ladder("Error beyond noise", &study.variants)?);
+    }
+    if let Some((title, loads)) = figures::at_highest(dataset) {
+        let cases: Vec<_> = study.variants.iter().map(|v| (v.label.clone(), v.scenario.clone())).collect();
+        files.plot("ledger", figures::ledgers(&title, &cases, &loads)?);
+    }
+    let variants: Vec<Value> = study.variants.iter().map(variant).collect();
+    let values = json!({
+        "title": format!("{} held against {}", first.scenario.name, dataset.name),
+        "lead": lead(study), "first": variants[0], "variants": variants, "provenance": provenance(study),
+        "several_bodies": figures::several_bodies(dataset), "map_colours": residual_figure::MAP_COLOURS,
+    });
+    files.page("compare.html", values, imprint)?;
+    Ok(files)
+}
+
+fn variant(v: &Variant) -> Value {
+    let metrics = &v.evaluation.metrics;
+    let several = metrics.holds.iter().any(|h| h.p_body_kpa != metrics.holds[0].p_body_kpa);
+    let holds = metrics.holds.iter().map(|h| json!({"name": hold_name(h, several), "of": h}));
+    json!({
+        "label": v.label, "known": v.known.word(), "why": v.why, "overall": metrics.overall,
+        "holds": holds.collect::<Vec<_>>(), "noise": v.evaluation.noise, "scaling": v.evaluation.scaling.sentence,
+        "where_it_fails": v.evaluation.where_it_fails.iter().map(|s| &s.sentence).collect::<Vec<_>>(),
+    })
+}
+
+/// `10 kPa load`; the body pressure is named if the data have several.
+fn hold_name(hold: &HoldMetrics, several_bodies: bool) -> String {
+    let again = if hold.occurrence > 0 { format!(" ({})", hold.occurrence + 1) } else { String::new() };
+    let body = if several_bodies { format!(", body {:.0} kPa", hold.p_body_kpa) } else { String::new() };
+    format!("{:.0} kPa {}{again}{body}", hold.p_act_kpa, hold.phase)
+}
+
+/// The answer in a paragraph.
+fn lead(study: &Study) -> String {
+    let first = &study.variants[0];
+    let all = &first.evaluation.metrics.overall;
+    let size = match all.systematic_mm {
+        Some(mm) => format!("{mm:.2} mm beyond noise (noise of the mean {} mm)", number(all.noise_floor_mm, 2)),
+        None => format!("{:.2} mm rms; the noise is unknown with one run", all.rmse_mm),
+    };
+    let worst = format!("largest tip error {:+.1} mm of {:.1} mm", all.largest_tip_error_mm, all.d_max_mm);
+    let mut text = format!("**{}** misses the data by {size}; {worst}.", first.label);
+    if let (Some(last), true) = (study.variants.last(), study.variants.len() > 1) {
+        let after = last.evaluation.metrics.overall.systematic_mm.unwrap_or(last.evaluation.metrics.overall.rmse_mm);
+        text.push_str(&format!(" With **{}** ({}) {after:.2} mm remain.", last.label, last.known.word()));
+    }
+    text
+}
+
+fn provenance(study: &Study) -> Vec<[String; 2]> {
+    let line = |name: &str, value: &str| [name.into(), value.into()];
+    let first = &study.variants[0];
+    let mut lines = vec![
+        line("scenario", &first.scenario.name),
+        line("data", &study.dataset.name),
+        line("runs", &study.dataset.runs.len().to_string()),
+        line("pairing", &first.evaluation.metrics.pairing.to_string()),
+    ];
+    if let Some(about) = &study.about {
+        lines.push(line("data are", &format!("{}: {}", about.provenance.word(), about.title)));
+        lines.push(line("source", &about.source));
+        lines.push(line("licence", &about.licence));
+    }
+    lines.extend(study.warnings.iter().map(|w| line("mismatch", w)));
+    lines
+}

@@ -1,0 +1,96 @@
+//! The page of the demonstration: what a reader needs first, and the commands that show the rest.
+
+use super::diagnosis::{Diagnosed, draw, verdict};
+use super::engines::overview;
+use super::{Files, Imprint, PageError, figures, residual_figure};
+use ::compare::bench::Held;
+use ::compare::study::Study;
+use ::compare::study::demo::{Demo, HIDDEN_IN, Story};
+use ::compare::study::published::PublishedLadder;
+use serde_json::{Value, json};
+
+/// Pictures of the diagnosis that the page has.
+const PICTURES: [&str; 4] = ["residuals_before", "ranking", "before_after", "candidates"];
+
+/// The page of the demonstration and its plots.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn demo_page(demo: &Demo, imprint: &Imprint, progress: &mut dyn FnMut(&str)) -> Result<Files, PageError> {
+    let mut files = Files::default();
+    progress("plots of the published displacements");
+    files.plot("published", figures::published_bars(&demo.ladders)?);
+    for ladder in &demo.ladders {
+        files.plot(&format!("ladder_{}", ladder.published.kind), figures::published_ladder(ladder)?);
+    }
+    progress("plots of both engines");
+    let mut values = overview(&demo.engines, &mut files)?;
+    progress("plots of the marker sets");
+    let studies = demo.studies.iter().map(|study| draw_study(study, &mut files)).collect::<Result<Vec<_>, _>>()?;
+    progress("plots of the diagnosis");
+    let found = found(&demo.diagnosed);
+    draw(&found, "diagnosis_", &PICTURES, &mut files)?;
+    files.plot("tradeoff", figures::tradeoff(&demo.timings)?);
+    for (key, value) in [
+        ("title", json!("Four pneumatic bending actuators: models held against measurements")),
+        ("ladders", json!(demo.ladders.iter().map(ladder).collect::<Vec<_>>())),
+        ("measured", json!(demo.measured.iter().map(held).collect::<Vec<_>>())),
+        ("studies", json!(studies)),
+        ("diagnosis", verdict(&found)),
+        ("map_colours", json!(residual_figure::MAP_COLOURS)),
+        ("provenance", provenance(imprint)),
+    ] {
+        values[key] = value;
+    }
+    files.page("demo.html", values, imprint)?;
+    Ok(files)
+}
+
+fn found(story: &Story) -> Diagnosed<'_> {
+    Diagnosed {
+        diagnosis: &story.diagnosis,
+        scenario: &story.scenario,
+        dataset: &story.dataset,
+        about: story.about.as_ref(),
+        witness: None,
+        typed: HIDDEN_IN,
+        more: String::new(),
+    }
+}
+
+fn ladder(l: &PublishedLadder) -> Value {
+    let (last_mm, measured_mm) = (figures::last(l).map_or(f64::NAN, |rung| rung.y_m * 1e3), l.published.d_max_m * 1e3);
+    let rung = |r: &::compare::study::Rung| {
+        let range_mm = r.range_m.map(|range| range.map(|v| v * 1e3));
+        json!({"label": r.label, "known": r.known.word(), "y_mm": r.y_m * 1e3, "range_mm": range_mm})
+    };
+    json!({
+        "name": l.published.printed_name, "kind": l.published.kind, "measured_mm": measured_mm, "last_mm": last_mm,
+        "left_mm": last_mm - measured_mm, "absorbing_nm2": l.calibrated_bending,
+        "rungs": l.rungs.iter().map(rung).collect::<Vec<_>>(),
+    })
+}
+
+fn held(h: &Held) -> Value {
+    json!({"title": h.title, "rows": h.rows.len(), "known": h.known.word(), "rms": h.rms()})
+}
+
+fn draw_study(study: &Study, files: &mut Files) -> Result<Value, PageError> {
+    let (first, name) = (&study.variants[0], &study.dataset.name);
+    let last = study.variants.last().unwrap_or(first);
+    let map = residual_figure::map("Bare model: where it misses", &first.evaluation.residual_map, &study.dataset)?;
+    files.plot(&format!("{name}_map"), map);
+    Ok(json!({
+        "data": name, "label": last.label, "known": last.known.word(),
+        "first": first.evaluation.metrics.overall, "last": last.evaluation.metrics.overall,
+        "where_it_fails": first.evaluation.where_it_fails.iter().map(|s| &s.sentence).collect::<Vec<_>>(),
+    }))
+}
+
+fn provenance(imprint: &Imprint) -> Value {
+    json!([
+        ["published numbers", "du Pasquier, Jeong, Okamura, IEEE RA-L 2023, doi 10.1109/LRA.2023.3320010"],
+        ["marker sets", "synthetic, made by this program's generator; no measurement"],
+        ["machine", imprint.machine],
+    ])
+}

@@ -1,0 +1,309 @@
+//! The report of a diagnosis, for people: whether anything is missing, what it could be, what to do, where it fails.
+
+use super::diagnosis_figures::{
+    candidate_curves, ledger_cases, left_out, ranking, shown, supply, waterfall, witness_ledger,
+};
+use super::{Files, Imprint, PageError, figures, in_words, residual_figure};
+use ::compare::diagnosis::{Answer, Combination, Diagnosis, ParameterValue, Ranked, Separation, Standing, Verdict};
+use ::compare::residuals::{Deviation, ResidualCell, ResidualMap};
+use ::compare::study::engines::TERMS;
+use ::compare::study::predict::fit_scenario;
+use ::compare::study::witness::{HEIGHTS, Witness};
+use ::compare::wording::{p_value, short};
+use data::{About, Dataset};
+use models::{Loads, Scenario};
+use report::Drawn;
+use serde_json::{Value, json};
+
+/// Errors below this are no bar \[mm\].
+const SMALLEST_BAR_MM: f64 = 0.005;
+/// Explanations told in plain words; the tables have all.
+const MOST_TOLD: usize = 6;
+
+/// A diagnosis with what it was made of.
+pub struct Diagnosed<'a> {
+    /// What was found.
+    pub diagnosis: &'a Diagnosis,
+    /// The scenario as given.
+    pub scenario: &'a Scenario,
+    /// The data.
+    pub dataset: &'a Dataset,
+    /// Their description.
+    pub about: Option<&'a About>,
+    /// Finite element runs of the same robot, if there are any.
+    pub witness: Option<&'a Witness>,
+    /// Scenario and data as typed, for the commands that come next.
+    pub typed: [&'a str; 2],
+    /// What else was typed that these commands need, e.g. `--also MORE`; empty for nothing.
+    pub more: String,
+}
+
+/// The page of a diagnosis and its plots.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn diagnosis_page(found: &Diagnosed, imprint: &Imprint) -> Result<Files, PageError> {
+    let mut files = Files::default();
+    draw(found, "", &diagnosis_pictures(), &mut files)?;
+    files.page("diagnosis.html", values(found), imprint)?;
+    Ok(files)
+}
+
+/// A picture of a diagnosis with the scenario fitted to the stations and loads of the data; `None` where there is nothing to show.
+type Picture = fn(&Diagnosed, &Scenario) -> Result<Option<Drawn>, PageError>;
+
+/// Every picture that a report of a diagnosis may have, and its name without prefix and ending.
+const PICTURES: [(&str, Picture); 8] = [
+    ("residuals_before", |f, _| {
+        let title = "The calibrated model misses here";
+        residual_figure::map(title, &f.diagnosis.residuals_before, f.dataset).map(Some)
+    }),
+    ("residuals_after", |f, _| {
+        let title = "What is left with the best explanation";
+        let explained = !f.diagnosis.added.is_empty() || !f.diagnosis.attempt.is_empty();
+        explained.then(|| residual_figure::map(title, &f.diagnosis.residuals_after, f.dataset)).transpose()
+    }),
+    ("ranking", |f, _| ranking(f.diagnosis)),
+    ("before_after", |f, _| {
+        let rungs = f.diagnosis.rungs();
+        let seen = rungs.iter().any(|r| r.training_mm >= SMALLEST_BAR_MM);
+        seen.then(|| waterfall("Before and after", &rungs, f.diagnosis.base.noise_floor_mm)).transpose()
+    }),
+    ("before_after_supply", |f, _| supply(f.diagnosis)),
+    ("candidates", |f, scenario| match f.diagnosis.verdict {
+        Some(Verdict::None) => Ok(None),
+        _ => candidate_curves(f.diagnosis, scenario, f.dataset),
+    }),
+    ("ledger", |f, scenario| {
+        let d = f.diagnosis;
+        let parts = d.verdict != Some(Verdict::None) && !shown(d).is_empty();
+        let at = figures::at_highest(f.dataset).filter(|_| parts);
+        let cases = |loads: &Loads| ledger_cases(d, scenario, d.level(1e-3 * loads.body_pa));
+        at.map(|(title, loads)| figures::ledgers(&title, &cases(&loads), &loads)).transpose()
+    }),
+    ("finite_elements", |f, _| {
+        f.witness.filter(|w| w.fe_mj.is_some()).map(|w| witness_ledger(w, f.diagnosis)).transpose()
+    }),
+];
+
+/// Names of the pictures that a report may have.
+pub fn diagnosis_pictures() -> [&'static str; 8] {
+    PICTURES.map(|(name, _)| name)
+}
+
+/// Adds those of the wanted pictures that there are, their names after a prefix.
+pub(super) fn draw(found: &Diagnosed, prefix: &str, wanted: &[&str], files: &mut Files) -> Result<(), PageError> {
+    let (scenario, _) = fit_scenario(found.scenario, found.dataset, found.about)?;
+    for (name, picture) in PICTURES.iter().filter(|(name, _)| wanted.contains(name)) {
+        if let Some(drawn) = picture(found, &scenario)? {
+            files.plot(&format!("{prefix}{name}"), drawn);
+        }
+    }
+    Ok(())
+}
+
+/// What the template needs of the verdict box.
+pub(super) fn verdict(found: &Diagnosed) -> Value {
+    let d = found.diagnosis;
+    let verdict = match d.verdict {
+        Some(Verdict::None) => "none",
+        Some(Verdict::Effect) => "effect",
+        Some(Verdict::OutOfCatalog) if d.is_either() => "either",
+        Some(Verdict::OutOfCatalog) => "out_of_catalog",
+        None => "no_answer",
+    };
+    let mut told_as = json!(d);
+    told_as["summary"] = d.summary.iter().map(|s| in_words(s)).collect();
+    if let Some(next) = &d.next_experiment {
+        told_as["next_experiment"]["sentence"] = json!(in_words(&next.sentence));
+    }
+    json!({"verdict": verdict, "told": told(d).iter().map(|a| answer(d, a)).collect::<Vec<_>>(), "d": told_as, "typed": found.typed})
+}
+
+fn values(found: &Diagnosed) -> Value {
+    let d = found.diagnosis;
+    let mut values = verdict(found);
+    let worst = largest(&d.residuals_before, |cell| cell.y).zip(largest(&d.residuals_before, |cell| cell.x));
+    let looks = match d.indistinguishable.is_empty() {
+        true => [d.attempt_words(), "others"],
+        false => ["cannot be told apart", "fits worse"],
+    };
+    let page = json!({
+        "title": format!("{} held against {}: what is missing?", d.scenario, d.dataset),
+        "lead": d.summary.iter().take(2).map(|s| in_words(s)).collect::<Vec<_>>().join(" "),
+        "evidence": evidence(d), "worst": worst, "looks": looks, "more": found.more,
+        "left_out": left_out(d, &shown(d)).map_or(String::new(), |words| words + " "),
+        "leftover": d.leftover.iter().map(|s| &s.sentence).collect::<Vec<_>>(),
+        "ranked": d.ranked.iter().map(|r| ranked(d, r)).collect::<Vec<_>>(),
+        "pairs": d.pairs.iter().map(|p| pair(d, p)).collect::<Vec<_>>(),
+        "explained": explained(d), "unseen": unseen(d), "map_colours": residual_figure::MAP_COLOURS,
+        "cautions": d.warnings.iter().filter(|w| !d.slips.contains(w)).collect::<Vec<_>>(),
+        "provenance": provenance(found),
+    });
+    let parts = [page, experiments(d), witness(found.witness)];
+    if let Value::Object(all) = &mut values {
+        all.extend(
+            parts.into_iter().filter_map(|part| if let Value::Object(map) = part { Some(map) } else { None }).flatten(),
+        );
+    }
+    values
+}
+
+/// What the verdict states, or the attempt; nothing where nothing is missing.
+fn told(d: &Diagnosis) -> Vec<Answer<'_>> {
+    let answers = if d.verdict == Some(Verdict::None) { Vec::new() } else { d.answers() };
+    answers.into_iter().filter(|a| matches!(a.standing, Standing::Stated | Standing::Attempt)).collect()
+}
+
+/// An answer with the values of its fit and what it brings.
+fn answer(d: &Diagnosis, answer: &Answer) -> Value {
+    let values = answer.effects.iter().map(|(r, values)| match answer.effects.len() {
+        1 => listed(values),
+        _ => format!("{}, {}", super::effect(&r.effect), listed(values)),
+    });
+    let mark = if answer.standing == Standing::Attempt { format!(", {}", d.attempt_words()) } else { String::new() };
+    json!({
+        "name": answer.name(), "mark": mark, "values": values.collect::<Vec<_>>().join("; "), "after_mm": answer.after_mm,
+        "cancels": d.pairs.iter().any(|p| p.cancels && p.effects.join(" + ") == answer.name()),
+    })
+}
+
+/// Every effect of the told answers once. Notes of its own fit are no notes of a pair's.
+fn explained(d: &Diagnosis) -> Vec<Value> {
+    let mut seen: Vec<&str> = Vec::new();
+    let mut out = Vec::new();
+    let answers = told(d);
+    for answer in answers.iter().take(MOST_TOLD) {
+        for (r, _) in &answer.effects {
+            if !seen.contains(&r.effect.as_str()) {
+                seen.push(&r.effect);
+                let notes = if answer.effects.len() == 1 { r.notes.as_slice() } else { &[] };
+                out.push(json!({
+                    "effect": r.effect, "group": r.group.word(), "sentence": r.sentence, "differs": r.differs,
+                    "remedy": r.remedy, "notes": notes,
+                }));
+            }
+        }
+    }
+    out
+}
+
+fn evidence(d: &Diagnosis) -> [[String; 2]; 8] {
+    let p = |p: Option<f64>| p.map_or("–".into(), p_value);
+    let mm = |v: f64| format!("{v:.2} mm");
+    [
+        ("\"nothing is missing\", corrected for everything tried", p(d.p_value)),
+        ("level at which it is judged", d.alpha.to_string()),
+        ("lack of fit after fitting B", p(d.lack_of_fit_before.as_ref().map(|l| l.p_value))),
+        ("lack of fit of the final model", p(d.lack_of_fit_after.as_ref().map(|l| l.p_value))),
+        ("error beyond noise after fitting B", mm(d.base.systematic_mm)),
+        ("the same of the final model", mm(d.base.systematic_with_added_mm)),
+        ("noise of the mean", d.base.noise_floor_mm.map_or("unknown".into(), mm)),
+        ("good enough", mm(d.tolerance_mm)),
+    ]
+    .map(|(name, value)| [name.to_string(), value])
+}
+
+/// `+9.1 mm (12 times the noise) at marker 5 of 5, 10 kPa load`: the largest in one direction.
+fn largest(map: &ResidualMap, of: fn(&ResidualCell) -> Deviation) -> Option<String> {
+    let cells = map.cells.iter().enumerate();
+    let all = cells.flat_map(|(m, row)| row.iter().enumerate().map(move |(h, cell)| (m, h, of(cell))));
+    let (marker, hold, d) = all.max_by(|a, b| a.2.mm.abs().total_cmp(&b.2.mm.abs()))?;
+    let (at, of_all) = (&map.holds[hold], map.cells.len());
+    let noise = d.in_noise.map_or(String::new(), |z| format!(" ({:.0} times the noise)", z.abs()));
+    let several = map.holds.iter().any(|h| h.p_body_kpa != at.p_body_kpa);
+    let body = if several { format!(", body {:.0} kPa", at.p_body_kpa) } else { String::new() };
+    let place = format!("at marker {} of {of_all}, {:.0} kPa {}{body}", marker + 1, at.p_act_kpa, at.phase);
+    Some(format!("{:+.1} mm{noise} {place}", d.mm))
+}
+
+fn ranked(d: &Diagnosis, r: &Ranked) -> Value {
+    let stated = |name: &String| name.split(" + ").any(|part| part == r.effect);
+    let note = match () {
+        () if d.indistinguishable.contains(&r.effect) => "cannot be told apart",
+        () if d.indistinguishable.iter().any(stated) => "in a pair that cannot be told apart",
+        () if d.attempt.iter().any(|a| a.effect == r.effect) => d.attempt_words(),
+        () if r.at_bound => "on a bound: rejected",
+        () => "",
+    };
+    json!({"of": r, "group": r.group.word(), "values": listed(&r.parameters), "p": bare_p(r.p_corrected), "note": note})
+}
+
+fn pair(d: &Diagnosis, p: &Combination) -> Value {
+    let stated = p.in_set && d.verdict == Some(Verdict::Effect);
+    json!({"of": p, "name": p.effects.join(" + "), "values": listed(&p.parameters), "p": bare_p(p.p_corrected), "stated": stated})
+}
+
+fn bare_p(p: Option<f64>) -> String {
+    p.map_or("–".into(), |p| p_value(p).trim_start_matches("p = ").replace("p < ", "< "))
+}
+
+fn unseen(d: &Diagnosis) -> Vec<Value> {
+    let size = |u: &::compare::diagnosis::Undetectable| match (u.smallest_detectable, u.unit.as_str()) {
+        (None, _) => "not within its bounds".into(),
+        (Some(s), "-") => three(s),
+        (Some(s), unit) => format!("{} {unit}", three(s)),
+    };
+    d.undetectable.iter().map(|u| json!({"effect": u.effect, "size": size(u), "times": u.times_typical})).collect()
+}
+
+fn experiments(d: &Diagnosis) -> Value {
+    let Some(next) = &d.next_experiment else { return json!({}) };
+    let mut heads = vec![["experiment", "", ""], ["protocol [kPa]", "", "l"], ["suffices", "", ""]];
+    let rivals: Vec<String> = next.now.iter().map(|s| super::effect(&s.rival)).collect();
+    heads.extend(rivals.iter().map(|rival| [rival, "", ""]));
+    let row = |name: &str, protocol: &str, needed: f64, found: &[Separation]| {
+        let lambdas: Vec<f64> = found.iter().map(|s| s.lambda).collect();
+        json!({"name": name, "protocol": protocol, "needed": needed, "lambdas": lambdas})
+    };
+    let mut rows = vec![row("data at hand", "–", next.needed_now, &next.now)];
+    rows.extend(next.tried.iter().map(|e| row(&e.name, e.shown_protocol(), e.needed, &e.separations)));
+    json!({"experiments": rows, "experiments_heads": heads})
+}
+
+fn witness(witness: Option<&Witness>) -> Value {
+    let Some(w) = witness else { return json!({"witness": null}) };
+    let heads = |names: &[&str]| json!(names.iter().map(|name| [name, "", ""]).collect::<Vec<_>>());
+    let terms = [&["model"], &TERMS[..], &["apart"]].concat();
+    json!({
+        "witness": {"sentences": w.sentences.iter().map(|s| in_words(s)).collect::<Vec<_>>()}, "heights": w.height_rows(), "height_heads": heads(&HEIGHTS),
+        "ledgers": w.ledger_rows(), "ledger_heads": heads(&terms),
+    })
+}
+
+fn provenance(found: &Diagnosed) -> Vec<[String; 2]> {
+    let line = |name: &str, value: &str| [name.into(), value.into()];
+    let mut lines = vec![
+        line("scenario", found.typed[0]),
+        line("data", found.typed[1]),
+        line("runs", &found.diagnosis.runs.to_string()),
+    ];
+    lines.extend(found.diagnosis.beside.iter().map(|b| line("fitted along", &b.dataset)));
+    if let Some(about) = found.about {
+        lines.push(line("data are", &format!("{}: {}", about.provenance.word(), about.title)));
+        lines.push(line("source", &about.source));
+    }
+    lines
+}
+
+fn listed(values: &[ParameterValue]) -> String {
+    values.iter().map(with_interval).collect::<Vec<_>>().join(", ")
+}
+
+fn with_interval(p: &ParameterValue) -> String {
+    let digits = |v: f64| if v.abs() >= 100.0 { short(v) } else { three(v) };
+    let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
+    match (p.lo, p.hi) {
+        (Some(lo), Some(hi)) => format!("{} = {} ({} to {}){unit}", p.symbol, digits(p.value), digits(lo), digits(hi)),
+        _ => format!("{} = {}{unit}{}", p.symbol, digits(p.value), p.held_mark()),
+    }
+}
+
+/// Three significant digits.
+fn three(v: f64) -> String {
+    match v.abs() {
+        0.0 => "0".into(),
+        s if s < 1e-3 => format!("{v:.1e}"),
+        s => format!("{v:.*}", (2 - s.log10().floor() as i32).max(0) as usize),
+    }
+}

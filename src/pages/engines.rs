@@ -1,0 +1,119 @@
+//! Both engines and the published numbers on one page: displacement, accuracy, ledgers, and where the models part.
+
+use super::engine_figures::{bars, curve, displaced, ledger, parting_plot};
+use super::{Files, Imprint, PageError, marker_intervals, what_to_measure};
+use ::compare::study::engines::{
+    EngineRobot, Engines, HEADS, SUMMARY, VOLUMES, VOLUMES_CAPTION, cells, csv, lines, summary, volume_cells,
+};
+use ::compare::study::uncertain::Uncertain;
+use serde_json::{Value, json};
+
+/// The page with the plots and tables beside it.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn engines_page(engines: &Engines, imprint: &Imprint) -> Result<Files, PageError> {
+    let mut files = Files::default();
+    let mut values = overview(engines, &mut files)?;
+    let (mut cubes, mut kinds, mut maps) = (Vec::new(), Vec::new(), Vec::new());
+    for robot in &engines.robots {
+        for cube in &robot.uncertain {
+            cubes.push(draw_cube(robot, cube, &mut files)?);
+        }
+    }
+    for robot in engines.robots.iter().filter(|r| !r.pairs.is_empty()) {
+        let kind = robot.scenario.actuator.kind.name;
+        files.plot(&format!("{kind}_engines"), curve(robot)?);
+        files.plot(&format!("{kind}_engines_ledger"), ledger(robot)?);
+        kinds.push(kind);
+    }
+    if let Some(drawn) = displaced(&engines.robots)? {
+        files.plot("volumes", drawn);
+    }
+    for (k, map) in engines.maps.iter().enumerate() {
+        let name = format!("breakdown_{}_{k}", map.actuator);
+        files.plot(&name, parting_plot(map)?);
+        maps.push(json!({"name": name, "mesh_mm": map.mesh_mm}));
+    }
+    for (key, value) in [
+        ("title", json!("Two engines against the published displacements")),
+        ("lead", json!(lead(engines))),
+        ("cubes", json!(cubes)),
+        ("kinds", json!(kinds)),
+        ("maps", json!(maps)),
+        ("volumes", json!(volume_cells(&engines.robots))),
+        ("volume_heads", heads(&VOLUMES, &[])),
+        ("volume_caption", json!(VOLUMES_CAPTION)),
+        ("provenance", json!(provenance(engines, imprint))),
+    ] {
+        values[key] = value;
+    }
+    files.page("engines.html", values, imprint)?;
+    Ok(files)
+}
+
+/// One row a robot, with the bars of their displacements, and all lines as a table beside.
+pub(super) fn overview(engines: &Engines, files: &mut Files) -> Result<Value, PageError> {
+    let (mut all, mut rows) = (Vec::new(), Vec::new());
+    for robot in &engines.robots {
+        all.extend(lines(robot)?);
+        rows.extend(summary(robot)?);
+    }
+    files.text("engines.csv", csv(&all));
+    if let Some(bars) = bars(engines)? {
+        files.plot("engines", bars);
+    }
+    Ok(json!({
+        "summary": rows, "summary_heads": heads(&SUMMARY, &[1, 6]),
+        "lines": all.iter().map(cells).collect::<Vec<_>>(), "line_heads": heads(&HEADS, &[2, 3]),
+    }))
+}
+
+/// Heads of a table, those of words marked.
+fn heads(names: &[&str], words: &[usize]) -> Value {
+    let mark = |k: usize| if words.contains(&k) { "l" } else { "" };
+    json!(names.iter().enumerate().map(|(k, name)| [name, "", mark(k)]).collect::<Vec<_>>())
+}
+
+/// Heights of all markers with their intervals, and what to measure first.
+fn draw_cube(robot: &EngineRobot, cube: &Uncertain, files: &mut Files) -> Result<Value, PageError> {
+    let last = cube.stations_mm.last().copied().unwrap_or(f64::NAN);
+    let own = robot.published.iter().map(|p| (p.d_max_pressure_pa * 1e-3, [last, p.d_max_m * 1e3]));
+    let words: String = cube.variant.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
+    let name = [cube.actuator.as_str(), &words].iter().filter(|w| !w.is_empty()).copied().collect::<Vec<_>>().join("-");
+    files.plot(&format!("{name}_uncertain"), marker_intervals(cube, &own.collect::<Vec<_>>())?);
+    let top = cube.pressures_kpa().into_iter().fold(0.0, f64::max);
+    files.plot(&format!("{name}_tornado"), what_to_measure(cube, top)?);
+    Ok(json!({"name": name, "robots": cube.members.len(), "variant": cube.variant}))
+}
+
+fn lead(engines: &Engines) -> String {
+    let mut words = Vec::new();
+    for robot in &engines.robots {
+        let (Some(printed), Some(last)) = (&robot.published, robot.pairs.last()) else { continue };
+        let Some([(fe, _), _]) = robot.ensemble.at(printed.d_max_pressure_pa * 1e-3) else { continue };
+        let (measured, [bare, _]) = (printed.d_max_m * 1e3, last.reduced_mm);
+        let (name, share) = (&printed.printed_name, 100.0 * (fe - measured) / measured);
+        words.push(format!(
+            "{name} {fe:.1} mm ({share:+.0} %; reduced model as shipped {bare:.1} mm, measured {measured:.1} mm)"
+        ));
+    }
+    match words.is_empty() {
+        true => "There is no finite element run of these robots yet.".into(),
+        false => format!("Outermost marker at 30 kPa by finite elements: {}.", words.join("; ")),
+    }
+}
+
+fn provenance(engines: &Engines, imprint: &Imprint) -> Vec<[String; 2]> {
+    let paper = "du Pasquier, Jeong, Okamura, IEEE RA-L 2023, doi 10.1109/LRA.2023.3320010";
+    let mut lines = vec![["published numbers".into(), paper.into()]];
+    for run in engines.robots.iter().filter_map(|r| r.run.as_ref()) {
+        let what = format!(
+            "{} mm elements, {} of them, {} steps, {:.0} CPU s, engine {}",
+            run.mesh_mm[1], run.elements, run.steps, run.cpu_s, run.engine
+        );
+        lines.push([format!("run of {}", run.actuator), what]);
+    }
+    lines.push(["machine".into(), imprint.machine.clone()]);
+    lines
+}
