@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 product="models fem data compare report src spelling"
-development="challenge"
+development="challenge verification"
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 
@@ -28,12 +28,13 @@ lines() { for part in "$@"; do find "$copy/$part" -name '*.rs' -exec cat {} +; d
 code() { for part in "$@"; do find "$copy/$part" -name '*.rs' -exec cat {} +; done | sed 's,^ *//.*,,; s/^ *//' | tr -d '\n' | wc -c; }
 printf '%-44s %s\n' "lines of the product, without tests, width 100" "$(lines $product)"
 printf '%-44s %s\n' "lines of the development crates" "$(lines $development)"
+for part in $product $development; do printf '  %-42s %s\n' "$part" "$(lines "$part")"; done
 printf '%-44s %s\n' "characters of code of the product" "$(code $product)"
 
 # Modules of a crate: files or folders below src; `crate::NAME` in one of them is an arrow.
 circles=0
 where=
-for crate in models fem data compare report challenge src; do
+for crate in models fem data compare report challenge verification src; do
   root=$([ "$crate" = src ] && echo src || echo "$crate/src")
   arrows=$(cd "$copy/$root" && find . -name '*.rs' -exec awk '
     /^ *\/\// { next }

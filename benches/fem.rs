@@ -3,9 +3,8 @@
 #![allow(missing_docs)]
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use fem::{Simulation, speed};
-
-mod reference;
+use fem::Simulation;
+use verification::speed::{plain_loop, workloads as speed};
 
 /// Steps per sample: the engine looks at its guards every 64.
 const STEPS: u64 = 64;
@@ -33,7 +32,7 @@ fn plain(c: &mut Criterion) {
     let mut group = c.benchmark_group("plain");
     group.sample_size(20);
     for n in [36, 72, 100] {
-        let mut run = reference::Membrane::new(&speed::pillow(n, false).expect("the mesh is even"));
+        let mut run = plain_loop::Membrane::new(&speed::pillow(n, false).expect("the mesh is even"));
         group.throughput(Throughput::Elements(run.triangles() as u64 * STEPS));
         let id = BenchmarkId::new("membrane", format!("{n}x{n}x2"));
         group.bench_function(id, |b| b.iter(|| run.advance_by(STEPS)));

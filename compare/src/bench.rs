@@ -7,7 +7,6 @@
 use data::Bench;
 use data::bench::Row;
 use models::actuators::{ActuatorShape, Family};
-use models::exact::mckibben::rest_angle_from_max_contraction;
 use models::scenario::ActuatorChoice;
 use models::{Loads, Machine, Model, Scenario};
 use std::f64::consts::FRAC_PI_2;
@@ -252,6 +251,11 @@ fn wall_n_per_m(beam: &Scenario, force_n: f64, wanted_m: f64) -> Option<f64> {
     Some((soft * stiff).sqrt())
 }
 
+/// Angle at rest of the yarns of an ideal braid that shortens so far without load \[rad\]; not a number above 1 − 1/√3.
+fn bias_rad(free_contraction: f64) -> f64 {
+    (1.0 / (3.0_f64.sqrt() * (1.0 - free_contraction))).acos()
+}
+
 fn muscles(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Result<Held, CompareError> {
     let scenario = own_or_braid(bench, scenario)?;
     let mut rows = Vec::new();
@@ -259,7 +263,7 @@ fn muscles(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Resul
     for group in bench.rows.chunk_by(|a, b| a.get("muscle") == b.get("muscle")) {
         let most = group.iter().max_by(|a, b| a.value("contraction").total_cmp(&b.value("contraction")));
         let fitted = most.filter(|row| calibrate && is_free(row) && row.get("bias").is_none());
-        let bias = fitted.map(|row| rest_angle_from_max_contraction(row.value("contraction")));
+        let bias = fitted.map(|row| bias_rad(row.value("contraction")));
         notes.extend(bias.map(|b| format!("yarns at {:.1}°, calibrated on the largest contraction", b.to_degrees())));
         for row in group {
             let muscle = specimen(row, &scenario, bias).or_else(|[problem, help]| refuse(bench, problem, help))?;
@@ -281,7 +285,6 @@ fn muscles(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Resul
 #[cfg(test)]
 mod tests {
     use super::*;
-    use models::exact::mckibben::tondu_lopez_force_n;
 
     fn set(name: &str) -> (Bench, Option<Scenario>) {
         let bench = data::bench::bench(name).unwrap().unwrap();
@@ -303,7 +306,10 @@ mod tests {
     /// Written from the ideal braid, a table gets nothing but agreement; a hundredth of the force beyond its scatter does not.
     #[test]
     fn a_mean_with_its_scatter_gets_a_verdict() {
-        let force = |p: f64, e: f64| tondu_lopez_force_n(5e-3, 25_f64.to_radians(), e, p, 1.0);
+        let force = |p: f64, e: f64| {
+            let (sin, tan) = (25_f64.to_radians().sin(), 25_f64.to_radians().tan());
+            std::f64::consts::PI * 5e-3_f64.powi(2) * p * (3.0 / tan.powi(2) * (1.0 - e).powi(2) - 1.0 / sin.powi(2))
+        };
         let row = |factor: f64| format!("620,5,{},0.5,5\n", factor * force(620e3, 0.05));
         let head = "# bias_deg: 25\n# diameter_mm: 10\np_act_kpa,contraction_pct,force_n,force_sd_n,n\n";
         let text = format!("{head}{}{}", row(1.0), row(1.01));

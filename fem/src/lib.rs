@@ -17,8 +17,6 @@
 //! | [`run`] | time stepping, stable step, ledger, guards |
 //! | [`session`] | a run, or several, from text to typed result: folder, checkpoints, cache |
 //! | [`record`] | files that are written and read again, with their version |
-//! | [`verify`] | problems with known answers |
-//! | [`speed`] | workloads whose speed is measured |
 //! | [`case`] | the TOML file that describes a run |
 //!
 //! `fem` never sees a measurement.
@@ -37,12 +35,12 @@ pub mod record;
 pub mod robot;
 pub mod run;
 pub mod session;
+#[cfg(test)]
+mod shared_tests;
 pub mod sheet;
-pub mod speed;
 pub mod terms;
 mod transient;
-mod vec3;
-pub mod verify;
+pub mod vec3;
 
 pub use error::FemError;
 pub use mesh::{Mesh, Part};

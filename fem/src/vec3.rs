@@ -1,51 +1,51 @@
 //! Vectors of three numbers, written out so that the order of additions is fixed.
 
 /// A vector.
-pub(crate) type V3 = [f64; 3];
+pub type V3 = [f64; 3];
 
 /// x, y, z of node `i` of an array of stride [`crate::NODE`].
 #[inline(always)]
-pub(crate) fn node(q: &[[f64; 4]], i: usize) -> V3 {
+pub fn node(q: &[[f64; 4]], i: usize) -> V3 {
     let [x, y, z, _] = q[i];
     [x, y, z]
 }
 /// a + b
 #[inline(always)]
-pub(crate) fn add(a: V3, b: V3) -> V3 {
+pub fn add(a: V3, b: V3) -> V3 {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 /// a − b
 #[inline(always)]
-pub(crate) fn sub(a: V3, b: V3) -> V3 {
+pub fn sub(a: V3, b: V3) -> V3 {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 /// s a
 #[inline(always)]
-pub(crate) fn scale(a: V3, s: f64) -> V3 {
+pub fn scale(a: V3, s: f64) -> V3 {
     [a[0] * s, a[1] * s, a[2] * s]
 }
 /// a + s b
 #[inline(always)]
-pub(crate) fn along(a: V3, s: f64, b: V3) -> V3 {
+pub fn along(a: V3, s: f64, b: V3) -> V3 {
     [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]
 }
 /// a · b
 #[inline(always)]
-pub(crate) fn dot(a: V3, b: V3) -> f64 {
+pub fn dot(a: V3, b: V3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 /// a × b
 #[inline(always)]
-pub(crate) fn cross(a: V3, b: V3) -> V3 {
+pub fn cross(a: V3, b: V3) -> V3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 /// Length.
 #[inline(always)]
-pub(crate) fn norm(a: V3) -> f64 {
+pub fn norm(a: V3) -> f64 {
     dot(a, a).sqrt()
 }
 /// a over its length; `None` for a zero or not finite vector.
-pub(crate) fn unit(a: V3) -> Option<V3> {
+pub fn unit(a: V3) -> Option<V3> {
     let length = norm(a);
     (length > 0.0 && length.is_finite()).then(|| scale(a, 1.0 / length))
 }

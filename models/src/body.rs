@@ -54,7 +54,7 @@ pub struct BodyPressure {
 ///
 /// Validity: first loading (creases do not heal at once; the law returns on its own path), κR ≪ 1 or hinge, a section that
 /// stays round until it creases. A wall without creases follows Comer & Levy, linear up to half of the collapse moment:
-/// measured beams do not ([`exact::inflated_cantilever`](crate::exact::inflated_cantilever) has that curve). The law of
+/// measured beams do not (`verification::exact::inflated_cantilever` has that curve). The law of
 /// creases is derived here; limits: Comer & Levy 1963, Le van & Wielgosz 2005; a rate in proportion to what is left is
 /// Iwan's (1966) of distributed elements; that a load–deflection curve of kite beams is close to an exponential was measured
 /// by Breukels (2011), see `tests/laws/beams.rs`. Of four laws between these limits, tried on those

@@ -97,28 +97,10 @@ const CLOSE: f64 = 1e-9;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::mckibben::{max_contraction, tondu_lopez_force_n};
     use crate::{Loads, Model, shipped};
 
     fn robot(name: &str) -> Scenario {
         Scenario::parse(shipped(name).unwrap()).unwrap()
-    }
-
-    #[test]
-    fn a_muscle_without_effects_is_the_ideal_braid_at_any_angle() {
-        for degrees in [20.0_f64, 33.0, 45.0] {
-            let mut muscle = robot("fpam").bare();
-            muscle.actuator.shape.bias_rad = degrees.to_radians();
-            let radius = muscle.actuator.shape.width_m / std::f64::consts::PI;
-            let machine = Machine::new(&muscle).unwrap();
-            for e in [-0.02, 0.0, 0.05, 0.11] {
-                let exact = tondu_lopez_force_n(radius, degrees.to_radians(), e, 3e4, 1.0);
-                assert!((machine.pull_n(3e4, e).unwrap() / exact - 1.0).abs() < 1e-9, "{degrees} {e}");
-            }
-            assert!((machine.free_contraction(3e4) - max_contraction(degrees.to_radians())).abs() < 1e-9);
-            assert_eq!((machine.pull_n(0.0, 0.1), machine.free_contraction(0.0)), (Some(0.0), 0.0));
-            assert!(machine.pull_n(3e4, 0.7).is_none());
-        }
     }
 
     /// In a robot the line's tension is the machine's pull at the line's contraction, whatever acts in the actuator.

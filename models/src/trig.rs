@@ -1,4 +1,5 @@
-//! Sine and cosine together, inline: the fast twin of `f64::sin_cos` for the angles of this crate.
+//! Sine and cosine together, inline: the fast twin of `f64::sin_cos` for the angles of this crate; and differences of them
+//! that keep their digits at small angles.
 
 /// Angles up to which three-part reduction keeps full accuracy; larger ones go to the standard library.
 const REDUCED_UP_TO: f64 = 1e4;
@@ -40,9 +41,52 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     (if quadrant & 2 == 0 { a } else { -a }, if (quadrant + 1) & 2 == 0 { b } else { -b })
 }
 
+/// Below this argument the power series is used; its tenth term is then under 1e-20, and above it nothing cancels.
+const SERIES_BELOW: f64 = 1.0;
+
+/// `(x − sin x)/x³`, accurate to rounding for all x; 1/6 at x = 0.
+pub fn sine_deficit(x: f64) -> f64 {
+    if x.abs() > SERIES_BELOW {
+        return (x - x.sin()) / x.powi(3);
+    }
+    series(x, |_| 1.0)
+}
+
+/// `(sin x − x cos x)/x³`, accurate to rounding for all x; 1/3 at x = 0.
+pub fn sine_lag(x: f64) -> f64 {
+    if x.abs() > SERIES_BELOW {
+        return (x.sin() - x * x.cos()) / x.powi(3);
+    }
+    series(x, |k| 2.0 * k + 2.0)
+}
+
+/// `sin x / x`, 1 at x = 0.
+pub fn sinc(x: f64) -> f64 {
+    1.0 - x * x * sine_deficit(x)
+}
+
+/// `Σ weight(k) (−x²)^k / (2k+3)!`
+fn series(x: f64, weight: impl Fn(f64) -> f64) -> f64 {
+    let (mut term, mut sum) = (1.0 / 6.0, weight(0.0) / 6.0);
+    for k in 1..=10 {
+        let k = f64::from(k);
+        term *= -x * x / ((2.0 * k + 2.0) * (2.0 * k + 3.0));
+        sum += weight(k) * term;
+    }
+    sum
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn series_and_direct_forms_meet_at_the_switch() {
+        let x: f64 = SERIES_BELOW;
+        assert!((sine_deficit(x) - (x - x.sin())).abs() < 1e-15);
+        assert!((sine_lag(x) - (x.sin() - x * x.cos())).abs() < 1e-15);
+        assert!((sinc(0.7) - 0.7_f64.sin() / 0.7).abs() < 1e-15);
+    }
 
     #[test]
     fn the_fast_twin_agrees_with_the_standard_library() {

@@ -5,15 +5,12 @@ use super::{Context, Outcome};
 use crate::cost::{cpu_seconds, resident_bytes};
 use crate::failure::{Failure, MISSED};
 use crate::output::machine;
+use fem::Simulation;
 use fem::robot::RobotSettings;
-use fem::{Simulation, speed};
 use serde_json::json;
 use std::time::Instant;
-
-// Beside the benches that measure it, too.
-#[path = "../../benches/reference/mod.rs"]
-mod reference;
-use reference::Membrane;
+use verification::speed::plain_loop::Membrane;
+use verification::speed::workloads as speed;
 
 /// Repeats of every ratio: its median and range are told.
 const REPEATS: usize = 7;

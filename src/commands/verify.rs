@@ -4,8 +4,8 @@ use super::tables::table;
 use super::{Context, Outcome, verify_fem};
 use crate::cli::VerifyArgs;
 use crate::failure::{Failure, MISSED};
-use models::exact::{OracleRow, oracle_table};
 use serde_json::json;
+use verification::exact::{OracleRow, oracle_table};
 
 pub fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let rows = if args.only.is_empty() { oracle_table() } else { Vec::new() };

@@ -5,10 +5,10 @@ use super::tables::table;
 use crate::cli::VerifyArgs;
 use crate::cost::cpu_seconds;
 use crate::failure::Failure;
-use fem::verify::{Against, CHECKS, Check, Figure, Line, Outcome};
 use ibr::pages::Files;
 use report::{LineSeries, LineStyle, Lines};
 use serde_json::{Value, json};
+use verification::checks::{Against, CHECKS, Check, Figure, Line, Outcome};
 
 /// What the checks of the engine came to.
 #[derive(Default)]

@@ -2,8 +2,8 @@
 
 use crate::alone;
 use crate::support::Folder;
-use fem::verify::bias::{SHEAR, STRIP, THICKNESS_M, pull};
 use models::fabrics::Curve;
+use verification::checks::bias::{SHEAR, STRIP, THICKNESS_M, pull};
 
 #[test]
 fn the_shear_curve_of_the_engine_comes_back_from_its_bias_extension() {

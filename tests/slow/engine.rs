@@ -1,9 +1,9 @@
 //! Every check of the finite element engine against its known answer.
 
 use crate::alone;
-use fem::verify::{CHECKS, Check};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use verification::checks::{CHECKS, Check};
 
 #[test]
 fn the_engine_meets_every_known_answer() {

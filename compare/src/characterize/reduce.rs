@@ -1,8 +1,7 @@
 //! Over specimens: the numbers with their scatter, the mean curves, the shear curve.
 
 use data::{Coupon, DataError, Direction, Fault, Provenance};
-use models::exact::coupon::shear_modulus_from_bias_pa;
-use models::fabrics::{Curve, Fabric, Woven, Yarn, specimen as fit};
+use models::fabrics::{Curve, Fabric, Woven, Yarn, shear_modulus, specimen as fit};
 
 use super::scatter::{Quantity, Scatter};
 use super::specimen::{self, Specimen, Strip};
@@ -344,8 +343,7 @@ fn link(found: &mut Characterized) {
     let all = [Direction::Bias, Direction::Warp, Direction::Fill].map(|d| found.modulus(d));
     let [Some(e45), Some(e0), Some(e90)] = all else { return };
     let nu12 = found.nu12();
-    let g = shear_modulus_from_bias_pa(e45.mean, e0.mean, e90.mean, nu12);
-    if !(g > 0.0 && g.is_finite()) {
+    let Ok(g) = shear_modulus(e0.mean, e90.mean, e45.mean, nu12) else {
         found.warnings.push(format!(
             "E45 = {:.4} MPa is too large for E0 = {:.4} and E90 = {:.4} MPa (at most {:.4}): no shear modulus follows; are \
              the directions right?",
@@ -355,7 +353,7 @@ fn link(found: &mut Characterized) {
             4e-6 / (1.0 / e0.mean + 1.0 / e90.mean)
         ));
         return;
-    }
+    };
     let slope = |e: Scatter, factor: f64| (e, factor * (g / e.mean).powi(2));
     let scatter = Scatter::carried(g, &[slope(e45, 4.0), slope(e0, -1.0), slope(e90, -1.0)]);
     let known = match found.quantity("nu12") {

@@ -5,7 +5,6 @@ use super::write::{fabric_toml, measured_toml};
 use super::*;
 use crate::CompareError;
 use data::{Coupon, CouponDefaults, Direction, parse_coupons};
-use models::exact::coupon;
 use models::fabrics::{BiasExtension, Curve};
 
 fn read(text: &str, defaults: &CouponDefaults) -> Vec<Coupon> {
@@ -91,14 +90,12 @@ fn the_curves_of_a_made_up_fabric_come_back_within_its_scatter() {
 fn without_noise_the_shear_curve_and_its_force_come_back() {
     let truth = Curve::table(&SHEAR).unwrap();
     let law = |angle: f64| truth.value(angle) * THICKNESS_M / angle.cos();
-    let strip = coupon::Bias { length_m: STRIP.length_m, width_m: STRIP.width_m };
     let mut text =
         "# direction_deg: 45\n# width_mm: 20\n# length_mm: 250\n# thickness_mm: 0.05\ndisplacement_mm,force_n\n"
             .to_string();
     for i in 0..=180 {
-        let angle = 0.005 * f64::from(i);
-        let d = 1e3 * coupon::lengthening_m(&strip, angle);
-        text.push_str(&format!("{d:.9},{:.9}\n", coupon::bias_force_n(&strip, angle, law)));
+        let [lengthening_m, force_n] = STRIP.pulled(0.005 * f64::from(i), law, None);
+        text.push_str(&format!("{:.9},{force_n:.9}\n", 1e3 * lengthening_m));
     }
     let found = characterize(&read(&text, &CouponDefaults::default()), &Settings::default()).unwrap();
     let moment = found.shear.unwrap().moment_pa.unwrap();

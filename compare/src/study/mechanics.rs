@@ -6,6 +6,7 @@
 use crate::known::Known;
 use data::{Published, PublishedFabric};
 use models::Scenario;
+use models::fabrics::shear_modulus;
 use models::scenario::ActuatorChoice;
 
 /// An effect to add, with the origin of its value (SI).
@@ -99,8 +100,8 @@ fn muscle(fabric: &PublishedFabric) -> Vec<Addition> {
             why: "glued over its whole width to a wall of the same fabric",
         },
     ];
-    if let Some(e45_pa) = fabric.e45_pa {
-        let shear_pa = models::exact::fpam::shear_modulus_from_bias_pa(e45_pa, fabric.e0_pa, fabric.e90_pa);
+    let shear_pa = fabric.e45_pa.map(|e45_pa| shear_modulus(fabric.e0_pa, fabric.e90_pa, e45_pa, 0.0));
+    if let Some(Ok(shear_pa)) = shear_pa {
         let why = "shear modulus from the published E0, E45, E90 and the published thickness";
         list.push(predicted("shear_stiffness", shear_pa * fabric.thickness_m, why));
     }

@@ -4,7 +4,6 @@ use super::*;
 use crate::evaluate::EvaluateOptions;
 use crate::study::published::{shipped_scenario, textbook_scenario};
 use data::{About, AboutRun, Dataset, Direct, Provenance};
-use models::exact::hinge;
 
 fn quiet(runs: usize) -> Generator {
     Generator {
@@ -190,17 +189,9 @@ fn protocols_are_read_or_refused_with_an_example() {
 }
 
 #[test]
-fn the_published_ladders_start_at_the_hinge_model() {
+fn the_published_ladders_go_effect_by_effect() {
     let ladders = published_ladders().unwrap();
-    let pouch = models::exact::pouch::Pouch { length_m: 0.06, width_m: 0.06 };
-    let unit = |end_factor, arm| hinge::Unit { pouch, body_radius_m: 0.04, end_factor, arm };
-    let height = |unit: hinge::Unit| {
-        let theta = hinge::equilibrium_theta(&unit, 30e3, 2e3, hinge::Lever::VirtualWork);
-        let total_angle = 6.0 * hinge::fold_angle(&unit, theta);
-        hinge::axis_point_m(&hinge::BentBody { body_radius_m: 0.04, length_m: 0.36, total_angle }, 0.33)[1]
-    };
     let epam = ladders.iter().find(|l| l.published.kind == "epam").unwrap();
-    assert!((epam.rungs[0].y_m - height(unit(1.0, hinge::Arm::Embedded))).abs() < 1e-9);
     let names =
         ["weld_width", "chord_arm", "displaced_gas", "sealed_sides", "fold_energy", "crimped_sides", "fabric_stretch"];
     let labels: Vec<String> = names.iter().map(|name| format!("+ {name}")).collect();
@@ -208,8 +199,6 @@ fn the_published_ladders_start_at_the_hinge_model() {
     // A wider weld bends less, none is the bare model.
     let [least, most] = epam.rungs[1].range_m.unwrap();
     assert!(least < epam.rungs[1].y_m && (most - epam.rungs[0].y_m).abs() < 1e-12, "{least} {most}");
-    let spam = ladders.iter().find(|l| l.published.kind == "spam").unwrap();
-    assert!((spam.rungs[1].y_m - height(unit(1.0, hinge::Arm::External))).abs() < 1e-9);
 }
 
 #[test]

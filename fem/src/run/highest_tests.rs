@@ -67,7 +67,7 @@ fn the_step_is_stable_and_a_little_more_is_not() {
         warp_rad: 0.0,
     });
     let wrinkling = WrinklingFilm { film: FILM, share: 0.05 };
-    let tied = crate::verify::bodies::tied().unwrap();
+    let tied = crate::shared_tests::tied().unwrap();
     for (name, problem, gain) in [
         ("tube", problem(tube.unwrap(), Arc::new(FILM)), 1.03),
         ("sphere", problem(generate::sphere(0.05, 8).unwrap(), Arc::new(FILM)), 1.03),

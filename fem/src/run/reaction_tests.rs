@@ -95,7 +95,7 @@ fn at_rest_supports_balance_force_and_weight_and_their_moments() {
 fn in_motion_reactions_are_the_rate_of_momentum() {
     for (tied, selective_mass) in [(false, false), (true, false), (false, true), (true, true)] {
         let mesh = match tied {
-            true => crate::verify::bodies::tied().unwrap(),
+            true => crate::shared_tests::tied().unwrap(),
             false => generate::plate(0.1, 0.02, 20, 4, None).unwrap(),
         };
         let mut problem = problem(mesh, vec![]);

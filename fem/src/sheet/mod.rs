@@ -363,11 +363,11 @@ fn over_patches<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::speed;
+    use crate::case::{Case, shipped_case};
 
     /// Forces and energies of a shaken pillow on the given vector instructions.
     fn bits_on(arch: pulp::Arch) -> (Vec<u64>, Vec<Row>) {
-        let problem = speed::pillow(24, true).unwrap();
+        let problem = Case::parse(shipped_case("pillow").unwrap(), &mut |_| unreachable!()).unwrap().problem;
         let order = order::Order::of(&problem.mesh);
         let mesh = order::renumber(&problem.mesh, &order);
         let mut sheet = Sheet::new(&mesh, &order, &problem.sections, &problem.chambers, &problem.settings).unwrap();

@@ -195,7 +195,7 @@ impl Side {
 }
 
 /// k of one side alone \[N\]: bending stiffness D \[N m\], tension T across the edge \[N/m\], length h of the element \[m\].
-pub(crate) fn edge_stiffness_n(bending_nm: f64, tension_n_m: f64, height_m: f64) -> f64 {
+pub fn edge_stiffness_n(bending_nm: f64, tension_n_m: f64, height_m: f64) -> f64 {
     let r = 0.5 * height_m * (tension_n_m / bending_nm).sqrt();
     let root = (1.0 + r * r).sqrt();
     2.0 * bending_nm / height_m * (r + root) / (1.0 + r / (1.0 + root))

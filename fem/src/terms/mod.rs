@@ -8,8 +8,7 @@ mod obstacles;
 mod rest_curvature;
 
 pub(crate) use coulomb::slide;
-pub use folds::Folds;
-pub(crate) use folds::edge_stiffness_n;
+pub use folds::{Folds, edge_stiffness_n};
 pub use gravity::Gravity;
 pub use nodal_forces::NodalForces;
 pub use obstacles::Obstacles;

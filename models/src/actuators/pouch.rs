@@ -66,6 +66,16 @@ fn stroke_series(shape: &ActuatorShape, theta: f64) -> Stroke {
     }
 }
 
+/// Half angle in \[0, π\] of a lens that has contracted by `contraction`: `sinθ/θ = 1 − ε`, by bisection to the last digit.
+pub fn half_angle(contraction: f64) -> f64 {
+    let (mut flat, mut round) = (0.0, PI);
+    for _ in 0..64 {
+        let middle = 0.5 * (flat + round);
+        *(if middle.sin() / middle > 1.0 - contraction { &mut flat } else { &mut round }) = middle;
+    }
+    round
+}
+
 /// Root of `cosθ − θ m` by Newton, m the need at θ.
 pub(super) fn guess(shape: &ActuatorShape, demand: &Demand) -> (f64, f64) {
     let (m0, m1) = (demand.constant, demand.per_contraction);

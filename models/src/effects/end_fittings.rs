@@ -12,12 +12,11 @@
 //!
 //! A **prior**: published of another muscle, the 10 mm Festo one. Its author's fit, made without dimension by its diameter;
 //! the single force printed at L/2r₀ = 5.4 (103 N) is half of what that fit says (220 N), so there it may claim too much. **Validity**: L/2r₀ from 4 to 60.
-//! Reference: Bolen 2026 (Actuators), [`crate::exact::mckibben::BOLEN_10_MM`]; that it scales with the diameter is assumed.
+//! Reference: Bolen 2026 (Actuators); that it scales with the diameter is assumed.
 
 use super::{Effect, Group, Needs, Parameter, SHARE, Stage};
 use crate::actuators::Family;
 use crate::assembly::Assembly;
-use crate::exact::mckibben::{BOLEN_10_MM, bolen_full_force_n};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 pub(super) const ENTRY: Effect = Effect {
@@ -43,15 +42,16 @@ fn add(values: &[f64], assembly: &mut Assembly) {
     }
 }
 
-/// Diameter of the muscle of that fit \[m\].
+/// Diameter of the muscle of that fit \[m\], growth of its force with length \[1/m\], length lost at the ends \[m\].
 const FESTO_M: f64 = 0.01;
+const GROWTH_PER_M: f64 = 19.03;
+const LOST_M: f64 = 0.0075;
 /// What a stub is left with.
 const LEAST: f64 = 0.05;
 
 /// Force over that of a long muscle, by length over diameter.
 fn share_of_force(slenderness: f64) -> f64 {
-    let long_n = FRAC_PI_2 * BOLEN_10_MM.force_scale_n;
-    (bolen_full_force_n(&BOLEN_10_MM, slenderness * FESTO_M) / long_n).max(LEAST)
+    ((GROWTH_PER_M * (slenderness * FESTO_M - LOST_M)).atan() / FRAC_PI_2).max(LEAST)
 }
 
 #[cfg(test)]

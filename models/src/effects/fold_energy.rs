@@ -17,7 +17,7 @@
 //!
 //! Includes the work of T on the way that the round of the fold cuts short; the tension follows the pressure. **Validity**: folds
 //! farther apart than √(D/T), a fraction of a millimetre at high pressures; stiff welds; 0 < θ < π. Elastica: Love 1927, §262, in
-//! `exact::fold`; the sum derived here.
+//! `verification::exact::fold`; the sum derived here.
 
 use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;
@@ -136,8 +136,12 @@ impl Term for FoldEnergy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::fold::energy_j_m;
     use std::f64::consts::FRAC_PI_2;
+
+    /// Energy per width of a sheet that leaves a clamp at an angle from its pull.
+    fn energy_j_m(stiffness_nm: f64, pull_n_m: f64, angle: f64) -> f64 {
+        4.0 * (stiffness_nm * pull_n_m).sqrt() * (1.0 - (0.5 * angle).cos())
+    }
 
     #[test]
     fn it_is_the_elastica_at_every_weld_and_side() {

@@ -22,7 +22,7 @@
 use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
 use crate::assembly::Assembly;
 use crate::body::{BODY_PRESSURE, BodyLaw};
-use crate::exact::beam::{gamma0_from_curvature_ratio, moment_ratio};
+use crate::comer_levy::{gamma0_from_curvature_ratio, moment_ratio};
 use crate::term::{LedgerLine, Pose, Term};
 use std::f64::consts::PI;
 

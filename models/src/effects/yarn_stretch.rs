@@ -14,7 +14,7 @@
 //!
 //! E is the potential at given pressure: the wider tube takes P Δv from the supply and stores half of it in its yarns, hence
 //! the sign. (96.5 + 120)/2 MPa × 50 µm and ν = 0.2 give 1.48e-4 m/N; [`crate::muscle`] has the derivation. **Validity**: yarns
-//! linear in Green strain, equal in both families (unequal ones twist: [`crate::exact::tube`]). Derived here.
+//! linear in Green strain, equal in both families (unequal ones twist: `verification::exact::tube`). Derived here.
 
 use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
 use crate::actuators::Family;

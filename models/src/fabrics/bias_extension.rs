@@ -35,7 +35,6 @@
 use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
 use super::Fabric;
-use crate::exact::coupon;
 
 /// Iterations that more than suffice: the yarns' stretch is a contraction of its own small size.
 const MOST: usize = 60;
@@ -134,8 +133,9 @@ impl BiasExtension {
 
     /// The way back: displacement \[m\] and force \[N\] of this strip at a shear angle, for a law F_sh(γ) \[N/m\].
     pub fn pulled(&self, angle: f64, law_n_per_m: impl Fn(f64) -> f64, yarns: Option<&dyn Fabric>) -> [f64; 2] {
-        let strip = coupon::Bias { length_m: self.length_m, width_m: self.width_m };
-        let stiff_n = coupon::bias_force_n(&strip, angle, law_n_per_m);
+        let (h, w, half) = (self.length_m, self.width_m, 0.5 * angle);
+        let middle = (2.0 * h - 3.0 * w) * law_n_per_m(angle) * angle.cos();
+        let stiff_n = (middle + w * law_n_per_m(half) * half.cos()) / ((h / w - 1.0) * (half.cos() - half.sin()));
         let Some(yarns) = yarns else { return [self.displacement_m(angle), stiff_n] };
         let (mut pull_n, mut stretch_m) = (stiff_n, 0.0);
         for _ in 0..MOST {

@@ -30,7 +30,7 @@ pub use curve::Curve;
 pub use laminate::{Laminate, Mixed, Ply};
 pub use materials::{Known, MATERIALS, Material, material};
 pub use neo_hookean::NeoHookean;
-pub use orthotropic::Orthotropic;
+pub use orthotropic::{Orthotropic, shear_modulus};
 pub use pull::Pull;
 pub use recipe::{CurveInput, Law, Need, Parameter, Recipe};
 pub use tension_field::TensionField;

@@ -167,7 +167,7 @@ impl Fabric for Orthotropic {
 }
 
 /// G \[Pa\] from the moduli along warp, fill and at 45°: 1/G = 4/E₄₅ − 1/E₁ − 1/E₂ + 2ν₁₂/E₁.
-pub(super) fn shear_modulus(e1_pa: f64, e2_pa: f64, e45_pa: f64, nu12: f64) -> Result<f64, String> {
+pub fn shear_modulus(e1_pa: f64, e2_pa: f64, e45_pa: f64, nu12: f64) -> Result<f64, String> {
     let rest = 1.0 / e1_pa + 1.0 / e2_pa - 2.0 * nu12 / e1_pa;
     let compliance = 4.0 / e45_pa - rest;
     if compliance.is_finite() && compliance > 0.0 {

@@ -65,20 +65,8 @@ impl Pull {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Curve, Orthotropic, Woven, Yarn};
+    use super::super::{Curve, Woven, Yarn};
     use super::*;
-    use crate::exact::coupon::{Sheet, modulus_pa};
-
-    #[test]
-    fn a_linear_sheet_has_the_closed_modulus_at_every_angle() {
-        let sheet = Sheet { warp_pa: 96.5e6, fill_pa: 120e6, poisson: 0.3, shear_pa: 1.032e6 };
-        let law = Arc::new(Orthotropic::new(96.5e6, 120e6, 0.3, 1.032e6, 5e-5));
-        for degrees in [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0_f64] {
-            let angle = degrees.to_radians();
-            let found = Pull::new(law.clone(), angle).unwrap().stress_pa(1e-7).unwrap() / 1e-7;
-            assert!((found / modulus_pa(&sheet, angle) - 1.0).abs() < 1e-5, "{degrees}: {found}");
-        }
-    }
 
     /// Work done by the pull is the energy stored, whatever the angle: ∫P dε = W/t.
     #[test]

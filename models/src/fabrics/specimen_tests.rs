@@ -2,7 +2,6 @@
 
 use super::super::{Fabric, NeoHookean};
 use super::*;
-use crate::exact::coupon;
 
 fn rows(n: usize, end: f64, y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
     (0..=n).map(|i| end * i as f64 / n as f64).map(|x| [x, y(x)]).collect()
@@ -37,19 +36,6 @@ fn the_slope_of_a_line_is_found_whatever_its_intercept() {
     assert!((slope(&rows(10, 0.01, |x| 3.0 + 96.5 * x)).unwrap() - 96.5).abs() < 1e-9);
     assert_eq!(slope(&[[0.1, 1.0]]), None);
     assert_eq!(slope(&[]), None);
-}
-
-#[test]
-fn grips_stiffen_a_bias_specimen_by_what_the_zones_of_the_closed_form_give() {
-    for (length_m, width_m) in [(0.25, 0.02), (0.08, 0.04)] {
-        let (test, shear_pa) = (coupon::Bias { length_m, width_m }, 1e6);
-        let angle = 1e-5;
-        let force = coupon::bias_force_n(&test, angle, |x| shear_pa * x);
-        let strain = coupon::lengthening_m(&test, angle) / length_m;
-        let strip = BiasExtension { length_m, width_m, thickness_m: 1.0 };
-        let found = force / width_m / strain / (4.0 * shear_pa);
-        assert!((found / bias_grip_factor(&strip) - 1.0).abs() < 1e-4, "{found}");
-    }
 }
 
 #[test]

@@ -6,7 +6,6 @@ mod base;
 mod batch;
 mod beams;
 mod catalogue;
-mod closed_forms;
 mod forces;
 mod full;
 mod history;

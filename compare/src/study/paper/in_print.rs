@@ -2,9 +2,9 @@
 
 use super::facts::{Case, Check, Found, Verdict};
 use crate::study::published::shipped_scenario;
-use models::Scenario;
 use models::actuators::pattern::Pattern;
-use models::exact::fpam::{Fpam, contraction, free_alpha, shear_modulus_from_bias_pa};
+use models::fabrics::shear_modulus;
+use models::{Machine, Scenario};
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
 /// Mass per volume of fabrics that no paper prints \[kg/m³\]; assumed.
@@ -158,15 +158,17 @@ fn threshold(case: &Case) -> Found {
     let Some((fabric, bias_pa)) = fabric.and_then(|f| Some((f, f.e45_pa?))) else {
         return unread("Table I has no E45");
     };
-    let shear_pa = shear_modulus_from_bias_pa(bias_pa, fabric.e0_pa, fabric.e90_pa);
-    let muscle = Fpam {
-        flat_width_m: robot.width_m,
-        rest_length_m: robot.actuator_length_m,
-        shear_stiffness_n_per_m: shear_pa * fabric.thickness_m,
+    let (Ok(shear_pa), Ok(shipped)) =
+        (shear_modulus(fabric.e0_pa, fabric.e90_pa, bias_pa, 0.0), shipped_scenario("fpam"))
+    else {
+        return unread("no shear modulus follows from Table I");
     };
-    let alpha = free_alpha(&muscle, pa);
-    let shortens = 100.0 * contraction(alpha);
-    let degrees = (2.0 * alpha - FRAC_PI_2).to_degrees();
+    let mut muscle = shipped.bare().with_effect("shear_stiffness", &[shear_pa * fabric.thickness_m]);
+    (muscle.actuator.shape.width_m, muscle.actuator.shape.length_m) = (robot.width_m, robot.actuator_length_m);
+    let free = Machine::new(&muscle).map_or(f64::NAN, |machine| machine.free_contraction(pa));
+    let shortens = 100.0 * free;
+    // Yarns at 45° at rest: ε = 1 − √2 cos α.
+    let degrees = (2.0 * ((1.0 - free) / SQRT_2).acos() - FRAC_PI_2).to_degrees();
     let limit = (FRAC_PI_2 - 2.0 * ((1.0 + 0.01 * case.number(0)) / SQRT_2).acos()).to_degrees();
     let found = format!(
         "closed form, no ends: contracts by {shortens:.1} %, yarns turn by {degrees:.0}° of the {limit:.0}° at 24 % strain"

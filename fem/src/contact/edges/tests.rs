@@ -7,8 +7,8 @@ use super::Edges;
 use super::hold::Step;
 use crate::contact::tests::rig::{Noise, masses, sheet};
 use crate::problem::{self, Ply, Section};
+use crate::shared_tests::{piercings, pouch};
 use crate::vec3::{add, cross, node};
-use crate::verify::folded::{piercings, pouch};
 use crate::{Mesh, Problem, Simulation};
 use crate::{Tick, Transient};
 

@@ -1,0 +1,217 @@
+//! Problems with known answers: what `ibr verify` runs and prints, and what the slow tests assert.
+//!
+//! A check builds a [`fem::Problem`], runs it with the real engine and compares with a closed form
+//! (`verification::exact`), a conservation law or a published band. To add one: one new file here and one line in [`CHECKS`].
+
+mod apart;
+mod balloon;
+pub mod bias;
+mod bias_tube;
+pub(crate) mod bodies;
+mod cantilever;
+mod coupons;
+mod drops;
+mod energy;
+mod fold;
+pub(crate) mod folded;
+mod gradient;
+mod inflated;
+mod long_pouch;
+mod patch;
+mod pillow;
+mod pulled;
+mod ring;
+mod robots;
+mod setup;
+mod slope;
+mod strip;
+mod tube;
+
+use fem::FemError;
+
+/// A problem with a known answer.
+#[derive(Debug, Clone, Copy)]
+pub struct Check {
+    /// Short name, as in `ibr verify --only NAME`.
+    pub name: &'static str,
+    /// One plain sentence: what is simulated and what it is held against.
+    pub sentence: &'static str,
+    /// Where the known answer comes from.
+    pub source: &'static str,
+    /// True if it takes more than a few CPU-seconds; `ibr verify` runs it only when asked for all.
+    pub slow: bool,
+    /// Runs it.
+    pub run: fn() -> Result<Outcome, FemError>,
+}
+
+/// What a check found.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Outcome {
+    /// Numbers against known ones.
+    pub lines: Vec<Line>,
+    /// Curves worth a picture; may be empty.
+    pub figure: Option<Figure>,
+}
+
+/// One number against a known one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    /// What is compared, with unit.
+    pub quantity: String,
+    /// What the engine gave.
+    pub measured: f64,
+    /// What it is held against.
+    pub against: Against,
+}
+
+/// What a number is held against.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Against {
+    /// A known value and the largest relative error that passes.
+    Value {
+        /// Known value.
+        exact: f64,
+        /// Largest relative error.
+        tolerance: f64,
+    },
+    /// Must not exceed this (residuals, rounding).
+    AtMost(f64),
+    /// Must reach this (rates of convergence).
+    AtLeast(f64),
+    /// A published band.
+    Between(f64, f64),
+}
+
+/// A figure: curves over common axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// Title.
+    pub title: String,
+    /// Horizontal axis with unit.
+    pub x: String,
+    /// Vertical axis with unit.
+    pub y: String,
+    /// Curves.
+    pub curves: Vec<Curve>,
+}
+
+/// A curve of a figure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Legend.
+    pub label: String,
+    /// Points.
+    pub points: Vec<[f64; 2]>,
+    /// True for the known answer (drawn as a line), false for the engine (drawn as marks).
+    pub exact: bool,
+}
+
+/// All checks, quick ones first.
+pub const CHECKS: &[Check] = &[
+    patch::UNIFORM,
+    patch::BENDING,
+    patch::TWO,
+    patch::RIGID,
+    gradient::CHECK,
+    energy::CHECK,
+    strip::SMALL,
+    strip::LARGE,
+    strip::ROLL,
+    fold::STRIP,
+    coupons::LINEAR,
+    coupons::RUBBER,
+    coupons::WOVEN,
+    drops::BALL_ON_FLOOR,
+    drops::BALL_ON_SHEET,
+    drops::CROSSED,
+    folded::CHECK,
+    slope::CHECK,
+    bodies::RIGID,
+    bodies::TIES,
+    bodies::SCALED,
+    bodies::SEALED,
+    tube::CHECK,
+    ring::CHECK,
+    long_pouch::CHECK,
+    cantilever::SLOPE,
+    bias_tube::CHECK,
+    balloon::CHECK,
+    fold::SEALED,
+    pillow::CHECK,
+    cantilever::WRINKLING,
+    bias::CHECK,
+    robots::CHECK,
+    robots::FOLDS,
+];
+
+impl Line {
+    /// A number against a known value.
+    pub fn value(quantity: &str, measured: f64, exact: f64, tolerance: f64) -> Line {
+        Line { quantity: quantity.to_owned(), measured, against: Against::Value { exact, tolerance } }
+    }
+
+    /// A number that must not exceed a limit.
+    pub fn at_most(quantity: &str, measured: f64, limit: f64) -> Line {
+        Line { quantity: quantity.to_owned(), measured, against: Against::AtMost(limit) }
+    }
+
+    /// A number that must reach a limit.
+    pub fn at_least(quantity: &str, measured: f64, limit: f64) -> Line {
+        Line { quantity: quantity.to_owned(), measured, against: Against::AtLeast(limit) }
+    }
+
+    /// A number that must lie in a band.
+    pub fn between(quantity: &str, measured: f64, low: f64, high: f64) -> Line {
+        Line { quantity: quantity.to_owned(), measured, against: Against::Between(low, high) }
+    }
+
+    /// Relative error, where there is a known value other than 0.
+    pub fn error(&self) -> Option<f64> {
+        match self.against {
+            Against::Value { exact, .. } if exact != 0.0 => Some(self.measured / exact - 1.0),
+            _ => None,
+        }
+    }
+
+    /// True if the number is good enough. A number that is not a number never is.
+    pub fn passes(&self) -> bool {
+        match self.against {
+            Against::Value { exact, tolerance } => (self.measured - exact).abs() <= tolerance * exact.abs(),
+            Against::AtMost(limit) => self.measured <= limit,
+            Against::AtLeast(limit) => self.measured >= limit,
+            Against::Between(low, high) => (low..=high).contains(&self.measured),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn not_a_number_passes_nothing() {
+        let lines = [
+            Line::value("", f64::NAN, 1.0, 0.1),
+            Line::at_most("", f64::NAN, 1.0),
+            Line::at_least("", f64::NAN, 1.0),
+            Line::between("", f64::NAN, 0.0, 1.0),
+        ];
+        assert!(lines.iter().all(|line| !line.passes()));
+    }
+
+    #[test]
+    fn the_checks_that_take_milliseconds_pass() {
+        for check in [patch::UNIFORM, patch::BENDING, patch::TWO, patch::RIGID, gradient::CHECK] {
+            for line in (check.run)().unwrap().lines {
+                assert!(line.passes(), "{}: {line:?}", check.name);
+            }
+        }
+    }
+
+    #[test]
+    fn names_are_unique() {
+        for (i, check) in CHECKS.iter().enumerate() {
+            assert!(CHECKS[..i].iter().all(|other| other.name != check.name), "{}", check.name);
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! A block on a slope: Coulomb friction against the closed form.
+
+use std::sync::Arc;
+
+use crate::exact::sliding;
+use models::fabrics::Orthotropic;
+
+use super::pulled::membrane;
+use super::{Check, Line, Outcome};
+use fem::mesh::generate;
+use fem::problem::{Amplitude, Gravity, Obstacle, ObstacleShape, Rigid};
+use fem::{FemError, Problem, Simulation};
+
+pub(super) const CHECK: Check = Check {
+    name: "slope",
+    sentence: "A plate on a slope sticks below the friction angle and slides with g (sin a - mu cos a) above it, rigid or flexible.",
+    source: "Coulomb friction: verification::exact::sliding",
+    slow: false,
+    run,
+};
+
+/// Slope \[rad\].
+const SLOPE: f64 = std::f64::consts::FRAC_PI_6;
+const GRAVITY: f64 = 9.81;
+/// Time in which gravity comes up, so that the plate does not bounce on its penalty springs \[s\].
+const RISE_S: f64 = 0.02;
+const END_S: f64 = 0.12;
+
+fn run() -> Result<Outcome, FemError> {
+    let mut lines = Vec::new();
+    for (kind, rigid) in [("rigid", true), ("flexible", false)] {
+        // tan 30° = 0.577: the plate sticks at 0.6 and slides at 0.3.
+        let (mut stuck, start) = (plate(0.6, rigid)?, along_m(&plate(0.6, rigid)?));
+        stuck.advance_until(END_S, &mut |_| true)?;
+        let free_m = 0.5 * GRAVITY * SLOPE.sin() * END_S * END_S;
+        lines.push(Line::at_most(
+            &format!("{kind}, sticking: way over free way"),
+            (along_m(&stuck) - start) / free_m,
+            1e-4,
+        ));
+        let mut run = plate(0.3, rigid)?;
+        let speed = |run: &Simulation| along(&run.velocities());
+        run.advance_until(RISE_S, &mut |_| true)?;
+        let (before, from, lost) = (speed(&run), along_m(&run), lost_j(&run));
+        let rise_s = run.time_s();
+        run.advance_until(END_S, &mut |_| true)?;
+        let found = (speed(&run) - before) / (run.time_s() - rise_s);
+        let exact = sliding::acceleration_m_per_s2(GRAVITY, SLOPE, 0.3);
+        lines.push(Line::value(&format!("{kind}, sliding: acceleration [m/s²]"), found, exact, 0.01));
+        let way_m = along_m(&run) - from;
+        // Plate of 40 mm by 40 mm by 1 mm.
+        let work_mj = 1e3 * 1.6e-3 * GRAVITY * 0.3 * SLOPE.cos() * way_m;
+        lines.push(Line::value(&format!("{kind}, lost to friction [mJ]"), 1e3 * (lost_j(&run) - lost), work_mj, 0.01));
+        lines.push(Line::at_most("energy residual over external work", run.ledger().residual_share(), 0.01));
+    }
+    Ok(Outcome { lines, figure: None })
+}
+
+/// Plate of 1.6 g lying on the slope, which falls towards +x.
+fn plate(friction: f64, rigid: bool) -> Result<Simulation, FemError> {
+    let (sin, cos) = SLOPE.sin_cos();
+    let mut mesh = generate::plate(0.04, 0.04, 4, 4, None)?;
+    mesh.points.iter_mut().for_each(|p| *p = [cos * p[0], p[1], -sin * p[0]]);
+    mesh.sets.insert("all".into(), (0..mesh.points.len() as u32).collect());
+    let mut section = membrane(Arc::new(Orthotropic::isotropic(1e7, 0.3, 1e-3)), 0.0);
+    section.bending_factor = 1.0;
+    let mut problem = Problem::new("slope", mesh, vec![section], vec![]);
+    let amplitude = Amplitude::Smooth(vec![(0.0, 0.0), (RISE_S, 1.0)]);
+    problem.gravity = Some(Gravity { g_m_s2: [0.0, 0.0, -GRAVITY], amplitude });
+    let shape = ObstacleShape::Plane { point: [0.0; 3], normal: [sin, 0.0, cos] };
+    problem.obstacles = vec![Obstacle { shape, friction }];
+    if rigid {
+        problem.rigid = vec![Rigid { set: "all".into() }];
+    }
+    Simulation::new(&problem)
+}
+
+/// Mean component down the slope.
+fn along(values: &[[f64; 3]]) -> f64 {
+    let (sin, cos) = SLOPE.sin_cos();
+    values.iter().map(|v| cos * v[0] - sin * v[2]).sum::<f64>() / values.len() as f64
+}
+
+fn along_m(run: &Simulation) -> f64 {
+    along(&run.positions())
+}
+
+fn lost_j(run: &Simulation) -> f64 {
+    run.ledger().rows.iter().filter(|r| r.name == "obstacle friction").map(|r| r.energy_j).sum()
+}

@@ -1,0 +1,84 @@
+//! Homogeneous states of an incompressible neo-Hookean sheet, and the spherical balloon.
+//!
+//! ```text
+//! uniaxial    P = 2 C₁₀t (λ − λ⁻²)        equal biaxial    P = 2 C₁₀t (λ − λ⁻⁵)
+//! width kept  P = 2 C₁₀t (λ − λ⁻³)        sphere           p = 4 C₁₀t/R (λ⁻¹ − λ⁻⁷), greatest at λ = 7^(1/6)
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | P | tension per unstressed width (force over original width) | N/m |
+//! | λ | stretch along the pull | – |
+//! | C₁₀ t | neo-Hookean constant times thickness, E t/6 | N/m |
+//! | R, p | unstressed radius, gauge pressure | m, Pa |
+//!
+//! Standard (Treloar, The Physics of Rubber Elasticity, recalled); each is the slope of W at the stretch of the free sides.
+
+/// How the sides of the sheet are held.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sides {
+    /// Free to shrink.
+    Free,
+    /// Kept at their length (pure shear).
+    Kept,
+    /// Pulled equally.
+    Pulled,
+}
+
+/// Tension per unstressed width at a stretch \[N/m\].
+pub fn tension_n_per_m(c10_t: f64, stretch: f64, sides: Sides) -> f64 {
+    let power = match sides {
+        Sides::Free => -2,
+        Sides::Kept => -3,
+        Sides::Pulled => -5,
+    };
+    2.0 * c10_t * (stretch - stretch.powi(power))
+}
+
+/// Pressure in a spherical balloon at a stretch \[Pa\].
+pub fn sphere_pressure_pa(c10_t: f64, radius_m: f64, stretch: f64) -> f64 {
+    4.0 * c10_t / radius_m * (1.0 / stretch - stretch.powi(-7))
+}
+
+/// Stretch at which the sphere's pressure is greatest, 7^(1/6).
+pub fn sphere_limit_stretch() -> f64 {
+    7.0_f64.powf(1.0 / 6.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::oracles;
+    use super::*;
+    use models::fabrics::{Fabric, NeoHookean};
+
+    #[test]
+    fn membrane_oracles_are_reproduced_to_their_last_digit() {
+        oracles::assert_all_agree(&oracles::membrane::rows());
+    }
+
+    #[test]
+    fn tensions_are_those_of_the_fabric_law() {
+        let (c10_pa, thickness_m) = (35e6, 2e-4);
+        let law = NeoHookean { c10_pa, thickness_m };
+        let green = |stretch: f64| 0.5 * (stretch * stretch - 1.0);
+        for stretch in [0.9, 1.05, 1.4_f64] {
+            for (sides, across) in [(Sides::Free, stretch.powf(-0.5)), (Sides::Kept, 1.0), (Sides::Pulled, stretch)] {
+                let s = law.tension([green(stretch), green(across), 0.0], &[0.0; 2]);
+                let pull = tension_n_per_m(c10_pa * thickness_m, stretch, sides);
+                assert!((stretch * s[0] - pull).abs() < 1e-9 * c10_pa * thickness_m, "{sides:?}");
+                assert!(sides != Sides::Free || s[1].abs() < 1e-9 * c10_pa * thickness_m);
+            }
+        }
+    }
+
+    #[test]
+    fn pressure_of_the_sphere_is_twice_tension_over_radius_and_peaks_at_its_limit() {
+        let (c, radius, stretch) = (7e3, 0.03, 1.2);
+        // Per deformed length the tension is P/λ, the radius λR.
+        let laplace = 2.0 * tension_n_per_m(c, stretch, Sides::Pulled) / stretch / (stretch * radius);
+        assert!((sphere_pressure_pa(c, radius, stretch) / laplace - 1.0).abs() < 1e-14);
+        let at = sphere_limit_stretch();
+        let p = |x| sphere_pressure_pa(c, radius, x);
+        assert!(p(at) > p(at - 1e-3) && p(at) > p(at + 1e-3));
+    }
+}

@@ -1,0 +1,4 @@
+//! Speed of the model, of the finite elements and of a diagnosis on this machine, beside what is wanted.
+
+pub mod plain_loop;
+pub mod workloads;
