@@ -3,7 +3,6 @@
 mod cli;
 mod commands;
 mod context;
-mod cost;
 mod extended;
 mod failure;
 mod output;

@@ -199,7 +199,7 @@ pub struct Settings {
     /// In-plane viscosity as a share of critical damping of the highest membrane mode (0.06 is usual).
     pub viscosity: f64,
     /// Hourglass coefficient; .01 does not lock, .05 and more do. Where the wall wrinkles at the scale of the
-    /// mesh it needs less: p R/(E t) for a bent tube, a tenth of that for a pleated balloon (measured, see [`crate::verify`]).
+    /// mesh it needs less: p R/(E t) for a bent tube, a tenth of that for a pleated balloon (measured in `verification::checks`).
     pub hourglass: f64,
     /// Time between outputs \[s\].
     pub output_every_s: f64,

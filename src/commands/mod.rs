@@ -2,8 +2,6 @@
 
 mod add;
 mod bench;
-mod bench_discovery;
-mod bench_fem;
 mod breakdown;
 mod challenge;
 mod characterize;
@@ -30,7 +28,6 @@ mod told;
 mod tradeoff;
 mod validate;
 mod verify;
-mod verify_fem;
 
 use crate::cli::Command;
 pub use crate::context::{Context, Outcome};
@@ -57,11 +54,7 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
         Command::New { kind } => list::new(kind),
         Command::Tradeoff(args) => tradeoff::run(args, context),
         Command::Verify(args) => verify::run(args, context),
-        Command::Bench(args) if args.what == "fem" => bench_fem::run(args.all, context),
-        Command::Bench(args) if args.what == "discovery" => {
-            bench_discovery::run(args.sets as usize, args.seed, context)
-        }
-        Command::Bench(_) => bench::run(context),
+        Command::Bench(args) => bench::run(args, context),
         Command::Completions { shell } => Ok(completions(*shell)),
         Command::Man { out } => man(out.as_deref(), context),
     }

@@ -1,71 +1,71 @@
 //! `ibr verify`: the closed forms against their known numbers, then the engine against the closed forms.
 
 use super::tables::table;
-use super::{Context, Outcome, verify_fem};
+use super::{Context, Outcome};
 use crate::cli::VerifyArgs;
 use crate::failure::{Failure, MISSED};
-use serde_json::json;
-use verification::exact::{OracleRow, oracle_table};
+use ibr::pages::Files;
+use report::{LineSeries, LineStyle, Lines};
+use verification::checks::{Choice, Figure, verify};
+use verification::{Answer, Error, Part};
 
 pub fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome, Failure> {
-    let rows = if args.only.is_empty() { oracle_table() } else { Vec::new() };
-    let wrong: Vec<&OracleRow> = rows.iter().filter(|r| !r.agrees()).collect();
-    let mut text = String::new();
-    if !rows.is_empty() {
-        text.push_str(&if args.all { every(&rows) } else { sections(&rows) });
-        for row in &wrong {
-            text.push_str(&format!(
-                "WRONG: {}, {}: {} expected, {:e} computed\n",
-                row.section, row.quantity, row.printed, row.computed
-            ));
-        }
-        text.push_str(&format!(
-            "{} of {} numbers reproduced to the last printed digit\n\n",
-            rows.len() - wrong.len(),
-            rows.len()
-        ));
+    let choice = Choice { every: args.all, slow: args.slow, only: &args.only };
+    let (answer, figures) = verify(&choice, &mut |what, share| (context.progress)(what, share))?;
+    let mut outcome = show(answer);
+    if let Some(folder) = &args.plots {
+        let drawn = figures.iter().map(|(name, figure)| Ok((format!("{name}.png"), draw(figure)?)));
+        let files = Files { files: drawn.collect::<Result<_, Failure>>()?, ..Files::default() };
+        crate::output::write_files(folder, &files, &[], context)?;
+        outcome.text.push_str(&format!("{} figures in {}\n", files.files.len(), folder.display()));
     }
-    let engine = verify_fem::run(args, context)?;
-    text.push_str(&engine.text);
-    let list: Vec<_> = rows
-        .iter()
-        .map(|r| json!({"section": r.section, "quantity": r.quantity, "expected": r.printed, "computed": r.computed, "agrees": r.agrees()}))
-        .collect();
-    let code = if wrong.is_empty() && engine.missed == 0 { 0 } else { MISSED };
-    let json = json!({
-        "schema": "ibr.verify", "version": 1, "wrong": wrong.len(), "rows": list,
-        "engine_missed": engine.missed, "engine": engine.json,
-    });
-    Ok(Outcome { code, notes: engine.notes, ..Outcome::new(text, json) })
+    Ok(outcome)
 }
 
-fn every(rows: &[OracleRow]) -> String {
-    let cells = rows.iter().map(|r| {
-        let mark = if r.agrees() { "ok" } else { "WRONG" };
-        vec![
-            r.section.to_string(),
-            r.quantity.to_string(),
-            r.printed.to_string(),
-            format!("{:.10e}", r.computed),
-            mark.into(),
-        ]
-    });
-    table(&["section", "quantity", "expected", "computed", ""], 2, cells.collect())
+/// An answer as a command says it.
+pub fn show(answer: Answer) -> Outcome {
+    let part = |part: Part| match part {
+        Part::Text(text) => text,
+        Part::Table { head, left, rows } => table(head, left, rows),
+    };
+    let text = answer.parts.into_iter().map(part).collect();
+    Outcome { code: if answer.missed { MISSED } else { 0 }, ..Outcome::new(text, answer.json) }
 }
 
-fn sections(rows: &[OracleRow]) -> String {
-    let mut counts: Vec<(&str, usize, usize)> = Vec::new();
-    for row in rows {
-        let index = match counts.iter().position(|c| c.0 == row.section) {
-            Some(index) => index,
-            None => {
-                counts.push((row.section, 0, 0));
-                counts.len() - 1
+impl From<Error> for Failure {
+    fn from(error: Error) -> Failure {
+        match error {
+            Error::Fem(error) => error.into(),
+            Error::Unsolved(error) => error.into(),
+            Error::Compare(error) => error.into(),
+            Error::NoCheck { name, known } => {
+                Failure::usage(format!("there is no check `{name}`"), format!("write one of {known}"))
             }
-        };
-        counts[index].1 += 1;
-        counts[index].2 += usize::from(row.agrees());
+        }
     }
-    let cells = counts.iter().map(|c| vec![c.0.to_string(), c.1.to_string(), c.2.to_string()]);
-    table(&["section", "numbers", "reproduced"], 1, cells.collect())
+}
+
+fn draw(figure: &Figure) -> Result<Vec<u8>, Failure> {
+    let known = figure.curves.iter().filter(|c| c.exact).count();
+    let paired = 2 * known == figure.curves.len();
+    let mut seen = [0, 0];
+    let series = figure.curves.iter().map(|curve| {
+        let place = &mut seen[usize::from(curve.exact)];
+        *place += 1;
+        LineSeries {
+            name: curve.label.clone(),
+            points: curve.points.clone(),
+            style: if curve.exact { LineStyle::Line } else { LineStyle::Points },
+            // An engine's marks have the colour of the line that they belong to.
+            colour: paired.then_some(*place - 1),
+            ..LineSeries::default()
+        }
+    });
+    let lines = Lines {
+        title: figure.title.clone(),
+        x_label: figure.x.clone(),
+        y_label: figure.y.clone(),
+        series: series.collect(),
+    };
+    Ok(report::lines(&lines)?.png)
 }

@@ -56,7 +56,8 @@ fn without_a_body_it_is_the_sealed_pouch_and_its_known_contractions() {
         let mut robot = epam().bare().with_effect("sealed_sides", &[1.0]);
         robot.actuator.shape.width_m = flat.width_m;
         let model = Model::new(&robot);
-        let sides = model.assembly().sites[0].actuator_terms.iter().find(|term| term.name() == "sealed_sides").unwrap();
+        let sides =
+            model.assembly().sites[0].actuator_terms.iter().find(|term| term.line().name == "sealed_sides").unwrap();
         let lost = |theta: f64| -0.06 * sides.add(&Pose::new(&[theta, 0.0, 0.0, 0.0], 0.0, 1.0), &mut [0.0; 4]);
         let volume = |theta: f64| volume_m3(&flat, theta) + lost(theta);
         for theta in [0.3, 0.8, 1.1] {

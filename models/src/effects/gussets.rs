@@ -118,8 +118,22 @@ impl Term for Gussets {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::pouch::{Pouch, sealed_volume_m3, volume_m3};
     use crate::{Loads, Model, Scenario};
+
+    const LENGTH_M: f64 = 0.06;
+    const WIDTH_M: f64 = 0.06;
+
+    /// Volume of a lens with free sides, W L₀² (θ − sinθ cosθ)/(2θ²) \[m³\].
+    fn lens_m3(theta: f64) -> f64 {
+        WIDTH_M * LENGTH_M * LENGTH_M * (theta - theta.sin() * theta.cos()) / (2.0 * theta * theta)
+    }
+
+    /// With sealed sides π ∫ a² dx less, ∫ a² dx = 2r³ (sinθ − ⅓ sin³θ − θ cosθ) \[m³\].
+    fn sealed_m3(theta: f64) -> f64 {
+        let r = LENGTH_M / (2.0 * theta);
+        let squares = 2.0 * r.powi(3) * (theta.sin() - theta.sin().powi(3) / 3.0 - theta * theta.cos());
+        lens_m3(theta) - PI * squares
+    }
 
     fn shipped(robot: &str, more: &str) -> Model {
         Model::new(&Scenario::parse(&format!("{}\n{more}", crate::shipped(robot).unwrap())).unwrap())
@@ -133,20 +147,18 @@ mod tests {
 
     /// Gas of a pouch by ∂E/∂P.
     fn volume(term: &Gussets, theta: f64) -> f64 {
-        let flat = Pouch { length_m: term.sealed.length_m, width_m: 0.06 };
-        let lost = term.add(&Pose::new(&[theta, 0.0, 0.0, 0.0], 0.0, 1.0), &mut [0.0; 4]) * flat.length_m;
-        volume_m3(&flat, theta) - lost
+        assert_eq!(term.sealed.length_m, LENGTH_M);
+        lens_m3(theta) - term.add(&Pose::new(&[theta, 0.0, 0.0, 0.0], 0.0, 1.0), &mut [0.0; 4]) * LENGTH_M
     }
 
     #[test]
     fn shallower_and_shallower_folds_end_in_a_sealed_pouch() {
         for theta in [0.2, 0.8, 1.3] {
-            let flat = Pouch { length_m: 0.06, width_m: 0.06 };
-            let sealed = sealed_volume_m3(&flat, theta);
+            let sealed = sealed_m3(theta);
             let more = [1e-3, 1e-5, 1e-7].map(|fold_m| volume(&term(fold_m), theta) / sealed - 1.0);
             assert!(more[0] > more[1] && more[1] > more[2] && more[2].abs() < 1e-5, "{theta}: {more:?}");
             // A shallow fold opens to its bottom almost everywhere: 4f more of each section.
-            let lens = volume_m3(&flat, theta) / flat.width_m;
+            let lens = lens_m3(theta) / WIDTH_M;
             assert!(((more[1] * sealed) / (2.0 * 1e-5 * lens) - 1.0).abs() < 2e-2, "{theta}: {more:?}");
         }
     }

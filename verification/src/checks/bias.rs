@@ -20,7 +20,6 @@
 
 use std::sync::Arc;
 
-use crate::exact::coupon;
 use models::fabrics::{BiasExtension, Curve as Table, Woven, Yarn};
 
 use super::pulled::{drive_x, hold, membrane};
@@ -31,7 +30,7 @@ use fem::{FemError, Mesh, Problem, Simulation};
 pub(super) const CHECK: Check = Check {
     name: "bias-extension",
     sentence: "A strip of woven fabric pulled at 45 degrees to its yarns gives back the shear curve that went in.",
-    source: "Cao et al. 2008, Composites A 39, 1037, eqs. 13 and 18 as corrected in verification::exact::coupon",
+    source: "Cao et al. 2008, Composites A 39, 1037, eqs. 13 and 18 as corrected in models::fabrics::BiasExtension",
     slow: true,
     run,
 };
@@ -39,7 +38,7 @@ pub(super) const CHECK: Check = Check {
 /// The curve that goes in: moment per volume over shear angle \[rad, Pa\].
 pub const SHEAR: [[f64; 2]; 5] = [[0.0, 0.0], [0.15, 0.1e6], [0.35, 0.3e6], [0.55, 0.6e6], [0.8, 1.1e6]];
 /// Size of the strip.
-pub const STRIP: coupon::Bias = coupon::Bias { length_m: 0.08, width_m: 0.04 };
+pub const STRIP: BiasExtension = BiasExtension { length_m: 0.08, width_m: 0.04, thickness_m: THICKNESS_M };
 /// Modulus of the yarns \[Pa\]: a hundred thousand times the shear; errors fall with its inverse.
 const YARN_PA: f64 = 1e11;
 /// Thickness of the fabric \[m\].
@@ -80,8 +79,7 @@ pub fn pull() -> Result<Pulled, FemError> {
 fn run() -> Result<Outcome, FemError> {
     let table = Table::table(&SHEAR).map_err(FemError::Problem)?;
     let Pulled { rows, seen, residual } = pull()?;
-    let test = BiasExtension { length_m: STRIP.length_m, width_m: STRIP.width_m, thickness_m: THICKNESS_M };
-    let found = test.shear(&rows).map_err(FemError::Problem)?;
+    let found = STRIP.shear(&rows).map_err(FemError::Problem)?;
     let mut outcome = Outcome::default();
     for (row, [angle, moment_pa]) in found.iter().enumerate().skip(1) {
         let exact = table.value(*angle);
@@ -106,7 +104,7 @@ fn run() -> Result<Outcome, FemError> {
 
 /// Clamp displacement of a row \[m\]: rows are even in shear angle.
 fn displacement_m(row: usize) -> f64 {
-    coupon::lengthening_m(&STRIP, LAST * row as f64 / ROWS as f64)
+    STRIP.displacement_m(LAST * row as f64 / ROWS as f64)
 }
 
 fn start(table: &Table) -> Result<Simulation, FemError> {

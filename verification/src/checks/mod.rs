@@ -22,12 +22,14 @@ mod pillow;
 mod pulled;
 mod ring;
 mod robots;
+mod run;
 mod setup;
 mod slope;
 mod strip;
 mod tube;
 
 use fem::FemError;
+pub use run::{Choice, Figures, verify};
 
 /// A problem with a known answer.
 #[derive(Debug, Clone, Copy)]
@@ -144,6 +146,18 @@ pub const CHECKS: &[Check] = &[
     robots::FOLDS,
 ];
 
+impl Against {
+    /// True if a number is good enough. A number that is not a number never is.
+    pub fn holds(self, measured: f64) -> bool {
+        match self {
+            Against::Value { exact, tolerance } => (measured - exact).abs() <= tolerance * exact.abs(),
+            Against::AtMost(limit) => measured <= limit,
+            Against::AtLeast(limit) => measured >= limit,
+            Against::Between(low, high) => (low..=high).contains(&measured),
+        }
+    }
+}
+
 impl Line {
     /// A number against a known value.
     pub fn value(quantity: &str, measured: f64, exact: f64, tolerance: f64) -> Line {
@@ -173,14 +187,9 @@ impl Line {
         }
     }
 
-    /// True if the number is good enough. A number that is not a number never is.
+    /// True if the number is good enough.
     pub fn passes(&self) -> bool {
-        match self.against {
-            Against::Value { exact, tolerance } => (self.measured - exact).abs() <= tolerance * exact.abs(),
-            Against::AtMost(limit) => self.measured <= limit,
-            Against::AtLeast(limit) => self.measured >= limit,
-            Against::Between(low, high) => (low..=high).contains(&self.measured),
-        }
+        self.against.holds(self.measured)
     }
 }
 

@@ -1,16 +1,14 @@
-//! `ibr bench fem`: speed of the finite element engine on this machine, beside what it must reach.
+//! Speed of the finite element engine on this machine, beside what it must reach.
 
-use super::tables::table;
-use super::{Context, Outcome};
-use crate::cost::{cpu_seconds, resident_bytes};
-use crate::failure::{Failure, MISSED};
-use crate::output::machine;
+use super::cpu_seconds;
+use super::plain_loop::Membrane;
+use super::workloads as speed;
+use crate::checks::Against;
+use crate::{Answer, Error, Part, Progress};
 use fem::Simulation;
 use fem::robot::RobotSettings;
 use serde_json::json;
 use std::time::Instant;
-use verification::speed::plain_loop::Membrane;
-use verification::speed::workloads as speed;
 
 /// Repeats of every ratio: its median and range are told.
 const REPEATS: usize = 7;
@@ -30,19 +28,13 @@ struct Figure {
     unit: &'static str,
     /// One per repeat, ascending.
     values: Vec<f64>,
-    wanted: Option<Wanted>,
+    /// What it must reach: a ratio of two things measured beside each other, or what no machine changes.
+    wanted: Option<Against>,
     residual: f64,
 }
 
-/// What a figure must reach: a ratio of two things measured beside each other, or what no machine changes.
-#[derive(Clone, Copy)]
-enum Wanted {
-    AtLeast(f64),
-    AtMost(f64),
-}
-
 impl Figure {
-    fn new(what: &str, run: &Simulation, unit: &'static str, mut values: Vec<f64>, wanted: Option<Wanted>) -> Figure {
+    fn new(what: &str, run: &Simulation, unit: &'static str, mut values: Vec<f64>, wanted: Option<Against>) -> Figure {
         values.sort_by(f64::total_cmp);
         let (elements, residual) = (run.elements(), run.ledger().residual_share());
         Figure { what: what.to_owned(), elements, unit, values, wanted, residual }
@@ -53,10 +45,7 @@ impl Figure {
     }
 
     fn met(&self) -> Option<bool> {
-        self.wanted.map(|wanted| match wanted {
-            Wanted::AtLeast(least) => self.median() >= least,
-            Wanted::AtMost(most) => self.median() <= most,
-        })
+        self.wanted.map(|wanted| wanted.holds(self.median()))
     }
 
     fn row(&self) -> Vec<String> {
@@ -65,9 +54,9 @@ impl Figure {
             _ => format!("{:.2} {}", self.median(), self.unit),
         };
         let wanted = match self.wanted {
-            Some(Wanted::AtLeast(least)) => format!("at least {least}"),
-            Some(Wanted::AtMost(most)) => format!("at most {most}"),
-            None => String::new(),
+            Some(Against::AtLeast(least)) => format!("at least {least}"),
+            Some(Against::AtMost(most)) => format!("at most {most}"),
+            _ => String::new(),
         };
         let met = self.met().map_or("", |met| if met { "yes" } else { "no" });
         vec![
@@ -82,9 +71,9 @@ impl Figure {
 
     fn json(&self) -> serde_json::Value {
         let (least, most) = match self.wanted {
-            Some(Wanted::AtLeast(least)) => (Some(least), None),
-            Some(Wanted::AtMost(most)) => (None, Some(most)),
-            None => (None, None),
+            Some(Against::AtLeast(least)) => (Some(least), None),
+            Some(Against::AtMost(most)) => (None, Some(most)),
+            _ => (None, None),
         };
         json!({"what": self.what, "elements": self.elements, "median": self.median(), "low": self.values.first(),
             "high": self.values.last(), "unit": self.unit, "at_least": least, "at_most": most, "met": self.met(),
@@ -92,39 +81,46 @@ impl Figure {
     }
 }
 
-pub fn run(all: bool, context: &mut Context) -> Result<Outcome, Failure> {
+/// Ratios of speeds and memory, and with `all` whole runs too; `machine` says on what.
+///
+/// # Errors
+/// A run that stops.
+pub fn measure(all: bool, machine: &str, progress: Progress) -> Result<Answer, Error> {
     // First: later it would get the room that others gave back, and not grow.
     let memory = memory()?;
-    (context.progress)("against a plain loop", None);
+    progress("against a plain loop", None);
     let mut figures: Vec<Figure> = against_plain()?.into();
-    (context.progress)("two threads", None);
+    progress("two threads", None);
     figures.push(two_threads()?);
-    figures.extend(rates(context)?);
+    figures.extend(rates(progress)?);
     figures.push(memory);
     for (n, name) in [(36, "4.9k"), (72, "20k"), (142, "80k")].into_iter().filter(|_| all) {
-        (context.progress)(&format!("whole run, {name}"), None);
+        progress(&format!("whole run, {name}"), None);
         figures.push(whole_run(n, name)?);
     }
     for name in models::actuators::ACTUATORS.iter().map(|a| a.name).filter(|_| all) {
-        (context.progress)(&format!("robot {name}"), None);
+        progress(&format!("robot {name}"), None);
         figures.push(robot(name)?);
     }
-    Ok(report(&figures))
+    Ok(report(&figures, machine))
 }
 
-fn report(figures: &[Figure]) -> Outcome {
-    let head = ["what", "quads", "median (range)", "wanted", "met", "energy residual"];
-    let mut text = format!("Finite elements on {}\n", machine());
-    text.push_str(&table(&head, 1, figures.iter().map(Figure::row).collect()));
-    text.push_str(&roofline(figures));
+fn report(figures: &[Figure], machine: &str) -> Answer {
+    let head = &["what", "quads", "median (range)", "wanted", "met", "energy residual"];
     let list: Vec<_> = figures.iter().map(Figure::json).collect();
-    let answer = json!({"schema": "ibr.bench.fem", "version": 2, "machine": machine(), "figures": list});
-    let code = if figures.iter().any(|f| f.met() == Some(false)) { MISSED } else { 0 };
-    Outcome { code, ..Outcome::new(text, answer) }
+    Answer {
+        parts: vec![
+            Part::Text(format!("Finite elements on {machine}\n")),
+            Part::table(head, 1, figures.iter().map(Figure::row)),
+            Part::Text(roofline(figures)),
+        ],
+        json: json!({"schema": "ibr.bench.fem", "version": 2, "machine": machine, "figures": list}),
+        missed: figures.iter().any(|f| f.met() == Some(false)),
+    }
 }
 
 /// A pillow with `n` elements along a side, past its first steps.
-fn pillow(n: usize, bending: bool, threads: usize) -> Result<Simulation, Failure> {
+fn pillow(n: usize, bending: bool, threads: usize) -> Result<Simulation, Error> {
     let mut problem = speed::pillow(n, bending)?;
     problem.settings.threads = threads;
     let mut run = Simulation::new(&problem)?;
@@ -134,7 +130,7 @@ fn pillow(n: usize, bending: bool, threads: usize) -> Result<Simulation, Failure
 
 /// Processor time per step, and per simulated second, of a pillow with bending and ledger over that of a plain loop over
 /// membrane triangles on the same nodes.
-fn against_plain() -> Result<[Figure; 2], Failure> {
+fn against_plain() -> Result<[Figure; 2], Error> {
     let mut plain = Membrane::new(&speed::pillow(72, true)?);
     let mut run = pillow(72, true, 1)?;
     let (mut per_step, mut per_time) = (Vec::new(), Vec::new());
@@ -152,7 +148,7 @@ fn against_plain() -> Result<[Figure; 2], Failure> {
         per_time.push(best[1] / best[0] * plain.dt_s() / run.dt_s());
     }
     let of = format!("pillow with bending against {} plain membrane triangles", plain.triangles());
-    let wanted = Some(Wanted::AtMost(0.6));
+    let wanted = Some(Against::AtMost(0.6));
     Ok([
         Figure::new(&format!("{of}, CPU per step"), &run, "times", per_step, wanted),
         Figure::new("the same, CPU per simulated second", &run, "times", per_time, None),
@@ -161,7 +157,7 @@ fn against_plain() -> Result<[Figure; 2], Failure> {
 
 /// What one run on two threads does over what two runs of one thread each do beside each other, which is all that the two
 /// cores give just then.
-fn two_threads() -> Result<Figure, Failure> {
+fn two_threads() -> Result<Figure, Error> {
     let (mut one, mut other, mut two) = (pillow(100, true, 1)?, pillow(100, true, 1)?, pillow(100, true, 2)?);
     let mut ratios = Vec::new();
     for _ in 0..REPEATS {
@@ -181,12 +177,12 @@ fn two_threads() -> Result<Figure, Failure> {
         ratios.push(best[1] / best[0]);
     }
     let what = "two threads against two runs of one thread beside each other";
-    Ok(Figure::new(what, &two, "times", ratios, Some(Wanted::AtLeast(0.93))))
+    Ok(Figure::new(what, &two, "times", ratios, Some(Against::AtLeast(0.93))))
 }
 
 /// Element-steps per CPU-second with contact (folded, blown up, at rest) over those of a pillow with bending; the rates, and
 /// that of membranes alone. They alternate stretch by stretch, one ratio per whole run.
-fn rates(context: &mut Context) -> Result<Vec<Figure>, Failure> {
+fn rates(progress: Progress) -> Result<Vec<Figure>, Error> {
     let problem = speed::folded_cpam(2e-3, true)?;
     let mut touching = Simulation::new(&problem)?;
     let (mut membrane, mut bending) = (pillow(100, false, 1)?, pillow(100, true, 1)?);
@@ -197,7 +193,7 @@ fn rates(context: &mut Context) -> Result<Vec<Figure>, Failure> {
         let mut done = [0.0; 3];
         for i in 0..STRETCHES {
             let share = (whole * STRETCHES + i) as f64 / (WHOLE_RUNS * STRETCHES) as f64;
-            (context.progress)("element-steps per second", Some(share));
+            progress("element-steps per second", Some(share));
             let until_s = problem.settings.end_s * (i + 1) as f64 / STRETCHES as f64;
             for (k, run) in [&mut membrane, &mut bending, &mut touching].into_iter().enumerate() {
                 let (from, start) = (run.step(), cpu_seconds());
@@ -216,7 +212,13 @@ fn rates(context: &mut Context) -> Result<Vec<Figure>, Failure> {
     let [shells, bent, touched] = rates;
     let unit = "M element-steps/CPU-s";
     Ok(vec![
-        Figure::new("folded cPAM with contact against bending", &touching, "times", ratios, Some(Wanted::AtLeast(0.6))),
+        Figure::new(
+            "folded cPAM with contact against bending",
+            &touching,
+            "times",
+            ratios,
+            Some(Against::AtLeast(0.6)),
+        ),
         Figure::new("membrane only", &membrane, unit, shells, None),
         Figure::new("membrane + bending", &bending, unit, bent, None),
         Figure::new("membrane + bending + contact, folded cPAM", &touching, unit, touched, None),
@@ -224,17 +226,25 @@ fn rates(context: &mut Context) -> Result<Vec<Figure>, Failure> {
 }
 
 /// Growth of the resident memory by a run, per element.
-fn memory() -> Result<Figure, Failure> {
+fn memory() -> Result<Figure, Error> {
     let problem = speed::pillow(150, true)?;
     let before = resident_bytes();
     let mut run = Simulation::new(&problem)?;
     speed::advance_by(&mut run, 300)?;
     let grown = vec![(resident_bytes() - before) / run.elements() as f64];
-    Ok(Figure::new("memory of a run", &run, "bytes per element", grown, Some(Wanted::AtMost(1000.0))))
+    Ok(Figure::new("memory of a run", &run, "bytes per element", grown, Some(Against::AtMost(1000.0))))
+}
+
+/// Memory in use \[bytes\]; 0 where the system does not say.
+fn resident_bytes() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+    let kilobytes = line.and_then(|rest| rest.split_whitespace().next()?.parse::<f64>().ok());
+    kilobytes.unwrap_or(0.0) * 1024.0
 }
 
 /// CPU-seconds of the whole pillow run to 0.15 s, preparation and ledger included.
-fn whole_run(n: usize, name: &str) -> Result<Figure, Failure> {
+fn whole_run(n: usize, name: &str) -> Result<Figure, Error> {
     let start = cpu_seconds();
     let problem = speed::pillow(n, true)?;
     let mut run = Simulation::new(&problem)?;
@@ -244,7 +254,7 @@ fn whole_run(n: usize, name: &str) -> Result<Figure, Failure> {
 }
 
 /// Seconds on two threads of one ramp to 30 kPa with elements of 4 mm everywhere.
-fn robot(name: &str) -> Result<Figure, Failure> {
+fn robot(name: &str) -> Result<Figure, Error> {
     let settings = RobotSettings { body_size_m: 4e-3, actuator_size_m: 4e-3, ..RobotSettings::compressed() };
     let mut problem = fem::robot::shipped(name, &settings)?.1;
     problem.settings.threads = 2;

@@ -1,9 +1,6 @@
-//! `ibr bench discovery`: how often a diagnosis is right, on data whose hidden effects follow other laws.
+//! How often a diagnosis is right, on data whose hidden effects follow other laws.
 
-use super::tables::{number, table};
-use super::{Context, Outcome};
-use crate::failure::{Failure, MISSED};
-use crate::output::machine;
+use crate::{Answer, Error, Part};
 use challenge::bench::{Attainable, Bench, BenchOptions, Confusion, Row, Target, run as run_bench};
 use challenge::truth::{ROBOTS, standard_protocol};
 use challenge::{Draw, Truth};
@@ -20,7 +17,11 @@ const LARGEST: f64 = 1.5;
 /// λ that parts two explanations in about nine of ten cases.
 const ENOUGH: f64 = 16.0;
 
-pub fn run(sets: usize, seed: u64, _context: &mut Context) -> Result<Outcome, Failure> {
+/// Diagnoses so many sets without and with one hidden effect; `machine` says where the time was taken.
+///
+/// # Errors
+/// A robot without an equilibrium, or a diagnosis that cannot be made.
+pub fn measure(sets: usize, seed: u64, machine: &str) -> Result<Answer, Error> {
     let options = BenchOptions { seed, sets };
     let bench = run_bench(&options, diagnose_together, &|_| ())?;
     let seconds = seconds(seed)?;
@@ -31,19 +32,18 @@ pub fn run(sets: usize, seed: u64, _context: &mut Context) -> Result<Outcome, Fa
         Some(seconds),
         ROBOTS.len(),
     );
-    let text = text(&bench, &time);
     let json = json!({
         "schema": "ibr.bench.discovery", "version": 1, "seed": seed, "sets": sets, "rows": bench.rows,
         "confusion": bench.confusion, "breakdown": bench.breakdown, "attainable": bench.attainable,
         "missed_after": bench.missed_after, "missed_by_law": bench.missed_by_law,
-        "made": bench.made, "seen": bench.seen, "failed": bench.failed, "time": {"machine": machine(), "row": time},
+        "made": bench.made, "seen": bench.seen, "failed": bench.failed, "time": {"machine": machine, "row": time},
     });
     let missed = bench.rows.iter().chain([&time]).any(|row| row.met == Some(false)) || !bench.failed.is_empty();
-    Ok(Outcome { code: if missed { MISSED } else { 0 }, ..Outcome::new(text, json) })
+    Ok(Answer { parts: parts(&bench, &time), json, missed })
 }
 
 /// Median CPU time of a diagnosis, one set with a hidden effect for every actuator.
-fn seconds(seed: u64) -> Result<f64, Failure> {
+fn seconds(seed: u64) -> Result<f64, Error> {
     let mut times = Vec::new();
     for (index, (actuator, _)) in ROBOTS.iter().enumerate() {
         let mut truth = Truth::draw(actuator, &mut Draw::new(seed, u64::MAX - index as u64))?;
@@ -58,52 +58,58 @@ fn seconds(seed: u64) -> Result<f64, Failure> {
     Ok(0.5 * (times[1] + times[2]))
 }
 
-fn text(bench: &Bench, time: &Row) -> String {
-    let head = ["sets of", "figure", "wanted", "measured", "95 % interval", "sets", "met"];
-    let mut out = format!("Diagnosis of data with hidden effects, seed {}\n", bench.seed);
-    out.push_str(&table(&head, 2, bench.rows.iter().chain([time]).map(cells).collect()));
-    out.push_str("\nOne hidden effect, by part of the sets\n");
+fn parts(bench: &Bench, time: &Row) -> Vec<Part> {
     let percent = |v: f64| format!("{:.0} %", 100.0 * v);
-    let rows = bench
+    let head = &["sets of", "figure", "wanted", "measured", "95 % interval", "sets", "met"];
+    let by_part = bench
         .breakdown
         .iter()
         .map(|b| vec![b.of.clone(), b.sets.to_string(), percent(b.alarm), percent(b.on_top), percent(b.in_set)]);
-    out.push_str(&table(&["of", "sets", "alarm", "truth on top", "truth in set"], 1, rows.collect()));
-    out.push_str("\nOne hidden effect: what was named\n");
-    let rows = bench.confusion.iter().map(|c| {
-        let [lambda, behind, least] = [c.lambda, c.bic_behind, c.smallest_detectable].map(|v| number(v, 1));
+    let named = bench.confusion.iter().map(|c| {
+        let [lambda, behind, least] = [c.lambda, c.bic_behind, c.smallest_detectable].map(number);
         vec![c.truth.clone(), c.named.clone(), c.count.to_string(), lambda, behind, least]
     });
-    let head = ["hidden", "named", "sets", "λ", "truth behind by BIC", "smallest detectable [typical sizes]"];
-    out.push_str(&table(&head, 2, rows.collect()));
-    out.push_str(
-        "Medians. λ below 16: the data do not hold the answer. Behind by more than 6 without λ: the robot's law is not the \
-         catalogue's formula.\n",
-    );
-    out.push_str(&limits(bench));
-    out.push_str(&attainable(&bench.attainable));
-    out.push_str(&format!(
-        "Of {} sets missed after the next experiment {} are missed with a hundredth of the noise too: \
-         another formula of the catalogue meets the robot's law as well as its own, or better.\n",
-        bench.missed_after, bench.missed_by_law
-    ));
-    out.push_str("\nAmbiguous, after the next experiment: by what was hidden\n");
-    let rows = after(bench).into_iter().map(|(name, [sets, hits])| vec![name, sets.to_string(), hits.to_string()]);
-    out.push_str(&table(&["hidden", "sets", "truth on top"], 1, rows.collect()));
-    out.push_str("\nMade by finite elements, bare model with B = 0: what it lacks, error at held-out pressures\n");
-    let rows = bench.made.iter().map(|m| {
-        let [before, after] = [m.before_mm, m.after_mm].map(|mm| number(mm, 1));
+    let named_head = &["hidden", "named", "sets", "λ", "truth behind by BIC", "smallest detectable [typical sizes]"];
+    let after = after(bench).into_iter().map(|(name, [sets, hits])| vec![name, sets.to_string(), hits.to_string()]);
+    let made = bench.made.iter().map(|m| {
         let yes = if m.in_set { "yes" } else { "no" };
         let stated = if m.stated.is_empty() { "nothing in the catalogue".into() } else { m.stated.join(", ") };
         let attempt = if m.attempt_alike.is_empty() { "-".into() } else { m.attempt_alike.join(", ") };
+        let [before, after] = [m.before_mm, m.after_mm].map(number);
         vec![m.robot.to_string(), m.lacking.to_string(), stated, yes.into(), attempt, before, after]
     });
-    let head = ["robot", "lacks", "stated set", "in it", "closest, not enough", "before mm", "after mm"];
-    out.push_str(&table(&head, 5, rows.collect()));
-    for reason in &bench.failed {
-        out.push_str(&format!("failed: {reason}\n"));
-    }
-    out
+    let made_head = &["robot", "lacks", "stated set", "in it", "closest, not enough", "before mm", "after mm"];
+    let missed = format!(
+        "Of {} sets missed after the next experiment {} are missed with a hundredth of the noise too: \
+         another formula of the catalogue meets the robot's law as well as its own, or better.\n",
+        bench.missed_after, bench.missed_by_law
+    );
+    vec![
+        Part::Text(format!("Diagnosis of data with hidden effects, seed {}\n", bench.seed)),
+        Part::table(head, 2, bench.rows.iter().chain([time]).map(cells)),
+        Part::Text("\nOne hidden effect, by part of the sets\n".into()),
+        Part::table(&["of", "sets", "alarm", "truth on top", "truth in set"], 1, by_part),
+        Part::Text("\nOne hidden effect: what was named\n".into()),
+        Part::table(named_head, 2, named),
+        Part::Text(
+            "Medians. λ below 16: the data do not hold the answer. Behind by more than 6 without λ: the robot's law is not \
+             the catalogue's formula.\n"
+                .into(),
+        ),
+        Part::Text(limits(bench) + &attainable(&bench.attainable) + &missed),
+        Part::Text("\nAmbiguous, after the next experiment: by what was hidden\n".into()),
+        Part::table(&["hidden", "sets", "truth on top"], 1, after),
+        Part::Text(
+            "\nMade by finite elements, bare model with B = 0: what it lacks, error at held-out pressures\n".into(),
+        ),
+        Part::table(made_head, 5, made),
+        Part::Text(bench.failed.iter().map(|reason| format!("failed: {reason}\n")).collect()),
+    ]
+}
+
+/// A number or a dash.
+fn number(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".into(), |v| format!("{v:.1}"))
 }
 
 /// Of every hidden effect the ambiguous sets after the next experiment, and those of them with the truth on top.

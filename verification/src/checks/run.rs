@@ -1,0 +1,140 @@
+//! All that `ibr verify` prints.
+
+use super::{Against, CHECKS, Check, Figure, Line, Outcome};
+use crate::exact::{OracleRow, oracle_table};
+use crate::speed::cpu_seconds;
+use crate::{Answer, Error, Part, Progress};
+use serde_json::{Value, json};
+
+/// What is verified.
+#[derive(Debug, Clone, Copy)]
+pub struct Choice<'a> {
+    /// Every closed-form number, not only the sections.
+    pub every: bool,
+    /// Also the checks that take long.
+    pub slow: bool,
+    /// Only these checks, by name, and no closed forms.
+    pub only: &'a [String],
+}
+
+/// Figures of checks by their name.
+pub type Figures = Vec<(&'static str, Figure)>;
+
+/// Closed forms against their known numbers, then the engine against the closed forms.
+///
+/// # Errors
+/// A check that does not exist, or whose run stops.
+pub fn verify(choice: &Choice, progress: Progress) -> Result<(Answer, Figures), Error> {
+    let checks = chosen(choice)?;
+    let rows = if choice.only.is_empty() { oracle_table() } else { Vec::new() };
+    let mut parts = if rows.is_empty() { Vec::new() } else { closed_forms(&rows, choice.every) };
+    let (mut cells, mut figures, mut engine) = (Vec::new(), Figures::new(), Vec::new());
+    let (mut lines, mut missed) = (0, 0);
+    for (i, check) in checks.iter().enumerate() {
+        progress(check.name, Some(i as f64 / checks.len() as f64));
+        let start = cpu_seconds();
+        let outcome = (check.run)()?;
+        let cpu_s = cpu_seconds() - start;
+        missed += outcome.lines.iter().filter(|line| !line.passes()).count();
+        lines += outcome.lines.len();
+        cells.extend(outcome.lines.iter().enumerate().map(|(n, line)| row(check, line, n == 0, cpu_s)));
+        engine.push(as_json(check, &outcome, cpu_s));
+        figures.extend(outcome.figure.map(|figure| (check.name, figure)));
+    }
+    let head = &["check", "quantity", "measured", "known", "error", "", "CPU-s"];
+    parts.push(Part::table(head, 2, cells.into_iter()));
+    parts.push(Part::Text(format!("{} of {lines} engine results within their limits\n", lines - missed)));
+    let left = CHECKS.iter().filter(|c| c.slow).count();
+    if !choice.slow && choice.only.is_empty() && left > 0 {
+        parts.push(Part::Text(format!("{left} longer checks were left out; `ibr verify --slow` runs them too\n")));
+    }
+    let wrong = rows.iter().filter(|r| !r.agrees()).count();
+    let list = rows.iter().map(|r| {
+        json!({"section": r.section, "quantity": r.quantity, "expected": r.printed, "computed": r.computed,
+            "agrees": r.agrees()})
+    });
+    let json = json!({"schema": "ibr.verify", "version": 1, "wrong": wrong, "rows": list.collect::<Vec<_>>(),
+        "engine_missed": missed, "engine": engine});
+    Ok((Answer { parts, json, missed: wrong + missed > 0 }, figures))
+}
+
+fn closed_forms(rows: &[OracleRow], every: bool) -> Vec<Part> {
+    let count = rows.iter().filter(|row| row.agrees()).count();
+    let wrong = rows.iter().filter(|row| !row.agrees()).map(|row| {
+        format!("WRONG: {}, {}: {} expected, {:e} computed\n", row.section, row.quantity, row.printed, row.computed)
+    });
+    let table = if every {
+        let cells = rows.iter().map(|r| {
+            let mark = if r.agrees() { "ok" } else { "WRONG" };
+            let [section, quantity, printed] = [r.section, r.quantity, r.printed].map(String::from);
+            vec![section, quantity, printed, format!("{:.10e}", r.computed), mark.into()]
+        });
+        Part::table(&["section", "quantity", "expected", "computed", ""], 2, cells)
+    } else {
+        let cells = rows.chunk_by(|a, b| a.section == b.section).map(|rows| {
+            let agree = rows.iter().filter(|row| row.agrees()).count();
+            vec![rows[0].section.to_string(), rows.len().to_string(), agree.to_string()]
+        });
+        Part::table(&["section", "numbers", "reproduced"], 1, cells)
+    };
+    let sum = format!("{count} of {} numbers reproduced to the last printed digit\n\n", rows.len());
+    vec![table, Part::Text(wrong.collect::<String>() + &sum)]
+}
+
+fn chosen(choice: &Choice) -> Result<Vec<&'static Check>, Error> {
+    if choice.only.is_empty() {
+        return Ok(CHECKS.iter().filter(|c| choice.slow || !c.slow).collect());
+    }
+    let find = |name: &String| {
+        let known = || CHECKS.iter().map(|c| c.name).collect::<Vec<_>>().join(", ");
+        let found = CHECKS.iter().find(|c| c.name == name);
+        found.ok_or_else(|| Error::NoCheck { name: name.clone(), known: known() })
+    };
+    choice.only.iter().map(find).collect()
+}
+
+fn row(check: &Check, line: &Line, first: bool, cpu_s: f64) -> Vec<String> {
+    let known = match line.against {
+        Against::Value { exact, tolerance } => format!("{} ± {} %", short(exact), short(100.0 * tolerance)),
+        Against::AtMost(limit) => format!("≤ {}", short(limit)),
+        Against::AtLeast(limit) => format!("≥ {}", short(limit)),
+        Against::Between(low, high) => format!("{} to {}", short(low), short(high)),
+    };
+    vec![
+        if first { check.name.to_string() } else { String::new() },
+        line.quantity.clone(),
+        short(line.measured),
+        known,
+        line.error().map_or(String::new(), |e| format!("{:+.2} %", 100.0 * e)),
+        if line.passes() { "ok" } else { "MISSED" }.into(),
+        if first { format!("{cpu_s:.1}") } else { String::new() },
+    ]
+}
+
+/// Five digits, in powers of ten only where plain digits would be long.
+fn short(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 {
+        "0".into()
+    } else if (1e-3..1e5).contains(&size) {
+        let decimals = (4 - size.log10().floor() as i32).clamp(0, 7) as usize;
+        let text = format!("{x:.decimals$}");
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
+    } else {
+        format!("{x:.3e}")
+    }
+}
+
+fn as_json(check: &Check, outcome: &Outcome, cpu_s: f64) -> Value {
+    let line = |line: &Line| {
+        let against = match line.against {
+            Against::Value { exact, tolerance } => json!({"exact": exact, "tolerance": tolerance}),
+            Against::AtMost(limit) => json!({"at_most": limit}),
+            Against::AtLeast(limit) => json!({"at_least": limit}),
+            Against::Between(low, high) => json!({"between": [low, high]}),
+        };
+        json!({"quantity": line.quantity, "measured": line.measured, "against": against, "passes": line.passes()})
+    };
+    let lines: Vec<Value> = outcome.lines.iter().map(line).collect();
+    json!({"check": check.name, "sentence": check.sentence, "source": check.source, "cpu_s": cpu_s, "lines": lines})
+}
