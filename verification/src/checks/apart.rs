@@ -1,7 +1,8 @@
 //! Who is on which side of whom: what the checks of contact share.
 
+use super::setup::*;
+use fem::Part;
 use fem::vec3::{V3, cross, dot, sub};
-use fem::{Mesh, Part};
 
 /// Triangles of a part at positions `x`, quadrilaterals cut in two.
 pub(super) fn triangles(part: &Part, x: &[V3]) -> Vec<[V3; 3]> {

@@ -1,24 +1,16 @@
 //! Fabric muscle (fPAM) free of load: a bias-cut tube with pinched ends.
 
-use std::f64::consts::{FRAC_PI_4, PI};
-use std::sync::Arc;
-
+use super::setup::*;
 use crate::exact::tube::{ClosedTube, Ends, inflate};
 use models::fabrics::Orthotropic;
+use std::f64::consts::{FRAC_PI_4, PI};
 
-use super::inflated::{advance, chamber, hold, mean, section};
-use super::{Check, Curve, Figure, Line, Outcome};
-use fem::mesh::generate;
-use fem::{FemError, Problem, Simulation};
-
-/// Entry of the list.
-pub const CHECK: Check = Check {
-    name: "bias-tube",
-    sentence: "A tube of bias-cut fabric shortens under pressure, then lengthens as its yarns stretch; its ends turn freely.",
-    source: "verification::exact::tube, exact at finite strain; netting analysis with elastic yarns",
-    slow: true,
+pub(super) const CHECK: Check = Check::slow(
+    "bias-tube",
+    "A tube of bias-cut fabric shortens under pressure, then lengthens as its yarns stretch; its ends turn freely.",
+    "verification::exact::tube, exact at finite strain; netting analysis with elastic yarns",
     run,
-};
+);
 
 const FLAT_WIDTH_M: f64 = 0.06;
 const LENGTH_M: f64 = 0.3;
@@ -30,7 +22,7 @@ const PRESSURES_PA: [f64; 4] = [3e3, 10e3, 20e3, 30e3];
 const RISE_S: f64 = 0.05;
 const REST_S: f64 = 0.05;
 
-fn run() -> Result<Outcome, FemError> {
+fn run() -> Found {
     let mut lines = Vec::new();
     let mut curves = Vec::new();
     for nu12 in [0.0, 0.3] {
@@ -48,17 +40,14 @@ fn run() -> Result<Outcome, FemError> {
     let found = contractions(net, &[pressure])?;
     let expected = netting(pressure * FLAT_WIDTH_M / PI / (even * THICKNESS_M));
     lines.push(Line::value("contraction of a net (G = 0.01 MPa), 10 kPa", found[0], expected, 0.02));
-    let axes = ("pressure [kPa]".into(), "contraction".into());
-    Ok(Outcome { lines, figure: Some(Figure { title: "Bias-cut tube, free".into(), x: axes.0, y: axes.1, curves }) })
+    Ok(Outcome::drawn(lines, Figure::new("Bias-cut tube, free", ["pressure [kPa]", "contraction"], curves)))
 }
 
 fn pair(nu12: f64, fabric: &Orthotropic, found: &[f64]) -> [Curve; 2] {
-    let line = (1..=30).map(f64::from).map(|kpa| [kpa, exact(fabric, 1e3 * kpa)]).collect();
-    let marks = PRESSURES_PA.iter().zip(found).map(|(p, c)| [1e-3 * p, *c]).collect();
-    [
-        Curve { label: format!("exact, ν12 = {nu12}"), points: line, exact: true },
-        Curve { label: format!("finite elements, ν12 = {nu12}"), points: marks, exact: false },
-    ]
+    let line = (1..=30).map(f64::from).map(|kpa| [kpa, exact(fabric, 1e3 * kpa)]);
+    let marks = PRESSURES_PA.iter().zip(found).map(|(p, c)| [1e-3 * p, *c]);
+    let [known, own] = ["exact", "finite elements"].map(|name| format!("{name}, ν12 = {nu12}"));
+    [Curve::exact(known, line), Curve::engine(own, marks)]
 }
 
 fn exact(fabric: &Orthotropic, pressure_pa: f64) -> f64 {
@@ -82,8 +71,8 @@ fn contractions(fabric: Orthotropic, pressures_pa: &[f64]) -> Result<Vec<f64>, F
         let start = k as f64 * (RISE_S + REST_S);
         points.extend([(start + RISE_S, *pressure), (start + RISE_S + REST_S, *pressure)]);
     }
-    let sheet = section(Arc::new(fabric), 0.0);
-    let mut problem = Problem::new("bias tube", mesh, vec![sheet.clone(), sheet], vec![chamber("air", points)]);
+    let mut problem =
+        problem("bias tube", mesh, section(Arc::new(fabric), 0.0), vec![chamber("air", Amplitude::Smooth(points))]);
     problem.supports = vec![
         hold("anchor", [true; 3]),
         hold("anchor_end", [false, true, true]),

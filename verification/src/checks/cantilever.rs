@@ -3,54 +3,29 @@
 //! The tip is moved and held, the force is read at the support: then every point of the curve is at rest, also where the
 //! force hardly grows any more. A thick cap keeps the tip round; it hangs on two opposite nodes, so that it turns freely.
 //!
-//! Measured: force over Comer and Levy's at the deflections of .5, .75, .9, .97, .99 of collapse, 48 elements around:
-//!
-//! | elements along | hourglass | .5 | .75 | .9 | .97 | .99 |
-//! |---|---|---|---|---|---|---|
-//! | 72, 5 mm | .01 | .99 | 1.03 | 1.09 | 1.14 | 1.17 |
-//! | 72, 5 mm | .001 | .99 | 1.00 | 1.03 | 1.07 | 1.10 |
-//! | 72, 2 mm at the base to 8 mm at the tip | .01 | .99 | 1.00 | 1.03 | 1.07 | 1.08 |
-//! | the same (this check; 64 around: the same within .003) | .001 | .98 | .97 | .98 | 1.00 | 1.02 |
-//! | 144, 1 mm to 4 mm | .001 | .98 | .96 | .96 | .98 | 1.00 |
-//! | 72, 2 mm to 8 mm, bending factor .01 | .001 | .99 | .99 | 1.01 | 1.04 | 1.06 |
-//! | 72, 2 mm to 8 mm, bending factor .1 | .001 | .99 | 1.11 | 1.20 | 1.28 | 1.32 |
-//!
 //! The wall wrinkles ring against ring. Hourglass control resists that with a share of E t, so it must be small against the
-//! tension that wrinkles, here p R/(E t) = .0013; and the wrinkles must be short against the radius. The 2 to 4 % below the
-//! closed form around .8 of collapse are there on the finest mesh too: 1 % is the slope of the unwrinkled tube; a shear modulus
-//! five times larger takes away a quarter of the rest (the closed form gives a wrinkled wall its full shear stiffness); what
-//! remains is not explained.
+//! tension that wrinkles, here p R/(E t) = .0013; and the wrinkles must be short against the radius.
 
-use std::f64::consts::PI;
-use std::sync::Arc;
-
+use super::setup::*;
 use crate::exact::beam::{Cantilever, collapse_tip_load_n};
 use crate::exact::inflated_cantilever::tip_deflection_with_shear_m;
-use models::fabrics::NeoHookean;
-
-use super::inflated::{advance, chamber, hold, node_forces, nodes, section};
-use super::{Check, Curve, Figure, Line, Outcome};
 use fem::mesh::generate::{self, Around, Cap, Tube};
-use fem::problem::{Amplitude, Support};
-use fem::{FemError, Mesh, Problem, Simulation};
+use models::fabrics::NeoHookean;
+use std::f64::consts::PI;
 
-/// Straight line of the unwrinkled tube.
-pub const SLOPE: Check = Check {
-    name: "inflated-cantilever-slope",
-    sentence: "An inflated tube is clamped at one end and pushed down at the other: slope of the unwrinkled wall.",
-    source: "beam theory with shear, F L³/(3 E t π r³) + F L/(G A/2)",
-    slow: false,
-    run: slope,
-};
+pub(super) const SLOPE: Check = Check::quick(
+    "inflated-cantilever-slope",
+    "An inflated tube is clamped at one end and pushed down at the other: slope of the unwrinkled wall.",
+    "beam theory with shear, F L³/(3 E t π r³) + F L/(G A/2)",
+    slope,
+);
 
-/// The whole curve.
-pub const WRINKLING: Check = Check {
-    name: "inflated-cantilever-wrinkling",
-    sentence: "The inflated tube is pushed down until it wrinkles and collapses; the wall has no bending stiffness.",
-    source: "Comer and Levy 1963; verification::exact::inflated_cantilever",
-    slow: true,
-    run: wrinkling,
-};
+pub(super) const WRINKLING: Check = Check::slow(
+    "inflated-cantilever-wrinkling",
+    "The inflated tube is pushed down until it wrinkles and collapses; the wall has no bending stiffness.",
+    "Comer and Levy 1963; verification::exact::inflated_cantilever",
+    wrinkling,
+);
 
 const BEAM: Cantilever = Cantilever {
     radius_m: 0.04,
@@ -67,7 +42,7 @@ const INFLATED_S: f64 = 0.03;
 const MOVE_S: f64 = 0.01;
 const REST_S: f64 = 0.03;
 
-fn slope() -> Result<Outcome, FemError> {
+fn slope() -> Found {
     let mut run = Run::new(&Setup { around: 64, along: 36, grade: 0.0, hourglass: 0.01 }, &[at_share(0.2)])?;
     let [point] = &run.points()?[..] else { return Ok(Outcome::default()) };
     let line = {
@@ -75,13 +50,10 @@ fn slope() -> Result<Outcome, FemError> {
         l.powi(3) / (3.0 * young_pa * t * PI * r.powi(3)) + l / (0.5 * shear_pa * 2.0 * PI * r * t)
     };
     let measured = 1e3 * point.deflection_m / point.force_n;
-    Ok(Outcome {
-        lines: vec![Line::value("tip deflection per force [mm/N]", measured, 1e3 * line, 0.02)],
-        figure: None,
-    })
+    Ok(vec![Line::value("tip deflection per force [mm/N]", measured, 1e3 * line, 0.02)].into())
 }
 
-fn wrinkling() -> Result<Outcome, FemError> {
+fn wrinkling() -> Found {
     const SHARES: [f64; 6] = [0.25, 0.5, 0.75, 0.9, 0.97, 0.99];
     let mut run = Run::new(&Setup { around: 48, along: 72, grade: 0.6, hourglass: 0.001 }, &SHARES.map(at_share))?;
     let points = run.points()?;
@@ -95,16 +67,12 @@ fn wrinkling() -> Result<Outcome, FemError> {
             Line::value(&name, point.force_n, share * collapse, 0.05)
         })
         .collect();
-    lines.push(Line::value(
-        "moment of the first wrinkle [N m]",
-        first_wrinkle(&points),
-        0.5 * collapse * BEAM.length_m,
-        0.05,
-    ));
+    let [wrinkled, collapsed] = [0.5, 1.0].map(|share| share * collapse * BEAM.length_m);
+    lines.push(Line::value("moment of the first wrinkle [N m]", first_wrinkle(&points), wrinkled, 0.05));
     let largest = points.iter().fold(0.0, |most: f64, p| most.max(p.force_n));
-    lines.push(Line::value("moment of collapse [N m]", largest * BEAM.length_m, collapse * BEAM.length_m, 0.05));
+    lines.push(Line::value("moment of collapse [N m]", largest * BEAM.length_m, collapsed, 0.05));
     lines.push(Line::at_most("energy residual over work", run.run.ledger().residual_share(), 0.01));
-    Ok(Outcome { lines, figure: Some(figure(&points)) })
+    Ok(Outcome::drawn(lines, figure(&points)))
 }
 
 /// Moment in the section that is looked at when its compressed side has lost its tension, from the two points before.
@@ -118,15 +86,8 @@ fn figure(points: &[Point]) -> Figure {
     let exact =
         (1..=99).map(|i| f64::from(i) / 100.0).map(|share| [1e3 * at_share(share), share * collapse_tip_load_n(&BEAM)]);
     let engine = points.iter().map(|p| [1e3 * p.deflection_m, p.force_n]);
-    Figure {
-        title: "Inflated cantilever up to collapse".into(),
-        x: "tip deflection [mm]".into(),
-        y: "tip force [N]".into(),
-        curves: vec![
-            Curve { label: "Comer and Levy, with shear".into(), points: exact.collect(), exact: true },
-            Curve { label: "finite elements".into(), points: engine.collect(), exact: false },
-        ],
-    }
+    let curves = vec![Curve::exact("Comer and Levy, with shear", exact), Curve::engine("finite elements", engine)];
+    Figure::new("Inflated cantilever up to collapse", ["tip deflection [mm]", "tip force [N]"], curves)
 }
 
 /// Exact tip deflection \[m\] at a share of the collapse load.
@@ -208,12 +169,12 @@ fn mesh(setup: &Setup) -> Result<Mesh, FemError> {
 
 fn problem(mesh: Mesh, hourglass: f64, deflections_m: &[f64]) -> Problem {
     let of = |thickness_m: f64, density_kg_m3: f64| {
-        let section = section(Arc::new(NeoHookean { c10_pa: C10_PA, thickness_m }), 0.0);
-        fem::problem::Section { density_kg_m3, ..section }
+        let fabric = Arc::new(NeoHookean { c10_pa: C10_PA, thickness_m });
+        Section { density_kg_m3, ..section(fabric, 0.0) }
     };
     // Caps are heavier so that their triangles do not limit the step; at rest that does not matter.
     let sections = vec![of(BEAM.thickness_m, 1e3), of(BEAM.thickness_m, 1e4), of(5.0 * BEAM.thickness_m, 2.5e3)];
-    let air = chamber("body", vec![(0.0, 0.0), (INFLATED_S / 3.0, BEAM.pressure_pa)]);
+    let air = chamber("body", rise(INFLATED_S / 3.0, BEAM.pressure_pa));
     let mut problem = Problem::new("inflated cantilever", mesh, sections, vec![air]);
     let mut way = vec![(INFLATED_S, 0.0)];
     for deflection_m in deflections_m {
@@ -221,10 +182,8 @@ fn problem(mesh: Mesh, hourglass: f64, deflections_m: &[f64]) -> Problem {
         way.extend([(start + MOVE_S, -deflection_m), (start + MOVE_S + REST_S, -deflection_m)]);
     }
     problem.settings.end_s = way.last().map_or(INFLATED_S, |last| last.0);
-    let still = Amplitude::Constant(0.0);
-    let motion = Some([still.clone(), still, Amplitude::Smooth(way)]);
     problem.supports =
-        vec![hold("base_cap", [true; 3]), Support { set: "hung".into(), axes: [false, false, true], motion }];
+        vec![hold("base_cap", [true; 3]), drive("hung", [false, false, true], 2, Amplitude::Smooth(way))];
     problem.settings.mass_damping_1_s = 500.0;
     problem.settings.hourglass = hourglass;
     problem.settings.imperfection = 1e-3;

@@ -1,37 +1,32 @@
 //! Strips cut from a fabric and pulled: does the engine give back the moduli and the curves that went in?
 
-use std::f64::consts::FRAC_PI_4;
-use std::sync::Arc;
-
-use models::fabrics::{Curve as Table, NeoHookean, Orthotropic, Woven, Yarn};
-
 use super::pulled::Strip;
-use super::{Check, Curve, Figure, Line, Outcome};
-use fem::{FemError, Simulation};
+use super::setup::*;
+use models::fabrics::{Curve as Table, NeoHookean, Orthotropic, Woven, Yarn};
+use std::f64::consts::FRAC_PI_4;
 
-pub(super) const LINEAR: Check = Check {
-    name: "coupons",
-    sentence: "Strips of silicone-coated nylon cut along warp, at 45 degrees and along fill give back their three moduli.",
-    source: "E(psi) of a linear orthotropic sheet; moduli of du Pasquier, Jeong, Okamura 2023, Table I",
-    slow: false,
-    run: linear,
-};
+pub(super) const LINEAR: Check = Check::quick(
+    "coupons",
+    "Strips of silicone-coated nylon cut along warp, at 45 degrees and along fill give back their three moduli.",
+    "E(psi) of a linear orthotropic sheet; moduli of du Pasquier, Jeong, Okamura 2023, Table I",
+    linear,
+);
 
-pub(super) const RUBBER: Check = Check {
-    name: "rubber-coupon",
-    sentence: "A neo-Hookean strip stretched by 20 % follows the stress of uniaxial tension.",
-    source: "incompressible neo-Hookean: P = 2 C10 (l - 1/l^2)",
-    slow: false,
-    run: rubber,
-};
+pub(super) const RUBBER: Check = Check::quick(
+    "rubber-coupon",
+    "A neo-Hookean strip stretched by 20 % follows the stress of uniaxial tension.",
+    "incompressible neo-Hookean: P = 2 C10 (l - 1/l^2)",
+    rubber,
+);
 
-pub(super) const WOVEN: Check = Check {
-    name: "woven-coupon",
-    sentence: "A strip of woven fabric pulled along warp and let back follows both tabulated curves and loses the loop between them.",
-    source: "the tables that went in; area between them",
-    slow: false,
-    run: woven,
-};
+pub(super) const WOVEN: Check = Check::quick(
+    "woven-coupon",
+    "A strip of woven fabric pulled along warp and let back follows both tabulated curves and loses the loop between them.",
+    "the tables that went in; area between them",
+    woven,
+);
+
+const AXES: [&str; 2] = ["strain [%]", "nominal stress [MPa]"];
 
 /// Times of `n` smooth steps to given clamp displacements, each with a rest of a fourth of its duration.
 fn steps(to: &[f64], step_s: f64) -> Vec<(f64, f64)> {
@@ -43,11 +38,7 @@ fn steps(to: &[f64], step_s: f64) -> Vec<(f64, f64)> {
     points
 }
 
-fn residual(run: &Simulation) -> Line {
-    Line::at_most("energy residual over external work", run.ledger().residual_share(), 0.01)
-}
-
-fn linear() -> Result<Outcome, FemError> {
+fn linear() -> Found {
     let fabric = Orthotropic::from_bias(96.5e6, 120e6, 4.05e6, 0.0, 5e-5).map_err(FemError::Problem)?;
     let mut outcome = Outcome::default();
     for (name, turns, modulus_pa) in [("E0", 0.0, 96.5e6), ("E45", 1.0, 4.05e6), ("E90", 2.0, 120e6)] {
@@ -64,13 +55,13 @@ fn linear() -> Result<Outcome, FemError> {
         let mut run = strip.start()?;
         let read = strip.read(&mut run, 1.25 * step_s)?;
         let found_mpa = read.stress_pa / read.strain * 1e-6;
-        outcome.lines.push(Line::value(&format!("{name} [MPa]"), found_mpa, modulus_pa * 1e-6, 0.01));
-        outcome.lines.push(residual(&run));
+        outcome.lines.push(Line::value(format!("{name} [MPa]"), found_mpa, modulus_pa * 1e-6, 0.01));
+        outcome.lines.push(balance(run.ledger().residual_share()));
     }
     Ok(outcome)
 }
 
-fn rubber() -> Result<Outcome, FemError> {
+fn rubber() -> Found {
     let fabric = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
     let step_s = 8e-3;
     let strip = Strip {
@@ -93,10 +84,10 @@ fn rubber() -> Result<Outcome, FemError> {
         outcome.lines.push(Line::value(&name, read.stress_pa * 1e-6, law(stretch) * 1e-6, 0.01));
     }
     outcome.lines.push(Line::at_least("strain reached", marks[3][0] / 100.0, 0.2));
-    outcome.lines.push(residual(&run));
-    let exact = (0..=22).map(f64::from).map(|e| [e, law(1.0 + 0.01 * e) * 1e-6]).collect();
-    outcome.figure =
-        Some(figure("Neo-Hookean strip", vec![("2 C10 (l - 1/l²)", exact, true), ("engine", marks, false)]));
+    outcome.lines.push(balance(run.ledger().residual_share()));
+    let exact = (0..=22).map(f64::from).map(|e| [e, law(1.0 + 0.01 * e) * 1e-6]);
+    let curves = vec![Curve::exact("2 C10 (l - 1/l²)", exact), Curve::engine("engine", marks)];
+    outcome.figure = Some(Figure::new("Neo-Hookean strip", AXES, curves));
     Ok(outcome)
 }
 
@@ -104,7 +95,7 @@ fn rubber() -> Result<Outcome, FemError> {
 const LOADING: [[f64; 2]; 4] = [[0.0, 0.0], [0.01, 0.5e6], [0.03, 3e6], [0.06, 9e6]];
 const UNLOADING: [[f64; 2]; 4] = [[0.0, 0.0], [0.01, 0.15e6], [0.03, 1.5e6], [0.06, 9e6]];
 
-fn woven() -> Result<Outcome, FemError> {
+fn woven() -> Found {
     let (load, back) = (table(&LOADING)?, table(&UNLOADING)?);
     let yarn = Yarn::new(load.clone(), Some(back.clone())).map_err(FemError::Problem)?;
     let fabric = Woven::new([yarn.clone(), yarn], Table::linear(1e6), 0.0, 5e-5).map_err(FemError::Problem)?;
@@ -133,32 +124,19 @@ fn woven() -> Result<Outcome, FemError> {
         });
     }
     let loop_j = (load.integral(0.06) - back.integral(0.06)) * 0.1 * 0.01 * 5e-5;
-    let row = |name: &str| run.ledger().rows.iter().filter(|r| r.name == name).map(|r| r.energy_j).sum::<f64>();
+    let row = |name: &str| energy_j(&run, name);
     let spent_j = row("supports") - row("viscosity") - row("mass damping");
-    outcome.lines.push(Line::value(
-        "energy lost in the fabric [mJ]",
-        1e3 * row("fabric hysteresis"),
-        1e3 * loop_j,
-        0.01,
-    ));
+    let lost_j = row("fabric hysteresis");
+    outcome.lines.push(Line::value("energy lost in the fabric [mJ]", 1e3 * lost_j, 1e3 * loop_j, 0.01));
     outcome.lines.push(Line::value("work of the clamps over the loop [mJ]", 1e3 * spent_j, 1e3 * loop_j, 0.01));
-    outcome.lines.push(residual(&run));
-    let rows = |rows: &[[f64; 2]]| rows.iter().map(|r| [100.0 * r[0], 1e-6 * r[1]]).collect();
-    let curves = vec![("loading, table", rows(&LOADING), true), ("unloading, table", rows(&UNLOADING), true)];
-    outcome.figure = Some(figure("Woven strip along warp", [curves, vec![("engine", marks, false)]].concat()));
+    outcome.lines.push(balance(run.ledger().residual_share()));
+    let known = |name, rows: [[f64; 2]; 4]| Curve::exact(name, rows.map(|r| [100.0 * r[0], 1e-6 * r[1]]));
+    let tables = [known("loading, table", LOADING), known("unloading, table", UNLOADING)];
+    let curves = tables.into_iter().chain([Curve::engine("engine", marks)]).collect();
+    outcome.figure = Some(Figure::new("Woven strip along warp", AXES, curves));
     Ok(outcome)
 }
 
 fn table(rows: &[[f64; 2]]) -> Result<Table, FemError> {
     Table::table(rows).map_err(FemError::Problem)
-}
-
-fn figure(title: &str, curves: Vec<(&str, Vec<[f64; 2]>, bool)>) -> Figure {
-    let curve = |(label, points, exact): (&str, Vec<[f64; 2]>, bool)| Curve { label: label.into(), points, exact };
-    Figure {
-        title: title.into(),
-        x: "strain [%]".into(),
-        y: "nominal stress [MPa]".into(),
-        curves: curves.into_iter().map(curve).collect(),
-    }
 }

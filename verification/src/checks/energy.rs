@@ -1,31 +1,26 @@
 //! The energy balance over a long run without any damping.
 
+use super::setup::*;
+use fem::mesh::generate::pillow;
 use models::fabrics::NeoHookean;
 
-use super::setup::{chamber, run as settle, section};
-use super::{Check, Line, Outcome};
-use fem::mesh::generate::pillow;
-use fem::problem::Amplitude;
-use fem::{FemError, Problem, Simulation};
-
-pub(super) const CHECK: Check = Check {
-    name: "energy",
-    sentence: "An inflated pillow whose pressure jumps vibrates for 100000 steps without damping: no energy comes or goes.",
-    source: "conservation of energy",
-    slow: false,
+pub(super) const CHECK: Check = Check::quick(
+    "energy",
+    "An inflated pillow whose pressure jumps vibrates for 100000 steps without damping: no energy comes or goes.",
+    "conservation of energy",
     run,
-};
+);
 
 const STEPS: u64 = 100_000;
 const PRESSURE_PA: f64 = 2e3;
 
-fn run() -> Result<Outcome, FemError> {
+fn run() -> Found {
     let fabric = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
     let flat = |pressure: Amplitude| -> Result<Problem, FemError> {
         let mesh = pillow(0.1, 10, 2e-3)?;
-        Ok(Problem::new("pillow", mesh, vec![section(fabric, 1.0); 2], vec![chamber("air", pressure)]))
+        Ok(problem("pillow", mesh, section(Arc::new(fabric), 1.0), vec![chamber("air", pressure)]))
     };
-    let mut problem = flat(Amplitude::Smooth(vec![(0.0, 0.0), (0.02, PRESSURE_PA)]))?;
+    let mut problem = flat(rise(0.02, PRESSURE_PA))?;
     problem.settings.mass_damping_1_s = 300.0;
     problem.settings.end_s = 0.05;
     let inflated = settle(&problem)?.positions();
@@ -44,9 +39,9 @@ fn run() -> Result<Outcome, FemError> {
         moving = if run.step() > STEPS / 2 { moving.max(ledger.kinetic_j / work) } else { 0.0 };
         run.step() < STEPS
     })?;
-    let lines = vec![
+    Ok(vec![
         Line::at_least("kinetic energy over work, last half", moving, 0.01),
         Line::at_most("largest residual over work, 1e5 steps", worst, 1e-4),
-    ];
-    Ok(Outcome { lines, figure: None })
+    ]
+    .into())
 }

@@ -1,34 +1,26 @@
 //! Folds beside stiff strips, and the pouch that folds along all of its edges.
 
-use std::sync::Arc;
-
+use super::setup::*;
 use crate::exact::fold::stiffened_moments_n;
 use crate::exact::pouch::{Pouch, contraction, sealed_theta, sealed_volume_m3};
+use fem::mesh::generate::{flat_tube, plate};
+use fem::mesh::{Part, Tie};
+use fem::sheet;
 use models::fabrics::{NeoHookean, Orthotropic, WrinklingFilm};
 
-use super::inflated::{chamber, mean};
-use super::setup::{hold, rate, run as settle, section};
-use super::{Check, Line, Outcome, inflated};
-use fem::mesh::generate::{flat_tube, plate};
-use fem::mesh::{Mesh, Part, Tie};
-use fem::problem::{Amplitude, NodalForce, Problem, Rigid, Section};
-use fem::{FemError, sheet};
+pub(super) const STRIP: Check = Check::quick(
+    "fold",
+    "A strip D | 60 D | D is pulled at both ends at 60° to its stiff middle: its moments there are the elastica's on any mesh.",
+    "verification::exact::fold, the elastica behind a stiff strip",
+    strip,
+);
 
-pub(super) const STRIP: Check = Check {
-    name: "fold",
-    sentence: "A strip D | 60 D | D is pulled at both ends at 60° to its stiff middle: its moments there are the elastica's on any mesh.",
-    source: "verification::exact::fold, the elastica behind a stiff strip",
-    slow: false,
-    run: strip,
-};
-
-pub(super) const SEALED: Check = Check {
-    name: "sealed-pouch",
-    sentence: "A pouch sealed along all four edges, two of them straight, is blown up without load: what it holds and how far it contracts.",
-    source: "verification::exact::pouch::sealed_volume_m3, an approximation whose volume is exact to 2 %",
-    slow: true,
-    run: sealed,
-};
+pub(super) const SEALED: Check = Check::slow(
+    "sealed-pouch",
+    "A pouch sealed along all four edges, two of them straight, is blown up without load: what it holds and how far it contracts.",
+    "verification::exact::pouch::sealed_volume_m3, an approximation whose volume is exact to 2 %",
+    sealed,
+);
 
 /// √(D/T) \[m\], pull per width \[N/m\], angle of the pull, half length of the stiff part \[m\].
 const FOLD_M: f64 = 1e-3;
@@ -42,7 +34,7 @@ const SOFT_M: f64 = 24e-3;
 const STRAIN: f64 = 1e-3;
 const END_S: f64 = 0.02;
 
-fn strip() -> Result<Outcome, FemError> {
+fn strip() -> Found {
     let soft = PULL_N_M * FOLD_M * FOLD_M;
     let [at_middle, at_edge] = stiffened_moments_n(soft, STIFFER * soft, HALF_M, PULL_N_M, ANGLE);
     let mut errors = Vec::new();
@@ -51,7 +43,7 @@ fn strip() -> Result<Outcome, FemError> {
         let [middle, edge] = strip_moments_n(elements)?;
         let size = SOFT_M / elements as f64 / FOLD_M;
         lines.push(Line::value(
-            &format!("moment per width at the edge, elements of {size} √(D/T) [N]"),
+            format!("moment per width at the edge, elements of {size} √(D/T) [N]"),
             edge,
             at_edge,
             0.03,
@@ -60,7 +52,7 @@ fn strip() -> Result<Outcome, FemError> {
         errors.push(middle - at_middle);
     }
     lines.push(Line::at_least("rate at the middle from 1 to 0.5 √(D/T)", rate(errors[3], errors[4], 2.0), 1.9));
-    Ok(Outcome { lines, figure: None })
+    Ok(lines.into())
 }
 
 /// Moments of the force at one end about the middle and about the edge of the stiff part, per width \[N\].
@@ -88,7 +80,7 @@ fn strip_moments_n(elements: usize) -> Result<[f64; 2], FemError> {
     let pull = |set: &str, sign: f64| NodalForce {
         set: set.into(),
         total_n: [sign * ANGLE.cos(), 0.0, -ANGLE.sin()].map(|f| f * PULL_N_M * width),
-        amplitude: Amplitude::Smooth(vec![(0.0, 0.0), (0.25 * END_S, 1.0)]),
+        amplitude: rise(0.25 * END_S, 1.0),
     };
     problem.forces = vec![pull("right", 1.0), pull("left", -1.0)];
     problem.supports = vec![hold("middle", [true; 3]), hold("line", [false, true, false])];
@@ -114,36 +106,36 @@ fn split(mesh: &Mesh, half_m: f64) -> Vec<Part> {
 /// A sheet that hardly stretches, with `factor` times the wanted D.
 fn sheet_of(factor: f64) -> Section {
     const THICKNESS_M: f64 = 5e-5;
-    let plain = section(Orthotropic::isotropic(PULL_N_M / STRAIN / THICKNESS_M, 0.0, THICKNESS_M), 1.0);
+    let plain = section(Arc::new(Orthotropic::isotropic(PULL_N_M / STRAIN / THICKNESS_M, 0.0, THICKNESS_M)), 1.0);
     let own = sheet::reference::bending_stiffness(&plain);
     Section { bending_factor: factor * PULL_N_M * FOLD_M * FOLD_M / own, ..plain }
 }
 
-fn sealed() -> Result<Outcome, FemError> {
+fn sealed() -> Found {
     let mut lines = Vec::new();
     for ratio in [1.0, 1.5, 2.0, 4.0] {
         let pouch = Pouch { length_m: 0.06, width_m: ratio * 0.06 };
         let theta = sealed_theta(&pouch);
         let [ends, holds] = blown(&pouch)?;
         lines.push(Line::value(
-            &format!("W/L = {ratio}: volume [cm³]"),
+            format!("W/L = {ratio}: volume [cm³]"),
             1e6 * holds,
             1e6 * sealed_volume_m3(&pouch, theta),
             0.03,
         ));
         if ratio > 1.0 {
-            lines.push(Line::value(&format!("W/L = {ratio}: contraction"), ends, contraction(theta), 0.03));
+            lines.push(Line::value(format!("W/L = {ratio}: contraction"), ends, contraction(theta), 0.03));
         } else {
             // A volume that is flat at its largest leaves the contraction of the square pouch to what the approximation lacks.
             lines.push(Line::between(
-                &format!("W/L = {ratio}: contraction"),
+                format!("W/L = {ratio}: contraction"),
                 ends,
                 contraction(theta),
                 1.1 * contraction(theta),
             ));
         }
     }
-    Ok(Outcome { lines, figure: None })
+    Ok(lines.into())
 }
 
 /// Contraction and volume \[m³\] of a pouch of fabric that hardly stretches, wrinkles freely and does not resist bending.
@@ -152,9 +144,8 @@ fn blown(pouch: &Pouch) -> Result<[f64; 2], FemError> {
     let across = 2 * (0.5 * ALONG as f64 * pouch.width_m / pouch.length_m).round() as usize;
     let mesh = flat_tube(pouch.width_m, pouch.length_m, across, ALONG, 0.0, 2e-5)?;
     let film = WrinklingFilm { film: NeoHookean { c10_pa: 1e8, thickness_m: 1e-4 }, share: 1e-3 };
-    let sheet = inflated::section(Arc::new(film), 0.0);
-    let air = chamber("air", vec![(0.0, 0.0), (0.05, 1e3)]);
-    let mut problem = Problem::new("sealed pouch", mesh, vec![sheet.clone(), sheet], vec![air]);
+    let air = chamber("air", rise(0.05, 1e3));
+    let mut problem = problem("sealed pouch", mesh, section(Arc::new(film), 0.0), vec![air]);
     problem.supports = vec![hold("end_0", [true; 3])];
     problem.rigid = vec![Rigid { set: "end_1".into() }];
     problem.settings.mass_damping_1_s = 100.0;
@@ -163,5 +154,5 @@ fn blown(pouch: &Pouch) -> Result<[f64; 2], FemError> {
     problem.settings.end_s = 0.15;
     let run = settle(&problem)?;
     let ends = 1.0 - mean(&problem.mesh, "end_1", &run.positions(), 0) / pouch.length_m;
-    Ok([ends, run.chambers().first().map_or(f64::NAN, |air| air.volume_m3)])
+    Ok([ends, volume_m3(&run)])
 }

@@ -11,26 +11,18 @@
 //! without contact): sides pass each other between their nodes, mostly at sharp creases of one layer, and then
 //! springs that remember sides pull the wrong way. `contact::edges` leaves none: see there.
 
-use std::sync::Arc;
-
+use super::apart::{nodes, triangles};
+use super::setup::*;
+use fem::mesh::generate::{FoldedPouch, folded_pouch};
+use fem::vec3::{V3, cross, dot, norm, scale, sub, unit};
 use models::fabrics::NeoHookean;
 
-use super::apart::{nodes, triangles};
-use super::pulled::membrane;
-use super::{Check, Line, Outcome};
-use fem::mesh::generate::{FoldedPouch, folded_pouch};
-use fem::problem::{Amplitude, Chamber, Contact, Pressure, Section};
-use fem::vec3::{V3, cross, dot, norm, scale, sub, unit};
-use fem::{FemError, Mesh, Problem, Simulation};
-
-/// The check.
-pub const CHECK: Check = Check {
-    name: "folded-pouch",
-    sentence: "A pouch with side folds of four layers 0.01 mm apart blows up to 30 kPa without layers passing through each other.",
-    source: "bodies do not pass through each other; the same run without contact",
-    slow: true,
+pub(super) const CHECK: Check = Check::slow(
+    "folded-pouch",
+    "A pouch with side folds of four layers 0.01 mm apart blows up to 30 kPa without layers passing through each other.",
+    "bodies do not pass through each other; the same run without contact",
     run,
-};
+);
 
 const OUTPUTS: usize = 16;
 /// Pairs of neighbouring layers: below, above.
@@ -48,7 +40,7 @@ const STACK: [(&str, &str); 6] = [
 ///
 /// # Errors
 /// [`FemError::Mesh`] for an element size that is not positive or far too small.
-pub fn pouch(element_m: f64, peak_pa: f64, contact: bool) -> Result<Problem, FemError> {
+fn pouch(element_m: f64, peak_pa: f64, contact: bool) -> Result<Problem, FemError> {
     let mesh = folded_pouch(&FoldedPouch {
         length_m: 0.06,
         width_m: 0.06,
@@ -58,27 +50,24 @@ pub fn pouch(element_m: f64, peak_pa: f64, contact: bool) -> Result<Problem, Fem
         in_fold: (0.024 / element_m).round() as usize,
     })?;
     let fabric = Arc::new(NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 });
-    let sections =
-        mesh.parts.iter().map(|_| Section { bending_factor: 0.1, ..membrane(fabric.clone(), 0.0) }).collect();
-    let pressure = Pressure::Set(Amplitude::Smooth(vec![(0.0, 0.0), (0.03, peak_pa)]));
-    let mut problem =
-        Problem::new("folded pouch", mesh, sections, vec![Chamber { name: "air".into(), pressure, open_axis: None }]);
+    let air = chamber("air", rise(0.03, peak_pa));
+    let mut problem = problem("folded pouch", mesh, section(fabric, 0.1), vec![air]);
     problem.contact = contact.then(|| Contact { edges: true, ..Contact::default() });
     problem.settings.mass_damping_1_s = 100.0;
     problem.settings.end_s = 0.04;
     Ok(problem)
 }
 
-fn run() -> Result<Outcome, FemError> {
+fn run() -> Found {
     let [order, pierced, residual] = blow_up(true)?;
     let without = blow_up(false)?[1];
-    let lines = vec![
+    Ok(vec![
         Line::at_least("smallest distance between layers [mm], negative on the wrong side", 1e3 * order, -0.05),
         Line::at_most("sides of elements that pierce another face", pierced, 0.0),
         Line::at_least("the same without contact", without, 50.0),
         Line::at_most("energy residual over external work", residual, 0.02),
-    ];
-    Ok(Outcome { lines, figure: None })
+    ]
+    .into())
 }
 
 /// Least distance \[m\], most piercings and largest residual of a run to 30 kPa.
@@ -87,7 +76,7 @@ fn blow_up(contact: bool) -> Result<[f64; 3], FemError> {
     let mut run = Simulation::new(&problem)?;
     let [mut order, mut pierced, mut residual] = [f64::INFINITY, 0.0, 0.0];
     for i in 1..=OUTPUTS {
-        run.advance_until(problem.settings.end_s * i as f64 / OUTPUTS as f64, &mut |_| true)?;
+        advance(&mut run, problem.settings.end_s * i as f64 / OUTPUTS as f64)?;
         let x = run.positions();
         order = order.min(least_distance_m(&problem.mesh, &x));
         pierced = f64::max(pierced, piercings(&problem.mesh, &x) as f64);
@@ -143,7 +132,7 @@ fn distance_and_height([a, b, c]: &[V3; 3], p: V3) -> Option<(f64, Option<f64>)>
 }
 
 /// Number of sides of elements that run through a face.
-pub fn piercings(mesh: &Mesh, x: &[V3]) -> usize {
+fn piercings(mesh: &Mesh, x: &[V3]) -> usize {
     let at = |n: u32| x[n as usize];
     let faces = mesh.parts.iter().flat_map(|p| &p.quads).flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
     let faces: Vec<[u32; 3]> = faces.collect();

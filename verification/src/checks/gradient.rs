@@ -1,32 +1,27 @@
 //! Force = −∂E/∂x of every term.
 
-use std::sync::Arc;
-
-use models::fabrics::{NeoHookean, Orthotropic};
-use models::{Pose, Term};
-
-use super::setup::{chamber, noise, section, shells, slope_error};
-use super::{Check, Line, Outcome};
+use super::setup::*;
 use fem::contact::Contact;
 use fem::mesh::generate::{Around, Cap, Tube, crossed_sheets, tube};
 use fem::plain::PlainSheet;
-use fem::problem::{self, Amplitude, NodalForce, Obstacle, ObstacleShape, Ply, Section};
+use fem::problem;
 use fem::terms::{Gravity, NodalForces, Obstacles, RestCurvature};
-use fem::{FemError, Mesh, Problem, Tick, Transient};
+use fem::{Tick, Transient};
+use models::fabrics::{NeoHookean, Orthotropic};
+use models::{Pose, Term};
 
-pub(super) const CHECK: Check = Check {
-    name: "force-is-slope",
-    sentence: "The force of every term is minus the slope of its energy, at random positions.",
-    source: "virtual work; central differences of fourth order",
-    slow: false,
+pub(super) const CHECK: Check = Check::quick(
+    "force-is-slope",
+    "The force of every term is minus the slope of its energy, at random positions.",
+    "virtual work; central differences of fourth order",
     run,
-};
+);
 
 /// Largest error over the largest force.
 const LIMIT: f64 = 1e-6;
 const PROBES: usize = 30;
 
-fn run() -> Result<Outcome, FemError> {
+fn run() -> Found {
     let mesh = tube(&Tube {
         radius_m: 0.04,
         length_m: 0.1,
@@ -35,19 +30,20 @@ fn run() -> Result<Outcome, FemError> {
         caps: [Cap::Triangles, Cap::Quads],
         warp_rad: 0.3,
     })?;
-    let wall = Section { rest_curvature: true, ..section(NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 }, 1.0) };
+    let wall =
+        Section { rest_curvature: true, ..section(Arc::new(NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 }), 1.0) };
     let woven = Arc::new(Orthotropic::new(96.5e6, 120e6, 0.3, 1.03e6, 5e-5));
     let cap = Section { plies: vec![Ply { fabric: woven, angle_rad: 0.4 }], ..wall.clone() };
     let sections = vec![wall.clone(), cap, wall];
     let problem = Problem::new("zoo", mesh, sections, vec![chamber("body", Amplitude::Constant(2e3))]);
-    let (sheet, mesh) = shells(&problem)?;
+    let (sheet, mesh, _) = shells(&problem)?;
     let q = shaken(&mesh, 1e-3);
     let plain = PlainSheet::new(&sheet, &mesh, &problem);
     let rest = RestCurvature::new(&mesh, &problem.sections);
     let mut lines = Vec::new();
     let mut judge = |name: &str, term: &dyn Term, q: &[f64], step_m: f64| {
         lines.push(Line::at_most(
-            &format!("{name}: error over largest force"),
+            format!("{name}: error over largest force"),
             slope_error(term, q, PROBES, step_m),
             LIMIT,
         ));
@@ -60,7 +56,7 @@ fn run() -> Result<Outcome, FemError> {
     }
     let (contact, x) = pressed()?;
     judge("contact", &contact, &x, 5e-10);
-    Ok(Outcome { lines, figure: None })
+    Ok(lines.into())
 }
 
 fn loads(mesh: &Mesh, mass_kg: &[f64]) -> Result<Vec<Box<dyn Term>>, FemError> {

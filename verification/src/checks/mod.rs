@@ -15,7 +15,6 @@ mod energy;
 mod fold;
 pub(crate) mod folded;
 mod gradient;
-mod inflated;
 mod long_pouch;
 mod patch;
 mod pillow;
@@ -43,7 +42,7 @@ pub struct Check {
     /// True if it takes more than a few CPU-seconds; `ibr verify` runs it only when asked for all.
     pub slow: bool,
     /// Runs it.
-    pub run: fn() -> Result<Outcome, FemError>,
+    pub run: fn() -> Found,
 }
 
 /// What a check found.
@@ -146,6 +145,49 @@ pub const CHECKS: &[Check] = &[
     robots::FOLDS,
 ];
 
+/// What running a check gives.
+pub type Found = Result<Outcome, FemError>;
+
+impl Check {
+    const fn quick(name: &'static str, sentence: &'static str, source: &'static str, run: fn() -> Found) -> Check {
+        Check { name, sentence, source, slow: false, run }
+    }
+
+    const fn slow(name: &'static str, sentence: &'static str, source: &'static str, run: fn() -> Found) -> Check {
+        Check { slow: true, ..Check::quick(name, sentence, source, run) }
+    }
+}
+
+impl From<Vec<Line>> for Outcome {
+    fn from(lines: Vec<Line>) -> Outcome {
+        Outcome { lines, figure: None }
+    }
+}
+
+impl Outcome {
+    fn drawn(lines: Vec<Line>, figure: Figure) -> Outcome {
+        Outcome { lines, figure: Some(figure) }
+    }
+}
+
+impl Figure {
+    fn new(title: &str, [x, y]: [&str; 2], curves: Vec<Curve>) -> Figure {
+        Figure { title: title.into(), x: x.into(), y: y.into(), curves }
+    }
+}
+
+impl Curve {
+    /// The known answer.
+    fn exact(label: impl Into<String>, points: impl IntoIterator<Item = [f64; 2]>) -> Curve {
+        Curve { label: label.into(), points: points.into_iter().collect(), exact: true }
+    }
+
+    /// What the engine gave.
+    fn engine(label: impl Into<String>, points: impl IntoIterator<Item = [f64; 2]>) -> Curve {
+        Curve { exact: false, ..Curve::exact(label, points) }
+    }
+}
+
 impl Against {
     /// True if a number is good enough. A number that is not a number never is.
     pub fn holds(self, measured: f64) -> bool {
@@ -159,24 +201,28 @@ impl Against {
 }
 
 impl Line {
+    fn new(quantity: impl Into<String>, measured: f64, against: Against) -> Line {
+        Line { quantity: quantity.into(), measured, against }
+    }
+
     /// A number against a known value.
-    pub fn value(quantity: &str, measured: f64, exact: f64, tolerance: f64) -> Line {
-        Line { quantity: quantity.to_owned(), measured, against: Against::Value { exact, tolerance } }
+    pub fn value(quantity: impl Into<String>, measured: f64, exact: f64, tolerance: f64) -> Line {
+        Line::new(quantity, measured, Against::Value { exact, tolerance })
     }
 
     /// A number that must not exceed a limit.
-    pub fn at_most(quantity: &str, measured: f64, limit: f64) -> Line {
-        Line { quantity: quantity.to_owned(), measured, against: Against::AtMost(limit) }
+    pub fn at_most(quantity: impl Into<String>, measured: f64, limit: f64) -> Line {
+        Line::new(quantity, measured, Against::AtMost(limit))
     }
 
     /// A number that must reach a limit.
-    pub fn at_least(quantity: &str, measured: f64, limit: f64) -> Line {
-        Line { quantity: quantity.to_owned(), measured, against: Against::AtLeast(limit) }
+    pub fn at_least(quantity: impl Into<String>, measured: f64, limit: f64) -> Line {
+        Line::new(quantity, measured, Against::AtLeast(limit))
     }
 
     /// A number that must lie in a band.
-    pub fn between(quantity: &str, measured: f64, low: f64, high: f64) -> Line {
-        Line { quantity: quantity.to_owned(), measured, against: Against::Between(low, high) }
+    pub fn between(quantity: impl Into<String>, measured: f64, low: f64, high: f64) -> Line {
+        Line::new(quantity, measured, Against::Between(low, high))
     }
 
     /// Relative error, where there is a known value other than 0.

@@ -1,48 +1,41 @@
 //! Patch tests: states that the elements must hold exactly on any mesh, and bending to a cylinder.
 
-use models::fabrics::{FABRICS, NeoHookean, Orthotropic};
-use models::{Fabric, Pose, Term};
-
-use super::setup::{largest, placed, rate, section, shells};
-use super::{Check, Line, Outcome};
+use super::setup::*;
 use fem::mesh::Part;
 use fem::mesh::generate::{Distortion, plate};
 use fem::sheet::bending::{BendingMatrix, curvature_rows};
 use fem::sheet::reference::bending_stiffness;
 use fem::terms::Folds;
-use fem::{FemError, Mesh, Problem};
+use models::fabrics::{FABRICS, NeoHookean, Orthotropic};
+use models::{Fabric, Pose, Term};
 
-pub(super) const UNIFORM: Check = Check {
-    name: "patch-uniform",
-    sentence: "A sheet of distorted elements, stretched and sheared: stress is uniform, inner nodes are free of force.",
-    source: "homogeneous deformation; the fabric's own law",
-    slow: false,
-    run: uniform,
-};
+pub(super) const UNIFORM: Check = Check::quick(
+    "patch-uniform",
+    "A sheet of distorted elements, stretched and sheared: stress is uniform, inner nodes are free of force.",
+    "homogeneous deformation; the fabric's own law",
+    uniform,
+);
 
-pub(super) const BENDING: Check = Check {
-    name: "patch-bending",
-    sentence: "A plate rolled to a cylinder stores ½ D κ² per area, edges included.",
-    source: "ibr: closed form; the chords of an arc lack (h/R)²/12",
-    slow: false,
-    run: bending,
-};
+pub(super) const BENDING: Check = Check::quick(
+    "patch-bending",
+    "A plate rolled to a cylinder stores ½ D κ² per area, edges included.",
+    "ibr: closed form; the chords of an arc lack (h/R)²/12",
+    bending,
+);
 
-pub(super) const TWO: Check = Check {
-    name: "patch-two-thicknesses",
-    sentence: "A plate of two thicknesses side by side, rolled across and along the line between them, stores ½ D κ² of each.",
-    source: "ibr: closed form; one moment across the line, one curvature along it",
-    slow: false,
-    run: two_thicknesses,
-};
+pub(super) const TWO: Check = Check::quick(
+    "patch-two-thicknesses",
+    "A plate of two thicknesses side by side, rolled across and along the line between them, stores ½ D κ² of each.",
+    "ibr: closed form; one moment across the line, one curvature along it",
+    two_thicknesses,
+);
 
-pub(super) const RIGID: Check = Check {
-    name: "rigid-turn",
-    sentence: "A sheet turned by one radian has no stress and no force, whatever its fabric.",
-    source: "objectivity",
-    slow: false,
-    run: rigid,
-};
+pub(super) const RIGID: Check = Check::quick(
+    "rigid-turn",
+    "A sheet turned by one radian has no stress and no force, whatever its fabric.",
+    "objectivity",
+    rigid,
+);
 
 const SIDES_M: [f64; 2] = [0.2, 0.1];
 /// Deformation gradients, columns of the images of x and y.
@@ -62,12 +55,12 @@ fn distorted(triangles: bool) -> Result<Mesh, FemError> {
     Ok(mesh)
 }
 
-fn uniform() -> Result<Outcome, FemError> {
+fn uniform() -> Found {
     let fabric = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
     let mut lines = Vec::new();
     for (kind, triangles) in [("quads", false), ("triangles", true)] {
-        let problem = Problem::new("patch", distorted(triangles)?, vec![section(fabric, 1.0)], vec![]);
-        let (sheet, mesh) = shells(&problem)?;
+        let problem = Problem::new("patch", distorted(triangles)?, vec![section(Arc::new(fabric), 1.0)], vec![]);
+        let (sheet, mesh, _) = shells(&problem)?;
         for (name, [f1, f2]) in STATES {
             let q = placed(&mesh.points, |p| [f1[0] * p[0] + f2[0] * p[1], f1[1] * p[0] + f2[1] * p[1], 0.0]);
             let mut force = vec![0.0; q.len()];
@@ -76,7 +69,7 @@ fn uniform() -> Result<Outcome, FemError> {
             let inside = mesh.points.iter().zip(force.as_chunks::<4>().0).filter(|(p, _)| inner(p));
             let rest = inside.map(|(_, f)| largest(f)).fold(0.0, f64::max);
             lines.push(Line::at_most(
-                &format!("{kind}, {name}: force inside/at the edge"),
+                format!("{kind}, {name}: force inside/at the edge"),
                 rest / largest(&force),
                 1e-12,
             ));
@@ -84,10 +77,10 @@ fn uniform() -> Result<Outcome, FemError> {
             let stress = sheet.fields(&q).principal_stress_pa;
             let error =
                 stress.iter().flat_map(|s| [s[0] / exact[0] - 1.0, s[1] / exact[1] - 1.0]).collect::<Vec<f64>>();
-            lines.push(Line::at_most(&format!("{kind}, {name}: error of stress"), largest(&error), 1e-12));
+            lines.push(Line::at_most(format!("{kind}, {name}: error of stress"), largest(&error), 1e-12));
         }
     }
-    Ok(Outcome { lines, figure: None })
+    Ok(lines.into())
 }
 
 /// Principal Cauchy stresses of the sheet with F = [f1 f2]: eigenvalues of F S Fᵀ/t, larger first.
@@ -103,7 +96,7 @@ fn principal_stress(fabric: &NeoHookean, f1: [f64; 2], f2: [f64; 2]) -> [f64; 2]
     [mean + radius, mean - radius]
 }
 
-fn bending() -> Result<Outcome, FemError> {
+fn bending() -> Found {
     let (d, radius) = (1e-4, 0.05);
     let stored = |mesh: &Mesh, triangles_edge: f64| {
         let q =
@@ -120,16 +113,16 @@ fn bending() -> Result<Outcome, FemError> {
     }
     let theory = (SIDES_M[0] / 40.0 / radius).powi(2) / 6.0;
     let fine = plate(SIDES_M[0], SIDES_M[1], 40, 20, Some(Distortion { share: 0.1, seed: 1 }))?;
-    let lines = vec![
+    Ok(vec![
         Line::value("energy over ½ D κ² A, 40 elements", 1.0 + errors[2], 1.0, 2e-3),
         Line::value("what it lacks over (h/R)²/6", -errors[2] / theory, 1.0, 0.01),
         Line::at_least("rate", rate(errors[1], errors[2], 2.0), 1.95),
         Line::value("the same, elements distorted by 10 %", stored(&fine, SIDES_M[0] / 40.0), 1.0, 0.05),
-    ];
-    Ok(Outcome { lines, figure: None })
+    ]
+    .into())
 }
 
-fn two_thicknesses() -> Result<Outcome, FemError> {
+fn two_thicknesses() -> Found {
     let thick = 2.0;
     let fabric = |scale: f64| Orthotropic::isotropic(1e8, 0.3, scale * 2e-4);
     let radius = 0.05;
@@ -140,9 +133,9 @@ fn two_thicknesses() -> Result<Outcome, FemError> {
         let (thin, rest): (Vec<_>, Vec<_>) = mesh.parts[0].quads.iter().partition(|quad| left(quad));
         let part = |name: &str, quads| Part { name: name.into(), quads, ..Part::default() };
         mesh.parts = vec![part("thin", thin), part("thick", rest)];
-        let sections = vec![section(fabric(1.0), 1.0), section(fabric(thick), 1.0)];
+        let sections = vec![section(Arc::new(fabric(1.0)), 1.0), section(Arc::new(fabric(thick)), 1.0)];
         let stiffness: Vec<f64> = sections.iter().map(bending_stiffness).collect();
-        let (sheet, mesh) = shells(&Problem::new("two thicknesses", mesh, sections, vec![]))?;
+        let (sheet, mesh, _) = shells(&Problem::new("two thicknesses", mesh, sections, vec![]))?;
         let q = placed(&mesh.points, |p| {
             // Across the line both sides carry one moment, so that the thick one bends less.
             let mut turned = p;
@@ -170,28 +163,28 @@ fn two_thicknesses() -> Result<Outcome, FemError> {
                 (half - 0.5 * SIDES_M[0] * 0.5 * SIDES_M[1] / 20.0 / (radius * radius)) * (stiffness[0] + stiffness[1])
             }
         };
-        lines.push(Line::value(&format!("{name}: energy over ½ ∫ D κ²"), stored / exact, 1.0, 2e-3));
+        lines.push(Line::value(format!("{name}: energy over ½ ∫ D κ²"), stored / exact, 1.0, 2e-3));
     }
-    Ok(Outcome { lines, figure: None })
+    Ok(lines.into())
 }
 
-fn rigid() -> Result<Outcome, FemError> {
+fn rigid() -> Found {
     let mut lines = Vec::new();
     let (s, c) = 1.0_f64.sin_cos();
     for law in FABRICS {
         let fabric = (law.make)(&(law.example)()).map_err(|e| FemError::Problem(e.to_string()))?;
         let stiff = fabric.tangent([0.0; 3], &[0.0; 2])[0][0];
-        let own = fem::problem::Section {
-            plies: vec![fem::problem::Ply { fabric: fabric.clone(), angle_rad: 0.3 }],
-            ..section(Orthotropic::isotropic(1e8, 0.3, 1e-4), 1.0)
+        let own = Section {
+            plies: vec![Ply { fabric: fabric.clone(), angle_rad: 0.3 }],
+            ..section(Arc::new(Orthotropic::isotropic(1e8, 0.3, 1e-4)), 1.0)
         };
-        let (sheet, mesh) = shells(&Problem::new("turn", distorted(false)?, vec![own], vec![]))?;
+        let (sheet, mesh, _) = shells(&Problem::new("turn", distorted(false)?, vec![own], vec![]))?;
         let q = placed(&mesh.points, |p| [c * p[0] - s * p[2] + 0.3, p[1] - 0.2, s * p[0] + c * p[2]]);
         let mut force = vec![0.0; q.len()];
         sheet.add(&Pose::nodes(&q), &mut force);
         let tension = largest(&sheet.fields(&q).von_mises_pa) * fabric.thickness_m();
-        lines.push(Line::at_most(&format!("{}: tension over stiffness", law.name), tension / stiff, 1e-12));
-        lines.push(Line::at_most(&format!("{}: force over stiffness [m]", law.name), largest(&force) / stiff, 1e-13));
+        lines.push(Line::at_most(format!("{}: tension over stiffness", law.name), tension / stiff, 1e-12));
+        lines.push(Line::at_most(format!("{}: force over stiffness [m]", law.name), largest(&force) / stiff, 1e-13));
     }
-    Ok(Outcome { lines, figure: None })
+    Ok(lines.into())
 }

@@ -1,13 +1,7 @@
 //! A flat strip pulled along x: what the checks of fabrics share.
 
-use std::sync::Arc;
-
+use super::setup::*;
 use models::Fabric;
-use models::fabrics::Ply;
-
-use fem::mesh::generate;
-use fem::problem::{Amplitude, Section, Support};
-use fem::{FemError, Problem, Simulation};
 
 /// A strip between two clamps.
 pub(super) struct Strip {
@@ -33,46 +27,27 @@ pub(super) struct Reading {
     pub stress_pa: f64,
 }
 
-/// A membrane of one ply at 1000 kg/m³.
-pub(super) fn membrane(fabric: Arc<dyn Fabric>, angle_rad: f64) -> Section {
-    Section {
-        plies: vec![Ply { fabric, angle_rad }],
-        bonded: true,
-        density_kg_m3: 1000.0,
-        bending_factor: 0.0,
-        rest_curvature: false,
-    }
-}
-
-/// A support that holds a set along some axes.
-pub(super) fn hold(set: &str, axes: [bool; 3]) -> Support {
-    Support { set: set.into(), axes, motion: None }
-}
-
-/// A support that holds a set and moves it along x.
-pub(super) fn drive_x(set: &str, points: Vec<(f64, f64)>) -> Support {
-    let still = Amplitude::Constant(0.0);
-    Support { set: set.into(), axes: [true; 3], motion: Some([Amplitude::Smooth(points), still.clone(), still]) }
-}
-
 impl Strip {
     /// The run, both clamps holding all three axes.
     pub fn start(&self) -> Result<Simulation, FemError> {
         let [length, width] = self.size_m;
         let mesh = generate::plate(length, width, self.elements[0], self.elements[1], None)?;
-        let mut problem = Problem::new("strip", mesh, vec![membrane(self.fabric.clone(), self.warp_rad)], vec![]);
-        problem.supports = vec![hold("left", [true; 3]), drive_x("right", self.pull.clone())];
+        let mut sheet = section(self.fabric.clone(), 0.0);
+        sheet.plies[0].angle_rad = self.warp_rad;
+        let mut problem = problem("strip", mesh, sheet, vec![]);
+        problem.supports =
+            vec![hold("left", [true; 3]), drive("right", [true; 3], 0, Amplitude::Smooth(self.pull.clone()))];
         problem.settings.mass_damping_1_s = self.damping_1_s;
         Simulation::new(&problem)
     }
 
     /// Steps to a time and reads strain and stress.
     pub fn read(&self, run: &mut Simulation, time_s: f64) -> Result<Reading, FemError> {
-        run.advance_until(time_s, &mut |_| true)?;
+        advance(run, time_s)?;
         let marks = [0.4, 0.6].map(|share| (share * self.elements[0] as f64).round());
         let apart = (marks[1] - marks[0]) * self.size_m[0] / self.elements[0] as f64;
         let strain = (self.mean_x(run, marks[1]) - self.mean_x(run, marks[0])) / apart - 1.0;
-        let force = run.reaction_n("right").map_or(f64::NAN, |f| f[0]);
+        let force = pull_n(&run, "right");
         Ok(Reading { strain, stress_pa: force / (self.size_m[1] * self.fabric.thickness_m()) })
     }
 

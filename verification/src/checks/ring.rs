@@ -1,21 +1,16 @@
 //! How far a clamped ring is felt in a pressurised cylinder.
 
+use super::setup::*;
 use crate::exact::shell::{self, ClampedCylinder};
+use fem::mesh::generate::{Around, Cap, Tube, tube};
 use models::fabrics::Orthotropic;
 
-use super::setup::{chamber, hold, rate, run as settle, section};
-use super::{Check, Curve, Figure, Line, Outcome};
-use fem::FemError;
-use fem::mesh::generate::{Around, Cap, Tube, tube};
-use fem::problem::{Amplitude, Problem, Rigid, Section};
-
-pub(super) const CHECK: Check = Check {
-    name: "clamped-ring",
-    sentence: "A cylinder clamped at rigid rings under pressure and axial tension: its radius near a ring.",
-    source: "verification::exact::shell (Timoshenko and Woinowsky-Krieger, ch. 15, with tension)",
-    slow: false,
+pub(super) const CHECK: Check = Check::quick(
+    "clamped-ring",
+    "A cylinder clamped at rigid rings under pressure and axial tension: its radius near a ring.",
+    "verification::exact::shell (Timoshenko and Woinowsky-Krieger, ch. 15, with tension)",
     run,
-};
+);
 
 const RADIUS_M: f64 = 0.04;
 const LENGTH_M: f64 = 0.032;
@@ -38,7 +33,7 @@ fn exact() -> (ClampedCylinder, f64) {
     (shell, pressure_pa)
 }
 
-fn run() -> Result<Outcome, FemError> {
+fn run() -> Found {
     let (shell, pressure_pa) = exact();
     let far = shell::far_displacement_m(&shell, pressure_pa);
     let edge = shell::edge_length_m(&shell);
@@ -49,35 +44,18 @@ fn run() -> Result<Outcome, FemError> {
     let mut lines = vec![Line::value("widening half way, over closed form", at(1, 0.499 * LENGTH_M), 1.0, 0.01)];
     for share in [1.0, 1.5, 2.0] {
         let x = share * edge;
-        lines.push(Line::value(
-            &format!("{share} edge lengths from the ring, over half way"),
-            at(1, x),
-            known(x),
-            0.01,
-        ));
+        let name = format!("{share} edge lengths from the ring, over half way");
+        lines.push(Line::value(name, at(1, x), known(x), 0.01));
     }
     let near = 0.75 * edge;
-    lines.push(Line::at_least(
-        "rate at 0.75 edge lengths",
-        rate(at(0, near) - known(near), at(1, near) - known(near), 2.0),
-        1.7,
-    ));
+    let fall = rate(at(0, near) - known(near), at(1, near) - known(near), 2.0);
+    lines.push(Line::at_least("rate at 0.75 edge lengths", fall, 1.7));
     let line = (0..=100).map(|i| f64::from(i) * 0.05 * edge);
-    let line = line.map(|x| [1e3 * x, 1e6 * shell::displacement_m(&shell, pressure_pa, x)]).collect();
-    let figure = Figure {
-        title: "Cylinder clamped at a ring under pressure".into(),
-        x: "distance from the ring [mm]".into(),
-        y: "widening [µm]".into(),
-        curves: vec![
-            Curve { label: "closed form".into(), points: line, exact: true },
-            Curve {
-                label: "shells".into(),
-                points: meshes[1].iter().filter(|p| p[0] < 5.0 * edge).map(|p| [1e3 * p[0], 1e6 * p[1]]).collect(),
-                exact: false,
-            },
-        ],
-    };
-    Ok(Outcome { lines, figure: Some(figure) })
+    let line = line.map(|x| [1e3 * x, 1e6 * shell::displacement_m(&shell, pressure_pa, x)]);
+    let marks = meshes[1].iter().filter(|p| p[0] < 5.0 * edge).map(|p| [1e3 * p[0], 1e6 * p[1]]);
+    let axes = ["distance from the ring [mm]", "widening [µm]"];
+    let curves = vec![Curve::exact("closed form", line), Curve::engine("shells", marks)];
+    Ok(Outcome::drawn(lines, Figure::new("Cylinder clamped at a ring under pressure", axes, curves)))
 }
 
 /// Distance from the ring and widening of each row of nodes; the clamp acts half way between the two rows that it holds.
@@ -91,9 +69,9 @@ fn widened(along: usize) -> Result<Vec<[f64; 2]>, FemError> {
             [format!("{end}_cap"), format!("{end}_2")].iter().flat_map(|set| mesh.sets[set].clone()).collect();
         mesh.sets.insert(format!("{end}_clamp"), clamped);
     }
-    let made = Section { rest_curvature: true, ..section(Orthotropic::isotropic(208e6, 0.3, 2e-4), 1.0) };
-    let ramp = Amplitude::Smooth(vec![(0.0, 0.0), (1e-3, PRESSURE_PA)]);
-    let mut problem = Problem::new("ring", mesh, vec![made; 3], vec![chamber("body", ramp)]);
+    let made = Section { rest_curvature: true, ..section(Arc::new(Orthotropic::isotropic(208e6, 0.3, 2e-4)), 1.0) };
+    let ramp = rise(1e-3, PRESSURE_PA);
+    let mut problem = problem("ring", mesh, made, vec![chamber("body", ramp)]);
     problem.supports = vec![hold("base_clamp", [true; 3])];
     problem.rigid = vec![Rigid { set: "tip_clamp".into() }];
     // Hourglass control grows with the square of the elements' aspect, here up to 20, and would act as a tension.

@@ -3,35 +3,28 @@
 //! Whether they bend as far as measured is no check of the engine: most of what decides it was assumed. `ibr compare --engines` holds them
 //! against the published displacements, with the interval that the assumed numbers leave.
 
-use std::collections::BTreeMap;
-
-use models::Fabric;
-
-use super::setup::shells;
-use super::{Check, Curve, Figure, Line, Outcome};
+use super::setup::*;
 use fem::robot::{RobotSettings, sections, shipped};
 use fem::sheet::Element;
-use fem::sheet::order::Order;
 use fem::sheet::reference::bending_stiffness;
 use fem::terms::edge_stiffness_n;
 use fem::vec3::{V3, add, along, dot, node, norm, scale, sub};
-use fem::{FemError, Problem, Simulation};
+use models::Fabric;
+use std::collections::BTreeMap;
 
-pub(super) const CHECK: Check = Check {
-    name: "robots",
-    sentence: "The four robots at 30 kPa are at rest, lose no energy and do not lean on hourglass control.",
-    source: "energy balance",
-    slow: true,
+pub(super) const CHECK: Check = Check::slow(
+    "robots",
+    "The four robots at 30 kPa are at rest, lose no energy and do not lean on hourglass control.",
+    "energy balance",
     run,
-};
+);
 
-pub(super) const FOLDS: Check = Check {
-    name: "robot-folds",
-    sentence: "The ePAM's folds at 10 kPa hold the energy that its shape and tensions ask for; with ten times the stiffness it bends less.",
-    source: "sum over all welds of the fold on a mesh, which tends to the elastica's 4 √(D T) (1 − cos ½φ)",
-    slow: true,
-    run: folds,
-};
+pub(super) const FOLDS: Check = Check::slow(
+    "robot-folds",
+    "The ePAM's folds at 10 kPa hold the energy that its shape and tensions ask for; with ten times the stiffness it bends less.",
+    "sum over all welds of the fold on a mesh, which tends to the elastica's 4 √(D T) (1 − cos ½φ)",
+    folds,
+);
 
 const ROBOTS: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
 
@@ -43,7 +36,7 @@ struct End {
     y_mm: f64,
 }
 
-fn run() -> Result<Outcome, FemError> {
+fn run() -> Found {
     let (mut lines, mut tips) = (Vec::new(), Vec::new());
     for (k, name) in ROBOTS.into_iter().enumerate() {
         let end = bend(name, &RobotSettings::default())?;
@@ -56,37 +49,30 @@ fn run() -> Result<Outcome, FemError> {
         ]);
         tips.push([k as f64 + 1.0, end.y_mm]);
     }
-    let figure = Figure {
-        title: "Four robots at 30 kPa, as recommended".into(),
-        x: "sPAM, cPAM, ePAM, fPAM".into(),
-        y: "outermost marker [mm]".into(),
-        curves: vec![Curve { label: "finite elements".into(), points: tips, exact: false }],
-    };
-    Ok(Outcome { lines, figure: Some(figure) })
+    let axes = ["sPAM, cPAM, ePAM, fPAM", "outermost marker [mm]"];
+    let curves = vec![Curve::engine("finite elements", tips)];
+    Ok(Outcome::drawn(lines, Figure::new("Four robots at 30 kPa, as recommended", axes, curves)))
 }
 
-fn folds() -> Result<Outcome, FemError> {
+fn folds() -> Found {
     let low = RobotSettings { actuator_pa: 10e3, ..RobotSettings::default() };
     let stiff = RobotSettings { bending_factor: 10.0 * low.bending_factor, ..low.clone() };
     let [soft, stiff] = [bend("epam", &low)?, bend("epam", &stiff)?];
-    let stored =
-        |end: &End| end.run.ledger().rows.iter().filter(|r| r.name == "folds").map(|r| r.energy_j).sum::<f64>();
-    let lines = vec![
+    let stored = |end: &End| energy_j(&end.run, "folds");
+    Ok(vec![
         Line::value("energy of the folds [mJ]", 1e3 * stored(&soft), 1e3 * folds_j(&soft)?, 0.03),
         Line::value("the same, ten times the stiffness [mJ]", 1e3 * stored(&stiff), 1e3 * folds_j(&stiff)?, 0.03),
         Line::at_least("less height with ten times the stiffness", 1.0 - stiff.y_mm / soft.y_mm, 0.1),
-    ];
-    Ok(Outcome { lines, figure: None })
+    ]
+    .into())
 }
 
 /// Σ b 4 k (1 − cos ½φ) over the edges where the stiffness jumps, k of both sides in series on this mesh \[J\]; angles between the
 /// elements' directions across the edge and tensions by their fabric, both from the deformed mesh and not from the engine's rows.
 fn folds_j(end: &End) -> Result<f64, FemError> {
     let problem = &end.problem;
-    let (sheet, mesh) = shells(problem)?;
-    let order = Order::of(&problem.mesh);
-    let mut x = vec![[0.0; 4]; mesh.points.len()];
-    order.new.iter().zip(end.run.positions()).for_each(|(place, p)| x[*place as usize][..3].copy_from_slice(&p));
+    let (sheet, mesh, order) = shells(problem)?;
+    let x = ordered(&order, &end.run.positions());
     let stiffness: Vec<f64> = problem.sections.iter().map(bending_stiffness).collect();
     let mut beside: BTreeMap<[u32; 2], Vec<&Element>> = BTreeMap::new();
     for element in &sheet.elements {
@@ -140,7 +126,7 @@ fn bend(name: &str, settings: &RobotSettings) -> Result<End, FemError> {
     let line = sections(&problem.mesh, &[last, scenario.length_m])?;
     let mut run = Simulation::new(&problem)?;
     let start = line.at(&run.positions())?;
-    run.advance_until(problem.settings.end_s, &mut |_| true)?;
+    advance(&mut run, problem.settings.end_s)?;
     let end = line.at(&run.positions())?;
     Ok(End { run, problem, y_mm: 1e3 * (end[0][1] - start[0][1]) })
 }

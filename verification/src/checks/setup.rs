@@ -1,43 +1,125 @@
-//! What the checks share: sections, shells without a run, slopes of energies, rates.
+//! What the checks share: sections, chambers, supports, motions, readings, shells without a run, slopes of energies, rates.
 
-use std::sync::Arc;
+pub(super) use std::sync::Arc;
 
-use models::{Fabric, Pose, Term};
+pub(super) use fem::mesh::generate;
+pub(super) use fem::problem::{
+    Amplitude, Chamber, Contact, Gravity, MassScaling, NodalForce, Obstacle, ObstacleShape, Ply, Pressure, Rigid,
+    Section, Support,
+};
+pub(super) use fem::{FemError, Mesh, Problem, Simulation};
 
-use fem::problem::{Amplitude, Chamber, Ply, Pressure, Problem, Section, Support};
+pub(super) use super::{Check, Curve, Figure, Found, Line, Outcome};
+
+use fem::NODE;
 use fem::sheet::Sheet;
 use fem::sheet::order::{Order, renumber};
-use fem::{FemError, Mesh, NODE, Simulation};
+use models::{Fabric, Pose, Term};
 
 /// One ply along the part's warp, 1000 kg/m³.
-pub(super) fn section(fabric: impl Fabric + 'static, bending_factor: f64) -> Section {
-    let plies = vec![Ply { fabric: Arc::new(fabric), angle_rad: 0.0 }];
+pub(super) fn section(fabric: Arc<dyn Fabric>, bending_factor: f64) -> Section {
+    let plies = vec![Ply { fabric, angle_rad: 0.0 }];
     Section { plies, bonded: true, density_kg_m3: 1000.0, bending_factor, rest_curvature: false }
 }
 
-/// A chamber whose pressure is set.
+/// The same section for every part of a mesh.
+pub(super) fn problem(name: &str, mesh: Mesh, section: Section, chambers: Vec<Chamber>) -> Problem {
+    let sections = vec![section; mesh.parts.len()];
+    Problem::new(name, mesh, sections, chambers)
+}
+
+/// From 0 smoothly to a value at a time, and there for ever.
+pub(super) fn rise(time_s: f64, value: f64) -> Amplitude {
+    Amplitude::Smooth(vec![(0.0, 0.0), (time_s, value)])
+}
+
+/// A closed chamber whose pressure is set \[Pa\].
 pub(super) fn chamber(name: &str, pressure: Amplitude) -> Chamber {
-    Chamber { name: name.to_owned(), pressure: Pressure::Set(pressure), open_axis: None }
+    Chamber { name: name.into(), pressure: Pressure::Set(pressure), open_axis: None }
 }
 
 /// Holds the nodes of a set still.
 pub(super) fn hold(set: &str, axes: [bool; 3]) -> Support {
-    Support { set: set.to_owned(), axes, motion: None }
+    Support { set: set.into(), axes, motion: None }
 }
 
-/// The shells of a problem and its mesh, in the solver's node order.
-pub(super) fn shells(problem: &Problem) -> Result<(Sheet, Mesh), FemError> {
-    let order = Order::of(&problem.mesh);
-    let mesh = renumber(&problem.mesh, &order);
-    let sheet = Sheet::new(&mesh, &order, &problem.sections, &problem.chambers, &problem.settings)?;
-    Ok((sheet, mesh))
+/// Holds the nodes of a set along some axes and moves them along one.
+pub(super) fn drive(set: &str, axes: [bool; 3], axis: usize, way: Amplitude) -> Support {
+    let mut motion = [const { Amplitude::Constant(0.0) }; 3];
+    motion[axis] = way;
+    Support { set: set.into(), axes, motion: Some(motion) }
+}
+
+/// All nodes as the set `all`.
+pub(super) fn name_all(mesh: &mut Mesh) {
+    mesh.sets.insert("all".into(), (0..mesh.points.len() as u32).collect());
+}
+
+/// Nodes of a set; none if there is no such set, which makes every mean not a number and the check fail.
+pub(super) fn nodes<'a>(mesh: &'a Mesh, set: &str) -> &'a [u32] {
+    mesh.sets.get(set).map_or(&[], Vec::as_slice)
+}
+
+/// Mean coordinate of a node set.
+pub(super) fn mean(mesh: &Mesh, set: &str, x: &[[f64; 3]], axis: usize) -> f64 {
+    let nodes = nodes(mesh, set);
+    nodes.iter().map(|n| x[*n as usize][axis]).sum::<f64>() / nodes.len() as f64
+}
+
+/// Volume of the first chamber \[m³\].
+pub(super) fn volume_m3(run: &Simulation) -> f64 {
+    run.chambers().first().map_or(f64::NAN, |air| air.volume_m3)
+}
+
+/// Force of a support along x \[N\].
+pub(super) fn pull_n(run: &Simulation, set: &str) -> f64 {
+    run.reaction_n(set).map_or(f64::NAN, |force| force[0])
+}
+
+/// Energy of the ledger's rows of a name \[J\].
+pub(super) fn energy_j(run: &Simulation, name: &str) -> f64 {
+    run.ledger().rows.iter().filter(|r| r.name == name).map(|r| r.energy_j).sum()
+}
+
+/// The energy balance, one per cent at most.
+pub(super) fn balance(residual_share: f64) -> Line {
+    Line::at_most("energy residual over external work", residual_share, 0.01)
+}
+
+/// Runs to a time.
+pub(super) fn advance(run: &mut Simulation, time_s: f64) -> Result<(), FemError> {
+    run.advance_until(time_s, &mut |_| true).map(|_| ())
 }
 
 /// A run up to the end of its time.
-pub(super) fn run(problem: &Problem) -> Result<Simulation, FemError> {
-    let mut simulation = Simulation::new(problem)?;
-    simulation.advance_until(problem.settings.end_s, &mut |_| true)?;
-    Ok(simulation)
+pub(super) fn settle(problem: &Problem) -> Result<Simulation, FemError> {
+    let mut run = Simulation::new(problem)?;
+    advance(&mut run, problem.settings.end_s)?;
+    Ok(run)
+}
+
+/// The shells of a problem and its mesh, in the solver's node order.
+pub(super) fn shells(problem: &Problem) -> Result<(Sheet, Mesh, Order), FemError> {
+    let order = Order::of(&problem.mesh);
+    let mesh = renumber(&problem.mesh, &order);
+    let sheet = Sheet::new(&mesh, &order, &problem.sections, &problem.chambers, &problem.settings)?;
+    Ok((sheet, mesh, order))
+}
+
+/// Positions of stride [`NODE`] in the solver's node order.
+pub(super) fn ordered(order: &Order, x: &[[f64; 3]]) -> Vec<[f64; NODE]> {
+    let mut q = vec![[0.0; NODE]; x.len()];
+    order.new.iter().zip(x).for_each(|(place, x)| q[*place as usize][..3].copy_from_slice(x));
+    q
+}
+
+/// Forces of the shells on their nodes at rest \[N\], in mesh order: at a support, what the structure pushes with.
+pub(super) fn node_forces(problem: &Problem, x: &[[f64; 3]], time_s: f64) -> Result<Vec<[f64; 3]>, FemError> {
+    let (mut sheet, _, order) = shells(problem)?;
+    sheet.air.iter_mut().for_each(|air| air.set_pressure(time_s));
+    let mut force = vec![[0.0; NODE]; x.len()];
+    sheet.add(&Pose::nodes(ordered(&order, x).as_flattened()), force.as_flattened_mut());
+    Ok(order.new.iter().map(|place| force[*place as usize]).map(|f| [f[0], f[1], f[2]]).collect())
 }
 
 /// Node positions of stride [`NODE`].

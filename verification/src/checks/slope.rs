@@ -1,23 +1,15 @@
 //! A block on a slope: Coulomb friction against the closed form.
 
-use std::sync::Arc;
-
+use super::setup::*;
 use crate::exact::sliding;
 use models::fabrics::Orthotropic;
 
-use super::pulled::membrane;
-use super::{Check, Line, Outcome};
-use fem::mesh::generate;
-use fem::problem::{Amplitude, Gravity, Obstacle, ObstacleShape, Rigid};
-use fem::{FemError, Problem, Simulation};
-
-pub(super) const CHECK: Check = Check {
-    name: "slope",
-    sentence: "A plate on a slope sticks below the friction angle and slides with g (sin a - mu cos a) above it, rigid or flexible.",
-    source: "Coulomb friction: verification::exact::sliding",
-    slow: false,
+pub(super) const CHECK: Check = Check::quick(
+    "slope",
+    "A plate on a slope sticks below the friction angle and slides with g (sin a - mu cos a) above it, rigid or flexible.",
+    "Coulomb friction: verification::exact::sliding",
     run,
-};
+);
 
 /// Slope \[rad\].
 const SLOPE: f64 = std::f64::consts::FRAC_PI_6;
@@ -26,34 +18,31 @@ const GRAVITY: f64 = 9.81;
 const RISE_S: f64 = 0.02;
 const END_S: f64 = 0.12;
 
-fn run() -> Result<Outcome, FemError> {
+fn run() -> Found {
     let mut lines = Vec::new();
     for (kind, rigid) in [("rigid", true), ("flexible", false)] {
         // tan 30° = 0.577: the plate sticks at 0.6 and slides at 0.3.
         let (mut stuck, start) = (plate(0.6, rigid)?, along_m(&plate(0.6, rigid)?));
-        stuck.advance_until(END_S, &mut |_| true)?;
+        advance(&mut stuck, END_S)?;
         let free_m = 0.5 * GRAVITY * SLOPE.sin() * END_S * END_S;
-        lines.push(Line::at_most(
-            &format!("{kind}, sticking: way over free way"),
-            (along_m(&stuck) - start) / free_m,
-            1e-4,
-        ));
+        let crept = (along_m(&stuck) - start) / free_m;
+        lines.push(Line::at_most(format!("{kind}, sticking: way over free way"), crept, 1e-4));
         let mut run = plate(0.3, rigid)?;
         let speed = |run: &Simulation| along(&run.velocities());
-        run.advance_until(RISE_S, &mut |_| true)?;
+        advance(&mut run, RISE_S)?;
         let (before, from, lost) = (speed(&run), along_m(&run), lost_j(&run));
         let rise_s = run.time_s();
-        run.advance_until(END_S, &mut |_| true)?;
+        advance(&mut run, END_S)?;
         let found = (speed(&run) - before) / (run.time_s() - rise_s);
         let exact = sliding::acceleration_m_per_s2(GRAVITY, SLOPE, 0.3);
-        lines.push(Line::value(&format!("{kind}, sliding: acceleration [m/s²]"), found, exact, 0.01));
+        lines.push(Line::value(format!("{kind}, sliding: acceleration [m/s²]"), found, exact, 0.01));
         let way_m = along_m(&run) - from;
         // Plate of 40 mm by 40 mm by 1 mm.
         let work_mj = 1e3 * 1.6e-3 * GRAVITY * 0.3 * SLOPE.cos() * way_m;
-        lines.push(Line::value(&format!("{kind}, lost to friction [mJ]"), 1e3 * (lost_j(&run) - lost), work_mj, 0.01));
-        lines.push(Line::at_most("energy residual over external work", run.ledger().residual_share(), 0.01));
+        lines.push(Line::value(format!("{kind}, lost to friction [mJ]"), 1e3 * (lost_j(&run) - lost), work_mj, 0.01));
+        lines.push(balance(run.ledger().residual_share()));
     }
-    Ok(Outcome { lines, figure: None })
+    Ok(lines.into())
 }
 
 /// Plate of 1.6 g lying on the slope, which falls towards +x.
@@ -61,12 +50,10 @@ fn plate(friction: f64, rigid: bool) -> Result<Simulation, FemError> {
     let (sin, cos) = SLOPE.sin_cos();
     let mut mesh = generate::plate(0.04, 0.04, 4, 4, None)?;
     mesh.points.iter_mut().for_each(|p| *p = [cos * p[0], p[1], -sin * p[0]]);
-    mesh.sets.insert("all".into(), (0..mesh.points.len() as u32).collect());
-    let mut section = membrane(Arc::new(Orthotropic::isotropic(1e7, 0.3, 1e-3)), 0.0);
-    section.bending_factor = 1.0;
-    let mut problem = Problem::new("slope", mesh, vec![section], vec![]);
-    let amplitude = Amplitude::Smooth(vec![(0.0, 0.0), (RISE_S, 1.0)]);
-    problem.gravity = Some(Gravity { g_m_s2: [0.0, 0.0, -GRAVITY], amplitude });
+    name_all(&mut mesh);
+    let sheet = section(Arc::new(Orthotropic::isotropic(1e7, 0.3, 1e-3)), 1.0);
+    let mut problem = problem("slope", mesh, sheet, vec![]);
+    problem.gravity = Some(Gravity { g_m_s2: [0.0, 0.0, -GRAVITY], amplitude: rise(RISE_S, 1.0) });
     let shape = ObstacleShape::Plane { point: [0.0; 3], normal: [sin, 0.0, cos] };
     problem.obstacles = vec![Obstacle { shape, friction }];
     if rigid {
@@ -86,5 +73,5 @@ fn along_m(run: &Simulation) -> f64 {
 }
 
 fn lost_j(run: &Simulation) -> f64 {
-    run.ledger().rows.iter().filter(|r| r.name == "obstacle friction").map(|r| r.energy_j).sum()
+    energy_j(run, "obstacle friction")
 }

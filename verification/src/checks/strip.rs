@@ -3,38 +3,31 @@
 //! The strip is two elements wide; its edges copy the line between them, as in a wide strip that bends to a cylinder. The
 //! clamp holds two rows of nodes and acts half way between them.
 
+use super::setup::*;
 use crate::exact::{elastica, plate as closed};
+use fem::mesh::{Tie, generate::plate};
 use models::fabrics::Orthotropic;
 
-use super::setup::{hold, rate, run as settle, section};
-use super::{Check, Curve, Figure, Line, Outcome};
-use fem::mesh::{Tie, generate::plate};
-use fem::problem::{Amplitude, Gravity, NodalForce, Problem, Section};
-use fem::{FemError, Mesh};
+pub(super) const SMALL: Check = Check::quick(
+    "strip",
+    "A clamped strip droops under its weight, or turns under an end moment, as a plate of stiffness D does.",
+    "verification::exact::plate",
+    small,
+);
 
-pub(super) const SMALL: Check = Check {
-    name: "strip",
-    sentence: "A clamped strip droops under its weight, or turns under an end moment, as a plate of stiffness D does.",
-    source: "verification::exact::plate",
-    slow: false,
-    run: small,
-};
+pub(super) const LARGE: Check = Check::quick(
+    "elastica",
+    "A clamped strip under a tip force bends far: deflection and shortening of the elastica.",
+    "verification::exact::elastica (Bisshopp and Drucker 1945)",
+    large,
+);
 
-pub(super) const LARGE: Check = Check {
-    name: "elastica",
-    sentence: "A clamped strip under a tip force bends far: deflection and shortening of the elastica.",
-    source: "verification::exact::elastica (Bisshopp and Drucker 1945)",
-    slow: false,
-    run: large,
-};
-
-pub(super) const ROLL: Check = Check {
-    name: "rest-curvature",
-    sentence: "A strip that was made round but starts flat rolls up to its own radius and ends without energy.",
-    source: "the reference shape itself",
-    slow: false,
-    run: roll,
-};
+pub(super) const ROLL: Check = Check::quick(
+    "rest-curvature",
+    "A strip that was made round but starts flat rolls up to its own radius and ends without energy.",
+    "the reference shape itself",
+    roll,
+);
 
 /// Distance from the clamp to the tip \[m\].
 const LENGTH_M: f64 = 0.1;
@@ -48,7 +41,7 @@ fn stiffness_nm() -> f64 {
 }
 
 fn strip_section() -> Section {
-    section(Orthotropic::isotropic(YOUNG_PA, POISSON, THICKNESS_M), 1.0)
+    section(Arc::new(Orthotropic::isotropic(YOUNG_PA, POISSON, THICKNESS_M)), 1.0)
 }
 
 /// Strip of n elements, clamped half an element from its end, with sets `clamp`, `line` (by x), `last`, `before`.
@@ -77,7 +70,7 @@ fn rest(mut problem: Problem, end_s: f64, damping_1_s: f64) -> Result<Vec<[f64; 
 }
 
 fn ramp(end_s: f64) -> Amplitude {
-    Amplitude::Smooth(vec![(0.0, 0.0), (0.5 * end_s, 1.0)])
+    rise(0.5 * end_s, 1.0)
 }
 
 /// A few times the strip's slowest period, and damping that leaves nothing of it.
@@ -93,7 +86,7 @@ fn force(set: &str, total_n: [f64; 3]) -> NodalForce {
     NodalForce { set: set.to_owned(), total_n, amplitude: ramp(SETTLE.0) }
 }
 
-fn small() -> Result<Outcome, FemError> {
+fn small() -> Found {
     let d = stiffness_nm();
     // A droop of 1/500 of the length: rotations stay below 0.003.
     let g = 0.002 * LENGTH_M * 8.0 * d / LENGTH_M.powi(4) / (DENSITY * THICKNESS_M);
@@ -111,15 +104,15 @@ fn small() -> Result<Outcome, FemError> {
         p.forces = vec![force("last", [0.0, 0.0, couple]), force("before", [0.0, 0.0, -couple])];
     })?;
     let slope = (x[n][2] - x[n - 1][2]).atan2(x[n][0] - x[n - 1][0]);
-    let lines = vec![
+    Ok(vec![
         Line::value("tip of the drooping strip, 20 elements [m]", droop[2], exact, 0.01),
         Line::at_least("rate", rate(droop[1] - exact, droop[2] - exact, 2.0), 1.9),
         Line::value("tip's turn under an end moment [rad]", slope, turn, 1e-3),
-    ];
-    Ok(Outcome { lines, figure: None })
+    ]
+    .into())
 }
 
-fn large() -> Result<Outcome, FemError> {
+fn large() -> Found {
     let load = 3.0;
     let exact = elastica::cantilever(load);
     let mut errors = Vec::new();
@@ -141,20 +134,13 @@ fn large() -> Result<Outcome, FemError> {
         Line::at_least("rate of the deflection", rate(errors[1][0], errors[2][0], 2.0), 1.8),
         Line::at_least("rate of the shortening", rate(errors[1][1], errors[2][1], 2.0), 1.8),
     ];
-    let line = elastica::cantilever_line(load, 60).into_iter().map(|x| x.map(|x| 1e3 * LENGTH_M * x)).collect();
-    let figure = Figure {
-        title: "Cantilever under a tip force, F L²/B = 3".into(),
-        x: "along the clamp [mm]".into(),
-        y: "across [mm]".into(),
-        curves: vec![
-            Curve { label: "strip of 40 elements".into(), points: curve, exact: false },
-            Curve { label: "elastica".into(), points: line, exact: true },
-        ],
-    };
-    Ok(Outcome { lines, figure: Some(figure) })
+    let line = elastica::cantilever_line(load, 60).into_iter().map(|x| x.map(|x| 1e3 * LENGTH_M * x));
+    let curves = vec![Curve::engine("strip of 40 elements", curve), Curve::exact("elastica", line)];
+    let axes = ["along the clamp [mm]", "across [mm]"];
+    Ok(Outcome::drawn(lines, Figure::new("Cantilever under a tip force, F L²/B = 3", axes, curves)))
 }
 
-fn roll() -> Result<Outcome, FemError> {
+fn roll() -> Found {
     let (n, radius) = (20, 0.05);
     let mut mesh = strip(LENGTH_M, n)?;
     // Chords keep their length, so the flat start is unstretched.
@@ -177,9 +163,9 @@ fn roll() -> Result<Outcome, FemError> {
     let (turn, made) = (heading(n - 1) - heading(0), (n - 1) as f64 * angle);
     let flat = 0.5 * stiffness_nm() / (radius * radius) * 2.0 * chord * (n - 1) as f64 * chord;
     let held: f64 = run.ledger().rows.iter().filter(|r| r.kind == models::RowKind::Stored).map(|r| r.energy_j).sum();
-    let lines = vec![
+    Ok(vec![
         Line::value("turn from clamp to tip [rad]", turn, made, 1e-4),
         Line::at_most("energy left over that of the flat strip", held.abs() / flat, 1e-6),
-    ];
-    Ok(Outcome { lines, figure: None })
+    ]
+    .into())
 }

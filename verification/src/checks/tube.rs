@@ -1,37 +1,32 @@
 //! Pressurised closed cylinder against the exact state of its wall.
 
+use super::setup::*;
 use crate::exact::tube::{ClosedTube, Ends, inflate, wall_tension_n_per_m};
+use fem::mesh::generate::{Around, Cap, Tube, tube};
 use models::Fabric;
 use models::fabrics::NeoHookean;
 
-use super::setup::{chamber, hold, run as settle, section};
-use super::{Check, Line, Outcome};
-use fem::mesh::generate::{Around, Cap, Tube, tube};
-use fem::problem::{Amplitude, Problem, Rigid, Section};
-use fem::{FemError, Mesh};
-
-pub(super) const CHECK: Check = Check {
-    name: "tube",
-    sentence: "A closed tube with stiff ends under pressure: hoop and axial stress half way, at small and at finite strain.",
-    source: "verification::exact::tube, equilibrium of a neo-Hookean cylinder",
-    slow: false,
+pub(super) const CHECK: Check = Check::quick(
+    "tube",
+    "A closed tube with stiff ends under pressure: hoop and axial stress half way, at small and at finite strain.",
+    "verification::exact::tube, equilibrium of a neo-Hookean cylinder",
     run,
-};
+);
 
 const FABRIC: NeoHookean = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };
 const RADIUS_M: f64 = 0.04;
 const LENGTH_M: f64 = 0.24;
 
-fn run() -> Result<Outcome, FemError> {
+fn run() -> Found {
     let mut lines = Vec::new();
     for pressure_pa in [2e3, 60e3] {
         let exact = exact(pressure_pa)?;
         let [hoop, axial] = half_way(pressure_pa)?;
         let kpa = 1e-3 * pressure_pa;
-        lines.push(Line::value(&format!("hoop stress at {kpa} kPa [Pa]"), hoop, exact[0], 0.005));
-        lines.push(Line::value(&format!("axial stress at {kpa} kPa [Pa]"), axial, exact[1], 0.005));
+        lines.push(Line::value(format!("hoop stress at {kpa} kPa [Pa]"), hoop, exact[0], 0.005));
+        lines.push(Line::value(format!("axial stress at {kpa} kPa [Pa]"), axial, exact[1], 0.005));
     }
-    Ok(Outcome { lines, figure: None })
+    Ok(lines.into())
 }
 
 /// Hoop and axial Cauchy stress \[Pa\].
@@ -52,10 +47,10 @@ fn half_way(pressure_pa: f64) -> Result<[f64; 2], FemError> {
     let caps = [Cap::Quads; 2];
     let mesh = tube(&Tube { radius_m: RADIUS_M, length_m: LENGTH_M, around, along: 36, caps, warp_rad: 0.0 })?;
     let wall = middle_elements(&mesh);
-    let ramp = Amplitude::Smooth(vec![(0.0, 0.0), (8e-3, pressure_pa)]);
+    let ramp = rise(8e-3, pressure_pa);
     // A wall that wants to be flat would carry D/R³ of the pressure: 0.2 % of 2 kPa.
-    let made = Section { rest_curvature: true, ..section(FABRIC, 1.0) };
-    let mut problem = Problem::new("tube", mesh, vec![made; 3], vec![chamber("body", ramp)]);
+    let made = Section { rest_curvature: true, ..section(Arc::new(FABRIC), 1.0) };
+    let mut problem = problem("tube", mesh, made, vec![chamber("body", ramp)]);
     problem.supports = vec![hold("base_cap", [true; 3])];
     problem.rigid = vec![Rigid { set: "tip_cap".into() }];
     problem.settings.end_s = 0.016;
