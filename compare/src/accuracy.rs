@@ -1,7 +1,7 @@
 //! The accuracy of Du Pasquier et al. 2023 and its interval over runs.
 
 use crate::comparison::Comparison;
-use crate::noise::RUNS_FOR_P;
+use crate::policy;
 use crate::stats::quantile;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
@@ -40,7 +40,7 @@ pub struct Band {
 pub fn accuracy_band(c: &Comparison, samples: usize, seed: u64) -> Band {
     let holds = c.layout.holds;
     let runs = c.dataset.runs.len();
-    if runs < RUNS_FOR_P || samples == 0 {
+    if runs < policy::RUNS_FOR_P || samples == 0 {
         return Band { holds: vec![None; holds], overall: None };
     }
     let means: Vec<Vec<f64>> = (0..runs).map(|r| c.layout.hold_means(c.dataset.run(r))).collect();

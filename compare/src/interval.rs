@@ -27,23 +27,15 @@
 //! misses, because that sum's rise is then no measure of it.
 
 use crate::noise::{NoiseModel, SENSOR_SD};
+use crate::policy;
 use data::Dataset;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Half-width over value above which the profile is followed.
-const WIDE: f64 = 0.3;
 /// Halvings of the bracket of a profile's end.
 const HALVINGS: usize = 10;
 /// Degrees of freedom beyond which t is normal to three digits. The quantile of `statrs` is 1.83 in place of 1.96 at 1e7, and at
 /// 1e8 it does not return.
 const MOST_DOF: f64 = 1e4;
-/// Mean square of whitened residuals from which a misfit counts: as much again as the noise, which several hundred values never are by
-/// chance.
-const MISSES: f64 = 2.0;
-/// Pressures within this fraction are one.
-const SAME_PRESSURE: f64 = 0.05;
-/// A pressure tells of a parameter if its share of the squared weights is above this.
-const TELLS: f64 = 1e-3;
 
 /// Data that a fit was held against.
 pub struct Fitted<'a> {
@@ -98,7 +90,7 @@ pub fn half_width(data: &[Fitted], white: &[f64], parameters: usize) -> Option<H
         total += camera + run_to_run;
         squares_over_dof += camera * camera / noise.pure_error_dof.max(1) as f64 + run_to_run * run_to_run / run_dof;
         let missed = square(&noise.whiten(&part.residual_m)) / noise.seen(0..weights.len()) as f64;
-        if missed > MISSES {
+        if missed > policy::MISSES {
             let sums = part.by_cell(&weights);
             each += noise.unit_m().powi(2) * (missed - 1.0) * square(&sums);
             cells += sums.iter().filter(|sum| **sum != 0.0).count();
@@ -120,7 +112,7 @@ impl Fitted<'_> {
     /// Of every hold the first one at its pressures.
     fn first(&self) -> Vec<usize> {
         let holds = &self.dataset.holds;
-        let same = |a: f64, b: f64| (a - b).abs() <= SAME_PRESSURE * a.abs().max(b.abs());
+        let same = |a: f64, b: f64| (a - b).abs() <= policy::SAME_PRESSURE * a.abs().max(b.abs());
         let alike = |a: usize, b: usize| {
             same(holds[a].p_act_pa, holds[b].p_act_pa) && same(holds[a].p_body_pa, holds[b].p_body_pa)
         };
@@ -152,7 +144,7 @@ impl Fitted<'_> {
 /// What a misfit adds to the variance, and its degrees of freedom.
 pub fn misfit(pressures: &[[f64; 2]], (each, cells): (f64, usize), parameters: usize) -> (f64, f64) {
     let all: f64 = pressures.iter().map(|[squares, _]| squares).sum();
-    let count = pressures.iter().filter(|[squares, _]| *squares > TELLS * all).count();
+    let count = pressures.iter().filter(|[squares, _]| *squares > policy::PRESSURE_TELLS * all).count();
     let spare = count.saturating_sub(parameters) as f64;
     let together = count as f64 / spare * pressures.iter().map(|[_, sum]| sum * sum).sum::<f64>();
     if spare > 0.0 && together > each { (together, spare) } else { (each, cells.max(1) as f64) }
@@ -167,7 +159,7 @@ pub fn interval(
 ) -> [f64; 2] {
     let Half { width: half, misses } = half;
     let is_free = value - half >= lower && value + half <= upper;
-    match rise.filter(|_| !(misses || is_free && half <= WIDE * value.abs())) {
+    match rise.filter(|_| !(misses || is_free && half <= policy::WIDE * value.abs())) {
         None => [(value - half).max(lower), (value + half).min(upper)],
         Some(rise) => {
             let most = half * half * squares;

@@ -20,6 +20,7 @@ pub mod layout;
 pub mod metrics;
 pub mod noise;
 pub mod noise_summary;
+pub mod policy;
 pub mod residuals;
 mod run_scatter;
 pub mod scaling;

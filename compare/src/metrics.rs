@@ -8,15 +8,13 @@
 use crate::accuracy::{Band, accuracy_band, paper_accuracy, relative_pct};
 use crate::comparison::Comparison;
 use crate::error::CompareError;
+use crate::policy;
 use crate::stats::{f_tail, reported_p};
 use serde::Serialize;
 
 /// How model and measurement are paired in the accuracy; the paper leaves it open.
 pub const PAIRING: &str = "same marker label, y from the base line (not from the first hold), mean over the samples of \
                            a hold, mean over runs, model in the denominator";
-
-/// Deflections below this are left out of the restricted accuracy \[m\].
-const SMALL_DEFLECTION_M: f64 = 5e-3;
 
 /// Metrics of one hold. Printed units; `None` where a number does not exist or the noise is unknown.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -202,7 +200,7 @@ fn noise_ceiling(c: &Comparison, hold: usize, model_y: &[f64]) -> Option<f64> {
 /// The markers that have measurably moved; chosen by the measurement, so every model is judged on the same ones.
 fn far_markers(c: &Comparison, model: &[f64], measured: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let noise = c.noise.sigma_m.map_or(0.0, |s| 5.0 * s / (c.noise.runs as f64).sqrt());
-    let least = SMALL_DEFLECTION_M.max(noise);
+    let least = policy::SMALL_DEFLECTION_M.max(noise);
     model.iter().zip(measured).filter(|(_, y)| y.abs() > least).unzip()
 }
 

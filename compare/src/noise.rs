@@ -31,6 +31,7 @@ use crate::data_slope::data_slope;
 use crate::directions::{DirectionFit, directions_of};
 use crate::error::CompareError;
 use crate::layout::{Layout, Weights};
+use crate::policy;
 use crate::run_scatter::{between_sessions, pooled, session_groups, within_sessions};
 use crate::stats::{f_tail, t_inflation};
 use crate::whiten::Whitener;
@@ -47,9 +48,6 @@ pub const SMALLEST_SIGMA_M: f64 = 1e-6;
 
 /// Unit of whitened residuals \[m\] where the noise is unknown: they then order models, nothing more.
 pub const NOMINAL_SIGMA_M: f64 = 1e-3;
-
-/// Fewest runs for which p-values are given.
-pub const RUNS_FOR_P: usize = 3;
 
 /// Where the noise level comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -196,9 +194,9 @@ impl NoiseModel {
         self.sigma_m.is_some()
     }
 
-    /// True if p-values may be formed: measured from at least [`RUNS_FOR_P`] runs that are not copies of each other.
+    /// True if p-values may be formed: measured from at least [`crate::policy::RUNS_FOR_P`] runs that are not copies of each other.
     pub fn gives_p_values(&self) -> bool {
-        self.status == NoiseStatus::Measured && self.runs >= RUNS_FOR_P && !self.runs_identical
+        self.status == NoiseStatus::Measured && self.runs >= policy::RUNS_FOR_P && !self.runs_identical
     }
 
     /// Residuals \[m\] in run layout in units of the noise of the mean: unit variance and uncorrelated if the model is

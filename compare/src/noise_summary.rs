@@ -1,6 +1,7 @@
 //! The noise model as printed: millimetres, per cent, one plain sentence.
 
-use crate::noise::{NoiseModel, NoiseStatus, RUNS_FOR_P, SENSOR_SD};
+use crate::noise::{NoiseModel, NoiseStatus, SENSOR_SD};
+use crate::policy;
 use crate::wording::short;
 use data::Hold;
 use serde::Serialize;
@@ -83,7 +84,7 @@ fn sentence(noise: &NoiseModel, s: &NoiseSummary) -> String {
         );
     }
     let mut text = format!("camera noise {camera:.1} mm; {}; noise of the mean {mean:.2} mm", run_to_run(s));
-    if noise.runs < RUNS_FOR_P {
+    if noise.runs < policy::RUNS_FOR_P {
         text += "; two runs only, so no significance is given";
     }
     text

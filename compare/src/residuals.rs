@@ -7,11 +7,9 @@
 
 use crate::comparison::Comparison;
 use crate::layout::{Weights, apply};
+use crate::policy;
 use crate::stats::{holm, reported_p, two_sided_p};
 use serde::Serialize;
-
-/// Multiple of the noise that counts as standing out where no p-value can be given (two runs, or σ supplied).
-const MANY_TIMES_THE_NOISE: f64 = 5.0;
 
 /// Two pressures are the same hold pressure within this fraction.
 const SAME_PRESSURE: f64 = 0.03;
@@ -33,7 +31,7 @@ impl Deviation {
     pub fn stands_out(&self, alpha: f64) -> Option<bool> {
         match self.p_corrected {
             Some(p) => Some(p < alpha),
-            None => self.in_noise.map(|z| z.abs() > MANY_TIMES_THE_NOISE),
+            None => self.in_noise.map(|z| z.abs() > policy::MANY_TIMES_THE_NOISE),
         }
     }
 }

@@ -9,20 +9,12 @@ use crate::comparison::ZERO_PRESSURE_PA;
 use crate::error::CompareError;
 use crate::layout::{Layout, Weights, apply};
 use crate::noise::{NoiseModel, SENSOR_SD};
+use crate::policy;
 use crate::stats::{f_tail, holm, reported_p};
 use crate::whiten::Whitener;
 use crate::wording::{list, short};
 use data::{Dataset, Hold, Phase};
 use serde::Serialize;
-
-/// Ratios P/p within this fraction match.
-pub const RATIO_TOLERANCE: f64 = 0.03;
-
-/// Body pressures must differ by more than this fraction, or the pair tests nothing.
-const BODY_DIFFERENCE: f64 = 0.10;
-
-/// Difference of a model's shapes that counts as none: 0.15 mm, or 0.5 % of its largest deflection if more.
-const MODEL_TOLERANCE_M: f64 = 1.5e-4;
 
 /// The outcome of the check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -124,7 +116,7 @@ pub fn scaling_of_model(
         return Ok(cannot_be_checked(holds));
     }
     let deflection = prediction_m.iter().skip(1).step_by(2).fold(0.0, |d: f64, y| d.max(y.abs()));
-    let tolerance_mm = 1e3 * MODEL_TOLERANCE_M.max(0.005 * deflection);
+    let tolerance_mm = 1e3 * policy::MODEL_TOLERANCE_M.max(0.005 * deflection);
     let slopes = layout.hold_means(dprediction_dlnp);
     let excused =
         |p: &ScalingPair| 1e3 * mismatch(holds, p).abs() * largest_norm(hold_part(&slopes, layout, p.low_hold));
@@ -160,8 +152,8 @@ fn matching_pairs(holds: &[Hold], layout: &Layout, values: &[f64], is_seen: &See
     for (i, a) in holds.iter().enumerate() {
         for (j, b) in holds.iter().enumerate().skip(i + 1) {
             let comparable = usable(a) && usable(b) && unloading(a) == unloading(b);
-            let apart = comparable && (a.p_body_pa / b.p_body_pa).ln().abs() > BODY_DIFFERENCE;
-            if apart && (ratio(a) / ratio(b)).ln().abs() <= RATIO_TOLERANCE {
+            let apart = comparable && (a.p_body_pa / b.p_body_pa).ln().abs() > policy::BODY_DIFFERENCE;
+            if apart && (ratio(a) / ratio(b)).ln().abs() <= policy::SAME_RATIO {
                 let (low, high) = if a.p_body_pa < b.p_body_pa { (i, j) } else { (j, i) };
                 pairs.extend(pair(holds, layout, &means, (low, high), is_seen));
             }
@@ -262,8 +254,8 @@ fn cannot_be_checked(holds: &[Hold]) -> ScalingCheck {
     let sentence = match reference {
         None => format!("{start}; record holds with both pressures above zero."),
         Some(body) => {
-            let same_body =
-                pressurised.filter(|h| h.phase != Phase::Unload && (h.p_body_pa / body).ln().abs() < BODY_DIFFERENCE);
+            let same_body = pressurised
+                .filter(|h| h.phase != Phase::Unload && (h.p_body_pa / body).ln().abs() < policy::BODY_DIFFERENCE);
             let mut actuator: Vec<f64> = same_body.map(|h| 1e-3 * h.p_act_pa).collect();
             actuator.sort_by(f64::total_cmp);
             let scaled = |by: f64| {

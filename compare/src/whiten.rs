@@ -8,9 +8,6 @@ use nalgebra::{DMatrix, SymmetricEigen};
 /// Rounds of the eigenvalue iteration over the directions; a handful suffice.
 const EIGEN_ROUNDS: usize = 500;
 
-/// Mean square of whitened residuals, a misfit of three times the noise, from which a fit allows for it (chosen, `docs/accuracy.md`): s² then grows by that factor, so that scatter
-/// between runs, which is no misfit, stays as small as it is beside it. With few runs a law that misses would otherwise hide in it.
-pub const MISFIT: f64 = 10.0;
 /// Rounds in which fit and misfit settle.
 pub const MISFIT_ROUNDS: usize = 3;
 

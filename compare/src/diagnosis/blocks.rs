@@ -5,12 +5,10 @@ use super::source::Source;
 use crate::error::CompareError;
 use crate::layout::Weights;
 use crate::noise::NoiseModel;
+use crate::policy;
 use data::Dataset;
 use models::Scenario;
 use std::borrow::Cow;
-
-/// Body pressures within this fraction share a bending stiffness.
-const SAME_BODY_PRESSURE: f64 = 0.05;
 
 /// The block of all holds of a dataset.
 ///
@@ -58,7 +56,7 @@ pub fn body_pressures<'d>(datasets: impl IntoIterator<Item = &'d Dataset>) -> Ve
     let mut levels: Vec<f64> = Vec::new();
     for hold in datasets.into_iter().flat_map(|dataset| &dataset.holds) {
         let p = hold.p_body_pa;
-        if !levels.iter().any(|l| (l - p).abs() <= SAME_BODY_PRESSURE * l.abs().max(100.0)) {
+        if !levels.iter().any(|l| (l - p).abs() <= policy::SAME_PRESSURE * l.abs().max(100.0)) {
             levels.push(p);
         }
     }

@@ -14,7 +14,8 @@ use crate::error::CompareError;
 use crate::evaluate::default_tolerance_m;
 use crate::gauge::Gauge;
 use crate::layout::Layout;
-use crate::noise::{NoiseModel, RUNS_FOR_P};
+use crate::noise::NoiseModel;
+use crate::policy;
 use crate::stats::f_tail;
 use crate::study::{first_slope, predict_dataset};
 use data::{Dataset, Direct};
@@ -103,9 +104,9 @@ impl<'a> Case<'a> {
         (candidates, own): (&'a [Candidate], usize),
         options: &Options,
     ) -> Result<Case<'a>, CompareError> {
-        if let Some(source) = sources.iter().skip(1).find(|s| s.dataset.runs.len() < RUNS_FOR_P) {
+        if let Some(source) = sources.iter().skip(1).find(|s| s.dataset.runs.len() < policy::RUNS_FOR_P) {
             let (name, runs) = (source.dataset.name.clone(), source.dataset.runs.len());
-            return Err(CompareError::TooFewRunsBeside { name, runs, needed: RUNS_FOR_P });
+            return Err(CompareError::TooFewRunsBeside { name, runs, needed: policy::RUNS_FOR_P });
         }
         let estimate = |i: usize, slope: &[f64]| {
             let noise = NoiseModel::estimate(sources[i].dataset, slope, &sessions[i], options.sigma_m)?;

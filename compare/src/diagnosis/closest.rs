@@ -7,19 +7,17 @@
 use super::case::Case;
 use super::decide::Decision;
 use super::problem::Fit;
-
-/// Another attempt, or a second effect, must bring the error in mm below this share; a second effect, or within the tolerance.
-pub const CLOSER: f64 = 0.8;
+use crate::policy;
 
 /// Two effects if a pair comes closer by a fifth than any single one, else one: the final model if it has as many and none of them
 /// comes closer by a fifth, else the nearest.
 pub fn closest(case: &Case, decision: &Decision, last: Fit) -> Fit {
     let (singles, pairs) = (by_distance(case, &decision.singles), by_distance(case, &decision.pairs));
     let least = |fits: &[(f64, &Fit)]| fits.first().map_or(f64::INFINITY, |(error, _)| *error);
-    let wants_two = least(&pairs) < CLOSER * least(&singles);
+    let wants_two = least(&pairs) < policy::CLOSER * least(&singles);
     let is_two = last.effects.len() - case.always.len() > 1;
     match if wants_two { pairs } else { singles }.first() {
-        Some((error, nearest)) if wants_two != is_two || *error < CLOSER * case.error_in_all_mm(&last) => {
+        Some((error, nearest)) if wants_two != is_two || *error < policy::CLOSER * case.error_in_all_mm(&last) => {
             (*nearest).clone()
         }
         _ => last,
@@ -31,7 +29,7 @@ pub fn closest(case: &Case, decision: &Decision, last: Fit) -> Fit {
 pub fn as_close(case: &Case, decision: &Decision, closest: &Fit) -> Vec<Fit> {
     let added = |fit: &Fit| fit.effects[case.always.len()..].to_vec();
     let (own, before) = (added(closest), case.error_in_all_mm(&case.base));
-    let most = (case.error_in_all_mm(closest) / CLOSER).min(before);
+    let most = (case.error_in_all_mm(closest) / policy::CLOSER).min(before);
     let near = |fits: &[Fit]| -> Vec<Fit> {
         let all = by_distance(case, fits).into_iter();
         all.filter(|(error, fit)| *error < most && added(fit) != own).map(|(_, fit)| fit.clone()).collect()

@@ -1,7 +1,7 @@
 //! From fits to a verdict.
 
 use super::case::Case;
-use super::closest::{CLOSER, as_close, closest};
+use super::closest::{as_close, closest};
 use super::lack_of_fit::{lack_of_fit, with_supply};
 use super::options::Options;
 use super::order;
@@ -12,21 +12,8 @@ use super::result::{LackOfFit, Verdict};
 use super::singles::{fit_all, indistinguishable};
 use super::stands_out::{Simpler, StandsOut, alone, stands_out};
 use crate::error::CompareError;
+use crate::policy;
 use crate::stats::reported_p;
-
-/// Of the level α, the share that the effects get; the tests for lack of fit get the rest.
-pub(super) const SHARE_OF_EFFECTS: f64 = 0.8;
-/// A second effect is looked for if more than this share of the error is left, and more than that many mm: the catalogue's
-/// laws are not the real ones to the last twentieth.
-const WORTH_A_SECOND: (f64, f64) = (0.05, 0.15);
-/// More than this share of the error left by one effect, or by two, and more than that many mm, means that the catalogue
-/// does not explain it. Errors are those beyond noise and scatter between runs.
-pub(super) const LEFT_OVER: [(f64, f64); 2] = [(0.2, 0.05), (0.15, 0.05)];
-/// A place that stands out with more than this share of the error is not explained: the law of a uniform robot, however wrong
-/// its form, leaves uniform bending.
-const PLACE_LEFT: f64 = 0.1;
-/// Left over by more than this share, a trace along yet another effect says the same as a lack of fit.
-const MOST_LEFT: (f64, f64) = (0.5, 0.05);
 
 /// Everything that was fitted, and what follows.
 pub struct Decision {
@@ -90,7 +77,7 @@ pub fn decide(case: &Case, options: &Options) -> Result<Decision, CompareError> 
         return Ok(decision);
     }
     decision.verdict = Some(Verdict::OutOfCatalog);
-    let significant = p_effect.is_some_and(|p| p < SHARE_OF_EFFECTS * case.alpha);
+    let significant = p_effect.is_some_and(|p| p < policy::SHARE_OF_EFFECTS * case.alpha);
     explain(case, options, &mut decision, significant)?;
     Ok(decision)
 }
@@ -101,8 +88,8 @@ fn explain(case: &Case, options: &Options, decision: &mut Decision, significant:
     let mut last = single.clone();
     let mut of_one = None;
     let one_is_enough = match &single {
-        Some(fit) if !(leaves(case, fit, WORTH_A_SECOND) && is_significant(case, fit)?) => {
-            !*of_one.insert(is_unexplained(case, fit, test(case, fit)?, LEFT_OVER[0]))
+        Some(fit) if !(leaves(case, fit, policy::WORTH_A_SECOND) && is_significant(case, fit)?) => {
+            !*of_one.insert(is_unexplained(case, fit, test(case, fit)?, policy::LEFT_OVER[0]))
         }
         _ => false,
     };
@@ -114,12 +101,12 @@ fn explain(case: &Case, options: &Options, decision: &mut Decision, significant:
     let unexplained = match of_one {
         // No pair has taken its place: the same question.
         Some(answer) if decision.pairs.is_empty() => answer,
-        _ => is_unexplained(case, &last, decision.after, LEFT_OVER[usize::from(!decision.pairs.is_empty())]),
+        _ => is_unexplained(case, &last, decision.after, policy::LEFT_OVER[usize::from(!decision.pairs.is_empty())]),
     };
     if unexplained {
         let closest = closest(case, decision, last);
         // What hardly moves the model is no attempt.
-        if case.error_in_all_mm(&closest) >= CLOSER * case.error_in_all_mm(&case.base) {
+        if case.error_in_all_mm(&closest) >= policy::CLOSER * case.error_in_all_mm(&case.base) {
             decision.after = decision.before;
             return Ok(());
         }
@@ -138,9 +125,9 @@ fn explain(case: &Case, options: &Options, decision: &mut Decision, significant:
 
 /// Whether a fit leaves a share of the error that the tests see as more than noise, at the level that is theirs.
 fn is_unexplained(case: &Case, fit: &Fit, lof: Option<LackOfFit>, share: (f64, f64)) -> bool {
-    let level = (1.0 - SHARE_OF_EFFECTS) * case.alpha;
+    let level = (1.0 - policy::SHARE_OF_EFFECTS) * case.alpha;
     let lacks = lof.is_some_and(|lof| lof.p_value < level);
-    leaves(case, fit, share) && (lacks || leaves(case, fit, MOST_LEFT) && another_wanted(case, fit) < level)
+    leaves(case, fit, share) && (lacks || leaves(case, fit, policy::MOST_LEFT) && another_wanted(case, fit) < level)
         || leaves_a_place(case, fit, level)
 }
 
@@ -153,7 +140,7 @@ fn leaves_a_place(case: &Case, fit: &Fit, level: f64) -> bool {
 /// Whether a place that a fit leaves has a share of the error; amplitudes, as far as they were seen.
 fn is_a_place_left(case: &Case, fit: &Fit, seen: &StandsOut) -> bool {
     let before = case.gain(fit) + seen.gain;
-    seen.gain - 1.0 > PLACE_LEFT * PLACE_LEFT * before
+    seen.gain - 1.0 > policy::PLACE_LEFT * policy::PLACE_LEFT * before
 }
 
 /// One fault with one amplitude that says what the effects say with more. Of two effects a fault that is as good is the simpler
@@ -161,7 +148,7 @@ fn is_a_place_left(case: &Case, fit: &Fit, seen: &StandsOut) -> bool {
 /// then, and a hold says nothing against it, because three pressures and B leave every law one hold to miss.
 fn simpler(case: &Case, last: &Fit) -> Option<Simpler> {
     let (kinds, margin): (&[Fault], f64) = match last.effects.len() - case.always.len() {
-        ..=1 => (&[Fault::Place], order::SAME),
+        ..=1 => (&[Fault::Place], policy::SAME_EVIDENCE),
         _ => (&[Fault::Place, Fault::Hold], 0.0),
     };
     let allowance = |fault: &StandsOut| order::allowance(case.gain(last).max(fault.gain));
@@ -172,7 +159,7 @@ fn simpler(case: &Case, last: &Fit) -> Option<Simpler> {
     };
     let (fault, p_value) = alone(case, kinds, case.alpha, &is_simpler)?;
     // By the sums of squares alone, without what numbers cost.
-    let either = (fault.gain - case.gain(last)) / allowance(&fault) < order::SAME;
+    let either = (fault.gain - case.gain(last)) / allowance(&fault) < policy::SAME_EVIDENCE;
     Some(Simpler { fault, p_value, either })
 }
 
@@ -184,7 +171,8 @@ fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>) {
     let before = last.as_ref().unwrap_or(&case.base);
     let allowance = order::sort(case, &mut pairs, before);
     let error_mm = |fit: &Fit| case.error_in_all_mm(fit);
-    let enough_mm = last.as_ref().map_or(f64::INFINITY, |one| (CLOSER * error_mm(one)).max(1e3 * case.tolerance_m));
+    let enough_mm =
+        last.as_ref().map_or(f64::INFINITY, |one| (policy::CLOSER * error_mm(one)).max(1e3 * case.tolerance_m));
     if let Some(best) = pairs.first()
         && p_over(case, best, before, tried).is_some_and(|p| p < case.alpha)
         && error_mm(best) < enough_mm
@@ -231,5 +219,5 @@ fn p_of(case: &Case, fit: &Fit) -> Option<f64> {
 
 /// Weighted Bonferroni over the two kinds of tests.
 pub(super) fn combined(p_effect: f64, p_lack_of_fit: f64) -> f64 {
-    (p_effect / SHARE_OF_EFFECTS).min(p_lack_of_fit / (1.0 - SHARE_OF_EFFECTS)).min(1.0)
+    (p_effect / policy::SHARE_OF_EFFECTS).min(p_lack_of_fit / (1.0 - policy::SHARE_OF_EFFECTS)).min(1.0)
 }

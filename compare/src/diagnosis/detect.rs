@@ -4,10 +4,9 @@ use super::basis::Basis;
 use super::case::Case;
 use super::least_squares::square;
 use super::result::Undetectable;
+use crate::policy;
 use statrs::distribution::{ContinuousCDF, Normal};
 
-/// z of the wanted probability of an alarm, 90 %.
-const Z_POWER: f64 = 1.2816;
 /// Rounds of the search for the size.
 const ROUNDS: usize = 12;
 /// Relative difference of the trace at which it ends.
@@ -31,7 +30,7 @@ pub fn smallest_detectable(case: &Case, effect: usize) -> Undetectable {
 /// The trace an effect must leave to be seen with 90 % probability.
 pub fn needed(case: &Case) -> f64 {
     let z = Normal::new(0.0, 1.0).map_or(4.0, |n| n.inverse_cdf(1.0 - case.alpha / (2.0 * case.tests)));
-    (z + Z_POWER).powi(2)
+    (z + policy::Z_POWER).powi(2)
 }
 
 /// First parameter whose typical value is not its neutral one.

@@ -13,10 +13,9 @@ use super::least_squares::{dot, square};
 use super::problem::{Fit, Problem};
 use crate::comparison::ZERO_PRESSURE_PA;
 use crate::error::CompareError;
+use crate::policy;
 use nalgebra::DMatrix;
 
-/// Pressures within this fraction are one level.
-const SAME_PRESSURE: f64 = 0.05;
 /// Parts into which many runs are divided.
 const MOST_FOLDS: usize = 5;
 /// Step of the differences in units of a parameter's scale.
@@ -170,5 +169,5 @@ fn problem<'a>(case: &Case<'a>, holds: &[usize], target_m: Vec<f64>) -> Result<P
 }
 
 fn same(a: f64, b: f64) -> bool {
-    (a - b).abs() <= (SAME_PRESSURE * a.abs().max(b.abs())).max(ZERO_PRESSURE_PA)
+    (a - b).abs() <= (policy::SAME_PRESSURE * a.abs().max(b.abs())).max(ZERO_PRESSURE_PA)
 }

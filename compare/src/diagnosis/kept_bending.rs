@@ -5,11 +5,11 @@
 //! finite elements). Such a base overrules a `[bending]` of `about.toml` as well, so B has to be kept. Whether the robot has it is
 //! for a bending test to say, not for these data.
 
-use super::closest::CLOSER;
 use super::options::Options;
 use super::result::{Diagnosis, KeptBending, Verdict};
 use super::{Measured, diagnose_together};
 use crate::error::CompareError;
+use crate::policy;
 use models::Scenario;
 
 /// That answer, if `found` has none, nobody measured B, and it comes closer by a fifth.
@@ -31,7 +31,7 @@ pub fn kept_bending(
     let options = Options { keep_bending: true, next_experiment: false, ..options.clone() };
     let kept = diagnose_together(scenario, first, further, &options)?;
     let after = kept.base.systematic_with_added_mm;
-    let is_closer = after < CLOSER * found.base.systematic_with_added_mm;
+    let is_closer = after < policy::CLOSER * found.base.systematic_with_added_mm;
     Ok((kept.verdict == Some(Verdict::Effect) && is_closer).then_some(KeptBending {
         value_nm2: kept.base.bending_nominal_nm2,
         indistinguishable: kept.indistinguishable,

@@ -9,6 +9,7 @@ use super::least_squares::square;
 use super::problem::{Fit, Problem};
 use super::screen::starts;
 use crate::error::CompareError;
+use crate::policy;
 use data::MeasuredValue;
 use models::Scenario;
 
@@ -63,9 +64,6 @@ pub const BENCH_TESTS: [BenchTest; 3] = [
 
 /// Standard deviation that is expected of such a test, as a share of the value and of no less than its typical size. Assumed.
 pub const BENCH_TEST: f64 = 0.1;
-
-/// Standard deviations by which the noise of a test may carry its value beyond a physical bound.
-const BEYOND_BOUNDS: f64 = 5.0;
 
 impl Known {
     /// Difference of a hypothesis to it, in standard deviations; `values` are those of its effects, one after the other.
@@ -165,14 +163,15 @@ fn check(scenario: &Scenario, m: &MeasuredValue) -> Result<(), CompareError> {
         let keys: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
         return wrong(format!("names an unknown parameter `{key}` of {name}; {}", spelling::known(key, &keys)));
     };
-    let (noise, [lower, upper]) = (BEYOND_BOUNDS * sd, p.possible);
+    let (noise, [lower, upper]) = (policy::BEYOND_BOUNDS * sd, p.possible);
     if value.is_finite() && (lower - noise..=upper + noise).contains(value) {
         return Ok(());
     }
     wrong(format!(
-        "{name}: {key} = {value} is outside its physical bounds {} by more than {BEYOND_BOUNDS} of its standard deviations \
+        "{name}: {key} = {value} is outside its physical bounds {} by more than {} of its standard deviations \
          ({sd}): correct the value or its unit",
-        p.possible_words()
+        p.possible_words(),
+        policy::BEYOND_BOUNDS
     ))
 }
 
@@ -182,7 +181,7 @@ pub fn unusual(measured: &[MeasuredValue], scenario: &Scenario) -> Vec<String> {
     let told = measured.iter().filter_map(|m| {
         let effect = catalogue.by_name(&m.effect)?;
         let p = effect.parameters.iter().find(|p| p.key == m.key)?;
-        let noise = BEYOND_BOUNDS * m.sd;
+        let noise = policy::BEYOND_BOUNDS * m.sd;
         (!(p.lower - noise..=p.upper + noise).contains(&m.value)).then(|| {
             format!(
                 "about.toml says that {} has {} = {}, and robots like these have {}: taken as it is, check its unit",
@@ -204,7 +203,8 @@ pub fn make_room(candidates: &mut [Candidate], measured: &[&MeasuredValue], scen
         let Some(entry) = catalogue.by_name(&m.effect) else { continue };
         let ([lower, upper], free) =
             (entry.parameters[parameter].possible, &mut candidates[effect].parameters[parameter]);
-        let [low, high] = [-1.0, 1.0].map(|side| (m.value + side * BEYOND_BOUNDS * m.sd).clamp(lower, upper) * free.si);
+        let [low, high] =
+            [-1.0, 1.0].map(|side| (m.value + side * policy::BEYOND_BOUNDS * m.sd).clamp(lower, upper) * free.si);
         if m.value * free.si < free.lower {
             free.lower = free.lower.min(low);
         }

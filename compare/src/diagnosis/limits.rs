@@ -7,13 +7,9 @@ use super::least_squares::square;
 use super::problem::Problem;
 use super::result::Undetectable;
 use crate::comparison::ZERO_PRESSURE_PA;
+use crate::policy;
 use crate::wording::list;
 use data::{Dataset, Phase};
-
-/// A base that leaves more than this share of the measured movement does not fit at all.
-const NO_FIT: f64 = 0.5;
-/// Standard deviations by which a bending test and the markers disagree.
-const DISAGREE: f64 = 3.0;
 
 /// What the protocols hide.
 pub fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Vec<String> {
@@ -63,7 +59,7 @@ fn bending_test(case: &Case) -> Option<String> {
     let fit = alone.fit(&case.always, &[case.base.theta().to_vec()])?;
     let (own, others) = fit.minimum.jacobian.split_first()?;
     let (markers, weight) = (fit.theta()[0], square(&Basis::of(others).rest(own)));
-    let disagree = weight > 0.0 && (markers - found).abs() > DISAGREE * (1.0 / weight + sd * sd).sqrt();
+    let disagree = weight > 0.0 && (markers - found).abs() > policy::DISAGREE * (1.0 / weight + sd * sd).sqrt();
     disagree.then(|| {
         format!(
             "the bending test found B = {found:.2} ± {sd:.2} N·m², without an effect the markers ask for {markers:.2}: something \
@@ -78,7 +74,7 @@ fn tests_of_their_own(case: &Case) -> Vec<String> {
     let told = found.filter_map(|known| {
         let effect = case.candidate(known.effect);
         let p = &effect.parameters[known.parameter];
-        (known.lacking.abs() > DISAGREE).then(|| {
+        (known.lacking.abs() > policy::DISAGREE).then(|| {
             let [value, sd] = [known.value, known.sd].map(|v| super::words::value(v / p.si));
             format!(
                 "about.toml says that {} was measured: {} = {value} ± {sd} {}, and the scenario lacks it; whether the markers \
@@ -99,7 +95,7 @@ pub fn warnings(case: &Case) -> Vec<String> {
         1e3 * (y / values.len() as f64).sqrt()
     };
     let left = case.error_mm(&case.prediction(&case.base));
-    if left > NO_FIT * moved(target) {
+    if left > policy::NO_FIT * moved(target) {
         warnings.push(format!(
             "the base does not fit at all: {left:.1} mm remain of a movement of {:.1} mm (rms); before looking for effects, \
              check actuator and dimensions in the scenario, the sign of y, marker stations and pressure units",

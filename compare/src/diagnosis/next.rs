@@ -16,7 +16,7 @@ use super::case::Case;
 use super::decide::Decision;
 use super::experiments::{BENDING_TEST, Instruments, Part, Plan, bending_test, plans, protocol_text};
 use super::known::{BENCH_TEST, BENCH_TESTS, BenchTest, Known, parameters_of};
-use super::order::{SAME, allowance};
+use super::order::allowance;
 use super::problem::{Block, Fit, Problem, Readings, with};
 use super::proposed::{Experiment, NextExperiment, Separation};
 use super::result::Verdict;
@@ -25,6 +25,7 @@ use crate::directions::nuisance_directions;
 use crate::error::CompareError;
 use crate::gauge::Gauge;
 use crate::noise::SENSOR_SD;
+use crate::policy;
 use crate::study::predict::without_settled;
 use crate::study::predict_dataset;
 use crate::whiten::Whitener;
@@ -33,12 +34,8 @@ use models::Supply;
 use models::effects::Stage;
 use std::borrow::Cow;
 
-/// Normal quantile of nine in ten.
-const Z_POWER: f64 = 1.2816;
 /// Most times the runs at hand that are proposed.
 const MOST_REPEATS: usize = 20;
-/// λ below which an experiment is not worth its time.
-const WORTHLESS: f64 = 3.0;
 /// Rivals looked at.
 const RIVALS: usize = 5;
 /// Accuracy of λ.
@@ -84,7 +81,7 @@ pub fn next_experiment(
         let (a, b) = (worth(a), worth(b));
         b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))
     });
-    let recommended = tried.first().filter(|e| e.separations.iter().any(|s| s.lambda >= WORTHLESS)).cloned();
+    let recommended = tried.first().filter(|e| e.separations.iter().any(|s| s.lambda >= policy::WORTHLESS)).cloned();
     let best = label(case, best);
     let sentence = sentence(&best, recommended.as_ref());
     Ok(Some(NextExperiment { best, recommended, now, needed_now, tried, sentence }))
@@ -123,13 +120,13 @@ fn label(case: &Case, fit: &Fit) -> String {
 
 /// λ that tells two explanations apart in about nine of ten cases where the better one gains that much.
 fn enough(gain: f64) -> f64 {
-    (Z_POWER + (Z_POWER * Z_POWER + SAME * allowance(gain)).sqrt()).powi(2)
+    (policy::Z_POWER + (policy::Z_POWER * policy::Z_POWER + policy::SAME_EVIDENCE * allowance(gain)).sqrt()).powi(2)
 }
 
 fn experiment(case: &Case, plan: &Plan, separations: Vec<Separation>, gain: f64) -> Experiment {
     let needed = enough(gain);
     let separated = separations.iter().filter(|s| s.lambda >= needed).count();
-    let within_reach = separations.iter().map(|s| s.lambda).filter(|l| *l >= WORTHLESS).reduce(f64::min);
+    let within_reach = separations.iter().map(|s| s.lambda).filter(|l| *l >= policy::WORTHLESS).reduce(f64::min);
     let largest = separations.iter().map(|s| s.lambda).fold(0.0, f64::max);
     // More runs make more of λ and of what a law's form shows, which may never be enough.
     let at_hand = case.noise.runs.max(1);
@@ -301,14 +298,14 @@ fn sentence(best: &str, recommended: Option<&Experiment>) -> String {
         (Some(runs), _) => {
             format!(
                 "It is expected to separate {best} from {} ({lambda}; about {runs} runs).",
-                names(&above(WORTHLESS))
+                names(&above(policy::WORTHLESS))
             )
         }
         (None, false) => format!("It is expected to separate {best} from {} ({lambda}).", names(&above(e.needed))),
         (None, true) => format!(
             "It parts {best} from {} more than others do ({lambda}) and will not decide: a twentieth of an effect is granted to \
              the form of its law, and more runs do not change that.",
-            names(&above(WORTHLESS))
+            names(&above(policy::WORTHLESS))
         ),
     };
     format!("Next: {}{protocol}. {parts}{results}", e.sentence)
@@ -323,6 +320,6 @@ mod tests {
         assert!((enough(0.0) - 16.0).abs() < 1.0, "{}", enough(0.0));
         // Of a large gain the granted share decides, six units of noise times A.
         let gain = 1e6;
-        assert!((enough(gain) / (SAME * allowance(gain)) - 1.0).abs() < 0.02);
+        assert!((enough(gain) / (policy::SAME_EVIDENCE * allowance(gain)) - 1.0).abs() < 0.02);
     }
 }

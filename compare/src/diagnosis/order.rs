@@ -22,21 +22,11 @@ use super::candidates::Free;
 use super::case::Case;
 use super::detect::lead;
 use super::problem::Fit;
-
-/// Differences below this do not decide.
-pub const SAME: f64 = 6.0;
-/// Share of the best gain that counts as [`SAME`].
-const FORM: f64 = 0.05;
-/// One standard deviation of the size, as a factor.
-const SIZE_FACTOR: f64 = 3.0;
-/// Least price of a parameter, where hardly any information is left.
-const LEAST_PRICE: f64 = 1.0;
-/// Sizes beyond this factor from the typical one are equally odd.
-const ODDEST: f64 = 1e3;
+use crate::policy;
 
 /// What a gain that large makes of differences between sums of squares.
 pub fn allowance(best_gain: f64) -> f64 {
-    1.0 + FORM * best_gain.max(0.0) / SAME
+    1.0 + policy::FORM * best_gain.max(0.0) / policy::SAME_EVIDENCE
 }
 
 /// C of an explanation, up to a constant.
@@ -57,7 +47,7 @@ pub fn criterion_from(values: usize, cost: f64, added: usize, allowance: f64) ->
 
 /// Schwarz's price of a parameter where the variance of the values is larger by the allowance.
 fn price(values: f64, allowance: f64) -> f64 {
-    (values / allowance).ln().max(LEAST_PRICE)
+    (values / allowance).ln().max(policy::LEAST_PRICE)
 }
 
 /// Fits in order of C, and the allowance used: that of the best gain among those that no bound rejects.
@@ -79,7 +69,7 @@ fn oddness(case: &Case, fit: &Fit) -> f64 {
         let p = &candidate.parameters[k];
         let size = (fit.theta()[from + k] - p.neutral).abs() / p.scale();
         if i >= case.always.len() && candidate.count() == 1 {
-            sum += (size.clamp(1.0 / ODDEST, ODDEST).ln() / SIZE_FACTOR.ln()).powi(2);
+            sum += (size.clamp(1.0 / policy::ODDEST, policy::ODDEST).ln() / policy::SIZE_FACTOR.ln()).powi(2);
             sum += wrong_sign(p, fit.theta()[from + k]);
         }
         from += candidate.parameters.len();
@@ -103,7 +93,7 @@ mod tests {
     fn a_twentieth_of_a_large_gain_counts_as_much_as_six_units_of_noise() {
         assert_eq!(allowance(0.0), 1.0);
         let gain = 1e6;
-        assert!((0.05 * gain / allowance(gain) / SAME - 1.0).abs() < 1e-3);
+        assert!((0.05 * gain / allowance(gain) / policy::SAME_EVIDENCE - 1.0).abs() < 1e-3);
     }
 
     /// A gain of that many units of noise is the same evidence whether σ² is larger by A or n values are fewer by A.
@@ -111,7 +101,7 @@ mod tests {
     fn a_parameter_costs_as_much_as_with_fewer_values_and_never_nothing() {
         assert_eq!(price(300.0, 1.0), 300.0_f64.ln());
         assert_eq!(price(300.0, 10.0), 30.0_f64.ln());
-        assert_eq!(price(300.0, 1e6), LEAST_PRICE);
+        assert_eq!(price(300.0, 1e6), policy::LEAST_PRICE);
     }
 
     #[test]

@@ -8,14 +8,13 @@ use super::problem::Fit;
 use super::result::Combination;
 use super::screen::{score, starts};
 use super::singles::parameter_values;
+use crate::policy;
 use crate::stats::reported_p;
 
 /// Pairs refitted, the most promising by screening every effect on top of every other.
 const REFITTED: usize = 32;
 /// Pairs that are reported.
 const REPORTED: usize = 12;
-/// Contributions this opposite cancel.
-const CANCELS: f64 = -0.95;
 
 /// The p that another effect is wanted on top of a fit, screened and corrected for all effects; 1 if none.
 pub fn another_wanted(case: &Case, fit: &Fit) -> f64 {
@@ -76,7 +75,7 @@ fn swapped(case: &Case, first: &Fit, second: &Fit) -> Option<Vec<f64>> {
 pub fn indistinguishable(case: &Case, pairs: &[Fit], allowance: f64) -> Vec<usize> {
     let Some(best) = pairs.first() else { return Vec::new() };
     let c = |fit: &Fit| order::criterion(case, fit, allowance);
-    let is_alike = |i: &usize| c(&pairs[*i]) - c(best) < order::SAME;
+    let is_alike = |i: &usize| c(&pairs[*i]) - c(best) < policy::SAME_EVIDENCE;
     (0..pairs.len()).filter(is_alike).collect()
 }
 
@@ -121,7 +120,7 @@ fn cancels(case: &Case, fit: &Fit) -> bool {
         Some(residual.iter().zip(&fit.minimum.residual).map(|(a, b)| b - a).collect())
     };
     match (without(lead), without(lead + 1)) {
-        (Some(a), Some(b)) => cosine(&a, &b) < CANCELS,
+        (Some(a), Some(b)) => cosine(&a, &b) < policy::CANCELS,
         _ => false,
     }
 }

@@ -18,11 +18,10 @@ use super::look;
 use super::shapes::Shape;
 use crate::comparison::ZERO_PRESSURE_PA;
 use crate::layout::Layout;
+use crate::policy;
 
 /// Directions of the image.
 const AXES: [(&str, [f64; 2]); 2] = [("x", [1.0, 0.0]), ("y", [0.0, 1.0])];
-/// Pressures within this fraction are one level.
-const SAME_PRESSURE: f64 = 0.05;
 
 /// A pattern in the data.
 pub struct Pattern {
@@ -203,7 +202,7 @@ fn times(case: &Case, bent: &Time) -> Vec<When> {
     all.push(When { words: "faster than its bending".into(), check: look::finer(None), time });
     let mut levels: Vec<f64> = Vec::new();
     for p in holds.iter().map(|h| h.p_act_pa).filter(|p| *p > ZERO_PRESSURE_PA) {
-        if !levels.iter().any(|l| (l - p).abs() < SAME_PRESSURE * l) {
+        if !levels.iter().any(|l| (l - p).abs() < policy::SAME_PRESSURE * l) {
             levels.push(p);
         }
     }

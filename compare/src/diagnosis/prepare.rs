@@ -3,13 +3,9 @@
 use super::result::{Outliers, OutlyingRun};
 use crate::directions::DirectionFit;
 use crate::noise::NoiseModel;
+use crate::policy;
 use crate::stats::f_tail;
 use data::{About, Dataset};
-
-/// Above this share stray samples are the noise, and none is replaced.
-const MOST_REPLACED: f64 = 0.05;
-/// A run stands out below this p, corrected for the number of runs.
-const RUN_STANDS_OUT: f64 = 0.001;
 
 /// Data ready for a fit.
 pub struct Prepared {
@@ -35,7 +31,7 @@ pub fn prepare(dataset: &Dataset, about: Option<&About>) -> Prepared {
     let samples = report.outliers;
     let share = samples.len() as f64 / (dataset.xy_m.len() as f64 / 2.0);
     if samples.is_empty() {
-    } else if share <= MOST_REPLACED && clean.runs.len() > 2 {
+    } else if share <= policy::MOST_REPLACED && clean.runs.len() > 2 {
         replace(&mut clean, &samples);
         let words = "replaced by the mean of the other runs there";
         warnings.push(format!(
@@ -71,7 +67,7 @@ pub fn outlying_runs(dataset: &Dataset, noise: &NoiseModel) -> Vec<OutlyingRun> 
         let ratio = s * (runs - 1) as f64 / (total - s);
         let p = (runs as f64 * f_tail(ratio, dof, (runs - 1) * dof)).min(1.0);
         let found = OutlyingRun { run: dataset.runs[run].clone(), scatter_ratio: ratio, p_corrected: p };
-        (p < RUN_STANDS_OUT && ratio > 1.5).then_some(found)
+        (p < policy::RUN_STANDS_OUT && ratio > 1.5).then_some(found)
     };
     squares.iter().enumerate().filter_map(outlying).collect()
 }

@@ -7,8 +7,9 @@ use super::known::Known;
 use super::least_squares::{Minimum, Range, dot, jacobian, minimise, square};
 use crate::error::CompareError;
 use crate::gauge::Gauge;
+use crate::policy;
 use crate::study::predict::is_open;
-use crate::whiten::{MISFIT, MISFIT_ROUNDS, Whitener};
+use crate::whiten::{MISFIT_ROUNDS, Whitener};
 use data::{Dataset, Direct};
 use models::Scenario;
 use models::effects::Stage;
@@ -18,10 +19,6 @@ use std::borrow::Cow;
 pub const MAX_BENDING: f64 = 200.0;
 /// A change of B that matters \[N·m²\], for the steps of the fit.
 const BENDING_SCALE: f64 = 0.5;
-/// Costs of two starts that differ by more than this end in different minima.
-const SAME_MINIMUM: f64 = 1.0;
-/// A bound is binding if the data would gain this much beyond it: two standard errors.
-const BINDING: f64 = 4.0;
 
 /// Whitener of the block with that number.
 type WhitenerOf<'w> = dyn Fn(usize) -> Cow<'w, Whitener> + 'w;
@@ -217,7 +214,7 @@ impl Problem<'_> {
             }
         }
         let minimum = best?;
-        let several_minima = costs.iter().any(|c| c - minimum.cost > SAME_MINIMUM);
+        let several_minima = costs.iter().any(|c| c - minimum.cost > policy::SAME_MINIMUM);
         let neutral = self.neutral(effects);
         let binding = |m: &Minimum| (0..ranges.len()).map(|k| is_binding(m, k, &ranges[k], neutral[k])).collect();
         let (binding, minimum, misfit) = match self.allowing(effects, &ranges, &minimum) {
@@ -227,10 +224,10 @@ impl Problem<'_> {
         Some(Fit { effects: effects.to_vec(), minimum, misfit, binding, several_minima })
     }
 
-    /// The fit of a law that misses the data, and by how much: to it, its misfit is noise ([`MISFIT`]). `None` where none misses.
+    /// The fit of a law that misses the data, and by how much: to it, its misfit is noise ([`crate::policy::MISFIT`]). `None` where none misses.
     fn allowing(&self, effects: &[usize], ranges: &[Range], least: &Minimum) -> Option<(Minimum, Vec<f64>)> {
         let mut factors = self.factors(&least.residual);
-        if factors.iter().all(|f| *f < MISFIT) {
+        if factors.iter().all(|f| *f < policy::MISFIT) {
             return None;
         }
         let mut wide: Option<Minimum> = None;
@@ -349,5 +346,5 @@ pub(super) fn is_binding(minimum: &Minimum, k: usize, range: &Range, neutral: f6
         (0..minimum.at.len()).filter(|j| *j != k).map(|j| minimum.jacobian[j].clone()).collect();
     let own = Basis::of(&others).rest(&minimum.jacobian[k]);
     let (squares, slope) = (square(&own), dot(&own, &minimum.residual));
-    squares > 0.0 && slope * slope / squares > BINDING
+    squares > 0.0 && slope * slope / squares > policy::BINDING
 }

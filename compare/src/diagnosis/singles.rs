@@ -11,11 +11,9 @@ use super::order;
 use super::problem::Fit;
 use super::result::{ParameterValue, Ranked};
 use super::screen::starts;
+use crate::policy;
 use crate::stats::reported_p;
 use crate::study::predict_dataset;
-
-/// B that moves by more than this with an effect is said so.
-const BENDING_MOVES: f64 = 0.2;
 
 /// All effects fitted, best first, and the allowance for their form; those without equilibrium left out.
 pub fn fit_all(case: &Case) -> (Vec<Fit>, f64) {
@@ -50,7 +48,7 @@ pub fn indistinguishable(case: &Case, fits: &[Fit], allowance: f64) -> Vec<usize
     let acceptable = |i: &usize| !case.is_rejected(&fits[*i]) && case.gain(&fits[*i]) > 0.0;
     let Some(best) = (0..fits.len()).find(acceptable) else { return Vec::new() };
     let c = |i: usize| order::criterion(case, &fits[i], allowance);
-    let is_alike = |i: &usize| c(*i) - c(best) < order::SAME;
+    let is_alike = |i: &usize| c(*i) - c(best) < policy::SAME_EVIDENCE;
     (0..fits.len()).filter(acceptable).filter(is_alike).collect()
 }
 
@@ -132,7 +130,7 @@ fn notes(case: &Case, fit: &Fit, own: &[ParameterValue]) -> Vec<String> {
         ));
     }
     for (group, (with, without)) in fit.theta().iter().zip(case.base.theta()).take(case.problem.bendings).enumerate() {
-        if (with - without).abs() > BENDING_MOVES * without.max(1e-3) && case.gain(fit) > 1.0 {
+        if (with - without).abs() > policy::BENDING_MOVES * without.max(1e-3) && case.gain(fit) > 1.0 {
             let body = if case.body_pa.len() > 1 {
                 format!(" at {:.0} kPa body pressure", case.body_pa[group] / 1e3)
             } else {

@@ -3,6 +3,7 @@
 use crate::error::CompareError;
 use crate::gauge::Gauge;
 use crate::noise::NoiseModel;
+use crate::policy;
 use crate::study::predict::is_open;
 use data::{Dataset, Direct, MeasuredValue};
 use models::Scenario;
@@ -11,7 +12,9 @@ use models::effects::Stage;
 /// Whether one robot lies rolled by 180° against the other: gravity pulls it the other way across.
 pub fn is_rolled(one: &Scenario, other: &Scenario) -> bool {
     let ([ax, ay], [bx, by]) = (one.gravity_direction, other.gravity_direction);
-    ay.abs() > SAME && (ax - bx).abs() < SAME && (ay + by).abs() < SAME
+    ay.abs() > policy::SAME_DIRECTION
+        && (ax - bx).abs() < policy::SAME_DIRECTION
+        && (ay + by).abs() < policy::SAME_DIRECTION
 }
 
 /// A scenario as the robot sees it when it is rolled by 180°: forces and cameras that stay in the room change sides.
@@ -24,9 +27,6 @@ pub fn seen_rolled(scenario: &Scenario) -> Scenario {
     }
     seen
 }
-
-/// Components of unit vectors that differ by less are the same.
-const SAME: f64 = 0.05;
 
 /// A dataset and the base as it was measured there.
 #[derive(Clone, Copy)]

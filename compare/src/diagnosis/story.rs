@@ -1,15 +1,13 @@
 //! The diagnosis told in sentences.
 
+use crate::policy;
 use data::Direct;
 
-use super::closest::CLOSER;
 use super::fitted::{FittedBeside, GaugeFit};
 use super::result::{Confidence, Diagnosis, Group, KeptBending, LeftPattern, ParameterValue, Ranked, Verdict};
 use super::words::quantity;
 use crate::wording::{list, p_value};
 
-/// Share of the error left up to which the best of the catalogue is named as a part of the answer.
-const MOSTLY: f64 = 0.25;
 /// What comes as close as an attempt is named up to that many; `diagnosis.json` has all.
 const MOST_AS_CLOSE: usize = 5;
 
@@ -183,7 +181,7 @@ fn outside(d: &Diagnosis) -> Vec<String> {
         format!(
             "Nothing in the catalogue explains this ({p}): {before:.2} mm remain, and no effect of it takes a fifth off them."
         )
-    } else if after <= MOSTLY * before {
+    } else if after <= policy::MOSTLY * before {
         format!(
             "Adding {tried} takes away most of it, {before:.2} to {after:.2} mm, but nothing in the catalogue explains the rest \
              ({p}): a law that is not quite the catalogue's, or something that is not listed."
@@ -222,7 +220,7 @@ fn as_close(d: &Diagnosis) -> Option<String> {
 fn at_its_bound(d: &Diagnosis) -> Option<String> {
     let left = |r: &&Ranked| r.systematic_after_mm;
     let nearest = d.ranked.iter().filter(|r| r.at_bound).min_by(|a, b| left(a).total_cmp(&left(b)))?;
-    let is_closer = nearest.systematic_after_mm < CLOSER * d.base.systematic_with_added_mm;
+    let is_closer = nearest.systematic_after_mm < policy::CLOSER * d.base.systematic_with_added_mm;
     is_closer.then(|| {
         format!(
             "{} would leave {:.2} mm, but at the end of its range, {}, and the data push beyond it: more of it than was thought \

@@ -1,15 +1,13 @@
 //! Labels of two markers exchanged, in every hold or where a tracker lost them.
 
-use super::{FAR_LESS, Seen, become_mm};
+use super::{Seen, become_mm};
+use crate::policy;
 use crate::wording::list;
 
 /// With more markers only near ones are tried: trackers confuse what is close.
 const ALL_PAIRS: usize = 12;
 /// How near, in places along the body.
 const NEAR: usize = 3;
-/// Then half of their distance must be this many times what a marker is usually off: of markers closer together than the noise no
-/// label can be told.
-const CLEAR: f64 = 3.0;
 
 /// Two markers, and the (run, hold) in which they look exchanged with the sums of squares of both ways \[m²\].
 struct Exchange {
@@ -48,7 +46,7 @@ fn exchanged(seen: &Seen, points: &[[f64; 2]]) -> (Vec<[usize; 2]>, [f64; 2]) {
         pairs.push(pair);
         left = after;
     }
-    if left > FAR_LESS * FAR_LESS * laid {
+    if left > policy::FAR_LESS * policy::FAR_LESS * laid {
         pairs.clear();
     }
     (pairs, [laid, left])
@@ -58,7 +56,7 @@ fn exchanged(seen: &Seen, points: &[[f64; 2]]) -> (Vec<[usize; 2]>, [f64; 2]) {
 fn best(seen: &Seen, points: &[[f64; 2]], left: f64) -> Option<([usize; 2], f64)> {
     let count = points.len();
     // Wherever a body is laid, two markers that are exchanged are off by half of their distance each, or more.
-    let least = |apart: f64| 2.0 * (0.5 * FAR_LESS * apart).powi(2);
+    let least = |apart: f64| 2.0 * (0.5 * policy::FAR_LESS * apart).powi(2);
     if count < 3 || left < least(2.0 * seen.half_apart()) {
         return None;
     }
@@ -68,7 +66,7 @@ fn best(seen: &Seen, points: &[[f64; 2]], left: f64) -> Option<([usize; 2], f64)
     let apart = |pair: [usize; 2]| (seen.body.stations_m[pair[0]] - seen.body.stations_m[pair[1]]).abs();
     let pairs = pairs.filter(|pair| {
         let half = 0.5 * apart(*pair);
-        half > CLEAR * usual && pair.iter().all(|marker| off[*marker] > FAR_LESS * half)
+        half > policy::LABELS_CLEAR * usual && pair.iter().all(|marker| off[*marker] > policy::FAR_LESS * half)
     });
     let with = |pair: [usize; 2]| {
         let mut other = points.to_vec();

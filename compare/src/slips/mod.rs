@@ -21,10 +21,6 @@ use data::Dataset;
 /// What is looked for, in this order: each sees the data with the slips before it undone.
 const SLIPS: [fn(&mut Seen) -> Vec<String>; 4] = [turned::turned, upside::upside, labels::labels, origin::origin];
 
-/// A distance that undoing a slip takes to less than this share of it is called far less. Undoing a slip that is not there
-/// leaves more than before, so that anything below 1 would do without noise.
-const FAR_LESS: f64 = 0.5;
-
 /// The data as these tests see them.
 struct Seen<'a> {
     dataset: &'a Dataset,

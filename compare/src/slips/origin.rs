@@ -12,19 +12,13 @@
 
 use super::{Seen, become_mm};
 use crate::evaluate::default_tolerance_m;
+use crate::policy;
 use crate::stats::f_tail;
 use crate::wording::{list, short};
 use nalgebra::{DMatrix, DVector};
 
-/// Chance of the shift where nothing is shifted, above which nothing is told.
-const CHANCE: f64 = 1e-3;
-/// Share that a shift may leave of the mean over runs. A lens that bulges the image is off at the base too, grows otherwise
-/// from there, and leaves a third without any noise; 1300 sets of `ibr bench discovery` without a slip left 0.28 or more.
-const LITTLE: f64 = 0.2;
 /// Holds within this share of the highest pressure of the lowest are the lowest.
 const LOWEST: f64 = 0.02;
-/// Heading of the last marker beyond which a hold is not nearly straight \[rad\].
-const NEARLY_STRAIGHT: f64 = 0.8;
 
 pub(super) fn origin(seen: &mut Seen) -> Vec<String> {
     let holds = lowest(seen);
@@ -60,7 +54,7 @@ fn lowest(seen: &Seen) -> Vec<usize> {
     let longest = seen.body.stations_m.iter().fold(0.0, |l: f64, s| l.max(*s));
     let straight = |hold: &usize| {
         let heading = |run: &Vec<Vec<[f64; 2]>>| longest * seen.body.lay(&run[*hold], true).curvature.abs();
-        seen.points.iter().all(|run| heading(run) < NEARLY_STRAIGHT)
+        seen.points.iter().all(|run| heading(run) < policy::NEARLY_STRAIGHT)
     };
     all.filter(|hold| pressure(hold) <= low + LOWEST * high).filter(straight).collect()
 }
@@ -85,7 +79,7 @@ fn shift(seen: &Seen, holds: &[usize]) -> Option<[f64; 2]> {
     };
     let of_mean = [squares(&mean, &grown, &least_grown), squares(&mean, &shifted, &least)];
     let [before, after] = [of_mean[0] / (values - without) as f64, of_mean[1] / (values - with) as f64];
-    let little = after < LITTLE * LITTLE * before;
+    let little = after < policy::SHIFT_LEAVES * policy::SHIFT_LEAVES * before;
     let of_runs = runs.iter().map(|run| squares(run, &shifted, &least)).sum::<f64>();
     let (fall, dof) = (runs.len() as f64 * (of_mean[0] - of_mean[1]), runs.len() * values - with);
     let p = f_tail(fall / 2.0 / (of_runs / dof as f64).max(f64::MIN_POSITIVE), 2, dof);
@@ -96,7 +90,7 @@ fn shift(seen: &Seen, holds: &[usize]) -> Option<[f64; 2]> {
     let in_all =
         runs.iter().filter_map(own).all(|own| (own[0] - shift[0]).hypot(own[1] - shift[1]) < own[0].hypot(own[1]));
     let matters = shift[0].hypot(shift[1]) > tolerance(seen);
-    (little && p < CHANCE && in_all && matters).then_some(shift)
+    (little && p < policy::SHIFT_CHANCE && in_all && matters).then_some(shift)
 }
 
 /// The nearly straight robot as a linear law.

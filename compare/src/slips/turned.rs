@@ -3,12 +3,9 @@
 //! Looked for without the origin, so that a picture's corner may be it: markers about their mean, against bodies that head
 //! along x. Two ways that are alike for a straight robot (x turned over, numbers from the tip) part when it bends, or by the base.
 
-use super::{FAR_LESS, Seen, become_mm};
+use super::{Seen, become_mm};
+use crate::policy;
 
-/// Beyond this factor either way it is no camera's scale: the catalogue's `camera_scale` ends there.
-const NO_SCALE: f64 = 1.25;
-/// How near a factor must be to that of a unit to be called by it.
-const NEAR_UNIT: f64 = 0.1;
 /// What the numbers have to be multiplied by, if they are what the words say.
 const UNITS: [(f64, &str); 7] = [
     (10.0, "cm under a header of mm"),
@@ -49,7 +46,7 @@ impl Way {
     }
 
     fn is_like(&self, other: &Way) -> bool {
-        let same = self.factor.max(other.factor) < NO_SCALE * self.factor.min(other.factor);
+        let same = self.factor.max(other.factor) < policy::NO_SCALE * self.factor.min(other.factor);
         same && Way { factor: 1.0, ..*self } == Way { factor: 1.0, ..*other }
     }
 }
@@ -81,16 +78,16 @@ fn in_run(seen: &Seen, run: usize) -> Option<Found> {
     };
     let rms = |squares: f64| seen.rms(squares, points.len());
     let before = left(&AS_IT_IS, loose);
-    if rms(before) < seen.half_apart() * FAR_LESS {
+    if rms(before) < seen.half_apart() * policy::FAR_LESS {
         return None;
     }
     let ways: Vec<(Way, f64)> = ways(seen, points).into_iter().map(|way| (way, left(&way, loose))).collect();
     let least = ways.iter().fold(f64::INFINITY, |least, (_, squares)| least.min(*squares));
-    if rms(least) >= FAR_LESS * rms(before) {
+    if rms(least) >= policy::FAR_LESS * rms(before) {
         return None;
     }
     // Alike but for the place of the base.
-    let alike = ways.into_iter().filter(|(_, squares)| FAR_LESS * rms(*squares) <= rms(least));
+    let alike = ways.into_iter().filter(|(_, squares)| policy::FAR_LESS * rms(*squares) <= rms(least));
     let (mut way, after) = alike.min_by(|a, b| left(&a.0, false).total_cmp(&left(&b.0, false)))?;
     if !seen.bends_up(&way.undo_run(points)) {
         way.signs[1] = -1.0;
@@ -100,8 +97,9 @@ fn in_run(seen: &Seen, run: usize) -> Option<Found> {
 
 fn ways(seen: &Seen, run: &[Vec<[f64; 2]>]) -> Vec<Way> {
     let factor = factor(seen, run);
-    let known = UNITS.iter().map(|(unit, _)| *unit).find(|unit| (factor / unit - 1.0).abs() < NEAR_UNIT);
-    let off = (factor.is_finite() && !(1.0 / NO_SCALE..=NO_SCALE).contains(&factor)).then_some(known.unwrap_or(factor));
+    let known = UNITS.iter().map(|(unit, _)| *unit).find(|unit| (factor / unit - 1.0).abs() < policy::NEAR_UNIT);
+    let off = (factor.is_finite() && !(1.0 / policy::NO_SCALE..=policy::NO_SCALE).contains(&factor))
+        .then_some(known.unwrap_or(factor));
     let mut all = Vec::new();
     for factor in [Some(1.0), off].into_iter().flatten() {
         for (exchanged, sign) in [(false, 1.0), (false, -1.0), (true, 1.0), (true, -1.0)] {

@@ -1,20 +1,18 @@
 //! y turned over in some runs. In all of them it is refused where the table is read.
 
-use super::{FAR_LESS, Seen, become_mm};
-
-/// Runs from which on it can be said which is the odd one.
-const RUNS_TO_TELL: usize = 3;
+use super::{Seen, become_mm};
+use crate::policy;
 
 pub(super) fn upside(seen: &mut Seen) -> Vec<String> {
     let count = seen.points.len();
     let down: Vec<usize> = (0..count).filter(|run| !seen.bends_up(&seen.points[*run])).collect();
-    if count < RUNS_TO_TELL || down.is_empty() || 2 * down.len() >= count {
+    if count < policy::RUNS_TO_TELL || down.is_empty() || 2 * down.len() >= count {
         return Vec::new();
     }
     let mut found = Vec::new();
     for run in down.clone() {
         let (before, after) = (from_others(seen, run, &down, 1.0), from_others(seen, run, &down, -1.0));
-        if before > FAR_LESS * seen.half_apart() && after < FAR_LESS * before {
+        if before > policy::FAR_LESS * seen.half_apart() && after < policy::FAR_LESS * before {
             found.push((run, [before, after]));
         }
     }

@@ -4,8 +4,9 @@ use crate::error::CompareError;
 use crate::evaluate::EvaluateOptions;
 use crate::interval::{Fitted, half_width, interval};
 use crate::noise::NoiseModel;
+use crate::policy;
 use crate::study::predict::{first_slope, predict_dataset};
-use crate::whiten::{MISFIT, MISFIT_ROUNDS};
+use crate::whiten::MISFIT_ROUNDS;
 use argmin::core::{CostFunction, Executor, State};
 use argmin::solver::brent::BrentOpt;
 use data::Dataset;
@@ -145,7 +146,7 @@ fn fit(least: &Misfit) -> Result<(f64, NoiseModel, f64), CompareError> {
     let count = least.noise.seen(0..least.mean_m.len()) as f64;
     let mut best = minimum(least)?;
     let (mut wider, mut factor) = (least.noise.clone(), 1.0);
-    if least.at(best * best)? > MISFIT * count {
+    if least.at(best * best)? > policy::MISFIT * count {
         for _ in 0..MISFIT_ROUNDS {
             factor = (least.at(best * best)? / count).max(1.0);
             wider = least.noise.wider(factor);

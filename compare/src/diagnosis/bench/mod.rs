@@ -17,11 +17,12 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use super::decide::{LEFT_OVER, SHARE_OF_EFFECTS, combined};
+use super::decide::combined;
 use super::order;
 use super::result::{Group, ParameterValue, Verdict};
 use crate::CompareError;
 use crate::bench::refuse;
+use crate::policy;
 use crate::stats::{chi2_tail, reported_p};
 use data::Bench;
 use models::Scenario;
@@ -212,16 +213,16 @@ fn judge(table: &Table, base: &Fit, best: Option<&Fit>, alpha: f64) -> Judged {
     let lack = |fit: &Fit| chi2_tail(fit.minimum.cost, table.readings.len().saturating_sub(table.count(fit.law)));
     let left =
         best.map_or(1.0, |fit| rms_off(table, fit).ln_1p() / rms_off(table, base).ln_1p().max(f64::MIN_POSITIVE));
-    let little = left <= LEFT_OVER[0].0;
+    let little = left <= policy::LEFT_OVER[0].0;
     if !table.known {
         return Judged { verdict: None, p_value: None, explains: little };
     }
     let p_effect = best.map_or(1.0, |fit| p_of(table, base, fit));
     let p = combined(p_effect, lack(base));
-    let explains = best.is_some_and(|fit| little || lack(fit) >= (1.0 - SHARE_OF_EFFECTS) * alpha);
+    let explains = best.is_some_and(|fit| little || lack(fit) >= (1.0 - policy::SHARE_OF_EFFECTS) * alpha);
     let verdict = match () {
         () if p >= alpha => Verdict::None,
-        () if explains && p_effect < SHARE_OF_EFFECTS * alpha => Verdict::Effect,
+        () if explains && p_effect < policy::SHARE_OF_EFFECTS * alpha => Verdict::Effect,
         () => Verdict::OutOfCatalog,
     };
     Judged { verdict: Some(verdict), p_value: Some(reported_p(p)), explains: explains && verdict == Verdict::Effect }
@@ -253,7 +254,7 @@ fn set(table: &Table, base: &Fit, fits: &[Fit], allowance: f64) -> Vec<usize> {
     let acceptable = |i: &usize| !fits[*i].binding.contains(&true) && base.minimum.cost - fits[*i].minimum.cost > 1.0;
     let c = |i: usize| criterion(table, &fits[i], allowance);
     let Some(best) = (0..fits.len()).find(acceptable) else { return Vec::new() };
-    (0..fits.len()).filter(acceptable).filter(|i| c(*i) - c(best) < order::SAME).collect()
+    (0..fits.len()).filter(acceptable).filter(|i| c(*i) - c(best) < policy::SAME_EVIDENCE).collect()
 }
 
 fn ranked(table: &Table, base: &Fit, fit: &Fit) -> BenchRanked {

@@ -7,12 +7,9 @@ use crate::bench::is_free;
 use crate::diagnosis::result::Verdict;
 use crate::diagnosis::story::with_interval;
 use crate::diagnosis::words::quantity;
+use crate::policy;
 use crate::wording::{list, p_value, short};
 
-/// Share of the squares of a misfit that a pattern must hold to be told.
-const TELLS: f64 = 0.25;
-/// An error at what was left out that falls to less than this share speaks for a law; markers have the same.
-const PREDICTS: f64 = 0.7;
 /// Levels that are told one by one; more are told by thirds.
 const MOST_LEVELS: usize = 4;
 
@@ -95,7 +92,7 @@ fn at_its_bound(d: &BenchDiagnosis, off: f64) -> Option<String> {
 }
 
 fn holds(before: &LeftOut, after: &LeftOut, effect: &str) -> String {
-    let verdict = if after.off < PREDICTS * before.off {
+    let verdict = if after.off < policy::PREDICTS * before.off {
         "it predicts what it has not seen"
     } else {
         "caution: it does not predict what it has not seen"
@@ -162,7 +159,7 @@ fn told(off: &[f64], levels: &[(String, Vec<usize>)]) -> Option<String> {
     let share = between / squares.max(f64::MIN_POSITIVE);
     let words: Vec<String> =
         levels.iter().map(|(w, rows)| format!("{:+.1} % at {w}", 100.0 * mean(off, rows).exp_m1())).collect();
-    (levels.len() > 1 && share > TELLS)
+    (levels.len() > 1 && share > policy::PATTERN_TELLS)
         .then(|| format!("{} ({:.0} % of the scatter about the mean)", list(&words), 100.0 * share))
 }
 

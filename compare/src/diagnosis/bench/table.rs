@@ -17,6 +17,7 @@ use crate::diagnosis::least_squares::{Minimum, Range, minimise, square};
 use crate::diagnosis::problem::is_binding;
 use crate::diagnosis::result::ParameterValue;
 use crate::interval::{Half, interval, misfit};
+use crate::policy;
 use crate::stats::{normal_score, t_975};
 use data::Bench;
 use models::Scenario;
@@ -289,7 +290,7 @@ impl<'a> Table<'a> {
             return None;
         }
         let missed = cost / residual.len() as f64;
-        let misses = !self.known || missed > MISSES;
+        let misses = !self.known || missed > policy::MISSES;
         let weights: Vec<f64> = own.iter().map(|v| v / squares).collect();
         let curves: Vec<[f64; 2]> = self
             .curves()
@@ -336,6 +337,3 @@ impl<'a> Table<'a> {
 
 /// Segments of a beam, at most: its deflection is then within a thousandth.
 const SEGMENTS: usize = 60;
-
-/// Mean square of the residuals from which a misfit counts.
-const MISSES: f64 = 2.0;
