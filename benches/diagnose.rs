@@ -2,6 +2,7 @@
 
 #![allow(missing_docs)]
 
+use compare::Evidence;
 use compare::diagnosis::{Options, diagnose};
 use compare::study::{Generator, generate};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
@@ -24,8 +25,9 @@ fn diagnosis(c: &mut Criterion) {
             let told = plain.with_bending(STIFFNESS).with_markers(&(0..*markers).map(station).collect::<Vec<_>>());
             let data = generate(&told.with_effect("end_constraint", &[value, 1.0]), "made", &Generator::default());
             let data = data.expect("the robot has an equilibrium");
+            let data = [Evidence::of(data, None)];
             group.bench_function(BenchmarkId::new(missing, format!("spam/{markers}")), |b| {
-                b.iter(|| diagnose(black_box(&told), &data, None, &Options::default()));
+                b.iter(|| diagnose(black_box(&told), &data, &Options::default(), &mut |_, _| ()));
             });
         }
     }

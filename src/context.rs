@@ -14,6 +14,8 @@ pub struct Context<'a> {
     pub json: bool,
     /// Told what is being done, and which share of the whole is done if known.
     pub progress: &'a mut (dyn FnMut(&str, Option<f64>) + Send),
+    /// Told text for standard output before the command ends; nothing is printed where JSON is wanted.
+    pub say: &'a mut (dyn FnMut(&str) + Send),
     /// Held while files are written; true once they are.
     pub written: &'a Mutex<bool>,
     /// For commands that end themselves on Ctrl-C.

@@ -1,12 +1,16 @@
 //! What can go wrong in the command, as the user sees it, with its exit code.
 
 use crate::printable::printable;
+use compare::CompareError;
+use data::Fault;
 use fem::FemError;
 use fem::error::Refusal;
+use ibr::pages::PageError;
 use miette::{
-    GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, NamedSource, Report,
+    GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, MietteError, MietteSpanContents, Report,
     SourceCode, SourceSpan, SpanContents,
 };
+use models::Unsolved;
 
 /// Exit code: a comparison missed its threshold.
 pub const MISSED: u8 = 1;
@@ -51,49 +55,35 @@ pub enum Failure {
         /// What to do.
         help: String,
     },
-    /// A scenario that was refused.
-    #[error("{error}")]
-    Scenario {
-        /// File or name of the scenario.
-        file: String,
-        /// Its text.
-        text: String,
-        /// Why.
-        error: models::ScenarioError,
-    },
     /// A finite element run that cannot be made or was stopped.
     #[error(transparent)]
-    Fem(#[from] fem::FemError),
-    /// Data that were refused, or a file that could not be written.
+    Fem(#[from] FemError),
+    /// Everything that has to do with scenarios and data.
     #[error(transparent)]
-    Data(#[from] data::DataError),
-    /// The comparison failed.
-    #[error(transparent)]
-    Compare(compare::CompareError),
+    Compare(#[from] CompareError),
     /// A picture or page could not be made.
     #[error(transparent)]
     Drawing(#[from] report::ReportError),
-    /// The model has no equilibrium.
-    #[error(transparent)]
-    Unsolved(#[from] models::Unsolved),
 }
 
-impl From<compare::CompareError> for Failure {
-    fn from(error: compare::CompareError) -> Failure {
+impl From<PageError> for Failure {
+    fn from(error: PageError) -> Failure {
         match error {
-            compare::CompareError::Data(error) => Failure::Data(error),
-            compare::CompareError::Unsolved(error) => Failure::Unsolved(error),
-            other => Failure::Compare(other),
+            PageError::Compare(error) => error.into(),
+            PageError::Report(error) => Failure::Drawing(error),
         }
     }
 }
 
-impl From<ibr::pages::PageError> for Failure {
-    fn from(error: ibr::pages::PageError) -> Failure {
-        match error {
-            ibr::pages::PageError::Compare(error) => error.into(),
-            ibr::pages::PageError::Report(error) => Failure::Drawing(error),
-        }
+impl From<data::DataError> for Failure {
+    fn from(error: data::DataError) -> Failure {
+        Failure::Compare(error.into())
+    }
+}
+
+impl From<Unsolved> for Failure {
+    fn from(error: Unsolved) -> Failure {
+        Failure::Compare(error.into())
     }
 }
 
@@ -105,15 +95,15 @@ impl Failure {
 
     /// Exit code.
     pub fn code(&self) -> u8 {
+        use CompareError::{BadProtocol, Refused, Unsolved as NoSolution};
         match self {
-            Failure::Usage { .. } | Failure::Compare(compare::CompareError::BadProtocol { .. }) => USAGE,
-            Failure::Unsolved(models::Unsolved::BadPressure { .. }) => USAGE,
-            Failure::Unsolved(_) => UNSOLVED,
+            Failure::Usage { .. } | Failure::Compare(BadProtocol { .. } | Refused { .. }) => USAGE,
+            Failure::Compare(NoSolution(Unsolved::BadPressure { .. })) => USAGE,
+            Failure::Compare(NoSolution(_)) => UNSOLVED,
             Failure::Fem(FemError::Interrupted { .. }) => INTERRUPTED,
             Failure::Fem(FemError::Setting { .. }) => USAGE,
             Failure::Fem(error) if error.is_stop() => UNSOLVED,
-            Failure::Read { .. } | Failure::Write { .. } | Failure::Fem(_) => BAD_INPUT,
-            Failure::Scenario { .. } | Failure::Data(_) | Failure::Compare(_) | Failure::Drawing(_) => BAD_INPUT,
+            _ => BAD_INPUT,
         }
     }
 
@@ -132,55 +122,34 @@ impl Failure {
         }
     }
 
-    fn diagnostic(&self) -> Report {
-        let base = miette::MietteDiagnostic::new(printable(&self.to_string()));
-        let error_help = if let Failure::Fem(error) = self { error.help().unwrap_or_default() } else { "" };
+    fn help(&self) -> Option<&str> {
         match self {
-            Failure::Usage { help, .. } | Failure::Read { help, .. } | Failure::Write { help, .. } => {
-                Report::new(base.with_help(printable(help)))
-            }
-            Failure::Scenario { file, text, error } => {
-                let help = error.help.as_deref().unwrap_or_else(|| what_to_type(&error.message));
-                let span = error.span.map(|(start, end)| start..end);
-                in_source(base.with_help(printable(help)), file, text, span)
-            }
-            Failure::Fem(FemError::Refused(refusal)) => {
-                let Refusal { file, text, message, span, .. } = &**refusal;
-                let base = miette::MietteDiagnostic::new(printable(message));
-                in_source(with_help(base, error_help), file, text, span.clone())
-            }
-            Failure::Data(error) => data_report(error, base.with_help(printable(error.help()))),
-            Failure::Compare(compare::CompareError::Fem { help, .. }) => Report::new(with_help(base, help)),
-            Failure::Fem(_) => Report::new(with_help(base, error_help)),
-            Failure::Compare(_) | Failure::Unsolved(_) | Failure::Drawing(_) => Report::new(base),
+            Failure::Usage { help, .. } | Failure::Read { help, .. } | Failure::Write { help, .. } => Some(help),
+            Failure::Compare(error) => error.help(),
+            Failure::Fem(error) => error.help(),
+            Failure::Drawing(_) => None,
         }
+        .filter(|help| !help.is_empty())
     }
-}
 
-fn with_help(shown: miette::MietteDiagnostic, help: &str) -> miette::MietteDiagnostic {
-    if help.is_empty() { shown } else { shown.with_help(printable(help)) }
-}
-
-/// A message with the place in a text file.
-fn in_source(shown: miette::MietteDiagnostic, file: &str, text: &str, span: Option<std::ops::Range<usize>>) -> Report {
-    let label = |span: std::ops::Range<usize>| {
-        LabeledSpan::at(span.start..span.end.max(span.start + 1).min(text.len()), "here")
-    };
-    let shown = match span {
-        Some(span) => shown.with_label(label(span)),
-        None => shown,
-    };
-    Report::new(shown).with_source_code(NamedSource::new(printable(file), printable(text)))
-}
-
-/// Help for TOML errors that bring none.
-fn what_to_type(message: &str) -> &'static str {
-    if message.contains("expected f64") {
-        "write a plain number without quotation marks; the unit is in the name of the key"
-    } else if message.contains("expected i64") {
-        "write a whole number without quotation marks"
-    } else {
-        "`ibr new epam` prints a complete scenario to compare with"
+    fn diagnostic(&self) -> Report {
+        let base = MietteDiagnostic::new(printable(&self.to_string()));
+        let shown = match self.help() {
+            Some(help) => base.with_help(printable(help)),
+            None => base,
+        };
+        match self {
+            Failure::Fem(FemError::Refused(refused)) => {
+                let Refusal { file, text, message, help, span } = &**refused;
+                let span = span.as_ref().map(|span| (span.start, span.end));
+                at_fault(&Fault::of_text(file, text, span, message.clone(), help.clone()), shown)
+            }
+            Failure::Compare(error) => match error.fault() {
+                Some(fault) => at_fault(fault, shown),
+                None => Report::new(shown),
+            },
+            _ => Report::new(shown),
+        }
     }
 }
 
@@ -208,9 +177,9 @@ impl SourceCode for Line {
     }
 }
 
-fn data_report(error: &data::DataError, shown: miette::MietteDiagnostic) -> Report {
-    let (Some(text), Some((start, end))) = (error.source_line(), error.caret()) else { return Report::new(shown) };
-    let place = error.location();
+fn at_fault(fault: &Fault, shown: MietteDiagnostic) -> Report {
+    let (Some(text), Some((start, end))) = (&fault.source_line, fault.caret()) else { return Report::new(shown) };
+    let place = &fault.location;
     let (cut, before) = part(text, start);
     let (start, end) = (start.saturating_sub(before), end.saturating_sub(before));
     let end = end.max(start + 1).min(cut.len());

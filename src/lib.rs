@@ -1,29 +1,43 @@
 //! `ibr`: models of pneumatic bending actuators on inflated-beam robots, held against measurements.
 //!
-//! This crate is the facade of the workspace; each part can be used alone.
+//! What a user does, as functions: [`ScenarioFile::read`] and [`Evidence::read`], then [`compare`](fn@compare) (how far off, and
+//! where), [`diagnose`] (which physical effect is missing), [`extend`] (a new scenario with it), [`validate`] (does it help on
+//! other data). [`ladder`] repeats the middle; [`predict`] gives shapes at pressures. Every [`Error`] says where, what is wrong
+//! and, by [`Error::help`], what to type. Long work tells its [`Progress`].
 //!
-//! | crate | what it is |
+//! ```
+//! use ibr::{Evidence, ScenarioFile};
+//!
+//! let robot = ScenarioFile::read("epam-textbook")?;
+//! let found = ibr::compare(&robot, &Evidence::read("synthetic-epam")?)?;
+//! assert!(found.error_mm() > 20.0, "the bare model bends too far");
+//! # Ok::<(), ibr::Error>(())
+//! ```
+//!
+//! `examples/session.rs` goes the whole way. The crates below can be used alone:
+//!
+//! | module | what it is |
 //! |---|---|
 //! | [`models`] | reduced-order virtual-work model: a list of physical effects; microseconds; no files, no printing |
 //! | [`fem`] | explicit finite element engine for thin fabric: meshes, shells, contact, robots, cases |
 //! | [`data`] | measurements as plain structs: marker tables, bench tests, descriptions |
-//! | [`compare`] | the only crate that knows both sides: accuracy, noise, diagnosis, extension, reports |
-//!
-//! ```
-//! use ibr::models::{Loads, Model, Scenario, Target, shipped};
-//!
-//! let scenario = Scenario::parse(shipped("cpam").unwrap()).unwrap();
-//! let model = Model::new(&scenario);
-//! let mut state = model.prediction();
-//! model.predict(&Loads::uniform(2e3, 20e3), &mut state).unwrap();
-//! let pressure_pa = model.pressure_for(Target::TipHeight(state.tip.y_m), 2e3, &mut state).unwrap();
-//! assert!((pressure_pa - 20e3).abs() < 1e-3);
-//! ```
+//! | [`study`] | the only crate that knows both sides: accuracy, noise, diagnosis, extension |
+//! | [`report`] | charts and pages of plain structs; [`pages`] makes them of results |
 
 pub mod pages;
+mod predict;
 
-pub use compare;
+pub use ::compare as study;
 pub use data;
 pub use fem;
 pub use models;
 pub use report;
+
+pub use ::compare::diagnosis::{Diagnosis, Options as DiagnosisOptions, diagnose};
+pub use ::compare::extension::{Wish, add};
+pub use ::compare::ladder::{Climb, ladder};
+pub use ::compare::study::comparison::{Contender, Variant, compare_all};
+pub use ::compare::validation::{BeforeAfter, Validation, validate};
+pub use ::compare::{CompareError as Error, Comparison, Evidence, Extension, Progress, ScenarioFile, compare, extend};
+pub use models::{Loads, Scenario};
+pub use predict::{AtPressure, HOLD_S, predict, predict_for};

@@ -1,14 +1,17 @@
 //! The command `ibr`: parse, run, print, exit code. No logic here.
 
+mod bar;
 mod cli;
 mod commands;
 mod context;
-mod extended;
 mod failure;
 mod output;
 mod printable;
+mod shown;
 mod studies;
+mod tables;
 
+use bar::Bar;
 use context::{Context, Interrupt, Outcome};
 use printable::printable;
 use std::io::Write;
@@ -26,18 +29,21 @@ fn main() -> ExitCode {
         say(&format!("warning: an interrupt cannot be caught here: {error}\n"));
     }
     let cli = cli::parsed();
-    let bar = (!cli.quiet && !cli.json).then(progress_bar);
-    let mut tell = |text: &str, share: Option<f64>| {
-        if let Some(bar) = &bar {
-            bar.set_message(printable(text));
-            bar.set_position((1000.0 * share.unwrap_or(0.0)) as u64);
-        }
+    let bar = Bar::new(!cli.quiet && !cli.json);
+    let mut context = Context {
+        json: cli.json,
+        progress: &mut |what, share| bar.tell(what, share),
+        say: &mut |text| {
+            if !cli.json {
+                // Who closed the pipe has read enough.
+                let _ = bar.apart(|| std::io::stdout().write_all(printable(text).as_bytes()));
+            }
+        },
+        written: &WRITTEN,
+        interrupt: &INTERRUPT,
     };
-    let mut context = Context { json: cli.json, progress: &mut tell, written: &WRITTEN, interrupt: &INTERRUPT };
     let result = commands::run(&cli.command, &mut context);
-    if let Some(bar) = &bar {
-        bar.finish_and_clear();
-    }
+    bar.clear();
     match result {
         Ok(outcome) => finish(&outcome, cli.json),
         Err(error) => {
@@ -84,15 +90,4 @@ fn finish(outcome: &Outcome, json: bool) -> ExitCode {
 /// To standard error, which may be closed as well (`2>&1 | head`).
 fn say(text: &str) {
     let _ = std::io::stderr().write_all(text.as_bytes());
-}
-
-/// Appears on terminals only, after the first quarter of a second.
-fn progress_bar() -> indicatif::ProgressBar {
-    let bar = indicatif::ProgressBar::new(1000);
-    let style = indicatif::ProgressStyle::with_template("{spinner} {elapsed} {bar:24} {msg}");
-    if let Ok(style) = style {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(std::time::Duration::from_millis(250));
-    bar
 }

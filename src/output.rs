@@ -2,9 +2,10 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
+pub use compare::extension::today;
 pub use fem::session::{FileHash as Input, sha256};
 use fem::session::{MANIFEST, Maker, Manifest};
-use ibr::pages::Files;
+use ibr::pages::{Files, Imprint};
 use serde::Deserialize;
 use std::path::Path;
 use std::sync::PoisonError;
@@ -106,9 +107,9 @@ pub fn program() -> String {
     format!("ibr {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// Today's date, UTC.
-pub fn today() -> String {
-    time::OffsetDateTime::now_utc().date().to_string()
+/// What a report says of its origin.
+pub fn imprint() -> Imprint {
+    Imprint { program: program(), date: today(), machine: machine() }
 }
 
 /// Processor and number of cores, for timings.

@@ -2,6 +2,7 @@
 
 use super::truth::{HiddenChoice, standard_protocol};
 use super::*;
+use compare::Evidence;
 use compare::diagnosis::{Options, Verdict, diagnose};
 use compare::study::generate::{Generator, generate};
 use models::{Scenario, shipped};
@@ -155,7 +156,7 @@ fn one_fault_is_a_simpler_answer_than_two_effects() {
         let truth = Truth { runs: 5, camera_sd_m: 1e-3, ..truth };
         let data = truth.dataset("made", &standard_protocol()).unwrap();
         let options = Options { next_experiment: false, ..Options::default() };
-        let d = diagnose(&truth.told().unwrap(), &data, None, &options).unwrap();
+        let d = diagnose(&truth.told().unwrap(), &[Evidence::of(data, None)], &options, &mut |_, _| ()).unwrap();
         assert_eq!(d.verdict, Some(Verdict::OutOfCatalog), "{fault}: {:?}", d.summary);
         let pattern = d.pattern.as_ref().unwrap();
         assert!(pattern.words.contains(words), "{fault}: {pattern:?}");

@@ -1,6 +1,6 @@
 //! The accuracy of Du Pasquier et al. 2023 and its interval over runs.
 
-use crate::comparison::Comparison;
+use crate::beside_mean::BesideMean;
 use crate::policy;
 use crate::stats::quantile;
 use rand_chacha::ChaCha8Rng;
@@ -37,7 +37,7 @@ pub struct Band {
 
 /// Bootstrap over runs: runs are drawn with replacement, the mean is formed, a computed; 2.5 % and 97.5 % quantiles.
 /// Deterministic for a given seed. No interval for fewer than 3 runs, no samples, or where the accuracy is undefined.
-pub fn accuracy_band(c: &Comparison, samples: usize, seed: u64) -> Band {
+pub fn accuracy_band(c: &BesideMean, samples: usize, seed: u64) -> Band {
     let holds = c.layout.holds;
     let runs = c.dataset.runs.len();
     if runs < policy::RUNS_FOR_P || samples == 0 {
@@ -60,7 +60,7 @@ pub fn accuracy_band(c: &Comparison, samples: usize, seed: u64) -> Band {
     Band { holds: drawn.into_iter().map(interval).collect(), overall: interval(overall) }
 }
 
-fn accuracy_of(c: &Comparison, hold: usize, means_m: &[f64]) -> Option<f64> {
+fn accuracy_of(c: &BesideMean, hold: usize, means_m: &[f64]) -> Option<f64> {
     let width = 2 * c.layout.markers;
     let measured: Vec<f64> = c.seen(hold).map(|marker| means_m[hold * width + 2 * marker + 1]).collect();
     paper_accuracy(&c.deflections(hold).0, &measured)

@@ -1,8 +1,31 @@
 //! What can go wrong when a prediction is held against measurements.
 
-/// Errors of this crate; each message says what is wrong and what to do.
+use data::Fault;
+
+/// Errors of this crate; each says where and what is wrong, and in the message or as [`CompareError::help`] what to do.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CompareError {
+    /// A wish that cannot be met.
+    #[error("{message}")]
+    Refused {
+        /// What is wrong.
+        message: String,
+        /// What to type.
+        help: String,
+    },
+    /// A file that cannot be read.
+    #[error("cannot read {path}: {cause}")]
+    Unread {
+        /// File.
+        path: String,
+        /// Why.
+        cause: String,
+        /// What to do.
+        help: String,
+    },
+    /// A scenario with a fault.
+    #[error("{0}")]
+    Scenario(Box<Fault>),
     /// The dataset has no run, hold, marker or sample.
     #[error("the dataset `{name}` is empty: it needs at least one run, one hold, one marker and one sample")]
     Empty {
@@ -197,5 +220,30 @@ pub enum CompareError {
 impl From<fem::FemError> for CompareError {
     fn from(error: fem::FemError) -> CompareError {
         CompareError::Fem { message: error.to_string(), help: error.help().unwrap_or_default().into() }
+    }
+}
+
+impl CompareError {
+    /// A wish that cannot be met, and what to type instead.
+    pub fn refused(message: impl Into<String>, help: impl Into<String>) -> CompareError {
+        CompareError::Refused { message: message.into(), help: help.into() }
+    }
+
+    /// What to do, where the message does not say it.
+    pub fn help(&self) -> Option<&str> {
+        use CompareError::{Fem, Refused, Unread};
+        match self {
+            Refused { help, .. } | Unread { help, .. } | Fem { help, .. } => Some(help),
+            _ => self.fault().map(|fault| fault.help.as_str()),
+        }
+    }
+
+    /// The fault of a file, with its place and the line itself.
+    pub fn fault(&self) -> Option<&Fault> {
+        match self {
+            CompareError::Scenario(fault) => Some(fault),
+            CompareError::Data(error) => Some(error.fault()),
+            _ => None,
+        }
     }
 }

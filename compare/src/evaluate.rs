@@ -1,6 +1,6 @@
 //! One call: everything the report says about a prediction and a dataset.
 
-use crate::comparison::Comparison;
+use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
 use crate::metrics::{Metrics, MetricsOptions, metrics};
 use crate::noise::NoiseModel;
@@ -82,7 +82,7 @@ pub fn evaluate(
 ) -> Result<Evaluation, CompareError> {
     check(options)?;
     let noise = NoiseModel::estimate(dataset, dprediction_dlnp, &options.sessions, options.sigma_m)?;
-    let c = Comparison::new(dataset, &noise, prediction_m)?;
+    let c = BesideMean::new(dataset, &noise, prediction_m)?;
     let EvaluateOptions { fitted_parameters, bootstrap_samples, seed, alpha, .. } = *options;
     let metrics = metrics(&c, &MetricsOptions { fitted_parameters, bootstrap_samples, seed })?;
     let residual_map = residual_map(&c);

@@ -21,7 +21,7 @@
 //! Validity: r is the pressure in the actuator while the markers are seen. Vented (p_set = 0) the pressure is known and the
 //! reading, the zero of the gauge, is not used. Where the pressure runs down during a hold, every sample has its own reading.
 
-use crate::comparison::ZERO_PRESSURE_PA;
+use crate::beside_mean::ZERO_PRESSURE_PA;
 use crate::error::CompareError;
 use crate::noise::SENSOR_SD;
 use crate::stats::t_inflation;

@@ -1,32 +1,42 @@
 //! Residuals, metrics and reports: the only crate that knows both model and measurement.
 //!
 //! The statistics of a comparison, from the data up: [`layout`] (shape of one run) → [`noise`] (run as the unit) →
-//! [`comparison`] (prediction beside the mean) → [`metrics`], [`residuals`], [`where_it_fails`], [`scaling`] →
+//! [`beside_mean`] (prediction beside the mean) → [`metrics`], [`residuals`], [`where_it_fails`], [`scaling`] →
 //! [`evaluate`](mod@evaluate), which bundles them. Predictions arrive as plain slices in run layout.
+//!
+//! What a user does: [`ScenarioFile`] and [`Evidence`] → [`compare`] → [`diagnose`] → [`extend`] → [`validate`] on other data;
+//! [`ladder`](fn@ladder) repeats the middle.
 
 pub mod accuracy;
 pub mod bench;
+pub mod beside_mean;
 pub mod characterize;
-pub mod comparison;
 mod data_slope;
 pub mod diagnosis;
 pub mod directions;
 pub mod error;
 pub mod evaluate;
+pub mod evidence;
+pub mod extension;
 pub mod gauge;
 mod interval;
 pub mod known;
+pub mod ladder;
 pub mod layout;
 pub mod metrics;
 pub mod noise;
 pub mod noise_summary;
 pub mod policy;
+pub mod progress;
 pub mod residuals;
 mod run_scatter;
 pub mod scaling;
+pub mod scenario_file;
 pub mod slips;
 pub mod stats;
 pub mod study;
+pub mod typed_effect;
+pub mod validation;
 pub mod where_it_fails;
 pub mod whiten;
 pub mod wording;
@@ -38,5 +48,13 @@ mod scenarios;
 #[cfg(test)]
 mod synthetic;
 
+pub use diagnosis::{Diagnosis, diagnose};
 pub use error::CompareError;
 pub use evaluate::{EvaluateOptions, Evaluation, evaluate};
+pub use evidence::Evidence;
+pub use extension::{Extension, extend};
+pub use ladder::ladder;
+pub use progress::Progress;
+pub use scenario_file::ScenarioFile;
+pub use study::comparison::{Comparison, compare};
+pub use validation::{Validation, validate};

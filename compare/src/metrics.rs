@@ -6,7 +6,7 @@
 //! printed exactly, and never alone.
 
 use crate::accuracy::{Band, accuracy_band, paper_accuracy, relative_pct};
-use crate::comparison::Comparison;
+use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
 use crate::policy;
 use crate::stats::{f_tail, reported_p};
@@ -120,14 +120,14 @@ pub struct MetricsOptions {
 ///
 /// # Errors
 /// Only if the noise covariance of a hold cannot be decomposed.
-pub fn metrics(c: &Comparison, options: &MetricsOptions) -> Result<Metrics, CompareError> {
+pub fn metrics(c: &BesideMean, options: &MetricsOptions) -> Result<Metrics, CompareError> {
     let band = accuracy_band(c, options.bootstrap_samples, options.seed);
     let holds = (0..c.layout.holds).map(|h| hold_metrics(c, h, &band)).collect::<Result<Vec<_>, _>>()?;
     let overall = overall_metrics(c, &holds, &band, options.fitted_parameters);
     Ok(Metrics { holds, overall, tip_marker: c.dataset.markers[c.tip].name.clone(), pairing: PAIRING })
 }
 
-fn hold_metrics(c: &Comparison, hold: usize, band: &Band) -> Result<HoldMetrics, CompareError> {
+fn hold_metrics(c: &BesideMean, hold: usize, band: &Band) -> Result<HoldMetrics, CompareError> {
     let (model, measured) = c.deflections(hold);
     let accuracy = paper_accuracy(&model, &measured);
     let (far_model, far_measured) = far_markers(c, &model, &measured);
@@ -160,7 +160,7 @@ fn hold_metrics(c: &Comparison, hold: usize, band: &Band) -> Result<HoldMetrics,
     })
 }
 
-fn overall_metrics(c: &Comparison, holds: &[HoldMetrics], band: &Band, fitted: usize) -> OverallMetrics {
+fn overall_metrics(c: &BesideMean, holds: &[HoldMetrics], band: &Band, fitted: usize) -> OverallMetrics {
     let counted = || (0..holds.len()).filter(|&h| c.is_pressurised_loading(h)).map(|h| &holds[h]);
     let accuracies: Vec<f64> = counted().filter_map(|h| h.paper_accuracy).collect();
     let ceilings: Vec<f64> = counted().filter_map(|h| h.noise_ceiling).collect();
@@ -188,7 +188,7 @@ fn overall_metrics(c: &Comparison, holds: &[HoldMetrics], band: &Band, fitted: u
 }
 
 /// Expected accuracy of a perfect model: E a = 1 − mean(var(ȳ_j)/y_j²), with the noise of the hold mean of marker j.
-fn noise_ceiling(c: &Comparison, hold: usize, model_y: &[f64]) -> Option<f64> {
+fn noise_ceiling(c: &BesideMean, hold: usize, model_y: &[f64]) -> Option<f64> {
     let exact = paper_accuracy(model_y, model_y)?;
     let mut loss = 0.0;
     for (marker, y) in c.seen(hold).zip(model_y) {
@@ -198,7 +198,7 @@ fn noise_ceiling(c: &Comparison, hold: usize, model_y: &[f64]) -> Option<f64> {
 }
 
 /// The markers that have measurably moved; chosen by the measurement, so every model is judged on the same ones.
-fn far_markers(c: &Comparison, model: &[f64], measured: &[f64]) -> (Vec<f64>, Vec<f64>) {
+fn far_markers(c: &BesideMean, model: &[f64], measured: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let noise = c.noise.sigma_m.map_or(0.0, |s| 5.0 * s / (c.noise.runs as f64).sqrt());
     let least = policy::SMALL_DEFLECTION_M.max(noise);
     model.iter().zip(measured).filter(|(_, y)| y.abs() > least).unzip()
@@ -213,7 +213,7 @@ struct Size {
 }
 
 impl Size {
-    fn of(c: &Comparison, range: std::ops::Range<usize>) -> Size {
+    fn of(c: &BesideMean, range: std::ops::Range<usize>) -> Size {
         let residual = &c.residual_m[range.clone()];
         let square = residual.iter().map(|r| r * r).sum::<f64>() / c.noise.seen(range.clone()).max(1) as f64;
         let noise = c.noise.mean_square(range);
@@ -234,7 +234,7 @@ struct Fit {
 }
 
 impl Fit {
-    fn of(c: &Comparison, white: &[f64], values: usize, fitted: usize) -> Fit {
+    fn of(c: &BesideMean, white: &[f64], values: usize, fitted: usize) -> Fit {
         let dof = values.saturating_sub(fitted);
         let reduced = white.iter().map(|w| w * w).sum::<f64>() / dof.max(1) as f64;
         let reduced_chi2 = (dof > 0 && c.noise.is_known()).then_some(reduced);

@@ -1,7 +1,7 @@
 //! What the statistics promise, checked on many simulated datasets whose truth is known. Seeds are fixed.
 
 use crate::accuracy::paper_accuracy;
-use crate::comparison::Comparison;
+use crate::beside_mean::BesideMean;
 use crate::evaluate::{EvaluateOptions, evaluate};
 use crate::metrics::{MetricsOptions, metrics};
 use crate::noise::NoiseModel;
@@ -60,7 +60,7 @@ fn the_noise_ceiling_is_that_of_the_handbook() {
             let mut noise = NoiseModel::estimate(&data, &[0.0; 12], &[], Some(1e-3)).unwrap();
             noise.sigma_m = Some(1e-3);
             noise.mean_variance = [0.0; 4];
-            let c = Comparison::new(&data, &noise, &robot.shape(1.0)).unwrap();
+            let c = BesideMean::new(&data, &noise, &robot.shape(1.0)).unwrap();
             let ceiling = metrics(&c, &NO_BOOTSTRAP).unwrap().holds[0].noise_ceiling.unwrap();
             println!("tip {tip_mm} mm, {runs} runs: ceiling {ceiling:.4}, handbook {expected}");
             assert!((ceiling - expected).abs() < 0.005 * (2.0 - expected), "{ceiling} {expected}");
@@ -76,7 +76,7 @@ fn a_perfect_model_meets_its_noise_ceiling_on_average() {
     for seed in 0..250 {
         let data = robot.measured(5, Noise { alignment_m: 2e-4, ..TYPICAL }, 2000 + seed);
         let noise = NoiseModel::estimate(&data, &slope, &[], None).unwrap();
-        let holds = metrics(&Comparison::new(&data, &noise, &truth).unwrap(), &NO_BOOTSTRAP).unwrap().holds;
+        let holds = metrics(&BesideMean::new(&data, &noise, &truth).unwrap(), &NO_BOOTSTRAP).unwrap().holds;
         for (gap, hold) in gaps.iter_mut().zip(&holds[1..4]) {
             gap.push(hold.paper_accuracy.unwrap() - hold.noise_ceiling.unwrap());
         }
@@ -105,7 +105,7 @@ fn the_error_beyond_noise_and_the_noise_floor_are_unbiased() {
     for seed in 0..150 {
         let data = robot.measured(5, TYPICAL, 1000 + seed);
         let noise = NoiseModel::estimate(&data, &slope, &[], None).unwrap();
-        let overall = metrics(&Comparison::new(&data, &noise, &truth).unwrap(), &NO_BOOTSTRAP).unwrap().overall;
+        let overall = metrics(&BesideMean::new(&data, &noise, &truth).unwrap(), &NO_BOOTSTRAP).unwrap().overall;
         excess.push(overall.rmse_mm.powi(2) - overall.noise_floor_mm.unwrap().powi(2));
     }
     assert_mean("mean square error of the truth minus noise floor^2 [mm^2]", &excess, 0.0);
@@ -143,7 +143,7 @@ impl NullTest {
 
 fn null_dataset(data: &Dataset, truth: &[f64], slope: &[f64]) -> NullDataset {
     let noise = NoiseModel::estimate(data, slope, &[], None).unwrap();
-    let c = Comparison::new(data, &noise, truth).unwrap();
+    let c = BesideMean::new(data, &noise, truth).unwrap();
     let directions: Vec<Vec<f64>> = (0..4).map(|j| noise.directions.iter().map(|u| u[j]).collect()).collect();
     let whitened: Vec<Vec<f64>> = directions.iter().map(|g| noise.whiten(g)).collect();
     let run_as_unit = NullTest::of(&noise.whiten(&c.residual_m), &whitened, noise.pure_error_dof);

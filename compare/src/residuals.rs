@@ -5,7 +5,7 @@
 //! see [`crate::noise`]). All of them are corrected together by Holm's procedure, so that among all entries of a right
 //! model one is called significant at level α in about a fraction α of all datasets.
 
-use crate::comparison::Comparison;
+use crate::beside_mean::BesideMean;
 use crate::layout::{Weights, apply};
 use crate::policy;
 use crate::stats::{holm, reported_p, two_sided_p};
@@ -105,7 +105,7 @@ pub struct ResidualMap {
 }
 
 /// Compute the residual map of a comparison.
-pub fn residual_map(c: &Comparison) -> ResidualMap {
+pub fn residual_map(c: &BesideMean) -> ResidualMap {
     let (holds, markers) = (c.layout.holds, c.layout.markers);
     let cells =
         (0..markers).flat_map(|m| (0..holds).flat_map(move |h| [0, 1].map(|axis| c.layout.mean_weights(h, m, axis))));
@@ -149,7 +149,7 @@ pub fn label(hold: &data::Hold) -> HoldLabel {
 }
 
 /// Values, standardised values and jointly corrected p of all contrasts.
-fn deviations(c: &Comparison, contrasts: &[Weights]) -> Vec<Deviation> {
+fn deviations(c: &BesideMean, contrasts: &[Weights]) -> Vec<Deviation> {
     let values: Vec<f64> = contrasts.iter().map(|w| apply(w, &c.residual_m)).collect();
     let in_noise: Vec<Option<f64>> = contrasts
         .iter()
@@ -170,7 +170,7 @@ fn cell(xy: &[Deviation], seen: bool) -> ResidualCell {
 
 /// Weight of each marker's y: the measured shape of the most bent hold, absolute values summing to one. Bending,
 /// creep and hysteresis all have about this shape, so it gathers them with the least noise.
-fn bending_weights(c: &Comparison) -> Vec<f64> {
+fn bending_weights(c: &BesideMean) -> Vec<f64> {
     let shapes = (0..c.layout.holds).map(|h| (0..c.layout.markers).map(|m| c.pair(h, m).1[1]).collect::<Vec<f64>>());
     let size = |y: &Vec<f64>| y.iter().map(|y| y.abs()).sum::<f64>();
     let shape = shapes.max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or_default();
@@ -180,7 +180,7 @@ fn bending_weights(c: &Comparison) -> Vec<f64> {
     }
 }
 
-fn drift_weights(c: &Comparison, hold: usize, shape: &[f64]) -> Weights {
+fn drift_weights(c: &BesideMean, hold: usize, shape: &[f64]) -> Weights {
     let samples = c.layout.samples;
     let third = (samples / 3).max(1);
     let mut weights = Vec::with_capacity(2 * third * shape.len());
@@ -193,7 +193,7 @@ fn drift_weights(c: &Comparison, hold: usize, shape: &[f64]) -> Weights {
     weights
 }
 
-fn gap_weights(c: &Comparison, load: usize, unload: usize, shape: &[f64]) -> Weights {
+fn gap_weights(c: &BesideMean, load: usize, unload: usize, shape: &[f64]) -> Weights {
     let signed = |hold: usize, sign: f64| {
         let seen = move |(m, _): &(usize, &f64)| [load, unload].iter().all(|h| c.dataset.is_seen(*h, *m));
         let markers = shape.iter().enumerate().filter(seen);
@@ -207,10 +207,10 @@ fn gap_weights(c: &Comparison, load: usize, unload: usize, shape: &[f64]) -> Wei
 }
 
 /// Each unloading hold with the latest earlier loading hold at the same two pressures.
-fn loop_pairs(c: &Comparison) -> Vec<(usize, usize)> {
+fn loop_pairs(c: &BesideMean) -> Vec<(usize, usize)> {
     let holds = &c.dataset.holds;
     let same = |a: f64, b: f64| {
-        (a - b).abs() <= (SAME_PRESSURE * a.abs().max(b.abs())).max(crate::comparison::ZERO_PRESSURE_PA)
+        (a - b).abs() <= (SAME_PRESSURE * a.abs().max(b.abs())).max(crate::beside_mean::ZERO_PRESSURE_PA)
     };
     let matches = |l: usize, u: usize| {
         holds[l].phase != data::Phase::Unload

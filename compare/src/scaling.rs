@@ -5,7 +5,7 @@
 //! at the same ratio is an effect with its own stiffness or pressure scale (fabric stretch, bending stiffness,
 //! friction, tail tension, a regulator offset); collapse speaks for geometry alone.
 
-use crate::comparison::ZERO_PRESSURE_PA;
+use crate::beside_mean::ZERO_PRESSURE_PA;
 use crate::error::CompareError;
 use crate::layout::{Layout, Weights, apply};
 use crate::noise::{NoiseModel, SENSOR_SD};

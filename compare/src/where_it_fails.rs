@@ -4,7 +4,7 @@
 //! larger than the tolerance; noise is then called a failure in about a fraction α of all datasets. The sentences say
 //! which pressures, which markers, loading or unloading, x or y, or drift during holds; they do not name physics.
 
-use crate::comparison::Comparison;
+use crate::beside_mean::BesideMean;
 use crate::residuals::{Deviation, ResidualCell, ResidualMap};
 use crate::wording::{evidence, list, markers, p_value, pressures, times_the_noise};
 use data::Phase;
@@ -60,7 +60,7 @@ pub struct FailureOptions {
 
 /// Describe where a model fails; never empty. `chi2_p` is the p-value of the overall χ².
 pub fn where_it_fails(
-    c: &Comparison,
+    c: &BesideMean,
     map: &ResidualMap,
     chi2_p: Option<f64>,
     options: &FailureOptions,
@@ -88,7 +88,7 @@ pub fn where_it_fails(
 }
 
 struct Judge<'a> {
-    c: &'a Comparison<'a>,
+    c: &'a BesideMean<'a>,
     map: &'a ResidualMap,
     alpha: f64,
     least_mm: f64,
@@ -96,7 +96,7 @@ struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
-    fn new(c: &'a Comparison<'a>, map: &'a ResidualMap, options: &FailureOptions) -> Judge<'a> {
+    fn new(c: &'a BesideMean<'a>, map: &'a ResidualMap, options: &FailureOptions) -> Judge<'a> {
         let largest = map.cells.iter().flatten().fold(0.0, |l: f64, cell| l.max(cell.norm_mm));
         // Without noise only the coarse pattern is described: what reaches a quarter of the largest difference.
         let pattern_mm = if c.noise.is_known() { 0.0 } else { 0.25 * largest };

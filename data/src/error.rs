@@ -69,6 +69,13 @@ impl Fault {
         fault
     }
 
+    /// Bytes of the source line that are at fault, clipped to the line.
+    pub fn caret(&self) -> Option<(usize, usize)> {
+        let (length, (start, end)) = (self.source_line.as_ref()?.len(), self.span?);
+        let inside = |at: usize| at.saturating_sub(self.source_start).min(length);
+        Some((inside(start), inside(end)))
+    }
+
     /// The same fault, placed in line `line` of its file (where the text of the line is no longer at hand).
     pub fn at_line(mut self, line: u64) -> Fault {
         self.location.line = line;
@@ -149,10 +156,7 @@ impl DataError {
 
     /// Bytes of [`DataError::source_line`] that are at fault, clipped to the line.
     pub fn caret(&self) -> Option<(usize, usize)> {
-        let fault = self.fault();
-        let (length, (start, end)) = (fault.source_line.as_ref()?.len(), fault.span?);
-        let inside = |at: usize| at.saturating_sub(fault.source_start).min(length);
-        Some((inside(start), inside(end)))
+        self.fault().caret()
     }
 }
 

@@ -176,12 +176,6 @@ pub struct ChallengeNew {
     /// Camera noise of one coordinate, for example 1mm; 0.5, 1 or 2 mm drawn if left out
     #[arg(long, allow_hyphen_values = true)]
     pub sigma: Option<String>,
-    /// Camera noise with heavy tails: now and then a marker is seen far off
-    #[arg(long)]
-    pub heavy_tails: bool,
-    /// A camera that loses one marker in twenty for a whole hold, and the outermost one at the highest pressure
-    #[arg(long)]
-    pub lost_markers: bool,
     /// Actuator pressures in kPa at a body pressure in kPa; default: 0,10,20,30,0@2
     #[arg(long)]
     pub protocol: Option<String>,

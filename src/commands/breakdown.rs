@@ -1,11 +1,11 @@
 //! `ibr breakdown`: over which pressures and pouches the reduced model parts from the finite elements.
 
 use super::fem_inputs::{kept, list, robots, sizes};
-use super::told::breakdown::text;
 use super::{Context, Outcome};
 use crate::cli::Breakdown;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
+use crate::shown::breakdown::text;
 use compare::study::breakdown::{PartingCell, Ranges, csv, jobs, partings};
 use compare::study::engines::{EngineRun, engines, runs_json, runs_of, stored};
 use ibr::pages::{Files, parting_plot};

@@ -1,6 +1,6 @@
 //! `ibr data fem`: marker data from finite element runs.
 
-use super::data::{about, folder_is_free, pressure_scatter, scatter};
+use super::data::{folder_is_free, pressure_scatter, scatter};
 use super::fem_inputs::{kept, list, pressures, source};
 use super::inputs;
 use super::{Context, Outcome};
@@ -9,6 +9,7 @@ use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
 use compare::study::Generator;
 use compare::study::engines::{EngineRun, of_the_program, runs_of, seed_jobs};
+use compare::study::generate::about;
 use compare::study::seen::seen;
 use fem::session::Source;
 use ibr::pages::Files;
@@ -52,7 +53,7 @@ pub fn run(args: &DataFem, context: &mut Context) -> Result<Outcome, Failure> {
     files.files.push(("about.toml".into(), data::about_toml(&about).into_bytes()));
     files.files.push(("markers.csv".into(), csv));
     files.files.push(("truth.toml".into(), robot.text.into_bytes()));
-    write_files(&args.out, &files, &[truth.input], context)?;
+    write_files(&args.out, &files, &inputs::named(&truth, [])?, context)?;
     let text = format!(
         "{} values of {} finite element runs in {}\n",
         dataset.xy_m.len(),

@@ -1,14 +1,14 @@
 //! `ibr compare --engines`: both engines and the published numbers.
 
 use super::fem_inputs::{kept, pressures, robots};
-use super::told::engines::text;
 use super::{Context, Outcome};
 use crate::cli::Compare;
 use crate::failure::Failure;
-use crate::output::{check_folder, machine, program, today, write_files};
+use crate::output::{check_folder, imprint, write_files};
+use crate::shown::engines::text;
 use compare::study::engines::{EngineLine, EngineRun, all_runs, engines, lines, runs_json, runs_of, seed_jobs, stored};
 use fem::session::Source;
-use ibr::pages::{Imprint, engines_page};
+use ibr::pages::engines_page;
 use models::Scenario;
 use serde_json::json;
 use std::path::PathBuf;
@@ -33,7 +33,7 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
         }),
     );
     (context.progress)("drawing the report", None);
-    let imprint = Imprint { program: program(), date: today(), machine: machine() };
+    let imprint = imprint();
     let mut files = engines_page(&found, &imprint)?;
     files.files.insert(0, ("runs.json".into(), runs_json(&runs).into_bytes()));
     write_files(&folder, &files, &inputs, context)?;

@@ -1,12 +1,14 @@
 //! Bench tests in `ibr compare`: a beam, a muscle.
 
-use super::inputs::{self, with_effect};
-use super::told::held::{as_json, text};
+use super::inputs;
 use super::{Context, Outcome};
 use crate::cli::Compare;
 use crate::failure::Failure;
+use crate::shown::held::{as_json, text};
+use compare::ScenarioFile;
 use compare::bench::held;
 use compare::study::Knob;
+use compare::typed_effect::with_effect;
 use models::Scenario;
 use serde_json::json;
 
@@ -40,8 +42,7 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Option<Outcome>, Fai
 
 /// The scenario that lies beside the data.
 pub fn own(data_spec: &str, text: &str) -> Result<Scenario, Failure> {
-    let file = format!("{data_spec}/scenario.toml");
-    Scenario::parse(text).map_err(|error| Failure::Scenario { file, text: text.to_string(), error })
+    Ok(ScenarioFile::parse(&format!("{data_spec}/scenario.toml"), text)?.scenario)
 }
 
 fn marker_option(args: &Compare) -> Option<&'static str> {

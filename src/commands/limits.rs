@@ -1,9 +1,9 @@
 //! `ibr predict --limits`: from which length on loads fold the robot.
 
 use super::Outcome;
-use super::predict::pressure_words;
 use super::tables::table;
 use crate::failure::Failure;
+use crate::shown::predicted::pressure_words;
 use models::{Loads, Scenario, collapse_length_m};
 use serde_json::{Value, json};
 

@@ -12,7 +12,6 @@ mod demo;
 mod diagnose;
 mod diagnose_bench;
 mod engines;
-mod extend;
 mod fem_inputs;
 mod held;
 mod inputs;
@@ -23,8 +22,6 @@ mod paper;
 mod predict;
 mod published;
 mod simulate;
-mod tables;
-mod told;
 mod tradeoff;
 mod validate;
 mod verify;
@@ -32,6 +29,7 @@ mod verify;
 use crate::cli::Command;
 pub use crate::context::{Context, Outcome};
 use crate::failure::Failure;
+use crate::tables;
 
 /// Runs a command.
 pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure> {

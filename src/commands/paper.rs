@@ -1,11 +1,11 @@
 //! `ibr compare --paper`: the paper's finite elements, reproduced.
 
 use super::fem_inputs::{kept, pressures, robots, sizes};
-use super::told::paper::text;
 use super::{Context, Outcome};
 use crate::cli::Compare;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
+use crate::shown::paper::text;
 use compare::study::engines::runs_of;
 use compare::study::paper::{MESHES_MM, PaperRun, facts, heights, jobs, ordered, runs_below, runs_json, stored};
 use ibr::pages::Files;

@@ -2,14 +2,14 @@
 
 use super::{Files, Imprint, PageError, figures, number, residual_figure, tables};
 use ::compare::metrics::HoldMetrics;
-use ::compare::study::{Study, Variant};
+use ::compare::study::{Comparison, Variant};
 use serde_json::{Value, json};
 
 /// The page of a comparison and the files beside it.
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn compare_page(study: &Study, imprint: &Imprint) -> Result<Files, PageError> {
+pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files, PageError> {
     let mut files = Files::default();
     let (first, dataset) = (&study.variants[0], &study.dataset);
     files.plot("shapes", figures::shapes("Predicted and measured shape", &first.scenario, dataset)?);
@@ -53,7 +53,7 @@ fn hold_name(hold: &HoldMetrics, several_bodies: bool) -> String {
 }
 
 /// The answer in a paragraph.
-fn lead(study: &Study) -> String {
+fn lead(study: &Comparison) -> String {
     let first = &study.variants[0];
     let all = &first.evaluation.metrics.overall;
     let size = match all.systematic_mm {
@@ -69,7 +69,7 @@ fn lead(study: &Study) -> String {
     text
 }
 
-fn provenance(study: &Study) -> Vec<[String; 2]> {
+fn provenance(study: &Comparison) -> Vec<[String; 2]> {
     let line = |name: &str, value: &str| [name.into(), value.into()];
     let first = &study.variants[0];
     let mut lines = vec![

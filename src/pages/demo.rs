@@ -4,7 +4,7 @@ use super::diagnosis::{Diagnosed, draw, verdict};
 use super::engines::overview;
 use super::{Files, Imprint, PageError, figures, residual_figure};
 use ::compare::bench::Held;
-use ::compare::study::Study;
+use ::compare::study::Comparison;
 use ::compare::study::demo::{Demo, HIDDEN_IN, Story};
 use ::compare::study::published::PublishedLadder;
 use serde_json::{Value, json};
@@ -75,7 +75,7 @@ fn held(h: &Held) -> Value {
     json!({"title": h.title, "rows": h.rows.len(), "known": h.known.word(), "rms": h.rms()})
 }
 
-fn draw_study(study: &Study, files: &mut Files) -> Result<Value, PageError> {
+fn draw_study(study: &Comparison, files: &mut Files) -> Result<Value, PageError> {
     let (first, name) = (&study.variants[0], &study.dataset.name);
     let last = study.variants.last().unwrap_or(first);
     let map = residual_figure::map("Bare model: where it misses", &first.evaluation.residual_map, &study.dataset)?;

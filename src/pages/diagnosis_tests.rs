@@ -3,13 +3,13 @@
 use super::diagnosis::{Diagnosed, diagnosis_page};
 use super::diagnosis_figures::{Rank, ranking_rows, shown, supply, waited_s, witness_cases};
 use super::{Imprint, figures, residual_figure};
+use compare::Evidence;
 use compare::diagnosis::{Diagnosis, GaugeFit, Group, Options, Standing, Verdict, diagnose};
 use compare::evaluate::EvaluateOptions;
-use compare::known::Known;
 use compare::study::calibrate::Knob;
 use compare::study::engines::stored;
 use compare::study::witness::witness;
-use compare::study::{Candidate, Generator, generate, published::textbook_scenario, study};
+use compare::study::{Contender, Generator, compare, compare_all, generate, published::textbook_scenario};
 use data::Dataset;
 use models::Scenario;
 
@@ -21,8 +21,9 @@ fn every_body_pressure_has_its_shapes_points_and_curves() {
     for label in ["30 kPa, body 2", "20 kPa, body 2", "20 kPa, body 4", "60 kPa, body 4"] {
         assert!(drawn.svg.contains(label), "{label}");
     }
-    let candidate = Candidate { label: "bare", known: Known::Predicted, why: "", scenario: &scenario };
-    let study = study(&[candidate], dataset, None, &EvaluateOptions::default(), Some(Knob::Bending)).unwrap();
+    let bare = Contender { label: "bare".into(), ..Contender::as_given(&scenario) };
+    let evidence = Evidence::of(dataset, None);
+    let study = compare_all(&[bare], &evidence, &EvaluateOptions::default(), Some(Knob::Bending)).unwrap();
     let map = residual_figure::map("both", &study.variants[0].evaluation.residual_map, &study.dataset).unwrap();
     let curve = figures::pressure_curve("both", &study).unwrap();
     for body in ["body 2 kPa", "body 4 kPa"] {
@@ -39,8 +40,7 @@ fn a_marker_that_slid_along_the_body_is_seen_in_the_residual_map() {
     slid.markers_m[2] += 0.005;
     let mut dataset = generate(&slid, "slid", &Generator { runs: 5, seed: 4, ..Generator::default() }).unwrap();
     dataset.markers[2].station_m = Some(scenario.markers_m[2]);
-    let candidate = Candidate { label: "bare", known: Known::Predicted, why: "", scenario: &scenario };
-    let study = study(&[candidate], dataset, None, &EvaluateOptions::default(), None).unwrap();
+    let study = compare(&scenario, &Evidence::of(dataset, None)).unwrap();
     let (evaluation, straight) = (&study.variants[0].evaluation, 0);
     let cell = evaluation.residual_map.cells[2][straight];
     assert!((cell.x.mm + 5.0).abs() < 1.0 && cell.y.mm.abs() < 1.0, "{cell:?}");
@@ -66,7 +66,8 @@ fn of_two() -> (Diagnosis, Scenario, Dataset) {
     let truth = plain.with_effect("seam_stiffness", &[0.6]).with_effect("camera_scale", &[0.03]);
     let data = generate(&truth, "two", &Generator { runs: 5, seed: 7, ..Generator::default() }).unwrap();
     let options = Options { next_experiment: false, ..Options::default() };
-    (diagnose(&plain, &data, None, &options).unwrap(), plain, data)
+    let evidence = [Evidence::of(data.clone(), None)];
+    (diagnose(&plain, &evidence, &options, &mut |_, _| ()).unwrap(), plain, data)
 }
 
 #[test]
@@ -128,7 +129,8 @@ fn the_ledgers_beside_finite_elements_begin_with_the_whole_stated_set() {
     let (dataset, about) = data::load("synthetic-epam", &mut |_, _| {}).unwrap();
     let scenario = textbook_scenario("epam").unwrap();
     let options = Options { next_experiment: false, ..Options::default() };
-    let d = diagnose(&scenario, &dataset, about.as_ref(), &options).unwrap();
+    let evidence = [Evidence::of(dataset.clone(), about.clone())];
+    let d = diagnose(&scenario, &evidence, &options, &mut |_, _| ()).unwrap();
     assert_eq!(d.indistinguishable, ["end_constraint", "self_contact"]);
     let w = witness(&d, &scenario, &dataset, about.as_ref(), &stored().unwrap()).unwrap().unwrap();
     let labels: Vec<String> = witness_cases(&w, &d).into_iter().map(|case| case.label).collect();

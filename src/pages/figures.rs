@@ -4,7 +4,7 @@ use super::PageError;
 use compare::known::Known;
 use compare::study::Timing;
 use compare::study::published::PublishedLadder;
-use compare::study::{Study, Variant};
+use compare::study::{Comparison, Variant};
 use data::{Dataset, Phase};
 use models::{Loads, Model, Scenario};
 use report::chart::{Chart, Key, Look, Mark, Space};
@@ -129,7 +129,7 @@ fn mm(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 
 /// Height of the outermost marker against actuator pressure: every model, and the measurement with both branches, at every
 /// body pressure.
-pub(super) fn pressure_curve(title: &str, study: &Study) -> Result<Drawn, PageError> {
+pub(super) fn pressure_curve(title: &str, study: &Comparison) -> Result<Drawn, PageError> {
     let dataset = &study.dataset;
     let bodies = bodies(dataset);
     let several = bodies.len() > 1;
@@ -167,7 +167,7 @@ pub(super) fn pressure_curve(title: &str, study: &Study) -> Result<Drawn, PageEr
 }
 
 /// All models, or the first and the last where several body pressures multiply their curves.
-fn shown_variants(study: &Study, bodies: usize) -> Vec<(usize, &Variant)> {
+fn shown_variants(study: &Comparison, bodies: usize) -> Vec<(usize, &Variant)> {
     let all: Vec<(usize, &Variant)> = study.variants.iter().enumerate().collect();
     match &all[..] {
         [first, .., last] if bodies > 1 => vec![*first, *last],

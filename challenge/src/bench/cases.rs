@@ -7,7 +7,8 @@ use super::{Case, Diagnose, Part};
 use crate::score::{Answer, Score, score};
 use crate::truth::{ROBOTS, standard_protocol};
 use crate::{Draw, HIDDEN, Kind, OUTSIDE, Truth, truth};
-use compare::diagnosis::{Diagnosis, Distances, Experiment, Measured, Options};
+use compare::Evidence;
+use compare::diagnosis::{Diagnosis, Distances, Experiment, Options};
 use compare::error::CompareError;
 use compare::study::generate;
 use data::{About, Direct, Provenance};
@@ -127,7 +128,7 @@ fn hidden(truth: &Truth, kind: Kind, diagnose: Diagnose) -> Result<Named, Compar
     let next_experiment = kind == Kind::One;
     let options = Options { next_experiment, ..Options::default() };
     let about = about(truth)?;
-    let found = diagnose(&truth.told()?, Measured { dataset: &data, about: Some(&about) }, &[], &options)?;
+    let found = diagnose(&truth.told()?, &[Evidence::of(data.clone(), Some(about))], &options, &mut |_, _| ())?;
     let mut named = named(truth, &found);
     if matches!(kind, Kind::One | Kind::Outside) {
         named.distances = Some(distances_of(truth, &data, kind == Kind::Outside)?);
@@ -156,7 +157,7 @@ fn lossy(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
     let options = Options { next_experiment: false, ..Options::default() };
     let about = about(truth)?;
-    Ok(named(truth, &diagnose(&truth.told()?, Measured { dataset: &data, about: Some(&about) }, &[], &options)?))
+    Ok(named(truth, &diagnose(&truth.told()?, &[Evidence::of(data.clone(), Some(about))], &options, &mut |_, _| ())?))
 }
 
 /// A set with the robot's bending stiffness measured by itself.
@@ -164,7 +165,7 @@ fn measured(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
     let about = tested(truth)?;
     let options = Options { next_experiment: false, ..Options::default() };
-    let found = diagnose(&truth.told()?, Measured { dataset: &data, about: Some(&about) }, &[], &options)?;
+    let found = diagnose(&truth.told()?, &[Evidence::of(data.clone(), Some(about))], &options, &mut |_, _| ())?;
     Ok(named(truth, &found))
 }
 
@@ -172,9 +173,8 @@ fn measured(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
 fn after(truth: &Truth, experiment: &Experiment, diagnose: Diagnose) -> Result<After, CompareError> {
     let options = Options { next_experiment: false, ..Options::default() };
     let parts = follow_up(truth, experiment)?;
-    let parts: Vec<Measured> =
-        parts.iter().map(|(data, about)| Measured { dataset: data, about: Some(about) }).collect();
-    let found = diagnose(&truth.told()?, parts[0], &parts[1..], &options)?;
+    let parts: Vec<Evidence> = parts.into_iter().map(|(data, about)| Evidence::of(data, Some(about))).collect();
+    let found = diagnose(&truth.told()?, &parts, &options, &mut |_, _| ())?;
     let answer = Answer::of(&found);
     Ok(After { experiment: experiment.name.clone(), score: score(truth, &answer), answer })
 }
@@ -202,7 +202,7 @@ fn interval(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
     let robot = told.with_bending(truth.bending_nm2).with_effect(name, &values);
     let data = generate(&robot, "own law", &truth.measurement(&standard_protocol()).generator)?;
     let options = Options { next_experiment: false, ..Options::default() };
-    let found = diagnose(&told, Measured { dataset: &data, about: Some(&about(truth)?) }, &[], &options)?;
+    let found = diagnose(&told, &[Evidence::of(data, Some(about(truth)?))], &options, &mut |_, _| ())?;
     let mut named = named(truth, &found);
     let only = found.added.len() == 1 && found.added[0].effect == *name;
     if let Some(first) = found.added.first().and_then(|added| added.parameters.first()).filter(|_| only) {

@@ -15,7 +15,8 @@
 
 use super::Diagnose;
 use super::row::{Row, Target};
-use compare::diagnosis::{Added, Measured, Options, Verdict};
+use compare::Evidence;
+use compare::diagnosis::{Added, Options, Verdict};
 use compare::error::CompareError;
 use compare::study::published::shipped_scenario;
 use serde::Serialize;
@@ -73,10 +74,9 @@ pub(super) fn made(diagnose: Diagnose, failed: &mut Vec<String>) -> Vec<Made> {
 
 fn one(robot: &'static str, lacking: &'static str, diagnose: Diagnose) -> Result<Made, CompareError> {
     let set = format!("fem-{robot}");
-    let (data, about) = data::load(&set, &mut |_, _| {})?;
     let options = Options { keep_bending: true, next_experiment: false, ..Options::default() };
-    let measured = Measured { dataset: &data, about: about.as_ref() };
-    let found = diagnose(&shipped_scenario(robot)?.bare(), measured, &[], &options)?;
+    let evidence = [Evidence::read(&set)?];
+    let found = diagnose(&shipped_scenario(robot)?.bare(), &evidence, &options, &mut |_, _| ())?;
     let names = |added: &[Added]| added.iter().map(|a| a.effect.clone()).collect::<Vec<_>>();
     let attempt = names(&found.attempt);
     let in_set = found.indistinguishable.iter().any(|entry| entry.split(" + ").any(|name| name == lacking));

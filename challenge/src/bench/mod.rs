@@ -21,14 +21,15 @@ pub use row::{Row, Target};
 
 use super::score::{Answer, Score};
 use super::truth::{Kind, Truth};
-use compare::diagnosis::{Diagnosis, Distances, Measured, Options};
+use compare::diagnosis::{Diagnosis, Distances, Options};
 use compare::error::CompareError;
+use compare::{Evidence, Progress};
 use models::Scenario;
 use rayon::prelude::*;
 use serde::Serialize;
 
 /// What diagnoses; the bench is given it.
-pub type Diagnose = fn(&Scenario, Measured, &[Measured], &Options) -> Result<Diagnosis, CompareError>;
+pub type Diagnose = fn(&Scenario, &[Evidence], &Options, &mut Progress) -> Result<Diagnosis, CompareError>;
 
 /// How large the bench is.
 #[derive(Debug, Clone, Copy)]

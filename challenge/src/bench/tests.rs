@@ -48,7 +48,7 @@ fn a_diagnosis_that_fails_is_counted_and_named() {
 #[test]
 fn the_finite_element_sets_are_diagnosed_and_what_is_named_lowers_the_held_out_error() {
     let mut failed = Vec::new();
-    let made = made::made(compare::diagnosis::diagnose_together, &mut failed);
+    let made = made::made(compare::diagnosis::diagnose, &mut failed);
     assert!(failed.is_empty(), "{failed:?}");
     assert_eq!(made.iter().map(|m| m.robot).collect::<Vec<_>>(), ["spam", "cpam", "epam", "fpam"]);
     assert!(made[0].in_set && made[0].halved_as_stated(), "{:?}", made[0]);
@@ -63,7 +63,7 @@ fn the_finite_element_sets_are_diagnosed_and_what_is_named_lowers_the_held_out_e
 #[test]
 fn a_robot_whose_loads_and_shape_agree_slowly_is_no_failure() {
     let truth = cases::draw(Part::Hidden(Kind::One), 4, (1 << 32) + 154, 154).unwrap();
-    let found = cases::outcome(&Case { part: Part::Hidden(Kind::One), truth }, compare::diagnosis::diagnose_together);
+    let found = cases::outcome(&Case { part: Part::Hidden(Kind::One), truth }, compare::diagnosis::diagnose);
     assert!(found.failed.is_none(), "{:?}", found.failed);
     assert!(found.named.unwrap().after.is_some());
 }

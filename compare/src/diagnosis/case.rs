@@ -9,7 +9,7 @@ use super::options::Options;
 use super::problem::{Block, Fit, Problem};
 use super::screen::trace;
 use super::source::Source;
-use crate::comparison::Comparison;
+use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
 use crate::evaluate::default_tolerance_m;
 use crate::gauge::Gauge;
@@ -155,7 +155,7 @@ impl<'a> Case<'a> {
         let (mut noises, problem, base) = fit(&slopes?, &known)?;
         let noise = noises.remove(0);
         let beside = sources[1..].iter().zip(noises).map(|(source, noise)| Beside { source: *source, noise }).collect();
-        let d_max_m = Comparison::new(dataset, &noise, &dataset.mean_over_runs())?.d_max_m;
+        let d_max_m = BesideMean::new(dataset, &noise, &dataset.mean_over_runs())?.d_max_m;
         Ok(Case {
             scenario,
             dataset,

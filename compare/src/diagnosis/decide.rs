@@ -13,7 +13,11 @@ use super::singles::{fit_all, indistinguishable};
 use super::stands_out::{Simpler, StandsOut, alone, stands_out};
 use crate::error::CompareError;
 use crate::policy;
+use crate::progress::{Progress, part};
 use crate::stats::reported_p;
+
+/// Share of the time in which single effects are fitted.
+const SINGLES: f64 = 0.5;
 
 /// Everything that was fitted, and what follows.
 pub struct Decision {
@@ -51,8 +55,8 @@ pub struct Decision {
 ///
 /// # Errors
 /// What the tests return.
-pub fn decide(case: &Case, options: &Options) -> Result<Decision, CompareError> {
-    let (singles, allowance) = fit_all(case);
+pub fn decide(case: &Case, options: &Options, progress: &mut Progress) -> Result<Decision, CompareError> {
+    let (singles, allowance) = fit_all(case, &mut part(progress, [0.0, SINGLES]));
     let set = indistinguishable(case, &singles, allowance);
     let before = test(case, &case.base)?;
     let p_effect = set.iter().filter_map(|i| p_of(case, &singles[*i])).reduce(f64::min);
@@ -78,12 +82,18 @@ pub fn decide(case: &Case, options: &Options) -> Result<Decision, CompareError> 
     }
     decision.verdict = Some(Verdict::OutOfCatalog);
     let significant = p_effect.is_some_and(|p| p < policy::SHARE_OF_EFFECTS * case.alpha);
-    explain(case, options, &mut decision, significant)?;
+    explain(case, options, &mut decision, significant, &mut part(progress, [SINGLES, 1.0]))?;
     Ok(decision)
 }
 
 /// Adds the best effect, a second one if it is wanted, and asks whether that explains the misfit.
-fn explain(case: &Case, options: &Options, decision: &mut Decision, significant: bool) -> Result<(), CompareError> {
+fn explain(
+    case: &Case,
+    options: &Options,
+    decision: &mut Decision,
+    significant: bool,
+    progress: &mut Progress,
+) -> Result<(), CompareError> {
     let single = decision.set.first().filter(|_| significant).map(|i| decision.singles[*i].clone());
     let mut last = single.clone();
     let mut of_one = None;
@@ -94,7 +104,7 @@ fn explain(case: &Case, options: &Options, decision: &mut Decision, significant:
         _ => false,
     };
     if options.pairs && !one_is_enough {
-        add_second(case, decision, &mut last);
+        add_second(case, decision, &mut last, progress);
     }
     let Some(last) = last else { return Ok(()) };
     decision.after = test(case, &last)?;
@@ -165,8 +175,8 @@ fn simpler(case: &Case, last: &Fit) -> Option<Simpler> {
 
 /// Takes the best pair in place of the single effect, or of the base, if it is significantly better, and in mm too: by the whitened
 /// sum of squares alone a second name may mend quiet holds and leave the error as it was.
-fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>) {
-    let (mut pairs, tried) = fit_pairs(case, &decision.singles);
+fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>, progress: &mut Progress) {
+    let (mut pairs, tried) = fit_pairs(case, &decision.singles, progress);
     decision.pairs_tried = tried;
     let before = last.as_ref().unwrap_or(&case.base);
     let allowance = order::sort(case, &mut pairs, before);

@@ -71,11 +71,11 @@ pub fn distances(
     let (candidates, own) = catalogue(&[source], &options);
     let known = |_: usize, slope: &[f64]| NoiseModel::known(ideal, slope, noise.runs, noise.sigma_m, noise.run_sd);
     let case = Case::with_noise(&[source], &known, (&candidates, own), &options)?;
-    let (singles, _) = fit_all(&case);
+    let (singles, _) = fit_all(&case, &mut |_, _| ());
     let base = case.base.cost();
     let allowed = singles.iter().filter(|fit| !case.is_rejected(fit));
     let one = allowed.map(|fit| fit.cost()).fold(base, f64::min);
-    let pairs = if pairs { fit_pairs(&case, &singles).0 } else { Vec::new() };
+    let pairs = if pairs { fit_pairs(&case, &singles, &mut |_, _| ()).0 } else { Vec::new() };
     let two = pairs.iter().map(|fit| fit.cost()).fold(one, f64::min);
     Ok(Distances { base, one, two })
 }

@@ -2,7 +2,7 @@
 
 use super::known::BenchTest;
 use super::source::seen_rolled;
-use crate::comparison::ZERO_PRESSURE_PA;
+use crate::beside_mean::ZERO_PRESSURE_PA;
 use data::{Dataset, Direct, Hold, Lost, Phase};
 use models::Scenario;
 

@@ -1,9 +1,9 @@
 //! Laws of a diagnosis with a gauge at the actuator. Data by the catalogue's own formulas, seeded.
 
-use super::tests::{quick, robot};
+use super::tests::{of_one, quick, robot};
 use super::*;
 use crate::study::{Generator, generate};
-use data::Direct;
+use data::{About, Dataset, Direct};
 
 fn read_along(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
     let protocol = [0.0, 5e3, 10e3, 15e3, 20e3, 25e3, 30e3, 0.0].map(|p| [2e3, p]).to_vec();
@@ -11,7 +11,7 @@ fn read_along(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
 }
 
 fn run(scenario: &Scenario, data: &Dataset) -> Diagnosis {
-    diagnose(scenario, data, None, &quick()).unwrap()
+    of_one(scenario, data, None, &quick()).unwrap()
 }
 
 #[test]
@@ -90,6 +90,6 @@ fn a_gauge_beside_a_pressure_that_is_the_actuators_own_is_left_out_with_a_word()
     let plain = robot("epam");
     let data = read_along(&plain, 3, 431);
     let about = About { direct: Direct { pressure: true, frame: false }, ..crate::study::tests::about(&[]) };
-    let d = diagnose(&plain, &data, Some(&about), &quick()).unwrap();
+    let d = of_one(&plain, &data, Some(&about), &quick()).unwrap();
     assert!(d.gauges.is_empty() && d.warnings.iter().any(|w| w.contains("p_gauge")), "{:?}", d.warnings);
 }

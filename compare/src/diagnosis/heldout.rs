@@ -11,7 +11,7 @@ use super::blocks::block;
 use super::case::Case;
 use super::least_squares::{dot, square};
 use super::problem::{Fit, Problem};
-use crate::comparison::ZERO_PRESSURE_PA;
+use crate::beside_mean::ZERO_PRESSURE_PA;
 use crate::error::CompareError;
 use crate::policy;
 use nalgebra::DMatrix;

@@ -5,31 +5,31 @@
 //! finite elements). Such a base overrules a `[bending]` of `about.toml` as well, so B has to be kept. Whether the robot has it is
 //! for a bending test to say, not for these data.
 
+use super::diagnose;
 use super::options::Options;
 use super::result::{Diagnosis, KeptBending, Verdict};
-use super::{Measured, diagnose_together};
 use crate::error::CompareError;
+use crate::evidence::Evidence;
 use crate::policy;
 use models::Scenario;
 
 /// That answer, if `found` has none, nobody measured B, and it comes closer by a fifth.
 ///
 /// # Errors
-/// As [`diagnose_together`].
+/// As [`diagnose`].
 pub fn kept_bending(
     found: &Diagnosis,
     scenario: &Scenario,
-    first: Measured,
-    further: &[Measured],
+    evidence: &[Evidence],
     options: &Options,
 ) -> Result<Option<KeptBending>, CompareError> {
-    let mut all = std::iter::once(&first).chain(further);
-    let is_known = options.keep_bending || all.any(|m| m.about.is_some_and(|about| about.bending_nm2.is_some()));
+    let is_measured = |e: &Evidence| e.about.as_ref().is_some_and(|about| about.bending_nm2.is_some());
+    let is_known = options.keep_bending || evidence.iter().any(is_measured);
     if is_known || found.verdict != Some(Verdict::OutOfCatalog) {
         return Ok(None);
     }
     let options = Options { keep_bending: true, next_experiment: false, ..options.clone() };
-    let kept = diagnose_together(scenario, first, further, &options)?;
+    let kept = diagnose(scenario, evidence, &options, &mut |_, _| ())?;
     let after = kept.base.systematic_with_added_mm;
     let is_closer = after < policy::CLOSER * found.base.systematic_with_added_mm;
     Ok((kept.verdict == Some(Verdict::Effect) && is_closer).then_some(KeptBending {

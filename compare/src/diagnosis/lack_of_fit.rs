@@ -13,7 +13,7 @@
 //! smallest p times four is the p of the whole.
 
 use super::result::LackOfFit;
-use crate::comparison::Comparison;
+use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
 use crate::gauge::Gauge;
 use crate::layout::{Layout, Weights, apply};
@@ -35,7 +35,7 @@ pub fn lack_of_fit(
     if !noise.gives_p_values() {
         return Ok(None);
     }
-    let c = Comparison::new(dataset, noise, prediction_m)?;
+    let c = BesideMean::new(dataset, noise, prediction_m)?;
     let values = noise.seen(0..c.residual_m.len());
     let all = p_of(&noise.whiten(&c.residual_m), values.saturating_sub(fitted), noise);
     let means = values / c.layout.samples;
@@ -66,7 +66,7 @@ fn hold_means(layout: &Layout) -> Vec<Weights> {
 }
 
 /// Of the holds in which a marker was seen; their squares have the same total for every marker.
-fn marker_means(c: &Comparison) -> Vec<Weights> {
+fn marker_means(c: &BesideMean) -> Vec<Weights> {
     let layout = &c.layout;
     let mean = |m: usize, axis: usize| -> Weights {
         let seen: Vec<usize> = (0..layout.holds).filter(|h| c.dataset.is_seen(*h, m)).collect();
@@ -78,12 +78,12 @@ fn marker_means(c: &Comparison) -> Vec<Weights> {
 }
 
 /// Whitened values of means of equally many values each, no value in two of them.
-fn whitened(c: &Comparison, means: &[Weights]) -> Result<Vec<f64>, CompareError> {
+fn whitened(c: &BesideMean, means: &[Weights]) -> Result<Vec<f64>, CompareError> {
     let values: Vec<f64> = means.iter().map(|w| apply(w, &c.residual_m)).collect();
     Ok(c.noise.whitener_of(means)?.whiten(&values))
 }
 
-fn drift(c: &Comparison, noise: &NoiseModel) -> f64 {
+fn drift(c: &BesideMean, noise: &NoiseModel) -> f64 {
     let z: Vec<f64> = residual_map(c).drifts.iter().filter_map(|d| d.deviation.in_noise).collect();
     p_of(&z, z.len(), noise)
 }

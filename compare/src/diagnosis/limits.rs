@@ -6,7 +6,7 @@ use super::case::Case;
 use super::least_squares::square;
 use super::problem::Problem;
 use super::result::Undetectable;
-use crate::comparison::ZERO_PRESSURE_PA;
+use crate::beside_mean::ZERO_PRESSURE_PA;
 use crate::policy;
 use crate::wording::list;
 use data::{Dataset, Phase};

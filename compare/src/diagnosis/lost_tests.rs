@@ -1,7 +1,7 @@
 //! Markers that were lost: what is left out must be as if it had never been there.
 
-use super::{Diagnosis, Options, Verdict, diagnose_together};
-use crate::diagnosis::Measured;
+use super::tests::of_one;
+use super::{Diagnosis, Options, Verdict};
 use crate::study::published::textbook_scenario;
 use crate::{EvaluateOptions, Evaluation, evaluate};
 use data::Dataset;
@@ -33,7 +33,7 @@ fn blind(marker: usize) -> Dataset {
 
 fn diagnosed(dataset: &Dataset) -> Diagnosis {
     let options = Options { next_experiment: false, ..Options::default() };
-    diagnose_together(&textbook_scenario("epam").unwrap(), Measured { dataset, about: None }, &[], &options).unwrap()
+    of_one(&textbook_scenario("epam").unwrap(), dataset, None, &options).unwrap()
 }
 
 fn close(a: f64, b: f64) -> bool {

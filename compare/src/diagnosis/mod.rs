@@ -64,7 +64,7 @@ mod tests;
 #[cfg(test)]
 mod together_tests;
 mod traces;
-mod words;
+pub mod words;
 
 pub use answers::{Answer, Standing};
 pub use bench::{BenchDiagnosis, BenchOptions, BenchRanked, LeftOut, diagnose_bench};
@@ -78,13 +78,14 @@ pub use proposed::*;
 pub use result::*;
 pub use rungs::ErrorRung;
 
-use crate::comparison::Comparison;
+use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
+use crate::evidence::Evidence;
 use crate::noise_summary::NoiseSummary;
+use crate::progress::{Progress, part};
 use crate::residuals::{ResidualMap, residual_map};
 use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
 use case::Case;
-use data::{About, Dataset};
 use decide::{Decision, decide};
 use heldout::HeldOut;
 use models::Scenario;
@@ -95,51 +96,78 @@ use source::Source;
 /// Gain below which a name is a hint, and above which a lone one is called identified.
 const GAINS: [f64; 2] = [25.0, 100.0];
 
-/// Data and their description.
-#[derive(Debug, Clone, Copy)]
-pub struct Measured<'a> {
-    /// Marker data.
-    pub dataset: &'a Dataset,
-    /// What the table does not say: loads, and what was measured directly.
-    pub about: Option<&'a About>,
-}
-
-/// Diagnoses a dataset: is an effect missing in the scenario, which, and what would tell.
+/// Diagnoses measurements: is an effect missing in the scenario, which, and what would tell. Several data of one robot lie each
+/// under its own protocol and loads: one bending stiffness for every body pressure and one value of every parameter must meet
+/// them all. Errors in millimetres, places and held-out parts are those of the first.
 ///
 /// # Errors
-/// Scenario and data that do not fit together, impossible options, a base without equilibrium.
+/// Scenario and data that do not fit together, impossible options, a base without equilibrium; further data with fewer than three
+/// runs, or none at all.
 pub fn diagnose(
     scenario: &Scenario,
-    dataset: &Dataset,
-    about: Option<&About>,
+    evidence: &[Evidence],
     options: &Options,
-) -> Result<Diagnosis, CompareError> {
-    diagnose_together(scenario, Measured { dataset, about }, &[], options)
-}
-
-/// The same with further data of the same robot, each under its own protocol and loads: one bending stiffness for every body
-/// pressure and one value of every parameter must meet them all. Errors in millimetres, places and held-out parts are those
-/// of the first data.
-///
-/// # Errors
-/// As [`diagnose`]; further data with fewer than three runs.
-pub fn diagnose_together(
-    scenario: &Scenario,
-    first: Measured,
-    further: &[Measured],
-    options: &Options,
+    progress: &mut Progress,
 ) -> Result<Diagnosis, CompareError> {
     check(options)?;
+    let first = evidence.first().ok_or_else(|| CompareError::refused("no data to diagnose", "give measurements"))?;
+    let (parts, mut warnings) = parts(scenario, evidence)?;
+    warnings.extend(parts.iter().flat_map(|part| known::unusual(&part.measured, scenario)));
+    let sources: Vec<Source> = parts.iter().map(|part| part.source(&parts[0].scenario)).collect();
+    let sessions: Vec<Vec<usize>> = parts.iter().map(|part| part.prepared.sessions.clone()).collect();
+    let (candidates, own) = case::catalogue(&sources, options);
+    let case = Case::new(&sources, &sessions, (&candidates, own), options)?;
+    let runs = prepare::outlying_runs(case.dataset, &case.noise);
+    warnings.extend(runs.iter().map(|r| {
+        format!(
+            "run {} scatters {:.1} times as much as the others: look at it before believing anything",
+            r.run, r.scatter_ratio
+        )
+    }));
+    warnings.extend(limits::warnings(&case));
+    let decision = decide(&case, options, &mut part(progress, [0.0, DECIDED]))?;
+    warnings.extend(singles::left_out(&case, &decision.singles));
+    let outliers = Outliers { runs, ..parts[0].prepared.outliers.clone() };
+    progress("left-out data", Some(DECIDED));
+    let mut diagnosis = assemble(&case, &decision, outliers, warnings)?;
+    diagnosis.evidence = evidence.iter().map(used).collect::<Result<_, _>>()?;
+    if first.about.as_ref().is_some_and(|a| a.gravity_direction.is_none()) {
+        let words =
+            "about.toml names no [gravity] direction: out of the question if the robot bends in a horizontal plane";
+        diagnosis.ranked.iter_mut().filter(|r| r.effect == "gravity").for_each(|r| r.notes.push(words.into()));
+    }
+    diagnosis.kept_bending = kept_bending::kept_bending(&diagnosis, scenario, evidence, options)?;
+    if options.next_experiment {
+        progress("the next experiment", Some(ASSEMBLED));
+        diagnosis.next_experiment = next::next_experiment(&case, &decision, look::next(&diagnosis))?;
+    }
+    diagnosis.slips = parts.iter().flat_map(|part| part.slips.clone()).collect();
+    diagnosis.summary = story::story(&diagnosis);
+    Ok(diagnosis)
+}
+
+/// Share of the time after which effects are fitted.
+const DECIDED: f64 = 0.5;
+/// And after which everything but the next experiment is done.
+const ASSEMBLED: f64 = 0.7;
+
+fn used(evidence: &Evidence) -> Result<Used, CompareError> {
+    let Evidence { dataset, .. } = evidence;
+    Ok(Used { dataset: dataset.name.clone(), runs: dataset.runs.len(), sha256: evidence.sha256()? })
+}
+
+/// Every dataset made ready, without copies, and cautions.
+fn parts(scenario: &Scenario, evidence: &[Evidence]) -> Result<(Vec<Part>, Vec<String>), CompareError> {
     let (mut parts, mut warnings) = (Vec::new(), Vec::new());
-    for (i, measured) in std::iter::once(&first).chain(further).enumerate() {
+    for (i, measured) in evidence.iter().enumerate() {
         let name = &measured.dataset.name;
-        if std::iter::once(&first).chain(further).take(i).any(|seen| seen.dataset.xy_m == measured.dataset.xy_m) {
+        if evidence[..i].iter().any(|seen| seen.dataset.xy_m == measured.dataset.xy_m) {
             warnings.push(format!(
                 "{name} is a copy of data that are there already and was left out: copies are not repeats"
             ));
             continue;
         }
-        let direction = measured.about.and_then(|a| a.gravity_direction).unwrap_or(scenario.gravity_direction);
+        let direction = measured.about.as_ref().and_then(|a| a.gravity_direction).unwrap_or(scenario.gravity_direction);
         let lies = Scenario { gravity_direction: direction, ..scenario.clone() };
         let rolled = parts.first().is_some_and(|first: &Part| source::is_rolled(&lies, &first.scenario));
         let (part, told) = Part::of(&if rolled { source::seen_rolled(scenario) } else { scenario.clone() }, measured)?;
@@ -159,35 +187,7 @@ pub fn diagnose_together(
         warnings.extend(told.into_iter().map(|warning| format!("{of}{warning}")));
         parts.push(part);
     }
-    warnings.extend(parts.iter().flat_map(|part| known::unusual(&part.measured, scenario)));
-    let sources: Vec<Source> = parts.iter().map(|part| part.source(&parts[0].scenario)).collect();
-    let sessions: Vec<Vec<usize>> = parts.iter().map(|part| part.prepared.sessions.clone()).collect();
-    let (candidates, own) = case::catalogue(&sources, options);
-    let case = Case::new(&sources, &sessions, (&candidates, own), options)?;
-    let runs = prepare::outlying_runs(case.dataset, &case.noise);
-    warnings.extend(runs.iter().map(|r| {
-        format!(
-            "run {} scatters {:.1} times as much as the others: look at it before believing anything",
-            r.run, r.scatter_ratio
-        )
-    }));
-    warnings.extend(limits::warnings(&case));
-    let decision = decide(&case, options)?;
-    warnings.extend(singles::left_out(&case, &decision.singles));
-    let outliers = Outliers { runs, ..parts[0].prepared.outliers.clone() };
-    let mut diagnosis = assemble(&case, &decision, outliers, warnings)?;
-    if first.about.is_some_and(|a| a.gravity_direction.is_none()) {
-        let words =
-            "about.toml names no [gravity] direction: out of the question if the robot bends in a horizontal plane";
-        diagnosis.ranked.iter_mut().filter(|r| r.effect == "gravity").for_each(|r| r.notes.push(words.into()));
-    }
-    diagnosis.kept_bending = kept_bending::kept_bending(&diagnosis, scenario, first, further, options)?;
-    if options.next_experiment {
-        diagnosis.next_experiment = next::next_experiment(&case, &decision, look::next(&diagnosis))?;
-    }
-    diagnosis.slips = parts.iter().flat_map(|part| part.slips.clone()).collect();
-    diagnosis.summary = story::story(&diagnosis);
-    Ok(diagnosis)
+    Ok((parts, warnings))
 }
 
 fn check(options: &Options) -> Result<(), CompareError> {
@@ -231,6 +231,7 @@ fn assemble(
         dataset: case.dataset.name.clone(),
         actuator: case.dataset.actuator.clone(),
         runs: case.dataset.runs.len(),
+        evidence: Vec::new(),
         beside: beside(case, last),
         gauges: GaugeFit::all(case, last),
         verdict: decision.verdict,
@@ -286,7 +287,7 @@ fn pairs_of(case: &Case, decision: &Decision) -> Vec<Combination> {
 /// Residual map of a fit, and where it fails in plain language.
 fn fails(case: &Case, fit: &Fit, lof: Option<LackOfFit>) -> Result<(ResidualMap, Vec<Statement>), CompareError> {
     let prediction = case.prediction(fit);
-    let c = Comparison::new(case.dataset, &case.noise, &prediction)?;
+    let c = BesideMean::new(case.dataset, &case.noise, &prediction)?;
     let map = residual_map(&c);
     let options = FailureOptions { alpha: case.alpha, tolerance_m: case.tolerance_m };
     let statements = where_it_fails(&c, &map, lof.map(|lof| lof.p_value), &options);

@@ -9,6 +9,7 @@ use super::result::Combination;
 use super::screen::{score, starts};
 use super::singles::parameter_values;
 use crate::policy;
+use crate::progress::{Progress, each};
 use crate::stats::reported_p;
 
 /// Pairs refitted, the most promising by screening every effect on top of every other.
@@ -25,16 +26,17 @@ pub fn another_wanted(case: &Case, fit: &Fit) -> f64 {
 }
 
 /// Promising pairs fitted, without those that a bound rejects; and how many there are in all.
-pub fn fit_pairs(case: &Case, singles: &[Fit]) -> (Vec<Fit>, usize) {
-    let mut fits: Vec<Fit> = Vec::new();
-    for (a, b) in promising(case, singles) {
-        let (first, second) = (&singles[a], &singles[b]);
+pub fn fit_pairs(case: &Case, singles: &[Fit], progress: &mut Progress) -> (Vec<Fit>, usize) {
+    let fit = |(a, b): &(usize, usize)| {
+        let (first, second) = (&singles[*a], &singles[*b]);
         let effects: Vec<usize> = first.effects.iter().copied().chain([own(second)]).collect();
         let mut all = starts(&case.problem, first, own(second), false);
         all.truncate(2);
         all.extend(swapped(case, first, second));
-        fits.extend(case.problem.fit(&effects, &all).filter(|fit| !case.is_rejected(fit)));
-    }
+        case.problem.fit(&effects, &all).filter(|fit| !case.is_rejected(fit))
+    };
+    let fits =
+        each(&promising(case, singles), "fitting pairs of effects", progress, fit).into_iter().flatten().collect();
     (fits, singles.len() * singles.len().saturating_sub(1) / 2)
 }
 

@@ -1,8 +1,9 @@
 //! One of the data of a diagnosis made ready, with the base as it was measured there.
 
+use super::prepare;
 use super::source::{Source, is_rolled};
-use super::{Measured, prepare};
 use crate::error::CompareError;
+use crate::evidence::Evidence;
 use crate::gauge::Gauge;
 use crate::slips::slips;
 use crate::study::fit_scenario;
@@ -29,8 +30,8 @@ pub(super) struct Part {
 
 impl Part {
     /// With cautions.
-    pub fn of(scenario: &Scenario, measured: &Measured) -> Result<(Part, Vec<String>), CompareError> {
-        let Measured { dataset, about } = *measured;
+    pub fn of(scenario: &Scenario, measured: &Evidence) -> Result<(Part, Vec<String>), CompareError> {
+        let (dataset, about) = (&measured.dataset, measured.about.as_ref());
         crate::layout::Layout::of(dataset)?;
         let (mut scenario, mut warnings) = fit_scenario(scenario, dataset, about)?;
         let slips = slips(dataset, &scenario.markers_m, scenario.radius_m);

@@ -2,9 +2,10 @@
 
 use super::case::{Case, catalogue};
 use super::stands_out::{StandsOut, stands_out};
+use super::tests::of_one;
 use super::*;
 use crate::study::{Generator, generate, published::textbook_scenario};
-use data::Direct;
+use data::{Dataset, Direct};
 
 fn robot(kind: &str, bending_nm2: f64) -> Scenario {
     textbook_scenario(kind).unwrap().with_bending(bending_nm2)
@@ -46,7 +47,7 @@ fn a_marker_that_sits_elsewhere_is_outside_the_catalogue_and_is_named() {
     stations[3] += 0.008;
     let mut data = measured(&told.with_markers(&stations), 5, 51);
     data.markers[3].station_m = Some(told.markers_m[3]);
-    let d = diagnose(&told, &data, None, &Options::default()).unwrap();
+    let d = of_one(&told, &data, None, &Options::default()).unwrap();
     assert_eq!(d.verdict, Some(Verdict::OutOfCatalog));
     let next = d.next_experiment.as_ref().unwrap();
     assert!(
@@ -71,7 +72,7 @@ fn one_of_sixty_markers_that_stands_alone_is_named() {
     let mut data = measured(&told, 3, 72);
     data.xy_m.iter_mut().skip(2 * 40 + 1).step_by(2 * 60).for_each(|y| *y += 2e-3);
     let options = Options { next_experiment: false, ..Options::default() };
-    let d = diagnose(&told, &data, None, &options).unwrap();
+    let d = of_one(&told, &data, None, &options).unwrap();
     assert_eq!(d.verdict, Some(Verdict::OutOfCatalog), "{:?}", d.summary);
     assert!(d.pattern.is_some_and(|p| p.words == "marker 41 stands alone in y" && p.p_value <= 1e-6));
 }
@@ -133,7 +134,7 @@ fn an_attempt_comes_closer_in_mm_even_where_quiet_holds_ask_for_something_else()
     let options = Options { keep_bending: true, next_experiment: false, ..Options::default() };
     for robot in ["cpam", "fpam"] {
         let (data, about) = data::load(&format!("fem-{robot}"), &mut |_, _| {}).unwrap();
-        let d = diagnose(&textbook_scenario(robot).unwrap().bare(), &data, about.as_ref(), &options).unwrap();
+        let d = of_one(&textbook_scenario(robot).unwrap().bare(), &data, about.as_ref(), &options).unwrap();
         assert!(d.verdict == Some(Verdict::OutOfCatalog) && !d.attempt.is_empty(), "{robot}");
         let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
         // The fPAM's markers on the wall leave more than half of their error with the best there is.
@@ -165,7 +166,7 @@ fn what_hardly_moves_the_model_is_no_attempt() {
         (4..6).for_each(|k| data.xy_m.swap(at + k, at + k + 2));
     }
     let options = Options { next_experiment: false, ..Options::default() };
-    let d = diagnose(&plain, &data, None, &options).unwrap();
+    let d = of_one(&plain, &data, None, &options).unwrap();
     assert_eq!(d.verdict, Some(Verdict::OutOfCatalog));
     assert!(d.attempt.is_empty() && d.attempt_alike.is_empty(), "{:?}", d.attempt_alike);
     assert!(d.summary.iter().any(|s| s.contains("no effect of it takes a fifth")), "{:?}", d.summary);

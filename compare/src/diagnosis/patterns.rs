@@ -16,7 +16,7 @@
 use super::case::Case;
 use super::look;
 use super::shapes::Shape;
-use crate::comparison::ZERO_PRESSURE_PA;
+use crate::beside_mean::ZERO_PRESSURE_PA;
 use crate::layout::Layout;
 use crate::policy;
 

@@ -319,6 +319,24 @@ pub struct Undetectable {
     pub times_typical: Option<f64>,
 }
 
+/// Data that were used, as they were read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Used {
+    /// Name of the dataset.
+    pub dataset: String,
+    /// Its runs.
+    pub runs: usize,
+    /// SHA-256 of the table, in hex.
+    pub sha256: String,
+}
+
+impl Used {
+    /// Name and runs.
+    pub fn words(&self) -> String {
+        format!("{}, {} runs", self.dataset, self.runs)
+    }
+}
+
 /// Everything a diagnosis found.
 #[derive(Debug, Clone, Serialize)]
 pub struct Diagnosis {
@@ -330,6 +348,9 @@ pub struct Diagnosis {
     pub actuator: String,
     /// Runs used.
     pub runs: usize,
+    /// The data, in the order that they were given in.
+    #[serde(skip)]
+    pub evidence: Vec<Used>,
     /// Further data that were fitted along; the errors elsewhere are those of the first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub beside: Vec<FittedBeside>,

@@ -12,16 +12,17 @@ use super::problem::Fit;
 use super::result::{ParameterValue, Ranked};
 use super::screen::starts;
 use crate::policy;
+use crate::progress::{Progress, each};
 use crate::stats::reported_p;
 use crate::study::predict_dataset;
 
 /// All effects fitted, best first, and the allowance for their form; those without equilibrium left out.
-pub fn fit_all(case: &Case) -> (Vec<Fit>, f64) {
+pub fn fit_all(case: &Case, progress: &mut Progress) -> (Vec<Fit>, f64) {
     let fit = |effect: &usize| {
         let effects: Vec<usize> = case.always.iter().copied().chain([*effect]).collect();
         case.problem.fit(&effects, &starts(&case.problem, &case.base, *effect, true))
     };
-    let mut fits: Vec<Fit> = case.tried.iter().filter_map(fit).collect();
+    let mut fits: Vec<Fit> = each(&case.tried, "fitting every effect", progress, fit).into_iter().flatten().collect();
     let allowance = order::sort(case, &mut fits, &case.base);
     (fits, allowance)
 }

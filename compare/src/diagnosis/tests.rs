@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::study::{Generator, generate, parse_protocol, published::textbook_scenario};
-use data::Direct;
+use data::{About, Dataset, Direct};
 
 /// B at which the shipped robots bend about as far as measured \[N·m²\].
 pub(super) fn robot(kind: &str) -> Scenario {
@@ -21,8 +21,17 @@ pub(super) fn quick() -> Options {
     Options { next_experiment: false, ..Options::default() }
 }
 
+pub(super) fn of_one(
+    scenario: &Scenario,
+    data: &Dataset,
+    about: Option<&About>,
+    options: &Options,
+) -> Result<Diagnosis, CompareError> {
+    diagnose(scenario, &[Evidence::of(data.clone(), about.cloned())], options, &mut |_, _| ())
+}
+
 pub(super) fn run(scenario: &Scenario, data: &Dataset) -> Diagnosis {
-    diagnose(scenario, data, None, &quick()).unwrap()
+    of_one(scenario, data, None, &quick()).unwrap()
 }
 
 fn ranked<'a>(d: &'a Diagnosis, effect: &str) -> &'a Ranked {
@@ -73,7 +82,7 @@ fn an_effect_three_times_as_large_as_needed_is_in_the_set() {
 fn tail_tension_on_an_spam_is_reported_with_seam_stiffness_and_no_experiment_parts_them() {
     let plain = robot("spam");
     let data = measured(&plain.with_effect("tail_tension", &[0.9]), 5, 31);
-    let d = diagnose(&plain, &data, None, &Options::default()).unwrap();
+    let d = of_one(&plain, &data, None, &Options::default()).unwrap();
     assert_eq!(d.verdict, Some(Verdict::Effect));
     for name in ["tail_tension", "seam_stiffness"] {
         assert!(d.indistinguishable.iter().any(|n| n == name), "{:?}", d.indistinguishable);
@@ -108,7 +117,7 @@ fn pouches_that_touch_early_are_found_without_knowing_where() {
 fn the_same_input_gives_the_same_output() {
     let plain = robot("epam");
     let data = measured(&plain.with_effect("friction", &[0.3]), 5, 41);
-    let text = || serde_json::to_string(&diagnose(&plain, &data, None, &Options::default()).unwrap()).unwrap();
+    let text = || serde_json::to_string(&of_one(&plain, &data, None, &Options::default()).unwrap()).unwrap();
     assert_eq!(text(), text());
 }
 
@@ -220,7 +229,7 @@ fn effects_of_the_scenario_are_no_candidates_but_are_refitted_on_demand() {
     let d = run(&wrong, &data);
     assert!(d.ranked.iter().all(|r| r.effect != "end_constraint" && r.effect != "arm_growth"));
     assert_eq!(run(&plain.with_effect("end_constraint", &[0.446, 1.0]), &data).verdict, Some(Verdict::None));
-    let refitted = diagnose(&wrong, &data, None, &Options { refit_present: true, ..quick() }).unwrap();
+    let refitted = of_one(&wrong, &data, None, &Options { refit_present: true, ..quick() }).unwrap();
     assert_eq!(refitted.verdict, Some(Verdict::None));
 }
 
@@ -253,7 +262,7 @@ fn impossible_options_are_refused() {
     let plain = robot("epam");
     let data = measured(&plain, 3, 131);
     for options in [Options { alpha: 1.5, ..quick() }, Options { tolerance_m: Some(-1.0), ..quick() }] {
-        assert!(matches!(diagnose(&plain, &data, None, &options), Err(CompareError::BadOption { .. })));
+        assert!(matches!(of_one(&plain, &data, None, &options), Err(CompareError::BadOption { .. })));
     }
 }
 
@@ -311,7 +320,7 @@ fn the_fitted_base_hangs_neither_on_the_scenarios_stiffness_nor_on_the_scatter_o
     assert!((0.7..4.0).contains(&scatter), "{scatter} %");
     let kept = |bending: f64| {
         let options = Options { keep_bending: true, ..quick() };
-        diagnose(&robot("epam").with_bending(bending), &data, None, &options).unwrap().base.systematic_mm
+        of_one(&robot("epam").with_bending(bending), &data, None, &options).unwrap().base.systematic_mm
     };
     for factor in [0.7, 0.85, 1.2, 1.5] {
         let other = kept(factor * value);

@@ -1,8 +1,8 @@
 //! Laws of a diagnosis of several data at once. Data by the catalogue's own formulas, seeded.
 
-use super::tests::{measured, quick, robot, run};
+use super::tests::{measured, of_one, quick, robot, run};
 use super::*;
-use data::{Direct, MeasuredValue};
+use data::{About, Dataset, Direct, MeasuredValue};
 
 fn about(direct: Direct) -> About {
     About { direct, ..crate::study::tests::about(&[]) }
@@ -11,10 +11,14 @@ fn about(direct: Direct) -> About {
 const GAUGE: Direct = Direct { pressure: true, frame: false };
 
 fn together(scenario: &Scenario, data: &[(&Dataset, Direct)]) -> Result<Diagnosis, CompareError> {
-    let abouts: Vec<About> = data.iter().map(|(_, direct)| about(*direct)).collect();
-    let parts: Vec<Measured> =
-        data.iter().zip(&abouts).map(|((dataset, _), about)| Measured { dataset, about: Some(about) }).collect();
-    diagnose_together(scenario, parts[0], &parts[1..], &quick())
+    let part = |(dataset, direct): &(&Dataset, Direct)| Evidence::of((*dataset).clone(), Some(about(*direct)));
+    let parts: Vec<Evidence> = data.iter().map(part).collect();
+    diagnose(scenario, &parts, &quick(), &mut |_, _| ())
+}
+
+fn of_two(scenario: &Scenario, data: [(&Dataset, Option<&About>); 2]) -> Diagnosis {
+    let parts = data.map(|(dataset, about)| Evidence::of(dataset.clone(), about.cloned()));
+    diagnose(scenario, &parts, &quick(), &mut |_, _| ()).unwrap()
 }
 
 fn group_of(d: &Diagnosis, name: &str) -> Group {
@@ -55,7 +59,7 @@ fn a_bending_test_is_one_more_value_of_the_fit() {
     let sd = 0.5 * half(&alone);
     let tested = |stiffness: f64| {
         let about = About { bending_nm2: Some([stiffness, sd]), ..about(Direct::default()) };
-        diagnose(&plain, &data, Some(&about), &quick()).unwrap()
+        of_one(&plain, &data, Some(&about), &quick()).unwrap()
     };
     let d = tested(alone.base.bending[0].value_nm2);
     let expected = (half(&alone).powi(-2) + (1.96 * sd).powi(-2)).powf(-0.5);
@@ -77,9 +81,7 @@ fn a_bending_test_is_one_more_value_of_the_fit() {
     let of = |stiffness: f64| About { bending_nm2: Some([stiffness, sd]), ..about(Direct::default()) };
     let (more, first, other) = (measured(&plain, 5, 306), of(6.0), of(9.0));
     let both = |second: &About| {
-        let further = [Measured { dataset: &more, about: Some(second) }];
-        let d =
-            diagnose_together(&plain, Measured { dataset: &data, about: Some(&first) }, &further, &quick()).unwrap();
+        let d = of_two(&plain, [(&data, Some(&first)), (&more, Some(second))]);
         d.warnings.iter().any(|w| w.contains("says something else of [bending]"))
     };
     assert!(both(&other) && !both(&first));
@@ -102,7 +104,7 @@ fn a_parameter_measured_by_itself_is_one_more_value_of_the_fit() {
     let sd = 0.5 * half;
     let about =
         About { measured: vec![of("fabric_stretch", "compliance_m_per_n", value, sd)], ..about(Direct::default()) };
-    let d = diagnose(&plain, &data, Some(&about), &quick()).unwrap();
+    let d = of_one(&plain, &data, Some(&about), &quick()).unwrap();
     let expected = (half.powi(-2) + (1.96 * sd).powi(-2)).powf(-0.5);
     assert!((found(&d)[1] / expected - 1.0).abs() < 0.15, "{:?} {expected} of {half}", found(&d));
     assert!((found(&d)[0] - value).abs() < 0.1 * sd);
@@ -117,13 +119,13 @@ fn a_test_that_finds_nothing_takes_an_effect_out_of_the_set_and_one_that_no_mark
     assert!(alone.indistinguishable.iter().any(|n| n == "fabric_stretch"), "{:?}", alone.indistinguishable);
     let tested = |m: MeasuredValue| About { measured: vec![m], ..about(Direct::default()) };
     let none = tested(of("fabric_stretch", "compliance_m_per_n", 0.0, 5e-6));
-    let d = diagnose(&plain, &data, Some(&none), &quick()).unwrap();
+    let d = of_one(&plain, &data, Some(&none), &quick()).unwrap();
     assert!(d.indistinguishable.iter().all(|n| n != "fabric_stretch"), "{:?}", d.indistinguishable);
     assert!(d.indistinguishable.iter().any(|n| n == "end_constraint"), "{:?}", d.indistinguishable);
     // A hundredth of what these markers can show, to 1 %, is lacked at no cost; ten times as much is said, and is no alarm of theirs.
     for (weight, told) in [(0.02, false), (8.0, true)] {
         let weighed = tested(of("gravity", "weight_n_per_m", weight, 0.01 * weight));
-        let quiet = diagnose(&plain, &measured(&plain, 5, 384), Some(&weighed), &quick()).unwrap();
+        let quiet = of_one(&plain, &measured(&plain, 5, 384), Some(&weighed), &quick()).unwrap();
         assert_eq!(quiet.verdict, Some(Verdict::None), "{weight} {:?}", quiet.indistinguishable);
         assert_eq!(quiet.warnings.iter().any(|w| w.contains("gravity was measured")), told, "{:?}", quiet.warnings);
         let others = |d: &Diagnosis| d.ranked.iter().find(|r| r.effect == "creep").unwrap().gain;
@@ -139,9 +141,7 @@ fn of_two_tests_of_one_quantity_that_contradict_each_other_the_first_stands_and_
     let weighed = |weight: f64| About { measured: vec![of("gravity", "weight_n_per_m", weight, 0.1)], ..about(GAUGE) };
     let (first, other) = (weighed(1.0), weighed(2.0));
     for (second, told) in [(&other, true), (&first, false)] {
-        let further = [Measured { dataset: &more, about: Some(second) }];
-        let d =
-            diagnose_together(&plain, Measured { dataset: &data, about: Some(&first) }, &further, &quick()).unwrap();
+        let d = of_two(&plain, [(&data, Some(&first)), (&more, Some(second))]);
         assert_eq!(d.warnings.iter().any(|w| w.contains("something else of [measured.gravity]")), told);
     }
 }
@@ -158,16 +158,16 @@ fn a_measured_value_that_the_robot_cannot_have_is_refused_with_what_it_can() {
         (of("gravity", "weight_n_per_m", -0.6, 0.1), "-0.6 is outside its physical bounds 0 N/m and above"),
     ] {
         let about = About { measured: vec![m], ..about(Direct::default()) };
-        let refused = diagnose(&plain, &data, Some(&about), &quick()).unwrap_err().to_string();
+        let refused = of_one(&plain, &data, Some(&about), &quick()).unwrap_err().to_string();
         assert!(refused.contains("[measured]") && refused.contains(word), "{refused}");
     }
     let endless = of("gravity", "weight_n_per_m", f64::INFINITY, 0.1);
     let about_endless = About { measured: vec![endless], ..about(Direct::default()) };
-    assert!(diagnose(&plain, &data, Some(&about_endless), &quick()).is_err());
+    assert!(of_one(&plain, &data, Some(&about_endless), &quick()).is_err());
     // Noise may carry a value beyond its bound, and a test of the fabric tells of effects that pouches do not have.
     let noisy = vec![of("gravity", "weight_n_per_m", -0.15, 0.1), of("shear_stiffness", "shear_n_per_m", 0.0, 5.0)];
     let noisy = About { measured: noisy, ..about(Direct::default()) };
-    assert_eq!(diagnose(&plain, &data, Some(&noisy), &quick()).unwrap().verdict, Some(Verdict::None));
+    assert_eq!(of_one(&plain, &data, Some(&noisy), &quick()).unwrap().verdict, Some(Verdict::None));
 }
 
 /// Fits look for a weight up to 8 N/m; a scale may find more.
@@ -176,7 +176,7 @@ fn what_a_test_finds_beyond_where_fits_look_is_taken_as_it_is() {
     let plain = robot("spam").with_bending(6.0);
     let data = measured(&plain.with_effect("gravity", &[11.0]), 5, 388);
     let weighed = About { measured: vec![of("gravity", "weight_n_per_m", 11.0, 0.3)], ..about(Direct::default()) };
-    let d = diagnose(&plain, &data, Some(&weighed), &quick()).unwrap();
+    let d = of_one(&plain, &data, Some(&weighed), &quick()).unwrap();
     assert!(
         d.warnings.iter().any(|w| w.contains("weight_n_per_m = 11") && w.contains("0 to 8 N/m")),
         "{:?}",
@@ -187,7 +187,7 @@ fn what_a_test_finds_beyond_where_fits_look_is_taken_as_it_is() {
     assert!((weight.value - 11.0).abs() < 0.6 && !weight.at_bound, "{weight:?}");
     // A robot that has it, and whose scenario says so.
     let refit = Options { refit_present: true, ..quick() };
-    let d = diagnose(&plain.with_effect("gravity", &[11.0]), &data, Some(&weighed), &refit).unwrap();
+    let d = of_one(&plain.with_effect("gravity", &[11.0]), &data, Some(&weighed), &refit).unwrap();
     assert_eq!(d.verdict, Some(Verdict::None), "{:?}", d.summary);
 }
 
@@ -199,8 +199,7 @@ fn a_rolled_robot_parts_what_pulls_from_outside_from_what_it_carries() {
     let rolled = About { gravity_direction: Some([0.0, 1.0]), ..upright.clone() };
     let both = |scenario: &Scenario, made: [Scenario; 2]| {
         let [first, second] = [measured(&made[0], 5, 391), measured(&made[1], 5, 392)];
-        let further = [Measured { dataset: &second, about: Some(&rolled) }];
-        diagnose_together(scenario, Measured { dataset: &first, about: Some(&upright) }, &further, &quick()).unwrap()
+        of_two(scenario, [(&first, Some(&upright)), (&second, Some(&rolled))])
     };
     let pulled = |force: f64| plain.with_effect("tip_load", &[0.0, force]);
     let bent = plain.with_effect("initial_curvature", &[0.5]);
@@ -297,15 +296,14 @@ fn at_two_body_pressures(robot: &str) -> (Scenario, [Dataset; 2]) {
 #[test]
 fn two_body_pressures_name_the_gas_that_the_pouches_of_the_finite_elements_push_aside() {
     let (scenario, [low, high]) = at_two_body_pressures("spam");
-    let beside = [Measured { dataset: &high, about: None }];
-    let d = diagnose_together(&scenario, Measured { dataset: &low, about: None }, &beside, &quick()).unwrap();
+    let d = of_two(&scenario, [(&low, None), (&high, None)]);
     assert_eq!(d.verdict, Some(Verdict::OutOfCatalog));
     let names: Vec<&str> = d.attempt.iter().map(|a| a.effect.as_str()).collect();
     assert!(names.contains(&"displaced_gas"), "{names:?} {:?}", d.attempt_alike);
     let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
     assert!(after < 0.5 * before, "{before} to {after} mm");
     let is_tried = |about: Option<&About>| {
-        let d = diagnose(&scenario, &low, about, &quick()).unwrap();
+        let d = of_one(&scenario, &low, about, &quick()).unwrap();
         d.ranked.iter().any(|r| r.effect == "displaced_gas")
     };
     let volumes = About { measured: vec![of("displaced_gas", "share", 1.28, 0.1)], ..about(Direct::default()) };

@@ -1,6 +1,6 @@
 //! The demonstration: every actuator against the published displacements and against the embedded marker sets.
 
-use super::comparing::{Candidate, Study, study};
+use super::comparison::{Comparison, Contender, compare_all};
 use super::engines::{Engines, engines, stored};
 use super::measured::measured_things;
 use super::published::{PublishedLadder, model_ladder, published_ladders, shipped_scenario, textbook_scenario};
@@ -9,6 +9,8 @@ use crate::bench::Held;
 use crate::diagnosis::{Diagnosis, Options, diagnose};
 use crate::error::CompareError;
 use crate::evaluate::EvaluateOptions;
+use crate::evidence::Evidence;
+use crate::progress::{Progress, part};
 use crate::study::calibrate::Knob;
 use data::{About, Dataset};
 use models::Scenario;
@@ -21,7 +23,7 @@ pub struct Demo {
     /// Published displacements.
     pub ladders: Vec<PublishedLadder>,
     /// Embedded marker sets.
-    pub studies: Vec<Study>,
+    pub studies: Vec<Comparison>,
     /// Run time against error.
     pub timings: Vec<Timing>,
     /// What is missing in the calibrated bare model of one marker set, with the data.
@@ -46,40 +48,54 @@ pub struct Story {
 /// The marker set of the diagnosis; its generator had an effect that the shipped scenario has not.
 pub const HIDDEN_IN: [&str; 2] = ["epam", "synthetic-epam"];
 
-fn story() -> Result<Story, CompareError> {
+fn story(progress: &mut Progress) -> Result<Story, CompareError> {
     let scenario = textbook_scenario(HIDDEN_IN[0])?;
-    let (dataset, about) = data::load(HIDDEN_IN[1], &mut |_, _| {})?;
-    let diagnosis = diagnose(&scenario, &dataset, about.as_ref(), &Options::default())?;
+    let evidence = [Evidence::read(HIDDEN_IN[1])?];
+    let diagnosis = diagnose(&scenario, &evidence, &Options::default(), progress)?;
+    let [Evidence { dataset, about, .. }] = evidence;
     Ok(Story { diagnosis, scenario, dataset, about })
 }
 
-/// Computes the demonstration; `progress` is told what is being done.
+/// What has just been computed.
+pub enum Told<'a> {
+    /// Real things beside their models.
+    Measured(&'a [Held]),
+    /// Published displacements.
+    Published(&'a [PublishedLadder]),
+    /// Embedded marker sets.
+    Sets(&'a [Comparison]),
+    /// What is missing in the model of one of them.
+    Missing(&'a Diagnosis),
+}
+
+/// Computes the demonstration, and tells its story as it goes.
 ///
 /// # Errors
 /// Damaged embedded data or a model without equilibrium.
-pub fn demo(progress: &mut dyn FnMut(&str)) -> Result<Demo, CompareError> {
-    progress("measured things");
+pub fn demo(progress: &mut Progress, told: &mut dyn FnMut(Told)) -> Result<Demo, CompareError> {
+    progress("measured things", Some(0.0));
     let measured = measured_things()?;
-    progress("published displacements");
+    told(Told::Measured(&measured));
+    progress("published displacements", Some(0.3));
     let ladders = published_ladders()?;
+    told(Told::Published(&ladders));
     let mut studies = Vec::new();
     // What the finite elements made is the matter of the diagnosis and its bench; measured robots have models of their own.
     let made = |set: &&data::SetInfo| set.provenance == data::Provenance::Synthetic && !set.name.starts_with("fem-");
     for set in data::sets().iter().filter(|set| set.has_markers()).filter(made) {
-        progress(&set.name);
-        let (dataset, about) = data::load(&set.name, &mut |_, _| {})?;
-        let rungs = model_ladder(&dataset.actuator)?;
-        let candidates: Vec<Candidate> = rungs
-            .iter()
-            .map(|r| Candidate { label: &r.label, known: r.known, why: &r.why, scenario: &r.scenario })
-            .collect();
-        studies.push(study(&candidates, dataset, about, &EvaluateOptions::default(), Some(Knob::Bending))?);
+        progress(&set.name, Some(0.4));
+        let evidence = Evidence::read(&set.name)?;
+        let rungs = model_ladder(&evidence.dataset.actuator)?.into_iter();
+        let models: Vec<Contender> =
+            rungs.map(|r| Contender { label: r.label, known: r.known, why: r.why, scenario: r.scenario }).collect();
+        studies.push(compare_all(&models, &evidence, &EvaluateOptions::default(), Some(Knob::Bending))?);
     }
-    progress("what is missing");
-    let diagnosed = story()?;
-    progress("run times");
+    told(Told::Sets(&studies));
+    let diagnosed = story(&mut part(progress, [0.5, 0.8]))?;
+    told(Told::Missing(&diagnosed.diagnosis));
+    progress("run times", Some(0.8));
     let mut timings = tradeoff(&ladders)?;
-    progress("finite elements");
+    progress("finite elements", Some(0.9));
     let runs = stored()?;
     timings.extend(of_runs(&ladders, &runs));
     let scenarios = ladders.iter().map(|l| shipped_scenario(&l.published.kind)).collect::<Result<Vec<_>, _>>()?;

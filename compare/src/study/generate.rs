@@ -4,7 +4,7 @@
 //! recorded pressure is the set one, as a regulator reports it. Seeded: the same call gives the same bytes.
 
 use crate::error::CompareError;
-use data::{Dataset, Hold, Marker, Phase};
+use data::{About, Dataset, Direct, Geometry, Hold, Marker, MarkerStation, Phase, Provenance};
 use models::{Loads, Model, Prediction, Scenario, Step, Supply};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
@@ -253,5 +253,41 @@ impl Scatter {
                 return u * factor;
             }
         }
+    }
+}
+
+/// Description of generated data.
+pub fn about(scenario: &Scenario, dataset: &Dataset, g: &Generator) -> About {
+    let shape = &scenario.actuator.shape;
+    let stations = dataset.markers.iter().zip(&scenario.markers_m);
+    About {
+        title: format!("Synthetic markers of {}", scenario.name),
+        provenance: Provenance::Synthetic,
+        source: format!("ibr data generate, seed {}", g.seed),
+        licence: "CC0-1.0".into(),
+        actuator: Some(dataset.actuator.clone()),
+        geometry: Some(Geometry {
+            body_radius_m: scenario.radius_m,
+            body_length_m: scenario.length_m,
+            pouch_length_m: Some(shape.length_m),
+            pouch_width_m: Some(shape.width_m),
+            pouches: Some(scenario.actuator.count),
+            fold_m: (shape.fold_m > 0.0).then_some(shape.fold_m),
+            arm_m: scenario.actuator.arm_m,
+        }),
+        markers: stations.map(|(m, s)| MarkerStation { name: m.name.clone(), station_m: *s }).collect(),
+        gravity_direction: None,
+        direct: Direct::default(),
+        bending_nm2: None,
+        measured: Vec::new(),
+        runs: vec![],
+        notes: Some(format!(
+            "Not a measurement. Camera noise {} mm per coordinate; run to run: pressure {} %, alignment {} mm, rotation {} mrad. \
+             The recorded pressures are the set ones.",
+            g.camera_sd_m * 1e3,
+            g.pressure_sd * 100.0,
+            g.alignment_sd_m * 1e3,
+            g.rotation_sd * 1e3
+        )),
     }
 }

@@ -3,7 +3,7 @@
 
 pub mod breakdown;
 pub mod calibrate;
-pub mod comparing;
+pub mod comparison;
 pub mod demo;
 pub mod engines;
 pub mod generate;
@@ -19,7 +19,7 @@ pub mod uncertain;
 pub mod witness;
 
 pub use calibrate::{Calibration, Knob, calibrate};
-pub use comparing::{Candidate, Study, Variant, study};
+pub use comparison::{Comparison, Contender, Variant, compare, compare_all};
 pub use generate::{Generator, generate, parse_protocol};
 pub(crate) use predict::first_slope;
 pub use predict::{Predicted, fit_scenario, predict_dataset};

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::evaluate::EvaluateOptions;
+use crate::evidence::Evidence;
 use crate::study::published::{shipped_scenario, textbook_scenario};
 use data::{About, AboutRun, Dataset, Direct, Provenance};
 
@@ -141,8 +142,7 @@ fn sessions_of_the_description_reach_the_noise_model() {
     let labelled = |labels: [&str; 4]| {
         let mut about = about(&[[0.0; 2]; 4]);
         about.runs.iter_mut().zip(labels).for_each(|(run, label)| run.session = Some(label.into()));
-        let first = Candidate { label: "bare", known: crate::known::Known::Predicted, why: "", scenario: &scenario };
-        study(&[first], dataset.clone(), Some(about), &EvaluateOptions::default(), None)
+        compare(&scenario, &Evidence::of(dataset.clone(), Some(about)))
     };
     let two = labelled(["a", "b", "a", "b"]).unwrap();
     assert_eq!(two.variants[0].evaluation.noise.sessions, 2);
@@ -153,7 +153,7 @@ fn sessions_of_the_description_reach_the_noise_model() {
 fn nothing_to_compare_is_said_and_every_shipped_actuator_has_a_ladder() {
     let scenario = textbook_scenario("epam").unwrap();
     let dataset = generate(&scenario, "made", &quiet(2)).unwrap();
-    let none = study(&[], dataset, None, &EvaluateOptions::default(), Some(Knob::Bending));
+    let none = compare_all(&[], &Evidence::of(dataset, None), &EvaluateOptions::default(), Some(Knob::Bending));
     assert_eq!(none.unwrap_err(), crate::CompareError::NoModel);
     for (kind, _) in models::scenario::SHIPPED {
         assert!(!published::model_ladder(kind).unwrap().is_empty(), "{kind}");

@@ -74,8 +74,6 @@ fn truth(args: &ChallengeNew, draw: &mut Draw) -> Result<Truth, Failure> {
             v => return Err(Failure::usage(format!("--sigma {v} m is not from 0 to 100 mm"), "1mm is usual")),
         };
     }
-    truth.heavy_tails = args.heavy_tails;
-    truth.lost_markers = args.lost_markers;
     match args.effect.as_slice() {
         [] => truth.hide(kind(draw), draw)?,
         [one] if one == "random" => truth.hide(kind(draw), draw)?,

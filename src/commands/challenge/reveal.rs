@@ -24,8 +24,8 @@ pub fn run(folder: &Path, diagnosis: Option<&Path>, context: &mut Context) -> Re
     let mut text = format!("The seal {} is intact.\n{}", seal.sha256, told(truth));
     let mut scored = Value::Null;
     if let Some(path) = diagnosis {
-        let (_, _, data) = inputs::dataset(&folder.display().to_string(), context)?;
-        let answer = answer(path, folder, &data.sha256)?;
+        let data = inputs::evidence(&folder.display().to_string(), context)?;
+        let answer = answer(path, folder, &data.sha256()?)?;
         // Without a verdict there is nothing to be right or wrong.
         let score = answer.verdict.as_ref().map(|_| score(truth, &answer));
         text.push_str(&verdict(truth, &answer, score.as_ref()));

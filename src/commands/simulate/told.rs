@@ -1,7 +1,7 @@
 //! A run's summary in words, and what a user should know before believing it.
 
 use super::told_robot;
-use crate::commands::tables::table;
+use crate::tables::table;
 use fem::session::{ChamberEnd, Cost, MeshQuality, ProbeEnd, ReactionEnd, Rule, Summary};
 
 /// The physics of a run as text.

@@ -1,6 +1,6 @@
 //! A robot's run in words.
 
-use crate::commands::tables::table;
+use crate::tables::table;
 use fem::robot::{Reading, Snap};
 use fem::session::RobotSummary;
 

@@ -1,6 +1,6 @@
 //! Several runs in words.
 
-use crate::commands::tables::table;
+use crate::tables::table;
 use compare::study::uncertain::{Member, Uncertain, Weight};
 use fem::session::{Heights, RunRow, RunTable, SeedGroup};
 

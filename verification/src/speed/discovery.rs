@@ -4,7 +4,8 @@ use crate::{Answer, Error, Part};
 use challenge::bench::{Attainable, Bench, BenchOptions, Confusion, Row, Target, run as run_bench};
 use challenge::truth::{ROBOTS, standard_protocol};
 use challenge::{Draw, Truth};
-use compare::diagnosis::{Options, diagnose, diagnose_together};
+use compare::Evidence;
+use compare::diagnosis::{Options, diagnose};
 use cpu_time::ThreadTime;
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -23,7 +24,7 @@ const ENOUGH: f64 = 16.0;
 /// A robot without an equilibrium, or a diagnosis that cannot be made.
 pub fn measure(sets: usize, seed: u64, machine: &str) -> Result<Answer, Error> {
     let options = BenchOptions { seed, sets };
-    let bench = run_bench(&options, diagnose_together, &|_| ())?;
+    let bench = run_bench(&options, diagnose, &|_| ())?;
     let seconds = seconds(seed)?;
     let time = Row::number(
         "full diagnosis",
@@ -50,8 +51,9 @@ fn seconds(seed: u64) -> Result<f64, Error> {
         truth.add("friction", 1.0);
         truth.add("camera_scale", 1.0);
         let (told, data) = (truth.told()?, truth.dataset("time", &standard_protocol())?);
+        let evidence = [Evidence::of(data, None)];
         let start = ThreadTime::now();
-        diagnose(&told, &data, None, &Options::default())?;
+        diagnose(&told, &evidence, &Options::default(), &mut |_, _| ())?;
         times.push(start.elapsed().as_secs_f64());
     }
     times.sort_by(f64::total_cmp);

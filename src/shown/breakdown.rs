@@ -1,6 +1,6 @@
 //! Where the engines part, in words.
 
-use crate::commands::tables::table;
+use crate::tables::table;
 use compare::study::breakdown::Parting;
 use compare::study::engines::{Pair, SHAPE};
 

@@ -1,6 +1,6 @@
 //! The paper's finite elements in words.
 
-use crate::commands::tables::table;
+use crate::tables::table;
 use compare::study::paper::{Against, NEAR, PaperRun, Row, mesh_name};
 
 /// Heights, facts and numerics.

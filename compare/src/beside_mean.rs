@@ -9,7 +9,7 @@ use data::{Dataset, Phase};
 pub const ZERO_PRESSURE_PA: f64 = 100.0;
 
 /// A prediction f and the mean over runs ȳ of one dataset, with the noise of ȳ. Lengths in metres.
-pub struct Comparison<'a> {
+pub struct BesideMean<'a> {
     /// The measurements.
     pub dataset: &'a Dataset,
     /// The noise of their mean.
@@ -30,13 +30,13 @@ pub struct Comparison<'a> {
     pub d_max_m: f64,
 }
 
-impl<'a> Comparison<'a> {
+impl<'a> BesideMean<'a> {
     /// Pair a prediction in run layout with the data; an error if shapes differ or a value is not finite.
     pub fn new(
         dataset: &'a Dataset,
         noise: &'a NoiseModel,
         prediction_m: &[f64],
-    ) -> Result<Comparison<'a>, CompareError> {
+    ) -> Result<BesideMean<'a>, CompareError> {
         let layout = Layout::of(dataset)?;
         layout.check("the prediction", prediction_m)?;
         let mean = dataset.mean_over_runs();
@@ -44,7 +44,7 @@ impl<'a> Comparison<'a> {
         let seen = |hold: usize, marker: usize| dataset.is_seen(hold, marker);
         let cells = (0..layout.holds).flat_map(|h| (0..layout.markers).map(move |m| (h, m)));
         let heights = cells.filter(|&(h, m)| seen(h, m)).map(|(h, m)| data_means_m[(h * layout.markers + m) * 2 + 1]);
-        Ok(Comparison {
+        Ok(BesideMean {
             dataset,
             noise,
             layout,

@@ -1,6 +1,6 @@
 //! Bench tests held against a model, in words and for JSON.
 
-use crate::commands::tables::table;
+use crate::tables::table;
 use compare::bench::{Held, HeldRow};
 use serde_json::{Value, json};
 

@@ -1,12 +1,10 @@
 //! A scenario's text with effects added: what stands there stays, comments too. The new text is parsed and held against what
 //! it should mean before anyone sees it; what was added can be read back.
 
-use crate::failure::Failure;
+use crate::error::CompareError;
+use crate::scenario_file::ScenarioFile;
 use models::Scenario;
-use serde::Deserialize;
-use std::collections::BTreeMap;
-use std::ops::Range;
-use toml::Spanned;
+use toml_edit::{Decor, DocumentMut, Item, Table, Value, value};
 
 /// An effect as it is to be written.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,61 +55,45 @@ const ADDED: &str = "added by ibr";
 const WITHOUT: &str = "calibrated without it B = ";
 /// What comes before the hash of the data.
 const HASH: &str = "SHA-256 ";
+/// Key of the bending stiffness in `[body]`.
+const BENDING: &str = "bending_stiffness_nm2";
 
-#[derive(Deserialize)]
-struct Places {
-    body: Body,
-}
-
-#[derive(Deserialize)]
-struct Body {
-    radius_mm: Spanned<toml::Value>,
-    bending_stiffness_nm2: Option<Spanned<toml::Value>>,
-}
-
-#[derive(Deserialize)]
-struct Remarked {
-    #[serde(default)]
-    effects: BTreeMap<String, Spanned<toml::Table>>,
-}
-
-/// The text with B replaced and the effects appended, and the scenario it describes.
+/// The scenario with B replaced and the effects appended; it keeps its name.
+///
+/// # Errors
+/// A text in which this cannot be written without touching what stands there.
 pub fn extended(
-    text: &str,
-    scenario: &Scenario,
+    file: &ScenarioFile,
     bending: Option<&NewBending>,
     additions: &[Addition],
-) -> Result<(String, Scenario), Failure> {
-    let mut new = bending.map_or(Ok(text.to_string()), |b| with_bending(text, b))?;
-    for addition in additions {
-        let section = section(addition, new.ends_with('\n'));
-        new.push_str(&section);
+) -> Result<ScenarioFile, CompareError> {
+    let mut document: DocumentMut = file.text.parse().map_err(|e: toml_edit::TomlError| refused(e.message()))?;
+    if let Some(new) = bending {
+        set_bending(&mut document, new).ok_or_else(|| refused("it has no table [body]"))?;
     }
-    let parsed = Scenario::parse(&new).map_err(|e| refused(&e.to_string()))?;
-    if bare_of_words(&parsed) != bare_of_words(&meant(scenario, bending, additions)) {
+    for addition in additions {
+        add(&mut document, addition).ok_or_else(|| refused(&format!("it has {} already", addition.name)))?;
+    }
+    let text = document.to_string();
+    let scenario = Scenario::parse(&text).map_err(|e| refused(&e.to_string()))?;
+    if bare_of_words(&scenario) != bare_of_words(&meant(file, bending, additions)) {
         return Err(refused("it would not mean what it should"));
     }
-    Ok((new, parsed))
+    Ok(ScenarioFile { name: file.name.clone(), text, scenario })
 }
 
 /// The effects that were added to a scenario, in the order of its text.
 pub fn origins(text: &str) -> Vec<Origin> {
-    let Ok(remarked) = toml::from_str::<Remarked>(text) else { return Vec::new() };
-    let mut found: Vec<(usize, Origin)> = remarked
-        .effects
-        .into_iter()
-        .filter_map(|(effect, table)| {
-            let start = table.span().start;
-            let word = |key: &str| table.get_ref().get(key).and_then(|v| v.as_str()).unwrap_or_default().to_string();
-            let note = word("note");
-            let after = |text: &str, mark: &str| Some(text.split_once(mark)?.1.split_whitespace().next()?.to_string());
-            let bending_without_nm2 = after(&note, WITHOUT).and_then(|number| number.parse().ok());
-            let origin = Origin { effect, data_sha256: hashes(&word("data")), bending_without_nm2 };
-            note.starts_with(ADDED).then_some((start, origin))
-        })
-        .collect();
-    found.sort_by_key(|(start, _)| *start);
-    found.into_iter().map(|(_, origin)| origin).collect()
+    let document: DocumentMut = text.parse().unwrap_or_default();
+    let effects = document.get("effects").and_then(Item::as_table_like).map(|table| table.iter());
+    let origin = |(effect, item): (&str, &Item)| {
+        let word = |key: &str| item.get(key).and_then(Item::as_str).unwrap_or_default();
+        let note = word("note").strip_prefix(ADDED)?;
+        let bending = note.split_once(WITHOUT).and_then(|(_, rest)| rest.split_whitespace().next()?.parse().ok());
+        let data_sha256 = hashes(word("data"));
+        Some(Origin { effect: effect.into(), data_sha256, bending_without_nm2: bending })
+    };
+    effects.into_iter().flatten().filter_map(origin).collect()
 }
 
 /// Every SHA-256 in what is said of the data.
@@ -153,31 +135,42 @@ fn bare_of_words(scenario: &Scenario) -> Scenario {
     bare
 }
 
-fn refused(why: &str) -> Failure {
+fn refused(why: &str) -> CompareError {
     let message = format!("the scenario's text cannot be extended: {why}");
-    Failure::usage(message, "write effects as [effects.NAME] and the body as [body], or add the lines by hand")
+    CompareError::refused(message, "write effects as [effects.NAME] and the body as [body], or add the lines by hand")
 }
 
-fn section(a: &Addition, on_new_line: bool) -> String {
-    let mut out = if on_new_line { "\n".to_string() } else { "\n\n".to_string() };
-    a.remarks.iter().for_each(|line| out.push_str(&format!("# {}\n", one_line(line))));
-    out.push_str(&format!("[effects.{}]\n", a.name));
-    a.values.iter().for_each(|(key, value)| out.push_str(&format!("{key} = {}\n", rounded(*value))));
-    let mut word = |key: &str, text: &str| {
-        out.push_str(&format!("{key} = {}\n", toml::Value::String(one_line(text))));
-    };
-    word("basis", a.basis);
-    if !a.interval.is_empty() {
-        word("interval", &a.interval);
+/// A number as short as it can be written: `1`, not `1.0`.
+fn number(v: f64) -> Value {
+    rounded(v).to_string().parse().unwrap_or_else(|_| Value::from(v))
+}
+
+/// `None` if the effect is there already, or effects are no tables.
+fn add(document: &mut DocumentMut, a: &Addition) -> Option<()> {
+    let mut implicit = Table::new();
+    implicit.set_implicit(true);
+    let effects = document.entry("effects").or_insert(Item::Table(implicit)).as_table_mut()?;
+    if effects.contains_key(&a.name) {
+        return None;
     }
-    if !a.data.is_empty() {
-        let each: Vec<String> = a.data.iter().map(|[name, sha256]| format!("{name}, {HASH}{sha256}")).collect();
-        word("data", &each.join("; "));
+    let mut table = Table::new();
+    let remarks: String = a.remarks.iter().map(|line| format!("# {}\n", one_line(line))).collect();
+    *table.decor_mut() = Decor::new(format!("\n{remarks}"), "");
+    a.values.iter().for_each(|(key, v)| _ = table.insert(key, Item::Value(number(*v))));
+    let each: Vec<String> = a.data.iter().map(|[name, sha256]| format!("{name}, {HASH}{sha256}")).collect();
+    let without = a.bending_without_nm2.map(|b| format!("; {WITHOUT}{} N m²", rounded(b))).unwrap_or_default();
+    let words = [
+        ("basis", a.basis.to_string()),
+        ("interval", a.interval.clone()),
+        ("data", each.join("; ")),
+        ("date", a.date.clone()),
+        ("note", format!("{ADDED}{without}")),
+    ];
+    for (key, text) in words.iter().filter(|(_, text)| !text.is_empty()) {
+        table.insert(key, value(one_line(text)));
     }
-    word("date", &a.date);
-    let without = a.bending_without_nm2.map(|b| format!("; {WITHOUT}{} N m²", rounded(b)));
-    word("note", &format!("{ADDED}{}", without.unwrap_or_default()));
-    out
+    effects.insert(&a.name, Item::Table(table));
+    Some(())
 }
 
 /// A remark may quote a file name, which may hold anything.
@@ -185,36 +178,24 @@ fn one_line(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
-fn with_bending(text: &str, b: &NewBending) -> Result<String, Failure> {
-    let places: Places = toml::from_str(text).map_err(|e| refused(e.message()))?;
-    let value = rounded(b.value_nm2).to_string();
-    let remark = one_line(&b.remark);
-    let Some(old) = &places.body.bending_stiffness_nm2 else {
-        let end = rest_of_line(text, places.body.radius_mm.span().end).end;
-        return Ok(replaced(text, end..end, &format!("\nbending_stiffness_nm2 = {value}   # {remark}")));
-    };
-    let (at, before) = (old.span(), &text[old.span()]);
-    let rest = rest_of_line(text, at.end);
-    let behind = text[rest.clone()].trim();
-    Ok(match behind.strip_prefix('#').map(str::trim) {
-        Some(comment) => {
-            let line = format!("{value}   # {remark}; before: {before}, {comment}");
-            replaced(text, at.start..rest.end, &line)
-        }
-        None if behind.is_empty() => {
-            replaced(text, at.start..rest.end, &format!("{value}   # {remark}; before: {before}"))
-        }
-        None => replaced(text, at, &value),
-    })
-}
-
-fn rest_of_line(text: &str, from: usize) -> Range<usize> {
-    let end = text[from..].find(['\n', '\r']).map_or(text.len(), |i| from + i);
-    from..end
-}
-
-fn replaced(text: &str, at: Range<usize>, by: &str) -> String {
-    format!("{}{by}{}", &text[..at.start], &text[at.end..])
+/// `None` without a table `[body]`.
+fn set_bending(document: &mut DocumentMut, new: &NewBending) -> Option<()> {
+    let is_inline = document.get("body")?.is_inline_table();
+    let body = document.get_mut("body")?.as_table_like_mut()?;
+    let old = body.get(BENDING).and_then(Item::as_value);
+    let before = old.map_or(String::new(), |old| {
+        let behind = old.decor().suffix().and_then(|suffix| suffix.as_str()).unwrap_or_default();
+        let comment = behind.trim().trim_start_matches('#').trim();
+        let comma = if comment.is_empty() { "" } else { ", " };
+        format!("; before: {}{comma}{comment}", old.clone().decorated("", ""))
+    });
+    let remark = if is_inline { String::new() } else { format!("   # {}{before}", one_line(&new.remark)) };
+    let written = Item::Value(number(new.value_nm2).decorated(" ", remark));
+    match body.get_mut(BENDING) {
+        Some(place) => *place = written,
+        None => _ = body.insert(BENDING, written),
+    }
+    Some(())
 }
 
 #[cfg(test)]
@@ -237,11 +218,12 @@ mod tests {
     #[test]
     fn what_was_there_stays_and_what_is_added_is_read_back() {
         for (_, text) in models::scenario::SHIPPED {
-            let scenario = Scenario::parse(text).unwrap();
+            let file = ScenarioFile::parse("mine", text).unwrap();
             let bending = NewBending { value_nm2: 1.23456789, remark: "calibrated".into() };
-            let (new, parsed) = extended(text, &scenario, Some(&bending), &[friction()]).unwrap();
+            let ScenarioFile { text: new, scenario: parsed, .. } =
+                extended(&file, Some(&bending), &[friction()]).unwrap();
             assert_eq!(parsed.bending_stiffness, 1.23457);
-            assert_eq!(parsed.effects.len(), scenario.effects.len() + 1);
+            assert_eq!(parsed.effects.len(), file.effects.len() + 1);
             let kept = |line: &str| line.starts_with("bending_stiffness") || new.contains(line);
             assert!(text.lines().all(kept) && new.contains("# from here\n[effects.friction]"), "{new}");
             assert!(new.contains("calibrated; before: 0"), "{new}");
@@ -258,19 +240,18 @@ mod tests {
     fn a_stiffness_that_is_not_there_comes_after_the_radius() {
         let lines = models::shipped("spam").unwrap().lines().filter(|l| !l.starts_with("bending"));
         let text: String = lines.flat_map(|line| [line, "\r\n"]).collect();
-        let scenario = Scenario::parse(&text).unwrap();
+        let file = ScenarioFile::parse("mine", &text).unwrap();
         let bending = NewBending { value_nm2: 2.0, remark: "r".into() };
-        let (new, parsed) = extended(&text, &scenario, Some(&bending), &[]).unwrap();
+        let ScenarioFile { text: new, scenario: parsed, .. } = extended(&file, Some(&bending), &[]).unwrap();
         assert_eq!(parsed.bending_stiffness, 2.0);
         assert!(new.find("radius_mm") < new.find("bending_stiffness_nm2"));
     }
 
     #[test]
     fn a_text_that_cannot_be_extended_is_refused() {
-        let text = models::shipped("spam").unwrap();
-        let scenario = Scenario::parse(text).unwrap();
+        let file = ScenarioFile::parse("mine", models::shipped("spam").unwrap()).unwrap();
         let twice = Addition { name: "arm_growth".into(), values: vec![("beta".into(), 0.5)], ..friction() };
-        let refusal = extended(text, &scenario, None, &[twice]).unwrap_err().to_string();
+        let refusal = extended(&file, None, &[twice]).unwrap_err().to_string();
         assert!(refusal.contains("cannot be extended"), "{refusal}");
     }
 

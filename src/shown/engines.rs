@@ -1,7 +1,7 @@
 //! Both engines in words.
 
-use crate::commands::tables::table;
 use crate::failure::Failure;
+use crate::tables::table;
 use compare::study::engines::{
     EngineLine, Engines, HEADS, SUMMARY, TERMS, VOLUMES, VOLUMES_CAPTION, cells, summary, volume_cells,
 };

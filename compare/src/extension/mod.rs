@@ -1,0 +1,271 @@
+//! A scenario with one more effect: fitted on data, chosen by the diagnosis, or given.
+
+mod steps;
+mod text;
+
+pub use steps::ErrorStep;
+pub(crate) use steps::Ground;
+pub use text::{Addition, NewBending, Origin, extended, origins};
+
+use crate::diagnosis::words::{listed, named, three};
+use crate::diagnosis::{Added, Diagnosis, Options, ParameterValue, Ranked, diagnose};
+use crate::error::CompareError;
+use crate::evidence::Evidence;
+use crate::known::Known;
+use crate::progress::Progress;
+use crate::scenario_file::ScenarioFile;
+use crate::typed_effect::{Values, typed, values_of};
+use models::Scenario;
+use serde::Serialize;
+
+/// A new scenario, and what it brings.
+#[derive(Debug, Clone)]
+pub struct Extension {
+    /// The scenario with the effects; text and comments of the old one stay.
+    pub file: ScenarioFile,
+    /// Effects that were added.
+    pub additions: Vec<Addition>,
+    /// Their fitted values; none for those that were given.
+    pub fitted: Vec<FittedEffect>,
+    /// The new bending stiffness, if it was fitted.
+    pub bending: Option<NewBending>,
+    /// Errors on the way, the scenario as given first; none without data.
+    pub steps: Vec<ErrorStep>,
+    /// Noise of the mean \[mm\].
+    pub noise_floor_mm: Option<f64>,
+    /// What was done, in sentences.
+    pub told: Vec<String>,
+    /// Cautions.
+    pub warnings: Vec<String>,
+}
+
+/// An effect and its fitted values.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FittedEffect {
+    /// Name in scenarios.
+    pub effect: String,
+    /// Its values.
+    pub parameters: Vec<ParameterValue>,
+}
+
+/// The effect to add, as a user types it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Wish {
+    /// What the diagnosis adds.
+    Best,
+    /// The named effect, fitted on data.
+    Fitted(String),
+    /// The named effect with these values, in the units of the scenario.
+    Given(String, Values),
+}
+
+impl Wish {
+    /// Reads `best`, `NAME`, `NAME=VALUE` or `NAME:key=value,…`; without data a name alone has its typical values.
+    ///
+    /// # Errors
+    /// An effect that is not possible or is there already; `best` without data.
+    pub fn read(scenario: &Scenario, text: &str, has_data: bool) -> Result<Wish, CompareError> {
+        if text == "best" {
+            let needs = || CompareError::refused("`best` needs data to say what is best", "ibr add SCENARIO best DATA");
+            return has_data.then_some(Wish::Best).ok_or_else(needs);
+        }
+        Ok(match typed(scenario, text)? {
+            (name, Some(values)) => Wish::Given(name, values),
+            (name, None) if has_data => Wish::Fitted(name),
+            (name, None) => {
+                let values = values_of(scenario, &name);
+                Wish::Given(name, values)
+            }
+        })
+    }
+}
+
+/// The scenario with what its diagnosis adds.
+///
+/// # Errors
+/// A diagnosis that adds nothing; a text that cannot be extended.
+pub fn extend(file: &ScenarioFile, found: &Diagnosis) -> Result<Extension, CompareError> {
+    if found.added.is_empty() {
+        let message = format!("the diagnosis adds nothing: {}", found.summary.join(" "));
+        return Err(CompareError::refused(message, "to add an effect all the same name it instead of `best`"));
+    }
+    let ground = Ground::new(found, file);
+    let mut told: Vec<String> =
+        found.added.iter().map(|a| format!("Calibrated: {}, {}.", a.effect, listed(&a.parameters))).collect();
+    told.extend(rivals(found));
+    let fitted = |a: &Added| FittedEffect { effect: a.effect.clone(), parameters: a.parameters.clone() };
+    let fitted = found.added.iter().map(fitted).collect();
+    calibrated(file, &ground, fitted, ground.verdict_step(), told)
+}
+
+/// The scenario with an effect, fitted on data where it is not given.
+///
+/// # Errors
+/// As [`diagnose`]; an effect that these data reject; a text that cannot be extended.
+pub fn add(
+    file: &ScenarioFile,
+    wish: &Wish,
+    evidence: &[Evidence],
+    options: &Options,
+    progress: &mut Progress,
+) -> Result<Extension, CompareError> {
+    if let (Wish::Given(name, values), []) = (wish, evidence) {
+        return assumed(file, name, values);
+    }
+    let options = Options { pairs: *wish == Wish::Best, ..options.clone() };
+    let found = diagnose(file, evidence, &options, progress)?;
+    let mut extension = match wish {
+        Wish::Best => extend(file, &found),
+        Wish::Fitted(name) => fitted(file, &Ground::new(&found, file), name),
+        Wish::Given(name, values) => {
+            let with = with_values(file, name, values);
+            let after = diagnose(&with, evidence, &options, progress)?;
+            given(file, &Ground::new(&found, file), &Ground::new(&after, &with), (name, values))
+        }
+    }?;
+    extension.warnings.extend(evidence.first().and_then(too_few_runs));
+    Ok(extension)
+}
+
+/// An effect at a value that nobody fitted.
+fn assumed(file: &ScenarioFile, name: &str, values: &Values) -> Result<Extension, CompareError> {
+    let sentence = file.catalogue().by_name(name).map(|e| e.sentence.to_string());
+    let addition = Addition {
+        name: name.into(),
+        values: values.clone(),
+        basis: Known::Assumed.word(),
+        interval: String::new(),
+        data: Vec::new(),
+        date: today(),
+        bending_without_nm2: None,
+        remarks: sentence.into_iter().collect(),
+    };
+    let told = vec![format!("Assumed: {}. Nothing was fitted; name data to fit it.", with_values_told(&addition))];
+    let additions = vec![addition];
+    Ok(Extension {
+        file: extended(file, None, &additions)?,
+        additions,
+        fitted: Vec::new(),
+        bending: None,
+        steps: Vec::new(),
+        noise_floor_mm: None,
+        told,
+        warnings: Vec::new(),
+    })
+}
+
+fn fitted(file: &ScenarioFile, ground: &Ground, name: &str) -> Result<Extension, CompareError> {
+    let d = ground.d;
+    let r = ranked(d, name)?;
+    let mut told = vec![format!("Calibrated: {name}, {}. {}", listed(&r.parameters), r.sentence)];
+    match d.indistinguishable.first() {
+        Some(first) if !r.in_set => told.push(format!("These data prefer {first}: look at `ibr diagnose`.")),
+        _ => told.extend(rivals(d)),
+    }
+    let values = vec![FittedEffect { effect: name.into(), parameters: r.parameters.clone() }];
+    let mut extension = calibrated(file, ground, values, ground.ranked_step(r), told)?;
+    if let Some(p) = r.p_corrected.filter(|p| *p >= d.alpha) {
+        let chance = format!("{name} is not significant here (p = {p:.2} after correction): the fall may be chance");
+        extension.warnings.push(chance);
+    }
+    extension.warnings.extend(r.notes.iter().cloned());
+    Ok(extension)
+}
+
+/// Effects with fitted values.
+fn calibrated(
+    file: &ScenarioFile,
+    ground: &Ground,
+    fitted: Vec<FittedEffect>,
+    step: ErrorStep,
+    told: Vec<String>,
+) -> Result<Extension, CompareError> {
+    let additions = fitted.iter().map(|f| ground.calibrated(&f.effect, &f.parameters)).collect();
+    Ok(Extension { fitted, ..climbed(file, ground, additions, step, told)? })
+}
+
+/// Values of the user; only B is fitted.
+fn given(
+    file: &ScenarioFile,
+    before: &Ground,
+    after: &Ground,
+    (name, values): (&str, &Values),
+) -> Result<Extension, CompareError> {
+    let addition = before.addition(name, values.clone(), Known::Assumed);
+    let told = vec![format!("Assumed: {}; B was fitted with it.", with_values_told(&addition))];
+    climbed(file, before, vec![addition], after.base_step(&format!("+ {name}"), Known::Assumed), told)
+}
+
+/// The part that is the same for all ways to a value.
+fn climbed(
+    file: &ScenarioFile,
+    ground: &Ground,
+    additions: Vec<Addition>,
+    step: ErrorStep,
+    told: Vec<String>,
+) -> Result<Extension, CompareError> {
+    let bending = ground.new_bending(step.bending_nm2);
+    Ok(Extension {
+        file: extended(file, bending.as_ref(), &additions)?,
+        additions,
+        fitted: Vec::new(),
+        bending,
+        steps: ground.first_steps().into_iter().chain([step]).collect(),
+        noise_floor_mm: ground.d.base.noise_floor_mm,
+        told,
+        warnings: ground.warnings(),
+    })
+}
+
+fn with_values(scenario: &Scenario, name: &str, values: &Values) -> Scenario {
+    let catalogue = scenario.catalogue();
+    let value_of = |key: &str| values.iter().find(|(k, _)| k == key).map_or(0.0, |(_, v)| *v);
+    let si = catalogue.by_name(name).map(|e| e.parameters.iter().map(|p| value_of(p.key) * p.si).collect::<Vec<_>>());
+    si.map_or_else(|| scenario.clone(), |si| scenario.with_effect(name, &si))
+}
+
+fn with_values_told(a: &Addition) -> String {
+    let values: Vec<String> = a.values.iter().map(|(key, v)| format!("{key} = {}", three(*v))).collect();
+    format!("{}, {}", a.name, values.join(", "))
+}
+
+/// What these data cannot choose between.
+fn rivals(d: &Diagnosis) -> Option<String> {
+    let names = d.indistinguishable.join(", ");
+    let told = || format!("Equally good with these data: {names}. The data do not choose between them.");
+    (d.indistinguishable.len() > 1).then(told)
+}
+
+/// What to say of data without enough runs.
+fn too_few_runs(evidence: &Evidence) -> Option<String> {
+    let runs = evidence.dataset.runs.len();
+    (runs < 3).then(|| format!("{runs} runs: at least three are needed for p-values, so this is a ranking only"))
+}
+
+/// The effect as the diagnosis ranks it, or why it cannot be added.
+fn ranked<'a>(d: &'a Diagnosis, name: &str) -> Result<&'a Ranked, CompareError> {
+    let Some(r) = d.ranked.iter().find(|r| r.effect == name) else {
+        let message = format!("{name} is not a candidate on these data");
+        return Err(CompareError::refused(message, "`ibr diagnose` prints the candidates"));
+    };
+    let by_hand = format!("to add it all the same give its value, {name}=VALUE: it is then called assumed");
+    if r.at_bound {
+        let values: Vec<String> = r.parameters.iter().filter(|p| p.at_bound).map(named).collect();
+        let values = values.join(", ");
+        let message = format!("the best value of {name} on these data sits on a physical bound ({values}): rejected");
+        return Err(CompareError::refused(message, by_hand));
+    }
+    if r.gain < 1.0 {
+        let message = format!(
+            "these data do not ask for {name}: the error stays at {:.2} mm whatever its value",
+            r.systematic_after_mm
+        );
+        return Err(CompareError::refused(message, by_hand));
+    }
+    Ok(r)
+}
+
+/// Today's date, UTC.
+pub fn today() -> String {
+    time::OffsetDateTime::now_utc().date().to_string()
+}

@@ -1,0 +1,161 @@
+//! From a diagnosis to what is written into a scenario, and the error before and after.
+
+use super::text::{Addition, NewBending};
+use super::today;
+use crate::diagnosis::words::three;
+use crate::diagnosis::{Diagnosis, ParameterValue, Ranked};
+use crate::known::Known;
+use models::Scenario;
+use serde::Serialize;
+
+/// A model on the way from the scenario as given to the extended one.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ErrorStep {
+    /// In words.
+    pub model: String,
+    /// How its newest value is known.
+    pub how_known: &'static str,
+    /// Error beyond noise on the data of the fit \[mm\].
+    pub training_mm: f64,
+    /// The same at actuator pressures left out of the fit \[mm\].
+    pub heldout_pressure_mm: Option<f64>,
+    /// The same for runs left out of the fit \[mm\].
+    pub heldout_run_mm: Option<f64>,
+    /// B at the scenario's body pressure \[N·m²\].
+    pub bending_nm2: f64,
+}
+
+/// A diagnosis, as that of one scenario.
+pub(crate) struct Ground<'a> {
+    /// What was found.
+    pub d: &'a Diagnosis,
+    /// Which of the fitted stiffnesses is the scenario's.
+    level: usize,
+}
+
+impl<'a> Ground<'a> {
+    /// Of a diagnosis of this scenario.
+    pub fn new(d: &'a Diagnosis, scenario: &Scenario) -> Ground<'a> {
+        Ground { d, level: d.level(1e-3 * scenario.p_body_pa) }
+    }
+
+    /// Of one B per body pressure, that of the scenario; the scenario's own if it was kept.
+    fn bending(&self, values_nm2: &[f64]) -> f64 {
+        values_nm2.get(self.level).copied().unwrap_or(self.d.base.bending_nominal_nm2)
+    }
+
+    /// B of the calibrated base.
+    pub fn base_bending(&self) -> f64 {
+        let values: Vec<f64> = self.d.base.bending.iter().map(|b| b.value_nm2).collect();
+        self.bending(&values)
+    }
+
+    /// Whether B was fitted.
+    fn fits_bending(&self) -> bool {
+        !self.d.base.bending.is_empty()
+    }
+
+    /// An effect to be written.
+    pub fn addition(&self, name: &str, values: Vec<(String, f64)>, known: Known) -> Addition {
+        let ranked = self.d.ranked.iter().find(|r| r.effect == name);
+        Addition {
+            name: name.into(),
+            values,
+            basis: known.word(),
+            interval: String::new(),
+            data: self.d.evidence.iter().map(|used| [used.words(), used.sha256.clone()]).collect(),
+            date: today(),
+            bending_without_nm2: self.fits_bending().then(|| self.base_bending()),
+            remarks: ranked.map(|r| r.sentence.clone()).into_iter().collect(),
+        }
+    }
+
+    /// An effect whose values were fitted.
+    pub fn calibrated(&self, name: &str, values: &[ParameterValue]) -> Addition {
+        let interval = |p: &ParameterValue| match p.held {
+            true => Some(format!("{} held, not fitted", p.key)),
+            false => Some(format!("{} {} to {} (95 %)", p.key, three(p.lo?), three(p.hi?))),
+        };
+        let plain = values.iter().map(|p| (p.key.clone(), p.value)).collect();
+        Addition {
+            interval: values.iter().filter_map(interval).collect::<Vec<_>>().join(", "),
+            ..self.addition(name, plain, Known::Calibrated)
+        }
+    }
+
+    /// B with the effect, if it was fitted.
+    pub fn new_bending(&self, value_nm2: f64) -> Option<NewBending> {
+        let remark = format!("calibrated on {} ({})", self.d.dataset, today());
+        self.fits_bending().then_some(NewBending { value_nm2, remark })
+    }
+
+    /// The scenario as given and with B calibrated.
+    pub fn first_steps(&self) -> Vec<ErrorStep> {
+        let base = &self.d.base;
+        let given = ErrorStep {
+            model: "scenario as given".into(),
+            how_known: Known::Assumed.word(),
+            training_mm: base.systematic_nominal_mm,
+            heldout_pressure_mm: None,
+            heldout_run_mm: None,
+            bending_nm2: base.bending_nominal_nm2,
+        };
+        let calibrated = self.base_step("B calibrated", Known::Calibrated);
+        match self.fits_bending() {
+            true => vec![given, calibrated],
+            false => vec![ErrorStep { model: given.model, how_known: given.how_known, ..calibrated }],
+        }
+    }
+
+    /// The base of the diagnosis.
+    pub fn base_step(&self, model: &str, known: Known) -> ErrorStep {
+        ErrorStep {
+            model: model.into(),
+            how_known: known.word(),
+            training_mm: self.d.base.systematic_mm,
+            heldout_pressure_mm: self.d.base.heldout_mm,
+            heldout_run_mm: self.d.base.heldout_run_mm,
+            bending_nm2: self.base_bending(),
+        }
+    }
+
+    /// The base with one effect fitted.
+    pub fn ranked_step(&self, r: &Ranked) -> ErrorStep {
+        ErrorStep {
+            model: format!("+ {}", r.effect),
+            how_known: Known::Calibrated.word(),
+            training_mm: r.systematic_after_mm,
+            heldout_pressure_mm: r.heldout_mm,
+            heldout_run_mm: r.heldout_run_mm,
+            bending_nm2: self.bending(&r.bending_nm2),
+        }
+    }
+
+    /// The final model of the diagnosis.
+    pub fn verdict_step(&self) -> ErrorStep {
+        let base = &self.d.base;
+        let names: Vec<String> = self.d.added.iter().map(|a| format!("+ {}", a.effect)).collect();
+        ErrorStep {
+            model: names.join(" "),
+            how_known: Known::Calibrated.word(),
+            training_mm: base.systematic_with_added_mm,
+            heldout_pressure_mm: base.heldout_with_added_mm,
+            heldout_run_mm: base.heldout_run_with_added_mm,
+            bending_nm2: self.bending(&base.bending_with_added_nm2),
+        }
+    }
+
+    /// What a reader of the new scenario should know.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = self.d.warnings.clone();
+        if self.d.base.bending.len() > 1 {
+            let all: Vec<String> = self.d.base.bending.iter().map(|b| format!("{} kPa", b.p_body_kpa)).collect();
+            warnings.push(format!(
+                "the data have several body pressures ({}) with a fitted B each; a scenario has one B: that of {} kPa is written",
+                all.join(", "),
+                self.d.base.bending[self.level].p_body_kpa
+            ));
+        }
+        warnings
+    }
+}

@@ -1,0 +1,195 @@
+//! Models held against one evidence: how far off, and where.
+
+use crate::error::CompareError;
+use crate::evaluate::{EvaluateOptions, Evaluation, evaluate};
+use crate::evidence::Evidence;
+use crate::known::Known;
+use crate::slips::slips;
+use crate::study::calibrate::{Knob, calibrate};
+use crate::study::predict::{fit_scenario, predict_dataset};
+use crate::typed_effect::with_effect;
+use data::{About, Dataset};
+use models::Scenario;
+
+/// A model to hold against data.
+#[derive(Debug, Clone)]
+pub struct Contender {
+    /// In words.
+    pub label: String,
+    /// How its values are known.
+    pub known: Known,
+    /// Where they come from.
+    pub why: String,
+    /// The model.
+    pub scenario: Scenario,
+}
+
+impl Contender {
+    /// A scenario as it is.
+    pub fn as_given(scenario: &Scenario) -> Contender {
+        let own: Vec<&str> = scenario.effects.iter().map(|e| e.name.as_str()).collect();
+        let why = if own.is_empty() { "no effect".to_string() } else { format!("with {}", own.join(", ")) };
+        Contender { label: "scenario".into(), known: basis(scenario), why, scenario: scenario.clone() }
+    }
+
+    /// The same with one more effect, typed as `name` or `name:key=value,…`.
+    ///
+    /// # Errors
+    /// A name, key or value that is not possible.
+    pub fn with(&self, effect: &str) -> Result<Contender, CompareError> {
+        let (scenario, why) = with_effect(&self.scenario, effect)?;
+        Ok(Contender { label: format!("+ {effect}"), known: Known::Assumed, why: why.into(), scenario })
+    }
+}
+
+/// The weakest basis that the scenario states for its effects.
+fn basis(scenario: &Scenario) -> Known {
+    let is_known = |word: &str| matches!(word, "measured" | "predicted" | "published");
+    match () {
+        () if scenario.effects.iter().any(|e| e.basis == "calibrated") => Known::Calibrated,
+        () if scenario.effects.iter().any(|e| !is_known(&e.basis)) => Known::Assumed,
+        () if scenario.bending_stiffness > 0.0 => Known::Assumed,
+        () => Known::Predicted,
+    }
+}
+
+/// One model of a [`Comparison`].
+#[derive(Debug, Clone)]
+pub struct Variant {
+    /// In words.
+    pub label: String,
+    /// How its values are known.
+    pub known: Known,
+    /// Where they come from.
+    pub why: String,
+    /// The model, fitted to stations and loads of the data.
+    pub scenario: Scenario,
+    /// Accuracy, residual map, where it fails.
+    pub evaluation: Evaluation,
+}
+
+impl Variant {
+    /// Error beyond noise \[mm\]; the root-mean-square error where the noise is unknown.
+    pub fn error_mm(&self) -> f64 {
+        let all = &self.evaluation.metrics.overall;
+        all.systematic_mm.unwrap_or(all.rmse_mm)
+    }
+}
+
+/// The data, and one or more models on them.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// The data.
+    pub dataset: Dataset,
+    /// Their description.
+    pub about: Option<About>,
+    /// Models, the one given first.
+    pub variants: Vec<Variant>,
+    /// What does not match between scenario and data.
+    pub warnings: Vec<String>,
+}
+
+impl Comparison {
+    /// Error beyond noise of the model given first \[mm\].
+    pub fn error_mm(&self) -> f64 {
+        self.variants.first().map_or(f64::NAN, Variant::error_mm)
+    }
+}
+
+/// Holds a scenario against measurements.
+///
+/// # Errors
+/// What does not match, does not balance or cannot be evaluated.
+pub fn compare(scenario: &Scenario, evidence: &Evidence) -> Result<Comparison, CompareError> {
+    compare_all(&[Contender::as_given(scenario)], evidence, &EvaluateOptions::default(), None)
+}
+
+/// Holds models against measurements; with a knob, also the last one with that number fitted to these data.
+///
+/// # Errors
+/// As [`compare`]; no model at all.
+pub fn compare_all(
+    models: &[Contender],
+    evidence: &Evidence,
+    options: &EvaluateOptions,
+    knob: Option<Knob>,
+) -> Result<Comparison, CompareError> {
+    let Evidence { dataset, about, .. } = evidence;
+    let sessions = sessions(dataset, about.as_ref(), options);
+    let options = &EvaluateOptions { sessions, ..options.clone() };
+    let (mut variants, mut warnings) = (Vec::new(), Vec::new());
+    for model in models {
+        let (scenario, told) = fit_scenario(&model.scenario, dataset, about.as_ref())?;
+        if variants.is_empty() {
+            warnings.extend(slips(dataset, &scenario.markers_m, scenario.radius_m));
+            warnings.extend(told);
+        }
+        let evaluation = held(&scenario, dataset, options)?;
+        let Contender { label, known, why, .. } = model.clone();
+        variants.push(Variant { label, known, why, scenario, evaluation });
+    }
+    let last = variants.last().ok_or(CompareError::NoModel)?;
+    if let Some(knob) = knob {
+        variants.push(calibrated(&last.scenario, dataset, options, knob)?);
+    }
+    warnings.extend(strays(evidence));
+    Ok(Comparison { dataset: dataset.clone(), about: about.clone(), variants, warnings })
+}
+
+/// What to say of samples that are far from the other runs.
+fn strays(evidence: &Evidence) -> Option<String> {
+    let outliers = data::check(&evidence.dataset, evidence.about.as_ref()).outliers;
+    let o = outliers.iter().max_by(|a, b| a.robust_z.total_cmp(&b.robust_z))?;
+    Some(format!(
+        "{} samples are far from the other runs, first of all run {}, marker {} ({:+.1}, {:+.1} mm): \
+         look at `ibr data check {}`",
+        outliers.len(),
+        o.run,
+        o.marker,
+        o.dx_mm,
+        o.dy_mm,
+        evidence.name
+    ))
+}
+
+/// Session of every run: as given, else as `about.toml` labels them.
+fn sessions(dataset: &Dataset, about: Option<&About>, options: &EvaluateOptions) -> Vec<usize> {
+    let label = |run: &String| about?.runs.iter().find(|r| r.id == *run)?.session.clone();
+    let labels: Vec<Option<String>> = dataset.runs.iter().map(label).collect();
+    if !options.sessions.is_empty() || labels.iter().all(Option::is_none) {
+        return options.sessions.clone();
+    }
+    labels.iter().map(|l| labels.iter().position(|other| other == l).unwrap_or(0)).collect()
+}
+
+fn held(scenario: &Scenario, dataset: &Dataset, options: &EvaluateOptions) -> Result<Evaluation, CompareError> {
+    let predicted = predict_dataset(scenario, dataset)?;
+    evaluate(dataset, &predicted.xy_m, &predicted.d_ln_pressure_m, options)
+}
+
+fn calibrated(
+    scenario: &Scenario,
+    dataset: &Dataset,
+    options: &EvaluateOptions,
+    knob: Knob,
+) -> Result<Variant, CompareError> {
+    let fit = calibrate(scenario, dataset, options, knob)?;
+    let options = EvaluateOptions { fitted_parameters: options.fitted_parameters + 1, ..options.clone() };
+    let evaluation = held(&fit.scenario, dataset, &options)?;
+    let misses = if fit.misses { ", wide because the model misses by more than noise" } else { "" };
+    let interval = fit.interval.map_or(String::new(), |i| format!(", 95 % interval {:.3}–{:.3}{misses}", i[0], i[1]));
+    let (symbol, unit, what) = match knob {
+        Knob::Bending => ("bending B", "N m²", "a stiffness"),
+        Knob::BodyPressure => ("body pressure p_b", "kPa", "another body pressure"),
+    };
+    let short = symbol.rsplit(' ').next().unwrap_or(symbol);
+    let bound =
+        if fit.at_bound { format!("; at its bound: {what} does not explain these data") } else { String::new() };
+    Ok(Variant {
+        label: format!("+ {symbol} = {:.3} {unit}", fit.value),
+        known: Known::Calibrated,
+        why: format!("{short} fitted to these data{interval}{bound}"),
+        scenario: fit.scenario,
+        evaluation,
+    })
+}

@@ -1,0 +1,93 @@
+//! Effects as a user types them: `name`, `name=VALUE`, `name:key=value,…`.
+
+use crate::error::CompareError;
+use models::Scenario;
+
+/// Adds an effect typed as `name` (typical values) or `name:key=value,…`; says how its values are known.
+///
+/// # Errors
+/// A name, key or value that is not possible, with those that are.
+pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, &'static str), CompareError> {
+    let (name, values) = text.split_once(':').unwrap_or((text, ""));
+    let catalogue = scenario.catalogue();
+    let Some(effect) = catalogue.by_name(name) else {
+        let known: Vec<&str> = catalogue.effects().map(|e| e.name).collect();
+        return Err(CompareError::refused(format!("unknown effect `{name}`"), spelling::known(name, &known)));
+    };
+    let kind = scenario.actuator.kind;
+    if !scenario.actuator.takes(&effect) {
+        let message = format!("{name} does not exist for the actuator {}", kind.name);
+        return Err(CompareError::refused(message, "`ibr list effects` says what each effect is for"));
+    }
+    let mut chosen = if values.is_empty() { effect.typical_for(kind.name) } else { effect.neutral() };
+    for pair in values.split(',').filter(|pair| !pair.is_empty()) {
+        let (key, number) = pair.split_once('=').unwrap_or((pair, ""));
+        let keys: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
+        let help = format!(
+            "{}parameters of {name}: {}; for example {name}:{}={}",
+            if keys.contains(&key.trim()) { String::new() } else { spelling::meant(key, keys.iter().copied()) },
+            keys.join(", "),
+            effect.parameters[0].key,
+            effect.parameters[0].typical
+        );
+        let Some(index) = keys.iter().position(|own| *own == key.trim()) else {
+            return Err(CompareError::refused(format!("{name} has no parameter `{key}`"), help));
+        };
+        let p = &effect.parameters[index];
+        chosen[index] = p.si * number_of(p, key, number, help)?;
+    }
+    let origin = if values.is_empty() { "typical value of the catalogue" } else { "value given on the command line" };
+    Ok((scenario.with_effect(name, &chosen), origin))
+}
+
+/// A value within its usual bounds.
+fn number_of(p: &models::effects::Parameter, key: &str, text: &str, help: String) -> Result<f64, CompareError> {
+    match text.trim().parse::<f64>() {
+        Ok(v) if p.is_usual(v) => Ok(v),
+        Ok(v) if p.is_possible(v) => {
+            let message = format!("{key} = {v} is outside its usual bounds {}", p.usual_words());
+            let found = "one that was found on the robot goes into the scenario, with basis = \"measured\"";
+            Err(CompareError::refused(message, format!("{help}; {found}")))
+        }
+        Ok(v) => {
+            let message = format!("{key} = {v} is outside its physical bounds {}", p.possible_words());
+            Err(CompareError::refused(message, help))
+        }
+        Err(_) => Err(CompareError::refused(format!("{key} = `{text}` is not a number"), help)),
+    }
+}
+
+/// Keys and values of an effect, in the units of the scenario.
+pub type Values = Vec<(String, f64)>;
+
+/// Name of an effect that the scenario lacks, and its values if any were typed.
+///
+/// # Errors
+/// As [`with_effect`], and an effect that is there already.
+pub fn typed(scenario: &Scenario, text: &str) -> Result<(String, Option<Values>), CompareError> {
+    let place = text.find([':', '=']).unwrap_or(text.len());
+    let (name, rest) = text.split_at(place);
+    let catalogue = scenario.catalogue();
+    let text = match (rest.strip_prefix('='), catalogue.by_name(name)) {
+        (Some(value), Some(effect)) => {
+            let free = effect.parameters.iter().find(|p| p.typical != 0.0).unwrap_or(&effect.parameters[0]);
+            format!("{name}:{}={value}", free.key)
+        }
+        _ => text.to_string(),
+    };
+    let (with, _) = with_effect(scenario, &text)?;
+    if scenario.effects.iter().any(|e| e.name == name) {
+        let help = "change its value there, or fit it with `ibr diagnose --refit`";
+        return Err(CompareError::refused(format!("the scenario has {name} already"), help));
+    }
+    Ok((name.to_string(), (!rest.is_empty()).then(|| values_of(&with, name))))
+}
+
+/// The values that an effect has in a scenario; those of its typical size where it has none.
+pub fn values_of(scenario: &Scenario, name: &str) -> Values {
+    let catalogue = scenario.catalogue();
+    let Some(effect) = catalogue.by_name(name) else { return Vec::new() };
+    let own = scenario.effects.iter().find(|e| e.name == name).map(|e| e.values.clone());
+    let values = own.unwrap_or_else(|| effect.typical_for(scenario.actuator.kind.name));
+    effect.parameters.iter().zip(values).map(|(p, v)| (p.key.to_string(), v / p.si)).collect()
+}

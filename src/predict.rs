@@ -1,0 +1,56 @@
+//! Shapes of a robot at given pressures, and the pressure for a wanted tip.
+
+use compare::CompareError;
+use models::{CHANNELS, Loads, Model, Prediction, Scenario, Step, Target, TipSlope};
+
+/// Time for which each pressure of a model with history is held \[s\]: the hold of the usual protocol.
+pub const HOLD_S: f64 = 5.0;
+
+/// One predicted state.
+#[derive(Debug, Clone)]
+pub struct AtPressure {
+    /// Pressures of body and actuator.
+    pub loads: Loads,
+    /// Pose, tip and markers.
+    pub prediction: Prediction,
+    /// Change of the tip with the pressure of each channel.
+    pub slopes: [TipSlope; CHANNELS],
+}
+
+/// Predicts a scenario at pressures. With an effect that has history they are one path in this order, each held for [`HOLD_S`],
+/// from rest; the slopes are then those of the first loading.
+///
+/// # Errors
+/// A pressure that means nothing, or at which there is no equilibrium.
+pub fn predict(scenario: &Scenario, loads: &[Loads]) -> Result<Vec<AtPressure>, CompareError> {
+    let model = Model::new(scenario);
+    if !model.has_history() {
+        return loads.iter().map(|loads| at(&model, *loads)).collect();
+    }
+    let step = |(i, loads): (usize, &Loads)| Step { t_s: HOLD_S * (i + 1) as f64, loads: *loads };
+    let steps: Vec<Step> = loads.iter().enumerate().map(step).collect();
+    let mut predictions = Vec::new();
+    model.follow(&steps, &mut model.prediction(), &mut |_, at| predictions.push(at.clone()))?;
+    let state = |(loads, prediction): (&Loads, Prediction)| {
+        let slopes = model.jacobian(loads, &mut model.prediction())?;
+        Ok(AtPressure { loads: *loads, prediction, slopes })
+    };
+    loads.iter().zip(predictions).map(state).collect()
+}
+
+/// The state, at the scenario's body pressure, in which the tip is where it is wanted.
+///
+/// # Errors
+/// A place that the tip does not reach.
+pub fn predict_for(scenario: &Scenario, target: Target) -> Result<AtPressure, CompareError> {
+    let model = Model::new(scenario);
+    let pressure_pa = model.pressure_for(target, scenario.p_body_pa, &mut model.prediction())?;
+    at(&model, Loads::uniform(scenario.p_body_pa, pressure_pa))
+}
+
+fn at(model: &Model, loads: Loads) -> Result<AtPressure, CompareError> {
+    let mut prediction = model.prediction();
+    let slopes = model.jacobian(&loads, &mut prediction)?;
+    model.predict(&loads, &mut prediction)?;
+    Ok(AtPressure { loads, prediction, slopes })
+}

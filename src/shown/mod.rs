@@ -1,0 +1,15 @@
+//! Results as tables and sentences, and as JSON.
+
+pub mod bench_diagnosis;
+pub mod breakdown;
+pub mod check;
+pub mod comparison;
+pub mod demo;
+pub mod diagnosis;
+pub mod engines;
+pub mod extension;
+pub mod held;
+pub mod lists;
+pub mod one_number;
+pub mod paper;
+pub mod predicted;

@@ -1,0 +1,143 @@
+//! Predicted states.
+
+use crate::tables::table;
+use ibr::AtPressure;
+use models::{Beyond, Limit, Loads, Model, RowKind, Scenario};
+use serde_json::{Value, json};
+
+/// For readers.
+pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
+    let head = ["P [kPa]", "tip x [mm]", "tip y [mm]", "angle [deg]", "dy/dP [mm/kPa]"];
+    let rows = states.iter().map(|s| {
+        let tip = s.prediction.tip;
+        vec![
+            pressure_words(&s.loads),
+            format!("{:.2}", tip.x_m * 1e3),
+            format!("{:.2}", tip.y_m * 1e3),
+            format!("{:.3}", tip.angle_rad.to_degrees()),
+            slope_words(total_slope(s) * 1e6),
+        ]
+    });
+    let mut out =
+        format!("{} at body pressure {} kPa{}\n", scenario.name, scenario.p_body_pa / 1e3, wall_words(scenario));
+    out.push_str(&table(&head, 0, rows.collect()));
+    if !scenario.markers_m.is_empty() {
+        let mut head = vec!["marker at s [mm]".to_string()];
+        head.extend(states.iter().map(|s| format!("x, y [mm] at {} kPa", pressure_words(&s.loads))));
+        let rows = scenario.markers_m.iter().enumerate().map(|(i, s)| {
+            let place = |state: &AtPressure| {
+                format!("{:.2}, {:.2}", state.prediction.markers[i][0] * 1e3, state.prediction.markers[i][1] * 1e3)
+            };
+            std::iter::once(format!("{:.1}", s * 1e3)).chain(states.iter().map(place)).collect()
+        });
+        let head: Vec<&str> = head.iter().map(String::as_str).collect();
+        out.push_str(&table(&head, 0, rows.collect()));
+    }
+    out
+}
+
+/// A slope; none where a pouch is flat.
+fn slope_words(mm_per_kpa: f64) -> String {
+    if mm_per_kpa.is_nan() { "-".into() } else { format!("{mm_per_kpa:.3}") }
+}
+
+/// What the scenario says of the body's fabric.
+fn wall_words(scenario: &Scenario) -> String {
+    let wall = &scenario.wall;
+    let part = |name: &str, value: Option<f64>| value.map(|v| format!(", {name} {v:.0} N/m"));
+    let parts = [part("E t", wall.stiffness_n_per_m), part("G t", wall.shear_n_per_m)];
+    let parts: String = parts.into_iter().flatten().collect();
+    if parts.is_empty() { parts } else { format!("{parts} ({})", wall.basis) }
+}
+
+/// ∂y/∂P with all channels moved together \[m/Pa\].
+fn total_slope(state: &AtPressure) -> f64 {
+    state.slopes.iter().map(|s| s.y_per_pa).sum()
+}
+
+/// Pressures of the channels \[kPa\]; one number where they are equal.
+pub fn pressure_words(loads: &Loads) -> String {
+    let p = loads.actuator_pa;
+    if p.iter().all(|x| *x == p[0]) {
+        return format!("{:.3}", p[0] / 1e3);
+    }
+    p.map(|x| format!("{}", x / 1e3)).join("/")
+}
+
+/// One state of `ibr.predict`.
+pub fn state_json(model: &Model, scenario: &Scenario, s: &AtPressure) -> Value {
+    let tip = s.prediction.tip;
+    let seen = scenario.markers_m.iter().zip(&s.prediction.markers);
+    let markers: Vec<Value> =
+        seen.map(|(at, xy)| json!({"s_mm": at * 1e3, "x_mm": xy[0] * 1e3, "y_mm": xy[1] * 1e3})).collect();
+    let segments: Vec<Value> = model
+        .curvatures(&s.prediction)
+        .map(|(segment, _)| json!({"s_mm": segment.start_m * 1e3, "length_mm": segment.length_m * 1e3}))
+        .collect();
+    let curvature: Vec<f64> = model.curvatures(&s.prediction).map(|(_, kappa)| kappa).collect();
+    let ledger: Vec<Value> = model
+        .ledger(&s.loads, &s.prediction)
+        .iter()
+        .map(|line| json!({"term": line.name, "kind": kind(line.kind), "energy_mj": line.energy_j * 1e3}))
+        .collect();
+    let channels: Vec<f64> = s.loads.actuator_pa.iter().map(|p| p / 1e3).collect();
+    let slopes: Vec<Value> = s
+        .slopes
+        .iter()
+        .map(|j| {
+            let angle = j.angle_per_pa.to_degrees() * 1e3;
+            json!({"x_mm_per_kpa": j.x_per_pa * 1e6, "y_mm_per_kpa": j.y_per_pa * 1e6, "angle_deg_per_kpa": angle})
+        })
+        .collect();
+    let beyond: Vec<Value> = model.beyond(&s.loads, &s.prediction).iter().map(beyond_json).collect();
+    json!({
+        "p_act_kpa": channels[0], "p_act_channels_kpa": channels, "p_body_kpa": s.loads.body_pa / 1e3,
+        "markers": markers,
+        "tip": {"x_mm": tip.x_m * 1e3, "y_mm": tip.y_m * 1e3, "angle_deg": tip.angle_rad.to_degrees()},
+        "curvature_per_m": curvature, "segments": segments, "jacobian": slopes, "ledger": ledger, "beyond": beyond,
+    })
+}
+
+/// A stretch of a pose that the robot would not hold.
+fn beyond_json(beyond: &Beyond) -> Value {
+    let limit = match beyond.limit {
+        Limit::Collapse => "collapse",
+        Limit::Fold => "fold",
+    };
+    json!({
+        "limit": limit, "s_mm": beyond.start_m * 1e3, "length_mm": beyond.length_m * 1e3, "share": beyond.share,
+    })
+}
+
+fn kind(kind: RowKind) -> &'static str {
+    match kind {
+        RowKind::Stored => "stored",
+        RowKind::Dissipated => "lost",
+        RowKind::Supplied => "supplied",
+    }
+}
+
+/// A note for every stretch of a pose that the robot would not hold.
+pub fn beyond_words(model: &Model, state: &AtPressure) -> Vec<String> {
+    let words = |beyond: Beyond| {
+        let (from, to) = (beyond.start_m * 1e3, (beyond.start_m + beyond.length_m) * 1e3);
+        let what = match beyond.limit {
+            Limit::Collapse => "the loads carry {} times the moment at which the inflated body folds, π p_b R³",
+            Limit::Fold => "κR is {}: the body is bent about its own axis",
+        };
+        let what = what.replace("{}", &format!("{:.2}", beyond.share));
+        format!(
+            "warning: {} kPa, s = {from:.0} to {to:.0} mm: {what}; do not trust this pose",
+            pressure_words(&state.loads)
+        )
+    };
+    model.beyond(&state.loads, &state.prediction).into_iter().map(words).collect()
+}
+
+/// A note if a pressure exceeds what the scenario says its actuator stands.
+pub fn above_limit(scenario: &Scenario, states: &[AtPressure]) -> Option<String> {
+    let highest = states.iter().flat_map(|s| s.loads.actuator_pa).fold(0.0, f64::max);
+    let limit = scenario.p_max_pa;
+    (highest > limit)
+        .then(|| format!("warning: {} kPa is above max_pressure_kpa = {} of the scenario", highest / 1e3, limit / 1e3))
+}

@@ -1,0 +1,149 @@
+//! `docs/json.md` describes the JSON of every command: every key that comes out is described, every described key comes out.
+
+use crate::support::{Folder, repository};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Type of every key of an answer or a record; a key that ends with `?` may be missing.
+type Keys = BTreeMap<String, String>;
+
+/// Records that only come with data of a kind that these commands have not: two effects at once, a fault, lost nodes.
+const RARE: [&str; 15] = [
+    "AsClose",
+    "ChangedSides",
+    "Combination",
+    "FirstThrough",
+    "GaugeFit",
+    "KeptBending",
+    "LeftPattern",
+    "LoopGap",
+    "Outlier",
+    "OutlyingRun",
+    "Quality",
+    "RobotReading",
+    "RobotSummary",
+    "Snap",
+    "Stopped",
+];
+
+/// What runs, in this order in one folder, and the schema of its answer.
+const COMMANDS: [(&str, &str); 31] = [
+    ("predict epam-textbook --pressure 30kPa", "ibr.predict"),
+    ("predict epam --pressure 300kPa", "ibr.predict"),
+    ("predict epam --limits --effect tip_load:force_n=1", "ibr.predict.limits"),
+    ("simulate tube --end 1ms --out t", "ibr.simulate"),
+    ("compare epam-textbook synthetic-epam --calibrate", "ibr.compare"),
+    ("compare breukels-2011-beams", "ibr.compare.bench"),
+    ("compare epam --engines --stored", "ibr.engines"),
+    ("compare --paper", "ibr.paper"),
+    ("diagnose epam-textbook synthetic-epam --also synthetic-epam-two-bodies", "ibr.diagnose"),
+    ("diagnose festo-bolen-2026", "ibr.diagnose.bench"),
+    ("diagnose epam --published", "ibr.one_number"),
+    ("add epam-textbook best synthetic-epam --out extended.toml", "ibr.add"),
+    ("compare extended.toml synthetic-epam", "ibr.compare"),
+    ("validate extended.toml synthetic-epam-two-bodies", "ibr.validate"),
+    ("ladder epam-textbook synthetic-epam", "ibr.ladder"),
+    ("breakdown --stored", "ibr.breakdown"),
+    ("tradeoff", "ibr.tradeoff"),
+    ("data check synthetic-epam", "ibr.data.check"),
+    ("data check festo-bolen-2026", "ibr.data.check"),
+    ("data generate epam --out made", "ibr.data.generate"),
+    ("data fem epam --stored --seeds 1 --out seen", "ibr.data.fem"),
+    ("characterize --example tests", "ibr.characterize.example"),
+    ("characterize tests/warp.csv tests/fill.csv tests/bias.csv", "ibr.characterize"),
+    ("list", "ibr.list"),
+    ("new cpam", "ibr.new"),
+    ("new tube", "ibr.new"),
+    ("challenge new --seed 3 --out c", "ibr.challenge.new"),
+    ("challenge list", "ibr.challenge.list"),
+    ("challenge reveal c", "ibr.challenge.reveal"),
+    ("verify --only gradient", "ibr.verify"),
+    ("bench", "ibr.bench"),
+];
+
+/// Answers by schema, with their version, and records by name.
+fn described() -> BTreeMap<String, Keys> {
+    let text = std::fs::read_to_string(repository().join("docs/json.md")).unwrap();
+    let mut all: BTreeMap<String, Keys> = BTreeMap::new();
+    let mut name = String::new();
+    for line in text.lines() {
+        if let Some(heading) = line.strip_prefix("### ") {
+            name = heading.to_string();
+            all.insert(name.clone(), Keys::new());
+        }
+        let cells: Vec<&str> = line.split(" | ").map(|cell| cell.trim_matches(['|', ' '])).collect();
+        if let ([key, kind, ..], Some(keys)) = (&cells[..], all.get_mut(&name))
+            && line.starts_with("| ")
+            && *key != "key"
+        {
+            keys.insert((*key).to_string(), (*kind).to_string());
+        }
+    }
+    all
+}
+
+struct Checker {
+    all: BTreeMap<String, Keys>,
+    seen: BTreeSet<(String, String)>,
+}
+
+impl Checker {
+    fn object(&mut self, place: &str, name: &str, value: &Value, given: &[&str]) {
+        let keys = self.all.get(name).unwrap_or_else(|| panic!("{place}: docs/json.md has no {name}")).clone();
+        let object = value.as_object().unwrap_or_else(|| panic!("{place}: {value} is no {name}"));
+        for (key, kind) in &keys {
+            let plain = key.trim_end_matches('?');
+            match object.get(plain) {
+                Some(value) => {
+                    self.seen.insert((name.into(), key.clone()));
+                    self.value(&format!("{place}.{plain}"), kind, value);
+                }
+                None => assert!(key.ends_with('?'), "{place}: {name} lacks {plain}"),
+            }
+        }
+        let known = |key: &str| keys.keys().any(|k| k.trim_end_matches('?') == key) || given.contains(&key);
+        let unknown: Vec<&String> = object.keys().filter(|key| !known(key)).collect();
+        assert!(unknown.is_empty(), "{place}: docs/json.md does not describe {unknown:?} of {name}");
+    }
+
+    fn value(&mut self, place: &str, kind: &str, value: &Value) {
+        let is_right = match (kind.strip_suffix('?'), kind.strip_suffix("[]"), kind.strip_prefix("map of ")) {
+            (Some(_), _, _) if value.is_null() => true,
+            (Some(inner), _, _) => return self.value(place, inner, value),
+            (_, Some(inner), _) => {
+                let list = value.as_array().unwrap_or_else(|| panic!("{place}: {value} is no list"));
+                return list.iter().for_each(|item| self.value(&format!("{place}[]"), inner, item));
+            }
+            (_, _, Some(inner)) => {
+                let map = value.as_object().unwrap_or_else(|| panic!("{place}: {value} is no map"));
+                return map.values().for_each(|item| self.value(place, inner, item));
+            }
+            _ => match kind {
+                "number" => value.is_number(),
+                "text" => value.is_string(),
+                "bool" => value.is_boolean(),
+                record => return self.object(place, record, value, &[]),
+            },
+        };
+        assert!(is_right, "{place}: {value} is not {kind}");
+    }
+}
+
+#[test]
+fn every_key_is_described_and_every_described_key_comes_out() {
+    let folder = Folder::new();
+    let mut checker = Checker { all: described(), seen: BTreeSet::new() };
+    for (typed, schema) in COMMANDS {
+        let args: Vec<&str> = typed.split(' ').chain(["--json"]).collect();
+        let answer = folder.run(&args).json(schema);
+        let name = format!("{schema} {}", answer["version"]);
+        checker.object(typed, &name, &answer, &["schema", "version"]);
+    }
+    let silent = |(name, keys): (&String, &Keys)| -> Vec<String> {
+        let is_silent = |key: &&String| !key.ends_with('?') && !checker.seen.contains(&(name.clone(), (*key).clone()));
+        let keys = keys.keys().filter(is_silent);
+        if RARE.contains(&name.as_str()) { Vec::new() } else { keys.map(|key| format!("{name}.{key}")).collect() }
+    };
+    let silent: Vec<String> = checker.all.iter().flat_map(silent).collect();
+    assert!(silent.is_empty(), "described, and never seen: {silent:?}");
+}
