@@ -124,7 +124,9 @@ impl Failure {
 
     fn help(&self) -> Option<&str> {
         match self {
-            Failure::Usage { help, .. } | Failure::Read { help, .. } | Failure::Write { help, .. } => Some(help),
+            Failure::Usage { help, .. } | Failure::Read { help, .. } | Failure::Write { help, .. } => {
+                Some(help.as_str())
+            }
             Failure::Compare(error) => error.help(),
             Failure::Fem(error) => error.help(),
             Failure::Drawing(_) => None,
