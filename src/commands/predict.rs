@@ -100,6 +100,6 @@ fn drawing(model: &Model, scenario: &Scenario, states: &[AtPressure]) -> Result<
     };
     let drawn = shapes(&data).map_err(|e| Failure::usage(e.to_string(), "choose other pressures"))?;
     let mut files = Files::default();
-    files.plot("shapes", &drawn);
+    files.plot("shapes", drawn);
     Ok(files)
 }
