@@ -184,9 +184,8 @@ pub(super) fn ledger(robot: &EngineRobot) -> Result<Drawn, PageError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::engines_page::engines;
     use super::*;
-    use compare::study::engines::stored;
+    use compare::study::engines::{engines, stored};
     use compare::study::published::shipped_scenario;
 
     #[test]

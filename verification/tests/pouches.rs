@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use compare::study::engines::{FeRun, FeState, volumes};
+use compare::study::engines::{EngineRun, EngineState, volumes};
 use compare::study::published_ladders;
 use models::{Loads, Model, Pose, PouchShape, Scenario, shipped};
 use std::f64::consts::{LN_2, PI};
@@ -73,8 +73,8 @@ fn ideal_lenses_of_a_run_contract_as_much_as_the_closed_form_says() {
     let theta = 1.1;
     let lenses_cm3 = 6e6 * volume_m3(&Pouch { length_m: 0.06, width_m: 0.06 }, theta);
     let turn_rad = contraction(theta) * 0.36 / 0.08;
-    let bent = FeState { actuator_kpa: 10.0, turn_rad, actuator_cm3: lenses_cm3, ..FeState::default() };
-    let run = FeRun { states: vec![FeState::default(), bent], ..FeRun::default() };
+    let bent = EngineState { actuator_kpa: 10.0, turn_rad, actuator_cm3: lenses_cm3, ..EngineState::default() };
+    let run = EngineRun { states: vec![EngineState::default(), bent], ..EngineRun::default() };
     let share = volumes(&epam(), &run)[0].lens_share.unwrap();
     assert!((share - 1.0).abs() < 1e-12, "{share}");
 }
