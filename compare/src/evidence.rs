@@ -51,3 +51,24 @@ impl Evidence {
         Ok(sha256(&bytes))
     }
 }
+
+/// Measurements that were used, as they were read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Used {
+    /// Name of the dataset, and its runs.
+    pub words: String,
+    /// SHA-256 of the table, in hex.
+    pub sha256: String,
+}
+
+impl Used {
+    /// Of this evidence.
+    ///
+    /// # Errors
+    /// A table that cannot be written.
+    pub fn of(evidence: &Evidence) -> Result<Used, CompareError> {
+        let Evidence { dataset, .. } = evidence;
+        let words = format!("{}, {} runs", dataset.name, dataset.runs.len());
+        Ok(Used { words, sha256: evidence.sha256()? })
+    }
+}

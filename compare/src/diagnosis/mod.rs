@@ -80,7 +80,7 @@ pub use rungs::ErrorRung;
 
 use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
-use crate::evidence::Evidence;
+use crate::evidence::{Evidence, Used};
 use crate::noise_summary::NoiseSummary;
 use crate::progress::{Progress, part};
 use crate::residuals::{ResidualMap, residual_map};
@@ -130,7 +130,7 @@ pub fn diagnose(
     let outliers = Outliers { runs, ..parts[0].prepared.outliers.clone() };
     progress("left-out data", Some(DECIDED));
     let mut diagnosis = assemble(&case, &decision, outliers, warnings)?;
-    diagnosis.evidence = evidence.iter().map(used).collect::<Result<_, _>>()?;
+    diagnosis.evidence = evidence.iter().map(Used::of).collect::<Result<_, _>>()?;
     if first.about.as_ref().is_some_and(|a| a.gravity_direction.is_none()) {
         let words =
             "about.toml names no [gravity] direction: out of the question if the robot bends in a horizontal plane";
@@ -150,11 +150,6 @@ pub fn diagnose(
 const DECIDED: f64 = 0.5;
 /// And after which everything but the next experiment is done.
 const ASSEMBLED: f64 = 0.7;
-
-fn used(evidence: &Evidence) -> Result<Used, CompareError> {
-    let Evidence { dataset, .. } = evidence;
-    Ok(Used { dataset: dataset.name.clone(), runs: dataset.runs.len(), sha256: evidence.sha256()? })
-}
 
 /// Every dataset made ready, without copies, and cautions.
 fn parts(scenario: &Scenario, evidence: &[Evidence]) -> Result<(Vec<Part>, Vec<String>), CompareError> {

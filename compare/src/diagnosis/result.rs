@@ -2,6 +2,7 @@
 
 use super::fitted::{FittedBeside, GaugeFit};
 use super::proposed::NextExperiment;
+use crate::evidence::Used;
 use crate::noise_summary::NoiseSummary;
 use crate::residuals::ResidualMap;
 use crate::where_it_fails::Statement;
@@ -317,24 +318,6 @@ pub struct Undetectable {
     pub unit: String,
     /// The same as a multiple of the effect's typical size.
     pub times_typical: Option<f64>,
-}
-
-/// Data that were used, as they were read.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Used {
-    /// Name of the dataset.
-    pub dataset: String,
-    /// Its runs.
-    pub runs: usize,
-    /// SHA-256 of the table, in hex.
-    pub sha256: String,
-}
-
-impl Used {
-    /// Name and runs.
-    pub fn words(&self) -> String {
-        format!("{}, {} runs", self.dataset, self.runs)
-    }
 }
 
 /// Everything a diagnosis found.

@@ -63,7 +63,7 @@ impl<'a> Ground<'a> {
             values,
             basis: known.word(),
             interval: String::new(),
-            data: self.d.evidence.iter().map(|used| [used.words(), used.sha256.clone()]).collect(),
+            data: self.d.evidence.iter().map(|used| [used.words.clone(), used.sha256.clone()]).collect(),
             date: today(),
             bending_without_nm2: self.fits_bending().then(|| self.base_bending()),
             remarks: ranked.map(|r| r.sentence.clone()).into_iter().collect(),
