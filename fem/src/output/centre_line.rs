@@ -119,19 +119,14 @@ pub(crate) struct CentreLineFile {
 }
 
 impl CentreLineFile {
-    /// An empty file at `path`.
-    pub fn create(path: &Path, line: CentreLine) -> Result<CentreLineFile, FemError> {
-        Ok(CentreLineFile { line, table: Table::create(path)? })
-    }
-
-    /// Refuses a file that [`CentreLineFile::resume`] refuses, and touches nothing.
+    /// Refuses a file that [`CentreLineFile::open`] refuses, and touches nothing.
     pub fn check(path: &Path, line: &CentreLine, times_s: &[f64]) -> Result<(), FemError> {
         Table::check(path, times_s, line.stations_m.len())
     }
 
-    /// Goes on after the rows of `times_s` \[s\], which the checkpoint knows of; later ones are dropped.
-    pub fn resume(path: &Path, line: CentreLine, times_s: &[f64]) -> Result<CentreLineFile, FemError> {
-        let table = Table::resume(path, times_s, line.stations_m.len())?;
+    /// The file after the rows of `times_s` \[s\], which a checkpoint knows of; later ones are dropped.
+    pub fn open(path: &Path, line: CentreLine, times_s: &[f64]) -> Result<CentreLineFile, FemError> {
+        let table = Table::open(path, times_s, line.stations_m.len())?;
         Ok(CentreLineFile { line, table })
     }
 

@@ -126,11 +126,11 @@ fn the_file_holds_every_station_and_resumes_to_the_same_bytes() {
         let moved: Vec<_> = mesh.points.iter().map(|p| [p[0], p[1] + step as f64 / 3.0, p[2]]).collect();
         file.append(step, step as f64 * 0.1, &moved).unwrap();
     };
-    let mut file = CentreLineFile::create(&whole, line.clone()).unwrap();
+    let mut file = CentreLineFile::open(&whole, line.clone(), &[]).unwrap();
     (0..6).for_each(|step| add(&mut file, step));
-    let mut file = CentreLineFile::create(&cut, line.clone()).unwrap();
+    let mut file = CentreLineFile::open(&cut, line.clone(), &[]).unwrap();
     (0..4).for_each(|step| add(&mut file, step));
-    let mut file = CentreLineFile::resume(&cut, line, &[0, 1, 2].map(|step| step as f64 * 0.1)).unwrap();
+    let mut file = CentreLineFile::open(&cut, line, &[0, 1, 2].map(|step| step as f64 * 0.1)).unwrap();
     (2..6).for_each(|step| add(&mut file, step));
     let text = std::fs::read_to_string(&whole).unwrap();
     assert_eq!(text, std::fs::read_to_string(&cut).unwrap());

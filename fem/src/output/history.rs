@@ -73,19 +73,14 @@ struct Probe {
 }
 
 impl History {
-    /// An empty history at `path`, with the node sets of `mesh` named in `probes`.
-    pub fn create(path: &Path, mesh: &Mesh, probes: &[String]) -> Result<History, FemError> {
+    /// The history after the rows of `times_s` \[s\], which a checkpoint knows of, with the node sets of `mesh` named in `probes`;
+    /// later rows are dropped.
+    pub fn open(path: &Path, mesh: &Mesh, probes: &[String], times_s: &[f64]) -> Result<History, FemError> {
         let probes = find_probes(mesh, probes)?;
-        Ok(History { table: Table::create(path)?, probes })
+        Ok(History { table: Table::open(path, times_s, 1)?, probes })
     }
 
-    /// Goes on after the rows of `times_s` \[s\], which the checkpoint knows of; later ones are dropped.
-    pub fn resume(path: &Path, mesh: &Mesh, probes: &[String], times_s: &[f64]) -> Result<History, FemError> {
-        let probes = find_probes(mesh, probes)?;
-        Ok(History { table: Table::resume(path, times_s, 1)?, probes })
-    }
-
-    /// Refuses a file that [`History::resume`] refuses, and touches nothing.
+    /// Refuses a file that [`History::open`] refuses, and touches nothing.
     pub fn check(path: &Path, times_s: &[f64]) -> Result<(), FemError> {
         Table::check(path, times_s, 1)
     }

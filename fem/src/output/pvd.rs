@@ -15,17 +15,9 @@ pub struct Series {
 }
 
 impl Series {
-    /// A series without frames in `folder`, which is created. A series of an earlier run in it is replaced.
-    pub fn create(folder: &Path) -> Result<Series, FemError> {
-        let series = Series { folder: folder.to_path_buf(), times_s: Vec::new() };
-        make_folder(&folder.join("frames"))?;
-        series.write_list()?;
-        Ok(series)
-    }
-
-    /// Goes on with the series in `folder` after the frames of `times_s` \[s\]: the list is written anew, and later frames as the
+    /// The series in `folder`, which is created, after the frames of `times_s` \[s\]: the list is written anew, and later frames as the
     /// run reaches them.
-    pub fn resume(folder: &Path, times_s: &[f64]) -> Result<Series, FemError> {
+    pub fn open(folder: &Path, times_s: &[f64]) -> Result<Series, FemError> {
         let missing = (0..times_s.len()).map(|index| folder.join(file_name(index))).find(|path| !path.is_file());
         if let Some(path) = missing {
             return Err(FemError::Problem(format!(
@@ -90,11 +82,11 @@ mod tests {
     #[test]
     fn a_resumed_series_ends_with_the_same_files_as_an_uninterrupted_one() {
         let (whole, cut) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-        let mut series = Series::create(whole.path()).unwrap();
+        let mut series = Series::open(whole.path(), &[]).unwrap();
         TIMES.iter().for_each(|&t| drop(series.push(&mesh(), &frame(t)).unwrap()));
-        let mut series = Series::create(cut.path()).unwrap();
+        let mut series = Series::open(cut.path(), &[]).unwrap();
         TIMES[..3].iter().for_each(|&t| drop(series.push(&mesh(), &frame(t)).unwrap()));
-        let mut series = Series::resume(cut.path(), &TIMES[..2]).unwrap();
+        let mut series = Series::open(cut.path(), &TIMES[..2]).unwrap();
         assert_eq!(series.times_s, &TIMES[..2]);
         TIMES[1..].iter().for_each(|&t| drop(series.push(&mesh(), &frame(t)).unwrap()));
         assert_eq!(files(whole.path()), files(cut.path()));
@@ -104,7 +96,7 @@ mod tests {
     #[test]
     fn a_list_only_names_frames_that_are_there() {
         let folder = tempfile::tempdir().unwrap();
-        let mut series = Series::create(folder.path()).unwrap();
+        let mut series = Series::open(folder.path(), &[]).unwrap();
         series.push(&mesh(), &frame(0.0)).unwrap();
         let mut bad = frame(0.1);
         bad.positions[0][0] = f64::NAN;
@@ -117,15 +109,15 @@ mod tests {
     fn a_lost_list_is_made_again_and_a_lost_frame_is_named() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("run.pvd");
-        let mut series = Series::create(folder.path()).unwrap();
+        let mut series = Series::open(folder.path(), &[]).unwrap();
         TIMES.iter().for_each(|&t| drop(series.push(&mesh(), &frame(t)).unwrap()));
         let good = std::fs::read_to_string(&path).unwrap();
         std::fs::write(&path, &good[..good.len() - 9]).unwrap();
-        assert_eq!(Series::resume(folder.path(), &TIMES).unwrap(), series);
+        assert_eq!(Series::open(folder.path(), &TIMES).unwrap(), series);
         assert_eq!(std::fs::read_to_string(&path).unwrap(), good);
         std::fs::remove_file(folder.path().join(file_name(2))).unwrap();
-        let error = Series::resume(folder.path(), &TIMES).unwrap_err().to_string();
+        let error = Series::open(folder.path(), &TIMES).unwrap_err().to_string();
         assert!(error.contains("run_00002.vtu is missing") && error.contains("--force"), "{error}");
-        assert!(Series::resume(folder.path(), &TIMES[..2]).is_ok(), "a later one is written anew");
+        assert!(Series::open(folder.path(), &TIMES[..2]).is_ok(), "a later one is written anew");
     }
 }

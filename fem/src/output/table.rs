@@ -17,29 +17,23 @@ pub(super) struct Table {
 }
 
 impl Table {
-    /// An empty table; an earlier file is replaced.
-    pub fn create(path: &Path) -> Result<Table, FemError> {
-        replace(path, &mut |_| Ok(()))?;
-        Table::open(path, String::new(), None)
-    }
-
-    /// Goes on after the outputs at `times_s` \[s\], of so many rows each, which must be there: later rows, and a last line that a
-    /// kill cut short, are dropped. Without any output and without a file it starts one.
-    pub fn resume(path: &Path, times_s: &[f64], rows_each: usize) -> Result<Table, FemError> {
+    /// The table after the outputs at `times_s` \[s\], of so many rows each, which must be there: later rows, and a last line that a
+    /// kill cut short, are dropped. Without any output it is empty, whatever was there.
+    pub fn open(path: &Path, times_s: &[f64], rows_each: usize) -> Result<Table, FemError> {
         let text = content(path)?;
         let (header, last_step, kept) = kept(path, &text, times_s, rows_each)?;
         if kept.len() < text.len() || !path.exists() {
             replace(path, &mut |out| out.write_all(kept.as_bytes()))?;
         }
-        Table::open(path, header.to_string(), last_step)
+        Table::append_to(path, header.to_string(), last_step)
     }
 
-    /// Refuses what [`Table::resume`] refuses, and touches nothing.
+    /// Refuses what [`Table::open`] refuses, and touches nothing.
     pub fn check(path: &Path, times_s: &[f64], rows_each: usize) -> Result<(), FemError> {
         kept(path, &content(path)?, times_s, rows_each).map(|_| ())
     }
 
-    fn open(path: &Path, header: String, last_step: Option<u64>) -> Result<Table, FemError> {
+    fn append_to(path: &Path, header: String, last_step: Option<u64>) -> Result<Table, FemError> {
         let file = OpenOptions::new().append(true).open(path).map_err(|source| io(path, source))?;
         Ok(Table { path: path.to_path_buf(), file, header, last_step })
     }
@@ -177,7 +171,7 @@ mod tests {
             // What is on the disk has at least the rows up to the checkpoint; the last line may be half written.
             for step in (0..6).filter(|&step| whole(0..step + 1).len() <= length) {
                 std::fs::write(&path, &all[..length]).unwrap();
-                let mut table = Table::resume(&path, &times(step + 1), 2).unwrap();
+                let mut table = Table::open(&path, &times(step + 1), 2).unwrap();
                 assert_eq!(std::fs::read_to_string(&path).unwrap(), whole(0..step + 1));
                 (step..6).for_each(|step| table.append(step, HEADER, &rows(step)).unwrap());
                 table.sync().unwrap();
@@ -190,7 +184,7 @@ mod tests {
     fn a_step_back_and_other_columns_are_refused() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.csv");
-        let mut table = Table::create(&path).unwrap();
+        let mut table = Table::open(&path, &[], 2).unwrap();
         table.append(3, HEADER, &rows(3)).unwrap();
         assert!(table.append(2, HEADER, &rows(2)).unwrap_err().to_string().contains("step 2 comes after step 3"));
         assert!(table.append(4, "time_s,step,y", &rows(4)).unwrap_err().to_string().contains("columns were"));
@@ -203,7 +197,7 @@ mod tests {
         let path = folder.path().join("t.csv");
         for (text, line) in [("a,b\n1,2\n", 1), ("time_s,step\n0,1\n0,one\n", 3)] {
             std::fs::write(&path, text).unwrap();
-            let error = Table::resume(&path, &[0.0], 2).unwrap_err().to_string();
+            let error = Table::open(&path, &[0.0], 2).unwrap_err().to_string();
             assert!(error.contains(&format!("t.csv:{line}: ")), "{error}");
             assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
         }
@@ -217,12 +211,12 @@ mod tests {
         for line in 1..=8 {
             let fewer: String = all.split_inclusive('\n').enumerate().filter(|l| l.0 != line).map(|l| l.1).collect();
             std::fs::write(&path, &fewer).unwrap();
-            let error = Table::resume(&path, &times(4), 2).unwrap_err().to_string();
+            let error = Table::open(&path, &times(4), 2).unwrap_err().to_string();
             assert!(error.contains(&format!("the row of {} s", ((line - 1) / 2) as f64 * 0.1)), "{error}");
             assert_eq!(std::fs::read_to_string(&path).unwrap(), fewer);
         }
         std::fs::remove_file(&path).unwrap();
-        assert!(Table::resume(&path, &times(1), 2).unwrap_err().to_string().contains("the row of 0 s"));
-        assert!(!path.exists() && Table::resume(&path, &[], 2).is_ok() && path.exists());
+        assert!(Table::open(&path, &times(1), 2).unwrap_err().to_string().contains("the row of 0 s"));
+        assert!(!path.exists() && Table::open(&path, &[], 2).is_ok() && path.exists());
     }
 }

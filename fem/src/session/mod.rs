@@ -182,43 +182,39 @@ fn run(mut loaded: Loaded, settings: &Settings, progress: Progress) -> Result<Fe
     numerics.threads = settings.threads;
     loaded.case.outputs.frames &= settings.frames;
     let fresh = Simulation::new(&loaded.case.problem).map_err(|error| loaded.source.refused(error))?;
-    let Some(folder) = &settings.folder else { return in_memory(&mut loaded, fresh, settings, started, progress) };
-    let text = loaded.source.text.clone();
-    let place = match folder::open(&Wish { folder, text: &text, resume: settings.resume, force: settings.force })? {
-        Opened::Complete => return FeRun::read(folder),
-        Opened::Work(place) => place,
+    let place = match &settings.folder {
+        None => None,
+        Some(folder) => {
+            let (resume, force) = (settings.resume, settings.force);
+            match folder::open(&Wish { folder, text: &loaded.source.text, resume, force })? {
+                Opened::Complete => return FeRun::read(folder),
+                Opened::Work(place) => Some(place),
+            }
+        }
     };
-    let marker = same_run(&place, &loaded, settings)?;
-    loaded.case.problem.settings.end_s = marker.end_s;
-    loaded.case.outputs.frames = marker.frames;
+    begin(&mut loaded, place.as_ref(), settings)?;
     let robot = loaded.robot.as_ref().map(|robot| robot.watch(&loaded.case.problem));
-    let mut running = match &place.interrupted {
-        Some(_) => {
-            place.keep_case(&text)?;
-            Running::resume(&loaded.case, fresh, &place.folder, robot)?
-        }
-        None => {
-            place.start(&marker, &text)?;
-            Running::start(&loaded.case, fresh, Some(&place.folder), robot)?
-        }
+    let mut running = match &place {
+        Some(place) if place.interrupted.is_some() => Running::resume(&loaded.case, fresh, &place.folder, robot)?,
+        _ => Running::start(&loaded.case, fresh, place.as_ref().map(|place| place.folder.as_path()), robot)?,
     };
-    running.step_on(settings.checkpoint_every, progress).map_err(|error| stopped(error, &place))?;
-    finish(&loaded, running, Some(place), settings, started, progress)
+    running.step_on(settings.checkpoint_every, progress).map_err(|error| stopped(error, place.as_ref()))?;
+    finish(&loaded, running, place, settings, started, progress)
 }
 
-/// Holds are read as in a folder; energies are told at the start and at the end.
-fn in_memory(
-    loaded: &mut Loaded,
-    fresh: Simulation,
-    settings: &Settings,
-    started: Instant,
-    progress: Progress,
-) -> Result<FeRun, FemError> {
-    loaded.case.problem.settings.output_every_s = loaded.case.problem.settings.end_s;
-    let robot = loaded.robot.as_ref().map(|robot| robot.watch(&loaded.case.problem));
-    let mut running = Running::start(&loaded.case, fresh, None, robot)?;
-    running.step_on(settings.checkpoint_every, progress)?;
-    finish(loaded, running, None, settings, started, progress)
+/// Marks the folder as that of this run. In memory energies are told at the start and at the end only.
+fn begin(loaded: &mut Loaded, place: Option<&Workplace>, settings: &Settings) -> Result<(), FemError> {
+    let Some(place) = place else {
+        loaded.case.problem.settings.output_every_s = loaded.case.problem.settings.end_s;
+        return Ok(());
+    };
+    let marker = same_run(place, loaded, settings)?;
+    loaded.case.problem.settings.end_s = marker.end_s;
+    loaded.case.outputs.frames = marker.frames;
+    match place.interrupted {
+        Some(_) => place.keep_case(&loaded.source.text),
+        None => place.start(&marker, &loaded.source.text),
+    }
 }
 
 /// The run that was asked for, or the interrupted one if the settings agree with it.
@@ -241,10 +237,11 @@ fn same_run(place: &Workplace, loaded: &Loaded, settings: &Settings) -> Result<M
 }
 
 /// A run that was stopped keeps what it has written.
-fn stopped(error: FemError, place: &Workplace) -> FemError {
+fn stopped(error: FemError, place: Option<&Workplace>) -> FemError {
+    let Some(place) = place.filter(|_| error.is_stop()) else { return error };
     let folder = place.folder.display();
     let help = format!("what was written until then is in {folder}; change the case and run it again with --force");
-    if error.is_stop() { FemError::StoppedIn { error: Box::new(error), help } } else { error }
+    FemError::StoppedIn { error: Box::new(error), help }
 }
 
 /// Makes summary and pictures, writes them with the manifest, and puts the run where it belongs.

@@ -66,7 +66,7 @@ impl<'a> Running<'a> {
         folder: Option<&Path>,
         robot: Option<Watched>,
     ) -> Result<Running<'a>, FemError> {
-        let files = folder.map(|folder| Files::create(case, folder)).transpose()?;
+        let files = folder.map(|folder| Files::open(case, folder, &[])).transpose()?;
         let began = (0, thread_seconds());
         let (balances, notices) = (Vec::new(), Vec::new());
         Ok(Running { run, balances, cpu_before_s: 0.0, notices, began, robot, case, files, next: 0 })
@@ -98,7 +98,7 @@ impl<'a> Running<'a> {
         // Outputs of the same step are one row and one frame.
         let mut times_s: Vec<f64> = saved.balances.iter().map(|b| b.time_s).collect();
         times_s.dedup();
-        let files = Some(Files::resume(case, folder, &times_s)?);
+        let files = Some(Files::open(case, folder, &times_s)?);
         Ok(Running {
             began: (run.step(), thread_seconds()),
             run,
@@ -193,27 +193,16 @@ impl<'a> Running<'a> {
 }
 
 impl Files {
-    fn create(case: &Case, folder: &Path) -> Result<Files, FemError> {
-        let path = folder.join("centre_line.csv");
-        Ok(Files {
-            folder: folder.into(),
-            history: History::create(&folder.join("history.csv"), &case.problem.mesh, &case.outputs.probes)?,
-            series: case.outputs.frames.then(|| Series::create(folder)).transpose()?,
-            centre_line: centre_line(case)?.map(|line| CentreLineFile::create(&path, line)).transpose()?,
-            fingerprint: case.problem.fingerprint(),
-        })
-    }
-
-    /// Files of an interrupted run after its outputs at `times_s`; what is lost is told before anything is cut.
-    fn resume(case: &Case, folder: &Path, times_s: &[f64]) -> Result<Files, FemError> {
+    /// Files of a run after its outputs at `times_s`; what is lost is told before anything is cut.
+    fn open(case: &Case, folder: &Path, times_s: &[f64]) -> Result<Files, FemError> {
         let (history, path, line) = (folder.join("history.csv"), folder.join("centre_line.csv"), centre_line(case)?);
         History::check(&history, times_s)?;
         line.iter().try_for_each(|line| CentreLineFile::check(&path, line, times_s))?;
         Ok(Files {
             folder: folder.into(),
-            series: case.outputs.frames.then(|| Series::resume(folder, times_s)).transpose()?,
-            history: History::resume(&history, &case.problem.mesh, &case.outputs.probes, times_s)?,
-            centre_line: line.map(|line| CentreLineFile::resume(&path, line, times_s)).transpose()?,
+            series: case.outputs.frames.then(|| Series::open(folder, times_s)).transpose()?,
+            history: History::open(&history, &case.problem.mesh, &case.outputs.probes, times_s)?,
+            centre_line: line.map(|line| CentreLineFile::open(&path, line, times_s)).transpose()?,
             fingerprint: case.problem.fingerprint(),
         })
     }
