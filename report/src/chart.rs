@@ -27,9 +27,10 @@ pub struct Chart {
 }
 
 /// The two axes of a [`Chart`].
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub enum Space {
     /// Two axes of numbers.
+    #[default]
     Plane,
     /// Two lengths to the same scale.
     Equal,
@@ -39,12 +40,6 @@ pub enum Space {
     Rows(Vec<Row>),
     /// Rows and columns.
     Grid(Vec<Row>, Vec<Column>),
-}
-
-impl Default for Space {
-    fn default() -> Self {
-        Space::Plane
-    }
 }
 
 /// A row of bars or cells.

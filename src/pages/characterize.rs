@@ -144,3 +144,20 @@ fn upright(name: &str, x: f64, top: f64, colour: usize) -> LineSeries {
     let points = vec![[x, 0.0], [x, top]];
     LineSeries { name: name.into(), points, style: LineStyle::Dashed, colour: Some(colour), ..LineSeries::default() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use compare::characterize::{Settings, characterize, example::example};
+    use data::{CouponDefaults, parse_coupons};
+
+    #[test]
+    fn tests_in_three_directions_have_three_pictures() {
+        let read = |text: &str| {
+            parse_coupons("a.csv", &mut text.as_bytes(), 0, &CouponDefaults::default(), &mut |_, _| ()).unwrap()
+        };
+        let coupons: Vec<_> = example(1).iter().flat_map(|(_, text)| read(text)).collect();
+        let found = characterize(&coupons, &Settings::default()).unwrap();
+        assert!(pictures(&found).unwrap().iter().map(|p| p.0).eq(["tension", "bias", "shear"]));
+    }
+}

@@ -76,7 +76,7 @@ fn provenance(study: &Comparison) -> Vec<[String; 2]> {
         line("scenario", &first.scenario.name),
         line("data", &study.dataset.name),
         line("runs", &study.dataset.runs.len().to_string()),
-        line("pairing", &first.evaluation.metrics.pairing.to_string()),
+        line("pairing", first.evaluation.metrics.pairing),
     ];
     if let Some(about) = &study.about {
         lines.push(line("data are", &format!("{}: {}", about.provenance.word(), about.title)));

@@ -9,8 +9,9 @@ use report::chart::{Chart, Column, Mark, Place, Row, Space};
 use report::{Drawn, number};
 
 /// Panels of the map, and what their cells show.
-const DIRECTIONS: [(&str, fn(&ResidualCell) -> Deviation); 2] =
+const DIRECTIONS: [(&str, Shown); 2] =
     [("y, across the robot", |cell| cell.y), ("x, along the straight robot", |cell| cell.x)];
+type Shown = fn(&ResidualCell) -> Deviation;
 const MM: f64 = 1e3;
 /// Rows that a page can show one under the other.
 const MOST_MARKERS: usize = 24;
