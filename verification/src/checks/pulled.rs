@@ -47,7 +47,7 @@ impl Strip {
         let marks = [0.4, 0.6].map(|share| (share * self.elements[0] as f64).round());
         let apart = (marks[1] - marks[0]) * self.size_m[0] / self.elements[0] as f64;
         let strain = (self.mean_x(run, marks[1]) - self.mean_x(run, marks[0])) / apart - 1.0;
-        let force = pull_n(&run, "right");
+        let force = pull_n(run, "right");
         Ok(Reading { strain, stress_pa: force / (self.size_m[1] * self.fabric.thickness_m()) })
     }
 

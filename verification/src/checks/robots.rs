@@ -43,9 +43,9 @@ fn run() -> Found {
         let ledger = end.run.ledger();
         let of = |what: &str| format!("{name}: {what}");
         lines.extend([
-            Line::at_most(&of("kinetic share at the end"), ledger.kinetic_share(), 0.01),
-            Line::at_most(&of("energy residual over external work"), ledger.residual_share(), 1e-3),
-            Line::at_most(&of("hourglass share of stored energy"), ledger.hourglass_share(), 0.05),
+            Line::at_most(of("kinetic share at the end"), ledger.kinetic_share(), 0.01),
+            Line::at_most(of("energy residual over external work"), ledger.residual_share(), 1e-3),
+            Line::at_most(of("hourglass share of stored energy"), ledger.hourglass_share(), 0.05),
         ]);
         tips.push([k as f64 + 1.0, end.y_mm]);
     }
