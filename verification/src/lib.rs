@@ -10,6 +10,7 @@
 
 mod answer;
 pub mod checks;
+mod cost;
 pub mod exact;
 pub mod speed;
 

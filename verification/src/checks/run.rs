@@ -1,8 +1,8 @@
 //! All that `ibr verify` prints.
 
 use super::{Against, CHECKS, Check, Figure, Line, Outcome};
+use crate::cost::cpu_seconds;
 use crate::exact::{OracleRow, oracle_table};
-use crate::speed::cpu_seconds;
 use crate::{Answer, Error, Part, Progress};
 use serde_json::{Value, json};
 

@@ -1,9 +1,9 @@
 //! Speed of the finite element engine on this machine, beside what it must reach.
 
-use super::cpu_seconds;
 use super::plain_loop::Membrane;
 use super::workloads as speed;
 use crate::checks::Against;
+use crate::cost::{cpu_seconds, resident_bytes};
 use crate::{Answer, Error, Part, Progress};
 use fem::Simulation;
 use fem::robot::RobotSettings;
@@ -233,14 +233,6 @@ fn memory() -> Result<Figure, Error> {
     speed::advance_by(&mut run, 300)?;
     let grown = vec![(resident_bytes() - before) / run.elements() as f64];
     Ok(Figure::new("memory of a run", &run, "bytes per element", grown, Some(Against::AtMost(1000.0))))
-}
-
-/// Memory in use \[bytes\]; 0 where the system does not say.
-fn resident_bytes() -> f64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
-    let kilobytes = line.and_then(|rest| rest.split_whitespace().next()?.parse::<f64>().ok());
-    kilobytes.unwrap_or(0.0) * 1024.0
 }
 
 /// CPU-seconds of the whole pillow run to 0.15 s, preparation and ledger included.
