@@ -18,7 +18,7 @@ pub const MOST_LEFT: (f64, f64) = (0.5, 0.05);
 
 /// Differences below this do not decide.
 pub const SAME_EVIDENCE: f64 = 6.0;
-/// Share of the best gain that counts as [`SAME`].
+/// Share of the best gain that counts as [`SAME_EVIDENCE`].
 pub const FORM: f64 = 0.05;
 /// One standard deviation of the size, as a factor.
 pub const SIZE_FACTOR: f64 = 3.0;
