@@ -13,9 +13,7 @@
 //! Acts only where B > 0; divides the body into segments, as transverse loads do. **Validity**: linear; s is taken in the middle of
 //! a segment. Derived here.
 
-use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::assembly::Assembly;
-use crate::term::{Account, LedgerLine, Pose, Remembering, Term};
+use super::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "base_clamp",

@@ -10,8 +10,7 @@
 //!
 //! Validity: rotation about the base point. Geometry.
 
-use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::assembly::Assembly;
+use super::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "camera_rotation",

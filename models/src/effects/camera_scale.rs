@@ -10,8 +10,7 @@
 //!
 //! Validity: checkerboard not in the plane of the markers, or wrong square size. Geometry.
 
-use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::assembly::Assembly;
+use super::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "camera_scale",

@@ -23,9 +23,7 @@
 //! fabrics creep over several decades of time, of which a test sees the one it lasts. Reference: standard linear solid
 //! (Zener 1948); the form over a step is derived here.
 
-use super::{ABOVE_ZERO, Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::assembly::Assembly;
-use crate::term::{Account, LedgerLine, Memory, Pose, Remembering, Term};
+use super::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "creep",

@@ -22,11 +22,7 @@
 //! third of ε, is not taken off, nor is the bending of the sheets beside the weld added. Beam on a foundation: Hetényi 1946, §7; foundation derived
 //! here.
 
-use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
-use crate::actuators::Family;
-use crate::assembly::Assembly;
-use crate::site::Besides;
-use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
+use super::*;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {

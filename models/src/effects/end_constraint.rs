@@ -18,9 +18,8 @@
 //! assumption of this project. For pouches `sealed_sides` derives both from mechanics; the two together count it twice.
 //! Reference: A. Robin 2004 (paper bag problem), volume formula; the end factor is derived here.
 
-use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
+use super::*;
 use crate::actuators::{Actuator, ActuatorShape, Family};
-use crate::assembly::Assembly;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {

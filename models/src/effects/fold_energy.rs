@@ -19,12 +19,7 @@
 //! farther apart than √(D/T), a fraction of a millimetre at high pressures; stiff welds; 0 < θ < π. Elastica: Love 1927, §262, in
 //! `verification::exact::fold`; the sum derived here.
 
-use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
-use crate::actuators::Family;
-use crate::assembly::Assembly;
-use crate::section::Section;
-use crate::site::Besides;
-use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
+use super::*;
 use crate::trig::sin_cos;
 use std::f64::consts::PI;
 

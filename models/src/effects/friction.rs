@@ -18,9 +18,7 @@
 //! gradual onset. Reference: Coulomb's law with elastic slide (Prandtl); friction of the braid of McKibben muscles: Tondu
 //! & Lopez 2000.
 
-use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::assembly::Assembly;
-use crate::term::{Account, LedgerLine, Memory, Pose, Remembering, Term};
+use super::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "friction",

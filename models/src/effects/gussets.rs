@@ -24,13 +24,9 @@
 //! out. Derived here.
 
 use super::sealed_sides::SealedSides;
-use super::{Effect, Group, Needs, Parameter, SHARE, Stage};
-use crate::actuators::Family;
+use super::*;
 use crate::actuators::pouch::RANGE;
-use crate::assembly::Assembly;
 use crate::gusset::{GATHERED, Lens, Sloped, Sums, narrowed};
-use crate::site::Besides;
-use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {

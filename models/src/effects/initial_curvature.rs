@@ -11,9 +11,7 @@
 //!
 //! Acts only where B > 0. Validity: small κ₀. Derived here.
 
-use super::{ANY, Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::assembly::Assembly;
-use crate::term::{Account, LedgerLine, Pose, Remembering, Term};
+use super::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "initial_curvature",

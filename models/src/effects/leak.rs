@@ -12,8 +12,7 @@
 //! loss is steady: use `pressure_loss`. Supply stage. Reference: discharge of a volume through a laminar leak; for small
 //! r t it is 1 − r t.
 
-use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::assembly::Assembly;
+use super::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "leak",

@@ -11,8 +11,7 @@
 //!
 //! y is taken relative to the straight robot, where every marker reads 0. Validity: same e for all markers. Geometry.
 
-use super::{ANY, Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::assembly::Assembly;
+use super::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "marker_height",

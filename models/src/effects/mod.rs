@@ -42,9 +42,12 @@ mod weld_width;
 mod wrinkling;
 mod yarn_stretch;
 
-use crate::actuators::Family;
+// Effects see these through `use super::*`.
+use crate::actuators::{ActuatorShape, Family};
 use crate::assembly::Assembly;
-use crate::term::{Account, LedgerLine};
+use crate::section::Section;
+use crate::site::{Besides, Site};
+use crate::term::{Account, LedgerLine, Memory, Pose, Remembering, Term, actuator_q};
 
 /// The list, in the order in which effects are added to a model.
 pub const EFFECTS: &[Effect] = &[

@@ -17,8 +17,7 @@
 //! the pouches. **Validity**: o g² below about 1; the body's own pressure moment stays that of the round section. Reference:
 //! Brazier 1927 for the squared curvature; this form is derived here.
 
-use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::assembly::Assembly;
+use super::*;
 use crate::site::SectionLaw;
 
 pub(super) const ENTRY: Effect = Effect {

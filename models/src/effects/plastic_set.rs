@@ -15,9 +15,7 @@
 //! `−½Bsκ² − ½Bs(1 − s)m²` beyond, where the largest bend goes along. Acts only where B > 0. **Validity**: creases and
 //! yarns that stay bent; no recovery with time. Reference: linear plastic hardening without threshold; derived here.
 
-use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::assembly::Assembly;
-use crate::term::{Account, LedgerLine, Memory, Pose, Remembering, Term};
+use super::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "plastic_set",

@@ -11,8 +11,7 @@
 //!
 //! Validity: constant over the range of pressures. Supply stage: acts before the balance. Definition.
 
-use super::{ANY, Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::assembly::Assembly;
+use super::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "pressure_offset",

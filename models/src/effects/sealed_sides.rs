@@ -24,13 +24,8 @@
 //! Below P = p_b (χ + (π − 2) A'/2W), A' = R' cosα, the body's gas at the sides keeps the pouch flat.
 //! **Validity**: inextensible fabric; a ≤ W/π, so W ≥ ⅔L. Derived here; `verification::exact::pouch::sealed_volume_m3` is its volume.
 
-use super::{Effect, Group, Needs, Parameter, SHARE, Stage};
-use crate::actuators::Family;
-use crate::assembly::Assembly;
+use super::*;
 use crate::gusset::NARROWED;
-use crate::section::Section;
-use crate::site::{Besides, Site};
-use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
 use crate::trig::sin_cos;
 use std::f64::consts::PI;
 

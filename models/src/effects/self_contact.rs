@@ -20,10 +20,7 @@
 //!
 //! Validity: pouches or folds side by side; for pouches φ = π is derived here, another value is to be seen on the robot or fitted.
 
-use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::actuators::Family;
-use crate::assembly::Assembly;
-use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
+use super::*;
 use std::f64::consts::PI;
 
 pub(super) const ENTRY: Effect = Effect {

@@ -15,10 +15,7 @@
 //! **Validity**: sudden locking with a large K; yarns that are pressed together little by little have a smaller one. Bias-extension tests lock near 45° for a plain weave, far beyond the muscle's stroke; a coating or
 //! a tight weave locks earlier. Reference: trellis kinematics, Cao et al. 2008; the penalty is an assumption.
 
-use super::{ABOVE_ZERO, Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::actuators::{ActuatorShape, Family};
-use crate::assembly::Assembly;
-use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
+use super::*;
 use std::f64::consts::FRAC_PI_2;
 
 pub(super) const ENTRY: Effect = Effect {

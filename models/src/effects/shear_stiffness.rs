@@ -13,10 +13,7 @@
 //! Makes the free stroke rise with pressure, which no ideal McKibben law does. Validity: linear in γ, below locking
 //! (about 35–45°). Derived here; modulus relation of an orthotropic sheet at 45° with ν₁₂ ≈ 0.
 
-use super::{Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::actuators::{ActuatorShape, Family};
-use crate::assembly::Assembly;
-use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
+use super::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "shear_stiffness",

@@ -11,10 +11,8 @@
 //!
 //! Validity: tension constant along the robot. Derived here.
 
-use super::{ANY, Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::assembly::Assembly;
+use super::*;
 use crate::body::soft_step;
-use crate::term::{Account, LedgerLine, Pose, Remembering, Term};
 
 pub(super) const ENTRY: Effect = Effect {
     name: "tail_tension",

@@ -13,8 +13,7 @@
 //! Acts only where B > 0; divides the body into segments, as transverse loads do. **Validity**: linear. Derived here.
 
 use super::base_clamp::{REACH, clamp, share};
-use super::{Effect, Group, Needs, Stage};
-use crate::assembly::Assembly;
+use super::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "tip_clamp",

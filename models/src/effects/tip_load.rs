@@ -10,9 +10,7 @@
 //!
 //! Validity: dead load at the end of the centre line. Statics.
 
-use super::{ANY, Effect, Group, Needs, PLAIN, Parameter, Stage};
-use crate::assembly::Assembly;
-use crate::term::{Account, LedgerLine, Pose, Term};
+use super::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "tip_load",

@@ -11,9 +11,7 @@
 //!
 //! **Validity**: welds that keep their length, b < L₀. Derived here.
 
-use super::{Effect, Fitted, Group, Needs, PLAIN, Parameter, Stage};
-use crate::actuators::Family;
-use crate::assembly::Assembly;
+use super::*;
 
 pub(super) const ENTRY: Effect = Effect {
     name: "weld_width",
