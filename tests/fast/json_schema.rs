@@ -7,35 +7,35 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Type of every key of an answer or a record; a key that ends with `?` may be missing.
 type Keys = BTreeMap<String, String>;
 
-/// Records that only come with data of a kind that these commands have not: two effects at once, a fault, lost nodes.
-const RARE: [&str; 15] = [
+/// Records that only come with data of a kind that these commands have not: two effects at once, a fault, a robot's run, lost nodes.
+const RARE: [&str; 14] = [
     "AsClose",
     "ChangedSides",
     "Combination",
     "FirstThrough",
-    "GaugeFit",
+    "Inflated",
     "KeptBending",
     "LeftPattern",
     "LoopGap",
     "Outlier",
     "OutlyingRun",
     "Quality",
-    "RobotReading",
+    "Reading",
     "RobotSummary",
     "Snap",
-    "Stopped",
 ];
 
 /// What runs, in this order in one folder, and the schema of its answer.
-const COMMANDS: [(&str, &str); 31] = [
+const COMMANDS: [(&str, &str); 34] = [
     ("predict epam-textbook --pressure 30kPa", "ibr.predict"),
     ("predict epam --pressure 300kPa", "ibr.predict"),
-    ("predict epam --limits --effect tip_load:force_n=1", "ibr.predict.limits"),
+    ("predict epam --limits --effect tip_load:force_y_n=1", "ibr.predict.limits"),
     ("simulate tube --end 1ms --out t", "ibr.simulate"),
     ("compare epam-textbook synthetic-epam --calibrate", "ibr.compare"),
     ("compare breukels-2011-beams", "ibr.compare.bench"),
     ("compare epam --engines --stored", "ibr.engines"),
     ("compare --paper", "ibr.paper"),
+    ("compare epam-textbook synthetic-epam-two-bodies", "ibr.compare"),
     ("diagnose epam-textbook synthetic-epam --also synthetic-epam-two-bodies", "ibr.diagnose"),
     ("diagnose festo-bolen-2026", "ibr.diagnose.bench"),
     ("diagnose epam --published", "ibr.one_number"),
@@ -57,7 +57,9 @@ const COMMANDS: [(&str, &str); 31] = [
     ("challenge new --seed 3 --out c", "ibr.challenge.new"),
     ("challenge list", "ibr.challenge.list"),
     ("challenge reveal c", "ibr.challenge.reveal"),
-    ("verify --only gradient", "ibr.verify"),
+    ("diagnose c/scenario.toml c --out d", "ibr.diagnose"),
+    ("challenge reveal c --diagnosis d/diagnosis.json", "ibr.challenge.reveal"),
+    ("verify", "ibr.verify"),
     ("bench", "ibr.bench"),
 ];
 
@@ -74,7 +76,7 @@ fn described() -> BTreeMap<String, Keys> {
         let cells: Vec<&str> = line.split(" | ").map(|cell| cell.trim_matches(['|', ' '])).collect();
         if let ([key, kind, ..], Some(keys)) = (&cells[..], all.get_mut(&name))
             && line.starts_with("| ")
-            && *key != "key"
+            && *kind != "type"
         {
             keys.insert((*key).to_string(), (*kind).to_string());
         }
