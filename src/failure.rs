@@ -7,8 +7,8 @@ use fem::FemError;
 use fem::error::Refusal;
 use ibr::pages::PageError;
 use miette::{
-    GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, MietteError, MietteSpanContents, Report,
-    SourceCode, SourceSpan, SpanContents,
+    GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, MietteError, MietteSpanContents,
+    NamedSource, Report, SourceCode, SourceSpan, SpanContents,
 };
 use models::Unsolved;
 
@@ -142,9 +142,13 @@ impl Failure {
         };
         match self {
             Failure::Fem(FemError::Refused(refused)) => {
-                let Refusal { file, text, message, help, span } = &**refused;
-                let span = span.as_ref().map(|span| (span.start, span.end));
-                at_fault(&Fault::of_text(file, text, span, message.clone(), help.clone()), shown)
+                let Refusal { file, text, message, span, .. } = &**refused;
+                let shown = MietteDiagnostic { message: printable(message), ..shown };
+                let label = |span: &std::ops::Range<usize>| {
+                    LabeledSpan::at(span.start..span.end.max(span.start + 1).min(text.len()), "here")
+                };
+                let shown = MietteDiagnostic { labels: span.as_ref().map(|span| vec![label(span)]), ..shown };
+                Report::new(shown).with_source_code(NamedSource::new(printable(file), printable(text)))
             }
             Failure::Compare(error) => match error.fault() {
                 Some(fault) => at_fault(fault, shown),
