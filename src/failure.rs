@@ -143,20 +143,31 @@ impl Failure {
         match self {
             Failure::Fem(FemError::Refused(refused)) => {
                 let Refusal { file, text, message, span, .. } = &**refused;
-                let shown = MietteDiagnostic { message: printable(message), ..shown };
-                let label = |span: &std::ops::Range<usize>| {
-                    LabeledSpan::at(span.start..span.end.max(span.start + 1).min(text.len()), "here")
-                };
-                let shown = MietteDiagnostic { labels: span.as_ref().map(|span| vec![label(span)]), ..shown };
-                Report::new(shown).with_source_code(NamedSource::new(printable(file), printable(text)))
+                in_text(file, text, message, span.clone(), shown)
             }
             Failure::Compare(error) => match error.fault() {
+                Some(Fault { text, location, message, span, .. }) if !text.is_empty() => {
+                    in_text(&location.file, text, message, span.map(|(start, end)| start..end), shown)
+                }
                 Some(fault) => at_fault(fault, shown),
                 None => Report::new(shown),
             },
             _ => Report::new(shown),
         }
     }
+}
+
+/// Shown with the lines around it, under a message that need not repeat the place.
+fn in_text(
+    file: &str,
+    text: &str,
+    message: &str,
+    span: Option<std::ops::Range<usize>>,
+    shown: MietteDiagnostic,
+) -> Report {
+    let label = span.map(|at| vec![LabeledSpan::at(at.start..at.end.max(at.start + 1).min(text.len()), "here")]);
+    let shown = MietteDiagnostic { message: printable(message), labels: label, ..shown };
+    Report::new(shown).with_source_code(NamedSource::new(printable(file), printable(text)))
 }
 
 /// The offending line of a table, which may be too large a file to show whole.

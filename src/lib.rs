@@ -2,7 +2,7 @@
 //!
 //! What a user does, as functions: [`ScenarioFile::read`] and [`Evidence::read`], then [`compare`](fn@compare) (how far off, and
 //! where), [`diagnose`] (which physical effect is missing), [`extend`] (a new scenario with it), [`validate`] (does it help on
-//! other data). [`ladder`] repeats the middle; [`predict`] gives shapes at pressures. Every [`Error`] says where, what is wrong
+//! other data). [`ladder`] repeats the middle; [`predict`] gives shapes at pressures, [`simulate`] runs finite elements. Every [`Error`] says where, what is wrong
 //! and, by [`Error::help`], what to type. Long work tells its [`Progress`].
 //!
 //! ```
@@ -39,5 +39,6 @@ pub use ::compare::ladder::{Climb, ladder};
 pub use ::compare::study::comparison::{Contender, Variant, compare_all};
 pub use ::compare::validation::{BeforeAfter, Validation, validate};
 pub use ::compare::{CompareError as Error, Comparison, Evidence, Extension, Progress, ScenarioFile, compare, extend};
+pub use fem::session::{FeRun, Settings as FeSettings, Source as FeSource, simulate, simulate_all};
 pub use models::{Loads, Scenario};
 pub use predict::{AtPressure, HOLD_S, predict, predict_for};

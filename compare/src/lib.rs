@@ -12,6 +12,7 @@ pub mod bench;
 pub mod beside_mean;
 pub mod characterize;
 mod data_slope;
+pub mod demo;
 pub mod diagnosis;
 pub mod directions;
 pub mod error;
@@ -39,6 +40,7 @@ pub mod typed_effect;
 pub mod validation;
 pub mod where_it_fails;
 pub mod whiten;
+pub mod witness;
 pub mod wording;
 
 #[cfg(test)]

@@ -33,6 +33,8 @@ pub struct Fault {
     pub source_line: Option<String>,
     /// Byte offset of `source_line` in the file.
     pub source_start: usize,
+    /// The whole file, where it is a text that people write; empty for tables.
+    pub text: String,
 }
 
 impl fmt::Display for Fault {
@@ -66,6 +68,7 @@ impl Fault {
         fault.span = Some((start, end.max(start)));
         fault.source_line = Some(line.to_string());
         fault.source_start = line_start;
+        fault.text = text.to_string();
         fault
     }
 

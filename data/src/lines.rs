@@ -36,6 +36,7 @@ impl Line<'_> {
             span: Some((self.start, self.start + self.text.len())),
             source_line: Some(self.text.to_string()),
             source_start: self.start,
+            ..Fault::default()
         })
     }
 

@@ -12,6 +12,7 @@
 //! the actuator's line of action. One unknown, the actuator's coordinate `a`, decides everything, because every law is
 //! explicit in it; the balance is one scalar equation per place.
 
+mod gas;
 mod starts;
 mod wall;
 
@@ -20,8 +21,9 @@ use crate::body::{Bending, BodyLaw, BodyPressure};
 use crate::linkage::line_tension;
 pub use crate::linkage::{Linkage, SectionLaw};
 use crate::root::{NoRoot, Root, Start, find_root};
-use crate::term::{Account, Extreme, LedgerLine, Pose, Remembering, Term, actuator_q};
+use crate::term::{Extreme, Pose, Remembering, Term, actuator_q};
 use crate::weave::Weave;
+use gas::ActuatorPressure;
 use starts::Starts;
 use std::f64::consts::PI;
 
@@ -52,7 +54,7 @@ pub struct Site {
     pub(crate) besides: Besides,
     /// Starts in place of the actuator's guess.
     starts: Option<Starts>,
-    /// Terms over [`actuator_q`], J per metre of body at η = 1; [`Site::act`] adds one.
+    /// Terms over [`actuator_q`], J per metre of body at η = 1; `act` adds one.
     pub actuator_terms: Vec<Box<dyn Term>>,
     /// Body pressure work; an effect may replace the law.
     pub body_pressure: BodyLaw,
@@ -75,20 +77,6 @@ pub(crate) struct Besides {
     pub unforeseen: bool,
     /// Share of the body's pressure from which they are, where it does not close; the largest counts.
     pub tabulated_from: f64,
-}
-
-/// The pressure work of the actuator, `E = −P v`.
-pub(crate) struct ActuatorPressure;
-
-impl Term for ActuatorPressure {
-    fn line(&self) -> LedgerLine {
-        LedgerLine { name: "actuator_pressure", account: Account::ActuatorGas }
-    }
-
-    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        force[actuator_q::VOLUME] += at.p_act_pa;
-        -at.p_act_pa * at.q[actuator_q::VOLUME]
-    }
 }
 
 /// Equilibrium of one place.

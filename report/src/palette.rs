@@ -1,6 +1,6 @@
 //! Colours by what they are for. Every plot is drawn with the light values; a web page may replace them by CSS variables.
 
-/// What a colour is used for; [`INKS`] gives its light and dark value.
+/// What a colour is used for; `INKS` gives its light and dark value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Ink {
     /// Background.
@@ -20,7 +20,7 @@ pub enum Ink {
     HeatNegative,
     /// Heat map, most positive.
     HeatPositive,
-    /// Series colour, counted from 0 and repeated after [`SERIES`].
+    /// Series colour, counted from 0 and repeated after `SERIES`.
     Series(usize),
 }
 

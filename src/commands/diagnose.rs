@@ -10,7 +10,7 @@ use compare::diagnose;
 use compare::diagnosis::{Diagnosis, Options};
 use compare::progress::part;
 use compare::study::engines::known_runs;
-use compare::study::witness::{Witness, witness};
+use compare::witness::{Witness, witness};
 use fem::record::Shape;
 use ibr::pages::{Diagnosed, diagnosis_page, diagnosis_pictures};
 use serde::Serialize;

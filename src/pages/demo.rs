@@ -4,8 +4,8 @@ use super::diagnosis::{Diagnosed, draw, verdict};
 use super::engines::overview;
 use super::{Files, Imprint, PageError, figures, residual_figure};
 use ::compare::bench::Held;
+use ::compare::demo::{Demo, HIDDEN_IN, Story};
 use ::compare::study::Comparison;
-use ::compare::study::demo::{Demo, HIDDEN_IN, Story};
 use ::compare::study::published::PublishedLadder;
 use serde_json::{Value, json};
 

@@ -8,7 +8,7 @@ use ::compare::diagnosis::{Answer, Combination, Diagnosis, ParameterValue, Ranke
 use ::compare::residuals::{Deviation, ResidualCell, ResidualMap};
 use ::compare::study::engines::TERMS;
 use ::compare::study::predict::fit_scenario;
-use ::compare::study::witness::{HEIGHTS, Witness};
+use ::compare::witness::{HEIGHTS, Witness};
 use ::compare::wording::{p_value, short};
 use data::{About, Dataset};
 use models::{Loads, Scenario};

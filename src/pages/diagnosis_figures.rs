@@ -6,7 +6,7 @@ use compare::diagnosis::ErrorRung;
 use compare::diagnosis::{Answer, Diagnosis, Group, Standing};
 use compare::study::engines::TERMS;
 use compare::study::predict::predict_dataset;
-use compare::study::witness::{Beside, Witness};
+use compare::witness::{Beside, Witness};
 use data::{Dataset, Phase};
 use models::{Loads, Model, Scenario, Step};
 use report::chart::{Bar, Key, Look, Mark, Row};

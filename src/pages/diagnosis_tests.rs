@@ -8,8 +8,8 @@ use compare::diagnosis::{Diagnosis, GaugeFit, Group, Options, Standing, Verdict,
 use compare::evaluate::EvaluateOptions;
 use compare::study::calibrate::Knob;
 use compare::study::engines::stored;
-use compare::study::witness::witness;
 use compare::study::{Contender, Generator, compare, compare_all, generate, published::textbook_scenario};
+use compare::witness::witness;
 use data::Dataset;
 use models::Scenario;
 

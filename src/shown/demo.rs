@@ -3,8 +3,8 @@
 use super::held;
 use crate::tables::{number, table};
 use compare::bench::Held;
+use compare::demo::{Demo, Told};
 use compare::known::Known;
-use compare::study::demo::{Demo, Told};
 use compare::study::published::PublishedLadder;
 use compare::study::{Comparison, Variant};
 use serde_json::{Value, json};

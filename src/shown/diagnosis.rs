@@ -4,7 +4,7 @@ use crate::tables::{number, table};
 use compare::diagnosis::words::{listed, three, with_unit};
 use compare::diagnosis::{Combination, Diagnosis, Experiment, Group, Ranked, Verdict};
 use compare::study::engines::TERMS;
-use compare::study::witness::{HEIGHTS, Witness};
+use compare::witness::{HEIGHTS, Witness};
 
 /// For readers.
 pub fn text(d: &Diagnosis, witness: Option<&Witness>) -> String {

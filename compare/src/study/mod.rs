@@ -4,7 +4,6 @@
 pub mod breakdown;
 pub mod calibrate;
 pub mod comparison;
-pub mod demo;
 pub mod engines;
 pub mod generate;
 pub mod measured;
@@ -16,7 +15,6 @@ pub mod published;
 pub mod seen;
 pub mod tradeoff;
 pub mod uncertain;
-pub mod witness;
 
 pub use calibrate::{Calibration, Knob, calibrate};
 pub use comparison::{Comparison, Contender, Variant, compare, compare_all};

@@ -33,7 +33,7 @@ impl OracleRow {
     }
 }
 
-/// Every oracle, in the order of [`FORMS`].
+/// Every oracle, in the order of `FORMS`.
 pub fn oracle_table() -> Vec<OracleRow> {
     let all = FORMS.iter().flat_map(|known| known());
     all.flat_map(|(name, computed)| section(PRINTED, name, &computed)).collect()

@@ -1,10 +1,5 @@
 //! The demonstration: every actuator against the published displacements and against the embedded marker sets.
 
-use super::comparison::{Comparison, Contender, compare_all};
-use super::engines::{Engines, engines, stored};
-use super::measured::measured_things;
-use super::published::{PublishedLadder, model_ladder, published_ladders, shipped_scenario, textbook_scenario};
-use super::tradeoff::{Timing, of_runs, tradeoff};
 use crate::bench::Held;
 use crate::diagnosis::{Diagnosis, Options, diagnose};
 use crate::error::CompareError;
@@ -12,6 +7,11 @@ use crate::evaluate::EvaluateOptions;
 use crate::evidence::Evidence;
 use crate::progress::{Progress, part};
 use crate::study::calibrate::Knob;
+use crate::study::comparison::{Comparison, Contender, compare_all};
+use crate::study::engines::{Engines, engines, stored};
+use crate::study::measured::measured_things;
+use crate::study::published::{PublishedLadder, model_ladder, published_ladders, shipped_scenario, textbook_scenario};
+use crate::study::tradeoff::{Timing, of_runs, tradeoff};
 use data::{About, Dataset};
 use models::Scenario;
 

@@ -1,0 +1,17 @@
+//! What the gas of an actuator does.
+
+use crate::term::{Account, LedgerLine, Pose, Term, actuator_q};
+
+/// The pressure work of the actuator, `E = −P v`.
+pub(super) struct ActuatorPressure;
+
+impl Term for ActuatorPressure {
+    fn line(&self) -> LedgerLine {
+        LedgerLine { name: "actuator_pressure", account: Account::ActuatorGas }
+    }
+
+    fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
+        force[actuator_q::VOLUME] += at.p_act_pa;
+        -at.p_act_pa * at.q[actuator_q::VOLUME]
+    }
+}
