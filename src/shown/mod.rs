@@ -2,6 +2,7 @@
 
 pub mod bench_diagnosis;
 pub mod breakdown;
+pub mod characterized;
 pub mod check;
 pub mod comparison;
 pub mod demo;
