@@ -146,8 +146,8 @@ impl Failure {
                 in_text(file, text, message, span.clone(), shown)
             }
             Failure::Compare(error) => match error.fault() {
-                Some(Fault { text, location, message, span, .. }) if !text.is_empty() => {
-                    in_text(&location.file, text, message, span.map(|(start, end)| start..end), shown)
+                Some(fault @ Fault { text, location, span, .. }) if !text.is_empty() => {
+                    in_text(&location.file, text, &fault.to_string(), span.map(|(start, end)| start..end), shown)
                 }
                 Some(fault) => at_fault(fault, shown),
                 None => Report::new(shown),
@@ -157,7 +157,7 @@ impl Failure {
     }
 }
 
-/// Shown with the lines around it, under a message that need not repeat the place.
+/// Shown with the lines around it.
 fn in_text(
     file: &str,
     text: &str,
