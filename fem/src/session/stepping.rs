@@ -16,8 +16,8 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Time between two lines of progress.
-const TELL_EVERY: Duration = Duration::from_millis(200);
+/// Time between two lines of progress; a wish to stop is heard then.
+const TELL_EVERY: Duration = Duration::from_millis(50);
 
 /// Energies at one output, for the judgement at the end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
