@@ -8,8 +8,8 @@ use crate::failure::Failure;
 use crate::output::{check_folder, sha256, write_files};
 use challenge::truth::{ROBOTS, known, standard_protocol};
 use challenge::{Draw, HiddenEffect, Kind, Truth};
-use compare::study::parse_protocol;
-use data::{About, Dataset, Direct, Geometry, MarkerStation, Provenance};
+use compare::study::{Generator, generate, parse_protocol};
+use data::{About, Dataset};
 use ibr::pages::Files;
 use models::Scenario;
 use models::scenario::quantity::Quantity;
@@ -144,31 +144,12 @@ fn salt(seed: Option<u64>, draw: &mut Draw) -> [u8; SALT] {
 }
 
 fn about(scenario: &Scenario, dataset: &Dataset) -> About {
-    let shape = &scenario.actuator.shape;
-    let stations = dataset.markers.iter().zip(&scenario.markers_m);
+    let notes = "Not a measurement. What is hidden is sealed in seal.toml; the recorded pressures are the set ones.";
     About {
         title: format!("Challenge: markers of {}", scenario.name),
-        provenance: Provenance::Synthetic,
         source: "ibr challenge new".into(),
-        licence: "CC0-1.0".into(),
-        actuator: Some(dataset.actuator.clone()),
-        geometry: Some(Geometry {
-            body_radius_m: scenario.radius_m,
-            body_length_m: scenario.length_m,
-            pouch_length_m: Some(shape.length_m),
-            pouch_width_m: Some(shape.width_m),
-            pouches: Some(scenario.actuator.count),
-            fold_m: (shape.fold_m > 0.0).then_some(shape.fold_m),
-            arm_m: scenario.actuator.arm_m,
-        }),
-        markers: stations.map(|(m, s)| MarkerStation { name: m.name.clone(), station_m: *s }).collect(),
         gravity_direction: Some(scenario.gravity_direction),
-        direct: Direct::default(),
-        bending_nm2: None,
-        measured: Vec::new(),
-        runs: vec![],
-        notes: Some(
-            "Not a measurement. What is hidden is sealed in seal.toml; the recorded pressures are the set ones.".into(),
-        ),
+        notes: Some(notes.into()),
+        ..generate::about(scenario, dataset, &Generator::default())
     }
 }
