@@ -6,7 +6,7 @@ mod groups;
 
 use clap::{Args, Parser, Subcommand};
 use compare::study::Knob;
-pub use data::{Characterize, DataCommand, DataFem, Generate};
+pub use data::{Characterize, DataCommand, DataFem, Generate, Scatter};
 pub use discover::{Add, Breakdown, ChallengeCommand, ChallengeNew, Diagnose, Ladder, Validate};
 pub use groups::{command, parsed};
 use std::path::PathBuf;

@@ -27,24 +27,6 @@ pub const INTERRUPTED: u8 = 130;
 /// An error of the command.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
-    /// A wrong argument.
-    #[error("{message}")]
-    Usage {
-        /// What is wrong.
-        message: String,
-        /// What to type.
-        help: String,
-    },
-    /// A file that cannot be read.
-    #[error("cannot read {path}: {cause}")]
-    Read {
-        /// File.
-        path: String,
-        /// Why.
-        cause: String,
-        /// What to do.
-        help: String,
-    },
     /// A folder that cannot be written to.
     #[error("cannot write to {path}: {cause}")]
     Write {
@@ -90,15 +72,14 @@ impl From<Unsolved> for Failure {
 impl Failure {
     /// A wrong argument and what to type instead.
     pub fn usage(message: impl Into<String>, help: impl Into<String>) -> Failure {
-        Failure::Usage { message: message.into(), help: help.into() }
+        Failure::Compare(CompareError::refused(message, help))
     }
 
     /// Exit code.
     pub fn code(&self) -> u8 {
         use CompareError::{BadProtocol, Refused, Unsolved as NoSolution};
         match self {
-            Failure::Usage { .. } | Failure::Compare(BadProtocol { .. } | Refused { .. }) => USAGE,
-            Failure::Compare(NoSolution(Unsolved::BadPressure { .. })) => USAGE,
+            Failure::Compare(BadProtocol { .. } | Refused { .. } | NoSolution(Unsolved::BadPressure { .. })) => USAGE,
             Failure::Compare(NoSolution(_)) => UNSOLVED,
             Failure::Fem(FemError::Interrupted { .. }) => INTERRUPTED,
             Failure::Fem(FemError::Setting { .. }) => USAGE,
@@ -124,9 +105,7 @@ impl Failure {
 
     fn help(&self) -> Option<&str> {
         match self {
-            Failure::Usage { help, .. } | Failure::Read { help, .. } | Failure::Write { help, .. } => {
-                Some(help.as_str())
-            }
+            Failure::Write { help, .. } => Some(help.as_str()),
             Failure::Compare(error) => error.help(),
             Failure::Fem(error) => error.help(),
             Failure::Drawing(_) => None,

@@ -50,6 +50,23 @@ pub fn check_folder(folder: &Path) -> Result<(), Failure> {
     }
 }
 
+/// The same for a set of data, which replaces one only if told.
+pub fn check_set_folder(folder: &Path, force: bool) -> Result<(), Failure> {
+    let there = [("seal.toml", "a challenge"), ("markers.csv", "a dataset")];
+    match there.iter().find(|(file, _)| !force && folder.join(file).exists()) {
+        Some((_, what)) => {
+            let message = format!("{} already holds {what}", folder.display());
+            Err(Failure::usage(message, "choose another folder, or add --force to replace it"))
+        }
+        None => check_folder(folder),
+    }
+}
+
+/// What a set in a folder is called.
+pub fn set_name(folder: &Path, default: &str) -> String {
+    folder.file_name().map_or(default.into(), |name| name.to_string_lossy().into_owned())
+}
+
 fn unwritable(folder: &Path, cause: &str) -> Failure {
     Failure::Write {
         path: folder.display().to_string(),

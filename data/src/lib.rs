@@ -39,4 +39,4 @@ pub use published::{Published, PublishedActuator, PublishedFabric, PublishedFact
 pub use read::{ReadOptions, parse_markers, read_markers};
 pub use sets::{SetInfo, set_about, set_file, sets};
 pub use table::{Column, Table, read_parquet};
-pub use write::{about_toml, write_atomically, write_markers_csv};
+pub use write::{about_toml, set_files, write_atomically, write_markers_csv};

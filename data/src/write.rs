@@ -31,6 +31,16 @@ pub fn write_markers_csv(dataset: &Dataset, out: &mut dyn Write) -> Result<(), D
     Ok(())
 }
 
+/// A set as the files of its folder by name: `about.toml` and `markers.csv`.
+///
+/// # Errors
+/// As [`write_markers_csv`].
+pub fn set_files(dataset: &Dataset, about: &About) -> Result<[(String, Vec<u8>); 2], DataError> {
+    let mut csv = Vec::new();
+    write_markers_csv(dataset, &mut csv)?;
+    Ok([("about.toml".into(), about_toml(about).into_bytes()), ("markers.csv".into(), csv)])
+}
+
 fn add_rows(text: &mut String, dataset: &Dataset, run: usize, label: &str, hold: usize, stations: bool) {
     let Dataset { actuator, holds, markers, samples_per_hold, .. } = dataset;
     for sample in 0..*samples_per_hold {

@@ -156,7 +156,7 @@ pub enum ChallengeCommand {
 }
 
 /// `ibr challenge new`
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub struct ChallengeNew {
     /// Folder for scenario.toml, markers.csv, about.toml and seal.toml
     #[arg(long)]

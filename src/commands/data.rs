@@ -2,16 +2,17 @@
 
 use super::inputs::{self, quantity};
 use super::{Context, Outcome, list};
-use crate::cli::{DataCommand, Generate};
+use crate::cli::{DataCommand, Generate, Scatter};
 use crate::failure::Failure;
-use crate::output::{check_folder, write_files};
+use crate::output::{Input, check_set_folder, set_name, write_files};
 use crate::shown::check::check_text;
 use compare::Evidence;
 use compare::slips::slips;
 use compare::study::generate::{Generator, about, generate, parse_protocol};
+use data::{About, Dataset};
 use ibr::pages::Files;
 use models::scenario::quantity::Quantity;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::path::Path;
 
 pub fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome, Failure> {
@@ -41,8 +42,14 @@ fn check(spec: &str, context: &mut Context) -> Result<Outcome, Failure> {
 }
 
 fn make(args: &Generate, context: &mut Context) -> Result<Outcome, Failure> {
-    let generator = generator(args)?;
-    check_folder(&args.out)?;
+    let generator = Generator {
+        seed: args.seed,
+        runs: args.runs as usize,
+        protocol: parse_protocol(&args.protocol)?,
+        gauge: args.gauge,
+        ..scattered(&args.scatter)?
+    };
+    check_set_folder(&args.out, args.force)?;
     let named = inputs::scenario(&args.scenario)?;
     if named.markers_m.is_empty() {
         let message = format!("the scenario {} has no marker stations", args.scenario);
@@ -51,50 +58,43 @@ fn make(args: &Generate, context: &mut Context) -> Result<Outcome, Failure> {
             "add [markers] with s_mm = [30, 90, 150] to it: places in mm from the base",
         ));
     }
-    folder_is_free(&args.out, args.force)?;
-    let name = args.out.file_name().map_or("synthetic".into(), |n| n.to_string_lossy().into_owned());
-    let dataset = generate(&named.scenario, &name, &generator)?;
-    let mut csv = Vec::new();
-    data::write_markers_csv(&dataset, &mut csv)?;
+    let dataset = generate(&named.scenario, &set_name(&args.out, "synthetic"), &generator)?;
     let about = about(&named.scenario, &dataset, &generator);
-    let mut files = Files::default();
-    files.files.push(("about.toml".into(), data::about_toml(&about).into_bytes()));
-    files.files.push(("markers.csv".into(), csv));
-    files.files.push(("truth.toml".into(), named.text.clone().into_bytes()));
-    write_files(&args.out, &files, &inputs::named(&named, [])?, context)?;
+    let inputs = inputs::named(&named, [])?;
+    write(&args.out, &dataset, &about, named.text, &inputs, context)?;
     let text = format!("{} values of {} runs in {}\n", dataset.xy_m.len(), dataset.runs.len(), args.out.display());
-    let json = json!({"schema": "ibr.data.generate", "version": 1, "folder": args.out.display().to_string(), "runs": dataset.runs.len()});
-    Ok(Outcome::new(text, json))
+    Ok(Outcome::new(text, written_json("ibr.data.generate", &args.out, &dataset)))
 }
 
-fn generator(args: &Generate) -> Result<Generator, Failure> {
-    Ok(Generator {
-        seed: args.seed,
-        runs: args.runs as usize,
-        protocol: parse_protocol(&args.protocol)?,
-        camera_sd_m: scatter("--sigma", &args.scatter.sigma)?,
-        pressure_sd: pressure_scatter(args.scatter.pressure_scatter)?,
-        alignment_sd_m: scatter("--alignment", &args.scatter.alignment)?,
-        gauge: args.gauge,
-        ..Generator::default()
-    })
+/// Writes a made set with its truth.
+pub fn write(
+    folder: &Path,
+    dataset: &Dataset,
+    about: &About,
+    truth: String,
+    inputs: &[Input],
+    context: &mut Context,
+) -> Result<(), Failure> {
+    let mut files = Files { files: data::set_files(dataset, about)?.into(), ..Files::default() };
+    files.text("truth.toml", truth);
+    write_files(folder, &files, inputs, context)
 }
 
-/// Refuses a folder with data in it, unless forced.
-pub fn folder_is_free(folder: &Path, force: bool) -> Result<(), Failure> {
-    if !force && folder.join("markers.csv").exists() {
-        let message = format!("{} already holds a dataset", folder.display());
-        return Err(Failure::usage(message, "choose another folder, or add --force to replace it"));
+/// What is said of it.
+pub fn written_json(schema: &str, folder: &Path, dataset: &Dataset) -> Value {
+    json!({"schema": schema, "version": 1, "folder": folder.display().to_string(), "runs": dataset.runs.len()})
+}
+
+/// The scatter as typed.
+pub fn scattered(args: &Scatter) -> Result<Generator, Failure> {
+    let percent = args.pressure_scatter;
+    let camera_sd_m = scatter("--sigma", &args.sigma)?;
+    if !(0.0..=50.0).contains(&percent) {
+        let message = format!("--pressure-scatter {percent} is not from 0 to 50 per cent");
+        return Err(Failure::usage(message, "2 is usual"));
     }
-    Ok(())
-}
-
-/// A scatter of pressures as typed in per cent, as a share.
-pub fn pressure_scatter(percent: f64) -> Result<f64, Failure> {
-    if (0.0..=50.0).contains(&percent) {
-        return Ok(percent / 100.0);
-    }
-    Err(Failure::usage(format!("--pressure-scatter {percent} is not from 0 to 50 per cent"), "2 is usual"))
+    let alignment_sd_m = scatter("--alignment", &args.alignment)?;
+    Ok(Generator { camera_sd_m, alignment_sd_m, pressure_sd: percent / 100.0, ..Generator::default() })
 }
 
 /// A scatter of lengths as typed \[m\].

@@ -1,25 +1,22 @@
 //! `ibr data fem`: marker data from finite element runs.
 
-use super::data::{folder_is_free, pressure_scatter, scatter};
+use super::data::{scattered, write, written_json};
 use super::fem_inputs::{kept, list, pressures, source};
 use super::inputs;
 use super::{Context, Outcome};
 use crate::cli::DataFem;
 use crate::failure::Failure;
-use crate::output::{check_folder, write_files};
+use crate::output::{check_set_folder, set_name};
 use compare::study::Generator;
 use compare::study::engines::{EngineRun, of_the_program, runs_of, seed_jobs};
 use compare::study::generate::about;
 use compare::study::seen::seen;
 use fem::session::Source;
-use ibr::pages::Files;
 use models::Scenario;
 use models::scenario::quantity::Quantity;
-use serde_json::json;
 
 pub fn run(args: &DataFem, context: &mut Context) -> Result<Outcome, Failure> {
-    check_folder(&args.out)?;
-    folder_is_free(&args.out, args.force)?;
+    check_set_folder(&args.out, args.force)?;
     let truth = inputs::scenario(&args.scenario)?;
     let (robot, scenario) = robot(args)?;
     let kpa = pressures(&args.pressure)?;
@@ -28,19 +25,13 @@ pub fn run(args: &DataFem, context: &mut Context) -> Result<Outcome, Failure> {
         seed: args.seed,
         runs: args.seeds as usize,
         protocol: std::iter::once(0.0).chain(kpa.iter().map(|p| p * 1e3)).map(|p| [body_pa, p]).collect(),
-        camera_sd_m: scatter("--sigma", &args.scatter.sigma)?,
-        alignment_sd_m: scatter("--alignment", &args.scatter.alignment)?,
-        pressure_sd: pressure_scatter(args.scatter.pressure_scatter)?,
-        ..Generator::default()
+        ..scattered(&args.scatter)?
     };
     let runs = match args.stored {
         true => of_the_program(&scenario, args.seeds as usize)?,
         false => made(args, &robot, &scenario, &kpa, context)?,
     };
-    let name = args.out.file_name().map_or("fem".into(), |n| n.to_string_lossy().into_owned());
-    let dataset = seen(&runs, &name, &generator)?;
-    let mut csv = Vec::new();
-    data::write_markers_csv(&dataset, &mut csv)?;
+    let dataset = seen(&runs, &set_name(&args.out, "fem"), &generator)?;
     let mut about = about(&scenario, &dataset, &generator);
     let first = &runs[0];
     about.title =
@@ -49,19 +40,14 @@ pub fn run(args: &DataFem, context: &mut Context) -> Result<Outcome, Failure> {
         "synthetic: finite elements, engine {}, {} mm elements, numbers {}; ibr data fem, seed {}",
         first.engine, first.mesh_mm[1], first.known, args.seed
     );
-    let mut files = Files::default();
-    files.files.push(("about.toml".into(), data::about_toml(&about).into_bytes()));
-    files.files.push(("markers.csv".into(), csv));
-    files.files.push(("truth.toml".into(), robot.text.into_bytes()));
-    write_files(&args.out, &files, &inputs::named(&truth, [])?, context)?;
+    write(&args.out, &dataset, &about, robot.text, &inputs::named(&truth, [])?, context)?;
     let text = format!(
         "{} values of {} finite element runs in {}\n",
         dataset.xy_m.len(),
         dataset.runs.len(),
         args.out.display()
     );
-    let answer = json!({"schema": "ibr.data.fem", "version": 1, "folder": args.out.display().to_string(), "runs": dataset.runs.len()});
-    Ok(Outcome::new(text, answer))
+    Ok(Outcome::new(text, written_json("ibr.data.fem", &args.out, &dataset)))
 }
 
 /// The robot, at another body pressure if one is named.

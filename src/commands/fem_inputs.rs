@@ -4,6 +4,7 @@ use super::inputs::quantity;
 use crate::failure::Failure;
 use crate::output::{Input, maker};
 use crate::studies::{STUDIES, study};
+use compare::CompareError;
 use fem::case::{SHIPPED_CASES, shipped_case};
 use fem::session::{Settings, Source, rounded};
 use models::Scenario;
@@ -36,7 +37,7 @@ pub fn source(spec: &str) -> Result<Source, Failure> {
         spelling::meant(spec, names.iter().copied()),
         names.join(", ")
     );
-    Err(Failure::Read { path: spec.into(), cause, help })
+    Err(CompareError::Unread { path: spec.into(), cause, help }.into())
 }
 
 /// Robots as typed and as read, and what the manifest says of them.

@@ -77,7 +77,8 @@ fn masked(text: &[u8], salt: &[u8]) -> Vec<u8> {
     text.iter().zip(stream).map(|(byte, mask)| byte ^ mask).collect()
 }
 
-fn hex(bytes: &[u8]) -> String {
+/// Bytes in hexadecimal digits.
+pub fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
