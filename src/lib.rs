@@ -26,6 +26,7 @@
 
 pub mod pages;
 mod predict;
+pub mod studies;
 
 pub use ::compare as study;
 pub use data;
@@ -42,3 +43,4 @@ pub use ::compare::{CompareError as Error, Comparison, Evidence, Extension, Prog
 pub use fem::session::{FeRun, Settings as FeSettings, Source as FeSource, simulate, simulate_all};
 pub use models::{Loads, Scenario};
 pub use predict::{AtPressure, HOLD_S, predict, predict_for};
+pub use studies::fe_source;

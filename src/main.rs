@@ -8,7 +8,6 @@ mod failure;
 mod output;
 mod printable;
 mod shown;
-mod studies;
 mod tables;
 
 use bar::Bar;

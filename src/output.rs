@@ -62,6 +62,19 @@ pub fn check_set_folder(folder: &Path, force: bool) -> Result<(), Failure> {
     }
 }
 
+/// Refuses to write over a file that was read.
+pub fn spares_inputs(folder: &Path, files: &Files, inputs: &[String]) -> Result<(), Failure> {
+    let read: Vec<_> = inputs.iter().filter_map(|file| std::fs::canonicalize(file).ok()).collect();
+    let same = |name: &&String| std::fs::canonicalize(folder.join(name)).is_ok_and(|path| read.contains(&path));
+    match files.files.iter().map(|(name, _)| name).find(same) {
+        Some(name) => {
+            let message = format!("{} was read and would be written over", folder.join(name).display());
+            Err(Failure::usage(message, "choose another folder with --out"))
+        }
+        None => Ok(()),
+    }
+}
+
 /// What a set in a folder is called.
 pub fn set_name(folder: &Path, default: &str) -> String {
     folder.file_name().map_or(default.into(), |name| name.to_string_lossy().into_owned())

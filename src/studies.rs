@@ -1,4 +1,10 @@
-//! Scenarios of finite element studies that come with the program, beside the four robots.
+//! What comes with the library by name beside the four robots: scenarios of finite element studies.
+
+use compare::{CompareError, ScenarioFile};
+use fem::case::{SHIPPED_CASES, shipped_case};
+use fem::session::Source;
+use models::scenario::SHIPPED;
+use std::path::Path;
 
 /// A robot in the paper's own model.
 macro_rules! paper {
@@ -23,4 +29,43 @@ pub const STUDIES: &[(&str, &str, &str)] = &[
 /// The text of a study.
 pub fn study(name: &str) -> Option<&'static str> {
     STUDIES.iter().find(|s| s.0 == name).map(|s| s.2)
+}
+
+/// Reads a scenario file, or takes a shipped robot or study by name.
+///
+/// # Errors
+/// As [`ScenarioFile::read`].
+pub fn scenario(spec: &str) -> Result<ScenarioFile, CompareError> {
+    match study(spec).filter(|_| !Path::new(spec).exists()) {
+        Some(text) => ScenarioFile::parse(spec, text),
+        None => ScenarioFile::read(spec),
+    }
+}
+
+/// Reads a finite element case or the scenario of a robot, or takes a shipped one by name.
+///
+/// # Errors
+/// Nothing of that name, or no text.
+pub fn fe_source(spec: &str) -> Result<Source, CompareError> {
+    let path = Path::new(spec);
+    let cause = match (std::fs::read(path), shipped_case(spec).or(models::shipped(spec)).or(study(spec))) {
+        (Err(_), Some(text)) if !path.exists() => return Ok(Source::new(spec, text)),
+        (Err(cause), _) => cause.to_string(),
+        (Ok(bytes), _) => match String::from_utf8(bytes) {
+            Ok(text) if text.trim().is_empty() => "the file is empty".to_string(),
+            Ok(text) => {
+                let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
+                return Ok(Source { folder, ..Source::new(spec, &text) });
+            }
+            Err(_) => "it is not a text in UTF-8".to_string(),
+        },
+    };
+    let names: Vec<&str> =
+        SHIPPED_CASES.iter().chain(SHIPPED).map(|c| c.0).chain(STUDIES.iter().map(|s| s.0)).collect();
+    let help = format!(
+        "{}give a finite element case or a robot's scenario, or a shipped one: {}; `ibr new pillow > my.toml` makes a start",
+        spelling::meant(spec, names.iter().copied()),
+        names.join(", ")
+    );
+    Err(CompareError::Unread { path: spec.into(), cause, help })
 }

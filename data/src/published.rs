@@ -52,6 +52,17 @@ pub struct PublishedFact {
     pub numbers: Vec<f64>,
 }
 
+/// Name of an actuator kind as the paper writes one of them.
+pub fn printed(kind: &str) -> &str {
+    match kind {
+        "spam" => "sPAM",
+        "cpam" => "cPAM",
+        "epam" => "ePAM",
+        "fpam" => "fPAM",
+        other => other,
+    }
+}
+
 /// One column of Table II and one row of Table III.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PublishedActuator {

@@ -1,7 +1,7 @@
 //! `ibr data fem`: marker data from finite element runs.
 
 use super::data::{scattered, write, written_json};
-use super::fem_inputs::{kept, list, pressures, source};
+use super::fem_inputs::{kept, list, pressures};
 use super::inputs;
 use super::{Context, Outcome};
 use crate::cli::DataFem;
@@ -52,7 +52,7 @@ pub fn run(args: &DataFem, context: &mut Context) -> Result<Outcome, Failure> {
 
 /// The robot, at another body pressure if one is named.
 fn robot(args: &DataFem) -> Result<(Source, Scenario), Failure> {
-    let mut robot = source(&args.scenario)?;
+    let mut robot = ibr::fe_source(&args.scenario)?;
     if let Some(text) = &args.body_pressure {
         let [body_kpa] = list("--body-pressure", text, Quantity::Pressure, 1e-3)?[..] else {
             let help =

@@ -5,31 +5,17 @@ use super::{Context, Outcome};
 use crate::cli::Diagnose;
 use crate::failure::Failure;
 use crate::output::{Input, check_folder, earlier, imprint, remove_all, write_files};
-use crate::shown::diagnosis::text;
+use crate::shown::diagnosis::{text, to_json};
 use compare::diagnose;
-use compare::diagnosis::{Diagnosis, Options};
+use compare::diagnosis::Options;
 use compare::progress::part;
 use compare::study::engines::known_runs;
-use compare::witness::{Witness, witness};
-use fem::record::Shape;
+use compare::witness::witness;
 use ibr::pages::{Diagnosed, diagnosis_page, diagnosis_pictures};
-use serde::Serialize;
 use std::path::Path;
-
-/// What is printed and written.
-#[derive(Serialize)]
-struct Answer<'a> {
-    #[serde(flatten)]
-    diagnosis: &'a Diagnosis,
-    finite_elements: Option<&'a Witness>,
-    scenario_file: &'a str,
-    data_sha256: Vec<&'a str>,
-}
 
 /// Share of the time after which the report is drawn.
 const DRAWN: f64 = 0.8;
-
-const SHAPE: Shape = Shape { schema: "ibr.diagnose", version: 1 };
 
 pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
     if args.published {
@@ -54,12 +40,7 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
     let runs = known_runs(args.runs.as_deref())?;
     let first = &evidence[0];
     let witness = witness(&diagnosis, &file, &first.dataset, first.about.as_ref(), &runs)?;
-    let answer = SHAPE.stamped(&Answer {
-        diagnosis: &diagnosis,
-        finite_elements: witness.as_ref(),
-        scenario_file: &args.scenario,
-        data_sha256: diagnosis.evidence.iter().map(|used| used.sha256.as_str()).collect(),
-    });
+    let answer = to_json(&diagnosis, witness.as_ref(), &args.scenario);
     let json = format!("{answer:#}\n").into_bytes();
     let mut outcome = Outcome::new(text(&diagnosis, witness.as_ref()), answer);
     let told_first = |warning: &&String| diagnosis.slips.contains(warning);

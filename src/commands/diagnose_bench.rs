@@ -6,6 +6,7 @@ use crate::cli::Diagnose;
 use crate::failure::Failure;
 use crate::shown::bench_diagnosis::text;
 use compare::diagnosis::{BenchOptions, diagnose_bench};
+use fem::record::Shape;
 use serde_json::json;
 
 /// The diagnosis, if what was typed last is a table of bench tests.
@@ -24,12 +25,8 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Option<Outcome>, Fa
     (context.progress)("fitting every effect", Some(READ));
     let options = BenchOptions { sigma, refit: args.refit, ..BenchOptions::default() };
     let found = diagnose_bench(&bench, scenario.as_ref(), &options)?;
-    let mut answer = json!(found);
-    if let Some(object) = answer.as_object_mut() {
-        object.insert("schema".into(), "ibr.diagnose.bench".into());
-        object.insert("version".into(), 1.into());
-        object.insert("provenance".into(), bench.provenance.word().into());
-    }
+    let mut answer = Shape { schema: "ibr.diagnose.bench", version: 1 }.stamped(&found);
+    answer["provenance"] = json!(bench.provenance.word());
     Ok(Some(Outcome::new(text(&found, &bench), answer)))
 }
 

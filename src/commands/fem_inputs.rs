@@ -3,42 +3,14 @@
 use super::inputs::quantity;
 use crate::failure::Failure;
 use crate::output::{Input, maker};
-use crate::studies::{STUDIES, study};
-use compare::CompareError;
-use fem::case::{SHIPPED_CASES, shipped_case};
 use fem::session::{Settings, Source, rounded};
+use ibr::fe_source;
 use models::Scenario;
-use models::scenario::SHIPPED;
 use models::scenario::quantity::Quantity;
 use std::path::Path;
 
 /// The robots of the paper.
 const PUBLISHED: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
-
-/// Reads a case file or the scenario of a robot, or takes a shipped one by name.
-pub fn source(spec: &str) -> Result<Source, Failure> {
-    let path = Path::new(spec);
-    let cause = match (std::fs::read(path), shipped_case(spec).or(models::shipped(spec)).or(study(spec))) {
-        (Err(_), Some(text)) if !path.exists() => return Ok(Source::new(spec, text)),
-        (Err(cause), _) => cause.to_string(),
-        (Ok(bytes), _) => match String::from_utf8(bytes) {
-            Ok(text) if text.trim().is_empty() => "the file is empty".to_string(),
-            Ok(text) => {
-                let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
-                return Ok(Source { folder, ..Source::new(spec, &text) });
-            }
-            Err(_) => "it is not a text in UTF-8".to_string(),
-        },
-    };
-    let names: Vec<&str> =
-        SHIPPED_CASES.iter().chain(SHIPPED).map(|c| c.0).chain(STUDIES.iter().map(|s| s.0)).collect();
-    let help = format!(
-        "{}give a finite element case or a robot's scenario, or a shipped one: {}; `ibr new pillow > my.toml` makes a start",
-        spelling::meant(spec, names.iter().copied()),
-        names.join(", ")
-    );
-    Err(CompareError::Unread { path: spec.into(), cause, help }.into())
-}
 
 /// Robots as typed and as read, and what the manifest says of them.
 type Robots = (Vec<(Source, Scenario)>, Vec<Input>);
@@ -49,7 +21,7 @@ pub fn robots(specs: &[String]) -> Result<Robots, Failure> {
     let specs = if specs.is_empty() { &own } else { specs };
     let (mut found, mut inputs) = (Vec::new(), Vec::new());
     for spec in specs {
-        let source = source(spec)?;
+        let source = fe_source(spec)?;
         if !source.is_robot() {
             let message = format!("{spec} is not the scenario of a robot");
             return Err(Failure::usage(message, "give scenarios such as spam cpam epam fpam"));

@@ -8,14 +8,10 @@ use compare::{Evidence, ScenarioFile};
 use models::Scenario;
 use models::actuators::Family;
 use models::scenario::quantity::{Quantity, parse};
-use std::path::Path;
 
-/// Reads a scenario file, or takes a shipped robot or study by name.
+/// A scenario as typed.
 pub fn scenario(spec: &str) -> Result<ScenarioFile, Failure> {
-    match crate::studies::study(spec).filter(|_| !Path::new(spec).exists()) {
-        Some(text) => Ok(ScenarioFile::parse(spec, text)?),
-        None => Ok(ScenarioFile::read(spec)?),
-    }
+    Ok(ibr::studies::scenario(spec)?)
 }
 
 /// Share of a command's time for reading; what comes next begins there.

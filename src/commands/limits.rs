@@ -3,7 +3,7 @@
 use super::Outcome;
 use super::tables::table;
 use crate::failure::Failure;
-use crate::shown::predicted::pressure_words;
+use ibr::pages::pressure_words;
 use models::{Loads, Scenario, collapse_length_m};
 use serde_json::{Value, json};
 

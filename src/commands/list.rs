@@ -3,8 +3,8 @@
 use super::Outcome;
 use crate::failure::Failure;
 use crate::shown::lists::{actuators, cases, datasets, effects};
-use crate::studies::{STUDIES, study};
 use fem::case::{SHIPPED_CASES, shipped_case};
+use ibr::studies::{STUDIES, study};
 use models::scenario::SHIPPED;
 use serde_json::{Value, json};
 

@@ -5,13 +5,12 @@ use super::{Context, Outcome, limits};
 use crate::cli::Predict;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
-use crate::shown::predicted::{above_limit, beyond_words, pressure_words, state_json, text};
+use crate::shown::predicted::{above_limit, beyond_words, state_json, text};
 use compare::typed_effect::with_effect;
-use ibr::pages::Files;
-use ibr::{AtPressure, predict, predict_for};
+use ibr::pages::predicted_files;
+use ibr::{predict, predict_for};
 use models::scenario::quantity::{Quantity, parse_pressures};
 use models::{CHANNELS, Loads, Model, Scenario, Target};
-use report::{ShapePose, Shapes, shapes};
 use serde_json::{Value, json};
 
 pub fn run(args: &Predict, context: &mut Context) -> Result<Outcome, Failure> {
@@ -33,8 +32,7 @@ pub fn run(args: &Predict, context: &mut Context) -> Result<Outcome, Failure> {
     };
     let model = Model::new(&scenario);
     if let Some(folder) = &args.out {
-        let files = drawing(&model, &scenario, &states)?;
-        write_files(folder, &files, &inputs::named(&file, [])?, context)?;
+        write_files(folder, &predicted_files(&scenario, &states)?, &inputs::named(&file, [])?, context)?;
     }
     let told: Vec<Value> = states.iter().map(|s| state_json(&model, &scenario, s)).collect();
     let effects: Vec<&str> = scenario.effects.iter().map(|e| e.name.as_str()).collect();
@@ -82,24 +80,4 @@ fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<Loads>, Fa
         ));
     }
     Ok(pressures.into_iter().map(|p| Loads { body_pa: scenario.p_body_pa, actuator_pa: p }).collect())
-}
-
-fn drawing(model: &Model, scenario: &Scenario, states: &[AtPressure]) -> Result<Files, Failure> {
-    let mm = |points: &[[f64; 2]]| points.iter().map(|p| p.map(|v| v * 1e3)).collect::<Vec<_>>();
-    let poses = states.iter().take(6).map(|s| ShapePose {
-        label: format!("{} kPa", pressure_words(&s.loads)),
-        curve_mm: mm(&model.centre_line(&s.prediction, 80)),
-        predicted_mm: mm(&s.prediction.markers),
-        measured: vec![],
-    });
-    let data = Shapes {
-        title: format!("{}, predicted", scenario.name),
-        rest_mm: vec![[0.0, 0.0], [scenario.length_m * 1e3, 0.0]],
-        body_radius_mm: scenario.radius_m * 1e3,
-        poses: poses.collect(),
-    };
-    let drawn = shapes(&data).map_err(|e| Failure::usage(e.to_string(), "choose other pressures"))?;
-    let mut files = Files::default();
-    files.plot("shapes", drawn);
-    Ok(files)
 }

@@ -1,24 +1,34 @@
 //! Plots: all specimens, their mean, the fit, and where the reduction stops being valid.
 
-use models::fabrics::{Fabric, specimen as fit};
-
+use super::{Files, PageError};
+use compare::characterize::write::{measured_toml, shear_table, yarn_table};
 use compare::characterize::{Characterized, OPTICAL_LIMIT_RAD, PAPER_LIMIT_RAD, Strip};
-use report::{Drawn, LineSeries, LineStyle, Lines, ReportError, lines};
+use models::fabrics::{Fabric, specimen as fit};
+use report::{LineSeries, LineStyle, Lines, lines};
 
 /// Colour of all limits.
 const LIMIT: usize = 5;
 
-/// Every plot that the specimens allow, with its name.
+/// Every plot that the specimens allow, their mean curves, and what scenarios and cases take of them.
 ///
 /// # Errors
 /// A drawing that fails.
-pub fn pictures(found: &Characterized) -> Result<Vec<(&'static str, Drawn)>, ReportError> {
-    let mut drawn = Vec::new();
+pub fn characterized_files(found: &Characterized, fabric: Option<&str>, program: &str) -> Result<Files, PageError> {
+    let mut files = Files::default();
     for (name, plot) in [("tension", tension(found)), ("bias", bias(found)), ("shear", shear(found))] {
-        let Some(plot) = plot else { continue };
-        drawn.push((name, lines(&plot)?));
+        if let Some(plot) = plot {
+            files.plot(name, lines(&plot)?);
+        }
     }
-    Ok(drawn)
+    for yarn in &found.yarns {
+        files.csv(&format!("mean_{}", yarn.direction.word()), &yarn_table(&yarn.rows, &yarn.sd_pa))?;
+    }
+    if let Some(shear) = &found.shear {
+        files.csv("mean_shear", &shear_table(shear, found.thickness_m))?;
+    }
+    let texts = [("fabric.toml", fabric.map(String::from)), ("measured.toml", measured_toml(found, program))];
+    texts.into_iter().filter_map(|(name, text)| Some((name, text?))).for_each(|(name, text)| files.text(name, text));
+    Ok(files)
 }
 
 /// Stress over strain along warp and fill.
@@ -158,6 +168,8 @@ mod tests {
         };
         let coupons: Vec<_> = example(1).iter().flat_map(|(_, text)| read(text)).collect();
         let found = characterize(&coupons, &Settings::default()).unwrap();
-        assert!(pictures(&found).unwrap().iter().map(|p| p.0).eq(["tension", "bias", "shear"]));
+        let made = characterized_files(&found, None, "ibr").unwrap().files;
+        let pictures = made.iter().filter_map(|(name, _)| name.strip_suffix(".svg"));
+        assert!(pictures.eq(["tension", "bias", "shear"]));
     }
 }

@@ -7,6 +7,7 @@ use ::compare::bench::Held;
 use ::compare::demo::{Demo, HIDDEN_IN, Story};
 use ::compare::study::Comparison;
 use ::compare::study::published::PublishedLadder;
+use data::published::printed;
 use serde_json::{Value, json};
 
 /// Pictures of the diagnosis that the page has.
@@ -65,7 +66,7 @@ fn ladder(l: &PublishedLadder) -> Value {
         json!({"label": r.label, "known": r.known.word(), "y_mm": r.y_m * 1e3, "range_mm": range_mm})
     };
     json!({
-        "name": l.published.printed_name, "kind": l.published.kind, "measured_mm": measured_mm, "last_mm": last_mm,
+        "name": printed(&l.published.kind), "kind": l.published.kind, "measured_mm": measured_mm, "last_mm": last_mm,
         "left_mm": last_mm - measured_mm, "absorbing_nm2": l.calibrated_bending,
         "rungs": l.rungs.iter().map(rung).collect::<Vec<_>>(),
     })

@@ -5,6 +5,7 @@ use super::diagnosis_figures::{
 };
 use super::{Files, Imprint, PageError, figures, in_words, residual_figure};
 use ::compare::diagnosis::{Answer, Combination, Diagnosis, ParameterValue, Ranked, Separation, Standing, Verdict};
+use ::compare::extension::error_steps;
 use ::compare::residuals::{Deviation, ResidualCell, ResidualMap};
 use ::compare::study::engines::TERMS;
 use ::compare::study::predict::fit_scenario;
@@ -65,7 +66,7 @@ const PICTURES: [(&str, Picture); 8] = [
     }),
     ("ranking", |f, _| ranking(f.diagnosis)),
     ("before_after", |f, _| {
-        let rungs = f.diagnosis.rungs();
+        let rungs = error_steps(f.diagnosis, f.scenario);
         let seen = rungs.iter().any(|r| r.training_mm >= SMALLEST_BAR_MM);
         seen.then(|| waterfall("Before and after", &rungs, f.diagnosis.base.noise_floor_mm)).transpose()
     }),

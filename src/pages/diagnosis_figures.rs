@@ -2,8 +2,8 @@
 
 use super::PageError;
 use super::figures::measured;
-use compare::diagnosis::ErrorRung;
 use compare::diagnosis::{Answer, Diagnosis, Group, Standing};
+use compare::extension::ErrorStep;
 use compare::study::engines::TERMS;
 use compare::study::predict::predict_dataset;
 use compare::witness::{Beside, Witness};
@@ -38,7 +38,7 @@ pub(super) fn supply(d: &Diagnosis) -> Result<Option<Drawn>, PageError> {
     }
     // An effect of the body leaves the supply's laws as they were.
     let of_supply = d.added.iter().chain(&d.attempt).any(|a| a.group == Group::Supply);
-    let after = d.final_label().filter(|_| of_supply);
+    let after = d.final_model().filter(|_| of_supply).map(|(names, how)| format!("{names} ({how})"));
     let series = |gauge: &compare::diagnosis::GaugeFit| {
         let values = std::iter::once(gauge.before_kpa).chain(after.as_ref().map(|_| gauge.after_kpa));
         (format!("gauge in {}", gauge.dataset), values.collect(), false)
@@ -54,12 +54,12 @@ pub(super) fn supply(d: &Diagnosis) -> Result<Option<Drawn>, PageError> {
 }
 
 /// Error of every model, training and left-out data, with the noise of the mean.
-pub(super) fn waterfall(title: &str, rungs: &[ErrorRung], floor_mm: Option<f64>) -> Result<Drawn, PageError> {
-    let series = |name: &str, of: fn(&ErrorRung) -> f64| (name.to_string(), rungs.iter().map(of).collect(), false);
+pub(super) fn waterfall(title: &str, rungs: &[ErrorStep], floor_mm: Option<f64>) -> Result<Drawn, PageError> {
+    let series = |name: &str, of: fn(&ErrorStep) -> f64| (name.to_string(), rungs.iter().map(of).collect(), false);
     let data = plots::Bars {
         title: title.into(),
         value_label: "error beyond noise [mm]".into(),
-        groups: rungs.iter().map(|r| super::effect(&r.label)).collect(),
+        groups: rungs.iter().map(|r| super::effect(&r.label())).collect(),
         series: vec![
             series("data of the fit", |r| r.training_mm),
             series("pressures left out", |r| r.heldout_pressure_mm.unwrap_or(f64::NAN)),

@@ -6,6 +6,7 @@ use super::{Imprint, figures, residual_figure};
 use compare::Evidence;
 use compare::diagnosis::{Diagnosis, GaugeFit, Group, Options, Standing, Verdict, diagnose};
 use compare::evaluate::EvaluateOptions;
+use compare::extension::error_steps;
 use compare::study::calibrate::Knob;
 use compare::study::engines::stored;
 use compare::study::{Contender, Generator, compare, compare_all, generate, published::textbook_scenario};
@@ -117,8 +118,8 @@ fn an_attempt_has_a_bar_that_says_it_is_not_enough() {
     (d.verdict, d.attempt) = (Some(Verdict::OutOfCatalog), std::mem::take(&mut d.added));
     d.indistinguishable.clear();
     d.rule_out_first.clear();
-    let rungs = d.rungs();
-    assert!(rungs.len() == 3 && rungs[2].label.ends_with("(attempt, not enough)"), "{rungs:?}");
+    let rungs = error_steps(&d, &scenario);
+    assert!(rungs.len() == 3 && rungs[2].label().ends_with("(attempt, not enough)"), "{rungs:?}");
     assert_eq!(shown(&d)[0].standing, Standing::Attempt);
     let told = page(&d, &scenario, &dataset);
     assert!(told.contains("</strong>, attempt, not enough: "), "{told}");

@@ -5,6 +5,7 @@ use compare::known::Known;
 use compare::study::Timing;
 use compare::study::published::PublishedLadder;
 use compare::study::{Comparison, Variant};
+use data::published::printed;
 use data::{Dataset, Phase};
 use models::{Loads, Model, Scenario};
 use report::chart::{Chart, Key, Look, Mark, Space};
@@ -12,13 +13,13 @@ use report::{self as plots, Drawn, Ink, Symbol};
 
 const MM: f64 = 1e3;
 /// Points of a drawn centre line.
-const LINE_POINTS: usize = 80;
+pub(super) const LINE_POINTS: usize = 80;
 /// Terms of a ledger that colours tell apart.
 const MOST_TERMS: usize = 8;
 /// Markers on a centre line; of more, every few from the outermost one on.
 const MOST_DRAWN: usize = 24;
 /// Centre lines in one plot.
-const MOST_POSES: usize = 6;
+pub(super) const MOST_POSES: usize = 6;
 /// Body pressures are the same within this fraction.
 const SAME_BODY: f64 = 0.05;
 
@@ -118,12 +119,12 @@ pub(super) fn shapes(title: &str, scenario: &Scenario, dataset: &Dataset) -> Res
             measured: measured.collect(),
         });
     }
-    let rest_mm = vec![[0.0, 0.0], [scenario.length_m * MM, 0.0]];
+    let rest_mm = mm(&[[0.0, 0.0], [scenario.length_m, 0.0]]);
     let shapes = plots::Shapes { title: title.into(), rest_mm, body_radius_mm: scenario.radius_m * MM, poses };
     Ok(plots::shapes(&shapes)?)
 }
 
-fn mm(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+pub(super) fn mm(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     points.iter().map(|p| p.map(|v| v * MM)).collect()
 }
 
@@ -223,7 +224,7 @@ pub(super) fn published_ladder(ladder: &PublishedLadder) -> Result<Drawn, PageEr
         known: known(rung.known),
     };
     let data = plots::Ladder {
-        title: format!("{}: displacement at 30 kPa", ladder.published.printed_name),
+        title: format!("{}: displacement at 30 kPa", printed(&ladder.published.kind)),
         value_label: "displacement of the outermost marker [mm]".into(),
         steps: ladder.rungs.iter().map(step).collect(),
         target: Some(("measured (published)".into(), ladder.published.d_max_m * MM)),

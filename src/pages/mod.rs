@@ -11,19 +11,23 @@ mod engine_figures;
 mod engines;
 mod figures;
 mod ladder;
+mod one_number;
+mod predicted;
 mod residual_figure;
 mod run_plots;
 mod tables;
 mod uncertain;
 
-pub use characterize::pictures;
+pub use characterize::characterized_files;
 pub use compare::compare_page;
 pub use demo::demo_page;
 pub use diagnosis::{Diagnosed, diagnosis_page, diagnosis_pictures};
 pub use engine_figures::parting_plot;
 pub use engines::engines_page;
 pub use figures::tradeoff as tradeoff_plot;
-pub use ladder::{LadderPage, ladder_page};
+pub use ladder::{Climbed, ladder_page};
+pub use one_number::one_number_files;
+pub use predicted::{predicted_files, pressure_words};
 pub use run_plots::{mesh_plot, run_plots};
 pub use uncertain::{marker_intervals, what_to_measure};
 
@@ -51,11 +55,17 @@ impl Files {
         self.files.push((name.to_string(), text.into_bytes()));
     }
 
-    /// Adds a table as `<name>.csv` and `<name>.parquet`.
-    fn table(&mut self, name: &str, table: data::Table) -> Result<(), PageError> {
+    /// Adds a table as `<name>.csv`.
+    fn csv(&mut self, name: &str, table: &data::Table) -> Result<(), PageError> {
         let mut csv = Vec::new();
         table.to_csv(&mut csv)?;
         self.files.push((format!("{name}.csv"), csv));
+        Ok(())
+    }
+
+    /// Adds a table as `<name>.csv` and `<name>.parquet`.
+    fn table(&mut self, name: &str, table: data::Table) -> Result<(), PageError> {
+        self.csv(name, &table)?;
         self.parquet.push((format!("{name}.parquet"), table));
         Ok(())
     }

@@ -3,6 +3,7 @@
 use crate::tables::{number, table};
 use compare::diagnosis::words::three;
 use compare::extension::ErrorStep;
+use compare::ladder::Climb;
 
 /// Errors on the way as a text table.
 pub fn steps_text(steps: &[ErrorStep], noise_floor_mm: Option<f64>) -> String {
@@ -15,4 +16,17 @@ pub fn steps_text(steps: &[ErrorStep], noise_floor_mm: Option<f64>) -> String {
         format!("noise of the mean {n:.2} mm, already taken off")
     });
     format!("Error beyond noise ({floor})\n{}", table(&head, 2, steps.iter().map(row).collect()))
+}
+
+/// A climb as text.
+pub fn climb_text(climb: &Climb) -> String {
+    let mut out = steps_text(&climb.rungs, climb.noise_floor_mm);
+    climb.told.iter().for_each(|s| out.push_str(&format!("  - {s}\n")));
+    if climb.steps.len() > 1 {
+        out.push_str("Effects of earlier steps keep the values of their step; B is fitted anew on each.\n");
+    }
+    if !climb.steps.is_empty() {
+        out.push_str("A smaller error does not prove a name: `ibr validate` tries it on data it was not fitted to.\n");
+    }
+    out
 }

@@ -1,8 +1,8 @@
 //! Actuators, effects, datasets and cases.
 
-use crate::studies::STUDIES;
 use compare::diagnosis::words::with_unit;
 use fem::case::{GENERATORS, SHIPPED_CASES};
+use ibr::studies::STUDIES;
 use models::actuators::ACTUATORS;
 use models::effects::EFFECTS;
 use serde_json::{Value, json};

@@ -3,13 +3,17 @@
 use crate::tables::{number, table};
 use compare::diagnosis::words::{three, with_unit};
 use compare::study::one_number::{Explanation, OneNumber};
+use data::published::printed;
 
 /// For readers.
 pub fn text(one: &OneNumber) -> String {
     let top = one.p_act_kpa.len() - 1;
     let mut out = format!(
         "{}: the model without stiffness says {:.1} mm at {:.0} kPa, the paper {:.1} mm (published). One number, met by one effect alone at:\n",
-        one.robot, one.bare_mm[top], one.p_act_kpa[top], one.measured_mm
+        printed(&one.actuator),
+        one.bare_mm[top],
+        one.p_act_kpa[top],
+        one.measured_mm
     );
     let mut head = vec!["effect".to_string(), "value".into(), "times typical".into()];
     head.extend(one.p_act_kpa.iter().map(|p| format!("mm at {p:.0} kPa")));

@@ -2,7 +2,8 @@
 
 use crate::tables::table;
 use ibr::AtPressure;
-use models::{Beyond, Limit, Loads, Model, RowKind, Scenario};
+use ibr::pages::pressure_words;
+use models::{Beyond, Limit, Model, RowKind, Scenario};
 use serde_json::{Value, json};
 
 /// For readers.
@@ -53,15 +54,6 @@ fn wall_words(scenario: &Scenario) -> String {
 /// ∂y/∂P with all channels moved together \[m/Pa\].
 fn total_slope(state: &AtPressure) -> f64 {
     state.slopes.iter().map(|s| s.y_per_pa).sum()
-}
-
-/// Pressures of the channels \[kPa\]; one number where they are equal.
-pub fn pressure_words(loads: &Loads) -> String {
-    let p = loads.actuator_pa;
-    if p.iter().all(|x| *x == p[0]) {
-        return format!("{:.3}", p[0] / 1e3);
-    }
-    p.map(|x| format!("{}", x / 1e3)).join("/")
 }
 
 /// One state of `ibr.predict`.

@@ -6,6 +6,7 @@
 //! those of `models::fabrics::specimen` and `models::fabrics::BiasExtension`.
 
 pub mod example;
+mod input;
 pub mod reduce;
 pub mod replay;
 pub mod scatter;
@@ -16,6 +17,7 @@ mod units;
 mod warn;
 pub mod write;
 
+pub use input::FabricTests;
 pub use reduce::{Characterized, MeanCurve, ShearCurve, characterize};
 pub use replay::Replay;
 pub use scatter::{Quantity, Scatter};

@@ -29,6 +29,14 @@ pub fn fabric_toml(found: &Characterized, settings: &Settings, program: &str) ->
     Some(text)
 }
 
+/// What would have to be there for [`fabric_toml`].
+pub fn missing(found: &Characterized) -> &'static str {
+    match found.thickness_m {
+        None => "the thickness is missing; add --thickness 0.05mm or # thickness_mm: 0.05 in the files",
+        Some(_) => "a law needs specimens pulled along warp or fill; woven and orthotropic need 0°, 45° and 90°",
+    }
+}
+
 /// `[measured]` tables for the `about.toml` of a robot made of this fabric, from numbers of two specimens or more; none without any.
 ///
 /// The standard deviation is that of one more piece, s √(1 + 1/n), as the robot is one: a mean of many specimens says little of it.

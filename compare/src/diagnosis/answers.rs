@@ -100,6 +100,16 @@ impl Diagnosis {
         self.pattern.as_ref().is_some_and(|pattern| pattern.either)
     }
 
+    /// What the final model has beyond the base, and how it is known; `None` where that is nothing.
+    pub fn final_model(&self) -> Option<(String, &'static str)> {
+        let (added, word) = match self.added.is_empty() {
+            true => (&self.attempt, self.attempt_words()),
+            false => (&self.added, "calibrated"),
+        };
+        let names: Vec<String> = added.iter().map(|a| format!("+ {}", a.effect)).collect();
+        (!names.is_empty()).then(|| (names.join(" "), word))
+    }
+
     /// What an attempt is called beside answers.
     pub fn attempt_words(&self) -> &'static str {
         match &self.pattern {

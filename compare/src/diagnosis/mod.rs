@@ -52,7 +52,6 @@ mod prepare;
 mod problem;
 mod proposed;
 mod result;
-mod rungs;
 mod screen;
 mod shapes;
 mod singles;
@@ -76,7 +75,6 @@ pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
 pub use options::Options;
 pub use proposed::*;
 pub use result::*;
-pub use rungs::ErrorRung;
 
 use crate::beside_mean::BesideMean;
 use crate::error::CompareError;

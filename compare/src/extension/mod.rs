@@ -3,8 +3,8 @@
 mod steps;
 mod text;
 
-pub use steps::ErrorStep;
 pub(crate) use steps::Ground;
+pub use steps::{ErrorStep, error_steps};
 pub use text::{Addition, NewBending, Origin, extended, origins};
 
 use crate::diagnosis::words::{listed, named, three};

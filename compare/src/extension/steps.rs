@@ -25,6 +25,21 @@ pub struct ErrorStep {
     pub bending_nm2: f64,
 }
 
+impl ErrorStep {
+    /// The model and how its newest value is known.
+    pub fn label(&self) -> String {
+        let ErrorStep { model, how_known, .. } = self;
+        if model.ends_with(how_known) { model.clone() } else { format!("{model} ({how_known})") }
+    }
+}
+
+/// Errors of the scenario as given, calibrated, and with what the verdict adds or what was attempted.
+pub fn error_steps(d: &Diagnosis, scenario: &Scenario) -> Vec<ErrorStep> {
+    let ground = Ground::new(d, scenario);
+    let last = d.final_model().map(|_| ground.verdict_step());
+    ground.first_steps().into_iter().chain(last).collect()
+}
+
 /// A diagnosis, as that of one scenario.
 pub(crate) struct Ground<'a> {
     /// What was found.
@@ -131,13 +146,13 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// The final model of the diagnosis.
+    /// The final model of the diagnosis, or the one that it attempted.
     pub fn verdict_step(&self) -> ErrorStep {
         let base = &self.d.base;
-        let names: Vec<String> = self.d.added.iter().map(|a| format!("+ {}", a.effect)).collect();
+        let (model, how_known) = self.d.final_model().unwrap_or_default();
         ErrorStep {
-            model: names.join(" "),
-            how_known: Known::Calibrated.word(),
+            model,
+            how_known,
             training_mm: base.systematic_with_added_mm,
             heldout_pressure_mm: base.heldout_with_added_mm,
             heldout_run_mm: base.heldout_run_with_added_mm,

@@ -6,13 +6,14 @@ mod told;
 mod told_robot;
 mod told_several;
 
-use super::fem_inputs::{seconds, source};
+use super::fem_inputs::seconds;
 use super::{Context, Outcome};
 use crate::cli::Simulate;
 use crate::failure::Failure;
 use crate::output::{check_folder, maker};
 use fem::FemError;
 use fem::session::{FeRun, Further, SUMMARY, Settings, Source, simulate};
+use ibr::fe_source;
 use ibr::pages::run_plots;
 use plan::Plan;
 use serde_json::json;
@@ -20,7 +21,7 @@ use std::path::Path;
 use std::time::Duration;
 
 pub fn run(args: &Simulate, context: &mut Context) -> Result<Outcome, Failure> {
-    let plan = plan::plan(args, source(&args.case)?)?;
+    let plan = plan::plan(args, fe_source(&args.case)?)?;
     let folder = args.out.clone().unwrap_or_else(|| plan.folder(&args.case));
     let settings = Settings {
         resume: args.resume,

@@ -38,17 +38,6 @@ pub(super) const IN_PRINT: &[Check] = &[
     ("gravity", gravity),
 ];
 
-/// Name of a kind as the paper writes it, singular.
-pub(super) fn printed(kind: &str) -> &str {
-    match kind {
-        "spam" => "sPAM",
-        "cpam" => "cPAM",
-        "epam" => "ePAM",
-        "fpam" => "fPAM",
-        other => other,
-    }
-}
-
 fn unread(why: &str) -> Found {
     ("–".into(), Verdict::CannotBeChecked(why.into()))
 }

@@ -1,9 +1,9 @@
 //! Facts that finished runs of the preset decide, on the finest mesh that has all runs a fact needs.
 
 use super::facts::{Case, Check, Found, Verdict, no_runs};
-use super::in_print::printed;
 use super::{MESHES_MM, PaperRun, find, mesh_name};
 use crate::accuracy::paper_accuracy;
+use data::published::printed;
 
 /// Differences up to this share are none.
 const NONE: f64 = 0.02;

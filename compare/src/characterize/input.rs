@@ -1,0 +1,65 @@
+//! Tests of a fabric, as files.
+
+use super::{Characterized, Settings, characterize};
+use crate::CompareError;
+use crate::progress::Progress;
+use data::bench::bending_lengths_m;
+use data::{Bench, Coupon, CouponDefaults, bench, parse_coupons, read_coupons};
+use fem::session::FileHash;
+use std::path::Path;
+
+/// Tests of one fabric.
+#[derive(Debug, Clone, Default)]
+pub struct FabricTests {
+    /// Pulled specimens.
+    pub coupons: Vec<Coupon>,
+    /// Cantilever tests.
+    pub bent: Vec<Bench>,
+    /// Files that were read.
+    pub files: Vec<FileHash>,
+}
+
+impl FabricTests {
+    /// Reads tensile and cantilever tests.
+    ///
+    /// # Errors
+    /// A fault of a file, or a table that is of no fabric.
+    pub fn read(files: &[String], defaults: &CouponDefaults, tell: &mut Progress) -> Result<FabricTests, CompareError> {
+        let mut tests = FabricTests::default();
+        for file in files {
+            tell(&format!("reading {file}"), None);
+            tests.add(file, defaults)?;
+        }
+        Ok(tests)
+    }
+
+    fn add(&mut self, file: &str, defaults: &CouponDefaults) -> Result<(), CompareError> {
+        let table = bench(file)?;
+        if let Some(table) = table.as_ref().filter(|table| table.kind.name != "bending_length") {
+            let message = format!("{file} is a {} table, not a test of a fabric", table.kind.name);
+            return Err(CompareError::refused(message, format!("`ibr compare {file}` holds it against its model")));
+        }
+        let bytes = std::fs::read(file);
+        self.files.extend(bytes.as_ref().ok().map(|bytes| FileHash::of(file, bytes)));
+        match (table, bytes) {
+            (Some(table), _) => self.bent.push(table),
+            (None, Ok(bytes)) => {
+                let (mut text, size) = (bytes.as_slice(), bytes.len() as u64);
+                self.coupons.extend(parse_coupons(file, &mut text, size, defaults, &mut |_, _| ())?);
+            }
+            // The reader says why it cannot be read.
+            (None, Err(_)) => self.coupons.extend(read_coupons(Path::new(file), defaults, &mut |_, _| ())?),
+        }
+        Ok(())
+    }
+
+    /// Numbers and curves of the fabric.
+    ///
+    /// # Errors
+    /// As [`characterize`].
+    pub fn reduce(&self, settings: &Settings) -> Result<Characterized, CompareError> {
+        let mut found = characterize(&self.coupons, settings)?;
+        self.bent.iter().for_each(|table| found.bend(&bending_lengths_m(table), table.provenance.word()));
+        Ok(found)
+    }
+}
