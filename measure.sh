@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The size of this repository: lines and characters of code without tests, in one format for every version; modules that
-# import each other in a circle; named constants; the binary. `./measure.sh build` times a clean build too.
+# import each other in a circle; named constants; type names with two meanings; the binary. `./measure.sh build` times a clean build too.
 # Needs rustfmt, awk and tsort.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -54,6 +54,10 @@ done
 printf '%-44s %s\n' "circles between modules" "$circles"
 printf '%b\n' "$where" | sed '/^$/d'
 printf '%-44s %s\n' "named constants of numbers" "$(grep -rhE '^\s*(pub )?(pub\([a-z]+\) )?const [A-Z_0-9]+: (f64|usize|u32|u64)' "$copy" | wc -l)"
+# A type that the rest of its crate, or everybody, sees; and every type.
+meanings() { grep -rhoE "^\s*($1)(struct|enum|trait) [A-Z][A-Za-z0-9]*" "$copy" --include='*.rs' | awk '{ print $NF }' | sort | uniq -d | wc -l; }
+printf '%-44s %s\n' "public type names with two meanings" "$(meanings 'pub ')"
+printf '%-44s %s\n' "type names with two meanings, private too" "$(meanings '(pub(\([a-z :]+\))? )?')"
 printf '%-44s %s\n' "files over 400 lines" "$(find $product $development -name '*.rs' -not -path '*/target/*' | xargs wc -l | awk '$1 > 400 && $2 != "total"' | wc -l)"
 # A word has a letter or a digit; the JSON's keys are a table apart.
 words() { cat "$@" | tr -s '[:space:]' '\n' | grep -c '[[:alnum:]]'; }

@@ -6,8 +6,10 @@ mod groups;
 
 use clap::{Args, Parser, Subcommand};
 use compare::study::Knob;
-pub use data::{Characterize, DataCommand, DataFem, Generate, Scatter};
-pub use discover::{Add, Breakdown, ChallengeCommand, ChallengeNew, Diagnose, Ladder, Validate};
+pub use data::{CharacterizeArgs, DataCommand, DataFemArgs, GenerateArgs, ScatterArgs};
+pub use discover::{
+    AddArgs, BreakdownArgs, ChallengeCommand, ChallengeNewArgs, DiagnoseArgs, LadderArgs, ValidateArgs,
+};
 pub use groups::{command, parsed};
 use std::path::PathBuf;
 
@@ -34,25 +36,25 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// The whole story on embedded data, with a report
-    Demo(OutDir),
+    Demo(OutDirArgs),
     /// Shape and markers at given pressures, or the pressure for a wanted tip
-    Predict(Predict),
+    Predict(PredictArgs),
     /// Hold a model against measurements: how far off, and where
-    Compare(Compare),
+    Compare(CompareArgs),
     /// Which physical effect is missing, what cannot be told apart, what to measure next
-    Diagnose(Diagnose),
+    Diagnose(DiagnoseArgs),
     /// Write a new scenario with one more effect, fitted on data or given
-    Add(Add),
+    Add(AddArgs),
     /// Diagnose and add until what is left is noise, and show the fall of the error
-    Ladder(Ladder),
+    Ladder(LadderArgs),
     /// Does an added effect help on data that it was not fitted to?
-    Validate(Validate),
+    Validate(ValidateArgs),
     /// Where the reduced model parts from finite elements, and which energy carries it
-    Breakdown(Breakdown),
+    Breakdown(BreakdownArgs),
     /// Run a finite element case through time: ParaView frames, energy balance, checkpoints
-    Simulate(Simulate),
+    Simulate(SimulateArgs),
     /// From tensile tests of a fabric to its moduli, curves and a table for cases
-    Characterize(Characterize),
+    Characterize(CharacterizeArgs),
     /// Look at, list or make marker data
     #[command(subcommand)]
     Data(DataCommand),
@@ -71,7 +73,7 @@ pub enum Command {
         kind: String,
     },
     /// Run time against accuracy of every model present
-    Tradeoff(Tradeoff),
+    Tradeoff(TradeoffArgs),
     /// Hold closed forms and finite elements against known numbers
     Verify(VerifyArgs),
     /// Measure the speed on this machine, or how often a diagnosis is right
@@ -125,7 +127,7 @@ pub struct BenchArgs {
 
 /// Where results go.
 #[derive(Debug, Args)]
-pub struct OutDir {
+pub struct OutDirArgs {
     /// Folder for the report, plots and tables
     #[arg(long, default_value = "ibr-report/demo")]
     pub out: PathBuf,
@@ -133,7 +135,7 @@ pub struct OutDir {
 
 /// `ibr tradeoff`
 #[derive(Debug, Args)]
-pub struct Tradeoff {
+pub struct TradeoffArgs {
     /// Folder for plots and tables
     #[arg(long)]
     pub out: Option<PathBuf>,
@@ -144,7 +146,7 @@ pub struct Tradeoff {
 
 /// `ibr predict`
 #[derive(Debug, Args)]
-pub struct Predict {
+pub struct PredictArgs {
     /// Scenario file or shipped robot
     pub scenario: String,
     /// Actuator pressures with unit, for example 10kPa,20kPa; `/` separates supply channels. With an effect that has
@@ -173,7 +175,7 @@ pub struct Predict {
 
 /// `ibr compare`
 #[derive(Debug, Args)]
-pub struct Compare {
+pub struct CompareArgs {
     /// Scenario file or shipped robot, then marker data; with --engines or --paper any number of scenarios, those of the paper if none
     #[arg(value_name = "SCENARIO DATA")]
     pub inputs: Vec<String>,
@@ -219,7 +221,7 @@ pub struct Compare {
     pub out: Option<PathBuf>,
 }
 
-impl Compare {
+impl CompareArgs {
     /// Where runs are kept.
     pub fn runs_folder(&self) -> PathBuf {
         self.runs.clone().unwrap_or_else(|| PathBuf::from("ibr-report/runs"))
@@ -228,7 +230,7 @@ impl Compare {
 
 /// `ibr simulate`
 #[derive(Debug, Args)]
-pub struct Simulate {
+pub struct SimulateArgs {
     /// Case file or robot's scenario, or a shipped one: pillow, tube, spam, cpam, epam, fpam
     pub case: String,
     /// Folder of the run; default: ibr-report/simulate-<case>

@@ -150,7 +150,7 @@ fn in_text(
 }
 
 /// The offending line of a table, which may be too large a file to show whole.
-struct Line {
+struct FaultyLine {
     name: String,
     text: String,
     number: usize,
@@ -158,7 +158,7 @@ struct Line {
     before: usize,
 }
 
-impl SourceCode for Line {
+impl SourceCode for FaultyLine {
     fn read_span<'a>(
         &'a self,
         span: &SourceSpan,
@@ -179,7 +179,7 @@ fn at_fault(fault: &Fault, shown: MietteDiagnostic) -> Report {
     let (cut, before) = part(text, start);
     let (start, end) = (start.saturating_sub(before), end.saturating_sub(before));
     let end = end.max(start + 1).min(cut.len());
-    let source = Line { name: printable(&place.file), text: printable(cut), number: place.line as usize, before };
+    let source = FaultyLine { name: printable(&place.file), text: printable(cut), number: place.line as usize, before };
     Report::new(shown.with_label(LabeledSpan::at(start.min(end)..end, "here"))).with_source_code(source)
 }
 

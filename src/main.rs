@@ -1,17 +1,17 @@
 //! The command `ibr`: parse, run, print, exit code. No logic here.
 
-mod bar;
 mod cli;
 mod commands;
 mod context;
 mod failure;
+mod meter;
 mod output;
 mod printable;
 mod shown;
 mod tables;
 
-use bar::Bar;
 use context::{Context, Interrupt, Outcome};
+use meter::Meter;
 use printable::printable;
 use std::io::Write;
 use std::process::ExitCode;
@@ -28,7 +28,7 @@ fn main() -> ExitCode {
         say(&format!("warning: an interrupt cannot be caught here: {error}\n"));
     }
     let cli = cli::parsed();
-    let bar = Bar::new(!cli.quiet && !cli.json);
+    let bar = Meter::new(!cli.quiet && !cli.json);
     let mut context = Context {
         json: cli.json,
         progress: &mut |what, share| bar.tell(what, share),

@@ -30,7 +30,7 @@ pub struct Camera {
 
 /// A marker before the camera.
 #[derive(Debug, Clone, Copy)]
-pub struct Point {
+pub struct SeenPoint {
     /// Place on the centre line \[m\].
     pub xy: [f64; 2],
     /// Heading \[rad\].
@@ -41,7 +41,7 @@ pub struct Point {
 
 impl Camera {
     /// The marker as recorded \[m\], at the set pressure.
-    pub fn see(&self, point: &Point, p_set_pa: f64) -> [f64; 2] {
+    pub fn see(&self, point: &SeenPoint, p_set_pa: f64) -> [f64; 2] {
         let (u, l) = (p_set_pa / 30e3, self.length_m);
         let (sin, cos) = point.heading.sin_cos();
         let height = self.height_m * (1.0 + 0.3 * (point.station_m / l - 0.5));

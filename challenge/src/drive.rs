@@ -48,7 +48,7 @@ pub struct Drive {
 
 /// What the actuator does at one coordinate.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Pull {
+pub(super) struct DriveState {
     /// Contraction and its slope by the coordinate.
     pub contraction: f64,
     pub d_contraction: f64,
@@ -77,7 +77,7 @@ impl Drive {
         }
     }
 
-    pub(super) fn at(&self, a: f64, p_act_pa: f64) -> Pull {
+    pub(super) fn at(&self, a: f64, p_act_pa: f64) -> DriveState {
         let bag = self.bag(a);
         let ([v, dv], [h, dh]) = (bag.volume, bag.height);
         let per = match self.family {
@@ -91,7 +91,7 @@ impl Drive {
             Family::Pouch => [0.5 * h, 0.5 * dh],
             Family::Mckibben => [h - self.width_m / PI, dh],
         };
-        Pull {
+        DriveState {
             contraction: bag.contraction[0],
             d_contraction: bag.contraction[1],
             push: self.strength * p_act_pa * d_volume - self.resistance(a),

@@ -1,6 +1,6 @@
 //! Centre line of the cells, and the moments that weights and forces exert on them.
 
-use super::camera::Point;
+use super::camera::SeenPoint;
 use super::robot::Cell;
 
 /// Weights and forces; all off at 0.
@@ -53,15 +53,15 @@ impl DeadLoads {
 }
 
 /// Shape of the robot: the start of every cell and its end, by exact arcs of the shortened centre line.
-pub(super) struct Shape {
+pub(super) struct CellPoses {
     nodes: Vec<[f64; 2]>,
     headings: Vec<f64>,
 }
 
-impl Shape {
-    pub fn new(cells: &[Cell], curvatures: &[f64]) -> Shape {
+impl CellPoses {
+    pub fn new(cells: &[Cell], curvatures: &[f64]) -> CellPoses {
         let (mut xy, mut heading) = ([0.0; 2], 0.0);
-        let mut shape = Shape { nodes: vec![xy], headings: vec![heading] };
+        let mut shape = CellPoses { nodes: vec![xy], headings: vec![heading] };
         for (cell, kappa) in cells.iter().zip(curvatures) {
             xy = along(xy, heading, *kappa, cell.length_m, cell.centre_line_m);
             heading += kappa * cell.length_m;
@@ -72,18 +72,18 @@ impl Shape {
     }
 
     /// The point of the centre line at a station.
-    pub fn point(&self, cells: &[Cell], curvatures: &[f64], station_m: f64) -> Point {
+    pub fn point(&self, cells: &[Cell], curvatures: &[f64], station_m: f64) -> SeenPoint {
         let i = cells.iter().rposition(|cell| cell.start_m <= station_m).unwrap_or(0);
         let (cell, offset) = (&cells[i], station_m - cells[i].start_m);
         let xy = along(self.nodes[i], self.headings[i], curvatures[i], offset, cell.centre_line_m);
-        Point { xy, heading: self.headings[i] + curvatures[i] * offset, station_m }
+        SeenPoint { xy, heading: self.headings[i] + curvatures[i] * offset, station_m }
     }
 
     /// Generalised force of the loads on every curvature \[N·m\]: the turn of what lies beyond the cell's middle, and the
     /// shortening of the centre line there.
     pub fn moments(&self, cells: &[Cell], loads: &DeadLoads) -> Vec<f64> {
         let tip = self.nodes[cells.len()];
-        let mut beyond = Beyond { force: [0.0; 2], turn: 0.0 };
+        let mut beyond = FarForces { force: [0.0; 2], turn: 0.0 };
         beyond.add(tip, loads.on_tip(tip));
         let mut moments = vec![0.0; cells.len()];
         for (i, cell) in cells.iter().enumerate().rev() {
@@ -103,12 +103,12 @@ impl Shape {
 }
 
 /// Sum of the forces beyond a place, and their turning moment about the origin.
-struct Beyond {
+struct FarForces {
     force: [f64; 2],
     turn: f64,
 }
 
-impl Beyond {
+impl FarForces {
     fn add(&mut self, at: [f64; 2], force: [f64; 2]) {
         self.force = [self.force[0] + force[0], self.force[1] + force[1]];
         self.turn += at[0] * force[1] - at[1] * force[0];

@@ -1,8 +1,8 @@
 //! A run: the protocol in time, cell by cell, with what the cells remember.
 
-use super::loads::Shape;
-use super::robot::{Acting, Robot};
-use super::wall::Memory;
+use super::loads::CellPoses;
+use super::robot::{Acting, TrueRobot};
+use super::wall::CellMemory;
 use compare::error::CompareError;
 use data::Hold;
 
@@ -19,9 +19,9 @@ const AGREED_NM: f64 = 1e-7;
 
 /// State of a robot in time.
 struct March<'a> {
-    robot: &'a Robot,
+    robot: &'a TrueRobot,
     gain: f64,
-    memory: Vec<Memory>,
+    memory: Vec<CellMemory>,
     curvatures: Vec<f64>,
     moments: Vec<f64>,
 }
@@ -40,10 +40,10 @@ struct Instant {
 ///
 /// # Errors
 /// A hold at which nothing balances.
-pub fn run(robot: &Robot, holds: &[Hold], gain: f64) -> Result<Vec<f64>, CompareError> {
+pub fn run(robot: &TrueRobot, holds: &[Hold], gain: f64) -> Result<Vec<f64>, CompareError> {
     let n = robot.cells.len();
     let mut march =
-        March { robot, gain, memory: vec![Memory::default(); n], curvatures: vec![0.0; n], moments: vec![0.0; n] };
+        March { robot, gain, memory: vec![CellMemory::default(); n], curvatures: vec![0.0; n], moments: vec![0.0; n] };
     let (mut xy_m, mut set_pa, mut time_s) = (Vec::new(), 0.0, 0.0);
     for hold in holds {
         let begin_s = time_s;
@@ -68,10 +68,10 @@ pub(super) fn held_s(time_s: f64, begin_s: f64) -> f64 {
     (time_s - begin_s - RAMP_S).max(0.0)
 }
 
-impl Robot {
+impl TrueRobot {
     /// Whether a state depends on what was before.
     fn remembers(&self) -> bool {
-        let memory = |wall: &super::wall::Wall| wall.friction_nm != 0.0 || wall.creep_nm2 != 0.0 || wall.set != 0.0;
+        let memory = |wall: &super::wall::CellWall| wall.friction_nm != 0.0 || wall.creep_nm2 != 0.0 || wall.set != 0.0;
         self.cells.iter().any(|cell| memory(&cell.wall))
     }
 }
@@ -117,7 +117,8 @@ impl March<'_> {
         let (mut share, mut before) = (1.0, f64::INFINITY);
         for _ in 0..MAX_ROUNDS {
             self.solve(at)?;
-            let wanted = Shape::new(&self.robot.cells, &self.curvatures).moments(&self.robot.cells, &self.robot.loads);
+            let wanted =
+                CellPoses::new(&self.robot.cells, &self.curvatures).moments(&self.robot.cells, &self.robot.loads);
             let gap = wanted.iter().zip(&self.moments).fold(0.0_f64, |most, (w, m)| most.max((w - m).abs()));
             if gap < AGREED_NM {
                 return Ok(());
@@ -154,7 +155,7 @@ impl March<'_> {
 
     /// Appends what the camera sees.
     fn sight(&self, set_pa: f64, xy_m: &mut Vec<f64>) {
-        let shape = Shape::new(&self.robot.cells, &self.curvatures);
+        let shape = CellPoses::new(&self.robot.cells, &self.curvatures);
         for station in &self.robot.markers_m {
             let point = shape.point(&self.robot.cells, &self.curvatures, *station);
             xy_m.extend(self.robot.camera.see(&point, set_pa));

@@ -1,7 +1,7 @@
 //! A robot measured: several runs with the scatter of a real test.
 
 use super::march;
-use super::robot::Robot;
+use super::robot::TrueRobot;
 use compare::error::CompareError;
 use compare::study::generate::{Generator, Manometer, Scatter, holds, markers};
 use data::{Dataset, Hold};
@@ -31,7 +31,7 @@ const HEAVY_DOF: usize = 3;
 ///
 /// # Errors
 /// A hold at which nothing balances.
-pub fn ideal(robot: &Robot, generator: &Generator) -> Result<Vec<f64>, CompareError> {
+pub fn ideal(robot: &TrueRobot, generator: &Generator) -> Result<Vec<f64>, CompareError> {
     march::run(robot, &holds(generator), 1.0)
 }
 
@@ -41,7 +41,7 @@ pub fn ideal(robot: &Robot, generator: &Generator) -> Result<Vec<f64>, CompareEr
 /// # Errors
 /// A hold at which nothing balances; no marker stations.
 pub fn measure(
-    robot: &Robot,
+    robot: &TrueRobot,
     scenario: &Scenario,
     name: &str,
     measurement: &Measurement,
@@ -54,7 +54,7 @@ pub fn measure(
 /// # Errors
 /// As [`measure`].
 pub fn measure_holds(
-    robot: &Robot,
+    robot: &TrueRobot,
     scenario: &Scenario,
     name: &str,
     measurement: &Measurement,
@@ -108,7 +108,7 @@ fn lost(dataset: &Dataset, seed: u64) -> Vec<[usize; 3]> {
 }
 
 /// Readings of one run, `[hold][sample]` \[Pa\]; `gain` is the run's factor on the pressure.
-fn read(manometer: &mut Manometer, robot: &Robot, holds: &[Hold], gain: f64, readings: &mut Vec<f64>) {
+fn read(manometer: &mut Manometer, robot: &TrueRobot, holds: &[Hold], gain: f64, readings: &mut Vec<f64>) {
     let mut begin_s = 0.0;
     for hold in holds {
         for t_s in &hold.t_s {

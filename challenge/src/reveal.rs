@@ -2,7 +2,7 @@
 
 use super::seal::{FILE, SEALED, Seal, VERSION, hex};
 use super::truth::known;
-use super::{Answer, Score, Truth};
+use super::{Claim, ClaimScore, Truth};
 use compare::CompareError;
 use serde::Deserialize;
 use serde_json::Value;
@@ -79,12 +79,12 @@ impl Truth {
     }
 }
 
-impl Answer {
+impl Claim {
     /// Reads what `ibr diagnose --json` printed, which must be of the data in the folder, whose hash is given.
     ///
     /// # Errors
     /// No such JSON, or a diagnosis of other data.
-    pub fn read(path: &Path, folder: &Path, data_sha256: &str) -> Result<Answer, CompareError> {
+    pub fn read(path: &Path, folder: &Path, data_sha256: &str) -> Result<Claim, CompareError> {
         let folder = folder.display();
         let help = format!("give the file of `ibr diagnose {folder}/scenario.toml {folder} --json > answer.json`");
         let text = read(path, &help)?;
@@ -111,11 +111,11 @@ impl Answer {
             let kept = list.iter().filter(|item| item.get("at_bound") != Some(&Value::Bool(true)));
             kept.filter_map(|item| item.as_str().or_else(|| item.get("effect")?.as_str()).map(str::to_string)).collect()
         };
-        Ok(Answer { verdict, ranked: names("ranked"), set: names("indistinguishable"), added: names("added") })
+        Ok(Claim { verdict, ranked: names("ranked"), set: names("indistinguishable"), added: names("added") })
     }
 
     /// The answer and its score in words; without a verdict there is none.
-    pub fn words(&self, truth: &Truth, score: Option<&Score>) -> String {
+    pub fn words(&self, truth: &Truth, score: Option<&ClaimScore>) -> String {
         let (Some(said), Some(score)) = (&self.verdict, score) else {
             return "The diagnosis gives no verdict: it is not scored. Three runs or more are needed for one.\n".into();
         };

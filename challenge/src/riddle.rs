@@ -2,7 +2,7 @@
 
 use super::seal::{FILE, SALT, SEALED, Seal, hex};
 use super::truth::{ROBOTS, known, standard_protocol};
-use super::{Draw, Kind, Truth};
+use super::{Draw, Hiding, Truth};
 use compare::CompareError;
 use compare::study::{Generator, generate, parse_protocol};
 use data::{About, Dataset};
@@ -113,12 +113,12 @@ fn sealed_text(truth: &Truth, files: &[(String, Vec<u8>)]) -> Result<String, Com
 }
 
 /// Half of the challenges hide one effect; the others keep a reader from assuming so.
-fn kind(draw: &mut Draw) -> Kind {
+fn kind(draw: &mut Draw) -> Hiding {
     match draw.between(0.0, 1.0) {
-        u if u < 0.15 => Kind::Nothing,
-        u if u < 0.65 => Kind::One,
-        u if u < 0.85 => Kind::Two,
-        _ => Kind::Outside,
+        u if u < 0.15 => Hiding::Nothing,
+        u if u < 0.65 => Hiding::One,
+        u if u < 0.85 => Hiding::Two,
+        _ => Hiding::Outside,
     }
 }
 

@@ -4,8 +4,8 @@ use super::camera::Camera;
 use super::drive::Drive;
 use super::loads::DeadLoads;
 use super::root::root;
-use super::supply::Supply;
-use super::wall::{Memory, Wall};
+use super::supply::TrueSupply;
+use super::wall::{CellMemory, CellWall};
 use compare::error::CompareError;
 use models::actuators::Family;
 use models::{Loads, Model, Scenario};
@@ -26,12 +26,12 @@ pub struct Cell {
     /// Actuator, if any.
     pub drive: Option<Drive>,
     /// Body.
-    pub wall: Wall,
+    pub wall: CellWall,
 }
 
 /// Everything the generator knows about a robot.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Robot {
+pub struct TrueRobot {
     /// Base to tip.
     pub cells: Vec<Cell>,
     /// Body length \[m\].
@@ -39,7 +39,7 @@ pub struct Robot {
     /// Marker stations where they really are \[m\].
     pub markers_m: Vec<f64>,
     /// From the regulator to the actuator.
-    pub supply: Supply,
+    pub supply: TrueSupply,
     /// Weights and forces.
     pub loads: DeadLoads,
     /// What the camera makes of it.
@@ -51,12 +51,12 @@ pub struct Robot {
 /// Pressures of the scale: the top of the standard protocol.
 const SCALE_PA: [f64; 2] = [2e3, 30e3];
 
-impl Robot {
+impl TrueRobot {
     /// The robot of a scenario. The only effect understood is `arm_growth`, the geometry of an external actuator.
     ///
     /// # Errors
     /// Another effect in the scenario; no equilibrium at the top of the standard protocol.
-    pub fn new(scenario: &Scenario) -> Result<Robot, CompareError> {
+    pub fn new(scenario: &Scenario) -> Result<TrueRobot, CompareError> {
         if scenario.wall != models::scenario::Wall::default() || !scenario.actuator.exists() {
             let problem =
                 "the generator knows neither wall_stiffness_n_per_m nor a beam without [actuator]".to_string();
@@ -73,12 +73,12 @@ impl Robot {
         }
         let scale_per_m = scale(scenario)?;
         let cells: Vec<Cell> = cells(scenario, lift_share, scale_per_m);
-        Ok(Robot {
+        Ok(TrueRobot {
             loads: DeadLoads::none(cells.len(), scenario.gravity_direction),
             cells,
             length_m: scenario.length_m,
             markers_m: scenario.markers_m.clone(),
-            supply: Supply::default(),
+            supply: TrueSupply::default(),
             camera: Camera { length_m: scenario.length_m, ..Camera::default() },
             scale_per_m,
         })
@@ -131,7 +131,7 @@ fn cells(scenario: &Scenario, lift_share: f64, scale_per_m: f64) -> Vec<Cell> {
             shear_n_per_m: 0.0,
             lock_n_per_m: 0.0,
         });
-        let wall = Wall {
+        let wall = CellWall {
             bending: span.bending_stiffness,
             hinge_m3: scenario.hinge_share * PI * span.radius_m.powi(3),
             step_per_m: scenario.hinge_curvature,
@@ -179,7 +179,7 @@ impl Cell {
     }
 
     /// Curvature at which actuator, body and loads balance.
-    pub(super) fn solve(&self, acting: &Acting, memory: &Memory) -> Option<f64> {
+    pub(super) fn solve(&self, acting: &Acting, memory: &CellMemory) -> Option<f64> {
         match &self.drive {
             Some(drive) if drive.strength * acting.p_act_pa > SLACK_PA => {
                 let (low, high) = drive.range();
@@ -194,7 +194,7 @@ impl Cell {
     }
 
     /// Curvature at a coordinate, and the weighted moment that is left: N ∂(κD)/∂κ + M_load − M_wall.
-    fn imbalance(&self, drive: &Drive, a: f64, acting: &Acting, memory: &Memory) -> (f64, f64) {
+    fn imbalance(&self, drive: &Drive, a: f64, acting: &Acting, memory: &CellMemory) -> (f64, f64) {
         let pull = drive.at(a, acting.p_act_pa);
         let mut kappa = pull.contraction / pull.arm;
         let mut tension = 0.0;

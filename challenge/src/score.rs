@@ -7,7 +7,7 @@ use serde::Serialize;
 
 /// What a diagnosis says, as far as it is scored.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
-pub struct Answer {
+pub struct Claim {
     /// `none`, `effect` or `out_of_catalog`; `None` if it gives no verdict.
     pub verdict: Option<String>,
     /// Effects of the catalogue, best first, those on a bound left out.
@@ -20,7 +20,7 @@ pub struct Answer {
 
 /// How good an answer is.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Score {
+pub struct ClaimScore {
     /// It says that something is missing.
     pub alarm: bool,
     /// It says that nothing in the catalogue explains the data.
@@ -41,9 +41,9 @@ pub struct Score {
     pub wrong: bool,
 }
 
-impl Answer {
+impl Claim {
     /// Of a diagnosis.
-    pub fn of(diagnosis: &Diagnosis) -> Answer {
+    pub fn of(diagnosis: &Diagnosis) -> Claim {
         let verdict = match diagnosis.verdict {
             Some(Verdict::None) => Some("none"),
             Some(Verdict::Effect) => Some("effect"),
@@ -52,7 +52,7 @@ impl Answer {
         };
         let mut ranked: Vec<_> = diagnosis.ranked.iter().filter(|row| !row.at_bound).collect();
         ranked.sort_by(|a, b| a.bic_difference.total_cmp(&b.bic_difference));
-        Answer {
+        Claim {
             verdict: verdict.map(str::to_string),
             ranked: ranked.iter().map(|row| row.effect.clone()).collect(),
             set: diagnosis.indistinguishable.clone(),
@@ -62,7 +62,7 @@ impl Answer {
 }
 
 /// Scores an answer.
-pub fn score(truth: &Truth, answer: &Answer) -> Score {
+pub fn score(truth: &Truth, answer: &Claim) -> ClaimScore {
     let inside = |name: &&str| by_name(name).is_some_and(|effect| !effect.is_outside());
     let names: Vec<&str> = truth.effects.iter().map(|choice| choice.name.as_str()).collect();
     let true_names: Vec<&str> = names.iter().copied().filter(|name| inside(name)).collect();
@@ -80,7 +80,7 @@ pub fn score(truth: &Truth, answer: &Answer) -> Score {
     let excused = answer.set.iter().any(|entry| members(entry).iter().all(is_true));
     let verdict = answer.verdict.as_deref();
     let asserted = verdict == Some("effect") && !answer.added.iter().all(is_true);
-    Score {
+    ClaimScore {
         alarm: verdict.is_some_and(|verdict| verdict != "none"),
         out_of_catalog: verdict == Some("out_of_catalog"),
         verdict_right: verdict == Some(right),
@@ -98,12 +98,12 @@ mod tests {
     use super::*;
     use crate::Draw;
 
-    fn scored(hidden: &[&str], verdict: &str, set: &[&str], added: &[&str]) -> Score {
+    fn scored(hidden: &[&str], verdict: &str, set: &[&str], added: &[&str]) -> ClaimScore {
         let mut truth = Truth::draw("epam", &mut Draw::new(1, 1)).unwrap();
         hidden.iter().for_each(|name| truth.add(name, 1.0));
         let own = |list: &[&str]| list.iter().map(|name| name.to_string()).collect::<Vec<_>>();
         let ranked = own(&["gravity", "creep", "leak"]);
-        score(&truth, &Answer { verdict: Some(verdict.into()), ranked, set: own(set), added: own(added) })
+        score(&truth, &Claim { verdict: Some(verdict.into()), ranked, set: own(set), added: own(added) })
     }
 
     #[test]

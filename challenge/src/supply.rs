@@ -9,7 +9,7 @@
 
 /// Supply laws; all off at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Supply {
+pub struct TrueSupply {
     /// Dead band p₀ \[Pa\].
     pub dead_band_pa: f64,
     /// Loss f \[-\].
@@ -22,7 +22,7 @@ pub struct Supply {
     pub stuck_at_pa: f64,
 }
 
-impl Supply {
+impl TrueSupply {
     /// Pressure in the actuator `held_s` after the set pressure was reached; `gain` is the run's own error.
     pub fn pressure(&self, set_pa: f64, gain: f64, held_s: f64) -> f64 {
         let stuck = if self.stuck != 0.0 && (set_pa - self.stuck_at_pa).abs() < 1.0 { 1.0 - self.stuck } else { 1.0 };

@@ -1,7 +1,7 @@
 //! What tests of their own find of a robot: strips of its fabric, a scale, a caliper. They see the robot's laws, not the catalogue's.
 
 use super::Truth;
-use super::robot::Robot;
+use super::robot::TrueRobot;
 use compare::diagnosis::{BENCH_TEST, BENCH_TESTS};
 use compare::error::CompareError;
 use compare::study::generate::Scatter;
@@ -41,7 +41,7 @@ pub fn bench_tests(truth: &Truth, names: &[String]) -> Result<Vec<MeasuredValue>
 }
 
 /// What a perfect test finds, in the unit of the catalogue; `None`: nothing.
-fn found(robot: &Robot, effect: &str) -> Option<f64> {
+fn found(robot: &TrueRobot, effect: &str) -> Option<f64> {
     let drive = robot.cells.iter().find_map(|cell| cell.drive)?;
     match effect {
         "fabric_stretch" => Some(drive.stretch(PULLED_N_PER_M * drive.width_m) / PULLED_N_PER_M),

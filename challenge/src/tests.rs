@@ -36,7 +36,7 @@ fn without_a_hidden_effect_the_generator_is_the_model_within_20_micrometres() {
     for (kind, bending) in truth::ROBOTS {
         for bending in [0.0, bending] {
             let scenario = scenario(kind, bending);
-            let made = ideal(&Robot::new(&scenario).unwrap(), &Generator::default()).unwrap();
+            let made = ideal(&TrueRobot::new(&scenario).unwrap(), &Generator::default()).unwrap();
             let off = largest(&made, &model(&scenario));
             println!("{kind} B = {bending}: {:.2e} mm", 1e3 * off);
             assert!(off < 2e-5, "{kind}: {off}");
@@ -48,10 +48,10 @@ fn without_a_hidden_effect_the_generator_is_the_model_within_20_micrometres() {
 fn every_effect_moves_the_markers_by_a_visible_but_not_absurd_amount() {
     for (kind, bending) in truth::ROBOTS {
         let scenario = scenario(kind, bending);
-        let base = ideal(&Robot::new(&scenario).unwrap(), &Generator::default()).unwrap();
+        let base = ideal(&TrueRobot::new(&scenario).unwrap(), &Generator::default()).unwrap();
         for effect in HIDDEN.iter().chain(OUTSIDE).filter(|effect| effect.applies_to(&scenario)) {
             let moved = |times: f64| {
-                let mut robot = Robot::new(&scenario).unwrap();
+                let mut robot = TrueRobot::new(&scenario).unwrap();
                 let amount = times * (effect.typical)(&robot);
                 (effect.put)(&mut robot, amount);
                 1e3 * rms(&ideal(&robot, &Generator::default()).unwrap(), &base)

@@ -2,7 +2,7 @@
 
 use super::effects::{HIDDEN, HiddenEffect, OUTSIDE, by_name};
 use super::measure::{Measurement, measure};
-use super::robot::Robot;
+use super::robot::TrueRobot;
 use compare::error::CompareError;
 use compare::study::generate::{Generator, Scatter};
 use data::Dataset;
@@ -15,7 +15,7 @@ pub const ROBOTS: [(&str, f64); 4] = [("spam", 6.0), ("cpam", 0.5), ("epam", 1.3
 
 /// How much is hidden.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum Hiding {
     /// Nothing.
     Nothing,
     /// One effect that the catalogue also knows.
@@ -109,19 +109,19 @@ impl Truth {
     ///
     /// # Errors
     /// The scenario is damaged.
-    pub fn hide(&mut self, kind: Kind, draw: &mut Draw) -> Result<(), CompareError> {
+    pub fn hide(&mut self, kind: Hiding, draw: &mut Draw) -> Result<(), CompareError> {
         let inside = applicable(&self.actuator, HIDDEN)?;
         let first = draw.one_of(&inside).name;
         match kind {
-            Kind::Nothing => {}
-            Kind::One => self.add(first, draw.between(0.8, 1.5)),
-            Kind::Two => {
+            Hiding::Nothing => {}
+            Hiding::One => self.add(first, draw.between(0.8, 1.5)),
+            Hiding::Two => {
                 let others: Vec<_> = inside.iter().filter(|effect| effect.name != first).collect();
                 self.add(first, draw.between(0.8, 1.5));
                 let second = draw.one_of(&others).name;
                 self.add(second, draw.between(0.8, 1.5));
             }
-            Kind::Outside => self.add(draw.one_of(OUTSIDE).name, 1.0),
+            Hiding::Outside => self.add(draw.one_of(OUTSIDE).name, 1.0),
         }
         Ok(())
     }
@@ -157,9 +157,9 @@ impl Truth {
     ///
     /// # Errors
     /// Unknown names, or an effect that this actuator cannot have.
-    pub fn robot(&self) -> Result<Robot, CompareError> {
+    pub fn robot(&self) -> Result<TrueRobot, CompareError> {
         let scenario = robot(&self.actuator)?.0.with_bending(self.bending_nm2);
-        let mut robot = Robot::new(&scenario)?;
+        let mut robot = TrueRobot::new(&scenario)?;
         for choice in &self.effects {
             let effect = known(&choice.name)?;
             if !effect.applies_to(&scenario) {

@@ -15,14 +15,14 @@
 
 /// Relaxation times of creep \[s\].
 pub(super) const RELAXATION_S: [f64; 3] = [0.7, 3.0, 15.0];
-/// Curvatures over which the friction layers slide, as shares of [`Wall::scale_per_m`].
+/// Curvatures over which the friction layers slide, as shares of [`CellWall::scale_per_m`].
 const SLIP_SHARES: [f64; 4] = [0.02, 0.06, 0.15, 0.3];
 /// Time in which a set fades \[s\].
 const RECOVERY_S: f64 = 40.0;
 
 /// Laws of one cell's body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wall {
+pub struct CellWall {
     /// Bending stiffness B \[N·m²\].
     pub bending: f64,
     /// Hinge moment per body pressure, share·π R³ \[m³\].
@@ -51,14 +51,14 @@ pub struct Wall {
 
 /// What a cell remembers.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Memory {
+pub struct CellMemory {
     slid: [f64; 4],
     crept: [f64; 3],
     largest: f64,
     set: f64,
 }
 
-impl Wall {
+impl CellWall {
     /// Factor of the actuator's arm, and d(κ·factor)/dκ.
     pub(super) fn arm_factor(&self, kappa: f64) -> (f64, f64) {
         if self.oval == 0.0 {
@@ -71,7 +71,7 @@ impl Wall {
     }
 
     /// Resisting moment at a curvature reached `dt_s` after the state in `memory` \[N·m\].
-    pub(super) fn moment(&self, kappa: f64, p_body_pa: f64, memory: &Memory, dt_s: f64) -> f64 {
+    pub(super) fn moment(&self, kappa: f64, p_body_pa: f64, memory: &CellMemory, dt_s: f64) -> f64 {
         let mut moment = self.bending * (kappa - self.rest_per_m) + self.hinge(kappa, p_body_pa);
         moment += self.tail_m3 * p_body_pa * (kappa / self.step_per_m).tanh();
         if self.stop_nm != 0.0 {
@@ -90,7 +90,7 @@ impl Wall {
     }
 
     /// What the cell remembers after `dt_s` at `kappa`.
-    pub(super) fn remember(&self, kappa: f64, memory: &mut Memory, dt_s: f64) {
+    pub(super) fn remember(&self, kappa: f64, memory: &mut CellMemory, dt_s: f64) {
         let before = *memory;
         if self.friction_nm != 0.0 {
             for j in 0..4 {
@@ -117,17 +117,17 @@ impl Wall {
         0.25 * self.friction_nm / (SLIP_SHARES[j] * self.scale_per_m)
     }
 
-    fn layer(&self, j: usize, kappa: f64, memory: &Memory) -> f64 {
+    fn layer(&self, j: usize, kappa: f64, memory: &CellMemory) -> f64 {
         let most = 0.25 * self.friction_nm;
         (self.layer_stiffness(j) * (kappa - memory.slid[j])).clamp(-most, most)
     }
 
-    fn arm(&self, i: usize, kappa: f64, memory: &Memory, dt_s: f64) -> f64 {
+    fn arm(&self, i: usize, kappa: f64, memory: &CellMemory, dt_s: f64) -> f64 {
         let share = [0.3, 0.4, 0.3][i];
         self.creep_nm2 * share * (kappa - memory.crept[i]) * (-dt_s / RELAXATION_S[i]).exp()
     }
 
-    fn set_after(&self, kappa: f64, memory: &Memory, dt_s: f64) -> f64 {
+    fn set_after(&self, kappa: f64, memory: &CellMemory, dt_s: f64) -> f64 {
         let target = self.set * (kappa - 0.25 * self.scale_per_m).max(0.0);
         let faded = memory.set * (-dt_s / RECOVERY_S).exp();
         if kappa > memory.largest { faded.max(target) } else { faded }
@@ -138,7 +138,7 @@ impl Wall {
 mod tests {
     use super::*;
 
-    const PLAIN: Wall = Wall {
+    const PLAIN: CellWall = CellWall {
         bending: 1.0,
         hinge_m3: 2e-4,
         step_per_m: 0.05,
@@ -154,8 +154,8 @@ mod tests {
     };
 
     /// Moments of the wall without bending and hinge along a path of curvatures.
-    fn along(wall: &Wall, path: &[f64], dt_s: f64) -> Vec<f64> {
-        let mut memory = Memory::default();
+    fn along(wall: &CellWall, path: &[f64], dt_s: f64) -> Vec<f64> {
+        let mut memory = CellMemory::default();
         let step = |k: &f64| {
             let moment = wall.moment(*k, 0.0, &memory, dt_s) - wall.bending * k;
             wall.remember(*k, &mut memory, dt_s);
@@ -166,7 +166,7 @@ mod tests {
 
     #[test]
     fn friction_saturates_and_reverses_by_twice_its_size() {
-        let wall = Wall { friction_nm: 0.3, ..PLAIN };
+        let wall = CellWall { friction_nm: 0.3, ..PLAIN };
         let up: Vec<f64> = (0..=40).map(|i| 0.05 * f64::from(i)).collect();
         let down: Vec<f64> = up.iter().rev().copied().collect();
         let loop_nm = along(&wall, &[up, down].concat(), 0.1);
@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn creep_relaxes_with_three_times_to_nothing() {
-        let wall = Wall { creep_nm2: 0.25, ..PLAIN };
+        let wall = CellWall { creep_nm2: 0.25, ..PLAIN };
         let moments = along(&wall, &[1.0; 2000], 0.1);
         let exact = |t: f64| {
             let arm = |(share, tau): (f64, f64)| share * (-t / tau).exp();
@@ -191,7 +191,7 @@ mod tests {
 
     #[test]
     fn a_set_needs_a_bend_beyond_yield_and_fades() {
-        let wall = Wall { set: 0.2, ..PLAIN };
+        let wall = CellWall { set: 0.2, ..PLAIN };
         assert_eq!(along(&wall, &[0.4, 0.0], 1.0), [0.0, 0.0]);
         let moments = along(&wall, &[1.5, 0.0, 0.0], 1.0);
         assert!((moments[0] + 0.2).abs() < 1e-12 && moments[1] < -0.19 && moments[2] > moments[1], "{moments:?}");
@@ -199,7 +199,7 @@ mod tests {
 
     #[test]
     fn the_arm_slope_is_the_derivative_and_stays_positive() {
-        let wall = Wall { oval: 0.4, ..PLAIN };
+        let wall = CellWall { oval: 0.4, ..PLAIN };
         for i in 0..100 {
             let k = 0.1 * f64::from(i);
             let product = |k: f64| k * wall.arm_factor(k).0;

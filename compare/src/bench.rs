@@ -5,15 +5,15 @@
 //! 1996). A mean with its standard deviation and n gets a verdict: is the model within the 95 % interval of the mean?
 
 use data::Bench;
-use data::bench::Row;
+use data::bench::BenchRow;
 use models::actuators::{ActuatorShape, Family};
 use models::scenario::ActuatorChoice;
 use models::{Loads, Machine, Model, Scenario};
 use std::f64::consts::FRAC_PI_2;
 
 use crate::CompareError;
-use crate::known::Known;
 use crate::stats::t_975;
+use models::Known;
 
 /// A table beside its model.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,24 +93,24 @@ pub(crate) fn refuse<T>(bench: &Bench, problem: &str, help: &str) -> Result<T, C
     Err(CompareError::Bench { file: bench.file.clone(), problem: problem.into(), help: help.into() })
 }
 
-fn half(row: &Row, sd: &str, unit: f64) -> Option<f64> {
+fn half(row: &BenchRow, sd: &str, unit: f64) -> Option<f64> {
     let (sd, n) = (row.get(sd)?, row.get("n")?);
     Some(unit * t_975(n as usize - 1) * sd / n.sqrt())
 }
 
 /// What a row measured: a deflection \[m\], a force \[N\] or, without a force, a contraction \[-\].
-pub(crate) fn measured(row: &Row) -> f64 {
-    let force = |row: &Row| if is_free(row) { row.value("contraction") } else { row.value("force") };
+pub(crate) fn measured(row: &BenchRow) -> f64 {
+    let force = |row: &BenchRow| if is_free(row) { row.value("contraction") } else { row.value("force") };
     row.get("deflection").unwrap_or_else(|| force(row))
 }
 
 /// Whether a muscle is free: its contraction was measured, not its force.
-pub(crate) fn is_free(row: &Row) -> bool {
+pub(crate) fn is_free(row: &BenchRow) -> bool {
     row.get("force") == Some(0.0)
 }
 
 /// What the model of a row's specimen says of it; none where it finds no equilibrium.
-pub(crate) fn modelled(row: &Row, specimen: &Scenario) -> Option<f64> {
+pub(crate) fn modelled(row: &BenchRow, specimen: &Scenario) -> Option<f64> {
     match row.get("load") {
         Some(load) => deflection_m(specimen, load),
         None => {
@@ -125,7 +125,11 @@ pub(crate) fn modelled(row: &Row, specimen: &Scenario) -> Option<f64> {
 ///
 /// # Errors
 /// What is missing, and what to add.
-pub(crate) fn specimen(row: &Row, scenario: &Scenario, bias_rad: Option<f64>) -> Result<Scenario, [&'static str; 2]> {
+pub(crate) fn specimen(
+    row: &BenchRow,
+    scenario: &Scenario,
+    bias_rad: Option<f64>,
+) -> Result<Scenario, [&'static str; 2]> {
     if row.get("load").is_some() {
         let radius_m = row.get("radius").unwrap_or(scenario.radius_m);
         return Ok(Scenario { p_body_pa: row.value("p_body"), radius_m, ..scenario.clone() });
@@ -176,7 +180,7 @@ pub(crate) fn own_or_braid(bench: &Bench, scenario: Option<&Scenario>) -> Result
 }
 
 /// A row in words: size, pressure, load.
-pub(crate) fn place(row: &Row, specimen: &Scenario) -> String {
+pub(crate) fn place(row: &BenchRow, specimen: &Scenario) -> String {
     if let Some(load) = row.get("load") {
         return format!("{:.0} mm, {:.0} kPa, {load:.2} N", 1e3 * specimen.radius_m, 1e-3 * specimen.p_body_pa);
     }
@@ -193,7 +197,7 @@ fn beams(bench: &Bench, scenario: Option<&Scenario>, calibrate: bool) -> Result<
     let scenario = own_or_braid(bench, scenario)?;
     let mut rows = Vec::new();
     let mut notes = Vec::new();
-    let same = |a: &Row, b: &Row| a.get("p_body") == b.get("p_body") && a.get("radius") == b.get("radius");
+    let same = |a: &BenchRow, b: &BenchRow| a.get("p_body") == b.get("p_body") && a.get("radius") == b.get("radius");
     for group in bench.rows.chunk_by(same) {
         let mut beam = specimen(&group[0], &scenario, None).or_else(|[problem, help]| refuse(bench, problem, help))?;
         let loaded = group.iter().filter(|r| r.value("load") > 0.0 && r.value("deflection") > 0.0);

@@ -38,7 +38,7 @@ const HALVINGS: usize = 10;
 const MOST_DOF: f64 = 1e4;
 
 /// Data that a fit was held against.
-pub struct Fitted<'a> {
+pub struct FittedData<'a> {
     /// Protocol.
     pub dataset: &'a Dataset,
     /// Noise of their mean.
@@ -62,7 +62,7 @@ pub struct Half {
 
 /// Half of the interval of a parameter, `white` being its weights on values whitened with noise and misfit, those of all data
 /// one after the other, then those of what was measured by itself; `None` if the noise is unknown.
-pub fn half_width(data: &[Fitted], white: &[f64], parameters: usize) -> Option<Half> {
+pub fn half_width(data: &[FittedData], white: &[f64], parameters: usize) -> Option<Half> {
     let (mut total, mut squares_over_dof, mut from) = (0.0, 0.0, 0);
     let (mut each, mut cells, mut pressures) = (0.0, 0, Vec::new());
     for part in data {
@@ -108,7 +108,7 @@ pub fn half_width(data: &[Fitted], white: &[f64], parameters: usize) -> Option<H
     Some(Half { width: t * total.sqrt(), misses: !pressures.is_empty() })
 }
 
-impl Fitted<'_> {
+impl FittedData<'_> {
     /// Of every hold the first one at its pressures.
     fn first(&self) -> Vec<usize> {
         let holds = &self.dataset.holds;

@@ -21,7 +21,6 @@ pub mod evidence;
 pub mod extension;
 pub mod gauge;
 mod interval;
-pub mod known;
 pub mod ladder;
 pub mod layout;
 pub mod metrics;

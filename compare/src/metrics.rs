@@ -135,7 +135,7 @@ fn hold_metrics(c: &BesideMean, hold: usize, band: &Band) -> Result<HoldMetrics,
     let size = Size::of(c, range.clone());
     let [tip_x, tip_y] = c.error(hold, c.tips[hold]);
     let values = c.noise.seen(range.clone());
-    let fit = Fit::of(c, &c.noise.whiten_range(&c.residual_m, range)?, values, 0);
+    let fit = Goodness::of(c, &c.noise.whiten_range(&c.residual_m, range)?, values, 0);
     let protocol = &c.dataset.holds[hold];
     Ok(HoldMetrics {
         p_act_kpa: 1e-3 * protocol.p_act_pa,
@@ -167,7 +167,7 @@ fn overall_metrics(c: &BesideMean, holds: &[HoldMetrics], band: &Band, fitted: u
     let accuracy = mean(&accuracies);
     let size = Size::of(c, 0..c.residual_m.len());
     let values = c.noise.seen(0..c.residual_m.len());
-    let fit = Fit::of(c, &c.noise.whiten(&c.residual_m), values, fitted);
+    let fit = Goodness::of(c, &c.noise.whiten(&c.residual_m), values, fitted);
     let tips = holds.iter().map(|h| h.tip_error_mm);
     OverallMetrics {
         paper_accuracy: accuracy,
@@ -227,19 +227,19 @@ impl Size {
 }
 
 /// Goodness of fit of whitened residuals: χ²/dof against F(dof, pure-error dof), because σ is itself estimated.
-struct Fit {
+struct Goodness {
     reduced_chi2: Option<f64>,
     dof: usize,
     p_value: Option<f64>,
 }
 
-impl Fit {
-    fn of(c: &BesideMean, white: &[f64], values: usize, fitted: usize) -> Fit {
+impl Goodness {
+    fn of(c: &BesideMean, white: &[f64], values: usize, fitted: usize) -> Goodness {
         let dof = values.saturating_sub(fitted);
         let reduced = white.iter().map(|w| w * w).sum::<f64>() / dof.max(1) as f64;
         let reduced_chi2 = (dof > 0 && c.noise.is_known()).then_some(reduced);
         let tested = reduced_chi2.filter(|_| c.noise.gives_p_values());
-        Fit { reduced_chi2, dof, p_value: tested.map(|f| reported_p(f_tail(f, dof, c.noise.pure_error_dof))) }
+        Goodness { reduced_chi2, dof, p_value: tested.map(|f| reported_p(f_tail(f, dof, c.noise.pure_error_dof))) }
     }
 }
 

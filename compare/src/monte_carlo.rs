@@ -7,7 +7,7 @@ use crate::metrics::{MetricsOptions, metrics};
 use crate::noise::NoiseModel;
 use crate::residuals::residual_map;
 use crate::stats::{f_tail, two_sided_p};
-use crate::synthetic::{CAMERA, Noise, Robot, TYPICAL};
+use crate::synthetic::{CAMERA, SyntheticNoise, SyntheticRobot, TYPICAL};
 use crate::where_it_fails::{FailureOptions, Finding, where_it_fails};
 use data::Dataset;
 
@@ -28,9 +28,9 @@ fn assert_mean(what: &str, values: &[f64], expected: f64) {
     assert!((mean - expected).abs() < 4.0 * error, "{what}: {mean} +- {error}, expected {expected}");
 }
 
-fn robot_with_tip_mm(tip_mm: f64) -> Robot {
-    let mut robot = Robot { pressures_kpa: vec![(10.0, 2.0)], samples: 1, ..Robot::paper() };
-    let tip = |robot: &Robot| 1e3 * robot.shape(1.0)[11];
+fn robot_with_tip_mm(tip_mm: f64) -> SyntheticRobot {
+    let mut robot = SyntheticRobot { pressures_kpa: vec![(10.0, 2.0)], samples: 1, ..SyntheticRobot::paper() };
+    let tip = |robot: &SyntheticRobot| 1e3 * robot.shape(1.0)[11];
     for _ in 0..50 {
         robot.curvature_per_m *= tip_mm / tip(&robot);
     }
@@ -70,11 +70,11 @@ fn the_noise_ceiling_is_that_of_the_handbook() {
 
 #[test]
 fn a_perfect_model_meets_its_noise_ceiling_on_average() {
-    let robot = Robot::paper();
+    let robot = SyntheticRobot::paper();
     let (truth, slope) = (robot.shape(1.0), robot.slope());
     let mut gaps = vec![Vec::new(); 3];
     for seed in 0..250 {
-        let data = robot.measured(5, Noise { alignment_m: 2e-4, ..TYPICAL }, 2000 + seed);
+        let data = robot.measured(5, SyntheticNoise { alignment_m: 2e-4, ..TYPICAL }, 2000 + seed);
         let noise = NoiseModel::estimate(&data, &slope, &[], None).unwrap();
         let holds = metrics(&BesideMean::new(&data, &noise, &truth).unwrap(), &NO_BOOTSTRAP).unwrap().holds;
         for (gap, hold) in gaps.iter_mut().zip(&holds[1..4]) {
@@ -86,7 +86,7 @@ fn a_perfect_model_meets_its_noise_ceiling_on_average() {
 
 #[test]
 fn known_noise_is_recovered_without_bias() {
-    let robot = Robot::paper();
+    let robot = SyntheticRobot::paper();
     let slope = robot.slope();
     let models: Vec<NoiseModel> = (0..150)
         .map(|seed| NoiseModel::estimate(&robot.measured(5, TYPICAL, seed), &slope, &[], None).unwrap())
@@ -99,7 +99,7 @@ fn known_noise_is_recovered_without_bias() {
 
 #[test]
 fn the_error_beyond_noise_and_the_noise_floor_are_unbiased() {
-    let robot = Robot::paper();
+    let robot = SyntheticRobot::paper();
     let (truth, slope) = (robot.shape(1.0), robot.slope());
     let mut excess = Vec::new();
     for seed in 0..150 {
@@ -159,7 +159,7 @@ fn null_dataset(data: &Dataset, truth: &[f64], slope: &[f64]) -> NullDataset {
 
 #[test]
 fn a_right_model_rarely_alarms_because_the_run_is_the_unit() {
-    let robot = Robot::paper();
+    let robot = SyntheticRobot::paper();
     let (truth, slope) = (robot.shape(1.0), robot.slope());
     for (runs, bound) in [(3, 0.07), (5, 0.03), (10, 0.03)] {
         let data = |seed: u64| robot.measured(runs, TYPICAL, 5000 + seed);
@@ -186,14 +186,14 @@ fn a_right_model_rarely_alarms_because_the_run_is_the_unit() {
 
 #[test]
 fn a_systematic_error_of_known_size_is_found() {
-    let robot = Robot::paper();
+    let robot = SyntheticRobot::paper();
     let (truth, slope) = (robot.shape(1.0), robot.slope());
     // 0.8 mm on every coordinate, checkerboard signs: no nuisance direction can take it.
     let model: Vec<f64> =
         truth.iter().enumerate().map(|(i, v)| v + 8e-4 * if i % 4 < 2 { 1.0 } else { -1.0 }).collect();
     let squares: Vec<f64> = (0..100)
         .map(|seed| {
-            let data = robot.measured(5, Noise { pressure: 0.005, ..TYPICAL }, seed);
+            let data = robot.measured(5, SyntheticNoise { pressure: 0.005, ..TYPICAL }, seed);
             let options = EvaluateOptions { bootstrap_samples: 0, ..Default::default() };
             let overall = evaluate(&data, &model, &slope, &options).unwrap().metrics.overall;
             assert!(overall.p_value.unwrap() < 0.01, "0.8 mm against a noise of the mean of 0.5 mm is visible");

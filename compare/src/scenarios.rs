@@ -5,14 +5,14 @@ use crate::evaluate::{EvaluateOptions, Evaluation, evaluate};
 use crate::layout::Layout;
 use crate::noise::NoiseStatus;
 use crate::scaling::{ScalingVerdict, scaling_of_model};
-use crate::synthetic::{CAMERA, Noise, Robot, TYPICAL, displace};
+use crate::synthetic::{CAMERA, SyntheticNoise, SyntheticRobot, TYPICAL, displace};
 use crate::where_it_fails::{Finding, Statement};
 use data::Dataset;
 
 /// Run-to-run scatter of a careful experiment.
-const CAREFUL: Noise = Noise { sigma_m: 5e-4, pressure: 0.005, alignment_m: 1e-4 };
+const CAREFUL: SyntheticNoise = SyntheticNoise { sigma_m: 5e-4, pressure: 0.005, alignment_m: 1e-4 };
 
-fn of(data: &Dataset, model: &Robot) -> Evaluation {
+fn of(data: &Dataset, model: &SyntheticRobot) -> Evaluation {
     evaluate(data, &model.shape(1.0), &model.slope(), &EvaluateOptions::default()).unwrap()
 }
 
@@ -31,8 +31,8 @@ fn assert_finite(e: &Evaluation) {
 
 #[test]
 fn a_model_that_bends_too_far_is_described_by_pressure_marker_and_phase() {
-    let robot = Robot::paper();
-    let model = Robot { curvature_per_m: 2.4, ..robot.clone() };
+    let robot = SyntheticRobot::paper();
+    let model = SyntheticRobot { curvature_per_m: 2.4, ..robot.clone() };
     let e = of(&robot.measured(5, CAREFUL, 1), &model);
     let s = statement(&e, Finding::Loading);
     println!("{}\n{:#?}", s.sentence, e.where_it_fails);
@@ -48,7 +48,7 @@ fn a_model_that_bends_too_far_is_described_by_pressure_marker_and_phase() {
 
 #[test]
 fn hysteresis_is_seen_on_unloading_only() {
-    let robot = Robot::paper();
+    let robot = SyntheticRobot::paper();
     let mut data = robot.measured(5, CAREFUL, 2);
     displace(&mut data, |hold, _, m| [0.0, if hold == 4 { 1.5e-3 * m as f64 } else { 0.0 }]);
     let e = of(&data, &robot);
@@ -67,7 +67,8 @@ fn hysteresis_is_seen_on_unloading_only() {
 
 #[test]
 fn a_loop_at_a_pressure_where_both_branches_are_off_is_named() {
-    let robot = Robot { pressures_kpa: [10.0, 30.0, 10.0].map(|p| (p, 2.0)).to_vec(), ..Robot::paper() };
+    let robot =
+        SyntheticRobot { pressures_kpa: [10.0, 30.0, 10.0].map(|p| (p, 2.0)).to_vec(), ..SyntheticRobot::paper() };
     let mut data = robot.measured(5, CAREFUL, 3);
     displace(&mut data, |hold, _, m| [0.0, [-1.0, 0.0, 1.0][hold] * 1e-3 * m as f64]);
     let e = of(&data, &robot);
@@ -79,7 +80,7 @@ fn a_loop_at_a_pressure_where_both_branches_are_off_is_named() {
 
 #[test]
 fn a_bad_marker_an_x_error_and_a_drift_are_told_apart() {
-    let robot = Robot::paper();
+    let robot = SyntheticRobot::paper();
     let mut marker = robot.measured(5, CAREFUL, 4);
     displace(&mut marker, |_, _, m| [0.0, if m == 3 { 4e-3 } else { 0.0 }]);
     let e = of(&marker, &robot);
@@ -106,7 +107,7 @@ fn a_bad_marker_an_x_error_and_a_drift_are_told_apart() {
 
 #[test]
 fn the_truth_agrees_to_within_noise_and_reads_well() {
-    let robot = Robot::paper();
+    let robot = SyntheticRobot::paper();
     let e = of(&robot.measured(5, TYPICAL, 7), &robot);
     println!("{}\n{}\n{}", e.noise.sentence, e.where_it_fails[0].sentence, e.scaling.sentence);
     assert_eq!(e.where_it_fails[0].finding, Finding::Agrees);
@@ -120,7 +121,7 @@ fn the_truth_agrees_to_within_noise_and_reads_well() {
 
 #[test]
 fn the_same_input_gives_the_same_output_to_the_byte() {
-    let robot = Robot::paper();
+    let robot = SyntheticRobot::paper();
     let data = robot.measured(4, TYPICAL, 8);
     let json = |seed| {
         let options = EvaluateOptions { seed, ..Default::default() };
@@ -132,7 +133,7 @@ fn the_same_input_gives_the_same_output_to_the_byte() {
 
 #[test]
 fn the_report_has_the_field_names_of_the_interface() {
-    let robot = Robot::paper();
+    let robot = SyntheticRobot::paper();
     let value = serde_json::to_value(of(&robot.measured(3, TYPICAL, 9), &robot)).unwrap();
     let hold = &value["metrics"]["holds"][3];
     for key in ["p_act_kpa", "p_body_kpa", "paper_accuracy", "noise_ceiling", "rms_relative_pct", "rmse_mm"] {
@@ -147,8 +148,8 @@ fn the_report_has_the_field_names_of_the_interface() {
 
 #[test]
 fn one_run_gives_numbers_but_no_significance() {
-    let robot = Robot::paper();
-    let model = Robot { curvature_per_m: 2.4, ..robot.clone() };
+    let robot = SyntheticRobot::paper();
+    let model = SyntheticRobot { curvature_per_m: 2.4, ..robot.clone() };
     let data = robot.measured(1, CAREFUL, 10);
     let e = of(&data, &model);
     println!("{}\n{:#?}", e.noise.sentence, e.where_it_fails);
@@ -173,10 +174,10 @@ fn one_run_gives_numbers_but_no_significance() {
 
 #[test]
 fn a_hold_that_scatters_more_than_the_others_is_pointed_out() {
-    let robot = Robot::paper();
+    let robot = SyntheticRobot::paper();
     let quiet = robot.measured(5, CAREFUL, 20);
     let mut data = quiet.clone();
-    let loud = robot.measured(5, Noise { sigma_m: 2e-3, ..CAREFUL }, 21);
+    let loud = robot.measured(5, SyntheticNoise { sigma_m: 2e-3, ..CAREFUL }, 21);
     let n = data.values_per_run();
     for (i, y) in data.xy_m.iter_mut().enumerate().filter(|(i, _)| i % n / (n / 5) == 1) {
         *y = loud.xy_m[i];
@@ -191,7 +192,7 @@ fn a_hold_that_scatters_more_than_the_others_is_pointed_out() {
 
 #[test]
 fn two_runs_or_copies_of_one_run_give_no_p_values() {
-    let robot = Robot::paper();
+    let robot = SyntheticRobot::paper();
     let e = of(&robot.measured(2, TYPICAL, 11), &robot);
     assert!(e.noise.status == NoiseStatus::Measured && e.metrics.overall.p_value.is_none());
     assert!(e.noise.sentence.contains("no significance"), "{}", e.noise.sentence);
@@ -207,7 +208,7 @@ fn two_runs_or_copies_of_one_run_give_no_p_values() {
 fn degenerate_shapes_give_finite_numbers_or_clear_errors() {
     for (holds, samples, markers) in [(1, 1, 1), (1, 1, 2), (1, 5, 1), (3, 1, 1), (1, 1, 6), (2, 2, 2)] {
         let pressures_kpa = (0..holds).map(|h| (10.0 * h as f64, 2.0)).collect();
-        let robot = Robot { pressures_kpa, samples, markers, ..Robot::paper() };
+        let robot = SyntheticRobot { pressures_kpa, samples, markers, ..SyntheticRobot::paper() };
         for runs in [1, 2, 3, 6] {
             let data = robot.measured(runs, TYPICAL, 13);
             assert_finite(&of(&data, &robot));
@@ -215,7 +216,7 @@ fn degenerate_shapes_give_finite_numbers_or_clear_errors() {
             assert_finite(&evaluate(&data, &zeros, &zeros, &EvaluateOptions::default()).unwrap());
         }
     }
-    let robot = Robot::paper();
+    let robot = SyntheticRobot::paper();
     let mut empty = robot.measured(3, TYPICAL, 14);
     let short = evaluate(&empty, &[0.0; 3], &robot.slope(), &EvaluateOptions::default()).unwrap_err();
     assert!(matches!(short, CompareError::WrongLength { found: 3, expected: 300, .. }));
@@ -225,7 +226,7 @@ fn degenerate_shapes_give_finite_numbers_or_clear_errors() {
 
 #[test]
 fn sessions_that_differ_widen_the_noise_of_the_mean() {
-    let robot = Robot::paper();
+    let robot = SyntheticRobot::paper();
     let mut data = robot.measured(6, CAREFUL, 15);
     let n = data.values_per_run();
     // The second session of three runs was mounted 4 mm higher.
@@ -244,10 +245,10 @@ fn sessions_that_differ_widen_the_noise_of_the_mean() {
 
 #[test]
 fn the_scaling_law_is_confirmed_refuted_or_the_missing_holds_are_named() {
-    let both = |resistance_kpa| Robot {
+    let both = |resistance_kpa| SyntheticRobot {
         pressures_kpa: vec![(10.0, 2.0), (20.0, 2.0), (30.0, 2.0), (0.0, 4.0), (20.0, 4.0), (40.0, 4.0), (60.0, 4.0)],
         resistance_kpa,
-        ..Robot::paper()
+        ..SyntheticRobot::paper()
     };
     let (ideal, stiff) = (both(0.0), both(1.0));
     let e = of(&ideal.measured(5, CAREFUL, 16), &ideal);
@@ -258,7 +259,7 @@ fn the_scaling_law_is_confirmed_refuted_or_the_missing_holds_are_named() {
     assert!(e.scaling.pairs[0].tip_mm > 2.0, "resistance matters less at higher pressure");
     let e = of(&stiff.measured(1, CAREFUL, 18), &ideal);
     assert_eq!(e.scaling.verdict, ScalingVerdict::Undecided);
-    let e = of(&Robot::paper().measured(5, CAREFUL, 19), &Robot::paper());
+    let e = of(&SyntheticRobot::paper().measured(5, CAREFUL, 19), &SyntheticRobot::paper());
     assert_eq!(e.scaling.verdict, ScalingVerdict::CannotBeChecked);
     let advice = "add holds at 4 kPa body pressure with 20, 40 and 60 kPa, or at 1 kPa with 5, 10 and 15 kPa";
     assert!(e.scaling.sentence.contains(advice), "{}", e.scaling.sentence);
@@ -269,7 +270,7 @@ fn the_scaling_check_of_a_model_needs_no_noise() {
     let layout = Layout { holds: 2, samples: 1, markers: 6 };
     let verdict = |resistance_kpa, p_high| {
         let pressures_kpa = vec![(10.0, 2.0), (p_high, 4.0)];
-        let model = Robot { pressures_kpa, samples: 1, resistance_kpa, ..Robot::paper() };
+        let model = SyntheticRobot { pressures_kpa, samples: 1, resistance_kpa, ..SyntheticRobot::paper() };
         let holds = model.measured(1, CAMERA, 0).holds;
         scaling_of_model(&holds, &layout, &model.shape(1.0), &model.slope()).unwrap().verdict
     };

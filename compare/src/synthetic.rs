@@ -6,7 +6,7 @@ use rand_chacha::rand_core::{RngCore, SeedableRng};
 
 /// Standard deviations of the noise put into a dataset.
 #[derive(Clone, Copy)]
-pub struct Noise {
+pub struct SyntheticNoise {
     /// Camera, one coordinate \[m\].
     pub sigma_m: f64,
     /// Relative pressure, one value per run.
@@ -16,13 +16,13 @@ pub struct Noise {
 }
 
 /// Camera noise only, 1 mm.
-pub const CAMERA: Noise = Noise { sigma_m: 1e-3, pressure: 0.0, alignment_m: 0.0 };
+pub const CAMERA: SyntheticNoise = SyntheticNoise { sigma_m: 1e-3, pressure: 0.0, alignment_m: 0.0 };
 /// The handbook case: camera 1 mm, pressure 2 %, alignment 0.5 mm.
-pub const TYPICAL: Noise = Noise { sigma_m: 1e-3, pressure: 0.02, alignment_m: 5e-4 };
+pub const TYPICAL: SyntheticNoise = SyntheticNoise { sigma_m: 1e-3, pressure: 0.02, alignment_m: 5e-4 };
 
 /// A noise-free robot under a protocol.
 #[derive(Clone)]
-pub struct Robot {
+pub struct SyntheticRobot {
     /// (actuator, body) pressure of each hold \[kPa\]; a hold below its predecessor is unloading.
     pub pressures_kpa: Vec<(f64, f64)>,
     /// Samples per hold.
@@ -35,11 +35,11 @@ pub struct Robot {
     pub resistance_kpa: f64,
 }
 
-impl Robot {
+impl SyntheticRobot {
     /// The paper's protocol, 0-10-20-30-0 kPa at 2 kPa, 5 samples, 6 markers; tip about 60 mm at 30 kPa.
-    pub fn paper() -> Robot {
+    pub fn paper() -> SyntheticRobot {
         let pressures_kpa = [0.0, 10.0, 20.0, 30.0, 0.0].map(|p| (p, 2.0)).to_vec();
-        Robot { pressures_kpa, samples: 5, markers: 6, curvature_per_m: 1.6, resistance_kpa: 0.0 }
+        SyntheticRobot { pressures_kpa, samples: 5, markers: 6, curvature_per_m: 1.6, resistance_kpa: 0.0 }
     }
 
     /// Positions in run layout \[m\] with all actuator pressures multiplied by `factor`.
@@ -63,7 +63,7 @@ impl Robot {
     }
 
     /// Runs of this robot seen with noise.
-    pub fn measured(&self, runs: usize, noise: Noise, seed: u64) -> Dataset {
+    pub fn measured(&self, runs: usize, noise: SyntheticNoise, seed: u64) -> Dataset {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut xy_m = Vec::new();
         for _ in 0..runs {

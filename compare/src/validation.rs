@@ -4,10 +4,10 @@ use crate::error::CompareError;
 use crate::evaluate::{EvaluateOptions, default_tolerance_m};
 use crate::evidence::Evidence;
 use crate::extension::{Origin, origins};
-use crate::known::Known;
 use crate::scenario_file::ScenarioFile;
 use crate::study::comparison::{Comparison, Contender, compare_all};
 use data::About;
+use models::Known;
 use models::Scenario;
 use serde::Serialize;
 

@@ -133,7 +133,7 @@ impl<'a> Judge<'a> {
         let unloading = finding == Finding::Unloading;
         let cells = self.failing(Some(unloading), |c| c.y, sign * self.bend);
         let worst = self.worst(&cells, |c| c.y)?;
-        let group = Group::of(&cells);
+        let group = CellGroup::of(&cells);
         let way = if sign > 0.0 { "too far" } else { "too little" };
         let at = pressures(self.map, &group.holds);
         let start = match unloading {
@@ -220,7 +220,7 @@ impl<'a> Judge<'a> {
     fn lengthwise(&self, sign: f64) -> Option<Statement> {
         let cells = self.failing(None, |c| c.x, sign);
         let worst = self.worst(&cells, |c| c.x)?;
-        let group = Group::of(&cells);
+        let group = CellGroup::of(&cells);
         let largest = self.cell(worst).x;
         let way = if sign > 0.0 { "too large" } else { "too small" };
         let with_y = if self.cell(worst).y.mm.abs() > largest.mm.abs() && self.fails(&self.cell(worst).y) {
@@ -236,7 +236,7 @@ impl<'a> Judge<'a> {
             evidence(self.map, worst, &group.holds, &largest),
             markers(self.map, &group.markers),
         );
-        let Group { holds, markers } = group;
+        let CellGroup { holds, markers } = group;
         Some(Statement { finding: Finding::Lengthwise, sentence, holds, markers, largest: Some(largest) })
     }
 
@@ -293,19 +293,19 @@ impl<'a> Judge<'a> {
 }
 
 /// The holds and markers of a set of cells.
-struct Group {
+struct CellGroup {
     holds: Vec<usize>,
     markers: Vec<usize>,
 }
 
-impl Group {
-    fn of(cells: &[(usize, usize)]) -> Group {
+impl CellGroup {
+    fn of(cells: &[(usize, usize)]) -> CellGroup {
         let unique = |mut v: Vec<usize>| {
             v.sort_unstable();
             v.dedup();
             v
         };
-        Group {
+        CellGroup {
             holds: unique(cells.iter().map(|c| c.0).collect()),
             markers: unique(cells.iter().map(|c| c.1).collect()),
         }

@@ -56,7 +56,7 @@ pub struct Height {
 
 /// The ledger of one model beside that of the finite elements.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Beside {
+pub struct WitnessRow {
     /// `base`, or the effects it has beyond it.
     pub name: String,
     /// Ledger in [`TERMS`] at the finite elements' bend \[mJ\].
@@ -84,7 +84,7 @@ pub struct Witness {
     /// cannot bend as they do.
     pub fe_mj: Option<[f64; 6]>,
     /// The base first, then candidates, nearest ledger first; empty without a ledger.
-    pub models: Vec<Beside>,
+    pub models: Vec<WitnessRow>,
     /// What follows, in sentences.
     pub sentences: Vec<String>,
 }
@@ -135,7 +135,7 @@ pub fn witness(
     let heights = heights([&cases.base, &cases.best], dataset, &ensemble)?;
     let (Some(top), Some(first)) = (heights.last(), ensemble.runs.first()) else { return Ok(None) };
     let kpa = top.actuator_kpa;
-    let mut models: Vec<Beside> = cases
+    let mut models: Vec<WitnessRow> = cases
         .candidates
         .iter()
         .filter_map(|(name, s, named)| Some(beside(name, s, &ensemble, (kpa, *named))?.0))
@@ -226,14 +226,14 @@ fn beside(
     scenario: &Scenario,
     ensemble: &Ensemble,
     (kpa, named): (f64, bool),
-) -> Option<(Beside, [f64; 6])> {
+) -> Option<(WitnessRow, [f64; 6])> {
     let ledgers: Vec<[[f64; 6]; 2]> =
         ensemble.runs.iter().map(|run| between(scenario, run, kpa)).collect::<Option<_>>()?;
     let mean =
         |which: usize| std::array::from_fn(|k| ledgers.iter().map(|l| l[which][k]).sum::<f64>() / ledgers.len() as f64);
     let (fe, own): ([f64; 6], [f64; 6]) = (mean(0), mean(1));
     let apart_mj = (0..PHYSICAL).map(|k| (fe[k] - own[k]).abs()).sum();
-    Some((Beside { name: name.into(), energies_mj: own, apart_mj, named }, fe))
+    Some((WitnessRow { name: name.into(), energies_mj: own, apart_mj, named }, fe))
 }
 
 fn sentences(w: &Witness, d: &Diagnosis) -> Vec<String> {
@@ -284,15 +284,15 @@ fn meeting(w: &Witness) -> String {
 }
 
 /// A calibrated B that holds far more energy than the wall.
-fn stiffness(base: &Beside, fe: &[f64; 6]) -> Option<String> {
+fn stiffness(base: &WitnessRow, fe: &[f64; 6]) -> Option<String> {
     let (own, theirs) = (base.energies_mj[BENDING], fe[BENDING]);
     (own > 2.0 * theirs.max(0.0) && own > 0.1 * fe[GAS].abs()).then(|| {
         format!("On the way there the calibrated B stores {own:.0} mJ in the wall, theirs {theirs:.0} mJ: in a robot like theirs this B stands for something that is not bending.")
     })
 }
 
-fn nearest(base: &Beside, others: &[Beside], fe: &[f64; 6], d: &Diagnosis) -> String {
-    let off = |m: &Beside, k: usize| (fe[k] - m.energies_mj[k]).abs();
+fn nearest(base: &WitnessRow, others: &[WitnessRow], fe: &[f64; 6], d: &Diagnosis) -> String {
+    let off = |m: &WitnessRow, k: usize| (fe[k] - m.energies_mj[k]).abs();
     let widest = (0..PHYSICAL).max_by(|a, b| off(base, *a).total_cmp(&off(base, *b))).unwrap_or(GAS);
     let where_ = format!("{} ({:.0} mJ, theirs {:.0} mJ)", TERMS[widest], base.energies_mj[widest], fe[widest]);
     match others.first().filter(|m| m.apart_mj < NEARER * base.apart_mj) {

@@ -176,7 +176,7 @@ struct RawPublished {
     protocol: RawProtocol,
     simulation: RawSimulation,
     fabric: Vec<RawFabric>,
-    actuator: Vec<RawActuator>,
+    actuator: Vec<PrintedActuator>,
     fact: Vec<PublishedFact>,
 }
 
@@ -233,7 +233,7 @@ impl RawFabric {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct RawActuator {
+struct PrintedActuator {
     kind: String,
     printed_name: String,
     fabric: String,
@@ -246,7 +246,7 @@ struct RawActuator {
     d_max_mm: f64,
 }
 
-impl RawActuator {
+impl PrintedActuator {
     fn in_si(self, pressures_pa: &[f64], highest_pa: f64) -> PublishedActuator {
         PublishedActuator {
             kind: self.kind,

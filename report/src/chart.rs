@@ -37,18 +37,18 @@ pub enum Space {
     /// Seconds and a positive number, both logarithmic.
     Log,
     /// Rows over an axis of numbers.
-    Rows(Vec<Row>),
+    Rows(Vec<ChartRow>),
     /// Rows and columns.
-    Grid(Vec<Row>, Vec<Column>),
+    Grid(Vec<ChartRow>, Vec<ChartColumn>),
 }
 
 /// A row of bars or cells.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Row {
+pub struct ChartRow {
     /// What it is called.
     pub name: String,
     /// Where its name stands.
-    pub place: Place,
+    pub place: RowPlace,
     /// Bars below each other.
     pub lanes: usize,
     /// What else is said of it, at the right.
@@ -57,9 +57,9 @@ pub struct Row {
     pub ink: Ink,
 }
 
-/// Where the name of a [`Row`] stands.
+/// Where the name of a [`ChartRow`] stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Place {
+pub enum RowPlace {
     /// In a line of its own above the bars.
     #[default]
     Above,
@@ -71,7 +71,7 @@ pub enum Place {
 
 /// A column of cells.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Column {
+pub struct ChartColumn {
     /// What it is called.
     pub name: String,
     /// What it and its neighbours have in common, from narrow to wide; empty for nothing.
@@ -149,7 +149,7 @@ pub struct Bar {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Key {
     /// What is shown.
-    pub look: Look,
+    pub look: KeyLook,
     /// Colour.
     pub ink: Ink,
     /// What it means.
@@ -158,7 +158,7 @@ pub struct Key {
 
 /// How a [`Key`] shows a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Look {
+pub enum KeyLook {
     /// A line.
     Line,
     /// A line with gaps.
@@ -175,7 +175,7 @@ pub enum Look {
 
 impl Key {
     /// An entry.
-    pub fn new(look: Look, ink: Ink, name: &str) -> Key {
+    pub fn new(look: KeyLook, ink: Ink, name: &str) -> Key {
         Key { look, ink, name: name.into() }
     }
 }

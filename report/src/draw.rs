@@ -1,7 +1,7 @@
 //! A chart as a drawing: what is around the marks. `plane` and `rows` draw the marks.
 
 use crate::axis::Axis;
-use crate::chart::{Chart, Key, Look, Space};
+use crate::chart::{Chart, Key, KeyLook, Space};
 use crate::palette::Ink;
 use crate::scene::{Anchor, Scene};
 use crate::{WIDTH, plane, rows, text};
@@ -62,18 +62,18 @@ fn legend(scene: &mut Scene, y: f64, keys: &[Key]) -> f64 {
 fn swatch(scene: &mut Scene, [x, y]: [f64; 2], key: &Key) {
     let (line, middle, ink) = ([[x, y], [x + 24.0, y]], [x + 12.0, y], key.ink);
     match key.look {
-        Look::Line => scene.line(&line, ink, 2.4),
-        Look::Dashed => scene.dashed(&line, ink, 2.4, [6.0, 4.0]),
-        Look::Symbol(symbol, open) => scene.symbol(symbol, middle, 5.0, ink, open),
-        Look::Measured(symbol) => {
+        KeyLook::Line => scene.line(&line, ink, 2.4),
+        KeyLook::Dashed => scene.dashed(&line, ink, 2.4, [6.0, 4.0]),
+        KeyLook::Symbol(symbol, open) => scene.symbol(symbol, middle, 5.0, ink, open),
+        KeyLook::Measured(symbol) => {
             scene.error_bar(middle, 8.0, true, ink);
             scene.symbol(symbol, middle, 3.8, ink, false);
         }
-        Look::SymbolLine(symbol, open) => {
+        KeyLook::SymbolLine(symbol, open) => {
             scene.line(&line, ink, 2.4);
             scene.symbol(symbol, middle, if open { 5.0 } else { 4.2 }, ink, open);
         }
-        Look::Patch => scene.rect([x + 3.0, y - 6.0], [x + 22.0, y + 6.0], ink, 1.0),
+        KeyLook::Patch => scene.rect([x + 3.0, y - 6.0], [x + 22.0, y + 6.0], ink, 1.0),
     }
 }
 

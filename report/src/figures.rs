@@ -1,7 +1,7 @@
 //! Figures that several pages have, as charts.
 
 use crate::axis::{common_decimals, number, short_number};
-use crate::chart::{Bar, Chart, Key, Look, Mark, Place, Row, Space, finite};
+use crate::chart::{Bar, Chart, ChartRow, Key, KeyLook, Mark, RowPlace, Space, finite};
 use crate::palette::{Ink, SERIES};
 use crate::scene::Symbol;
 use crate::{Drawn, ReportError, at_most, same_length};
@@ -89,12 +89,12 @@ pub fn lines(data: &Lines) -> Result<Drawn, ReportError> {
             points.extend(series.points.iter().enumerate().map(point));
         }
         let look = match series.style {
-            LineStyle::Line => Look::Line,
-            LineStyle::Dashed => Look::Dashed,
-            LineStyle::Points if !series.half_width.is_empty() => Look::Measured(symbol),
-            LineStyle::Points => Look::Symbol(symbol, false),
-            LineStyle::OpenPoints => Look::Symbol(symbol, true),
-            LineStyle::LinePoints => Look::SymbolLine(symbol, false),
+            LineStyle::Line => KeyLook::Line,
+            LineStyle::Dashed => KeyLook::Dashed,
+            LineStyle::Points if !series.half_width.is_empty() => KeyLook::Measured(symbol),
+            LineStyle::Points => KeyLook::Symbol(symbol, false),
+            LineStyle::OpenPoints => KeyLook::Symbol(symbol, true),
+            LineStyle::LinePoints => KeyLook::SymbolLine(symbol, false),
         };
         keys.push(Key::new(look, ink, series.name.trim()));
     }
@@ -158,13 +158,13 @@ pub fn shapes(data: &Shapes) -> Result<Drawn, ReportError> {
     }
     let some = |of: fn(&ShapePose) -> bool| data.poses.iter().any(of);
     let predicted = match (some(|p| !p.predicted_mm.is_empty()), some(|p| !p.curve_mm.is_empty())) {
-        (true, true) => Some((Look::SymbolLine(Symbol::Circle, true), "predicted centre line and markers")),
-        (true, false) => Some((Look::Symbol(Symbol::Circle, true), "predicted")),
-        (false, true) => Some((Look::Line, "predicted centre line")),
+        (true, true) => Some((KeyLook::SymbolLine(Symbol::Circle, true), "predicted centre line and markers")),
+        (true, false) => Some((KeyLook::Symbol(Symbol::Circle, true), "predicted")),
+        (false, true) => Some((KeyLook::Line, "predicted centre line")),
         (false, false) => None,
     };
-    let measured = some(|p| !p.measured.is_empty()).then_some((Look::Measured(Symbol::Circle), "measured"));
-    let at_rest = (!data.rest_mm.is_empty()).then_some((Look::Dashed, "at rest"));
+    let measured = some(|p| !p.measured.is_empty()).then_some((KeyLook::Measured(Symbol::Circle), "measured"));
+    let at_rest = (!data.rest_mm.is_empty()).then_some((KeyLook::Dashed, "at rest"));
     let keys = [measured, predicted, at_rest].into_iter().flatten();
     Chart {
         title: data.title.clone(),
@@ -226,20 +226,20 @@ pub fn bars(data: &Bars) -> Result<Drawn, ReportError> {
         same_length("bars", "values in a series", data.groups.len(), values.len())?;
         let ink = if *grey { Ink::Muted } else { Ink::Series(colour) };
         colour += usize::from(!grey);
-        keys.push(Key::new(Look::Patch, ink, name));
+        keys.push(Key::new(KeyLook::Patch, ink, name));
         let bar = |(row, value): (usize, &f64)| {
             Mark::Bar(Bar { row, lane, ink, text: number(*value, digits), ..Bar::to(*value) })
         };
         marks.extend(values.iter().enumerate().map(bar));
     }
     target(data.target.as_ref(), &mut marks, &mut keys);
-    let row = |name: &String| Row { name: name.clone(), lanes: data.series.len(), ..Row::default() };
+    let row = |name: &String| ChartRow { name: name.clone(), lanes: data.series.len(), ..ChartRow::default() };
     rows(&data.title, &data.value_label, data.groups.iter().map(row).collect(), marks, keys).draw("bars")
 }
 
 /// Waterfall of a value over a growing list of effects.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Ladder {
+pub struct Staircase {
     /// Title above the plot; empty for none.
     pub title: String,
     /// Axis label with unit, e.g. `tip displacement [mm]`.
@@ -250,7 +250,7 @@ pub struct Ladder {
     pub target: Option<(String, f64)>,
 }
 
-/// One step of a [`Ladder`].
+/// One step of a [`Staircase`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LadderStep {
     /// What is added, e.g. `+ sealed-edge loss, η = 0.60`.
@@ -267,7 +267,7 @@ pub struct LadderStep {
 ///
 /// # Errors
 /// No finite value, more than 120 steps, values beyond 1e15.
-pub fn ladder(data: &Ladder) -> Result<Drawn, ReportError> {
+pub fn ladder(data: &Staircase) -> Result<Drawn, ReportError> {
     at_most("ladder", "steps", MOST_BARS, data.steps.len())?;
     let digits = decimals(data.steps.iter().map(|step| step.value));
     let (mut marks, mut keys, mut rungs, mut before) = (Vec::new(), Vec::new(), Vec::new(), None);
@@ -281,7 +281,7 @@ pub fn ladder(data: &Ladder) -> Result<Drawn, ReportError> {
         if let (Some(from), true) = (before, step.value.is_finite()) {
             marks.push(Mark::Bar(Bar { row, ink, span: [step.value, from], alpha: 0.22, ..Bar::default() }));
         }
-        rungs.push(Row { name: step.label.clone(), lanes: 1, aside: word.into(), ink, ..Row::default() });
+        rungs.push(ChartRow { name: step.label.clone(), lanes: 1, aside: word.into(), ink, ..ChartRow::default() });
         before = Some(step.value).filter(|v| v.is_finite()).or(before);
     }
     target(data.target.as_ref(), &mut marks, &mut keys);
@@ -290,7 +290,7 @@ pub fn ladder(data: &Ladder) -> Result<Drawn, ReportError> {
 
 /// The energy ledger: stacked bars of signed energies, one bar per case.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Ledger {
+pub struct LedgerBars {
     /// Title above the plot; empty for none.
     pub title: String,
     /// Axis label with unit, e.g. `energy [mJ], stored or spent → positive`.
@@ -301,7 +301,7 @@ pub struct Ledger {
     pub cases: Vec<LedgerCase>,
 }
 
-/// One bar of a [`Ledger`].
+/// One bar of a [`LedgerBars`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LedgerCase {
     /// Label above the bar, e.g. `30 kPa`.
@@ -314,7 +314,7 @@ pub struct LedgerCase {
 ///
 /// # Errors
 /// No finite value, a case whose length differs from the terms, over 8 terms or 24 cases.
-pub fn ledger(data: &Ledger) -> Result<Drawn, ReportError> {
+pub fn ledger(data: &LedgerBars) -> Result<Drawn, ReportError> {
     at_most("ledger", "terms", SERIES, data.terms.len())?;
     at_most("ledger", "cases", MOST_SERIES, data.cases.len())?;
     let (mut marks, mut cases) = (Vec::new(), Vec::new());
@@ -333,15 +333,15 @@ pub fn ledger(data: &Ledger) -> Result<Drawn, ReportError> {
         }
         let shown = if sum.abs() < 1e-4 * largest { number(0.0, 0) } else { short_number(sum) };
         let (name, aside) = (case.label.clone(), format!("sum {shown}"));
-        cases.push(Row { name, lanes: 1, aside, ink: Ink::Muted, ..Row::default() });
+        cases.push(ChartRow { name, lanes: 1, aside, ink: Ink::Muted, ..ChartRow::default() });
     }
-    let key = |(i, name): (usize, &String)| Key::new(Look::Patch, Ink::Series(i), name);
+    let key = |(i, name): (usize, &String)| Key::new(KeyLook::Patch, Ink::Series(i), name);
     let keys = data.terms.iter().enumerate().map(key).collect();
     rows(&data.title, &data.value_label, cases, marks, keys).draw("ledger")
 }
 
 /// A chart of rows.
-pub fn rows(title: &str, value_label: &str, rows: Vec<Row>, marks: Vec<Mark>, keys: Vec<Key>) -> Chart {
+pub fn rows(title: &str, value_label: &str, rows: Vec<ChartRow>, marks: Vec<Mark>, keys: Vec<Key>) -> Chart {
     let (title, x_label) = (title.into(), value_label.into());
     Chart { title, x_label, space: Space::Rows(rows), marks, keys, ..Chart::default() }
 }
@@ -354,7 +354,7 @@ pub fn decimals(values: impl Iterator<Item = f64>) -> usize {
 fn target(target: Option<&(String, f64)>, marks: &mut Vec<Mark>, keys: &mut Vec<Key>) {
     if let Some((name, value)) = target.filter(|(_, value)| value.is_finite()) {
         marks.push(Mark::Rule(*value));
-        keys.push(Key::new(Look::Dashed, Ink::Ink, name));
+        keys.push(Key::new(KeyLook::Dashed, Ink::Ink, name));
     }
 }
 
@@ -365,9 +365,9 @@ impl Bar {
     }
 }
 
-impl Row {
+impl ChartRow {
     /// A row with its name on the left.
-    pub fn beside(name: &str) -> Row {
-        Row { name: name.into(), place: Place::Beside, lanes: 1, ..Row::default() }
+    pub fn beside(name: &str) -> ChartRow {
+        ChartRow { name: name.into(), place: RowPlace::Beside, lanes: 1, ..ChartRow::default() }
     }
 }

@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::scene::{Anchor, Mark, Point, Scene};
+use crate::scene::{Anchor, Point, Scene, Stroke};
 use crate::{Drawn, ReportError, text};
 
 /// SVG coordinates are whole numbers: ten per design pixel keep curves smooth.
@@ -107,16 +107,16 @@ fn marks<DB: DrawingBackend>(
     root.fill(&WHITE).map_err(drawing)?;
     for mark in &scene.marks {
         match mark {
-            Mark::Line { points, ink, width } => stroke(root, surface, points, ink.rgb(), *width)?,
-            Mark::Fill { points, ink, alpha } => {
+            Stroke::Line { points, ink, width } => stroke(root, surface, points, ink.rgb(), *width)?,
+            Stroke::Fill { points, ink, alpha } => {
                 let [r, g, b] = ink.rgb();
                 let corners = surface.distinct(points);
                 if corners.len() > 2 {
                     root.draw(&Polygon::new(corners, RGBColor(r, g, b).mix(*alpha).filled())).map_err(drawing)?;
                 }
             }
-            Mark::Disc { centre, radius, ink } => disc(root, surface, *centre, *radius, ink.rgb())?,
-            Mark::Text { .. } => letters(root, surface, mark)?,
+            Stroke::Disc { centre, radius, ink } => disc(root, surface, *centre, *radius, ink.rgb())?,
+            Stroke::Text { .. } => letters(root, surface, mark)?,
         }
     }
     Ok(())
@@ -159,9 +159,9 @@ fn disc<DB: DrawingBackend>(
 fn letters<DB: DrawingBackend>(
     root: &DrawingArea<DB, plotters::coord::Shift>,
     surface: &Surface,
-    mark: &Mark,
+    mark: &Stroke,
 ) -> Result<(), ReportError> {
-    let Mark::Text { at, text, size, ink, anchor } = mark else { return Ok(()) };
+    let Stroke::Text { at, text, size, ink, anchor } = mark else { return Ok(()) };
     let [r, g, b] = ink.rgb();
     let pixel_size = size * surface.size_per_em * surface.scale;
     let top = at[1] - size * surface.baseline_em;

@@ -1,7 +1,7 @@
 //! Marks in rows: bars over an axis of numbers, and cells under heads of columns.
 
 use crate::axis::{Axis, number};
-use crate::chart::{Bar, Chart, Column, Mark, Place, Row};
+use crate::chart::{Bar, Chart, ChartColumn, ChartRow, Mark, RowPlace};
 use crate::draw::{RIM, TEXT, centred, on_paper, x_axis};
 use crate::palette::Ink;
 use crate::scene::{Anchor, Scene};
@@ -22,14 +22,14 @@ const SMALLEST: f64 = 8.5;
 const SMALL: f64 = 10.0;
 
 /// Widest name at the left of its row, with the blank behind it.
-fn names(rows: &[Row]) -> f64 {
-    let beside = rows.iter().filter(|row| row.place == Place::Beside);
+fn names(rows: &[ChartRow]) -> f64 {
+    let beside = rows.iter().filter(|row| row.place == RowPlace::Beside);
     let widest = beside.map(|row| text::width(&row.name, TEXT)).fold(0.0, f64::max);
     if widest > 0.0 { widest.clamp(24.0, NAMES) + 8.0 } else { 2.0 }
 }
 
 /// Draws bars from `top` down, and sets the height of the scene.
-pub(crate) fn bars(scene: &mut Scene, chart: &Chart, rows: &[Row], [mut x, _]: [Axis; 2], top: f64) {
+pub(crate) fn bars(scene: &mut Scene, chart: &Chart, rows: &[ChartRow], [mut x, _]: [Axis; 2], top: f64) {
     let bars: Vec<&Bar> =
         chart.marks.iter().filter_map(|m| if let Mark::Bar(bar) = m { Some(bar) } else { None }).collect();
     let outside = bars.iter().filter(|bar| !bar.inside).map(|bar| text::width(&bar.text, TEXT));
@@ -37,7 +37,7 @@ pub(crate) fn bars(scene: &mut Scene, chart: &Chart, rows: &[Row], [mut x, _]: [
     x.pixels = [RIM + names(rows), WIDTH - RIM - room.max(if names(rows) > 2.0 { 8.0 } else { 16.0 })];
     let mut tops = vec![top + 2.0];
     for row in rows {
-        let (head, below) = if row.place == Place::Beside { (0.0, 2.0) } else { (HEAD, BELOW) };
+        let (head, below) = if row.place == RowPlace::Beside { (0.0, 2.0) } else { (HEAD, BELOW) };
         tops.push(tops[tops.len() - 1] + head + LANE * row.lanes.max(1) as f64 + below);
     }
     let bottom = tops[rows.len()];
@@ -50,8 +50,8 @@ pub(crate) fn bars(scene: &mut Scene, chart: &Chart, rows: &[Row], [mut x, _]: [
     }
     for (i, row) in rows.iter().enumerate() {
         let first = match row.place {
-            Place::Beside => tops[i],
-            Place::Above | Place::Heading => tops[i] + HEAD,
+            RowPlace::Beside => tops[i],
+            RowPlace::Above | RowPlace::Heading => tops[i] + HEAD,
         };
         name(scene, row, tops[i]);
         for k in 0..row.lanes {
@@ -62,10 +62,10 @@ pub(crate) fn bars(scene: &mut Scene, chart: &Chart, rows: &[Row], [mut x, _]: [
 }
 
 /// Name of a row, and what else is said of it at the right.
-fn name(scene: &mut Scene, row: &Row, top: f64) {
+fn name(scene: &mut Scene, row: &ChartRow, top: f64) {
     let right = WIDTH - RIM;
     let aside = text::width(&row.aside, TEXT);
-    if row.place == Place::Beside {
+    if row.place == RowPlace::Beside {
         let name = text::fit(&row.name, TEXT, NAMES);
         let room = text::width(&name, TEXT);
         return scene.text_mid([RIM + room, top + 0.5 * (LANE - 2.0)], &name, TEXT, Ink::Ink, Anchor::End);
@@ -123,7 +123,7 @@ struct Grid {
 }
 
 /// Draws cells from `top` down, with the heads of columns below them, and sets the height of the scene.
-pub(crate) fn cells(scene: &mut Scene, chart: &Chart, (rows, columns): (&[Row], &[Column]), top: f64) {
+pub(crate) fn cells(scene: &mut Scene, chart: &Chart, (rows, columns): (&[ChartRow], &[ChartColumn]), top: f64) {
     scene.text([RIM, top + 14.0], &chart.y_label, TEXT, Ink::Muted, Anchor::Start);
     let tall = chart.marks.iter().any(|mark| matches!(mark, Mark::Cell(.., words) if !words.is_empty()));
     let height = if tall { TALL } else { CELL };
@@ -132,14 +132,14 @@ pub(crate) fn cells(scene: &mut Scene, chart: &Chart, (rows, columns): (&[Row], 
     let mut tops = vec![top + 22.0];
     for (i, row) in rows.iter().enumerate() {
         let between = if i > 0 { BELOW } else { 0.0 };
-        let own = if row.place == Place::Heading { HEAD + between } else { height };
+        let own = if row.place == RowPlace::Heading { HEAD + between } else { height };
         tops.push(tops[i] + own);
     }
     let bottom = tops[rows.len()];
     for (i, row) in rows.iter().enumerate() {
         match row.place {
-            Place::Heading => scene.text([left, tops[i + 1] - 7.0], &row.name, TEXT, Ink::Ink, Anchor::Start),
-            Place::Above | Place::Beside => {
+            RowPlace::Heading => scene.text([left, tops[i + 1] - 7.0], &row.name, TEXT, Ink::Ink, Anchor::Start),
+            RowPlace::Above | RowPlace::Beside => {
                 let at = [left - 7.0, tops[i] + 0.5 * height];
                 scene.text_mid(at, &text::fit(&row.name, TEXT, NAMES), TEXT, Ink::Muted, Anchor::End);
             }
@@ -187,7 +187,7 @@ impl Grid {
     }
 
     /// Heads of columns and a bracket under each run of columns of one group; returns the height below.
-    fn heads(&self, scene: &mut Scene, columns: &[Column], bottom: f64) -> f64 {
+    fn heads(&self, scene: &mut Scene, columns: &[ChartColumn], bottom: f64) -> f64 {
         let widest = columns.iter().map(|column| text::width(&column.name, TEXT)).fold(1.0, f64::max);
         let every = ((widest + 6.0) / self.width).ceil().max(1.0) as usize;
         for (i, column) in columns.iter().enumerate().step_by(every) {
@@ -197,7 +197,7 @@ impl Grid {
         let mut y = bottom + 18.0;
         for level in 0..2 {
             let mut start = 0;
-            let runs: Vec<&[Column]> = columns.chunk_by(|a, b| a.groups[level..] == b.groups[level..]).collect();
+            let runs: Vec<&[ChartColumn]> = columns.chunk_by(|a, b| a.groups[level..] == b.groups[level..]).collect();
             let named = columns.iter().any(|column| !column.groups[level].is_empty());
             if !named || level == 1 && runs.len() < 2 {
                 continue;

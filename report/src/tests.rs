@@ -1,7 +1,7 @@
 //! Laws that every chart obeys: both formats for good data, an error or a drawing but never a panic for odd data; and what every
 //! page must hold.
 
-use crate::chart::{Bar, Chart, Column, Key, Look, Mark, Place, Row, Space};
+use crate::chart::{Bar, Chart, ChartColumn, ChartRow, Key, KeyLook, Mark, RowPlace, Space};
 use crate::*;
 use std::collections::BTreeMap;
 
@@ -69,7 +69,7 @@ fn stacks(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, ReportError
         known: ("assumed", Ink::Series(4)),
     };
     let [title, value_label] = [label(name), label(name)];
-    let steps = Ladder { title, value_label, steps: vec![step(0), step(1)], target: target.clone() };
+    let steps = Staircase { title, value_label, steps: vec![step(0), step(1)], target: target.clone() };
     let bar = |i: usize| (label(name), vec![v(i), v(i + 1)], i == 0);
     let groups = Bars {
         title: label(name),
@@ -79,29 +79,31 @@ fn stacks(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, ReportError
         target,
     };
     let case = LedgerCase { label: label(name), energies_mj: vec![v(0), v(1), v(2)] };
-    let book = Ledger {
+    let book = LedgerBars {
         title: label(name),
         value_label: label(name),
         terms: vec![label(name); 3],
         cases: vec![case.clone(), case],
     };
     let bar = |row: usize| Mark::Bar(Bar { row, text: number(v(row), 1), ..Bar::to(v(row)) });
-    let keys = vec![Key::new(Look::Patch, Ink::Grid, name)];
-    let order = rows(name, name, vec![Row::beside(name), Row::beside(name)], vec![bar(0), bar(1)], keys);
+    let keys = vec![Key::new(KeyLook::Patch, Ink::Grid, name)];
+    let order = rows(name, name, vec![ChartRow::beside(name), ChartRow::beside(name)], vec![bar(0), bar(1)], keys);
     vec![ladder(&steps), bars(&groups), ledger(&book), order.draw("ranking"), map(name, v).draw("map")]
 }
 
 /// A heat map of two panels.
 fn map(name: &str, v: &dyn Fn(usize) -> f64) -> Chart {
-    let heading = Row { name: label(name), place: Place::Heading, ..Row::default() };
-    let column =
-        |k: usize| Column { name: number(v(k), 0), groups: [label(name), label(if k > 0 { name } else { "other" })] };
+    let heading = ChartRow { name: label(name), place: RowPlace::Heading, ..ChartRow::default() };
+    let column = |k: usize| ChartColumn {
+        name: number(v(k), 0),
+        groups: [label(name), label(if k > 0 { name } else { "other" })],
+    };
     let cell = |row: usize, column: usize| {
         Mark::Cell([row, column], v(row + column), number(v(row), 1), label(if row > 1 { name } else { "" }))
     };
     Chart {
         title: label(name),
-        space: Space::Grid(vec![heading, Row::beside(name), Row::beside(name)], vec![column(0), column(1)]),
+        space: Space::Grid(vec![heading, ChartRow::beside(name), ChartRow::beside(name)], vec![column(0), column(1)]),
         marks: vec![cell(1, 0), cell(1, 1), cell(2, 0), cell(2, 1)],
         heat: Some((label(name), v(4))),
         ..Chart::default()
@@ -146,10 +148,10 @@ fn odd_values_give_a_drawing_or_an_error() {
 fn charts_without_a_finite_value_say_so() {
     let empty = [
         shapes(&Shapes::default()),
-        ladder(&Ladder::default()),
+        ladder(&Staircase::default()),
         bars(&Bars::default()),
         lines(&Lines::default()),
-        ledger(&Ledger::default()),
+        ledger(&LedgerBars::default()),
         Chart::default().draw("chart"),
         Chart { space: Space::Grid(Vec::new(), Vec::new()), ..Chart::default() }.draw("map"),
     ];

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 /// `ibr characterize`
 #[derive(Debug, Args)]
-pub struct Characterize {
+pub struct CharacterizeArgs {
     /// CSV files of tensile tests: strain_pct,stress_mpa or displacement_mm,force_n, several specimens each
     #[arg(required_unless_present = "example")]
     pub files: Vec<String>,
@@ -52,14 +52,14 @@ pub enum DataCommand {
     /// Embedded datasets
     List,
     /// Make a synthetic dataset from a scenario
-    Generate(Generate),
+    Generate(GenerateArgs),
     /// Make marker data from finite element runs of a robot, with the scatter of a real test
-    Fem(DataFem),
+    Fem(DataFemArgs),
 }
 
 /// `ibr data fem`
 #[derive(Debug, Args)]
-pub struct DataFem {
+pub struct DataFemArgs {
     /// Robot's scenario file or shipped robot: the truth of the data
     pub scenario: String,
     /// Folder for markers.csv, about.toml and truth.toml
@@ -85,7 +85,7 @@ pub struct DataFem {
     pub seed: u64,
     /// Noise
     #[command(flatten)]
-    pub scatter: Scatter,
+    pub scatter: ScatterArgs,
     /// Threads of a run; 0: one per core
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
     pub threads: u64,
@@ -96,7 +96,7 @@ pub struct DataFem {
 
 /// Noise of made data.
 #[derive(Debug, Args)]
-pub struct Scatter {
+pub struct ScatterArgs {
     /// Camera noise of one coordinate
     #[arg(long, default_value = "1mm", allow_hyphen_values = true)]
     pub sigma: String,
@@ -110,7 +110,7 @@ pub struct Scatter {
 
 /// `ibr data generate`
 #[derive(Debug, Args)]
-pub struct Generate {
+pub struct GenerateArgs {
     /// Scenario file or shipped robot: the truth of the data
     pub scenario: String,
     /// Folder for markers.csv, about.toml and truth.toml
@@ -130,7 +130,7 @@ pub struct Generate {
     pub gauge: bool,
     /// Noise
     #[command(flatten)]
-    pub scatter: Scatter,
+    pub scatter: ScatterArgs,
     /// Replace existing files
     #[arg(long)]
     pub force: bool,

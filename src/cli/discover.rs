@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 /// `ibr diagnose`
 #[derive(Debug, Args)]
-pub struct Diagnose {
+pub struct DiagnoseArgs {
     /// Scenario file or shipped robot; a table of bench tests that has its own may stand alone
     #[arg(value_name = "SCENARIO")]
     pub scenario: String,
@@ -42,7 +42,7 @@ pub struct Diagnose {
 
 /// `ibr ladder`
 #[derive(Debug, Args)]
-pub struct Ladder {
+pub struct LadderArgs {
     /// Scenario file or shipped robot; it is not changed
     pub scenario: String,
     /// Marker data
@@ -66,7 +66,7 @@ pub struct Ladder {
 
 /// `ibr add`
 #[derive(Debug, Args)]
-pub struct Add {
+pub struct AddArgs {
     /// Scenario file or shipped robot; it is not changed
     pub scenario: String,
     /// NAME is fitted on the data; NAME=VALUE or NAME:key=value[,key=value] is taken as given; `best` is what the diagnosis adds
@@ -92,7 +92,7 @@ pub struct Add {
 
 /// `ibr validate`
 #[derive(Debug, Args)]
-pub struct Validate {
+pub struct ValidateArgs {
     /// Scenario file with the added effect
     pub scenario: String,
     /// Other data: another pressure, another size of actuator, another body pressure
@@ -108,7 +108,7 @@ pub struct Validate {
 
 /// `ibr breakdown`
 #[derive(Debug, Args)]
-pub struct Breakdown {
+pub struct BreakdownArgs {
     /// Scenario files or shipped robots; default: the four of the paper
     #[arg(value_name = "SCENARIO")]
     pub scenarios: Vec<String>,
@@ -142,7 +142,7 @@ pub struct Breakdown {
 #[derive(Debug, Subcommand)]
 pub enum ChallengeCommand {
     /// Make data of a robot with something hidden, and seal what it is
-    New(ChallengeNew),
+    New(ChallengeNewArgs),
     /// Open the seal, check that nothing was changed, and score a diagnosis
     Reveal {
         /// Folder of the challenge
@@ -157,7 +157,7 @@ pub enum ChallengeCommand {
 
 /// `ibr challenge new`
 #[derive(Debug, Clone, Args)]
-pub struct ChallengeNew {
+pub struct ChallengeNewArgs {
     /// Folder for scenario.toml, markers.csv, about.toml and seal.toml
     #[arg(long)]
     pub out: PathBuf,

@@ -2,7 +2,7 @@
 
 use super::inputs::{self, READ, positive};
 use super::{Context, Outcome};
-use crate::cli::Add;
+use crate::cli::AddArgs;
 use crate::failure::Failure;
 use crate::shown::extension::steps_text;
 use compare::diagnosis::Options;
@@ -13,7 +13,7 @@ use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use std::sync::PoisonError;
 
-pub fn run(args: &Add, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let sigma_m = positive("--sigma", args.sigma.as_ref())?;
     let file = inputs::scenario(&args.scenario)?;
     let wish = Wish::read(&file, &args.effect, args.data.is_some())?;
@@ -35,7 +35,7 @@ pub fn run(args: &Add, context: &mut Context) -> Result<Outcome, Failure> {
 }
 
 /// Where the new scenario goes: never onto the old one, and onto another file only if told.
-fn target(args: &Add, names: &str) -> Result<PathBuf, Failure> {
+fn target(args: &AddArgs, names: &str) -> Result<PathBuf, Failure> {
     let old = Path::new(&args.scenario);
     let stem = old.file_stem().map_or("scenario".into(), |s| s.to_string_lossy().into_owned());
     let file = format!("{stem}-{names}.toml");
@@ -60,7 +60,7 @@ fn target(args: &Add, names: &str) -> Result<PathBuf, Failure> {
     Err(Failure::usage(message, help))
 }
 
-fn words(args: &Add, found: &Extension, target: &str) -> String {
+fn words(args: &AddArgs, found: &Extension, target: &str) -> String {
     let mut out = found.told.iter().map(|s| format!("{s}\n")).collect::<String>();
     if let [.., before, after] = &found.steps[..] {
         out.push_str(&format!("\n{}", steps_text(&found.steps, found.noise_floor_mm)));

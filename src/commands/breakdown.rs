@@ -2,7 +2,7 @@
 
 use super::fem_inputs::{kept, list, robots, sizes};
 use super::{Context, Outcome};
-use crate::cli::Breakdown;
+use crate::cli::BreakdownArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
 use crate::shown::breakdown::text;
@@ -13,7 +13,7 @@ use models::Scenario;
 use models::scenario::quantity::Quantity;
 use serde_json::json;
 
-pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome, Failure> {
     check_folder(&args.out)?;
     let (runs, stopped) = runs(args, context)?;
     let scenarios: Vec<Scenario> = robots(&args.scenarios)?.0.into_iter().map(|r| r.1).collect();
@@ -33,7 +33,7 @@ pub fn run(args: &Breakdown, context: &mut Context) -> Result<Outcome, Failure> 
 }
 
 /// Runs that come with the program or those of the folder, which gets what is missing; and what stopped.
-fn runs(args: &Breakdown, context: &mut Context) -> Result<(Vec<EngineRun>, Vec<Failure>), Failure> {
+fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<(Vec<EngineRun>, Vec<Failure>), Failure> {
     if args.stored {
         return Ok((stored()?.into_iter().filter(|run| run.seed == 1).collect(), Vec::new()));
     }

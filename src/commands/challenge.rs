@@ -3,10 +3,10 @@
 use super::data::scatter;
 use super::tables::table;
 use super::{Context, Outcome, inputs};
-use crate::cli::{ChallengeCommand, ChallengeNew};
+use crate::cli::{ChallengeCommand, ChallengeNewArgs};
 use crate::failure::Failure;
 use crate::output::{check_set_folder, set_name, write_files};
-use challenge::{Answer, HIDDEN, HiddenEffect, OUTSIDE, Riddle, score};
+use challenge::{Claim, HIDDEN, HiddenEffect, OUTSIDE, Riddle, score};
 use ibr::pages::Files;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -19,9 +19,9 @@ pub fn run(command: &ChallengeCommand, context: &mut Context) -> Result<Outcome,
     }
 }
 
-fn make(args: &ChallengeNew, context: &mut Context) -> Result<Outcome, Failure> {
+fn make(args: &ChallengeNewArgs, context: &mut Context) -> Result<Outcome, Failure> {
     check_set_folder(&args.out, args.force)?;
-    let ChallengeNew { seed, effect, actuator, runs, sigma, protocol, .. } = args.clone();
+    let ChallengeNewArgs { seed, effect, actuator, runs, sigma, protocol, .. } = args.clone();
     let camera_sd_m = sigma.map(|text| scatter("--sigma", &text)).transpose()?;
     let riddle = Riddle { seed, effects: effect, actuator, runs: runs.map(|n| n as usize), camera_sd_m, protocol };
     let made = riddle.make(&set_name(&args.out, "challenge"))?;
@@ -46,7 +46,7 @@ fn reveal(folder: &Path, diagnosis: Option<&Path>, context: &mut Context) -> Res
     let mut scored = Value::Null;
     if let Some(path) = diagnosis {
         let data = inputs::evidence(&folder.display().to_string(), context)?;
-        let answer = Answer::read(path, folder, &data.sha256()?)?;
+        let answer = Claim::read(path, folder, &data.sha256()?)?;
         // Without a verdict there is nothing to be right or wrong.
         let score = answer.verdict.as_ref().map(|_| score(&truth, &answer));
         text.push_str(&answer.words(&truth, score.as_ref()));

@@ -2,12 +2,12 @@
 
 use super::inputs::quantity;
 use super::{Context, Outcome};
-use crate::cli::Characterize;
+use crate::cli::CharacterizeArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, program, spares_inputs, write_files};
 use crate::shown::characterized::{text, to_json};
 use compare::characterize::write::{fabric_toml, missing};
-use compare::characterize::{FabricTests, Settings, example};
+use compare::characterize::{FabricTests, Reduction, example};
 use data::CouponDefaults;
 use ibr::pages::{Files, characterized_files};
 use models::scenario::quantity::Quantity;
@@ -17,7 +17,7 @@ use std::path::Path;
 /// Seed of the example: the documents show its numbers.
 const EXAMPLE_SEED: u64 = 1;
 
-pub fn run(args: &Characterize, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn run(args: &CharacterizeArgs, context: &mut Context) -> Result<Outcome, Failure> {
     if let Some(folder) = &args.example {
         return make_example(folder, context);
     }
@@ -41,7 +41,7 @@ pub fn run(args: &Characterize, context: &mut Context) -> Result<Outcome, Failur
     Ok(Outcome::new(text, to_json(&found, fabric.as_deref())))
 }
 
-fn settings(args: &Characterize) -> Result<Settings, Failure> {
+fn settings(args: &CharacterizeArgs) -> Result<Reduction, Failure> {
     if !(args.modulus_to > 0.0 && args.modulus_to <= 50.0) {
         let message = format!("--modulus-to is {} per cent strain", args.modulus_to);
         return Err(Failure::usage(message, "write a number above 0 and up to 50, for example 1"));
@@ -50,11 +50,11 @@ fn settings(args: &Characterize) -> Result<Settings, Failure> {
         return Err(Failure::usage("--name is empty", "write a name for the fabric, for example silicone-nylon-mine"));
     }
     let (name, modulus_strain) = (args.name.trim().to_string(), 0.01 * args.modulus_to);
-    Ok(Settings { name, modulus_strain, any_modulus: args.any_modulus })
+    Ok(Reduction { name, modulus_strain, any_modulus: args.any_modulus })
 }
 
 /// What holds where a file says nothing.
-fn defaults(args: &Characterize) -> Result<CouponDefaults, Failure> {
+fn defaults(args: &CharacterizeArgs) -> Result<CouponDefaults, Failure> {
     let length = |option: &str, text: &Option<String>| {
         text.as_ref().map(|text| quantity(option, text, Quantity::Length)).transpose()
     };

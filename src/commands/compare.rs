@@ -2,17 +2,17 @@
 
 use super::inputs::{self, plain, positive, unused_sigma};
 use super::{Context, Outcome};
-use crate::cli::Compare;
+use crate::cli::CompareArgs;
 use crate::failure::{Failure, MISSED};
 use crate::output::{check_folder, imprint, write_files};
-use crate::shown::comparison::{Answer, text};
+use crate::shown::comparison::{CompareAnswer, text};
 use compare::study::comparison::{Contender, Variant, compare_all};
 use compare::validation::BeforeAfter;
 use compare::{EvaluateOptions, ScenarioFile};
 use ibr::pages::compare_page;
 use std::path::PathBuf;
 
-pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
     if let Some(outcome) = super::held::run(args, context)? {
         return Ok(outcome);
     }
@@ -29,7 +29,7 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
     let added = BeforeAfter::of(&file, &[]).ok();
     let added = added.and_then(|both| Some((both.effects.clone(), both.judge(&evidence, sigma_m).ok()?)));
     let scenario = if args.inputs.len() == 1 { "its own" } else { &file.name };
-    let answer = Answer { scenario, found: &found, added: added.as_ref() };
+    let answer = CompareAnswer { scenario, found: &found, added: added.as_ref() };
     let mut outcome = Outcome::new(text(&answer), answer.json());
     let folder = format!("ibr-report/compare-{}", plain(&found.dataset.name));
     if let Some(folder) = args.out.clone().or_else(|| (!context.json).then(|| PathBuf::from(folder))) {
@@ -49,7 +49,7 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
 }
 
 /// Scenario and data; data with a scenario of their own may stand alone.
-fn both(args: &Compare) -> Result<(ScenarioFile, &str), Failure> {
+fn both(args: &CompareArgs) -> Result<(ScenarioFile, &str), Failure> {
     let own = |data: &String| ScenarioFile::beside(data);
     match &args.inputs[..] {
         [data] => own(data)?.map(|file| (file, data.as_str())),

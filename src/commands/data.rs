@@ -2,7 +2,7 @@
 
 use super::inputs::{self, quantity};
 use super::{Context, Outcome, list};
-use crate::cli::{DataCommand, Generate, Scatter};
+use crate::cli::{DataCommand, GenerateArgs, ScatterArgs};
 use crate::failure::Failure;
 use crate::output::{Input, check_set_folder, set_name, write_files};
 use crate::shown::check::check_text;
@@ -41,7 +41,7 @@ fn check(spec: &str, context: &mut Context) -> Result<Outcome, Failure> {
     Ok(Outcome::new(check_text(&report), json!({"schema": "ibr.data.check", "version": 1, "check": report})))
 }
 
-fn make(args: &Generate, context: &mut Context) -> Result<Outcome, Failure> {
+fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let generator = Generator {
         seed: args.seed,
         runs: args.runs as usize,
@@ -86,7 +86,7 @@ pub fn written_json(schema: &str, folder: &Path, dataset: &Dataset) -> Value {
 }
 
 /// The scatter as typed.
-pub fn scattered(args: &Scatter) -> Result<Generator, Failure> {
+pub fn scattered(args: &ScatterArgs) -> Result<Generator, Failure> {
     let percent = args.pressure_scatter;
     let camera_sd_m = scatter("--sigma", &args.sigma)?;
     if !(0.0..=50.0).contains(&percent) {

@@ -4,7 +4,7 @@ use super::data::{scattered, write, written_json};
 use super::fem_inputs::{kept, list, pressures};
 use super::inputs;
 use super::{Context, Outcome};
-use crate::cli::DataFem;
+use crate::cli::DataFemArgs;
 use crate::failure::Failure;
 use crate::output::{check_set_folder, set_name};
 use compare::study::Generator;
@@ -15,7 +15,7 @@ use fem::session::Source;
 use models::Scenario;
 use models::scenario::quantity::Quantity;
 
-pub fn run(args: &DataFem, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, Failure> {
     check_set_folder(&args.out, args.force)?;
     let truth = inputs::scenario(&args.scenario)?;
     let (robot, scenario) = robot(args)?;
@@ -51,7 +51,7 @@ pub fn run(args: &DataFem, context: &mut Context) -> Result<Outcome, Failure> {
 }
 
 /// The robot, at another body pressure if one is named.
-fn robot(args: &DataFem) -> Result<(Source, Scenario), Failure> {
+fn robot(args: &DataFemArgs) -> Result<(Source, Scenario), Failure> {
     let mut robot = ibr::fe_source(&args.scenario)?;
     if let Some(text) = &args.body_pressure {
         let [body_kpa] = list("--body-pressure", text, Quantity::Pressure, 1e-3)?[..] else {
@@ -67,7 +67,7 @@ fn robot(args: &DataFem) -> Result<(Source, Scenario), Failure> {
 
 /// One run for every seed in a folder, which gets what is missing.
 fn made(
-    args: &DataFem,
+    args: &DataFemArgs,
     robot: &Source,
     scenario: &Scenario,
     kpa: &[f64],

@@ -2,7 +2,7 @@
 
 use super::inputs::{self, READ, positive, unused_sigma};
 use super::{Context, Outcome};
-use crate::cli::Diagnose;
+use crate::cli::DiagnoseArgs;
 use crate::failure::Failure;
 use crate::output::{Input, check_folder, earlier, imprint, remove_all, write_files};
 use crate::shown::diagnosis::{text, to_json};
@@ -17,7 +17,7 @@ use std::path::Path;
 /// Share of the time after which the report is drawn.
 const DRAWN: f64 = 0.8;
 
-pub fn run(args: &Diagnose, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failure> {
     if args.published {
         return super::published::run(&args.scenario, args.out.as_deref(), context);
     }

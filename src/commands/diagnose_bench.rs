@@ -2,7 +2,7 @@
 
 use super::inputs::READ;
 use super::{Context, Outcome, held, inputs};
-use crate::cli::Diagnose;
+use crate::cli::DiagnoseArgs;
 use crate::failure::Failure;
 use crate::shown::bench_diagnosis::text;
 use compare::diagnosis::{BenchOptions, diagnose_bench};
@@ -10,7 +10,7 @@ use fem::record::Shape;
 use serde_json::json;
 
 /// The diagnosis, if what was typed last is a table of bench tests.
-pub fn run(args: &Diagnose, context: &mut Context) -> Result<Option<Outcome>, Failure> {
+pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Option<Outcome>, Failure> {
     let spec = args.data.as_deref().unwrap_or(&args.scenario);
     let Some(bench) = data::bench::bench(spec)? else {
         return args.also.iter().try_for_each(|also| held::needs_markers(also)).map(|()| None);
@@ -31,7 +31,7 @@ pub fn run(args: &Diagnose, context: &mut Context) -> Result<Option<Outcome>, Fa
 }
 
 /// What is about markers, and what to do instead.
-fn refuse_options(args: &Diagnose, spec: &str) -> Result<(), Failure> {
+fn refuse_options(args: &DiagnoseArgs, spec: &str) -> Result<(), Failure> {
     let given = [
         ("--also", !args.also.is_empty(), "put the rows of all tests of one kind into one table"),
         ("--keep-bending", args.keep_bending, "a table has nothing fitted that was not asked for"),

@@ -2,7 +2,7 @@
 
 use super::fem_inputs::{kept, pressures, robots};
 use super::{Context, Outcome};
-use crate::cli::Compare;
+use crate::cli::CompareArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, imprint, write_files};
 use crate::shown::engines::text;
@@ -13,7 +13,7 @@ use models::Scenario;
 use serde_json::json;
 use std::path::PathBuf;
 
-pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from("ibr-report/compare-engines"));
     check_folder(&folder)?;
     let (named, inputs) = robots(&args.inputs)?;
@@ -42,7 +42,7 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
 }
 
 /// Runs of the folder, which gets what is missing.
-fn made(args: &Compare, robots: &[(Source, Scenario)], context: &mut Context) -> Result<Vec<EngineRun>, Failure> {
+fn made(args: &CompareArgs, robots: &[(Source, Scenario)], context: &mut Context) -> Result<Vec<EngineRun>, Failure> {
     let kpa = args.pressure.as_deref().map(pressures).transpose()?;
     let (jobs, folder) = (seed_jobs(robots, args.seeds, kpa.as_deref())?, args.runs_folder());
     let settings = kept(&folder, args.threads);

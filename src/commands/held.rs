@@ -2,7 +2,7 @@
 
 use super::inputs;
 use super::{Context, Outcome};
-use crate::cli::Compare;
+use crate::cli::CompareArgs;
 use crate::failure::Failure;
 use crate::shown::held::{as_json, text};
 use compare::ScenarioFile;
@@ -13,7 +13,7 @@ use models::Scenario;
 use serde_json::json;
 
 /// The comparison, if the data are a table of bench tests.
-pub fn run(args: &Compare, context: &mut Context) -> Result<Option<Outcome>, Failure> {
+pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Option<Outcome>, Failure> {
     let Some((data_spec, scenario_spec)) = args.inputs.split_last().filter(|(_, before)| before.len() < 2) else {
         return Ok(None);
     };
@@ -45,7 +45,7 @@ pub fn own(data_spec: &str, text: &str) -> Result<Scenario, Failure> {
     Ok(ScenarioFile::parse(&format!("{data_spec}/scenario.toml"), text)?.scenario)
 }
 
-fn marker_option(args: &Compare) -> Option<&'static str> {
+fn marker_option(args: &CompareArgs) -> Option<&'static str> {
     let given = [
         ("--sigma", args.sigma.is_some()),
         ("--max-error", args.max_error.is_some()),

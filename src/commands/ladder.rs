@@ -2,7 +2,7 @@
 
 use super::inputs::{self, READ, plain, positive};
 use super::{Context, Outcome};
-use crate::cli::Ladder;
+use crate::cli::LadderArgs;
 use crate::failure::Failure;
 use crate::output::{Input, check_folder, imprint, write_files};
 use crate::shown::extension::climb_text;
@@ -14,7 +14,7 @@ use ibr::pages::{Climbed, ladder_page};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-pub fn run(args: &Ladder, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let tolerance_m = positive("--tolerance", args.tolerance.as_ref())?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let file = inputs::scenario(&args.scenario)?;
@@ -22,7 +22,7 @@ pub fn run(args: &Ladder, context: &mut Context) -> Result<Outcome, Failure> {
     let options =
         Options { tolerance_m, keep_bending: args.keep_bending, next_experiment: false, ..Options::default() };
     let climb = ladder(&file, &evidence, &options, args.effects as usize, &mut part(context.progress, [READ, 0.95]))?;
-    let Ladder { scenario, data, also, .. } = args;
+    let LadderArgs { scenario, data, also, .. } = args;
     let mut answer = Shape { schema: "ibr.ladder", version: 1 }.stamped(&climb);
     answer["scenario_file"] = json!(scenario);
     answer["data"] = json!(data);

@@ -2,7 +2,7 @@
 
 use super::fem_inputs::{kept, pressures, robots, sizes};
 use super::{Context, Outcome};
-use crate::cli::Compare;
+use crate::cli::CompareArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
 use crate::shown::paper::text;
@@ -11,7 +11,7 @@ use compare::study::paper::{MESHES_MM, PaperRun, facts, heights, jobs, ordered, 
 use ibr::pages::Files;
 use serde_json::json;
 
-pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let runs = runs(args, context)?;
     let paper = data::published()?;
@@ -30,7 +30,7 @@ pub fn run(args: &Compare, context: &mut Context) -> Result<Outcome, Failure> {
 }
 
 /// Stored runs, or all in the folder, which gets what is missing.
-fn runs(args: &Compare, context: &mut Context) -> Result<Vec<PaperRun>, Failure> {
+fn runs(args: &CompareArgs, context: &mut Context) -> Result<Vec<PaperRun>, Failure> {
     let Some(folder) = &args.runs else {
         if !args.inputs.is_empty() || args.pressure.is_some() {
             let help = "add --runs FOLDER to make runs; without it all that come with the program are printed";

@@ -2,7 +2,7 @@
 
 use super::inputs::{self, quantity};
 use super::{Context, Outcome, limits};
-use crate::cli::Predict;
+use crate::cli::PredictArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
 use crate::shown::predicted::{above_limit, beyond_words, state_json, text};
@@ -13,7 +13,7 @@ use models::scenario::quantity::{Quantity, parse_pressures};
 use models::{CHANNELS, Loads, Model, Scenario, Target};
 use serde_json::{Value, json};
 
-pub fn run(args: &Predict, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let file = inputs::scenario(&args.scenario)?;
     let mut scenario = if args.bare { file.bare() } else { file.scenario.clone() };

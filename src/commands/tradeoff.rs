@@ -2,7 +2,7 @@
 
 use super::tables::table;
 use super::{Context, Outcome};
-use crate::cli::Tradeoff;
+use crate::cli::TradeoffArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, machine, write_files};
 use compare::study::engines::known_runs;
@@ -11,7 +11,7 @@ use compare::study::tradeoff::{of_runs, tradeoff};
 use ibr::pages::{Files, tradeoff_plot};
 use serde_json::json;
 
-pub fn run(args: &Tradeoff, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let out = args.out.as_deref();
     out.map_or(Ok(()), check_folder)?;
     (context.progress)("timing", None);

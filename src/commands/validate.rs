@@ -3,12 +3,12 @@
 use super::inputs::{self, positive};
 use super::tables::{number, table};
 use super::{Context, Outcome};
-use crate::cli::Validate;
+use crate::cli::ValidateArgs;
 use crate::failure::Failure;
 use compare::validation::{BeforeAfter, Validation};
 use serde_json::json;
 
-pub fn run(args: &Validate, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn run(args: &ValidateArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let sigma_m = positive("--sigma", args.sigma.as_ref())?;
     let file = inputs::scenario(&args.scenario)?;
     let both = BeforeAfter::of(&file, &args.without)?;

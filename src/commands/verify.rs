@@ -7,7 +7,7 @@ use crate::failure::{Failure, MISSED};
 use ibr::pages::Files;
 use report::{LineSeries, LineStyle, Lines};
 use verification::checks::{Choice, Figure, verify};
-use verification::{Answer, Error, Part};
+use verification::{Error, Findings, Printed};
 
 pub fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let choice = Choice { every: args.all, slow: args.slow, only: &args.only };
@@ -23,10 +23,10 @@ pub fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome, Failure>
 }
 
 /// An answer as a command says it.
-pub fn show(answer: Answer) -> Outcome {
-    let part = |part: Part| match part {
-        Part::Text(text) => text,
-        Part::Table { head, left, rows } => table(head, left, rows),
+pub fn show(answer: Findings) -> Outcome {
+    let part = |part: Printed| match part {
+        Printed::Text(text) => text,
+        Printed::Table { head, left, rows } => table(head, left, rows),
     };
     let text = answer.parts.into_iter().map(part).collect();
     Outcome { code: if answer.missed { MISSED } else { 0 }, ..Outcome::new(text, answer.json) }

@@ -2,7 +2,7 @@
 
 use super::{Files, PageError};
 use compare::characterize::write::{measured_toml, shear_table, yarn_table};
-use compare::characterize::{Characterized, OPTICAL_LIMIT_RAD, PAPER_LIMIT_RAD, Strip};
+use compare::characterize::{BiasStrip, Characterized, OPTICAL_LIMIT_RAD, PAPER_LIMIT_RAD};
 use models::fabrics::{Fabric, specimen as fit};
 use report::{LineSeries, LineStyle, Lines, lines};
 
@@ -68,7 +68,7 @@ fn tension(found: &Characterized) -> Option<Lines> {
 fn bias(found: &Characterized) -> Option<Lines> {
     let shear = found.shear.as_ref()?;
     let first = found.strips().next()?.1.size;
-    let same = |s: &Strip| (s.size.length_m - first.length_m).abs() + (s.size.width_m - first.width_m).abs() < 1e-6;
+    let same = |s: &BiasStrip| (s.size.length_m - first.length_m).abs() + (s.size.width_m - first.width_m).abs() < 1e-6;
     let alike: Vec<_> = found.strips().filter(|(_, strip)| same(strip)).collect();
     let all = alike.iter().map(|(_, s)| scaled(&s.pulled, [100.0 / first.length_m, 1.0]));
     let mut series = vec![specimens(&count(alike.len()), all, 0)];
@@ -158,7 +158,7 @@ fn upright(name: &str, x: f64, top: f64, colour: usize) -> LineSeries {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use compare::characterize::{Settings, characterize, example::example};
+    use compare::characterize::{Reduction, characterize, example::example};
     use data::{CouponDefaults, parse_coupons};
 
     #[test]
@@ -167,7 +167,7 @@ mod tests {
             parse_coupons("a.csv", &mut text.as_bytes(), 0, &CouponDefaults::default(), &mut |_, _| ()).unwrap()
         };
         let coupons: Vec<_> = example(1).iter().flat_map(|(_, text)| read(text)).collect();
-        let found = characterize(&coupons, &Settings::default()).unwrap();
+        let found = characterize(&coupons, &Reduction::default()).unwrap();
         let made = characterized_files(&found, None, "ibr").unwrap().files;
         let pictures = made.iter().filter_map(|(name, _)| name.strip_suffix(".svg"));
         assert!(pictures.eq(["tension", "bias", "shear"]));

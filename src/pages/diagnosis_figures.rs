@@ -6,10 +6,10 @@ use compare::diagnosis::{Answer, Diagnosis, Group, Standing};
 use compare::extension::ErrorStep;
 use compare::study::engines::TERMS;
 use compare::study::predict::predict_dataset;
-use compare::witness::{Beside, Witness};
+use compare::witness::{Witness, WitnessRow};
 use data::{Dataset, Phase};
 use models::{Loads, Model, Scenario, Step};
-use report::chart::{Bar, Key, Look, Mark, Row};
+use report::chart::{Bar, ChartRow, Key, KeyLook, Mark};
 use report::{self as plots, Drawn, Ink, LineSeries, LineStyle};
 
 const MM: f64 = 1e3;
@@ -118,8 +118,8 @@ pub(super) fn ranking(d: &Diagnosis) -> Result<Option<Drawn>, PageError> {
     };
     let marks = rows.iter().enumerate().map(bar).collect();
     let present = RANKS.iter().filter(|(rank, ..)| rows.iter().any(|row| row.1 == *rank));
-    let keys = present.map(|(_, words, ink)| Key::new(Look::Patch, *ink, words)).collect();
-    let names = rows.iter().map(|row| Row::beside(&super::effect(&row.0))).collect();
+    let keys = present.map(|(_, words, ink)| Key::new(KeyLook::Patch, *ink, words)).collect();
+    let names = rows.iter().map(|row| ChartRow::beside(&super::effect(&row.0))).collect();
     let label = "gain: fall of the squares, weighted by the noise; % of the best";
     Ok(Some(plots::rows(title, label, names, marks, keys).draw("ranking")?))
 }
@@ -234,7 +234,7 @@ pub(super) fn witness_cases(w: &Witness, d: &Diagnosis) -> Vec<plots::LedgerCase
     let named = others.iter().filter(|m| m.named);
     let nearest = others.iter().filter(|m| !m.named).take(OTHER_LEDGERS);
     let is_set = !d.indistinguishable.is_empty();
-    let what = |m: &Beside| match (m.named, is_set) {
+    let what = |m: &WitnessRow| match (m.named, is_set) {
         (true, true) | (false, false) => String::new(),
         (true, false) => format!(" ({})", d.attempt_words()),
         (false, true) => format!(" ({FITS_WORSE})"),
@@ -253,7 +253,7 @@ pub(super) fn witness_cases(w: &Witness, d: &Diagnosis) -> Vec<plots::LedgerCase
 pub(super) fn witness_ledger(w: &Witness, d: &Diagnosis) -> Result<Drawn, PageError> {
     let cases = witness_cases(w, d).into_iter();
     let cases = cases.map(|case| plots::LedgerCase { label: super::effect(&case.label), ..case });
-    let data = plots::Ledger {
+    let data = plots::LedgerBars {
         title: format!("Where the energy goes, to {:.0} kPa", w.actuator_kpa),
         value_label: "energy taken up since the first bend [mJ]".into(),
         terms: TERMS.map(String::from).to_vec(),

@@ -1,10 +1,10 @@
 //! Plots of both engines.
 
 use super::PageError;
+use compare::study::engines::{EnginePair, PARTS, TERMS};
 use compare::study::engines::{EngineRobot, Engines, PartingMap};
-use compare::study::engines::{PARTS, Pair, TERMS};
 use models::actuators::Family;
-use report::chart::{Chart, Column, Mark, Row, Space};
+use report::chart::{Chart, ChartColumn, ChartRow, Mark, Space};
 use report::{self as plots, Drawn, number};
 
 /// Share at which the colour of a map saturates.
@@ -22,22 +22,25 @@ pub fn parting_plot(map: &PartingMap) -> Result<Drawn, PageError> {
     for (row, (_, pairs)) in map.rows.iter().enumerate() {
         for (column, kpa) in columns.iter().enumerate() {
             let found = pairs.iter().find(|p| (p.actuator_kpa - kpa).abs() < 0.05);
-            let share = found.and_then(Pair::difference).unwrap_or(f64::NAN);
+            let share = found.and_then(EnginePair::difference).unwrap_or(f64::NAN);
             // Where the models do not part, the cell is pale.
             let strength =
                 if share.abs() > PARTS { share.signum() * (share.abs() / STRONGEST).max(0.15) } else { 0.0 * share };
             let sign = if share > 0.0 { "+" } else { "" };
             let words = if share.is_finite() { format!("{sign}{} %", number(100.0 * share, 0)) } else { "–".into() };
-            let carrier = found.and_then(Pair::carrier).unwrap_or_default();
+            let carrier = found.and_then(EnginePair::carrier).unwrap_or_default();
             marks.push(Mark::Cell([row, column], strength, words, carrier.into()));
         }
     }
-    let head = |kpa: &f64| Column { name: format!("{kpa:.0}"), ..Column::default() };
+    let head = |kpa: &f64| ChartColumn { name: format!("{kpa:.0}"), ..ChartColumn::default() };
     let chart = Chart {
         title: format!("{}: where the models part", map.actuator),
         x_label: "actuator pressure [kPa]".into(),
         y_label: map.row_label.clone(),
-        space: Space::Grid(map.rows.iter().map(|r| Row::beside(&r.0)).collect(), columns.iter().map(head).collect()),
+        space: Space::Grid(
+            map.rows.iter().map(|r| ChartRow::beside(&r.0)).collect(),
+            columns.iter().map(head).collect(),
+        ),
         marks,
         heat: Some(("reduced tip minus finite element tip [% of the latter]".into(), 100.0 * STRONGEST)),
         ..Chart::default()
@@ -170,7 +173,7 @@ fn ahead_cm3(robot: &EngineRobot) -> f64 {
 /// Their drawing.
 pub(super) fn ledger(robot: &EngineRobot) -> Result<Drawn, PageError> {
     let first = robot.pairs.first().map_or(0.0, |p| p.actuator_kpa);
-    let data = plots::Ledger {
+    let data = plots::LedgerBars {
         title: format!("{}: where the energy is", robot.scenario.actuator.kind.name),
         value_label: match robot.scenario.actuator.kind.family {
             Family::Pouch => "potential energy [mJ]".into(),

@@ -1,14 +1,14 @@
 //! Results → plots.
 
 use super::PageError;
-use compare::known::Known;
 use compare::study::Timing;
 use compare::study::published::PublishedLadder;
 use compare::study::{Comparison, Variant};
 use data::published::printed;
 use data::{Dataset, Phase};
+use models::Known;
 use models::{Loads, Model, Scenario};
-use report::chart::{Chart, Key, Look, Mark, Space};
+use report::chart::{Chart, Key, KeyLook, Mark, Space};
 use report::{self as plots, Drawn, Ink, Symbol};
 
 const MM: f64 = 1e3;
@@ -223,7 +223,7 @@ pub(super) fn published_ladder(ladder: &PublishedLadder) -> Result<Drawn, PageEr
         range: rung.range_m.map(|r| r.map(|v| v * MM)),
         known: known(rung.known),
     };
-    let data = plots::Ladder {
+    let data = plots::Staircase {
         title: format!("{}: displacement at 30 kPa", printed(&ladder.published.kind)),
         value_label: "displacement of the outermost marker [mm]".into(),
         steps: ladder.rungs.iter().map(step).collect(),
@@ -240,7 +240,7 @@ pub(super) fn error_ladder(title: &str, variants: &[Variant]) -> Result<Drawn, P
         plots::LadderStep { label: super::effect(&v.label), value, range: None, known: known(v.known) }
     };
     let floor = variants.first().and_then(|v| v.evaluation.metrics.overall.noise_floor_mm);
-    let data = plots::Ladder {
+    let data = plots::Staircase {
         title: title.into(),
         value_label: "error beyond noise, all markers and holds [mm]".into(),
         steps: variants.iter().map(step).collect(),
@@ -288,7 +288,7 @@ pub(super) fn ledgers(title: &str, cases: &[(String, Scenario)], loads: &Loads) 
         plots::LedgerCase { label: super::effect(label), energies_mj: large.iter().map(energy).chain(others).collect() }
     };
     let others = (!small.is_empty()).then(|| "others".to_string());
-    let data = plots::Ledger {
+    let data = plots::LedgerBars {
         title: title.into(),
         value_label: "potential energy at equilibrium [mJ]".into(),
         terms: large.iter().map(|name| super::effect(name)).chain(others).collect(),
@@ -352,7 +352,7 @@ pub fn tradeoff(timings: &[Timing]) -> Result<Drawn, PageError> {
     };
     let mut marks = vec![front(shown.iter().map(|t| at(t)).collect())];
     marks.extend(shown.iter().enumerate().map(point));
-    let key = |(i, name): (usize, &&str)| Key::new(Look::Symbol(Symbol::of(i), false), Ink::Series(i), name);
+    let key = |(i, name): (usize, &&str)| Key::new(KeyLook::Symbol(Symbol::of(i), false), Ink::Series(i), name);
     let chart = Chart {
         title: "Run time against error".into(),
         x_label: "run time of one prediction".into(),

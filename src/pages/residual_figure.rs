@@ -5,7 +5,7 @@ use super::figures::several_bodies;
 use compare::residuals::{Deviation, ResidualCell, ResidualMap};
 use compare::wording::short;
 use data::Dataset;
-use report::chart::{Chart, Column, Mark, Place, Row, Space};
+use report::chart::{Chart, ChartColumn, ChartRow, Mark, RowPlace, Space};
 use report::{Drawn, number};
 
 /// Panels of the map, and what their cells show.
@@ -43,11 +43,11 @@ pub(super) fn map(title: &str, map: &ResidualMap, dataset: &Dataset) -> Result<D
     let column = |h: &usize| {
         let hold = &map.holds[*h];
         let body = if several { format!("body {} kPa", short(hold.p_body_kpa)) } else { String::new() };
-        Column { name: number(hold.p_act_kpa, 0), groups: [hold.phase.to_string(), body] }
+        ChartColumn { name: number(hold.p_act_kpa, 0), groups: [hold.phase.to_string(), body] }
     };
     let (mut places, mut marks) = (Vec::new(), Vec::new());
     for (label, of) in DIRECTIONS {
-        places.push(Row { name: label.into(), place: Place::Heading, ..Row::default() });
+        places.push(ChartRow { name: label.into(), place: RowPlace::Heading, ..ChartRow::default() });
         // The tip is the top row.
         for m in rows.iter().rev() {
             for (k, h) in columns.iter().enumerate() {
@@ -57,7 +57,7 @@ pub(super) fn map(title: &str, map: &ResidualMap, dataset: &Dataset) -> Result<D
                 marks.push(Mark::Cell([places.len(), k], off / MAP_LIMIT, words, String::new()));
             }
             let station = dataset.markers[*m].station_m.map_or(*m as f64 + 1.0, |s| s * MM);
-            places.push(Row::beside(&number(station, 0)));
+            places.push(ChartRow::beside(&number(station, 0)));
         }
     }
     let unit = if in_noise { "[times the noise]" } else { "[mm]" };

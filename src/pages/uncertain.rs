@@ -1,7 +1,7 @@
 //! What finite elements say about a robot of which not everything was measured, drawn.
 
 use compare::study::uncertain::{SAME_KPA, Uncertain};
-use report::chart::{Bar, Mark, Row};
+use report::chart::{Bar, ChartRow, Mark};
 use report::{Drawn, Ink, LineSeries, LineStyle, Lines, ReportError, lines};
 
 /// Heights of all markers at all pressures, median and 80 % interval, beside measured ones.
@@ -58,7 +58,7 @@ pub fn what_to_measure(all: &Uncertain, actuator_kpa: f64) -> Result<Drawn, Repo
         let values = [base - half, base + half].map(|v| report::number(v, 1));
         let [low, high] = number.tenths;
         let words = format!("{}: {low} → {}, {high} → {}", number.name, values[0], values[1]);
-        rows.push(Row { name: words, lanes: 1, ..Row::default() });
+        rows.push(ChartRow { name: words, lanes: 1, ..ChartRow::default() });
         for (sign, ink) in [(-1.0, Ink::HeatNegative), (1.0, Ink::HeatPositive)] {
             let span = [base, base + sign * half];
             marks.push(Mark::Bar(Bar { row, span, ink, alpha: 0.75, ..Bar::default() }));

@@ -2,9 +2,9 @@
 
 use crate::tables::table;
 use compare::study::breakdown::Parting;
-use compare::study::engines::{Pair, SHAPE};
+use compare::study::engines::{EnginePair, SHAPE};
 
-fn percent(pair: &Pair) -> String {
+fn percent(pair: &EnginePair) -> String {
     pair.difference().map_or("–".into(), |d| format!("{:+.0}", 100.0 * d))
 }
 

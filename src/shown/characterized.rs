@@ -3,7 +3,7 @@
 use crate::output::program;
 use crate::tables::{number, table};
 use compare::characterize::write::measured_toml;
-use compare::characterize::{Characterized, Quantity as Number, Replay, Specimen};
+use compare::characterize::{Characterized, FabricNumber as Number, Replay, Specimen};
 use data::Direction;
 use serde_json::{Value, json};
 

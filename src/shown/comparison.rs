@@ -6,7 +6,7 @@ use compare::validation::Validation;
 use serde_json::{Value, json};
 
 /// A comparison with what goes with it.
-pub struct Answer<'a> {
+pub struct CompareAnswer<'a> {
     /// The scenario, as typed.
     pub scenario: &'a str,
     /// What was found.
@@ -15,10 +15,10 @@ pub struct Answer<'a> {
     pub added: Option<&'a (Vec<String>, Validation)>,
 }
 
-impl Answer<'_> {
+impl CompareAnswer<'_> {
     /// `ibr.compare`
     pub fn json(&self) -> Value {
-        let Answer { scenario, found, added } = self;
+        let CompareAnswer { scenario, found, added } = self;
         let variant = |v: &Variant| {
             json!({
                 "label": v.label, "how_known": v.known.word(), "why": v.why,
@@ -46,8 +46,8 @@ impl Answer<'_> {
 }
 
 /// For readers.
-pub fn text(answer: &Answer) -> String {
-    let Answer { found, added, .. } = answer;
+pub fn text(answer: &CompareAnswer) -> String {
+    let CompareAnswer { found, added, .. } = answer;
     let first = &found.variants[0];
     let mut out = format!("{} held against {}\n", first.scenario.name, found.dataset.name);
     out.push_str(&format!("{}\n", first.evaluation.noise.sentence));

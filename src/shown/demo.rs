@@ -4,9 +4,9 @@ use super::held;
 use crate::tables::{number, table};
 use compare::bench::Held;
 use compare::demo::{Demo, Told};
-use compare::known::Known;
 use compare::study::published::PublishedLadder;
 use compare::study::{Comparison, Variant};
+use models::Known;
 use serde_json::{Value, json};
 
 /// Published displacement against every rung.

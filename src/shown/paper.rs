@@ -1,10 +1,10 @@
 //! The paper's finite elements in words.
 
 use crate::tables::table;
-use compare::study::paper::{Against, NEAR, PaperRun, Row, mesh_name};
+use compare::study::paper::{FactRow, HeightRow, NEAR, PaperRun, mesh_name};
 
 /// Heights, facts and numerics.
-pub fn text(against: &[Against], rows: &[Row], runs: &[PaperRun]) -> String {
+pub fn text(against: &[HeightRow], rows: &[FactRow], runs: &[PaperRun]) -> String {
     let mut out = format!(
         "The paper's finite elements, reproduced: {} runs of [fem] model = \"paper\", nothing calibrated.\n\n",
         runs.len()
@@ -43,7 +43,7 @@ fn left_last(head: &[&str], rows: Vec<Vec<String>>) -> String {
     table(head, 3, padded.collect())
 }
 
-fn height_cells(a: &Against) -> Vec<String> {
+fn height_cells(a: &HeightRow) -> Vec<String> {
     let branch = |k: usize| a.implied.branches_mm.map_or("–".into(), |b| format!("{:.0}", b[k]));
     vec![
         a.robot.clone(),
@@ -59,14 +59,14 @@ fn height_cells(a: &Against) -> Vec<String> {
     ]
 }
 
-fn marker_cells(a: &Against) -> Vec<String> {
+fn marker_cells(a: &HeightRow) -> Vec<String> {
     let mut cells = vec![a.robot.clone(), format!("{:.0}", a.actuator_kpa), mesh_name(a.mesh_mm)];
     cells.extend(a.markers_mm.iter().map(|mm| format!("{mm:.1}")));
     cells
 }
 
 /// How many facts hold, miss, contradict each other or cannot be checked.
-fn counted(rows: &[Row]) -> String {
+fn counted(rows: &[FactRow]) -> String {
     let kinds = ["holds", "misses", "contradicts itself", "cannot be checked"];
     let count = |kind: &str| rows.iter().filter(|row| row.verdict.words().starts_with(kind)).count();
     let words = kinds.map(|kind| format!("{kind} {}", count(kind))).join(", ");

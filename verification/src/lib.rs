@@ -8,10 +8,10 @@
 //!
 //! Uses the libraries as anybody would; none of them knows of it.
 
-mod answer;
 pub mod checks;
 mod cost;
 pub mod exact;
+mod findings;
 pub mod speed;
 
-pub use answer::{Answer, Error, Part, Progress};
+pub use findings::{Error, Findings, Printed};

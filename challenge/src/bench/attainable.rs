@@ -5,11 +5,11 @@
 //! catalogue's formulas here: how far the catalogue's own effects are from their formulas is given beside it, because a
 //! diagnosis must not call that "outside the catalogue".
 
-use super::Part;
-use super::cases::{Named, Outcome, names};
+use super::TablePart;
+use super::cases::{Named, SetOutcome, names};
 use crate::measure::ideal;
 use crate::truth::standard_protocol;
-use crate::{Kind, Truth};
+use crate::{Hiding, Truth};
 use compare::diagnosis::{Distances, KnownNoise, distances, power};
 use compare::error::CompareError;
 use data::Dataset;
@@ -67,8 +67,8 @@ pub(super) fn distances_of(truth: &Truth, data: &Dataset, pairs: bool) -> Result
 }
 
 /// Of all outcomes.
-pub(super) fn of(outcomes: &[Outcome]) -> Attainable {
-    let (one, outside) = (found(outcomes, Kind::One), found(outcomes, Kind::Outside));
+pub(super) fn of(outcomes: &[SetOutcome]) -> Attainable {
+    let (one, outside) = (found(outcomes, Hiding::One), found(outcomes, Hiding::Outside));
     let mean = |sets: &[(&Named, Distances)], see: &dyn Fn(&Distances) -> f64| {
         let sum: f64 = sets.iter().map(|(_, d)| see(d)).sum();
         (!sets.is_empty()).then(|| sum / sets.len() as f64)
@@ -81,16 +81,16 @@ pub(super) fn of(outcomes: &[Outcome]) -> Attainable {
     let missed: Vec<Distances> =
         outside.iter().filter(|(named, _)| !named.score.out_of_catalog).map(|(_, d)| *d).collect();
     let is_alike = |d: &&Distances| d.two >= SEEN && form.is_some_and(|[_, most]| left(d.two, d.base) < most);
-    let best = |kind: Kind, k: usize| {
-        let named = outcomes.iter().filter(|o| o.part == Part::Hidden(kind)).filter_map(|o| o.named.as_ref());
+    let best = |kind: Hiding, k: usize| {
+        let named = outcomes.iter().filter(|o| o.part == TablePart::Hidden(kind)).filter_map(|o| o.named.as_ref());
         let shares: Vec<f64> = named.filter_map(|named| Some(named.at_best?[k])).collect();
         (!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64)
     };
     Attainable {
-        on_top: best(Kind::One, 0),
-        first_three: best(Kind::One, 1),
-        one_of_two: best(Kind::Two, 0),
-        both: best(Kind::Two, 1),
+        on_top: best(Hiding::One, 0),
+        first_three: best(Hiding::One, 1),
+        one_of_two: best(Hiding::Two, 0),
+        both: best(Hiding::Two, 1),
         alarm_known: mean(&one, &|d| power(d.base, FALSE_ALARMS)),
         alarm_any: mean(&one, &|d| power(d.base, FALSE_ALARMS / KINDS)),
         flag_one: mean(&outside, &|d| power(d.one, FALSE_FLAGS)),
@@ -102,7 +102,7 @@ pub(super) fn of(outcomes: &[Outcome]) -> Attainable {
     }
 }
 
-fn found(outcomes: &[Outcome], kind: Kind) -> Vec<(&Named, Distances)> {
-    let of_kind = outcomes.iter().filter(|o| o.part == Part::Hidden(kind) && !names(&o.truth).is_empty());
+fn found(outcomes: &[SetOutcome], kind: Hiding) -> Vec<(&Named, Distances)> {
+    let of_kind = outcomes.iter().filter(|o| o.part == TablePart::Hidden(kind) && !names(&o.truth).is_empty());
     of_kind.filter_map(|o| o.named.as_ref()).filter_map(|named| Some((named, named.distances?))).collect()
 }

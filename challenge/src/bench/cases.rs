@@ -3,10 +3,10 @@
 use super::attainable::distances_of;
 use super::follow::{follow_up, tested};
 use super::oracle::{at_best, two_at_best};
-use super::{Case, Diagnose, Part};
-use crate::score::{Answer, Score, score};
+use super::{Diagnoser, PlannedSet, TablePart};
+use crate::score::{Claim, ClaimScore, score};
 use crate::truth::{ROBOTS, standard_protocol};
-use crate::{Draw, HIDDEN, Kind, OUTSIDE, Truth, truth};
+use crate::{Draw, HIDDEN, Hiding, OUTSIDE, Truth, truth};
 use compare::Evidence;
 use compare::diagnosis::{Diagnosis, Distances, Experiment, Options};
 use compare::error::CompareError;
@@ -16,9 +16,9 @@ use serde::Serialize;
 
 /// What became of a set.
 #[derive(Debug, Clone)]
-pub struct Outcome {
+pub struct SetOutcome {
     /// Part of the table.
-    pub part: Part,
+    pub part: TablePart,
     /// What was hidden.
     pub truth: Truth,
     /// What was found; `None` if it failed.
@@ -31,9 +31,9 @@ pub struct Outcome {
 #[derive(Debug, Clone)]
 pub struct Named {
     /// The answer.
-    pub answer: Answer,
+    pub answer: Claim,
     /// Its score.
-    pub score: Score,
+    pub score: ClaimScore,
     /// Something in the data was told to look like a slip.
     pub slip: bool,
     /// Error beyond noise of the calibrated base and of the final model \[mm\].
@@ -56,7 +56,7 @@ pub struct Named {
     /// in which the nearest pair of laws holds one of them, and both.
     pub at_best: Option<[f64; 2]>,
     /// The same experiment with next to no noise, where the truth did not come out on top.
-    pub after_in_silence: Option<Score>,
+    pub after_in_silence: Option<ClaimScore>,
 }
 
 /// What the recommended experiment brought.
@@ -65,35 +65,35 @@ pub struct After {
     /// The experiment.
     pub experiment: String,
     /// The answer to all data.
-    pub answer: Answer,
+    pub answer: Claim,
     /// Its score.
-    pub score: Score,
+    pub score: ClaimScore,
 }
 
 /// Step through a list of effects, prime to their numbers, so that a short bench sees different groups.
 const STRIDE: usize = 13;
 
 /// Draws a set; robots and effects take turns, so that all are equally frequent.
-pub(super) fn draw(part: Part, seed: u64, stream: u64, index: usize) -> Result<Truth, CompareError> {
+pub(super) fn draw(part: TablePart, seed: u64, stream: u64, index: usize) -> Result<Truth, CompareError> {
     let mut draw = Draw::new(seed, stream);
     let actuator = ROBOTS[index % ROBOTS.len()].0;
     let turn = index / ROBOTS.len();
     let mut truth = Truth::draw(actuator, &mut draw)?;
     match part {
-        Part::Hidden(Kind::One) | Part::Measured(Kind::One) => {
+        TablePart::Hidden(Hiding::One) | TablePart::Measured(Hiding::One) => {
             let list = truth::applicable(actuator, HIDDEN)?;
             truth.add(list[turn * STRIDE % list.len()].name, draw.between(0.8, 1.5));
         }
-        Part::Hidden(Kind::Outside) => truth.add(OUTSIDE[turn * STRIDE % OUTSIDE.len()].name, 1.0),
-        Part::Hidden(kind) | Part::Measured(kind) => truth.hide(kind, &mut draw)?,
-        Part::HeavyTails => truth.heavy_tails = true,
-        Part::LostMarkers(Kind::One) => {
+        TablePart::Hidden(Hiding::Outside) => truth.add(OUTSIDE[turn * STRIDE % OUTSIDE.len()].name, 1.0),
+        TablePart::Hidden(kind) | TablePart::Measured(kind) => truth.hide(kind, &mut draw)?,
+        TablePart::HeavyTails => truth.heavy_tails = true,
+        TablePart::LostMarkers(Hiding::One) => {
             let list = truth::applicable(actuator, HIDDEN)?;
             truth.add(list[turn * STRIDE % list.len()].name, draw.between(0.8, 1.5));
             truth.lost_markers = true;
         }
-        Part::LostMarkers(_) => truth.lost_markers = true,
-        Part::Interval => {
+        TablePart::LostMarkers(_) => truth.lost_markers = true,
+        TablePart::Interval => {
             let list = truth::applicable(actuator, HIDDEN)?;
             let known = |name: &str| models::effects::by_name(name).is_some();
             let list: Vec<_> = list.iter().filter(|effect| known(effect.name)).collect();
@@ -104,39 +104,39 @@ pub(super) fn draw(part: Part, seed: u64, stream: u64, index: usize) -> Result<T
 }
 
 /// Makes and diagnoses a set.
-pub(super) fn outcome(case: &Case, diagnose: Diagnose) -> Outcome {
+pub(super) fn outcome(case: &PlannedSet, diagnose: Diagnoser) -> SetOutcome {
     let found = match case.part {
-        Part::Hidden(kind) => hidden(&case.truth, kind, diagnose),
-        Part::Measured(_) => measured(&case.truth, diagnose),
-        Part::Interval => interval(&case.truth, diagnose),
-        Part::HeavyTails => hidden(&case.truth, Kind::Nothing, diagnose),
-        Part::LostMarkers(_) => lossy(&case.truth, diagnose),
+        TablePart::Hidden(kind) => hidden(&case.truth, kind, diagnose),
+        TablePart::Measured(_) => measured(&case.truth, diagnose),
+        TablePart::Interval => interval(&case.truth, diagnose),
+        TablePart::HeavyTails => hidden(&case.truth, Hiding::Nothing, diagnose),
+        TablePart::LostMarkers(_) => lossy(&case.truth, diagnose),
     };
     let (named, failed) = match found {
         Ok(named) => (Some(named), None),
         Err(error) => (None, Some(format!("{} {:?}: {error}", case.truth.actuator, names(&case.truth)))),
     };
-    Outcome { part: case.part, truth: case.truth.clone(), named, failed }
+    SetOutcome { part: case.part, truth: case.truth.clone(), named, failed }
 }
 
 pub(super) fn names(truth: &Truth) -> Vec<&str> {
     truth.effects.iter().map(|choice| choice.name.as_str()).collect()
 }
 
-fn hidden(truth: &Truth, kind: Kind, diagnose: Diagnose) -> Result<Named, CompareError> {
+fn hidden(truth: &Truth, kind: Hiding, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
-    let next_experiment = kind == Kind::One;
+    let next_experiment = kind == Hiding::One;
     let options = Options { next_experiment, ..Options::default() };
     let about = about(truth)?;
     let found = diagnose(&truth.told()?, &[Evidence::of(data.clone(), Some(about))], &options, &mut |_, _| ())?;
     let mut named = named(truth, &found);
-    if matches!(kind, Kind::One | Kind::Outside) {
-        named.distances = Some(distances_of(truth, &data, kind == Kind::Outside)?);
+    if matches!(kind, Hiding::One | Hiding::Outside) {
+        named.distances = Some(distances_of(truth, &data, kind == Hiding::Outside)?);
     }
-    if kind == Kind::One && named.score.alarm {
+    if kind == Hiding::One && named.score.alarm {
         named.at_best = Some(at_best(truth, &data)?);
     }
-    if kind == Kind::Two {
+    if kind == Hiding::Two {
         named.at_best = Some(two_at_best(truth, &data)?);
     }
     if next_experiment && named.answer.verdict.as_deref() == Some("effect") && named.answer.set.len() > 1 {
@@ -153,7 +153,7 @@ fn hidden(truth: &Truth, kind: Kind, diagnose: Diagnose) -> Result<Named, Compar
 }
 
 /// A set without a next experiment.
-fn lossy(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
+fn lossy(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
     let options = Options { next_experiment: false, ..Options::default() };
     let about = about(truth)?;
@@ -161,7 +161,7 @@ fn lossy(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
 }
 
 /// A set with the robot's bending stiffness measured by itself.
-fn measured(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
+fn measured(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
     let about = tested(truth)?;
     let options = Options { next_experiment: false, ..Options::default() };
@@ -170,12 +170,12 @@ fn measured(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
 }
 
 /// What comes out after an experiment.
-fn after(truth: &Truth, experiment: &Experiment, diagnose: Diagnose) -> Result<After, CompareError> {
+fn after(truth: &Truth, experiment: &Experiment, diagnose: Diagnoser) -> Result<After, CompareError> {
     let options = Options { next_experiment: false, ..Options::default() };
     let parts = follow_up(truth, experiment)?;
     let parts: Vec<Evidence> = parts.into_iter().map(|(data, about)| Evidence::of(data, Some(about))).collect();
     let found = diagnose(&truth.told()?, &parts, &options, &mut |_, _| ())?;
-    let answer = Answer::of(&found);
+    let answer = Claim::of(&found);
     Ok(After { experiment: experiment.name.clone(), score: score(truth, &answer), answer })
 }
 
@@ -190,7 +190,7 @@ fn silent(truth: &Truth) -> Truth {
 }
 
 /// Data by the catalogue's own law, where "the true value" means something.
-fn interval(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
+fn interval(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let name = &truth.effects[0].name;
     let missing = || CompareError::NotSimulated { problem: format!("the catalogue has no {name}") };
     let effect = models::effects::by_name(name).ok_or_else(missing)?;
@@ -213,7 +213,7 @@ fn interval(truth: &Truth, diagnose: Diagnose) -> Result<Named, CompareError> {
 }
 
 fn named(truth: &Truth, found: &Diagnosis) -> Named {
-    let answer = Answer::of(found);
+    let answer = Claim::of(found);
     let first = found.ranked.iter().find(|row| answer.added.first() == Some(&row.effect));
     let is_true = |name: &String| truth.effects.first().is_some_and(|choice| choice.name == *name);
     let now = found.next_experiment.iter().flat_map(|next| &next.now);

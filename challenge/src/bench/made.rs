@@ -13,8 +13,8 @@
 //! The bending stiffness B is kept at zero: a wall of this thickness has next to none, and a fitted one would take the place of
 //! what is missing.
 
-use super::Diagnose;
-use super::row::{Row, Target};
+use super::Diagnoser;
+use super::row::{FigureRow, Goal};
 use compare::Evidence;
 use compare::diagnosis::{Added, Options, Verdict};
 use compare::error::CompareError;
@@ -27,7 +27,7 @@ pub const LACKING: [(&str, &str); 4] =
 
 /// What became of one robot.
 #[derive(Debug, Clone, Serialize)]
-pub struct Made {
+pub struct FromRuns {
     /// Robot.
     pub robot: &'static str,
     /// Effect that the model lacks.
@@ -48,7 +48,7 @@ pub struct Made {
     pub after_mm: Option<f64>,
 }
 
-impl Made {
+impl FromRuns {
     /// The error at held-out pressures falls by half or more with what is stated.
     pub fn halved_as_stated(&self) -> bool {
         !self.stated.is_empty() && self.halved()
@@ -61,7 +61,7 @@ impl Made {
 }
 
 /// Diagnoses the finite element sets; what fails is told in `failed`.
-pub(super) fn made(diagnose: Diagnose, failed: &mut Vec<String>) -> Vec<Made> {
+pub(super) fn made(diagnose: Diagnoser, failed: &mut Vec<String>) -> Vec<FromRuns> {
     let mut all = Vec::new();
     for (robot, lacking) in LACKING {
         match one(robot, lacking, diagnose) {
@@ -72,7 +72,7 @@ pub(super) fn made(diagnose: Diagnose, failed: &mut Vec<String>) -> Vec<Made> {
     all
 }
 
-fn one(robot: &'static str, lacking: &'static str, diagnose: Diagnose) -> Result<Made, CompareError> {
+fn one(robot: &'static str, lacking: &'static str, diagnose: Diagnoser) -> Result<FromRuns, CompareError> {
     let set = format!("fem-{robot}");
     let options = Options { keep_bending: true, next_experiment: false, ..Options::default() };
     let evidence = [Evidence::read(&set)?];
@@ -80,7 +80,7 @@ fn one(robot: &'static str, lacking: &'static str, diagnose: Diagnose) -> Result
     let names = |added: &[Added]| added.iter().map(|a| a.effect.clone()).collect::<Vec<_>>();
     let attempt = names(&found.attempt);
     let in_set = found.indistinguishable.iter().any(|entry| entry.split(" + ").any(|name| name == lacking));
-    Ok(Made {
+    Ok(FromRuns {
         robot,
         lacking,
         verdict: found.verdict,
@@ -94,13 +94,18 @@ fn one(robot: &'static str, lacking: &'static str, diagnose: Diagnose) -> Result
 }
 
 /// Their rows of the table.
-pub(super) fn rows(made: &[Made]) -> Vec<Row> {
-    let share = |figure, hit: fn(&Made) -> bool| {
-        Row::share("made by finite elements", figure, Target::AtLeast(1.0), &made.iter().map(hit).collect::<Vec<_>>())
+pub(super) fn rows(made: &[FromRuns]) -> Vec<FigureRow> {
+    let share = |figure, hit: fn(&FromRuns) -> bool| {
+        FigureRow::share(
+            "made by finite elements",
+            figure,
+            Goal::AtLeast(1.0),
+            &made.iter().map(hit).collect::<Vec<_>>(),
+        )
     };
     vec![
         share("what the model lacks is in the stated set", |m| m.in_set),
-        share("error at held-out pressures falls by half with what is stated", Made::halved_as_stated),
-        share("the same, attempts that are said not to be enough counted too", Made::halved),
+        share("error at held-out pressures falls by half with what is stated", FromRuns::halved_as_stated),
+        share("the same, attempts that are said not to be enough counted too", FromRuns::halved),
     ]
 }

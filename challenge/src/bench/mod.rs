@@ -15,12 +15,12 @@ mod table;
 mod tests;
 
 pub use attainable::Attainable;
-pub use cases::{After, Named, Outcome};
-pub use made::{LACKING, Made};
-pub use row::{Row, Target};
+pub use cases::{After, Named, SetOutcome};
+pub use made::{FromRuns, LACKING};
+pub use row::{FigureRow, Goal};
 
-use super::score::{Answer, Score};
-use super::truth::{Kind, Truth};
+use super::score::{Claim, ClaimScore};
+use super::truth::{Hiding, Truth};
 use compare::diagnosis::{Diagnosis, Distances, Options};
 use compare::error::CompareError;
 use compare::{Evidence, Progress};
@@ -29,11 +29,11 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 /// What diagnoses; the bench is given it.
-pub type Diagnose = fn(&Scenario, &[Evidence], &Options, &mut Progress) -> Result<Diagnosis, CompareError>;
+pub type Diagnoser = fn(&Scenario, &[Evidence], &Options, &mut Progress) -> Result<Diagnosis, CompareError>;
 
 /// How large the bench is.
 #[derive(Debug, Clone, Copy)]
-pub struct BenchOptions {
+pub struct DiscoveryOptions {
     /// Seed of everything.
     pub seed: u64,
     /// Sets with nothing hidden, and with one effect; half as many of the other parts.
@@ -60,7 +60,7 @@ pub struct Confusion {
 
 /// Figures of single effects for a part of the sets.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Breakdown {
+pub struct Slice {
     /// Which part: an actuator, a camera noise, a number of runs.
     pub of: String,
     /// Sets.
@@ -75,15 +75,15 @@ pub struct Breakdown {
 
 /// One set as it was made and answered.
 #[derive(Debug, Clone, Serialize)]
-pub struct Seen {
+pub struct SetSeen {
     /// Part of the table.
     pub part: String,
     /// What was hidden, in which robot, with which noise.
     pub truth: Truth,
     /// What was answered; `None` if the set failed.
-    pub answer: Option<Answer>,
+    pub answer: Option<Claim>,
     /// How good that is.
-    pub score: Option<Score>,
+    pub score: Option<ClaimScore>,
     /// Answer and score after the recommended next experiment, of ambiguous sets.
     pub after: Option<After>,
     /// λ to the nearest explanation of each kind, where it was asked for.
@@ -92,15 +92,15 @@ pub struct Seen {
 
 /// The result.
 #[derive(Debug, Clone, Serialize)]
-pub struct Bench {
+pub struct Discovery {
     /// Seed.
     pub seed: u64,
     /// Rows of the table.
-    pub rows: Vec<Row>,
+    pub rows: Vec<FigureRow>,
     /// Truth against name, single effects.
     pub confusion: Vec<Confusion>,
     /// Single effects by actuator, camera noise and runs.
-    pub breakdown: Vec<Breakdown>,
+    pub breakdown: Vec<Slice>,
     /// What no test could exceed with these data.
     pub attainable: Attainable,
     /// Sets whose truth is not on top after the recommended next experiment.
@@ -109,9 +109,9 @@ pub struct Bench {
     /// robot's law as well as its own, or better.
     pub missed_by_law: usize,
     /// Data made by finite elements, robot by robot.
-    pub made: Vec<Made>,
+    pub made: Vec<FromRuns>,
     /// Every set.
-    pub seen: Vec<Seen>,
+    pub seen: Vec<SetSeen>,
     /// Sets that could not be made or diagnosed, with the reason.
     pub failed: Vec<String>,
 }
@@ -120,10 +120,14 @@ pub struct Bench {
 ///
 /// # Errors
 /// A shipped scenario is damaged.
-pub fn run(options: &BenchOptions, diagnose: Diagnose, tell: &(dyn Fn(f64) + Sync)) -> Result<Bench, CompareError> {
+pub fn run(
+    options: &DiscoveryOptions,
+    diagnose: Diagnoser,
+    tell: &(dyn Fn(f64) + Sync),
+) -> Result<Discovery, CompareError> {
     let plan = plan(options)?;
     let done = std::sync::atomic::AtomicUsize::new(0);
-    let outcomes: Vec<Outcome> = plan
+    let outcomes: Vec<SetOutcome> = plan
         .par_iter()
         .map(|case| {
             let outcome = cases::outcome(case, diagnose);
@@ -135,7 +139,7 @@ pub fn run(options: &BenchOptions, diagnose: Diagnose, tell: &(dyn Fn(f64) + Syn
     let mut failed: Vec<String> = outcomes.iter().filter_map(|outcome| outcome.failed.clone()).collect();
     let made = made::made(diagnose, &mut failed);
     let silence: Vec<bool> = table::missed_in_silence(&outcomes);
-    Ok(Bench {
+    Ok(Discovery {
         seed: options.seed,
         rows: [table::rows(&outcomes), made::rows(&made)].concat(),
         confusion: table::confusion(&outcomes),
@@ -149,9 +153,9 @@ pub fn run(options: &BenchOptions, diagnose: Diagnose, tell: &(dyn Fn(f64) + Syn
     })
 }
 
-fn seen(outcome: &Outcome) -> Seen {
+fn seen(outcome: &SetOutcome) -> SetSeen {
     let named = outcome.named.as_ref();
-    Seen {
+    SetSeen {
         part: format!("{:?}", outcome.part),
         truth: outcome.truth.clone(),
         answer: named.map(|named| named.answer.clone()),
@@ -163,49 +167,49 @@ fn seen(outcome: &Outcome) -> Seen {
 
 /// One set of the bench.
 #[derive(Debug, Clone)]
-pub struct Case {
+pub struct PlannedSet {
     /// Part of the table.
-    pub part: Part,
+    pub part: TablePart,
     /// What is hidden.
     pub truth: Truth,
 }
 
 /// Parts of the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
+pub enum TablePart {
     /// Hidden by the generator.
-    Hidden(Kind),
+    Hidden(Hiding),
     /// The same sets, of robots whose bending stiffness was measured by itself, to 10 %.
-    Measured(Kind),
+    Measured(Hiding),
     /// One effect by the catalogue's own law, for which a true value of its parameter exists.
     Interval,
     /// Nothing, seen by a camera with heavy-tailed noise.
     HeavyTails,
     /// Nothing, or the same effects, seen by a camera that loses markers.
-    LostMarkers(Kind),
+    LostMarkers(Hiding),
 }
 
-fn plan(options: &BenchOptions) -> Result<Vec<Case>, CompareError> {
+fn plan(options: &DiscoveryOptions) -> Result<Vec<PlannedSet>, CompareError> {
     let half = options.sets.div_ceil(2);
     let parts = [
-        (Part::Hidden(Kind::Nothing), options.sets),
-        (Part::Hidden(Kind::One), options.sets),
-        (Part::Hidden(Kind::Two), half),
-        (Part::Hidden(Kind::Outside), half),
-        (Part::Interval, half),
-        (Part::HeavyTails, half),
-        (Part::Measured(Kind::Nothing), options.sets),
-        (Part::Measured(Kind::One), options.sets),
-        (Part::LostMarkers(Kind::Nothing), half),
-        (Part::LostMarkers(Kind::One), half),
+        (TablePart::Hidden(Hiding::Nothing), options.sets),
+        (TablePart::Hidden(Hiding::One), options.sets),
+        (TablePart::Hidden(Hiding::Two), half),
+        (TablePart::Hidden(Hiding::Outside), half),
+        (TablePart::Interval, half),
+        (TablePart::HeavyTails, half),
+        (TablePart::Measured(Hiding::Nothing), options.sets),
+        (TablePart::Measured(Hiding::One), options.sets),
+        (TablePart::LostMarkers(Hiding::Nothing), half),
+        (TablePart::LostMarkers(Hiding::One), half),
     ];
     let mut plan = Vec::new();
     for (number, (part, sets)) in parts.into_iter().enumerate() {
-        let same = |other: &(Part, usize)| matches!(part, Part::Measured(kind) | Part::LostMarkers(kind) if other.0 == Part::Hidden(kind));
+        let same = |other: &(TablePart, usize)| matches!(part, TablePart::Measured(kind) | TablePart::LostMarkers(kind) if other.0 == TablePart::Hidden(kind));
         let number = parts.iter().position(same).unwrap_or(number);
         for index in 0..sets {
             let stream = ((number as u64) << 32) + index as u64;
-            plan.push(Case { part, truth: cases::draw(part, options.seed, stream, index)? });
+            plan.push(PlannedSet { part, truth: cases::draw(part, options.seed, stream, index)? });
         }
     }
     Ok(plan)

@@ -42,7 +42,7 @@ pub(super) fn at_best(truth: &Truth, data: &Dataset) -> Result<[f64; 2], Compare
             let other = Truth { effects: vec![choice], ..truth.clone() };
             eyes.see(&other)
         };
-        laws.push((is_true.is_some(), Curve::new(sizes.iter().filter_map(of_size).collect())));
+        laws.push((is_true.is_some(), Polyline::new(sizes.iter().filter_map(of_size).collect())));
     }
     let mut scatter = Scatter::new(truth.seed);
     let mut hits = [0; 2];
@@ -168,18 +168,18 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Straight lines through points.
-struct Curve {
+struct Polyline {
     points: Vec<Vec<f64>>,
     /// Scalar product of every point with itself and with the next.
     square: Vec<f64>,
     next: Vec<f64>,
 }
 
-impl Curve {
-    fn new(points: Vec<Vec<f64>>) -> Curve {
+impl Polyline {
+    fn new(points: Vec<Vec<f64>>) -> Polyline {
         let square = points.iter().map(|p| dot(p, p)).collect();
         let next = points.windows(2).map(|pair| dot(&pair[0], &pair[1])).collect();
-        Curve { points, square, next }
+        Polyline { points, square, next }
     }
 
     /// min |p − e|² − |e|² over the lines; infinite without points.
@@ -205,7 +205,7 @@ mod tests {
 
     #[test]
     fn the_misfit_of_a_curve_is_that_of_its_nearest_point() {
-        let curve = Curve::new(vec![vec![0.0, 0.0], vec![2.0, 0.0], vec![2.0, 2.0]]);
+        let curve = Polyline::new(vec![vec![0.0, 0.0], vec![2.0, 0.0], vec![2.0, 2.0]]);
         for (e, square) in [([1.0, 1.0], 1.0), ([-1.0, 0.0], 1.0), ([3.0, 1.5], 1.0), ([2.5, 3.0], 1.25)] {
             assert!((curve.misfit(&e) + dot(&e, &e) - square).abs() < 1e-12, "{e:?}");
         }

@@ -6,7 +6,7 @@ use statrs::distribution::{Beta, ContinuousCDF};
 /// What a figure must reach.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Target {
+pub enum Goal {
     /// At least.
     AtLeast(f64),
     /// At most.
@@ -17,13 +17,13 @@ pub enum Target {
 
 /// A figure of the table.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Row {
+pub struct FigureRow {
     /// Which sets.
     pub case: &'static str,
     /// Which figure.
     pub figure: &'static str,
     /// Target.
-    pub target: Target,
+    pub target: Goal,
     /// Measured; `None` without sets.
     pub measured: Option<f64>,
     /// 95 % interval of a share (Clopper–Pearson).
@@ -36,29 +36,44 @@ pub struct Row {
     pub met: Option<bool>,
 }
 
-impl Target {
+impl Goal {
     fn met(self, value: f64) -> bool {
         match self {
-            Target::AtLeast(least) => value >= least,
-            Target::AtMost(most) => value <= most,
-            Target::Between(low, high) => (low..=high).contains(&value),
+            Goal::AtLeast(least) => value >= least,
+            Goal::AtMost(most) => value <= most,
+            Goal::Between(low, high) => (low..=high).contains(&value),
         }
     }
 }
 
-impl Row {
+impl FigureRow {
     /// Share of sets for which something holds.
-    pub fn share(case: &'static str, figure: &'static str, target: Target, sets: &[bool]) -> Row {
+    pub fn share(case: &'static str, figure: &'static str, target: Goal, sets: &[bool]) -> FigureRow {
         let (hits, n) = (sets.iter().filter(|hit| **hit).count(), sets.len());
         let measured = (n > 0).then(|| hits as f64 / n as f64);
         let interval = (n > 0).then(|| clopper_pearson(hits, n));
-        Row { case, figure, target, measured, interval, sets: n, share: true, met: measured.map(|v| target.met(v)) }
+        FigureRow {
+            case,
+            figure,
+            target,
+            measured,
+            interval,
+            sets: n,
+            share: true,
+            met: measured.map(|v| target.met(v)),
+        }
     }
 
     /// A mean or median.
-    pub fn number(case: &'static str, figure: &'static str, target: Target, value: Option<f64>, sets: usize) -> Row {
+    pub fn number(
+        case: &'static str,
+        figure: &'static str,
+        target: Goal,
+        value: Option<f64>,
+        sets: usize,
+    ) -> FigureRow {
         let met = value.map(|v| target.met(v));
-        Row { case, figure, target, measured: value, interval: None, sets, share: false, met }
+        FigureRow { case, figure, target, measured: value, interval: None, sets, share: false, met }
     }
 }
 
@@ -86,8 +101,8 @@ mod tests {
 
     #[test]
     fn a_row_without_sets_reaches_nothing_and_misses_nothing() {
-        let row = Row::share("c", "f", Target::AtLeast(0.9), &[]);
+        let row = FigureRow::share("c", "f", Goal::AtLeast(0.9), &[]);
         assert_eq!((row.measured, row.met, row.interval), (None, None, None));
-        assert_eq!(Row::share("c", "f", Target::AtMost(0.5), &[true, false]).met, Some(true));
+        assert_eq!(FigureRow::share("c", "f", Goal::AtMost(0.5), &[true, false]).met, Some(true));
     }
 }

@@ -1,18 +1,18 @@
 //! From outcomes to the rows of the table.
 
-use super::cases::{Named, Outcome, names};
-use super::row::{Row, Target};
-use super::{Breakdown, Confusion, Part};
-use crate::Kind;
-use Target::{AtLeast, AtMost, Between};
+use super::cases::{Named, SetOutcome, names};
+use super::row::{FigureRow, Goal};
+use super::{Confusion, Slice, TablePart};
+use crate::Hiding;
+use Goal::{AtLeast, AtMost, Between};
 
 /// The rows, in the order of the table.
-pub(super) fn rows(outcomes: &[Outcome]) -> Vec<Row> {
+pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
     let one = |part| one(outcomes, part);
     let parts = [
         nothing(outcomes),
-        one(Part::Hidden(Kind::One)),
-        one(Part::Measured(Kind::One)),
+        one(TablePart::Hidden(Hiding::One)),
+        one(TablePart::Measured(Hiding::One)),
         lossy(outcomes),
         after(outcomes),
         two(outcomes),
@@ -24,48 +24,53 @@ pub(super) fn rows(outcomes: &[Outcome]) -> Vec<Row> {
 }
 
 /// Sets of a part that were diagnosed.
-fn found(outcomes: &[Outcome], part: Part) -> Vec<(&Outcome, &Named)> {
+fn found(outcomes: &[SetOutcome], part: TablePart) -> Vec<(&SetOutcome, &Named)> {
     outcomes.iter().filter(|o| o.part == part).filter_map(|o| Some((o, o.named.as_ref()?))).collect()
 }
 
-fn shares(sets: &[(&Outcome, &Named)], hit: impl Fn(&Named) -> bool) -> Vec<bool> {
+fn shares(sets: &[(&SetOutcome, &Named)], hit: impl Fn(&Named) -> bool) -> Vec<bool> {
     sets.iter().map(|(_, named)| hit(named)).collect()
 }
 
-fn nothing(outcomes: &[Outcome]) -> Vec<Row> {
-    let all = found(outcomes, Part::Hidden(Kind::Nothing));
+fn nothing(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
+    let all = found(outcomes, TablePart::Hidden(Hiding::Nothing));
     let (few, many): (Vec<_>, Vec<_>) = all.into_iter().partition(|(outcome, _)| outcome.truth.runs < 5);
     let case = "no hidden effect";
     let alarm = |named: &Named| named.score.alarm;
-    let heavy = found(outcomes, Part::HeavyTails);
-    let tested = found(outcomes, Part::Measured(Kind::Nothing));
-    let lossy = found(outcomes, Part::LostMarkers(Kind::Nothing));
+    let heavy = found(outcomes, TablePart::HeavyTails);
+    let tested = found(outcomes, TablePart::Measured(Hiding::Nothing));
+    let lossy = found(outcomes, TablePart::LostMarkers(Hiding::Nothing));
     vec![
-        Row::share("no hidden effect, markers lost", "false alarms", AtMost(0.05), &shares(&lossy, alarm)),
-        Row::share("no hidden effect, heavy tails", "false alarms", AtMost(0.05), &shares(&heavy, alarm)),
-        Row::share(case, "false alarms, 5 and 10 runs", AtMost(0.03), &shares(&many, alarm)),
-        Row::share(case, "false alarms, 3 runs", AtMost(0.05), &shares(&few, alarm)),
-        Row::share("no hidden effect, B measured to 10 %", "false alarms", AtMost(0.05), &shares(&tested, alarm)),
+        FigureRow::share("no hidden effect, markers lost", "false alarms", AtMost(0.05), &shares(&lossy, alarm)),
+        FigureRow::share("no hidden effect, heavy tails", "false alarms", AtMost(0.05), &shares(&heavy, alarm)),
+        FigureRow::share(case, "false alarms, 5 and 10 runs", AtMost(0.03), &shares(&many, alarm)),
+        FigureRow::share(case, "false alarms, 3 runs", AtMost(0.05), &shares(&few, alarm)),
+        FigureRow::share("no hidden effect, B measured to 10 %", "false alarms", AtMost(0.05), &shares(&tested, alarm)),
     ]
 }
 
-fn one(outcomes: &[Outcome], part: Part) -> Vec<Row> {
+fn one(outcomes: &[SetOutcome], part: TablePart) -> Vec<FigureRow> {
     let all = found(outcomes, part);
     let alarmed: Vec<_> = all.iter().filter(|(_, named)| named.score.alarm).copied().collect();
     let case = match part {
-        Part::Measured(_) => "one hidden effect, B measured to 10 %",
+        TablePart::Measured(_) => "one hidden effect, B measured to 10 %",
         _ => "one hidden effect",
     };
     let top = |most: usize| move |named: &Named| named.score.rank.is_some_and(|rank| rank <= most);
     let sized: Vec<f64> = alarmed.iter().map(|(_, n)| n.score.set_size as f64).filter(|n| *n > 0.0).collect();
     let mean = (!sized.is_empty()).then(|| sized.iter().sum::<f64>() / sized.len() as f64);
     vec![
-        Row::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
-        Row::share(case, "given alarm: truth on top", AtLeast(0.80), &shares(&alarmed, top(1))),
-        Row::share(case, "given alarm: truth in the first three", AtLeast(0.92), &shares(&alarmed, top(3))),
-        Row::share(case, "given alarm: truth in the stated set", AtLeast(0.93), &shares(&alarmed, |n| n.score.in_set)),
-        Row::number(case, "mean size of the stated set", AtMost(2.5), mean, sized.len()),
-        Row::share(
+        FigureRow::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
+        FigureRow::share(case, "given alarm: truth on top", AtLeast(0.80), &shares(&alarmed, top(1))),
+        FigureRow::share(case, "given alarm: truth in the first three", AtLeast(0.92), &shares(&alarmed, top(3))),
+        FigureRow::share(
+            case,
+            "given alarm: truth in the stated set",
+            AtLeast(0.93),
+            &shares(&alarmed, |n| n.score.in_set),
+        ),
+        FigureRow::number(case, "mean size of the stated set", AtMost(2.5), mean, sized.len()),
+        FigureRow::share(
             case,
             "given alarm: called outside the catalogue",
             AtMost(0.05),
@@ -74,14 +79,19 @@ fn one(outcomes: &[Outcome], part: Part) -> Vec<Row> {
     ]
 }
 
-fn lossy(outcomes: &[Outcome]) -> Vec<Row> {
-    let all = found(outcomes, Part::LostMarkers(Kind::One));
+fn lossy(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
+    let all = found(outcomes, TablePart::LostMarkers(Hiding::One));
     let alarmed: Vec<_> = all.iter().filter(|(_, named)| named.score.alarm).copied().collect();
     let case = "one hidden effect, markers lost";
     vec![
-        Row::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
-        Row::share(case, "given alarm: truth in the stated set", AtLeast(0.93), &shares(&alarmed, |n| n.score.in_set)),
-        Row::share(
+        FigureRow::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
+        FigureRow::share(
+            case,
+            "given alarm: truth in the stated set",
+            AtLeast(0.93),
+            &shares(&alarmed, |n| n.score.in_set),
+        ),
+        FigureRow::share(
             case,
             "given alarm: called outside the catalogue",
             AtMost(0.05),
@@ -90,71 +100,86 @@ fn lossy(outcomes: &[Outcome]) -> Vec<Row> {
     ]
 }
 
-fn after(outcomes: &[Outcome]) -> Vec<Row> {
-    let all = found(outcomes, Part::Hidden(Kind::One));
+fn after(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
+    let all = found(outcomes, TablePart::Hidden(Hiding::One));
     let scores: Vec<_> = all.iter().filter_map(|(_, named)| named.after.as_ref()).map(|after| &after.score).collect();
     let top: Vec<bool> = scores.iter().map(|score| score.rank == Some(1)).collect();
     let in_set: Vec<bool> = scores.iter().map(|score| score.in_set).collect();
     let case = "ambiguous, after the next experiment";
     vec![
-        Row::share(case, "truth on top", AtLeast(0.90), &top),
-        Row::share(case, "truth in the stated set", AtLeast(0.93), &in_set),
+        FigureRow::share(case, "truth on top", AtLeast(0.90), &top),
+        FigureRow::share(case, "truth in the stated set", AtLeast(0.93), &in_set),
     ]
 }
 
 /// Of every set missed after the next experiment, whether it is missed with next to no noise too.
-pub(super) fn missed_in_silence(outcomes: &[Outcome]) -> Vec<bool> {
-    let all = found(outcomes, Part::Hidden(Kind::One));
+pub(super) fn missed_in_silence(outcomes: &[SetOutcome]) -> Vec<bool> {
+    let all = found(outcomes, TablePart::Hidden(Hiding::One));
     all.iter().filter_map(|(_, named)| named.after_in_silence.as_ref()).map(|score| score.rank != Some(1)).collect()
 }
 
-fn two(outcomes: &[Outcome]) -> Vec<Row> {
-    let all = found(outcomes, Part::Hidden(Kind::Two));
+fn two(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
+    let all = found(outcomes, TablePart::Hidden(Hiding::Two));
     let case = "two hidden effects";
     vec![
-        Row::share(case, "at least one named", AtLeast(0.90), &shares(&all, |named| named.score.named >= 1)),
-        Row::share(case, "both named", AtLeast(0.40), &shares(&all, |named| named.score.named == 2)),
-        Row::share(case, "at least one in the stated set", AtLeast(0.90), &shares(&all, |named| named.score.in_set)),
-        Row::share(case, "both, as one entry of the stated set", AtLeast(0.40), &shares(&all, |n| n.score.all_in_set)),
-        Row::share(case, "a wrong name asserted", AtMost(0.15), &shares(&all, |named| named.score.wrong)),
+        FigureRow::share(case, "at least one named", AtLeast(0.90), &shares(&all, |named| named.score.named >= 1)),
+        FigureRow::share(case, "both named", AtLeast(0.40), &shares(&all, |named| named.score.named == 2)),
+        FigureRow::share(
+            case,
+            "at least one in the stated set",
+            AtLeast(0.90),
+            &shares(&all, |named| named.score.in_set),
+        ),
+        FigureRow::share(
+            case,
+            "both, as one entry of the stated set",
+            AtLeast(0.40),
+            &shares(&all, |n| n.score.all_in_set),
+        ),
+        FigureRow::share(case, "a wrong name asserted", AtMost(0.15), &shares(&all, |named| named.score.wrong)),
     ]
 }
 
-fn outside(outcomes: &[Outcome]) -> Vec<Row> {
-    let all = found(outcomes, Part::Hidden(Kind::Outside));
+fn outside(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
+    let all = found(outcomes, TablePart::Hidden(Hiding::Outside));
     let flagged = shares(&all, |named| named.score.out_of_catalog);
-    vec![Row::share("outside the catalogue", "flagged as such", AtLeast(0.90), &flagged)]
+    vec![FigureRow::share("outside the catalogue", "flagged as such", AtLeast(0.90), &flagged)]
 }
 
-fn quality(outcomes: &[Outcome]) -> Vec<Row> {
-    let own = found(outcomes, Part::Interval);
+fn quality(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
+    let own = found(outcomes, TablePart::Interval);
     let covered: Vec<bool> = own.iter().filter_map(|(_, named)| named.covered).collect();
-    let all = found(outcomes, Part::Hidden(Kind::One));
+    let all = found(outcomes, TablePart::Hidden(Hiding::One));
     let alarmed = || all.iter().map(|(_, named)| *named).filter(|named| !named.answer.added.is_empty());
     let ratio = |[before, after]: [f64; 2]| (before > 0.0).then(|| after / before);
     let fitted: Vec<f64> = alarmed().filter_map(|named| ratio(named.systematic_mm)).collect();
     let held: Vec<f64> = alarmed().filter_map(|named| named.heldout_mm.and_then(ratio)).collect();
     let case = "error beyond noise, one hidden effect";
     vec![
-        Row::share(
+        FigureRow::share(
             "one effect by the catalogue's own law",
             "95 % interval holds the true value",
             Between(0.93, 0.97),
             &covered,
         ),
-        Row::number(case, "median of after / before", AtMost(0.10), median(&fitted), fitted.len()),
-        Row::number(case, "the same on held-out runs", AtMost(0.10), median(&held), held.len()),
+        FigureRow::number(case, "median of after / before", AtMost(0.10), median(&fitted), fitted.len()),
+        FigureRow::number(case, "the same on held-out runs", AtMost(0.10), median(&held), held.len()),
     ]
 }
 
 /// Exchanged labels are the slip among what is hidden.
-fn slips(outcomes: &[Outcome]) -> Vec<Row> {
+fn slips(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
     let all = outcomes.iter().filter_map(|o| Some((o, o.named.as_ref()?)));
     let (slipped, right): (Vec<_>, Vec<_>) =
         all.partition(|(o, _)| o.truth.effects.iter().any(|choice| choice.name == "swapped_markers"));
     vec![
-        Row::share("labels exchanged", "told as a slip", AtLeast(0.90), &shares(&slipped, |named| named.slip)),
-        Row::share("all other sets", "told a slip that is none", AtMost(0.01), &shares(&right, |named| named.slip)),
+        FigureRow::share("labels exchanged", "told as a slip", AtLeast(0.90), &shares(&slipped, |named| named.slip)),
+        FigureRow::share(
+            "all other sets",
+            "told a slip that is none",
+            AtMost(0.01),
+            &shares(&right, |named| named.slip),
+        ),
     ]
 }
 
@@ -177,9 +202,9 @@ struct Count {
 }
 
 /// Truth against the name on top, single effects, by truth and then by frequency.
-pub(super) fn confusion(outcomes: &[Outcome]) -> Vec<Confusion> {
+pub(super) fn confusion(outcomes: &[SetOutcome]) -> Vec<Confusion> {
     let mut cells: Vec<Count> = Vec::new();
-    for (outcome, found) in found(outcomes, Part::Hidden(Kind::One)) {
+    for (outcome, found) in found(outcomes, TablePart::Hidden(Hiding::One)) {
         let truth = names(&outcome.truth).join(" + ");
         let named = match found.answer.verdict.as_deref().unwrap_or_default() {
             "effect" => found.answer.ranked.first().cloned().unwrap_or_default(),
@@ -208,9 +233,9 @@ pub(super) fn confusion(outcomes: &[Outcome]) -> Vec<Confusion> {
 }
 
 /// Figures of single effects by actuator, camera noise and runs.
-pub(super) fn breakdown(outcomes: &[Outcome]) -> Vec<Breakdown> {
-    let all = found(outcomes, Part::Hidden(Kind::One));
-    let keys = |outcome: &Outcome| {
+pub(super) fn breakdown(outcomes: &[SetOutcome]) -> Vec<Slice> {
+    let all = found(outcomes, TablePart::Hidden(Hiding::One));
+    let keys = |outcome: &SetOutcome| {
         let truth = &outcome.truth;
         [truth.actuator.clone(), format!("{} mm", truth.camera_sd_m * 1e3), format!("{} runs", truth.runs)]
     };
@@ -223,7 +248,7 @@ pub(super) fn breakdown(outcomes: &[Outcome]) -> Vec<Breakdown> {
         let sets: Vec<&Named> = all.iter().filter(|(o, _)| keys(o)[place] == of).map(|(_, named)| *named).collect();
         let alarmed: Vec<&&Named> = sets.iter().filter(|named| named.score.alarm).collect();
         let count = |hit: &dyn Fn(&Named) -> bool| alarmed.iter().filter(|named| hit(named)).count();
-        Breakdown {
+        Slice {
             of,
             sets: sets.len(),
             alarm: share(alarmed.len(), sets.len()),

@@ -5,8 +5,8 @@ use crate::HIDDEN;
 
 #[test]
 fn all_robots_and_all_effects_take_part_equally() {
-    let plan = plan(&BenchOptions { seed: 1, sets: 96 }).unwrap();
-    let one: Vec<&Case> = plan.iter().filter(|case| case.part == Part::Hidden(Kind::One)).collect();
+    let plan = plan(&DiscoveryOptions { seed: 1, sets: 96 }).unwrap();
+    let one: Vec<&PlannedSet> = plan.iter().filter(|case| case.part == TablePart::Hidden(Hiding::One)).collect();
     assert_eq!(one.len(), 96);
     for effect in HIDDEN {
         let count = one.iter().filter(|case| case.truth.effects[0].name == effect.name).count();
@@ -18,19 +18,19 @@ fn all_robots_and_all_effects_take_part_equally() {
         let sigma = case.truth.camera_sd_m;
         assert!((0.5e-3..=2e-3).contains(&sigma) && [3, 5, 10].contains(&case.truth.runs));
     }
-    let tested = plan.iter().filter(|case| case.part == Part::Measured(Kind::One));
+    let tested = plan.iter().filter(|case| case.part == TablePart::Measured(Hiding::One));
     assert!(
         tested.map(|case| &case.truth).eq(one.iter().map(|case| &case.truth)),
         "the same robots, with a bending test"
     );
-    let two = plan.iter().filter(|case| case.part == Part::Hidden(Kind::Two));
+    let two = plan.iter().filter(|case| case.part == TablePart::Hidden(Hiding::Two));
     assert!(two.clone().count() == 48 && two.clone().all(|c| c.truth.effects[0].name != c.truth.effects[1].name));
 }
 
 #[test]
 fn the_plan_follows_from_the_seed() {
     let truths = |seed: u64, sets: usize| -> Vec<Truth> {
-        plan(&BenchOptions { seed, sets }).unwrap().into_iter().map(|case| case.truth).collect()
+        plan(&DiscoveryOptions { seed, sets }).unwrap().into_iter().map(|case| case.truth).collect()
     };
     assert_eq!(truths(1, 8), truths(1, 8));
     assert_ne!(truths(1, 8), truths(2, 8));
@@ -39,8 +39,8 @@ fn the_plan_follows_from_the_seed() {
 
 #[test]
 fn a_diagnosis_that_fails_is_counted_and_named() {
-    let refuse: Diagnose = |_, _, _, _| Err(CompareError::NoModel);
-    let bench = run(&BenchOptions { seed: 1, sets: 2 }, refuse, &|_| ()).unwrap();
+    let refuse: Diagnoser = |_, _, _, _| Err(CompareError::NoModel);
+    let bench = run(&DiscoveryOptions { seed: 1, sets: 2 }, refuse, &|_| ()).unwrap();
     assert_eq!(bench.failed.len(), 14 + LACKING.len());
     assert!(bench.failed[0].contains("no model is given") && bench.rows.iter().all(|row| row.measured.is_none()));
 }
@@ -62,8 +62,9 @@ fn the_finite_element_sets_are_diagnosed_and_what_is_named_lowers_the_held_out_e
 /// Loads and shape come together by a fiftieth of their gap a round here, and need more than 400 rounds at 10 kPa.
 #[test]
 fn a_robot_whose_loads_and_shape_agree_slowly_is_no_failure() {
-    let truth = cases::draw(Part::Hidden(Kind::One), 4, (1 << 32) + 154, 154).unwrap();
-    let found = cases::outcome(&Case { part: Part::Hidden(Kind::One), truth }, compare::diagnosis::diagnose);
+    let truth = cases::draw(TablePart::Hidden(Hiding::One), 4, (1 << 32) + 154, 154).unwrap();
+    let found =
+        cases::outcome(&PlannedSet { part: TablePart::Hidden(Hiding::One), truth }, compare::diagnosis::diagnose);
     assert!(found.failed.is_none(), "{:?}", found.failed);
     assert!(found.named.unwrap().after.is_some());
 }

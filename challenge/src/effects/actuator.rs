@@ -2,10 +2,10 @@
 
 use super::HiddenEffect;
 use crate::drive::Drive;
-use crate::robot::Robot;
+use crate::robot::TrueRobot;
 use models::actuators::Family;
 
-fn drives(robot: &mut Robot, change: impl Fn(&mut Drive)) {
+fn drives(robot: &mut TrueRobot, change: impl Fn(&mut Drive)) {
     robot.each(|cell, _| {
         if let Some(drive) = &mut cell.drive {
             change(drive);

@@ -1,11 +1,11 @@
 //! Effects of the body.
 
 use super::HiddenEffect;
-use crate::robot::Robot;
+use crate::robot::TrueRobot;
 use std::f64::consts::TAU;
 
 /// B κ_c of the softest cell \[N·m\]: the wall's moment in a full bend.
-fn wall_moment(robot: &Robot) -> f64 {
+fn wall_moment(robot: &TrueRobot) -> f64 {
     robot.cells.iter().map(|cell| cell.wall.bending).fold(f64::INFINITY, f64::min) * robot.scale_per_m
 }
 
@@ -14,7 +14,7 @@ const HINGE_NM: f64 = 0.402;
 /// Length over which a clamp stiffens the wall \[m\].
 const CLAMP_M: f64 = 0.12;
 
-fn clamp(robot: &mut Robot, amount: f64, from_tip: bool) {
+fn clamp(robot: &mut TrueRobot, amount: f64, from_tip: bool) {
     let length = robot.length_m;
     robot.each(|cell, s| {
         let away = if from_tip { length - s } else { s };

@@ -9,7 +9,7 @@ mod body;
 mod outside;
 mod setup;
 
-use super::robot::Robot;
+use super::robot::TrueRobot;
 use models::Scenario;
 use models::actuators::Family;
 
@@ -25,11 +25,11 @@ pub struct HiddenEffect {
     /// Unit of the amount.
     pub unit: &'static str,
     /// Amount of a typical size, SI.
-    pub typical: fn(&Robot) -> f64,
+    pub typical: fn(&TrueRobot) -> f64,
     /// Contraction mechanism it needs; `None`: any.
     pub family: Option<Family>,
     /// Puts an amount of it into a robot.
-    pub put: fn(&mut Robot, f64),
+    pub put: fn(&mut TrueRobot, f64),
 }
 
 /// Effects that the catalogue of `models` also knows, by another law.

@@ -1,10 +1,10 @@
 //! Effects that no entry of the catalogue describes: local, or of the measurement.
 
 use super::HiddenEffect;
-use crate::robot::Robot;
+use crate::robot::TrueRobot;
 
 /// Factor on the actuator's pressure between two shares of the body length.
-fn weaken(robot: &mut Robot, from: f64, to: f64, strength: f64) {
+fn weaken(robot: &mut TrueRobot, from: f64, to: f64, strength: f64) {
     let length = robot.length_m;
     robot.each(|cell, s| {
         if let Some(drive) = cell.drive.as_mut().filter(|_| s > from * length && s < to * length) {

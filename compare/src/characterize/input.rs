@@ -1,6 +1,6 @@
 //! Tests of a fabric, as files.
 
-use super::{Characterized, Settings, characterize};
+use super::{Characterized, Reduction, characterize};
 use crate::CompareError;
 use crate::progress::Progress;
 use data::bench::bending_lengths_m;
@@ -57,7 +57,7 @@ impl FabricTests {
     ///
     /// # Errors
     /// As [`characterize`].
-    pub fn reduce(&self, settings: &Settings) -> Result<Characterized, CompareError> {
+    pub fn reduce(&self, settings: &Reduction) -> Result<Characterized, CompareError> {
         let mut found = characterize(&self.coupons, settings)?;
         self.bent.iter().for_each(|table| found.bend(&bending_lengths_m(table), table.provenance.word()));
         Ok(found)

@@ -20,8 +20,8 @@ pub mod write;
 pub use input::FabricTests;
 pub use reduce::{Characterized, MeanCurve, ShearCurve, characterize};
 pub use replay::Replay;
-pub use scatter::{Quantity, Scatter};
-pub use specimen::{Specimen, Strip};
+pub use scatter::{FabricNumber, Scatter};
+pub use specimen::{BiasStrip, Specimen};
 
 /// Shear angle of the paper's validity limit \[rad\]: 24 % strain of its strip of 250 mm by 20 mm.
 pub const PAPER_LIMIT_RAD: f64 = 0.630_801_3;
@@ -30,7 +30,7 @@ pub const OPTICAL_LIMIT_RAD: f64 = std::f64::consts::PI / 6.0;
 
 /// Choices of the user.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Settings {
+pub struct Reduction {
     /// Name of the fabric in the TOML fragment.
     pub name: String,
     /// Strain up to which a modulus is the slope.
@@ -39,9 +39,9 @@ pub struct Settings {
     pub any_modulus: bool,
 }
 
-impl Default for Settings {
+impl Default for Reduction {
     /// Moduli to 1 % strain: above the slack of a hand-clamped specimen, below where coated fabrics bend. Assumed.
-    fn default() -> Settings {
-        Settings { name: "fabric".into(), modulus_strain: 0.01, any_modulus: false }
+    fn default() -> Reduction {
+        Reduction { name: "fabric".into(), modulus_strain: 0.01, any_modulus: false }
     }
 }

@@ -3,9 +3,9 @@
 use data::{Coupon, DataError, Direction, Fault, Provenance};
 use models::fabrics::{Curve, Fabric, Woven, Yarn, shear_modulus, specimen as fit};
 
-use super::scatter::{Quantity, Scatter};
-use super::specimen::{self, Specimen, Strip};
-use super::{PAPER_LIMIT_RAD, Replay, Settings, replay, warn};
+use super::scatter::{FabricNumber, Scatter};
+use super::specimen::{self, BiasStrip, Specimen};
+use super::{PAPER_LIMIT_RAD, Reduction, Replay, replay, warn};
 use crate::CompareError;
 
 /// Rows of a mean curve: a law's table, fine enough for any bend of a fabric.
@@ -17,7 +17,7 @@ pub struct Characterized {
     /// One by one, in the order given.
     pub specimens: Vec<Specimen>,
     /// Numbers of the fabric.
-    pub quantities: Vec<Quantity>,
+    pub quantities: Vec<FabricNumber>,
     /// Mean curves along warp and fill.
     pub yarns: Vec<MeanCurve>,
     /// Shear curve, from bias extension.
@@ -60,7 +60,7 @@ pub struct ShearCurve {
 ///
 /// # Errors
 /// No specimen, a specimen given twice, and whatever [`specimen`] refuses.
-pub fn characterize(coupons: &[Coupon], settings: &Settings) -> Result<Characterized, CompareError> {
+pub fn characterize(coupons: &[Coupon], settings: &Reduction) -> Result<Characterized, CompareError> {
     different(coupons)?;
     let mut warnings = Vec::new();
     let (taut, slacks): (Vec<Coupon>, Vec<f64>) = coupons.iter().map(|c| specimen::taut(c, settings)).unzip();
@@ -96,7 +96,7 @@ pub fn characterize(coupons: &[Coupon], settings: &Settings) -> Result<Character
 }
 
 /// The shear of the bias tests, the yarns' stretch taken out where both yarns were pulled.
-fn strips(found: &mut Characterized, taut: &[Coupon], settings: &Settings) -> Result<(), DataError> {
+fn strips(found: &mut Characterized, taut: &[Coupon], settings: &Reduction) -> Result<(), DataError> {
     let yarns = found.yarns_alone();
     let yarns = yarns.as_ref().map(|y| y as &dyn Fabric);
     for (i, coupon) in taut.iter().enumerate() {
@@ -128,12 +128,12 @@ impl Characterized {
     }
 
     /// Bias-extension tests.
-    pub fn strips(&self) -> impl Iterator<Item = (&Specimen, &Strip)> {
+    pub fn strips(&self) -> impl Iterator<Item = (&Specimen, &BiasStrip)> {
         self.specimens.iter().filter_map(|s| Some((s, s.strip.as_ref()?)))
     }
 
     /// A number by its key.
-    pub fn quantity(&self, key: &str) -> Option<&Quantity> {
+    pub fn quantity(&self, key: &str) -> Option<&FabricNumber> {
         self.quantities.iter().find(|q| q.key == key)
     }
 
@@ -158,7 +158,7 @@ impl Characterized {
     }
 
     fn add(&mut self, key: &str, name: &str, unit: &'static str, scatter: Option<Scatter>, known: String) {
-        let quantity = |scatter| Quantity { key: key.to_string(), name: name.to_string(), unit, scatter, known };
+        let quantity = |scatter| FabricNumber { key: key.to_string(), name: name.to_string(), unit, scatter, known };
         self.quantities.extend(scatter.map(quantity));
     }
 
@@ -203,10 +203,10 @@ fn thickness(specimens: &[Specimen], warnings: &mut Vec<String>) -> Option<f64> 
 }
 
 /// Rows of a mean, and the standard deviation at each.
-type Mean = (Vec<[f64; 2]>, Vec<Option<f64>>);
+type MeanRows = (Vec<[f64; 2]>, Vec<Option<f64>>);
 
 /// Means over specimens on common places up to where the shortest ends.
-fn mean(curves: &[&[[f64; 2]]]) -> Option<Mean> {
+fn mean(curves: &[&[[f64; 2]]]) -> Option<MeanRows> {
     let end = curves.iter().filter_map(|rows| rows.last()).map(|row| row[0]).fold(f64::INFINITY, f64::min);
     if curves.is_empty() || !(end > 0.0 && end.is_finite()) {
         return None;
@@ -312,7 +312,7 @@ fn rubber(found: &mut Characterized) {
 }
 
 fn shear(found: &mut Characterized) {
-    let strips: Vec<Strip> = found.strips().map(|(_, strip)| strip.clone()).collect();
+    let strips: Vec<BiasStrip> = found.strips().map(|(_, strip)| strip.clone()).collect();
     let slopes: Vec<f64> = strips.iter().filter_map(|s| s.slope_n_per_m).collect();
     let slope = Scatter::of(&slopes);
     found.add("gt", "shear stiffness at small angle, G12 t", "N/m", slope, "calibrated: bias extension, zones".into());

@@ -8,9 +8,9 @@ use std::sync::Arc;
 use models::fabrics::{self, BiasExtension, Fabric, Pull, Recipe, specimen as fit};
 
 use super::reduce::Characterized;
-use super::specimen::{Specimen, Strip};
+use super::specimen::{BiasStrip, Specimen};
 use super::write::fabric_toml;
-use super::{PAPER_LIMIT_RAD, Settings};
+use super::{PAPER_LIMIT_RAD, Reduction};
 
 /// Places of a replay: a mean curve has fewer rows.
 const PLACES: usize = 48;
@@ -33,7 +33,7 @@ pub struct Replay {
 }
 
 /// Every specimen with a stress, by every law.
-pub(super) fn replays(found: &Characterized, settings: &Settings) -> Vec<Replay> {
+pub(super) fn replays(found: &Characterized, settings: &Reduction) -> Vec<Replay> {
     let mut all = Vec::new();
     for (law, fabric) in laws(found, settings) {
         let tests = found.specimens.iter().enumerate().filter(|(_, s)| s.stress.len() > 1);
@@ -43,7 +43,7 @@ pub(super) fn replays(found: &Characterized, settings: &Settings) -> Vec<Replay>
 }
 
 /// The laws of the fragment, made.
-pub(super) fn laws(found: &Characterized, settings: &Settings) -> Vec<(String, Arc<dyn Fabric>)> {
+pub(super) fn laws(found: &Characterized, settings: &Reduction) -> Vec<(String, Arc<dyn Fabric>)> {
     let text = fabric_toml(found, settings, "").unwrap_or_default();
     let table: toml::Table = text.parse().unwrap_or_default();
     let fabrics = table.get("fabric").and_then(toml::Value::as_table).into_iter().flatten();
@@ -88,7 +88,7 @@ fn free(test: &Specimen, end: f64, fabric: &Arc<dyn Fabric>) -> Option<Vec<[f64;
 }
 
 /// By shear angle, as far as the test went and the reduction holds: F_sh is the law's S₁₂ where its yarns have not stretched.
-fn zones(strip: &Strip, thickness_m: f64, end: f64, fabric: &Arc<dyn Fabric>) -> Option<Vec<[f64; 2]>> {
+fn zones(strip: &BiasStrip, thickness_m: f64, end: f64, fabric: &Arc<dyn Fabric>) -> Option<Vec<[f64; 2]>> {
     let size: &BiasExtension = &strip.size;
     let shear = |angle: f64| fabric.tension([0.0, 0.0, angle.sin()], &[0.0; 2])[2];
     let last = size.angle(end * size.length_m).unwrap_or(PAPER_LIMIT_RAD).min(PAPER_LIMIT_RAD);

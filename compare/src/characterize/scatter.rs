@@ -17,7 +17,7 @@ pub struct Scatter {
 
 /// A number of the fabric in display units.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Quantity {
+pub struct FabricNumber {
     /// Short name, as in JSON.
     pub key: String,
     /// What it is.

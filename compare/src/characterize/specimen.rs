@@ -3,7 +3,7 @@
 use data::{Coupon, DataError, Direction, Fault, Pulled};
 use models::fabrics::{BiasExtension, Fabric, specimen as fit};
 
-use super::{Settings, units};
+use super::{Reduction, units};
 
 /// Fewest rows of a modulus.
 const FEWEST: usize = 5;
@@ -34,14 +34,14 @@ pub struct Specimen {
     /// C₁₀ by stress and by share \[Pa\], along yarns.
     pub c10_pa: Option<[f64; 2]>,
     /// Bias extension, where width and length are known.
-    pub strip: Option<Strip>,
+    pub strip: Option<BiasStrip>,
     /// Thickness \[m\].
     pub thickness_m: Option<f64>,
 }
 
 /// A bias-extension test and what came of it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Strip {
+pub struct BiasStrip {
     /// Its size; the thickness is 1 m where it is not known.
     pub size: BiasExtension,
     /// Rows displacement \[m\], force \[N\] that were used.
@@ -58,7 +58,7 @@ pub struct Strip {
 ///
 /// # Errors
 /// A size that is missing, a modulus that only another unit explains.
-pub(super) fn reduce(coupon: &Coupon, settings: &Settings, warnings: &mut Vec<String>) -> Result<Specimen, DataError> {
+pub(super) fn reduce(coupon: &Coupon, settings: &Reduction, warnings: &mut Vec<String>) -> Result<Specimen, DataError> {
     let along = coupon.direction.along_yarn();
     let whole = stresses(coupon)?;
     let mut used = up_to_peak(whole.as_deref().unwrap_or(coupon.pulled.rows()));
@@ -95,7 +95,7 @@ pub(super) fn reduce(coupon: &Coupon, settings: &Settings, warnings: &mut Vec<St
 }
 
 /// The coupon from where it is taut, and the strain before.
-pub(super) fn taut(coupon: &Coupon, settings: &Settings) -> (Coupon, f64) {
+pub(super) fn taut(coupon: &Coupon, settings: &Reduction) -> (Coupon, f64) {
     let scale = match &coupon.pulled {
         Pulled::Stress(_) => 1.0,
         Pulled::Force(_) => coupon.length_m.unwrap_or(f64::NAN),
@@ -168,9 +168,9 @@ fn modulus(stress: &[[f64; 2]], up_to: f64) -> (Option<f64>, f64) {
 pub(super) fn strip(
     coupon: &Coupon,
     yarns: Option<&dyn Fabric>,
-    settings: &Settings,
+    settings: &Reduction,
     warnings: &mut Vec<String>,
-) -> Result<Option<Strip>, DataError> {
+) -> Result<Option<BiasStrip>, DataError> {
     if coupon.direction != Direction::Bias {
         return Ok(None);
     }
@@ -198,7 +198,7 @@ pub(super) fn strip(
     let start = size.shear_force(&pulled[..small.max(FEWEST.min(pulled.len()))], yarns).map_err(refused)?;
     let slope_n_per_m = fit::slope(&start);
     let locking = fit::locking(&shear);
-    Ok(Some(Strip { size, pulled, shear, slope_n_per_m, locking }))
+    Ok(Some(BiasStrip { size, pulled, shear, slope_n_per_m, locking }))
 }
 
 /// Rows up to the angle beyond which yarns slip.

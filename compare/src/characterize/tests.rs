@@ -13,7 +13,7 @@ fn read(text: &str, defaults: &CouponDefaults) -> Vec<Coupon> {
 
 fn made(seed: u64) -> Characterized {
     let coupons: Vec<Coupon> = example(seed).iter().flat_map(|(_, t)| read(t, &CouponDefaults::default())).collect();
-    characterize(&coupons, &Settings::default()).unwrap()
+    characterize(&coupons, &Reduction::default()).unwrap()
 }
 
 /// Specimens of a straight law in MPa over strain, one per factor.
@@ -28,14 +28,14 @@ fn straight(direction: u32, moduli_mpa: &[f64]) -> String {
 }
 
 fn refused(text: &str, defaults: &CouponDefaults, words: &[&str]) {
-    let error = characterize(&read(text, defaults), &Settings::default()).unwrap_err();
+    let error = characterize(&read(text, defaults), &Reduction::default()).unwrap_err();
     let CompareError::Data(error) = error else { panic!("{error}") };
     let said = format!("{error} | {}", error.help());
     assert!(words.iter().all(|word| said.contains(word)), "{said}");
 }
 
 fn warned(text: &str, words: &[&str]) {
-    let found = characterize(&read(text, &CouponDefaults::default()), &Settings::default()).unwrap();
+    let found = characterize(&read(text, &CouponDefaults::default()), &Reduction::default()).unwrap();
     let said = found.warnings.join(" | ");
     assert!(words.iter().all(|word| said.contains(word)), "{said}");
 }
@@ -97,7 +97,7 @@ fn without_noise_the_shear_curve_and_its_force_come_back() {
         let [lengthening_m, force_n] = STRIP.pulled(0.005 * f64::from(i), law, None);
         text.push_str(&format!("{:.9},{force_n:.9}\n", 1e3 * lengthening_m));
     }
-    let found = characterize(&read(&text, &CouponDefaults::default()), &Settings::default()).unwrap();
+    let found = characterize(&read(&text, &CouponDefaults::default()), &Reduction::default()).unwrap();
     let moment = found.shear.unwrap().moment_pa.unwrap();
     for row in &moment[1..] {
         assert!((row[1] / truth.value(row[0]) - 1.0).abs() < 5e-3, "{row:?} {}", truth.value(row[0]));
@@ -108,11 +108,11 @@ fn without_noise_the_shear_curve_and_its_force_come_back() {
 fn published_moduli_give_the_published_shear_modulus() {
     let text = [straight(0, &[96.5]), straight(45, &[4.05]), straight(90, &[120.0])];
     let coupons: Vec<Coupon> = text.iter().flat_map(|t| read(t, &CouponDefaults::default())).collect();
-    let found = characterize(&coupons, &Settings::default()).unwrap();
+    let found = characterize(&coupons, &Reduction::default()).unwrap();
     let value = |key: &str| found.quantity(key).unwrap().scatter.mean;
     assert!((value("e0") - 96.5).abs() < 1e-9 && (value("e45") - 4.05).abs() < 1e-9);
     assert!((value("g12_link") - 1.032).abs() < 5e-4, "{}", value("g12_link"));
-    let fragment = fabric_toml(&found, &Settings::default(), "ibr").unwrap();
+    let fragment = fabric_toml(&found, &Reduction::default(), "ibr").unwrap();
     assert!(fragment.contains("e45_MPa = 4.05") && fragment.contains("[fabric.fabric-film]"), "{fragment}");
 }
 
@@ -120,11 +120,11 @@ fn published_moduli_give_the_published_shear_modulus() {
 #[test]
 fn what_a_robot_of_the_fabric_is_told_is_the_value_of_one_more_piece() {
     let sized = CouponDefaults { thickness_m: Some(5e-5), ..CouponDefaults::default() };
-    let found = characterize(&read(&straight(0, &[90.0, 110.0]), &sized), &Settings::default()).unwrap();
+    let found = characterize(&read(&straight(0, &[90.0, 110.0]), &sized), &Reduction::default()).unwrap();
     let text = measured_toml(&found, "ibr").unwrap();
     assert!(text.contains("[measured.fabric_stretch]\ncompliance_m_per_n = [0.0002, 0.00003464102]"), "{text}");
     assert!(!text.contains("shear"), "{text}");
-    let single = characterize(&read(&straight(0, &[100.0]), &sized), &Settings::default()).unwrap();
+    let single = characterize(&read(&straight(0, &[100.0]), &sized), &Reduction::default()).unwrap();
     assert_eq!(measured_toml(&single, "ibr"), None);
 }
 
@@ -161,7 +161,7 @@ fn digitised_glass_gives_the_known_numbers_where_it_is_present() {
             columns,
             ..CouponDefaults::default()
         };
-        let found = characterize(&read(&text, &defaults), &Settings::default()).unwrap();
+        let found = characterize(&read(&text, &defaults), &Reduction::default()).unwrap();
         let strip = found.specimens[0].strip.as_ref().unwrap();
         for [d_mm, degrees, n_per_m] in &rows {
             let row = strip.pulled.iter().position(|row| (1e3 * row[0] - d_mm).abs() < 1e-3).unwrap();
@@ -188,7 +188,7 @@ fn stresses_in_another_unit_are_refused_with_the_name_to_type() {
     refused(&pascals, &none, &["if stress_mpa holds Pa, name it stress_pa (modulus 96.5 MPa)", "--any-modulus"]);
     refused(&straight(0, &[96.5e3]), &none, &["if stress_mpa holds kPa, name it stress_kpa"]);
     refused(&straight(45, &[4.05e3]), &none, &["(45°)", "4050 MPa", "stress_kpa"]);
-    let anyway = Settings { any_modulus: true, ..Settings::default() };
+    let anyway = Reduction { any_modulus: true, ..Reduction::default() };
     assert!(characterize(&read(&pascals, &none), &anyway).is_ok());
 }
 
@@ -216,7 +216,7 @@ fn what_is_missing_for_a_stress_is_named() {
     refused(&straight(0, &[-96.5]), &none, &["stress_mpa is largest in row 1", "tension as a positive"]);
     let twice = straight(0, &[96.5]).replace("S1,10,", "S1,10.0,");
     let both = [read(&twice, &none), read(&twice, &none)].concat();
-    assert!(characterize(&both, &Settings::default()).unwrap_err().to_string().contains("there twice"));
+    assert!(characterize(&both, &Reduction::default()).unwrap_err().to_string().contains("there twice"));
 }
 
 #[test]
@@ -239,7 +239,7 @@ fn a_specimen_that_deviates_or_has_the_wrong_direction_is_named() {
     let none = CouponDefaults::default();
     let warp = straight(0, &[96.0, 97.0, 4.1, 95.0, 96.5]).replace("S3", "X");
     let text = [read(&warp, &none), read(&straight(45, &[4.0, 4.1, 4.05]), &none)].concat();
-    let found = characterize(&text, &Settings { any_modulus: true, ..Settings::default() }).unwrap();
+    let found = characterize(&text, &Reduction { any_modulus: true, ..Reduction::default() }).unwrap();
     let said = found.warnings.join(" | ");
     assert!(said.contains("specimen X (0°)") && said.contains("like those at 45°"), "{said}");
     let soft = [
@@ -247,7 +247,7 @@ fn a_specimen_that_deviates_or_has_the_wrong_direction_is_named() {
         read(&straight(90, &[2.0e1]), &none),
         read(&straight(45, &[9e1]), &none),
     ];
-    let found = characterize(&soft.concat(), &Settings::default()).unwrap();
+    let found = characterize(&soft.concat(), &Reduction::default()).unwrap();
     assert!(
         found.warnings.iter().any(|w| w.contains("E45 = 90") && w.contains("directions right")),
         "{:?}",
@@ -258,7 +258,7 @@ fn a_specimen_that_deviates_or_has_the_wrong_direction_is_named() {
 fn nylon(degrees: &[u32]) -> Characterized {
     let text = |d: &u32| data::set_file("nylon-offaxis", &format!("coupon_{d:02}.csv")).unwrap();
     let coupons: Vec<Coupon> = degrees.iter().flat_map(|d| read(text(d), &CouponDefaults::default())).collect();
-    characterize(&coupons, &Settings::default()).unwrap()
+    characterize(&coupons, &Reduction::default()).unwrap()
 }
 
 /// A law with the yarns' stretch twice in it gives a real nylon with E0/E45 = 2.1 a fifth too little in its own test at 45°.
@@ -266,11 +266,11 @@ fn nylon(degrees: &[u32]) -> Characterized {
 #[test]
 fn the_law_of_a_real_nylon_returns_the_tests_it_was_made_of() {
     let found = nylon(&[0, 45, 90]);
-    let text = fabric_toml(&found, &Settings::default(), "ibr").unwrap();
+    let text = fabric_toml(&found, &Reduction::default(), "ibr").unwrap();
     for replay in found.replays.iter().filter(|r| r.law == "fabric") {
         let test = &found.specimens[replay.specimen];
         assert!(replay.at_end.abs() < 0.01 && replay.rms < 0.01, "{}° {replay:?}", test.direction.degrees());
-        let law = super::replay::laws(&found, &Settings::default()).remove(0).1;
+        let law = super::replay::laws(&found, &Reduction::default()).remove(0).1;
         let mut pull = models::fabrics::Pull::new(law, test.direction.degrees().to_radians()).unwrap();
         for [strain, stress] in test.stress.iter().filter(|row| row[0] > 0.005) {
             let off = pull.stress_pa(*strain).unwrap() / stress - 1.0;
@@ -287,7 +287,7 @@ fn the_law_of_a_real_nylon_returns_the_tests_it_was_made_of() {
 #[test]
 fn other_angles_check_the_law_and_change_nothing_of_it() {
     let (three, seven) = (nylon(&[0, 45, 90]), nylon(&[0, 15, 30, 45, 60, 75, 90]));
-    let settings = Settings::default();
+    let settings = Reduction::default();
     let law =
         |found: &Characterized| fabric_toml(found, &settings, "ibr").unwrap().replace("7 specimens", "3 specimens");
     assert_eq!(law(&three), law(&seven));
@@ -308,19 +308,19 @@ fn poissons_ratio_is_that_of_the_width_under_load() {
         read(&(head + &rows.collect::<String>()), &CouponDefaults::default())
     };
     let both = [file(0, 100.0, 0.2), file(90, 50.0, 0.1)].concat();
-    let found = characterize(&both, &Settings::default()).unwrap();
+    let found = characterize(&both, &Reduction::default()).unwrap();
     assert!((found.nu12() - 0.2).abs() < 1e-9 && found.warnings.is_empty(), "{} {:?}", found.nu12(), found.warnings);
     // Of the fill alone: nu12 = nu21 E0/E90 = 0.2.
     let plain = read(&straight(0, &[100.0]), &CouponDefaults::default());
-    let found = characterize(&[plain, file(90, 50.0, 0.1)].concat(), &Settings::default()).unwrap();
+    let found = characterize(&[plain, file(90, 50.0, 0.1)].concat(), &Reduction::default()).unwrap();
     assert!((found.nu12() - 0.2).abs() < 1e-9);
     let wrong = [file(0, 100.0, 0.5), file(90, 50.0, 0.1)].concat();
-    assert!(characterize(&wrong, &Settings::default()).unwrap().warnings[0].contains("nu12 is 0.500"));
+    assert!(characterize(&wrong, &Reduction::default()).unwrap().warnings[0].contains("nu12 is 0.500"));
 }
 
 #[test]
 fn the_same_tests_give_the_same_bytes() {
-    let both = [made(1), made(1)].map(|found| fabric_toml(&found, &Settings::default(), "ibr").unwrap());
+    let both = [made(1), made(1)].map(|found| fabric_toml(&found, &Reduction::default(), "ibr").unwrap());
     assert_eq!(both[0], both[1]);
 }
 
@@ -328,12 +328,12 @@ fn the_same_tests_give_the_same_bytes() {
 #[test]
 fn a_bending_length_is_written_as_what_finite_elements_and_the_fold_take() {
     let mut found = nylon(&[0, 45, 90]);
-    assert!(!fabric_toml(&found, &Settings::default(), "ibr").unwrap().contains("bending_factor"));
+    assert!(!fabric_toml(&found, &Reduction::default(), "ibr").unwrap().contains("bending_factor"));
     let mean = |key: &str| 1e6 * found.quantity(key).unwrap().scatter.mean;
     let plate = 0.5 * (mean("e0") + mean("e90")) * found.thickness_m.unwrap().powi(3) / 12.0;
     // D = w c³.
     found.bend(&[[0.03, plate / 0.03_f64.powi(3)]], "measured");
-    let text = fabric_toml(&found, &Settings::default(), "ibr").unwrap();
+    let text = fabric_toml(&found, &Reduction::default(), "ibr").unwrap();
     assert!(text.contains("bending_factor = 1.000,"), "{text}");
     let told: f64 =
         text.split("bending_nm = ").nth(1).unwrap().lines().next().unwrap().trim_end_matches('.').parse().unwrap();

@@ -3,12 +3,12 @@
 use data::{Column, Direction, Table};
 
 use super::reduce::{Characterized, ShearCurve};
-use super::{PAPER_LIMIT_RAD, Settings};
+use super::{PAPER_LIMIT_RAD, Reduction};
 
 /// `[fabric.NAME]` tables for a finite element case, one for every law that these tests determine; none without thickness.
 ///
 /// Woven needs warp, fill and bias; orthotropic the same; neo-Hookean warp or fill.
-pub fn fabric_toml(found: &Characterized, settings: &Settings, program: &str) -> Option<String> {
+pub fn fabric_toml(found: &Characterized, settings: &Reduction, program: &str) -> Option<String> {
     let thickness_mm = 1e3 * found.thickness_m?;
     let laws = [woven(found), linear(found), film(found)];
     let count = laws.iter().flatten().count();

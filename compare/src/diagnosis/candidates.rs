@@ -181,21 +181,11 @@ pub(super) fn candidate(effect: &Effect, actuator: &str) -> Candidate {
     };
     Candidate {
         name: effect.name.to_string(),
-        group: group(effect.group),
+        group: effect.group,
         stage: effect.stage,
         sentence: effect.sentence.to_string(),
         differs: effect.differs.to_string(),
         remedy: effect.remedy.to_string(),
         parameters: effect.parameters.iter().map(free).collect(),
-    }
-}
-
-fn group(group: models::effects::Group) -> Group {
-    match group {
-        models::effects::Group::Actuator => Group::Actuator,
-        models::effects::Group::Body => Group::Body,
-        models::effects::Group::Load => Group::Load,
-        models::effects::Group::Supply => Group::Supply,
-        models::effects::Group::Measurement => Group::Measurement,
     }
 }

@@ -5,18 +5,18 @@ use super::case::Case;
 use super::least_squares::{minimise, square};
 use super::problem::Fit;
 use super::source::Source;
-use crate::interval::{Fitted, half_width, interval};
+use crate::interval::{FittedData, half_width, interval};
 use crate::noise::NoiseModel;
 
 /// Intervals of all parameters of a fit, SI; `None` if the noise is unknown or the data do not hold the parameter.
 pub fn intervals<'c>(case: &'c Case<'c>, fit: &Fit, profiled: bool) -> Vec<Option<[f64; 2]>> {
-    let part = |(i, (source, noise)): (usize, (Source<'c>, &'c NoiseModel))| -> Fitted<'c> {
+    let part = |(i, (source, noise)): (usize, (Source<'c>, &'c NoiseModel))| -> FittedData<'c> {
         let target_m = &case.problem.blocks[i].target_m;
         let residual_m = case.prediction_of(i, fit).iter().zip(target_m).map(|(f, y)| f - y).collect();
         let readings = source.gauge.map_or(0, |gauge| gauge.readings.len());
-        Fitted { dataset: source.dataset, noise, residual_m, misfit: fit.misfit[i], readings }
+        FittedData { dataset: source.dataset, noise, residual_m, misfit: fit.misfit[i], readings }
     };
-    let data: Vec<Fitted> = case.sources().enumerate().map(part).collect();
+    let data: Vec<FittedData> = case.sources().enumerate().map(part).collect();
     let Some(jacobian) = case.problem.jacobian_allowing(fit) else { return vec![None; fit.theta().len()] };
     (0..fit.theta().len()).map(|k| one(case, fit, (&data, &jacobian), k, profiled)).collect()
 }
@@ -24,7 +24,7 @@ pub fn intervals<'c>(case: &'c Case<'c>, fit: &Fit, profiled: bool) -> Vec<Optio
 fn one(
     case: &Case,
     fit: &Fit,
-    (data, jacobian): (&[Fitted], &[Vec<f64>]),
+    (data, jacobian): (&[FittedData], &[Vec<f64>]),
     k: usize,
     profiled: bool,
 ) -> Option<[f64; 2]> {

@@ -6,6 +6,7 @@ use crate::evidence::Used;
 use crate::noise_summary::NoiseSummary;
 use crate::residuals::ResidualMap;
 use crate::where_it_fails::Statement;
+pub use models::effects::Group;
 use serde::Serialize;
 
 /// The answer to "is an effect missing, and which".
@@ -18,40 +19,6 @@ pub enum Verdict {
     Effect,
     /// Something is missing that no effect of the catalogue explains.
     OutOfCatalog,
-}
-
-/// Where in a prediction an effect belongs; supply and measurement are to be ruled out before physics.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Group {
-    /// The actuator and its fabric.
-    Actuator,
-    /// The body's wall.
-    Body,
-    /// A force from outside.
-    Load,
-    /// Between regulator and actuator.
-    Supply,
-    /// Camera, mount and markers.
-    Measurement,
-}
-
-impl Group {
-    /// Whether it is checked on the bench before physics is blamed.
-    pub fn is_nuisance(self) -> bool {
-        matches!(self, Group::Supply | Group::Measurement)
-    }
-
-    /// Lower-case word.
-    pub fn word(self) -> &'static str {
-        match self {
-            Group::Actuator => "actuator",
-            Group::Body => "body",
-            Group::Load => "load",
-            Group::Supply => "supply",
-            Group::Measurement => "measurement",
-        }
-    }
 }
 
 /// How sure a name is, from the size of the evidence and the number of rivals.

@@ -11,10 +11,10 @@ use crate::diagnosis::words::{listed, named, three};
 use crate::diagnosis::{Added, Diagnosis, Options, ParameterValue, Ranked, diagnose};
 use crate::error::CompareError;
 use crate::evidence::Evidence;
-use crate::known::Known;
 use crate::progress::Progress;
 use crate::scenario_file::ScenarioFile;
 use crate::typed_effect::{Values, typed, values_of};
+use models::Known;
 use models::Scenario;
 use serde::Serialize;
 

@@ -4,7 +4,7 @@ use super::text::{Addition, NewBending};
 use super::today;
 use crate::diagnosis::words::three;
 use crate::diagnosis::{Diagnosis, ParameterValue, Ranked};
-use crate::known::Known;
+use models::Known;
 use models::Scenario;
 use serde::Serialize;
 

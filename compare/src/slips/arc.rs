@@ -26,7 +26,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// A robot's markers and radius \[m\].
 #[derive(Debug, Clone, Copy)]
-pub struct Body<'a> {
+pub struct MarkedBody<'a> {
     /// Stations of the markers.
     pub stations_m: &'a [f64],
     /// R.
@@ -42,7 +42,7 @@ pub struct Laid {
     pub squares: f64,
 }
 
-impl Body<'_> {
+impl MarkedBody<'_> {
     /// The bend that leaves least, starting at the base or, `loose`, anywhere but heading along x.
     pub fn lay(&self, points: &[[f64; 2]], loose: bool) -> Laid {
         let longest = self.stations_m.iter().fold(1e-9, |l: f64, s| l.max(*s));
@@ -65,7 +65,7 @@ impl Body<'_> {
         let seen: Vec<usize> = (0..points.len()).filter(|marker| dataset.is_seen(hold, *marker)).collect();
         let stations_m: Vec<f64> = seen.iter().map(|marker| self.stations_m[*marker]).collect();
         let of_seen: Vec<[f64; 2]> = seen.iter().map(|marker| points[*marker]).collect();
-        let curvature = Body { stations_m: &stations_m, ..*self }.lay(&of_seen, true).curvature;
+        let curvature = MarkedBody { stations_m: &stations_m, ..*self }.lay(&of_seen, true).curvature;
         let own = self.place(self.stations_m[lost], curvature);
         let off = |axis: usize| {
             let off = of_seen.iter().zip(&stations_m).map(|(point, s)| point[axis] - self.place(*s, curvature)[axis]);
@@ -117,7 +117,7 @@ mod tests {
     #[test]
     fn a_bent_body_is_found_by_its_markers_wherever_it_begins() {
         let stations_m = [0.03, 0.09, 0.15, 0.21, 0.27, 0.33];
-        let body = Body { stations_m: &stations_m, radius_m: 0.04 };
+        let body = MarkedBody { stations_m: &stations_m, radius_m: 0.04 };
         for curvature in [-1.0, 0.0, 0.02, 2.0, 6.0] {
             let points: Vec<[f64; 2]> = stations_m.iter().map(|s| body.place(*s, curvature)).collect();
             let elsewhere: Vec<[f64; 2]> = points.iter().map(|[x, y]| [x + 0.4, y - 0.2]).collect();

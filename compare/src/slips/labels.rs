@@ -1,6 +1,6 @@
 //! Labels of two markers exchanged, in every hold or where a tracker lost them.
 
-use super::{Seen, become_mm};
+use super::{SlipSeen, become_mm};
 use crate::policy;
 use crate::wording::list;
 
@@ -16,7 +16,7 @@ struct Exchange {
     squares: [f64; 2],
 }
 
-pub(super) fn labels(seen: &mut Seen) -> Vec<String> {
+pub(super) fn labels(seen: &mut SlipSeen) -> Vec<String> {
     let mut found: Vec<Exchange> = Vec::new();
     for run in 0..seen.points.len() {
         for hold in 0..seen.points[run].len() {
@@ -37,7 +37,7 @@ pub(super) fn labels(seen: &mut Seen) -> Vec<String> {
 }
 
 /// Exchanges that together leave far less, with the sums of squares without and with them \[m²\].
-fn exchanged(seen: &Seen, points: &[[f64; 2]]) -> (Vec<[usize; 2]>, [f64; 2]) {
+fn exchanged(seen: &SlipSeen, points: &[[f64; 2]]) -> (Vec<[usize; 2]>, [f64; 2]) {
     let (mut points, mut pairs) = (points.to_vec(), Vec::new());
     let laid = seen.body.lay(&points, true).squares;
     let mut left = laid;
@@ -53,7 +53,7 @@ fn exchanged(seen: &Seen, points: &[[f64; 2]]) -> (Vec<[usize; 2]>, [f64; 2]) {
 }
 
 /// The exchange that leaves least, if it takes away what two markers leave that are as far apart.
-fn best(seen: &Seen, points: &[[f64; 2]], left: f64) -> Option<([usize; 2], f64)> {
+fn best(seen: &SlipSeen, points: &[[f64; 2]], left: f64) -> Option<([usize; 2], f64)> {
     let count = points.len();
     // Wherever a body is laid, two markers that are exchanged are off by half of their distance each, or more.
     let least = |apart: f64| 2.0 * (0.5 * policy::FAR_LESS * apart).powi(2);
@@ -83,7 +83,7 @@ fn median(values: &[f64]) -> f64 {
     sorted[sorted.len() / 2]
 }
 
-fn words(seen: &Seen, exchange: &Exchange) -> String {
+fn words(seen: &SlipSeen, exchange: &Exchange) -> String {
     let [a, b] = exchange.pair.map(|marker| seen.dataset.markers[marker].name.clone());
     let holds = seen.dataset.holds.len();
     let mut runs: Vec<usize> = exchange.cells.iter().map(|(run, _)| *run).collect();

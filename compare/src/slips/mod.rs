@@ -15,24 +15,24 @@ mod turned;
 mod upside;
 
 use crate::wording::short;
-use arc::Body;
+use arc::MarkedBody;
 use data::Dataset;
 
 /// What is looked for, in this order: each sees the data with the slips before it undone.
-const SLIPS: [fn(&mut Seen) -> Vec<String>; 4] = [turned::turned, upside::upside, labels::labels, origin::origin];
+const SLIPS: [fn(&mut SlipSeen) -> Vec<String>; 4] = [turned::turned, upside::upside, labels::labels, origin::origin];
 
 /// The data as these tests see them.
-struct Seen<'a> {
+struct SlipSeen<'a> {
     dataset: &'a Dataset,
-    body: Body<'a>,
+    body: MarkedBody<'a>,
     /// `[run][hold][marker]`: mean over the samples \[m\].
     points: Vec<Vec<Vec<[f64; 2]>>>,
 }
 
 /// What looks like a slip, with the evidence and what to do.
 pub fn slips(dataset: &Dataset, stations_m: &[f64], radius_m: f64) -> Vec<String> {
-    let body = Body { stations_m, radius_m };
-    let mut seen = Seen { dataset, body, points: points(dataset) };
+    let body = MarkedBody { stations_m, radius_m };
+    let mut seen = SlipSeen { dataset, body, points: points(dataset) };
     for [hold, marker] in &dataset.lost.unseen {
         seen.points.iter_mut().for_each(|run| run[*hold][*marker] = body.beside(dataset, *hold, &run[*hold], *marker));
     }
@@ -50,7 +50,7 @@ fn points(dataset: &Dataset) -> Vec<Vec<Vec<[f64; 2]>>> {
     (0..dataset.runs.len()).map(|run| (0..dataset.holds.len()).map(|h| hold(run, h)).collect()).collect()
 }
 
-impl Seen<'_> {
+impl SlipSeen<'_> {
     /// Root mean square over markers and holds of a sum of squares \[m\].
     fn rms(&self, squares: f64, holds: usize) -> f64 {
         (squares / (holds * self.body.stations_m.len()) as f64).sqrt()

@@ -10,7 +10,7 @@
 //! with one κ per hold, one scale c and one angle φ. A constant (x₀, y₀) is in none of these, nor in any effect of the catalogue
 //! (`marker_height` is nothing in a straight robot).
 
-use super::{Seen, become_mm};
+use super::{SlipSeen, become_mm};
 use crate::evaluate::default_tolerance_m;
 use crate::policy;
 use crate::stats::f_tail;
@@ -20,7 +20,7 @@ use nalgebra::{DMatrix, DVector};
 /// Holds within this share of the highest pressure of the lowest are the lowest.
 const LOWEST: f64 = 0.02;
 
-pub(super) fn origin(seen: &mut Seen) -> Vec<String> {
+pub(super) fn origin(seen: &mut SlipSeen) -> Vec<String> {
     let holds = lowest(seen);
     let Some(shift) = shift(seen, &holds) else { return Vec::new() };
     let before = over_all(seen, [0.0; 2]);
@@ -46,7 +46,7 @@ pub(super) fn origin(seen: &mut Seen) -> Vec<String> {
 }
 
 /// Nearly straight holds at the lowest pressure of the actuator.
-fn lowest(seen: &Seen) -> Vec<usize> {
+fn lowest(seen: &SlipSeen) -> Vec<usize> {
     let pressure = |hold: &usize| seen.dataset.holds[*hold].p_act_pa;
     let all = 0..seen.dataset.holds.len();
     let (low, high) =
@@ -60,13 +60,13 @@ fn lowest(seen: &Seen) -> Vec<usize> {
 }
 
 /// Squared distances from uniformly bent bodies that start at a place, over all runs and holds \[m²\].
-fn over_all(seen: &Seen, start: [f64; 2]) -> f64 {
+fn over_all(seen: &SlipSeen, start: [f64; 2]) -> f64 {
     let moved = |points: &Vec<[f64; 2]>| points.iter().map(|p| [p[0] - start[0], p[1] - start[1]]).collect::<Vec<_>>();
     seen.points.iter().flatten().map(|points| seen.body.lay(&moved(points), false).squares).sum()
 }
 
 /// The shift that all of these holds have in all runs \[m\].
-fn shift(seen: &Seen, holds: &[usize]) -> Option<[f64; 2]> {
+fn shift(seen: &SlipSeen, holds: &[usize]) -> Option<[f64; 2]> {
     let Straight { grown, shifted, runs } = straight(seen, holds);
     let (values, without, with) = (shifted.nrows(), grown.ncols(), shifted.ncols());
     if values <= with {
@@ -103,7 +103,7 @@ struct Straight {
     runs: Vec<DVector<f64>>,
 }
 
-fn straight(seen: &Seen, holds: &[usize]) -> Straight {
+fn straight(seen: &SlipSeen, holds: &[usize]) -> Straight {
     let (runs, markers) = (seen.points.len(), seen.body.stations_m.len());
     let (values, without) = (2 * markers * holds.len(), 2 + holds.len());
     let mut shifted = DMatrix::zeros(values, without + 2);
@@ -128,7 +128,7 @@ fn straight(seen: &Seen, holds: &[usize]) -> Straight {
 }
 
 /// What is too small to matter: as in comparisons, of the farthest way of a marker.
-fn tolerance(seen: &Seen) -> f64 {
+fn tolerance(seen: &SlipSeen) -> f64 {
     let mut most: f64 = 0.0;
     for run in &seen.points {
         for points in run {

@@ -3,7 +3,7 @@
 //! Looked for without the origin, so that a picture's corner may be it: markers about their mean, against bodies that head
 //! along x. Two ways that are alike for a straight robot (x turned over, numbers from the tip) part when it bends, or by the base.
 
-use super::{Seen, become_mm};
+use super::{SlipSeen, become_mm};
 use crate::policy;
 
 /// What the numbers have to be multiplied by, if they are what the words say.
@@ -19,7 +19,7 @@ const UNITS: [(f64, &str); 7] = [
 
 /// A way in which a run may be written.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Way {
+struct TurnWay {
     /// x and y are exchanged, before signs.
     exchanged: bool,
     /// Signs of x and y then.
@@ -30,9 +30,9 @@ struct Way {
     factor: f64,
 }
 
-const AS_IT_IS: Way = Way { exchanged: false, signs: [1.0; 2], from_tip: false, factor: 1.0 };
+const AS_IT_IS: TurnWay = TurnWay { exchanged: false, signs: [1.0; 2], from_tip: false, factor: 1.0 };
 
-impl Way {
+impl TurnWay {
     fn undo(&self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let one = |[x, y]: &[f64; 2]| {
             let [x, y] = if self.exchanged { [*y, *x] } else { [*x, *y] };
@@ -45,35 +45,35 @@ impl Way {
         run.iter().map(|points| self.undo(points)).collect()
     }
 
-    fn is_like(&self, other: &Way) -> bool {
+    fn is_like(&self, other: &TurnWay) -> bool {
         let same = self.factor.max(other.factor) < policy::NO_SCALE * self.factor.min(other.factor);
-        same && Way { factor: 1.0, ..*self } == Way { factor: 1.0, ..*other }
+        same && TurnWay { factor: 1.0, ..*self } == TurnWay { factor: 1.0, ..*other }
     }
 }
 
-struct Found {
+struct TurnFound {
     run: usize,
-    way: Way,
+    way: TurnWay,
     rms_m: [f64; 2],
 }
 
-pub(super) fn turned(seen: &mut Seen) -> Vec<String> {
-    let found: Vec<Found> = (0..seen.points.len()).filter_map(|run| in_run(seen, run)).collect();
+pub(super) fn turned(seen: &mut SlipSeen) -> Vec<String> {
+    let found: Vec<TurnFound> = (0..seen.points.len()).filter_map(|run| in_run(seen, run)).collect();
     let mut told = Vec::new();
     for (i, first) in found.iter().enumerate() {
         seen.points[first.run] = first.way.undo_run(&seen.points[first.run]);
         if found[..i].iter().all(|before| !before.way.is_like(&first.way)) {
-            let alike: Vec<&Found> = found.iter().filter(|other| other.way.is_like(&first.way)).collect();
+            let alike: Vec<&TurnFound> = found.iter().filter(|other| other.way.is_like(&first.way)).collect();
             told.push(words(seen, &alike));
         }
     }
     told
 }
 
-fn in_run(seen: &Seen, run: usize) -> Option<Found> {
+fn in_run(seen: &SlipSeen, run: usize) -> Option<TurnFound> {
     let points = &seen.points[run];
     let loose = seen.body.stations_m.len() > 1;
-    let left = |way: &Way, loose: bool| {
+    let left = |way: &TurnWay, loose: bool| {
         points.iter().map(|points| seen.body.lay(&way.undo(points), loose).squares).sum::<f64>()
     };
     let rms = |squares: f64| seen.rms(squares, points.len());
@@ -81,7 +81,7 @@ fn in_run(seen: &Seen, run: usize) -> Option<Found> {
     if rms(before) < seen.half_apart() * policy::FAR_LESS {
         return None;
     }
-    let ways: Vec<(Way, f64)> = ways(seen, points).into_iter().map(|way| (way, left(&way, loose))).collect();
+    let ways: Vec<(TurnWay, f64)> = ways(seen, points).into_iter().map(|way| (way, left(&way, loose))).collect();
     let least = ways.iter().fold(f64::INFINITY, |least, (_, squares)| least.min(*squares));
     if rms(least) >= policy::FAR_LESS * rms(before) {
         return None;
@@ -92,10 +92,10 @@ fn in_run(seen: &Seen, run: usize) -> Option<Found> {
     if !seen.bends_up(&way.undo_run(points)) {
         way.signs[1] = -1.0;
     }
-    Some(Found { run, way, rms_m: [rms(before), rms(after)] })
+    Some(TurnFound { run, way, rms_m: [rms(before), rms(after)] })
 }
 
-fn ways(seen: &Seen, run: &[Vec<[f64; 2]>]) -> Vec<Way> {
+fn ways(seen: &SlipSeen, run: &[Vec<[f64; 2]>]) -> Vec<TurnWay> {
     let factor = factor(seen, run);
     let known = UNITS.iter().map(|(unit, _)| *unit).find(|unit| (factor / unit - 1.0).abs() < policy::NEAR_UNIT);
     let off = (factor.is_finite() && !(1.0 / policy::NO_SCALE..=policy::NO_SCALE).contains(&factor))
@@ -104,7 +104,7 @@ fn ways(seen: &Seen, run: &[Vec<[f64; 2]>]) -> Vec<Way> {
     for factor in [Some(1.0), off].into_iter().flatten() {
         for (exchanged, sign) in [(false, 1.0), (false, -1.0), (true, 1.0), (true, -1.0)] {
             for from_tip in [false, true] {
-                all.push(Way { exchanged, signs: [sign, 1.0], from_tip, factor });
+                all.push(TurnWay { exchanged, signs: [sign, 1.0], from_tip, factor });
             }
         }
     }
@@ -113,7 +113,7 @@ fn ways(seen: &Seen, run: &[Vec<[f64; 2]>]) -> Vec<Way> {
 }
 
 /// How much farther apart the stations are than the markers at the lowest pressure, where they are farthest.
-fn factor(seen: &Seen, run: &[Vec<[f64; 2]>]) -> f64 {
+fn factor(seen: &SlipSeen, run: &[Vec<[f64; 2]>]) -> f64 {
     let size = |points: &[[f64; 2]]| {
         let mean = [0, 1].map(|axis| points.iter().map(|p| p[axis]).sum::<f64>() / points.len() as f64);
         points.iter().map(|p| (p[0] - mean[0]).powi(2) + (p[1] - mean[1]).powi(2)).sum::<f64>().sqrt()
@@ -122,7 +122,7 @@ fn factor(seen: &Seen, run: &[Vec<[f64; 2]>]) -> f64 {
     size(&straight) / run.iter().map(|points| size(points)).fold(0.0, f64::max)
 }
 
-fn words(seen: &Seen, alike: &[&Found]) -> String {
+fn words(seen: &SlipSeen, alike: &[&TurnFound]) -> String {
     let way = alike[0].way;
     let runs: Vec<usize> = alike.iter().map(|found| found.run).collect();
     let whole = runs.len() == seen.points.len();

@@ -1,9 +1,9 @@
 //! y turned over in some runs. In all of them it is refused where the table is read.
 
-use super::{Seen, become_mm};
+use super::{SlipSeen, become_mm};
 use crate::policy;
 
-pub(super) fn upside(seen: &mut Seen) -> Vec<String> {
+pub(super) fn upside(seen: &mut SlipSeen) -> Vec<String> {
     let count = seen.points.len();
     let down: Vec<usize> = (0..count).filter(|run| !seen.bends_up(&seen.points[*run])).collect();
     if count < policy::RUNS_TO_TELL || down.is_empty() || 2 * down.len() >= count {
@@ -31,7 +31,7 @@ pub(super) fn upside(seen: &mut Seen) -> Vec<String> {
 }
 
 /// Distance of a run from the mean of those that bend up, with a sign on its y \[m\].
-fn from_others(seen: &Seen, run: usize, down: &[usize], sign: f64) -> f64 {
+fn from_others(seen: &SlipSeen, run: usize, down: &[usize], sign: f64) -> f64 {
     let others: Vec<usize> = (0..seen.points.len()).filter(|other| !down.contains(other)).collect();
     let mut squares = 0.0;
     for (hold, points) in seen.points[run].iter().enumerate() {

@@ -1,6 +1,6 @@
 //! Over which pressures and pouches the reduced model parts from the finite elements.
 
-use super::engines::{EngineRun, Pair, SHAPE, pairs, varied};
+use super::engines::{EnginePair, EngineRun, SHAPE, pairs, varied};
 use crate::error::CompareError;
 use fem::FemError;
 use fem::session::{Job, Source, mesh_keys, rounded};
@@ -57,9 +57,9 @@ pub struct Parting {
     /// The run.
     pub run: EngineRun,
     /// The scenario without its effects.
-    pub bare: Pair,
+    pub bare: EnginePair,
     /// The scenario as it is.
-    pub own: Pair,
+    pub own: EnginePair,
 }
 
 /// Every run of one of these robots at every pressure.

@@ -2,7 +2,7 @@
 
 use crate::error::CompareError;
 use crate::evaluate::EvaluateOptions;
-use crate::interval::{Fitted, half_width, interval};
+use crate::interval::{FittedData, half_width, interval};
 use crate::noise::NoiseModel;
 use crate::policy;
 use crate::study::predict::{first_slope, predict_dataset};
@@ -186,7 +186,7 @@ fn interval_of(
     if squares == 0.0 {
         return Ok(None);
     }
-    let data = [Fitted { dataset: misfit.dataset, noise, residual_m, misfit: factor, readings: 0 }];
+    let data = [FittedData { dataset: misfit.dataset, noise, residual_m, misfit: factor, readings: 0 }];
     let Some(half) = half_width(&data, &own.iter().map(|v| v / squares).collect::<Vec<_>>(), 1) else {
         return Ok(None);
     };

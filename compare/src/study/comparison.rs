@@ -3,12 +3,12 @@
 use crate::error::CompareError;
 use crate::evaluate::{EvaluateOptions, Evaluation, evaluate};
 use crate::evidence::Evidence;
-use crate::known::Known;
 use crate::slips::slips;
 use crate::study::calibrate::{Knob, calibrate};
 use crate::study::predict::{fit_scenario, predict_dataset};
 use crate::typed_effect::with_effect;
 use data::{About, Dataset};
+use models::Known;
 use models::Scenario;
 
 /// A model to hold against data.

@@ -5,8 +5,8 @@ use models::{Loads, Model, Scenario};
 
 use crate::CompareError;
 use crate::bench::{Held, HeldRow, held};
-use crate::characterize::{Settings, characterize};
-use crate::known::Known;
+use crate::characterize::{Reduction, characterize};
+use models::Known;
 
 /// Beam, muscle, fabric, arm.
 ///
@@ -31,7 +31,7 @@ fn fabric() -> Result<Held, CompareError> {
         let text = data::set_file(SET, &file)?;
         coupons.extend(parse_coupons(&file, &mut text.as_bytes(), 0, &CouponDefaults::default(), &mut |_, _| ())?);
     }
-    let settings = Settings { name: "nylon".into(), ..Settings::default() };
+    let settings = Reduction { name: "nylon".into(), ..Reduction::default() };
     let found = characterize(&coupons, &settings)?;
     let law = found.replays.iter().filter(|r| r.law == settings.name);
     let rows = law.filter_map(|r| {

@@ -3,14 +3,14 @@
 //! Values follow from the geometry of the pattern and from the published fabric; what nobody printed is assumed as in the
 //! finite elements: welds of 3 mm, a bending stiffness of 0.2 of that of a solid sheet, ν₁₂ = 0.2.
 
-use crate::known::Known;
 use data::{Published, PublishedFabric};
+use models::Known;
 use models::Scenario;
 use models::fabrics::shear_modulus;
 use models::scenario::ActuatorChoice;
 
 /// An effect to add, with the origin of its value (SI).
-pub(super) struct Addition {
+pub(super) struct MechanicsPart {
     pub effect: &'static str,
     pub value: f64,
     pub range: Option<[f64; 2]>,
@@ -26,7 +26,7 @@ const BENDING: (f64, [f64; 2]) = (0.2, [0.1, 0.5]);
 const NU12: f64 = 0.2;
 
 /// What to add to the bare model of an actuator kind, in this order; nothing for one that is not published.
-pub(super) fn additions(paper: &Published, actuator: &ActuatorChoice) -> Vec<Addition> {
+pub(super) fn additions(paper: &Published, actuator: &ActuatorChoice) -> Vec<MechanicsPart> {
     let kind = actuator.kind.name;
     let Some(fabric) = paper.actuator(kind).and_then(|a| paper.fabrics.iter().find(|f| f.name == a.fabric)) else {
         return Vec::new();
@@ -38,7 +38,7 @@ pub(super) fn additions(paper: &Published, actuator: &ActuatorChoice) -> Vec<Add
     }
 }
 
-const GROWTH: Addition = Addition {
+const GROWTH: MechanicsPart = MechanicsPart {
     effect: "arm_growth",
     value: 1.0,
     range: None,
@@ -46,10 +46,10 @@ const GROWTH: Addition = Addition {
     why: "geometry of an actuator outside the body: its axis rides on its own bulge",
 };
 
-fn pouch(fabric: &PublishedFabric) -> Vec<Addition> {
-    let predicted = |effect, value, why| Addition { effect, value, range: None, known: Known::Predicted, why };
+fn pouch(fabric: &PublishedFabric) -> Vec<MechanicsPart> {
+    let predicted = |effect, value, why| MechanicsPart { effect, value, range: None, known: Known::Predicted, why };
     let assumed =
-        |effect, value, range, why| Addition { effect, value, range: Some(range), known: Known::Assumed, why };
+        |effect, value, range, why| MechanicsPart { effect, value, range: Some(range), known: Known::Assumed, why };
     // A neo-Hookean sheet in its plane is 8 C10 stiff, as in the finite elements.
     let modulus_pa = fabric.c10_printed.map_or(0.5 * (fabric.e0_pa + fabric.e90_pa), |c10| 8e6 * c10);
     let bending = |factor: f64| factor * modulus_pa * fabric.thickness_m.powi(3) / 12.0;
@@ -79,20 +79,20 @@ fn pouch(fabric: &PublishedFabric) -> Vec<Addition> {
     ]
 }
 
-fn muscle(fabric: &PublishedFabric) -> Vec<Addition> {
-    let predicted = |effect, value, why| Addition { effect, value, range: None, known: Known::Predicted, why };
+fn muscle(fabric: &PublishedFabric) -> Vec<MechanicsPart> {
+    let predicted = |effect, value, why| MechanicsPart { effect, value, range: None, known: Known::Predicted, why };
     let wall_n_per_m = 0.5 * (fabric.e0_pa + fabric.e90_pa) * fabric.thickness_m;
     let mut list = vec![
         predicted("sunk_muscle", 1.0, "a tube glued over its flat width lies half in the wall"),
         predicted("flat_ends", 2.0, "both ends stay flat"),
-        Addition {
+        MechanicsPart {
             effect: "yarn_stretch",
             value: (1.0 - NU12) / wall_n_per_m,
             range: Some([(1.0 - 2.0 * NU12) / wall_n_per_m, 1.0 / wall_n_per_m]),
             known: Known::Assumed,
             why: "published E0, E90 and thickness; nu12 = 0.2 (0 to 0.4) is not printed",
         },
-        Addition {
+        MechanicsPart {
             effect: "glued_face",
             value: wall_n_per_m,
             range: None,

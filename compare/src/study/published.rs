@@ -5,9 +5,9 @@
 //! *calibrated*), does to the prediction.
 
 use crate::error::CompareError;
-use crate::known::Known;
 use crate::study::mechanics::{additions, with};
 use data::{Published, PublishedActuator, published};
+use models::Known;
 use models::{Loads, Model, Scenario, shipped};
 
 /// One rung: a model and what it predicts for the outermost marker.

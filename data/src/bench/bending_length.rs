@@ -7,10 +7,10 @@
 //! l overhang, θ angle below the horizontal of the line from edge to tip, c bending length \[m\], w weight per area \[N/m²\], D
 //! bending stiffness per width \[N·m\]. At 41.5° the formula has 0.509, so the convention makes D 5 % smaller.
 
-use super::{Bench, Field, Kind, Row, field, plain};
+use super::{Bench, BenchKind, BenchRow, Field, field, plain};
 use crate::units::Measured::{Angle, Length};
 
-pub(super) const ENTRY: Kind = Kind {
+pub(super) const ENTRY: BenchKind = BenchKind {
     name: "bending_length",
     sentence: "droop of a strip of fabric under its own weight, one specimen a row",
     columns: COLUMNS,
@@ -24,7 +24,7 @@ const COLUMNS: &[Field] = &[
     plain("areal_mass_g_m2", true),
 ];
 
-fn check(row: &Row) -> Result<(), [String; 2]> {
+fn check(row: &BenchRow) -> Result<(), [String; 2]> {
     let mass = row.value("areal_mass_g_m2");
     if !(mass > 0.1 && mass < 1e5) {
         let help = "write grams per square metre, for example # areal_mass_g_m2: 155".into();
@@ -43,7 +43,7 @@ fn check(row: &Row) -> Result<(), [String; 2]> {
     }
 }
 
-fn bending_length_m(row: &Row) -> Option<f64> {
+fn bending_length_m(row: &BenchRow) -> Option<f64> {
     let share = row.get("droop").map(f64::to_radians).map_or(0.5, |a| ((0.5 * a).cos() / (8.0 * a.tan())).cbrt());
     let peirce = |l: f64| l * share;
     row.get("bending_length").or_else(|| row.get("overhang").map(peirce))
@@ -52,7 +52,7 @@ fn bending_length_m(row: &Row) -> Option<f64> {
 /// Bending lengths c \[m\] of a table of this kind and weights per area w \[N/m²\], row by row.
 pub fn bending_lengths_m(bench: &Bench) -> Vec<[f64; 2]> {
     const G: f64 = 9.806_65;
-    let row = |row: &Row| Some([bending_length_m(row)?, 1e-3 * G * row.get("areal_mass_g_m2")?]);
+    let row = |row: &BenchRow| Some([bending_length_m(row)?, 1e-3 * G * row.get("areal_mass_g_m2")?]);
     bench.rows.iter().filter_map(row).collect()
 }
 

@@ -1,9 +1,9 @@
 //! A muscle: force over contraction at an actuator pressure, in a testing machine. Force 0 is free contraction.
 
-use super::{Field, Kind, Row, field, plain, scatter};
+use super::{BenchKind, BenchRow, Field, field, plain, scatter};
 use crate::units::Measured::{Angle, Force, Length, Pressure, Ratio};
 
-pub(super) const ENTRY: Kind = Kind {
+pub(super) const ENTRY: BenchKind = BenchKind {
     name: "force_contraction",
     sentence: "pull of a muscle over its contraction at a pressure",
     columns: COLUMNS,
@@ -22,7 +22,7 @@ const COLUMNS: &[Field] = &[
     plain("muscle", false),
 ];
 
-fn check(row: &Row) -> Result<(), [String; 2]> {
+fn check(row: &BenchRow) -> Result<(), [String; 2]> {
     let (p, e, f) = (row.value("p_act"), row.value("contraction"), row.value("force"));
     if p < 0.0 {
         return Err([format!("the actuator pressure is {} kPa", 1e-3 * p), "write a gauge pressure".into()]);

@@ -1,9 +1,9 @@
 //! A beam: tip deflection under a transverse load, at a body pressure. One end is clamped.
 
-use super::{Field, Kind, Row, field, plain, scatter};
+use super::{BenchKind, BenchRow, Field, field, plain, scatter};
 use crate::units::Measured::{Force, Length, Pressure};
 
-pub(super) const ENTRY: Kind = Kind {
+pub(super) const ENTRY: BenchKind = BenchKind {
     name: "load_deflection",
     sentence: "tip deflection of an inflated cantilever under a transverse tip load",
     columns: COLUMNS,
@@ -19,7 +19,7 @@ const COLUMNS: &[Field] = &[
     field("radius", "radius_mm", Length, false),
 ];
 
-fn check(row: &Row) -> Result<(), [String; 2]> {
+fn check(row: &BenchRow) -> Result<(), [String; 2]> {
     let (p, f, v) = (row.value("p_body"), row.value("load"), row.value("deflection"));
     if p <= 0.0 {
         let message = format!("the body pressure is {} kPa", 1e-3 * p);

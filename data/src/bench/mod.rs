@@ -20,11 +20,11 @@ use crate::units::Measured;
 pub use bending_length::bending_lengths_m;
 
 /// The list.
-pub const KINDS: &[Kind] = &[load_deflection::ENTRY, force_contraction::ENTRY, bending_length::ENTRY];
+pub const KINDS: &[BenchKind] = &[load_deflection::ENTRY, force_contraction::ENTRY, bending_length::ENTRY];
 
 /// A kind of table.
 #[derive(Debug, Clone, Copy)]
-pub struct Kind {
+pub struct BenchKind {
     /// Name, also of the file in a folder of data: `load_deflection` is `load_deflection.csv`.
     pub name: &'static str,
     /// One plain sentence.
@@ -32,7 +32,7 @@ pub struct Kind {
     /// Its columns.
     pub columns: &'static [Field],
     /// What a row must fulfil beyond its columns: message and what to write.
-    check: fn(&Row) -> Result<(), [String; 2]>,
+    check: fn(&BenchRow) -> Result<(), [String; 2]>,
 }
 
 /// A column.
@@ -57,14 +57,14 @@ const fn plain(name: &'static str, needed: bool) -> Field {
 
 /// One row in SI units (ratios as 1, angles in degrees), by the columns of its kind.
 #[derive(Debug, Clone)]
-pub struct Row {
-    kind: &'static Kind,
+pub struct BenchRow {
+    kind: &'static BenchKind,
     values: Vec<Option<f64>>,
     /// Line in the file, from 1.
     pub line: u64,
 }
 
-impl Row {
+impl BenchRow {
     /// The value of a column; none where the table has none.
     pub fn get(&self, base: &str) -> Option<f64> {
         self.kind.columns.iter().position(|f| f.base == base).and_then(|i| self.values[i])
@@ -80,13 +80,13 @@ impl Row {
 #[derive(Debug, Clone)]
 pub struct Bench {
     /// Its kind.
-    pub kind: &'static Kind,
+    pub kind: &'static BenchKind,
     /// File it was read from.
     pub file: String,
     /// How its numbers came to be.
     pub provenance: Provenance,
     /// Its rows, in the order of the file.
-    pub rows: Vec<Row>,
+    pub rows: Vec<BenchRow>,
     /// The robot of the folder or set it came from, as a scenario's text.
     pub scenario: Option<String>,
 }
@@ -151,7 +151,7 @@ pub fn parse_bench(file: &str, text: &str) -> Result<Option<Bench>, DataError> {
 }
 
 /// A mean with its scatter makes sense with both numbers only.
-fn scatter(row: &Row, sd: &str) -> Result<(), [String; 2]> {
+fn scatter(row: &BenchRow, sd: &str) -> Result<(), [String; 2]> {
     let wrong = |message: String| Err([message, format!("write {sd} above 0 and n of 2 or more, or leave both out")]);
     match (row.get(sd), row.get("n")) {
         (Some(sd), Some(n)) if sd > 0.0 && n >= 2.0 && n.fract() == 0.0 => Ok(()),

@@ -1,6 +1,6 @@
 //! Text to rows, for every kind.
 
-use super::{Bench, Field, KINDS, Kind, Row};
+use super::{Bench, BenchKind, BenchRow, Field, KINDS};
 use crate::about::Provenance;
 use crate::error::{DataError, Fault};
 use crate::lines::{Line, Lines};
@@ -21,7 +21,7 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Option<Bench>, DataError> 
     let (kind, header) = loop {
         let Some(line) = lines.next_filled()? else { return Ok(None) };
         let Some(comment) = line.text.trim_start().strip_prefix('#') else {
-            let header = Header::new(&line);
+            let header = BenchHeader::new(&line);
             let Some(kind) = KINDS.iter().find(|kind| header.is_of(kind, &notes)) else { return Ok(None) };
             header.units(kind, &line)?;
             break (kind, header);
@@ -46,7 +46,7 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Option<Bench>, DataError> 
 }
 
 /// The columns of a kind, as a sentence of an error.
-pub(super) fn wanted(kind: &Kind) -> String {
+pub(super) fn wanted(kind: &BenchKind) -> String {
     let names = |needed: bool| kind.columns.iter().filter(move |f| f.needed == needed).map(|f| f.expected);
     format!(
         "{}; if you like {}",
@@ -55,21 +55,21 @@ pub(super) fn wanted(kind: &Kind) -> String {
     )
 }
 
-struct Header {
+struct BenchHeader {
     names: Vec<String>,
     delimiter: char,
 }
 
-impl Header {
-    fn new(line: &Line) -> Header {
+impl BenchHeader {
+    fn new(line: &Line) -> BenchHeader {
         let most = |&d: &char| line.text.chars().filter(|c| *c == d).count();
         let delimiter = ['\t', ';', ','].into_iter().max_by_key(most).unwrap_or(',');
         let names = line.text.split(delimiter).map(|name| name.trim().trim_matches('"').to_lowercase()).collect();
-        Header { names, delimiter }
+        BenchHeader { names, delimiter }
     }
 
     /// Every column of the table means something in this kind, and what it lacks is said by no other kind.
-    fn is_of(&self, kind: &Kind, notes: &[Note]) -> bool {
+    fn is_of(&self, kind: &BenchKind, notes: &[Note]) -> bool {
         let all = self.names.iter().all(|name| kind.columns.iter().any(|f| f.base == base(name, f)));
         let noted = |f: &Field| notes.iter().any(|note| base(&note.key, f) == f.base);
         let there = |f: &Field| self.names.iter().any(|name| base(name, f) == f.base) || noted(f);
@@ -78,7 +78,7 @@ impl Header {
     }
 
     /// Names with a unit that is missing or unknown.
-    fn units(&self, kind: &Kind, line: &Line) -> Result<(), DataError> {
+    fn units(&self, kind: &BenchKind, line: &Line) -> Result<(), DataError> {
         for name in &self.names {
             let Some(field) = kind.columns.iter().find(|f| f.base == base(name, f)) else { continue };
             if let Some(dimension) = field.dimension
@@ -108,7 +108,7 @@ fn factor(name: &str, field: &Field) -> Option<f64> {
 }
 
 /// What the comments say for all rows.
-fn shared(kind: &Kind, notes: &[Note]) -> Result<Vec<Option<f64>>, DataError> {
+fn shared(kind: &BenchKind, notes: &[Note]) -> Result<Vec<Option<f64>>, DataError> {
     let of = |field: &Field| {
         let Some(note) = notes.iter().rfind(|note| base(&note.key, field) == field.base) else { return Ok(None) };
         let value = note.text.parse::<f64>().ok().filter(|v| v.is_finite()).zip(factor(&note.key, field));
@@ -122,7 +122,12 @@ fn shared(kind: &Kind, notes: &[Note]) -> Result<Vec<Option<f64>>, DataError> {
     kind.columns.iter().map(of).collect()
 }
 
-fn row(kind: &'static Kind, header: &Header, shared: &[Option<f64>], line: &Line) -> Result<Row, DataError> {
+fn row(
+    kind: &'static BenchKind,
+    header: &BenchHeader,
+    shared: &[Option<f64>],
+    line: &Line,
+) -> Result<BenchRow, DataError> {
     let cells: Vec<&str> = line.text.split(header.delimiter).map(str::trim).collect();
     if cells.len() != header.names.len() {
         let message = format!("the row has {} cells, the header {}", cells.len(), header.names.len());
@@ -148,7 +153,7 @@ fn row(kind: &'static Kind, header: &Header, shared: &[Option<f64>], line: &Line
         let help = format!("add the column, or # {name}: 155 above the header");
         return Err(DataError::Column(line.fault(format!("{name} is missing"), help)));
     }
-    let row = Row { kind, values, line: line.number };
+    let row = BenchRow { kind, values, line: line.number };
     (kind.check)(&row).map_err(|[message, help]| DataError::Cell(line.fault(message, help)))?;
     Ok(row)
 }

@@ -1,18 +1,18 @@
 //! One line of a tensile table, cell by cell.
 
-use super::columns::{Header, QUANTITIES};
+use super::columns::{CouponHeader, QUANTITIES};
 use crate::error::{DataError, Fault};
 use crate::lines::Line;
 
 /// The cells of a line.
 pub(super) struct Cells<'a> {
-    header: &'a Header,
+    header: &'a CouponHeader,
     pub line: Line<'a>,
 }
 
 impl<'a> Cells<'a> {
     /// Checks the number of cells.
-    pub fn new(header: &'a Header, line: Line<'a>) -> Result<Cells<'a>, DataError> {
+    pub fn new(header: &'a CouponHeader, line: Line<'a>) -> Result<Cells<'a>, DataError> {
         let (found, wanted) = (line.text.split(header.delimiter).count(), header.names.len());
         if found == wanted {
             return Ok(Cells { header, line });

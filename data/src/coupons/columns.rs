@@ -8,14 +8,14 @@ use crate::units::Measured;
 use spelling::units::Unit;
 
 /// A quantity of a tensile test.
-pub(super) struct Quantity {
+pub(super) struct CouponQuantity {
     pub base: &'static str,
     pub expected: &'static str,
     pub dimension: Option<Measured>,
 }
 
-const fn number(base: &'static str, expected: &'static str, dimension: Measured) -> Quantity {
-    Quantity { base, expected, dimension: Some(dimension) }
+const fn number(base: &'static str, expected: &'static str, dimension: Measured) -> CouponQuantity {
+    CouponQuantity { base, expected, dimension: Some(dimension) }
 }
 
 /// Positions in [`QUANTITIES`].
@@ -30,12 +30,12 @@ pub(super) const LENGTH: usize = 7;
 pub(super) const THICKNESS: usize = 8;
 pub(super) const LOADED_WIDTH: usize = 9;
 
-pub(super) const QUANTITIES: [Quantity; 10] = [
+pub(super) const QUANTITIES: [CouponQuantity; 10] = [
     number("strain", "strain_pct", Measured::Ratio),
     number("stress", "stress_mpa", Measured::Pressure),
     number("displacement", "displacement_mm", Measured::Length),
     number("force", "force_n", Measured::Force),
-    Quantity { base: "specimen", expected: "specimen", dimension: None },
+    CouponQuantity { base: "specimen", expected: "specimen", dimension: None },
     number("direction", "direction_deg", Measured::Angle),
     number("width", "width_mm", Measured::Length),
     number("length", "length_mm", Measured::Length),
@@ -48,16 +48,16 @@ const WANTED: &str = "strain_pct,stress_mpa or displacement_mm,force_n, and if y
 
 /// A column that holds a quantity.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Column {
+pub(super) struct CouponColumn {
     pub index: usize,
     pub unit: Option<Unit>,
 }
 
 /// The header line, understood.
 #[derive(Debug, Clone)]
-pub(super) struct Header {
+pub(super) struct CouponHeader {
     pub names: Vec<String>,
-    pub columns: [Option<Column>; QUANTITIES.len()],
+    pub columns: [Option<CouponColumn>; QUANTITIES.len()],
     pub delimiter: char,
 }
 
@@ -69,7 +69,7 @@ pub(super) struct Notes {
     pub provenance: Option<Provenance>,
 }
 
-impl Header {
+impl CouponHeader {
     /// x and y of the curve.
     pub fn curve(&self) -> [usize; 2] {
         if self.columns[STRAIN].is_some() { [STRAIN, STRESS] } else { [DISPLACEMENT, FORCE] }
@@ -83,7 +83,7 @@ impl Header {
 }
 
 /// Reads comments and header.
-pub(super) fn read(lines: &mut Lines, defaults: &CouponDefaults) -> Result<(Notes, Header), DataError> {
+pub(super) fn read(lines: &mut Lines, defaults: &CouponDefaults) -> Result<(Notes, CouponHeader), DataError> {
     let mut notes = Notes::default();
     loop {
         let file = lines.file().to_string();
@@ -111,14 +111,14 @@ fn note(notes: &mut Notes, comment: &str, line: &Line) -> Result<(), DataError> 
         return Ok(());
     }
     match meaning(&key) {
-        Meaning::Known(quantity, Some(unit)) if quantity > SPECIMEN => {
+        CouponMeaning::Known(quantity, Some(unit)) if quantity > SPECIMEN => {
             let said = value.parse::<f64>().ok().map(|v| unit.to_si(v)).filter(|v| v.is_finite());
             let wrong =
                 || line.fault(format!("{key} must be a number, found \"{value}\""), format!("write # {key}: 20"));
             notes.numbers[quantity] = Some(said.ok_or_else(|| DataError::Cell(wrong()))?);
             Ok(())
         }
-        Meaning::NoUnit(quantity) if quantity > SPECIMEN => {
+        CouponMeaning::NoUnit(quantity) if quantity > SPECIMEN => {
             let help = format!("write # {}: {value}", QUANTITIES[quantity].expected);
             Err(DataError::Column(line.fault(format!("{key} has no unit in its name"), help)))
         }
@@ -146,7 +146,7 @@ fn provenance(value: &str, line: &Line) -> Result<Provenance, DataError> {
     found.ok_or_else(|| DataError::Column(line.fault(format!("unknown provenance \"{value}\""), help)))
 }
 
-fn header(line: &Line, replaced: &[String]) -> Result<Header, DataError> {
+fn header(line: &Line, replaced: &[String]) -> Result<CouponHeader, DataError> {
     let delimiter = [b'\t', b';', b',']
         .into_iter()
         .max_by_key(|&d| line.text.bytes().filter(|&byte| byte == d).count())
@@ -160,20 +160,20 @@ fn header(line: &Line, replaced: &[String]) -> Result<Header, DataError> {
     let names = if replaced.is_empty() { written } else { replaced.to_vec() };
     let mut columns = [None; QUANTITIES.len()];
     for (index, name) in names.iter().enumerate() {
-        let Meaning::Known(quantity, unit) = meaning(&name.to_lowercase()) else { continue };
-        if columns[quantity].replace(Column { index, unit }).is_some() {
+        let CouponMeaning::Known(quantity, unit) = meaning(&name.to_lowercase()) else { continue };
+        if columns[quantity].replace(CouponColumn { index, unit }).is_some() {
             let help = format!("keep one of them, for example {}", QUANTITIES[quantity].expected);
             let message = format!("two columns hold the {}", QUANTITIES[quantity].base);
             return Err(DataError::Column(line.fault(message, help)));
         }
     }
-    let header = Header { names, columns, delimiter };
+    let header = CouponHeader { names, columns, delimiter };
     complete(&header, line)?;
     Ok(header)
 }
 
 /// Exactly one whole curve must be there.
-fn complete(header: &Header, line: &Line) -> Result<(), DataError> {
+fn complete(header: &CouponHeader, line: &Line) -> Result<(), DataError> {
     let has = |quantity: usize| header.columns[quantity].is_some();
     match ([has(STRAIN), has(STRESS)], [has(DISPLACEMENT), has(FORCE)]) {
         ([true, true], [false, false]) | ([false, false], [true, true]) => return Ok(()),
@@ -193,8 +193,8 @@ fn complete(header: &Header, line: &Line) -> Result<(), DataError> {
     let found = header.names.join(", ");
     for name in &header.names {
         let (trouble, quantity) = match meaning(&name.to_lowercase()) {
-            Meaning::NoUnit(quantity) => ("has no unit in its name", quantity),
-            Meaning::OtherUnit(quantity) => ("has an unknown unit", quantity),
+            CouponMeaning::NoUnit(quantity) => ("has no unit in its name", quantity),
+            CouponMeaning::OtherUnit(quantity) => ("has an unknown unit", quantity),
             _ => continue,
         };
         let units = QUANTITIES[quantity].dimension.map(Measured::sentence).unwrap_or_default();
@@ -210,23 +210,23 @@ fn complete(header: &Header, line: &Line) -> Result<(), DataError> {
     Err(DataError::Column(line.fault(format!("column {expected} is missing; found {found}"), help)))
 }
 
-enum Meaning {
+enum CouponMeaning {
     Known(usize, Option<Unit>),
     NoUnit(usize),
     OtherUnit(usize),
     Extra,
 }
 
-fn meaning(name: &str) -> Meaning {
+fn meaning(name: &str) -> CouponMeaning {
     let by_base = |base: &str| QUANTITIES.iter().position(|q| q.base == base);
     if let Some(quantity) = by_base(name) {
         let plain = QUANTITIES[quantity].dimension.is_none();
-        return if plain { Meaning::Known(quantity, None) } else { Meaning::NoUnit(quantity) };
+        return if plain { CouponMeaning::Known(quantity, None) } else { CouponMeaning::NoUnit(quantity) };
     }
-    let Some((base, suffix)) = name.rsplit_once('_') else { return Meaning::Extra };
-    let Some(quantity) = by_base(base) else { return Meaning::Extra };
+    let Some((base, suffix)) = name.rsplit_once('_') else { return CouponMeaning::Extra };
+    let Some(quantity) = by_base(base) else { return CouponMeaning::Extra };
     match QUANTITIES[quantity].dimension.and_then(|dimension| dimension.unit(suffix)) {
-        Some(unit) => Meaning::Known(quantity, Some(unit)),
-        None => Meaning::OtherUnit(quantity),
+        Some(unit) => CouponMeaning::Known(quantity, Some(unit)),
+        None => CouponMeaning::OtherUnit(quantity),
     }
 }

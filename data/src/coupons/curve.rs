@@ -2,7 +2,8 @@
 
 use super::cells::Cells;
 use super::columns::{
-    DIRECTION, Header, LENGTH, LOADED_WIDTH, Notes, QUANTITIES, Quantity, SPECIMEN, STRAIN, THICKNESS, WIDTH,
+    CouponHeader, CouponQuantity, DIRECTION, LENGTH, LOADED_WIDTH, Notes, QUANTITIES, SPECIMEN, STRAIN, THICKNESS,
+    WIDTH,
 };
 use super::{Coupon, CouponDefaults, Direction, Pulled};
 use crate::error::{DataError, Fault};
@@ -18,7 +19,7 @@ const LARGEST_STRAIN: f64 = 3.0;
 /// All specimens of a file, as far as it has been read.
 pub(super) struct Specimens<'a> {
     file: String,
-    header: &'a Header,
+    header: &'a CouponHeader,
     notes: Notes,
     found: Vec<Raw>,
 }
@@ -37,7 +38,7 @@ struct Raw {
 }
 
 impl<'a> Specimens<'a> {
-    pub fn new(file: &str, header: &'a Header, notes: Notes) -> Specimens<'a> {
+    pub fn new(file: &str, header: &'a CouponHeader, notes: Notes) -> Specimens<'a> {
         Specimens { file: file.to_string(), header, notes, found: Vec::new() }
     }
 
@@ -114,7 +115,7 @@ impl<'a> Specimens<'a> {
 
     /// What the rows, the comments or the caller say; they must not contradict each other.
     fn number(&self, raw: &Raw, specimen: &str, quantity: usize, typed: Option<f64>) -> Result<Option<f64>, DataError> {
-        let Quantity { base, expected, .. } = &QUANTITIES[quantity];
+        let CouponQuantity { base, expected, .. } = &QUANTITIES[quantity];
         let written = raw.numbers[quantity].or(self.notes.numbers[quantity]);
         let unit = if quantity == DIRECTION { ("deg", 1.0) } else { ("mm", 1e3) };
         if let (Some(written), Some(typed)) = (written, typed)

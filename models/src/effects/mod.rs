@@ -114,8 +114,9 @@ impl Stage {
     }
 }
 
-/// What an effect belongs to: where to look for it on the robot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+/// What an effect belongs to: where to look for it on the robot. Supply and measurement are to be ruled out before physics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Group {
     /// The actuator and its fabric.
     Actuator,
@@ -130,6 +131,11 @@ pub enum Group {
 }
 
 impl Group {
+    /// Whether it is checked on the bench before physics is blamed.
+    pub fn is_nuisance(self) -> bool {
+        matches!(self, Group::Supply | Group::Measurement)
+    }
+
     /// Lower-case word for tables and JSON.
     pub fn word(self) -> &'static str {
         match self {

@@ -5,17 +5,7 @@
 //! without a unit, MPa is assumed. Neither density nor Poisson's ratio is printed.
 
 use super::{Law, Recipe, by_name};
-
-/// How a number is known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Known {
-    /// On the fabric itself.
-    Measured,
-    /// Printed by someone.
-    Published,
-    /// Guessed within what is usual.
-    Assumed,
-}
+use crate::Known;
 
 /// A named fabric.
 #[derive(Debug, Clone, Copy)]
@@ -73,17 +63,6 @@ const SILICONE_NYLON: &[(&str, f64, Known)] = &[
 /// The material of that name.
 pub fn material(name: &str) -> Option<&'static Material> {
     MATERIALS.iter().find(|m| m.name == name)
-}
-
-impl Known {
-    /// Lower-case word for tables and JSON.
-    pub fn word(self) -> &'static str {
-        match self {
-            Known::Measured => "measured",
-            Known::Published => "published",
-            Known::Assumed => "assumed",
-        }
-    }
 }
 
 impl Material {

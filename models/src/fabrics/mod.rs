@@ -28,7 +28,7 @@ mod wrinkling_film;
 pub use bias_extension::BiasExtension;
 pub use curve::Curve;
 pub use laminate::{Laminate, Mixed, Ply};
-pub use materials::{Known, MATERIALS, Material, material};
+pub use materials::{MATERIALS, Material, material};
 pub use neo_hookean::NeoHookean;
 pub use orthotropic::{Orthotropic, shear_modulus};
 pub use pull::Pull;

@@ -8,19 +8,19 @@ mod told_several;
 
 use super::fem_inputs::seconds;
 use super::{Context, Outcome};
-use crate::cli::Simulate;
+use crate::cli::SimulateArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, maker};
 use fem::FemError;
 use fem::session::{FeRun, Further, SUMMARY, Settings, Source, simulate};
 use ibr::fe_source;
 use ibr::pages::run_plots;
-use plan::Plan;
+use plan::RunPlan;
 use serde_json::json;
 use std::path::Path;
 use std::time::Duration;
 
-pub fn run(args: &Simulate, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let plan = plan::plan(args, fe_source(&args.case)?)?;
     let folder = args.out.clone().unwrap_or_else(|| plan.folder(&args.case));
     let settings = Settings {
@@ -36,13 +36,13 @@ pub fn run(args: &Simulate, context: &mut Context) -> Result<Outcome, Failure> {
     };
     check_folder(&folder)?;
     match plan {
-        Plan::Single(source) => one(args, &source, &settings, context),
-        Plan::Table(base, variations) => several::table(&base, &variations, &settings, context),
-        Plan::Uncertain(cube) => several::uncertain(&cube, &args.set, settings, context),
+        RunPlan::Single(source) => one(args, &source, &settings, context),
+        RunPlan::Table(base, variations) => several::table(&base, &variations, &settings, context),
+        RunPlan::Uncertain(cube) => several::uncertain(&cube, &args.set, settings, context),
     }
 }
 
-fn one(args: &Simulate, source: &Source, settings: &Settings, context: &mut Context) -> Result<Outcome, Failure> {
+fn one(args: &SimulateArgs, source: &Source, settings: &Settings, context: &mut Context) -> Result<Outcome, Failure> {
     let folder = settings.folder.as_deref().unwrap_or(Path::new(""));
     let run = match context.fem(|progress| simulate(source, settings, progress)) {
         Err(FemError::Interrupted { time_s, step, .. }) => {
@@ -84,7 +84,7 @@ fn notes(run: &FeRun, folder: &Path) -> Vec<String> {
 }
 
 /// Options that make the case what it is.
-fn typed_again(args: &Simulate) -> String {
+fn typed_again(args: &SimulateArgs) -> String {
     let pressure = args.pressure.iter().map(|p| ("pressure", p));
     let others = args.mesh.iter().map(|m| ("mesh", m)).chain(args.set.iter().map(|s| ("set", s)));
     pressure.chain(others).map(|(option, value)| format!(" --{option} {value}")).collect()

@@ -1,6 +1,6 @@
 //! What the options of `ibr simulate` ask for: one run, or several that differ in one thing each.
 
-use crate::cli::Simulate;
+use crate::cli::SimulateArgs;
 use crate::commands::fem_inputs::{pressures, sizes};
 use crate::failure::Failure;
 use fem::robot::{KEYS, OTHERS};
@@ -8,7 +8,7 @@ use fem::session::{Cube, Source, Variation, cube, mesh_keys, product, rounded};
 use std::path::{Path, PathBuf};
 
 /// What is to be run.
-pub enum Plan {
+pub enum RunPlan {
     /// One run.
     Single(Source),
     /// Runs that differ in seed, mesh or pressure from the scenario with the common options.
@@ -17,25 +17,25 @@ pub enum Plan {
     Uncertain(Cube),
 }
 
-impl Plan {
+impl RunPlan {
     /// The folder of a case if none is named.
     pub fn folder(&self, case: &str) -> PathBuf {
         let stem = Path::new(case).file_stem().unwrap_or_default().to_string_lossy();
         let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect();
         let kind = match self {
-            Plan::Uncertain(_) => "uncertain",
-            Plan::Table(..) => "batch",
-            Plan::Single(_) => "simulate",
+            RunPlan::Uncertain(_) => "uncertain",
+            RunPlan::Table(..) => "batch",
+            RunPlan::Single(_) => "simulate",
         };
         PathBuf::from(format!("ibr-report/{kind}-{name}"))
     }
 }
 
 /// Reads the options.
-pub fn plan(args: &Simulate, source: Source) -> Result<Plan, Failure> {
+pub fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan, Failure> {
     if !source.is_robot() {
         return match robot_option(args) {
-            None => Ok(Plan::Single(source)),
+            None => Ok(RunPlan::Single(source)),
             Some(option) => {
                 let message = format!("{option} is for robots; {} is a finite element case", args.case);
                 Err(Failure::usage(message, "change the case file, or name a robot's scenario such as epam"))
@@ -53,20 +53,20 @@ pub fn plan(args: &Simulate, source: Source) -> Result<Plan, Failure> {
     let base = source.with(&common)?;
     if let Some(robots) = args.uncertain {
         let known: Vec<&str> = args.set.iter().filter_map(|text| text.split('=').next()).map(str::trim).collect();
-        return Ok(Plan::Uncertain(cube(base, &known, robots as usize)?));
+        return Ok(RunPlan::Uncertain(cube(base, &known, robots as usize)?));
     }
     let (_, run) = base.robot_run()?;
     let of_run = || run.meshes_m.iter().map(|sizes| sizes.map(|m| rounded(m * 1e3))).collect();
     let meshes = typed.unwrap_or_else(of_run);
     let separate = args.separate || (run.separate && run.pressures_pa.len() > 1);
     if meshes.len() < 2 && !separate && args.seeds.is_none() {
-        return Ok(Plan::Single(base));
+        return Ok(RunPlan::Single(base));
     }
-    Ok(Plan::Table(base, product(&run, args.seeds, separate, &meshes)))
+    Ok(RunPlan::Table(base, product(&run, args.seeds, separate, &meshes)))
 }
 
 /// An option that only robots have.
-fn robot_option(args: &Simulate) -> Option<&'static str> {
+fn robot_option(args: &SimulateArgs) -> Option<&'static str> {
     let given = [
         ("--pressure", args.pressure.is_some()),
         ("--separate", args.separate),

@@ -3,7 +3,8 @@
 use super::{Against, CHECKS, Check, Figure, Line, Outcome};
 use crate::cost::cpu_seconds;
 use crate::exact::{OracleRow, oracle_table};
-use crate::{Answer, Error, Part, Progress};
+use crate::{Error, Findings, Printed};
+use compare::Progress;
 use serde_json::{Value, json};
 
 /// What is verified.
@@ -24,7 +25,7 @@ pub type Figures = Vec<(&'static str, Figure)>;
 ///
 /// # Errors
 /// A check that does not exist, or whose run stops.
-pub fn verify(choice: &Choice, progress: Progress) -> Result<(Answer, Figures), Error> {
+pub fn verify(choice: &Choice, progress: &mut Progress) -> Result<(Findings, Figures), Error> {
     let checks = chosen(choice)?;
     let rows = if choice.only.is_empty() { oracle_table() } else { Vec::new() };
     let mut parts = if rows.is_empty() { Vec::new() } else { closed_forms(&rows, choice.every) };
@@ -42,11 +43,11 @@ pub fn verify(choice: &Choice, progress: Progress) -> Result<(Answer, Figures), 
         figures.extend(outcome.figure.map(|figure| (check.name, figure)));
     }
     let head = &["check", "quantity", "measured", "known", "error", "", "CPU-s"];
-    parts.push(Part::table(head, 2, cells.into_iter()));
-    parts.push(Part::Text(format!("{} of {lines} engine results within their limits\n", lines - missed)));
+    parts.push(Printed::table(head, 2, cells.into_iter()));
+    parts.push(Printed::Text(format!("{} of {lines} engine results within their limits\n", lines - missed)));
     let left = CHECKS.iter().filter(|c| c.slow).count();
     if !choice.slow && choice.only.is_empty() && left > 0 {
-        parts.push(Part::Text(format!("{left} longer checks were left out; `ibr verify --slow` runs them too\n")));
+        parts.push(Printed::Text(format!("{left} longer checks were left out; `ibr verify --slow` runs them too\n")));
     }
     let wrong = rows.iter().filter(|r| !r.agrees()).count();
     let list = rows.iter().map(|r| {
@@ -55,10 +56,10 @@ pub fn verify(choice: &Choice, progress: Progress) -> Result<(Answer, Figures), 
     });
     let json = json!({"schema": "ibr.verify", "version": 1, "wrong": wrong, "rows": list.collect::<Vec<_>>(),
         "engine_missed": missed, "engine": engine});
-    Ok((Answer { parts, json, missed: wrong + missed > 0 }, figures))
+    Ok((Findings { parts, json, missed: wrong + missed > 0 }, figures))
 }
 
-fn closed_forms(rows: &[OracleRow], every: bool) -> Vec<Part> {
+fn closed_forms(rows: &[OracleRow], every: bool) -> Vec<Printed> {
     let count = rows.iter().filter(|row| row.agrees()).count();
     let wrong = rows.iter().filter(|row| !row.agrees()).map(|row| {
         format!("WRONG: {}, {}: {} expected, {:e} computed\n", row.section, row.quantity, row.printed, row.computed)
@@ -69,16 +70,16 @@ fn closed_forms(rows: &[OracleRow], every: bool) -> Vec<Part> {
             let [section, quantity, printed] = [r.section, r.quantity, r.printed].map(String::from);
             vec![section, quantity, printed, format!("{:.10e}", r.computed), mark.into()]
         });
-        Part::table(&["section", "quantity", "expected", "computed", ""], 2, cells)
+        Printed::table(&["section", "quantity", "expected", "computed", ""], 2, cells)
     } else {
         let cells = rows.chunk_by(|a, b| a.section == b.section).map(|rows| {
             let agree = rows.iter().filter(|row| row.agrees()).count();
             vec![rows[0].section.to_string(), rows.len().to_string(), agree.to_string()]
         });
-        Part::table(&["section", "numbers", "reproduced"], 1, cells)
+        Printed::table(&["section", "numbers", "reproduced"], 1, cells)
     };
     let sum = format!("{count} of {} numbers reproduced to the last printed digit\n\n", rows.len());
-    vec![table, Part::Text(wrong.collect::<String>() + &sum)]
+    vec![table, Printed::Text(wrong.collect::<String>() + &sum)]
 }
 
 fn chosen(choice: &Choice) -> Result<Vec<&'static Check>, Error> {

@@ -1,7 +1,7 @@
 //! How often a diagnosis is right, on data whose hidden effects follow other laws.
 
-use crate::{Answer, Error, Part};
-use challenge::bench::{Attainable, Bench, BenchOptions, Confusion, Row, Target, run as run_bench};
+use crate::{Error, Findings, Printed};
+use challenge::bench::{Attainable, Confusion, Discovery, DiscoveryOptions, FigureRow, Goal, run as run_bench};
 use challenge::truth::{ROBOTS, standard_protocol};
 use challenge::{Draw, Truth};
 use compare::Evidence;
@@ -22,14 +22,14 @@ const ENOUGH: f64 = 16.0;
 ///
 /// # Errors
 /// A robot without an equilibrium, or a diagnosis that cannot be made.
-pub fn measure(sets: usize, seed: u64, machine: &str) -> Result<Answer, Error> {
-    let options = BenchOptions { seed, sets };
+pub fn measure(sets: usize, seed: u64, machine: &str) -> Result<Findings, Error> {
+    let options = DiscoveryOptions { seed, sets };
     let bench = run_bench(&options, diagnose, &|_| ())?;
     let seconds = seconds(seed)?;
-    let time = Row::number(
+    let time = FigureRow::number(
         "full diagnosis",
         "median CPU seconds on one core",
-        Target::AtMost(TIME_S),
+        Goal::AtMost(TIME_S),
         Some(seconds),
         ROBOTS.len(),
     );
@@ -40,7 +40,7 @@ pub fn measure(sets: usize, seed: u64, machine: &str) -> Result<Answer, Error> {
         "made": bench.made, "seen": bench.seen, "failed": bench.failed, "time": {"machine": machine, "row": time},
     });
     let missed = bench.rows.iter().chain([&time]).any(|row| row.met == Some(false)) || !bench.failed.is_empty();
-    Ok(Answer { parts: parts(&bench, &time), json, missed })
+    Ok(Findings { parts: parts(&bench, &time), json, missed })
 }
 
 /// Median CPU time of a diagnosis, one set with a hidden effect for every actuator.
@@ -60,7 +60,7 @@ fn seconds(seed: u64) -> Result<f64, Error> {
     Ok(0.5 * (times[1] + times[2]))
 }
 
-fn parts(bench: &Bench, time: &Row) -> Vec<Part> {
+fn parts(bench: &Discovery, time: &FigureRow) -> Vec<Printed> {
     let percent = |v: f64| format!("{:.0} %", 100.0 * v);
     let head = &["sets of", "figure", "wanted", "measured", "95 % interval", "sets", "met"];
     let by_part = bench
@@ -87,25 +87,25 @@ fn parts(bench: &Bench, time: &Row) -> Vec<Part> {
         bench.missed_after, bench.missed_by_law
     );
     vec![
-        Part::Text(format!("Diagnosis of data with hidden effects, seed {}\n", bench.seed)),
-        Part::table(head, 2, bench.rows.iter().chain([time]).map(cells)),
-        Part::Text("\nOne hidden effect, by part of the sets\n".into()),
-        Part::table(&["of", "sets", "alarm", "truth on top", "truth in set"], 1, by_part),
-        Part::Text("\nOne hidden effect: what was named\n".into()),
-        Part::table(named_head, 2, named),
-        Part::Text(
+        Printed::Text(format!("Diagnosis of data with hidden effects, seed {}\n", bench.seed)),
+        Printed::table(head, 2, bench.rows.iter().chain([time]).map(cells)),
+        Printed::Text("\nOne hidden effect, by part of the sets\n".into()),
+        Printed::table(&["of", "sets", "alarm", "truth on top", "truth in set"], 1, by_part),
+        Printed::Text("\nOne hidden effect: what was named\n".into()),
+        Printed::table(named_head, 2, named),
+        Printed::Text(
             "Medians. λ below 16: the data do not hold the answer. Behind by more than 6 without λ: the robot's law is not \
              the catalogue's formula.\n"
                 .into(),
         ),
-        Part::Text(limits(bench) + &attainable(&bench.attainable) + &missed),
-        Part::Text("\nAmbiguous, after the next experiment: by what was hidden\n".into()),
-        Part::table(&["hidden", "sets", "truth on top"], 1, after),
-        Part::Text(
+        Printed::Text(limits(bench) + &attainable(&bench.attainable) + &missed),
+        Printed::Text("\nAmbiguous, after the next experiment: by what was hidden\n".into()),
+        Printed::table(&["hidden", "sets", "truth on top"], 1, after),
+        Printed::Text(
             "\nMade by finite elements, bare model with B = 0: what it lacks, error at held-out pressures\n".into(),
         ),
-        Part::table(made_head, 5, made),
-        Part::Text(bench.failed.iter().map(|reason| format!("failed: {reason}\n")).collect()),
+        Printed::table(made_head, 5, made),
+        Printed::Text(bench.failed.iter().map(|reason| format!("failed: {reason}\n")).collect()),
     ]
 }
 
@@ -115,7 +115,7 @@ fn number(value: Option<f64>) -> String {
 }
 
 /// Of every hidden effect the ambiguous sets after the next experiment, and those of them with the truth on top.
-fn after(bench: &Bench) -> BTreeMap<String, [usize; 2]> {
+fn after(bench: &Discovery) -> BTreeMap<String, [usize; 2]> {
     let mut counts = BTreeMap::new();
     for (seen, after) in bench.seen.iter().filter_map(|seen| Some((seen, seen.after.as_ref()?))) {
         let name = seen.truth.effects.first().map_or_else(String::new, |choice| choice.name.clone());
@@ -127,7 +127,7 @@ fn after(bench: &Bench) -> BTreeMap<String, [usize; 2]> {
 }
 
 /// How many misses of single effects no method could avoid with these data, cell by cell of the table above.
-fn limits(bench: &Bench) -> String {
+fn limits(bench: &Discovery) -> String {
     let count = |chosen: &dyn Fn(&Confusion) -> bool| -> usize {
         bench.confusion.iter().filter(|c| chosen(c)).map(|c| c.count).sum()
     };
@@ -167,12 +167,12 @@ fn attainable(limits: &Attainable) -> String {
     )
 }
 
-fn cells(row: &Row) -> Vec<String> {
+fn cells(row: &FigureRow) -> Vec<String> {
     let shown = |v: f64| if row.share { format!("{:.1} %", 100.0 * v) } else { format!("{v:.2}") };
     let wanted = match row.target {
-        Target::AtLeast(v) => format!("≥ {}", shown(v)),
-        Target::AtMost(v) => format!("≤ {}", shown(v)),
-        Target::Between(low, high) => format!("{}–{}", shown(low), shown(high)),
+        Goal::AtLeast(v) => format!("≥ {}", shown(v)),
+        Goal::AtMost(v) => format!("≤ {}", shown(v)),
+        Goal::Between(low, high) => format!("{}–{}", shown(low), shown(high)),
     };
     let interval = row.interval.map_or("–".into(), |[low, high]| format!("{}–{}", shown(low), shown(high)));
     let met = row.met.map_or("–", |met| if met { "yes" } else { "no" });

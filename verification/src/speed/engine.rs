@@ -4,7 +4,8 @@ use super::plain_loop::Membrane;
 use super::workloads as speed;
 use crate::checks::Against;
 use crate::cost::{cpu_seconds, resident_bytes};
-use crate::{Answer, Error, Part, Progress};
+use crate::{Error, Findings, Printed};
+use compare::Progress;
 use fem::Simulation;
 use fem::robot::RobotSettings;
 use serde_json::json;
@@ -85,7 +86,7 @@ impl Figure {
 ///
 /// # Errors
 /// A run that stops.
-pub fn measure(all: bool, machine: &str, progress: Progress) -> Result<Answer, Error> {
+pub fn measure(all: bool, machine: &str, progress: &mut Progress) -> Result<Findings, Error> {
     // First: later it would get the room that others gave back, and not grow.
     let memory = memory()?;
     progress("against a plain loop", None);
@@ -105,14 +106,14 @@ pub fn measure(all: bool, machine: &str, progress: Progress) -> Result<Answer, E
     Ok(report(&figures, machine))
 }
 
-fn report(figures: &[Figure], machine: &str) -> Answer {
+fn report(figures: &[Figure], machine: &str) -> Findings {
     let head = &["what", "quads", "median (range)", "wanted", "met", "energy residual"];
     let list: Vec<_> = figures.iter().map(Figure::json).collect();
-    Answer {
+    Findings {
         parts: vec![
-            Part::Text(format!("Finite elements on {machine}\n")),
-            Part::table(head, 1, figures.iter().map(Figure::row)),
-            Part::Text(roofline(figures)),
+            Printed::Text(format!("Finite elements on {machine}\n")),
+            Printed::table(head, 1, figures.iter().map(Figure::row)),
+            Printed::Text(roofline(figures)),
         ],
         json: json!({"schema": "ibr.bench.fem", "version": 2, "machine": machine, "figures": list}),
         missed: figures.iter().any(|f| f.met() == Some(false)),
@@ -182,7 +183,7 @@ fn two_threads() -> Result<Figure, Error> {
 
 /// Element-steps per CPU-second with contact (folded, blown up, at rest) over those of a pillow with bending; the rates, and
 /// that of membranes alone. They alternate stretch by stretch, one ratio per whole run.
-fn rates(progress: Progress) -> Result<Vec<Figure>, Error> {
+fn rates(progress: &mut Progress) -> Result<Vec<Figure>, Error> {
     let problem = speed::folded_cpam(2e-3, true)?;
     let mut touching = Simulation::new(&problem)?;
     let (mut membrane, mut bending) = (pillow(100, false, 1)?, pillow(100, true, 1)?);

@@ -1,6 +1,7 @@
 //! Speed of the model on this machine, beside what a controller needs.
 
-use crate::{Answer, Error, Part, Progress};
+use crate::{Error, Findings, Printed};
+use compare::Progress;
 use compare::study::published::shipped_scenario;
 use models::{Loads, Model, Scenario, Target, Unsolved};
 use serde_json::{Value, json};
@@ -52,7 +53,7 @@ impl Figure {
 ///
 /// # Errors
 /// A shipped robot without an equilibrium.
-pub fn measure(machine: &str, progress: Progress) -> Result<Answer, Error> {
+pub fn measure(machine: &str, progress: &mut Progress) -> Result<Findings, Error> {
     let mut figures = Vec::new();
     for kind in models::actuators::ACTUATORS.iter().map(|a| a.name) {
         progress(kind, None);
@@ -60,10 +61,10 @@ pub fn measure(machine: &str, progress: Progress) -> Result<Answer, Error> {
     }
     let head = &["what", "textbook [µs]", "wanted [µs]", "shipped [µs]", "ratio", "wanted", "met"];
     let list: Vec<Value> = figures.iter().map(Figure::json).collect();
-    Ok(Answer {
+    Ok(Findings {
         parts: vec![
-            Part::Text(format!("Median time on one core of {machine}\n")),
-            Part::table(head, 1, figures.iter().map(Figure::row)),
+            Printed::Text(format!("Median time on one core of {machine}\n")),
+            Printed::table(head, 1, figures.iter().map(Figure::row)),
         ],
         json: json!({"schema": "ibr.bench", "version": 2, "machine": machine, "figures": list}),
         missed: !figures.iter().all(Figure::met),

@@ -2,12 +2,12 @@
 
 use super::scatter::steadied;
 use crate::bench::{is_free, measured, place, specimen};
-use data::bench::Row;
+use data::bench::BenchRow;
 use models::Scenario;
 
 /// One row.
 pub struct Reading<'a> {
-    pub row: &'a Row,
+    pub row: &'a BenchRow,
     /// As measured, SI.
     pub measured: f64,
     /// e.
@@ -37,7 +37,7 @@ impl<'a> Reading<'a> {
     }
 
     /// A row of a scenario's table.
-    pub fn new(row: &'a Row, scenario: &Scenario, small: f64, sigma: Option<f64>) -> Reading<'a> {
+    pub fn new(row: &'a BenchRow, scenario: &Scenario, small: f64, sigma: Option<f64>) -> Reading<'a> {
         let beam = row.get("load").is_some();
         let sized = specimen(row, scenario, None).unwrap_or_else(|_| scenario.clone());
         let sd = row.get(if beam { "deflection_sd" } else { "force_sd" }).filter(|_| !is_free(row));

@@ -1,9 +1,9 @@
 //! Both engines in rows of text: every pressure, and one row per robot.
 
-use super::{EngineRobot, Ensemble, Mean, accuracy};
+use super::{EngineRobot, Ensemble, MeanOverSeeds, accuracy};
 use crate::error::CompareError;
-use crate::known::Known;
 use crate::study::uncertain::Uncertain;
+use models::Known;
 use models::{Loads, Model, Scenario};
 
 /// One line of the comparison.
@@ -143,8 +143,8 @@ pub const VOLUMES_CAPTION: &str = "Volumes [cm³], mean over seeds: what the bod
 
 /// Volumes of every robot at its own body pressure; quotients with their standard deviation over the seeds.
 pub fn volume_cells(robots: &[EngineRobot]) -> Vec<Vec<String>> {
-    let cm3 = |v: Mean| format!("{:.1}", v.0);
-    let share = |v: Option<Mean>| match v {
+    let cm3 = |v: MeanOverSeeds| format!("{:.1}", v.0);
+    let share = |v: Option<MeanOverSeeds>| match v {
         Some((mean, Some(spread))) => format!("{mean:.3} ± {spread:.3}"),
         Some((mean, None)) => format!("{mean:.3}"),
         None => "–".into(),

@@ -20,7 +20,7 @@ pub use lines::*;
 pub(in crate::study) use of_run::is_paper;
 pub use of_run::{all_runs, as_run, known_runs, of_the_program, runs_of, seed_jobs};
 pub use robots::{EngineRobot, Engines, PartingMap, engines, varied};
-pub use volumes::{BodyVolumes, Mean, MeanVolumes, Volumes, body_volumes, volumes};
+pub use volumes::{BodyVolumes, MeanOverSeeds, MeanVolumes, Volumes, body_volumes, volumes};
 
 use crate::accuracy::paper_accuracy;
 use crate::error::CompareError;
@@ -119,7 +119,7 @@ pub struct EngineState {
 
 /// Both engines in one state.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Pair {
+pub struct EnginePair {
     /// Actuator gauge pressure \[kPa\].
     pub actuator_kpa: f64,
     /// Outermost marker and tip of the reduced model \[mm\].
@@ -138,10 +138,10 @@ pub struct Pair {
     pub shape: Option<[[f64; 5]; 2]>,
 }
 
-/// Quantities of [`Pair::shape`]; lengths in mm, volumes in cm³.
+/// Quantities of [`EnginePair::shape`]; lengths in mm, volumes in cm³.
 pub const SHAPE: [&str; 5] = ["arm", "width", "height", "actuator", "body"];
 
-impl Pair {
+impl EnginePair {
     /// Reduced minus finite element tip over the latter; `None` where the tip hardly moves.
     pub fn difference(&self) -> Option<f64> {
         let fe = self.fe_mm[1];
@@ -162,12 +162,17 @@ impl Pair {
 ///
 /// # Errors
 /// A model without equilibrium.
-pub fn pairs(scenario: &Scenario, run: &EngineRun) -> Result<Vec<Pair>, CompareError> {
+pub fn pairs(scenario: &Scenario, run: &EngineRun) -> Result<Vec<EnginePair>, CompareError> {
     let Some((filled, states)) = run.states.split_first() else { return Ok(Vec::new()) };
     states.iter().map(|state| pair(scenario, run, filled, state)).collect()
 }
 
-fn pair(scenario: &Scenario, run: &EngineRun, filled: &EngineState, state: &EngineState) -> Result<Pair, CompareError> {
+fn pair(
+    scenario: &Scenario,
+    run: &EngineRun,
+    filled: &EngineState,
+    state: &EngineState,
+) -> Result<EnginePair, CompareError> {
     let model = Model::new(scenario);
     let mut at = model.prediction();
     let loads = Loads::uniform(run.body_kpa * 1e3, state.actuator_kpa * 1e3);
@@ -185,7 +190,7 @@ fn pair(scenario: &Scenario, run: &EngineRun, filled: &EngineState, state: &Engi
     let excess_mj = at_this_bend.map(|reduced| std::array::from_fn(|k| fe_mj[k] - reduced[k]));
     let lost_mj = state.energies_mj[4] - filled.energies_mj[4];
     let fe_mm = [state.marker_mm, state.tip_mm];
-    Ok(Pair { actuator_kpa: state.actuator_kpa, reduced_mm, fe_mm, reduced_mj, fe_mj, excess_mj, lost_mj, shape })
+    Ok(EnginePair { actuator_kpa: state.actuator_kpa, reduced_mm, fe_mm, reduced_mj, fe_mj, excess_mj, lost_mj, shape })
 }
 
 /// Ledger of the reduced model at the bend of a state, its gas at a pressure in the volume that this bend takes \[mJ\];
@@ -260,7 +265,7 @@ pub fn accuracy(model_mm: f64, measured_mm: f64) -> Option<f64> {
 const RUNS: Shape = Shape { schema: "ibr.fem_runs", version: 1 };
 
 #[derive(Deserialize)]
-struct Runs {
+struct EngineRuns {
     runs: Vec<EngineRun>,
 }
 
@@ -278,7 +283,7 @@ pub fn stored() -> Result<Vec<EngineRun>, FemError> {
 /// [`FemError::Record`] with the line and the field.
 pub fn read_runs(file: &str, text: &str) -> Result<Vec<EngineRun>, FemError> {
     let help = "make the file again: `ibr compare --engines --runs FOLDER` writes runs.json beside its report";
-    Ok(RUNS.read::<Runs>(file, text, help)?.runs)
+    Ok(RUNS.read::<EngineRuns>(file, text, help)?.runs)
 }
 
 /// Runs as they are stored: one a line.

@@ -1,6 +1,6 @@
 //! Robots with both engines: what is printed of them, their finite element runs, and where the models part.
 
-use super::{BodyVolumes, EngineRun, Ensemble, Pair, as_it_is, body_volumes, ensemble, pairs};
+use super::{BodyVolumes, EnginePair, EngineRun, Ensemble, as_it_is, body_volumes, ensemble, pairs};
 use crate::error::CompareError;
 use crate::study::published::{Rung, model_ladder, shipped_scenario};
 use crate::study::uncertain::{self, Uncertain};
@@ -23,7 +23,7 @@ pub struct EngineRobot {
     /// The first run, if there is one.
     pub run: Option<EngineRun>,
     /// Both engines at this run's pressures.
-    pub pairs: Vec<Pair>,
+    pub pairs: Vec<EnginePair>,
     /// What its finite element bodies lose, at every body pressure that was run.
     pub bodies: Vec<BodyVolumes>,
 }
@@ -36,7 +36,7 @@ pub struct PartingMap {
     /// Head of the rows, with unit.
     pub row_label: String,
     /// Value of every row and its pairs.
-    pub rows: Vec<(String, Vec<Pair>)>,
+    pub rows: Vec<(String, Vec<EnginePair>)>,
     /// Element size of the runs \[mm\].
     pub mesh_mm: f64,
 }

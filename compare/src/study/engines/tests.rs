@@ -4,7 +4,7 @@ use super::*;
 use crate::study::published::textbook_scenario;
 
 /// A run that is the reduced model itself, but for one term.
-fn run(extra: usize, mj: f64) -> (Scenario, EngineRun, Pair) {
+fn run(extra: usize, mj: f64) -> (Scenario, EngineRun, EnginePair) {
     let scenario = textbook_scenario("epam").unwrap().with_bending(0.4);
     let model = Model::new(&scenario);
     let mut at = model.prediction();
@@ -53,7 +53,7 @@ fn the_term_that_holds_more_energy_at_the_same_bend_carries_the_difference() {
     for (place, term) in [(0, "stretch"), (1, "wall bending"), (2, "contact"), (3, "hourglass")] {
         let (_, _, pair) = run(place, 50.0);
         // The reduced tip is put 20 % above.
-        let apart = Pair { reduced_mm: [0.0, 1.2 * pair.fe_mm[1]], ..pair };
+        let apart = EnginePair { reduced_mm: [0.0, 1.2 * pair.fe_mm[1]], ..pair };
         assert_eq!(apart.carrier(), Some(term));
     }
 }

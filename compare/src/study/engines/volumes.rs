@@ -85,7 +85,7 @@ fn lens_m3(scenario: &Scenario, turn_rad: f64) -> Option<f64> {
 }
 
 /// Mean and standard deviation over seeds, which a single one has not.
-pub type Mean = (f64, Option<f64>);
+pub type MeanOverSeeds = (f64, Option<f64>);
 
 /// [`Volumes`] over the seeds of an ensemble; the quotients over those that have one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -93,15 +93,15 @@ pub struct MeanVolumes {
     /// Actuator gauge pressure \[kPa\].
     pub actuator_kpa: f64,
     /// What the body has lost since it was full \[cm³\].
-    pub body_lost_cm3: Mean,
+    pub body_lost_cm3: MeanOverSeeds,
     /// πR³θ \[cm³\].
-    pub by_bend_cm3: Mean,
+    pub by_bend_cm3: MeanOverSeeds,
     /// What the actuator has gained since the body was full \[cm³\].
-    pub actuator_cm3: Mean,
+    pub actuator_cm3: MeanOverSeeds,
     /// χ \[-\].
-    pub displaced: Option<Mean>,
+    pub displaced: Option<MeanOverSeeds>,
     /// c \[-\].
-    pub lens_share: Option<Mean>,
+    pub lens_share: Option<MeanOverSeeds>,
 }
 
 /// A robot at one body pressure.

@@ -9,7 +9,7 @@ use serde::Serialize;
 /// What a check came to.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "is", content = "why", rename_all = "snake_case")]
-pub enum Verdict {
+pub enum FactVerdict {
     /// The engine or the paper's own numbers say the same.
     Holds,
     /// They say something else.
@@ -20,26 +20,26 @@ pub enum Verdict {
     CannotBeChecked(String),
 }
 
-impl Verdict {
+impl FactVerdict {
     /// In words.
     pub fn words(&self) -> String {
         match self {
-            Verdict::Holds => "holds".into(),
-            Verdict::Misses(by) => format!("misses: {by}"),
-            Verdict::ContradictsItself(how) => format!("contradicts itself: {how}"),
-            Verdict::CannotBeChecked(why) => format!("cannot be checked: {why}"),
+            FactVerdict::Holds => "holds".into(),
+            FactVerdict::Misses(by) => format!("misses: {by}"),
+            FactVerdict::ContradictsItself(how) => format!("contradicts itself: {how}"),
+            FactVerdict::CannotBeChecked(why) => format!("cannot be checked: {why}"),
         }
     }
 
     /// Holds, or misses by what is said.
-    pub(super) fn holds_if(holds: bool, else_by: impl Into<String>) -> Verdict {
-        if holds { Verdict::Holds } else { Verdict::Misses(else_by.into()) }
+    pub(super) fn holds_if(holds: bool, else_by: impl Into<String>) -> FactVerdict {
+        if holds { FactVerdict::Holds } else { FactVerdict::Misses(else_by.into()) }
     }
 }
 
 /// A sentence and its verdict.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Row {
+pub struct FactRow {
     /// Name of the fact.
     pub id: String,
     /// Section, table or figure.
@@ -49,23 +49,23 @@ pub struct Row {
     /// What the engine says, or the paper elsewhere.
     pub found: String,
     /// What follows.
-    pub verdict: Verdict,
+    pub verdict: FactVerdict,
 }
 
 /// What a check found, in words, and what follows.
-pub(super) type Found = (String, Verdict);
+pub(super) type FactFound = (String, FactVerdict);
 
 /// A fact with everything it may be held against.
-pub(super) struct Case<'a> {
+pub(super) struct FactCase<'a> {
     pub paper: &'a Published,
     pub runs: &'a [PaperRun],
     pub numbers: &'a [f64],
 }
 
 /// Name of a fact and its check.
-pub(super) type Check = (&'static str, fn(&Case) -> Found);
+pub(super) type FactCheck = (&'static str, fn(&FactCase) -> FactFound);
 
-impl<'a> Case<'a> {
+impl<'a> FactCase<'a> {
     /// A number of the fact; NaN if the file has fewer, which a test refuses.
     pub fn number(&self, k: usize) -> f64 {
         self.numbers.get(k).copied().unwrap_or(f64::NAN)
@@ -82,21 +82,21 @@ impl<'a> Case<'a> {
 }
 
 /// For a check without its runs.
-pub(super) fn no_runs(of: &str) -> Found {
-    ("–".into(), Verdict::CannotBeChecked(format!("no run of {of}")))
+pub(super) fn no_runs(of: &str) -> FactFound {
+    ("–".into(), FactVerdict::CannotBeChecked(format!("no run of {of}")))
 }
 
 /// All facts of the paper, in the order of its file.
-pub fn facts(paper: &Published, runs: &[PaperRun]) -> Vec<Row> {
+pub fn facts(paper: &Published, runs: &[PaperRun]) -> Vec<FactRow> {
     paper.facts.iter().map(|fact| row(paper, runs, fact)).collect()
 }
 
-fn row(paper: &Published, runs: &[PaperRun], fact: &PublishedFact) -> Row {
+fn row(paper: &Published, runs: &[PaperRun], fact: &PublishedFact) -> FactRow {
     let check = IN_PRINT.iter().chain(IN_RUNS).find(|(id, _)| *id == fact.id);
-    let case = Case { paper, runs, numbers: &fact.numbers };
+    let case = FactCase { paper, runs, numbers: &fact.numbers };
     let (found, verdict) = check.map_or_else(
-        || ("–".into(), Verdict::CannotBeChecked("there is no check of it".into())),
+        || ("–".into(), FactVerdict::CannotBeChecked("there is no check of it".into())),
         |(_, check)| check(&case),
     );
-    Row { id: fact.id.clone(), place: fact.place.clone(), says: fact.says.clone(), found, verdict }
+    FactRow { id: fact.id.clone(), place: fact.place.clone(), says: fact.says.clone(), found, verdict }
 }

@@ -54,7 +54,7 @@ impl Implied {
 
 /// A run beside what the paper implies.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Against {
+pub struct HeightRow {
     /// `spam`, `cpam`, `epam` or `fpam`.
     pub robot: String,
     /// Actuator gauge pressure \[kPa\].
@@ -71,7 +71,7 @@ pub struct Against {
     pub verdict: String,
 }
 
-impl Against {
+impl HeightRow {
     /// Height of the outermost marker \[mm\].
     pub fn outermost_mm(&self) -> f64 {
         self.markers_mm.last().copied().unwrap_or(self.tip_mm)
@@ -79,7 +79,7 @@ impl Against {
 }
 
 /// Every robot of the paper at every pressure on every mesh of the list for which there is a run.
-pub fn heights(paper: &Published, runs: &[PaperRun], meshes_mm: &[[f64; 2]]) -> Vec<Against> {
+pub fn heights(paper: &Published, runs: &[PaperRun], meshes_mm: &[[f64; 2]]) -> Vec<HeightRow> {
     let mut out = Vec::new();
     for actuator in &paper.actuators {
         for (pa, _) in &actuator.accuracy {
@@ -93,13 +93,13 @@ pub fn heights(paper: &Published, runs: &[PaperRun], meshes_mm: &[[f64; 2]]) -> 
 }
 
 /// One run beside what the paper implies.
-pub fn against(actuator: &PublishedActuator, run: &PaperRun) -> Option<Against> {
+pub fn against(actuator: &PublishedActuator, run: &PaperRun) -> Option<HeightRow> {
     let state = run.end()?;
     let implied = Implied::of(actuator, state.actuator_kpa * 1e3)?;
     let markers_mm: Vec<f64> = state.moved_mm.iter().map(|xy| xy[1]).collect();
     let verdict = verdict(&implied, state.marker_mm);
     let (robot, mesh_mm) = (actuator.kind.clone(), run.run.mesh_mm);
-    Some(Against {
+    Some(HeightRow {
         robot,
         actuator_kpa: state.actuator_kpa,
         mesh_mm,

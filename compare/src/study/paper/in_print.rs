@@ -1,6 +1,6 @@
 //! Facts that the paper's own tables and sizes decide.
 
-use super::facts::{Case, Check, Found, Verdict};
+use super::facts::{FactCase, FactCheck, FactFound, FactVerdict};
 use crate::study::published::shipped_scenario;
 use models::actuators::pattern::Pattern;
 use models::fabrics::shear_modulus;
@@ -14,7 +14,7 @@ const GRAVITY_M_S2: f64 = 9.81;
 const ROUNDED: f64 = 0.051;
 
 /// By name of the fact.
-pub(super) const IN_PRINT: &[Check] = &[
+pub(super) const IN_PRINT: &[FactCheck] = &[
     ("area", area),
     ("same-buckling", same_buckling),
     ("accuracy-spam", |case| lowest(case, &["spam"], 0.0)),
@@ -38,12 +38,12 @@ pub(super) const IN_PRINT: &[Check] = &[
     ("gravity", gravity),
 ];
 
-fn unread(why: &str) -> Found {
-    ("–".into(), Verdict::CannotBeChecked(why.into()))
+fn unread(why: &str) -> FactFound {
+    ("–".into(), FactVerdict::CannotBeChecked(why.into()))
 }
 
 /// Accuracies of a robot: pressure \[kPa\] and accuracy \[%\].
-fn accuracies(case: &Case, kind: &str) -> Vec<[f64; 2]> {
+fn accuracies(case: &FactCase, kind: &str) -> Vec<[f64; 2]> {
     let all = case.paper.actuator(kind).map(|a| a.accuracy.clone()).unwrap_or_default();
     all.into_iter().map(|(pa, a)| [pa * 1e-3, 100.0 * a]).collect()
 }
@@ -58,20 +58,20 @@ fn error_pct(accuracy_pct: f64) -> f64 {
 }
 
 /// Whether the lowest accuracy of these robots from a pressure on is the number printed.
-fn lowest(case: &Case, kinds: &[&str], from_kpa: f64) -> Found {
+fn lowest(case: &FactCase, kinds: &[&str], from_kpa: f64) -> FactFound {
     let all = kinds.iter().flat_map(|kind| accuracies(case, kind)).filter(|[kpa, _]| *kpa >= from_kpa);
     let least = all.map(|[_, a]| a).fold(f64::INFINITY, f64::min);
     let found = format!("lowest of Table III: {least:.1} %, an rms error of {:.0} %", error_pct(least));
-    (found, Verdict::holds_if((least - case.number(0)).abs() < ROUNDED, format!("{least:.1} %")))
+    (found, FactVerdict::holds_if((least - case.number(0)).abs() < ROUNDED, format!("{least:.1} %")))
 }
 
-fn accuracy_cpam(case: &Case) -> Found {
+fn accuracy_cpam(case: &FactCase) -> FactFound {
     let all = accuracies(case, "cpam");
     let holds = all.iter().all(|[kpa, a]| *kpa <= case.number(1) || *a > case.number(0));
-    (format!("Table III [%, kPa]: {}", listed(&all)), Verdict::holds_if(holds, "not above it"))
+    (format!("Table III [%, kPa]: {}", listed(&all)), FactVerdict::holds_if(holds, "not above it"))
 }
 
-fn drop_cpam(case: &Case) -> Found {
+fn drop_cpam(case: &FactCase) -> FactFound {
     let all = accuracies(case, "cpam");
     let [Some(low), Some(next)] = [all.first(), all.get(1)] else { return unread("Table III has no two pressures") };
     let drop = next[1] - low[1];
@@ -80,37 +80,37 @@ fn drop_cpam(case: &Case) -> Found {
         error_pct(next[1]),
         error_pct(low[1])
     );
-    (found, Verdict::holds_if((drop - case.number(0)).abs() < 0.5, format!("{drop:.1} points")))
+    (found, FactVerdict::holds_if((drop - case.number(0)).abs() < 0.5, format!("{drop:.1} points")))
 }
 
-fn accuracy_fpam(case: &Case) -> Found {
+fn accuracy_fpam(case: &FactCase) -> FactFound {
     let all = accuracies(case, "fpam");
     let holds = all.iter().all(|[_, a]| *a > case.number(0) + 1e-9);
     let found = format!("Table III [%, kPa]: {}", listed(&all));
-    (found, Verdict::holds_if(holds, "not over but equal at 30 kPa, as the abstract's \"at least\" says"))
+    (found, FactVerdict::holds_if(holds, "not over but equal at 30 kPa, as the abstract's \"at least\" says"))
 }
 
-fn accuracy_lowest(case: &Case) -> Found {
+fn accuracy_lowest(case: &FactCase) -> FactFound {
     let (found, verdict) = lowest(case, &["spam", "cpam", "epam", "fpam"], 0.0);
     (format!("{found}, which is not slight"), verdict)
 }
 
-fn accuracy_epam(case: &Case) -> Found {
+fn accuracy_epam(case: &FactCase) -> FactFound {
     let gaps: Vec<f64> =
         accuracies(case, "cpam").iter().zip(accuracies(case, "epam")).map(|(c, e)| c[1] - e[1]).collect();
     let words = gaps.iter().map(|gap| format!("{gap:.1}")).collect::<Vec<_>>().join(", ");
     let found = format!("Table III: {words} points less at 10, 20, 30 kPa");
-    (found, Verdict::holds_if(gaps.iter().all(|gap| *gap > 0.0), "not at every pressure"))
+    (found, FactVerdict::holds_if(gaps.iter().all(|gap| *gap > 0.0), "not at every pressure"))
 }
 
-fn same_buckling(case: &Case) -> Found {
+fn same_buckling(case: &FactCase) -> FactFound {
     let all = ["cpam", "epam"].map(|kind| accuracies(case, kind));
     let holds = all.iter().all(|a| a.windows(2).take(1).all(|pair| pair[0][1] < pair[1][1]));
     let found = format!("Table III [%, kPa]: cPAM {}; ePAM {}", listed(&all[0]), listed(&all[1]));
-    (found, Verdict::holds_if(holds, "accuracy is not lower at 10 kPa"))
+    (found, FactVerdict::holds_if(holds, "accuracy is not lower at 10 kPa"))
 }
 
-fn mesh_share(case: &Case) -> Found {
+fn mesh_share(case: &FactCase) -> FactFound {
     let (mesh, Some(robot)) = (&case.paper.simulation, case.paper.actuator("epam")) else {
         return unread("Table II has no ePAM");
     };
@@ -118,7 +118,7 @@ fn mesh_share(case: &Case) -> Found {
     let shares = shares.map(|s| 100.0 * s);
     let holds = (0..2).all(|k| (shares[k] - case.number(k)).abs() < 0.15);
     let found = format!("Table II: {:.1} and {:.1} %", shares[0], shares[1]);
-    (found.clone(), Verdict::holds_if(holds, found))
+    (found.clone(), FactVerdict::holds_if(holds, found))
 }
 
 fn robot(kind: &str) -> Option<(Scenario, Pattern)> {
@@ -127,7 +127,7 @@ fn robot(kind: &str) -> Option<(Scenario, Pattern)> {
     Some((scenario, pattern))
 }
 
-fn area(case: &Case) -> Found {
+fn area(case: &FactCase) -> FactFound {
     let (Some((_, cpam)), Some((_, epam))) = (robot("cpam"), robot("epam")) else { return unread("no pattern") };
     let [folded, plain] = [&cpam, &epam].map(Pattern::sheet_width_m);
     let sheet = folded / plain;
@@ -137,10 +137,10 @@ fn area(case: &Case) -> Found {
         folded * 1e3,
         plain * 1e3
     );
-    (found, Verdict::holds_if((sheet - case.number(0)).abs() < 0.005, format!("{sheet:.2}")))
+    (found, FactVerdict::holds_if((sheet - case.number(0)).abs() < 0.005, format!("{sheet:.2}")))
 }
 
-fn threshold(case: &Case) -> Found {
+fn threshold(case: &FactCase) -> FactFound {
     let (paper, pa) = (case.paper, case.number(1) * 1e3);
     let Some(robot) = paper.actuator("fpam") else { return unread("Table II has no fPAM") };
     let fabric = paper.fabrics.iter().find(|f| f.name == robot.fabric);
@@ -162,38 +162,38 @@ fn threshold(case: &Case) -> Found {
     let found = format!(
         "closed form, no ends: contracts by {shortens:.1} %, yarns turn by {degrees:.0}° of the {limit:.0}° at 24 % strain"
     );
-    (found.clone(), Verdict::holds_if(degrees < limit && shortens < case.number(0), found))
+    (found.clone(), FactVerdict::holds_if(degrees < limit && shortens < case.number(0), found))
 }
 
-fn oscillation(_: &Case) -> Found {
+fn oscillation(_: &FactCase) -> FactFound {
     let why = "a larger step takes fewer steps, so its cost falls; the first half has no number to check";
-    ("a run takes its duration over its time step".into(), Verdict::ContradictsItself(why.into()))
+    ("a run takes its duration over its time step".into(), FactVerdict::ContradictsItself(why.into()))
 }
 
-fn hold(case: &Case) -> Found {
+fn hold(case: &FactCase) -> FactFound {
     let step_s = case.paper.simulation.step_s;
     let found = format!("Section III-A: the amplitude reaches 1 at t = {step_s} s, where the step ends");
-    (found, Verdict::ContradictsItself("there is no time at full pressure; the preset has none".into()))
+    (found, FactVerdict::ContradictsItself("there is no time at full pressure; the preset has none".into()))
 }
 
-fn moduli(case: &Case) -> Found {
+fn moduli(case: &FactCase) -> FactFound {
     let fabric = case.paper.fabrics.iter().find_map(|f| Some((f, f.c10_printed?)));
     let Some((fabric, c10)) = fabric else { return unread("no C10") };
     let mpa = 6.0 * c10;
     let [e0, e90] = [fabric.e0_pa, fabric.e90_pa].map(|pa| mpa / (pa * 1e-6) - 1.0);
     let found = format!("6 C10 = {mpa:.0} if C10 is in MPa, its unit is not printed; the engine takes C10");
     let why = format!("{:.0} and {:.0} % stiffer than E0 and E90 of Table I", 100.0 * e0, 100.0 * e90);
-    (found, Verdict::ContradictsItself(why))
+    (found, FactVerdict::ContradictsItself(why))
 }
 
-fn shear_angle(case: &Case) -> Found {
+fn shear_angle(case: &FactCase) -> FactFound {
     let cosine = case.number(0) / (2.0 * case.number(0)).sqrt();
     let found =
         format!("a length over the root of a length: {cosine:.1} at d = 0 with L0 = {} mm, no cosine", case.number(0));
-    (found, Verdict::ContradictsItself("√2 L0 is meant: then the angle is 0 at d = 0".into()))
+    (found, FactVerdict::ContradictsItself("√2 L0 is meant: then the angle is 0 at d = 0".into()))
 }
 
-fn footprint(case: &Case) -> Found {
+fn footprint(case: &FactCase) -> FactFound {
     let [Some(pouch), Some(muscle)] = ["epam", "fpam"].map(|kind| case.paper.actuator(kind)) else {
         return unread("Table II lacks a robot");
     };
@@ -201,19 +201,19 @@ fn footprint(case: &Case) -> Found {
     let muscle_mm = muscle.actuator_length_m * 1e3;
     let found = format!("{} pouches of 60 mm are {row_mm:.0} mm long, the fPAM {muscle_mm:.0} mm", case.paper.markers);
     let why = format!("{:.0} % apart; the number of pouches is not printed", 100.0 * (row_mm / muscle_mm - 1.0));
-    (found, Verdict::ContradictsItself(why))
+    (found, FactVerdict::ContradictsItself(why))
 }
 
-fn layers(case: &Case) -> Found {
+fn layers(case: &FactCase) -> FactFound {
     let Some((_, pattern)) = robot("cpam") else { return unread("no pattern") };
     let edge_m = 0.5 * pattern.width_m - 1e-4;
     let sheet = pattern.layers_at(edge_m);
     let found = format!("pattern: {sheet} layers of the sheet at its edge, {} with the wall", sheet + 1);
     let holds = [sheet, sheet + 1].iter().enumerate().all(|(k, n)| *n as f64 == case.number(k));
-    (found.clone(), Verdict::holds_if(holds, found))
+    (found.clone(), FactVerdict::holds_if(holds, found))
 }
 
-fn gravity(case: &Case) -> Found {
+fn gravity(case: &FactCase) -> FactFound {
     let Some((scenario, pattern)) = robot("cpam") else { return unread("no pattern") };
     let thickness_m = case.paper.fabrics.first().map_or(0.0, |f| f.thickness_m);
     let (length_m, radius_m) = (scenario.length_m, scenario.radius_m);
@@ -223,5 +223,5 @@ fn gravity(case: &Case) -> Found {
     let found = format!(
         "the cPAM's own weight (1000 kg/m³, assumed) has {share:.0} % of the moment π p R³ that folds its body, if it lies level"
     );
-    (found, Verdict::CannotBeChecked("whether it bends level or upright is not printed".into()))
+    (found, FactVerdict::CannotBeChecked("whether it bends level or upright is not printed".into()))
 }

@@ -1,6 +1,6 @@
 //! Facts that finished runs of the preset decide, on the finest mesh that has all runs a fact needs.
 
-use super::facts::{Case, Check, Found, Verdict, no_runs};
+use super::facts::{FactCase, FactCheck, FactFound, FactVerdict, no_runs};
 use super::{MESHES_MM, PaperRun, find, mesh_name};
 use crate::accuracy::paper_accuracy;
 use data::published::printed;
@@ -17,7 +17,7 @@ const TOP_KPA: f64 = 30.0;
 const ROBOTS: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
 
 /// By name of the fact.
-pub(super) const IN_RUNS: &[Check] = &[
+pub(super) const IN_RUNS: &[FactCheck] = &[
     ("ratio-epam", |case| ratio(case, "epam")),
     ("ratio-spam", |case| ratio(case, "spam")),
     ("order", order),
@@ -53,33 +53,35 @@ fn joined(words: impl Iterator<Item = String>) -> String {
 }
 
 /// One robot at several pressures on the finest mesh that has all: heights \[mm\].
-fn curve(case: &Case, kind: &str, kpa: &[f64]) -> Option<([f64; 2], Vec<f64>)> {
+fn curve(case: &FactCase, kind: &str, kpa: &[f64]) -> Option<([f64; 2], Vec<f64>)> {
     let wanted: Vec<(&str, f64)> = kpa.iter().map(|p| (kind, *p)).collect();
     let (mesh, runs) = case.all(&wanted)?;
     Some((mesh, runs.into_iter().map(height).collect()))
 }
 
 /// A robot at a pressure on the coarsest and the final mesh.
-fn two_meshes<'a>(case: &Case<'a>, kind: &str, kpa: f64) -> Option<[&'a PaperRun; 2]> {
+fn two_meshes<'a>(case: &FactCase<'a>, kind: &str, kpa: f64) -> Option<[&'a PaperRun; 2]> {
     let [coarse, fine] = MESHES_MM.map(|mesh| find(case.runs, kind, mesh, kpa));
     Some([coarse?, fine?])
 }
 
-fn ratio(case: &Case, other: &str) -> Found {
+fn ratio(case: &FactCase, other: &str) -> FactFound {
     let d_max = |kind: &str| case.paper.actuator(kind).map_or(f64::NAN, |a| a.d_max_m);
     let table = d_max("cpam") / d_max(other);
     let found = format!("Table III {table:.2}");
     if (table - case.number(0)).abs() > 0.005 {
-        return (found, Verdict::ContradictsItself(format!("{table:.2} in Table III")));
+        return (found, FactVerdict::ContradictsItself(format!("{table:.2} in Table III")));
     }
-    let Some((mesh, runs)) = case.all(&[("cpam", TOP_KPA), (other, TOP_KPA)]) else { return (found, Verdict::Holds) };
+    let Some((mesh, runs)) = case.all(&[("cpam", TOP_KPA), (other, TOP_KPA)]) else {
+        return (found, FactVerdict::Holds);
+    };
     let engine = height(runs[0]) / height(runs[1]);
     let off = engine / case.number(0) - 1.0;
     let found = format!("{found}; engine {engine:.2} ({})", mesh_name(mesh));
-    (found, Verdict::holds_if(off.abs() <= ALIKE, format!("engine {:+.0} %, its table agrees", 100.0 * off)))
+    (found, FactVerdict::holds_if(off.abs() <= ALIKE, format!("engine {:+.0} %, its table agrees", 100.0 * off)))
 }
 
-fn order(case: &Case) -> Found {
+fn order(case: &FactCase) -> FactFound {
     let Some((mesh, runs)) = case.all(&ROBOTS.map(|kind| (kind, TOP_KPA))) else {
         return no_runs("all four at 30 kPa on one mesh");
     };
@@ -88,11 +90,11 @@ fn order(case: &Case) -> Found {
     let words = joined(by_height.iter().map(|(kind, mm)| format!("{} {mm:.0}", printed(kind))));
     let kinds: Vec<&str> = by_height.iter().map(|(kind, _)| *kind).collect();
     let found = format!("mm at 30 kPa, {}: {words}", mesh_name(mesh));
-    (found, Verdict::holds_if(kinds == ["cpam", "epam", "spam", "fpam"], "in another order"))
+    (found, FactVerdict::holds_if(kinds == ["cpam", "epam", "spam", "fpam"], "in another order"))
 }
 
 /// Rise of the cPAM in per cent on every mesh that has both pressures; the finest decides.
-fn buckling(case: &Case) -> Found {
+fn buckling(case: &FactCase) -> FactFound {
     let [from, to, low, high] = [0, 1, 2, 3].map(|k| case.number(k));
     let mut told = Vec::new();
     let mut last = None;
@@ -107,20 +109,20 @@ fn buckling(case: &Case) -> Found {
     }
     let Some(rise) = last else { return no_runs("the cPAM at 10 and 13 kPa on one mesh") };
     let holds = (low..=high).contains(&rise);
-    (told.join("; "), Verdict::holds_if(holds, format!("{rise:+.1} %, read as {low:+.0} to {high:+.0} %")))
+    (told.join("; "), FactVerdict::holds_if(holds, format!("{rise:+.1} %, read as {low:+.0} to {high:+.0} %")))
 }
 
-fn sensitive(case: &Case) -> Found {
+fn sensitive(case: &FactCase) -> FactFound {
     let kpa = [0, 1, 2, 3].map(|k| case.number(k));
     let Some((mesh, mm)) = curve(case, "cpam", &kpa) else { return no_runs("the cPAM at 10, 13, 20 and 30 kPa") };
     let per_kpa = |a: usize, b: usize| 100.0 * (mm[b] / mm[a] - 1.0) / (kpa[b] - kpa[a]);
     let [low, high] = [per_kpa(0, 1), per_kpa(2, 3)];
     let found = format!("{}: {low:.1} % per kPa from 10 to 13, {high:.1} from 20 to 30 kPa", mesh_name(mesh));
-    (found, Verdict::holds_if(low > high, "not more than at high pressure"))
+    (found, FactVerdict::holds_if(low > high, "not more than at high pressure"))
 }
 
 /// The pressure at which the engine would bend as far as the high reading of the measurement at 10 kPa.
-fn pressure_explains(case: &Case) -> Found {
+fn pressure_explains(case: &FactCase) -> FactFound {
     let grid = [case.number(0), case.number(1), 20.0];
     let Some((mesh, mm)) = curve(case, "cpam", &grid) else { return no_runs("the cPAM at 10, 13 and 20 kPa") };
     let Some(implied) = case.paper.actuator("cpam").and_then(|a| super::Implied::of(a, grid[0] * 1e3)) else {
@@ -134,10 +136,10 @@ fn pressure_explains(case: &Case) -> Found {
         Some(kpa) => format!("{name}: an error of {error:.0} % is {kpa:.1} kPa too much in a test at 10"),
         None => format!("{name}: an error of {error:.0} % is more than 10 kPa too much in a test at 10"),
     };
-    (found, Verdict::CannotBeChecked("the margin of the pressure control is not printed".into()))
+    (found, FactVerdict::CannotBeChecked("the margin of the pressure control is not printed".into()))
 }
 
-fn fpam_stable(case: &Case) -> Found {
+fn fpam_stable(case: &FactCase) -> FactFound {
     let Some((mesh, mm)) = curve(case, "fpam", &[10.0, 20.0, TOP_KPA]) else {
         return no_runs("the fPAM at 10, 20 and 30 kPa");
     };
@@ -146,11 +148,11 @@ fn fpam_stable(case: &Case) -> Found {
     let by = fall.map_or_else(String::new, |k| {
         format!("falls by {:.0} % to {} kPa", 100.0 * (1.0 - mm[k + 1] / mm[k]), 10 * (k + 2))
     });
-    (found, Verdict::holds_if(fall.is_none(), by))
+    (found, FactVerdict::holds_if(fall.is_none(), by))
 }
 
 /// Change of the height from the coarsest to the final mesh of some robots at 30 kPa \[%\].
-fn changes<'a>(case: &Case, kinds: &[&'a str]) -> Vec<(&'a str, f64)> {
+fn changes<'a>(case: &FactCase, kinds: &[&'a str]) -> Vec<(&'a str, f64)> {
     let change = |kind: &&'a str| {
         let [coarse, fine] = two_meshes(case, kind, TOP_KPA)?;
         Some((*kind, 100.0 * (height(fine) / height(coarse) - 1.0)))
@@ -162,15 +164,15 @@ fn told(changes: &[(&str, f64)]) -> String {
     joined(changes.iter().map(|(kind, pct)| format!("{} {pct:+.1} %", printed(kind))))
 }
 
-fn mesh_insensitive(case: &Case) -> Found {
+fn mesh_insensitive(case: &FactCase) -> FactFound {
     let found = changes(case, &["spam", "epam", "fpam"]);
     let words = if found.is_empty() { "–".into() } else { format!("4 to 4/1 mm at 30 kPa: {}", told(&found)) };
     let why = "the same sentence lets the ePAMs gain almost 20 %; sPAMs may be meant";
-    (words, Verdict::ContradictsItself(why.into()))
+    (words, FactVerdict::ContradictsItself(why.into()))
 }
 
 /// Accuracy of the outermost marker alone, which is what the printed displacement allows.
-fn mesh_gain(case: &Case) -> Found {
+fn mesh_gain(case: &FactCase) -> FactFound {
     let gain = |kind: &str| {
         let measured = case.paper.actuator(kind)?.d_max_m * 1e3;
         let [coarse, fine] = two_meshes(case, kind, TOP_KPA)?.map(|run| paper_accuracy(&[height(run)], &[measured]));
@@ -184,20 +186,20 @@ fn mesh_gain(case: &Case) -> Found {
     let near = |points: f64| (case.number(0) - ALMOST..=case.number(0)).contains(&points);
     let holds = found.iter().all(|(_, from, to)| near(to - from));
     let by = joined(found.iter().map(|(kind, from, to)| format!("{kind} {:+.1} points", to - from)));
-    (format!("outermost marker alone, 4 to 4/1 mm at 30 kPa: {words}"), Verdict::holds_if(holds, by))
+    (format!("outermost marker alone, 4 to 4/1 mm at 30 kPa: {words}"), FactVerdict::holds_if(holds, by))
 }
 
-fn mesh_deeper(case: &Case) -> Found {
+fn mesh_deeper(case: &FactCase) -> FactFound {
     let found = changes(case, &["cpam", "epam"]);
     if found.is_empty() {
         return no_runs("the cPAM or the ePAM on both meshes at 30 kPa");
     }
     let rises = joined(found.iter().filter(|c| c.1 > 0.0).map(|c| format!("the {} bends more", printed(c.0))));
     let words = format!("a larger radius is less bend; 4 to 4/1 mm: {}", told(&found));
-    (words, Verdict::holds_if(rises.is_empty(), rises))
+    (words, FactVerdict::holds_if(rises.is_empty(), rises))
 }
 
-fn mesh_cost(case: &Case) -> Found {
+fn mesh_cost(case: &FactCase) -> FactFound {
     let ratio = |kind: &&str| {
         let [coarse, fine] = two_meshes(case, kind, TOP_KPA)?;
         let times = fine.run.cpu_s / coarse.run.cpu_s;
@@ -208,11 +210,11 @@ fn mesh_cost(case: &Case) -> Found {
         return no_runs("one robot on both meshes at 30 kPa");
     }
     let why = "two meshes show no law; elements times steps is a power of the size, not an exponential";
-    (format!("processor time, 4 to 4/1 mm: {words}"), Verdict::CannotBeChecked(why.into()))
+    (format!("processor time, 4 to 4/1 mm: {words}"), FactVerdict::CannotBeChecked(why.into()))
 }
 
 /// Outputs of all runs that keep a bound of the kinetic energy.
-fn kinetic(case: &Case, kept: fn(&super::Kinetic) -> u64) -> Found {
+fn kinetic(case: &FactCase, kept: fn(&super::Kinetic) -> u64) -> FactFound {
     let all: Vec<&PaperRun> = case.runs.iter().filter(|r| !r.encastre).collect();
     if all.is_empty() {
         return no_runs("any robot");
@@ -232,7 +234,7 @@ fn kinetic(case: &Case, kept: fn(&super::Kinetic) -> u64) -> Found {
     );
     (
         found,
-        Verdict::holds_if(
+        FactVerdict::holds_if(
             whole == all.len(),
             format!("{} of {} runs exceed it at some output", all.len() - whole, all.len()),
         ),
@@ -240,7 +242,7 @@ fn kinetic(case: &Case, kept: fn(&super::Kinetic) -> u64) -> Found {
 }
 
 /// The robots at 30 kPa, each on its finest mesh.
-fn at_top<'a>(case: &Case<'a>, kinds: &[&'a str]) -> Vec<(&'a str, &'a PaperRun)> {
+fn at_top<'a>(case: &FactCase<'a>, kinds: &[&'a str]) -> Vec<(&'a str, &'a PaperRun)> {
     let finest = |kind: &&'a str| Some((*kind, case.all(&[(kind, TOP_KPA)])?.1[0]));
     kinds.iter().filter_map(finest).collect()
 }
@@ -250,37 +252,37 @@ fn place(run: &PaperRun) -> String {
     format!("{:.0} MPa {beside} in {} at {:.0} mm", stress(run), run.peak.part, run.peak.at_mm)
 }
 
-fn stress_seams(case: &Case) -> Found {
+fn stress_seams(case: &FactCase) -> FactFound {
     let found = at_top(case, &["spam", "cpam", "epam"]);
     if found.is_empty() {
         return no_runs("a welded robot at 30 kPa");
     }
     let words = joined(found.iter().map(|(kind, run)| format!("{} {}", printed(kind), place(run))));
     let off = joined(found.iter().filter(|(_, r)| !r.peak.on_seam).map(|(kind, _)| printed(kind).to_string()));
-    (words, Verdict::holds_if(off.is_empty(), format!("not in the {off}")))
+    (words, FactVerdict::holds_if(off.is_empty(), format!("not in the {off}")))
 }
 
-fn stress_alike(case: &Case) -> Found {
+fn stress_alike(case: &FactCase) -> FactFound {
     let Some((mesh, runs)) = case.all(&[("spam", TOP_KPA), ("epam", TOP_KPA)]) else {
         return no_runs("sPAM and ePAM at 30 kPa on one mesh");
     };
     let words = format!("{}: sPAM {}, ePAM {}", mesh_name(mesh), place(runs[0]), place(runs[1]));
     let times = stress(runs[0]) / stress(runs[1]);
     let holds = runs[0].peak.on_seam == runs[1].peak.on_seam && (times - 1.0).abs() <= ALIKE;
-    (words, Verdict::holds_if(holds, format!("the sPAM's is {times:.2} times the ePAM's")))
+    (words, FactVerdict::holds_if(holds, format!("the sPAM's is {times:.2} times the ePAM's")))
 }
 
-fn stress_cap(case: &Case) -> Found {
+fn stress_cap(case: &FactCase) -> FactFound {
     let found = at_top(case, &ROBOTS);
     if found.is_empty() {
         return no_runs("a robot at 30 kPa");
     }
     let words = joined(found.iter().map(|(kind, run)| format!("{} {:.0}", printed(kind), stress(run))));
     let above = found.iter().any(|(_, run)| stress(run) > case.number(0));
-    (format!("largest, MPa: {words}"), Verdict::holds_if(above, "no peak reaches the cap"))
+    (format!("largest, MPa: {words}"), FactVerdict::holds_if(above, "no peak reaches the cap"))
 }
 
-fn base(case: &Case) -> Found {
+fn base(case: &FactCase) -> FactFound {
     // An encastre base holds a row of elements more: a robot shorter by that is lower by the square, whatever its base does.
     let change = |held: &&PaperRun| {
         let (kind, kpa) = (held.run.actuator.as_str(), held.end()?.actuator_kpa);
@@ -299,11 +301,11 @@ fn base(case: &Case) -> Found {
     let largest = found.iter().map(|f| f.1).fold(0.0, f64::max);
     let words =
         format!("encastre against pinned (beyond the row that it holds): {}", joined(found.into_iter().map(|f| f.0)));
-    (words, Verdict::holds_if(largest <= NONE, format!("up to {:.1} % beyond that row", 100.0 * largest)))
+    (words, FactVerdict::holds_if(largest <= NONE, format!("up to {:.1} % beyond that row", 100.0 * largest)))
 }
 
 /// What the bodies lose of their volume between filling and 30 kPa.
-fn section(case: &Case) -> Found {
+fn section(case: &FactCase) -> FactFound {
     let lost = |run: &PaperRun| {
         let filled = run.run.states.first().map_or(f64::NAN, |s| s.body_cm3);
         1.0 - run.end().map_or(f64::NAN, |s| s.body_cm3) / filled
@@ -312,5 +314,5 @@ fn section(case: &Case) -> Found {
     let Some(own) = found.iter().find(|f| f.0 == "spam").map(|f| f.1) else { return no_runs("the sPAM at 30 kPa") };
     let words = joined(found.iter().map(|(kind, share)| format!("{} {:.1} %", printed(kind), 100.0 * share)));
     let found = format!("the body loses of its volume at 30 kPa, its bend included: {words}");
-    (found, Verdict::holds_if(own <= LITTLE, format!("{:.1} % is more than {:.0} %", 100.0 * own, 100.0 * LITTLE)))
+    (found, FactVerdict::holds_if(own <= LITTLE, format!("{:.1} % is more than {:.0} %", 100.0 * own, 100.0 * LITTLE)))
 }

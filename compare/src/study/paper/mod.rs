@@ -8,8 +8,8 @@ mod in_runs;
 mod jobs;
 mod of_run;
 
-pub use facts::{Row, Verdict, facts};
-pub use implied::{Against, Implied, NEAR, against, heights};
+pub use facts::{FactRow, FactVerdict, facts};
+pub use implied::{HeightRow, Implied, NEAR, against, heights};
 pub use jobs::jobs;
 pub use of_run::runs_below;
 
@@ -66,7 +66,7 @@ pub struct Peak {
 const RUNS: Shape = Shape { schema: "ibr.paper_runs", version: 1 };
 
 #[derive(Deserialize)]
-struct Runs {
+struct PaperRuns {
     runs: Vec<PaperRun>,
 }
 
@@ -84,7 +84,7 @@ pub fn stored() -> Result<Vec<PaperRun>, FemError> {
 /// [`FemError::Record`] with the line and the field.
 pub fn read_runs(file: &str, text: &str) -> Result<Vec<PaperRun>, FemError> {
     let help = "make the file again: `ibr compare --paper --runs FOLDER --out PAGE` writes PAGE/paper-runs.json";
-    Ok(RUNS.read::<Runs>(file, text, help)?.runs)
+    Ok(RUNS.read::<PaperRuns>(file, text, help)?.runs)
 }
 
 /// Runs as they are stored: one a line.

@@ -29,7 +29,7 @@ fn run(kind: &str, mesh_mm: [f64; 2], kpa: f64, marker_mm: f64) -> PaperRun {
     }
 }
 
-fn row(id: &str, runs: &[PaperRun]) -> Row {
+fn row(id: &str, runs: &[PaperRun]) -> FactRow {
     facts(&published().unwrap(), runs).into_iter().find(|row| row.id == id).unwrap()
 }
 
@@ -78,15 +78,15 @@ fn every_fact_has_one_check_and_every_check_a_fact() {
 #[test]
 fn tables_and_sizes_of_the_paper_agree_with_its_text_or_not() {
     for id in ["area", "accuracy-spam", "accuracy-cpam", "drop-cpam", "accuracy-material", "accuracy-formed"] {
-        assert_eq!(row(id, &[]).verdict, Verdict::Holds, "{id}");
+        assert_eq!(row(id, &[]).verdict, FactVerdict::Holds, "{id}");
     }
     for id in ["accuracy-lowest", "accuracy-epam", "mesh-share", "same-buckling", "threshold", "layers"] {
-        assert_eq!(row(id, &[]).verdict, Verdict::Holds, "{id}: {}", row(id, &[]).found);
+        assert_eq!(row(id, &[]).verdict, FactVerdict::Holds, "{id}: {}", row(id, &[]).found);
     }
-    assert!(matches!(row("accuracy-fpam", &[]).verdict, Verdict::Misses(_)), "96.7 is not over 96.7");
+    assert!(matches!(row("accuracy-fpam", &[]).verdict, FactVerdict::Misses(_)), "96.7 is not over 96.7");
     assert!(row("area", &[]).found.contains("2.60") && row("area", &[]).found.contains("1.80"));
     for id in ["moduli", "shear-angle", "footprint", "hold", "oscillation", "mesh-insensitive"] {
-        assert!(matches!(row(id, &[]).verdict, Verdict::ContradictsItself(_)), "{id}");
+        assert!(matches!(row(id, &[]).verdict, FactVerdict::ContradictsItself(_)), "{id}");
     }
     assert!(row("moduli", &[]).found.contains("302") && row("footprint", &[]).verdict.words().contains("20 %"));
 }
@@ -103,7 +103,7 @@ fn the_finest_mesh_that_has_all_runs_decides() {
     let [coarse, fine] = MESHES_MM;
     let mut runs =
         vec![run("cpam", coarse, 10.0, 100.0), run("cpam", coarse, 13.0, 127.5), run("cpam", fine, 13.0, 119.0)];
-    assert_eq!(row("buckling", &runs).verdict, Verdict::Holds);
+    assert_eq!(row("buckling", &runs).verdict, FactVerdict::Holds);
     runs.push(run("cpam", fine, 10.0, 81.0));
     let found = row("buckling", &runs);
     assert!(found.found.contains("4 mm: 100.0, 127.5 mm, +27.5 %") && found.found.contains("4/1 mm"), "{found:?}");
@@ -116,12 +116,12 @@ fn supports_stresses_and_kinetic_energies_are_told_from_the_runs() {
     let mut runs = vec![run("epam", mesh, 30.0, 90.0), PaperRun { encastre: true, ..run("epam", mesh, 30.0, 88.0) }];
     // A row of 4 mm off 330 mm is 2.4 % of the height.
     assert!(row("base", &runs).found.contains("ePAM -2.2 % (+0.2) at 30 kPa"), "{:?}", row("base", &runs));
-    assert_eq!(row("base", &runs).verdict, Verdict::Holds);
+    assert_eq!(row("base", &runs).verdict, FactVerdict::Holds);
     runs[1] = PaperRun { encastre: true, ..run("epam", mesh, 30.0, 84.6) };
     assert_eq!(row("base", &runs).verdict.words(), "misses: up to 3.7 % beyond that row");
-    assert_eq!(row("kinetic-valid", &runs).verdict, Verdict::Holds);
+    assert_eq!(row("kinetic-valid", &runs).verdict, FactVerdict::Holds);
     assert_eq!(row("kinetic-kept", &runs).verdict.words(), "misses: 1 of 1 runs exceed it at some output");
-    assert_eq!(row("stress-seams", &runs).verdict, Verdict::Holds);
+    assert_eq!(row("stress-seams", &runs).verdict, FactVerdict::Holds);
     runs[0].peak.on_seam = false;
     assert_eq!(row("stress-seams", &runs).verdict.words(), "misses: not in the ePAM");
     runs[0].run.states[1].von_mises_mpa = 19.0;

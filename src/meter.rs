@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// A line with a bar and the time left; it appears on terminals only, after the first quarter of a second.
-pub struct Bar {
+pub struct Meter {
     bar: ProgressBar,
     start: Instant,
     /// Highest share so far, in thousandths: a bar never falls back.
@@ -16,9 +16,9 @@ pub struct Bar {
 /// What is said of the time left is worth nothing before \[s\].
 const KNOWN_AFTER_S: f64 = 1.5;
 
-impl Bar {
+impl Meter {
     /// A bar, or one that shows nothing.
-    pub fn new(is_wanted: bool) -> Bar {
+    pub fn new(is_wanted: bool) -> Meter {
         let bar = if is_wanted { ProgressBar::new(1000) } else { ProgressBar::hidden() };
         if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {bar:24} {msg}") {
             bar.set_style(style);
@@ -26,7 +26,7 @@ impl Bar {
         if is_wanted {
             bar.enable_steady_tick(Duration::from_millis(250));
         }
-        Bar { bar, start: Instant::now(), highest: AtomicU64::new(0) }
+        Meter { bar, start: Instant::now(), highest: AtomicU64::new(0) }
     }
 
     /// What is being done, and which share of the whole is done.
@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn the_bar_never_falls_back_and_the_time_left_is_that_of_the_share() {
-        let bar = Bar::new(false);
+        let bar = Meter::new(false);
         let at = |share| {
             bar.tell("work", Some(share));
             bar.bar.position()

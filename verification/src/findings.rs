@@ -4,9 +4,9 @@ use serde_json::Value;
 
 /// Text, tables, the same as JSON, and whether all that is wanted was met.
 #[derive(Debug)]
-pub struct Answer {
+pub struct Findings {
     /// What to print, in order.
-    pub parts: Vec<Part>,
+    pub parts: Vec<Printed>,
     /// The same for programs.
     pub json: Value,
     /// Whether something that is wanted was not reached.
@@ -15,7 +15,7 @@ pub struct Answer {
 
 /// A piece of an answer.
 #[derive(Debug)]
-pub enum Part {
+pub enum Printed {
     /// Lines of text.
     Text(String),
     /// A table.
@@ -29,10 +29,14 @@ pub enum Part {
     },
 }
 
-impl Part {
+impl Printed {
     /// A table; the first `left` columns are text.
-    pub(crate) fn table(head: &'static [&'static str], left: usize, rows: impl Iterator<Item = Vec<String>>) -> Part {
-        Part::Table { head, left, rows: rows.collect() }
+    pub(crate) fn table(
+        head: &'static [&'static str],
+        left: usize,
+        rows: impl Iterator<Item = Vec<String>>,
+    ) -> Printed {
+        Printed::Table { head, left, rows: rows.collect() }
     }
 }
 
@@ -57,6 +61,3 @@ pub enum Error {
         known: String,
     },
 }
-
-/// Told what is being done, and which share of the whole is done if known.
-pub type Progress<'a> = &'a mut dyn FnMut(&str, Option<f64>);
