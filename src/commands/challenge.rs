@@ -1,6 +1,6 @@
 //! `ibr challenge new | reveal | list`: data with a hidden effect whose truth is sealed until someone asks for it.
 
-use super::data::scatter;
+use super::inputs::scatter;
 use super::tables::table;
 use super::{Context, Outcome, inputs};
 use crate::cli::{ChallengeCommand, ChallengeNewArgs};

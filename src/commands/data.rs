@@ -1,8 +1,8 @@
 //! `ibr data check | list | generate | fem`
 
-use super::inputs::{self, quantity};
+use super::inputs::{self, scattered};
 use super::{Context, Outcome, list};
-use crate::cli::{DataCommand, GenerateArgs, ScatterArgs};
+use crate::cli::{DataCommand, GenerateArgs};
 use crate::failure::Failure;
 use crate::output::{Input, check_set_folder, set_name, write_files};
 use crate::shown::check::check_text;
@@ -11,7 +11,6 @@ use compare::slips::slips;
 use compare::study::generate::{Generator, about, generate, parse_protocol};
 use data::{About, Dataset};
 use ibr::pages::Files;
-use models::scenario::quantity::Quantity;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -83,24 +82,4 @@ pub fn write(
 /// What is said of it.
 pub fn written_json(schema: &str, folder: &Path, dataset: &Dataset) -> Value {
     json!({"schema": schema, "version": 1, "folder": folder.display().to_string(), "runs": dataset.runs.len()})
-}
-
-/// The scatter as typed.
-pub fn scattered(args: &ScatterArgs) -> Result<Generator, Failure> {
-    let percent = args.pressure_scatter;
-    let camera_sd_m = scatter("--sigma", &args.sigma)?;
-    if !(0.0..=50.0).contains(&percent) {
-        let message = format!("--pressure-scatter {percent} is not from 0 to 50 per cent");
-        return Err(Failure::usage(message, "2 is usual"));
-    }
-    let alignment_sd_m = scatter("--alignment", &args.alignment)?;
-    Ok(Generator { camera_sd_m, alignment_sd_m, pressure_sd: percent / 100.0, ..Generator::default() })
-}
-
-/// A scatter of lengths as typed \[m\].
-pub fn scatter(option: &str, text: &str) -> Result<f64, Failure> {
-    match quantity(option, text, Quantity::Length)? {
-        v if (0.0..=0.1).contains(&v) => Ok(v),
-        v => Err(Failure::usage(format!("{option} {v} m is not from 0 to 100 mm"), "1mm is usual")),
-    }
 }

@@ -1,8 +1,9 @@
 //! `ibr data fem`: marker data from finite element runs.
 
-use super::data::{scattered, write, written_json};
+use super::data::{write, written_json};
 use super::fem_inputs::{kept, list, pressures};
 use super::inputs;
+use super::inputs::scattered;
 use super::{Context, Outcome};
 use crate::cli::DataFemArgs;
 use crate::failure::Failure;

@@ -1,9 +1,11 @@
 //! Scenarios, data and quantities as typed on the command line.
 
 use super::Context;
+use crate::cli::ScatterArgs;
 use crate::failure::Failure;
 use crate::output::Input;
 use compare::progress::part;
+use compare::study::Generator;
 use compare::{Evidence, ScenarioFile};
 use models::Scenario;
 use models::actuators::Family;
@@ -46,6 +48,26 @@ pub fn positive(option: &str, text: Option<&String>) -> Result<Option<f64>, Fail
         _ => {
             Err(Failure::usage(format!("{option} {text} is not above zero"), format!("write for example {option} 1mm")))
         }
+    }
+}
+
+/// The scatter as typed.
+pub fn scattered(args: &ScatterArgs) -> Result<Generator, Failure> {
+    let percent = args.pressure_scatter;
+    let camera_sd_m = scatter("--sigma", &args.sigma)?;
+    if !(0.0..=50.0).contains(&percent) {
+        let message = format!("--pressure-scatter {percent} is not from 0 to 50 per cent");
+        return Err(Failure::usage(message, "2 is usual"));
+    }
+    let alignment_sd_m = scatter("--alignment", &args.alignment)?;
+    Ok(Generator { camera_sd_m, alignment_sd_m, pressure_sd: percent / 100.0, ..Generator::default() })
+}
+
+/// A scatter of lengths as typed \[m\].
+pub fn scatter(option: &str, text: &str) -> Result<f64, Failure> {
+    match quantity(option, text, Quantity::Length)? {
+        v if (0.0..=0.1).contains(&v) => Ok(v),
+        v => Err(Failure::usage(format!("{option} {v} m is not from 0 to 100 mm"), "1mm is usual")),
     }
 }
 
