@@ -94,9 +94,6 @@ pub enum Command {
 /// What is checked.
 #[derive(Debug, Args)]
 pub struct VerifyArgs {
-    /// Print every closed-form number, not only the sections
-    #[arg(long)]
-    pub all: bool,
     /// Also the finite element checks that take long, some minutes in all
     #[arg(long)]
     pub slow: bool,

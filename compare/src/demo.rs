@@ -5,6 +5,7 @@ use crate::diagnosis::{Diagnosis, Options, diagnose};
 use crate::error::CompareError;
 use crate::evaluate::EvaluateOptions;
 use crate::evidence::Evidence;
+use crate::progress::shares::DEMO;
 use crate::progress::{Progress, part};
 use crate::study::calibrate::Knob;
 use crate::study::comparison::{Comparison, Contender, compare_all};
@@ -76,14 +77,14 @@ pub fn demo(progress: &mut Progress, told: &mut dyn FnMut(Told)) -> Result<Demo,
     progress("measured things", Some(0.0));
     let measured = measured_things()?;
     told(Told::Measured(&measured));
-    progress("published displacements", Some(0.3));
+    progress("published displacements", Some(DEMO[0]));
     let ladders = published_ladders()?;
     told(Told::Published(&ladders));
     let mut studies = Vec::new();
     // What the finite elements made is the matter of the diagnosis and its bench; measured robots have models of their own.
     let made = |set: &&data::SetInfo| set.provenance == data::Provenance::Synthetic && !set.name.starts_with("fem-");
     for set in data::sets().iter().filter(|set| set.has_markers()).filter(made) {
-        progress(&set.name, Some(0.4));
+        progress(&set.name, Some(DEMO[1]));
         let evidence = Evidence::read(&set.name)?;
         let rungs = model_ladder(&evidence.dataset.actuator)?.into_iter();
         let models: Vec<Contender> =
@@ -91,11 +92,11 @@ pub fn demo(progress: &mut Progress, told: &mut dyn FnMut(Told)) -> Result<Demo,
         studies.push(compare_all(&models, &evidence, &EvaluateOptions::default(), Some(Knob::Bending))?);
     }
     told(Told::Sets(&studies));
-    let diagnosed = story(&mut part(progress, [0.5, 0.8]))?;
+    let diagnosed = story(&mut part(progress, [DEMO[2], DEMO[3]]))?;
     told(Told::Missing(&diagnosed.diagnosis));
-    progress("run times", Some(0.8));
+    progress("run times", Some(DEMO[3]));
     let mut timings = tradeoff(&ladders)?;
-    progress("finite elements", Some(0.9));
+    progress("finite elements", Some(DEMO[4]));
     let runs = stored()?;
     timings.extend(of_runs(&ladders, &runs));
     let scenarios = ladders.iter().map(|l| shipped_scenario(&l.published.kind)).collect::<Result<Vec<_>, _>>()?;

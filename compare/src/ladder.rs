@@ -9,6 +9,9 @@ use crate::progress::{Progress, part};
 use crate::scenario_file::ScenarioFile;
 use serde::Serialize;
 
+/// Effects that a climb adds at most: beyond them a name says little.
+pub const MOST_EFFECTS: usize = 3;
+
 /// One step up.
 #[derive(Debug, Clone, Serialize)]
 pub struct ClimbStep {

@@ -3,6 +3,33 @@
 /// Told what is being done, and which share of the whole is done if that is known.
 pub type Progress<'p> = dyn FnMut(&str, Option<f64>) + Send + 'p;
 
+/// Where the parts of long work begin, as shares of its whole time: what is said of the time left rests on them.
+///
+/// Measured once as processor time, release build on two cores, when each part was first told: `ibr diagnose epam-textbook
+/// synthetic-epam --out FOLDER` (2.5 s; 0.24 s without a report), `ibr compare epam synthetic-epam --out FOLDER` (1.1 s), `ibr ladder
+/// epam-textbook synthetic-epam --out FOLDER` (0.5 s) and `ibr demo` (14 s). Other data take other shares. A finite element run tells
+/// the share of its simulated time: of `ibr simulate epam` (5.6 s) 0.5 was told at 0.41 and 0.95 at 0.80; pictures come after.
+pub mod shares {
+    /// After reading of data.
+    pub const READ: f64 = 0.01;
+    /// Of a diagnosis: left-out data begin (0.21 with one effect missing, 0.52 with two), then the next experiment (0.63, 0.77).
+    pub const DIAGNOSIS: [f64; 2] = [0.4, 0.7];
+    /// Of its fits: pairs begin.
+    pub const PAIRS: f64 = 0.35;
+    /// Its report begins.
+    pub const DIAGNOSED: f64 = 0.1;
+    /// The report of a comparison begins.
+    pub const COMPARED: f64 = 0.02;
+    /// The report of a ladder begins.
+    pub const CLIMBED: f64 = 0.4;
+    /// What a demonstration computes: published displacements, marker sets, the diagnosis, run times, finite elements.
+    pub const DEMO: [f64; 5] = [0.06, 0.08, 0.32, 0.59, 0.8];
+    /// In the demonstration itself: everything is computed, the small run is made.
+    pub const SHOWN: [f64; 2] = [0.05, 0.6];
+    /// Pictures of the demonstration: both engines, marker sets, diagnosis.
+    pub const PICTURES: [f64; 3] = [0.26, 0.32, 0.7];
+}
+
 /// The progress of a part of the whole: its shares from 0 to 1 are those of the whole from `from` to `to`.
 pub fn part<'p>(progress: &'p mut Progress, [from, to]: [f64; 2]) -> impl FnMut(&str, Option<f64>) + Send + 'p {
     move |what, share| progress(what, Some(from + (to - from) * share.unwrap_or(0.0).clamp(0.0, 1.0)))

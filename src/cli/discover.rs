@@ -50,9 +50,6 @@ pub struct LadderArgs {
     /// Further data of the same robot, fitted along; may be given several times
     #[arg(long, value_name = "DATA")]
     pub also: Vec<String>,
-    /// Most effects to add
-    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u64).range(1..=3))]
-    pub effects: u64,
     /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
     #[arg(long)]
     pub keep_bending: bool,

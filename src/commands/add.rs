@@ -1,6 +1,6 @@
 //! `ibr add`
 
-use super::inputs::{self, READ, positive};
+use super::inputs::{self, positive};
 use super::{Context, Outcome};
 use crate::cli::AddArgs;
 use crate::failure::Failure;
@@ -8,6 +8,7 @@ use crate::shown::extension::steps_text;
 use compare::diagnosis::Options;
 use compare::extension::{Addition, Extension, Wish, add, today};
 use compare::progress::part;
+use compare::progress::shares::READ;
 use compare::{Evidence, ScenarioFile};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};

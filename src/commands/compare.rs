@@ -6,6 +6,7 @@ use crate::cli::CompareArgs;
 use crate::failure::{Failure, MISSED};
 use crate::output::{check_folder, imprint, write_files};
 use crate::shown::comparison::{CompareAnswer, text};
+use compare::progress::shares::{COMPARED, READ};
 use compare::study::comparison::{Contender, Variant, compare_all};
 use compare::validation::BeforeAfter;
 use compare::{EvaluateOptions, ScenarioFile};
@@ -22,7 +23,7 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let models = models(&file, &args.effect)?;
     let evidence = inputs::evidence(data_spec, context)?;
-    (context.progress)("comparing", Some(inputs::READ));
+    (context.progress)("comparing", Some(READ));
     let options = EvaluateOptions { sigma_m, ..EvaluateOptions::default() };
     let found = compare_all(&models, &evidence, &options, args.calibrate)?;
     // Without an effect that was added there is no before and after; without it the robot may have no equilibrium.
@@ -33,7 +34,7 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
     let mut outcome = Outcome::new(text(&answer), answer.json());
     let folder = format!("ibr-report/compare-{}", plain(&found.dataset.name));
     if let Some(folder) = args.out.clone().or_else(|| (!context.json).then(|| PathBuf::from(folder))) {
-        (context.progress)("drawing the report", Some(0.5));
+        (context.progress)("drawing the report", Some(COMPARED));
         let files = compare_page(&found, &imprint())?;
         write_files(&folder, &files, &inputs::named(&file, [&evidence])?, context)?;
         outcome.notes.push(format!("report: {}", folder.join("report.html").display()));

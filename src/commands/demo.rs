@@ -6,6 +6,7 @@ use crate::output::{check_folder, imprint, write_files};
 use crate::shown::demo::{text, to_json};
 use compare::demo::demo;
 use compare::progress::part;
+use compare::progress::shares::SHOWN;
 use fem::session::{FeRun, Settings, Source, heights_mm, simulate};
 use ibr::pages::demo_page;
 use serde_json::{Value, json};
@@ -15,10 +16,10 @@ use std::path::Path;
 pub fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
     check_folder(folder)?;
     let say = &mut *context.say;
-    let computed = demo(&mut part(context.progress, [0.0, COMPUTED]), &mut |told| say(&text(told)))?;
+    let computed = demo(&mut part(context.progress, [0.0, SHOWN[0]]), &mut |told| say(&text(told)))?;
     let small = small_run(context)?;
     (context.say)(&small_text(&small));
-    let mut files = demo_page(&computed, &imprint(), &mut |what| (context.progress)(what, Some(RUN)))?;
+    let mut files = demo_page(&computed, &imprint(), &mut part(context.progress, [SHOWN[1], 1.0]))?;
     let picture = small.files.iter().find(|(name, _)| name == "side.png");
     files.files.splice(0..0, picture.map(|(_, png)| ("small_run.png".to_string(), png.clone())));
     write_files(folder, &files, &[], context)?;
@@ -35,12 +36,8 @@ const SMALL: [(&str, &str); 4] = [
     ("pressures_kpa", "[10, 20, 30]"),
 ];
 
-/// Shares of the time after which everything is computed, and that run is made.
-const COMPUTED: f64 = 0.4;
-const RUN: f64 = 0.7;
-
 fn small_run(context: &mut Context) -> Result<FeRun, Failure> {
-    let mut tell = part(context.progress, [COMPUTED, RUN]);
+    let mut tell = part(context.progress, SHOWN);
     let changes = SMALL.map(|(key, value)| (key.to_string(), value.to_string()));
     let robot = Source::new("epam", models::shipped("epam").unwrap_or_default()).with(&changes)?;
     Ok(simulate(&robot, &Settings::default(), &mut |_, share| {

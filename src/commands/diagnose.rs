@@ -1,6 +1,6 @@
 //! `ibr diagnose`
 
-use super::inputs::{self, READ, positive, unused_sigma};
+use super::inputs::{self, positive, unused_sigma};
 use super::{Context, Outcome};
 use crate::cli::DiagnoseArgs;
 use crate::failure::Failure;
@@ -9,13 +9,11 @@ use crate::shown::diagnosis::{text, to_json};
 use compare::diagnose;
 use compare::diagnosis::Options;
 use compare::progress::part;
+use compare::progress::shares::{DIAGNOSED, READ};
 use compare::study::engines::known_runs;
 use compare::witness::witness;
 use ibr::pages::{Diagnosed, diagnosis_page, diagnosis_pictures};
 use std::path::Path;
-
-/// Share of the time after which the report is drawn.
-const DRAWN: f64 = 0.8;
 
 pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failure> {
     if args.published {
@@ -36,7 +34,8 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failur
     let evidence = inputs::all_evidence(data, &args.also, context)?;
     let (refit_present, keep_bending) = (args.refit, args.keep_bending);
     let options = Options { sigma_m, tolerance_m, refit_present, keep_bending, ..Options::default() };
-    let diagnosis = diagnose(&file, &evidence, &options, &mut part(context.progress, [READ, DRAWN]))?;
+    let end = args.out.as_ref().map_or(1.0, |_| DIAGNOSED);
+    let diagnosis = diagnose(&file, &evidence, &options, &mut part(context.progress, [READ, end]))?;
     let runs = known_runs(args.runs.as_deref())?;
     let first = &evidence[0];
     let witness = witness(&diagnosis, &file, &first.dataset, first.about.as_ref(), &runs)?;
@@ -50,7 +49,6 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failur
         outcome.notes.push(format!("warning: no finite element run in {} {why}", folder.display()));
     }
     if let Some(folder) = &args.out {
-        (context.progress)("drawing the report", Some(DRAWN));
         let also = args.also.iter().map(|data| format!(" --also {data}"));
         let found = Diagnosed {
             diagnosis: &diagnosis,
@@ -79,7 +77,7 @@ fn report(
     inputs: &[Input],
     context: &mut Context,
 ) -> Result<(), Failure> {
-    let mut files = diagnosis_page(found, &imprint())?;
+    let mut files = diagnosis_page(found, &imprint(), &mut part(context.progress, [DIAGNOSED, 1.0]))?;
     files.files.insert(0, ("diagnosis.json".into(), json));
     let pictures = diagnosis_pictures().into_iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]);
     let old = earlier(folder, &pictures.collect::<Vec<_>>());

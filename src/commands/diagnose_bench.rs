@@ -1,11 +1,11 @@
 //! `ibr diagnose` of a table of bench tests: a beam, a muscle.
 
-use super::inputs::READ;
 use super::{Context, Outcome, held, inputs};
 use crate::cli::DiagnoseArgs;
 use crate::failure::Failure;
 use crate::shown::bench_diagnosis::text;
 use compare::diagnosis::{BenchOptions, diagnose_bench};
+use compare::progress::shares::READ;
 use fem::record::Shape;
 use serde_json::json;
 

@@ -5,6 +5,7 @@ use crate::cli::ScatterArgs;
 use crate::failure::Failure;
 use crate::output::Input;
 use compare::progress::part;
+use compare::progress::shares::READ;
 use compare::study::Generator;
 use compare::{Evidence, ScenarioFile};
 use models::Scenario;
@@ -15,9 +16,6 @@ use models::scenario::quantity::{Quantity, parse};
 pub fn scenario(spec: &str) -> Result<ScenarioFile, Failure> {
     Ok(ibr::studies::scenario(spec)?)
 }
-
-/// Share of a command's time for reading; what comes next begins there.
-pub const READ: f64 = 0.1;
 
 /// Loads marker data with progress.
 pub fn evidence(spec: &str, context: &mut Context) -> Result<Evidence, Failure> {

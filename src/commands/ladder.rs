@@ -1,14 +1,15 @@
 //! `ibr ladder`
 
-use super::inputs::{self, READ, plain, positive};
+use super::inputs::{self, plain, positive};
 use super::{Context, Outcome};
 use crate::cli::LadderArgs;
 use crate::failure::Failure;
 use crate::output::{Input, check_folder, imprint, write_files};
 use crate::shown::extension::climb_text;
 use compare::diagnosis::Options;
-use compare::ladder::ladder;
+use compare::ladder::{MOST_EFFECTS, ladder};
 use compare::progress::part;
+use compare::progress::shares::{CLIMBED, READ};
 use fem::record::Shape;
 use ibr::pages::{Climbed, ladder_page};
 use serde_json::json;
@@ -21,7 +22,7 @@ pub fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome, Failure>
     let evidence = inputs::all_evidence(&args.data, &args.also, context)?;
     let options =
         Options { tolerance_m, keep_bending: args.keep_bending, next_experiment: false, ..Options::default() };
-    let climb = ladder(&file, &evidence, &options, args.effects as usize, &mut part(context.progress, [READ, 0.95]))?;
+    let climb = ladder(&file, &evidence, &options, MOST_EFFECTS, &mut part(context.progress, [READ, CLIMBED]))?;
     let LadderArgs { scenario, data, also, .. } = args;
     let mut answer = Shape { schema: "ibr.ladder", version: 1 }.stamped(&climb);
     answer["scenario_file"] = json!(scenario);

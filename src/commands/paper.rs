@@ -21,8 +21,8 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
     let mut outcome = Outcome::new(text.clone(), answer);
     if let Some(folder) = &args.out {
         let mut files = Files::default();
-        files.files.push(("paper.md".into(), text.into_bytes()));
-        files.files.push(("paper-runs.json".into(), runs_json(&runs).into_bytes()));
+        files.text("paper.md", text);
+        files.text("paper-runs.json", runs_json(&runs));
         write_files(folder, &files, &[], context)?;
         outcome.notes.push(format!("runs: {}", folder.join("paper-runs.json").display()));
     }

@@ -37,10 +37,8 @@ pub fn run(args: &TradeoffArgs, context: &mut Context) -> Result<Outcome, Failur
     );
     text.push_str(&table(&head, 4, rows.collect()));
     if let Some(folder) = out {
-        let drawn = tradeoff_plot(&timings)?;
         let mut files = Files::default();
-        files.files.push(("tradeoff.svg".into(), drawn.svg.into_bytes()));
-        files.files.push(("tradeoff.png".into(), drawn.png));
+        files.plot("tradeoff", tradeoff_plot(&timings)?);
         write_files(folder, &files, &[], context)?;
     }
     Ok(Outcome::new(text, json!({"schema": "ibr.tradeoff", "version": 1, "machine": machine(), "models": timings})))

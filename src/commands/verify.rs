@@ -10,7 +10,7 @@ use verification::checks::{Choice, Figure, verify};
 use verification::{Error, Findings, Printed};
 
 pub fn run(args: &VerifyArgs, context: &mut Context) -> Result<Outcome, Failure> {
-    let choice = Choice { every: args.all, slow: args.slow, only: &args.only };
+    let choice = Choice { slow: args.slow, only: &args.only };
     let (answer, figures) = verify(&choice, &mut |what, share| (context.progress)(what, share))?;
     let mut outcome = show(answer);
     if let Some(folder) = &args.plots {

@@ -5,6 +5,8 @@ use super::engines::overview;
 use super::{Files, Imprint, PageError, figures, residual_figure};
 use ::compare::bench::Held;
 use ::compare::demo::{Demo, HIDDEN_IN, Story};
+use ::compare::progress::shares::PICTURES as SHARES;
+use ::compare::progress::{Progress, part};
 use ::compare::study::Comparison;
 use ::compare::study::published::PublishedLadder;
 use data::published::printed;
@@ -17,20 +19,19 @@ const PICTURES: [&str; 4] = ["residuals_before", "ranking", "before_after", "can
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn demo_page(demo: &Demo, imprint: &Imprint, progress: &mut dyn FnMut(&str)) -> Result<Files, PageError> {
+pub fn demo_page(demo: &Demo, imprint: &Imprint, progress: &mut Progress) -> Result<Files, PageError> {
     let mut files = Files::default();
-    progress("plots of the published displacements");
+    progress("plots of the published displacements", Some(0.0));
     files.plot("published", figures::published_bars(&demo.ladders)?);
     for ladder in &demo.ladders {
         files.plot(&format!("ladder_{}", ladder.published.kind), figures::published_ladder(ladder)?);
     }
-    progress("plots of both engines");
+    progress("plots of both engines", Some(SHARES[0]));
     let mut values = overview(&demo.engines, &mut files)?;
-    progress("plots of the marker sets");
+    progress("plots of the marker sets", Some(SHARES[1]));
     let studies = demo.studies.iter().map(|study| draw_study(study, &mut files)).collect::<Result<Vec<_>, _>>()?;
-    progress("plots of the diagnosis");
     let found = found(&demo.diagnosed);
-    draw(&found, "diagnosis_", &PICTURES, &mut files)?;
+    draw(&found, "diagnosis_", &PICTURES, &mut files, &mut part(progress, [SHARES[2], 1.0]))?;
     files.plot("tradeoff", figures::tradeoff(&demo.timings)?);
     for (key, value) in [
         ("title", json!("Four pneumatic bending actuators: models held against measurements")),

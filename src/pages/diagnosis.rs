@@ -6,6 +6,7 @@ use super::diagnosis_figures::{
 use super::{Files, Imprint, PageError, figures, in_words, residual_figure};
 use ::compare::diagnosis::{Answer, Combination, Diagnosis, ParameterValue, Ranked, Separation, Standing, Verdict};
 use ::compare::extension::error_steps;
+use ::compare::progress::Progress;
 use ::compare::residuals::{Deviation, ResidualCell, ResidualMap};
 use ::compare::study::engines::TERMS;
 use ::compare::study::predict::fit_scenario;
@@ -43,9 +44,9 @@ pub struct Diagnosed<'a> {
 ///
 /// # Errors
 /// What cannot be drawn.
-pub fn diagnosis_page(found: &Diagnosed, imprint: &Imprint) -> Result<Files, PageError> {
+pub fn diagnosis_page(found: &Diagnosed, imprint: &Imprint, progress: &mut Progress) -> Result<Files, PageError> {
     let mut files = Files::default();
-    draw(found, "", &diagnosis_pictures(), &mut files)?;
+    draw(found, "", &diagnosis_pictures(), &mut files, progress)?;
     files.page("diagnosis.html", values(found), imprint)?;
     Ok(files)
 }
@@ -93,9 +94,16 @@ pub fn diagnosis_pictures() -> [&'static str; 8] {
 }
 
 /// Adds those of the wanted pictures that there are, their names after a prefix.
-pub(super) fn draw(found: &Diagnosed, prefix: &str, wanted: &[&str], files: &mut Files) -> Result<(), PageError> {
+pub(super) fn draw(
+    found: &Diagnosed,
+    prefix: &str,
+    wanted: &[&str],
+    files: &mut Files,
+    progress: &mut Progress,
+) -> Result<(), PageError> {
     let (scenario, _) = fit_scenario(found.scenario, found.dataset, found.about)?;
-    for (name, picture) in PICTURES.iter().filter(|(name, _)| wanted.contains(name)) {
+    for (i, (name, picture)) in PICTURES.iter().filter(|(name, _)| wanted.contains(name)).enumerate() {
+        progress("plots of the diagnosis", Some(i as f64 / wanted.len() as f64));
         if let Some(drawn) = picture(found, &scenario)? {
             files.plot(&format!("{prefix}{name}"), drawn);
         }

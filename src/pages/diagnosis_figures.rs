@@ -182,9 +182,9 @@ pub(super) fn candidate_curves(
         series.push(LineSeries {
             name: format!("+ {}{}", super::effect(&answer.name()), attempted(d, answer)),
             points: (0..own.len()).map(point).collect(),
-            half_width: Vec::new(),
             style: if answer.standing == Standing::Other { LineStyle::Dashed } else { LineStyle::Line },
             colour: Some(if i < MEASURED { i } else { i + 1 }),
+            ..LineSeries::default()
         });
     }
     let body =

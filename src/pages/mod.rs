@@ -119,7 +119,7 @@ pub struct Imprint {
 }
 
 /// A number with `digits` decimals, or a dash where there is none.
-fn number(value: Option<f64>, digits: usize) -> String {
+pub fn number(value: Option<f64>, digits: usize) -> String {
     value.map_or_else(|| "–".into(), |v| format!("{v:.digits$}"))
 }
 

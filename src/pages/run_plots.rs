@@ -27,9 +27,8 @@ fn displacement(name: &str, run: &FeRun) -> Option<Lines> {
     let series = |k: usize| LineSeries {
         name: format!("{:.0} mm", stations[k] * 1e3),
         points: readings.iter().map(|r| [r.actuator_pa * 1e-3, r.moved_m[k][1] * 1e3]).collect(),
-        half_width: Vec::new(),
         style: LineStyle::LinePoints,
-        colour: None,
+        ..LineSeries::default()
     };
     Some(Lines {
         title: format!("{name}: displacement towards the actuator, by distance from the base"),
@@ -48,9 +47,9 @@ fn history(name: &str, run: &FeRun) -> Option<Lines> {
     let series = |name: &str, points: Vec<[f64; 2]>, style, colour| LineSeries {
         name: name.into(),
         points,
-        half_width: Vec::new(),
         style,
         colour: Some(colour),
+        ..LineSeries::default()
     };
     let over = |energy: fn(&fem::robot::Sample) -> f64| samples.iter().map(|s| [s.time_s, energy(s) * 1e3]).collect();
     let found = run.summary.robot.iter().flat_map(|robot| &robot.snaps);

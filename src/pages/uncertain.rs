@@ -16,9 +16,9 @@ pub fn marker_intervals(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> Result
         let line = |name: String, k: usize, style| LineSeries {
             name,
             points: found.iter().map(|(s, q)| [*s, q[k]]).collect(),
-            half_width: Vec::new(),
             style,
             colour: Some(colour),
+            ..LineSeries::default()
         };
         series.push(line(format!("{kpa} kPa, median"), 1, LineStyle::LinePoints));
         series.push(line(String::new(), 0, LineStyle::Dashed));
@@ -30,9 +30,9 @@ pub fn marker_intervals(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> Result
             series.push(LineSeries {
                 name,
                 points,
-                half_width: Vec::new(),
                 style: LineStyle::OpenPoints,
                 colour: Some(colour),
+                ..LineSeries::default()
             });
         }
     }

@@ -52,7 +52,6 @@ fn ranking(d: &BenchDiagnosis) -> String {
     };
     let base: Vec<String> =
         d.left_out.iter().map(|l| format!(", {} at left-out {}s", percent(l.off), l.what)).collect();
-    let head: Vec<&str> = head.iter().map(String::as_str).collect();
     let rows = table(&head, 3, d.ranked.iter().map(row).collect());
     let legend = "= cannot be told from the best · ! on a physical bound, rejected";
     format!("\nEach effect alone (model as it is: {} % off{}):\n{rows}{legend}\n", percent(d.off), base.concat())

@@ -60,7 +60,6 @@ fn shapes(rows: &[Parting]) -> String {
     let names = SHAPE.iter().enumerate().map(|(k, name)| of(name, if k < 3 { "mm" } else { "cm³" }));
     let head: Vec<String> =
         ["robot", "body kPa", "pouch mm", "actuator kPa"].map(String::from).into_iter().chain(names).collect();
-    let head: Vec<&str> = head.iter().map(String::as_str).collect();
     format!(
         "\nInflated pouches and body: reduced model / finite elements (difference in %)\n{}",
         table(&head, 1, found)

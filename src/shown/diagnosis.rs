@@ -178,6 +178,5 @@ fn experiments(d: &Diagnosis) -> String {
     }));
     let mut head = vec!["experiment".to_string(), "protocol [kPa]".to_string(), "suffices".to_string()];
     head.extend(next.now.iter().map(|s| s.rival.clone()));
-    let head: Vec<&str> = head.iter().map(String::as_str).collect();
     format!("\nExpected separation λ of {} from:\n{}", next.best, table(&head, 2, rows))
 }

@@ -26,7 +26,6 @@ pub fn text(one: &OneNumber) -> String {
         cells.extend(e.y_mm.iter().map(|y| format!("{y:.1}")));
         cells
     };
-    let head: Vec<&str> = head.iter().map(String::as_str).collect();
     out.push_str(&table(&head, 2, one.met_by.iter().map(row).collect()));
     out.push_str("Each value is calibrated on that one number: meeting it is evidence for none of them.\n");
     out.push_str(&told(one));

@@ -24,7 +24,6 @@ pub fn text(against: &[HeightRow], rows: &[FactRow], runs: &[PaperRun]) -> Strin
     let most = against.iter().map(|a| a.markers_mm.len()).max().unwrap_or(0);
     let mut head: Vec<String> = ["robot", "kPa", "mesh"].map(String::from).to_vec();
     head.extend((1..=most).map(|k| format!("marker {k}")));
-    let head: Vec<&str> = head.iter().map(String::as_str).collect();
     out.push_str(&table(&head, 3, against.iter().map(marker_cells).collect()));
     out.push_str("\nEvery sentence of the paper with something to check\n");
     let facts = rows.iter().map(|r| vec![r.says.clone(), r.place.clone(), r.found.clone(), r.verdict.words()]);

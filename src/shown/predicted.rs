@@ -31,7 +31,6 @@ pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
             };
             std::iter::once(format!("{:.1}", s * 1e3)).chain(states.iter().map(place)).collect()
         });
-        let head: Vec<&str> = head.iter().map(String::as_str).collect();
         out.push_str(&table(&head, 0, rows.collect()));
     }
     out

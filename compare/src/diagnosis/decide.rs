@@ -13,11 +13,9 @@ use super::singles::{fit_all, indistinguishable};
 use super::stands_out::{Simpler, StandsOut, alone, stands_out};
 use crate::error::CompareError;
 use crate::policy;
+use crate::progress::shares::PAIRS;
 use crate::progress::{Progress, part};
 use crate::stats::reported_p;
-
-/// Share of the time in which single effects are fitted.
-const SINGLES: f64 = 0.5;
 
 /// Everything that was fitted, and what follows.
 pub struct Decision {
@@ -56,7 +54,7 @@ pub struct Decision {
 /// # Errors
 /// What the tests return.
 pub fn decide(case: &Case, options: &Options, progress: &mut Progress) -> Result<Decision, CompareError> {
-    let (singles, allowance) = fit_all(case, &mut part(progress, [0.0, SINGLES]));
+    let (singles, allowance) = fit_all(case, &mut part(progress, [0.0, PAIRS]));
     let set = indistinguishable(case, &singles, allowance);
     let before = test(case, &case.base)?;
     let p_effect = set.iter().filter_map(|i| p_of(case, &singles[*i])).reduce(f64::min);
@@ -82,7 +80,7 @@ pub fn decide(case: &Case, options: &Options, progress: &mut Progress) -> Result
     }
     decision.verdict = Some(Verdict::OutOfCatalog);
     let significant = p_effect.is_some_and(|p| p < policy::SHARE_OF_EFFECTS * case.alpha);
-    explain(case, options, &mut decision, significant, &mut part(progress, [SINGLES, 1.0]))?;
+    explain(case, options, &mut decision, significant, &mut part(progress, [PAIRS, 1.0]))?;
     Ok(decision)
 }
 

@@ -80,6 +80,7 @@ use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
 use crate::evidence::{Evidence, Used};
 use crate::noise_summary::NoiseSummary;
+use crate::progress::shares::DIAGNOSIS;
 use crate::progress::{Progress, part};
 use crate::residuals::{ResidualMap, residual_map};
 use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
@@ -123,10 +124,10 @@ pub fn diagnose(
         )
     }));
     warnings.extend(limits::warnings(&case));
-    let decision = decide(&case, options, &mut part(progress, [0.0, DECIDED]))?;
+    let decision = decide(&case, options, &mut part(progress, [0.0, DIAGNOSIS[0]]))?;
     warnings.extend(singles::left_out(&case, &decision.singles));
     let outliers = Outliers { runs, ..parts[0].prepared.outliers.clone() };
-    progress("left-out data", Some(DECIDED));
+    progress("left-out data", Some(DIAGNOSIS[0]));
     let mut diagnosis = assemble(&case, &decision, outliers, warnings)?;
     diagnosis.evidence = evidence.iter().map(Used::of).collect::<Result<_, _>>()?;
     if first.about.as_ref().is_some_and(|a| a.gravity_direction.is_none()) {
@@ -136,18 +137,13 @@ pub fn diagnose(
     }
     diagnosis.kept_bending = kept_bending::kept_bending(&diagnosis, scenario, evidence, options)?;
     if options.next_experiment {
-        progress("the next experiment", Some(ASSEMBLED));
+        progress("the next experiment", Some(DIAGNOSIS[1]));
         diagnosis.next_experiment = next::next_experiment(&case, &decision, look::next(&diagnosis))?;
     }
     diagnosis.slips = parts.iter().flat_map(|part| part.slips.clone()).collect();
     diagnosis.summary = story::story(&diagnosis);
     Ok(diagnosis)
 }
-
-/// Share of the time after which effects are fitted.
-const DECIDED: f64 = 0.5;
-/// And after which everything but the next experiment is done.
-const ASSEMBLED: f64 = 0.7;
 
 /// Every dataset made ready, without copies, and cautions.
 fn parts(scenario: &Scenario, evidence: &[Evidence]) -> Result<(Vec<Part>, Vec<String>), CompareError> {

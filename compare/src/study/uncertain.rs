@@ -171,13 +171,18 @@ impl Uncertain {
         self.quantiles_mm(actuator_kpa, self.stations_mm.len().checked_sub(1)?, 1)
     }
 
+    /// Robots that [`Uncertain::weights`] needs.
+    pub fn needed(&self) -> usize {
+        self.numbers.len() + SPARE
+    }
+
     /// What every number does to the outermost marker's height at a pressure, largest first, and the share of the variance that a
     /// straight law leaves; `None` with too few robots.
     pub fn weights(&self, actuator_kpa: f64) -> Option<(Vec<Weight>, f64)> {
         let found = self.at(actuator_kpa);
         let last = self.stations_mm.len().checked_sub(1)?;
         let (n, k) = (found.len(), self.numbers.len());
-        if n < k + SPARE {
+        if n < self.needed() {
             return None;
         }
         let y = DVector::from_iterator(n, found.iter().map(|(_, s)| s.moved_mm.get(last).map_or(f64::NAN, |m| m[1])));

@@ -74,7 +74,14 @@ pub fn uncertain(cube: &Cube, set: &[String], settings: Settings, context: &mut 
         }),
     );
     let markers = marker_intervals(&all, &measured).map(|drawn| ("written", "markers.png", drawn.png));
-    let tornado = what_to_measure(&all, top).map(|drawn| ("written", "tornado.png", drawn.png));
+    let tornado = weights.as_ref().map(|_| what_to_measure(&all, top)).transpose()?;
+    let tornado = tornado.map(|drawn| ("written", "tornado.png", drawn.png));
+    if weights.is_none() {
+        let (robots, needed) = (all.members.len(), all.needed());
+        outcome.notes.push(format!(
+            "note: {robots} robots do not tell which number to measure first, so there is no tornado.png; --uncertain {needed} does"
+        ));
+    }
     let record = ("written", "uncertain.json", all.record().into_bytes());
     write(&mut outcome, &settings, std::iter::once(record).chain(markers).chain(tornado))?;
     Ok(outcome)

@@ -25,7 +25,7 @@ pub fn text(robot: &RobotSummary) -> String {
         row.push(format!("{:.1}", r.tip_angle_rad.to_degrees()));
         row
     });
-    out.push_str(&table(&head.iter().map(String::as_str).collect::<Vec<_>>(), 0, rows.collect()));
+    out.push_str(&table(&head, 0, rows.collect()));
     out.push('\n');
     out.push_str(&state(readings));
     out.push_str(&buckling(&robot.snaps));

@@ -54,7 +54,7 @@ pub fn uncertain_text(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> String {
             }));
             row
         });
-    out.push_str(&table(&head.iter().map(String::as_str).collect::<Vec<_>>(), 0, rows.collect()));
+    out.push_str(&table(&head, 0, rows.collect()));
     let top = all.top_kpa();
     if let Some((weights, rest)) = all.weights(top) {
         out.push_str(&format!("\nWhat to measure first: outermost marker at {top} kPa\n"));

@@ -10,8 +10,6 @@ use serde_json::{Value, json};
 /// What is verified.
 #[derive(Debug, Clone, Copy)]
 pub struct Choice<'a> {
-    /// Every closed-form number, not only the sections.
-    pub every: bool,
     /// Also the checks that take long.
     pub slow: bool,
     /// Only these checks, by name, and no closed forms.
@@ -28,7 +26,7 @@ pub type Figures = Vec<(&'static str, Figure)>;
 pub fn verify(choice: &Choice, progress: &mut Progress) -> Result<(Findings, Figures), Error> {
     let checks = chosen(choice)?;
     let rows = if choice.only.is_empty() { oracle_table() } else { Vec::new() };
-    let mut parts = if rows.is_empty() { Vec::new() } else { closed_forms(&rows, choice.every) };
+    let mut parts = if rows.is_empty() { Vec::new() } else { closed_forms(&rows) };
     let (mut cells, mut figures, mut engine) = (Vec::new(), Figures::new(), Vec::new());
     let (mut lines, mut missed) = (0, 0);
     for (i, check) in checks.iter().enumerate() {
@@ -59,25 +57,16 @@ pub fn verify(choice: &Choice, progress: &mut Progress) -> Result<(Findings, Fig
     Ok((Findings { parts, json, missed: wrong + missed > 0 }, figures))
 }
 
-fn closed_forms(rows: &[OracleRow], every: bool) -> Vec<Printed> {
+fn closed_forms(rows: &[OracleRow]) -> Vec<Printed> {
     let count = rows.iter().filter(|row| row.agrees()).count();
     let wrong = rows.iter().filter(|row| !row.agrees()).map(|row| {
         format!("WRONG: {}, {}: {} expected, {:e} computed\n", row.section, row.quantity, row.printed, row.computed)
     });
-    let table = if every {
-        let cells = rows.iter().map(|r| {
-            let mark = if r.agrees() { "ok" } else { "WRONG" };
-            let [section, quantity, printed] = [r.section, r.quantity, r.printed].map(String::from);
-            vec![section, quantity, printed, format!("{:.10e}", r.computed), mark.into()]
-        });
-        Printed::table(&["section", "quantity", "expected", "computed", ""], 2, cells)
-    } else {
-        let cells = rows.chunk_by(|a, b| a.section == b.section).map(|rows| {
-            let agree = rows.iter().filter(|row| row.agrees()).count();
-            vec![rows[0].section.to_string(), rows.len().to_string(), agree.to_string()]
-        });
-        Printed::table(&["section", "numbers", "reproduced"], 1, cells)
-    };
+    let cells = rows.chunk_by(|a, b| a.section == b.section).map(|rows| {
+        let agree = rows.iter().filter(|row| row.agrees()).count();
+        vec![rows[0].section.to_string(), rows.len().to_string(), agree.to_string()]
+    });
+    let table = Printed::table(&["section", "numbers", "reproduced"], 1, cells);
     let sum = format!("{count} of {} numbers reproduced to the last printed digit\n\n", rows.len());
     vec![table, Printed::Text(wrong.collect::<String>() + &sum)]
 }
