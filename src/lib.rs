@@ -23,6 +23,7 @@
 //! | [`data`] | measurements as plain structs: marker tables, bench tests, descriptions |
 //! | [`study`] | the only crate that knows both sides: accuracy, noise, diagnosis, extension |
 //! | [`report`] | charts and pages of plain structs; [`pages`] makes them of results |
+//! | [`studies`] | robots in finite elements that come with the library by name |
 
 pub mod pages;
 mod predict;

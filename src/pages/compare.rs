@@ -1,6 +1,6 @@
 //! The page of a scenario held against a dataset.
 
-use super::{Files, Imprint, PageError, figures, number, residual_figure, tables};
+use super::{Files, Imprint, PageError, effect, figures, number, residual_figure, tables};
 use ::compare::metrics::HoldMetrics;
 use ::compare::study::{Comparison, Variant};
 use serde_json::{Value, json};
@@ -61,10 +61,10 @@ fn lead(study: &Comparison) -> String {
         None => format!("{:.2} mm rms; the noise is unknown with one run", all.rmse_mm),
     };
     let worst = format!("largest tip error {:+.1} mm of {:.1} mm", all.largest_tip_error_mm, all.d_max_mm);
-    let mut text = format!("**{}** misses the data by {size}; {worst}.", first.label);
+    let mut text = format!("**{}** misses the data by {size}; {worst}.", effect(&first.label));
     if let (Some(last), true) = (study.variants.last(), study.variants.len() > 1) {
         let after = last.evaluation.metrics.overall.systematic_mm.unwrap_or(last.evaluation.metrics.overall.rmse_mm);
-        text.push_str(&format!(" With **{}** ({}) {after:.2} mm remain.", last.label, last.known.word()));
+        text.push_str(&format!(" With **{}** ({}) {after:.2} mm remain.", effect(&last.label), last.known.word()));
     }
     text
 }

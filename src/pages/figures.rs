@@ -154,7 +154,7 @@ pub(super) fn pressure_curve(title: &str, study: &Comparison) -> Result<Drawn, P
         for (k, p_body) in bodies.iter().enumerate() {
             let style = if k == 0 { plots::LineStyle::Line } else { plots::LineStyle::Dashed };
             let points = model_curve(&variant.scenario, dataset, *p_body)?;
-            let name = named(&variant.label, *p_body);
+            let name = named(&super::effect(&variant.label), *p_body);
             series.push(plots::LineSeries { name, points, half_width: vec![], style, colour: Some(i + 2) });
         }
     }
