@@ -4,6 +4,7 @@ use crate::failure::{Failure, INTERRUPTED};
 use fem::FemError;
 use fem::session::Progress;
 use std::ops::ControlFlow;
+use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
@@ -98,6 +99,16 @@ impl Outcome {
     /// Nothing to show, and how to go on.
     pub fn interrupted(note: String) -> Outcome {
         Outcome { notes: vec![note], code: INTERRUPTED, ..Outcome::default() }
+    }
+
+    /// Says cautions.
+    pub fn warn<'w>(&mut self, warnings: impl IntoIterator<Item = &'w String>) {
+        self.notes.extend(warnings.into_iter().map(|w| format!("warning: {w}")));
+    }
+
+    /// Says where the report is.
+    pub fn report(&mut self, folder: &Path) {
+        self.notes.push(format!("report: {}", folder.join("report.html").display()));
     }
 
     /// The result stands, and what failed after it is said below it.

@@ -31,7 +31,7 @@ pub fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome, Failure> {
     *written = true;
     let target = target.display().to_string();
     let mut outcome = Outcome::new(words(args, &found, &target), to_json(&file, &evidence, &found, &target)?);
-    outcome.notes.extend(found.warnings.iter().map(|w| format!("warning: {w}")));
+    outcome.warn(&found.warnings);
     Ok(outcome)
 }
 

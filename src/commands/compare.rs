@@ -37,9 +37,9 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
         (context.progress)("drawing the report", Some(COMPARED));
         let files = compare_page(&found, &imprint())?;
         write_files(&folder, &files, &inputs::named(&file, [&evidence])?, context)?;
-        outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
+        outcome.report(&folder);
     }
-    outcome.notes.extend(found.warnings.iter().map(|w| format!("warning: {w}")));
+    outcome.warn(&found.warnings);
     outcome.notes.extend(unused_sigma(sigma_m, &evidence));
     let last_mm = found.variants.last().map_or(0.0, Variant::error_mm);
     if let Some(limit_mm) = limit_m.map(|m| 1e3 * m).filter(|limit_mm| last_mm > *limit_mm) {

@@ -24,7 +24,7 @@ pub fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
     files.files.splice(0..0, picture.map(|(_, png)| ("small_run.png".to_string(), png.clone())));
     write_files(folder, &files, &[], context)?;
     let mut outcome = Outcome::new(String::new(), to_json(&computed, small_json(&small)));
-    outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
+    outcome.report(folder);
     Ok(outcome)
 }
 

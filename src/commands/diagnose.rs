@@ -43,7 +43,7 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failur
     let json = format!("{answer:#}\n").into_bytes();
     let mut outcome = Outcome::new(text(&diagnosis, witness.as_ref()), answer);
     let told_first = |warning: &&String| diagnosis.slips.contains(warning);
-    outcome.notes.extend(diagnosis.warnings.iter().filter(|w| !told_first(w)).map(|w| format!("warning: {w}")));
+    outcome.warn(diagnosis.warnings.iter().filter(|w| !told_first(w)));
     if let (Some(folder), None) = (&args.runs, &witness) {
         let why = "is of this robot at a pressure of the data";
         outcome.notes.push(format!("warning: no finite element run in {} {why}", folder.display()));
@@ -61,7 +61,7 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failur
         };
         // What was found took long, and is printed where it cannot be written.
         match report(folder, &found, json, &inputs::named(&file, &evidence)?, context) {
-            Ok(()) => outcome.notes.push(format!("report: {}", folder.join("report.html").display())),
+            Ok(()) => outcome.report(folder),
             Err(failure) => outcome.fail(&failure),
         }
     }

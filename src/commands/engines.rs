@@ -37,7 +37,7 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
     let mut files = engines_page(&found, &imprint)?;
     files.files.insert(0, ("runs.json".into(), runs_json(&runs).into_bytes()));
     write_files(&folder, &files, &inputs, context)?;
-    outcome.notes.push(format!("report: {}", folder.join("report.html").display()));
+    outcome.report(&folder);
     Ok(outcome)
 }
 

@@ -29,31 +29,34 @@ pub fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome, Failure>
     answer["data"] = json!(data);
     answer["also"] = json!(also);
     let mut outcome = Outcome::new(climb_text(&climb), answer);
-    outcome.notes.extend(climb.warnings.iter().map(|w| format!("warning: {w}")));
+    outcome.warn(&climb.warnings);
     let name = &evidence[0].dataset.name;
     let folder = || PathBuf::from(format!("ibr-report/ladder-{}", plain(name)));
     if let Some(folder) = args.out.clone().or_else(|| (!context.json).then(folder)) {
         let page = Climbed { climb: &climb, names: [&file.scenario.name, name], typed: [scenario, data], also };
         // What was found took long, and is printed where it cannot be written.
-        match report(&folder, &page, &inputs::named(&file, &evidence)?, context) {
-            Ok(notes) => outcome.notes.extend(notes),
-            Err(failure) => outcome.fail(&failure),
+        if let Err(failure) = report(&folder, &page, &inputs::named(&file, &evidence)?, context, &mut outcome) {
+            outcome.fail(&failure);
         }
     }
     Ok(outcome)
 }
 
-/// Writes report and scenarios; what to say of them.
-fn report(folder: &Path, page: &Climbed, inputs: &[Input], context: &mut Context) -> Result<Vec<String>, Failure> {
+/// Writes report and scenarios, and says where they are.
+fn report(
+    folder: &Path,
+    page: &Climbed,
+    inputs: &[Input],
+    context: &mut Context,
+    outcome: &mut Outcome,
+) -> Result<(), Failure> {
     write_files(folder, &ladder_page(page, &imprint())?, inputs, context)?;
     let names: Vec<&str> = page.climb.files.iter().map(|(name, _)| name.as_str()).collect();
-    let mut notes = vec![format!("scenarios in {}: {}", folder.display(), names.join(", "))];
-    let old = earlier_steps(folder, &names);
-    if !old.is_empty() {
-        notes.push(format!("warning: of an earlier ladder, and not of this one: {}", old.join(", ")));
-    }
-    notes.push(format!("report: {}", folder.join("report.html").display()));
-    Ok(notes)
+    outcome.notes.push(format!("scenarios in {}: {}", folder.display(), names.join(", ")));
+    let old = earlier_steps(folder, &names).join(", ");
+    outcome.warn(&(!old.is_empty()).then(|| format!("of an earlier ladder, and not of this one: {old}")));
+    outcome.report(folder);
+    Ok(())
 }
 
 /// Scenarios in the folder that look like steps and are none of these.

@@ -2,7 +2,7 @@
 
 use super::diagnosis::{Diagnosed, draw, verdict};
 use super::engines::overview;
-use super::{Files, Imprint, PageError, figures, residual_figure};
+use super::{Files, Imprint, PAPER, PageError, figures, residual_figure};
 use ::compare::bench::Held;
 use ::compare::demo::{Demo, HIDDEN_IN, Story};
 use ::compare::progress::shares::PICTURES as SHARES;
@@ -91,7 +91,7 @@ fn draw_study(study: &Comparison, files: &mut Files) -> Result<Value, PageError>
 
 fn provenance(imprint: &Imprint) -> Value {
     json!([
-        ["published numbers", "du Pasquier, Jeong, Okamura, IEEE RA-L 2023, doi 10.1109/LRA.2023.3320010"],
+        ["published numbers", PAPER],
         ["marker sets", "synthetic, made by this program's generator; no measurement"],
         ["machine", imprint.machine],
     ])

@@ -3,6 +3,7 @@
 use super::PageError;
 use compare::study::engines::{EnginePair, PARTS, TERMS};
 use compare::study::engines::{EngineRobot, Engines, PartingMap};
+use data::published::printed;
 use models::actuators::Family;
 use report::chart::{Chart, ChartColumn, ChartRow, Mark, Space};
 use report::{self as plots, Drawn, number};
@@ -62,7 +63,7 @@ pub(super) fn bars(engines: &Engines) -> Result<Option<Drawn>, PageError> {
     let data = plots::Bars {
         title: "Outermost marker at 30 kPa".into(),
         value_label: "displacement [mm]".into(),
-        groups: shown.iter().map(|r| r.published.as_ref().map_or(String::new(), |p| p.printed_name.clone())).collect(),
+        groups: shown.iter().map(|r| r.published.as_ref().map_or(String::new(), |p| printed(&p.kind).into())).collect(),
         series: vec![
             series("reduced, as shipped", &|r| last(r).map_or(f64::NAN, |p| p.reduced_mm[0]), false),
             series("reduced, with effects", &|r| r.with_effects.as_ref().map_or(f64::NAN, |g| g.y_m * 1e3), false),

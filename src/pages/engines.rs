@@ -1,7 +1,7 @@
 //! Both engines and the published numbers on one page: displacement, accuracy, ledgers, and where the models part.
 
 use super::engine_figures::{bars, curve, displaced, ledger, parting_plot};
-use super::{Files, Imprint, PageError, marker_intervals, what_to_measure};
+use super::{Files, Imprint, PAPER, PageError, marker_intervals, what_to_measure};
 use ::compare::study::engines::{
     EngineRobot, Engines, HEADS, SUMMARY, VOLUMES, VOLUMES_CAPTION, cells, csv, lines, summary, volume_cells,
 };
@@ -105,8 +105,7 @@ fn lead(engines: &Engines) -> String {
 }
 
 fn provenance(engines: &Engines, imprint: &Imprint) -> Vec<[String; 2]> {
-    let paper = "du Pasquier, Jeong, Okamura, IEEE RA-L 2023, doi 10.1109/LRA.2023.3320010";
-    let mut lines = vec![["published numbers".into(), paper.into()]];
+    let mut lines = vec![["published numbers".into(), PAPER.into()]];
     for run in engines.robots.iter().filter_map(|r| r.run.as_ref()) {
         let what = format!(
             "{} mm elements, {} of them, {} steps, {:.0} CPU s, engine {}",

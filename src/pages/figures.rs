@@ -1,6 +1,7 @@
 //! Results → plots.
 
 use super::PageError;
+use compare::characterize::Scatter;
 use compare::study::Timing;
 use compare::study::published::PublishedLadder;
 use compare::study::{Comparison, Variant};
@@ -34,12 +35,9 @@ pub(super) fn measured(dataset: &Dataset, hold: usize, marker: usize) -> ([f64; 
             sum.map(|v| v / samples as f64)
         })
         .collect();
-    let n = run_means.len() as f64;
-    let mean = [0, 1].map(|k| run_means.iter().map(|m| m[k]).sum::<f64>() / n);
-    let spread = [0, 1].map(|k| {
-        let sum: f64 = run_means.iter().map(|m| (m[k] - mean[k]).powi(2)).sum();
-        if n > 1.0 { (sum / (n - 1.0)).sqrt() } else { 0.0 }
-    });
+    let over_runs = [0, 1].map(|k| Scatter::of(&run_means.iter().map(|m| m[k]).collect::<Vec<_>>()));
+    let mean = over_runs.map(|s| s.map_or(f64::NAN, |s| s.mean));
+    let spread = over_runs.map(|s| s.and_then(|s| s.sd).unwrap_or(0.0));
     (mean, spread)
 }
 
@@ -305,7 +303,7 @@ pub(super) fn published_bars(ladders: &[PublishedLadder]) -> Result<Drawn, PageE
     let data = plots::Bars {
         title: "Displacement at 30 kPa: models and measurement".into(),
         value_label: "displacement of the outermost marker [mm]".into(),
-        groups: ladders.iter().map(|l| l.published.printed_name.clone()).collect(),
+        groups: ladders.iter().map(|l| printed(&l.published.kind).into()).collect(),
         series: vec![
             series("bare model", |l| l.rungs[0].y_m, false),
             series("with effects, nothing fitted", |l| last(l).map_or(f64::NAN, |rung| rung.y_m), false),

@@ -107,6 +107,9 @@ impl From<models::Unsolved> for PageError {
     }
 }
 
+/// Where the published numbers are from.
+const PAPER: &str = "du Pasquier, Jeong, Okamura, IEEE RA-L 2023, doi 10.1109/LRA.2023.3320010";
+
 /// What every page says about its origin.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Imprint {

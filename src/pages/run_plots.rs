@@ -1,5 +1,6 @@
 //! Plots of finite element runs of robots.
 
+use compare::characterize::Scatter;
 use fem::session::{FeRun, Loaded, RunTable};
 use report::{LineSeries, LineStyle, Lines, lines};
 use std::collections::BTreeMap;
@@ -82,15 +83,11 @@ pub fn mesh_plot(name: &str, table: &RunTable) -> Option<Lines> {
             line.entry(size.to_bits()).or_default().push(heights.marker_mm);
         }
     }
-    let mean = |all: &[f64]| all.iter().sum::<f64>() / all.len() as f64;
-    let spread = |all: &[f64]| {
-        let squares: f64 = all.iter().map(|m| (m - mean(all)).powi(2)).sum();
-        (squares / (all.len() - 1).max(1) as f64).sqrt()
-    };
+    let scatter = |all: &Vec<f64>| Scatter::of(all).map_or([f64::NAN, 0.0], |s| [s.mean, s.sd.unwrap_or(0.0)]);
     let series = |(kpa, sizes): (&u64, &BTreeMap<u64, Vec<f64>>)| LineSeries {
         name: format!("{} kPa", f64::from_bits(*kpa)),
-        points: sizes.iter().map(|(size, all)| [f64::from_bits(*size), mean(all)]).collect(),
-        half_width: sizes.values().map(|all| spread(all)).collect(),
+        points: sizes.iter().map(|(size, all)| [f64::from_bits(*size), scatter(all)[0]]).collect(),
+        half_width: sizes.values().map(|all| scatter(all)[1]).collect(),
         style: LineStyle::LinePoints,
         colour: None,
     };

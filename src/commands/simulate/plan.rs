@@ -2,6 +2,7 @@
 
 use crate::cli::SimulateArgs;
 use crate::commands::fem_inputs::{pressures, sizes};
+use crate::commands::inputs::plain;
 use crate::failure::Failure;
 use fem::robot::{KEYS, OTHERS};
 use fem::session::{Cube, Source, Variation, cube, mesh_keys, product, rounded};
@@ -21,13 +22,12 @@ impl RunPlan {
     /// The folder of a case if none is named.
     pub fn folder(&self, case: &str) -> PathBuf {
         let stem = Path::new(case).file_stem().unwrap_or_default().to_string_lossy();
-        let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect();
         let kind = match self {
             RunPlan::Uncertain(_) => "uncertain",
             RunPlan::Table(..) => "batch",
             RunPlan::Single(_) => "simulate",
         };
-        PathBuf::from(format!("ibr-report/{kind}-{name}"))
+        PathBuf::from(format!("ibr-report/{kind}-{}", plain(&stem)))
     }
 }
 
