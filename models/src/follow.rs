@@ -52,6 +52,17 @@ impl Model {
         out: &mut Prediction,
         each: &mut dyn FnMut(usize, &Prediction),
     ) -> Result<(), Unsolved> {
+        self.walk(steps, None, out, each)
+    }
+
+    /// The same, where `held` says so at curvatures of every step.
+    pub(crate) fn walk(
+        &self,
+        steps: &[Step],
+        held: Option<&[Vec<f64>]>,
+        out: &mut Prediction,
+        each: &mut dyn FnMut(usize, &Prediction),
+    ) -> Result<(), Unsolved> {
         let mut before: Option<Step> = None;
         for (index, step) in steps.iter().enumerate() {
             check(&step.loads)?;
@@ -62,10 +73,19 @@ impl Model {
             if last.is_none() {
                 out.work.history.start();
             }
-            if last.is_none_or(|last| last.loads != step.loads) {
+            let is_new = last.is_none_or(|last| last.loads != step.loads);
+            if let Some(held) = held {
+                out.work.held.curvatures.clone_from(&held[index]);
+            }
+            if is_new {
                 self.change(last.map(|last| last.loads), &step.loads, out)?;
             }
             self.wait(step.t_s - last.map_or(0.0, |last| last.t_s), &step.loads, out)?;
+            if held.is_some() && !is_new {
+                // What nothing changes by itself is not solved again, but it may be held elsewhere.
+                out.work.history.dt_s = 0.0;
+                self.reach(&step.loads, out, true)?;
+            }
             self.show(out);
             each(index, out);
             before = Some(*step);

@@ -23,6 +23,7 @@ pub mod fabrics;
 mod follow;
 pub mod formula;
 mod gusset;
+mod held;
 mod history;
 mod inverse;
 mod known;

@@ -58,7 +58,12 @@ impl Model {
     }
 
     fn of(scenario: &Scenario, spans: Vec<Span>) -> Model {
-        let mut assembly = assemble(scenario, &spans, scenario.segments);
+        Model::with_segments(scenario, &spans, None)
+    }
+
+    /// The same with segments of its own.
+    pub(crate) fn with_segments(scenario: &Scenario, spans: &[Span], segments: Option<Vec<Segment>>) -> Model {
+        let mut assembly = assemble(scenario, spans, scenario.segments);
         scenario.add_effects(&mut assembly);
         for site in &mut assembly.sites {
             crate::muscle::complete(site);
@@ -66,7 +71,10 @@ impl Model {
         }
         // Without transverse loads and terms that vary along it every stretch of equal design is one arc.
         if assembly.node_terms.is_empty() && !assembly.varies {
-            assembly.segments = divide(&spans, 1);
+            assembly.segments = divide(spans, 1);
+        }
+        if let Some(own) = segments {
+            assembly.segments = own;
         }
         let markers = scenario.markers_m.iter().map(|s| locate(&assembly.segments, *s)).collect();
         Model { assembly, markers, p_max_pa: scenario.p_max_pa }
@@ -183,7 +191,7 @@ impl Model {
         self.markers.len()
     }
 
-    fn supply(&self, loads: &Loads, work: &mut Workspace) {
+    pub(crate) fn supply(&self, loads: &Loads, work: &mut Workspace) {
         let held_s = work.history.held_s;
         for (p, segment) in work.p_act_pa.iter_mut().zip(&self.assembly.segments) {
             let site = &self.assembly.sites[segment.site];

@@ -1,5 +1,7 @@
 //! Equilibrium of the whole robot: every place alone, or coupled through transverse loads and the shape.
 
+mod held;
+
 use crate::assembly::Assembly;
 use crate::error::Unsolved;
 use crate::history::History;
@@ -7,6 +9,8 @@ use crate::root::NoRoot;
 use crate::shape::{Arc, advance, arc, turned};
 use crate::site::{Site, SiteLoads, SiteState};
 use crate::term::Pose;
+use held::hold;
+pub(crate) use held::{Held, bend};
 
 /// Buffers of a prediction; made once, so that predicting allocates nothing.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +27,8 @@ pub(crate) struct Workspace {
     pub headings: Vec<f64>,
     /// What the states before have left behind.
     pub history: History,
+    /// Where the robot is held instead of solved for.
+    pub held: Held,
     coupled: Coupled,
 }
 
@@ -55,6 +61,7 @@ impl Workspace {
             directions: vec![[1.0, 0.0]; segments + 1],
             headings: vec![0.0; segments + 1],
             history: History::new(assembly),
+            held: Held::default(),
             coupled: Coupled {
                 arcs: vec![Arc::NONE; n],
                 forces: vec![0.0; if coupled { 2 * (n + 1) } else { 0 }],
@@ -102,6 +109,10 @@ pub(crate) fn equilibrium(
     work: &mut Workspace,
     warm: bool,
 ) -> Result<(), Unsolved> {
+    if !work.held.curvatures.is_empty() {
+        hold(assembly, p_body_pa, work);
+        return Ok(());
+    }
     if assembly.node_terms.is_empty() {
         for i in 0..work.states.len() {
             let near = if warm { Some(&work.states[i]) } else { None };
@@ -212,12 +223,23 @@ fn solve_segment(
     moment: f64,
     near: Option<&SiteState>,
 ) -> Result<SiteState, Unsolved> {
+    let (site, loads) = place_of(assembly, work, index, p_body_pa, moment);
+    let solved = site.solve(&loads, work.history.of_segment(index), near);
+    solved.map_err(|error| unsolved(error, site, assembly.segments[index].start_m, &loads))
+}
+
+/// A place, and what acts there.
+fn place_of<'a>(
+    assembly: &'a Assembly,
+    work: &Workspace,
+    index: usize,
+    p_body_pa: f64,
+    moment: f64,
+) -> (&'a Site, SiteLoads) {
     let segment = &assembly.segments[index];
     let History { dt_s, stamp, .. } = work.history;
     let loads = SiteLoads { p_body_pa, p_act_pa: work.p_act_pa[index], moment, s_m: segment.middle_m(), dt_s, stamp };
-    let memory = work.history.of_segment(index);
-    let site = &assembly.sites[segment.site];
-    site.solve(&loads, memory, near).map_err(|error| unsolved(error, site, segment.start_m, &loads))
+    (&assembly.sites[segment.site], loads)
 }
 
 /// Share of the imbalance above which a formula of the scenario is named: the catalogue's own laws are tested to leave an equilibrium.

@@ -13,6 +13,7 @@
 //! explicit in it; the balance is one scalar equation per place.
 
 mod gas;
+mod held;
 mod starts;
 mod wall;
 

@@ -8,6 +8,7 @@ mod beams;
 mod catalogue;
 mod forces;
 mod full;
+mod held;
 mod history;
 mod inverse;
 mod neutral;
