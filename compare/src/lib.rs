@@ -24,6 +24,7 @@ mod interval;
 pub mod ladder;
 pub mod layout;
 pub mod metrics;
+pub mod moment;
 pub mod noise;
 pub mod noise_summary;
 pub mod policy;

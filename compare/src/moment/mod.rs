@@ -1,0 +1,17 @@
+//! The missing moment: first what no law of bending can mend, then what moment the model's terms lack at every bend.
+//!
+//! ```text
+//! markers ─► shape: a free bend per hold and place ─► points: missing moment over bend and pressures ─► candidates as curves
+//! ```
+//!
+//! Pure functions over plain structs; nothing here decides a verdict.
+
+mod points;
+mod shape;
+#[cfg(test)]
+mod tests;
+mod view;
+
+pub use points::{Moments, Point, Robot, moments};
+pub use shape::{Shape, Shared, shape};
+pub use view::{Division, Place, View};

@@ -1,0 +1,234 @@
+//! Stage 2, moment: what the terms of a model miss at the bends that were measured.
+//!
+//! ```text
+//! M(κ; P, p_b, t, s) = moment of the wall and the gas − pull of the actuator − loads        (models::Model::hold)
+//! ```
+//!
+//! Positive: something is missing that bends the robot further; negative: something holds it back; zero: nothing is missing.
+
+use super::shape::{Layout, Shape, bends};
+use super::view::{Pieces, View};
+use crate::error::CompareError;
+use data::Phase;
+use models::Scenario;
+use nalgebra::DMatrix;
+
+/// Scenarios of a model, one per bending stiffness, and which of them holds in which hold.
+#[derive(Clone, Copy)]
+pub struct Robot<'a> {
+    /// One per stiffness.
+    pub scenarios: &'a [Scenario],
+    /// Of every hold.
+    pub of_hold: &'a [usize],
+}
+
+/// A missing moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// Hold.
+    pub hold: usize,
+    /// Place, base first; `None`: mean over the places.
+    pub place: Option<usize>,
+    /// Group of samples, of which the change since the first is told; `None`: mean over the hold.
+    pub since_first: Option<usize>,
+    /// Actuator pressure \[Pa\].
+    pub p_act_pa: f64,
+    /// Body pressure \[Pa\].
+    pub p_body_pa: f64,
+    /// How the hold was reached.
+    pub phase: Phase,
+    /// Mean time \[s\].
+    pub t_s: f64,
+    /// Bend \[1/m\].
+    pub kappa: f64,
+    /// Its standard deviation.
+    pub kappa_sd: f64,
+    /// Missing moment \[N·m\].
+    pub moment: f64,
+    /// Its standard deviation.
+    pub moment_sd: f64,
+}
+
+/// Missing moments of a dataset.
+#[derive(Debug, Clone)]
+pub struct Moments {
+    /// Places of every hold, then changes within the holds.
+    pub points: Vec<Point>,
+    /// Covariance of the moments \[N²·m²\].
+    pub covariance: DMatrix<f64>,
+    /// Mean over the places of every hold.
+    pub of_holds: Vec<Point>,
+    /// Holds that have none, and why.
+    pub without: Vec<(usize, &'static str)>,
+}
+
+/// Step of the slope by bend \[1/m\].
+const STEP: f64 = 1e-4;
+/// Bend in units of the hinge's from which its step is complete.
+const COMPLETE: f64 = 3.0;
+
+/// A weighted sum over (moment, place).
+type Sum = Vec<(f64, usize, usize)>;
+
+/// What a robot misses at a shape.
+///
+/// # Errors
+/// Pressures or times that are refused.
+pub fn moments(view: &View, shape: &Shape, robot: &Robot) -> Result<Moments, CompareError> {
+    let field = Field::of(view, shape, robot)?;
+    let layout = Layout::of(&shape.division);
+    let (mut sums, mut labels, mut without, mut wholes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let groups = shape.division.groups;
+    for hold in 0..view.dataset.holds.len() {
+        let places = match field.usable(view, shape, &layout, hold) {
+            Ok(places) => places,
+            Err(why) => {
+                without.push((hold, why));
+                continue;
+            }
+        };
+        let own =
+            |place: usize| -> Sum { (0..groups).map(|g| (1.0 / groups as f64, hold * groups + g, place)).collect() };
+        let length: f64 = places.iter().map(|p| shape.division.places[*p].length_m()).sum();
+        let weight = |place: usize| shape.division.places[place].length_m() / length;
+        for place in &places {
+            sums.push(own(*place));
+            labels.push((hold, Some(*place), None));
+        }
+        let whole = places.iter().flat_map(|p| own(*p).into_iter().map(|(w, m, p)| (w * weight(p), m, p)));
+        wholes.push((whole.collect::<Sum>(), (hold, None, None)));
+        for group in 1..groups {
+            let pair = |p: &usize| [(weight(*p), hold * groups + group, *p), (-weight(*p), hold * groups, *p)];
+            sums.push(places.iter().flat_map(pair).collect());
+            labels.push((hold, None, Some(group)));
+        }
+    }
+    let told = |(sum, (hold, place, since_first)): (&Sum, &(usize, Option<usize>, Option<usize>))| {
+        let at = &view.dataset.holds[*hold];
+        let [kappa, moment] = field.value(sum);
+        let [kappa_sd, moment_sd] = field.sd(sum, shape, &layout);
+        let t_s = match since_first {
+            Some(group) => shape.division.moments[hold * groups + group].t_s,
+            None => at.t_s.iter().sum::<f64>() / at.t_s.len() as f64,
+        };
+        Point {
+            hold: *hold,
+            place: *place,
+            since_first: *since_first,
+            p_act_pa: at.p_act_pa,
+            p_body_pa: at.p_body_pa,
+            phase: at.phase,
+            t_s,
+            kappa,
+            kappa_sd,
+            moment,
+            moment_sd,
+        }
+    };
+    let gain =
+        DMatrix::from_rows(&sums.iter().map(|sum| field.gradient(sum, shape, &layout, true)).collect::<Vec<_>>());
+    Ok(Moments {
+        points: sums.iter().zip(&labels).map(told).collect(),
+        covariance: if sums.is_empty() { DMatrix::zeros(0, 0) } else { &gain * &shape.covariance * gain.transpose() },
+        of_holds: wholes.iter().map(|(sum, label)| told((sum, label))).collect(),
+        without,
+    })
+}
+
+/// Bend, missing moment and its slope by bend, moment after moment and place after place.
+struct Field {
+    kappa: Vec<Vec<f64>>,
+    missing: Vec<Vec<f64>>,
+    slope: Vec<Vec<f64>>,
+}
+
+impl Field {
+    fn of(view: &View, shape: &Shape, robot: &Robot) -> Result<Field, CompareError> {
+        let layout = Layout::of(&shape.division);
+        let kappa: Vec<Vec<f64>> =
+            shape.division.moments.iter().map(|m| bends(&layout, &shape.numbers, m.hold, m.group)).collect();
+        let moved =
+            |by: f64| -> Vec<Vec<f64>> { kappa.iter().map(|row| row.iter().map(|k| k + by).collect()).collect() };
+        let [low, missing, high] = [-STEP, 0.0, STEP].map(|by| missing(view, shape, robot, &moved(by)));
+        let (low, missing, high) = (low?, missing?, high?);
+        let slope = low
+            .iter()
+            .zip(&high)
+            .map(|(low, high)| low.iter().zip(high).map(|(low, high)| (high - low) / (2.0 * STEP)).collect());
+        Ok(Field { slope: slope.collect(), kappa, missing })
+    }
+
+    /// Places with a moment in a hold, or why there is none.
+    fn usable(&self, view: &View, shape: &Shape, layout: &Layout, hold: usize) -> Result<Vec<usize>, &'static str> {
+        let groups = shape.division.groups;
+        let active = (0..shape.division.places.len()).filter(|p| shape.division.places[*p].is_active);
+        let active: Vec<usize> = active.collect();
+        let bend = |place: usize| shape.numbers[layout.bend(hold, place)];
+        if view.dataset.holds[hold].p_act_pa <= 0.0 {
+            // A slack actuator on a straight body: the hinge of the folded wall has not set in, and says nothing.
+            let complete = COMPLETE * view.scenario.hinge_curvature;
+            let sd = |p: usize| shape.covariance[(layout.bend(hold, p), layout.bend(hold, p))].sqrt();
+            if active.iter().any(|p| bend(*p).abs() < complete + COMPLETE * sd(*p)) {
+                return Err("no pressure and hardly a bend");
+            }
+        }
+        let finite = |place: &usize| {
+            let moments = hold * groups..(hold + 1) * groups;
+            moments.clone().all(|m| self.missing[m][*place].is_finite() && self.slope[m][*place].is_finite())
+        };
+        let usable: Vec<usize> = active.into_iter().filter(finite).collect();
+        if usable.is_empty() { Err("a bend that the actuator cannot have") } else { Ok(usable) }
+    }
+
+    fn value(&self, sum: &Sum) -> [f64; 2] {
+        let of = |field: &[Vec<f64>]| sum.iter().map(|(weight, m, p)| weight * field[*m][*p]).sum();
+        // The bend of a change is the change of bend.
+        [of(&self.kappa), of(&self.missing)]
+    }
+
+    /// Derivative of a sum by the numbers of the shape: of moments, or of bends.
+    fn gradient(&self, sum: &Sum, shape: &Shape, layout: &Layout, moments: bool) -> nalgebra::RowDVector<f64> {
+        let mut row = nalgebra::RowDVector::zeros(shape.numbers.len());
+        for (weight, m, place) in sum {
+            let at = shape.division.moments[*m];
+            let weight = weight * if moments { self.slope[*m][*place] } else { 1.0 };
+            row[layout.bend(at.hold, *place)] += weight;
+            layout.drifts(at.hold, at.group).iter().for_each(|(k, sign)| row[*k] += weight * sign);
+        }
+        row
+    }
+
+    fn sd(&self, sum: &Sum, shape: &Shape, layout: &Layout) -> [f64; 2] {
+        [false, true].map(|moments| {
+            let row = self.gradient(sum, shape, layout, moments);
+            (&row * &shape.covariance * row.transpose())[(0, 0)].max(0.0).sqrt()
+        })
+    }
+}
+
+/// Missing moment of every place at given bends, moment after moment \[N·m\].
+pub(super) fn missing(
+    view: &View,
+    shape: &Shape,
+    robot: &Robot,
+    bends: &[Vec<f64>],
+) -> Result<Vec<Vec<f64>>, CompareError> {
+    let steps = shape.division.steps(view.dataset);
+    let places = shape.division.places.len();
+    let mut out = vec![vec![f64::NAN; places]; steps.len()];
+    for (group, scenario) in robot.scenarios.iter().enumerate() {
+        let is_own = |m: usize| robot.of_hold[shape.division.moments[m].hold] == group;
+        if !(0..steps.len()).any(is_own) {
+            continue;
+        }
+        let pieces = Pieces::new(scenario, &shape.division);
+        let curvatures: Vec<Vec<f64>> = bends.iter().map(|bends| pieces.curvatures(bends)).collect();
+        let mut keep = |m: usize, at: &models::Prediction| {
+            if is_own(m) {
+                out[m] = pieces.mean(at.missing_moments(), places);
+            }
+        };
+        pieces.model.hold(&steps, &curvatures, &mut pieces.model.prediction(), &mut keep)?;
+    }
+    Ok(out)
+}

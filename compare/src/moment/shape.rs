@@ -1,0 +1,361 @@
+//! Stage 1, shape: a free bend for every hold and place, without any law, and the few numbers that all holds share.
+//!
+//! ```text
+//! κ(hold, sample, place) = bend(hold, place) + drift(hold, sample)      Σ drift over a hold's samples = 0
+//! markers = camera(line at a distance from the taut generator; κ) + noise
+//! ```
+//!
+//! Fitted by least squares to the whitened mean over runs. What is left no law of bending can mend: a marker that was glued
+//! elsewhere, a camera that moved. The numbers that are shared are where the tracked line lies, by which it shortens as it
+//! bends (a marker's height is the same number), and the camera's scale and roll. Each is held near nothing by a wide prior.
+
+use super::view::{Division, Pieces, View};
+use crate::error::CompareError;
+use models::{Prediction, Scenario, Step};
+use nalgebra::{DMatrix, DVector};
+
+/// A number that all holds share.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shared {
+    /// What it is, in words.
+    pub words: &'static str,
+    /// Value, SI; zero: as the scenario says.
+    pub value: f64,
+    /// Its standard deviation.
+    pub sd: f64,
+    /// Unit it is printed in.
+    pub unit: &'static str,
+    /// Units per SI.
+    pub per_si: f64,
+}
+
+/// The shape that was measured.
+#[derive(Debug, Clone)]
+pub struct Shape {
+    /// What has a bend of its own.
+    pub division: Division,
+    /// Bends, drifts and shared numbers, in that order: see [`Layout`].
+    pub numbers: Vec<f64>,
+    /// Their covariance.
+    pub covariance: DMatrix<f64>,
+    /// What all holds share.
+    pub shared: Vec<Shared>,
+    /// Predicted minus measured \[m\], in run layout.
+    pub residual_m: Vec<f64>,
+    /// Whitened sum of squares that is left, and its degrees of freedom.
+    pub left: (f64, usize),
+    /// What no law of bending can mend, beyond noise \[mm\].
+    pub floor_mm: f64,
+    /// Derivatives of the whitened residuals, one column per number.
+    pub(super) jacobian: Vec<Vec<f64>>,
+}
+
+/// Where each number of a shape stands.
+#[derive(Debug, Clone, Copy)]
+pub struct Layout {
+    holds: usize,
+    places: usize,
+    groups: usize,
+}
+
+impl Layout {
+    /// Of a division.
+    pub fn of(division: &Division) -> Layout {
+        let Division { places, groups, moments } = division;
+        Layout { holds: moments.len() / groups, places: places.len(), groups: *groups }
+    }
+
+    /// Bend of a hold at a place.
+    pub fn bend(&self, hold: usize, place: usize) -> usize {
+        hold * self.places + place
+    }
+
+    /// Drift of a later group of samples in a hold, from 1.
+    pub fn drift(&self, hold: usize, group: usize) -> usize {
+        self.holds * self.places + hold * (self.groups - 1) + group - 1
+    }
+
+    /// First of the shared numbers.
+    pub fn shared(&self) -> usize {
+        self.holds * (self.places + self.groups - 1)
+    }
+
+    /// Drift of a group as a sum of numbers: the first is what the others leave.
+    pub fn drifts(&self, hold: usize, group: usize) -> Vec<(usize, f64)> {
+        match group {
+            0 => (1..self.groups).map(|later| (self.drift(hold, later), -1.0)).collect(),
+            _ => vec![(self.drift(hold, group), 1.0)],
+        }
+    }
+}
+
+/// Wide priors of the shared numbers: the tracked line by a body radius, the camera by a tenth.
+const PRIOR: [f64; 3] = [1.0, 0.1, 0.1];
+/// Step of the differences: of a bend \[1/m\], of the line's distance over the radius.
+const STEP: f64 = 1e-5;
+/// Rounds of the fit, and halvings of a step.
+const ROUNDS: usize = 30;
+const HALVINGS: usize = 12;
+/// A round that lowers the sum of squares by less is the last.
+const ENOUGH: f64 = 1e-7;
+/// Turns of the whole robot among which the start is looked for \[rad\].
+const TURNS: [f64; 2] = [-1.5, 5.0];
+/// Turns that are tried.
+const TRIED: usize = 66;
+
+/// Fits a shape.
+///
+/// # Errors
+/// Positions that no shape comes near: not finite.
+pub fn shape(view: &View) -> Result<Shape, CompareError> {
+    let uniform = Division::uniform(view);
+    let start = start(view, &uniform);
+    let most = start.iter().fold(0.0_f64, |most, bend| most.max(bend.abs()));
+    let division = Division::of(view, most);
+    let layout = Layout::of(&division);
+    let mut numbers = vec![0.0; layout.shared() + shared_count(view)];
+    for (hold, bend) in start.iter().enumerate() {
+        (0..division.places.len()).for_each(|place| numbers[layout.bend(hold, place)] = *bend);
+    }
+    Fit { view, layout, steps: division.steps(view.dataset), division: &division }.from(numbers)
+}
+
+/// The camera's numbers are settled where its frame was measured.
+fn shared_count(view: &View) -> usize {
+    if view.direct.frame { 1 } else { 3 }
+}
+
+/// Uniform bend of every hold, the best of a scan.
+fn start(view: &View, uniform: &Division) -> Vec<f64> {
+    let pieces = Pieces::new(view.scenario, uniform);
+    let (mut state, steps) = (pieces.model.prediction(), uniform.steps(view.dataset));
+    let width = view.target_m.len() / steps.len();
+    let mut best = vec![(f64::INFINITY, 0.0); steps.len()];
+    for i in 0..=TRIED {
+        let turn = TURNS[0] + (TURNS[1] - TURNS[0]) * i as f64 / TRIED as f64;
+        let bend = turn / view.scenario.length_m;
+        for (hold, step) in steps.iter().enumerate() {
+            pieces.model.bend(&step.loads, &pieces.curvatures(&[bend]), &mut state);
+            let seen = state.markers.iter().flatten().cycle();
+            let rows = &view.target_m[hold * width..(hold + 1) * width];
+            let squares: f64 = rows.iter().zip(seen).map(|(y, f)| (y - f).powi(2)).sum();
+            if squares < best[hold].0 {
+                best[hold] = (squares, bend);
+            }
+        }
+    }
+    best.into_iter().map(|(_, bend)| bend).collect()
+}
+
+struct Fit<'a> {
+    view: &'a View<'a>,
+    division: &'a Division,
+    layout: Layout,
+    steps: Vec<Step>,
+}
+
+impl Fit<'_> {
+    fn from(&self, mut numbers: Vec<f64>) -> Result<Shape, CompareError> {
+        let mut residual = self.residual_m(&numbers);
+        let mut cost = self.cost(&numbers, &residual);
+        if !cost.is_finite() {
+            return Err(no_shape("its positions are not finite"));
+        }
+        let mut jacobian = self.jacobian(&numbers);
+        for _ in 0..ROUNDS {
+            let Some((next, its_residual, its_cost)) = self.improve(&numbers, &residual, cost, &jacobian) else {
+                break;
+            };
+            let fallen = cost - its_cost;
+            (numbers, residual, cost) = (next, its_residual, its_cost);
+            jacobian = self.jacobian(&numbers);
+            if fallen < ENOUGH * (1.0 + cost) {
+                break;
+            }
+        }
+        self.shape(numbers, residual, jacobian)
+    }
+
+    fn shape(&self, numbers: Vec<f64>, residual_m: Vec<f64>, jacobian: Vec<Vec<f64>>) -> Result<Shape, CompareError> {
+        let inverse = self.normal(&jacobian).cholesky().ok_or_else(|| no_shape("its markers do not tell one"))?;
+        let white = self.view.whitener.whiten(&residual_m);
+        let cost: f64 = white.iter().map(|r| r * r).sum();
+        let unseen = self.view.dataset.unseen_values().count();
+        let dof = (white.len() - unseen).saturating_sub(numbers.len()).max(1);
+        // A misfit of the shape itself makes every number of it less certain.
+        let wider = (cost / dof as f64).max(1.0);
+        let covariance = inverse.inverse() * wider;
+        let from = self.layout.shared();
+        let value = |k: usize| (numbers[from + k], covariance[(from + k, from + k)].sqrt());
+        let shared = shared_words().into_iter().take(numbers.len() - from).enumerate();
+        let shared = shared.map(|(k, (words, unit, per_si))| {
+            let (value, sd) = value(k);
+            let by = if k == 0 { self.view.scenario.radius_m } else { 1.0 };
+            Shared { words, value: by * value, sd: by * sd, unit, per_si }
+        });
+        Ok(Shape {
+            division: self.division.clone(),
+            shared: shared.collect(),
+            floor_mm: 1e3 * self.view.whitener.unit_m() * (wider - 1.0).sqrt(),
+            left: (cost, dof),
+            covariance,
+            numbers,
+            residual_m,
+            jacobian,
+        })
+    }
+
+    /// One Gauss–Newton step, halved until the sum of squares falls.
+    fn improve(
+        &self,
+        numbers: &[f64],
+        residual_m: &[f64],
+        cost: f64,
+        jacobian: &[Vec<f64>],
+    ) -> Option<(Vec<f64>, Vec<f64>, f64)> {
+        let white = self.view.whitener.whiten(residual_m);
+        let right = jacobian.iter().enumerate().map(|(k, column)| {
+            let along: f64 = column.iter().zip(&white).map(|(j, r)| j * r).sum();
+            -along - self.prior(k).map_or(0.0, |sd| numbers[k] / (sd * sd))
+        });
+        let step = self.normal(jacobian).cholesky()?.solve(&DVector::from_vec(right.collect()));
+        let mut share = 1.0;
+        for _ in 0..HALVINGS {
+            let next: Vec<f64> = numbers.iter().zip(step.iter()).map(|(x, d)| x + share * d).collect();
+            let residual = self.residual_m(&next);
+            let its_cost = self.cost(&next, &residual);
+            if its_cost < cost {
+                return Some((next, residual, its_cost));
+            }
+            share *= 0.5;
+        }
+        None
+    }
+
+    fn prior(&self, number: usize) -> Option<f64> {
+        number.checked_sub(self.layout.shared()).map(|k| PRIOR[k])
+    }
+
+    fn cost(&self, numbers: &[f64], residual_m: &[f64]) -> f64 {
+        let prior = (0..numbers.len()).filter_map(|k| self.prior(k).map(|sd| (numbers[k] / sd).powi(2)));
+        self.view.whitener.whiten(residual_m).iter().map(|r| r * r).chain(prior).sum()
+    }
+
+    fn normal(&self, jacobian: &[Vec<f64>]) -> DMatrix<f64> {
+        let (rows, count) = (jacobian[0].len(), jacobian.len());
+        let j = DMatrix::from_fn(rows, count, |i, k| jacobian[k][i]);
+        let mut normal = j.tr_mul(&j);
+        for k in 0..count {
+            normal[(k, k)] += self.prior(k).map_or(0.0, |sd| 1.0 / (sd * sd)) + 1e-12 * normal[(k, k)];
+        }
+        normal
+    }
+
+    fn residual_m(&self, numbers: &[f64]) -> Vec<f64> {
+        let predicted = self.predicted(numbers, None);
+        let mut residual: Vec<f64> = predicted.iter().zip(self.view.target_m).map(|(f, y)| f - y).collect();
+        self.view.dataset.unseen_values().for_each(|i| residual[i] = 0.0);
+        residual
+    }
+
+    /// Positions \[m\], with the bends of one place moved by a step in every hold and group.
+    fn predicted(&self, numbers: &[f64], moved: Option<usize>) -> Vec<f64> {
+        let shared = &numbers[self.layout.shared()..];
+        let pieces = Pieces::new(&tracked(self.view.scenario, shared[0]), self.division);
+        let mut state = pieces.model.prediction();
+        let samples = self.view.dataset.samples_per_hold;
+        let mut out = Vec::with_capacity(self.view.target_m.len());
+        for (moments, steps) in
+            self.division.moments.chunks(self.division.groups).zip(self.steps.chunks(self.division.groups))
+        {
+            let rows: Vec<Vec<f64>> = moments
+                .iter()
+                .zip(steps)
+                .map(|(moment, step)| {
+                    let mut bends = self.bends(numbers, moment.hold, moment.group);
+                    if let Some(place) = moved {
+                        bends[place] += STEP;
+                    }
+                    pieces.model.bend(&step.loads, &pieces.curvatures(&bends), &mut state);
+                    seen(&state, &shared[1..])
+                })
+                .collect();
+            out.extend((0..samples).flat_map(|t| rows[self.division.group(t, samples)].iter().copied()));
+        }
+        out
+    }
+
+    fn bends(&self, numbers: &[f64], hold: usize, group: usize) -> Vec<f64> {
+        bends(&self.layout, numbers, hold, group)
+    }
+
+    /// Whitened derivatives, one column per number. A bend moves its own hold alone, so one step of a place serves all holds.
+    fn jacobian(&self, numbers: &[f64]) -> Vec<Vec<f64>> {
+        let here = self.predicted(numbers, None);
+        let unseen: Vec<usize> = self.view.dataset.unseen_values().collect();
+        let column = |there: &[f64], step: f64| {
+            let mut column: Vec<f64> = there.iter().zip(&here).map(|(b, a)| (b - a) / step).collect();
+            unseen.iter().for_each(|i| column[*i] = 0.0);
+            column
+        };
+        let places = self.division.places.len();
+        let of_places: Vec<Vec<f64>> = (0..places).map(|p| column(&self.predicted(numbers, Some(p)), STEP)).collect();
+        let mut all = vec![vec![0.0; here.len()]; numbers.len()];
+        let Layout { holds, groups, .. } = self.layout;
+        let samples = self.view.dataset.samples_per_hold;
+        let (width, block) = (here.len() / holds, here.len() / holds / samples);
+        for hold in 0..holds {
+            for (place, from) in of_places.iter().enumerate() {
+                let rows = hold * width..(hold + 1) * width;
+                all[self.layout.bend(hold, place)][rows.clone()].copy_from_slice(&from[rows]);
+            }
+            for sample in 0..samples {
+                let rows = hold * width + sample * block..hold * width + (sample + 1) * block;
+                for (k, sign) in self.layout.drifts(hold, self.division.group(sample, samples)) {
+                    rows.clone().for_each(|i| all[k][i] = sign * of_places.iter().map(|column| column[i]).sum::<f64>());
+                }
+            }
+        }
+        debug_assert!(groups > 0);
+        for k in self.layout.shared()..numbers.len() {
+            let mut there = numbers.to_vec();
+            there[k] += STEP;
+            all[k] = column(&self.predicted(&there, None), STEP);
+        }
+        all.iter().map(|column| self.view.whitener.whiten(column)).collect()
+    }
+}
+
+/// Bends of all places in a group of samples \[1/m\].
+pub(super) fn bends(layout: &Layout, numbers: &[f64], hold: usize, group: usize) -> Vec<f64> {
+    let drift: f64 = layout.drifts(hold, group).iter().map(|(k, sign)| sign * numbers[*k]).sum();
+    (0..layout.places).map(|place| numbers[layout.bend(hold, place)] + drift).collect()
+}
+
+/// The robot with its tracked line further from the taut generator by a share of the radius.
+fn tracked(scenario: &Scenario, share: f64) -> Scenario {
+    let mut moved = scenario.clone();
+    moved.centre_line_m = Some(scenario.centre_line_m.unwrap_or(scenario.radius_m) + share * scenario.radius_m);
+    moved
+}
+
+/// Markers as a camera of another scale and roll sees them.
+fn seen(state: &Prediction, camera: &[f64]) -> Vec<f64> {
+    let [scale, roll] = <[f64; 2]>::try_from(camera).unwrap_or([0.0; 2]);
+    let (sin, cos) = roll.sin_cos();
+    let turned = |[x, y]: &[f64; 2]| [(1.0 + scale) * (cos * x - sin * y), (1.0 + scale) * (sin * x + cos * y)];
+    state.markers.iter().flat_map(turned).collect()
+}
+
+/// Words, unit and units per SI of the shared numbers.
+fn shared_words() -> [(&'static str, &'static str, f64); 3] {
+    [
+        ("tracked line further from the taut side", "mm", 1e3),
+        ("camera scale", "%", 100.0),
+        ("camera roll", "°", 180.0 / std::f64::consts::PI),
+    ]
+}
+
+fn no_shape(problem: &str) -> CompareError {
+    CompareError::Fit { what: "the shape of every hold", problem: problem.into() }
+}
