@@ -6,11 +6,13 @@
 pub mod about;
 mod align;
 pub mod bench;
+mod cells;
 pub mod check;
 pub mod coupons;
 pub mod dataset;
 pub mod error;
 mod header;
+pub mod import;
 mod lines;
 pub mod load;
 mod lost;

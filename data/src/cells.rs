@@ -1,0 +1,149 @@
+//! What people and programs write into a cell: numbers with a point or a comma, words for nothing, durations, labels.
+
+use crate::error::DataError;
+use crate::lines::{KeptLine, Line};
+
+/// What spreadsheets, pandas, R and C libraries write where there is no number.
+const NOTHING: [&str; 13] =
+    ["", "na", "n/a", "#n/a", "nan", "null", "none", "-", "nan(ind)", "nan(snan)", "1.#qnan", "1.#ind", "missing"];
+
+/// Whether a cell says that there is no number.
+pub(crate) fn is_nothing(text: &str) -> bool {
+    let plain = text.strip_prefix(['-', '+']).filter(|rest| !rest.is_empty()).unwrap_or(text);
+    NOTHING.iter().any(|word| plain.eq_ignore_ascii_case(word))
+}
+
+/// A label without the decimals of a whole number: `1.0`, as pandas writes it, is `1`.
+pub(crate) fn label(text: &str) -> &str {
+    match text.split_once('.') {
+        Some((whole, zeros)) if digits(whole) && !zeros.is_empty() && zeros.bytes().all(|b| b == b'0') => whole,
+        _ => text,
+    }
+}
+
+fn digits(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+/// Seconds of a clock time: `1:02.5`, `0:01:02.5`, or `0:00:01:50` with hundredths last.
+pub(crate) fn clock_s(text: &str) -> Option<f64> {
+    let parts: Vec<&str> = text.split(':').collect();
+    let whole = |part: &str| digits(part).then(|| part.parse::<f64>().ok()).flatten();
+    let (last, before) = parts.split_last().filter(|(_, before)| !before.is_empty())?;
+    let before: Vec<f64> = before.iter().map(|part| whole(part)).collect::<Option<_>>()?;
+    match before[..] {
+        [h, m, s] => Some(3600.0 * h + 60.0 * m + s + 0.01 * whole(last)?),
+        [h, m] => Some(3600.0 * h + 60.0 * m + last.parse::<f64>().ok()?),
+        [m] => Some(60.0 * m + last.parse::<f64>().ok()?),
+        _ => None,
+    }
+}
+
+/// How a file writes decimals; found while it is read.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Decimals {
+    /// A number with a point was read.
+    point: bool,
+    /// A comma was read that can only be a decimal one.
+    comma: bool,
+    /// The first number whose comma may be of thousands.
+    doubtful: Option<(KeptLine, String)>,
+}
+
+impl Decimals {
+    /// The number of a cell; `allowed` says whether a comma may stand in it (it does not separate cells).
+    ///
+    /// # Errors
+    /// A file that writes decimals both with a point and with a comma.
+    pub fn number(&mut self, text: &str, allowed: bool, line: &Line) -> Result<Option<f64>, DataError> {
+        if !(allowed && text.contains(',')) {
+            let value = text.parse().ok();
+            self.point |= allowed && text.contains('.') && value.is_some();
+            return if self.comma && self.point { Err(both(line, text)) } else { Ok(value) };
+        }
+        let Some(value) = with_comma(text) else { return Ok(None) };
+        if self.point {
+            return Err(both(line, text));
+        }
+        if is_certain(text) {
+            self.comma = true;
+        } else if self.doubtful.is_none() {
+            self.doubtful = Some((line.keep(), text.to_string()));
+        }
+        Ok(Some(value))
+    }
+
+    /// Whether decimals are written with a comma.
+    ///
+    /// # Errors
+    /// Every comma may be one of thousands; a point elsewhere.
+    pub fn finish(&self) -> Result<bool, DataError> {
+        match &self.doubtful {
+            Some((line, text)) if self.point => Err(both(&line.line(), text)),
+            Some((line, text)) if !self.comma => Err(thousands(&line.line(), text)),
+            _ => Ok(self.comma),
+        }
+    }
+}
+
+/// A number with a decimal comma.
+pub(crate) fn with_comma(text: &str) -> Option<f64> {
+    (text.matches(',').count() == 1 && !text.contains('.')).then(|| text.replace(',', ".").parse().ok()).flatten()
+}
+
+/// Whether a comma cannot be one of thousands: not three digits after it, or a leading zero or more than three digits before it.
+pub(crate) fn is_certain(text: &str) -> bool {
+    let Some((before, after)) = text.trim_start_matches(['-', '+']).split_once(',') else { return false };
+    after.len() != 3 || before.starts_with('0') || before.is_empty() || before.len() > 3
+}
+
+fn thousands(line: &Line, text: &str) -> DataError {
+    let message = format!(
+        "\"{text}\" can be read as {} (decimal comma) or as {} (comma of thousands), and so can every number with a comma here",
+        text.replace(',', "."),
+        text.replace(',', "")
+    );
+    DataError::Layout(line.fault(message, "write decimals with a point, or at least one number with another count of decimals"))
+}
+
+fn both(line: &Line, text: &str) -> DataError {
+    let message = format!(
+        "points and commas both stand in numbers: \"{text}\" can be read as {} or as {}",
+        text.replace(',', "."),
+        text.replace([',', '.'], "")
+    );
+    DataError::Layout(line.fault(message, "write all decimals alike, and no commas of thousands"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_for_nothing_labels_and_clocks() {
+        for word in ["", "NA", "NaN", "-nan(ind)", "#N/A", "null", "-", "1.#QNAN"] {
+            assert!(is_nothing(word), "{word}");
+        }
+        assert!(!is_nothing("0") && !is_nothing("-1") && !is_nothing("lost"));
+        assert_eq!([label("1.0"), label("12.00"), label("1.5"), label("a.0"), label("1.")], ["1", "12", "1.5", "a.0", "1."]);
+        assert_eq!(clock_s("0:00:01:50"), Some(1.5));
+        assert_eq!(clock_s("1:02:03.25"), Some(3723.25));
+        assert_eq!((clock_s("2:03.5"), clock_s("1.5"), clock_s("a:b")), (Some(123.5), None, None));
+    }
+
+    #[test]
+    fn a_comma_is_decimal_only_where_it_cannot_be_of_thousands() {
+        let line = Line { file: "f", number: 3, start: 0, text: "", ended: true };
+        let read = |cells: &[&str]| {
+            let mut decimals = Decimals::default();
+            let read = cells.iter().map(|c| decimals.number(c, true, &line)).collect::<Result<Vec<_>, _>>();
+            read.and_then(|values| decimals.finish().map(|comma| (values, comma)))
+        };
+        assert_eq!(read(&["1,5", "1,234"]).unwrap(), (vec![Some(1.5), Some(1.234)], true));
+        assert_eq!(read(&["1,234", "0,004"]).unwrap().0[0], Some(1.234));
+        assert_eq!(read(&["1.5", "2"]).unwrap(), (vec![Some(1.5), Some(2.0)], false));
+        let error = read(&["1,234", "5,678"]).unwrap_err();
+        assert!(error.message().contains("1.234") && error.message().contains("1234"), "{error}");
+        assert!(read(&["1,234", "2.5"]).is_err() && read(&["2.5", "1,5"]).is_err());
+    }
+}

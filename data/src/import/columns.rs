@@ -1,0 +1,274 @@
+//! Names of columns as people write them: `x_a_mm`, `a - X (cm)`, `Time [ms]`, `p_act_kpa`, `Pressure (bar)`.
+
+use std::ops::Range;
+
+use super::options::Options;
+use super::recording::Lengths;
+use super::sheet::Sheet;
+use crate::error::DataError;
+use crate::units::Measured;
+
+/// A name taken apart.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Name {
+    /// The text without the unit.
+    base: String,
+    /// Words in lower case, digits apart from letters, and their places in it.
+    words: Vec<(String, Range<usize>)>,
+    /// The unit as written, in lower case.
+    pub unit: Option<String>,
+}
+
+/// Units of one dimension by other names, with their SI value; frames and pixels have none.
+const OTHER_NAMES: [(&str, Measured, f64); 19] = [
+    ("sec", Measured::Time, 1.0),
+    ("secs", Measured::Time, 1.0),
+    ("second", Measured::Time, 1.0),
+    ("seconds", Measured::Time, 1.0),
+    ("msec", Measured::Time, 1e-3),
+    ("milliseconds", Measured::Time, 1e-3),
+    ("µs", Measured::Time, 1e-6),
+    ("millimeters", Measured::Length, 1e-3),
+    ("millimetres", Measured::Length, 1e-3),
+    ("centimeters", Measured::Length, 1e-2),
+    ("centimetres", Measured::Length, 1e-2),
+    ("meters", Measured::Length, 1.0),
+    ("metres", Measured::Length, 1.0),
+    ("micron", Measured::Length, 1e-6),
+    ("µm", Measured::Length, 1e-6),
+    ("um", Measured::Length, 1e-6),
+    ("in", Measured::Length, 0.0254),
+    ("mbar", Measured::Pressure, 1e2),
+    ("hpa", Measured::Pressure, 1e2),
+];
+
+/// SI value of a unit, if it is one of this dimension.
+pub(crate) fn si(unit: &str, dimension: Measured) -> Option<f64> {
+    let named = OTHER_NAMES.iter().find(|(name, measured, _)| *name == unit && *measured == dimension);
+    dimension.unit(unit).map(|unit| unit.factor()).or_else(|| named.map(|(.., factor)| *factor))
+}
+
+/// Whether a unit is the picture's.
+pub(crate) fn is_pixel(unit: &str) -> bool {
+    matches!(unit, "px" | "pixel" | "pixels")
+}
+
+/// Whether a unit counts frames.
+pub(crate) fn is_frame(unit: &str) -> bool {
+    matches!(unit, "frame" | "frames")
+}
+
+fn is_unit(word: &str) -> bool {
+    let dimensions = [Measured::Length, Measured::Time, Measured::Pressure];
+    is_pixel(word) || is_frame(word) || dimensions.into_iter().any(|dimension| si(word, dimension).is_some())
+}
+
+impl Name {
+    /// Takes a name apart.
+    pub fn of(text: &str) -> Name {
+        let text = text.trim();
+        let (base, bracket) = match text.find(['(', '[']) {
+            Some(at) if text.ends_with([')', ']']) => (&text[..at], Some(text[at + 1..text.len() - 1].trim().to_lowercase())),
+            _ => (text, None),
+        };
+        let mut words = words(base);
+        let last = words.last().map(|(word, _)| word.clone()).filter(|word| bracket.is_none() && words.len() > 1 && is_unit(word));
+        if last.is_some() {
+            words.pop();
+        }
+        let end = words.last().map_or(0, |(_, at)| at.end);
+        Name { base: base[..end].to_string(), words, unit: bracket.or(last) }
+    }
+
+    /// Whether all its words make this name.
+    pub fn is(&self, name: &str) -> bool {
+        self.words.iter().map(|(word, _)| word.as_str()).eq(name.split('_'))
+    }
+
+    /// Whether it is one of these names.
+    pub fn is_any(&self, names: &[&str]) -> bool {
+        names.iter().any(|name| self.is(name))
+    }
+
+    /// Whether it has one of these words.
+    pub fn has(&self, any: &[&str]) -> bool {
+        self.words.iter().any(|(word, _)| any.contains(&word.as_str()))
+    }
+
+    /// Axis 0, 1 or 2 and the name of the marker of a coordinate such as `x_tip`, `tip.x` or `x1`.
+    pub fn coordinate(&self) -> Option<(usize, String)> {
+        let axis = |word: &str| ["x", "y", "z"].iter().position(|axis| *axis == word);
+        let mut found = self.words.iter().filter_map(|(word, at)| Some((axis(word)?, at)));
+        let (Some((axis, at)), None) = (found.next(), found.next()) else { return None };
+        let (before, after) = (&self.base[..at.start], &self.base[at.end..]);
+        let plain = |part: &str| part.trim_matches(|c: char| !c.is_alphanumeric()).to_string();
+        let marker = [plain(before), plain(after)].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>();
+        Some((axis, marker.join("_")))
+    }
+}
+
+/// Letters and digits parted by anything else and from each other, in lower case, and where they stand.
+fn words(text: &str) -> Vec<(String, Range<usize>)> {
+    let mut words: Vec<(String, Range<usize>)> = Vec::new();
+    let mut before = ' ';
+    for (at, c) in text.char_indices() {
+        if c.is_alphanumeric() {
+            let same = before.is_alphanumeric() && before.is_ascii_digit() == c.is_ascii_digit();
+            if !same {
+                words.push((String::new(), at..at));
+            }
+            if let Some((word, place)) = words.last_mut() {
+                word.extend(c.to_lowercase());
+                place.end = at + c.len_utf8();
+            }
+        }
+        before = c;
+    }
+    words
+}
+
+/// What the columns of a table are, for tables whose names no program fixes.
+#[derive(Debug, Default)]
+pub(crate) struct Roles {
+    /// Column of the time and its seconds, or `None` for frames.
+    pub time: Option<(usize, Option<f64>)>,
+    pub run: Option<usize>,
+    pub actuator: Option<usize>,
+    pub marker: Option<usize>,
+    /// Body's and actuator's pressure, with their pascals.
+    pub pressures: [Option<(usize, f64)>; 2],
+    /// Coordinates: column, axis, marker, unit.
+    pub coordinates: Vec<(usize, usize, String, Option<String>)>,
+    /// What was assumed.
+    pub told: Vec<String>,
+}
+
+/// Quantities that a column can be said to hold.
+pub(crate) const QUANTITIES: [&str; 10] = ["run", "actuator", "marker", "t", "frame", "p_act", "p_body", "x", "y", "z"];
+
+impl Roles {
+    /// Finds them in a header.
+    ///
+    /// # Errors
+    /// A column that the caller named and that is not there, two of one kind, a pressure without unit.
+    pub fn of(sheet: &Sheet, line: u64, header: &[&str], options: &Options) -> Result<Roles, DataError> {
+        let mut roles = Roles::default();
+        for (index, text) in header.iter().enumerate() {
+            let said = options.columns.iter().find(|(_, column)| column.eq_ignore_ascii_case(text)).map(|(q, _)| q.as_str());
+            let name = Name::of(text);
+            let Some(quantity) = said.map_or_else(|| meaning(&name, options), |said| QUANTITIES.into_iter().find(|q| *q == said)) else {
+                continue;
+            };
+            roles.take(sheet, line, [quantity, text], index, &name, options)?;
+        }
+        Ok(roles)
+    }
+
+    fn take(
+        &mut self,
+        sheet: &Sheet,
+        line: u64,
+        [quantity, text]: [&str; 2],
+        index: usize,
+        name: &Name,
+        options: &Options,
+    ) -> Result<(), DataError> {
+        let unit = name.unit.as_deref();
+        let taken = match quantity {
+            "t" | "frame" => {
+                let frames = quantity == "frame" || unit.is_some_and(is_frame);
+                if frames && self.time.is_some() {
+                    return Ok(());
+                }
+                let seconds = unit.and_then(|unit| si(unit, Measured::Time));
+                if !frames && seconds.is_none() {
+                    self.told.push(format!("column {text} names no unit of time: taken as seconds"));
+                }
+                let only_frames = self.time.is_some_and(|(_, seconds)| seconds.is_none());
+                let before = self.time.replace((index, (!frames).then_some(seconds.unwrap_or(1.0))));
+                before.is_some() && !only_frames
+            }
+            "run" => self.run.replace(index).is_some(),
+            "actuator" => self.actuator.replace(index).is_some(),
+            "marker" => self.marker.replace(index).is_some(),
+            "p_body" | "p_act" => {
+                let pa = unit.and_then(|unit| si(unit, Measured::Pressure)).or(options.pressure_unit_pa);
+                let pa = pa.ok_or_else(|| {
+                    let help = "say it: --pressure-unit kPa (or Pa, MPa, bar, mbar, psi)";
+                    sheet.fault(line, format!("the pressure column {text} names no unit"), help)
+                })?;
+                self.pressures[usize::from(quantity == "p_act")].replace((index, pa)).is_some()
+            }
+            _ => {
+                let axis = ["x", "y", "z"].iter().position(|axis| *axis == quantity).or(name.coordinate().map(|c| c.0));
+                let marker = name.coordinate().map_or(String::new(), |(_, marker)| marker);
+                self.coordinates.push((index, axis.unwrap_or(0), marker, name.unit.clone()));
+                false
+            }
+        };
+        let twice = || {
+            let help = format!("say which one: --map {quantity}={text}");
+            sheet.fault(line, format!("two columns hold the {quantity}, the second is {text}"), help)
+        };
+        if taken { Err(twice()) } else { Ok(()) }
+    }
+
+    /// Unit of the coordinates.
+    ///
+    /// # Errors
+    /// Different units.
+    pub fn lengths(&self, sheet: &Sheet, line: u64) -> Result<Lengths, DataError> {
+        let units: Vec<_> = self.coordinates.iter().map(|(.., unit)| unit.as_deref()).collect();
+        let Some(first) = units.first().copied().flatten() else { return Ok(Lengths::Unsaid) };
+        if let Some(other) = units.iter().find(|unit| **unit != Some(first)) {
+            let message = format!("coordinates are in {first} and in {}", other.unwrap_or("no unit"));
+            return Err(sheet.fault(line, message, "export all coordinates in one unit"));
+        }
+        lengths(first).ok_or_else(|| sheet.fault(line, format!("{first} is no unit of length that is known"), "say it: --scale mm"))
+    }
+}
+
+/// Lengths of a unit as written.
+pub(crate) fn lengths(unit: &str) -> Option<Lengths> {
+    if is_pixel(unit) { Some(Lengths::Pixels) } else { si(unit, Measured::Length).map(Lengths::Metres) }
+}
+
+/// What a column with a telling name holds, unless the caller named another.
+fn meaning(name: &Name, options: &Options) -> Option<&'static str> {
+    let pressure = name.has(&["p", "pressure"]) || name.unit.as_deref().is_some_and(|unit| si(unit, Measured::Pressure).is_some());
+    let quantity = match () {
+        () if name.is_any(&["t", "time", "timestamp"]) => "t",
+        () if name.is_any(&["frame", "frame_idx", "frame_number"]) => "frame",
+        () if name.is_any(&["run", "trial"]) => "run",
+        () if name.is("actuator") => "actuator",
+        () if name.is_any(&["marker", "marker_name", "bodypart"]) => "marker",
+        () if name.has(&["gauge"]) => return None,
+        () if pressure && name.has(&["body", "base", "tube"]) => "p_body",
+        () if pressure && !(name.coordinate().is_some()) => "p_act",
+        () if name.is("s") || name.has(&["likelihood", "score"]) => return None,
+        () if name.coordinate().is_some() => ["x", "y", "z"][name.coordinate()?.0],
+        () => return None,
+    };
+    // A quantity that was given a column has no other.
+    options.column(quantity).is_none().then_some(quantity)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_taken_apart_as_people_write_them() {
+        let found = |text: &str| (Name::of(text).coordinate(), Name::of(text).unit);
+        let a = |axis: usize, name: &str| Some((axis, name.to_string()));
+        let unit = |text: &str| Some(text.to_string());
+        assert_eq!(found("x_a_mm"), (a(0, "a"), unit("mm")));
+        assert_eq!(found("a - Y (cm)"), (a(1, "a"), unit("cm")));
+        assert_eq!(found("x12"), (a(0, "12"), None));
+        assert_eq!(found("Tip.Z [px]"), (a(2, "Tip"), unit("px")));
+        assert_eq!(found("P1_x"), (a(0, "P1"), None));
+        assert_eq!((Name::of("Time (ms)").unit, Name::of("p_act_kpa").is("p_act")), (unit("ms"), true));
+        assert!(Name::of("m").unit.is_none() && Name::of("x1_mm").coordinate() == a(0, "1") && Name::of("frame").is("frame"));
+        assert_eq!((si("ms", Measured::Time), si("ms", Measured::Length), si("micron", Measured::Length)), (Some(1e-3), None, Some(1e-6)));
+    }
+}

@@ -1,0 +1,111 @@
+//! Runs cut into holds or bins, cleaned, and held against each other.
+
+use super::holds::{Kept, Run, bins, clean, plateaus};
+use super::options::Options;
+use super::recording::Recording;
+use crate::error::{DataError, Fault};
+use crate::streams::tolerance_act_pa;
+use crate::units::kpa;
+
+/// A run and the frames of its holds.
+pub(crate) type Cut = Vec<(Run, Vec<Kept>)>;
+
+/// Cuts runs, whose places in the robot's frame are `xy_m`.
+///
+/// # Errors
+/// Fewer than two holds; bins that cannot be told apart.
+pub(crate) fn cut(
+    file: &str,
+    recordings: Vec<Recording>,
+    xy_m: Vec<Vec<Vec<[f64; 2]>>>,
+    options: &Options,
+    told: &mut Vec<String>,
+) -> Result<Cut, DataError> {
+    let run = |(recording, xy_m): (Recording, _)| Run {
+        label: recording.run.unwrap_or_default(),
+        times_s: recording.times,
+        pressures_pa: recording.pressures.map(Option::unwrap_or_default),
+        xy_m,
+    };
+    let runs: Vec<Run> = recordings.into_iter().zip(xy_m).map(run).collect();
+    match options.bin_pa {
+        Some(bin_pa) => binned(file, runs, bin_pa, told),
+        None => held(file, runs, options, told),
+    }
+}
+
+/// Runs by their plateaus.
+fn held(file: &str, runs: Vec<Run>, options: &Options, told: &mut Vec<String>) -> Result<Cut, DataError> {
+    let (mut cut, mut used, mut taken) = (Vec::new(), 0, [0, 0]);
+    let frames: usize = runs.iter().map(|run| run.times_s.len()).sum();
+    for mut run in runs {
+        let mut holds = plateaus(&run, options);
+        if holds.len() < 2 {
+            let message = format!(
+                "run {} has {} holds in which the pressures are kept for {} s and {} frames",
+                run.label,
+                holds.len(),
+                options.least_hold_s,
+                options.least_frames
+            );
+            let help = "for a ramp add --bin 2kPa; for short holds --hold 0.2s or --frames 1";
+            return Err(DataError::Runs(Box::new(Fault::of_file(file, message, help))));
+        }
+        let length_m = length_m(&run);
+        for hold in &mut holds {
+            let [moving, wild] = clean(&mut run, hold, length_m);
+            taken = [taken[0] + moving, taken[1] + wild];
+            used += hold.frames.len();
+        }
+        cut.push((run, holds));
+    }
+    let counts: Vec<String> = cut.iter().map(|(_, holds)| holds.len().to_string()).collect();
+    told.push(format!(
+        "holds of at least {} s and {} frames: {} in the runs; {} of {frames} frames are in none",
+        options.least_hold_s,
+        options.least_frames,
+        counts.join(", "),
+        frames - used
+    ));
+    if taken[0] > 0 {
+        told.push(format!("{} frames at the start of holds are left out: the robot was still moving", taken[0]));
+    }
+    if taken[1] > 0 {
+        told.push(format!("lost markers: {} positions lie far from the others of their hold", taken[1]));
+    }
+    Ok(cut)
+}
+
+/// The farthest that a marker is seen from the base.
+fn length_m(run: &Run) -> f64 {
+    let distances = run.xy_m.iter().map(|column| {
+        let seen: Vec<f64> = column.iter().map(|place| place[0].hypot(place[1])).filter(|d| d.is_finite()).collect();
+        super::holds::median(seen).unwrap_or(0.0)
+    });
+    distances.fold(0.0, f64::max)
+}
+
+/// Runs by bins of pressure, those bins that all of them have.
+fn binned(file: &str, runs: Vec<Run>, bin_pa: f64, told: &mut Vec<String>) -> Result<Cut, DataError> {
+    let found: Vec<_> = runs.iter().map(|run| bins(run, bin_pa)).collect();
+    let highest_pa = found.iter().flatten().map(|(.., kept)| kept.act_pa).fold(0.0, f64::max);
+    let least_pa = 1.1 * tolerance_act_pa(highest_pa);
+    if bin_pa < least_pa {
+        let message = format!("bins of {} kPa cannot be told apart at {:.1} kPa: holds nearer than 5 % are one", kpa(bin_pa), kpa(highest_pa));
+        let help = format!("give --bin {}kPa", kpa(least_pa).ceil());
+        return Err(DataError::Runs(Box::new(Fault::of_file(file, message, help))));
+    }
+    let all_have = |bin: &(usize, i64, Kept)| found.iter().all(|run| run.iter().any(|(branch, k, _)| (*branch, *k) == (bin.0, bin.1)));
+    let common: Vec<Vec<Kept>> = found.iter().map(|run| run.iter().filter(|bin| all_have(bin)).map(|bin| bin.2.clone()).collect()).collect();
+    let left_out = found.iter().map(Vec::len).sum::<usize>() - common.iter().map(Vec::len).sum::<usize>();
+    if common[0].len() < 2 {
+        let help = "give larger bins, or import the runs one by one";
+        return Err(DataError::Runs(Box::new(Fault::of_file(file, "the runs have fewer than two bins in common", help))));
+    }
+    told.push(format!(
+        "binned by actuator pressure in steps of {} kPa, rising and falling apart: {} bins with the mean of their frames; {left_out} that not every run has are left out",
+        kpa(bin_pa),
+        common[0].len()
+    ));
+    Ok(runs.into_iter().zip(common).collect())
+}

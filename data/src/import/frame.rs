@@ -1,0 +1,253 @@
+//! From the file's coordinates to the robot's: scale, origin at the base, x along the straight robot, y towards the actuator.
+
+use super::homography::Homography;
+use super::options::{Axis, Options, Place, Scale};
+use super::recording::{LOST, Lengths, Recording};
+use crate::error::{DataError, Fault};
+use crate::units::mm;
+
+/// A marker that moves less than this does not tell where the actuator is \[m\].
+const TELLING_M: f64 = 0.005;
+/// Largest angle of the robot at rest to an axis of the file \[rad\].
+const ASKEW: f64 = 0.26;
+
+/// How a file's coordinates become metres.
+#[derive(Debug, Clone)]
+enum Map {
+    Factor(f64),
+    Board(Homography),
+}
+
+impl Map {
+    fn metres(&self, place: [f64; 3]) -> [f64; 3] {
+        match self {
+            Map::Factor(metres) => place.map(|value| value * metres),
+            Map::Board(board) => {
+                let [x, y] = board.at([place[0], place[1]]);
+                [x, y, 0.0]
+            }
+        }
+    }
+}
+
+/// Frames in which the actuator is empty, and in which it is fullest, of one run.
+pub(crate) struct Ends {
+    pub rest: Vec<usize>,
+    pub top: Vec<usize>,
+}
+
+/// Runs in the robot's frame.
+pub(crate) struct Placed {
+    /// `[run][marker][frame]` \[m\], NaN where not seen.
+    pub xy_m: Vec<Vec<Vec<[f64; 2]>>>,
+    /// Labels.
+    pub markers: Vec<String>,
+    /// What was assumed.
+    pub told: Vec<String>,
+}
+
+/// Puts runs into the robot's frame; they have the same markers in the same order.
+///
+/// # Errors
+/// Scale, base or axes are not known and not told by the data.
+pub(crate) fn place(file: &str, runs: &[Recording], ends: &[Ends], options: &Options) -> Result<Placed, DataError> {
+    let (map, mut told) = map(file, runs, ends, options)?;
+    let (bases, skipped) = bases(file, runs, ends, options, &map, &mut told)?;
+    let markers: Vec<usize> = (0..runs[0].markers.len()).filter(|marker| Some(*marker) != skipped).collect();
+    let moved = Moved::of(runs, ends, &bases, &markers, &map);
+    let axes = axes(file, runs, &moved, options, &mut told)?;
+    let turn = options.turn_rad.sin_cos();
+    let xy_m = runs.iter().zip(&bases).map(|(run, base)| {
+        let of_marker = |marker: &usize| {
+            run.places[*marker].iter().map(|place| {
+                let from = map.metres(*place);
+                let [x, y] = axes.map(|axis| axis.of(from) - axis.of(*base));
+                [turn.1 * x + turn.0 * y, turn.1 * y - turn.0 * x]
+            })
+        };
+        markers.iter().map(|marker| of_marker(marker).collect()).collect()
+    });
+    let xy_m = xy_m.collect();
+    Ok(Placed { xy_m, markers: markers.iter().map(|marker| runs[0].markers[*marker].clone()).collect(), told })
+}
+
+impl Axis {
+    fn of(self, place: [f64; 3]) -> f64 {
+        if self.turned { -place[self.index] } else { place[self.index] }
+    }
+
+    fn word(self) -> String {
+        format!("{}{}", if self.turned { "-" } else { "" }, ["x", "y", "z"][self.index])
+    }
+}
+
+fn fault(file: &str, message: impl Into<String>, help: impl Into<String>) -> DataError {
+    DataError::Unit(Box::new(Fault::of_file(file, message, help)))
+}
+
+fn map(file: &str, runs: &[Recording], ends: &[Ends], options: &Options) -> Result<(Map, Vec<String>), DataError> {
+    let lengths = runs[0].lengths;
+    let said = |map: Map, words: String| Ok((map, vec![words]));
+    match (&options.scale, lengths) {
+        (Scale::PixelsPerMetre(pixels), Lengths::Pixels | Lengths::Unsaid) => {
+            said(Map::Factor(1.0 / pixels), format!("{} px are a millimetre, as given", short(pixels * 1e-3)))
+        }
+        (Scale::Unit(metres), Lengths::Unsaid | Lengths::Pixels) => {
+            said(Map::Factor(*metres), format!("a number of the file is {} mm, as given", short(metres * 1e3)))
+        }
+        (Scale::Known(places, length_m), Lengths::Pixels | Lengths::Unsaid) => {
+            let found: Vec<f64> = runs.iter().zip(ends).map(|(run, ends)| distance(file, run, ends, places)).collect::<Result<_, _>>()?;
+            let apart = found.iter().sum::<f64>() / found.len() as f64;
+            let metres = length_m / apart;
+            said(Map::Factor(metres), format!("{apart:.2} units of the file are {:.2} mm: {} to a millimetre", mm(*length_m), short(1e-3 / metres)))
+        }
+        (Scale::Board(corners, square_m), Lengths::Pixels | Lengths::Unsaid) => {
+            let (board, rms_px) = Homography::of_board(corners, *square_m).map_err(|message| {
+                fault(file, message, "give at least four corners, no three on a line: a table column,row,x,y")
+            })?;
+            said(Map::Board(board), format!("a homography of {} corners, {rms_px:.2} px off (rms)", corners.len()))
+        }
+        (Scale::OfFile, Lengths::Metres(metres)) => said(Map::Factor(metres), format!("lengths are in {}, as the file says", unit(metres))),
+        (Scale::Unit(given), Lengths::Metres(metres)) if *given == metres => {
+            said(Map::Factor(metres), format!("lengths are in {}, as the file says", unit(metres)))
+        }
+        (_, Lengths::Metres(metres)) => {
+            let message = format!("the file says that its lengths are in {}, and a scale was given", unit(metres));
+            Err(fault(file, message, "leave the scale out, or export in pixels"))
+        }
+        (Scale::OfFile, Lengths::Pixels) => Err(fault(
+            file,
+            "positions are pixels of the picture, and their scale is not known",
+            "give --scale 3.1px/mm, or --known-distance MARKER:MARKER=40mm, or --board corners.csv --square 25mm",
+        )),
+        (Scale::OfFile, Lengths::Unsaid) => {
+            Err(fault(file, "the file does not say the unit of its positions", "give it: --scale mm, cm, m or 3.1px/mm"))
+        }
+    }
+}
+
+fn unit(metres: f64) -> String {
+    let known = [(1e-3, "mm"), (1e-2, "cm"), (1.0, "m"), (1e-6, "µm")];
+    known.iter().find(|(value, _)| *value == metres).map_or_else(|| format!("{} mm", short(metres * 1e3)), |(_, word)| (*word).to_string())
+}
+
+fn short(value: f64) -> String {
+    format!("{}", (value * 1e6).round() / 1e6)
+}
+
+/// Distance of two places in the file's units.
+fn distance(file: &str, run: &Recording, ends: &Ends, places: &[Place; 2]) -> Result<f64, DataError> {
+    let at = |place: &Place| where_is(file, run, ends, place).map(|(at, _)| at);
+    let (a, b) = (at(&places[0])?, at(&places[1])?);
+    let apart = (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt();
+    if apart > 0.0 { Ok(apart) } else { Err(fault(file, "the two places of --known-distance are one", "name two different ones")) }
+}
+
+/// A place in the file's units, and the marker that it is.
+pub(crate) fn where_is(file: &str, run: &Recording, ends: &Ends, place: &Place) -> Result<([f64; 3], Option<usize>), DataError> {
+    let name = match place {
+        Place::At(values) => {
+            let mut at = [0.0; 3];
+            at.iter_mut().zip(values).for_each(|(at, value)| *at = *value);
+            return Ok((at, None));
+        }
+        Place::Marker(name) => name,
+    };
+    let Some(marker) = run.markers.iter().position(|known| known == name) else {
+        let meant = spelling::meant(name, run.markers.iter().map(String::as_str));
+        let help = format!("{meant}the markers are {}", run.markers.join(", "));
+        return Err(fault(file, format!("there is no marker {name}"), help));
+    };
+    let seen = run.mean_place(marker, ends.rest.iter().copied());
+    let at = seen.ok_or_else(|| fault(file, format!("marker {name} was not seen at the lowest pressure"), "take another marker"))?;
+    Ok((at, Some(marker)))
+}
+
+/// The base of every run \[m\], and the marker that stands for it.
+fn bases(
+    file: &str,
+    runs: &[Recording],
+    ends: &[Ends],
+    options: &Options,
+    map: &Map,
+    told: &mut Vec<String>,
+) -> Result<(Vec<[f64; 3]>, Option<usize>), DataError> {
+    let Some(place) = &options.base else {
+        if runs[0].lengths == Lengths::Pixels && !matches!(options.scale, Scale::Board(..) | Scale::Unit(_)) {
+            let help = "give --base X,Y in pixels as the picture counts them, or --base MARKER for a marker at the clamp";
+            return Err(fault(file, "positions are pixels of the picture: where is the robot's base?", help));
+        }
+        told.push("the robot's base is the origin of the file's coordinates".to_string());
+        return Ok((vec![[0.0; 3]; runs.len()], None));
+    };
+    let found: Vec<_> = runs.iter().zip(ends).map(|(run, ends)| where_is(file, run, ends, place)).collect::<Result<_, _>>()?;
+    told.push(match place {
+        Place::At(at) => format!("the robot's base is at {} of the file", at.iter().map(f64::to_string).collect::<Vec<_>>().join(", ")),
+        Place::Marker(name) => format!("the robot's base is marker {name} at rest, in every run anew; it is no marker of the table"),
+    });
+    Ok((found.iter().map(|(at, _)| map.metres(*at)).collect(), found[0].1))
+}
+
+/// Where markers are at rest from the base, and how they move to the highest pressure, means over runs \[m\].
+struct Moved {
+    rest: Vec<[f64; 3]>,
+    by: Vec<[f64; 3]>,
+}
+
+impl Moved {
+    fn of(runs: &[Recording], ends: &[Ends], bases: &[[f64; 3]], markers: &[usize], map: &Map) -> Moved {
+        let (mut rest, mut by) = (Vec::new(), Vec::new());
+        for &marker in markers {
+            let (mut sums, mut count) = ([[0.0; 3]; 2], 0.0);
+            for ((run, ends), base) in runs.iter().zip(ends).zip(bases) {
+                let mean = |frames: &[usize]| run.mean_place(marker, frames.iter().copied()).map(|place| map.metres(place));
+                let (Some(low), Some(high)) = (mean(&ends.rest), mean(&ends.top)) else { continue };
+                (0..3).for_each(|axis| sums[0][axis] += low[axis] - base[axis]);
+                (0..3).for_each(|axis| sums[1][axis] += high[axis] - low[axis]);
+                count += 1.0;
+            }
+            rest.push(if count > 0.0 { sums[0].map(|sum| sum / count) } else { LOST });
+            by.push(if count > 0.0 { sums[1].map(|sum| sum / count) } else { LOST });
+        }
+        Moved { rest, by }
+    }
+
+    /// The marker farthest from the base at rest.
+    fn farthest(&self) -> Option<usize> {
+        let length = |k: &usize| self.rest[*k].iter().map(|v| v * v).sum::<f64>();
+        (0..self.rest.len()).filter(|k| self.rest[*k][0].is_finite()).max_by(|a, b| length(a).total_cmp(&length(b)))
+    }
+}
+
+/// The axes given, or: along the robot at rest, and across it where the farthest marker moves as the pressure rises.
+fn axes(file: &str, runs: &[Recording], moved: &Moved, options: &Options, told: &mut Vec<String>) -> Result<[Axis; 2], DataError> {
+    let words = |axes: &[Axis; 2]| format!("along the robot is the file's {}, towards the actuator its {}", axes[0].word(), axes[1].word());
+    if let Some(axes) = options.axes {
+        told.push(format!("{}, as given", words(&axes)));
+        return Ok(axes);
+    }
+    let help = "give --axes ALONG,TOWARDS, for example --axes x,-y where y of the picture points down";
+    let Some(far) = moved.farthest() else {
+        return Err(fault(file, "no marker was seen both at the lowest and at the highest pressure", help));
+    };
+    let (rest, by, name) = (moved.rest[far], moved.by[far], &runs[0].markers);
+    let largest = |values: [f64; 3], but: Option<usize>| {
+        (0..3).filter(|axis| Some(*axis) != but).max_by(|a, b| values[*a].abs().total_cmp(&values[*b].abs())).unwrap_or(0)
+    };
+    let along = largest(rest, None);
+    let across = largest(by, Some(along));
+    if by[across].abs() < TELLING_M {
+        let message = format!("the markers move by {:.1} mm across the robot: where the actuator is cannot be seen", mm(by[across].abs()));
+        return Err(fault(file, message, help));
+    }
+    let axes = [Axis { index: along, turned: rest[along] < 0.0 }, Axis { index: across, turned: by[across] < 0.0 }];
+    let angle = (axes[1].of(rest)).atan2(axes[0].of(rest)) - options.turn_rad;
+    if angle.abs() > ASKEW {
+        let degrees = angle.to_degrees();
+        let message = format!("at rest the robot lies at {degrees:.0} degrees to the file's {}", axes[0].word());
+        return Err(fault(file, message, format!("turn it: --turn {degrees:.1}deg; or correct --base")));
+    }
+    let label = name.get(far).map_or("", String::as_str);
+    told.push(format!("{}: marker {label} moves there by {:.1} mm as the pressure rises", words(&axes), mm(by[across].abs())));
+    Ok(axes)
+}

@@ -1,0 +1,51 @@
+//! Kinovea: trajectories as a text (blocks parted by blank lines, clock times) and kinematics as a table.
+
+use super::columns::Name;
+use super::formats::Format;
+use super::options::Options;
+use super::recording::{Clock, Lengths, Pivot, Recording};
+use super::sheet::Sheet;
+use super::wide;
+use crate::cells::clock_s;
+use crate::error::DataError;
+
+pub(super) const TRAJECTORIES: Format = Format {
+    name: "Kinovea, trajectories",
+    known_by: "first line #Kinovea Trajectory",
+    recognise: |sheet, _, _| sheet.text.trim_start().starts_with("#Kinovea"),
+    read: trajectories,
+};
+
+pub(super) const KINEMATICS: Format = Format {
+    name: "Kinovea, kinematics",
+    known_by: "columns Time (ms) and NAME - X (cm)",
+    recognise: |_, head, _| {
+        let is_x = |name: &&str| name.contains(" - X") || name.contains("/X");
+        head.first().is_some_and(|row| Name::of(row[0]).is("time") && row.iter().any(|name| is_x(&name)))
+    },
+    read: wide::read,
+};
+
+fn trajectories(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError> {
+    let mut pivot = Pivot::new(Lengths::Pixels, Clock::Seconds);
+    let (mut block, mut open) = (0_usize, false);
+    for (line, number) in sheet.text.lines().zip(1..) {
+        let cells: Vec<&str> = line.split_whitespace().collect();
+        match cells[..] {
+            [] => open = false,
+            [first, ..] if first.starts_with('#') => {}
+            [time, x, y] => {
+                block += usize::from(!open);
+                open = true;
+                let marker = pivot.marker(&block.to_string());
+                let time = clock_s(time).map_or_else(|| sheet.time(time, number, "T"), Ok)?;
+                let value = |text: &str| sheet.expect(text, number, "X Y");
+                let frame = pivot.frame(time);
+                pivot.put(frame, marker, [value(x)?, value(y)?, 0.0], true);
+            }
+            _ => return Err(sheet.fault(number, format!("expected T X Y, found {} cells", cells.len()), "export the trajectories again")),
+        }
+    }
+    pivot.recording.named = false;
+    Ok(vec![pivot.finish()])
+}

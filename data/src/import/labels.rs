@@ -1,0 +1,120 @@
+//! Labels of runs and markers: of the files, of the caller, or found.
+
+use std::path::Path;
+
+use super::frame::{Ends, where_is};
+use super::options::Options;
+use super::recording::Recording;
+use crate::error::{DataError, Fault};
+
+/// Labels of runs that have none: what the names of their files do not have in common.
+pub(crate) fn number_runs(runs: &mut [(String, Recording)]) {
+    let stem = |file: &String| Path::new(file).file_stem().map_or(file.clone(), |stem| stem.to_string_lossy().into_owned());
+    let stems: Vec<String> = runs.iter().map(|(file, _)| stem(file)).collect();
+    let labels = distinct(&stems);
+    let several = |k: usize| runs.iter().filter(|(file, _)| *file == runs[k].0).count() > 1;
+    let files = stems.iter().collect::<std::collections::BTreeSet<_>>().len();
+    let new: Vec<String> = (0..runs.len())
+        .map(|k| match &runs[k].1.run {
+            Some(run) if files > 1 => format!("{}-{run}", labels[k]),
+            Some(run) => run.clone(),
+            None if several(k) => format!("{}-{}", labels[k], k + 1),
+            None => labels[k].clone(),
+        })
+        .collect();
+    runs.iter_mut().zip(new).for_each(|((_, run), label)| run.run = Some(label));
+}
+
+/// Names without what they begin and end with in common, whole numbers kept whole; all alike or one alone: their numbers.
+fn distinct(names: &[String]) -> Vec<String> {
+    let numbered = || (1..=names.len()).map(|k| k.to_string()).collect();
+    let Some((first, rest)) = names.split_first().filter(|(_, rest)| !rest.is_empty()) else { return numbered() };
+    let same = |a: &str, b: &str| a.chars().zip(b.chars()).take_while(|(a, b)| a == b).map(|(a, _)| a.len_utf8()).sum::<usize>();
+    let back = |text: &str| text.chars().rev().collect::<String>();
+    let mut begin = rest.iter().map(|name| same(first, name)).min().unwrap_or(0);
+    while begin > 0 && first.as_bytes()[begin - 1].is_ascii_digit() {
+        begin -= 1;
+    }
+    let shortest = names.iter().map(String::len).min().unwrap_or(0);
+    let mut end = rest.iter().map(|name| same(&back(first), &back(name))).min().unwrap_or(0).min(shortest.saturating_sub(begin));
+    while end > 0 && first.as_bytes()[first.len() - end].is_ascii_digit() {
+        end -= 1;
+    }
+    let cut: Vec<String> = names.iter().map(|name| name[begin..name.len() - end].to_string()).collect();
+    if cut.iter().any(String::is_empty) { names.to_vec() } else { cut }
+}
+
+/// Puts the markers of all runs in the order of the first.
+///
+/// # Errors
+/// A marker that one run has and another has not.
+pub(crate) fn same_markers(file: &str, runs: &mut [(String, Recording)]) -> Result<(), DataError> {
+    let Some(((_, first), rest)) = runs.split_first_mut() else { return Ok(()) };
+    let markers = &first.markers;
+    for (_, run) in rest {
+        let label = run.run.clone().unwrap_or_default();
+        if run.named && run.markers.iter().any(|name| !markers.contains(name)) || run.markers.len() != markers.len() {
+            let message = format!("run {label} has the markers {}, the first run has {}", run.markers.join(", "), markers.join(", "));
+            let help = "export the same markers of every run, under the same names";
+            return Err(DataError::Runs(Box::new(Fault::of_file(file, message, help))));
+        }
+        if run.named {
+            let place = |name: &String| run.markers.iter().position(|own| own == name).unwrap_or_default();
+            let order: Vec<usize> = markers.iter().map(place).collect();
+            run.places = order.iter().map(|k| run.places[*k].clone()).collect();
+            run.markers.clone_from(markers);
+        }
+    }
+    Ok(())
+}
+
+/// Markers without names are numbered from the base outwards; names that the caller gives replace those of the files.
+///
+/// # Errors
+/// Another number of names than of markers.
+pub(crate) fn rename(
+    file: &str,
+    runs: &mut [Recording],
+    ends: &[Ends],
+    options: &Options,
+    told: &mut Vec<String>,
+) -> Result<(), DataError> {
+    for (run, ends) in runs.iter_mut().zip(ends).filter(|(run, _)| !run.named) {
+        let base = options.base.as_ref().map_or(Ok([0.0; 3]), |base| where_is(file, run, ends, base).map(|(at, _)| at))?;
+        let rest = |marker: usize| run.mean_place(marker, ends.rest.iter().copied());
+        let away = |marker: usize| rest(marker).map_or(f64::INFINITY, |at| (0..3).map(|axis| (at[axis] - base[axis]).powi(2)).sum());
+        let mut order: Vec<usize> = (0..run.markers.len()).collect();
+        order.sort_by(|a, b| away(*a).total_cmp(&away(*b)));
+        run.places = order.iter().map(|k| run.places[*k].clone()).collect();
+        run.markers = (1..=order.len()).map(|k| k.to_string()).collect();
+    }
+    if runs.iter().any(|run| !run.named) {
+        told.push("the file has no names of markers: they are numbered from the base outwards".to_string());
+    }
+    let (given, known) = (&options.markers, &runs[0].markers);
+    if given.is_empty() {
+        return Ok(());
+    }
+    if given.len() != known.len() {
+        let message = format!("--markers names {}, the file has {}: {}", given.len(), known.len(), known.join(", "));
+        return Err(DataError::Runs(Box::new(Fault::of_file(file, message, "name every marker, in this order"))));
+    }
+    told.push(format!("markers {} are called {}", known.join(", "), given.join(", ")));
+    runs.iter_mut().for_each(|run| run.markers.clone_from(given));
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::distinct;
+
+    #[test]
+    fn runs_are_called_what_their_files_do_not_share() {
+        let found = |names: &[&str]| distinct(&names.iter().map(|n| (*n).to_string()).collect::<Vec<_>>());
+        assert_eq!(found(&["run1", "run2", "run3"]), ["1", "2", "3"]);
+        assert_eq!(found(&["run10DLC_resnet50", "run11DLC_resnet50"]), ["10", "11"]);
+        assert_eq!(found(&["a", "b"]), ["a", "b"]);
+        assert_eq!(found(&["take", "take_2"]), ["take", "take_2"]);
+        assert_eq!(found(&["alone"]), ["1"]);
+    }
+}

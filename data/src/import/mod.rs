@@ -1,0 +1,181 @@
+//! From the files of a tracking program and a pressure log to a marker table and the beginning of its description.
+//!
+//! ```text
+//! tracking files ─► recordings ─► + pressures by time ─► robot's frame ─► holds or bins ─► markers.csv, about.toml
+//! ```
+//!
+//! Every kind of file is one entry of [`FORMATS`], known by its content. What is not in the files comes from the caller
+//! ([`Options`]); what was assumed is told ([`Imported::told`]); what can be read in two ways is refused.
+
+mod columns;
+mod cut;
+mod deeplabcut;
+mod formats;
+mod frame;
+mod holds;
+mod homography;
+mod join;
+mod kinovea;
+mod labels;
+mod long;
+mod motive;
+mod options;
+mod pressure;
+mod recording;
+mod sheet;
+mod sleap;
+mod table;
+mod tracker;
+mod trackmate;
+mod wide;
+
+use std::path::PathBuf;
+
+use crate::about::{About, parse_about};
+use crate::dataset::Dataset;
+use crate::error::{DataError, Fault};
+use crate::read::{ReadOptions, parse_markers};
+use crate::streams::tolerance_act_pa;
+use crate::units::kpa;
+use cut::{Cut, cut};
+pub use formats::{FORMATS, Format};
+use frame::{Ends, Placed, place};
+pub use options::{Axis, Offset, Options, Place, Scale};
+use recording::{Dropped, Recording};
+
+/// What an import made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Imported {
+    /// The program that wrote the files.
+    pub program: &'static str,
+    /// What was understood and assumed, in words.
+    pub told: Vec<String>,
+    /// The marker table.
+    pub markers_csv: String,
+    /// Its description, half filled, with questions as comments.
+    pub about_toml: String,
+    /// The same, read back.
+    pub dataset: Dataset,
+    /// The same, read back.
+    pub about: About,
+    /// The tracks over time, for a picture.
+    pub tracks: Vec<Track>,
+}
+
+/// One run over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Track {
+    /// Label of the run.
+    pub run: String,
+    /// Markers: label and (time \[s\], y \[m\]) of frames, thinned for a picture; NaN where not seen.
+    pub lines: Vec<(String, Vec<[f64; 2]>)>,
+    /// Begin and end \[s\] and actuator pressure \[Pa\] of every hold.
+    pub holds: Vec<[f64; 3]>,
+}
+
+/// Points of a line in a picture.
+const MOST_POINTS: usize = 1_500;
+
+/// Reads tracking files, each a run or several, joins the pressures, and makes the marker table.
+///
+/// # Errors
+/// A file that is not understood; scale, base, axes, frame rate or pressures that are not known; clocks that disagree; no holds;
+/// runs that do not fit together. Every message says what to add.
+pub fn import(files: &[PathBuf], options: &Options, progress: &mut dyn FnMut(u64, u64)) -> Result<Imported, DataError> {
+    let shown: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
+    let Some(first) = shown.first() else {
+        return Err(DataError::File(Box::new(Fault::of_file("import", "no file was given", "name the tracking files"))));
+    };
+    let mut told = Vec::new();
+    let (program, mut runs) = join::recordings(files, options, &mut told, progress)?;
+    labels::number_runs(&mut runs);
+    labels::same_markers(first, &mut runs)?;
+    let mut runs: Vec<Recording> = runs.into_iter().map(|(_, run)| run).collect();
+    told.extend(losses(&runs));
+    let ends: Vec<Ends> = runs.iter().map(|run| ends(first, run)).collect::<Result<_, _>>()?;
+    labels::rename(first, &mut runs, &ends, options, &mut told)?;
+    let actuator = actuator(first, &runs, options)?;
+    let Placed { xy_m, markers, told: words } = place(first, &runs, &ends, options)?;
+    told.extend(words);
+    let cut = cut(first, runs, xy_m, options, &mut told)?;
+    let made = Made { program, files: &shown, cut: &cut, markers: &markers, actuator: &actuator, options };
+    made.finish(told)
+}
+
+/// Everything that the table and its description are made of.
+struct Made<'a> {
+    program: &'static str,
+    files: &'a [String],
+    cut: &'a Cut,
+    markers: &'a [String],
+    actuator: &'a str,
+    options: &'a Options,
+}
+
+impl Made<'_> {
+    /// Writes both and reads them back.
+    fn finish(&self, mut told: Vec<String>) -> Result<Imported, DataError> {
+        let Made { program, files, cut, markers, actuator, options } = *self;
+        if let Some((unknown, _)) = options.stations_m.iter().find(|(name, _)| !markers.contains(name)) {
+            let help = format!("the markers are {}", markers.join(", "));
+            return Err(DataError::Runs(Box::new(Fault::of_file(&files[0], format!("--stations names {unknown}, which is no marker"), help))));
+        }
+        let stations = table::stations(cut, markers, options);
+        if stations.iter().any(|(.., given)| !given) {
+            let list: Vec<String> = stations.iter().map(|(name, s, _)| format!("{name} {:.0} mm", s * 1e3)).collect();
+            told.push(format!("stations of markers are estimated from the robot at rest: {} (--stations)", list.join(", ")));
+        }
+        let markers_csv = table::markers_csv(cut, markers, actuator, options.bin_pa.is_some());
+        let about_toml = table::about_toml(program, files, &stations, actuator, &told);
+        let about = parse_about("about.toml as imported", &about_toml)?;
+        let read = ReadOptions { about: Some(&about), ..ReadOptions::default() };
+        let dataset = parse_markers("markers.csv as imported", &mut markers_csv.as_bytes(), read, &mut |_, _| ())?;
+        let tracks = cut.iter().map(|(run, holds)| track(run, holds, markers)).collect();
+        Ok(Imported { program, told, markers_csv, about_toml, dataset, about, tracks })
+    }
+}
+
+/// A run for a picture.
+fn track(run: &holds::Run, kept: &[holds::Kept], markers: &[String]) -> Track {
+    let step = run.times_s.len().div_ceil(MOST_POINTS).max(1);
+    let points = |column: &Vec<[f64; 2]>| (0..column.len()).step_by(step).map(|k| [run.times_s[k], column[k][1]]).collect();
+    let lines = markers.iter().zip(&run.xy_m).map(|(name, column)| (name.clone(), points(column))).collect();
+    let ends = |hold: &holds::Kept| {
+        let [begin, end] = [hold.frames.first(), hold.frames.last()].map(|k| k.map_or(f64::NAN, |k| run.times_s[*k]));
+        [begin, end, hold.act_pa]
+    };
+    Track { run: run.label.clone(), lines, holds: kept.iter().map(ends).collect() }
+}
+
+/// What was dropped on reading, in words.
+fn losses(runs: &[Recording]) -> Vec<String> {
+    let all = runs.iter().fold(Dropped::default(), |sum, run| Dropped {
+        blank: sum.blank + run.dropped.blank,
+        unlikely: sum.unlikely + run.dropped.unlikely,
+        zero: sum.zero + run.dropped.zero,
+    });
+    let words = [(all.blank, "are blank"), (all.unlikely, "are below the limit of likelihood"), (all.zero, "are written as 0, 0")];
+    words.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("lost markers: {count} positions {what}")).collect()
+}
+
+/// Frames at the lowest and at the highest pressure.
+fn ends(file: &str, run: &Recording) -> Result<Ends, DataError> {
+    let act = run.pressures[1].as_deref().unwrap_or_default();
+    let known = || act.iter().copied().filter(|p| p.is_finite());
+    let (low, high) = (known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max));
+    if high - low <= 2.0 * tolerance_act_pa(low) {
+        let message = format!("the actuator's pressure stays between {:.1} and {:.1} kPa in a run", kpa(low), kpa(high));
+        return Err(DataError::Runs(Box::new(Fault::of_file(file, message, "check the column, its unit and the clock of the pressure log"))));
+    }
+    let near = |level: f64| (0..act.len()).filter(|k| (act[*k] - level).abs() <= tolerance_act_pa(level)).collect();
+    Ok(Ends { rest: near(low), top: near(high) })
+}
+
+fn actuator(file: &str, runs: &[Recording], options: &Options) -> Result<String, DataError> {
+    let known = options.actuator.clone().map(|kind| kind.to_lowercase()).or_else(|| runs.iter().find_map(|run| run.actuator.clone()));
+    known.ok_or_else(|| {
+        let help = "add --actuator epam, or the kind that your scenario has";
+        DataError::Runs(Box::new(Fault::of_file(file, "the kind of the actuator is not known", help)))
+    })
+}
+

@@ -1,0 +1,194 @@
+//! What a tracking file holds, whatever program wrote it: places of markers over time, in the file's own units and axes.
+
+use std::collections::HashMap;
+
+/// What the numbers of positions are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Lengths {
+    /// Pixels of the picture, y downwards.
+    Pixels,
+    /// A length of so many metres.
+    Metres(f64),
+    /// The file does not say.
+    Unsaid,
+}
+
+/// What the numbers of times are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Clock {
+    /// Seconds.
+    Seconds,
+    /// Numbers of frames.
+    Frames,
+}
+
+/// Positions that the file has and that stand for nothing.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Dropped {
+    /// Empty, or a word for none.
+    pub blank: u64,
+    /// Less likely than the limit.
+    pub unlikely: u64,
+    /// Written as 0, 0.
+    pub zero: u64,
+}
+
+/// One run as a camera saw it.
+#[derive(Debug, Clone)]
+pub(crate) struct Recording {
+    /// Label, if the file has one.
+    pub run: Option<String>,
+    /// Actuator kind, if the file has one.
+    pub actuator: Option<String>,
+    /// Unit of the positions.
+    pub lengths: Lengths,
+    /// Unit of the times.
+    pub clock: Clock,
+    /// Whether the labels are the user's; otherwise markers are numbered from the base outwards.
+    pub named: bool,
+    /// Rising times.
+    pub times: Vec<f64>,
+    /// Labels.
+    pub markers: Vec<String>,
+    /// `[marker][frame]`, NaN where a marker was not seen.
+    pub places: Vec<Vec<[f64; 3]>>,
+    /// Body and actuator pressure of every frame \[Pa\], if the file has them.
+    pub pressures: [Option<Vec<f64>>; 2],
+    /// What was dropped.
+    pub dropped: Dropped,
+    /// What was assumed, in words.
+    pub told: Vec<String>,
+}
+
+/// A marker that was not seen.
+pub(crate) const LOST: [f64; 3] = [f64::NAN; 3];
+
+/// Collects observations in any order and makes frames of those of one time: the pivot from long to wide.
+#[derive(Debug)]
+pub(crate) struct Pivot {
+    pub recording: Recording,
+    numbers: HashMap<String, usize>,
+    frames: HashMap<u64, usize>,
+    /// Sum and count of readings in a frame, by pressure.
+    readings: [Vec<[f64; 2]>; 2],
+    last: (u64, usize),
+}
+
+impl Pivot {
+    /// Nothing yet.
+    pub fn new(lengths: Lengths, clock: Clock) -> Pivot {
+        let recording = Recording {
+            run: None,
+            actuator: None,
+            lengths,
+            clock,
+            named: true,
+            times: Vec::new(),
+            markers: Vec::new(),
+            places: Vec::new(),
+            pressures: [None, None],
+            dropped: Dropped::default(),
+            told: Vec::new(),
+        };
+        Pivot { recording, numbers: HashMap::new(), frames: HashMap::new(), readings: [Vec::new(), Vec::new()], last: (u64::MAX, 0) }
+    }
+
+    /// The number of a marker, new or known.
+    pub fn marker(&mut self, name: &str) -> usize {
+        if let Some(&number) = self.numbers.get(name) {
+            return number;
+        }
+        let number = self.recording.markers.len();
+        self.numbers.insert(name.to_string(), number);
+        self.recording.markers.push(name.to_string());
+        self.recording.places.push(Vec::new());
+        number
+    }
+
+    /// The frame at a time, new or known.
+    pub fn frame(&mut self, time: f64) -> usize {
+        let bits = time.to_bits();
+        if self.last.0 != bits {
+            let next = self.recording.times.len();
+            let frame = *self.frames.entry(bits).or_insert(next);
+            if frame == next {
+                self.recording.times.push(time);
+            }
+            self.last = (bits, frame);
+        }
+        self.last.1
+    }
+
+    /// Puts a marker; false if it has a place in this frame already. What stands for nothing is counted.
+    pub fn put(&mut self, frame: usize, marker: usize, place: [f64; 3], likely: bool) -> bool {
+        let Recording { places, dropped, .. } = &mut self.recording;
+        if !(place[0].is_finite() && place[1].is_finite()) {
+            dropped.blank += 1;
+            return true;
+        }
+        if place[0] == 0.0 && place[1] == 0.0 && place[2] == 0.0 {
+            dropped.zero += 1;
+            return true;
+        }
+        if !likely {
+            dropped.unlikely += 1;
+            return true;
+        }
+        let column = &mut places[marker];
+        if column.len() <= frame {
+            column.resize(frame + 1, LOST);
+        }
+        let free = column[frame][0].is_nan();
+        column[frame] = place;
+        free
+    }
+
+    /// Takes a reading of the body's (0) or the actuator's (1) pressure \[Pa\].
+    pub fn read(&mut self, frame: usize, which: usize, pressure_pa: f64) {
+        let readings = &mut self.readings[which];
+        if pressure_pa.is_finite() {
+            if readings.len() <= frame {
+                readings.resize(frame + 1, [0.0; 2]);
+            }
+            readings[frame][0] += pressure_pa;
+            readings[frame][1] += 1.0;
+        }
+    }
+
+    /// Frames by rising time; markers never seen are left out.
+    pub fn finish(self) -> Recording {
+        let Pivot { mut recording, readings, .. } = self;
+        let count = recording.times.len();
+        recording.places.iter_mut().for_each(|column| column.resize(count, LOST));
+        recording.pressures = readings.map(|sums| {
+            let mean = |k: usize| sums.get(k).filter(|sum| sum[1] > 0.0).map_or(f64::NAN, |sum| sum[0] / sum[1]);
+            (!sums.is_empty()).then(|| (0..count).map(mean).collect())
+        });
+        recording.sort();
+        recording
+    }
+}
+
+impl Recording {
+    fn sort(&mut self) {
+        if self.times.is_sorted() {
+            return;
+        }
+        let mut order: Vec<usize> = (0..self.times.len()).collect();
+        order.sort_by(|&a, &b| self.times[a].total_cmp(&self.times[b]));
+        self.times = order.iter().map(|&k| self.times[k]).collect();
+        self.places.iter_mut().for_each(|column| *column = order.iter().map(|&k| column[k]).collect());
+        let in_order = |readings: &Vec<f64>| order.iter().map(|&k| readings[k]).collect();
+        self.pressures = [0, 1].map(|which| self.pressures[which].as_ref().map(in_order));
+    }
+
+    /// Where a marker was in the mean over some frames in which it was seen.
+    pub fn mean_place(&self, marker: usize, frames: impl Iterator<Item = usize>) -> Option<[f64; 3]> {
+        let (mut sum, mut count) = ([0.0; 3], 0.0);
+        for place in frames.map(|frame| self.places[marker][frame]).filter(|place| place[0].is_finite()) {
+            (0..3).for_each(|axis| sum[axis] += place[axis]);
+            count += 1.0;
+        }
+        (count > 0.0).then(|| sum.map(|total| total / count))
+    }
+}

@@ -1,0 +1,139 @@
+//! A text of cells whatever its dialect: separator, decimal sign and line ends are found, not asked for.
+
+use crate::cells::{Decimals, clock_s, is_nothing, with_comma};
+use crate::error::{DataError, Fault};
+use crate::lines::Line;
+
+/// Lines looked at to find separator and decimal sign.
+const LOOKED_AT: usize = 400;
+/// Share of the lines in which a separator must stand.
+const MOST_LINES: f64 = 0.7;
+
+/// A file as cells.
+#[derive(Debug)]
+pub(crate) struct Sheet<'a> {
+    /// Its name in errors.
+    pub file: &'a str,
+    /// Everything in it, without byte order mark and `sep=` line.
+    pub text: &'a str,
+    /// What parts cells.
+    pub delimiter: char,
+    /// Decimals are written with a comma.
+    pub comma: bool,
+    /// Lines before `text`.
+    before: u64,
+}
+
+impl<'a> Sheet<'a> {
+    /// Finds the dialect of a text.
+    ///
+    /// # Errors
+    /// Numbers with a comma that may be decimal or of thousands.
+    pub fn new(file: &'a str, text: &'a str) -> Result<Sheet<'a>, DataError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let said = text.lines().next().and_then(|line| line.trim().strip_prefix("sep="));
+        let named = said.and_then(|sign| sign.chars().next());
+        let text = if named.is_some() { text.split_once('\n').map_or("", |(_, rest)| rest) } else { text };
+        let delimiter = named.unwrap_or_else(|| delimiter(text));
+        let mut sheet = Sheet { file, text, delimiter, comma: false, before: u64::from(named.is_some()) };
+        sheet.comma = delimiter != ',' && sheet.has_decimal_comma()?;
+        Ok(sheet)
+    }
+
+    /// Lines that are not blank, each with its number from 1.
+    pub fn lines(&self) -> impl Iterator<Item = (u64, &'a str)> + '_ {
+        let numbered = self.text.split('\n').zip(self.before + 1..);
+        numbered.map(|(text, number)| (number, text.trim_end_matches('\r'))).filter(|(_, text)| !self.is_blank(text))
+    }
+
+    fn is_blank(&self, line: &str) -> bool {
+        line.bytes().all(|byte| byte.is_ascii_whitespace() || byte == self.delimiter as u8 || byte == b'"')
+    }
+
+    /// The first lines as cells.
+    pub fn head(&self, count: usize) -> Vec<Vec<&'a str>> {
+        self.lines().take(count).map(|(_, line)| self.split(line)).collect()
+    }
+
+    /// The cells of a line, without the quotes around them.
+    pub fn split(&self, line: &'a str) -> Vec<&'a str> {
+        let mut cells = Vec::new();
+        self.split_into(line, &mut cells);
+        cells
+    }
+
+    /// The same into a vector that is used again.
+    pub fn split_into(&self, line: &'a str, cells: &mut Vec<&'a str>) {
+        cells.clear();
+        if !line.contains('"') {
+            cells.extend(line.split(self.delimiter).map(str::trim));
+            return;
+        }
+        let mut quoted = false;
+        let parts = line.split(|c: char| {
+            quoted ^= c == '"';
+            c == self.delimiter && !quoted
+        });
+        cells.extend(parts.map(|cell| cell.trim().trim_matches('"').trim()));
+    }
+
+    /// The number of a cell; NaN for a word that says that there is none.
+    pub fn number(&self, text: &str) -> Option<f64> {
+        match text.parse() {
+            Ok(value) => Some(value),
+            Err(_) if self.comma && text.contains(',') => with_comma(text),
+            Err(_) => is_nothing(text).then_some(f64::NAN),
+        }
+    }
+
+    /// The number of a cell of line `number`.
+    ///
+    /// # Errors
+    /// Anything else than a number or a word for none.
+    pub fn expect(&self, text: &str, number: u64, column: &str) -> Result<f64, DataError> {
+        self.number(text).ok_or_else(|| self.bad_cell(text, number, column, "type a number, or leave the cell empty"))
+    }
+
+    /// Seconds or frames: a number, a clock time, or a number of seconds with its unit (`1 sec`).
+    ///
+    /// # Errors
+    /// Anything else.
+    pub fn time(&self, text: &str, number: u64, column: &str) -> Result<f64, DataError> {
+        let plain = ["seconds", "secs", "sec", "s"].iter().find_map(|unit| text.strip_suffix(unit)).unwrap_or(text);
+        let found = self.number(plain.trim()).filter(|t| t.is_finite()).or_else(|| clock_s(text));
+        found.ok_or_else(|| self.bad_cell(text, number, column, "a time is a number, or hours:minutes:seconds"))
+    }
+
+    fn bad_cell(&self, text: &str, number: u64, column: &str, help: &str) -> DataError {
+        let mut fault = Fault::of_file(self.file, format!("expected a number, found \"{text}\""), help).at_line(number);
+        fault.location.column_name = Some(column.to_string());
+        fault.location.cell = Some(text.to_string());
+        DataError::Cell(Box::new(fault))
+    }
+
+    /// A fault of a line, or of the whole file for line 0.
+    pub fn fault(&self, number: u64, message: impl Into<String>, help: impl Into<String>) -> DataError {
+        DataError::Layout(Box::new(Fault::of_file(self.file, message, help).at_line(number)))
+    }
+
+    /// # Errors
+    /// All commas may be of thousands, or points and commas are both used.
+    fn has_decimal_comma(&self) -> Result<bool, DataError> {
+        let mut decimals = Decimals::default();
+        for (number, text) in self.lines().take(LOOKED_AT) {
+            let line = Line { file: self.file, number, start: 0, text, ended: true };
+            for cell in self.split(text).into_iter().filter(|cell| cell.contains(',') && with_comma(cell).is_some()) {
+                decimals.number(cell, true, &line)?;
+            }
+        }
+        decimals.finish()
+    }
+}
+
+/// The rarest sign that stands in most lines: a tab or a semicolon parts cells where there is one, else a comma.
+fn delimiter(text: &str) -> char {
+    let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).take(LOOKED_AT).collect();
+    let has = |sign: char| lines.iter().filter(|line| line.contains(sign)).count() as f64;
+    let often = |sign: &char| has(*sign) >= MOST_LINES * lines.len() as f64;
+    ['\t', ';', ','].into_iter().find(often).unwrap_or(',')
+}

@@ -1,0 +1,104 @@
+//! Holds of all runs as the tidy marker table and a first `about.toml`.
+
+use std::fmt::Write as _;
+
+use super::holds::{Kept, Run};
+use super::options::Options;
+use crate::dataset::Phase;
+use crate::streams::tolerance_act_pa;
+use crate::units::{kpa, mm};
+use crate::write::quoted;
+
+/// Rows of a hold and marker; consecutive frames are averaged where there are more.
+const MOST_ROWS: usize = 20;
+
+/// The table of runs with their holds.
+pub(crate) fn markers_csv(runs: &[(Run, Vec<Kept>)], markers: &[String], actuator: &str, one_row: bool) -> String {
+    let mut text = String::from("run,actuator,t_s,p_body_kpa,p_act_kpa,phase,marker,x_mm,y_mm\n");
+    for (run, holds) in runs {
+        for (hold, phase) in holds.iter().zip(phases(holds)) {
+            let rows = if one_row { 1 } else { hold.frames.len().min(MOST_ROWS) };
+            for row in 0..rows {
+                let cut = |k: usize| k * hold.frames.len() / rows;
+                add_rows(&mut text, run, &hold.frames[cut(row)..cut(row + 1)], phase, markers, actuator);
+            }
+        }
+    }
+    text
+}
+
+fn add_rows(text: &mut String, run: &Run, frames: &[usize], phase: Phase, markers: &[String], actuator: &str) {
+    let mean = |values: &[f64]| frames.iter().map(|frame| values[*frame]).sum::<f64>() / frames.len() as f64;
+    let [body, act] = [0, 1].map(|which| kpa(mean(&run.pressures_pa[which])));
+    let state = format!("{},{},{:.4},{body:.4},{act:.4},{}", quoted(&run.label), quoted(actuator), mean(&run.times_s), phase.word());
+    for (marker, column) in markers.iter().zip(&run.xy_m) {
+        let seen: Vec<[f64; 2]> = frames.iter().map(|frame| column[*frame]).filter(|place| place[0].is_finite()).collect();
+        let over = |axis: usize| format!("{:.4}", mm(seen.iter().map(|place| place[axis]).sum::<f64>() / seen.len() as f64));
+        let [x, y] = if seen.is_empty() { [String::new(), String::new()] } else { [over(0), over(1)] };
+        // Writing into a String cannot fail.
+        let _ = writeln!(text, "{state},{},{x},{y}", quoted(marker));
+    }
+}
+
+/// How every hold was reached, by its pressure and that of the hold before.
+pub(crate) fn phases(holds: &[Kept]) -> Vec<Phase> {
+    let mut before = f64::NEG_INFINITY;
+    let phase = |hold: &Kept| {
+        let change = hold.act_pa - before;
+        let least = if before.is_finite() { tolerance_act_pa(before) } else { 0.0 };
+        before = hold.act_pa;
+        match change {
+            change if change > least => Phase::Load,
+            change if change < -least => Phase::Unload,
+            _ => Phase::Hold,
+        }
+    };
+    holds.iter().map(phase).collect()
+}
+
+/// A description with what is known, and questions where it is not.
+pub(crate) fn about_toml(program: &str, files: &[String], markers: &[(String, f64, bool)], actuator: &str, told: &[String]) -> String {
+    let string = |value: &str| toml::Value::from(value).to_string();
+    let list = |values: Vec<String>| values.join(", ");
+    let names = list(markers.iter().map(|(name, ..)| string(name)).collect());
+    let stations = list(markers.iter().map(|(_, s, _)| format!("{:?}", mm(*s).round())).collect());
+    let estimated = markers.iter().any(|(.., given)| !given);
+    let question = if estimated { "   # QUESTION: estimated from the robot at rest; measure them along the undeformed body" } else { "" };
+    let mut text = format!(
+        "# Half filled by `ibr data import`. Answer the QUESTIONs, then delete them; `ibr data check` reads the rest.\n\
+         title = {}\n\
+         provenance = \"measured\"\n\
+         source = {}   # QUESTION: which laboratory, bench and camera?\n\
+         licence = \"not stated\"   # QUESTION: under which terms may others use these data?\n\
+         actuator = {}\n\n\
+         # QUESTION: how large is the robot? Fill in and take off the #.\n\
+         # [geometry]\n# body_radius_mm = 40\n# body_length_mm = 360\n# pouch_length_mm = 60\n# pouch_width_mm = 60\n# pouches = 6\n\n\
+         [markers]\nnames = [{names}]\ns_mm = [{stations}]{question}\n\n\
+         # QUESTION: does gravity act in the plane of bending? Then which way, along x and y:\n\
+         # [gravity]\n# direction = [0, -1]\n\n\
+         # QUESTION: was p_act read by a gauge at the actuator? Were positions taken from fiducials on the clamp?\n\
+         # [direct]\n# pressure = true\n# frame = true\n\n\
+         # What the import assumed:\n",
+        string(&format!("Imported from {}", files.first().map_or("", String::as_str))),
+        string(&format!("{program}: {}", files.join(", "))),
+        string(actuator),
+    );
+    told.iter().for_each(|line| text.push_str(&format!("# - {}\n", line.replace(['\n', '\r'], " "))));
+    text
+}
+
+/// Stations given, or the places at rest along the robot.
+pub(crate) fn stations(runs: &[(Run, Vec<Kept>)], markers: &[String], options: &Options) -> Vec<(String, f64, bool)> {
+    let estimate = |marker: usize| {
+        let of_run = |(run, holds): &(Run, Vec<Kept>)| {
+            let rest = holds.iter().min_by(|a, b| a.act_pa.total_cmp(&b.act_pa))?;
+            let seen: Vec<f64> = rest.frames.iter().map(|frame| run.xy_m[marker][*frame][0]).filter(|x| x.is_finite()).collect();
+            (!seen.is_empty()).then(|| seen.iter().sum::<f64>() / seen.len() as f64)
+        };
+        let found: Vec<f64> = runs.iter().filter_map(of_run).collect();
+        (found.iter().sum::<f64>() / found.len().max(1) as f64).max(0.0)
+    };
+    let given = |name: &String| options.stations_m.iter().find(|(known, _)| known == name).map(|(_, s)| *s);
+    let station = |(marker, name): (usize, &String)| (name.clone(), given(name).unwrap_or_else(|| estimate(marker)), given(name).is_some());
+    markers.iter().enumerate().map(station).collect()
+}

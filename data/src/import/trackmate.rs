@@ -1,0 +1,172 @@
+//! TrackMate: the table of spots, the XML of tracks ("Export tracks to XML"), and the XML that it saves itself.
+
+use std::collections::HashMap;
+
+use super::columns::{Name, is_frame, lengths, si};
+use super::formats::Format;
+use super::options::Options;
+use super::recording::{Clock, Lengths, Pivot, Recording};
+use super::sheet::Sheet;
+use crate::cells::is_nothing;
+use crate::error::DataError;
+use crate::units::Measured;
+
+pub(super) const SPOTS: Format = Format {
+    name: "TrackMate, spots",
+    known_by: "columns TRACK_ID and POSITION_X",
+    recognise: |_, head, _| head.first().is_some_and(|row| row.contains(&"TRACK_ID") && row.contains(&"POSITION_X")),
+    read: spots,
+};
+
+pub(super) const XML: Format = Format {
+    name: "TrackMate, XML",
+    known_by: "a <TrackMate> or <Tracks> element",
+    recognise: |sheet, _, _| tags(sheet.text).take(4).any(|tag| matches!(tag.name, "TrackMate" | "Tracks")),
+    read: xml,
+};
+
+fn spots(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError> {
+    let mut lines = sheet.lines();
+    let header = lines.next().map_or(Vec::new(), |(_, line)| sheet.split(line));
+    let column = |name: &str| header.iter().position(|known| *known == name);
+    let [track, x, y, z, t, frame] = ["TRACK_ID", "POSITION_X", "POSITION_Y", "POSITION_Z", "POSITION_T", "FRAME"].map(column);
+    let mut pivot = Pivot::new(Lengths::Pixels, Clock::Frames);
+    let (mut cells, mut single, mut second) = (Vec::new(), 0, None);
+    for (number, line) in lines {
+        sheet.split_into(line, &mut cells);
+        let cell = |index: Option<usize>| index.and_then(|index| cells.get(index).copied()).unwrap_or_default();
+        // Up to three more rows of names and units.
+        if sheet.number(cell(x)).is_none() {
+            let unit = |index| Name::of(&format!("x {}", cell(index))).unit;
+            pivot.recording.lengths = unit(x).and_then(|unit| lengths(&unit)).unwrap_or(pivot.recording.lengths);
+            second = unit(t).filter(|unit| !is_frame(unit)).and_then(|unit| si(&unit, Measured::Time)).or(second);
+            continue;
+        }
+        if is_nothing(cell(track)) {
+            single += 1;
+            continue;
+        }
+        let time = match second {
+            Some(second) => second * sheet.time(cell(t), number, "POSITION_T")?,
+            None => sheet.time(cell(frame.or(t)), number, "FRAME")?,
+        };
+        let value = |index: Option<usize>, name| index.map_or(Ok(0.0), |_| sheet.expect(cell(index), number, name));
+        let place = [value(x, "POSITION_X")?, value(y, "POSITION_Y")?, value(z, "POSITION_Z")?];
+        let (at, marker) = (pivot.frame(time), pivot.marker(cell(track)));
+        pivot.put(at, marker, place, true);
+    }
+    pivot.recording.clock = if second.is_some() { Clock::Seconds } else { Clock::Frames };
+    Ok(vec![told(pivot, single)])
+}
+
+fn told(mut pivot: Pivot, single: usize) -> Recording {
+    if single > 0 {
+        pivot.recording.told.push(format!("{single} spots belong to no track and are left out"));
+    }
+    pivot.recording.named = false;
+    pivot.finish()
+}
+
+/// One XML element as far as it is needed here.
+struct Tag<'a> {
+    name: &'a str,
+    attributes: &'a str,
+}
+
+impl<'a> Tag<'a> {
+    fn get(&self, key: &str) -> Option<&'a str> {
+        let mut rest = self.attributes;
+        while let Some((before, after)) = rest.split_once('=') {
+            let quote = after.trim_start().chars().next().filter(|c| matches!(c, '"' | '\''))?;
+            let inside = &after.trim_start()[1..];
+            let (value, tail) = inside.split_once(quote)?;
+            if before.trim() == key {
+                return Some(value);
+            }
+            rest = tail;
+        }
+        None
+    }
+
+    fn number(&self, key: &str) -> Option<f64> {
+        self.get(key)?.parse().ok()
+    }
+}
+
+/// Opening tags in their order.
+fn tags(text: &str) -> impl Iterator<Item = Tag<'_>> {
+    text.split('<').skip(1).filter_map(|part| {
+        let inside = part.split_once('>').map_or(part, |(inside, _)| inside).trim_end_matches('/');
+        let (name, attributes) = inside.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((inside, ""));
+        name.starts_with(|c: char| c.is_ascii_alphabetic()).then_some(Tag { name, attributes })
+    })
+}
+
+fn xml(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError> {
+    let said = |key: &str| tags(sheet.text).take(8).find_map(|tag| tag.get(key));
+    let unit = said("spaceUnits").or_else(|| said("spatialunits")).and_then(|unit| lengths(&unit.to_lowercase()));
+    let time = said("timeUnits").or_else(|| said("timeunits")).map(str::to_lowercase).unwrap_or_default();
+    let second = si(&time, Measured::Time).filter(|_| !is_frame(&time));
+    let mut pivot = Pivot::new(unit.unwrap_or(Lengths::Pixels), if second.is_some() { Clock::Seconds } else { Clock::Frames });
+    let exported = tags(sheet.text).any(|tag| tag.name == "particle");
+    let single = if exported { detections(sheet, second, &mut pivot)? } else { model(sheet, second, &mut pivot)? };
+    Ok(vec![told(pivot, single)])
+}
+
+/// `<particle>` with `<detection t x y z>`; t counts frames of `frameInterval`.
+fn detections(sheet: &Sheet, second: Option<f64>, pivot: &mut Pivot) -> Result<usize, DataError> {
+    let interval = tags(sheet.text).find_map(|tag| tag.number("frameInterval")).unwrap_or(1.0);
+    let step = second.map_or(1.0, |second| second * interval);
+    let mut track = 0;
+    for tag in tags(sheet.text) {
+        match tag.name {
+            "particle" => track += 1,
+            "detection" => {
+                let (Some(t), Some(x), Some(y)) = (tag.number("t"), tag.number("x"), tag.number("y")) else {
+                    return Err(no_number(sheet, &format!("a detection of track {track}")));
+                };
+                let (frame, marker) = (pivot.frame(t * step), pivot.marker(&track.to_string()));
+                pivot.put(frame, marker, [x, y, tag.number("z").unwrap_or(0.0)], true);
+            }
+            _ => {}
+        }
+    }
+    Ok(0)
+}
+
+/// `<Spot>` elements, joined to tracks by the `<Edge>` elements of every `<Track>`; returns how many have none.
+fn model(sheet: &Sheet, second: Option<f64>, pivot: &mut Pivot) -> Result<usize, DataError> {
+    let mut track_of: HashMap<&str, String> = HashMap::new();
+    let (mut track, mut count) = (String::new(), 0);
+    for tag in tags(sheet.text) {
+        match tag.name {
+            "Track" => {
+                count += 1;
+                track = tag.get("name").map_or_else(|| count.to_string(), str::to_string);
+            }
+            "Edge" => {
+                let ends = ["SPOT_SOURCE_ID", "SPOT_TARGET_ID"].into_iter().filter_map(|key| tag.get(key));
+                ends.for_each(|spot| drop(track_of.insert(spot, track.clone())));
+            }
+            _ => {}
+        }
+    }
+    let mut single = 0;
+    for tag in tags(sheet.text).filter(|tag| tag.name == "Spot") {
+        let Some(track) = tag.get("ID").and_then(|id| track_of.get(id)) else {
+            single += 1;
+            continue;
+        };
+        let time = second.map_or_else(|| tag.number("FRAME"), |second| tag.number("POSITION_T").map(|t| t * second));
+        let (Some(time), Some(x), Some(y)) = (time, tag.number("POSITION_X"), tag.number("POSITION_Y")) else {
+            return Err(no_number(sheet, &format!("spot {}", tag.get("ID").unwrap_or_default())));
+        };
+        let (frame, marker) = (pivot.frame(time), pivot.marker(track));
+        pivot.put(frame, marker, [x, y, tag.number("POSITION_Z").unwrap_or(0.0)], true);
+    }
+    Ok(single)
+}
+
+fn no_number(sheet: &Sheet, what: &str) -> DataError {
+    sheet.fault(0, format!("{what} lacks its time or place as a number"), "save the tracks again in TrackMate")
+}
