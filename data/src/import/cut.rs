@@ -85,9 +85,21 @@ fn length_m(run: &Run) -> f64 {
     distances.fold(0.0, f64::max)
 }
 
+/// Without bins at the ends of a branch that hold few frames, so that their mean is too near to the next bin's to be told apart.
+fn apart(bins: Vec<(usize, i64, Kept)>) -> Vec<(usize, i64, Kept)> {
+    let crowded = |(branch, k, kept): &(usize, i64, Kept)| {
+        bins.iter().any(|(other, j, next)| {
+            let near = (kept.act_pa - next.act_pa).abs() < 1.1 * tolerance_act_pa(kept.act_pa.max(next.act_pa));
+            other == branch && j.abs_diff(*k) == 1 && near && next.frames.len() >= kept.frames.len()
+        })
+    };
+    let crowded: Vec<bool> = bins.iter().map(crowded).collect();
+    bins.into_iter().zip(crowded).filter(|(_, crowded)| !crowded).map(|(bin, _)| bin).collect()
+}
+
 /// Runs by bins of pressure, those bins that all of them have.
 fn binned(file: &str, runs: Vec<Run>, bin_pa: f64, told: &mut Vec<String>) -> Result<Cut, DataError> {
-    let found: Vec<_> = runs.iter().map(|run| bins(run, bin_pa)).collect();
+    let found: Vec<_> = runs.iter().map(|run| apart(bins(run, bin_pa))).collect();
     let highest_pa = found.iter().flatten().map(|(.., kept)| kept.act_pa).fold(0.0, f64::max);
     let least_pa = 1.1 * tolerance_act_pa(highest_pa);
     if bin_pa < least_pa {
@@ -103,7 +115,7 @@ fn binned(file: &str, runs: Vec<Run>, bin_pa: f64, told: &mut Vec<String>) -> Re
         return Err(DataError::Runs(Box::new(Fault::of_file(file, "the runs have fewer than two bins in common", help))));
     }
     told.push(format!(
-        "binned by actuator pressure in steps of {} kPa, rising and falling apart: {} bins with the mean of their frames; {left_out} that not every run has are left out",
+        "binned by actuator pressure in steps of {} kPa, rising and falling apart: {} bins with the mean of their frames; {left_out} are left out, which not every run has or which only touch a bin",
         kpa(bin_pa),
         common[0].len()
     ));

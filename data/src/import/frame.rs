@@ -55,7 +55,8 @@ pub(crate) fn place(file: &str, runs: &[Recording], ends: &[Ends], options: &Opt
     let (bases, skipped) = bases(file, runs, ends, options, &map, &mut told)?;
     let markers: Vec<usize> = (0..runs[0].markers.len()).filter(|marker| Some(*marker) != skipped).collect();
     let moved = Moved::of(runs, ends, &bases, &markers, &map);
-    let axes = axes(file, runs, &moved, options, &mut told)?;
+    let labels: Vec<String> = markers.iter().map(|marker| runs[0].markers[*marker].clone()).collect();
+    let axes = axes(file, &labels, &moved, options, &mut told)?;
     let turn = options.turn_rad.sin_cos();
     let xy_m = runs.iter().zip(&bases).map(|(run, base)| {
         let of_marker = |marker: &usize| {
@@ -68,7 +69,7 @@ pub(crate) fn place(file: &str, runs: &[Recording], ends: &[Ends], options: &Opt
         markers.iter().map(|marker| of_marker(marker).collect()).collect()
     });
     let xy_m = xy_m.collect();
-    Ok(Placed { xy_m, markers: markers.iter().map(|marker| runs[0].markers[*marker].clone()).collect(), told })
+    Ok(Placed { xy_m, markers: labels, told })
 }
 
 impl Axis {
@@ -212,42 +213,53 @@ impl Moved {
         Moved { rest, by }
     }
 
-    /// The marker farthest from the base at rest.
-    fn farthest(&self) -> Option<usize> {
-        let length = |k: &usize| self.rest[*k].iter().map(|v| v * v).sum::<f64>();
-        (0..self.rest.len()).filter(|k| self.rest[*k][0].is_finite()).max_by(|a, b| length(a).total_cmp(&length(b)))
+    /// The axis along which the markers lie at rest: that of their spread, or of a single one's distance from the base.
+    fn along(&self) -> usize {
+        let seen: Vec<&[f64; 3]> = self.rest.iter().filter(|at| at[0].is_finite()).collect();
+        let spread = |axis: usize| {
+            let values = seen.iter().map(|at| at[axis]);
+            values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
+        };
+        let size = |axis: usize| if seen.len() > 1 { spread(axis) } else { seen.first().map_or(0.0, |at| at[axis].abs()) };
+        (0..3).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(0)
+    }
+
+    /// The markers nearest to the base and farthest from it along an axis.
+    fn ends(&self, axis: usize) -> Option<[usize; 2]> {
+        let by = |a: &usize, b: &usize| self.rest[*a][axis].abs().total_cmp(&self.rest[*b][axis].abs());
+        let seen = || (0..self.rest.len()).filter(|k| self.rest[*k][0].is_finite());
+        Some([seen().min_by(by)?, seen().max_by(by)?])
     }
 }
 
 /// The axes given, or: along the robot at rest, and across it where the farthest marker moves as the pressure rises.
-fn axes(file: &str, runs: &[Recording], moved: &Moved, options: &Options, told: &mut Vec<String>) -> Result<[Axis; 2], DataError> {
+fn axes(file: &str, labels: &[String], moved: &Moved, options: &Options, told: &mut Vec<String>) -> Result<[Axis; 2], DataError> {
     let words = |axes: &[Axis; 2]| format!("along the robot is the file's {}, towards the actuator its {}", axes[0].word(), axes[1].word());
     if let Some(axes) = options.axes {
         told.push(format!("{}, as given", words(&axes)));
         return Ok(axes);
     }
     let help = "give --axes ALONG,TOWARDS, for example --axes x,-y where y of the picture points down";
-    let Some(far) = moved.farthest() else {
+    let along = moved.along();
+    let Some([near, far]) = moved.ends(along) else {
         return Err(fault(file, "no marker was seen both at the lowest and at the highest pressure", help));
     };
-    let (rest, by, name) = (moved.rest[far], moved.by[far], &runs[0].markers);
-    let largest = |values: [f64; 3], but: Option<usize>| {
-        (0..3).filter(|axis| Some(*axis) != but).max_by(|a, b| values[*a].abs().total_cmp(&values[*b].abs())).unwrap_or(0)
-    };
-    let along = largest(rest, None);
-    let across = largest(by, Some(along));
+    let (rest, by) = (moved.rest[far], moved.by[far]);
+    let across = (0..3).filter(|axis| *axis != along).max_by(|a, b| by[*a].abs().total_cmp(&by[*b].abs())).unwrap_or(1);
     if by[across].abs() < TELLING_M {
         let message = format!("the markers move by {:.1} mm across the robot: where the actuator is cannot be seen", mm(by[across].abs()));
         return Err(fault(file, message, help));
     }
     let axes = [Axis { index: along, turned: rest[along] < 0.0 }, Axis { index: across, turned: by[across] < 0.0 }];
-    let angle = (axes[1].of(rest)).atan2(axes[0].of(rest)) - options.turn_rad;
+    let from = if near == far { [0.0; 3] } else { moved.rest[near] };
+    let [x, y] = axes.map(|axis| axis.of(rest) - axis.of(from));
+    let angle = y.atan2(x) - options.turn_rad;
     if angle.abs() > ASKEW {
         let degrees = angle.to_degrees();
         let message = format!("at rest the robot lies at {degrees:.0} degrees to the file's {}", axes[0].word());
         return Err(fault(file, message, format!("turn it: --turn {degrees:.1}deg; or correct --base")));
     }
-    let label = name.get(far).map_or("", String::as_str);
-    told.push(format!("{}: marker {label} moves there by {:.1} mm as the pressure rises", words(&axes), mm(by[across].abs())));
+    let (label, by_mm) = (&labels[far], mm(by[across].abs()));
+    told.push(format!("{}: marker {label} moves there by {by_mm:.1} mm as the pressure rises", words(&axes)));
     Ok(axes)
 }

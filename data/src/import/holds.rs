@@ -24,6 +24,8 @@ pub(crate) struct Kept {
     pub frames: Vec<usize>,
     /// Mean actuator pressure \[Pa\].
     pub act_pa: f64,
+    /// Whether a ramp rose or fell there.
+    pub rising: Option<bool>,
 }
 
 /// Standard deviations of the sensor's noise that a reading may be off its plateau.
@@ -89,7 +91,7 @@ fn plateau(run: &Run, frames: Range<usize>, options: &Options) -> Option<Kept> {
     let kept: Vec<usize> = (begin..=end).filter(|frame| run.times_s[*frame] >= start_s && near_level(run, *frame, level)).collect();
     let lasts = run.times_s[*kept.last()?] - run.times_s[kept[0]];
     let act_pa = kept.iter().map(|frame| act[*frame]).sum::<f64>() / kept.len() as f64;
-    (kept.len() >= options.least_frames && lasts >= options.least_hold_s).then_some(Kept { frames: kept, act_pa })
+    (kept.len() >= options.least_frames && lasts >= options.least_hold_s).then_some(Kept { frames: kept, act_pa, rising: None })
 }
 
 fn near_level(run: &Run, frame: usize, level_pa: f64) -> bool {
@@ -105,7 +107,9 @@ pub(crate) fn median(mut values: Vec<f64>) -> Option<f64> {
 pub(crate) fn bins(run: &Run, bin_pa: f64) -> Vec<(usize, i64, Kept)> {
     let act = &run.pressures_pa[1];
     let mut found: Vec<(usize, i64, Vec<usize>)> = Vec::new();
-    for (branch, frames) in branches(act, 0.5 * bin_pa).into_iter().enumerate() {
+    let mut rises = Vec::new();
+    for (branch, (frames, rising)) in branches(act, 0.5 * bin_pa).into_iter().enumerate() {
+        rises.push(rising);
         for frame in frames.filter(|frame| act[*frame].is_finite()) {
             let bin = (act[frame] / bin_pa).round() as i64;
             match found.iter_mut().rev().find(|(b, k, _)| (*b, *k) == (branch, bin)) {
@@ -116,14 +120,14 @@ pub(crate) fn bins(run: &Run, bin_pa: f64) -> Vec<(usize, i64, Kept)> {
     }
     let kept = |(branch, bin, frames): (usize, i64, Vec<usize>)| {
         let act_pa = frames.iter().map(|frame| act[*frame]).sum::<f64>() / frames.len() as f64;
-        (branch, bin, Kept { frames, act_pa })
+        (branch, bin, Kept { frames, act_pa, rising: Some(rises[branch]) })
     };
     found.into_iter().map(kept).collect()
 }
 
-/// Parts of a run in which the pressure rises or falls: it turns where it comes back by more than `back_pa`.
-fn branches(act: &[f64], back_pa: f64) -> Vec<Range<usize>> {
-    let mut turns = vec![0];
+/// Parts of a run in which the pressure rises (true) or falls: it turns where it comes back by more than `back_pa`.
+fn branches(act: &[f64], back_pa: f64) -> Vec<(Range<usize>, bool)> {
+    let (mut found, mut first) = (Vec::new(), 0);
     let (mut extreme, mut rising) = (0, None);
     for frame in 0..act.len() {
         if act[extreme].is_nan() {
@@ -137,15 +141,16 @@ fn branches(act: &[f64], back_pa: f64) -> Vec<Range<usize>> {
             }
             Some(up) if (gone > 0.0) == up && gone != 0.0 => extreme = frame,
             Some(up) if gone.abs() > back_pa => {
-                turns.push(extreme + 1);
+                found.push((first..extreme + 1, up));
+                first = extreme + 1;
                 rising = Some(!up);
                 extreme = frame;
             }
             _ => {}
         }
     }
-    turns.push(act.len());
-    turns.windows(2).map(|pair| pair[0]..pair[1]).collect()
+    found.push((first..act.len(), rising.unwrap_or(true)));
+    found
 }
 
 /// Part of the robot's length beyond which a place in a hold is wild.
