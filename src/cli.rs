@@ -3,6 +3,7 @@
 mod data;
 mod discover;
 mod groups;
+mod import;
 
 use clap::{Args, Parser, Subcommand};
 use compare::study::Knob;
@@ -11,6 +12,7 @@ pub use discover::{
     AddArgs, BreakdownArgs, ChallengeCommand, ChallengeNewArgs, DiagnoseArgs, LadderArgs, ValidateArgs,
 };
 pub use groups::{command, parsed};
+pub use import::Import;
 use std::path::PathBuf;
 
 /// Models of pneumatic bending actuators on inflated-beam robots, held against measurements.

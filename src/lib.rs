@@ -31,6 +31,7 @@ pub mod studies;
 
 pub use ::compare as study;
 pub use data;
+pub use data::import;
 pub use fem;
 pub use models;
 pub use report;

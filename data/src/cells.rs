@@ -103,7 +103,9 @@ fn thousands(line: &Line, text: &str) -> DataError {
         text.replace(',', "."),
         text.replace(',', "")
     );
-    DataError::Layout(line.fault(message, "write decimals with a point, or at least one number with another count of decimals"))
+    DataError::Layout(
+        line.fault(message, "write decimals with a point, or at least one number with another count of decimals"),
+    )
 }
 
 fn both(line: &Line, text: &str) -> DataError {
@@ -125,7 +127,10 @@ mod tests {
             assert!(is_nothing(word), "{word}");
         }
         assert!(!is_nothing("0") && !is_nothing("-1") && !is_nothing("lost"));
-        assert_eq!([label("1.0"), label("12.00"), label("1.5"), label("a.0"), label("1.")], ["1", "12", "1.5", "a.0", "1."]);
+        assert_eq!(
+            [label("1.0"), label("12.00"), label("1.5"), label("a.0"), label("1.")],
+            ["1", "12", "1.5", "a.0", "1."]
+        );
         assert_eq!(clock_s("0:00:01:50"), Some(1.5));
         assert_eq!(clock_s("1:02:03.25"), Some(3723.25));
         assert_eq!((clock_s("2:03.5"), clock_s("1.5"), clock_s("a:b")), (Some(123.5), None, None));

@@ -30,7 +30,12 @@ fn known(log: &str) -> Options {
 
 /// 3.1 px to a millimetre, the base at pixel 212, 540.
 fn pixels(log: &str) -> Options {
-    Options { scale: Scale::PixelsPerMetre(3100.0), base: Some(Place::At(vec![212.0, 540.0])), frames_per_s: Some(30.0), ..known(log) }
+    Options {
+        scale: Scale::PixelsPerMetre(3100.0),
+        base: Some(Place::At(vec![212.0, 540.0])),
+        frames_per_s: Some(30.0),
+        ..known(log)
+    }
 }
 
 type Rows = BTreeMap<(String, String, String), Vec<String>>;
@@ -80,10 +85,22 @@ fn deeplabcut_is_scaled_placed_joined_and_its_wild_points_are_lost() {
     assert_eq!((made.dataset.runs.len(), made.dataset.holds.len(), made.about.markers.len()), (3, 5, 3));
     assert_eq!(made.program, "DeepLabCut");
     let files = &files[..1];
-    refused(files, &Options { frames_per_s: None, ..pixels("c01-deeplabcut/pressure.csv") }, &["run1.csv", "frames", "--fps 30"]);
+    refused(
+        files,
+        &Options { frames_per_s: None, ..pixels("c01-deeplabcut/pressure.csv") },
+        &["run1.csv", "frames", "--fps 30"],
+    );
     refused(files, &Options { base: None, ..pixels("c01-deeplabcut/pressure.csv") }, &["base", "--base X,Y"]);
-    refused(files, &Options { scale: Scale::OfFile, ..pixels("c01-deeplabcut/pressure.csv") }, &["scale", "--scale 3.1px/mm"]);
-    refused(files, &Options { pressure_logs: Vec::new(), ..pixels("c01-deeplabcut/pressure.csv") }, &["pressure", "--pressure"]);
+    refused(
+        files,
+        &Options { scale: Scale::OfFile, ..pixels("c01-deeplabcut/pressure.csv") },
+        &["scale", "--scale 3.1px/mm"],
+    );
+    refused(
+        files,
+        &Options { pressure_logs: Vec::new(), ..pixels("c01-deeplabcut/pressure.csv") },
+        &["pressure", "--pressure"],
+    );
     refused(files, &Options { actuator: None, ..pixels("c01-deeplabcut/pressure.csv") }, &["actuator", "--actuator"]);
 }
 
@@ -101,7 +118,8 @@ fn both_kinds_of_kinovea_are_read() {
     let table = read(&["c04-kinovea/run1_kinematics.csv"], &known("c01-deeplabcut/pressure.csv"));
     assert!(equals_reference(&table, 1, 6e-3).is_empty());
     told(&table, &["Kinovea, kinematics", "lengths are in cm"]);
-    let options = Options { markers: ["a", "b", "c"].map(String::from).to_vec(), ..pixels("c01-deeplabcut/pressure.csv") };
+    let options =
+        Options { markers: ["a", "b", "c"].map(String::from).to_vec(), ..pixels("c01-deeplabcut/pressure.csv") };
     let text = read(&["c04-kinovea/run1_trajectories.txt"], &options);
     assert!(equals_reference(&text, 1, 2e-3).is_empty());
     told(&text, &["Kinovea, trajectories", "numbered from the base outwards"]);

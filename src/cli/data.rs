@@ -51,6 +51,8 @@ pub enum DataCommand {
     },
     /// Embedded datasets
     List,
+    /// Make marker data from the files of a tracking program and a pressure log
+    Import(Box<super::Import>),
     /// Make a synthetic dataset from a scenario
     Generate(GenerateArgs),
     /// Make marker data from finite element runs of a robot, with the scatter of a real test

@@ -1,4 +1,4 @@
-//! `ibr data check | list | generate | fem`
+//! `ibr data check | list | import | generate | fem`
 
 use super::inputs::{self, scattered};
 use super::{Context, Outcome, list};
@@ -18,6 +18,7 @@ pub fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome, Fail
     match command {
         DataCommand::Check { data } => check(data, context),
         DataCommand::List => list::run(Some("datasets")),
+        DataCommand::Import(args) => super::data_import::run(args, context),
         DataCommand::Generate(args) => make(args, context),
         DataCommand::Fem(args) => super::data_fem::run(args, context),
     }

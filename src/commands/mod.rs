@@ -8,6 +8,7 @@ mod characterize;
 mod compare;
 mod data;
 mod data_fem;
+mod data_import;
 mod demo;
 mod diagnose;
 mod diagnose_bench;

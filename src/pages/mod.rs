@@ -16,6 +16,7 @@ mod predicted;
 mod residual_figure;
 mod run_plots;
 mod tables;
+mod tracks;
 mod uncertain;
 
 pub use characterize::characterized_files;
@@ -29,6 +30,7 @@ pub use ladder::{Climbed, ladder_page};
 pub use one_number::one_number_files;
 pub use predicted::{predicted_files, pressure_words};
 pub use run_plots::{mesh_plot, run_plots};
+pub use tracks::tracks_plot;
 pub use uncertain::{marker_intervals, what_to_measure};
 
 use report::Drawn;

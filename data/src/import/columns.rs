@@ -68,11 +68,16 @@ impl Name {
     pub fn of(text: &str) -> Name {
         let text = text.trim();
         let (base, bracket) = match text.find(['(', '[']) {
-            Some(at) if text.ends_with([')', ']']) => (&text[..at], Some(text[at + 1..text.len() - 1].trim().to_lowercase())),
+            Some(at) if text.ends_with([')', ']']) => {
+                (&text[..at], Some(text[at + 1..text.len() - 1].trim().to_lowercase()))
+            }
             _ => (text, None),
         };
         let mut words = words(base);
-        let last = words.last().map(|(word, _)| word.clone()).filter(|word| bracket.is_none() && words.len() > 1 && is_unit(word));
+        let last = words
+            .last()
+            .map(|(word, _)| word.clone())
+            .filter(|word| bracket.is_none() && words.len() > 1 && is_unit(word));
         if last.is_some() {
             words.pop();
         }
@@ -144,7 +149,7 @@ pub(crate) struct Roles {
 }
 
 /// Quantities that a column can be said to hold.
-pub(crate) const QUANTITIES: [&str; 10] = ["run", "actuator", "marker", "t", "frame", "p_act", "p_body", "x", "y", "z"];
+pub const QUANTITIES: [&str; 10] = ["run", "actuator", "marker", "t", "frame", "p_act", "p_body", "x", "y", "z"];
 
 impl Roles {
     /// Finds them in a header.
@@ -154,9 +159,12 @@ impl Roles {
     pub fn of(sheet: &Sheet, line: u64, header: &[&str], options: &Options) -> Result<Roles, DataError> {
         let mut roles = Roles::default();
         for (index, text) in header.iter().enumerate() {
-            let said = options.columns.iter().find(|(_, column)| column.eq_ignore_ascii_case(text)).map(|(q, _)| q.as_str());
+            let said =
+                options.columns.iter().find(|(_, column)| column.eq_ignore_ascii_case(text)).map(|(q, _)| q.as_str());
             let name = Name::of(text);
-            let Some(quantity) = said.map_or_else(|| meaning(&name, options), |said| QUANTITIES.into_iter().find(|q| *q == said)) else {
+            let Some(quantity) =
+                said.map_or_else(|| meaning(&name, options), |said| QUANTITIES.into_iter().find(|q| *q == said))
+            else {
                 continue;
             };
             roles.take(sheet, line, [quantity, text], index, &name, options)?;
@@ -224,7 +232,9 @@ impl Roles {
             let message = format!("coordinates are in {first} and in {}", other.unwrap_or("no unit"));
             return Err(sheet.fault(line, message, "export all coordinates in one unit"));
         }
-        lengths(first).ok_or_else(|| sheet.fault(line, format!("{first} is no unit of length that is known"), "say it: --scale mm"))
+        lengths(first).ok_or_else(|| {
+            sheet.fault(line, format!("{first} is no unit of length that is known"), "say it: --scale mm")
+        })
     }
 }
 
@@ -235,7 +245,8 @@ pub(crate) fn lengths(unit: &str) -> Option<Lengths> {
 
 /// What a column with a telling name holds, unless the caller named another.
 fn meaning(name: &Name, options: &Options) -> Option<&'static str> {
-    let pressure = name.has(&["p", "pressure"]) || name.unit.as_deref().is_some_and(|unit| si(unit, Measured::Pressure).is_some());
+    let pressure =
+        name.has(&["p", "pressure"]) || name.unit.as_deref().is_some_and(|unit| si(unit, Measured::Pressure).is_some());
     let quantity = match () {
         () if name.is_any(&["t", "time", "timestamp"]) => "t",
         () if name.is_any(&["frame", "frame_idx", "frame_number"]) => "frame",
@@ -268,7 +279,14 @@ mod tests {
         assert_eq!(found("Tip.Z [px]"), (a(2, "Tip"), unit("px")));
         assert_eq!(found("P1_x"), (a(0, "P1"), None));
         assert_eq!((Name::of("Time (ms)").unit, Name::of("p_act_kpa").is("p_act")), (unit("ms"), true));
-        assert!(Name::of("m").unit.is_none() && Name::of("x1_mm").coordinate() == a(0, "1") && Name::of("frame").is("frame"));
-        assert_eq!((si("ms", Measured::Time), si("ms", Measured::Length), si("micron", Measured::Length)), (Some(1e-3), None, Some(1e-6)));
+        assert!(
+            Name::of("m").unit.is_none()
+                && Name::of("x1_mm").coordinate() == a(0, "1")
+                && Name::of("frame").is("frame")
+        );
+        assert_eq!(
+            (si("ms", Measured::Time), si("ms", Measured::Length), si("micron", Measured::Length)),
+            (Some(1e-3), None, Some(1e-6))
+        );
     }
 }

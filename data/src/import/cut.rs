@@ -103,16 +103,27 @@ fn binned(file: &str, runs: Vec<Run>, bin_pa: f64, told: &mut Vec<String>) -> Re
     let highest_pa = found.iter().flatten().map(|(.., kept)| kept.act_pa).fold(0.0, f64::max);
     let least_pa = 1.1 * tolerance_act_pa(highest_pa);
     if bin_pa < least_pa {
-        let message = format!("bins of {} kPa cannot be told apart at {:.1} kPa: holds nearer than 5 % are one", kpa(bin_pa), kpa(highest_pa));
+        let message = format!(
+            "bins of {} kPa cannot be told apart at {:.1} kPa: holds nearer than 5 % are one",
+            kpa(bin_pa),
+            kpa(highest_pa)
+        );
         let help = format!("give --bin {}kPa", kpa(least_pa).ceil());
         return Err(DataError::Runs(Box::new(Fault::of_file(file, message, help))));
     }
-    let all_have = |bin: &(usize, i64, Kept)| found.iter().all(|run| run.iter().any(|(branch, k, _)| (*branch, *k) == (bin.0, bin.1)));
-    let common: Vec<Vec<Kept>> = found.iter().map(|run| run.iter().filter(|bin| all_have(bin)).map(|bin| bin.2.clone()).collect()).collect();
+    let all_have = |bin: &(usize, i64, Kept)| {
+        found.iter().all(|run| run.iter().any(|(branch, k, _)| (*branch, *k) == (bin.0, bin.1)))
+    };
+    let common: Vec<Vec<Kept>> =
+        found.iter().map(|run| run.iter().filter(|bin| all_have(bin)).map(|bin| bin.2.clone()).collect()).collect();
     let left_out = found.iter().map(Vec::len).sum::<usize>() - common.iter().map(Vec::len).sum::<usize>();
     if common[0].len() < 2 {
         let help = "give larger bins, or import the runs one by one";
-        return Err(DataError::Runs(Box::new(Fault::of_file(file, "the runs have fewer than two bins in common", help))));
+        return Err(DataError::Runs(Box::new(Fault::of_file(
+            file,
+            "the runs have fewer than two bins in common",
+            help,
+        ))));
     }
     told.push(format!(
         "binned by actuator pressure in steps of {} kPa, rising and falling apart: {} bins with the mean of their frames; {left_out} are left out, which not every run has or which only touch a bin",

@@ -9,7 +9,9 @@ use crate::error::DataError;
 pub(super) const FORMAT: Format = Format {
     name: "DeepLabCut",
     known_by: "rows scorer, bodyparts, coords",
-    recognise: |_, head, _| head.first().is_some_and(|row| row[0] == "scorer") && head.iter().any(|row| row[0] == "bodyparts"),
+    recognise: |_, head, _| {
+        head.first().is_some_and(|row| row[0] == "scorer") && head.iter().any(|row| row[0] == "bodyparts")
+    },
     read,
 };
 
@@ -52,7 +54,12 @@ fn read(sheet: &Sheet, options: &Options) -> Result<Vec<Recording>, DataError> {
     Ok(vec![pivot.finish()])
 }
 
-fn columns_of(sheet: &Sheet, number: u64, heads: &[(&str, Vec<&str>)], pivot: &mut Pivot) -> Result<Vec<Column>, DataError> {
+fn columns_of(
+    sheet: &Sheet,
+    number: u64,
+    heads: &[(&str, Vec<&str>)],
+    pivot: &mut Pivot,
+) -> Result<Vec<Column>, DataError> {
     let row = |name: &str| heads.iter().find(|(first, _)| *first == name).map(|(_, cells)| cells);
     let (Some(parts), Some(coords)) = (row("bodyparts"), row("coords")) else {
         return Err(sheet.fault(number, "the row coords is missing", "export the analysed video again as CSV"));
@@ -63,7 +70,9 @@ fn columns_of(sheet: &Sheet, number: u64, heads: &[(&str, Vec<&str>)], pivot: &m
     for index in 1..coords.len().min(parts.len()) {
         let animal = animals.and_then(|row| row.get(index)).filter(|name| several && **name != "single");
         let name = animal.map_or(parts[index].to_string(), |animal| format!("{animal}_{}", parts[index]));
-        let Some(part) = ["x", "y", "z", "likelihood"].iter().position(|known| *known == coords[index]) else { continue };
+        let Some(part) = ["x", "y", "z", "likelihood"].iter().position(|known| *known == coords[index]) else {
+            continue;
+        };
         let marker = pivot.marker(&name);
         if columns.last().is_none_or(|column| column.marker != marker) {
             columns.push(Column { marker, parts: [None; 4] });

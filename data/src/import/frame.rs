@@ -97,10 +97,18 @@ fn map(file: &str, runs: &[Recording], ends: &[Ends], options: &Options) -> Resu
             said(Map::Factor(*metres), format!("a number of the file is {} mm, as given", short(metres * 1e3)))
         }
         (Scale::Known(places, length_m), Lengths::Pixels | Lengths::Unsaid) => {
-            let found: Vec<f64> = runs.iter().zip(ends).map(|(run, ends)| distance(file, run, ends, places)).collect::<Result<_, _>>()?;
+            let found: Vec<f64> =
+                runs.iter().zip(ends).map(|(run, ends)| distance(file, run, ends, places)).collect::<Result<_, _>>()?;
             let apart = found.iter().sum::<f64>() / found.len() as f64;
             let metres = length_m / apart;
-            said(Map::Factor(metres), format!("{apart:.2} units of the file are {:.2} mm: {} to a millimetre", mm(*length_m), short(1e-3 / metres)))
+            said(
+                Map::Factor(metres),
+                format!(
+                    "{apart:.2} units of the file are {:.2} mm: {} to a millimetre",
+                    mm(*length_m),
+                    short(1e-3 / metres)
+                ),
+            )
         }
         (Scale::Board(corners, square_m), Lengths::Pixels | Lengths::Unsaid) => {
             let (board, rms_px) = Homography::of_board(corners, *square_m).map_err(|message| {
@@ -108,7 +116,9 @@ fn map(file: &str, runs: &[Recording], ends: &[Ends], options: &Options) -> Resu
             })?;
             said(Map::Board(board), format!("a homography of {} corners, {rms_px:.2} px off (rms)", corners.len()))
         }
-        (Scale::OfFile, Lengths::Metres(metres)) => said(Map::Factor(metres), format!("lengths are in {}, as the file says", unit(metres))),
+        (Scale::OfFile, Lengths::Metres(metres)) => {
+            said(Map::Factor(metres), format!("lengths are in {}, as the file says", unit(metres)))
+        }
         (Scale::Unit(given), Lengths::Metres(metres)) if *given == metres => {
             said(Map::Factor(metres), format!("lengths are in {}, as the file says", unit(metres)))
         }
@@ -121,15 +131,20 @@ fn map(file: &str, runs: &[Recording], ends: &[Ends], options: &Options) -> Resu
             "positions are pixels of the picture, and their scale is not known",
             "give --scale 3.1px/mm, or --known-distance MARKER:MARKER=40mm, or --board corners.csv --square 25mm",
         )),
-        (Scale::OfFile, Lengths::Unsaid) => {
-            Err(fault(file, "the file does not say the unit of its positions", "give it: --scale mm, cm, m or 3.1px/mm"))
-        }
+        (Scale::OfFile, Lengths::Unsaid) => Err(fault(
+            file,
+            "the file does not say the unit of its positions",
+            "give it: --scale mm, cm, m or 3.1px/mm",
+        )),
     }
 }
 
 fn unit(metres: f64) -> String {
     let known = [(1e-3, "mm"), (1e-2, "cm"), (1.0, "m"), (1e-6, "µm")];
-    known.iter().find(|(value, _)| *value == metres).map_or_else(|| format!("{} mm", short(metres * 1e3)), |(_, word)| (*word).to_string())
+    known
+        .iter()
+        .find(|(value, _)| *value == metres)
+        .map_or_else(|| format!("{} mm", short(metres * 1e3)), |(_, word)| (*word).to_string())
 }
 
 fn short(value: f64) -> String {
@@ -141,11 +156,20 @@ fn distance(file: &str, run: &Recording, ends: &Ends, places: &[Place; 2]) -> Re
     let at = |place: &Place| where_is(file, run, ends, place).map(|(at, _)| at);
     let (a, b) = (at(&places[0])?, at(&places[1])?);
     let apart = (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt();
-    if apart > 0.0 { Ok(apart) } else { Err(fault(file, "the two places of --known-distance are one", "name two different ones")) }
+    if apart > 0.0 {
+        Ok(apart)
+    } else {
+        Err(fault(file, "the two places of --known-distance are one", "name two different ones"))
+    }
 }
 
 /// A place in the file's units, and the marker that it is.
-pub(crate) fn where_is(file: &str, run: &Recording, ends: &Ends, place: &Place) -> Result<([f64; 3], Option<usize>), DataError> {
+pub(crate) fn where_is(
+    file: &str,
+    run: &Recording,
+    ends: &Ends,
+    place: &Place,
+) -> Result<([f64; 3], Option<usize>), DataError> {
     let name = match place {
         Place::At(values) => {
             let mut at = [0.0; 3];
@@ -160,7 +184,9 @@ pub(crate) fn where_is(file: &str, run: &Recording, ends: &Ends, place: &Place) 
         return Err(fault(file, format!("there is no marker {name}"), help));
     };
     let seen = run.mean_place(marker, ends.rest.iter().copied());
-    let at = seen.ok_or_else(|| fault(file, format!("marker {name} was not seen at the lowest pressure"), "take another marker"))?;
+    let at = seen.ok_or_else(|| {
+        fault(file, format!("marker {name} was not seen at the lowest pressure"), "take another marker")
+    })?;
     Ok((at, Some(marker)))
 }
 
@@ -175,16 +201,23 @@ fn bases(
 ) -> Result<(Vec<[f64; 3]>, Option<usize>), DataError> {
     let Some(place) = &options.base else {
         if runs[0].lengths == Lengths::Pixels && !matches!(options.scale, Scale::Board(..) | Scale::Unit(_)) {
-            let help = "give --base X,Y in pixels as the picture counts them, or --base MARKER for a marker at the clamp";
+            let help =
+                "give --base X,Y in pixels as the picture counts them, or --base MARKER for a marker at the clamp";
             return Err(fault(file, "positions are pixels of the picture: where is the robot's base?", help));
         }
         told.push("the robot's base is the origin of the file's coordinates".to_string());
         return Ok((vec![[0.0; 3]; runs.len()], None));
     };
-    let found: Vec<_> = runs.iter().zip(ends).map(|(run, ends)| where_is(file, run, ends, place)).collect::<Result<_, _>>()?;
+    let found: Vec<_> =
+        runs.iter().zip(ends).map(|(run, ends)| where_is(file, run, ends, place)).collect::<Result<_, _>>()?;
     told.push(match place {
-        Place::At(at) => format!("the robot's base is at {} of the file", at.iter().map(f64::to_string).collect::<Vec<_>>().join(", ")),
-        Place::Marker(name) => format!("the robot's base is marker {name} at rest, in every run anew; it is no marker of the table"),
+        Place::At(at) => format!(
+            "the robot's base is at {} of the file",
+            at.iter().map(f64::to_string).collect::<Vec<_>>().join(", ")
+        ),
+        Place::Marker(name) => {
+            format!("the robot's base is marker {name} at rest, in every run anew; it is no marker of the table")
+        }
     });
     Ok((found.iter().map(|(at, _)| map.metres(*at)).collect(), found[0].1))
 }
@@ -201,7 +234,8 @@ impl Moved {
         for &marker in markers {
             let (mut sums, mut count) = ([[0.0; 3]; 2], 0.0);
             for ((run, ends), base) in runs.iter().zip(ends).zip(bases) {
-                let mean = |frames: &[usize]| run.mean_place(marker, frames.iter().copied()).map(|place| map.metres(place));
+                let mean =
+                    |frames: &[usize]| run.mean_place(marker, frames.iter().copied()).map(|place| map.metres(place));
                 let (Some(low), Some(high)) = (mean(&ends.rest), mean(&ends.top)) else { continue };
                 (0..3).for_each(|axis| sums[0][axis] += low[axis] - base[axis]);
                 (0..3).for_each(|axis| sums[1][axis] += high[axis] - low[axis]);
@@ -220,7 +254,8 @@ impl Moved {
             let values = seen.iter().map(|at| at[axis]);
             values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
         };
-        let size = |axis: usize| if seen.len() > 1 { spread(axis) } else { seen.first().map_or(0.0, |at| at[axis].abs()) };
+        let size =
+            |axis: usize| if seen.len() > 1 { spread(axis) } else { seen.first().map_or(0.0, |at| at[axis].abs()) };
         (0..3).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(0)
     }
 
@@ -233,8 +268,16 @@ impl Moved {
 }
 
 /// The axes given, or: along the robot at rest, and across it where the farthest marker moves as the pressure rises.
-fn axes(file: &str, labels: &[String], moved: &Moved, options: &Options, told: &mut Vec<String>) -> Result<[Axis; 2], DataError> {
-    let words = |axes: &[Axis; 2]| format!("along the robot is the file's {}, towards the actuator its {}", axes[0].word(), axes[1].word());
+fn axes(
+    file: &str,
+    labels: &[String],
+    moved: &Moved,
+    options: &Options,
+    told: &mut Vec<String>,
+) -> Result<[Axis; 2], DataError> {
+    let words = |axes: &[Axis; 2]| {
+        format!("along the robot is the file's {}, towards the actuator its {}", axes[0].word(), axes[1].word())
+    };
     if let Some(axes) = options.axes {
         told.push(format!("{}, as given", words(&axes)));
         return Ok(axes);
@@ -247,7 +290,10 @@ fn axes(file: &str, labels: &[String], moved: &Moved, options: &Options, told: &
     let (rest, by) = (moved.rest[far], moved.by[far]);
     let across = (0..3).filter(|axis| *axis != along).max_by(|a, b| by[*a].abs().total_cmp(&by[*b].abs())).unwrap_or(1);
     if by[across].abs() < TELLING_M {
-        let message = format!("the markers move by {:.1} mm across the robot: where the actuator is cannot be seen", mm(by[across].abs()));
+        let message = format!(
+            "the markers move by {:.1} mm across the robot: where the actuator is cannot be seen",
+            mm(by[across].abs())
+        );
         return Err(fault(file, message, help));
     }
     let axes = [Axis { index: along, turned: rest[along] < 0.0 }, Axis { index: across, turned: by[across] < 0.0 }];

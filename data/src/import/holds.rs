@@ -57,7 +57,8 @@ fn end_of_level(body: &[f64], act: &[f64], first: usize) -> usize {
     let mut departed = 0;
     for frame in first..act.len() {
         let near = |mean: [f64; 2]| {
-            (body[frame] - mean[0]).abs() <= tolerance_body_pa(mean[0]) && (act[frame] - mean[1]).abs() <= tolerance_act_pa(mean[1])
+            (body[frame] - mean[0]).abs() <= tolerance_body_pa(mean[0])
+                && (act[frame] - mean[1]).abs() <= tolerance_act_pa(mean[1])
         };
         if count == 0.0 || near(sums.map(|sum| sum / count)) {
             departed = 0;
@@ -79,7 +80,9 @@ fn plateau(run: &Run, frames: Range<usize>, options: &Options) -> Option<Kept> {
     let third = readings.len() / 3;
     let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
     let level = median(readings.clone())?;
-    if third > 0 && (mean(&readings[readings.len() - third..]) - mean(&readings[..third])).abs() > tolerance_act_pa(level) {
+    if third > 0
+        && (mean(&readings[readings.len() - third..]) - mean(&readings[..third])).abs() > tolerance_act_pa(level)
+    {
         return None;
     }
     let steps: Vec<f64> = readings.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
@@ -88,10 +91,15 @@ fn plateau(run: &Run, frames: Range<usize>, options: &Options) -> Option<Kept> {
     let on = |frame: &usize| (act[*frame] - level).abs() <= reach;
     let (begin, end) = (frames.clone().find(on)?, frames.rev().find(on)?);
     let start_s = run.times_s[begin] + options.settle_s;
-    let kept: Vec<usize> = (begin..=end).filter(|frame| run.times_s[*frame] >= start_s && near_level(run, *frame, level)).collect();
+    let kept: Vec<usize> =
+        (begin..=end).filter(|frame| run.times_s[*frame] >= start_s && near_level(run, *frame, level)).collect();
     let lasts = run.times_s[*kept.last()?] - run.times_s[kept[0]];
     let act_pa = kept.iter().map(|frame| act[*frame]).sum::<f64>() / kept.len() as f64;
-    (kept.len() >= options.least_frames && lasts >= options.least_hold_s).then_some(Kept { frames: kept, act_pa, rising: None })
+    (kept.len() >= options.least_frames && lasts >= options.least_hold_s).then_some(Kept {
+        frames: kept,
+        act_pa,
+        rising: None,
+    })
 }
 
 fn near_level(run: &Run, frame: usize, level_pa: f64) -> bool {
@@ -172,10 +180,15 @@ pub(crate) fn clean(run: &mut Run, kept: &mut Kept, length_m: f64) -> [u64; 2] {
     };
     let moving = |frame: &&usize| {
         let seen = (0..run.xy_m.len()).filter(|marker| run.xy_m[*marker][**frame][0].is_finite());
-        let (wild, all) = seen.fold((0, 0), |(wild, all), marker| (wild + usize::from(is_wild(run, marker, **frame)), all + 1));
+        let (wild, all) =
+            seen.fold((0, 0), |(wild, all), marker| (wild + usize::from(is_wild(run, marker, **frame)), all + 1));
         wild > 0 && 2 * wild >= all
     };
-    let start = if kept.frames.len() >= FEW { kept.frames[..kept.frames.len() / 2].iter().take_while(moving).count() } else { 0 };
+    let start = if kept.frames.len() >= FEW {
+        kept.frames[..kept.frames.len() / 2].iter().take_while(moving).count()
+    } else {
+        0
+    };
     kept.frames.drain(..start);
     let mut wild = 0;
     for &frame in &kept.frames {
@@ -225,7 +238,8 @@ mod tests {
     fn plateaus_begin_and_end_where_the_pressure_does_and_ramps_are_none() {
         let run = run();
         let found = plateaus(&run, &Options::default());
-        let ends: Vec<[f64; 2]> = found.iter().map(|k| [k.frames[0], k.frames[k.frames.len() - 1]].map(|f| run.times_s[f])).collect();
+        let ends: Vec<[f64; 2]> =
+            found.iter().map(|k| [k.frames[0], k.frames[k.frames.len() - 1]].map(|f| run.times_s[f])).collect();
         assert_eq!(found.len(), 3, "{ends:?}");
         for ([begin, end], [first, last]) in ends.iter().zip([[0.0, 3.0], [5.0, 9.0], [10.0, 12.0]]) {
             assert!((begin - first).abs() <= 0.1 && (end - last).abs() <= 0.1, "{ends:?}");

@@ -24,7 +24,9 @@ impl Homography {
         for [column, row, x, y] in corners {
             let (x, y) = ((x - mean[0]) / size, (y - mean[1]) / size);
             let (u, v) = (column * square_m, row * square_m);
-            for equation in [[x, y, 1.0, 0.0, 0.0, 0.0, -u * x, -u * y, u], [0.0, 0.0, 0.0, x, y, 1.0, -v * x, -v * y, v]] {
+            for equation in
+                [[x, y, 1.0, 0.0, 0.0, 0.0, -u * x, -u * y, u], [0.0, 0.0, 0.0, x, y, 1.0, -v * x, -v * y, v]]
+            {
                 for i in 0..N {
                     (0..=N).for_each(|j| normal[i][j] += equation[i] * equation[j]);
                 }
@@ -39,10 +41,15 @@ impl Homography {
         let found = Homography([x0, x1, x2, y0, y1, y2, h[6] / last, h[7] / last]);
         let off = |c: &[f64; 4]| {
             let [x, y] = found.at([c[2], c[3]]);
-            ((x - c[0] * square_m).powi(2) + (y - c[1] * square_m).powi(2)) * (1.0 / found.metres_per_pixel([c[2], c[3]])).powi(2)
+            ((x - c[0] * square_m).powi(2) + (y - c[1] * square_m).powi(2))
+                * (1.0 / found.metres_per_pixel([c[2], c[3]])).powi(2)
         };
         let rms = (corners.iter().map(off).sum::<f64>() / count).sqrt();
-        if rms.is_finite() && rms < 0.1 * size { Ok((found, rms)) } else { Err(format!("the corners are {rms:.1} px off a plane")) }
+        if rms.is_finite() && rms < 0.1 * size {
+            Ok((found, rms))
+        } else {
+            Err(format!("the corners are {rms:.1} px off a plane"))
+        }
     }
 
     /// A pixel on the board \[m\].

@@ -57,17 +57,33 @@ pub(crate) fn recordings(
         let first = program.replace(format.name).is_none();
         for mut run in found {
             if run.times.len() < 2 || run.places.iter().flatten().all(|place| place[0].is_nan()) {
-                return Err(sheet.fault(0, "hardly any marker was seen in this run", "check the export, or lower --likelihood"));
+                return Err(sheet.fault(
+                    0,
+                    "hardly any marker was seen in this run",
+                    "check the export, or lower --likelihood",
+                ));
             }
             seconds(&sheet, &mut run, options, first.then_some(&mut *told))?;
             let words = pressures(&sheet, &mut run, logs.get(k.min(logs.len().saturating_sub(1))), options)?;
             let own = std::mem::take(&mut run.told);
-            own.into_iter().chain(words).filter(|word| !told.contains(word)).collect::<Vec<_>>().into_iter().for_each(|word| told.push(word));
+            own.into_iter()
+                .chain(words)
+                .filter(|word| !told.contains(word))
+                .collect::<Vec<_>>()
+                .into_iter()
+                .for_each(|word| told.push(word));
             runs.push((shown.clone(), run));
         }
     }
     let program = program.unwrap_or_default();
-    told.insert(0, format!("written by {program}: {} runs, {} frames", runs.len(), runs.iter().map(|(_, r)| r.times.len()).sum::<usize>()));
+    told.insert(
+        0,
+        format!(
+            "written by {program}: {} runs, {} frames",
+            runs.len(),
+            runs.iter().map(|(_, r)| r.times.len()).sum::<usize>()
+        ),
+    );
     Ok((program, runs))
 }
 
@@ -75,7 +91,11 @@ fn logs(files: usize, options: &Options, told: &mut Vec<String>) -> Result<Vec<L
     let count = options.pressure_logs.len();
     if count > 1 && count != files {
         let message = format!("{count} pressure logs for {files} tracking files");
-        let fault = Fault::of_file(&options.pressure_logs[0].display().to_string(), message, "give one log for all runs, or one for every file in the same order");
+        let fault = Fault::of_file(
+            &options.pressure_logs[0].display().to_string(),
+            message,
+            "give one log for all runs, or one for every file in the same order",
+        );
         return Err(DataError::Runs(Box::new(fault)));
     }
     let mut logs = Vec::new();
@@ -89,7 +109,12 @@ fn logs(files: usize, options: &Options, told: &mut Vec<String>) -> Result<Vec<L
 }
 
 /// Frames become seconds.
-fn seconds(sheet: &Sheet, run: &mut Recording, options: &Options, told: Option<&mut Vec<String>>) -> Result<(), DataError> {
+fn seconds(
+    sheet: &Sheet,
+    run: &mut Recording,
+    options: &Options,
+    told: Option<&mut Vec<String>>,
+) -> Result<(), DataError> {
     match (run.clock, options.frames_per_s) {
         (Clock::Frames, None) => Err(sheet.fault(
             0,
@@ -98,20 +123,28 @@ fn seconds(sheet: &Sheet, run: &mut Recording, options: &Options, told: Option<&
         )),
         (Clock::Frames, Some(fps)) => {
             run.times.iter_mut().for_each(|t| *t /= fps);
-            told.into_iter().for_each(|told| told.push(format!("frame 0 is at 0 s, {fps} frames are a second, as given")));
+            told.into_iter()
+                .for_each(|told| told.push(format!("frame 0 is at 0 s, {fps} frames are a second, as given")));
             Ok(())
         }
         (Clock::Seconds, given) => {
             let step = (run.times[run.times.len() - 1] - run.times[0]) / (run.times.len() - 1) as f64;
             let text = format!("times are seconds, {:.3} s apart in the mean", step);
-            told.into_iter().for_each(|told| told.push(if given.is_some() { format!("{text}; --fps was not needed") } else { text.clone() }));
+            told.into_iter().for_each(|told| {
+                told.push(if given.is_some() { format!("{text}; --fps was not needed") } else { text.clone() })
+            });
             Ok(())
         }
     }
 }
 
 /// Puts every pressure in place: of the file, of the log, or as given.
-fn pressures(sheet: &Sheet, run: &mut Recording, log: Option<&Log>, options: &Options) -> Result<Vec<String>, DataError> {
+fn pressures(
+    sheet: &Sheet,
+    run: &mut Recording,
+    log: Option<&Log>,
+    options: &Options,
+) -> Result<Vec<String>, DataError> {
     let mut told = match log {
         Some(log) => log.join(run, options)?,
         None => Vec::new(),
@@ -122,19 +155,36 @@ fn pressures(sheet: &Sheet, run: &mut Recording, log: Option<&Log>, options: &Op
     }
     if let Some(body_pa) = options.body_pa {
         if run.pressures[0].is_some() {
-            return Err(sheet.fault(0, "the body's pressure is given, and the files have it too", "leave --body-pressure out"));
+            return Err(sheet.fault(
+                0,
+                "the body's pressure is given, and the files have it too",
+                "leave --body-pressure out",
+            ));
         }
         told.push(format!("the body was kept at {} kPa, as given", kpa(body_pa)));
         run.pressures[0] = Some(vec![body_pa; run.times.len()]);
     }
     if run.pressures[0].is_none() {
-        return Err(sheet.fault(0, "the body's pressure is not known", "add --body-pressure 2kPa, or a column p_body_kpa in the pressure log"));
+        return Err(sheet.fault(
+            0,
+            "the body's pressure is not known",
+            "add --body-pressure 2kPa, or a column p_body_kpa in the pressure log",
+        ));
     }
     let room_pa = options.room_pa.unwrap_or(0.0);
-    let lowest = |which: usize| run.pressures[which].iter().flatten().copied().filter(|p| p.is_finite()).fold(f64::INFINITY, f64::min) - room_pa;
+    let lowest = |which: usize| {
+        run.pressures[which].iter().flatten().copied().filter(|p| p.is_finite()).fold(f64::INFINITY, f64::min) - room_pa
+    };
     if options.room_pa.is_none() && [0, 1].iter().all(|which| ABSOLUTE_PA.contains(&lowest(*which))) {
-        let message = format!("pressures are never below {:.1} kPa: they look absolute, or the robot was never vented", kpa(lowest(1)));
-        return Err(sheet.fault(0, message, "take the room's off with --room 101.3kPa; if they are gauge pressures, say --room 0kPa"));
+        let message = format!(
+            "pressures are never below {:.1} kPa: they look absolute, or the robot was never vented",
+            kpa(lowest(1))
+        );
+        return Err(sheet.fault(
+            0,
+            message,
+            "take the room's off with --room 101.3kPa; if they are gauge pressures, say --room 0kPa",
+        ));
     }
     if room_pa != 0.0 {
         told.push(format!("{} kPa of the room are taken off all pressures, as given", kpa(room_pa)));

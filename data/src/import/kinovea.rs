@@ -43,7 +43,13 @@ fn trajectories(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, Dat
                 let frame = pivot.frame(time);
                 pivot.put(frame, marker, [value(x)?, value(y)?, 0.0], true);
             }
-            _ => return Err(sheet.fault(number, format!("expected T X Y, found {} cells", cells.len()), "export the trajectories again")),
+            _ => {
+                return Err(sheet.fault(
+                    number,
+                    format!("expected T X Y, found {} cells", cells.len()),
+                    "export the trajectories again",
+                ));
+            }
         }
     }
     pivot.recording.named = false;

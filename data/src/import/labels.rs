@@ -9,7 +9,8 @@ use crate::error::{DataError, Fault};
 
 /// Labels of runs that have none: what the names of their files do not have in common.
 pub(crate) fn number_runs(runs: &mut [(String, Recording)]) {
-    let stem = |file: &String| Path::new(file).file_stem().map_or(file.clone(), |stem| stem.to_string_lossy().into_owned());
+    let stem =
+        |file: &String| Path::new(file).file_stem().map_or(file.clone(), |stem| stem.to_string_lossy().into_owned());
     let stems: Vec<String> = runs.iter().map(|(file, _)| stem(file)).collect();
     let labels = distinct(&stems);
     let several = |k: usize| runs.iter().filter(|(file, _)| *file == runs[k].0).count() > 1;
@@ -29,14 +30,17 @@ pub(crate) fn number_runs(runs: &mut [(String, Recording)]) {
 fn distinct(names: &[String]) -> Vec<String> {
     let numbered = || (1..=names.len()).map(|k| k.to_string()).collect();
     let Some((first, rest)) = names.split_first().filter(|(_, rest)| !rest.is_empty()) else { return numbered() };
-    let same = |a: &str, b: &str| a.chars().zip(b.chars()).take_while(|(a, b)| a == b).map(|(a, _)| a.len_utf8()).sum::<usize>();
+    let same = |a: &str, b: &str| {
+        a.chars().zip(b.chars()).take_while(|(a, b)| a == b).map(|(a, _)| a.len_utf8()).sum::<usize>()
+    };
     let back = |text: &str| text.chars().rev().collect::<String>();
     let mut begin = rest.iter().map(|name| same(first, name)).min().unwrap_or(0);
     while begin > 0 && first.as_bytes()[begin - 1].is_ascii_digit() {
         begin -= 1;
     }
     let shortest = names.iter().map(String::len).min().unwrap_or(0);
-    let mut end = rest.iter().map(|name| same(&back(first), &back(name))).min().unwrap_or(0).min(shortest.saturating_sub(begin));
+    let mut end =
+        rest.iter().map(|name| same(&back(first), &back(name))).min().unwrap_or(0).min(shortest.saturating_sub(begin));
     while end > 0 && first.as_bytes()[first.len() - end].is_ascii_digit() {
         end -= 1;
     }
@@ -54,7 +58,11 @@ pub(crate) fn same_markers(file: &str, runs: &mut [(String, Recording)]) -> Resu
     for (_, run) in rest {
         let label = run.run.clone().unwrap_or_default();
         if run.named && run.markers.iter().any(|name| !markers.contains(name)) || run.markers.len() != markers.len() {
-            let message = format!("run {label} has the markers {}, the first run has {}", run.markers.join(", "), markers.join(", "));
+            let message = format!(
+                "run {label} has the markers {}, the first run has {}",
+                run.markers.join(", "),
+                markers.join(", ")
+            );
             let help = "export the same markers of every run, under the same names";
             return Err(DataError::Runs(Box::new(Fault::of_file(file, message, help))));
         }
@@ -80,9 +88,12 @@ pub(crate) fn rename(
     told: &mut Vec<String>,
 ) -> Result<(), DataError> {
     for (run, ends) in runs.iter_mut().zip(ends).filter(|(run, _)| !run.named) {
-        let base = options.base.as_ref().map_or(Ok([0.0; 3]), |base| where_is(file, run, ends, base).map(|(at, _)| at))?;
+        let base =
+            options.base.as_ref().map_or(Ok([0.0; 3]), |base| where_is(file, run, ends, base).map(|(at, _)| at))?;
         let rest = |marker: usize| run.mean_place(marker, ends.rest.iter().copied());
-        let away = |marker: usize| rest(marker).map_or(f64::INFINITY, |at| (0..3).map(|axis| (at[axis] - base[axis]).powi(2)).sum());
+        let away = |marker: usize| {
+            rest(marker).map_or(f64::INFINITY, |at| (0..3).map(|axis| (at[axis] - base[axis]).powi(2)).sum())
+        };
         let mut order: Vec<usize> = (0..run.markers.len()).collect();
         order.sort_by(|a, b| away(*a).total_cmp(&away(*b)));
         run.places = order.iter().map(|k| run.places[*k].clone()).collect();

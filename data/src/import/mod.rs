@@ -7,6 +7,7 @@
 //! Every kind of file is one entry of [`FORMATS`], known by its content. What is not in the files comes from the caller
 //! ([`Options`]); what was assumed is told ([`Imported::told`]); what can be read in two ways is refused.
 
+mod board;
 mod columns;
 mod cut;
 mod deeplabcut;
@@ -37,6 +38,8 @@ use crate::error::{DataError, Fault};
 use crate::read::{ReadOptions, parse_markers};
 use crate::streams::tolerance_act_pa;
 use crate::units::kpa;
+pub use board::read_board;
+pub use columns::QUANTITIES;
 use cut::{Cut, cut};
 pub use formats::{FORMATS, Format};
 use frame::{Ends, Placed, place};
@@ -84,7 +87,11 @@ const MOST_POINTS: usize = 1_500;
 pub fn import(files: &[PathBuf], options: &Options, progress: &mut dyn FnMut(u64, u64)) -> Result<Imported, DataError> {
     let shown: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
     let Some(first) = shown.first() else {
-        return Err(DataError::File(Box::new(Fault::of_file("import", "no file was given", "name the tracking files"))));
+        return Err(DataError::File(Box::new(Fault::of_file(
+            "import",
+            "no file was given",
+            "name the tracking files",
+        ))));
     };
     let mut told = Vec::new();
     let (program, mut runs) = join::recordings(files, options, &mut told, progress)?;
@@ -118,12 +125,19 @@ impl Made<'_> {
         let Made { program, files, cut, markers, actuator, options } = *self;
         if let Some((unknown, _)) = options.stations_m.iter().find(|(name, _)| !markers.contains(name)) {
             let help = format!("the markers are {}", markers.join(", "));
-            return Err(DataError::Runs(Box::new(Fault::of_file(&files[0], format!("--stations names {unknown}, which is no marker"), help))));
+            return Err(DataError::Runs(Box::new(Fault::of_file(
+                &files[0],
+                format!("--stations names {unknown}, which is no marker"),
+                help,
+            ))));
         }
         let stations = table::stations(cut, markers, options);
         if stations.iter().any(|(.., given)| !given) {
             let list: Vec<String> = stations.iter().map(|(name, s, _)| format!("{name} {:.0} mm", s * 1e3)).collect();
-            told.push(format!("stations of markers are estimated from the robot at rest: {} (--stations)", list.join(", ")));
+            told.push(format!(
+                "stations of markers are estimated from the robot at rest: {} (--stations)",
+                list.join(", ")
+            ));
         }
         let markers_csv = table::markers_csv(cut, markers, actuator, options.bin_pa.is_some());
         let about_toml = table::about_toml(program, files, &stations, actuator, &told);
@@ -138,7 +152,8 @@ impl Made<'_> {
 /// A run for a picture.
 fn track(run: &holds::Run, kept: &[holds::Kept], markers: &[String]) -> Track {
     let step = run.times_s.len().div_ceil(MOST_POINTS).max(1);
-    let points = |column: &Vec<[f64; 2]>| (0..column.len()).step_by(step).map(|k| [run.times_s[k], column[k][1]]).collect();
+    let points =
+        |column: &Vec<[f64; 2]>| (0..column.len()).step_by(step).map(|k| [run.times_s[k], column[k][1]]).collect();
     let lines = markers.iter().zip(&run.xy_m).map(|(name, column)| (name.clone(), points(column))).collect();
     let ends = |hold: &holds::Kept| {
         let [begin, end] = [hold.frames.first(), hold.frames.last()].map(|k| k.map_or(f64::NAN, |k| run.times_s[*k]));
@@ -154,8 +169,16 @@ fn losses(runs: &[Recording]) -> Vec<String> {
         unlikely: sum.unlikely + run.dropped.unlikely,
         zero: sum.zero + run.dropped.zero,
     });
-    let words = [(all.blank, "are blank"), (all.unlikely, "are below the limit of likelihood"), (all.zero, "are written as 0, 0")];
-    words.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("lost markers: {count} positions {what}")).collect()
+    let words = [
+        (all.blank, "are blank"),
+        (all.unlikely, "are below the limit of likelihood"),
+        (all.zero, "are written as 0, 0"),
+    ];
+    words
+        .iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, what)| format!("lost markers: {count} positions {what}"))
+        .collect()
 }
 
 /// Frames at the lowest and at the highest pressure.
@@ -164,18 +187,26 @@ fn ends(file: &str, run: &Recording) -> Result<Ends, DataError> {
     let known = || act.iter().copied().filter(|p| p.is_finite());
     let (low, high) = (known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max));
     if high - low <= 2.0 * tolerance_act_pa(low) {
-        let message = format!("the actuator's pressure stays between {:.1} and {:.1} kPa in a run", kpa(low), kpa(high));
-        return Err(DataError::Runs(Box::new(Fault::of_file(file, message, "check the column, its unit and the clock of the pressure log"))));
+        let message =
+            format!("the actuator's pressure stays between {:.1} and {:.1} kPa in a run", kpa(low), kpa(high));
+        return Err(DataError::Runs(Box::new(Fault::of_file(
+            file,
+            message,
+            "check the column, its unit and the clock of the pressure log",
+        ))));
     }
     let near = |level: f64| (0..act.len()).filter(|k| (act[*k] - level).abs() <= tolerance_act_pa(level)).collect();
     Ok(Ends { rest: near(low), top: near(high) })
 }
 
 fn actuator(file: &str, runs: &[Recording], options: &Options) -> Result<String, DataError> {
-    let known = options.actuator.clone().map(|kind| kind.to_lowercase()).or_else(|| runs.iter().find_map(|run| run.actuator.clone()));
+    let known = options
+        .actuator
+        .clone()
+        .map(|kind| kind.to_lowercase())
+        .or_else(|| runs.iter().find_map(|run| run.actuator.clone()));
     known.ok_or_else(|| {
         let help = "add --actuator epam, or the kind that your scenario has";
         DataError::Runs(Box::new(Fault::of_file(file, "the kind of the actuator is not known", help)))
     })
 }
-

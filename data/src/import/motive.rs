@@ -28,7 +28,11 @@ fn read(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError> 
     let mut lines = sheet.lines();
     let axes = loop {
         let Some((number, line)) = lines.next() else {
-            return Err(sheet.fault(0, "the row Frame, Time (Seconds) is missing", "export the take again as CSV with its header"));
+            return Err(sheet.fault(
+                0,
+                "the row Frame, Time (Seconds) is missing",
+                "export the take again as CSV with its header",
+            ));
         };
         let cells = sheet.split(line);
         match (cells[0], cells.get(1).copied().unwrap_or_default()) {
@@ -43,7 +47,11 @@ fn read(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError> 
     let mut pivot = Pivot::new(unit(sheet, &head)?, Clock::Seconds);
     let columns = columns(&head, &axes.1, &mut pivot);
     if columns.is_empty() {
-        return Err(sheet.fault(axes.0, "no column is the position of a marker", "export markers, not only rigid bodies"));
+        return Err(sheet.fault(
+            axes.0,
+            "no column is the position of a marker",
+            "export markers, not only rigid bodies",
+        ));
     }
     let time = axes.1.iter().position(|name| name.starts_with("Time")).unwrap_or(1);
     let mut cells = Vec::new();
@@ -51,7 +59,8 @@ fn read(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError> 
         sheet.split_into(line, &mut cells);
         let frame = pivot.frame(sheet.time(cells.get(time).copied().unwrap_or_default(), number, "Time (Seconds)")?);
         for (marker, parts) in &columns {
-            let value = |axis: usize| sheet.expect(cells.get(parts[axis]).copied().unwrap_or_default(), number, "Position");
+            let value =
+                |axis: usize| sheet.expect(cells.get(parts[axis]).copied().unwrap_or_default(), number, "Position");
             pivot.put(frame, *marker, [value(0)?, value(1)?, value(2)?], true);
         }
     }
@@ -62,18 +71,23 @@ fn unit(sheet: &Sheet, head: &Head) -> Result<Lengths, DataError> {
     let said = head.settings.iter().position(|cell| *cell == "Length Units").and_then(|at| head.settings.get(at + 1));
     let Some(word) = said else { return Ok(Lengths::Unsaid) };
     let help = "export in meters, centimeters or millimeters";
-    lengths(&word.to_lowercase()).ok_or_else(|| sheet.fault(1, format!("Length Units are {word}, which is not known"), help))
+    lengths(&word.to_lowercase())
+        .ok_or_else(|| sheet.fault(1, format!("Length Units are {word}, which is not known"), help))
 }
 
 /// Columns of every marker's position; markers that were not named in Motive are left out.
 fn columns(head: &Head, axes: &[&str], pivot: &mut Pivot) -> Vec<(usize, [usize; 3])> {
     let cell = |row: &[&'_ str], index: usize| row.get(index).map_or(String::new(), ToString::to_string);
-    let is_marker = |index: &usize| cell(&head.types, *index).contains("Marker") && cell(&head.what, *index) == "Position";
+    let is_marker =
+        |index: &usize| cell(&head.types, *index).contains("Marker") && cell(&head.what, *index) == "Position";
     let named = |name: &str| !name.rsplit(':').next().unwrap_or_default().starts_with("Unlabeled");
     let found: Vec<usize> = (2..axes.len()).filter(is_marker).collect();
     let unnamed = found.iter().filter(|index| !named(&cell(&head.names, **index))).count() / 3;
     if unnamed > 0 {
-        pivot.recording.told.push(format!("{unnamed} unlabeled markers are left out: name them in Motive to have them"));
+        pivot
+            .recording
+            .told
+            .push(format!("{unnamed} unlabeled markers are left out: name them in Motive to have them"));
     }
     let assets = |name: &str| name.split_once(':').map(|(asset, _)| asset.to_string());
     let names: Vec<String> = found.iter().map(|index| cell(&head.names, *index)).filter(|name| named(name)).collect();
@@ -81,7 +95,9 @@ fn columns(head: &Head, axes: &[&str], pivot: &mut Pivot) -> Vec<(usize, [usize;
     let mut columns: Vec<(usize, [usize; 3])> = Vec::new();
     for index in found {
         let name = cell(&head.names, index);
-        let Some(axis) = ["X", "Y", "Z"].iter().position(|axis| *axis == axes[index]).filter(|_| named(&name)) else { continue };
+        let Some(axis) = ["X", "Y", "Z"].iter().position(|axis| *axis == axes[index]).filter(|_| named(&name)) else {
+            continue;
+        };
         let short = name.split_once(':').filter(|_| one).map_or(name.as_str(), |(_, short)| short);
         let marker = pivot.marker(short);
         if columns.last().is_none_or(|(last, _)| *last != marker) {

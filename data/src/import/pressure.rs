@@ -37,26 +37,45 @@ impl Log {
     /// No column of time or pressure; a cell that is no number; times that go back.
     pub fn read(sheet: &Sheet, options: &Options) -> Result<Log, DataError> {
         let mut lines = sheet.lines().filter(|(_, line)| !line.starts_with('#'));
-        let Some((first, header)) = lines.next() else { return Err(sheet.fault(0, "the pressure log is empty", "export it again")) };
+        let Some((first, header)) = lines.next() else {
+            return Err(sheet.fault(0, "the pressure log is empty", "export it again"));
+        };
         let header = sheet.split(header);
         let roles = Roles::of(sheet, first, &header, options)?;
         let names = header.join(", ");
         let Some((time, Some(second))) = roles.time else {
             let help = "say which: --map t=Time (a log counts seconds, not frames)";
-            return Err(sheet.fault(first, format!("no column of the pressure log is the time; there are {names}"), help));
+            return Err(sheet.fault(
+                first,
+                format!("no column of the pressure log is the time; there are {names}"),
+                help,
+            ));
         };
         if roles.pressures.iter().all(Option::is_none) {
             let help = "say which: --map p_act=NAME, and p_body=NAME if there is one";
-            return Err(sheet.fault(first, format!("no column of the pressure log is a pressure; there are {names}"), help));
+            return Err(sheet.fault(
+                first,
+                format!("no column of the pressure log is a pressure; there are {names}"),
+                help,
+            ));
         }
-        let mut log = Log { file: sheet.file.to_string(), times_s: Vec::new(), values_pa: roles.pressures.map(|p| p.map(|_| Vec::new())), told: roles.told.clone() };
+        let mut log = Log {
+            file: sheet.file.to_string(),
+            times_s: Vec::new(),
+            values_pa: roles.pressures.map(|p| p.map(|_| Vec::new())),
+            told: roles.told.clone(),
+        };
         let mut cells = Vec::new();
         for (number, line) in lines {
             sheet.split_into(line, &mut cells);
             let cell = |index: usize| cells.get(index).copied().unwrap_or_default();
             let t_s = second * sheet.time(cell(time), number, "time")?;
             if log.times_s.last().is_some_and(|last| t_s < *last) {
-                return Err(sheet.fault(number, "the time of the pressure log goes back", "sort its rows, or give one log per run"));
+                return Err(sheet.fault(
+                    number,
+                    "the time of the pressure log goes back",
+                    "sort its rows, or give one log per run",
+                ));
             }
             log.times_s.push(t_s);
             for (column, values) in roles.pressures.iter().zip(&mut log.values_pa) {
@@ -135,22 +154,33 @@ impl Log {
     /// The log's time minus the camera's.
     fn offset(&self, recording: &Recording, wanted: Offset) -> Result<(f64, Vec<String>), DataError> {
         if let Offset::Given(offset_s) = wanted {
-            return Ok((offset_s, vec![format!("the pressure log's clock is {offset_s} s ahead of the camera's, as given")]));
+            return Ok((
+                offset_s,
+                vec![format!("the pressure log's clock is {offset_s} s ahead of the camera's, as given")],
+            ));
         }
-        let found = (recording.times.len() >= FEWEST_FRAMES || wanted == Offset::Find).then(|| self.search(recording)).flatten();
+        let found = (recording.times.len() >= FEWEST_FRAMES || wanted == Offset::Find)
+            .then(|| self.search(recording))
+            .flatten();
         match (wanted, found) {
-            (Offset::Find, None) => {
-                Err(self.fault("movement and pressure do not tell the offset of the clocks".into(), "give --clock-offset 0s or what it is"))
-            }
+            (Offset::Find, None) => Err(self.fault(
+                "movement and pressure do not tell the offset of the clocks".into(),
+                "give --clock-offset 0s or what it is",
+            )),
             (Offset::Find, Some((best_s, r, _))) => Ok((
                 best_s,
-                vec![format!("the pressure log's clock is {best_s:.2} s ahead of the camera's: movement and pressure then correlate by {r:.2}")],
+                vec![format!(
+                    "the pressure log's clock is {best_s:.2} s ahead of the camera's: movement and pressure then correlate by {r:.2}"
+                )],
             )),
             (_, Some((best_s, best, now))) if best - now > DISAGREE.0 && best_s.abs() > DISAGREE.1 => {
                 let message = format!(
                     "movement and pressure correlate by {now:.2} if the clocks are one, and by {best:.2} if the log's is {best_s:.2} s ahead"
                 );
-                Err(self.fault(message, "add --clock-offset find to take the second, or --clock-offset 0s to keep the first"))
+                Err(self.fault(
+                    message,
+                    "add --clock-offset find to take the second, or --clock-offset 0s to keep the first",
+                ))
             }
             _ => Ok((0.0, vec!["the pressure log and the camera were taken to have one clock".to_string()])),
         }
@@ -191,7 +221,8 @@ impl Log {
 
 /// Time and mean distance of the markers from where they were first seen.
 fn movement(recording: &Recording, step: usize) -> Vec<[f64; 2]> {
-    let start: Vec<Option<[f64; 3]>> = recording.places.iter().map(|column| column.iter().find(|p| p[0].is_finite()).copied()).collect();
+    let start: Vec<Option<[f64; 3]>> =
+        recording.places.iter().map(|column| column.iter().find(|p| p[0].is_finite()).copied()).collect();
     let of_frame = |frame: usize| {
         let moved = recording.places.iter().zip(&start).filter_map(|(column, start)| {
             let (place, start) = (column[frame], (*start)?);
@@ -214,7 +245,9 @@ fn correlation(movement: &[[f64; 2]], log: &[[f64; 2]], offset_s: f64) -> Option
         }
         let pressure = log[log.partition_point(|row| row[0] <= t_s + SAME_TIME_S).saturating_sub(1)][1];
         n += 1.0;
-        for (sum, value) in sums.iter_mut().zip([*moved, pressure, moved * moved, pressure * pressure, moved * pressure]) {
+        for (sum, value) in
+            sums.iter_mut().zip([*moved, pressure, moved * moved, pressure * pressure, moved * pressure])
+        {
             *sum += value;
         }
     }

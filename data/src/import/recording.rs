@@ -90,7 +90,13 @@ impl Pivot {
             dropped: Dropped::default(),
             told: Vec::new(),
         };
-        Pivot { recording, numbers: HashMap::new(), frames: HashMap::new(), readings: [Vec::new(), Vec::new()], last: (u64::MAX, 0) }
+        Pivot {
+            recording,
+            numbers: HashMap::new(),
+            frames: HashMap::new(),
+            readings: [Vec::new(), Vec::new()],
+            last: (u64::MAX, 0),
+        }
     }
 
     /// The number of a marker, new or known.

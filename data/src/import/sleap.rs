@@ -10,7 +10,9 @@ use crate::error::DataError;
 pub(super) const FORMAT: Format = Format {
     name: "SLEAP",
     known_by: "columns frame_idx and NODE.x, NODE.y",
-    recognise: |_, head, _| head.first().is_some_and(|row| row.contains(&"frame_idx") && row.iter().any(|name| name.ends_with(".x"))),
+    recognise: |_, head, _| {
+        head.first().is_some_and(|row| row.contains(&"frame_idx") && row.iter().any(|name| name.ends_with(".x")))
+    },
     read,
 };
 
@@ -24,7 +26,10 @@ fn read(sheet: &Sheet, options: &Options) -> Result<Vec<Recording>, DataError> {
     let header = lines.next().map_or(Vec::new(), |(_, line)| sheet.split(line));
     let column = |name: &str| header.iter().position(|known| *known == name);
     let nodes: Vec<_> = header.iter().filter_map(|name| name.strip_suffix(".x")).collect();
-    let nodes: Vec<_> = nodes.into_iter().map(|node| (node, ["x", "y", "score"].map(|part| column(&format!("{node}.{part}"))))).collect();
+    let nodes: Vec<_> = nodes
+        .into_iter()
+        .map(|node| (node, ["x", "y", "score"].map(|part| column(&format!("{node}.{part}")))))
+        .collect();
     let (track, time) = (column("track"), column("frame_idx").unwrap_or_default());
     let several = several_tracks(sheet, track);
     let mut cells = Vec::new();
@@ -39,7 +44,8 @@ fn read(sheet: &Sheet, options: &Options) -> Result<Vec<Recording>, DataError> {
             let marker = if several { pivot.marker(&format!("{}_{node}", cell(track))) } else { pivot.marker(node) };
             let free = pivot.put(frame, marker, place, likelihood.is_nan() || likelihood >= limit);
             if !free {
-                let message = format!("{node} is there twice in frame {}: several animals without track names", cell(Some(time)));
+                let message =
+                    format!("{node} is there twice in frame {}: several animals without track names", cell(Some(time)));
                 return Err(sheet.fault(number, message, "track the instances in SLEAP, or export one instance"));
             }
         }
@@ -51,6 +57,10 @@ fn read(sheet: &Sheet, options: &Options) -> Result<Vec<Recording>, DataError> {
 /// Whether more than one track has a name.
 fn several_tracks(sheet: &Sheet, track: Option<usize>) -> bool {
     let Some(track) = track else { return false };
-    let mut names = sheet.lines().skip(1).filter_map(|(_, line)| sheet.split(line).get(track).copied()).filter(|name| !is_nothing(name));
+    let mut names = sheet
+        .lines()
+        .skip(1)
+        .filter_map(|(_, line)| sheet.split(line).get(track).copied())
+        .filter(|name| !is_nothing(name));
     names.next().is_some_and(|first| names.any(|name| name != first))
 }

@@ -30,10 +30,18 @@ pub(crate) fn markers_csv(runs: &[(Run, Vec<Kept>)], markers: &[String], actuato
 fn add_rows(text: &mut String, run: &Run, frames: &[usize], phase: Phase, markers: &[String], actuator: &str) {
     let mean = |values: &[f64]| frames.iter().map(|frame| values[*frame]).sum::<f64>() / frames.len() as f64;
     let [body, act] = [0, 1].map(|which| kpa(mean(&run.pressures_pa[which])));
-    let state = format!("{},{},{:.4},{body:.4},{act:.4},{}", quoted(&run.label), quoted(actuator), mean(&run.times_s), phase.word());
+    let state = format!(
+        "{},{},{:.4},{body:.4},{act:.4},{}",
+        quoted(&run.label),
+        quoted(actuator),
+        mean(&run.times_s),
+        phase.word()
+    );
     for (marker, column) in markers.iter().zip(&run.xy_m) {
-        let seen: Vec<[f64; 2]> = frames.iter().map(|frame| column[*frame]).filter(|place| place[0].is_finite()).collect();
-        let over = |axis: usize| format!("{:.4}", mm(seen.iter().map(|place| place[axis]).sum::<f64>() / seen.len() as f64));
+        let seen: Vec<[f64; 2]> =
+            frames.iter().map(|frame| column[*frame]).filter(|place| place[0].is_finite()).collect();
+        let over =
+            |axis: usize| format!("{:.4}", mm(seen.iter().map(|place| place[axis]).sum::<f64>() / seen.len() as f64));
         let [x, y] = if seen.is_empty() { [String::new(), String::new()] } else { [over(0), over(1)] };
         // Writing into a String cannot fail.
         let _ = writeln!(text, "{state},{},{x},{y}", quoted(marker));
@@ -48,7 +56,13 @@ pub(crate) fn phases(holds: &[Kept]) -> Vec<Phase> {
         let least = if before.is_finite() { tolerance_act_pa(before) } else { 0.0 };
         before = hold.act_pa;
         match change {
-            _ if hold.rising.is_some() => if hold.rising == Some(true) { Phase::Load } else { Phase::Unload },
+            _ if hold.rising.is_some() => {
+                if hold.rising == Some(true) {
+                    Phase::Load
+                } else {
+                    Phase::Unload
+                }
+            }
             change if change > least => Phase::Load,
             change if change < -least => Phase::Unload,
             _ => Phase::Hold,
@@ -58,13 +72,23 @@ pub(crate) fn phases(holds: &[Kept]) -> Vec<Phase> {
 }
 
 /// A description with what is known, and questions where it is not.
-pub(crate) fn about_toml(program: &str, files: &[String], markers: &[(String, f64, bool)], actuator: &str, told: &[String]) -> String {
+pub(crate) fn about_toml(
+    program: &str,
+    files: &[String],
+    markers: &[(String, f64, bool)],
+    actuator: &str,
+    told: &[String],
+) -> String {
     let string = |value: &str| toml::Value::from(value).to_string();
     let list = |values: Vec<String>| values.join(", ");
     let names = list(markers.iter().map(|(name, ..)| string(name)).collect());
     let stations = list(markers.iter().map(|(_, s, _)| format!("{:?}", mm(*s).round())).collect());
     let estimated = markers.iter().any(|(.., given)| !given);
-    let question = if estimated { "   # QUESTION: estimated from the robot at rest; measure them along the undeformed body" } else { "" };
+    let question = if estimated {
+        "   # QUESTION: estimated from the robot at rest; measure them along the undeformed body"
+    } else {
+        ""
+    };
     let mut text = format!(
         "# Half filled by `ibr data import`. Answer the QUESTIONs, then delete them; `ibr data check` reads the rest.\n\
          title = {}\n\
@@ -93,13 +117,16 @@ pub(crate) fn stations(runs: &[(Run, Vec<Kept>)], markers: &[String], options: &
     let estimate = |marker: usize| {
         let of_run = |(run, holds): &(Run, Vec<Kept>)| {
             let rest = holds.iter().min_by(|a, b| a.act_pa.total_cmp(&b.act_pa))?;
-            let seen: Vec<f64> = rest.frames.iter().map(|frame| run.xy_m[marker][*frame][0]).filter(|x| x.is_finite()).collect();
+            let seen: Vec<f64> =
+                rest.frames.iter().map(|frame| run.xy_m[marker][*frame][0]).filter(|x| x.is_finite()).collect();
             (!seen.is_empty()).then(|| seen.iter().sum::<f64>() / seen.len() as f64)
         };
         let found: Vec<f64> = runs.iter().filter_map(of_run).collect();
         (found.iter().sum::<f64>() / found.len().max(1) as f64).max(0.0)
     };
     let given = |name: &String| options.stations_m.iter().find(|(known, _)| known == name).map(|(_, s)| *s);
-    let station = |(marker, name): (usize, &String)| (name.clone(), given(name).unwrap_or_else(|| estimate(marker)), given(name).is_some());
+    let station = |(marker, name): (usize, &String)| {
+        (name.clone(), given(name).unwrap_or_else(|| estimate(marker)), given(name).is_some())
+    };
     markers.iter().enumerate().map(station).collect()
 }

@@ -21,7 +21,8 @@ fn rows(head: &[Vec<&str>]) -> Option<[usize; 2]> {
     let (names, columns) = (head.get(first)?, head.get(first + 1)?);
     let has = |what: &str| columns.iter().skip(1).any(|cell| Name::of(cell).is(what));
     let named = names.iter().any(|name| !name.is_empty() && name.parse::<f64>().is_err());
-    let alone = names.iter().filter(|name| !name.is_empty()).count() < columns.iter().filter(|name| !name.is_empty()).count();
+    let alone =
+        names.iter().filter(|name| !name.is_empty()).count() < columns.iter().filter(|name| !name.is_empty()).count();
     let timed = columns.first().is_some_and(|cell| Name::of(cell).is("t"));
     (named && alone && timed && has("x") && has("y")).then_some([first, first + 1])
 }
@@ -44,7 +45,9 @@ fn read(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError> 
         sheet.split_into(line, &mut cells);
         let frame = pivot.frame(second * sheet.time(cells[0], number, "t")?);
         for Track { marker, parts } in &tracks {
-            let value = |part: usize| sheet.expect(cells.get(parts[part]).copied().unwrap_or_default(), number, ["x", "y"][part]);
+            let value = |part: usize| {
+                sheet.expect(cells.get(parts[part]).copied().unwrap_or_default(), number, ["x", "y"][part])
+            };
             pivot.put(frame, *marker, [value(0)?, value(1)?, 0.0], true);
         }
     }

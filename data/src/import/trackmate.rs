@@ -29,7 +29,8 @@ fn spots(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError>
     let mut lines = sheet.lines();
     let header = lines.next().map_or(Vec::new(), |(_, line)| sheet.split(line));
     let column = |name: &str| header.iter().position(|known| *known == name);
-    let [track, x, y, z, t, frame] = ["TRACK_ID", "POSITION_X", "POSITION_Y", "POSITION_Z", "POSITION_T", "FRAME"].map(column);
+    let [track, x, y, z, t, frame] =
+        ["TRACK_ID", "POSITION_X", "POSITION_Y", "POSITION_Z", "POSITION_T", "FRAME"].map(column);
     let mut pivot = Pivot::new(Lengths::Pixels, Clock::Frames);
     let (mut cells, mut single, mut second) = (Vec::new(), 0, None);
     for (number, line) in lines {
@@ -107,7 +108,8 @@ fn xml(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError> {
     let unit = said("spaceUnits").or_else(|| said("spatialunits")).and_then(|unit| lengths(&unit.to_lowercase()));
     let time = said("timeUnits").or_else(|| said("timeunits")).map(str::to_lowercase).unwrap_or_default();
     let second = si(&time, Measured::Time).filter(|_| !is_frame(&time));
-    let mut pivot = Pivot::new(unit.unwrap_or(Lengths::Pixels), if second.is_some() { Clock::Seconds } else { Clock::Frames });
+    let mut pivot =
+        Pivot::new(unit.unwrap_or(Lengths::Pixels), if second.is_some() { Clock::Seconds } else { Clock::Frames });
     let exported = tags(sheet.text).any(|tag| tag.name == "particle");
     let single = if exported { detections(sheet, second, &mut pivot)? } else { model(sheet, second, &mut pivot)? };
     Ok(vec![told(pivot, single)])

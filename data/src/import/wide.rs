@@ -25,7 +25,9 @@ type Columns = (String, [Option<usize>; 3]);
 
 pub(super) fn read(sheet: &Sheet, options: &Options) -> Result<Vec<Recording>, DataError> {
     let mut lines = sheet.lines();
-    let Some((first, header)) = lines.next() else { return Err(sheet.fault(0, "the file is empty", "export it again")) };
+    let Some((first, header)) = lines.next() else {
+        return Err(sheet.fault(0, "the file is empty", "export it again"));
+    };
     let roles = Roles::of(sheet, first, &sheet.split(header), options)?;
     let Some((time, second)) = roles.time else {
         return Err(sheet.fault(first, "no column is the time", "say which: --map t=Time, or frame=Frame"));
@@ -64,7 +66,9 @@ fn markers(sheet: &Sheet, line: u64, roles: &Roles) -> Result<Vec<Columns>, Data
         }
     }
     match markers.iter().find(|(_, parts)| parts[0].is_none() || parts[1].is_none()) {
-        Some((name, _)) => Err(sheet.fault(line, format!("marker {name} has not both x and y"), "every marker needs x and y")),
+        Some((name, _)) => {
+            Err(sheet.fault(line, format!("marker {name} has not both x and y"), "every marker needs x and y"))
+        }
         None => Ok(markers),
     }
 }
@@ -87,7 +91,8 @@ impl Runs {
     /// The recording of a run.
     pub fn of(&mut self, run: Option<&str>, actuator: Option<&str>) -> &mut Pivot {
         let run = run.map(label).unwrap_or_default();
-        let same = self.pivots.get(self.last).is_some_and(|pivot| pivot.recording.run.as_deref().unwrap_or_default() == run);
+        let same =
+            self.pivots.get(self.last).is_some_and(|pivot| pivot.recording.run.as_deref().unwrap_or_default() == run);
         if !same {
             self.last = self.numbers.get(run).copied().unwrap_or(self.pivots.len());
             if self.last == self.pivots.len() {

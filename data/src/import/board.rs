@@ -1,0 +1,33 @@
+//! Corners of a checkerboard from a table.
+
+use std::path::Path;
+
+use super::join::text_of;
+use super::sheet::Sheet;
+use crate::error::DataError;
+
+/// Reads corners: rows of column and row on the board, and x and y in the picture; a line of names may stand above them.
+///
+/// # Errors
+/// Not readable; a row without four numbers.
+pub fn read_board(path: &Path) -> Result<Vec<[f64; 4]>, DataError> {
+    let (shown, text) = (path.display().to_string(), text_of(path)?);
+    let sheet = Sheet::new(&shown, &text)?;
+    let mut corners = Vec::new();
+    for (k, (number, line)) in sheet.lines().filter(|(_, line)| !line.starts_with('#')).enumerate() {
+        let cells = sheet.split(line);
+        let numbers: Option<Vec<f64>> = cells.iter().map(|cell| sheet.number(cell)).collect();
+        match numbers
+            .and_then(|numbers| <[f64; 4]>::try_from(numbers).ok())
+            .filter(|row| row.iter().all(|v| v.is_finite()))
+        {
+            Some(corner) => corners.push(corner),
+            None if k == 0 => {}
+            None => {
+                let help = "every row is column,row,x,y of a corner: its place on the board, counted from 0, and in the picture";
+                return Err(sheet.fault(number, format!("expected four numbers, found {}", cells.len()), help));
+            }
+        }
+    }
+    Ok(corners)
+}

@@ -1,0 +1,50 @@
+//! Tracks over time with the holds that were found in them.
+
+use super::PageError;
+use data::import::Track;
+use report::chart::{Chart, Key, Look, Mark};
+use report::{Drawn, Ink};
+
+/// y of every marker over time; behind it the holds, each with its pressure.
+///
+/// # Errors
+/// Nothing to draw.
+pub fn tracks_plot(track: &Track) -> Result<Drawn, PageError> {
+    let line = |(k, (_, points)): (usize, &(String, Vec<[f64; 2]>))| Mark::Line {
+        points: points.iter().map(|[t, y]| [*t, y * 1e3]).collect(),
+        ink: Ink::Series(k),
+        dashed: false,
+    };
+    let lines: Vec<Mark> = track.lines.iter().enumerate().map(line).collect();
+    let heights =
+        track.lines.iter().flat_map(|(_, points)| points).map(|point| point[1] * 1e3).filter(|y| y.is_finite());
+    let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), y| (low.min(y), high.max(y)));
+    let top = high + 0.12 * (high - low);
+    let band = |[begin, end, _]: &[f64; 3]| Mark::Band(vec![[*begin, low], [*end, low], [*end, top], [*begin, top]]);
+    let mut marks: Vec<Mark> = track.holds.iter().map(band).collect();
+    marks.extend(lines);
+    let few = track.lines.len() <= MOST_KEYS;
+    let mut keys = vec![Key::new(Look::Patch, Ink::Soft, &holds(track))];
+    let names = track.lines.iter().enumerate().filter(|_| few);
+    keys.extend(names.map(|(k, (name, _))| Key::new(Look::Line, Ink::Series(k), name)));
+    let chart = Chart {
+        title: format!("Run {}: markers towards the actuator, and the holds found", track.run),
+        x_label: "time [s]".into(),
+        y_label: "y [mm]".into(),
+        marks,
+        keys,
+        ..Chart::default()
+    };
+    Ok(chart.draw("tracks")?)
+}
+
+/// Names that a legend can hold.
+const MOST_KEYS: usize = 12;
+
+/// The holds in words: their pressures in the order of time.
+fn holds(track: &Track) -> String {
+    const MOST: usize = 10;
+    let shown: Vec<String> = track.holds.iter().take(MOST).map(|hold| format!("{:.0}", hold[2] * 1e-3)).collect();
+    let more = if track.holds.len() > MOST { ", …" } else { "" };
+    format!("holds at {}{more} kPa", shown.join(", "))
+}
