@@ -87,6 +87,7 @@ pub fn measure_holds(
         xy_m,
         gauge_pa: g.gauge.then_some(readings),
         lost: data::Lost::default(),
+        told: Vec::new(),
     };
     let made = made.checked()?;
     let cells = if measurement.lost_markers { lost(&made, g.seed) } else { Vec::new() };

@@ -81,6 +81,7 @@ impl SyntheticRobot {
             xy_m,
             gauge_pa: None,
             lost: data::Lost::default(),
+            told: Vec::new(),
         }
     }
 

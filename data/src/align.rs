@@ -49,8 +49,18 @@ pub(crate) fn align(
     let runs = recorder.runs.names.clone();
     let gauge_pa = recorder.extremes.gauge.then_some(gauge_pa);
     let none = Lost::default();
-    let mut dataset =
-        Dataset { name, actuator, runs, holds, markers, samples_per_hold: samples, xy_m, gauge_pa, lost: none };
+    let mut dataset = Dataset {
+        name,
+        actuator,
+        runs,
+        holds,
+        markers,
+        samples_per_hold: samples,
+        xy_m,
+        gauge_pa,
+        lost: none,
+        told: Vec::new(),
+    };
     if !lost.is_empty() {
         fill(&mut dataset, &lost);
         check_seen(file, &dataset)?;

@@ -73,6 +73,8 @@ pub struct Dataset {
     pub gauge_pa: Option<Vec<f64>>,
     /// Cells that a camera lost for a whole hold.
     pub lost: Lost,
+    /// What reading assumed about the file, in words.
+    pub told: Vec<String>,
 }
 
 impl Dataset {

@@ -73,6 +73,8 @@ pub(crate) struct Header {
     pub y_down: bool,
     /// Cell separator.
     pub delimiter: u8,
+    /// A line `sep=;` named it.
+    pub named: bool,
     /// The line itself, for faults of a whole column.
     pub line: KeptLine,
 }
@@ -82,11 +84,15 @@ pub(crate) struct Header {
 /// # Errors
 /// Empty file; a column missing, there twice, misspelt or without unit.
 pub(crate) fn read_header(lines: &mut Lines) -> Result<Header, DataError> {
+    let mut said = None;
     loop {
         let file = lines.file().to_string();
         let Some(line) = lines.next_filled()? else { return Err(empty_file(&file)) };
-        if !line.text.trim_start().starts_with('#') {
-            return parse_header(&line);
+        let text = line.text.trim_start();
+        match text.strip_prefix("sep=").map(|sign| sign.trim().as_bytes()) {
+            Some([sign]) => said = Some(*sign),
+            _ if text.starts_with('#') => {}
+            _ => return parse_header(&line, said),
         }
     }
 }
@@ -102,8 +108,8 @@ fn wanted() -> String {
     names.join(",")
 }
 
-fn parse_header(line: &Line) -> Result<Header, DataError> {
-    let delimiter = detect_delimiter(line.text);
+fn parse_header(line: &Line, said: Option<u8>) -> Result<Header, DataError> {
+    let delimiter = said.unwrap_or_else(|| detect_delimiter(line.text));
     let names: Vec<String> = line.text.split(delimiter as char).map(clean).collect();
     let mut columns: [Option<Column>; QUANTITIES.len()] = Default::default();
     let mut y_down = false;
@@ -116,14 +122,33 @@ fn parse_header(line: &Line) -> Result<Header, DataError> {
         columns[quantity] = Some(Column { index, unit });
     }
     if let Some(missing) = (0..QUANTITIES.len()).find(|&q| QUANTITIES[q].required && columns[q].is_none()) {
-        return Err(absent(line, &names, delimiter, missing));
+        // Where only two things are missing or more, it is another program's table rather than a slip in this one.
+        let all = (0..QUANTITIES.len()).filter(|&q| QUANTITIES[q].required && columns[q].is_none()).count();
+        return Err(if all > FEW_MISSING {
+            foreign(line, &names, delimiter)
+        } else {
+            absent(line, &names, delimiter, missing)
+        });
     }
     if columns[GAUGE].is_none()
         && let Some(fault) = without_unit(line, &names, GAUGE)
     {
         return Err(fault);
     }
-    Ok(Header { names, columns, y_down, delimiter, line: line.keep() })
+    Ok(Header { names, columns, y_down, delimiter, named: said.is_some(), line: line.keep() })
+}
+
+/// Columns that a table of this kind may lack by a slip.
+const FEW_MISSING: usize = 2;
+
+fn foreign(line: &Line, names: &[String], delimiter: u8) -> DataError {
+    let file = line.file;
+    let message = format!("this is no marker table of this program; found {}", listed(names, delimiter));
+    let help = format!(
+        "`ibr data import {file} --out FOLDER` reads the tables of tracking programs and wide tables; the columns wanted here are {}",
+        wanted()
+    );
+    DataError::Column(line.fault(message, help))
 }
 
 fn clean(name: &str) -> String {

@@ -18,6 +18,7 @@ pub mod load;
 mod lost;
 mod plausible;
 pub mod published;
+mod ramps;
 pub mod read;
 mod rows;
 pub mod sets;

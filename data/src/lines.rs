@@ -99,7 +99,7 @@ impl<'a> Lines<'a> {
         &self.file
     }
 
-    /// The next line that is not blank, or `None` at the end.
+    /// The next line that is not blank (whitespace or separators only), or `None` at the end.
     ///
     /// # Errors
     /// The file cannot be read, a line is not UTF-8 or is longer than 1 MiB.
@@ -110,7 +110,8 @@ impl<'a> Lines<'a> {
                 (self.progress)(self.next_byte, self.bytes_total.max(self.next_byte));
                 return Ok(None);
             }
-            if !self.buffer.iter().all(u8::is_ascii_whitespace) {
+            // A spreadsheet ends with rows of separators where cells were emptied.
+            if !self.buffer.iter().all(|byte| byte.is_ascii_whitespace() || matches!(byte, b',' | b';')) {
                 break;
             }
         }

@@ -182,7 +182,7 @@ fn add(to: &mut [f64], what: &[f64], times: f64) {
 /// Cells named in one sentence.
 const MOST_NAMED: usize = 4;
 
-/// What was lost, in words; nothing if nothing was.
+/// What reading assumed and what was lost, in words; nothing if nothing was.
 pub fn losses(dataset: &Dataset) -> Vec<String> {
     let Lost { unseen, filled, frames } = &dataset.lost;
     let name = &dataset.name;
@@ -195,7 +195,7 @@ pub fn losses(dataset: &Dataset) -> Vec<String> {
         Some(more) if more > 0 => format!("{}, and {more} more", places[..MOST_NAMED].join(", ")),
         _ => places.join(", "),
     };
-    let mut words = Vec::new();
+    let mut words: Vec<String> = dataset.told.iter().map(|told| format!("{name}: {told}")).collect();
     if *frames > 0 {
         words.push(format!("{name}: {frames} rows have no position and were passed over"));
     }

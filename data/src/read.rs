@@ -26,6 +26,7 @@ use crate::error::{DataError, Fault};
 use crate::header::{ACTUATOR, read_header};
 use crate::lines::Lines;
 use crate::plausible::{check_units, check_y_up};
+use crate::ramps::check_kept;
 use crate::rows::RowReader;
 use crate::streams::Recorder;
 
@@ -89,6 +90,7 @@ pub fn parse_markers(
         cells.split(&line)?;
         match kind.accept(cells.actuator(&line)?) {
             Verdict::Take if cells.is_lost() => recorder.lost_frames += 1,
+            Verdict::Take if cells.is_zero() && !sits_at_base(&cells, options.about) => recorder.zero_rows += 1,
             Verdict::Take => recorder.add(&cells, &line)?,
             Verdict::Skip => {}
             Verdict::Mixed(message, help) => {
@@ -97,17 +99,53 @@ pub fn parse_markers(
         }
     }
     if recorder.streams.is_empty() {
-        return Err(no_rows(file, &kind, recorder.lost_frames));
+        return Err(no_rows(file, &kind, recorder.lost_frames + recorder.zero_rows));
     }
+    let told = told(&cells, &recorder)?;
+    check_kept(file, &recorder)?;
     check_units(&cells, &recorder)?;
     check_about_runs(file, &recorder, options.about)?;
     let stations_m = stations(file, &recorder, options.about)?;
     let stem = Path::new(file).file_stem().map_or(file.to_string(), |stem| stem.to_string_lossy().into_owned());
     let mut dataset = align(file, stem, kind.chosen(), &recorder, &stations_m)?;
     dataset.lost.frames = recorder.lost_frames;
+    dataset.told = told;
     check_kind(file, &dataset.actuator, options.about)?;
     check_y_up(&cells.header, &dataset)?;
     Ok(dataset)
+}
+
+/// Markers nearer to the base than this may be seen at 0, 0 \[m\].
+const AT_BASE_M: f64 = 5e-3;
+
+/// Whether the row's marker has its station at the base.
+fn sits_at_base(cells: &RowReader, about: Option<&About>) -> bool {
+    let described = about.into_iter().flat_map(|about| &about.markers).find(|marker| marker.name == cells.marker());
+    described.map(|marker| marker.station_m).or(cells.station_m()).is_some_and(|s| s < AT_BASE_M)
+}
+
+/// Lowest pressures that a sensor of absolute pressure reads in a vented robot \[Pa\].
+pub(crate) const ABSOLUTE_PA: std::ops::Range<f64> = 85e3..115e3;
+
+/// What was assumed on reading, in words.
+fn told(cells: &RowReader, recorder: &Recorder) -> Result<Vec<String>, DataError> {
+    let mut told = cells.told()?;
+    if recorder.zero_rows > 0 {
+        told.push(format!(
+            "{} rows have a marker at exactly 0, 0: taken as not seen (a marker at the base needs its station there in about.toml)",
+            recorder.zero_rows
+        ));
+    }
+    if let Some([body, act]) =
+        recorder.extremes.lowest_pa.filter(|lowest| lowest.iter().all(|p| ABSOLUTE_PA.contains(p)))
+    {
+        told.push(format!(
+            "pressures are never below {:.1} kPa (actuator) and {:.1} kPa (body): if the sensors read absolute pressure, take the room's off",
+            act / 1e3,
+            body / 1e3
+        ));
+    }
+    Ok(told)
 }
 
 /// Which actuator kind is read, and which others were seen.

@@ -1,12 +1,13 @@
 //! One line of the table as one checked observation in SI units.
 
+use crate::cells::{Decimals, is_nothing, label, with_comma};
 use crate::dataset::Phase;
 use crate::error::{DataError, Fault};
 use crate::header::{ACTUATOR, GAUGE, Header, MARKER, P_ACT, P_BODY, PHASE, QUANTITIES, RUN, STATION, TIME, X, Y};
 use crate::lines::Line;
 
-/// Below this a gauge reading is not the noise of a sensor at zero \[Pa\] (the step by which holds are told apart).
-const LOWEST_GAUGE_PA: f64 = -500.0;
+/// Below this the mean of a hold is not the noise of a sensor at zero \[Pa\] (the step by which holds are told apart).
+pub(crate) const LOWEST_GAUGE_PA: f64 = -500.0;
 /// No inflated fabric stands this gauge pressure \[Pa\]; a higher one is a unit mistake.
 const HIGHEST_GAUGE_PA: f64 = 1e6;
 /// No robot is this long \[m\]; a larger coordinate is a unit mistake.
@@ -33,16 +34,27 @@ pub(crate) struct RowReader {
     splitter: csv_core::Reader,
     cells: Vec<u8>,
     ends: Vec<usize>,
+    decimals: Decimals,
+    /// 1 where every row begins with a name that the header has not, as R writes tables.
+    shift: usize,
+    rows: u64,
+    /// A label and a time that were not written as this program would.
+    label: Option<String>,
+    duration: Option<String>,
 }
+
+/// Words for seconds behind a time.
+const SECONDS: [&str; 4] = ["seconds", "secs", "sec", "s"];
 
 impl RowReader {
     pub fn new(header: Header) -> RowReader {
         // The line end is already gone; a lone carriage return is then an ordinary character.
         let end = csv_core::Terminator::Any(b'\n');
         let splitter = csv_core::ReaderBuilder::new().delimiter(header.delimiter).terminator(end).build();
-        // One place more than columns, so that a row with too many cells is noticed.
-        let ends = vec![0; header.names.len() + 1];
-        RowReader { header, splitter, cells: Vec::new(), ends }
+        // Two places more than columns, so that names of rows and a row with too many cells are noticed.
+        let ends = vec![0; header.names.len() + 2];
+        let (cells, decimals) = (Vec::new(), Decimals::default());
+        RowReader { header, splitter, cells, ends, decimals, shift: 0, rows: 0, label: None, duration: None }
     }
 
     /// Splits one line into cells, to be read by [`RowReader::actuator`] and [`RowReader::row`].
@@ -59,7 +71,71 @@ impl RowReader {
             let (_, _, _, more) = self.splitter.read_record(&[], cells, ends);
             count += more;
         }
-        if count == self.header.names.len() { Ok(()) } else { Err(self.wrong_count(line, count)) }
+        self.rows += 1;
+        let longer = count == self.header.names.len() + 1;
+        if self.rows == 1 && longer {
+            self.shift = usize::from(self.has_row_name(line));
+        }
+        if self.shift == 1 && longer && !self.counts_on(line) {
+            let message = "the rows have one cell more than the header, and their first cells are no running numbers";
+            return Err(DataError::Layout(
+                line.fault(message, "write decimals with a point, or give the first column a name"),
+            ));
+        }
+        if count == self.header.names.len() + self.shift {
+            self.listen(line)
+        } else {
+            Err(self.wrong_count(line, count))
+        }
+    }
+
+    /// Whether the first row begins with its number or a quoted name, before cells that fit the header.
+    fn has_row_name(&mut self, line: &Line) -> bool {
+        self.shift = 1;
+        self.counts_on(line) && self.phase(line).is_ok()
+    }
+
+    /// Whether the first cell is quoted or the number of its row.
+    fn counts_on(&self, line: &Line) -> bool {
+        let first = self.ends.first().and_then(|end| self.cells.get(..*end)).unwrap_or_default();
+        line.text.starts_with('"') || first == self.rows.to_string().as_bytes()
+    }
+
+    /// Notes how numbers and labels of a line are written.
+    fn listen(&mut self, line: &Line) -> Result<(), DataError> {
+        if self.header.delimiter != b',' && line.text.contains([',', '.']) {
+            let mut decimals = std::mem::take(&mut self.decimals);
+            for quantity in
+                (0..QUANTITIES.len()).filter(|q| self.header.columns[*q].as_ref().is_some_and(|c| c.unit.is_some()))
+            {
+                decimals.number(self.text(quantity), true, line)?;
+            }
+            self.decimals = decimals;
+        }
+        let long = |text: &&str| label(text) != *text;
+        let seen = [RUN, MARKER].map(|quantity| self.text(quantity)).into_iter().find(long).map(str::to_string);
+        self.label = self.label.take().or(seen);
+        let time = self.text(TIME);
+        let seen = time.ends_with(|c: char| c.is_alphabetic()).then(|| time.to_string());
+        self.duration = self.duration.take().or(seen);
+        Ok(())
+    }
+
+    /// What was assumed, in words.
+    ///
+    /// # Errors
+    /// Numbers with a comma that may be decimal or of thousands.
+    pub fn told(&self) -> Result<Vec<String>, DataError> {
+        let comma = self.decimals.finish()?;
+        let told = [
+            self.header.named.then(|| format!("a first line names the separator: {}", self.header.delimiter as char)),
+            comma.then(|| "decimals are written with a comma".to_string()),
+            (self.shift > 0)
+                .then(|| "every row begins with a name that the header has not, as R writes it: left out".to_string()),
+            self.label.as_ref().map(|text| format!("labels such as {text} are read as {}", label(text))),
+            self.duration.as_ref().map(|text| format!("times such as \"{text}\" are read as seconds")),
+        ];
+        Ok(told.into_iter().flatten().collect())
     }
 
     /// The cell of the `actuator` column.
@@ -69,10 +145,27 @@ impl RowReader {
 
     /// Whether the line split last says that its marker was not seen: neither x nor y, or NaN for both.
     pub fn is_lost(&self) -> bool {
-        [X, Y].iter().all(|axis| {
-            let text = self.text(*axis);
-            text.is_empty() || text.parse::<f64>().is_ok_and(f64::is_nan)
-        })
+        [X, Y].iter().all(|axis| is_nothing(self.text(*axis)))
+    }
+
+    /// Whether it has its marker at exactly 0, 0, as some programs write a marker that was not seen.
+    pub fn is_zero(&self) -> bool {
+        let zero = |axis: usize| {
+            let text = self.text(axis);
+            text.starts_with(['0', '-', '.']) && text.parse() == Ok(0.0)
+        };
+        zero(X) && zero(Y)
+    }
+
+    /// The cell of the `marker` column.
+    pub fn marker(&self) -> &str {
+        label(self.text(MARKER))
+    }
+
+    /// The cell of the station, if it is a number \[m\].
+    pub fn station_m(&self) -> Option<f64> {
+        let unit = self.header.columns[STATION].as_ref()?.unit?;
+        self.text(STATION).parse().ok().map(|value| unit.to_si(value))
     }
 
     /// The observation of the line split last.
@@ -84,8 +177,8 @@ impl RowReader {
         let gauge = self.header.columns[GAUGE].is_some();
         let y_m = self.length(line, Y)?;
         Ok(Row {
-            run: self.word(line, RUN)?,
-            marker: self.word(line, MARKER)?,
+            run: label(self.word(line, RUN)?),
+            marker: label(self.word(line, MARKER)?),
             phase: self.phase(line)?,
             t_s: self.time(line)?,
             p_body_pa: self.pressure(line, P_BODY)?,
@@ -104,8 +197,12 @@ impl RowReader {
         fault.location.column_name = self.header.names.get(column.index).cloned();
         fault.location.cell = Some(self.text(quantity).to_string());
         if !line.text.contains('"') {
-            let before: usize =
-                line.text.split(self.header.delimiter as char).take(column.index).map(|c| c.len() + 1).sum();
+            let before: usize = line
+                .text
+                .split(self.header.delimiter as char)
+                .take(column.index + self.shift)
+                .map(|c| c.len() + 1)
+                .sum();
             let cell = line.text[before.min(line.text.len())..].split(self.header.delimiter as char).next();
             fault.span = Some((line.start + before, line.start + before + cell.unwrap_or_default().len()));
         }
@@ -114,8 +211,9 @@ impl RowReader {
 
     fn text(&self, quantity: usize) -> &str {
         let Some(column) = &self.header.columns[quantity] else { return "" };
-        let start = if column.index == 0 { 0 } else { self.ends[column.index - 1] };
-        let bytes = self.cells.get(start..self.ends[column.index]).unwrap_or_default();
+        let index = column.index + self.shift;
+        let start = if index == 0 { 0 } else { self.ends[index - 1] };
+        let bytes = self.cells.get(start..self.ends[index]).unwrap_or_default();
         std::str::from_utf8(bytes).unwrap_or_default().trim()
     }
 
@@ -141,8 +239,12 @@ impl RowReader {
     fn number(&self, line: &Line, quantity: usize) -> Result<f64, DataError> {
         let text = self.text(quantity);
         let unit = self.header.columns[quantity].as_ref().and_then(|column| column.unit);
-        match (text.parse::<f64>(), unit) {
-            (Ok(value), Some(unit)) if value.is_finite() && unit.to_si(value).is_finite() => Ok(unit.to_si(value)),
+        let seconds = quantity == TIME && unit.is_some_and(|unit| unit.symbol == "s");
+        let suffix = SECONDS.iter().filter(|_| seconds).find_map(|word| text.strip_suffix(word));
+        let plain = suffix.unwrap_or(text).trim_end();
+        let comma = || (self.header.delimiter != b',').then(|| with_comma(plain)).flatten();
+        match (plain.parse::<f64>().ok().or_else(comma), unit) {
+            (Some(value), Some(unit)) if value.is_finite() && unit.to_si(value).is_finite() => Ok(unit.to_si(value)),
             _ => Err(DataError::Cell(self.not_a_number(line, quantity, text))),
         }
     }
@@ -207,17 +309,22 @@ impl RowReader {
             let help = format!("name the column {base}_{}", better.1);
             return Err(DataError::Unit(self.cell_fault(line, quantity, message, help)));
         }
-        if value < LOWEST_GAUGE_PA {
-            let what = if quantity == P_BODY { "body" } else { "actuator" };
-            let message = format!("{what} pressure below zero: {}", self.text(quantity));
-            let help = "give gauge pressure (0 is the air of the room); subtract the sensor's zero".to_string();
-            return Err(DataError::Cell(self.cell_fault(line, quantity, message, help)));
+        if quantity == GAUGE && value < LOWEST_GAUGE_PA {
+            return Err(DataError::Cell(self.below_zero(line, quantity)));
         }
         Ok(value)
     }
 
+    /// The fault of a pressure below zero.
+    pub fn below_zero(&self, line: &Line, quantity: usize) -> Box<Fault> {
+        let what = if quantity == P_BODY { "body" } else { "actuator" };
+        let message = format!("{what} pressure below zero: {}", self.text(quantity));
+        let help = "give gauge pressure (0 is the air of the room); subtract the sensor's zero".to_string();
+        self.cell_fault(line, quantity, message, help)
+    }
+
     fn wrong_count(&self, line: &Line, count: usize) -> DataError {
-        let expected = self.header.names.len();
+        let expected = self.header.names.len() + self.shift;
         let found = if count > expected { format!("more than {expected}") } else { count.to_string() };
         let message = if line.ended {
             format!("expected {expected} cells, found {found}")

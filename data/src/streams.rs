@@ -6,10 +6,10 @@
 use std::collections::HashMap;
 
 use crate::dataset::Phase;
-use crate::error::DataError;
-use crate::header::{MARKER, RUN, STATION, TIME};
+use crate::error::{DataError, Fault};
+use crate::header::{MARKER, P_ACT, P_BODY, RUN, STATION, TIME};
 use crate::lines::{KeptLine, Line};
-use crate::rows::{Row, RowReader};
+use crate::rows::{LOWEST_GAUGE_PA, Row, RowReader};
 
 const MOST_RUNS: usize = 10_000;
 const MOST_MARKERS: usize = 1_000;
@@ -61,6 +61,10 @@ pub(crate) struct Segment {
     pub samples: Vec<Sample>,
     /// Observations.
     pub rows: u64,
+    /// The first actuator pressure and the last \[Pa\].
+    pub ends_pa: [f64; 2],
+    /// The first reading of it that is below zero, by body and actuator, to be judged by the mean.
+    pub below_zero: [Option<Box<Fault>>; 2],
     /// Observations per sample; doubles whenever neighbours are merged.
     stride: u64,
     p_body_sum: f64,
@@ -69,8 +73,17 @@ pub(crate) struct Segment {
 
 impl Segment {
     fn new(row: &Row, line: u64) -> Segment {
-        let (samples, rows, stride) = (Vec::new(), 0, 1);
-        Segment { phase: row.phase, first_line: line, samples, rows, stride, p_body_sum: 0.0, p_act_sum: 0.0 }
+        Segment {
+            phase: row.phase,
+            first_line: line,
+            samples: Vec::new(),
+            rows: 0,
+            ends_pa: [row.p_act_pa; 2],
+            below_zero: [None, None],
+            stride: 1,
+            p_body_sum: 0.0,
+            p_act_sum: 0.0,
+        }
     }
 
     /// Mean body pressure \[Pa\].
@@ -94,18 +107,36 @@ impl Segment {
     }
 
     fn continues_with(&self, row: &Row) -> bool {
+        row.phase == self.phase && self.is_near([row.p_body_pa, row.p_act_pa], 1.0)
+    }
+
+    /// Whether pressures of body and actuator are within so many tolerances of the mean.
+    fn is_near(&self, [body_pa, act_pa]: [f64; 2], tolerances: f64) -> bool {
         let (act, body) = (self.p_act_pa(), self.p_body_pa());
-        row.phase == self.phase
-            && (row.p_act_pa - act).abs() <= tolerance_act_pa(act)
-            && (row.p_body_pa - body).abs() <= tolerance_body_pa(body)
+        (act_pa - act).abs() <= tolerances * tolerance_act_pa(act)
+            && (body_pa - body).abs() <= tolerances * tolerance_body_pa(body)
+    }
+
+    /// Takes in a later segment of one row: a single reading that departed and came back is noise.
+    fn absorb(&mut self, one: Segment) {
+        self.rows += one.rows;
+        self.p_body_sum += one.p_body_sum;
+        self.p_act_sum += one.p_act_sum;
+        one.samples.into_iter().for_each(|sample| self.push(sample));
+        let below = self.below_zero.iter_mut().zip(one.below_zero);
+        below.for_each(|(own, other)| *own = own.take().or(other));
     }
 
     fn add(&mut self, row: &Row) {
         self.rows += 1;
         self.p_body_sum += row.p_body_pa;
         self.p_act_sum += row.p_act_pa;
+        self.ends_pa[1] = row.p_act_pa;
         let gauge_pa = row.gauge_pa.unwrap_or(0.0);
-        let one = Sample { count: 1, t_s: row.t_s, x_m: row.x_m, y_m: row.y_m, gauge_pa };
+        self.push(Sample { count: 1, t_s: row.t_s, x_m: row.x_m, y_m: row.y_m, gauge_pa });
+    }
+
+    fn push(&mut self, one: Sample) {
         match self.samples.last_mut() {
             Some(last) if last.count < self.stride => last.add(one),
             _ => self.samples.push(one),
@@ -137,6 +168,19 @@ pub(crate) struct Stream {
     pub first_t_s: f64,
     pub segments: Vec<Segment>,
     last_t_s: f64,
+}
+
+impl Stream {
+    /// Puts a last segment of one row back into the one before, if this row goes on there: the reading was noise.
+    fn take_back(&mut self, row: &Row) {
+        let [.., before, last] = self.segments.as_slice() else { return };
+        let noise =
+            last.rows == 1 && last.phase == before.phase && before.is_near([last.p_body_pa(), last.p_act_pa()], 2.0);
+        if noise && before.continues_with(row) && !last.continues_with(row) {
+            let one = self.segments.pop();
+            self.segments.last_mut().zip(one).into_iter().for_each(|(before, one)| before.absorb(one));
+        }
+    }
 }
 
 /// Labels numbered in order of first appearance.
@@ -177,6 +221,8 @@ pub(crate) struct Recorder {
     pub first_row: Option<KeptLine>,
     /// Rows without a position.
     pub lost_frames: u64,
+    /// Rows of a marker at exactly 0, 0 that has no place there.
+    pub zero_rows: u64,
     by_pair: HashMap<(usize, usize), usize>,
     series: usize,
 }
@@ -189,6 +235,8 @@ pub(crate) struct Extremes {
     pub station_m: f64,
     pub p_body_pa: f64,
     pub p_act_pa: f64,
+    /// Lowest pressures of body and actuator.
+    pub lowest_pa: Option<[f64; 2]>,
     /// There is a column of gauge readings.
     pub gauge: bool,
 }
@@ -239,6 +287,7 @@ impl Recorder {
         let stream = &mut self.streams[index];
         check_time(stream, row, cells, line)?;
         stream.last_t_s = row.t_s;
+        stream.take_back(row);
         if !stream.segments.last().is_some_and(|segment| segment.continues_with(row)) {
             self.series += 1;
             if stream.segments.len() >= MOST_HOLDS || self.series > MOST_SERIES {
@@ -247,6 +296,13 @@ impl Recorder {
             stream.segments.push(Segment::new(row, line.number));
         }
         if let Some(segment) = stream.segments.last_mut() {
+            for (which, (pressure_pa, quantity)) in
+                [(row.p_body_pa, P_BODY), (row.p_act_pa, P_ACT)].into_iter().enumerate()
+            {
+                if pressure_pa < LOWEST_GAUGE_PA && segment.below_zero[which].is_none() {
+                    segment.below_zero[which] = Some(cells.below_zero(line, quantity));
+                }
+            }
             segment.add(row);
         }
         Ok(())
@@ -277,6 +333,8 @@ impl Extremes {
         widen(&mut self.station_m, row.station_m.unwrap_or(0.0));
         widen(&mut self.p_body_pa, row.p_body_pa);
         widen(&mut self.p_act_pa, row.p_act_pa);
+        let [body, act] = self.lowest_pa.unwrap_or([f64::INFINITY; 2]);
+        self.lowest_pa = Some([body.min(row.p_body_pa), act.min(row.p_act_pa)]);
         self.gauge |= row.gauge_pa.is_some();
     }
 }

@@ -111,6 +111,7 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
         xy_m,
         gauge_pa: generator.gauge.then_some(gauge_pa),
         lost: data::Lost::default(),
+        told: Vec::new(),
     })
 }
 

@@ -65,6 +65,7 @@ pub fn seen(runs: &[EngineRun], name: &str, generator: &Generator) -> Result<Dat
         xy_m,
         gauge_pa: None,
         lost: data::Lost::default(),
+        told: Vec::new(),
     })
 }
 

@@ -6,6 +6,7 @@ use spelling::Exactly;
 use toml::Spanned;
 
 use super::{AboutRun, Geometry, MarkerStation, MeasuredValue, RawBending, RawGeometry, RawMarkers, RawRun};
+use crate::cells::label;
 use crate::error::{DataError, Fault, Location};
 
 /// The text being checked, for the place of faults.
@@ -79,7 +80,7 @@ impl Check<'_> {
         if farthest > 0.0 && farthest < 2.0 {
             return Err(self.fault("s_mm", &raw.s_mm, "looks like metres", "give millimetres: multiply by 1000"));
         }
-        let pair = |(name, s): (&String, &f64)| MarkerStation { name: name.clone(), station_m: s / 1e3 };
+        let pair = |(name, s): (&String, &f64)| MarkerStation { name: label(name).to_string(), station_m: s / 1e3 };
         Ok(names.iter().zip(s_mm).map(pair).collect())
     }
 
@@ -139,7 +140,7 @@ impl Check<'_> {
             if let Some(force) = run.tip_force_n.as_ref().filter(|_| !tip_force_n.iter().all(|f| f.is_finite())) {
                 return Err(self.fault("tip_force_n", force, "must be two finite numbers", "give [fx, fy] in newton"));
             }
-            runs.push(AboutRun { id: run.id.into_inner(), tip_force_n, session: run.session });
+            runs.push(AboutRun { id: label(run.id.get_ref()).to_string(), tip_force_n, session: run.session });
         }
         Ok(runs)
     }

@@ -8,6 +8,7 @@ use super::pressure::Log;
 use super::recording::{Clock, Recording};
 use super::sheet::Sheet;
 use crate::error::{DataError, Fault};
+use crate::read::ABSOLUTE_PA;
 use crate::units::kpa;
 
 /// A file's text.
@@ -192,6 +193,3 @@ fn pressures(
     }
     Ok(told)
 }
-
-/// Lowest pressures that a sensor of absolute pressure reads in a vented robot \[Pa\].
-const ABSOLUTE_PA: std::ops::Range<f64> = 85e3..115e3;

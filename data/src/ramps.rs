@@ -1,0 +1,90 @@
+//! Whether pressures were kept at all: a hold has a least duration, and a ramp has none.
+
+use crate::error::{DataError, Fault};
+use crate::rows::LOWEST_GAUGE_PA;
+use crate::streams::{Recorder, Segment, Stream};
+use crate::units::kpa;
+
+/// A hold lasts at least so long \[s\].
+const LEAST_HOLD_S: f64 = 0.5;
+/// Fewest holds that can look like a ramp.
+const FEWEST: usize = 8;
+/// On a ramp the pressure moves on within holds by more than this part of all that it moves.
+const RAMP: f64 = 0.3;
+/// A piece of a ramp has less than this part of the rows of the usual hold.
+const FEW_ROWS: f64 = 0.2;
+
+/// Refuses recordings without holds, or with ramps between them, and holds whose mean pressure is below zero.
+///
+/// # Errors
+/// Such a recording.
+pub(crate) fn check_kept(file: &str, recorder: &Recorder) -> Result<(), DataError> {
+    let segments = || recorder.streams.iter().flat_map(|stream| &stream.segments);
+    let below = |segment: &Segment| {
+        let means = [segment.p_body_pa(), segment.p_act_pa()];
+        segment
+            .below_zero
+            .iter()
+            .zip(means)
+            .find(|(_, mean)| *mean < LOWEST_GAUGE_PA)
+            .and_then(|(fault, _)| fault.clone())
+    };
+    if let Some(fault) = segments().find_map(below) {
+        return Err(DataError::Cell(fault));
+    }
+    let fullest = recorder.streams.iter().max_by_key(|stream| stream.segments.len());
+    if let Some(stream) = fullest.filter(|stream| is_ramp(&stream.segments)) {
+        let message = format!(
+            "run {} looks like a ramp: it falls into {} holds within which the pressure moves on",
+            recorder.runs.names[stream.run],
+            stream.segments.len()
+        );
+        return Err(remedy(file, message, stream.first_line));
+    }
+    (0..recorder.runs.names.len()).try_for_each(|run| no_pieces(file, recorder, run))
+}
+
+fn is_ramp(segments: &[Segment]) -> bool {
+    let within: f64 = segments.iter().map(|segment| (segment.ends_pa[1] - segment.ends_pa[0]).abs()).sum();
+    let between: f64 = segments.windows(2).map(|pair| (pair[1].p_act_pa() - pair[0].p_act_pa()).abs()).sum();
+    segments.len() >= FEWEST && within > RAMP * between
+}
+
+/// Pieces of a ramp between holds are in the rows of every marker of a run; a glimpse of one marker is not.
+fn no_pieces(file: &str, recorder: &Recorder, run: usize) -> Result<(), DataError> {
+    let streams = || recorder.streams.iter().filter(move |stream| stream.run == run);
+    let Some(first) = streams().min_by_key(|stream| pieces(stream).count()) else { return Ok(()) };
+    let Some(piece) = pieces(first).next() else { return Ok(()) };
+    let message = format!(
+        "run {} has a hold at {:.1} kPa of {} rows in {:.2} s, and others of many more: a hold lasts at least {LEAST_HOLD_S} s",
+        recorder.runs.names[run],
+        kpa(piece.p_act_pa()),
+        piece.rows,
+        piece.last_t_s() - piece.first_t_s()
+    );
+    Err(remedy(file, message, piece.first_line))
+}
+
+/// Segments too short to be holds beside the one in which the middle row lies.
+fn pieces(stream: &Stream) -> impl Iterator<Item = &Segment> {
+    let mut rows: Vec<u64> = stream.segments.iter().map(|segment| segment.rows).collect();
+    rows.sort_unstable();
+    let half = rows.iter().sum::<u64>() / 2;
+    let mut before = 0;
+    let middle = rows.iter().find(|rows| {
+        before += **rows;
+        before > half
+    });
+    let usual = middle.copied().unwrap_or_default() as f64;
+    let short = move |segment: &&Segment| {
+        segment.last_t_s() - segment.first_t_s() < LEAST_HOLD_S && (segment.rows as f64) < FEW_ROWS * usual
+    };
+    stream.segments.iter().filter(short)
+}
+
+fn remedy(file: &str, message: String, line: u64) -> DataError {
+    let help = format!(
+        "`ibr data import {file} --out FOLDER` keeps the holds of a recording and leaves the ramps between them out; with --bin 2kPa it bins a ramp"
+    );
+    DataError::Runs(Box::new(Fault::of_file(file, message, help).at_line(line)))
+}

@@ -1,0 +1,140 @@
+//! Marker tables as spreadsheets, R, pandas, MATLAB and careless people write them, against the same table written well.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests: a panic is the failure to report")]
+
+use data::{DataError, Dataset, check, load};
+use std::path::PathBuf;
+
+fn case(file: &str) -> String {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/cases").join(file).display().to_string()
+}
+
+fn read(file: &str) -> Dataset {
+    load(&case(file), &mut |_, _| ()).unwrap_or_else(|error| panic!("{error}\n{}", error.help())).0
+}
+
+fn text(text: &str) -> Result<Dataset, DataError> {
+    data::parse_markers("made.csv", &mut text.as_bytes(), data::ReadOptions::default(), &mut |_, _| ())
+}
+
+/// The same numbers as the reference; returns what was told.
+fn is_reference(found: &Dataset) -> String {
+    let right = read("reference_markers.csv");
+    assert_eq!(found.xy_m, right.xy_m);
+    assert_eq!(found.holds, right.holds);
+    assert_eq!(found.runs, right.runs);
+    found.told.join("\n")
+}
+
+#[test]
+fn spreadsheets_of_other_countries_are_read_and_said_so() {
+    let told = is_reference(&read("c06-spreadsheet-locale/semicolon_decimal_comma_bom.csv"));
+    assert!(told.contains("decimals are written with a comma"), "{told}");
+    let told = is_reference(&read("c06-spreadsheet-locale/sep_line.csv"));
+    assert!(told.contains("names the separator: ;"), "{told}");
+    assert_eq!(is_reference(&read("c06-spreadsheet-locale/empty_rows_at_end.csv")), "");
+    assert_eq!(is_reference(&read("reference_markers.csv")), "");
+}
+
+#[test]
+fn dialects_of_programs_are_read_and_said_so() {
+    let told = is_reference(&read("c07-table-dialects/matlab_duration.csv"));
+    assert!(told.contains("times such as \"1 sec\" are read as seconds"), "{told}");
+    let told = is_reference(&read("c07-table-dialects/r_row_names.csv"));
+    assert!(told.contains("as R writes it"), "{told}");
+    let numbered = read("c07-table-dialects/float_labels/markers.csv");
+    assert!(is_reference(&numbered).contains("labels such as 1.0 are read as 1"));
+    assert_eq!(numbered.markers.iter().map(|m| m.name.as_str()).collect::<Vec<_>>(), ["1", "2", "3"]);
+    assert!(numbered.markers.iter().all(|m| m.station_m.is_some()), "about.toml names them 1.0 or 1");
+    for file in ["c07-table-dialects/lost_as_NA.csv", "c07-table-dialects/lost_as_nan_ind.csv"] {
+        let lossy = read(file);
+        assert_eq!((lossy.lost.frames, lossy.lost.filled.len()), (3, 1), "{file}");
+    }
+    let error = load(&case("c07-table-dialects/wide.csv"), &mut |_, _| ()).unwrap_err();
+    assert!(error.help().contains("ibr data import") && error.help().contains("wide.csv"), "{error} {}", error.help());
+}
+
+#[test]
+fn zeros_are_lost_markers_unless_the_marker_sits_at_the_base() {
+    let lossy = read("c08-lost-as-zero/markers.csv");
+    assert_eq!((lossy.lost.filled.len(), lossy.lost.frames), (1, 0));
+    let warnings = check(&lossy, None).warnings.join("\n");
+    assert!(warnings.contains("3 rows have a marker at exactly 0, 0"), "{warnings}");
+    let rows = |s: f64| {
+        let row = |t: i32, m: &str, x: f64, s: f64| format!("1,epam,{t},2,{},load,{m},{x},0,{s}\n", 10 * t);
+        let body: String = (0..2).flat_map(|t| [row(t, "base", 0.0, s), row(t, "tip", 300.0, 300.0)]).collect();
+        text(&format!("run,actuator,t_s,p_body_kpa,p_act_kpa,phase,marker,x_mm,y_mm,s_mm\n{body}")).unwrap()
+    };
+    assert_eq!(rows(0.0).markers.len(), 2);
+    assert_eq!((rows(100.0).markers.len(), rows(100.0).told.len()), (1, 1));
+}
+
+#[test]
+fn a_ramp_is_no_row_of_holds() {
+    let error = load(&case("c10-ramp"), &mut |_, _| ()).unwrap_err();
+    assert!(error.message().contains("looks like a ramp") && error.help().contains("--bin 2kPa"), "{error}");
+    assert!(error.help().contains("ibr data import"), "{}", error.help());
+}
+
+/// 60 frames per second, 2 s at 0 and 2 s at 10 kPa with 0.3 s between them.
+#[test]
+fn a_recording_with_ramps_between_its_holds_is_sent_to_the_import() {
+    let mut rows = String::from("run,actuator,t_s,p_body_kpa,p_act_kpa,phase,marker,x_mm,y_mm\n");
+    for frame in 0..258 {
+        let p = f64::from((frame - 120).clamp(0, 18)) / 1.8;
+        rows.push_str(&format!("1,epam,{:.4},2,{p:.3},load,a,300,{p}\n", f64::from(frame) / 60.0));
+    }
+    let error = text(&rows).unwrap_err();
+    assert!(
+        error.message().contains("a hold lasts at least 0.5 s") && error.help().contains("ibr data import"),
+        "{error}"
+    );
+}
+
+#[test]
+fn noise_about_zero_is_judged_by_the_mean_of_its_hold() {
+    let noisy = read("c11-zero-noise");
+    let right = read("reference_markers.csv");
+    assert_eq!(noisy.xy_m, right.xy_m);
+    assert!(noisy.holds[0].p_act_pa.abs() < 100.0, "{}", noisy.holds[0].p_act_pa);
+    let below =
+        std::fs::read_to_string(case("reference_markers.csv")).unwrap().replace(",0.0000,load", ",-0.8000,load");
+    let error = text(&below).unwrap_err();
+    assert!(
+        error.to_string().starts_with("made.csv:2, column p_act_kpa: actuator pressure below zero: -0.8000"),
+        "{error}"
+    );
+}
+
+#[test]
+fn absolute_pressures_are_told() {
+    let more = |cells: &str, by: f64| format!("{:.4}", cells.parse::<f64>().unwrap() + by);
+    let reference = std::fs::read_to_string(case("reference_markers.csv")).unwrap();
+    let row = |line: &str| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_string).collect();
+        if cells[0] != "run" {
+            (cells[3], cells[4]) = (more(&cells[3], 101.3), more(&cells[4], 101.3));
+        }
+        cells.join(",") + "\n"
+    };
+    let told = text(&reference.lines().map(row).collect::<String>()).unwrap().told.join("\n");
+    assert!(told.contains("absolute") && told.contains("101.3 kPa"), "{told}");
+}
+
+#[test]
+fn a_comma_that_may_be_of_thousands_is_refused_with_both_readings() {
+    let head = "run;actuator;t_s;p_body_kpa;p_act_kpa;phase;marker;x_mm;y_mm\n";
+    let error = text(&format!("{head}1;epam;0;2;0;load;a;300;1,234\n1;epam;1;2;10;load;a;290;5,678\n")).unwrap_err();
+    assert!(error.message().contains("1.234 (decimal comma)") && error.message().contains("1234"), "{error}");
+    let sure = text(&format!("{head}1;epam;0;2;0;load;a;300;1,234\n1;epam;1;2;10;load;a;290;5,6\n")).unwrap();
+    assert_eq!(sure.xy_m[1], 1.234e-3);
+    let mixed = text(&format!("{head}1;epam;0;2;0;load;a;300.5;1,2\n1;epam;1;2;10;load;a;290;5,6\n")).unwrap_err();
+    assert!(mixed.message().contains("points and commas"), "{mixed}");
+}
+
+#[test]
+fn one_cell_more_than_the_header_is_a_name_only_if_the_rest_fits() {
+    let head = "run,actuator,t_s,p_body_kpa,p_act_kpa,phase,marker,x_mm,y_mm\n";
+    let error = text(&format!("{head}1,epam,1,5,2,0,load,a,88,0\n1,epam,2,5,2,0,load,a,88,0\n")).unwrap_err();
+    assert!(error.message().contains("one cell more"), "{error}");
+}
