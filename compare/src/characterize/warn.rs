@@ -9,6 +9,7 @@ use super::specimen::Specimen;
 /// A specimen that slipped in its grips, and rows that were left out. Rows: strain or displacement, and stress or force.
 pub(super) fn slips(coupon: &Coupon, rows: &[[f64; 2]], warnings: &mut Vec<String>) {
     let who = format!("specimen {} ({}°)", coupon.specimen, coupon.direction.degrees());
+    warnings.extend(coupon.told.iter().map(|told| format!("{who}: {told}")));
     if coupon.jitter > 0 {
         warnings.push(format!(
             "{who}: {} rows in which {} went back a little are left out",

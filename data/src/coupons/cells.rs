@@ -1,6 +1,7 @@
 //! One line of a tensile table, cell by cell.
 
 use super::columns::{CouponHeader, QUANTITIES};
+use crate::cells::with_comma;
 use crate::error::{DataError, Fault};
 use crate::lines::Line;
 
@@ -35,7 +36,8 @@ impl<'a> Cells<'a> {
     pub fn number(&self, quantity: usize) -> Result<Option<f64>, DataError> {
         let Some(column) = self.header.columns[quantity] else { return Ok(None) };
         let text = self.text(quantity);
-        let si = text.parse::<f64>().ok().and_then(|v| column.unit.map(|unit| unit.to_si(v)));
+        let comma = || self.header.comma.then(|| with_comma(text)).flatten();
+        let si = text.parse::<f64>().ok().or_else(comma).and_then(|v| column.unit.map(|unit| unit.to_si(v)));
         match si.filter(|v| v.is_finite()) {
             Some(value) => Ok(Some(value)),
             None => Err(self.not_a_number(quantity, text)),

@@ -59,6 +59,8 @@ pub(super) struct CouponHeader {
     pub names: Vec<String>,
     pub columns: [Option<CouponColumn>; QUANTITIES.len()],
     pub delimiter: char,
+    /// Decimals are written with a comma.
+    pub comma: bool,
 }
 
 /// What the comments above the header say, in SI units.
@@ -146,7 +148,7 @@ fn provenance(value: &str, line: &Line) -> Result<Provenance, DataError> {
     found.ok_or_else(|| DataError::Column(line.fault(format!("unknown provenance \"{value}\""), help)))
 }
 
-fn header(line: &Line, replaced: &[String]) -> Result<CouponHeader, DataError> {
+pub(super) fn header(line: &Line, replaced: &[String]) -> Result<CouponHeader, DataError> {
     let delimiter = [b'\t', b';', b',']
         .into_iter()
         .max_by_key(|&d| line.text.bytes().filter(|&byte| byte == d).count())
@@ -167,7 +169,7 @@ fn header(line: &Line, replaced: &[String]) -> Result<CouponHeader, DataError> {
             return Err(DataError::Column(line.fault(message, help)));
         }
     }
-    let header = CouponHeader { names, columns, delimiter };
+    let header = CouponHeader { names, columns, delimiter, comma: false };
     complete(&header, line)?;
     Ok(header)
 }

@@ -13,11 +13,14 @@
 //! Other units by suffix: `strain_ratio`; kPa, Pa, MPa, psi, bar; mm, cm, m; N, kN, lbf. Everything but the two curves may
 //! instead stand in a comment above the header, `# width_mm: 20`, or come from the caller. `# provenance: digitised` says
 //! how the numbers came to be (measured, digitised, synthetic, published; measured if nothing is said).
-//! Curves start at their first row: strain, stress, displacement and force of that row are taken off.
+//! Curves start at their first row: strain, stress, displacement and force of that row are taken off. Where a specimen hung slack
+//! at first, they start where it is taut.
+//! Exports of tensile machines are read too: rows about the test, names and units in rows, specimens side by side ([`export`]).
 
 mod cells;
 mod columns;
 mod curve;
+mod export;
 #[cfg(test)]
 mod tests;
 
@@ -27,7 +30,12 @@ use std::path::Path;
 
 use crate::about::Provenance;
 use crate::error::{DataError, Fault};
-use crate::lines::Lines;
+use crate::import::sheet::Sheet;
+use crate::lines::{Line, Lines};
+use export::Export;
+
+/// Largest file read.
+const MOST_BYTES: u64 = 256 << 20;
 
 /// Angle of the pull to the warp.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -78,6 +86,8 @@ pub struct Coupon {
     pub provenance: Provenance,
     /// Rows left out because x went back by less than a five-hundredth of its range.
     pub jitter: usize,
+    /// What reading assumed, in words.
+    pub told: Vec<String>,
 }
 
 /// What holds where a file says nothing; a file that says something else is refused.
@@ -174,13 +184,49 @@ pub fn parse_coupons(
     defaults: &CouponDefaults,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Vec<Coupon>, DataError> {
-    let mut lines = Lines::new(file, reader, bytes_total, progress);
-    let (notes, header) = columns::read(&mut lines, defaults)?;
+    let mut bytes = Vec::new();
+    reader.take(MOST_BYTES).read_to_end(&mut bytes).map_err(|cause| {
+        let fault = Fault::of_file(file, format!("cannot read the file: {cause}"), "check the disk and try again");
+        DataError::File(Box::new(fault))
+    })?;
+    if bytes.len() as u64 == MOST_BYTES {
+        let fault = Fault::of_file(
+            file,
+            "the file is larger than any tensile test: 256 MiB",
+            "give fewer rows, or fewer specimens in a file",
+        );
+        return Err(DataError::Layout(Box::new(fault)));
+    }
+    let sheet = std::str::from_utf8(&bytes).ok().map(|text| Sheet::new(file, text)).transpose()?;
+    let comma = sheet.as_ref().is_some_and(|sheet| sheet.comma);
+    let mut own = bytes.as_slice();
+    let mut lines = Lines::new(file, &mut own, bytes_total, progress);
+    let (notes, mut header) = match columns::read(&mut lines, defaults) {
+        Ok(read) => read,
+        Err(refused) => {
+            let export =
+                sheet.as_ref().filter(|_| defaults.columns.is_empty()).map(|sheet| export::read(sheet, defaults));
+            return exported(file, export.transpose()?.flatten().ok_or(refused)?, defaults);
+        }
+    };
+    header.comma = comma;
     let mut found = curve::Specimens::new(file, &header, notes);
     while let Some(line) = lines.next_filled()? {
         if !line.text.trim_start().starts_with('#') {
             found.add(&cells::Cells::new(&header, line)?)?;
         }
     }
-    found.finish(defaults)
+    let told = if comma { vec!["decimals are written with a comma".to_string()] } else { Vec::new() };
+    found.finish(defaults, &told)
+}
+
+/// The specimens of a machine's export.
+fn exported(file: &str, export: Export, defaults: &CouponDefaults) -> Result<Vec<Coupon>, DataError> {
+    let line = |number, text| Line { file, number, start: 0, text, ended: true };
+    let header = columns::header(&line(0, &export.header), &[])?;
+    let mut found = curve::Specimens::new(file, &header, export.notes);
+    for (number, text) in &export.rows {
+        found.add(&cells::Cells::new(&header, line(*number, text))?)?;
+    }
+    found.finish(defaults, &export.told)
 }

@@ -23,7 +23,7 @@ mod motive;
 mod options;
 mod pressure;
 mod recording;
-mod sheet;
+pub(crate) mod sheet;
 mod sleap;
 mod table;
 mod tracker;

@@ -105,7 +105,7 @@ impl Log {
         if outside == places.len() {
             let range = |times: &[f64]| format!("{:.1} to {:.1} s", times[0], times[times.len() - 1]);
             let message = format!(
-                "no frame lies within the pressure log: frames are at {}, the log is at {}",
+                "no frame lies within the pressure log: frames are at {}, its clock {offset_s} s ahead, and the log is at {}",
                 range(&recording.times),
                 range(&self.times_s)
             );

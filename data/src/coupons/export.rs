@@ -1,0 +1,243 @@
+//! What tensile machines export: rows about the test, a row of names, a row of units, several specimens side by side.
+
+use super::CouponDefaults;
+use super::columns::{DISPLACEMENT, FORCE, LENGTH, Notes, QUANTITIES, STRAIN, STRESS, THICKNESS, WIDTH};
+use crate::cells::is_nothing;
+use crate::error::DataError;
+use crate::import::sheet::Sheet;
+use crate::units::Measured;
+use spelling::units::Unit;
+
+/// The rows of an export under this program's names.
+pub(super) struct Export {
+    /// Sizes that the rows about the test give.
+    pub notes: Notes,
+    /// The header line that it would have.
+    pub header: String,
+    /// Line number and text of every row, specimen after specimen.
+    pub rows: Vec<(u64, String)>,
+    /// What was understood, in words.
+    pub told: Vec<String>,
+}
+
+/// Words of machines for what they measure; times are known so that they begin a specimen.
+const WORDS: [(usize, &[&str]); 5] = [
+    (
+        DISPLACEMENT,
+        &[
+            "extension",
+            "displacement",
+            "elongation",
+            "stroke",
+            "crosshead",
+            "standardweg",
+            "weg",
+            "traversenweg",
+            "verlängerung",
+        ],
+    ),
+    (STRAIN, &["strain", "dehnung"]),
+    (FORCE, &["load", "force", "kraft", "standardkraft", "zugkraft"]),
+    (STRESS, &["stress", "spannung"]),
+    (TIME, &["time", "zeit", "prüfzeit"]),
+];
+const TIME: usize = QUANTITIES.len();
+/// Words for the sizes of a specimen.
+const SIZES: [(usize, &[&str]); 3] = [
+    (WIDTH, &["width", "breite", "probenbreite"]),
+    (THICKNESS, &["thickness", "dicke", "probendicke"]),
+    (LENGTH, &["length", "gauge length", "grip separation", "einspannlänge", "messlänge"]),
+];
+/// Rows looked at for the names of columns.
+const LOOKED_AT: usize = 200;
+
+/// A column of one specimen: where it stands and in which unit.
+type Found = [Option<(usize, Option<Unit>)>; TIME + 1];
+
+/// The export in a sheet; `None` if no row names a curve.
+///
+/// # Errors
+/// A unit that is not known or not given, a strain over a force without the length between the grips, a cell that is no number.
+pub(super) fn read(sheet: &Sheet, defaults: &CouponDefaults) -> Result<Option<Export>, DataError> {
+    let lines: Vec<(u64, Vec<&str>)> = sheet.lines().map(|(number, line)| (number, sheet.split(line))).collect();
+    let names = |cells: &Vec<&str>| cells.iter().filter_map(|cell| quantity(cell)).collect::<Vec<_>>();
+    let is_curve = |cells: &Vec<&str>| {
+        let found = names(cells);
+        let has = |any: [usize; 2]| any.iter().any(|q| found.contains(q));
+        has([DISPLACEMENT, STRAIN]) && has([FORCE, STRESS])
+    };
+    let Some(at) = lines.iter().take(LOOKED_AT).position(|(_, cells)| is_curve(cells)) else { return Ok(None) };
+    let mut notes = sizes(sheet, &lines[..at])?;
+    let units = lines
+        .get(at + 1)
+        .filter(|(_, cells)| cells.iter().all(|cell| sheet.number(cell).is_none() || is_nothing(cell)));
+    // A first line of names without any unit is this program's own header with a slip, which its reader explains.
+    if at == 0 && units.is_none() && lines[at].1.iter().all(|cell| parts(cell).1.is_none()) {
+        return Ok(None);
+    }
+    let blocks = blocks(sheet, &lines[at], units.map(|(_, cells)| cells))?;
+    let first_row = at + 1 + usize::from(units.is_some());
+    notes.numbers[LENGTH] = notes.numbers[LENGTH].or(defaults.length_m);
+    let [x, y] = curve(sheet, lines[at].0, &blocks[0], &notes)?;
+    let labels = labels(lines[..at].last().map(|(_, cells)| cells), &blocks);
+    let [x_name, y_name] =
+        [if x == STRAIN && y == FORCE { DISPLACEMENT } else { x }, y].map(|q| QUANTITIES[q].expected);
+    let named = format!("{} of each specimen: {x_name}, {y_name}", lines[at].1.join(", "));
+    let mut told = vec![format!("line {} names the columns: {named}", lines[at].0)];
+    told.extend((blocks.len() > 1).then(|| format!("{} specimens stand side by side", blocks.len())));
+    told.extend(sheet.comma.then(|| "decimals are written with a comma".to_string()));
+    let mut rows = Vec::new();
+    for (block, label) in blocks.iter().zip(&labels) {
+        for (number, cells) in &lines[first_row..] {
+            if let Some([a, b]) = row(sheet, *number, cells, block, [x, y], &notes)? {
+                rows.push((*number, format!("{label},{a:?},{b:?}")));
+            }
+        }
+    }
+    Ok(Some(Export { notes, header: format!("specimen,{x_name},{y_name}"), rows, told }))
+}
+
+/// A name without its unit, and the unit: `Load (kN)`, `Dehnung %`, `"Extension"`.
+fn parts(text: &str) -> (String, Option<String>) {
+    let lower = text.trim().to_lowercase();
+    if let (Some(at), true) = (lower.find(['(', '[']), lower.ends_with([')', ']'])) {
+        return (lower[..at].trim().to_string(), Some(lower[at + 1..lower.len() - 1].trim().to_string()));
+    }
+    let is_unit = |word: &str| (0..TIME).any(|q| unit(q, word).is_some());
+    match lower.rsplit_once(' ').filter(|(_, last)| is_unit(last)) {
+        Some((name, last)) => (name.trim().to_string(), Some(last.to_string())),
+        None => (lower.trim_end_matches(':').to_string(), None),
+    }
+}
+
+fn quantity(text: &str) -> Option<usize> {
+    let (name, _) = parts(text);
+    let words: Vec<&str> = name.split_whitespace().collect();
+    let has = |known: &&[&str]| words.len() <= 3 && words.iter().any(|word| known.contains(word));
+    WORDS.iter().find(|(_, known)| has(known)).map(|(quantity, _)| *quantity)
+}
+
+fn unit(quantity: usize, word: &str) -> Option<Unit> {
+    let word = match word.trim_matches(['(', ')', '[', ']', ' ']) {
+        "%" => "pct",
+        "mm/mm" | "m/m" | "-" => "ratio",
+        word => word,
+    };
+    QUANTITIES.get(quantity)?.dimension?.unit(&word.to_lowercase())
+}
+
+/// Sizes in rows like `Width, 25.00, mm` or `Width (mm), 25`.
+fn sizes(sheet: &Sheet, rows: &[(u64, Vec<&str>)]) -> Result<Notes, DataError> {
+    let mut notes = Notes::default();
+    for (number, cells) in rows {
+        let (name, own) = parts(cells[0]);
+        let Some((size, _)) = SIZES.iter().find(|(_, words)| words.contains(&name.as_str())) else { continue };
+        let Some(value) = cells.get(1).and_then(|cell| sheet.number(cell)).filter(|v| v.is_finite()) else { continue };
+        let word =
+            cells.get(2).map(|cell| cell.to_lowercase()).filter(|cell| !cell.is_empty()).or(own).unwrap_or_default();
+        let unit = unit(*size, &word).ok_or_else(|| no_unit(sheet, *number, &name, &word))?;
+        notes.numbers[*size] = Some(unit.to_si(value));
+    }
+    Ok(notes)
+}
+
+fn no_unit(sheet: &Sheet, number: u64, name: &str, word: &str) -> DataError {
+    let message = if word.is_empty() {
+        format!("{name} has no unit")
+    } else {
+        format!("{name} has the unit {word}, which is not known")
+    };
+    sheet.fault(
+        number,
+        message,
+        format!("write it behind the name, for example {name} (mm); {}", Measured::Length.sentence()),
+    )
+}
+
+/// The columns of every specimen: a new one begins where a quantity comes again.
+fn blocks(
+    sheet: &Sheet,
+    (number, names): &(u64, Vec<&str>),
+    units: Option<&Vec<&str>>,
+) -> Result<Vec<Found>, DataError> {
+    let mut blocks: Vec<Found> = Vec::new();
+    for (index, text) in names.iter().enumerate() {
+        let Some(quantity) = quantity(text) else { continue };
+        if blocks.last().is_none_or(|block| block[quantity].is_some()) {
+            blocks.push(Default::default());
+        }
+        let own = parts(text).1.or_else(|| units.and_then(|row| row.get(index)).map(|cell| cell.to_lowercase()));
+        let found = own.as_deref().and_then(|word| unit(quantity, word));
+        if found.is_none() && quantity != TIME {
+            return Err(no_unit(sheet, *number, text, own.as_deref().unwrap_or_default()));
+        }
+        if let Some(block) = blocks.last_mut() {
+            block[quantity] = Some((index, found));
+        }
+    }
+    Ok(blocks)
+}
+
+/// Displacement and force where the length between the grips is known, else strain and stress, else strain over force.
+fn curve(sheet: &Sheet, number: u64, block: &Found, notes: &Notes) -> Result<[usize; 2], DataError> {
+    let has = |[x, y]: [usize; 2]| block[x].is_some() && block[y].is_some();
+    let sized = notes.numbers[LENGTH].is_some();
+    let whole = [DISPLACEMENT, FORCE];
+    match () {
+        () if has(whole) && (sized || !has([STRAIN, STRESS])) => Ok(whole),
+        () if has([STRAIN, STRESS]) => Ok([STRAIN, STRESS]),
+        () if has([STRAIN, FORCE]) && sized => Ok([STRAIN, FORCE]),
+        () if has([STRAIN, FORCE]) => {
+            let help = "give the free length between the grips: --length 150mm";
+            Err(sheet.fault(
+                number,
+                "the curve is a strain and a force, and the length of the specimen is not known",
+                help,
+            ))
+        }
+        () => Err(sheet.fault(
+            number,
+            "the columns are no displacement with force and no strain with stress",
+            "export one of these pairs",
+        )),
+    }
+}
+
+/// Labels above the names, where each stands alone above its specimen; else numbers.
+fn labels(above: Option<&Vec<&str>>, blocks: &[Found]) -> Vec<String> {
+    let begin = |block: &Found| block.iter().flatten().map(|(index, _)| *index).min().unwrap_or(0);
+    let label = |block: &Found| {
+        above.and_then(|row| row.get(begin(block))).map(|cell| cell.replace(',', " ")).filter(|cell| !cell.is_empty())
+    };
+    let found: Vec<Option<String>> = blocks.iter().map(label).collect();
+    let all = blocks.len() > 1 && found.iter().all(Option::is_some);
+    let number = |k: usize| if blocks.len() > 1 { (k + 1).to_string() } else { "1".to_string() };
+    found.into_iter().enumerate().map(|(k, label)| label.filter(|_| all).unwrap_or_else(|| number(k))).collect()
+}
+
+/// A row of a specimen in the units of the header; `None` where this specimen has ended.
+fn row(
+    sheet: &Sheet,
+    number: u64,
+    cells: &[&str],
+    block: &Found,
+    [x, y]: [usize; 2],
+    notes: &Notes,
+) -> Result<Option<[f64; 2]>, DataError> {
+    let cell = |quantity: usize| block[quantity].and_then(|(index, _)| cells.get(index)).copied().unwrap_or_default();
+    if [x, y].iter().all(|quantity| is_nothing(cell(*quantity))) {
+        return Ok(None);
+    }
+    let si = |quantity: usize| -> Result<f64, DataError> {
+        let value = sheet.expect(cell(quantity), number, QUANTITIES[quantity].base)?;
+        Ok(block[quantity].and_then(|(_, unit)| unit).map_or(value, |unit| unit.to_si(value)))
+    };
+    let (a, b) = (si(x)?, si(y)?);
+    let length_m = notes.numbers[LENGTH].filter(|_| x == STRAIN && y == FORCE);
+    let first = match (x, length_m) {
+        (_, Some(length_m)) => a * length_m * 1e3,
+        (STRAIN, None) => a * 1e2,
+        _ => a * 1e3,
+    };
+    Ok(Some([first, if y == STRESS { b * 1e-6 } else { b }]))
+}

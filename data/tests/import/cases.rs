@@ -1,0 +1,80 @@
+//! Files as people have them.
+
+use super::{equals_reference, known, pixels, read, refused, told};
+use data::import::{Options, Scale};
+
+#[test]
+fn deeplabcut_is_scaled_placed_joined_and_its_wild_points_are_lost() {
+    let files = ["cases/c01-deeplabcut/run1.csv", "cases/c01-deeplabcut/run2.csv", "cases/c01-deeplabcut/run3.csv"];
+    let made = read(&files, &pixels("cases/c01-deeplabcut/pressure.csv"));
+    let lost = equals_reference(&made, 3, 0.0);
+    assert_eq!(lost, ["1", "2", "3"].map(|run| (run.to_string(), "6.0000".to_string(), "b".to_string())));
+    told(&made, &["written by DeepLabCut", "3.1 px", "3 positions are below the limit", "towards the actuator its -y"]);
+    assert_eq!((made.dataset.runs.len(), made.dataset.holds.len(), made.about.markers.len()), (3, 5, 3));
+    assert_eq!(made.program, "DeepLabCut");
+    let files = &files[..1];
+    refused(
+        files,
+        &Options { frames_per_s: None, ..pixels("cases/c01-deeplabcut/pressure.csv") },
+        &["run1.csv", "frames", "--fps 30"],
+    );
+    refused(files, &Options { base: None, ..pixels("cases/c01-deeplabcut/pressure.csv") }, &["base", "--base X,Y"]);
+    refused(
+        files,
+        &Options { scale: Scale::OfFile, ..pixels("cases/c01-deeplabcut/pressure.csv") },
+        &["scale", "--scale 3.1px/mm"],
+    );
+    refused(
+        files,
+        &Options { pressure_logs: Vec::new(), ..pixels("cases/c01-deeplabcut/pressure.csv") },
+        &["pressure", "--pressure"],
+    );
+    refused(
+        files,
+        &Options { actuator: None, ..pixels("cases/c01-deeplabcut/pressure.csv") },
+        &["actuator", "--actuator"],
+    );
+}
+
+#[test]
+fn motive_gives_its_unit_and_its_plane_is_found() {
+    let files = ["cases/c02-motive/vine_1.csv", "cases/c02-motive/vine_2.csv", "cases/c02-motive/vine_3.csv"];
+    let made = read(&files, &known("cases/c02-motive/pressure.csv"));
+    let lost = equals_reference(&made, 3, 6e-4);
+    assert_eq!(lost, ["1", "2", "3"].map(|run| (run.to_string(), "8.0000".to_string(), "b".to_string())));
+    told(&made, &["Motive", "lengths are in m", "towards the actuator its -z", "3 positions are blank"]);
+}
+
+#[test]
+fn both_kinds_of_kinovea_are_read() {
+    let table = read(&["cases/c04-kinovea/run1_kinematics.csv"], &known("cases/c01-deeplabcut/pressure.csv"));
+    assert!(equals_reference(&table, 1, 6e-3).is_empty());
+    told(&table, &["Kinovea, kinematics", "lengths are in cm"]);
+    let options =
+        Options { markers: ["a", "b", "c"].map(String::from).to_vec(), ..pixels("cases/c01-deeplabcut/pressure.csv") };
+    let text = read(&["cases/c04-kinovea/run1_trajectories.txt"], &options);
+    assert!(equals_reference(&text, 1, 2e-3).is_empty());
+    told(&text, &["Kinovea, trajectories", "numbered from the base outwards"]);
+}
+
+#[test]
+fn a_wide_table_needs_nothing_else() {
+    let made = read(&["cases/c07-table-dialects/wide.csv"], &Options::default());
+    assert!(equals_reference(&made, 3, 0.0).is_empty());
+    told(&made, &["a wide table", "lengths are in mm"]);
+}
+
+#[test]
+fn this_program_s_own_table_and_any_long_table_are_read() {
+    let made = read(&["cases/reference_markers.csv"], &Options::default());
+    assert!(equals_reference(&made, 3, 0.0).is_empty());
+    told(&made, &["a long table"]);
+}
+
+#[test]
+fn a_ramp_is_binned() {
+    refused(&["cases/c10-ramp/markers.csv"], &Options::default(), &["--bin 2kPa"]);
+    let made = read(&["cases/c10-ramp/markers.csv"], &Options { bin_pa: Some(2e3), ..Options::default() });
+    assert_eq!(made.dataset.runs.len(), 3);
+    told(&made, &["steps of 2 kPa"]);
+}

@@ -1,0 +1,102 @@
+//! Pressure logs beside a camera: another clock, frames outside the log, a sensor of absolute pressure.
+
+use super::{refused_paths, told};
+use data::import::{Imported, Offset, Options, import};
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+/// The log's time minus the camera's \[s\].
+const AHEAD_S: f64 = 3.4;
+
+/// Pressure over the camera's time: 0, 10, 20, 30, 0 kPa, each for 4 s after a ramp of 1 s.
+fn pressure_kpa(t: f64) -> f64 {
+    let steps: [f64; 5] = [0.0, 10.0, 20.0, 30.0, 0.0];
+    let k = ((t / 5.0).max(0.0) as usize).min(4);
+    let before = if k == 0 { 0.0 } else { steps[k - 1] };
+    before + (steps[k] - before) * (t - 5.0 * k as f64).clamp(0.0, 1.0)
+}
+
+/// A recording of 25 s at 20 frames per second in millimetres, and its log at 50 readings per second, `ahead_s` ahead.
+fn files(folder: &tempfile::TempDir, ahead_s: f64, add_kpa: f64) -> [PathBuf; 2] {
+    let mut tracks = String::from("time_s,x_a_mm,y_a_mm,x_b_mm,y_b_mm\n");
+    for frame in 0..500 {
+        let t = 0.05 * f64::from(frame);
+        let p = pressure_kpa(t);
+        let _ = writeln!(tracks, "{t:.2},{:.3},{:.3},{:.3},{:.3}", 150.0 - 0.2 * p, p, 300.0 - 0.7 * p, 3.5 * p);
+    }
+    let mut log = String::from("time_s,p_act_kpa,p_body_kpa\n");
+    for reading in 0..1500 {
+        let t = 0.02 * f64::from(reading);
+        let p = pressure_kpa(t - ahead_s) + 0.02 * (5.0 * t).sin();
+        let _ = writeln!(log, "{t:.2},{:.4},{:.4}", p + add_kpa, 2.0 + add_kpa);
+    }
+    let paths = ["tracks.csv", "log.csv"].map(|name| folder.path().join(name));
+    std::fs::write(&paths[0], tracks).unwrap();
+    std::fs::write(&paths[1], log).unwrap();
+    paths
+}
+
+fn options(log: &std::path::Path) -> Options {
+    Options { pressure_logs: vec![log.to_path_buf()], actuator: Some("epam".into()), ..Options::default() }
+}
+
+fn is_right(made: &Imported) {
+    let holds: Vec<f64> = made.dataset.holds.iter().map(|hold| (hold.p_act_pa / 1e3).round()).collect();
+    assert_eq!(holds, [0.0, 10.0, 20.0, 30.0, 0.0], "{:?}", made.told);
+    for hold in 0..5 {
+        let (p, n) = (pressure_kpa(5.0 * hold as f64 + 3.0), made.dataset.samples_per_hold);
+        for sample in 0..n {
+            let [x, y] = made.dataset.xy(0, hold, sample, 1);
+            assert!((y - 3.5e-3 * p).abs() < 2e-4 && (x - 0.3 + 0.7e-3 * p).abs() < 2e-4, "hold {hold}: {x} {y}");
+        }
+    }
+}
+
+#[test]
+fn a_log_of_another_clock_is_noticed_and_its_offset_found_or_given() {
+    let folder = tempfile::tempdir().unwrap();
+    let [tracks, log] = files(&folder, AHEAD_S, 0.0);
+    let files = [tracks];
+    refused_paths(&files, &options(&log), &["correlate by", "3.4", "--clock-offset find", "--clock-offset 0s"]);
+    let found = import(&files, &Options { offset: Offset::Find, ..options(&log) }, &mut |_, _| ()).unwrap();
+    is_right(&found);
+    told(&found, &["ahead of the camera's: movement and pressure then correlate"]);
+    let given = import(&files, &Options { offset: Offset::Given(AHEAD_S), ..options(&log) }, &mut |_, _| ()).unwrap();
+    is_right(&given);
+}
+
+#[test]
+fn one_clock_needs_nothing_and_pictures_have_the_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    let [tracks, log] = files(&folder, 0.0, 0.0);
+    let made = import(&[tracks], &options(&log), &mut |_, _| ()).unwrap();
+    is_right(&made);
+    let track = &made.tracks[0];
+    assert_eq!((track.lines.len(), track.lines[0].1.len(), track.holds.len()), (2, 500, 5));
+    assert!((track.holds[1][0] - 6.0).abs() < 0.1 && (track.holds[1][1] - 10.0).abs() < 0.1, "{:?}", track.holds);
+}
+
+#[test]
+fn absolute_pressure_is_refused_until_the_room_s_is_given() {
+    let folder = tempfile::tempdir().unwrap();
+    let [tracks, log] = files(&folder, 0.0, 101.3);
+    refused_paths(&[tracks.clone()], &options(&log), &["absolute", "--room 101.3kPa"]);
+    is_right(&import(&[tracks], &Options { room_pa: Some(101.3e3), ..options(&log) }, &mut |_, _| ()).unwrap());
+}
+
+#[test]
+fn a_log_that_ends_early_leaves_frames_out_and_one_of_another_day_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let [tracks, log] = files(&folder, 0.0, 0.0);
+    let text = std::fs::read_to_string(&log).unwrap();
+    let early: String = text.lines().take(1 + 18 * 50).map(|line| format!("{line}\n")).collect();
+    std::fs::write(&log, early).unwrap();
+    let made = import(&[tracks.clone()], &options(&log), &mut |_, _| ()).unwrap();
+    assert_eq!(made.dataset.holds.len(), 4);
+    told(&made, &["frames lie outside the pressure log"]);
+    refused_paths(
+        &[tracks.clone()],
+        &Options { offset: Offset::Given(5000.0), ..options(&log) },
+        &["no frame lies within", "5000"],
+    );
+}
