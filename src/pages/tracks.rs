@@ -44,7 +44,7 @@ const MOST_KEYS: usize = 12;
 /// The holds in words: their pressures in the order of time.
 fn holds(track: &Track) -> String {
     const MOST: usize = 10;
-    let shown: Vec<String> = track.holds.iter().take(MOST).map(|hold| format!("{:.0}", hold[2] * 1e-3)).collect();
+    let shown: Vec<String> = track.holds.iter().take(MOST).map(|hold| report::number(hold[2] * 1e-3, 0)).collect();
     let more = if track.holds.len() > MOST { ", …" } else { "" };
     format!("holds at {}{more} kPa", shown.join(", "))
 }

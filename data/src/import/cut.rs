@@ -1,5 +1,6 @@
 //! Runs cut into holds or bins, cleaned, and held against each other.
 
+use super::counted;
 use super::holds::{Kept, Run, bins, clean, plateaus};
 use super::options::Options;
 use super::recording::Recording;
@@ -68,10 +69,13 @@ fn held(file: &str, runs: Vec<Run>, options: &Options, told: &mut Vec<String>) -
         frames - used
     ));
     if taken[0] > 0 {
-        told.push(format!("{} frames at the start of holds are left out: the robot was still moving", taken[0]));
+        told.push(format!(
+            "left out: {} at the start of holds, in which the robot still moves",
+            counted(taken[0], "frame")
+        ));
     }
     if taken[1] > 0 {
-        told.push(format!("lost markers: {} positions lie far from the others of their hold", taken[1]));
+        told.push(format!("lost markers: {} far from the others of their hold", counted(taken[1], "position")));
     }
     Ok(cut)
 }
@@ -85,13 +89,16 @@ fn length_m(run: &Run) -> f64 {
     distances.fold(0.0, f64::max)
 }
 
-/// Without bins at the ends of a branch that hold few frames, so that their mean is too near to the next bin's to be told apart.
+/// Without bins at the ends of a branch that the pressure only touches, so that their mean is too near to the next bin's to be
+/// told apart.
 fn apart(bins: Vec<(usize, i64, Kept)>) -> Vec<(usize, i64, Kept)> {
-    let crowded = |(branch, k, kept): &(usize, i64, Kept)| {
-        bins.iter().any(|(other, j, next)| {
-            let near = (kept.act_pa - next.act_pa).abs() < 1.1 * tolerance_act_pa(kept.act_pa.max(next.act_pa));
-            other == branch && j.abs_diff(*k) == 1 && near && next.frames.len() >= kept.frames.len()
-        })
+    let of =
+        |branch: usize, k: i64| bins.iter().find(|(b, j, _)| (*b, *j) == (branch, k)).map(|(.., kept)| kept.act_pa);
+    let crowded = |(branch, k, kept): &(usize, i64, Kept)| match (of(*branch, k - 1), of(*branch, k + 1)) {
+        (Some(next), None) | (None, Some(next)) => {
+            (kept.act_pa - next).abs() < 1.1 * tolerance_act_pa(kept.act_pa.max(next))
+        }
+        _ => false,
     };
     let crowded: Vec<bool> = bins.iter().map(crowded).collect();
     bins.into_iter().zip(crowded).filter(|(_, crowded)| !crowded).map(|(bin, _)| bin).collect()

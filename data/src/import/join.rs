@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::counted;
 use super::formats;
 use super::options::Options;
 use super::pressure::Log;
@@ -77,14 +78,9 @@ pub(crate) fn recordings(
         }
     }
     let program = program.unwrap_or_default();
-    told.insert(
-        0,
-        format!(
-            "written by {program}: {} runs, {} frames",
-            runs.len(),
-            runs.iter().map(|(_, r)| r.times.len()).sum::<usize>()
-        ),
-    );
+    let frames: usize = runs.iter().map(|(_, run)| run.times.len()).sum();
+    let counts = [counted(runs.len() as u64, "run"), counted(frames as u64, "frame")];
+    told.insert(0, format!("written by {program}: {}", counts.join(", ")));
     Ok((program, runs))
 }
 

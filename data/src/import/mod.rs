@@ -30,7 +30,7 @@ mod tracker;
 mod trackmate;
 mod wide;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::about::{About, parse_about};
 use crate::dataset::Dataset;
@@ -140,7 +140,11 @@ impl Made<'_> {
             ));
         }
         let markers_csv = table::markers_csv(cut, markers, actuator, options.bin_pa.is_some());
-        let about_toml = table::about_toml(program, files, &stations, actuator, &told);
+        let name = |file: &String| {
+            Path::new(file).file_name().map_or(file.clone(), |name| name.to_string_lossy().into_owned())
+        };
+        let names: Vec<String> = files.iter().map(name).collect();
+        let about_toml = table::about_toml(program, &names, &stations, actuator, &told);
         let about = parse_about("about.toml as imported", &about_toml)?;
         let read = ReadOptions { about: Some(&about), ..ReadOptions::default() };
         let dataset = parse_markers("markers.csv as imported", &mut markers_csv.as_bytes(), read, &mut |_, _| ())?;
@@ -169,16 +173,14 @@ fn losses(runs: &[Recording]) -> Vec<String> {
         unlikely: sum.unlikely + run.dropped.unlikely,
         zero: sum.zero + run.dropped.zero,
     });
-    let words = [
-        (all.blank, "are blank"),
-        (all.unlikely, "are below the limit of likelihood"),
-        (all.zero, "are written as 0, 0"),
-    ];
-    words
-        .iter()
-        .filter(|(count, _)| *count > 0)
-        .map(|(count, what)| format!("lost markers: {count} positions {what}"))
-        .collect()
+    let kinds = [(all.blank, "blank"), (all.unlikely, "below the limit of likelihood"), (all.zero, "written as 0, 0")];
+    let lost = |(count, what): &(u64, &str)| format!("lost markers: {} {what}", counted(*count, "position"));
+    kinds.iter().filter(|(count, _)| *count > 0).map(lost).collect()
+}
+
+/// `1 run`, `3 runs`.
+pub(crate) fn counted(count: u64, word: &str) -> String {
+    format!("{count} {word}{}", if count == 1 { "" } else { "s" })
 }
 
 /// Frames at the lowest and at the highest pressure.

@@ -1,6 +1,7 @@
 //! Motive (OptiTrack): a line of settings, then rows Type, Name, ID, Position, axes, and a row for every frame.
 
 use super::columns::lengths;
+use super::counted;
 use super::formats::Format;
 use super::options::Options;
 use super::recording::{Clock, Lengths, Pivot, Recording};
@@ -84,10 +85,10 @@ fn columns(head: &Head, axes: &[&str], pivot: &mut Pivot) -> Vec<(usize, [usize;
     let found: Vec<usize> = (2..axes.len()).filter(is_marker).collect();
     let unnamed = found.iter().filter(|index| !named(&cell(&head.names, **index))).count() / 3;
     if unnamed > 0 {
-        pivot
-            .recording
-            .told
-            .push(format!("{unnamed} unlabeled markers are left out: name them in Motive to have them"));
+        pivot.recording.told.push(format!(
+            "left out: {}; name them in Motive to have them",
+            counted(unnamed as u64, "unlabeled marker")
+        ));
     }
     let assets = |name: &str| name.split_once(':').map(|(asset, _)| asset.to_string());
     let names: Vec<String> = found.iter().map(|index| cell(&head.names, *index)).filter(|name| named(name)).collect();

@@ -1,6 +1,7 @@
 //! Pressure logs: read, and joined to frames by time (as-of: the last reading counts until the next).
 
 use super::columns::Roles;
+use super::counted;
 use super::options::{Offset, Options};
 use super::recording::Recording;
 use super::sheet::Sheet;
@@ -112,7 +113,7 @@ impl Log {
             return Err(self.fault(message, "give --clock-offset: the log's time minus the camera's, or find"));
         }
         if outside > 0 {
-            told.push(format!("{outside} frames lie outside the pressure log and are left out"));
+            told.push(format!("left out: {} outside the pressure log", counted(outside as u64, "frame")));
         }
         for (which, values) in self.values_pa.iter().enumerate() {
             let Some(values) = values else { continue };

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::columns::{Name, is_frame, lengths, si};
+use super::counted;
 use super::formats::Format;
 use super::options::Options;
 use super::recording::{Clock, Lengths, Pivot, Recording};
@@ -62,7 +63,7 @@ fn spots(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError>
 
 fn told(mut pivot: Pivot, single: usize) -> Recording {
     if single > 0 {
-        pivot.recording.told.push(format!("{single} spots belong to no track and are left out"));
+        pivot.recording.told.push(format!("left out: {} of no track", counted(single as u64, "spot")));
     }
     pivot.recording.named = false;
     pivot.finish()

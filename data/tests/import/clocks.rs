@@ -93,7 +93,7 @@ fn a_log_that_ends_early_leaves_frames_out_and_one_of_another_day_is_refused() {
     std::fs::write(&log, early).unwrap();
     let made = import(&[tracks.clone()], &options(&log), &mut |_, _| ()).unwrap();
     assert_eq!(made.dataset.holds.len(), 4);
-    told(&made, &["frames lie outside the pressure log"]);
+    told(&made, &["outside the pressure log"]);
     refused_paths(
         &[tracks.clone()],
         &Options { offset: Offset::Given(5000.0), ..options(&log) },

@@ -36,7 +36,7 @@ fn deeplabcut_with_several_animals() {
 fn sleap() {
     let made = read(&["made/sleap.csv"], &pixels(LOG));
     equals(&made, "2", &["a", "b", "c"], 2, 0.0);
-    told(&made, &["written by SLEAP", "1 positions are blank", "1 positions are below the limit"]);
+    told(&made, &["written by SLEAP", "1 position blank", "1 position below the limit"]);
 }
 
 /// A newer version: millimetres, a rigid body beside the markers, along z, y up.
@@ -48,7 +48,12 @@ fn motive_with_rigid_bodies() {
     assert_eq!(found.len(), 45, "the body's own marker is one more");
     told(
         &made,
-        &["Motive", "lengths are in mm", "along the robot is the file's z, towards the actuator its y", "1 unlabeled"],
+        &[
+            "Motive",
+            "lengths are in mm",
+            "along the robot is the file's z, towards the actuator its y",
+            "1 unlabeled marker",
+        ],
     );
     let base = Some(Place::Marker("clamp:Marker1".into()));
     equals(&read(&["made/motive_mm.csv"], &Options { base, ..known(LOG) }), "3", &["a", "b"], 0, 0.0);
@@ -80,16 +85,13 @@ fn trackmate_spots_tracks_and_model() {
     let base = Some(Place::At(vec![50_000.0, 400_000.0]));
     let made = read(&["made/trackmate_spots.csv"], &Options { markers: names.clone(), base, ..known(LOG) });
     equals(&made, "3", &["a", "b", "c"], 0, 1e-4);
-    told(
-        &made,
-        &["TrackMate, spots", "lengths are in µm", "1 spots belong to no track", "numbered from the base outwards"],
-    );
+    told(&made, &["TrackMate, spots", "lengths are in µm", "1 spot of no track", "numbered from the base outwards"]);
     let made = read(&["made/trackmate_tracks.xml"], &Options { markers: names.clone(), ..pixels(LOG) });
     equals(&made, "1", &["a", "b", "c"], 0, 1e-4);
     let base = Some(Place::At(vec![0.0, 300.0]));
     let made = read(&["made/trackmate_model.xml"], &Options { markers: names, base, ..known(LOG) });
     equals(&made, "1", &["a", "b", "c"], 0, 0.0);
-    told(&made, &["TrackMate, XML", "1 spots belong to no track"]);
+    told(&made, &["TrackMate, XML", "1 spot of no track"]);
 }
 
 #[test]
