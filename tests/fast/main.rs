@@ -18,6 +18,7 @@ mod data_errors;
 mod diagnose;
 mod generate;
 mod held;
+mod import;
 mod json;
 mod json_schema;
 mod output;
