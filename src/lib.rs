@@ -21,6 +21,7 @@
 //! | [`models`] | reduced-order virtual-work model: a list of physical effects; microseconds; no files, no printing |
 //! | [`fem`] | explicit finite element engine for thin fabric: meshes, shells, contact, robots, cases |
 //! | [`data`] | measurements as plain structs: marker tables, bench tests, descriptions |
+//! | [`import`] | files of tracking programs and pressure logs become marker tables |
 //! | [`study`] | the only crate that knows both sides: accuracy, noise, diagnosis, extension |
 //! | [`report`] | charts and pages of plain structs; [`pages`] makes them of results |
 //! | [`studies`] | robots in finite elements that come with the library by name |

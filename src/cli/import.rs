@@ -7,7 +7,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 pub struct Import {
     /// Files of a tracking program, one per run: DeepLabCut, SLEAP, Motive, Tracker, Kinovea, TrackMate, wide or long tables
-    #[arg(required = true)]
+    #[arg(required_unless_present = "example")]
     pub files: Vec<PathBuf>,
     /// Folder for markers.csv, about.toml and a picture of the tracks; left out: only say what was understood
     #[arg(long)]
@@ -81,4 +81,7 @@ pub struct Import {
     /// Replace existing files
     #[arg(long)]
     pub force: bool,
+    /// Instead, write a made-up recording of DeepLabCut and its pressure log into this folder
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["files", "out"])]
+    pub example: Option<PathBuf>,
 }

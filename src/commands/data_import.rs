@@ -11,8 +11,20 @@ use ibr::pages::{Files, tracks_plot};
 use models::scenario::quantity::Quantity;
 use serde_json::json;
 use spelling::units::{Dimension, units_of};
+use std::path::Path;
+
+/// Three runs of an ePAM with sealed edges as DeepLabCut writes them, and the log of their pressures.
+const EXAMPLE: [(&str, &str); 4] = [
+    ("run1.csv", include_str!("../../data/tests/cases/c01-deeplabcut/run1.csv")),
+    ("run2.csv", include_str!("../../data/tests/cases/c01-deeplabcut/run2.csv")),
+    ("run3.csv", include_str!("../../data/tests/cases/c01-deeplabcut/run3.csv")),
+    ("pressure.csv", include_str!("../../data/tests/cases/c01-deeplabcut/pressure.csv")),
+];
 
 pub fn run(args: &Import, context: &mut Context) -> Result<Outcome, Failure> {
+    if let Some(folder) = &args.example {
+        return make_example(folder, context);
+    }
     let options = options(args)?;
     if let Some(folder) = &args.out {
         check_folder(folder)?;
@@ -33,6 +45,24 @@ pub fn run(args: &Import, context: &mut Context) -> Result<Outcome, Failure> {
         None => text.push_str("\nNothing was written: add --out FOLDER\n"),
     }
     Ok(Outcome::new(text, to_json(&made, args)))
+}
+
+fn make_example(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
+    check_folder(folder)?;
+    if let Some((name, _)) = EXAMPLE.iter().find(|(name, _)| folder.join(name).exists()) {
+        let message = format!("{} exists", folder.join(name).display());
+        return Err(Failure::usage(message, "give another folder to --example"));
+    }
+    let mut files = Files::default();
+    EXAMPLE.iter().for_each(|(name, text)| files.text(name, (*text).to_string()));
+    write_files(folder, &files, &[], context)?;
+    let shown = folder.display();
+    let text = format!(
+        "Three runs of DeepLabCut at 30 frames per second and 3.1 px to a millimetre, the base at pixel 212, 540\n\
+         ibr data import {shown}/run*.csv --pressure {shown}/pressure.csv --fps 30 --scale 3.1px/mm --base 212,540 --actuator epam\n"
+    );
+    let names: Vec<String> = EXAMPLE.iter().map(|(name, _)| folder.join(name).display().to_string()).collect();
+    Ok(Outcome::new(text, json!({"schema": "ibr.data.import.example", "version": 1, "files": names})))
 }
 
 /// Runs with a picture.

@@ -22,12 +22,16 @@ fn from_deeplabcut_to_the_named_effect() {
     assert!(ran.code == 0 && ran.stdout.contains("written by DeepLabCut: 3 runs, 45 frames"), "{}", ran.stderr);
     let mut names = assert_hashes(&folder.path("mine"));
     names.sort();
-    let pictures = (1..=3).flat_map(|k| ["png", "svg"].map(|e| if k == 1 { format!("tracks.{e}") } else { format!("tracks-{k}.{e}") }));
+    let pictures = (1..=3)
+        .flat_map(|k| ["png", "svg"].map(|e| if k == 1 { format!("tracks.{e}") } else { format!("tracks-{k}.{e}") }));
     let mut expected: Vec<String> = pictures.chain(["about.toml", "markers.csv"].map(String::from)).collect();
     expected.sort();
     assert_eq!(names, expected);
     let about = std::fs::read_to_string(folder.path("mine/about.toml")).unwrap();
-    assert!(about.contains("# QUESTION: how large is the robot?") && about.contains("s_mm = [90.0, 210.0, 330.0]"), "{about}");
+    assert!(
+        about.contains("# QUESTION: how large is the robot?") && about.contains("s_mm = [90.0, 210.0, 330.0]"),
+        "{about}"
+    );
     let checked = folder.run(&["data", "check", "mine"]);
     assert!(checked.stdout.contains("3 rows have no position"), "{}{}", checked.stdout, checked.stderr);
     let diagnosis = folder.run(&["diagnose", "epam-textbook", "mine", "--json"]).json("ibr.diagnose");
@@ -45,7 +49,17 @@ fn a_ramp_is_sent_to_the_import() {
     let folder = Folder::new();
     let refused = folder.run(&["compare", "epam-textbook", &case("c10-ramp")]);
     assert!(refused.code == 3 && refused.stderr.contains("looks like a ramp") && refused.stderr.contains("--bin 2kPa"));
-    let args = ["data", "import", &case("c10-ramp/markers.csv"), "--bin", "2kPa", "--stations", "a=90mm,c=330mm", "--out", "r"];
+    let args = [
+        "data",
+        "import",
+        &case("c10-ramp/markers.csv"),
+        "--bin",
+        "2kPa",
+        "--stations",
+        "a=90mm,c=330mm",
+        "--out",
+        "r",
+    ];
     let ran = folder.run(&args);
     assert!(ran.code == 0, "{}", ran.stderr);
     let diagnosis = folder.run(&["diagnose", "epam-textbook", "r", "--json"]).json("ibr.diagnose");
@@ -75,6 +89,20 @@ fn slips_of_the_command_line_say_what_to_write() {
         let ran = folder.run(&["data", "import", &file, option, value]);
         assert!(ran.code == 2 && ran.stderr.contains(help), "{option} {value}: {}", ran.stderr);
     }
-    let other = folder.run(&["data", "import", &file, "--stations", "d=90mm", "--pressure", &case("c02-motive/pressure.csv"), "--actuator", "epam"]);
-    assert!(other.code == 3 && other.stderr.contains("d, which is no marker") && other.stderr.contains("a, b, c"), "{}", other.stderr);
+    let other = folder.run(&[
+        "data",
+        "import",
+        &file,
+        "--stations",
+        "d=90mm",
+        "--pressure",
+        &case("c02-motive/pressure.csv"),
+        "--actuator",
+        "epam",
+    ]);
+    assert!(
+        other.code == 3 && other.stderr.contains("d, which is no marker") && other.stderr.contains("a, b, c"),
+        "{}",
+        other.stderr
+    );
 }

@@ -26,7 +26,7 @@ const RARE: [&str; 14] = [
 ];
 
 /// What runs, in this order in one folder, and the schema of its answer.
-const COMMANDS: [(&str, &str); 35] = [
+const COMMANDS: [(&str, &str); 36] = [
     ("predict epam-textbook --pressure 30kPa", "ibr.predict"),
     ("predict epam --pressure 300kPa", "ibr.predict"),
     ("predict epam --limits --effect tip_load:force_y_n=1", "ibr.predict.limits"),
@@ -48,6 +48,7 @@ const COMMANDS: [(&str, &str); 35] = [
     ("data check synthetic-epam", "ibr.data.check"),
     ("data check festo-bolen-2026", "ibr.data.check"),
     ("data generate epam --out made", "ibr.data.generate"),
+    ("data import --example camera", "ibr.data.import.example"),
     ("data import made/markers.csv --out imported", "ibr.data.import"),
     ("data fem epam --stored --seeds 1 --out seen", "ibr.data.fem"),
     ("characterize --example tests", "ibr.characterize.example"),

@@ -27,6 +27,43 @@ fn a_table_of_200_megabytes_is_checked_and_compared_in_bounded_memory() {
     }
 }
 
+/// Frames of an hour at 60 per second, and markers.
+const HOUR: (usize, usize) = (216_000, 12);
+/// Most memory \[kB\] and time \[s\] for it.
+const MOST_FOR_AN_HOUR: (u64, f64) = (500_000, 10.0);
+
+#[test]
+fn an_hour_of_video_is_imported_in_seconds() {
+    let _alone = alone();
+    let folder = Folder::new();
+    let pressure = |t: f64| [0.0, 10.0, 20.0, 30.0][(t / 60.0) as usize % 4];
+    let mut file = std::io::BufWriter::new(std::fs::File::create(folder.path("hour.csv")).unwrap());
+    let names: Vec<String> = (1..=HOUR.1).map(|m| format!("m{m}")).collect();
+    let row = |first: &str, cell: &dyn Fn(usize) -> String| {
+        (0..HOUR.1).fold(first.to_string(), |row, m| row + "," + &cell(m)) + "\n"
+    };
+    file.write_all(row("scorer", &|_| "net,net,net".into()).as_bytes()).unwrap();
+    file.write_all(row("bodyparts", &|m| [names[m].as_str(); 3].join(",")).as_bytes()).unwrap();
+    file.write_all(row("coords", &|_| "x,y,likelihood".into()).as_bytes()).unwrap();
+    for frame in 0..HOUR.0 {
+        let p = pressure(frame as f64 / 60.0);
+        let place = |m: usize| {
+            let (s, noise) = (30.0 * (m + 1) as f64, ((frame * 31 + m * 7) % 101) as f64 * 0.01);
+            format!("{:.5},{:.5},0.98", 212.0 + 3.1 * s - 0.02 * p + noise, 540.0 - p * s * s / 4000.0 + noise)
+        };
+        file.write_all(row(&frame.to_string(), &place).as_bytes()).unwrap();
+    }
+    file.flush().unwrap();
+    let mut log = String::from("time_s,p_act_kpa,p_body_kpa\n");
+    (0..36_000).map(|k| 0.1 * f64::from(k)).for_each(|t| writeln!(log, "{t:.1},{:.3},2.0", pressure(t)).unwrap());
+    folder.write("log.csv", log);
+    let options = "--pressure log.csv --scale 3.1px/mm --base 212,540 --fps 60 --actuator epam --out made";
+    let args: Vec<&str> = ["data", "import", "hour.csv"].into_iter().chain(options.split(' ')).collect();
+    let (most_kb, time_s) = measure(&folder, &args);
+    println!("an hour of video: {most_kb} kB, {time_s:.1} s");
+    assert!(most_kb <= MOST_FOR_AN_HOUR.0 && time_s <= MOST_FOR_AN_HOUR.1, "{most_kb} kB, {time_s:.1} s");
+}
+
 /// Five runs of the paper's protocol, sampled as fast as makes the file this large; positions of the embedded set.
 fn write_table(folder: &Folder, name: &str, bytes: u64) {
     let table = data::set_file("synthetic-epam", "markers.csv").unwrap();

@@ -158,13 +158,19 @@ impl Roles {
     /// A column that the caller named and that is not there, two of one kind, a pressure without unit.
     pub fn of(sheet: &Sheet, line: u64, header: &[&str], options: &Options) -> Result<Roles, DataError> {
         let mut roles = Roles::default();
+        // A quantity that was given a column of this table has no other.
+        let is_named = |quantity: &&str| {
+            let column = options.column(quantity);
+            column.is_some_and(|column| header.iter().any(|name| name.eq_ignore_ascii_case(column)))
+        };
         for (index, text) in header.iter().enumerate() {
             let said =
                 options.columns.iter().find(|(_, column)| column.eq_ignore_ascii_case(text)).map(|(q, _)| q.as_str());
             let name = Name::of(text);
-            let Some(quantity) =
-                said.map_or_else(|| meaning(&name, options), |said| QUANTITIES.into_iter().find(|q| *q == said))
-            else {
+            let Some(quantity) = said.map_or_else(
+                || meaning(&name).filter(|quantity| !is_named(quantity)),
+                |said| QUANTITIES.into_iter().find(|q| *q == said),
+            ) else {
                 continue;
             };
             roles.take(sheet, line, [quantity, text], index, &name, options)?;
@@ -243,25 +249,25 @@ pub(crate) fn lengths(unit: &str) -> Option<Lengths> {
     if is_pixel(unit) { Some(Lengths::Pixels) } else { si(unit, Measured::Length).map(Lengths::Metres) }
 }
 
-/// What a column with a telling name holds, unless the caller named another.
-fn meaning(name: &Name, options: &Options) -> Option<&'static str> {
+/// What a column with a telling name holds.
+fn meaning(name: &Name) -> Option<&'static str> {
     let pressure =
         name.has(&["p", "pressure"]) || name.unit.as_deref().is_some_and(|unit| si(unit, Measured::Pressure).is_some());
-    let quantity = match () {
-        () if name.is_any(&["t", "time", "timestamp"]) => "t",
-        () if name.is_any(&["frame", "frame_idx", "frame_number"]) => "frame",
-        () if name.is_any(&["run", "trial"]) => "run",
-        () if name.is("actuator") => "actuator",
-        () if name.is_any(&["marker", "marker_name", "bodypart"]) => "marker",
-        () if name.has(&["gauge"]) => return None,
-        () if pressure && name.has(&["body", "base", "tube"]) => "p_body",
-        () if pressure && !(name.coordinate().is_some()) => "p_act",
-        () if name.is("s") || name.has(&["likelihood", "score"]) => return None,
-        () if name.coordinate().is_some() => ["x", "y", "z"][name.coordinate()?.0],
-        () => return None,
-    };
-    // A quantity that was given a column has no other.
-    options.column(quantity).is_none().then_some(quantity)
+    let coordinate = name.coordinate();
+    if name.has(&["gauge", "likelihood", "score"]) {
+        return None;
+    }
+    let named = [
+        ("t", name.is_any(&["t", "time", "timestamp"])),
+        ("frame", name.is_any(&["frame", "frame_idx", "frame_number"])),
+        ("run", name.is_any(&["run", "trial"])),
+        ("actuator", name.is("actuator")),
+        ("marker", name.is_any(&["marker", "marker_name", "bodypart"])),
+        ("p_body", pressure && name.has(&["body", "base", "tube"])),
+        ("p_act", pressure && coordinate.is_none()),
+    ];
+    let found = named.iter().find(|(_, is)| *is).map(|(quantity, _)| *quantity);
+    found.or_else(|| coordinate.map(|(axis, _)| ["x", "y", "z"][axis]))
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use crate::error::DataError;
 pub(super) const FORMAT: Format = Format {
     name: "DeepLabCut",
     known_by: "rows scorer, bodyparts, coords",
+    likelihood: Some(LIKELIHOOD),
     recognise: |_, head, _| {
         head.first().is_some_and(|row| row[0] == "scorer") && head.iter().any(|row| row[0] == "bodyparts")
     },

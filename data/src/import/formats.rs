@@ -13,6 +13,8 @@ pub struct Format {
     pub name: &'static str,
     /// How it is known.
     pub known_by: &'static str,
+    /// Likelihood below which positions are lost, unless the caller says another; `None` if there is none.
+    pub likelihood: Option<f64>,
     /// Whether a text, of which these are the first lines as cells, is of this kind.
     pub(crate) recognise: fn(&Sheet, &[Vec<&str>], &Options) -> bool,
     /// Its runs.

@@ -87,56 +87,52 @@ fn fault(file: &str, message: impl Into<String>, help: impl Into<String>) -> Dat
 }
 
 fn map(file: &str, runs: &[Recording], ends: &[Ends], options: &Options) -> Result<(Map, Vec<String>), DataError> {
-    let lengths = runs[0].lengths;
-    let said = |map: Map, words: String| Ok((map, vec![words]));
-    match (&options.scale, lengths) {
-        (Scale::PixelsPerMetre(pixels), Lengths::Pixels | Lengths::Unsaid) => {
-            said(Map::Factor(1.0 / pixels), format!("{} px are a millimetre, as given", short(pixels * 1e-3)))
-        }
-        (Scale::Unit(metres), Lengths::Unsaid | Lengths::Pixels) => {
-            said(Map::Factor(*metres), format!("a number of the file is {} mm, as given", short(metres * 1e3)))
-        }
-        (Scale::Known(places, length_m), Lengths::Pixels | Lengths::Unsaid) => {
-            let found: Vec<f64> =
-                runs.iter().zip(ends).map(|(run, ends)| distance(file, run, ends, places)).collect::<Result<_, _>>()?;
-            let apart = found.iter().sum::<f64>() / found.len() as f64;
-            let metres = length_m / apart;
-            said(
-                Map::Factor(metres),
-                format!(
-                    "{apart:.2} units of the file are {:.2} mm: {} to a millimetre",
-                    mm(*length_m),
-                    short(1e-3 / metres)
-                ),
-            )
-        }
-        (Scale::Board(corners, square_m), Lengths::Pixels | Lengths::Unsaid) => {
-            let (board, rms_px) = Homography::of_board(corners, *square_m).map_err(|message| {
-                fault(file, message, "give at least four corners, no three on a line: a table column,row,x,y")
-            })?;
-            said(Map::Board(board), format!("a homography of {} corners, {rms_px:.2} px off (rms)", corners.len()))
-        }
-        (Scale::OfFile, Lengths::Metres(metres)) => {
-            said(Map::Factor(metres), format!("lengths are in {}, as the file says", unit(metres)))
-        }
-        (Scale::Unit(given), Lengths::Metres(metres)) if *given == metres => {
-            said(Map::Factor(metres), format!("lengths are in {}, as the file says", unit(metres)))
-        }
+    let (message, help) = match (&options.scale, runs[0].lengths) {
+        (Scale::OfFile, Lengths::Metres(metres)) => return Ok(of_file(metres)),
+        (Scale::Unit(given), Lengths::Metres(metres)) if *given == metres => return Ok(of_file(metres)),
         (_, Lengths::Metres(metres)) => {
             let message = format!("the file says that its lengths are in {}, and a scale was given", unit(metres));
-            Err(fault(file, message, "leave the scale out, or export in pixels"))
+            return Err(fault(file, message, "leave the scale out, or export in pixels"));
         }
-        (Scale::OfFile, Lengths::Pixels) => Err(fault(
-            file,
+        (Scale::OfFile | Scale::Unit(_), Lengths::Pixels) => (
             "positions are pixels of the picture, and their scale is not known",
             "give --scale 3.1px/mm, or --known-distance MARKER:MARKER=40mm, or --board corners.csv --square 25mm",
-        )),
-        (Scale::OfFile, Lengths::Unsaid) => Err(fault(
-            file,
-            "the file does not say the unit of its positions",
-            "give it: --scale mm, cm, m or 3.1px/mm",
-        )),
-    }
+        ),
+        (Scale::OfFile, Lengths::Unsaid) => {
+            ("the file does not say the unit of its positions", "give it: --scale mm, cm, m or 3.1px/mm")
+        }
+        _ => return given(file, runs, ends, &options.scale),
+    };
+    Err(fault(file, message, help))
+}
+
+fn of_file(metres: f64) -> (Map, Vec<String>) {
+    (Map::Factor(metres), vec![format!("lengths are in {}, as the file says", unit(metres))])
+}
+
+/// The scale that the caller knows or that a distance or a board tells.
+fn given(file: &str, runs: &[Recording], ends: &[Ends], scale: &Scale) -> Result<(Map, Vec<String>), DataError> {
+    let (map, words) = match scale {
+        Scale::PixelsPerMetre(pixels) => {
+            (Map::Factor(1.0 / pixels), format!("{} px are a millimetre, as given", short(pixels * 1e-3)))
+        }
+        Scale::Known(places, length_m) => {
+            let apart = runs.iter().zip(ends).map(|(run, ends)| distance(file, run, ends, places));
+            let apart = apart.sum::<Result<f64, _>>()? / runs.len() as f64;
+            let (length, per) = (mm(*length_m), short(apart * 1e-3 / length_m));
+            let words = format!("{apart:.2} units of the file are {length:.2} mm: {per} to a millimetre");
+            (Map::Factor(length_m / apart), words)
+        }
+        Scale::Board(corners, square_m) => {
+            let help = "give at least four corners, no three on a line: a table column,row,x,y";
+            let found = Homography::of_board(corners, *square_m).map_err(|message| fault(file, message, help));
+            let (board, rms_px) = found?;
+            (Map::Board(board), format!("a homography of {} corners, {rms_px:.2} px off (rms)", corners.len()))
+        }
+        Scale::Unit(metres) => (Map::Factor(*metres), format!("lengths are in {}, as given", unit(*metres))),
+        Scale::OfFile => (Map::Factor(1.0), String::new()),
+    };
+    Ok((map, vec![words]))
 }
 
 fn unit(metres: f64) -> String {
@@ -200,7 +196,7 @@ fn bases(
     told: &mut Vec<String>,
 ) -> Result<(Vec<[f64; 3]>, Option<usize>), DataError> {
     let Some(place) = &options.base else {
-        if runs[0].lengths == Lengths::Pixels && !matches!(options.scale, Scale::Board(..) | Scale::Unit(_)) {
+        if matches!(options.scale, Scale::PixelsPerMetre(_) | Scale::Known(..)) {
             let help =
                 "give --base X,Y in pixels as the picture counts them, or --base MARKER for a marker at the clamp";
             return Err(fault(file, "positions are pixels of the picture: where is the robot's base?", help));

@@ -36,102 +36,143 @@ pub(crate) fn text_of(path: &Path) -> Result<String, DataError> {
     })
 }
 
-/// Recordings of all files, with their file, times in seconds and pressures in place.
+/// Recordings of all files.
+pub(crate) struct Joined {
+    /// The program that wrote the files.
+    pub program: &'static str,
+    /// Every run with its file, times in seconds and pressures in place.
+    pub runs: Vec<(String, Recording)>,
+    /// What was understood and assumed.
+    pub told: Vec<String>,
+}
+
+/// Reads all files.
+///
+/// # Errors
+/// A file that is not understood, of another program, or without frame rate or pressures; a named column that is nowhere.
 pub(crate) fn recordings(
     files: &[PathBuf],
     options: &Options,
-    told: &mut Vec<String>,
     progress: &mut dyn FnMut(u64, u64),
-) -> Result<(&'static str, Vec<(String, Recording)>), DataError> {
-    let logs = logs(files.len(), options, told)?;
-    let mut program: Option<&'static str> = None;
-    let mut runs = Vec::new();
+) -> Result<Joined, DataError> {
+    let mut absent: Vec<&(String, String)> = options.columns.iter().collect();
+    let mut joined = Joined { program: "", runs: Vec::new(), told: Vec::new() };
+    let logs = logs(files.len(), options, &mut joined.told, &mut absent)?;
     for (k, path) in files.iter().enumerate() {
         progress(k as u64, files.len() as u64);
         let (shown, text) = (path.display().to_string(), text_of(path)?);
         let sheet = Sheet::new(&shown, &text)?;
-        let format = formats::recognised(&sheet, options)?;
-        if program.is_some_and(|known| known != format.name) {
-            let message = format!("this file is of {}, the others are of {}", format.name, program.unwrap_or_default());
-            return Err(sheet.fault(0, message, "import files of one program at a time"));
-        }
-        let found = (format.read)(&sheet, options)?;
-        let first = program.replace(format.name).is_none();
-        for mut run in found {
-            if run.times.len() < 2 || run.places.iter().flatten().all(|place| place[0].is_nan()) {
-                return Err(sheet.fault(
-                    0,
-                    "hardly any marker was seen in this run",
-                    "check the export, or lower --likelihood",
-                ));
-            }
-            seconds(&sheet, &mut run, options, first.then_some(&mut *told))?;
-            let words = pressures(&sheet, &mut run, logs.get(k.min(logs.len().saturating_sub(1))), options)?;
-            let own = std::mem::take(&mut run.told);
-            own.into_iter()
-                .chain(words)
-                .filter(|word| !told.contains(word))
-                .collect::<Vec<_>>()
-                .into_iter()
-                .for_each(|word| told.push(word));
-            runs.push((shown.clone(), run));
-        }
+        drop_named(&sheet, &mut absent);
+        joined.add(&sheet, logs.get(k.min(logs.len().saturating_sub(1))), options)?;
     }
-    let program = program.unwrap_or_default();
-    let frames: usize = runs.iter().map(|(_, run)| run.times.len()).sum();
-    let counts = [counted(runs.len() as u64, "run"), counted(frames as u64, "frame")];
-    told.insert(0, format!("written by {program}: {}", counts.join(", ")));
-    Ok((program, runs))
+    if let Some((quantity, column)) = absent.first() {
+        let message = format!("--map says that {quantity} stands in column {column}, and no file has it");
+        return Err(DataError::Column(Box::new(Fault::of_file(
+            &joined.runs[0].0,
+            message,
+            "write the name as in the file's first line",
+        ))));
+    }
+    let frames: usize = joined.runs.iter().map(|(_, run)| run.times.len()).sum();
+    let counts = [counted(joined.runs.len() as u64, "run"), counted(frames as u64, "frame")];
+    joined.told.insert(0, format!("written by {}: {}", joined.program, counts.join(", ")));
+    Ok(joined)
 }
 
-fn logs(files: usize, options: &Options, told: &mut Vec<String>) -> Result<Vec<Log>, DataError> {
+impl Joined {
+    /// The runs of a file.
+    fn add(&mut self, sheet: &Sheet, log: Option<&Log>, options: &Options) -> Result<(), DataError> {
+        let format = formats::recognised(sheet, options)?;
+        if !self.program.is_empty() && self.program != format.name {
+            let message = format!("this file is of {}, the others are of {}", format.name, self.program);
+            return Err(sheet.fault(0, message, "import files of one program at a time"));
+        }
+        self.program = format.name;
+        for mut run in (format.read)(sheet, options)? {
+            check_run(sheet, &run)?;
+            let mut words = vec![seconds(sheet, &mut run, options)?];
+            words.append(&mut run.told);
+            if options.likelihood.is_some() && format.likelihood.is_none() {
+                words.push("the files have no likelihood: --likelihood was not used".to_string());
+            }
+            words.extend(pressures(sheet, &mut run, log, options)?);
+            words.into_iter().for_each(|word| self.tell(word));
+            self.runs.push((sheet.file.to_string(), run));
+        }
+        Ok(())
+    }
+
+    /// Tells it once.
+    fn tell(&mut self, word: String) {
+        if !self.told.contains(&word) {
+            self.told.push(word);
+        }
+    }
+}
+
+/// # Errors
+/// Hardly anything in the run, or a marker at two places at once.
+fn check_run(sheet: &Sheet, run: &Recording) -> Result<(), DataError> {
+    if let Some((marker, time)) = &run.twice {
+        let message = format!("marker {marker} has two places at {time} of one run");
+        return Err(sheet.fault(0, message, "give every run a file of its own, or a column run"));
+    }
+    if run.times.len() < 2 || run.places.iter().flatten().all(|place| place[0].is_nan()) {
+        let help = "check the export, or lower --likelihood";
+        return Err(sheet.fault(0, "hardly any marker was seen in this run", help));
+    }
+    Ok(())
+}
+
+/// Takes the columns that the first line of a file has off those that the caller named.
+fn drop_named(sheet: &Sheet, absent: &mut Vec<&(String, String)>) {
+    let head = sheet.head(1).pop().unwrap_or_default();
+    absent.retain(|(_, column)| !head.iter().any(|name| name.eq_ignore_ascii_case(column)));
+}
+
+fn logs(
+    files: usize,
+    options: &Options,
+    told: &mut Vec<String>,
+    absent: &mut Vec<&(String, String)>,
+) -> Result<Vec<Log>, DataError> {
     let count = options.pressure_logs.len();
     if count > 1 && count != files {
-        let message = format!("{count} pressure logs for {files} tracking files");
-        let fault = Fault::of_file(
-            &options.pressure_logs[0].display().to_string(),
-            message,
-            "give one log for all runs, or one for every file in the same order",
+        let (file, message) = (
+            options.pressure_logs[0].display().to_string(),
+            format!("{count} pressure logs for {files} tracking files"),
         );
-        return Err(DataError::Runs(Box::new(fault)));
+        let help = "give one log for all runs, or one for every file in the same order";
+        return Err(DataError::Runs(Box::new(Fault::of_file(&file, message, help))));
     }
     let mut logs = Vec::new();
     for path in &options.pressure_logs {
         let (shown, text) = (path.display().to_string(), text_of(path)?);
-        let log = Log::read(&Sheet::new(&shown, &text)?, options)?;
+        let sheet = Sheet::new(&shown, &text)?;
+        drop_named(&sheet, absent);
+        let log = Log::read(&sheet, options)?;
         told.extend(log.told.iter().map(|word| format!("pressure log: {word}")));
         logs.push(log);
     }
     Ok(logs)
 }
 
-/// Frames become seconds.
-fn seconds(
-    sheet: &Sheet,
-    run: &mut Recording,
-    options: &Options,
-    told: Option<&mut Vec<String>>,
-) -> Result<(), DataError> {
+/// Frames become seconds; says how.
+///
+/// # Errors
+/// Frames without a rate.
+fn seconds(sheet: &Sheet, run: &mut Recording, options: &Options) -> Result<String, DataError> {
     match (run.clock, options.frames_per_s) {
-        (Clock::Frames, None) => Err(sheet.fault(
-            0,
-            "the file counts frames and does not say how many there are in a second",
-            "add --fps with the camera's frames per second, for example --fps 30",
-        )),
+        (Clock::Frames, None) => {
+            let help = "add --fps with the camera's frames per second, for example --fps 30";
+            Err(sheet.fault(0, "the file counts frames and does not say how many there are in a second", help))
+        }
         (Clock::Frames, Some(fps)) => {
             run.times.iter_mut().for_each(|t| *t /= fps);
-            told.into_iter()
-                .for_each(|told| told.push(format!("frame 0 is at 0 s, {fps} frames are a second, as given")));
-            Ok(())
+            Ok(format!("frame 0 is at 0 s, {fps} frames are a second, as given"))
         }
-        (Clock::Seconds, given) => {
-            let step = (run.times[run.times.len() - 1] - run.times[0]) / (run.times.len() - 1) as f64;
-            let text = format!("times are seconds, {:.3} s apart in the mean", step);
-            told.into_iter().for_each(|told| {
-                told.push(if given.is_some() { format!("{text}; --fps was not needed") } else { text.clone() })
-            });
-            Ok(())
-        }
+        (Clock::Seconds, None) => Ok("times are seconds".to_string()),
+        (Clock::Seconds, Some(_)) => Ok("times are seconds: --fps was not used".to_string()),
     }
 }
 
@@ -142,10 +183,13 @@ fn pressures(
     log: Option<&Log>,
     options: &Options,
 ) -> Result<Vec<String>, DataError> {
-    let mut told = match log {
-        Some(log) => log.join(run, options)?,
-        None => Vec::new(),
-    };
+    let mut told = Vec::new();
+    if let Some(log) = log {
+        if run.pressures.iter().any(Option::is_some) {
+            told.push("pressures are those of the log, not those of the tracking file".to_string());
+        }
+        told.extend(log.join(run, options)?);
+    }
     if run.pressures[1].is_none() {
         let help = "add --pressure log.csv, a table of time and pressure: time_s,p_act_kpa,p_body_kpa";
         return Err(sheet.fault(0, "the actuator's pressure is not known", help));

@@ -12,6 +12,7 @@ use crate::error::DataError;
 pub(super) const TRAJECTORIES: Format = Format {
     name: "Kinovea, trajectories",
     known_by: "first line #Kinovea Trajectory",
+    likelihood: None,
     recognise: |sheet, _, _| sheet.text.trim_start().starts_with("#Kinovea"),
     read: trajectories,
 };
@@ -19,6 +20,7 @@ pub(super) const TRAJECTORIES: Format = Format {
 pub(super) const KINEMATICS: Format = Format {
     name: "Kinovea, kinematics",
     known_by: "columns Time (ms) and NAME - X (cm)",
+    likelihood: None,
     recognise: |_, head, _| {
         let is_x = |name: &&str| name.contains(" - X") || name.contains("/X");
         head.first().is_some_and(|row| Name::of(row[0]).is("time") && row.iter().any(|name| is_x(&name)))
@@ -27,7 +29,8 @@ pub(super) const KINEMATICS: Format = Format {
 };
 
 fn trajectories(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError> {
-    let mut pivot = Pivot::new(Lengths::Pixels, Clock::Seconds);
+    // Pixels, or the units of a calibration: the file does not say.
+    let mut pivot = Pivot::new(Lengths::Unsaid, Clock::Seconds);
     let (mut block, mut open) = (0_usize, false);
     for (line, number) in sheet.text.lines().zip(1..) {
         let cells: Vec<&str> = line.split_whitespace().collect();

@@ -44,7 +44,8 @@ fn distinct(names: &[String]) -> Vec<String> {
     while end > 0 && first.as_bytes()[first.len() - end].is_ascii_digit() {
         end -= 1;
     }
-    let cut: Vec<String> = names.iter().map(|name| name[begin..name.len() - end].to_string()).collect();
+    let cut = |name: &String| name.get(begin..name.len() - end).unwrap_or_default().to_string();
+    let cut: Vec<String> = names.iter().map(cut).collect();
     if cut.iter().any(String::is_empty) { names.to_vec() } else { cut }
 }
 

@@ -12,6 +12,7 @@ use crate::error::DataError;
 pub(super) const FORMAT: Format = Format {
     name: "a long table",
     known_by: "columns of time, marker, x and y",
+    likelihood: None,
     recognise: |sheet, head, options| {
         let roles = head.first().and_then(|header| Roles::of(sheet, 1, header, options).ok());
         roles.is_some_and(|roles| roles.time.is_some() && roles.marker.is_some() && roles.coordinates.len() >= 2)

@@ -43,6 +43,7 @@ pub use columns::QUANTITIES;
 use cut::{Cut, cut};
 pub use formats::{FORMATS, Format};
 use frame::{Ends, Placed, place};
+use join::Joined;
 pub use options::{Axis, Offset, Options, Place, Scale};
 use recording::{Dropped, Recording};
 
@@ -93,8 +94,7 @@ pub fn import(files: &[PathBuf], options: &Options, progress: &mut dyn FnMut(u64
             "name the tracking files",
         ))));
     };
-    let mut told = Vec::new();
-    let (program, mut runs) = join::recordings(files, options, &mut told, progress)?;
+    let Joined { program, mut runs, mut told } = join::recordings(files, options, progress)?;
     labels::number_runs(&mut runs);
     labels::same_markers(first, &mut runs)?;
     let mut runs: Vec<Recording> = runs.into_iter().map(|(_, run)| run).collect();

@@ -11,6 +11,7 @@ use crate::error::DataError;
 pub(super) const FORMAT: Format = Format {
     name: "Motive (OptiTrack)",
     known_by: "first line Format Version",
+    likelihood: None,
     recognise: |_, head, _| head.first().is_some_and(|row| row[0] == "Format Version"),
     read,
 };

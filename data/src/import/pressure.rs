@@ -41,31 +41,10 @@ impl Log {
         let Some((first, header)) = lines.next() else {
             return Err(sheet.fault(0, "the pressure log is empty", "export it again"));
         };
-        let header = sheet.split(header);
-        let roles = Roles::of(sheet, first, &header, options)?;
-        let names = header.join(", ");
-        let Some((time, Some(second))) = roles.time else {
-            let help = "say which: --map t=Time (a log counts seconds, not frames)";
-            return Err(sheet.fault(
-                first,
-                format!("no column of the pressure log is the time; there are {names}"),
-                help,
-            ));
-        };
-        if roles.pressures.iter().all(Option::is_none) {
-            let help = "say which: --map p_act=NAME, and p_body=NAME if there is one";
-            return Err(sheet.fault(
-                first,
-                format!("no column of the pressure log is a pressure; there are {names}"),
-                help,
-            ));
-        }
-        let mut log = Log {
-            file: sheet.file.to_string(),
-            times_s: Vec::new(),
-            values_pa: roles.pressures.map(|p| p.map(|_| Vec::new())),
-            told: roles.told.clone(),
-        };
+        let roles = Roles::of(sheet, first, &sheet.split(header), options)?;
+        let (time, second) = Log::columns(sheet, first, &roles)?;
+        let values_pa = roles.pressures.map(|column| column.map(|_| Vec::new()));
+        let mut log = Log { file: sheet.file.to_string(), times_s: Vec::new(), values_pa, told: roles.told.clone() };
         let mut cells = Vec::new();
         for (number, line) in lines {
             sheet.split_into(line, &mut cells);
@@ -125,6 +104,20 @@ impl Log {
             recording.pressures[which] = Some(places.iter().zip(&recording.times).map(value).collect());
         }
         Ok(told)
+    }
+
+    /// Column of the time and its seconds.
+    ///
+    /// # Errors
+    /// None, or frames in its place; no pressure.
+    fn columns(sheet: &Sheet, line: u64, roles: &Roles) -> Result<(usize, f64), DataError> {
+        let (message, help) = match roles.time {
+            Some((time, Some(second))) if roles.pressures.iter().any(Option::is_some) => return Ok((time, second)),
+            Some((_, Some(_))) => ("a pressure", "say which: --map p_act=NAME, and p_body=NAME if there is one"),
+            _ => ("the time", "say which: --map t=NAME (a log counts seconds, not frames)"),
+        };
+        let names = sheet.head(1).first().map_or(String::new(), |row| row.join(", "));
+        Err(sheet.fault(line, format!("no column of the pressure log is {message}; there are {names}"), help))
     }
 
     /// The last reading at or before every frame; none before the first, or later after the last than readings are apart.

@@ -56,6 +56,8 @@ pub(crate) struct Recording {
     pub pressures: [Option<Vec<f64>>; 2],
     /// What was dropped.
     pub dropped: Dropped,
+    /// A marker that has two places at one time, and that time.
+    pub twice: Option<(String, f64)>,
     /// What was assumed, in words.
     pub told: Vec<String>,
 }
@@ -88,6 +90,7 @@ impl Pivot {
             places: Vec::new(),
             pressures: [None, None],
             dropped: Dropped::default(),
+            twice: None,
             told: Vec::new(),
         };
         Pivot {
@@ -127,7 +130,7 @@ impl Pivot {
 
     /// Puts a marker; false if it has a place in this frame already. What stands for nothing is counted.
     pub fn put(&mut self, frame: usize, marker: usize, place: [f64; 3], likely: bool) -> bool {
-        let Recording { places, dropped, .. } = &mut self.recording;
+        let Recording { places, dropped, twice, markers, times, .. } = &mut self.recording;
         if !(place[0].is_finite() && place[1].is_finite()) {
             dropped.blank += 1;
             return true;
@@ -145,6 +148,9 @@ impl Pivot {
             column.resize(frame + 1, LOST);
         }
         let free = column[frame][0].is_nan();
+        if !free && twice.is_none() {
+            *twice = Some((markers[marker].clone(), times[frame]));
+        }
         column[frame] = place;
         free
     }

@@ -10,6 +10,7 @@ use crate::error::DataError;
 pub(super) const FORMAT: Format = Format {
     name: "SLEAP",
     known_by: "columns frame_idx and NODE.x, NODE.y",
+    likelihood: Some(SCORE),
     recognise: |_, head, _| {
         head.first().is_some_and(|row| row.contains(&"frame_idx") && row.iter().any(|name| name.ends_with(".x")))
     },

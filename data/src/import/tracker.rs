@@ -11,6 +11,7 @@ use crate::units::Measured;
 pub(super) const FORMAT: Format = Format {
     name: "Tracker (physlets.org)",
     known_by: "a row of track names, then a row t, x, y",
+    likelihood: None,
     recognise: |_, head, _| rows(head).is_some(),
     read,
 };

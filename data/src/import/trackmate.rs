@@ -15,6 +15,7 @@ use crate::units::Measured;
 pub(super) const SPOTS: Format = Format {
     name: "TrackMate, spots",
     known_by: "columns TRACK_ID and POSITION_X",
+    likelihood: None,
     recognise: |_, head, _| head.first().is_some_and(|row| row.contains(&"TRACK_ID") && row.contains(&"POSITION_X")),
     read: spots,
 };
@@ -22,6 +23,7 @@ pub(super) const SPOTS: Format = Format {
 pub(super) const XML: Format = Format {
     name: "TrackMate, XML",
     known_by: "a <TrackMate> or <Tracks> element",
+    likelihood: None,
     recognise: |sheet, _, _| tags(sheet.text).take(4).any(|tag| matches!(tag.name, "TrackMate" | "Tracks")),
     read: xml,
 };

@@ -13,6 +13,7 @@ use crate::error::DataError;
 pub(super) const FORMAT: Format = Format {
     name: "a wide table",
     known_by: "a time and columns like x1, y1, x2, y2",
+    likelihood: None,
     recognise: |sheet, head, options| {
         let roles = head.first().and_then(|header| Roles::of(sheet, 1, header, options).ok());
         roles.is_some_and(|roles| roles.time.is_some() && roles.coordinates.len() >= 2)
@@ -39,7 +40,12 @@ pub(super) fn read(sheet: &Sheet, options: &Options) -> Result<Vec<Recording>, D
         sheet.split_into(line, &mut cells);
         let cell = |index: usize| cells.get(index).copied().unwrap_or_default();
         let pivot = runs.of(roles.run.map(cell), roles.actuator.map(cell));
-        let frame = pivot.frame(second.unwrap_or(1.0) * sheet.time(cell(time), number, "time")?);
+        let t = second.unwrap_or(1.0) * sheet.time(cell(time), number, "time")?;
+        if pivot.recording.times.last().is_some_and(|last| t <= *last) {
+            let help = "give every run a file of its own, or say which column tells the runs apart: --map run=Trial";
+            return Err(sheet.fault(number, format!("the time goes back here, to {}", cell(time)), help));
+        }
+        let frame = pivot.frame(t);
         for (name, parts) in &markers {
             let value = |part: Option<usize>| part.map_or(Ok(0.0), |index| sheet.expect(cell(index), number, name));
             let marker = pivot.marker(name);

@@ -116,6 +116,21 @@ fn wide_tables_of_pixels_and_long_tables_of_any_names() {
 }
 
 #[test]
+fn options_that_fit_no_file_and_runs_in_one_file_are_told() {
+    let map = vec![("t".to_string(), "Zeit".to_string())];
+    let options = Options { columns: map, ..pixels(LOG) };
+    refused(&["made/wide_pixels.csv"], &options, &["column Zeit", "--map"]);
+    let made = read(&["made/kinovea_seconds.csv"], &Options { likelihood: Some(0.5), ..known(LOG) });
+    told(&made, &["--likelihood was not used"]);
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(case("made/kinovea_seconds.csv")).unwrap();
+    let again = text.lines().skip(1).fold(text.clone(), |all, line| all + line + "\n");
+    let path = folder.path().join("two_runs.csv");
+    std::fs::write(&path, again).unwrap();
+    super::refused_paths(&[path], &known(LOG), &["two_runs.csv:17", "goes back", "--map run="]);
+}
+
+#[test]
 fn a_checkerboard_seen_askew_gives_the_plane() {
     let scale = Scale::Board(data::import::read_board(&case("made/board.csv")).unwrap(), 0.025);
     let base = Some(Place::At(vec![300.0, 700.0]));
