@@ -88,7 +88,11 @@ impl Joined {
             return Err(sheet.fault(0, message, "import files of one program at a time"));
         }
         self.program = format.name;
-        for mut run in (format.read)(sheet, options)? {
+        let found = (format.read)(sheet, options)?;
+        if found.is_empty() {
+            return Err(sheet.fault(0, "the file has names of columns and no rows", "export it again"));
+        }
+        for mut run in found {
             check_run(sheet, &run)?;
             let mut words = vec![seconds(sheet, &mut run, options)?];
             words.append(&mut run.told);
