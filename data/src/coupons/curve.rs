@@ -13,9 +13,6 @@ use std::path::Path;
 const FEWEST: usize = 6;
 /// Steps back below this share of the range are the noise of the displacement sensor.
 const JITTER: f64 = 2e-3;
-/// A specimen hangs slack while its force stays below this part of the largest, over more than this part of the curve; a fabric
-/// that only begins softly, as a square, is not slack.
-const SLACK: [f64; 2] = [2e-3, 0.05];
 /// Strain above which a coated fabric has broken; more is a unit mistake.
 const LARGEST_STRAIN: f64 = 3.0;
 
@@ -80,23 +77,22 @@ impl<'a> Specimens<'a> {
         Ok(())
     }
 
-    /// The specimens, complete and checked.
+    /// The specimens, complete and checked; the first has what was assumed about the file.
     pub fn finish(self, defaults: &CouponDefaults, told: &[String]) -> Result<Vec<Coupon>, DataError> {
         if self.found.is_empty() {
             let fault = Fault::of_file(&self.file, "the file has a header and no rows", "add the rows of a specimen");
             return Err(DataError::Layout(Box::new(fault)));
         }
-        self.found.iter().map(|raw| self.coupon(raw, defaults, told)).collect()
+        let told_of = |k: usize| if k == 0 { told } else { &[] };
+        self.found.iter().enumerate().map(|(k, raw)| self.coupon(raw, defaults, told_of(k))).collect()
     }
 
     fn coupon(&self, raw: &Raw, defaults: &CouponDefaults, told: &[String]) -> Result<Coupon, DataError> {
         let specimen = self.specimen(raw);
         let said = |quantity: usize, typed: Option<f64>| self.number(raw, &specimen, quantity, typed);
         let direction = self.direction(&specimen, said(DIRECTION, defaults.direction_deg)?, raw)?;
-        let (mut rows, mut loaded_width_m, jitter) = self.rows(raw, &specimen)?;
-        let slack = taut(&mut rows, &mut loaded_width_m);
+        let (rows, loaded_width_m, jitter) = self.rows(raw, &specimen)?;
         let [x, y] = self.header.curve();
-        let told = told.iter().cloned().chain(slack.map(|part| self.slack(x, part))).collect();
         Ok(Coupon {
             file: self.file.clone(),
             line: raw.rows[0].1,
@@ -110,14 +106,8 @@ impl<'a> Specimens<'a> {
             provenance: self.notes.provenance.unwrap_or(crate::Provenance::Measured),
             specimen,
             jitter,
-            told,
+            told: told.to_vec(),
         })
-    }
-
-    /// How much slack was taken off, in words.
-    fn slack(&self, x: usize, off: f64) -> String {
-        let shown = if x == STRAIN { format!("{:.3} %", 100.0 * off) } else { format!("{:.3} mm", 1e3 * off) };
-        format!("it hung slack at first: {shown} of {} are taken off", self.header.name(x))
     }
 
     fn specimen(&self, raw: &Raw) -> String {
@@ -205,18 +195,4 @@ impl<'a> Specimens<'a> {
     fn fault(&self, raw: &Raw, message: String, help: impl Into<String>) -> DataError {
         DataError::Runs(Box::new(Fault::of_file(&self.file, message, help).at_line(raw.rows[0].1)))
     }
-}
-
-/// Takes slack off the start of a curve: rows in which x grows and the force does not. Returns how much of x, if any.
-fn taut(rows: &mut Vec<[f64; 2]>, widths: &mut Vec<f64>) -> Option<f64> {
-    let most = rows.iter().map(|row| row[1]).fold(0.0, f64::max);
-    let slack = rows.iter().take_while(|row| row[1].abs() <= SLACK[0] * most).count().checked_sub(1)?;
-    let (off, end) = (rows[slack], rows.last()?[0]);
-    if off[0] < SLACK[1] * end || rows.len() - slack < FEWEST {
-        return None;
-    }
-    rows.drain(..slack);
-    widths.drain(..slack.min(widths.len()));
-    rows.iter_mut().for_each(|row| *row = [row[0] - off[0], row[1] - off[1]]);
-    Some(off[0])
 }

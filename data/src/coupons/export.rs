@@ -82,19 +82,23 @@ pub(super) fn read(sheet: &Sheet, defaults: &CouponDefaults) -> Result<Option<Ex
     let labels = labels(lines[..at].last().map(|(_, cells)| cells), &blocks);
     let [x_name, y_name] =
         [if x == STRAIN && y == FORCE { DISPLACEMENT } else { x }, y].map(|q| QUANTITIES[q].expected);
-    let named = format!("{} of each specimen: {x_name}, {y_name}", lines[at].1.join(", "));
-    let mut told = vec![format!("line {} names the columns: {named}", lines[at].0)];
+    let mut told = vec![format!(
+        "line {} names the columns {}; used are {x_name} and {y_name}",
+        lines[at].0,
+        lines[at].1.join(", ")
+    )];
     told.extend((blocks.len() > 1).then(|| format!("{} specimens stand side by side", blocks.len())));
     told.extend(sheet.comma.then(|| "decimals are written with a comma".to_string()));
     let mut rows = Vec::new();
     for (block, label) in blocks.iter().zip(&labels) {
         for (number, cells) in &lines[first_row..] {
             if let Some([a, b]) = row(sheet, *number, cells, block, [x, y], &notes)? {
-                rows.push((*number, format!("{label},{a:?},{b:?}")));
+                rows.push((*number, format!("{label}{a:?},{b:?}")));
             }
         }
     }
-    Ok(Some(Export { notes, header: format!("specimen,{x_name},{y_name}"), rows, told }))
+    let first = if blocks.len() > 1 { "specimen," } else { "" };
+    Ok(Some(Export { notes, header: format!("{first}{x_name},{y_name}"), rows, told }))
 }
 
 /// A name without its unit, and the unit: `Load (kN)`, `Dehnung %`, `"Extension"`.
@@ -203,16 +207,17 @@ fn curve(sheet: &Sheet, number: u64, block: &Found, notes: &Notes) -> Result<[us
     }
 }
 
-/// Labels above the names, where each stands alone above its specimen; else numbers.
+/// The first cell of every specimen's rows: its label above the names, where each has one, else its number; none for a single one.
 fn labels(above: Option<&Vec<&str>>, blocks: &[Found]) -> Vec<String> {
+    if blocks.len() == 1 {
+        return vec![String::new()];
+    }
     let begin = |block: &Found| block.iter().flatten().map(|(index, _)| *index).min().unwrap_or(0);
-    let label = |block: &Found| {
-        above.and_then(|row| row.get(begin(block))).map(|cell| cell.replace(',', " ")).filter(|cell| !cell.is_empty())
-    };
-    let found: Vec<Option<String>> = blocks.iter().map(label).collect();
-    let all = blocks.len() > 1 && found.iter().all(Option::is_some);
-    let number = |k: usize| if blocks.len() > 1 { (k + 1).to_string() } else { "1".to_string() };
-    found.into_iter().enumerate().map(|(k, label)| label.filter(|_| all).unwrap_or_else(|| number(k))).collect()
+    let label = |block: &Found| above.and_then(|row| row.get(begin(block))).map(|cell| cell.replace(',', " "));
+    let found: Option<Vec<String>> =
+        blocks.iter().map(|block| label(block).filter(|label| !label.is_empty())).collect();
+    let found = found.unwrap_or_else(|| (1..=blocks.len()).map(|k| k.to_string()).collect());
+    found.into_iter().map(|label| label + ",").collect()
 }
 
 /// A row of a specimen in the units of the header; `None` where this specimen has ended.

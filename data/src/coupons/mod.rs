@@ -13,8 +13,7 @@
 //! Other units by suffix: `strain_ratio`; kPa, Pa, MPa, psi, bar; mm, cm, m; N, kN, lbf. Everything but the two curves may
 //! instead stand in a comment above the header, `# width_mm: 20`, or come from the caller. `# provenance: digitised` says
 //! how the numbers came to be (measured, digitised, synthetic, published; measured if nothing is said).
-//! Curves start at their first row: strain, stress, displacement and force of that row are taken off. Where a specimen hung slack
-//! at first, they start where it is taut.
+//! Curves start at their first row: strain, stress, displacement and force of that row are taken off.
 //! Exports of tensile machines are read too: rows about the test, names and units in rows, specimens side by side ([`export`]).
 
 mod cells;
@@ -86,7 +85,7 @@ pub struct Coupon {
     pub provenance: Provenance,
     /// Rows left out because x went back by less than a five-hundredth of its range.
     pub jitter: usize,
-    /// What reading assumed, in words.
+    /// What reading assumed about the file, in words, with its first specimen.
     pub told: Vec<String>,
 }
 
