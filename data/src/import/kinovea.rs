@@ -22,8 +22,8 @@ pub(super) const KINEMATICS: Format = Format {
     known_by: "columns Time (ms) and NAME - X (cm)",
     likelihood: None,
     recognise: |_, head, _| {
-        let is_x = |name: &&str| name.contains(" - X") || name.contains("/X");
-        head.first().is_some_and(|row| Name::of(row[0]).is("time") && row.iter().any(|name| is_x(&name)))
+        let is_x = |name: &str| name.contains(" - X") || name.contains("/X");
+        head.first().is_some_and(|row| Name::of(row[0]).is("time") && row.iter().any(|name| is_x(name)))
     },
     read: wide::read,
 };

@@ -36,7 +36,7 @@ fn options() -> [Options; 3] {
 fn read(folder: &tempfile::TempDir, bytes: &[u8]) -> usize {
     let path = folder.path().join("damaged.csv");
     std::fs::write(&path, bytes).unwrap();
-    options().iter().filter(|options| import(&[path.clone()], options, &mut |_, _| ()).is_ok()).count()
+    options().iter().filter(|options| import(std::slice::from_ref(&path), options, &mut |_, _| ()).is_ok()).count()
 }
 
 #[test]

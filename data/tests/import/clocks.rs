@@ -80,7 +80,7 @@ fn one_clock_needs_nothing_and_pictures_have_the_holds() {
 fn absolute_pressure_is_refused_until_the_room_s_is_given() {
     let folder = tempfile::tempdir().unwrap();
     let [tracks, log] = files(&folder, 0.0, 101.3);
-    refused_paths(&[tracks.clone()], &options(&log), &["absolute", "--room 101.3kPa"]);
+    refused_paths(std::slice::from_ref(&tracks), &options(&log), &["absolute", "--room 101.3kPa"]);
     is_right(&import(&[tracks], &Options { room_pa: Some(101.3e3), ..options(&log) }, &mut |_, _| ()).unwrap());
 }
 
@@ -91,11 +91,11 @@ fn a_log_that_ends_early_leaves_frames_out_and_one_of_another_day_is_refused() {
     let text = std::fs::read_to_string(&log).unwrap();
     let early: String = text.lines().take(1 + 18 * 50).map(|line| format!("{line}\n")).collect();
     std::fs::write(&log, early).unwrap();
-    let made = import(&[tracks.clone()], &options(&log), &mut |_, _| ()).unwrap();
+    let made = import(std::slice::from_ref(&tracks), &options(&log), &mut |_, _| ()).unwrap();
     assert_eq!(made.dataset.holds.len(), 4);
     told(&made, &["outside the pressure log"]);
     refused_paths(
-        &[tracks.clone()],
+        std::slice::from_ref(&tracks),
         &Options { offset: Offset::Given(5000.0), ..options(&log) },
         &["no frame lies within", "5000"],
     );
