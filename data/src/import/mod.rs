@@ -77,6 +77,8 @@ pub struct Track {
     pub holds: Vec<[f64; 3]>,
 }
 
+/// Holds of a run in a message.
+const MOST_HOLDS: usize = 30;
 /// Points of a line in a picture.
 const MOST_POINTS: usize = 1_500;
 
@@ -147,9 +149,24 @@ impl Made<'_> {
         let about_toml = table::about_toml(program, &names, &stations, actuator, &told);
         let about = parse_about("about.toml as imported", &about_toml)?;
         let read = ReadOptions { about: Some(&about), ..ReadOptions::default() };
-        let dataset = parse_markers("markers.csv as imported", &mut markers_csv.as_bytes(), read, &mut |_, _| ())?;
+        let read = parse_markers("the table made", &mut markers_csv.as_bytes(), read, &mut |_, _| ());
+        let dataset = read.map_err(|error| self.unusable(&error))?;
         let tracks = cut.iter().map(|(run, holds)| track(run, holds, markers)).collect();
         Ok(Imported { program, told, markers_csv, about_toml, dataset, about, tracks })
+    }
+
+    /// What the reader refuses in the table, with the holds of every run.
+    fn unusable(&self, error: &DataError) -> DataError {
+        let shown = |hold: &holds::Kept| format!("{:.0}", kpa(hold.act_pa)).replace("-0", "0");
+        let holds = |kept: &[holds::Kept]| {
+            let more = if kept.len() > MOST_HOLDS { ", …" } else { "" };
+            kept.iter().take(MOST_HOLDS).map(shown).collect::<Vec<_>>().join(", ") + more
+        };
+        let runs: Vec<String> =
+            self.cut.iter().map(|(run, kept)| format!("run {}: {}", run.label, holds(kept))).collect();
+        let message = format!("{}; holds found [kPa]: {}", error.message(), runs.join("; "));
+        let help = format!("{}; --hold, --frames, --settle and --bin change what is a hold", error.help());
+        DataError::Runs(Box::new(Fault::of_file(&self.files[0], message, help)))
     }
 }
 

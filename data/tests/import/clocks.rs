@@ -84,6 +84,19 @@ fn absolute_pressure_is_refused_until_the_room_s_is_given() {
     is_right(&import(&[tracks], &Options { room_pa: Some(101.3e3), ..options(&log) }, &mut |_, _| ()).unwrap());
 }
 
+/// A second run that stops at 20 kPa.
+#[test]
+fn runs_of_other_protocols_are_refused_with_their_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    let [tracks, log] = files(&folder, 0.0, 0.0);
+    let short: String =
+        std::fs::read_to_string(&tracks).unwrap().lines().take(1 + 300).map(|line| format!("{line}\n")).collect();
+    let other = folder.path().join("tracks2.csv");
+    std::fs::write(&other, short).unwrap();
+    let words = ["holds found", "run tracks: 0, 10, 20, 30, 0; run tracks2: 0, 10, 20", "--bin"];
+    refused_paths(&[tracks, other], &options(&log), &words);
+}
+
 #[test]
 fn a_log_that_ends_early_leaves_frames_out_and_one_of_another_day_is_refused() {
     let folder = tempfile::tempdir().unwrap();
