@@ -5,7 +5,7 @@
 //! catalogue's formulas here: how far the catalogue's own effects are from their formulas is given beside it, because a
 //! diagnosis must not call that "outside the catalogue".
 
-use super::TablePart;
+use super::Lot;
 use super::cases::{Named, SetOutcome, names};
 use crate::measure::ideal;
 use crate::truth::standard_protocol;
@@ -82,7 +82,7 @@ pub(super) fn of(outcomes: &[SetOutcome]) -> Attainable {
         outside.iter().filter(|(named, _)| !named.score.out_of_catalog).map(|(_, d)| *d).collect();
     let is_alike = |d: &&Distances| d.two >= SEEN && form.is_some_and(|[_, most]| left(d.two, d.base) < most);
     let best = |kind: Hiding, k: usize| {
-        let named = outcomes.iter().filter(|o| o.part == TablePart::Hidden(kind)).filter_map(|o| o.named.as_ref());
+        let named = outcomes.iter().filter(|o| o.part == Lot::Hidden(kind)).filter_map(|o| o.named.as_ref());
         let shares: Vec<f64> = named.filter_map(|named| Some(named.at_best?[k])).collect();
         (!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64)
     };
@@ -103,6 +103,6 @@ pub(super) fn of(outcomes: &[SetOutcome]) -> Attainable {
 }
 
 fn found(outcomes: &[SetOutcome], kind: Hiding) -> Vec<(&Named, Distances)> {
-    let of_kind = outcomes.iter().filter(|o| o.part == TablePart::Hidden(kind) && !names(&o.truth).is_empty());
+    let of_kind = outcomes.iter().filter(|o| o.part == Lot::Hidden(kind) && !names(&o.truth).is_empty());
     of_kind.filter_map(|o| o.named.as_ref()).filter_map(|named| Some((named, named.distances?))).collect()
 }

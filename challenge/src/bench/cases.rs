@@ -3,7 +3,7 @@
 use super::attainable::distances_of;
 use super::follow::{follow_up, tested};
 use super::oracle::{at_best, two_at_best};
-use super::{Diagnoser, PlannedSet, TablePart};
+use super::{Diagnoser, Lot, PlannedSet};
 use crate::score::{Claim, ClaimScore, score};
 use crate::truth::{ROBOTS, standard_protocol};
 use crate::{Draw, HIDDEN, Hiding, OUTSIDE, Truth, truth};
@@ -18,7 +18,7 @@ use serde::Serialize;
 #[derive(Debug, Clone)]
 pub struct SetOutcome {
     /// Part of the table.
-    pub part: TablePart,
+    pub part: Lot,
     /// What was hidden.
     pub truth: Truth,
     /// What was found; `None` if it failed.
@@ -74,26 +74,26 @@ pub struct After {
 const STRIDE: usize = 13;
 
 /// Draws a set; robots and effects take turns, so that all are equally frequent.
-pub(super) fn draw(part: TablePart, seed: u64, stream: u64, index: usize) -> Result<Truth, CompareError> {
+pub(super) fn draw(part: Lot, seed: u64, stream: u64, index: usize) -> Result<Truth, CompareError> {
     let mut draw = Draw::new(seed, stream);
     let actuator = ROBOTS[index % ROBOTS.len()].0;
     let turn = index / ROBOTS.len();
     let mut truth = Truth::draw(actuator, &mut draw)?;
     match part {
-        TablePart::Hidden(Hiding::One) | TablePart::Measured(Hiding::One) => {
+        Lot::Hidden(Hiding::One) | Lot::Measured(Hiding::One) => {
             let list = truth::applicable(actuator, HIDDEN)?;
             truth.add(list[turn * STRIDE % list.len()].name, draw.between(0.8, 1.5));
         }
-        TablePart::Hidden(Hiding::Outside) => truth.add(OUTSIDE[turn * STRIDE % OUTSIDE.len()].name, 1.0),
-        TablePart::Hidden(kind) | TablePart::Measured(kind) => truth.hide(kind, &mut draw)?,
-        TablePart::HeavyTails => truth.heavy_tails = true,
-        TablePart::LostMarkers(Hiding::One) => {
+        Lot::Hidden(Hiding::Outside) => truth.add(OUTSIDE[turn * STRIDE % OUTSIDE.len()].name, 1.0),
+        Lot::Hidden(kind) | Lot::Measured(kind) => truth.hide(kind, &mut draw)?,
+        Lot::HeavyTails => truth.heavy_tails = true,
+        Lot::LostMarkers(Hiding::One) => {
             let list = truth::applicable(actuator, HIDDEN)?;
             truth.add(list[turn * STRIDE % list.len()].name, draw.between(0.8, 1.5));
             truth.lost_markers = true;
         }
-        TablePart::LostMarkers(_) => truth.lost_markers = true,
-        TablePart::Interval => {
+        Lot::LostMarkers(_) => truth.lost_markers = true,
+        Lot::Interval => {
             let list = truth::applicable(actuator, HIDDEN)?;
             let known = |name: &str| models::effects::by_name(name).is_some();
             let list: Vec<_> = list.iter().filter(|effect| known(effect.name)).collect();
@@ -106,11 +106,11 @@ pub(super) fn draw(part: TablePart, seed: u64, stream: u64, index: usize) -> Res
 /// Makes and diagnoses a set.
 pub(super) fn outcome(case: &PlannedSet, diagnose: Diagnoser) -> SetOutcome {
     let found = match case.part {
-        TablePart::Hidden(kind) => hidden(&case.truth, kind, diagnose),
-        TablePart::Measured(_) => measured(&case.truth, diagnose),
-        TablePart::Interval => interval(&case.truth, diagnose),
-        TablePart::HeavyTails => hidden(&case.truth, Hiding::Nothing, diagnose),
-        TablePart::LostMarkers(_) => lossy(&case.truth, diagnose),
+        Lot::Hidden(kind) => hidden(&case.truth, kind, diagnose),
+        Lot::Measured(_) => measured(&case.truth, diagnose),
+        Lot::Interval => interval(&case.truth, diagnose),
+        Lot::HeavyTails => hidden(&case.truth, Hiding::Nothing, diagnose),
+        Lot::LostMarkers(_) => lossy(&case.truth, diagnose),
     };
     let (named, failed) = match found {
         Ok(named) => (Some(named), None),

@@ -14,7 +14,7 @@
 //! what is missing.
 
 use super::Diagnoser;
-use super::row::{FigureRow, Goal};
+use super::row::{Goal, Rate};
 use compare::Evidence;
 use compare::diagnosis::{Added, Options, Verdict};
 use compare::error::CompareError;
@@ -94,14 +94,9 @@ fn one(robot: &'static str, lacking: &'static str, diagnose: Diagnoser) -> Resul
 }
 
 /// Their rows of the table.
-pub(super) fn rows(made: &[FromRuns]) -> Vec<FigureRow> {
+pub(super) fn rows(made: &[FromRuns]) -> Vec<Rate> {
     let share = |figure, hit: fn(&FromRuns) -> bool| {
-        FigureRow::share(
-            "made by finite elements",
-            figure,
-            Goal::AtLeast(1.0),
-            &made.iter().map(hit).collect::<Vec<_>>(),
-        )
+        Rate::share("made by finite elements", figure, Goal::AtLeast(1.0), &made.iter().map(hit).collect::<Vec<_>>())
     };
     vec![
         share("what the model lacks is in the stated set", |m| m.in_set),

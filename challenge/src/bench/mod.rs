@@ -17,7 +17,7 @@ mod tests;
 pub use attainable::Attainable;
 pub use cases::{After, Named, SetOutcome};
 pub use made::{FromRuns, LACKING};
-pub use row::{FigureRow, Goal};
+pub use row::{Goal, Rate};
 
 use super::score::{Claim, ClaimScore};
 use super::truth::{Hiding, Truth};
@@ -96,7 +96,7 @@ pub struct Discovery {
     /// Seed.
     pub seed: u64,
     /// Rows of the table.
-    pub rows: Vec<FigureRow>,
+    pub rows: Vec<Rate>,
     /// Truth against name, single effects.
     pub confusion: Vec<Confusion>,
     /// Single effects by actuator, camera noise and runs.
@@ -169,14 +169,14 @@ fn seen(outcome: &SetOutcome) -> SetSeen {
 #[derive(Debug, Clone)]
 pub struct PlannedSet {
     /// Part of the table.
-    pub part: TablePart,
+    pub part: Lot,
     /// What is hidden.
     pub truth: Truth,
 }
 
 /// Parts of the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TablePart {
+pub enum Lot {
     /// Hidden by the generator.
     Hidden(Hiding),
     /// The same sets, of robots whose bending stiffness was measured by itself, to 10 %.
@@ -192,20 +192,20 @@ pub enum TablePart {
 fn plan(options: &DiscoveryOptions) -> Result<Vec<PlannedSet>, CompareError> {
     let half = options.sets.div_ceil(2);
     let parts = [
-        (TablePart::Hidden(Hiding::Nothing), options.sets),
-        (TablePart::Hidden(Hiding::One), options.sets),
-        (TablePart::Hidden(Hiding::Two), half),
-        (TablePart::Hidden(Hiding::Outside), half),
-        (TablePart::Interval, half),
-        (TablePart::HeavyTails, half),
-        (TablePart::Measured(Hiding::Nothing), options.sets),
-        (TablePart::Measured(Hiding::One), options.sets),
-        (TablePart::LostMarkers(Hiding::Nothing), half),
-        (TablePart::LostMarkers(Hiding::One), half),
+        (Lot::Hidden(Hiding::Nothing), options.sets),
+        (Lot::Hidden(Hiding::One), options.sets),
+        (Lot::Hidden(Hiding::Two), half),
+        (Lot::Hidden(Hiding::Outside), half),
+        (Lot::Interval, half),
+        (Lot::HeavyTails, half),
+        (Lot::Measured(Hiding::Nothing), options.sets),
+        (Lot::Measured(Hiding::One), options.sets),
+        (Lot::LostMarkers(Hiding::Nothing), half),
+        (Lot::LostMarkers(Hiding::One), half),
     ];
     let mut plan = Vec::new();
     for (number, (part, sets)) in parts.into_iter().enumerate() {
-        let same = |other: &(TablePart, usize)| matches!(part, TablePart::Measured(kind) | TablePart::LostMarkers(kind) if other.0 == TablePart::Hidden(kind));
+        let same = |other: &(Lot, usize)| matches!(part, Lot::Measured(kind) | Lot::LostMarkers(kind) if other.0 == Lot::Hidden(kind));
         let number = parts.iter().position(same).unwrap_or(number);
         for index in 0..sets {
             let stream = ((number as u64) << 32) + index as u64;

@@ -17,7 +17,7 @@ pub enum Goal {
 
 /// A figure of the table.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct FigureRow {
+pub struct Rate {
     /// Which sets.
     pub case: &'static str,
     /// Which figure.
@@ -46,34 +46,19 @@ impl Goal {
     }
 }
 
-impl FigureRow {
+impl Rate {
     /// Share of sets for which something holds.
-    pub fn share(case: &'static str, figure: &'static str, target: Goal, sets: &[bool]) -> FigureRow {
+    pub fn share(case: &'static str, figure: &'static str, target: Goal, sets: &[bool]) -> Rate {
         let (hits, n) = (sets.iter().filter(|hit| **hit).count(), sets.len());
         let measured = (n > 0).then(|| hits as f64 / n as f64);
         let interval = (n > 0).then(|| clopper_pearson(hits, n));
-        FigureRow {
-            case,
-            figure,
-            target,
-            measured,
-            interval,
-            sets: n,
-            share: true,
-            met: measured.map(|v| target.met(v)),
-        }
+        Rate { case, figure, target, measured, interval, sets: n, share: true, met: measured.map(|v| target.met(v)) }
     }
 
     /// A mean or median.
-    pub fn number(
-        case: &'static str,
-        figure: &'static str,
-        target: Goal,
-        value: Option<f64>,
-        sets: usize,
-    ) -> FigureRow {
+    pub fn number(case: &'static str, figure: &'static str, target: Goal, value: Option<f64>, sets: usize) -> Rate {
         let met = value.map(|v| target.met(v));
-        FigureRow { case, figure, target, measured: value, interval: None, sets, share: false, met }
+        Rate { case, figure, target, measured: value, interval: None, sets, share: false, met }
     }
 }
 
@@ -101,8 +86,8 @@ mod tests {
 
     #[test]
     fn a_row_without_sets_reaches_nothing_and_misses_nothing() {
-        let row = FigureRow::share("c", "f", Goal::AtLeast(0.9), &[]);
+        let row = Rate::share("c", "f", Goal::AtLeast(0.9), &[]);
         assert_eq!((row.measured, row.met, row.interval), (None, None, None));
-        assert_eq!(FigureRow::share("c", "f", Goal::AtMost(0.5), &[true, false]).met, Some(true));
+        assert_eq!(Rate::share("c", "f", Goal::AtMost(0.5), &[true, false]).met, Some(true));
     }
 }

@@ -1,18 +1,18 @@
 //! From outcomes to the rows of the table.
 
 use super::cases::{Named, SetOutcome, names};
-use super::row::{FigureRow, Goal};
-use super::{Confusion, Slice, TablePart};
+use super::row::{Goal, Rate};
+use super::{Confusion, Lot, Slice};
 use crate::Hiding;
 use Goal::{AtLeast, AtMost, Between};
 
 /// The rows, in the order of the table.
-pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
+pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
     let one = |part| one(outcomes, part);
     let parts = [
         nothing(outcomes),
-        one(TablePart::Hidden(Hiding::One)),
-        one(TablePart::Measured(Hiding::One)),
+        one(Lot::Hidden(Hiding::One)),
+        one(Lot::Measured(Hiding::One)),
         lossy(outcomes),
         after(outcomes),
         two(outcomes),
@@ -24,7 +24,7 @@ pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
 }
 
 /// Sets of a part that were diagnosed.
-fn found(outcomes: &[SetOutcome], part: TablePart) -> Vec<(&SetOutcome, &Named)> {
+fn found(outcomes: &[SetOutcome], part: Lot) -> Vec<(&SetOutcome, &Named)> {
     outcomes.iter().filter(|o| o.part == part).filter_map(|o| Some((o, o.named.as_ref()?))).collect()
 }
 
@@ -32,45 +32,40 @@ fn shares(sets: &[(&SetOutcome, &Named)], hit: impl Fn(&Named) -> bool) -> Vec<b
     sets.iter().map(|(_, named)| hit(named)).collect()
 }
 
-fn nothing(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
-    let all = found(outcomes, TablePart::Hidden(Hiding::Nothing));
+fn nothing(outcomes: &[SetOutcome]) -> Vec<Rate> {
+    let all = found(outcomes, Lot::Hidden(Hiding::Nothing));
     let (few, many): (Vec<_>, Vec<_>) = all.into_iter().partition(|(outcome, _)| outcome.truth.runs < 5);
     let case = "no hidden effect";
     let alarm = |named: &Named| named.score.alarm;
-    let heavy = found(outcomes, TablePart::HeavyTails);
-    let tested = found(outcomes, TablePart::Measured(Hiding::Nothing));
-    let lossy = found(outcomes, TablePart::LostMarkers(Hiding::Nothing));
+    let heavy = found(outcomes, Lot::HeavyTails);
+    let tested = found(outcomes, Lot::Measured(Hiding::Nothing));
+    let lossy = found(outcomes, Lot::LostMarkers(Hiding::Nothing));
     vec![
-        FigureRow::share("no hidden effect, markers lost", "false alarms", AtMost(0.05), &shares(&lossy, alarm)),
-        FigureRow::share("no hidden effect, heavy tails", "false alarms", AtMost(0.05), &shares(&heavy, alarm)),
-        FigureRow::share(case, "false alarms, 5 and 10 runs", AtMost(0.03), &shares(&many, alarm)),
-        FigureRow::share(case, "false alarms, 3 runs", AtMost(0.05), &shares(&few, alarm)),
-        FigureRow::share("no hidden effect, B measured to 10 %", "false alarms", AtMost(0.05), &shares(&tested, alarm)),
+        Rate::share("no hidden effect, markers lost", "false alarms", AtMost(0.05), &shares(&lossy, alarm)),
+        Rate::share("no hidden effect, heavy tails", "false alarms", AtMost(0.05), &shares(&heavy, alarm)),
+        Rate::share(case, "false alarms, 5 and 10 runs", AtMost(0.03), &shares(&many, alarm)),
+        Rate::share(case, "false alarms, 3 runs", AtMost(0.05), &shares(&few, alarm)),
+        Rate::share("no hidden effect, B measured to 10 %", "false alarms", AtMost(0.05), &shares(&tested, alarm)),
     ]
 }
 
-fn one(outcomes: &[SetOutcome], part: TablePart) -> Vec<FigureRow> {
+fn one(outcomes: &[SetOutcome], part: Lot) -> Vec<Rate> {
     let all = found(outcomes, part);
     let alarmed: Vec<_> = all.iter().filter(|(_, named)| named.score.alarm).copied().collect();
     let case = match part {
-        TablePart::Measured(_) => "one hidden effect, B measured to 10 %",
+        Lot::Measured(_) => "one hidden effect, B measured to 10 %",
         _ => "one hidden effect",
     };
     let top = |most: usize| move |named: &Named| named.score.rank.is_some_and(|rank| rank <= most);
     let sized: Vec<f64> = alarmed.iter().map(|(_, n)| n.score.set_size as f64).filter(|n| *n > 0.0).collect();
     let mean = (!sized.is_empty()).then(|| sized.iter().sum::<f64>() / sized.len() as f64);
     vec![
-        FigureRow::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
-        FigureRow::share(case, "given alarm: truth on top", AtLeast(0.80), &shares(&alarmed, top(1))),
-        FigureRow::share(case, "given alarm: truth in the first three", AtLeast(0.92), &shares(&alarmed, top(3))),
-        FigureRow::share(
-            case,
-            "given alarm: truth in the stated set",
-            AtLeast(0.93),
-            &shares(&alarmed, |n| n.score.in_set),
-        ),
-        FigureRow::number(case, "mean size of the stated set", AtMost(2.5), mean, sized.len()),
-        FigureRow::share(
+        Rate::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
+        Rate::share(case, "given alarm: truth on top", AtLeast(0.80), &shares(&alarmed, top(1))),
+        Rate::share(case, "given alarm: truth in the first three", AtLeast(0.92), &shares(&alarmed, top(3))),
+        Rate::share(case, "given alarm: truth in the stated set", AtLeast(0.93), &shares(&alarmed, |n| n.score.in_set)),
+        Rate::number(case, "mean size of the stated set", AtMost(2.5), mean, sized.len()),
+        Rate::share(
             case,
             "given alarm: called outside the catalogue",
             AtMost(0.05),
@@ -79,19 +74,14 @@ fn one(outcomes: &[SetOutcome], part: TablePart) -> Vec<FigureRow> {
     ]
 }
 
-fn lossy(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
-    let all = found(outcomes, TablePart::LostMarkers(Hiding::One));
+fn lossy(outcomes: &[SetOutcome]) -> Vec<Rate> {
+    let all = found(outcomes, Lot::LostMarkers(Hiding::One));
     let alarmed: Vec<_> = all.iter().filter(|(_, named)| named.score.alarm).copied().collect();
     let case = "one hidden effect, markers lost";
     vec![
-        FigureRow::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
-        FigureRow::share(
-            case,
-            "given alarm: truth in the stated set",
-            AtLeast(0.93),
-            &shares(&alarmed, |n| n.score.in_set),
-        ),
-        FigureRow::share(
+        Rate::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
+        Rate::share(case, "given alarm: truth in the stated set", AtLeast(0.93), &shares(&alarmed, |n| n.score.in_set)),
+        Rate::share(
             case,
             "given alarm: called outside the catalogue",
             AtMost(0.05),
@@ -100,86 +90,71 @@ fn lossy(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
     ]
 }
 
-fn after(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
-    let all = found(outcomes, TablePart::Hidden(Hiding::One));
+fn after(outcomes: &[SetOutcome]) -> Vec<Rate> {
+    let all = found(outcomes, Lot::Hidden(Hiding::One));
     let scores: Vec<_> = all.iter().filter_map(|(_, named)| named.after.as_ref()).map(|after| &after.score).collect();
     let top: Vec<bool> = scores.iter().map(|score| score.rank == Some(1)).collect();
     let in_set: Vec<bool> = scores.iter().map(|score| score.in_set).collect();
     let case = "ambiguous, after the next experiment";
     vec![
-        FigureRow::share(case, "truth on top", AtLeast(0.90), &top),
-        FigureRow::share(case, "truth in the stated set", AtLeast(0.93), &in_set),
+        Rate::share(case, "truth on top", AtLeast(0.90), &top),
+        Rate::share(case, "truth in the stated set", AtLeast(0.93), &in_set),
     ]
 }
 
 /// Of every set missed after the next experiment, whether it is missed with next to no noise too.
 pub(super) fn missed_in_silence(outcomes: &[SetOutcome]) -> Vec<bool> {
-    let all = found(outcomes, TablePart::Hidden(Hiding::One));
+    let all = found(outcomes, Lot::Hidden(Hiding::One));
     all.iter().filter_map(|(_, named)| named.after_in_silence.as_ref()).map(|score| score.rank != Some(1)).collect()
 }
 
-fn two(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
-    let all = found(outcomes, TablePart::Hidden(Hiding::Two));
+fn two(outcomes: &[SetOutcome]) -> Vec<Rate> {
+    let all = found(outcomes, Lot::Hidden(Hiding::Two));
     let case = "two hidden effects";
     vec![
-        FigureRow::share(case, "at least one named", AtLeast(0.90), &shares(&all, |named| named.score.named >= 1)),
-        FigureRow::share(case, "both named", AtLeast(0.40), &shares(&all, |named| named.score.named == 2)),
-        FigureRow::share(
-            case,
-            "at least one in the stated set",
-            AtLeast(0.90),
-            &shares(&all, |named| named.score.in_set),
-        ),
-        FigureRow::share(
-            case,
-            "both, as one entry of the stated set",
-            AtLeast(0.40),
-            &shares(&all, |n| n.score.all_in_set),
-        ),
-        FigureRow::share(case, "a wrong name asserted", AtMost(0.15), &shares(&all, |named| named.score.wrong)),
+        Rate::share(case, "at least one named", AtLeast(0.90), &shares(&all, |named| named.score.named >= 1)),
+        Rate::share(case, "both named", AtLeast(0.40), &shares(&all, |named| named.score.named == 2)),
+        Rate::share(case, "at least one in the stated set", AtLeast(0.90), &shares(&all, |named| named.score.in_set)),
+        Rate::share(case, "both, as one entry of the stated set", AtLeast(0.40), &shares(&all, |n| n.score.all_in_set)),
+        Rate::share(case, "a wrong name asserted", AtMost(0.15), &shares(&all, |named| named.score.wrong)),
     ]
 }
 
-fn outside(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
-    let all = found(outcomes, TablePart::Hidden(Hiding::Outside));
+fn outside(outcomes: &[SetOutcome]) -> Vec<Rate> {
+    let all = found(outcomes, Lot::Hidden(Hiding::Outside));
     let flagged = shares(&all, |named| named.score.out_of_catalog);
-    vec![FigureRow::share("outside the catalogue", "flagged as such", AtLeast(0.90), &flagged)]
+    vec![Rate::share("outside the catalogue", "flagged as such", AtLeast(0.90), &flagged)]
 }
 
-fn quality(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
-    let own = found(outcomes, TablePart::Interval);
+fn quality(outcomes: &[SetOutcome]) -> Vec<Rate> {
+    let own = found(outcomes, Lot::Interval);
     let covered: Vec<bool> = own.iter().filter_map(|(_, named)| named.covered).collect();
-    let all = found(outcomes, TablePart::Hidden(Hiding::One));
+    let all = found(outcomes, Lot::Hidden(Hiding::One));
     let alarmed = || all.iter().map(|(_, named)| *named).filter(|named| !named.answer.added.is_empty());
     let ratio = |[before, after]: [f64; 2]| (before > 0.0).then(|| after / before);
     let fitted: Vec<f64> = alarmed().filter_map(|named| ratio(named.systematic_mm)).collect();
     let held: Vec<f64> = alarmed().filter_map(|named| named.heldout_mm.and_then(ratio)).collect();
     let case = "error beyond noise, one hidden effect";
     vec![
-        FigureRow::share(
+        Rate::share(
             "one effect by the catalogue's own law",
             "95 % interval holds the true value",
             Between(0.93, 0.97),
             &covered,
         ),
-        FigureRow::number(case, "median of after / before", AtMost(0.10), median(&fitted), fitted.len()),
-        FigureRow::number(case, "the same on held-out runs", AtMost(0.10), median(&held), held.len()),
+        Rate::number(case, "median of after / before", AtMost(0.10), median(&fitted), fitted.len()),
+        Rate::number(case, "the same on held-out runs", AtMost(0.10), median(&held), held.len()),
     ]
 }
 
 /// Exchanged labels are the slip among what is hidden.
-fn slips(outcomes: &[SetOutcome]) -> Vec<FigureRow> {
+fn slips(outcomes: &[SetOutcome]) -> Vec<Rate> {
     let all = outcomes.iter().filter_map(|o| Some((o, o.named.as_ref()?)));
     let (slipped, right): (Vec<_>, Vec<_>) =
         all.partition(|(o, _)| o.truth.effects.iter().any(|choice| choice.name == "swapped_markers"));
     vec![
-        FigureRow::share("labels exchanged", "told as a slip", AtLeast(0.90), &shares(&slipped, |named| named.slip)),
-        FigureRow::share(
-            "all other sets",
-            "told a slip that is none",
-            AtMost(0.01),
-            &shares(&right, |named| named.slip),
-        ),
+        Rate::share("labels exchanged", "told as a slip", AtLeast(0.90), &shares(&slipped, |named| named.slip)),
+        Rate::share("all other sets", "told a slip that is none", AtMost(0.01), &shares(&right, |named| named.slip)),
     ]
 }
 
@@ -204,7 +179,7 @@ struct Count {
 /// Truth against the name on top, single effects, by truth and then by frequency.
 pub(super) fn confusion(outcomes: &[SetOutcome]) -> Vec<Confusion> {
     let mut cells: Vec<Count> = Vec::new();
-    for (outcome, found) in found(outcomes, TablePart::Hidden(Hiding::One)) {
+    for (outcome, found) in found(outcomes, Lot::Hidden(Hiding::One)) {
         let truth = names(&outcome.truth).join(" + ");
         let named = match found.answer.verdict.as_deref().unwrap_or_default() {
             "effect" => found.answer.ranked.first().cloned().unwrap_or_default(),
@@ -234,7 +209,7 @@ pub(super) fn confusion(outcomes: &[SetOutcome]) -> Vec<Confusion> {
 
 /// Figures of single effects by actuator, camera noise and runs.
 pub(super) fn breakdown(outcomes: &[SetOutcome]) -> Vec<Slice> {
-    let all = found(outcomes, TablePart::Hidden(Hiding::One));
+    let all = found(outcomes, Lot::Hidden(Hiding::One));
     let keys = |outcome: &SetOutcome| {
         let truth = &outcome.truth;
         [truth.actuator.clone(), format!("{} mm", truth.camera_sd_m * 1e3), format!("{} runs", truth.runs)]

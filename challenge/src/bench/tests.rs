@@ -6,7 +6,7 @@ use crate::HIDDEN;
 #[test]
 fn all_robots_and_all_effects_take_part_equally() {
     let plan = plan(&DiscoveryOptions { seed: 1, sets: 96 }).unwrap();
-    let one: Vec<&PlannedSet> = plan.iter().filter(|case| case.part == TablePart::Hidden(Hiding::One)).collect();
+    let one: Vec<&PlannedSet> = plan.iter().filter(|case| case.part == Lot::Hidden(Hiding::One)).collect();
     assert_eq!(one.len(), 96);
     for effect in HIDDEN {
         let count = one.iter().filter(|case| case.truth.effects[0].name == effect.name).count();
@@ -18,12 +18,12 @@ fn all_robots_and_all_effects_take_part_equally() {
         let sigma = case.truth.camera_sd_m;
         assert!((0.5e-3..=2e-3).contains(&sigma) && [3, 5, 10].contains(&case.truth.runs));
     }
-    let tested = plan.iter().filter(|case| case.part == TablePart::Measured(Hiding::One));
+    let tested = plan.iter().filter(|case| case.part == Lot::Measured(Hiding::One));
     assert!(
         tested.map(|case| &case.truth).eq(one.iter().map(|case| &case.truth)),
         "the same robots, with a bending test"
     );
-    let two = plan.iter().filter(|case| case.part == TablePart::Hidden(Hiding::Two));
+    let two = plan.iter().filter(|case| case.part == Lot::Hidden(Hiding::Two));
     assert!(two.clone().count() == 48 && two.clone().all(|c| c.truth.effects[0].name != c.truth.effects[1].name));
 }
 
@@ -62,9 +62,8 @@ fn the_finite_element_sets_are_diagnosed_and_what_is_named_lowers_the_held_out_e
 /// Loads and shape come together by a fiftieth of their gap a round here, and need more than 400 rounds at 10 kPa.
 #[test]
 fn a_robot_whose_loads_and_shape_agree_slowly_is_no_failure() {
-    let truth = cases::draw(TablePart::Hidden(Hiding::One), 4, (1 << 32) + 154, 154).unwrap();
-    let found =
-        cases::outcome(&PlannedSet { part: TablePart::Hidden(Hiding::One), truth }, compare::diagnosis::diagnose);
+    let truth = cases::draw(Lot::Hidden(Hiding::One), 4, (1 << 32) + 154, 154).unwrap();
+    let found = cases::outcome(&PlannedSet { part: Lot::Hidden(Hiding::One), truth }, compare::diagnosis::diagnose);
     assert!(found.failed.is_none(), "{:?}", found.failed);
     assert!(found.named.unwrap().after.is_some());
 }

@@ -1,7 +1,7 @@
 //! How often a diagnosis is right, on data whose hidden effects follow other laws.
 
 use crate::{Error, Findings, Printed};
-use challenge::bench::{Attainable, Confusion, Discovery, DiscoveryOptions, FigureRow, Goal, run as run_bench};
+use challenge::bench::{Attainable, Confusion, Discovery, DiscoveryOptions, Goal, Rate, run as run_bench};
 use challenge::truth::{ROBOTS, standard_protocol};
 use challenge::{Draw, Truth};
 use compare::Evidence;
@@ -26,7 +26,7 @@ pub fn measure(sets: usize, seed: u64, machine: &str) -> Result<Findings, Error>
     let options = DiscoveryOptions { seed, sets };
     let bench = run_bench(&options, diagnose, &|_| ())?;
     let seconds = seconds(seed)?;
-    let time = FigureRow::number(
+    let time = Rate::number(
         "full diagnosis",
         "median CPU seconds on one core",
         Goal::AtMost(TIME_S),
@@ -60,7 +60,7 @@ fn seconds(seed: u64) -> Result<f64, Error> {
     Ok(0.5 * (times[1] + times[2]))
 }
 
-fn parts(bench: &Discovery, time: &FigureRow) -> Vec<Printed> {
+fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
     let percent = |v: f64| format!("{:.0} %", 100.0 * v);
     let head = &["sets of", "figure", "wanted", "measured", "95 % interval", "sets", "met"];
     let by_part = bench
@@ -167,7 +167,7 @@ fn attainable(limits: &Attainable) -> String {
     )
 }
 
-fn cells(row: &FigureRow) -> Vec<String> {
+fn cells(row: &Rate) -> Vec<String> {
     let shown = |v: f64| if row.share { format!("{:.1} %", 100.0 * v) } else { format!("{v:.2}") };
     let wanted = match row.target {
         Goal::AtLeast(v) => format!("≥ {}", shown(v)),
