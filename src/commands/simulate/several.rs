@@ -77,9 +77,9 @@ pub fn uncertain(cube: &Cube, set: &[String], settings: Settings, context: &mut 
     let tornado = weights.as_ref().map(|_| what_to_measure(&all, top)).transpose()?;
     let tornado = tornado.map(|drawn| ("written", "tornado.png", drawn.png));
     if weights.is_none() {
-        let (robots, needed) = (all.members.len(), all.needed());
+        let (robots, needed) = (all.members.iter().filter(|m| m.stopped.is_none()).count(), all.needed());
         outcome.notes.push(format!(
-            "note: {robots} robots do not tell which number to measure first, so there is no tornado.png; --uncertain {needed} does"
+            "note: {robots} finished robots do not tell which number to measure first, {needed} do: there is no tornado.png"
         ));
     }
     let record = ("written", "uncertain.json", all.record().into_bytes());
