@@ -1,12 +1,11 @@
 //! `ibr data import`
 
-use super::data::folder_is_free;
 use super::inputs::quantity;
 use super::{Context, Outcome};
 use crate::cli::Import;
 use crate::failure::Failure;
-use crate::output::{Input, check_folder, write_files};
-use data::import::{Axis, Imported, Offset, Options, Place, QUANTITIES, Scale, import, read_board};
+use crate::output::{Input, check_folder, check_set_folder, spares_inputs, write_files};
+use data::import::{FileAxis, FilePlace, ImportOptions, Imported, Offset, QUANTITIES, Scale, import, read_board};
 use ibr::pages::{Files, tracks_plot};
 use models::scenario::quantity::Quantity;
 use serde_json::json;
@@ -27,8 +26,7 @@ pub fn run(args: &Import, context: &mut Context) -> Result<Outcome, Failure> {
     }
     let options = options(args)?;
     if let Some(folder) = &args.out {
-        check_folder(folder)?;
-        folder_is_free(folder, args.force)?;
+        check_set_folder(folder, args.force)?;
     }
     let mut tell =
         |done: u64, total: u64| (context.progress)("reading tracks", Some(done as f64 / total.max(1) as f64));
@@ -36,7 +34,9 @@ pub fn run(args: &Import, context: &mut Context) -> Result<Outcome, Failure> {
     let mut text = told(&made);
     match &args.out {
         Some(folder) => {
-            write_files(folder, &files(&made)?, &inputs(args), context)?;
+            let (files, inputs) = (files(&made)?, inputs(args));
+            spares_inputs(folder, &files, &inputs.iter().map(|input| input.name.clone()).collect::<Vec<_>>())?;
+            write_files(folder, &files, &inputs, context)?;
             text.push_str(&format!(
                 "\nmarkers.csv, about.toml and tracks in {}; answer the questions in about.toml, then\n  ibr data check {0}\n",
                 folder.display()
@@ -102,7 +102,7 @@ fn inputs(args: &Import) -> Vec<Input> {
     read.map(|path| Input::of(&path.display().to_string(), &std::fs::read(path).unwrap_or_default())).collect()
 }
 
-fn options(args: &Import) -> Result<Options, Failure> {
+fn options(args: &Import) -> Result<ImportOptions, Failure> {
     let pressure = |option: &str, text: &Option<String>| {
         text.as_ref().map(|text| quantity(option, text, Quantity::Pressure)).transpose()
     };
@@ -110,7 +110,7 @@ fn options(args: &Import) -> Result<Options, Failure> {
     if let Some(text) = args.bin.as_ref().filter(|_| bin_pa.is_some_and(|bin| bin <= 0.0)) {
         return Err(Failure::usage(format!("--bin {text} is not above zero"), "write for example --bin 2kPa"));
     }
-    Ok(Options {
+    Ok(ImportOptions {
         pressure_logs: args.pressure.clone(),
         scale: scale(args)?,
         base: args.base.as_ref().map(|text| place(text)),
@@ -180,20 +180,20 @@ fn scale(args: &Import) -> Result<Scale, Failure> {
 }
 
 /// `X,Y` or a marker.
-fn place(text: &str) -> Place {
+fn place(text: &str) -> FilePlace {
     let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
     match numbers.filter(|numbers| matches!(numbers.len(), 2 | 3)) {
-        Some(numbers) => Place::At(numbers),
-        None => Place::Marker(text.trim().to_string()),
+        Some(numbers) => FilePlace::At(numbers),
+        None => FilePlace::Marker(text.trim().to_string()),
     }
 }
 
-fn axes(text: &str) -> Result<[Axis; 2], Failure> {
+fn axes(text: &str) -> Result<[FileAxis; 2], Failure> {
     let axis = |word: &str| {
         let (turned, letter) =
             word.trim().strip_prefix('-').map_or((false, word.trim().trim_start_matches('+')), |rest| (true, rest));
         let index = ["x", "y", "z"].iter().position(|known| known.eq_ignore_ascii_case(letter))?;
-        Some(Axis { index, turned })
+        Some(FileAxis { index, turned })
     };
     let found = text.split_once(',').and_then(|(along, towards)| Some([axis(along)?, axis(towards)?]));
     let help = "write the file's axis along the robot and the one towards the actuator, for example x,-y";

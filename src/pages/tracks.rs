@@ -1,15 +1,15 @@
 //! Tracks over time with the holds that were found in them.
 
 use super::PageError;
-use data::import::Track;
-use report::chart::{Chart, Key, Look, Mark};
+use data::import::RunTrack;
+use report::chart::{Chart, Key, KeyLook, Mark};
 use report::{Drawn, Ink};
 
 /// y of every marker over time; behind it the holds, each with its pressure.
 ///
 /// # Errors
 /// Nothing to draw.
-pub fn tracks_plot(track: &Track) -> Result<Drawn, PageError> {
+pub fn tracks_plot(track: &RunTrack) -> Result<Drawn, PageError> {
     let line = |(k, (_, points)): (usize, &(String, Vec<[f64; 2]>))| Mark::Line {
         points: points.iter().map(|[t, y]| [*t, y * 1e3]).collect(),
         ink: Ink::Series(k),
@@ -24,9 +24,9 @@ pub fn tracks_plot(track: &Track) -> Result<Drawn, PageError> {
     let mut marks: Vec<Mark> = track.holds.iter().map(band).collect();
     marks.extend(lines);
     let few = track.lines.len() <= MOST_KEYS;
-    let mut keys = vec![Key::new(Look::Patch, Ink::Soft, &holds(track))];
+    let mut keys = vec![Key::new(KeyLook::Patch, Ink::Soft, &holds(track))];
     let names = track.lines.iter().enumerate().filter(|_| few);
-    keys.extend(names.map(|(k, (name, _))| Key::new(Look::Line, Ink::Series(k), name)));
+    keys.extend(names.map(|(k, (name, _))| Key::new(KeyLook::Line, Ink::Series(k), name)));
     let chart = Chart {
         title: format!("Run {}: markers towards the actuator, and the holds found", track.run),
         x_label: "time [s]".into(),
@@ -42,7 +42,7 @@ pub fn tracks_plot(track: &Track) -> Result<Drawn, PageError> {
 const MOST_KEYS: usize = 12;
 
 /// The holds in words: their pressures in the order of time.
-fn holds(track: &Track) -> String {
+fn holds(track: &RunTrack) -> String {
     const MOST: usize = 10;
     let shown: Vec<String> = track.holds.iter().take(MOST).map(|hold| report::number(hold[2] * 1e-3, 0)).collect();
     let more = if track.holds.len() > MOST { ", …" } else { "" };

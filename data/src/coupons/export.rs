@@ -4,7 +4,7 @@ use super::CouponDefaults;
 use super::columns::{DISPLACEMENT, FORCE, LENGTH, Notes, QUANTITIES, STRAIN, STRESS, THICKNESS, WIDTH};
 use crate::cells::is_nothing;
 use crate::error::DataError;
-use crate::import::sheet::Sheet;
+use crate::import::sheet::CellText;
 use crate::units::Measured;
 use spelling::units::Unit;
 
@@ -58,7 +58,7 @@ type Found = [Option<(usize, Option<Unit>)>; TIME + 1];
 ///
 /// # Errors
 /// A unit that is not known or not given, a strain over a force without the length between the grips, a cell that is no number.
-pub(super) fn read(sheet: &Sheet, defaults: &CouponDefaults) -> Result<Option<Export>, DataError> {
+pub(super) fn read(sheet: &CellText, defaults: &CouponDefaults) -> Result<Option<Export>, DataError> {
     let lines: Vec<(u64, Vec<&str>)> = sheet.lines().map(|(number, line)| (number, sheet.split(line))).collect();
     let names = |cells: &Vec<&str>| cells.iter().filter_map(|cell| quantity(cell)).collect::<Vec<_>>();
     let is_curve = |cells: &Vec<&str>| {
@@ -131,7 +131,7 @@ fn unit(quantity: usize, word: &str) -> Option<Unit> {
 }
 
 /// Sizes in rows like `Width, 25.00, mm` or `Width (mm), 25`.
-fn sizes(sheet: &Sheet, rows: &[(u64, Vec<&str>)]) -> Result<Notes, DataError> {
+fn sizes(sheet: &CellText, rows: &[(u64, Vec<&str>)]) -> Result<Notes, DataError> {
     let mut notes = Notes::default();
     for (number, cells) in rows {
         let (name, own) = parts(cells[0]);
@@ -145,7 +145,7 @@ fn sizes(sheet: &Sheet, rows: &[(u64, Vec<&str>)]) -> Result<Notes, DataError> {
     Ok(notes)
 }
 
-fn no_unit(sheet: &Sheet, number: u64, name: &str, word: &str) -> DataError {
+fn no_unit(sheet: &CellText, number: u64, name: &str, word: &str) -> DataError {
     let message = if word.is_empty() {
         format!("{name} has no unit")
     } else {
@@ -160,7 +160,7 @@ fn no_unit(sheet: &Sheet, number: u64, name: &str, word: &str) -> DataError {
 
 /// The columns of every specimen: a new one begins where a quantity comes again.
 fn blocks(
-    sheet: &Sheet,
+    sheet: &CellText,
     (number, names): &(u64, Vec<&str>),
     units: Option<&Vec<&str>>,
 ) -> Result<Vec<Found>, DataError> {
@@ -183,7 +183,7 @@ fn blocks(
 }
 
 /// Displacement and force where the length between the grips is known, else strain and stress, else strain over force.
-fn curve(sheet: &Sheet, number: u64, block: &Found, notes: &Notes) -> Result<[usize; 2], DataError> {
+fn curve(sheet: &CellText, number: u64, block: &Found, notes: &Notes) -> Result<[usize; 2], DataError> {
     let has = |[x, y]: [usize; 2]| block[x].is_some() && block[y].is_some();
     let sized = notes.numbers[LENGTH].is_some();
     let whole = [DISPLACEMENT, FORCE];
@@ -222,7 +222,7 @@ fn labels(above: Option<&Vec<&str>>, blocks: &[Found]) -> Vec<String> {
 
 /// A row of a specimen in the units of the header; `None` where this specimen has ended.
 fn row(
-    sheet: &Sheet,
+    sheet: &CellText,
     number: u64,
     cells: &[&str],
     block: &Found,

@@ -29,7 +29,7 @@ use std::path::Path;
 
 use crate::about::Provenance;
 use crate::error::{DataError, Fault};
-use crate::import::sheet::Sheet;
+use crate::import::sheet::CellText;
 use crate::lines::{Line, Lines};
 use export::Export;
 
@@ -196,7 +196,7 @@ pub fn parse_coupons(
         );
         return Err(DataError::Layout(Box::new(fault)));
     }
-    let sheet = std::str::from_utf8(&bytes).ok().map(|text| Sheet::new(file, text)).transpose()?;
+    let sheet = std::str::from_utf8(&bytes).ok().map(|text| CellText::new(file, text)).transpose()?;
     let comma = sheet.as_ref().is_some_and(|sheet| sheet.comma);
     let mut own = bytes.as_slice();
     let mut lines = Lines::new(file, &mut own, bytes_total, progress);

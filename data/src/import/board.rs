@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::join::text_of;
-use super::sheet::Sheet;
+use super::sheet::CellText;
 use crate::error::DataError;
 
 /// Reads corners: rows of column and row on the board, and x and y in the picture; a line of names may stand above them.
@@ -12,7 +12,7 @@ use crate::error::DataError;
 /// Not readable; a row without four numbers.
 pub fn read_board(path: &Path) -> Result<Vec<[f64; 4]>, DataError> {
     let (shown, text) = (path.display().to_string(), text_of(path)?);
-    let sheet = Sheet::new(&shown, &text)?;
+    let sheet = CellText::new(&shown, &text)?;
     let mut corners = Vec::new();
     for (k, (number, line)) in sheet.lines().filter(|(_, line)| !line.starts_with('#')).enumerate() {
         let cells = sheet.split(line);

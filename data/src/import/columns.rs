@@ -2,15 +2,15 @@
 
 use std::ops::Range;
 
-use super::options::Options;
+use super::options::ImportOptions;
 use super::recording::Lengths;
-use super::sheet::Sheet;
+use super::sheet::CellText;
 use crate::error::DataError;
 use crate::units::Measured;
 
 /// A name taken apart.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Name {
+pub(crate) struct ColumnName {
     /// The text without the unit.
     base: String,
     /// Words in lower case, digits apart from letters, and their places in it.
@@ -63,9 +63,9 @@ fn is_unit(word: &str) -> bool {
     is_pixel(word) || is_frame(word) || dimensions.into_iter().any(|dimension| si(word, dimension).is_some())
 }
 
-impl Name {
+impl ColumnName {
     /// Takes a name apart.
-    pub fn of(text: &str) -> Name {
+    pub fn of(text: &str) -> ColumnName {
         let text = text.trim();
         let (base, bracket) = match text.find(['(', '[']) {
             Some(at) if text.ends_with([')', ']']) => {
@@ -82,7 +82,7 @@ impl Name {
             words.pop();
         }
         let end = words.last().map_or(0, |(_, at)| at.end);
-        Name { base: base[..end].to_string(), words, unit: bracket.or(last) }
+        ColumnName { base: base[..end].to_string(), words, unit: bracket.or(last) }
     }
 
     /// Whether all its words make this name.
@@ -156,7 +156,7 @@ impl Roles {
     ///
     /// # Errors
     /// A column that the caller named and that is not there, two of one kind, a pressure without unit.
-    pub fn of(sheet: &Sheet, line: u64, header: &[&str], options: &Options) -> Result<Roles, DataError> {
+    pub fn of(sheet: &CellText, line: u64, header: &[&str], options: &ImportOptions) -> Result<Roles, DataError> {
         let mut roles = Roles::default();
         // A quantity that was given a column of this table has no other.
         let is_named = |quantity: &&str| {
@@ -166,7 +166,7 @@ impl Roles {
         for (index, text) in header.iter().enumerate() {
             let said =
                 options.columns.iter().find(|(_, column)| column.eq_ignore_ascii_case(text)).map(|(q, _)| q.as_str());
-            let name = Name::of(text);
+            let name = ColumnName::of(text);
             let Some(quantity) = said.map_or_else(
                 || meaning(&name).filter(|quantity| !is_named(quantity)),
                 |said| QUANTITIES.into_iter().find(|q| *q == said),
@@ -180,12 +180,12 @@ impl Roles {
 
     fn take(
         &mut self,
-        sheet: &Sheet,
+        sheet: &CellText,
         line: u64,
         [quantity, text]: [&str; 2],
         index: usize,
-        name: &Name,
-        options: &Options,
+        name: &ColumnName,
+        options: &ImportOptions,
     ) -> Result<(), DataError> {
         let unit = name.unit.as_deref();
         let taken = match quantity {
@@ -231,7 +231,7 @@ impl Roles {
     ///
     /// # Errors
     /// Different units.
-    pub fn lengths(&self, sheet: &Sheet, line: u64) -> Result<Lengths, DataError> {
+    pub fn lengths(&self, sheet: &CellText, line: u64) -> Result<Lengths, DataError> {
         let units: Vec<_> = self.coordinates.iter().map(|(.., unit)| unit.as_deref()).collect();
         let Some(first) = units.first().copied().flatten() else { return Ok(Lengths::Unsaid) };
         if let Some(other) = units.iter().find(|unit| **unit != Some(first)) {
@@ -250,7 +250,7 @@ pub(crate) fn lengths(unit: &str) -> Option<Lengths> {
 }
 
 /// What a column with a telling name holds.
-fn meaning(name: &Name) -> Option<&'static str> {
+fn meaning(name: &ColumnName) -> Option<&'static str> {
     let pressure =
         name.has(&["p", "pressure"]) || name.unit.as_deref().is_some_and(|unit| si(unit, Measured::Pressure).is_some());
     let coordinate = name.coordinate();
@@ -276,7 +276,7 @@ mod tests {
 
     #[test]
     fn names_are_taken_apart_as_people_write_them() {
-        let found = |text: &str| (Name::of(text).coordinate(), Name::of(text).unit);
+        let found = |text: &str| (ColumnName::of(text).coordinate(), ColumnName::of(text).unit);
         let a = |axis: usize, name: &str| Some((axis, name.to_string()));
         let unit = |text: &str| Some(text.to_string());
         assert_eq!(found("x_a_mm"), (a(0, "a"), unit("mm")));
@@ -284,11 +284,11 @@ mod tests {
         assert_eq!(found("x12"), (a(0, "12"), None));
         assert_eq!(found("Tip.Z [px]"), (a(2, "Tip"), unit("px")));
         assert_eq!(found("P1_x"), (a(0, "P1"), None));
-        assert_eq!((Name::of("Time (ms)").unit, Name::of("p_act_kpa").is("p_act")), (unit("ms"), true));
+        assert_eq!((ColumnName::of("Time (ms)").unit, ColumnName::of("p_act_kpa").is("p_act")), (unit("ms"), true));
         assert!(
-            Name::of("m").unit.is_none()
-                && Name::of("x1_mm").coordinate() == a(0, "1")
-                && Name::of("frame").is("frame")
+            ColumnName::of("m").unit.is_none()
+                && ColumnName::of("x1_mm").coordinate() == a(0, "1")
+                && ColumnName::of("frame").is("frame")
         );
         assert_eq!(
             (si("ms", Measured::Time), si("ms", Measured::Length), si("micron", Measured::Length)),

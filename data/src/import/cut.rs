@@ -1,15 +1,15 @@
 //! Runs cut into holds or bins, cleaned, and held against each other.
 
 use super::counted;
-use super::holds::{Kept, Run, bins, clean, plateaus};
-use super::options::Options;
+use super::holds::{Kept, PressedRun, bins, clean, plateaus};
+use super::options::ImportOptions;
 use super::recording::Recording;
 use crate::error::{DataError, Fault};
 use crate::streams::tolerance_act_pa;
 use crate::units::kpa;
 
 /// A run and the frames of its holds.
-pub(crate) type Cut = Vec<(Run, Vec<Kept>)>;
+pub(crate) type Cut = Vec<(PressedRun, Vec<Kept>)>;
 
 /// Cuts runs, whose places in the robot's frame are `xy_m`.
 ///
@@ -19,16 +19,16 @@ pub(crate) fn cut(
     file: &str,
     recordings: Vec<Recording>,
     xy_m: Vec<Vec<Vec<[f64; 2]>>>,
-    options: &Options,
+    options: &ImportOptions,
     told: &mut Vec<String>,
 ) -> Result<Cut, DataError> {
-    let run = |(recording, xy_m): (Recording, _)| Run {
+    let run = |(recording, xy_m): (Recording, _)| PressedRun {
         label: recording.run.unwrap_or_default(),
         times_s: recording.times,
         pressures_pa: recording.pressures.map(Option::unwrap_or_default),
         xy_m,
     };
-    let runs: Vec<Run> = recordings.into_iter().zip(xy_m).map(run).collect();
+    let runs: Vec<PressedRun> = recordings.into_iter().zip(xy_m).map(run).collect();
     match options.bin_pa {
         Some(bin_pa) => binned(file, runs, bin_pa, told),
         None => held(file, runs, options, told),
@@ -36,7 +36,7 @@ pub(crate) fn cut(
 }
 
 /// Runs by their plateaus.
-fn held(file: &str, runs: Vec<Run>, options: &Options, told: &mut Vec<String>) -> Result<Cut, DataError> {
+fn held(file: &str, runs: Vec<PressedRun>, options: &ImportOptions, told: &mut Vec<String>) -> Result<Cut, DataError> {
     let (mut cut, mut used, mut taken) = (Vec::new(), 0, [0, 0]);
     let frames: usize = runs.iter().map(|run| run.times_s.len()).sum();
     for mut run in runs {
@@ -81,7 +81,7 @@ fn held(file: &str, runs: Vec<Run>, options: &Options, told: &mut Vec<String>) -
 }
 
 /// The farthest that a marker is seen from the base.
-fn length_m(run: &Run) -> f64 {
+fn length_m(run: &PressedRun) -> f64 {
     let distances = run.xy_m.iter().map(|column| {
         let seen: Vec<f64> = column.iter().map(|place| place[0].hypot(place[1])).filter(|d| d.is_finite()).collect();
         super::holds::median(seen).unwrap_or(0.0)
@@ -105,7 +105,7 @@ fn apart(bins: Vec<(usize, i64, Kept)>) -> Vec<(usize, i64, Kept)> {
 }
 
 /// Runs by bins of pressure, those bins that all of them have.
-fn binned(file: &str, runs: Vec<Run>, bin_pa: f64, told: &mut Vec<String>) -> Result<Cut, DataError> {
+fn binned(file: &str, runs: Vec<PressedRun>, bin_pa: f64, told: &mut Vec<String>) -> Result<Cut, DataError> {
     let found: Vec<_> = runs.iter().map(|run| apart(bins(run, bin_pa))).collect();
     let highest_pa = found.iter().flatten().map(|(.., kept)| kept.act_pa).fold(0.0, f64::max);
     let least_pa = 1.1 * tolerance_act_pa(highest_pa);

@@ -1,9 +1,9 @@
 //! DeepLabCut: rows `scorer`, `individuals` (with several animals), `bodyparts`, `coords`, then a row for every frame.
 
 use super::formats::Format;
-use super::options::Options;
-use super::recording::{Clock, Lengths, Pivot, Recording};
-use super::sheet::Sheet;
+use super::options::ImportOptions;
+use super::recording::{FrameClock, Lengths, Pivot, Recording};
+use super::sheet::CellText;
 use crate::error::DataError;
 
 pub(super) const FORMAT: Format = Format {
@@ -20,16 +20,16 @@ pub(super) const FORMAT: Format = Format {
 const LIKELIHOOD: f64 = 0.9;
 
 /// Columns of one marker: x, y, z and likelihood.
-struct Column {
+struct NetworkColumns {
     marker: usize,
     parts: [Option<usize>; 4],
 }
 
-fn read(sheet: &Sheet, options: &Options) -> Result<Vec<Recording>, DataError> {
-    let mut pivot = Pivot::new(Lengths::Pixels, Clock::Frames);
+fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
+    let mut pivot = Pivot::new(Lengths::Pixels, FrameClock::Frames);
     let limit = options.likelihood.unwrap_or(LIKELIHOOD);
     let mut heads: Vec<(&str, Vec<&str>)> = Vec::new();
-    let mut columns: Vec<Column> = Vec::new();
+    let mut columns: Vec<NetworkColumns> = Vec::new();
     let mut cells = Vec::new();
     for (number, line) in sheet.lines() {
         sheet.split_into(line, &mut cells);
@@ -42,7 +42,7 @@ fn read(sheet: &Sheet, options: &Options) -> Result<Vec<Recording>, DataError> {
         }
         let time = sheet.time(cells[0], number, "frame")?;
         let frame = pivot.frame(time);
-        for Column { marker, parts } in &columns {
+        for NetworkColumns { marker, parts } in &columns {
             let value = |part: usize| match parts[part].and_then(|index| cells.get(index)) {
                 Some(text) => sheet.expect(text, number, "coords"),
                 None => Ok(if part == 2 { 0.0 } else { f64::NAN }),
@@ -56,18 +56,18 @@ fn read(sheet: &Sheet, options: &Options) -> Result<Vec<Recording>, DataError> {
 }
 
 fn columns_of(
-    sheet: &Sheet,
+    sheet: &CellText,
     number: u64,
     heads: &[(&str, Vec<&str>)],
     pivot: &mut Pivot,
-) -> Result<Vec<Column>, DataError> {
+) -> Result<Vec<NetworkColumns>, DataError> {
     let row = |name: &str| heads.iter().find(|(first, _)| *first == name).map(|(_, cells)| cells);
     let (Some(parts), Some(coords)) = (row("bodyparts"), row("coords")) else {
         return Err(sheet.fault(number, "the row coords is missing", "export the analysed video again as CSV"));
     };
     let animals = row("individuals");
     let several = animals.is_some_and(|row| row.iter().skip(1).any(|name| *name != row[1] && *name != "single"));
-    let mut columns: Vec<Column> = Vec::new();
+    let mut columns: Vec<NetworkColumns> = Vec::new();
     for index in 1..coords.len().min(parts.len()) {
         let animal = animals.and_then(|row| row.get(index)).filter(|name| several && **name != "single");
         let name = animal.map_or(parts[index].to_string(), |animal| format!("{animal}_{}", parts[index]));
@@ -76,7 +76,7 @@ fn columns_of(
         };
         let marker = pivot.marker(&name);
         if columns.last().is_none_or(|column| column.marker != marker) {
-            columns.push(Column { marker, parts: [None; 4] });
+            columns.push(NetworkColumns { marker, parts: [None; 4] });
         }
         if let Some(column) = columns.last_mut() {
             column.parts[part] = Some(index);

@@ -1,8 +1,8 @@
 //! The programs whose files are understood, the most particular first.
 
-use super::options::Options;
+use super::options::ImportOptions;
 use super::recording::Recording;
-use super::sheet::Sheet;
+use super::sheet::CellText;
 use super::{deeplabcut, kinovea, long, motive, sleap, tracker, trackmate, wide};
 use crate::error::DataError;
 
@@ -16,9 +16,9 @@ pub struct Format {
     /// Likelihood below which positions are lost, unless the caller says another; `None` if there is none.
     pub likelihood: Option<f64>,
     /// Whether a text, of which these are the first lines as cells, is of this kind.
-    pub(crate) recognise: fn(&Sheet, &[Vec<&str>], &Options) -> bool,
+    pub(crate) recognise: fn(&CellText, &[Vec<&str>], &ImportOptions) -> bool,
     /// Its runs.
-    pub(crate) read: fn(&Sheet, &Options) -> Result<Vec<Recording>, DataError>,
+    pub(crate) read: fn(&CellText, &ImportOptions) -> Result<Vec<Recording>, DataError>,
 }
 
 /// All kinds.
@@ -42,7 +42,7 @@ const LOOKED_AT: usize = 8;
 ///
 /// # Errors
 /// None of them.
-pub(crate) fn recognised(sheet: &Sheet, options: &Options) -> Result<&'static Format, DataError> {
+pub(crate) fn recognised(sheet: &CellText, options: &ImportOptions) -> Result<&'static Format, DataError> {
     let head = sheet.head(LOOKED_AT);
     let found = FORMATS.into_iter().find(|format| (format.recognise)(sheet, &head, options));
     found.ok_or_else(|| {

@@ -1,7 +1,7 @@
 //! From the file's coordinates to the robot's: scale, origin at the base, x along the straight robot, y towards the actuator.
 
 use super::homography::Homography;
-use super::options::{Axis, Options, Place, Scale};
+use super::options::{FileAxis, FilePlace, ImportOptions, Scale};
 use super::recording::{LOST, Lengths, Recording};
 use crate::error::{DataError, Fault};
 use crate::units::mm;
@@ -31,13 +31,13 @@ impl Map {
 }
 
 /// Frames in which the actuator is empty, and in which it is fullest, of one run.
-pub(crate) struct Ends {
+pub(crate) struct RestAndTop {
     pub rest: Vec<usize>,
     pub top: Vec<usize>,
 }
 
 /// Runs in the robot's frame.
-pub(crate) struct Placed {
+pub(crate) struct PlacedRuns {
     /// `[run][marker][frame]` \[m\], NaN where not seen.
     pub xy_m: Vec<Vec<Vec<[f64; 2]>>>,
     /// Labels.
@@ -50,7 +50,12 @@ pub(crate) struct Placed {
 ///
 /// # Errors
 /// Scale, base or axes are not known and not told by the data.
-pub(crate) fn place(file: &str, runs: &[Recording], ends: &[Ends], options: &Options) -> Result<Placed, DataError> {
+pub(crate) fn place(
+    file: &str,
+    runs: &[Recording],
+    ends: &[RestAndTop],
+    options: &ImportOptions,
+) -> Result<PlacedRuns, DataError> {
     let (map, mut told) = map(file, runs, ends, options)?;
     let (bases, skipped) = bases(file, runs, ends, options, &map, &mut told)?;
     let markers: Vec<usize> = (0..runs[0].markers.len()).filter(|marker| Some(*marker) != skipped).collect();
@@ -69,10 +74,10 @@ pub(crate) fn place(file: &str, runs: &[Recording], ends: &[Ends], options: &Opt
         markers.iter().map(|marker| of_marker(marker).collect()).collect()
     });
     let xy_m = xy_m.collect();
-    Ok(Placed { xy_m, markers: labels, told })
+    Ok(PlacedRuns { xy_m, markers: labels, told })
 }
 
-impl Axis {
+impl FileAxis {
     fn of(self, place: [f64; 3]) -> f64 {
         if self.turned { -place[self.index] } else { place[self.index] }
     }
@@ -86,7 +91,12 @@ fn fault(file: &str, message: impl Into<String>, help: impl Into<String>) -> Dat
     DataError::Unit(Box::new(Fault::of_file(file, message, help)))
 }
 
-fn map(file: &str, runs: &[Recording], ends: &[Ends], options: &Options) -> Result<(Map, Vec<String>), DataError> {
+fn map(
+    file: &str,
+    runs: &[Recording],
+    ends: &[RestAndTop],
+    options: &ImportOptions,
+) -> Result<(Map, Vec<String>), DataError> {
     let (message, help) = match (&options.scale, runs[0].lengths) {
         (Scale::OfFile, Lengths::Metres(metres)) => return Ok(of_file(metres)),
         (Scale::Unit(given), Lengths::Metres(metres)) if *given == metres => return Ok(of_file(metres)),
@@ -111,7 +121,7 @@ fn of_file(metres: f64) -> (Map, Vec<String>) {
 }
 
 /// The scale that the caller knows or that a distance or a board tells.
-fn given(file: &str, runs: &[Recording], ends: &[Ends], scale: &Scale) -> Result<(Map, Vec<String>), DataError> {
+fn given(file: &str, runs: &[Recording], ends: &[RestAndTop], scale: &Scale) -> Result<(Map, Vec<String>), DataError> {
     let (map, words) = match scale {
         Scale::PixelsPerMetre(pixels) => {
             (Map::Factor(1.0 / pixels), format!("{} px are a millimetre, as given", short(pixels * 1e-3)))
@@ -148,8 +158,8 @@ fn short(value: f64) -> String {
 }
 
 /// Distance of two places in the file's units.
-fn distance(file: &str, run: &Recording, ends: &Ends, places: &[Place; 2]) -> Result<f64, DataError> {
-    let at = |place: &Place| where_is(file, run, ends, place).map(|(at, _)| at);
+fn distance(file: &str, run: &Recording, ends: &RestAndTop, places: &[FilePlace; 2]) -> Result<f64, DataError> {
+    let at = |place: &FilePlace| where_is(file, run, ends, place).map(|(at, _)| at);
     let (a, b) = (at(&places[0])?, at(&places[1])?);
     let apart = (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt();
     if apart > 0.0 {
@@ -163,16 +173,16 @@ fn distance(file: &str, run: &Recording, ends: &Ends, places: &[Place; 2]) -> Re
 pub(crate) fn where_is(
     file: &str,
     run: &Recording,
-    ends: &Ends,
-    place: &Place,
+    ends: &RestAndTop,
+    place: &FilePlace,
 ) -> Result<([f64; 3], Option<usize>), DataError> {
     let name = match place {
-        Place::At(values) => {
+        FilePlace::At(values) => {
             let mut at = [0.0; 3];
             at.iter_mut().zip(values).for_each(|(at, value)| *at = *value);
             return Ok((at, None));
         }
-        Place::Marker(name) => name,
+        FilePlace::Marker(name) => name,
     };
     let Some(marker) = run.markers.iter().position(|known| known == name) else {
         let meant = spelling::meant(name, run.markers.iter().map(String::as_str));
@@ -190,8 +200,8 @@ pub(crate) fn where_is(
 fn bases(
     file: &str,
     runs: &[Recording],
-    ends: &[Ends],
-    options: &Options,
+    ends: &[RestAndTop],
+    options: &ImportOptions,
     map: &Map,
     told: &mut Vec<String>,
 ) -> Result<(Vec<[f64; 3]>, Option<usize>), DataError> {
@@ -207,11 +217,11 @@ fn bases(
     let found: Vec<_> =
         runs.iter().zip(ends).map(|(run, ends)| where_is(file, run, ends, place)).collect::<Result<_, _>>()?;
     told.push(match place {
-        Place::At(at) => format!(
+        FilePlace::At(at) => format!(
             "the robot's base is at {} of the file",
             at.iter().map(f64::to_string).collect::<Vec<_>>().join(", ")
         ),
-        Place::Marker(name) => {
+        FilePlace::Marker(name) => {
             format!("the robot's base is marker {name} at rest, in every run anew; it is no marker of the table")
         }
     });
@@ -225,7 +235,7 @@ struct Moved {
 }
 
 impl Moved {
-    fn of(runs: &[Recording], ends: &[Ends], bases: &[[f64; 3]], markers: &[usize], map: &Map) -> Moved {
+    fn of(runs: &[Recording], ends: &[RestAndTop], bases: &[[f64; 3]], markers: &[usize], map: &Map) -> Moved {
         let (mut rest, mut by) = (Vec::new(), Vec::new());
         for &marker in markers {
             let (mut sums, mut count) = ([[0.0; 3]; 2], 0.0);
@@ -268,10 +278,10 @@ fn axes(
     file: &str,
     labels: &[String],
     moved: &Moved,
-    options: &Options,
+    options: &ImportOptions,
     told: &mut Vec<String>,
-) -> Result<[Axis; 2], DataError> {
-    let words = |axes: &[Axis; 2]| {
+) -> Result<[FileAxis; 2], DataError> {
+    let words = |axes: &[FileAxis; 2]| {
         format!("along the robot is the file's {}, towards the actuator its {}", axes[0].word(), axes[1].word())
     };
     if let Some(axes) = options.axes {
@@ -292,7 +302,8 @@ fn axes(
         );
         return Err(fault(file, message, help));
     }
-    let axes = [Axis { index: along, turned: rest[along] < 0.0 }, Axis { index: across, turned: by[across] < 0.0 }];
+    let axes =
+        [FileAxis { index: along, turned: rest[along] < 0.0 }, FileAxis { index: across, turned: by[across] < 0.0 }];
     let from = if near == far { [0.0; 3] } else { moved.rest[near] };
     let [x, y] = axes.map(|axis| axis.of(rest) - axis.of(from));
     let angle = y.atan2(x) - options.turn_rad;

@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use super::options::Options;
+use super::options::ImportOptions;
 use crate::streams::{tolerance_act_pa, tolerance_body_pa};
 
 /// One run with its pressures, in the robot's frame.
-pub(crate) struct Run {
+pub(crate) struct PressedRun {
     /// Label.
     pub label: String,
     /// Time of every frame \[s\].
@@ -36,7 +36,7 @@ const SURELY_ON_PA: f64 = 50.0;
 const SD_PER_STEP: f64 = 1.482_602_218_505_602 / std::f64::consts::SQRT_2;
 
 /// The plateaus of a run: both pressures within the tolerance of a hold, no drift beyond it, long enough, enough frames.
-pub(crate) fn plateaus(run: &Run, options: &Options) -> Vec<Kept> {
+pub(crate) fn plateaus(run: &PressedRun, options: &ImportOptions) -> Vec<Kept> {
     let [body, act] = &run.pressures_pa;
     let mut found = Vec::new();
     let mut first = 0;
@@ -74,7 +74,7 @@ fn end_of_level(body: &[f64], act: &[f64], first: usize) -> usize {
     act.len() - departed
 }
 
-fn plateau(run: &Run, frames: Range<usize>, options: &Options) -> Option<Kept> {
+fn plateau(run: &PressedRun, frames: Range<usize>, options: &ImportOptions) -> Option<Kept> {
     let act = &run.pressures_pa[1];
     let readings: Vec<f64> = frames.clone().map(|frame| act[frame]).collect();
     let third = readings.len() / 3;
@@ -102,7 +102,7 @@ fn plateau(run: &Run, frames: Range<usize>, options: &Options) -> Option<Kept> {
     })
 }
 
-fn near_level(run: &Run, frame: usize, level_pa: f64) -> bool {
+fn near_level(run: &PressedRun, frame: usize, level_pa: f64) -> bool {
     (run.pressures_pa[1][frame] - level_pa).abs() <= tolerance_act_pa(level_pa)
 }
 
@@ -112,7 +112,7 @@ pub(crate) fn median(mut values: Vec<f64>) -> Option<f64> {
 }
 
 /// The frames of every branch, up or down, by bins of the actuator's pressure: bin k holds pressures around k·`bin_pa`.
-pub(crate) fn bins(run: &Run, bin_pa: f64) -> Vec<(usize, i64, Kept)> {
+pub(crate) fn bins(run: &PressedRun, bin_pa: f64) -> Vec<(usize, i64, Kept)> {
     let act = &run.pressures_pa[1];
     let mut found: Vec<(usize, i64, Vec<usize>)> = Vec::new();
     let mut rises = Vec::new();
@@ -170,9 +170,9 @@ const FEW: usize = 6;
 
 /// Takes frames off the start of a hold in which the robot was still moving, then places that are wild off the rest; returns
 /// how many of each. `length_m` is the robot's.
-pub(crate) fn clean(run: &mut Run, kept: &mut Kept, length_m: f64) -> [u64; 2] {
+pub(crate) fn clean(run: &mut PressedRun, kept: &mut Kept, length_m: f64) -> [u64; 2] {
     let middle: Vec<Option<([f64; 2], f64)>> = run.xy_m.iter().map(|column| centre(column, &kept.frames)).collect();
-    let is_wild = |run: &Run, marker: usize, frame: usize| {
+    let is_wild = |run: &PressedRun, marker: usize, frame: usize| {
         let place = run.xy_m[marker][frame];
         middle[marker].is_some_and(|(centre, sd)| {
             (place[0] - centre[0]).hypot(place[1] - centre[1]) > (WILD_SD * sd).max(WILD_SHARE * length_m)
@@ -219,7 +219,7 @@ mod tests {
     use super::*;
 
     /// 0 kPa for 3 s, a ramp of 2 s, 10 kPa for 4 s, back in 1 s, 0 kPa for 2 s, at 20 frames per second, with noise.
-    fn run() -> Run {
+    fn run() -> PressedRun {
         let times_s: Vec<f64> = (0..240).map(|k| 0.05 * f64::from(k)).collect();
         let level = |t: f64| match t {
             t if t < 3.0 => 0.0,
@@ -231,13 +231,13 @@ mod tests {
         let act = times_s.iter().enumerate().map(|(k, t)| 1e3 * (level(*t) + 0.02 * (7.0 * k as f64).sin())).collect();
         let body = vec![2000.0; times_s.len()];
         let xy_m = vec![vec![[0.3, 0.0]; times_s.len()]];
-        Run { label: "1".into(), times_s, pressures_pa: [body, act], xy_m }
+        PressedRun { label: "1".into(), times_s, pressures_pa: [body, act], xy_m }
     }
 
     #[test]
     fn plateaus_begin_and_end_where_the_pressure_does_and_ramps_are_none() {
         let run = run();
-        let found = plateaus(&run, &Options::default());
+        let found = plateaus(&run, &ImportOptions::default());
         let ends: Vec<[f64; 2]> =
             found.iter().map(|k| [k.frames[0], k.frames[k.frames.len() - 1]].map(|f| run.times_s[f])).collect();
         assert_eq!(found.len(), 3, "{ends:?}");
@@ -245,9 +245,9 @@ mod tests {
             assert!((begin - first).abs() <= 0.1 && (end - last).abs() <= 0.1, "{ends:?}");
         }
         assert!((found[1].act_pa - 1e4).abs() < 20.0);
-        let settled = plateaus(&run, &Options { settle_s: 1.0, ..Options::default() });
+        let settled = plateaus(&run, &ImportOptions { settle_s: 1.0, ..ImportOptions::default() });
         assert!((run.times_s[settled[1].frames[0]] - 6.0).abs() < 0.1);
-        let long = plateaus(&run, &Options { least_hold_s: 2.5, ..Options::default() });
+        let long = plateaus(&run, &ImportOptions { least_hold_s: 2.5, ..ImportOptions::default() });
         assert_eq!(long.len(), 2);
     }
 
@@ -257,8 +257,8 @@ mod tests {
         let act: Vec<f64> = times_s.iter().map(|t| 1e3 * (if *t < 60.0 { 0.5 * t } else { 60.0 - 0.5 * t })).collect();
         let body = vec![2000.0; act.len()];
         let xy_m = vec![vec![[0.3, 0.0]; act.len()]];
-        let run = Run { label: "1".into(), times_s, pressures_pa: [body, act], xy_m };
-        assert!(plateaus(&run, &Options::default()).is_empty());
+        let run = PressedRun { label: "1".into(), times_s, pressures_pa: [body, act], xy_m };
+        assert!(plateaus(&run, &ImportOptions::default()).is_empty());
         let found = bins(&run, 2e3);
         let up: Vec<i64> = found.iter().filter(|bin| bin.0 == 0).map(|bin| bin.1).collect();
         let down: Vec<i64> = found.iter().filter(|bin| bin.0 == 1).map(|bin| bin.1).collect();
@@ -273,7 +273,7 @@ mod tests {
             run.xy_m[0][frame] = [0.3, 0.1 - 0.01 * frame as f64];
         }
         run.xy_m[0][40] = [0.0, 0.3];
-        let mut kept = plateaus(&run, &Options::default()).remove(0);
+        let mut kept = plateaus(&run, &ImportOptions::default()).remove(0);
         let [moving, wild] = clean(&mut run, &mut kept, 0.3);
         assert_eq!((moving, wild), (9, 1));
         assert!(run.xy_m[0][40][0].is_nan());

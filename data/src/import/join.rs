@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use super::counted;
 use super::formats;
-use super::options::Options;
+use super::options::ImportOptions;
 use super::pressure::Log;
-use super::recording::{Clock, Recording};
-use super::sheet::Sheet;
+use super::recording::{FrameClock, Recording};
+use super::sheet::CellText;
 use crate::error::{DataError, Fault};
 use crate::read::ABSOLUTE_PA;
 use crate::units::kpa;
@@ -52,7 +52,7 @@ pub(crate) struct Joined {
 /// A file that is not understood, of another program, or without frame rate or pressures; a named column that is nowhere.
 pub(crate) fn recordings(
     files: &[PathBuf],
-    options: &Options,
+    options: &ImportOptions,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Joined, DataError> {
     let mut absent: Vec<&(String, String)> = options.columns.iter().collect();
@@ -61,7 +61,7 @@ pub(crate) fn recordings(
     for (k, path) in files.iter().enumerate() {
         progress(k as u64, files.len() as u64);
         let (shown, text) = (path.display().to_string(), text_of(path)?);
-        let sheet = Sheet::new(&shown, &text)?;
+        let sheet = CellText::new(&shown, &text)?;
         drop_named(&sheet, &mut absent);
         joined.add(&sheet, logs.get(k.min(logs.len().saturating_sub(1))), options)?;
     }
@@ -81,7 +81,7 @@ pub(crate) fn recordings(
 
 impl Joined {
     /// The runs of a file.
-    fn add(&mut self, sheet: &Sheet, log: Option<&Log>, options: &Options) -> Result<(), DataError> {
+    fn add(&mut self, sheet: &CellText, log: Option<&Log>, options: &ImportOptions) -> Result<(), DataError> {
         let format = formats::recognised(sheet, options)?;
         if !self.program.is_empty() && self.program != format.name {
             let message = format!("this file is of {}, the others are of {}", format.name, self.program);
@@ -116,7 +116,7 @@ impl Joined {
 
 /// # Errors
 /// Hardly anything in the run, or a marker at two places at once.
-fn check_run(sheet: &Sheet, run: &Recording) -> Result<(), DataError> {
+fn check_run(sheet: &CellText, run: &Recording) -> Result<(), DataError> {
     if let Some((marker, time)) = &run.twice {
         let message = format!("marker {marker} has two places at {time} of one run");
         return Err(sheet.fault(0, message, "give every run a file of its own, or a column run"));
@@ -129,14 +129,14 @@ fn check_run(sheet: &Sheet, run: &Recording) -> Result<(), DataError> {
 }
 
 /// Takes the columns that the first line of a file has off those that the caller named.
-fn drop_named(sheet: &Sheet, absent: &mut Vec<&(String, String)>) {
+fn drop_named(sheet: &CellText, absent: &mut Vec<&(String, String)>) {
     let head = sheet.head(1).pop().unwrap_or_default();
     absent.retain(|(_, column)| !head.iter().any(|name| name.eq_ignore_ascii_case(column)));
 }
 
 fn logs(
     files: usize,
-    options: &Options,
+    options: &ImportOptions,
     told: &mut Vec<String>,
     absent: &mut Vec<&(String, String)>,
 ) -> Result<Vec<Log>, DataError> {
@@ -152,7 +152,7 @@ fn logs(
     let mut logs = Vec::new();
     for path in &options.pressure_logs {
         let (shown, text) = (path.display().to_string(), text_of(path)?);
-        let sheet = Sheet::new(&shown, &text)?;
+        let sheet = CellText::new(&shown, &text)?;
         drop_named(&sheet, absent);
         let log = Log::read(&sheet, options)?;
         told.extend(log.told.iter().map(|word| format!("pressure log: {word}")));
@@ -165,27 +165,27 @@ fn logs(
 ///
 /// # Errors
 /// Frames without a rate.
-fn seconds(sheet: &Sheet, run: &mut Recording, options: &Options) -> Result<String, DataError> {
+fn seconds(sheet: &CellText, run: &mut Recording, options: &ImportOptions) -> Result<String, DataError> {
     match (run.clock, options.frames_per_s) {
-        (Clock::Frames, None) => {
+        (FrameClock::Frames, None) => {
             let help = "add --fps with the camera's frames per second, for example --fps 30";
             Err(sheet.fault(0, "the file counts frames and does not say how many there are in a second", help))
         }
-        (Clock::Frames, Some(fps)) => {
+        (FrameClock::Frames, Some(fps)) => {
             run.times.iter_mut().for_each(|t| *t /= fps);
             Ok(format!("frame 0 is at 0 s, {fps} frames are a second, as given"))
         }
-        (Clock::Seconds, None) => Ok("times are seconds".to_string()),
-        (Clock::Seconds, Some(_)) => Ok("times are seconds: --fps was not used".to_string()),
+        (FrameClock::Seconds, None) => Ok("times are seconds".to_string()),
+        (FrameClock::Seconds, Some(_)) => Ok("times are seconds: --fps was not used".to_string()),
     }
 }
 
 /// Puts every pressure in place: of the file, of the log, or as given.
 fn pressures(
-    sheet: &Sheet,
+    sheet: &CellText,
     run: &mut Recording,
     log: Option<&Log>,
-    options: &Options,
+    options: &ImportOptions,
 ) -> Result<Vec<String>, DataError> {
     let mut told = Vec::new();
     if let Some(log) = log {

@@ -1,10 +1,10 @@
 //! Kinovea: trajectories as a text (blocks parted by blank lines, clock times) and kinematics as a table.
 
-use super::columns::Name;
+use super::columns::ColumnName;
 use super::formats::Format;
-use super::options::Options;
-use super::recording::{Clock, Lengths, Pivot, Recording};
-use super::sheet::Sheet;
+use super::options::ImportOptions;
+use super::recording::{FrameClock, Lengths, Pivot, Recording};
+use super::sheet::CellText;
 use super::wide;
 use crate::cells::clock_s;
 use crate::error::DataError;
@@ -23,14 +23,14 @@ pub(super) const KINEMATICS: Format = Format {
     likelihood: None,
     recognise: |_, head, _| {
         let is_x = |name: &str| name.contains(" - X") || name.contains("/X");
-        head.first().is_some_and(|row| Name::of(row[0]).is("time") && row.iter().any(|name| is_x(name)))
+        head.first().is_some_and(|row| ColumnName::of(row[0]).is("time") && row.iter().any(|name| is_x(name)))
     },
     read: wide::read,
 };
 
-fn trajectories(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError> {
+fn trajectories(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
     // Pixels, or the units of a calibration: the file does not say.
-    let mut pivot = Pivot::new(Lengths::Unsaid, Clock::Seconds);
+    let mut pivot = Pivot::new(Lengths::Unsaid, FrameClock::Seconds);
     let (mut block, mut open) = (0_usize, false);
     for (line, number) in sheet.text.lines().zip(1..) {
         let cells: Vec<&str> = line.split_whitespace().collect();

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::frame::{Ends, where_is};
-use super::options::Options;
+use super::frame::{RestAndTop, where_is};
+use super::options::ImportOptions;
 use super::recording::Recording;
 use crate::error::{DataError, Fault};
 
@@ -84,8 +84,8 @@ pub(crate) fn same_markers(file: &str, runs: &mut [(String, Recording)]) -> Resu
 pub(crate) fn rename(
     file: &str,
     runs: &mut [Recording],
-    ends: &[Ends],
-    options: &Options,
+    ends: &[RestAndTop],
+    options: &ImportOptions,
     told: &mut Vec<String>,
 ) -> Result<(), DataError> {
     for (run, ends) in runs.iter_mut().zip(ends).filter(|(run, _)| !run.named) {

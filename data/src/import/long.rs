@@ -2,9 +2,9 @@
 
 use super::columns::Roles;
 use super::formats::Format;
-use super::options::Options;
+use super::options::ImportOptions;
 use super::recording::Recording;
-use super::sheet::Sheet;
+use super::sheet::CellText;
 use super::wide::Runs;
 use crate::cells::label;
 use crate::error::DataError;
@@ -20,7 +20,7 @@ pub(super) const FORMAT: Format = Format {
     read,
 };
 
-fn read(sheet: &Sheet, options: &Options) -> Result<Vec<Recording>, DataError> {
+fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
     let mut lines = sheet.lines();
     let (first, header) = lines.next().unwrap_or_default();
     let roles = Roles::of(sheet, first, &sheet.split(header), options)?;

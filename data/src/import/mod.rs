@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Every kind of file is one entry of [`FORMATS`], known by its content. What is not in the files comes from the caller
-//! ([`Options`]); what was assumed is told ([`Imported::told`]); what can be read in two ways is refused.
+//! ([`ImportOptions`]); what was assumed is told ([`Imported::told`]); what can be read in two ways is refused.
 
 mod board;
 mod columns;
@@ -42,9 +42,9 @@ pub use board::read_board;
 pub use columns::QUANTITIES;
 use cut::{Cut, cut};
 pub use formats::{FORMATS, Format};
-use frame::{Ends, Placed, place};
+use frame::{PlacedRuns, RestAndTop, place};
 use join::Joined;
-pub use options::{Axis, Offset, Options, Place, Scale};
+pub use options::{FileAxis, FilePlace, ImportOptions, Offset, Scale};
 use recording::{Dropped, Recording};
 
 /// What an import made.
@@ -63,12 +63,12 @@ pub struct Imported {
     /// The same, read back.
     pub about: About,
     /// The tracks over time, for a picture.
-    pub tracks: Vec<Track>,
+    pub tracks: Vec<RunTrack>,
 }
 
 /// One run over time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Track {
+pub struct RunTrack {
     /// Label of the run.
     pub run: String,
     /// Markers: label and (time \[s\], y \[m\]) of frames, thinned for a picture; NaN where not seen.
@@ -87,7 +87,11 @@ const MOST_POINTS: usize = 1_500;
 /// # Errors
 /// A file that is not understood; scale, base, axes, frame rate or pressures that are not known; clocks that disagree; no holds;
 /// runs that do not fit together. Every message says what to add.
-pub fn import(files: &[PathBuf], options: &Options, progress: &mut dyn FnMut(u64, u64)) -> Result<Imported, DataError> {
+pub fn import(
+    files: &[PathBuf],
+    options: &ImportOptions,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Imported, DataError> {
     let shown: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
     let Some(first) = shown.first() else {
         return Err(DataError::File(Box::new(Fault::of_file(
@@ -101,30 +105,30 @@ pub fn import(files: &[PathBuf], options: &Options, progress: &mut dyn FnMut(u64
     labels::same_markers(first, &mut runs)?;
     let mut runs: Vec<Recording> = runs.into_iter().map(|(_, run)| run).collect();
     told.extend(losses(&runs));
-    let ends: Vec<Ends> = runs.iter().map(|run| ends(first, run)).collect::<Result<_, _>>()?;
+    let ends: Vec<RestAndTop> = runs.iter().map(|run| ends(first, run)).collect::<Result<_, _>>()?;
     labels::rename(first, &mut runs, &ends, options, &mut told)?;
     let actuator = actuator(first, &runs, options)?;
-    let Placed { xy_m, markers, told: words } = place(first, &runs, &ends, options)?;
+    let PlacedRuns { xy_m, markers, told: words } = place(first, &runs, &ends, options)?;
     told.extend(words);
     let cut = cut(first, runs, xy_m, options, &mut told)?;
-    let made = Made { program, files: &shown, cut: &cut, markers: &markers, actuator: &actuator, options };
+    let made = MadeTable { program, files: &shown, cut: &cut, markers: &markers, actuator: &actuator, options };
     made.finish(told)
 }
 
 /// Everything that the table and its description are made of.
-struct Made<'a> {
+struct MadeTable<'a> {
     program: &'static str,
     files: &'a [String],
     cut: &'a Cut,
     markers: &'a [String],
     actuator: &'a str,
-    options: &'a Options,
+    options: &'a ImportOptions,
 }
 
-impl Made<'_> {
+impl MadeTable<'_> {
     /// Writes both and reads them back.
     fn finish(&self, mut told: Vec<String>) -> Result<Imported, DataError> {
-        let Made { program, files, cut, markers, actuator, options } = *self;
+        let MadeTable { program, files, cut, markers, actuator, options } = *self;
         if let Some((unknown, _)) = options.stations_m.iter().find(|(name, _)| !markers.contains(name)) {
             let help = format!("the markers are {}", markers.join(", "));
             return Err(DataError::Runs(Box::new(Fault::of_file(
@@ -171,7 +175,7 @@ impl Made<'_> {
 }
 
 /// A run for a picture.
-fn track(run: &holds::Run, kept: &[holds::Kept], markers: &[String]) -> Track {
+fn track(run: &holds::PressedRun, kept: &[holds::Kept], markers: &[String]) -> RunTrack {
     let step = run.times_s.len().div_ceil(MOST_POINTS).max(1);
     let points =
         |column: &Vec<[f64; 2]>| (0..column.len()).step_by(step).map(|k| [run.times_s[k], column[k][1]]).collect();
@@ -180,7 +184,7 @@ fn track(run: &holds::Run, kept: &[holds::Kept], markers: &[String]) -> Track {
         let [begin, end] = [hold.frames.first(), hold.frames.last()].map(|k| k.map_or(f64::NAN, |k| run.times_s[*k]));
         [begin, end, hold.act_pa]
     };
-    Track { run: run.label.clone(), lines, holds: kept.iter().map(ends).collect() }
+    RunTrack { run: run.label.clone(), lines, holds: kept.iter().map(ends).collect() }
 }
 
 /// What was dropped on reading, in words.
@@ -201,7 +205,7 @@ pub(crate) fn counted(count: u64, word: &str) -> String {
 }
 
 /// Frames at the lowest and at the highest pressure.
-fn ends(file: &str, run: &Recording) -> Result<Ends, DataError> {
+fn ends(file: &str, run: &Recording) -> Result<RestAndTop, DataError> {
     let act = run.pressures[1].as_deref().unwrap_or_default();
     let known = || act.iter().copied().filter(|p| p.is_finite());
     let (low, high) = (known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max));
@@ -215,10 +219,10 @@ fn ends(file: &str, run: &Recording) -> Result<Ends, DataError> {
         ))));
     }
     let near = |level: f64| (0..act.len()).filter(|k| (act[*k] - level).abs() <= tolerance_act_pa(level)).collect();
-    Ok(Ends { rest: near(low), top: near(high) })
+    Ok(RestAndTop { rest: near(low), top: near(high) })
 }
 
-fn actuator(file: &str, runs: &[Recording], options: &Options) -> Result<String, DataError> {
+fn actuator(file: &str, runs: &[Recording], options: &ImportOptions) -> Result<String, DataError> {
     let known = options
         .actuator
         .clone()

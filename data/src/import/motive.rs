@@ -3,9 +3,9 @@
 use super::columns::lengths;
 use super::counted;
 use super::formats::Format;
-use super::options::Options;
-use super::recording::{Clock, Lengths, Pivot, Recording};
-use super::sheet::Sheet;
+use super::options::ImportOptions;
+use super::recording::{FrameClock, Lengths, Pivot, Recording};
+use super::sheet::CellText;
 use crate::error::DataError;
 
 pub(super) const FORMAT: Format = Format {
@@ -25,7 +25,7 @@ struct Head<'a> {
     what: Vec<&'a str>,
 }
 
-fn read(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError> {
+fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
     let mut head = Head::default();
     let mut lines = sheet.lines();
     let axes = loop {
@@ -46,7 +46,7 @@ fn read(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError> 
             _ => head.what = cells,
         }
     };
-    let mut pivot = Pivot::new(unit(sheet, &head)?, Clock::Seconds);
+    let mut pivot = Pivot::new(unit(sheet, &head)?, FrameClock::Seconds);
     let columns = columns(&head, &axes.1, &mut pivot);
     if columns.is_empty() {
         return Err(sheet.fault(
@@ -69,7 +69,7 @@ fn read(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError> 
     Ok(vec![pivot.finish()])
 }
 
-fn unit(sheet: &Sheet, head: &Head) -> Result<Lengths, DataError> {
+fn unit(sheet: &CellText, head: &Head) -> Result<Lengths, DataError> {
     let said = head.settings.iter().position(|cell| *cell == "Length Units").and_then(|at| head.settings.get(at + 1));
     let Some(word) = said else { return Ok(Lengths::Unsaid) };
     let help = "export in meters, centimeters or millimeters";

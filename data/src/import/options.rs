@@ -11,14 +11,14 @@ pub enum Scale {
     /// The numbers are lengths of so many metres.
     Unit(f64),
     /// Two markers, or two places in the file's units, are so far apart \[m\].
-    Known([Place; 2], f64),
+    Known([FilePlace; 2], f64),
     /// Corners of a checkerboard, each its column and row on the board and its place in the picture, and the side of a square \[m\].
     Board(Vec<[f64; 4]>, f64),
 }
 
 /// A place in the file's units or a marker.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Place {
+pub enum FilePlace {
     /// Coordinates x, y (and z).
     At(Vec<f64>),
     /// A marker at rest.
@@ -39,7 +39,7 @@ pub enum Offset {
 
 /// An axis of the file: 0, 1 or 2, and whether it is turned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Axis {
+pub struct FileAxis {
     /// x, y or z of the file.
     pub index: usize,
     /// It points the other way.
@@ -48,15 +48,15 @@ pub struct Axis {
 
 /// What the caller knows.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Options {
+pub struct ImportOptions {
     /// Pressure logs: none, one for all runs, or one for every file.
     pub pressure_logs: Vec<std::path::PathBuf>,
     /// How lengths become metres.
     pub scale: Scale,
     /// The robot's base.
-    pub base: Option<Place>,
+    pub base: Option<FilePlace>,
     /// The file's axes along the robot and towards the actuator; found if left out.
-    pub axes: Option<[Axis; 2]>,
+    pub axes: Option<[FileAxis; 2]>,
     /// Rotation of the picture that puts the straight robot along an axis \[rad\].
     pub turn_rad: f64,
     /// Least likelihood of a position; each program has its own if left out.
@@ -89,9 +89,9 @@ pub struct Options {
     pub stations_m: Vec<(String, f64)>,
 }
 
-impl Default for Options {
-    fn default() -> Options {
-        Options {
+impl Default for ImportOptions {
+    fn default() -> ImportOptions {
+        ImportOptions {
             pressure_logs: Vec::new(),
             scale: Scale::OfFile,
             base: None,
@@ -115,7 +115,7 @@ impl Default for Options {
     }
 }
 
-impl Options {
+impl ImportOptions {
     /// The column that the caller named for a quantity.
     pub(crate) fn column(&self, quantity: &str) -> Option<&str> {
         self.columns.iter().find(|(known, _)| known == quantity).map(|(_, column)| column.as_str())

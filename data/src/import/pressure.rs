@@ -2,9 +2,9 @@
 
 use super::columns::Roles;
 use super::counted;
-use super::options::{Offset, Options};
+use super::options::{ImportOptions, Offset};
 use super::recording::Recording;
-use super::sheet::Sheet;
+use super::sheet::CellText;
 use crate::error::DataError;
 
 /// Readings over time.
@@ -36,7 +36,7 @@ impl Log {
     ///
     /// # Errors
     /// No column of time or pressure; a cell that is no number; times that go back.
-    pub fn read(sheet: &Sheet, options: &Options) -> Result<Log, DataError> {
+    pub fn read(sheet: &CellText, options: &ImportOptions) -> Result<Log, DataError> {
         let mut lines = sheet.lines().filter(|(_, line)| !line.starts_with('#'));
         let Some((first, header)) = lines.next() else {
             return Err(sheet.fault(0, "the pressure log is empty", "export it again"));
@@ -78,7 +78,7 @@ impl Log {
     ///
     /// # Errors
     /// The clocks disagree; hardly any frame lies within the log.
-    pub fn join(&self, recording: &mut Recording, options: &Options) -> Result<Vec<String>, DataError> {
+    pub fn join(&self, recording: &mut Recording, options: &ImportOptions) -> Result<Vec<String>, DataError> {
         let (offset_s, mut told) = self.offset(recording, options.offset)?;
         let places = self.readings_at(&recording.times, offset_s);
         let outside = places.iter().filter(|place| place.is_none()).count();
@@ -110,7 +110,7 @@ impl Log {
     ///
     /// # Errors
     /// None, or frames in its place; no pressure.
-    fn columns(sheet: &Sheet, line: u64, roles: &Roles) -> Result<(usize, f64), DataError> {
+    fn columns(sheet: &CellText, line: u64, roles: &Roles) -> Result<(usize, f64), DataError> {
         let (message, help) = match roles.time {
             Some((time, Some(second))) if roles.pressures.iter().any(Option::is_some) => return Ok((time, second)),
             Some((_, Some(_))) => ("a pressure", "say which: --map p_act=NAME, and p_body=NAME if there is one"),

@@ -15,7 +15,7 @@ pub(crate) enum Lengths {
 
 /// What the numbers of times are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Clock {
+pub(crate) enum FrameClock {
     /// Seconds.
     Seconds,
     /// Numbers of frames.
@@ -43,7 +43,7 @@ pub(crate) struct Recording {
     /// Unit of the positions.
     pub lengths: Lengths,
     /// Unit of the times.
-    pub clock: Clock,
+    pub clock: FrameClock,
     /// Whether the labels are the user's; otherwise markers are numbered from the base outwards.
     pub named: bool,
     /// Rising times.
@@ -78,7 +78,7 @@ pub(crate) struct Pivot {
 
 impl Pivot {
     /// Nothing yet.
-    pub fn new(lengths: Lengths, clock: Clock) -> Pivot {
+    pub fn new(lengths: Lengths, clock: FrameClock) -> Pivot {
         let recording = Recording {
             run: None,
             actuator: None,

@@ -11,7 +11,7 @@ const MOST_LINES: f64 = 0.7;
 
 /// A file as cells.
 #[derive(Debug)]
-pub(crate) struct Sheet<'a> {
+pub(crate) struct CellText<'a> {
     /// Its name in errors.
     pub file: &'a str,
     /// Everything in it, without byte order mark and `sep=` line.
@@ -24,18 +24,18 @@ pub(crate) struct Sheet<'a> {
     before: u64,
 }
 
-impl<'a> Sheet<'a> {
+impl<'a> CellText<'a> {
     /// Finds the dialect of a text.
     ///
     /// # Errors
     /// Numbers with a comma that may be decimal or of thousands.
-    pub fn new(file: &'a str, text: &'a str) -> Result<Sheet<'a>, DataError> {
+    pub fn new(file: &'a str, text: &'a str) -> Result<CellText<'a>, DataError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let said = text.lines().next().and_then(|line| line.trim().strip_prefix("sep="));
         let named = said.and_then(|sign| sign.chars().next());
         let text = if named.is_some() { text.split_once('\n').map_or("", |(_, rest)| rest) } else { text };
         let delimiter = named.unwrap_or_else(|| delimiter(text));
-        let mut sheet = Sheet { file, text, delimiter, comma: false, before: u64::from(named.is_some()) };
+        let mut sheet = CellText { file, text, delimiter, comma: false, before: u64::from(named.is_some()) };
         sheet.comma = delimiter != ',' && sheet.has_decimal_comma()?;
         Ok(sheet)
     }

@@ -1,9 +1,9 @@
 //! SLEAP analysis CSV: `track,frame_idx,instance.score,NODE.x,NODE.y,NODE.score,…`, a row for every track and frame.
 
 use super::formats::Format;
-use super::options::Options;
-use super::recording::{Clock, Lengths, Pivot, Recording};
-use super::sheet::Sheet;
+use super::options::ImportOptions;
+use super::recording::{FrameClock, Lengths, Pivot, Recording};
+use super::sheet::CellText;
 use crate::cells::is_nothing;
 use crate::error::DataError;
 
@@ -20,8 +20,8 @@ pub(super) const FORMAT: Format = Format {
 /// Peaks of a confidence map below this are what SLEAP itself discards at most.
 const SCORE: f64 = 0.2;
 
-fn read(sheet: &Sheet, options: &Options) -> Result<Vec<Recording>, DataError> {
-    let mut pivot = Pivot::new(Lengths::Pixels, Clock::Frames);
+fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
+    let mut pivot = Pivot::new(Lengths::Pixels, FrameClock::Frames);
     let limit = options.likelihood.unwrap_or(SCORE);
     let mut lines = sheet.lines();
     let header = lines.next().map_or(Vec::new(), |(_, line)| sheet.split(line));
@@ -56,7 +56,7 @@ fn read(sheet: &Sheet, options: &Options) -> Result<Vec<Recording>, DataError> {
 }
 
 /// Whether more than one track has a name.
-fn several_tracks(sheet: &Sheet, track: Option<usize>) -> bool {
+fn several_tracks(sheet: &CellText, track: Option<usize>) -> bool {
     let Some(track) = track else { return false };
     let mut names = sheet
         .lines()

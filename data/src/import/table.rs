@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::holds::{Kept, Run};
-use super::options::Options;
+use super::holds::{Kept, PressedRun};
+use super::options::ImportOptions;
 use crate::dataset::Phase;
 use crate::streams::tolerance_act_pa;
 use crate::units::{kpa, mm};
@@ -13,7 +13,12 @@ use crate::write::quoted;
 const MOST_ROWS: usize = 20;
 
 /// The table of runs with their holds.
-pub(crate) fn markers_csv(runs: &[(Run, Vec<Kept>)], markers: &[String], actuator: &str, one_row: bool) -> String {
+pub(crate) fn markers_csv(
+    runs: &[(PressedRun, Vec<Kept>)],
+    markers: &[String],
+    actuator: &str,
+    one_row: bool,
+) -> String {
     let mut text = String::from("run,actuator,t_s,p_body_kpa,p_act_kpa,phase,marker,x_mm,y_mm\n");
     for (run, holds) in runs {
         for (hold, phase) in holds.iter().zip(phases(holds)) {
@@ -27,7 +32,7 @@ pub(crate) fn markers_csv(runs: &[(Run, Vec<Kept>)], markers: &[String], actuato
     text
 }
 
-fn add_rows(text: &mut String, run: &Run, frames: &[usize], phase: Phase, markers: &[String], actuator: &str) {
+fn add_rows(text: &mut String, run: &PressedRun, frames: &[usize], phase: Phase, markers: &[String], actuator: &str) {
     let mean = |values: &[f64]| frames.iter().map(|frame| values[*frame]).sum::<f64>() / frames.len() as f64;
     let [body, act] = [0, 1].map(|which| kpa(mean(&run.pressures_pa[which])));
     let state = format!(
@@ -113,9 +118,13 @@ pub(crate) fn about_toml(
 }
 
 /// Stations given, or the places at rest along the robot.
-pub(crate) fn stations(runs: &[(Run, Vec<Kept>)], markers: &[String], options: &Options) -> Vec<(String, f64, bool)> {
+pub(crate) fn stations(
+    runs: &[(PressedRun, Vec<Kept>)],
+    markers: &[String],
+    options: &ImportOptions,
+) -> Vec<(String, f64, bool)> {
     let estimate = |marker: usize| {
-        let of_run = |(run, holds): &(Run, Vec<Kept>)| {
+        let of_run = |(run, holds): &(PressedRun, Vec<Kept>)| {
             let rest = holds.iter().min_by(|a, b| a.act_pa.total_cmp(&b.act_pa))?;
             let seen: Vec<f64> =
                 rest.frames.iter().map(|frame| run.xy_m[marker][*frame][0]).filter(|x| x.is_finite()).collect();

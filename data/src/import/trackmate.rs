@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
-use super::columns::{Name, is_frame, lengths, si};
+use super::columns::{ColumnName, is_frame, lengths, si};
 use super::counted;
 use super::formats::Format;
-use super::options::Options;
-use super::recording::{Clock, Lengths, Pivot, Recording};
-use super::sheet::Sheet;
+use super::options::ImportOptions;
+use super::recording::{FrameClock, Lengths, Pivot, Recording};
+use super::sheet::CellText;
 use crate::cells::is_nothing;
 use crate::error::DataError;
 use crate::units::Measured;
@@ -28,20 +28,20 @@ pub(super) const XML: Format = Format {
     read: xml,
 };
 
-fn spots(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError> {
+fn spots(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
     let mut lines = sheet.lines();
     let header = lines.next().map_or(Vec::new(), |(_, line)| sheet.split(line));
     let column = |name: &str| header.iter().position(|known| *known == name);
     let [track, x, y, z, t, frame] =
         ["TRACK_ID", "POSITION_X", "POSITION_Y", "POSITION_Z", "POSITION_T", "FRAME"].map(column);
-    let mut pivot = Pivot::new(Lengths::Pixels, Clock::Frames);
+    let mut pivot = Pivot::new(Lengths::Pixels, FrameClock::Frames);
     let (mut cells, mut single, mut second) = (Vec::new(), 0, None);
     for (number, line) in lines {
         sheet.split_into(line, &mut cells);
         let cell = |index: Option<usize>| index.and_then(|index| cells.get(index).copied()).unwrap_or_default();
         // Up to three more rows of names and units.
         if sheet.number(cell(x)).is_none() {
-            let unit = |index| Name::of(&format!("x {}", cell(index))).unit;
+            let unit = |index| ColumnName::of(&format!("x {}", cell(index))).unit;
             pivot.recording.lengths = unit(x).and_then(|unit| lengths(&unit)).unwrap_or(pivot.recording.lengths);
             second = unit(t).filter(|unit| !is_frame(unit)).and_then(|unit| si(&unit, Measured::Time)).or(second);
             continue;
@@ -59,7 +59,7 @@ fn spots(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError>
         let (at, marker) = (pivot.frame(time), pivot.marker(cell(track)));
         pivot.put(at, marker, place, true);
     }
-    pivot.recording.clock = if second.is_some() { Clock::Seconds } else { Clock::Frames };
+    pivot.recording.clock = if second.is_some() { FrameClock::Seconds } else { FrameClock::Frames };
     Ok(vec![told(pivot, single)])
 }
 
@@ -106,20 +106,22 @@ fn tags(text: &str) -> impl Iterator<Item = Tag<'_>> {
     })
 }
 
-fn xml(sheet: &Sheet, _options: &Options) -> Result<Vec<Recording>, DataError> {
+fn xml(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
     let said = |key: &str| tags(sheet.text).take(8).find_map(|tag| tag.get(key));
     let unit = said("spaceUnits").or_else(|| said("spatialunits")).and_then(|unit| lengths(&unit.to_lowercase()));
     let time = said("timeUnits").or_else(|| said("timeunits")).map(str::to_lowercase).unwrap_or_default();
     let second = si(&time, Measured::Time).filter(|_| !is_frame(&time));
-    let mut pivot =
-        Pivot::new(unit.unwrap_or(Lengths::Pixels), if second.is_some() { Clock::Seconds } else { Clock::Frames });
+    let mut pivot = Pivot::new(
+        unit.unwrap_or(Lengths::Pixels),
+        if second.is_some() { FrameClock::Seconds } else { FrameClock::Frames },
+    );
     let exported = tags(sheet.text).any(|tag| tag.name == "particle");
     let single = if exported { detections(sheet, second, &mut pivot)? } else { model(sheet, second, &mut pivot)? };
     Ok(vec![told(pivot, single)])
 }
 
 /// `<particle>` with `<detection t x y z>`; t counts frames of `frameInterval`.
-fn detections(sheet: &Sheet, second: Option<f64>, pivot: &mut Pivot) -> Result<usize, DataError> {
+fn detections(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<usize, DataError> {
     let interval = tags(sheet.text).find_map(|tag| tag.number("frameInterval")).unwrap_or(1.0);
     let step = second.map_or(1.0, |second| second * interval);
     let mut track = 0;
@@ -140,7 +142,7 @@ fn detections(sheet: &Sheet, second: Option<f64>, pivot: &mut Pivot) -> Result<u
 }
 
 /// `<Spot>` elements, joined to tracks by the `<Edge>` elements of every `<Track>`; returns how many have none.
-fn model(sheet: &Sheet, second: Option<f64>, pivot: &mut Pivot) -> Result<usize, DataError> {
+fn model(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Result<usize, DataError> {
     let mut track_of: HashMap<&str, String> = HashMap::new();
     let (mut track, mut count) = (String::new(), 0);
     for tag in tags(sheet.text) {
@@ -172,6 +174,6 @@ fn model(sheet: &Sheet, second: Option<f64>, pivot: &mut Pivot) -> Result<usize,
     Ok(single)
 }
 
-fn no_number(sheet: &Sheet, what: &str) -> DataError {
+fn no_number(sheet: &CellText, what: &str) -> DataError {
     sheet.fault(0, format!("{what} lacks its time or place as a number"), "save the tracks again in TrackMate")
 }

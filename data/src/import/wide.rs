@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use super::columns::Roles;
 use super::formats::Format;
-use super::options::Options;
-use super::recording::{Clock, Lengths, Pivot, Recording};
-use super::sheet::Sheet;
+use super::options::ImportOptions;
+use super::recording::{FrameClock, Lengths, Pivot, Recording};
+use super::sheet::CellText;
 use crate::cells::label;
 use crate::error::DataError;
 
@@ -24,7 +24,7 @@ pub(super) const FORMAT: Format = Format {
 /// A marker's columns of x, y and z.
 type Columns = (String, [Option<usize>; 3]);
 
-pub(super) fn read(sheet: &Sheet, options: &Options) -> Result<Vec<Recording>, DataError> {
+pub(super) fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>, DataError> {
     let mut lines = sheet.lines();
     let Some((first, header)) = lines.next() else {
         return Err(sheet.fault(0, "the file is empty", "export it again"));
@@ -59,7 +59,7 @@ pub(super) fn read(sheet: &Sheet, options: &Options) -> Result<Vec<Recording>, D
     Ok(runs.finish(&roles.told))
 }
 
-fn markers(sheet: &Sheet, line: u64, roles: &Roles) -> Result<Vec<Columns>, DataError> {
+fn markers(sheet: &CellText, line: u64, roles: &Roles) -> Result<Vec<Columns>, DataError> {
     let mut markers: Vec<Columns> = Vec::new();
     for (index, axis, name, _) in &roles.coordinates {
         let at = markers.iter().position(|(known, _)| known == name).unwrap_or_else(|| {
@@ -84,13 +84,13 @@ pub(super) struct Runs {
     pivots: Vec<Pivot>,
     numbers: HashMap<String, usize>,
     lengths: Lengths,
-    clock: Clock,
+    clock: FrameClock,
     last: usize,
 }
 
 impl Runs {
     pub fn new(lengths: Lengths, second: Option<f64>) -> Runs {
-        let clock = if second.is_some() { Clock::Seconds } else { Clock::Frames };
+        let clock = if second.is_some() { FrameClock::Seconds } else { FrameClock::Frames };
         Runs { pivots: Vec::new(), numbers: HashMap::new(), lengths, clock, last: 0 }
     }
 

@@ -1,7 +1,7 @@
 //! Files that were cut or changed: an error or a table, never a panic.
 
 use super::{case, pixels};
-use data::import::{Offset, Options, Scale, import};
+use data::import::{ImportOptions, Offset, Scale, import};
 
 const FILES: [&str; 15] = [
     "cases/c01-deeplabcut/run1.csv",
@@ -22,13 +22,13 @@ const FILES: [&str; 15] = [
 ];
 
 /// What each file would need, so that damage is met as late as possible.
-fn options() -> [Options; 3] {
+fn options() -> [ImportOptions; 3] {
     let log = "cases/c01-deeplabcut/pressure.csv";
-    let free = Options { base: None, frames_per_s: None, ..pixels(log) };
+    let free = ImportOptions { base: None, frames_per_s: None, ..pixels(log) };
     [
         pixels(log),
-        Options { scale: Scale::OfFile, ..free.clone() },
-        Options { scale: Scale::Unit(1.0), bin_pa: Some(2e3), offset: Offset::Find, least_frames: 1, ..free },
+        ImportOptions { scale: Scale::OfFile, ..free.clone() },
+        ImportOptions { scale: Scale::Unit(1.0), bin_pa: Some(2e3), offset: Offset::Find, least_frames: 1, ..free },
     ]
 }
 

@@ -1,7 +1,7 @@
 //! Files as people have them.
 
 use super::{equals_reference, known, pixels, read, refused, told};
-use data::import::{Options, Scale};
+use data::import::{ImportOptions, Scale};
 
 #[test]
 fn deeplabcut_is_scaled_placed_joined_and_its_wild_points_are_lost() {
@@ -15,23 +15,27 @@ fn deeplabcut_is_scaled_placed_joined_and_its_wild_points_are_lost() {
     let files = &files[..1];
     refused(
         files,
-        &Options { frames_per_s: None, ..pixels("cases/c01-deeplabcut/pressure.csv") },
+        &ImportOptions { frames_per_s: None, ..pixels("cases/c01-deeplabcut/pressure.csv") },
         &["run1.csv", "frames", "--fps 30"],
     );
-    refused(files, &Options { base: None, ..pixels("cases/c01-deeplabcut/pressure.csv") }, &["base", "--base X,Y"]);
     refused(
         files,
-        &Options { scale: Scale::OfFile, ..pixels("cases/c01-deeplabcut/pressure.csv") },
+        &ImportOptions { base: None, ..pixels("cases/c01-deeplabcut/pressure.csv") },
+        &["base", "--base X,Y"],
+    );
+    refused(
+        files,
+        &ImportOptions { scale: Scale::OfFile, ..pixels("cases/c01-deeplabcut/pressure.csv") },
         &["scale", "--scale 3.1px/mm"],
     );
     refused(
         files,
-        &Options { pressure_logs: Vec::new(), ..pixels("cases/c01-deeplabcut/pressure.csv") },
+        &ImportOptions { pressure_logs: Vec::new(), ..pixels("cases/c01-deeplabcut/pressure.csv") },
         &["pressure", "--pressure"],
     );
     refused(
         files,
-        &Options { actuator: None, ..pixels("cases/c01-deeplabcut/pressure.csv") },
+        &ImportOptions { actuator: None, ..pixels("cases/c01-deeplabcut/pressure.csv") },
         &["actuator", "--actuator"],
     );
 }
@@ -50,8 +54,10 @@ fn both_kinds_of_kinovea_are_read() {
     let table = read(&["cases/c04-kinovea/run1_kinematics.csv"], &known("cases/c01-deeplabcut/pressure.csv"));
     assert!(equals_reference(&table, 1, 6e-3).is_empty());
     told(&table, &["Kinovea, kinematics", "lengths are in cm"]);
-    let options =
-        Options { markers: ["a", "b", "c"].map(String::from).to_vec(), ..pixels("cases/c01-deeplabcut/pressure.csv") };
+    let options = ImportOptions {
+        markers: ["a", "b", "c"].map(String::from).to_vec(),
+        ..pixels("cases/c01-deeplabcut/pressure.csv")
+    };
     let text = read(&["cases/c04-kinovea/run1_trajectories.txt"], &options);
     assert!(equals_reference(&text, 1, 2e-3).is_empty());
     told(&text, &["Kinovea, trajectories", "numbered from the base outwards"]);
@@ -59,22 +65,22 @@ fn both_kinds_of_kinovea_are_read() {
 
 #[test]
 fn a_wide_table_needs_nothing_else() {
-    let made = read(&["cases/c07-table-dialects/wide.csv"], &Options::default());
+    let made = read(&["cases/c07-table-dialects/wide.csv"], &ImportOptions::default());
     assert!(equals_reference(&made, 3, 0.0).is_empty());
     told(&made, &["a wide table", "lengths are in mm"]);
 }
 
 #[test]
 fn this_program_s_own_table_and_any_long_table_are_read() {
-    let made = read(&["cases/reference_markers.csv"], &Options::default());
+    let made = read(&["cases/reference_markers.csv"], &ImportOptions::default());
     assert!(equals_reference(&made, 3, 0.0).is_empty());
     told(&made, &["a long table"]);
 }
 
 #[test]
 fn a_ramp_is_binned() {
-    refused(&["cases/c10-ramp/markers.csv"], &Options::default(), &["--bin 2kPa"]);
-    let made = read(&["cases/c10-ramp/markers.csv"], &Options { bin_pa: Some(2e3), ..Options::default() });
+    refused(&["cases/c10-ramp/markers.csv"], &ImportOptions::default(), &["--bin 2kPa"]);
+    let made = read(&["cases/c10-ramp/markers.csv"], &ImportOptions { bin_pa: Some(2e3), ..ImportOptions::default() });
     assert_eq!(made.dataset.runs.len(), 3);
     told(&made, &["steps of 2 kPa"]);
 }

@@ -1,7 +1,7 @@
 //! Pressure logs beside a camera: another clock, frames outside the log, a sensor of absolute pressure.
 
 use super::{refused_paths, told};
-use data::import::{Imported, Offset, Options, import};
+use data::import::{ImportOptions, Imported, Offset, import};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -36,8 +36,8 @@ fn files(folder: &tempfile::TempDir, ahead_s: f64, add_kpa: f64) -> [PathBuf; 2]
     paths
 }
 
-fn options(log: &std::path::Path) -> Options {
-    Options { pressure_logs: vec![log.to_path_buf()], actuator: Some("epam".into()), ..Options::default() }
+fn options(log: &std::path::Path) -> ImportOptions {
+    ImportOptions { pressure_logs: vec![log.to_path_buf()], actuator: Some("epam".into()), ..ImportOptions::default() }
 }
 
 fn is_right(made: &Imported) {
@@ -58,10 +58,11 @@ fn a_log_of_another_clock_is_noticed_and_its_offset_found_or_given() {
     let [tracks, log] = files(&folder, AHEAD_S, 0.0);
     let files = [tracks];
     refused_paths(&files, &options(&log), &["correlate by", "3.4", "--clock-offset find", "--clock-offset 0s"]);
-    let found = import(&files, &Options { offset: Offset::Find, ..options(&log) }, &mut |_, _| ()).unwrap();
+    let found = import(&files, &ImportOptions { offset: Offset::Find, ..options(&log) }, &mut |_, _| ()).unwrap();
     is_right(&found);
     told(&found, &["ahead of the camera's: movement and pressure then correlate"]);
-    let given = import(&files, &Options { offset: Offset::Given(AHEAD_S), ..options(&log) }, &mut |_, _| ()).unwrap();
+    let given =
+        import(&files, &ImportOptions { offset: Offset::Given(AHEAD_S), ..options(&log) }, &mut |_, _| ()).unwrap();
     is_right(&given);
 }
 
@@ -81,7 +82,7 @@ fn absolute_pressure_is_refused_until_the_room_s_is_given() {
     let folder = tempfile::tempdir().unwrap();
     let [tracks, log] = files(&folder, 0.0, 101.3);
     refused_paths(std::slice::from_ref(&tracks), &options(&log), &["absolute", "--room 101.3kPa"]);
-    is_right(&import(&[tracks], &Options { room_pa: Some(101.3e3), ..options(&log) }, &mut |_, _| ()).unwrap());
+    is_right(&import(&[tracks], &ImportOptions { room_pa: Some(101.3e3), ..options(&log) }, &mut |_, _| ()).unwrap());
 }
 
 /// A second run that stops at 20 kPa.
@@ -109,7 +110,7 @@ fn a_log_that_ends_early_leaves_frames_out_and_one_of_another_day_is_refused() {
     told(&made, &["outside the pressure log"]);
     refused_paths(
         std::slice::from_ref(&tracks),
-        &Options { offset: Offset::Given(5000.0), ..options(&log) },
+        &ImportOptions { offset: Offset::Given(5000.0), ..options(&log) },
         &["no frame lies within", "5000"],
     );
 }

@@ -11,38 +11,38 @@ mod kinds;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use data::import::{Imported, Options, Place, Scale, import};
+use data::import::{FilePlace, ImportOptions, Imported, Scale, import};
 
 fn case(file: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests").join(file)
 }
 
-fn read(files: &[&str], options: &Options) -> Imported {
+fn read(files: &[&str], options: &ImportOptions) -> Imported {
     let files: Vec<PathBuf> = files.iter().map(|file| case(file)).collect();
     import(&files, options, &mut |_, _| ()).unwrap_or_else(|error| panic!("{error}\n{}", error.help()))
 }
 
-fn refused(files: &[&str], options: &Options, words: &[&str]) {
+fn refused(files: &[&str], options: &ImportOptions, words: &[&str]) {
     let files: Vec<PathBuf> = files.iter().map(|file| case(file)).collect();
     refused_paths(&files, options, words);
 }
 
-fn refused_paths(files: &[PathBuf], options: &Options, words: &[&str]) {
+fn refused_paths(files: &[PathBuf], options: &ImportOptions, words: &[&str]) {
     let error = import(files, options, &mut |_, _| ()).unwrap_err();
     let said = format!("{error} | {}", error.help());
     assert!(words.iter().all(|word| said.contains(word)), "{said}");
 }
 
 /// What all of these files come from.
-fn known(log: &str) -> Options {
-    Options { pressure_logs: vec![case(log)], actuator: Some("epam".into()), ..Options::default() }
+fn known(log: &str) -> ImportOptions {
+    ImportOptions { pressure_logs: vec![case(log)], actuator: Some("epam".into()), ..ImportOptions::default() }
 }
 
 /// 3.1 px to a millimetre, the base at pixel 212, 540.
-fn pixels(log: &str) -> Options {
-    Options {
+fn pixels(log: &str) -> ImportOptions {
+    ImportOptions {
         scale: Scale::PixelsPerMetre(3100.0),
-        base: Some(Place::At(vec![212.0, 540.0])),
+        base: Some(FilePlace::At(vec![212.0, 540.0])),
         frames_per_s: Some(30.0),
         ..known(log)
     }
