@@ -22,7 +22,13 @@ pub fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome, Failure> {
         Some(data) => inputs::all_evidence(data, &args.also, context)?,
         None => Vec::new(),
     };
-    let options = Options { sigma_m, keep_bending: args.keep_bending, next_experiment: false, ..Options::default() };
+    let options = Options {
+        sigma_m,
+        keep_bending: args.keep_bending,
+        next_experiment: false,
+        missing_moment: false,
+        ..Options::default()
+    };
     let found = add(&file, &wish, &evidence, &options, &mut part(context.progress, [READ, 1.0]))?;
     let names: Vec<&str> = found.additions.iter().map(|a| a.name.as_str()).collect();
     let target = target(args, &names.join("-"))?;

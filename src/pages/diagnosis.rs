@@ -3,7 +3,7 @@
 use super::diagnosis_figures::{
     candidate_curves, ledger_cases, left_out, ranking, shown, supply, waterfall, witness_ledger,
 };
-use super::{Files, Imprint, PageError, figures, in_words, residual_figure};
+use super::{Files, Imprint, PageError, figures, in_words, moment_figure, residual_figure};
 use ::compare::diagnosis::{Answer, Combination, Diagnosis, ParameterValue, Ranked, Separation, Standing, Verdict};
 use ::compare::extension::error_steps;
 use ::compare::progress::Progress;
@@ -47,6 +47,9 @@ pub struct Diagnosed<'a> {
 pub fn diagnosis_page(found: &Diagnosed, imprint: &Imprint, progress: &mut Progress) -> Result<Files, PageError> {
     let mut files = Files::default();
     draw(found, "", &diagnosis_pictures(), &mut files, progress)?;
+    if let Some(missing) = &found.diagnosis.missing_moment {
+        files.text("missing_moment.csv", missing.csv());
+    }
     files.page("diagnosis.html", values(found), imprint)?;
     Ok(files)
 }
@@ -55,7 +58,8 @@ pub fn diagnosis_page(found: &Diagnosed, imprint: &Imprint, progress: &mut Progr
 type Picture = fn(&Diagnosed, &Scenario) -> Result<Option<Drawn>, PageError>;
 
 /// Every picture that a report of a diagnosis may have, and its name without prefix and ending.
-const PICTURES: [(&str, Picture); 8] = [
+const PICTURES: [(&str, Picture); 9] = [
+    ("missing_moment", |f, _| f.diagnosis.missing_moment.as_ref().map_or(Ok(None), moment_figure::missing_moment)),
     ("residuals_before", |f, _| {
         let title = "The calibrated model misses here";
         residual_figure::map(title, &f.diagnosis.residuals_before, f.dataset).map(Some)
@@ -89,7 +93,7 @@ const PICTURES: [(&str, Picture); 8] = [
 ];
 
 /// Names of the pictures that a report may have.
-pub fn diagnosis_pictures() -> [&'static str; 8] {
+pub fn diagnosis_pictures() -> [&'static str; 9] {
     PICTURES.map(|(name, _)| name)
 }
 

@@ -11,6 +11,7 @@ mod engine_figures;
 mod engines;
 mod figures;
 mod ladder;
+mod moment_figure;
 mod one_number;
 mod predicted;
 mod residual_figure;

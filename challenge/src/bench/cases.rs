@@ -155,7 +155,7 @@ fn hidden(truth: &Truth, kind: Hiding, diagnose: Diagnoser) -> Result<Named, Com
 /// A set without a next experiment.
 fn lossy(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
-    let options = Options { next_experiment: false, ..Options::default() };
+    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     let about = about(truth)?;
     Ok(named(truth, &diagnose(&truth.told()?, &[Evidence::of(data.clone(), Some(about))], &options, &mut |_, _| ())?))
 }
@@ -164,14 +164,14 @@ fn lossy(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
 fn measured(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
     let about = tested(truth)?;
-    let options = Options { next_experiment: false, ..Options::default() };
+    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     let found = diagnose(&truth.told()?, &[Evidence::of(data.clone(), Some(about))], &options, &mut |_, _| ())?;
     Ok(named(truth, &found))
 }
 
 /// What comes out after an experiment.
 fn after(truth: &Truth, experiment: &Experiment, diagnose: Diagnoser) -> Result<After, CompareError> {
-    let options = Options { next_experiment: false, ..Options::default() };
+    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     let parts = follow_up(truth, experiment)?;
     let parts: Vec<Evidence> = parts.into_iter().map(|(data, about)| Evidence::of(data, Some(about))).collect();
     let found = diagnose(&truth.told()?, &parts, &options, &mut |_, _| ())?;
@@ -201,7 +201,7 @@ fn interval(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let values: Vec<f64> = effect.typical().into_iter().zip(effect.neutral()).map(value).collect();
     let robot = told.with_bending(truth.bending_nm2).with_effect(name, &values);
     let data = generate(&robot, "own law", &truth.measurement(&standard_protocol()).generator)?;
-    let options = Options { next_experiment: false, ..Options::default() };
+    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     let found = diagnose(&told, &[Evidence::of(data, Some(about(truth)?))], &options, &mut |_, _| ())?;
     let mut named = named(truth, &found);
     let only = found.added.len() == 1 && found.added[0].effect == *name;

@@ -74,7 +74,7 @@ pub(super) fn made(diagnose: Diagnoser, failed: &mut Vec<String>) -> Vec<FromRun
 
 fn one(robot: &'static str, lacking: &'static str, diagnose: Diagnoser) -> Result<FromRuns, CompareError> {
     let set = format!("fem-{robot}");
-    let options = Options { keep_bending: true, next_experiment: false, ..Options::default() };
+    let options = Options { keep_bending: true, next_experiment: false, missing_moment: false, ..Options::default() };
     let evidence = [Evidence::read(&set)?];
     let found = diagnose(&shipped_scenario(robot)?.bare(), &evidence, &options, &mut |_, _| ())?;
     let names = |added: &[Added]| added.iter().map(|a| a.effect.clone()).collect::<Vec<_>>();

@@ -28,7 +28,7 @@ pub fn kept_bending(
     if is_known || found.verdict != Some(Verdict::OutOfCatalog) {
         return Ok(None);
     }
-    let options = Options { keep_bending: true, next_experiment: false, ..options.clone() };
+    let options = Options { keep_bending: true, next_experiment: false, missing_moment: false, ..options.clone() };
     let kept = diagnose(scenario, evidence, &options, &mut |_, _| ())?;
     let after = kept.base.systematic_with_added_mm;
     let is_closer = after < policy::CLOSER * found.base.systematic_with_added_mm;

@@ -32,7 +32,7 @@ fn blind(marker: usize) -> Dataset {
 }
 
 fn diagnosed(dataset: &Dataset) -> Diagnosis {
-    let options = Options { next_experiment: false, ..Options::default() };
+    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     of_one(&textbook_scenario("epam").unwrap(), dataset, None, &options).unwrap()
 }
 

@@ -40,6 +40,7 @@ mod limits;
 mod look;
 #[cfg(test)]
 mod lost_tests;
+mod missing;
 mod next;
 mod options;
 mod order;
@@ -139,6 +140,9 @@ pub fn diagnose(
     if options.next_experiment {
         progress("the next experiment", Some(DIAGNOSIS[1]));
         diagnosis.next_experiment = next::next_experiment(&case, &decision, look::next(&diagnosis))?;
+    }
+    if options.missing_moment {
+        diagnosis.missing_moment = Some(missing::missing_moment(&case, &decision, &diagnosis)?);
     }
     diagnosis.slips = parts.iter().flat_map(|part| part.slips.clone()).collect();
     diagnosis.summary = story::story(&diagnosis);
@@ -251,6 +255,7 @@ fn assemble(
         undetectable,
         kept_bending: None,
         next_experiment: None,
+        missing_moment: None,
         slips: Vec::new(),
         warnings,
     })

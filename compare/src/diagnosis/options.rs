@@ -17,6 +17,8 @@ pub struct Options {
     pub pairs: bool,
     /// Look for the next experiment.
     pub next_experiment: bool,
+    /// Look at the missing moment.
+    pub missing_moment: bool,
 }
 
 impl Default for Options {
@@ -29,6 +31,7 @@ impl Default for Options {
             keep_bending: false,
             pairs: true,
             next_experiment: true,
+            missing_moment: true,
         }
     }
 }

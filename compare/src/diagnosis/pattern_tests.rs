@@ -71,7 +71,7 @@ fn one_of_sixty_markers_that_stands_alone_is_named() {
     let told = plain.with_markers(&(0..60).map(|i| plain.length_m * (f64::from(i) + 0.5) / 60.0).collect::<Vec<_>>());
     let mut data = measured(&told, 3, 72);
     data.xy_m.iter_mut().skip(2 * 40 + 1).step_by(2 * 60).for_each(|y| *y += 2e-3);
-    let options = Options { next_experiment: false, ..Options::default() };
+    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     let d = of_one(&told, &data, None, &options).unwrap();
     assert_eq!(d.verdict, Some(Verdict::OutOfCatalog), "{:?}", d.summary);
     assert!(d.pattern.is_some_and(|p| p.words == "marker 41 stands alone in y" && p.p_value <= 1e-6));
@@ -131,7 +131,7 @@ fn an_effect_by_its_own_formula_is_at_no_distance_from_the_catalogue_and_far_fro
 /// of 16.
 #[test]
 fn an_attempt_comes_closer_in_mm_even_where_quiet_holds_ask_for_something_else() {
-    let options = Options { keep_bending: true, next_experiment: false, ..Options::default() };
+    let options = Options { keep_bending: true, next_experiment: false, missing_moment: false, ..Options::default() };
     for robot in ["cpam", "fpam"] {
         let (data, about) = data::load(&format!("fem-{robot}"), &mut |_, _| {}).unwrap();
         let d = of_one(&textbook_scenario(robot).unwrap().bare(), &data, about.as_ref(), &options).unwrap();
@@ -165,7 +165,7 @@ fn what_hardly_moves_the_model_is_no_attempt() {
     for at in (0..data.xy_m.len()).step_by(12) {
         (4..6).for_each(|k| data.xy_m.swap(at + k, at + k + 2));
     }
-    let options = Options { next_experiment: false, ..Options::default() };
+    let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     let d = of_one(&plain, &data, None, &options).unwrap();
     assert_eq!(d.verdict, Some(Verdict::OutOfCatalog));
     assert!(d.attempt.is_empty() && d.attempt_alike.is_empty(), "{:?}", d.attempt_alike);

@@ -3,6 +3,7 @@
 use super::fitted::{FittedBeside, GaugeFit};
 use super::proposed::NextExperiment;
 use crate::evidence::Used;
+use crate::moment::MissingMoment;
 use crate::noise_summary::NoiseSummary;
 use crate::residuals::ResidualMap;
 use crate::where_it_fails::Statement;
@@ -358,6 +359,8 @@ pub struct Diagnosis {
     pub undetectable: Vec<Undetectable>,
     /// What would separate the indistinguishable ones; `None` if there is nothing to separate.
     pub next_experiment: Option<NextExperiment>,
+    /// What the calibrated base's terms miss at the bends that were measured; `None` unless it was asked for.
+    pub missing_moment: Option<MissingMoment>,
     /// What these data cannot show, whatever the model.
     pub limits: Vec<String>,
     /// Cautions that come before the verdict: slips in the data, that no effect of a robot is. They are in `warnings` too.

@@ -18,7 +18,7 @@ pub(super) fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
 
 /// Without the search for the next experiment, which most tests do not look at.
 pub(super) fn quick() -> Options {
-    Options { next_experiment: false, ..Options::default() }
+    Options { next_experiment: false, missing_moment: false, ..Options::default() }
 }
 
 pub(super) fn of_one(

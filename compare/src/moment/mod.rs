@@ -6,12 +6,16 @@
 //!
 //! Pure functions over plain structs; nothing here decides a verdict.
 
+mod curve;
 mod points;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod told;
 mod view;
 
+pub use curve::{CurvePoint, Path, band, curve};
 pub use points::{Moments, Point, Robot, moments};
 pub use shape::{Shape, Shared, shape};
+pub use told::{MeasuredShape, MissingMoment, MomentCurve, MomentPoint, SharedNumber, degrees, sentences, told};
 pub use view::{Division, Place, View};

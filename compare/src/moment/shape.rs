@@ -46,8 +46,6 @@ pub struct Shape {
     pub left: (f64, usize),
     /// What no law of bending can mend, beyond noise \[mm\].
     pub floor_mm: f64,
-    /// Derivatives of the whitened residuals, one column per number.
-    pub(super) jacobian: Vec<Vec<f64>>,
 }
 
 /// Where each number of a shape stands.
@@ -201,7 +199,6 @@ impl Fit<'_> {
             covariance,
             numbers,
             residual_m,
-            jacobian,
         })
     }
 

@@ -1,0 +1,154 @@
+//! The missing moment of a diagnosis: its points from all data, and the answers as curves through them.
+
+use super::case::Case;
+use super::decide::Decision;
+use super::least_squares::dot;
+use super::problem::{Block, Fit};
+use super::result::Diagnosis;
+use super::{Answer, Standing};
+use crate::error::CompareError;
+use crate::moment::{
+    MeasuredShape, MissingMoment, MomentCurve, MomentPoint, Path, Robot, View, band, curve, degrees, moments,
+    sentences, shape, told,
+};
+use models::Scenario;
+use nalgebra::DMatrix;
+
+/// Answers drawn as curves.
+const MOST_CURVES: usize = 4;
+/// Others than those that are told, so that there is something to compare with.
+const OTHERS: usize = 1;
+/// Pressures of a curve.
+const PRESSURES: usize = 24;
+/// Least pressure of a curve, over the highest.
+const LEAST: f64 = 0.15;
+/// Half-width of a 95 % band in standard deviations.
+const BAND: f64 = 1.96;
+
+/// What is missing in all data, relative to the calibrated base.
+///
+/// # Errors
+/// Data of which no shape comes near.
+pub fn missing_moment(case: &Case, decision: &Decision, found: &Diagnosis) -> Result<MissingMoment, CompareError> {
+    let (mut shapes, mut points) = (Vec::new(), Vec::new());
+    for block in &case.problem.blocks {
+        let base = scenarios(case, block, &case.base, case.base.theta());
+        let view = View {
+            scenario: &base[0],
+            dataset: &block.dataset,
+            direct: block.direct,
+            target_m: &block.target_m,
+            whitener: &block.whitener,
+        };
+        let shape = shape(&view)?;
+        let single = vec![0; block.bending_of.len()];
+        let of_hold = if case.problem.bendings == 0 { &single } else { &block.bending_of };
+        let robot = Robot { scenarios: &base, of_hold };
+        let moments = moments(&view, &shape, &robot)?;
+        shapes.push(MeasuredShape::of(&block.dataset, &shape));
+        points.extend(told(&block.dataset, &shape, &moments, block.scenario.length_m));
+    }
+    let curves = curves(case, decision, found, &points)?;
+    Ok(MissingMoment { shapes, sentences: sentences(&points), points, curves })
+}
+
+/// Scenarios of a fit, one per bending stiffness.
+fn scenarios(case: &Case, block: &Block, fit: &Fit, theta: &[f64]) -> Vec<Scenario> {
+    super::blocks::fitted_scenarios(&case.problem, block, &fit.effects, theta)
+}
+
+fn curves(
+    case: &Case,
+    decision: &Decision,
+    found: &Diagnosis,
+    points: &[MomentPoint],
+) -> Result<Vec<MomentCurve>, CompareError> {
+    let mut kept: Vec<Answer> = found.answers().into_iter().filter(Answer::helps).collect();
+    let first = kept.iter().filter(|a| a.standing != Standing::Other).count();
+    kept.truncate((first + OTHERS).min(MOST_CURVES));
+    let paths = paths(case, points);
+    let mut curves = Vec::new();
+    for answer in &kept {
+        let Some(fit) = fit_of(case, decision, &answer.name()) else { continue };
+        for (level, path) in &paths {
+            curves.push(MomentCurve {
+                answer: answer.name(),
+                is_told: answer.standing != Standing::Other,
+                p_body_kpa: 1e-3 * path.p_body_pa,
+                is_unloading: path.from_pa.is_some(),
+                points: drawn(case, fit, *level, path)?,
+            });
+        }
+    }
+    Ok(curves)
+}
+
+/// The fit behind an answer.
+fn fit_of<'a>(case: &Case, decision: &'a Decision, name: &str) -> Option<&'a Fit> {
+    let own = case.always.len();
+    let called = |fit: &&Fit| {
+        let names = fit.effects[own..].iter().map(|e| case.candidate(*e).name.as_str());
+        names.collect::<Vec<_>>().join(" + ") == name
+    };
+    let Decision { singles, pairs, as_close, last, .. } = decision;
+    singles.iter().chain(pairs).chain(as_close).chain(last).find(called)
+}
+
+/// Ways up, and down where points lie there, at every body pressure, with the number of its stiffness.
+fn paths(case: &Case, points: &[MomentPoint]) -> Vec<(usize, Path)> {
+    let dataset = case.dataset;
+    let wait_s = dataset.holds.first().and_then(|hold| Some(hold.t_s.last()? - 0.0)).unwrap_or(0.0).max(0.0);
+    let mut paths = Vec::new();
+    for (level, p_body_pa) in case.body_pa.iter().enumerate() {
+        let own =
+            |p: &&MomentPoint| p.is_of_hold() && super::blocks::nearest(&case.body_pa, 1e3 * p.p_body_kpa) == level;
+        let highest = points.iter().filter(own).map(|p| 1e3 * p.p_act_kpa).fold(0.0, f64::max);
+        if highest <= 0.0 {
+            continue;
+        }
+        let share = |i: usize| LEAST + (1.0 - LEAST) * i as f64 / (PRESSURES - 1) as f64;
+        let p_act_pa: Vec<f64> = (0..PRESSURES).map(|i| highest * share(i)).collect();
+        let up = Path { p_body_pa: *p_body_pa, p_act_pa, from_pa: None, wait_s };
+        if points.iter().filter(own).any(|p| p.phase == "unload" && p.p_act_kpa > 0.0) {
+            paths.push((level, Path { from_pa: Some(highest), ..up.clone() }));
+        }
+        paths.push((level, up));
+    }
+    paths
+}
+
+/// Pressure \[kPa\], bend \[°\], moment and half-width of its band \[N·m\].
+fn drawn(case: &Case, fit: &Fit, level: usize, path: &Path) -> Result<Vec<[f64; 4]>, CompareError> {
+    let block = &case.problem.blocks[0];
+    let at = |fit: &Fit, theta: &[f64]| -> Scenario {
+        let all = scenarios(case, block, fit, theta);
+        all[level.min(all.len() - 1)].clone()
+    };
+    let base = at(&case.base, case.base.theta());
+    let middle = curve(&base, &at(fit, fit.theta()), path)?;
+    let shifted = shifts(case, fit).into_iter().map(|theta| curve(&base, &at(fit, &theta), path));
+    let half = band(&middle, &shifted.collect::<Result<Vec<_>, _>>()?);
+    let per = degrees(block.scenario.length_m);
+    let point = |((p, [kappa, moment]), half): ((&f64, &[f64; 2]), f64)| [1e-3 * p, per * kappa, *moment, BAND * half];
+    let all = path.p_act_pa.iter().zip(&middle).zip(half).map(point);
+    Ok(all.filter(|point| point.iter().all(|v| v.is_finite())).collect())
+}
+
+/// Values one standard deviation away in directions that do not depend on each other.
+fn shifts(case: &Case, fit: &Fit) -> Vec<Vec<f64>> {
+    let Some(jacobian) = case.problem.jacobian_allowing(fit) else { return Vec::new() };
+    let ranges = case.problem.ranges(&fit.effects);
+    let free: Vec<usize> = (0..ranges.len())
+        .filter(|k| ranges[*k].lower < ranges[*k].upper && dot(&jacobian[*k], &jacobian[*k]) > 0.0)
+        .collect();
+    let normal = DMatrix::from_fn(free.len(), free.len(), |i, j| dot(&jacobian[free[i]], &jacobian[free[j]]));
+    let Some(root) = normal.cholesky().and_then(|c| c.inverse().cholesky()) else { return Vec::new() };
+    let shifted = |column: nalgebra::DVectorView<f64>| {
+        let mut theta = fit.theta().to_vec();
+        for (k, step) in free.iter().zip(column.iter()) {
+            theta[*k] = (theta[*k] + step).clamp(ranges[*k].lower, ranges[*k].upper);
+        }
+        theta
+    };
+    root.l().column_iter().map(|column| shifted(column.into())).collect()
+}

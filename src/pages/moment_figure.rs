@@ -1,0 +1,119 @@
+//! The missing moment → its picture: points with error bars, and the explanations as curves through them.
+
+use super::PageError;
+use compare::moment::{MissingMoment, MomentCurve, MomentPoint};
+use compare::wording::short;
+use report::chart::{Chart, Key, Look, Mark, Space};
+use report::{Drawn, Ink, Symbol};
+
+/// Pressures that differ by less have one colour [kPa].
+const SAME_KPA: f64 = 0.5;
+/// Pressures with a colour and a line in the legend of their own.
+const MOST_LEVELS: usize = 8;
+
+/// The picture; `None` where no hold has a missing moment.
+pub(super) fn missing_moment(found: &MissingMoment) -> Result<Option<Drawn>, PageError> {
+    let points: Vec<&MomentPoint> = found.of_holds().collect();
+    if points.is_empty() {
+        return Ok(None);
+    }
+    let levels = levels(points.iter().map(|p| p.p_act_kpa));
+    let bodies = self::levels(points.iter().map(|p| p.p_body_kpa));
+    let mut marks: Vec<Mark> = found.curves.iter().filter(|c| c.is_told).map(band).collect();
+    let ends = [0.0, furthest(found)];
+    marks.push(Mark::Line { points: ends.map(|x| [x, 0.0]).to_vec(), ink: Ink::Axis, dashed: false });
+    marks.extend(found.curves.iter().map(line));
+    marks.extend(points.iter().map(|p| point(p, &levels, &bodies)));
+    marks.push(Mark::Tip { at: [ends[1], 0.0], label: "0: nothing missing".into(), ink: Ink::Muted });
+    marks.extend(tips(&found.curves));
+    let chart = Chart {
+        title: "What the model misses".into(),
+        x_label: "bend over the whole body [°]".into(),
+        y_label: "missing moment [N m]; below 0 something holds it back".into(),
+        space: Space::Plane,
+        marks,
+        keys: keys(&points, &levels, &bodies),
+        ..Chart::default()
+    };
+    Ok(Some(chart.draw("missing moment")?))
+}
+
+/// Distinct levels, rising; of many a few, evenly.
+fn levels(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut levels: Vec<f64> = values.collect();
+    levels.sort_by(f64::total_cmp);
+    levels.dedup_by(|b, a| *b - *a < SAME_KPA);
+    let (count, kept) = (levels.len(), levels.len().min(MOST_LEVELS));
+    (0..kept).map(|i| levels[if kept > 1 { i * (count - 1) / (kept - 1) } else { 0 }]).collect()
+}
+
+fn nearest(levels: &[f64], value: f64) -> usize {
+    let away = |i: &usize| (levels[*i] - value).abs();
+    (0..levels.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
+}
+
+fn furthest(found: &MissingMoment) -> f64 {
+    let curves = found.curves.iter().flat_map(|c| c.points.iter().map(|p| p[1]));
+    found.of_holds().map(|p| p.bend_deg + p.bend_sd_deg).chain(curves).fold(0.0, f64::max)
+}
+
+fn point(p: &MomentPoint, levels: &[f64], bodies: &[f64]) -> Mark {
+    Mark::Point {
+        at: [p.bend_deg, p.moment_nm],
+        error: [p.bend_sd_deg, p.moment_sd_nm],
+        ink: Ink::Series(nearest(levels, p.p_act_kpa)),
+        symbol: Symbol::of(nearest(bodies, p.p_body_kpa)),
+        open: p.phase == "unload",
+        label: String::new(),
+    }
+}
+
+fn line(curve: &MomentCurve) -> Mark {
+    Mark::Line { points: curve.points.iter().map(|p| [p[1], p[2]]).collect(), ink: ink(curve), dashed: !curve.is_told }
+}
+
+fn ink(curve: &MomentCurve) -> Ink {
+    if curve.is_told { Ink::Ink } else { Ink::Muted }
+}
+
+fn band(curve: &MomentCurve) -> Mark {
+    let side = |sign: f64| curve.points.iter().map(move |p| [p[1], p[2] + sign * p[3]]);
+    Mark::Band(side(1.0).chain(side(-1.0).rev()).collect())
+}
+
+/// Names at the ends of the curves, each once: where it ends furthest.
+fn tips(curves: &[MomentCurve]) -> Vec<Mark> {
+    let mut named: Vec<&str> = Vec::new();
+    let mut marks = Vec::new();
+    for curve in curves {
+        if named.contains(&curve.answer.as_str()) {
+            continue;
+        }
+        let own = curves.iter().filter(|c| c.answer == curve.answer).flat_map(|c| &c.points);
+        if let Some(end) = own.max_by(|a, b| a[1].total_cmp(&b[1])) {
+            named.push(&curve.answer);
+            let label = super::effect(&curve.answer) + if curve.is_told { "" } else { " (fits worse)" };
+            marks.push(Mark::Tip { at: [end[1], end[2]], label, ink: ink(curve) });
+        }
+    }
+    marks
+}
+
+fn keys(points: &[&MomentPoint], levels: &[f64], bodies: &[f64]) -> Vec<Key> {
+    let looks = |open: bool| Look::Symbol(Symbol::Circle, open);
+    let mut keys: Vec<Key> = levels
+        .iter()
+        .enumerate()
+        .map(|(i, p)| Key::new(looks(false), Ink::Series(i), &format!("{} kPa", short(*p))))
+        .collect();
+    if points.iter().any(|p| p.phase == "unload") {
+        keys.push(Key::new(looks(true), Ink::Ink, "on the way down"));
+    }
+    if bodies.len() > 1 {
+        let body = |(i, p): (usize, &f64)| {
+            Key::new(Look::Symbol(Symbol::of(i), false), Ink::Muted, &format!("body {} kPa", short(*p)))
+        };
+        keys.extend(bodies.iter().enumerate().map(body));
+    }
+    keys
+}
