@@ -8,7 +8,7 @@ use crate::scene::{Anchor, Point, Scene, Symbol};
 use crate::{WIDTH, place, text};
 
 /// Widest label of a tip, and of a point [design px].
-const TIP: f64 = 110.0;
+const TIP: f64 = 130.0;
 const LABEL: f64 = 220.0;
 /// Heights of the plot area; that of two lengths lies between two bounds.
 const HEIGHT: f64 = 270.0;

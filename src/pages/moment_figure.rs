@@ -9,7 +9,9 @@ use report::{Drawn, Ink, Symbol};
 /// Pressures that differ by less have one colour [kPa].
 const SAME_KPA: f64 = 0.5;
 /// Pressures with a colour and a line in the legend of their own.
-const MOST_LEVELS: usize = 8;
+const MOST_LEVELS: usize = 6;
+/// The last colour of a series, and one below it, are left for curves.
+const FREE_SERIES: usize = 7;
 
 /// The picture; `None` where no hold has a missing moment.
 pub(super) fn missing_moment(found: &MissingMoment) -> Result<Option<Drawn>, PageError> {
@@ -19,20 +21,20 @@ pub(super) fn missing_moment(found: &MissingMoment) -> Result<Option<Drawn>, Pag
     }
     let levels = levels(points.iter().map(|p| p.p_act_kpa));
     let bodies = self::levels(points.iter().map(|p| p.p_body_kpa));
-    let mut marks: Vec<Mark> = found.curves.iter().filter(|c| c.is_told).map(band).collect();
-    let ends = [0.0, furthest(found)];
+    let mut marks: Vec<Mark> = found.curves.iter().filter(|c| c.is_told && is_narrow(c, found)).map(band).collect();
+    let (ends, inks) = ([0.0, furthest(found)], Inks::of(&found.curves));
     marks.push(Mark::Line { points: ends.map(|x| [x, 0.0]).to_vec(), ink: Ink::Axis, dashed: false });
-    marks.extend(found.curves.iter().map(line));
+    marks.extend(found.curves.iter().map(|c| line(c, inks.of_curve(c))));
     marks.extend(points.iter().map(|p| point(p, &levels, &bodies)));
-    marks.push(Mark::Tip { at: [ends[1], 0.0], label: "0: nothing missing".into(), ink: Ink::Muted });
-    marks.extend(tips(&found.curves));
+    marks.push(Mark::Tip { at: [ends[1], 0.0], label: "nothing missing".into(), ink: Ink::Muted });
+    marks.extend(tips(&found.curves, &inks));
     let chart = Chart {
         title: "What the model misses".into(),
         x_label: "bend over the whole body [°]".into(),
         y_label: "missing moment [N m]; below 0 something holds it back".into(),
         space: Space::Plane,
         marks,
-        keys: keys(&points, &levels, &bodies),
+        keys: keys(found, &levels, &bodies),
         ..Chart::default()
     };
     Ok(Some(chart.draw("missing moment")?))
@@ -68,12 +70,36 @@ fn point(p: &MomentPoint, levels: &[f64], bodies: &[f64]) -> Mark {
     }
 }
 
-fn line(curve: &MomentCurve) -> Mark {
-    Mark::Line { points: curve.points.iter().map(|p| [p[1], p[2]]).collect(), ink: ink(curve), dashed: !curve.is_told }
+fn line(curve: &MomentCurve, ink: Ink) -> Mark {
+    Mark::Line { points: curve.points.iter().map(|p| [p[1], p[2]]).collect(), ink, dashed: !curve.is_told }
 }
 
-fn ink(curve: &MomentCurve) -> Ink {
-    if curve.is_told { Ink::Ink } else { Ink::Muted }
+/// Colours of the curves: what is told first is black, further ones have what no pressure has.
+struct Inks<'a> {
+    told: Vec<&'a str>,
+}
+
+impl<'a> Inks<'a> {
+    fn of(curves: &'a [MomentCurve]) -> Inks<'a> {
+        let mut told: Vec<&str> = curves.iter().filter(|c| c.is_told).map(|c| c.answer.as_str()).collect();
+        told.dedup();
+        Inks { told }
+    }
+
+    fn of_curve(&self, curve: &MomentCurve) -> Ink {
+        match self.told.iter().position(|name| *name == curve.answer) {
+            Some(0) => Ink::Ink,
+            Some(i) => Ink::Series(FREE_SERIES - i % 2),
+            None => Ink::Muted,
+        }
+    }
+}
+
+/// Whether a band leaves the points to be seen: where hardly anything is known, it would fill the picture.
+fn is_narrow(curve: &MomentCurve, found: &MissingMoment) -> bool {
+    let sizes = found.of_holds().map(|p| p.moment_nm.abs() + p.moment_sd_nm);
+    let widest = curve.points.iter().map(|p| p[3]).fold(0.0, f64::max);
+    widest < sizes.fold(0.0, f64::max)
 }
 
 fn band(curve: &MomentCurve) -> Mark {
@@ -82,7 +108,7 @@ fn band(curve: &MomentCurve) -> Mark {
 }
 
 /// Names at the ends of the curves, each once: where it ends furthest.
-fn tips(curves: &[MomentCurve]) -> Vec<Mark> {
+fn tips(curves: &[MomentCurve], inks: &Inks) -> Vec<Mark> {
     let mut named: Vec<&str> = Vec::new();
     let mut marks = Vec::new();
     for curve in curves {
@@ -92,21 +118,22 @@ fn tips(curves: &[MomentCurve]) -> Vec<Mark> {
         let own = curves.iter().filter(|c| c.answer == curve.answer).flat_map(|c| &c.points);
         if let Some(end) = own.max_by(|a, b| a[1].total_cmp(&b[1])) {
             named.push(&curve.answer);
-            let label = super::effect(&curve.answer) + if curve.is_told { "" } else { " (fits worse)" };
-            marks.push(Mark::Tip { at: [end[1], end[2]], label, ink: ink(curve) });
+            let label = super::effect(&curve.answer).replace(" + ", " +\n");
+            let line = |line: &str| Mark::Tip { at: [end[1], end[2]], label: line.into(), ink: inks.of_curve(curve) };
+            marks.extend(label.lines().map(line));
         }
     }
     marks
 }
 
-fn keys(points: &[&MomentPoint], levels: &[f64], bodies: &[f64]) -> Vec<Key> {
+fn keys(found: &MissingMoment, levels: &[f64], bodies: &[f64]) -> Vec<Key> {
     let looks = |open: bool| Look::Symbol(Symbol::Circle, open);
     let mut keys: Vec<Key> = levels
         .iter()
         .enumerate()
         .map(|(i, p)| Key::new(looks(false), Ink::Series(i), &format!("{} kPa", short(*p))))
         .collect();
-    if points.iter().any(|p| p.phase == "unload") {
+    if found.of_holds().any(|p| p.phase == "unload") {
         keys.push(Key::new(looks(true), Ink::Ink, "on the way down"));
     }
     if bodies.len() > 1 {
@@ -114,6 +141,9 @@ fn keys(points: &[&MomentPoint], levels: &[f64], bodies: &[f64]) -> Vec<Key> {
             Key::new(Look::Symbol(Symbol::of(i), false), Ink::Muted, &format!("body {} kPa", short(*p)))
         };
         keys.extend(bodies.iter().enumerate().map(body));
+    }
+    if found.curves.iter().any(|c| !c.is_told) {
+        keys.push(Key::new(Look::Dashed, Ink::Muted, "fits worse"));
     }
     keys
 }

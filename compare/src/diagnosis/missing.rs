@@ -4,14 +4,15 @@ use super::case::Case;
 use super::decide::Decision;
 use super::least_squares::dot;
 use super::problem::{Block, Fit};
-use super::result::Diagnosis;
+use super::result::{Diagnosis, Verdict};
 use super::{Answer, Standing};
 use crate::error::CompareError;
 use crate::moment::{
     MeasuredShape, MissingMoment, MomentCurve, MomentPoint, Path, Robot, View, band, curve, degrees, moments,
-    sentences, shape, told,
+    sentences, shape, shape_sentences, told,
 };
 use models::Scenario;
+use models::effects::Stage;
 use nalgebra::DMatrix;
 
 /// Answers drawn as curves.
@@ -22,17 +23,22 @@ const OTHERS: usize = 1;
 const PRESSURES: usize = 24;
 /// Least pressure of a curve, over the highest.
 const LEAST: f64 = 0.15;
+/// The curve of the fitted base.
+const STIFFNESS: &str = "stiffness alone";
+/// Curves begin at this share of the least bend that was measured.
+const NEAR: f64 = 0.7;
 /// Half-width of a 95 % band in standard deviations.
 const BAND: f64 = 1.96;
 
-/// What is missing in all data, relative to the calibrated base.
+/// What is missing in all data, relative to the scenario as given: with its own bending stiffness, or the one that was measured by
+/// itself. A fitted one would hide in the points whatever it takes the place of; it is a curve among the others.
 ///
 /// # Errors
 /// Data of which no shape comes near.
 pub fn missing_moment(case: &Case, decision: &Decision, found: &Diagnosis) -> Result<MissingMoment, CompareError> {
     let (mut shapes, mut points) = (Vec::new(), Vec::new());
     for block in &case.problem.blocks {
-        let base = scenarios(case, block, &case.base, case.base.theta());
+        let base = scenarios(case, block, &case.base, &reference(case));
         let view = View {
             scenario: &base[0],
             dataset: &block.dataset,
@@ -49,7 +55,17 @@ pub fn missing_moment(case: &Case, decision: &Decision, found: &Diagnosis) -> Re
         points.extend(told(&block.dataset, &shape, &moments, block.scenario.length_m));
     }
     let curves = curves(case, decision, found, &points)?;
-    Ok(MissingMoment { shapes, sentences: sentences(&points), points, curves })
+    let mut told = sentences(&points);
+    told.extend(shape_sentences(&shapes, case.noise.is_known()));
+    Ok(MissingMoment { shapes, sentences: told, points, curves })
+}
+
+/// Parameters of the base with the bending stiffness as it was measured by itself, or as the scenario has it.
+fn reference(case: &Case) -> Vec<f64> {
+    let mut theta = case.base.theta().to_vec();
+    let told = case.problem.known_bending.map_or(case.scenario.bending_stiffness, |[value, _]| value);
+    theta[..case.problem.bendings].fill(told);
+    theta
 }
 
 /// Scenarios of a fit, one per bending stiffness.
@@ -63,24 +79,37 @@ fn curves(
     found: &Diagnosis,
     points: &[MomentPoint],
 ) -> Result<Vec<MomentCurve>, CompareError> {
-    let mut kept: Vec<Answer> = found.answers().into_iter().filter(Answer::helps).collect();
+    let is_silent = found.verdict == Some(Verdict::None);
+    let helps = |a: &Answer| !is_silent && a.helps();
+    let mut kept: Vec<Answer> = found.answers().into_iter().filter(helps).collect();
     let first = kept.iter().filter(|a| a.standing != Standing::Other).count();
     kept.truncate((first + OTHERS).min(MOST_CURVES));
     let paths = paths(case, points);
+    let least_deg = points.iter().filter(|p| p.is_of_hold()).map(|p| p.bend_deg).fold(f64::INFINITY, f64::min);
+    let told = kept.iter().map(|a| (a.name(), a.standing != Standing::Other, fit_of(case, decision, &a.name())));
+    let stiffness = (case.problem.bendings > 0).then_some((STIFFNESS.into(), first == 0, Some(&case.base)));
     let mut curves = Vec::new();
-    for answer in &kept {
-        let Some(fit) = fit_of(case, decision, &answer.name()) else { continue };
+    for (answer, is_told, fit) in told.chain(stiffness) {
+        let Some(fit) = fit.filter(|fit| has_moment(case, fit)) else { continue };
         for (level, path) in &paths {
+            let mut points = drawn(case, fit, *level, path)?;
+            points.retain(|[_, bend_deg, ..]| *bend_deg > NEAR * least_deg);
             curves.push(MomentCurve {
-                answer: answer.name(),
-                is_told: answer.standing != Standing::Other,
+                answer: answer.clone(),
+                is_told,
                 p_body_kpa: 1e-3 * path.p_body_pa,
                 is_unloading: path.from_pa.is_some(),
-                points: drawn(case, fit, *level, path)?,
+                points,
             });
         }
     }
     Ok(curves)
+}
+
+/// Whether a fit changes anything but what the camera sees: that is no moment.
+fn has_moment(case: &Case, fit: &Fit) -> bool {
+    let added = &fit.effects[case.always.len()..];
+    added.is_empty() || added.iter().any(|e| case.candidate(*e).stage != Stage::Camera)
 }
 
 /// The fit behind an answer.
@@ -124,7 +153,7 @@ fn drawn(case: &Case, fit: &Fit, level: usize, path: &Path) -> Result<Vec<[f64; 
         let all = scenarios(case, block, fit, theta);
         all[level.min(all.len() - 1)].clone()
     };
-    let base = at(&case.base, case.base.theta());
+    let base = at(&case.base, &reference(case));
     let middle = curve(&base, &at(fit, fit.theta()), path)?;
     let shifted = shifts(case, fit).into_iter().map(|theta| curve(&base, &at(fit, &theta), path));
     let half = band(&middle, &shifted.collect::<Result<Vec<_>, _>>()?);

@@ -17,5 +17,7 @@ mod view;
 pub use curve::{CurvePoint, Path, band, curve};
 pub use points::{Moments, Point, Robot, moments};
 pub use shape::{Shape, Shared, shape};
-pub use told::{MeasuredShape, MissingMoment, MomentCurve, MomentPoint, SharedNumber, degrees, sentences, told};
+pub use told::{
+    MeasuredShape, MissingMoment, MomentCurve, MomentPoint, SharedNumber, degrees, sentences, shape_sentences, told,
+};
 pub use view::{Division, Place, View};

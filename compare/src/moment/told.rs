@@ -162,6 +162,32 @@ impl MissingMoment {
     }
 }
 
+/// Standard deviations from which a shared number is told, and least share of its unit.
+const TOLD: (f64, f64) = (4.0, 1.0);
+
+/// What the shapes say: where the tracked line lies otherwise than the scenario says, and what no bending explains.
+pub fn shape_sentences(shapes: &[MeasuredShape], noise_known: bool) -> Vec<String> {
+    let mut sentences = Vec::new();
+    for shape in shapes {
+        let Some(line) = shape.shared.first().filter(|s| s.value.abs() > (TOLD.0 * s.sd).max(TOLD.1)) else { continue };
+        let side = if line.value < 0.0 { "nearer to" } else { "further from" };
+        sentences.push(format!(
+            "{}: the line of the markers lies {:.1} ± {:.1} mm {side} the taut side than the scenario says. That changes how it shortens as it bends, and no law of bending can mend it.",
+            shape.dataset, line.value.abs(), line.sd
+        ));
+    }
+    let left = shapes.iter().map(|s| s.floor_mm).fold(0.0, f64::max);
+    if noise_known && left > LEAST_LEFT_MM {
+        sentences.push(format!(
+            "With a free bend for every hold and place {left:.2} mm remain beyond noise: markers, camera or shape."
+        ));
+    }
+    sentences
+}
+
+/// What less remains is not told [mm].
+const LEAST_LEFT_MM: f64 = 0.1;
+
 /// Standard deviations within which a moment counts as none.
 const NONE_WITHIN: f64 = 2.0;
 
