@@ -124,3 +124,24 @@ pub const SMALL_DEFLECTION_M: f64 = 5e-3;
 
 /// Pressures within this fraction are one level.
 pub const SAME_PRESSURE: f64 = 0.05;
+
+/// How exactly the shared numbers of a camera are told where nothing is wrong with it: distance of the tracked line over R, scale, roll \[rad\].
+pub const CAMERA_AS_TOLD: [f64; 3] = [0.02, 0.002, 0.001];
+/// Prior weights of the kinds of hypotheses: nothing is missing, one effect, two, a law that nobody wrote down, a fault.
+pub const PRIOR_NOTHING: f64 = 0.5;
+/// One effect of the catalogue.
+pub const PRIOR_ONE: f64 = 0.35;
+/// Two of them.
+pub const PRIOR_TWO: f64 = 0.05;
+/// A law that nobody wrote down.
+pub const PRIOR_UNKNOWN: f64 = 0.05;
+/// A fault of a place, a hold or a marker.
+pub const PRIOR_FAULT: f64 = 0.05;
+/// Single effects of which pairs are weighed.
+pub const PAIRED: usize = 6;
+/// Share by which the form of a law errs for every doubling of bend or pressure.
+pub const FORM_WIDTH: f64 = 0.1;
+/// Share of the evidence that a set holds, and of what is not nothing that makes an alarm.
+pub const RULED: f64 = 0.95;
+/// p of what the best hypothesis leaves, below which it does not meet the data.
+pub const UNMET: f64 = 1e-3;

@@ -3,6 +3,7 @@
 use super::attainable::distances_of;
 use super::follow::{follow_up, tested};
 use super::oracle::{at_best, two_at_best};
+use super::ruled::Ruled;
 use super::{Diagnoser, Lot, PlannedSet};
 use crate::score::{Claim, ClaimScore, score};
 use crate::truth::{ROBOTS, standard_protocol};
@@ -57,6 +58,8 @@ pub struct Named {
     pub at_best: Option<[f64; 2]>,
     /// The same experiment with next to no noise, where the truth did not come out on top.
     pub after_in_silence: Option<ClaimScore>,
+    /// What the evidence rule says; `None` where it was not asked.
+    pub ruled: Option<Ruled>,
 }
 
 /// What the recommended experiment brought.
@@ -234,6 +237,7 @@ fn named(truth: &Truth, found: &Diagnosis) -> Named {
         distances: None,
         at_best: None,
         after_in_silence: None,
+        ruled: Ruled::of(truth, found),
         answer,
     }
 }

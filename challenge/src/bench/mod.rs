@@ -7,17 +7,21 @@
 mod attainable;
 mod cases;
 mod follow;
+mod forms;
 mod made;
 mod oracle;
 mod row;
+mod ruled;
 mod table;
 #[cfg(test)]
 mod tests;
 
 pub use attainable::Attainable;
 pub use cases::{After, Named, SetOutcome};
+pub use forms::{FormWidth, form_widths, width};
 pub use made::{FromRuns, LACKING};
 pub use row::{Goal, Rate};
+pub use ruled::Ruled;
 
 use super::score::{Claim, ClaimScore};
 use super::truth::{Hiding, Truth};
@@ -141,7 +145,7 @@ pub fn run(
     let silence: Vec<bool> = table::missed_in_silence(&outcomes);
     Ok(Discovery {
         seed: options.seed,
-        rows: [table::rows(&outcomes), made::rows(&made)].concat(),
+        rows: [table::rows(&outcomes), made::rows(&made), ruled::rows(&outcomes)].concat(),
         confusion: table::confusion(&outcomes),
         breakdown: table::breakdown(&outcomes),
         attainable: attainable::of(&outcomes),

@@ -24,7 +24,7 @@ pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
 }
 
 /// Sets of a part that were diagnosed.
-fn found(outcomes: &[SetOutcome], part: Lot) -> Vec<(&SetOutcome, &Named)> {
+pub(super) fn found(outcomes: &[SetOutcome], part: Lot) -> Vec<(&SetOutcome, &Named)> {
     outcomes.iter().filter(|o| o.part == part).filter_map(|o| Some((o, o.named.as_ref()?))).collect()
 }
 

@@ -3,7 +3,7 @@
 use super::basis::Basis;
 use super::case::Case;
 use super::least_squares::square;
-use super::result::Undetectable;
+use super::outliers::Undetectable;
 use crate::policy;
 use statrs::distribution::{ContinuousCDF, Normal};
 

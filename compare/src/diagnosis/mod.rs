@@ -31,7 +31,10 @@ mod fitted;
 #[cfg(test)]
 mod gauge_tests;
 mod heldout;
+mod hypotheses;
 mod interval;
+mod judge;
+mod judged;
 mod kept_bending;
 mod known;
 mod lack_of_fit;
@@ -44,12 +47,14 @@ mod missing;
 mod next;
 mod options;
 mod order;
+mod outliers;
 mod pairs;
 mod part;
 #[cfg(test)]
 mod pattern_tests;
 mod patterns;
 mod prepare;
+mod priors;
 mod problem;
 mod proposed;
 mod result;
@@ -72,8 +77,10 @@ pub use candidates::{Candidate, Free, candidates};
 pub use distance::{Distances, KnownNoise, distances, power};
 pub use experiments::{BENDING_TEST, BENDING_TEST_NAME};
 pub use fitted::{FittedBeside, GaugeFit, with_fitted};
+pub use judged::{Judged, Kind, Ruling};
 pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
 pub use options::Options;
+pub use outliers::{Outliers, OutlyingRun, Undetectable};
 pub use proposed::*;
 pub use result::*;
 
@@ -143,6 +150,7 @@ pub fn diagnose(
     }
     if options.missing_moment {
         diagnosis.missing_moment = Some(missing::missing_moment(&case, &decision, &diagnosis)?);
+        diagnosis.judged = judged::judged(&case, &decision)?;
     }
     diagnosis.slips = parts.iter().flat_map(|part| part.slips.clone()).collect();
     diagnosis.summary = story::story(&diagnosis);
@@ -256,6 +264,7 @@ fn assemble(
         kept_bending: None,
         next_experiment: None,
         missing_moment: None,
+        judged: Vec::new(),
         slips: Vec::new(),
         warnings,
     })

@@ -1,6 +1,8 @@
 //! What a diagnosis says: plain structs, printed units, no NaN.
 
 use super::fitted::{FittedBeside, GaugeFit};
+use super::judged::Judged;
+use super::outliers::{Outliers, Undetectable};
 use super::proposed::NextExperiment;
 use crate::evidence::Used;
 use crate::moment::MissingMoment;
@@ -249,45 +251,6 @@ pub struct LeftPattern {
     pub either: bool,
 }
 
-/// Samples and runs that stand out from the others.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Outliers {
-    /// Samples far from the median over runs; they were replaced by the mean of the other runs.
-    pub samples: Vec<data::check::Outlier>,
-    /// Share of all samples.
-    pub share: f64,
-    /// Runs whose shape differs from the others, beyond pressure, alignment and rotation.
-    pub runs: Vec<OutlyingRun>,
-    /// Pairs of runs that are copies; the second was left out.
-    pub copies: Vec<[String; 2]>,
-}
-
-/// A run that differs from the others.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct OutlyingRun {
-    /// Label.
-    pub run: String,
-    /// Its scatter over that of the other runs.
-    pub scatter_ratio: f64,
-    /// p of the ratio, corrected for the number of runs.
-    pub p_corrected: f64,
-}
-
-/// How large an effect would have to be.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Undetectable {
-    /// Name in scenarios.
-    pub effect: String,
-    /// Group.
-    pub group: Group,
-    /// Smallest value of its first parameter found with 90 % probability; `None`: none within its bounds.
-    pub smallest_detectable: Option<f64>,
-    /// Unit.
-    pub unit: String,
-    /// The same as a multiple of the effect's typical size.
-    pub times_typical: Option<f64>,
-}
-
 /// Everything a diagnosis found.
 #[derive(Debug, Clone, Serialize)]
 pub struct Diagnosis {
@@ -361,6 +324,9 @@ pub struct Diagnosis {
     pub next_experiment: Option<NextExperiment>,
     /// What the calibrated base's terms miss at the bends that were measured; `None` unless it was asked for.
     pub missing_moment: Option<MissingMoment>,
+    /// Hypotheses weighed by one rule, the largest share first; not yet what the verdict says.
+    #[serde(skip)]
+    pub judged: Vec<Judged>,
     /// What these data cannot show, whatever the model.
     pub limits: Vec<String>,
     /// Cautions that come before the verdict: slips in the data, that no effect of a robot is. They are in `warnings` too.

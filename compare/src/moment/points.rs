@@ -207,12 +207,10 @@ impl Field {
 }
 
 /// Missing moment of every place at given bends, moment after moment \[N·m\].
-pub(super) fn missing(
-    view: &View,
-    shape: &Shape,
-    robot: &Robot,
-    bends: &[Vec<f64>],
-) -> Result<Vec<Vec<f64>>, CompareError> {
+///
+/// # Errors
+/// Pressures or times that are refused.
+pub fn missing(view: &View, shape: &Shape, robot: &Robot, bends: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, CompareError> {
     let steps = shape.division.steps(view.dataset);
     let places = shape.division.places.len();
     let mut out = vec![vec![f64::NAN; places]; steps.len()];

@@ -1,0 +1,43 @@
+//! What stands out of the data, and what could not be seen in them.
+
+use super::result::Group;
+use serde::Serialize;
+
+/// Samples and runs that stand out from the others.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Outliers {
+    /// Samples far from the median over runs; they were replaced by the mean of the other runs.
+    pub samples: Vec<data::check::Outlier>,
+    /// Share of all samples.
+    pub share: f64,
+    /// Runs whose shape differs from the others, beyond pressure, alignment and rotation.
+    pub runs: Vec<OutlyingRun>,
+    /// Pairs of runs that are copies; the second was left out.
+    pub copies: Vec<[String; 2]>,
+}
+
+/// A run that differs from the others.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OutlyingRun {
+    /// Label.
+    pub run: String,
+    /// Its scatter over that of the other runs.
+    pub scatter_ratio: f64,
+    /// p of the ratio, corrected for the number of runs.
+    pub p_corrected: f64,
+}
+
+/// How large an effect would have to be.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Undetectable {
+    /// Name in scenarios.
+    pub effect: String,
+    /// Group.
+    pub group: Group,
+    /// Smallest value of its first parameter found with 90 % probability; `None`: none within its bounds.
+    pub smallest_detectable: Option<f64>,
+    /// Unit.
+    pub unit: String,
+    /// The same as a multiple of the effect's typical size.
+    pub times_typical: Option<f64>,
+}
