@@ -139,8 +139,9 @@ pub const PRIOR_UNKNOWN: f64 = 0.05;
 pub const PRIOR_FAULT: f64 = 0.05;
 /// Single effects of which pairs are weighed.
 pub const PAIRED: usize = 6;
-/// Share by which the form of a law errs for every doubling of bend or pressure.
-pub const FORM_WIDTH: f64 = 0.1;
+/// Share by which the form of a law errs for every doubling of bend or pressure: what `challenge::bench::width` learns from pairs of laws
+/// for the same effect.
+pub const FORM_WIDTH: f64 = 0.084;
 /// Share of the evidence that a set holds, and of what is not nothing that makes an alarm.
 pub const RULED: f64 = 0.95;
 /// p of what the best hypothesis leaves, below which it does not meet the data.

@@ -47,10 +47,10 @@ pub fn form_widths() -> Result<Vec<FormWidth>, CompareError> {
     Ok(all)
 }
 
-/// Root mean square of the widths, each at most one: beyond that it is another law.
+/// Geometric mean of the widths: they spread over two decades, and a few laws are simply others.
 pub fn width(forms: &[FormWidth]) -> f64 {
-    let squares: f64 = forms.iter().map(|f| f.width.min(1.0).powi(2)).sum();
-    (squares / forms.len().max(1) as f64).sqrt()
+    let sum: f64 = forms.iter().map(|f| f.width.max(1e-3).ln()).sum();
+    (sum / forms.len().max(1) as f64).exp()
 }
 
 fn form(actuator: &str, effect: &Effect) -> Result<Option<FormWidth>, CompareError> {
@@ -98,4 +98,21 @@ fn shares(data: &Dataset, told: &Moments) -> Vec<[f64; 2]> {
     let most = told.of_holds.iter().map(|p| p.kappa).fold(1e-3, f64::max);
     let highest = data.holds.iter().map(|h| h.p_act_pa).fold(1.0, f64::max);
     told.of_holds.iter().map(|p| [p.kappa / most, p.p_act_pa / highest]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The number that the evidence rule uses is this one. `cargo test -p ibr-challenge --release forms -- --nocapture` prints all.
+    #[test]
+    fn the_width_of_a_form_is_learned_from_pairs_of_laws() {
+        let forms = form_widths().unwrap();
+        for FormWidth { actuator, effect, width, size } in &forms {
+            println!("{actuator} {effect}: {width:.3} per doubling, at {size:.2} of the typical size");
+        }
+        let learned = width(&forms);
+        println!("geometric mean {learned:.4} of {}", forms.len());
+        assert!((learned / compare::policy::FORM_WIDTH - 1.0).abs() < 0.02, "{learned}");
+    }
 }

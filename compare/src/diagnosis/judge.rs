@@ -12,6 +12,7 @@ use crate::moment::{
     predicted, shape, weigh,
 };
 use crate::policy;
+use crate::stats::f_tail;
 use models::Scenario;
 use models::effects::Stage;
 use nalgebra::{DMatrix, DVector};
@@ -75,6 +76,17 @@ impl<'c> Judge<'c> {
     /// Numbers that were measured, less the bending stiffnesses.
     pub fn dof(&self) -> usize {
         self.measured.len().saturating_sub(self.case.problem.bendings).max(1)
+    }
+
+    /// p of what the shapes leave: the least of all data, corrected for their number.
+    pub fn p_of_shapes(&self) -> f64 {
+        let dof_of_noise = self.case.sources().map(|(_, noise)| noise.pure_error_dof);
+        let of = |(part, dof): (&Part, usize)| {
+            let (cost, own) = part.shape.left;
+            if dof == 0 { 1.0 } else { f_tail(cost / own as f64, own, dof) }
+        };
+        let least = self.parts.iter().zip(dof_of_noise).map(of).fold(1.0, f64::min);
+        (least * self.parts.len() as f64).min(1.0)
     }
 
     /// Vectors of the parts under each other, one or more.

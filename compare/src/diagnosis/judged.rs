@@ -39,7 +39,7 @@ pub struct Judged {
     pub share: f64,
     /// What it leaves of the measured bends, in squares of standard deviations.
     pub misfit: f64,
-    /// p of that under the hypothesis.
+    /// p of that and of what the shape leaves, which no hypothesis of bending mends.
     pub p_misfit: f64,
 }
 
@@ -59,17 +59,33 @@ impl Ruling {
     pub fn of(judged: &[Judged]) -> Ruling {
         let sum = |kinds: &[Kind]| judged.iter().filter(|j| kinds.contains(&j.kind)).map(|j| j.share).sum::<f64>();
         let (nothing, effects) = (sum(&[Kind::Nothing]), sum(&[Kind::One, Kind::Two]));
+        let mut entries = entries(judged);
+        entries.sort_by(|a, b| b.1.total_cmp(&a.1));
         let (mut held, mut set) = (0.0, Vec::new());
-        for j in judged.iter().filter(|j| j.kind != Kind::Nothing) {
-            if held < policy::RULED * (1.0 - nothing) && !set.contains(&j.hypothesis) {
-                set.push(j.hypothesis.clone());
+        for (hypothesis, share) in entries {
+            if held < policy::RULED * (1.0 - nothing) {
+                set.push(hypothesis);
             }
-            held += j.share;
+            held += share;
         }
         let is_met = judged.first().is_some_and(|best| best.p_misfit > policy::UNMET);
         let outside = sum(&[Kind::Unknown, Kind::Fault]) > effects || !is_met;
         Ruling { alarm: nothing < 1.0 - policy::RULED, set, outside }
     }
+}
+
+/// Names and their shares: those of one name together, and a pair that says less than one of its effects alone with that effect.
+fn entries(judged: &[Judged]) -> Vec<(String, f64)> {
+    let mut entries: Vec<(String, f64)> = Vec::new();
+    for j in judged.iter().filter(|j| j.kind != Kind::Nothing) {
+        let part = |name: &str| j.hypothesis == name || j.hypothesis.split(" + ").any(|part| part == name);
+        // The largest come first, so that what holds more than a pair is there before it.
+        match entries.iter_mut().find(|(name, _)| part(name)) {
+            Some((_, share)) => *share += j.share,
+            None => entries.push((j.hypothesis.clone(), j.share)),
+        }
+    }
+    entries
 }
 
 /// Weighs everything; the largest share first.
@@ -84,12 +100,13 @@ pub fn judged(case: &Case, decision: &Decision) -> Result<Vec<Judged>, CompareEr
     all.extend(judge.unknown());
     all.extend(judge.faults());
     let shares = shares(&all.iter().map(|h| (h.weighed.minus_two_ln, h.weight)).collect::<Vec<_>>());
+    let of_shape = judge.p_of_shapes();
     let told = |(h, share): (Hypothesis, f64)| Judged {
         hypothesis: h.words,
         kind: h.kind,
         share,
         misfit: h.weighed.misfit,
-        p_misfit: chi2_tail(h.weighed.misfit, judge.dof()),
+        p_misfit: (2.0 * chi2_tail(h.weighed.misfit, judge.dof()).min(of_shape)).min(1.0),
     };
     let mut told: Vec<Judged> = all.into_iter().zip(shares).map(told).collect();
     told.sort_by(|a, b| b.share.total_cmp(&a.share));
@@ -114,7 +131,8 @@ mod tests {
             judged("unknown law", Kind::Unknown, 0.25),
             judged("unknown law", Kind::Unknown, 0.1),
             judged("nothing", Kind::Nothing, 0.03),
-            judged("b", Kind::One, 0.02),
+            judged("a + b", Kind::Two, 0.01),
+            judged("b", Kind::One, 0.01),
         ];
         let ruling = Ruling::of(&all);
         assert!(ruling.alarm && !ruling.outside);

@@ -125,11 +125,13 @@ pub fn moments(view: &View, shape: &Shape, robot: &Robot) -> Result<Moments, Com
             moment_sd,
         }
     };
-    let gain =
-        DMatrix::from_rows(&sums.iter().map(|sum| field.gradient(sum, shape, &layout, true)).collect::<Vec<_>>());
+    let mut gain = DMatrix::zeros(sums.len(), shape.numbers.len());
+    for (i, sum) in sums.iter().enumerate() {
+        gain.set_row(i, &field.gradient(sum, shape, &layout, true));
+    }
     Ok(Moments {
         points: sums.iter().zip(&labels).map(told).collect(),
-        covariance: if sums.is_empty() { DMatrix::zeros(0, 0) } else { &gain * &shape.covariance * gain.transpose() },
+        covariance: &gain * &shape.covariance * gain.transpose(),
         of_holds: wholes.iter().map(|(sum, label)| told((sum, label))).collect(),
         without,
     })

@@ -44,7 +44,7 @@ fn exact() -> Generator {
 }
 
 #[test]
-fn a_constant_a_spring_and_a_lost_share_come_back_exactly() {
+fn a_constant_and_a_spring_come_back_exactly() {
     for (kind, bending) in KINDS {
         let plain = robot(kind, bending);
         let laws: [(&str, Scenario, &dyn Fn(f64) -> f64); 2] = [
@@ -86,7 +86,7 @@ fn noise_alone_gives_no_moment_beyond_its_covariance() {
     for (kind, bending) in KINDS {
         let plain = robot(kind, bending);
         let (mut squares, mut count) = (0.0, 0.0);
-        for seed in 0..40 {
+        for seed in 0..12 {
             let noise = Generator { seed, ..Generator::default() };
             let data = generate(&plain, "made", &noise).unwrap();
             let (_, told) = seen(&plain, &data, &noise);
@@ -96,8 +96,7 @@ fn noise_alone_gives_no_moment_beyond_its_covariance() {
             count += moments.len() as f64;
         }
         let ratio = squares / count;
-        println!("{kind} {ratio:.3} over {count} values");
-        // Of n values the mean scatters by √(2/n): some 1200 values, 0.04.
-        assert!((0.88..1.12).contains(&ratio), "{kind}: {ratio:.3} over {count} values");
+        // Of n values the mean scatters by √(2/n): some 300 values, 0.08.
+        assert!((0.75..1.25).contains(&ratio), "{kind}: {ratio:.3} over {count} values");
     }
 }
