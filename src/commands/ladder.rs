@@ -20,8 +20,13 @@ pub fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome, Failure>
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let file = inputs::scenario(&args.scenario)?;
     let evidence = inputs::all_evidence(&args.data, &args.also, context)?;
-    let options =
-        Options { tolerance_m, keep_bending: args.keep_bending, next_experiment: false, missing_moment: false, ..Options::default() };
+    let options = Options {
+        tolerance_m,
+        keep_bending: args.keep_bending,
+        next_experiment: false,
+        missing_moment: false,
+        ..Options::default()
+    };
     let climb = ladder(&file, &evidence, &options, MOST_EFFECTS, &mut part(context.progress, [READ, CLIMBED]))?;
     let LadderArgs { scenario, data, also, .. } = args;
     let mut answer = Shape { schema: "ibr.ladder", version: 1 }.stamped(&climb);

@@ -3,7 +3,7 @@
 use super::PageError;
 use compare::moment::{MissingMoment, MomentCurve, MomentPoint};
 use compare::wording::short;
-use report::chart::{Chart, Key, Look, Mark, Space};
+use report::chart::{Chart, Key, KeyLook, Mark, Space};
 use report::{Drawn, Ink, Symbol};
 
 /// Pressures that differ by less have one colour [kPa].
@@ -127,7 +127,7 @@ fn tips(curves: &[MomentCurve], inks: &Inks) -> Vec<Mark> {
 }
 
 fn keys(found: &MissingMoment, levels: &[f64], bodies: &[f64]) -> Vec<Key> {
-    let looks = |open: bool| Look::Symbol(Symbol::Circle, open);
+    let looks = |open: bool| KeyLook::Symbol(Symbol::Circle, open);
     let mut keys: Vec<Key> = levels
         .iter()
         .enumerate()
@@ -138,12 +138,12 @@ fn keys(found: &MissingMoment, levels: &[f64], bodies: &[f64]) -> Vec<Key> {
     }
     if bodies.len() > 1 {
         let body = |(i, p): (usize, &f64)| {
-            Key::new(Look::Symbol(Symbol::of(i), false), Ink::Muted, &format!("body {} kPa", short(*p)))
+            Key::new(KeyLook::Symbol(Symbol::of(i), false), Ink::Muted, &format!("body {} kPa", short(*p)))
         };
         keys.extend(bodies.iter().enumerate().map(body));
     }
     if found.curves.iter().any(|c| !c.is_told) {
-        keys.push(Key::new(Look::Dashed, Ink::Muted, "fits worse"));
+        keys.push(Key::new(KeyLook::Dashed, Ink::Muted, "fits worse"));
     }
     keys
 }
