@@ -4,11 +4,10 @@ use super::told_several::{table_text, uncertain_text};
 use crate::commands::{Context, Outcome};
 use crate::failure::Failure;
 use compare::study::uncertain::Uncertain;
-use fem::session::{Cube, Heights, Job, RunTable, Settings, Source, Variation, simulate_all};
+use fem::session::{Cube, Job, RunRow, RunTable, Settings, Source, Variation, simulate_all};
 use ibr::pages::{marker_intervals, mesh_plot, what_to_measure};
 use report::lines;
-use serde::Serialize;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -39,24 +38,13 @@ pub fn table(
     Ok(outcome)
 }
 
-#[derive(Serialize)]
-struct RunRecord<'a> {
-    run: &'a str,
-    changes: BTreeMap<&'a str, &'a str>,
-    folder: &'a str,
-    heights: &'a [Heights],
-    cpu_s: f64,
-}
-
-fn records(table: &RunTable) -> Vec<RunRecord<'_>> {
-    let record = table.rows.iter().map(|row| RunRecord {
-        run: &row.variation.label,
-        changes: row.variation.changes.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect(),
-        folder: &row.folder,
-        heights: &row.heights,
-        cpu_s: row.cpu_s,
-    });
-    record.collect()
+fn records(table: &RunTable) -> Vec<Value> {
+    let record = |row: &RunRow| {
+        let changes: BTreeMap<&str, &str> =
+            row.variation.changes.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect();
+        json!({"run": row.variation.label, "changes": changes, "folder": row.folder, "heights": row.heights, "cpu_s": row.cpu_s})
+    };
+    table.rows.iter().map(record).collect()
 }
 
 pub fn uncertain(cube: &Cube, set: &[String], settings: Settings, context: &mut Context) -> Result<Outcome, Failure> {
