@@ -4,14 +4,14 @@
 //! clamp holds two rows of nodes and acts half way between them.
 
 use super::setup::*;
-use crate::exact::{elastica, plate as closed};
+use crate::exact::elastica;
 use fem::mesh::{Tie, generate::plate};
 use models::fabrics::Orthotropic;
 
 pub(super) const SMALL: Check = Check::quick(
     "strip",
     "A clamped strip droops under its weight, or turns under an end moment, as a plate of stiffness D does.",
-    "verification::exact::plate",
+    "Timoshenko and Woinowsky-Krieger, ch. 1",
     small,
 );
 
@@ -37,7 +37,7 @@ const THICKNESS_M: f64 = 1e-3;
 const DENSITY: f64 = 1000.0;
 
 fn stiffness_nm() -> f64 {
-    closed::plate_bending_stiffness_nm(YOUNG_PA, POISSON, THICKNESS_M)
+    elastica::plate_bending_stiffness_nm(YOUNG_PA, POISSON, THICKNESS_M)
 }
 
 fn strip_section() -> Section {
@@ -90,7 +90,7 @@ fn small() -> Found {
     let d = stiffness_nm();
     // A droop of 1/500 of the length: rotations stay below 0.003.
     let g = 0.002 * LENGTH_M * 8.0 * d / LENGTH_M.powi(4) / (DENSITY * THICKNESS_M);
-    let exact = closed::weight_deflection_m(d, LENGTH_M, DENSITY * THICKNESS_M * g);
+    let exact = elastica::weight_deflection_m(d, LENGTH_M, DENSITY * THICKNESS_M * g);
     let mut droop = Vec::new();
     for n in [5, 10, 20] {
         let weight = Gravity { g_m_s2: [0.0, 0.0, g], amplitude: ramp(SETTLE.0) };

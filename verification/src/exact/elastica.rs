@@ -1,30 +1,35 @@
-//! Strip that bends without stretching, at any rotation: cantilever under a tip force or end moment, buckled strut.
+//! Strip of a thin plate: its stiffness, and a cantilever that bends without stretching, at any rotation.
 //!
-//! B θ'' = −F cos θ (cantilever) has the first integral ½B θ'² = F (sin θ_L − sin θ). With 1 + sin θ = 2k² sin²φ:
+//! B θ'' = −F cos θ has the first integral ½B θ'² = F (sin θ_L − sin θ). With 1 + sin θ = 2k² sin²φ:
 //!
 //! ```text
-//! cantilever  k² = ½(1 + sin θ_L)   φ₀ = asin 1/(k√2)
-//!             L√(F/B) = ∫ dφ/Δ      v√(F/B) = ∫ (2k² sin²φ − 1) dφ/Δ      x_L = √(2 sin θ_L B/F)     over φ₀ … π/2
-//! strut       k = sin(α/2)          P/P_E = (2K/π)²      chord/L = 2E/K − 1      rise/L = k/K
-//! end moment  κ = M/B               x = sin κL/κ         v = (1 − cos κL)/κ
-//! Δ = √(1 − k² sin²φ)               K, E complete elliptic integrals of modulus k
+//! k² = ½(1 + sin θ_L)   φ₀ = asin 1/(k√2)   Δ = √(1 − k² sin²φ)
+//! L√(F/B) = ∫ dφ/Δ      v√(F/B) = ∫ (2k² sin²φ − 1) dφ/Δ      x_L = √(2 sin θ_L B/F)     over φ₀ … π/2
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | B | bending stiffness of the strip: [`super::plate::strip_bending_stiffness_nm2`] | N m² |
-//! | L, F, M | length; tip force that keeps its direction; moment | m, N, N m |
+//! | B | bending stiffness of the strip: [`plate_bending_stiffness_nm`] times its width if it is wide | N m² |
+//! | L, F | length; tip force that keeps its direction | m, N |
 //! | θ_L, v, x_L | rotation of the tip, deflection along F, distance from the clamp across F | rad, m |
-//! | α | rotation of a strut's ends | rad |
-//! | P_E | Euler's load π²B/L² of the strut with hinged ends | N |
 //!
-//! Valid without stretch, shear and weight. Derivation standard: Bisshopp & Drucker (1945), Timoshenko & Gere, Theory of
-//! Elastic Stability, §2.7 (recalled; their printed tables are reproduced in `known.txt`).
+//! Valid without stretch, shear and weight. Derivation standard: Bisshopp & Drucker (1945), recalled; their printed table is
+//! reproduced in `known.txt`.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 use super::Known;
-use super::solve::{falling_root, integral, sinc};
+use super::solve::{falling_root, integral};
+
+/// Bending stiffness of a plate, `D = E t³/(12(1 − ν²))` \[N m\].
+pub fn plate_bending_stiffness_nm(young_pa: f64, poisson: f64, thickness_m: f64) -> f64 {
+    young_pa * thickness_m.powi(3) / (12.0 * (1.0 - poisson * poisson))
+}
+
+/// Tip deflection of a clamped strip under its own weight, small rotations: `w L⁴/(8 D)` \[m\].
+pub fn weight_deflection_m(plate_nm: f64, length_m: f64, weight_n_per_m2: f64) -> f64 {
+    weight_n_per_m2 * length_m.powi(4) / (8.0 * plate_nm)
+}
 
 /// Where the tip of a cantilever ends, in lengths L.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,17 +40,6 @@ pub struct Tip {
     pub shortening: f64,
     /// Rotation θ_L \[rad\].
     pub rotation: f64,
-}
-
-/// Shape of a buckled strut with hinged ends, in lengths L.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Strut {
-    /// P/P_E.
-    pub load: f64,
-    /// Distance of the ends; negative once they have passed each other.
-    pub chord: f64,
-    /// Distance of the middle from the chord.
-    pub rise: f64,
 }
 
 /// Cantilever under a tip force of fixed direction; `load` = F L²/B ≥ 0.
@@ -87,24 +81,6 @@ pub fn cantilever_line(load: f64, count: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Cantilever under an end moment; `turn` = M L/B is the rotation of the tip.
-pub fn end_moment(turn: f64) -> Tip {
-    let half = 0.5 * turn;
-    Tip { deflection: half * sinc(half).powi(2), shortening: 1.0 - sinc(turn), rotation: turn }
-}
-
-/// Buckled strut whose ends have turned by α, 0 ≤ α < π \[rad\].
-pub fn strut(end_rotation: f64) -> Strut {
-    let k = (0.5 * end_rotation).sin();
-    let (first, second) = (complete(k, |d| 1.0 / d), complete(k, |d| d));
-    Strut { load: (2.0 * first / PI).powi(2), chord: 2.0 * second / first - 1.0, rise: k / first }
-}
-
-/// Load P/P_E of a strut whose ends have come closer by `shortening` = 1 − chord/L, between 0 and 1.
-pub fn strut_at_shortening(shortening: f64) -> Strut {
-    strut(falling_root(|alpha| strut(alpha).chord - 1.0 + shortening, 0.0, 0.75 * PI))
-}
-
 /// Panels of ten points for every integral: 16 digits up to a tip within 1e-3 of a right angle.
 const PANELS: u32 = 24;
 
@@ -119,43 +95,38 @@ fn from_tip(tip: f64, f: impl Fn(f64) -> f64) -> f64 {
     integral(integrand, start, FRAC_PI_2, PANELS)
 }
 
-/// ∫ f(Δ) dφ from 0 to π/2.
-fn complete(k: f64, f: impl Fn(f64) -> f64) -> f64 {
-    integral(|phi: f64| f((1.0 - (k * phi.sin()).powi(2)).sqrt()), 0.0, FRAC_PI_2, PANELS)
-}
-
 /// See `known.txt`.
 pub(super) fn known() -> Known {
-    let at = |degrees: f64| strut(degrees.to_radians());
     let [quarter, one, two, five, ten] = [0.25, 1.0, 2.0, 5.0, 10.0].map(cantilever);
     let all = |tip: &Tip| [tip.deflection, tip.shortening, tip.rotation];
     let tip_force = [&[quarter.deflection][..], &all(&one), &[two.deflection, five.deflection], &all(&ten)];
     let printed = [&[one.deflection][..], &all(&two), &[five.deflection, ten.deflection, ten.shortening]];
-    let buckled = [20.0, 60.0, 120.0].map(at).map(|strut| [strut.load, strut.chord, strut.rise]);
-    let turned = end_moment(FRAC_PI_2);
-    vec![
-        ("elastica, cantilever", tip_force.concat()),
-        ("elastica, cantilever, printed table", printed.concat()),
-        ("elastica, buckled strut", [buckled.as_flattened(), &[at(160.0).load, at(160.0).chord]].concat()),
-        (
-            "elastica, buckled strut, printed table",
-            vec![
-                at(20.0).chord,
-                at(40.0).chord,
-                2.0 * at(40.0).rise,
-                at(60.0).load,
-                2.0 * at(60.0).rise,
-                at(80.0).chord,
-                2.0 * at(120.0).rise,
-            ],
-        ),
-        ("strip under an end moment", vec![turned.deflection, turned.shortening]),
-    ]
+    vec![("elastica, cantilever", tip_force.concat()), ("elastica, cantilever, printed table", printed.concat())]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn stiffness_is_the_second_moment_of_the_plane_strain_stress() {
+        let (young, nu, t) = (208e6, 0.3, 2e-4);
+        let layers = 20_000;
+        let mut sum = 0.0;
+        for i in 0..layers {
+            let z = t * ((f64::from(i) + 0.5) / f64::from(layers) - 0.5);
+            sum += young / (1.0 - nu * nu) * z * z * t / f64::from(layers);
+        }
+        let d = plate_bending_stiffness_nm(young, nu, t);
+        assert!((sum / d - 1.0).abs() < 1e-8);
+    }
+
+    #[test]
+    fn droop_is_the_integral_of_moment_times_arm() {
+        let (d, length, w) = (1e-5, 0.02, 1.5);
+        let sum = integral(|x| 0.5 * w * x * x / d * x, 0.0, length, 1);
+        assert!((weight_deflection_m(d, length, w) / sum - 1.0).abs() < 1e-13);
+    }
 
     #[test]
     fn a_small_tip_force_gives_the_linear_beam() {
@@ -194,19 +165,5 @@ mod tests {
             let end = line[399];
             assert!((end[0] - 1.0 + tip.shortening).abs() < 1e-12 && (end[1] - tip.deflection).abs() < 1e-12);
         }
-    }
-
-    #[test]
-    fn an_end_moment_makes_an_arc() {
-        assert!((end_moment(PI).shortening - 1.0).abs() < 1e-15);
-        assert!((end_moment(PI).deflection - 2.0 / PI).abs() < 1e-15);
-        assert!((end_moment(2.0 * PI).deflection).abs() < 1e-15);
-    }
-
-    #[test]
-    fn a_strut_starts_at_eulers_load_and_stiffens_with_half_its_shortening() {
-        let at = strut(1e-3);
-        assert!((at.load - 1.0 - (1.0 - at.chord) / 2.0).abs() < 1e-11);
-        assert!((strut_at_shortening(0.258_980_393_924).load - 1.151_719_620_47).abs() < 1e-10);
     }
 }

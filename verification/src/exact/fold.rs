@@ -3,7 +3,7 @@
 //! ½ D φ'² + T cos φ is constant along a strip of stiffness D under the pull T, φ the angle from the pull. Far away φ = φ' = 0, so
 //!
 //! ```text
-//! soft sheet   M(φ) = √(2 D T (1 − cos φ)) = 2 √(D T) sin ½φ            U = ∫ M dφ = 4 √(D T) (1 − cos ½φ)
+//! soft sheet   M(φ) = √(2 D T (1 − cos φ)) = 2 √(D T) sin ½φ
 //! stiff end    M_c² = M(φ_e)² + 2 D₂ T (cos φ_e − cos θ)                b = ∫ D₂ dφ/√(M(φ_e)² + 2 D₂ T (cos φ_e − cos φ)) over φ_e … θ
 //! ```
 //!
@@ -12,7 +12,6 @@
 //! | D, D₂ | bending stiffness of the sheet and of a strip of length b between it and the clamp | N m |
 //! | T | pull per width | N/m |
 //! | θ, φ_e | angle of the clamp from the pull; angle where sheet and strip meet | rad |
-//! | U | energy per width, the work of T on the way that the round cuts short included | J/m |
 //!
 //! Valid without stretch, for sheets much longer than √(D/T). Derivation standard: Love, A treatise on the mathematical theory of
 //! elasticity, §262 (recalled); the stiff end derived here.
@@ -23,11 +22,6 @@ use super::solve::{falling_root, integral};
 /// Moment per width at a clamp at `angle` from the pull, 2 √(D T) sin ½θ \[N\].
 pub fn moment_n(stiffness_nm: f64, pull_n_m: f64, angle: f64) -> f64 {
     2.0 * (stiffness_nm * pull_n_m).sqrt() * (0.5 * angle).sin()
-}
-
-/// Energy per width, 4 √(D T) (1 − cos ½θ) \[J/m\].
-pub fn energy_j_m(stiffness_nm: f64, pull_n_m: f64, angle: f64) -> f64 {
-    4.0 * (stiffness_nm * pull_n_m).sqrt() * (1.0 - (0.5 * angle).cos())
 }
 
 /// Moments per width at the clamp of a strip of stiffness `stiff_nm` and length `length_m`, and where a soft sheet goes on from it \[N\].

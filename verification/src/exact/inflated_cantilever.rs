@@ -4,7 +4,7 @@
 //! κ(m) of [`super::beam`] (Comer–Levy), integrated along the length:
 //!
 //! ```text
-//! f = F L/M_c       v = ∫₀ᴸ κ x dx = (L²/f²) ∫₀ᶠ κ(m) m dm       φ = ∫₀ᴸ κ dx = (L/f) ∫₀ᶠ κ(m) dm
+//! f = F L/M_c       v = ∫₀ᴸ κ x dx = (L²/f²) ∫₀ᶠ κ(m) m dm
 //! f ≤ ½:  κ = 2 κ_w m:  v = ⅔ f κ_w L² = F L³/(3 E t π R³)
 //! ```
 //!
@@ -13,10 +13,10 @@
 //! | F, L | tip load, length | N, m |
 //! | M_c, κ_w | moment of collapse N R, curvature of the first wrinkle | N m, 1/m |
 //! | f | share of the collapse load: ½ at the first wrinkle at the base | – |
-//! | v, φ | deflection and rotation of the tip by bending | m, rad |
+//! | v | deflection of the tip by bending | m |
 //!
-//! Both integrals run over the logarithm of the half angle of the taut zone, in which they are smooth. Both grow as
-//! (1 − f)^(−½) towards collapse: check φ ≪ 1.
+//! The integral runs over the logarithm of the half angle of the taut zone, in which it is smooth. It grows as (1 − f)^(−½)
+//! towards collapse.
 //!
 //! Valid for small rotations, thrust N not changed by the load, a wall without bending stiffness, cross-sections that stay
 //! round, no shear. Shear adds F L/(p π R² + G t π R): see [`tip_deflection_with_shear_m`]. Derived here.
@@ -37,28 +37,12 @@ pub fn bending_deflection_m(tube: &Tube, length_m: f64, load_n: f64) -> f64 {
     (unit * deflection_ratio(share)).copysign(load_n)
 }
 
-/// Rotation of the tip \[rad\] under a tip load; infinite from the collapse load on.
-pub fn tip_rotation(tube: &Tube, length_m: f64, load_n: f64) -> f64 {
-    let share = load_n.abs() * length_m / collapse_moment_nm(tube);
-    (wrinkling_curvature_per_m(tube) * length_m * rotation_ratio(share)).copysign(load_n)
-}
-
 /// Deflection with shear \[m\]: [`bending_deflection_m`] plus Fichter's `F L/(p π R² + G t π R)` of the unwrinkled wall.
 ///
 /// The shear part of a wrinkled wall is not known in closed form; below the first wrinkle the sum is exact in the theory.
 pub fn tip_deflection_with_shear_m(beam: &Cantilever, load_n: f64) -> f64 {
     let shear = tip_deflection_m(beam, load_n, BeamTheory::Fichter) - tip_deflection_m(beam, load_n, BeamTheory::Euler);
     bending_deflection_m(&tube_of(beam), beam.length_m, load_n) + shear
-}
-
-/// v/(κ_w L²) at a share f of the collapse load: 2f/3 up to f = 1/2.
-pub fn deflection_ratio(share: f64) -> f64 {
-    moment_of_curvature(share, 1) / (share * share)
-}
-
-/// φ/(κ_w L) at a share f of the collapse load: f up to f = 1/2.
-pub fn rotation_ratio(share: f64) -> f64 {
-    moment_of_curvature(share, 0) / share
 }
 
 /// The tube of a cantilever, with the thrust of its pressure alone.
@@ -70,23 +54,22 @@ pub fn tube_of(beam: &Cantilever) -> Tube {
     }
 }
 
-/// `∫₀ᶠ κ/κ_w mᵏ dm`.
-fn moment_of_curvature(share: f64, power: i32) -> f64 {
+/// v/(κ_w L²) at a share f of the collapse load, `∫₀ᶠ κ/κ_w m dm/f²`: 2f/3 up to f = 1/2.
+pub fn deflection_ratio(share: f64) -> f64 {
     if share >= 1.0 {
         return f64::INFINITY;
     }
     let elastic = share.min(0.5);
-    let linear = 2.0 * elastic.powi(power + 2) / f64::from(power + 2);
+    let linear = 2.0 * elastic.powi(3) / 3.0;
     if share <= 0.5 {
-        return linear;
+        return linear / (share * share);
     }
     let last = falling_root(|taut| moment_ratio(PI - taut) - share, 0.0, PI);
     let wrinkled = |log_taut: f64| {
         let taut = log_taut.exp();
-        let m = moment_ratio(PI - taut);
-        curvature_ratio(PI - taut) * m.powi(power) * moment_slope(taut) * taut
+        curvature_ratio(PI - taut) * moment_ratio(PI - taut) * moment_slope(taut) * taut
     };
-    linear + integral(wrinkled, last.ln(), PI.ln(), 200)
+    (linear + integral(wrinkled, last.ln(), PI.ln(), 200)) / (share * share)
 }
 
 /// −dm/dδ, the fall of the moment with the half angle δ of the taut zone: `sin δ (A δ − 4 B sin δ)/(4 B²)` with
@@ -100,8 +83,7 @@ fn moment_slope(taut: f64) -> f64 {
 /// See `known.txt`.
 pub(super) fn known() -> Known {
     let deflections = [0.25, 0.5, 0.6, 0.75, 0.9, 0.95, 0.99].map(deflection_ratio);
-    let rotations = [0.5, 0.75, 0.9, 0.99].map(rotation_ratio);
-    vec![("inflated cantilever under a tip load", [&deflections[..], &rotations].concat())]
+    vec![("inflated cantilever under a tip load", deflections.to_vec())]
 }
 
 #[cfg(test)]
@@ -143,8 +125,10 @@ mod tests {
             }
             let load = share * collapse_moment_nm(&tube) / 0.36;
             let unit = wrinkling_curvature_per_m(&tube) * 0.36;
-            assert!((tip_rotation(&tube, 0.36, load) / (unit * slope) - 1.0).abs() < 1e-4, "{share}");
-            assert!((bending_deflection_m(&tube, 0.36, load) / (unit * 0.36 * deflection) - 1.0).abs() < 1e-4);
+            assert!(
+                (bending_deflection_m(&tube, 0.36, load) / (unit * 0.36 * deflection) - 1.0).abs() < 1e-4,
+                "{share}"
+            );
         }
     }
 

@@ -1,8 +1,8 @@
-//! Homogeneous states of an incompressible neo-Hookean sheet, and the spherical balloon.
+//! Homogeneous states of an incompressible neo-Hookean sheet.
 //!
 //! ```text
 //! uniaxial    P = 2 C₁₀t (λ − λ⁻²)        equal biaxial    P = 2 C₁₀t (λ − λ⁻⁵)
-//! width kept  P = 2 C₁₀t (λ − λ⁻³)        sphere           p = 4 C₁₀t/R (λ⁻¹ − λ⁻⁷), greatest at λ = 7^(1/6)
+//! width kept  P = 2 C₁₀t (λ − λ⁻³)
 //! ```
 //!
 //! | symbol | meaning | unit |
@@ -10,7 +10,6 @@
 //! | P | tension per unstressed width (force over original width) | N/m |
 //! | λ | stretch along the pull | – |
 //! | C₁₀ t | neo-Hookean constant times thickness, E t/6 | N/m |
-//! | R, p | unstressed radius, gauge pressure | m, Pa |
 //!
 //! Standard (Treloar, The Physics of Rubber Elasticity, recalled); each is the slope of W at the stretch of the free sides.
 
@@ -37,21 +36,10 @@ pub fn tension_n_per_m(c10_t: f64, stretch: f64, sides: Sides) -> f64 {
     2.0 * c10_t * (stretch - stretch.powi(power))
 }
 
-/// Pressure in a spherical balloon at a stretch \[Pa\].
-pub fn sphere_pressure_pa(c10_t: f64, radius_m: f64, stretch: f64) -> f64 {
-    4.0 * c10_t / radius_m * (1.0 / stretch - stretch.powi(-7))
-}
-
-/// Stretch at which the sphere's pressure is greatest, 7^(1/6).
-pub fn sphere_limit_stretch() -> f64 {
-    7.0_f64.powf(1.0 / 6.0)
-}
-
-/// See `known.txt`; C10 t = 1 N/m, R = 1 m.
+/// See `known.txt`; C10 t = 1 N/m.
 pub(super) fn known() -> Known {
     let pulls = [Sides::Free, Sides::Kept, Sides::Pulled].map(|sides| tension_n_per_m(1.0, 2.0, sides));
-    let limit = sphere_limit_stretch();
-    vec![("neo-Hookean sheet and sphere", [&pulls[..], &[limit, sphere_pressure_pa(1.0, 1.0, limit)]].concat())]
+    vec![("neo-Hookean sheet", pulls.to_vec())]
 }
 
 #[cfg(test)]
@@ -72,16 +60,5 @@ mod tests {
                 assert!(sides != Sides::Free || s[1].abs() < 1e-9 * c10_pa * thickness_m);
             }
         }
-    }
-
-    #[test]
-    fn pressure_of_the_sphere_is_twice_tension_over_radius_and_peaks_at_its_limit() {
-        let (c, radius, stretch) = (7e3, 0.03, 1.2);
-        // Per deformed length the tension is P/λ, the radius λR.
-        let laplace = 2.0 * tension_n_per_m(c, stretch, Sides::Pulled) / stretch / (stretch * radius);
-        assert!((sphere_pressure_pa(c, radius, stretch) / laplace - 1.0).abs() < 1e-14);
-        let at = sphere_limit_stretch();
-        let p = |x| sphere_pressure_pa(c, radius, x);
-        assert!(p(at) > p(at - 1e-3) && p(at) > p(at + 1e-3));
     }
 }

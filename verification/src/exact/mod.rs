@@ -8,11 +8,10 @@
 //! | to verify | use |
 //! |---|---|
 //! | tube, its ends, its bending | [`tube`], [`shell`], [`beam`], [`inflated_cantilever`] |
-//! | pouch, balloon, airbag | [`pouch`], [`elastic_pouch`], [`balloon`], [`pillow`] |
-//! | strip in bending | [`plate`], [`elastica`], [`fold`] |
+//! | pouch, balloon, airbag | [`pouch`], [`elastic_pouch`], [`balloon`] |
+//! | strip in bending | [`elastica`], [`fold`] |
 //! | fabric in a testing machine | [`coupon`], [`membrane`] |
 //! | actuators | [`hinge`], [`mckibben`], [`fpam`] |
-//! | contact | [`sliding`] |
 
 pub mod balloon;
 pub mod beam;
@@ -26,11 +25,8 @@ pub mod inflated_cantilever;
 pub mod mckibben;
 pub mod membrane;
 mod oracles;
-pub mod pillow;
-pub mod plate;
 pub mod pouch;
 pub mod shell;
-pub mod sliding;
 mod solve;
 pub mod tube;
 

@@ -37,11 +37,6 @@ pub struct ClampedCylinder {
     pub axial_tension_n_per_m: f64,
 }
 
-/// Hoop and axial tension of a closed cylinder, `p r` and `p r/2` \[N/m\]; r is the radius under pressure.
-pub fn closed_cylinder_tensions_n_per_m(pressure_pa: f64, radius_m: f64) -> [f64; 2] {
-    [pressure_pa * radius_m, 0.5 * pressure_pa * radius_m]
-}
-
 /// Radial displacement far from the ring, `w∞ = (p − ν N/r) r²/(E t)` \[m\]; `(1 − ν/2) p r²/(E t)` with closed ends.
 pub fn far_displacement_m(shell: &ClampedCylinder, pressure_pa: f64) -> f64 {
     let r = shell.radius_m;
@@ -64,11 +59,6 @@ pub fn displacement_m(shell: &ClampedCylinder, pressure_pa: f64, distance_m: f64
 pub fn slope(shell: &ClampedCylinder, pressure_pa: f64, distance_m: f64) -> f64 {
     let (a, b_squared) = decay(shell);
     far_displacement_m(shell, pressure_pa) * (a * a + b_squared) * decaying_waves(a, b_squared, distance_m)[1]
-}
-
-/// Bending moment per length at the ring, `D w''(0) = w∞ √(k D)` \[N\]; the tension does not enter.
-pub fn ring_moment_n(shell: &ClampedCylinder, pressure_pa: f64) -> f64 {
-    far_displacement_m(shell, pressure_pa) * (stiffness(shell) * shell.bending_stiffness_nm).sqrt()
 }
 
 /// Length over which the slower of the two decays falls by e \[m\]; grows as `√(N/k)` in a thin wall under tension.
@@ -119,7 +109,7 @@ pub(super) fn known() -> Known {
     };
     let near = |shell: &ClampedCylinder| {
         let [a, b, c] = [1e-3, 3e-3, 1e-2].map(|distance_m| 1e6 * displacement_m(shell, 2e3, distance_m));
-        [a, b, c, 1e3 * ring_moment_n(shell, 2e3)]
+        [a, b, c]
     };
     let far = [1e6 * far_displacement_m(&shell(1.0), 2e3), 1e3 * edge_length_m(&shell(1.0))];
     vec![("pressurised cylinder at a clamped ring", [&far[..], &near(&shell(1.0)), &near(&shell(0.01))].concat())]
@@ -169,7 +159,6 @@ mod tests {
         let far = 2e3 * 0.0016 / 41.6e3 * (1.0 - 0.15);
         assert!((far_displacement_m(&s, 2e3) / far - 1.0).abs() < 1e-14);
         assert!((displacement_m(&s, 2e3, 40.0 * decay_length_m(&s)) / far - 1.0).abs() < 1e-14);
-        assert_eq!(closed_cylinder_tensions_n_per_m(2e3, 0.04), [80.0, 40.0]);
     }
 
     #[test]
@@ -181,16 +170,5 @@ mod tests {
         let membrane = shell(1e-8, 2e3);
         let string = (40.0 * 0.0016 / 41.6e3_f64).sqrt();
         assert!((decay_length_m(&membrane) / string - 1.0).abs() < 1e-3);
-    }
-
-    #[test]
-    fn ring_moment_is_bending_stiffness_times_curvature_at_the_ring() {
-        for factor in [1.0, 0.01] {
-            let s = shell(factor, 2e3);
-            let h = 1e-4 * decay_length_m(&s);
-            let curvature = slope(&s, 2e3, h) / h;
-            let moment = ring_moment_n(&s, 2e3);
-            assert!((s.bending_stiffness_nm * curvature / moment - 1.0).abs() < 2e-3);
-        }
     }
 }

@@ -113,7 +113,6 @@ fn report(figures: &[Figure], machine: &str) -> Findings {
         parts: vec![
             Printed::Text(format!("Finite elements on {machine}\n")),
             Printed::table(head, 1, figures.iter().map(Figure::row)),
-            Printed::Text(roofline(figures)),
         ],
         json: json!({"schema": "ibr.bench.fem", "version": 2, "machine": machine, "figures": list}),
         missed: figures.iter().any(|f| f.met() == Some(false)),
@@ -256,23 +255,4 @@ fn robot(name: &str) -> Result<Figure, Error> {
     run.advance_until(problem.settings.end_s, &mut |_| true)?;
     let what = format!("robot {name} to 30 kPa, 4 mm, two threads");
     Ok(Figure::new(&what, &run, "s", vec![start.elapsed().as_secs_f64()], None))
-}
-
-/// What an element-step takes, beside what was reached.
-fn roofline(figures: &[Figure]) -> String {
-    let (flops, bytes) = (speed::FLOPS_MEMBRANE + speed::FLOPS_NODE, speed::BYTES_MEMBRANE);
-    let (more, more_bytes) = (flops + speed::FLOPS_BENDING, bytes + speed::BYTES_BENDING);
-    let rate = |what: &str| figures.iter().find(|f| f.what == what).map_or(0.0, |f| f.median() * 1e6);
-    let (shells, bent) = (rate("membrane only"), rate("membrane + bending"));
-    format!(
-        "One element-step: {flops:.0} flops and {bytes:.0} bytes (with bending {more:.0} and {more_bytes:.0}).\n\
-         Reached: {:.0} Gflop/s and {:.0} GB/s (with bending {:.0} and {:.0}). One core of this machine does {:.0} Gflop/s in \
-         registers, not fused, and moves {:.0} GB/s through arrays of 4 MB.\n",
-        shells * flops / 1e9,
-        shells * bytes / 1e9,
-        bent * more / 1e9,
-        bent * more_bytes / 1e9,
-        speed::peak_flops() / 1e9,
-        speed::stream_bytes_per_s() / 1e9,
-    )
 }

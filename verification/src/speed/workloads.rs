@@ -1,7 +1,4 @@
 //! Workloads whose speed is measured: what `ibr bench fem` and `benches/fem.rs` run.
-//!
-//! The counts per element-step below are read off the inner loops by hand: a regular quadrilateral of an orthotropic fabric
-//! with viscosity, hourglass control and pressure. Volumes, taken every eighth step, are left out.
 
 use std::sync::Arc;
 
@@ -10,22 +7,6 @@ use models::fabrics::{NeoHookean, Orthotropic};
 use fem::mesh::generate;
 use fem::problem::{Amplitude, Chamber, Contact, Ply, Pressure, Problem, Section};
 use fem::{FemError, Simulation};
-
-/// Multiplications, additions and subtractions per quadrilateral and step: differences 15, F 18, strain 19, tension and energy
-/// 14, viscosity 21, hourglass 27, tallies 9, pressure 43, corner forces 111.
-pub const FLOPS_MEMBRANE: f64 = 277.0;
-/// The same per node and step for bending: 13 neighbours in three directions, and its energy.
-pub const FLOPS_BENDING: f64 = 13.0 * 6.0 + 6.0;
-/// Per node and step: sum of the corners 15, update of four numbers with its two energies 60.
-pub const FLOPS_NODE: f64 = 75.0;
-
-/// Bytes of the arrays that one element and its node pass over per step, each access counted once per pass: node numbers
-/// 17, strains 48, corner forces 192, positions and sums within the patch 120, positions, forces, velocities and mass of
-/// the node 296. Repeated loads from the first cache are not counted, nor what equal elements share. Corner forces and what
-/// is within the patch stay in the second cache.
-pub const BYTES_MEMBRANE: f64 = 17.0 + 48.0 + 192.0 + 120.0 + 296.0;
-/// More bytes for bending: K x out 24; first node and place of a stencil, one for eight nodes, 3.
-pub const BYTES_BENDING: f64 = 27.0;
 
 /// The square airbag of the wrinkling literature (`fem/cases/pillow.toml`) with `n` × `n` quadrilaterals per layer.
 ///
@@ -91,73 +72,6 @@ pub fn advance_by(run: &mut Simulation, steps: u64) -> Result<u64, FemError> {
     let from = run.step();
     run.advance_until(run.time_s() + steps as f64 * run.dt_s(), &mut |_| true)?;
     Ok(run.step() - from)
-}
-
-/// Multiplications and additions per second that one core can do in registers, half of each, not fused \[1/s\].
-pub fn peak_flops() -> f64 {
-    const ROUNDS: usize = 2_000_000;
-    let start = std::time::Instant::now();
-    let (sum, lanes) = pulp::Arch::new().dispatch(Registers { rounds: ROUNDS });
-    let seconds = start.elapsed().as_secs_f64();
-    std::hint::black_box(sum);
-    (ROUNDS * CHAINS * 2 * lanes) as f64 / seconds
-}
-
-/// Bytes per second that one core moves through arrays of 4 MB each, as in a = b + s c \[1/s\].
-pub fn stream_bytes_per_s() -> f64 {
-    const ROUNDS: usize = 40;
-    const COUNT: usize = 1 << 19;
-    let (mut a, b, c) = (vec![0.0; COUNT], vec![1.0; COUNT], vec![2.0; COUNT]);
-    let start = std::time::Instant::now();
-    for round in 0..ROUNDS {
-        pulp::Arch::new().dispatch(Triad { a: &mut a, b: &b, c: &c, scale: round as f64 });
-    }
-    let seconds = start.elapsed().as_secs_f64();
-    std::hint::black_box(a[COUNT / 2]);
-    (ROUNDS * COUNT * 3 * size_of::<f64>()) as f64 / seconds
-}
-
-/// Independent chains: enough to hide the latency of an addition.
-const CHAINS: usize = 8;
-
-struct Registers {
-    rounds: usize,
-}
-
-impl pulp::WithSimd for Registers {
-    type Output = (f64, usize);
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, simd: S) -> (f64, usize) {
-        let mut chains = [simd.splat_f64s(1.0); CHAINS];
-        let (grow, step) = (simd.splat_f64s(1.000_000_1), simd.splat_f64s(1e-9));
-        for _ in 0..self.rounds {
-            for chain in &mut chains {
-                *chain = simd.add_f64s(simd.mul_f64s(*chain, grow), step);
-            }
-        }
-        (chains.map(|chain| simd.reduce_sum_f64s(chain)).iter().sum(), S::F64_LANES)
-    }
-}
-
-struct Triad<'a> {
-    a: &'a mut [f64],
-    b: &'a [f64],
-    c: &'a [f64],
-    scale: f64,
-}
-
-impl pulp::WithSimd for Triad<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, simd: S) {
-        let scale = simd.splat_f64s(self.scale);
-        let (a, b, c) = (S::as_mut_simd_f64s(self.a).0, S::as_simd_f64s(self.b).0, S::as_simd_f64s(self.c).0);
-        for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
-            *a = simd.add_f64s(*b, simd.mul_f64s(scale, *c));
-        }
-    }
 }
 
 #[cfg(test)]
