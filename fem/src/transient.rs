@@ -4,15 +4,13 @@ use models::{Pose, Row, Term};
 
 /// Where the time integration stands when a term is advanced.
 #[derive(Debug, Clone, Copy)]
-pub struct Tick<'a> {
+pub struct Tick {
     /// Steps done before this one.
     pub step: u64,
     /// Time of the positions \[s\].
     pub time_s: f64,
     /// Length of the step \[s\].
     pub dt_s: f64,
-    /// Velocities half a step earlier, laid out like the positions \[m/s\].
-    pub v: &'a [f64],
 }
 
 /// A term over the nodes of a mesh, stepped in time.

@@ -49,3 +49,13 @@ pub fn unit(a: V3) -> Option<V3> {
     let length = norm(a);
     (length > 0.0 && length.is_finite()).then(|| scale(a, 1.0 / length))
 }
+
+/// Area vector of a flat or warped element: ½ d₁ × d₂ of a quad's diagonals, ½ e₁ × e₂ of a triangle.
+pub(crate) fn area(x: &[V3]) -> V3 {
+    let [a, b] = if x.len() == 4 { [sub(x[2], x[0]), sub(x[3], x[1])] } else { [sub(x[1], x[0]), sub(x[2], x[0])] };
+    scale(cross(a, b), 0.5)
+}
+/// Mean of the corners.
+pub(crate) fn centre(x: &[V3]) -> V3 {
+    scale(x.iter().fold([0.0; 3], |sum, p| add(sum, *p)), 1.0 / x.len() as f64)
+}

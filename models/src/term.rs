@@ -211,12 +211,7 @@ pub struct Row {
     pub energy_j: f64,
 }
 
-impl Row {
-    /// Its name as plain words.
-    pub fn words(&self) -> String {
-        self.name.replace('_', " ")
-    }
-}
+impl Row {}
 
 /// Layout of the coordinates of an actuator-side term. Only the first is independent; the others follow from it, so a
 /// term may be written in whichever is natural and the chain rule is applied once, in the balance.

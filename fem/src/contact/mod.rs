@@ -153,15 +153,6 @@ impl Contact {
         pressure.iter_mut().zip(&self.surface.area_m2).for_each(over);
         pressure
     }
-    /// Searches done so far.
-    pub fn searches(&self) -> u64 {
-        self.searches
-    }
-    /// Pairs that are evaluated every step now.
-    pub fn near_pairs(&self) -> usize {
-        self.chunks.iter().map(|chunk| chunk.near.len()).sum()
-    }
-
     /// Nodes that changed side of a layer so far, nodes that could, and the first that did with the part that it came through.
     pub(crate) fn passed(&self) -> (usize, usize, Option<(Passage, u32)>) {
         let part = |first: Passage| (first, self.surface.origin[first.element as usize].0);

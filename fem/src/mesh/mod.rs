@@ -10,7 +10,6 @@ pub mod check;
 pub mod file;
 pub mod generate;
 
-mod geometry;
 mod merge;
 mod names;
 

@@ -48,7 +48,7 @@ use models::Scenario;
 use models::actuators::pattern::Pattern;
 
 use crate::case::{Outputs, encastre};
-use crate::mesh::check::{Quality, check_open};
+use crate::mesh::check::check_open;
 pub use crate::output::centre_line::CentreLine;
 use crate::output::picture::View;
 use crate::problem::{Amplitude, Chamber, Contact, Guards, MassScaling, Pressure, Settings, Support};
@@ -122,14 +122,6 @@ pub fn sewn(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) ->
     problem.contact = contact(&problem.mesh, pattern, settings);
     problem.settings = numerics(&problem, settings);
     Ok(problem)
-}
-
-/// Shape and quality of a robot's mesh.
-///
-/// # Errors
-/// [`FemError::Mesh`] naming the first fault.
-pub fn quality(problem: &Problem) -> Result<Quality, FemError> {
-    check_open(&problem.mesh, &[sew::BODY, sew::ACTUATOR], &[sew::BASE])
 }
 
 /// Centre line of the body at stations along it \[m\]: centroids of the wall's sections, the actuator's sheet left out.

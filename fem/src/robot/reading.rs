@@ -107,11 +107,6 @@ impl Gauge {
         })
     }
 
-    /// The welds.
-    pub fn seams(&self) -> &Seams {
-        &self.seams
-    }
-
     /// The robot now.
     ///
     /// # Errors

@@ -95,7 +95,7 @@ impl Simulation {
         let (t, dt) = (self.clock.time_s, self.clock.dt_s);
         let dv = 0.5 * (self.clock.before_s + dt);
         let pose = Pose::nodes(self.x.as_flattened());
-        let tick = Tick { step: self.clock.step, time_s: t, dt_s: dt, v: self.v.as_flattened() };
+        let tick = Tick { step: self.clock.step, time_s: t, dt_s: dt };
         let force = self.force.as_flattened_mut();
         let mut stored = self.sheet.advance(&pose, &tick, force);
         for term in &mut self.terms {

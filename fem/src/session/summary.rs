@@ -299,9 +299,9 @@ fn quality(case: &Case) -> Option<MeshQuality> {
     let side = &quality.side_m;
     Some(MeshQuality {
         side_mm: [side.min * 1e3, side.median * 1e3, side.max * 1e3],
-        aspect: quality.aspect.value,
-        jacobian_ratio: quality.jacobian_ratio.value,
-        warpage: quality.warpage.value,
+        aspect: quality.aspect,
+        jacobian_ratio: quality.jacobian_ratio,
+        warpage: quality.warpage,
     })
 }
 

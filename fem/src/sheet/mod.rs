@@ -376,7 +376,7 @@ mod tests {
         let node = |(i, p): (usize, &[f64; 3])| [p[0] + shake(i, 0), p[1] + shake(i, 1), p[2] + shake(i, 2), 0.0];
         let q: Vec<f64> = mesh.points.iter().enumerate().flat_map(node).collect();
         let mut force = vec![0.0; q.len()];
-        let tick = Tick { step: 0, time_s: 0.03, dt_s: 1e-5, v: &[] };
+        let tick = Tick { step: 0, time_s: 0.03, dt_s: 1e-5 };
         sheet.advance(&Pose::nodes(&q), &tick, &mut force);
         (force.iter().map(|f| f.to_bits()).collect(), sheet.ledger(&Pose::nodes(&q)))
     }

@@ -58,7 +58,7 @@ fn turned(mesh: &Mesh, angle: f64, strain: f64) -> Vec<f64> {
 }
 
 fn advance(folds: &mut Folds, q: &[f64], step: u64) -> f64 {
-    let tick = Tick { step, time_s: 0.0, dt_s: 1e-5, v: &[] };
+    let tick = Tick { step, time_s: 0.0, dt_s: 1e-5 };
     folds.advance(&Pose::nodes(q), &tick, &mut vec![0.0; q.len()])
 }
 

@@ -64,10 +64,6 @@ impl Obstacles {
             friction_j: 0.0,
         })
     }
-    /// Energy lost to friction so far \[J\].
-    pub fn friction_j(&self) -> f64 {
-        self.friction_j
-    }
     fn rub(&mut self, solid: usize, x: &[[f64; 4]], force: &mut [[f64; 4]]) -> [f64; 2] {
         let (body, before, stiffness) = (&self.solids[solid], &self.before_m, &self.stiffness_n_m);
         let springs = &mut self.springs_m[solid];

@@ -23,7 +23,7 @@ const K: f64 = 0.1 / (DT * DT);
 impl Block {
     fn step(&mut self) {
         let mut force = vec![0.0; 4];
-        let tick = Tick { step: self.step, time_s: self.step as f64 * DT, dt_s: DT, v: &self.v };
+        let tick = Tick { step: self.step, time_s: self.step as f64 * DT, dt_s: DT };
         self.term.advance(&Pose::nodes(&self.x), &tick, &mut force);
         for (axis, (f, pull)) in force.iter().zip(self.pull).enumerate() {
             self.v[axis] += DT * (f + pull);
@@ -101,7 +101,7 @@ fn force_is_the_slope_of_the_energy_inside_and_exactly_zero_outside() {
     for friction in [0.0, 0.4] {
         let mut term = term(cylinder.clone(), friction, &[1e4, 1e4]);
         let at = [0.12, 0.3, 0.31, 0.0, 0.4, 0.0, 0.2, 0.0];
-        let tick = Tick { step: 0, time_s: 0.0, dt_s: DT, v: &[0.0; 8] };
+        let tick = Tick { step: 0, time_s: 0.0, dt_s: DT };
         term.advance(&Pose::nodes(&at), &tick, &mut [0.0; 8]);
         let mut force = [0.0; 8];
         assert!(term.add(&Pose::nodes(&at), &mut force) > 0.0);

@@ -312,11 +312,6 @@ impl Parameter<'_> {
     pub fn typical_for(&self, actuator: &str) -> f64 {
         self.by_actuator.iter().find(|(name, _)| *name == actuator).map_or(self.typical, |(_, typical)| *typical)
     }
-
-    /// Where a fit starts for an actuator, in `unit`: at least one value.
-    pub fn starts_for(&self, actuator: &str) -> Vec<f64> {
-        if self.starts.is_empty() { vec![self.typical_for(actuator)] } else { self.starts.to_vec() }
-    }
 }
 
 impl Effect<'static> {

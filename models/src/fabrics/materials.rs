@@ -1,11 +1,10 @@
-//! Fabrics of the paper as ready recipes, each number with how it is known.
+//! Fabrics of the paper as ready recipes.
 //!
 //! Published: printed by du Pasquier, Jeong, Okamura 2023 (doi 10.1109/LRA.2023.3320010), Table I and Section III. Its Table I
 //! and its C₁₀ are not the same number: 6 C₁₀ = 302 MPa against 215 and 201 MPa pulled along the yarns; C₁₀ is printed
 //! without a unit, MPa is assumed. Neither density nor Poisson's ratio is printed.
 
 use super::{Law, Recipe, by_name};
-use crate::Known;
 
 /// A named fabric.
 #[derive(Debug, Clone, Copy)]
@@ -14,50 +13,27 @@ pub struct Material {
     pub name: &'static str,
     /// Law in [`super::FABRICS`].
     pub law: &'static str,
-    /// One plain sentence.
-    pub sentence: &'static str,
     /// Numbers by key of the law, as written.
-    pub numbers: &'static [(&'static str, f64, Known)],
-    /// Mass per volume \[kg/m³\].
-    pub density_kg_m3: (f64, Known),
-    /// Source.
-    pub source: &'static str,
+    pub numbers: &'static [(&'static str, f64)],
 }
 
 /// The list.
 pub const MATERIALS: &[Material] = &[
-    Material {
-        name: "tpu-nylon",
-        law: "neo-hookean",
-        sentence: "TPU-coated 70D ripstop nylon as the paper simulated it, isotropic; body, sPAM, ePAM and cPAM.",
-        numbers: &[("c10_MPa", 50.3, Known::Published), ("thickness_mm", 0.2, Known::Published)],
-        density_kg_m3: (1000.0, Known::Assumed),
-        source: "du Pasquier, Jeong, Okamura 2023, Section III-A and III-B",
-    },
-    Material {
-        name: "silicone-nylon",
-        law: "orthotropic",
-        sentence: "Silicone-coated ripstop nylon by its three published moduli, linear; the fPAM.",
-        numbers: SILICONE_NYLON,
-        density_kg_m3: (1000.0, Known::Assumed),
-        source: "du Pasquier, Jeong, Okamura 2023, Table I; nu12 is not printed and matters by some ten per cent",
-    },
-    Material {
-        name: "silicone-nylon-woven",
-        law: "woven",
-        sentence: "Silicone-coated ripstop nylon by its three published moduli, with yarns that turn; the fPAM.",
-        numbers: SILICONE_NYLON,
-        density_kg_m3: (1000.0, Known::Assumed),
-        source: "du Pasquier, Jeong, Okamura 2023, Table I; its measured curves are not printed, so straight ones",
-    },
+    // TPU-coated 70D ripstop nylon as the paper simulated it, isotropic; body, sPAM, ePAM and cPAM.
+    Material { name: "tpu-nylon", law: "neo-hookean", numbers: &[("c10_MPa", 50.3), ("thickness_mm", 0.2)] },
+    // Silicone-coated ripstop nylon by its three published moduli, linear; the fPAM.
+    Material { name: "silicone-nylon", law: "orthotropic", numbers: SILICONE_NYLON },
+    // Silicone-coated ripstop nylon by its three published moduli, with yarns that turn; the fPAM.
+    Material { name: "silicone-nylon-woven", law: "woven", numbers: SILICONE_NYLON },
 ];
 
-const SILICONE_NYLON: &[(&str, f64, Known)] = &[
-    ("e0_MPa", 96.5, Known::Published),
-    ("e90_MPa", 120.0, Known::Published),
-    ("e45_MPa", 4.05, Known::Published),
-    ("nu12", 0.0, Known::Assumed),
-    ("thickness_mm", 0.05, Known::Published),
+const SILICONE_NYLON: &[(&str, f64)] = &[
+    ("e0_MPa", 96.5),
+    ("e90_MPa", 120.0),
+    ("e45_MPa", 4.05),
+    // Not printed, and matters by some ten per cent.
+    ("nu12", 0.0),
+    ("thickness_mm", 0.05),
 ];
 
 /// The material of that name.
@@ -68,8 +44,7 @@ pub fn material(name: &str) -> Option<&'static Material> {
 impl Material {
     /// Its recipe, to be used or changed number by number.
     pub fn recipe(&self) -> Recipe {
-        let numbers: Vec<(&str, f64)> = self.numbers.iter().map(|(key, value, _)| (*key, *value)).collect();
-        Recipe::of(&numbers)
+        Recipe::of(self.numbers)
     }
 
     /// Its law.

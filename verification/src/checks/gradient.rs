@@ -85,7 +85,7 @@ fn pressed() -> Result<(Contact, Vec<f64>), FemError> {
         let down = if p[2] > 5e-5 { -1.5e-4 } else { 0.0 };
         q.extend([p[0] + 2e-5 * noise(i, 0), p[1] + 2e-5 * noise(i, 1), p[2] + down + 2e-5 * noise(i, 2), 0.0]);
     }
-    let tick = Tick { step: 0, time_s: 0.0, dt_s: 4e-6, v: &vec![0.0; q.len()] };
+    let tick = Tick { step: 0, time_s: 0.0, dt_s: 4e-6 };
     contact.advance(&Pose::nodes(&q), &tick, &mut vec![0.0; q.len()]);
     Ok((contact, q))
 }

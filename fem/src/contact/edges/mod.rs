@@ -127,15 +127,6 @@ impl Edges {
         Ok(edges)
     }
 
-    /// Searches done so far.
-    pub fn searches(&self) -> u64 {
-        self.searches
-    }
-    /// Pairs within reach.
-    pub fn pairs(&self) -> usize {
-        self.chunks.iter().map(|chunk| chunk.pairs.len()).sum()
-    }
-
     /// Pairs that start close keep the distance they have.
     fn start_gaps(&mut self, x: &[[f64; 4]]) {
         for pair in self.chunks.iter_mut().flat_map(|c| &mut c.pairs).filter(|p| !p.face) {

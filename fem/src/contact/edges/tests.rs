@@ -30,7 +30,7 @@ fn edges(mesh: &Mesh) -> Edges {
 /// Evaluates one step at `x`, with velocities `v`; positions after it without springs.
 fn step(edges: &mut Edges, x: &[[f64; 4]], v: &[[f64; 4]]) -> Vec<[f64; 4]> {
     let mut force = vec![[0.0; 4]; x.len()];
-    let tick = Tick { step: 0, time_s: 0.0, dt_s: DT_S, v: v.as_flattened() };
+    let tick = Tick { step: 0, time_s: 0.0, dt_s: DT_S };
     edges.advance(&Pose::nodes(x.as_flattened()), &tick, force.as_flattened_mut());
     force.fill([0.0; 4]);
     edges.hold(&Step { x, v, dv_s: DT_S, dt_s: DT_S, damping_1_s: 0.0 }, &mut force);
@@ -159,10 +159,10 @@ fn a_folded_pouch_starts_without_force() {
     let problem = pouch(3e-3, 30e3, true).unwrap();
     let mut edges = edges(&problem.mesh);
     let x: Vec<[f64; 4]> = problem.mesh.start.iter().map(|p| [p[0], p[1], p[2], 0.0]).collect();
-    let (v, mut force) = (vec![0.0; 4 * x.len()], vec![0.0; 4 * x.len()]);
-    let tick = Tick { step: 0, time_s: 0.0, dt_s: 4e-6, v: &v };
+    let mut force = vec![0.0; 4 * x.len()];
+    let tick = Tick { step: 0, time_s: 0.0, dt_s: 4e-6 };
     assert_eq!(edges.advance(&Pose::nodes(x.as_flattened()), &tick, &mut force), 0.0);
-    assert!(edges.pairs() > 1000 && force.iter().all(|f| *f == 0.0));
+    assert!(edges.chunks.iter().map(|chunk| chunk.pairs.len()).sum::<usize>() > 1000 && force.iter().all(|f| *f == 0.0));
 }
 
 #[test]

@@ -142,8 +142,7 @@ impl Rig {
         let load = self.loads();
         let mut force = load.clone();
         self.stored = self.stretch(&mut force);
-        let tick =
-            Tick { step: self.step, time_s: self.step as f64 * self.dt, dt_s: self.dt, v: self.v.as_flattened() };
+        let tick = Tick { step: self.step, time_s: self.step as f64 * self.dt, dt_s: self.dt };
         let at = self.x.clone();
         self.contact.advance(&Pose::nodes(at.as_flattened()), &tick, force.as_flattened_mut());
         self.kinetic = 0.0;

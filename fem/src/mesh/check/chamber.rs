@@ -2,9 +2,9 @@
 
 use super::{describe, fault, millimetres};
 use crate::FemError;
-use crate::mesh::geometry::{area, centre, norm, scale, sub};
 use crate::mesh::names::meant;
 use crate::mesh::{Mesh, Part};
+use crate::vec3::{area, centre, norm, scale, sub};
 
 /// Share of the area to the power 3/2 below which a volume is flat and has no sign.
 const FLAT: f64 = 1e-9;

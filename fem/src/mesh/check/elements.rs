@@ -2,8 +2,8 @@
 
 use super::{describe, fault, millimetres};
 use crate::FemError;
-use crate::mesh::geometry::{area, centre, cross, dot, norm, sub};
 use crate::mesh::{Mesh, Part};
+use crate::vec3::{area, centre, cross, dot, norm, sub};
 
 /// Smallest area over the square of the longest side that counts as an area; far below any useful element.
 const NO_AREA: f64 = 1e-9;

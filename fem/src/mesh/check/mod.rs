@@ -16,7 +16,7 @@ mod elements;
 mod quality;
 
 pub use chamber::rim;
-pub use quality::{PartCount, Quality, Spread, Worst};
+pub use quality::{Quality, Spread};
 
 use crate::FemError;
 use crate::mesh::names::meant;

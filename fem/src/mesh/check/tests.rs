@@ -96,7 +96,19 @@ fn two_pouches_of_one_supply_line_may_share_a_seam() {
     other.parts.iter_mut().for_each(|part| part.name += "_2");
     other.points.iter_mut().chain(&mut other.start).for_each(|x| x[0] += 0.1);
     mesh.append(other).unwrap();
-    assert_eq!(mesh.weld(&["rim"], 1e-6).unwrap(), 5);
+    let places = mesh.start.clone();
+    let meets = |a: [f64; 3], b: [f64; 3]| (0..3).all(|k| (a[k] - b[k]).abs() < 1e-6);
+    let rim = mesh.sets["rim"].clone();
+    let first = |n: u32| *rim.iter().find(|m| meets(places[**m as usize], places[n as usize])).unwrap_or(&n);
+    let shared = |n: &mut u32| *n = if rim.contains(n) { first(*n) } else { *n };
+    mesh.parts.iter_mut().flat_map(|part| &mut part.quads).flatten().for_each(shared);
+    let used: std::collections::BTreeSet<u32> = mesh.parts.iter().flat_map(|p| &p.quads).flatten().copied().collect();
+    assert_eq!(mesh.points.len() - used.len(), 5);
+    let number = |n: u32| used.range(..n).count() as u32;
+    mesh.parts.iter_mut().flat_map(|part| &mut part.quads).flatten().for_each(|n| *n = number(*n));
+    let kept = |all: &[[f64; 3]]| used.iter().map(|n| all[*n as usize]).collect();
+    (mesh.points, mesh.start) = (kept(&mesh.points), kept(&mesh.start));
+    mesh.sets.clear();
     let quality = check(&mesh, &["air"]).unwrap();
     assert_eq!(quality.seams, 4);
     assert!(
@@ -279,24 +291,11 @@ fn measures_of_known_elements_are_exact() {
         ..Mesh::default()
     };
     let quality = check(&mesh, &[]).unwrap();
-    assert_eq!((quality.aspect.value, quality.aspect.element), (3.0, 1));
-    assert!((quality.skew_deg.value - 30.0).abs() < 1e-12 && quality.skew_deg.element == 2, "{quality}");
-    assert_eq!((quality.jacobian_ratio.value, quality.warpage.value), (1.0, 0.0));
+    assert_eq!(quality.aspect, 3.0);
+    assert_eq!((quality.jacobian_ratio, quality.warpage), (1.0, 0.0));
     assert_eq!((quality.side_m.min, quality.side_m.max), (0.001, 0.003));
     let mut warped = plate(1.0, 1.0, 1, 1, None).unwrap();
     [0, 3].iter().for_each(|n: &usize| warped.points[*n][2] = 0.1);
     // Corners at ±0.05 from the mean plane, area of the plan 1.
-    assert!((check(&warped, &[]).unwrap().warpage.value - 0.05).abs() < 1e-12);
-}
-
-#[test]
-fn the_report_is_a_small_table() {
-    let text = check(&pillow(0.1, 4, 0.01).unwrap(), &["air"]).unwrap().to_string();
-    let lines: Vec<&str> = text.lines().collect();
-    assert_eq!(lines[0], "part                quads  triangles");
-    assert_eq!(lines[1], "top                    16          0");
-    assert_eq!(lines[3], "nodes                  34");
-    assert_eq!(lines[4], "side            25.000 / 25.000 / 25.000 mm (smallest / median / largest)");
-    assert_eq!(lines[5], "aspect ratio    1.000 at worst, element 1 of `top`");
-    assert!(lines[9].starts_with("chamber air     ") && lines[9].ends_with(" cm³ at the start"), "{text}");
+    assert!((check(&warped, &[]).unwrap().warpage - 0.05).abs() < 1e-12);
 }
