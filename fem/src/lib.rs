@@ -31,6 +31,7 @@ pub mod mesh;
 mod output;
 pub mod plain;
 pub mod problem;
+mod random;
 pub mod record;
 pub mod robot;
 pub mod run;

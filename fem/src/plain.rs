@@ -6,8 +6,9 @@
 use models::{Account, LedgerLine, Pose, Term};
 
 use crate::sheet::bending::{CurvatureRow, curvature_rows};
-use crate::sheet::reference::{bending_stiffness, cross, dot};
+use crate::sheet::reference::bending_stiffness;
 use crate::sheet::{Element, Sheet};
+use crate::vec3::{cross, dot};
 use crate::{Mesh, Problem};
 
 /// The shells of a problem without viscosity and history.
@@ -24,7 +25,7 @@ impl<'a> PlainSheet<'a> {
         let stiffness: Vec<f64> = problem.sections.iter().map(bending_stiffness).collect();
         let of = |name: &Option<String>| {
             let air = sheet.air.iter().find(|air| Some(air.name()) == name.as_deref());
-            air.map_or(0.0, |air| air.pressure_pa)
+            air.map_or(0.0, |air| air.now.pressure_pa)
         };
         let jump = |element: &Element| of(&mesh.parts[element.part].back) - of(&mesh.parts[element.part].front);
         let pressure_pa = sheet.elements.iter().map(jump).collect();

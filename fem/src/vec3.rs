@@ -44,6 +44,11 @@ pub fn cross(a: V3, b: V3) -> V3 {
 pub fn norm(a: V3) -> f64 {
     dot(a, a).sqrt()
 }
+/// a over its length; not a number for the zero vector.
+pub(crate) fn direction(a: V3) -> V3 {
+    let length = norm(a);
+    [a[0] / length, a[1] / length, a[2] / length]
+}
 /// a over its length; `None` for a zero or not finite vector.
 pub fn unit(a: V3) -> Option<V3> {
     let length = norm(a);

@@ -156,7 +156,7 @@ fn slip(p: &Parameter) -> &'static str {
 }
 
 /// A number, not a text or a table.
-pub(super) fn plain_number(key: &str, value: &Spanned<Value>) -> Checked<f64> {
+pub(crate) fn plain_number(key: &str, value: &Spanned<Value>) -> Checked<f64> {
     match value.get_ref() {
         Value::Float(v) => Ok(*v),
         Value::Integer(v) => Ok(*v as f64),

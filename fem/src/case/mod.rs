@@ -33,6 +33,7 @@ pub(crate) mod raw;
 mod section;
 mod settings;
 
+pub(crate) use law::plain_number;
 pub(crate) use load::encastre;
 pub use mesh::{GENERATORS, Generator, Key};
 

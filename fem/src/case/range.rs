@@ -143,41 +143,12 @@ pub(crate) fn unknown_name(what: &str, text: &Spanned<String>, known: &[&str]) -
     FemError::Case { message: unknown(what, text.get_ref(), known), span: Some(text.span()) }
 }
 
-/// The known word that was probably meant: one or two slips away, or the beginning of just one.
+/// The known word that was probably meant: a slip away, or the beginning of just one.
 pub(crate) fn nearest<'a>(wrong: &str, known: &[&'a str]) -> Option<&'a str> {
-    let wrong = wrong.to_lowercase();
-    let allowed = (wrong.chars().count() / 3).clamp(1, 3);
-    let best = known.iter().map(|k| (slips(&wrong, &k.to_lowercase()), *k)).min();
-    let begun = || known.iter().filter(|k| begins(&wrong, k)).copied();
-    match best {
-        Some((distance, word)) if distance <= allowed => Some(word),
-        _ => begun().next().filter(|_| begun().count() == 1),
-    }
-}
-
-/// The same word with another unit or none: `smooth` or `side_m` for `side_mm`.
-fn begins(wrong: &str, known: &str) -> bool {
+    // The same word with another unit or none: `smooth` or `side_m` for `side_mm`.
     let stem = wrong.rsplit_once('_').map_or(wrong, |(stem, _)| stem);
-    stem.len() >= 3 && known.starts_with(stem)
-}
-
-/// Letters to insert, drop, change or swap to get from one word to the other.
-fn slips(a: &str, b: &str) -> usize {
-    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
-    let mut rows = vec![(0..=b.len()).collect::<Vec<usize>>()];
-    for i in 1..=a.len() {
-        let mut row = vec![i];
-        for j in 1..=b.len() {
-            let change = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
-            let mut least = change.min(rows[i - 1][j] + 1).min(row[j - 1] + 1);
-            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                least = least.min(rows[i - 2][j - 2] + 1);
-            }
-            row.push(least);
-        }
-        rows.push(row);
-    }
-    rows[a.len()][b.len()]
+    let begun = || known.iter().filter(|known| stem.len() >= 3 && known.starts_with(stem)).copied();
+    spelling::nearest(wrong, known.iter().copied()).or_else(|| begun().next().filter(|_| begun().count() == 1))
 }
 
 #[cfg(test)]
@@ -193,6 +164,5 @@ mod tests {
         assert_eq!(nearest("smooth", &known), Some("smooth_s_kPa"));
         assert_eq!(nearest("radius_mm", &known), None);
         assert_eq!(nearest("", &[]), None);
-        assert_eq!((slips("abc", "abc"), slips("abc", "acb"), slips("abc", "")), (0, 1, 3));
     }
 }

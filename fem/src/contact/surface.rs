@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::vec3::{V3, norm, sub};
+use crate::vec3::{V3, area, norm, sub};
 use crate::{FemError, Mesh};
 
 /// No element, no node.
@@ -191,9 +191,7 @@ impl Surface {
                 length += norm(sub(x[(k + 1) % x.len()], x[k]));
                 edges += 1;
             }
-            let diagonals =
-                if x.len() == 4 { (sub(x[2], x[0]), sub(x[3], x[1])) } else { (sub(x[1], x[0]), sub(x[2], x[0])) };
-            let share = 0.5 * norm(crate::vec3::cross(diagonals.0, diagonals.1)) / x.len() as f64;
+            let share = norm(area(&x)) / x.len() as f64;
             nodes.iter().for_each(|n| self.area_m2[*n as usize] += share);
         }
         self.size_m = if edges > 0 { length / edges as f64 } else { 0.0 };

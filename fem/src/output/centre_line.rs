@@ -29,6 +29,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::table::{Table, number};
+use crate::vec3::{V3, along, cross, dot, norm, sub};
 use crate::{FemError, Mesh, Part};
 
 /// Nodes nearer to a station than this share of the mesh's length lie on it: far above rounding, far below an element.
@@ -38,7 +39,7 @@ const ON_STATION: f64 = 1e-9;
 #[derive(Debug, Clone, PartialEq)]
 pub struct CentreLine {
     stations_m: Vec<f64>,
-    weights: Vec<Vec<(u32, f64)>>,
+    weights: Vec<Weights>,
     nodes: usize,
 }
 
@@ -47,20 +48,18 @@ impl CentreLine {
     ///
     /// # Errors
     /// [`FemError::Problem`] for an unknown part, an axis without direction, or a station beside the mesh.
-    pub fn new(mesh: &Mesh, parts: &[String], axis: [f64; 3], stations_m: &[f64]) -> Result<CentreLine, FemError> {
+    pub fn new(mesh: &Mesh, parts: &[String], axis: V3, stations_m: &[f64]) -> Result<CentreLine, FemError> {
         let sections = Sections::of(mesh, parts, axis)?;
         let (low, high) = sections.range();
         let outside = |s: f64| {
-            FemError::Problem(format!(
+            format!(
                 "centre line: station {} mm is not on the mesh, which reaches from {} to {} mm",
-                s * 1e3,
+                s,
                 low * 1e3,
                 high * 1e3
-            ))
+            )
         };
-        let weights = stations_m.iter().map(|&s| sections.weights(s, low, high).ok_or_else(|| outside(s)));
-        let weights = weights.collect::<Result<_, _>>()?;
-        Ok(CentreLine { stations_m: stations_m.to_vec(), weights, nodes: mesh.points.len() })
+        CentreLine::made(mesh, stations_m, |s| sections.weights(s, low, high), outside)
     }
 
     /// As [`CentreLine::new`], but in place of centroids the points of the sections on the side that faces `eye` (any direction
@@ -68,21 +67,21 @@ impl CentreLine {
     ///
     /// # Errors
     /// As [`CentreLine::new`]; also for a section that is open to that side.
-    pub fn seen(
-        mesh: &Mesh,
-        parts: &[String],
-        axis: [f64; 3],
-        eye: [f64; 3],
-        stations_m: &[f64],
-    ) -> Result<CentreLine, FemError> {
+    pub fn seen(mesh: &Mesh, parts: &[String], axis: V3, eye: V3, stations_m: &[f64]) -> Result<CentreLine, FemError> {
         let sections = Sections::of(mesh, parts, axis)?;
-        let (low, high) = sections.range();
-        let side = [0, 1, 2].map(|k| {
-            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            axis[i] * eye[j] - axis[j] * eye[i]
-        });
-        let hidden = |s: f64| FemError::Problem(format!("markers: no wall at {} mm on the side {eye:?}", s * 1e3));
-        let weights = stations_m.iter().map(|&s| sections.facing(s, low, high, eye, side).ok_or_else(|| hidden(s)));
+        let ((low, high), side) = (sections.range(), cross(axis, eye));
+        let hidden = |s: f64| format!("markers: no wall at {s} mm on the side {eye:?}");
+        CentreLine::made(mesh, stations_m, |s| sections.facing(s, low, high, eye, side), hidden)
+    }
+
+    /// `missing` says of a station \[mm\] why it has no weights.
+    fn made(
+        mesh: &Mesh,
+        stations_m: &[f64],
+        of: impl Fn(f64) -> Option<Weights>,
+        missing: impl Fn(f64) -> String,
+    ) -> Result<CentreLine, FemError> {
+        let weights = stations_m.iter().map(|s| of(*s).ok_or_else(|| FemError::Problem(missing(s * 1e3))));
         let weights = weights.collect::<Result<_, _>>()?;
         Ok(CentreLine { stations_m: stations_m.to_vec(), weights, nodes: mesh.points.len() })
     }
@@ -100,7 +99,7 @@ impl CentreLine {
         if positions.len() != self.nodes {
             return Err(FemError::Problem("centre line: these positions belong to another mesh".into()));
         }
-        let centroid = |weights: &Vec<(u32, f64)>| {
+        let centroid = |weights: &Weights| {
             let mut sum = [0.0; 3];
             for &(node, weight) in weights {
                 (0..3).for_each(|k| sum[k] += weight * positions[node as usize][k]);
@@ -163,6 +162,9 @@ fn choose<'a>(mesh: &'a Mesh, names: &[String]) -> Result<Vec<&'a Part>, FemErro
     names.iter().map(find).collect()
 }
 
+/// Nodes, and the weight of each.
+type Weights = Vec<(u32, f64)>;
+
 /// Where a plane meets an edge: its nodes, and the share of the way from the first to the second.
 type Cut = (u32, u32, f64);
 
@@ -176,11 +178,11 @@ struct Sections<'a> {
 impl<'a> Sections<'a> {
     fn of(mesh: &'a Mesh, parts: &[String], axis: [f64; 3]) -> Result<Sections<'a>, FemError> {
         let chosen = choose(mesh, parts)?;
-        let length = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
+        let length = norm(axis);
         if !(length > 0.0 && length.is_finite()) {
             return Err(FemError::Problem(format!("centre line: {axis:?} is no direction, write [1, 0, 0] for x")));
         }
-        let along = |p: &[f64; 3]| (p[0] * axis[0] + p[1] * axis[1] + p[2] * axis[2]) / length;
+        let along = |p: &V3| dot(*p, axis) / length;
         let sections = Sections { mesh, chosen, coordinates: mesh.points.iter().map(along).collect() };
         let stray = sections.elements().flatten().copied().find(|&node| node as usize >= mesh.points.len());
         match stray {
@@ -224,7 +226,7 @@ impl<'a> Sections<'a> {
     }
 
     /// Weights of the section at `station`; `None` beside the mesh.
-    fn weights(&self, station: f64, low: f64, high: f64) -> Option<Vec<(u32, f64)>> {
+    fn weights(&self, station: f64, low: f64, high: f64) -> Option<Weights> {
         let mut sums: BTreeMap<u32, f64> = BTreeMap::new();
         let mut total = 0.0;
         for segment in self.cuts(station, low, high) {
@@ -239,8 +241,7 @@ impl<'a> Sections<'a> {
     }
 
     /// Weights of the point of the section at `station` that lies towards `eye`, where `side` (across both) changes sign.
-    fn facing(&self, station: f64, low: f64, high: f64, eye: [f64; 3], side: [f64; 3]) -> Option<Vec<(u32, f64)>> {
-        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    fn facing(&self, station: f64, low: f64, high: f64, eye: [f64; 3], side: [f64; 3]) -> Option<Weights> {
         for segment in self.cuts(station, low, high) {
             let [a, b] = segment.map(|cut| self.point(cut));
             let (sa, sb) = (dot(a, side), dot(b, side));
@@ -263,12 +264,11 @@ impl<'a> Sections<'a> {
 
     fn point(&self, (i, j, t): Cut) -> [f64; 3] {
         let (p, q) = (self.mesh.points[i as usize], self.mesh.points[j as usize]);
-        [0, 1, 2].map(|k| p[k] + t * (q[k] - p[k]))
+        along(p, t, sub(q, p))
     }
 
     fn distance(&self, a: Cut, b: Cut) -> f64 {
-        let (p, q) = (self.point(a), self.point(b));
-        (0..3).map(|k| (p[k] - q[k]) * (p[k] - q[k])).sum::<f64>().sqrt()
+        norm(sub(self.point(a), self.point(b)))
     }
 }
 

@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 
 const MAGIC: &[u8; 8] = b"ibr-fem\n";
 /// Raised whenever the meaning of the bytes changes.
-const VERSION: u64 = 5;
+const VERSION: u64 = 6;
 const CHECK: usize = 4;
 
 /// Everything a checkpoint holds.

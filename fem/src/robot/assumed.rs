@@ -5,6 +5,7 @@
 //! values say, whatever the others do. Reference: McKay, Beckman, Conover 1979.
 
 use super::RobotSettings;
+use crate::random::Draws;
 
 /// A number that nobody printed, and the interval it may lie in.
 #[derive(Debug, Clone, Copy)]
@@ -137,19 +138,6 @@ pub fn hypercube(robots: usize, numbers: usize, seed: u64) -> Vec<Vec<f64>> {
         }
     }
     cube
-}
-
-/// Even random numbers in [0, 1): SplitMix64.
-struct Draws(u64);
-
-impl Draws {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }
 
 #[cfg(test)]

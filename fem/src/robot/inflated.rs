@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use super::body_parts;
 use crate::Mesh;
+use crate::vec3::{V3, along, dot, norm, sub};
 
 /// Mean shape of a robot's pouches \[m\].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -83,20 +84,17 @@ fn nearest(mesh: &Mesh, nodes: &[u32], place: [f64; 3]) -> Option<u32> {
     nodes.iter().copied().min_by(|a, b| far(a).total_cmp(&far(b)))
 }
 
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+fn distance(a: V3, b: V3) -> f64 {
+    norm(sub(a, b))
 }
 
 /// Distance of a point from a straight piece.
 fn from_piece(p: [f64; 3], piece: &[[f64; 3]]) -> f64 {
     let [a, b] = [piece[0], piece[1]];
-    let (mut along, mut square) = (0.0, 0.0);
-    for k in 0..3 {
-        along += (p[k] - a[k]) * (b[k] - a[k]);
-        square += (b[k] - a[k]).powi(2);
-    }
-    let share = if square > 0.0 { (along / square).clamp(0.0, 1.0) } else { 0.0 };
-    distance(p, [0, 1, 2].map(|k| a[k] + share * (b[k] - a[k])))
+    let way = sub(b, a);
+    let square = dot(way, way);
+    let share = if square > 0.0 { (dot(sub(p, a), way) / square).clamp(0.0, 1.0) } else { 0.0 };
+    distance(p, along(a, share, way))
 }
 
 fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {

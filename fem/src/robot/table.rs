@@ -17,6 +17,7 @@ use toml::{Spanned, Value};
 
 use super::{Model, RobotRun, RobotSettings};
 use crate::FemError;
+use crate::case::plain_number;
 use crate::case::range::{Checked, LENGTH, POSITION, PRESSURE, Range, number, plain, refuse};
 use crate::case::raw::{Free, unknown};
 use crate::problem::{Obstacle, ObstacleShape};
@@ -239,18 +240,6 @@ fn at_seams(value: &Spanned<Value>) -> Checked<bool> {
         Some("seams") => Ok(true),
         Some("face") => Ok(false),
         _ => refuse(format!("unknown place of the tape {}", value.get_ref()), "known: face, seams", value.span()),
-    }
-}
-
-fn plain_number(name: &str, value: &Spanned<Value>) -> Checked<f64> {
-    match value.get_ref() {
-        Value::Float(v) => Ok(*v),
-        Value::Integer(v) => Ok(*v as f64),
-        other => refuse(
-            format!("{name} must be a number, not {other}"),
-            "write a plain number without quotation marks; the unit is in the name of the key",
-            value.span(),
-        ),
     }
 }
 

@@ -6,7 +6,7 @@
 use std::array::from_fn;
 use std::f64::consts::TAU;
 
-use crate::run::gaussian;
+use crate::random::gaussian;
 
 /// Shortest and longest wave \[m\]: from half a pouch to two.
 const WAVES_M: [f64; 2] = [0.03, 0.12];

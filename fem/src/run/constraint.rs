@@ -128,7 +128,7 @@ impl Body {
             let i = *node as usize;
             let f = [force[i][0], force[i][1], force[i][2]];
             let arm = [0, 1, 2].map(|k| x[i][k] - self.centre[k]);
-            let m = crate::sheet::reference::cross(arm, f);
+            let m = crate::vec3::cross(arm, f);
             (0..3).for_each(|k| push[k] += f[k]);
             (0..3).for_each(|k| moment[k] += m[k]);
         }
@@ -161,7 +161,7 @@ impl Body {
         for (node, m) in self.nodes.iter().zip(&self.mass) {
             let (x, v) = (x[*node as usize], v[*node as usize]);
             let arm = [0, 1, 2].map(|k| x[k] - self.centre[k]);
-            let spin = crate::sheet::reference::cross(arm, [v[0], v[1], v[2]]);
+            let spin = crate::vec3::cross(arm, [v[0], v[1], v[2]]);
             (0..3).for_each(|k| self.velocity[k] += m / total * v[k]);
             (0..3).for_each(|k| self.spin[k] += m * spin[k]);
         }
@@ -227,8 +227,8 @@ fn rotate_by(turn: [f64; 4], omega: [f64; 3], dt: f64) -> [f64; 4] {
 
 /// Solves a symmetric 3×3 system by Cramer's rule; a body on one line spins about it without inertia, so 0 there.
 fn solve(a: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
-    let cross = crate::sheet::reference::cross;
-    let dot = crate::sheet::reference::dot;
+    let cross = crate::vec3::cross;
+    let dot = crate::vec3::dot;
     let determinant = dot(a[0], cross(a[1], a[2]));
     let scale = a[0][0] + a[1][1] + a[2][2];
     if determinant.abs() <= 1e-12 * scale * scale * scale {

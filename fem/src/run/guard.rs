@@ -3,7 +3,7 @@
 use models::{Account, Pose};
 
 use super::{Ledger, Simulation, highest, setup};
-use crate::sheet::reference::{cross, dot};
+use crate::vec3::{cross, dot};
 use crate::{FemError, Transient};
 
 /// Share of its reference area below which an element counts as collapsed.

@@ -11,9 +11,10 @@
 //! Between two estimates the bounds follow the shape, and γ stays; `cfl` covers what it changes.
 //! Source: the global estimator of explicit codes; Lanczos as in Golub, Van Loan, Matrix Computations, ch. 10.
 
+use super::constraint;
 use super::selective::Selective;
-use super::{constraint, setup};
 use crate::mesh::Tie;
+use crate::random::gaussian;
 use crate::sheet::Sheet;
 use crate::sheet::tangent::Tangent;
 
@@ -83,7 +84,7 @@ impl Whole<'_> {
 
     /// The largest eigenvalue, from below.
     fn highest_1_s2(&self) -> f64 {
-        let draw = |i: usize| [0, 1, 2].map(|k| setup::gaussian(0, (4 * i + k) as u64));
+        let draw = |i: usize| [0, 1, 2].map(|k| gaussian(0, (4 * i + k) as u64));
         let start = |(i, w): (usize, &f64)| if *w > 0.0 { draw(i).map(|d| d / w) } else { [0.0; 3] };
         let start = self.inverse.iter().enumerate().map(start).map(|[x, y, z]| [x, y, z, 0.0]);
         let mut v = self.light(&start.collect::<Vec<_>>());

@@ -46,7 +46,7 @@ fn grown(problem: &Problem, cfl: f64) -> f64 {
     let mut problem = problem.clone();
     problem.settings.cfl = 1.0;
     let mut run = Simulation::new(&problem).unwrap();
-    let speed = |i: usize, k: usize| 1e-4 * setup::gaussian(7, (4 * i + k) as u64);
+    let speed = |i: usize, k: usize| 1e-4 * gaussian(7, (4 * i + k) as u64);
     run.set_velocities(&(0..problem.mesh.points.len()).map(|i| [0, 1, 2].map(|k| speed(i, k))).collect::<Vec<_>>());
     run.clock.dt_s *= cfl;
     let start = run.clock.dt_s;

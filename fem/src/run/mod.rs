@@ -23,7 +23,6 @@ mod team;
 pub use crate::sheet::fields::ElementFields;
 pub use ledger::Ledger;
 pub use reaction::Reaction;
-pub(crate) use setup::gaussian;
 pub use sides::ChangedSides;
 
 use models::{Account, Pose, Row, RowKind};
@@ -288,8 +287,8 @@ impl Simulation {
     pub fn chambers(&self) -> Vec<ChamberState> {
         let state = |air: &crate::sheet::chamber::Air| ChamberState {
             name: air.name().to_owned(),
-            pressure_pa: air.pressure_pa,
-            volume_m3: air.volume_m3.unwrap_or(0.0),
+            pressure_pa: air.now.pressure_pa,
+            volume_m3: air.now.volume_m3.unwrap_or(0.0),
         };
         self.sheet.air.iter().map(state).collect()
     }

@@ -83,7 +83,7 @@ impl Reactions {
             for (node, axes) in nodes {
                 let (i, force) = (*node as usize, share(*node as usize));
                 let force = [0, 1, 2].map(|k| if axes[k] { force[k] } else { 0.0 });
-                let moment = crate::sheet::reference::cross([0, 1, 2].map(|k| x[i][k] - mean[k]), force);
+                let moment = crate::vec3::cross([0, 1, 2].map(|k| x[i][k] - mean[k]), force);
                 (0..3).for_each(|k| reaction.force_n[k] += force[k]);
                 (0..3).for_each(|k| reaction.moment_nm[k] += moment[k]);
             }

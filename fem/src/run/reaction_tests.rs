@@ -8,7 +8,7 @@ use super::*;
 use crate::mesh::generate;
 use crate::mesh::generate::{Around, Cap, Tube};
 use crate::problem::{Amplitude, Chamber, Gravity, NodalForce, Ply, Pressure, Rigid, Section, Support};
-use crate::sheet::reference::cross;
+use crate::vec3::cross;
 use crate::{Problem, Simulation};
 
 fn problem(mesh: Mesh, chambers: Vec<Chamber>) -> Problem {

@@ -8,7 +8,7 @@ use models::fabrics::{NeoHookean, Orthotropic};
 use super::LEAST;
 use crate::mesh::{Part, generate};
 use crate::problem::{Amplitude, Contact, MassScaling, NodalForce, Ply, Problem, Rigid, Section, Settings, Support};
-use crate::run::setup::gaussian;
+use crate::random::gaussian;
 use crate::{Mesh, Simulation};
 
 const FILM: NeoHookean = NeoHookean { c10_pa: 50.3e6, thickness_m: 2e-4 };

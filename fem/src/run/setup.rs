@@ -10,10 +10,12 @@ use super::{Books, Clock, Limits, Simulation, highest};
 use crate::contact::Contact;
 use crate::contact::edges::Edges;
 use crate::problem::{MassScaling, Settings};
+use crate::random::gaussian;
+use crate::sheet::Sheet;
 use crate::sheet::order::{Order, renumber};
-use crate::sheet::reference::{cross, dot};
-use crate::sheet::{Sheet, reference};
+use crate::sheet::reference::bending_stiffness;
 use crate::terms::{Folds, Gravity, NodalForces, Obstacles, RestCurvature, penalty_stiffness_n_m};
+use crate::vec3::{area, norm};
 use crate::{FemError, Mesh, Problem, Transient};
 
 /// Penalty stiffness of obstacles as a share of m/dt².
@@ -237,7 +239,7 @@ fn bent(problem: &Problem, mesh: &Mesh, sheet: &Sheet) -> Vec<Box<dyn Transient>
     if !rest.is_empty() {
         terms.push(Box::new(rest));
     }
-    let stiffness: Vec<f64> = problem.sections.iter().map(reference::bending_stiffness).collect();
+    let stiffness: Vec<f64> = problem.sections.iter().map(bending_stiffness).collect();
     let folds = Folds::new(mesh, sheet, &stiffness);
     if !folds.is_empty() {
         terms.push(Box::new(folds));
@@ -329,30 +331,17 @@ fn imperfect(x: &mut [[f64; 4]], mesh: &Mesh, order: &Order, fixed: &[[bool; 3]]
     for part in &mesh.parts {
         for i in 0..part.len() {
             let corner: Vec<[f64; 3]> = part.nodes(i).iter().map(|n| mesh.start_of(*n as usize)).collect();
-            let (d1, d2) = reference::diagonals(&corner);
-            let area = cross(d1, d2);
+            let area = area(&corner);
             for node in part.nodes(i) {
-                (0..3).for_each(|k| normal[*node as usize][k] += 0.5 * area[k] / corner.len() as f64);
+                (0..3).for_each(|k| normal[*node as usize][k] += area[k] / corner.len() as f64);
             }
         }
     }
     for (place, (x, n)) in x.iter_mut().zip(&normal).enumerate().filter(|(place, _)| fixed[*place] == [false; 3]) {
-        let area = dot(*n, *n).sqrt();
+        let area = norm(*n);
         if area > 0.0 {
             let offset = share * area.sqrt() * gaussian(seed, u64::from(order.old[place]));
             (0..3).for_each(|k| x[k] += offset * n[k] / area);
         }
     }
-}
-
-/// A standard normal number from a seed and a counter (SplitMix64 and Box–Muller).
-pub(crate) fn gaussian(seed: u64, counter: u64) -> f64 {
-    let draw = |salt: u64| {
-        let mut z = (seed ^ 0x9E37_79B9_7F4A_7C15).wrapping_mul(0xD6E8_FEB8_6659_FD93).wrapping_add(counter * 2 + salt);
-        z = z.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    (-2.0 * (1.0 - draw(0)).ln()).sqrt() * (std::f64::consts::TAU * draw(1)).cos()
 }

@@ -26,8 +26,8 @@
 use std::collections::BTreeMap;
 
 use super::edge;
-use super::reference::{add_scaled, cross, dot, sub, unit};
 use crate::mesh::Mesh;
+use crate::vec3::{along, cross, direction, dot, sub};
 
 /// Row of the curvature operator at one node: H_i A_i = Σ_j w_ij x_j (the diagonal is in the list, first).
 #[derive(Debug, Clone, PartialEq)]
@@ -117,11 +117,9 @@ impl Fan {
         }
         let offset = |n: u32| sub(mesh.points[n as usize], mesh.points[node as usize]);
         let around: Vec<(u32, [f64; 3])> = self.weights.keys().map(|n| (*n, offset(*n))).collect();
-        let normal = self
-            .facets
-            .iter()
-            .fold([0.0; 3], |sum, f| add_scaled(sum, 1.0, f.area_vector(|n| mesh.points[n as usize])));
-        let weights = edge::weights([(before, offset(before)), (after, offset(after))], &around, unit(normal))?;
+        let normal =
+            self.facets.iter().fold([0.0; 3], |sum, f| along(sum, 1.0, f.area_vector(|n| mesh.points[n as usize])));
+        let weights = edge::weights([(before, offset(before)), (after, offset(after))], &around, direction(normal))?;
         Some(weights.into_iter().map(|(n, w)| (n, w * self.area)).collect())
     }
 }

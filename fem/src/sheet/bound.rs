@@ -7,9 +7,10 @@
 use models::Fabric;
 use models::fabrics::{Kind, Past, WrinklingFilm};
 
-use super::reference::{dot, mean_stiffness};
+use super::reference::mean_stiffness;
 use super::tangent::Tangent;
 use super::{Element, Sheet};
+use crate::vec3::dot;
 
 /// A state of an element at which its stiffness is asked for.
 #[derive(Clone, Copy)]

@@ -1,11 +1,20 @@
 //! Pressure, volume and work of the chambers during a run.
 
+use serde::{Deserialize, Serialize};
+
 use crate::problem::{Chamber, Pressure};
 
 /// A chamber while a run goes on.
 #[derive(Debug, Clone)]
 pub struct Air {
     chamber: Chamber,
+    /// What changes.
+    pub now: AirNow,
+}
+
+/// What a checkpoint holds of a chamber.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+pub struct AirNow {
     /// Gauge pressure now \[Pa\].
     pub pressure_pa: f64,
     /// Volume at the last step \[m³\]; `None` before the first.
@@ -20,9 +29,6 @@ pub struct Air {
     sealed_j: Option<f64>,
 }
 
-/// Numbers per chamber in a checkpoint.
-pub const SAVED: usize = 8;
-
 impl Air {
     /// At rest, before the first step.
     pub fn new(chamber: &Chamber) -> Air {
@@ -30,7 +36,7 @@ impl Air {
             Pressure::Set(amplitude) | Pressure::Sealed { filling: amplitude, .. } => amplitude.at(0.0),
         };
         let chamber = chamber.clone();
-        Air { chamber, pressure_pa, volume_m3: None, before_m3: 0.0, booked_pa: 0.0, work_j: 0.0, sealed_j: None }
+        Air { chamber, now: AirNow { pressure_pa, ..AirNow::default() } }
     }
 
     /// Name.
@@ -49,20 +55,20 @@ impl Air {
     /// since the work ∫p dV was booked.
     pub fn wants_volume(&self) -> bool {
         let follows = matches!(self.chamber.pressure, Pressure::Sealed { .. });
-        follows || (self.pressure_pa - self.booked_pa).abs() > 0.01 * self.pressure_pa.abs()
+        follows || (self.now.pressure_pa - self.now.booked_pa).abs() > 0.01 * self.now.pressure_pa.abs()
     }
 
     /// Sets the pressure for a step at time `t`. A sealed chamber extrapolates its volume by one step, to second order.
     pub fn set_pressure(&mut self, t: f64) {
-        self.pressure_pa = match &self.chamber.pressure {
+        self.now.pressure_pa = match &self.chamber.pressure {
             Pressure::Set(amplitude) => amplitude.at(t),
             Pressure::Sealed { filling, sealed_at_s, .. } if t < *sealed_at_s => filling.at(t),
-            Pressure::Sealed { filling, atmosphere_pa, .. } => match self.volume_m3 {
+            Pressure::Sealed { filling, atmosphere_pa, .. } => match self.now.volume_m3 {
                 None => filling.at(t),
                 Some(volume) => {
-                    let next = 2.0 * volume - self.before_m3;
-                    let content = *self.sealed_j.get_or_insert((self.pressure_pa + atmosphere_pa) * volume);
-                    if next > 0.0 { content / next - atmosphere_pa } else { self.pressure_pa }
+                    let next = 2.0 * volume - self.now.before_m3;
+                    let content = *self.now.sealed_j.get_or_insert((self.now.pressure_pa + atmosphere_pa) * volume);
+                    if next > 0.0 { content / next - atmosphere_pa } else { self.now.pressure_pa }
                 }
             },
         };
@@ -70,12 +76,12 @@ impl Air {
 
     /// Takes the volume of this step and books the work ½(p + p′)ΔV since the last time.
     pub fn take_volume(&mut self, volume_m3: f64) {
-        if let Some(before) = self.volume_m3 {
-            self.work_j += 0.5 * (self.pressure_pa + self.booked_pa) * (volume_m3 - before);
+        if let Some(before) = self.now.volume_m3 {
+            self.now.work_j += 0.5 * (self.now.pressure_pa + self.now.booked_pa) * (volume_m3 - before);
         }
-        self.booked_pa = self.pressure_pa;
-        self.before_m3 = self.volume_m3.unwrap_or(volume_m3);
-        self.volume_m3 = Some(volume_m3);
+        self.now.booked_pa = self.now.pressure_pa;
+        self.now.before_m3 = self.now.volume_m3.unwrap_or(volume_m3);
+        self.now.volume_m3 = Some(volume_m3);
     }
 
     /// Volume from the fluxes ∫ x n_x, ∫ y n_y, ∫ z n_z: their mean, without an open axis.
@@ -84,31 +90,5 @@ impl Air {
             None => (flux[0] + flux[1] + flux[2]) / 3.0,
             Some(open) => 0.5 * (0..3).filter(|k| *k != open).map(|k| flux[k]).sum::<f64>(),
         }
-    }
-
-    /// For a checkpoint.
-    pub fn save(&self) -> [f64; SAVED] {
-        let flag = |o: Option<f64>| f64::from(u8::from(o.is_some()));
-        let (v, s) = (self.volume_m3, self.sealed_j);
-        [
-            self.pressure_pa,
-            flag(v),
-            v.unwrap_or(0.0),
-            self.before_m3,
-            self.work_j,
-            flag(s),
-            s.unwrap_or(0.0),
-            self.booked_pa,
-        ]
-    }
-
-    /// From a checkpoint.
-    pub fn restore(&mut self, saved: &[f64]) {
-        self.pressure_pa = saved[0];
-        self.volume_m3 = (saved[1] > 0.5).then_some(saved[2]);
-        self.before_m3 = saved[3];
-        self.work_j = saved[4];
-        self.sealed_j = (saved[5] > 0.5).then_some(saved[6]);
-        self.booked_pa = saved[7];
     }
 }

@@ -13,7 +13,7 @@
 //! A straight edge bends as a beam; a curved one does not pay for the curve that it was cut along. No moment acts about
 //! the edge. Derived here.
 
-use super::reference::{add_scaled, cross, dot, unit};
+use crate::vec3::{along, cross, direction, dot};
 
 /// An edge that turns by more than this within the sheet \[rad\] is a corner.
 const LARGEST_TURN: f64 = 0.5;
@@ -25,8 +25,8 @@ const SMALLEST_TURN: f64 = 1e-9;
 pub fn weights(edge: [(u32, [f64; 3]); 2], around: &[(u32, [f64; 3])], normal: [f64; 3]) -> Option<Vec<(u32, f64)>> {
     let length = edge.map(|(_, x)| dot(x, x).sqrt());
     let own = [0, 1].map(|k| 2.0 / ((length[0] + length[1]) * length[k]));
-    let second = add_scaled(edge[0].1.map(|c| own[0] * c), own[1], edge[1].1);
-    let bent = add_scaled(second, -dot(second, normal), normal);
+    let second = along(edge[0].1.map(|c| own[0] * c), own[1], edge[1].1);
+    let bent = along(second, -dot(second, normal), normal);
     let turn = 0.5 * (length[0] + length[1]) * dot(bent, bent).sqrt();
     if turn.is_nan() || turn > LARGEST_TURN {
         return None;
@@ -34,13 +34,13 @@ pub fn weights(edge: [(u32, [f64; 3]); 2], around: &[(u32, [f64; 3])], normal: [
     let mut all = vec![(edge[0].0, own[0]), (edge[1].0, own[1])];
     if turn > SMALLEST_TURN {
         // Σ c_j X_j = bent with the smallest Σ c_j²: c_j = X_j · M⁻¹ bent, M = Σ X_j X_jᵀ.
-        let along = unit(add_scaled(bent, -dot(bent, normal), normal));
-        let axes = [along, cross(normal, along)];
+        let first = direction(along(bent, -dot(bent, normal), normal));
+        let axes = [first, cross(normal, first)];
         let flat: Vec<[f64; 2]> = around.iter().map(|(_, x)| axes.map(|a| dot(*x, a))).collect();
         let sum = |a: usize, b: usize| flat.iter().map(|x| x[a] * x[b]).sum::<f64>();
         let (m11, m22, m12) = (sum(0, 0), sum(1, 1), sum(0, 1));
         let determinant = m11 * m22 - m12 * m12;
-        let size = dot(bent, along);
+        let size = dot(bent, first);
         let slope = [size * m22 / determinant, -size * m12 / determinant];
         all.extend(around.iter().zip(&flat).map(|((n, _), x)| (*n, -(x[0] * slope[0] + x[1] * slope[1]))));
     }

@@ -1,7 +1,7 @@
 //! Stress, strain, thickness and wrinkling of every element, for pictures and reports.
 
-use super::reference::{add_scaled, cross, dot, unit};
 use super::{Element, Sheet};
+use crate::vec3::{along, cross, direction, dot};
 
 /// Element results in mesh order (parts one after the other, quads before triangles), averaged over plies.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -85,11 +85,11 @@ fn directions(s: [f64; 3], c: [f64; 3], f: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
     let largest = cauchy(s, c)[0];
     let [p, q] = [[a[0][1], largest - a[0][0]], [largest - a[1][1], a[1][0]]];
     let [alpha, beta] = if p[0].hypot(p[1]) > q[0].hypot(q[1]) { p } else { q };
-    let along = add_scaled(f[0].map(|x| alpha * x), beta, f[1]);
+    let along = along(f[0].map(|x| alpha * x), beta, f[1]);
     let along = if dot(along, along) > 0.0 { along } else { f[0] };
     let along = if dot(along, f[0]) < 0.0 { along.map(|x| -x) } else { along };
     let across = cross(cross(f[0], f[1]), along);
-    [along, across].map(|v| if dot(v, v) > 0.0 { unit(v) } else { [0.0; 3] })
+    [along, across].map(|v| if dot(v, v) > 0.0 { direction(v) } else { [0.0; 3] })
 }
 
 /// Eigenvalues of the symmetric matrix (a, b; off-diagonal c), larger first.
@@ -121,7 +121,7 @@ mod tests {
                 }
             }
         }
-        assert_eq!(directions([0.0; 3], c, f)[0], unit(f[0]), "without stress along the warp");
+        assert_eq!(directions([0.0; 3], c, f)[0], direction(f[0]), "without stress along the warp");
         assert_eq!(directions([0.0; 3], [0.0; 3], [[0.0; 3]; 2]), [[0.0; 3]; 2]);
     }
 }

@@ -39,7 +39,7 @@ pub struct Tally {
 }
 
 /// Strains of the elements of a group at the step before.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize, serde::Deserialize)]
 #[repr(C, align(64))]
 pub struct Strain(pub Lane3);
 

@@ -20,13 +20,15 @@ pub mod tangent;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use models::fabrics::Past;
 use models::{Account, Fabric, LedgerLine, Pose, Row, RowKind, Term};
 
+use crate::bytes::{pack, unpack};
 use crate::mesh::Mesh;
 use crate::problem::{Chamber, Section, Settings};
 use crate::{FemError, NODE, Tick, Transient};
 use bending::BendingMatrix;
-use chamber::Air;
+use chamber::{Air, AirNow};
 use group::Item;
 use patch::{Key, Patch, Shared};
 use reference::{Reference, mean_stiffness};
@@ -167,7 +169,7 @@ impl Sheet {
 
     /// Makes the viscosity start from the strains at `q`.
     pub fn start(&mut self, q: &[f64]) {
-        let pressure: Vec<f64> = self.air.iter().map(|a| a.pressure_pa).collect();
+        let pressure: Vec<f64> = self.air.iter().map(|a| a.now.pressure_pa).collect();
         let (q, fabrics, arch) = (q.as_chunks().0, &self.fabrics[..], self.arch);
         let shared = Shared { q, fabrics, pressure_pa: &pressure, rate: 0.0, books: false, arch };
         self.patches.iter_mut().for_each(|p| p.start_strains(shared));
@@ -195,7 +197,7 @@ impl Sheet {
     }
 
     fn pass(&mut self, q: &[f64], force: &mut [f64], rate: f64, books: bool, keep: bool) {
-        let pressure: Vec<f64> = self.air.iter().map(|a| a.pressure_pa).collect();
+        let pressure: Vec<f64> = self.air.iter().map(|a| a.now.pressure_pa).collect();
         let (q, fabrics, arch) = (q.as_chunks().0, &self.fabrics[..], self.arch);
         let shared = Shared { q, fabrics, pressure_pa: &pressure, rate, books, arch };
         over_patches(&mut self.patches, force.as_chunks_mut().0, &|patch, force| patch.pass(shared, force, keep));
@@ -214,7 +216,7 @@ impl Term for Sheet {
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
         let mut copy = self.clone();
         copy.pass(at.q, force, 0.0, true, false);
-        let work: f64 = copy.air.iter().zip(copy.volumes()).map(|(air, v)| air.pressure_pa * v).sum();
+        let work: f64 = copy.air.iter().zip(copy.volumes()).map(|(air, v)| air.now.pressure_pa * v).sum();
         copy.stored().iter().sum::<f64>() - work
     }
 }
@@ -246,7 +248,7 @@ impl Transient for Sheet {
             rows.push(row("fabric hysteresis", Account::Stretch, RowKind::Dissipated, lost));
         }
         if !self.air.is_empty() {
-            let work = self.air.iter().map(|a| a.work_j).sum();
+            let work = self.air.iter().map(|a| a.now.work_j).sum();
             rows.push(row("pressure", Account::ActuatorGas, RowKind::Supplied, work));
         }
         rows
@@ -257,42 +259,33 @@ impl Transient for Sheet {
     }
 
     fn save(&self) -> Vec<u8> {
-        let mut numbers = vec![self.viscous_j];
-        self.air.iter().for_each(|air| numbers.extend(air.save()));
-        for patch in &self.patches {
-            numbers.extend(patch.sums.saved());
-            numbers.extend(patch.strains.iter().flat_map(|s| s.0.as_flattened()));
-            numbers.extend(patch.past.as_flattened().as_flattened());
-        }
-        numbers.iter().flat_map(|n| n.to_le_bytes()).collect()
+        let air: Vec<AirNow> = self.air.iter().map(|air| air.now).collect();
+        let patches: Vec<_> = self.patches.iter().map(|p| (p.sums, &p.strains, &p.past)).collect();
+        pack(&(self.viscous_j, air, patches))
     }
 
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let (words, rest) = saved.as_chunks::<8>();
-        let numbers: Vec<f64> = words.iter().map(|w| f64::from_le_bytes(*w)).collect();
-        let wanted = 1
-            + self.air.len() * chamber::SAVED
-            + self.patches.len() * patch::SAVED
-            + self.patches.iter().map(|p| (p.strains.len() * 3 + p.past.len() * 2) * group::LANES).sum::<usize>();
-        if !rest.is_empty() || numbers.len() != wanted {
+        let Some((viscous_j, air, patches)) = unpack::<Saved>(saved) else { return false };
+        let alike = |(own, (_, strains, past)): (&Patch, &SavedPatch)| {
+            [own.strains.len(), own.past.len()] == [strains.len(), past.len()]
+        };
+        let fits = [air.len(), patches.len()] == [self.air.len(), self.patches.len()]
+            && self.patches.iter().zip(&patches).all(alike);
+        if !fits {
             return false;
         }
-        self.viscous_j = numbers[0];
-        let mut from = numbers[1..].iter().copied();
-        for air in &mut self.air {
-            let own: Vec<f64> = from.by_ref().take(chamber::SAVED).collect();
-            air.restore(&own);
-        }
-        for patch in &mut self.patches {
-            let sums: Vec<f64> = from.by_ref().take(patch::SAVED).collect();
-            patch.sums.restore(&sums);
-            let strains = patch.strains.iter_mut().flat_map(|s| s.0.as_flattened_mut());
-            let past = patch.past.as_flattened_mut().as_flattened_mut();
-            strains.chain(past).zip(from.by_ref()).for_each(|(to, value)| *to = value);
+        self.viscous_j = viscous_j;
+        self.air.iter_mut().zip(air).for_each(|(own, now)| own.now = now);
+        for (own, (sums, strains, past)) in self.patches.iter_mut().zip(patches) {
+            (own.sums, own.strains, own.past) = (sums, strains, past);
         }
         true
     }
 }
+
+/// Heat of viscosity, chambers and patches in a checkpoint.
+type Saved = (f64, Vec<AirNow>, Vec<SavedPatch>);
+type SavedPatch = (patch::Sums, Vec<kernel::Strain>, Vec<[Past; group::LANES]>);
 
 fn fabric_of(section: &Section) -> Result<Arc<dyn Fabric>, FemError> {
     match section.plies.as_slice() {

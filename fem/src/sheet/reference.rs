@@ -10,32 +10,7 @@
 use models::Fabric;
 
 use crate::problem::Section;
-
-/// Vector difference.
-pub fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-/// Scalar product.
-pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// Vector product.
-pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// a + s b.
-pub fn add_scaled(a: [f64; 3], s: f64, b: [f64; 3]) -> [f64; 3] {
-    [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]
-}
-
-/// Unit vector along `a`; NaN for the zero vector.
-pub fn unit(a: [f64; 3]) -> [f64; 3] {
-    let length = dot(a, a).sqrt();
-    [a[0] / length, a[1] / length, a[2] / length]
-}
+use crate::vec3::{along, area, cross, direction, dot, sub};
 
 /// Reference data of one element.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,8 +29,7 @@ pub struct Reference {
 impl Reference {
     /// From the reference corners (3 or 4), the warp direction of the part and the ply's angle to it.
     pub fn new(corner: &[[f64; 3]], warp: Option<[f64; 3]>, angle_rad: f64) -> Reference {
-        let (d1, d2) = diagonals(corner);
-        let axes = axes(unit(cross(d1, d2)), warp, angle_rad);
+        let axes = axes(direction(area(corner)), warp, angle_rad);
         let flat: Vec<[f64; 2]> =
             corner.iter().map(|x| sub(*x, corner[0])).map(|x| [dot(x, axes[0]), dot(x, axes[1])]).collect();
         if corner.len() == 4 { quad(&flat, axes) } else { triangle(&flat, axes) }
@@ -88,18 +62,13 @@ impl Reference {
     }
 }
 
-/// Two vectors whose cross product is twice the element's area vector.
-pub fn diagonals(x: &[[f64; 3]]) -> ([f64; 3], [f64; 3]) {
-    if x.len() == 4 { (sub(x[2], x[0]), sub(x[3], x[1])) } else { (sub(x[1], x[0]), sub(x[2], x[0])) }
-}
-
 fn axes(normal: [f64; 3], warp: Option<[f64; 3]>, angle_rad: f64) -> [[f64; 3]; 3] {
     // Within 1 degree of the normal, x gives no direction in the sheet.
     let wanted = warp.unwrap_or(if normal[0].abs() > 0.9998 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] });
-    let along = unit(add_scaled(wanted, -dot(wanted, normal), normal));
-    let across = cross(normal, along);
+    let warp = direction(along(wanted, -dot(wanted, normal), normal));
+    let fill = cross(normal, warp);
     let (sin, cos) = angle_rad.sin_cos();
-    let first = add_scaled([along[0] * cos, along[1] * cos, along[2] * cos], sin, across);
+    let first = along([warp[0] * cos, warp[1] * cos, warp[2] * cos], sin, fill);
     [first, cross(normal, first), normal]
 }
 

@@ -1,7 +1,7 @@
 //! The material tangent of the elements as an operator, for the highest frequency of a whole mesh.
 
 use super::Element;
-use super::reference::dot;
+use crate::vec3::dot;
 
 /// What an element adds to the tangent: A Bᵀ D B, and viscosity.
 pub struct Tangent {

@@ -19,6 +19,7 @@
 
 use models::{Account, LedgerLine, Pose, Row, RowKind, Term};
 
+use crate::bytes::{pack, unpack};
 use crate::mesh::Mesh;
 use crate::problem::Section;
 use crate::sheet::bending::{CurvatureRow, curvature_rows};
@@ -178,12 +179,10 @@ impl Transient for RestCurvature {
         self.nodes.iter().for_each(|rest| rest.bound(at.q.as_chunks::<4>().0, bound));
     }
     fn save(&self) -> Vec<u8> {
-        self.stored_j.iter().flat_map(|energy| energy.to_le_bytes()).collect()
+        pack(&self.stored_j)
     }
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let (words, rest) = saved.as_chunks::<8>();
-        self.stored_j = words.first().map(|word| f64::from_le_bytes(*word));
-        words.len() <= 1 && rest.is_empty()
+        unpack(saved).map(|stored_j| self.stored_j = stored_j).is_some()
     }
 }
 

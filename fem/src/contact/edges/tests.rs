@@ -162,7 +162,9 @@ fn a_folded_pouch_starts_without_force() {
     let mut force = vec![0.0; 4 * x.len()];
     let tick = Tick { step: 0, time_s: 0.0, dt_s: 4e-6 };
     assert_eq!(edges.advance(&Pose::nodes(x.as_flattened()), &tick, &mut force), 0.0);
-    assert!(edges.chunks.iter().map(|chunk| chunk.pairs.len()).sum::<usize>() > 1000 && force.iter().all(|f| *f == 0.0));
+    assert!(
+        edges.chunks.iter().map(|chunk| chunk.pairs.len()).sum::<usize>() > 1000 && force.iter().all(|f| *f == 0.0)
+    );
 }
 
 #[test]

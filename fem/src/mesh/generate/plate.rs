@@ -4,6 +4,7 @@ use super::grid::{Grid, union};
 use super::{at_least, few_enough, positive};
 use crate::FemError;
 use crate::mesh::{Mesh, Part};
+use crate::random::Draws;
 
 /// Random in-plane shift of the inner nodes, for patch tests.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,23 +83,14 @@ fn distort(mesh: &mut Mesh, grid: &Grid, distortion: Distortion, side: [f64; 2])
     if !(0.0..0.25).contains(&share) {
         return Err(FemError::Mesh(format!("plate: distortion is {share}, and must be at least 0 and below 0.25")));
     }
-    let mut state = distortion.seed;
+    let mut draws = Draws(distortion.seed);
     for j in 1..grid.nv {
         for i in 1..grid.nu {
             let point = &mut mesh.points[grid.at(i, j) as usize];
             for k in 0..2 {
-                point[k] += share * side[k] * (2.0 * uniform(&mut state) - 1.0);
+                point[k] += share * side[k] * (2.0 * draws.next() - 1.0);
             }
         }
     }
     Ok(())
-}
-
-/// Next number in 0..1 of the SplitMix64 sequence (Steele, Lea and Flood 2014).
-fn uniform(state: &mut u64) -> f64 {
-    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let mut z = *state;
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
 }

@@ -4,7 +4,8 @@
 //! present positions. What a plane through a bent robot would cut elsewhere does not come in.
 
 use super::raster::Canvas;
-use super::{FINE, Image, Look, Placing, check, dot, minus, range, share, viridis};
+use super::{FINE, Image, Look, Placing, check, range, share, viridis};
+use crate::vec3::{dot, sub};
 use crate::{FemError, Mesh};
 
 /// Width of a line \[pixels\].
@@ -97,7 +98,7 @@ fn facing(pieces: &[Piece], axes: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     // Regression of depth on height: the plane's tilt about the right.
     let (mut high, mut deep) = (0.0, 0.0);
     for p in all() {
-        let d = minus(p, mean);
+        let d = sub(p, mean);
         high += dot(d, up) * dot(d, up);
         deep += dot(d, up) * dot(d, towards);
     }
@@ -133,7 +134,7 @@ mod tests {
         let axes = facing(&found, View::End.axes());
         let centre = [0.11 * c, 0.11 * s, 0.0];
         for p in found.iter().flat_map(|p| p.ends) {
-            let d = minus(p, centre);
+            let d = sub(p, centre);
             assert!((dot(d, axes[0]).hypot(dot(d, axes[1])) - 0.04).abs() < 1e-6 && dot(d, axes[2]).abs() < 1e-9);
         }
         let look = Look { view: View::End, ..Look::default() };

@@ -13,6 +13,7 @@ pub use colour::viridis;
 pub use cut::{Cut, section};
 pub use notes::round_above;
 
+use crate::vec3::{cross, dot, norm, sub};
 use crate::{FemError, Mesh};
 use raster::{Canvas, Corner};
 
@@ -202,22 +203,13 @@ fn shade(corners: &[[f64; 3]]) -> f64 {
     // From above and the left, mostly from the viewer; half of it also reaches round, so that colours stay readable.
     const LIGHT: [f64; 3] = [-0.36, 0.48, 0.8];
     let last = corners.len() - 1;
-    let (a, b) = (minus(corners[2], corners[0]), minus(corners[last], corners[last - 2]));
-    let normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-    let length = dot(normal, normal).sqrt();
+    let normal = cross(sub(corners[2], corners[0]), sub(corners[last], corners[last - 2]));
+    let length = norm(normal);
     if length == 0.0 {
         return 1.0;
     }
     let towards = normal[2].signum();
     0.7 + 0.3 * towards * dot(normal, LIGHT) / length
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// From metres to fine pixels.

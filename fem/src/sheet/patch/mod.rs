@@ -21,7 +21,7 @@ use room::{Gaps, Needs, Room};
 use runs::Stretch;
 
 /// What one pass over a patch adds up, in SI units.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Sums {
     /// Membrane energy \[J\].
     pub membrane: f64,
@@ -33,23 +33,6 @@ pub struct Sums {
     pub bending: f64,
     /// Energy lost in fabrics with memory \[J\].
     pub hysteresis: f64,
-}
-
-/// Numbers in a checkpoint per patch, beside strains and memory.
-pub const SAVED: usize = 5;
-
-impl Sums {
-    /// For a checkpoint: the energies are those of the last step, which a resumed run does not repeat.
-    pub fn saved(&self) -> [f64; SAVED] {
-        [self.membrane, self.hourglass, self.viscous, self.bending, self.hysteresis]
-    }
-
-    /// From a checkpoint.
-    pub fn restore(&mut self, saved: &[f64]) {
-        if let &[membrane, hourglass, viscous, bending, hysteresis] = saved {
-            *self = Sums { membrane, hourglass, viscous, bending, hysteresis };
-        }
-    }
 }
 
 /// Elements that run through the same loop: same kind, fabric and chambers.
