@@ -10,7 +10,6 @@
 //! | [`mesh`] | nodes, parts, sets; generators; the plain mesh file; quality and closedness checks |
 //! | [`problem`] | what a run needs besides the mesh |
 //! | [`sheet`] | shells: membrane, hourglass control, viscosity, bending, follower pressure; the fast kernels |
-//! | [`plain`] | the same physics, one element at a time: the twin that the fast kernels are tested against |
 //! | [`terms`] | nodal force, gravity, obstacles, rest curvature, tension-only yarns: the other entries of the list |
 //! | [`contact`] | node-to-face contact with side memory and Coulomb friction |
 //! | [`robot`] | robots from scenarios and sewing patterns |
@@ -29,7 +28,6 @@ pub mod contact;
 pub mod error;
 pub mod mesh;
 mod output;
-pub mod plain;
 pub mod problem;
 mod random;
 pub mod record;

@@ -3,16 +3,18 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod plain;
+
 use std::sync::Arc;
 
 use fem::mesh::generate;
-use fem::plain::PlainSheet;
 use fem::problem::{Amplitude, Chamber, Ply, Pressure, Problem, Section};
 use fem::sheet::Sheet;
 use fem::sheet::order::{Order, renumber};
 use fem::{Mesh, NODE, Transient};
 use models::fabrics::{FABRICS, Laminate, NeoHookean, Orthotropic, WrinklingFilm};
 use models::{Fabric, Pose, Term};
+use plain::PlainSheet;
 
 fn section(fabric: Arc<dyn Fabric>, angle_rad: f64) -> Section {
     let plies = vec![Ply { fabric, angle_rad }];

@@ -1,7 +1,7 @@
 //! Shells: membrane, hourglass control, viscosity, bending and follower pressure in one pass over the mesh.
 //!
-//! [`Sheet`] is one [`Term`]; [`crate::plain`] holds the same physics one element at a time, and a test holds both
-//! against each other.
+//! [`Sheet`] is one [`Term`]; `fem/tests/plain` holds the same physics one element at a time, and a test holds both against
+//! each other.
 
 pub mod bending;
 pub mod bound;

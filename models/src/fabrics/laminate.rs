@@ -20,11 +20,9 @@ use std::sync::Arc;
 use super::recipe::{Law, Need, Recipe, THICKNESS, modulus, ratio};
 use super::{Fabric, Kind, NeoHookean, Orthotropic, Past, WrinklingFilm};
 
+/// Several fabrics bonded face to face, each at its own angle: they share one strain and add their tensions.
 pub(super) const LAMINATE: Law = Law {
     name: "laminate",
-    sentence: "Several fabrics bonded face to face, each at its own angle: they share one strain and add their tensions.",
-    validity: "bond without slip; as far as its plies",
-    reference: "Jones, Mechanics of Composite Materials, ch. 4",
     parameters: &[],
     curves: &[],
     plies: [1, usize::MAX],
@@ -36,11 +34,9 @@ pub(super) const LAMINATE: Law = Law {
     },
 };
 
+/// Two fabrics with a film of glue between them: the glue adds stiffness in every direction, also off the yarns.
 pub(super) const GLUED: Law = Law {
     name: "glued",
-    sentence: "Two fabrics with a film of glue between them: the glue adds stiffness in every direction, also off the yarns.",
-    validity: "bond without slip; glue linear and isotropic, to strains of a few per cent",
-    reference: "Jones, Mechanics of Composite Materials, ch. 4; the glue as an isotropic ply",
     parameters: &[
         super::recipe::Parameter { key: "glue_thickness_mm", meaning: "thickness of the glue film", ..THICKNESS },
         modulus("glue_e_MPa", Need::Required, "Young's modulus of the glue"),

@@ -20,9 +20,6 @@ use super::{Fabric, Kind, Past};
 
 pub(super) const ENTRY: Law = Law {
     name: "neo-hookean",
-    sentence: "An isotropic, incompressible rubber-like film with one constant C10; Young's modulus at small strain is 6 C10.",
-    validity: "isotropic film; not for woven fabric loaded off its yarns",
-    reference: "du Pasquier, Jeong, Okamura 2023; plane stress by eliminating the thickness stretch",
     parameters: &[modulus("c10_MPa", Need::Required, "neo-Hookean constant, a sixth of Young's modulus"), THICKNESS],
     curves: &[],
     plies: [0, 0],

@@ -22,11 +22,9 @@ use std::sync::Arc;
 use super::recipe::{Law, Need, Parameter, Recipe, THICKNESS, Values, modulus, ratio};
 use super::{Fabric, Kind, Past};
 
+/// A linear fabric: stiff along warp and fill, soft in between, with contraction across the pull.
 pub(super) const ORTHOTROPIC: Law = Law {
     name: "orthotropic",
-    sentence: "A linear fabric: stiff along warp and fill, soft in between, with contraction across the pull.",
-    validity: "strains of a few per cent; yarns that turn by less than about ten degrees",
-    reference: "Jones, Mechanics of Composite Materials, ch. 2",
     parameters: &MODULI,
     curves: &[],
     plies: [0, 0],
@@ -37,11 +35,9 @@ pub(super) const ORTHOTROPIC: Law = Law {
     make: |recipe| Ok(Arc::new(from_values(&ORTHOTROPIC.read(recipe)?)?)),
 };
 
+/// A linear film that is equally stiff in every direction.
 pub(super) const ISOTROPIC: Law = Law {
     name: "isotropic",
-    sentence: "A linear film that is equally stiff in every direction.",
-    validity: "strains of a few per cent",
-    reference: "plane stress, for example Timoshenko and Goodier, Theory of Elasticity, ch. 2",
     parameters: &[
         modulus("e_MPa", Need::Required, "Young's modulus"),
         ratio("nu", [0.0, 0.5], Need::Required, "Poisson's ratio"),

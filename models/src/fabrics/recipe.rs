@@ -83,12 +83,6 @@ pub struct CurveInput {
 pub struct Law {
     /// Name in cases.
     pub name: &'static str,
-    /// One plain sentence for a user.
-    pub sentence: &'static str,
-    /// When it holds.
-    pub validity: &'static str,
-    /// Source.
-    pub reference: &'static str,
     /// Numbers.
     pub parameters: &'static [Parameter],
     /// Tables.

@@ -29,9 +29,6 @@ use super::{Fabric, Orthotropic, Past};
 
 pub(super) const ENTRY: Law = Law {
     name: "tension-field",
-    sentence: "A linear film or fabric that wrinkles instead of carrying compression; for coarse meshes only.",
-    validity: "strains of a few per cent; flutters without viscosity",
-    reference: "Pipkin 1986, IMA J. Appl. Math. 36; Roddeman et al. 1987, J. Appl. Mech. 54",
     parameters: &[
         modulus("e0_MPa", Need::Required, "modulus pulled along warp"),
         modulus("e90_MPa", Need::Optional, "modulus pulled along fill; else isotropic"),

@@ -38,9 +38,6 @@ use super::{BiasExtension, Curve, Fabric, Past};
 
 pub(super) const ENTRY: Law = Law {
     name: "woven",
-    sentence: "Two yarn families that turn with the cloth, each with its own tensile curve, and a shear curve between them.",
-    validity: "yarns that do not slip; any turn below the locking angle",
-    reference: "kinematics as in Abaqus 2017, Fabric material behavior; shear after Cao et al. 2008",
     parameters: &[
         modulus("e0_MPa", Need::Optional, "modulus pulled along warp; in place of the curve warp"),
         modulus("e90_MPa", Need::Optional, "modulus pulled along fill; in place of the curve fill"),

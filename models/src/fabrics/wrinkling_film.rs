@@ -28,9 +28,6 @@ use super::{Fabric, Kind, NeoHookean, Past};
 
 pub(super) const ENTRY: Law = Law {
     name: "wrinkling-film",
-    sentence: "A neo-Hookean film that wrinkles instead of carrying compression; for wrinkles shorter than an element.",
-    validity: "isotropic film on a mesh that cannot show its wrinkles; flutters without viscosity",
-    reference: "Pipkin 1986, IMA J. Appl. Math. 36; du Pasquier, Jeong, Okamura 2023",
     parameters: &[
         modulus("c10_MPa", Need::Required, "neo-Hookean constant, a sixth of Young's modulus"),
         ratio("compression_share", [0.0, 1.0], Need::Default(0.01), "share of the film that carries compression"),

@@ -3,7 +3,6 @@
 use super::setup::*;
 use fem::contact::Contact;
 use fem::mesh::generate::{Around, Cap, Tube, crossed_sheets, tube};
-use fem::plain::PlainSheet;
 use fem::problem;
 use fem::terms::{Gravity, NodalForces, Obstacles, RestCurvature};
 use fem::{Tick, Transient};
@@ -38,7 +37,6 @@ fn run() -> Found {
     let problem = Problem::new("zoo", mesh, sections, vec![chamber("body", Amplitude::Constant(2e3))]);
     let (sheet, mesh, _) = shells(&problem)?;
     let q = shaken(&mesh, 1e-3);
-    let plain = PlainSheet::new(&sheet, &mesh, &problem);
     let rest = RestCurvature::new(&mesh, &problem.sections);
     let mut lines = Vec::new();
     let mut judge = |name: &str, term: &dyn Term, q: &[f64], step_m: f64| {
@@ -49,7 +47,6 @@ fn run() -> Found {
         ));
     };
     judge("shells", &sheet, &q, 2e-7);
-    judge("plain shells", &plain, &q, 2e-7);
     judge("rest curvature", &rest, &q, 1e-4);
     for term in loads(&mesh, &sheet.masses(mesh.points.len()))? {
         judge(term.line().name, &*term, &q, 1e-6);

@@ -1,15 +1,15 @@
 //! The shell physics one element at a time: slow, short, and the twin that the fast kernels are tested against.
 //!
-//! Same energies as [`crate::sheet`], written from their definitions: gradients of all corners, the pressure force by
+//! Same energies as `fem::sheet`, written from their definitions: gradients of all corners, the pressure force by
 //! 2×2 Gauss points on the bilinear surface, bending from the curvature vectors. **Use it to understand, not to run.**
 
 use models::{Account, LedgerLine, Pose, Term};
 
-use crate::sheet::bending::{CurvatureRow, curvature_rows};
-use crate::sheet::reference::bending_stiffness;
-use crate::sheet::{Element, Sheet};
-use crate::vec3::{cross, dot};
-use crate::{Mesh, Problem};
+use fem::sheet::bending::{CurvatureRow, curvature_rows};
+use fem::sheet::reference::bending_stiffness;
+use fem::sheet::{Element, Sheet};
+use fem::vec3::{cross, dot};
+use fem::{Mesh, Problem};
 
 /// The shells of a problem without viscosity and history.
 pub struct PlainSheet<'a> {
