@@ -44,9 +44,9 @@ pub mod witness;
 pub mod wording;
 
 #[cfg(test)]
-mod monte_carlo;
+mod monte_carlo_tests;
 #[cfg(test)]
-mod scenarios;
+mod scenarios_tests;
 #[cfg(test)]
 mod synthetic;
 

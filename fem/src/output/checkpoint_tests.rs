@@ -1,5 +1,5 @@
 use super::*;
-use crate::atomic::FullAfter;
+use crate::atomic::tests::FullAfter;
 
 const PROBLEM: u64 = 0xfeed_beef;
 
