@@ -119,7 +119,7 @@ mod tests {
     fn a_free_fall_by_central_differences_turns_exactly_the_work_into_kinetic_energy() {
         let (mut term, dt_s) = (earth(), 1e-3);
         let mut q = vec![0.0; 8];
-        let mut v = vec![0.0; 8];
+        let mut v = [0.0; 8];
         for step in 0..1000 {
             let mut force = vec![0.0; 8];
             term.advance(&Pose::nodes(&q), &Tick { step, time_s: step as f64 * dt_s, dt_s }, &mut force);
