@@ -10,8 +10,6 @@ use crate::random::Draws;
 /// A number that nobody printed, and the interval it may lie in.
 #[derive(Debug, Clone, Copy)]
 pub struct Assumed {
-    /// Field of [`RobotSettings`].
-    pub name: &'static str,
     /// Smallest and largest plausible value, SI.
     pub interval: [f64; 2],
     /// How values are spread over it.
@@ -45,77 +43,61 @@ impl Assumed {
 /// What the four robots leave open, besides pouch count and marker stations, which are in the scenario.
 pub const ASSUMED: &[Assumed] = &[
     Assumed {
-        name: "weld_m",
         interval: [0.0, 0.008],
         spread: Spread::Even,
         reason: "a line to a wide impulse seal; ultrasonic wheels are a few millimetres wide",
         set: |s, v| s.weld_m = v,
     },
     Assumed {
-        name: "bending_factor",
         interval: [0.1, 0.5],
         spread: Spread::Factor,
         reason: "droop of a heat-bondable coated nylon, measured by Farrell et al.",
         set: |s, v| s.bending_factor = v,
     },
     Assumed {
-        name: "compression",
         interval: [0.01, 1.0],
         spread: Spread::Factor,
         reason: "sheets that wrinkle below the mesh, as far as it was tried, to sheets that carry all of it",
         set: |s, v| s.compression = v,
     },
     Assumed {
-        name: "bond",
         interval: [0.0, 1.0],
         spread: Spread::Even,
         reason: "plies that slide to plies without slip; shear lag through 0.05 mm of adhesive is about 2 mm",
         set: |s, v| s.bond = v,
     },
     Assumed {
-        name: "tape_m",
         interval: [2e-5, 2.5e-4],
         spread: Spread::Factor,
         reason: "adhesive transfer tapes are sold from 0.02 to 0.25 mm",
         set: |s, v| s.tape_m = v,
     },
     Assumed {
-        name: "tape_margin_m",
         interval: [0.0, 0.015],
         spread: Spread::Even,
         reason: "a sheet cut at its welds to one that is easy to tape",
         set: |s, v| s.tape_margin_m = v,
     },
     Assumed {
-        name: "waviness_m",
         interval: [0.0, 2e-4],
         spread: Spread::Even,
         reason: "a perfect pattern to a thickness of the fabric",
         set: |s, v| s.waviness_m = v,
     },
     Assumed {
-        name: "glue_m",
         interval: [5e-5, 5e-4],
         spread: Spread::Factor,
         reason: "a film spread by hand",
         set: |s, v| s.glue_m = v,
     },
+    Assumed { interval: [3e5, 3e6], spread: Spread::Factor, reason: "silicone adhesives", set: |s, v| s.glue_e_pa = v },
     Assumed {
-        name: "glue_e_pa",
-        interval: [3e5, 3e6],
-        spread: Spread::Factor,
-        reason: "silicone adhesives",
-        set: |s, v| s.glue_e_pa = v,
-    },
-    Assumed {
-        name: "nu12",
         interval: [0.0, 0.4],
         spread: Spread::Even,
         reason: "woven fabrics pulled in one direction; 0 is yarns that do not cross",
         set: |s, v| s.nu12 = Some(v),
     },
     Assumed {
-        name: "density_kg_m3",
         interval: [700.0, 1300.0],
         spread: Spread::Even,
         reason: "nylon 1140, coats 900 to 1200, air between yarns",
@@ -161,7 +143,7 @@ mod tests {
     fn shares_reach_both_ends_of_every_interval() {
         for number in ASSUMED {
             for (share, end) in [(0.0, number.interval[0]), (1.0, number.interval[1])] {
-                assert!((number.at(share) - end).abs() <= 1e-12 * end, "{}", number.name);
+                assert!((number.at(share) - end).abs() <= 1e-12 * end, "{}", number.reason);
             }
         }
     }

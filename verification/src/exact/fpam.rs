@@ -53,14 +53,6 @@ pub fn contraction(alpha: f64) -> f64 {
     1.0 - SQRT_2 * alpha.cos()
 }
 
-/// Energy `−P V + U` of the muscle alone at fixed pressure \[J\].
-pub fn energy_j(muscle: &Fpam, alpha: f64, pressure_pa: f64) -> f64 {
-    let volume = PI * radius_m(muscle, alpha).powi(2) * length_m(muscle, alpha);
-    let shear = 2.0 * alpha - FRAC_PI_2;
-    let fabric = 2.0 * muscle.flat_width_m * muscle.rest_length_m;
-    0.5 * muscle.shear_stiffness_n_per_m * shear.powi(2) * fabric - pressure_pa * volume
-}
-
 /// Pulling force `F = 2π P r45² (3 cos²α − 1) − G t (2 W Lf)(2α − π/2) · 2/(b sin α)` \[N\].
 pub fn force_n(muscle: &Fpam, alpha: f64, pressure_pa: f64) -> f64 {
     let braid = 2.0 * PI * pressure_pa * radius_at_45_m(muscle).powi(2) * (3.0 * alpha.cos().powi(2) - 1.0);
@@ -160,6 +152,14 @@ mod tests {
     use super::*;
 
     const MUSCLE: Fpam = Fpam { flat_width_m: 0.06, rest_length_m: 0.3, shear_stiffness_n_per_m: 51.6 };
+
+    /// Energy `−P V + U` of the muscle alone at fixed pressure \[J\].
+    fn energy_j(muscle: &Fpam, alpha: f64, pressure_pa: f64) -> f64 {
+        let volume = PI * radius_m(muscle, alpha).powi(2) * length_m(muscle, alpha);
+        let shear = 2.0 * alpha - FRAC_PI_2;
+        let fabric = 2.0 * muscle.flat_width_m * muscle.rest_length_m;
+        0.5 * muscle.shear_stiffness_n_per_m * shear.powi(2) * fabric - pressure_pa * volume
+    }
 
     #[test]
     fn force_is_the_slope_of_energy_over_length() {

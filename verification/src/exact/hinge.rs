@@ -26,7 +26,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::Known;
-use super::pouch::{Pouch, bulge_height_m, contraction, force_n, volume_m3};
+use super::pouch::{Pouch, bulge_height_m, contraction, force_n};
 use super::solve::{falling_root, sinc, sine_lag};
 
 /// Where the chord of the pouch runs.
@@ -88,12 +88,6 @@ pub fn arm_m(unit: &Unit, theta: f64) -> f64 {
 /// Fold angle of one unit, `φ = η L0 ε(θ)/(R + d(θ))` \[rad\].
 pub fn fold_angle(unit: &Unit, theta: f64) -> f64 {
     unit.end_factor * unit.pouch.length_m * contraction(theta) / arm_m(unit, theta)
-}
-
-/// Energy `Π = −P η V(θ) + p π R³ φ(θ)` of one unit at fixed pressures \[J\].
-pub fn energy_j(unit: &Unit, theta: f64, actuator_pa: f64, body_pa: f64) -> f64 {
-    let body = restoring_moment_nm(unit.body_radius_m, body_pa) * fold_angle(unit, theta);
-    body - actuator_pa * unit.end_factor * volume_m3(&unit.pouch, theta)
 }
 
 /// Lever ℓ of the pouch's force at half angle θ \[m\]; both rules agree for [`Arm::Embedded`].
@@ -169,11 +163,18 @@ pub(super) fn known() -> Known {
 
 #[cfg(test)]
 mod tests {
+    use super::super::pouch::volume_m3;
     use super::*;
 
     fn unit(arm: Arm) -> Unit {
         let pouch = Pouch { length_m: 0.06, width_m: 0.06 };
         Unit { pouch, body_radius_m: 0.04, end_factor: 1.0, arm }
+    }
+
+    /// Energy `Π = −P η V(θ) + p π R³ φ(θ)` of one unit at fixed pressures \[J\].
+    fn energy_j(unit: &Unit, theta: f64, actuator_pa: f64, body_pa: f64) -> f64 {
+        let body = restoring_moment_nm(unit.body_radius_m, body_pa) * fold_angle(unit, theta);
+        body - actuator_pa * unit.end_factor * volume_m3(&unit.pouch, theta)
     }
 
     #[test]

@@ -55,18 +55,6 @@ pub fn displacement_m(shell: &ClampedCylinder, pressure_pa: f64, distance_m: f64
     far_displacement_m(shell, pressure_pa) * (1.0 - wave - a * sine)
 }
 
-/// Slope dw/dx at a distance from the clamped ring: `w∞ (a² + b²) e^(−ax) sin bx/b`.
-pub fn slope(shell: &ClampedCylinder, pressure_pa: f64, distance_m: f64) -> f64 {
-    let (a, b_squared) = decay(shell);
-    far_displacement_m(shell, pressure_pa) * (a * a + b_squared) * decaying_waves(a, b_squared, distance_m)[1]
-}
-
-/// Length over which the slower of the two decays falls by e \[m\]; grows as `√(N/k)` in a thin wall under tension.
-pub fn decay_length_m(shell: &ClampedCylinder) -> f64 {
-    let (a, b_squared) = decay(shell);
-    if b_squared >= 0.0 { 1.0 / a } else { 1.0 / slow_rate(a, b_squared) }
-}
-
 /// k = E t/r² \[Pa/m\].
 fn stiffness(shell: &ClampedCylinder) -> f64 {
     shell.membrane_stiffness_n_per_m / shell.radius_m.powi(2)
@@ -128,6 +116,18 @@ mod tests {
             bending_stiffness_nm: factor * young * t.powi(3) / (12.0 * (1.0 - nu * nu)),
             axial_tension_n_per_m: 0.5 * pressure_pa * 0.04,
         }
+    }
+
+    /// Slope dw/dx at a distance from the clamped ring: `w∞ (a² + b²) e^(−ax) sin bx/b`.
+    fn slope(shell: &ClampedCylinder, pressure_pa: f64, distance_m: f64) -> f64 {
+        let (a, b_squared) = decay(shell);
+        far_displacement_m(shell, pressure_pa) * (a * a + b_squared) * decaying_waves(a, b_squared, distance_m)[1]
+    }
+
+    /// Length over which the slower of the two decays falls by e \[m\]; grows as `√(N/k)` in a thin wall under tension.
+    fn decay_length_m(shell: &ClampedCylinder) -> f64 {
+        let (a, b_squared) = decay(shell);
+        if b_squared >= 0.0 { 1.0 / a } else { 1.0 / slow_rate(a, b_squared) }
     }
 
     #[test]
