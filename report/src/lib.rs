@@ -17,6 +17,7 @@ mod place;
 mod plane;
 mod rows;
 mod scene;
+pub mod sheet;
 #[cfg(test)]
 mod tests;
 mod text;

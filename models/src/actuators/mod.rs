@@ -7,6 +7,7 @@ mod beam;
 mod cpam;
 mod epam;
 mod fpam;
+pub mod cutting;
 pub mod pattern;
 pub mod pouch;
 mod spam;

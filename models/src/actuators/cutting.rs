@@ -1,0 +1,393 @@
+//! Cutting plans: the flat pieces of fabric that a robot is made of, and all that is drawn on them.
+//!
+//! x runs along the robot from its base. y runs across: on the body round its circumference from the actuator's middle, on a
+//! sheet of the actuator across its unfolded width. All pieces are seen from outside the finished robot.
+
+use super::pattern::{Film, Joint, Panel, Pattern};
+use crate::scenario::{Scenario, Span};
+use std::f64::consts::PI;
+
+/// What a mark on a piece means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MarkKind {
+    /// Welded to the piece under it.
+    Weld,
+    /// Stuck to the piece under it with tape.
+    Tape,
+    /// Stuck to the piece under it with glue.
+    Glue,
+    /// Edges of one piece that overlap and are welded to a tube.
+    Lap,
+    /// Folded so that the outer faces meet.
+    Valley,
+    /// Folded so that the inner faces meet.
+    Mountain,
+    /// Where another piece comes to lie.
+    Place,
+    /// Where a marker sticks.
+    Marker,
+}
+
+/// A mark: an area, a line if one side has no length, a point if none has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mark {
+    /// What it means.
+    pub kind: MarkKind,
+    /// From and to along the robot \[m\].
+    pub x_m: [f64; 2],
+    /// From and to across \[m\].
+    pub y_m: [f64; 2],
+}
+
+/// A rectangle of fabric.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Piece {
+    /// What it becomes.
+    pub name: String,
+    /// How many are cut.
+    pub copies: usize,
+    /// Material, in [`crate::fabrics::MATERIALS`].
+    pub fabric: &'static str,
+    /// Angle of the warp to the robot's axis \[rad\], counter-clockwise.
+    pub warp_rad: f64,
+    /// Cut edges along the robot \[m\], from its base.
+    pub x_m: [f64; 2],
+    /// Cut edges across \[m\].
+    pub y_m: [f64; 2],
+    /// All that is drawn on it.
+    pub marks: Vec<Mark>,
+}
+
+/// What is to be cut for a robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CuttingPlan {
+    /// Pieces of the body, then those of every stretch of the actuator.
+    pub pieces: Vec<Piece>,
+    /// What the plan leaves to its reader.
+    pub notes: Vec<String>,
+}
+
+/// Widths that the robot's maker chooses \[m\].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Making {
+    /// Width of the welds; places in a scenario are their middles.
+    pub weld_m: f64,
+    /// Fabric beyond welds and ends, and the overlap where a sheet becomes a tube.
+    pub allowance_m: f64,
+}
+
+/// A stretch that holds less than this of one more unit holds it: rounding \[units\].
+const ROUNDING: f64 = 1e-6;
+
+impl CuttingPlan {
+    /// The pieces of a robot with all its zones.
+    ///
+    /// # Errors
+    /// The fault with its number: no actuator, or a stretch that cannot be sewn.
+    pub fn new(scenario: &Scenario, making: &Making) -> Result<CuttingPlan, String> {
+        if !scenario.actuator.exists() {
+            return Err("a beam without [actuator] has no sewing pattern; add one".into());
+        }
+        let spans = scenario.spans();
+        let mut notes = Vec::new();
+        let mut strips = Vec::new();
+        for span in joined(&spans, |a, b| a.actuator.is_some() && b.actuator.is_some() && a.shape == b.shape) {
+            strips.extend(Strip::new(&span, making, &mut notes)?);
+        }
+        let alike = |a: &Span, b: &Span| a.radius_m == b.radius_m;
+        let bodies = joined(&spans, alike);
+        let mut pieces: Vec<Piece> =
+            bodies.iter().map(|span| body(scenario, span, bodies.len(), &strips, making)).collect();
+        pieces.extend(strips.iter().flat_map(|strip| strip.pieces(strips.len())));
+        notes.push("Fittings, gas inlets and the cap of the tip are not drawn.".into());
+        Ok(CuttingPlan { pieces, notes })
+    }
+}
+
+/// Neighbours that are alike as one stretch.
+fn joined(spans: &[Span], alike: impl Fn(&Span, &Span) -> bool) -> Vec<Span> {
+    let mut all: Vec<Span> = Vec::new();
+    for span in spans {
+        match all.last_mut() {
+            Some(last) if alike(last, span) => last.length_m += span.length_m,
+            _ => all.push(*span),
+        }
+    }
+    all
+}
+
+fn centred(middle_m: f64, width_m: f64) -> [f64; 2] {
+    [middle_m - 0.5 * width_m, middle_m + 0.5 * width_m]
+}
+
+/// The wall of a stretch of equal radius, unrolled; its seam lies opposite the actuator.
+fn body(scenario: &Scenario, span: &Span, of: usize, strips: &[Strip], making: &Making) -> Piece {
+    let (start_m, end_m) = (span.start_m, span.start_m + span.length_m);
+    let here = |x_m: f64| start_m - making.weld_m <= x_m && x_m <= end_m + making.weld_m;
+    let pattern = (scenario.actuator.kind.pattern)(&span.shape);
+    let x_m = [start_m - making.allowance_m, end_m + making.allowance_m];
+    let y_m = centred(0.0, 2.0 * PI * span.radius_m + making.allowance_m);
+    let lap = |edge_m: f64, inwards: f64| Mark { kind: MarkKind::Lap, x_m, y_m: ordered([edge_m, edge_m - inwards]) };
+    let mut marks = vec![lap(y_m[0], -making.allowance_m), lap(y_m[1], making.allowance_m)];
+    let strips = strips.iter().filter(|strip| here(strip.start_m) && here(strip.end_m()));
+    marks.extend(strips.flat_map(Strip::on_body));
+    let markers = scenario.markers_m.iter().filter(|x| here(**x));
+    let sides = [-0.5, 0.5].map(|side| side * PI * span.radius_m);
+    marks.extend(markers.flat_map(|x| sides.map(|y| Mark { kind: MarkKind::Marker, x_m: [*x; 2], y_m: [y; 2] })));
+    let number = if of > 1 { format!(" from {:.0} mm", start_m * 1e3) } else { String::new() };
+    Piece {
+        name: format!("body tube{number}{}", if pattern.body_sheets > 1 { ", inner and outer" } else { "" }),
+        copies: pattern.body_sheets,
+        fabric: pattern.body_fabric,
+        warp_rad: 0.0,
+        x_m,
+        y_m,
+        marks,
+    }
+}
+
+fn ordered(pair: [f64; 2]) -> [f64; 2] {
+    [pair[0].min(pair[1]), pair[0].max(pair[1])]
+}
+
+/// A run of equal units.
+struct Strip {
+    pattern: Pattern,
+    start_m: f64,
+    units: usize,
+    making: Making,
+}
+
+impl Strip {
+    fn new(span: &Span, making: &Making, notes: &mut Vec<String>) -> Result<Option<Strip>, String> {
+        let Some(actuator) = span.actuator else { return Ok(None) };
+        let pattern = (actuator.pattern)(&span.shape);
+        pattern.check(span.radius_m, making.weld_m)?;
+        let units = (span.length_m / pattern.pitch_m + ROUNDING).floor();
+        let rest_mm = 1e3 * (span.length_m - units * pattern.pitch_m);
+        if rest_mm > 1e3 * ROUNDING {
+            let (from, to) = (1e3 * span.start_m, 1e3 * (span.start_m + span.length_m));
+            notes.push(format!(
+                "From {from:.0} to {to:.0} mm {units} whole units fit; the last {rest_mm:.0} mm stay without."
+            ));
+        }
+        let strip = Strip { pattern, start_m: span.start_m, units: units as usize, making: *making };
+        Ok((strip.units > 0).then_some(strip))
+    }
+
+    fn end_m(&self) -> f64 {
+        self.start_m + self.units as f64 * self.pattern.pitch_m
+    }
+
+    /// Cut edges along the robot.
+    fn x_m(&self) -> [f64; 2] {
+        let beyond = 0.5 * self.making.weld_m + self.making.allowance_m;
+        [self.start_m - beyond, self.end_m() + beyond]
+    }
+
+    /// Cross welds from edge to edge, and those along the edges.
+    fn welds(&self, width_m: f64, sides: bool) -> Vec<Mark> {
+        let weld_m = self.making.weld_m;
+        let side_m = if sides { weld_m } else { 0.0 };
+        let weld = |x_m, y_m| Mark { kind: MarkKind::Weld, x_m, y_m };
+        let across = centred(0.0, width_m + side_m);
+        let seams = (0..=self.units).map(|i| self.start_m + i as f64 * self.pattern.pitch_m);
+        let mut welds: Vec<Mark> = seams.map(|x| weld(centred(x, weld_m), across)).collect();
+        let edges = [-0.5, 0.5].map(|edge| edge * width_m);
+        let along = [self.start_m - 0.5 * weld_m, self.end_m() + 0.5 * weld_m];
+        welds.extend(edges.iter().filter(|_| sides).map(|edge| weld(along, centred(*edge, weld_m))));
+        welds
+    }
+
+    /// What of it is drawn on the body.
+    fn on_body(&self) -> Vec<Mark> {
+        let Pattern { width_m, body_sheets, joint, side_welds, .. } = self.pattern;
+        let edge_m = if side_welds { self.making.weld_m + 2.0 * self.making.allowance_m } else { 0.0 };
+        let place = Mark { kind: MarkKind::Place, x_m: self.x_m(), y_m: centred(0.0, width_m + edge_m) };
+        match joint {
+            Joint::Wall if body_sheets > 1 => self.welds(width_m, side_welds),
+            Joint::Wall => std::iter::once(place).chain(self.welds(width_m, side_welds)).collect(),
+            Joint::Bonded { film, .. } => vec![place, self.bonded(film, centred(0.0, width_m))],
+            Joint::Seams => std::iter::once(place).chain(self.welds(width_m, false)).collect(),
+        }
+    }
+
+    fn bonded(&self, film: Film, y_m: [f64; 2]) -> Mark {
+        let kind = match film {
+            Film::Tape => MarkKind::Tape,
+            Film::Glue => MarkKind::Glue,
+        };
+        Mark { kind, x_m: [self.start_m, self.end_m()], y_m }
+    }
+
+    /// Its own pieces: none where it is part of the body.
+    fn pieces(&self, of: usize) -> Vec<Piece> {
+        let number = if of > 1 { format!(" from {:.0} mm", self.start_m * 1e3) } else { String::new() };
+        let piece = |name: &str, warp_rad, width_m: f64, marks| Piece {
+            name: format!("{name}{number}"),
+            copies: 1,
+            fabric: self.pattern.fabric,
+            warp_rad,
+            x_m: self.x_m(),
+            y_m: centred(0.0, width_m),
+            marks,
+        };
+        let Pattern { width_m, body_sheets, joint, side_welds, .. } = self.pattern;
+        let sheet_m = self.pattern.sheet_width_m();
+        let warp_rad = self.pattern.panels.last().map_or(0.0, |panel| panel.warp_rad);
+        let beyond = if side_welds { self.making.weld_m + 2.0 * self.making.allowance_m } else { 0.0 };
+        let folded = || self.folds().into_iter().chain(self.welds(sheet_m, side_welds)).collect::<Vec<_>>();
+        match joint {
+            Joint::Wall if body_sheets > 1 => Vec::new(),
+            Joint::Wall => vec![piece("sheet of the pouches", warp_rad, sheet_m + beyond, folded())],
+            // Two faces of one bias-cut sheet, folded round.
+            Joint::Bonded { film, warp_rad: under } if !side_welds && under == -warp_rad => {
+                let round_m = sheet_m + width_m;
+                let cut_m = round_m + self.making.allowance_m;
+                let stuck = [[-round_m, -sheet_m], [sheet_m, round_m]].map(|y| self.bonded(film, y.map(|v| 0.5 * v)));
+                let edges = [-0.5, 0.5].map(|side| (side * cut_m, side.signum() * self.making.allowance_m));
+                let laps = edges.map(|(edge, inwards)| Mark {
+                    kind: MarkKind::Lap,
+                    x_m: self.x_m(),
+                    y_m: ordered([edge, edge - inwards]),
+                });
+                let folds = [-0.5, 0.5].map(|side| self.fold(side * sheet_m, MarkKind::Mountain));
+                let marks = stuck.into_iter().chain(laps).chain(folds).chain(self.welds(round_m, false));
+                vec![piece("sheet of the muscle", warp_rad, cut_m, marks.collect())]
+            }
+            Joint::Bonded { film, warp_rad: under } => {
+                let stuck = std::iter::once(self.bonded(film, centred(0.0, width_m)));
+                let below = stuck.chain(self.welds(width_m, side_welds)).collect();
+                vec![
+                    piece("upper sheet", warp_rad, sheet_m + beyond, folded()),
+                    piece("lower sheet", under, width_m + beyond, below),
+                ]
+            }
+            Joint::Seams => vec![piece("sheet of the bag", warp_rad, sheet_m + self.making.allowance_m, folded())],
+        }
+    }
+
+    fn fold(&self, y_m: f64, kind: MarkKind) -> Mark {
+        Mark { kind, x_m: self.x_m(), y_m: [y_m; 2] }
+    }
+
+    /// Folds between the panels. The face of a panel that runs back lies upside down.
+    fn folds(&self) -> Vec<Mark> {
+        let panels = &self.pattern.panels;
+        let mut y_m = -0.5 * self.pattern.sheet_width_m();
+        let mut folds = Vec::new();
+        for (a, b) in panels.iter().zip(panels.iter().skip(1)) {
+            y_m += (a.to_m - a.from_m).abs();
+            folds.push(self.fold(y_m, turn(a, b)));
+        }
+        folds
+    }
+}
+
+/// How the sheet turns from one panel to the next, seen from the outer face of a panel that runs towards +y.
+fn turn(a: &Panel, b: &Panel) -> MarkKind {
+    let (over, upright) = (b.level > a.level, a.to_m > a.from_m);
+    if over == upright { MarkKind::Valley } else { MarkKind::Mountain }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MAKING: Making = Making { weld_m: 0.003, allowance_m: 0.01 };
+
+    fn plan(text: &str) -> CuttingPlan {
+        CuttingPlan::new(&Scenario::parse(text).unwrap(), &MAKING).unwrap()
+    }
+
+    fn shipped(name: &str) -> CuttingPlan {
+        plan(crate::shipped(name).unwrap())
+    }
+
+    fn size_mm(piece: &Piece) -> [f64; 2] {
+        [piece.x_m, piece.y_m].map(|[from, to]| ((to - from) * 1e6).round() * 1e-3)
+    }
+
+    fn count(piece: &Piece, kind: MarkKind) -> usize {
+        piece.marks.iter().filter(|mark| mark.kind == kind).count()
+    }
+
+    #[test]
+    fn the_body_is_its_circumference_and_one_overlap_wide() {
+        for name in ["spam", "cpam", "epam", "fpam"] {
+            let plan = shipped(name);
+            let scenario = Scenario::parse(crate::shipped(name).unwrap()).unwrap();
+            let body = size_mm(&plan.pieces[0]);
+            let (length, round) = (1e3 * scenario.length_m, 2e3 * PI * scenario.radius_m);
+            assert!((body[0] - length - 20.0).abs() < 2e-3 && (body[1] - round - 10.0).abs() < 2e-3, "{name} {body:?}");
+            let lap: Vec<_> = plan.pieces[0].marks.iter().filter(|m| m.kind == MarkKind::Lap).collect();
+            // Rolled up, the two laps lie over each other.
+            assert!((lap[0].y_m[0] + 2.0 * PI * scenario.radius_m - lap[1].y_m[0]).abs() < 1e-12, "{name}");
+        }
+    }
+
+    #[test]
+    fn every_robot_has_the_pieces_that_it_is_sewn_of() {
+        let names = |name| shipped(name).pieces.iter().map(|p| format!("{} {}", p.copies, p.name)).collect::<Vec<_>>();
+        assert_eq!(names("epam"), ["2 body tube, inner and outer"]);
+        assert_eq!(names("cpam"), ["1 body tube", "1 sheet of the pouches"]);
+        assert_eq!(names("spam"), ["1 body tube", "1 upper sheet", "1 lower sheet"]);
+        assert_eq!(names("fpam"), ["1 body tube", "1 sheet of the muscle"]);
+        let epam = shipped("epam");
+        assert_eq!(count(&epam.pieces[0], MarkKind::Weld), 7 + 2, "six pouches");
+        assert_eq!(count(&epam.pieces[0], MarkKind::Marker), 2 * 6);
+    }
+
+    #[test]
+    fn folding_the_sheet_along_its_marks_gives_the_pattern_back() {
+        let scenario = Scenario::parse(crate::shipped("cpam").unwrap()).unwrap();
+        let pattern = (scenario.actuator.kind.pattern)(&scenario.actuator.shape);
+        let sheet = &shipped("cpam").pieces[1];
+        let half = 0.5 * pattern.sheet_width_m();
+        let mut places: Vec<f64> =
+            sheet.marks.iter().filter(|m| m.y_m[0] == m.y_m[1]).map(|m| m.y_m[0]).collect();
+        assert_eq!(places.len(), 4, "two gussets");
+        places.push(half);
+        let (mut flat, mut folded, mut way) = (-half, -0.5 * pattern.width_m, 1.0);
+        for (place, panel) in places.iter().zip(&pattern.panels) {
+            assert!((folded - panel.from_m).abs() < 1e-12, "{}", panel.name);
+            folded += way * (place - flat);
+            (flat, way) = (*place, -way);
+            assert!((folded - panel.to_m).abs() < 1e-12, "{}", panel.name);
+        }
+        let kinds: Vec<_> = sheet.marks.iter().filter(|m| m.y_m[0] == m.y_m[1]).map(|m| m.kind).collect();
+        use MarkKind::{Mountain, Valley};
+        assert_eq!(kinds, [Valley, Mountain, Mountain, Valley], "mirrored, and the gussets lie inside");
+    }
+
+    #[test]
+    fn the_muscle_is_one_bias_cut_sheet_round_a_flat_tube() {
+        let muscle = &shipped("fpam").pieces[1];
+        let scenario = Scenario::parse(crate::shipped("fpam").unwrap()).unwrap();
+        let width = 1e3 * scenario.actuator.shape.width_m;
+        assert!((size_mm(muscle)[1] - 2.0 * width - 10.0).abs() < 2e-3);
+        assert!((muscle.warp_rad.to_degrees() - 45.0).abs() < 1e-9);
+        assert_eq!((count(muscle, MarkKind::Weld), count(muscle, MarkKind::Mountain)), (2, 2));
+        let glued: f64 = muscle.marks.iter().filter(|m| m.kind == MarkKind::Glue).map(|m| m.y_m[1] - m.y_m[0]).sum();
+        assert!((1e3 * glued - width).abs() < 1e-9, "one face");
+    }
+
+    #[test]
+    fn zones_cut_the_strip_and_half_units_are_told() {
+        let text = crate::shipped("epam-textbook").unwrap();
+        let gap = format!("{text}\n[[zone]]\nfrom_mm = 120\nto_mm = 210\npassive = true\n");
+        let plan = plan(&gap);
+        assert_eq!(count(&plan.pieces[0], MarkKind::Weld), (3 + 2) + (3 + 2), "two stretches of two whole units");
+        assert!(plan.notes[0].contains("From 210 to 360 mm 2 whole units fit; the last 30 mm stay without"), "{:?}", plan.notes);
+    }
+
+    #[test]
+    fn what_cannot_be_cut_is_refused() {
+        let beam = "name = \"b\"\n[body]\nradius_mm = 40\nlength_mm = 300\npressure_kpa = 2\n";
+        let scenario = Scenario::parse(beam).unwrap();
+        assert!(CuttingPlan::new(&scenario, &MAKING).unwrap_err().contains("[actuator]"));
+        let epam = Scenario::parse(crate::shipped("epam").unwrap()).unwrap();
+        let wide = Making { weld_m: 0.07, ..MAKING };
+        assert!(CuttingPlan::new(&epam, &wide).unwrap_err().contains("overlap"));
+    }
+}

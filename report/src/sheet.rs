@@ -1,0 +1,64 @@
+//! Drawings true to size, in mm: as SVG, cut into pages, and as DXF. For plotters, cutters and scissors.
+
+mod dxf;
+mod svg;
+
+pub use dxf::dxf;
+pub use svg::{Paper, pages, svg};
+
+/// A pen: lines of one meaning.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layer {
+    /// Name in a DXF file: capital letters, digits and `_`.
+    pub name: &'static str,
+    /// What its lines mean; shown in the legend.
+    pub meaning: &'static str,
+    /// Colour in an SVG, `#rrggbb`.
+    pub colour: &'static str,
+    /// AutoCAD colour number of nearly the same.
+    pub aci: u8,
+    /// Lengths of strokes and gaps \[mm\]; empty for a full line.
+    pub dashes: &'static [f64],
+    /// Whether closed lines are tinted.
+    pub tinted: bool,
+}
+
+/// A line through points \[mm\].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    /// Place of its pen in [`Sheet::layers`].
+    pub layer: usize,
+    /// Corners, y upwards.
+    pub points: Vec<[f64; 2]>,
+    /// Back to the start.
+    pub closed: bool,
+}
+
+/// A word at its lower left corner.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Label {
+    /// Where \[mm\].
+    pub at: [f64; 2],
+    /// Height of capital letters \[mm\].
+    pub height: f64,
+    /// What it says.
+    pub text: String,
+}
+
+/// A drawing \[mm\], y upwards, its lower left corner at the origin.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Sheet {
+    /// Title of the file.
+    pub title: String,
+    /// Width and height \[mm\].
+    pub size: [f64; 2],
+    /// Pens; lines name them by place.
+    pub layers: Vec<Layer>,
+    /// Lines, the lowest first.
+    pub lines: Vec<Line>,
+    /// Words.
+    pub labels: Vec<Label>,
+}
+
+#[cfg(test)]
+mod tests;
