@@ -41,6 +41,8 @@ pub enum Command {
     Demo(OutDirArgs),
     /// Shape and markers at given pressures, or the pressure for a wanted tip
     Predict(PredictArgs),
+    /// Sewing pattern of a robot, true to size: SVG, pages to print, DXF for a cutter
+    Pattern(PatternArgs),
     /// Hold a model against measurements: how far off, and where
     Compare(CompareArgs),
     /// Which physical effect is missing, what cannot be told apart, what to measure next
@@ -170,6 +172,25 @@ pub struct PredictArgs {
     /// Folder for a plot of the shapes
     #[arg(long)]
     pub out: Option<PathBuf>,
+}
+
+/// `ibr pattern`
+#[derive(Debug, Args)]
+pub struct PatternArgs {
+    /// Scenario file or shipped robot
+    pub scenario: String,
+    /// File to write: .svg, or .dxf for a cutter
+    #[arg(long, default_value = "pattern.svg")]
+    pub out: PathBuf,
+    /// Also cut into pages of this paper, to print without scaling: a4, a3, letter or tabloid
+    #[arg(long, value_parser = ["a4", "a3", "letter", "tabloid"])]
+    pub page: Option<String>,
+    /// Width of the welds, for example 3mm; default: the scenario's weld_width, else 3 mm
+    #[arg(long, allow_hyphen_values = true)]
+    pub weld: Option<String>,
+    /// Fabric beyond welds and ends, and the overlap of tubes
+    #[arg(long, default_value = "10mm", allow_hyphen_values = true)]
+    pub allowance: String,
 }
 
 /// `ibr compare`

@@ -8,7 +8,7 @@ pub use svg::{Paper, pages, svg};
 
 /// A pen: lines of one meaning.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Layer {
+pub struct Pen {
     /// Name in a DXF file: capital letters, digits and `_`.
     pub name: &'static str,
     /// What its lines mean; shown in the legend.
@@ -25,7 +25,7 @@ pub struct Layer {
 
 /// A line through points \[mm\].
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct PenLine {
     /// Place of its pen in [`Sheet::layers`].
     pub layer: usize,
     /// Corners, y upwards.
@@ -36,7 +36,7 @@ pub struct Line {
 
 /// A word at its lower left corner.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Label {
+pub struct SheetText {
     /// Where \[mm\].
     pub at: [f64; 2],
     /// Height of capital letters \[mm\].
@@ -53,11 +53,11 @@ pub struct Sheet {
     /// Width and height \[mm\].
     pub size: [f64; 2],
     /// Pens; lines name them by place.
-    pub layers: Vec<Layer>,
+    pub layers: Vec<Pen>,
     /// Lines, the lowest first.
-    pub lines: Vec<Line>,
+    pub lines: Vec<PenLine>,
     /// Words.
-    pub labels: Vec<Label>,
+    pub labels: Vec<SheetText>,
 }
 
 #[cfg(test)]

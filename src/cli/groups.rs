@@ -6,7 +6,7 @@ use clap::{CommandFactory, FromArgMatches};
 /// Every command once, in the order of a session.
 const GROUPS: &[(&str, &[&str])] = &[
     ("Start here", &["demo", "new", "list"]),
-    ("Predict", &["predict", "simulate"]),
+    ("Predict", &["predict", "simulate", "pattern"]),
     ("Measurements", &["data", "characterize"]),
     ("What is missing?", &["compare", "diagnose", "add", "validate", "ladder"]),
     ("Both engines", &["breakdown", "tradeoff"]),

@@ -20,6 +20,7 @@ mod ladder;
 mod limits;
 mod list;
 mod paper;
+mod pattern;
 mod predict;
 mod published;
 mod simulate;
@@ -37,6 +38,7 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
     match command {
         Command::Demo(out) => demo::run(&out.out, context),
         Command::Predict(args) => predict::run(args, context),
+        Command::Pattern(args) => pattern::run(args, context),
         Command::Compare(args) if args.paper => paper::run(args, context),
         Command::Compare(args) if args.engines => engines::run(args, context),
         Command::Compare(args) => compare::run(args, context),

@@ -13,4 +13,5 @@ pub mod held;
 pub mod lists;
 pub mod one_number;
 pub mod paper;
+pub mod pattern;
 pub mod predicted;

@@ -26,10 +26,11 @@ const RARE: [&str; 14] = [
 ];
 
 /// What runs, in this order in one folder, and the schema of its answer.
-const COMMANDS: [(&str, &str); 36] = [
+const COMMANDS: [(&str, &str); 37] = [
     ("predict epam-textbook --pressure 30kPa", "ibr.predict"),
     ("predict epam --pressure 300kPa", "ibr.predict"),
     ("predict epam --limits --effect tip_load:force_y_n=1", "ibr.predict.limits"),
+    ("pattern cpam", "ibr.pattern"),
     ("simulate tube --end 1ms --out t", "ibr.simulate"),
     ("compare epam-textbook synthetic-epam --calibrate", "ibr.compare"),
     ("compare breukels-2011-beams", "ibr.compare.bench"),

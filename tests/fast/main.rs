@@ -22,6 +22,7 @@ mod import;
 mod json;
 mod json_schema;
 mod output;
+mod pattern;
 mod predict;
 mod refused;
 mod robots;

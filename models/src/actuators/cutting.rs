@@ -30,7 +30,7 @@ pub enum MarkKind {
 
 /// A mark: an area, a line if one side has no length, a point if none has.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mark {
+pub struct PatternMark {
     /// What it means.
     pub kind: MarkKind,
     /// From and to along the robot \[m\].
@@ -41,7 +41,7 @@ pub struct Mark {
 
 /// A rectangle of fabric.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Piece {
+pub struct PatternPiece {
     /// What it becomes.
     pub name: String,
     /// How many are cut.
@@ -55,14 +55,14 @@ pub struct Piece {
     /// Cut edges across \[m\].
     pub y_m: [f64; 2],
     /// All that is drawn on it.
-    pub marks: Vec<Mark>,
+    pub marks: Vec<PatternMark>,
 }
 
 /// What is to be cut for a robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CuttingPlan {
     /// Pieces of the body, then those of every stretch of the actuator.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<PatternPiece>,
     /// What the plan leaves to its reader.
     pub notes: Vec<String>,
 }
@@ -92,14 +92,14 @@ impl CuttingPlan {
         let mut notes = Vec::new();
         let mut strips = Vec::new();
         for span in joined(&spans, |a, b| a.actuator.is_some() && b.actuator.is_some() && a.shape == b.shape) {
-            strips.extend(Strip::new(&span, making, &mut notes)?);
+            strips.extend(Strip::new(&span, scenario.length_m, making, &mut notes)?);
         }
         let alike = |a: &Span, b: &Span| a.radius_m == b.radius_m;
         let bodies = joined(&spans, alike);
-        let mut pieces: Vec<Piece> =
+        let mut pieces: Vec<PatternPiece> =
             bodies.iter().map(|span| body(scenario, span, bodies.len(), &strips, making)).collect();
         pieces.extend(strips.iter().flat_map(|strip| strip.pieces(strips.len())));
-        notes.push("Fittings, gas inlets and the cap of the tip are not drawn.".into());
+        notes.push("Fittings, gas inlets, passages between pouches and the cap of the tip are not drawn.".into());
         Ok(CuttingPlan { pieces, notes })
     }
 }
@@ -121,21 +121,23 @@ fn centred(middle_m: f64, width_m: f64) -> [f64; 2] {
 }
 
 /// The wall of a stretch of equal radius, unrolled; its seam lies opposite the actuator.
-fn body(scenario: &Scenario, span: &Span, of: usize, strips: &[Strip], making: &Making) -> Piece {
+fn body(scenario: &Scenario, span: &Span, of: usize, strips: &[Strip], making: &Making) -> PatternPiece {
     let (start_m, end_m) = (span.start_m, span.start_m + span.length_m);
     let here = |x_m: f64| start_m - making.weld_m <= x_m && x_m <= end_m + making.weld_m;
     let pattern = (scenario.actuator.kind.pattern)(&span.shape);
     let x_m = [start_m - making.allowance_m, end_m + making.allowance_m];
     let y_m = centred(0.0, 2.0 * PI * span.radius_m + making.allowance_m);
-    let lap = |edge_m: f64, inwards: f64| Mark { kind: MarkKind::Lap, x_m, y_m: ordered([edge_m, edge_m - inwards]) };
+    let lap =
+        |edge_m: f64, inwards: f64| PatternMark { kind: MarkKind::Lap, x_m, y_m: ordered([edge_m, edge_m - inwards]) };
     let mut marks = vec![lap(y_m[0], -making.allowance_m), lap(y_m[1], making.allowance_m)];
     let strips = strips.iter().filter(|strip| here(strip.start_m) && here(strip.end_m()));
     marks.extend(strips.flat_map(Strip::on_body));
     let markers = scenario.markers_m.iter().filter(|x| here(**x));
     let sides = [-0.5, 0.5].map(|side| side * PI * span.radius_m);
-    marks.extend(markers.flat_map(|x| sides.map(|y| Mark { kind: MarkKind::Marker, x_m: [*x; 2], y_m: [y; 2] })));
+    marks
+        .extend(markers.flat_map(|x| sides.map(|y| PatternMark { kind: MarkKind::Marker, x_m: [*x; 2], y_m: [y; 2] })));
     let number = if of > 1 { format!(" from {:.0} mm", start_m * 1e3) } else { String::new() };
-    Piece {
+    PatternPiece {
         name: format!("body tube{number}{}", if pattern.body_sheets > 1 { ", inner and outer" } else { "" }),
         copies: pattern.body_sheets,
         fabric: pattern.body_fabric,
@@ -155,11 +157,12 @@ struct Strip {
     pattern: Pattern,
     start_m: f64,
     units: usize,
+    body_m: f64,
     making: Making,
 }
 
 impl Strip {
-    fn new(span: &Span, making: &Making, notes: &mut Vec<String>) -> Result<Option<Strip>, String> {
+    fn new(span: &Span, body_m: f64, making: &Making, notes: &mut Vec<String>) -> Result<Option<Strip>, String> {
         let Some(actuator) = span.actuator else { return Ok(None) };
         let pattern = (actuator.pattern)(&span.shape);
         pattern.check(span.radius_m, making.weld_m)?;
@@ -171,7 +174,7 @@ impl Strip {
                 "From {from:.0} to {to:.0} mm {units} whole units fit; the last {rest_mm:.0} mm stay without."
             ));
         }
-        let strip = Strip { pattern, start_m: span.start_m, units: units as usize, making: *making };
+        let strip = Strip { pattern, start_m: span.start_m, units: units as usize, body_m, making: *making };
         Ok((strip.units > 0).then_some(strip))
     }
 
@@ -179,20 +182,21 @@ impl Strip {
         self.start_m + self.units as f64 * self.pattern.pitch_m
     }
 
-    /// Cut edges along the robot.
+    /// Cut edges along the robot, not beyond those of the body.
     fn x_m(&self) -> [f64; 2] {
-        let beyond = 0.5 * self.making.weld_m + self.making.allowance_m;
-        [self.start_m - beyond, self.end_m() + beyond]
+        let Making { weld_m, allowance_m } = self.making;
+        let beyond = 0.5 * weld_m + allowance_m;
+        [(self.start_m - beyond).max(-allowance_m), (self.end_m() + beyond).min(self.body_m + allowance_m)]
     }
 
     /// Cross welds from edge to edge, and those along the edges.
-    fn welds(&self, width_m: f64, sides: bool) -> Vec<Mark> {
+    fn welds(&self, width_m: f64, sides: bool) -> Vec<PatternMark> {
         let weld_m = self.making.weld_m;
         let side_m = if sides { weld_m } else { 0.0 };
-        let weld = |x_m, y_m| Mark { kind: MarkKind::Weld, x_m, y_m };
+        let weld = |x_m, y_m| PatternMark { kind: MarkKind::Weld, x_m, y_m };
         let across = centred(0.0, width_m + side_m);
         let seams = (0..=self.units).map(|i| self.start_m + i as f64 * self.pattern.pitch_m);
-        let mut welds: Vec<Mark> = seams.map(|x| weld(centred(x, weld_m), across)).collect();
+        let mut welds: Vec<PatternMark> = seams.map(|x| weld(centred(x, weld_m), across)).collect();
         let edges = [-0.5, 0.5].map(|edge| edge * width_m);
         let along = [self.start_m - 0.5 * weld_m, self.end_m() + 0.5 * weld_m];
         welds.extend(edges.iter().filter(|_| sides).map(|edge| weld(along, centred(*edge, weld_m))));
@@ -200,10 +204,10 @@ impl Strip {
     }
 
     /// What of it is drawn on the body.
-    fn on_body(&self) -> Vec<Mark> {
+    fn on_body(&self) -> Vec<PatternMark> {
         let Pattern { width_m, body_sheets, joint, side_welds, .. } = self.pattern;
         let edge_m = if side_welds { self.making.weld_m + 2.0 * self.making.allowance_m } else { 0.0 };
-        let place = Mark { kind: MarkKind::Place, x_m: self.x_m(), y_m: centred(0.0, width_m + edge_m) };
+        let place = PatternMark { kind: MarkKind::Place, x_m: self.x_m(), y_m: centred(0.0, width_m + edge_m) };
         match joint {
             Joint::Wall if body_sheets > 1 => self.welds(width_m, side_welds),
             Joint::Wall => std::iter::once(place).chain(self.welds(width_m, side_welds)).collect(),
@@ -212,18 +216,18 @@ impl Strip {
         }
     }
 
-    fn bonded(&self, film: Film, y_m: [f64; 2]) -> Mark {
+    fn bonded(&self, film: Film, y_m: [f64; 2]) -> PatternMark {
         let kind = match film {
             Film::Tape => MarkKind::Tape,
             Film::Glue => MarkKind::Glue,
         };
-        Mark { kind, x_m: [self.start_m, self.end_m()], y_m }
+        PatternMark { kind, x_m: [self.start_m, self.end_m()], y_m }
     }
 
     /// Its own pieces: none where it is part of the body.
-    fn pieces(&self, of: usize) -> Vec<Piece> {
+    fn pieces(&self, of: usize) -> Vec<PatternPiece> {
         let number = if of > 1 { format!(" from {:.0} mm", self.start_m * 1e3) } else { String::new() };
-        let piece = |name: &str, warp_rad, width_m: f64, marks| Piece {
+        let piece = |name: &str, warp_rad, width_m: f64, marks| PatternPiece {
             name: format!("{name}{number}"),
             copies: 1,
             fabric: self.pattern.fabric,
@@ -246,7 +250,7 @@ impl Strip {
                 let cut_m = round_m + self.making.allowance_m;
                 let stuck = [[-round_m, -sheet_m], [sheet_m, round_m]].map(|y| self.bonded(film, y.map(|v| 0.5 * v)));
                 let edges = [-0.5, 0.5].map(|side| (side * cut_m, side.signum() * self.making.allowance_m));
-                let laps = edges.map(|(edge, inwards)| Mark {
+                let laps = edges.map(|(edge, inwards)| PatternMark {
                     kind: MarkKind::Lap,
                     x_m: self.x_m(),
                     y_m: ordered([edge, edge - inwards]),
@@ -267,12 +271,12 @@ impl Strip {
         }
     }
 
-    fn fold(&self, y_m: f64, kind: MarkKind) -> Mark {
-        Mark { kind, x_m: self.x_m(), y_m: [y_m; 2] }
+    fn fold(&self, y_m: f64, kind: MarkKind) -> PatternMark {
+        PatternMark { kind, x_m: self.x_m(), y_m: [y_m; 2] }
     }
 
     /// Folds between the panels. The face of a panel that runs back lies upside down.
-    fn folds(&self) -> Vec<Mark> {
+    fn folds(&self) -> Vec<PatternMark> {
         let panels = &self.pattern.panels;
         let mut y_m = -0.5 * self.pattern.sheet_width_m();
         let mut folds = Vec::new();
@@ -304,11 +308,11 @@ mod tests {
         plan(crate::shipped(name).unwrap())
     }
 
-    fn size_mm(piece: &Piece) -> [f64; 2] {
+    fn size_mm(piece: &PatternPiece) -> [f64; 2] {
         [piece.x_m, piece.y_m].map(|[from, to]| ((to - from) * 1e6).round() * 1e-3)
     }
 
-    fn count(piece: &Piece, kind: MarkKind) -> usize {
+    fn count(piece: &PatternPiece, kind: MarkKind) -> usize {
         piece.marks.iter().filter(|mark| mark.kind == kind).count()
     }
 
@@ -344,8 +348,7 @@ mod tests {
         let pattern = (scenario.actuator.kind.pattern)(&scenario.actuator.shape);
         let sheet = &shipped("cpam").pieces[1];
         let half = 0.5 * pattern.sheet_width_m();
-        let mut places: Vec<f64> =
-            sheet.marks.iter().filter(|m| m.y_m[0] == m.y_m[1]).map(|m| m.y_m[0]).collect();
+        let mut places: Vec<f64> = sheet.marks.iter().filter(|m| m.y_m[0] == m.y_m[1]).map(|m| m.y_m[0]).collect();
         assert_eq!(places.len(), 4, "two gussets");
         places.push(half);
         let (mut flat, mut folded, mut way) = (-half, -0.5 * pattern.width_m, 1.0);
@@ -378,7 +381,11 @@ mod tests {
         let gap = format!("{text}\n[[zone]]\nfrom_mm = 120\nto_mm = 210\npassive = true\n");
         let plan = plan(&gap);
         assert_eq!(count(&plan.pieces[0], MarkKind::Weld), (3 + 2) + (3 + 2), "two stretches of two whole units");
-        assert!(plan.notes[0].contains("From 210 to 360 mm 2 whole units fit; the last 30 mm stay without"), "{:?}", plan.notes);
+        assert!(
+            plan.notes[0].contains("From 210 to 360 mm 2 whole units fit; the last 30 mm stay without"),
+            "{:?}",
+            plan.notes
+        );
     }
 
     #[test]

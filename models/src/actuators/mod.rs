@@ -5,9 +5,9 @@
 
 mod beam;
 mod cpam;
+pub mod cutting;
 mod epam;
 mod fpam;
-pub mod cutting;
 pub mod pattern;
 pub mod pouch;
 mod spam;

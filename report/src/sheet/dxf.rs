@@ -1,6 +1,6 @@
 //! DXF of the oldest dialect that every cutter reads (AC1009, AutoCAD R12), in mm.
 
-use super::{Label, Line, Sheet};
+use super::{PenLine, Sheet, SheetText};
 
 /// The drawing as a DXF file: one layer a pen, and `TEXT` for words. Characters beyond ASCII become `?`, which R12 has not.
 pub fn dxf(sheet: &Sheet) -> String {
@@ -24,7 +24,7 @@ pub fn dxf(sheet: &Sheet) -> String {
     out.0
 }
 
-/// Layer of words.
+/// Pen of words.
 const WORDS: &str = "TEXT";
 
 /// Group codes and values, a line each.
@@ -55,7 +55,7 @@ impl Pairs {
     }
 }
 
-fn polyline(sheet: &Sheet, line: &Line, out: &mut Pairs) {
+fn polyline(sheet: &Sheet, line: &PenLine, out: &mut Pairs) {
     let Some(layer) = sheet.layers.get(line.layer) else { return };
     out.text(0, "POLYLINE").text(8, layer.name).text(66, "1").number(70, usize::from(line.closed));
     for point in &line.points {
@@ -64,6 +64,6 @@ fn polyline(sheet: &Sheet, line: &Line, out: &mut Pairs) {
     out.text(0, "SEQEND").text(8, layer.name);
 }
 
-fn word(label: &Label, out: &mut Pairs) {
+fn word(label: &SheetText, out: &mut Pairs) {
     out.text(0, "TEXT").text(8, WORDS).point(10, label.at).length(40, label.height).text(1, &label.text);
 }

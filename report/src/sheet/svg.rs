@@ -1,6 +1,6 @@
 //! SVG in millimetres, whole or by pages.
 
-use super::{Label, Line, Sheet};
+use super::{PenLine, Sheet, SheetText};
 use crate::markup::escape;
 use std::fmt::Write;
 
@@ -91,12 +91,17 @@ fn crosses(corner: [f64; 2], inner: [f64; 2], out: &mut String) {
     for x in [0.0, OVERLAP, inner[0] - OVERLAP, inner[0]] {
         for y in [0.0, OVERLAP, inner[1] - OVERLAP, inner[1]] {
             let (x, y) = (corner[0] + x, corner[1] + y);
-            let _ = writeln!(out, r##"<path d="M{} {y}h4M{x} {}v4" stroke="#999999" stroke-width="0.2"/>"##, x - 2.0, y - 2.0);
+            let _ = writeln!(
+                out,
+                r##"<path d="M{} {y}h4M{x} {}v4" stroke="#999999" stroke-width="0.2"/>"##,
+                x - 2.0,
+                y - 2.0
+            );
         }
     }
 }
 
-fn drawn(sheet: &Sheet, line: &Line, out: &mut String) {
+fn drawn(sheet: &Sheet, line: &PenLine, out: &mut String) {
     let Some(layer) = sheet.layers.get(line.layer) else { return };
     let place = |p: &[f64; 2]| format!("{:.3},{:.3}", p[0], sheet.size[1] - p[1]);
     let points: Vec<String> = line.points.iter().map(place).collect();
@@ -113,7 +118,7 @@ fn drawn(sheet: &Sheet, line: &Line, out: &mut String) {
     );
 }
 
-fn written(label: &Label, height: f64, out: &mut String) {
+fn written(label: &SheetText, height: f64, out: &mut String) {
     let [x, y] = label.at;
     let _ = writeln!(
         out,

@@ -1,14 +1,14 @@
 use super::*;
 
 fn square() -> Sheet {
-    let layer = Layer { name: "CUT", meaning: "cut", colour: "#000000", aci: 7, dashes: &[], tinted: false };
+    let layer = Pen { name: "CUT", meaning: "cut", colour: "#000000", aci: 7, dashes: &[], tinted: false };
     let points = vec![[10.0, 20.0], [310.0, 20.0], [310.0, 320.0], [10.0, 320.0]];
     Sheet {
         title: "a <square>".into(),
         size: [320.0, 330.0],
         layers: vec![layer],
-        lines: vec![Line { layer: 0, points, closed: true }],
-        labels: vec![Label { at: [10.0, 5.0], height: 3.0, text: "300 mm × 300 mm".into() }],
+        lines: vec![PenLine { layer: 0, points, closed: true }],
+        labels: vec![SheetText { at: [10.0, 5.0], height: 3.0, text: "300 mm × 300 mm".into() }],
     }
 }
 

@@ -1,0 +1,71 @@
+//! `ibr pattern`
+
+use super::inputs::{self, quantity};
+use super::{Context, Outcome};
+use crate::cli::PatternArgs;
+use crate::failure::Failure;
+use crate::shown::pattern::{to_json, words};
+use ibr::pages::pattern_sheet;
+use models::Scenario;
+use models::actuators::cutting::{CuttingPlan, Making};
+use models::scenario::quantity::Quantity;
+use report::sheet::{Paper, Sheet, dxf, pages, svg};
+use std::path::PathBuf;
+use std::sync::PoisonError;
+
+/// Width of welds where neither the scenario nor the user says one, as in [`fem::robot::RobotSettings`] \[m\].
+const WELD_M: f64 = 0.003;
+
+pub fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome, Failure> {
+    let file = inputs::scenario(&args.scenario)?;
+    let (weld_m, how) = weld(args, &file.scenario)?;
+    let allowance_m = quantity("--allowance", &args.allowance, Quantity::Length)?;
+    if allowance_m < 0.0 {
+        let message = format!("--allowance {} is below zero", args.allowance);
+        return Err(Failure::usage(message, "write for example --allowance 10mm"));
+    }
+    let making = Making { weld_m, allowance_m };
+    let plan = CuttingPlan::new(&file.scenario, &making)
+        .map_err(|fault| Failure::usage(format!("{}: {fault}", args.scenario), "see docs/scenario.md"))?;
+    let mut told = vec![format!("Welds {:.1} mm wide ({how}), allowance {} beyond.", 1e3 * weld_m, args.allowance)];
+    told.extend(plan.notes.iter().cloned());
+    let sheet = pattern_sheet(&file.scenario.name, &plan, &told);
+    let files = files(args, &sheet)?;
+    let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
+    files.iter().try_for_each(|(path, text)| data::write_atomically(path, text.as_bytes()))?;
+    *written = true;
+    let names: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
+    Ok(Outcome::new(words(&plan, &told, &names), to_json(&args.scenario, &plan, &making, &told, &names)))
+}
+
+/// The width of the welds and how it is known.
+fn weld(args: &PatternArgs, scenario: &Scenario) -> Result<(f64, String), Failure> {
+    if let Some(text) = &args.weld {
+        return Ok((quantity("--weld", text, Quantity::Length)?, "as told".into()));
+    }
+    let effect = scenario.effects.iter().find(|e| e.name == "weld_width");
+    Ok(effect.map_or((WELD_M, "assumed".into()), |e| (e.values[0], format!("the scenario's weld_width, {}", e.basis))))
+}
+
+/// Files to write: the drawing, and its pages beside it.
+fn files(args: &PatternArgs, sheet: &Sheet) -> Result<Vec<(PathBuf, String)>, Failure> {
+    let is = |ending: &str| args.out.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
+    match &args.page {
+        _ if !is("svg") && !is("dxf") => {
+            let message = format!("--out {} ends neither with .svg nor with .dxf", args.out.display());
+            Err(Failure::usage(message, "write for example --out pattern.svg"))
+        }
+        Some(_) if is("dxf") => {
+            Err(Failure::usage("a DXF has no pages", "leave out --page, or write --out pattern.svg"))
+        }
+        None if is("dxf") => Ok(vec![(args.out.clone(), dxf(sheet))]),
+        None => Ok(vec![(args.out.clone(), svg(sheet))]),
+        Some(name) => {
+            let paper = Paper::ALL.iter().find(|paper| paper.name == name).unwrap_or(&Paper::ALL[0]);
+            let stem = args.out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let page = |[row, column]: [usize; 2]| args.out.with_file_name(format!("{stem}-{row}-{column}.svg"));
+            let whole = std::iter::once((args.out.clone(), svg(sheet)));
+            Ok(whole.chain(pages(sheet, paper).into_iter().map(|(at, text)| (page(at), text))).collect())
+        }
+    }
+}
