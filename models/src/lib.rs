@@ -17,6 +17,7 @@ mod batch;
 pub mod body;
 mod catalogue;
 pub mod comer_levy;
+pub mod cutting;
 pub mod effects;
 pub mod error;
 pub mod fabrics;

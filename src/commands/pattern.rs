@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::shown::pattern::{to_json, words};
 use ibr::pages::pattern_sheet;
 use models::Scenario;
-use models::actuators::cutting::{CuttingPlan, Making};
+use models::cutting::{CuttingPlan, Making};
 use models::scenario::quantity::Quantity;
 use report::sheet::{Paper, Sheet, dxf, pages, svg};
 use std::path::PathBuf;

@@ -1,6 +1,6 @@
 //! A cutting plan laid out as one drawing true to size.
 
-use models::actuators::cutting::{CuttingPlan, MarkKind, PatternMark, PatternPiece};
+use models::cutting::{CuttingPlan, MarkKind, PatternMark, PatternPiece};
 use report::sheet::{Pen, PenLine, Sheet, SheetText};
 
 const MM: f64 = 1e3;
@@ -165,7 +165,7 @@ fn arrow(sheet: &mut Sheet, angle: f64, middle: [f64; 2], length: f64) {
 mod tests {
     use super::*;
     use models::Scenario;
-    use models::actuators::cutting::Making;
+    use models::cutting::Making;
 
     #[test]
     fn the_scale_bar_and_the_pieces_are_as_long_as_they_say_and_all_is_on_the_sheet() {

@@ -1,7 +1,7 @@
 //! Cutting plans.
 
 use crate::tables::table;
-use models::actuators::cutting::{CuttingPlan, Making, PatternPiece};
+use models::cutting::{CuttingPlan, Making, PatternPiece};
 use serde_json::{Value, json};
 
 /// For readers.

@@ -5,7 +5,6 @@
 
 mod beam;
 mod cpam;
-pub mod cutting;
 mod epam;
 mod fpam;
 pub mod pattern;

@@ -3,7 +3,7 @@
 //! x runs along the robot from its base. y runs across: on the body round its circumference from the actuator's middle, on a
 //! sheet of the actuator across its unfolded width. All pieces are seen from outside the finished robot.
 
-use super::pattern::{Film, Joint, Panel, Pattern};
+use crate::actuators::pattern::{Film, Joint, Panel, Pattern};
 use crate::scenario::{Scenario, Span};
 use std::f64::consts::PI;
 
