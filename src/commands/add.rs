@@ -4,13 +4,11 @@ use super::inputs::{self, positive};
 use super::{Context, Outcome};
 use crate::cli::AddArgs;
 use crate::failure::Failure;
-use crate::shown::extension::steps_text;
+use crate::shown::extension::{steps_text, to_json};
 use compare::diagnosis::Options;
-use compare::extension::{Addition, Extension, Wish, add, today};
+use compare::extension::{Extension, Wish, add};
 use compare::progress::part;
 use compare::progress::shares::READ;
-use compare::{Evidence, ScenarioFile};
-use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use std::sync::PoisonError;
 
@@ -80,24 +78,4 @@ fn words(args: &AddArgs, found: &Extension, target: &str) -> String {
     out.push_str(&format!("\nwritten: {target}; {} is as it was\n", args.scenario));
     args.data.iter().for_each(|data| out.push_str(&format!("see it: ibr compare {target} {data}\n")));
     out
-}
-
-fn to_json(file: &ScenarioFile, evidence: &[Evidence], found: &Extension, target: &str) -> Result<Value, Failure> {
-    let effect = |a: &Addition| {
-        let fitted = found.fitted.iter().find(|f| f.effect == a.name).map(|f| &f.parameters);
-        let values: Map<String, Value> = a.values.iter().map(|(k, v)| (k.clone(), json!(v))).collect();
-        json!({"effect": a.name, "how_known": a.basis, "values": values, "parameters": fitted})
-    };
-    let data = |e: &Evidence| Ok(json!({"name": e.name, "sha256": e.sha256()?}));
-    let data = evidence.iter().map(data).collect::<Result<Vec<Value>, Failure>>()?;
-    Ok(json!({
-        "schema": "ibr.add", "version": 1,
-        "scenario_file": file.name, "scenario_sha256": file.sha256(), "written": target,
-        "effects": found.additions.iter().map(effect).collect::<Vec<_>>(),
-        "bending_nm2": found.bending.as_ref().map(|b| b.value_nm2),
-        "before": found.steps.iter().rev().nth(1), "after": found.steps.last(), "rungs": found.steps,
-        "noise_floor_mm": found.noise_floor_mm,
-        "data": data.first(), "also": data.iter().skip(1).collect::<Vec<_>>(),
-        "date": today(), "warnings": found.warnings,
-    }))
 }

@@ -1,9 +1,12 @@
 //! Errors on the way to an extended scenario.
 
+use crate::failure::Failure;
 use crate::tables::{number, table};
 use compare::diagnosis::words::three;
-use compare::extension::ErrorStep;
+use compare::extension::{Addition, ErrorStep, Extension, today};
 use compare::ladder::Climb;
+use compare::{Evidence, ScenarioFile};
+use serde_json::{Map, Value, json};
 
 /// Errors on the way as a text table.
 pub fn steps_text(steps: &[ErrorStep], noise_floor_mm: Option<f64>) -> String {
@@ -29,4 +32,25 @@ pub fn climb_text(climb: &Climb) -> String {
         out.push_str("A smaller error does not prove a name: `ibr validate` tries it on data it was not fitted to.\n");
     }
     out
+}
+
+/// An extension for programs.
+pub fn to_json(file: &ScenarioFile, evidence: &[Evidence], found: &Extension, target: &str) -> Result<Value, Failure> {
+    let effect = |a: &Addition| {
+        let fitted = found.fitted.iter().find(|f| f.effect == a.name).map(|f| &f.parameters);
+        let values: Map<String, Value> = a.values.iter().map(|(k, v)| (k.clone(), json!(v))).collect();
+        json!({"effect": a.name, "how_known": a.basis, "values": values, "parameters": fitted})
+    };
+    let data = |e: &Evidence| Ok(json!({"name": e.name, "sha256": e.sha256()?}));
+    let data = evidence.iter().map(data).collect::<Result<Vec<Value>, Failure>>()?;
+    Ok(json!({
+        "schema": "ibr.add", "version": 1,
+        "scenario_file": file.name, "scenario_sha256": file.sha256(), "written": target,
+        "effects": found.additions.iter().map(effect).collect::<Vec<_>>(),
+        "bending_nm2": found.bending.as_ref().map(|b| b.value_nm2),
+        "before": found.steps.iter().rev().nth(1), "after": found.steps.last(), "rungs": found.steps,
+        "noise_floor_mm": found.noise_floor_mm,
+        "data": data.first(), "also": data.iter().skip(1).collect::<Vec<_>>(),
+        "date": today(), "warnings": found.warnings,
+    }))
 }

@@ -10,6 +10,7 @@ pub mod diagnosis;
 pub mod engines;
 pub mod extension;
 pub mod held;
+pub mod imported;
 pub mod lists;
 pub mod one_number;
 pub mod paper;
