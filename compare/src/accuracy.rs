@@ -40,7 +40,7 @@ pub struct Band {
 pub fn accuracy_band(c: &BesideMean, samples: usize, seed: u64) -> Band {
     let holds = c.layout.holds;
     let runs = c.dataset.runs.len();
-    if runs < policy::RUNS_FOR_P || samples == 0 {
+    if runs < policy::FEWEST_RUNS || samples == 0 {
         return Band { holds: vec![None; holds], overall: None };
     }
     let means: Vec<Vec<f64>> = (0..runs).map(|r| c.layout.hold_means(c.dataset.run(r))).collect();

@@ -3,10 +3,8 @@
 use crate::error::CompareError;
 use crate::layout::Layout;
 use crate::noise::NoiseModel;
+use crate::policy;
 use data::{Dataset, Phase};
-
-/// Actuator pressures below this count as "no pressure" \[Pa\]: a vented regulator still reads a little.
-pub const ZERO_PRESSURE_PA: f64 = 100.0;
 
 /// A prediction f and the mean over runs ȳ of one dataset, with the noise of ȳ. Lengths in metres.
 pub struct BesideMean<'a> {
@@ -83,7 +81,7 @@ impl<'a> BesideMean<'a> {
     /// Whether a hold belongs to the paper's accuracy: under pressure and not on the way down.
     pub fn is_pressurised_loading(&self, hold: usize) -> bool {
         let h = &self.dataset.holds[hold];
-        h.phase != Phase::Unload && h.p_act_pa > ZERO_PRESSURE_PA
+        h.phase != Phase::Unload && h.p_act_pa > policy::ZERO_PRESSURE_PA
     }
 
     /// +1 if the robot bends towards +y, −1 if towards −y: the sign of the largest measured deflection.

@@ -5,6 +5,7 @@ use crate::error::CompareError;
 use crate::metrics::{Metrics, MetricsOptions, metrics};
 use crate::noise::NoiseModel;
 use crate::noise_summary::NoiseSummary;
+use crate::policy;
 use crate::residuals::{ResidualMap, residual_map};
 use crate::scaling::{ScalingCheck, scaling_of_data};
 use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
@@ -86,7 +87,7 @@ pub fn evaluate(
     let EvaluateOptions { fitted_parameters, bootstrap_samples, seed, alpha, .. } = *options;
     let metrics = metrics(&c, &MetricsOptions { fitted_parameters, bootstrap_samples, seed })?;
     let residual_map = residual_map(&c);
-    let tolerance_m = options.tolerance_m.unwrap_or_else(|| default_tolerance_m(c.d_max_m));
+    let tolerance_m = options.tolerance_m.unwrap_or_else(|| policy::tolerance_m(c.d_max_m));
     let where_it_fails =
         where_it_fails(&c, &residual_map, metrics.overall.p_value, &FailureOptions { alpha, tolerance_m });
     Ok(Evaluation {
@@ -99,11 +100,6 @@ pub fn evaluate(
         scaling: scaling_of_data(dataset, &noise, alpha)?,
         noise_model: noise,
     })
-}
-
-/// The error below which a model is good enough: max(0.15 mm, 0.5 % of d_max) \[m\].
-pub fn default_tolerance_m(d_max_m: f64) -> f64 {
-    (0.005 * d_max_m).max(1.5e-4)
 }
 
 fn check(options: &EvaluateOptions) -> Result<(), CompareError> {

@@ -21,26 +21,14 @@
 //! Validity: r is the pressure in the actuator while the markers are seen. Vented (p_set = 0) the pressure is known and the
 //! reading, the zero of the gauge, is not used. Where the pressure runs down during a hold, every sample has its own reading.
 
-use crate::beside_mean::ZERO_PRESSURE_PA;
 use crate::error::CompareError;
-use crate::noise::SENSOR_SD;
+use crate::policy;
 use crate::stats::t_inflation;
 use crate::study::generate::held;
 use crate::whiten::Whitener;
 use data::{Dataset, Hold, Lost};
 use models::{Scenario, Supply};
 use std::collections::BTreeSet;
-
-/// Standard deviation of a gauge's gain. Assumed: 0.3 % of the reading.
-pub const GAIN_SD: f64 = SENSOR_SD[0];
-/// Standard deviation of a gauge's zero \[Pa\]. Assumed: 0.25 % of a span of 40 kPa.
-pub const ZERO_SD_PA: f64 = 100.0;
-/// Standard deviation of one reading \[Pa\], where there are no repeats to take it from. Assumed.
-pub const READING_SD_PA: f64 = 50.0;
-/// Least standard deviation of one reading \[Pa\]: the last digit.
-const LEAST_READING_SD_PA: f64 = 20.0;
-/// A pressure that falls by this many standard errors between the first and last sample of a hold runs down.
-const RUNS_DOWN: f64 = 4.0;
 
 /// Mean over runs of the reading beside one sample.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,7 +67,7 @@ impl Gauge {
     pub fn of(dataset: &Dataset, scenario: &Scenario) -> Option<Gauge> {
         let runs: Vec<&[f64]> = (0..dataset.runs.len()).map(|r| dataset.gauge(r)).collect::<Option<_>>()?;
         let set: Vec<f64> = dataset.holds.iter().flat_map(|h| vec![h.p_act_pa; dataset.samples_per_hold]).collect();
-        let used: Vec<usize> = (0..set.len()).filter(|i| set[*i] > ZERO_PRESSURE_PA).collect();
+        let used: Vec<usize> = (0..set.len()).filter(|i| set[*i] > policy::ZERO_PRESSURE_PA).collect();
         let mean: Vec<f64> =
             (0..set.len()).map(|i| runs.iter().map(|r| r[i]).sum::<f64>() / runs.len() as f64).collect();
         let squares: f64 = used.iter().map(|i| set[*i] * set[*i]).sum();
@@ -96,11 +84,11 @@ impl Gauge {
         let (repeats, count) = (runs.len() - 1, runs.len() as f64);
         let dof = repeats * (used.len() - 1);
         let variance = match dof {
-            0 => READING_SD_PA * READING_SD_PA,
-            _ => (scatter / dof as f64).max(LEAST_READING_SD_PA * LEAST_READING_SD_PA),
+            0 => policy::READING_SD_PA * policy::READING_SD_PA,
+            _ => (scatter / dof as f64).max(policy::LEAST_READING_SD_PA * policy::LEAST_READING_SD_PA),
         };
         let run_variance = match repeats {
-            0 => GAIN_SD * GAIN_SD,
+            0 => policy::SENSOR_SD[0] * policy::SENSOR_SD[0],
             n => (gains / n as f64 - variance / squares).max(0.0) * t_inflation(n) / count,
         };
         let gauge = Gauge::new(dataset, scenario, &mean, (variance / count).sqrt(), run_variance.sqrt());
@@ -111,16 +99,16 @@ impl Gauge {
     pub fn planned(dataset: &Dataset, scenario: &Scenario, supply: &Supply, runs: usize, run_sd: f64) -> Gauge {
         let expected: Vec<f64> = held(&dataset.holds).iter().map(|(set, t)| supply.pressure(*set, *t)).collect();
         let share = 1.0 / (runs.max(1) as f64).sqrt();
-        Gauge::new(dataset, scenario, &expected, READING_SD_PA * share, run_sd * share)
+        Gauge::new(dataset, scenario, &expected, policy::READING_SD_PA * share, run_sd * share)
     }
 
     /// `mean` is laid out `[hold][sample]`, `sd_pa` belongs to one of its values.
     fn new(dataset: &Dataset, scenario: &Scenario, mean: &[f64], sd_pa: f64, run_sd: f64) -> Gauge {
         let samples = dataset.samples_per_hold;
-        let is_used = |(_, hold): &(usize, &Hold)| hold.p_act_pa > ZERO_PRESSURE_PA;
+        let is_used = |(_, hold): &(usize, &Hold)| hold.p_act_pa > policy::ZERO_PRESSURE_PA;
         let holds = || dataset.holds.iter().enumerate().filter(is_used);
         let runs_down =
-            |h: usize| (mean[h * samples] - mean[(h + 1) * samples - 1]).abs() > RUNS_DOWN * 2_f64.sqrt() * sd_pa;
+            |h: usize| policy::runs_down((mean[h * samples] - mean[(h + 1) * samples - 1]) / (2_f64.sqrt() * sd_pa));
         let split = samples > 1 && holds().any(|(h, _)| runs_down(h));
         let held = held(&dataset.holds);
         let reading = |i: usize| Reading {
@@ -150,10 +138,11 @@ impl Gauge {
             read.samples_per_hold = 1;
             read.lost = of_samples(&dataset.lost, dataset.samples_per_hold);
         }
-        for hold in read.holds.iter_mut().filter(|hold| hold.p_act_pa <= ZERO_PRESSURE_PA) {
+        for hold in read.holds.iter_mut().filter(|hold| hold.p_act_pa <= policy::ZERO_PRESSURE_PA) {
             hold.p_act_pa = 0.0;
         }
-        for (h, hold) in read.holds.iter_mut().enumerate().filter(|(_, hold)| hold.p_act_pa > ZERO_PRESSURE_PA) {
+        for (h, hold) in read.holds.iter_mut().enumerate().filter(|(_, hold)| hold.p_act_pa > policy::ZERO_PRESSURE_PA)
+        {
             let own = || self.of_hold(h).map(|r| r.read_pa);
             hold.p_act_pa = (own().sum::<f64>() / own().count().max(1) as f64).max(0.0);
         }
@@ -193,7 +182,7 @@ impl Gauge {
             column
         };
         let own = |h: &usize| along(&[*h], &|_| self.scatter_pa / (self.of_hold(*h).count() as f64).sqrt());
-        let shared = [along(&read, &|_| ZERO_SD_PA), along(&read, &|p| GAIN_SD * p)];
+        let shared = [along(&read, &|_| policy::ZERO_SD_PA), along(&read, &|p| policy::SENSOR_SD[0] * p)];
         shared.into_iter().chain(read.iter().map(own)).collect()
     }
 
@@ -203,7 +192,11 @@ impl Gauge {
     /// If the covariance cannot be decomposed.
     pub fn whitener(&self) -> Result<Whitener, CompareError> {
         let column = |of: &dyn Fn(&Reading) -> f64| self.readings.iter().map(of).collect::<Vec<f64>>();
-        let columns = [column(&|r| self.run_sd * r.set_pa), column(&|r| GAIN_SD * r.read_pa), column(&|_| ZERO_SD_PA)];
+        let columns = [
+            column(&|r| self.run_sd * r.set_pa),
+            column(&|r| policy::SENSOR_SD[0] * r.read_pa),
+            column(&|_| policy::ZERO_SD_PA),
+        ];
         Whitener::with_columns(&vec![[0.0; 4]; self.readings.len()], self.scatter_pa, &[0.0; 4], &columns)
     }
 
@@ -250,6 +243,29 @@ mod tests {
         assert!((0.93..1.03).contains(&mean), "{mean}");
     }
 
+    /// 0.1 kPa of the zero, 0.3 % of the gain, 50 Pa of a reading, and no less than its last digit of 20 where runs repeat.
+    #[test]
+    fn a_gauge_errs_as_is_said_of_it() {
+        let robot = textbook_scenario("epam").unwrap().with_bending(1.35);
+        let one = read(&robot, 1, 1);
+        let gauge = Gauge::of(&one, &robot).unwrap();
+        assert_eq!(gauge.scatter_pa, 50.0);
+        // Where ∂f/∂ln p is one metre, an error of a share of the pressure is that share of a metre.
+        let at = gauge.positions(&one);
+        let hold = at.holds.iter().rposition(|hold| hold.p_act_pa > 0.0).unwrap();
+        let value = hold * at.values_per_run() / at.holds.len();
+        let errors = gauge.errors_m(&at, &vec![1.0; at.values_per_run()]);
+        assert!((errors[0][value] - 100.0 / at.holds[hold].p_act_pa).abs() < 1e-12);
+        assert!((errors[1][value] - 0.003).abs() < 1e-12);
+        let quiet = Dataset {
+            runs: vec!["1".into(), "2".into()],
+            gauge_pa: one.gauge_pa.as_ref().map(|g| [g.clone(), g.clone()].concat()),
+            xy_m: [one.xy_m.clone(), one.xy_m.clone()].concat(),
+            ..one
+        };
+        assert!((Gauge::of(&quiet, &robot).unwrap().scatter_pa - 20.0 / 2_f64.sqrt()).abs() < 1e-9);
+    }
+
     #[test]
     fn what_was_lost_is_lost_in_every_sample_and_back() {
         let robot = textbook_scenario("spam").unwrap().with_bending(6.0).with_effect("leak", &[0.1]);
@@ -271,7 +287,7 @@ mod tests {
         let errors = gauge.errors_m(&at, &predicted.d_ln_pressure_m);
         assert_eq!(errors.len(), 2 + 3);
         let mut off = at.clone();
-        off.holds.iter_mut().filter(|hold| hold.p_act_pa > 0.0).for_each(|hold| hold.p_act_pa += ZERO_SD_PA);
+        off.holds.iter_mut().filter(|hold| hold.p_act_pa > 0.0).for_each(|hold| hold.p_act_pa += policy::ZERO_SD_PA);
         let moved = predict_dataset(&robot, &off).unwrap();
         for ((a, b), column) in moved.xy_m.iter().zip(&predicted.xy_m).zip(&errors[0]) {
             assert!((a - b - column).abs() < 0.02 * column.abs() + 1e-6, "{} {column}", a - b);

@@ -26,7 +26,7 @@
 //! is near or the interval exceeds 30 % of the value, the profile of the sum of squares replaces the linear one; not where the law
 //! misses, because that sum's rise is then no measure of it.
 
-use crate::noise::{NoiseModel, SENSOR_SD};
+use crate::noise::NoiseModel;
 use crate::policy;
 use data::Dataset;
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -79,7 +79,7 @@ pub fn half_width(data: &[FittedData], white: &[f64], parameters: usize) -> Opti
         let run_to_run: f64 = (0..4)
             .map(|j| {
                 let along: f64 = weights.iter().zip(&noise.directions).map(|(w, u)| w * u[j]).sum();
-                along * along * noise.mean_variance[j].max(SENSOR_SD[j].powi(2) / runs)
+                along * along * noise.mean_variance[j].max(policy::SENSOR_SD[j].powi(2) / runs)
             })
             .sum();
         let dot = |column: &Vec<f64>| weights.iter().zip(column).map(|(w, c)| w * c).sum::<f64>();
@@ -90,7 +90,7 @@ pub fn half_width(data: &[FittedData], white: &[f64], parameters: usize) -> Opti
         total += camera + run_to_run;
         squares_over_dof += camera * camera / noise.pure_error_dof.max(1) as f64 + run_to_run * run_to_run / run_dof;
         let missed = square(&noise.whiten(&part.residual_m)) / noise.seen(0..weights.len()) as f64;
-        if missed > policy::MISSES {
+        if policy::misses(missed) {
             let sums = part.by_cell(&weights);
             each += noise.unit_m().powi(2) * (missed - 1.0) * square(&sums);
             cells += sums.iter().filter(|sum| **sum != 0.0).count();
@@ -112,7 +112,7 @@ impl FittedData<'_> {
     /// Of every hold the first one at its pressures.
     fn first(&self) -> Vec<usize> {
         let holds = &self.dataset.holds;
-        let same = |a: f64, b: f64| (a - b).abs() <= policy::SAME_PRESSURE * a.abs().max(b.abs());
+        let same = policy::is_same_pressure;
         let alike = |a: usize, b: usize| {
             same(holds[a].p_act_pa, holds[b].p_act_pa) && same(holds[a].p_body_pa, holds[b].p_body_pa)
         };
@@ -211,6 +211,30 @@ mod tests {
             "as many parameters as pressures"
         );
         assert_eq!(misfit(&[], (0.0, 0), 1), (0.0, 1.0));
+    }
+
+    /// At a pressure that holds less than a thousandth of the weights nothing is seen of the parameter.
+    #[test]
+    fn a_pressure_counts_from_a_thousandth_of_the_weights() {
+        let spare = |share: f64| misfit(&[[1.0, 5.0], [1.0, -5.0], [2.0 * share, 0.0]], (0.0, 0), 1).1;
+        assert_eq!([0.9e-3, 1.1e-3].map(spare), [1.0, 2.0]);
+    }
+
+    #[test]
+    fn the_profile_is_followed_from_three_tenths_of_the_value() {
+        let mut asked = 0;
+        for width in [2.9, 3.1] {
+            let half = Half { width, misses: false };
+            interval(
+                (10.0, half, 4.0),
+                [0.0, 90.0],
+                Some(&mut |x| {
+                    asked += usize::from(width < 3.0) + 1;
+                    4.0 * (x - 10.0).powi(2)
+                }),
+            );
+            assert_eq!(asked > 0, width > 3.0, "{width}");
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The shape of one run, `[hold][sample][marker][x, y]`, and the linear contrasts taken from it.
 
 use crate::error::CompareError;
+use crate::policy;
 use data::Dataset;
 
 /// Counts of one run; arrays "in run layout" are flat in this order.
@@ -13,9 +14,6 @@ pub struct Layout {
     /// Markers.
     pub markers: usize,
 }
-
-/// Largest length accepted \[m\]: squares and quotients of anything larger could overflow, and no robot is a kilometre.
-const LARGEST_M: f64 = 1e3;
 
 /// A sparse linear functional of one run: (index in the run layout, weight).
 pub type Weights = Vec<(usize, f64)>;
@@ -58,7 +56,7 @@ impl Layout {
         if values.len() != self.values() {
             return Err(self.wrong_length(what, values.len()));
         }
-        match values.iter().position(|v| !v.is_finite() || v.abs() > LARGEST_M) {
+        match values.iter().position(|v| !policy::is_a_length(*v)) {
             None => Ok(()),
             Some(i) => Err(CompareError::NotFinite {
                 what,

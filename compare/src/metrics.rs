@@ -199,9 +199,8 @@ fn noise_ceiling(c: &BesideMean, hold: usize, model_y: &[f64]) -> Option<f64> {
 
 /// The markers that have measurably moved; chosen by the measurement, so every model is judged on the same ones.
 fn far_markers(c: &BesideMean, model: &[f64], measured: &[f64]) -> (Vec<f64>, Vec<f64>) {
-    let noise = c.noise.sigma_m.map_or(0.0, |s| 5.0 * s / (c.noise.runs as f64).sqrt());
-    let least = policy::SMALL_DEFLECTION_M.max(noise);
-    model.iter().zip(measured).filter(|(_, y)| y.abs() > least).unzip()
+    let sd = c.noise.sigma_m.map_or(0.0, |s| s / (c.noise.runs as f64).sqrt());
+    model.iter().zip(measured).filter(|(_, y)| policy::has_moved(**y, sd)).unzip()
 }
 
 /// Error sizes over a range of values.

@@ -38,10 +38,6 @@ use crate::whiten::Whitener;
 use data::Dataset;
 use serde::Serialize;
 
-/// Specification of the sensors, the least scatter ever assumed in a test: pressure 0.3 % of the reading, alignment
-/// 0.1 mm in x and y, rotation 0.5 mrad.
-pub const SENSOR_SD: [f64; 4] = [0.003, 1e-4, 1e-4, 5e-4];
-
 /// Smallest camera noise used \[m\]: identical runs would otherwise divide by zero; no camera resolves a micrometre
 /// here.
 pub const SMALLEST_SIGMA_M: f64 = 1e-6;
@@ -194,9 +190,9 @@ impl NoiseModel {
         self.sigma_m.is_some()
     }
 
-    /// True if p-values may be formed: measured from at least [`crate::policy::RUNS_FOR_P`] runs that are not copies of each other.
+    /// True if p-values may be formed: measured from at least [`crate::policy::FEWEST_RUNS`] runs that are not copies of each other.
     pub fn gives_p_values(&self) -> bool {
-        self.status == NoiseStatus::Measured && self.runs >= policy::RUNS_FOR_P && !self.runs_identical
+        self.status == NoiseStatus::Measured && self.runs >= policy::FEWEST_RUNS && !self.runs_identical
     }
 
     /// Residuals \[m\] in run layout in units of the noise of the mean: unit variance and uncorrelated if the model is
@@ -247,7 +243,7 @@ impl NoiseModel {
         let quotient = sigma(&noisiest) / sigma(&quietest).max(SMALLEST_SIGMA_M);
         let dof = self.pure_error_dof / holds;
         let p = (holds * (holds - 1)) as f64 * f_tail(quotient * quotient, dof, dof);
-        (quotient > 1.5 && p < 0.01).then_some((noisiest, quietest))
+        policy::is_uneven(p, quotient).then_some((noisiest, quietest))
     }
 
     /// Standard deviation of the independent part of one value of the mean, σ/√R \[m\].
@@ -273,7 +269,7 @@ impl NoiseModel {
         sigma_m: Option<f64>,
         directions: Vec<[f64; 4]>,
     ) -> Result<NoiseModel, CompareError> {
-        let specification = SENSOR_SD.map(|sd| sd * sd);
+        let specification = policy::SENSOR_SD.map(|sd| sd * sd);
         let sigma_m = sigma_m.map(|s| s.max(SMALLEST_SIGMA_M));
         let whitener = Whitener::new(&directions, sigma_m.unwrap_or(NOMINAL_SIGMA_M), &specification)?;
         Ok(NoiseModel {
@@ -309,7 +305,7 @@ impl NoiseModel {
         let mut test_variance = [0.0; 4];
         for j in 0..4 {
             let estimates = if j == 1 || j == 2 { 2 * dof } else { dof };
-            let widened = (run_variance[j] * t_inflation(estimates)).max(SENSOR_SD[j].powi(2));
+            let widened = (run_variance[j] * t_inflation(estimates)).max(policy::SENSOR_SD[j].powi(2));
             mean_variance[j] = (run_variance[j] / runs as f64).max(between[j]);
             test_variance[j] = (widened / runs as f64).max(between[j]);
         }
@@ -335,4 +331,20 @@ impl NoiseModel {
 
 fn quadratic(vector: &[f64; 4], variances: &[f64; 4]) -> f64 {
     vector.iter().zip(variances).map(|(u, v)| u * u * v).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic::{CAMERA, SyntheticRobot};
+
+    /// What one run cannot show is as the sensors are specified: 0.3 % of the pressure, 0.1 mm, 0.5 mrad.
+    #[test]
+    fn one_run_scatters_as_its_sensors_are_specified() {
+        let robot = SyntheticRobot::paper();
+        let noise = NoiseModel::estimate(&robot.measured(1, CAMERA, 1), &robot.slope(), &[], Some(1e-3)).unwrap();
+        for (variance, sd) in noise.test_variance.iter().zip([0.003, 1e-4, 1e-4, 5e-4]) {
+            assert!((variance.sqrt() / sd - 1.0).abs() < 1e-12, "{:?}", noise.test_variance);
+        }
+    }
 }

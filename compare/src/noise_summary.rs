@@ -1,6 +1,6 @@
 //! The noise model as printed: millimetres, per cent, one plain sentence.
 
-use crate::noise::{NoiseModel, NoiseStatus, SENSOR_SD};
+use crate::noise::{NoiseModel, NoiseStatus};
 use crate::policy;
 use crate::wording::short;
 use data::Hold;
@@ -84,7 +84,7 @@ fn sentence(noise: &NoiseModel, s: &NoiseSummary) -> String {
         );
     }
     let mut text = format!("camera noise {camera:.1} mm; {}; noise of the mean {mean:.2} mm", run_to_run(s));
-    if noise.runs < policy::RUNS_FOR_P {
+    if noise.runs < policy::FEWEST_RUNS {
         text += "; two runs only, so no significance is given";
     }
     text
@@ -94,7 +94,7 @@ fn run_to_run(s: &NoiseSummary) -> String {
     let mut parts = Vec::new();
     parts.extend(s.pressure_pct.map(|v| format!("pressure {v:.1} %")));
     parts.extend(s.alignment_mm.map(|v| format!("alignment {v:.1} mm")));
-    let notable = |v: &f64| *v > 2e3 * SENSOR_SD[3];
+    let notable = |v: &f64| *v > 2e3 * policy::SENSOR_SD[3];
     parts.extend(s.rotation_mrad.filter(notable).map(|v| format!("rotation {v:.1} mrad")));
     match parts.is_empty() {
         true => "run-to-run scatter cannot be told from it".to_string(),

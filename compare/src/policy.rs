@@ -1,22 +1,57 @@
-//! The numbers that decide a verdict. Each says what it is, in which unit, and so which error it trades for which.
+//! The numbers that decide a verdict, and the decisions that several places take by them. Each says what it is, in which unit, and
+//! so which error it trades for which. `tests/policy.sh` moves every one of them and names the tests that fail then.
 //!
 //! What only steers a search (steps, rounds, starts) stays where it is used: it moves no verdict.
 
+mod study;
+#[cfg(test)]
+mod tests;
+
+pub use study::*;
+
 /// Of the level α, the share that the effects get; the tests for lack of fit get the rest.
 pub const SHARE_OF_EFFECTS: f64 = 0.8;
-/// A second effect is looked for if more than this share of the error is left, and more than that many mm: the catalogue's
-/// laws are not the real ones to the last twentieth.
-pub const WORTH_A_SECOND: (f64, f64) = (0.05, 0.15);
-/// More than this share of the error left by one effect, or by two, and more than that many mm, means that the catalogue
-/// does not explain it. Errors are those beyond noise and scatter between runs.
-pub const LEFT_OVER: [(f64, f64); 2] = [(0.2, 0.05), (0.15, 0.05)];
+
+/// A second effect is looked for if more than this share of the error is left: the catalogue's laws are not the real ones to the
+/// last twentieth.
+pub const WORTH_A_SECOND: f64 = 0.05;
+/// And if more than this is left \[mm\].
+pub const WORTH_A_SECOND_MM: f64 = 0.15;
+/// More than this share of the error left by one effect means that the catalogue does not explain it. Errors are those beyond noise
+/// and scatter between runs.
+pub const LEFT_BY_ONE: f64 = 0.2;
+/// The same of two effects.
+pub const LEFT_BY_TWO: f64 = 0.15;
+/// Less is nothing left over, whatever its share \[mm\].
+pub const LEAST_LEFT_MM: f64 = 0.05;
 /// A place that stands out with more than this share of the error is not explained: the law of a uniform robot, however wrong
 /// its form, leaves uniform bending.
 pub const PLACE_LEFT: f64 = 0.1;
 /// Left over by more than this share, a trace along yet another effect says the same as a lack of fit.
-pub const MOST_LEFT: (f64, f64) = (0.5, 0.05);
+pub const MOST_LEFT: f64 = 0.5;
 
-/// Differences below this do not decide.
+/// Whether what an effect leaves of an error is worth a second one.
+pub fn is_worth_a_second(after_mm: f64, before_mm: f64) -> bool {
+    after_mm > WORTH_A_SECOND_MM.max(WORTH_A_SECOND * before_mm)
+}
+
+/// Whether one effect, or two, leave more of an error than the form of their laws may.
+pub fn is_left_over(effects: usize, after_mm: f64, before_mm: f64) -> bool {
+    let share = if effects > 1 { LEFT_BY_TWO } else { LEFT_BY_ONE };
+    after_mm > LEAST_LEFT_MM.max(share * before_mm)
+}
+
+/// Whether an effect leaves most of an error.
+pub fn is_most(after_mm: f64, before_mm: f64) -> bool {
+    after_mm > MOST_LEFT * before_mm
+}
+
+/// Whether a place with that gain, beside what a fit gains, holds a share of the error; amplitudes, as far as they were seen.
+pub fn is_a_place_left(gain: f64, of_fit: f64) -> bool {
+    gain - 1.0 > PLACE_LEFT * PLACE_LEFT * (of_fit + gain)
+}
+
+/// Differences of a criterion below this do not decide.
 pub const SAME_EVIDENCE: f64 = 6.0;
 /// Share of the best gain that counts as [`SAME_EVIDENCE`].
 pub const FORM: f64 = 0.05;
@@ -26,50 +61,182 @@ pub const SIZE_FACTOR: f64 = 3.0;
 pub const LEAST_PRICE: f64 = 1.0;
 /// Sizes beyond this factor from the typical one are equally odd.
 pub const ODDEST: f64 = 1e3;
+/// Gain below which an effect does not help: less than one parameter of noise.
+pub const HELPS: f64 = 1.0;
+/// Gain below which a name is a hint.
+pub const HINT: f64 = 25.0;
+/// Gain above which a name without a rival is called identified.
+pub const IDENTIFIED: f64 = 100.0;
+
+/// Whether an effect helps at all, of its gain.
+pub fn helps(gain: f64) -> bool {
+    gain > HELPS
+}
+
+/// Whether a name with that gain is no more than a hint.
+pub fn is_a_hint(gain: f64) -> bool {
+    gain < HINT
+}
+
+/// Whether a name with that gain is the one of this catalogue, if it has no rival.
+pub fn is_beyond_doubt(gain: f64) -> bool {
+    gain > IDENTIFIED
+}
+
+/// Whether an explanation cannot be told from the best one, by a criterion of both.
+pub fn is_alike(criterion: f64, best: f64) -> bool {
+    criterion - best < SAME_EVIDENCE
+}
 
 /// Another attempt, or a second effect, must bring the error in mm below this share; a second effect, or within the tolerance.
 pub const CLOSER: f64 = 0.8;
-
-/// B that moves by more than this with an effect is said so.
-pub const BENDING_MOVES: f64 = 0.2;
-
-/// A base that leaves more than this share of the measured movement does not fit at all.
-pub const NO_FIT: f64 = 0.5;
-/// Standard deviations by which a bending test and the markers disagree.
-pub const DISAGREE: f64 = 3.0;
-
-/// Components of unit vectors that differ by less are the same.
-pub const SAME_DIRECTION: f64 = 0.05;
-
-/// Above this share stray samples are the noise, and none is replaced.
-pub const MOST_REPLACED: f64 = 0.05;
-/// A run stands out below this p, corrected for the number of runs.
-pub const RUN_STANDS_OUT: f64 = 0.001;
-
-/// Contributions this opposite cancel.
-pub const CANCELS: f64 = -0.95;
-
 /// Share of the error left up to which the best of the catalogue is named as a part of the answer.
 pub const MOSTLY: f64 = 0.25;
+/// An error that falls to less than this share speaks for what was added.
+pub const FALLS: f64 = 0.7;
+/// Contributions this opposite cancel: the cosine between them.
+pub const CANCELS: f64 = -0.95;
 
+/// Whether an error is less than another by a fifth.
+pub fn is_closer(after_mm: f64, before_mm: f64) -> bool {
+    after_mm < CLOSER * before_mm
+}
+
+/// Whether an error falls so far that this speaks for what was added: at what was left out of a fit, at other data, of a ledger.
+pub fn falls(after: f64, before: f64) -> bool {
+    after < FALLS * before
+}
+
+/// Whether what is left of an error is so little that an answer outside the catalogue has most of it from the catalogue.
+pub fn is_mostly_gone(after_mm: f64, before_mm: f64) -> bool {
+    after_mm <= MOSTLY * before_mm
+}
+
+/// Whether two contributions with that cosine between them do.
+pub fn cancel(cosine: f64) -> bool {
+    cosine < CANCELS
+}
+
+/// A stiffness that moves by more than this share is said so.
+pub const BENDING_MOVES: f64 = 0.2;
+/// A base that leaves more than this share of the measured movement does not fit at all.
+pub const NO_FIT: f64 = 0.5;
+/// Standard deviations by which a test of its own and the markers disagree.
+pub const DISAGREE: f64 = 3.0;
+/// Standard deviations by which the noise of a test may carry its value beyond a physical bound.
+pub const BEYOND_BOUNDS: f64 = 5.0;
+/// Largest B searched \[N·m²\]: 100 times what a 0.2 mm coated fabric would need at these sizes.
+pub const MOST_BENDING: f64 = 200.0;
 /// Costs of two starts that differ by more than this end in different minima.
 pub const SAME_MINIMUM: f64 = 1.0;
 /// A bound is binding if the data would gain this much beyond it: two standard errors.
 pub const BINDING: f64 = 4.0;
 
-/// Standard deviations by which the noise of a test may carry its value beyond a physical bound.
-pub const BEYOND_BOUNDS: f64 = 5.0;
+/// Whether a bending stiffness moved so far that something else is in it \[N·m²\].
+pub fn bending_moves(from: f64, to: f64) -> bool {
+    (to - from).abs() > BENDING_MOVES * from.max(1e-3)
+}
+
+/// Whether what a base leaves of a movement says that scenario and data are of different robots.
+pub fn does_not_fit(left_mm: f64, moved_mm: f64) -> bool {
+    left_mm > NO_FIT * moved_mm
+}
+
+/// Whether two findings that differ by so many standard deviations contradict each other.
+pub fn disagree(deviations: f64) -> bool {
+    deviations.abs() > DISAGREE
+}
+
+/// Whether a value may be one within these bounds, of its standard deviation.
+pub fn is_within([lower, upper]: [f64; 2], value: f64, sd: f64) -> bool {
+    (lower - BEYOND_BOUNDS * sd..=upper + BEYOND_BOUNDS * sd).contains(&value)
+}
+
+/// Whether a fit ended in another minimum than the least.
+pub fn is_another_minimum(cost: f64, least: f64) -> bool {
+    cost - least > SAME_MINIMUM
+}
+
+/// Above this share stray samples are the noise, and none is replaced.
+pub const MOST_REPLACED: f64 = 0.05;
+/// A run stands out below this p, corrected for the number of runs.
+pub const RUN_STANDS_OUT: f64 = 0.001;
+/// A pair of holds scatters otherwise below this p, corrected for the number of pairs.
+pub const HOLD_STANDS_OUT: f64 = 0.01;
+/// And if run or hold scatters by more than this factor more than the others.
+pub const RUN_SCATTERS: f64 = 1.5;
+/// Runs of which one can be told as the odd one, and for which p-values are given.
+pub const FEWEST_RUNS: usize = 3;
+/// Standard errors by which a pressure falls that runs down during a hold.
+pub const RUNS_DOWN: f64 = 4.0;
+/// Specification of the sensors, the least scatter ever assumed in a test: pressure 0.3 % of the reading, a gauge's gain too, alignment
+/// 0.1 mm in x and y, rotation 0.5 mrad.
+pub const SENSOR_SD: [f64; 4] = [0.003, 1e-4, 1e-4, 5e-4];
+/// Standard deviation of a gauge's zero \[Pa\]. Assumed: 0.25 % of a span of 40 kPa.
+pub const ZERO_SD_PA: f64 = 100.0;
+/// Standard deviation of one reading \[Pa\], where there are no repeats to take it from. Assumed.
+pub const READING_SD_PA: f64 = 50.0;
+/// Least standard deviation of one reading \[Pa\]: the last digit.
+pub const LEAST_READING_SD_PA: f64 = 20.0;
+/// Multiple of the noise that counts as standing out where no p-value can be given (two runs, or σ supplied).
+pub const MANY_TIMES_THE_NOISE: f64 = 5.0;
+/// Mean square of whitened residuals from which a misfit counts: as much again as the noise, which several hundred values never are by
+/// chance.
+pub const MISSES: f64 = 2.0;
+/// Mean square of whitened residuals, a misfit of three times the noise, from which a fit allows for it (chosen, `docs/accuracy.md`):
+/// s² then grows by that factor, so that scatter between runs, which is no misfit, stays as small as it is beside it. With few runs a
+/// law that misses would otherwise hide in it.
+pub const MISFIT: f64 = 10.0;
+/// Half-width over value above which the profile is followed.
+pub const WIDE: f64 = 0.3;
+/// A pressure tells of a parameter if its share of the squared weights is above this.
+pub const PRESSURE_TELLS: f64 = 1e-3;
+
+/// Whether a law misses data by more than noise, of the mean square of its whitened residuals.
+pub fn misses(mean_square: f64) -> bool {
+    mean_square > MISSES
+}
+
+/// Whether it misses by so much that a fit allows for it.
+pub fn is_a_misfit(mean_square: f64) -> bool {
+    mean_square >= MISFIT
+}
+
+/// Whether stray samples are so few that the other runs may stand in for them.
+pub fn are_strays(share: f64, runs: usize) -> bool {
+    share <= MOST_REPLACED && runs >= FEWEST_RUNS
+}
+
+/// Whether the scatter of two holds is not one, of the chance of that for any pair and of their quotient.
+pub fn is_uneven(p_corrected: f64, ratio: f64) -> bool {
+    p_corrected < HOLD_STANDS_OUT && ratio > RUN_SCATTERS
+}
+
+/// Whether a pressure runs down that falls by so many standard errors between the first and the last sample of a hold.
+pub fn runs_down(deviations: f64) -> bool {
+    deviations.abs() > RUNS_DOWN
+}
+
+/// Whether a run that scatters so many times as much as the others is not one of them.
+pub fn run_stands_out(p_corrected: f64, ratio: f64) -> bool {
+    p_corrected < RUN_STANDS_OUT && ratio > RUN_SCATTERS
+}
 
 /// Normal quantile of nine in ten.
 pub const Z_POWER: f64 = 1.2816;
 /// λ below which an experiment is not worth its time.
 pub const WORTHLESS: f64 = 3.0;
 
+/// Whether an experiment that parts two explanations by λ is worth its time.
+pub fn is_worth_its_time(lambda: f64) -> bool {
+    lambda >= WORTHLESS
+}
+
 /// Share of the squares of a misfit that a pattern must hold to be told.
 pub const PATTERN_TELLS: f64 = 0.25;
-/// An error at what was left out that falls to less than this share speaks for a law; markers have the same.
-pub const PREDICTS: f64 = 0.7;
 
+/// Holds within this share of the highest pressure of the lowest are the lowest.
+pub const LOWEST: f64 = 0.02;
 /// Chance of the shift where nothing is shifted, above which nothing is told.
 pub const SHIFT_CHANCE: f64 = 1e-3;
 /// Share that a shift may leave of the mean over runs. A lens that bulges the image is off at the base too, grows otherwise
@@ -77,53 +244,109 @@ pub const SHIFT_CHANCE: f64 = 1e-3;
 pub const SHIFT_LEAVES: f64 = 0.2;
 /// Heading of the last marker beyond which a hold is not nearly straight \[rad\].
 pub const NEARLY_STRAIGHT: f64 = 0.8;
-
 /// A distance that undoing a slip takes to less than this share of it is called far less. Undoing a slip that is not there
 /// leaves more than before, so that anything below 1 would do without noise.
 pub const FAR_LESS: f64 = 0.5;
-
 /// Beyond this factor either way it is no camera's scale: the catalogue's `camera_scale` ends there.
 pub const NO_SCALE: f64 = 1.25;
 /// How near a factor must be to that of a unit to be called by it.
 pub const NEAR_UNIT: f64 = 0.1;
-
-/// Runs from which on it can be said which is the odd one.
-pub const RUNS_TO_TELL: usize = 3;
-
-/// Then half of their distance must be this many times what a marker is usually off: of markers closer together than the noise no
-/// label can be told.
+/// Half of the distance of two markers must be this many times what a marker is usually off: of markers closer together than the
+/// noise no label can be told.
 pub const LABELS_CLEAR: f64 = 3.0;
 
-/// Half-width over value above which the profile is followed.
-pub const WIDE: f64 = 0.3;
-/// Mean square of whitened residuals from which a misfit counts: as much again as the noise, which several hundred values never are by
-/// chance.
-pub const MISSES: f64 = 2.0;
-/// A pressure tells of a parameter if its share of the squared weights is above this.
-pub const PRESSURE_TELLS: f64 = 1e-3;
+/// Whether a pressure is the lowest of a protocol, of its lowest and highest.
+pub fn is_lowest(pressure_pa: f64, [low_pa, high_pa]: [f64; 2]) -> bool {
+    pressure_pa <= low_pa + LOWEST * high_pa
+}
 
-/// Multiple of the noise that counts as standing out where no p-value can be given (two runs, or σ supplied).
-pub const MANY_TIMES_THE_NOISE: f64 = 5.0;
+/// Whether a shift explains a mean over runs: its squares without and with it, and the chance of that where nothing is shifted.
+pub fn is_a_shift([before, after]: [f64; 2], chance: f64) -> bool {
+    after < SHIFT_LEAVES * SHIFT_LEAVES * before && chance < SHIFT_CHANCE
+}
 
-/// Fewest runs for which p-values are given.
-pub const RUNS_FOR_P: usize = 3;
+/// Whether a hold whose last marker heads so far off is straight enough to show the origin \[rad\].
+pub fn is_nearly_straight(heading: f64) -> bool {
+    heading < NEARLY_STRAIGHT
+}
 
-/// Mean square of whitened residuals, a misfit of three times the noise, from which a fit allows for it (chosen, `docs/accuracy.md`): s² then grows by that factor, so that scatter
-/// between runs, which is no misfit, stays as small as it is beside it. With few runs a law that misses would otherwise hide in it.
-pub const MISFIT: f64 = 10.0;
+/// Whether a distance is so much less than another that it is no chance.
+pub fn is_far_less(after_m: f64, before_m: f64) -> bool {
+    after_m < FAR_LESS * before_m
+}
+
+/// Whether a factor on positions is none that a camera makes.
+pub fn is_no_scale(factor: f64) -> bool {
+    !(1.0 / NO_SCALE..=NO_SCALE).contains(&factor)
+}
+
+/// Whether a factor is that of a unit, of their quotient.
+pub fn is_near_unit(quotient: f64) -> bool {
+    (quotient - 1.0).abs() < NEAR_UNIT
+}
+
+/// Whether two markers that are apart by twice that can be told from each other where markers are usually off by so much.
+pub fn labels_are_clear(half_apart_m: f64, usual_m: f64) -> bool {
+    half_apart_m > LABELS_CLEAR * usual_m
+}
 
 /// Ratios P/p within this fraction match.
 pub const SAME_RATIO: f64 = 0.03;
 /// Body pressures must differ by more than this fraction, or the pair tests nothing.
 pub const BODY_DIFFERENCE: f64 = 0.10;
-/// Difference of a model's shapes that counts as none: 0.15 mm, or 0.5 % of its largest deflection if more.
-pub const MODEL_TOLERANCE_M: f64 = 1.5e-4;
+/// Actuator pressures below this count as "no pressure" \[Pa\]: a vented regulator still reads a little.
+pub const ZERO_PRESSURE_PA: f64 = 100.0;
+/// Pressures within this fraction are one level.
+pub const SAME_PRESSURE: f64 = 0.05;
+/// Components of unit vectors that differ by less are the same.
+pub const SAME_DIRECTION: f64 = 0.05;
 
+/// Whether two ratios P/p match.
+pub fn is_same_ratio(one: f64, other: f64) -> bool {
+    (one / other).ln().abs() <= SAME_RATIO
+}
+
+/// Whether two body pressures are so different that the scaling law can be tested.
+pub fn bodies_differ(one_pa: f64, other_pa: f64) -> bool {
+    (one_pa / other_pa).ln().abs() > BODY_DIFFERENCE
+}
+
+/// Whether two pressures are one level \[Pa\].
+pub fn is_same_pressure(one_pa: f64, other_pa: f64) -> bool {
+    (one_pa - other_pa).abs() <= (SAME_PRESSURE * one_pa.abs().max(other_pa.abs())).max(ZERO_PRESSURE_PA)
+}
+
+/// No robot is this long \[m\]; a larger number is a unit mistake.
+pub const FARTHEST_M: f64 = 1e3;
+/// Lengths within this fraction are the same.
+pub const SAME_LENGTH: f64 = 0.02;
+
+/// Whether a number can be a place on a robot \[m\].
+pub fn is_a_length(value_m: f64) -> bool {
+    value_m.is_finite() && value_m.abs() <= FARTHEST_M
+}
+
+/// Whether a robot has another length than is stated of it; not if one of the two is unknown (NaN).
+pub fn is_other_length(one_m: f64, other_m: f64) -> bool {
+    (one_m - other_m).abs() > SAME_LENGTH * other_m.abs()
+}
+
+/// A difference of shapes that does not matter \[m\].
+pub const TOLERANCE_M: f64 = 1.5e-4;
+/// Its share of the largest deflection, if that is more.
+pub const TOLERANCE: f64 = 0.005;
 /// Deflections below this are left out of the restricted accuracy \[m\].
 pub const SMALL_DEFLECTION_M: f64 = 5e-3;
 
-/// Pressures within this fraction are one level.
-pub const SAME_PRESSURE: f64 = 0.05;
+/// Whether a marker has moved enough for a relative error, of the standard deviation of its mean \[m\].
+pub fn has_moved(y_m: f64, sd_m: f64) -> bool {
+    y_m.abs() > SMALL_DEFLECTION_M.max(MANY_TIMES_THE_NOISE * sd_m)
+}
+
+/// The error below which a model is good enough: max(0.15 mm, 0.5 % of d_max) \[m\].
+pub fn tolerance_m(d_max_m: f64) -> f64 {
+    TOLERANCE_M.max(TOLERANCE * d_max_m)
+}
 
 /// How exactly the shared numbers of a camera are told where nothing is wrong with it: distance of the tracked line over R, scale, roll \[rad\].
 pub const CAMERA_AS_TOLD: [f64; 3] = [0.02, 0.002, 0.001];

@@ -11,9 +11,6 @@ use crate::policy;
 use crate::stats::{holm, reported_p, two_sided_p};
 use serde::Serialize;
 
-/// Two pressures are the same hold pressure within this fraction.
-const SAME_PRESSURE: f64 = 0.03;
-
 /// A signed difference, model minus measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Deviation {
@@ -209,9 +206,7 @@ fn gap_weights(c: &BesideMean, load: usize, unload: usize, shape: &[f64]) -> Wei
 /// Each unloading hold with the latest earlier loading hold at the same two pressures.
 fn loop_pairs(c: &BesideMean) -> Vec<(usize, usize)> {
     let holds = &c.dataset.holds;
-    let same = |a: f64, b: f64| {
-        (a - b).abs() <= (SAME_PRESSURE * a.abs().max(b.abs())).max(crate::beside_mean::ZERO_PRESSURE_PA)
-    };
+    let same = policy::is_same_pressure;
     let matches = |l: usize, u: usize| {
         holds[l].phase != data::Phase::Unload
             && same(holds[l].p_act_pa, holds[u].p_act_pa)
@@ -219,4 +214,19 @@ fn loop_pairs(c: &BesideMean) -> Vec<(usize, usize)> {
     };
     let unloading = (0..holds.len()).filter(|&u| holds[u].phase == data::Phase::Unload);
     unloading.filter_map(|u| (0..u).rev().find(|&l| matches(l, u)).map(|l| (l, u))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_a_p_value_five_times_the_noise_stands_out() {
+        let of = |in_noise, p_corrected| Deviation { mm: 1.0, in_noise, p_corrected }.stands_out(0.01);
+        assert_eq!([4.9, 5.1, -5.1].map(|z| of(Some(z), None)), [Some(false), Some(true), Some(true)]);
+        assert_eq!(
+            (of(Some(9.0), Some(0.02)), of(Some(2.0), Some(0.009)), of(None, None)),
+            (Some(false), Some(true), None)
+        );
+    }
 }

@@ -5,10 +5,9 @@
 //! at the same ratio is an effect with its own stiffness or pressure scale (fabric stretch, bending stiffness,
 //! friction, tail tension, a regulator offset); collapse speaks for geometry alone.
 
-use crate::beside_mean::ZERO_PRESSURE_PA;
 use crate::error::CompareError;
 use crate::layout::{Layout, Weights, apply};
-use crate::noise::{NoiseModel, SENSOR_SD};
+use crate::noise::NoiseModel;
 use crate::policy;
 use crate::stats::{f_tail, holm, reported_p};
 use crate::whiten::Whitener;
@@ -116,7 +115,7 @@ pub fn scaling_of_model(
         return Ok(cannot_be_checked(holds));
     }
     let deflection = prediction_m.iter().skip(1).step_by(2).fold(0.0, |d: f64, y| d.max(y.abs()));
-    let tolerance_mm = 1e3 * policy::MODEL_TOLERANCE_M.max(0.005 * deflection);
+    let tolerance_mm = 1e3 * policy::tolerance_m(deflection);
     let slopes = layout.hold_means(dprediction_dlnp);
     let excused =
         |p: &ScalingPair| 1e3 * mismatch(holds, p).abs() * largest_norm(hold_part(&slopes, layout, p.low_hold));
@@ -145,15 +144,15 @@ type Seen<'s> = dyn Fn(usize, usize) -> bool + 's;
 
 /// Pairs of holds that show one marker at least.
 fn matching_pairs(holds: &[Hold], layout: &Layout, values: &[f64], is_seen: &Seen) -> Vec<ScalingPair> {
-    let usable = |h: &Hold| h.p_act_pa > ZERO_PRESSURE_PA && h.p_body_pa > ZERO_PRESSURE_PA;
+    let usable = |h: &Hold| h.p_act_pa > policy::ZERO_PRESSURE_PA && h.p_body_pa > policy::ZERO_PRESSURE_PA;
     let unloading = |h: &Hold| h.phase == Phase::Unload;
     let means = layout.hold_means(values);
     let mut pairs = Vec::new();
     for (i, a) in holds.iter().enumerate() {
         for (j, b) in holds.iter().enumerate().skip(i + 1) {
             let comparable = usable(a) && usable(b) && unloading(a) == unloading(b);
-            let apart = comparable && (a.p_body_pa / b.p_body_pa).ln().abs() > policy::BODY_DIFFERENCE;
-            if apart && (ratio(a) / ratio(b)).ln().abs() <= policy::SAME_RATIO {
+            let apart = comparable && policy::bodies_differ(a.p_body_pa, b.p_body_pa);
+            if apart && policy::is_same_ratio(ratio(a), ratio(b)) {
                 let (low, high) = if a.p_body_pa < b.p_body_pa { (i, j) } else { (j, i) };
                 pairs.extend(pair(holds, layout, &means, (low, high), is_seen));
             }
@@ -217,7 +216,7 @@ fn chi_square(
     }
     let [pressure, _, _, rotation] = noise.test_variance;
     // Two holds are two settings of the regulator: each adds its own error, whatever the run-to-run scatter.
-    let regulator = 2.0 * SENSOR_SD[0].powi(2) / noise.runs as f64;
+    let regulator = 2.0 * policy::SENSOR_SD[0].powi(2) / noise.runs as f64;
     let variances = [pressure, mismatch(&dataset.holds, pair).powi(2) + regulator, 0.0, rotation];
     let unit_m = (2.0 / layout.samples as f64).sqrt() * noise.unit_m();
     let white = Whitener::new(&rows, unit_m, &variances)?.whiten(&difference);
@@ -249,13 +248,14 @@ fn data_sentence(verdict: ScalingVerdict, pairs: &[ScalingPair], differing: usiz
 fn cannot_be_checked(holds: &[Hold]) -> ScalingCheck {
     let start = "The P/p scaling law cannot be checked with these data: no two holds have the same P/p at different \
     body pressures";
-    let pressurised = holds.iter().filter(|h| h.p_act_pa > ZERO_PRESSURE_PA && h.p_body_pa > ZERO_PRESSURE_PA);
+    let pressurised =
+        holds.iter().filter(|h| h.p_act_pa > policy::ZERO_PRESSURE_PA && h.p_body_pa > policy::ZERO_PRESSURE_PA);
     let reference = pressurised.clone().map(|h| h.p_body_pa).next();
     let sentence = match reference {
         None => format!("{start}; record holds with both pressures above zero."),
         Some(body) => {
-            let same_body = pressurised
-                .filter(|h| h.phase != Phase::Unload && (h.p_body_pa / body).ln().abs() < policy::BODY_DIFFERENCE);
+            let same_body =
+                pressurised.filter(|h| h.phase != Phase::Unload && !policy::bodies_differ(h.p_body_pa, body));
             let mut actuator: Vec<f64> = same_body.map(|h| 1e-3 * h.p_act_pa).collect();
             actuator.sort_by(f64::total_cmp);
             let scaled = |by: f64| {

@@ -1,20 +1,16 @@
 //! Does an added effect help on data that it was not fitted to? Nothing is refitted.
 
 use crate::error::CompareError;
-use crate::evaluate::{EvaluateOptions, default_tolerance_m};
+use crate::evaluate::EvaluateOptions;
 use crate::evidence::Evidence;
 use crate::extension::{Origin, origins};
+use crate::policy;
 use crate::scenario_file::ScenarioFile;
 use crate::study::comparison::{Comparison, Contender, compare_all};
 use data::About;
 use models::Known;
 use models::Scenario;
 use serde::Serialize;
-
-/// An error that falls to less than this share is called a fall, one that rises above its inverse a rise.
-const CLEAR: f64 = 0.7;
-/// Lengths that differ by less are the same.
-const SAME_LENGTH: f64 = 0.02;
 
 /// One evidence, with and without the effects.
 #[derive(Debug, Clone, Serialize)]
@@ -100,7 +96,7 @@ impl BeforeAfter {
         let found = compare_all(&models, evidence, &options, None)?;
         let [before, after] = [0, 1].map(|k| how_far(&found, k));
         let all = &found.variants[1].evaluation.metrics.overall;
-        let tolerance_mm = 1e3 * default_tolerance_m(1e-3 * all.d_max_mm);
+        let tolerance_mm = 1e3 * policy::tolerance_m(1e-3 * all.d_max_mm);
         let (verdict, sentence) = judged(before.beyond_noise_mm, after.beyond_noise_mm, tolerance_mm, fitted_to_these);
         let levels = |of: fn(&data::Hold) -> f64| {
             let mut levels: Vec<f64> = evidence.dataset.holds.iter().map(|h| (of(h) * 1e-2).round() * 0.1).collect();
@@ -173,8 +169,8 @@ fn judged(before: f64, after: f64, tolerance_mm: f64, fitted_to_these: bool) -> 
             "no_argument",
             format!("{fall}: both within the tolerance of {tolerance_mm:.2} mm, no argument either way"),
         ),
-        () if after < CLEAR * before => ("helps", format!("{fall}: the effect helps where it was not fitted")),
-        () if after > before / CLEAR => {
+        () if policy::falls(after, before) => ("helps", format!("{fall}: the effect helps where it was not fitted")),
+        () if policy::falls(before, after) => {
             ("worse", format!("{fall}: worse with the effect; its name or its value does not hold here"))
         }
         () => ("no_difference", format!("{fall}: hardly a difference; these data do not support the effect")),
@@ -197,7 +193,7 @@ fn resized(scenario: &Scenario, about: &About, changed: &mut Vec<String>) -> Sce
     let mut sized = scenario.clone();
     let Some(g) = &about.geometry else { return sized };
     let mut set = |what: &str, mine: &mut f64, theirs: Option<f64>| {
-        if let Some(v) = theirs.filter(|v| (v - *mine).abs() > SAME_LENGTH * mine.abs()) {
+        if let Some(v) = theirs.filter(|v| policy::is_other_length(*v, *mine)) {
             changed.push(format!("{what} {:.1} mm, not {:.1}", v * 1e3, *mine * 1e3));
             *mine = v;
         }

@@ -14,6 +14,7 @@
 
 use crate::diagnosis::{Answer, Diagnosis, ParameterValue, Ranked, Standing, Verdict, with_fitted};
 use crate::error::CompareError;
+use crate::policy;
 use crate::study::engines::{EngineRun, Ensemble, TERMS, between, ensemble};
 use crate::study::predict::{fit_scenario, predict_dataset};
 use crate::wording::{list, short};
@@ -25,15 +26,9 @@ use serde::Serialize;
 const PHYSICAL: usize = TERMS.len() - 1;
 /// Candidates held against the ledger, those of the stated set before others.
 const MOST: usize = 6;
-/// Finite elements meet a measurement within this share, or within their own spread.
-const MEETS: f64 = 0.10;
-/// A ledger is nearer if what it is apart falls below this share.
-const NEARER: f64 = 0.7;
 /// Places in [`TERMS`].
 const GAS: usize = 0;
 const BENDING: usize = 2;
-/// Pressures of a hold and of a run that are taken for the same, over the pressure.
-const SAME_PRESSURE: f64 = 0.02;
 
 /// Outermost shared marker at one pressure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -199,9 +194,9 @@ fn heights(models: [&Scenario; 2], dataset: &Dataset, ensemble: &Ensemble) -> Re
     let mut found: Vec<Height> = Vec::new();
     for (h, hold) in dataset.holds.iter().enumerate() {
         let kpa = hold.p_act_pa * 1e-3;
-        let body = (hold.p_body_pa * 1e-3 - run.body_kpa).abs() < 0.05 * run.body_kpa;
+        let body = policy::is_same_pressure(hold.p_body_pa, 1e3 * run.body_kpa);
         let nearest = pressures().min_by(|a, b| (a - kpa).abs().total_cmp(&(b - kpa).abs()));
-        let Some(shared) = nearest.filter(|p| (p - kpa).abs() < SAME_PRESSURE * p) else { continue };
+        let Some(shared) = nearest.filter(|p| policy::is_same_set_point(*p, kpa)) else { continue };
         let Some((fe_mm, fe_sd_mm)) = ensemble.marker_at(stations[marker], shared) else { continue };
         let unseen = !dataset.is_seen(h, marker);
         if !body || unseen || hold.phase == Phase::Unload || found.iter().any(|f| f.actuator_kpa == shared) {
@@ -213,7 +208,8 @@ fn heights(models: [&Scenario; 2], dataset: &Dataset, ensemble: &Ensemble) -> Re
         let runs = dataset.runs.len();
         let measured_mm = (0..runs).map(|r| of(dataset.run(r))).sum::<f64>() / runs as f64;
         let [base_mm, best_mm] = [of(&base.xy_m), of(&best.xy_m)];
-        let meets = (fe_mm - measured_mm).abs() <= (MEETS * measured_mm.abs()).max(2.0 * fe_sd_mm.unwrap_or(0.0));
+        let meets =
+            policy::meets(fe_mm / measured_mm - 1.0) || (fe_mm - measured_mm).abs() <= 2.0 * fe_sd_mm.unwrap_or(0.0);
         found.push(Height { actuator_kpa: shared, measured_mm, base_mm, best_mm, fe_mm, fe_sd_mm, meets });
     }
     found.sort_by(|a, b| a.actuator_kpa.total_cmp(&b.actuator_kpa));
@@ -295,14 +291,14 @@ fn nearest(base: &WitnessRow, others: &[WitnessRow], fe: &[f64; 6], d: &Diagnosi
     let off = |m: &WitnessRow, k: usize| (fe[k] - m.energies_mj[k]).abs();
     let widest = (0..PHYSICAL).max_by(|a, b| off(base, *a).total_cmp(&off(base, *b))).unwrap_or(GAS);
     let where_ = format!("{} ({:.0} mJ, theirs {:.0} mJ)", TERMS[widest], base.energies_mj[widest], fe[widest]);
-    match others.first().filter(|m| m.apart_mj < NEARER * base.apart_mj) {
+    match others.first().filter(|m| policy::falls(m.apart_mj, base.apart_mj)) {
         Some(m) => {
             let named = d.indistinguishable.iter().chain(d.added.iter().map(|a| &a.effect));
             let named = named.map(|n| format!("+ {n}")).any(|n| n == m.name);
             let by = if named { "which the data name too" } else { "which the data alone do not put first" };
             let rivals: Vec<String> = others[1..]
                 .iter()
-                .filter(|o| o.apart_mj < m.apart_mj / NEARER)
+                .filter(|o| !policy::falls(m.apart_mj, o.apart_mj))
                 .map(|o| o.name.trim_start_matches("+ ").to_string())
                 .collect();
             let rivals = if rivals.is_empty() { String::new() } else { format!("; {} hardly less so", list(&rivals)) };

@@ -1,7 +1,7 @@
 //! Plots of both engines.
 
 use super::PageError;
-use compare::study::engines::{EnginePair, PARTS, TERMS};
+use compare::study::engines::{EnginePair, TERMS};
 use compare::study::engines::{EngineRobot, Engines, PartingMap};
 use data::published::printed;
 use models::actuators::Family;
@@ -25,8 +25,11 @@ pub fn parting_plot(map: &PartingMap) -> Result<Drawn, PageError> {
             let found = pairs.iter().find(|p| (p.actuator_kpa - kpa).abs() < 0.05);
             let share = found.and_then(EnginePair::difference).unwrap_or(f64::NAN);
             // Where the models do not part, the cell is pale.
-            let strength =
-                if share.abs() > PARTS { share.signum() * (share.abs() / STRONGEST).max(0.15) } else { 0.0 * share };
+            let strength = if found.is_some_and(EnginePair::parts) {
+                share.signum() * (share.abs() / STRONGEST).max(0.15)
+            } else {
+                0.0 * share
+            };
             let sign = if share > 0.0 { "+" } else { "" };
             let words = if share.is_finite() { format!("{sign}{} %", number(100.0 * share, 0)) } else { "–".into() };
             let carrier = found.and_then(EnginePair::carrier).unwrap_or_default();

@@ -1,7 +1,7 @@
 //! The paper's finite elements in words.
 
 use crate::tables::table;
-use compare::study::paper::{FactRow, HeightRow, NEAR, PaperRun, mesh_name};
+use compare::study::paper::{FactRow, HeightRow, PaperRun, mesh_name};
 
 /// Heights, facts and numerics.
 pub fn text(against: &[HeightRow], rows: &[FactRow], runs: &[PaperRun]) -> String {
@@ -14,10 +14,7 @@ pub fn text(against: &[HeightRow], rows: &[FactRow], runs: &[PaperRun]) -> Strin
     );
     out.push_str("(y_FEA − y_EXP)/y_FEA over six markers. Assumed in reading it: the error is alike along the robot, its sign is\n");
     out.push_str("unknown; then y_FEA = y_EXP/(1 + e), the low branch, or y_EXP/(1 − e), the high one. y_EXP is printed at 30 kPa\n");
-    out.push_str(&format!(
-        "only; it is nowhere more than there. A height within {:.0} % of a branch holds.\n",
-        100.0 * NEAR
-    ));
+    out.push_str("only; it is nowhere more than there. A height within a tenth of a branch holds.\n");
     let head = ["robot", "kPa", "mesh", "e %", "low", "high", "at most", "engine", "tip", "verdict"];
     out.push_str(&left_last(&head, against.iter().map(height_cells).collect()));
     out.push_str("\nHeights of the six markers [mm], base first; the paper draws them and prints none\n");

@@ -1,5 +1,6 @@
 //! The specimen is the unit: mean, standard deviation, interval of the mean, and specimens that deviate.
 
+use crate::policy;
 use crate::stats::{t_975, two_sided_p};
 
 /// A number of every specimen, summed up.
@@ -71,7 +72,6 @@ impl Scatter {
 /// Places of values that deviate from the mean of the others: by more than a quarter, or (from three on) by more than chance
 /// in one of twenty sets.
 pub fn deviating(values: &[f64]) -> Vec<(usize, f64)> {
-    const SURELY: f64 = 0.25;
     let n = values.len();
     let others = |i: usize| values.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, v)| *v).collect::<Vec<f64>>();
     let deviation = |i: usize| {
@@ -79,9 +79,7 @@ pub fn deviating(values: &[f64]) -> Vec<(usize, f64)> {
         let off = values[i] - rest.mean;
         let spread = rest.sd.unwrap_or(0.0) * (1.0 + 1.0 / rest.n as f64).sqrt();
         let rare = n > 3 && two_sided_p(off / spread.max(f64::MIN_POSITIVE), n - 2) * (n as f64) < 0.05;
-        // Of many specimens, small but significant deviations do no harm.
-        let matters = off.abs() > 0.05 * rest.mean.abs();
-        (off.abs() > SURELY * rest.mean.abs() || (rare && matters)).then_some((i, off / rest.mean))
+        policy::deviates(off / rest.mean, rare).then_some((i, off / rest.mean))
     };
     let mut found: Vec<(usize, f64)> = (0..n).filter_map(deviation).collect();
     // One wild value makes its neighbours deviate from the mean that it spoils: keep what deviates from the median too.
@@ -89,7 +87,7 @@ pub fn deviating(values: &[f64]) -> Vec<(usize, f64)> {
     sorted.sort_by(f64::total_cmp);
     if n > 2 {
         let median = 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]);
-        found.retain(|(i, _)| (values[*i] - median).abs() > 0.04 * median.abs());
+        found.retain(|(i, _)| policy::deviates(values[*i] / median - 1.0, true));
     }
     if n > 2 && found.len() == n { Vec::new() } else { found }
 }

@@ -4,13 +4,10 @@ use data::{Coupon, DataError, Direction, Fault, Pulled};
 use models::fabrics::{BiasExtension, Fabric, specimen as fit};
 
 use super::{Reduction, units};
+use crate::policy;
 
-/// Fewest rows of a modulus.
-const FEWEST: usize = 5;
 /// Most rows that go into a reduction: far finer than any law's table, and the noise is averaged.
 const MOST_ROWS: usize = 400;
-/// Shear angle beyond which published curves are yarn slip, not shear \[rad\].
-const SURELY_SLIP_RAD: f64 = 70.0 * std::f64::consts::PI / 180.0;
 
 /// What one specimen says.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,9 +59,10 @@ pub(super) fn reduce(coupon: &Coupon, settings: &Reduction, warnings: &mut Vec<S
     let along = coupon.direction.along_yarn();
     let whole = stresses(coupon)?;
     let mut used = up_to_peak(whole.as_deref().unwrap_or(coupon.pulled.rows()));
-    if used.len() < FEWEST {
+    if used.len() < policy::FEWEST_ROWS {
         let message = format!("{} is largest in row {} of the specimen", coupon.columns[1], used.len());
-        let help = format!("give at least {FEWEST} rows of loading, tension as a positive {}", coupon.columns[1]);
+        let (least, column) = (policy::FEWEST_ROWS, &coupon.columns[1]);
+        let help = format!("give at least {least} rows of loading, tension as a positive {column}");
         return Err(fault(coupon, message, help));
     }
     super::warn::slips(coupon, &used, warnings);
@@ -116,7 +114,7 @@ pub(super) fn taut(coupon: &Coupon, settings: &Reduction) -> (Coupon, f64) {
 fn poisson(coupon: &Coupon, stress: &[[f64; 2]], up_to: f64) -> Option<f64> {
     let first = *coupon.loaded_width_m.first()?;
     let rows: Vec<[f64; 2]> = stress.iter().zip(&coupon.loaded_width_m).map(|(r, w)| [r[0], w / first - 1.0]).collect();
-    let within = rows.partition_point(|row| row[0] <= up_to).max(FEWEST.min(rows.len()));
+    let within = rows.partition_point(|row| row[0] <= up_to).max(policy::FEWEST_ROWS.min(rows.len()));
     fit::slope(&rows[..within]).map(|slope| -slope)
 }
 
@@ -157,7 +155,7 @@ fn up_to_peak(rows: &[[f64; 2]]) -> Vec<[f64; 2]> {
 
 /// Slope at small strain, and up to which strain: further than asked for if there are too few rows.
 fn modulus(stress: &[[f64; 2]], up_to: f64) -> (Option<f64>, f64) {
-    let within = stress.partition_point(|row| row[0] <= up_to).max(FEWEST.min(stress.len()));
+    let within = stress.partition_point(|row| row[0] <= up_to).max(policy::FEWEST_ROWS.min(stress.len()));
     (fit::slope(&stress[..within]), stress[..within].last().map_or(up_to, |row| row[0]))
 }
 
@@ -195,7 +193,8 @@ pub(super) fn strip(
     let shear = size.shear_force(&pulled, yarns).map_err(refused)?;
     // Every row of the reduction rests on those before it alone.
     let small = pulled.partition_point(|row| row[0] <= 2.0 * settings.modulus_strain * length_m);
-    let start = size.shear_force(&pulled[..small.max(FEWEST.min(pulled.len()))], yarns).map_err(refused)?;
+    let start =
+        size.shear_force(&pulled[..small.max(policy::FEWEST_ROWS.min(pulled.len()))], yarns).map_err(refused)?;
     let slope_n_per_m = fit::slope(&start);
     let locking = fit::locking(&shear);
     Ok(Some(BiasStrip { size, pulled, shear, slope_n_per_m, locking }))
@@ -208,7 +207,7 @@ fn sheared(
     mut rows: Vec<[f64; 2]>,
     warnings: &mut Vec<String>,
 ) -> Vec<[f64; 2]> {
-    let last_m = size.displacement_m(SURELY_SLIP_RAD);
+    let last_m = size.displacement_m(policy::SURELY_SLIP_RAD);
     let kept = rows.partition_point(|row| row[0] <= last_m);
     if kept < rows.len() {
         warnings.push(format!(
@@ -217,7 +216,7 @@ fn sheared(
             coupon.direction.degrees(),
             rows.len() - kept,
             1e3 * last_m,
-            SURELY_SLIP_RAD.to_degrees()
+            policy::SURELY_SLIP_RAD.to_degrees()
         ));
         rows.truncate(kept);
     }

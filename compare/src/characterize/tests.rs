@@ -219,6 +219,43 @@ fn what_is_missing_for_a_stress_is_named() {
     assert!(characterize(&both, &Reduction::default()).unwrap_err().to_string().contains("there twice"));
 }
 
+/// A fabric along a yarn has 5 MPa to 20 GPa, at 45° 0.02 MPa to 2 GPa.
+#[test]
+fn moduli_of_no_fabric_are_refused() {
+    for (direction, [low, high]) in [(0, [5.0, 20e3]), (45, [0.02, 2e3])] {
+        for (modulus_mpa, fits) in [(0.98 * low, false), (1.02 * low, true), (0.98 * high, true), (1.02 * high, false)]
+        {
+            let coupons = read(&straight(direction, &[modulus_mpa]), &CouponDefaults::default());
+            let found = characterize(&coupons, &Reduction::default());
+            assert_eq!(found.is_ok(), fits, "{modulus_mpa} MPa at {direction}°: {:?}", found.err());
+        }
+    }
+}
+
+#[test]
+fn five_rows_of_loading_are_a_curve_and_four_are_none() {
+    let text = |peak: i32| -> String {
+        let rows = (1..=10).map(|i| format!("{},{}\n", 0.1 * f64::from(i), f64::from(peak - (i - peak).abs()) * 0.1));
+        "# direction_deg: 0\nstrain_pct,stress_mpa\n".to_string() + &rows.collect::<String>()
+    };
+    refused(&text(4), &CouponDefaults::default(), &["largest in row 4", "at least 5 rows"]);
+    assert!(characterize(&read(&text(5), &CouponDefaults::default()), &Reduction::default()).is_ok());
+}
+
+#[test]
+fn rows_beyond_seventy_degrees_of_shear_are_left_out() {
+    let strip = BiasExtension { length_m: 0.25, width_m: 0.02, thickness_m: 5e-5 };
+    let said = |degrees: f64| {
+        let last_mm = 1e3 * strip.displacement_m(degrees.to_radians());
+        let rows = (0..=40).map(|i| 0.025 * f64::from(i)).map(|u| format!("{},{}\n", u * last_mm, u));
+        let text =
+            "# direction_deg: 45\n# width_mm: 20\n# length_mm: 250\n# thickness_mm: 0.05\ndisplacement_mm,force_n\n";
+        let coupons = read(&(text.to_string() + &rows.collect::<String>()), &CouponDefaults::default());
+        characterize(&coupons, &Reduction::default()).unwrap().warnings.join(" | ")
+    };
+    assert!(!said(69.0).contains("yarns slip") && said(71.0).contains("1 rows beyond"), "{}", said(71.0));
+}
+
 #[test]
 fn a_slipping_specimen_is_named_with_its_strain() {
     let dropped = |i: i32| if i < 20 { f64::from(i) } else { f64::from(i) - 4.0 };

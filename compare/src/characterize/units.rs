@@ -3,20 +3,17 @@
 use data::{Coupon, DataError, Direction, Pulled};
 
 use super::specimen::fault;
+use crate::policy;
 
-/// Moduli of films and coated fabrics pulled along a yarn \[Pa\]: silicone on light nylon to uncoated polyester, with room.
-const ALONG_PA: [f64; 2] = [5e6, 20e9];
-/// The same at 45°.
-const BIAS_PA: [f64; 2] = [0.02e6, 2e9];
 /// What may be written for what: unit of the column, its size \[Pa\].
 const STRESSES: [(&str, f64); 3] = [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6)];
 
 /// Refuses a modulus far from any fabric, and says which unit would make sense of it.
 pub(super) fn plausible(coupon: &Coupon, modulus_pa: f64) -> Result<(), DataError> {
     let range = match coupon.direction {
-        Direction::Warp | Direction::Fill => ALONG_PA,
-        Direction::Bias => BIAS_PA,
-        Direction::Between(_) => [BIAS_PA[0], ALONG_PA[1]],
+        Direction::Warp | Direction::Fill => policy::ALONG_PA,
+        Direction::Bias => policy::BIAS_PA,
+        Direction::Between(_) => [policy::BIAS_PA[0], policy::ALONG_PA[1]],
     };
     let fits = |pa: f64| (range[0]..=range[1]).contains(&pa);
     if fits(modulus_pa) {

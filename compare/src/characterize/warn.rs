@@ -5,6 +5,7 @@ use models::fabrics::specimen::{self as fit, Slip};
 
 use super::scatter::deviating;
 use super::specimen::Specimen;
+use crate::policy;
 
 /// A specimen that slipped in its grips, and rows that were left out. Rows: strain or displacement, and stress or force.
 pub(super) fn slips(coupon: &Coupon, rows: &[[f64; 2]], warnings: &mut Vec<String>) {
@@ -85,7 +86,7 @@ fn nearest_direction(specimens: &[Specimen], own: Direction, value: f64) -> Opti
             specimens.iter().filter(|s| s.direction == direction).filter_map(|s| s.modulus_pa).collect();
         (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
     };
-    let near = |d: &Direction| mean(*d).is_some_and(|m| (value / m - 1.0).abs() < 0.2);
+    let near = |d: &Direction| mean(*d).is_some_and(|m| policy::is_like_another(value, m));
     directions(specimens).into_iter().filter(|d| *d != own).find(near)
 }
 
@@ -99,9 +100,8 @@ pub(super) fn directions(specimens: &[Specimen]) -> Vec<Direction> {
 
 /// Tests at other angles than the law was made from, each by how much the law is off at the end.
 pub(super) fn checks(off: impl Iterator<Item = f64>, warnings: &mut Vec<String>) {
-    const MUCH: f64 = 0.1;
     let [low, high] = off.fold([0.0_f64, 0.0_f64], |[a, b], o| [a.min(o), b.max(o)]);
-    if low < -MUCH || high > MUCH {
+    if !policy::meets(low) || !policy::meets(high) {
         warnings.push(format!(
             "tests at other angles than the law was made from: it is off by {:+.0} to {:+.0} % at their ends; not asked yet: a \
              Poisson's ratio that was not measured, yarns cut at the edges of a strip as narrow as the weave is coarse",
@@ -113,9 +113,8 @@ pub(super) fn checks(off: impl Iterator<Item = f64>, warnings: &mut Vec<String>)
 
 /// Two shear moduli of one fabric: of the zones of a bias extension, and of three moduli.
 pub(super) fn two_shear_moduli([zones, moduli]: [f64; 2], warnings: &mut Vec<String>) {
-    /// Above what the two reductions differ by on a fabric that both describe.
-    const APART: f64 = 0.1;
-    if (zones / moduli - 1.0).abs() > APART {
+    // The two reductions differ by less on a fabric that both describe.
+    if !policy::meets(zones / moduli - 1.0) {
         warnings.push(format!(
             "two shear moduli that disagree by {:.0} %: {zones:.2} MPa from the zones of the bias extension (it goes into the \
              law -linear), {moduli:.2} MPa from E0, E45 and E90: the curves bend within the strain of the modulus, or the grips, \

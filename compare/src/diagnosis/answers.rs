@@ -2,6 +2,7 @@
 
 use super::fitted::with_fitted;
 use super::result::{Combination, Diagnosis, ParameterValue, Ranked};
+use crate::policy;
 use models::Scenario;
 
 /// What a diagnosis says of an answer.
@@ -52,7 +53,7 @@ impl<'d> Answer<'d> {
 
     /// Whether it changes anything, with values that are possible.
     pub fn helps(&self) -> bool {
-        self.standing != Standing::Rejected && (self.gain > 1.0 || self.standing == Standing::Attempt)
+        self.standing != Standing::Rejected && (policy::helps(self.gain) || self.standing == Standing::Attempt)
     }
 
     fn single(r: &'d Ranked, standing: Standing) -> Answer<'d> {

@@ -56,7 +56,7 @@ pub fn body_pressures<'d>(datasets: impl IntoIterator<Item = &'d Dataset>) -> Ve
     let mut levels: Vec<f64> = Vec::new();
     for hold in datasets.into_iter().flat_map(|dataset| &dataset.holds) {
         let p = hold.p_body_pa;
-        if !levels.iter().any(|l| (l - p).abs() <= policy::SAME_PRESSURE * l.abs().max(100.0)) {
+        if !levels.iter().any(|l| policy::is_same_pressure(*l, p)) {
             levels.push(p);
         }
     }

@@ -11,7 +11,6 @@ use super::screen::trace;
 use super::source::Source;
 use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
-use crate::evaluate::default_tolerance_m;
 use crate::gauge::Gauge;
 use crate::layout::Layout;
 use crate::noise::NoiseModel;
@@ -104,9 +103,9 @@ impl<'a> Case<'a> {
         (candidates, own): (&'a [Candidate], usize),
         options: &Options,
     ) -> Result<Case<'a>, CompareError> {
-        if let Some(source) = sources.iter().skip(1).find(|s| s.dataset.runs.len() < policy::RUNS_FOR_P) {
+        if let Some(source) = sources.iter().skip(1).find(|s| s.dataset.runs.len() < policy::FEWEST_RUNS) {
             let (name, runs) = (source.dataset.name.clone(), source.dataset.runs.len());
-            return Err(CompareError::TooFewRunsBeside { name, runs, needed: policy::RUNS_FOR_P });
+            return Err(CompareError::TooFewRunsBeside { name, runs, needed: policy::FEWEST_RUNS });
         }
         let estimate = |i: usize, slope: &[f64]| {
             let noise = NoiseModel::estimate(sources[i].dataset, slope, &sessions[i], options.sigma_m)?;
@@ -169,7 +168,7 @@ impl<'a> Case<'a> {
             tried: (own..candidates.len()).collect(),
             body_pa,
             base,
-            tolerance_m: options.tolerance_m.unwrap_or_else(|| default_tolerance_m(d_max_m)),
+            tolerance_m: options.tolerance_m.unwrap_or_else(|| policy::tolerance_m(d_max_m)),
             alpha: options.alpha,
         })
     }

@@ -14,10 +14,10 @@ use crate::policy;
 pub fn closest(case: &Case, decision: &Decision, last: Fit) -> Fit {
     let (singles, pairs) = (by_distance(case, &decision.singles), by_distance(case, &decision.pairs));
     let least = |fits: &[(f64, &Fit)]| fits.first().map_or(f64::INFINITY, |(error, _)| *error);
-    let wants_two = least(&pairs) < policy::CLOSER * least(&singles);
+    let wants_two = policy::is_closer(least(&pairs), least(&singles));
     let is_two = last.effects.len() - case.always.len() > 1;
     match if wants_two { pairs } else { singles }.first() {
-        Some((error, nearest)) if wants_two != is_two || *error < policy::CLOSER * case.error_in_all_mm(&last) => {
+        Some((error, nearest)) if wants_two != is_two || policy::is_closer(*error, case.error_in_all_mm(&last)) => {
             (*nearest).clone()
         }
         _ => last,

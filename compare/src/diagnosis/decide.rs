@@ -96,8 +96,8 @@ fn explain(
     let mut last = single.clone();
     let mut of_one = None;
     let one_is_enough = match &single {
-        Some(fit) if !(leaves(case, fit, policy::WORTH_A_SECOND) && is_significant(case, fit)?) => {
-            !*of_one.insert(is_unexplained(case, fit, test(case, fit)?, policy::LEFT_OVER[0]))
+        Some(fit) if !(leaves(case, fit, policy::is_worth_a_second) && is_significant(case, fit)?) => {
+            !*of_one.insert(is_unexplained(case, fit, test(case, fit)?, 1))
         }
         _ => false,
     };
@@ -109,12 +109,12 @@ fn explain(
     let unexplained = match of_one {
         // No pair has taken its place: the same question.
         Some(answer) if decision.pairs.is_empty() => answer,
-        _ => is_unexplained(case, &last, decision.after, policy::LEFT_OVER[usize::from(!decision.pairs.is_empty())]),
+        _ => is_unexplained(case, &last, decision.after, if decision.pairs.is_empty() { 1 } else { 2 }),
     };
     if unexplained {
         let closest = closest(case, decision, last);
         // What hardly moves the model is no attempt.
-        if case.error_in_all_mm(&closest) >= policy::CLOSER * case.error_in_all_mm(&case.base) {
+        if !policy::is_closer(case.error_in_all_mm(&closest), case.error_in_all_mm(&case.base)) {
             decision.after = decision.before;
             return Ok(());
         }
@@ -131,11 +131,12 @@ fn explain(
     Ok(())
 }
 
-/// Whether a fit leaves a share of the error that the tests see as more than noise, at the level that is theirs.
-fn is_unexplained(case: &Case, fit: &Fit, lof: Option<LackOfFit>, share: (f64, f64)) -> bool {
+/// Whether a fit of so many effects leaves a share of the error that the tests see as more than noise, at the level that is theirs.
+fn is_unexplained(case: &Case, fit: &Fit, lof: Option<LackOfFit>, effects: usize) -> bool {
     let level = (1.0 - policy::SHARE_OF_EFFECTS) * case.alpha;
     let lacks = lof.is_some_and(|lof| lof.p_value < level);
-    leaves(case, fit, share) && (lacks || leaves(case, fit, policy::MOST_LEFT) && another_wanted(case, fit) < level)
+    let left_over = |after: f64, before: f64| policy::is_left_over(effects, after, before);
+    leaves(case, fit, left_over) && (lacks || leaves(case, fit, policy::is_most) && another_wanted(case, fit) < level)
         || leaves_a_place(case, fit, level)
 }
 
@@ -147,8 +148,7 @@ fn leaves_a_place(case: &Case, fit: &Fit, level: f64) -> bool {
 
 /// Whether a place that a fit leaves has a share of the error; amplitudes, as far as they were seen.
 fn is_a_place_left(case: &Case, fit: &Fit, seen: &StandsOut) -> bool {
-    let before = case.gain(fit) + seen.gain;
-    seen.gain - 1.0 > policy::PLACE_LEFT * policy::PLACE_LEFT * before
+    policy::is_a_place_left(seen.gain, case.gain(fit))
 }
 
 /// One fault with one amplitude that says what the effects say with more. Of two effects a fault that is as good is the simpler
@@ -192,12 +192,10 @@ fn add_second(case: &Case, decision: &mut Decision, last: &mut Option<Fit>, prog
     }
 }
 
-/// Whether a fit leaves more than a share of the base's error, and more than some mm, by both measures: with what scatter between
-/// runs explains taken off, and as it is. By the first alone a misfit that looks like a run's pressure counts for little, and what
-/// is left of it for much.
-fn leaves(case: &Case, fit: &Fit, (share, least_mm): (f64, f64)) -> bool {
+/// Whether a fit leaves so much of the base's error by both measures: with what scatter between runs explains taken off, and as it
+/// is. By the first alone a misfit that looks like a run's pressure counts for little, and what is left of it for much.
+fn leaves(case: &Case, fit: &Fit, left: impl Fn(f64, f64) -> bool) -> bool {
     let error_mm = |fit: &Fit| case.error_in_all_mm(fit);
-    let left = |after: f64, before: f64| after > least_mm.max(share * before);
     left(case.beyond_noise_mm(fit), case.beyond_noise_mm(&case.base)) && left(error_mm(fit), error_mm(&case.base))
 }
 
@@ -228,4 +226,15 @@ fn p_of(case: &Case, fit: &Fit) -> Option<f64> {
 /// Weighted Bonferroni over the two kinds of tests.
 pub(super) fn combined(p_effect: f64, p_lack_of_fit: f64) -> f64 {
     (p_effect / policy::SHARE_OF_EFFECTS).min(p_lack_of_fit / (1.0 - policy::SHARE_OF_EFFECTS)).min(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::combined;
+
+    #[test]
+    fn effects_get_four_fifths_of_the_level_and_lack_of_fit_one() {
+        assert!((combined(8e-4, 1.0) - 1e-3).abs() < 1e-12 && (combined(1.0, 2e-4) - 1e-3).abs() < 1e-12);
+        assert_eq!(combined(0.9, 0.9), 1.0);
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::known::BenchTest;
 use super::source::seen_rolled;
-use crate::beside_mean::ZERO_PRESSURE_PA;
+use crate::policy;
 use data::{Dataset, Direct, Hold, Lost, Phase};
 use models::Scenario;
 
@@ -105,7 +105,7 @@ fn with_instruments(before: Direct, now: Direct, tests: &[&BenchTest]) -> (Strin
 
 /// Protocols and loads.
 fn protocols(scenario: &Scenario, dataset: &Dataset, direct: Direct) -> Vec<Plan> {
-    let top = dataset.holds.iter().map(|h| h.p_act_pa).fold(ZERO_PRESSURE_PA, f64::max);
+    let top = dataset.holds.iter().map(|h| h.p_act_pa).fold(policy::ZERO_PRESSURE_PA, f64::max);
     let body = dataset.holds[0].p_body_pa;
     let steps = |n: usize| (0..=n).map(|i| top * i as f64 / n as f64).collect::<Vec<f64>>();
     let then_zero = |mut p: Vec<f64>| {

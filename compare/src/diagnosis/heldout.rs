@@ -11,7 +11,6 @@ use super::blocks::block;
 use super::case::Case;
 use super::least_squares::{dot, square};
 use super::problem::{Fit, Problem};
-use crate::beside_mean::ZERO_PRESSURE_PA;
 use crate::error::CompareError;
 use crate::policy;
 use nalgebra::DMatrix;
@@ -110,8 +109,8 @@ fn taken_over_m2(fold: &Fold, fit: &Fit, predicted_m: &[f64], rows: &[usize]) ->
 
 fn pressure_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
     let mut levels: Vec<f64> = Vec::new();
-    for hold in case.dataset.holds.iter().filter(|h| h.p_act_pa > ZERO_PRESSURE_PA) {
-        if !levels.iter().any(|l| same(*l, hold.p_act_pa)) {
+    for hold in case.dataset.holds.iter().filter(|h| h.p_act_pa > policy::ZERO_PRESSURE_PA) {
+        if !levels.iter().any(|l| policy::is_same_pressure(*l, hold.p_act_pa)) {
             levels.push(hold.p_act_pa);
         }
     }
@@ -121,7 +120,7 @@ fn pressure_folds<'a>(case: &Case<'a>) -> Result<Vec<Fold<'a>>, CompareError> {
     let mean = case.dataset.mean_over_runs();
     let width = mean.len() / case.dataset.holds.len();
     let fold = |level: &f64| {
-        let is_out = |h: &usize| same(*level, case.dataset.holds[*h].p_act_pa);
+        let is_out = |h: &usize| policy::is_same_pressure(*level, case.dataset.holds[*h].p_act_pa);
         let (out, kept): (Vec<usize>, Vec<usize>) = (0..case.dataset.holds.len()).partition(is_out);
         let count = |h: &usize| case.noise.seen(h * width..(h + 1) * width) as f64;
         let of_hold = |h: &usize| case.noise.mean_square(h * width..(h + 1) * width).unwrap_or(0.0) * count(h);
@@ -166,8 +165,4 @@ fn problem<'a>(case: &Case<'a>, holds: &[usize], target_m: Vec<f64>) -> Result<P
     blocks.extend(case.blocks_beside()?);
     let Problem { candidates, bendings, known_bending, ref known, .. } = case.problem;
     Ok(Problem { candidates, blocks, bendings, known_bending, known: known.clone(), enough: ENOUGH })
-}
-
-fn same(a: f64, b: f64) -> bool {
-    (a - b).abs() <= (policy::SAME_PRESSURE * a.abs().max(b.abs())).max(ZERO_PRESSURE_PA)
 }

@@ -31,7 +31,7 @@ pub fn kept_bending(
     let options = Options { keep_bending: true, next_experiment: false, missing_moment: false, ..options.clone() };
     let kept = diagnose(scenario, evidence, &options, &mut |_, _| ())?;
     let after = kept.base.systematic_with_added_mm;
-    let is_closer = after < policy::CLOSER * found.base.systematic_with_added_mm;
+    let is_closer = policy::is_closer(after, found.base.systematic_with_added_mm);
     Ok((kept.verdict == Some(Verdict::Effect) && is_closer).then_some(KeptBending {
         value_nm2: kept.base.bending_nominal_nm2,
         indistinguishable: kept.indistinguishable,

@@ -163,8 +163,7 @@ fn check(scenario: &Scenario, m: &MeasuredValue) -> Result<(), CompareError> {
         let keys: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
         return wrong(format!("names an unknown parameter `{key}` of {name}; {}", spelling::known(key, &keys)));
     };
-    let (noise, [lower, upper]) = (policy::BEYOND_BOUNDS * sd, p.possible);
-    if value.is_finite() && (lower - noise..=upper + noise).contains(value) {
+    if value.is_finite() && policy::is_within(p.possible, *value, *sd) {
         return Ok(());
     }
     wrong(format!(
@@ -181,8 +180,7 @@ pub fn unusual(measured: &[MeasuredValue], scenario: &Scenario) -> Vec<String> {
     let told = measured.iter().filter_map(|m| {
         let effect = catalogue.by_name(&m.effect)?;
         let p = effect.parameters.iter().find(|p| p.key == m.key)?;
-        let noise = policy::BEYOND_BOUNDS * m.sd;
-        (!(p.lower - noise..=p.upper + noise).contains(&m.value)).then(|| {
+        (!policy::is_within([p.lower, p.upper], m.value, m.sd)).then(|| {
             format!(
                 "about.toml says that {} has {} = {}, and robots like these have {}: taken as it is, check its unit",
                 m.effect,

@@ -6,7 +6,6 @@ use super::case::Case;
 use super::least_squares::square;
 use super::outliers::Undetectable;
 use super::problem::Problem;
-use crate::beside_mean::ZERO_PRESSURE_PA;
 use crate::policy;
 use crate::wording::list;
 use data::{Dataset, Phase};
@@ -15,9 +14,9 @@ use data::{Dataset, Phase};
 pub fn limits(datasets: &[&Dataset], undetectable: &[Undetectable]) -> Vec<String> {
     let mut limits = Vec::new();
     let holds = || datasets.iter().flat_map(|dataset| &dataset.holds);
-    let mut levels: Vec<f64> = holds().map(|h| h.p_act_pa).filter(|p| *p > ZERO_PRESSURE_PA).collect();
+    let mut levels: Vec<f64> = holds().map(|h| h.p_act_pa).filter(|p| *p > policy::ZERO_PRESSURE_PA).collect();
     levels.sort_by(f64::total_cmp);
-    levels.dedup_by(|a, b| *a - *b <= 0.05 * *b);
+    levels.dedup_by(|a, b| policy::is_same_pressure(*a, *b));
     if levels.len() < 2 {
         limits.push(
             "one actuator pressure only: B takes up whatever changes the size of the bend, so effects show only in the \
@@ -59,7 +58,7 @@ fn bending_test(case: &Case) -> Option<String> {
     let fit = alone.fit(&case.always, &[case.base.theta().to_vec()])?;
     let (own, others) = fit.minimum.jacobian.split_first()?;
     let (markers, weight) = (fit.theta()[0], square(&Basis::of(others).rest(own)));
-    let disagree = weight > 0.0 && (markers - found).abs() > policy::DISAGREE * (1.0 / weight + sd * sd).sqrt();
+    let disagree = weight > 0.0 && policy::disagree((markers - found) / (1.0 / weight + sd * sd).sqrt());
     disagree.then(|| {
         format!(
             "the bending test found B = {found:.2} ± {sd:.2} N·m², without an effect the markers ask for {markers:.2}: something \
@@ -74,7 +73,7 @@ fn tests_of_their_own(case: &Case) -> Vec<String> {
     let told = found.filter_map(|known| {
         let effect = case.candidate(known.effect);
         let p = &effect.parameters[known.parameter];
-        (known.lacking.abs() > policy::DISAGREE).then(|| {
+        policy::disagree(known.lacking).then(|| {
             let [value, sd] = [known.value, known.sd].map(|v| super::words::value(v / p.si));
             format!(
                 "about.toml says that {} was measured: {} = {value} ± {sd} {}, and the scenario lacks it; whether the markers \
@@ -95,7 +94,7 @@ pub fn warnings(case: &Case) -> Vec<String> {
         1e3 * (y / values.len() as f64).sqrt()
     };
     let left = case.error_mm(&case.prediction(&case.base));
-    if left > policy::NO_FIT * moved(target) {
+    if policy::does_not_fit(left, moved(target)) {
         warnings.push(format!(
             "the base does not fit at all: {left:.1} mm remain of a movement of {:.1} mm (rms); before looking for effects, \
              check actuator and dimensions in the scenario, the sign of y, marker stations and pressure units",
@@ -108,7 +107,7 @@ pub fn warnings(case: &Case) -> Vec<String> {
             warnings.push(format!(
                 "B = {bending:.2} N·m² is on the bound of its search: stiffness does not explain the data"
             ));
-        } else if nominal > 0.0 && (bending - nominal).abs() > 0.2 * nominal {
+        } else if nominal > 0.0 && policy::bending_moves(nominal, *bending) {
             warnings.push(format!(
                 "B had to move from {nominal:.2} to {bending:.2} N·m²: a stiffness far off its own value hides something else"
             ));

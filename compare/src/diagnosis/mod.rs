@@ -88,6 +88,7 @@ use crate::beside_mean::BesideMean;
 use crate::error::CompareError;
 use crate::evidence::{Evidence, Used};
 use crate::noise_summary::NoiseSummary;
+use crate::policy;
 use crate::progress::shares::DIAGNOSIS;
 use crate::progress::{Progress, part};
 use crate::residuals::{ResidualMap, residual_map};
@@ -99,9 +100,6 @@ use models::Scenario;
 use part::{Part, contradicted};
 use problem::Fit;
 use source::Source;
-
-/// Gain below which a name is a hint, and above which a lone one is called identified.
-const GAINS: [f64; 2] = [25.0, 100.0];
 
 /// Diagnoses measurements: is an effect missing in the scenario, which, and what would tell. Several data of one robot lie each
 /// under its own protocol and loads: one bending stiffness for every body pressure and one value of every parameter must meet
@@ -330,11 +328,16 @@ fn base(case: &Case, last: &Fit, held_out: &HeldOut, noise: &NoiseSummary) -> Re
 fn confidence(case: &Case, decision: &Decision) -> Option<Confidence> {
     let last = decision.last.as_ref().filter(|_| decision.verdict == Some(Verdict::Effect))?;
     let rivals = if decision.pairs.is_empty() { decision.set.len() } else { decision.pair_set.len() };
-    Some(match case.gain(last) {
-        gain if gain < GAINS[0] => Confidence::Hint,
-        gain if gain > GAINS[1] && rivals == 1 => Confidence::IdentifiedInCatalog,
+    Some(confidence_of(case.gain(last), rivals))
+}
+
+/// By the gain of an answer and the number of those that cannot be told from it, itself among them.
+fn confidence_of(gain: f64, rivals: usize) -> Confidence {
+    match gain {
+        gain if policy::is_a_hint(gain) => Confidence::Hint,
+        gain if policy::is_beyond_doubt(gain) && rivals == 1 => Confidence::IdentifiedInCatalog,
         _ => Confidence::LikelyOneOf,
-    })
+    }
 }
 
 fn added(case: &Case, decision: &Decision) -> Vec<Added> {

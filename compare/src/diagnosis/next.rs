@@ -24,7 +24,6 @@ use super::source::is_rolled;
 use crate::directions::nuisance_directions;
 use crate::error::CompareError;
 use crate::gauge::Gauge;
-use crate::noise::SENSOR_SD;
 use crate::policy;
 use crate::study::predict::without_settled;
 use crate::study::predict_dataset;
@@ -81,7 +80,8 @@ pub fn next_experiment(
         let (a, b) = (worth(a), worth(b));
         b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))
     });
-    let recommended = tried.first().filter(|e| e.separations.iter().any(|s| s.lambda >= policy::WORTHLESS)).cloned();
+    let recommended =
+        tried.first().filter(|e| e.separations.iter().any(|s| policy::is_worth_its_time(s.lambda))).cloned();
     let best = label(case, best);
     let sentence = sentence(&best, recommended.as_ref());
     Ok(Some(NextExperiment { best, recommended, now, needed_now, tried, sentence }))
@@ -126,7 +126,7 @@ fn enough(gain: f64) -> f64 {
 fn experiment(case: &Case, plan: &Plan, separations: Vec<Separation>, gain: f64) -> Experiment {
     let needed = enough(gain);
     let separated = separations.iter().filter(|s| s.lambda >= needed).count();
-    let within_reach = separations.iter().map(|s| s.lambda).filter(|l| *l >= policy::WORTHLESS).reduce(f64::min);
+    let within_reach = separations.iter().map(|s| s.lambda).filter(|l| policy::is_worth_its_time(*l)).reduce(f64::min);
     let largest = separations.iter().map(|s| s.lambda).fold(0.0, f64::max);
     // More runs make more of λ and of what a law's form shows, which may never be enough.
     let at_hand = case.noise.runs.max(1);
@@ -182,7 +182,7 @@ impl<'a> Expected<'a> {
         let parts: &[Part] = plan.map_or(&[], |plan| &plan.parts);
         let body = parts.first().map(|part| part.dataset.holds[0].p_body_pa);
         let mut levels = case.body_pa.clone();
-        let is_new = |p: &f64| levels.iter().all(|l| (l - p).abs() > 0.05 * l.abs().max(100.0));
+        let is_new = |p: &f64| levels.iter().all(|l| !policy::is_same_pressure(*l, *p));
         let added = usize::from(case.problem.bendings > 0 && body.as_ref().is_some_and(is_new));
         levels.extend(body.filter(|_| added > 0));
         let bendings = case.problem.bendings + added;
@@ -244,7 +244,7 @@ fn planned<'a>(
         let laws = with(&part.scenario, problem.candidates, &truth.effects, &theta[problem.bendings..], &|stage| {
             stage == Stage::Supply
         });
-        let run_sd = case.noise.run_sd[0].unwrap_or(SENSOR_SD[0]);
+        let run_sd = case.noise.run_sd[0].unwrap_or(policy::SENSOR_SD[0]);
         Gauge::planned(&part.dataset, &part.scenario, &Supply::of(&laws), case.noise.runs, run_sd)
     });
     let dataset = match &gauge {
@@ -320,6 +320,6 @@ mod tests {
         assert!((enough(0.0) - 16.0).abs() < 1.0, "{}", enough(0.0));
         // Of a large gain the granted share decides, six units of noise times A.
         let gain = 1e6;
-        assert!((enough(gain) / (policy::SAME_EVIDENCE * allowance(gain)) - 1.0).abs() < 0.02);
+        assert!((enough(gain) / (6.0 * allowance(gain)) - 1.0).abs() < 0.02);
     }
 }

@@ -69,12 +69,17 @@ fn oddness(case: &Case, fit: &Fit) -> f64 {
         let p = &candidate.parameters[k];
         let size = (fit.theta()[from + k] - p.neutral).abs() / p.scale();
         if i >= case.always.len() && candidate.count() == 1 {
-            sum += (size.clamp(1.0 / policy::ODDEST, policy::ODDEST).ln() / policy::SIZE_FACTOR.ln()).powi(2);
+            sum += odd_size(size);
             sum += wrong_sign(p, fit.theta()[from + k]);
         }
         from += candidate.parameters.len();
     }
     sum
+}
+
+/// (ln u / ln 3)² of a size over the typical one.
+fn odd_size(size: f64) -> f64 {
+    (size.clamp(1.0 / policy::ODDEST, policy::ODDEST).ln() / policy::SIZE_FACTOR.ln()).powi(2)
 }
 
 /// 2 ln of how much further the bounds reach on the typical side, for a value on the other one.
@@ -93,7 +98,7 @@ mod tests {
     fn a_twentieth_of_a_large_gain_counts_as_much_as_six_units_of_noise() {
         assert_eq!(allowance(0.0), 1.0);
         let gain = 1e6;
-        assert!((0.05 * gain / allowance(gain) / policy::SAME_EVIDENCE - 1.0).abs() < 1e-3);
+        assert!((0.05 * gain / allowance(gain) / 6.0 - 1.0).abs() < 1e-3);
     }
 
     /// A gain of that many units of noise is the same evidence whether σ² is larger by A or n values are fewer by A.
@@ -101,7 +106,13 @@ mod tests {
     fn a_parameter_costs_as_much_as_with_fewer_values_and_never_nothing() {
         assert_eq!(price(300.0, 1.0), 300.0_f64.ln());
         assert_eq!(price(300.0, 10.0), 30.0_f64.ln());
-        assert_eq!(price(300.0, 1e6), policy::LEAST_PRICE);
+        assert_eq!(price(300.0, 1e6), 1.0);
+    }
+
+    #[test]
+    fn three_times_the_usual_size_is_one_deviation_and_beyond_a_thousand_all_are_alike() {
+        assert!((odd_size(3.0) - 1.0).abs() < 1e-12 && (odd_size(1.0 / 9.0) - 4.0).abs() < 1e-12);
+        assert!(odd_size(1e6) == odd_size(1e3) && odd_size(1e3) > odd_size(999.0));
     }
 
     #[test]

@@ -77,7 +77,7 @@ fn swapped(case: &Case, first: &Fit, second: &Fit) -> Option<Vec<f64>> {
 pub fn indistinguishable(case: &Case, pairs: &[Fit], allowance: f64) -> Vec<usize> {
     let Some(best) = pairs.first() else { return Vec::new() };
     let c = |fit: &Fit| order::criterion(case, fit, allowance);
-    let is_alike = |i: &usize| c(&pairs[*i]) - c(best) < policy::SAME_EVIDENCE;
+    let is_alike = |i: &usize| policy::is_alike(c(&pairs[*i]), c(best));
     (0..pairs.len()).filter(is_alike).collect()
 }
 
@@ -122,7 +122,7 @@ fn cancels(case: &Case, fit: &Fit) -> bool {
         Some(residual.iter().zip(&fit.minimum.residual).map(|(a, b)| b - a).collect())
     };
     match (without(lead), without(lead + 1)) {
-        (Some(a), Some(b)) => cosine(&a, &b) < policy::CANCELS,
+        (Some(a), Some(b)) => policy::cancel(cosine(&a, &b)),
         _ => false,
     }
 }

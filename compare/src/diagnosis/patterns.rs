@@ -16,7 +16,6 @@
 use super::case::Case;
 use super::look;
 use super::shapes::Shape;
-use crate::beside_mean::ZERO_PRESSURE_PA;
 use crate::layout::Layout;
 use crate::policy;
 
@@ -201,8 +200,8 @@ fn times(case: &Case, bent: &Time) -> Vec<When> {
     let time = bent.iter().map(|b| b * b).collect();
     all.push(When { words: "faster than its bending".into(), check: look::finer(None), time });
     let mut levels: Vec<f64> = Vec::new();
-    for p in holds.iter().map(|h| h.p_act_pa).filter(|p| *p > ZERO_PRESSURE_PA) {
-        if !levels.iter().any(|l| (l - p).abs() < policy::SAME_PRESSURE * l) {
+    for p in holds.iter().map(|h| h.p_act_pa).filter(|p| *p > policy::ZERO_PRESSURE_PA) {
+        if !levels.iter().any(|l| policy::is_same_pressure(*l, p)) {
             levels.push(p);
         }
     }

@@ -31,7 +31,7 @@ pub fn prepare(dataset: &Dataset, about: Option<&About>) -> Prepared {
     let samples = report.outliers;
     let share = samples.len() as f64 / (dataset.xy_m.len() as f64 / 2.0);
     if samples.is_empty() {
-    } else if share <= policy::MOST_REPLACED && clean.runs.len() > 2 {
+    } else if policy::are_strays(share, clean.runs.len()) {
         replace(&mut clean, &samples);
         let words = "replaced by the mean of the other runs there";
         warnings.push(format!(
@@ -67,7 +67,7 @@ pub fn outlying_runs(dataset: &Dataset, noise: &NoiseModel) -> Vec<OutlyingRun> 
         let ratio = s * (runs - 1) as f64 / (total - s);
         let p = (runs as f64 * f_tail(ratio, dof, (runs - 1) * dof)).min(1.0);
         let found = OutlyingRun { run: dataset.runs[run].clone(), scatter_ratio: ratio, p_corrected: p };
-        (p < policy::RUN_STANDS_OUT && ratio > 1.5).then_some(found)
+        policy::run_stands_out(p, ratio).then_some(found)
     };
     squares.iter().enumerate().filter_map(outlying).collect()
 }

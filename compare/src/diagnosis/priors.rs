@@ -1,14 +1,13 @@
 //! What is known of parameters before any data.
 
 use super::candidates::Free;
-use super::problem::MAX_BENDING;
 use crate::moment::Prior;
 use crate::policy;
 use models::Scenario;
 
 /// Of a bending stiffness: as it was measured, or as likely a third as three times the scenario's, or of anything usual.
 pub(super) fn bending_prior(known: Option<[f64; 2]>, scenario: &Scenario) -> Prior {
-    let bounds = [0.0, MAX_BENDING];
+    let bounds = [0.0, policy::MOST_BENDING];
     match (known, scenario.bending_stiffness) {
         (Some([centre, sd]), _) => Prior { centre, sd, is_size: false, bounds },
         (None, told) if told > 0.0 => Prior { centre: told, sd: policy::SIZE_FACTOR.ln(), is_size: true, bounds },

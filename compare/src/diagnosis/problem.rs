@@ -15,8 +15,6 @@ use models::Scenario;
 use models::effects::Stage;
 use std::borrow::Cow;
 
-/// Largest B searched \[N·m²\]: 100 times what a 0.2 mm coated fabric would need at these sizes.
-pub const MAX_BENDING: f64 = 200.0;
 /// A change of B that matters \[N·m²\], for the steps of the fit.
 const BENDING_SCALE: f64 = 0.5;
 
@@ -185,7 +183,7 @@ impl Problem<'_> {
 
     /// Ranges of the parameters of a hypothesis.
     pub fn ranges(&self, effects: &[usize]) -> Vec<Range> {
-        let bending = Range { lower: 0.0, upper: MAX_BENDING, scale: BENDING_SCALE };
+        let bending = Range { lower: 0.0, upper: policy::MOST_BENDING, scale: BENDING_SCALE };
         let free = effects.iter().flat_map(|e| &self.candidates[*e].parameters);
         let free = free.map(|p| match p.is_free() {
             true => Range { lower: p.lower, upper: p.upper, scale: p.scale() },
@@ -214,7 +212,7 @@ impl Problem<'_> {
             }
         }
         let minimum = best?;
-        let several_minima = costs.iter().any(|c| c - minimum.cost > policy::SAME_MINIMUM);
+        let several_minima = costs.iter().any(|c| policy::is_another_minimum(*c, minimum.cost));
         let neutral = self.neutral(effects);
         let binding = |m: &Minimum| (0..ranges.len()).map(|k| is_binding(m, k, &ranges[k], neutral[k])).collect();
         let (binding, minimum, misfit) = match self.allowing(effects, &ranges, &minimum) {
@@ -227,7 +225,7 @@ impl Problem<'_> {
     /// The fit of a law that misses the data, and by how much: to it, its misfit is noise ([`crate::policy::MISFIT`]). `None` where none misses.
     fn allowing(&self, effects: &[usize], ranges: &[Range], least: &Minimum) -> Option<(Minimum, Vec<f64>)> {
         let mut factors = self.factors(&least.residual);
-        if factors.iter().all(|f| *f < policy::MISFIT) {
+        if !factors.iter().any(|f| policy::is_a_misfit(*f)) {
             return None;
         }
         let mut wide: Option<Minimum> = None;
@@ -295,7 +293,8 @@ impl Problem<'_> {
             self.residuals(always, theta).map_or(f64::INFINITY, |r| r.iter().map(|r| r * r).sum::<f64>())
         };
         let grid = if self.bendings == 0 { 0 } else { 24 };
-        let scan: Vec<Vec<f64>> = (0..=grid).map(|i| start(MAX_BENDING * (f64::from(i) / 24.0).powi(2))).collect();
+        let scan: Vec<Vec<f64>> =
+            (0..=grid).map(|i| start(policy::MOST_BENDING * (f64::from(i) / 24.0).powi(2))).collect();
         let costs: Vec<f64> = scan.iter().map(|theta| cost(theta)).collect();
         let best = (0..scan.len()).min_by(|a, b| costs[*a].total_cmp(&costs[*b]))?;
         self.fit(always, &scan[best..=best])
@@ -347,4 +346,20 @@ pub(super) fn is_binding(minimum: &Minimum, k: usize, range: &Range, neutral: f6
     let own = Basis::of(&others).rest(&minimum.jacobian[k]);
     let (squares, slope) = (square(&own), dot(&own, &minimum.residual));
     squares > 0.0 && slope * slope / squares > policy::BINDING
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bound_binds_where_the_data_push_beyond_it_by_two_standard_errors() {
+        let at = |value: f64, push: f64| {
+            let minimum =
+                Minimum { at: vec![value], residual: vec![push], cost: push * push, jacobian: vec![vec![1.0]] };
+            is_binding(&minimum, 0, &Range { lower: -2.0, upper: 2.0, scale: 1.0 }, 0.0)
+        };
+        assert_eq!([1.9, 2.1].map(|push| at(2.0, push)), [false, true]);
+        assert!(!at(1.0, 9.0) && at(-2.0, 9.0));
+    }
 }

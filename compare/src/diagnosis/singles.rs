@@ -49,7 +49,7 @@ pub fn indistinguishable(case: &Case, fits: &[Fit], allowance: f64) -> Vec<usize
     let acceptable = |i: &usize| !case.is_rejected(&fits[*i]) && case.gain(&fits[*i]) > 0.0;
     let Some(best) = (0..fits.len()).find(acceptable) else { return Vec::new() };
     let c = |i: usize| order::criterion(case, &fits[i], allowance);
-    let is_alike = |i: &usize| c(*i) - c(best) < policy::SAME_EVIDENCE;
+    let is_alike = |i: &usize| policy::is_alike(c(*i), c(best));
     (0..fits.len()).filter(acceptable).filter(is_alike).collect()
 }
 
@@ -131,7 +131,7 @@ fn notes(case: &Case, fit: &Fit, own: &[ParameterValue]) -> Vec<String> {
         ));
     }
     for (group, (with, without)) in fit.theta().iter().zip(case.base.theta()).take(case.problem.bendings).enumerate() {
-        if (with - without).abs() > policy::BENDING_MOVES * without.max(1e-3) && case.gain(fit) > 1.0 {
+        if policy::bending_moves(*without, *with) && policy::helps(case.gain(fit)) {
             let body = if case.body_pa.len() > 1 {
                 format!(" at {:.0} kPa body pressure", case.body_pa[group] / 1e3)
             } else {

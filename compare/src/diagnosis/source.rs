@@ -66,3 +66,20 @@ impl<'a> Source<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::published::textbook_scenario;
+
+    #[test]
+    fn a_robot_is_rolled_if_gravity_pulls_it_the_other_way_across_to_a_twentieth() {
+        let of = |gravity_direction| Scenario { gravity_direction, ..textbook_scenario("epam").unwrap() };
+        let rolled = |a, b| is_rolled(&of(a), &of(b));
+        assert!(rolled([0.0, -1.0], [0.0, 1.0]) && !rolled([0.0, -1.0], [0.0, -1.0]));
+        // Hung along x nothing is across.
+        assert!(rolled([0.99, 0.051], [0.99, -0.051]) && !rolled([1.0, 0.049], [1.0, -0.049]));
+        assert!(rolled([0.0, -1.0], [0.049, 1.0]) && !rolled([0.0, -1.0], [0.051, 1.0]));
+        assert!(rolled([0.0, -1.0], [0.0, 0.951]) && !rolled([0.0, -1.0], [0.0, 0.949]));
+    }
+}

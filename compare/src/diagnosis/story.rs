@@ -69,7 +69,7 @@ fn gauge(fit: &GaugeFit) -> Option<String> {
 }
 
 fn ranking_only(d: &Diagnosis) -> Vec<String> {
-    let helps = d.ranked.iter().filter(|r| r.gain > 1.0 && !r.at_bound);
+    let helps = d.ranked.iter().filter(|r| policy::helps(r.gain) && !r.at_bound);
     let names: Vec<String> = helps.take(5).map(|r| r.effect.clone()).collect();
     let why = format!("{} usable runs: at least three are needed for p-values", d.runs);
     let order = if names.is_empty() {
@@ -156,7 +156,7 @@ fn held_out(d: &Diagnosis, r: &Ranked) -> Option<String> {
     let (before, after) = (d.base.heldout_mm?, r.heldout_mm?);
     let verdict = match () {
         () if before.max(after) <= d.tolerance_mm => "both within the tolerance, no argument for or against it",
-        () if after < 0.7 * before => "it predicts what it has not seen",
+        () if policy::falls(after, before) => "it predicts what it has not seen",
         () => "caution: it does not predict the pressures it has not seen",
     };
     Some(format!("At pressures left out of the fit the error goes from {before:.2} to {after:.2} mm: {verdict}."))
@@ -181,7 +181,7 @@ fn outside(d: &Diagnosis) -> Vec<String> {
         format!(
             "Nothing in the catalogue explains this ({p}): {before:.2} mm remain, and no effect of it takes a fifth off them."
         )
-    } else if after <= policy::MOSTLY * before {
+    } else if policy::is_mostly_gone(after, before) {
         format!(
             "Adding {tried} takes away most of it, {before:.2} to {after:.2} mm, but nothing in the catalogue explains the rest \
              ({p}): a law that is not quite the catalogue's, or something that is not listed."
@@ -220,8 +220,7 @@ fn as_close(d: &Diagnosis) -> Option<String> {
 fn at_its_bound(d: &Diagnosis) -> Option<String> {
     let left = |r: &&Ranked| r.systematic_after_mm;
     let nearest = d.ranked.iter().filter(|r| r.at_bound).min_by(|a, b| left(a).total_cmp(&left(b)))?;
-    let is_closer = nearest.systematic_after_mm < policy::CLOSER * d.base.systematic_with_added_mm;
-    is_closer.then(|| {
+    policy::is_closer(nearest.systematic_after_mm, d.base.systematic_with_added_mm).then(|| {
         format!(
             "{} would leave {:.2} mm, but at the end of its range, {}, and the data push beyond it: more of it than was thought \
              possible, or something that looks like it.",

@@ -96,6 +96,16 @@ fn tail_tension_on_an_spam_is_reported_with_seam_stiffness_and_no_experiment_par
 }
 
 #[test]
+fn a_name_is_a_hint_up_to_a_gain_of_25_and_identified_alone_above_100() {
+    use Confidence::*;
+    assert_eq!(
+        [24.0, 26.0, 99.0, 101.0].map(|gain| confidence_of(gain, 1)),
+        [Hint, LikelyOneOf, LikelyOneOf, IdentifiedInCatalog]
+    );
+    assert_eq!([24.0, 101.0].map(|gain| confidence_of(gain, 2)), [Hint, LikelyOneOf]);
+}
+
+#[test]
 fn of_two_effects_with_the_same_trace_the_one_of_usual_size_comes_first() {
     let plain = robot("spam");
     for (effect, value) in [("tail_tension", 0.45), ("seam_stiffness", 0.7)] {

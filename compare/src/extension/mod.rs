@@ -11,6 +11,7 @@ use crate::diagnosis::words::{listed, named, three};
 use crate::diagnosis::{Added, Diagnosis, Options, ParameterValue, Ranked, diagnose};
 use crate::error::CompareError;
 use crate::evidence::Evidence;
+use crate::policy;
 use crate::progress::Progress;
 use crate::scenario_file::ScenarioFile;
 use crate::typed_effect::{Values, typed, values_of};
@@ -255,7 +256,7 @@ fn ranked<'a>(d: &'a Diagnosis, name: &str) -> Result<&'a Ranked, CompareError> 
         let message = format!("the best value of {name} on these data sits on a physical bound ({values}): rejected");
         return Err(CompareError::refused(message, by_hand));
     }
-    if r.gain < 1.0 {
+    if !policy::helps(r.gain) {
         let message = format!(
             "these data do not ask for {name}: the error stays at {:.2} mm whatever its value",
             r.systematic_after_mm

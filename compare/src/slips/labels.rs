@@ -46,7 +46,7 @@ fn exchanged(seen: &SlipSeen, points: &[[f64; 2]]) -> (Vec<[usize; 2]>, [f64; 2]
         pairs.push(pair);
         left = after;
     }
-    if left > policy::FAR_LESS * policy::FAR_LESS * laid {
+    if !policy::is_far_less(left.sqrt(), laid.sqrt()) {
         pairs.clear();
     }
     (pairs, [laid, left])
@@ -66,7 +66,7 @@ fn best(seen: &SlipSeen, points: &[[f64; 2]], left: f64) -> Option<([usize; 2], 
     let apart = |pair: [usize; 2]| (seen.body.stations_m[pair[0]] - seen.body.stations_m[pair[1]]).abs();
     let pairs = pairs.filter(|pair| {
         let half = 0.5 * apart(*pair);
-        half > policy::LABELS_CLEAR * usual && pair.iter().all(|marker| off[*marker] > policy::FAR_LESS * half)
+        policy::labels_are_clear(half, usual) && pair.iter().all(|marker| !policy::is_far_less(off[*marker], half))
     });
     let with = |pair: [usize; 2]| {
         let mut other = points.to_vec();

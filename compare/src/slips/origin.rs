@@ -11,14 +11,10 @@
 //! (`marker_height` is nothing in a straight robot).
 
 use super::{SlipSeen, become_mm};
-use crate::evaluate::default_tolerance_m;
 use crate::policy;
 use crate::stats::f_tail;
 use crate::wording::{list, short};
 use nalgebra::{DMatrix, DVector};
-
-/// Holds within this share of the highest pressure of the lowest are the lowest.
-const LOWEST: f64 = 0.02;
 
 pub(super) fn origin(seen: &mut SlipSeen) -> Vec<String> {
     let holds = lowest(seen);
@@ -54,9 +50,9 @@ fn lowest(seen: &SlipSeen) -> Vec<usize> {
     let longest = seen.body.stations_m.iter().fold(0.0, |l: f64, s| l.max(*s));
     let straight = |hold: &usize| {
         let heading = |run: &Vec<Vec<[f64; 2]>>| longest * seen.body.lay(&run[*hold], true).curvature.abs();
-        seen.points.iter().all(|run| heading(run) < policy::NEARLY_STRAIGHT)
+        seen.points.iter().all(|run| policy::is_nearly_straight(heading(run)))
     };
-    all.filter(|hold| pressure(hold) <= low + LOWEST * high).filter(straight).collect()
+    all.filter(|hold| policy::is_lowest(pressure(hold), [low, high])).filter(straight).collect()
 }
 
 /// Squared distances from uniformly bent bodies that start at a place, over all runs and holds \[m²\].
@@ -79,7 +75,6 @@ fn shift(seen: &SlipSeen, holds: &[usize]) -> Option<[f64; 2]> {
     };
     let of_mean = [squares(&mean, &grown, &least_grown), squares(&mean, &shifted, &least)];
     let [before, after] = [of_mean[0] / (values - without) as f64, of_mean[1] / (values - with) as f64];
-    let little = after < policy::SHIFT_LEAVES * policy::SHIFT_LEAVES * before;
     let of_runs = runs.iter().map(|run| squares(run, &shifted, &least)).sum::<f64>();
     let (fall, dof) = (runs.len() as f64 * (of_mean[0] - of_mean[1]), runs.len() * values - with);
     let p = f_tail(fall / 2.0 / (of_runs / dof as f64).max(f64::MIN_POSITIVE), 2, dof);
@@ -90,7 +85,7 @@ fn shift(seen: &SlipSeen, holds: &[usize]) -> Option<[f64; 2]> {
     let in_all =
         runs.iter().filter_map(own).all(|own| (own[0] - shift[0]).hypot(own[1] - shift[1]) < own[0].hypot(own[1]));
     let matters = shift[0].hypot(shift[1]) > tolerance(seen);
-    (little && p < policy::SHIFT_CHANCE && in_all && matters).then_some(shift)
+    (policy::is_a_shift([before, after], p) && in_all && matters).then_some(shift)
 }
 
 /// The nearly straight robot as a linear law.
@@ -137,7 +132,7 @@ fn tolerance(seen: &SlipSeen) -> f64 {
             }
         }
     }
-    default_tolerance_m(most)
+    policy::tolerance_m(most)
 }
 
 fn solve(columns: &DMatrix<f64>, values: &DVector<f64>) -> Option<DVector<f64>> {

@@ -136,6 +136,18 @@ fn numbers_from_the_tip_turned_axes_and_units_are_found_in_all_runs_or_one() {
     }
 }
 
+/// A camera's scale is off by a fifth at most; a unit is told by its name to a tenth.
+#[test]
+fn a_scale_is_a_slip_where_no_camera_has_it_and_a_unit_where_it_is_near_one() {
+    for name in SETS {
+        let told = |by: f64| told(name, |_, _, points| each(points, |p| p.map(|v| by * v)));
+        assert_eq!(told(1.0 / 1.15), Vec::<String>::new(), "{name}");
+        assert_only(&told(1.0 / 1.4), &["pixels, or a scale that was not set"]);
+        assert_only(&told(0.1 / 1.05), &["cm under a header of mm"]);
+        assert_only(&told(0.1 / 1.2), &["pixels, or a scale that was not set"]);
+    }
+}
+
 #[test]
 fn a_picture_with_its_origin_in_a_corner_is_turned_first_and_shifted_then() {
     let found = told("synthetic-epam", |_, _, points| each(points, |[x, y]| [0.4 - x, y + 0.2]));

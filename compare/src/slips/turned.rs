@@ -46,7 +46,7 @@ impl TurnWay {
     }
 
     fn is_like(&self, other: &TurnWay) -> bool {
-        let same = self.factor.max(other.factor) < policy::NO_SCALE * self.factor.min(other.factor);
+        let same = !policy::is_no_scale(self.factor / other.factor);
         same && TurnWay { factor: 1.0, ..*self } == TurnWay { factor: 1.0, ..*other }
     }
 }
@@ -78,16 +78,16 @@ fn in_run(seen: &SlipSeen, run: usize) -> Option<TurnFound> {
     };
     let rms = |squares: f64| seen.rms(squares, points.len());
     let before = left(&AS_IT_IS, loose);
-    if rms(before) < seen.half_apart() * policy::FAR_LESS {
+    if policy::is_far_less(rms(before), seen.half_apart()) {
         return None;
     }
     let ways: Vec<(TurnWay, f64)> = ways(seen, points).into_iter().map(|way| (way, left(&way, loose))).collect();
     let least = ways.iter().fold(f64::INFINITY, |least, (_, squares)| least.min(*squares));
-    if rms(least) >= policy::FAR_LESS * rms(before) {
+    if !policy::is_far_less(rms(least), rms(before)) {
         return None;
     }
     // Alike but for the place of the base.
-    let alike = ways.into_iter().filter(|(_, squares)| policy::FAR_LESS * rms(*squares) <= rms(least));
+    let alike = ways.into_iter().filter(|(_, squares)| !policy::is_far_less(rms(least), rms(*squares)));
     let (mut way, after) = alike.min_by(|a, b| left(&a.0, false).total_cmp(&left(&b.0, false)))?;
     if !seen.bends_up(&way.undo_run(points)) {
         way.signs[1] = -1.0;
@@ -97,9 +97,8 @@ fn in_run(seen: &SlipSeen, run: usize) -> Option<TurnFound> {
 
 fn ways(seen: &SlipSeen, run: &[Vec<[f64; 2]>]) -> Vec<TurnWay> {
     let factor = factor(seen, run);
-    let known = UNITS.iter().map(|(unit, _)| *unit).find(|unit| (factor / unit - 1.0).abs() < policy::NEAR_UNIT);
-    let off = (factor.is_finite() && !(1.0 / policy::NO_SCALE..=policy::NO_SCALE).contains(&factor))
-        .then_some(known.unwrap_or(factor));
+    let known = UNITS.iter().map(|(unit, _)| *unit).find(|unit| policy::is_near_unit(factor / unit));
+    let off = (factor.is_finite() && policy::is_no_scale(factor)).then_some(known.unwrap_or(factor));
     let mut all = Vec::new();
     for factor in [Some(1.0), off].into_iter().flatten() {
         for (exchanged, sign) in [(false, 1.0), (false, -1.0), (true, 1.0), (true, -1.0)] {

@@ -6,13 +6,13 @@ use crate::policy;
 pub(super) fn upside(seen: &mut SlipSeen) -> Vec<String> {
     let count = seen.points.len();
     let down: Vec<usize> = (0..count).filter(|run| !seen.bends_up(&seen.points[*run])).collect();
-    if count < policy::RUNS_TO_TELL || down.is_empty() || 2 * down.len() >= count {
+    if count < policy::FEWEST_RUNS || down.is_empty() || 2 * down.len() >= count {
         return Vec::new();
     }
     let mut found = Vec::new();
     for run in down.clone() {
         let (before, after) = (from_others(seen, run, &down, 1.0), from_others(seen, run, &down, -1.0));
-        if before > policy::FAR_LESS * seen.half_apart() && after < policy::FAR_LESS * before {
+        if !policy::is_far_less(before, seen.half_apart()) && policy::is_far_less(after, before) {
             found.push((run, [before, after]));
         }
     }

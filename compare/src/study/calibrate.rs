@@ -53,8 +53,7 @@ impl Knob {
     /// Largest value searched, and the step of its derivative.
     fn reach(self, scenario: &Scenario) -> [f64; 2] {
         match self {
-            // 100 times what a 0.2 mm coated fabric would need at these sizes.
-            Knob::Bending => [200.0, 1e-4],
+            Knob::Bending => [policy::MOST_BENDING, 1e-4],
             Knob::BodyPressure => [2e-3 * scenario.p_body_pa, 1e-4],
         }
     }
@@ -146,7 +145,7 @@ fn fit(least: &Misfit) -> Result<(f64, NoiseModel, f64), CompareError> {
     let count = least.noise.seen(0..least.mean_m.len()) as f64;
     let mut best = minimum(least)?;
     let (mut wider, mut factor) = (least.noise.clone(), 1.0);
-    if least.at(best * best)? > policy::MISFIT * count {
+    if policy::is_a_misfit(least.at(best * best)? / count) {
         for _ in 0..MISFIT_ROUNDS {
             factor = (least.at(best * best)? / count).max(1.0);
             wider = least.noise.wider(factor);

@@ -5,6 +5,7 @@
 //! *calibrated* on that one number, so meeting it is no evidence for any of them.
 
 use crate::error::CompareError;
+use crate::policy;
 use crate::study::engines::{engines, stored};
 use crate::study::published::{height, textbook_scenario};
 use data::{PublishedActuator, published};
@@ -16,8 +17,6 @@ use serde::Serialize;
 const GRID: u32 = 60;
 /// Halvings of the interval in which the displacement is met.
 const HALVINGS: u32 = 60;
-/// Largest B tried \[N·m²\].
-const MOST_BENDING: f64 = 200.0;
 
 /// One explanation of a displacement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -84,7 +83,7 @@ pub fn one_number(kind: &str) -> Result<OneNumber, CompareError> {
         |s: &Scenario| loads.iter().map(|l| Ok(1e3 * height(s, l)?)).collect::<Result<Vec<f64>, CompareError>>();
     let aim = Aim { loads: &loads[loads.len() - 1], wanted_m: actuator.d_max_m };
     let (mut met_by, mut not_met_by) = (Vec::new(), Vec::new());
-    if let Some(value) = aim.reached(0.0, MOST_BENDING, &|b| bare.with_bending(b)) {
+    if let Some(value) = aim.reached(0.0, policy::MOST_BENDING, &|b| bare.with_bending(b)) {
         let y_mm = curve(&bare.with_bending(value))?;
         let [effect, key, unit] = ["bending_stiffness", "bending_stiffness_nm2", "N m²"].map(String::from);
         met_by.push(Explanation { effect, key, unit, value, times_typical: None, y_mm });

@@ -2,6 +2,7 @@
 
 use crate::data_slope::data_slope;
 use crate::error::CompareError;
+use crate::policy;
 use data::{About, Dataset, Direct};
 use models::effects::Stage;
 use models::{Loads, Model, Prediction, Scenario, Step};
@@ -118,7 +119,7 @@ fn geometry_warnings(scenario: &Scenario, about: &About) -> Vec<String> {
         ("arm", scenario.actuator.arm_m.unwrap_or(f64::NAN), g.arm_m),
     ];
     let differs = |(name, mine, theirs): (&str, f64, Option<f64>)| {
-        let theirs = theirs.filter(|t| (t - mine).abs() > 0.02 * mine)?;
+        let theirs = theirs.filter(|t| policy::is_other_length(*t, mine))?;
         Some(format!("{name}: the scenario says {} mm, the data's about.toml {} mm", mine * 1e3, theirs * 1e3))
     };
     let mut warnings: Vec<String> = pairs.into_iter().filter_map(differs).collect();

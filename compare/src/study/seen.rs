@@ -1,7 +1,7 @@
 //! Marker data from finite element runs: what a camera would see of them, with the scatter of a real test.
 //!
 //! Every run of the data is one finite element run with imperfections of its own. Markers stick on the wall at the height of the
-//! axis, on the side that faces the camera. Between the pressures at which a run was read, and up to [`BEYOND`] past the highest,
+//! axis, on the side that faces the camera. Between the pressures at which a run was read, and up to a tenth past the highest,
 //! they lie on straight lines over pressure:
 //!
 //! ```text
@@ -14,10 +14,8 @@
 use super::engines::EngineRun;
 use super::generate::{Generator, Seen, holds};
 use crate::error::CompareError;
+use crate::policy;
 use data::{Dataset, Marker};
-
-/// How far past the highest pressure that was read a set pressure with its error may lie, over that pressure.
-pub const BEYOND: f64 = 0.10;
 
 /// Makes a dataset from runs of one robot; their number is that of the runs, whatever the generator says.
 ///
@@ -75,7 +73,7 @@ fn at(run: &EngineRun, kpa: f64) -> Result<Vec<[f64; 2]>, CompareError> {
     let rising = states.windows(2).take_while(|pair| pair[1].actuator_kpa > pair[0].actuator_kpa).count();
     states.truncate(rising + 1);
     let top = states.last().map_or(0.0, |s| s.actuator_kpa);
-    if rising == 0 || kpa > top * (1.0 + BEYOND) {
+    if rising == 0 || policy::is_beyond(kpa, top) {
         let problem = format!("an actuator at {kpa:.1} kPa; the runs were read up to {top:.1} kPa");
         return Err(CompareError::NotSimulated { problem });
     }

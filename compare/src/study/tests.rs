@@ -125,6 +125,15 @@ fn a_stiffness_that_is_not_there_is_at_its_bound() {
     assert!(fit.at_bound && fit.value == 0.0, "{fit:?}");
 }
 
+/// Stiffer than any wall: the fit ends where it stops looking.
+#[test]
+fn no_stiffness_above_200_is_looked_for() {
+    let rigid = textbook_scenario("epam").unwrap().with_bending(400.0);
+    let data = generate(&rigid, "made", &quiet(3)).unwrap();
+    let found = calibrate(&rigid.with_bending(1.0), &data, &EvaluateOptions::default(), Knob::Bending).unwrap();
+    assert!(found.at_bound && (found.value - 200.0).abs() < 1.0, "{found:?}");
+}
+
 #[test]
 fn a_known_tip_force_enters_the_model_and_mixed_ones_are_refused() {
     let scenario = textbook_scenario("epam").unwrap();

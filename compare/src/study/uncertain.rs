@@ -20,6 +20,7 @@ mod of_run;
 
 pub use of_run::Intervals;
 
+use crate::policy;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -29,8 +30,6 @@ use fem::record::Shape;
 
 /// Ends of the interval that is told, and its middle.
 pub const QUANTILES: [f64; 3] = [0.1, 0.5, 0.9];
-/// Pressures that are the same reading \[kPa\].
-pub const SAME_KPA: f64 = 0.05;
 /// Runs beyond the numbers that a straight law needs to say anything.
 const SPARE: usize = 5;
 
@@ -147,7 +146,7 @@ impl Uncertain {
 
     /// Robots that reached a pressure, as what they are there.
     fn at(&self, actuator_kpa: f64) -> Vec<(&Member, &MemberState)> {
-        let here = |m: &'_ Member| m.states.iter().position(|s| (s.actuator_kpa - actuator_kpa).abs() < SAME_KPA);
+        let here = |m: &'_ Member| m.states.iter().position(|s| policy::is_same_reading(s.actuator_kpa, actuator_kpa));
         self.members.iter().filter_map(|m| here(m).map(|k| (m, &m.states[k]))).collect()
     }
 

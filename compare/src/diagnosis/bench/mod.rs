@@ -213,7 +213,7 @@ fn judge(table: &Table, base: &Fit, best: Option<&Fit>, alpha: f64) -> Judged {
     let lack = |fit: &Fit| chi2_tail(fit.minimum.cost, table.readings.len().saturating_sub(table.count(fit.law)));
     let left =
         best.map_or(1.0, |fit| rms_off(table, fit).ln_1p() / rms_off(table, base).ln_1p().max(f64::MIN_POSITIVE));
-    let little = left <= policy::LEFT_OVER[0].0;
+    let little = left <= policy::LEFT_BY_ONE;
     if !table.known {
         return Judged { verdict: None, p_value: None, explains: little };
     }
@@ -251,10 +251,11 @@ fn criterion(table: &Table, fit: &Fit, allowance: f64) -> f64 {
 
 /// Fits that cannot be told from the best one that no bound rejects; none where none of them gains.
 fn set(table: &Table, base: &Fit, fits: &[Fit], allowance: f64) -> Vec<usize> {
-    let acceptable = |i: &usize| !fits[*i].binding.contains(&true) && base.minimum.cost - fits[*i].minimum.cost > 1.0;
+    let acceptable =
+        |i: &usize| !fits[*i].binding.contains(&true) && policy::helps(base.minimum.cost - fits[*i].minimum.cost);
     let c = |i: usize| criterion(table, &fits[i], allowance);
     let Some(best) = (0..fits.len()).find(acceptable) else { return Vec::new() };
-    (0..fits.len()).filter(acceptable).filter(|i| c(*i) - c(best) < policy::SAME_EVIDENCE).collect()
+    (0..fits.len()).filter(acceptable).filter(|i| policy::is_alike(c(*i), c(best))).collect()
 }
 
 fn ranked(table: &Table, base: &Fit, fit: &Fit) -> BenchRanked {

@@ -92,7 +92,7 @@ fn at_its_bound(d: &BenchDiagnosis, off: f64) -> Option<String> {
 }
 
 fn holds(before: &LeftOut, after: &LeftOut, effect: &str) -> String {
-    let verdict = if after.off < policy::PREDICTS * before.off {
+    let verdict = if policy::falls(after.off, before.off) {
         "it predicts what it has not seen"
     } else {
         "caution: it does not predict what it has not seen"
@@ -187,4 +187,21 @@ fn by_specimen(table: &Table, off: &[f64]) -> Option<String> {
         words => words.to_string(),
     };
     told(off, &parts.into_iter().map(|rows| (label(&rows), rows)).collect::<Vec<_>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::told;
+
+    #[test]
+    fn levels_are_told_if_they_hold_a_quarter_of_the_scatter() {
+        let levels = [("10 kPa".to_string(), vec![0, 1]), ("20 kPa".to_string(), vec![2, 3])];
+        // Means ±a, rows a ± 1 about them: a²/(a² + 1) is between the levels.
+        let of = |share: f64| {
+            let a = (share / (1.0 - share)).sqrt();
+            told(&[a + 1.0, a - 1.0, 1.0 - a, -1.0 - a], &levels)
+        };
+        assert_eq!(of(0.24), None);
+        assert!(of(0.26).unwrap().ends_with("at 20 kPa (26 % of the scatter about the mean)"));
+    }
 }

@@ -290,7 +290,7 @@ impl<'a> Table<'a> {
             return None;
         }
         let missed = cost / residual.len() as f64;
-        let misses = !self.known || missed > policy::MISSES;
+        let misses = !self.known || policy::misses(missed);
         let weights: Vec<f64> = own.iter().map(|v| v / squares).collect();
         let curves: Vec<[f64; 2]> = self
             .curves()

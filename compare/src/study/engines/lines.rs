@@ -2,6 +2,7 @@
 
 use super::{EngineRobot, Ensemble, MeanOverSeeds, accuracy};
 use crate::error::CompareError;
+use crate::policy;
 use crate::study::uncertain::Uncertain;
 use models::Known;
 use models::{Loads, Model, Scenario};
@@ -174,7 +175,7 @@ pub fn csv(lines: &[EngineLine]) -> String {
 }
 
 fn at_pressure(robot: &EngineRobot, kpa: f64, out: &mut Vec<EngineLine>) -> Result<(), CompareError> {
-    let near = |other_pa: f64| (other_pa * 1e-3 - kpa).abs() < 0.05;
+    let near = |other_pa: f64| policy::is_same_reading(other_pa * 1e-3, kpa);
     let name = robot.published.as_ref().map_or(&robot.scenario.name, |p| &p.printed_name).clone();
     let printed = robot.published.as_ref();
     let measured_mm = printed.filter(|p| near(p.d_max_pressure_pa)).map(|p| p.d_max_m * 1e3);

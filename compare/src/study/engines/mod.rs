@@ -24,6 +24,7 @@ pub use volumes::{BodyVolumes, MeanOverSeeds, MeanVolumes, Volumes, body_volumes
 
 use crate::accuracy::paper_accuracy;
 use crate::error::CompareError;
+use crate::policy;
 use fem::FemError;
 use fem::record::Shape;
 use models::{Account, Loads, Model, Scenario, Target};
@@ -31,16 +32,8 @@ use serde::{Deserialize, Serialize};
 
 /// Terms of the common ledger.
 pub const TERMS: [&str; 6] = ["pouch gas", "body folds", "wall bending", "stretch", "contact", "hourglass"];
-/// Difference over the finite elements' tip from which the models are said to part.
-pub const PARTS: f64 = 0.10;
-/// Turn, over that at the highest pressure, from which a robot is said to bend.
-const FIRST_BEND: f64 = 0.1;
 /// Highest pressure at which a model is asked for a bend \[Pa\].
 const HIGHEST_PA: f64 = 500e3;
-/// Stations this near are the same marker \[mm\].
-const SAME_STATION_MM: f64 = 1.0;
-/// Smallest tip displacement that a share is taken of \[m\].
-const SMALLEST_TIP_M: f64 = 5e-3;
 
 /// A finished finite element run of a robot.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -145,12 +138,17 @@ impl EnginePair {
     /// Reduced minus finite element tip over the latter; `None` where the tip hardly moves.
     pub fn difference(&self) -> Option<f64> {
         let fe = self.fe_mm[1];
-        (fe.abs() > SMALLEST_TIP_M * 1e3).then(|| (self.reduced_mm[1] - fe) / fe)
+        policy::has_moved(1e-3 * fe, 0.0).then(|| (self.reduced_mm[1] - fe) / fe)
     }
 
-    /// The term that carries the difference, where it is more than [`PARTS`].
+    /// Whether the models part: by more than a tenth.
+    pub fn parts(&self) -> bool {
+        self.difference().is_some_and(|off| !policy::meets(off))
+    }
+
+    /// The term that carries the difference, where they do.
     pub fn carrier(&self) -> Option<&'static str> {
-        let difference = self.difference().filter(|d| d.abs() > PARTS)?;
+        let difference = self.difference().filter(|_| self.parts())?;
         let excess = self.excess_mj?;
         let signed = |k: &usize| excess[*k] * difference.signum();
         let k = (0..TERMS.len()).max_by(|a, b| signed(a).total_cmp(&signed(b)))?;
@@ -207,23 +205,18 @@ fn reduced_at(
     Some(reduced_ledger(model, &Loads::uniform(body_pa, pa), at, gas_kpa * 1e3 / pa))
 }
 
-/// Ledgers of finite elements and of the reduced model at the same bends, from the first pressure that bends the robot by
-/// `FIRST_BEND` of the turn at the given one to that one \[mJ\]: what filling a slack actuator takes is in neither. `None` if
+/// Ledgers of finite elements and of the reduced model at the same bends, from the first pressure that bends the robot by a tenth
+/// of the turn at the given one to that one \[mJ\]: what filling a slack actuator takes is in neither. `None` if
 /// the run lacks the two states or the model cannot bend so.
 pub fn between(scenario: &Scenario, run: &EngineRun, actuator_kpa: f64) -> Option<[[f64; 6]; 2]> {
     let model = Model::new(&Scenario { p_max_pa: HIGHEST_PA, ..scenario.clone() });
     let mut at = model.prediction();
-    let high = run.states.iter().find(|s| same(s.actuator_kpa, actuator_kpa))?;
-    let bent = |s: &&EngineState| s.actuator_kpa > 0.0 && s.turn_rad > FIRST_BEND * high.turn_rad;
+    let high = run.states.iter().find(|s| policy::is_same_reading(s.actuator_kpa, actuator_kpa))?;
+    let bent = |s: &&EngineState| s.actuator_kpa > 0.0 && policy::is_bent(s.turn_rad, high.turn_rad);
     let low = run.states.iter().find(bent).filter(|s| s.actuator_kpa < high.actuator_kpa)?;
     let from = reduced_at(&model, run, low, actuator_kpa, &mut at)?;
     let to = reduced_at(&model, run, high, actuator_kpa, &mut at)?;
     Some([fe_ledger(run, low, high), std::array::from_fn(|k| to[k] - from[k])])
-}
-
-/// Pressures that are the same reading.
-fn same(a_kpa: f64, b_kpa: f64) -> bool {
-    (a_kpa - b_kpa).abs() < 0.05
 }
 
 fn reduced_ledger(model: &Model, loads: &Loads, at: &models::Prediction, gas: f64) -> [f64; 6] {
@@ -303,7 +296,10 @@ impl Ensemble {
     /// a single run, everything where no run was read there.
     pub fn at(&self, actuator_kpa: f64) -> Option<[(f64, Option<f64>); 2]> {
         let here = |run: &EngineRun| {
-            run.states.iter().find(|s| same(s.actuator_kpa, actuator_kpa)).map(|s| [s.marker_mm, s.tip_mm])
+            run.states
+                .iter()
+                .find(|s| policy::is_same_reading(s.actuator_kpa, actuator_kpa))
+                .map(|s| [s.marker_mm, s.tip_mm])
         };
         let found: Vec<[f64; 2]> = self.runs.iter().filter_map(here).collect();
         let of = |k: usize| mean_and_deviation(&found.iter().map(|mm| mm[k]).collect::<Vec<_>>());
@@ -313,8 +309,8 @@ impl Ensemble {
     /// Mean and standard deviation of the height of the marker, on the wall, at a station \[mm\]; `None` where no run has it at that pressure.
     pub fn marker_at(&self, station_m: f64, actuator_kpa: f64) -> Option<(f64, Option<f64>)> {
         let here = |run: &EngineRun| {
-            let k = run.stations_mm.iter().position(|s| (s - station_m * 1e3).abs() < SAME_STATION_MM)?;
-            let state = run.states.iter().find(|s| same(s.actuator_kpa, actuator_kpa))?;
+            let k = run.stations_mm.iter().position(|s| policy::is_same_station(*s, station_m * 1e3))?;
+            let state = run.states.iter().find(|s| policy::is_same_reading(s.actuator_kpa, actuator_kpa))?;
             Some(state.seen_mm.get(k)?[1])
         };
         let found: Vec<f64> = self.runs.iter().filter_map(here).collect();

@@ -22,16 +22,12 @@
 //! may be more or less. c holds whatever parts a pouch from a lens of arm D: sealed edges, welds of some width, a shorter
 //! arm. Small turns have neither, being quotients of small differences. Uniform robots only: zones are not looked at.
 
-use super::{EngineRun, EngineState, ensemble, mean_and_deviation, same};
+use super::{EngineRun, EngineState, ensemble, mean_and_deviation};
+use crate::policy;
 use models::Scenario;
 use models::actuators::{ActuatorShape, Family, pouch};
 use serde::Serialize;
 use std::f64::consts::{FRAC_2_PI, PI};
-
-/// Turn over the last one up to which no quotient is taken: below, the imperfections of a robot bend it as much.
-const SMALLEST_TURN: f64 = 0.1;
-/// Volume of the actuator over the last one up to which no quotient is taken.
-const SMALLEST_VOLUME: f64 = 0.05;
 
 /// Volumes of one state of a finite element run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -63,7 +59,7 @@ fn volumes_of(scenario: &Scenario, filled: &EngineState, state: &EngineState, la
     let actuator_cm3 = state.actuator_cm3 - filled.actuator_cm3;
     let full_cm3 = last.actuator_cm3 - filled.actuator_cm3;
     let bent =
-        state.turn_rad > SMALLEST_TURN * last.turn_rad.max(0.0) && actuator_cm3 > SMALLEST_VOLUME * full_cm3.max(0.0);
+        policy::is_bent(state.turn_rad, last.turn_rad.max(0.0)) && policy::is_filled(actuator_cm3, full_cm3.max(0.0));
     let displaced = bent.then(|| (body_lost_cm3 - by_bend_cm3) / actuator_cm3);
     let lens_cm3 = lens_m3(scenario, state.turn_rad).filter(|_| bent).map(|m3| m3 * 1e6);
     let lens_share = lens_cm3.map(|cm3| actuator_cm3 / cm3);
@@ -126,7 +122,7 @@ pub struct BodyVolumes {
 /// A robot at its own body pressure, then at the others that have runs, lowest first; recommended settings.
 pub fn body_volumes(scenario: &Scenario, runs: &[EngineRun]) -> Vec<BodyVolumes> {
     let own_kpa = scenario.p_body_pa * 1e-3;
-    let other = |run: &EngineRun| run.scenario == scenario.name && !same(run.body_kpa, own_kpa);
+    let other = |run: &EngineRun| run.scenario == scenario.name && !policy::is_same_reading(run.body_kpa, own_kpa);
     let mut others: Vec<f64> = runs.iter().filter(|run| other(run)).map(|run| run.body_kpa).collect();
     others.sort_by(f64::total_cmp);
     others.dedup();
@@ -151,7 +147,8 @@ fn mean_volumes(scenario: &Scenario, runs: &[EngineRun]) -> Vec<MeanVolumes> {
     let all: Vec<Vec<Volumes>> = runs.iter().map(|run| volumes(scenario, run)).collect();
     let Some(first) = all.first() else { return Vec::new() };
     let at = |kpa: f64| {
-        let here: Vec<&Volumes> = all.iter().flatten().filter(|v| same(v.actuator_kpa, kpa)).collect();
+        let here: Vec<&Volumes> =
+            all.iter().flatten().filter(|v| policy::is_same_reading(v.actuator_kpa, kpa)).collect();
         let of = |value: fn(&Volumes) -> f64| mean_and_deviation(&here.iter().map(|v| value(v)).collect::<Vec<_>>());
         let known = |value: fn(&Volumes) -> Option<f64>| {
             let found: Vec<f64> = here.iter().filter_map(|v| value(v)).collect();

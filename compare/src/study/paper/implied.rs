@@ -12,12 +12,11 @@
 //! sits on one of six markers alone is √6 e there.
 
 use super::{PaperRun, find};
+use crate::policy;
 use data::{Published, PublishedActuator};
 use serde::Serialize;
 
 const MM: f64 = 1e3;
-/// Within this share of a branch a height is said to meet it.
-pub const NEAR: f64 = 0.10;
 
 /// What an accuracy of the paper says about its finite elements' height of the outermost marker.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -119,7 +118,7 @@ fn verdict(implied: &Implied, height_mm: f64) -> String {
         };
     };
     let (branch, percent) = (if high { "high" } else { "low" }, 100.0 * off);
-    match off.abs() <= NEAR {
+    match policy::meets(off) {
         true => format!("holds: {percent:+.1} % from the {branch} branch"),
         false => format!("misses: {percent:+.1} % from the {branch} branch"),
     }

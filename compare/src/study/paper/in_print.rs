@@ -1,6 +1,7 @@
 //! Facts that the paper's own tables and sizes decide.
 
 use super::facts::{FactCase, FactCheck, FactFound, FactVerdict};
+use crate::policy;
 use crate::study::published::shipped_scenario;
 use models::actuators::pattern::Pattern;
 use models::fabrics::shear_modulus;
@@ -10,8 +11,6 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 /// Mass per volume of fabrics that no paper prints \[kg/m³\]; assumed.
 const DENSITY_KG_M3: f64 = 1000.0;
 const GRAVITY_M_S2: f64 = 9.81;
-/// Printed numbers are rounded by this at most, in the last digit of a percentage.
-const ROUNDED: f64 = 0.051;
 
 /// By name of the fact.
 pub(super) const IN_PRINT: &[FactCheck] = &[
@@ -62,7 +61,7 @@ fn lowest(case: &FactCase, kinds: &[&str], from_kpa: f64) -> FactFound {
     let all = kinds.iter().flat_map(|kind| accuracies(case, kind)).filter(|[kpa, _]| *kpa >= from_kpa);
     let least = all.map(|[_, a]| a).fold(f64::INFINITY, f64::min);
     let found = format!("lowest of Table III: {least:.1} %, an rms error of {:.0} %", error_pct(least));
-    (found, FactVerdict::holds_if((least - case.number(0)).abs() < ROUNDED, format!("{least:.1} %")))
+    (found, FactVerdict::holds_if(policy::is_rounded(least, case.number(0)), format!("{least:.1} %")))
 }
 
 fn accuracy_cpam(case: &FactCase) -> FactFound {

@@ -3,16 +3,9 @@
 use super::facts::{FactCase, FactCheck, FactFound, FactVerdict, no_runs};
 use super::{MESHES_MM, PaperRun, find, mesh_name};
 use crate::accuracy::paper_accuracy;
+use crate::policy;
 use data::published::printed;
 
-/// Differences up to this share are none.
-const NONE: f64 = 0.02;
-/// A share that is "very little".
-const LITTLE: f64 = 0.05;
-/// A ratio or a magnitude within this share of another is alike.
-const ALIKE: f64 = 0.10;
-/// "Almost" a number of points: from so many below it.
-const ALMOST: f64 = 5.0;
 const TOP_KPA: f64 = 30.0;
 const ROBOTS: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
 
@@ -78,7 +71,7 @@ fn ratio(case: &FactCase, other: &str) -> FactFound {
     let engine = height(runs[0]) / height(runs[1]);
     let off = engine / case.number(0) - 1.0;
     let found = format!("{found}; engine {engine:.2} ({})", mesh_name(mesh));
-    (found, FactVerdict::holds_if(off.abs() <= ALIKE, format!("engine {:+.0} %, its table agrees", 100.0 * off)))
+    (found, FactVerdict::holds_if(policy::meets(off), format!("engine {:+.0} %, its table agrees", 100.0 * off)))
 }
 
 fn order(case: &FactCase) -> FactFound {
@@ -183,7 +176,7 @@ fn mesh_gain(case: &FactCase) -> FactFound {
         return no_runs("the cPAM or the ePAM on both meshes at 30 kPa");
     }
     let words = joined(found.iter().map(|(kind, from, to)| format!("{kind} {from:.1} to {to:.1} %")));
-    let near = |points: f64| (case.number(0) - ALMOST..=case.number(0)).contains(&points);
+    let near = |points: f64| policy::is_almost(points, case.number(0));
     let holds = found.iter().all(|(_, from, to)| near(to - from));
     let by = joined(found.iter().map(|(kind, from, to)| format!("{kind} {:+.1} points", to - from)));
     (format!("outermost marker alone, 4 to 4/1 mm at 30 kPa: {words}"), FactVerdict::holds_if(holds, by))
@@ -268,7 +261,7 @@ fn stress_alike(case: &FactCase) -> FactFound {
     };
     let words = format!("{}: sPAM {}, ePAM {}", mesh_name(mesh), place(runs[0]), place(runs[1]));
     let times = stress(runs[0]) / stress(runs[1]);
-    let holds = runs[0].peak.on_seam == runs[1].peak.on_seam && (times - 1.0).abs() <= ALIKE;
+    let holds = runs[0].peak.on_seam == runs[1].peak.on_seam && policy::meets(times - 1.0);
     (words, FactVerdict::holds_if(holds, format!("the sPAM's is {times:.2} times the ePAM's")))
 }
 
@@ -301,7 +294,7 @@ fn base(case: &FactCase) -> FactFound {
     let largest = found.iter().map(|f| f.1).fold(0.0, f64::max);
     let words =
         format!("encastre against pinned (beyond the row that it holds): {}", joined(found.into_iter().map(|f| f.0)));
-    (words, FactVerdict::holds_if(largest <= NONE, format!("up to {:.1} % beyond that row", 100.0 * largest)))
+    (words, FactVerdict::holds_if(policy::is_none(largest), format!("up to {:.1} % beyond that row", 100.0 * largest)))
 }
 
 /// What the bodies lose of their volume between filling and 30 kPa.
@@ -314,5 +307,11 @@ fn section(case: &FactCase) -> FactFound {
     let Some(own) = found.iter().find(|f| f.0 == "spam").map(|f| f.1) else { return no_runs("the sPAM at 30 kPa") };
     let words = joined(found.iter().map(|(kind, share)| format!("{} {:.1} %", printed(kind), 100.0 * share)));
     let found = format!("the body loses of its volume at 30 kPa, its bend included: {words}");
-    (found, FactVerdict::holds_if(own <= LITTLE, format!("{:.1} % is more than {:.0} %", 100.0 * own, 100.0 * LITTLE)))
+    (
+        found,
+        FactVerdict::holds_if(
+            policy::is_little(own),
+            format!("{:.1} % is more than {:.0} %", 100.0 * own, 100.0 * policy::LITTLE),
+        ),
+    )
 }

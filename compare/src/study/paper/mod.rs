@@ -9,10 +9,11 @@ mod jobs;
 mod of_run;
 
 pub use facts::{FactRow, FactVerdict, facts};
-pub use implied::{HeightRow, Implied, NEAR, against, heights};
+pub use implied::{HeightRow, Implied, against, heights};
 pub use jobs::jobs;
 pub use of_run::runs_below;
 
+use crate::policy;
 use crate::study::engines::{EngineRun, EngineState};
 use fem::FemError;
 use fem::record::Shape;
@@ -20,8 +21,6 @@ use serde::{Deserialize, Serialize};
 
 /// Meshes of the paper: the coarsest of its study on body and actuator, and the final one \[mm\].
 pub const MESHES_MM: [[f64; 2]; 2] = [[4.0, 4.0], [4.0, 1.0]];
-/// Pressures and sizes this near are the same, in kPa and mm.
-const SAME: f64 = 0.05;
 
 /// A finished run of the preset: one robot, one mesh, one pressure.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -96,7 +95,7 @@ pub fn runs_json(runs: &[PaperRun]) -> String {
 pub fn ordered(mut runs: Vec<PaperRun>) -> Vec<PaperRun> {
     let case = |r: &PaperRun| {
         let kpa = r.end().map_or(0.0, |s| s.actuator_kpa);
-        let numbers = [r.run.mesh_mm[0], -r.run.mesh_mm[1], kpa].map(|v| (v / SAME).round() as i64);
+        let numbers = [r.run.mesh_mm[0], -r.run.mesh_mm[1], kpa].map(|v| (v / policy::SAME_READING).round() as i64);
         (r.run.actuator.clone(), numbers[0], numbers[1], r.encastre, numbers[2])
     };
     runs.sort_by_key(|r| (case(r), r.run.seed));
@@ -111,7 +110,7 @@ impl PaperRun {
     }
 
     fn is(&self, kind: &str, mesh_mm: [f64; 2], kpa: f64) -> bool {
-        let same = |a: f64, b: f64| (a - b).abs() < SAME;
+        let same = policy::is_same_reading;
         self.run.actuator == kind
             && same(self.run.mesh_mm[0], mesh_mm[0])
             && same(self.run.mesh_mm[1], mesh_mm[1])
