@@ -3,16 +3,12 @@
 use crate::dataset::{Dataset, Hold, Lost, Marker};
 use crate::error::{DataError, Fault};
 use crate::lost::fill;
-use crate::streams::{Recorder, Sample, Segment, Stream, tolerance_act_pa, tolerance_body_pa};
+use crate::policy::{self, tolerance_act_pa, tolerance_body_pa};
+use crate::streams::{Recorder, Sample, Segment, Stream};
 use crate::units::kpa;
 
 /// Samples kept per (run, hold, marker): enough to see creep inside a hold, few enough for a dense noise model.
 const MOST_SAMPLES_PER_HOLD: usize = 5;
-/// Times that begin later than this are a clock and not a time since the start of a run \[s\].
-const LATEST_START_S: f64 = 3600.0;
-
-/// A marker seen in less than this share of a hold's usual number of frames was lost there.
-const SEEN_ENOUGH: f64 = 0.5;
 
 /// Builds the dataset; `stations_m` in order of `recorder.markers`.
 ///
@@ -152,7 +148,7 @@ impl<'a> Grid<'a> {
         for hold in 0..self.reference.len() {
             let mut rows: Vec<u64> = self.of_hold(hold).map(|(_, segment)| segment.rows).collect();
             rows.sort_unstable();
-            let enough = SEEN_ENOUGH * rows[rows.len() / 2] as f64;
+            let enough = policy::SEEN_ENOUGH * rows[rows.len() / 2] as f64;
             for run in 0..self.streams.len() {
                 for marker in 0..self.streams[run].len() {
                     if self.segment(run, marker, hold).is_some_and(|segment| (segment.rows as f64) < enough) {
@@ -197,7 +193,7 @@ impl<'a> Grid<'a> {
         let start = |run: &Vec<&Stream>| run.iter().map(|stream| stream.first_t_s).fold(f64::INFINITY, f64::min);
         let starts: Vec<f64> = self.streams.iter().map(start).collect();
         let earliest = starts.iter().copied().fold(f64::INFINITY, f64::min);
-        let begin = if earliest.abs() > LATEST_START_S { 0.0 } else { earliest };
+        let begin = if earliest.abs() > policy::LATEST_START_S { 0.0 } else { earliest };
         starts.iter().map(|start| start - begin).collect()
     }
 }

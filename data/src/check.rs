@@ -5,15 +5,11 @@ use serde::Serialize;
 use crate::about::About;
 use crate::dataset::{Dataset, Hold, Phase};
 use crate::lost::losses;
-use crate::streams::{tolerance_act_pa, tolerance_body_pa};
+use crate::policy::{self, tolerance_act_pa, tolerance_body_pa};
 use crate::units::{kpa, mm};
 
-/// Robust z above which a sample is listed.
-const OUTLIER_Z: f64 = 6.0;
 /// Standard deviations per median absolute deviation of a normal variable: 1/Φ⁻¹(3/4).
 const SD_PER_MAD: f64 = 1.482_602_218_505_602;
-/// Deviations below this are never outliers: far below any camera \[m\].
-const SURELY_FINE_M: f64 = 1e-5;
 
 /// What a dataset holds; mm, kPa and s because it is printed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -200,7 +196,7 @@ fn outliers(dataset: &Dataset) -> Vec<Outlier> {
             let all = holds.iter().flat_map(|&h| samples_of(dataset, h, marker)).map(|i| i + axis);
             let sizes =
                 all.flat_map(|i| deviations.iter().map(move |run| run[i].abs())).filter(|size| *size > 0.0).collect();
-            (few_runs * SD_PER_MAD * median(sizes)).max(SURELY_FINE_M / OUTLIER_Z)
+            (few_runs * SD_PER_MAD * median(sizes)).max(policy::SURELY_FINE_M / policy::OUTLIER_Z)
         };
         let every_hold: Vec<usize> = (0..dataset.holds.len()).collect();
         let of_marker = [scale(&every_hold, 0), scale(&every_hold, 1)];
@@ -210,7 +206,7 @@ fn outliers(dataset: &Dataset) -> Vec<Outlier> {
                 for (run, label) in dataset.runs.iter().enumerate() {
                     let d = [deviations[run][at], deviations[run][at + 1]];
                     let robust_z = (d[0].abs() / sd[0]).max(d[1].abs() / sd[1]);
-                    if robust_z > OUTLIER_Z {
+                    if robust_z > policy::OUTLIER_Z {
                         let (run, marker) = (label.clone(), described.name.clone());
                         found.push(Outlier { run, hold, sample, marker, dx_mm: mm(d[0]), dy_mm: mm(d[1]), robust_z });
                     }
@@ -258,8 +254,6 @@ fn identical_runs(dataset: &Dataset) -> Vec<[String; 2]> {
 
 /// Holds named in one warning.
 const MOST_NAMED: usize = 3;
-/// Holds this far apart are of a clock in milliseconds, or of a very patient experiment \[s\].
-const PATIENT_S: f64 = 1000.0;
 
 /// What the table says of its holds that cannot be: phases against pressures, times against any protocol. The first hold, and
 /// one that begins before the last (another session), have no pressure before them.
@@ -291,10 +285,11 @@ pub fn contradictions(dataset: &Dataset) -> Vec<String> {
             wrong.join("; ")
         ));
     }
-    if !gaps.is_empty() && median(gaps) > PATIENT_S {
+    if !gaps.is_empty() && median(gaps) > policy::PATIENT_S {
         let name = &dataset.name;
         found.push(format!(
-            "{name}: holds are more than {PATIENT_S} s apart: if the times are milliseconds, name the column t_ms"
+            "{name}: holds are more than {} s apart: if the times are milliseconds, name the column t_ms",
+            policy::PATIENT_S
         ));
     }
     found
@@ -315,7 +310,10 @@ fn warnings(report: &CheckReport, about: Option<&About>) -> Vec<String> {
     let outliers = report.outliers.len();
     warn(
         outliers > 0,
-        format!("{outliers} samples lie more than {OUTLIER_Z} robust standard deviations from the other runs"),
+        format!(
+            "{outliers} samples lie more than {} robust standard deviations from the other runs",
+            policy::OUTLIER_Z
+        ),
     );
     let unknown = report.markers.iter().filter(|marker| marker.s_mm.is_none()).count();
     warn(unknown > 0, format!("{unknown} markers without station: add [markers] names and s_mm to about.toml"));

@@ -17,6 +17,7 @@ mod lines;
 pub mod load;
 mod lost;
 mod plausible;
+mod policy;
 pub mod published;
 mod ramps;
 pub mod read;

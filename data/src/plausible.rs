@@ -5,18 +5,10 @@
 use crate::dataset::Dataset;
 use crate::error::{DataError, Fault};
 use crate::header::{Header, P_ACT, P_BODY, QUANTITIES, STATION, X, Y};
+use crate::policy;
 use crate::rows::RowReader;
 use crate::streams::Recorder;
 use crate::units::mm;
-
-/// An inflated robot whose farthest marker is nearer than this to its base does not exist \[m\].
-const SHORTEST_ROBOT_M: f64 = 0.002;
-/// Longest robot in one camera picture \[m\].
-const LONGEST_ROBOT_M: f64 = 20.0;
-/// Downward motion of the last marker at the highest pressure that cannot be noise \[m\].
-const SURELY_DOWN_M: f64 = 0.005;
-/// Largest body and actuator pressure, as numbers in the kPa columns, that look like each unit, smallest unit last.
-const LOOKS_LIKE: [(f64, f64, &str); 3] = [(0.6, 7.0, "psi"), (0.06, 1.0, "bar"), (0.006, 0.1, "MPa")];
 
 /// Refuses lengths and pressures that look like another unit.
 ///
@@ -27,14 +19,18 @@ pub(crate) fn check_units(cells: &RowReader, recorder: &Recorder) -> Result<(), 
     let unit = |quantity: usize| cells.header.columns[quantity].as_ref().and_then(|c| c.unit).map_or("", |u| u.symbol);
     let known_robot = extremes.p_act_pa > 0.0 || recorder.stations_m.iter().any(Option::is_some);
     let looks = |quantity, value, word: &str| Err(unit_error(&cells.header, quantity, value, word));
-    if unit(X) == "mm" && known_robot && extremes.x_m < SHORTEST_ROBOT_M && extremes.y_m < SHORTEST_ROBOT_M {
+    if unit(X) == "mm"
+        && known_robot
+        && extremes.x_m < policy::SHORTEST_ROBOT_M
+        && extremes.y_m < policy::SHORTEST_ROBOT_M
+    {
         return looks(X, mm(extremes.x_m), "metres");
     }
-    if unit(STATION) == "mm" && extremes.station_m > 0.0 && extremes.station_m < SHORTEST_ROBOT_M {
+    if unit(STATION) == "mm" && extremes.station_m > 0.0 && extremes.station_m < policy::SHORTEST_ROBOT_M {
         return looks(STATION, mm(extremes.station_m), "metres");
     }
     for (quantity, value_m) in [(X, extremes.x_m), (Y, extremes.y_m), (STATION, extremes.station_m)] {
-        if unit(quantity) == "m" && value_m > LONGEST_ROBOT_M {
+        if unit(quantity) == "m" && value_m > policy::LONGEST_ROBOT_M {
             return looks(quantity, value_m, "millimetres");
         }
     }
@@ -51,8 +47,10 @@ fn unit_error(header: &Header, quantity: usize, largest: f64, word: &str) -> Dat
 }
 
 fn check_small_pressures(cells: &RowReader, p_body: f64, p_act: f64) -> Result<(), DataError> {
-    let fits = |&&(body, act, _): &&(f64, f64, &str)| p_body > 0.0 && p_act > 0.0 && p_body < body && p_act < act;
-    let Some((_, _, unit)) = LOOKS_LIKE.iter().rfind(fits) else { return Ok(()) };
+    let fits = |([body, act], _): &([f64; 2], &str)| p_body > 0.0 && p_act > 0.0 && p_body < *body && p_act < *act;
+    // Smallest unit last.
+    let units = [(policy::LIKE_PSI, "psi"), (policy::LIKE_BAR, "bar"), (policy::LIKE_MPA, "MPa")];
+    let Some((_, unit)) = units.into_iter().rfind(fits) else { return Ok(()) };
     let suffix = unit.to_lowercase();
     let message = format!("the largest pressures are {p_act} (actuator) and {p_body} (body): they look like {unit}");
     let help = format!(
@@ -82,7 +80,7 @@ pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<(), DataE
     let place = |marker: usize| dataset.markers[marker].station_m.unwrap_or_else(|| at(0, marker, 0));
     let Some(last) = (0..dataset.markers.len()).max_by(|&a, &b| place(a).total_cmp(&place(b))) else { return Ok(()) };
     let moved_m = at(highest, last, 1) - at(0, last, 1);
-    if moved_m >= -SURELY_DOWN_M {
+    if moved_m >= -policy::SURELY_DOWN_M {
         return Ok(());
     }
     let markers = 0..dataset.markers.len();

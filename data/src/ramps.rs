@@ -1,7 +1,7 @@
 //! Whether pressures were kept at all: a hold has a least duration, and a ramp has none.
 
 use crate::error::{DataError, Fault};
-use crate::rows::LOWEST_GAUGE_PA;
+use crate::policy;
 use crate::streams::{Recorder, Segment, Stream};
 use crate::units::kpa;
 
@@ -26,7 +26,7 @@ pub(crate) fn check_kept(file: &str, recorder: &Recorder) -> Result<(), DataErro
             .below_zero
             .iter()
             .zip(means)
-            .find(|(_, mean)| *mean < LOWEST_GAUGE_PA)
+            .find(|(_, mean)| *mean < policy::LOWEST_GAUGE_PA)
             .and_then(|(fault, _)| fault.clone())
     };
     if let Some(fault) = segments().find_map(below) {

@@ -26,12 +26,11 @@ use crate::error::{DataError, Fault};
 use crate::header::{ACTUATOR, read_header};
 use crate::lines::Lines;
 use crate::plausible::{check_units, check_y_up};
+use crate::policy;
 use crate::ramps::check_kept;
 use crate::rows::RowReader;
 use crate::streams::Recorder;
 
-/// Stations from the file and from `about.toml` may differ by rounding only \[m\].
-const SAME_STATION_M: f64 = 5e-4;
 /// Actuator kinds remembered for the error message that lists them.
 const MOST_KINDS: usize = 20;
 
@@ -236,7 +235,7 @@ fn stations(file: &str, recorder: &Recorder, about: Option<&About>) -> Result<Ve
         let Some(marker) = about.markers.iter().find(|marker| marker.name == *name) else {
             return Err(unknown_marker(file, recorder, name, about));
         };
-        if column_m.is_some_and(|s| (s - marker.station_m).abs() > SAME_STATION_M) {
+        if column_m.is_some_and(|s| (s - marker.station_m).abs() > policy::ROUNDED_STATION_M) {
             let message =
                 format!("the station of marker {name} is not the one in about.toml ({} mm)", marker.station_m * 1e3);
             let fault = Fault::of_file(file, message, "correct the s_mm column or [markers] s_mm in about.toml");

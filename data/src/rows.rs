@@ -5,13 +5,7 @@ use crate::dataset::Phase;
 use crate::error::{DataError, Fault};
 use crate::header::{ACTUATOR, GAUGE, Header, MARKER, P_ACT, P_BODY, PHASE, QUANTITIES, RUN, STATION, TIME, X, Y};
 use crate::lines::Line;
-
-/// Below this the mean of a hold is not the noise of a sensor at zero \[Pa\] (the step by which holds are told apart).
-pub(crate) const LOWEST_GAUGE_PA: f64 = -500.0;
-/// No inflated fabric stands this gauge pressure \[Pa\]; a higher one is a unit mistake.
-const HIGHEST_GAUGE_PA: f64 = 1e6;
-/// No robot is this long \[m\]; a larger coordinate is a unit mistake.
-const FARTHEST_M: f64 = 1e3;
+use crate::policy;
 
 /// One observation; texts borrow from the reader.
 #[derive(Debug)]
@@ -269,7 +263,7 @@ impl RowReader {
 
     fn length(&self, line: &Line, quantity: usize) -> Result<f64, DataError> {
         let value = self.number(line, quantity)?;
-        if value.abs() > FARTHEST_M {
+        if value.abs() > policy::FARTHEST_M {
             let name = QUANTITIES[quantity].expected;
             let message = format!("\"{}\" is farther than any robot reaches", self.text(quantity));
             let help = format!("correct or delete the row; {name} is the name of a column in millimetres");
@@ -302,14 +296,14 @@ impl RowReader {
     fn pressure(&self, line: &Line, quantity: usize) -> Result<f64, DataError> {
         let value = self.number(line, quantity)?;
         let base = QUANTITIES[quantity].base;
-        if value > HIGHEST_GAUGE_PA {
+        if value > policy::HIGHEST_GAUGE_PA {
             let unit = self.header.columns[quantity].as_ref().and_then(|column| column.unit).map_or("", |u| u.symbol);
             let better = if unit == "kPa" { ("Pa", "pa") } else { ("kPa", "kpa") };
             let message = format!("{} {unit} is above 1 MPa; it looks like {}", self.text(quantity), better.0);
             let help = format!("name the column {base}_{}", better.1);
             return Err(DataError::Unit(self.cell_fault(line, quantity, message, help)));
         }
-        if quantity == GAUGE && value < LOWEST_GAUGE_PA {
+        if quantity == GAUGE && value < policy::LOWEST_GAUGE_PA {
             return Err(DataError::Cell(self.below_zero(line, quantity)));
         }
         Ok(value)

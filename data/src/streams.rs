@@ -9,29 +9,12 @@ use crate::dataset::Phase;
 use crate::error::{DataError, Fault};
 use crate::header::{MARKER, P_ACT, P_BODY, RUN, STATION, TIME};
 use crate::lines::{KeptLine, Line};
-use crate::rows::{LOWEST_GAUGE_PA, Row, RowReader};
+use crate::policy::{self, tolerance_act_pa, tolerance_body_pa};
+use crate::rows::{Row, RowReader};
 
-const MOST_RUNS: usize = 10_000;
-const MOST_MARKERS: usize = 1_000;
-/// Holds of one (run, marker) stream; a protocol has tens, a flickering phase column millions.
-const MOST_HOLDS: usize = 1_000;
-/// Holds of all streams together: bounds memory at about 2 GB whatever the file.
-const MOST_SERIES: usize = 1_000_000;
 /// Samples kept per (run, hold, marker) before neighbours are merged; above the few that `Dataset` holds, far below a
 /// camera's frames.
 const MOST_SAMPLES: usize = 64;
-/// Two stations of one marker closer than this are one \[m\].
-const SAME_STATION_M: f64 = 1e-6;
-
-/// Tolerance of the actuator pressure inside one hold \[Pa\]: max(0.5 kPa, 5 %).
-pub(crate) fn tolerance_act_pa(mean_pa: f64) -> f64 {
-    (0.05 * mean_pa).max(500.0)
-}
-
-/// Tolerance of the body pressure inside one hold \[Pa\]: max(0.2 kPa, 5 %).
-pub(crate) fn tolerance_body_pa(mean_pa: f64) -> f64 {
-    (0.05 * mean_pa).max(200.0)
-}
 
 /// Sum of `count` neighbouring observations.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -253,11 +236,11 @@ impl Recorder {
             let help = format!("split the file: at most {most} {what}s are read at once; is the {what} column right?");
             DataError::Layout(cells.cell_fault(line, quantity, format!("more than {most} {what}s"), help))
         };
-        if run >= MOST_RUNS {
-            return Err(limit(RUN, "run", MOST_RUNS));
+        if run >= policy::MOST_RUNS {
+            return Err(limit(RUN, "run", policy::MOST_RUNS));
         }
-        if marker >= MOST_MARKERS {
-            return Err(limit(MARKER, "marker", MOST_MARKERS));
+        if marker >= policy::MOST_MARKERS {
+            return Err(limit(MARKER, "marker", policy::MOST_MARKERS));
         }
         self.first_row.get_or_insert_with(|| line.keep());
         self.extremes.widen(&row);
@@ -289,17 +272,17 @@ impl Recorder {
         stream.last_t_s = row.t_s;
         stream.take_back(row);
         if !stream.segments.last().is_some_and(|segment| segment.continues_with(row)) {
-            self.series += 1;
-            if stream.segments.len() >= MOST_HOLDS || self.series > MOST_SERIES {
+            if policy::is_full(stream.segments.len(), self.series) {
                 return Err(too_many_holds(line));
             }
+            self.series += 1;
             stream.segments.push(Segment::new(row, line.number));
         }
         if let Some(segment) = stream.segments.last_mut() {
             for (which, (pressure_pa, quantity)) in
                 [(row.p_body_pa, P_BODY), (row.p_act_pa, P_ACT)].into_iter().enumerate()
             {
-                if pressure_pa < LOWEST_GAUGE_PA && segment.below_zero[which].is_none() {
+                if pressure_pa < policy::LOWEST_GAUGE_PA && segment.below_zero[which].is_none() {
                     segment.below_zero[which] = Some(cells.below_zero(line, quantity));
                 }
             }
@@ -316,7 +299,7 @@ impl Recorder {
             self.stations_m[marker] = row.station_m.or(self.stations_m[marker]);
             return Ok(());
         };
-        if (new - old).abs() <= SAME_STATION_M {
+        if (new - old).abs() <= policy::SAME_STATION_M {
             return Ok(());
         }
         let message = format!("marker {} has two stations: {} mm and {} mm", row.marker, old * 1e3, new * 1e3);
@@ -355,7 +338,7 @@ fn check_time(stream: &Stream, row: &Row, cells: &RowReader, line: &Line) -> Res
 }
 
 fn too_many_holds(line: &Line) -> DataError {
-    let message = format!("more than {MOST_HOLDS} holds in one run, or {MOST_SERIES} in all");
+    let message = format!("more than {} holds in one run, or {} in all", policy::MOST_HOLDS, policy::MOST_SERIES);
     let help = "keep only rows recorded while the pressures are steady; a new hold begins when the phase changes or a \
                 pressure moves by more than 5 %";
     DataError::Layout(line.fault(message, help))
@@ -376,6 +359,11 @@ mod tests {
         let mut segment = Segment::new(&row(0.0, 20_000.0), 1);
         segment.add(&row(0.0, 20_000.0));
         assert!(segment.continues_with(&row(1.0, 20_999.0)) && !segment.continues_with(&row(1.0, 21_001.0)));
+        segment = Segment::new(&row(0.0, 0.0), 1);
+        segment.add(&row(0.0, 0.0));
+        assert!(segment.continues_with(&row(1.0, 499.0)) && !segment.continues_with(&row(1.0, 501.0)));
+        let body = |p_body_pa: f64| Row { p_body_pa, ..row(1.0, 0.0) };
+        assert!(segment.continues_with(&body(2199.0)) && !segment.continues_with(&body(2201.0)));
         let other_phase = Row { phase: Phase::Unload, ..row(1.0, 20_000.0) };
         let other_body = Row { p_body_pa: 2201.0, ..row(1.0, 20_000.0) };
         assert!(!segment.continues_with(&other_phase) && !segment.continues_with(&other_body));

@@ -2,6 +2,7 @@
 
 mod about;
 mod bad_input;
+mod boundaries;
 mod checks;
 mod good_input;
 mod lost;

@@ -7,14 +7,8 @@ use super::columns::{
 };
 use super::{Coupon, CouponDefaults, Direction, Pulled};
 use crate::error::{DataError, Fault};
+use crate::policy;
 use std::path::Path;
-
-/// Fewest rows of a specimen: three for a slope and as many for its shape.
-const FEWEST: usize = 6;
-/// Steps back below this share of the range are the noise of the displacement sensor.
-const JITTER: f64 = 2e-3;
-/// Strain above which a coated fabric has broken; more is a unit mistake.
-const LARGEST_STRAIN: f64 = 3.0;
 
 /// All specimens of a file, as far as it has been read.
 pub(super) struct Specimens<'a> {
@@ -157,7 +151,7 @@ impl<'a> Specimens<'a> {
         let (column, first) = (self.header.name(x), raw.rows[0].0);
         let range = raw.rows.iter().map(|(row, _)| (row[0] - first[0]).abs()).fold(0.0, f64::max);
         let strain = range / if x == STRAIN { 1.0 } else { self.notes.numbers[LENGTH].unwrap_or(f64::INFINITY) };
-        if strain > LARGEST_STRAIN {
+        if strain > policy::LARGEST_STRAIN {
             let message = format!("specimen {specimen}: {column} reaches a strain of {:.4} %", 100.0 * strain);
             let help = if x == STRAIN {
                 "name the column strain_pct if it is in per cent"
@@ -175,7 +169,7 @@ impl<'a> Specimens<'a> {
             if moved[0] > last {
                 rows.push(moved);
                 widths.extend(raw.widths_m.get(i));
-            } else if last - moved[0] <= JITTER * range {
+            } else if last - moved[0] <= policy::JITTER * range {
                 jitter += 1;
             } else {
                 let message = format!("specimen {specimen}: {column} goes back, after having been larger above");
@@ -185,9 +179,13 @@ impl<'a> Specimens<'a> {
                 return Err(DataError::Cell(Box::new(fault)));
             }
         }
-        if rows.len() < FEWEST {
+        if rows.len() < policy::FEWEST_ROWS {
             let message = format!("specimen {specimen} has {} rows that rise in {column}", rows.len());
-            return Err(self.fault(raw, message, format!("give at least {FEWEST}, from the start of the pull")));
+            return Err(self.fault(
+                raw,
+                message,
+                format!("give at least {}, from the start of the pull", policy::FEWEST_ROWS),
+            ));
         }
         Ok((rows, widths, jitter))
     }

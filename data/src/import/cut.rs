@@ -5,7 +5,7 @@ use super::holds::{Kept, PressedRun, bins, clean, plateaus};
 use super::options::ImportOptions;
 use super::recording::Recording;
 use crate::error::{DataError, Fault};
-use crate::streams::tolerance_act_pa;
+use crate::policy::tolerance_act_pa;
 use crate::units::kpa;
 
 /// A run and the frames of its holds.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::options::ImportOptions;
-use crate::streams::{tolerance_act_pa, tolerance_body_pa};
+use crate::policy::{tolerance_act_pa, tolerance_body_pa};
 
 /// One run with its pressures, in the robot's frame.
 pub(crate) struct PressedRun {

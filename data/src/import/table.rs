@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::holds::{Kept, PressedRun};
 use super::options::ImportOptions;
 use crate::dataset::Phase;
-use crate::streams::tolerance_act_pa;
+use crate::policy::tolerance_act_pa;
 use crate::units::{kpa, mm};
 use crate::write::quoted;
 

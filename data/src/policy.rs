@@ -1,0 +1,86 @@
+//! The numbers by which a table is refused, cut into holds or doubted. Each says what it is and in which unit; `tests/policy.sh` moves
+//! every one of them and names the tests that fail then.
+
+/// An inflated robot whose farthest marker is nearer than this to its base does not exist \[m\].
+pub const SHORTEST_ROBOT_M: f64 = 0.002;
+/// Longest robot in one camera picture \[m\].
+pub const LONGEST_ROBOT_M: f64 = 20.0;
+/// No robot is this long \[m\]; a larger coordinate is a unit mistake.
+pub const FARTHEST_M: f64 = 1e3;
+/// Downward motion of the last marker at the highest pressure that cannot be noise \[m\].
+pub const SURELY_DOWN_M: f64 = 0.005;
+/// Below this the mean of a hold is not the noise of a sensor at zero \[Pa\] (the step by which holds are told apart).
+pub const LOWEST_GAUGE_PA: f64 = -500.0;
+/// No inflated fabric stands this gauge pressure \[Pa\]; a higher one is a unit mistake.
+pub const HIGHEST_GAUGE_PA: f64 = 1e6;
+/// Largest body and actuator pressure, as numbers in the kPa columns, that look like psi.
+pub const LIKE_PSI: [f64; 2] = [0.6, 7.0];
+/// The same of bar.
+pub const LIKE_BAR: [f64; 2] = [0.06, 1.0];
+/// The same of MPa.
+pub const LIKE_MPA: [f64; 2] = [0.006, 0.1];
+
+/// A pressure stays inside one hold within this share of it.
+pub const SAME_PRESSURE: f64 = 0.05;
+/// And the actuator's within this \[Pa\].
+pub const SAME_ACTUATOR_PA: f64 = 500.0;
+/// And the body's within this \[Pa\].
+pub const SAME_BODY_PA: f64 = 200.0;
+/// Two stations of one marker closer than this are one \[m\].
+pub const SAME_STATION_M: f64 = 1e-6;
+/// Stations from the file and from `about.toml` may differ by rounding only \[m\].
+pub const ROUNDED_STATION_M: f64 = 5e-4;
+/// Times that begin later than this are a clock and not a time since the start of a run \[s\].
+pub const LATEST_START_S: f64 = 3600.0;
+/// Holds this far apart are of a clock in milliseconds, or of a very patient experiment \[s\].
+pub const PATIENT_S: f64 = 1000.0;
+/// A marker seen in less than this share of a hold's usual number of frames was lost there.
+pub const SEEN_ENOUGH: f64 = 0.5;
+/// Robust z above which a sample is listed.
+pub const OUTLIER_Z: f64 = 6.0;
+/// Deviations below this are never outliers: far below any camera \[m\].
+pub const SURELY_FINE_M: f64 = 1e-5;
+
+/// Runs that are read at once.
+pub const MOST_RUNS: usize = 10_000;
+/// Markers that are read at once.
+pub const MOST_MARKERS: usize = 1_000;
+/// Holds of one (run, marker) stream; a protocol has tens, a flickering phase column millions.
+pub const MOST_HOLDS: usize = 1_000;
+/// Holds of all streams together: bounds memory at about 2 GB whatever the file.
+pub const MOST_SERIES: usize = 1_000_000;
+
+/// Fewest rows of a specimen: three for a slope and as many for its shape.
+pub const FEWEST_ROWS: usize = 6;
+/// Steps back below this share of the range are the noise of the displacement sensor.
+pub const JITTER: f64 = 2e-3;
+/// Strain above which a coated fabric has broken; more is a unit mistake.
+pub const LARGEST_STRAIN: f64 = 3.0;
+
+/// Tolerance of the actuator pressure inside one hold \[Pa\]: max(0.5 kPa, 5 %).
+pub fn tolerance_act_pa(mean_pa: f64) -> f64 {
+    (SAME_PRESSURE * mean_pa).max(SAME_ACTUATOR_PA)
+}
+
+/// Tolerance of the body pressure inside one hold \[Pa\]: max(0.2 kPa, 5 %).
+pub fn tolerance_body_pa(mean_pa: f64) -> f64 {
+    (SAME_PRESSURE * mean_pa).max(SAME_BODY_PA)
+}
+
+/// Whether a stream with so many holds, in a file with so many in all, may not have one more.
+pub fn is_full(holds: usize, in_all: usize) -> bool {
+    holds >= MOST_HOLDS || in_all >= MOST_SERIES
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_full;
+
+    #[test]
+    fn a_thousand_holds_are_read_of_a_stream_and_a_million_of_a_file() {
+        assert_eq!(
+            [(999, 5), (1000, 5), (5, 999_999), (5, 1_000_000)].map(|(own, all)| is_full(own, all)),
+            [false, true, false, true]
+        );
+    }
+}
