@@ -28,6 +28,7 @@ pub mod contact;
 pub mod error;
 pub mod mesh;
 mod output;
+mod policy;
 pub mod problem;
 mod random;
 pub mod record;

@@ -6,6 +6,7 @@ mod start;
 use crate::FemError;
 pub use crate::amplitude::Amplitude;
 use crate::mesh::Mesh;
+use crate::policy;
 
 /// Everything that defines a run.
 #[derive(Debug, Clone)]
@@ -244,7 +245,14 @@ pub struct Guards {
 
 impl Default for Guards {
     fn default() -> Guards {
-        Guards { residual: 0.02, residual_floor_j: 1e-6, speed_m_s: 0.0, inverted: true, sides: 0.05, hourglass: 0.15 }
+        Guards {
+            residual: policy::RESIDUAL,
+            residual_floor_j: policy::RESIDUAL_FLOOR_J,
+            speed_m_s: 0.0,
+            inverted: true,
+            sides: policy::SIDES,
+            hourglass: policy::HOURGLASS,
+        }
     }
 }
 
@@ -379,11 +387,9 @@ impl Settings {
         if let Some((name, value)) = not_negative.iter().find(|(_, v)| !(*v >= 0.0 && v.is_finite())) {
             return Err(FemError::Problem(format!("settings: {name} must be 0 or more, not {value}")));
         }
-        if ![2, 4, 6].contains(&self.mass_passes) {
-            return Err(FemError::Problem(format!(
-                "settings: mass_passes must be 2, 4 or 6, not {}",
-                self.mass_passes
-            )));
+        let passes = self.mass_passes;
+        if ![2, 4, 6].contains(&passes) {
+            return Err(FemError::Problem(format!("settings: mass_passes must be 2, 4 or 6, not {passes}")));
         }
         if self.cfl > 1.0 {
             return Err(FemError::Problem(format!("settings: cfl {} is over 1, the limit of stability", self.cfl)));

@@ -6,6 +6,7 @@ use super::range::{Checked, LENGTH, Range, number, plain, refuse, unknown_name};
 use super::raw::{Free, Text};
 use crate::mesh::check::{check_open, rim};
 use crate::mesh::generate::{self, Around, Cap, Tube};
+use crate::policy;
 use crate::problem::Chamber;
 use crate::{FemError, Mesh};
 use std::path::Path;
@@ -239,7 +240,7 @@ fn from_file(table: &Spanned<Free>, file: &Text, read_mesh: ReadMesh) -> Checked
         }
         Err(FemError::Mesh(message)) => Err(FemError::Case { message, span: Some(file.span()) }),
         Ok(mesh) => match median_side_m(&mesh) {
-            side if side > LONGEST_SIDE_M => refuse(
+            side if policy::is_coarse(side) => refuse(
                 format!("half of the elements of this mesh have sides over {side:.2} m: it looks like millimetres"),
                 "the file is in metres: divide its coordinates by 1000",
                 file.span(),
@@ -249,9 +250,6 @@ fn from_file(table: &Spanned<Free>, file: &Text, read_mesh: ReadMesh) -> Checked
         other => other,
     }
 }
-
-/// Elements of a mesh in metres are smaller \[m\].
-const LONGEST_SIDE_M: f64 = 0.5;
 
 fn median_side_m(mesh: &Mesh) -> f64 {
     let mut sides: Vec<f64> = Vec::new();

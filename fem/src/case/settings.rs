@@ -6,6 +6,7 @@ use super::range::{Checked, POSITION, Range, TIME, choice, direction, optional, 
 use super::raw::{RawOutput, RawSettings};
 use crate::mesh::Mesh;
 use crate::output::picture::View;
+use crate::policy;
 use crate::problem::{Guards, MassScaling, Settings};
 use toml::Value;
 
@@ -29,8 +30,6 @@ const SIDES: Range = plain(0.0, 1.0, "share of the nodes in contact that may cha
 const RESIDUAL: Range = plain(1e-6, 1.0, "energy missing from the balance over the work done; 0.02 is usual");
 const FLOOR: Range = plain(0.0, 1e3, "J; 1e-6 is usual");
 const SPEED: Range = plain(0.0, 1e5, "m/s; 0 is the speed of sound in the stiffest fabric");
-/// More outputs than this fill a disk before they help.
-const MOST_OUTPUTS: f64 = 100_000.0;
 
 /// The paper's run: true masses, 1.1 s; its damping is not printed, 5 1/s is assumed.
 fn paper() -> Settings {
@@ -119,9 +118,9 @@ fn guards(raw: &RawSettings) -> Checked<Guards> {
 fn not_too_many(raw: &RawSettings, settings: &Settings) -> Checked<()> {
     let outputs = settings.end_s / settings.output_every_s;
     match &raw.output_every_s {
-        Some(every) if outputs > MOST_OUTPUTS => {
+        Some(every) if outputs > policy::MOST_OUTPUTS => {
             let message = format!("output_every_s = {} means {outputs:.0} outputs", every.get_ref());
-            let help = format!("write at least {:e}", settings.end_s / MOST_OUTPUTS);
+            let help = format!("write at least {:e}", settings.end_s / policy::MOST_OUTPUTS);
             refuse(message, help, every.span())
         }
         _ => Ok(()),

@@ -3,6 +3,7 @@
 use super::{Obstacle, ObstacleShape};
 use crate::FemError;
 use crate::mesh::Mesh;
+use crate::policy;
 use crate::vec3::{V3, along, cross, dot, scale, sub, unit};
 
 /// Its surface.
@@ -65,7 +66,7 @@ pub(super) fn check(mesh: &Mesh, obstacles: &[Obstacle]) -> Result<(), FemError>
             solid.touch(&[x, y, z, 0.0]).depth_m
         };
         let deepest = (0..mesh.points.len()).max_by(|a, b| depth(*a).total_cmp(&depth(*b)));
-        let Some(node) = deepest.filter(|node| depth(*node) > TOUCHING_M) else { continue };
+        let Some(node) = deepest.filter(|node| policy::is_inside(depth(*node))) else { continue };
         let [x, y, z] = mesh.start_of(node).map(|c| c * 1e3);
         return Err(FemError::Problem(format!(
             "[[obstacle]] {}: node {} starts {:.3} mm inside it, at ({x:.2}, {y:.2}, {z:.2}) mm. Move the obstacle, or turn the \
@@ -77,9 +78,6 @@ pub(super) fn check(mesh: &Mesh, obstacles: &[Obstacle]) -> Result<(), FemError>
     }
     Ok(())
 }
-
-/// Nodes this deep at the start only touch \[m\].
-const TOUCHING_M: f64 = 1e-5;
 
 fn any_across(axis: V3) -> V3 {
     let other = if axis[0].abs() < 0.5 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };

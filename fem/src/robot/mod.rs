@@ -51,15 +51,13 @@ use crate::case::{Outputs, encastre};
 use crate::mesh::check::check_open;
 pub use crate::output::centre_line::CentreLine;
 use crate::output::picture::View;
+use crate::policy;
 use crate::problem::{Amplitude, Chamber, Contact, Guards, MassScaling, Pressure, Settings, Support};
 use crate::run;
 use crate::sheet::reference::mean_stiffness;
 use crate::{FemError, Mesh, Problem};
 use lines::Lines;
 use plies::Plies;
-
-/// Fewest rows of elements between two welds.
-const FEWEST_ROWS: usize = 4;
 
 /// The robot of a scenario as a problem, ready to run.
 ///
@@ -183,13 +181,14 @@ fn fits(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) -> Res
 fn rows(lines: &Lines, pattern: &Pattern, settings: &RobotSettings) -> Result<(), FemError> {
     let fewest = lines.welds.windows(2).map(|w| w[1][0].saturating_sub(w[0][1])).min().unwrap_or(0);
     let fewest = fewest.min(lines.s_m.len() - 1);
-    if fewest >= FEWEST_ROWS {
+    if policy::is_fine(fewest) {
         return Ok(());
     }
     Err(FemError::Problem(format!(
-        "robot: a pouch of {fewest} elements; lower actuator_mesh_mm from {} or ring_spacing from {} so that it has {FEWEST_ROWS} or more",
+        "robot: a pouch of {fewest} elements; lower actuator_mesh_mm from {} or ring_spacing from {} so that it has {} or more",
         settings.actuator_size_m * 1e3,
-        lines::spacing(pattern, settings)
+        lines::spacing(pattern, settings),
+        policy::FEWEST_ROWS
     )))
 }
 

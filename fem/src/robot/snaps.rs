@@ -11,6 +11,7 @@
 //! that stands out from the valleys on both sides, between which the stored energy U falls. Its place is that of the nodes with
 //! the largest |v − v̄| at the peak. **Validity**: nodes of about equal mass; snaps closer together than their ringing are one.
 
+use crate::policy;
 use crate::{Mesh, Simulation};
 
 /// Stretches along the robot whose mean velocity is taken off \[m\].
@@ -19,11 +20,6 @@ const STRETCH_M: f64 = 0.01;
 const FASTEST: f64 = 0.005;
 /// Kinetic energy of the walls over stored energy below which nothing is looked for.
 const QUIET: f64 = 2e-3;
-/// A peak stands out if the valleys beside it are below this share of it.
-const VALLEY: f64 = 0.5;
-/// Smallest drop, as a share of the largest stored energy of the run.
-const SMALLEST_DROP: f64 = 0.005;
-
 /// Energies at one moment \[s, J\], and where the fastest nodes are along the straight robot \[m\] (NaN: not looked for).
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Sample {
@@ -137,7 +133,7 @@ pub fn snaps(samples: &[Sample], from_s: f64) -> Vec<Snap> {
             released_j = released_j.max(highest - sample.stored_j);
         }
         let at = samples[peak];
-        if released_j > SMALLEST_DROP * most && at.place_m.is_finite() {
+        if policy::is_a_drop(released_j, most) && at.place_m.is_finite() {
             found.push(Snap { time_s: at.time_s, place_m: at.place_m, released_j, kinetic_j: at.walls_j });
         }
     }
@@ -152,13 +148,13 @@ fn peaks(samples: &[Sample]) -> Vec<[usize; 3]> {
     for i in 0..samples.len() {
         if rising {
             high = if k(i) > k(high) { i } else { high };
-            if k(i) < VALLEY * k(high) {
+            if policy::is_valley(k(i), k(high)) {
                 turns.extend([low, high]);
                 (low, rising) = (i, false);
             }
         } else {
             low = if k(i) < k(low) { i } else { low };
-            if VALLEY * k(i) > k(low) {
+            if policy::is_valley(k(low), k(i)) {
                 (high, rising) = (i, true);
             }
         }

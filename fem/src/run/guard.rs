@@ -3,21 +3,13 @@
 use models::{Account, Pose};
 
 use super::{Ledger, Simulation, highest, setup};
+use crate::policy;
+use crate::problem::Guards;
 use crate::vec3::{cross, dot};
 use crate::{FemError, Transient};
 
-/// Share of its reference area below which an element counts as collapsed.
-const COLLAPSED: f64 = 1e-4;
-
 /// Steps between two estimates of the highest mode of the whole mesh: in the robots it changes by some hundredths in between.
 const WHOLE: u64 = 8192;
-
-/// A mesh longer than this was hardly meant in metres \[m\].
-const HUGE_M: f64 = 20.0;
-/// Share of the stored energy in contact from which contact is the likely cause.
-const PRESSED: f64 = 0.2;
-/// Added mass over true mass from which it is.
-const HEAVY: f64 = 1.0;
 
 /// What a run shows of why it went wrong.
 struct Evidence {
@@ -32,7 +24,7 @@ impl Evidence {
     /// The likely cause, and what to do about it: the first that there is evidence of.
     fn cause(&self) -> String {
         let percent = |share: f64| 100.0 * share;
-        if self.extent_m > HUGE_M {
+        if policy::is_huge(self.extent_m) {
             return format!(
                 "The mesh is {:.0} m long: if that is millimetres, write the mesh in metres",
                 self.extent_m
@@ -41,14 +33,14 @@ impl Evidence {
         if let Some(dt_s) = self.forced_dt_s {
             return format!("The step is forced to {dt_s:e} s: leave dt_s out, then it adapts");
         }
-        if self.contact_share > PRESSED {
+        if policy::is_pressed(self.contact_share) {
             let share = percent(self.contact_share);
             return format!(
                 "Contact holds {share:.0} % of the stored energy: layers start too deep in each other, or press harder than \
                 their elements can carry; start them farther apart (gap_mm), or make the elements smaller"
             );
         }
-        if self.added_mass > HEAVY {
+        if policy::is_heavy(self.added_mass) {
             let share = percent(self.added_mass);
             return format!(
                 "{share:.0} % of mass were added for a longer step: ask for a shorter one, or load more slowly"
@@ -68,7 +60,7 @@ impl Simulation {
         let ledger = self.ledger();
         self.books.scale = ledger.scale_j;
         let guards = &self.limits.guards;
-        if ledger.scale_j > guards.residual_floor_j && ledger.residual_share() > guards.residual {
+        if misses_balance(guards, ledger.scale_j, ledger.residual_share()) {
             return Err(self.stopped(format!(
                 "the energy balance misses {:.3e} J, {:.1} % of the external work (limit {} %). {}",
                 ledger.residual_j,
@@ -86,7 +78,7 @@ impl Simulation {
     /// [`FemError::Stopped`] with the share, the limit and what to type.
     pub fn judge_end(&self) -> Result<(), FemError> {
         let (share, limit) = (self.ledger().hourglass_share(), self.limits.guards.hourglass);
-        if share <= limit {
+        if !is_its_own(&self.limits.guards, share) {
             return Ok(());
         }
         Err(self.stopped(format!(
@@ -179,7 +171,7 @@ impl Simulation {
             let normal = cross(f1, f2);
             let area = dot(normal, normal).sqrt();
             let part = &self.mesh.parts[element.part].name;
-            if area.is_nan() || area < COLLAPSED {
+            if policy::is_collapsed(area) {
                 return Err(self.stopped(format!(
                     "element {} (part `{part}`) has lost its area: {:.2e} of what it was",
                     index + 1,
@@ -206,9 +198,33 @@ impl Simulation {
     }
 }
 
+/// Whether the balance misses more of the work done than a run may, once there is work to speak of.
+fn misses_balance(guards: &Guards, work_j: f64, share: f64) -> bool {
+    work_j > guards.residual_floor_j && share > guards.residual
+}
+
+/// Whether hourglass control holds so much of the stored energy that the shape is its own.
+fn is_its_own(guards: &Guards, share: f64) -> bool {
+    share > guards.hourglass
+}
+
+/// Whether too many of the nodes in contact changed side of a layer.
+pub(super) fn passes_through(guards: &Guards, share: f64) -> bool {
+    share > guards.sides
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_run_stops_at_two_per_cent_of_its_work_and_at_the_shares_it_is_allowed() {
+        let usual = Guards::default();
+        assert_eq!([0.0198, 0.0202].map(|share| misses_balance(&usual, 1.0, share)), [false, true]);
+        assert_eq!([0.99e-6, 1.01e-6].map(|work_j| misses_balance(&usual, work_j, 0.5)), [false, true]);
+        assert_eq!([0.149, 0.151].map(|share| is_its_own(&usual, share)), [false, true]);
+        assert_eq!([0.0495, 0.0505].map(|share| passes_through(&usual, share)), [false, true]);
+    }
 
     #[test]
     fn a_stop_names_what_the_run_shows_and_not_always_the_step() {

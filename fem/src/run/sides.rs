@@ -52,7 +52,7 @@ impl Simulation {
     pub(super) fn guard_sides(&self) -> Result<(), FemError> {
         let Some(ChangedSides { nodes, share, first: Some(first) }) = self.changed_sides() else { return Ok(()) };
         let limit = self.limits.guards.sides;
-        if share <= limit {
+        if !super::guard::passes_through(&self.limits.guards, share) {
             return Ok(());
         }
         Err(self.stopped(format!(

@@ -3,18 +3,10 @@
 use super::stepping::{Balance, Running};
 use super::watch::{Robot, RobotSummary};
 use crate::case::Case;
+use crate::policy;
 use crate::record::Shape;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
-
-/// Kinetic over internal energy above which the paper's source calls a run invalid.
-const TENTH: f64 = 0.10;
-/// Kinetic over total energy that the paper kept its runs below.
-const HUNDREDTH: f64 = 0.01;
-/// Hourglass share of the stored energy that is warned of.
-const HOURGLASS: f64 = 0.05;
-/// Added mass over true mass that is warned of.
-const ADDED: f64 = 1.0;
 
 /// `summary.json`.
 pub const SUMMARY: Shape = Shape { schema: "ibr.simulate", version: 1 };
@@ -266,17 +258,17 @@ impl Summary {
     /// What to know before believing the numbers: hourglass control, motion at the end, added mass, layers that were passed.
     pub fn warnings(&self) -> Vec<String> {
         let mut found = Vec::new();
-        if self.hourglass_share > HOURGLASS {
+        if policy::is_warped(self.hourglass_share) {
             let rule = "over 5 %, it is no longer small. Compare with smaller elements, or with a tenth of hourglass";
             found.push(rule.to_string());
         }
-        if let Some(end) = self.kinetic_share.end.filter(|end| *end > HUNDREDTH) {
+        if let Some(end) = self.kinetic_share.end.filter(|end| !policy::is_at_rest(*end)) {
             found.push(format!(
                 "{:.1} % of the energy still moves at the end: this is no state of rest. Simulate longer, load more slowly, or add mass_damping_1_s",
                 100.0 * end
             ));
         }
-        if self.added_mass_share > ADDED {
+        if policy::is_heavy(self.added_mass_share) {
             found.push("more mass was added than there is: weight and speed are not those of the fabric, and slow motions are late".into());
         }
         if let Some(Through { nodes, share, first: Some(first) }) = &self.changed_sides {
@@ -320,9 +312,8 @@ fn kinetic(balances: &[Balance]) -> KineticShares {
     let mut shares: Vec<f64> = later.iter().map(|b| b.kinetic_share).collect();
     shares.sort_by(f64::total_cmp);
     let peak = later.iter().max_by(|a, b| a.kinetic_share.total_cmp(&b.kinetic_share));
-    // K < r·U is the same as K/(K + U) < r/(1 + r).
-    let rule = |limit: f64| {
-        let broken: Vec<f64> = later.iter().filter(|b| b.kinetic_share >= limit).map(|b| b.time_s).collect();
+    let rule = |keeps: fn(f64) -> bool| {
+        let broken: Vec<f64> = later.iter().filter(|b| !keeps(b.kinetic_share)).map(|b| b.time_s).collect();
         Rule { kept_at: later.len() - broken.len(), last_broken_s: broken.last().copied() }
     };
     KineticShares {
@@ -331,8 +322,8 @@ fn kinetic(balances: &[Balance]) -> KineticShares {
         end: later.last().map(|b| b.kinetic_share),
         peak: peak.map(|b| b.kinetic_share),
         peak_time_s: peak.map(|b| b.time_s),
-        below_10_pct_of_internal: rule(TENTH / (1.0 + TENTH)),
-        below_1_pct_of_total: rule(HUNDREDTH),
+        below_10_pct_of_internal: rule(policy::is_valid),
+        below_1_pct_of_total: rule(policy::is_at_rest),
     }
 }
 

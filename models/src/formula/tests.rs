@@ -50,6 +50,32 @@ fn a_formula_means_what_mathematics_means() {
     }
 }
 
+/// Sixty-four parentheses, far from the depth of any stack.
+#[test]
+fn parentheses_nest_sixty_four_deep_and_no_deeper() {
+    let nested =
+        |depth: usize| Formula::new(draft(&format!("{}k{}", "(".repeat(depth), ")".repeat(depth)), &[("k", "N m")]));
+    let deepest = (1..200).take_while(|depth| nested(*depth).is_ok()).count();
+    assert_eq!(deepest, 64);
+}
+
+#[test]
+fn a_formula_has_up_to_eight_parameters() {
+    let with = |count: usize| {
+        let keys: Vec<String> = (0..count).map(|k| format!("k{k}")).collect();
+        let tables =
+            keys.iter().map(|k| format!("[formula.parameters.{k}]\nunit = \"N m\"\ntypical = 0.5\nbounds = [0, 20]\n"));
+        let text = format!(
+            "{}[[formula]]\nname = \"own\"\nmoment = \"{}\"\n",
+            shipped("epam-textbook").unwrap(),
+            keys.join(" + ")
+        );
+        Scenario::parse(&(text + &tables.collect::<String>())).err().map_or(String::new(), |error| error.to_string())
+    };
+    assert_eq!(with(8), "");
+    assert!(with(9).contains("1 to 8 parameters, not 9"), "{}", with(9));
+}
+
 #[test]
 fn each_slip_is_refused_with_its_place() {
     for (moment, unit, place, message) in [

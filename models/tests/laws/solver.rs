@@ -7,6 +7,17 @@ use models::{Loads, Model, Scenario, Unsolved};
 const ACT: [f64; 12] = [0.0, 1.0, 10.0, 100.0, 1e3, 3e3, 1e4, 3e4, 6e4, 1e5, 2e5, 5e5];
 const BODY: [f64; 6] = [50.0, 500.0, 2e3, 8e3, 3e4, 1e5];
 
+#[test]
+fn gauge_pressures_from_nothing_to_a_megapascal_are_pressures() {
+    let scenario = Scenario::parse(models::shipped("epam").unwrap()).unwrap();
+    let model = Model::new(&scenario);
+    let mut out = model.prediction();
+    let mut refused = |loads: Loads| matches!(model.predict(&loads, &mut out), Err(Unsolved::BadPressure { .. }));
+    assert!(!refused(Loads::uniform(2e3, 0.99e6)) && refused(Loads::uniform(2e3, 1.01e6)));
+    assert!(!refused(Loads::uniform(0.99e6, 1e3)) && refused(Loads::uniform(1.01e6, 1e3)));
+    assert!(refused(Loads::uniform(2e3, -1.0)) && refused(Loads::uniform(2e3, f64::NAN)));
+}
+
 /// Predicts at every pressure; returns how many had no equilibrium.
 pub fn sweep(name: &str, scenario: &Scenario) -> usize {
     let model = Model::new(scenario);

@@ -3,12 +3,8 @@
 use super::{describe, fault, millimetres};
 use crate::FemError;
 use crate::mesh::{Mesh, Part};
+use crate::policy;
 use crate::vec3::{area, centre, cross, dot, norm, sub};
-
-/// Smallest area over the square of the longest side that counts as an area; far below any useful element.
-const NO_AREA: f64 = 1e-9;
-/// Sine of the smallest angle between warp and normal: 1 degree, below which its projection is arbitrary.
-const IN_PLANE: f64 = 0.0175;
 
 /// Checks every element in its stress-free shape, and its area at the start.
 pub(super) fn check(mesh: &Mesh) -> Result<(), FemError> {
@@ -79,7 +75,7 @@ fn warp(mesh: &Mesh, part: &Part, i: usize) -> Result<(), FemError> {
     }
     let mut corners = [[0.0; 3]; 4];
     let normal = area(stress_free(mesh, part.nodes(i), &mut corners));
-    if norm(cross(warp, normal)) < IN_PLANE * norm(warp) * norm(normal) {
+    if !policy::is_in_sheet(norm(cross(warp, normal)) / (norm(warp) * norm(normal))) {
         let what = describe(part, i);
         return fault(format!("{what}: warp direction {warp:?} is parallel to the normal; give one in the sheet"));
     }
@@ -103,5 +99,5 @@ fn has_area(x: &[[f64; 3]]) -> bool {
     let side = |k: usize| sub(x[k], x[(k + 1) % x.len()]);
     let longest_squared = (0..x.len()).map(side).map(|e| dot(e, e)).fold(0.0, f64::max);
     let area = norm(area(x));
-    area > NO_AREA * longest_squared && area.is_finite()
+    policy::is_area(area, longest_squared)
 }

@@ -31,9 +31,7 @@ pub use sphere::sphere;
 pub use tube::{Around, Cap, Tube, tube};
 
 use crate::FemError;
-
-/// Largest number of nodes a generator makes: a slip in a count is a message, not a full memory.
-const MOST_NODES: usize = 20_000_000;
+use crate::policy;
 
 /// Refuses a length that is not a positive number.
 fn positive(what: &str, name: &str, value: f64) -> Result<(), FemError> {
@@ -61,10 +59,10 @@ fn even(what: &str, name: &str, value: usize) -> Result<(), FemError> {
 
 /// Refuses meshes that nobody wants.
 fn few_enough(what: &str, a: usize, b: usize) -> Result<(), FemError> {
-    if a.saturating_add(1).saturating_mul(b.saturating_add(1)) <= MOST_NODES {
+    if a.saturating_add(1).saturating_mul(b.saturating_add(1)) <= policy::MOST_NODES {
         return Ok(());
     }
-    Err(FemError::Mesh(format!("{what}: {a} by {b} elements is more than {MOST_NODES} nodes; use fewer")))
+    Err(FemError::Mesh(format!("{what}: {a} by {b} elements is more than {} nodes; use fewer", policy::MOST_NODES)))
 }
 
 #[cfg(test)]

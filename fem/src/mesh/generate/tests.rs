@@ -30,6 +30,11 @@ fn graded() -> Vec<f64> {
 }
 
 #[test]
+fn twenty_million_nodes_are_made_and_not_one_row_more() {
+    assert!(few_enough("plate", 999, 19_999).is_ok() && few_enough("plate", 999, 20_000).is_err());
+}
+
+#[test]
 fn every_generator_makes_a_mesh_that_passes_the_check() {
     for (mesh, chambers, open) in [
         (plate(0.2, 0.1, 5, 4, Some(Distortion { share: 0.24, seed: 3 })), vec![], vec![]),
