@@ -1,6 +1,6 @@
 //! What finite elements say about a robot of which not everything was measured, drawn.
 
-use compare::study::uncertain::{SAME_KPA, Uncertain};
+use compare::study::uncertain::{Uncertain, is_same_reading};
 use report::chart::{Bar, ChartRow, Mark};
 use report::{Drawn, Ink, LineSeries, LineStyle, Lines, ReportError, lines};
 
@@ -23,7 +23,7 @@ pub fn marker_intervals(all: &Uncertain, measured: &[(f64, [f64; 2])]) -> Result
         series.push(line(format!("{kpa} kPa, median"), 1, LineStyle::LinePoints));
         series.push(line(String::new(), 0, LineStyle::Dashed));
         series.push(line(String::new(), 2, LineStyle::Dashed));
-        let own = measured.iter().filter(|(at, _)| (at - kpa).abs() < SAME_KPA).map(|(_, point)| *point);
+        let own = measured.iter().filter(|(at, _)| is_same_reading(*at, kpa)).map(|(_, point)| *point);
         let points: Vec<[f64; 2]> = own.collect();
         if !points.is_empty() {
             let name = format!("{kpa} kPa, measured");

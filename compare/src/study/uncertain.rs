@@ -18,6 +18,7 @@
 
 mod of_run;
 
+pub use crate::policy::is_same_reading;
 pub use of_run::Intervals;
 
 use crate::policy;
