@@ -239,7 +239,7 @@ mod parquet {
     }
 
     fn absent(path: &Path) -> DataError {
-        let help = "use CSV, or build with the crate feature: cargo build --features data/parquet";
+        let help = "use CSV, or build with the crate feature: cargo build --features parquet";
         let message = "this build has no Parquet support";
         DataError::Feature(Box::new(Fault::of_file(&path.display().to_string(), message, help)))
     }
