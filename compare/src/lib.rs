@@ -27,7 +27,7 @@ pub mod metrics;
 pub mod moment;
 pub mod noise;
 pub mod noise_summary;
-mod policy;
+pub mod policy;
 pub mod progress;
 pub mod residuals;
 mod run_scatter;
