@@ -179,5 +179,5 @@ fn shifts(case: &Case, fit: &Fit) -> Vec<Vec<f64>> {
         }
         theta
     };
-    root.l().column_iter().map(|column| shifted(column.into())).collect()
+    root.l().column_iter().map(shifted).collect()
 }

@@ -43,11 +43,14 @@ fn exact() -> Generator {
     }
 }
 
+/// Name, robot, and what its model misses at a bend.
+type Known<'a> = (&'a str, Scenario, &'a dyn Fn(f64) -> f64);
+
 #[test]
 fn a_constant_and_a_spring_come_back_exactly() {
     for (kind, bending) in KINDS {
         let plain = robot(kind, bending);
-        let laws: [(&str, Scenario, &dyn Fn(f64) -> f64); 2] = [
+        let laws: [Known; 2] = [
             ("constant", plain.with_effect("tail_tension", &[0.1]), &|_| -0.1),
             ("spring", plain.with_bending(bending + 0.2), &|kappa| -0.2 * kappa),
         ];
