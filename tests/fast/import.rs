@@ -19,7 +19,7 @@ fn from_deeplabcut_to_the_named_effect() {
     assert!(only.stdout.contains("Nothing was written") && folder.contents().is_empty(), "{}", only.stderr);
     args.extend(["--out", "mine"]);
     let ran = folder.run(&args);
-    assert!(ran.code == 0 && ran.stdout.contains("written by DeepLabCut: 3 runs, 45 frames"), "{}", ran.stderr);
+    assert!(ran.code == 0 && ran.stdout.contains("read as DeepLabCut: 3 runs, 45 frames"), "{}", ran.stderr);
     let mut names = assert_hashes(&folder.path("mine"));
     names.sort();
     let pictures = (1..=3)

@@ -163,6 +163,7 @@ impl Roles {
             let column = options.column(quantity);
             column.is_some_and(|column| header.iter().any(|name| name.eq_ignore_ascii_case(column)))
         };
+        let mut unused = Vec::new();
         for (index, text) in header.iter().enumerate() {
             let said =
                 options.columns.iter().find(|(_, column)| column.eq_ignore_ascii_case(text)).map(|(q, _)| q.as_str());
@@ -171,9 +172,14 @@ impl Roles {
                 || meaning(&name).filter(|quantity| !is_named(quantity)),
                 |said| QUANTITIES.into_iter().find(|q| *q == said),
             ) else {
+                unused.push(*text);
                 continue;
             };
             roles.take(sheet, line, [quantity, text], index, &name, options)?;
+        }
+        unused.retain(|text| !text.is_empty());
+        if !unused.is_empty() {
+            roles.told.push(format!("columns that are not used: {}", unused.join(", ")));
         }
         Ok(roles)
     }

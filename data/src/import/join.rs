@@ -75,7 +75,7 @@ pub(crate) fn recordings(
     }
     let frames: usize = joined.runs.iter().map(|(_, run)| run.times.len()).sum();
     let counts = [counted(joined.runs.len() as u64, "run"), counted(frames as u64, "frame")];
-    joined.told.insert(0, format!("written by {}: {}", joined.program, counts.join(", ")));
+    joined.told.insert(0, format!("read as {}: {}", joined.program, counts.join(", ")));
     Ok(joined)
 }
 

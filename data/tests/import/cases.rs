@@ -9,7 +9,7 @@ fn deeplabcut_is_scaled_placed_joined_and_its_wild_points_are_lost() {
     let made = read(&files, &pixels("cases/c01-deeplabcut/pressure.csv"));
     let lost = equals_reference(&made, 3, 0.0);
     assert_eq!(lost, ["1", "2", "3"].map(|run| (run.to_string(), "6.0000".to_string(), "b".to_string())));
-    told(&made, &["written by DeepLabCut", "3.1 px", "3 positions below the limit", "towards the actuator its -y"]);
+    told(&made, &["read as DeepLabCut", "3.1 px", "3 positions below the limit", "towards the actuator its -y"]);
     assert_eq!((made.dataset.runs.len(), made.dataset.holds.len(), made.about.markers.len()), (3, 5, 3));
     assert_eq!(made.program, "DeepLabCut");
     let files = &files[..1];
@@ -67,7 +67,7 @@ fn both_kinds_of_kinovea_are_read() {
 fn a_wide_table_needs_nothing_else() {
     let made = read(&["cases/c07-table-dialects/wide.csv"], &ImportOptions::default());
     assert!(equals_reference(&made, 3, 0.0).is_empty());
-    told(&made, &["a wide table", "lengths are in mm"]);
+    told(&made, &["a wide table", "lengths are in mm", "columns that are not used: phase"]);
 }
 
 #[test]

@@ -29,14 +29,14 @@ fn deeplabcut_with_several_animals() {
     let names = ["a", "c", "b"].map(String::from).to_vec();
     let made = read(&["made/deeplabcut_multi.csv"], &ImportOptions { markers: names, ..pixels(LOG) });
     equals(&made, "1", &["a", "b", "c"], 0, 0.0);
-    told(&made, &["written by DeepLabCut", "vine_a, vine_c, rig_b are called a, c, b"]);
+    told(&made, &["read as DeepLabCut", "vine_a, vine_c, rig_b are called a, c, b"]);
 }
 
 #[test]
 fn sleap() {
     let made = read(&["made/sleap.csv"], &pixels(LOG));
     equals(&made, "2", &["a", "b", "c"], 2, 0.0);
-    told(&made, &["written by SLEAP", "1 position blank", "1 position below the limit"]);
+    told(&made, &["read as SLEAP", "1 position blank", "1 position below the limit"]);
 }
 
 /// A newer version: millimetres, a rigid body beside the markers, along z, y up.
@@ -65,7 +65,7 @@ fn tracker_with_several_tracks_and_with_one() {
     let metres = ImportOptions { scale: Scale::Unit(1.0), ..known(LOG) };
     let made = read(&["made/tracker_multi.txt"], &metres);
     equals(&made, "1", &["a", "b", "c"], 0, 0.0);
-    told(&made, &["written by Tracker (physlets.org)"]);
+    told(&made, &["read as Tracker (physlets.org)"]);
     let made = read(&["made/tracker_one.txt"], &ImportOptions { markers: vec!["c".into()], ..metres });
     equals(&made, "1", &["c"], 0, 0.0);
 }
