@@ -34,11 +34,16 @@ pub(super) fn chambers(raw: &Raw, mesh: &Mesh) -> Checked<Vec<Chamber>> {
         if !known.contains(name.get_ref().as_str()) {
             return Err(unknown_name("chamber", name, &list));
         }
-        let axis = table.get_ref().open_axis.as_ref();
-        let open_axis = axis.map(|axis| choice("open_axis", axis, &[("x", 0), ("y", 1), ("z", 2)])).transpose()?;
+        let open_axis = open_axis(table.get_ref())?;
         Ok(Chamber { name: name.get_ref().clone(), pressure: pressure(table)?, open_axis })
     };
     raw.chamber.iter().map(build).collect()
+}
+
+/// Axis along which a chamber is open.
+pub(super) fn open_axis(raw: &RawChamber) -> Checked<Option<usize>> {
+    let axis = raw.open_axis.as_ref();
+    axis.map(|axis| choice("open_axis", axis, &[("x", 0), ("y", 1), ("z", 2)])).transpose()
 }
 
 fn pressure(table: &Spanned<RawChamber>) -> Checked<Pressure> {

@@ -2,9 +2,11 @@
 
 use super::ReadMesh;
 use super::law::plain_number;
-use super::range::{Checked, LENGTH, Range, number, plain, refuse, unknown_name};
+use super::range::{Checked, LENGTH, Range, choice, number, plain, refuse, unknown_name};
 use super::raw::{Free, Text};
+use crate::mesh::Part;
 use crate::mesh::check::{check_open, rim};
+use crate::mesh::file::MeshFile;
 use crate::mesh::generate::{self, Around, Cap, Tube};
 use crate::policy;
 use crate::problem::Chamber;
@@ -168,13 +170,13 @@ pub const GENERATORS: &[Generator] = &[
 ];
 
 /// The mesh that the table describes.
-pub(super) fn mesh(table: &Spanned<Free>, read_mesh: ReadMesh) -> Checked<Mesh> {
+pub(super) fn mesh(table: &Spanned<Free>, read_mesh: ReadMesh) -> Checked<MeshFile> {
     match (entry(table, "generator")?, entry(table, "file")?) {
         (Some(_), Some(file)) => refuse("a generator and a file at once", "keep one of the two", file.span()),
         (None, Some(file)) => from_file(table, &file, read_mesh),
-        (Some(name), None) => generated(table, &name),
+        (Some(name), None) => generated(table, &name).map(MeshFile::from),
         (None, None) => {
-            refuse("[mesh] says no shape", "write generator = \"pillow\" or file = \"robot.mesh\"", table.span())
+            refuse("[mesh] says no shape", "write generator = \"pillow\" or file = \"robot.inp\"", table.span())
         }
     }
 }
@@ -213,7 +215,7 @@ fn open_axis<'a>(mesh: &Mesh, chambers: &[&'a str]) -> Option<(&'a str, char)> {
             // Two planes: every node at one end or the other.
             let along = || rim.iter().map(|n| mesh.start_of(*n as usize)[k]);
             let (low, high) = (along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max));
-            along().all(|x| (x - low).min(high - x) <= 1e-6 * (high - low))
+            high > low && along().all(|x| (x - low).min(high - x) <= 1e-6 * (high - low))
         };
         let axis = (0..3).find(|k| !rim.is_empty() && flat(*k))?;
         Some((*name, ['x', 'y', 'z'][axis]))
@@ -229,9 +231,10 @@ fn entry(table: &Spanned<Free>, wanted: &str) -> Checked<Option<Text>> {
     }
 }
 
-fn from_file(table: &Spanned<Free>, file: &Text, read_mesh: ReadMesh) -> Checked<Mesh> {
-    if let Some((key, _)) = table.get_ref().iter().find(|(key, _)| key.get_ref() != "file") {
-        return Err(unknown_name("key of a mesh from a file", key, &["file"]));
+fn from_file(table: &Spanned<Free>, file: &Text, read_mesh: ReadMesh) -> Checked<MeshFile> {
+    if let Some((key, _)) = table.get_ref().iter().find(|(key, _)| !["file", "unit"].contains(&key.get_ref().as_str()))
+    {
+        return Err(unknown_name("key of a mesh from a file", key, &["file", "unit"]));
     }
     match read_mesh(Path::new(file.get_ref())) {
         Err(FemError::Io { path, source }) => {
@@ -239,16 +242,76 @@ fn from_file(table: &Spanned<Free>, file: &Text, read_mesh: ReadMesh) -> Checked
             refuse(message, "the path counts from the folder of the case file", file.span())
         }
         Err(FemError::Mesh(message)) => Err(FemError::Case { message, span: Some(file.span()) }),
-        Ok(mesh) => match median_side_m(&mesh) {
-            side if policy::is_coarse(side) => refuse(
-                format!("half of the elements of this mesh have sides over {side:.2} m: it looks like millimetres"),
-                "the file is in metres: divide its coordinates by 1000",
-                file.span(),
-            ),
-            _ => Ok(mesh),
-        },
-        other => other,
+        Ok(read) => in_metres(read, file, entry(table, "unit")?),
+        Err(other) => Err(other),
     }
+}
+
+/// Units of foreign files, and how many make a metre.
+const UNITS: [(&str, f64); 4] = [("m", 1.0), ("cm", 100.0), ("mm", 1000.0), ("in", 1.0 / 0.0254)];
+/// No mesh is as small as a whole \[m\].
+const SMALLEST_M: f64 = 1e-3;
+
+/// The mesh in metres, and what was understood.
+fn in_metres(mut file: MeshFile, named: &Text, unit: Option<Text>) -> Checked<MeshFile> {
+    let is_own = file.format.is_empty();
+    let per_m = match &unit {
+        Some(unit) if is_own => {
+            return refuse("our own mesh files are in metres", "remove unit", unit.span());
+        }
+        Some(unit) => choice("unit", unit, &UNITS)?,
+        None if is_own => 1.0,
+        None => {
+            let [x, y, z] = extent(&file.mesh);
+            let message = format!("{} ({}) does not say its unit", named.get_ref(), file.format);
+            let help = format!("its size is {x:.4} × {y:.4} × {z:.4}: write unit = \"mm\" (or m, cm, in) below file");
+            return refuse(message, help, named.span());
+        }
+    };
+    file.mesh.points.iter_mut().flatten().for_each(|x| *x /= per_m);
+    let (side, largest) = (median_side_m(&file.mesh), extent(&file.mesh).into_iter().fold(0.0, f64::max));
+    if policy::is_coarse(side) {
+        let help = if is_own { "the file is in metres: divide its coordinates by 1000" } else { "write unit = \"mm\"" };
+        let message =
+            format!("half of the elements of this mesh have sides over {side:.2} m: it looks like millimetres");
+        return refuse(message, help, unit.unwrap_or(named.clone()).span());
+    }
+    if let Some(unit) = unit {
+        if largest < SMALLEST_M {
+            let message = format!("the whole mesh is {:.4} mm long: it looks like metres", largest * 1e3);
+            return refuse(message, "write unit = \"m\"", unit.span());
+        }
+        file.told.insert(0, understood(&file, named.get_ref(), unit.get_ref()));
+    }
+    Ok(file)
+}
+
+/// One line about a foreign file.
+fn understood(file: &MeshFile, name: &str, unit: &str) -> String {
+    let mesh = &file.mesh;
+    let count = |count: usize, kind: &str| (count > 0).then(|| format!("{count} {kind}"));
+    let part = |part: &Part| {
+        let counts = [count(part.quads.len(), "quads"), count(part.triangles.len(), "triangles")];
+        format!("`{}` ({})", part.name, counts.into_iter().flatten().collect::<Vec<_>>().join(", "))
+    };
+    let parts: Vec<String> = mesh.parts.iter().map(part).collect();
+    let sets: Vec<String> = mesh.sets.iter().map(|(name, nodes)| format!("`{name}` ({})", nodes.len())).collect();
+    let sets = if sets.is_empty() { "none".into() } else { sets.join(", ") };
+    let [x, y, z] = extent(mesh).map(|m| m * 1e3);
+    format!(
+        "{name}: {} in {unit}, {x:.1} × {y:.1} × {z:.1} mm, {} nodes; parts: {}; node sets: {sets}",
+        file.format,
+        mesh.points.len(),
+        parts.join(", ")
+    )
+}
+
+/// Size along x, y and z.
+fn extent(mesh: &Mesh) -> [f64; 3] {
+    [0, 1, 2].map(|k| {
+        let along = || mesh.points.iter().map(|p| p[k]);
+        along().fold(f64::NEG_INFINITY, f64::max) - along().fold(f64::INFINITY, f64::min)
+    })
 }
 
 fn median_side_m(mesh: &Mesh) -> f64 {

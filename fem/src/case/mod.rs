@@ -25,6 +25,7 @@
 //! Every fault is a [`FemError::Case`] with its place; the first line of its message says what is wrong, the second
 //! what to type. All keys: `docs/case.md`.
 
+mod enclosed;
 mod law;
 mod load;
 mod mesh;
@@ -37,8 +38,9 @@ pub(crate) use law::plain_number;
 pub(crate) use load::encastre;
 pub use mesh::{GENERATORS, Generator, Key};
 
+use crate::mesh::file::MeshFile;
 pub use crate::output::picture::View;
-use crate::{FemError, Mesh, Problem};
+use crate::{FemError, Problem};
 use std::path::Path;
 
 /// A run as the user describes it, in SI, checked.
@@ -48,6 +50,8 @@ pub struct Case {
     pub problem: Problem,
     /// What is written about it.
     pub outputs: Outputs,
+    /// What was understood of a mesh file, and changed in it.
+    pub notices: Vec<String>,
 }
 
 /// What a run writes besides the energy ledger.
@@ -69,8 +73,8 @@ pub struct Outputs {
     pub view: View,
 }
 
-/// Reads the mesh that a case names in `[mesh] file`; the path is as written there.
-pub type ReadMesh<'a> = &'a mut dyn FnMut(&Path) -> Result<Mesh, FemError>;
+/// Reads the mesh file that a case names in `[mesh] file`; the path is as written there.
+pub type ReadMesh<'a> = &'a mut dyn FnMut(&Path) -> Result<MeshFile, FemError>;
 
 /// The cases that come with the library, by name.
 pub fn shipped_case(name: &str) -> Option<&'static str> {
@@ -102,7 +106,9 @@ impl Case {
     pub fn parse(text: &str, read_mesh: ReadMesh) -> Result<Case, FemError> {
         let raw = raw::read(text)?;
         range::choice("kind", &raw.kind, &[("fem", ())])?;
-        let mut mesh = mesh::mesh(&raw.mesh, read_mesh)?;
+        let mut file = mesh::mesh(&raw.mesh, read_mesh)?;
+        enclosed::chambers(&raw, &mut file)?;
+        let MeshFile { mut mesh, told: notices, .. } = file;
         let chambers = load::chambers(&raw, &mesh)?;
         mesh::check(&raw.mesh, &mesh, &chambers)?;
         let sections = section::sections(&raw, &mesh)?;
@@ -123,7 +129,7 @@ impl Case {
             settings: settings::settings(&raw.settings)?,
             mesh,
         };
-        Ok(Case { problem, outputs })
+        Ok(Case { problem, outputs, notices })
     }
 }
 

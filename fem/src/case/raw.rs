@@ -79,6 +79,7 @@ pub(super) struct RawChamber {
     #[serde(rename = "atmosphere_kPa", alias = "atmosphere_kpa")]
     pub atmosphere_kpa: Option<Num>,
     pub open_axis: Option<Text>,
+    pub parts: Option<Spanned<Vec<Text>>>,
 }
 
 #[derive(Debug, Deserialize)]

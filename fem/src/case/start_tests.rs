@@ -4,6 +4,7 @@
 
 use super::tests::{parse, refused};
 use super::*;
+use crate::Mesh;
 
 const STRIP: &str = r#"kind = "fem"
 name = "strip"
@@ -58,10 +59,10 @@ fn edges_of_an_open_chamber_are_held_along_its_axis_whatever_their_sets_are_call
         &STRIP[..from],
         STRIP[to..].replace("open_0", "end_0").replace("open_1", "end_1")
     );
-    let own = Case::parse(&text, &mut |_: &Path| Ok(mesh.clone())).unwrap();
+    let own = Case::parse(&text, &mut |_: &Path| Ok(mesh.clone().into())).unwrap();
     assert!(own.problem.check().is_ok());
     let large = Mesh { points: mesh.points.iter().map(|p| p.map(|c| 1e3 * c)).collect(), ..mesh };
-    let millimetres = Case::parse(&text, &mut |_: &Path| Ok(large.clone())).unwrap_err().to_string();
+    let millimetres = Case::parse(&text, &mut |_: &Path| Ok(large.clone().into())).unwrap_err().to_string();
     assert!(millimetres.contains("looks like millimetres") && millimetres.contains("divide"), "{millimetres}");
 }
 

@@ -79,7 +79,7 @@ frames = false
 view = "top"
 "#;
 
-fn no_files(path: &Path) -> Result<Mesh, FemError> {
+fn no_files(path: &Path) -> Result<MeshFile, FemError> {
     Err(FemError::Io { path: path.to_path_buf(), source: std::io::ErrorKind::NotFound.into() })
 }
 
@@ -335,7 +335,7 @@ fn a_mesh_file_is_read_through_the_given_function_only() {
     let mut asked = Vec::new();
     let case = Case::parse(&text, &mut |path: &Path| {
         asked.push(path.to_path_buf());
-        Ok(pillow.clone())
+        Ok(pillow.clone().into())
     });
     assert_eq!(case.unwrap().problem.sections.len(), 2);
     assert_eq!(asked, [Path::new("sub/robot.mesh")]);

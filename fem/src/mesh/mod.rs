@@ -10,8 +10,11 @@ pub mod check;
 pub mod file;
 pub mod generate;
 
+mod enclose;
 mod merge;
 mod names;
+
+pub use enclose::enclose;
 
 use std::collections::BTreeMap;
 

@@ -260,7 +260,7 @@ fn finish(
         cost: Cost::of(&loaded.case, &running, started.elapsed()),
         folder: None,
         fresh: true,
-        notices: running.notices.clone(),
+        notices: [&loaded.case.notices[..], &running.notices].concat(),
         energies: running.robot.as_ref().map_or(Vec::new(), |seen| seen.watch.samples().to_vec()),
         files: Vec::new(),
     };

@@ -113,7 +113,7 @@ impl Source {
         let robot = Robot::new(&scenario, &run, &problem)?;
         // The pictures of a robot are its own.
         let outputs = Outputs { pictures: false, ..outputs(&scenario, &problem.mesh) };
-        Ok((Case { problem, outputs }, robot))
+        Ok((Case { problem, outputs, notices: Vec::new() }, robot))
     }
 
     fn scenario(&self) -> Result<Scenario, FemError> {

@@ -1,55 +1,96 @@
-//! Plain text mesh files (`.mesh`).
-//!
-//! ```text
-//! mesh 1                  # format version
-//! nodes 6                 # then one line per node: x y z [m], stress free
-//! 0 0 0
-//! 0.1 0 0
-//! 0.1 0.1 0
-//! 0 0.1 0
-//! 0.2 0 0
-//! 0.2 0.1 0
-//! part cloth              # what follows belongs to this part
-//! front air               # chamber at the front, if any
-//! back body               # chamber at the back, if any
-//! layer 2                 # contact layer; 0 unless said
-//! warp 1                  # warp directions: 1 for the part, or one per element (quads first)
-//! 1 0 0
-//! quads 1                 # node numbers count from 1, counter-clockwise seen from the front
-//! 1 2 3 4
-//! triangles 1
-//! 2 5 3
-//! set left 2              # then the node numbers, any number per line
-//! 1 4
-//! ties 1                  # node, then pairs of node and weight
-//! 6  3 0.5  5 0.5
-//! end 6 2                 # nodes and elements in total: a file that was cut off is noticed
-//! ```
-//!
-//! Blocks `membrane N` and `start N` after `nodes` give the places at which the membrane is free of stress and at which the
-//! nodes start, if they differ. `#` starts a comment; empty lines are skipped; spaces are free.
+//! Mesh files: our own ([`own`](self::parse), `.ibrmesh`) and those of other programs, each in a file of its own and in [`FORMATS`].
+//! Which one a file is, its content tells.
 
-mod read;
+mod abaqus;
+mod build;
+mod corners;
+mod gmsh;
+mod known;
+mod medit;
+mod obj;
+mod own;
+mod scan;
+mod stl;
+mod write;
 
-pub use read::{parse, read};
+pub use own::parse;
+pub use write::write;
 
-/// Words that begin a block.
-const KEYWORDS: [&str; 14] = [
-    "mesh",
-    "nodes",
-    "membrane",
-    "start",
-    "part",
-    "front",
-    "back",
-    "layer",
-    "warp",
-    "quads",
-    "triangles",
-    "set",
-    "ties",
-    "end",
-];
+use crate::FemError;
+use crate::mesh::Mesh;
+use known::Read;
+use scan::Scan;
+use std::path::Path;
+
+/// What a mesh file says.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct MeshFile {
+    /// Its mesh, in the unit of the file.
+    pub mesh: Mesh,
+    /// Name of the format; empty for our own, which is in metres and names its chambers.
+    pub format: &'static str,
+    /// Surfaces that may be chambers.
+    pub surfaces: Vec<Surface>,
+    /// What was left out or changed.
+    pub told: Vec<String>,
+}
+
+/// A named surface of parts seen from one side each.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Surface {
+    /// Its name.
+    pub name: String,
+    /// Parts, and whether their back is meant.
+    pub faces: Vec<(String, bool)>,
+    /// A pressure of the file acts on it.
+    pub is_pressed: bool,
+    /// Why it is no chamber.
+    pub fault: Option<String>,
+}
+
+impl From<Mesh> for MeshFile {
+    /// A mesh as our own files give it.
+    fn from(mesh: Mesh) -> MeshFile {
+        MeshFile { mesh, ..MeshFile::default() }
+    }
+}
+
+/// Reads a mesh file. Says nothing about its fitness: see [`crate::mesh::check::check`].
+///
+/// # Errors
+/// [`FemError::Io`] if it cannot be read, [`FemError::MeshFile`] with the line of the first fault.
+pub fn read(path: &Path) -> Result<MeshFile, FemError> {
+    let bytes = std::fs::read(path).map_err(|source| FemError::Io { path: path.to_path_buf(), source })?;
+    let mut file = understood(&bytes, path)?;
+    file.told.extend(corners::turn(&mut file.mesh).map_err(|message| FemError::MeshFile {
+        path: path.to_path_buf(),
+        line: 1,
+        message,
+    })?);
+    Ok(file)
+}
+
+fn understood(bytes: &[u8], path: &Path) -> Result<MeshFile, FemError> {
+    let fault = |line: usize, message: String| FemError::MeshFile { path: path.to_path_buf(), line, message };
+    let format = known::format(bytes).map_err(|message| fault(1, message))?;
+    let file = match format.read {
+        Read::Bytes(read) => read(bytes).map_err(|message| fault(1, message))?,
+        Read::Own => match std::str::from_utf8(bytes) {
+            Ok(text) => return parse(text, path).map(MeshFile::from),
+            Err(place) => {
+                let line = 1 + bytes[..place.valid_up_to()].iter().filter(|b| **b == b'\n').count();
+                return Err(fault(line, "this is not text (UTF-8); a mesh file is plain text".into()));
+            }
+        },
+        Read::Text(read) => {
+            // Names in other encodings are names still.
+            let text = String::from_utf8_lossy(bytes);
+            let mut scan = Scan::new(&text);
+            read(&mut scan).map_err(|message| fault(scan.number.max(1), message))?
+        }
+    };
+    Ok(MeshFile { format: format.name, ..file })
+}
 
 #[cfg(test)]
 mod tests;

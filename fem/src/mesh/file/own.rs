@@ -1,67 +1,81 @@
-//! Text to mesh.
+//! Our own format (`.ibrmesh`), which holds all that a mesh is.
+//!
+//! ```text
+//! mesh 1                  # format version
+//! nodes 6                 # then one line per node: x y z [m], stress free
+//! 0 0 0
+//! 0.1 0 0
+//! 0.1 0.1 0
+//! 0 0.1 0
+//! 0.2 0 0
+//! 0.2 0.1 0
+//! part cloth              # what follows belongs to this part
+//! front air               # chamber at the front, if any
+//! back body               # chamber at the back, if any
+//! layer 2                 # contact layer; 0 unless said
+//! warp 1                  # warp directions: 1 for the part, or one per element (quads first)
+//! 1 0 0
+//! quads 1                 # node numbers count from 1, counter-clockwise seen from the front
+//! 1 2 3 4
+//! triangles 1
+//! 2 5 3
+//! set left 2              # then the node numbers, any number per line
+//! 1 4
+//! ties 1                  # node, then pairs of node and weight
+//! 6  3 0.5  5 0.5
+//! end 6 2                 # nodes and elements in total: a file that was cut off is noticed
+//! ```
+//!
+//! Blocks `membrane N` and `start N` after `nodes` give the places at which the membrane is free of stress and at which the
+//! nodes start, if they differ. `#` starts a comment; empty lines are skipped; spaces are free.
 
 use std::path::Path;
 
-use super::KEYWORDS;
+use super::scan::{Scan, cut_off, number};
 use crate::FemError;
 use crate::mesh::names::meant;
 use crate::mesh::{Mesh, Part, Tie};
 
-/// Reads a mesh file. Says nothing about its fitness: see [`crate::mesh::check::check`].
-///
-/// # Errors
-/// [`FemError::Io`] if it cannot be read, [`FemError::MeshFile`] with the line of the first fault.
-pub fn read(path: &Path) -> Result<Mesh, FemError> {
-    let bytes = std::fs::read(path).map_err(|source| FemError::Io { path: path.to_path_buf(), source })?;
-    match std::str::from_utf8(&bytes) {
-        Ok(text) => parse(text, path),
-        Err(fault) => {
-            let line = 1 + bytes[..fault.valid_up_to()].iter().filter(|b| **b == b'\n').count();
-            let message = "this is not text (UTF-8); a mesh file is plain text".into();
-            Err(FemError::MeshFile { path: path.to_path_buf(), line, message })
-        }
-    }
-}
+/// Words that begin a block.
+const KEYWORDS: [&str; 14] = [
+    "mesh",
+    "nodes",
+    "membrane",
+    "start",
+    "part",
+    "front",
+    "back",
+    "layer",
+    "warp",
+    "quads",
+    "triangles",
+    "set",
+    "ties",
+    "end",
+];
 
-/// Reads the text of a mesh file; `path` is named in messages.
+/// Reads the text of one of our own mesh files; `path` is named in messages.
 ///
 /// # Errors
 /// [`FemError::MeshFile`] with the line of the first fault.
 pub fn parse(text: &str, path: &Path) -> Result<Mesh, FemError> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut reader = Reader { lines: text.lines(), size: text.len(), number: 0, mesh: Mesh::default() };
+    let mut reader = Reader { scan: Scan::new(text), mesh: Mesh::default() };
     reader.mesh().map_err(|message| FemError::MeshFile {
         path: path.to_path_buf(),
-        line: reader.number.max(1),
+        line: reader.scan.number.max(1),
         message,
     })?;
     Ok(reader.mesh)
 }
 
 struct Reader<'a> {
-    lines: std::str::Lines<'a>,
-    /// Bytes of text: no count in it can be larger.
-    size: usize,
-    /// Line last read, counted from 1.
-    number: usize,
+    scan: Scan<'a>,
     mesh: Mesh,
 }
 
 impl<'a> Reader<'a> {
-    /// Words of the next line that has any; empty at the end of the file.
-    fn next(&mut self) -> Vec<&'a str> {
-        for line in self.lines.by_ref() {
-            self.number += 1;
-            let words: Vec<&str> = line.split('#').next().unwrap_or("").split_whitespace().collect();
-            if !words.is_empty() {
-                return words;
-            }
-        }
-        Vec::new()
-    }
-
     fn mesh(&mut self) -> Result<(), String> {
-        match self.next()[..] {
+        match self.scan.words('#')[..] {
             ["mesh", "1"] => {}
             ["mesh", version] => {
                 return Err(format!("mesh format {version} is not known; this program reads `mesh 1`"));
@@ -69,7 +83,7 @@ impl<'a> Reader<'a> {
             _ => return Err("a mesh file begins with the line `mesh 1`".into()),
         }
         loop {
-            let words = self.next();
+            let words = self.scan.words('#');
             match words[..] {
                 [] => return Err("the file ends without `end`: it was cut off; write it again".into()),
                 ["end", nodes, elements] => return self.end(nodes, elements),
@@ -149,7 +163,7 @@ impl<'a> Reader<'a> {
         if self.mesh.sets.contains_key(name) {
             return Err(format!("set `{name}` exists already; use another name"));
         }
-        let count = self.count(count)?;
+        let count = self.scan.count(count)?;
         let mut nodes = Vec::with_capacity(count);
         while nodes.len() < count {
             let words = self.row(nodes.len(), count, "node of the set", "node numbers")?;
@@ -172,7 +186,7 @@ impl<'a> Reader<'a> {
         form: &str,
         parse: impl Fn(&[&str], usize) -> Result<T, String>,
     ) -> Result<Vec<T>, String> {
-        let count = self.count(count)?;
+        let count = self.scan.count(count)?;
         let mut rows = Vec::with_capacity(count);
         while rows.len() < count {
             let words = self.row(rows.len(), count, what, form)?;
@@ -183,9 +197,9 @@ impl<'a> Reader<'a> {
 
     /// Words of the next row of a block.
     fn row(&mut self, done: usize, count: usize, what: &str, form: &str) -> Result<Vec<&'a str>, String> {
-        let (words, row) = (self.next(), done + 1);
+        let (words, row) = (self.scan.words('#'), done + 1);
         match words.first() {
-            None => Err(format!("the file ends before {what} {row} of {count}: it was cut off; write it again")),
+            None => Err(cut_off(&format!("{what} {row} of {count}"))),
             Some(word) if KEYWORDS.contains(word) => Err(format!(
                 "expected {what} {row} of {count} ({form}), found `{word}`; correct the count or add the lines"
             )),
@@ -193,22 +207,14 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn count(&self, word: &str) -> Result<usize, String> {
-        let count: usize = word.parse().map_err(|_| format!("expected how many lines follow, found `{word}`"))?;
-        if count > self.size {
-            return Err(format!("{count} lines cannot follow in a file of {} bytes", self.size));
-        }
-        Ok(count)
-    }
-
     fn end(&mut self, nodes: &str, elements: &str) -> Result<(), String> {
-        let (nodes, elements) = (self.count(nodes)?, self.count(elements)?);
+        let (nodes, elements) = (self.scan.count(nodes)?, self.scan.count(elements)?);
         let found = (self.mesh.points.len(), self.mesh.elements());
         if found != (nodes, elements) {
             let (n, e) = found;
             return Err(format!("`end` says {nodes} nodes and {elements} elements, but there are {n} and {e}"));
         }
-        match self.next().first() {
+        match self.scan.words('#').first() {
             None => Ok(()),
             Some(word) => Err(format!("`{word}` after `end`; remove what follows")),
         }
@@ -266,11 +272,6 @@ fn tie(words: &[&str], nodes: usize) -> Result<Tie, String> {
     };
     let pair = |pair: &[&str]| Ok((node(pair[0], nodes)?, number(pair[1])?));
     Ok(Tie { node: node(follower, nodes)?, to: rest.chunks_exact(2).map(pair).collect::<Result<_, String>>()? })
-}
-
-fn number(word: &str) -> Result<f64, String> {
-    let number: f64 = word.parse().map_err(|_| format!("expected a number, found `{word}`"))?;
-    if number.is_finite() { Ok(number) } else { Err(format!("expected a finite number, found `{word}`")) }
 }
 
 /// A node number counted from 1, as a place in the list.

@@ -1,0 +1,134 @@
+//! Walls of a chamber, found from how elements meet: for meshes that say parts and no chambers.
+
+use std::collections::BTreeMap;
+
+use super::{Mesh, Part};
+use crate::FemError;
+use crate::vec3::{area, centre, norm, sub};
+
+/// Share of the area to the power 3/2 below which a volume is flat and has no sign.
+const FLAT: f64 = 1e-9;
+
+/// A face: its part and its place there.
+type Face = (usize, usize);
+
+/// Two faces that meet at an edge, and whether they look the same way.
+type Neighbours = BTreeMap<usize, Vec<(usize, bool)>>;
+
+/// Makes parts the walls of a chamber with the gas inside; gives how many elements were turned over for it.
+///
+/// A part whose elements all look inwards has the chamber in front. Where a part is at odds with itself, the fewer ones of its
+/// elements are turned. Whether the chamber is closed, [`super::check::check`] says.
+///
+/// # Errors
+/// [`FemError::Mesh`] for a part that would have two chambers on one side, or that two chambers want turned in different ways.
+pub fn enclose(mesh: &mut Mesh, chamber: &str, parts: &[usize], open_axis: Option<usize>) -> Result<usize, FemError> {
+    let faces: Vec<Face> = parts.iter().flat_map(|p| (0..mesh.parts[*p].len()).map(move |i| (*p, i))).collect();
+    let outward = outward(mesh, &faces, open_axis);
+    let mut turned = 0;
+    for part in parts {
+        let signs: Vec<bool> =
+            faces.iter().zip(&outward).filter(|(face, _)| face.0 == *part).map(|(_, o)| *o).collect();
+        let count = signs.iter().filter(|outward| **outward).count();
+        let back = 2 * count >= signs.len();
+        let block = &mut mesh.parts[*part];
+        let wrong: Vec<usize> = (0..signs.len()).filter(|i| signs[*i] != back).collect();
+        if !wrong.is_empty() && (block.front.is_some() || block.back.is_some()) {
+            return Err(FemError::Mesh(format!(
+                "part `{}` is between two chambers and {} of its elements look the other way than the rest; turn them over",
+                block.name,
+                wrong.len()
+            )));
+        }
+        wrong.iter().for_each(|i| turn(block, *i));
+        turned += wrong.len();
+        let slot = if back { &mut block.back } else { &mut block.front };
+        if let Some(other) = slot.replace(chamber.into()) {
+            return Err(FemError::Mesh(format!(
+                "part `{}` would have chambers `{other}` and `{chamber}` on one side; name the parts of each chamber",
+                block.name
+            )));
+        }
+    }
+    Ok(turned)
+}
+
+/// Whether every face looks out of the chamber.
+fn outward(mesh: &Mesh, faces: &[Face], open_axis: Option<usize>) -> Vec<bool> {
+    let neighbours = neighbours(mesh, faces);
+    let mut outward: Vec<Option<bool>> = vec![None; faces.len()];
+    for first in 0..faces.len() {
+        if outward[first].is_some() {
+            continue;
+        }
+        outward[first] = Some(true);
+        let (mut sheet, mut at) = (vec![first], 0);
+        while let Some(face) = sheet.get(at).copied() {
+            at += 1;
+            for (other, alike) in neighbours.get(&face).into_iter().flatten() {
+                if outward[*other].is_none() {
+                    outward[*other] = outward[face].map(|way| way == *alike);
+                    sheet.push(*other);
+                }
+            }
+        }
+        let ways: Vec<bool> = sheet.iter().map(|face| outward[*face] == Some(true)).collect();
+        let (volume, surface) =
+            volume(mesh, sheet.iter().map(|face| faces[*face]).zip(ways.iter().copied()), open_axis);
+        // A flat pouch has no inside yet: most of its elements look as the file says.
+        let majority = 2 * ways.iter().filter(|way| **way).count() >= ways.len();
+        let right = if volume.abs() > FLAT * surface.powf(1.5) { volume > 0.0 } else { majority };
+        if !right {
+            sheet.iter().for_each(|face| outward[*face] = outward[*face].map(|way| !way));
+        }
+    }
+    outward.into_iter().map(|way| way == Some(true)).collect()
+}
+
+/// Faces that meet two by two.
+fn neighbours(mesh: &Mesh, faces: &[Face]) -> Neighbours {
+    let mut edges: BTreeMap<(u32, u32), Vec<(usize, bool)>> = BTreeMap::new();
+    for (face, (part, i)) in faces.iter().enumerate() {
+        let nodes = mesh.parts[*part].nodes(*i);
+        for k in 0..nodes.len() {
+            let (a, b) = (nodes[k], nodes[(k + 1) % nodes.len()]);
+            edges.entry((a.min(b), a.max(b))).or_default().push((face, a < b));
+        }
+    }
+    let mut neighbours = Neighbours::new();
+    for meeting in edges.values() {
+        if let [(a, up), (b, other)] = meeting[..] {
+            neighbours.entry(a).or_default().push((b, up != other));
+            neighbours.entry(b).or_default().push((a, up != other));
+        }
+    }
+    neighbours
+}
+
+/// V = Σ x·A over the axes that are not open, divided by their number, and the area.
+fn volume(mesh: &Mesh, faces: impl Iterator<Item = (Face, bool)>, open_axis: Option<usize>) -> (f64, f64) {
+    let axes: Vec<usize> = (0..3).filter(|k| Some(*k) != open_axis).collect();
+    let (mut volume, mut surface) = (0.0, 0.0);
+    let mut origin = None;
+    for ((part, i), outward) in faces {
+        let corners: Vec<[f64; 3]> = mesh.parts[part].nodes(i).iter().map(|n| mesh.start_of(*n as usize)).collect();
+        let origin = *origin.get_or_insert(corners[0]);
+        for k in 2..corners.len() {
+            let triangle = [corners[0], corners[k - 1], corners[k]];
+            let (middle, normal) = (sub(centre(&triangle), origin), area(&triangle));
+            let part = axes.iter().map(|k| middle[*k] * normal[*k]).sum::<f64>() / axes.len() as f64;
+            volume += if outward { part } else { -part };
+            surface += norm(normal);
+        }
+    }
+    (volume, surface)
+}
+
+/// Turns an element over.
+fn turn(part: &mut Part, i: usize) {
+    let quads = part.quads.len();
+    match part.quads.get_mut(i) {
+        Some(quad) => quad.reverse(),
+        None => part.triangles[i - quads].reverse(),
+    }
+}

@@ -1,0 +1,272 @@
+//! From what an Abaqus file says to a mesh: instances where they stand, parts by section, sets, surfaces.
+
+use std::collections::{HashMap, HashSet};
+
+use super::super::build::Builder;
+use super::super::{MeshFile, Surface};
+use super::{Group, Instance, Member, Model, Scan, Sides};
+use crate::vec3::{add, cross, dot, norm, scale, sub};
+
+/// What is wrong, and its line.
+type Fault = (usize, String);
+/// A node or an element: its instance and its number there.
+type Item = (usize, u64);
+
+/// Sets by instance, kind and name in capitals.
+type Sets = HashMap<(usize, bool, String), Vec<Item>>;
+
+#[derive(Default)]
+struct Assembly {
+    builder: Builder,
+    nodes: HashMap<Item, u32>,
+    /// Nodes in the order of the mesh.
+    items: Vec<Item>,
+    /// Corners, and the part.
+    elements: HashMap<Item, (Vec<u32>, String)>,
+    sets: Sets,
+    /// More than one instance has elements: names need theirs.
+    several: bool,
+}
+
+/// The mesh; a fault sets the line that is named.
+pub(super) fn mesh(model: &Model, scan: &mut Scan) -> Result<MeshFile, String> {
+    let bodies = model.instances.iter().map(|instance| &model.bodies[instance.body]);
+    let several = bodies.filter(|body| !body.elements.is_empty()).count() > 1;
+    let mut assembly = Assembly { several, ..Assembly::default() };
+    match assembly.all(model) {
+        Ok(()) => assembly.builder.finish(),
+        Err((line, message)) => {
+            scan.number = line;
+            Err(message)
+        }
+    }
+}
+
+impl Assembly {
+    fn all(&mut self, model: &Model) -> Result<(), Fault> {
+        model.ignored.iter().for_each(|(what, line)| self.builder.ignore(what, *line));
+        for (i, instance) in model.instances.iter().enumerate() {
+            for (number, place, line) in &model.bodies[instance.body].nodes {
+                let next = self.items.len() as u64;
+                self.items.push((i, *number));
+                let node = self.builder.node(next, stand(instance, *place)).map_err(|message| (*line, message))?;
+                if self.nodes.insert((i, *number), node).is_some() {
+                    return Err((*line, format!("node {number} is there twice; renumber one of them")));
+                }
+            }
+        }
+        self.numbers(model)?;
+        // Sets of the assembly may name those of its instances.
+        for i in (1..model.instances.len()).chain([0]) {
+            for group in &model.bodies[model.instances[i].body].groups {
+                let found = self.members(model, i, group).map_err(|message| (group.line, message))?;
+                let all = self.sets.entry((i, group.of_elements, group.name.to_ascii_uppercase())).or_default();
+                let known: HashSet<Item> = all.iter().copied().collect();
+                all.extend(found.into_iter().filter(|item| !known.contains(item)));
+            }
+        }
+        self.parts(model)?;
+        self.node_sets(model);
+        for (i, instance) in model.instances.iter().enumerate() {
+            for sides in &model.bodies[instance.body].surfaces {
+                let surface = self.surface(model, i, sides).map_err(|message| (sides.line, message))?;
+                self.builder.surfaces.push(surface);
+            }
+        }
+        Ok(())
+    }
+
+    /// The corners of all elements.
+    fn numbers(&mut self, model: &Model) -> Result<(), Fault> {
+        for (i, instance) in model.instances.iter().enumerate() {
+            for element in &model.bodies[instance.body].elements {
+                let corner = |n: &u64| {
+                    let found = self.nodes.get(&(i, *n)).copied();
+                    found.ok_or_else(|| (element.line, format!("there is no node {n}")))
+                };
+                let corners = element.nodes.iter().map(corner).collect::<Result<Vec<u32>, Fault>>()?;
+                if self.elements.insert((i, element.number), (corners, String::new())).is_some() {
+                    return Err((element.line, format!("element {} is there twice; renumber one", element.number)));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Members of a group.
+    fn members(&self, model: &Model, scope: usize, group: &Group) -> Result<Vec<Item>, String> {
+        let scope = group.instance.as_deref().map_or(Ok(scope), |name| instance(model, name))?;
+        let (mut found, mut seen) = (Vec::new(), HashSet::new());
+        for member in &group.members {
+            let more = match member {
+                Member::Range(first, last, 1) if first == last => vec![(scope, *first)],
+                Member::Range(first, last, step) => self.range(scope, group.of_elements, [*first, *last, *step]),
+                Member::Named(name) => self.named(model, scope, group.of_elements, name)?,
+                Member::NodesOf(name) => {
+                    let elements = self.named(model, scope, true, name)?;
+                    let corners =
+                        elements.iter().filter_map(|item| self.elements.get(item)).flat_map(|(nodes, _)| nodes);
+                    found.extend(corners.map(|node| self.items[*node as usize]));
+                    continue;
+                }
+            };
+            let known = |item: &Item| match group.of_elements {
+                true => self.elements.contains_key(item),
+                false => self.nodes.contains_key(item),
+            };
+            if let Some((_, number)) = more.iter().find(|item| !known(item)) {
+                let kind = if group.of_elements { "element" } else { "node" };
+                return Err(format!("set `{}` has {kind} {number}, which does not exist", group.name));
+            }
+            found.extend(more);
+        }
+        found.retain(|item| seen.insert(*item));
+        Ok(found)
+    }
+
+    /// The numbers of a generated range that exist.
+    fn range(&self, scope: usize, of_elements: bool, [first, last, step]: [u64; 3]) -> Vec<Item> {
+        let within =
+            |item: &Item| item.0 == scope && (first..=last).contains(&item.1) && (item.1 - first).is_multiple_of(step);
+        let mut found: Vec<Item> = match of_elements {
+            true => self.elements.keys().copied().filter(within).collect(),
+            false => self.nodes.keys().copied().filter(within).collect(),
+        };
+        found.sort_unstable();
+        found
+    }
+
+    /// A set by its name, or by `INSTANCE.NAME`; or one item as `INSTANCE.NUMBER`.
+    fn named(&self, model: &Model, scope: usize, of_elements: bool, name: &str) -> Result<Vec<Item>, String> {
+        if let Ok(number) = name.parse() {
+            return Ok(vec![(scope, number)]);
+        }
+        if let Some(items) = self.sets.get(&(scope, of_elements, name.to_ascii_uppercase())) {
+            return Ok(items.clone());
+        }
+        if let Some((before, after)) = name.split_once('.')
+            && let Ok(inner) = instance(model, before.trim_matches('"'))
+        {
+            return self.named(model, inner, of_elements, after.trim_matches('"'));
+        }
+        let kind = if of_elements { "element" } else { "node" };
+        Err(format!("there is no {kind} set `{name}` above"))
+    }
+
+    /// Elements by section, else by the set of their keyword line, else by instance.
+    fn parts(&mut self, model: &Model) -> Result<(), Fault> {
+        for (i, inst) in model.instances.iter().enumerate() {
+            for (set, line) in &model.bodies[inst.body].sections {
+                let items = self.named(model, i, true, set).map_err(|message| (*line, message))?;
+                for item in items {
+                    let name = self.prefixed(model, item.0, set);
+                    if let Some((_, part)) = self.elements.get_mut(&item).filter(|(_, part)| part.is_empty()) {
+                        *part = name;
+                    }
+                }
+            }
+        }
+        for (i, inst) in model.instances.iter().enumerate() {
+            for element in &model.bodies[inst.body].elements {
+                let given = &self.elements[&(i, element.number)];
+                let (corners, part) = (given.0.clone(), given.1.clone());
+                let other = match (&element.set, inst.name.as_str()) {
+                    (Some(set), _) => self.prefixed(model, i, set),
+                    (None, "") => "sheet".to_string(),
+                    (None, name) => name.to_string(),
+                };
+                let part = if part.is_empty() { other } else { part };
+                self.builder.element(&part, &corners).map_err(|message| (element.line, message))?;
+                self.elements.insert((i, element.number), (corners, part));
+            }
+        }
+        Ok(())
+    }
+
+    /// The name of something in an instance.
+    fn prefixed(&self, model: &Model, scope: usize, name: &str) -> String {
+        match self.several && scope > 0 {
+            true => format!("{}.{name}", model.instances[scope].name),
+            false => name.to_string(),
+        }
+    }
+
+    /// Node sets, and element sets that are no part.
+    fn node_sets(&mut self, model: &Model) {
+        for of_elements in [false, true] {
+            for (i, inst) in model.instances.iter().enumerate() {
+                let named =
+                    model.bodies[inst.body].groups.iter().filter(|g| g.of_elements == of_elements && !g.internal);
+                for group in named {
+                    let name = self.prefixed(model, i, &group.name);
+                    let parts = &self.builder.mesh.parts;
+                    let is_part = of_elements && parts.iter().any(|part| part.name.eq_ignore_ascii_case(&name));
+                    let key = (i, of_elements, group.name.to_ascii_uppercase());
+                    let Some(items) = self.sets.get(&key).filter(|_| !is_part) else { continue };
+                    let nodes: Vec<u32> = match of_elements {
+                        false => items.iter().map(|item| self.nodes[item]).collect(),
+                        true => items.iter().flat_map(|item| self.elements[item].0.clone()).collect(),
+                    };
+                    self.builder.set(&name, nodes);
+                }
+            }
+        }
+    }
+
+    /// The parts that a surface covers, and on which side.
+    fn surface(&self, model: &Model, scope: usize, sides: &Sides) -> Result<Surface, String> {
+        let mut covered: HashMap<(String, bool), HashSet<Item>> = HashMap::new();
+        let mut fault = None;
+        for (set, side) in &sides.rows {
+            let back = match side.as_str() {
+                "SNEG" => true,
+                "SPOS" => false,
+                _ => {
+                    fault = Some(format!("surface `{}` does not say SPOS or SNEG for `{set}`", sides.name));
+                    continue;
+                }
+            };
+            for item in self.named(model, scope, true, set)? {
+                let Some((_, part)) = self.elements.get(&item) else {
+                    return Err(format!("surface `{}` has element {}, which does not exist", sides.name, item.1));
+                };
+                covered.entry((part.clone(), back)).or_default().insert(item);
+            }
+        }
+        let size = |name: &str| self.builder.mesh.parts.iter().find(|part| part.name == name).map_or(0, |p| p.len());
+        for ((part, _), items) in &covered {
+            let (some, all) = (items.len(), size(part));
+            if some < all {
+                fault = Some(format!(
+                    "surface `{}` has {some} of the {all} elements of part `{part}`: give these a section of their own",
+                    sides.name
+                ));
+            }
+        }
+        let name = self.prefixed(model, scope, &sides.name);
+        let is_pressed = model.pressed.iter().any(|pressed| pressed.eq_ignore_ascii_case(&name));
+        let mut faces: Vec<(String, bool)> = covered.into_keys().collect();
+        faces.sort();
+        Ok(Surface { name, faces, is_pressed, fault })
+    }
+}
+
+/// Place of an instance by its name.
+fn instance(model: &Model, name: &str) -> Result<usize, String> {
+    let found = model.instances.iter().skip(1).position(|instance| instance.name.eq_ignore_ascii_case(name));
+    found.map(|at| at + 1).ok_or_else(|| format!("there is no instance `{name}` above"))
+}
+
+/// Where a point of a part stands: moved, then turned by Rodrigues' formula.
+fn stand(instance: &Instance, place: [f64; 3]) -> [f64; 3] {
+    let moved = add(place, instance.moved);
+    let Some((from, to, angle)) = instance.turned else { return moved };
+    let axis = sub(to, from);
+    if norm(axis) == 0.0 {
+        return moved;
+    }
+    let (k, r) = (scale(axis, 1.0 / norm(axis)), sub(moved, from));
+    let (sin, cos) = angle.sin_cos();
+    let along = scale(k, dot(k, r) * (1.0 - cos));
+    add(from, add(add(scale(r, cos), scale(cross(k, r), sin)), along))
+}

@@ -1,0 +1,332 @@
+//! Abaqus input (`.inp`): parts, instances, orphan meshes, sets, surfaces. Its keyword lines and rows, one after the other;
+//! [`assemble`] makes a mesh of them.
+//!
+//! Elements of a section are a part, those without one the set that their `*ELEMENT` names. Other element sets and all node sets
+//! are node sets. Surfaces with sides may be chambers.
+
+mod assemble;
+mod keywords;
+
+use super::MeshFile;
+use super::scan::{Scan, number, numbers, whole};
+use keywords::{IGNORED, Keyword, REFUSED, SHAPES};
+
+/// What a file says, in the order of the file.
+struct Model {
+    /// The first one is the text outside of parts.
+    bodies: Vec<Body>,
+    /// The first one is the first body where it is.
+    instances: Vec<Instance>,
+    /// Surfaces that a pressure acts on.
+    pressed: Vec<String>,
+    ignored: Vec<(String, usize)>,
+}
+
+/// Nodes and elements with numbers of their own.
+#[derive(Default)]
+struct Body {
+    name: String,
+    nodes: Vec<(u64, [f64; 3], usize)>,
+    elements: Vec<Element>,
+    groups: Vec<Group>,
+    surfaces: Vec<Sides>,
+    /// Element sets of sections, with their lines.
+    sections: Vec<(String, usize)>,
+}
+
+struct Element {
+    number: u64,
+    nodes: Vec<u64>,
+    set: Option<String>,
+    line: usize,
+}
+
+/// A node set or an element set.
+struct Group {
+    name: String,
+    of_elements: bool,
+    /// Made by a program for itself.
+    internal: bool,
+    instance: Option<String>,
+    members: Vec<Member>,
+    line: usize,
+}
+
+enum Member {
+    Range(u64, u64, u64),
+    Named(String),
+    /// Nodes of the elements of a set.
+    NodesOf(String),
+}
+
+struct Sides {
+    name: String,
+    rows: Vec<(String, String)>,
+    line: usize,
+}
+
+/// Where a part stands: moved, then turned about an axis through two points.
+struct Instance {
+    name: String,
+    body: usize,
+    moved: [f64; 3],
+    turned: Option<([f64; 3], [f64; 3], f64)>,
+}
+
+/// What data lines mean.
+enum Reading {
+    Nothing,
+    Nodes { grouped: bool },
+    Elements { corners: usize, set: Option<String>, row: Vec<u64> },
+    Group { generate: bool },
+    Surface,
+    Place,
+    Pressed,
+}
+
+struct Reader {
+    model: Model,
+    /// The body that lines belong to.
+    body: usize,
+    reading: Reading,
+    /// Only pressures are of interest.
+    in_step: bool,
+}
+
+/// Reads it.
+pub(super) fn read(scan: &mut Scan) -> Result<MeshFile, String> {
+    let whole_text = Instance { name: String::new(), body: 0, moved: [0.0; 3], turned: None };
+    let (bodies, instances) = (vec![Body::default()], vec![whole_text]);
+    let model = Model { bodies, instances, pressed: Vec::new(), ignored: Vec::new() };
+    let mut reader = Reader { model, body: 0, reading: Reading::Nothing, in_step: false };
+    while let Some(line) = scan.line() {
+        if line.starts_with("**") {
+            continue;
+        }
+        match line.strip_prefix('*') {
+            Some(first) => {
+                let (mut text, at) = (first.to_string(), scan.number);
+                while text.ends_with(',') {
+                    text += scan.line().ok_or("the file ends within a keyword line")?;
+                }
+                reader.keyword(&Keyword::of(&text, at))?;
+            }
+            None => reader.row(line, scan.number)?,
+        }
+    }
+    assemble::mesh(&reader.model, scan)
+}
+
+impl Reader {
+    fn body(&mut self) -> &mut Body {
+        &mut self.model.bodies[self.body]
+    }
+
+    fn keyword(&mut self, keyword: &Keyword) -> Result<(), String> {
+        if let Reading::Elements { row, .. } = &self.reading
+            && !row.is_empty()
+        {
+            return Err(format!("the element above has {} numbers, which are too few", row.len()));
+        }
+        self.reading = Reading::Nothing;
+        let name = keyword.name.as_str();
+        match name {
+            "STEP" => self.in_step = true,
+            "ENDSTEP" => self.in_step = false,
+            "DSLOAD" => self.reading = Reading::Pressed,
+            _ if self.in_step => {}
+            "PART" => {
+                self.body = self.model.bodies.len();
+                self.model.bodies.push(Body { name: keyword.needed("NAME")?, ..Body::default() });
+            }
+            "ENDPART" | "ENDINSTANCE" => self.body = 0,
+            "ASSEMBLY" | "ENDASSEMBLY" => {}
+            "INSTANCE" => self.instance(keyword)?,
+            "NODE" => self.nodes(keyword)?,
+            "ELEMENT" => self.elements(keyword)?,
+            "NSET" | "ELSET" => self.group(keyword)?,
+            "SURFACE" => self.surface(keyword)?,
+            "SHELLSECTION" | "MEMBRANESECTION" | "SHELLGENERALSECTION" | "SURFACESECTION" => {
+                let section = (keyword.needed("ELSET")?, keyword.line);
+                self.body().sections.push(section);
+                self.ignore(keyword);
+            }
+            _ => {
+                if let Some((_, why)) = REFUSED.iter().find(|(known, _)| *known == name) {
+                    return Err(format!("*{} is not read: {why}", keyword.written));
+                }
+                if !IGNORED.contains(&name) {
+                    return Err(format!(
+                        "unknown keyword *{}; remove it if the mesh is whole without it",
+                        keyword.written
+                    ));
+                }
+                self.ignore(keyword);
+            }
+        }
+        if name == "STEP" {
+            self.ignore(keyword);
+        }
+        Ok(())
+    }
+
+    fn ignore(&mut self, keyword: &Keyword) {
+        self.model.ignored.push((format!("*{}", keyword.written), keyword.line));
+    }
+
+    fn instance(&mut self, keyword: &Keyword) -> Result<(), String> {
+        let (name, part) = (keyword.needed("NAME")?, keyword.needed("PART")?);
+        let found = self.model.bodies.iter().position(|body| body.name.eq_ignore_ascii_case(&part));
+        let body = found.filter(|at| *at > 0).ok_or_else(|| format!("there is no *PART `{part}` above"))?;
+        self.model.instances.push(Instance { name, body, moved: [0.0; 3], turned: None });
+        // What an instance adds to its part has the numbers of the part.
+        self.body = body;
+        self.reading = Reading::Place;
+        Ok(())
+    }
+
+    fn nodes(&mut self, keyword: &Keyword) -> Result<(), String> {
+        keyword.without("INPUT", "put the rows of that file here")?;
+        if keyword.get("SYSTEM").is_some_and(|system| !system.eq_ignore_ascii_case("R")) {
+            return Err("nodes in cylindrical or spherical coordinates are not read; write x, y, z".into());
+        }
+        let set = keyword.get("NSET");
+        self.reading = Reading::Nodes { grouped: set.is_some() };
+        set.into_iter().for_each(|name| self.open_group(name, false, keyword));
+        Ok(())
+    }
+
+    fn elements(&mut self, keyword: &Keyword) -> Result<(), String> {
+        keyword.without("INPUT", "put the rows of that file here")?;
+        let kind = keyword.needed("TYPE")?.to_ascii_uppercase();
+        let Some((_, corners)) = SHAPES.iter().find(|(known, _)| *known == kind) else {
+            let known: Vec<&str> = SHAPES.iter().map(|(known, _)| *known).collect();
+            return Err(format!(
+                "elements of type {kind} are not read; sheets of straight elements are: {}",
+                known.join(", ")
+            ));
+        };
+        let set = keyword.get("ELSET");
+        set.iter().for_each(|name| self.open_group(name.clone(), true, keyword));
+        self.reading = Reading::Elements { corners: *corners, set, row: Vec::new() };
+        Ok(())
+    }
+
+    fn open_group(&mut self, name: String, of_elements: bool, keyword: &Keyword) {
+        let (internal, instance) = (keyword.has("INTERNAL"), keyword.get("INSTANCE"));
+        let group = Group { name, of_elements, internal, instance, members: Vec::new(), line: keyword.line };
+        self.body().groups.push(group);
+    }
+
+    fn group(&mut self, keyword: &Keyword) -> Result<(), String> {
+        let of_elements = keyword.name == "ELSET";
+        self.open_group(keyword.needed(&keyword.name)?, of_elements, keyword);
+        if let Some(elements) = keyword.get("ELSET").filter(|_| !of_elements) {
+            self.member(Member::NodesOf(elements));
+        }
+        self.reading = Reading::Group { generate: keyword.has("GENERATE") };
+        Ok(())
+    }
+
+    fn member(&mut self, member: Member) {
+        if let Some(group) = self.body().groups.last_mut() {
+            group.members.push(member);
+        }
+    }
+
+    fn surface(&mut self, keyword: &Keyword) -> Result<(), String> {
+        let (name, line) = (keyword.needed("NAME")?, keyword.line);
+        match keyword.get("TYPE").map(|kind| kind.to_ascii_uppercase()).as_deref() {
+            None | Some("ELEMENT") => {
+                self.body().surfaces.push(Sides { name, rows: Vec::new(), line });
+                self.reading = Reading::Surface;
+            }
+            Some(_) => self.ignore(keyword),
+        }
+        Ok(())
+    }
+
+    fn row(&mut self, line: &str, at: usize) -> Result<(), String> {
+        let cells: Vec<&str> = line.trim_end_matches(',').split(',').map(str::trim).collect();
+        match &mut self.reading {
+            Reading::Nothing => {}
+            Reading::Nodes { grouped } => {
+                let (number, grouped) = (whole(cells[0])?, *grouped);
+                let place = padded(&cells[1..])?;
+                self.body().nodes.push((number, place, at));
+                if grouped {
+                    self.member(Member::Range(number, number, 1));
+                }
+            }
+            Reading::Elements { corners, set, row } => {
+                for cell in &cells {
+                    row.push(whole(cell)?);
+                }
+                if row.len() > *corners {
+                    let (numbers, set) = (std::mem::take(row), set.clone());
+                    if numbers.len() != *corners + 1 {
+                        return Err(format!("expected {} numbers, found {}", *corners + 1, numbers.len()));
+                    }
+                    if set.is_some() {
+                        self.member(Member::Range(numbers[0], numbers[0], 1));
+                    }
+                    let element = Element { number: numbers[0], nodes: numbers[1..].to_vec(), set, line: at };
+                    self.body().elements.push(element);
+                }
+            }
+            Reading::Group { generate } => {
+                let generate = *generate;
+                self.members(&cells, generate)?;
+            }
+            Reading::Surface => {
+                let row = (cells[0].trim_matches('"').to_string(), cells.get(1).unwrap_or(&"").to_ascii_uppercase());
+                if let Some(surface) = self.body().surfaces.last_mut() {
+                    surface.rows.push(row);
+                }
+            }
+            Reading::Place => self.place(&cells)?,
+            Reading::Pressed => self.model.pressed.push(cells[0].trim_matches('"').to_string()),
+        }
+        Ok(())
+    }
+
+    fn members(&mut self, cells: &[&str], generate: bool) -> Result<(), String> {
+        if generate {
+            let range = cells.iter().map(|cell| whole(cell)).collect::<Result<Vec<u64>, _>>()?;
+            let (first, last, step) = match range[..] {
+                [first, last] => (first, last, 1),
+                [first, last, step] if step > 0 => (first, last, step),
+                _ => return Err("write first, last and step, a whole number from 1".into()),
+            };
+            self.member(Member::Range(first, last, step));
+            return Ok(());
+        }
+        for cell in cells.iter().filter(|cell| !cell.is_empty()) {
+            self.member(match cell.parse() {
+                Ok(number) => Member::Range(number, number, 1),
+                Err(_) => Member::Named(cell.trim_matches('"').to_string()),
+            });
+        }
+        Ok(())
+    }
+
+    /// First row of an instance: the way; second: two points of an axis and an angle.
+    fn place(&mut self, cells: &[&str]) -> Result<(), String> {
+        let Some(instance) = self.model.instances.last_mut() else { return Ok(()) };
+        match cells.len() {
+            7 => {
+                let n = numbers(cells)?;
+                instance.turned = Some(([n[0], n[1], n[2]], [n[3], n[4], n[5]], n[6].to_radians()));
+            }
+            0..=3 => instance.moved = padded(cells)?,
+            count => return Err(format!("expected 3 numbers (a way) or 7 (an axis and an angle), found {count}")),
+        }
+        Ok(())
+    }
+}
+
+/// Coordinates, of which the last may be left out.
+fn padded(cells: &[&str]) -> Result<[f64; 3], String> {
+    let cell = |k: usize| cells.get(k).filter(|cell| !cell.is_empty()).map_or(Ok(0.0), |cell| number(cell));
+    Ok([cell(0)?, cell(1)?, cell(2)?])
+}

@@ -1,0 +1,133 @@
+//! A mesh put together from nodes and elements with the numbers and groups of a foreign file.
+
+use std::collections::hash_map::Entry;
+use std::collections::{BTreeSet, HashMap, HashSet};
+
+use super::{MeshFile, Surface};
+use crate::mesh::{Mesh, Part};
+
+/// What a foreign file has said so far.
+#[derive(Default)]
+pub(super) struct Builder {
+    /// Places as in the file.
+    pub(super) mesh: Mesh,
+    /// Surfaces that may be chambers.
+    pub(super) surfaces: Vec<Surface>,
+    nodes: HashMap<u64, u32>,
+    parts: HashMap<String, usize>,
+    seen: HashSet<Vec<u32>>,
+    ignored: Vec<(String, usize)>,
+}
+
+impl Builder {
+    /// A node with its number in the file.
+    pub(super) fn node(&mut self, number: u64, place: [f64; 3]) -> Result<u32, String> {
+        let next = u32::try_from(self.mesh.points.len()).map_err(|_| "more nodes than can be numbered".to_string())?;
+        match self.nodes.entry(number) {
+            Entry::Occupied(_) => Err(format!("node {number} is there twice; renumber one of them")),
+            Entry::Vacant(slot) => {
+                self.mesh.points.push(place);
+                Ok(*slot.insert(next))
+            }
+        }
+    }
+
+    /// Nodes by their numbers in the file.
+    pub(super) fn find(&self, words: &[&str]) -> Result<Vec<u32>, String> {
+        let one = |word: &&str| {
+            let number = super::scan::whole(word)?;
+            self.nodes.get(&number).copied().ok_or_else(|| format!("there is no node {number} in the file above"))
+        };
+        words.iter().map(one).collect()
+    }
+
+    /// An element of a part; a quad with two equal corners is a triangle. Gives its place in [`Part::nodes`] once all are in:
+    /// false if the same element is there already.
+    pub(super) fn element(&mut self, part: &str, corners: &[u32]) -> Result<bool, String> {
+        let mut nodes = corners.to_vec();
+        nodes.dedup();
+        if nodes.len() > 3 && nodes.first() == nodes.last() {
+            nodes.pop();
+        }
+        let least = (0..nodes.len()).min_by_key(|k| nodes[*k]).unwrap_or(0);
+        let turned: Vec<u32> = nodes[least..].iter().chain(&nodes[..least]).copied().collect();
+        if !self.seen.insert(turned) {
+            return Ok(false);
+        }
+        let part = self.part(part);
+        match nodes[..] {
+            [a, b, c] => part.triangles.push([a, b, c]),
+            [a, b, c, d] => part.quads.push([a, b, c, d]),
+            _ => return Err(format!("an element needs 3 or 4 different nodes, this one has {}", nodes.len())),
+        }
+        Ok(true)
+    }
+
+    /// The part of that name.
+    pub(super) fn part(&mut self, name: &str) -> &mut Part {
+        let parts = &mut self.mesh.parts;
+        let at = *self.parts.entry(name.into()).or_insert_with(|| {
+            parts.push(Part { name: name.into(), ..Part::default() });
+            parts.len() - 1
+        });
+        &mut parts[at]
+    }
+
+    /// Adds nodes to a set.
+    pub(super) fn set(&mut self, name: &str, nodes: impl IntoIterator<Item = u32>) {
+        self.mesh.sets.entry(name.into()).or_default().extend(nodes);
+    }
+
+    /// Notes what is left out, once by name.
+    pub(super) fn ignore(&mut self, what: &str, line: usize) {
+        if !self.ignored.iter().any(|(known, _)| known == what) {
+            self.ignored.push((what.into(), line));
+        }
+    }
+
+    /// The mesh without nodes that no element has, and what there is to tell.
+    pub(super) fn finish(mut self) -> Result<MeshFile, String> {
+        if self.mesh.elements() == 0 {
+            return Err("there is no triangle and no quadrilateral in this file; export a mesh of surfaces".into());
+        }
+        let mut told = Vec::new();
+        let unused = drop_unused(&mut self.mesh);
+        if unused > 0 {
+            told.push(format!("{unused} nodes belong to no element and are left out"));
+        }
+        if !self.ignored.is_empty() {
+            let list: Vec<String> = self.ignored.iter().map(|(what, line)| format!("{what} (line {line})")).collect();
+            told.push(format!("left out, since the case says it: {}", list.join(", ")));
+        }
+        Ok(MeshFile { mesh: self.mesh, surfaces: self.surfaces, told, ..MeshFile::default() })
+    }
+}
+
+/// Removes nodes without elements, also from sets, each of which keeps a node once.
+fn drop_unused(mesh: &mut Mesh) -> usize {
+    let mut used = vec![false; mesh.points.len()];
+    let corners = |part: &Part| part.quads.iter().flatten().chain(part.triangles.iter().flatten()).copied().collect();
+    let all: Vec<u32> = mesh.parts.iter().flat_map(|part| -> Vec<u32> { corners(part) }).collect();
+    all.iter().for_each(|node| used[*node as usize] = true);
+    let mut next = 0;
+    let number: Vec<Option<u32>> = used
+        .iter()
+        .map(|used| {
+            next += u32::from(*used);
+            used.then(|| next - 1)
+        })
+        .collect();
+    let mut keep = used.iter();
+    mesh.points.retain(|_| keep.next() == Some(&true));
+    let new = |node: &mut u32| *node = number[*node as usize].unwrap_or(*node);
+    for part in &mut mesh.parts {
+        part.quads.iter_mut().flatten().for_each(new);
+        part.triangles.iter_mut().flatten().for_each(new);
+    }
+    for nodes in mesh.sets.values_mut() {
+        let mut seen = BTreeSet::new();
+        *nodes = nodes.iter().filter_map(|n| number[*n as usize]).filter(|n| seen.insert(*n)).collect();
+    }
+    mesh.sets.retain(|_, nodes| !nodes.is_empty());
+    used.iter().filter(|used| !**used).count()
+}

@@ -1,0 +1,300 @@
+//! Mesh files of other programs: closed forms of a cube and a cushion in every format, and what is refused.
+//!
+//! `cushion.*` is one square of 0.3 m in seven formats, flat, both sheets with the same diagonals; `disc*` one open sheet. The cubes
+//! have sides of 20 mm, groups, and faces that are turned over.
+
+#![allow(clippy::unwrap_used)] // a test that cannot be set up must fail
+
+use fem::mesh::check::check_open;
+use fem::session::{FeRun, Settings, Source, simulate};
+use fem::{Mesh, Problem};
+use std::ops::ControlFlow;
+use std::path::Path;
+
+const FILM: &str = "[fabric.film]\nlaw = \"isotropic\"\ne_MPa = 588\nnu = 0.4\nthickness_mm = 0.3\n\
+                    [part.all]\nfabric = \"film\"\ndensity_kg_m3 = 1000\n";
+
+fn source(folder: &Path, mesh: &str, rest: &str) -> Source {
+    let text = format!("kind = \"fem\"\n[mesh]\n{mesh}\n{FILM}{rest}[output]\nframes = false\npictures = false\n");
+    Source { folder: folder.into(), ..Source::new("case.toml", &text) }
+}
+
+fn shipped(mesh: &str, rest: &str) -> Source {
+    source(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes"), mesh, rest)
+}
+
+/// The problem of a mesh, and what was told about it.
+fn loaded(mesh: &str, rest: &str) -> (Problem, Vec<String>) {
+    let case = shipped(mesh, rest).load().map_err(|error| told(&error)).unwrap().case;
+    (case.problem, case.notices)
+}
+
+fn told(error: &fem::FemError) -> String {
+    format!("{error}\n{}", error.help().unwrap_or_default())
+}
+
+fn refused(mesh: &str, rest: &str) -> String {
+    told(&shipped(mesh, rest).load().err().unwrap())
+}
+
+/// What refuses a file of this text.
+fn refused_text(name: &str, text: impl AsRef<[u8]>) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join(name), text).unwrap();
+    let error = source(folder.path(), &format!("file = \"{name}\"\nunit = \"mm\""), "").load().err().unwrap();
+    let message = error.to_string();
+    message[message.find(name).unwrap()..].to_string()
+}
+
+fn volume_mm3(problem: &Problem, chamber: &str) -> f64 {
+    let names: Vec<&str> = problem.chambers.iter().map(|c| c.name.as_str()).collect();
+    let quality = check_open(&problem.mesh, &names, &[]).unwrap();
+    quality.volumes_m3.iter().find(|(name, _)| name == chamber).unwrap().1 * 1e9
+}
+
+/// Parts with their quads and triangles.
+fn parts(mesh: &Mesh) -> Vec<(&str, usize, usize)> {
+    mesh.parts.iter().map(|part| (part.name.as_str(), part.quads.len(), part.triangles.len())).collect()
+}
+
+fn set<'a>(mesh: &'a Mesh, name: &str) -> Vec<&'a [f64; 3]> {
+    mesh.sets.get(name).unwrap_or_else(|| panic!("no set {name}")).iter().map(|n| &mesh.points[*n as usize]).collect()
+}
+
+const AIR: &str = "[chamber.air]\npressure_kPa = 1\n";
+
+#[test]
+fn a_cube_of_20_mm_holds_8000_mm3_in_every_format() {
+    for (file, unit, expected) in [
+        ("cube_gmsh41.msh", "mm", vec![("wall", 5, 0), ("the lid", 1, 0)]),
+        ("cube_gmsh22.msh", "mm", vec![("wall", 4, 2), ("surface_6", 1, 0)]),
+        ("cube_medit.mesh", "cm", vec![("surface_1", 4, 2), ("surface_2", 1, 0)]),
+        ("cube.obj", "mm", vec![("wall", 4, 2), ("lid", 1, 0)]),
+    ] {
+        let (problem, notices) = loaded(&format!("file = \"{file}\"\nunit = \"{unit}\""), AIR);
+        assert_eq!((parts(&problem.mesh), problem.mesh.points.len()), (expected, 8), "{file}");
+        assert!((volume_mm3(&problem, "air") / 8000.0 - 1.0).abs() < 1e-12, "{file}");
+        let told = notices.join("\n");
+        assert!(told.contains(&format!("in {unit}, 20.0 × 20.0 × 20.0 mm, 8 nodes")), "{file}: {told}");
+        assert!(told.contains("chamber `air` is enclosed by"), "{file}: {told}");
+    }
+}
+
+#[test]
+fn groups_become_node_sets_and_faces_that_look_inwards_are_noticed() {
+    let tip = [0.02, 0.02, 0.02];
+    let (problem, notices) = loaded("file = \"cube_gmsh41.msh\"\nunit = \"mm\"", AIR);
+    let mesh = &problem.mesh;
+    assert_eq!((set(mesh, "tip"), set(mesh, "edge").len(), set(mesh, "surface_7").len()), (vec![&tip], 2, 4));
+    let lid = &mesh.parts[1];
+    assert_eq!((lid.front.as_deref(), lid.back.as_deref()), (Some("air"), None), "the lid of the file looks inwards");
+    let told = notices.join("\n");
+    for words in ["1 nodes belong to no element", "$Periodic (line 42)", "1 elements were turned over", "`tip` (1)"] {
+        assert!(told.contains(words), "{words}: {told}");
+    }
+    let (problem, _) = loaded("file = \"cube_gmsh22.msh\"\nunit = \"mm\"", AIR);
+    assert_eq!((set(&problem.mesh, "point_7"), set(&problem.mesh, "line_3").len()), (vec![&tip], 2));
+    let (problem, _) = loaded("file = \"cube_medit.mesh\"\nunit = \"cm\"", AIR);
+    assert_eq!((set(&problem.mesh, "vertices_4"), set(&problem.mesh, "edges_5").len()), (vec![&tip], 2));
+    let (problem, notices) = loaded("file = \"cube.obj\"\nunit = \"mm\"", AIR);
+    assert_eq!(set(&problem.mesh, "lid"), [&tip]);
+    assert!(notices.join("\n").contains("usemtl (line"), "{notices:?}");
+}
+
+#[test]
+fn instances_stand_where_abaqus_puts_them_and_surfaces_are_chambers() {
+    let chambers = "[chamber.\"Left.Inner\"]\npressure_kPa = 5\n[chamber.\"Right.Inner\"]\npressure_kPa = 2\n";
+    let (problem, notices) = loaded("file = \"cubes.inp\"\nunit = \"mm\"", chambers);
+    let mesh = &problem.mesh;
+    let expected = [("Left.Walls", 5, 0), ("Left.Roof", 0, 2), ("Right.Walls", 5, 0), ("Right.Roof", 0, 2)];
+    assert_eq!((parts(mesh), mesh.points.len()), (expected.to_vec(), 16));
+    for chamber in ["Left.Inner", "Right.Inner"] {
+        assert!((volume_mm3(&problem, chamber) / 8000.0 - 1.0).abs() < 1e-12, "{chamber}");
+    }
+    // Moved by (100, 0, 0), then turned by 90 degrees about z: (x, y) is at (−y, x + 100).
+    let far = |a: &[f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max);
+    assert!(far(set(mesh, "Right.Corner")[0], [0.0, 0.1, 0.0]) < 1e-15);
+    assert!(set(mesh, "Right.Top").iter().any(|x| far(x, [-0.02, 0.12, 0.02]) < 1e-15));
+    let sizes = ["Both", "Tops", "Left.Top", "Right.RoofNodes", "Left.All", "Left.Ends"].map(|s| set(mesh, s).len());
+    assert_eq!(sizes, [2, 8, 4, 4, 8, 8]);
+    let told = notices.join("\n");
+    assert!(told.contains("*MATERIAL (line 58)") && told.contains("*STEP (line"), "{told}");
+    assert!(told.contains("behind the surface `Right.Inner`") && told.contains("2 nodes belong to no"), "{told}");
+    let by_parts = "[chamber.a]\nparts = [\"Left.Walls\", \"Left.Roof\"]\npressure_kPa = 5\n\
+                    [chamber.b]\nparts = [\"Right.Walls\", \"Right.Roof\"]\npressure_kPa = 2\n";
+    let (problem, _) = loaded("file = \"cubes.inp\"\nunit = \"mm\"", by_parts);
+    assert!((volume_mm3(&problem, "b") / 8000.0 - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn solids_of_stl_are_parts_and_binary_equals_text() {
+    let chambers = "[chamber.lower_cube]\npressure_kPa = 1\n[chamber.upper]\npressure_kPa = 1\n";
+    let (problem, notices) = loaded("file = \"cubes.stl\"\nunit = \"mm\"", chambers);
+    assert_eq!((parts(&problem.mesh), problem.mesh.points.len()), (vec![("lower_cube", 0, 12), ("upper", 0, 12)], 16));
+    assert!((volume_mm3(&problem, "upper") / 8000.0 - 1.0).abs() < 1e-12);
+    assert!(notices.join("\n").contains("2 elements were turned over"), "{notices:?}");
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes/cubes.stl")).unwrap();
+    let mut bytes = b"solid, as some programs begin binary files too".to_vec();
+    bytes.resize(80, b' ');
+    bytes.extend(24_u32.to_le_bytes());
+    for facet in text.split("facet normal").skip(1) {
+        bytes.extend([0; 12]);
+        let corners = facet.lines().filter_map(|line| line.trim().strip_prefix("vertex "));
+        bytes.extend(corners.flat_map(str::split_whitespace).flat_map(|x| x.parse::<f32>().unwrap().to_le_bytes()));
+        bytes.extend([0; 2]);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("cubes.stl"), &bytes).unwrap();
+    let binary = source(folder.path(), "file = \"cubes.stl\"\nunit = \"mm\"", "").load().unwrap().case.problem.mesh;
+    assert_eq!((parts(&binary), binary.points.clone()), (vec![("sheet", 0, 24)], problem.mesh.points));
+}
+
+#[test]
+fn the_open_disc_is_read_and_is_no_chamber() {
+    for (file, part, weld) in [
+        ("disc_gmsh41.msh", "sheet", Some("weld")),
+        ("disc_gmsh22.msh", "sheet", Some("weld")),
+        ("disc_medit.mesh", "surface_1", Some("edges_1")),
+    ] {
+        let (problem, _) = loaded(&format!("file = \"{file}\"\nunit = \"m\""), "");
+        assert_eq!(parts(&problem.mesh), [(part, 0, 113)], "{file}");
+        // The weld is a ring of 23 nodes at 50 mm from the centre.
+        let ring = set(&problem.mesh, weld.unwrap());
+        assert!(ring.len() == 23 && ring.iter().all(|x| (x[0].hypot(x[1]) - 0.05).abs() < 1e-12), "{file}");
+        let leak = refused(&format!("file = \"{file}\"\nunit = \"m\""), AIR);
+        assert!(leak.contains("chamber `air` is open: the edge between nodes") && leak.contains("23 such"), "{leak}");
+        assert!(!leak.contains("open_axis"), "{leak}");
+    }
+}
+
+fn inflated(file: &str, unit: &str) -> FeRun {
+    let rest = "[chamber.air]\nsmooth_s_kPa = [[0, 0], [0.05, 5]]\n[settings]\nend_s = 0.3\nmass_damping_1_s = 100\nhourglass = 0.001\n";
+    let run = simulate(&shipped(&format!("file = \"{file}\"\n{unit}"), rest), &Settings::default(), &mut |_, _| {
+        ControlFlow::Continue(())
+    });
+    run.map_err(|error| told(&error)).unwrap()
+}
+
+#[test]
+fn the_cushion_inflates_alike_in_every_format_and_its_corners_part() {
+    for (file, unit) in [("cushion.mesh", ""), ("cushion_cae.inp", "unit = \"mm\"")] {
+        let run = inflated(file, unit);
+        println!("{file}: {:?} {:?}", run.summary.chambers, run.notices);
+    }
+}
+
+#[test]
+fn what_is_not_understood_is_refused_with_its_line_and_what_to_do() {
+    let gmsh = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+    let nodes = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n";
+    for (name, text, line, words) in [
+        ("a.msh", "$MeshFormat\n4.1 1 8\n".to_string(), 2, "binary file; write it as text: gmsh FILE.msh -save"),
+        ("a.msh", "$MeshFormat\n4 0 8\n".into(), 2, "version `4 0 8` is not read (4.1 and 2.2 are)"),
+        ("a.msh", "$NOD\n".into(), 1, "this is version 1 of the format"),
+        ("a.msh", format!("{gmsh}$Surprise\n"), 4, "unknown section `$Surprise`"),
+        ("a.msh", format!("{gmsh}$Nodes\n1 1 1 1\n2 1 0 1\n1\n"), 7, "ends before the place of a node: it was cut off"),
+        ("a.msh", format!("{gmsh}$Elements\n1 1 1 1\n2 1 9 1\n"), 6, "elements of type 9 are not read"),
+        ("a.msh", format!("{gmsh}$Elements\n1 1 1 1\n3 1 4 1\n"), 6, "type 4 are solids"),
+        ("a.msh", format!("{gmsh}$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n"), 7, "there is no node 1"),
+        ("a.msh", format!("{gmsh}$Nodes\n99999999999 1 1 1\n"), 5, "cannot follow in a file of"),
+        ("a.inp", format!("{nodes}*TIE, NAME=x\n"), 5, "*TIE is not read: merge the nodes"),
+        ("a.inp", format!("{nodes}*INCLUDE, INPUT=b.inp\n"), 5, "*INCLUDE is not read: put the text"),
+        ("a.inp", format!("{nodes}*WIGGLE\n"), 5, "unknown keyword *WIGGLE"),
+        ("a.inp", format!("{nodes}*ELEMENT, TYPE=C3D8\n"), 5, "elements of type C3D8 are not read"),
+        ("a.inp", format!("{nodes}*ELEMENT, TYPE=S3\n1, 1, 2, 4\n"), 6, "there is no node 4"),
+        (
+            "a.inp",
+            format!("{nodes}*ELEMENT, TYPE=S3\n1, 1, 2\n*ELSET, ELSET=a\n"),
+            7,
+            "the element above has 3 numbers",
+        ),
+        ("a.inp", format!("{nodes}1, 0, 0, 5\n"), 5, "node 1 is there twice"),
+        ("a.inp", format!("{nodes}*NSET, NSET=a\n9\n"), 5, "set `a` has node 9, which does not exist"),
+        ("a.inp", format!("{nodes}*NSET, NSET=a\nb\n"), 5, "there is no node set `b` above"),
+        ("a.inp", format!("{nodes}*NSET, NSET=a, GENERATE\n1, 9, 0\n"), 6, "write first, last and step"),
+        ("a.inp", format!("{nodes}*NODE, SYSTEM=C\n"), 5, "cylindrical"),
+        ("a.inp", format!("{nodes}*INSTANCE, NAME=a, PART=b\n"), 5, "there is no *PART `b` above"),
+        ("a.inp", "*KEYWORD\n*NODE\n".into(), 1, "this is LS-DYNA"),
+        ("a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n".into(), 4, "found `zero`"),
+        (
+            "a.stl",
+            "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\n".into(),
+            5,
+            "3 corners, this one 1",
+        ),
+        ("a.stl", "solid a\nendsolid a\n".into(), 2, "ends before the first facet"),
+        ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n".into(), 4, "there is no node 9"),
+        ("a.obj", "v 0 0 0\ncurv 0 1 1 2\n".into(), 2, "`curv` is not understood"),
+        ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 1 2\n".into(), 4, "a face of 5 corners"),
+        ("a.mesh", "MeshVersionFormatted 2\nDimension 3\nTetrahedra 2\n".into(), 3, "`Tetrahedra` are solids"),
+        ("a.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 1\n0 0 0\n".into(), 4, "ends before a vertex"),
+        ("a.mesh", "MeshVersionFormatted 2\nFolds 3\n".into(), 2, "unknown keyword `Folds`"),
+        ("a.ply", "ply\nformat ascii 1.0\n".into(), 1, "this is PLY, which is not read; convert it"),
+        ("a.vtu", "<VTKFile type=\"UnstructuredGrid\">\n".into(), 1, "this is VTK"),
+        ("a.txt", "hello\n".into(), 1, "begins with `hello`. Gmsh (.msh)"),
+        ("a.obj", "v 0 0 0\n".into(), 1, "no triangle and no quadrilateral"),
+    ] {
+        let message = refused_text(name, &text);
+        assert!(message.starts_with(&format!("{name}:{line}: ")) && message.contains(words), "{text}\n{message}");
+    }
+}
+
+#[test]
+fn units_and_chambers_that_nobody_named_are_asked_for() {
+    let (stl, msh) = ("file = \"cushion.stl\"", "file = \"cube_gmsh41.msh\"");
+    let cubes = "file = \"cubes.inp\"\nunit = \"mm\"";
+    for (mesh, rest, words) in [
+        (stl.to_string(), AIR, ["(STL) does not say its unit", "0.3000 × 0.3000 × 0.0000: write unit = \"mm\""]),
+        (format!("{msh}\nunit = \"m\""), AIR, ["looks like millimetres", "write unit = \"mm\""]),
+        (format!("{stl}\nunit = \"mm\""), AIR, ["0.3000 mm long: it looks like metres", "write unit = \"m\""]),
+        (format!("{stl}\nunit = \"feet\""), AIR, ["feet", "mm"]),
+        ("file = \"cushion.mesh\"\nunit = \"mm\"".into(), AIR, ["are in metres", "remove unit"]),
+        (cubes.into(), "[chamber.a]\npressure_kPa = 1\n", ["2 surfaces of the file: Left.Inner, Right.Inner", "parts"]),
+        (
+            cubes.into(),
+            "[chamber.a]\npressure_kPa = 1\n[chamber.b]\npressure_kPa = 1\n",
+            ["which parts enclose chamber `a`", "parts = [\"Left.Walls\", …]"],
+        ),
+        (
+            cubes.into(),
+            "[chamber.a]\npressure_kPa = 1\nparts = [\"Left.Wals\"]\n",
+            ["unknown part `Left.Wals`", "did you mean `Left.Walls`?"],
+        ),
+        (
+            "file = \"cushion.mesh\"".into(),
+            "[chamber.air]\npressure_kPa = 1\nparts = [\"all\"]\n",
+            ["says itself", "remove parts"],
+        ),
+    ] {
+        let message = refused(&mesh, rest);
+        assert!(words.iter().all(|word| message.contains(word)), "{mesh}\n{rest}\n{message}");
+    }
+}
+
+#[test]
+fn a_corner_that_cannot_be_turned_is_told() {
+    // One square of four nodes: both triangles of both sheets have all nodes on the rim.
+    let square = "v 0 0 0\nv 20 0 0\nv 20 20 0\nv 0 20 0\nf 1 2 3\nf 1 3 4\nf 1 3 2\nf 1 4 3\n";
+    let message = refused_text("a.obj", square);
+    assert!(message.contains("at the corner (") && message.contains("turn the diagonal there"), "{message}");
+}
+
+#[test]
+fn files_cut_anywhere_or_with_other_words_never_panic() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes");
+    let scratch = tempfile::tempdir().unwrap();
+    let mut tried = 0;
+    for name in ["cube_gmsh41.msh", "cube_gmsh22.msh", "cube_medit.mesh", "cube.obj", "cubes.inp"] {
+        let text = std::fs::read_to_string(folder.join(name)).unwrap();
+        let words: Vec<&str> = text.split_inclusive([' ', ',', '\n']).collect();
+        for at in 0..words.len() {
+            for by in ["", "-1 ", "4294967297 ", "1e400 ", "é, ", "* ", "18446744073709551615 "] {
+                let changed: String = words[..at].iter().chain([&by]).chain(&words[at + 1..]).copied().collect();
+                std::fs::write(scratch.path().join(name), &changed).unwrap();
+                let _ = source(scratch.path(), &format!("file = \"{name}\"\nunit = \"mm\""), AIR).load();
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried > 3000, "{tried}");
+}
