@@ -274,6 +274,9 @@ pub struct SimulateArgs {
     /// Write no ParaView frames
     #[arg(long)]
     pub no_frames: bool,
+    /// Run nothing: write mesh, sections, loads and step for another solver (.inp, Abaqus), or the mesh alone (.vtu, .ibrmesh)
+    #[arg(long, value_name = "FILE")]
+    pub export: Option<PathBuf>,
     /// Robots: actuator pressures in one ramp with a hold at each, for example 10kPa,20kPa,30kPa
     #[arg(long, short, allow_hyphen_values = true)]
     pub pressure: Option<String>,

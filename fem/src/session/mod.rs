@@ -19,6 +19,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `source` | the text of a case or a robot's scenario, and what it describes |
+//! | `export` | the problem as a file for another solver |
 //! | `stepping` | rows, frames and checkpoints as a run goes |
 //! | `watch`, `robot_files` | what is read of a robot, its tables and pictures |
 //! | `folder`, `exchange` | who may write to a run's folder, and how a new run takes the place of an older one |
@@ -29,6 +30,7 @@
 //! [`Settings::resume`], and ends with the same bits.
 
 mod exchange;
+mod export;
 mod folder;
 mod manifest;
 mod many;
@@ -41,6 +43,7 @@ mod table;
 mod together;
 mod watch;
 
+pub use export::{Export, export};
 pub use manifest::{FileHash, MANIFEST, Maker, Manifest, sha256};
 pub use many::{Job, Many, finished_below, simulate_all};
 pub use plan::{Changes, Cube, Felt, Variation, cube, mesh_keys, product};

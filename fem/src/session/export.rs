@@ -1,0 +1,50 @@
+//! A problem before it runs, as a file for another program.
+
+use super::Source;
+use crate::output::{Frame, abaqus, vtu};
+use crate::{FemError, Simulation, mesh};
+use std::path::Path;
+
+/// What was written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Export {
+    /// Nodes.
+    pub nodes: usize,
+    /// Elements.
+    pub elements: usize,
+    /// What to know about what was read.
+    pub notices: Vec<String>,
+    /// What the file does not say.
+    pub left_out: Vec<String>,
+}
+
+/// Writes the problem that a text describes: `.inp` for Abaqus and its relatives with materials, loads and a step, `.vtu` for
+/// ParaView, `.ibrmesh` as our own mesh. An earlier file stays until the new one is complete.
+///
+/// # Errors
+/// [`FemError::Setting`] for another ending; as [`super::simulate`] for the text; [`FemError::Io`].
+pub fn export(source: &Source, path: &Path) -> Result<Export, FemError> {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    let loaded = source.load()?;
+    let problem = &loaded.case.problem;
+    let mut left_out = Vec::new();
+    match ending.as_deref() {
+        Some("inp") => {
+            problem.check().map_err(|error| source.refused(error))?;
+            let (text, missing) = abaqus::text(problem);
+            left_out = missing;
+            crate::atomic::replace(path, &mut |out| out.write_all(text.as_bytes()))?;
+        }
+        Some("vtu") => {
+            let start = Simulation::new(problem).map_err(|error| source.refused(error))?;
+            vtu::write_vtu(path, &problem.mesh, &Frame::of(&start))?;
+        }
+        Some("ibrmesh") => mesh::file::write(path, &problem.mesh)?,
+        _ => {
+            let message = format!("{} has no ending that says what to write", path.display());
+            return Err(FemError::setting(message, "end it with .inp (Abaqus), .vtu (ParaView) or .ibrmesh (our own)"));
+        }
+    }
+    let (nodes, elements) = (problem.mesh.points.len(), problem.mesh.elements());
+    Ok(Export { nodes, elements, notices: loaded.case.notices, left_out })
+}
