@@ -2,12 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use super::check::signed_volume;
 use super::{Mesh, Part};
 use crate::FemError;
-use crate::vec3::{area, centre, norm, sub};
-
-/// Share of the area to the power 3/2 below which a volume is flat and has no sign.
-const FLAT: f64 = 1e-9;
 
 /// A face: its part and its place there.
 type Face = (usize, usize);
@@ -56,6 +53,7 @@ pub fn enclose(mesh: &mut Mesh, chamber: &str, parts: &[usize], open_axis: Optio
 /// Whether every face looks out of the chamber.
 fn outward(mesh: &Mesh, faces: &[Face], open_axis: Option<usize>) -> Vec<bool> {
     let neighbours = neighbours(mesh, faces);
+    let axes: Vec<usize> = (0..3).filter(|k| Some(*k) != open_axis).collect();
     let mut outward: Vec<Option<bool>> = vec![None; faces.len()];
     for first in 0..faces.len() {
         if outward[first].is_some() {
@@ -73,11 +71,14 @@ fn outward(mesh: &Mesh, faces: &[Face], open_axis: Option<usize>) -> Vec<bool> {
             }
         }
         let ways: Vec<bool> = sheet.iter().map(|face| outward[*face] == Some(true)).collect();
-        let (volume, surface) =
-            volume(mesh, sheet.iter().map(|face| faces[*face]).zip(ways.iter().copied()), open_axis);
+        let way_of = |(face, outward): (&usize, &bool)| {
+            let (part, i) = faces[*face];
+            (mesh.parts[part].nodes(i), if *outward { 1.0 } else { -1.0 })
+        };
+        let (volume, has_sign) = signed_volume(mesh, sheet.iter().zip(&ways).map(way_of), &axes);
         // A flat pouch has no inside yet: most of its elements look as the file says.
         let majority = 2 * ways.iter().filter(|way| **way).count() >= ways.len();
-        let right = if volume.abs() > FLAT * surface.powf(1.5) { volume > 0.0 } else { majority };
+        let right = if has_sign { volume > 0.0 } else { majority };
         if !right {
             sheet.iter().for_each(|face| outward[*face] = outward[*face].map(|way| !way));
         }
@@ -103,25 +104,6 @@ fn neighbours(mesh: &Mesh, faces: &[Face]) -> Neighbours {
         }
     }
     neighbours
-}
-
-/// V = Σ x·A over the axes that are not open, divided by their number, and the area.
-fn volume(mesh: &Mesh, faces: impl Iterator<Item = (Face, bool)>, open_axis: Option<usize>) -> (f64, f64) {
-    let axes: Vec<usize> = (0..3).filter(|k| Some(*k) != open_axis).collect();
-    let (mut volume, mut surface) = (0.0, 0.0);
-    let mut origin = None;
-    for ((part, i), outward) in faces {
-        let corners: Vec<[f64; 3]> = mesh.parts[part].nodes(i).iter().map(|n| mesh.start_of(*n as usize)).collect();
-        let origin = *origin.get_or_insert(corners[0]);
-        for k in 2..corners.len() {
-            let triangle = [corners[0], corners[k - 1], corners[k]];
-            let (middle, normal) = (sub(centre(&triangle), origin), area(&triangle));
-            let part = axes.iter().map(|k| middle[*k] * normal[*k]).sum::<f64>() / axes.len() as f64;
-            volume += if outward { part } else { -part };
-            surface += norm(normal);
-        }
-    }
-    (volume, surface)
 }
 
 /// Turns an element over.

@@ -21,7 +21,8 @@ use crate::Problem;
 use crate::amplitude::Amplitude;
 use crate::mesh::Part;
 use crate::problem::{MassScaling, Pressure, Section};
-use crate::sheet::reference::{bending_stiffness, cross, diagonals, unit};
+use crate::sheet::reference::bending_stiffness;
+use crate::vec3::{area, cross, direction};
 
 /// Rows that stand for one stretch of a curve that the format does not know.
 const ROWS: usize = 40;
@@ -152,10 +153,9 @@ fn orientation(out: &mut String, problem: &Problem, number: usize, part: &Part) 
     let before: usize = problem.mesh.parts[..number].iter().map(Part::len).sum();
     let axes = |i: usize| {
         let corners: Vec<[f64; 3]> = part.nodes(i).iter().map(|n| problem.mesh.points[*n as usize]).collect();
-        let (d1, d2) = diagonals(&corners);
         let warp = part.warp_of(i).unwrap_or([1.0, 0.0, 0.0]);
-        let across = cross(unit(cross(d1, d2)), warp);
-        row(&[warp, if across == [0.0; 3] { [0.0, 1.0, 0.0] } else { unit(across) }].concat())
+        let across = cross(direction(area(&corners)), warp);
+        row(&[warp, if across == [0.0; 3] { [0.0, 1.0, 0.0] } else { direction(across) }].concat())
     };
     match part.warp.len() {
         0 | 1 => put(out, format_args!("*ORIENTATION, NAME={name}\n{}\n3, 0.", axes(0))),

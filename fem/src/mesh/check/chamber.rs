@@ -203,26 +203,36 @@ fn volume(mesh: &Mesh, chamber: &str, cuts: [bool; 3]) -> Result<f64, FemError> 
     if axes.is_empty() {
         return fault(format!("chamber `{chamber}` is open along x, y and z, so it has no volume; open it along two"));
     }
-    let origin = mesh.start_of(0);
-    let (mut sum, mut surface) = (0.0, 0.0);
-    for part in mesh.parts.iter().filter(|part| side(part, chamber) != 0.0) {
-        for i in 0..part.len() {
-            let mut corners = [origin; 4];
-            part.nodes(i).iter().zip(&mut corners).for_each(|(n, x)| *x = sub(mesh.start_of(*n as usize), origin));
-            for k in 2..part.nodes(i).len() {
-                let triangle = [corners[0], corners[k - 1], corners[k]];
-                let (middle, outward) = (centre(&triangle), scale(area(&triangle), side(part, chamber)));
-                sum += axes.iter().map(|k| middle[*k] * outward[*k]).sum::<f64>();
-                surface += norm(outward);
-            }
-        }
-    }
-    let volume = sum / axes.len() as f64;
-    if volume < -FLAT * surface.powf(1.5) {
+    let walls = mesh.parts.iter().map(|part| (part, side(part, chamber))).filter(|(_, side)| *side != 0.0);
+    let faces = walls.flat_map(|(part, side)| (0..part.len()).map(move |i| (part.nodes(i), side)));
+    let (volume, has_sign) = signed_volume(mesh, faces, &axes);
+    if has_sign && volume < 0.0 {
         let volume = volume * 1e9;
         return fault(format!(
             "chamber `{chamber}` is inside out (volume {volume:.1} mm³): all its faces are turned over; swap front and back"
         ));
     }
     Ok(volume)
+}
+
+/// Σ x·A over axes, divided by their number, of faces whose normals count +1 outwards; and whether that is more than rounding.
+pub(in crate::mesh) fn signed_volume<'a>(
+    mesh: &Mesh,
+    faces: impl Iterator<Item = (&'a [u32], f64)>,
+    axes: &[usize],
+) -> (f64, bool) {
+    let origin = mesh.start_of(0);
+    let (mut sum, mut surface) = (0.0, 0.0);
+    for (nodes, side) in faces {
+        let mut corners = [origin; 4];
+        nodes.iter().zip(&mut corners).for_each(|(n, x)| *x = sub(mesh.start_of(*n as usize), origin));
+        for k in 2..nodes.len() {
+            let triangle = [corners[0], corners[k - 1], corners[k]];
+            let (middle, outward) = (centre(&triangle), scale(area(&triangle), side));
+            sum += axes.iter().map(|k| middle[*k] * outward[*k]).sum::<f64>();
+            surface += norm(outward);
+        }
+    }
+    let volume = sum / axes.len() as f64;
+    (volume, volume.abs() > FLAT * surface.powf(1.5))
 }

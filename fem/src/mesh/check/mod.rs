@@ -16,6 +16,7 @@ mod elements;
 mod quality;
 
 pub use chamber::rim;
+pub(super) use chamber::signed_volume;
 pub use quality::{Quality, Spread};
 
 use crate::FemError;

@@ -41,8 +41,7 @@ impl Builder {
         words.iter().map(one).collect()
     }
 
-    /// An element of a part; a quad with two equal corners is a triangle. Gives its place in [`Part::nodes`] once all are in:
-    /// false if the same element is there already.
+    /// Adds an element to a part; a quad with two equal corners is a triangle. False if the same element is there already.
     pub(super) fn element(&mut self, part: &str, corners: &[u32]) -> Result<bool, String> {
         let mut nodes = corners.to_vec();
         nodes.dedup();

@@ -49,7 +49,7 @@ pub(super) fn read(scan: &mut Scan) -> Result<MeshFile, String> {
             known if LEFT_OUT.contains(&known) => {
                 gmsh.builder.ignore(known, scan.number);
                 let end = known.replace('$', "$End");
-                while !scan.row(&end)?.first().is_some_and(|word| *word == end) {}
+                while scan.row(&end)?.first().is_none_or(|word| *word != end) {}
                 continue;
             }
             "$PartitionedEntities" => return Err("the mesh is cut into partitions; save it without them".into()),

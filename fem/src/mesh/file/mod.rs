@@ -1,5 +1,5 @@
-//! Mesh files: our own ([`own`](self::parse), `.ibrmesh`) and those of other programs, each in a file of its own and in [`FORMATS`].
-//! Which one a file is, its content tells.
+//! Mesh files: our own (`.ibrmesh`, [`parse`] and [`write()`]) and those of other programs, each in a file of its own and in the list
+//! of `known.rs`. Which one a file is, its content tells.
 
 mod abaqus;
 mod build;

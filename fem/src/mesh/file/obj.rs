@@ -13,7 +13,7 @@ pub(super) fn read(scan: &mut Scan) -> Result<MeshFile, String> {
     let (mut object, mut group, mut count) = (String::new(), String::new(), 0);
     loop {
         let words = scan.words('#');
-        let name = [group.as_str(), object.as_str(), "sheet"].into_iter().find(|name| !name.is_empty()).unwrap_or("");
+        let name = [&group, &object].into_iter().find(|name| !name.is_empty()).cloned().unwrap_or("sheet".into());
         match words[..] {
             [] => return builder.finish(),
             ["v", ref xyz @ ..] => {
@@ -27,11 +27,10 @@ pub(super) fn read(scan: &mut Scan) -> Result<MeshFile, String> {
                 if nodes.len() > 4 {
                     return Err(format!("a face of {} corners; export triangles and quadrilaterals", nodes.len()));
                 }
-                let name = name.to_string();
                 builder.element(&name, &nodes)?;
             }
             ["l" | "p", ref corners @ ..] => {
-                let (name, nodes) = (name.to_string(), vertices(&builder, corners, count)?);
+                let nodes = vertices(&builder, corners, count)?;
                 builder.set(&name, nodes);
             }
             [word, ..] if LEFT_OUT.contains(&word) => builder.ignore(word, scan.number),
