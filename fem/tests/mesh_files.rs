@@ -128,6 +128,34 @@ fn instances_stand_where_abaqus_puts_them_and_surfaces_are_chambers() {
 }
 
 #[test]
+fn a_single_chamber_is_the_surface_that_a_pressure_acts_on() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes/cubes.inp");
+    let text = std::fs::read_to_string(path).unwrap();
+    let cut = |text: &str, from: &str, to: &str| {
+        let (before, rest) = text.split_once(from).unwrap();
+        format!("{before}{}", rest.split_once(to).unwrap().1)
+    };
+    let one = cut(&text, "*INSTANCE, NAME=Right", "*END INSTANCE\n");
+    let one = cut(&one, "*NSET, NSET=Both, INSTANCE=Left", "*END ASSEMBLY\n").replace("Right.Inner, P, 0.002\n", "");
+    let folder = tempfile::tempdir().unwrap();
+    let told_of = |text: &str| {
+        std::fs::write(folder.path().join("one.inp"), text).unwrap();
+        source(folder.path(), "file = \"one.inp\"\nunit = \"mm\"", AIR)
+            .load()
+            .map(|loaded| loaded.case.notices.join("\n"))
+    };
+    let notices = told_of(&one).unwrap();
+    assert!(
+        notices.contains("chamber `air` is behind the surface `Inner`") && notices.contains("`Walls`"),
+        "{notices}"
+    );
+    let sided = told(&told_of(&one.replace("Roof, SPOS", "Roof")).err().unwrap());
+    assert!(sided.contains("surface `Inner` does not say SPOS or SNEG for `Roof`"), "{sided}");
+    let partly = told(&told_of(&one.replace("Walls, SNEG", "5, SNEG")).err().unwrap());
+    assert!(partly.contains("has 1 of the 5 elements of part `Walls`"), "{partly}");
+}
+
+#[test]
 fn solids_of_stl_are_parts_and_binary_equals_text() {
     let chambers = "[chamber.lower_cube]\npressure_kPa = 1\n[chamber.upper]\npressure_kPa = 1\n";
     let (problem, notices) = loaded("file = \"cubes.stl\"\nunit = \"mm\"", chambers);

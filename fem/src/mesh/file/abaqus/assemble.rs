@@ -244,7 +244,9 @@ impl Assembly {
             }
         }
         let name = self.prefixed(model, scope, &sides.name);
-        let is_pressed = model.pressed.iter().any(|pressed| pressed.eq_ignore_ascii_case(&name));
+        let in_instance = format!("{}.{}", model.instances[scope].name, sides.name);
+        let is_pressed =
+            model.pressed.iter().any(|it| it.eq_ignore_ascii_case(&name) || it.eq_ignore_ascii_case(&in_instance));
         let mut faces: Vec<(String, bool)> = covered.into_keys().collect();
         faces.sort();
         Ok(Surface { name, faces, is_pressed, fault })
