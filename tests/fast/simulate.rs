@@ -152,6 +152,27 @@ fn a_wrong_case_is_shown_with_its_place_and_what_to_type() {
 }
 
 #[test]
+fn a_case_is_exported_for_another_solver_once_and_runs_from_its_own_mesh_again() {
+    let folder = with_case(&small());
+    let ran = folder.run(&["simulate", "my.toml", "--export", "a.inp"]);
+    assert_eq!((ran.code, ran.stdout.as_str()), (0, "a.inp: 130 nodes, 128 elements\n"), "{}", ran.stderr);
+    assert!(ran.stderr.contains("the file does not say: curves, wrinkling"), "{}", ran.stderr);
+    refuse(&folder, &["simulate", "my.toml", "--export", "a.inp"], 2, &["a.inp exists already", "--force"]);
+    refuse(&folder, &["simulate", "my.toml", "--export", "a.foo"], 2, &["no ending", ".ibrmesh"]);
+    refuse(&folder, &["simulate", "epam", "--seeds", "2", "--export", "b.inp"], 2, &["one run", "--seeds"]);
+    assert_eq!(folder.run(&["simulate", "my.toml", "--export", "a.ibrmesh"]).code, 0);
+    let start = small().find("generator").unwrap();
+    let end = small().find("[fabric").unwrap();
+    for (file, told) in
+        [("file = \"a.ibrmesh\"\n", ""), ("file = \"a.inp\"\nunit = \"m\"\n", "behind the surface `air`")]
+    {
+        folder.write("own.toml", format!("{}{file}{}", &small()[..start], &small()[end..]));
+        let ran = folder.run(&["simulate", "own.toml", "--force"]);
+        assert!(ran.code == 0 && ran.stderr.contains(told), "{}", ran.stderr);
+    }
+}
+
+#[test]
 fn files_that_are_no_case_are_refused() {
     let folder = with_report();
     folder.write("empty.toml", "\n");

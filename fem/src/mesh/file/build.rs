@@ -96,7 +96,7 @@ impl Builder {
         }
         if !self.ignored.is_empty() {
             let list: Vec<String> = self.ignored.iter().map(|(what, line)| format!("{what} (line {line})")).collect();
-            told.push(format!("left out, since the case says it: {}", list.join(", ")));
+            told.push(format!("left out, because the case says it: {}", list.join(", ")));
         }
         Ok(MeshFile { mesh: self.mesh, surfaces: self.surfaces, told, ..MeshFile::default() })
     }

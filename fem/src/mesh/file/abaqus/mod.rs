@@ -171,7 +171,8 @@ impl Reader {
     }
 
     fn ignore(&mut self, keyword: &Keyword) {
-        self.model.ignored.push((format!("*{}", keyword.written), keyword.line));
+        let warp = if keyword.name == "ORIENTATION" { ": the warp is x, turned by angle_deg" } else { "" };
+        self.model.ignored.push((format!("*{}{warp}", keyword.written), keyword.line));
     }
 
     fn instance(&mut self, keyword: &Keyword) -> Result<(), String> {
