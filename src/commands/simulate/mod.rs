@@ -75,7 +75,7 @@ fn one(args: &SimulateArgs, source: &Source, settings: &Settings, context: &mut 
 
 /// Writes the problem for another program.
 fn written(args: &SimulateArgs, plan: &RunPlan, file: &Path) -> Result<Outcome, Failure> {
-    let Plan::Single(source) = plan else {
+    let RunPlan::Single(source) = plan else {
         return Err(Failure::usage(
             "--export writes one run, and this is several",
             "leave out --seeds, --separate, --uncertain and further values of --mesh",
