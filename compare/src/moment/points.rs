@@ -64,6 +64,8 @@ pub struct Moments {
 
 /// Step of the slope by bend \[1/m\].
 const STEP: f64 = 1e-4;
+/// Standard deviations from which a bend is clear of none.
+const CLEAR: f64 = 3.0;
 /// Bend in units of the hinge's from which its step is complete.
 const COMPLETE: f64 = 3.0;
 
@@ -166,10 +168,10 @@ impl Field {
         let active = (0..shape.division.places.len()).filter(|p| shape.division.places[*p].is_active);
         let active: Vec<usize> = active.collect();
         let bend = |place: usize| shape.numbers[layout.bend(hold, place)];
+        let sd = |place: usize| shape.covariance[(layout.bend(hold, place), layout.bend(hold, place))].sqrt();
         if view.dataset.holds[hold].p_act_pa <= 0.0 {
             // A slack actuator on a straight body: the hinge of the folded wall has not set in, and says nothing.
             let complete = COMPLETE * view.scenario.hinge_curvature;
-            let sd = |p: usize| shape.covariance[(layout.bend(hold, p), layout.bend(hold, p))].sqrt();
             if active.iter().any(|p| bend(*p).abs() < complete + COMPLETE * sd(*p)) {
                 return Err("no pressure and hardly a bend");
             }
@@ -178,8 +180,9 @@ impl Field {
             let moments = hold * groups..(hold + 1) * groups;
             moments.clone().all(|m| self.missing[m][*place].is_finite() && self.slope[m][*place].is_finite())
         };
-        let usable: Vec<usize> = active.into_iter().filter(finite).collect();
-        if usable.is_empty() { Err("a bend that the actuator cannot have") } else { Ok(usable) }
+        // The pull of a nearly straight actuator has no bound: a bend that may be none has no moment.
+        let usable: Vec<usize> = active.into_iter().filter(|p| finite(p) && bend(*p).abs() > CLEAR * sd(*p)).collect();
+        if usable.is_empty() { Err("a bend that may be none, or that the actuator cannot have") } else { Ok(usable) }
     }
 
     fn value(&self, sum: &Sum) -> [f64; 2] {
