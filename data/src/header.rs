@@ -125,7 +125,7 @@ fn parse_header(line: &Line, said: Option<u8>) -> Result<Header, DataError> {
         // Where only two things are missing or more, it is another program's table rather than a slip in this one.
         let all = (0..QUANTITIES.len()).filter(|&q| QUANTITIES[q].required && columns[q].is_none()).count();
         return Err(if all > FEW_MISSING {
-            foreign(line, &names, delimiter)
+            foreign(line, &names, delimiter, [missing, all])
         } else {
             absent(line, &names, delimiter, missing)
         });
@@ -141,9 +141,10 @@ fn parse_header(line: &Line, said: Option<u8>) -> Result<Header, DataError> {
 /// Columns that a table of this kind may lack by a slip.
 const FEW_MISSING: usize = 2;
 
-fn foreign(line: &Line, names: &[String], delimiter: u8) -> DataError {
+fn foreign(line: &Line, names: &[String], delimiter: u8, [missing, all]: [usize; 2]) -> DataError {
     let file = line.file;
-    let message = format!("this is no marker table of this program; found {}", listed(names, delimiter));
+    let (first, found) = (QUANTITIES[missing].expected, listed(names, delimiter));
+    let message = format!("column {first} is missing, and {} more: this is no marker table; found {found}", all - 1);
     let help = format!(
         "`ibr data import {file} --out FOLDER` reads the tables of tracking programs and wide tables; the columns wanted here are {}",
         wanted()
