@@ -146,7 +146,7 @@ fn foreign(line: &Line, names: &[String], delimiter: u8, [missing, all]: [usize;
     let (first, found) = (QUANTITIES[missing].expected, listed(names, delimiter));
     let message = format!("column {first} is missing, and {} more: this is no marker table; found {found}", all - 1);
     let help = format!(
-        "`ibr data import {file} --out FOLDER` reads the tables of tracking programs and wide tables; the columns wanted here are {}",
+        "`ibr data import {file} --out FOLDER` reads the tables of tracking programs and wide tables; the columns are {}",
         wanted()
     );
     DataError::Column(line.fault(message, help))
