@@ -6,8 +6,7 @@
 #![allow(clippy::unwrap_used)] // a test that cannot be set up must fail
 
 use fem::mesh::check::check_open;
-use fem::mesh::file::read;
-use fem::session::{Settings, Source, export, simulate};
+use fem::session::{Settings, Source, simulate};
 use fem::{Mesh, Problem};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -340,69 +339,4 @@ fn files_cut_anywhere_or_with_other_words_never_panic() {
         }
     }
     assert!(tried > 600, "{tried}");
-}
-
-#[test]
-fn an_exported_robot_is_read_back_as_it_is() {
-    let folder = tempfile::tempdir().unwrap();
-    for name in ["epam", "fpam"] {
-        let robot = Source::new(name, models::shipped(name).unwrap());
-        let mesh = robot.load().unwrap().case.problem.mesh;
-        let path = folder.path().join(format!("{name}.inp"));
-        let export = export(&robot, &path).unwrap();
-        assert_eq!((export.nodes, export.elements), (mesh.points.len(), mesh.elements()));
-        let back = read(&path).unwrap();
-        let starts: Vec<[f64; 3]> = (0..mesh.points.len()).map(|i| mesh.start_of(i)).collect();
-        assert!(back.mesh.points == starts && back.mesh.sets == mesh.sets, "{name}");
-        let sheets = |mesh: &Mesh| -> Vec<_> {
-            mesh.parts.iter().map(|p| (p.name.clone(), p.quads.clone(), p.triangles.clone())).collect()
-        };
-        assert!(sheets(&back.mesh) == sheets(&mesh), "{name}");
-        for surface in &back.surfaces {
-            let side = |back: bool| move |p: &&fem::Part| if back { p.back.clone() } else { p.front.clone() };
-            let faces = |is_back: bool| surface.faces.iter().filter(|(_, back)| *back == is_back).count();
-            let facing = |is_back: bool| {
-                let other = side(!is_back);
-                let here = side(is_back);
-                mesh.parts.iter().filter(|p| here(p).as_ref() == Some(&surface.name) && other(p) != here(p)).count()
-            };
-            assert_eq!([faces(false), faces(true)], [facing(false), facing(true)], "{}", surface.name);
-            assert!(surface.is_pressed && surface.fault.is_none(), "{surface:?}");
-        }
-        assert_eq!(back.surfaces.len(), 2, "{name}: body and actuator");
-    }
-}
-
-/// Numbers in the line after the one that begins like this.
-fn after(text: &str, begin: &str) -> Vec<f64> {
-    let row = text.lines().skip_while(|line| !line.starts_with(begin)).nth(1).unwrap();
-    row.split(',').filter_map(|cell| cell.trim().parse().ok()).collect()
-}
-
-#[test]
-fn an_exported_part_is_the_plate_of_the_same_stiffness() {
-    let folder = tempfile::tempdir().unwrap();
-    let close = |a: &[f64], b: &[f64]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a / b - 1.0).abs() < 1e-9);
-    // E t and ρ t are kept, and E t³ is the given share of the film's: t is its root.
-    for share in [1.0_f64, 0.25] {
-        let film = FILM.replace("[part.all]\n", &format!("[part.all]\nbending_factor = {share}\n"));
-        let mesh = "kind = \"fem\"\n[mesh]\ngenerator = \"pillow\"\nside_mm = 300\nelements = 4\n";
-        let pressure =
-            "[chamber.air]\nsmooth_s_kPa = [[0, 0], [0.05, 5]]\n[[support]]\nset = \"centre_top\"\naxes = \"xy\"\n";
-        let source = Source::new("pillow", &format!("{mesh}{film}{pressure}"));
-        let path = folder.path().join(format!("{share}.inp"));
-        export(&source, &path).unwrap();
-        let text = std::fs::read_to_string(&path).unwrap();
-        let root = share.sqrt();
-        let (e, g) = (588e6 / root, 588e6 / 2.8 / root);
-        assert!(close(&after(&text, "*ELASTIC, TYPE=LAMINA"), &[e, e, 0.4, g, g, g]), "{text}");
-        assert!(close(&after(&text, "*SHELL SECTION"), &[3e-4 * root]), "{text}");
-        assert!(close(&after(&text, "*DENSITY"), &[1000.0 / root]), "{text}");
-        let pressed = "*AMPLITUDE, NAME=pressure_1, DEFINITION=SMOOTH STEP\n0.0, 0.0\n0.05, 5000.0\n";
-        for words in [pressed, "*BOUNDARY\ncentre_top, 1, 1\n", "*DSLOAD, AMPLITUDE=pressure_1\nair, P, 1.\n"] {
-            assert!(text.contains(words), "{words}");
-        }
-        let wrong = export(&source, &folder.path().join("a.foo")).unwrap_err();
-        assert!(told(&wrong).contains("end it with .inp"), "{wrong}");
-    }
 }
