@@ -147,8 +147,12 @@ pub fn diagnose(
         diagnosis.next_experiment = next::next_experiment(&case, &decision, look::next(&diagnosis))?;
     }
     if options.missing_moment {
-        diagnosis.missing_moment = Some(missing::missing_moment(&case, &decision, &diagnosis)?);
-        diagnosis.judged = judged::judged(&case, &decision)?;
+        // It shows a verdict and decides none: where it cannot be had, the verdict stands without it.
+        match missing::missing_moment(&case, &decision, &diagnosis) {
+            Ok(found) => diagnosis.missing_moment = Some(found),
+            Err(error) => diagnosis.warnings.push(format!("no missing moment is shown: {error}")),
+        }
+        diagnosis.judged = judged::judged(&case, &decision).unwrap_or_default();
     }
     diagnosis.slips = parts.iter().flat_map(|part| part.slips.clone()).collect();
     diagnosis.summary = story::story(&diagnosis);

@@ -229,7 +229,7 @@ impl Fit<'_> {
         let white = self.view.whitener.whiten(residual_m);
         let right = jacobian.iter().enumerate().map(|(k, column)| {
             let along: f64 = column.iter().zip(&white).map(|(j, r)| j * r).sum();
-            -along - self.prior(k).map_or(0.0, |sd| numbers[k] / (sd * sd))
+            -along - numbers[k] / self.prior(k).powi(2)
         });
         let step = self.normal(jacobian).cholesky()?.solve(&DVector::from_vec(right.collect()));
         let mut share = 1.0;
@@ -245,12 +245,13 @@ impl Fit<'_> {
         None
     }
 
-    fn prior(&self, number: usize) -> Option<f64> {
-        number.checked_sub(self.layout.shared()).map(|k| PRIOR[k])
+    /// Standard deviation of what is known of a number beforehand: a bend is of the size 1/R, also where no marker shows it.
+    fn prior(&self, number: usize) -> f64 {
+        number.checked_sub(self.layout.shared()).map_or(1.0 / self.view.scenario.radius_m, |k| PRIOR[k])
     }
 
     fn cost(&self, numbers: &[f64], residual_m: &[f64]) -> f64 {
-        let prior = (0..numbers.len()).filter_map(|k| self.prior(k).map(|sd| (numbers[k] / sd).powi(2)));
+        let prior = (0..numbers.len()).map(|k| (numbers[k] / self.prior(k)).powi(2));
         self.view.whitener.whiten(residual_m).iter().map(|r| r * r).chain(prior).sum()
     }
 
@@ -259,7 +260,7 @@ impl Fit<'_> {
         let j = DMatrix::from_fn(rows, count, |i, k| jacobian[k][i]);
         let mut normal = j.tr_mul(&j);
         for k in 0..count {
-            normal[(k, k)] += self.prior(k).map_or(0.0, |sd| 1.0 / (sd * sd)) + 1e-12 * normal[(k, k)];
+            normal[(k, k)] += self.prior(k).powi(-2) + 1e-12 * normal[(k, k)];
         }
         normal
     }
