@@ -34,7 +34,7 @@ pub struct Shared {
 pub struct Shape {
     /// What has a bend of its own.
     pub division: Division,
-    /// Bends, drifts and shared numbers, in that order: see [`Layout`].
+    /// Bends, drifts and shared numbers, in that order: see `Layout`.
     pub numbers: Vec<f64>,
     /// Their covariance.
     pub covariance: DMatrix<f64>,

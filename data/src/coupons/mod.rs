@@ -14,7 +14,7 @@
 //! instead stand in a comment above the header, `# width_mm: 20`, or come from the caller. `# provenance: digitised` says
 //! how the numbers came to be (measured, digitised, synthetic, published; measured if nothing is said).
 //! Curves start at their first row: strain, stress, displacement and force of that row are taken off.
-//! Exports of tensile machines are read too: rows about the test, names and units in rows, specimens side by side ([`export`]).
+//! Exports of tensile machines are read too: rows about the test, names and units in rows, specimens side by side.
 
 mod cells;
 mod columns;

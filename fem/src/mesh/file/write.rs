@@ -14,7 +14,7 @@ const PER_LINE: usize = 16;
 /// Writes a mesh file. An earlier file of this name stays until the new one is complete.
 ///
 /// # Errors
-/// [`FemError::Io`] if it cannot be written, [`FemError::Mesh`] if the mesh cannot be told in a file (see [`text`]).
+/// [`FemError::Io`] if it cannot be written, [`FemError::Mesh`] if the mesh cannot be told in a file.
 pub fn write(path: &Path, mesh: &Mesh) -> Result<(), FemError> {
     let text = text(mesh)?;
     replace(path, &mut |out| out.write_all(text.as_bytes()))
