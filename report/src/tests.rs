@@ -174,10 +174,10 @@ const EVIL: &str = "<script>alert(1)</script><img src=http://x>";
 
 /// The page of a ladder, whose every text is an attack.
 fn ladder_page() -> String {
-    let rung =
-        BTreeMap::from([("label", EVIL), ("training_mm", "1"), ("heldout_pressure_mm", "2"), ("heldout_run_mm", "")]);
+    let errors = BTreeMap::from([("training_mm", "1"), ("heldout_pressure_mm", "2"), ("heldout_run_mm", "")]);
+    let rung = minijinja::context! { label => EVIL, of => minijinja::value::Serde(errors) };
     let values = minijinja::context! {
-        title => EVIL, lead => EVIL, program => EVIL, date => "today", rungs => vec![minijinja::value::Serde(rung)], told => vec![EVIL],
+        title => EVIL, lead => EVIL, program => EVIL, date => "today", rungs => vec![rung], told => vec![EVIL],
         provenance => vec![vec![EVIL, EVIL]],
     };
     let series = LineSeries { name: label("a"), points: vec![[0.0, 1.0], [1.0, 2.0]], ..LineSeries::default() };
