@@ -129,7 +129,7 @@ pub(super) fn names(truth: &Truth) -> Vec<&str> {
 fn hidden(truth: &Truth, kind: Hiding, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
     let next_experiment = kind == Hiding::One;
-    let options = Options { next_experiment, ..Options::default() };
+    let options = Options { next_experiment, missing_moment: false, weigh: true, ..Options::default() };
     let about = about(truth)?;
     let found = diagnose(&truth.told()?, &[Evidence::of(data.clone(), Some(about))], &options, &mut |_, _| ())?;
     let mut named = named(truth, &found);

@@ -152,7 +152,9 @@ pub fn diagnose(
             Ok(found) => diagnosis.missing_moment = Some(found),
             Err(error) => diagnosis.warnings.push(format!("no missing moment is shown: {error}")),
         }
-        diagnosis.judged = judged::judged(&case, &decision).unwrap_or_default();
+    }
+    if options.weigh {
+        diagnosis.judged = judged::judged(&case, &decision)?;
     }
     diagnosis.slips = parts.iter().flat_map(|part| part.slips.clone()).collect();
     diagnosis.summary = story::story(&diagnosis);
