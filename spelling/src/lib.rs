@@ -1,5 +1,6 @@
 //! What people type: the nearest known name for a misspelling, rows of exactly so many numbers, units.
 
+pub mod quantity;
 pub mod units;
 
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};

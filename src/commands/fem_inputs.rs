@@ -65,17 +65,11 @@ pub fn sizes(text: &str) -> Result<Vec<[f64; 2]>, Failure> {
     text.split(',').map(pair).collect()
 }
 
-/// A time typed with its unit, above zero.
+/// A time of an option, above zero \[s\].
 pub fn seconds(option: &str, text: &str) -> Result<f64, Failure> {
-    let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0)];
-    let typed = text.trim();
-    let found = units.iter().find_map(|(unit, factor)| Some((typed.strip_suffix(unit)?.trim(), factor)));
-    let value = found.and_then(|(number, factor)| Some(number.parse::<f64>().ok()? * factor));
-    let (message, help) = match value {
-        // A year is more than any run or checkpoint needs, and less than a duration can hold.
-        Some(v) if v > 0.0 && v < 3.2e7 => return Ok(v),
-        Some(v) if v.is_finite() => (format!("{option} {typed} is out of range"), "write"),
-        _ => (format!("{option}: `{typed}` is not a time"), "write a number and one of the units s, ms, min,"),
-    };
-    Err(Failure::usage(message, format!("{help} for example {option} 30s")))
+    // A year is more than any run or checkpoint needs, and less than a duration can hold.
+    match quantity(option, text, Quantity::Time)? {
+        s if s > 0.0 && s < 3.2e7 => Ok(s),
+        _ => Err(Failure::usage(format!("{option} {text} is out of range"), format!("write for example {option} 30s"))),
+    }
 }

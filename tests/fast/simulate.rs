@@ -92,9 +92,9 @@ fn options_choose_the_end_and_leave_frames_out() {
     assert_eq!(names, ["case.toml", "history.csv", "picture.png", "summary.json"]);
     let history = String::from_utf8(std::fs::read(folder.path("a/b/history.csv")).unwrap()).unwrap();
     assert_eq!(history.lines().count(), 1 + 3, "0, 2 and 4 ms");
-    let words = ["is not a time", "units s, ms, min"];
     for wrong in ["5", "x", "5h", "20us", "nans"] {
-        refuse(&folder, &["simulate", "my.toml", "--end", wrong, "--out", "c"], 2, &["--end", words[0], words[1]]);
+        let words = ["--end", &format!("`{wrong}`"), "units s, ms, min"];
+        refuse(&folder, &["simulate", "my.toml", "--end", wrong, "--out", "c"], 2, &words);
     }
     refuse(&folder, &["simulate", "my.toml", "--end", "0s", "--out", "c"], 2, &["out of range"]);
     refuse(&folder, &["simulate", "my.toml", "--checkpoint-every", "30", "--out", "c"], 2, &["--checkpoint-every"]);

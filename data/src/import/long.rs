@@ -48,10 +48,7 @@ fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>, Dat
             let message = format!("marker {name} is there twice at {} of one run", cell(time));
             return Err(sheet.fault(number, message, "say which column tells the runs apart: --map run=Trial"));
         }
-        for (which, column) in roles.pressures.iter().enumerate() {
-            let Some((index, pa)) = column else { continue };
-            pivot.read(frame, which, pa * sheet.expect(cell(*index), number, "pressure")?);
-        }
+        roles.read_pressures(sheet, number, &cells, pivot, frame)?;
     }
     Ok(runs.finish(&roles.told))
 }

@@ -28,6 +28,7 @@ mod sleap;
 mod table;
 mod tracker;
 mod trackmate;
+pub mod typed;
 mod wide;
 
 use std::path::{Path, PathBuf};

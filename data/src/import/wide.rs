@@ -51,10 +51,7 @@ pub(super) fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Reco
             let marker = pivot.marker(name);
             pivot.put(frame, marker, [value(parts[0])?, value(parts[1])?, value(parts[2])?], true);
         }
-        for (which, column) in roles.pressures.iter().enumerate() {
-            let Some((index, pa)) = column else { continue };
-            pivot.read(frame, which, pa * sheet.expect(cell(*index), number, "pressure")?);
-        }
+        roles.read_pressures(sheet, number, &cells, pivot, frame)?;
     }
     Ok(runs.finish(&roles.told))
 }

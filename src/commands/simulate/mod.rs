@@ -1,5 +1,6 @@
 //! `ibr simulate`
 
+mod export;
 mod plan;
 mod several;
 mod told;
@@ -12,7 +13,7 @@ use crate::cli::SimulateArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, maker};
 use fem::FemError;
-use fem::session::{Export, FeRun, Further, SUMMARY, Settings, Source, export, simulate};
+use fem::session::{FeRun, Further, SUMMARY, Settings, Source, simulate};
 use ibr::fe_source;
 use ibr::pages::run_plots;
 use plan::RunPlan;
@@ -23,7 +24,7 @@ use std::time::Duration;
 pub fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let plan = plan::plan(args, fe_source(&args.case)?)?;
     if let Some(file) = &args.export {
-        return written(args, &plan, file);
+        return export::written(args, &plan, file);
     }
     let folder = args.out.clone().unwrap_or_else(|| plan.folder(&args.case));
     let settings = Settings {
@@ -71,24 +72,6 @@ fn one(args: &SimulateArgs, source: &Source, settings: &Settings, context: &mut 
     }
     outcome.notes = notes(&run, folder);
     Ok(outcome)
-}
-
-/// Writes the problem for another program.
-fn written(args: &SimulateArgs, plan: &RunPlan, file: &Path) -> Result<Outcome, Failure> {
-    let RunPlan::Single(source) = plan else {
-        return Err(Failure::usage(
-            "--export writes one run, and this is several",
-            "leave out --seeds, --separate, --uncertain and further values of --mesh",
-        ));
-    };
-    if file.exists() && !args.force {
-        let help = "give --force to replace it, or another name";
-        return Err(Failure::usage(format!("{} exists already", file.display()), help));
-    }
-    let Export { nodes, elements, notices, left_out } = export(source, file)?;
-    let text = format!("{}: {nodes} nodes, {elements} elements\n", file.display());
-    let left_out = left_out.into_iter().map(|what| format!("the file does not say: {what}"));
-    Ok(Outcome { text, notes: notices.into_iter().chain(left_out).collect(), ..Outcome::default() })
 }
 
 /// What to know about a run, and what to open.

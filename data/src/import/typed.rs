@@ -1,0 +1,155 @@
+//! What the caller knows of a tracking file, as people type it. Errors say what is wrong and what to type.
+
+use super::columns::QUANTITIES;
+use super::options::{FileAxis, FilePlace, Offset, Scale};
+use spelling::quantity::{Quantity, parse};
+use spelling::units::{Dimension, units_of};
+use std::str::FromStr;
+
+/// `X,Y`, `X,Y,Z` or the name of a marker.
+impl FromStr for FilePlace {
+    type Err = std::convert::Infallible;
+
+    fn from_str(text: &str) -> Result<FilePlace, Self::Err> {
+        let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+        Ok(match numbers.filter(|numbers| matches!(numbers.len(), 2 | 3)) {
+            Some(numbers) => FilePlace::At(numbers),
+            None => FilePlace::Marker(text.trim().to_string()),
+        })
+    }
+}
+
+/// `x`, `-y`, `+z`.
+impl FromStr for FileAxis {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<FileAxis, String> {
+        let text = text.trim();
+        let turned = text.starts_with('-');
+        let letter = text.trim_start_matches(['-', '+']);
+        let index = ["x", "y", "z"].iter().position(|known| known.eq_ignore_ascii_case(letter));
+        let index = index.ok_or_else(|| format!("`{text}` is no axis: write x, y or z, or -y where it is turned"))?;
+        Ok(FileAxis { index, turned })
+    }
+}
+
+/// The file's axis along the robot and the one towards the actuator: `x,-y`.
+///
+/// # Errors
+/// Not two axes, or one twice.
+pub fn axes(text: &str) -> Result<[FileAxis; 2], String> {
+    let example = "write the file's axis along the robot and the one towards the actuator, for example x,-y";
+    let wrong = || format!("`{text}` is not understood: {example}");
+    let (along, towards) = text.split_once(',').ok_or_else(wrong)?;
+    let both = [along.parse::<FileAxis>()?, towards.parse()?];
+    if both[0].index == both[1].index { Err(wrong()) } else { Ok(both) }
+}
+
+/// `3.1px/mm`, `0.32mm/px`, or the unit of the file's numbers.
+impl FromStr for Scale {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Scale, String> {
+        let text = text.trim();
+        let metres = |word: &str| {
+            let at = word.find(char::is_alphabetic).unwrap_or(word.len());
+            let (number, unit) = (word[..at].trim(), word[at..].trim());
+            let number = if number.is_empty() { Some(1.0) } else { above_zero(number) };
+            let unit = units_of(Dimension::LENGTH).find(|known| known.symbol == unit);
+            number.zip(unit).map(|(number, unit)| number * unit.factor())
+        };
+        let pixels = |word: &str| above_zero(word.trim().strip_suffix("px")?);
+        let found = match text.split_once('/') {
+            None => text.starts_with(char::is_alphabetic).then(|| metres(text).map(Scale::Unit)).flatten(),
+            Some((left, "px")) => metres(left).map(|metres| Scale::PixelsPerMetre(1.0 / metres)),
+            Some((left, right)) => pixels(left).zip(metres(right)).map(|(px, m)| Scale::PixelsPerMetre(px / m)),
+        };
+        let example = "write 3.1px/mm, 0.32mm/px, or the unit of the file's numbers: mm, cm, m";
+        found.ok_or_else(|| format!("`{text}` is not understood: {example}"))
+    }
+}
+
+/// Two markers or places and how far they are apart: `a:b=40mm`, `10,20:300,25=90mm`.
+///
+/// # Errors
+/// Not two places and a length above zero.
+pub fn known_distance(text: &str) -> Result<Scale, String> {
+    let example = "write two markers or places and their distance: a:b=40mm or 10,20:300,25=90mm";
+    let wrong = || format!("`{text}` is not understood: {example}");
+    let (places, length) = text.rsplit_once('=').ok_or_else(wrong)?;
+    let (a, b) = places.split_once(':').ok_or_else(wrong)?;
+    let length_m = parse(length, Quantity::Length)?;
+    let place = |text: &str| text.parse().unwrap_or_else(|never| match never {});
+    if length_m > 0.0 { Ok(Scale::Known([place(a), place(b)], length_m)) } else { Err(wrong()) }
+}
+
+/// `find` or a time.
+impl FromStr for Offset {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Offset, String> {
+        if text.trim() == "find" { Ok(Offset::Find) } else { parse(text, Quantity::Time).map(Offset::Given) }
+    }
+}
+
+/// The column that holds a quantity: `t=Time`.
+///
+/// # Errors
+/// No equals sign, or a quantity that no table holds.
+pub fn column(text: &str) -> Result<(String, String), String> {
+    let known = text.split_once('=').filter(|(what, _)| QUANTITIES.contains(&what.trim()));
+    let example = || format!("write WHAT=COLUMN, where WHAT is one of {}", QUANTITIES.join(", "));
+    known
+        .map(|(what, column)| (what.trim().to_string(), column.trim().to_string()))
+        .ok_or_else(|| format!("`{text}` is not understood: {}", example()))
+}
+
+/// A marker and its station \[m\]: `a=90mm`.
+///
+/// # Errors
+/// No equals sign, or no length from zero.
+pub fn station(text: &str) -> Result<(String, f64), String> {
+    let example = "write MARKER=LENGTH for every marker, for example a=90mm,b=210mm";
+    let wrong = || format!("`{text}` is not understood: {example}");
+    let (name, length) = text.rsplit_once('=').ok_or_else(wrong)?;
+    let length_m = parse(length, Quantity::Length)?;
+    if length_m >= 0.0 { Ok((name.trim().to_string(), length_m)) } else { Err(wrong()) }
+}
+
+fn above_zero(number: &str) -> Option<f64> {
+    number.trim().parse().ok().filter(|v: &f64| *v > 0.0 && v.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_and_places_are_read_and_others_refused() {
+        assert_eq!("4 px/mm".parse(), Ok(Scale::PixelsPerMetre(4.0 / 1e-3)));
+        assert_eq!("0.25mm/px".parse(), Ok(Scale::PixelsPerMetre(1.0 / 0.25e-3)));
+        assert_eq!("4px/2cm".parse(), Ok(Scale::PixelsPerMetre(4.0 / 0.02)));
+        assert_eq!("cm".parse(), Ok(Scale::Unit(0.01)));
+        for wrong in ["", "4", "4mm", "px/mm", "0px/mm", "-1px/mm", "nanpx/mm", "4px/kPa", "mm/4px", "4px"] {
+            assert!(wrong.parse::<Scale>().is_err_and(|message| message.contains("3.1px/mm")), "{wrong}");
+        }
+        let known = known_distance("10,20:tip=90mm");
+        assert_eq!(known, Ok(Scale::Known([FilePlace::At(vec![10.0, 20.0]), FilePlace::Marker("tip".into())], 0.09)));
+        assert!(["a:b", "a=4mm", "a:b=0mm", "a:b=4"].iter().all(|wrong| known_distance(wrong).is_err()));
+    }
+
+    #[test]
+    fn axes_offsets_columns_and_stations_are_read_and_others_refused() {
+        let axis = |index, turned| FileAxis { index, turned };
+        assert_eq!(axes("x,-y"), Ok([axis(0, false), axis(1, true)]));
+        assert_eq!(axes("+Z, x"), Ok([axis(2, false), axis(0, false)]));
+        assert!(["x", "x,x", "x,-x", "x,w", ""].iter().all(|wrong| axes(wrong).is_err()));
+        assert_eq!("-20ms".parse(), Ok(Offset::Given(-0.02)));
+        assert_eq!("find".parse(), Ok(Offset::Find));
+        assert!("soon".parse::<Offset>().is_err());
+        assert_eq!(column("t=Time (s)"), Ok(("t".into(), "Time (s)".into())));
+        assert!(["t", "q=Time"].iter().all(|wrong| column(wrong).is_err()));
+        assert_eq!(station("a=90mm"), Ok(("a".into(), 0.09)));
+        assert!(["a", "a=-1mm", "a=9"].iter().all(|wrong| station(wrong).is_err()));
+    }
+}

@@ -1,0 +1,26 @@
+//! `ibr simulate --export`
+
+use super::plan::RunPlan;
+use crate::cli::SimulateArgs;
+use crate::commands::Outcome;
+use crate::failure::Failure;
+use fem::session::{Export, export};
+use std::path::Path;
+
+/// Writes the problem for another program.
+pub fn written(args: &SimulateArgs, plan: &RunPlan, file: &Path) -> Result<Outcome, Failure> {
+    let RunPlan::Single(source) = plan else {
+        return Err(Failure::usage(
+            "--export writes one run, and this is several",
+            "leave out --seeds, --separate, --uncertain and further values of --mesh",
+        ));
+    };
+    if file.exists() && !args.force {
+        let help = "give --force to replace it, or another name";
+        return Err(Failure::usage(format!("{} exists already", file.display()), help));
+    }
+    let Export { nodes, elements, notices, left_out } = export(source, file)?;
+    let text = format!("{}: {nodes} nodes, {elements} elements\n", file.display());
+    let left_out = left_out.into_iter().map(|what| format!("the file does not say: {what}"));
+    Ok(Outcome { text, notes: notices.into_iter().chain(left_out).collect(), ..Outcome::default() })
+}
