@@ -11,7 +11,7 @@ use serde_path_to_error::deserialize;
 
 /// The shape of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shape {
+pub struct RecordShape {
     /// Its name, `ibr.simulate`.
     pub schema: &'static str,
     /// Goes up whenever a record of before can no longer be read as it was meant.
@@ -57,7 +57,7 @@ struct Stamp {
     version: u64,
 }
 
-impl Shape {
+impl RecordShape {
     /// A record of this shape.
     pub fn stamped<T: Serialize>(self, body: &T) -> serde_json::Value {
         // Keys are strings and numbers that are not finite become null: nothing here can fail.
@@ -67,7 +67,7 @@ impl Shape {
     /// A record of this shape whose body is one list, an entry a line.
     pub fn listed<T: Serialize>(self, key: &str, list: &[T]) -> String {
         let lines: Vec<String> = list.iter().filter_map(|entry| serde_json::to_string(entry).ok()).collect();
-        let Shape { schema, version } = self;
+        let RecordShape { schema, version } = self;
         format!("{{\"schema\":\"{schema}\",\"version\":{version},\"{key}\":[\n{}\n]}}\n", lines.join(",\n"))
     }
 
@@ -77,7 +77,7 @@ impl Shape {
     /// [`FemError::Record`]: another shape or version, a file cut short, a key missing or of another type.
     pub fn read<T: DeserializeOwned>(self, file: &str, text: &str, help: &str) -> Result<T, FemError> {
         let Stamp { schema, version } = parse(file, text, help)?;
-        let Shape { schema: wanted, version: known } = self;
+        let RecordShape { schema: wanted, version: known } = self;
         if (schema.as_str(), version) != (wanted, known) {
             let message =
                 format!("holds {schema}, version {version}, where this program reads {wanted}, version {known}");
@@ -124,7 +124,7 @@ mod tests {
         tip_mm: f64,
     }
 
-    const SHAPE: Shape = Shape { schema: "ibr.test", version: 2 };
+    const SHAPE: RecordShape = RecordShape { schema: "ibr.test", version: 2 };
 
     fn refused(text: &str) -> String {
         let error = SHAPE.read::<Body>("R/a.json", text, "delete R").unwrap_err();

@@ -26,7 +26,7 @@ pub struct Pen {
 /// A line through points \[mm\].
 #[derive(Debug, Clone, PartialEq)]
 pub struct PenLine {
-    /// Place of its pen in [`Sheet::layers`].
+    /// Place of its pen in [`PatternSheet::layers`].
     pub layer: usize,
     /// Corners, y upwards.
     pub points: Vec<[f64; 2]>,
@@ -47,7 +47,7 @@ pub struct SheetText {
 
 /// A drawing \[mm\], y upwards, its lower left corner at the origin.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Sheet {
+pub struct PatternSheet {
     /// Title of the file.
     pub title: String,
     /// Width and height \[mm\].

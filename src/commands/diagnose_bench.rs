@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::shown::bench_diagnosis::text;
 use compare::diagnosis::{BenchOptions, diagnose_bench};
 use compare::progress::shares::READ;
-use fem::record::Shape;
+use fem::record::RecordShape;
 use serde_json::json;
 
 /// The diagnosis, if what was typed last is a table of bench tests.
@@ -25,7 +25,7 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Option<Outcome>
     (context.progress)("fitting every effect", Some(READ));
     let options = BenchOptions { sigma, refit: args.refit, ..BenchOptions::default() };
     let found = diagnose_bench(&bench, scenario.as_ref(), &options)?;
-    let mut answer = Shape { schema: "ibr.diagnose.bench", version: 1 }.stamped(&found);
+    let mut answer = RecordShape { schema: "ibr.diagnose.bench", version: 1 }.stamped(&found);
     answer["provenance"] = json!(bench.provenance.word());
     Ok(Some(Outcome::new(text(&found, &bench), answer)))
 }

@@ -10,7 +10,7 @@ use compare::diagnosis::Options;
 use compare::ladder::{MOST_EFFECTS, ladder};
 use compare::progress::part;
 use compare::progress::shares::{CLIMBED, READ};
-use fem::record::Shape;
+use fem::record::RecordShape;
 use ibr::pages::{Climbed, ladder_page};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -29,7 +29,7 @@ pub fn run(args: &LadderArgs, context: &mut Context) -> Result<Outcome, Failure>
     };
     let climb = ladder(&file, &evidence, &options, MOST_EFFECTS, &mut part(context.progress, [READ, CLIMBED]))?;
     let LadderArgs { scenario, data, also, .. } = args;
-    let mut answer = Shape { schema: "ibr.ladder", version: 1 }.stamped(&climb);
+    let mut answer = RecordShape { schema: "ibr.ladder", version: 1 }.stamped(&climb);
     answer["scenario_file"] = json!(scenario);
     answer["data"] = json!(data);
     answer["also"] = json!(also);

@@ -9,7 +9,7 @@ use ibr::pages::pattern_sheet;
 use models::Scenario;
 use models::cutting::{CuttingPlan, Making};
 use models::scenario::quantity::Quantity;
-use report::sheet::{Paper, Sheet, dxf, pages, svg};
+use report::sheet::{Paper, PatternSheet, dxf, pages, svg};
 use std::path::PathBuf;
 use std::sync::PoisonError;
 
@@ -48,7 +48,7 @@ fn weld(args: &PatternArgs, scenario: &Scenario) -> Result<(f64, String), Failur
 }
 
 /// Files to write: the drawing, and its pages beside it.
-fn files(args: &PatternArgs, sheet: &Sheet) -> Result<Vec<(PathBuf, String)>, Failure> {
+fn files(args: &PatternArgs, sheet: &PatternSheet) -> Result<Vec<(PathBuf, String)>, Failure> {
     let is = |ending: &str| args.out.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
     match &args.page {
         _ if !is("svg") && !is("dxf") => {

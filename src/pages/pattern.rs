@@ -1,7 +1,7 @@
 //! A cutting plan laid out as one drawing true to size.
 
 use models::cutting::{CuttingPlan, MarkKind, PatternMark, PatternPiece};
-use report::sheet::{Pen, PenLine, Sheet, SheetText};
+use report::sheet::{PatternSheet, Pen, PenLine, SheetText};
 
 const MM: f64 = 1e3;
 /// White around everything \[mm\].
@@ -51,11 +51,11 @@ fn pen(kind: MarkKind) -> Pen {
 }
 
 /// The plan as a drawing: pieces below each other, the legend and a known length under them.
-pub fn pattern_sheet(title: &str, plan: &CuttingPlan, told: &[String]) -> Sheet {
+pub fn pattern_sheet(title: &str, plan: &CuttingPlan, told: &[String]) -> PatternSheet {
     let layer = |name, meaning| Pen { name, meaning, colour: "#000000", aci: 7, dashes: &[], tinted: false };
     let mut layers = vec![layer("CUT", "cut"), layer("WARP", "direction of the warp")];
     layers.extend(KINDS.map(pen));
-    let mut sheet = Sheet { title: title.into(), layers, ..Sheet::default() };
+    let mut sheet = PatternSheet { title: title.into(), layers, ..PatternSheet::default() };
     let used: Vec<usize> = (0..FIRST + KINDS.len()).filter(|i| is_used(plan, *i)).collect();
     let mut y = BORDER;
     foot(&mut sheet, &used, told, &mut y);
@@ -76,7 +76,7 @@ fn is_used(plan: &CuttingPlan, layer: usize) -> bool {
 }
 
 /// Notes, the scale bar and the legend, from the bottom up.
-fn foot(sheet: &mut Sheet, used: &[usize], told: &[String], y: &mut f64) {
+fn foot(sheet: &mut PatternSheet, used: &[usize], told: &[String], y: &mut f64) {
     for text in told.iter().rev() {
         sheet.labels.push(SheetText { at: [BORDER, *y], height: TEXT[1], text: text.clone() });
         *y += ROW;
@@ -104,7 +104,7 @@ fn foot(sheet: &mut Sheet, used: &[usize], told: &[String], y: &mut f64) {
 }
 
 /// A piece with its name above, the base of the robot on the left.
-fn placed(sheet: &mut Sheet, piece: &PatternPiece, y: &mut f64) {
+fn placed(sheet: &mut PatternSheet, piece: &PatternPiece, y: &mut f64) {
     let [x0, y0] = [BORDER - MM * piece.x_m[0], *y - MM * piece.y_m[0]];
     let moved = |x_m: [f64; 2], y_m: [f64; 2]| (x_m.map(|v| x0 + MM * v), y_m.map(|v| y0 + MM * v));
     let mut marks: Vec<&PatternMark> = piece.marks.iter().collect();
@@ -144,7 +144,7 @@ fn lines(layer: usize, x: [f64; 2], y: [f64; 2]) -> Vec<PenLine> {
     }
 }
 
-fn arrow(sheet: &mut Sheet, angle: f64, middle: [f64; 2], length: f64) {
+fn arrow(sheet: &mut PatternSheet, angle: f64, middle: [f64; 2], length: f64) {
     let at = |along: f64, aside: f64| {
         let (sin, cos) = angle.sin_cos();
         [middle[0] + along * cos - aside * sin, middle[1] + along * sin + aside * cos]

@@ -5,13 +5,13 @@ use compare::diagnosis::words::{listed, three, with_unit};
 use compare::diagnosis::{Combination, Diagnosis, Experiment, Group, Ranked, Verdict};
 use compare::study::engines::TERMS;
 use compare::witness::{HEIGHTS, Witness};
-use fem::record::Shape;
+use fem::record::RecordShape;
 use serde_json::{Value, json};
 
 /// `ibr.diagnose`
 pub fn to_json(diagnosis: &Diagnosis, witness: Option<&Witness>, scenario: &str) -> Value {
     let data: Vec<&str> = diagnosis.evidence.iter().map(|used| used.sha256.as_str()).collect();
-    let mut answer = Shape { schema: "ibr.diagnose", version: 1 }.stamped(diagnosis);
+    let mut answer = RecordShape { schema: "ibr.diagnose", version: 1 }.stamped(diagnosis);
     answer["finite_elements"] = json!(witness);
     answer["scenario_file"] = json!(scenario);
     answer["data_sha256"] = json!(data);

@@ -220,7 +220,7 @@ fn a_run_that_cannot_be_trusted_stops_with_4_and_keeps_what_it_wrote() {
 #[test]
 fn the_force_of_a_blocked_pouch_is_in_history_and_summary() {
     use verification::exact::{elastic_pouch, pouch::Pouch};
-    let (pouch, film) = (Pouch { length_m: 0.06, width_m: 0.01 }, elastic_pouch::Film::Linear(2e9 * 1e-4));
+    let (pouch, film) = (Pouch { length_m: 0.06, width_m: 0.01 }, elastic_pouch::PouchFilm::Linear(2e9 * 1e-4));
     let (mut low, mut high) = (0.1, 1.5);
     while high - low > 1e-12 {
         let middle = 0.5 * (low + high);

@@ -5,7 +5,7 @@
 use models::{Loads, Model, Prediction, Scenario, shipped};
 use std::f64::consts::PI;
 use verification::exact::fpam::{Fpam, bending_alpha, total_angle};
-use verification::exact::hinge::{Arm, BentBody, Lever, Unit, axis_point_m, equilibrium_theta, fold_angle};
+use verification::exact::hinge::{Arm, BentBody, Lever, SeriesUnit, axis_point_m, equilibrium_theta, fold_angle};
 use verification::exact::pouch::{Pouch, robin_end_factor};
 
 const PRESSURES: [f64; 5] = [2e3, 5e3, 10e3, 20e3, 30e3];
@@ -32,7 +32,7 @@ fn agree(scenario: &Scenario, p_act: f64, body: BentBody, what: &str) {
     }
 }
 
-fn pouch(scenario: &Scenario, unit: Unit, what: &str) {
+fn pouch(scenario: &Scenario, unit: SeriesUnit, what: &str) {
     for p_act in PRESSURES {
         let theta = equilibrium_theta(&unit, p_act, BODY_PA, Lever::VirtualWork);
         let total_angle = 6.0 * fold_angle(&unit, theta);
@@ -40,8 +40,8 @@ fn pouch(scenario: &Scenario, unit: Unit, what: &str) {
     }
 }
 
-fn unit(arm: Arm, end_factor: f64) -> Unit {
-    Unit { pouch: Pouch { length_m: 0.06, width_m: 0.06 }, body_radius_m: 0.04, end_factor, arm }
+fn unit(arm: Arm, end_factor: f64) -> SeriesUnit {
+    SeriesUnit { pouch: Pouch { length_m: 0.06, width_m: 0.06 }, body_radius_m: 0.04, end_factor, arm }
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn sealed_edges_that_cost_volume_and_no_stroke_are_a_narrower_pouch() {
     let eta = robin_end_factor(1.0);
     let sealed = robot("epam").bare().with_effect("end_constraint", &[0.142 * PI, 0.0]);
     let narrow = Pouch { length_m: 0.06, width_m: 0.06 * eta };
-    pouch(&sealed, Unit { pouch: narrow, ..unit(Arm::Embedded, 1.0) }, "epam, volume only");
+    pouch(&sealed, SeriesUnit { pouch: narrow, ..unit(Arm::Embedded, 1.0) }, "epam, volume only");
 }
 
 #[test]

@@ -7,11 +7,11 @@ use models::fabrics::{BiasExtension, Orthotropic, Pull};
 use models::{Loads, Model, Scenario};
 use std::sync::Arc;
 use verification::exact::beam::{BeamTheory, Cantilever, tip_deflection_m};
-use verification::exact::coupon::{Sheet, modulus_pa};
+use verification::exact::coupon::{OrthotropicSheet, modulus_pa};
 
 #[test]
 fn a_linear_sheet_has_the_closed_modulus_at_every_angle() {
-    let sheet = Sheet { warp_pa: 96.5e6, fill_pa: 120e6, poisson: 0.3, shear_pa: 1.032e6 };
+    let sheet = OrthotropicSheet { warp_pa: 96.5e6, fill_pa: 120e6, poisson: 0.3, shear_pa: 1.032e6 };
     let law = Arc::new(Orthotropic::new(96.5e6, 120e6, 0.3, 1.032e6, 5e-5));
     for degrees in [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0_f64] {
         let angle = degrees.to_radians();

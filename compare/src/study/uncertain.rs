@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::stats::quantile;
 use fem::FemError;
-use fem::record::Shape;
+use fem::record::RecordShape;
 
 /// Ends of the interval that is told, and its middle.
 pub const QUANTILES: [f64; 3] = [0.1, 0.5, 0.9];
@@ -105,7 +105,7 @@ pub struct Weight {
 }
 
 /// Records of hypercubes.
-const RECORD: Shape = Shape { schema: "ibr.uncertain", version: 1 };
+const RECORD: RecordShape = RecordShape { schema: "ibr.uncertain", version: 1 };
 
 /// Hypercubes of the paper's robots, as `ibr simulate NAME --uncertain` wrote them.
 const STORED: &[&str] = &[

@@ -16,19 +16,19 @@ use toml::{Spanned, Value};
 
 /// A generator of meshes as cases name it.
 #[derive(Debug, Clone, Copy)]
-pub struct Generator {
+pub struct MeshGenerator {
     /// Name in `[mesh] generator`.
     pub name: &'static str,
     /// One plain sentence for a user.
     pub sentence: &'static str,
     /// Its keys.
-    pub keys: &'static [Key],
+    pub keys: &'static [GeneratorKey],
     make: fn(&[f64]) -> Result<Mesh, FemError>,
 }
 
 /// A value of a generator.
 #[derive(Debug, Clone, Copy)]
-pub struct Key {
+pub struct GeneratorKey {
     /// Key, with the unit as suffix.
     pub key: &'static str,
     /// Value if it is left out, as typed; `None`: it must be given.
@@ -53,21 +53,25 @@ const ANGLE: Range = Range { si: std::f64::consts::PI / 180.0, ..plain(-90.0, 90
 const OPENING: Range = Range { low: 0.0, high: 100.0, too_small: "0 starts flat", ..LENGTH };
 const CAPS: [Cap; 3] = [Cap::Triangles, Cap::Quads, Cap::Open];
 
-const fn length(key: &'static str, meaning: &'static str) -> Key {
-    Key { key, default: None, meaning, kind: Kind::Length }
+const fn length(key: &'static str, meaning: &'static str) -> GeneratorKey {
+    GeneratorKey { key, default: None, meaning, kind: Kind::Length }
 }
 
-const fn count(key: &'static str, meaning: &'static str) -> Key {
-    Key { key, default: None, meaning, kind: Kind::Count }
+const fn count(key: &'static str, meaning: &'static str) -> GeneratorKey {
+    GeneratorKey { key, default: None, meaning, kind: Kind::Count }
 }
 
-const fn cap(key: &'static str, meaning: &'static str) -> Key {
-    Key { key, default: Some(0.0), meaning, kind: Kind::Word(&["triangles", "quads", "open"]) }
+const fn cap(key: &'static str, meaning: &'static str) -> GeneratorKey {
+    GeneratorKey { key, default: Some(0.0), meaning, kind: Kind::Word(&["triangles", "quads", "open"]) }
 }
 
-const GAP: Key =
-    Key { key: "gap_mm", default: Some(0.0), meaning: "distance of the two layers at the start", kind: Kind::Gap };
-const WARP: Key = Key {
+const GAP: GeneratorKey = GeneratorKey {
+    key: "gap_mm",
+    default: Some(0.0),
+    meaning: "distance of the two layers at the start",
+    kind: Kind::Gap,
+};
+const WARP: GeneratorKey = GeneratorKey {
     key: "warp_deg",
     default: Some(0.0),
     meaning: "angle of the warp to the axis, counter-clockwise seen from outside",
@@ -75,14 +79,14 @@ const WARP: Key = Key {
 };
 
 /// All generators.
-pub const GENERATORS: &[Generator] = &[
-    Generator {
+pub const GENERATORS: &[MeshGenerator] = &[
+    MeshGenerator {
         name: "pillow",
         sentence: "Two squares welded along their four edges.",
         keys: &[length("side_mm", "side of the flat square"), count("elements", "elements along a side, even"), GAP],
         make: |v| generate::pillow(v[0], v[1] as usize, v[2]),
     },
-    Generator {
+    MeshGenerator {
         name: "disc_balloon",
         sentence: "Two discs welded along their rim.",
         keys: &[
@@ -91,7 +95,7 @@ pub const GENERATORS: &[Generator] = &[
         ],
         make: |v| generate::disc_balloon(0.5 * v[0], v[1] as usize),
     },
-    Generator {
+    MeshGenerator {
         name: "long_pouch",
         sentence: "A strip of an endlessly wide pouch: two strips welded at their ends, open at the sides.",
         keys: &[
@@ -103,7 +107,7 @@ pub const GENERATORS: &[Generator] = &[
         ],
         make: |v| generate::long_pouch(v[0], v[1], v[2] as usize, v[3] as usize, v[4]),
     },
-    Generator {
+    MeshGenerator {
         name: "flat_tube",
         sentence: "A fabric muscle: a flat tube with welded ends and its warp at an angle.",
         keys: &[
@@ -116,7 +120,7 @@ pub const GENERATORS: &[Generator] = &[
         ],
         make: |v| generate::flat_tube(v[0], v[1], v[2] as usize, v[3] as usize, v[4], v[5]),
     },
-    Generator {
+    MeshGenerator {
         name: "tube",
         sentence: "An inflated cylinder along x with caps.",
         keys: &[
@@ -139,13 +143,13 @@ pub const GENERATORS: &[Generator] = &[
             })
         },
     },
-    Generator {
+    MeshGenerator {
         name: "sphere",
         sentence: "A sphere of quads.",
         keys: &[length("diameter_mm", "diameter"), count("elements", "elements along a sixth of a great circle")],
         make: |v| generate::sphere(0.5 * v[0], v[1] as usize),
     },
-    Generator {
+    MeshGenerator {
         name: "plate",
         sentence: "A flat rectangle.",
         keys: &[
@@ -156,14 +160,14 @@ pub const GENERATORS: &[Generator] = &[
         ],
         make: |v| generate::plate(v[0], v[1], v[2] as usize, v[3] as usize, None),
     },
-    Generator {
+    MeshGenerator {
         name: "crossed_sheets",
         sentence: "Two strips, one across the other.",
         keys: &[
             length("length_mm", "length of a strip"),
             length("width_mm", "width of a strip"),
             count("elements", "elements across a strip"),
-            Key { default: None, ..GAP },
+            GeneratorKey { default: None, ..GAP },
         ],
         make: |v| generate::crossed_sheets(v[0], v[1], v[2] as usize, v[3]),
     },
@@ -343,7 +347,7 @@ fn generated(table: &Spanned<Free>, name: &Text) -> Checked<Mesh> {
     })
 }
 
-fn value(table: &Spanned<Free>, key: &Key) -> Checked<f64> {
+fn value(table: &Spanned<Free>, key: &GeneratorKey) -> Checked<f64> {
     let found = table.get_ref().iter().find(|(name, _)| name.get_ref() == key.key).map(|(_, value)| value);
     let (v, span) = match (found, key.default) {
         (Some(value), _) => (typed(key, value)?, value.span()),
@@ -364,7 +368,7 @@ fn value(table: &Spanned<Free>, key: &Key) -> Checked<f64> {
 }
 
 /// A value as typed: a number, or the position of a word.
-fn typed(key: &Key, value: &Spanned<Value>) -> Checked<f64> {
+fn typed(key: &GeneratorKey, value: &Spanned<Value>) -> Checked<f64> {
     let Kind::Word(words) = key.kind else { return plain_number(key.key, value) };
     let word = value.get_ref().as_str().unwrap_or_default();
     match words.iter().position(|w| *w == word) {

@@ -36,10 +36,10 @@ mod settings;
 
 pub(crate) use law::plain_number;
 pub(crate) use load::encastre;
-pub use mesh::{GENERATORS, Generator, Key};
+pub use mesh::{GENERATORS, GeneratorKey, MeshGenerator};
 
 use crate::mesh::file::MeshFile;
-pub use crate::output::picture::View;
+pub use crate::output::picture::Viewpoint;
 use crate::{FemError, Problem};
 use std::path::Path;
 
@@ -70,7 +70,7 @@ pub struct Outputs {
     /// Draw the end state.
     pub pictures: bool,
     /// Where it is seen from.
-    pub view: View,
+    pub view: Viewpoint,
 }
 
 /// Reads the mesh file that a case names in `[mesh] file`; the path is as written there.

@@ -5,7 +5,7 @@ use super::load::{part_names, set_name};
 use super::range::{Checked, POSITION, Range, TIME, choice, direction, optional, plain, refuse, si};
 use super::raw::{RawOutput, RawSettings};
 use crate::mesh::Mesh;
-use crate::output::picture::View;
+use crate::output::picture::Viewpoint;
 use crate::policy;
 use crate::problem::{Guards, MassScaling, Settings};
 use toml::Value;
@@ -141,13 +141,13 @@ pub(super) fn outputs(raw: &RawOutput, mesh: &Mesh) -> Checked<Outputs> {
     })
 }
 
-fn view(raw: &RawOutput) -> Checked<View> {
+fn view(raw: &RawOutput) -> Checked<Viewpoint> {
     let known = [
-        ("isometric", View::Isometric),
-        ("isometric-z-up", View::IsometricZUp),
-        ("side", View::Side),
-        ("top", View::Top),
-        ("end", View::End),
+        ("isometric", Viewpoint::Isometric),
+        ("isometric-z-up", Viewpoint::IsometricZUp),
+        ("side", Viewpoint::Side),
+        ("top", Viewpoint::Top),
+        ("end", Viewpoint::End),
     ];
-    raw.view.as_ref().map_or(Ok(View::Isometric), |name| choice("view", name, &known))
+    raw.view.as_ref().map_or(Ok(Viewpoint::Isometric), |name| choice("view", name, &known))
 }

@@ -170,7 +170,7 @@ fn every_table_arrives_in_si() {
         station_axis: [1.0, 0.0, 0.0],
         frames: false,
         pictures: true,
-        view: View::Top,
+        view: Viewpoint::Top,
     };
     assert_eq!(case.outputs, wanted);
 }

@@ -36,7 +36,7 @@ pub struct Checkpoint {
 
 /// A checkpoint that was read.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Loaded {
+pub struct LoadedCheckpoint {
     /// It.
     pub checkpoint: Checkpoint,
     /// Set if the newest one was not good and the one before it is used instead: what to tell the user.
@@ -49,10 +49,10 @@ pub fn write_checkpoint(folder: &Path, checkpoint: &Checkpoint) -> Result<PathBu
 }
 
 /// Reads the newest good checkpoint of the problem with this `fingerprint`; `None` if the folder has none.
-pub fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<Loaded>, FemError> {
+pub fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<LoadedCheckpoint>, FemError> {
     let (newest, previous) = names(folder);
     let fault = match read_file(&newest, fingerprint)? {
-        Found::Good(checkpoint) => return Ok(Some(Loaded { checkpoint, notice: None })),
+        Found::Good(checkpoint) => return Ok(Some(LoadedCheckpoint { checkpoint, notice: None })),
         Found::Foreign(reason) => return Err(FemError::Checkpoint { path: newest, reason }),
         Found::Damaged(reason) => Some(reason),
         Found::Nothing => None,
@@ -65,7 +65,7 @@ pub fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<Loaded>
                 "checkpoint {} {why}: going on from the one before it, step {step}, t = {time:.6} s",
                 newest.display()
             );
-            Ok(Some(Loaded { checkpoint, notice: Some(notice) }))
+            Ok(Some(LoadedCheckpoint { checkpoint, notice: Some(notice) }))
         }
         (Found::Foreign(reason), _) => Err(FemError::Checkpoint { path: previous, reason }),
         (Found::Nothing, None) => Ok(None),

@@ -29,7 +29,7 @@ fn the_newest_checkpoint_comes_back_to_the_bit_and_the_one_before_is_kept() {
         let path = write_checkpoint(&inside, &state(step)).unwrap();
         assert_eq!(path, inside.join("checkpoint"));
         let loaded = read_checkpoint(&inside, PROBLEM).unwrap().unwrap();
-        assert_eq!(loaded, Loaded { checkpoint: state(step), notice: None });
+        assert_eq!(loaded, LoadedCheckpoint { checkpoint: state(step), notice: None });
     }
     assert_eq!(std::fs::read(inside.join("checkpoint.previous")).unwrap(), encode(&state(2)));
     assert_eq!(std::fs::read_dir(&inside).unwrap().count(), 2);

@@ -81,7 +81,7 @@ impl Frame {
         for (index, entry) in values.enumerate() {
             if let Some(bad) = entry.iter().find(|value| !value.is_finite()) {
                 return Err(self.refused(format!(
-                    "{name} of {of} {} is {bad}: nothing of this moment was written. Look at the last frame before it, \
+                    "{name} of {of} {} is {bad}: nothing of this moment was written. PictureLook at the last frame before it, \
                      then try a smaller cfl or slower loading",
                     index + 1
                 )));

@@ -18,7 +18,7 @@ use crate::vec3::{V3, along, dot, norm, sub};
 
 /// Mean shape of a robot's pouches \[m\].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Inflated {
+pub struct InflatedPouch {
     /// From a weld to the far side.
     pub arm_m: f64,
     /// Between the sides of a pouch in its middle.
@@ -65,13 +65,13 @@ impl Tape {
     }
 
     /// For node positions in mesh order.
-    pub fn read(&self, positions: &[[f64; 3]]) -> Inflated {
+    pub fn read(&self, positions: &[[f64; 3]]) -> InflatedPouch {
         let place = |node: &u32| positions[*node as usize];
         let apart = |pair: &[u32; 2]| distance(place(&pair[0]), place(&pair[1]));
         let line: Vec<[f64; 3]> = self.far.iter().map(place).collect();
         let arm =
             |node: &u32| line.windows(2).map(|piece| from_piece(place(node), piece)).fold(f64::INFINITY, f64::min);
-        Inflated {
+        InflatedPouch {
             arm_m: mean(self.welds.iter().map(arm)),
             width_m: mean(self.sides.iter().map(apart)),
             height_m: mean(self.sheets.iter().map(apart)),

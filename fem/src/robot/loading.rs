@@ -6,7 +6,7 @@
 
 use models::Scenario;
 
-use super::{Model, RobotSettings, problem, sew, table};
+use super::{Preset, RobotSettings, problem, sew, table};
 use crate::problem::{Amplitude, NodalForce, Obstacle, Pressure};
 use crate::{FemError, Problem};
 
@@ -18,7 +18,7 @@ const SHORTEST: f64 = 1.0 / 6.0;
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotRun {
     /// Where the settings come from that no key of `[fem]` sets.
-    pub model: Model,
+    pub model: Preset,
     /// Keys of `[fem]` beside `model`.
     pub set: Vec<String>,
     /// Mesh, fabrication, numerics.
@@ -37,7 +37,7 @@ pub struct RobotRun {
 
 /// A moment at which a robot is read: the end of a hold.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hold {
+pub struct HoldEnd {
     /// When \[s\].
     pub time_s: f64,
     /// Actuator pressure then \[Pa\].
@@ -54,12 +54,12 @@ impl RobotRun {
     }
 
     /// When the robot is read: full body first, then every pressure.
-    pub fn holds(&self) -> Vec<Hold> {
+    pub fn holds(&self) -> Vec<HoldEnd> {
         let (mut time_s, mut before) = (self.settings.body_ramp_s, 0.0);
-        let mut holds = vec![Hold { time_s, pressure_pa: 0.0 }];
+        let mut holds = vec![HoldEnd { time_s, pressure_pa: 0.0 }];
         for pressure_pa in &self.pressures_pa {
             time_s += self.ramp_s(before, *pressure_pa) + self.settings.hold_s;
-            holds.push(Hold { time_s, pressure_pa: *pressure_pa });
+            holds.push(HoldEnd { time_s, pressure_pa: *pressure_pa });
             before = *pressure_pa;
         }
         holds

@@ -35,14 +35,14 @@ mod table;
 mod waviness;
 
 pub use assumed::{ASSUMED, Assumed, Spread, hypercube};
-pub use inflated::Inflated;
-pub use loading::{Hold, RobotRun};
-pub use model::Model;
-pub use reading::{Gauge, Reading};
+pub use inflated::InflatedPouch;
+pub use loading::{HoldEnd, RobotRun};
+pub use model::Preset;
+pub use reading::{Reading, RobotGauge};
 pub use seams::{SeamForce, Seams};
 pub use settings::RobotSettings;
 pub use snaps::{Sample, Snap, Watch, snaps};
-pub use table::{KEYS, Key, OTHERS, with_fem};
+pub use table::{KEYS, OTHERS, RunKey, with_fem};
 
 use models::Scenario;
 use models::actuators::pattern::Pattern;
@@ -50,7 +50,7 @@ use models::actuators::pattern::Pattern;
 use crate::case::{Outputs, encastre};
 use crate::mesh::check::check_open;
 pub use crate::output::centre_line::CentreLine;
-use crate::output::picture::View;
+use crate::output::picture::Viewpoint;
 use crate::policy;
 use crate::problem::{Amplitude, Chamber, Contact, Guards, MassScaling, Pressure, Settings, Support};
 use crate::run;
@@ -152,7 +152,7 @@ pub fn outputs(scenario: &Scenario, mesh: &Mesh) -> Outputs {
         station_axis: [1.0, 0.0, 0.0],
         frames: true,
         pictures: true,
-        view: View::Side,
+        view: Viewpoint::Side,
     }
 }
 

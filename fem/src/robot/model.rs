@@ -4,7 +4,7 @@ use super::RobotSettings;
 
 /// Where the settings come from that `[fem]` does not name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Model {
+pub enum Preset {
     /// [`RobotSettings::compressed`]: the recommended set.
     #[default]
     Recommended,
@@ -12,33 +12,33 @@ pub enum Model {
     Paper,
 }
 
-impl Model {
+impl Preset {
     /// All of them.
-    pub const ALL: [Model; 2] = [Model::Recommended, Model::Paper];
+    pub const ALL: [Preset; 2] = [Preset::Recommended, Preset::Paper];
 
     /// As in the file.
     pub fn name(self) -> &'static str {
         match self {
-            Model::Recommended => "recommended",
-            Model::Paper => "paper",
+            Preset::Recommended => "recommended",
+            Preset::Paper => "paper",
         }
     }
 
     /// The model of that name.
-    pub fn named(name: &str) -> Option<Model> {
-        Model::ALL.into_iter().find(|model| model.name() == name)
+    pub fn named(name: &str) -> Option<Preset> {
+        Preset::ALL.into_iter().find(|model| model.name() == name)
     }
 
     /// What it sets.
     pub fn settings(self) -> RobotSettings {
         match self {
-            Model::Recommended => RobotSettings::compressed(),
-            Model::Paper => RobotSettings::paper(),
+            Preset::Recommended => RobotSettings::compressed(),
+            Preset::Paper => RobotSettings::paper(),
         }
     }
 
     /// Whether every pressure is a run of its own, from the flat robot.
     pub fn separate(self) -> bool {
-        self == Model::Paper
+        self == Preset::Paper
     }
 }

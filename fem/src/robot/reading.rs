@@ -3,7 +3,7 @@
 use models::Scenario;
 use serde::{Deserialize, Serialize};
 
-use super::inflated::{Inflated, Tape};
+use super::inflated::{InflatedPouch, Tape};
 use super::seams::Seams;
 use super::{marker_points, sections, sew};
 use crate::output::centre_line::CentreLine;
@@ -11,7 +11,7 @@ use crate::{FemError, Mesh, Problem, Simulation};
 
 /// Reads a robot while it runs.
 #[derive(Debug, Clone)]
-pub struct Gauge {
+pub struct RobotGauge {
     line: CentreLine,
     start_m: Vec<[f64; 3]>,
     seen: CentreLine,
@@ -69,19 +69,19 @@ pub struct Reading {
     pub base_nm: [f64; 3],
     /// Shape of the pouches; `None` for one unit, and in readings that did not keep it.
     #[serde(default)]
-    pub inflated: Option<Inflated>,
+    pub inflated: Option<InflatedPouch>,
     /// Ledger: name, `stored`, `dissipated` or `supplied`, and energy \[J\].
     pub ledger: Vec<(String, String, f64)>,
     /// Kinetic over kinetic and stored energy.
     pub kinetic_share: f64,
 }
 
-impl Gauge {
+impl RobotGauge {
     /// For a robot's problem.
     ///
     /// # Errors
     /// [`FemError::Problem`] for a marker off the robot.
-    pub fn new(scenario: &Scenario, problem: &Problem) -> Result<Gauge, FemError> {
+    pub fn new(scenario: &Scenario, problem: &Problem) -> Result<RobotGauge, FemError> {
         let mesh = problem.mesh.clone();
         let mut stations_m = scenario.markers_m.clone();
         let mut rings: Vec<Vec<u32>> = (1..=stations_m.len()).map(|k| ring(&mesh, &format!("marker_{k}"))).collect();
@@ -94,7 +94,7 @@ impl Gauge {
         let start_m = line.at(&start)?;
         let seen = marker_points(&mesh, &scenario.markers_m)?;
         let seen_start_m = seen.at(&start)?;
-        Ok(Gauge {
+        Ok(RobotGauge {
             line,
             start_m,
             seen,

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::problem::{Amplitude, ObstacleShape, Pressure};
-use crate::robot::Gauge;
+use crate::robot::RobotGauge;
 
 fn text(more: &str) -> String {
     format!("{}\n[fem]\n{more}\n", models::shipped("epam").unwrap())
@@ -143,7 +143,7 @@ fn one_ramp_leads_through_all_pressures_at_one_rate_and_rests_at_each() {
 fn the_papers_model_sets_its_modelling_choices_and_other_keys_override_them() {
     let (_, run) = parsed("model = \"paper\"").unwrap();
     let s = &run.settings;
-    assert_eq!((run.model, run.separate, run.pressures_pa.len()), (Model::Paper, true, 3));
+    assert_eq!((run.model, run.separate, run.pressures_pa.len()), (Preset::Paper, true, 3));
     assert_eq!([s.body_size_m, s.actuator_size_m, s.layer_gap_m], [4e-3, 4e-3, 1e-5]);
     assert_eq!([s.bending_factor, s.compression, s.bond], [1.0, 1.0, 1.0]);
     assert_eq!([s.weld_m, s.tape_m, s.tape_margin_m, s.waviness_m], [0.0, 1e-6, 0.0, 0.0]);
@@ -192,7 +192,7 @@ fn the_base_holds_the_filled_body_however_it_is_held() {
     for base in ["pinned", "encastre"] {
         let (scenario, run) = parsed(&format!("mesh_mm = 8\nbody_ramp_s = 0.2\nbase = \"{base}\"")).unwrap();
         let problem = run.problem(&scenario).unwrap();
-        let gauge = crate::robot::Gauge::new(&scenario, &problem).unwrap();
+        let gauge = crate::robot::RobotGauge::new(&scenario, &problem).unwrap();
         let mut body = crate::Simulation::new(&problem).unwrap();
         body.advance_until(run.holds()[0].time_s, &mut |_| true).unwrap();
         let reading = gauge.read(&body).unwrap();
@@ -216,7 +216,7 @@ fn loads_of_the_outlook_reach_the_problem() {
 fn a_turn_of_the_whole_robot_is_read_as_the_turn_of_its_tip() {
     let (scenario, run) = parsed("mesh_mm = 8").unwrap();
     let problem = run.problem(&scenario).unwrap();
-    let gauge = Gauge::new(&scenario, &problem).unwrap();
+    let gauge = RobotGauge::new(&scenario, &problem).unwrap();
     for angle in [-0.7_f64, 0.0, 0.4, 2.5] {
         let (s, c) = angle.sin_cos();
         let turned = |p: &[f64; 3]| [c * p[0] - s * p[1] + 0.3, s * p[0] + c * p[1], p[2]];
@@ -231,7 +231,7 @@ fn welds_are_where_three_sheets_meet_and_pull_with_their_tension() {
     let (scenario, run) = parsed("mesh_mm = 8\nweld_mm = 0").unwrap();
     let problem = run.problem(&scenario).unwrap();
     let seams = Seams::of(&problem.mesh);
-    let gauge = Gauge::new(&scenario, &problem).unwrap();
+    let gauge = RobotGauge::new(&scenario, &problem).unwrap();
     // All edges of six pouches of 60 x 60 mm: weld elements are on the strip or beside it.
     for element in seams.elements() {
         let (part, x) = gauge.place(*element);

@@ -15,7 +15,7 @@ use models::Scenario;
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
-use super::{Model, RobotRun, RobotSettings};
+use super::{Preset, RobotRun, RobotSettings};
 use crate::FemError;
 use crate::case::plain_number;
 use crate::case::range::{Checked, LENGTH, POSITION, PRESSURE, Range, number, plain, refuse};
@@ -24,7 +24,7 @@ use crate::problem::{Obstacle, ObstacleShape};
 
 /// One number of the table.
 #[derive(Debug, Clone, Copy)]
-pub struct Key {
+pub struct RunKey {
     /// Name with unit, as in the file.
     pub name: &'static str,
     /// Factor from the file to SI.
@@ -46,13 +46,13 @@ const fn key(
     meaning: &'static str,
     get: fn(&RobotSettings) -> Option<f64>,
     set: fn(&mut RobotSettings, f64),
-) -> Key {
-    Key { name, si, bounds, meaning, get, set }
+) -> RunKey {
+    RunKey { name, si, bounds, meaning, get, set }
 }
 
 /// All numbers of the table.
 #[rustfmt::skip]
-pub const KEYS: &[Key] = &[
+pub const KEYS: &[RunKey] = &[
     key("mesh_mm", 1e-3, [0.5, 50.0], "element size of body and actuator",
         |s| Some(s.body_size_m), |s, v| { s.body_size_m = v; s.actuator_size_m = v; }),
     key("body_mesh_mm", 1e-3, [0.5, 50.0], "element size of the body", |s| Some(s.body_size_m), |s, v| s.body_size_m = v),
@@ -165,13 +165,13 @@ fn usual_pressures(scenario: &Scenario) -> Vec<f64> {
     if above.is_empty() { vec![RobotSettings::default().actuator_pa] } else { above }
 }
 
-fn model(table: &Free) -> Checked<Model> {
+fn model(table: &Free) -> Checked<Preset> {
     let Some((_, value)) = table.iter().find(|(key, _)| key.get_ref() == "model") else {
-        return Ok(Model::default());
+        return Ok(Preset::default());
     };
-    let known = || format!("known: {}", Model::ALL.map(Model::name).join(", "));
+    let known = || format!("known: {}", Preset::ALL.map(Preset::name).join(", "));
     let unknown = || refuse(format!("unknown model {}", value.get_ref()), known(), value.span());
-    value.get_ref().as_str().and_then(Model::named).map_or_else(unknown, Ok)
+    value.get_ref().as_str().and_then(Preset::named).map_or_else(unknown, Ok)
 }
 
 fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Checked<()> {

@@ -4,14 +4,14 @@ use super::exchange::{exchange, mend};
 use super::manifest::{Manifest, sha256};
 use crate::FemError;
 use crate::atomic::replace;
-use crate::record::Shape;
+use crate::record::RecordShape;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
 /// There while a run is not complete; says what it is a run of.
 const MARKER: &str = "unfinished.json";
-const UNFINISHED: Shape = Shape { schema: "ibr.unfinished", version: 1 };
+const UNFINISHED: RecordShape = RecordShape { schema: "ibr.unfinished", version: 1 };
 /// The last file of a complete run.
 const LAST: &str = "manifest.json";
 /// Held by the process that writes to the folder.
@@ -41,7 +41,7 @@ const OWN: &[&str] = &[
 
 /// What tells one run from another, besides the case itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Marker {
+pub struct RunIdentity {
     /// SHA-256 of the case's text.
     pub case_sha256: String,
     /// Simulated time \[s\].
@@ -52,7 +52,7 @@ pub struct Marker {
 
 /// What is asked for.
 #[derive(Debug, Clone, Copy)]
-pub struct Wish<'a> {
+pub struct RunWish<'a> {
     /// Folder.
     pub folder: &'a Path,
     /// Text of the case.
@@ -69,7 +69,7 @@ pub struct Workplace {
     /// Where files go while the run is not complete.
     pub folder: PathBuf,
     /// The interrupted run to go on with.
-    pub interrupted: Option<Marker>,
+    pub interrupted: Option<RunIdentity>,
     /// Where the complete run goes in the end.
     target: PathBuf,
     _lock: File,
@@ -87,7 +87,7 @@ pub enum Opened {
 #[derive(Debug)]
 enum Found {
     Nothing,
-    Unfinished(Marker),
+    Unfinished(RunIdentity),
     Finished,
     Foreign(String),
 }
@@ -111,7 +111,7 @@ pub fn is_of(folder: &Path, text: &str) -> Result<Option<bool>, FemError> {
 ///
 /// # Errors
 /// The folder holds another run, or files that are none of ours, or another process writes to it.
-pub fn open(wish: &Wish) -> Result<Opened, FemError> {
+pub fn open(wish: &RunWish) -> Result<Opened, FemError> {
     let refuse = |cause: &str, help: &str| Err(refused(wish.folder, cause, help));
     if matches!(look(&aside(wish.folder))?, Found::Finished) {
         mend(wish.folder, &aside(wish.folder)).map_err(|cause| unwritable(wish.folder, &cause))?;
@@ -145,11 +145,11 @@ pub fn open(wish: &Wish) -> Result<Opened, FemError> {
 }
 
 /// The new run is made beside the finished one, which stays until then.
-fn open_beside(wish: &Wish) -> Result<Opened, FemError> {
+fn open_beside(wish: &RunWish) -> Result<Opened, FemError> {
     let beside = named_like(wish.folder, ".new");
     match look(&beside)? {
         Found::Unfinished(marker) if wish.resume => {
-            same_case(&Wish { folder: &beside, ..*wish }, &marker.case_sha256)?;
+            same_case(&RunWish { folder: &beside, ..*wish }, &marker.case_sha256)?;
             take(&beside, wish.folder, Some(marker))
         }
         Found::Foreign(name) => {
@@ -184,7 +184,7 @@ fn refused(folder: &Path, cause: &str, help: &str) -> FemError {
     FemError::Folder { path: folder.into(), cause: cause.into(), help: help.into() }
 }
 
-fn same_case(wish: &Wish, case_sha256: &str) -> Result<(), FemError> {
+fn same_case(wish: &RunWish, case_sha256: &str) -> Result<(), FemError> {
     if case_sha256 == sha256(wish.text.as_bytes()) {
         return Ok(());
     }
@@ -227,7 +227,7 @@ fn foreign(folder: &Path, names: &[String]) -> Result<Option<String>, FemError> 
 }
 
 /// A run that was killed before it wrote its case has written nothing else.
-fn is_believed(marker: &Marker, folder: &Path, names: &[String]) -> bool {
+fn is_believed(marker: &RunIdentity, folder: &Path, names: &[String]) -> bool {
     case_sha256(folder).map_or(names.len() == 1, |sha256| sha256 == marker.case_sha256)
 }
 
@@ -235,11 +235,11 @@ fn case_sha256(folder: &Path) -> Option<String> {
     std::fs::read(folder.join(CASE)).ok().map(|bytes| sha256(&bytes))
 }
 
-fn read_marker(folder: &Path) -> Option<Marker> {
+fn read_marker(folder: &Path) -> Option<RunIdentity> {
     UNFINISHED.read(MARKER, &std::fs::read_to_string(folder.join(MARKER)).ok()?, "").ok()
 }
 
-fn take(folder: &Path, target: &Path, interrupted: Option<Marker>) -> Result<Opened, FemError> {
+fn take(folder: &Path, target: &Path, interrupted: Option<RunIdentity>) -> Result<Opened, FemError> {
     std::fs::create_dir_all(folder).map_err(|cause| unwritable(folder, &cause))?;
     let lock = File::create(folder.join(LOCK)).map_err(|cause| unwritable(folder, &cause))?;
     if let Err(std::fs::TryLockError::WouldBlock) = lock.try_lock() {
@@ -266,18 +266,18 @@ impl Workplace {
 
     /// Clears away an earlier run and marks the folder as that of a run in progress. Killed at any point, the folder is known as
     /// that of an unfinished run: of the earlier case until its files are gone, then of this one.
-    pub fn start(&self, marker: &Marker, text: &str) -> Result<(), FemError> {
+    pub fn start(&self, marker: &RunIdentity, text: &str) -> Result<(), FemError> {
         self.begin(marker, text, &mut |step| step())
     }
 
     fn begin(
         &self,
-        marker: &Marker,
+        marker: &RunIdentity,
         text: &str,
         take: &mut dyn FnMut(Step) -> Result<(), FemError>,
     ) -> Result<(), FemError> {
         if let (Some(case_sha256), false) = (case_sha256(&self.folder), self.folder.join(MARKER).exists()) {
-            take(&|| self.mark(&Marker { case_sha256: case_sha256.clone(), ..marker.clone() }))?;
+            take(&|| self.mark(&RunIdentity { case_sha256: case_sha256.clone(), ..marker.clone() }))?;
         }
         // The case is the first of its files.
         for name in [LAST].iter().chain(OWN.iter().rev()) {
@@ -287,7 +287,7 @@ impl Workplace {
         take(&|| self.keep_case(text))
     }
 
-    fn mark(&self, marker: &Marker) -> Result<(), FemError> {
+    fn mark(&self, marker: &RunIdentity) -> Result<(), FemError> {
         let text = format!("{:#}\n", UNFINISHED.stamped(marker));
         write(&self.folder.join(MARKER), text.as_bytes())
     }

@@ -2,8 +2,8 @@
 
 use super::*;
 
-fn marker(text: &str, end_s: f64) -> Marker {
-    Marker { case_sha256: sha256(text.as_bytes()), end_s, frames: false }
+fn marker(text: &str, end_s: f64) -> RunIdentity {
+    RunIdentity { case_sha256: sha256(text.as_bytes()), end_s, frames: false }
 }
 
 fn place(folder: &Path) -> Workplace {

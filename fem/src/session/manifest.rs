@@ -1,12 +1,12 @@
 //! `manifest.json`: what made the files of a folder, from what, where and when.
 
 use super::summary::Cost;
-use crate::record::Shape;
+use crate::record::RecordShape;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 /// Of a manifest.
-pub const MANIFEST: Shape = Shape { schema: "ibr.manifest", version: 1 };
+pub const MANIFEST: RecordShape = RecordShape { schema: "ibr.manifest", version: 1 };
 
 /// A file, as a manifest names it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]

@@ -53,11 +53,11 @@ pub use summary::{
     Summary, Through,
 };
 pub use table::{Heights, RunRow, RunTable, SeedGroup};
-pub use watch::{Robot, RobotSummary};
+pub use watch::{RobotSummary, WatchedRobot};
 
 use crate::robot::{Reading, Sample};
 use crate::{FemError, Simulation};
-use folder::{Marker, Opened, Wish, Workplace};
+use folder::{Opened, RunIdentity, RunWish, Workplace};
 use serde::Deserialize;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -189,7 +189,7 @@ fn run(mut loaded: Loaded, settings: &Settings, progress: Progress) -> Result<Fe
         None => None,
         Some(folder) => {
             let (resume, force) = (settings.resume, settings.force);
-            match folder::open(&Wish { folder, text: &loaded.source.text, resume, force })? {
+            match folder::open(&RunWish { folder, text: &loaded.source.text, resume, force })? {
                 Opened::Complete => return FeRun::read(folder),
                 Opened::Work(place) => Some(place),
             }
@@ -221,8 +221,8 @@ fn begin(loaded: &mut Loaded, place: Option<&Workplace>, settings: &Settings) ->
 }
 
 /// The run that was asked for, or the interrupted one if the settings agree with it.
-fn same_run(place: &Workplace, loaded: &Loaded, settings: &Settings) -> Result<Marker, FemError> {
-    let asked = Marker {
+fn same_run(place: &Workplace, loaded: &Loaded, settings: &Settings) -> Result<RunIdentity, FemError> {
+    let asked = RunIdentity {
         case_sha256: sha256(loaded.source.text.as_bytes()),
         end_s: loaded.case.problem.settings.end_s,
         frames: loaded.case.outputs.frames,
@@ -273,7 +273,7 @@ fn finish(
         Some(place) => complete(loaded, &mut run, files, place, settings)?,
         None => run.files = files,
     }
-    run.notices.extend(loaded.robot.as_ref().and_then(Robot::left_out));
+    run.notices.extend(loaded.robot.as_ref().and_then(WatchedRobot::left_out));
     Ok(run)
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Source, rounded};
 use crate::FemError;
-use crate::robot::{ASSUMED, Assumed, KEYS, Key, RobotRun, RobotSettings, hypercube};
+use crate::robot::{ASSUMED, Assumed, KEYS, RobotRun, RobotSettings, RunKey, hypercube};
 
 /// Keys of `[fem]` and their values as in TOML.
 pub type Changes = Vec<(String, String)>;
@@ -65,7 +65,7 @@ fn extended(cases: &[Variation], ways: &[Way]) -> Vec<Variation> {
 const CUBE: u64 = 1;
 
 /// A number that nobody measured and that a robot feels, and the key that writes it.
-pub type Felt = (&'static Assumed, &'static Key);
+pub type Felt = (&'static Assumed, &'static RunKey);
 
 /// Robots that fill the intervals of assumed numbers as a Latin hypercube.
 #[derive(Debug, Clone)]
@@ -111,14 +111,14 @@ fn robot(number: usize, numbers: &[Felt], shares: &[f64]) -> Variation {
 }
 
 /// The key that writes what an assumed number writes.
-fn key_of(unknown: &Assumed) -> Option<&'static Key> {
+fn key_of(unknown: &Assumed) -> Option<&'static RunKey> {
     let after = |set: fn(&mut RobotSettings, f64), value: f64| {
         let mut changed = RobotSettings::default();
         set(&mut changed, value);
         changed
     };
     // One end may be the default of several keys.
-    let fits = |key: &&Key| unknown.interval.iter().all(|v| after(key.set, *v) == after(unknown.set, *v));
+    let fits = |key: &&RunKey| unknown.interval.iter().all(|v| after(key.set, *v) == after(unknown.set, *v));
     KEYS.iter().find(fits)
 }
 

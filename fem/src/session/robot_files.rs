@@ -1,7 +1,7 @@
 //! Files of a complete run beside those of every run: readings, markers as a dataset, buckling events, pictures.
 
-use super::{FeRun, Further, Loaded, Robot, rounded};
-use crate::output::picture::{self, Image, Look, View};
+use super::{FeRun, Further, Loaded, WatchedRobot, rounded};
+use crate::output::picture::{self, Image, PictureLook, Viewpoint};
 use crate::robot::{Reading, Snap};
 use crate::{FemError, Mesh, Simulation};
 use std::fmt::Write;
@@ -51,7 +51,7 @@ fn own(loaded: &Loaded, run: &FeRun, state: &Simulation) -> Result<Vec<(String, 
 fn end(loaded: &Loaded, state: &Simulation) -> Result<(&'static str, Image), FemError> {
     let problem = &loaded.case.problem;
     let title = format!("{}, von Mises stress [MPa] at {:.4} s", problem.name, state.time_s());
-    let look = Look { view: loaded.case.outputs.view, title, ..Look::default() };
+    let look = PictureLook { view: loaded.case.outputs.view, title, ..PictureLook::default() };
     Ok(("picture.png", picture::render(&problem.mesh, &state.positions(), &stress_mpa(state), &look)?))
 }
 
@@ -101,7 +101,7 @@ fn readings_csv(readings: &[Reading]) -> String {
 }
 
 /// The columns of a measured dataset, so that `ibr compare` can hold the reduced model against the run.
-fn markers_csv(robot: &Robot, readings: &[Reading]) -> String {
+fn markers_csv(robot: &WatchedRobot, readings: &[Reading]) -> String {
     let mut out = String::from("run,actuator,t_s,p_body_kpa,p_act_kpa,phase,marker,x_mm,y_mm,s_mm\n");
     let kind = robot.scenario.actuator.kind.name;
     let mut before = 0.0;
@@ -128,7 +128,7 @@ fn snaps_csv(found: &[Snap]) -> String {
 }
 
 /// Side view, cross-section through the middle of a unit, and cut along the robot.
-fn pictures(robot: &Robot, mesh: &Mesh, run: &Simulation) -> Result<Vec<(&'static str, Image)>, FemError> {
+fn pictures(robot: &WatchedRobot, mesh: &Mesh, run: &Simulation) -> Result<Vec<(&'static str, Image)>, FemError> {
     let (stress_mpa, positions) = (stress_mpa(run), run.positions());
     let actuator = &robot.scenario.actuator;
     let unit = actuator.shape.length_m;
@@ -136,7 +136,7 @@ fn pictures(robot: &Robot, mesh: &Mesh, run: &Simulation) -> Result<Vec<(&'stati
     let across = picture::Cut { normal: [1.0, 0.0, 0.0], at_m: middle_m };
     let along = picture::Cut { normal: [0.0, 0.0, 1.0], at_m: 0.0 };
     let look = |what: &str| look(robot, what, &stress_mpa);
-    let end = Look { view: View::End, ..look(&format!("section that was at {:.0} mm", middle_m * MM)) };
+    let end = PictureLook { view: Viewpoint::End, ..look(&format!("section that was at {:.0} mm", middle_m * MM)) };
     let section = picture::section(mesh, &positions, &stress_mpa, &across, &end)?;
     let cut = picture::section(mesh, &positions, &stress_mpa, &along, &look("middle plane"))?;
     let side = picture::render(mesh, &positions, &stress_mpa, &look(&robot.scenario.name))?;
@@ -148,11 +148,16 @@ fn stress_mpa(run: &Simulation) -> Vec<f64> {
 }
 
 /// One colour scale for all pictures of a run: from 0 to a round number above nearly all stresses.
-fn look(robot: &Robot, what: &str, stress_mpa: &[f64]) -> Look {
+fn look(robot: &WatchedRobot, what: &str, stress_mpa: &[f64]) -> PictureLook {
     let mut sorted = stress_mpa.to_vec();
     sorted.sort_by(f64::total_cmp);
     let nearly_all = sorted.get((WITHIN * sorted.len() as f64) as usize).copied().unwrap_or(0.0);
     let pressure = robot.run.pressures_pa.last().map_or(0.0, |p| p * 1e-3);
     let title = format!("{what}, von Mises [MPa], {pressure:.0} kPa");
-    Look { view: View::Side, limits: Some((0.0, picture::round_above(nearly_all))), title, ..Look::default() }
+    PictureLook {
+        view: Viewpoint::Side,
+        limits: Some((0.0, picture::round_above(nearly_all))),
+        title,
+        ..PictureLook::default()
+    }
 }

@@ -1,7 +1,7 @@
 //! What is simulated: the text of a case or of a robot's scenario, and what it describes.
 
 use super::rounded;
-use super::watch::Robot;
+use super::watch::WatchedRobot;
 use crate::FemError;
 use crate::case::{Case, Outputs, is_case};
 use crate::error::Refusal;
@@ -28,7 +28,7 @@ pub struct Loaded {
     /// The case.
     pub case: Case,
     /// The robot, if it is one.
-    pub robot: Option<Robot>,
+    pub robot: Option<WatchedRobot>,
 }
 
 impl Source {
@@ -106,11 +106,11 @@ impl Source {
     }
 
     /// The robot of a scenario.
-    fn robot(&self) -> Result<(Case, Robot), FemError> {
+    fn robot(&self) -> Result<(Case, WatchedRobot), FemError> {
         let scenario = self.scenario()?;
         let run = RobotRun::parse(&self.text, &scenario)?;
         let problem = run.problem(&scenario)?;
-        let robot = Robot::new(&scenario, &run, &problem)?;
+        let robot = WatchedRobot::new(&scenario, &run, &problem)?;
         // The pictures of a robot are its own.
         let outputs = Outputs { pictures: false, ..outputs(&scenario, &problem.mesh) };
         Ok((Case { problem, outputs, notices: Vec::new() }, robot))

@@ -1,15 +1,15 @@
 //! What a run came to: the record `summary.json`.
 
 use super::stepping::{Balance, Running};
-use super::watch::{Robot, RobotSummary};
+use super::watch::{RobotSummary, WatchedRobot};
 use crate::case::Case;
 use crate::policy;
-use crate::record::Shape;
+use crate::record::RecordShape;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
 /// `summary.json`.
-pub const SUMMARY: Shape = Shape { schema: "ibr.simulate", version: 1 };
+pub const SUMMARY: RecordShape = RecordShape { schema: "ibr.simulate", version: 1 };
 
 /// A complete run in numbers that depend on the case alone: the same to the bit however often it was interrupted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -206,7 +206,7 @@ pub struct Cost {
 
 impl Summary {
     /// Reads a run that has reached its end.
-    pub(super) fn of(case: &Case, running: &Running, robot: Option<&Robot>) -> Summary {
+    pub(super) fn of(case: &Case, running: &Running, robot: Option<&WatchedRobot>) -> Summary {
         let (run, mesh) = (&running.run, &case.problem.mesh);
         let ledger = run.ledger();
         let energy =

@@ -1,7 +1,7 @@
 //! What is read of a robot while it runs.
 
 use super::rounded;
-use crate::robot::{Gauge, Hold, KEYS, Key, Reading, RobotRun, Sample, Snap, Watch, snaps};
+use crate::robot::{HoldEnd, KEYS, Reading, RobotGauge, RobotRun, RunKey, Sample, Snap, Watch, snaps};
 use crate::{FemError, Problem, Simulation};
 use models::Scenario;
 use models::scenario::Wall;
@@ -13,18 +13,18 @@ const NOW_S: f64 = 1e-12;
 
 /// A robot and how to read it.
 #[derive(Clone)]
-pub struct Robot {
+pub struct WatchedRobot {
     /// Its scenario.
     pub scenario: Scenario,
     /// Its run.
     pub run: RobotRun,
-    gauge: Gauge,
+    gauge: RobotGauge,
 }
 
-impl Robot {
+impl WatchedRobot {
     /// For its problem.
-    pub(super) fn new(scenario: &Scenario, run: &RobotRun, problem: &Problem) -> Result<Robot, FemError> {
-        Ok(Robot { scenario: scenario.clone(), run: run.clone(), gauge: Gauge::new(scenario, problem)? })
+    pub(super) fn new(scenario: &Scenario, run: &RobotRun, problem: &Problem) -> Result<WatchedRobot, FemError> {
+        Ok(WatchedRobot { scenario: scenario.clone(), run: run.clone(), gauge: RobotGauge::new(scenario, problem)? })
     }
 
     /// What the scenario says to the reduced model alone.
@@ -54,8 +54,8 @@ pub(super) struct Watched {
     /// Energies between outputs.
     pub watch: Watch,
     filled_s: f64,
-    gauge: Gauge,
-    holds: Vec<Hold>,
+    gauge: RobotGauge,
+    holds: Vec<HoldEnd>,
     /// Readings so far.
     pub readings: Vec<Reading>,
 }
@@ -102,8 +102,9 @@ impl Watched {
     }
 
     /// For the summary.
-    pub fn summary(&self, Robot { scenario, run, .. }: &Robot) -> RobotSummary {
-        let setting = |key: &Key| (key.name.to_string(), (key.get)(&run.settings).map(|value| rounded(value / key.si)));
+    pub fn summary(&self, WatchedRobot { scenario, run, .. }: &WatchedRobot) -> RobotSummary {
+        let setting =
+            |key: &RunKey| (key.name.to_string(), (key.get)(&run.settings).map(|value| rounded(value / key.si)));
         RobotSummary {
             actuator: scenario.actuator.kind.name.into(),
             length_m: scenario.length_m,

@@ -9,7 +9,7 @@ pub type Lane = [f64; LANES];
 
 /// Eight elements of one kind, section and pair of chambers.
 #[derive(Debug, Clone)]
-pub struct Group {
+pub struct ElementGroup {
     /// Places of its shape and its stock in their tables.
     pub shape: u32,
     /// See [`Stock`].
@@ -22,7 +22,7 @@ pub struct Group {
 /// stays in the first cache; where every element has its own, as in a wavy robot, this is what each step must fetch.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
-pub struct Shape {
+pub struct RestShape {
     /// Shape gradients, see [`Reference::b`] \[1/m\].
     pub b: [[Lane; 2]; 2],
     /// A quarter of the hourglass offsets s_a \[m\].
@@ -70,24 +70,24 @@ pub struct Item {
     pub element: u32,
 }
 
-impl Group {
+impl ElementGroup {
     /// Corner nodes of up to eight elements; an empty lane repeats the last.
-    pub fn pack(items: &[Item], shape: u32, stock: u32) -> Group {
+    pub fn pack(items: &[Item], shape: u32, stock: u32) -> ElementGroup {
         let item = |lane: usize| &items[lane.min(items.len() - 1)].node;
         let corner = |lane: usize| std::array::from_fn(|c| item(lane)[c.min(item(lane).len() - 1)]);
-        Group { shape, stock, node: std::array::from_fn(corner) }
+        ElementGroup { shape, stock, node: std::array::from_fn(corner) }
     }
 }
 
 /// Numbers that differ by less than this share of the element's size are rounding of the same number.
 const ALIKE: f64 = 1e-12;
 
-impl Shape {
+impl RestShape {
     /// Packs up to eight elements. An empty lane repeats the last one without area and stiffness, so that its arithmetic stays
     /// finite and its forces vanish.
-    pub fn pack(items: &[Item]) -> Shape {
+    pub fn pack(items: &[Item]) -> RestShape {
         let zero = [0.0; LANES];
-        let mut shape = Shape { b: [[zero; 2]; 2], s: [zero; 2], area: zero, hourglass: zero, viscosity: zero };
+        let mut shape = RestShape { b: [[zero; 2]; 2], s: [zero; 2], area: zero, hourglass: zero, viscosity: zero };
         for lane in 0..LANES {
             let item = &items[lane.min(items.len() - 1)];
             for a in 0..2 {
@@ -133,7 +133,7 @@ impl Stock {
         stock
     }
 
-    /// As [`Shape::key`].
+    /// As [`RestShape::key`].
     pub fn key(&self) -> Vec<i64> {
         let all = [self.per, self.relief, self.own, self.real];
         all.as_flattened().iter().map(|value| leading_bits(*value)).collect()

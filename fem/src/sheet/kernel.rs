@@ -15,9 +15,9 @@
 use models::fabrics::Past;
 use pulp::Simd;
 
-use super::group::{Group, LANES, Lane, Shape, Stock};
+use super::group::{ElementGroup, LANES, Lane, RestShape, Stock};
 use super::lanes::{V, axes, inner, product};
-use super::law::{Law, Who};
+use super::law::{ShellLaw, Who};
 
 /// One vector for each element of a group.
 pub type Lane3 = [Lane; 3];
@@ -53,7 +53,7 @@ pub enum Corners<'a> {
 
 /// What a batch of groups has in common.
 #[derive(Clone, Copy)]
-pub struct Batch<'a> {
+pub struct BatchInputs<'a> {
     /// Node positions by axis.
     pub x: [&'a [f64]; 3],
     /// Pressure behind minus pressure in front \[Pa\].
@@ -61,9 +61,9 @@ pub struct Batch<'a> {
     /// 1/Δt, or 0 without viscosity \[1/s\].
     pub rate: f64,
     /// Elements of the batch.
-    pub groups: &'a [Group],
+    pub groups: &'a [ElementGroup],
     /// Shapes of all groups of the patch.
-    pub shapes: &'a [Shape],
+    pub shapes: &'a [RestShape],
     /// Stocks of all groups of the patch.
     pub stocks: &'a [Stock],
     /// Memory of the fabric, or empty.
@@ -72,9 +72,9 @@ pub struct Batch<'a> {
 
 /// Forces of quadrilaterals, with `BOOKS` also energies and fluxes; `ROWS` says that all groups are in regular rows.
 #[inline(always)]
-pub fn quads<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
+pub fn quads<S: Simd, L: ShellLaw, const ROWS: bool, const BOOKS: bool>(
     simd: S,
-    batch: Batch,
+    batch: BatchInputs,
     law: L,
     strains: &mut [Strain],
     mut out: Corners,
@@ -124,11 +124,11 @@ pub fn quads<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
 
 #[inline(always)]
 #[allow(clippy::too_many_arguments)] // one call, inlined: a struct would only rename the list
-fn quad<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
+fn quad<S: Simd, L: ShellLaw, const ROWS: bool, const BOOKS: bool>(
     simd: S,
-    batch: Batch,
+    batch: BatchInputs,
     law: L,
-    (shape, stock): (&Shape, &Stock),
+    (shape, stock): (&RestShape, &Stock),
     past: Option<&[Past; LANES]>,
     part: usize,
     x: [[V<S>; 3]; 4],
@@ -201,9 +201,9 @@ fn quad<S: Simd, L: Law, const ROWS: bool, const BOOKS: bool>(
 
 /// Forces, energies and fluxes of triangles; the fourth corner gets nothing.
 #[inline(always)]
-pub fn triangles<S: Simd, L: Law>(
+pub fn triangles<S: Simd, L: ShellLaw>(
     simd: S,
-    batch: Batch,
+    batch: BatchInputs,
     law: L,
     strains: &mut [Strain],
     out: &mut [CornerForces],
@@ -218,11 +218,11 @@ pub fn triangles<S: Simd, L: Law>(
 
 #[inline(always)]
 #[allow(clippy::too_many_arguments)] // one call, inlined: a struct would only rename the list
-fn triangle<S: Simd, L: Law>(
+fn triangle<S: Simd, L: ShellLaw>(
     simd: S,
-    batch: Batch,
+    batch: BatchInputs,
     law: L,
-    group: &Group,
+    group: &ElementGroup,
     past: Option<&[Past; LANES]>,
     part: usize,
     strain: &mut Strain,
@@ -271,7 +271,7 @@ fn triangle<S: Simd, L: Law>(
 fn with_viscosity<S: Simd>(
     simd: S,
     rate: f64,
-    (shape, stock): (&Shape, &Stock),
+    (shape, stock): (&RestShape, &Stock),
     part: usize,
     e: [V<S>; 3],
     s: [V<S>; 3],

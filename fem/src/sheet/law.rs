@@ -21,7 +21,7 @@ pub struct Who<'a> {
 }
 
 /// Tension and energy of several elements at once, per [`Stock::per`] and area.
-pub trait Law: Copy {
+pub trait ShellLaw: Copy {
     /// At strain (E₁₁, E₂₂, 2E₁₂).
     fn at<S: Simd>(self, simd: S, e: [V<S>; 3], who: Who) -> ([V<S>; 3], V<S>);
 }
@@ -63,7 +63,7 @@ fn modulus(film: &NeoHookean) -> f64 {
 #[derive(Clone, Copy)]
 pub struct Rubber(pub f64);
 
-impl Law for Rubber {
+impl ShellLaw for Rubber {
     #[inline(always)]
     fn at<S: Simd>(self, simd: S, e: [V<S>; 3], _: Who) -> ([V<S>; 3], V<S>) {
         let (trace, product) = (e[0] + e[1], e[0] * e[1]);
@@ -79,9 +79,9 @@ impl Law for Rubber {
 
 /// Wrinkling film with 2 t C₁₀ = 1.
 #[derive(Clone, Copy)]
-pub struct Film;
+pub struct WrinklingFilm;
 
-impl Law for Film {
+impl ShellLaw for WrinklingFilm {
     #[inline(always)]
     fn at<S: Simd>(self, simd: S, e: [V<S>; 3], who: Who) -> ([V<S>; 3], V<S>) {
         let (full, stored) = Rubber(1.0).at(simd, e, who);
@@ -102,7 +102,7 @@ impl Law for Film {
     }
 }
 
-impl Law for &Orthotropic {
+impl ShellLaw for &Orthotropic {
     #[inline(always)]
     fn at<S: Simd>(self, simd: S, e: [V<S>; 3], _: Who) -> ([V<S>; 3], V<S>) {
         let s = [
@@ -115,7 +115,7 @@ impl Law for &Orthotropic {
     }
 }
 
-impl Law for &Mixed {
+impl ShellLaw for &Mixed {
     #[inline(always)]
     fn at<S: Simd>(self, simd: S, e: [V<S>; 3], who: Who) -> ([V<S>; 3], V<S>) {
         let row = axes!(i => axes!(j => V::all(simd, self.linear[i][j]) * e[j]));
@@ -133,7 +133,7 @@ impl Law for &Mixed {
 #[derive(Clone, Copy)]
 pub struct Called<'a>(pub &'a dyn Fabric);
 
-impl Law for Called<'_> {
+impl ShellLaw for Called<'_> {
     #[inline(always)]
     fn at<S: Simd>(self, simd: S, e: [V<S>; 3], who: Who) -> ([V<S>; 3], V<S>) {
         let strain = [e[0].lanes(), e[1].lanes(), e[2].lanes()];

@@ -30,7 +30,7 @@ use crate::{FemError, NODE, Tick, Transient};
 use bending::BendingMatrix;
 use chamber::{Air, AirNow};
 use group::Item;
-use patch::{Key, Patch, Shared};
+use patch::{LoopKey, PassShared, Patch};
 use reference::{Reference, mean_stiffness};
 
 /// One element, for everything that is not the hot loop.
@@ -124,15 +124,15 @@ impl Sheet {
         }
         let keys =
             mesh.parts.iter().zip(law::loops(&self.fabrics)).map(|(part, fabric)| key_of(fabric, part, chambers));
-        let keys = keys.collect::<Result<Vec<Key>, FemError>>()?;
-        let mut items: Vec<BTreeMap<Key, Vec<Item>>> = vec![BTreeMap::new(); order.patches.len()];
+        let keys = keys.collect::<Result<Vec<LoopKey>, FemError>>()?;
+        let mut items: Vec<BTreeMap<LoopKey, Vec<Item>>> = vec![BTreeMap::new(); order.patches.len()];
         for (index, element) in self.elements.iter().enumerate() {
             let mut touched: Vec<u32> = element.nodes().iter().map(|n| patch_of[*n as usize]).collect();
             let owner = touched[0];
             touched.sort();
             touched.dedup();
             for patch in touched {
-                let key = Key { corners: element.corners, ..keys[element.part] };
+                let key = LoopKey { corners: element.corners, ..keys[element.part] };
                 let item = self.item(index, patch == owner);
                 items[patch as usize].entry(key).or_default().push(item);
             }
@@ -171,7 +171,7 @@ impl Sheet {
     pub fn start(&mut self, q: &[f64]) {
         let pressure: Vec<f64> = self.air.iter().map(|a| a.now.pressure_pa).collect();
         let (q, fabrics, arch) = (q.as_chunks().0, &self.fabrics[..], self.arch);
-        let shared = Shared { q, fabrics, pressure_pa: &pressure, rate: 0.0, books: false, arch };
+        let shared = PassShared { q, fabrics, pressure_pa: &pressure, rate: 0.0, books: false, arch };
         self.patches.iter_mut().for_each(|p| p.start_strains(shared));
     }
 
@@ -199,7 +199,7 @@ impl Sheet {
     fn pass(&mut self, q: &[f64], force: &mut [f64], rate: f64, books: bool, keep: bool) {
         let pressure: Vec<f64> = self.air.iter().map(|a| a.now.pressure_pa).collect();
         let (q, fabrics, arch) = (q.as_chunks().0, &self.fabrics[..], self.arch);
-        let shared = Shared { q, fabrics, pressure_pa: &pressure, rate, books, arch };
+        let shared = PassShared { q, fabrics, pressure_pa: &pressure, rate, books, arch };
         over_patches(&mut self.patches, force.as_chunks_mut().0, &|patch, force| patch.pass(shared, force, keep));
     }
 }
@@ -297,7 +297,7 @@ fn fabric_of(section: &Section) -> Result<Arc<dyn Fabric>, FemError> {
     }
 }
 
-fn key_of(fabric: usize, part: &crate::mesh::Part, chambers: &[Chamber]) -> Result<Key, FemError> {
+fn key_of(fabric: usize, part: &crate::mesh::Part, chambers: &[Chamber]) -> Result<LoopKey, FemError> {
     let find = |name: &Option<String>| match name {
         None => Ok(None),
         Some(name) => match chambers.iter().position(|c| c.name == *name) {
@@ -307,7 +307,7 @@ fn key_of(fabric: usize, part: &crate::mesh::Part, chambers: &[Chamber]) -> Resu
             }
         },
     };
-    Ok(Key { corners: 4, fabric, front: find(&part.front)?, back: find(&part.back)? })
+    Ok(LoopKey { corners: 4, fabric, front: find(&part.front)?, back: find(&part.back)? })
 }
 
 fn elements(mesh: &Mesh, sections: &[Section], fabrics: &[Arc<dyn Fabric>], settings: &Settings) -> Vec<Element> {

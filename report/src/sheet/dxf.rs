@@ -1,9 +1,9 @@
 //! DXF of the oldest dialect that every cutter reads (AC1009, AutoCAD R12), in mm.
 
-use super::{PenLine, Sheet, SheetText};
+use super::{PatternSheet, PenLine, SheetText};
 
 /// The drawing as a DXF file: one layer a pen, and `TEXT` for words. Characters beyond ASCII become `?`, which R12 has not.
-pub fn dxf(sheet: &Sheet) -> String {
+pub fn dxf(sheet: &PatternSheet) -> String {
     let mut out = Pairs::default();
     out.section("HEADER");
     out.text(9, "$ACADVER").text(1, "AC1009");
@@ -55,7 +55,7 @@ impl Pairs {
     }
 }
 
-fn polyline(sheet: &Sheet, line: &PenLine, out: &mut Pairs) {
+fn polyline(sheet: &PatternSheet, line: &PenLine, out: &mut Pairs) {
     let Some(layer) = sheet.layers.get(line.layer) else { return };
     out.text(0, "POLYLINE").text(8, layer.name).text(66, "1").number(70, usize::from(line.closed));
     for point in &line.points {

@@ -1,6 +1,6 @@
 //! SVG in millimetres, whole or by pages.
 
-use super::{PenLine, Sheet, SheetText};
+use super::{PatternSheet, PenLine, SheetText};
 use crate::markup::escape;
 use std::fmt::Write;
 
@@ -33,14 +33,14 @@ const PEN: f64 = 0.3;
 const FONT: f64 = 1.0 / 0.72;
 
 /// The whole drawing on one sheet of its own size.
-pub fn svg(sheet: &Sheet) -> String {
+pub fn svg(sheet: &PatternSheet) -> String {
     let window = [0.0, 0.0, sheet.size[0], sheet.size[1]];
     document(sheet, sheet.size, [0.0, 0.0], window, "")
 }
 
 /// The drawing cut into pages, row by row from the top: (row, column) from 1 and the SVG. Neighbours share a strip with a cross at
 /// each of its ends, by which they are put together.
-pub fn pages(sheet: &Sheet, paper: &Paper) -> Vec<([usize; 2], String)> {
+pub fn pages(sheet: &PatternSheet, paper: &Paper) -> Vec<([usize; 2], String)> {
     let inner = paper.size.map(|side| side - 2.0 * MARGIN);
     let step = inner.map(|side| side - OVERLAP);
     let count = [0, 1].map(|i| (((sheet.size[i] - OVERLAP) / step[i] - 1e-9).ceil().max(1.0)) as usize);
@@ -55,7 +55,7 @@ pub fn pages(sheet: &Sheet, paper: &Paper) -> Vec<([usize; 2], String)> {
 }
 
 /// A paper that shows a window of the drawing, x, y from the top, width, height, from a corner on.
-fn document(sheet: &Sheet, paper: [f64; 2], corner: [f64; 2], window: [f64; 4], words: &str) -> String {
+fn document(sheet: &PatternSheet, paper: [f64; 2], corner: [f64; 2], window: [f64; 4], words: &str) -> String {
     let mut out = String::new();
     let [width, height] = paper;
     let [x, y, w, h] = window;
@@ -101,7 +101,7 @@ fn crosses(corner: [f64; 2], inner: [f64; 2], out: &mut String) {
     }
 }
 
-fn drawn(sheet: &Sheet, line: &PenLine, out: &mut String) {
+fn drawn(sheet: &PatternSheet, line: &PenLine, out: &mut String) {
     let Some(layer) = sheet.layers.get(line.layer) else { return };
     let place = |p: &[f64; 2]| format!("{:.3},{:.3}", p[0], sheet.size[1] - p[1]);
     let points: Vec<String> = line.points.iter().map(place).collect();

@@ -1,9 +1,9 @@
 use super::*;
 
-fn square() -> Sheet {
+fn square() -> PatternSheet {
     let layer = Pen { name: "CUT", meaning: "cut", colour: "#000000", aci: 7, dashes: &[], tinted: false };
     let points = vec![[10.0, 20.0], [310.0, 20.0], [310.0, 320.0], [10.0, 320.0]];
-    Sheet {
+    PatternSheet {
         title: "a <square>".into(),
         size: [320.0, 330.0],
         layers: vec![layer],
@@ -45,7 +45,7 @@ fn pages_show_everything_and_neighbours_share_a_strip() {
     assert_eq!(window(0)[0] + window(0)[2] - window(1)[0], 10.0);
     assert_eq!(window(0)[1] + window(0)[3] - window(2)[1], 10.0);
     assert!(window(3)[0] + window(3)[2] >= 320.0 && window(3)[1] + window(3)[3] >= 330.0);
-    let small = Sheet { size: [190.0, 277.0], ..square() };
+    let small = PatternSheet { size: [190.0, 277.0], ..square() };
     assert_eq!(super::pages(&small, &Paper::ALL[0]).len(), 1, "what fits is one page");
 }
 

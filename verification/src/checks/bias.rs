@@ -35,7 +35,7 @@ const ROWS: usize = 14;
 const LAST: f64 = 0.7;
 
 /// The simulated test.
-pub struct Pulled {
+pub struct BiasPull {
     /// Rows displacement \[m\], force \[N\] of the right clamp, the first `[0, 0]`.
     pub rows: Vec<[f64; 2]>,
     /// Shear angle in the middle at every row \[rad\].
@@ -48,9 +48,9 @@ pub struct Pulled {
 ///
 /// # Errors
 /// A run that stops, which none does.
-pub fn pull() -> Result<Pulled, FemError> {
+pub fn pull() -> Result<BiasPull, FemError> {
     let mut run = start(&Table::table(&SHEAR).map_err(FemError::Problem)?)?;
-    let mut pulled = Pulled { rows: vec![[0.0, 0.0]], seen: vec![0.0], residual: 0.0 };
+    let mut pulled = BiasPull { rows: vec![[0.0, 0.0]], seen: vec![0.0], residual: 0.0 };
     for row in 1..=ROWS {
         advance(&mut run, 1.25 * STEP_S * row as f64)?;
         pulled.rows.push([displacement_m(row), pull_n(&run, "right")]);
@@ -62,9 +62,9 @@ pub fn pull() -> Result<Pulled, FemError> {
 
 fn run() -> Found {
     let table = Table::table(&SHEAR).map_err(FemError::Problem)?;
-    let Pulled { rows, seen, residual } = pull()?;
+    let BiasPull { rows, seen, residual } = pull()?;
     let found = STRIP.shear(&rows).map_err(FemError::Problem)?;
-    let mut outcome = Outcome::default();
+    let mut outcome = CheckOutcome::default();
     for (row, [angle, moment_pa]) in found.iter().enumerate().skip(1) {
         let exact = table.value(*angle);
         let name = format!("shear moment at {angle:.2} rad [MPa]");
@@ -73,8 +73,8 @@ fn run() -> Found {
     }
     outcome.lines.push(balance(residual));
     let mpa = |row: &[f64; 2]| [row[0], 1e-6 * row[1]];
-    let known = Curve::exact("table that went in", SHEAR.iter().map(mpa));
-    let curves = vec![known, Curve::engine("engine, reduced", found.iter().map(mpa))];
+    let known = FigureCurve::exact("table that went in", SHEAR.iter().map(mpa));
+    let curves = vec![known, FigureCurve::engine("engine, reduced", found.iter().map(mpa))];
     let axes = ["shear angle [rad]", "moment per volume [MPa]"];
     outcome.figure = Some(Figure::new("Shear curve from a bias-extension test", axes, curves));
     Ok(outcome)

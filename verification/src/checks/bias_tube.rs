@@ -40,14 +40,14 @@ fn run() -> Found {
     let found = contractions(net, &[pressure])?;
     let expected = netting(pressure * FLAT_WIDTH_M / PI / (even * THICKNESS_M));
     lines.push(Line::value("contraction of a net (G = 0.01 MPa), 10 kPa", found[0], expected, 0.02));
-    Ok(Outcome::drawn(lines, Figure::new("Bias-cut tube, free", ["pressure [kPa]", "contraction"], curves)))
+    Ok(CheckOutcome::drawn(lines, Figure::new("Bias-cut tube, free", ["pressure [kPa]", "contraction"], curves)))
 }
 
-fn pair(nu12: f64, fabric: &Orthotropic, found: &[f64]) -> [Curve; 2] {
+fn pair(nu12: f64, fabric: &Orthotropic, found: &[f64]) -> [FigureCurve; 2] {
     let line = (1..=30).map(f64::from).map(|kpa| [kpa, exact(fabric, 1e3 * kpa)]);
     let marks = PRESSURES_PA.iter().zip(found).map(|(p, c)| [1e-3 * p, *c]);
     let [known, own] = ["exact", "finite elements"].map(|name| format!("{name}, ν12 = {nu12}"));
-    [Curve::exact(known, line), Curve::engine(own, marks)]
+    [FigureCurve::exact(known, line), FigureCurve::engine(own, marks)]
 }
 
 fn exact(fabric: &Orthotropic, pressure_pa: f64) -> f64 {

@@ -44,7 +44,7 @@ const REST_S: f64 = 0.03;
 
 fn slope() -> Found {
     let mut run = Run::new(&Setup { around: 64, along: 36, grade: 0.0, hourglass: 0.01 }, &[at_share(0.2)])?;
-    let [point] = &run.points()?[..] else { return Ok(Outcome::default()) };
+    let [point] = &run.points()?[..] else { return Ok(CheckOutcome::default()) };
     let line = {
         let Cantilever { radius_m: r, thickness_m: t, length_m: l, young_pa, shear_pa, .. } = BEAM;
         l.powi(3) / (3.0 * young_pa * t * PI * r.powi(3)) + l / (0.5 * shear_pa * 2.0 * PI * r * t)
@@ -72,7 +72,7 @@ fn wrinkling() -> Found {
     let largest = points.iter().fold(0.0, |most: f64, p| most.max(p.force_n));
     lines.push(Line::value("moment of collapse [N m]", largest * BEAM.length_m, collapsed, 0.05));
     lines.push(Line::at_most("energy residual over work", run.run.ledger().residual_share(), 0.01));
-    Ok(Outcome::drawn(lines, figure(&points)))
+    Ok(CheckOutcome::drawn(lines, figure(&points)))
 }
 
 /// Moment in the section that is looked at when its compressed side has lost its tension, from the two points before.
@@ -86,7 +86,8 @@ fn figure(points: &[Point]) -> Figure {
     let exact =
         (1..=99).map(|i| f64::from(i) / 100.0).map(|share| [1e3 * at_share(share), share * collapse_tip_load_n(&BEAM)]);
     let engine = points.iter().map(|p| [1e3 * p.deflection_m, p.force_n]);
-    let curves = vec![Curve::exact("Comer and Levy, with shear", exact), Curve::engine("finite elements", engine)];
+    let curves =
+        vec![FigureCurve::exact("Comer and Levy, with shear", exact), FigureCurve::engine("finite elements", engine)];
     Figure::new("Inflated cantilever up to collapse", ["tip deflection [mm]", "tip force [N]"], curves)
 }
 

@@ -40,7 +40,7 @@ fn steps(to: &[f64], step_s: f64) -> Vec<(f64, f64)> {
 
 fn linear() -> Found {
     let fabric = Orthotropic::from_bias(96.5e6, 120e6, 4.05e6, 0.0, 5e-5).map_err(FemError::Problem)?;
-    let mut outcome = Outcome::default();
+    let mut outcome = CheckOutcome::default();
     for (name, turns, modulus_pa) in [("E0", 0.0, 96.5e6), ("E45", 1.0, 4.05e6), ("E90", 2.0, 120e6)] {
         // Twenty periods of the lowest stretching mode, f = c/2L.
         let step_s = 20.0 * 2.0 * 0.1 / (modulus_pa / 1000.0_f64).sqrt();
@@ -73,7 +73,7 @@ fn rubber() -> Found {
         damping_1_s: 2000.0,
     };
     let mut run = strip.start()?;
-    let mut outcome = Outcome::default();
+    let mut outcome = CheckOutcome::default();
     let law = |l: f64| 2.0 * fabric.c10_pa * (l - l.powi(-2));
     let mut marks = Vec::new();
     for i in 1..=4 {
@@ -86,7 +86,7 @@ fn rubber() -> Found {
     outcome.lines.push(Line::at_least("strain reached", marks[3][0] / 100.0, 0.2));
     outcome.lines.push(balance(run.ledger().residual_share()));
     let exact = (0..=22).map(f64::from).map(|e| [e, law(1.0 + 0.01 * e) * 1e-6]);
-    let curves = vec![Curve::exact("2 C10 (l - 1/l²)", exact), Curve::engine("engine", marks)];
+    let curves = vec![FigureCurve::exact("2 C10 (l - 1/l²)", exact), FigureCurve::engine("engine", marks)];
     outcome.figure = Some(Figure::new("Neo-Hookean strip", AXES, curves));
     Ok(outcome)
 }
@@ -110,7 +110,7 @@ fn woven() -> Found {
         damping_1_s: 500.0,
     };
     let mut run = strip.start()?;
-    let mut outcome = Outcome::default();
+    let mut outcome = CheckOutcome::default();
     let mut marks = Vec::new();
     for (i, strain) in strains.iter().enumerate() {
         let read = strip.read(&mut run, 1.25 * step_s * (i + 1) as f64)?;
@@ -130,9 +130,9 @@ fn woven() -> Found {
     outcome.lines.push(Line::value("energy lost in the fabric [mJ]", 1e3 * lost_j, 1e3 * loop_j, 0.01));
     outcome.lines.push(Line::value("work of the clamps over the loop [mJ]", 1e3 * spent_j, 1e3 * loop_j, 0.01));
     outcome.lines.push(balance(run.ledger().residual_share()));
-    let known = |name, rows: [[f64; 2]; 4]| Curve::exact(name, rows.map(|r| [100.0 * r[0], 1e-6 * r[1]]));
+    let known = |name, rows: [[f64; 2]; 4]| FigureCurve::exact(name, rows.map(|r| [100.0 * r[0], 1e-6 * r[1]]));
     let tables = [known("loading, table", LOADING), known("unloading, table", UNLOADING)];
-    let curves = tables.into_iter().chain([Curve::engine("engine", marks)]).collect();
+    let curves = tables.into_iter().chain([FigureCurve::engine("engine", marks)]).collect();
     outcome.figure = Some(Figure::new("Woven strip along warp", AXES, curves));
     Ok(outcome)
 }

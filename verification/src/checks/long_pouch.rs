@@ -1,7 +1,7 @@
 //! Endlessly wide pouch: contraction and volume.
 
 use super::setup::*;
-use crate::exact::elastic_pouch::{self, Film, free_contraction};
+use crate::exact::elastic_pouch::{self, PouchFilm, free_contraction};
 use crate::exact::pouch::Pouch;
 use models::fabrics::NeoHookean;
 use std::f64::consts::FRAC_PI_2;
@@ -22,7 +22,7 @@ const PRESSURE_PA: f64 = 30e3;
 const HELD_RAD: f64 = 1.0;
 
 fn run() -> Found {
-    let film = Film::NeoHookean(C10_PA * THICKNESS_M);
+    let film = PouchFilm::NeoHookean(C10_PA * THICKNESS_M);
     let free = free_contraction(&POUCH, film, PRESSURE_PA);
     let (mesh, run) = blown(hold("right", [false, false, true]))?;
     let x = run.positions();

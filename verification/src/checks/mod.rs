@@ -47,7 +47,7 @@ pub struct Check {
 
 /// What a check found.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Outcome {
+pub struct CheckOutcome {
     /// Numbers against known ones.
     pub lines: Vec<Line>,
     /// Curves worth a picture; may be empty.
@@ -93,12 +93,12 @@ pub struct Figure {
     /// Vertical axis with unit.
     pub y: String,
     /// Curves.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<FigureCurve>,
 }
 
 /// A curve of a figure.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Curve {
+pub struct FigureCurve {
     /// Legend.
     pub label: String,
     /// Points.
@@ -146,7 +146,7 @@ pub const CHECKS: &[Check] = &[
 ];
 
 /// What running a check gives.
-pub type Found = Result<Outcome, FemError>;
+pub type Found = Result<CheckOutcome, FemError>;
 
 impl Check {
     const fn quick(name: &'static str, sentence: &'static str, source: &'static str, run: fn() -> Found) -> Check {
@@ -158,33 +158,33 @@ impl Check {
     }
 }
 
-impl From<Vec<Line>> for Outcome {
-    fn from(lines: Vec<Line>) -> Outcome {
-        Outcome { lines, figure: None }
+impl From<Vec<Line>> for CheckOutcome {
+    fn from(lines: Vec<Line>) -> CheckOutcome {
+        CheckOutcome { lines, figure: None }
     }
 }
 
-impl Outcome {
-    fn drawn(lines: Vec<Line>, figure: Figure) -> Outcome {
-        Outcome { lines, figure: Some(figure) }
+impl CheckOutcome {
+    fn drawn(lines: Vec<Line>, figure: Figure) -> CheckOutcome {
+        CheckOutcome { lines, figure: Some(figure) }
     }
 }
 
 impl Figure {
-    fn new(title: &str, [x, y]: [&str; 2], curves: Vec<Curve>) -> Figure {
+    fn new(title: &str, [x, y]: [&str; 2], curves: Vec<FigureCurve>) -> Figure {
         Figure { title: title.into(), x: x.into(), y: y.into(), curves }
     }
 }
 
-impl Curve {
+impl FigureCurve {
     /// The known answer.
-    fn exact(label: impl Into<String>, points: impl IntoIterator<Item = [f64; 2]>) -> Curve {
-        Curve { label: label.into(), points: points.into_iter().collect(), exact: true }
+    fn exact(label: impl Into<String>, points: impl IntoIterator<Item = [f64; 2]>) -> FigureCurve {
+        FigureCurve { label: label.into(), points: points.into_iter().collect(), exact: true }
     }
 
     /// What the engine gave.
-    fn engine(label: impl Into<String>, points: impl IntoIterator<Item = [f64; 2]>) -> Curve {
-        Curve { exact: false, ..Curve::exact(label, points) }
+    fn engine(label: impl Into<String>, points: impl IntoIterator<Item = [f64; 2]>) -> FigureCurve {
+        FigureCurve { exact: false, ..FigureCurve::exact(label, points) }
     }
 }
 

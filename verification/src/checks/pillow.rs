@@ -42,17 +42,17 @@ fn run() -> Found {
     let mean = edges().sum::<f64>() / rows.len() as f64;
     let name = "pull-in of the edges: largest less smallest of five meshes, over their mean";
     lines.push(Line::at_most(name, (most - least) / mean, 0.05));
-    Ok(Outcome::drawn(lines, figure(&rows)))
+    Ok(CheckOutcome::drawn(lines, figure(&rows)))
 }
 
 fn figure(rows: &[(usize, [f64; 2])]) -> Figure {
     let engine = |k: usize| rows.iter().map(move |(n, found)| [*n as f64, found[k]]);
     let band = |[low, high]: [f64; 2]| vec![[16.0, low], [48.0, low], [48.0, high], [16.0, high], [16.0, low]];
     let curves = vec![
-        Curve::exact("height, published range", band(CENTRE_M)),
-        Curve::exact("pull-in of the edges, published range", band(MID_EDGE_M)),
-        Curve::engine("height", engine(0)),
-        Curve::engine("pull-in", engine(1)),
+        FigureCurve::exact("height, published range", band(CENTRE_M)),
+        FigureCurve::exact("pull-in of the edges, published range", band(MID_EDGE_M)),
+        FigureCurve::engine("height", engine(0)),
+        FigureCurve::engine("pull-in", engine(1)),
     ];
     Figure::new("Square airbag: convergence", ["elements per side", "height, pull-in [m]"], curves)
 }

@@ -54,8 +54,8 @@ fn run() -> Found {
     let line = line.map(|x| [1e3 * x, 1e6 * shell::displacement_m(&shell, pressure_pa, x)]);
     let marks = meshes[1].iter().filter(|p| p[0] < 5.0 * edge).map(|p| [1e3 * p[0], 1e6 * p[1]]);
     let axes = ["distance from the ring [mm]", "widening [µm]"];
-    let curves = vec![Curve::exact("closed form", line), Curve::engine("shells", marks)];
-    Ok(Outcome::drawn(lines, Figure::new("Cylinder clamped at a ring under pressure", axes, curves)))
+    let curves = vec![FigureCurve::exact("closed form", line), FigureCurve::engine("shells", marks)];
+    Ok(CheckOutcome::drawn(lines, Figure::new("Cylinder clamped at a ring under pressure", axes, curves)))
 }
 
 /// Distance from the ring and widening of each row of nodes; the clamp acts half way between the two rows that it holds.

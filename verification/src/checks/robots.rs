@@ -50,8 +50,8 @@ fn run() -> Found {
         tips.push([k as f64 + 1.0, end.y_mm]);
     }
     let axes = ["sPAM, cPAM, ePAM, fPAM", "outermost marker [mm]"];
-    let curves = vec![Curve::engine("finite elements", tips)];
-    Ok(Outcome::drawn(lines, Figure::new("Four robots at 30 kPa, as recommended", axes, curves)))
+    let curves = vec![FigureCurve::engine("finite elements", tips)];
+    Ok(CheckOutcome::drawn(lines, Figure::new("Four robots at 30 kPa, as recommended", axes, curves)))
 }
 
 fn folds() -> Found {

@@ -1,6 +1,6 @@
 //! All that `ibr verify` prints.
 
-use super::{Against, CHECKS, Check, Figure, Line, Outcome};
+use super::{Against, CHECKS, Check, CheckOutcome, Figure, Line};
 use crate::cost::cpu_seconds;
 use crate::exact::{OracleRow, oracle_table};
 use crate::{Error, Findings, Printed};
@@ -115,7 +115,7 @@ fn short(x: f64) -> String {
     }
 }
 
-fn as_json(check: &Check, outcome: &Outcome, cpu_s: f64) -> Value {
+fn as_json(check: &Check, outcome: &CheckOutcome, cpu_s: f64) -> Value {
     let line = |line: &Line| {
         let against = match line.against {
             Against::Value { exact, tolerance } => json!({"exact": exact, "tolerance": tolerance}),

@@ -9,7 +9,7 @@ pub(super) use fem::problem::{
 };
 pub(super) use fem::{FemError, Mesh, Problem, Simulation};
 
-pub(super) use super::{Check, Curve, Figure, Found, Line, Outcome};
+pub(super) use super::{Check, CheckOutcome, Figure, FigureCurve, Found, Line};
 
 use fem::NODE;
 use fem::sheet::Sheet;

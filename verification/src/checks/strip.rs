@@ -135,9 +135,9 @@ fn large() -> Found {
         Line::at_least("rate of the shortening", rate(errors[1][1], errors[2][1], 2.0), 1.8),
     ];
     let line = elastica::cantilever_line(load, 60).into_iter().map(|x| x.map(|x| 1e3 * LENGTH_M * x));
-    let curves = vec![Curve::engine("strip of 40 elements", curve), Curve::exact("elastica", line)];
+    let curves = vec![FigureCurve::engine("strip of 40 elements", curve), FigureCurve::exact("elastica", line)];
     let axes = ["along the clamp [mm]", "across [mm]"];
-    Ok(Outcome::drawn(lines, Figure::new("Cantilever under a tip force, F L²/B = 3", axes, curves)))
+    Ok(CheckOutcome::drawn(lines, Figure::new("Cantilever under a tip force, F L²/B = 3", axes, curves)))
 }
 
 fn roll() -> Found {

@@ -19,7 +19,7 @@ pub use models::comer_levy::{curvature_ratio, moment_ratio, moment_ratio_from_cu
 
 /// Section of an inflated tube whose wall carries tension only.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tube {
+pub struct TubeSection {
     /// Radius R \[m\].
     pub radius_m: f64,
     /// Membrane stiffness E t \[N/m\].
@@ -34,17 +34,17 @@ pub fn thrust_n(pressure_pa: f64, radius_m: f64, axial_compression_n: f64) -> f6
 }
 
 /// Curvature of the first wrinkle, `κ_w = N/(2π E t R²)` \[1/m\]; p/(2 E t) for N = pπR².
-pub fn wrinkling_curvature_per_m(tube: &Tube) -> f64 {
+pub fn wrinkling_curvature_per_m(tube: &TubeSection) -> f64 {
     tube.thrust_n / (2.0 * PI * tube.membrane_stiffness_n_per_m * tube.radius_m.powi(2))
 }
 
 /// Moment of the first wrinkle, `M_w = N R/2` \[N m\]; pπR³/2 for N = pπR².
-pub fn wrinkling_moment_nm(tube: &Tube) -> f64 {
+pub fn wrinkling_moment_nm(tube: &TubeSection) -> f64 {
     0.5 * tube.thrust_n * tube.radius_m
 }
 
 /// Moment of collapse, `M_c = N R` \[N m\]; pπR³ for N = pπR².
-pub fn collapse_moment_nm(tube: &Tube) -> f64 {
+pub fn collapse_moment_nm(tube: &TubeSection) -> f64 {
     tube.thrust_n * tube.radius_m
 }
 
@@ -100,7 +100,7 @@ fn shear_stiffness_n(beam: &Cantilever) -> f64 {
 /// See `known.txt`; R = 40 mm, p = 2 kPa, E t = 41.6 kN/m.
 pub(super) fn known() -> Known {
     let slack = [0.0, PI / 6.0, PI / 4.0, PI / 3.0, PI / 2.0, PI / 1.5, PI * 0.75, PI / 1.2, PI * 0.9];
-    let tube = |radius_m, pressure_pa| Tube {
+    let tube = |radius_m, pressure_pa| TubeSection {
         radius_m,
         membrane_stiffness_n_per_m: 41.6e3,
         thrust_n: thrust_n(pressure_pa, radius_m, 0.0),

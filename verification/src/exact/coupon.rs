@@ -18,7 +18,7 @@ use models::fabrics::BiasExtension;
 
 /// Linear orthotropic sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sheet {
+pub struct OrthotropicSheet {
     /// E₁ \[Pa\].
     pub warp_pa: f64,
     /// E₂ \[Pa\].
@@ -30,13 +30,13 @@ pub struct Sheet {
 }
 
 /// Modulus E(ψ) of a specimen pulled at an angle to the warp \[Pa\].
-pub fn modulus_pa(sheet: &Sheet, angle: f64) -> f64 {
+pub fn modulus_pa(sheet: &OrthotropicSheet, angle: f64) -> f64 {
     let (s, c) = angle.sin_cos();
     1.0 / (c.powi(4) / sheet.warp_pa + s.powi(4) / sheet.fill_pa + mixed(sheet) * (s * c).powi(2))
 }
 
 /// Contraction across per stretch along, `ν(ψ) = E(ψ) [ν₁₂/E₁ (cos⁴ψ + sin⁴ψ) − (1/E₁ + 1/E₂ − 1/G) sin²ψ cos²ψ]`.
-pub fn poisson(sheet: &Sheet, angle: f64) -> f64 {
+pub fn poisson(sheet: &OrthotropicSheet, angle: f64) -> f64 {
     let (s, c) = angle.sin_cos();
     let cross = 1.0 / sheet.warp_pa + 1.0 / sheet.fill_pa - 1.0 / sheet.shear_pa;
     let straight = sheet.poisson / sheet.warp_pa * (s.powi(4) + c.powi(4));
@@ -44,14 +44,14 @@ pub fn poisson(sheet: &Sheet, angle: f64) -> f64 {
 }
 
 /// `1/G − 2ν₁₂/E₁` \[1/Pa\].
-fn mixed(sheet: &Sheet) -> f64 {
+fn mixed(sheet: &OrthotropicSheet) -> f64 {
     1.0 / sheet.shear_pa - 2.0 * sheet.poisson / sheet.warp_pa
 }
 
 /// See `known.txt`; for the bias extension test, [`BiasExtension`] of 250 mm by 20 mm.
 pub(super) fn known() -> Known {
-    let sheet = Sheet { warp_pa: 96.5, fill_pa: 120.0, poisson: 0.3, shear_pa: 1.032 };
-    let uncoupled = Sheet { poisson: 0.0, ..sheet };
+    let sheet = OrthotropicSheet { warp_pa: 96.5, fill_pa: 120.0, poisson: 0.3, shear_pa: 1.032 };
+    let uncoupled = OrthotropicSheet { poisson: 0.0, ..sheet };
     let moduli = [0.0_f64, 15.0, 30.0, 45.0, 60.0, 90.0].map(|degrees| modulus_pa(&sheet, degrees.to_radians()));
     let ratios = [15.0_f64, 45.0, 90.0].map(|degrees| poisson(&sheet, degrees.to_radians()));
     let off_axis = [&moduli[..], &[modulus_pa(&uncoupled, 45_f64.to_radians())], &ratios];
@@ -75,7 +75,8 @@ mod tests {
     use models::fabrics::shear_modulus;
     use std::f64::consts::FRAC_PI_4;
 
-    const SHEET: Sheet = Sheet { warp_pa: 96.5e6, fill_pa: 120e6, poisson: 0.3, shear_pa: 1.032e6 };
+    const SHEET: OrthotropicSheet =
+        OrthotropicSheet { warp_pa: 96.5e6, fill_pa: 120e6, poisson: 0.3, shear_pa: 1.032e6 };
     const BIAS: BiasExtension = BiasExtension { length_m: 0.25, width_m: 0.02, thickness_m: 1.0 };
 
     #[test]
@@ -86,7 +87,7 @@ mod tests {
 
     #[test]
     fn an_isotropic_sheet_is_the_same_at_every_angle() {
-        let sheet = Sheet { warp_pa: 1e8, fill_pa: 1e8, poisson: 0.3, shear_pa: 1e8 / 2.6 };
+        let sheet = OrthotropicSheet { warp_pa: 1e8, fill_pa: 1e8, poisson: 0.3, shear_pa: 1e8 / 2.6 };
         for angle in [0.0, 0.4, 1.1] {
             assert!((modulus_pa(&sheet, angle) / 1e8 - 1.0).abs() < 1e-14);
             assert!((poisson(&sheet, angle) - 0.3).abs() < 1e-14);

@@ -33,7 +33,7 @@ use super::solve::{falling_root, sinc};
 
 /// Film of a pouch.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Film {
+pub enum PouchFilm {
     /// Linear between Green strain and second Piola–Kirchhoff tension, width kept; A₁₁ \[N/m\].
     Linear(f64),
     /// Incompressible neo-Hookean, width kept; C₁₀ t \[N/m\].
@@ -43,41 +43,41 @@ pub enum Film {
 }
 
 /// Stretch λ of the film at a half angle θ; not a number beyond the burst pressure of a neo-Hookean film.
-pub fn stretch(pouch: &Pouch, film: Film, theta: f64, pressure_pa: f64) -> f64 {
+pub fn stretch(pouch: &Pouch, film: PouchFilm, theta: f64, pressure_pa: f64) -> f64 {
     let load = pressure_pa * pouch.length_m / theta;
     match film {
-        Film::Linear(a11) => (1.0 + load / a11).sqrt(),
-        Film::NeoHookean(c10_t) => (1.0 - 0.25 * load / c10_t).powf(-0.25),
-        Film::NeoHookeanFreeWidth(c10_t) => stretch_of_free_width(0.25 * load / c10_t),
+        PouchFilm::Linear(a11) => (1.0 + load / a11).sqrt(),
+        PouchFilm::NeoHookean(c10_t) => (1.0 - 0.25 * load / c10_t).powf(-0.25),
+        PouchFilm::NeoHookeanFreeWidth(c10_t) => stretch_of_free_width(0.25 * load / c10_t),
     }
 }
 
 /// Contraction `ε = 1 − λ sin θ/θ`; negative where the film stretches more than the arc takes up.
-pub fn contraction(pouch: &Pouch, film: Film, theta: f64, pressure_pa: f64) -> f64 {
+pub fn contraction(pouch: &Pouch, film: PouchFilm, theta: f64, pressure_pa: f64) -> f64 {
     1.0 - stretch(pouch, film, theta, pressure_pa) * sinc(theta)
 }
 
 /// Contraction of the free pouch, `ε = 1 − 2λ/π`.
-pub fn free_contraction(pouch: &Pouch, film: Film, pressure_pa: f64) -> f64 {
+pub fn free_contraction(pouch: &Pouch, film: PouchFilm, pressure_pa: f64) -> f64 {
     contraction(pouch, film, FRAC_PI_2, pressure_pa)
 }
 
 /// Pulling force `F = p λ λ_w L0 W cos θ/θ` \[N\].
-pub fn force_n(pouch: &Pouch, film: Film, theta: f64, pressure_pa: f64) -> f64 {
+pub fn force_n(pouch: &Pouch, film: PouchFilm, theta: f64, pressure_pa: f64) -> f64 {
     let stretched = stretch(pouch, film, theta, pressure_pa);
     let width = width_stretch(film, stretched) * pouch.width_m;
     pressure_pa * stretched * pouch.length_m * width * theta.cos() / theta
 }
 
 /// Volume `V = 2 r² (θ − sin θ cos θ) W λ_w` \[m³\].
-pub fn volume_m3(pouch: &Pouch, film: Film, theta: f64, pressure_pa: f64) -> f64 {
+pub fn volume_m3(pouch: &Pouch, film: PouchFilm, theta: f64, pressure_pa: f64) -> f64 {
     let stretched = stretch(pouch, film, theta, pressure_pa);
     width_stretch(film, stretched) * stretched * stretched * super::pouch::volume_m3(pouch, theta)
 }
 
-fn width_stretch(film: Film, stretch: f64) -> f64 {
+fn width_stretch(film: PouchFilm, stretch: f64) -> f64 {
     match film {
-        Film::NeoHookeanFreeWidth(_) => 1.0 / stretch.sqrt(),
+        PouchFilm::NeoHookeanFreeWidth(_) => 1.0 / stretch.sqrt(),
         _ => 1.0,
     }
 }
@@ -91,8 +91,8 @@ fn stretch_of_free_width(load: f64) -> f64 {
 /// See `known.txt`; L0 = W = 60 mm, t = 0.05 mm, E = 208 MPa.
 pub(super) fn known() -> Known {
     let pouch = Pouch { length_m: 0.06, width_m: 0.06 };
-    let (linear, neo) = (Film::Linear(10.4e3 / 0.91), Film::NeoHookean(10.4e3 / 6.0));
-    let open = Film::NeoHookeanFreeWidth(10.4e3 / 6.0);
+    let (linear, neo) = (PouchFilm::Linear(10.4e3 / 0.91), PouchFilm::NeoHookean(10.4e3 / 6.0));
+    let open = PouchFilm::NeoHookeanFreeWidth(10.4e3 / 6.0);
     let free = |film| [30e3, 90e3].map(|pressure_pa| free_contraction(&pouch, film, pressure_pa));
     let round = |film| [stretch(&pouch, film, FRAC_PI_2, 30e3)];
     let force = |film| [force_n(&pouch, film, 1.0, 30e3)];
@@ -108,15 +108,16 @@ mod tests {
     use std::f64::consts::PI;
 
     const POUCH: Pouch = Pouch { length_m: 0.06, width_m: 0.06 };
-    const FILMS: [Film; 3] = [Film::Linear(11.4e3), Film::NeoHookean(1.73e3), Film::NeoHookeanFreeWidth(1.73e3)];
+    const FILMS: [PouchFilm; 3] =
+        [PouchFilm::Linear(11.4e3), PouchFilm::NeoHookean(1.73e3), PouchFilm::NeoHookeanFreeWidth(1.73e3)];
 
     /// Energy of the film per unstressed area \[J/m²\].
-    fn film_energy_j_per_m2(film: Film, stretch: f64) -> f64 {
+    fn film_energy_j_per_m2(film: PouchFilm, stretch: f64) -> f64 {
         let square = stretch * stretch;
         match film {
-            Film::Linear(a11) => 0.125 * a11 * (square - 1.0).powi(2),
-            Film::NeoHookean(c10_t) => c10_t * (square + 1.0 / square - 2.0),
-            Film::NeoHookeanFreeWidth(c10_t) => c10_t * (square + 2.0 / stretch - 3.0),
+            PouchFilm::Linear(a11) => 0.125 * a11 * (square - 1.0).powi(2),
+            PouchFilm::NeoHookean(c10_t) => c10_t * (square + 1.0 / square - 2.0),
+            PouchFilm::NeoHookeanFreeWidth(c10_t) => c10_t * (square + 2.0 / stretch - 3.0),
         }
     }
 
@@ -150,11 +151,13 @@ mod tests {
 
     #[test]
     fn a_stiff_film_is_the_stretchless_pouch_and_softness_costs_contraction_to_first_order() {
-        let stiff = free_contraction(&POUCH, Film::Linear(1e15), 30e3);
+        let stiff = free_contraction(&POUCH, PouchFilm::Linear(1e15), 30e3);
         assert!((stiff - super::super::pouch::MAX_CONTRACTION).abs() < 1e-12);
         let (p, a11) = (100.0, 10e3);
         let loss = 2.0 / PI * p * 0.06 / (PI * a11);
-        for film in [Film::Linear(a11), Film::NeoHookean(a11 / 8.0), Film::NeoHookeanFreeWidth(a11 / 6.0)] {
+        for film in
+            [PouchFilm::Linear(a11), PouchFilm::NeoHookean(a11 / 8.0), PouchFilm::NeoHookeanFreeWidth(a11 / 6.0)]
+        {
             let lost = stiff - free_contraction(&POUCH, film, p);
             assert!((lost / loss - 1.0).abs() < 1e-3, "{film:?}");
         }

@@ -33,7 +33,7 @@ pub fn weight_deflection_m(plate_nm: f64, length_m: f64, weight_n_per_m2: f64) -
 
 /// Where the tip of a cantilever ends, in lengths L.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tip {
+pub struct ElasticaTip {
     /// Deflection v/L.
     pub deflection: f64,
     /// Shortening of the projection on the clamp's tangent, 1 − x_L/L.
@@ -43,13 +43,13 @@ pub struct Tip {
 }
 
 /// Cantilever under a tip force of fixed direction; `load` = F L²/B ≥ 0.
-pub fn cantilever(load: f64) -> Tip {
+pub fn cantilever(load: f64) -> ElasticaTip {
     if load == 0.0 {
-        return Tip { deflection: 0.0, shortening: 0.0, rotation: 0.0 };
+        return ElasticaTip { deflection: 0.0, shortening: 0.0, rotation: 0.0 };
     }
     let root = load.sqrt();
     let rotation = falling_root(|tip| root - from_tip(tip, |_| 1.0), 0.0, FRAC_PI_2);
-    Tip {
+    ElasticaTip {
         deflection: from_tip(rotation, f64::sin) / root,
         shortening: 1.0 - (2.0 * rotation.sin()).sqrt() / root,
         rotation,
@@ -98,7 +98,7 @@ fn from_tip(tip: f64, f: impl Fn(f64) -> f64) -> f64 {
 /// See `known.txt`.
 pub(super) fn known() -> Known {
     let [quarter, one, two, five, ten] = [0.25, 1.0, 2.0, 5.0, 10.0].map(cantilever);
-    let all = |tip: &Tip| [tip.deflection, tip.shortening, tip.rotation];
+    let all = |tip: &ElasticaTip| [tip.deflection, tip.shortening, tip.rotation];
     let tip_force = [&[quarter.deflection][..], &all(&one), &[two.deflection, five.deflection], &all(&ten)];
     let printed = [&[one.deflection][..], &all(&two), &[five.deflection, ten.deflection, ten.shortening]];
     vec![("elastica, cantilever", tip_force.concat()), ("elastica, cantilever, printed table", printed.concat())]

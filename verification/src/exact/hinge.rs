@@ -49,7 +49,7 @@ pub enum Lever {
 
 /// One unit of the series: a pouch on a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Unit {
+pub struct SeriesUnit {
     /// The pouch, its length along the body axis.
     pub pouch: Pouch,
     /// Radius R of the body \[m\].
@@ -77,7 +77,7 @@ pub fn restoring_moment_nm(body_radius_m: f64, body_pressure_pa: f64) -> f64 {
 }
 
 /// Distance R + d from the far fibre to the pouch's chord \[m\].
-pub fn arm_m(unit: &Unit, theta: f64) -> f64 {
+pub fn arm_m(unit: &SeriesUnit, theta: f64) -> f64 {
     let lift = match unit.arm {
         Arm::Embedded => 0.0,
         Arm::External => bulge_height_m(&unit.pouch, theta),
@@ -86,12 +86,12 @@ pub fn arm_m(unit: &Unit, theta: f64) -> f64 {
 }
 
 /// Fold angle of one unit, `φ = η L0 ε(θ)/(R + d(θ))` \[rad\].
-pub fn fold_angle(unit: &Unit, theta: f64) -> f64 {
+pub fn fold_angle(unit: &SeriesUnit, theta: f64) -> f64 {
     unit.end_factor * unit.pouch.length_m * contraction(theta) / arm_m(unit, theta)
 }
 
 /// Lever ℓ of the pouch's force at half angle θ \[m\]; both rules agree for [`Arm::Embedded`].
-pub fn lever_m(unit: &Unit, theta: f64, rule: Lever) -> f64 {
+pub fn lever_m(unit: &SeriesUnit, theta: f64, rule: Lever) -> f64 {
     let arm = arm_m(unit, theta);
     if rule == Lever::CurrentArm || unit.arm == Arm::Embedded {
         return arm;
@@ -102,7 +102,7 @@ pub fn lever_m(unit: &Unit, theta: f64, rule: Lever) -> f64 {
 }
 
 /// Half angle θ in \[0, π/2\] where `F(θ) ℓ(θ) = p π R³`; η cancels. 0 for P = 0, π/2 for p = 0, NaN for NaN input.
-pub fn equilibrium_theta(unit: &Unit, actuator_pa: f64, body_pa: f64, rule: Lever) -> f64 {
+pub fn equilibrium_theta(unit: &SeriesUnit, actuator_pa: f64, body_pa: f64, rule: Lever) -> f64 {
     let moment = restoring_moment_nm(unit.body_radius_m, body_pa);
     // Times θ, so that the pole of the force at θ = 0 is gone.
     let excess = |theta: f64| theta * (force_n(&unit.pouch, theta, actuator_pa) * lever_m(unit, theta, rule) - moment);
@@ -128,22 +128,22 @@ pub(super) fn known() -> Known {
     const BODY_PA: f64 = 2e3;
     const PRESSURES_PA: [f64; 3] = [10e3, 20e3, 30e3];
     const SQUARE: Pouch = Pouch { length_m: 0.06, width_m: 0.06 };
-    const EMBEDDED: Unit = Unit { pouch: SQUARE, body_radius_m: 0.04, end_factor: 1.0, arm: Arm::Embedded };
-    const EXTERNAL: Unit = Unit { arm: Arm::External, ..EMBEDDED };
+    const EMBEDDED: SeriesUnit = SeriesUnit { pouch: SQUARE, body_radius_m: 0.04, end_factor: 1.0, arm: Arm::Embedded };
+    const EXTERNAL: SeriesUnit = SeriesUnit { arm: Arm::External, ..EMBEDDED };
     // y of the marker [mm] for `count` units at half angle θ.
-    let marker_mm = |unit: &Unit, theta: f64, count: f64, station_mm: f64| {
+    let marker_mm = |unit: &SeriesUnit, theta: f64, count: f64, station_mm: f64| {
         let body = BentBody { body_radius_m: 0.04, length_m: 0.36, total_angle: count * fold_angle(unit, theta) };
         1e3 * axis_point_m(&body, 1e-3 * station_mm)[1]
     };
-    let theta = |unit: &Unit, rule, pressure_pa| equilibrium_theta(unit, pressure_pa, BODY_PA, rule);
+    let theta = |unit: &SeriesUnit, rule, pressure_pa| equilibrium_theta(unit, pressure_pa, BODY_PA, rule);
     let work = Lever::VirtualWork;
-    let height = |unit: &Unit, end_factor, rule, count, station_mm, pressure_pa| {
-        marker_mm(&Unit { end_factor, ..*unit }, theta(unit, rule, pressure_pa), count, station_mm)
+    let height = |unit: &SeriesUnit, end_factor, rule, count, station_mm, pressure_pa| {
+        marker_mm(&SeriesUnit { end_factor, ..*unit }, theta(unit, rule, pressure_pa), count, station_mm)
     };
     let embedded = |end_factor, pressure_pa| height(&EMBEDDED, end_factor, work, 6.0, 330.0, pressure_pa);
     let external = |end_factor, rule| PRESSURES_PA.map(|p| height(&EXTERNAL, end_factor, rule, 6.0, 330.0, p));
     let load = restoring_moment_nm(0.04, BODY_PA) / (30e3 * 0.06 * 0.06 * arm_m(&EMBEDDED, 0.0));
-    let thetas = |unit: &Unit| PRESSURES_PA.map(|p| theta(unit, work, p));
+    let thetas = |unit: &SeriesUnit| PRESSURES_PA.map(|p| theta(unit, work, p));
     let sealed = [1.0, 0.598504, 0.6456, 0.6817].map(|eta| PRESSURES_PA.map(|p| embedded(eta, p)));
     let readings = [(5.0, 330.0), (6.0, 360.0)]
         .map(|(count, station)| PRESSURES_PA.map(|p| height(&EMBEDDED, 1.0, work, count, station, p)));
@@ -166,13 +166,13 @@ mod tests {
     use super::super::pouch::volume_m3;
     use super::*;
 
-    fn unit(arm: Arm) -> Unit {
+    fn unit(arm: Arm) -> SeriesUnit {
         let pouch = Pouch { length_m: 0.06, width_m: 0.06 };
-        Unit { pouch, body_radius_m: 0.04, end_factor: 1.0, arm }
+        SeriesUnit { pouch, body_radius_m: 0.04, end_factor: 1.0, arm }
     }
 
     /// Energy `Π = −P η V(θ) + p π R³ φ(θ)` of one unit at fixed pressures \[J\].
-    fn energy_j(unit: &Unit, theta: f64, actuator_pa: f64, body_pa: f64) -> f64 {
+    fn energy_j(unit: &SeriesUnit, theta: f64, actuator_pa: f64, body_pa: f64) -> f64 {
         let body = restoring_moment_nm(unit.body_radius_m, body_pa) * fold_angle(unit, theta);
         body - actuator_pa * unit.end_factor * volume_m3(&unit.pouch, theta)
     }

@@ -25,13 +25,13 @@ use std::f64::consts::PI;
 
 use super::Known;
 use super::beam::{
-    BeamTheory, Cantilever, Tube, collapse_moment_nm, curvature_ratio, moment_ratio, tip_deflection_m,
+    BeamTheory, Cantilever, TubeSection, collapse_moment_nm, curvature_ratio, moment_ratio, tip_deflection_m,
     wrinkling_curvature_per_m,
 };
 use super::solve::{falling_root, integral};
 
 /// Bending deflection of the tip \[m\] under a tip load; infinite from the collapse load on.
-pub fn bending_deflection_m(tube: &Tube, length_m: f64, load_n: f64) -> f64 {
+pub fn bending_deflection_m(tube: &TubeSection, length_m: f64, load_n: f64) -> f64 {
     let share = load_n.abs() * length_m / collapse_moment_nm(tube);
     let unit = wrinkling_curvature_per_m(tube) * length_m.powi(2);
     (unit * deflection_ratio(share)).copysign(load_n)
@@ -46,8 +46,8 @@ pub fn tip_deflection_with_shear_m(beam: &Cantilever, load_n: f64) -> f64 {
 }
 
 /// The tube of a cantilever, with the thrust of its pressure alone.
-pub fn tube_of(beam: &Cantilever) -> Tube {
-    Tube {
+pub fn tube_of(beam: &Cantilever) -> TubeSection {
+    TubeSection {
         radius_m: beam.radius_m,
         membrane_stiffness_n_per_m: beam.young_pa * beam.thickness_m,
         thrust_n: beam.pressure_pa * PI * beam.radius_m.powi(2),

@@ -26,7 +26,7 @@ use crate::accuracy::paper_accuracy;
 use crate::error::CompareError;
 use crate::policy;
 use fem::FemError;
-use fem::record::Shape;
+use fem::record::RecordShape;
 use models::{Account, Loads, Model, Scenario, Target};
 use serde::{Deserialize, Serialize};
 
@@ -255,7 +255,7 @@ pub fn accuracy(model_mm: f64, measured_mm: f64) -> Option<f64> {
 }
 
 /// Files of finite element runs.
-const RUNS: Shape = Shape { schema: "ibr.fem_runs", version: 1 };
+const RUNS: RecordShape = RecordShape { schema: "ibr.fem_runs", version: 1 };
 
 #[derive(Deserialize)]
 struct EngineRuns {

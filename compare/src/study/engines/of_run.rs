@@ -2,7 +2,7 @@
 
 use super::{EngineRun, EngineState, ensemble, stored};
 use fem::FemError;
-use fem::robot::{Model, Reading};
+use fem::robot::{Preset, Reading};
 use fem::session::{
     FeRun, Job, Many, Progress, Settings, Source, Summary, finished_below, heights_mm, rounded, simulate_all,
 };
@@ -63,7 +63,7 @@ fn state(r: &Reading) -> EngineState {
 
 /// Whether a run is one of the paper's model, whatever else was set.
 pub(in crate::study) fn is_paper(summary: &Summary) -> bool {
-    summary.robot.as_ref().is_some_and(|robot| robot.model == Model::Paper.name())
+    summary.robot.as_ref().is_some_and(|robot| robot.model == Preset::Paper.name())
 }
 
 /// Every robot with every seed, at its own pressures or at these \[kPa\].

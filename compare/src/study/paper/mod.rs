@@ -16,7 +16,7 @@ pub use of_run::runs_below;
 use crate::policy;
 use crate::study::engines::{EngineRun, EngineState};
 use fem::FemError;
-use fem::record::Shape;
+use fem::record::RecordShape;
 use serde::{Deserialize, Serialize};
 
 /// Meshes of the paper: the coarsest of its study on body and actuator, and the final one \[mm\].
@@ -62,7 +62,7 @@ pub struct Peak {
 }
 
 /// Files of such runs.
-const RUNS: Shape = Shape { schema: "ibr.paper_runs", version: 1 };
+const RUNS: RecordShape = RecordShape { schema: "ibr.paper_runs", version: 1 };
 
 #[derive(Deserialize)]
 struct PaperRuns {

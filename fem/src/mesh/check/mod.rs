@@ -17,7 +17,7 @@ mod quality;
 
 pub use chamber::rim;
 pub(super) use chamber::signed_volume;
-pub use quality::{Quality, Spread};
+pub use quality::{LowMidHigh, Quality};
 
 use crate::FemError;
 use crate::mesh::names::meant;

@@ -9,7 +9,7 @@ use crate::vec3::{area, dot, norm, sub};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quality {
     /// Lengths of element sides \[m\].
-    pub side_m: Spread,
+    pub side_m: LowMidHigh,
     /// Largest ratio of longest to shortest side; 1 is best.
     pub aspect: f64,
     /// Smallest ratio of smallest to largest corner area (Jacobian) of a quad; 1 is best.
@@ -24,7 +24,7 @@ pub struct Quality {
 
 /// Smallest, median and largest of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Spread {
+pub struct LowMidHigh {
     /// Smallest.
     pub min: f64,
     /// Median.
@@ -68,8 +68,8 @@ fn measures(x: &[[f64; 3]], sides: &mut Vec<f64>) -> [f64; 3] {
     [longest / shortest, smallest / largest, 0.25 * lift.abs() / norm(normal).sqrt()]
 }
 
-fn spread(mut values: Vec<f64>) -> Spread {
+fn spread(mut values: Vec<f64>) -> LowMidHigh {
     values.sort_unstable_by(f64::total_cmp);
     let at = |i: usize| values.get(i).copied().unwrap_or(0.0);
-    Spread { min: at(0), median: at(values.len() / 2), max: at(values.len().saturating_sub(1)) }
+    LowMidHigh { min: at(0), median: at(values.len() / 2), max: at(values.len().saturating_sub(1)) }
 }

@@ -4,7 +4,7 @@
 //! present positions. What a plane through a bent robot would cut elsewhere does not come in.
 
 use super::raster::Canvas;
-use super::{FINE, Image, Look, Placing, check, range, share, viridis};
+use super::{FINE, Image, PictureLook, Placing, check, range, share, viridis};
 use crate::vec3::{dot, sub};
 use crate::{FemError, Mesh};
 
@@ -21,7 +21,13 @@ pub struct Cut {
 }
 
 /// Draws a cut. Across the view (its normal along the view's depth at the start) the section is turned to face the viewer.
-pub fn section(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], cut: &Cut, look: &Look) -> Result<Image, FemError> {
+pub fn section(
+    mesh: &Mesh,
+    positions: &[[f64; 3]],
+    values: &[f64],
+    cut: &Cut,
+    look: &PictureLook,
+) -> Result<Image, FemError> {
     check(mesh, positions, values, look)?;
     let pieces = pieces(mesh, positions, cut);
     if pieces.is_empty() {
@@ -35,7 +41,7 @@ pub fn section(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], cut: &Cut, l
     let seen: Vec<[f64; 3]> = pieces.iter().flat_map(|p| p.ends).map(flat).collect();
     let limits = look.limits.unwrap_or_else(|| range(values));
     let with_bar = look.bar && !values.is_empty();
-    let place = Placing::of(&seen, &Look { bounds: None, ..look.clone() }, with_bar);
+    let place = Placing::of(&seen, &PictureLook { bounds: None, ..look.clone() }, with_bar);
     let mut canvas = Canvas::new(look.width * FINE, look.height * FINE);
     for (piece, ends) in pieces.iter().zip(seen.chunks_exact(2)) {
         let colour = values.get(piece.element).map_or(super::PLAIN, |&value| viridis(share(value, limits)));
@@ -110,7 +116,7 @@ fn facing(pieces: &[Piece], axes: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::View;
+    use super::super::Viewpoint;
     use super::*;
     use crate::mesh::generate::{Around, Cap, Tube, tube};
 
@@ -131,13 +137,13 @@ mod tests {
         let cut = Cut { normal: [1.0, 0.0, 0.0], at_m: 0.11 };
         let found = pieces(&mesh, &turned, &cut);
         assert_eq!(found.len(), 24);
-        let axes = facing(&found, View::End.axes());
+        let axes = facing(&found, Viewpoint::End.axes());
         let centre = [0.11 * c, 0.11 * s, 0.0];
         for p in found.iter().flat_map(|p| p.ends) {
             let d = sub(p, centre);
             assert!((dot(d, axes[0]).hypot(dot(d, axes[1])) - 0.04).abs() < 1e-6 && dot(d, axes[2]).abs() < 1e-9);
         }
-        let look = Look { view: View::End, ..Look::default() };
+        let look = PictureLook { view: Viewpoint::End, ..PictureLook::default() };
         assert!(section(&mesh, &turned, &[], &cut, &look).is_ok());
         let beside = Cut { at_m: 0.5, ..cut };
         assert!(section(&mesh, &turned, &[], &beside, &look).unwrap_err().to_string().contains("500 mm"));

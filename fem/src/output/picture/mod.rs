@@ -30,7 +30,7 @@ const PLAIN: [f64; 3] = [0.62, 0.68, 0.76];
 
 /// Where the viewer stands, far away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum View {
+pub enum Viewpoint {
     /// At +z: x to the right, y up.
     Side,
     /// At +y: x to the right, z down.
@@ -43,25 +43,25 @@ pub enum View {
     IsometricZUp,
 }
 
-impl View {
+impl Viewpoint {
     /// Unit vectors to the right, up, and towards the viewer.
     pub fn axes(self) -> [[f64; 3]; 3] {
         let (a, b, c) = (0.5_f64.sqrt(), (1.0_f64 / 6.0).sqrt(), (1.0_f64 / 3.0).sqrt());
         match self {
-            View::Side => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            View::Top => [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
-            View::End => [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
-            View::Isometric => [[a, 0.0, -a], [-b, 2.0 * b, -b], [c, c, c]],
-            View::IsometricZUp => [[a, a, 0.0], [-b, b, 2.0 * b], [c, -c, c]],
+            Viewpoint::Side => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            Viewpoint::Top => [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
+            Viewpoint::End => [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
+            Viewpoint::Isometric => [[a, 0.0, -a], [-b, 2.0 * b, -b], [c, c, c]],
+            Viewpoint::IsometricZUp => [[a, a, 0.0], [-b, b, 2.0 * b], [c, -c, c]],
         }
     }
 }
 
 /// How a picture is made.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Look {
+pub struct PictureLook {
     /// Where from.
-    pub view: View,
+    pub view: Viewpoint,
     /// Width in pixels, 128 to 4096.
     pub width: usize,
     /// Height in pixels, 128 to 4096.
@@ -80,11 +80,11 @@ pub struct Look {
     pub title: String,
 }
 
-impl Default for Look {
-    fn default() -> Look {
+impl Default for PictureLook {
+    fn default() -> PictureLook {
         let (width, height) = (960, 600);
-        Look {
-            view: View::Isometric,
+        PictureLook {
+            view: Viewpoint::Isometric,
             width,
             height,
             limits: None,
@@ -109,7 +109,7 @@ pub struct Image {
 }
 
 /// Draws the mesh with its nodes at `positions` \[m\], elements coloured by `values` (mesh order, any unit; empty: grey).
-pub fn render(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &Look) -> Result<Image, FemError> {
+pub fn render(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &PictureLook) -> Result<Image, FemError> {
     check(mesh, positions, values, look)?;
     let limits = look.limits.unwrap_or_else(|| range(values));
     let axes = look.view.axes();
@@ -149,7 +149,7 @@ fn encode(image: &Image, out: &mut dyn std::io::Write) -> std::io::Result<()> {
     Ok(writer.finish()?)
 }
 
-fn check(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &Look) -> Result<(), FemError> {
+fn check(mesh: &Mesh, positions: &[[f64; 3]], values: &[f64], look: &PictureLook) -> Result<(), FemError> {
     let refuse = |message: String| Err(FemError::Problem(format!("picture: {message}")));
     let (nodes, elements) = (mesh.points.len(), mesh.elements());
     let sizes = FEWEST_PIXELS..=MOST_PIXELS;
@@ -220,7 +220,7 @@ struct Placing {
 }
 
 impl Placing {
-    fn of(seen: &[[f64; 3]], look: &Look, with_bar: bool) -> Placing {
+    fn of(seen: &[[f64; 3]], look: &PictureLook, with_bar: bool) -> Placing {
         let corners = look.bounds.map(|(low, high)| {
             let pick = |i: usize| [0, 1, 2].map(|k| if i >> k & 1 == 0 { low[k] } else { high[k] });
             (0..8).map(|i| look.view.axes().map(|axis| dot(axis, pick(i)))).collect::<Vec<_>>()

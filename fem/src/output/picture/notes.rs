@@ -3,7 +3,7 @@
 use super::colour::viridis;
 use super::ink::{letter_size, line, stroke, width, write};
 use super::raster::bytes;
-use super::{Image, Look, Placing};
+use super::{Image, PictureLook, Placing};
 
 /// Letters in the longest number beside the bar, with its sign of more: ≥ -1.2e-300.
 const LONGEST: f64 = 8.0;
@@ -11,7 +11,7 @@ const LONGEST: f64 = 8.0;
 const AXES: [(&str, [f64; 3]); 3] = [("x", [0.78, 0.16, 0.16]), ("y", [0.13, 0.53, 0.2]), ("z", [0.15, 0.35, 0.75])];
 
 /// Room that the notes take \[pixels\]: at the top, at the right, at the bottom.
-pub(super) fn room(look: &Look, with_bar: bool) -> [f64; 3] {
+pub(super) fn room(look: &PictureLook, with_bar: bool) -> [f64; 3] {
     let size = letter_size(look.height);
     let top = if look.title.is_empty() { 0.0 } else { 2.0 * size };
     let right = if with_bar { (1.8 + 0.62 * LONGEST) * size } else { 0.0 };
@@ -21,7 +21,7 @@ pub(super) fn room(look: &Look, with_bar: bool) -> [f64; 3] {
 /// Draws all notes; the bar if there is a range of colours, with a sign of more if values go beyond it.
 pub(super) fn draw(
     image: &mut Image,
-    look: &Look,
+    look: &PictureLook,
     place: &Placing,
     axes: [[f64; 3]; 3],
     bar: Option<((f64, f64), bool)>,

@@ -11,8 +11,8 @@ fn sheet(n: usize, at: impl Fn(f64, f64) -> [f64; 3]) -> Mesh {
     Mesh { points, parts: vec![Part { quads, ..Part::default() }], ..Mesh::default() }
 }
 
-fn bare(view: View) -> Look {
-    Look { view, width: 400, height: 300, edges: false, bar: false, scale: false, ..Look::default() }
+fn bare(view: Viewpoint) -> PictureLook {
+    PictureLook { view, width: 400, height: 300, edges: false, bar: false, scale: false, ..PictureLook::default() }
 }
 
 fn pixel(image: &Image, x: usize, y: usize) -> [u8; 3] {
@@ -28,7 +28,7 @@ fn drawn(image: &Image) -> usize {
 fn a_square_seen_from_the_front_covers_its_pixels_in_the_colour_of_its_value() {
     let mesh = sheet(1, |a, b| [a - 0.5, b - 0.5, 0.0]);
     let bounds = Some(([-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]));
-    let look = Look { limits: Some((0.0, 10.0)), bounds, ..bare(View::Side) };
+    let look = PictureLook { limits: Some((0.0, 10.0)), bounds, ..bare(Viewpoint::Side) };
     let image = render(&mesh, &mesh.points, &[5.0], &look).unwrap();
     // 300 pixels less two margins of 12 show 2 m, so the square has 138 pixels a side.
     assert_eq!(drawn(&image), 138 * 138);
@@ -44,7 +44,7 @@ fn the_nearer_of_two_sheets_is_seen_whichever_is_drawn_first() {
         mesh.points.extend(sheet(1, |a, b| [a, b, second]).points);
         mesh.parts[0].quads.push([4, 5, 6, 7].map(|i| i as u32));
         mesh.parts[0].quads[1] = [4, 6, 7, 5];
-        let look = Look { limits: Some((0.0, 1.0)), ..bare(View::Side) };
+        let look = PictureLook { limits: Some((0.0, 1.0)), ..bare(Viewpoint::Side) };
         let image = render(&mesh, &mesh.points, &[0.0, 1.0], &look).unwrap();
         let near = if first > second { 0.0 } else { 1.0 };
         let light = 0.7 + 0.3 * 0.8;
@@ -61,8 +61,8 @@ fn a_sphere_has_a_round_outline_from_every_side() {
     };
     let mesh = sheet(96, ball);
     let bounds = Some(([-1.0; 3], [1.0; 3]));
-    for view in [View::Side, View::Top, View::End] {
-        let image = render(&mesh, &mesh.points, &[], &Look { bounds, ..bare(view) }).unwrap();
+    for view in [Viewpoint::Side, Viewpoint::Top, Viewpoint::End] {
+        let image = render(&mesh, &mesh.points, &[], &PictureLook { bounds, ..bare(view) }).unwrap();
         let wanted = std::f64::consts::PI * 138.0 * 138.0;
         // Pixels on the rim count fully: half a pixel of radius at most.
         let error = drawn(&image) as f64 / wanted - 1.0;
@@ -72,7 +72,7 @@ fn a_sphere_has_a_round_outline_from_every_side() {
 
 #[test]
 fn axes_of_every_view_are_right_handed_and_of_unit_length() {
-    for view in [View::Side, View::Top, View::End, View::Isometric, View::IsometricZUp] {
+    for view in [Viewpoint::Side, Viewpoint::Top, Viewpoint::End, Viewpoint::Isometric, Viewpoint::IsometricZUp] {
         let [right, up, out] = view.axes();
         let cross = [
             right[1] * up[2] - right[2] * up[1],
@@ -88,7 +88,7 @@ fn axes_of_every_view_are_right_handed_and_of_unit_length() {
 #[test]
 fn the_scale_has_the_length_that_it_says() {
     let mesh = sheet(1, |a, b| [0.1 * a, 0.01 * b, 0.0]);
-    let look = Look { scale: true, ..bare(View::Side) };
+    let look = PictureLook { scale: true, ..bare(Viewpoint::Side) };
     let image = render(&mesh, &mesh.points, &[], &look).unwrap();
     let ink = |x: &usize, y: usize| pixel(&image, *x, y)[0] < 100;
     // Letters are a fortieth of the height and at least 10 pixels; the line is 1.6 of them above the edge, right of the axes.
@@ -101,15 +101,16 @@ fn the_scale_has_the_length_that_it_says() {
 fn what_cannot_be_drawn_is_refused() {
     let mesh = sheet(2, |a, b| [a, b, 0.0]);
     let mut points = mesh.points.clone();
-    let say =
-        |points: &[[f64; 3]], values: &[f64], look: &Look| render(&mesh, points, values, look).unwrap_err().to_string();
-    let look = bare(View::Top);
+    let say = |points: &[[f64; 3]], values: &[f64], look: &PictureLook| {
+        render(&mesh, points, values, look).unwrap_err().to_string()
+    };
+    let look = bare(Viewpoint::Top);
     assert!(say(&points[1..], &[], &look).contains("8 positions"));
     assert!(say(&points, &[1.0], &look).contains("1 values"));
     assert!(say(&points, &[1.0, 2.0, f64::NAN, 0.0], &look).contains("element 3 is NaN"));
-    assert!(say(&points, &[], &Look { width: 5000, ..look.clone() }).contains("128 to 4096"));
-    assert!(say(&points, &[], &Look { limits: Some((1.0, 1.0)), ..look.clone() }).contains("limits"));
-    assert!(say(&points, &[], &Look { bounds: Some(([1.0; 3], [0.0; 3])), ..look.clone() }).contains("bounds"));
+    assert!(say(&points, &[], &PictureLook { width: 5000, ..look.clone() }).contains("128 to 4096"));
+    assert!(say(&points, &[], &PictureLook { limits: Some((1.0, 1.0)), ..look.clone() }).contains("limits"));
+    assert!(say(&points, &[], &PictureLook { bounds: Some(([1.0; 3], [0.0; 3])), ..look.clone() }).contains("bounds"));
     points[4][2] = f64::INFINITY;
     assert!(say(&points, &[], &look).contains("node 5"));
     assert_eq!(drawn(&render(&Mesh::default(), &[], &[], &look).unwrap()), 0);
@@ -121,7 +122,7 @@ fn a_written_png_is_read_back_pixel_by_pixel() {
     let path = folder.path().join("mesh.png");
     let mesh = sheet(8, |a, b| [a, 0.3 * (3.0 * a).sin() * b, b]);
     let values: Vec<f64> = (0..64).map(f64::from).collect();
-    let image = render(&mesh, &mesh.points, &values, &Look::default()).unwrap();
+    let image = render(&mesh, &mesh.points, &values, &PictureLook::default()).unwrap();
     std::fs::write(&path, png_bytes(&image)).unwrap();
     let file = std::io::BufReader::new(std::fs::File::open(path).unwrap());
     let mut reader = png::Decoder::new(file).read_info().unwrap();

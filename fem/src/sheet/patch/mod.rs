@@ -13,11 +13,11 @@ use models::Fabric;
 use models::fabrics::Past;
 
 use super::bending::BendingMatrix;
-use super::group::{Group, Item, LANES, Shape, Stock};
+use super::group::{ElementGroup, Item, LANES, RestShape, Stock};
 use super::kernel::Strain;
 use bend::Bend;
 use pass::Pass;
-use room::{Gaps, Needs, Room};
+use room::{Gaps, Room, RoomNeeds};
 use runs::Stretch;
 
 /// What one pass over a patch adds up, in SI units.
@@ -37,7 +37,7 @@ pub struct Sums {
 
 /// Elements that run through the same loop: same kind, fabric and chambers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Key {
+pub struct LoopKey {
     /// Corners, 3 or 4.
     pub corners: usize,
     /// Fabric number.
@@ -51,7 +51,7 @@ pub struct Key {
 /// Groups with one key: first those in regular rows, then the others.
 #[derive(Debug, Clone)]
 struct Run {
-    key: Key,
+    key: LoopKey,
     regular: Range<usize>,
     other: Range<usize>,
     /// Place in the room of the corner forces of the first of the others.
@@ -71,8 +71,8 @@ pub struct Patch {
     /// The own ones, and their numbers among the own.
     given: Vec<Stretch>,
     runs: Vec<Run>,
-    groups: Vec<Group>,
-    shapes: Vec<Shape>,
+    groups: Vec<ElementGroup>,
+    shapes: Vec<RestShape>,
     stocks: Vec<Stock>,
     /// Mesh number of the element in each lane, `u32::MAX` where another lane or patch reports it.
     pub element: Vec<[u32; LANES]>,
@@ -83,7 +83,7 @@ pub struct Patch {
     pub strains: Vec<Strain>,
     /// Memory of fabrics that have one; empty otherwise.
     pub past: Vec<[Past; LANES]>,
-    needs: Needs,
+    needs: RoomNeeds,
     /// What the last pass added up.
     pub sums: Sums,
     /// Flux into each chamber, see [`super::chamber::Air::volume_of`].
@@ -92,7 +92,7 @@ pub struct Patch {
 
 /// What all patches share during a pass.
 #[derive(Clone, Copy)]
-pub struct Shared<'a> {
+pub struct PassShared<'a> {
     /// Node positions.
     pub q: &'a [[f64; 4]],
     /// Fabrics by number.
@@ -111,7 +111,7 @@ impl Patch {
     /// Packs the elements by key; `items` carry places of nodes, `mesh_number` turns a place into a number of the mesh.
     pub fn new(
         nodes: Range<usize>,
-        items: BTreeMap<Key, Vec<Item>>,
+        items: BTreeMap<LoopKey, Vec<Item>>,
         bending: &BendingMatrix,
         mesh_number: &[u32],
         memory: bool,
@@ -139,7 +139,7 @@ impl Patch {
         let mut is_own = vec![false; padded];
         own.iter().for_each(|i| is_own[*i as usize] = true);
         let no_corner = |taken: &Vec<bool>| Gaps::new(padded, |i| !is_own[i] || taken.get(i).is_some_and(|t| *t));
-        let needs = Needs {
+        let needs = RoomNeeds {
             nodes: padded + LANES,
             others: build.others,
             no_corner: build.taken.each_ref().map(no_corner),
@@ -170,7 +170,7 @@ impl Patch {
 
     /// Adds the shell forces of the own nodes to `force` (their slice) and keeps the sums. With `keep`, strains and
     /// fabric memory move on by this step.
-    pub fn pass(&mut self, shared: Shared, force: &mut [[f64; 4]], keep: bool) {
+    pub fn pass(&mut self, shared: PassShared, force: &mut [[f64; 4]], keep: bool) {
         let strains = if keep { Vec::new() } else { self.strains.clone() };
         self.dispatch(shared, force);
         if !keep {
@@ -198,12 +198,12 @@ impl Patch {
     }
 
     /// Sets the strains that viscosity compares with to those at `q`.
-    pub fn start_strains(&mut self, shared: Shared) {
+    pub fn start_strains(&mut self, shared: PassShared) {
         let mut unused = vec![[0.0; 4]; self.nodes.len()];
         self.dispatch(shared, &mut unused);
     }
 
-    fn dispatch(&mut self, shared: Shared, force: &mut [[f64; 4]]) {
+    fn dispatch(&mut self, shared: PassShared, force: &mut [[f64; 4]]) {
         let needs = std::mem::take(&mut self.needs);
         Room::with(&needs, |room| shared.arch.dispatch(Pass { patch: self, room, shared, force }));
         self.needs = needs;
@@ -240,8 +240,8 @@ impl<T> Distinct<T> {
 struct Build {
     own: Range<usize>,
     runs: Vec<Run>,
-    groups: Vec<Group>,
-    shapes: Distinct<Shape>,
+    groups: Vec<ElementGroup>,
+    shapes: Distinct<RestShape>,
     stocks: Distinct<Stock>,
     element: Vec<[u32; LANES]>,
     /// Groups outside regular rows so far.
@@ -258,7 +258,7 @@ impl Build {
     }
 
     /// `items` are numbered within the patch, `placed` are the same with places.
-    fn add(&mut self, key: Key, items: &[Item], placed: &[Item]) {
+    fn add(&mut self, key: LoopKey, items: &[Item], placed: &[Item]) {
         let (eights, mut rest) = runs::split(items.len(), |a, b| runs::next_in_row(&items[a], &items[b]));
         let start = self.groups.len();
         let mut claimed = vec![false; items.len()];
@@ -307,9 +307,9 @@ impl Build {
             _ => u32::MAX,
         };
         self.element.push(std::array::from_fn(reported));
-        let (shape, stock) = (Shape::pack(chunk), Stock::pack(chunk, counted));
+        let (shape, stock) = (RestShape::pack(chunk), Stock::pack(chunk, counted));
         let (shape, stock) = (self.shapes.place(shape.key(), shape), self.stocks.place(stock.key(), stock));
-        self.groups.push(Group::pack(chunk, shape, stock));
+        self.groups.push(ElementGroup::pack(chunk, shape, stock));
     }
 
     fn note_corners(&mut self, chunk: &[Item]) {

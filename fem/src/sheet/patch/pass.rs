@@ -4,17 +4,17 @@ use models::fabrics::Kind;
 use pulp::Simd;
 
 use super::super::group::LANES;
-use super::super::kernel::{self, Batch, Corners, Tally};
+use super::super::kernel::{self, BatchInputs, Corners, Tally};
 use super::super::lanes::{V, sum};
-use super::super::law::{Called, Film, Law, Rubber};
+use super::super::law::{Called, Rubber, ShellLaw, WrinklingFilm};
 use super::room::Room;
-use super::{Patch, Run, Shared, Sums};
+use super::{PassShared, Patch, Run, Sums};
 
 /// The pass as a value, so that it can be handed to the dispatcher.
 pub struct Pass<'a, 'b> {
     pub patch: &'a mut Patch,
     pub room: Room<'a>,
-    pub shared: Shared<'b>,
+    pub shared: PassShared<'b>,
     pub force: &'a mut [[f64; 4]],
 }
 
@@ -38,8 +38,8 @@ impl pulp::WithSimd for Pass<'_, '_> {
                 (Kind::Orthotropic(law), false) => run::<S, _, false>(simd, patch, room, shared, index, law),
                 (Kind::Mixed(law), true) => run::<S, _, true>(simd, patch, room, shared, index, law),
                 (Kind::Mixed(law), false) => run::<S, _, false>(simd, patch, room, shared, index, law),
-                (Kind::WrinklingFilm(_), true) => run::<S, _, true>(simd, patch, room, shared, index, Film),
-                (Kind::WrinklingFilm(_), false) => run::<S, _, false>(simd, patch, room, shared, index, Film),
+                (Kind::WrinklingFilm(_), true) => run::<S, _, true>(simd, patch, room, shared, index, WrinklingFilm),
+                (Kind::WrinklingFilm(_), false) => run::<S, _, false>(simd, patch, room, shared, index, WrinklingFilm),
                 (Kind::Other, _) => run::<S, _, true>(simd, patch, room, shared, index, Called(fabric)),
             }
         }
@@ -79,11 +79,11 @@ fn take_positions(patch: &Patch, room: &mut Room, q: &[[f64; 4]]) {
 }
 
 #[inline(always)]
-fn run<S: Simd, L: Law, const BOOKS: bool>(
+fn run<S: Simd, L: ShellLaw, const BOOKS: bool>(
     simd: S,
     patch: &mut Patch,
     room: &mut Room,
-    shared: Shared,
+    shared: PassShared,
     index: usize,
     law: L,
 ) {
@@ -91,7 +91,7 @@ fn run<S: Simd, L: Law, const BOOKS: bool>(
     let pressure = |chamber: Option<usize>| chamber.map_or(0.0, |c| shared.pressure_pa[c]);
     let mut tally = Tally::default();
     for (groups, in_rows) in [(regular, true), (other, false)] {
-        let batch = Batch {
+        let batch = BatchInputs {
             x: slices(&room.x),
             pressure: pressure(key.back) - pressure(key.front),
             rate: shared.rate,

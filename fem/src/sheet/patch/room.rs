@@ -42,7 +42,7 @@ pub struct Room<'a> {
 
 /// What a patch needs of a room.
 #[derive(Debug, Clone, Default)]
-pub struct Needs {
+pub struct RoomNeeds {
     /// Nodes, with one more group of lanes than they fill.
     pub nodes: usize,
     /// Groups outside regular rows.
@@ -55,7 +55,7 @@ pub struct Needs {
 
 impl Room<'_> {
     /// Hands this thread's room to `job`, large enough and with zeros where the patch will write nothing.
-    pub fn with<R>(needs: &Needs, job: impl FnOnce(Room) -> R) -> R {
+    pub fn with<R>(needs: &RoomNeeds, job: impl FnOnce(Room) -> R) -> R {
         STORE.with_borrow_mut(|store| {
             let mut room = store.room(needs);
             let corners = room.corner.iter_mut().zip(&needs.no_corner);
@@ -77,7 +77,7 @@ impl Room<'_> {
 }
 
 impl Store {
-    fn room(&mut self, needs: &Needs) -> Room<'_> {
+    fn room(&mut self, needs: &RoomNeeds) -> Room<'_> {
         // The next length that moves the following array on by the stagger.
         let stride = needs.nodes + (ROUND + STAGGER - needs.nodes % ROUND) % ROUND;
         let wanted = ARRAYS * stride + LINE / 8;
