@@ -35,6 +35,9 @@ pub struct DiagnoseArgs {
     /// program
     #[arg(long, conflicts_with = "published")]
     pub runs: Option<PathBuf>,
+    /// Print every effect, pair and experiment with its numbers
+    #[arg(long, conflicts_with = "published")]
+    pub tables: bool,
     /// Folder for the report, plots and diagnosis.json
     #[arg(long)]
     pub out: Option<PathBuf>,

@@ -41,7 +41,7 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failur
     let witness = witness(&diagnosis, &file, &first.dataset, first.about.as_ref(), &runs)?;
     let answer = to_json(&diagnosis, witness.as_ref(), &args.scenario);
     let json = format!("{answer:#}\n").into_bytes();
-    let mut outcome = Outcome::new(text(&diagnosis, witness.as_ref()), answer);
+    let mut outcome = Outcome::new(text(&diagnosis, witness.as_ref(), args.tables), answer);
     let told_first = |warning: &&String| diagnosis.slips.contains(warning);
     outcome.warn(diagnosis.warnings.iter().filter(|w| !told_first(w)));
     if let (Some(folder), None) = (&args.runs, &witness) {

@@ -1,6 +1,6 @@
 //! A diagnosis of bench tests.
 
-use super::diagnosis::p_text;
+use super::diagnosis_tables::p_text;
 use crate::tables::{number, table};
 use compare::diagnosis::words::listed;
 use compare::diagnosis::{BenchDiagnosis, BenchRanked, Verdict};

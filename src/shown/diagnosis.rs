@@ -1,10 +1,10 @@
-//! A diagnosis.
+//! A diagnosis, as a page to read; its tables are in [`super::diagnosis_tables`].
 
+use super::diagnosis_tables::tables;
 use crate::tables::{number, table};
 use compare::diagnosis::words::{listed, three, with_unit};
-use compare::diagnosis::{Combination, Diagnosis, Experiment, Group, Ranked, Verdict};
-use compare::study::engines::TERMS;
-use compare::witness::{HEIGHTS, Witness};
+use compare::diagnosis::{Diagnosis, ParameterValue, Ranked, Verdict};
+use compare::witness::Witness;
 use fem::record::RecordShape;
 use serde_json::{Value, json};
 
@@ -18,165 +18,105 @@ pub fn to_json(diagnosis: &Diagnosis, witness: Option<&Witness>, scenario: &str)
     answer
 }
 
-/// For readers.
-pub fn text(d: &Diagnosis, witness: Option<&Witness>) -> String {
+/// Explanations in the short table, and those that are told in words.
+const ROWS: usize = 6;
+const TOLD: usize = 3;
+
+/// The page that a person reads: verdict, what it could be, what to check, what to do next, what could not be seen. `all` adds the
+/// tables.
+pub fn text(d: &Diagnosis, witness: Option<&Witness>, all: bool) -> String {
     let mut out = format!("{} held against {}, {} runs\n{}\n\n", d.scenario, d.dataset, d.runs, d.noise.sentence);
-    let verdict = match d.verdict {
-        Some(Verdict::None) => "no missing effect detectable",
-        Some(Verdict::Effect) => "an effect is missing",
-        Some(Verdict::OutOfCatalog) if d.is_either() => {
-            "something is missing: a fault that is not in the catalogue, or effects"
-        }
-        Some(Verdict::OutOfCatalog) => "something is missing that is not in the catalogue",
-        None => "none: ranking only",
-    };
     d.slips.iter().for_each(|slip| out.push_str(&format!("Before the verdict, look at the data. {slip}\n\n")));
-    out.push_str(&format!("Verdict: {verdict}\n"));
+    out.push_str(&format!("Verdict: {}\n", verdict(d)));
     d.summary.iter().for_each(|s| out.push_str(&format!("  - {s}\n")));
-    out.push_str(&ranking(d));
-    out.push_str(&pairs(d));
-    out.push_str(&details(d));
-    out.push_str(&witness.map(finite_elements).unwrap_or_default());
-    out.push_str(&unseen(d));
-    out.push_str(&experiments(d));
+    if all {
+        return out + &tables(d, witness);
+    }
+    out.push_str(&closest(d));
+    out.push_str(&to_check(d));
+    if let Some(first) = witness.and_then(|w| w.sentences.first()) {
+        out.push_str(&format!("\nThe same robot in finite elements: {first}\n"));
+    }
+    out.push_str(&not_seen(d));
+    out.push_str(
+        "\nEvery effect, pair and experiment: add --tables. The picture of what is missing: add --out FOLDER.\n",
+    );
     out
 }
 
-fn ranking(d: &Diagnosis) -> String {
-    let blocks = [("Supply and measurement, to be ruled out first", true), ("Physics and loads", false)];
-    let mut out = String::new();
-    for (title, nuisance) in blocks {
-        let chosen = d.ranked.iter().filter(|r| r.group.is_nuisance() == nuisance);
-        let rows: Vec<Vec<String>> = chosen.map(|r| row(d, r)).collect();
-        if !rows.is_empty() {
-            out.push_str(&format!("\n{title} (base: {:.2} mm beyond noise):\n", d.base.systematic_mm));
-            out.push_str(&table(&HEAD, 3, rows));
+/// The verdict in words, with its ties.
+fn verdict(d: &Diagnosis) -> String {
+    match d.verdict {
+        Some(Verdict::None) => "no missing effect detectable".into(),
+        Some(Verdict::Effect) => {
+            let names: Vec<String> = d.indistinguishable.iter().map(|name| name.replace('_', " ")).collect();
+            let tie = if names.len() > 1 { "; these data do not choose between them" } else { "" };
+            format!("an effect is missing: {}{tie}", names.join(" or "))
         }
-    }
-    out.push_str("= cannot be told from the best · ! on a physical bound, rejected\n");
-    out
-}
-
-const HEAD: [&str; 8] =
-    ["", "effect", "value, 95 %", "after mm", "held-out pressure mm", "held-out run mm", "gain", "p corrected"];
-
-fn row(d: &Diagnosis, r: &Ranked) -> Vec<String> {
-    // Where pairs are stated, no single effect is.
-    let alike = r.in_set && d.verdict != Some(Verdict::None) && d.pairs.is_empty();
-    let mark = match (alike, r.at_bound) {
-        (_, true) => "!",
-        (true, _) => "=",
-        _ => "",
-    };
-    vec![
-        mark.into(),
-        r.effect.clone(),
-        listed(&r.parameters),
-        format!("{:.2}", r.systematic_after_mm),
-        number(r.heldout_mm, 2),
-        number(r.heldout_run_mm, 2),
-        format!("{:.0}", r.gain),
-        r.p_corrected.map_or("–".into(), p_text),
-    ]
-}
-
-/// A p-value.
-pub fn p_text(p: f64) -> String {
-    match p {
-        p if p <= 1e-6 => "< 1e-6".into(),
-        p if p < 1e-3 => format!("{p:.0e}"),
-        p => format!("{p:.3}"),
+        Some(Verdict::OutOfCatalog) if d.is_either() => {
+            "something is missing: a fault that is not in the catalogue, or effects".into()
+        }
+        Some(Verdict::OutOfCatalog) => "something is missing that is not in the catalogue".into(),
+        None => "none: ranking only".into(),
     }
 }
 
-fn pairs(d: &Diagnosis) -> String {
-    if d.pairs.is_empty() {
+/// The explanations that leave least, those of the answer first.
+fn closest(d: &Diagnosis) -> String {
+    if d.verdict == Some(Verdict::None) {
         return String::new();
     }
-    let row = |p: &Combination| {
-        vec![
-            if p.in_set { "=" } else { "" }.to_string(),
-            p.effects.join(" + "),
-            listed(&p.parameters),
-            format!("{:.2}", p.systematic_after_mm),
-            format!("{:.0}", p.gain),
-            p.p_corrected.map_or("–".into(), p_text),
-            if p.cancels { "the two cancel" } else { "" }.to_string(),
-        ]
+    let stated = |r: &&Ranked| !d.pairs.is_empty() || !r.in_set;
+    let row = |name: String, alike: bool, values: &[ParameterValue], after: f64, left_out: Option<f64>| {
+        let mark = if alike { "=" } else { "" };
+        vec![mark.into(), name, listed(values), format!("{after:.2}"), number(left_out, 2)]
     };
-    let head = ["", "pair", "values, 95 %", "after mm", "gain", "p over one", ""];
-    format!("\nPairs:\n{}", table(&head, 3, d.pairs.iter().map(row).collect()))
+    let pairs = d.pairs.iter().take(ROWS / 2);
+    let pairs = pairs.map(|p| row(p.effects.join(" + "), p.in_set, &p.parameters, p.systematic_after_mm, None));
+    let (first, mut others): (Vec<&Ranked>, Vec<&Ranked>) = d.ranked.iter().partition(|r| !stated(r));
+    others.retain(|r| !r.at_bound);
+    others.sort_by(|a, b| a.systematic_after_mm.total_cmp(&b.systematic_after_mm));
+    let single = |r: &Ranked| row(r.effect.clone(), !stated(&r), &r.parameters, r.systematic_after_mm, r.heldout_mm);
+    let rows = pairs.chain(first.into_iter().chain(others).map(single)).take(ROWS);
+    let before = format!("{:.2} mm beyond noise without any of them", d.base.systematic_mm);
+    let head = ["", "with", "value, 95 %", "after mm", "pressures left out mm"];
+    format!("\nWhat it could be ({before}; = cannot be told apart):\n{}", table(&head, 3, rows.collect()))
 }
 
-/// Sentences, remedies and cautions of the set, and where the final model still fails.
-fn details(d: &Diagnosis) -> String {
-    let mut out = String::new();
+/// What the answer means on the robot, and where the model fails with it.
+fn to_check(d: &Diagnosis) -> String {
     if d.verdict == Some(Verdict::None) {
-        return out;
+        return String::new();
     }
-    let told = |r: &Ranked| d.speaks_of(&r.effect) || r.in_set && d.pairs.is_empty();
-    // Notes of an effect's own fit are no notes of a pair's.
-    let notes = |r: &Ranked| if d.pairs.is_empty() { r.notes.clone() } else { Vec::new() };
-    for r in d.ranked.iter().filter(|r| told(r)) {
-        out.push_str(&format!(
-            "\n{} ({}): {}\n  shows: {}\n  check: {}\n",
-            r.effect,
-            r.group.word(),
-            r.sentence,
-            r.differs,
-            r.remedy
-        ));
-        notes(r).iter().for_each(|n| out.push_str(&format!("  note: {n}\n")));
+    let told: Vec<&Ranked> = d.ranked.iter().filter(|r| is_told(d, r)).collect();
+    let mut out = String::new();
+    for r in told.iter().take(TOLD) {
+        out.push_str(&format!("\n{} ({}): {}\n  check: {}\n", r.effect, r.group.word(), r.sentence, r.remedy));
     }
-    for r in d.ranked.iter().filter(|r| r.at_bound && !told(r) && r.group != Group::Load) {
-        out.push_str(&format!("\n{}: {}\n", r.effect, r.notes.first().cloned().unwrap_or_default()));
+    if told.len() > TOLD {
+        let rest: Vec<&str> = told[TOLD..].iter().map(|r| r.effect.as_str()).collect();
+        out.push_str(&format!("  and {}\n", rest.join(", ")));
     }
-    out.push_str("\nWhere the final model still fails:\n");
-    d.leftover.iter().for_each(|s| out.push_str(&format!("  - {}\n", s.sentence)));
-    out
-}
-
-fn finite_elements(w: &Witness) -> String {
-    let mut out = "\nThe same robot in finite elements:\n".to_string();
-    w.sentences.iter().for_each(|s| out.push_str(&format!("  - {s}\n")));
-    out.push_str(&table(&HEIGHTS, 1, w.height_rows()));
-    if w.fe_mj.is_some() {
-        let mut head = vec!["energies mJ"];
-        head.extend(TERMS);
-        head.push("apart");
-        out.push_str(&table(&head, 1, w.ledger_rows()));
+    if let (Some(first), Some(Verdict::Effect)) = (d.leftover.first(), d.verdict) {
+        out.push_str(&format!("\nStill: {}\n", first.sentence));
     }
     out
 }
 
-fn unseen(d: &Diagnosis) -> String {
-    let rows = d.undetectable.iter().map(|u| {
-        let size = u
-            .smallest_detectable
-            .map_or(if d.noise.camera_mm.is_some() { "not within its bounds" } else { "not known" }.into(), |s| {
-                with_unit(&three(s), &u.unit)
-            });
-        vec![u.effect.clone(), size, number(u.times_typical, 2)]
-    });
-    let mut out = "\nEffects not found; smallest size that would have been seen (90 %):\n".to_string();
-    out.push_str(&table(&["effect", "size", "times typical"], 1, rows.collect()));
-    d.limits.iter().for_each(|l| out.push_str(&format!("note: {l}\n")));
-    out
+/// It is told in words: of the answer, or of the set where no pair is stated.
+pub fn is_told(d: &Diagnosis, r: &Ranked) -> bool {
+    d.speaks_of(&r.effect) || r.in_set && d.pairs.is_empty()
 }
 
-fn experiments(d: &Diagnosis) -> String {
-    let Some(next) = d.next_experiment.as_ref().filter(|next| !next.tried.is_empty()) else { return String::new() };
-    let lambda = |e: &Experiment| -> Vec<String> { e.separations.iter().map(|s| format!("{:.1}", s.lambda)).collect() };
-    let now = next.now.iter().map(|s| format!("{:.1}", s.lambda));
-    let at_hand = ["data at hand".to_string(), "–".to_string(), format!("{:.0}", next.needed_now)];
-    let mut rows = vec![at_hand.into_iter().chain(now).collect::<Vec<_>>()];
-    rows.extend(next.tried.iter().map(|e| {
-        [e.name.clone(), e.shown_protocol().to_string(), format!("{:.0}", e.needed)]
-            .into_iter()
-            .chain(lambda(e))
-            .collect::<Vec<_>>()
-    }));
-    let mut head = vec!["experiment".to_string(), "protocol [kPa]".to_string(), "suffices".to_string()];
-    head.extend(next.now.iter().map(|s| s.rival.clone()));
-    format!("\nExpected separation λ of {} from:\n{}", next.best, table(&head, 2, rows))
+/// The effects that hide best, and what these data cannot show.
+fn not_seen(d: &Diagnosis) -> String {
+    let mut hidden: Vec<_> =
+        d.undetectable.iter().filter_map(|u| Some((u, u.smallest_detectable?, u.times_typical?))).collect();
+    hidden.sort_by(|a, b| b.2.total_cmp(&a.2));
+    let sizes =
+        hidden.iter().take(4).map(|(u, size, _)| format!("{} below {}", u.effect, with_unit(&three(*size), &u.unit)));
+    let sizes: Vec<String> = sizes.collect();
+    let mut out = if sizes.is_empty() { "\n".into() } else { format!("\nCould not be seen: {}.\n", sizes.join(", ")) };
+    d.limits.iter().for_each(|limit| out.push_str(&format!("note: {limit}\n")));
+    out
 }

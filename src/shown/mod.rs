@@ -7,6 +7,7 @@ pub mod check;
 pub mod comparison;
 pub mod demo;
 pub mod diagnosis;
+pub mod diagnosis_tables;
 pub mod engines;
 pub mod extension;
 pub mod held;

@@ -45,11 +45,22 @@ fn a_diagnosis_as_json_holds_what_programs_build_on() {
 
 #[test]
 fn the_text_puts_supply_and_measurement_before_physics_and_says_what_was_not_seen() {
-    let ran = Folder::new().run(&["diagnose", "epam-textbook", "synthetic-epam"]);
+    let folder = Folder::new();
+    let ran = folder.run(&["diagnose", "epam-textbook", "synthetic-epam", "--tables"]);
     assert_eq!(ran.code, 0, "{}", ran.stderr);
     let place = |words: &str| ran.stdout.find(words).unwrap_or_else(|| panic!("`{words}` in\n{}", ran.stdout));
     assert!(place("Supply and measurement") < place("Physics and loads"));
     assert!(place("Verdict:") < place("Effects not found"));
+}
+
+#[test]
+fn the_page_that_is_printed_has_at_most_forty_lines() {
+    let folder = Folder::new();
+    for [robot, data] in [["epam-textbook", "synthetic-epam"], ["cpam", "fem-cpam"], ["fpam", "synthetic-fpam"]] {
+        let ran = folder.run(&["diagnose", robot, data]);
+        assert!(ran.code == 0 && ran.stdout.contains("Verdict: ") && ran.stdout.contains("--tables"), "{}", ran.stdout);
+        assert!(ran.stdout.lines().count() <= 40, "{}", ran.stdout);
+    }
 }
 
 #[test]
