@@ -16,3 +16,46 @@ pub fn table<S: AsRef<str>>(head: &[S], left: usize, rows: Vec<Vec<String>>) -> 
     }
     format!("{table}\n")
 }
+
+/// Columns of text to read.
+pub const COLUMNS: usize = 116;
+
+/// Text in lines of at most [`COLUMNS`], broken between words; further lines are indented.
+pub fn wrapped(text: &str, indent: usize) -> String {
+    let mut out = String::new();
+    let mut column = 0;
+    for (i, word) in text.split(' ').enumerate() {
+        let width = word.chars().count();
+        if column > indent && column + 1 + width > COLUMNS {
+            out.push_str(&format!("\n{:indent$}", ""));
+            column = indent;
+        } else if i > 0 {
+            out.push(' ');
+            column += 1;
+        }
+        out.push_str(word);
+        column += width;
+    }
+    out + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_kept_and_lines_are_short() {
+        let text = format!("{} κ", "pressure at the actuator ".repeat(20).trim_end());
+        let lines = wrapped(&text, 4);
+        assert!(lines.lines().all(|line| line.chars().count() <= COLUMNS), "{lines}");
+        assert!(
+            lines
+                .lines()
+                .skip(1)
+                .all(|line| line.starts_with("    p") || line.starts_with("    a") || line.starts_with("    t"))
+        );
+        assert_eq!(lines.split_whitespace().collect::<Vec<_>>(), text.split_whitespace().collect::<Vec<_>>());
+        assert_eq!(wrapped(&"x".repeat(200), 2).lines().count(), 1);
+        assert_eq!(wrapped("  - a b", 4), "  - a b\n");
+    }
+}

@@ -1,7 +1,7 @@
 //! A diagnosis, as a page to read; its tables are in [`super::diagnosis_tables`].
 
 use super::diagnosis_tables::tables;
-use crate::tables::{number, table};
+use crate::tables::{number, table, wrapped};
 use compare::diagnosis::words::{listed, three, with_unit};
 use compare::diagnosis::{Diagnosis, ParameterValue, Ranked, Verdict};
 use compare::witness::Witness;
@@ -19,7 +19,7 @@ pub fn to_json(diagnosis: &Diagnosis, witness: Option<&Witness>, scenario: &str)
 }
 
 /// Explanations in the short table, and those that are told in words.
-const ROWS: usize = 6;
+const ROWS: usize = 5;
 const TOLD: usize = 3;
 
 /// The page that a person reads: verdict, what it could be, what to check, what to do next, what could not be seen. `all` adds the
@@ -28,14 +28,14 @@ pub fn text(d: &Diagnosis, witness: Option<&Witness>, all: bool) -> String {
     let mut out = format!("{} held against {}, {} runs\n{}\n\n", d.scenario, d.dataset, d.runs, d.noise.sentence);
     d.slips.iter().for_each(|slip| out.push_str(&format!("Before the verdict, look at the data. {slip}\n\n")));
     out.push_str(&format!("Verdict: {}\n", verdict(d)));
-    d.summary.iter().for_each(|s| out.push_str(&format!("  - {s}\n")));
+    d.summary.iter().for_each(|s| out.push_str(&wrapped(&format!("  - {s}"), 4)));
     if all {
         return out + &tables(d, witness);
     }
     out.push_str(&closest(d));
     out.push_str(&to_check(d));
     if let Some(first) = witness.and_then(|w| w.sentences.first()) {
-        out.push_str(&format!("\nThe same robot in finite elements: {first}\n"));
+        out.push_str(&wrapped(&format!("\nThe same robot in finite elements: {first}"), 2));
     }
     out.push_str(&not_seen(d));
     out.push_str(
@@ -89,16 +89,19 @@ fn to_check(d: &Diagnosis) -> String {
         return String::new();
     }
     let told: Vec<&Ranked> = d.ranked.iter().filter(|r| is_told(d, r)).collect();
-    let mut out = String::new();
+    let mut out = "\n".to_string();
     for r in told.iter().take(TOLD) {
-        out.push_str(&format!("\n{} ({}): {}\n  check: {}\n", r.effect, r.group.word(), r.sentence, r.remedy));
+        // What is added is told above.
+        let added = d.added.iter().any(|added| added.effect == r.effect);
+        let sentence = if added { String::new() } else { format!(" {}", r.sentence) };
+        out.push_str(&wrapped(&format!("{} ({}):{sentence} To check: {}", r.effect, r.group.word(), r.remedy), 2));
     }
     if told.len() > TOLD {
         let rest: Vec<&str> = told[TOLD..].iter().map(|r| r.effect.as_str()).collect();
-        out.push_str(&format!("  and {}\n", rest.join(", ")));
+        out.push_str(&wrapped(&format!("and {}", rest.join(", ")), 2));
     }
     if let (Some(first), Some(Verdict::Effect)) = (d.leftover.first(), d.verdict) {
-        out.push_str(&format!("\nStill: {}\n", first.sentence));
+        out.push_str(&wrapped(&format!("Still: {}", first.sentence), 2));
     }
     out
 }
@@ -116,7 +119,8 @@ fn not_seen(d: &Diagnosis) -> String {
     let sizes =
         hidden.iter().take(4).map(|(u, size, _)| format!("{} below {}", u.effect, with_unit(&three(*size), &u.unit)));
     let sizes: Vec<String> = sizes.collect();
-    let mut out = if sizes.is_empty() { "\n".into() } else { format!("\nCould not be seen: {}.\n", sizes.join(", ")) };
-    d.limits.iter().for_each(|limit| out.push_str(&format!("note: {limit}\n")));
+    let mut out =
+        if sizes.is_empty() { "\n".into() } else { wrapped(&format!("\nCould not be seen: {}.", sizes.join(", ")), 2) };
+    d.limits.iter().for_each(|limit| out.push_str(&wrapped(&format!("note: {limit}"), 2)));
     out
 }

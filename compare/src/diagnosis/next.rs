@@ -293,18 +293,14 @@ fn sentence(best: &str, recommended: Option<&Experiment>) -> String {
         |found: &[&Separation]| crate::wording::list(&found.iter().map(|s| s.rival.clone()).collect::<Vec<_>>());
     let protocol = if e.protocol.is_empty() { String::new() } else { format!(" ({})", e.protocol) };
     let results = if e.tests.is_empty() { "" } else { RESULTS };
-    let lambda = format!("λ = {:.0}, {:.0} suffices", e.lambda, e.needed);
     let parts = match (e.runs_needed, above(e.needed).is_empty()) {
         (Some(runs), _) => {
-            format!(
-                "It is expected to separate {best} from {} ({lambda}; about {runs} runs).",
-                names(&above(policy::WORTHLESS))
-            )
+            format!("About {runs} runs of it would tell {best} from {}.", names(&above(policy::WORTHLESS)))
         }
-        (None, false) => format!("It is expected to separate {best} from {} ({lambda}).", names(&above(e.needed))),
+        (None, false) => format!("It would tell {best} from {}.", names(&above(e.needed))),
         (None, true) => format!(
-            "It parts {best} from {} more than others do ({lambda}) and will not decide: a twentieth of an effect is granted to \
-             the form of its law, and more runs do not change that.",
+            "It parts {best} from {} more than others do and will not decide: a twentieth of an effect is granted to the form of \
+             its law, and more runs do not change that.",
             names(&above(policy::WORTHLESS))
         ),
     };
