@@ -34,6 +34,7 @@ mod seam_stiffness;
 mod self_contact;
 mod shear_lock;
 mod shear_stiffness;
+mod softening;
 mod sunk_muscle;
 mod tail_tension;
 mod tip_clamp;
@@ -73,6 +74,7 @@ pub const EFFECTS: &[Effect] = &[
     crimped_sides::ENTRY,
     self_contact::ENTRY,
     wrinkling::ENTRY,
+    softening::ENTRY,
     tail_tension::ENTRY,
     base_clamp::ENTRY,
     tip_clamp::ENTRY,
