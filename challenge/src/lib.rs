@@ -30,7 +30,7 @@ pub mod wall;
 #[cfg(test)]
 mod tests;
 
-pub use effects::{HIDDEN, HiddenEffect, OUTSIDE, by_name};
+pub use effects::{ALSO, HIDDEN, HiddenEffect, OUTSIDE, by_name};
 pub use measure::{Measurement, ideal, measure};
 pub use reveal::reveal;
 pub use riddle::{Handout, Riddle};

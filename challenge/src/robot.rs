@@ -137,6 +137,7 @@ fn cells(scenario: &Scenario, lift_share: f64, scale_per_m: f64) -> Vec<Cell> {
             step_per_m: scenario.hinge_curvature,
             scale_per_m,
             wrinkle_per_m: 0.0,
+            creased: 0.0,
             tail_m3: 0.0,
             oval: 0.0,
             stop_nm: 0.0,

@@ -49,7 +49,7 @@ fn every_effect_moves_the_markers_by_a_visible_but_not_absurd_amount() {
     for (kind, bending) in truth::ROBOTS {
         let scenario = scenario(kind, bending);
         let base = ideal(&TrueRobot::new(&scenario).unwrap(), &Generator::default()).unwrap();
-        for effect in HIDDEN.iter().chain(OUTSIDE).filter(|effect| effect.applies_to(&scenario)) {
+        for effect in HIDDEN.iter().chain(ALSO).chain(OUTSIDE).filter(|effect| effect.applies_to(&scenario)) {
             let moved = |times: f64| {
                 let mut robot = TrueRobot::new(&scenario).unwrap();
                 let amount = times * (effect.typical)(&robot);

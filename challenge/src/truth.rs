@@ -1,6 +1,6 @@
 //! What is hidden in a dataset, as data: drawn from a seed, written as TOML, made into a robot and measured.
 
-use super::effects::{HIDDEN, HiddenEffect, OUTSIDE, by_name};
+use super::effects::{ALSO, HIDDEN, HiddenEffect, OUTSIDE, by_name};
 use super::measure::{Measurement, measure};
 use super::robot::TrueRobot;
 use compare::error::CompareError;
@@ -215,7 +215,7 @@ pub fn applicable(actuator: &str, list: &[HiddenEffect]) -> Result<Vec<HiddenEff
 /// None has it.
 pub fn known(name: &str) -> Result<&'static HiddenEffect, CompareError> {
     by_name(name).ok_or_else(|| {
-        let names: Vec<&str> = HIDDEN.iter().chain(OUTSIDE).map(|effect| effect.name).collect();
+        let names: Vec<&str> = HIDDEN.iter().chain(ALSO).chain(OUTSIDE).map(|effect| effect.name).collect();
         let problem = format!("no hidden effect `{name}`; {}", spelling::known(name, &names));
         CompareError::NotSimulated { problem }
     })

@@ -4,6 +4,7 @@
 //!
 //! ```text
 //! wrinkling       hinge → M₀ x/(1 + |x|^1.5)^(2/3), x = κ/κ_w                 another curve than Comer–Levy's
+//! softening       B → B (1 − s κ²/(κ² + κ_h²))                                 creases take stiffness away
 //! tail            + t p_b tanh(κ/k₀)                                           the tail is pulled by the body's own pressure
 //! ovalization     D → D (1 − o κ²/(κ² + κ_c²))                                 flattens, then keeps its shape
 //! stop            + m exp((κ − κ_s)/w)                                         folds that press on each other ever harder
@@ -17,6 +18,8 @@
 pub(super) const RELAXATION_S: [f64; 3] = [0.7, 3.0, 15.0];
 /// Curvatures over which the friction layers slide, as shares of [`CellWall::scale_per_m`].
 const SLIP_SHARES: [f64; 4] = [0.02, 0.06, 0.15, 0.3];
+/// κ_h of softening, as a share of [`CellWall::scale_per_m`].
+const CREASED_FROM: f64 = 0.4;
 /// Time in which a set fades \[s\].
 const RECOVERY_S: f64 = 40.0;
 
@@ -33,6 +36,8 @@ pub struct CellWall {
     pub scale_per_m: f64,
     /// Wrinkling κ_w \[1/m\].
     pub wrinkle_per_m: f64,
+    /// Softening s \[-\].
+    pub creased: f64,
     /// Tail t \[m³\].
     pub tail_m3: f64,
     /// Ovalization o \[-\].
@@ -72,7 +77,7 @@ impl CellWall {
 
     /// Resisting moment at a curvature reached `dt_s` after the state in `memory` \[N·m\].
     pub(super) fn moment(&self, kappa: f64, p_body_pa: f64, memory: &CellMemory, dt_s: f64) -> f64 {
-        let mut moment = self.bending * (kappa - self.rest_per_m) + self.hinge(kappa, p_body_pa);
+        let mut moment = self.stiffness(kappa) * (kappa - self.rest_per_m) + self.hinge(kappa, p_body_pa);
         moment += self.tail_m3 * p_body_pa * (kappa / self.step_per_m).tanh();
         if self.stop_nm != 0.0 {
             moment += self.stop_nm * ((kappa / self.scale_per_m - 0.7) / 0.08).min(200.0).exp();
@@ -102,6 +107,15 @@ impl CellWall {
         }
         memory.set = self.set_after(kappa, &before, dt_s);
         memory.largest = before.largest.max(kappa);
+    }
+
+    /// B at a curvature; a share of it is gone beyond κ_h.
+    fn stiffness(&self, kappa: f64) -> f64 {
+        if self.creased == 0.0 {
+            return self.bending;
+        }
+        let (k2, h2) = (kappa * kappa, (CREASED_FROM * self.scale_per_m).powi(2));
+        self.bending * (1.0 - self.creased * k2 / (k2 + h2))
     }
 
     fn hinge(&self, kappa: f64, p_body_pa: f64) -> f64 {
@@ -144,6 +158,7 @@ mod tests {
         step_per_m: 0.05,
         scale_per_m: 2.0,
         wrinkle_per_m: 0.0,
+        creased: 0.0,
         tail_m3: 0.0,
         oval: 0.0,
         stop_nm: 0.0,
@@ -162,6 +177,15 @@ mod tests {
             moment
         };
         path.iter().map(step).collect()
+    }
+
+    /// At κ_h half of the share is gone; the moment never falls.
+    #[test]
+    fn a_creased_wall_is_softer_and_still_resists_more_at_larger_bends() {
+        let wall = CellWall { creased: 0.75, ..PLAIN };
+        let moment = |kappa: f64| wall.moment(kappa, 0.0, &CellMemory::default(), 0.0);
+        assert!((moment(0.8) - 0.8 * (1.0 - 0.375)).abs() < 1e-12);
+        assert!((0..200).all(|i| moment(0.05 * f64::from(i + 1)) > moment(0.05 * f64::from(i))));
     }
 
     #[test]

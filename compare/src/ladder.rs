@@ -133,6 +133,9 @@ fn end(d: &Diagnosis, left: f64, (count, most): (usize, usize)) -> Option<(&'sta
                 format!("What is left, {left:.2} mm, is more than noise but within the tolerance of {limit:.2} mm."),
             )
         }
+        Some(Verdict::TooSmall) => {
+            ("too_small", format!("What is left, {left:.2} mm, is more than noise, and no effect takes a fifth of it."))
+        }
         Some(Verdict::OutOfCatalog) => {
             let places: Vec<&str> = d.leftover.iter().map(|s| s.sentence.as_str()).collect();
             let places = places.join(" ");

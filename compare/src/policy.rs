@@ -343,29 +343,12 @@ pub fn has_moved(y_m: f64, sd_m: f64) -> bool {
     y_m.abs() > SMALL_DEFLECTION_M.max(MANY_TIMES_THE_NOISE * sd_m)
 }
 
+/// Whether an error is within the tolerance: whatever is missing, no name of it would matter.
+pub fn is_good_enough(error_mm: f64, tolerance_mm: f64) -> bool {
+    error_mm <= tolerance_mm
+}
+
 /// The error below which a model is good enough: max(0.15 mm, 0.5 % of d_max) \[m\].
 pub fn tolerance_m(d_max_m: f64) -> f64 {
     TOLERANCE_M.max(TOLERANCE * d_max_m)
 }
-
-/// How exactly the shared numbers of a camera are told where nothing is wrong with it: distance of the tracked line over R, scale, roll \[rad\].
-pub const CAMERA_AS_TOLD: [f64; 3] = [0.02, 0.002, 0.001];
-/// Prior weights of the kinds of hypotheses: nothing is missing, one effect, two, a law that nobody wrote down, a fault.
-pub const PRIOR_NOTHING: f64 = 0.5;
-/// One effect of the catalogue.
-pub const PRIOR_ONE: f64 = 0.35;
-/// Two of them.
-pub const PRIOR_TWO: f64 = 0.05;
-/// A law that nobody wrote down.
-pub const PRIOR_UNKNOWN: f64 = 0.05;
-/// A fault of a place, a hold or a marker.
-pub const PRIOR_FAULT: f64 = 0.05;
-/// Single effects of which pairs are weighed.
-pub const PAIRED: usize = 6;
-/// Share by which the form of a law errs for every doubling of bend or pressure: what `challenge::bench::width` learns from pairs of laws
-/// for the same effect.
-pub const FORM_WIDTH: f64 = 0.084;
-/// Share of the evidence that a set holds, and of what is not nothing that makes an alarm.
-pub const RULED: f64 = 0.95;
-/// p of what the best hypothesis leaves, below which it does not meet the data.
-pub const UNMET: f64 = 1e-3;

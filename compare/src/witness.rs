@@ -12,7 +12,7 @@
 //! is least for the candidate that spends it as they do. **Validity**: the runs are models too, with assumed numbers; a ledger
 //! compares energies and not their slopes. It speaks for or against a candidate, it proves nothing.
 
-use crate::diagnosis::{Answer, Diagnosis, ParameterValue, Ranked, Standing, Verdict, with_fitted};
+use crate::diagnosis::{Answer, Diagnosis, ParameterValue, Ranked, Standing, with_fitted};
 use crate::error::CompareError;
 use crate::policy;
 use crate::study::engines::{EngineRun, Ensemble, TERMS, between, ensemble};
@@ -248,7 +248,7 @@ fn sentences(w: &Witness, d: &Diagnosis) -> Vec<String> {
     )];
     out.push(meeting(w));
     if let (Some(fe), [base, others @ ..]) = (w.fe_mj, &w.models[..]) {
-        out.extend(stiffness(base, &fe).filter(|_| d.verdict != Some(Verdict::None)));
+        out.extend(stiffness(base, &fe).filter(|_| !d.is_quiet()));
         out.push(nearest(base, others, &fe, d));
     } else {
         out.push(

@@ -6,7 +6,7 @@ use super::{Context, Outcome, inputs};
 use crate::cli::{ChallengeCommand, ChallengeNewArgs};
 use crate::failure::Failure;
 use crate::output::{check_set_folder, set_name, write_files};
-use challenge::{Claim, HIDDEN, HiddenEffect, OUTSIDE, Riddle, score};
+use challenge::{ALSO, Claim, HIDDEN, HiddenEffect, OUTSIDE, Riddle, score};
 use ibr::pages::Files;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -63,15 +63,16 @@ fn list() -> Outcome {
     let mut text = String::from(
         "What `ibr challenge new --effect NAME` can hide; the catalogue knows the first group by another law\n",
     );
-    text.push_str(&rows(HIDDEN));
+    let inside: Vec<&HiddenEffect> = HIDDEN.iter().chain(ALSO).collect();
+    text.push_str(&rows(&inside));
     text.push_str("\nNo effect of the catalogue describes these\n");
-    text.push_str(&rows(OUTSIDE));
+    text.push_str(&rows(&OUTSIDE.iter().collect::<Vec<_>>()));
     let entry = |effect: &HiddenEffect| json!({"name": effect.name, "sentence": effect.sentence, "law": effect.law, "in_catalog": !effect.is_outside()});
-    let all: Vec<Value> = HIDDEN.iter().chain(OUTSIDE).map(entry).collect();
+    let all: Vec<Value> = inside.into_iter().chain(OUTSIDE).map(entry).collect();
     Outcome::new(text, json!({"schema": "ibr.challenge.list", "version": 1, "effects": all}))
 }
 
-fn rows(effects: &[HiddenEffect]) -> String {
-    let row = |e: &HiddenEffect| [e.name, e.sentence, e.law].map(str::to_string).to_vec();
+fn rows(effects: &[&HiddenEffect]) -> String {
+    let row = |e: &&HiddenEffect| [e.name, e.sentence, e.law].map(str::to_string).to_vec();
     table(&["effect", "what happens", "law"], 3, effects.iter().map(row).collect())
 }

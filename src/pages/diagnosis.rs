@@ -76,13 +76,13 @@ const PICTURES: [(&str, Picture); 9] = [
         seen.then(|| waterfall("Before and after", &rungs, f.diagnosis.base.noise_floor_mm)).transpose()
     }),
     ("before_after_supply", |f, _| supply(f.diagnosis)),
-    ("candidates", |f, scenario| match f.diagnosis.verdict {
-        Some(Verdict::None) => Ok(None),
-        _ => candidate_curves(f.diagnosis, scenario, f.dataset),
+    ("candidates", |f, scenario| match f.diagnosis.is_quiet() {
+        true => Ok(None),
+        false => candidate_curves(f.diagnosis, scenario, f.dataset),
     }),
     ("ledger", |f, scenario| {
         let d = f.diagnosis;
-        let parts = d.verdict != Some(Verdict::None) && !shown(d).is_empty();
+        let parts = !d.is_quiet() && !shown(d).is_empty();
         let at = figures::at_highest(f.dataset).filter(|_| parts);
         let cases = |loads: &Loads| ledger_cases(d, scenario, d.level(1e-3 * loads.body_pa));
         at.map(|(title, loads)| figures::ledgers(&title, &cases(&loads), &loads)).transpose()
@@ -120,6 +120,7 @@ pub(super) fn verdict(found: &Diagnosed) -> Value {
     let d = found.diagnosis;
     let verdict = match d.verdict {
         Some(Verdict::None) => "none",
+        Some(Verdict::TooSmall) => "too_small",
         Some(Verdict::Effect) => "effect",
         Some(Verdict::OutOfCatalog) if d.is_either() => "either",
         Some(Verdict::OutOfCatalog) => "out_of_catalog",
@@ -164,7 +165,7 @@ fn values(found: &Diagnosed) -> Value {
 
 /// What the verdict states, or the attempt; nothing where nothing is missing.
 fn told(d: &Diagnosis) -> Vec<Answer<'_>> {
-    let answers = if d.verdict == Some(Verdict::None) { Vec::new() } else { d.answers() };
+    let answers = if d.is_quiet() { Vec::new() } else { d.answers() };
     answers.into_iter().filter(|a| matches!(a.standing, Standing::Stated | Standing::Attempt)).collect()
 }
 

@@ -11,6 +11,7 @@ pub fn text(d: &BenchDiagnosis, bench: &Bench) -> String {
     let mut out = format!("{} held against {}, {} rows ({})\n\n", d.scenario, d.table, d.rows, bench.provenance.word());
     let verdict = match d.verdict {
         Some(Verdict::None) => "no missing effect detectable",
+        Some(Verdict::TooSmall) => "more than noise, too small to name",
         Some(Verdict::Effect) => "an effect is missing",
         Some(Verdict::OutOfCatalog) => "something is missing that no single effect of the catalogue explains",
         None => "none: ranking only",

@@ -48,6 +48,7 @@ pub fn text(d: &Diagnosis, witness: Option<&Witness>, all: bool) -> String {
 fn verdict(d: &Diagnosis) -> String {
     match d.verdict {
         Some(Verdict::None) => "no missing effect detectable".into(),
+        Some(Verdict::TooSmall) => "more than noise, too small to name".into(),
         Some(Verdict::Effect) => {
             let names: Vec<String> = d.indistinguishable.iter().map(|name| name.replace('_', " ")).collect();
             let tie = if names.len() > 1 { "; these data do not choose between them" } else { "" };
@@ -63,7 +64,7 @@ fn verdict(d: &Diagnosis) -> String {
 
 /// The explanations that leave least, those of the answer first.
 fn closest(d: &Diagnosis) -> String {
-    if d.verdict == Some(Verdict::None) {
+    if d.is_quiet() {
         return String::new();
     }
     let stated = |r: &&Ranked| !d.pairs.is_empty() || !r.in_set;
@@ -85,7 +86,7 @@ fn closest(d: &Diagnosis) -> String {
 
 /// What the answer means on the robot, and where the model fails with it.
 fn to_check(d: &Diagnosis) -> String {
-    if d.verdict == Some(Verdict::None) {
+    if d.is_quiet() {
         return String::new();
     }
     let told: Vec<&Ranked> = d.ranked.iter().filter(|r| is_told(d, r)).collect();

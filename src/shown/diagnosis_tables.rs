@@ -33,7 +33,7 @@ const HEAD: [&str; 8] =
 
 fn row(d: &Diagnosis, r: &Ranked) -> Vec<String> {
     // Where pairs are stated, no single effect is.
-    let alike = r.in_set && d.verdict != Some(Verdict::None) && d.pairs.is_empty();
+    let alike = r.in_set && !d.is_quiet() && d.pairs.is_empty();
     let mark = match (alike, r.at_bound) {
         (_, true) => "!",
         (true, _) => "=",
@@ -82,7 +82,7 @@ fn pairs(d: &Diagnosis) -> String {
 /// Sentences, remedies and cautions of the set, and where the final model still fails.
 fn details(d: &Diagnosis) -> String {
     let mut out = String::new();
-    if d.verdict == Some(Verdict::None) {
+    if d.is_quiet() {
         return out;
     }
     let told = |r: &Ranked| is_told(d, r);

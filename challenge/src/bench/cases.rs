@@ -3,7 +3,6 @@
 use super::attainable::distances_of;
 use super::follow::{follow_up, tested};
 use super::oracle::{at_best, two_at_best};
-use super::ruled::Ruled;
 use super::{Diagnoser, Lot, PlannedSet};
 use crate::score::{Claim, ClaimScore, score};
 use crate::truth::{ROBOTS, standard_protocol};
@@ -39,6 +38,8 @@ pub struct Named {
     pub slip: bool,
     /// Error beyond noise of the calibrated base and of the final model \[mm\].
     pub systematic_mm: [f64; 2],
+    /// Error that is good enough \[mm\].
+    pub tolerance_mm: f64,
     /// The same on runs left out, where the diagnosis gives both.
     pub heldout_mm: Option<[f64; 2]>,
     /// The true value is inside the 95 % interval; `None` if another effect was chosen or there is no interval.
@@ -58,8 +59,6 @@ pub struct Named {
     pub at_best: Option<[f64; 2]>,
     /// The same experiment with next to no noise, where the truth did not come out on top.
     pub after_in_silence: Option<ClaimScore>,
-    /// What the evidence rule says; `None` where it was not asked.
-    pub ruled: Option<Ruled>,
 }
 
 /// What the recommended experiment brought.
@@ -75,6 +74,9 @@ pub struct After {
 
 /// Step through a list of effects, prime to their numbers, so that a short bench sees different groups.
 const STRIDE: usize = 13;
+
+/// Stiffness of clamps, over the typical one: from a soft one to a rigid cap.
+const CLAMPS: [f64; 2] = [0.5, 30.0];
 
 /// Draws a set; robots and effects take turns, so that all are equally frequent.
 pub(super) fn draw(part: Lot, seed: u64, stream: u64, index: usize) -> Result<Truth, CompareError> {
@@ -96,6 +98,11 @@ pub(super) fn draw(part: Lot, seed: u64, stream: u64, index: usize) -> Result<Tr
             truth.lost_markers = true;
         }
         Lot::LostMarkers(_) => truth.lost_markers = true,
+        Lot::Clamp => {
+            let [softest, stiffest] = CLAMPS.map(f64::ln);
+            truth.add(["base_clamp", "tip_clamp"][turn % 2], draw.between(softest, stiffest).exp());
+        }
+        Lot::Softening => truth.add("softening", draw.between(0.8, 1.5)),
         Lot::Interval => {
             let list = truth::applicable(actuator, HIDDEN)?;
             let known = |name: &str| models::effects::by_name(name).is_some();
@@ -113,7 +120,7 @@ pub(super) fn outcome(case: &PlannedSet, diagnose: Diagnoser) -> SetOutcome {
         Lot::Measured(_) => measured(&case.truth, diagnose),
         Lot::Interval => interval(&case.truth, diagnose),
         Lot::HeavyTails => hidden(&case.truth, Hiding::Nothing, diagnose),
-        Lot::LostMarkers(_) => lossy(&case.truth, diagnose),
+        Lot::LostMarkers(_) | Lot::Clamp | Lot::Softening => alone(&case.truth, diagnose),
     };
     let (named, failed) = match found {
         Ok(named) => (Some(named), None),
@@ -129,7 +136,7 @@ pub(super) fn names(truth: &Truth) -> Vec<&str> {
 fn hidden(truth: &Truth, kind: Hiding, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
     let next_experiment = kind == Hiding::One;
-    let options = Options { next_experiment, missing_moment: false, weigh: true, ..Options::default() };
+    let options = Options { next_experiment, missing_moment: false, ..Options::default() };
     let about = about(truth)?;
     let found = diagnose(&truth.told()?, &[Evidence::of(data.clone(), Some(about))], &options, &mut |_, _| ())?;
     let mut named = named(truth, &found);
@@ -156,7 +163,7 @@ fn hidden(truth: &Truth, kind: Hiding, diagnose: Diagnoser) -> Result<Named, Com
 }
 
 /// A set without a next experiment.
-fn lossy(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
+fn alone(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
     let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     let about = about(truth)?;
@@ -224,6 +231,7 @@ fn named(truth: &Truth, found: &Diagnosis) -> Named {
         score: score(truth, &answer),
         slip: !found.slips.is_empty(),
         systematic_mm: [found.base.systematic_mm, found.base.systematic_with_added_mm],
+        tolerance_mm: found.tolerance_mm,
         heldout_mm: found.base.heldout_run_mm.zip(first.and_then(|row| row.heldout_run_mm)).map(|(a, b)| [a, b]),
         covered: None,
         bic_behind: found.ranked.iter().find(|row| is_true(&row.effect)).map(|row| row.bic_difference),
@@ -237,7 +245,6 @@ fn named(truth: &Truth, found: &Diagnosis) -> Named {
         distances: None,
         at_best: None,
         after_in_silence: None,
-        ruled: Ruled::of(truth, found),
         answer,
     }
 }

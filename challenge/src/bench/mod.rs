@@ -7,21 +7,17 @@
 mod attainable;
 mod cases;
 mod follow;
-mod forms;
 mod made;
 mod oracle;
 mod row;
-mod ruled;
 mod table;
 #[cfg(test)]
 mod tests;
 
 pub use attainable::Attainable;
 pub use cases::{After, Named, SetOutcome};
-pub use forms::{FormWidth, form_widths, width};
-pub use made::{FromRuns, LACKING};
+pub use made::{MADE, OneOff};
 pub use row::{Goal, Rate};
-pub use ruled::Ruled;
 
 use super::score::{Claim, ClaimScore};
 use super::truth::{Hiding, Truth};
@@ -112,8 +108,8 @@ pub struct Discovery {
     /// Those of them where it is not on top with a hundredth of the noise either: another formula of the catalogue meets the
     /// robot's law as well as its own, or better.
     pub missed_by_law: usize,
-    /// Data made by finite elements, robot by robot.
-    pub made: Vec<FromRuns>,
+    /// Data made by finite elements, mechanism by mechanism.
+    pub made: Vec<OneOff>,
     /// Every set.
     pub seen: Vec<SetSeen>,
     /// Sets that could not be made or diagnosed, with the reason.
@@ -145,7 +141,7 @@ pub fn run(
     let silence: Vec<bool> = table::missed_in_silence(&outcomes);
     Ok(Discovery {
         seed: options.seed,
-        rows: [table::rows(&outcomes), made::rows(&made), ruled::rows(&outcomes)].concat(),
+        rows: [table::rows(&outcomes), made::rows(&made)].concat(),
         confusion: table::confusion(&outcomes),
         breakdown: table::breakdown(&outcomes),
         attainable: attainable::of(&outcomes),
@@ -191,6 +187,10 @@ pub enum Lot {
     HeavyTails,
     /// Nothing, or the same effects, seen by a camera that loses markers.
     LostMarkers(Hiding),
+    /// A clamp at base or tip, from half of its typical stiffness to thirty times that.
+    Clamp,
+    /// A wall that softens as it bends.
+    Softening,
 }
 
 fn plan(options: &DiscoveryOptions) -> Result<Vec<PlannedSet>, CompareError> {
@@ -206,6 +206,8 @@ fn plan(options: &DiscoveryOptions) -> Result<Vec<PlannedSet>, CompareError> {
         (Lot::Measured(Hiding::One), options.sets),
         (Lot::LostMarkers(Hiding::Nothing), half),
         (Lot::LostMarkers(Hiding::One), half),
+        (Lot::Clamp, half),
+        (Lot::Softening, half),
     ];
     let mut plan = Vec::new();
     for (number, (part, sets)) in parts.into_iter().enumerate() {

@@ -14,6 +14,9 @@ pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
         one(Lot::Hidden(Hiding::One)),
         one(Lot::Measured(Hiding::One)),
         lossy(outcomes),
+        alone(outcomes, Lot::Clamp, "a clamp of any stiffness"),
+        alone(outcomes, Lot::Softening, "a softening wall"),
+        below(outcomes),
         after(outcomes),
         two(outcomes),
         outside(outcomes),
@@ -51,7 +54,7 @@ fn nothing(outcomes: &[SetOutcome]) -> Vec<Rate> {
 
 fn one(outcomes: &[SetOutcome], part: Lot) -> Vec<Rate> {
     let all = found(outcomes, part);
-    let alarmed: Vec<_> = all.iter().filter(|(_, named)| named.score.alarm).copied().collect();
+    let alarmed = alarmed(&all);
     let case = match part {
         Lot::Measured(_) => "one hidden effect, B measured to 10 %",
         _ => "one hidden effect",
@@ -76,7 +79,7 @@ fn one(outcomes: &[SetOutcome], part: Lot) -> Vec<Rate> {
 
 fn lossy(outcomes: &[SetOutcome]) -> Vec<Rate> {
     let all = found(outcomes, Lot::LostMarkers(Hiding::One));
-    let alarmed: Vec<_> = all.iter().filter(|(_, named)| named.score.alarm).copied().collect();
+    let alarmed = alarmed(&all);
     let case = "one hidden effect, markers lost";
     vec![
         Rate::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
@@ -88,6 +91,28 @@ fn lossy(outcomes: &[SetOutcome]) -> Vec<Rate> {
             &shares(&alarmed, |n| n.score.out_of_catalog),
         ),
     ]
+}
+
+/// Sets of one effect by itself.
+fn alone(outcomes: &[SetOutcome], part: Lot, case: &'static str) -> Vec<Rate> {
+    let all = found(outcomes, part);
+    let named = alarmed(&all);
+    vec![
+        Rate::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
+        Rate::share(case, "given alarm: truth in the stated set", AtLeast(0.90), &shares(&named, |n| n.score.in_set)),
+    ]
+}
+
+/// Names that cannot pay: of errors that began within the tolerance.
+fn below(outcomes: &[SetOutcome]) -> Vec<Rate> {
+    let all: Vec<_> = outcomes.iter().filter_map(|o| Some((o, o.named.as_ref()?))).collect();
+    let pays_nothing = |n: &Named| !n.answer.added.is_empty() && n.systematic_mm[0] <= n.tolerance_mm;
+    vec![Rate::share("all sets", "an effect named within the tolerance", AtMost(0.0), &shares(&all, pays_nothing))]
+}
+
+/// Those of which a name was asked: something is missing, and not too small to name.
+fn alarmed<'o>(all: &[(&'o SetOutcome, &'o Named)]) -> Vec<(&'o SetOutcome, &'o Named)> {
+    all.iter().filter(|(_, named)| named.score.alarm && !named.score.too_small).copied().collect()
 }
 
 fn after(outcomes: &[SetOutcome]) -> Vec<Rate> {

@@ -14,6 +14,9 @@ const HINGE_NM: f64 = 0.402;
 /// Length over which a clamp stiffens the wall \[m\].
 const CLAMP_M: f64 = 0.12;
 
+/// Largest share of the stiffness that creases take: of more than 8/9 the moment would fall with the bend.
+const MOST_CREASED: f64 = 0.85;
+
 fn clamp(robot: &mut TrueRobot, amount: f64, from_tip: bool) {
     let length = robot.length_m;
     robot.each(|cell, s| {
@@ -31,6 +34,16 @@ pub(super) const WRINKLING: HiddenEffect = HiddenEffect {
     typical: |robot| 0.25 * robot.scale_per_m,
     family: None,
     put: |robot, amount| robot.each(|cell, _| cell.wall.wrinkle_per_m += amount),
+};
+
+pub(super) const SOFTENING: HiddenEffect = HiddenEffect {
+    name: "softening",
+    sentence: "Creases that a bend has made take most of the wall's stiffness from it.",
+    law: "B (1 − s κ²/(κ² + κ_h²)), κ_h = 0.4 κ_c, instead of B/(1 + a κ)",
+    unit: "-",
+    typical: |_| 0.5,
+    family: None,
+    put: |robot, amount| robot.each(|cell, _| cell.wall.creased = (cell.wall.creased + amount).min(MOST_CREASED)),
 };
 
 pub(super) const TAIL_TENSION: HiddenEffect = HiddenEffect {

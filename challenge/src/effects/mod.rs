@@ -61,6 +61,9 @@ pub const HIDDEN: &[HiddenEffect] = &[
     setup::MARKER_HEIGHT,
 ];
 
+/// Effects that are hidden in sets of their own, beside those that the generator draws from [`HIDDEN`].
+pub const ALSO: &[HiddenEffect] = &[body::SOFTENING];
+
 /// Effects that no entry of the catalogue describes.
 pub const OUTSIDE: &[HiddenEffect] = &[
     outside::DEAD_POUCH,
@@ -75,9 +78,9 @@ pub const OUTSIDE: &[HiddenEffect] = &[
     outside::DRIFTING_CAMERA,
 ];
 
-/// The entry of that name, from either list.
+/// The entry of that name, from any list.
 pub fn by_name(name: &str) -> Option<&'static HiddenEffect> {
-    HIDDEN.iter().chain(OUTSIDE).find(|effect| effect.name == name)
+    HIDDEN.iter().chain(ALSO).chain(OUTSIDE).find(|effect| effect.name == name)
 }
 
 impl HiddenEffect {
@@ -102,8 +105,8 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_every_entry_says_what_it_is() {
-        let all: Vec<&HiddenEffect> = HIDDEN.iter().chain(OUTSIDE).collect();
-        assert_eq!((HIDDEN.len(), OUTSIDE.len()), (25, 10));
+        let all: Vec<&HiddenEffect> = HIDDEN.iter().chain(ALSO).chain(OUTSIDE).collect();
+        assert_eq!((HIDDEN.len(), ALSO.len(), OUTSIDE.len()), (25, 1, 10));
         for (i, effect) in all.iter().enumerate() {
             assert!(all[..i].iter().all(|other| other.name != effect.name), "{}", effect.name);
             assert!(effect.sentence.ends_with('.') && !effect.law.is_empty() && !effect.unit.is_empty());

@@ -1,7 +1,7 @@
 //! Answers to what is missing, as they are drawn and told: one effect or two, each at the values of its own fit.
 
 use super::fitted::with_fitted;
-use super::result::{Combination, Diagnosis, ParameterValue, Ranked};
+use super::result::{Combination, Diagnosis, ParameterValue, Ranked, Verdict};
 use crate::policy;
 use models::Scenario;
 
@@ -94,6 +94,11 @@ impl Diagnosis {
         };
         answers.sort_by(|a, b| place(a).cmp(&place(b)).then(b.gain.total_cmp(&a.gain)));
         answers
+    }
+
+    /// Whether the verdict names nothing: nothing is missing, or too little.
+    pub fn is_quiet(&self) -> bool {
+        matches!(self.verdict, Some(Verdict::None | Verdict::TooSmall))
     }
 
     /// Whether effects and a fault outside the catalogue explain the data about as well.

@@ -43,6 +43,8 @@ pub struct Free {
     pub lower: f64,
     /// Upper bound of a fit.
     pub upper: f64,
+    /// What is physically possible.
+    pub possible: [f64; 2],
     /// Where a fit starts beside neutral and typical: thresholds and time scales.
     pub starts: Vec<f64>,
     /// When a fit may change it.
@@ -59,12 +61,32 @@ impl Free {
         !self.is_held && (self.typical != 0.0 || self.neutral != 0.0)
     }
 
+    /// Value where it is not fitted: neutral, or as the design has it.
+    pub fn held_at(&self) -> f64 {
+        if self.fitted == Fitted::FromDesign { self.typical } else { self.neutral }
+    }
+
     /// Length of one step of the fit.
     pub fn scale(&self) -> f64 {
         let typical = (self.typical - self.neutral).abs();
         if typical > 0.0 { typical } else { 0.1 * (self.upper - self.lower) }
     }
+
+    /// Whether physics, too, ends on the side of its range at which a value lies; a share of 0.8 is nearly all there is.
+    pub fn is_forbidden_beyond(&self, value: f64) -> bool {
+        let side = usize::from(self.upper - value < value - self.lower);
+        self.possible[side].is_finite()
+    }
+
+    /// Whether it shapes the law and lies at an end of its range.
+    pub fn is_shape_at_end(&self, value: f64) -> bool {
+        let at_end = [self.lower, self.upper].iter().any(|end| (value - end).abs() < NEAR * self.scale());
+        self.is_free() && self.typical == self.neutral && at_end
+    }
 }
+
+/// Distance from a bound, over the scale of the parameter, that is none.
+pub const NEAR: f64 = 1e-6;
 
 impl Candidate {
     /// The scenario with this effect at these values (SI). Known forces on the tip add up.
@@ -92,6 +114,11 @@ impl Candidate {
     /// Values `share` of the way from neutral to typical.
     pub fn at(&self, share: f64) -> Vec<f64> {
         self.parameters.iter().map(|p| p.neutral + share * (p.typical - p.neutral)).collect()
+    }
+
+    /// Whether it is there or not by design, with nothing to fit.
+    pub fn is_by_design(&self) -> bool {
+        self.parameters.iter().all(|p| p.fitted == Fitted::FromDesign)
     }
 
     /// Number of parameters that are fitted.
@@ -149,11 +176,13 @@ pub fn hold(candidates: &mut [Candidate], held: &Held) {
     }
 }
 
-/// Effects of the catalogue and formulas of the scenario that exist for this actuator and are not in the scenario yet.
+/// Effects of the catalogue and formulas of the scenario that exist for this actuator and are not in the scenario yet. What follows
+/// from how the robot is cut and joined is there or not, with nothing to fit: it may be missing where a scenario describes that.
 pub fn candidates(scenario: &Scenario) -> Vec<Candidate> {
     let absent = |effect: &Effect| !scenario.effects.iter().any(|e| e.name == effect.name);
     let (catalogue, actuator) = (scenario.catalogue(), scenario.actuator.kind.name);
-    let fits = |e: &Effect| scenario.actuator.takes(e) && e.is_fitted();
+    let is_described = scenario.effects.iter().any(|e| catalogue.by_name(&e.name).is_some_and(|e| !e.is_fitted()));
+    let fits = |e: &Effect| scenario.actuator.takes(e) && (e.is_fitted() || is_described);
     catalogue.effects().filter(fits).filter(absent).map(|e| candidate(&e, actuator)).collect()
 }
 
@@ -174,6 +203,7 @@ pub(super) fn candidate(effect: &Effect, actuator: &str) -> Candidate {
         typical: p.typical_for(actuator) * p.si,
         lower: p.lower * p.si,
         upper: p.upper * p.si,
+        possible: p.possible.map(|v| v * p.si),
         starts: p.starts.iter().map(|v| v * p.si).collect(),
         fitted: p.fitted,
         in_room: p.in_room,
@@ -187,5 +217,21 @@ pub(super) fn candidate(effect: &Effect, actuator: &str) -> Candidate {
         differs: effect.differs.to_string(),
         remedy: effect.remedy.to_string(),
         parameters: effect.parameters.iter().map(free).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_may_end_where_physics_does_not() {
+        let entry = |name: &str| candidate(models::effects::by_name(name).unwrap(), "epam").parameters;
+        let [share, reach] = <[Free; 2]>::try_from(entry("base_clamp")).unwrap();
+        assert!(!share.is_forbidden_beyond(share.upper) && share.is_forbidden_beyond(0.0));
+        assert!(reach.is_forbidden_beyond(reach.upper) && reach.is_shape_at_end(reach.upper));
+        assert!(!reach.is_shape_at_end(1.5) && !share.is_shape_at_end(share.upper));
+        let [loss, tail] = ["pressure_loss", "tail_tension"].map(|name| entry(name).remove(0));
+        assert!(loss.is_forbidden_beyond(loss.upper) && !tail.is_forbidden_beyond(tail.lower));
     }
 }

@@ -88,7 +88,7 @@ pub fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usiz
     make_room(&mut list, held.measured, scenario);
     list[..own].iter_mut().for_each(|candidate| candidate.as_given(&own_values(scenario, candidate)));
     let missing = list.split_off(own);
-    list.extend(missing.into_iter().filter(|candidate| candidate.count() > 0));
+    list.extend(missing.into_iter().filter(|candidate| candidate.count() > 0 || candidate.is_by_design()));
     (list, own)
 }
 

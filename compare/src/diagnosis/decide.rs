@@ -8,7 +8,7 @@ use super::order;
 use super::pairs::{another_wanted, fit_pairs, indistinguishable as alike_pairs, p_over};
 use super::patterns::Fault;
 use super::problem::Fit;
-use super::result::{LackOfFit, Verdict};
+use super::result::{Group, LackOfFit, Verdict};
 use super::singles::{fit_all, indistinguishable};
 use super::stands_out::{Simpler, StandsOut, alone, stands_out};
 use crate::error::CompareError;
@@ -78,6 +78,10 @@ pub fn decide(case: &Case, options: &Options, progress: &mut Progress) -> Result
     if p_value.is_none_or(|p| p >= case.alpha) {
         return Ok(decision);
     }
+    if policy::is_good_enough(case.error_in_all_mm(&case.base), 1e3 * case.tolerance_m) && !is_gauged(case) {
+        decision.verdict = Some(Verdict::TooSmall);
+        return Ok(decision);
+    }
     decision.verdict = Some(Verdict::OutOfCatalog);
     let significant = p_effect.is_some_and(|p| p < policy::SHARE_OF_EFFECTS * case.alpha);
     explain(case, options, &mut decision, significant, &mut part(progress, [PAIRS, 1.0]))?;
@@ -124,11 +128,27 @@ fn explain(
         return Ok(());
     }
     decision.fault = simpler(case, &last);
+    if decision.fault.is_none() && !pays(case, &last) {
+        (decision.verdict, decision.after) = (Some(Verdict::TooSmall), decision.before);
+        (decision.pairs, decision.pair_set) = (Vec::new(), Vec::new());
+        return Ok(());
+    }
     if decision.fault.is_none() {
         decision.verdict = Some(Verdict::Effect);
     }
     decision.last = Some(last);
     Ok(())
+}
+
+/// Whether an answer takes a fifth of the error over all data. What a gauge shows of the supply, the positions do not see.
+fn pays(case: &Case, fit: &Fit) -> bool {
+    let mut added = fit.effects[case.always.len()..].iter();
+    let is_of_supply = is_gauged(case) && added.all(|e| case.candidate(*e).group == Group::Supply);
+    is_of_supply || policy::is_closer(case.error_in_all_mm(fit), case.error_in_all_mm(&case.base))
+}
+
+fn is_gauged(case: &Case) -> bool {
+    case.sources().any(|(source, _)| source.gauge.is_some())
 }
 
 /// Whether a fit of so many effects leaves a share of the error that the tests see as more than noise, at the level that is theirs.

@@ -4,7 +4,7 @@ use super::case::Case;
 use super::decide::Decision;
 use super::least_squares::dot;
 use super::problem::{Block, Fit};
-use super::result::{Diagnosis, Verdict};
+use super::result::Diagnosis;
 use super::{Answer, Standing};
 use crate::error::CompareError;
 use crate::moment::{
@@ -79,8 +79,7 @@ fn curves(
     found: &Diagnosis,
     points: &[MomentPoint],
 ) -> Result<Vec<MomentCurve>, CompareError> {
-    let is_silent = found.verdict == Some(Verdict::None);
-    let helps = |a: &Answer| !is_silent && a.helps();
+    let helps = |a: &Answer| !found.is_quiet() && a.helps();
     let mut kept: Vec<Answer> = found.answers().into_iter().filter(helps).collect();
     let first = kept.iter().filter(|a| a.standing != Standing::Other).count();
     kept.truncate((first + OTHERS).min(MOST_CURVES));

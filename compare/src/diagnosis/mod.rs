@@ -31,10 +31,7 @@ mod fitted;
 #[cfg(test)]
 mod gauge_tests;
 mod heldout;
-mod hypotheses;
 mod interval;
-mod judge;
-mod judged;
 mod kept_bending;
 mod known;
 mod lack_of_fit;
@@ -54,7 +51,6 @@ mod part;
 mod pattern_tests;
 mod patterns;
 mod prepare;
-mod priors;
 mod problem;
 mod proposed;
 mod result;
@@ -77,7 +73,6 @@ pub use candidates::{Candidate, Free, candidates};
 pub use distance::{Distances, KnownNoise, distances, power};
 pub use experiments::{BENDING_TEST, BENDING_TEST_NAME};
 pub use fitted::{FittedBeside, GaugeFit, with_fitted};
-pub use judged::{Judged, Kind, Ruling};
 pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
 pub use options::Options;
 pub use outliers::{Outliers, OutlyingRun, Undetectable};
@@ -152,9 +147,6 @@ pub fn diagnose(
             Ok(found) => diagnosis.missing_moment = Some(found),
             Err(error) => diagnosis.warnings.push(format!("no missing moment is shown: {error}")),
         }
-    }
-    if options.weigh {
-        diagnosis.judged = judged::judged(&case, &decision)?;
     }
     diagnosis.slips = parts.iter().flat_map(|part| part.slips.clone()).collect();
     diagnosis.summary = story::story(&diagnosis);
@@ -268,7 +260,6 @@ fn assemble(
         kept_bending: None,
         next_experiment: None,
         missing_moment: None,
-        judged: Vec::new(),
         slips: Vec::new(),
         warnings,
     })

@@ -90,7 +90,7 @@ pub fn next_experiment(
 /// The explanations to be told apart, best first.
 fn hypotheses(decision: &Decision) -> Vec<&Fit> {
     match decision.verdict {
-        Some(Verdict::None) => Vec::new(),
+        Some(Verdict::None | Verdict::TooSmall) => Vec::new(),
         _ if !decision.pairs.is_empty() => decision.pair_set.iter().map(|i| &decision.pairs[*i]).collect(),
         _ => decision.set.iter().map(|i| &decision.singles[*i]).collect(),
     }

@@ -19,8 +19,6 @@ pub struct Options {
     pub next_experiment: bool,
     /// Look at the missing moment.
     pub missing_moment: bool,
-    /// Weigh all hypotheses by one rule; no verdict uses it yet.
-    pub weigh: bool,
 }
 
 impl Default for Options {
@@ -34,7 +32,6 @@ impl Default for Options {
             pairs: true,
             next_experiment: true,
             missing_moment: true,
-            weigh: false,
         }
     }
 }

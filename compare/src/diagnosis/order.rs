@@ -126,6 +126,7 @@ mod tests {
             typical: 0.5,
             lower: -0.5,
             upper: 1.5,
+            possible: [-0.5, 1.5],
             starts: Vec::new(),
             fitted: models::effects::Fitted::Always,
             in_room: false,

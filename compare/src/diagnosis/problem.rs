@@ -1,7 +1,7 @@
 //! The fit behind every hypothesis: bending stiffness and effect parameters to the whitened mean over runs.
 
 use super::basis::Basis;
-use super::candidates::Candidate;
+use super::candidates::{Candidate, Free, NEAR};
 use super::evaluator::positions;
 use super::known::Known;
 use super::least_squares::{Minimum, Range, dot, jacobian, minimise, square};
@@ -84,8 +84,10 @@ pub struct Fit {
     pub minimum: Minimum,
     /// Mean square of the whitened residuals of each block by which the fit allowed for its misfit; 1 where it did not.
     pub misfit: Vec<f64>,
-    /// Parameters on a bound against which the data push.
+    /// Parameters on a bound against which the data push: physics forbids what lies beyond.
     pub binding: Vec<bool>,
+    /// Parameters at the end of the range that is searched, against which the data push: physics goes on.
+    pub open: Vec<bool>,
     /// Different starts ended in different minima.
     pub several_minima: bool,
 }
@@ -187,7 +189,7 @@ impl Problem<'_> {
         let free = effects.iter().flat_map(|e| &self.candidates[*e].parameters);
         let free = free.map(|p| match p.is_free() {
             true => Range { lower: p.lower, upper: p.upper, scale: p.scale() },
-            false => Range { lower: p.neutral, upper: p.neutral, scale: p.scale() },
+            false => Range { lower: p.held_at(), upper: p.held_at(), scale: p.scale() },
         });
         std::iter::repeat_n(bending, self.bendings).chain(free).collect()
     }
@@ -214,12 +216,19 @@ impl Problem<'_> {
         let minimum = best?;
         let several_minima = costs.iter().any(|c| policy::is_another_minimum(*c, minimum.cost));
         let neutral = self.neutral(effects);
-        let binding = |m: &Minimum| (0..ranges.len()).map(|k| is_binding(m, k, &ranges[k], neutral[k])).collect();
-        let (binding, minimum, misfit) = match self.allowing(effects, &ranges, &minimum) {
-            Some((wide, misfit)) => (binding(&wide), self.at(effects, &ranges, wide.at)?, misfit),
-            None => (binding(&minimum), minimum, vec![1.0; self.blocks.len()]),
+        let pushed = |m: &Minimum| -> Vec<bool> {
+            (0..ranges.len()).map(|k| is_binding(m, k, &ranges[k], neutral[k])).collect()
         };
-        Some(Fit { effects: effects.to_vec(), minimum, misfit, binding, several_minima })
+        let (pushed, minimum, misfit) = match self.allowing(effects, &ranges, &minimum) {
+            Some((wide, misfit)) => (pushed(&wide), self.at(effects, &ranges, wide.at)?, misfit),
+            None => (pushed(&minimum), minimum, vec![1.0; self.blocks.len()]),
+        };
+        let free: Vec<&Free> = effects.iter().flat_map(|e| &self.candidates[*e].parameters).collect();
+        let is_forbidden =
+            |k: usize| k.checked_sub(self.bendings).is_none_or(|own| free[own].is_forbidden_beyond(minimum.at[k]));
+        let (binding, open) =
+            (0..pushed.len()).map(|k| (pushed[k] && is_forbidden(k), pushed[k] && !is_forbidden(k))).unzip();
+        Some(Fit { effects: effects.to_vec(), minimum, misfit, binding, open, several_minima })
     }
 
     /// The fit of a law that misses the data, and by how much: to it, its misfit is noise ([`crate::policy::MISFIT`]). `None` where none misses.
@@ -336,7 +345,7 @@ pub fn with(
 
 /// On a bound that is not the neutral value, and the sum of squares would fall beyond it by more than noise explains.
 pub(super) fn is_binding(minimum: &Minimum, k: usize, range: &Range, neutral: f64) -> bool {
-    let near = 1e-6 * range.scale;
+    let near = NEAR * range.scale;
     let at_bound = minimum.at[k] - range.lower < near || range.upper - minimum.at[k] < near;
     if !at_bound || (minimum.at[k] - neutral).abs() < near {
         return false;

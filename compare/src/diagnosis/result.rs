@@ -1,7 +1,6 @@
 //! What a diagnosis says: plain structs, printed units, no NaN.
 
 use super::fitted::{FittedBeside, GaugeFit};
-use super::judged::Judged;
 use super::outliers::{Outliers, Undetectable};
 use super::proposed::NextExperiment;
 use crate::evidence::Used;
@@ -18,6 +17,8 @@ use serde::Serialize;
 pub enum Verdict {
     /// No missing effect is detectable in these data.
     None,
+    /// More than noise, and too small to name: within the tolerance, or no effect takes a fifth of it.
+    TooSmall,
     /// One or two effects of the catalogue explain the misfit.
     Effect,
     /// Something is missing that no effect of the catalogue explains.
@@ -324,9 +325,6 @@ pub struct Diagnosis {
     pub next_experiment: Option<NextExperiment>,
     /// What the calibrated base's terms miss at the bends that were measured; `None` unless it was asked for.
     pub missing_moment: Option<MissingMoment>,
-    /// Hypotheses weighed by one rule, the largest share first; not yet what the verdict says.
-    #[serde(skip)]
-    pub judged: Vec<Judged>,
     /// What these data cannot show, whatever the model.
     pub limits: Vec<String>,
     /// Cautions that come before the verdict: slips in the data, that no effect of a robot is. They are in `warnings` too.

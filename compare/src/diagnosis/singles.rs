@@ -44,12 +44,21 @@ pub fn left_out(case: &Case, fits: &[Fit]) -> Vec<String> {
     left_out.map(|effect| format!("{} was left out: {}", case.candidate(*effect).name, why(*effect))).collect()
 }
 
+/// Whether the law of an effect had to take the last shape that it can: then what comes as close in mm, to a fifth, is a rival.
+fn is_shape_at_end(case: &Case, fit: &Fit) -> bool {
+    let parameters = &case.candidate(fit.effects[fit.effects.len() - 1]).parameters;
+    let own = &fit.theta()[fit.theta().len() - parameters.len()..];
+    parameters.iter().zip(own).any(|(p, value)| p.is_shape_at_end(*value))
+}
+
 /// Indices of the fits that cannot be told from the best acceptable one, best first; empty if none helps.
 pub fn indistinguishable(case: &Case, fits: &[Fit], allowance: f64) -> Vec<usize> {
     let acceptable = |i: &usize| !case.is_rejected(&fits[*i]) && case.gain(&fits[*i]) > 0.0;
     let Some(best) = (0..fits.len()).find(acceptable) else { return Vec::new() };
     let c = |i: usize| order::criterion(case, &fits[i], allowance);
-    let is_alike = |i: &usize| policy::is_alike(c(*i), c(best));
+    let near_mm = is_shape_at_end(case, &fits[best]).then(|| case.error_in_all_mm(&fits[best]) / policy::CLOSER);
+    let is_near = |i: usize| near_mm.is_some_and(|most| case.error_in_all_mm(&fits[i]) < most);
+    let is_alike = |i: &usize| policy::is_alike(c(*i), c(best)) || is_near(*i);
     (0..fits.len()).filter(acceptable).filter(is_alike).collect()
 }
 
@@ -129,6 +138,16 @@ fn notes(case: &Case, fit: &Fit, own: &[ParameterValue]) -> Vec<String> {
             p.symbol,
             super::words::quantity(p.value, &p.unit)
         ));
+    }
+    let effect = case.candidate(fit.effects[fit.effects.len() - 1]);
+    let from = fit.theta().len() - own.len();
+    for (k, p) in own.iter().enumerate() {
+        let free = &effect.parameters[k];
+        if fit.open[from + k] {
+            let at_least = if fit.theta()[from + k] >= free.upper { "at least" } else { "at most" };
+            let value = super::words::quantity(p.value, &p.unit);
+            notes.push(format!("{} is {at_least} {value}: the data push beyond the range that is searched", p.symbol));
+        }
     }
     for (group, (with, without)) in fit.theta().iter().zip(case.base.theta()).take(case.problem.bendings).enumerate() {
         if policy::bending_moves(*without, *with) && policy::helps(case.gain(fit)) {

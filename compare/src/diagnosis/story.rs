@@ -26,6 +26,7 @@ pub fn story(d: &Diagnosis) -> Vec<String> {
     told.extend(match d.verdict {
         None => ranking_only(d),
         Some(Verdict::None) => nothing(d),
+        Some(Verdict::TooSmall) => vec![too_small(d)],
         Some(Verdict::Effect) => effect(d),
         Some(Verdict::OutOfCatalog) => outside(d),
     });
@@ -97,6 +98,18 @@ fn nothing(d: &Diagnosis) -> Vec<String> {
     told
 }
 
+fn too_small(d: &Diagnosis) -> String {
+    let p = d.p_value.map(p_value).unwrap_or_default();
+    match policy::is_good_enough(d.base.systematic_mm, d.tolerance_mm) {
+        true => {
+            format!("More than noise ({p}), and within the tolerance of {:.2} mm: too small to name.", d.tolerance_mm)
+        }
+        false => {
+            format!("More than noise ({p}), but no effect of the catalogue takes a fifth of it: too small to name.")
+        }
+    }
+}
+
 fn effect(d: &Diagnosis) -> Vec<String> {
     let names: Vec<String> = d.added.iter().map(|a| a.effect.clone()).collect();
     let supply = d.gauges.first().filter(|_| d.added.iter().all(|a| a.group == Group::Supply));
@@ -122,12 +135,6 @@ fn effect(d: &Diagnosis) -> Vec<String> {
         told.push(format!(
             "Equally good with this data: {}. The data do not choose between them.",
             list(&d.indistinguishable)
-        ));
-    }
-    if d.base.systematic_mm <= d.tolerance_mm && supply.is_none() {
-        told.push(format!(
-            "All of it is within the tolerance of {:.2} mm: more than noise, and too small to matter.",
-            d.tolerance_mm
         ));
     }
     if let Some(left) = d.lack_of_fit_after.filter(|left| left.p_value < d.alpha) {

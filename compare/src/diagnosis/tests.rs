@@ -16,9 +16,9 @@ pub(super) fn measured(truth: &Scenario, runs: usize, seed: u64) -> Dataset {
     generate(truth, "made", &Generator { runs, seed, ..Generator::default() }).unwrap()
 }
 
-/// Without the search for the next experiment, which most tests do not look at.
+/// Without the search for the next experiment, which most tests do not look at; everything that is seen matters.
 pub(super) fn quick() -> Options {
-    Options { next_experiment: false, missing_moment: false, ..Options::default() }
+    Options { next_experiment: false, missing_moment: false, tolerance_m: Some(0.0), ..Options::default() }
 }
 
 pub(super) fn of_one(
@@ -82,7 +82,7 @@ fn an_effect_three_times_as_large_as_needed_is_in_the_set() {
 fn tail_tension_on_an_spam_is_reported_with_seam_stiffness_and_no_experiment_parts_them() {
     let plain = robot("spam");
     let data = measured(&plain.with_effect("tail_tension", &[0.9]), 5, 31);
-    let d = of_one(&plain, &data, None, &Options::default()).unwrap();
+    let d = of_one(&plain, &data, None, &Options { next_experiment: true, ..quick() }).unwrap();
     assert_eq!(d.verdict, Some(Verdict::Effect));
     for name in ["tail_tension", "seam_stiffness"] {
         assert!(d.indistinguishable.iter().any(|n| n == name), "{:?}", d.indistinguishable);
@@ -190,6 +190,38 @@ fn a_value_on_its_bound_is_rejected_and_said_so() {
     assert_eq!(d.indistinguishable[0], "end_constraint");
     let beta = ranked(&d, "end_constraint");
     assert!(beta.lo.unwrap() < 0.9 && 0.9 < beta.hi.unwrap(), "{:?}", beta.parameters);
+}
+
+/// A cap that hardly bends at all is stiffer than any range: it is found, whatever its stiffness.
+#[test]
+fn a_range_that_ends_where_physics_does_not_is_no_proof() {
+    let plain = robot("epam");
+    for share in [3.0, 12.0, 60.0] {
+        let d = run(&plain, &measured(&plain.with_effect("tip_clamp", &[share, 1.5]), 5, 95));
+        let clamp = ranked(&d, "tip_clamp");
+        assert!(
+            !clamp.at_bound && d.verdict == Some(Verdict::Effect),
+            "{share}: {:?} {:?}",
+            d.summary,
+            clamp.parameters
+        );
+        assert!(d.indistinguishable.iter().any(|name| name == "tip_clamp"), "{share}: {:?}", d.indistinguishable);
+    }
+}
+
+/// More than noise in many runs, and of no use to anybody: a name has to pay in millimetres.
+#[test]
+fn what_is_within_the_tolerance_has_no_name() {
+    let plain = robot("epam");
+    let quiet = Generator { runs: 10, camera_sd_m: 1e-4, pressure_sd: 1e-3, seed: 3, ..Generator::default() };
+    let small = generate(&plain.with_effect("friction", &[0.03]), "made", &quiet).unwrap();
+    let run = |data: &Dataset| of_one(&plain, data, None, &Options { tolerance_m: None, ..quick() }).unwrap();
+    let d = run(&small);
+    assert!(d.base.systematic_mm < d.tolerance_mm && d.p_value.unwrap() < d.alpha, "{:?}", d.summary);
+    assert_eq!(d.verdict, Some(Verdict::TooSmall), "{:?}", d.summary);
+    assert!(d.added.is_empty() && d.attempt.is_empty() && d.indistinguishable.is_empty() && d.confidence.is_none());
+    let large = generate(&plain.with_effect("camera_scale", &[0.03]), "made", &quiet).unwrap();
+    assert_eq!(run(&large).verdict, Some(Verdict::Effect));
 }
 
 #[test]

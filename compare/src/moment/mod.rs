@@ -6,10 +6,7 @@
 //!
 //! Pure functions over plain structs; nothing here decides a verdict.
 
-mod bends;
 mod curve;
-mod evidence;
-mod forms;
 mod points;
 mod shape;
 #[cfg(test)]
@@ -17,10 +14,7 @@ mod tests;
 mod told;
 mod view;
 
-pub use bends::{as_seen, bent, compliances, numbers as field_numbers, predicted, shift_numbers};
 pub use curve::{CurvePoint, Path, band, curve};
-pub use evidence::{Prior, Weighed, shares, weigh};
-pub use forms::{FORM, Factor, best_size, doublings, form_width};
 pub use points::{Moments, Point, Robot, missing, moments};
 pub use shape::{Shape, Shared, shape};
 pub use told::{

@@ -46,21 +46,6 @@ pub struct Shape {
     pub left: (f64, usize),
     /// What no law of bending can mend, beyond noise \[mm\].
     pub floor_mm: f64,
-    /// Derivatives of the whitened residuals, one column per number.
-    jacobian: Vec<Vec<f64>>,
-}
-
-impl Shape {
-    /// Numbers by which the shape takes up a shift of the markers \[m\], in run layout.
-    pub(super) fn absorbed(&self, view: &View, shift_m: &[f64]) -> DVector<f64> {
-        let mut shift = shift_m.to_vec();
-        view.dataset.unseen_values().for_each(|i| shift[i] = 0.0);
-        let white = view.whitener.whiten(&shift);
-        let along = self.jacobian.iter().map(|column| column.iter().zip(&white).map(|(j, r)| j * r).sum());
-        // The covariance is that of the normal equations, wider by the misfit.
-        let wider = (self.left.0 / self.left.1 as f64).max(1.0);
-        &self.covariance * DVector::from_iterator(self.numbers.len(), along) / wider
-    }
 }
 
 /// Where each number of a shape stands.
@@ -214,7 +199,6 @@ impl Fit<'_> {
             covariance,
             numbers,
             residual_m,
-            jacobian,
         })
     }
 

@@ -123,6 +123,7 @@ fn words_of_a_publication_allow_what_they_say() {
 #[test]
 fn what_does_not_matter_grows_with_the_bend() {
     assert_eq!([0.01, 0.03, 0.1].map(tolerance_m), [1.5e-4, 1.5e-4, 5e-4]);
+    turns_at(0.5, |error| !is_good_enough(error, 1e3 * tolerance_m(0.1)));
 }
 
 #[test]

@@ -194,6 +194,7 @@ impl Number {
             typical: self.typical * self.si,
             lower: self.bounds[0] * self.si,
             upper: self.bounds[1] * self.si,
+            possible: self.bounds.map(|v| v * self.si),
             starts: starts.collect(),
             fitted: Fitted::Always,
             in_room: false,
