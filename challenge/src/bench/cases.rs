@@ -8,7 +8,7 @@ use crate::score::{Claim, ClaimScore, score};
 use crate::truth::{ROBOTS, standard_protocol};
 use crate::{Draw, HIDDEN, Hiding, OUTSIDE, Truth, truth};
 use compare::Evidence;
-use compare::diagnosis::{Diagnosis, Distances, Experiment, Options};
+use compare::diagnosis::{Confidence, Diagnosis, Distances, Experiment, Options};
 use compare::error::CompareError;
 use compare::study::generate;
 use data::{About, Direct, Provenance};
@@ -34,6 +34,8 @@ pub struct Named {
     pub answer: Claim,
     /// Its score.
     pub score: ClaimScore,
+    /// A single name is called identified.
+    pub identified: bool,
     /// Something in the data was told to look like a slip.
     pub slip: bool,
     /// Error beyond noise of the calibrated base and of the final model \[mm\].
@@ -229,6 +231,7 @@ fn named(truth: &Truth, found: &Diagnosis) -> Named {
     let now = found.next_experiment.iter().flat_map(|next| &next.now);
     Named {
         score: score(truth, &answer),
+        identified: found.confidence == Some(Confidence::IdentifiedInCatalog),
         slip: !found.slips.is_empty(),
         systematic_mm: [found.base.systematic_mm, found.base.systematic_with_added_mm],
         tolerance_mm: found.tolerance_mm,

@@ -6,6 +6,7 @@
 
 mod attainable;
 mod cases;
+mod covered;
 mod follow;
 mod made;
 mod oracle;
@@ -141,7 +142,7 @@ pub fn run(
     let silence: Vec<bool> = table::missed_in_silence(&outcomes);
     Ok(Discovery {
         seed: options.seed,
-        rows: [table::rows(&outcomes), made::rows(&made)].concat(),
+        rows: [table::rows(&outcomes), covered::rows(&outcomes), made::rows(&made)].concat(),
         confusion: table::confusion(&outcomes),
         breakdown: table::breakdown(&outcomes),
         attainable: attainable::of(&outcomes),

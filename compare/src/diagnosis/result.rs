@@ -292,10 +292,14 @@ pub struct Diagnosis {
     pub ranked: Vec<Ranked>,
     /// Names that these data cannot tell apart, best first; for two added effects written `a + b`.
     pub indistinguishable: Vec<String>,
+    /// Share of sets of so many names that held the truth on `ibr bench discovery`; `None` without one stated effect.
+    pub covered: Option<f64>,
     /// Those of them (or of the ranking within reach of it) that belong to supply or measurement: rule out first.
     pub rule_out_first: Vec<String>,
     /// Pairs of effects, best first; empty if a single effect is enough.
     pub pairs: Vec<Combination>,
+    /// What follows from how such a robot is cut and joined, and takes a fifth of the error with nothing fitted: to be looked at first.
+    pub by_design: Vec<AsClose>,
     /// What the verdict `effect` adds, else empty.
     pub added: Vec<Added>,
     /// With the verdict `out_of_catalog`: the best that the catalogue can do, which is not enough.

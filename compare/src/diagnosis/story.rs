@@ -4,7 +4,7 @@ use crate::policy;
 use data::Direct;
 
 use super::fitted::{FittedBeside, GaugeFit};
-use super::result::{Confidence, Diagnosis, Group, KeptBending, LeftPattern, ParameterValue, Ranked, Verdict};
+use super::result::{AsClose, Confidence, Diagnosis, Group, KeptBending, LeftPattern, ParameterValue, Ranked, Verdict};
 use super::words::quantity;
 use crate::wording::{list, p_value};
 
@@ -23,6 +23,7 @@ pub fn story(d: &Diagnosis) -> Vec<String> {
     let mut told = vec![opening(d)];
     told.extend(d.beside.iter().map(beside));
     told.extend(d.gauges.iter().filter_map(gauge));
+    told.extend(d.by_design.iter().map(|entry| by_design(d, entry)));
     told.extend(match d.verdict {
         None => ranking_only(d),
         Some(Verdict::None) => nothing(d),
@@ -67,6 +68,16 @@ fn gauge(fit: &GaugeFit) -> Option<String> {
          {before_kpa:.2} kPa (rms) as the scenario has them, by {after_kpa:.2} kPa with this answer; positions are predicted at \
          the readings."
     ))
+}
+
+fn by_design(d: &Diagnosis, entry: &AsClose) -> String {
+    let name = list(&entry.effects);
+    let sentence = d.ranked.iter().find(|r| entry.effects.contains(&r.effect)).map_or("", |r| r.sentence.as_str());
+    format!(
+        "First look at how the robot is made. {sentence} The scenario has no {name}: switched on as the design has it, with \
+         nothing of it fitted, it brings the misfit over all data to {:.2} mm.",
+        entry.systematic_after_mm
+    )
 }
 
 fn ranking_only(d: &Diagnosis) -> Vec<String> {
@@ -137,6 +148,7 @@ fn effect(d: &Diagnosis) -> Vec<String> {
             list(&d.indistinguishable)
         ));
     }
+    told.extend(covered(d));
     if let Some(left) = d.lack_of_fit_after.filter(|left| left.p_value < d.alpha) {
         told.push(format!(
             "What is left, {:.2} mm, is small but more than noise ({}): the real law is not quite the catalogue's, or a second, \
@@ -157,6 +169,13 @@ fn effect(d: &Diagnosis) -> Vec<String> {
         _ => "Best explanation in this catalogue. Another effect that is not listed may look the same.".to_string(),
     });
     told
+}
+
+/// How often a set like the stated one held the truth where that was known; two effects at once are another question.
+fn covered(d: &Diagnosis) -> Option<String> {
+    let (share, is_single) = (100.0 * d.covered?, d.indistinguishable.len() == 1);
+    let what = if is_single { "a single name was the truth" } else { "a set of so many names held the truth" };
+    Some(format!("Over made-up robots whose laws are not the catalogue's, {what} in {share:.0} of 100 cases."))
 }
 
 fn held_out(d: &Diagnosis, r: &Ranked) -> Option<String> {

@@ -36,6 +36,14 @@ fn six_units_part_explanations_and_a_fifth_of_the_error_attempts() {
     turns_at(0.95, |opposite| cancel(-opposite));
 }
 
+/// That they are true is held by `ibr bench discovery`.
+#[test]
+fn a_set_of_more_names_holds_the_truth_more_often() {
+    let shares = [1, 2, 3, 9].map(covered);
+    assert!(shares.iter().all(|share| (0.8..=1.0).contains(share)), "{shares:?}");
+    assert!(shares[0] <= shares[1] && shares[1] <= shares[2] && shares[2] == shares[3], "{shares:?}");
+}
+
 #[test]
 fn a_fit_is_doubted_by_its_stiffness_its_rest_and_what_was_measured() {
     turns_at(0.2, |more| bending_moves(1.5, 1.5 * (1.0 + more)) && bending_moves(1.5, 1.5 * (1.0 - more)));

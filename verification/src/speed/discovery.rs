@@ -73,17 +73,45 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
     });
     let named_head = &["hidden", "named", "sets", "λ", "truth behind by BIC", "smallest detectable [typical sizes]"];
     let after = after(bench).into_iter().map(|(name, [sets, hits])| vec![name, sets.to_string(), hits.to_string()]);
-    let made = bench.made.iter().filter(|m| m.matters).map(|m| {
+    let made = bench.made.iter().map(|m| {
         let listed = |names: &[String]| if names.is_empty() { "–".into() } else { names.join(", ") };
-        let [before, after] = m.systematic_mm.map(|mm| number(Some(mm)));
+        let [before, whole, after] = m.systematic_mm.map(|mm| number(Some(mm)));
+        let told = if m.by_design {
+            "by design"
+        } else if m.in_set {
+            "in the set"
+        } else {
+            "no"
+        };
         let place = m.place.map_or("–".into(), |place| place.to_string());
         let bending = if m.kept { "kept" } else { "fitted" };
         let asked = [m.robot, &m.lacking, &m.bodies.to_string(), bending].map(String::from);
-        let told = [number(Some(m.does_mm)), before, after, place, listed(&m.stated), listed(&m.attempted)];
+        let told = [
+            number(Some(m.does_mm)),
+            before,
+            whole,
+            after,
+            told.into(),
+            place,
+            listed(&m.stated),
+            listed(&m.attempted),
+        ];
         asked.into_iter().chain(told).collect::<Vec<String>>()
     });
-    let made_head =
-        &["robot", "lacks", "bodies", "B", "it does mm", "misfit", "after", "place", "stated", "closest, not enough"];
+    let made_head = &[
+        "robot",
+        "lacks",
+        "bodies",
+        "B",
+        "it does mm",
+        "misfit",
+        "with it",
+        "named",
+        "told",
+        "place",
+        "stated",
+        "closest",
+    ];
     let missed = format!(
         "Of {} sets missed after the next experiment {} are missed with a hundredth of the noise too: \
          another formula of the catalogue meets the robot's law as well as its own, or better.\n",

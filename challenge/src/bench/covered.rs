@@ -1,0 +1,73 @@
+//! How often a stated set holds the truth: the figure that is printed with a set.
+//!
+//! Of single hidden effects, whose laws are not the catalogue's. And left one law out: the margin by which an effect may be behind
+//! the best and still be stated is taken so wide that it covers [`WANTED`] of the sets of all other laws; what does it cover of
+//! the law that was left out?
+
+use super::cases::{Named, SetOutcome, names};
+use super::row::{Goal, Rate};
+use super::{Lot, table};
+use crate::Hiding;
+use compare::policy;
+use compare::stats::quantile;
+
+/// Share of the sets that a margin covers.
+const WANTED: f64 = 0.95;
+/// How well a printed figure must be met.
+const WITHIN: f64 = 0.02;
+
+/// Rows of the table.
+pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
+    let all = table::found(outcomes, Lot::Hidden(Hiding::One));
+    let stated: Vec<&Named> = all.iter().map(|(_, named)| *named).filter(|n| n.score.set_size > 0).collect();
+    let of_size = |case: &'static str, sizes: std::ops::RangeInclusive<usize>| {
+        let printed = policy::covered(*sizes.start());
+        let hits: Vec<bool> =
+            stated.iter().filter(|n| sizes.contains(&n.score.set_size)).map(|n| n.score.in_set).collect();
+        Rate::share(case, "it holds the truth", Goal::Between(printed - WITHIN, printed + WITHIN), &hits)
+    };
+    let sure: Vec<bool> = stated.iter().filter(|n| n.identified).map(|n| n.score.in_set).collect();
+    vec![
+        of_size("a stated set of one name", 1..=1),
+        of_size("a stated set of two names", 2..=2),
+        of_size("a stated set of more names", 3..=usize::MAX),
+        Rate::share("one name, called identified", "it is the truth", Goal::AtLeast(WANTED), &sure),
+        Rate::share(
+            "a margin for 95 % of all other laws",
+            "it covers the law that was left out",
+            Goal::Between(WANTED - WITHIN, WANTED + WITHIN),
+            &left_out(&behind(&all)),
+        ),
+    ]
+}
+
+/// Law of every set, and by how much it was behind the best; none that was rejected.
+fn behind(all: &[(&SetOutcome, &Named)]) -> Vec<(String, f64)> {
+    let asked = all.iter().filter(|(_, named)| named.score.set_size > 0);
+    asked.map(|(o, named)| (names(&o.truth).join(" + "), named.bic_behind.unwrap_or(f64::MAX))).collect()
+}
+
+/// Of every set, whether a margin from the sets of all other laws covers it.
+fn left_out(behind: &[(String, f64)]) -> Vec<bool> {
+    let covered = |(law, own): &(String, f64)| {
+        let mut others: Vec<f64> = behind.iter().filter(|(other, _)| other != law).map(|(_, b)| *b).collect();
+        others.sort_by(f64::total_cmp);
+        quantile(&others, WANTED).is_some_and(|margin| *own <= margin)
+    };
+    behind.iter().map(covered).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Nineteen laws that are never behind, and one that always is: the margin of the others does not cover it.
+    #[test]
+    fn a_law_that_is_left_out_does_not_widen_its_own_margin() {
+        let mut behind: Vec<(String, f64)> = (0..95).map(|i| (format!("law {}", i % 19), f64::from(i % 5))).collect();
+        assert!(left_out(&behind).iter().all(|covered| *covered));
+        behind.extend((0..5).map(|_| ("odd".to_string(), 50.0)));
+        let covered = left_out(&behind);
+        assert!(covered[..95].iter().all(|c| *c) && covered[95..].iter().all(|c| !c));
+    }
+}
