@@ -26,14 +26,15 @@ pub(super) fn rows(outcomes: &[SetOutcome]) -> Vec<Rate> {
             stated.iter().filter(|n| sizes.contains(&n.score.set_size)).map(|n| n.score.in_set).collect();
         Rate::share(case, "it holds the truth", Goal::Between(printed - WITHIN, printed + WITHIN), &hits)
     };
-    let sure: Vec<bool> = stated.iter().filter(|n| n.identified).map(|n| n.score.in_set).collect();
+    let hidden = outcomes.iter().filter(|o| !o.truth.effects.is_empty()).filter_map(|o| o.named.as_ref());
+    let sure: Vec<bool> = hidden.filter(|n| n.identified).map(|n| n.score.in_set).collect();
     vec![
         of_size("a stated set of one name", 1..=1),
         of_size("a stated set of two names", 2..=2),
         of_size("a stated set of more names", 3..=usize::MAX),
         Rate::share("one name, called identified", "it is the truth", Goal::AtLeast(WANTED), &sure),
         Rate::share(
-            "a margin for 95 % of all other laws",
+            "a margin for 95 % of all other laws' sets",
             "it covers the law that was left out",
             Goal::Between(WANTED - WITHIN, WANTED + WITHIN),
             &left_out(&behind(&all)),

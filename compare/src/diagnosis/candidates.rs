@@ -1,6 +1,7 @@
 //! The effects that may be missing: the one place where the diagnosis meets the catalogue.
 
 use super::result::Group;
+use crate::policy;
 use data::MeasuredValue;
 use models::Scenario;
 use models::effects::{Effect, Fitted, Stage};
@@ -76,6 +77,15 @@ impl Free {
     pub fn is_forbidden_beyond(&self, value: f64) -> bool {
         let side = usize::from(self.upper - value < value - self.lower);
         self.possible[side].is_finite()
+    }
+
+    /// Searched ten times as far from neutral on the side at which a value lies.
+    pub fn widen(&mut self, value: f64) {
+        let further = |bound: f64| self.neutral + policy::WIDER * (bound - self.neutral);
+        match self.upper - value < value - self.lower {
+            true => self.upper = further(self.upper),
+            false => self.lower = further(self.lower),
+        }
     }
 
     /// Whether it shapes the law and lies at an end of its range.
@@ -227,9 +237,11 @@ mod tests {
     #[test]
     fn a_range_may_end_where_physics_does_not() {
         let entry = |name: &str| candidate(models::effects::by_name(name).unwrap(), "epam").parameters;
-        let [share, reach] = <[Free; 2]>::try_from(entry("base_clamp")).unwrap();
+        let [mut share, reach] = <[Free; 2]>::try_from(entry("base_clamp")).unwrap();
         assert!(!share.is_forbidden_beyond(share.upper) && share.is_forbidden_beyond(0.0));
         assert!(reach.is_forbidden_beyond(reach.upper) && reach.is_shape_at_end(reach.upper));
+        share.widen(share.upper);
+        assert_eq!((share.lower, share.upper), (0.0, 80.0));
         assert!(!reach.is_shape_at_end(1.5) && !share.is_shape_at_end(share.upper));
         let [loss, tail] = ["pressure_loss", "tail_tension"].map(|name| entry(name).remove(0));
         assert!(loss.is_forbidden_beyond(loss.upper) && !tail.is_forbidden_beyond(tail.lower));

@@ -9,12 +9,11 @@ use super::pairs::{another_wanted, fit_pairs, indistinguishable as alike_pairs, 
 use super::patterns::Fault;
 use super::problem::Fit;
 use super::result::{Group, LackOfFit, Verdict};
-use super::singles::{fit_all, indistinguishable};
+use super::singles::indistinguishable;
 use super::stands_out::{Simpler, StandsOut, alone, stands_out};
 use crate::error::CompareError;
 use crate::policy;
-use crate::progress::shares::PAIRS;
-use crate::progress::{Progress, part};
+use crate::progress::Progress;
 use crate::stats::reported_p;
 
 /// Everything that was fitted, and what follows.
@@ -49,12 +48,16 @@ pub struct Decision {
     pub after: Option<LackOfFit>,
 }
 
-/// Fits, tests and decides.
+/// Tests fits of single effects, fits pairs where they are wanted, and decides.
 ///
 /// # Errors
 /// What the tests return.
-pub fn decide(case: &Case, options: &Options, progress: &mut Progress) -> Result<Decision, CompareError> {
-    let (singles, allowance) = fit_all(case, &mut part(progress, [0.0, PAIRS]));
+pub fn decide(
+    case: &Case,
+    (singles, allowance): (Vec<Fit>, f64),
+    options: &Options,
+    progress: &mut Progress,
+) -> Result<Decision, CompareError> {
     let set = indistinguishable(case, &singles, allowance);
     let before = test(case, &case.base)?;
     let p_effect = set.iter().filter_map(|i| p_of(case, &singles[*i])).reduce(f64::min);
@@ -84,7 +87,7 @@ pub fn decide(case: &Case, options: &Options, progress: &mut Progress) -> Result
     }
     decision.verdict = Some(Verdict::OutOfCatalog);
     let significant = p_effect.is_some_and(|p| p < policy::SHARE_OF_EFFECTS * case.alpha);
-    explain(case, options, &mut decision, significant, &mut part(progress, [PAIRS, 1.0]))?;
+    explain(case, options, &mut decision, significant, progress)?;
     Ok(decision)
 }
 

@@ -70,8 +70,9 @@ pub fn distances(
     };
     let (candidates, own) = catalogue(&[source], &options);
     let known = |_: usize, slope: &[f64]| NoiseModel::known(ideal, slope, noise.runs, noise.sigma_m, noise.run_sd);
-    let case = Case::with_noise(&[source], &known, (&candidates, own), &options)?;
-    let (singles, _) = fit_all(&case, &mut |_, _| ());
+    let mut wider = Vec::new();
+    let mut case = Case::with_noise(&[source], &known, (&candidates, own), &options)?;
+    let (singles, _) = fit_all(&mut case, &mut wider, &mut |_, _| ());
     let base = case.base.cost();
     let allowed = singles.iter().filter(|fit| !case.is_rejected(fit));
     let one = allowed.map(|fit| fit.cost()).fold(base, f64::min);

@@ -84,7 +84,7 @@ use crate::error::CompareError;
 use crate::evidence::{Evidence, Used};
 use crate::noise_summary::NoiseSummary;
 use crate::policy;
-use crate::progress::shares::DIAGNOSIS;
+use crate::progress::shares::{DIAGNOSIS, PAIRS};
 use crate::progress::{Progress, part};
 use crate::residuals::{ResidualMap, residual_map};
 use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
@@ -116,7 +116,11 @@ pub fn diagnose(
     let sources: Vec<Source> = parts.iter().map(|part| part.source(&parts[0].scenario)).collect();
     let sessions: Vec<Vec<usize>> = parts.iter().map(|part| part.prepared.sessions.clone()).collect();
     let (candidates, own) = case::catalogue(&sources, options);
-    let case = Case::new(&sources, &sessions, (&candidates, own), options)?;
+    let mut wider = Vec::new();
+    let mut case = Case::new(&sources, &sessions, (&candidates, own), options)?;
+    let [of_singles, of_pairs] = [[0.0, PAIRS], [PAIRS, 1.0]].map(|ends| ends.map(|end| end * DIAGNOSIS[0]));
+    let singles = singles::fit_all(&mut case, &mut wider, &mut part(progress, of_singles));
+    let case = case;
     let runs = prepare::outlying_runs(case.dataset, &case.noise);
     warnings.extend(runs.iter().map(|r| {
         format!(
@@ -125,7 +129,7 @@ pub fn diagnose(
         )
     }));
     warnings.extend(limits::warnings(&case));
-    let decision = decide(&case, options, &mut part(progress, [0.0, DIAGNOSIS[0]]))?;
+    let decision = decide(&case, singles, options, &mut part(progress, of_pairs))?;
     warnings.extend(singles::left_out(&case, &decision.singles));
     let outliers = Outliers { runs, ..parts[0].prepared.outliers.clone() };
     progress("left-out data", Some(DIAGNOSIS[0]));

@@ -33,7 +33,7 @@ pub enum Confidence {
     Hint,
     /// The truth is likely in the set.
     LikelyOneOf,
-    /// Gain above 100 and no rival in this catalogue.
+    /// Gain above 200 and no rival in this catalogue.
     IdentifiedInCatalog,
 }
 

@@ -2,6 +2,7 @@
 
 use super::basis::{Basis, cosine};
 use super::blocks::fitted_scenarios;
+use super::candidates::Candidate;
 use super::case::Case;
 use super::decide::Decision;
 use super::detect;
@@ -16,15 +17,44 @@ use crate::progress::{Progress, each};
 use crate::stats::reported_p;
 use crate::study::predict_dataset;
 
-/// All effects fitted, best first, and the allowance for their form; those without equilibrium left out.
-pub fn fit_all(case: &Case, progress: &mut Progress) -> (Vec<Fit>, f64) {
-    let fit = |effect: &usize| {
-        let effects: Vec<usize> = case.always.iter().copied().chain([*effect]).collect();
-        case.problem.fit(&effects, &starts(&case.problem, &case.base, *effect, true))
+/// All effects fitted, best first, and the allowance for their form; those without equilibrium left out. Where the data push beyond
+/// a range that ends where physics does not, the case searches further from then on, in the catalogue `wider`.
+pub fn fit_all<'a>(case: &mut Case<'a>, wider: &'a mut Vec<Candidate>, progress: &mut Progress) -> (Vec<Fit>, f64) {
+    let fit = |case: &Case, effect: usize, from: Option<&Fit>| {
+        let effects: Vec<usize> = case.always.iter().copied().chain([effect]).collect();
+        let from = from.map(|fit| fit.theta().to_vec());
+        let starts = from.into_iter().chain(starts(&case.problem, &case.base, effect, true));
+        case.problem.fit(&effects, &starts.collect::<Vec<_>>())
     };
-    let mut fits: Vec<Fit> = each(&case.tried, "fitting every effect", progress, fit).into_iter().flatten().collect();
+    let first = each(&case.tried, "fitting every effect", progress, |effect| fit(case, *effect, None));
+    let mut fits: Vec<Fit> = first.into_iter().flatten().collect();
+    *wider = widened(case, &fits);
+    case.problem.candidates = wider;
+    for at_end in fits.iter_mut().filter(|fit| fit.open.contains(&true)) {
+        if let Some(further) = fit(case, added(at_end), Some(at_end)) {
+            *at_end = further;
+        }
+    }
     let allowance = order::sort(case, &mut fits, &case.base);
     (fits, allowance)
+}
+
+/// The catalogue with those ranges.
+fn widened(case: &Case, fits: &[Fit]) -> Vec<Candidate> {
+    let mut candidates = case.problem.candidates.to_vec();
+    for fit in fits {
+        let parameters = &mut candidates[added(fit)].parameters;
+        let from = fit.theta().len() - parameters.len();
+        for (k, p) in parameters.iter_mut().enumerate().filter(|(k, _)| fit.open[from + k]) {
+            p.widen(fit.theta()[from + k]);
+        }
+    }
+    candidates
+}
+
+/// The effect of a fit of one.
+fn added(fit: &Fit) -> usize {
+    fit.effects[fit.effects.len() - 1]
 }
 
 /// Effects that no fit could try, and why: without equilibrium at whatever value.
@@ -46,7 +76,7 @@ pub fn left_out(case: &Case, fits: &[Fit]) -> Vec<String> {
 
 /// Whether the law of an effect had to take the last shape that it can: then what comes as close in mm, to a fifth, is a rival.
 fn is_shape_at_end(case: &Case, fit: &Fit) -> bool {
-    let parameters = &case.candidate(fit.effects[fit.effects.len() - 1]).parameters;
+    let parameters = &case.candidate(added(fit)).parameters;
     let own = &fit.theta()[fit.theta().len() - parameters.len()..];
     parameters.iter().zip(own).any(|(p, value)| p.is_shape_at_end(*value))
 }
@@ -139,7 +169,7 @@ fn notes(case: &Case, fit: &Fit, own: &[ParameterValue]) -> Vec<String> {
             super::words::quantity(p.value, &p.unit)
         ));
     }
-    let effect = case.candidate(fit.effects[fit.effects.len() - 1]);
+    let effect = case.candidate(added(fit));
     let from = fit.theta().len() - own.len();
     for (k, p) in own.iter().enumerate() {
         let free = &effect.parameters[k];

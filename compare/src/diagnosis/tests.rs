@@ -96,13 +96,13 @@ fn tail_tension_on_an_spam_is_reported_with_seam_stiffness_and_no_experiment_par
 }
 
 #[test]
-fn a_name_is_a_hint_up_to_a_gain_of_25_and_identified_alone_above_100() {
+fn a_name_is_a_hint_up_to_a_gain_of_25_and_identified_alone_above_200() {
     use Confidence::*;
     assert_eq!(
-        [24.0, 26.0, 99.0, 101.0].map(|gain| confidence_of(gain, 1)),
+        [24.0, 26.0, 199.0, 201.0].map(|gain| confidence_of(gain, 1)),
         [Hint, LikelyOneOf, LikelyOneOf, IdentifiedInCatalog]
     );
-    assert_eq!([24.0, 101.0].map(|gain| confidence_of(gain, 2)), [Hint, LikelyOneOf]);
+    assert_eq!([24.0, 201.0].map(|gain| confidence_of(gain, 2)), [Hint, LikelyOneOf]);
 }
 
 #[test]

@@ -28,7 +28,7 @@ fn one_effect_may_leave_a_fifth_and_two_less() {
 fn six_units_part_explanations_and_a_fifth_of_the_error_attempts() {
     turns_at(1.0, helps);
     turns_at(25.0, |gain| !is_a_hint(gain));
-    turns_at(100.0, is_beyond_doubt);
+    turns_at(200.0, is_beyond_doubt);
     turns_at(6.0, |worse| !is_alike(40.0 + worse, 40.0));
     turns_at(8.0, |after| !is_closer(after, 10.0));
     turns_at(7.0, |after| !falls(after, 10.0));
