@@ -7,6 +7,7 @@
 //! Pure functions over plain structs; nothing here decides a verdict.
 
 mod curve;
+pub mod learned;
 mod points;
 mod shape;
 #[cfg(test)]

@@ -11,6 +11,7 @@
 //! | `p_act`, `p_body` | pressure in the actuator of the place, in the body | Pa |
 //! | `s` | station along the body | m |
 //! | `R`, `B` | body radius; effective bending stiffness of the place | m, N·m² |
+//! | `pull` | moment of the gas in the actuator at this bend, P dv/dκ; a formula with it acts where an actuator is | N·m |
 //!
 //! Parameters enter in SI. The energy is integrated to rounding over the formula's own corners, so the force is its slope and
 //! the ledger stays true. **Validity**: whatever the author of the formula says; a moment that falls with κ may leave no
@@ -18,13 +19,16 @@
 
 mod compile;
 mod program;
+mod pull;
 
 use crate::assembly::Assembly;
 use crate::effects::{Effect, Fitted, Group, Needs, Parameter, Stage};
 use crate::root::POLE;
+use crate::site::Besides;
 use crate::term::{Account, Extreme, LedgerLine, Pose, Remembering, Term};
 use compile::{Compiled, Name, compile};
 use program::{Op, run};
+use pull::PullTerm;
 use spelling::units::{self, Dimension};
 use std::sync::Arc;
 
@@ -47,6 +51,7 @@ pub struct Formula {
     pub parameters: Vec<FormulaParameter>,
     program: Arc<[Op]>,
     uses_station: bool,
+    uses_pull: bool,
 }
 
 /// A parameter of a [`Formula`]; the fields are those of [`Parameter`].
@@ -99,7 +104,7 @@ impl PartialEq for Formula {
 }
 
 /// Names that every formula may use; the parameters follow.
-const VARIABLES: [(&str, Dimension); 7] = [
+const VARIABLES: [(&str, Dimension); 8] = [
     ("kappa", Dimension([0.0, -1.0, 0.0])),
     ("theta", Dimension::NONE),
     ("p_act", Dimension::PRESSURE),
@@ -107,9 +112,11 @@ const VARIABLES: [(&str, Dimension); 7] = [
     ("s", Dimension::LENGTH),
     ("R", Dimension::LENGTH),
     ("B", Dimension([1.0, 3.0, -2.0])),
+    ("pull", Dimension::MOMENT),
 ];
 const KAPPA: usize = 0;
 const STATION: usize = 4;
+const PULL: usize = 7;
 /// Most parameters of one formula.
 pub(crate) const MOST_PARAMETERS: usize = 8;
 const INPUTS: usize = VARIABLES.len() + MOST_PARAMETERS;
@@ -143,8 +150,8 @@ impl Formula {
             return slip(format!("the parameter {} does not occur in the formula", idle.0.key), "use it or remove it");
         }
         let Draft { name, moment, sentence, differs, remedy, parameters } = draft;
-        let (program, uses_station) = (program.into(), used[STATION]);
-        let formula = Formula { name, moment, sentence, differs, remedy, parameters, program, uses_station };
+        let (program, uses_station, uses_pull) = (program.into(), used[STATION], used[PULL]);
+        let formula = Formula { name, moment, sentence, differs, remedy, parameters, program, uses_station, uses_pull };
         match formula.misbehaves() {
             Some((message, help)) => slip(message, help),
             None => Ok(formula),
@@ -170,6 +177,14 @@ impl Formula {
         }
     }
 
+    /// Its moment \[N·m\] at κ, θ, P, p_b, s, R, B, pull and parameters, all in SI.
+    pub fn moment_at(&self, place: &[f64; VARIABLES.len()], values: &[f64]) -> f64 {
+        let mut inputs = [0.0; INPUTS];
+        inputs[..VARIABLES.len()].copy_from_slice(place);
+        inputs[VARIABLES.len()..][..values.len()].copy_from_slice(values);
+        run(&self.program, &inputs)
+    }
+
     pub(crate) fn parameters(&self) -> Vec<Parameter<'_>> {
         self.parameters.iter().map(FormulaParameter::entry).collect()
     }
@@ -183,6 +198,12 @@ impl Formula {
             (inputs[5], inputs[6]) = (site.radius_m, site.bending.stiffness);
             inputs[VARIABLES.len()..][..values.len()].copy_from_slice(values);
             let (name, program, unit_m) = (Arc::clone(&name), Arc::clone(&self.program), site.shape.length_m);
+            if self.uses_pull {
+                if let Some(term) = PullTerm::new(program, site, inputs) {
+                    site.act(term, Besides { unforeseen: true, ..Besides::default() });
+                }
+                continue;
+            }
             site.body_terms.push(Box::new(FormulaTerm { name, program, unit_m, inputs }));
         }
     }
@@ -211,15 +232,15 @@ impl Formula {
     }
 }
 
-/// Where a formula is tried: κ, θ, P, p_b, s, R, B in SI.
-const PLACES: [[f64; 7]; 7] = [
-    [0.0, 0.0, 0.0, 2e3, 0.0, 0.04, 0.0],
-    [0.0, 0.0, 30e3, 2e3, 0.36, 0.04, 1.0],
-    [1e-3, 6e-5, 10e3, 2e3, 0.18, 0.04, 1.0],
-    [0.7, 0.042, 10e3, 2e3, 0.03, 0.04, 1.0],
-    [-0.7, -0.042, 0.0, 2e3, 0.03, 0.04, 1.0],
-    [4.0, 0.24, 30e3, 4e3, 0.33, 0.04, 6.0],
-    [20.0, 1.2, 100e3, 1e3, 0.36, 0.02, 6.0],
+/// Where a formula is tried: κ, θ, P, p_b, s, R, B, pull in SI.
+const PLACES: [[f64; 8]; 7] = [
+    [0.0, 0.0, 0.0, 2e3, 0.0, 0.04, 0.0, 0.0],
+    [0.0, 0.0, 30e3, 2e3, 0.36, 0.04, 1.0, 1e6],
+    [1e-3, 6e-5, 10e3, 2e3, 0.18, 0.04, 1.0, 50.0],
+    [0.7, 0.042, 10e3, 2e3, 0.03, 0.04, 1.0, 2.0],
+    [-0.7, -0.042, 0.0, 2e3, 0.03, 0.04, 1.0, 0.0],
+    [4.0, 0.24, 30e3, 4e3, 0.33, 0.04, 6.0, 3.0],
+    [20.0, 1.2, 100e3, 1e3, 0.36, 0.02, 6.0, 1.0],
 ];
 
 fn names(parameters: &[FormulaParameter]) -> Vec<Name<'_>> {
@@ -232,7 +253,7 @@ fn names(parameters: &[FormulaParameter]) -> Vec<Name<'_>> {
 
 fn units_help(parameters: &[FormulaParameter]) -> String {
     let own: Vec<String> = parameters.iter().map(|p| format!("{} in {}", p.key, p.unit)).collect();
-    format!("kappa is in 1/m, theta in rad, p_act and p_body in Pa, s and R in m, B in N m2; {}", own.join(", "))
+    format!("kappa is in 1/m, theta in rad, p_act and p_body in Pa, s and R in m, B in N m2, pull in N m; {}", own.join(", "))
 }
 
 /// The formula at one place.

@@ -204,3 +204,51 @@ fn a_formula_of_the_catalogues_law_predicts_the_same() {
     let neutral = at(&scenario.with_effect("own_tension", &[0.0, 0.05]));
     assert_eq!(neutral.0.to_bits(), at(&scenario).0.to_bits());
 }
+
+/// The robot with `moment` over the share `a`, at these values.
+fn pulled(robot: &Scenario, kind: &str, moment: &str, values: &[f64]) -> Scenario {
+    let text = format!(
+        "{}[[formula]]\nname = \"own\"\nmoment = \"{moment}\"\n\
+         [formula.parameters.a]\nunit = \"-\"\ntypical = 0.5\nbounds = [0, 1]\n",
+        shipped(kind).unwrap()
+    );
+    Scenario { formulas: Scenario::parse(&text).unwrap().formulas, ..robot.clone() }.with_effect("own", values)
+}
+
+#[test]
+fn a_share_of_the_pull_is_that_share_of_the_pressure() {
+    for kind in ["spam", "cpam", "epam", "fpam"] {
+        let robot = Scenario::parse(shipped(kind).unwrap()).unwrap().bare().with_bending(0.5);
+        let bend = |scenario: &Scenario, p: f64| {
+            let model = Model::new(scenario);
+            let mut state = model.prediction();
+            model.predict(&Loads::uniform(2e3, p), &mut state).unwrap();
+            model.states(&state)[0].curvature
+        };
+        for p in [8e3, 20e3, 40e3] {
+            let (with, without) = (bend(&pulled(&robot, kind, "-a*pull", &[0.3]), p), bend(&robot, 0.7 * p));
+            assert!((with - without).abs() < 1e-9 * without, "{kind} at {p}: {with} {without}");
+        }
+    }
+}
+
+#[test]
+fn the_force_of_a_share_of_the_pull_is_minus_the_slope_of_its_energy() {
+    for kind in ["epam", "fpam", "spam"] {
+        let robot = Scenario::parse(shipped(kind).unwrap()).unwrap();
+        let scenario = pulled(&robot, kind, "-a*(1 - theta)*pull*exp(-s/R)", &[0.4]);
+        let mut assembly = crate::model::assemble(&robot, &robot.spans(), 12);
+        scenario.formulas[0].add(&[0.4], &mut assembly);
+        let term = assembly.sites[0].actuator_terms.last().unwrap();
+        let energy = |a: f64| {
+            let (q, mut force) = ([a, 0.0, 0.0, 0.0], [0.0; 4]);
+            (term.add(&Pose { s_m: 0.05, ..Pose::new(&q, 2e3, 2e4) }, &mut force), force[0])
+        };
+        for a in [0.02, 0.08, 0.15] {
+            let h = 1e-4 * a;
+            let slope = (energy(a + h).0 - energy(a - h).0) / (2.0 * h);
+            let force = energy(a).1;
+            assert!(force != 0.0 && (slope + force).abs() < 1e-6 * force.abs(), "{kind} at {a}: {slope} {force}");
+        }
+    }
+}

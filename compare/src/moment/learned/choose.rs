@@ -1,0 +1,202 @@
+//! Which law of the library the points ask for.
+
+use super::library::{Form, LIBRARY};
+use crate::policy;
+use models::{Formula, Scenario};
+use nalgebra::{DMatrix, DVector};
+use std::sync::Arc;
+
+/// Missing moments, and where they were measured.
+#[derive(Debug, Clone)]
+pub struct Material {
+    /// κ, θ, P, p_b, s, R, B and pull of each, SI ([`Formula::moment_at`]).
+    pub places: Vec<[f64; 8]>,
+    /// Missing moment of each \[N·m\].
+    pub moments: DVector<f64>,
+    /// Their covariance.
+    pub covariance: DMatrix<f64>,
+    /// The bending stiffness is fitted along; it may fall by so much \[N·m²\]. `None`: it is kept.
+    pub stiffness: Option<f64>,
+}
+
+/// A law of the library and how well it predicts.
+#[derive(Debug, Clone)]
+pub struct Tried {
+    /// The law; `None`: nothing is missing.
+    pub form: Option<&'static Form>,
+    /// Numbers that are fitted, the bending stiffness included.
+    pub numbers: usize,
+    /// Of every level, the misfit there without it over the number of points.
+    pub of_levels: Vec<f64>,
+    /// Values fitted to all points, SI.
+    pub values: Vec<f64>,
+}
+
+/// What the library makes of the points.
+#[derive(Debug, Clone)]
+pub struct Choice {
+    /// All laws, the best first.
+    pub tried: Vec<Tried>,
+    /// Which of them is taken.
+    pub taken: usize,
+}
+
+impl Tried {
+    /// Mean over the levels.
+    pub fn score(&self) -> f64 {
+        self.of_levels.iter().sum::<f64>() / self.of_levels.len() as f64
+    }
+}
+
+/// Chooses a law; `None` with fewer levels of pressure than a choice takes.
+pub fn choose(material: &Material, robot: &Scenario) -> Option<Choice> {
+    let levels = material.levels();
+    let count = levels.iter().max()? + 1;
+    if count < policy::FEWEST_LEVELS {
+        return None;
+    }
+    let bodies = material.places.iter().any(|at| policy::bodies_differ(at[3], material.places[0][3]));
+    let fits_stiffness = material.stiffness.is_some();
+    let open = |form: &&Form| (bodies || !form.of_body) && !(fits_stiffness && form.moment == "-k*kappa");
+    let laws = std::iter::once(None).chain(LIBRARY.iter().filter(open).map(Some));
+    let tried = |form: Option<&'static Form>| -> Option<Tried> {
+        let law = Law::of(form, material, robot)?;
+        let of_levels = (0..count).map(|level| law.missed(material, &levels, level)).collect::<Option<Vec<_>>>()?;
+        let all: Vec<usize> = (0..levels.len()).collect();
+        Some(Tried { form, numbers: law.numbers(), of_levels, values: law.fit(material, &all)?.values })
+    };
+    let mut tried: Vec<Tried> = laws.filter_map(tried).filter(|t| t.score().is_finite()).collect();
+    tried.sort_by(|a, b| a.score().total_cmp(&b.score()));
+    let alike = |t: &Tried| policy::predicts_alike(&t.of_levels, &tried[0].of_levels);
+    let taken = (0..tried.len()).filter(|i| alike(&tried[*i])).min_by_key(|i| tried[*i].numbers)?;
+    Some(Choice { tried, taken })
+}
+
+impl Material {
+    /// Level of actuator pressure of every point.
+    fn levels(&self) -> Vec<usize> {
+        let mut known: Vec<f64> = Vec::new();
+        let level = |at: &[f64; 8]| {
+            known.iter().position(|p| policy::is_same_pressure(*p, at[2])).unwrap_or_else(|| {
+                known.push(at[2]);
+                known.len() - 1
+            })
+        };
+        self.places.iter().map(level).collect()
+    }
+
+    fn part(&self, rows: &[usize]) -> Option<nalgebra::Cholesky<f64, nalgebra::Dyn>> {
+        DMatrix::from_fn(rows.len(), rows.len(), |i, j| self.covariance[(rows[i], rows[j])]).cholesky()
+    }
+}
+
+/// A law at all points: its values there per unit of what it is linear in, for everything else that is tried.
+struct Law {
+    form: Option<&'static Form>,
+    /// Values of all numbers with which the columns were made, and these: one per linear number, and the stiffness's.
+    grid: Vec<(Vec<f64>, DMatrix<f64>)>,
+    /// Bounds of the coefficients.
+    bounds: Vec<[f64; 2]>,
+}
+
+/// Fitted numbers of a law.
+struct Fitted {
+    values: Vec<f64>,
+    cost: f64,
+    columns: usize,
+    coefficients: DVector<f64>,
+}
+
+impl Law {
+    fn of(form: Option<&'static Form>, material: &Material, robot: &Scenario) -> Option<Law> {
+        let numbers = form.map_or(&[][..], |f| f.numbers);
+        let scales: Vec<f64> = numbers.iter().map(|n| n.scale(robot)).collect();
+        let formula = form.and_then(|f| f.formula("learned", robot));
+        let spring = material.stiffness.filter(|_| form.is_none_or(|f| !f.has_spring));
+        let linear = || numbers.iter().zip(&scales).filter(|(n, _)| n.is_linear());
+        let mut bounds: Vec<[f64; 2]> = linear().map(|(n, scale)| n.bounds.map(|b| b * scale)).collect();
+        bounds.extend(spring.map(|most| [-most, f64::INFINITY]));
+        let mut sets = vec![Vec::new()];
+        for (n, scale) in numbers.iter().zip(&scales) {
+            let values = if n.is_linear() { vec![0.0] } else { n.tried.iter().map(|v| v * scale).collect() };
+            sets = sets.iter().flat_map(|s| values.iter().map(|v| [s.as_slice(), &[*v]].concat())).collect();
+        }
+        let column = |set: &[f64], formula: &Arc<Formula>, k: usize| -> Vec<f64> {
+            let mut values = set.to_vec();
+            values[k] = scales[k];
+            material.places.iter().map(|at| formula.moment_at(at, &values) / scales[k]).collect()
+        };
+        let columns = |set: Vec<f64>| {
+            let own = (0..numbers.len()).filter(|k| numbers[*k].is_linear());
+            let mut all: Vec<Vec<f64>> =
+                own.filter_map(|k| Some(column(&set, formula.as_ref()?, k))).collect();
+            all.extend(spring.map(|_| material.places.iter().map(|at| -at[0]).collect::<Vec<f64>>()));
+            let rows = material.places.len();
+            let columns = DMatrix::from_fn(rows, all.len(), |i, j| all[j][i]);
+            (set, columns)
+        };
+        (form.is_none() || formula.is_some()).then(|| Law { form, grid: sets.into_iter().map(columns).collect(), bounds })
+    }
+
+    fn numbers(&self) -> usize {
+        let free = self.form.map_or(0, |f| f.numbers.iter().filter(|n| !n.is_linear()).count());
+        self.bounds.len() + free
+    }
+
+    /// The best over all that is tried.
+    fn fit(&self, material: &Material, rows: &[usize]) -> Option<Fitted> {
+        let root = material.part(rows)?;
+        let y = DVector::from_iterator(rows.len(), rows.iter().map(|i| material.moments[*i]));
+        let y = root.l_dirty().solve_lower_triangular(&y)?;
+        let mut best: Option<Fitted> = None;
+        for (at, (set, columns)) in self.grid.iter().enumerate() {
+            let own = DMatrix::from_fn(rows.len(), columns.ncols(), |i, j| columns[(rows[i], j)]);
+            let own = root.l_dirty().solve_lower_triangular(&own)?;
+            let Some(coefficients) = bounded(&own, &y, &self.bounds) else { continue };
+            let cost = (&own * &coefficients - &y).norm_squared();
+            if best.as_ref().is_none_or(|b| cost < b.cost) {
+                best = Some(Fitted { values: self.values(set, &coefficients), cost, columns: at, coefficients });
+            }
+        }
+        best
+    }
+
+    fn values(&self, set: &[f64], coefficients: &DVector<f64>) -> Vec<f64> {
+        let mut next = coefficients.iter();
+        let numbers = self.form.map_or(&[][..], |f| f.numbers).iter().zip(set);
+        numbers.map(|(n, v)| if n.is_linear() { next.next().copied().unwrap_or(0.0) } else { *v }).collect()
+    }
+
+    /// What the law, fitted without a level, misses there.
+    fn missed(&self, material: &Material, levels: &[usize], level: usize) -> Option<f64> {
+        let (out, kept): (Vec<usize>, Vec<usize>) = (0..levels.len()).partition(|i| levels[*i] == level);
+        let fitted = self.fit(material, &kept)?;
+        let columns = &self.grid[fitted.columns].1;
+        let left = |i: &usize| material.moments[*i] - (columns.row(*i) * &fitted.coefficients)[(0, 0)];
+        let left = DVector::from_iterator(out.len(), out.iter().map(left));
+        let root = material.part(&out)?;
+        Some(root.l_dirty().solve_lower_triangular(&left)?.norm_squared() / out.len() as f64)
+    }
+}
+
+/// Least squares with bounds: what leaves them is held there and the others are fitted anew.
+fn bounded(columns: &DMatrix<f64>, y: &DVector<f64>, bounds: &[[f64; 2]]) -> Option<DVector<f64>> {
+    let count = columns.ncols();
+    let mut held: Vec<Option<f64>> = vec![None; count];
+    loop {
+        let free: Vec<usize> = (0..count).filter(|j| held[*j].is_none()).collect();
+        let fixed = DVector::from_iterator(count, held.iter().map(|h| h.unwrap_or(0.0)));
+        let own = DMatrix::from_fn(columns.nrows(), free.len(), |i, j| columns[(i, free[j])]);
+        let normal = own.tr_mul(&own);
+        let mut all = fixed.clone();
+        if !free.is_empty() {
+            let found = normal.cholesky()?.solve(&own.tr_mul(&(y - columns * &fixed)));
+            free.iter().zip(found.iter()).for_each(|(j, v)| all[*j] = *v);
+        }
+        let beyond = free.iter().find(|j| !(bounds[**j][0]..=bounds[**j][1]).contains(&all[**j]));
+        match beyond {
+            Some(j) => held[*j] = Some(all[*j].clamp(bounds[*j][0], bounds[*j][1])),
+            None => return Some(all),
+        }
+    }
+}
