@@ -249,19 +249,6 @@ pub const PATTERN_TELLS: f64 = 0.25;
 
 /// Levels of actuator pressure from which a law is learned: one is left out, and two tell a slope.
 pub const FEWEST_LEVELS: usize = 3;
-/// Standard errors by which a law with fewer numbers may predict worse than the best and is taken all the same.
-pub const PREDICTS_ALIKE: f64 = 1.0;
-
-/// Whether a law predicts what was left out as well as the best does, level by level: the logarithm of their squares, one noise
-/// added to each, within a standard error over the levels.
-pub fn predicts_alike(of_levels: &[f64], of_best: &[f64]) -> bool {
-    let worse: Vec<f64> = of_levels.iter().zip(of_best).map(|(a, b)| ((1.0 + a) / (1.0 + b)).ln()).collect();
-    let count = worse.len() as f64;
-    let mean = worse.iter().sum::<f64>() / count;
-    let variance = worse.iter().map(|w| (w - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
-    mean <= PREDICTS_ALIKE * (variance / count).sqrt()
-}
-
 /// Holds within this share of the highest pressure of the lowest are the lowest.
 pub const LOWEST: f64 = 0.02;
 /// Chance of the shift where nothing is shifted, above which nothing is told.

@@ -69,7 +69,8 @@ pub struct LadderArgs {
 pub struct AddArgs {
     /// Scenario file or shipped robot; it is not changed
     pub scenario: String,
-    /// NAME is fitted on the data; NAME=VALUE or NAME:key=value[,key=value] is taken as given; `best` is what the diagnosis adds
+    /// NAME is fitted on the data; NAME=VALUE or NAME:key=value[,key=value] is taken as given; `best` is what the diagnosis adds,
+    /// `learned` a formula that is learned where the catalogue has none
     pub effect: String,
     /// Marker data: the value is fitted on them, B with it, and the error is shown before and after
     pub data: Option<String>,

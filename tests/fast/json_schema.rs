@@ -7,14 +7,18 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Type of every key of an answer or a record; a key that ends with `?` may be missing.
 type Keys = BTreeMap<String, String>;
 
-/// Records that only come with data of a kind that these commands have not: two effects at once, a fault, a robot's run, lost nodes.
-const RARE: [&str; 14] = [
+/// Records that only come with data of a kind that these commands have not: two effects at once, a fault, a law that the
+/// catalogue lacks, a robot's run, lost nodes.
+const RARE: [&str; 17] = [
     "AsClose",
     "ChangedSides",
     "Combination",
     "FirstThrough",
     "Inflated",
     "KeptBending",
+    "LearnedLaw",
+    "LearnedLine",
+    "LearnedTried",
     "LeftPattern",
     "LoopGap",
     "Outlier",

@@ -8,8 +8,8 @@ use super::result::Diagnosis;
 use super::{Answer, Standing};
 use crate::error::CompareError;
 use crate::moment::{
-    MeasuredShape, MissingMoment, MomentCurve, MomentPoint, Path, Robot, View, band, curve, degrees, moments,
-    sentences, shape, shape_sentences, told,
+    MeasuredShape, MissingMoment, MomentCurve, MomentPoint, Moments, Path, Robot, Shape, View, band, curve, degrees,
+    missing, moments, sentences, shape, shape_sentences, told,
 };
 use models::Scenario;
 use models::effects::Stage;
@@ -34,30 +34,72 @@ const BAND: f64 = 1.96;
 /// itself. A fitted one would hide in the points whatever it takes the place of; it is a curve among the others.
 ///
 /// # Errors
-/// Data of which no shape comes near.
-pub fn missing_moment(case: &Case, decision: &Decision, found: &Diagnosis) -> Result<MissingMoment, CompareError> {
+/// A curve without equilibrium.
+pub fn missing_moment(
+    case: &Case,
+    seen: &[Seen],
+    decision: &Decision,
+    found: &Diagnosis,
+) -> Result<MissingMoment, CompareError> {
     let (mut shapes, mut points) = (Vec::new(), Vec::new());
-    for block in &case.problem.blocks {
-        let base = scenarios(case, block, &case.base, &reference(case));
-        let view = View {
-            scenario: &base[0],
-            dataset: &block.dataset,
-            direct: block.direct,
-            target_m: &block.target_m,
-            whitener: &block.whitener,
-        };
-        let shape = shape(&view)?;
-        let single = vec![0; block.bending_of.len()];
-        let of_hold = if case.problem.bendings == 0 { &single } else { &block.bending_of };
-        let robot = Robot { scenarios: &base, of_hold };
-        let moments = moments(&view, &shape, &robot)?;
-        shapes.push(MeasuredShape::of(&block.dataset, &shape));
-        points.extend(told(&block.dataset, &shape, &moments, block.scenario.length_m));
+    for (block, seen) in case.problem.blocks.iter().zip(seen) {
+        shapes.push(MeasuredShape::of(&block.dataset, &seen.shape));
+        points.extend(told(&block.dataset, &seen.shape, &seen.moments, block.scenario.length_m));
     }
     let curves = curves(case, decision, found, &points)?;
     let mut told = sentences(&points);
     told.extend(shape_sentences(&shapes, case.noise.is_known()));
     Ok(MissingMoment { shapes, sentences: told, points, curves })
+}
+
+/// A dataset's shape, and what the base misses there.
+pub struct Seen {
+    base: Vec<Scenario>,
+    of_hold: Vec<usize>,
+    /// The shape.
+    pub shape: Shape,
+    /// Missing moments.
+    pub moments: Moments,
+}
+
+impl Seen {
+    fn of(case: &Case, block: &Block) -> Result<Seen, CompareError> {
+        let base = scenarios(case, block, &case.base, &reference(case));
+        let shape = shape(&view(block, &base[0]))?;
+        let single = vec![0; block.bending_of.len()];
+        let of_hold = if case.problem.bendings == 0 { single } else { block.bending_of.clone() };
+        let moments = moments(&view(block, &base[0]), &shape, &Robot { scenarios: &base, of_hold: &of_hold })?;
+        Ok(Seen { base, of_hold, shape, moments })
+    }
+
+    /// What another robot misses at the bends that were measured, moment after moment and place after place \[N·m\]: the base,
+    /// changed.
+    ///
+    /// # Errors
+    /// Pressures or times that are refused.
+    pub fn missing(&self, block: &Block, change: &dyn Fn(&Scenario) -> Scenario) -> Result<Vec<Vec<f64>>, CompareError> {
+        let other: Vec<Scenario> = self.base.iter().map(change).collect();
+        let robot = Robot { scenarios: &other, of_hold: &self.of_hold };
+        missing(&view(block, &other[0]), &self.shape, &robot, &self.shape.bends())
+    }
+
+    /// The base.
+    pub fn robot(&self) -> &Scenario {
+        &self.base[0]
+    }
+}
+
+/// Shapes and missing moments of all data.
+///
+/// # Errors
+/// Data of which no shape comes near.
+pub fn seen(case: &Case) -> Result<Vec<Seen>, CompareError> {
+    case.problem.blocks.iter().map(|block| Seen::of(case, block)).collect()
+}
+
+fn view<'a>(block: &'a Block, scenario: &'a Scenario) -> View<'a> {
+    let Block { dataset, direct, target_m, whitener, .. } = block;
+    View { scenario, dataset, direct: *direct, target_m, whitener }
 }
 
 /// Parameters of the base with the bending stiffness as it was measured by itself, or as the scenario has it.
@@ -83,26 +125,34 @@ fn curves(
     let mut kept: Vec<Answer> = found.answers().into_iter().filter(helps).collect();
     let first = kept.iter().filter(|a| a.standing != Standing::Other).count();
     kept.truncate((first + OTHERS).min(MOST_CURVES));
-    let paths = paths(case, points);
-    let least_deg = points.iter().filter(|p| p.is_of_hold()).map(|p| p.bend_deg).fold(f64::INFINITY, f64::min);
     let told = kept.iter().map(|a| (a.name(), a.standing != Standing::Other, fit_of(case, decision, &a.name())));
     let stiffness = (case.problem.bendings > 0).then_some((STIFFNESS.into(), first == 0, Some(&case.base)));
     let mut curves = Vec::new();
     for (answer, is_told, fit) in told.chain(stiffness) {
         let Some(fit) = fit.filter(|fit| has_moment(case, fit)) else { continue };
-        for (level, path) in &paths {
-            let mut points = drawn(case, fit, *level, path)?;
-            points.retain(|[_, bend_deg, ..]| *bend_deg > NEAR * least_deg);
-            curves.push(MomentCurve {
-                answer: answer.clone(),
-                is_told,
-                p_body_kpa: 1e-3 * path.p_body_pa,
-                is_unloading: path.from_pa.is_some(),
-                points,
-            });
-        }
+        curves.extend(curves_of(case, fit, (&answer, is_told), points)?);
     }
     Ok(curves)
+}
+
+/// The curves of one fit: ways up and down at every body pressure.
+///
+/// # Errors
+/// A pressure that is refused.
+pub fn curves_of(
+    case: &Case,
+    fit: &Fit,
+    (answer, is_told): (&str, bool),
+    points: &[MomentPoint],
+) -> Result<Vec<MomentCurve>, CompareError> {
+    let least_deg = points.iter().filter(|p| p.is_of_hold()).map(|p| p.bend_deg).fold(f64::INFINITY, f64::min);
+    let of_path = |(level, path): &(usize, Path)| {
+        let mut points = drawn(case, fit, *level, path)?;
+        points.retain(|[_, bend_deg, ..]| *bend_deg > NEAR * least_deg);
+        let (p_body_kpa, is_unloading) = (1e-3 * path.p_body_pa, path.from_pa.is_some());
+        Ok(MomentCurve { answer: answer.into(), is_told, p_body_kpa, is_unloading, points })
+    };
+    paths(case, points).iter().map(of_path).collect()
 }
 
 /// Whether a fit changes anything but what the camera sees: that is no moment.

@@ -35,6 +35,7 @@ mod interval;
 mod kept_bending;
 mod known;
 mod lack_of_fit;
+mod learned;
 mod least_squares;
 mod limits;
 mod look;
@@ -73,6 +74,7 @@ pub use candidates::{Candidate, Free, candidates};
 pub use distance::{Distances, KnownNoise, distances, power};
 pub use experiments::{BENDING_TEST, BENDING_TEST_NAME};
 pub use fitted::{FittedBeside, GaugeFit, with_fitted};
+pub use learned::{LearnedLaw, LearnedLine, LearnedTried};
 pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
 pub use options::Options;
 pub use outliers::{Outliers, OutlyingRun, Undetectable};
@@ -145,11 +147,10 @@ pub fn diagnose(
         progress("the next experiment", Some(DIAGNOSIS[1]));
         diagnosis.next_experiment = next::next_experiment(&case, &decision, look::next(&diagnosis))?;
     }
-    if options.missing_moment {
+    if options.missing_moment || options.learn {
         // It shows a verdict and decides none: where it cannot be had, the verdict stands without it.
-        match missing::missing_moment(&case, &decision, &diagnosis) {
-            Ok(found) => diagnosis.missing_moment = Some(found),
-            Err(error) => diagnosis.warnings.push(format!("no missing moment is shown: {error}")),
+        if let Err(error) = learned::moments(&case, &decision, (&sources, &sessions), options, &mut diagnosis) {
+            diagnosis.warnings.push(format!("no missing moment is shown: {error}"));
         }
     }
     diagnosis.slips = parts.iter().flat_map(|part| part.slips.clone()).collect();
@@ -266,6 +267,7 @@ fn assemble(
         kept_bending: None,
         next_experiment: None,
         missing_moment: None,
+        learned: None,
         slips: Vec::new(),
         warnings,
     })

@@ -19,6 +19,8 @@ pub struct Options {
     pub next_experiment: bool,
     /// Look at the missing moment.
     pub missing_moment: bool,
+    /// Learn a law of the missing moment, also where the verdict names an effect or nothing.
+    pub learn: bool,
 }
 
 impl Default for Options {
@@ -32,6 +34,7 @@ impl Default for Options {
             pairs: true,
             next_experiment: true,
             missing_moment: true,
+            learn: false,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What a diagnosis says: plain structs, printed units, no NaN.
 
 use super::fitted::{FittedBeside, GaugeFit};
+use super::learned::LearnedLaw;
 use super::outliers::{Outliers, Undetectable};
 use super::proposed::NextExperiment;
 use crate::evidence::Used;
@@ -329,6 +330,8 @@ pub struct Diagnosis {
     pub next_experiment: Option<NextExperiment>,
     /// What the calibrated base's terms miss at the bends that were measured; `None` unless it was asked for.
     pub missing_moment: Option<MissingMoment>,
+    /// The law of the missing moment that predicts pressures left out, where the catalogue has none, or it was asked for.
+    pub learned: Option<LearnedLaw>,
     /// What these data cannot show, whatever the model.
     pub limits: Vec<String>,
     /// Cautions that come before the verdict: slips in the data, that no effect of a robot is. They are in `warnings` too.

@@ -37,6 +37,8 @@ pub fn story(d: &Diagnosis) -> Vec<String> {
             list(&d.rule_out_first)
         ));
     }
+    told.extend(d.learned.iter().flat_map(|law| law.sentences()));
+    told.extend(d.learned.iter().map(|_| "`ibr add SCENARIO learned DATA` writes it as a formula of the scenario.".into()));
     told.extend(d.next_experiment.as_ref().map(|next| next.sentence.clone()));
     told
 }

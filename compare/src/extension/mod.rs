@@ -1,5 +1,6 @@
 //! A scenario with one more effect: fitted on data, chosen by the diagnosis, or given.
 
+mod learned;
 mod steps;
 mod text;
 
@@ -18,6 +19,9 @@ use crate::typed_effect::{Values, typed, values_of};
 use models::Known;
 use models::Scenario;
 use serde::Serialize;
+
+/// What asks for a learned law; the name of the first one too.
+const LEARNED: &str = "learned";
 
 /// A new scenario, and what it brings.
 #[derive(Debug, Clone)]
@@ -54,6 +58,8 @@ pub struct FittedEffect {
 pub enum Wish {
     /// What the diagnosis adds.
     Best,
+    /// The law that is learned from the missing moment where the catalogue has none.
+    Learned,
     /// The named effect, fitted on data.
     Fitted(String),
     /// The named effect with these values, in the units of the scenario.
@@ -61,7 +67,7 @@ pub enum Wish {
 }
 
 impl Wish {
-    /// Reads `best`, `NAME`, `NAME=VALUE` or `NAME:key=value,…`; without data a name alone has its typical values.
+    /// Reads `best`, `learned`, `NAME`, `NAME=VALUE` or `NAME:key=value,…`; without data a name alone has its typical values.
     ///
     /// # Errors
     /// An effect that is not possible or is there already; `best` without data.
@@ -69,6 +75,10 @@ impl Wish {
         if text == "best" {
             let needs = || CompareError::refused("`best` needs data to say what is best", "ibr add SCENARIO best DATA");
             return has_data.then_some(Wish::Best).ok_or_else(needs);
+        }
+        if text == LEARNED && !scenario.formulas.iter().any(|f| f.name == LEARNED) {
+            let needs = || CompareError::refused("`learned` needs data to learn from", "ibr add SCENARIO learned DATA");
+            return has_data.then_some(Wish::Learned).ok_or_else(needs);
         }
         Ok(match typed(scenario, text)? {
             (name, Some(values)) => Wish::Given(name, values),
@@ -81,11 +91,14 @@ impl Wish {
     }
 }
 
-/// The scenario with what its diagnosis adds.
+/// The scenario with what its diagnosis adds: an effect, or else the law that it learned.
 ///
 /// # Errors
 /// A diagnosis that adds nothing; a text that cannot be extended.
 pub fn extend(file: &ScenarioFile, found: &Diagnosis) -> Result<Extension, CompareError> {
+    if found.added.is_empty() && found.learned.is_some() {
+        return learned::learned(file, found);
+    }
     if found.added.is_empty() {
         let message = format!("the diagnosis adds nothing: {}", found.summary.join(" "));
         return Err(CompareError::refused(message, "to add an effect all the same name it instead of `best`"));
@@ -113,10 +126,11 @@ pub fn add(
     if let (Wish::Given(name, values), []) = (wish, evidence) {
         return assumed(file, name, values);
     }
-    let options = Options { pairs: *wish == Wish::Best, ..options.clone() };
+    let options = Options { pairs: *wish == Wish::Best, learn: *wish == Wish::Learned, ..options.clone() };
     let found = diagnose(file, evidence, &options, progress)?;
     let mut extension = match wish {
         Wish::Best => extend(file, &found),
+        Wish::Learned => learned::learned(file, &found),
         Wish::Fitted(name) => fitted(file, &Ground::new(&found, file), name),
         Wish::Given(name, values) => {
             let with = with_values(file, name, values);

@@ -55,7 +55,7 @@ impl<'a> Ground<'a> {
     }
 
     /// Of one B per body pressure, that of the scenario; the scenario's own if it was kept.
-    fn bending(&self, values_nm2: &[f64]) -> f64 {
+    pub fn bending(&self, values_nm2: &[f64]) -> f64 {
         values_nm2.get(self.level).copied().unwrap_or(self.d.base.bending_nominal_nm2)
     }
 

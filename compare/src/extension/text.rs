@@ -36,6 +36,17 @@ pub struct NewBending {
     pub remark: String,
 }
 
+/// A value of `[body]` to be written.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct BodyValue {
+    /// Key.
+    pub key: &'static str,
+    /// In the unit of the key.
+    pub value: f64,
+    /// Where it comes from.
+    pub remark: String,
+}
+
 /// What the text of a scenario says about an effect that was added to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Origin {
@@ -69,7 +80,8 @@ pub fn extended(
 ) -> Result<ScenarioFile, CompareError> {
     let mut document: DocumentMut = file.text.parse().map_err(|e: toml_edit::TomlError| refused(e.message()))?;
     if let Some(new) = bending {
-        set_bending(&mut document, new).ok_or_else(|| refused("it has no table [body]"))?;
+        let new = BodyValue { key: BENDING, value: new.value_nm2, remark: new.remark.clone() };
+        set_body(&mut document, &new).ok_or_else(|| refused("it has no table [body]"))?;
     }
     for addition in additions {
         add(&mut document, addition).ok_or_else(|| refused(&format!("it has {} already", addition.name)))?;
@@ -79,6 +91,26 @@ pub fn extended(
     if bare_of_words(&scenario) != bare_of_words(&meant(file, bending, additions)) {
         return Err(refused("it would not mean what it should"));
     }
+    Ok(ScenarioFile { name: file.name.clone(), text, scenario })
+}
+
+/// The scenario with one more `[[formula]]` at its end, under a comment, and a value of its body.
+///
+/// # Errors
+/// A text to which this cannot be added.
+pub(super) fn with_formula(
+    file: &ScenarioFile,
+    toml: &str,
+    comment: &[String],
+    body: Option<&BodyValue>,
+) -> Result<ScenarioFile, CompareError> {
+    let mut document: DocumentMut = file.text.parse().map_err(|e: toml_edit::TomlError| refused(e.message()))?;
+    if let Some(new) = body {
+        set_body(&mut document, new).ok_or_else(|| refused("it has no table [body]"))?;
+    }
+    let comment: String = comment.iter().map(|line| format!("# {}\n", one_line(line))).collect();
+    let text = format!("{}\n\n{comment}{toml}", document.to_string().trim_end());
+    let scenario = Scenario::parse(&text).map_err(|e| refused(&e.to_string()))?;
     Ok(ScenarioFile { name: file.name.clone(), text, scenario })
 }
 
@@ -179,10 +211,10 @@ fn one_line(text: &str) -> String {
 }
 
 /// `None` without a table `[body]`.
-fn set_bending(document: &mut DocumentMut, new: &NewBending) -> Option<()> {
+fn set_body(document: &mut DocumentMut, new: &BodyValue) -> Option<()> {
     let is_inline = document.get("body")?.is_inline_table();
     let body = document.get_mut("body")?.as_table_like_mut()?;
-    let old = body.get(BENDING).and_then(Item::as_value);
+    let old = body.get(new.key).and_then(Item::as_value);
     let before = old.map_or(String::new(), |old| {
         let behind = old.decor().suffix().and_then(|suffix| suffix.as_str()).unwrap_or_default();
         let comment = behind.trim().trim_start_matches('#').trim();
@@ -190,10 +222,10 @@ fn set_bending(document: &mut DocumentMut, new: &NewBending) -> Option<()> {
         format!("; before: {}{comma}{comment}", old.clone().decorated("", ""))
     });
     let remark = if is_inline { String::new() } else { format!("   # {}{before}", one_line(&new.remark)) };
-    let written = Item::Value(number(new.value_nm2).decorated(" ", remark));
-    match body.get_mut(BENDING) {
+    let written = Item::Value(number(new.value).decorated(" ", remark));
+    match body.get_mut(new.key) {
         Some(place) => *place = written,
-        None => _ = body.insert(BENDING, written),
+        None => _ = body.insert(new.key, written),
     }
     Some(())
 }

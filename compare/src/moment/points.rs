@@ -6,7 +6,7 @@
 //!
 //! Positive: something is missing that bends the robot further; negative: something holds it back; zero: nothing is missing.
 
-use super::shape::{Layout, Shape, bends};
+use super::shape::{Layout, Shape};
 use super::view::{Pieces, View};
 use crate::error::CompareError;
 use data::Phase;
@@ -148,9 +148,7 @@ struct Field {
 
 impl Field {
     fn of(view: &View, shape: &Shape, robot: &Robot) -> Result<Field, CompareError> {
-        let layout = Layout::of(&shape.division);
-        let kappa: Vec<Vec<f64>> =
-            shape.division.moments.iter().map(|m| bends(&layout, &shape.numbers, m.hold, m.group)).collect();
+        let kappa = shape.bends();
         let moved =
             |by: f64| -> Vec<Vec<f64>> { kappa.iter().map(|row| row.iter().map(|k| k + by).collect()).collect() };
         let [low, missing, high] = [-STEP, 0.0, STEP].map(|by| missing(view, shape, robot, &moved(by)));

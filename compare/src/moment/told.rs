@@ -1,7 +1,7 @@
 //! The missing moment as it is told: printed units, no NaN.
 
 use super::points::{Moments, Point};
-use super::shape::Shape;
+use super::shape::{Shape, Shared};
 use data::Dataset;
 use serde::Serialize;
 
@@ -164,6 +164,11 @@ impl MissingMoment {
 
 /// Standard deviations from which a shared number is told, and least share of its unit.
 const TOLD: (f64, f64) = (4.0, 1.0);
+
+/// Whether a shared number is clearly another than the scenario's.
+pub fn is_told(shared: &Shared) -> bool {
+    (shared.per_si * shared.value).abs() > (shared.per_si * TOLD.0 * shared.sd).max(TOLD.1)
+}
 
 /// What the shapes say: where the tracked line lies otherwise than the scenario says, and what no bending explains.
 pub fn shape_sentences(shapes: &[MeasuredShape], noise_known: bool) -> Vec<String> {

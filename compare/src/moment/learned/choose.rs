@@ -32,44 +32,41 @@ pub struct Tried {
     pub values: Vec<f64>,
 }
 
-/// What the library makes of the points.
-#[derive(Debug, Clone)]
-pub struct Choice {
-    /// All laws, the best first.
-    pub tried: Vec<Tried>,
-    /// Which of them is taken.
-    pub taken: usize,
-}
-
 impl Tried {
-    /// Mean over the levels.
+    /// What it misses at levels left out, in units of noise: root mean square over the levels.
     pub fn score(&self) -> f64 {
-        self.of_levels.iter().sum::<f64>() / self.of_levels.len() as f64
+        (self.of_levels.iter().sum::<f64>() / self.of_levels.len() as f64).sqrt()
     }
 }
 
-/// Chooses a law; `None` with fewer levels of pressure than a choice takes.
-pub fn choose(material: &Material, robot: &Scenario) -> Option<Choice> {
+/// All laws, and none, by how well they predict levels that were left out, the best first; empty with fewer levels than that takes.
+pub fn rank(material: &Material, robot: &Scenario) -> Vec<Tried> {
     let levels = material.levels();
-    let count = levels.iter().max()? + 1;
+    let count = levels.iter().max().map_or(0, |last| last + 1);
     if count < policy::FEWEST_LEVELS {
-        return None;
+        return Vec::new();
     }
     let bodies = material.places.iter().any(|at| policy::bodies_differ(at[3], material.places[0][3]));
-    let fits_stiffness = material.stiffness.is_some();
-    let open = |form: &&Form| (bodies || !form.of_body) && !(fits_stiffness && form.moment == "-k*kappa");
-    let laws = std::iter::once(None).chain(LIBRARY.iter().filter(open).map(Some));
+    let is_stiffness = |form: &Form| material.stiffness.is_some() && form.moment == "-k*kappa";
+    let open = LIBRARY.iter().filter(|form| (bodies || !form.of_body) && !is_stiffness(form));
     let tried = |form: Option<&'static Form>| -> Option<Tried> {
         let law = Law::of(form, material, robot)?;
         let of_levels = (0..count).map(|level| law.missed(material, &levels, level)).collect::<Option<Vec<_>>>()?;
         let all: Vec<usize> = (0..levels.len()).collect();
         Some(Tried { form, numbers: law.numbers(), of_levels, values: law.fit(material, &all)?.values })
     };
-    let mut tried: Vec<Tried> = laws.filter_map(tried).filter(|t| t.score().is_finite()).collect();
+    let mut tried: Vec<Tried> = std::iter::once(None).chain(open.map(Some)).filter_map(tried).collect();
+    tried.retain(|t| t.score().is_finite());
     tried.sort_by(|a, b| a.score().total_cmp(&b.score()));
-    let alike = |t: &Tried| policy::predicts_alike(&t.of_levels, &tried[0].of_levels);
-    let taken = (0..tried.len()).filter(|i| alike(&tried[*i])).min_by_key(|i| tried[*i].numbers)?;
-    Some(Choice { tried, taken })
+    tried
+}
+
+/// Of laws with their numbers and what they miss at pressures left out, in units of noise, the one to take: the fewest numbers
+/// where no other is closer by a fifth, one noise added to each.
+pub fn taken(laws: &[(usize, f64)]) -> Option<usize> {
+    let best = laws.iter().map(|(_, missed)| *missed).min_by(f64::total_cmp)?;
+    let alike = (0..laws.len()).filter(|i| !policy::is_closer(1.0_f64.hypot(best), 1.0_f64.hypot(laws[*i].1)));
+    alike.min_by(|a, b| laws[*a].0.cmp(&laws[*b].0).then(laws[*a].1.total_cmp(&laws[*b].1)))
 }
 
 impl Material {

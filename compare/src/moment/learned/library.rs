@@ -68,7 +68,7 @@ const POWER: Number =
 const PRESSURE: Number = Number {
     key: "q",
     unit: Unit::One,
-    bounds: [-1.0, 3.0],
+    bounds: [0.0, 3.0],
     tried: &[0.25, 0.5, 0.75, 1.0, 1.5, 2.0],
     meaning: "power of the pressure",
 };
@@ -86,6 +86,9 @@ const SHARE: &str = "a share of the actuator's pull that does not arrive: sealed
 const SHARE_CHECK: &str = "pull one unit in a testing machine, or build one with wider units: edges then weigh less";
 const SOFTENS: &str = "a resistance that softens as it bends: a wall that wrinkles or creases, layers that buckle";
 const SOFTENS_CHECK: &str = "hang weights on the inflated body with the actuator vented, and plot moment over bend";
+
+const TIP_END: &str = "an end that does not bend along: the closed end of a muscle, a cap, the last pouch's seal";
+const TIP_CHECK: &str = "film the last tenth of the robot: it stays straight where the rest bends";
 
 /// Laws, those with fewer numbers first.
 pub const LIBRARY: &[Form] = &[
@@ -192,6 +195,74 @@ pub const LIBRARY: &[Form] = &[
         check: SHARE_CHECK,
     },
     Form {
+        words: "a share of the pull that is lost towards the tip",
+        moment: "-a*pull*exp(0.5*s/R - TIP)",
+        numbers: &[linear("a", Unit::One, "share of the pull that is lost at the tip")],
+        has_spring: false,
+        of_body: false,
+        usual: TIP_END,
+        check: TIP_CHECK,
+    },
+    Form {
+        words: "a steady moment at the tip",
+        moment: "-m*tanh(kappa*R/0.002)*exp(0.5*s/R - TIP)",
+        numbers: &[linear("m", Unit::Moment, "moment that holds the tip back")],
+        has_spring: false,
+        of_body: false,
+        usual: TIP_END,
+        check: TIP_CHECK,
+    },
+    Form {
+        words: "a share of the pull, another at the tip",
+        moment: "-(a + b*exp(0.5*s/R - TIP))*pull",
+        numbers: &[
+            linear("a", Unit::One, "share of the pull that is lost"),
+            linear("b", Unit::One, "share more at the tip"),
+        ],
+        has_spring: false,
+        of_body: false,
+        usual: TIP_END,
+        check: TIP_CHECK,
+    },
+    Form {
+        words: "a steady moment, another at the tip",
+        moment: "-(m + n*exp(0.5*s/R - TIP))*tanh(kappa*R/0.002)",
+        numbers: &[
+            linear("m", Unit::Moment, "moment that holds back"),
+            linear("n", Unit::Moment, "moment more at the tip"),
+        ],
+        has_spring: false,
+        of_body: false,
+        usual: TIP_END,
+        check: TIP_CHECK,
+    },
+    Form {
+        words: "a resistance that falls with bend, and a steady moment at the tip",
+        moment: "-(m + n*exp(0.5*s/R - TIP))*tanh(kappa*R/0.002) + k*kappa",
+        numbers: &[
+            linear("m", Unit::Moment, "moment at small bends"),
+            linear("n", Unit::Moment, "moment more at the tip"),
+            linear("k", Unit::Stiffness, "by how much it falls per bend"),
+        ],
+        has_spring: true,
+        of_body: false,
+        usual: SOFTENS,
+        check: SOFTENS_CHECK,
+    },
+    Form {
+        words: "a share of the pull that changes with bend, another at the tip",
+        moment: "-(a + b*theta + c*exp(0.5*s/R - TIP))*pull",
+        numbers: &[
+            linear("a", Unit::One, "share of the pull that is lost at small bends"),
+            linear("b", Unit::One, "change of that share per radian of one unit"),
+            linear("c", Unit::One, "share more at the tip"),
+        ],
+        has_spring: false,
+        of_body: false,
+        usual: SHARE,
+        check: SHARE_CHECK,
+    },
+    Form {
         words: "a power of bend and pressure",
         moment: "-m*(p_act/p_body)^q*(pos(kappa)*R)^n",
         numbers: &[linear("m", Unit::Moment, "moment at a bend of 1/R and P = p_b"), POWER, PRESSURE],
@@ -220,7 +291,7 @@ impl Number {
             Unit::Moment => "N m",
             Unit::Stiffness => "N m2",
             Unit::Bend => "1/m",
-            Unit::One => "1",
+            Unit::One => "-",
         }
     }
 
@@ -231,9 +302,15 @@ impl Number {
 }
 
 impl Form {
+    /// The moment on a robot, whose tip lies so many diameters away.
+    pub fn moment_of(&self, robot: &Scenario) -> String {
+        self.moment.replace("TIP", &tidy(0.5 * robot.length_m / robot.radius_m).to_string())
+    }
+
     /// As a `[[formula]]` of a scenario.
     pub fn toml(&self, name: &str, robot: &Scenario) -> String {
-        let Form { words, moment, usual, check, .. } = self;
+        let Form { words, usual, check, .. } = self;
+        let moment = self.moment_of(robot);
         let mut out = format!(
             "[[formula]]\nname = \"{name}\"\nmoment = \"{moment}\"\n\
              sentence = \"Learned from data: {words}. Usually {usual}.\"\nremedy = \"To tell: {check}.\"\n"

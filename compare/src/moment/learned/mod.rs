@@ -2,16 +2,16 @@
 //!
 //! ```text
 //! M = f(κ, P, p_b, pull; x) + ε      x̂ = least squares under the covariance of the points
-//! score(law) = mean over pressure levels of  eᵀ Σ⁻¹ e / n      e: what the law, fitted without a level, misses there
+//! score(law)² = mean over pressure levels of  eᵀ Σ⁻¹ e / n      e: what the law, fitted without a level, misses there
 //! ```
 //!
-//! Of the laws whose score lies within one standard error of the best, over levels, the one with the fewest numbers is taken;
-//! no law at all is one of them.
+//! The laws that predict moments best are fitted to the markers by the full model. Of these the one with the fewest numbers is
+//! taken, unless another is closer to the markers at pressures left out by a fifth; no law at all is one of them.
 
 mod choose;
 mod library;
 #[cfg(test)]
 mod tests;
 
-pub use choose::{Choice, Material, Tried, choose};
+pub use choose::{Material, Tried, rank, taken};
 pub use library::{Form, LIBRARY, Number};

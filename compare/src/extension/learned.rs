@@ -1,0 +1,68 @@
+//! The scenario with a learned law: a `[[formula]]` of its own, and where the line of the markers lies.
+
+use super::steps::{ErrorStep, Ground};
+use super::text::{Addition, BodyValue, extended, with_formula};
+use super::{Extension, FittedEffect, today};
+use crate::diagnosis::{Diagnosis, LearnedLaw};
+use crate::error::CompareError;
+use crate::policy;
+use crate::scenario_file::ScenarioFile;
+use models::Known;
+
+/// Key of the line's distance from the taut generator in `[body]`.
+const CENTRE_LINE: &str = "centre_line_mm";
+
+/// The scenario with the law that a diagnosis learned.
+///
+/// # Errors
+/// A diagnosis that learned none; a text that cannot be extended.
+pub(super) fn learned(file: &ScenarioFile, found: &Diagnosis) -> Result<Extension, CompareError> {
+    let Some(law) = &found.learned else {
+        let message = "no law of the library predicts pressures left out better than the model as it is";
+        let help = "learning takes at least three actuator pressures; `ibr diagnose` says what else may be missing";
+        return Err(CompareError::refused(message, help));
+    };
+    let ground = Ground::new(found, file);
+    let line = law.line.as_ref().map(|line| {
+        let now_m = file.centre_line_m.unwrap_or(file.radius_m);
+        let remark = format!("calibrated on {} ({}) with the law learned below", found.dataset, today());
+        BodyValue { key: CENTRE_LINE, value: 1e3 * now_m + line.value_mm, remark }
+    });
+    let with = with_formula(file, &law.toml, &origin(found, law), line.as_ref())?;
+    let remarks = vec![format!("{} (learned); its formula stands below", law.words)];
+    let addition = Addition { remarks, ..ground.calibrated(&law.name, &law.parameters) };
+    let bending = (!law.bending_nm2.is_empty()).then(|| ground.bending(&law.bending_nm2));
+    let step = ErrorStep {
+        model: format!("+ {}", law.name),
+        how_known: Known::Calibrated.word(),
+        training_mm: law.after_mm,
+        heldout_pressure_mm: law.heldout_after_mm,
+        heldout_run_mm: law.heldout_run_after_mm,
+        bending_nm2: bending.unwrap_or(found.base.bending_nominal_nm2),
+    };
+    let bending = bending.and_then(|b| ground.new_bending(b));
+    let mut warnings = ground.warnings();
+    if !law.heldout_after_mm.zip(law.heldout_before_mm).is_some_and(|(after, before)| policy::falls(after, before)) {
+        warnings.push("the error at pressures left out hardly falls: this law describes these data and predicts little".into());
+    }
+    let additions = vec![addition];
+    Ok(Extension {
+        file: extended(&with, bending.as_ref(), &additions)?,
+        additions,
+        fitted: vec![FittedEffect { effect: law.name.clone(), parameters: law.parameters.clone() }],
+        bending,
+        steps: ground.first_steps().into_iter().chain([step]).collect(),
+        noise_floor_mm: found.base.noise_floor_mm,
+        told: law.sentences(),
+        warnings,
+    })
+}
+
+/// Where the formula comes from, for its comment.
+fn origin(found: &Diagnosis, law: &LearnedLaw) -> Vec<String> {
+    let data: Vec<String> = found.evidence.iter().map(|used| used.words.clone()).collect();
+    vec![
+        format!("Learned by ibr on {} from {}: {},", today(), data.join(", "), law.words),
+        "chosen among the laws of its library by prediction at actuator pressures left out. It is a description, not a cause.".into(),
+    ]
+}
