@@ -119,6 +119,7 @@ impl Climb {
 /// Why not another step, for programs and for readers.
 fn end(d: &Diagnosis, left: f64, (count, most): (usize, usize)) -> Option<(&'static str, String)> {
     let sentence = match d.verdict {
+        None if d.pressure_slip.is_some() => ("pressure_slip", d.slips.join(" ")),
         None => {
             let why = format!("{} usable runs: at least three are needed for p-values, so no effect is added", d.runs);
             return Some(("no_p_values", why + "; `ibr diagnose` prints the uncalibrated ranking."));

@@ -28,6 +28,7 @@ pub mod moment;
 pub mod noise;
 pub mod noise_summary;
 pub mod policy;
+mod prepare;
 pub mod progress;
 pub mod residuals;
 mod run_scatter;

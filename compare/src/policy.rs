@@ -304,6 +304,45 @@ pub fn labels_are_clear(half_apart_m: f64, usual_m: f64) -> bool {
     half_apart_m > LABELS_CLEAR * usual_m
 }
 
+/// What a sensor of absolute pressure reads in the air of a room, from the mountains to the sea \[Pa\].
+pub const ROOM_PA: [f64; 2] = [80e3, 110e3];
+/// A pressure that is less than this below another is not below it \[Pa\]: the tolerance of a hold.
+pub const NOT_BELOW_PA: f64 = 500.0;
+/// An undone slip of a pressure must be that much better than anything else, by the sums of squares and what numbers cost.
+pub const SLIP_CLEARLY: f64 = 4.0;
+/// A stiffness within this factor of the scenario's needs no slip to explain it; beyond, it is one standard deviation.
+pub const SAME_STIFFNESS: f64 = 2.0;
+
+/// Whether a pressure is that of the air of a room \[Pa\].
+pub fn is_a_room(pressure_pa: f64) -> bool {
+    (ROOM_PA[0]..=ROOM_PA[1]).contains(&pressure_pa)
+}
+
+/// Whether a pressure is another one or above it \[Pa\].
+pub fn is_not_below(pressure_pa: f64, other_pa: f64) -> bool {
+    pressure_pa > other_pa - NOT_BELOW_PA
+}
+
+/// Whether the highest pressure of an actuator is clearly below that of its body \[Pa\].
+pub fn is_never_above(act_pa: f64, body_pa: f64) -> bool {
+    act_pa < body_pa - ZERO_PRESSURE_PA
+}
+
+/// Whether a criterion is better than another one beyond doubt of a slip.
+pub fn is_clearly_better(criterion: f64, other: f64) -> bool {
+    criterion + SLIP_CLEARLY < other
+}
+
+/// Whether a criterion is as good as another one, to [`SAME_EVIDENCE`].
+pub fn is_as_good(criterion: f64, other: f64) -> bool {
+    criterion < other + SAME_EVIDENCE
+}
+
+/// Whether a fitted stiffness may be the scenario's; any may, where that is zero and nobody knows it \[N·m²\].
+pub fn is_same_stiffness(fitted: f64, told: f64) -> bool {
+    told == 0.0 || (1.0 / SAME_STIFFNESS..=SAME_STIFFNESS).contains(&(fitted / told))
+}
+
 /// Ratios P/p within this fraction match.
 pub const SAME_RATIO: f64 = 0.03;
 /// Body pressures must differ by more than this fraction, or the pair tests nothing.

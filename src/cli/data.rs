@@ -48,6 +48,9 @@ pub enum DataCommand {
     Check {
         /// Marker data
         data: String,
+        /// The robot's scenario, whose model is asked whether a column of pressures is in another unit; default: the one beside the data
+        #[arg(long)]
+        scenario: Option<String>,
     },
     /// Embedded datasets
     List,

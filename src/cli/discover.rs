@@ -24,6 +24,10 @@ pub struct DiagnoseArgs {
     /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
     #[arg(long)]
     pub keep_bending: bool,
+    /// An effect that cannot be here, and is left out; or pressure_slip: the pressures are right although they look wrong; may be given
+    /// several times
+    #[arg(long, value_name = "EFFECT", conflicts_with = "published")]
+    pub not: Vec<String>,
     /// Camera noise of one coordinate, for data of a single run, for example 1mm; of a table of bench tests what a row without a
     /// standard deviation scatters by, for example 3%
     #[arg(long, allow_hyphen_values = true)]
@@ -56,6 +60,9 @@ pub struct LadderArgs {
     /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
     #[arg(long)]
     pub keep_bending: bool,
+    /// An effect that cannot be here, and is left out; may be given several times
+    #[arg(long, value_name = "EFFECT")]
+    pub not: Vec<String>,
     /// Differences up to this are good enough; default: the larger of 0.15 mm and 0.5 % of the largest deflection
     #[arg(long, allow_hyphen_values = true)]
     pub tolerance: Option<String>,
@@ -86,6 +93,9 @@ pub struct AddArgs {
     /// Keep the scenario's bending stiffness instead of fitting it: it was measured separately
     #[arg(long)]
     pub keep_bending: bool,
+    /// An effect that cannot be here, and is left out; may be given several times
+    #[arg(long, value_name = "EFFECT")]
+    pub not: Vec<String>,
     /// Camera noise of one coordinate, for data of a single run, for example 1mm
     #[arg(long, allow_hyphen_values = true)]
     pub sigma: Option<String>,

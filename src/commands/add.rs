@@ -23,6 +23,7 @@ pub fn run(args: &AddArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let options = Options {
         sigma_m,
         keep_bending: args.keep_bending,
+        not: args.not.clone(),
         next_experiment: false,
         missing_moment: false,
         ..Options::default()

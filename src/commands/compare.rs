@@ -6,6 +6,7 @@ use crate::cli::CompareArgs;
 use crate::failure::{Failure, MISSED};
 use crate::output::{check_folder, imprint, write_files};
 use crate::shown::comparison::{CompareAnswer, text};
+use compare::diagnosis::{Options, pressure_slip};
 use compare::progress::shares::{COMPARED, READ};
 use compare::study::comparison::{Contender, Variant, compare_all};
 use compare::validation::BeforeAfter;
@@ -25,7 +26,9 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
     let evidence = inputs::evidence(data_spec, context)?;
     (context.progress)("comparing", Some(READ));
     let options = EvaluateOptions { sigma_m, ..EvaluateOptions::default() };
-    let found = compare_all(&models, &evidence, &options, args.calibrate)?;
+    let slip = pressure_slip(&file, &evidence, &Options { sigma_m, ..Options::default() })?;
+    let mut found = compare_all(&models, &evidence, &options, args.calibrate)?;
+    found.tell_first(slip);
     // Without an effect that was added there is no before and after; without it the robot may have no equilibrium.
     let added = BeforeAfter::of(&file, &[]).ok();
     let added = added.and_then(|both| Some((both.effects.clone(), both.judge(&evidence, sigma_m).ok()?)));

@@ -6,9 +6,11 @@ use crate::cli::{DataCommand, GenerateArgs};
 use crate::failure::Failure;
 use crate::output::{Input, check_set_folder, set_name, write_files};
 use crate::shown::check::check_text;
-use compare::Evidence;
+use compare::diagnosis::{Options, pressure_slip};
+use compare::slips::pressure::pressure_words;
 use compare::slips::slips;
 use compare::study::generate::{Generator, about, generate, parse_protocol};
+use compare::{Evidence, ScenarioFile};
 use data::{About, Dataset};
 use ibr::pages::Files;
 use serde_json::{Value, json};
@@ -16,7 +18,7 @@ use std::path::Path;
 
 pub fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome, Failure> {
     match command {
-        DataCommand::Check { data } => check(data, context),
+        DataCommand::Check { data, scenario } => check(data, scenario.as_deref(), context),
         DataCommand::List => list::run(Some("datasets")),
         DataCommand::Import(args) => super::data_import::run(args, context),
         DataCommand::Generate(args) => make(args, context),
@@ -24,19 +26,29 @@ pub fn run(command: &DataCommand, context: &mut Context) -> Result<Outcome, Fail
     }
 }
 
-fn check(spec: &str, context: &mut Context) -> Result<Outcome, Failure> {
+fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Outcome, Failure> {
     if let Some(bench) = data::bench::bench(spec)? {
         let words =
             format!("{spec}: {}, {} rows ({})\n", bench.kind.sentence, bench.rows.len(), bench.provenance.word());
         let check = json!({"kind": bench.kind.name, "rows": bench.rows.len(), "provenance": bench.provenance.word()});
         return Ok(Outcome::new(words, json!({"schema": "ibr.data.check", "version": 1, "check": check})));
     }
-    let Evidence { dataset, about, .. } = inputs::evidence(spec, context)?;
-    let mut report = data::check(&dataset, about.as_ref());
+    let evidence = inputs::evidence(spec, context)?;
+    let Evidence { dataset, about, .. } = &evidence;
+    let mut report = data::check(dataset, about.as_ref());
     let stations_m: Option<Vec<f64>> = dataset.markers.iter().map(|marker| marker.station_m).collect();
     let radius_m = about.as_ref().and_then(|about| about.geometry.as_ref()).map(|geometry| geometry.body_radius_m);
-    if let Some((stations_m, radius_m)) = stations_m.zip(radius_m) {
-        report.warnings.extend(slips(&dataset, &stations_m, radius_m));
+    match stations_m.zip(radius_m) {
+        Some((stations_m, radius_m)) => report.warnings.extend(slips(dataset, &stations_m, radius_m)),
+        None => report.warnings.extend(pressure_words(dataset)),
+    }
+    let model = match scenario {
+        Some(scenario) => Some(inputs::scenario(scenario)?),
+        None => ScenarioFile::beside(spec)?,
+    };
+    if let Some(model) = model {
+        let found = pressure_slip(&model, &evidence, &Options::default())?;
+        report.warnings.extend(found.map(|found| found.words));
     }
     Ok(Outcome::new(check_text(&report), json!({"schema": "ibr.data.check", "version": 1, "check": report})))
 }

@@ -33,7 +33,8 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failur
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let evidence = inputs::all_evidence(data, &args.also, context)?;
     let (refit_present, keep_bending) = (args.refit, args.keep_bending);
-    let options = Options { sigma_m, tolerance_m, refit_present, keep_bending, ..Options::default() };
+    let not = args.not.clone();
+    let options = Options { sigma_m, tolerance_m, refit_present, keep_bending, not, ..Options::default() };
     let end = args.out.as_ref().map_or(1.0, |_| DIAGNOSED);
     let diagnosis = diagnose(&file, &evidence, &options, &mut part(context.progress, [READ, end]))?;
     let runs = known_runs(args.runs.as_deref())?;
@@ -57,7 +58,10 @@ pub fn run(args: &DiagnoseArgs, context: &mut Context) -> Result<Outcome, Failur
             about: first.about.as_ref(),
             witness: witness.as_ref(),
             typed: [&args.scenario, data],
-            more: also.chain(args.keep_bending.then(|| " --keep-bending".into())).collect(),
+            more: also
+                .chain(args.keep_bending.then(|| " --keep-bending".into()))
+                .chain(args.not.iter().map(|not| format!(" --not {not}")))
+                .collect(),
         };
         // What was found took long, and is printed where it cannot be written.
         match report(folder, &found, json, &inputs::named(&file, &evidence)?, context) {

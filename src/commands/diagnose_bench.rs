@@ -35,6 +35,7 @@ fn refuse_options(args: &DiagnoseArgs, spec: &str) -> Result<(), Failure> {
     let given = [
         ("--also", !args.also.is_empty(), "put the rows of all tests of one kind into one table"),
         ("--keep-bending", args.keep_bending, "a table has nothing fitted that was not asked for"),
+        ("--not", !args.not.is_empty(), "a table's ranking shows every effect by itself"),
         ("--tolerance", args.tolerance.is_some(), "say what a row scatters by instead, --sigma 3%"),
         ("--runs", args.runs.is_some(), "finite elements are held against robots"),
         ("--out", args.out.is_some(), "a table has no report; --json gives everything that was found"),

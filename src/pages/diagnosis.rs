@@ -76,7 +76,7 @@ const PICTURES: [(&str, Picture); 9] = [
         seen.then(|| waterfall("Before and after", &rungs, f.diagnosis.base.noise_floor_mm)).transpose()
     }),
     ("before_after_supply", |f, _| supply(f.diagnosis)),
-    ("candidates", |f, scenario| match f.diagnosis.is_quiet() {
+    ("candidates", |f, scenario| match f.diagnosis.is_quiet() || f.diagnosis.pressure_slip.is_some() {
         true => Ok(None),
         false => candidate_curves(f.diagnosis, scenario, f.dataset),
     }),
@@ -124,6 +124,7 @@ pub(super) fn verdict(found: &Diagnosed) -> Value {
         Some(Verdict::Effect) => "effect",
         Some(Verdict::OutOfCatalog) if d.is_either() => "either",
         Some(Verdict::OutOfCatalog) => "out_of_catalog",
+        None if d.pressure_slip.is_some() => "withheld",
         None => "no_answer",
     };
     let mut told_as = json!(d);
@@ -165,7 +166,8 @@ fn values(found: &Diagnosed) -> Value {
 
 /// What the verdict states, or the attempt; nothing where nothing is missing.
 fn told(d: &Diagnosis) -> Vec<Answer<'_>> {
-    let answers = if d.is_quiet() { Vec::new() } else { d.answers() };
+    let none = d.is_quiet() || d.pressure_slip.is_some();
+    let answers = if none { Vec::new() } else { d.answers() };
     answers.into_iter().filter(|a| matches!(a.standing, Standing::Stated | Standing::Attempt)).collect()
 }
 

@@ -29,6 +29,9 @@ pub fn text(d: &Diagnosis, witness: Option<&Witness>, all: bool) -> String {
     d.slips.iter().for_each(|slip| out.push_str(&format!("Before the verdict, look at the data. {slip}\n\n")));
     out.push_str(&format!("Verdict: {}\n", verdict(d)));
     d.summary.iter().for_each(|s| out.push_str(&wrapped(&format!("  - {s}"), 4)));
+    if d.pressure_slip.is_some() {
+        return out;
+    }
     if all {
         return out + &tables(d, witness);
     }
@@ -58,6 +61,7 @@ fn verdict(d: &Diagnosis) -> String {
             "something is missing: a fault that is not in the catalogue, or effects".into()
         }
         Some(Verdict::OutOfCatalog) => "something is missing that is not in the catalogue".into(),
+        None if d.pressure_slip.is_some() => "withheld until the pressures are right".into(),
         None => "none: ranking only".into(),
     }
 }

@@ -11,6 +11,7 @@ mod follow;
 mod made;
 mod oracle;
 mod row;
+mod slipped;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -19,6 +20,7 @@ pub use attainable::Attainable;
 pub use cases::{After, Named, SetOutcome};
 pub use made::{MADE, OneOff};
 pub use row::{Goal, Rate};
+pub use slipped::{SlippedSet, slipped};
 
 use super::score::{Claim, ClaimScore};
 use super::truth::{Hiding, Truth};
@@ -111,6 +113,8 @@ pub struct Discovery {
     pub missed_by_law: usize,
     /// Data made by finite elements, mechanism by mechanism.
     pub made: Vec<OneOff>,
+    /// Data with a column of pressures written wrongly.
+    pub slipped: Vec<SlippedSet>,
     /// Every set.
     pub seen: Vec<SetSeen>,
     /// Sets that could not be made or diagnosed, with the reason.
@@ -139,15 +143,17 @@ pub fn run(
         .collect();
     let mut failed: Vec<String> = outcomes.iter().filter_map(|outcome| outcome.failed.clone()).collect();
     let made = made::made(diagnose, &mut failed);
+    let slipped = slipped::slipped(options, diagnose, &mut failed);
     let silence: Vec<bool> = table::missed_in_silence(&outcomes);
     Ok(Discovery {
         seed: options.seed,
-        rows: [table::rows(&outcomes), covered::rows(&outcomes), made::rows(&made)].concat(),
+        rows: [table::rows(&outcomes), covered::rows(&outcomes), slipped::rows(&slipped), made::rows(&made)].concat(),
         confusion: table::confusion(&outcomes),
         breakdown: table::breakdown(&outcomes),
         attainable: attainable::of(&outcomes),
         missed_after: silence.len(),
         missed_by_law: silence.iter().filter(|missed| **missed).count(),
+        slipped,
         made,
         seen: outcomes.iter().map(seen).collect(),
         failed,

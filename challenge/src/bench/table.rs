@@ -174,12 +174,18 @@ fn quality(outcomes: &[SetOutcome]) -> Vec<Rate> {
 
 /// Exchanged labels are the slip among what is hidden.
 fn slips(outcomes: &[SetOutcome]) -> Vec<Rate> {
-    let all = outcomes.iter().filter_map(|o| Some((o, o.named.as_ref()?)));
+    let all: Vec<_> = outcomes.iter().filter_map(|o| Some((o, o.named.as_ref()?))).collect();
     let (slipped, right): (Vec<_>, Vec<_>) =
-        all.partition(|(o, _)| o.truth.effects.iter().any(|choice| choice.name == "swapped_markers"));
+        all.iter().copied().partition(|(o, _)| o.truth.effects.iter().any(|choice| choice.name == "swapped_markers"));
     vec![
         Rate::share("labels exchanged", "told as a slip", AtLeast(0.90), &shares(&slipped, |named| named.slip)),
         Rate::share("all other sets", "told a slip that is none", AtMost(0.01), &shares(&right, |named| named.slip)),
+        Rate::share(
+            "sets with right pressures",
+            "told a slip of pressures",
+            AtMost(0.01),
+            &shares(&all, |n| n.pressure_slip),
+        ),
     ]
 }
 

@@ -77,7 +77,7 @@ pub fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usiz
     let mut list = if options.refit_present { present(scenario) } else { Vec::new() };
     list.retain(open);
     let own = list.len();
-    list.extend(candidates(scenario).into_iter().filter(open));
+    list.extend(candidates(scenario).into_iter().filter(open).filter(|c| !options.excludes(&c.name)));
     let held = Held {
         gauge: sources.iter().any(|source| source.gauge.is_some()),
         kept_bending: options.keep_bending,
@@ -313,9 +313,12 @@ fn independent_tests(problem: &Problem, base: &Fit, tried: std::ops::Range<usize
     let count = tried.len();
     let traces: Vec<Vec<f64>> = tried.filter_map(|e| trace(problem, base, &free, e)).collect();
     let n = traces.len();
+    if n == 0 {
+        return count.max(1) as f64;
+    }
     let correlations = DMatrix::from_fn(n, n, |i, j| if i == j { 1.0 } else { cosine(&traces[i], &traces[j]) });
     let apart = match SymmetricEigen::try_new(correlations, f64::EPSILON, EIGEN_ROUNDS) {
-        Some(eigen) if n > 0 => eigen.eigenvalues.iter().map(|l| l.max(0.0).sqrt()).sum::<f64>().powi(2) / n as f64,
+        Some(eigen) => eigen.eigenvalues.iter().map(|l| l.max(0.0).sqrt()).sum::<f64>().powi(2) / n as f64,
         _ => n as f64,
     };
     (apart + (count - n) as f64).max(1.0)

@@ -48,6 +48,24 @@ pub struct Decision {
     pub after: Option<LackOfFit>,
 }
 
+impl Decision {
+    /// Everything of the catalogue that was fitted: single effects and pairs.
+    pub fn rivals(&self) -> Vec<Fit> {
+        [&self.singles[..], &self.pairs].concat()
+    }
+
+    /// The same without an answer: the data are not what they say.
+    pub fn withhold(&mut self) {
+        self.verdict = None;
+        self.last = None;
+        self.fault = None;
+        self.set.clear();
+        self.pairs.clear();
+        self.as_close.clear();
+        self.after = self.before;
+    }
+}
+
 /// Tests fits of single effects, fits pairs where they are wanted, and decides.
 ///
 /// # Errors

@@ -18,6 +18,7 @@
 mod answers;
 mod basis;
 mod bench;
+mod bending_alarm;
 mod blocks;
 mod candidates;
 mod case;
@@ -51,7 +52,7 @@ mod part;
 #[cfg(test)]
 mod pattern_tests;
 mod patterns;
-mod prepare;
+mod pressures;
 mod problem;
 mod proposed;
 mod result;
@@ -70,14 +71,16 @@ pub mod words;
 
 pub use answers::{Answer, Standing};
 pub use bench::{BenchDiagnosis, BenchOptions, BenchRanked, LeftOut, diagnose_bench};
+pub use bending_alarm::BendingAlarm;
 pub use candidates::{Candidate, Free, candidates};
 pub use distance::{Distances, KnownNoise, distances, power};
 pub use experiments::{BENDING_TEST, BENDING_TEST_NAME};
 pub use fitted::{FittedBeside, GaugeFit, with_fitted};
 pub use learned::{LearnedLaw, LearnedLine, LearnedTried};
 pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
-pub use options::Options;
+pub use options::{Options, PRESSURES_ARE_RIGHT};
 pub use outliers::{Outliers, OutlyingRun, Undetectable};
+pub use pressures::{PressureSlipFound, pressure_slip};
 pub use proposed::*;
 pub use result::*;
 
@@ -86,15 +89,18 @@ use crate::error::CompareError;
 use crate::evidence::{Evidence, Used};
 use crate::noise_summary::NoiseSummary;
 use crate::policy;
+use crate::prepare::outlying_runs;
 use crate::progress::shares::{DIAGNOSIS, PAIRS};
 use crate::progress::{Progress, part};
 use crate::residuals::{ResidualMap, residual_map};
+use crate::slips::pressure::pressure_words;
 use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
 use case::Case;
 use decide::{Decision, decide};
 use heldout::HeldOut;
 use models::Scenario;
 use part::{Part, contradicted};
+use pressures::Pressures;
 use problem::Fit;
 use source::Source;
 
@@ -111,7 +117,7 @@ pub fn diagnose(
     options: &Options,
     progress: &mut Progress,
 ) -> Result<Diagnosis, CompareError> {
-    check(options)?;
+    options.check(scenario)?;
     let first = evidence.first().ok_or_else(|| CompareError::refused("no data to diagnose", "give measurements"))?;
     let (parts, mut warnings) = parts(scenario, evidence)?;
     warnings.extend(parts.iter().flat_map(|part| known::unusual(&part.measured, scenario)));
@@ -119,28 +125,34 @@ pub fn diagnose(
     let sessions: Vec<Vec<usize>> = parts.iter().map(|part| part.prepared.sessions.clone()).collect();
     let (candidates, own) = case::catalogue(&sources, options);
     let mut wider = Vec::new();
-    let mut case = Case::new(&sources, &sessions, (&candidates, own), options)?;
+    let pressures = Pressures { parts: &parts, sessions: &sessions, options };
+    let mut case =
+        Case::new(&sources, &sessions, (&candidates, own), options).map_err(|error| pressures.refusal(error))?;
     let [of_singles, of_pairs] = [[0.0, PAIRS], [PAIRS, 1.0]].map(|ends| ends.map(|end| end * DIAGNOSIS[0]));
     let singles = singles::fit_all(&mut case, &mut wider, &mut part(progress, of_singles));
     let case = case;
-    let runs = prepare::outlying_runs(case.dataset, &case.noise);
-    warnings.extend(runs.iter().map(|r| {
-        format!(
-            "run {} scatters {:.1} times as much as the others: look at it before believing anything",
-            r.run, r.scatter_ratio
-        )
-    }));
+    let runs = outlying_runs(case.dataset, &case.noise);
+    warnings.extend(runs.iter().map(OutlyingRun::words));
     warnings.extend(limits::warnings(&case));
-    let decision = decide(&case, singles, options, &mut part(progress, of_pairs))?;
+    let mut decision = decide(&case, singles, options, &mut part(progress, of_pairs))?;
+    let pressure_slip = pressures.found(&case, || Ok(decision.rivals()))?;
+    if pressure_slip.is_some() {
+        decision.withhold();
+    }
     warnings.extend(singles::left_out(&case, &decision.singles));
     let outliers = Outliers { runs, ..parts[0].prepared.outliers.clone() };
     progress("left-out data", Some(DIAGNOSIS[0]));
     let mut diagnosis = assemble(&case, &decision, outliers, warnings)?;
+    diagnosis.excluded = options.not.clone();
     diagnosis.evidence = evidence.iter().map(Used::of).collect::<Result<_, _>>()?;
     if first.about.as_ref().is_some_and(|a| a.gravity_direction.is_none()) {
         let words =
             "about.toml names no [gravity] direction: out of the question if the robot bends in a horizontal plane";
         diagnosis.ranked.iter_mut().filter(|r| r.effect == "gravity").for_each(|r| r.notes.push(words.into()));
+    }
+    diagnosis.slips = parts.iter().flat_map(|part| part.slips.clone()).collect();
+    if let Some(found) = pressure_slip {
+        return Ok(withheld(diagnosis, found, evidence));
     }
     diagnosis.kept_bending = kept_bending::kept_bending(&diagnosis, scenario, evidence, options)?;
     if options.next_experiment {
@@ -153,9 +165,21 @@ pub fn diagnose(
             diagnosis.warnings.push(format!("no missing moment is shown: {error}"));
         }
     }
-    diagnosis.slips = parts.iter().flat_map(|part| part.slips.clone()).collect();
     diagnosis.summary = story::story(&diagnosis);
     Ok(diagnosis)
+}
+
+/// A diagnosis whose verdict waits for a column of pressures; what its numbers alone look like is said once.
+fn withheld(mut diagnosis: Diagnosis, found: PressureSlipFound, evidence: &[Evidence]) -> Diagnosis {
+    let in_numbers: Vec<String> = evidence.iter().flat_map(|e| pressure_words(&e.dataset)).collect();
+    diagnosis.slips.retain(|slip| !in_numbers.contains(slip));
+    diagnosis.warnings.retain(|warning| !in_numbers.contains(warning));
+    diagnosis.slips.insert(0, found.words.clone());
+    diagnosis.warnings.insert(0, found.words.clone());
+    diagnosis.bending_alarm = None;
+    diagnosis.pressure_slip = Some(found);
+    diagnosis.summary = story::story(&diagnosis);
+    diagnosis
 }
 
 /// Every dataset made ready, without copies, and cautions.
@@ -190,21 +214,6 @@ fn parts(scenario: &Scenario, evidence: &[Evidence]) -> Result<(Vec<Part>, Vec<S
         parts.push(part);
     }
     Ok((parts, warnings))
-}
-
-fn check(options: &Options) -> Result<(), CompareError> {
-    let alpha = options.alpha;
-    if !(alpha > 0.0 && alpha < 1.0) {
-        let expected = "the significance level lies between 0 and 1";
-        return Err(CompareError::BadOption { name: "alpha", value: alpha, expected });
-    }
-    match options.tolerance_m {
-        Some(value) if !(value >= 0.0 && value.is_finite()) => {
-            let expected = "a length in metres, not negative";
-            Err(CompareError::BadOption { name: "tolerance_m", value, expected })
-        }
-        _ => Ok(()),
-    }
 }
 
 fn assemble(
@@ -265,9 +274,12 @@ fn assemble(
         outliers,
         undetectable,
         kept_bending: None,
+        bending_alarm: bending_alarm::bending_alarm(case, last),
+        excluded: Vec::new(),
         next_experiment: None,
         missing_moment: None,
         learned: None,
+        pressure_slip: None,
         slips: Vec::new(),
         warnings,
     })

@@ -1,5 +1,8 @@
 //! Settings of a diagnosis.
 
+use crate::error::CompareError;
+use models::Scenario;
+
 /// Settings of [`crate::diagnosis::diagnose`]; `Default` is what the command line uses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
@@ -13,6 +16,8 @@ pub struct Options {
     pub refit_present: bool,
     /// Keep the scenario's bending stiffness: it was measured separately.
     pub keep_bending: bool,
+    /// Effects that cannot be here, and [`PRESSURES_ARE_RIGHT`].
+    pub not: Vec<String>,
     /// Search pairs of effects when one is not enough.
     pub pairs: bool,
     /// Look for the next experiment.
@@ -23,6 +28,42 @@ pub struct Options {
     pub learn: bool,
 }
 
+/// What is said not to be here where the pressures are right although they look like a slip.
+pub const PRESSURES_ARE_RIGHT: &str = "pressure_slip";
+
+impl Options {
+    /// Whether something was said not to be here.
+    pub fn excludes(&self, name: &str) -> bool {
+        self.not.iter().any(|not| not == name)
+    }
+
+    /// Refuses what a diagnosis cannot do.
+    ///
+    /// # Errors
+    /// A number outside its range, an excluded effect that does not exist or that the scenario has.
+    pub fn check(&self, scenario: &Scenario) -> Result<(), CompareError> {
+        let alpha = self.alpha;
+        if !(alpha > 0.0 && alpha < 1.0) {
+            let expected = "the significance level lies between 0 and 1";
+            return Err(CompareError::BadOption { name: "alpha", value: alpha, expected });
+        }
+        if let Some(value) = self.tolerance_m.filter(|value| !(*value >= 0.0 && value.is_finite())) {
+            let expected = "a length in metres, not negative";
+            return Err(CompareError::BadOption { name: "tolerance_m", value, expected });
+        }
+        let catalogue = scenario.catalogue();
+        let names: Vec<&str> = catalogue.effects().map(|effect| effect.name).chain([PRESSURES_ARE_RIGHT]).collect();
+        if let Some(name) = self.not.iter().find(|name| !names.contains(&name.as_str())) {
+            return Err(CompareError::refused(format!("--not {name}: no such effect"), spelling::known(name, &names)));
+        }
+        if let Some(own) = scenario.effects.iter().find(|own| self.excludes(&own.name)) {
+            let message = format!("--not {}: the scenario has this effect", own.name);
+            return Err(CompareError::refused(message, "take it out of the scenario file"));
+        }
+        Ok(())
+    }
+}
+
 impl Default for Options {
     fn default() -> Self {
         Options {
@@ -31,6 +72,7 @@ impl Default for Options {
             tolerance_m: None,
             refit_present: false,
             keep_bending: false,
+            not: Vec::new(),
             pairs: true,
             next_experiment: true,
             missing_moment: true,

@@ -27,6 +27,16 @@ pub struct OutlyingRun {
     pub p_corrected: f64,
 }
 
+impl OutlyingRun {
+    /// What to do with it.
+    pub fn words(&self) -> String {
+        let OutlyingRun { run, scatter_ratio, .. } = self;
+        format!(
+            "run {run} scatters {scatter_ratio:.1} times as much as the others: look at it before believing anything"
+        )
+    }
+}
+
 /// How large an effect would have to be.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Undetectable {

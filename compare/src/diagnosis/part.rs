@@ -1,10 +1,10 @@
 //! One of the data of a diagnosis made ready, with the base as it was measured there.
 
-use super::prepare;
 use super::source::{Source, is_rolled};
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::gauge::Gauge;
+use crate::prepare::{Prepared, prepare};
 use crate::slips::slips;
 use crate::study::fit_scenario;
 use crate::study::predict::without_settled;
@@ -20,9 +20,9 @@ pub(super) fn contradicted<'m>(before: &[MeasuredValue], now: &'m [MeasuredValue
 /// One of the data made ready.
 pub(super) struct Part {
     pub scenario: Scenario,
-    pub prepared: prepare::Prepared,
+    pub prepared: Prepared,
     direct: Direct,
-    gauge: Option<Gauge>,
+    pub gauge: Option<Gauge>,
     pub bending_nm2: Option<[f64; 2]>,
     pub measured: Vec<MeasuredValue>,
     pub slips: Vec<String>,
@@ -35,7 +35,7 @@ impl Part {
         crate::layout::Layout::of(dataset)?;
         let (mut scenario, mut warnings) = fit_scenario(scenario, dataset, about)?;
         let slips = slips(dataset, &scenario.markers_m, scenario.radius_m);
-        let mut prepared = prepare::prepare(dataset, about);
+        let mut prepared = prepare(dataset, about);
         warnings.append(&mut prepared.warnings);
         let mut direct = about.map(|a| a.direct).unwrap_or_default();
         if direct.pressure && dataset.gauge_pa.is_some() {

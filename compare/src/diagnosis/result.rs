@@ -1,8 +1,10 @@
 //! What a diagnosis says: plain structs, printed units, no NaN.
 
+use super::bending_alarm::BendingAlarm;
 use super::fitted::{FittedBeside, GaugeFit};
 use super::learned::LearnedLaw;
 use super::outliers::{Outliers, Undetectable};
+use super::pressures::PressureSlipFound;
 use super::proposed::NextExperiment;
 use crate::evidence::Used;
 use crate::moment::MissingMoment;
@@ -310,6 +312,10 @@ pub struct Diagnosis {
     pub attempt_alike: Vec<AsClose>,
     /// The answer with the scenario's B, where with a fitted one there is none.
     pub kept_bending: Option<KeptBending>,
+    /// The stiffness of the answer is not the one that was told.
+    pub bending_alarm: Option<BendingAlarm>,
+    /// What was said not to be here.
+    pub excluded: Vec<String>,
     /// Lack of fit of the calibrated base.
     pub lack_of_fit_before: Option<LackOfFit>,
     /// Lack of fit of the final model.
@@ -334,6 +340,8 @@ pub struct Diagnosis {
     pub learned: Option<LearnedLaw>,
     /// What these data cannot show, whatever the model.
     pub limits: Vec<String>,
+    /// A slip of a pressure column that explains the data better than anything else: the verdict is withheld.
+    pub pressure_slip: Option<PressureSlipFound>,
     /// Cautions that come before the verdict: slips in the data, that no effect of a robot is. They are in `warnings` too.
     pub slips: Vec<String>,
     /// Cautions.

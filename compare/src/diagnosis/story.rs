@@ -11,6 +11,10 @@ use crate::wording::{list, p_value};
 /// What comes as close as an attempt is named up to that many; `diagnosis.json` has all.
 const MOST_AS_CLOSE: usize = 5;
 
+/// In place of a verdict on data with a slip of a pressure.
+const WITHHELD: &str = "No verdict on these pressures: to a model that is held against them every effect would look like one that makes up \
+                        for the slip. Mend the column and run the same again; if the pressures are right, say so with --not pressure_slip.";
+
 impl Diagnosis {
     /// The answer that hangs on B, if there is one, in words.
     pub fn told_of_kept_bending(&self) -> Option<String> {
@@ -25,6 +29,7 @@ pub fn story(d: &Diagnosis) -> Vec<String> {
     told.extend(d.gauges.iter().filter_map(gauge));
     told.extend(d.by_design.iter().map(|entry| by_design(d, entry)));
     told.extend(match d.verdict {
+        None if d.pressure_slip.is_some() => vec![WITHHELD.into()],
         None => ranking_only(d),
         Some(Verdict::None) => nothing(d),
         Some(Verdict::TooSmall) => vec![too_small(d)],
@@ -39,6 +44,10 @@ pub fn story(d: &Diagnosis) -> Vec<String> {
     }
     told.extend(d.learned.iter().flat_map(|law| law.sentences()));
     told.extend(d.learned.iter().map(|_| "`ibr add SCENARIO learned DATA` writes it as a formula of the scenario.".into()));
+    told.extend(d.bending_alarm.as_ref().map(|alarm| alarm.words.clone()));
+    if !d.excluded.is_empty() {
+        told.push(format!("Left out, because you said that it cannot be here: {}.", list(&d.excluded)));
+    }
     told.extend(d.next_experiment.as_ref().map(|next| next.sentence.clone()));
     told
 }

@@ -1,4 +1,4 @@
-//! Slips in a table of markers: another origin, exchanged labels, turned axes, another unit of length.
+//! Slips in a table of markers: another origin, exchanged labels, turned axes, another unit of length or pressure.
 //!
 //! A slip is no physics, and a diagnosis can only give it the name of some effect, or none. But it shows in geometry, before any
 //! model of the actuator: every robot of these stations is nearly *some* uniformly bent body (`arc`), and data with a slip
@@ -9,6 +9,7 @@
 mod arc;
 mod labels;
 mod origin;
+pub mod pressure;
 #[cfg(test)]
 mod tests;
 mod turned;
@@ -17,6 +18,7 @@ mod upside;
 use crate::wording::short;
 use arc::MarkedBody;
 use data::Dataset;
+use pressure::pressure_words;
 
 /// What is looked for, in this order: each sees the data with the slips before it undone.
 const SLIPS: [fn(&mut SlipSeen) -> Vec<String>; 4] = [turned::turned, upside::upside, labels::labels, origin::origin];
@@ -36,7 +38,8 @@ pub fn slips(dataset: &Dataset, stations_m: &[f64], radius_m: f64) -> Vec<String
     for [hold, marker] in &dataset.lost.unseen {
         seen.points.iter_mut().for_each(|run| run[*hold][*marker] = body.beside(dataset, *hold, &run[*hold], *marker));
     }
-    SLIPS.iter().flat_map(|slip| slip(&mut seen)).map(|words| format!("{}: {words}", dataset.name)).collect()
+    let geometric = SLIPS.iter().flat_map(|slip| slip(&mut seen)).map(|words| format!("{}: {words}", dataset.name));
+    geometric.chain(pressure_words(dataset)).collect()
 }
 
 fn points(dataset: &Dataset) -> Vec<Vec<Vec<[f64; 2]>>> {

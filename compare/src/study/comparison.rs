@@ -1,12 +1,16 @@
 //! Models held against one evidence: how far off, and where.
 
+use crate::diagnosis::{OutlyingRun, PressureSlipFound};
 use crate::error::CompareError;
 use crate::evaluate::{EvaluateOptions, Evaluation, evaluate};
 use crate::evidence::Evidence;
+use crate::prepare::{Prepared, outlying_runs, prepare};
+use crate::slips::pressure::pressure_words;
 use crate::slips::slips;
 use crate::study::calibrate::{Knob, calibrate};
 use crate::study::predict::{fit_scenario, predict_dataset};
 use crate::typed_effect::with_effect;
+use data::check::Outlier;
 use data::{About, Dataset};
 use models::Known;
 use models::Scenario;
@@ -79,7 +83,7 @@ impl Variant {
 /// The data, and one or more models on them.
 #[derive(Debug, Clone)]
 pub struct Comparison {
-    /// The data.
+    /// The data as they were compared: without copies of runs, strays replaced.
     pub dataset: Dataset,
     /// Their description.
     pub about: Option<About>,
@@ -90,6 +94,15 @@ pub struct Comparison {
 }
 
 impl Comparison {
+    /// Puts a slip of the pressures before all other cautions.
+    pub fn tell_first(&mut self, slip: Option<PressureSlipFound>) {
+        let in_numbers = pressure_words(&self.dataset);
+        if let Some(found) = slip {
+            self.warnings.retain(|warning| !in_numbers.contains(warning));
+            self.warnings.insert(0, found.words);
+        }
+    }
+
     /// Error beyond noise of the model given first \[mm\].
     pub fn error_mm(&self) -> f64 {
         self.variants.first().map_or(f64::NAN, Variant::error_mm)
@@ -114,14 +127,15 @@ pub fn compare_all(
     options: &EvaluateOptions,
     knob: Option<Knob>,
 ) -> Result<Comparison, CompareError> {
-    let Evidence { dataset, about, .. } = evidence;
-    let sessions = sessions(dataset, about.as_ref(), options);
-    let options = &EvaluateOptions { sessions, ..options.clone() };
-    let (mut variants, mut warnings) = (Vec::new(), Vec::new());
+    let Evidence { dataset: read, about, .. } = evidence;
+    let Prepared { dataset, sessions, outliers, warnings: told_of_data } = prepare(read, about.as_ref());
+    let sessions = if options.sessions.is_empty() { sessions } else { options.sessions.clone() };
+    let (dataset, options) = (&dataset, &EvaluateOptions { sessions, ..options.clone() });
+    let (mut variants, mut warnings) = (Vec::<Variant>::new(), Vec::new());
     for model in models {
         let (scenario, told) = fit_scenario(&model.scenario, dataset, about.as_ref())?;
         if variants.is_empty() {
-            warnings.extend(slips(dataset, &scenario.markers_m, scenario.radius_m));
+            warnings.extend(slips(read, &scenario.markers_m, scenario.radius_m));
             warnings.extend(told);
         }
         let evaluation = held(&scenario, dataset, options)?;
@@ -132,34 +146,21 @@ pub fn compare_all(
     if let Some(knob) = knob {
         variants.push(calibrated(&last.scenario, dataset, options, knob)?);
     }
-    warnings.extend(strays(evidence));
+    warnings.extend(told_of_data);
+    warnings.extend(strays(&outliers.samples, &evidence.name));
+    warnings.extend(variants.first().into_iter().flat_map(|v| {
+        outlying_runs(dataset, &v.evaluation.noise_model).iter().map(OutlyingRun::words).collect::<Vec<_>>()
+    }));
     Ok(Comparison { dataset: dataset.clone(), about: about.clone(), variants, warnings })
 }
 
-/// What to say of samples that are far from the other runs.
-fn strays(evidence: &Evidence) -> Option<String> {
-    let outliers = data::check(&evidence.dataset, evidence.about.as_ref()).outliers;
+/// Where the samples are that are far from the other runs.
+fn strays(outliers: &[Outlier], name: &str) -> Option<String> {
     let o = outliers.iter().max_by(|a, b| a.robust_z.total_cmp(&b.robust_z))?;
     Some(format!(
-        "{} samples are far from the other runs, first of all run {}, marker {} ({:+.1}, {:+.1} mm): \
-         look at `ibr data check {}`",
-        outliers.len(),
-        o.run,
-        o.marker,
-        o.dx_mm,
-        o.dy_mm,
-        evidence.name
+        "the farthest of them is of run {}, marker {} ({:+.1}, {:+.1} mm): look at `ibr data check {name}`",
+        o.run, o.marker, o.dx_mm, o.dy_mm
     ))
-}
-
-/// Session of every run: as given, else as `about.toml` labels them.
-fn sessions(dataset: &Dataset, about: Option<&About>, options: &EvaluateOptions) -> Vec<usize> {
-    let label = |run: &String| about?.runs.iter().find(|r| r.id == *run)?.session.clone();
-    let labels: Vec<Option<String>> = dataset.runs.iter().map(label).collect();
-    if !options.sessions.is_empty() || labels.iter().all(Option::is_none) {
-        return options.sessions.clone();
-    }
-    labels.iter().map(|l| labels.iter().position(|other| other == l).unwrap_or(0)).collect()
 }
 
 fn held(scenario: &Scenario, dataset: &Dataset, options: &EvaluateOptions) -> Result<Evaluation, CompareError> {

@@ -34,7 +34,7 @@ pub fn measure(sets: usize, seed: u64, machine: &str) -> Result<Findings, Error>
         ROBOTS.len(),
     );
     let json = json!({
-        "schema": "ibr.bench.discovery", "version": 1, "seed": seed, "sets": sets, "rows": bench.rows,
+        "schema": "ibr.bench.discovery", "version": 1, "seed": seed, "sets": sets, "rows": bench.rows, "slipped": bench.slipped,
         "confusion": bench.confusion, "breakdown": bench.breakdown, "attainable": bench.attainable,
         "missed_after": bench.missed_after, "missed_by_law": bench.missed_by_law,
         "made": bench.made, "seen": bench.seen, "failed": bench.failed, "time": {"machine": machine, "row": time},

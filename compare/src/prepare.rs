@@ -1,6 +1,6 @@
-//! The data as the fits see them: copies of runs left out, stray samples replaced, sessions named.
+//! The data as every comparison and every fit see them: copies of runs left out, stray samples replaced, sessions named.
 
-use super::outliers::{Outliers, OutlyingRun};
+use crate::diagnosis::{Outliers, OutlyingRun};
 use crate::directions::DirectionFit;
 use crate::noise::NoiseModel;
 use crate::policy;

@@ -1,0 +1,228 @@
+//! A slip of a pressure column, asked of the robot's own model before any verdict.
+//!
+//! ```text
+//! C = S + q ln n + Σ [(ln u / ln 3)²] + Σ [(ln B/B₀)² / s²]
+//! ```
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | S | whitened sum of squares of the base refitted to the data with the slip undone, or of an effect in the data as they are |
+//! | q, n, u | parameters added, values fitted, size over the typical one, as in `order`; a slip is exact and has none |
+//! | B, B₀, s | fitted and told stiffness; a factor of two is one standard deviation |
+//!
+//! A slip is told where its C is clearly below that of the base and of every effect and pair, and where it leaves less than half of
+//! their error, or nothing that matters. A base that fits with its own stiffness is asked nothing.
+
+use super::case::{Case, catalogue};
+use super::decide::decide;
+use super::options::{Options, PRESSURES_ARE_RIGHT};
+use super::order;
+use super::part::Part;
+use super::problem::Fit;
+use super::source::Source;
+use crate::error::CompareError;
+use crate::evidence::Evidence;
+use crate::policy;
+use crate::slips::pressure::PressureSlip;
+use data::Dataset;
+use models::Scenario;
+use serde::Serialize;
+
+/// A slip of a pressure column that withholds the verdict.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PressureSlipFound {
+    /// Name of the dataset.
+    pub dataset: String,
+    /// What it looks like, the evidence, what to type.
+    pub words: String,
+    /// Error beyond noise of the base with the pressures as they are written \[mm\].
+    pub before_mm: Option<f64>,
+    /// The same with the slip undone \[mm\].
+    pub after_mm: f64,
+    /// The best of the catalogue with the pressures as they are written: effects, and the error beyond noise that they leave \[mm\].
+    pub best_effect: Option<(String, f64)>,
+}
+
+/// What a hypothesis leaves, and what it costs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Weighed {
+    criterion: f64,
+    left_mm: f64,
+    /// Every fitted stiffness may be the one that was told.
+    has_its_stiffness: bool,
+}
+
+/// All data of a diagnosis.
+pub(super) struct Pressures<'p> {
+    pub parts: &'p [Part],
+    pub sessions: &'p [Vec<usize>],
+    pub options: &'p Options,
+}
+
+/// A slip undone, and the base then.
+struct Undone {
+    part: usize,
+    slip: PressureSlip,
+    weighed: Weighed,
+    /// The numbers alone look like it.
+    in_numbers: bool,
+}
+
+impl Pressures<'_> {
+    /// The slip that beats the base and all `rivals`, if there is one.
+    ///
+    /// # Errors
+    /// What the rivals return.
+    pub fn found(
+        &self,
+        case: &Case,
+        rivals: impl FnOnce() -> Result<Vec<Fit>, CompareError>,
+    ) -> Result<Option<PressureSlipFound>, CompareError> {
+        if self.options.excludes(PRESSURES_ARE_RIGHT) {
+            return Ok(None);
+        }
+        let own = weighed(case, &case.base);
+        let tolerance_mm = 1e3 * case.tolerance_m;
+        let fits = own.left_mm <= tolerance_mm && own.has_its_stiffness;
+        let Some(best) = self.best(fits).filter(|best| best.beats(&own, tolerance_mm)) else { return Ok(None) };
+        let rivals: Vec<(Weighed, Fit)> = rivals()?.into_iter().map(|fit| (weighed(case, &fit), fit)).collect();
+        if !rivals.iter().all(|(rival, _)| best.beats(rival, tolerance_mm)) {
+            return Ok(None);
+        }
+        let nearest = rivals.iter().min_by(|a, b| a.0.left_mm.total_cmp(&b.0.left_mm));
+        let best_effect = nearest.map(|(rival, fit)| (names(case, fit), rival.left_mm));
+        Ok(Some(self.told(&best, Some(own.left_mm), best_effect)))
+    }
+
+    /// What to say of data with which the base has no equilibrium: the slip without which it has one, else the error.
+    pub fn refusal(&self, error: CompareError) -> CompareError {
+        match (&error, self.instead()) {
+            (CompareError::Fit { .. } | CompareError::Unsolved(_), Some(found)) => {
+                CompareError::refused(found.words, "mend the column and run the same again")
+            }
+            _ => error,
+        }
+    }
+
+    fn instead(&self) -> Option<PressureSlipFound> {
+        let best = self.best(false)?;
+        let moved_mm = 1e3 * moved_m(&self.parts[best.part].prepared.dataset);
+        policy::is_mostly_gone(best.weighed.left_mm, moved_mm).then(|| self.told(&best, None, None))
+    }
+
+    /// The best of all slips; `in_numbers`: of those that the numbers alone look like.
+    fn best(&self, in_numbers: bool) -> Option<Undone> {
+        let all = (0..self.parts.len()).flat_map(|part| {
+            let Part { scenario, prepared, .. } = &self.parts[part];
+            PressureSlip::all(&prepared.dataset, scenario.p_body_pa).into_iter().map(move |slip| (part, slip))
+        });
+        let undone = |(part, slip): (usize, PressureSlip)| {
+            let Part { scenario, prepared, gauge, .. } = &self.parts[part];
+            let seen = slip.is_in_numbers(&prepared.dataset, scenario.p_body_pa);
+            // A body's slip shows in numbers; readings of a gauge are the actuator's own.
+            let possible = if slip.is_of_body() { seen } else { gauge.is_none() && (seen || !in_numbers) };
+            let weighed = possible.then(|| self.undone(part, &slip))??;
+            Some(Undone { part, slip, weighed, in_numbers: seen })
+        };
+        all.filter_map(undone).min_by(|a, b| a.weighed.criterion.total_cmp(&b.weighed.criterion))
+    }
+
+    /// The base refitted with a slip of one of the data undone; `None` without equilibrium.
+    fn undone(&self, part: usize, slip: &PressureSlip) -> Option<Weighed> {
+        let mended: Dataset = slip.undone(&self.parts[part].prepared.dataset);
+        let first = &self.parts[0].scenario;
+        let mut sources: Vec<Source> = self.parts.iter().map(|p| p.source(first)).collect();
+        sources[part].dataset = &mended;
+        let (candidates, own) = catalogue(&sources, self.options);
+        let case = Case::new(&sources, self.sessions, (&candidates[..own], own), self.options).ok()?;
+        Some(weighed(&case, &case.base))
+    }
+
+    fn told(
+        &self,
+        Undone { part, slip, weighed, .. }: &Undone,
+        before_mm: Option<f64>,
+        best_effect: Option<(String, f64)>,
+    ) -> PressureSlipFound {
+        let dataset = &self.parts[*part].prepared.dataset;
+        let (name, after_mm) = (dataset.name.clone(), weighed.left_mm);
+        let brings = match before_mm {
+            Some(before_mm) => format!("takes the error beyond noise from {before_mm:.1} to {after_mm:.2} mm"),
+            None => format!("leaves {after_mm:.2} mm, and without it the robot has no equilibrium"),
+        };
+        let effect = best_effect.as_ref().map_or(String::new(), |(names, left)| {
+            format!(" (the best of the catalogue, {names}, leaves {left:.2} mm)")
+        });
+        let words =
+            format!("{name}: {}: {} {brings}{effect}. Look at it first: {}", slip.looks(), slip.with(), slip.help());
+        PressureSlipFound { dataset: name, words, before_mm, after_mm, best_effect }
+    }
+}
+
+/// The slip of a pressure column with which the robot's own model explains data clearly better than without it, or than any
+/// effect of the catalogue does.
+///
+/// # Errors
+/// Scenario and data that do not fit together; pressures at which the robot has no equilibrium, with the slip that would explain it.
+pub fn pressure_slip(
+    scenario: &Scenario,
+    evidence: &Evidence,
+    options: &Options,
+) -> Result<Option<PressureSlipFound>, CompareError> {
+    let (part, _) = Part::of(scenario, evidence)?;
+    let parts = [part];
+    let sources = [parts[0].source(&parts[0].scenario)];
+    let sessions = [parts[0].prepared.sessions.clone()];
+    let (candidates, own) = catalogue(&sources, options);
+    let pressures = Pressures { parts: &parts, sessions: &sessions, options };
+    let case = Case::new(&sources, &sessions, (&candidates, own), options).map_err(|error| pressures.refusal(error))?;
+    pressures.found(&case, || Ok(decide(&case, options, &mut |_, _| ())?.rivals()))
+}
+
+impl Undone {
+    /// Whether it is clearly better than something else. It must pay: in mm, or by a stiffness that is the told one again. What
+    /// the numbers alone look like needs no more than to be as good.
+    fn beats(&self, rival: &Weighed, tolerance_mm: f64) -> bool {
+        let Weighed { criterion, left_mm, has_its_stiffness } = self.weighed;
+        let is_as_near = left_mm <= rival.left_mm.max(tolerance_mm);
+        let pays = policy::is_far_less(left_mm, rival.left_mm)
+            || is_as_near && (left_mm <= tolerance_mm || has_its_stiffness && !rival.has_its_stiffness);
+        match self.in_numbers {
+            true => is_as_near && policy::is_as_good(criterion, rival.criterion),
+            false => pays && policy::is_clearly_better(criterion, rival.criterion),
+        }
+    }
+}
+
+fn weighed(case: &Case, fit: &Fit) -> Weighed {
+    let bendings = &fit.theta()[..case.problem.bendings];
+    let told = case.scenario.bending_stiffness;
+    Weighed {
+        criterion: order::criterion(case, fit, 1.0) + bendings.iter().map(|b| oddness(case, *b)).sum::<f64>(),
+        left_mm: case.error_in_all_mm(fit),
+        has_its_stiffness: bendings.iter().all(|b| policy::is_same_stiffness(*b, told)),
+    }
+}
+
+/// How odd a stiffness is before any data; a bending test is among the squares already.
+fn oddness(case: &Case, bending: f64) -> f64 {
+    let told = case.scenario.bending_stiffness;
+    if told == 0.0 || case.problem.known_bending.is_some() {
+        return 0.0;
+    }
+    let size = (bending / told).clamp(1.0 / policy::ODDEST, policy::ODDEST);
+    (size.ln() / policy::SAME_STIFFNESS.ln()).powi(2)
+}
+
+fn names(case: &Case, fit: &Fit) -> String {
+    let added = fit.effects[case.always.len()..].iter().map(|e| case.candidate(*e).name.clone());
+    added.collect::<Vec<_>>().join(" + ")
+}
+
+/// Root mean square of how far the markers moved \[m\].
+fn moved_m(dataset: &Dataset) -> f64 {
+    let mean = dataset.mean_over_runs();
+    let hold = mean.len() / dataset.holds.len();
+    let squares: f64 = mean.iter().enumerate().map(|(i, v)| (v - mean[i % hold]).powi(2)).sum();
+    (squares / mean.len() as f64).sqrt()
+}

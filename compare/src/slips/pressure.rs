@@ -1,0 +1,257 @@
+//! Slips of a pressure column: another unit than its name says, body and actuator exchanged, absolute for gauge.
+//!
+//! Each is exact: a factor from a table of units, an exchange, the pressure of a room. It has no free number, which an effect that
+//! imitates it has. What numbers alone tell is here ([`by_numbers`]); whether a model fits once a slip is undone is asked by
+//! `diagnosis::pressures`.
+
+use crate::policy;
+use crate::wording::short;
+use data::{Dataset, Hold};
+
+/// A column of pressures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PressureColumn {
+    /// Of the actuator.
+    Actuator,
+    /// Of the body.
+    Body,
+}
+
+/// What may have happened to the pressures of a table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PressureSlip {
+    /// A column is in another unit than its name says.
+    Unit(PressureColumn, &'static WrongUnit),
+    /// Body and actuator are exchanged.
+    Exchanged,
+    /// A sensor of absolute pressure, in a room of this pressure \[Pa\].
+    Absolute(PressureColumn, f64),
+}
+
+/// A unit taken for another.
+#[derive(Debug, PartialEq)]
+pub struct WrongUnit {
+    /// What the numbers have to be multiplied by.
+    pub factor: f64,
+    /// What they are and what the column says.
+    words: &'static str,
+    /// Suffix of the name that the column should have, and of the one that it has.
+    suffixes: [&'static str; 2],
+}
+
+const PSI: f64 = 6.894_757;
+const INCH_OF_WATER: f64 = 0.249_089;
+
+/// Units of pressure gauges and loggers, taken for kilopascals and the other way round.
+const UNITS: [WrongUnit; 8] = [
+    WrongUnit { factor: PSI, words: "psi under a name of kPa", suffixes: ["psi", "kpa"] },
+    WrongUnit { factor: 1.0 / PSI, words: "kPa under a name of psi", suffixes: ["kpa", "psi"] },
+    WrongUnit { factor: 0.1, words: "mbar under a name of kPa", suffixes: ["mbar", "kpa"] },
+    WrongUnit { factor: 10.0, words: "kPa under a name of mbar", suffixes: ["kpa", "mbar"] },
+    WrongUnit { factor: 100.0, words: "bar under a name of kPa", suffixes: ["bar", "kpa"] },
+    WrongUnit { factor: 0.01, words: "kPa under a name of bar", suffixes: ["kpa", "bar"] },
+    WrongUnit { factor: INCH_OF_WATER, words: "inches of water under a name of kPa", suffixes: ["inh2o", "kpa"] },
+    WrongUnit { factor: 1.0 / INCH_OF_WATER, words: "kPa under a name of inches of water", suffixes: ["kpa", "inh2o"] },
+];
+
+const COLUMNS: [PressureColumn; 2] = [PressureColumn::Actuator, PressureColumn::Body];
+
+/// Air of a room at sea level \[Pa\].
+const ROOM_PA: f64 = 101_325.0;
+
+impl PressureColumn {
+    fn word(self) -> &'static str {
+        match self {
+            PressureColumn::Actuator => "actuator",
+            PressureColumn::Body => "body",
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            PressureColumn::Actuator => "p_act",
+            PressureColumn::Body => "p_body",
+        }
+    }
+
+    fn of(self, hold: &Hold) -> f64 {
+        match self {
+            PressureColumn::Actuator => hold.p_act_pa,
+            PressureColumn::Body => hold.p_body_pa,
+        }
+    }
+
+    fn of_mut(self, hold: &mut Hold) -> &mut f64 {
+        match self {
+            PressureColumn::Actuator => &mut hold.p_act_pa,
+            PressureColumn::Body => &mut hold.p_body_pa,
+        }
+    }
+}
+
+impl PressureSlip {
+    /// Every slip that data may have of a robot whose body is told to have a pressure \[Pa\].
+    pub fn all(dataset: &Dataset, body_pa: f64) -> Vec<PressureSlip> {
+        let units = COLUMNS.iter().flat_map(|column| UNITS.iter().map(|unit| PressureSlip::Unit(*column, unit)));
+        let absolute = COLUMNS.iter().filter_map(|column| {
+            let lowest = dataset.holds.iter().map(|hold| column.of(hold)).fold(f64::INFINITY, f64::min);
+            // An actuator is vented now and then, a body hardly ever.
+            let room_pa = if *column == PressureColumn::Body { lowest - body_pa } else { lowest };
+            policy::is_a_room(room_pa).then_some(PressureSlip::Absolute(*column, room_pa))
+        });
+        units.chain([PressureSlip::Exchanged]).chain(absolute).collect()
+    }
+
+    /// Whether the numbers alone look like it: of the body's column, those are the told pressure in the wrong unit \[Pa\].
+    pub fn is_in_numbers(&self, dataset: &Dataset, body_pa: f64) -> bool {
+        let is_told = |hold: &Hold| policy::is_same_ratio(hold.p_body_pa, body_pa);
+        if self.is_of_body() {
+            return !dataset.holds.iter().any(is_told) && self.undone(dataset).holds.iter().any(is_told);
+        }
+        by_numbers(dataset).iter().any(|seen| std::mem::discriminant(seen) == std::mem::discriminant(self))
+    }
+
+    /// The data with the slip undone.
+    pub fn undone(&self, dataset: &Dataset) -> Dataset {
+        let mut mended = dataset.clone();
+        for hold in &mut mended.holds {
+            match self {
+                PressureSlip::Unit(column, unit) => *column.of_mut(hold) *= unit.factor,
+                PressureSlip::Exchanged => std::mem::swap(&mut hold.p_act_pa, &mut hold.p_body_pa),
+                PressureSlip::Absolute(column, room_pa) => *column.of_mut(hold) -= room_pa,
+            }
+        }
+        mended
+    }
+
+    /// Whether it leaves the actuator's pressures as they are.
+    pub fn is_of_body(&self) -> bool {
+        matches!(self, PressureSlip::Unit(PressureColumn::Body, _) | PressureSlip::Absolute(PressureColumn::Body, _))
+    }
+
+    /// `the actuator pressures look as if they were psi under a name of kPa`.
+    pub fn looks(&self) -> String {
+        match self {
+            PressureSlip::Unit(column, unit) => {
+                format!("the {} pressures look as if they were {}", column.word(), unit.words)
+            }
+            PressureSlip::Exchanged => "the pressures of body and actuator look exchanged".into(),
+            PressureSlip::Absolute(column, _) => format!("the {} pressures look absolute", column.word()),
+        }
+    }
+
+    /// `6.895 times the numbers`.
+    pub fn with(&self) -> String {
+        match self {
+            PressureSlip::Unit(_, unit) => format!("{} times the numbers", (1e4 * unit.factor).round() / 1e4),
+            PressureSlip::Exchanged => "the two columns exchanged".into(),
+            PressureSlip::Absolute(_, room_pa) => format!("{} kPa taken off", short(1e-3 * room_pa)),
+        }
+    }
+
+    /// What to type.
+    pub fn help(&self) -> String {
+        match self {
+            PressureSlip::Unit(column, WrongUnit { suffixes: [right, wrong], .. }) => {
+                let name = column.name();
+                format!("if they are, name the column {name}_{right} in place of {name}_{wrong}")
+            }
+            PressureSlip::Exchanged => "if they are, exchange the names of the columns p_act and p_body".into(),
+            PressureSlip::Absolute(column, room_pa) => {
+                format!("if they are, subtract {} kPa from the column {}", short(1e-3 * room_pa), column.name())
+            }
+        }
+    }
+}
+
+/// What the numbers alone look like: a column that begins at the pressure of a room and never goes below it, an actuator that
+/// never has more than its body.
+pub fn by_numbers(dataset: &Dataset) -> Vec<PressureSlip> {
+    let Some(first) = dataset.holds.first() else { return Vec::new() };
+    let absolute = |column: &PressureColumn| {
+        let begins = column.of(first);
+        let above = dataset.holds.iter().all(|hold| policy::is_not_below(column.of(hold), begins));
+        let room_pa = if *column == PressureColumn::Body { begins.min(ROOM_PA) } else { begins };
+        (policy::is_a_room(begins) && above).then_some(PressureSlip::Absolute(*column, room_pa))
+    };
+    let highest = |column: PressureColumn| dataset.holds.iter().map(|hold| column.of(hold)).fold(0.0, f64::max);
+    let [act, body] = COLUMNS.map(highest);
+    let found: Vec<PressureSlip> = COLUMNS.iter().filter_map(absolute).collect();
+    match found.is_empty() && policy::is_never_above(act, body) {
+        true => vec![PressureSlip::Exchanged],
+        false => found,
+    }
+}
+
+/// The same in words.
+pub fn pressure_words(dataset: &Dataset) -> Vec<String> {
+    let told = |slip: &PressureSlip| {
+        let why = match slip {
+            PressureSlip::Absolute(column, _) => {
+                let begins = column.of(&dataset.holds[0]);
+                format!("they begin at {} kPa, the air of a room, and are never below it", short(1e-3 * begins))
+            }
+            _ => "the actuator never has more than the body".into(),
+        };
+        format!("{}: {}: {why}. Look at it first: {}", dataset.name, slip.looks(), slip.help())
+    };
+    by_numbers(dataset).iter().map(told).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn embedded(name: &str) -> Dataset {
+        data::load(name, &mut |_, _| {}).unwrap().0
+    }
+
+    const SETS: [&str; 10] = [
+        "synthetic-spam",
+        "synthetic-cpam",
+        "synthetic-epam",
+        "synthetic-fpam",
+        "synthetic-epam-two-bodies",
+        "fem-spam",
+        "fem-cpam",
+        "fem-epam",
+        "fem-fpam",
+        "jitosho-2023-arm",
+    ];
+
+    #[test]
+    fn right_pressures_look_like_no_slip() {
+        for name in SETS {
+            assert!(by_numbers(&embedded(name)).is_empty(), "{name}");
+        }
+    }
+
+    #[test]
+    fn exchanged_and_absolute_pressures_are_seen_in_the_numbers_alone() {
+        for name in SETS {
+            let right = embedded(name);
+            assert_eq!(by_numbers(&PressureSlip::Exchanged.undone(&right)), [PressureSlip::Exchanged], "{name}");
+            for column in COLUMNS {
+                let absolute = PressureSlip::Absolute(column, -ROOM_PA).undone(&right);
+                let [PressureSlip::Absolute(found, room_pa)] = by_numbers(&absolute)[..] else { panic!("{name}") };
+                assert!(found == column && (room_pa - ROOM_PA).abs() < 1.0, "{name} {room_pa}");
+                let told = pressure_words(&absolute).concat();
+                assert!(told.contains("subtract 10") && told.contains(column.name()), "{told}");
+            }
+        }
+    }
+
+    #[test]
+    fn undoing_a_slip_brings_the_pressures_back_and_nothing_else_moves() {
+        let right = embedded("synthetic-epam");
+        for slip in PressureSlip::all(&right, 2e3) {
+            let PressureSlip::Unit(column, unit) = slip else { continue };
+            let mended = slip.undone(&right);
+            assert_eq!(mended.xy_m, right.xy_m);
+            for (hold, before) in mended.holds.iter().zip(&right.holds) {
+                assert_eq!(column.of(hold), unit.factor * column.of(before));
+            }
+            assert!(UNITS.iter().any(|other| (other.factor * unit.factor - 1.0).abs() < 1e-12), "{unit:?}");
+        }
+    }
+}
