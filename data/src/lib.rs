@@ -16,6 +16,7 @@ pub mod import;
 mod lines;
 pub mod load;
 mod lost;
+mod placeholders;
 mod plausible;
 mod policy;
 pub mod published;

@@ -36,6 +36,8 @@ pub const LATEST_START_S: f64 = 3600.0;
 pub const PATIENT_S: f64 = 1000.0;
 /// A marker seen in less than this share of a hold's usual number of frames was lost there.
 pub const SEEN_ENOUGH: f64 = 0.5;
+/// A place that is farther from all others of a marker is none of its own \[m\].
+pub const ELSEWHERE_M: f64 = 0.01;
 /// Robust z above which a sample is listed.
 pub const OUTLIER_Z: f64 = 6.0;
 /// Deviations below this are never outliers: far below any camera \[m\].
@@ -67,6 +69,11 @@ pub fn tolerance_body_pa(mean_pa: f64) -> f64 {
     (SAME_PRESSURE * mean_pa).max(SAME_BODY_PA)
 }
 
+/// Whether a place so far from another of the same marker is elsewhere \[m\].
+pub fn is_elsewhere(distance_m: f64) -> bool {
+    distance_m > ELSEWHERE_M
+}
+
 /// Whether a stream with so many holds, in a file with so many in all, may not have one more.
 pub fn is_full(holds: usize, in_all: usize) -> bool {
     holds >= MOST_HOLDS || in_all >= MOST_SERIES
@@ -74,7 +81,7 @@ pub fn is_full(holds: usize, in_all: usize) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::is_full;
+    use super::{is_elsewhere, is_full};
 
     #[test]
     fn a_thousand_holds_are_read_of_a_stream_and_a_million_of_a_file() {
@@ -82,5 +89,10 @@ mod tests {
             [(999, 5), (1000, 5), (5, 999_999), (5, 1_000_000)].map(|(own, all)| is_full(own, all)),
             [false, true, false, true]
         );
+    }
+
+    #[test]
+    fn a_marker_is_elsewhere_beyond_a_centimetre() {
+        assert_eq!([9e-3, 11e-3].map(is_elsewhere), [false, true]);
     }
 }

@@ -89,8 +89,10 @@ pub fn parse_markers(
         cells.split(&line)?;
         match kind.accept(cells.actuator(&line)?) {
             Verdict::Take if cells.is_lost() => recorder.lost_frames += 1,
-            Verdict::Take if cells.is_zero() && !sits_at_base(&cells, options.about) => recorder.zero_rows += 1,
-            Verdict::Take => recorder.add(&cells, &line)?,
+            Verdict::Take => match cells.placeholder().filter(|_| !sits_at_base(&cells, options.about)) {
+                Some(words) => recorder.placeholders.note(words, 1, line.number),
+                None => recorder.add(&cells, &line)?,
+            },
             Verdict::Skip => {}
             Verdict::Mixed(message, help) => {
                 return Err(DataError::Runs(cells.cell_fault(&line, ACTUATOR, message, help)));
@@ -98,8 +100,9 @@ pub fn parse_markers(
         }
     }
     if recorder.streams.is_empty() {
-        return Err(no_rows(file, &kind, recorder.lost_frames + recorder.zero_rows));
+        return Err(no_rows(file, &kind, recorder.lost_frames + recorder.placeholders.rows()));
     }
+    recorder.placeholders.take_out_shared(&mut recorder.streams);
     let told = told(&cells, &recorder)?;
     check_kept(file, &recorder)?;
     check_units(&cells, &recorder)?;
@@ -129,21 +132,7 @@ pub(crate) const ABSOLUTE_PA: std::ops::Range<f64> = 85e3..115e3;
 /// What was assumed on reading, in words.
 fn told(cells: &RowReader, recorder: &Recorder) -> Result<Vec<String>, DataError> {
     let mut told = cells.told()?;
-    if recorder.zero_rows > 0 {
-        told.push(format!(
-            "{} rows have a marker at exactly 0, 0: taken as not seen (a marker at the base needs its station there in about.toml)",
-            recorder.zero_rows
-        ));
-    }
-    if let Some([body, act]) =
-        recorder.extremes.lowest_pa.filter(|lowest| lowest.iter().all(|p| ABSOLUTE_PA.contains(p)))
-    {
-        told.push(format!(
-            "pressures are never below {:.1} kPa (actuator) and {:.1} kPa (body): if the sensors read absolute pressure, take the room's off",
-            act / 1e3,
-            body / 1e3
-        ));
-    }
+    told.extend(recorder.placeholders.told());
     Ok(told)
 }
 

@@ -37,6 +37,19 @@ pub(crate) struct RowReader {
     duration: Option<String>,
 }
 
+/// Numbers that stand for no position where both x and y have them. No camera sees a marker at one of them to the last digit.
+const PLACEHOLDERS: [(f64, &str); 9] = [
+    (0.0, "0, 0"),
+    (-1.0, "-1, -1"),
+    (999.0, "999, 999"),
+    (-999.0, "-999, -999"),
+    (9999.0, "9999, 9999"),
+    (-9999.0, "-9999, -9999"),
+    (99999.0, "99999, 99999"),
+    (-99999.0, "-99999, -99999"),
+    (65535.0, "65535, 65535"),
+];
+
 /// Words for seconds behind a time.
 const SECONDS: [&str; 4] = ["seconds", "secs", "sec", "s"];
 
@@ -142,13 +155,15 @@ impl RowReader {
         [X, Y].iter().all(|axis| is_nothing(self.text(*axis)))
     }
 
-    /// Whether it has its marker at exactly 0, 0, as some programs write a marker that was not seen.
-    pub fn is_zero(&self) -> bool {
-        let zero = |axis: usize| {
-            let text = self.text(axis);
-            text.starts_with(['0', '-', '.']) && text.parse() == Ok(0.0)
-        };
-        zero(X) && zero(Y)
+    /// What stands in the place of a position that was not seen, as some programs write it: 0, 0 or -1, -1 or 9999, 9999.
+    pub fn placeholder(&self) -> Option<&'static str> {
+        let (x, y) = (self.text(X), self.text(Y));
+        // Most positions begin with another digit.
+        if !x.starts_with(['0', '-', '.', '9', '6']) {
+            return None;
+        }
+        let (x, y) = (x.parse::<f64>().ok()?, y.parse::<f64>().ok()?);
+        PLACEHOLDERS.iter().find(|(value, _)| x == *value && y == *value).map(|(_, words)| *words)
     }
 
     /// The cell of the `marker` column.

@@ -9,6 +9,7 @@ use crate::dataset::Phase;
 use crate::error::{DataError, Fault};
 use crate::header::{MARKER, P_ACT, P_BODY, RUN, STATION, TIME};
 use crate::lines::{KeptLine, Line};
+use crate::placeholders::Placeholders;
 use crate::policy::{self, tolerance_act_pa, tolerance_body_pa};
 use crate::rows::{Row, RowReader};
 
@@ -27,6 +28,11 @@ pub(crate) struct Sample {
 }
 
 impl Sample {
+    /// Mean position \[m\].
+    pub fn place(&self) -> [f64; 2] {
+        [self.x_m, self.y_m].map(|sum| sum / self.count.max(1) as f64)
+    }
+
     pub fn add(&mut self, other: Sample) {
         self.count += other.count;
         self.t_s += other.t_s;
@@ -108,6 +114,19 @@ impl Segment {
         one.samples.into_iter().for_each(|sample| self.push(sample));
         let below = self.below_zero.iter_mut().zip(one.below_zero);
         below.for_each(|(own, other)| *own = own.take().or(other));
+    }
+
+    /// Takes samples out, and says how many rows they were.
+    pub fn take_out(&mut self, is_out: impl Fn(&Sample) -> bool) -> u64 {
+        let gone: u64 = self.samples.iter().filter(|sample| is_out(sample)).map(|sample| sample.count).sum();
+        if gone > 0 {
+            // Pressures stay what they are on average.
+            let left = (self.rows - gone) as f64 / self.rows as f64;
+            (self.p_body_sum, self.p_act_sum) = (left * self.p_body_sum, left * self.p_act_sum);
+            self.rows -= gone;
+            self.samples.retain(|sample| !is_out(sample));
+        }
+        gone
     }
 
     fn add(&mut self, row: &Row) {
@@ -204,8 +223,8 @@ pub(crate) struct Recorder {
     pub first_row: Option<KeptLine>,
     /// Rows without a position.
     pub lost_frames: u64,
-    /// Rows of a marker at exactly 0, 0 that has no place there.
-    pub zero_rows: u64,
+    /// Rows with a marker at a place that stands for none.
+    pub placeholders: Placeholders,
     by_pair: HashMap<(usize, usize), usize>,
     series: usize,
 }
@@ -218,8 +237,6 @@ pub(crate) struct Extremes {
     pub station_m: f64,
     pub p_body_pa: f64,
     pub p_act_pa: f64,
-    /// Lowest pressures of body and actuator.
-    pub lowest_pa: Option<[f64; 2]>,
     /// There is a column of gauge readings.
     pub gauge: bool,
 }
@@ -316,8 +333,6 @@ impl Extremes {
         widen(&mut self.station_m, row.station_m.unwrap_or(0.0));
         widen(&mut self.p_body_pa, row.p_body_pa);
         widen(&mut self.p_act_pa, row.p_act_pa);
-        let [body, act] = self.lowest_pa.unwrap_or([f64::INFINITY; 2]);
-        self.lowest_pa = Some([body.min(row.p_body_pa), act.min(row.p_act_pa)]);
         self.gauge |= row.gauge_pa.is_some();
     }
 }

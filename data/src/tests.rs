@@ -6,6 +6,7 @@ mod boundaries;
 mod checks;
 mod good_input;
 mod lost;
+mod placeholders;
 mod writing;
 
 use crate::{DataError, Dataset, ReadOptions, parse_markers};

@@ -1,0 +1,99 @@
+//! Positions that stand for none: a tracking program writes them where a marker was not seen.
+//!
+//! Some are known by their numbers (`rows::PLACEHOLDERS`). Any other is known by two markers that were seen there to the last digit,
+//! far from where both were else: no camera sees two markers at one place.
+
+use crate::policy;
+use crate::streams::{Segment, Stream};
+use crate::units::mm;
+
+/// A place, to the last digit.
+type Place = [u64; 2];
+
+/// Rows that were taken as not seen.
+#[derive(Debug, Default)]
+pub(crate) struct Placeholders(Vec<Placeholder>);
+
+#[derive(Debug)]
+struct Placeholder {
+    words: String,
+    rows: u64,
+    first_line: u64,
+}
+
+impl Placeholders {
+    /// Counts rows that have the position in words.
+    pub fn note(&mut self, words: &str, rows: u64, line: u64) {
+        match self.0.iter_mut().find(|known| known.words == words) {
+            Some(known) => {
+                known.rows += rows;
+                known.first_line = known.first_line.min(line);
+            }
+            None => self.0.push(Placeholder { words: words.into(), rows, first_line: line }),
+        }
+    }
+
+    /// Rows of all of them.
+    pub fn rows(&self) -> u64 {
+        self.0.iter().map(|known| known.rows).sum()
+    }
+
+    /// What was assumed, in words.
+    pub fn told(&self) -> Vec<String> {
+        let told = |Placeholder { words, rows, first_line }: &Placeholder| {
+            format!(
+                "{rows} rows have a marker at exactly {words}, first in line {first_line}: taken as not seen (a marker at the base \
+                 needs its station there in about.toml)"
+            )
+        };
+        self.0.iter().map(told).collect()
+    }
+
+    /// Takes out what two markers share to the last digit, far from where both are else.
+    pub fn take_out_shared(&mut self, streams: &mut [Stream]) {
+        for place in shared(streams) {
+            let [x_mm, y_mm] = place.map(|bits| mm(f64::from_bits(bits)));
+            for segment in streams.iter_mut().flat_map(|stream| &mut stream.segments) {
+                let rows = segment.take_out(|sample| is_at(sample.place(), place));
+                if rows > 0 {
+                    self.note(&format!("{x_mm}, {y_mm} mm"), rows, segment.first_line);
+                }
+            }
+        }
+        streams.iter_mut().for_each(|stream| stream.segments.retain(|segment| !segment.samples.is_empty()));
+    }
+}
+
+fn is_at(place: [f64; 2], other: Place) -> bool {
+    place.map(f64::to_bits) == other
+}
+
+/// Places that stood still in the streams of two markers or more, and are far from all others of each.
+fn shared(streams: &[Stream]) -> Vec<Place> {
+    let mut still: Vec<(Place, usize)> = Vec::new();
+    for stream in streams {
+        still.extend(stream.segments.iter().flat_map(stood_still).map(|place| (place, stream.marker)));
+    }
+    still.sort_unstable();
+    still.dedup();
+    let of_one_place = still.chunk_by(|a, b| a.0 == b.0).filter(|markers| markers.len() > 1);
+    let far = |markers: &&[(Place, usize)]| markers.iter().all(|(place, marker)| is_far(streams, *marker, *place));
+    of_one_place.filter(far).map(|markers| markers[0].0).collect()
+}
+
+/// Places of which a segment has two samples in a row, or its only one.
+fn stood_still(segment: &Segment) -> Vec<Place> {
+    let places: Vec<Place> = segment.samples.iter().map(|sample| sample.place().map(f64::to_bits)).collect();
+    match places[..] {
+        [only] => vec![only],
+        _ => places.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect(),
+    }
+}
+
+/// Whether a marker was nowhere near a place but at it.
+fn is_far(streams: &[Stream], marker: usize, place: Place) -> bool {
+    let [x, y] = place.map(f64::from_bits);
+    let own = streams.iter().filter(|stream| stream.marker == marker).flat_map(|stream| &stream.segments);
+    let others = own.flat_map(|segment| &segment.samples).map(|sample| sample.place()).filter(|p| !is_at(*p, place));
+    others.map(|p| (p[0] - x).hypot(p[1] - y)).all(policy::is_elsewhere)
+}
