@@ -10,7 +10,7 @@
 //! | `s_mm` (optional) | station of the marker on the undeformed body |
 //! | `p_gauge_kpa` (optional) | reading of a gauge at the actuator, where `p_act_kpa` is what was set |
 //!
-//! Other units by suffix: mm, cm, m; kPa, Pa, MPa, psi, bar; s, ms, min. `y_down_mm` means −y. Extra columns are ignored.
+//! Other units by suffix: mm, cm, m; kPa, Pa, MPa, psi, bar, mbar, inH2O; s, ms, min. `y_down_mm` means −y. Extra columns are ignored.
 //! Rows belong to **steady** pressures; a new hold begins when the phase changes or a pressure departs from the mean of
 //! the hold by more than max(0.5 kPa, 5 %) (actuator) or max(0.2 kPa, 5 %) (body).
 

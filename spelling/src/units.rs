@@ -91,6 +91,9 @@ pub const UNITS: &[Unit] = &[
     // 1 psi = 1 lbf/in² (NIST SP 811, B.8).
     Unit::new("psi", Dimension::PRESSURE, 6_894.757_293_168, 1.0),
     Unit::new("bar", Dimension::PRESSURE, 1e5, 1.0),
+    Unit::new("mbar", Dimension::PRESSURE, 1e2, 1.0),
+    // Conventional inch of water (NIST SP 811, B.8).
+    Unit::new("inH2O", Dimension::PRESSURE, 249.088_91, 1.0),
     Unit::new("s", Dimension::TIME, 1.0, 1.0),
     Unit::new("ms", Dimension::TIME, 1.0, 1e3),
     Unit::new("min", Dimension::TIME, 60.0, 1.0),

@@ -1,4 +1,5 @@
-//! Columns of pressures that were written wrongly: ten kinds on each robot, without any hidden effect.
+//! Columns of pressures that were written wrongly, ten kinds on each robot, and placeholders where markers were lost; without any
+//! hidden effect.
 
 use super::cases::about;
 use super::row::{Goal, Rate};
@@ -8,7 +9,7 @@ use crate::{Draw, Truth};
 use compare::Evidence;
 use compare::diagnosis::Options;
 use compare::error::CompareError;
-use data::Hold;
+use data::{Dataset, Hold};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -29,8 +30,12 @@ const KINDS: [(&str, Spoil); 10] = [
     ("exchanged", |hold| std::mem::swap(&mut hold.p_act_pa, &mut hold.p_body_pa)),
 ];
 
+/// What programs write for x and y of a marker that was not seen.
+const PLACEHOLDERS: [(&str, &str); 4] =
+    [("0, 0", "0,0"), ("-1, -1", "-1,-1"), ("9999, 9999", "9999,9999"), ("a corner of the picture", "613.25,-207.5")];
+
 /// Sets of a round: every kind on every robot.
-pub(super) const SETS: usize = KINDS.len() * ROBOTS.len();
+pub(super) const SETS: usize = (KINDS.len() + PLACEHOLDERS.len()) * ROBOTS.len();
 /// Keeps their streams apart from those of the other parts.
 const STREAM: u64 = 100 << 32;
 
@@ -39,6 +44,8 @@ const STREAM: u64 = 100 << 32;
 pub struct SlippedSet {
     /// What stands in the column.
     pub kind: &'static str,
+    /// It is of a column of pressures, else a placeholder.
+    pub is_column: bool,
     /// Robot, noise and runs.
     pub truth: Truth,
     /// It was told as a slip of the pressures.
@@ -53,8 +60,9 @@ pub struct SlippedSet {
 pub fn slipped(options: &DiscoveryOptions, diagnose: Diagnoser, failed: &mut Vec<String>) -> Vec<SlippedSet> {
     let count = SETS * options.sets.div_ceil(100);
     let one = |index: usize| {
-        let (kind, spoil) = KINDS[index / ROBOTS.len() % KINDS.len()];
-        one(options.seed, index, spoil, diagnose, kind).map_err(|error| format!("{kind}: {error}"))
+        let kind = index / ROBOTS.len() % (SETS / ROBOTS.len());
+        let name = KINDS.get(kind).map_or_else(|| PLACEHOLDERS[kind - KINDS.len()].0, |(name, _)| name);
+        one(options.seed, index, kind, diagnose, name).map_err(|error| format!("{name}: {error}"))
     };
     let made: Vec<Result<SlippedSet, String>> = (0..count).into_par_iter().map(one).collect();
     made.into_iter().filter_map(|made| made.map_err(|error| failed.push(error)).ok()).collect()
@@ -64,32 +72,71 @@ pub fn slipped(options: &DiscoveryOptions, diagnose: Diagnoser, failed: &mut Vec
 fn one(
     seed: u64,
     index: usize,
-    spoil: Spoil,
+    kind: usize,
     diagnose: Diagnoser,
-    kind: &'static str,
+    name: &'static str,
 ) -> Result<SlippedSet, CompareError> {
     let truth = Truth::draw(ROBOTS[index % ROBOTS.len()].0, &mut Draw::new(seed, STREAM + index as u64))?;
-    let mut data = truth.dataset("slipped", &standard_protocol())?;
-    data.holds.iter_mut().for_each(spoil);
+    let right = truth.dataset("slipped", &standard_protocol())?;
+    let is_column = kind < KINDS.len();
+    let data = if is_column {
+        with_slip(right, KINDS[kind].1)
+    } else {
+        read_with(&right, PLACEHOLDERS[kind - KINDS.len()].1)?
+    };
+    let words = (!is_column).then(|| data::losses(&data).join(" ")).filter(|words| words.contains("taken as not seen"));
     let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     let evidence = [Evidence::of(data, Some(about(&truth)?))];
     let (words, named) = match diagnose(&truth.told()?, &evidence, &options, &mut |_, _| ()) {
         Ok(found) => {
-            (found.pressure_slip.map(|slip| slip.words), found.added.into_iter().map(|added| added.effect).collect())
+            let named = found.added.into_iter().map(|added| added.effect).collect();
+            (words.or(found.pressure_slip.map(|slip| slip.words)), named)
         }
         Err(CompareError::Refused { message, .. }) => (Some(message), Vec::new()),
         Err(error) => return Err(error),
     };
-    Ok(SlippedSet { kind, truth, told: words.is_some(), words, named })
+    Ok(SlippedSet { kind: name, is_column, truth, told: words.is_some(), words, named })
+}
+
+fn with_slip(mut data: Dataset, spoil: Spoil) -> Dataset {
+    data.holds.iter_mut().for_each(spoil);
+    data
+}
+
+/// The data as they are read from a table in which one marker in twenty has the placeholder for a hold.
+fn read_with(right: &Dataset, placeholder: &str) -> Result<Dataset, CompareError> {
+    let mut table = Vec::new();
+    data::write_markers_csv(right, &mut table)?;
+    let text = String::from_utf8_lossy(&table);
+    let mut lines = text.lines();
+    let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    let at = |name: &str| header.iter().position(|column| *column == name).unwrap_or(0);
+    let [run, pressure, marker, x] = ["run", "p_act_kpa", "marker", "x_mm"].map(at);
+    let spoiled = |line: &str| {
+        let mut cells: Vec<&str> = line.split(',').collect();
+        let number = |cell: usize| cells[cell].parse::<f64>().unwrap_or(0.0) as usize;
+        let is_lost = (7 * number(run) + 3 * number(marker) + number(pressure) / 10).is_multiple_of(20);
+        if is_lost {
+            cells.splice(x..x + 2, [placeholder]);
+        }
+        cells.join(",") + "\n"
+    };
+    let table: String = std::iter::once(header.join(",") + "\n").chain(lines.map(spoiled)).collect();
+    Ok(data::parse_markers("slipped.csv", &mut table.as_bytes(), data::ReadOptions::default(), &mut |_, _| ())?)
 }
 
 /// Their rows of the table.
 pub(super) fn rows(sets: &[SlippedSet]) -> Vec<Rate> {
-    let share = |figure, target, hit: fn(&SlippedSet) -> bool| {
-        Rate::share("a column of pressures written wrongly", figure, target, &sets.iter().map(hit).collect::<Vec<_>>())
+    let (columns, placeholders): (Vec<&SlippedSet>, Vec<&SlippedSet>) = sets.iter().partition(|set| set.is_column);
+    let share = |case, figure, target, sets: &[&SlippedSet], hit: fn(&SlippedSet) -> bool| {
+        Rate::share(case, figure, target, &sets.iter().map(|set| hit(set)).collect::<Vec<_>>())
     };
+    let is_named = |set: &SlippedSet| !set.named.is_empty();
+    let (column, place) = ("a column of pressures written wrongly", "placeholders for lost markers");
     vec![
-        share("told as a slip", Goal::AtLeast(0.9), |set| set.told),
-        share("an effect named", Goal::AtMost(0.0), |set| !set.named.is_empty()),
+        share(column, "told as a slip", Goal::AtLeast(0.9), &columns, |set| set.told),
+        share(column, "an effect named", Goal::AtMost(0.0), &columns, is_named),
+        share(place, "told as not seen", Goal::AtLeast(0.9), &placeholders, |set| set.told),
+        share(place, "an effect named", Goal::AtMost(0.05), &placeholders, is_named),
     ]
 }
