@@ -3,7 +3,7 @@
 use super::diagnosis::is_told;
 use crate::tables::{number, table};
 use compare::diagnosis::words::{listed, three, with_unit};
-use compare::diagnosis::{Combination, Diagnosis, Experiment, Group, Ranked, Verdict};
+use compare::diagnosis::{Combination, Diagnosis, Experiment, Group, Ranked};
 use compare::study::engines::TERMS;
 use compare::witness::{HEIGHTS, Witness};
 

@@ -120,12 +120,11 @@ pub fn moments(
 ) -> Result<(), CompareError> {
     let seen = seen(case)?;
     let mut shown = missing_moment(case, &seen, decision, found)?;
-    if options.learn || found.verdict == Some(Verdict::OutOfCatalog) {
-        if let Some((law, curves)) = learn(case, &seen, made, options, found, &shown.points)? {
+    if (options.learn || found.verdict == Some(Verdict::OutOfCatalog))
+        && let Some((law, curves)) = learn(case, &seen, made, options, found, &shown.points)? {
             shown.curves.extend(curves);
             found.learned = Some(law);
         }
-    }
     if options.missing_moment {
         found.missing_moment = Some(shown);
     }
@@ -214,9 +213,7 @@ fn material(case: &Case, seen: &[Seen]) -> Result<Material, CompareError> {
             let at = seen.shape.division.places[place];
             let theta = p.kappa * robot.actuator.shape.length_m;
             let s = 0.5 * (at.from_m + at.to_m);
-            places.push([
-                p.kappa, theta, p.p_act_pa, p.p_body_pa, s, robot.radius_m, robot.bending_stiffness, pull,
-            ]);
+            places.push([p.kappa, theta, p.p_act_pa, p.p_body_pa, s, robot.radius_m, robot.bending_stiffness, pull]);
             moments.push(p.moment);
         }
         parts.push(DMatrix::from_fn(rows.len(), rows.len(), |i, j| seen.moments.covariance[(rows[i], rows[j])]));

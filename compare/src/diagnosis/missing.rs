@@ -77,7 +77,11 @@ impl Seen {
     ///
     /// # Errors
     /// Pressures or times that are refused.
-    pub fn missing(&self, block: &Block, change: &dyn Fn(&Scenario) -> Scenario) -> Result<Vec<Vec<f64>>, CompareError> {
+    pub fn missing(
+        &self,
+        block: &Block,
+        change: &dyn Fn(&Scenario) -> Scenario,
+    ) -> Result<Vec<Vec<f64>>, CompareError> {
         let other: Vec<Scenario> = self.base.iter().map(change).collect();
         let robot = Robot { scenarios: &other, of_hold: &self.of_hold };
         missing(&view(block, &other[0]), &self.shape, &robot, &self.shape.bends())

@@ -19,6 +19,7 @@ use super::options::{Options, PRESSURES_ARE_RIGHT};
 use super::order;
 use super::part::Part;
 use super::problem::Fit;
+use super::singles::fit_all;
 use super::source::Source;
 use crate::error::CompareError;
 use crate::evidence::Evidence;
@@ -176,7 +177,13 @@ pub fn pressure_slip(
     let (candidates, own) = catalogue(&sources, options);
     let pressures = Pressures { parts: &parts, sessions: &sessions, options };
     let case = Case::new(&sources, &sessions, (&candidates, own), options).map_err(|error| pressures.refusal(error))?;
-    pressures.found(&case, || Ok(decide(&case, options, &mut |_, _| ())?.rivals()))
+    let rivals = || {
+        let mut wider = Vec::new();
+        let mut case = Case::new(&sources, &sessions, (&candidates, own), options)?;
+        let singles = fit_all(&mut case, &mut wider, &mut |_, _| ());
+        Ok(decide(&case, singles, options, &mut |_, _| ())?.rivals())
+    };
+    pressures.found(&case, rivals)
 }
 
 impl Undone {

@@ -43,7 +43,9 @@ pub fn story(d: &Diagnosis) -> Vec<String> {
         ));
     }
     told.extend(d.learned.iter().flat_map(|law| law.sentences()));
-    told.extend(d.learned.iter().map(|_| "`ibr add SCENARIO learned DATA` writes it as a formula of the scenario.".into()));
+    told.extend(
+        d.learned.iter().map(|_| "`ibr add SCENARIO learned DATA` writes it as a formula of the scenario.".into()),
+    );
     told.extend(d.bending_alarm.as_ref().map(|alarm| alarm.words.clone()));
     if !d.excluded.is_empty() {
         told.push(format!("Left out, because you said that it cannot be here: {}.", list(&d.excluded)));

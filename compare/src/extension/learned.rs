@@ -43,7 +43,9 @@ pub(super) fn learned(file: &ScenarioFile, found: &Diagnosis) -> Result<Extensio
     let bending = bending.and_then(|b| ground.new_bending(b));
     let mut warnings = ground.warnings();
     if !law.heldout_after_mm.zip(law.heldout_before_mm).is_some_and(|(after, before)| policy::falls(after, before)) {
-        warnings.push("the error at pressures left out hardly falls: this law describes these data and predicts little".into());
+        warnings.push(
+            "the error at pressures left out hardly falls: this law describes these data and predicts little".into(),
+        );
     }
     let additions = vec![addition];
     Ok(Extension {

@@ -19,6 +19,7 @@ pub use curve::{CurvePoint, Path, band, curve};
 pub use points::{Moments, Point, Robot, missing, moments};
 pub use shape::{Shape, Shared, shape};
 pub use told::{
-    MeasuredShape, MissingMoment, MomentCurve, MomentPoint, SharedNumber, degrees, is_told, sentences, shape_sentences, told,
+    MeasuredShape, MissingMoment, MomentCurve, MomentPoint, SharedNumber, degrees, is_told, sentences, shape_sentences,
+    told,
 };
 pub use view::{Division, Place, View};

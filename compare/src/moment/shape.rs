@@ -48,6 +48,14 @@ pub struct Shape {
     pub floor_mm: f64,
 }
 
+impl Shape {
+    /// Bends of all places, moment after moment \[1/m\].
+    pub fn bends(&self) -> Vec<Vec<f64>> {
+        let layout = Layout::of(&self.division);
+        self.division.moments.iter().map(|m| bends(&layout, &self.numbers, m.hold, m.group)).collect()
+    }
+}
+
 /// Where each number of a shape stands.
 #[derive(Debug, Clone, Copy)]
 pub struct Layout {

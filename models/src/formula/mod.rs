@@ -253,7 +253,10 @@ fn names(parameters: &[FormulaParameter]) -> Vec<Name<'_>> {
 
 fn units_help(parameters: &[FormulaParameter]) -> String {
     let own: Vec<String> = parameters.iter().map(|p| format!("{} in {}", p.key, p.unit)).collect();
-    format!("kappa is in 1/m, theta in rad, p_act and p_body in Pa, s and R in m, B in N m2, pull in N m; {}", own.join(", "))
+    format!(
+        "kappa is in 1/m, theta in rad, p_act and p_body in Pa, s and R in m, B in N m2, pull in N m; {}",
+        own.join(", ")
+    )
 }
 
 /// The formula at one place.

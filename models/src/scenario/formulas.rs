@@ -71,8 +71,7 @@ fn parameters(raw: &BTreeMap<Spanned<String>, RawParameter>, of: &RawFormula) ->
 fn checked(key: &Spanned<String>, raw: &RawParameter) -> Checked<FormulaParameter> {
     let name = key.get_ref();
     if !is_name(name) || formula::is_variable(name) {
-        let help =
-            "letters, digits and _, starting with a letter; kappa, theta, p_act, p_body, s, R, B and pull have a meaning";
+        let help = "letters, digits and _, starting with a letter; kappa, theta, p_act, p_body, s, R, B and pull have a meaning";
         return refuse(format!("\"{name}\" cannot name a parameter"), help, key.span());
     }
     let (si, _) = spelling::units::parse(raw.unit.get_ref()).or_else(|part| {

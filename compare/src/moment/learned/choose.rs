@@ -125,14 +125,17 @@ impl Law {
         };
         let columns = |set: Vec<f64>| {
             let own = (0..numbers.len()).filter(|k| numbers[*k].is_linear());
-            let mut all: Vec<Vec<f64>> =
-                own.filter_map(|k| Some(column(&set, formula.as_ref()?, k))).collect();
+            let mut all: Vec<Vec<f64>> = own.filter_map(|k| Some(column(&set, formula.as_ref()?, k))).collect();
             all.extend(spring.map(|_| material.places.iter().map(|at| -at[0]).collect::<Vec<f64>>()));
             let rows = material.places.len();
             let columns = DMatrix::from_fn(rows, all.len(), |i, j| all[j][i]);
             (set, columns)
         };
-        (form.is_none() || formula.is_some()).then(|| Law { form, grid: sets.into_iter().map(columns).collect(), bounds })
+        (form.is_none() || formula.is_some()).then(|| Law {
+            form,
+            grid: sets.into_iter().map(columns).collect(),
+            bounds,
+        })
     }
 
     fn numbers(&self) -> usize {

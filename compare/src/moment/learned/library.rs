@@ -161,10 +161,7 @@ pub const LIBRARY: &[Form] = &[
     Form {
         words: "a stop",
         moment: "-k*pos(kappa - k0)",
-        numbers: &[
-            Number { bounds: [0.0, 200.0], ..linear("k", Unit::Stiffness, "stiffness beyond it") },
-            TOUCH,
-        ],
+        numbers: &[Number { bounds: [0.0, 200.0], ..linear("k", Unit::Stiffness, "stiffness beyond it") }, TOUCH],
         has_spring: false,
         of_body: false,
         usual: "a stop: pouches or folds that meet, a clamp, a yarn that is drawn taut",
@@ -323,7 +320,9 @@ impl Form {
             _ = write!(
                 out,
                 "\n[formula.parameters.{}]\nunit = \"{}\"\n{neutral}typical = {typical}\nbounds = [{low}, {high}]\nmeaning = \"{}\"\n",
-                n.key, n.unit_text(), n.meaning
+                n.key,
+                n.unit_text(),
+                n.meaning
             );
         }
         out

@@ -94,9 +94,8 @@ fn numbers_scatter_by_their_covariance() {
     let formula = form.formula("law", &robot).unwrap();
     let (sd, seeds) = ([0.03, 0.02], 200);
     let of = material(Some(form), sd, 0);
-    let columns = DMatrix::from_fn(of.places.len(), 2, |i, k| {
-        formula.moment_at(&of.places[i], &[1.0 - k as f64, k as f64])
-    });
+    let columns =
+        DMatrix::from_fn(of.places.len(), 2, |i, k| formula.moment_at(&of.places[i], &[1.0 - k as f64, k as f64]));
     let information = columns.tr_mul(&of.covariance.clone().cholesky().unwrap().solve(&columns));
     let away = |seed: u64| {
         let ranked = rank(&material(Some(form), sd, seed), &robot);
