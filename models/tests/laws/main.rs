@@ -11,6 +11,7 @@ mod full;
 mod held;
 mod history;
 mod inverse;
+mod inverse_bounds;
 mod neutral;
 mod random_inverse;
 mod scaling;
