@@ -2,7 +2,7 @@
 
 use crate::printable::printable;
 use compare::CompareError;
-use data::Fault;
+use data::{Fault, Location};
 use fem::FemError;
 use fem::error::Refusal;
 use ibr::pages::PageError;
@@ -144,9 +144,27 @@ fn in_text(
     span: Option<std::ops::Range<usize>>,
     shown: MietteDiagnostic,
 ) -> Report {
+    // The frame around a very long line cannot be drawn.
+    if let Some(at) = span.as_ref().filter(|at| line_at(text, at.start).len() > SHOWN[0]) {
+        let start = text.floor_char_boundary(at.start);
+        let before = text[..start].rfind('\n').map_or(0, |end| end + 1);
+        let location =
+            Location { file: file.into(), line: text[..start].matches('\n').count() as u64 + 1, ..Location::default() };
+        let source_line = Some(line_at(text, start).to_string());
+        let span = Some((start, at.end));
+        let fault = Fault { location, span, source_line, source_start: before, ..Fault::default() };
+        return at_fault(&fault, MietteDiagnostic { message: printable(message), ..shown });
+    }
     let label = span.map(|at| vec![LabeledSpan::at(at.start..at.end.max(at.start + 1).min(text.len()), "here")]);
     let shown = MietteDiagnostic { message: printable(message), labels: label, ..shown };
     Report::new(shown).with_source_code(NamedSource::new(printable(file), printable(text)))
+}
+
+/// The line around a byte.
+fn line_at(text: &str, at: usize) -> &str {
+    let at = text.floor_char_boundary(at);
+    let from = text[..at].rfind('\n').map_or(0, |end| end + 1);
+    text[from..].lines().next().unwrap_or_default()
 }
 
 /// The offending line of a table, which may be too large a file to show whole.

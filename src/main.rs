@@ -27,6 +27,7 @@ fn main() -> ExitCode {
     if let Err(error) = ctrlc::set_handler(interrupt) {
         say(&format!("warning: an interrupt cannot be caught here: {error}\n"));
     }
+    silence_parquet();
     let cli = cli::parsed();
     let bar = Meter::new(!cli.quiet && !cli.json);
     let mut context = Context {
@@ -50,6 +51,17 @@ fn main() -> ExitCode {
             ExitCode::from(error.code())
         }
     }
+}
+
+/// A panic of the library that reads Parquet files is told as an error of the file, and not as one of this program.
+fn silence_parquet() {
+    let loud = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        let name = std::thread::current().name().unwrap_or_default().to_string();
+        if name != data::table::PARQUET_READER && !name.starts_with("polars") {
+            loud(panic);
+        }
+    }));
 }
 
 /// Ends the program on Ctrl-C, after files that are being written. A command that wants to end itself is asked first; the

@@ -4,6 +4,7 @@ use compare::{CompareError, ScenarioFile};
 use fem::case::{SHIPPED_CASES, shipped_case};
 use fem::session::Source;
 use models::scenario::SHIPPED;
+use spelling::files::{MOST_TEXT, read_whole};
 use std::path::Path;
 
 /// A robot in the paper's own model.
@@ -48,7 +49,7 @@ pub fn scenario(spec: &str) -> Result<ScenarioFile, CompareError> {
 /// Nothing of that name, or no text.
 pub fn fe_source(spec: &str) -> Result<Source, CompareError> {
     let path = Path::new(spec);
-    let cause = match (std::fs::read(path), shipped_case(spec).or(models::shipped(spec)).or(study(spec))) {
+    let cause = match (read_whole(path, MOST_TEXT), shipped_case(spec).or(models::shipped(spec)).or(study(spec))) {
         (Err(_), Some(text)) if !path.exists() => return Ok(Source::new(spec, text)),
         (Err(cause), _) => cause.to_string(),
         (Ok(bytes), _) => match String::from_utf8(bytes) {

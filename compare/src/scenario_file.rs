@@ -5,6 +5,7 @@ use data::Fault;
 use fem::session::sha256;
 use models::scenario::SHIPPED;
 use models::{Scenario, ScenarioError};
+use spelling::files::{MOST_TEXT, read_whole};
 use std::ops::Deref;
 use std::path::Path;
 
@@ -33,7 +34,7 @@ impl ScenarioFile {
     /// # Errors
     /// No such file, or a fault in it with its line and what to write.
     pub fn read(name: &str) -> Result<ScenarioFile, CompareError> {
-        let cause = match (std::fs::read(name), models::shipped(name)) {
+        let cause = match (read_whole(Path::new(name), MOST_TEXT), models::shipped(name)) {
             (Err(_), Some(text)) if !Path::new(name).exists() => return ScenarioFile::parse(name, text),
             (Err(cause), _) => cause.to_string(),
             (Ok(bytes), _) => match String::from_utf8(bytes) {
@@ -76,7 +77,8 @@ impl ScenarioFile {
 
 /// A refused scenario with its place in the file.
 pub fn fault(name: &str, text: &str, error: &ScenarioError) -> CompareError {
-    let help = error.help.clone().unwrap_or_else(|| what_to_type(&error.message).into());
+    let other = fem::case::is_case(text).then(|| format!("this is a finite element case: ibr simulate {name}"));
+    let help = other.or(error.help.clone()).unwrap_or_else(|| what_to_type(&error.message).into());
     let fault = Fault::of_text(name, text, error.span, error.message.clone(), help);
     CompareError::Scenario(Box::new(fault))
 }

@@ -20,6 +20,7 @@ pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, &'stati
         return Err(CompareError::refused(message, "`ibr list effects` says what each effect is for"));
     }
     let mut chosen = if values.is_empty() { effect.typical_for(kind.name) } else { effect.neutral() };
+    let mut told = vec![false; effect.parameters.len()];
     for pair in values.split(',').filter(|pair| !pair.is_empty()) {
         let (key, number) = pair.split_once('=').unwrap_or((pair, ""));
         let keys: Vec<&str> = effect.parameters.iter().map(|p| p.key).collect();
@@ -34,6 +35,9 @@ pub fn with_effect(scenario: &Scenario, text: &str) -> Result<(Scenario, &'stati
             return Err(CompareError::refused(format!("{name} has no parameter `{key}`"), help));
         };
         let p = &effect.parameters[index];
+        if std::mem::replace(&mut told[index], true) {
+            return Err(CompareError::refused(format!("{name}: {key} is given twice"), help));
+        }
         chosen[index] = p.si * number_of(p, key, number, help)?;
     }
     let origin = if values.is_empty() { "typical value of the catalogue" } else { "value given on the command line" };

@@ -38,6 +38,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use spelling::Exactly;
+use spelling::files::{MOST_TEXT, read_whole};
 use toml::Spanned;
 
 use crate::error::{DataError, Fault};
@@ -185,7 +186,8 @@ impl About {
 /// File not readable; unknown key, wrong type, missing key; a length not positive; a direction that is no unit vector.
 pub fn read_about(path: &Path) -> Result<About, DataError> {
     let shown = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|cause| {
+    let read = read_whole(path, MOST_TEXT).and_then(|bytes| String::from_utf8(bytes).map_err(std::io::Error::other));
+    let text = read.map_err(|cause| {
         let help = "check the path; the file must be UTF-8 text";
         DataError::File(Box::new(Fault::of_file(&shown, format!("cannot read the file: {cause}"), help)))
     })?;
@@ -255,7 +257,7 @@ struct RawGeometry {
     body_length_mm: Spanned<f64>,
     pouch_length_mm: Option<Spanned<f64>>,
     pouch_width_mm: Option<Spanned<f64>>,
-    pouches: Option<usize>,
+    pouches: Option<Spanned<usize>>,
     fold_mm: Option<Spanned<f64>>,
     arm_mm: Option<Spanned<f64>>,
 }

@@ -79,7 +79,8 @@ fn load_file(
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<(Dataset, Option<About>), DataError> {
     let beside = file.with_file_name("about.toml");
-    let about = if beside.is_file() { Some(read_about(&beside)?) } else { None };
+    // A link that leads nowhere was meant to be read.
+    let about = beside.symlink_metadata().is_ok().then(|| read_about(&beside)).transpose()?;
     let options = ReadOptions { about: about.as_ref(), actuator, bytes_total: 0 };
     let dataset = if file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("parquet")) {
         let table = read_parquet(file)?;

@@ -59,6 +59,18 @@ pub const JITTER: f64 = 2e-3;
 /// Strain above which a coated fabric has broken; more is a unit mistake.
 pub const LARGEST_STRAIN: f64 = 3.0;
 
+/// A fabric thicker than this is no fabric \[m\].
+pub const THICKEST_FABRIC_M: f64 = 0.02;
+/// No specimen is longer or wider \[m\].
+pub const LARGEST_SPECIMEN_M: f64 = 10.0;
+/// A known force on a tip above this is a unit mistake \[N\].
+pub const LARGEST_TIP_FORCE_N: f64 = 1e3;
+
+/// Largest size of a specimen: its `thickness`, or another \[m\].
+pub fn largest_m(size: &str) -> f64 {
+    if size == "thickness" { THICKEST_FABRIC_M } else { LARGEST_SPECIMEN_M }
+}
+
 /// Tolerance of the actuator pressure inside one hold \[Pa\]: max(0.5 kPa, 5 %).
 pub fn tolerance_act_pa(mean_pa: f64) -> f64 {
     (SAME_PRESSURE * mean_pa).max(SAME_ACTUATOR_PA)
@@ -81,7 +93,12 @@ pub fn is_full(holds: usize, in_all: usize) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{is_elsewhere, is_full};
+    use super::{is_elsewhere, is_full, largest_m};
+
+    #[test]
+    fn a_fabric_is_thinner_than_two_centimetres_and_a_specimen_shorter_than_ten_metres() {
+        assert_eq!([largest_m("thickness"), largest_m("length")], [0.02, 10.0]);
+    }
 
     #[test]
     fn a_thousand_holds_are_read_of_a_stream_and_a_million_of_a_file() {

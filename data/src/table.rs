@@ -112,6 +112,10 @@ impl Dataset {
     }
 }
 
+/// Name of the thread that reads a Parquet file. The library for it panics on some damaged ones: a panic of this thread is the
+/// error that [`read_parquet`] returns.
+pub const PARQUET_READER: &str = "parquet";
+
 /// Reads a Parquet file: numbers as `F64` or `I64`, everything else as text; an empty cell becomes NaN or "".
 ///
 /// # Errors
@@ -167,13 +171,11 @@ mod parquet {
     use std::fs::File;
     use std::io::Cursor;
 
-    use polars_core::prelude::{
-        Column as PolarsColumn, DataFrame, DataType, NamedFrom, PolarsError, PolarsResult, Series,
-    };
+    use polars_core::prelude::{Column as PolarsColumn, DataFrame, DataType, NamedFrom, PolarsResult, Series};
     use polars_io::SerReader;
     use polars_io::prelude::{ParquetCompression, ParquetReader, ParquetWriter};
 
-    use super::{Column, DataError, Fault, Path, Table};
+    use super::{Column, DataError, Fault, PARQUET_READER, Path, Table};
     use crate::write::write_atomically;
 
     /// Snappy: every Parquet reader has it.
@@ -190,13 +192,22 @@ mod parquet {
     pub fn read(path: &Path) -> Result<Table, DataError> {
         let file = File::open(path)
             .map_err(|cause| file_error(path, format!("cannot open the file: {cause}"), "check the path"))?;
-        let unreadable = |cause: PolarsError| {
-            file_error(path, format!("not a readable Parquet file: {cause}"), "save the table again, or give it as CSV")
+        let reading = std::thread::Builder::new().name(PARQUET_READER.into()).spawn(move || table(file));
+        let cause = match reading.map(std::thread::JoinHandle::join) {
+            Ok(Ok(Ok(table))) => return Ok(table),
+            Ok(Ok(Err(cause))) => cause.to_string(),
+            Ok(Err(_)) => "it is damaged".into(),
+            Err(cause) => cause.to_string(),
         };
-        let frame = ParquetReader::new(file).finish().map_err(unreadable)?;
+        let help = "save the table again, or give it as CSV";
+        Err(file_error(path, format!("not a readable Parquet file: {cause}"), help))
+    }
+
+    fn table(file: File) -> PolarsResult<Table> {
+        let frame = ParquetReader::new(file).finish()?;
         let column = |column: &PolarsColumn| Ok((column.name().to_string(), from_polars(column)?));
         let columns: PolarsResult<Vec<_>> = frame.columns().iter().map(column).collect();
-        Ok(Table { columns: columns.map_err(unreadable)? })
+        Ok(Table { columns: columns? })
     }
 
     fn file_error(path: &Path, message: String, help: &str) -> DataError {

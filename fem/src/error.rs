@@ -142,6 +142,10 @@ impl FemError {
             }
             FemError::Refused(refusal) => Some(refusal.help.as_str()).filter(|help| !help.is_empty()),
             FemError::Record(damage) => Some(&damage.help),
+            FemError::MeshFile { .. } => {
+                Some("correct that line, or write the mesh again; docs/case.md says which files are read, and how")
+            }
+            FemError::Io { .. } => Some("check the path, and that the disk can be read and has room"),
             FemError::Interrupted { .. } => Some("what is complete is kept, the same command goes on"),
             _ => None,
         }

@@ -1,5 +1,6 @@
-//! What people type: the nearest known name for a misspelling, rows of exactly so many numbers, units.
+//! What people type: the nearest known name for a misspelling, rows of exactly so many numbers, units; and their files, read whole.
 
+pub mod files;
 pub mod quantity;
 pub mod units;
 

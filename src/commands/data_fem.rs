@@ -21,6 +21,10 @@ pub fn run(args: &DataFemArgs, context: &mut Context) -> Result<Outcome, Failure
     let truth = inputs::scenario(&args.scenario)?;
     let (robot, scenario) = robot(args)?;
     let kpa = pressures(&args.pressure)?;
+    if !kpa.is_sorted_by(|a, b| a < b) {
+        let help = "write rising ones, for example 10kPa,20kPa,30kPa: a robot is loaded once";
+        return Err(Failure::usage(format!("--pressure {} does not rise", args.pressure), help));
+    }
     let body_pa = scenario.p_body_pa;
     let generator = Generator {
         seed: args.seed,

@@ -4,7 +4,7 @@ use super::inputs::{self, positive, unused_sigma};
 use super::{Context, Outcome};
 use crate::cli::DiagnoseArgs;
 use crate::failure::Failure;
-use crate::output::{Input, check_folder, earlier, imprint, remove_all, write_files};
+use crate::output::{Input, check_folder, imprint, write_files};
 use crate::shown::diagnosis::{text, to_json};
 use compare::diagnose;
 use compare::diagnosis::Options;
@@ -83,8 +83,7 @@ fn report(
 ) -> Result<(), Failure> {
     let mut files = diagnosis_page(found, &imprint(), &mut part(context.progress, [DIAGNOSED, 1.0]))?;
     files.files.insert(0, ("diagnosis.json".into(), json));
-    let pictures = diagnosis_pictures().into_iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]);
-    let old = earlier(folder, &pictures.collect::<Vec<_>>());
-    write_files(folder, &files, inputs, context)?;
-    remove_all(folder, old.iter().filter(|name| files.files.iter().all(|(made, _)| made != *name)))
+    let both = |name: &str| ["svg", "png"].map(|kind| format!("{name}.{kind}"));
+    files.retired = diagnosis_pictures().into_iter().flat_map(|name| both(&name)).collect();
+    write_files(folder, &files, inputs, context)
 }

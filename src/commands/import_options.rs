@@ -1,6 +1,6 @@
 //! What is typed for `ibr data import`, as the library takes it.
 
-use super::inputs::quantity;
+use super::inputs::{positive, quantity};
 use crate::cli::Import;
 use crate::failure::Failure;
 use data::import::typed::{axes, column, known_distance, station};
@@ -43,7 +43,8 @@ pub fn options(args: &Import) -> Result<ImportOptions, Failure> {
 
 fn scale(args: &Import) -> Result<Scale, Failure> {
     if let (Some(board), Some(square)) = (&args.board, &args.square) {
-        return Ok(Scale::Board(read_board(board)?, quantity("--square", square, Quantity::Length)?));
+        let square_m = positive("--square", Some(square))?.unwrap_or_default();
+        return Ok(Scale::Board(read_board(board)?, square_m));
     }
     let known = optional(&args.known_distance, |text| understood("--known-distance", known_distance(text)))?;
     let typed = optional(&args.scale, |text| understood("--scale", text.parse()))?;

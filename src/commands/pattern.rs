@@ -16,12 +16,15 @@ use std::sync::PoisonError;
 /// Width of welds where neither the scenario nor the user says one, as in [`fem::robot::RobotSettings`] \[m\].
 const WELD_M: f64 = 0.003;
 
+/// More fabric than that around a piece is a slip of the unit \[m\].
+const MOST_ALLOWANCE_M: f64 = 0.5;
+
 pub fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let file = inputs::scenario(&args.scenario)?;
     let (weld_m, how) = weld(args, &file.scenario)?;
     let allowance_m = quantity("--allowance", &args.allowance, Quantity::Length)?;
-    if allowance_m < 0.0 {
-        let message = format!("--allowance {} is below zero", args.allowance);
+    if !(0.0..=MOST_ALLOWANCE_M).contains(&allowance_m) {
+        let message = format!("--allowance {} is not from 0 to {} mm", args.allowance, 1e3 * MOST_ALLOWANCE_M);
         return Err(Failure::usage(message, "write for example --allowance 10mm"));
     }
     let making = Making { weld_m, allowance_m };

@@ -73,6 +73,14 @@ fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<Loads>, Fa
         }
         pressures = vec![[0.0; CHANNELS]];
     }
+    let is_fed = |channel: usize| {
+        scenario.actuator.channel == channel || scenario.zones.iter().any(|zone| zone.channel == Some(channel))
+    };
+    let lost = (0..CHANNELS).find(|channel| !is_fed(*channel) && pressures.iter().any(|all| all[*channel] != all[0]));
+    if let Some(channel) = lost.filter(|channel| pressures.iter().any(|all| all[*channel] > 0.0)) {
+        let message = format!("--pressure: nothing is supplied by channel {channel} in this scenario");
+        return Err(Failure::usage(message, "write one pressure, or give zones a channel in the scenario"));
+    }
     if pressures.is_empty() {
         return Err(Failure::usage(
             "no pressure given",

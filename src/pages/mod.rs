@@ -46,6 +46,8 @@ pub struct Files {
     pub files: Vec<(String, Vec<u8>)>,
     /// File name and table, written as Parquet.
     pub parquet: Vec<(String, data::Table)>,
+    /// Files that an earlier result of this kind may have and this one may not; they go with it.
+    pub retired: Vec<String>,
 }
 
 impl Files {

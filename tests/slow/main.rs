@@ -1,7 +1,7 @@
 //! Tests that need an optimised build: `cargo test --release --test slow` (`./check.sh` runs it).
 //!
 //! A new test belongs into the module of what it measures or runs to its end: `characterize`, `demo`, `engine` (the finite
-//! element engine against known answers), `interrupts`, `simulate`, `large_file`, `open_chamber` (chambers open along an
+//! element engine against known answers), `interrupts`, `kills`, `simulate`, `large_file`, `open_chamber` (chambers open along an
 //! axis), `figures` (speed and known numbers), `documents` (command lines of the documents). Whatever takes less than a
 //! second in an unoptimised build belongs into `tests/fast`.
 
@@ -14,6 +14,7 @@ mod documents;
 mod engine;
 mod figures;
 mod interrupts;
+mod kills;
 mod large_file;
 mod open_chamber;
 mod robots;

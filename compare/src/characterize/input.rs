@@ -6,6 +6,7 @@ use crate::progress::Progress;
 use data::bench::bending_lengths_m;
 use data::{Bench, Coupon, CouponDefaults, bench, parse_coupons, read_coupons};
 use fem::session::FileHash;
+use spelling::files::{MOST_DATA, read_whole};
 use std::path::Path;
 
 /// Tests of one fabric.
@@ -39,7 +40,7 @@ impl FabricTests {
             let message = format!("{file} is a {} table, not a test of a fabric", table.kind.name);
             return Err(CompareError::refused(message, format!("`ibr compare {file}` holds it against its model")));
         }
-        let bytes = std::fs::read(file);
+        let bytes = read_whole(Path::new(file), MOST_DATA);
         self.files.extend(bytes.as_ref().ok().map(|bytes| FileHash::of(file, bytes)));
         match (table, bytes) {
             (Some(table), _) => self.bent.push(table),

@@ -8,6 +8,10 @@ use toml::Spanned;
 use super::{AboutRun, Geometry, MarkerStation, MeasuredValue, RawBending, RawGeometry, RawMarkers, RawRun};
 use crate::cells::label;
 use crate::error::{DataError, Fault, Location};
+use crate::policy::LARGEST_TIP_FORCE_N;
+
+/// As many as a scenario takes.
+const MOST_POUCHES: usize = 10_000;
 
 /// The text being checked, for the place of faults.
 pub(super) struct Check<'a> {
@@ -52,10 +56,20 @@ impl Check<'_> {
             body_length_m: self.length_m("body_length_mm", &raw.body_length_mm)?,
             pouch_length_m: optional("pouch_length_mm", raw.pouch_length_mm)?,
             pouch_width_m: optional("pouch_width_mm", raw.pouch_width_mm)?,
-            pouches: raw.pouches,
+            pouches: raw.pouches.map(|count| self.pouches(&count)).transpose()?,
             fold_m: optional("fold_mm", raw.fold_mm)?,
             arm_m: optional("arm_mm", raw.arm_mm)?,
         })
+    }
+
+    fn pouches(&self, count: &Spanned<usize>) -> Result<usize, DataError> {
+        match *count.get_ref() {
+            found @ 1..=MOST_POUCHES => Ok(found),
+            found => {
+                let message = format!("must be from 1 to {MOST_POUCHES}, not {found}");
+                Err(self.fault("pouches", count, &message, "write how many pouches are in a row, for example 6"))
+            }
+        }
     }
 
     pub fn markers(&self, raw: RawMarkers) -> Result<Vec<MarkerStation>, DataError> {
@@ -137,8 +151,16 @@ impl Check<'_> {
                 return Err(self.fault("id", &run.id, "this run is there twice", "describe every run once"));
             }
             let tip_force_n = run.tip_force_n.as_ref().map_or([0.0; 2], |force| **force.get_ref());
-            if let Some(force) = run.tip_force_n.as_ref().filter(|_| !tip_force_n.iter().all(|f| f.is_finite())) {
-                return Err(self.fault("tip_force_n", force, "must be two finite numbers", "give [fx, fy] in newton"));
+            if let Some(force) =
+                run.tip_force_n.as_ref().filter(|_| !tip_force_n.iter().all(|f| f.abs() <= LARGEST_TIP_FORCE_N))
+            {
+                let message = format!("must be two numbers up to {LARGEST_TIP_FORCE_N} N");
+                return Err(self.fault(
+                    "tip_force_n",
+                    force,
+                    &message,
+                    "give [fx, fy] in newton, for example [0, -0.3]",
+                ));
             }
             runs.push(AboutRun { id: label(run.id.get_ref()).to_string(), tip_force_n, session: run.session });
         }

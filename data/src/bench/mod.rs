@@ -16,6 +16,7 @@ use crate::about::Provenance;
 use crate::error::{DataError, Fault};
 use crate::sets;
 use crate::units::Measured;
+use spelling::files::{MOST_DATA, read_whole};
 
 pub use bending_length::bending_lengths_m;
 
@@ -111,7 +112,9 @@ pub fn bench(spec: &str) -> Result<Option<Bench>, DataError> {
                 return Ok(None);
             }
         }
-        let Some(text) = first(u64::MAX).and_then(|bytes| String::from_utf8(bytes).ok()) else { return Ok(None) };
+        let Some(text) = read_whole(path, MOST_DATA).ok().and_then(|bytes| String::from_utf8(bytes).ok()) else {
+            return Ok(None);
+        };
         let beside = path.parent().and_then(|folder| std::fs::read_to_string(folder.join("scenario.toml")).ok());
         return read::parse(spec, &text).map(|found| found.map(|bench| Bench { scenario: beside, ..bench }));
     }

@@ -117,7 +117,11 @@ fn note(notes: &mut Notes, comment: &str, line: &Line) -> Result<(), DataError> 
             let said = value.parse::<f64>().ok().map(|v| unit.to_si(v)).filter(|v| v.is_finite());
             let wrong =
                 || line.fault(format!("{key} must be a number, found \"{value}\""), format!("write # {key}: 20"));
-            notes.numbers[quantity] = Some(said.ok_or_else(|| DataError::Cell(wrong()))?);
+            let said = said.ok_or_else(|| DataError::Cell(wrong()))?;
+            if notes.numbers[quantity].replace(said).is_some_and(|before| before != said) {
+                let message = format!("{key} is said twice, here as {value}");
+                return Err(DataError::Cell(line.fault(message, "keep one of the comments")));
+            }
             Ok(())
         }
         CouponMeaning::NoUnit(quantity) if quantity > SPECIMEN => {

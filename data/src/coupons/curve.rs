@@ -125,7 +125,7 @@ impl<'a> Specimens<'a> {
             return Err(self.fault(raw, message, format!("leave --{base} out, or correct the file")));
         }
         let value = written.or(typed);
-        match value.filter(|v| quantity != DIRECTION && (*v <= 0.0 || *v > 10.0)) {
+        match value.filter(|v| quantity != DIRECTION && (*v <= 0.0 || *v > policy::largest_m(base))) {
             Some(v) => {
                 let message = format!("specimen {specimen}: the {base} is {} {}", v * unit.1, unit.0);
                 Err(self.fault(raw, message, format!("write a positive {base} of a specimen, as in {expected}")))

@@ -23,7 +23,6 @@ mod export;
 #[cfg(test)]
 mod tests;
 
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
@@ -32,6 +31,7 @@ use crate::error::{DataError, Fault};
 use crate::import::sheet::CellText;
 use crate::lines::{Line, Lines};
 use export::Export;
+use spelling::files::read_whole;
 
 /// Largest file read.
 const MOST_BYTES: u64 = 256 << 20;
@@ -163,13 +163,12 @@ pub fn read_coupons(
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Vec<Coupon>, DataError> {
     let shown = path.display().to_string();
-    let mut file = File::open(path).map_err(|cause| {
+    let bytes = read_whole(path, MOST_BYTES).map_err(|cause| {
         let help =
             "check the path; docs/characterize.md has the format, `ibr characterize --example FOLDER` makes files";
         DataError::File(Box::new(Fault::of_file(&shown, format!("cannot open the file: {cause}"), help)))
     })?;
-    let bytes_total = file.metadata().map_or(0, |metadata| metadata.len());
-    parse_coupons(&shown, &mut file, bytes_total, defaults, progress)
+    parse_coupons(&shown, &mut bytes.as_slice(), bytes.len() as u64, defaults, progress)
 }
 
 /// Reads all specimens from `reader`; `file` names it in errors.

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::homography::Homography;
 use super::join::text_of;
 use super::sheet::CellText;
 use crate::error::DataError;
@@ -9,7 +10,7 @@ use crate::error::DataError;
 /// Reads corners: rows of column and row on the board, and x and y in the picture; a line of names may stand above them.
 ///
 /// # Errors
-/// Not readable; a row without four numbers.
+/// Not readable; a row without four numbers; corners that make no plane.
 pub fn read_board(path: &Path) -> Result<Vec<[f64; 4]>, DataError> {
     let (shown, text) = (path.display().to_string(), text_of(path)?);
     let sheet = CellText::new(&shown, &text)?;
@@ -22,12 +23,16 @@ pub fn read_board(path: &Path) -> Result<Vec<[f64; 4]>, DataError> {
             .filter(|row| row.iter().all(|v| v.is_finite()))
         {
             Some(corner) => corners.push(corner),
-            None if k == 0 => {}
+            None if k == 0 && cells.len() == 4 => {}
             None => {
                 let help = "every row is column,row,x,y of a corner: its place on the board, counted from 0, and in the picture";
                 return Err(sheet.fault(number, format!("expected four numbers, found {}", cells.len()), help));
             }
         }
     }
+    // Whether they make a plane is known before the tracks are read; the side of a square does not matter for it.
+    Homography::of_board(&corners, 1.0).map_err(|message| {
+        sheet.fault(0, message, "give at least four corners, no three on a line: a table column,row,x,y")
+    })?;
     Ok(corners)
 }

@@ -48,6 +48,10 @@ fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>, Dat
                 None => Ok(if part == 2 { 0.0 } else { f64::NAN }),
             };
             let likelihood = value(3)?;
+            if !(likelihood.is_nan() || (0.0..=1.0).contains(&likelihood)) {
+                let message = format!("a likelihood of {likelihood} is not from 0 to 1");
+                return Err(sheet.fault(number, message, "export the analysed video again as CSV"));
+            }
             pivot.put(frame, *marker, [value(0)?, value(1)?, value(2)?], likelihood.is_nan() || likelihood >= limit);
         }
     }
@@ -78,8 +82,10 @@ fn columns_of(
         if columns.last().is_none_or(|column| column.marker != marker) {
             columns.push(NetworkColumns { marker, parts: [None; 4] });
         }
-        if let Some(column) = columns.last_mut() {
-            column.parts[part] = Some(index);
+        let Some(column) = columns.last_mut() else { continue };
+        if column.parts[part].replace(index).is_some() {
+            let message = format!("two columns are {} of {name}", coords[index]);
+            return Err(sheet.fault(number, message, "name every body part once"));
         }
     }
     if columns.iter().any(|column| column.parts[2].is_some()) {

@@ -32,7 +32,9 @@ impl Homography {
                 }
             }
         }
-        let h = solve(normal).ok_or("the corners do not make a plane: too many are on one line")?;
+        let h = solve(normal)
+            .filter(|h| h.iter().all(|part| part.is_finite()))
+            .ok_or("the corners do not make a plane: too many are on one line")?;
         // Back to pixels, with the last number one again.
         let [a, b] = mean;
         let last = size - h[6] * a - h[7] * b;

@@ -11,6 +11,7 @@ use super::sheet::CellText;
 use crate::error::{DataError, Fault};
 use crate::read::ABSOLUTE_PA;
 use crate::units::kpa;
+use spelling::files::{MOST_DATA, read_whole};
 
 /// A file's text.
 ///
@@ -18,7 +19,7 @@ use crate::units::kpa;
 /// It cannot be read, or is no text.
 pub(crate) fn text_of(path: &Path) -> Result<String, DataError> {
     let shown = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|cause| {
+    let bytes = read_whole(path, MOST_DATA).map_err(|cause| {
         DataError::File(Box::new(Fault::of_file(&shown, format!("cannot open the file: {cause}"), "check the path")))
     })?;
     if let [0xff, 0xfe, rest @ ..] = &bytes[..] {
@@ -26,12 +27,8 @@ pub(crate) fn text_of(path: &Path) -> Result<String, DataError> {
         return Ok(String::from_utf16_lossy(&units));
     }
     String::from_utf8(bytes).or_else(|error| {
-        // A workbook or a picture has zero bytes; names with accents in an old encoding have not.
+        // Names with accents in an old encoding; what is no text at all has zero bytes, and is refused for them.
         let bytes = error.into_bytes();
-        if bytes.contains(&0) {
-            let help = "export the tracks as text: CSV, TXT or XML";
-            return Err(DataError::Layout(Box::new(Fault::of_file(&shown, "the file is no text", help))));
-        }
         Ok(bytes.iter().map(|byte| char::from(*byte)).collect())
     })
 }
@@ -59,19 +56,22 @@ pub(crate) fn recordings(
     let mut joined = Joined { program: "", runs: Vec::new(), told: Vec::new() };
     let logs = logs(files.len(), options, &mut joined.told, &mut absent)?;
     for (k, path) in files.iter().enumerate() {
+        if files[..k].contains(path) {
+            let help = "name every file once: each is a run of its own";
+            let fault = Fault::of_file(&path.display().to_string(), "the file is named twice", help);
+            return Err(DataError::File(Box::new(fault)));
+        }
         progress(k as u64, files.len() as u64);
         let (shown, text) = (path.display().to_string(), text_of(path)?);
         let sheet = CellText::new(&shown, &text)?;
         drop_named(&sheet, &mut absent);
-        joined.add(&sheet, logs.get(k.min(logs.len().saturating_sub(1))), options)?;
-    }
-    if let Some((quantity, column)) = absent.first() {
-        let message = format!("--map says that {quantity} stands in column {column}, and no file has it");
-        return Err(DataError::Column(Box::new(Fault::of_file(
-            &joined.runs[0].0,
-            message,
-            "write the name as in the file's first line",
-        ))));
+        let added = joined.add(&sheet, logs.get(k.min(logs.len().saturating_sub(1))), options);
+        // A name that is not in the last file either may be why it was not understood.
+        if let Some((quantity, column)) = absent.first().filter(|_| added.is_err() || k + 1 == files.len()) {
+            let message = format!("--map says that {quantity} stands in column {column}, and no file has it");
+            return Err(sheet.fault(0, message, "write the name as in the file's first line"));
+        }
+        added?;
     }
     let frames: usize = joined.runs.iter().map(|(_, run)| run.times.len()).sum();
     let counts = [counted(joined.runs.len() as u64, "run"), counted(frames as u64, "frame")];
@@ -114,12 +114,22 @@ impl Joined {
     }
 }
 
+/// No clock counts as far, in seconds or frames.
+const LATEST_TIME: f64 = 1e15;
+
 /// # Errors
 /// Hardly anything in the run, or a marker at two places at once.
 fn check_run(sheet: &CellText, run: &Recording) -> Result<(), DataError> {
     if let Some((marker, time)) = &run.twice {
         let message = format!("marker {marker} has two places at {time} of one run");
         return Err(sheet.fault(0, message, "give every run a file of its own, or a column run"));
+    }
+    if let Some(time) = run.times.iter().find(|time| time.abs() > LATEST_TIME) {
+        return Err(sheet.fault(
+            0,
+            format!("no recording has a time or frame of {time}"),
+            "correct it, or export again",
+        ));
     }
     if run.times.len() < 2 || run.places.iter().flatten().all(|place| place[0].is_nan()) {
         let help = "check the export, or lower --likelihood";

@@ -47,7 +47,7 @@ fn read(sheet: &CellText, _options: &ImportOptions) -> Result<Vec<Recording>, Da
         }
     };
     let mut pivot = Pivot::new(unit(sheet, &head)?, FrameClock::Seconds);
-    let columns = columns(&head, &axes.1, &mut pivot);
+    let columns = columns(sheet, &head, &axes, &mut pivot)?;
     if columns.is_empty() {
         return Err(sheet.fault(
             axes.0,
@@ -78,7 +78,15 @@ fn unit(sheet: &CellText, head: &Head) -> Result<Lengths, DataError> {
 }
 
 /// Columns of every marker's position; markers that were not named in Motive are left out.
-fn columns(head: &Head, axes: &[&str], pivot: &mut Pivot) -> Vec<(usize, [usize; 3])> {
+///
+/// # Errors
+/// A marker that lacks one of its coordinates.
+fn columns(
+    sheet: &CellText,
+    head: &Head,
+    (line, axes): &(u64, Vec<&str>),
+    pivot: &mut Pivot,
+) -> Result<Vec<(usize, [usize; 3])>, DataError> {
     let cell = |row: &[&'_ str], index: usize| row.get(index).map_or(String::new(), ToString::to_string);
     let is_marker =
         |index: &usize| cell(&head.types, *index).contains("Marker") && cell(&head.what, *index) == "Position";
@@ -94,7 +102,7 @@ fn columns(head: &Head, axes: &[&str], pivot: &mut Pivot) -> Vec<(usize, [usize;
     let assets = |name: &str| name.split_once(':').map(|(asset, _)| asset.to_string());
     let names: Vec<String> = found.iter().map(|index| cell(&head.names, *index)).filter(|name| named(name)).collect();
     let one = names.iter().all(|name| assets(name) == assets(&names[0]));
-    let mut columns: Vec<(usize, [usize; 3])> = Vec::new();
+    let mut columns: Vec<(usize, [Option<usize>; 3])> = Vec::new();
     for index in found {
         let name = cell(&head.names, index);
         let Some(axis) = ["X", "Y", "Z"].iter().position(|axis| *axis == axes[index]).filter(|_| named(&name)) else {
@@ -103,11 +111,18 @@ fn columns(head: &Head, axes: &[&str], pivot: &mut Pivot) -> Vec<(usize, [usize;
         let short = name.split_once(':').filter(|_| one).map_or(name.as_str(), |(_, short)| short);
         let marker = pivot.marker(short);
         if columns.last().is_none_or(|(last, _)| *last != marker) {
-            columns.push((marker, [index; 3]));
+            columns.push((marker, [None; 3]));
         }
         if let Some((_, parts)) = columns.last_mut() {
-            parts[axis] = index;
+            parts[axis] = Some(index);
         }
     }
-    columns
+    let whole = |(marker, parts): (usize, [Option<usize>; 3])| match parts {
+        [Some(x), Some(y), Some(z)] => Ok((marker, [x, y, z])),
+        _ => {
+            let message = format!("the position of {} lacks one of X, Y, Z", pivot.recording.markers[marker]);
+            Err(sheet.fault(*line, message, "export the take again as CSV with its header"))
+        }
+    };
+    columns.into_iter().map(whole).collect()
 }

@@ -6,6 +6,9 @@ use super::options::{ImportOptions, Offset};
 use super::recording::Recording;
 use super::sheet::CellText;
 use crate::error::DataError;
+use crate::policy::HIGHEST_GAUGE_PA;
+use crate::read::ABSOLUTE_PA;
+use crate::units::kpa;
 
 /// Readings over time.
 #[derive(Debug, Clone)]
@@ -60,7 +63,13 @@ impl Log {
             log.times_s.push(t_s);
             for (column, values) in roles.pressures.iter().zip(&mut log.values_pa) {
                 if let (Some((index, pa)), Some(values)) = (column, values) {
-                    values.push(pa * sheet.expect(cell(*index), number, "pressure")?);
+                    let pressure_pa = pa * sheet.expect(cell(*index), number, "pressure")?;
+                    if pressure_pa.abs() > HIGHEST_GAUGE_PA + ABSOLUTE_PA.end {
+                        let message =
+                            format!("a pressure of {:.4e} kPa is more than any fabric stands", kpa(pressure_pa));
+                        return Err(sheet.fault(number, message, "check the reading and the unit of the column"));
+                    }
+                    values.push(pressure_pa);
                 }
             }
         }

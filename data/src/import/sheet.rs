@@ -28,8 +28,12 @@ impl<'a> CellText<'a> {
     /// Finds the dialect of a text.
     ///
     /// # Errors
-    /// Numbers with a comma that may be decimal or of thousands.
+    /// No text; numbers with a comma that may be decimal or of thousands.
     pub fn new(file: &'a str, text: &'a str) -> Result<CellText<'a>, DataError> {
+        if text.contains('\0') {
+            let (message, help) = ("the file is no text", "export it as text: CSV, TXT or XML");
+            return Err(DataError::Layout(Box::new(Fault::of_file(file, message, help))));
+        }
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let said = text.lines().next().and_then(|line| line.trim().strip_prefix("sep="));
         let named = said.and_then(|sign| sign.chars().next());
@@ -89,9 +93,11 @@ impl<'a> CellText<'a> {
     /// The number of a cell of line `number`.
     ///
     /// # Errors
-    /// Anything else than a number or a word for none.
+    /// Anything else than a finite number or a word for none.
     pub fn expect(&self, text: &str, number: u64, column: &str) -> Result<f64, DataError> {
-        self.number(text).ok_or_else(|| self.bad_cell(text, number, column, "type a number, or leave the cell empty"))
+        self.number(text)
+            .filter(|value| !value.is_infinite())
+            .ok_or_else(|| self.bad_cell(text, number, column, "type a number, or leave the cell empty"))
     }
 
     /// Seconds or frames: a number, a clock time, or a number of seconds with its unit (`1 sec`).

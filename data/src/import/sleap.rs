@@ -31,6 +31,10 @@ fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>, Dat
         .into_iter()
         .map(|node| (node, ["x", "y", "score"].map(|part| column(&format!("{node}.{part}")))))
         .collect();
+    if let Some((node, _)) = nodes.iter().find(|(_, parts)| parts[1].is_none()) {
+        let message = format!("there is a column {node}.x, and none {node}.y");
+        return Err(sheet.fault(1, message, "export the analysis again as CSV"));
+    }
     let (track, time) = (column("track"), column("frame_idx").unwrap_or_default());
     let several = several_tracks(sheet, track);
     let mut cells = Vec::new();

@@ -128,6 +128,10 @@ fn detections(sheet: &CellText, second: Option<f64>, pivot: &mut Pivot) -> Resul
     for tag in tags(sheet.text) {
         match tag.name {
             "particle" => track += 1,
+            "detection" if track == 0 => {
+                let help = "save the tracks again in TrackMate";
+                return Err(sheet.fault(0, "a <detection> stands before the first <particle>", help));
+            }
             "detection" => {
                 let (Some(t), Some(x), Some(y)) = (tag.number("t"), tag.number("x"), tag.number("y")) else {
                     return Err(no_number(sheet, &format!("a detection of track {track}")));

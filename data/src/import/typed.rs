@@ -12,7 +12,7 @@ impl FromStr for FilePlace {
 
     fn from_str(text: &str) -> Result<FilePlace, Self::Err> {
         let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
-        Ok(match numbers.filter(|numbers| matches!(numbers.len(), 2 | 3)) {
+        Ok(match numbers.filter(|numbers| matches!(numbers.len(), 2 | 3) && numbers.iter().all(|v| v.is_finite())) {
             Some(numbers) => FilePlace::At(numbers),
             None => FilePlace::Marker(text.trim().to_string()),
         })

@@ -8,14 +8,22 @@ pub fn exchange(new: &Path, old: &Path, aside: &Path) -> io::Result<()> {
     in_one_step(new, old).or_else(|_| in_renames(new, old, aside, &|from, to| std::fs::rename(from, to)))
 }
 
+/// Lets two folders change places in one step.
+///
+/// # Errors
+/// The system cannot do that, or one of them is not there.
 #[cfg(target_os = "linux")]
-fn in_one_step(new: &Path, old: &Path) -> io::Result<()> {
+pub fn in_one_step(new: &Path, old: &Path) -> io::Result<()> {
     use rustix::fs::{CWD, RenameFlags, renameat_with};
     Ok(renameat_with(CWD, new, CWD, old, RenameFlags::EXCHANGE)?)
 }
 
+/// Lets two folders change places in one step.
+///
+/// # Errors
+/// The system cannot do that.
 #[cfg(not(target_os = "linux"))]
-fn in_one_step(_: &Path, _: &Path) -> io::Result<()> {
+pub fn in_one_step(_: &Path, _: &Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 

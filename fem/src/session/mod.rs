@@ -43,6 +43,7 @@ mod table;
 mod together;
 mod watch;
 
+pub use exchange::in_one_step as exchange_folders;
 pub use export::{Export, export};
 pub use manifest::{FileHash, MANIFEST, Maker, Manifest, sha256};
 pub use many::{Job, Many, finished_below, simulate_all};

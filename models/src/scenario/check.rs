@@ -18,6 +18,7 @@ pub(super) type Checked<T> = Result<T, ScenarioError>;
 const LENGTH: Range = Range::LENGTH;
 const POSITION: Range = Range { name: "position", low: 0.0, too_small: "positions count from the base", ..LENGTH };
 const PRESSURE: Range = Range::PRESSURE;
+const MOST_PRESSURE: Range = Range { low: 0.001, too_small: "the inverse looks up to it", ..PRESSURE };
 const BODY_PRESSURE: Range = Range {
     low: 0.5,
     high: 100.0,
@@ -81,7 +82,7 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
         markers_m: stations(&raw.markers.s_mm, length_m)?,
         pressures_pa: raw.predict.pressures_kpa.iter().map(|p| si(p, &PRESSURE)).collect::<Checked<Vec<_>>>()?,
         segments: segments(raw)?,
-        p_max_pa: p_max.map(|p| si(p, &PRESSURE)).transpose()?.unwrap_or(100e3),
+        p_max_pa: p_max.map(|p| si(p, &MOST_PRESSURE)).transpose()?.unwrap_or(100e3),
         effects: effects_of(raw, &actuator, &formulas)?,
         formulas,
     };

@@ -20,6 +20,7 @@ use crate::FemError;
 use crate::mesh::Mesh;
 use known::Read;
 use scan::Scan;
+use spelling::files::{MOST_DATA, read_whole};
 use std::path::Path;
 
 /// What a mesh file says.
@@ -60,7 +61,7 @@ impl From<Mesh> for MeshFile {
 /// # Errors
 /// [`FemError::Io`] if it cannot be read, [`FemError::MeshFile`] with the line of the first fault.
 pub fn read(path: &Path) -> Result<MeshFile, FemError> {
-    let bytes = std::fs::read(path).map_err(|source| FemError::Io { path: path.to_path_buf(), source })?;
+    let bytes = read_whole(path, MOST_DATA).map_err(|source| FemError::Io { path: path.to_path_buf(), source })?;
     let mut file = understood(&bytes, path)?;
     file.told.extend(corners::turn(&mut file.mesh).map_err(|message| FemError::MeshFile {
         path: path.to_path_buf(),
