@@ -114,9 +114,9 @@ impl Failure {
     }
 
     fn diagnostic(&self) -> Report {
-        let base = MietteDiagnostic::new(printable(&self.to_string()));
+        let base = MietteDiagnostic::new(short(&printable(&self.to_string())));
         let shown = match self.help() {
-            Some(help) => base.with_help(printable(help)),
+            Some(help) => base.with_help(short(&printable(help))),
             None => base,
         };
         match self {
@@ -153,11 +153,20 @@ fn in_text(
         let source_line = Some(line_at(text, start).to_string());
         let span = Some((start, at.end));
         let fault = Fault { location, span, source_line, source_start: before, ..Fault::default() };
-        return at_fault(&fault, MietteDiagnostic { message: printable(message), ..shown });
+        return at_fault(&fault, MietteDiagnostic { message: short(&printable(message)), ..shown });
     }
     let label = span.map(|at| vec![LabeledSpan::at(at.start..at.end.max(at.start + 1).min(text.len()), "here")]);
-    let shown = MietteDiagnostic { message: printable(message), labels: label, ..shown };
+    let shown = MietteDiagnostic { message: short(&printable(message)), labels: label, ..shown };
     Report::new(shown).with_source_code(NamedSource::new(printable(file), printable(text)))
+}
+
+/// A message without the middle of very long words: a file's "word" may be the whole file.
+fn short(message: &str) -> String {
+    let word = |word: &str| match word.len() > SHOWN[0] {
+        true => format!("{}…", &word[..word.floor_char_boundary(SHOWN[1])]),
+        false => word.to_string(),
+    };
+    message.split(' ').map(word).collect::<Vec<_>>().join(" ")
 }
 
 /// The line around a byte.

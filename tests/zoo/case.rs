@@ -113,7 +113,11 @@ impl Case {
         if let Some(missing) = self.says.iter().find(|part| !told.contains(part.as_str())) {
             return Err(format!("no `{missing}`; {}", message()));
         }
-        let helps = ["help:", "--help", "possible values", "tip:", "Usage:"];
+        if ran.code != 0 && ran.stderr.len() > 20_000 {
+            return Err(format!("a message of {} bytes", ran.stderr.len()));
+        }
+        let helps =
+            ["help:", "--help", "possible values", "tip:", "Usage:", "write ", "use fewer", "must be", "Take ", "Add "];
         if ran.code != 0 && !helps.iter().any(|word| told.contains(word)) {
             return Err(format!("no remedy; {}", message()));
         }

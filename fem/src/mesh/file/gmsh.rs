@@ -120,10 +120,13 @@ impl Gmsh {
     }
 
     fn blocks_of_nodes(&mut self, scan: &mut Scan) -> Result<(), String> {
-        for _ in 0..first_count(scan, "the number of blocks of nodes")? {
+        let [blocks, in_all] = first_counts(scan, "the number of blocks of nodes")?;
+        let mut found = 0;
+        for _ in 0..blocks {
             let row = scan.row("a block of nodes")?;
             let [_, _, _, count] = row[..] else { return Err(block(&row)) };
             let count = scan.count(count)?;
+            found += count;
             let mut tags = Vec::with_capacity(count);
             for _ in 0..count {
                 tags.push(whole(scan.row("the number of a node")?.first().unwrap_or(&""))?);
@@ -133,7 +136,7 @@ impl Gmsh {
                 self.builder.node(tag, place(&row)?)?;
             }
         }
-        Ok(())
+        same(in_all, found, "nodes")
     }
 
     fn elements(&mut self, scan: &mut Scan) -> Result<(), String> {
@@ -157,7 +160,9 @@ impl Gmsh {
     }
 
     fn blocks_of_elements(&mut self, scan: &mut Scan) -> Result<(), String> {
-        for _ in 0..first_count(scan, "the number of blocks of elements")? {
+        let [blocks, in_all] = first_counts(scan, "the number of blocks of elements")?;
+        let mut found = 0;
+        for _ in 0..blocks {
             let row = scan.row("a block of elements")?;
             let [dimension, tag, kind, count] = row[..] else { return Err(block(&row)) };
             let (_, corners) = shape(kind)?;
@@ -168,12 +173,14 @@ impl Gmsh {
                 Some(groups) => groups.iter().map(|group| self.name(dimension, *group)).collect(),
                 None => vec![format!("{}_{}", KINDS[dimension], entity.1)],
             };
-            for _ in 0..scan.count(count)? {
+            let count = scan.count(count)?;
+            found += count;
+            for _ in 0..count {
                 let row = scan.row("an element")?;
                 self.element(dimension, corners, &names, row.get(1..).unwrap_or(&[]))?;
             }
         }
-        Ok(())
+        same(in_all, found, "elements")
     }
 
     fn name(&self, dimension: usize, physical: u64) -> String {
@@ -217,9 +224,15 @@ fn one_count(scan: &mut Scan, what: &str) -> Result<usize, String> {
     scan.count(count)
 }
 
-fn first_count(scan: &mut Scan, what: &str) -> Result<usize, String> {
+/// How many blocks follow, and how many lines are in all of them.
+fn first_counts(scan: &mut Scan, what: &str) -> Result<[usize; 2], String> {
     let row = scan.row(what)?;
-    scan.count(row.first().unwrap_or(&""))
+    let count = |k: usize| scan.count(row.get(k).unwrap_or(&""));
+    Ok([count(0)?, count(1)?])
+}
+
+fn same(said: usize, found: usize, what: &str) -> Result<(), String> {
+    if said == found { Ok(()) } else { Err(format!("the section says {said} {what}, and its blocks hold {found}")) }
 }
 
 fn block(row: &[&str]) -> String {
