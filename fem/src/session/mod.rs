@@ -275,7 +275,15 @@ fn finish(
         None => run.files = files,
     }
     run.notices.extend(loaded.robot.as_ref().and_then(WatchedRobot::left_out));
+    run.notices.extend(too_many(settings.threads));
     Ok(run)
+}
+
+/// Threads beyond the cores wait for each other.
+fn too_many(threads: usize) -> Option<String> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let message = format!("{threads} threads share {cores} cores: more threads than cores make a run slower");
+    (threads > cores).then_some(message)
 }
 
 /// Writes the last files of a run.
