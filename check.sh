@@ -21,9 +21,11 @@ if [ "${1:-}" = fast ]; then
 else
   # One profile for everything, so that the dependencies are built once.
   step release build
-  cargo build --release --quiet
+  cargo build --release --workspace --quiet
   step fast tests
   cargo test --workspace --release --quiet
+  step broken inputs, ten thousand for every reader
+  ./target/release/ibr-fuzz all --cases 10000 --keep target/fuzz-found
   step slow tests
   cargo test --release --quiet --test slow
   step known numbers

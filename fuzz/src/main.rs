@@ -85,3 +85,25 @@ fn run(reader: &Reader, wish: &Wish) -> usize {
     );
     kinds
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Otherwise nothing behind the first check of a reader is ever reached.
+    #[test]
+    fn every_reader_reads_its_good_inputs() {
+        for reader in READERS {
+            let refused = reader.corpus().iter().filter(|good| !(reader.read)(good)).count();
+            assert!(!reader.corpus().is_empty() && refused == 0, "{} refuses {refused} good inputs", reader.name);
+        }
+    }
+
+    #[test]
+    fn a_case_is_known_by_its_seed_and_its_number() {
+        let corpus = READERS[0].corpus();
+        let of = |seed, case| mutate::broken(&corpus, &mut mutate::Random::of(seed, case));
+        assert_eq!(of(1, 7), of(1, 7));
+        assert!((0..50).any(|case| of(1, case) != of(2, case)) && (0..50).any(|case| of(1, case) != of(1, case + 1)));
+    }
+}

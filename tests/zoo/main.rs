@@ -8,6 +8,7 @@
 
 mod case;
 mod common;
+mod paths;
 mod table;
 
 use case::Case;

@@ -1,6 +1,7 @@
 //! A beam: tip deflection under a transverse load, at a body pressure. One end is clamped.
 
 use super::{BenchKind, BenchRow, Field, field, plain, scatter};
+use crate::policy;
 use crate::units::Measured::{Force, Length, Pressure};
 
 pub(super) const ENTRY: BenchKind = BenchKind {
@@ -30,8 +31,9 @@ fn check(row: &BenchRow) -> Result<(), [String; 2]> {
         return Err([message, "write both as positive numbers along the load".into()]);
     }
     match row.get("radius") {
-        Some(r) if !(r > 0.0 && r < 10.0) => {
-            Err([format!("the radius is {} mm", 1e3 * r), "write the body's radius, for example radius_mm = 80".into()])
+        Some(r) if !(r > policy::SHORTEST_ROBOT_M && r < 10.0) => {
+            let help = "write the body's radius in the unit of the column's name, for example 80 below radius_mm";
+            Err([format!("the radius is {} mm", 1e3 * r), help.into()])
         }
         _ => scatter(row, "deflection_sd"),
     }

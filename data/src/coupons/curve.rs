@@ -115,7 +115,7 @@ impl<'a> Specimens<'a> {
         let written = raw.numbers[quantity].or(self.notes.numbers[quantity]);
         let unit = if quantity == DIRECTION { ("deg", 1.0) } else { ("mm", 1e3) };
         if let (Some(written), Some(typed)) = (written, typed)
-            && (written - typed).abs() > 1e-9 * typed.abs()
+            && !((written - typed).abs() <= 1e-9 * typed.abs())
         {
             let message = format!(
                 "specimen {specimen}: the file says {expected} = {:.6}, --{base} says {:.6}",

@@ -40,6 +40,7 @@ fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>, Dat
         if columns.is_empty() {
             columns = columns_of(sheet, number, &heads, &mut pivot)?;
         }
+        sheet.whole_row(&cells, heads[0].1.len(), number)?;
         let time = sheet.time(cells[0], number, "frame")?;
         let frame = pivot.frame(time);
         for NetworkColumns { marker, parts } in &columns {

@@ -100,6 +100,16 @@ impl<'a> CellText<'a> {
             .ok_or_else(|| self.bad_cell(text, number, column, "type a number, or leave the cell empty"))
     }
 
+    /// # Errors
+    /// A row that was cut, or has cells that no name stands above.
+    pub fn whole_row(&self, cells: &[&str], names: usize, number: u64) -> Result<(), DataError> {
+        if cells.len() == names {
+            return Ok(());
+        }
+        let message = format!("the row has {} cells, the header {names}", cells.len());
+        Err(self.fault(number, message, "export it again, or complete or delete the row"))
+    }
+
     /// Seconds or frames: a number, a clock time, or a number of seconds with its unit (`1 sec`).
     ///
     /// # Errors

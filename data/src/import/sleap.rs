@@ -40,6 +40,7 @@ fn read(sheet: &CellText, options: &ImportOptions) -> Result<Vec<Recording>, Dat
     let mut cells = Vec::new();
     for (number, line) in lines {
         sheet.split_into(line, &mut cells);
+        sheet.whole_row(&cells, header.len(), number)?;
         let cell = |index: Option<usize>| index.and_then(|index| cells.get(index).copied()).unwrap_or_default();
         let frame = pivot.frame(sheet.time(cell(Some(time)), number, "frame_idx")?);
         for (node, [x, y, score]) in &nodes {

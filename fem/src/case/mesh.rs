@@ -186,6 +186,9 @@ pub(super) fn mesh(table: &Spanned<Free>, read_mesh: ReadMesh) -> Checked<MeshFi
 }
 
 /// Refuses a mesh that cannot be simulated: bad elements, chambers that leak.
+/// What to do about a mesh that is no sheet, below what is wrong with it.
+const CORRECT: &str = "\ncorrect the mesh: its file, or the values of its generator";
+
 pub(super) fn check(table: &Spanned<Free>, mesh: &Mesh, chambers: &[Chamber]) -> Checked<()> {
     let names: Vec<&str> = chambers.iter().map(|c| c.name.as_str()).collect();
     match check_open(mesh, &names, &open_at(mesh, chambers)) {
@@ -194,7 +197,7 @@ pub(super) fn check(table: &Spanned<Free>, mesh: &Mesh, chambers: &[Chamber]) ->
             let all: Vec<&str> = mesh.sets.keys().map(String::as_str).collect();
             let opens = chambers.iter().all(|c| c.open_axis.is_none()) && check_open(mesh, &names, &all).is_ok();
             let axis = if opens { open_axis(mesh, &names) } else { None };
-            let help = axis.map_or(String::new(), |(chamber, axis)| {
+            let help = axis.map_or(CORRECT.to_string(), |(chamber, axis)| {
                 format!("\nit is open between planes: write open_axis = \"{axis}\" in [chamber.{chamber}]")
             });
             Err(FemError::Case { message: message + &help, span: Some(table.span()) })
@@ -342,7 +345,7 @@ fn generated(table: &Spanned<Free>, name: &Text) -> Checked<Mesh> {
     }
     let values = generator.keys.iter().map(|key| value(table, key)).collect::<Checked<Vec<f64>>>()?;
     (generator.make)(&values).map_err(|error| match error {
-        FemError::Mesh(message) => FemError::Case { message, span: Some(table.span()) },
+        FemError::Mesh(message) => FemError::Case { message: message + CORRECT, span: Some(table.span()) },
         other => other,
     })
 }
