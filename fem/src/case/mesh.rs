@@ -185,10 +185,10 @@ pub(super) fn mesh(table: &Spanned<Free>, read_mesh: ReadMesh) -> Checked<MeshFi
     }
 }
 
-/// Refuses a mesh that cannot be simulated: bad elements, chambers that leak.
 /// What to do about a mesh that is no sheet, below what is wrong with it.
 const CORRECT: &str = "\ncorrect the mesh: its file, or the values of its generator";
 
+/// Refuses a mesh that cannot be simulated: bad elements, chambers that leak.
 pub(super) fn check(table: &Spanned<Free>, mesh: &Mesh, chambers: &[Chamber]) -> Checked<()> {
     let names: Vec<&str> = chambers.iter().map(|c| c.name.as_str()).collect();
     match check_open(mesh, &names, &open_at(mesh, chambers)) {
