@@ -121,10 +121,11 @@ pub fn moments(
     let seen = seen(case)?;
     let mut shown = missing_moment(case, &seen, decision, found)?;
     if (options.learn || found.verdict == Some(Verdict::OutOfCatalog))
-        && let Some((law, curves)) = learn(case, &seen, made, options, found, &shown.points)? {
-            shown.curves.extend(curves);
-            found.learned = Some(law);
-        }
+        && let Some((law, curves)) = learn(case, &seen, made, options, found, &shown.points)?
+    {
+        shown.curves.extend(curves);
+        found.learned = Some(law);
+    }
     if options.missing_moment {
         found.missing_moment = Some(shown);
     }

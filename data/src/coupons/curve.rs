@@ -115,7 +115,7 @@ impl<'a> Specimens<'a> {
         let written = raw.numbers[quantity].or(self.notes.numbers[quantity]);
         let unit = if quantity == DIRECTION { ("deg", 1.0) } else { ("mm", 1e3) };
         if let (Some(written), Some(typed)) = (written, typed)
-            && !((written - typed).abs() <= 1e-9 * typed.abs())
+            && !agree(written, typed)
         {
             let message = format!(
                 "specimen {specimen}: the file says {expected} = {:.6}, --{base} says {:.6}",
@@ -193,4 +193,9 @@ impl<'a> Specimens<'a> {
     fn fault(&self, raw: &Raw, message: String, help: impl Into<String>) -> DataError {
         DataError::Runs(Box::new(Fault::of_file(&self.file, message, help).at_line(raw.rows[0].1)))
     }
+}
+
+/// Equal but for rounding; what is no number agrees with nothing.
+fn agree(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-9 * b.abs()
 }
