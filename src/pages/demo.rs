@@ -13,7 +13,7 @@ use data::published::printed;
 use serde_json::{Value, json};
 
 /// Pictures of the diagnosis that the page has.
-const PICTURES: [&str; 4] = ["residuals_before", "ranking", "before_after", "candidates"];
+const PICTURES: [&str; 5] = ["missing_moment", "residuals_before", "ranking", "before_after", "candidates"];
 
 /// The page of the demonstration and its plots.
 ///
