@@ -12,7 +12,7 @@ step format
 cargo fmt --all --check
 step clippy
 cargo clippy --workspace --all-targets -- -D warnings
-cargo clippy --test slow -- -D warnings
+cargo clippy --test slow --test zoo -- -D warnings
 step docs
 cargo doc --workspace --no-deps --quiet
 if [ "${1:-}" = fast ]; then
@@ -28,6 +28,8 @@ else
   ./target/release/ibr-fuzz all --cases 10000 --keep target/fuzz-found
   step slow tests
   cargo test --release --quiet --test slow
+  step bad input
+  cargo test --release --quiet --test zoo
   step known numbers
   ./target/release/ibr verify
   # Benches end with 1 where they miss what is wanted: on a shared machine, or with few sets, that is no fault.

@@ -47,7 +47,7 @@ impl Case {
     pub fn run(&self) -> Result<(), String> {
         let folder = tempfile::tempdir().unwrap();
         let at = folder.path();
-        self.lay_out(at);
+        self.lay_out(at)?;
         if let Broken::Reads(bytes, good) = &self.broken {
             fs::write(at.join(&self.file), good).unwrap();
             let right = self.ran(at)?;
@@ -67,7 +67,7 @@ impl Case {
     }
 
     /// The folder that the command finds: an earlier report, files, and the broken one.
-    fn lay_out(&self, at: &Path) {
+    fn lay_out(&self, at: &Path) -> Result<(), String> {
         let write = |name: &str, bytes: &[u8]| {
             let path = at.join(name);
             fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -77,8 +77,10 @@ impl Case {
         write("report/manifest.json", b"{}");
         self.beside.iter().for_each(|(name, bytes)| write(name, bytes));
         for command in &self.prepare {
-            let made = Case { command: command.clone(), ..self.clone() }.ran(at).unwrap();
-            assert_eq!(made.code, 0, "{command}: {}", made.stderr);
+            let made = Case { command: command.clone(), ..self.clone() }.ran(at)?;
+            if made.code != 0 {
+                return Err(format!("{command}: {}", made.stderr));
+            }
         }
         let path = at.join(&self.file);
         if path.is_file() {
@@ -90,6 +92,7 @@ impl Case {
             Broken::Folder => fs::create_dir_all(path).unwrap(),
             Broken::Link(to) => link(to, &path),
         }
+        Ok(())
     }
 
     fn ran(&self, at: &Path) -> Result<Ran, String> {
