@@ -7,10 +7,12 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Type of every key of an answer or a record; a key that ends with `?` may be missing.
 type Keys = BTreeMap<String, String>;
 
-/// Records that only come with data of a kind that these commands have not: two effects at once, a fault, a law that the
+/// Records that only come with data of a kind that these commands have not: two effects at once, a fault, a slip, a law that the
 /// catalogue lacks, a robot's run, lost nodes.
-const RARE: [&str; 17] = [
+const RARE: [&str; 20] = [
     "AsClose",
+    "BendingAlarm",
+    "BestEffect",
     "ChangedSides",
     "Combination",
     "FirstThrough",
@@ -23,6 +25,7 @@ const RARE: [&str; 17] = [
     "LoopGap",
     "Outlier",
     "OutlyingRun",
+    "PressureSlipFound",
     "Quality",
     "Reading",
     "RobotSummary",

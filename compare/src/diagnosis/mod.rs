@@ -53,6 +53,8 @@ mod part;
 mod pattern_tests;
 mod patterns;
 mod pressures;
+#[cfg(test)]
+mod pressures_tests;
 mod problem;
 mod proposed;
 mod result;
@@ -80,7 +82,7 @@ pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
 pub use learned::{LearnedLaw, LearnedLine, LearnedTried};
 pub use options::{Options, PRESSURES_ARE_RIGHT};
 pub use outliers::{Outliers, OutlyingRun, Undetectable};
-pub use pressures::{PressureSlipFound, pressure_slip};
+pub use pressures::{BestEffect, PressureSlipFound, pressure_slip};
 pub use proposed::*;
 pub use result::*;
 

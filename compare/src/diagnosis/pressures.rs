@@ -11,7 +11,8 @@
 //! | B, B₀, s | fitted and told stiffness; a factor of two is one standard deviation |
 //!
 //! A slip is told where its C is clearly below that of the base and of every effect and pair, and where it leaves less than half of
-//! their error, or nothing that matters. A base that fits with its own stiffness is asked nothing.
+//! their error, or nothing that matters. What the numbers alone look like needs to be as good only; a base that fits with its own
+//! stiffness is asked about nothing else.
 
 use super::case::{Case, catalogue};
 use super::decide::decide;
@@ -40,8 +41,17 @@ pub struct PressureSlipFound {
     pub before_mm: Option<f64>,
     /// The same with the slip undone \[mm\].
     pub after_mm: f64,
-    /// The best of the catalogue with the pressures as they are written: effects, and the error beyond noise that they leave \[mm\].
-    pub best_effect: Option<(String, f64)>,
+    /// The best of the catalogue with the pressures as they are written.
+    pub best_effect: Option<BestEffect>,
+}
+
+/// What comes nearest without a slip.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BestEffect {
+    /// Names.
+    pub effects: Vec<String>,
+    /// Error beyond noise that they leave \[mm\].
+    pub left_mm: f64,
 }
 
 /// What a hypothesis leaves, and what it costs.
@@ -91,7 +101,7 @@ impl Pressures<'_> {
             return Ok(None);
         }
         let nearest = rivals.iter().min_by(|a, b| a.0.left_mm.total_cmp(&b.0.left_mm));
-        let best_effect = nearest.map(|(rival, fit)| (names(case, fit), rival.left_mm));
+        let best_effect = nearest.map(|(rival, fit)| BestEffect { effects: names(case, fit), left_mm: rival.left_mm });
         Ok(Some(self.told(&best, Some(own.left_mm), best_effect)))
     }
 
@@ -143,19 +153,23 @@ impl Pressures<'_> {
         &self,
         Undone { part, slip, weighed, .. }: &Undone,
         before_mm: Option<f64>,
-        best_effect: Option<(String, f64)>,
+        best_effect: Option<BestEffect>,
     ) -> PressureSlipFound {
         let dataset = &self.parts[*part].prepared.dataset;
         let (name, after_mm) = (dataset.name.clone(), weighed.left_mm);
         let brings = match before_mm {
-            Some(before_mm) => format!("takes the error beyond noise from {before_mm:.1} to {after_mm:.2} mm"),
-            None => format!("leaves {after_mm:.2} mm, and without it the robot has no equilibrium"),
+            Some(before_mm) => format!("the error beyond noise goes from {before_mm:.1} to {after_mm:.2} mm"),
+            None => format!("{after_mm:.2} mm are left, and as they are written the robot has no equilibrium"),
         };
-        let effect = best_effect.as_ref().map_or(String::new(), |(names, left)| {
-            format!(" (the best of the catalogue, {names}, leaves {left:.2} mm)")
+        let effect = best_effect.as_ref().map_or(String::new(), |BestEffect { effects, left_mm }| {
+            format!(" (the best of the catalogue, {}, leaves {left_mm:.2} mm)", effects.join(" + "))
         });
-        let words =
-            format!("{name}: {}: {} {brings}{effect}. Look at it first: {}", slip.looks(), slip.with(), slip.help());
+        let words = format!(
+            "{name}: {}: with {} {brings}{effect}. Look at it first: {}",
+            slip.looks(),
+            slip.with(),
+            slip.help()
+        );
         PressureSlipFound { dataset: name, words, before_mm, after_mm, best_effect }
     }
 }
@@ -221,9 +235,8 @@ fn oddness(case: &Case, bending: f64) -> f64 {
     (size.ln() / policy::SAME_STIFFNESS.ln()).powi(2)
 }
 
-fn names(case: &Case, fit: &Fit) -> String {
-    let added = fit.effects[case.always.len()..].iter().map(|e| case.candidate(*e).name.clone());
-    added.collect::<Vec<_>>().join(" + ")
+fn names(case: &Case, fit: &Fit) -> Vec<String> {
+    fit.effects[case.always.len()..].iter().map(|e| case.candidate(*e).name.clone()).collect()
 }
 
 /// Root mean square of how far the markers moved \[m\].

@@ -89,6 +89,18 @@ fn a_slip_is_told_where_it_is_far_from_chance() {
 }
 
 #[test]
+fn a_pressure_is_a_rooms_between_mountain_and_sea_and_a_slip_is_told_where_it_is_clear() {
+    turns_at(80e3, is_a_room);
+    turns_at(110e3, |pressure| !is_a_room(pressure));
+    turns_at(500.0, |below| !is_not_below(20e3 - below, 20e3));
+    turns_at(100.0, |below| is_never_above(2e3 - below, 2e3));
+    turns_at(4.0, |worse| is_clearly_better(40.0, 40.0 + worse));
+    turns_at(6.0, |worse| !is_as_good(40.0 + worse, 40.0));
+    turns_at(2.0, |factor| !is_same_stiffness(1.5 * factor, 1.5) && !is_same_stiffness(1.5 / factor, 1.5));
+    assert!(is_same_stiffness(7.0, 0.0));
+}
+
+#[test]
 fn the_same_ratio_at_a_body_pressure_that_is_not() {
     turns_at(0.03, |off: f64| !is_same_ratio(10.0 * off.exp(), 10.0));
     turns_at(0.1, |off: f64| bodies_differ(2e3 * off.exp(), 2e3) && bodies_differ(2e3, 2e3 * off.exp()));

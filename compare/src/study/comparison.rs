@@ -128,8 +128,8 @@ pub fn compare_all(
     knob: Option<Knob>,
 ) -> Result<Comparison, CompareError> {
     let Evidence { dataset: read, about, .. } = evidence;
-    let Prepared { dataset, sessions, outliers, warnings: told_of_data } = prepare(read, about.as_ref());
-    let sessions = if options.sessions.is_empty() { sessions } else { options.sessions.clone() };
+    let Prepared { dataset, outliers, warnings: told_of_data, .. } = prepare(read, about.as_ref());
+    let sessions = sessions(&dataset, about.as_ref(), options);
     let (dataset, options) = (&dataset, &EvaluateOptions { sessions, ..options.clone() });
     let (mut variants, mut warnings) = (Vec::<Variant>::new(), Vec::new());
     for model in models {
@@ -161,6 +161,16 @@ fn strays(outliers: &[Outlier], name: &str) -> Option<String> {
         "the farthest of them is of run {}, marker {} ({:+.1}, {:+.1} mm): look at `ibr data check {name}`",
         o.run, o.marker, o.dx_mm, o.dy_mm
     ))
+}
+
+/// Session of every run: as given, else as `about.toml` labels them.
+fn sessions(dataset: &Dataset, about: Option<&About>, options: &EvaluateOptions) -> Vec<usize> {
+    let label = |run: &String| about?.runs.iter().find(|r| r.id == *run)?.session.clone();
+    let labels: Vec<Option<String>> = dataset.runs.iter().map(label).collect();
+    if !options.sessions.is_empty() || labels.iter().all(Option::is_none) {
+        return options.sessions.clone();
+    }
+    labels.iter().map(|l| labels.iter().position(|other| other == l).unwrap_or(0)).collect()
 }
 
 fn held(scenario: &Scenario, dataset: &Dataset, options: &EvaluateOptions) -> Result<Evaluation, CompareError> {
