@@ -6,9 +6,33 @@ use crate::dataset::Dataset;
 use crate::error::{DataError, Fault};
 use crate::header::{Header, P_ACT, P_BODY, QUANTITIES, STATION, X, Y};
 use crate::policy;
-use crate::rows::RowReader;
+use crate::rows::{Row, RowReader};
 use crate::streams::Recorder;
 use crate::units::mm;
+
+/// Largest values seen, for the check of units.
+#[derive(Debug, Default, Clone, Copy)]
+pub(crate) struct Extremes {
+    pub x_m: f64,
+    pub y_m: f64,
+    pub station_m: f64,
+    pub p_body_pa: f64,
+    pub p_act_pa: f64,
+    /// There is a column of gauge readings.
+    pub gauge: bool,
+}
+
+impl Extremes {
+    pub fn widen(&mut self, row: &Row) {
+        let widen = |most: &mut f64, value: f64| *most = most.max(value.abs());
+        widen(&mut self.x_m, row.x_m);
+        widen(&mut self.y_m, row.y_m);
+        widen(&mut self.station_m, row.station_m.unwrap_or(0.0));
+        widen(&mut self.p_body_pa, row.p_body_pa);
+        widen(&mut self.p_act_pa, row.p_act_pa);
+        self.gauge |= row.gauge_pa.is_some();
+    }
+}
 
 /// Refuses lengths and pressures that look like another unit.
 ///

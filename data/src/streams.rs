@@ -10,6 +10,7 @@ use crate::error::{DataError, Fault};
 use crate::header::{MARKER, P_ACT, P_BODY, RUN, STATION, TIME};
 use crate::lines::{KeptLine, Line};
 use crate::placeholders::Placeholders;
+use crate::plausible::Extremes;
 use crate::policy::{self, tolerance_act_pa, tolerance_body_pa};
 use crate::rows::{Row, RowReader};
 
@@ -229,18 +230,6 @@ pub(crate) struct Recorder {
     series: usize,
 }
 
-/// Largest values seen, for the check of units.
-#[derive(Debug, Default, Clone, Copy)]
-pub(crate) struct Extremes {
-    pub x_m: f64,
-    pub y_m: f64,
-    pub station_m: f64,
-    pub p_body_pa: f64,
-    pub p_act_pa: f64,
-    /// There is a column of gauge readings.
-    pub gauge: bool,
-}
-
 impl Recorder {
     /// Takes in one observation.
     ///
@@ -322,18 +311,6 @@ impl Recorder {
         let message = format!("marker {} has two stations: {} mm and {} mm", row.marker, old * 1e3, new * 1e3);
         let help = "the station is the place on the undeformed robot: write the same number in every row".to_string();
         Err(DataError::Cell(cells.cell_fault(line, STATION, message, help)))
-    }
-}
-
-impl Extremes {
-    fn widen(&mut self, row: &Row) {
-        let widen = |most: &mut f64, value: f64| *most = most.max(value.abs());
-        widen(&mut self.x_m, row.x_m);
-        widen(&mut self.y_m, row.y_m);
-        widen(&mut self.station_m, row.station_m.unwrap_or(0.0));
-        widen(&mut self.p_body_pa, row.p_body_pa);
-        widen(&mut self.p_act_pa, row.p_act_pa);
-        self.gauge |= row.gauge_pa.is_some();
     }
 }
 

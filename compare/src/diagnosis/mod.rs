@@ -95,7 +95,6 @@ use crate::prepare::outlying_runs;
 use crate::progress::shares::{DIAGNOSIS, PAIRS};
 use crate::progress::{Progress, part};
 use crate::residuals::{ResidualMap, residual_map};
-use crate::slips::pressure::pressure_words;
 use crate::where_it_fails::{FailureOptions, Statement, where_it_fails};
 use case::Case;
 use decide::{Decision, decide};
@@ -154,7 +153,7 @@ pub fn diagnose(
     }
     diagnosis.slips = parts.iter().flat_map(|part| part.slips.clone()).collect();
     if let Some(found) = pressure_slip {
-        return Ok(withheld(diagnosis, found, evidence));
+        return Ok(found.withholds(diagnosis, evidence));
     }
     diagnosis.kept_bending = kept_bending::kept_bending(&diagnosis, scenario, evidence, options)?;
     if options.next_experiment {
@@ -169,19 +168,6 @@ pub fn diagnose(
     }
     diagnosis.summary = story::story(&diagnosis);
     Ok(diagnosis)
-}
-
-/// A diagnosis whose verdict waits for a column of pressures; what its numbers alone look like is said once.
-fn withheld(mut diagnosis: Diagnosis, found: PressureSlipFound, evidence: &[Evidence]) -> Diagnosis {
-    let in_numbers: Vec<String> = evidence.iter().flat_map(|e| pressure_words(&e.dataset)).collect();
-    diagnosis.slips.retain(|slip| !in_numbers.contains(slip));
-    diagnosis.warnings.retain(|warning| !in_numbers.contains(warning));
-    diagnosis.slips.insert(0, found.words.clone());
-    diagnosis.warnings.insert(0, found.words.clone());
-    diagnosis.bending_alarm = None;
-    diagnosis.pressure_slip = Some(found);
-    diagnosis.summary = story::story(&diagnosis);
-    diagnosis
 }
 
 /// Every dataset made ready, without copies, and cautions.

@@ -20,12 +20,14 @@ use super::options::{Options, PRESSURES_ARE_RIGHT};
 use super::order;
 use super::part::Part;
 use super::problem::Fit;
+use super::result::Diagnosis;
 use super::singles::fit_all;
 use super::source::Source;
+use super::story::story;
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::policy;
-use crate::slips::pressure::PressureSlip;
+use crate::slips::pressure::{PressureSlip, pressure_words};
 use data::Dataset;
 use models::Scenario;
 use serde::Serialize;
@@ -43,6 +45,21 @@ pub struct PressureSlipFound {
     pub after_mm: f64,
     /// The best of the catalogue with the pressures as they are written.
     pub best_effect: Option<BestEffect>,
+}
+
+impl PressureSlipFound {
+    /// A diagnosis whose verdict waits for the column; what its numbers alone look like is said once.
+    pub(super) fn withholds(self, mut diagnosis: Diagnosis, evidence: &[Evidence]) -> Diagnosis {
+        let in_numbers: Vec<String> = evidence.iter().flat_map(|e| pressure_words(&e.dataset)).collect();
+        for told in [&mut diagnosis.slips, &mut diagnosis.warnings] {
+            told.retain(|words| !in_numbers.contains(words));
+            told.insert(0, self.words.clone());
+        }
+        diagnosis.bending_alarm = None;
+        diagnosis.pressure_slip = Some(self);
+        diagnosis.summary = story(&diagnosis);
+        diagnosis
+    }
 }
 
 /// What comes nearest without a slip.
