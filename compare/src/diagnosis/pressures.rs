@@ -112,14 +112,15 @@ impl Pressures<'_> {
         let own = weighed(case, &case.base);
         let tolerance_mm = 1e3 * case.tolerance_m;
         let fits = own.left_mm <= tolerance_mm && own.has_its_stiffness;
-        let Some(best) = self.best(fits).filter(|best| best.beats(&own, tolerance_mm)) else { return Ok(None) };
+        let all = self.undone_slips(fits);
+        let Some(best) = all.first().filter(|best| best.beats(&own, tolerance_mm)) else { return Ok(None) };
         let rivals: Vec<(Weighed, Fit)> = rivals()?.into_iter().map(|fit| (weighed(case, &fit), fit)).collect();
         if !rivals.iter().all(|(rival, _)| best.beats(rival, tolerance_mm)) {
             return Ok(None);
         }
         let nearest = rivals.iter().min_by(|a, b| a.0.left_mm.total_cmp(&b.0.left_mm));
         let best_effect = nearest.map(|(rival, fit)| BestEffect { effects: names(case, fit), left_mm: rival.left_mm });
-        Ok(Some(self.told(&best, Some(own.left_mm), best_effect)))
+        Ok(Some(self.told(&all, Some(own.left_mm), best_effect)))
     }
 
     /// What to say of data with which the base has no equilibrium: the slip without which it has one, else the error.
@@ -133,13 +134,14 @@ impl Pressures<'_> {
     }
 
     fn instead(&self) -> Option<PressureSlipFound> {
-        let best = self.best(false)?;
+        let all = self.undone_slips(false);
+        let best = all.first()?;
         let moved_mm = 1e3 * moved_m(&self.parts[best.part].prepared.dataset);
-        policy::is_mostly_gone(best.weighed.left_mm, moved_mm).then(|| self.told(&best, None, None))
+        policy::is_mostly_gone(best.weighed.left_mm, moved_mm).then(|| self.told(&all, None, None))
     }
 
-    /// The best of all slips; `in_numbers`: of those that the numbers alone look like.
-    fn best(&self, in_numbers: bool) -> Option<Undone> {
+    /// All slips, the best first; `in_numbers`: those that the numbers alone look like.
+    fn undone_slips(&self, in_numbers: bool) -> Vec<Undone> {
         let all = (0..self.parts.len()).flat_map(|part| {
             let Part { scenario, prepared, .. } = &self.parts[part];
             PressureSlip::all(&prepared.dataset, scenario.p_body_pa).into_iter().map(move |slip| (part, slip))
@@ -152,7 +154,9 @@ impl Pressures<'_> {
             let weighed = possible.then(|| self.undone(part, &slip))??;
             Some(Undone { part, slip, weighed, in_numbers: seen })
         };
-        all.filter_map(undone).min_by(|a, b| a.weighed.criterion.total_cmp(&b.weighed.criterion))
+        let mut undone: Vec<Undone> = all.filter_map(undone).collect();
+        undone.sort_by(|a, b| a.weighed.criterion.total_cmp(&b.weighed.criterion));
+        undone
     }
 
     /// The base refitted with a slip of one of the data undone; `None` without equilibrium.
@@ -166,12 +170,8 @@ impl Pressures<'_> {
         Some(weighed(&case, &case.base))
     }
 
-    fn told(
-        &self,
-        Undone { part, slip, weighed, .. }: &Undone,
-        before_mm: Option<f64>,
-        best_effect: Option<BestEffect>,
-    ) -> PressureSlipFound {
+    fn told(&self, all: &[Undone], before_mm: Option<f64>, best_effect: Option<BestEffect>) -> PressureSlipFound {
+        let Undone { part, slip, weighed, .. } = &all[0];
         let dataset = &self.parts[*part].prepared.dataset;
         let (name, after_mm) = (dataset.name.clone(), weighed.left_mm);
         let brings = match before_mm {
