@@ -12,7 +12,7 @@ use super::singles::parameter_values;
 use super::source::Source;
 use super::story::with_interval;
 use crate::error::CompareError;
-use crate::moment::learned::{Form, LIBRARY, Material, Tried, rank, taken};
+use crate::moment::learned::{Form, Material, PULL, Tried, rank, taken};
 use crate::moment::{MomentCurve, MomentPoint};
 use models::Scenario;
 use nalgebra::{DMatrix, DVector};
@@ -135,7 +135,7 @@ pub fn moments(
 type Told = (LearnedLaw, Vec<MomentCurve>);
 
 /// Laws that are fitted to the markers: those that predict moments best.
-const SHORT_LIST: usize = 10;
+const SHORT_LIST: usize = 7;
 
 fn learn(
     case: &Case,
@@ -191,7 +191,7 @@ impl Ground<'_> {
         let scenarios: Vec<Scenario> = self.sources.iter().map(extended).collect();
         let sources = self.sources.iter().zip(&scenarios).map(|(source, scenario)| Source { scenario, ..*source });
         let candidates = candidates(&scenarios[0], self.name, self.line);
-        let options = Options { keep_bending: self.options.keep_bending || form.has_spring, ..self.options.clone() };
+        let options = Options { keep_bending: self.options.keep_bending || form.has_spring(), ..self.options.clone() };
         let own = (&candidates[..], candidates.len() - 1);
         let case = Case::new(&sources.collect::<Vec<_>>(), self.sessions, own, &options)?;
         let Some(fit) = fitted(&case, &law.values) else { return Ok(None) };
@@ -232,8 +232,7 @@ fn material(case: &Case, seen: &[Seen]) -> Result<Material, CompareError> {
 /// The actuator's pull at the bends that were measured: what is missing where a share of it is taken away, over that share.
 fn pulls(block: &Block, seen: &Seen) -> Result<Vec<Vec<f64>>, CompareError> {
     let taken = |scenario: &Scenario| {
-        let form = LIBRARY.iter().find(|f| f.moment == "-a*pull");
-        let formula = form.and_then(|f| f.formula("pull_share", scenario));
+        let formula = PULL.formula("pull_share", scenario);
         let mut other = scenario.clone();
         other.formulas.extend(formula);
         other.with_effect("pull_share", &[SHARE])
@@ -268,7 +267,10 @@ fn candidates(scenario: &Scenario, name: &str, line: Option<f64>) -> Vec<Candida
     names.filter_map(|name| Some(candidate(&catalogue.by_name(name)?, scenario.actuator.kind.name))).collect()
 }
 
-/// The law fitted to the markers, from what the moments say and from half of it.
+/// Shares of what the moments say from which a law is fitted to the markers: the whole may leave no equilibrium.
+const STARTS: [f64; 3] = [1.0, 0.5, 0.1];
+
+/// The law fitted to the markers.
 fn fitted(case: &Case, values: &[f64]) -> Option<Fit> {
     let effects: Vec<usize> = (0..case.problem.candidates.len()).collect();
     let own = &case.problem.candidates[effects.len() - 1].parameters;
@@ -277,7 +279,7 @@ fn fitted(case: &Case, values: &[f64]) -> Option<Fit> {
         let law = values.iter().zip(own).map(|pair| value(pair).clamp(pair.1.lower, pair.1.upper));
         case.base.theta().iter().copied().chain(law).collect::<Vec<f64>>()
     };
-    case.problem.fit(&effects, &[start(1.0), start(0.5)])
+    case.problem.fit(&effects, &STARTS.map(start))
 }
 
 fn told(case: &Case, fit: &Fit, form: &Form, name: &str, found: &Diagnosis) -> Result<LearnedLaw, CompareError> {
@@ -302,8 +304,8 @@ fn told(case: &Case, fit: &Fit, form: &Form, name: &str, found: &Diagnosis) -> R
         heldout_after_mm: held_out.pressure_mm(fit),
         heldout_run_after_mm: held_out.run_mm(fit),
         bending_nm2: fit.theta()[..case.problem.bendings].to_vec(),
-        usual: form.usual.into(),
-        check: form.check.into(),
+        usual: form.usual.words.into(),
+        check: form.usual.check.into(),
         tried: Vec::new(),
         toml: form.toml(name, case.scenario),
     })

@@ -68,3 +68,27 @@ fn origin(found: &Diagnosis, law: &LearnedLaw) -> Vec<String> {
         "chosen among the laws of its library by prediction at actuator pressures left out. It is a description, not a cause.".into(),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::study::published::shipped_scenario;
+    use models::{Loads, Model, Scenario};
+
+    /// What is fitted as the height of the markers is written as where the centre line lies: the same positions.
+    #[test]
+    fn markers_off_the_axis_are_a_centre_line_elsewhere() {
+        for kind in ["spam", "cpam", "epam", "fpam"] {
+            let robot = shipped_scenario(kind).unwrap();
+            let line = Scenario { centre_line_m: Some(robot.radius_m - 0.007), ..robot.clone() };
+            let seen = |scenario: &Scenario| {
+                let model = Model::new(scenario);
+                let mut state = model.prediction();
+                model.predict(&Loads::uniform(2e3, 25e3), &mut state).unwrap();
+                state.markers
+            };
+            let (height, line) = (seen(&robot.with_effect("marker_height", &[-0.007])), seen(&line));
+            let away = height.iter().flatten().zip(line.iter().flatten()).map(|(a, b)| (a - b).abs());
+            assert!(away.fold(0.0, f64::max) < 1e-12, "{kind}");
+        }
+    }
+}

@@ -47,8 +47,8 @@ pub fn rank(material: &Material, robot: &Scenario) -> Vec<Tried> {
         return Vec::new();
     }
     let bodies = material.places.iter().any(|at| policy::bodies_differ(at[3], material.places[0][3]));
-    let is_stiffness = |form: &Form| material.stiffness.is_some() && form.moment == "-k*kappa";
-    let open = LIBRARY.iter().filter(|form| (bodies || !form.of_body) && !is_stiffness(form));
+    let is_fitted = |form: &Form| material.stiffness.is_some() && form.is_stiffness();
+    let open = LIBRARY.iter().filter(|form| (bodies || !form.is_of_body()) && !is_fitted(form));
     let tried = |form: Option<&'static Form>| -> Option<Tried> {
         let law = Law::of(form, material, robot)?;
         let of_levels = (0..count).map(|level| law.missed(material, &levels, level)).collect::<Option<Vec<_>>>()?;
@@ -109,7 +109,7 @@ impl Law {
         let numbers = form.map_or(&[][..], |f| f.numbers);
         let scales: Vec<f64> = numbers.iter().map(|n| n.scale(robot)).collect();
         let formula = form.and_then(|f| f.formula("learned", robot));
-        let spring = material.stiffness.filter(|_| form.is_none_or(|f| !f.has_spring));
+        let spring = material.stiffness.filter(|_| form.is_none_or(|f| !f.has_spring()));
         let linear = || numbers.iter().zip(&scales).filter(|(n, _)| n.is_linear());
         let mut bounds: Vec<[f64; 2]> = linear().map(|(n, scale)| n.bounds.map(|b| b * scale)).collect();
         bounds.extend(spring.map(|most| [-most, f64::INFINITY]));

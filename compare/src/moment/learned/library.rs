@@ -16,7 +16,7 @@ use std::sync::Arc;
 pub enum Unit {
     /// π p_b R³ \[N·m\].
     Moment,
-    /// π p_b R⁴ \[N·m²\].
+    /// 10 π p_b R⁴ \[N·m²\]: that moment at a tenth of the sharpest bend.
     Stiffness,
     /// 1/R \[1/m\].
     Bend,
@@ -44,28 +44,72 @@ pub struct Number {
 pub struct Form {
     /// What it is, in words.
     pub words: &'static str,
-    /// The moment.
+    /// The moment; `TIP` stands for half of the length over the radius.
     pub moment: &'static str,
     /// Its numbers.
     pub numbers: &'static [Number],
-    /// It has a part proportional to the bend: it takes the place of a bending stiffness that is fitted.
-    pub has_spring: bool,
-    /// It can be told from another only where the body's pressure changes.
-    pub of_body: bool,
-    /// What such a law usually is.
-    pub usual: &'static str,
+    /// What such a law usually is, and what tells.
+    pub usual: Usual,
+}
+
+/// What laws of a shape usually are.
+#[derive(Debug, Clone, Copy)]
+pub struct Usual {
+    /// In words.
+    pub words: &'static str,
     /// What tells.
     pub check: &'static str,
 }
 
-const fn linear(key: &'static str, unit: Unit, meaning: &'static str) -> Number {
-    Number { key, unit, bounds: [-20.0, 20.0], tried: &[], meaning }
-}
+const TENSION: Usual = Usual {
+    words: "a steady moment: a hose or tail under tension, seams that are bent open, friction on the way up",
+    check: "go up and down in pressure, where friction changes its sign, and repeat without hoses",
+};
+const STIFFNESS: Usual = Usual {
+    words: "a bending stiffness that the scenario lacks",
+    check: "bend the inflated body with the actuator vented",
+};
+const SHARE: Usual = Usual {
+    words: "a share of the actuator's pull that does not arrive: sealed edges, or folds that unfold as it bends",
+    check: "pull one unit in a testing machine, or build one with wider units, whose edges weigh less",
+};
+const SOFTENS: Usual = Usual {
+    words: "a resistance that softens as the robot bends: a wall that wrinkles or creases, layers that buckle",
+    check: "hang weights on the inflated body with the actuator vented, and plot moment over bend",
+};
+const STOP: Usual = Usual {
+    words: "a stop: pouches or folds that meet, a clamp, a yarn that is drawn taut",
+    check: "film the side view: from the stop on the bend of one unit hardly grows",
+};
+const ENDS: Usual = Usual {
+    words: "ends that bend otherwise than the rest: a clamp, a cap, the closed end of a muscle",
+    check: "film both ends: compare their bend with that of the middle",
+};
+const BODY: Usual = Usual {
+    words: "gas of the body that is pressed out as it bends: pouches in the wall, a section that flattens",
+    check: "repeat at another body pressure, and watch the body's regulator while the robot bends",
+};
 
-const POWERS: &[f64] = &[0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0];
-const POWER: Number =
-    Number { key: "n", unit: Unit::One, bounds: [0.1, 4.0], tried: POWERS, meaning: "power of the bend" };
-const PRESSURE: Number = Number {
+/// Bounds of a number the law is linear in: no law is so much larger than the robot's own moments.
+const FAR: [f64; 2] = [-50.0, 50.0];
+const M: Number = linear("m", Unit::Moment, "moment that holds back, at small bends");
+const M_END: Number = linear("e", Unit::Moment, "moment more at an end");
+const K: Number = linear("k", Unit::Stiffness, "stiffness");
+const FALL: Number = linear("k", Unit::Stiffness, "by how much the moment falls per bend");
+const A: Number = linear("a", Unit::One, "share of the pull that is lost, at small bends");
+const A_BEND: Number = linear("b", Unit::One, "change of that share per radian of one unit");
+const A_END: Number = linear("e", Unit::One, "share more at an end");
+const P: Number = linear("a", Unit::One, "moment over P R³, at small bends");
+const P_BEND: Number = linear("b", Unit::One, "by how much it falls per bend of a tenth of 1/R");
+const P_BODY: Number = linear("a", Unit::One, "moment over p_b R³");
+const N: Number = Number {
+    key: "n",
+    unit: Unit::One,
+    bounds: [0.1, 4.0],
+    tried: &[0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0],
+    meaning: "power of the bend",
+};
+const Q: Number = Number {
     key: "q",
     unit: Unit::One,
     bounds: [0.0, 3.0],
@@ -80,194 +124,68 @@ const TOUCH: Number = Number {
     meaning: "bend at which it begins",
 };
 
-const TENSION: &str = "a steady moment: a tail or hose under tension, seams that are bent open, friction on the way up";
-const TENSION_CHECK: &str = "go up and down in pressure (friction changes its sign), and repeat without hoses";
-const SHARE: &str = "a share of the actuator's pull that does not arrive: sealed edges, folds that have not opened";
-const SHARE_CHECK: &str = "pull one unit in a testing machine, or build one with wider units: edges then weigh less";
-const SOFTENS: &str = "a resistance that softens as it bends: a wall that wrinkles or creases, layers that buckle";
-const SOFTENS_CHECK: &str = "hang weights on the inflated body with the actuator vented, and plot moment over bend";
+const fn linear(key: &'static str, unit: Unit, meaning: &'static str) -> Number {
+    Number { key, unit, bounds: FAR, tried: &[], meaning }
+}
 
-const TIP_END: &str = "an end that does not bend along: the closed end of a muscle, a cap, the last pouch's seal";
-const TIP_CHECK: &str = "film the last tenth of the robot: it stays straight where the rest bends";
+const fn law(words: &'static str, moment: &'static str, numbers: &'static [Number], usual: Usual) -> Form {
+    Form { words, moment, numbers, usual }
+}
+
+/// A share of the pull.
+pub const PULL: Form = law("a share of the pull", "-a*pull", &[A], SHARE);
 
 /// Laws, those with fewer numbers first.
 pub const LIBRARY: &[Form] = &[
-    Form {
-        words: "a steady moment",
-        moment: "-m*tanh(kappa*R/0.002)",
-        numbers: &[linear("m", Unit::Moment, "moment that holds back")],
-        has_spring: false,
-        of_body: false,
-        usual: TENSION,
-        check: TENSION_CHECK,
-    },
-    Form {
-        words: "a spring",
-        moment: "-k*kappa",
-        numbers: &[linear("k", Unit::Stiffness, "stiffness")],
-        has_spring: true,
-        of_body: false,
-        usual: "a bending stiffness that the scenario lacks",
-        check: "bend the inflated body with the actuator vented",
-    },
-    Form {
-        words: "a share of the pull",
-        moment: "-a*pull",
-        numbers: &[linear("a", Unit::One, "share of the pull that is lost")],
-        has_spring: false,
-        of_body: false,
-        usual: SHARE,
-        check: SHARE_CHECK,
-    },
-    Form {
-        words: "a moment in step with the actuator's pressure",
-        moment: "-a*p_act*R^3*tanh(kappa*R/0.002)",
-        numbers: &[linear("a", Unit::One, "moment over P R³")],
-        has_spring: false,
-        of_body: false,
-        usual: SHARE,
-        check: SHARE_CHECK,
-    },
-    Form {
-        words: "a moment in step with the body's pressure",
-        moment: "-a*p_body*R^3*tanh(kappa*R/0.002)",
-        numbers: &[linear("a", Unit::One, "moment over p_b R³")],
-        has_spring: false,
-        of_body: true,
-        usual: "gas of the body that is pressed out as it bends: pouches in the wall, a section that flattens",
-        check: "weigh the gas or watch the body's regulator while it bends, at two body pressures",
-    },
-    Form {
-        words: "a resistance that falls with bend",
-        moment: "-m*tanh(kappa*R/0.002) + k*kappa",
-        numbers: &[
-            linear("m", Unit::Moment, "moment at small bends"),
-            linear("k", Unit::Stiffness, "by how much it falls per bend"),
-        ],
-        has_spring: true,
-        of_body: false,
-        usual: SOFTENS,
-        check: SOFTENS_CHECK,
-    },
-    Form {
-        words: "a power of the bend",
-        moment: "-m*(pos(kappa)*R)^n",
-        numbers: &[linear("m", Unit::Moment, "moment at a bend of 1/R"), POWER],
-        has_spring: true,
-        of_body: false,
-        usual: SOFTENS,
-        check: SOFTENS_CHECK,
-    },
-    Form {
-        words: "a stop",
-        moment: "-k*pos(kappa - k0)",
-        numbers: &[Number { bounds: [0.0, 200.0], ..linear("k", Unit::Stiffness, "stiffness beyond it") }, TOUCH],
-        has_spring: false,
-        of_body: false,
-        usual: "a stop: pouches or folds that meet, a clamp, a yarn that is drawn taut",
-        check: "film the side view: the bend of one pouch stays where the stop begins",
-    },
-    Form {
-        words: "a share of the pull that changes with bend",
-        moment: "-(a + b*theta)*pull",
-        numbers: &[
-            linear("a", Unit::One, "share of the pull that is lost at small bends"),
-            linear("b", Unit::One, "change of that share per radian of one unit"),
-        ],
-        has_spring: false,
-        of_body: false,
-        usual: SHARE,
-        check: SHARE_CHECK,
-    },
-    Form {
-        words: "a moment in step with the actuator's pressure that changes with bend",
-        moment: "-(a - b*kappa*R)*p_act*R^3*tanh(kappa*R/0.002)",
-        numbers: &[
-            linear("a", Unit::One, "moment over P R³ at small bends"),
-            Number { bounds: [-200.0, 200.0], ..linear("b", Unit::One, "by how much it falls per κR") },
-        ],
-        has_spring: false,
-        of_body: false,
-        usual: SHARE,
-        check: SHARE_CHECK,
-    },
-    Form {
-        words: "a share of the pull that is lost towards the tip",
-        moment: "-a*pull*exp(0.5*s/R - TIP)",
-        numbers: &[linear("a", Unit::One, "share of the pull that is lost at the tip")],
-        has_spring: false,
-        of_body: false,
-        usual: TIP_END,
-        check: TIP_CHECK,
-    },
-    Form {
-        words: "a steady moment at the tip",
-        moment: "-m*tanh(kappa*R/0.002)*exp(0.5*s/R - TIP)",
-        numbers: &[linear("m", Unit::Moment, "moment that holds the tip back")],
-        has_spring: false,
-        of_body: false,
-        usual: TIP_END,
-        check: TIP_CHECK,
-    },
-    Form {
-        words: "a share of the pull, another at the tip",
-        moment: "-(a + b*exp(0.5*s/R - TIP))*pull",
-        numbers: &[
-            linear("a", Unit::One, "share of the pull that is lost"),
-            linear("b", Unit::One, "share more at the tip"),
-        ],
-        has_spring: false,
-        of_body: false,
-        usual: TIP_END,
-        check: TIP_CHECK,
-    },
-    Form {
-        words: "a steady moment, another at the tip",
-        moment: "-(m + n*exp(0.5*s/R - TIP))*tanh(kappa*R/0.002)",
-        numbers: &[
-            linear("m", Unit::Moment, "moment that holds back"),
-            linear("n", Unit::Moment, "moment more at the tip"),
-        ],
-        has_spring: false,
-        of_body: false,
-        usual: TIP_END,
-        check: TIP_CHECK,
-    },
-    Form {
-        words: "a resistance that falls with bend, and a steady moment at the tip",
-        moment: "-(m + n*exp(0.5*s/R - TIP))*tanh(kappa*R/0.002) + k*kappa",
-        numbers: &[
-            linear("m", Unit::Moment, "moment at small bends"),
-            linear("n", Unit::Moment, "moment more at the tip"),
-            linear("k", Unit::Stiffness, "by how much it falls per bend"),
-        ],
-        has_spring: true,
-        of_body: false,
-        usual: SOFTENS,
-        check: SOFTENS_CHECK,
-    },
-    Form {
-        words: "a share of the pull that changes with bend, another at the tip",
-        moment: "-(a + b*theta + c*exp(0.5*s/R - TIP))*pull",
-        numbers: &[
-            linear("a", Unit::One, "share of the pull that is lost at small bends"),
-            linear("b", Unit::One, "change of that share per radian of one unit"),
-            linear("c", Unit::One, "share more at the tip"),
-        ],
-        has_spring: false,
-        of_body: false,
-        usual: SHARE,
-        check: SHARE_CHECK,
-    },
-    Form {
-        words: "a power of bend and pressure",
-        moment: "-m*(p_act/p_body)^q*(pos(kappa)*R)^n",
-        numbers: &[linear("m", Unit::Moment, "moment at a bend of 1/R and P = p_b"), POWER, PRESSURE],
-        has_spring: true,
-        of_body: false,
-        usual: SOFTENS,
-        check: SOFTENS_CHECK,
-    },
+    law("a steady moment", "-m*tanh(kappa*R/0.002)", &[M], TENSION),
+    law("a spring", "-k*kappa", &[K], STIFFNESS),
+    PULL,
+    law("a moment in step with the actuator's pressure", "-a*p_act*R^3*tanh(kappa*R/0.002)", &[P], SHARE),
+    law("a moment in step with the body's pressure", "-a*p_body*R^3*tanh(kappa*R/0.002)", &[P_BODY], BODY),
+    law("a share of the pull that is lost towards the tip", "-e*pull*exp(0.5*s/R - TIP)", &[A_END], ENDS),
+    law("a steady moment at the tip", "-e*tanh(kappa*R/0.002)*exp(0.5*s/R - TIP)", &[M_END], ENDS),
+    law("a resistance that falls with bend", "-m*tanh(kappa*R/0.002) + k*kappa", &[M, FALL], SOFTENS),
+    law("a power of the bend", "-m*(pos(kappa)*R)^n", &[M, N], SOFTENS),
+    law("a stop", "-k*pos(kappa - k0)", &[Number { bounds: [0.0, 50.0], ..K }, TOUCH], STOP),
+    law("a share of the pull that changes with bend", "-(a + b*theta)*pull", &[A, A_BEND], SHARE),
+    law(
+        "a moment in step with the actuator's pressure that falls with bend",
+        "-(a - 10*b*kappa*R)*p_act*R^3*tanh(kappa*R/0.002)",
+        &[P, P_BEND],
+        SHARE,
+    ),
+    law("a share of the pull, another at the tip", "-(a + e*exp(0.5*s/R - TIP))*pull", &[A, A_END], ENDS),
+    law(
+        "a share of the pull, another at both ends",
+        "-(a + e*(exp(-0.5*s/R) + exp(0.5*s/R - TIP)))*pull",
+        &[A, A_END],
+        ENDS,
+    ),
+    law(
+        "a steady moment, another at both ends",
+        "-(m + e*(exp(-0.5*s/R) + exp(0.5*s/R - TIP)))*tanh(kappa*R/0.002)",
+        &[M, M_END],
+        ENDS,
+    ),
+    law(
+        "a resistance that falls with bend, and a moment at both ends",
+        "-(m + e*(exp(-0.5*s/R) + exp(0.5*s/R - TIP)))*tanh(kappa*R/0.002) + k*kappa",
+        &[M, M_END, FALL],
+        SOFTENS,
+    ),
+    law(
+        "a resistance that falls with bend, and a moment at the tip",
+        "-(m + e*exp(0.5*s/R - TIP))*tanh(kappa*R/0.002) + k*kappa",
+        &[M, M_END, FALL],
+        SOFTENS,
+    ),
+    law(
+        "a share of the pull that changes with bend, another at the tip",
+        "-(a + b*theta + e*exp(0.5*s/R - TIP))*pull",
+        &[A, A_BEND, A_END],
+        SHARE,
+    ),
+    law("a power of bend and pressure", "-m*(p_act/p_body)^q*(pos(kappa)*R)^n", &[M, N, Q], SOFTENS),
 ];
 
 impl Number {
@@ -276,7 +194,7 @@ impl Number {
         let (r, moment) = (robot.radius_m, PI * robot.p_body_pa * robot.radius_m.powi(3));
         match self.unit {
             Unit::Moment => moment,
-            Unit::Stiffness => moment * r,
+            Unit::Stiffness => 10.0 * moment * r,
             Unit::Bend => 1.0 / r,
             Unit::One => 1.0,
         }
@@ -299,6 +217,21 @@ impl Number {
 }
 
 impl Form {
+    /// Whether a part is proportional to the bend: it takes the place of a bending stiffness that is fitted.
+    pub fn has_spring(&self) -> bool {
+        self.moment.contains("k*kappa") || self.moment.contains("^n")
+    }
+
+    /// Whether it can be told from another only where the body's pressure changes.
+    pub fn is_of_body(&self) -> bool {
+        self.usual.words == BODY.words
+    }
+
+    /// Whether it is a bending stiffness and nothing else.
+    pub fn is_stiffness(&self) -> bool {
+        self.usual.words == STIFFNESS.words
+    }
+
     /// The moment on a robot, whose tip lies so many diameters away.
     pub fn moment_of(&self, robot: &Scenario) -> String {
         self.moment.replace("TIP", &tidy(0.5 * robot.length_m / robot.radius_m).to_string())
@@ -306,7 +239,7 @@ impl Form {
 
     /// As a `[[formula]]` of a scenario.
     pub fn toml(&self, name: &str, robot: &Scenario) -> String {
-        let Form { words, usual, check, .. } = self;
+        let Form { words, usual: Usual { words: usual, check }, .. } = self;
         let moment = self.moment_of(robot);
         let mut out = format!(
             "[[formula]]\nname = \"{name}\"\nmoment = \"{moment}\"\n\

@@ -14,4 +14,4 @@ mod library;
 mod tests;
 
 pub use choose::{Material, Tried, rank, taken};
-pub use library::{Form, LIBRARY, Number};
+pub use library::{Form, LIBRARY, Number, PULL, Usual};

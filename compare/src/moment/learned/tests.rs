@@ -30,8 +30,8 @@ fn truth(form: &Form, robot: &Scenario) -> Vec<f64> {
     let share = |n: &Number| match n.key {
         "n" | "q" if !n.is_linear() => n.tried[2],
         "k0" => 0.08,
-        "k" => 9.0,
-        "a" | "c" => 0.3,
+        "k" => 0.9,
+        "a" | "e" => 0.3,
         "b" => 0.8,
         _ => 1.2,
     };
@@ -63,7 +63,7 @@ fn chosen(material: &Material) -> (Option<&'static Form>, Vec<f64>) {
 
 #[test]
 fn without_noise_every_law_gives_its_form_and_numbers_back() {
-    for form in LIBRARY.iter().filter(|f| !f.of_body) {
+    for form in LIBRARY.iter().filter(|f| !f.is_of_body()) {
         let (found, values) = chosen(&material(Some(form), [1e-6, 0.0], 1));
         assert_eq!(found.map(|f| f.moment), Some(form.moment));
         for (value, true_value) in values.iter().zip(truth(form, &robot())) {
@@ -75,14 +75,14 @@ fn without_noise_every_law_gives_its_form_and_numbers_back() {
 #[test]
 fn noise_alone_teaches_nothing_and_a_law_beyond_noise_is_learned() {
     let count = |form: Option<&Form>, is_right: &dyn Fn(Option<&Form>) -> bool| {
-        (0..100).filter(|seed| is_right(chosen(&material(form, [0.03, 0.02], *seed)).0)).count()
+        (0..40).filter(|seed| is_right(chosen(&material(form, [0.03, 0.02], *seed)).0)).count()
     };
     let nothing = count(None, &|found| found.is_none());
-    assert!(nothing >= 95, "{nothing} of 100");
+    assert!(nothing >= 39, "{nothing} of 40");
     for moment in ["-m*tanh(kappa*R/0.002)", "-a*pull", "-(a + b*theta)*pull", "-k*pos(kappa - k0)"] {
         let form = LIBRARY.iter().find(|f| f.moment == moment);
         let same = count(form, &|found| found.map(|f| f.moment) == Some(moment));
-        assert!(same >= 80, "{moment}: {same} of 100");
+        assert!(same >= 36, "{moment}: {same} of 40");
     }
 }
 
@@ -92,7 +92,7 @@ fn numbers_scatter_by_their_covariance() {
     let form = LIBRARY.iter().find(|f| f.moment == "-(a + b*theta)*pull").unwrap();
     let robot = robot();
     let formula = form.formula("law", &robot).unwrap();
-    let (sd, seeds) = ([0.03, 0.02], 200);
+    let (sd, seeds) = ([0.03, 0.02], 100);
     let of = material(Some(form), sd, 0);
     let columns =
         DMatrix::from_fn(of.places.len(), 2, |i, k| formula.moment_at(&of.places[i], &[1.0 - k as f64, k as f64]));
@@ -104,16 +104,18 @@ fn numbers_scatter_by_their_covariance() {
         z.dot(&(&information * &z)) / 2.0
     };
     let mean = (0..seeds).map(away).sum::<f64>() / seeds as f64;
-    assert!((0.8..1.2).contains(&mean), "{mean}");
+    assert!((0.75..1.25).contains(&mean), "{mean}");
 }
 
 #[test]
-fn two_pressures_teach_no_law() {
-    let mut few = material(Some(&LIBRARY[0]), [0.03, 0.02], 1);
-    few.places.truncate(10);
-    few.moments = few.moments.rows(0, 10).into_owned();
-    few.covariance = few.covariance.view((0, 0), (10, 10)).into_owned();
-    assert!(rank(&few, &robot()).is_empty());
+fn a_law_takes_three_pressures() {
+    let of = |pressures: usize| {
+        let (all, count) = (material(Some(&LIBRARY[0]), [0.03, 0.02], 1), 5 * pressures);
+        let covariance = all.covariance.view((0, 0), (count, count)).into_owned();
+        let (places, moments) = (all.places[..count].to_vec(), all.moments.rows(0, count).into_owned());
+        rank(&Material { places, moments, covariance, stiffness: None }, &robot()).len()
+    };
+    assert!(of(2) == 0 && of(3) > 0);
 }
 
 #[test]
