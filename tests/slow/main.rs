@@ -1,10 +1,9 @@
 //! Tests that need an optimised build: `cargo test --release --test slow` (`./check.sh` runs it).
 //!
 //! A new test belongs into the module of what it measures or runs to its end: `characterize`, `demo`, `engine` (the finite
-//! element engine against known answers), `interrupts`, `learned` (laws that no catalogue has), `simulate`, `large_file`,
-//! `open_chamber` (chambers open along an axis), `figures` (speed and known numbers), `documents` (command lines of the documents).
-//! Whatever takes less than a
-//! second in an unoptimised build belongs into `tests/fast`.
+//! element engine against known answers), `interrupts`, `kills`, `learned` (laws that no catalogue has), `simulate`,
+//! `large_file`, `open_chamber` (chambers open along an axis), `figures` (speed and known numbers), `documents` (command
+//! lines of the documents). Whatever takes less than a second in an unoptimised build belongs into `tests/fast`.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests: a panic is the failure to report")]
 
