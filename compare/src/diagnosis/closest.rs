@@ -7,6 +7,7 @@
 use super::case::Case;
 use super::decide::Decision;
 use super::problem::Fit;
+use super::result::Verdict;
 use crate::policy;
 
 /// Two effects if a pair comes closer by a fifth than any single one, else one: the final model if it has as many and none of them
@@ -39,6 +40,16 @@ pub fn as_close(case: &Case, decision: &Decision, closest: &Fit) -> Vec<Fit> {
     let alone: Vec<usize> = singles.iter().flat_map(&added).collect();
     let pairs = pairs.into_iter().filter(|pair| !added(pair).iter().any(|effect| alone.contains(effect)));
     std::iter::once(closest.clone()).chain(singles).chain(pairs).collect()
+}
+
+/// What follows from the design and takes a fifth of the error, the nearest first; nothing where the verdict is that nothing matters.
+pub fn by_design<'d>(case: &Case, decision: &'d Decision) -> impl Iterator<Item = &'d Fit> {
+    let is_open = !matches!(decision.verdict, Some(Verdict::None | Verdict::TooSmall));
+    let before = case.error_in_all_mm(&case.base);
+    let mut pay = by_distance(case, if is_open { &decision.singles } else { &[] });
+    let is_by_design = |fit: &Fit| fit.effects.last().is_some_and(|e| case.candidate(*e).is_by_design());
+    pay.retain(|(after, fit)| is_by_design(fit) && policy::is_closer(*after, before));
+    pay.into_iter().map(|(_, fit)| fit)
 }
 
 /// Fits that no bound rejects and their errors in mm, nearest first.

@@ -243,9 +243,9 @@ fn assemble(
         noise,
         rule_out_first: rule_out_first(case, &ranked, decision),
         limits: limits::limits(&case.sources().map(|(source, _)| source.dataset).collect::<Vec<_>>(), &undetectable),
-        by_design: by_design(case, decision),
+        by_design: closest::by_design(case, decision).map(|fit| as_close(case, fit)).collect(),
         ranked,
-        covered: (added.len() == 1).then(|| policy::covered(indistinguishable.len())),
+        covered: (added.len() == 1).then_some(policy::COVERED),
         indistinguishable,
         pairs,
         added,
@@ -357,20 +357,6 @@ fn added(case: &Case, decision: &Decision) -> Vec<Added> {
         Added { effect: candidate.name.clone(), group: candidate.group, parameters }
     };
     last.effects[case.always.len()..].iter().map(entry).collect()
-}
-
-/// Those that pay, the nearest first; nothing where the verdict is that nothing matters.
-fn by_design(case: &Case, decision: &Decision) -> Vec<AsClose> {
-    if matches!(decision.verdict, Some(Verdict::None | Verdict::TooSmall)) {
-        return Vec::new();
-    }
-    let before = case.error_in_all_mm(&case.base);
-    let own =
-        decision.singles.iter().filter(|fit| fit.effects.last().is_some_and(|e| case.candidate(*e).is_by_design()));
-    let mut told: Vec<AsClose> = own.map(|fit| as_close(case, fit)).collect();
-    told.retain(|entry| policy::is_closer(entry.systematic_after_mm, before));
-    told.sort_by(|a, b| a.systematic_after_mm.total_cmp(&b.systematic_after_mm));
-    told
 }
 
 fn as_close(case: &Case, fit: &Fit) -> AsClose {

@@ -184,11 +184,12 @@ fn effect(d: &Diagnosis) -> Vec<String> {
     told
 }
 
-/// How often a set like the stated one held the truth where that was known; two effects at once are another question.
+/// How often a stated set held the truth where that was known; two effects at once are another question.
 fn covered(d: &Diagnosis) -> Option<String> {
-    let (share, is_single) = (100.0 * d.covered?, d.indistinguishable.len() == 1);
-    let what = if is_single { "a single name was the truth" } else { "a set of so many names held the truth" };
-    Some(format!("Over made-up robots whose laws are not the catalogue's, {what} in {share:.0} of 100 cases."))
+    let share = 100.0 * d.covered?;
+    Some(format!(
+        "Of made-up robots, whose laws are not the catalogue's, the truth is in such an answer in {share:.0} of 100."
+    ))
 }
 
 fn held_out(d: &Diagnosis, r: &Ranked) -> Option<String> {

@@ -38,10 +38,8 @@ fn six_units_part_explanations_and_a_fifth_of_the_error_attempts() {
 
 /// That they are true is held by `ibr bench discovery`.
 #[test]
-fn a_set_of_more_names_holds_the_truth_more_often() {
-    let shares = [1, 2, 3, 9].map(covered);
-    assert!(shares.iter().all(|share| (0.8..=1.0).contains(share)), "{shares:?}");
-    assert!(shares[0] <= shares[1] && shares[1] <= shares[2] && shares[2] == shares[3], "{shares:?}");
+fn most_stated_sets_hold_the_truth_and_not_all() {
+    assert!((0.9..=1.0).contains(&COVERED));
 }
 
 #[test]
