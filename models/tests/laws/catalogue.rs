@@ -27,6 +27,7 @@ const NAMES: &[&str] = &[
     "crimped_sides",
     "self_contact",
     "wrinkling",
+    "softening",
     "tail_tension",
     "base_clamp",
     "tip_clamp",
