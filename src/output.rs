@@ -138,15 +138,15 @@ impl Place {
         }
         let kept = |into: &Path, keep: fn(PathBuf, PathBuf) -> io::Result<()>, from: &Path| {
             let names = std::fs::read_dir(from)?.map(|entry| Ok(entry?.file_name())).collect::<io::Result<Vec<_>>>()?;
-            let others =
+            let mut others =
                 names.iter().filter(|name| !into.join(name).exists() && !retired.iter().any(|old| **name == **old));
-            others.map(|name| keep(from.join(name), into.join(name))).collect::<io::Result<()>>()
+            others.try_for_each(|name| keep(from.join(name), into.join(name)))
         };
-        kept(staging, |from, to| std::fs::hard_link(from, to), folder)?;
+        kept(staging, std::fs::hard_link, folder)?;
         std::fs::set_permissions(staging, std::fs::metadata(folder)?.permissions())?;
         fem::session::exchange_folders(staging, folder)?;
         // What somebody wrote there meanwhile.
-        kept(folder, |from, to| std::fs::rename(from, to), staging)
+        kept(folder, std::fs::rename, staging)
     }
 
     /// File by file; the report is the last.

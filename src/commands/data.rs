@@ -46,12 +46,12 @@ fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Ou
         Some(scenario) => Some(inputs::scenario(scenario)?),
         None => ScenarioFile::beside(spec)?,
     };
-    if let Some(model) = model {
-        if let Some(found) = pressure_slip(&model, &evidence, &Options::default())? {
-            let in_numbers = pressure_words(dataset);
-            report.warnings.retain(|warning| !in_numbers.contains(warning));
-            report.warnings.push(found.words);
-        }
+    if let Some(model) = model
+        && let Some(found) = pressure_slip(&model, &evidence, &Options::default())?
+    {
+        let in_numbers = pressure_words(dataset);
+        report.warnings.retain(|warning| !in_numbers.contains(warning));
+        report.warnings.push(found.words);
     }
     Ok(Outcome::new(check_text(&report), json!({"schema": "ibr.data.check", "version": 1, "check": report})))
 }

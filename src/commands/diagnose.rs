@@ -84,6 +84,6 @@ fn report(
     let mut files = diagnosis_page(found, &imprint(), &mut part(context.progress, [DIAGNOSED, 1.0]))?;
     files.files.insert(0, ("diagnosis.json".into(), json));
     let both = |name: &str| ["svg", "png"].map(|kind| format!("{name}.{kind}"));
-    files.retired = diagnosis_pictures().into_iter().flat_map(|name| both(&name)).collect();
+    files.retired = diagnosis_pictures().into_iter().flat_map(both).collect();
     write_files(folder, &files, inputs, context)
 }

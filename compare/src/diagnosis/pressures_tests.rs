@@ -13,7 +13,8 @@ fn slipped(data: &Dataset, spoil: fn(&mut Hold)) -> Dataset {
 
 #[test]
 fn another_unit_is_told_with_what_to_type_and_withholds_the_verdict() {
-    let slips: [(&str, fn(&mut Hold), [&str; 2]); 4] = [
+    type Case = (&'static str, fn(&mut Hold), [&'static str; 2]);
+    let slips: [Case; 4] = [
         (
             "epam",
             |hold| hold.p_act_pa /= 6.894_757,
