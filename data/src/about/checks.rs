@@ -154,7 +154,7 @@ impl Check<'_> {
             if let Some(force) =
                 run.tip_force_n.as_ref().filter(|_| !tip_force_n.iter().all(|f| f.abs() <= LARGEST_TIP_FORCE_N))
             {
-                let message = format!("must be two numbers up to {LARGEST_TIP_FORCE_N} N");
+                let message = format!("must be two finite numbers up to {LARGEST_TIP_FORCE_N} N");
                 return Err(self.fault(
                     "tip_force_n",
                     force,

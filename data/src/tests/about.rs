@@ -99,6 +99,7 @@ fn each_wrong_value_is_shown_at_its_place() {
         ("[0, -1]", "[0, -1, 0]", "invalid length 3, expected an array of length 2"),
         ("[0, 0.3]", "[0, 0.3, 5]", "invalid length 3, expected an array of length 2"),
         ("[0, 0.3]", "[0, inf]", "tip_force_n: must be two finite numbers"),
+        ("[0, 0.3]", "[0, -1001]", "tip_force_n: must be two finite numbers up to 1000 N"),
         ("id = \"2\"", "id = \"1\"", "id: this run is there twice"),
     ];
     for (good, bad, expected) in cases {
