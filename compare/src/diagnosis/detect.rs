@@ -4,6 +4,7 @@ use super::basis::Basis;
 use super::case::Case;
 use super::least_squares::square;
 use super::outliers::Undetectable;
+use super::result::Added;
 use crate::policy;
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -85,4 +86,14 @@ fn largest_share(case: &Case, effect: usize) -> f64 {
         _ => f64::INFINITY,
     };
     case.candidate(effect).parameters.iter().map(share).fold(f64::INFINITY, f64::min)
+}
+
+/// Of every effect that neither the set nor a pair in it names; a ranking without verdict finds nothing.
+pub fn undetectable(case: &Case, stated: &[String], added: &[Added]) -> Vec<Undetectable> {
+    let found = |name: &str| {
+        let in_set = !added.is_empty() && stated.iter().flat_map(|entry| entry.split(" + ")).any(|part| part == name);
+        in_set || added.iter().any(|a| a.effect == name)
+    };
+    let missed = case.tried.iter().filter(|e| !found(&case.candidate(**e).name));
+    missed.map(|e| smallest_detectable(case, *e)).collect()
 }

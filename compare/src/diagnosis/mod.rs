@@ -6,8 +6,7 @@
 //!                                 └─► intervals, held-out error, smallest detectable sizes, next experiment
 //! ```
 //!
-//! Several data of one robot, each under its own protocol and loads, are blocks of one fit; what an instrument measured directly
-//! leaves nothing to explain in its block (`data::Direct`).
+//! Several data of one robot are blocks of one fit; what was measured directly leaves nothing to explain there (`data::Direct`).
 //!
 //! All fits minimise the whitened sum of squares of the mean over runs ([`crate::noise`]: the run is the unit). Gains are
 //! falls of that sum against the calibrated base; under "nothing is missing" a gain by q parameters follows about q·F(q,
@@ -141,10 +140,10 @@ pub fn diagnose(
         decision.withhold();
     }
     warnings.extend(singles::left_out(&case, &decision.singles));
-    let outliers = Outliers { runs, ..parts[0].prepared.outliers.clone() };
     progress("left-out data", Some(DIAGNOSIS[0]));
-    let mut diagnosis = assemble(&case, &decision, outliers, warnings)?;
-    diagnosis.excluded = options.not.clone();
+    let outliers = parts[0].prepared.outliers.clone();
+    let mut diagnosis = assemble(&case, &decision, Outliers { runs, ..outliers }, warnings)?;
+    diagnosis.excluded.clone_from(&options.not);
     diagnosis.evidence = evidence.iter().map(Used::of).collect::<Result<_, _>>()?;
     if first.about.as_ref().is_some_and(|a| a.gravity_direction.is_none()) {
         let words =
@@ -219,7 +218,7 @@ fn assemble(
         _ => (Vec::new(), added(case, decision)),
     };
     let indistinguishable = names(case, decision, &pairs);
-    let undetectable = undetectable(case, &indistinguishable, &added);
+    let undetectable = detect::undetectable(case, &indistinguishable, &added);
     let noise = NoiseSummary::of(&case.noise, &case.dataset.holds);
     warnings.extend(noise.warning.clone());
     let (residuals_before, _) = fails(case, &case.base, decision.before)?;
@@ -384,14 +383,4 @@ fn rule_out_first(case: &Case, ranked: &[Ranked], decision: &Decision) -> Vec<St
     let read = case.sources().any(|(source, _)| source.gauge.is_some());
     let doubtful = |r: &&Ranked| r.in_set && r.group.is_nuisance() && !(read && r.group == Group::Supply);
     ranked.iter().filter(doubtful).map(|r| r.effect.clone()).collect()
-}
-
-/// Of every effect that neither the set nor a pair in it names; a ranking without verdict finds nothing.
-fn undetectable(case: &Case, stated: &[String], added: &[Added]) -> Vec<Undetectable> {
-    let found = |name: &str| {
-        let in_set = !added.is_empty() && stated.iter().flat_map(|entry| entry.split(" + ")).any(|part| part == name);
-        in_set || added.iter().any(|a| a.effect == name)
-    };
-    let missed = case.tried.iter().filter(|e| !found(&case.candidate(**e).name));
-    missed.map(|e| detect::smallest_detectable(case, *e)).collect()
 }
