@@ -5,7 +5,9 @@ use super::*;
 use crate::study::published::shipped_scenario;
 use data::{Dataset, Hold};
 
-fn slipped(data: &Dataset, spoil: fn(&mut Hold)) -> Dataset {
+type Spoil = fn(&mut Hold);
+
+fn slipped(data: &Dataset, spoil: Spoil) -> Dataset {
     let mut slipped = data.clone();
     slipped.holds.iter_mut().for_each(spoil);
     slipped
@@ -13,8 +15,7 @@ fn slipped(data: &Dataset, spoil: fn(&mut Hold)) -> Dataset {
 
 #[test]
 fn another_unit_is_told_with_what_to_type_and_withholds_the_verdict() {
-    type Case = (&'static str, fn(&mut Hold), [&'static str; 2]);
-    let slips: [Case; 4] = [
+    let slips: [(&str, Spoil, [&str; 2]); 4] = [
         (
             "epam",
             |hold| hold.p_act_pa /= 6.894_757,

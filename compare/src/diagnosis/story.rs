@@ -12,8 +12,8 @@ use crate::wording::{list, p_value};
 const MOST_AS_CLOSE: usize = 5;
 
 /// In place of a verdict on data with a slip of a pressure.
-const WITHHELD: &str = "No verdict on these pressures: to a model that is held against them every effect would look like one that makes up \
-                        for the slip. Mend the column and run the same again; if the pressures are right, say so with --not pressure_slip.";
+const WITHHELD: &str = "No verdict on these pressures: any effect that was named would only make up for the slip. Mend the column and \
+                        run the same again; if the pressures are right, add --not pressure_slip.";
 
 impl Diagnosis {
     /// The answer that hangs on B, if there is one, in words.
