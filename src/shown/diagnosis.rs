@@ -90,7 +90,8 @@ fn closest(d: &Diagnosis) -> String {
 
 /// What the answer means on the robot, and where the model fails with it.
 fn to_check(d: &Diagnosis) -> String {
-    if d.is_quiet() {
+    // What is not enough is no answer: the story says where to look.
+    if d.verdict != Some(Verdict::Effect) {
         return String::new();
     }
     let told: Vec<&Ranked> = d.ranked.iter().filter(|r| is_told(d, r)).collect();
@@ -121,8 +122,12 @@ fn not_seen(d: &Diagnosis) -> String {
     let mut hidden: Vec<_> =
         d.undetectable.iter().filter_map(|u| Some((u, u.smallest_detectable?, u.times_typical?))).collect();
     hidden.sort_by(|a, b| b.2.total_cmp(&a.2));
-    let sizes =
-        hidden.iter().take(4).map(|(u, size, _)| format!("{} below {}", u.effect, with_unit(&three(*size), &u.unit)));
+    // Beside a law that nobody wrote down the sizes of known ones say little.
+    let most = if d.verdict == Some(Verdict::OutOfCatalog) { 0 } else { 4 };
+    let sizes = hidden
+        .iter()
+        .take(most)
+        .map(|(u, size, _)| format!("{} below {}", u.effect, with_unit(&three(*size), &u.unit)));
     let sizes: Vec<String> = sizes.collect();
     let mut out =
         if sizes.is_empty() { "\n".into() } else { wrapped(&format!("\nCould not be seen: {}.", sizes.join(", ")), 2) };

@@ -93,7 +93,10 @@ impl LearnedLaw {
         vec![
             format!("A law learned from the missing moment, {}: {}.", self.words, self.formula),
             format!("With it the error at pressures left out of the fit goes from {before} to {after} mm{line}."),
-            format!("A law of this shape is usually {}. To tell: {}.", self.usual, self.check),
+            format!(
+                "A law of this shape is usually {}. To tell: {}. `ibr add SCENARIO learned DATA` writes it as a formula.",
+                self.usual, self.check
+            ),
         ]
     }
 }

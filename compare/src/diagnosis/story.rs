@@ -9,7 +9,9 @@ use super::words::quantity;
 use crate::wording::{list, p_value};
 
 /// What comes as close as an attempt is named up to that many; `diagnosis.json` has all.
-const MOST_AS_CLOSE: usize = 5;
+const MOST_AS_CLOSE: usize = 3;
+/// Places where the model still fails that are named; the report has all.
+const MOST_PLACES: usize = 2;
 
 /// In place of a verdict on data with a slip of a pressure.
 const WITHHELD: &str = "No verdict on these pressures: any effect that was named would only make up for the slip. Mend the column and \
@@ -43,9 +45,6 @@ pub fn story(d: &Diagnosis) -> Vec<String> {
         ));
     }
     told.extend(d.learned.iter().flat_map(|law| law.sentences()));
-    told.extend(
-        d.learned.iter().map(|_| "`ibr add SCENARIO learned DATA` writes it as a formula of the scenario.".into()),
-    );
     told.extend(d.bending_alarm.as_ref().map(|alarm| alarm.words.clone()));
     if !d.excluded.is_empty() {
         told.push(format!("Left out, because you said that it cannot be here: {}.", list(&d.excluded)));
@@ -155,12 +154,6 @@ fn effect(d: &Diagnosis) -> Vec<String> {
     if let Some(r) = d.ranked.iter().find(|r| names.len() == 1 && r.effect == names[0] && supply.is_none()) {
         told.extend(held_out(d, r));
     }
-    if d.indistinguishable.len() > 1 {
-        told.push(format!(
-            "Equally good with this data: {}. The data do not choose between them.",
-            list(&d.indistinguishable)
-        ));
-    }
     told.extend(covered(d));
     if let Some(left) = d.lack_of_fit_after.filter(|left| left.p_value < d.alpha) {
         told.push(format!(
@@ -236,7 +229,7 @@ fn outside(d: &Diagnosis) -> Vec<String> {
     told.extend(at_its_bound(d));
     told.extend(d.told_of_kept_bending());
     told.extend(d.pattern.as_ref().map(looks_like));
-    told.extend(d.leftover.iter().map(|s| s.sentence.clone()));
+    told.extend(d.leftover.iter().take(MOST_PLACES).map(|s| s.sentence.clone()));
     told.push("Check markers, set-up and protocol there before looking for new physics.".into());
     told
 }
