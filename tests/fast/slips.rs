@@ -120,3 +120,18 @@ fn what_cannot_be_here_is_left_out_and_a_misspelt_name_gets_the_right_one() {
     let ran = folder.run(&["diagnose", "epam-textbook", "synthetic-epam", "--not", "end_constrain"]);
     assert!(ran.code != 0 && ran.stderr.contains("end_constraint"), "{}", ran.stderr);
 }
+
+#[test]
+fn absolute_pressures_are_told_with_what_to_subtract() {
+    let folder = Folder::new();
+    set(&folder, |cells| {
+        for pressure in [3, 4] {
+            cells[pressure] = format!("{:.4}", cells[pressure].parse::<f64>().unwrap() + 101.3);
+        }
+    });
+    let ran = folder.run(&["data", "check", "set"]);
+    for column in ["p_body_kpa", "p_act_kpa"] {
+        let words = format!("from the column {column}");
+        assert!(ran.stdout.contains("look absolute") && ran.stdout.contains(&words), "{}{}", ran.stdout, ran.stderr);
+    }
+}
