@@ -298,8 +298,9 @@ fn two_body_pressures_name_the_gas_that_the_pouches_of_the_finite_elements_push_
     let (scenario, [low, high]) = at_two_body_pressures("spam");
     let d = of_two(&scenario, [(&low, None), (&high, None)]);
     assert_eq!(d.verdict, Some(Verdict::OutOfCatalog));
-    let names: Vec<&str> = d.attempt.iter().map(|a| a.effect.as_str()).collect();
-    assert!(names.contains(&"displaced_gas"), "{names:?} {:?}", d.attempt_alike);
+    // A wall that softens comes as close here, and nearer in mm.
+    let is_named = |names: &[String]| names.iter().any(|name| name == "displaced_gas");
+    assert!(d.attempt_alike.iter().any(|as_close| is_named(&as_close.effects)), "{:?}", d.attempt_alike);
     let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
     assert!(after < 0.5 * before, "{before} to {after} mm");
     let is_tried = |about: Option<&About>| {
