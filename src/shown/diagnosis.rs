@@ -36,11 +36,14 @@ pub fn text(d: &Diagnosis, witness: Option<&Witness>, all: bool) -> String {
         return out + &tables(d, witness);
     }
     out.push_str(&closest(d));
-    out.push_str(&to_check(d));
-    if let Some(first) = witness.and_then(|w| w.sentences.first()) {
-        out.push_str(&wrapped(&format!("\nThe same robot in finite elements: {first}"), 2));
+    // Where nothing that is known is enough, the story says where to look.
+    if d.verdict != Some(Verdict::OutOfCatalog) {
+        out.push_str(&to_check(d));
+        if let Some(first) = witness.and_then(|w| w.sentences.first()) {
+            out.push_str(&wrapped(&format!("\nThe same robot in finite elements: {first}"), 2));
+        }
+        out.push_str(&not_seen(d));
     }
-    out.push_str(&not_seen(d));
     out.push_str(
         "\nEvery effect, pair and experiment: add --tables. The picture of what is missing: add --out FOLDER.\n",
     );
@@ -90,7 +93,6 @@ fn closest(d: &Diagnosis) -> String {
 
 /// What the answer means on the robot, and where the model fails with it.
 fn to_check(d: &Diagnosis) -> String {
-    // What is not enough is no answer: the story says where to look.
     if d.verdict != Some(Verdict::Effect) {
         return String::new();
     }
@@ -122,12 +124,8 @@ fn not_seen(d: &Diagnosis) -> String {
     let mut hidden: Vec<_> =
         d.undetectable.iter().filter_map(|u| Some((u, u.smallest_detectable?, u.times_typical?))).collect();
     hidden.sort_by(|a, b| b.2.total_cmp(&a.2));
-    // Beside a law that nobody wrote down the sizes of known ones say little.
-    let most = if d.verdict == Some(Verdict::OutOfCatalog) { 0 } else { 4 };
-    let sizes = hidden
-        .iter()
-        .take(most)
-        .map(|(u, size, _)| format!("{} below {}", u.effect, with_unit(&three(*size), &u.unit)));
+    let sizes =
+        hidden.iter().take(4).map(|(u, size, _)| format!("{} below {}", u.effect, with_unit(&three(*size), &u.unit)));
     let sizes: Vec<String> = sizes.collect();
     let mut out =
         if sizes.is_empty() { "\n".into() } else { wrapped(&format!("\nCould not be seen: {}.", sizes.join(", ")), 2) };

@@ -135,5 +135,5 @@ fn what_cannot_be_hidden_is_refused_and_nothing_is_replaced_unasked() {
 #[test]
 fn the_list_says_what_can_be_hidden() {
     let list = Folder::new().run(&["challenge", "list", "--json"]).json("ibr.challenge.list");
-    assert_eq!(list["effects"].as_array().unwrap().len(), 35);
+    assert_eq!(list["effects"].as_array().unwrap().len(), 36);
 }

@@ -56,7 +56,10 @@ fn copies_of_one_run_are_called_copies() {
         ["1", "2", "3"].map(|run| rows.replace("\n1,", &format!("\n{run},")).replacen("1,", &format!("{run},"), 1));
     let ran = compared(&format!("{header}\n{}", copies.concat()), &[]);
     let said = ran.json("ibr.compare")["noise"]["sentence"].to_string();
-    assert!(said.contains("identical") && said.contains("copies"), "{said}");
+    assert!(said.contains("one run only"), "{said}");
+    for words in ["run 2 is a copy of run 1 and was left out", "run 3 is a copy"] {
+        assert!(ran.stderr.contains(words), "{}", ran.stderr);
+    }
 }
 
 #[test]

@@ -56,7 +56,9 @@ fn the_text_puts_supply_and_measurement_before_physics_and_says_what_was_not_see
 #[test]
 fn the_page_that_is_printed_has_at_most_forty_lines() {
     let folder = Folder::new();
-    for [robot, data] in [["epam-textbook", "synthetic-epam"], ["cpam", "fem-cpam"], ["fpam", "synthetic-fpam"]] {
+    for [robot, data] in
+        [["epam-textbook", "synthetic-epam"], ["cpam", "fem-cpam"], ["spam", "fem-spam"], ["fpam", "fem-fpam"]]
+    {
         let ran = folder.run(&["diagnose", robot, data]);
         assert!(ran.code == 0 && ran.stdout.contains("Verdict: ") && ran.stdout.contains("--tables"), "{}", ran.stdout);
         assert!(ran.stdout.lines().count() <= 40, "{}", ran.stdout);

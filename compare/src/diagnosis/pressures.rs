@@ -181,11 +181,16 @@ impl Pressures<'_> {
         let effect = best_effect.as_ref().map_or(String::new(), |BestEffect { effects, left_mm }| {
             format!(" (the best of the catalogue, {}, leaves {left_mm:.2} mm)", effects.join(" + "))
         });
+        let is_alike = |other: &&Undone| policy::is_as_good(other.weighed.criterion, weighed.criterion);
+        let alike = all[1..].iter().filter(is_alike);
+        let alike =
+            alike.map(|other| format!(". As good with these data: {}; {}", other.slip.looks(), other.slip.help()));
         let words = format!(
-            "{name}: {}: with {} {brings}{effect}. Look at it first: {}",
+            "{name}: {}: with {} {brings}{effect}. Look at it first: {}{}",
             slip.looks(),
             slip.with(),
-            slip.help()
+            slip.help(),
+            alike.collect::<String>()
         );
         PressureSlipFound { dataset: name, words, before_mm, after_mm, best_effect }
     }

@@ -229,7 +229,8 @@ fn outside(d: &Diagnosis) -> Vec<String> {
     told.extend(at_its_bound(d));
     told.extend(d.told_of_kept_bending());
     told.extend(d.pattern.as_ref().map(looks_like));
-    told.extend(d.leftover.iter().take(MOST_PLACES).map(|s| s.sentence.clone()));
+    let places = if d.pattern.is_some() { 1 } else { MOST_PLACES };
+    told.extend(d.leftover.iter().take(places).map(|s| s.sentence.clone()));
     told.push("Check markers, set-up and protocol there before looking for new physics.".into());
     told
 }

@@ -298,11 +298,11 @@ fn two_body_pressures_name_the_gas_that_the_pouches_of_the_finite_elements_push_
     let (scenario, [low, high]) = at_two_body_pressures("spam");
     let d = of_two(&scenario, [(&low, None), (&high, None)]);
     assert_eq!(d.verdict, Some(Verdict::OutOfCatalog));
-    // A wall that softens comes as close here, and nearer in mm.
-    let is_named = |names: &[String]| names.iter().any(|name| name == "displaced_gas");
-    assert!(d.attempt_alike.iter().any(|as_close| is_named(&as_close.effects)), "{:?}", d.attempt_alike);
-    let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
-    assert!(after < 0.5 * before, "{before} to {after} mm");
+    // A wall that softens comes as close here, to a fifth, and is named first.
+    let has_gas = |as_close: &&AsClose| as_close.effects.iter().any(|name| name == "displaced_gas");
+    let gas = d.attempt_alike.iter().find(has_gas).unwrap_or_else(|| panic!("{:?}", d.attempt_alike));
+    let before = d.base.systematic_mm;
+    assert!(gas.systematic_after_mm < 0.6 * before, "{before} to {} mm over all data", gas.systematic_after_mm);
     let is_tried = |about: Option<&About>| {
         let d = of_one(&scenario, &low, about, &quick()).unwrap();
         d.ranked.iter().any(|r| r.effect == "displaced_gas")

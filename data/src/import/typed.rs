@@ -88,7 +88,10 @@ impl FromStr for Offset {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Offset, String> {
-        if text.trim() == "find" { Ok(Offset::Find) } else { parse(text, Quantity::Time).map(Offset::Given) }
+        if text.trim() == "find" {
+            return Ok(Offset::Find);
+        }
+        parse(text, Quantity::Time).map(Offset::Given).map_err(|message| format!("{message}; or write find"))
     }
 }
 
