@@ -142,7 +142,7 @@ pub fn run(
         })
         .collect();
     let mut failed: Vec<String> = outcomes.iter().filter_map(|outcome| outcome.failed.clone()).collect();
-    let made = made::made(diagnose, &mut failed);
+    let made = made::made(&MADE, diagnose, &mut failed);
     let slipped = slipped::slipped(options, diagnose, &mut failed);
     let silence: Vec<bool> = table::missed_in_silence(&outcomes);
     Ok(Discovery {
