@@ -185,12 +185,12 @@ fn scenario(bytes: &[u8]) -> bool {
 fn formulas() -> Vec<Vec<u8>> {
     texts(&[
         "-k*theta^3 * exp(-s/R)",
-        "-k*(kappa - 0.1)",
-        "k*p_act*R^3*sin(theta)/(1 + theta^2)",
-        "-k*sqrt(abs(theta))*tanh(s/L)",
+        "-k*(kappa*R - 0.1)",
+        "-k*p_act/p_body*sin(theta)/(1 + theta^2)",
+        "-k*sqrt(abs(theta))*tanh(s/R)",
         "-k*max(theta, 0.1)^2",
-        "k*log(1 + theta^2)",
-        "-k*min(theta, 1)*cos(theta)/R",
+        "-k*ln(1 + theta^2)",
+        "-k*min(theta, 1)*cos(theta)",
     ])
 }
 
