@@ -1,11 +1,13 @@
 //! The data as every comparison and every fit see them: copies of runs left out, stray samples replaced, sessions named.
 
-use crate::diagnosis::{Outliers, OutlyingRun};
+mod outliers;
+
 use crate::directions::DirectionFit;
 use crate::noise::NoiseModel;
 use crate::policy;
 use crate::stats::f_tail;
 use data::{About, Dataset};
+pub use outliers::{Outliers, OutlyingRun};
 
 /// Data ready for a fit.
 pub struct Prepared {

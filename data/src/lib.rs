@@ -16,8 +16,6 @@ pub mod import;
 mod lines;
 pub mod load;
 mod lost;
-mod placeholders;
-mod plausible;
 mod policy;
 pub mod published;
 mod ramps;

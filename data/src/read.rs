@@ -25,11 +25,11 @@ use crate::dataset::Dataset;
 use crate::error::{DataError, Fault};
 use crate::header::{ACTUATOR, read_header};
 use crate::lines::Lines;
-use crate::plausible::{check_units, check_y_up};
 use crate::policy;
 use crate::ramps::check_kept;
 use crate::rows::RowReader;
 use crate::streams::Recorder;
+use crate::streams::plausible::{check_units, check_y_up};
 
 /// Actuator kinds remembered for the error message that lists them.
 const MOST_KINDS: usize = 20;

@@ -3,16 +3,19 @@
 //! Rows may come sorted by time or by marker: each (run, marker) pair is followed on its own. A new hold begins when
 //! the phase changes or a pressure departs from the mean of the current hold by more than its tolerance.
 
+mod placeholders;
+pub(crate) mod plausible;
+
 use std::collections::HashMap;
 
 use crate::dataset::Phase;
 use crate::error::{DataError, Fault};
 use crate::header::{MARKER, P_ACT, P_BODY, RUN, STATION, TIME};
 use crate::lines::{KeptLine, Line};
-use crate::placeholders::Placeholders;
-use crate::plausible::Extremes;
 use crate::policy::{self, tolerance_act_pa, tolerance_body_pa};
 use crate::rows::{Row, RowReader};
+use placeholders::Placeholders;
+use plausible::Extremes;
 
 /// Samples kept per (run, hold, marker) before neighbours are merged; above the few that `Dataset` holds, far below a
 /// camera's frames.

@@ -70,6 +70,8 @@ mod together_tests;
 mod traces;
 pub mod words;
 
+pub use crate::prepare::{Outliers, OutlyingRun};
+pub use crate::slips::pressure::{BestEffect, PressureSlipFound};
 pub use answers::{Answer, Standing};
 pub use bench::{BenchDiagnosis, BenchOptions, BenchRanked, LeftOut, diagnose_bench};
 pub use bending_alarm::BendingAlarm;
@@ -80,8 +82,8 @@ pub use fitted::{FittedBeside, GaugeFit, with_fitted};
 pub use known::{BENCH_TEST, BENCH_TESTS, BenchTest};
 pub use learned::{LearnedLaw, LearnedLine, LearnedTried};
 pub use options::{Options, PRESSURES_ARE_RIGHT};
-pub use outliers::{Outliers, OutlyingRun, Undetectable};
-pub use pressures::{BestEffect, PressureSlipFound, pressure_slip};
+pub use outliers::Undetectable;
+pub use pressures::pressure_slip;
 pub use proposed::*;
 pub use result::*;
 

@@ -27,25 +27,9 @@ use super::story::story;
 use crate::error::CompareError;
 use crate::evidence::Evidence;
 use crate::policy;
-use crate::slips::pressure::{PressureSlip, pressure_words};
+use crate::slips::pressure::{BestEffect, PressureSlip, PressureSlipFound, pressure_words};
 use data::Dataset;
 use models::Scenario;
-use serde::Serialize;
-
-/// A slip of a pressure column that withholds the verdict.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PressureSlipFound {
-    /// Name of the dataset.
-    pub dataset: String,
-    /// What it looks like, the evidence, what to type.
-    pub words: String,
-    /// Error beyond noise of the base with the pressures as they are written \[mm\].
-    pub before_mm: Option<f64>,
-    /// The same with the slip undone \[mm\].
-    pub after_mm: f64,
-    /// The best of the catalogue with the pressures as they are written.
-    pub best_effect: Option<BestEffect>,
-}
 
 impl PressureSlipFound {
     /// A diagnosis whose verdict waits for the column; what its numbers alone look like is said once.
@@ -60,15 +44,6 @@ impl PressureSlipFound {
         diagnosis.summary = story(&diagnosis);
         diagnosis
     }
-}
-
-/// What comes nearest without a slip.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct BestEffect {
-    /// Names.
-    pub effects: Vec<String>,
-    /// Error beyond noise that they leave \[mm\].
-    pub left_mm: f64,
 }
 
 /// What a hypothesis leaves, and what it costs.

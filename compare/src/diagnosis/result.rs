@@ -3,13 +3,14 @@
 use super::bending_alarm::BendingAlarm;
 use super::fitted::{FittedBeside, GaugeFit};
 use super::learned::LearnedLaw;
-use super::outliers::{Outliers, Undetectable};
-use super::pressures::PressureSlipFound;
+use super::outliers::Undetectable;
 use super::proposed::NextExperiment;
 use crate::evidence::Used;
 use crate::moment::MissingMoment;
 use crate::noise_summary::NoiseSummary;
+use crate::prepare::Outliers;
 use crate::residuals::ResidualMap;
+use crate::slips::pressure::PressureSlipFound;
 use crate::where_it_fails::Statement;
 pub use models::effects::Group;
 use serde::Serialize;

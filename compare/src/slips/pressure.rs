@@ -7,6 +7,7 @@
 use crate::policy;
 use crate::wording::short;
 use data::{Dataset, Hold};
+use serde::Serialize;
 
 /// A column of pressures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -196,6 +197,30 @@ pub fn pressure_words(dataset: &Dataset) -> Vec<String> {
         format!("{}: {}: {why}. Look at it first: {}", dataset.name, slip.looks(), slip.help())
     };
     by_numbers(dataset).iter().map(told).collect()
+}
+
+/// A slip of a pressure column that withholds the verdict.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PressureSlipFound {
+    /// Name of the dataset.
+    pub dataset: String,
+    /// What it looks like, the evidence, what to type.
+    pub words: String,
+    /// Error beyond noise of the base with the pressures as they are written \[mm\].
+    pub before_mm: Option<f64>,
+    /// The same with the slip undone \[mm\].
+    pub after_mm: f64,
+    /// The best of the catalogue with the pressures as they are written.
+    pub best_effect: Option<BestEffect>,
+}
+
+/// What comes nearest without a slip.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BestEffect {
+    /// Names.
+    pub effects: Vec<String>,
+    /// Error beyond noise that they leave \[mm\].
+    pub left_mm: f64,
 }
 
 #[cfg(test)]

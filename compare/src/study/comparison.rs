@@ -1,10 +1,10 @@
 //! Models held against one evidence: how far off, and where.
 
-use crate::diagnosis::{OutlyingRun, PressureSlipFound};
 use crate::error::CompareError;
 use crate::evaluate::{EvaluateOptions, Evaluation, evaluate};
 use crate::evidence::Evidence;
-use crate::prepare::{Prepared, outlying_runs, prepare};
+use crate::prepare::{OutlyingRun, Prepared, outlying_runs, prepare};
+use crate::slips::pressure::PressureSlipFound;
 use crate::slips::pressure::pressure_words;
 use crate::slips::slips;
 use crate::study::calibrate::{Knob, calibrate};

@@ -2,12 +2,12 @@
 //!
 //! These checks look at the whole file and say which column to rename; they never convert anything themselves.
 
+use super::Recorder;
 use crate::dataset::Dataset;
 use crate::error::{DataError, Fault};
 use crate::header::{Header, P_ACT, P_BODY, QUANTITIES, STATION, X, Y};
 use crate::policy;
 use crate::rows::{Row, RowReader};
-use crate::streams::Recorder;
 use crate::units::mm;
 
 /// Largest values seen, for the check of units.

@@ -3,8 +3,8 @@
 //! Some are known by their numbers (`rows::PLACEHOLDERS`). Any other is known by two markers that were seen there to the last digit,
 //! far from where both were else: no camera sees two markers at one place.
 
+use super::{Segment, Stream};
 use crate::policy;
-use crate::streams::{Segment, Stream};
 use crate::units::mm;
 
 /// A place, to the last digit.
