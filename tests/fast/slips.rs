@@ -130,7 +130,7 @@ fn absolute_pressures_are_told_with_what_to_subtract() {
         }
     });
     let ran = folder.run(&["data", "check", "set"]);
-    for column in ["p_body_kpa", "p_act_kpa"] {
+    for column in ["p_body", "p_act"] {
         let words = format!("from the column {column}");
         assert!(ran.stdout.contains("look absolute") && ran.stdout.contains(&words), "{}{}", ran.stdout, ran.stderr);
     }
