@@ -212,9 +212,12 @@ fn about(bytes: &[u8]) -> bool {
     std::str::from_utf8(bytes).is_ok_and(|text| data::parse_about("about.toml", text).is_ok())
 }
 
-fn coupons(mut bytes: &[u8]) -> bool {
-    let length = bytes.len() as u64;
-    data::parse_coupons("coupon.csv", &mut bytes, length, &CouponDefaults::default(), &mut |_, _| ()).is_ok()
+/// As it is, and with what an export of a machine leaves out.
+fn coupons(bytes: &[u8]) -> bool {
+    let exported = CouponDefaults { direction_deg: Some(0.0), length_m: Some(0.15), ..CouponDefaults::default() };
+    [CouponDefaults::default(), exported]
+        .iter()
+        .any(|known| data::parse_coupons("coupon.csv", &mut &*bytes, bytes.len() as u64, known, &mut |_, _| ()).is_ok())
 }
 
 fn bench(bytes: &[u8]) -> bool {
