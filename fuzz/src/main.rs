@@ -1,7 +1,7 @@
 //! `ibr-fuzz READER|all [--cases N] [--seed S] [--from CASE] [--keep FOLDER]`: broken inputs for the readers of `ibr`.
 //!
-//! A reader may refuse what it is given, and may read it. It may not panic, not take longer than [`LONGEST`] and not ask for more
-//! than [`MOST_MEMORY`] bytes. Inputs that make it do so are saved. Ends with 1 if there are any.
+//! A reader may refuse what it is given, and may read it. It may not panic, not take longer than `LONGEST` and not ask for more
+//! than `MOST_MEMORY` bytes. Inputs that make it do so are saved. Ends with 1 if there are any.
 
 mod mutate;
 mod readers;
