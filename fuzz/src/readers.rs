@@ -252,12 +252,7 @@ fn case(bytes: &[u8]) -> bool {
 }
 
 fn robots() -> Vec<Vec<u8>> {
-    let of =
-        |name: &str, more: &str| format!("{}\n[fem]\n{more}", models::shipped(name).unwrap_or_default()).into_bytes();
-    vec![
-        of("epam", "body_size_mm = 16\nactuator_size_mm = 12\nbond = 0.5\n"),
-        of("fpam", "body_size_mm = 16\nactuator_size_mm = 12\n"),
-    ]
+    texts(&["epam", "fpam"].map(|name| models::shipped(name).unwrap_or_default()))
 }
 
 fn robot(bytes: &[u8]) -> bool {

@@ -15,7 +15,7 @@ const KILLS: u32 = 100;
 const REPORTS: [&str; 4] = [
     "compare epam-textbook synthetic-epam --out report",
     "predict epam --pressure 10kPa,20kPa --out report",
-    "characterize example --out report",
+    "diagnose epam-textbook synthetic-epam --out report",
     "data generate epam-textbook --force --out report",
 ];
 
@@ -112,7 +112,7 @@ const RUN: &str = "simulate my.toml --checkpoint-every 20ms --out run";
 
 fn with_case() -> Folder {
     let text = fem::case::shipped_case("pillow").unwrap();
-    let text = text.replace("elements = 32 ", "elements = 8 ");
+    let text = text.replace("elements = 32 ", "elements = 24 ");
     let folder = Folder::new();
     folder.write("my.toml", text);
     folder

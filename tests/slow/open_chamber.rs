@@ -74,17 +74,6 @@ fn angle_where(wanted: f64, of: impl Fn(f64) -> f64) -> f64 {
 }
 
 #[test]
-fn a_strip_pulled_by_a_weight_ends_where_the_arcs_do() {
-    let _alone = alone();
-    let pull = "[[force]]\nset = \"right\"\ntotal_n = [60, 0, 0]\nsmooth_s = [[0, 0], [0.02, 1]]";
-    let summary = summary(strip(pull), None);
-    let angle = angle_where(60.0, |angle| force_n(&POUCH, FILM, angle, PRESSURE_PA));
-    let exact_m = -POUCH.length_m * contraction(&POUCH, FILM, angle, PRESSURE_PA);
-    let found_m = 1e-3 * summary["probes"][0]["displacement_mm"][0].as_f64().unwrap();
-    assert!((found_m / exact_m - 1.0).abs() < 0.01, "{found_m} m, exact {exact_m}");
-}
-
-#[test]
 fn a_strip_held_at_a_stroke_says_its_force() {
     let _alone = alone();
     let stroke = "[[support]]\nset = \"right\"\nsmooth_s_mm = [[0, 0, 0, 0], [0.04, -9.5, 0, 0]]";
