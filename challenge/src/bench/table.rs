@@ -64,13 +64,19 @@ fn one(outcomes: &[SetOutcome], part: Lot) -> Vec<Rate> {
     let mean = (!sized.is_empty()).then(|| sized.iter().sum::<f64>() / sized.len() as f64);
     vec![
         Rate::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
-        Rate::share(case, "given alarm: truth on top", AtLeast(0.80), &shares(&alarmed, top(1))),
-        Rate::share(case, "given alarm: truth in the first three", AtLeast(0.92), &shares(&alarmed, top(3))),
-        Rate::share(case, "given alarm: truth in the stated set", AtLeast(0.93), &shares(&alarmed, |n| n.score.in_set)),
+        Rate::share(case, "alarm, and too small to name", AtMost(0.10), &shares(&all, |n| n.score.too_small)),
+        Rate::share(case, "large enough to name: truth on top", AtLeast(0.80), &shares(&alarmed, top(1))),
+        Rate::share(case, "large enough to name: truth in the first three", AtLeast(0.92), &shares(&alarmed, top(3))),
+        Rate::share(
+            case,
+            "large enough to name: truth in the stated set",
+            AtLeast(0.93),
+            &shares(&alarmed, |n| n.score.in_set),
+        ),
         Rate::number(case, "mean size of the stated set", AtMost(2.5), mean, sized.len()),
         Rate::share(
             case,
-            "given alarm: called outside the catalogue",
+            "large enough to name: called outside the catalogue",
             AtMost(0.05),
             &shares(&alarmed, |n| n.score.out_of_catalog),
         ),
@@ -83,10 +89,15 @@ fn lossy(outcomes: &[SetOutcome]) -> Vec<Rate> {
     let case = "one hidden effect, markers lost";
     vec![
         Rate::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
-        Rate::share(case, "given alarm: truth in the stated set", AtLeast(0.93), &shares(&alarmed, |n| n.score.in_set)),
         Rate::share(
             case,
-            "given alarm: called outside the catalogue",
+            "large enough to name: truth in the stated set",
+            AtLeast(0.93),
+            &shares(&alarmed, |n| n.score.in_set),
+        ),
+        Rate::share(
+            case,
+            "large enough to name: called outside the catalogue",
             AtMost(0.05),
             &shares(&alarmed, |n| n.score.out_of_catalog),
         ),
@@ -99,7 +110,12 @@ fn alone(outcomes: &[SetOutcome], part: Lot, case: &'static str) -> Vec<Rate> {
     let named = alarmed(&all);
     vec![
         Rate::share(case, "alarm", AtLeast(0.95), &shares(&all, |named| named.score.alarm)),
-        Rate::share(case, "given alarm: truth in the stated set", AtLeast(0.90), &shares(&named, |n| n.score.in_set)),
+        Rate::share(
+            case,
+            "large enough to name: truth in the stated set",
+            AtLeast(0.90),
+            &shares(&named, |n| n.score.in_set),
+        ),
     ]
 }
 

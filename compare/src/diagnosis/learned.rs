@@ -92,7 +92,10 @@ impl LearnedLaw {
         });
         vec![
             format!("A law learned from the missing moment, {}: {}.", self.words, self.formula),
-            format!("With it the error at pressures left out of the fit goes from {before} to {after} mm{line}."),
+            format!(
+                "With it the error at pressures left out of the fit goes from {before} to {after} mm{line}. It was chosen by that \
+                 figure: try it on other data."
+            ),
             format!(
                 "A law of this shape is usually {}. To tell: {}. `ibr add SCENARIO learned DATA` writes it as a formula.",
                 self.usual, self.check
