@@ -38,6 +38,7 @@ pub use dataset::{Dataset, Hold, Lost, Marker, Phase};
 pub use error::{DataError, Fault, Location};
 pub use load::load;
 pub use lost::losses;
+pub use policy::is_a_room;
 pub use published::{Published, PublishedActuator, PublishedFabric, PublishedFact, published};
 pub use read::{ReadOptions, parse_markers, read_markers};
 pub use sets::{SetInfo, set_about, set_file, sets};

@@ -91,9 +91,22 @@ pub fn is_full(holds: usize, in_all: usize) -> bool {
     holds >= MOST_HOLDS || in_all >= MOST_SERIES
 }
 
+/// What a sensor of absolute pressure reads in the air of a room, from the mountains to the sea \[Pa\].
+pub const ROOM_PA: [f64; 2] = [80e3, 110e3];
+
+/// Whether a pressure is that of the air of a room \[Pa\].
+pub fn is_a_room(pressure_pa: f64) -> bool {
+    (ROOM_PA[0]..=ROOM_PA[1]).contains(&pressure_pa)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{is_elsewhere, is_full, largest_m};
+    use super::{is_a_room, is_elsewhere, is_full, largest_m};
+
+    #[test]
+    fn the_air_of_a_room_is_that_between_mountain_and_sea() {
+        assert_eq!([79e3, 81e3, 109e3, 111e3].map(is_a_room), [false, true, true, false]);
+    }
 
     #[test]
     fn a_fabric_is_thinner_than_two_centimetres_and_a_specimen_shorter_than_ten_metres() {

@@ -126,9 +126,6 @@ fn sits_at_base(cells: &RowReader, about: Option<&About>) -> bool {
     described.map(|marker| marker.station_m).or(cells.station_m()).is_some_and(|s| s < AT_BASE_M)
 }
 
-/// Lowest pressures that a sensor of absolute pressure reads in a vented robot \[Pa\].
-pub(crate) const ABSOLUTE_PA: std::ops::Range<f64> = 85e3..115e3;
-
 /// What was assumed on reading, in words.
 fn told(cells: &RowReader, recorder: &Recorder) -> Result<Vec<String>, DataError> {
     let mut told = cells.told()?;

@@ -20,7 +20,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 /// Robots with finite element runs.
-pub const MADE: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
+pub(super) const MADE: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
 /// Body pressure of the second data \[Pa\].
 const SECOND_PA: f64 = 4e3;
 /// Their finite element runs.

@@ -18,9 +18,9 @@ mod tests;
 
 pub use attainable::Attainable;
 pub use cases::{After, Named, SetOutcome};
-pub use made::{MADE, OneOff};
+pub use made::OneOff;
 pub use row::{Goal, Rate};
-pub use slipped::{SlippedSet, slipped};
+pub use slipped::SlippedSet;
 
 use super::score::{Claim, ClaimScore};
 use super::truth::{Hiding, Truth};
@@ -147,7 +147,7 @@ pub fn run(
     let mut failed: Vec<String> = outcomes.iter().filter_map(|outcome| outcome.failed.clone()).collect();
     let (made, slipped) = match options.sets < WHOLE {
         true => (Vec::new(), Vec::new()),
-        false => (made::made(&MADE, diagnose, &mut failed), slipped::slipped(options, diagnose, &mut failed)),
+        false => (made::made(&made::MADE, diagnose, &mut failed), slipped::slipped(options, diagnose, &mut failed)),
     };
     let silence: Vec<bool> = table::missed_in_silence(&outcomes);
     Ok(Discovery {

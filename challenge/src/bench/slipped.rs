@@ -57,7 +57,7 @@ pub struct SlippedSet {
 }
 
 /// Makes, spoils and diagnoses the sets, a round for every hundred sets of the bench; what fails is told in `failed`.
-pub fn slipped(options: &DiscoveryOptions, diagnose: Diagnoser, failed: &mut Vec<String>) -> Vec<SlippedSet> {
+pub(super) fn slipped(options: &DiscoveryOptions, diagnose: Diagnoser, failed: &mut Vec<String>) -> Vec<SlippedSet> {
     let count = SETS * options.sets.div_ceil(100);
     let one = |index: usize| {
         let kind = index / ROBOTS.len() % (SETS / ROBOTS.len());

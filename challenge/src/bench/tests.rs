@@ -44,9 +44,9 @@ fn a_diagnosis_that_fails_is_counted_and_named() {
     let bench = run(&DiscoveryOptions { seed: 1, sets: 2 }, refuse, &|_| ()).unwrap();
     assert_eq!(bench.failed.len(), 16);
     let mut failed = Vec::new();
-    assert!(made::made(&MADE, refuse, &mut failed).is_empty() && failed.len() == MADE.len());
+    assert!(made::made(&made::MADE, refuse, &mut failed).is_empty() && failed.len() == made::MADE.len());
     let slipped = slipped::slipped(&DiscoveryOptions { seed: 1, sets: 100 }, refuse, &mut failed);
-    assert!(slipped.is_empty() && failed.len() == MADE.len() + slipped::SETS);
+    assert!(slipped.is_empty() && failed.len() == made::MADE.len() + slipped::SETS);
     assert!(bench.failed[0].contains("no model is given") && bench.rows.iter().all(|row| row.measured.is_none()));
 }
 

@@ -55,19 +55,12 @@ pub fn labels_are_clear(half_apart_m: f64, usual_m: f64) -> bool {
     half_apart_m > LABELS_CLEAR * usual_m
 }
 
-/// What a sensor of absolute pressure reads in the air of a room, from the mountains to the sea \[Pa\].
-pub const ROOM_PA: [f64; 2] = [80e3, 110e3];
 /// A pressure that is less than this below another is not below it \[Pa\]: the tolerance of a hold.
 pub const NOT_BELOW_PA: f64 = 500.0;
 /// An undone slip of a pressure must be that much better than anything else, by the sums of squares and what numbers cost.
 pub const SLIP_CLEARLY: f64 = 4.0;
 /// A stiffness within this factor of the scenario's needs no slip to explain it; beyond, it is one standard deviation.
 pub const SAME_STIFFNESS: f64 = 2.0;
-
-/// Whether a pressure is that of the air of a room \[Pa\].
-pub fn is_a_room(pressure_pa: f64) -> bool {
-    (ROOM_PA[0]..=ROOM_PA[1]).contains(&pressure_pa)
-}
 
 /// Whether a pressure is another one or above it \[Pa\].
 pub fn is_not_below(pressure_pa: f64, other_pa: f64) -> bool {

@@ -87,9 +87,7 @@ fn a_slip_is_told_where_it_is_far_from_chance() {
 }
 
 #[test]
-fn a_pressure_is_a_rooms_between_mountain_and_sea_and_a_slip_is_told_where_it_is_clear() {
-    turns_at(80e3, is_a_room);
-    turns_at(110e3, |pressure| !is_a_room(pressure));
+fn a_slip_of_pressures_is_told_where_it_is_clear() {
     turns_at(500.0, |below| !is_not_below(20e3 - below, 20e3));
     turns_at(100.0, |below| is_never_above(2e3 - below, 2e3));
     turns_at(4.0, |worse| is_clearly_better(40.0, 40.0 + worse));

@@ -6,8 +6,9 @@
 
 use crate::policy;
 use crate::wording::short;
-use data::{Dataset, Hold};
+use data::{Dataset, Hold, is_a_room};
 use serde::Serialize;
+use spelling::units::{Dimension, units_of};
 
 /// A column of pressures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,7 +23,7 @@ pub enum PressureColumn {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PressureSlip {
     /// A column is in another unit than its name says.
-    Unit(PressureColumn, &'static WrongUnit),
+    Unit(PressureColumn, WrongUnit),
     /// Body and actuator are exchanged.
     Exchanged,
     /// A sensor of absolute pressure, in a room of this pressure \[Pa\].
@@ -30,30 +31,26 @@ pub enum PressureSlip {
 }
 
 /// A unit taken for another.
-#[derive(Debug, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WrongUnit {
     /// What the numbers have to be multiplied by.
     pub factor: f64,
-    /// What they are and what the column says.
-    words: &'static str,
-    /// Suffix of the name that the column should have, and of the one that it has.
-    suffixes: [&'static str; 2],
+    /// What they are and what the column says, each in words and as the suffix of a column's name.
+    units: [[&'static str; 2]; 2],
 }
 
-const PSI: f64 = 6.894_757;
-const INCH_OF_WATER: f64 = 0.249_089;
+/// Units of pressure gauges and loggers: their symbol, in words, and as the suffix of a column's name.
+const UNITS: [[&str; 3]; 4] =
+    [["psi", "psi", "psi"], ["mbar", "mbar", "mbar"], ["bar", "bar", "bar"], ["inH2O", "inches of water", "inh2o"]];
 
-/// Units of pressure gauges and loggers, taken for kilopascals and the other way round.
-const UNITS: [WrongUnit; 8] = [
-    WrongUnit { factor: PSI, words: "psi under a name of kPa", suffixes: ["psi", "kpa"] },
-    WrongUnit { factor: 1.0 / PSI, words: "kPa under a name of psi", suffixes: ["kpa", "psi"] },
-    WrongUnit { factor: 0.1, words: "mbar under a name of kPa", suffixes: ["mbar", "kpa"] },
-    WrongUnit { factor: 10.0, words: "kPa under a name of mbar", suffixes: ["kpa", "mbar"] },
-    WrongUnit { factor: 100.0, words: "bar under a name of kPa", suffixes: ["bar", "kpa"] },
-    WrongUnit { factor: 0.01, words: "kPa under a name of bar", suffixes: ["kpa", "bar"] },
-    WrongUnit { factor: INCH_OF_WATER, words: "inches of water under a name of kPa", suffixes: ["inh2o", "kpa"] },
-    WrongUnit { factor: 1.0 / INCH_OF_WATER, words: "kPa under a name of inches of water", suffixes: ["kpa", "inh2o"] },
-];
+/// All of them, taken for kilopascals and the other way round.
+fn wrong_units() -> impl Iterator<Item = WrongUnit> {
+    UNITS.into_iter().flat_map(|[symbol, words, suffix]| {
+        let known = units_of(Dimension::PRESSURE).find(|unit| unit.symbol == symbol);
+        let (factor, own, kpa) = (known.map_or(f64::NAN, |unit| 1e-3 * unit.factor()), [words, suffix], ["kPa", "kpa"]);
+        [WrongUnit { factor, units: [own, kpa] }, WrongUnit { factor: 1.0 / factor, units: [kpa, own] }]
+    })
+}
 
 const COLUMNS: [PressureColumn; 2] = [PressureColumn::Actuator, PressureColumn::Body];
 
@@ -93,12 +90,12 @@ impl PressureColumn {
 impl PressureSlip {
     /// Every slip that data may have of a robot whose body is told to have a pressure \[Pa\].
     pub fn all(dataset: &Dataset, body_pa: f64) -> Vec<PressureSlip> {
-        let units = COLUMNS.iter().flat_map(|column| UNITS.iter().map(|unit| PressureSlip::Unit(*column, unit)));
+        let units = COLUMNS.iter().flat_map(|column| wrong_units().map(|unit| PressureSlip::Unit(*column, unit)));
         let absolute = COLUMNS.iter().filter_map(|column| {
             let lowest = dataset.holds.iter().map(|hold| column.of(hold)).fold(f64::INFINITY, f64::min);
             // An actuator is vented now and then, a body hardly ever.
             let room_pa = if *column == PressureColumn::Body { lowest - body_pa } else { lowest };
-            policy::is_a_room(room_pa).then_some(PressureSlip::Absolute(*column, room_pa))
+            is_a_room(room_pa).then_some(PressureSlip::Absolute(*column, room_pa))
         });
         units.chain([PressureSlip::Exchanged]).chain(absolute).collect()
     }
@@ -134,7 +131,8 @@ impl PressureSlip {
     pub fn looks(&self) -> String {
         match self {
             PressureSlip::Unit(column, unit) => {
-                format!("the {} pressures look as if they were {}", column.word(), unit.words)
+                let [[right, _], [wrong, _]] = unit.units;
+                format!("the {} pressures look as if they were {right} under a name of {wrong}", column.word())
             }
             PressureSlip::Exchanged => "the pressures of body and actuator look exchanged".into(),
             PressureSlip::Absolute(column, _) => format!("the {} pressures look absolute", column.word()),
@@ -153,7 +151,7 @@ impl PressureSlip {
     /// What to type.
     pub fn help(&self) -> String {
         match self {
-            PressureSlip::Unit(column, WrongUnit { suffixes: [right, wrong], .. }) => {
+            PressureSlip::Unit(column, WrongUnit { units: [[_, right], [_, wrong]], .. }) => {
                 let name = column.name();
                 format!("if they are, name the column {name}_{right} in place of {name}_{wrong}")
             }
@@ -173,7 +171,7 @@ pub fn by_numbers(dataset: &Dataset) -> Vec<PressureSlip> {
         let begins = column.of(first);
         let above = dataset.holds.iter().all(|hold| policy::is_not_below(column.of(hold), begins));
         let room_pa = if *column == PressureColumn::Body { begins.min(ROOM_PA) } else { begins };
-        (policy::is_a_room(begins) && above).then_some(PressureSlip::Absolute(*column, room_pa))
+        (is_a_room(begins) && above).then_some(PressureSlip::Absolute(*column, room_pa))
     };
     let highest = |column: PressureColumn| dataset.holds.iter().map(|hold| column.of(hold)).fold(0.0, f64::max);
     let [act, body] = COLUMNS.map(highest);
@@ -276,7 +274,7 @@ mod tests {
             for (hold, before) in mended.holds.iter().zip(&right.holds) {
                 assert_eq!(column.of(hold), unit.factor * column.of(before));
             }
-            assert!(UNITS.iter().any(|other| (other.factor * unit.factor - 1.0).abs() < 1e-12), "{unit:?}");
+            assert!(wrong_units().any(|other| (other.factor * unit.factor - 1.0).abs() < 1e-12), "{unit:?}");
         }
     }
 }

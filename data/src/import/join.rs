@@ -9,7 +9,7 @@ use super::pressure::Log;
 use super::recording::{FrameClock, Recording};
 use super::sheet::CellText;
 use crate::error::{DataError, Fault};
-use crate::read::ABSOLUTE_PA;
+use crate::policy::is_a_room;
 use crate::units::kpa;
 use spelling::files::{MOST_DATA, read_whole};
 
@@ -230,7 +230,7 @@ fn pressures(
     let lowest = |which: usize| {
         run.pressures[which].iter().flatten().copied().filter(|p| p.is_finite()).fold(f64::INFINITY, f64::min) - room_pa
     };
-    if options.room_pa.is_none() && [0, 1].iter().all(|which| ABSOLUTE_PA.contains(&lowest(*which))) {
+    if options.room_pa.is_none() && [0, 1].iter().all(|which| is_a_room(lowest(*which))) {
         let message = format!(
             "pressures are never below {:.1} kPa: they look absolute, or the robot was never vented",
             kpa(lowest(1))

@@ -6,8 +6,7 @@ use super::options::{ImportOptions, Offset};
 use super::recording::Recording;
 use super::sheet::CellText;
 use crate::error::DataError;
-use crate::policy::HIGHEST_GAUGE_PA;
-use crate::read::ABSOLUTE_PA;
+use crate::policy::{HIGHEST_GAUGE_PA, ROOM_PA};
 use crate::units::kpa;
 
 /// Readings over time.
@@ -64,7 +63,7 @@ impl Log {
             for (column, values) in roles.pressures.iter().zip(&mut log.values_pa) {
                 if let (Some((index, pa)), Some(values)) = (column, values) {
                     let pressure_pa = pa * sheet.expect(cell(*index), number, "pressure")?;
-                    if pressure_pa.abs() > HIGHEST_GAUGE_PA + ABSOLUTE_PA.end {
+                    if pressure_pa.abs() > HIGHEST_GAUGE_PA + ROOM_PA[1] {
                         let message =
                             format!("a pressure of {:.4e} kPa is more than any fabric stands", kpa(pressure_pa));
                         return Err(sheet.fault(number, message, "check the reading and the unit of the column"));
