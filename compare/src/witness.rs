@@ -14,12 +14,13 @@
 
 use crate::diagnosis::{Answer, Diagnosis, ParameterValue, Ranked, Standing, with_fitted};
 use crate::error::CompareError;
+use crate::moment::{CurvePoint, at_turn, degrees};
 use crate::policy;
-use crate::study::engines::{EngineRun, Ensemble, TERMS, between, ensemble};
+use crate::study::engines::{EngineRun, Ensemble, TERMS, between, ensemble, mean_and_deviation};
 use crate::study::predict::{fit_scenario, predict_dataset};
 use crate::wording::{list, short};
 use data::{About, Dataset, Phase};
-use models::Scenario;
+use models::{Loads, Scenario};
 use serde::Serialize;
 
 /// Terms that are physics: all but hourglass control.
@@ -62,6 +63,21 @@ pub struct WitnessRow {
     pub named: bool,
 }
 
+/// The moment that the diagnosed model, as given, misses at the bend of the finite elements.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FeMoment {
+    /// Actuator gauge pressure \[kPa\].
+    pub actuator_kpa: f64,
+    /// Bend, as the turn of the whole body at this curvature, mean over seeds \[°\].
+    pub bend_deg: f64,
+    /// Its standard deviation over seeds; zero for one run.
+    pub bend_sd_deg: f64,
+    /// Missing moment, mean over seeds \[N·m\].
+    pub moment_nm: f64,
+    /// Its standard deviation over seeds; zero for one run.
+    pub moment_sd_nm: f64,
+}
+
 /// Finite elements beside a diagnosis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Witness {
@@ -73,6 +89,8 @@ pub struct Witness {
     pub known: String,
     /// Outermost marker at the pressures that runs and data share.
     pub heights: Vec<Height>,
+    /// What the model misses at their bends, to be read beside the diagnosis's own; empty unless that was asked for.
+    pub moments: Vec<FeMoment>,
     /// Actuator pressure of the ledgers \[kPa\].
     pub actuator_kpa: f64,
     /// Their ledger in [`TERMS`] from the first bend to that pressure, mean over seeds \[mJ\]; `None` if the calibrated model
@@ -150,6 +168,10 @@ pub fn witness(
         fe_mj,
         models,
         heights,
+        moments: d
+            .missing_moment
+            .as_ref()
+            .map_or(Vec::new(), |m| moments(&scenario.with_bending(m.bending_nm2), &ensemble)),
         sentences: Vec::new(),
     };
     found.sentences = sentences(&found, d);
@@ -214,6 +236,30 @@ fn heights(models: [&Scenario; 2], dataset: &Dataset, ensemble: &Ensemble) -> Re
     }
     found.sort_by(|a, b| a.actuator_kpa.total_cmp(&b.actuator_kpa));
     Ok(found)
+}
+
+/// What a model misses at the bends of the runs, pressure by pressure.
+fn moments(scenario: &Scenario, ensemble: &Ensemble) -> Vec<FeMoment> {
+    let states = ensemble.runs.first().map_or(&[][..], |run| &run.states);
+    let at = |kpa: f64| -> Option<FeMoment> {
+        let of = |run: &EngineRun| {
+            let state = run.states.iter().find(|s| policy::is_same_reading(s.actuator_kpa, kpa))?;
+            // The pull of a nearly straight actuator has no bound.
+            let bent = policy::is_bent(state.turn_rad, run.states.last()?.turn_rad);
+            at_turn(scenario, &Loads::uniform(1e3 * run.body_kpa, 1e3 * kpa), state.turn_rad).filter(|_| bent)
+        };
+        let found: Vec<CurvePoint> = ensemble.runs.iter().filter_map(of).collect();
+        let [bend, moment] = [0, 1].map(|k| mean_and_deviation(&found.iter().map(|p| p[k]).collect::<Vec<_>>()));
+        let per = degrees(scenario.length_m);
+        (!found.is_empty()).then(|| FeMoment {
+            actuator_kpa: kpa,
+            bend_deg: per * bend.0,
+            bend_sd_deg: per * bend.1.unwrap_or(0.0),
+            moment_nm: moment.0,
+            moment_sd_nm: moment.1.unwrap_or(0.0),
+        })
+    };
+    states.iter().map(|s| s.actuator_kpa).filter(|kpa| *kpa > 0.0).filter_map(at).collect()
 }
 
 /// The ledger of a model and that of the finite elements, means over seeds.

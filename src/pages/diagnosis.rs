@@ -59,7 +59,10 @@ type Picture = fn(&Diagnosed, &Scenario) -> Result<Option<Drawn>, PageError>;
 
 /// Every picture that a report of a diagnosis may have, and its name without prefix and ending.
 const PICTURES: [(&str, Picture); 9] = [
-    ("missing_moment", |f, _| f.diagnosis.missing_moment.as_ref().map_or(Ok(None), moment_figure::missing_moment)),
+    ("missing_moment", |f, _| {
+        let beside = f.witness.map_or(&[][..], |w| &w.moments);
+        f.diagnosis.missing_moment.as_ref().map_or(Ok(None), |m| moment_figure::missing_moment(m, beside))
+    }),
     ("residuals_before", |f, _| {
         let title = "The calibrated model misses here";
         residual_figure::map(title, &f.diagnosis.residuals_before, f.dataset).map(Some)

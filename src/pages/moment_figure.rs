@@ -2,6 +2,7 @@
 
 use super::PageError;
 use compare::moment::{MissingMoment, MomentCurve, MomentPoint};
+use compare::witness::FeMoment;
 use compare::wording::short;
 use report::chart::{Chart, Key, KeyLook, Mark, Space};
 use report::{Drawn, Ink, Symbol};
@@ -10,11 +11,13 @@ use report::{Drawn, Ink, Symbol};
 const SAME_KPA: f64 = 0.5;
 /// Pressures with a colour and a line in the legend of their own.
 const MOST_LEVELS: usize = 6;
+/// Symbol of finite elements; those of body pressures begin with others.
+const FINITE_ELEMENTS: Symbol = Symbol::Triangle;
 /// The last colour of a series, and one below it, are left for curves.
 const FREE_SERIES: usize = 7;
 
-/// The picture; `None` where no hold has a missing moment.
-pub(super) fn missing_moment(found: &MissingMoment) -> Result<Option<Drawn>, PageError> {
+/// The picture, with what finite elements of the robot would ask for; `None` where no hold has a missing moment.
+pub(super) fn missing_moment(found: &MissingMoment, beside: &[FeMoment]) -> Result<Option<Drawn>, PageError> {
     let points: Vec<&MomentPoint> = found.of_holds().collect();
     if points.is_empty() {
         return Ok(None);
@@ -22,9 +25,11 @@ pub(super) fn missing_moment(found: &MissingMoment) -> Result<Option<Drawn>, Pag
     let levels = levels(points.iter().map(|p| p.p_act_kpa));
     let bodies = self::levels(points.iter().map(|p| p.p_body_kpa));
     let mut marks: Vec<Mark> = found.curves.iter().filter(|c| c.is_told && is_narrow(c, found)).map(band).collect();
-    let (ends, inks) = ([0.0, furthest(found)], Inks::of(&found.curves));
+    let furthest = beside.iter().map(|p| p.bend_deg + p.bend_sd_deg).fold(furthest(found), f64::max);
+    let (ends, inks) = ([0.0, furthest], Inks::of(&found.curves));
     marks.push(Mark::Line { points: ends.map(|x| [x, 0.0]).to_vec(), ink: Ink::Axis, dashed: false });
     marks.extend(found.curves.iter().map(|c| line(c, inks.of_curve(c))));
+    marks.extend(finite_elements(beside));
     marks.extend(points.iter().map(|p| point(p, &levels, &bodies)));
     marks.push(Mark::Tip { at: [ends[1], 0.0], label: "nothing missing".into(), ink: Ink::Muted });
     marks.extend(tips(&found.curves, &inks));
@@ -34,7 +39,7 @@ pub(super) fn missing_moment(found: &MissingMoment) -> Result<Option<Drawn>, Pag
         y_label: "missing moment [N m]; below 0 something holds it back".into(),
         space: Space::Plane,
         marks,
-        keys: keys(found, &levels, &bodies),
+        keys: [keys(found, &levels, &bodies), finite_elements_key(beside)].concat(),
         ..Chart::default()
     };
     Ok(Some(chart.draw("missing moment")?))
@@ -68,6 +73,29 @@ fn point(p: &MomentPoint, levels: &[f64], bodies: &[f64]) -> Mark {
         open: p.phase == "unload",
         label: String::new(),
     }
+}
+
+/// Their moments on a thin line, so that no pressure of the data is taken for one of theirs.
+fn finite_elements(beside: &[FeMoment]) -> Vec<Mark> {
+    let line = Mark::Line {
+        points: beside.iter().map(|p| [p.bend_deg, p.moment_nm]).collect(),
+        ink: Ink::Axis,
+        dashed: false,
+    };
+    let point = |p: &FeMoment| Mark::Point {
+        at: [p.bend_deg, p.moment_nm],
+        error: [p.bend_sd_deg, p.moment_sd_nm],
+        ink: Ink::Muted,
+        symbol: FINITE_ELEMENTS,
+        open: true,
+        label: String::new(),
+    };
+    std::iter::once(line).filter(|_| beside.len() > 1).chain(beside.iter().map(point)).collect()
+}
+
+fn finite_elements_key(beside: &[FeMoment]) -> Vec<Key> {
+    let key = Key::new(KeyLook::SymbolLine(FINITE_ELEMENTS, true), Ink::Muted, "finite elements");
+    std::iter::once(key).filter(|_| !beside.is_empty()).collect()
 }
 
 fn line(curve: &MomentCurve, ink: Ink) -> Mark {

@@ -49,7 +49,7 @@ pub fn missing_moment(
     let curves = curves(case, decision, found, &points)?;
     let mut told = sentences(&points);
     told.extend(shape_sentences(&shapes, case.noise.is_known()));
-    Ok(MissingMoment { shapes, sentences: told, points, curves })
+    Ok(MissingMoment { shapes, sentences: told, points, curves, bending_nm2: own_bending(case) })
 }
 
 /// A dataset's shape, and what the base misses there.
@@ -109,9 +109,12 @@ fn view<'a>(block: &'a Block, scenario: &'a Scenario) -> View<'a> {
 /// Parameters of the base with the bending stiffness as it was measured by itself, or as the scenario has it.
 fn reference(case: &Case) -> Vec<f64> {
     let mut theta = case.base.theta().to_vec();
-    let told = case.problem.known_bending.map_or(case.scenario.bending_stiffness, |[value, _]| value);
-    theta[..case.problem.bendings].fill(told);
+    theta[..case.problem.bendings].fill(own_bending(case));
     theta
+}
+
+fn own_bending(case: &Case) -> f64 {
+    case.problem.known_bending.map_or(case.scenario.bending_stiffness, |[value, _]| value)
 }
 
 /// Scenarios of a fit, one per bending stiffness.

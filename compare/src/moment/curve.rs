@@ -46,6 +46,21 @@ pub fn curve(base: &Scenario, other: &Scenario, path: &Path) -> Result<Vec<Curve
     Ok(points)
 }
 
+/// What the base misses where its actuators bend it all along by a turn of the tip; `None` where they cannot.
+pub fn at_turn(base: &Scenario, loads: &Loads, turn_rad: f64) -> Option<CurvePoint> {
+    let model = Model::new(base);
+    let of = |i: usize, bend: f64| if model.is_active(i) { bend } else { 0.0 };
+    let count = model.segments().len();
+    let active_m: f64 = (0..count).map(|i| of(i, model.segments()[i].length_m)).sum();
+    let bends: Vec<f64> = (0..count).map(|i| of(i, turn_rad / active_m)).collect();
+    let (mut missing, mut at) = (Vec::new(), model.prediction());
+    let step = [Step { t_s: 0.0, loads: loads.clone() }];
+    model
+        .hold(&step, std::slice::from_ref(&bends), &mut at, &mut |_, at| missing = at.missing_moments().to_vec())
+        .ok()?;
+    Some(mean(&model, &bends, &missing)).filter(|point| point.iter().all(|v| v.is_finite()))
+}
+
 /// The pressure from where it is reached, and after the time that it is held.
 fn steps(path: &Path, p_act_pa: f64) -> Vec<Step> {
     let step = |t_s: f64, p: f64| Step { t_s, loads: Loads::uniform(path.p_body_pa, p) };

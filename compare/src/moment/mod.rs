@@ -15,7 +15,7 @@ mod tests;
 mod told;
 mod view;
 
-pub use curve::{CurvePoint, Path, band, curve};
+pub use curve::{CurvePoint, Path, at_turn, band, curve};
 pub use points::{Moments, Point, Robot, missing, moments};
 pub use shape::{Shape, Shared, shape};
 pub use told::{

@@ -103,3 +103,19 @@ fn noise_alone_gives_no_moment_beyond_its_covariance() {
         assert!((0.84..1.16).contains(&ratio), "{kind}: {ratio:.3} over {count} values");
     }
 }
+
+/// At the bend where a robot rests nothing is missing; a stiffer model misses its own surplus there.
+#[test]
+fn at_a_turn_the_model_that_made_it_misses_nothing_and_a_stiffer_one_its_surplus() {
+    for (kind, bending) in KINDS {
+        let plain = robot(kind, bending);
+        let model = models::Model::new(&plain);
+        let (loads, mut at) = (models::Loads::uniform(2e3, 20e3), model.prediction());
+        model.predict(&loads, &mut at).unwrap();
+        let turn = at.tip.angle_rad;
+        let [kappa, nothing] = at_turn(&plain, &loads, turn).unwrap();
+        let [_, surplus] = at_turn(&plain.with_bending(bending + 0.2), &loads, turn).unwrap();
+        assert!(nothing.abs() < 1e-6, "{kind}: {nothing}");
+        assert!((surplus - 0.2 * kappa).abs() < 1e-6 && kappa > 0.1, "{kind}: {surplus} at {kappa}");
+    }
+}

@@ -18,6 +18,8 @@ pub struct MissingMoment {
     pub curves: Vec<MomentCurve>,
     /// What the points say, in plain language.
     pub sentences: Vec<String>,
+    /// Bending stiffness of the model that the points are relative to: the scenario's, or the measured one \[N·m²\].
+    pub bending_nm2: f64,
 }
 
 /// Shape of the holds of a dataset, each with bends of its own and no law.

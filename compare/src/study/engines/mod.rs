@@ -324,7 +324,7 @@ impl Ensemble {
 }
 
 /// Mean and standard deviation, which one value has not.
-fn mean_and_deviation(values: &[f64]) -> (f64, Option<f64>) {
+pub fn mean_and_deviation(values: &[f64]) -> (f64, Option<f64>) {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
     let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0);
