@@ -20,7 +20,7 @@ figure() {
     [ "${check:-}" ] || cp "$made/$1" "docs/$2"
 }
 [ "${1:-}" != --check ] || check=yes
-for name in residuals_before ranking before_after candidates finite_elements; do
+for name in missing_moment residuals_before ranking before_after candidates finite_elements; do
     figure "diagnosis/$name.png" "diagnosis/$name.png"
 done
 figure ladder/waterfall.png diagnosis/waterfall.png

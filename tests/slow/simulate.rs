@@ -131,19 +131,52 @@ fn two_runs_do_not_write_to_one_folder() {
     child.wait().unwrap();
 }
 
+/// A Python that has a module; else says how to have one.
+fn python_with(module: &str) -> Option<String> {
+    let python = std::env::var("IBR_PYTHON").unwrap_or_else(|_| "python3".into());
+    let import = format!("import {module}");
+    let has = Command::new(&python).args(["-c", &import]).output().is_ok_and(|o| o.status.success());
+    if !has {
+        println!("skipped: `{python} -c \"{import}\"` does not work here; set IBR_PYTHON to a Python with {module}");
+    }
+    has.then_some(python)
+}
+
 #[test]
 fn vtk_reads_every_frame_that_the_series_names() {
     let _alone = alone();
-    let python = std::env::var("IBR_PYTHON").unwrap_or_else(|_| "python3".into());
-    let has_vtk = Command::new(&python).args(["-c", "import vtk"]).output().is_ok_and(|o| o.status.success());
-    if !has_vtk {
-        println!("skipped: `{python} -c \"import vtk\"` does not work here; set IBR_PYTHON to a Python with vtk");
-        return;
-    }
+    let Some(python) = python_with("vtk") else { return };
     let folder = with_case();
     assert_eq!(Ran::from(start(&folder, &[]).wait_with_output().unwrap()).code, 0);
     let script = repository().join("tests/read_pvd.py");
     let read = Ran::from(Command::new(&python).arg(script).arg(folder.path("run/run.pvd")).output().unwrap());
     assert_eq!(read.code, 0, "{}{}", read.stdout, read.stderr);
     assert!(read.stdout.contains("31 frames"), "{}", read.stdout);
+}
+
+/// The tube and its end are a cylinder and a disc, cut into flat elements of some 5 mm.
+#[test]
+fn another_reader_of_abaqus_files_finds_every_robot_whole() {
+    let Some(python) = python_with("meshio") else { return };
+    let folder = Folder::new();
+    for robot in ["spam", "cpam", "epam", "fpam"] {
+        let ran = folder.run(&["simulate", robot, "--export", "robot.inp", "--force"]);
+        let script = repository().join("tests/read_inp.py");
+        let read = Ran::from(Command::new(&python).arg(script).arg(folder.path("robot.inp")).output().unwrap());
+        assert_eq!((ran.code, read.code), (0, 0), "{}{}", ran.stderr, read.stderr);
+        let found: serde_json::Value = serde_json::from_str(&read.stdout).unwrap();
+        let told = format!("robot.inp: {} nodes, {} elements\n", found["nodes"], found["elements"]);
+        assert_eq!(ran.stdout, told, "{robot}");
+        let parts = found["of_parts_mm2"].as_object().unwrap();
+        let area = |is_wanted: &dyn Fn(&str) -> bool| -> f64 {
+            parts.iter().filter(|part| is_wanted(part.0)).map(|part| part.1.as_f64().unwrap()).sum()
+        };
+        let tube = area(&|name| name == "wall" || name == "face" || name.starts_with("seam"));
+        let cap = area(&|name| name == "tip_cap");
+        let (radius, length) = (40.0, 360.0);
+        let cylinder = std::f64::consts::TAU * radius * length;
+        assert!((tube / cylinder - 1.0).abs() < 3e-3, "{robot}: {tube} mm² of a tube, not {cylinder}");
+        assert!((cap / (std::f64::consts::PI * radius * radius) - 1.0).abs() < 5e-3, "{robot}: a cap of {cap} mm²");
+        assert!(found["node_sets"].as_array().unwrap().iter().any(|set| set == "marker_6"), "{robot}: {found}");
+    }
 }

@@ -49,6 +49,8 @@ fn a_gauge_tells_the_exponent_of_a_loss() {
     let loss = d.ranked.iter().find(|r| r.effect == "pressure_loss").unwrap();
     let [f, n] = &loss.parameters[..] else { panic!("{loss:?}") };
     assert!(!f.held && n.held && n.value == 1.0 && n.lo.is_none(), "{loss:?}");
+    let pinned = ParameterValue { lo: Some(n.value), hi: Some(n.value), held: false, ..n.clone() };
+    assert_eq!(super::story::with_interval(&pinned), "n = 1 (the end of its range)");
     assert!(super::story::with_interval(n) == "n = 1 (held)" && !super::story::with_interval(f).contains("held"));
 }
 

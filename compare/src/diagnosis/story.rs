@@ -288,6 +288,7 @@ fn looks_like(pattern: &LeftPattern) -> String {
 pub fn with_interval(p: &ParameterValue) -> String {
     let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
     let range = match (p.lo, p.hi) {
+        (Some(lo), Some(hi)) if lo == hi => format!("{unit} (the end of its range)"),
         (Some(lo), Some(hi)) => format!(" ({} to {}){unit}", super::words::value(lo), super::words::value(hi)),
         _ => format!("{unit}{}", p.held_mark()),
     };
