@@ -24,11 +24,28 @@
 //! | [`import`] | files of tracking programs and pressure logs become marker tables |
 //! | [`study`] | the only crate that knows both sides: accuracy, noise, diagnosis, extension |
 //! | [`report`] | charts and pages of plain structs; [`pages`] makes them of results |
+//! | [`compared`] | a comparison with all that the command tells of it |
+//! | [`shown`] | results as text and as the JSON of the command |
+//! | [`program`] | the command line as one call |
 //! | [`studies`] | robots in finite elements that come with the library by name |
 
+// The commands say `ibr::` as any program would.
+extern crate self as ibr;
+
+mod cli;
+mod commands;
+pub mod compared;
+mod context;
+mod failure;
+mod meter;
+mod output;
 pub mod pages;
 mod predict;
+mod printable;
+pub mod program;
+pub mod shown;
 pub mod studies;
+mod tables;
 
 pub use ::compare as study;
 pub use data;

@@ -2,6 +2,7 @@
 
 use super::Cli;
 use clap::{CommandFactory, FromArgMatches};
+use std::ffi::OsString;
 
 /// Every command once, in the order of a session.
 const GROUPS: &[(&str, &[&str])] = &[
@@ -29,9 +30,9 @@ pub fn command() -> clap::Command {
     Cli::command().help_template(template)
 }
 
-/// What was typed; ends the program with help or an error.
-pub fn parsed() -> Cli {
-    Cli::from_arg_matches(&command().get_matches()).unwrap_or_else(|error| error.exit())
+/// What was typed, the name of the program first; ends the program with help or an error.
+pub fn parsed(typed: impl IntoIterator<Item = OsString>) -> Cli {
+    Cli::from_arg_matches(&command().get_matches_from(typed)).unwrap_or_else(|error| error.exit())
 }
 
 #[cfg(test)]

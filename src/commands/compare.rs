@@ -6,11 +6,10 @@ use crate::cli::CompareArgs;
 use crate::failure::{Failure, MISSED};
 use crate::output::{check_folder, imprint, write_files};
 use crate::shown::comparison::{CompareAnswer, text};
-use compare::diagnosis::{Options, pressure_slip};
+use compare::ScenarioFile;
 use compare::progress::shares::{COMPARED, READ};
-use compare::study::comparison::{Contender, Variant, compare_all};
-use compare::validation::BeforeAfter;
-use compare::{EvaluateOptions, ScenarioFile};
+use compare::study::comparison::Variant;
+use ibr::compared::{Compared, contenders};
 use ibr::pages::compare_page;
 use std::path::PathBuf;
 
@@ -22,16 +21,11 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
     let limit_m = positive("--max-error", args.max_error.as_ref())?;
     let sigma_m = positive("--sigma", args.sigma.as_ref())?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
-    let models = models(&file, &args.effect)?;
+    // What is asked for is refused before data are read.
+    contenders(&file, &args.effect)?;
     let evidence = inputs::evidence(data_spec, context)?;
     (context.progress)("comparing", Some(READ));
-    let options = EvaluateOptions { sigma_m, ..EvaluateOptions::default() };
-    let slip = pressure_slip(&file, &evidence, &Options { sigma_m, ..Options::default() })?;
-    let mut found = compare_all(&models, &evidence, &options, args.calibrate)?;
-    found.tell_first(slip);
-    // Without an effect that was added there is no before and after; without it the robot may have no equilibrium.
-    let added = BeforeAfter::of(&file, &[]).ok();
-    let added = added.and_then(|both| Some((both.effects.clone(), both.judge(&evidence, sigma_m).ok()?)));
+    let Compared { found, added } = Compared::of(&file, &evidence, &args.effect, sigma_m, args.calibrate)?;
     let scenario = if args.inputs.len() == 1 { "its own" } else { &file.name };
     let answer = CompareAnswer { scenario, found: &found, added: added.as_ref() };
     let mut outcome = Outcome::new(text(&answer), answer.json());
@@ -66,13 +60,4 @@ fn both(args: &CompareArgs) -> Result<(ScenarioFile, &str), Failure> {
             "for example `ibr compare epam synthetic-epam`; `ibr compare spam epam --engines` takes scenarios only";
         Failure::usage(message, help)
     })
-}
-
-/// The scenario as given, then with one effect after the other.
-fn models(file: &ScenarioFile, effects: &[String]) -> Result<Vec<Contender>, Failure> {
-    let mut models = vec![Contender::as_given(file)];
-    for effect in effects {
-        models.push(models[models.len() - 1].with(effect)?);
-    }
-    Ok(models)
 }

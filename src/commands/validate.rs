@@ -1,12 +1,11 @@
 //! `ibr validate`
 
 use super::inputs::{self, positive};
-use super::tables::{number, table};
 use super::{Context, Outcome};
 use crate::cli::ValidateArgs;
 use crate::failure::Failure;
-use compare::validation::{BeforeAfter, Validation};
-use serde_json::json;
+use crate::shown::validation::{text, to_json};
+use compare::validation::BeforeAfter;
 
 pub fn run(args: &ValidateArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let sigma_m = positive("--sigma", args.sigma.as_ref())?;
@@ -18,44 +17,8 @@ pub fn run(args: &ValidateArgs, context: &mut Context) -> Result<Outcome, Failur
         (context.progress)(&format!("comparing with {spec}"), None);
         found.push(both.judge(&evidence, sigma_m)?);
     }
-    let bending = json!({"before": both.before.bending_stiffness, "after": both.after.bending_stiffness});
-    let answer = json!({
-        "schema": "ibr.validate", "version": 1, "scenario_file": args.scenario, "added": both.effects,
-        "bending_nm2": bending, "datasets": found,
-    });
-    let mut outcome = Outcome::new(text(&args.scenario, &both, &found), answer);
+    let mut outcome = Outcome::new(text(&args.scenario, &both, &found), to_json(&args.scenario, &both, &found));
     let warnings = found.iter().flat_map(|v| v.warnings.iter().map(|w| format!("warning: {}: {w}", v.data)));
     outcome.notes.extend(warnings);
     Ok(outcome)
-}
-
-fn text(file: &str, both: &BeforeAfter, found: &[Validation]) -> String {
-    let mut out = format!(
-        "{file}: {} on other data, nothing refitted (B {:.3} N m² with, {:.3} without)\n",
-        both.effects.join(" and "),
-        both.after.bending_stiffness,
-        both.before.bending_stiffness
-    );
-    let levels = |l: &[f64]| l.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-    let row = |v: &Validation| {
-        let words = [v.data.clone(), levels(&v.p_act_kpa), levels(&v.p_body_kpa), v.runs.to_string()];
-        let errors = [v.noise_floor_mm, Some(v.before.beyond_noise_mm), Some(v.after.beyond_noise_mm)];
-        let chi = [v.before.reduced_chi2, v.after.reduced_chi2];
-        [&words[..], &errors.map(|mm| number(mm, 2)), &chi.map(|c| number(c, 1))].concat()
-    };
-    let head =
-        ["data", "actuator kPa", "body kPa", "runs", "noise mm", "before mm", "after mm", "χ²/dof before", "after"];
-    out.push_str(&table(&head, 1, found.iter().map(row).collect()));
-    for v in found {
-        out.push_str(&format!("  - {}: {}.\n", v.data, v.sentence));
-        if !v.geometry_of_data.is_empty() {
-            out.push_str(&format!("    size of the data's robot taken: {}\n", v.geometry_of_data.join("; ")));
-        }
-    }
-    if found.iter().all(|v| v.fitted_to_these) {
-        out.push_str(
-            "Only data it was not fitted to can test it: another pressure, another size, another body pressure.\n",
-        );
-    }
-    out
 }

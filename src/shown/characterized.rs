@@ -7,6 +7,7 @@ use compare::characterize::{Characterized, FabricNumber as Number, Replay, Speci
 use data::Direction;
 use serde_json::{Value, json};
 
+/// For readers.
 pub fn text(found: &Characterized) -> String {
     let count = |d: Direction| format!("{} at {}°", found.of(d).count(), d.degrees());
     let directions = found.directions().into_iter().map(count).collect::<Vec<_>>().join(", ");
@@ -80,6 +81,7 @@ fn digits(x: f64) -> String {
     format!("{x:.decimals$}")
 }
 
+/// `ibr.characterize`
 pub fn to_json(found: &Characterized, fabric: Option<&str>) -> Value {
     let quantity = |q: &Number| {
         json!({

@@ -1,11 +1,10 @@
 //! Errors on the way to an extended scenario.
 
-use crate::failure::Failure;
 use crate::tables::{number, table};
 use compare::diagnosis::words::three;
 use compare::extension::{Addition, ErrorStep, Extension, today};
 use compare::ladder::Climb;
-use compare::{Evidence, ScenarioFile};
+use compare::{CompareError, Evidence, ScenarioFile};
 use serde_json::{Map, Value, json};
 
 /// Errors on the way as a text table.
@@ -35,14 +34,22 @@ pub fn climb_text(climb: &Climb) -> String {
 }
 
 /// An extension for programs.
-pub fn to_json(file: &ScenarioFile, evidence: &[Evidence], found: &Extension, target: &str) -> Result<Value, Failure> {
+///
+/// # Errors
+/// A table that cannot be written.
+pub fn to_json(
+    file: &ScenarioFile,
+    evidence: &[Evidence],
+    found: &Extension,
+    target: &str,
+) -> Result<Value, CompareError> {
     let effect = |a: &Addition| {
         let fitted = found.fitted.iter().find(|f| f.effect == a.name).map(|f| &f.parameters);
         let values: Map<String, Value> = a.values.iter().map(|(k, v)| (k.clone(), json!(v))).collect();
         json!({"effect": a.name, "how_known": a.basis, "values": values, "parameters": fitted})
     };
     let data = |e: &Evidence| Ok(json!({"name": e.name, "sha256": e.sha256()?}));
-    let data = evidence.iter().map(data).collect::<Result<Vec<Value>, Failure>>()?;
+    let data = evidence.iter().map(data).collect::<Result<Vec<Value>, CompareError>>()?;
     Ok(json!({
         "schema": "ibr.add", "version": 1,
         "scenario_file": file.name, "scenario_sha256": file.sha256(), "written": target,

@@ -17,3 +17,4 @@ pub mod one_number;
 pub mod paper;
 pub mod pattern;
 pub mod predicted;
+pub mod validation;
