@@ -40,6 +40,12 @@ impl Compared {
     }
 }
 
+/// A warning that a camera noise had no use.
+pub fn unused_sigma(sigma_m: Option<f64>, evidence: &Evidence) -> Option<String> {
+    let words = "warning: --sigma is for a single run and was not used: several runs show the noise themselves";
+    (sigma_m.is_some() && evidence.dataset.runs.len() > 1).then(|| words.to_string())
+}
+
 /// The scenario as given, then with one effect after the other.
 ///
 /// # Errors

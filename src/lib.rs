@@ -41,6 +41,7 @@ mod meter;
 mod output;
 pub mod pages;
 mod predict;
+mod predictor;
 mod printable;
 pub mod program;
 pub mod shown;
@@ -63,4 +64,5 @@ pub use ::compare::{CompareError as Error, Comparison, Evidence, Extension, Prog
 pub use fem::session::{FeRun, Settings as FeSettings, Source as FeSource, simulate, simulate_all};
 pub use models::{Loads, Scenario};
 pub use predict::{AtPressure, HOLD_S, predict, predict_for};
+pub use predictor::{Predictor, check_fed};
 pub use studies::fe_source;

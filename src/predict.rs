@@ -31,11 +31,13 @@ pub fn predict(scenario: &Scenario, loads: &[Loads]) -> Result<Vec<AtPressure>, 
     let steps: Vec<Step> = loads.iter().enumerate().map(step).collect();
     let mut predictions = Vec::new();
     model.follow(&steps, &mut model.prediction(), &mut |_, at| predictions.push(at.clone()))?;
-    let state = |(loads, prediction): (&Loads, Prediction)| {
-        let slopes = model.jacobian(loads, &mut model.prediction())?;
-        Ok(AtPressure { loads: *loads, prediction, slopes })
-    };
-    loads.iter().zip(predictions).map(state).collect()
+    loads.iter().zip(predictions).map(|(loads, prediction)| state(&model, *loads, prediction)).collect()
+}
+
+/// A predicted state with the slopes of its tip, which are those of the first loading.
+pub(crate) fn state(model: &Model, loads: Loads, prediction: Prediction) -> Result<AtPressure, CompareError> {
+    let slopes = model.jacobian(&loads, &mut model.prediction())?;
+    Ok(AtPressure { loads, prediction, slopes })
 }
 
 /// The state, at the scenario's body pressure, in which the tip is where it is wanted.

@@ -8,6 +8,7 @@ use models::{Scenario, ScenarioError};
 use spelling::files::{MOST_TEXT, read_whole};
 use std::ops::Deref;
 use std::path::Path;
+use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
 /// A robot's scenario: what its text means, and the text itself, which an extension keeps.
 #[derive(Debug, Clone)]
@@ -59,6 +60,21 @@ impl ScenarioFile {
         Ok(ScenarioFile { name: name.into(), text: text.into(), scenario })
     }
 
+    /// The same with values set, each at its place such as `body.radius_mm` and written as in TOML; the rest of the text stays.
+    ///
+    /// # Errors
+    /// A value that is not TOML, a place below something that is no table; a fault of the new text with its line.
+    pub fn with(&self, changes: &[(String, String)]) -> Result<ScenarioFile, CompareError> {
+        let refused = |message: String| CompareError::refused(message, "write for example body.radius_mm = 40");
+        let mut document: DocumentMut =
+            self.text.parse().map_err(|error: toml_edit::TomlError| refused(error.message().into()))?;
+        for (place, text) in changes {
+            let value: Value = text.parse().map_err(|_| refused(format!("{place} = {text} is no value of TOML")))?;
+            set(&mut document, place, value).ok_or_else(|| refused(format!("{place} is not in a table")))?;
+        }
+        ScenarioFile::parse(&self.name, &document.to_string())
+    }
+
     /// The scenario that an embedded set or a folder of data brings along.
     ///
     /// # Errors
@@ -73,6 +89,27 @@ impl ScenarioFile {
     pub fn sha256(&self) -> String {
         sha256(self.text.as_bytes())
     }
+}
+
+/// Puts a value at a place; `None` if something above it is no table.
+fn set(document: &mut DocumentMut, place: &str, value: Value) -> Option<()> {
+    let mut parts: Vec<&str> = place.split('.').collect();
+    let key = parts.pop()?;
+    let mut at: &mut dyn TableLike = document.as_table_mut();
+    for part in parts {
+        let mut implicit = Table::new();
+        implicit.set_implicit(true);
+        at = at.entry(part).or_insert(Item::Table(implicit)).as_table_like_mut()?;
+    }
+    match at.get_mut(key).and_then(Item::as_value_mut) {
+        Some(old) => {
+            let decor = old.decor().clone();
+            *old = value;
+            *old.decor_mut() = decor;
+        }
+        None => _ = at.insert(key, Item::Value(value)),
+    }
+    Some(())
 }
 
 /// A refused scenario with its place in the file.
@@ -91,5 +128,34 @@ fn what_to_type(message: &str) -> &'static str {
         }
         m if m.contains("expected i64") => "write a whole number without quotation marks",
         _ => "`ibr new epam` prints a complete scenario to compare with",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn changed(changes: &[(&str, &str)]) -> Result<ScenarioFile, CompareError> {
+        let changes: Vec<_> = changes.iter().map(|(place, value)| (place.to_string(), value.to_string())).collect();
+        ScenarioFile::read("epam").unwrap().with(&changes)
+    }
+
+    #[test]
+    fn values_are_set_at_their_places_and_comments_stay() {
+        let new =
+            changed(&[("body.radius_mm", "45"), ("effects.friction.moment_nm", "0.2"), ("name", "'mine'")]).unwrap();
+        assert_eq!((new.radius_m, new.scenario.name.as_str()), (0.045, "mine"));
+        assert!(new.effects.iter().any(|effect| effect.name == "friction" && effect.values == [0.2]));
+        let old = ScenarioFile::read("epam").unwrap().text;
+        let is_kept = |line: &&str| line.starts_with('#') && !new.text.contains(*line);
+        assert_eq!(old.lines().find(is_kept), None);
+    }
+
+    #[test]
+    fn what_cannot_be_set_is_refused_with_its_place() {
+        let told = |changes: &[(&str, &str)]| changed(changes).unwrap_err().to_string();
+        assert!(told(&[("body.radius_mn", "45")]).contains("epam:"), "{}", told(&[("body.radius_mn", "45")]));
+        assert!(told(&[("body.radius_mm", "45 mm")]).contains("no value of TOML"));
+        assert!(told(&[("name.first", "45")]).contains("is not in a table"));
     }
 }

@@ -37,16 +37,22 @@ pub struct Fault {
     pub text: String,
 }
 
+impl fmt::Display for Location {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.file)?;
+        if self.line > 0 {
+            write!(f, ":{}", self.line)?;
+        }
+        match &self.column_name {
+            Some(column) => write!(f, ", column {column}"),
+            None => Ok(()),
+        }
+    }
+}
+
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.location.file)?;
-        if self.location.line > 0 {
-            write!(f, ":{}", self.location.line)?;
-        }
-        if let Some(column) = &self.location.column_name {
-            write!(f, ", column {column}")?;
-        }
-        write!(f, ": {}", self.message)
+        write!(f, "{}: {}", self.location, self.message)
     }
 }
 

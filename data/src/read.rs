@@ -30,6 +30,7 @@ use crate::ramps::check_kept;
 use crate::rows::RowReader;
 use crate::streams::Recorder;
 use crate::streams::plausible::{check_units, check_y_up};
+use crate::table::{Table, TableReader};
 
 /// Actuator kinds remembered for the error message that lists them.
 const MOST_KINDS: usize = 20;
@@ -115,6 +116,15 @@ pub fn parse_markers(
     check_kind(file, &dataset.actuator, options.about)?;
     check_y_up(&cells.header, &dataset)?;
     Ok(dataset)
+}
+
+/// Reads a marker table that is at hand, as if it were the CSV file of this name: faults say the line that it would have.
+///
+/// # Errors
+/// As [`read_markers`].
+pub fn markers_of_table(name: &str, table: &Table, about: Option<&About>) -> Result<Dataset, DataError> {
+    let options = ReadOptions { about, ..ReadOptions::default() };
+    parse_markers(name, &mut TableReader::new(table), options, &mut |_, _| ())
 }
 
 /// Markers nearer to the base than this may be seen at 0, 0 \[m\].

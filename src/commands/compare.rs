@@ -1,6 +1,6 @@
 //! `ibr compare`
 
-use super::inputs::{self, plain, positive, unused_sigma};
+use super::inputs::{self, plain, positive};
 use super::{Context, Outcome};
 use crate::cli::CompareArgs;
 use crate::failure::{Failure, MISSED};
@@ -9,7 +9,7 @@ use crate::shown::comparison::{CompareAnswer, text};
 use compare::ScenarioFile;
 use compare::progress::shares::{COMPARED, READ};
 use compare::study::comparison::Variant;
-use ibr::compared::{Compared, contenders};
+use ibr::compared::{Compared, contenders, unused_sigma};
 use ibr::pages::compare_page;
 use std::path::PathBuf;
 

@@ -1,6 +1,6 @@
 //! `ibr diagnose`
 
-use super::inputs::{self, positive, unused_sigma};
+use super::inputs::{self, positive};
 use super::{Context, Outcome};
 use crate::cli::DiagnoseArgs;
 use crate::failure::Failure;
@@ -12,6 +12,7 @@ use compare::progress::part;
 use compare::progress::shares::{DIAGNOSED, READ};
 use compare::study::engines::known_runs;
 use compare::witness::witness;
+use ibr::compared::unused_sigma;
 use ibr::pages::{Diagnosed, diagnosis_page, diagnosis_pictures};
 use std::path::Path;
 

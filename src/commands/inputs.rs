@@ -69,13 +69,6 @@ pub fn scatter(option: &str, text: &str) -> Result<f64, Failure> {
     }
 }
 
-/// A warning that `--sigma` had no use.
-pub fn unused_sigma(sigma_m: Option<f64>, evidence: &Evidence) -> Option<String> {
-    (sigma_m.is_some() && evidence.dataset.runs.len() > 1).then(|| {
-        "warning: --sigma is for a single run and was not used: several runs show the noise themselves".to_string()
-    })
-}
-
 /// A name of data as part of a folder's.
 pub fn plain(name: &str) -> String {
     name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect()

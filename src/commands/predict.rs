@@ -8,7 +8,7 @@ use crate::output::{check_folder, write_files};
 use crate::shown::predicted::{above_limit, beyond_words, state_json, text};
 use compare::typed_effect::with_effect;
 use ibr::pages::predicted_files;
-use ibr::{predict, predict_for};
+use ibr::{check_fed, predict, predict_for};
 use models::scenario::quantity::{Quantity, parse_pressures};
 use models::{CHANNELS, Loads, Model, Scenario, Target};
 use serde_json::{Value, json};
@@ -67,19 +67,9 @@ fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<Loads>, Fa
         }
         None => scenario.pressures_pa.iter().map(|p| [*p; CHANNELS]).collect(),
     };
+    pressures.iter().try_for_each(|all| check_fed(scenario, all))?;
     if !scenario.actuator.exists() {
-        if pressures.iter().flatten().any(|p| *p > 0.0) {
-            return Err(Failure::usage("an actuator pressure for a beam without [actuator]", "leave it out"));
-        }
         pressures = vec![[0.0; CHANNELS]];
-    }
-    let is_fed = |channel: usize| {
-        scenario.actuator.channel == channel || scenario.zones.iter().any(|zone| zone.channel == Some(channel))
-    };
-    let lost = (0..CHANNELS).find(|channel| !is_fed(*channel) && pressures.iter().any(|all| all[*channel] != all[0]));
-    if let Some(channel) = lost.filter(|channel| pressures.iter().any(|all| all[*channel] > 0.0)) {
-        let message = format!("--pressure: nothing is supplied by channel {channel} in this scenario");
-        return Err(Failure::usage(message, "write one pressure, or give zones a channel in the scenario"));
     }
     if pressures.is_empty() {
         return Err(Failure::usage(

@@ -33,6 +33,7 @@ pub use one_number::one_number_files;
 pub use pattern::pattern_sheet;
 pub use predicted::{predicted_files, pressure_words};
 pub use run_plots::{mesh_plot, run_plots};
+pub use tables::residuals;
 pub use tracks::tracks_plot;
 pub use uncertain::{marker_intervals, what_to_measure};
 

@@ -17,4 +17,7 @@ pub mod one_number;
 pub mod paper;
 pub mod pattern;
 pub mod predicted;
+pub mod run;
+pub mod run_robot;
+pub mod several_runs;
 pub mod validation;

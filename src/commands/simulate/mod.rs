@@ -3,15 +3,13 @@
 mod export;
 mod plan;
 mod several;
-mod told;
-mod told_robot;
-mod told_several;
 
 use super::fem_inputs::seconds;
 use super::{Context, Outcome};
 use crate::cli::SimulateArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, maker};
+use crate::shown::run::{cost_text, text};
 use fem::FemError;
 use fem::session::{FeRun, Further, SUMMARY, Settings, Source, simulate};
 use ibr::fe_source;
@@ -60,12 +58,12 @@ fn one(args: &SimulateArgs, source: &Source, settings: &Settings, context: &mut 
         }
         other => other?,
     };
-    let mut outcome = Outcome::new(told::text(&run.summary), SUMMARY.stamped(&run.summary));
+    let mut outcome = Outcome::new(text(&run.summary), SUMMARY.stamped(&run.summary));
     if !run.fresh {
         outcome.notes.push(format!("the run in {} is complete; nothing was done", folder.display()));
         return Ok(outcome);
     }
-    outcome.text.push_str(&told::cost_text(&run.cost));
+    outcome.text.push_str(&cost_text(&run.cost));
     if let Some(answer) = &mut outcome.json {
         answer["cost"] = json!(run.cost);
         answer["folder"] = json!(folder.display().to_string());

@@ -1,8 +1,8 @@
 //! Several runs of one robot: those that differ in seed, mesh or pressure, and hypercubes.
 
-use super::told_several::{table_text, uncertain_text};
 use crate::commands::{Context, Outcome};
 use crate::failure::Failure;
+use crate::shown::several_runs::{table_text, uncertain_text};
 use compare::study::uncertain::Uncertain;
 use fem::session::{Cube, Job, RunRow, RunTable, Settings, Source, Variation, simulate_all};
 use ibr::pages::{marker_intervals, mesh_plot, what_to_measure};

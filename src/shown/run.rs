@@ -1,6 +1,6 @@
 //! A run's summary in words, and what a user should know before believing it.
 
-use super::told_robot;
+use super::run_robot;
 use crate::tables::table;
 use fem::session::{ChamberEnd, Cost, MeshQuality, ProbeEnd, ReactionEnd, Rule, Summary};
 
@@ -30,7 +30,7 @@ pub fn text(s: &Summary) -> String {
     };
     let head = ["force of the support on", "x N", "y N", "z N", "about x N·m", "about y", "about z"];
     out.push_str(&section(&head, 1, s.reactions.iter().map(force).collect()));
-    out.push_str(&s.robot.as_ref().map(told_robot::text).unwrap_or_default());
+    out.push_str(&s.robot.as_ref().map(run_robot::text).unwrap_or_default());
     out.push_str(&section(&["energy", "", "J"], 2, ledger(s)));
     out.push_str(&judgement(s));
     out

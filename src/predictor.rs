@@ -1,0 +1,131 @@
+//! A robot put together once and asked many times: what a control loop and a binding call.
+
+use crate::predict::{AtPressure, HOLD_S, state};
+use compare::CompareError;
+use models::{Batch, CHANNELS, Loads, Model, Prediction, Scenario, Step, Target, TipSlope, Unsolved};
+
+/// A robot ready to be asked. Pressures are refused where the scenario has nothing that they could act on.
+pub struct Predictor {
+    scenario: Scenario,
+    model: Model,
+    has_history: bool,
+}
+
+impl Predictor {
+    /// Puts a scenario together.
+    pub fn new(scenario: &Scenario) -> Predictor {
+        let model = Model::new(scenario);
+        Predictor { scenario: scenario.clone(), has_history: model.has_history(), model }
+    }
+
+    /// The scenario.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+
+    /// Its model.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// Pressures \[Pa\]: one for all supply channels, or one for each; the body's is the scenario's unless given.
+    ///
+    /// # Errors
+    /// As [`check_fed`]; more pressures than channels, or none.
+    pub fn loads(&self, body_pa: Option<f64>, given_pa: &[f64]) -> Result<Loads, CompareError> {
+        let mut actuator_pa = [0.0; CHANNELS];
+        match given_pa {
+            [one] => actuator_pa = [*one; CHANNELS],
+            many if (1..=CHANNELS).contains(&many.len()) => actuator_pa[..many.len()].copy_from_slice(many),
+            many => {
+                let message = format!("{} actuator pressures; there are {CHANNELS} supply channels", many.len());
+                return Err(CompareError::refused(message, "give one pressure, or one for every channel"));
+            }
+        }
+        check_fed(&self.scenario, &actuator_pa)?;
+        Ok(Loads { body_pa: body_pa.unwrap_or(self.scenario.p_body_pa), actuator_pa })
+    }
+
+    /// One state. With an effect that has history it is held for [`HOLD_S`], from rest.
+    ///
+    /// # Errors
+    /// A pressure that means nothing, or at which there is no equilibrium.
+    pub fn predict(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
+        match self.has_history {
+            false => self.model.predict(loads, out),
+            true => self.model.follow(&[Step { t_s: HOLD_S, loads: *loads }], out, &mut |_, _| ()),
+        }
+    }
+
+    /// The same with the slopes of the tip.
+    ///
+    /// # Errors
+    /// As [`Predictor::predict`].
+    pub fn state(&self, loads: &Loads) -> Result<AtPressure, CompareError> {
+        let mut prediction = self.model.prediction();
+        self.predict(loads, &mut prediction)?;
+        state(&self.model, *loads, prediction)
+    }
+
+    /// The state in which the tip is where it is wanted.
+    ///
+    /// # Errors
+    /// A place that the tip does not reach.
+    pub fn inverse(&self, target: Target, body_pa: Option<f64>) -> Result<Loads, CompareError> {
+        let body_pa = body_pa.unwrap_or(self.scenario.p_body_pa);
+        let pressure_pa = self.model.pressure_for(target, body_pa, &mut self.model.prediction())?;
+        Ok(Loads::uniform(body_pa, pressure_pa))
+    }
+
+    /// Change of the tip with the pressure of each channel.
+    ///
+    /// # Errors
+    /// As [`Predictor::predict`].
+    pub fn jacobian(&self, loads: &Loads) -> Result<[TipSlope; CHANNELS], CompareError> {
+        Ok(self.model.jacobian(loads, &mut self.model.prediction())?)
+    }
+
+    /// Many states beside each other on so many threads, one per core if 0; bits do not depend on the number.
+    ///
+    /// # Errors
+    /// A state without equilibrium, with its number from 0; an effect with history, whose states have an order.
+    pub fn batch(&self, loads: &[Loads], threads: usize) -> Result<Batch, CompareError> {
+        if self.has_history {
+            let message = format!("{} remembers, so its states have an order and times", self.scenario.name);
+            return Err(CompareError::refused(message, "walk them with follow(t_s, pressure_kpa)"));
+        }
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        let mut batch = self.model.batch(loads.len(), if threads == 0 { cores() } else { threads });
+        let predicted = self.model.predict_batch(loads, &mut batch);
+        predicted.map_err(|error| {
+            let message = format!("state {} of the batch: {error}", batch.tips.len());
+            CompareError::refused(message, "leave it out, or lower its pressure")
+        })?;
+        Ok(batch)
+    }
+}
+
+/// Refuses pressures that would be lost: of a robot without actuator, or of a channel that supplies nothing.
+///
+/// # Errors
+/// Which, and what to write.
+pub fn check_fed(scenario: &Scenario, actuator_pa: &[f64; CHANNELS]) -> Result<(), CompareError> {
+    if !scenario.actuator.exists() && actuator_pa.iter().any(|p| *p > 0.0) {
+        let message = "an actuator pressure for a beam without [actuator]";
+        return Err(CompareError::refused(message, "leave it out"));
+    }
+    let is_fed = |channel: usize| {
+        scenario.actuator.channel == channel || scenario.zones.iter().any(|zone| zone.channel == Some(channel))
+    };
+    let is_lost = |channel: &usize| {
+        let p = actuator_pa[*channel];
+        p > 0.0 && p != actuator_pa[0] && !is_fed(*channel)
+    };
+    match (0..CHANNELS).find(is_lost) {
+        Some(channel) => {
+            let message = format!("nothing is supplied by channel {channel} in this scenario");
+            Err(CompareError::refused(message, "write one pressure, or give zones a channel in the scenario"))
+        }
+        None => Ok(()),
+    }
+}
