@@ -64,17 +64,31 @@ impl Predictor {
     pub fn state(&self, loads: &Loads) -> Result<AtPressure, CompareError> {
         let mut prediction = self.model.prediction();
         self.predict(loads, &mut prediction)?;
-        state(&self.model, *loads, prediction)
+        self.with_slopes(loads, prediction)
     }
 
-    /// The state in which the tip is where it is wanted.
+    /// A state that was predicted, with the slopes of the tip, which are those of the first loading.
+    ///
+    /// # Errors
+    /// As [`Predictor::predict`].
+    pub fn with_slopes(&self, loads: &Loads, at: Prediction) -> Result<AtPressure, CompareError> {
+        state(&self.model, *loads, at)
+    }
+
+    /// Whether a state depends on those before it or on time.
+    pub fn has_history(&self) -> bool {
+        self.has_history
+    }
+
+    /// The state, on the first loading, in which the tip is where it is wanted, and its pressures.
     ///
     /// # Errors
     /// A place that the tip does not reach.
-    pub fn inverse(&self, target: Target, body_pa: Option<f64>) -> Result<Loads, CompareError> {
+    pub fn inverse(&self, target: Target, body_pa: Option<f64>) -> Result<(Loads, Prediction), CompareError> {
         let body_pa = body_pa.unwrap_or(self.scenario.p_body_pa);
-        let pressure_pa = self.model.pressure_for(target, body_pa, &mut self.model.prediction())?;
-        Ok(Loads::uniform(body_pa, pressure_pa))
+        let mut at = self.model.prediction();
+        let pressure_pa = self.model.pressure_for(target, body_pa, &mut at)?;
+        Ok((Loads::uniform(body_pa, pressure_pa), at))
     }
 
     /// Change of the tip with the pressure of each channel.

@@ -127,13 +127,26 @@ pub struct Refusal {
 impl Refusal {
     /// File, line and what is wrong.
     fn place(&self) -> String {
-        let Refusal { file, text, message, span, .. } = self;
-        let line = |at: usize| text.bytes().take(at).filter(|byte| *byte == b'\n').count() + 1;
-        span.as_ref().map_or_else(|| message.clone(), |span| format!("{file}:{}: {message}", line(span.start)))
+        let Refusal { file, message, .. } = self;
+        self.line().map_or_else(|| message.clone(), |line| format!("{file}:{line}: {message}"))
+    }
+
+    fn line(&self) -> Option<usize> {
+        let before = self.text.bytes().take(self.span.as_ref()?.start);
+        Some(before.filter(|byte| *byte == b'\n').count() + 1)
     }
 }
 
 impl FemError {
+    /// File and line of what was refused, where it is known.
+    pub fn place(&self) -> Option<String> {
+        match self {
+            FemError::Refused(refusal) => refusal.line().map(|line| format!("{}:{line}", refusal.file)),
+            FemError::MeshFile { path, line, .. } => Some(format!("{}:{line}", path.display())),
+            _ => None,
+        }
+    }
+
     /// What to do about it, where the message does not say it itself.
     pub fn help(&self) -> Option<&str> {
         match self {

@@ -15,7 +15,7 @@ mod diagnose_bench;
 mod engines;
 mod fem_inputs;
 mod held;
-mod import_options;
+pub(crate) mod import_options;
 mod inputs;
 mod ladder;
 mod limits;

@@ -1,0 +1,241 @@
+//! What is found of scenarios and data: the text of the command, its JSON, a table, and the report page.
+
+use crate::arrays::columns;
+use crate::errors::raised;
+use crate::inputs::Data;
+use crate::progress::Teller;
+use crate::scenario::Scenario;
+use ibr::compared::{Compared, unused_sigma};
+use ibr::data::Table;
+use ibr::pages::{Diagnosed, Files, PageError, compare_page, diagnosis_page, residuals};
+use ibr::program::imprint;
+use ibr::shown::comparison::{CompareAnswer, text};
+use ibr::shown::{diagnosis, extension, validation};
+use ibr::study::study::Knob;
+use ibr::study::study::engines::known_runs;
+use ibr::study::validation::BeforeAfter;
+use ibr::study::witness::{Witness, witness};
+use ibr::{Diagnosis, DiagnosisOptions, Evidence, Extension, ScenarioFile, Wish};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+
+/// Makes the files of a report.
+type Page = Box<dyn Fn() -> Result<Files, PageError> + Send + Sync>;
+
+/// A result as the command tells it.
+#[pyclass(frozen, module = "ibr")]
+pub struct Answer {
+    /// For readers.
+    #[pyo3(get)]
+    text: String,
+    /// For programs.
+    #[pyo3(get)]
+    json: String,
+    /// What to know before believing it.
+    #[pyo3(get)]
+    warnings: Vec<String>,
+    table: Table,
+    page: Option<Page>,
+    extended: Option<ScenarioFile>,
+    diagnosis: Option<Diagnosis>,
+}
+
+impl Answer {
+    pub fn of(text: String, json: &serde_json::Value, warnings: Vec<String>) -> Answer {
+        let (table, page, extended, diagnosis) = (Table::default(), None, None, None);
+        Answer { text, json: json.to_string(), warnings, table, page, extended, diagnosis }
+    }
+}
+
+#[pymethods]
+impl Answer {
+    /// Its numbers as columns; empty where they are lists of the JSON.
+    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        columns(py, &self.table)
+    }
+
+    /// The files of its report by name; empty without one.
+    fn files<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let files = py.detach(|| self.page.as_ref().map_or(Ok(Files::default()), |page| page())).map_err(raised)?;
+        let all = PyDict::new(py);
+        for (name, bytes) in &files.files {
+            all.set_item(name, PyBytes::new(py, bytes))?;
+        }
+        Ok(all)
+    }
+
+    /// The new scenario of an extension.
+    fn scenario(&self) -> Option<Scenario> {
+        self.extended.clone().map(Scenario::of)
+    }
+}
+
+fn metres(mm: Option<f64>) -> Option<f64> {
+    mm.map(|mm| mm / 1e3)
+}
+
+/// `ibr compare`.
+#[pyfunction]
+#[pyo3(signature = (scenario, data, effects, sigma_mm, calibrate))]
+pub fn compare(
+    py: Python<'_>,
+    scenario: &Scenario,
+    data: &Data,
+    effects: Vec<String>,
+    sigma_mm: Option<f64>,
+    calibrate: Option<&str>,
+) -> PyResult<Answer> {
+    let knob = calibrate.map(str::parse::<Knob>).transpose();
+    let knob = knob.map_err(|known| crate::errors::refused(format!("calibrate={calibrate:?} is not known"), known))?;
+    let (file, evidence, sigma_m) = (&scenario.file, &data.evidence, metres(sigma_mm));
+    let Compared { found, added } =
+        py.detach(|| Compared::of(file, evidence, &effects, sigma_m, knob)).map_err(raised)?;
+    let answer = CompareAnswer { scenario: &file.name, found: &found, added: added.as_ref() };
+    let warnings = found.warnings.iter().cloned().chain(unused_sigma(sigma_m, evidence)).collect();
+    let told = Answer::of(text(&answer), &answer.json(), warnings);
+    let table = residuals(&found);
+    Ok(Answer { table, page: Some(Box::new(move || compare_page(&found, &imprint()))), ..told })
+}
+
+/// A diagnosis with all that its report is made of.
+struct Whole {
+    diagnosis: Diagnosis,
+    witness: Option<Witness>,
+    file: ScenarioFile,
+    first: Evidence,
+}
+
+impl Whole {
+    fn page(&self) -> Result<Files, PageError> {
+        let found = Diagnosed {
+            diagnosis: &self.diagnosis,
+            scenario: &self.file,
+            dataset: &self.first.dataset,
+            about: self.first.about.as_ref(),
+            witness: self.witness.as_ref(),
+            typed: [&self.file.name, &self.first.name],
+            more: String::new(),
+        };
+        diagnosis_page(&found, &imprint(), &mut |_, _| ())
+    }
+}
+
+/// What a diagnosis is asked.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Asked {
+    sigma_mm: Option<f64>,
+    tolerance_mm: Option<f64>,
+    refit: bool,
+    keep_bending: bool,
+    without: Vec<String>,
+}
+
+impl Asked {
+    fn options(self) -> DiagnosisOptions {
+        DiagnosisOptions {
+            sigma_m: metres(self.sigma_mm),
+            tolerance_m: metres(self.tolerance_mm),
+            refit_present: self.refit,
+            keep_bending: self.keep_bending,
+            not: self.without,
+            ..DiagnosisOptions::default()
+        }
+    }
+}
+
+fn all_evidence(data: &[PyRef<'_, Data>]) -> Vec<Evidence> {
+    data.iter().map(|data| data.evidence.clone()).collect()
+}
+
+/// `ibr diagnose`.
+#[pyfunction]
+#[pyo3(signature = (scenario, data, asked, progress = None))]
+pub fn diagnose(
+    py: Python<'_>,
+    scenario: &Scenario,
+    data: Vec<PyRef<'_, Data>>,
+    asked: Asked,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Answer> {
+    let (file, evidence, options) = (scenario.file.clone(), all_evidence(&data), asked.options());
+    let mut teller = Teller::new(progress);
+    let made = py.detach(|| {
+        let diagnosis = ibr::diagnose(&file, &evidence, &options, &mut |what, share| _ = teller.tell(what, share))?;
+        let first = evidence.into_iter().next().ok_or_else(no_data)?;
+        let witness = witness(&diagnosis, &file, &first.dataset, first.about.as_ref(), &known_runs(None)?)?;
+        Ok(Whole { diagnosis, witness, file, first })
+    });
+    let whole = teller.finish(made.map_err(|error: ibr::Error| raised(error)))?;
+    let d = &whole.diagnosis;
+    let json = diagnosis::to_json(d, whole.witness.as_ref(), &whole.file.name);
+    let warnings = d.warnings.iter().cloned().chain(unused_sigma(options.sigma_m, &whole.first)).collect();
+    let told = Answer::of(diagnosis::text(d, whole.witness.as_ref(), false), &json, warnings);
+    Ok(Answer { diagnosis: Some(d.clone()), page: Some(Box::new(move || whole.page())), ..told })
+}
+
+fn no_data() -> ibr::Error {
+    ibr::Error::refused("no data to diagnose", "name at least one set")
+}
+
+fn extended(file: &ScenarioFile, evidence: &[Evidence], found: Extension) -> PyResult<Answer> {
+    let json = extension::to_json(file, evidence, &found, "").map_err(raised)?;
+    let mut text: String = found.told.iter().map(|sentence| format!("{sentence}\n")).collect();
+    if !found.steps.is_empty() {
+        text += &format!("\n{}", extension::steps_text(&found.steps, found.noise_floor_mm));
+    }
+    let told = Answer::of(text, &json, found.warnings);
+    Ok(Answer { extended: Some(found.file), ..told })
+}
+
+/// The scenario with what a diagnosis adds.
+#[pyfunction]
+pub fn extend(py: Python<'_>, scenario: &Scenario, diagnosed: &Answer) -> PyResult<Answer> {
+    let found = diagnosed.diagnosis.as_ref();
+    let found = found.ok_or_else(|| crate::errors::refused("this is no diagnosis", "give the result of diagnose()"))?;
+    let extension = py.detach(|| ibr::extend(&scenario.file, found)).map_err(raised)?;
+    extended(&scenario.file, &[], extension)
+}
+
+/// `ibr add`.
+#[pyfunction]
+#[pyo3(signature = (scenario, effect, data, asked, progress = None))]
+pub fn add(
+    py: Python<'_>,
+    scenario: &Scenario,
+    effect: &str,
+    data: Vec<PyRef<'_, Data>>,
+    asked: Asked,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Answer> {
+    let (file, evidence) = (&scenario.file, all_evidence(&data));
+    let options = DiagnosisOptions { next_experiment: false, missing_moment: false, ..asked.options() };
+    let mut teller = Teller::new(progress);
+    let found = py.detach(|| {
+        let wish = Wish::read(file, effect, !evidence.is_empty())?;
+        ibr::add(file, &wish, &evidence, &options, &mut |what, share| _ = teller.tell(what, share))
+    });
+    extended(file, &evidence, teller.finish(found.map_err(raised))?)
+}
+
+/// `ibr validate`.
+#[pyfunction]
+#[pyo3(signature = (scenario, data, without, sigma_mm))]
+pub fn validate(
+    py: Python<'_>,
+    scenario: &Scenario,
+    data: Vec<PyRef<'_, Data>>,
+    without: Vec<String>,
+    sigma_mm: Option<f64>,
+) -> PyResult<Answer> {
+    let (file, evidence) = (&scenario.file, all_evidence(&data));
+    let judged = py.detach(|| {
+        let both = BeforeAfter::of(file, &without)?;
+        let found = evidence.iter().map(|one| both.judge(one, metres(sigma_mm))).collect::<Result<Vec<_>, _>>()?;
+        Ok((both, found))
+    });
+    let (both, found) = judged.map_err(|error: ibr::Error| raised(error))?;
+    let warnings = found.iter().flat_map(|v| v.warnings.iter().map(|w| format!("{}: {w}", v.data))).collect();
+    let json = validation::to_json(&file.name, &both, &found);
+    Ok(Answer::of(validation::text(&file.name, &both, &found), &json, warnings))
+}

@@ -1,0 +1,38 @@
+//! The native part of the Python package `ibr`: every call is one of the library `ibr`, with kPa, mm and degrees outside and numpy
+//! arrays for lists. It holds no physics and decides nothing; `python/ibr/` gives results their Python form.
+
+mod answers;
+mod arrays;
+mod errors;
+mod inputs;
+mod progress;
+mod runs;
+mod scenario;
+mod states;
+
+use pyo3::prelude::*;
+
+/// Native calls of the package `ibr`.
+#[pymodule]
+mod _ibr {
+    #[pymodule_export]
+    use super::answers::{Answer, add, compare, diagnose, extend, validate};
+    #[pymodule_export]
+    use super::errors::Error;
+    #[pymodule_export]
+    use super::inputs::{Data, import_tracks};
+    #[pymodule_export]
+    use super::program;
+    #[pymodule_export]
+    use super::runs::{read_run, simulate};
+    #[pymodule_export]
+    use super::scenario::Scenario;
+    #[pymodule_export]
+    use super::states::{State, States};
+}
+
+/// The command line: runs what was typed and returns the exit code. It takes over Ctrl-C.
+#[pyfunction]
+fn program(py: Python<'_>, typed: Vec<std::ffi::OsString>) -> u8 {
+    py.detach(|| ibr::program::run(typed))
+}

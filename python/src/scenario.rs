@@ -1,0 +1,243 @@
+//! A robot's scenario, ready to be asked.
+
+use crate::arrays::{matrix, numbers};
+use crate::errors::{raised, refused};
+use crate::inputs::{Pressures, toml_text};
+use crate::states::{State, States};
+use ibr::models::{CHANNELS, Loads, Prediction, Step, Target};
+use ibr::{Predictor, ScenarioFile};
+use numpy::{PyArray2, PyReadonlyArrayDyn};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::{Arc, Mutex};
+
+/// A robot put together, and buffers for one prediction at a time.
+pub struct Robot {
+    pub predictor: Predictor,
+    scratch: Mutex<Prediction>,
+}
+
+impl Robot {
+    fn new(file: &ScenarioFile) -> Robot {
+        let predictor = Predictor::new(file);
+        Robot { scratch: Mutex::new(predictor.model().prediction()), predictor }
+    }
+}
+
+/// A robot: its body, actuators and physical effects, as a text in TOML.
+#[pyclass(frozen, module = "ibr")]
+pub struct Scenario {
+    pub file: ScenarioFile,
+    robot: Arc<Robot>,
+}
+
+impl Scenario {
+    pub fn of(file: ScenarioFile) -> Scenario {
+        let robot = Arc::new(Robot::new(&file));
+        Scenario { file, robot }
+    }
+
+    fn predictor(&self) -> &Predictor {
+        &self.robot.predictor
+    }
+
+    fn loads(&self, pressure: &Pressures, body_kpa: Option<f64>) -> PyResult<Loads> {
+        let body_pa = body_kpa.map(|kpa| kpa * 1e3);
+        self.predictor().loads(body_pa, pressure.pa()).map_err(raised)
+    }
+
+    /// One state per row of `pressure_kpa`, at the body pressure given for all or for each.
+    fn all_loads(
+        &self,
+        pressure_kpa: &PyReadonlyArrayDyn<'_, f64>,
+        body_kpa: Option<&PyReadonlyArrayDyn<'_, f64>>,
+    ) -> PyResult<Vec<Loads>> {
+        let (kpa, shape) = numbers(pressure_kpa);
+        let columns = match shape[..] {
+            [_] => 1,
+            [_, columns] if (1..=CHANNELS).contains(&columns) => columns,
+            _ => {
+                return Err(refused(
+                    format!("pressures of shape {shape:?}"),
+                    format!("give (N,) or (N, channels), at most {CHANNELS} channels"),
+                ));
+            }
+        };
+        let bodies = body_kpa.map(|array| numbers(array).0);
+        let count = kpa.len() / columns;
+        if let Some(found) = bodies.as_ref().map(Vec::len).filter(|found| *found != 1 && *found != count) {
+            return Err(refused(
+                format!("{found} body pressures for {count} states"),
+                "give one for all, or one for each",
+            ));
+        }
+        let body = |i: usize| bodies.as_ref().map(|all| 1e3 * if all.len() == 1 { all[0] } else { all[i] });
+        let mut pa = [0.0; CHANNELS];
+        let one = |(i, row): (usize, &[f64])| {
+            row.iter().zip(&mut pa).for_each(|(kpa, pa)| *pa = 1e3 * kpa);
+            self.predictor().loads(body(i), &pa[..columns]).map_err(raised)
+        };
+        kpa.chunks_exact(columns).enumerate().map(one).collect()
+    }
+}
+
+#[pymethods]
+impl Scenario {
+    /// A robot or study that comes with the package, or a TOML file.
+    #[staticmethod]
+    fn read(name: &str) -> PyResult<Scenario> {
+        ibr::studies::scenario(name).map(Scenario::of).map_err(raised)
+    }
+
+    /// Of a TOML text; `name` is for messages.
+    #[staticmethod]
+    #[pyo3(signature = (text, name = "scenario"))]
+    fn from_text(text: &str, name: &str) -> PyResult<Scenario> {
+        ScenarioFile::parse(name, text).map(Scenario::of).map_err(raised)
+    }
+
+    /// The same with values set, by their places in the text.
+    fn with_values(&self, changes: &Bound<'_, PyDict>) -> PyResult<Scenario> {
+        let one = |(place, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| Ok((place.extract()?, toml_text(&value)?));
+        let changes = changes.iter().map(one).collect::<PyResult<Vec<(String, String)>>>()?;
+        self.file.with(&changes).map(Scenario::of).map_err(raised)
+    }
+
+    /// The TOML text.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.file.text
+    }
+
+    /// File or name as it was asked for.
+    #[getter]
+    fn source(&self) -> &str {
+        &self.file.name
+    }
+
+    /// Name in the text.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.file.scenario.name
+    }
+
+    /// Kind of the actuator.
+    #[getter]
+    fn actuator(&self) -> &str {
+        self.file.actuator.kind.name
+    }
+
+    /// Names of its physical effects.
+    #[getter]
+    fn effects(&self) -> Vec<&str> {
+        self.file.effects.iter().map(|effect| effect.name.as_str()).collect()
+    }
+
+    /// Stations of the markers along the undeformed body (mm).
+    #[getter]
+    fn stations_mm(&self) -> Vec<f64> {
+        self.file.markers_m.iter().map(|s| s * 1e3).collect()
+    }
+
+    /// Body pressure (kPa).
+    #[getter]
+    fn body_pressure_kpa(&self) -> f64 {
+        self.file.p_body_pa / 1e3
+    }
+
+    /// Whether a state depends on those before it or on time.
+    #[getter]
+    fn has_history(&self) -> bool {
+        self.predictor().has_history()
+    }
+
+    /// Shape at a pressure.
+    #[pyo3(signature = (pressure_kpa, body_pressure_kpa = None))]
+    fn predict(&self, pressure_kpa: Pressures, body_pressure_kpa: Option<f64>) -> PyResult<State> {
+        let loads = self.loads(&pressure_kpa, body_pressure_kpa)?;
+        let mut own = None;
+        let mut kept = self.robot.scratch.try_lock();
+        let scratch = match &mut kept {
+            Ok(scratch) => &mut **scratch,
+            Err(_) => own.insert(self.predictor().model().prediction()),
+        };
+        self.predictor().predict(&loads, scratch).map_err(|error| raised(ibr::Error::from(error)))?;
+        State::new(&self.robot, loads, scratch)
+    }
+
+    /// Many states at once.
+    #[pyo3(signature = (pressure_kpa, body_pressure_kpa = None, threads = 0))]
+    fn batch(
+        &self,
+        py: Python<'_>,
+        pressure_kpa: PyReadonlyArrayDyn<'_, f64>,
+        body_pressure_kpa: Option<PyReadonlyArrayDyn<'_, f64>>,
+        threads: usize,
+    ) -> PyResult<States> {
+        let loads = self.all_loads(&pressure_kpa, body_pressure_kpa.as_ref())?;
+        let batch = py.detach(|| self.predictor().batch(&loads, threads)).map_err(raised)?;
+        States::new(py, &batch.tips, batch.markers)
+    }
+
+    /// A protocol in time.
+    #[pyo3(signature = (t_s, pressure_kpa, body_pressure_kpa = None))]
+    fn follow(
+        &self,
+        py: Python<'_>,
+        t_s: PyReadonlyArrayDyn<'_, f64>,
+        pressure_kpa: PyReadonlyArrayDyn<'_, f64>,
+        body_pressure_kpa: Option<PyReadonlyArrayDyn<'_, f64>>,
+    ) -> PyResult<States> {
+        let loads = self.all_loads(&pressure_kpa, body_pressure_kpa.as_ref())?;
+        let (times, _) = numbers(&t_s);
+        if times.len() != loads.len() {
+            return Err(refused(
+                format!("{} times for {} pressures", times.len(), loads.len()),
+                "give one time for each",
+            ));
+        }
+        let steps: Vec<Step> = times.into_iter().zip(loads).map(|(t_s, loads)| Step { t_s, loads }).collect();
+        let (mut tips, mut markers) = (Vec::new(), Vec::new());
+        let walked = py.detach(|| {
+            let model = self.predictor().model();
+            model.follow(&steps, &mut model.prediction(), &mut |_, at| {
+                tips.push(at.tip);
+                markers.extend_from_slice(&at.markers);
+            })
+        });
+        walked.map_err(|error| raised(ibr::Error::from(error)))?;
+        States::new(py, &tips, markers)
+    }
+
+    /// The state in which the tip is where it is wanted.
+    #[pyo3(signature = (*, tip_mm = None, angle_deg = None, body_pressure_kpa = None))]
+    fn inverse(&self, tip_mm: Option<f64>, angle_deg: Option<f64>, body_pressure_kpa: Option<f64>) -> PyResult<State> {
+        let target = match (tip_mm, angle_deg) {
+            (Some(mm), None) => Target::TipHeight(mm / 1e3),
+            (None, Some(deg)) => Target::Angle(deg.to_radians()),
+            _ => return Err(refused("one target is needed", "give tip_mm=100 (height) or angle_deg=60 (total bend)")),
+        };
+        let body_pa = body_pressure_kpa.map(|kpa| kpa * 1e3);
+        let (loads, at) = self.predictor().inverse(target, body_pa).map_err(raised)?;
+        State::new(&self.robot, loads, &at)
+    }
+
+    /// Slopes of the tip.
+    #[pyo3(signature = (pressure_kpa, body_pressure_kpa = None))]
+    fn jacobian<'py>(
+        &self,
+        py: Python<'py>,
+        pressure_kpa: Pressures,
+        body_pressure_kpa: Option<f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let loads = self.loads(&pressure_kpa, body_pressure_kpa)?;
+        let slopes = self.predictor().jacobian(&loads).map_err(raised)?;
+        let row = |s: &ibr::models::TipSlope| [s.x_per_pa * 1e6, s.y_per_pa * 1e6, s.angle_per_pa.to_degrees() * 1e3];
+        Ok(matrix(py, CHANNELS, 3, slopes.iter().flat_map(row).collect()))
+    }
+
+    fn __repr__(&self) -> String {
+        let effects = self.effects().join(", ");
+        format!("Scenario({}: {}, effects: {effects})", self.file.name, self.file.scenario.name)
+    }
+}

@@ -1,0 +1,191 @@
+//! Predicted states.
+
+use crate::arrays::{matrix, rows_mm, vector};
+use crate::errors::raised;
+use crate::scenario::Robot;
+use ibr::AtPressure;
+use ibr::models::{Loads, Prediction, Tip};
+use ibr::pages::predicted_files;
+use ibr::shown::predicted::{above_limit, beyond_words, state_json, text};
+use numpy::ndarray::Array3;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
+use pyo3::prelude::*;
+use std::sync::{Arc, OnceLock};
+
+/// Points of a centre line.
+const LINE_POINTS: usize = 101;
+
+/// Shape of a robot at one pressure.
+#[pyclass(frozen, module = "ibr")]
+pub struct State {
+    robot: Arc<Robot>,
+    loads: Loads,
+    tip: Tip,
+    markers_m: Vec<[f64; 2]>,
+    /// All of it: of a robot with history as it was found, of others when it is asked for.
+    whole: OnceLock<AtPressure>,
+}
+
+impl State {
+    pub fn new(robot: &Arc<Robot>, loads: Loads, at: &Prediction) -> PyResult<State> {
+        let (tip, markers_m) = (at.tip, at.markers.clone());
+        let state = State { robot: robot.clone(), loads, tip, markers_m, whole: OnceLock::new() };
+        if robot.predictor.has_history() {
+            state.keep(robot.predictor.with_slopes(&loads, at.clone()))?;
+        }
+        Ok(state)
+    }
+
+    /// All that the model knows of it.
+    fn whole(&self) -> PyResult<&AtPressure> {
+        match self.whole.get() {
+            Some(whole) => Ok(whole),
+            None => self.keep(self.robot.predictor.state(&self.loads)),
+        }
+    }
+
+    fn keep(&self, whole: Result<AtPressure, ibr::Error>) -> PyResult<&AtPressure> {
+        let whole = whole.map_err(raised)?;
+        Ok(self.whole.get_or_init(|| whole))
+    }
+}
+
+#[pymethods]
+impl State {
+    /// Tip of the centre line, x along the undeformed body and y towards the actuator (mm), shape (2,).
+    #[getter]
+    fn tip_mm<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        vector(py, vec![self.tip.x_m * 1e3, self.tip.y_m * 1e3])
+    }
+
+    /// Total bending angle (degrees).
+    #[getter]
+    fn angle_deg(&self) -> f64 {
+        self.tip.angle_rad.to_degrees()
+    }
+
+    /// Markers as the camera sees them (mm), shape (markers, 2).
+    #[getter]
+    fn markers_mm<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        rows_mm(py, self.markers_m.clone())
+    }
+
+    /// Actuator pressure of the first supply channel (kPa).
+    #[getter]
+    fn pressure_kpa(&self) -> f64 {
+        self.loads.actuator_pa[0] / 1e3
+    }
+
+    /// Actuator pressure of every supply channel (kPa).
+    #[getter]
+    fn channels_kpa<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        vector(py, self.loads.actuator_pa.iter().map(|p| p / 1e3).collect())
+    }
+
+    /// Body pressure (kPa).
+    #[getter]
+    fn body_pressure_kpa(&self) -> f64 {
+        self.loads.body_pa / 1e3
+    }
+
+    /// Points of the centre line from base to tip (mm), shape (101, 2).
+    #[getter]
+    fn curve_mm<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let points = self.robot.predictor.model().centre_line(&self.whole()?.prediction, LINE_POINTS);
+        Ok(rows_mm(py, points))
+    }
+
+    /// What to know before believing it.
+    #[getter]
+    fn warnings(&self) -> PyResult<Vec<String>> {
+        let whole = self.whole()?;
+        let high = above_limit(self.robot.predictor.scenario(), std::slice::from_ref(whole));
+        Ok(high.into_iter().chain(beyond_words(self.robot.predictor.model(), whole)).collect())
+    }
+
+    /// One state of `ibr predict --json`.
+    fn to_json(&self) -> PyResult<String> {
+        let robot = &self.robot.predictor;
+        Ok(state_json(robot.model(), robot.scenario(), self.whole()?).to_string())
+    }
+
+    /// The same as a dictionary.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        py.import("json")?.call_method1("loads", (self.to_json()?,))
+    }
+
+    /// The shape on axes of matplotlib.
+    #[pyo3(signature = (axes = None))]
+    fn plot<'py>(slf: &Bound<'py, State>, axes: Option<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("ibr._plot")?.call_method1("state", (slf, axes))
+    }
+
+    fn _repr_html_(&self) -> PyResult<String> {
+        let whole = std::slice::from_ref(self.whole()?);
+        let files = predicted_files(self.robot.predictor.scenario(), whole).map_err(raised)?;
+        Ok(files
+            .files
+            .iter()
+            .find(|(name, _)| name.ends_with(".svg"))
+            .map_or(String::new(), |(_, svg)| String::from_utf8_lossy(svg).into_owned()))
+    }
+
+    fn __str__(&self) -> PyResult<String> {
+        Ok(text(self.robot.predictor.scenario(), std::slice::from_ref(self.whole()?)))
+    }
+
+    fn __repr__(&self) -> String {
+        let Tip { x_m, y_m, angle_rad } = self.tip;
+        let pressure = ibr::pages::pressure_words(&self.loads);
+        format!("State({pressure} kPa: tip {:.2}, {:.2} mm, {:.2} deg)", x_m * 1e3, y_m * 1e3, angle_rad.to_degrees())
+    }
+}
+
+/// Many states side by side, in the order of their pressures.
+#[pyclass(frozen, module = "ibr")]
+pub struct States {
+    tips_mm: Py<PyArray2<f64>>,
+    angles_deg: Py<PyArray1<f64>>,
+    markers_mm: Py<PyArray3<f64>>,
+}
+
+impl States {
+    pub fn new(py: Python<'_>, tips: &[Tip], markers_m: Vec<[f64; 2]>) -> PyResult<States> {
+        let xy = tips.iter().flat_map(|tip| [tip.x_m * 1e3, tip.y_m * 1e3]).collect();
+        let angles = tips.iter().map(|tip| tip.angle_rad.to_degrees()).collect();
+        let each = markers_m.len() / tips.len().max(1);
+        let mut flat = markers_m.into_flattened();
+        flat.iter_mut().for_each(|v| *v *= 1e3);
+        let markers = Array3::from_shape_vec((tips.len(), each, 2), flat).unwrap_or_default();
+        Ok(States {
+            tips_mm: matrix(py, tips.len(), 2, xy).unbind(),
+            angles_deg: vector(py, angles).unbind(),
+            markers_mm: markers.into_pyarray(py).unbind(),
+        })
+    }
+}
+
+#[pymethods]
+impl States {
+    /// Tips of the centre line, x and y (mm), shape (N, 2).
+    #[getter]
+    fn tips_mm(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
+        self.tips_mm.clone_ref(py)
+    }
+
+    /// Total bending angles (degrees), shape (N,).
+    #[getter]
+    fn angles_deg(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
+        self.angles_deg.clone_ref(py)
+    }
+
+    /// Markers as the camera sees them (mm), shape (N, markers, 2).
+    #[getter]
+    fn markers_mm(&self, py: Python<'_>) -> Py<PyArray3<f64>> {
+        self.markers_mm.clone_ref(py)
+    }
+
+    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
+        self.angles_deg.bind(py).len()
+    }
+}
