@@ -2,9 +2,12 @@
 
 use ibr::data::{Column, Table};
 use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArrayDyn};
+use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArray2, PyArrayLikeDyn, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+
+/// An array of numbers, or what numpy makes one of: lists, whole numbers.
+pub type Numbers<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
 
 /// Points in metres as rows of millimetres, without a copy.
 pub fn rows_mm(py: Python<'_>, points_m: Vec<[f64; 2]>) -> Bound<'_, PyArray2<f64>> {
@@ -25,7 +28,7 @@ pub fn vector(py: Python<'_>, values: Vec<f64>) -> Bound<'_, PyArray1<f64>> {
 }
 
 /// The numbers of an array of any shape, and its shape.
-pub fn numbers(array: &PyReadonlyArrayDyn<'_, f64>) -> (Vec<f64>, Vec<usize>) {
+pub fn numbers(array: &Numbers<'_>) -> (Vec<f64>, Vec<usize>) {
     let view = array.as_array();
     (view.iter().copied().collect(), view.shape().to_vec())
 }
@@ -46,13 +49,12 @@ pub fn columns<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDic
 /// A table of named columns, numbers as arrays and texts as lists.
 pub fn table(columns: Vec<(String, Bound<'_, PyAny>)>) -> PyResult<Table> {
     let column = |(name, values): (String, Bound<'_, PyAny>)| {
-        let column = match (
-            values.extract::<numpy::PyReadonlyArray1<'_, f64>>(),
-            values.extract::<numpy::PyReadonlyArray1<'_, i64>>(),
-        ) {
-            (Ok(numbers), _) => Column::F64(numbers.as_array().to_vec()),
-            (_, Ok(numbers)) => Column::I64(numbers.as_array().to_vec()),
-            _ => Column::Str(values.extract()?),
+        let column = if let Ok(numbers) = values.extract::<PyReadonlyArray1<'_, f64>>() {
+            Column::F64(numbers.as_array().to_vec())
+        } else if let Ok(whole) = values.extract::<PyReadonlyArray1<'_, i64>>() {
+            Column::I64(whole.as_array().to_vec())
+        } else {
+            Column::Str(values.extract()?)
         };
         Ok((name, column))
     };

@@ -7,7 +7,7 @@ use ibr::data::{About, markers_of_table, parse_about, read_about};
 use ibr::models::CHANNELS;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyList, PyString, PyTuple};
+use pyo3::types::{PyBool, PyDict, PyString};
 use std::path::Path;
 
 /// One actuator pressure, or one for every supply channel \[Pa\].
@@ -53,10 +53,7 @@ pub fn toml_text(value: &Bound<'_, PyAny>) -> PyResult<String> {
     if let Ok(text) = value.cast::<PyString>() {
         return Ok(serde_json::Value::from(text.to_string()).to_string());
     }
-    if value.is_instance_of::<PyList>()
-        || value.is_instance_of::<PyTuple>()
-        || value.hasattr("tolist")? && value.hasattr("__len__")? && value.len().is_ok()
-    {
+    if value.len().is_ok() {
         let parts = value.try_iter()?.map(|part| toml_text(&part?)).collect::<PyResult<Vec<String>>>()?;
         return Ok(format!("[{}]", parts.join(", ")));
     }
@@ -64,6 +61,23 @@ pub fn toml_text(value: &Bound<'_, PyAny>) -> PyResult<String> {
         Ok(whole) => Ok(whole.to_string()),
         Err(_) => Ok(format!("{:?}", value.extract::<f64>()?)),
     }
+}
+
+/// The places in a scenario's text of values that are given by table: `body={"radius_mm": 40}` and `body_radius_mm=40` are both
+/// `body.radius_mm`.
+pub fn places(table: &str, given: &Bound<'_, PyDict>, found: &mut Vec<(String, String)>) -> PyResult<()> {
+    for (key, value) in given.iter() {
+        let key: String = key.extract()?;
+        let place = match table {
+            "" => key.replacen('_', ".", 1),
+            _ => format!("{table}.{key}"),
+        };
+        match value.cast::<PyDict>() {
+            Ok(inner) => places(&place, inner, found)?,
+            Err(_) => found.push((place, toml_text(&value)?)),
+        }
+    }
+    Ok(())
 }
 
 /// Measurements of one robot.
@@ -131,8 +145,9 @@ impl Data {
         self.told.clone()
     }
 
-    /// The columns of its marker table.
-    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, pyo3::types::PyDict>> {
+    /// The columns of its marker table, texts as lists.
+    #[getter]
+    fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         crate::arrays::columns(py, &self.evidence.dataset.to_table())
     }
 

@@ -1,14 +1,15 @@
 //! A robot's scenario, ready to be asked.
 
-use crate::arrays::{matrix, numbers};
+use crate::arrays::{Numbers, matrix, numbers};
 use crate::errors::{raised, refused};
-use crate::inputs::{Pressures, toml_text};
+use crate::inputs::{Pressures, places};
 use crate::states::{State, States};
 use ibr::models::{CHANNELS, Loads, Prediction, Step, Target};
 use ibr::{Predictor, ScenarioFile};
-use numpy::{PyArray2, PyReadonlyArrayDyn};
+use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
 /// A robot put together, and buffers for one prediction at a time.
@@ -47,11 +48,7 @@ impl Scenario {
     }
 
     /// One state per row of `pressure_kpa`, at the body pressure given for all or for each.
-    fn all_loads(
-        &self,
-        pressure_kpa: &PyReadonlyArrayDyn<'_, f64>,
-        body_kpa: Option<&PyReadonlyArrayDyn<'_, f64>>,
-    ) -> PyResult<Vec<Loads>> {
+    fn all_loads(&self, pressure_kpa: &Numbers<'_>, body_kpa: Option<&Numbers<'_>>) -> PyResult<Vec<Loads>> {
         let (kpa, shape) = numbers(pressure_kpa);
         let columns = match shape[..] {
             [_] => 1,
@@ -85,22 +82,26 @@ impl Scenario {
 impl Scenario {
     /// A robot or study that comes with the package, or a TOML file.
     #[staticmethod]
-    fn read(name: &str) -> PyResult<Scenario> {
-        ibr::studies::scenario(name).map(Scenario::of).map_err(raised)
+    fn named(name: PathBuf) -> PyResult<Scenario> {
+        ibr::studies::scenario(&name.to_string_lossy()).map(Scenario::of).map_err(raised)
     }
 
-    /// Of a TOML text; `name` is for messages.
+    /// A TOML file, or its text.
     #[staticmethod]
-    #[pyo3(signature = (text, name = "scenario"))]
-    fn from_text(text: &str, name: &str) -> PyResult<Scenario> {
-        ScenarioFile::parse(name, text).map(Scenario::of).map_err(raised)
+    fn from_toml(source: PathBuf) -> PyResult<Scenario> {
+        let text = source.to_string_lossy();
+        if text.contains('\n') {
+            return ScenarioFile::parse("scenario", &text).map(Scenario::of).map_err(raised);
+        }
+        Scenario::named(source)
     }
 
-    /// The same with values set, by their places in the text.
-    fn with_values(&self, changes: &Bound<'_, PyDict>) -> PyResult<Scenario> {
-        let one = |(place, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| Ok((place.extract()?, toml_text(&value)?));
-        let changes = changes.iter().map(one).collect::<PyResult<Vec<(String, String)>>>()?;
-        self.file.with(&changes).map(Scenario::of).map_err(raised)
+    /// The same with values set.
+    #[pyo3(signature = (**changes))]
+    fn replace(&self, changes: Option<&Bound<'_, PyDict>>) -> PyResult<Scenario> {
+        let mut set = Vec::new();
+        changes.map_or(Ok(()), |changes| places("", changes, &mut set))?;
+        self.file.with(&set).map(Scenario::of).map_err(raised)
     }
 
     /// The TOML text.
@@ -170,8 +171,8 @@ impl Scenario {
     fn batch(
         &self,
         py: Python<'_>,
-        pressure_kpa: PyReadonlyArrayDyn<'_, f64>,
-        body_pressure_kpa: Option<PyReadonlyArrayDyn<'_, f64>>,
+        pressure_kpa: Numbers<'_>,
+        body_pressure_kpa: Option<Numbers<'_>>,
         threads: usize,
     ) -> PyResult<States> {
         let loads = self.all_loads(&pressure_kpa, body_pressure_kpa.as_ref())?;
@@ -184,9 +185,9 @@ impl Scenario {
     fn follow(
         &self,
         py: Python<'_>,
-        t_s: PyReadonlyArrayDyn<'_, f64>,
-        pressure_kpa: PyReadonlyArrayDyn<'_, f64>,
-        body_pressure_kpa: Option<PyReadonlyArrayDyn<'_, f64>>,
+        t_s: Numbers<'_>,
+        pressure_kpa: Numbers<'_>,
+        body_pressure_kpa: Option<Numbers<'_>>,
     ) -> PyResult<States> {
         let loads = self.all_loads(&pressure_kpa, body_pressure_kpa.as_ref())?;
         let (times, _) = numbers(&t_s);

@@ -1,0 +1,100 @@
+"""What Python costs: its calls beside the library's own on the same pressures, in one run on one core.
+
+    python python/bench.py
+
+`ibr bench`, in the package itself, times the library. Where soromox is installed, its planar constant-curvature segment is timed
+too, on jax and all cores: tip and six markers of one bend a call, jitted, and of many, vmapped. It is told the bend and solves no
+balance, so its figures say what a call costs there; they compare no models.
+"""
+
+import json
+import statistics
+import subprocess
+import sys
+import time
+
+import ibr
+import numpy as np
+
+CALLS, STATES, ROUNDS = 2000, 1_000_000, 7
+
+
+def of_the_library():
+    """Microseconds per prediction and per state of a batch, of the ePAM as it ships."""
+    typed = [sys.executable, "-m", "ibr", "bench", "--json", "--quiet"]
+    found = json.loads(subprocess.run(typed, capture_output=True, text=True).stdout)["figures"]
+    times = {figure["id"]: figure["shipped_us"] for figure in found}
+    return times["predict/epam"], times["batch of 10 000, each/epam"]
+
+
+def median_us(work, each):
+    """Median microseconds of `work` over `each`."""
+    times = []
+    for _ in range(ROUNDS):
+        start = time.perf_counter()
+        work()
+        times.append((time.perf_counter() - start) * 1e6 / each)
+    return statistics.median(times)
+
+
+def of_python():
+    robot = ibr.Scenario.named("epam")
+    kpa = [10 + 20 * i / CALLS for i in range(CALLS)]
+    # The order without pattern of the library's own bench.
+    many = 10 + 20 * (np.arange(STATES) * 7919 % STATES) / STATES
+
+    def single():
+        for p in kpa:
+            robot.predict(p)
+
+    return median_us(single, CALLS), median_us(lambda: robot.batch(many, threads=1), STATES)
+
+
+def of_soromox():
+    """Microseconds per call and per state of soromox, or why not."""
+    try:
+        import jax
+        import jax.numpy as jnp
+        import soromox  # noqa: F401
+    except ImportError as cause:
+        return f"not measured: {cause}"
+    from soromox.systems.components import LinkSpec
+    from soromox.systems.pcs import PlanarPCS, PlanarPCSStructure
+
+    jax.config.update("jax_enable_x64", True)
+    body = {"length": 0.36, "radius": 0.04, "density": 100.0, "reference_strain": [0.0, 1.0, 0.0]}
+    link = LinkSpec.circular(**body, young_modulus=1e5, poisson_ratio=0.4)
+    bends_only = PlanarPCSStructure(strain_selector=jnp.array([True, False, False]))
+    robot = PlanarPCS.from_links([link], structure=bends_only)
+    places = jnp.linspace(0.03, 0.36, 7)
+
+    def poses(bend):
+        return robot.forward_kinematics_abscissa_batched(bend[None], places)
+
+    one, many = jax.jit(poses), jax.jit(jax.vmap(poses))
+    bends = jnp.linspace(0.1, 4, STATES)
+    few = list(bends[:CALLS])
+    one(few[0]).block_until_ready()
+    many(bends).block_until_ready()
+    single = median_us(lambda: [one(bend).block_until_ready() for bend in few], CALLS)
+    return single, median_us(lambda: many(bends).block_until_ready(), STATES)
+
+
+def main():
+    library, python = of_the_library(), of_python()
+    print(f"{'':24}{'library µs':>12}{'Python µs':>12}{'ratio':>8}")
+    for name, one, other in zip(("one prediction", f"each of {STATES} states"), library, python):
+        print(f"{name:24}{one:12.3f}{other:12.3f}{other / one:8.2f}")
+    wanted = 3 * library[0] + 0.3
+    print(f"one prediction: wanted 3 times and 0.3 µs, {wanted:.2f} µs: {'met' if python[0] <= wanted else 'missed'}")
+    print(f"each of many: wanted 1.3 times: {'met' if python[1] <= 1.3 * library[1] else 'missed'}")
+    others = of_soromox()
+    if isinstance(others, str):
+        print(f"soromox: {others}")
+        return
+    for name, mine, other in zip(("one call", "each of many"), python, others):
+        print(f"soromox, {name}: {other:.3f} µs, {other / mine:.1f} times that of ibr")
+
+
+if __name__ == "__main__":
+    main()

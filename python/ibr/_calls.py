@@ -1,0 +1,275 @@
+"""The session: measurements, how far off a model is, what is missing, a better model, other data."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _ibr
+from ._ibr import Data, Scenario
+from ._results import Result, columns_of
+
+Robot = Union[Scenario, str, os.PathLike]
+Measured = Any
+Progress = Callable[[str, Optional[float]], None]
+
+
+def data(source: Measured, *, name: str = "frame", about: Union[str, os.PathLike, None] = None) -> Data:
+    """Measurements of one robot.
+
+    `source`: an embedded set (`python -m ibr data list`), a CSV file, a folder with markers.csv and about.toml, or a table:
+    a pandas or polars frame, a pyarrow table or a dict of columns named as those of markers.csv (run, actuator, t_s,
+    p_body_kpa, p_act_kpa, phase, marker, x_mm, y_mm and, if known, s_mm; other units by suffix). Faults of a table named
+    `name` count lines as its CSV would: the first row is line 2.
+    `about`: of a table, the text or the path of its about.toml.
+    """
+    if isinstance(source, Data):
+        return source
+    if isinstance(source, (str, os.PathLike)):
+        return Data.read(os.fspath(source))
+    columns = [(label, _column(source[label])) for label in _labels(source)]
+    return Data.of_columns(columns, name, None if about is None else os.fspath(about))
+
+
+def _labels(table: Any) -> List[str]:
+    """Names of columns: of pyarrow, of pandas and polars, of a dict."""
+    for attribute in ("column_names", "columns"):
+        names = getattr(table, attribute, None)
+        if names is not None and not callable(names):
+            return [str(name) for name in names]
+    return [str(name) for name in table]
+
+
+def _column(values: Any) -> Any:
+    """Numbers as an array of float64 or int64, everything else as texts; an empty cell is NaN or ""."""
+    array = np.asarray(values)
+    if array.dtype.kind == "f":
+        return array.astype(np.float64)
+    if array.dtype.kind in "iu":
+        return array.astype(np.int64)
+    return ["" if value is None or str(value) == "<NA>" else str(value) for value in array.tolist()]
+
+
+def import_tracks(files: Union[str, os.PathLike, Sequence[Union[str, os.PathLike]]], **options: Any) -> Data:
+    """Files of a tracking program (DeepLabCut, SLEAP, Motive, Tracker, Kinovea, TrackMate, plain tables) as measurements.
+
+    `files`: one per run. `options`: those of `python -m ibr data import --help`, with units as there and `_` for `-`:
+    `import_tracks(["run1.csv"], pressure="log.csv", fps=30, scale="3.1px/mm", base="212,540", actuator="epam")`.
+    What was assumed stands in `told`, the beginning of a description in `about_toml`.
+    """
+    files = [files] if isinstance(files, (str, os.PathLike)) else files
+    typed = [os.fspath(file) for file in files]
+    for option, value in options.items():
+        for one in value if isinstance(value, (list, tuple)) else [value]:
+            typed.append(f"--{option.replace('_', '-')}={one}")
+    return _ibr.import_tracks(typed)
+
+
+class Comparison(Result):
+    """A scenario held against measurements.
+
+    `error_mm`: error beyond noise, root mean square over markers and holds (mm); of all, the noise being unknown, with one run.
+    `noise_mm`: noise of the mean of the runs (mm), None if unknown. `where_it_fails`: in plain language.
+    `table`: a row per model, hold and marker, measured and predicted.
+    """
+
+    _shown = ("shapes", "residual_map", "pressure", "ladder")
+
+    @property
+    def names(self) -> List[str]:
+        """The models: the scenario as given, then with one effect after the other."""
+        return [model["label"] for model in self.models]
+
+    @property
+    def error_mm(self) -> float:
+        """Error beyond noise of the scenario as given (mm)."""
+        beyond = self.overall["systematic_mm"]
+        return self.overall["rmse_mm"] if beyond is None else beyond
+
+    @property
+    def noise_mm(self) -> Optional[float]:
+        """Noise of the mean (mm)."""
+        return self.overall["noise_floor_mm"]
+
+    @property
+    def verdict(self) -> str:
+        """Where the model fails first, in a sentence."""
+        return self.where_it_fails[0]["sentence"]
+
+    def plot(self, axes=None):
+        """Measured and predicted markers on axes of matplotlib."""
+        from . import _plot
+
+        return _plot.comparison(self, axes)
+
+    def _headline(self) -> str:
+        return f"{self.scenario} held against {self.data}: {self.error_mm:.2f} mm beyond noise\n{self.verdict}"
+
+
+class Diagnosis(Result):
+    """What is missing in a model.
+
+    `verdict`: "none", "too_small", "effect" or "out_of_catalog"; None where the data allow none. `names`: effects that
+    these data cannot tell apart, best first. `summary`: the story in sentences. `table`: every effect, best first.
+    """
+
+    _shown = ("missing_moment", "ranking", "before_after", "residuals_before")
+
+    @property
+    def names(self) -> List[str]:
+        """What it could be, best first; two effects together are written `a + b`."""
+        return self.indistinguishable
+
+    @property
+    def table(self) -> Dict[str, np.ndarray]:
+        """Every effect, best first."""
+        return columns_of(self.ranked)
+
+    def plot(self, axes=None):
+        """Error that is left with every effect, on axes of matplotlib."""
+        from . import _plot
+
+        return _plot.diagnosis(self, axes)
+
+    def _headline(self) -> str:
+        return "\n".join(self.summary)
+
+
+class Extension(Result):
+    """A scenario with one more effect: `scenario`, `effects`, errors on the way in `table`."""
+
+    @property
+    def scenario(self) -> Scenario:
+        """The new scenario; comments of the old one stay."""
+        return self._answer.scenario()
+
+    @property
+    def names(self) -> List[str]:
+        """Effects that were added."""
+        return [effect["effect"] for effect in self.effects]
+
+    @property
+    def table(self) -> Dict[str, np.ndarray]:
+        """Errors on the way, the scenario as given first."""
+        return columns_of(self.rungs)
+
+    def save(self, path: Union[str, os.PathLike]) -> None:
+        """Writes the new scenario to a file that is not there yet."""
+        with open(path, "x", encoding="utf-8") as file:
+            file.write(self.scenario.text)
+
+
+class Validation(Result):
+    """A scenario with and without what was added to it, on other data; `table` has a row for each."""
+
+    @property
+    def verdict(self) -> str:
+        """Of the first data: see docs/json.md."""
+        return self.datasets[0]["verdict"]
+
+    @property
+    def names(self) -> List[str]:
+        """Effects that were judged."""
+        return self.added
+
+    @property
+    def table(self) -> Dict[str, np.ndarray]:
+        """A row for each of the data."""
+        before = {f"before_{key}": column for key, column in columns_of([d["before"] for d in self.datasets]).items()}
+        after = {f"after_{key}": column for key, column in columns_of([d["after"] for d in self.datasets]).items()}
+        return {**columns_of(self.datasets), **before, **after}
+
+
+def _robot(source: Robot) -> Scenario:
+    return source if isinstance(source, Scenario) else Scenario.from_toml(os.fspath(source))
+
+
+def _all(source: Measured, also: Sequence[Measured]) -> List[Data]:
+    return [data(one) for one in (source, *also)]
+
+
+def _asked(sigma_mm=None, tolerance_mm=None, refit=False, keep_bending=False, without=()) -> Mapping[str, Any]:
+    return {
+        "sigma_mm": sigma_mm,
+        "tolerance_mm": tolerance_mm,
+        "refit": refit,
+        "keep_bending": keep_bending,
+        "without": list(without),
+    }
+
+
+def compare(
+    scenario: Robot,
+    measured: Measured,
+    *,
+    effects: Sequence[str] = (),
+    sigma_mm: Optional[float] = None,
+    calibrate: Optional[str] = None,
+) -> Comparison:
+    """Holds a scenario against measurements: how far off, and where.
+
+    `effects`: further models, each with one more effect, as `"name"` or `"name:key=value"`. `sigma_mm`: camera noise of one
+    coordinate, for a single run. `calibrate`: also fit "bending" or "body-pressure".
+    """
+    return Comparison(_ibr.compare(_robot(scenario), data(measured), list(effects), sigma_mm, calibrate))
+
+
+def diagnose(
+    scenario: Robot,
+    measured: Measured,
+    *,
+    also: Sequence[Measured] = (),
+    sigma_mm: Optional[float] = None,
+    tolerance_mm: Optional[float] = None,
+    refit: bool = False,
+    keep_bending: bool = False,
+    without: Sequence[str] = (),
+    progress: Optional[Progress] = None,
+) -> Diagnosis:
+    """Which physical effect is missing, what cannot be told apart, what to measure next.
+
+    `also`: further data of the same robot, fitted along. `tolerance_mm`: differences up to this are good enough. `refit`: fit
+    the scenario's own effects along. `keep_bending`: its bending stiffness was measured. `without`: effects that cannot be
+    here. `progress`: told what is done and which share of all (0 to 1, or None).
+    """
+    asked = _asked(sigma_mm, tolerance_mm, refit, keep_bending, without)
+    return Diagnosis(_ibr.diagnose(_robot(scenario), _all(measured, also), asked, progress))
+
+
+def extend(scenario: Robot, diagnosis: Diagnosis) -> Extension:
+    """The scenario with what its diagnosis adds: an effect, or the law that it learned."""
+    return Extension(_ibr.extend(_robot(scenario), diagnosis._answer))
+
+
+def add(
+    scenario: Robot,
+    effect: str,
+    measured: Optional[Measured] = None,
+    *,
+    also: Sequence[Measured] = (),
+    sigma_mm: Optional[float] = None,
+    keep_bending: bool = False,
+    without: Sequence[str] = (),
+    progress: Optional[Progress] = None,
+) -> Extension:
+    """The scenario with one more effect.
+
+    `effect`: "best" (what a diagnosis adds), "learned" (a law learned from the data), a name (fitted on data; without data
+    its typical value), "name=value" or "name:key=value". The other arguments are those of `diagnose`.
+    """
+    measured = [] if measured is None else _all(measured, also)
+    asked = _asked(sigma_mm=sigma_mm, keep_bending=keep_bending, without=without)
+    return Extension(_ibr.add(_robot(scenario), effect, measured, asked, progress))
+
+
+def validate(
+    scenario: Robot, measured: Measured, *, also: Sequence[Measured] = (), without: Sequence[str] = (),
+    sigma_mm: Optional[float] = None,
+) -> Validation:
+    """Does an added effect help on data that it was not fitted to?
+
+    `without`: effects to judge; those that an extension wrote if left out.
+    """
+    return Validation(_ibr.validate(_robot(scenario), _all(measured, also), list(without), sigma_mm))

@@ -1,0 +1,194 @@
+"""Native calls. Arrays are numpy float64; pressures kPa, lengths mm, angles degrees, times s."""
+
+from os import PathLike
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+Progress = Callable[[str, Optional[float]], None]
+Pressure = Union[float, Sequence[float]]
+
+class Error(ValueError):
+    """What is wrong, where, and what to write instead."""
+
+    where: Optional[str]
+    """File and line or column; None where there is none."""
+    help: Optional[str]
+    """What to do."""
+
+class State:
+    """Shape of a robot at one pressure."""
+
+    @property
+    def tip_mm(self) -> Array:
+        """Tip of the centre line, x along the undeformed body and y towards the actuator, shape (2,)."""
+    @property
+    def angle_deg(self) -> float:
+        """Total bending angle."""
+    @property
+    def markers_mm(self) -> Array:
+        """Markers as the camera sees them, shape (markers, 2)."""
+    @property
+    def curve_mm(self) -> Array:
+        """Centre line from base to tip, shape (101, 2)."""
+    @property
+    def pressure_kpa(self) -> float:
+        """Actuator pressure of the first supply channel."""
+    @property
+    def channels_kpa(self) -> Array:
+        """Actuator pressure of every supply channel, shape (channels,)."""
+    @property
+    def body_pressure_kpa(self) -> float:
+        """Body pressure."""
+    @property
+    def warnings(self) -> List[str]:
+        """What to know before believing it: beyond a limit of the actuator, a body that would fold."""
+    def to_json(self) -> str:
+        """One state of `ibr predict --json`: curvatures, slopes, energy ledger."""
+    def to_dict(self) -> Dict[str, Any]:
+        """The same as a dictionary (docs/json.md)."""
+    def plot(self, axes: Any = None) -> Any:
+        """The shape on axes of matplotlib; returns the axes."""
+    def _repr_html_(self) -> str: ...
+
+class States:
+    """Many states side by side, in the order of their pressures."""
+
+    @property
+    def tips_mm(self) -> Array:
+        """Tips of the centre line, shape (N, 2)."""
+    @property
+    def angles_deg(self) -> Array:
+        """Total bending angles, shape (N,)."""
+    @property
+    def markers_mm(self) -> Array:
+        """Markers as the camera sees them, shape (N, markers, 2)."""
+    def __len__(self) -> int: ...
+
+class Scenario:
+    """A robot: its body, actuators and physical effects, as a text in TOML. It never changes."""
+
+    @staticmethod
+    def named(name: Union[str, PathLike[str]]) -> "Scenario":
+        """A robot or study that comes with the package (`python -m ibr list`), or a TOML file."""
+    @staticmethod
+    def from_toml(source: Union[str, PathLike[str]]) -> "Scenario":
+        """A TOML file, or its text."""
+    def replace(self, **changes: Any) -> "Scenario":
+        """The same with values of its text set: `body_radius_mm=45` and `body={"radius_mm": 45}` are both `radius_mm` of
+        `[body]`; `effects={"friction": {"moment_nm": 0.2}}` sets or adds an effect. Comments stay."""
+    @property
+    def text(self) -> str:
+        """The TOML text."""
+    @property
+    def source(self) -> str:
+        """File or name as it was asked for."""
+    @property
+    def name(self) -> str:
+        """Name in the text."""
+    @property
+    def actuator(self) -> str:
+        """Kind of the actuator."""
+    @property
+    def effects(self) -> List[str]:
+        """Names of its physical effects."""
+    @property
+    def stations_mm(self) -> List[float]:
+        """Stations of the markers along the undeformed body."""
+    @property
+    def body_pressure_kpa(self) -> float:
+        """Body pressure where none is given."""
+    @property
+    def has_history(self) -> bool:
+        """Whether a state depends on those before it or on time: friction, creep, leaks."""
+    def predict(self, pressure_kpa: Pressure, body_pressure_kpa: Optional[float] = None) -> State:
+        """Shape at an actuator pressure, or at one pressure for every supply channel. A robot with history is held there for
+        5 s, from rest."""
+    def batch(self, pressure_kpa: ArrayLike, body_pressure_kpa: Optional[ArrayLike] = None, threads: int = 0) -> States:
+        """One state per pressure, shape (N,) or (N, channels), at one body pressure or N. Runs beside Python on so many
+        threads, 0 is one per core. A robot with history is refused: its states have an order."""
+    def follow(
+        self, t_s: ArrayLike, pressure_kpa: ArrayLike, body_pressure_kpa: Optional[ArrayLike] = None
+    ) -> States:
+        """A protocol from rest: pressures change at once after the state before, then time passes until `t_s`, shape (N,)."""
+    def inverse(
+        self,
+        *,
+        tip_mm: Optional[float] = None,
+        angle_deg: Optional[float] = None,
+        body_pressure_kpa: Optional[float] = None,
+    ) -> State:
+        """The state in which the tip has this height or the robot this total bend; its `pressure_kpa` is the answer."""
+    def jacobian(self, pressure_kpa: Pressure, body_pressure_kpa: Optional[float] = None) -> Array:
+        """Change of tip x, tip y (mm/kPa) and angle (deg/kPa) with the pressure of each channel, shape (channels, 3); NaN
+        where an actuator is flat."""
+
+class Data:
+    """Measurements of one robot, made by `ibr.data` or `ibr.import_tracks`."""
+
+    @staticmethod
+    def read(name: str) -> "Data":
+        """A CSV file, a folder with markers.csv and about.toml, or an embedded set."""
+    @staticmethod
+    def of_columns(columns: List[Tuple[str, Any]], name: str, about: Optional[str] = None) -> "Data":
+        """Columns of the marker table; `ibr.data` makes them of any frame."""
+    @property
+    def name(self) -> str:
+        """Name."""
+    @property
+    def actuator(self) -> str:
+        """Kind of the actuator."""
+    @property
+    def runs(self) -> List[str]:
+        """Labels of the runs."""
+    @property
+    def markers(self) -> List[str]:
+        """Labels of the markers."""
+    @property
+    def told(self) -> List[str]:
+        """What reading or import assumed, in words."""
+    @property
+    def about_toml(self) -> Optional[str]:
+        """The beginning of a description, of an import: fill it in."""
+    @property
+    def table(self) -> Dict[str, Any]:
+        """The marker table as columns: `pandas.DataFrame(data.table)`."""
+
+class Answer:
+    text: str
+    json: str
+    warnings: List[str]
+    def columns(self) -> Dict[str, Any]: ...
+    def files(self) -> Dict[str, bytes]: ...
+    def scenario(self) -> Scenario: ...
+
+def program(typed: List[str]) -> int: ...
+def import_tracks(typed: List[str]) -> Data: ...
+def compare(
+    scenario: Scenario, data: Data, effects: List[str], sigma_mm: Optional[float], calibrate: Optional[str]
+) -> Answer: ...
+def diagnose(
+    scenario: Scenario, data: List[Data], asked: Mapping[str, Any], progress: Optional[Progress] = None
+) -> Answer: ...
+def extend(scenario: Scenario, diagnosed: Answer) -> Answer: ...
+def add(
+    scenario: Scenario,
+    effect: str,
+    data: List[Data],
+    asked: Mapping[str, Any],
+    progress: Optional[Progress] = None,
+) -> Answer: ...
+def validate(scenario: Scenario, data: List[Data], without: List[str], sigma_mm: Optional[float]) -> Answer: ...
+def simulate(
+    source: Union[Scenario, str],
+    folder: Union[str, PathLike[str]],
+    changes: Mapping[str, Any],
+    resume: bool,
+    force: bool,
+    end_s: Optional[float],
+    threads: int,
+    progress: Optional[Progress] = None,
+) -> Answer: ...
+def read_run(folder: Union[str, PathLike[str]]) -> Answer: ...

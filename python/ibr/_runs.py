@@ -1,0 +1,152 @@
+"""Finite element runs and their frames."""
+
+from __future__ import annotations
+
+import os
+import re
+import struct
+import tempfile
+import zlib
+from pathlib import Path
+from typing import Any, Dict, List, Mapping, Optional, Union
+
+import numpy as np
+
+from . import _ibr
+from ._calls import Progress, Robot
+from ._ibr import Scenario
+from ._results import Result, columns_of
+
+_TYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "UInt8": "u1", "Int8": "i1", "String": "S1"}
+
+
+class Frame:
+    """The deformed robot at one moment.
+
+    `time_s`; `points` (mm), shape (n, 3); `quads` and `triangles`, rows of point numbers; `faces`: all as triangles, for
+    matplotlib and meshes; `pressures_kpa` by chamber; `arrays`: everything in the file by its name there.
+    """
+
+    def __init__(self, path: Union[str, os.PathLike]):
+        self.path = Path(path)
+        self.arrays = _arrays(self.path)
+        self.time_s = float(self.arrays["TimeValue"][0])
+        self.points = self.arrays["Points"]
+        ends, corners = self.arrays["offsets"], self.arrays["connectivity"]
+        sizes = np.diff(ends, prepend=0)
+        of = lambda size: corners[(ends[sizes == size, None] - size) + np.arange(size)]  # noqa: E731
+        self.triangles, self.quads = of(3), of(4)
+
+    @property
+    def faces(self) -> np.ndarray:
+        """Every element as triangles, shape (m, 3); a quad is two."""
+        return np.concatenate([self.triangles, self.quads[:, [0, 1, 2]], self.quads[:, [0, 2, 3]]])
+
+    @property
+    def pressures_kpa(self) -> Dict[str, float]:
+        """Gauge pressure by chamber (kPa)."""
+        names = bytes(self.arrays.get("chamber_names", np.zeros(0, "S1")).tobytes()).split(b"\0")
+        return {name.decode(): float(kpa) for name, kpa in zip(names, self.arrays.get("chamber_kPa", []))}
+
+    def __repr__(self) -> str:
+        cells = len(self.triangles) + len(self.quads)
+        return f"Frame(t = {self.time_s:.4f} s: {len(self.points)} points, {cells} elements)"
+
+
+def _arrays(path: Path) -> Dict[str, np.ndarray]:
+    """The arrays of a frame as the engine writes it: XML with blocks compressed by zlib at the end."""
+    head, _, blocks = path.read_bytes().partition(b'<AppendedData encoding="raw">\n_')
+    found = {}
+    for tag in re.findall(r"<DataArray ([^>]*)/>", head.decode()):
+        about = dict(re.findall(r'(\w+)="([^"]*)"', tag))
+        at = int(about["offset"])
+        size = struct.unpack_from("<4Q", blocks, at)[3]
+        plain = zlib.decompress(blocks[at + 32 : at + 32 + size])
+        values = np.frombuffer(plain, _TYPES[about["type"]])
+        width = int(about.get("NumberOfComponents", 1))
+        found[about["Name"]] = values.reshape(-1, width) if width > 1 else values
+    return found
+
+
+class Run(Result):
+    """A finite element run: the numbers of its summary.json are attributes, its files stand in `folder`."""
+
+    def __init__(self, answer: _ibr.Answer, folder: Path, kept: Any = None):
+        super().__init__(answer)
+        self.folder = folder
+        self._kept = kept
+
+    @staticmethod
+    def read(folder: Union[str, os.PathLike]) -> "Run":
+        """The complete run in a folder."""
+        return Run(_ibr.read_run(folder), Path(folder))
+
+    @property
+    def frames(self) -> List[Frame]:
+        """The deformed robot at every output, by time. With PyVista: `pyvista.read(run.frames[-1].path)`."""
+        return [Frame(path) for path in sorted((self.folder / "frames").glob("*.vtu"))]
+
+    @property
+    def history(self) -> Dict[str, np.ndarray]:
+        """Energies, pressures and volumes at every output: the columns of history.csv."""
+        table = np.genfromtxt(self.folder / "history.csv", delimiter=",", names=True, deletechars="", ndmin=1)
+        return {name: table[name] for name in table.dtype.names}
+
+    @property
+    def table(self) -> Dict[str, np.ndarray]:
+        """Of a robot, a row per hold: pressures, height of the tip (mm) and its angle (degrees)."""
+        readings = [] if self.robot is None else self.robot["readings"]
+        row = lambda r: {  # noqa: E731
+            "p_act_kpa": r["actuator_pa"] * 1e-3,
+            "tip_x_mm": r["moved_m"][-1][0] * 1e3,
+            "tip_y_mm": r["moved_m"][-1][1] * 1e3,
+            "angle_deg": float(np.degrees(r["tip_angle_rad"])),
+        }
+        return columns_of([row(reading) for reading in readings])
+
+    def plot(self, axes=None):
+        """Height of the tip over pressure, on axes of matplotlib."""
+        from . import _plot
+
+        return _plot.run(self, axes)
+
+    def _repr_html_(self) -> str:
+        picture = next((file for file in ("side.png", "picture.png") if (self.folder / file).exists()), None)
+        if picture is None:
+            return super()._repr_html_()
+        import base64
+
+        png = base64.b64encode((self.folder / picture).read_bytes()).decode()
+        return f'{super()._repr_html_()}<img style="max-width:640px" src="data:image/png;base64,{png}">'
+
+    def _headline(self) -> str:
+        return str(self).split("\n\n")[0]
+
+
+def simulate(
+    source: Robot,
+    folder: Union[str, os.PathLike, None] = None,
+    *,
+    changes: Optional[Mapping[str, Any]] = None,
+    resume: bool = False,
+    force: bool = False,
+    end_s: Optional[float] = None,
+    threads: int = 0,
+    progress: Optional[Progress] = None,
+) -> Run:
+    """Runs finite elements.
+
+    `source`: a robot's scenario or a case, or its name (`python -m ibr list cases`). `folder`: where its files go; left out,
+    a temporary one that goes with the result. `changes`: keys of `[fem]` (docs/scenario.md), as
+    `{"actuator_mesh_mm": 6, "pressures_kpa": [10, 20]}`. `resume`: go on with an interrupted run. `force`: replace a run.
+    `end_s`: simulated time. `threads`: 0 is one per core. `progress`: told what is done and which share of all (0 to 1).
+
+    Ctrl-C ends it with a KeyboardInterrupt, and so does what `progress` raises; a checkpoint in `folder` is kept then.
+    """
+    kept = None
+    if folder is None:
+        kept = tempfile.TemporaryDirectory(prefix="ibr-run-")
+        folder = os.path.join(kept.name, "run")
+    source = source if isinstance(source, Scenario) else os.fspath(source)
+    answer = _ibr.simulate(source, folder, dict(changes or {}), resume, force, end_s, threads, progress)
+    return Run(answer, Path(folder), kept)

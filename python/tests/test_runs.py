@@ -1,0 +1,95 @@
+"""Finite element runs from Python: the command's numbers, frames as arrays, Ctrl-C."""
+
+import _thread
+import os
+import signal
+import subprocess
+import sys
+import threading
+
+import ibr
+import numpy as np
+import pytest
+
+SMALL = {"actuator_mesh_mm": 12, "body_mesh_mm": 12, "body_ramp_s": 0.01, "actuator_ramp_s": 0.04, "pressures_kpa": [10]}
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    shares = []
+    run = ibr.simulate("epam", tmp_path_factory.mktemp("fe") / "run", changes=SMALL, progress=lambda _, s: shares.append(s))
+    assert shares and shares[-1] == 1.0
+    return run
+
+
+def test_frames_are_arrays(run):
+    first, last = run.frames[0], run.frames[-1]
+    assert last.points.shape == (run.nodes, 3) and last.faces.shape[1] == 3
+    assert len(last.triangles) + len(last.quads) == run.elements
+    assert last.faces.max() < run.nodes and last.time_s == pytest.approx(run.time_s)
+    assert np.abs(last.points - first.points).max() > 5, "nothing moved"
+    assert max(last.pressures_kpa.values()) == pytest.approx(10, abs=0.5)
+    assert run.table["p_act_kpa"].tolist()[-1] == 10 and run.table["tip_y_mm"][-1] > 5
+    assert len(run.history["time_s"]) == len(run.frames)
+
+
+def test_frames_are_what_vtk_reads(run):
+    pyvista = pytest.importorskip("pyvista")
+    frame = run.frames[-1]
+    grid = pyvista.read(frame.path)
+    assert np.array_equal(grid.points, frame.points) and grid.n_cells == run.elements
+    assert np.array_equal(grid["von_mises_MPa"], frame.arrays["von_mises_MPa"])
+
+
+def test_a_complete_run_is_read_again(run):
+    again = ibr.Run.read(run.folder)
+    assert again.steps == run.steps and again.table["tip_y_mm"].tolist() == run.table["tip_y_mm"].tolist()
+    with pytest.raises(ibr.Error, match="force"):
+        ibr.simulate("epam", run.folder, changes={**SMALL, "pressures_kpa": [20]})
+
+
+def test_a_run_without_a_folder_keeps_its_frames_while_it_lives():
+    run = ibr.simulate("epam", changes=SMALL, end_s=0.005)
+    folder = run.folder
+    assert len(run.frames) > 1 and folder.exists()
+    del run
+    assert not folder.exists()
+
+
+def test_a_wrong_key_has_its_line():
+    with pytest.raises(ibr.Error, match="actuator_mesh_mm") as fault:
+        ibr.simulate("epam", changes={"actuator_mesh": 4})
+    assert fault.value.where.startswith("epam:")
+
+
+def test_what_progress_raises_ends_a_run_that_goes_on_later(run, tmp_path):
+    class Enough(Exception):
+        pass
+
+    def stop(_, share):
+        if share > 0.3:
+            raise Enough
+
+    with pytest.raises(Enough):
+        ibr.simulate("epam", tmp_path / "run", changes=SMALL, progress=stop)
+    resumed = ibr.simulate("epam", tmp_path / "run", changes=SMALL, resume=True)
+    assert resumed.table["tip_y_mm"].tolist() == run.table["tip_y_mm"].tolist(), "the same bits"
+
+
+def test_ctrl_c_ends_a_run_with_its_checkpoint(tmp_path):
+    timer = threading.Timer(0.5, _thread.interrupt_main)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        ibr.simulate("epam", tmp_path / "run")
+    timer.cancel()
+    assert any((tmp_path / "run" / "checkpoint").iterdir()) or (tmp_path / "run" / "checkpoint").is_file()
+
+
+def test_a_signal_ends_a_script(tmp_path):
+    script = f"import ibr; print('go', flush=True); ibr.simulate('epam', {str(tmp_path / 'run')!r})"
+    child = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    child.stdout.readline()
+    threading.Event().wait(0.5)
+    os.kill(child.pid, signal.SIGINT)
+    _, said = child.communicate(timeout=60)
+    assert child.returncode != 0 and "KeyboardInterrupt" in said and "panicked" not in said

@@ -1,0 +1,135 @@
+"""The session of examples/session.rs from Python; frames of every kind; numbers of the command."""
+
+import json
+
+import ibr
+import numpy as np
+import pytest
+
+pandas = pytest.importorskip("pandas")
+
+
+def test_a_comparison_is_that_of_the_command(told, tmp_path):
+    found = ibr.compare("epam-textbook", "synthetic-epam", effects=["sealed_sides"])
+    answer = told("compare", "epam-textbook", "synthetic-epam", "--effect", "sealed_sides", "--out", str(tmp_path))
+    assert found.to_dict() == answer
+    assert found.error_mm == answer["overall"]["systematic_mm"] > 20
+    assert found.names == ["scenario", "+ sealed_sides"]
+    frame = pandas.DataFrame(found.table)
+    bare = frame[frame.model == "scenario"]
+    assert len(bare) == len(answer["holds"]) * len(answer["residual_map"]["markers"])
+    cell = answer["residual_map"]["cells"][-1][0]["y"]["mm"]
+    last = bare[bare.marker == answer["residual_map"]["markers"][-1]].iloc[0]
+    assert last.predicted_y_mm - last.y_mm == pytest.approx(cell, abs=1e-9)
+    assert "<svg" in found._repr_html_() and "</html>" in found.to_html()
+    assert set(found._shown) <= {*found.pictures()}
+
+
+def test_the_session_of_the_readme():
+    robot = ibr.Scenario.named("epam-textbook")
+    steps = []
+    found = ibr.diagnose(robot, "synthetic-epam", progress=lambda what, share: steps.append((what, share)))
+    assert found.verdict == "effect" and found.names == found.indistinguishable
+    assert steps and all(isinstance(what, str) for what, _ in steps)
+    assert "Verdict: an effect is missing" in str(found)
+    table = pandas.DataFrame(found.table)
+    assert table.effect[0] in found.names and {"gain", "systematic_after_mm"} <= {*table}
+    better = ibr.extend(robot, found)
+    before, after = ibr.compare(robot, "synthetic-epam"), ibr.compare(better.scenario, "synthetic-epam")
+    assert after.error_mm < 0.1 * before.error_mm
+    assert better.table["training_mm"].tolist()[-1] == pytest.approx(after.error_mm, abs=0.05)
+    other = ibr.validate(better.scenario, "synthetic-epam-two-bodies")
+    assert other.verdict == "better" and other.names == better.names
+    html = found._repr_html_()
+    assert html.count("<svg") >= 3
+
+
+def test_a_diagnosis_and_an_effect_are_those_of_the_command(told, tmp_path):
+    options = {"keep_bending": True, "without": ["gravity"]}
+    found = ibr.diagnose("epam-textbook", "synthetic-epam", **options)
+    assert found.to_dict() == told("diagnose", "epam-textbook", "synthetic-epam", "--keep-bending", "--not", "gravity")
+    added = ibr.add("epam-textbook", "sealed_sides", "synthetic-epam")
+    file = tmp_path / "new.toml"
+    answer = told("add", "epam-textbook", "sealed_sides", "synthetic-epam", "--out", str(file))
+    assert {**added.to_dict(), "written": str(file)} == answer
+    assert added.scenario.text == file.read_text()
+
+
+def test_an_effect_is_given_or_learned():
+    given = ibr.add("epam-textbook", "sealed_sides:share=1")
+    assert given.names == ["sealed_sides"] and "sealed_sides" in given.scenario.effects
+    learned = ibr.add("epam-textbook", "learned", "synthetic-epam")
+    assert "[[formula]]" in learned.scenario.text and learned.names == ["learned"]
+
+
+def frames():
+    columns = ibr.data("synthetic-epam").table
+    pandas_frame = pandas.DataFrame(columns)
+    yield "dict", columns
+    yield "pandas", pandas_frame
+    yield "pandas, whole numbers as labels", pandas_frame.assign(run=pandas.factorize(pandas_frame.run)[0] + 1)
+    polars = pytest.importorskip("polars")
+    yield "polars", polars.DataFrame(columns)
+
+
+def test_frames_of_every_kind_are_the_same_data():
+    wanted = ibr.compare("epam", "synthetic-epam").to_dict()
+    about = {}
+    for kind, frame in frames():
+        found = ibr.compare("epam", ibr.data(frame, name="synthetic-epam")).to_dict()
+        about[kind] = {key for key in wanted if found[key] != wanted[key]}
+    # A frame brings no about.toml.
+    assert all(differ <= {"provenance", "warnings"} for differ in about.values()), about
+
+
+def test_lost_markers_are_empty_cells():
+    frame = pandas.DataFrame(ibr.data("synthetic-epam").table)
+    lost = frame.copy()
+    lost.loc[lost.index[5], ["x_mm", "y_mm"]] = np.nan
+    assert "1 row" in " ".join(ibr.data(lost).told) or ibr.compare("epam", lost).runs == ibr.compare("epam", frame).runs
+
+
+def test_a_fault_of_a_frame_has_its_row_and_column():
+    frame = pandas.DataFrame(ibr.data("synthetic-epam").table)
+    with pytest.raises(ibr.Error) as fault:
+        ibr.data(frame.rename(columns={"x_mm": "x"}), name="mine")
+    assert fault.value.where == "mine:1, column x" and "x_mm" in fault.value.help
+    frame["y_mm"] = frame["y_mm"].astype(object)
+    frame.loc[frame.index[4], "y_mm"] = "twelve"
+    with pytest.raises(ibr.Error) as fault:
+        ibr.data(frame, name="mine")
+    assert fault.value.where == "mine:6, column y_mm" and "twelve" in str(fault.value)
+
+
+def test_a_description_goes_with_a_frame(tmp_path):
+    frame = ibr.data("synthetic-epam").table
+    with pytest.raises(ibr.Error):
+        ibr.data(frame, about="title = 3\n")
+
+
+def test_tracking_files_become_data(tmp_path):
+    from ibr import _ibr
+
+    _ibr_example(tmp_path)
+    runs = sorted(tmp_path.glob("run*.csv"))
+    options = {"pressure": tmp_path / "pressure.csv", "fps": 30, "scale": "3.1px/mm", "base": "212,540"}
+    data = ibr.import_tracks(runs, actuator="epam", **options)
+    assert len(data.runs) == 3 and "DeepLabCut" in " ".join(data.told) and "[" in data.about_toml
+    assert ibr.diagnose("epam-textbook", data).verdict is not None
+    with pytest.raises(ibr.Error, match="--scal"):
+        ibr.import_tracks(runs, scal="3.1px/mm")
+    assert isinstance(_ibr, object)
+
+
+def _ibr_example(folder):
+    import subprocess
+    import sys
+
+    subprocess.run([sys.executable, "-m", "ibr", "data", "import", "--example", str(folder)], check=True)
+
+
+def test_json_is_json():
+    found = ibr.compare("epam", "synthetic-epam")
+    assert json.loads(found.to_json()) == found.to_dict()
+    with pytest.raises(AttributeError, match="overall"):
+        found.overal
