@@ -3,7 +3,7 @@
 use crate::arrays::columns;
 use crate::errors::raised;
 use crate::inputs::Data;
-use crate::progress::Teller;
+use crate::progress::beside;
 use crate::scenario::Scenario;
 use ibr::compared::{Compared, unused_sigma};
 use ibr::data::Table;
@@ -159,14 +159,14 @@ pub fn diagnose(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Answer> {
     let (file, evidence, options) = (scenario.file.clone(), all_evidence(&data), asked.options());
-    let mut teller = Teller::new(progress);
-    let made = py.detach(|| {
-        let diagnosis = ibr::diagnose(&file, &evidence, &options, &mut |what, share| _ = teller.tell(what, share))?;
+    let (made, raised_meanwhile) = beside(py, progress.as_ref(), |tell| {
+        let diagnosis = ibr::diagnose(&file, &evidence, &options, &mut |what, share| _ = tell(what, share))?;
         let first = evidence.into_iter().next().ok_or_else(no_data)?;
         let witness = witness(&diagnosis, &file, &first.dataset, first.about.as_ref(), &known_runs(None)?)?;
         Ok(Whole { diagnosis, witness, file, first })
     });
-    let whole = teller.finish(made.map_err(|error: ibr::Error| raised(error)))?;
+    raised_meanwhile.map_or(Ok(()), Err)?;
+    let whole = made.map_err(|error: ibr::Error| raised(error))?;
     let d = &whole.diagnosis;
     let json = diagnosis::to_json(d, whole.witness.as_ref(), &whole.file.name);
     let warnings = d.warnings.iter().cloned().chain(unused_sigma(options.sigma_m, &whole.first)).collect();
@@ -210,12 +210,12 @@ pub fn add(
 ) -> PyResult<Answer> {
     let (file, evidence) = (&scenario.file, all_evidence(&data));
     let options = DiagnosisOptions { next_experiment: false, missing_moment: false, ..asked.options() };
-    let mut teller = Teller::new(progress);
-    let found = py.detach(|| {
+    let (found, raised_meanwhile) = beside(py, progress.as_ref(), |tell| {
         let wish = Wish::read(file, effect, !evidence.is_empty())?;
-        ibr::add(file, &wish, &evidence, &options, &mut |what, share| _ = teller.tell(what, share))
+        ibr::add(file, &wish, &evidence, &options, &mut |what, share| _ = tell(what, share))
     });
-    extended(file, &evidence, teller.finish(found.map_err(raised))?)
+    raised_meanwhile.map_or(Ok(()), Err)?;
+    extended(file, &evidence, found.map_err(raised)?)
 }
 
 /// `ibr validate`.

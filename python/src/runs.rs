@@ -3,14 +3,12 @@
 use crate::answers::Answer;
 use crate::errors::raised;
 use crate::inputs::toml_text;
-use crate::progress::Teller;
+use crate::progress::beside;
 use crate::scenario::Scenario;
-use ibr::fem::FemError;
 use ibr::fem::session::{FeRun, Further, SUMMARY};
 use ibr::pages::run_plots;
 use ibr::shown::run::{cost_text, text};
 use ibr::{FeSettings, FeSource, fe_source};
-use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
@@ -53,15 +51,9 @@ pub fn simulate(
     let (maker, further) = (ibr::program::maker(), Some(run_plots as Further));
     let settings =
         FeSettings { folder: Some(folder), resume, force, end_s, threads, maker, further, ..FeSettings::default() };
-    let mut teller = Teller::new(progress);
-    let made = py.detach(|| ibr::simulate(&source, &settings, &mut |what, share| teller.tell(what, share)));
-    match made {
-        Err(error @ FemError::Interrupted { .. }) => {
-            let text = format!("{error}; go on with resume=True");
-            teller.finish(Err(PyKeyboardInterrupt::new_err(text)))
-        }
-        made => answer(&teller.finish(made.map_err(raised))?),
-    }
+    let (made, raised_meanwhile) = beside(py, progress.as_ref(), |tell| ibr::simulate(&source, &settings, tell));
+    raised_meanwhile.map_or(Ok(()), Err)?;
+    answer(&made.map_err(raised)?)
 }
 
 /// The complete run in a folder.

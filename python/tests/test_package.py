@@ -2,7 +2,9 @@
 
 import ast
 import doctest
+import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -15,8 +17,6 @@ from conftest import ROOT
 def test_the_command_line_is_in_it(told):
     typed = [sys.executable, "-m", "ibr", "predict", "epam", "--pressure", "20kPa", "--json"]
     made = subprocess.run(typed, capture_output=True, text=True, check=True)
-    import json
-
     assert json.loads(made.stdout) == told("predict", "epam", "--pressure", "20kPa")
     wrong = subprocess.run([sys.executable, "-m", "ibr", "predict", "epan"], capture_output=True, text=True)
     assert wrong.returncode == 3 and "epam" in wrong.stderr
@@ -48,7 +48,10 @@ def test_examples_of_the_documents_hold(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     options = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
     for document in [ROOT / "docs/python.md", Path(ibr.__file__)]:
-        found = doctest.testfile(str(document), module_relative=False, optionflags=options)
+        # Without the fences, which would be taken for what is printed.
+        text = re.sub(r"^```.*$", "", document.read_text(), flags=re.MULTILINE)
+        examples = doctest.DocTestParser().get_doctest(text, {}, document.name, str(document), 0)
+        found = doctest.DocTestRunner(optionflags=options).run(examples)
         assert found.attempted > 0 and found.failed == 0, document
 
 
