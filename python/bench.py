@@ -13,8 +13,11 @@ import subprocess
 import sys
 import time
 
-import ibr
-import numpy as np
+# Beside this file lie the sources of the package, without its native part.
+sys.path.pop(0)
+
+import ibr  # noqa: E402
+import numpy as np  # noqa: E402
 
 CALLS, STATES, ROUNDS = 2000, 1_000_000, 7
 

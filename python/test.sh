@@ -31,5 +31,5 @@ else
   export PYTHONPATH=$PWD/target/python-package
 fi
 [ -x target/release/ibr ] || skip "no target/release/ibr: cargo build --release makes it"
-export MPLBACKEND=Agg PATH="$home/bin:$PATH"
+export PATH="$home/bin:$PATH"
 "$home/bin/python" -m pytest -q -p no:cacheprovider python/tests "$@"

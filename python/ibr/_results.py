@@ -62,7 +62,7 @@ class Result:
         pictures = self.pictures() if self._shown else {}
         shown = [f'<div style="max-width:520px">{pictures[name]}</div>' for name in self._shown if name in pictures]
         charts = f'<div style="display:flex;flex-wrap:wrap;gap:1em">{"".join(shown)}</div>' if shown else ""
-        return f"<pre>{_escaped(self._headline())}</pre>{charts}"
+        return f'<pre style="white-space:pre-wrap">{_escaped(self._headline())}</pre>{charts}'
 
     def _headline(self) -> str:
         return str(self)

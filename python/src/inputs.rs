@@ -166,7 +166,8 @@ impl Data {
 /// Files of a tracking program with the options of `ibr data import`.
 #[pyfunction]
 pub fn import_tracks(py: Python<'_>, typed: Vec<String>) -> PyResult<Data> {
-    let made = py.detach(|| ibr::import_typed(&typed)).map_err(raised)?;
+    let mut made = py.detach(|| ibr::import_typed(&typed)).map_err(raised)?;
+    made.dataset.name = "imported tracks".into();
     let evidence = Evidence::of(made.dataset, Some(made.about));
     Ok(Data { evidence, told: made.told, about_toml: Some(made.about_toml) })
 }

@@ -126,3 +126,18 @@ def test_json_is_json():
     assert json.loads(found.to_json()) == found.to_dict()
     with pytest.raises(AttributeError, match="overall"):
         found.overal
+
+
+def test_results_draw_themselves_on_axes():
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    robot = ibr.Scenario.named("epam-textbook")
+    axes = robot.predict(20).plot()
+    assert axes.lines[0].get_xydata().tolist() == robot.predict(20).curve_mm.tolist()
+    found = ibr.compare(robot, "synthetic-epam-two-bodies")
+    axes = found.plot()
+    assert sum(len(line.get_xdata()) for line in axes.lines) == 2 * len(found.table["marker"])
+    found = ibr.diagnose(robot, "synthetic-epam")
+    axes = found.plot()
+    best = axes.patches[-1]
+    assert best.get_width() == min(found.table["systematic_after_mm"])
