@@ -1,0 +1,99 @@
+//! Parts by finite elements: one run per robot, read at all its pressures.
+
+use crate::SweepError;
+use crate::part::{Part, Rows};
+use crate::reduced::{ACCOUNTS, fail};
+use crate::study::{Output, Study};
+use crate::table::columns;
+use fem::FemError;
+use fem::robot::Reading;
+use fem::session::{FeRun, Job, Many, Progress, Settings, Source, simulate_all};
+
+/// What came of a part.
+pub type Made = (Part, Rows);
+
+/// Runs what the parts need, in folders named by problem and engine, and reads their rows.
+///
+/// # Errors
+/// An interrupt, a folder that cannot be written to. A run that is refused or stopped is a failed row.
+pub fn compute(
+    study: &Study,
+    parts: &[Part],
+    settings: &Settings,
+    progress: Progress,
+) -> Result<Vec<Made>, SweepError> {
+    let width = columns(study).len();
+    let (mut jobs, mut of_part) = (Vec::new(), Vec::new());
+    for part in parts {
+        let robot = part.robots(study.per_robot()).start;
+        of_part.push(job(study, robot).map(|(job, kpa)| {
+            jobs.push(job);
+            (jobs.len() - 1, kpa)
+        }));
+    }
+    let Many { runs, of } = simulate_all(&jobs, settings, progress)?;
+    let rows = |(part, job): (&Part, Result<(usize, Vec<f64>), String>)| {
+        let mut rows = Rows { numbers: Vec::new(), failed: Vec::new(), cpu_s: 0.0 };
+        match job.and_then(|(job, kpa)| Ok((runs[of[job]].as_ref().map_err(FemError::to_string)?, kpa))) {
+            Ok((run, kpa)) => {
+                rows.cpu_s = run.cost.cpu_s_of_all_sessions;
+                kpa.iter().for_each(|kpa| read(study, run, *kpa, width, &mut rows));
+            }
+            Err(why) => part.cases.clone().for_each(|_| fail(width, why.clone(), &mut rows.numbers, &mut rows.failed)),
+        }
+        (part.clone(), rows)
+    };
+    Ok(parts.iter().zip(of_part).map(rows).collect())
+}
+
+/// The run of a robot, which rises through its pressures; or why there is none.
+fn job(study: &Study, robot: usize) -> Result<(Job, Vec<f64>), String> {
+    let (file, kpa) = study.robot(robot).map_err(|error| error.to_string())?;
+    let mut rising = kpa.clone();
+    rising.sort_by(f64::total_cmp);
+    rising.dedup();
+    rising.retain(|p| *p > 0.0);
+    let set = [("fem.pressures_kpa".to_string(), format!("{rising:?}"))];
+    let file = if rising.is_empty() { Ok(file) } else { file.with(&set) }.map_err(|error| error.to_string())?;
+    let source = Source { text: file.text.clone(), name: file.name.clone(), folder: study.folder.clone() };
+    source.load().map_err(|error| error.to_string())?;
+    Ok((Job { source, what: format!("robot {}", robot + 1), folder: None }, kpa))
+}
+
+fn read(study: &Study, run: &FeRun, kpa: f64, width: usize, rows: &mut Rows) {
+    let same = |r: &&Reading| (r.actuator_pa - 1e3 * kpa).abs() < 1.0;
+    let Some(reading) = run.readings().iter().find(same) else {
+        return fail(width, format!("the run was not read at {kpa} kPa"), &mut rows.numbers, &mut rows.failed);
+    };
+    let end = rows.numbers.len() + width;
+    study.outputs.iter().for_each(|output| put(*output, reading, run, study, &mut rows.numbers));
+    rows.numbers.resize(end, f64::NAN);
+}
+
+fn put(output: Output, r: &Reading, run: &FeRun, study: &Study, numbers: &mut Vec<f64>) {
+    let at = |i: usize, moved: &[[f64; 3]]| match (r.stations_m.get(i), moved.get(i)) {
+        (Some(s), Some(d)) => [1e3 * (s + d[0]), 1e3 * d[1]],
+        _ => [f64::NAN; 2],
+    };
+    match output {
+        Output::Tip => {
+            let tip = at(r.stations_m.len().saturating_sub(1), &r.moved_m);
+            numbers.extend([tip[0], tip[1], r.tip_angle_rad.to_degrees()]);
+        }
+        Output::Markers => numbers.extend((0..study.base.markers_m.len()).flat_map(|i| at(i, &r.seen_moved_m))),
+        Output::Ledger => {
+            let stored = |name: &str| 1e3 * r.ledger.iter().filter(|l| l.0 == name).map(|l| l.2).sum::<f64>();
+            let of = |account: &str| match account {
+                "actuator_gas" => -1e3 * r.actuator_pa * r.actuator_m3,
+                "body_gas" => -1e3 * r.body_pa * r.body_m3,
+                "wall" => stored("bending") + stored("folds"),
+                "stretch" => stored("membrane"),
+                "contact" => stored("contact"),
+                "numerical" => stored("hourglass"),
+                _ => f64::NAN,
+            };
+            numbers.extend(ACCOUNTS.map(|(name, _)| of(name)));
+        }
+        Output::Limits => numbers.push(f64::from(u8::from(run.summary.warnings().is_empty()))),
+    }
+}

@@ -1,0 +1,32 @@
+//! What can go wrong in a sweep.
+
+use compare::CompareError;
+use fem::FemError;
+use std::path::PathBuf;
+
+/// Why a sweep ended.
+#[derive(Debug, thiserror::Error)]
+pub enum SweepError {
+    /// A study or a robot with a fault.
+    #[error(transparent)]
+    Study(#[from] CompareError),
+    /// A finite element run that was refused or interrupted; an interrupted part of the reduced model too.
+    #[error(transparent)]
+    Run(#[from] FemError),
+    /// A folder that cannot be written to.
+    #[error("cannot write to {}: {cause}", path.display())]
+    Write {
+        /// Where.
+        path: PathBuf,
+        /// Why.
+        cause: String,
+    },
+    /// A scheduler that did not do what it was asked.
+    #[error("{message}")]
+    Cluster {
+        /// What it said.
+        message: String,
+        /// What to do.
+        help: String,
+    },
+}

@@ -1,0 +1,118 @@
+//! Some cases that are computed together, and their file.
+
+use crate::SweepError;
+use crate::study::{Engine, Output, Study};
+use fem::session::sha256;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// Goes up when a number of the reduced model, or the file, changes its meaning.
+const FORMAT: u32 = 1;
+
+/// Cases of one engine that are computed together.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Part {
+    /// What computes them.
+    pub engine: Engine,
+    /// Which of the study's.
+    pub cases: Range<usize>,
+}
+
+/// Rows of a part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rows {
+    /// A row of numbers per case; NaN where there is none.
+    pub numbers: Vec<f64>,
+    /// Cases that failed, counted within the part, and why.
+    pub failed: Vec<(usize, String)>,
+    /// Processor time \[s\].
+    pub cpu_s: f64,
+}
+
+/// The first line of a file.
+#[derive(Serialize, Deserialize)]
+struct Head {
+    ibr_sweep_part: u32,
+    numbers: usize,
+    failed: Vec<(usize, String)>,
+    cpu_s: f64,
+}
+
+impl Part {
+    /// Its file in the folder of a sweep: the hash of all that its numbers depend on.
+    pub fn path(&self, study: &Study, folder: &Path) -> PathBuf {
+        let engine = match self.engine {
+            Engine::Reduced => format!("reduced {}", env!("CARGO_PKG_VERSION")),
+            Engine::Elements => format!("finite elements {}", fem::ENGINE),
+        };
+        let words: Vec<&str> = study.outputs.iter().map(output_word).collect();
+        let mut told = format!("ibr sweep {FORMAT}, {engine}, {}\n{}\n", words.join(" "), study.base.text).into_bytes();
+        let per_robot = study.per_robot();
+        for robot in self.robots(per_robot) {
+            let (changes, pressure) = study.changes(robot);
+            changes.iter().for_each(|(key, value)| told.extend(format!("{key} = {value}\n").bytes()));
+            let own = self.pressures(robot, per_robot);
+            let pressures = pressure.as_ref().map_or(&study.pressures_kpa[own], std::slice::from_ref);
+            pressures.iter().for_each(|kpa| told.extend(kpa.to_le_bytes()));
+        }
+        folder.join("parts").join(format!("{}.part", &sha256(&told)[..32]))
+    }
+
+    /// Robots that have cases in it.
+    pub fn robots(&self, per_robot: usize) -> Range<usize> {
+        self.cases.start / per_robot..self.cases.end.div_ceil(per_robot)
+    }
+
+    /// Which of a robot's pressures belong to it.
+    pub fn pressures(&self, robot: usize, per_robot: usize) -> Range<usize> {
+        let first = robot * per_robot;
+        self.cases.start.max(first) - first..self.cases.end.min(first + per_robot) - first
+    }
+}
+
+fn output_word(output: &Output) -> &'static str {
+    match output {
+        Output::Tip => "tip",
+        Output::Markers => "markers",
+        Output::Ledger => "ledger",
+        Output::Limits => "limits",
+    }
+}
+
+impl Rows {
+    /// Writes them, whole or not at all.
+    ///
+    /// # Errors
+    /// The folder cannot be written to.
+    pub fn write(&self, path: &Path) -> Result<(), SweepError> {
+        let Rows { numbers, failed, cpu_s } = self;
+        let head = Head { ibr_sweep_part: FORMAT, numbers: numbers.len(), failed: failed.clone(), cpu_s: *cpu_s };
+        let mut bytes = serde_json::to_vec(&head).unwrap_or_default();
+        bytes.push(b'\n');
+        bytes.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
+        // A name of its own: two workers may make the same part, and either file is right.
+        let partial = path.with_extension(format!("{}.partial", std::process::id()));
+        let written = std::fs::write(&partial, bytes).and_then(|()| std::fs::rename(&partial, path));
+        written.map_err(|cause| {
+            let _ = std::fs::remove_file(&partial);
+            unwritable(path, &cause)
+        })
+    }
+
+    /// Reads them; `None` where there is no whole file of so many numbers.
+    pub fn read(path: &Path, count: usize) -> Option<Rows> {
+        let bytes = std::fs::read(path).ok()?;
+        let end = bytes.iter().position(|b| *b == b'\n')?;
+        let head: Head = serde_json::from_slice(&bytes[..end]).ok()?;
+        let (values, rest) = bytes[end + 1..].as_chunks::<8>();
+        let whole = head.ibr_sweep_part == FORMAT && head.numbers == count && values.len() == count && rest.is_empty();
+        let numbers = values.iter().map(|b| f64::from_le_bytes(*b)).collect();
+        whole.then_some(Rows { numbers, failed: head.failed, cpu_s: head.cpu_s })
+    }
+}
+
+/// A folder of a sweep that cannot be written to.
+pub fn unwritable(path: &Path, cause: &std::io::Error) -> SweepError {
+    SweepError::Write { path: path.to_path_buf(), cause: cause.to_string() }
+}

@@ -1,0 +1,95 @@
+//! A part by the reduced model.
+
+use crate::part::{Part, Rows};
+use crate::study::{Output, Study};
+use crate::table::columns;
+use compare::ScenarioFile;
+use models::{Account, Loads, Model, Prediction, Step, Unsolved};
+
+/// Time for which a state of a model with history is held \[s\], from rest: that of the usual protocol.
+const HOLD_S: f64 = 5.0;
+/// Accounts of the ledger, in the order of their columns.
+pub const ACCOUNTS: [(&str, Account); 7] = [
+    ("actuator_gas", Account::ActuatorGas),
+    ("body_gas", Account::BodyGas),
+    ("wall", Account::Wall),
+    ("stretch", Account::Stretch),
+    ("contact", Account::Contact),
+    ("numerical", Account::Numerical),
+    ("load", Account::Load),
+];
+
+/// Computes the cases of a part.
+pub fn compute(study: &Study, part: &Part) -> Rows {
+    let started = std::time::Instant::now();
+    let width = columns(study).len();
+    let (mut numbers, mut failed) = (Vec::with_capacity(part.cases.len() * width), Vec::new());
+    for robot in part.robots(study.per_robot()) {
+        let own = part.pressures(robot, study.per_robot());
+        match study.robot(robot) {
+            Ok((file, kpa)) => of_robot(study, &file, &kpa[own], width, &mut numbers, &mut failed),
+            Err(error) => own.for_each(|_| fail(width, error.to_string(), &mut numbers, &mut failed)),
+        }
+    }
+    Rows { numbers, failed, cpu_s: started.elapsed().as_secs_f64() }
+}
+
+type Failed = Vec<(usize, String)>;
+
+/// A row without numbers, and why.
+pub fn fail(width: usize, why: String, numbers: &mut Vec<f64>, failed: &mut Failed) {
+    failed.push((numbers.len() / width, why));
+    numbers.extend(std::iter::repeat_n(f64::NAN, width));
+}
+
+fn of_robot(
+    study: &Study,
+    file: &ScenarioFile,
+    pressures_kpa: &[f64],
+    width: usize,
+    numbers: &mut Vec<f64>,
+    failed: &mut Failed,
+) {
+    let model = Model::new(&file.scenario);
+    let mut at = model.prediction();
+    for kpa in pressures_kpa {
+        let loads = Loads::uniform(file.p_body_pa, 1e3 * kpa);
+        let idle = !file.actuator.exists() && *kpa > 0.0;
+        match solve(&model, &loads, &mut at) {
+            _ if idle => fail(width, "an actuator pressure for a beam without [actuator]".into(), numbers, failed),
+            Err(error) => fail(width, error.to_string(), numbers, failed),
+            Ok(()) => {
+                let end = numbers.len() + width;
+                study.outputs.iter().for_each(|output| put(*output, &model, &loads, &at, study, numbers));
+                numbers.resize(end, f64::NAN);
+            }
+        }
+    }
+}
+
+fn solve(model: &Model, loads: &Loads, at: &mut Prediction) -> Result<(), Unsolved> {
+    match model.has_history() {
+        false => model.predict(loads, at),
+        true => model.follow(&[Step { t_s: HOLD_S, loads: *loads }], at, &mut |_, _| ()),
+    }
+}
+
+fn put(output: Output, model: &Model, loads: &Loads, at: &Prediction, study: &Study, numbers: &mut Vec<f64>) {
+    match output {
+        Output::Tip => numbers.extend([1e3 * at.tip.x_m, 1e3 * at.tip.y_m, at.tip.angle_rad.to_degrees()]),
+        Output::Markers => {
+            let end = numbers.len() + 2 * study.base.markers_m.len();
+            numbers.extend(at.markers.iter().flatten().map(|m| 1e3 * m));
+            numbers.resize(end, f64::NAN);
+        }
+        Output::Ledger => {
+            let first = numbers.len();
+            numbers.extend([0.0; ACCOUNTS.len()]);
+            for row in model.ledger(loads, at) {
+                let Some(k) = ACCOUNTS.iter().position(|(_, account)| *account == row.account) else { continue };
+                numbers[first + k] += 1e3 * row.energy_j;
+            }
+        }
+        Output::Limits => numbers.push(f64::from(u8::from(model.beyond(loads, at).is_empty()))),
+    }
+}

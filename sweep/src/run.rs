@@ -1,0 +1,132 @@
+//! A sweep, or a shard of it: what is missing is computed.
+
+use crate::part::{Part, Rows, unwritable};
+use crate::policy::PART;
+use crate::study::{Engine, Study};
+use crate::table::columns;
+use crate::{SweepError, elements, reduced};
+use fem::FemError;
+use fem::session::Progress;
+use rayon::prelude::*;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+/// Every `of`-th part, from the `which`-th on, counted from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// From 1.
+    pub which: usize,
+    /// Shards in all.
+    pub of: usize,
+}
+
+impl Shard {
+    /// All of it.
+    pub const WHOLE: Shard = Shard { which: 1, of: 1 };
+
+    /// `2/7`; `Err` says what to write.
+    pub fn parse(text: &str) -> Result<Shard, String> {
+        let read = text.split_once('/').and_then(|(which, of)| Some((which.parse().ok()?, of.parse().ok()?)));
+        match read {
+            Some((which, of)) if (1..=of).contains(&which) => Ok(Shard { which, of }),
+            _ => Err(format!("`{text}` is no shard: write K/N, for example 2/7, with K from 1 to N")),
+        }
+    }
+}
+
+/// How a sweep is made.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    /// Folder of the parts and of finite element runs.
+    pub folder: PathBuf,
+    /// Which parts.
+    pub shard: Shard,
+    /// Threads; 0: one per core. Bits do not depend on it.
+    pub threads: usize,
+    /// How finite element runs are made; their folder is below that of the sweep.
+    pub runs: fem::session::Settings,
+}
+
+/// What was done.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// Parts of this shard.
+    pub parts: usize,
+    /// Of them those that were there before.
+    pub kept: usize,
+    /// Parts of the whole study that are not there yet.
+    pub missing: usize,
+    /// Processor time of the parts of this shard \[s\].
+    pub cpu_s: f64,
+}
+
+/// All parts of a study in order: those of the reduced model in equal pieces, a robot each for finite elements.
+pub fn parts(study: &Study) -> Vec<Part> {
+    let cases = study.cases();
+    let of = |engine: &Engine| {
+        let size = match engine {
+            Engine::Reduced => PART,
+            Engine::Elements => study.per_robot(),
+        };
+        let engine = *engine;
+        (0..cases.div_ceil(size)).map(move |k| Part { engine, cases: k * size..cases.min((k + 1) * size) })
+    };
+    study.engines.iter().flat_map(of).collect()
+}
+
+/// Computes what is missing of a shard. `progress` is told how far it is and says whether to go on.
+///
+/// # Errors
+/// A folder that cannot be written to; [`FemError::Interrupted`] if `progress` asked to end: what is complete stays.
+pub fn run(study: &Study, settings: &Settings, progress: Progress) -> Result<Found, SweepError> {
+    let width = columns(study).len();
+    let folder = settings.folder.join("parts");
+    std::fs::create_dir_all(&folder).map_err(|cause| unwritable(&folder, &cause))?;
+    let all = parts(study);
+    let Shard { which, of } = settings.shard;
+    let own: Vec<&Part> = all.iter().skip(which - 1).step_by(of).collect();
+    let there = |part: &Part| Rows::read(&part.path(study, &settings.folder), part.cases.len() * width);
+    let before: Vec<Option<Rows>> = own.iter().map(|part| there(part)).collect();
+    let kept = before.iter().flatten().count();
+    let mut cpu_s: f64 = before.iter().flatten().map(|rows| rows.cpu_s).sum();
+    let wanted = own.into_iter().zip(&before).filter(|(_, rows)| rows.is_none()).map(|(part, _)| part.clone());
+    let (quick, long): (Vec<Part>, Vec<Part>) = wanted.partition(|part| part.engine == Engine::Reduced);
+    cpu_s += by_model(study, settings, &quick, progress)?;
+    if !long.is_empty() {
+        let runs = fem::session::Settings { folder: Some(settings.folder.join("runs")), ..settings.runs.clone() };
+        for (part, rows) in elements::compute(study, &long, &runs, progress)? {
+            rows.write(&part.path(study, &settings.folder))?;
+            cpu_s += rows.cpu_s;
+        }
+    }
+    let missing = all.iter().filter(|part| !part.path(study, &settings.folder).exists()).count();
+    Ok(Found { parts: kept + quick.len() + long.len(), kept, missing, cpu_s })
+}
+
+/// Parts beside each other on threads; each is written as soon as it is complete.
+fn by_model(study: &Study, settings: &Settings, parts: &[Part], progress: Progress) -> Result<f64, SweepError> {
+    let told = Mutex::new((0_usize, progress));
+    let one = |part: &Part| -> Result<f64, SweepError> {
+        let rows = reduced::compute(study, part);
+        rows.write(&part.path(study, &settings.folder))?;
+        let mut told = told.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        told.0 += 1;
+        let done = told.0;
+        let share = done as f64 / parts.len() as f64;
+        match (told.1)("cases of the reduced model", Some(share)) {
+            ControlFlow::Break(()) if done < parts.len() => {
+                let (time_s, step, of) = (0.0, 0, parts.len());
+                Err(FemError::Interrupted { time_s, step, done, of }.into())
+            }
+            _ => Ok(rows.cpu_s),
+        }
+    };
+    let all = || parts.par_iter().map(one).collect::<Result<Vec<f64>, SweepError>>();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build();
+    let made = match pool {
+        Ok(pool) => pool.install(all),
+        Err(_) => all(),
+    };
+    Ok(made?.iter().sum())
+}

@@ -1,0 +1,170 @@
+//! A sweep on a cluster: the shards as one array job of Slurm or HyperQueue, watched until all parts are there.
+//!
+//! What runs on the cluster is the same command with `--shard K/N`. Its folder has to be seen by all machines.
+
+use crate::SweepError;
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Duration;
+
+/// A scheduler.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Cluster {
+    /// An array job: `sbatch`, `squeue`.
+    Slurm,
+    /// A task array: `hq`.
+    HyperQueue,
+}
+
+/// What is submitted.
+#[derive(Debug, Clone)]
+pub struct Job {
+    /// The program.
+    pub program: PathBuf,
+    /// The study.
+    pub study: PathBuf,
+    /// Folder of the sweep.
+    pub folder: PathBuf,
+    /// Shards.
+    pub shards: usize,
+    /// Threads of each.
+    pub threads: usize,
+}
+
+/// Time between two looks at a job.
+const LOOK: Duration = Duration::from_millis(300);
+/// The job that was submitted, in the folder of the sweep.
+const SUBMITTED: &str = "job.json";
+
+#[derive(Serialize, Deserialize)]
+struct Submitted {
+    cluster: Cluster,
+    id: String,
+}
+
+impl Cluster {
+    fn variable(self) -> &'static str {
+        match self {
+            Cluster::Slurm => "SLURM_ARRAY_TASK_ID",
+            Cluster::HyperQueue => "HQ_TASK_ID",
+        }
+    }
+
+    /// Whether a job still waits or runs.
+    fn is_alive(self, id: &str) -> bool {
+        match self {
+            Cluster::Slurm => asked("squeue", &["-h", "-j", id]).is_ok_and(|told| !told.trim().is_empty()),
+            Cluster::HyperQueue => asked("hq", &["job", "info", id])
+                .is_ok_and(|told| ["WAITING", "RUNNING"].iter().any(|state| told.contains(state))),
+        }
+    }
+}
+
+/// A word in quotes that a shell takes as it is.
+fn quoted(path: &Path) -> String {
+    format!("'{}'", path.display().to_string().replace('\'', "'\\''"))
+}
+
+impl Job {
+    /// The script of one shard, with what the scheduler reads in it.
+    pub fn script(&self, cluster: Cluster) -> String {
+        let Job { program, study, folder, shards, threads } = self;
+        let logs = folder.join("logs");
+        let head = match cluster {
+            Cluster::Slurm => format!(
+                "#SBATCH --job-name=ibr-sweep\n#SBATCH --array=1-{shards}\n#SBATCH --cpus-per-task={threads}\n\
+                 #SBATCH --output={}/%a.log\n",
+                logs.display()
+            ),
+            Cluster::HyperQueue => format!(
+                "#HQ --name ibr-sweep --array 1-{shards} --cpus {threads}\n\
+                 #HQ --stdout {0}/%{{TASK_ID}}.log --stderr {0}/%{{TASK_ID}}.err\n",
+                logs.display()
+            ),
+        };
+        let (program, study, out) = (quoted(program), quoted(study), quoted(folder));
+        format!(
+            "#!/bin/bash\n{head}exec {program} --quiet sweep {study} --out {out} --threads {threads} --shard \"${}/{shards}\"\n",
+            cluster.variable()
+        )
+    }
+
+    /// Submits the job, or finds the one that an earlier call submitted, and waits until it has ended. `told` says how many parts are
+    /// missing and is asked whether to go on; a job goes on without whoever watches it. Submits again while that helps.
+    ///
+    /// # Errors
+    /// No such scheduler, what it answered, a job that ends without a further part; [`SweepError::Run`] on an interrupt.
+    pub fn run(
+        &self,
+        cluster: Cluster,
+        missing: &dyn Fn() -> usize,
+        told: &mut dyn FnMut(usize) -> ControlFlow<()>,
+    ) -> Result<(), SweepError> {
+        let mut before = usize::MAX;
+        while missing() > 0 {
+            let id = match self.submitted(cluster) {
+                Some(id) => id,
+                None if missing() >= before => return Err(self.useless()),
+                None => self.submit(cluster)?,
+            };
+            before = missing();
+            while cluster.is_alive(&id) {
+                if told(missing()).is_break() {
+                    let (time_s, step, of) = (0.0, 0, self.shards);
+                    return Err(fem::FemError::Interrupted { time_s, step, done: 0, of }.into());
+                }
+                std::thread::sleep(LOOK);
+            }
+            let _ = std::fs::remove_file(self.folder.join(SUBMITTED));
+        }
+        Ok(())
+    }
+
+    /// A job of an earlier call that is still alive.
+    fn submitted(&self, cluster: Cluster) -> Option<String> {
+        let text = std::fs::read(self.folder.join(SUBMITTED)).ok()?;
+        let Submitted { cluster: own, id } = serde_json::from_slice(&text).ok()?;
+        (own == cluster && cluster.is_alive(&id)).then_some(id)
+    }
+
+    fn submit(&self, cluster: Cluster) -> Result<String, SweepError> {
+        let logs = self.folder.join("logs");
+        let unmade = |cause: std::io::Error| SweepError::Write { path: logs.clone(), cause: cause.to_string() };
+        std::fs::create_dir_all(&logs).map_err(unmade)?;
+        let script = self.folder.join("job.sh");
+        std::fs::write(&script, self.script(cluster)).map_err(unmade)?;
+        let script = script.display().to_string();
+        let told = match cluster {
+            Cluster::Slurm => asked("sbatch", &["--parsable", &script]),
+            Cluster::HyperQueue => {
+                asked("hq", &["submit", "--directives", "file", "--output-mode", "quiet", "bash", &script])
+            }
+        }?;
+        // With several clusters Slurm adds the name of one.
+        let id = told.trim().split([';', '\n']).next().unwrap_or_default().to_string();
+        let job = serde_json::to_vec(&Submitted { cluster, id: id.clone() }).unwrap_or_default();
+        std::fs::write(self.folder.join(SUBMITTED), job).map_err(unmade)?;
+        Ok(id)
+    }
+
+    fn useless(&self) -> SweepError {
+        SweepError::Cluster {
+            message: "the job ended and no further part is there".into(),
+            help: format!("read the logs in {}", self.folder.join("logs").display()),
+        }
+    }
+}
+
+/// What a program of the scheduler prints.
+fn asked(program: &str, words: &[&str]) -> Result<String, SweepError> {
+    let help = "install it and start it, or make the shards by hand: --shard K/N; --script prints the job".to_string();
+    let wrong = |message: String| SweepError::Cluster { message, help: help.clone() };
+    let made = Command::new(program).args(words).output();
+    let made = made.map_err(|cause| wrong(format!("`{program}` cannot be started: {cause}")))?;
+    match made.status.success() {
+        true => Ok(String::from_utf8_lossy(&made.stdout).into_owned()),
+        false => Err(wrong(format!("`{program}`: {}", String::from_utf8_lossy(&made.stderr).trim()))),
+    }
+}

@@ -1,0 +1,358 @@
+//! The TOML file of a sweep: what is varied, and what is asked of every case.
+
+use crate::policy::MOST_CASES;
+use crate::sample::{Method, Points};
+use compare::{CompareError, ScenarioFile};
+use data::Fault;
+use serde::Deserialize;
+use spelling::files::{MOST_TEXT, read_whole};
+use std::path::Path;
+use toml::{Spanned, Value};
+
+/// The key of the actuator pressure, which is no key of a scenario.
+pub const PRESSURE: &str = "pressure_kpa";
+
+/// What computes the cases.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+pub enum Engine {
+    /// The virtual-work model.
+    #[serde(rename = "reduced")]
+    Reduced,
+    /// The explicit finite elements.
+    #[serde(rename = "finite elements")]
+    Elements,
+}
+
+impl Engine {
+    /// As written in a study and in the table.
+    pub fn word(self) -> &'static str {
+        match self {
+            Engine::Reduced => "reduced",
+            Engine::Elements => "finite elements",
+        }
+    }
+}
+
+/// Columns that are asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Output {
+    /// Place and turn of the tip.
+    Tip,
+    /// Places of the markers.
+    Markers,
+    /// Energies.
+    Ledger,
+    /// Whether the pose can be trusted.
+    Limits,
+}
+
+/// A key that varies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// Place in the scenario, such as `actuator.width_mm`, or `pressure_kpa`.
+    pub key: String,
+    levels: Levels,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Levels {
+    Listed(Vec<Value>),
+    Between { from: f64, to: f64, log: bool },
+}
+
+impl Axis {
+    /// The value at a share of the range, from 0 to below 1; of a list every entry has an equal share.
+    fn at(&self, share: f64) -> Value {
+        match &self.levels {
+            Levels::Listed(all) => all[((share * all.len() as f64) as usize).min(all.len() - 1)].clone(),
+            Levels::Between { from, to, log } => number(between(*from, *to, *log, share)),
+        }
+    }
+}
+
+fn between(from: f64, to: f64, log: bool, share: f64) -> f64 {
+    match log {
+        true => from * (to / from).powf(share),
+        false => from + (to - from) * share,
+    }
+}
+
+/// Whole numbers are written as such: a count is one, and a length may be.
+fn number(value: f64) -> Value {
+    let whole = value.fract() == 0.0 && value.abs() < 1e15;
+    if whole { Value::Integer(value as i64) } else { Value::Float(value) }
+}
+
+/// A sweep as its file tells it.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// The robot that is varied.
+    pub base: ScenarioFile,
+    /// Folder that paths in the robot's file count from.
+    pub folder: std::path::PathBuf,
+    /// What computes the cases.
+    pub engines: Vec<Engine>,
+    /// Columns.
+    pub outputs: Vec<Output>,
+    /// Keys that vary from robot to robot.
+    pub axes: Vec<Axis>,
+    /// Pressures of every robot \[kPa\]; empty where the pressure is one of the axes of a sample.
+    pub pressures_kpa: Vec<f64>,
+    points: Option<Points>,
+    robots: usize,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Raw {
+    #[serde(rename = "kind")]
+    _kind: Option<Kind>,
+    scenario: Spanned<String>,
+    #[serde(default = "reduced")]
+    engines: Vec<Engine>,
+    #[serde(default = "tip")]
+    outputs: Vec<Output>,
+    #[serde(default)]
+    vary: Vec<Spanned<RawAxis>>,
+    sample: Option<Spanned<RawSample>>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    Sweep,
+}
+
+fn reduced() -> Vec<Engine> {
+    vec![Engine::Reduced]
+}
+
+fn tip() -> Vec<Output> {
+    vec![Output::Tip, Output::Limits]
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawAxis {
+    key: String,
+    values: Option<Vec<Value>>,
+    from: Option<f64>,
+    to: Option<f64>,
+    steps: Option<usize>,
+    #[serde(default)]
+    log: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawSample {
+    method: Method,
+    cases: usize,
+    #[serde(default = "one")]
+    seed: u32,
+}
+
+fn one() -> u32 {
+    1
+}
+
+type Wrong = (Option<std::ops::Range<usize>>, String, &'static str);
+
+impl Study {
+    /// Reads a study; `scenario` reads the robot that it names, first as a file beside it.
+    ///
+    /// # Errors
+    /// A file that cannot be read; a fault of the study or of the robot, with its line and what to write.
+    pub fn read(
+        path: &Path,
+        scenario: impl Fn(&str) -> Result<ScenarioFile, CompareError>,
+    ) -> Result<Study, CompareError> {
+        let name = path.display().to_string();
+        let unread = |cause: String| {
+            let help = "write a study as docs/sweep.md shows".to_string();
+            CompareError::Unread { path: name.clone(), cause, help }
+        };
+        let bytes = read_whole(path, MOST_TEXT).map_err(|cause| unread(cause.to_string()))?;
+        let text = String::from_utf8(bytes).map_err(|_| unread("it is not a text in UTF-8".into()))?;
+        Study::parse(&name, &text, path.parent().unwrap_or(Path::new("")), scenario)
+    }
+
+    /// Of a text; `name` is for messages.
+    ///
+    /// # Errors
+    /// As [`Study::read`].
+    pub fn parse(
+        name: &str,
+        text: &str,
+        folder: &Path,
+        scenario: impl Fn(&str) -> Result<ScenarioFile, CompareError>,
+    ) -> Result<Study, CompareError> {
+        let fault = |(span, message, help): Wrong| {
+            let span = span.map(|span| (span.start, span.end));
+            CompareError::Scenario(Box::new(Fault::of_text(name, text, span, message, help.into())))
+        };
+        let raw: Raw = toml::from_str(text).map_err(|error| {
+            fault((error.span(), error.message().to_string(), "docs/sweep.md shows every key of a study"))
+        })?;
+        let beside = folder.join(raw.scenario.get_ref());
+        let spec = if beside.exists() { beside.display().to_string() } else { raw.scenario.get_ref().clone() };
+        let study = Study::of(raw, scenario(&spec)?, beside.parent().unwrap_or(folder)).map_err(fault)?;
+        if study.robots > 0 {
+            // A key that the scenario has not is told before anything is computed.
+            study.robot(0)?;
+        }
+        Ok(study)
+    }
+
+    fn of(raw: Raw, base: ScenarioFile, folder: &Path) -> Result<Study, Wrong> {
+        let sampled = raw.sample.as_ref().map(|sample| sample.get_ref().method);
+        let mut axes = Vec::new();
+        for raw in &raw.vary {
+            let axis =
+                axis(raw.get_ref(), sampled.is_some()).map_err(|(message, help)| (Some(raw.span()), message, help))?;
+            if axes.iter().any(|other: &Axis| other.key == axis.key) {
+                return Err((Some(raw.span()), format!("`{}` varies twice", axis.key), "leave one of them out"));
+            }
+            axes.push(axis);
+        }
+        let own = axes.iter().position(|axis| axis.key == PRESSURE);
+        let mut pressures_kpa: Vec<f64> = base.pressures_pa.iter().map(|pa| pa * 1e-3).collect();
+        match own.map(|i| &axes[i].levels) {
+            Some(Levels::Listed(all)) if sampled.is_none() => {
+                pressures_kpa = numbers(all).ok_or((None, "a pressure is a number of kPa".to_string(), "write 20"))?;
+                axes.retain(|axis| axis.key != PRESSURE);
+            }
+            Some(_) => pressures_kpa = Vec::new(),
+            None if pressures_kpa.is_empty() => {
+                let help = "add [[vary]] with key = \"pressure_kpa\", or [predict] pressures_kpa to the scenario";
+                return Err((None, "no pressure is given".into(), help));
+            }
+            None => {}
+        }
+        let (robots, points) = match &raw.sample {
+            None => (axes.iter().try_fold(1_usize, |n, axis| n.checked_mul(listed(axis)?)), None),
+            Some(sample) => {
+                let RawSample { method, cases, seed } = *sample.get_ref();
+                let points = (cases <= MOST_CASES).then(|| Points::new(method, cases, axes.len(), seed)).transpose();
+                let points = points.map_err(|m| (Some(sample.span()), m, "take fewer, or a latin hypercube"))?;
+                (Some(cases), points)
+            }
+        };
+        let per_robot = pressures_kpa.len().max(1);
+        let robots = robots.filter(|n| n.checked_mul(per_robot).is_some_and(|all| all <= MOST_CASES)).ok_or((
+            raw.sample.as_ref().map(Spanned::span),
+            format!("more than {MOST_CASES} cases"),
+            "take fewer steps, or a [sample]",
+        ))?;
+        let folder = folder.to_path_buf();
+        Ok(Study { base, folder, engines: raw.engines, outputs: raw.outputs, axes, pressures_kpa, points, robots })
+    }
+
+    /// Cases in all, of each engine.
+    pub fn cases(&self) -> usize {
+        self.robots * self.per_robot()
+    }
+
+    /// Cases with the same robot, beside each other.
+    pub fn per_robot(&self) -> usize {
+        self.pressures_kpa.len().max(1)
+    }
+
+    /// Values of the axes for a robot.
+    pub fn values(&self, robot: usize) -> Vec<Value> {
+        if let Some(points) = &self.points {
+            return self.axes.iter().zip(points.of(robot)).map(|(axis, share)| axis.at(*share)).collect();
+        }
+        let mut rest = robot;
+        let mut values = Vec::with_capacity(self.axes.len());
+        // The last key changes first.
+        for axis in self.axes.iter().rev() {
+            let Levels::Listed(all) = &axis.levels else { continue };
+            values.push(all[rest % all.len()].clone());
+            rest /= all.len();
+        }
+        values.reverse();
+        values
+    }
+
+    /// What is set in the scenario of a robot, and its pressure where that is one of its values \[kPa\].
+    pub fn changes(&self, robot: usize) -> (Vec<(String, String)>, Option<f64>) {
+        let (mut changes, mut pressure) = (Vec::with_capacity(self.axes.len()), None);
+        for (axis, value) in self.axes.iter().zip(self.values(robot)) {
+            match axis.key == PRESSURE {
+                true => pressure = as_number(&value),
+                false => changes.push((axis.key.clone(), value.to_string())),
+            }
+        }
+        (changes, pressure)
+    }
+
+    /// A robot, and its pressures \[kPa\].
+    ///
+    /// # Errors
+    /// Values that its scenario refuses.
+    pub fn robot(&self, robot: usize) -> Result<(ScenarioFile, Vec<f64>), CompareError> {
+        let (changes, pressure) = self.changes(robot);
+        let pressures = pressure.map_or_else(|| self.pressures_kpa.clone(), |one| vec![one]);
+        let file = if changes.is_empty() { self.base.clone() } else { self.base.with(&changes)? };
+        Ok((file, pressures))
+    }
+}
+
+/// Entries of an axis; `None` for a range without steps.
+fn listed(axis: &Axis) -> Option<usize> {
+    match &axis.levels {
+        Levels::Listed(all) => Some(all.len()),
+        Levels::Between { .. } => None,
+    }
+}
+
+fn axis(raw: &RawAxis, sampled: bool) -> Result<Axis, (String, &'static str)> {
+    let one_way = "write values = [40, 50], or from, to and steps";
+    let key = raw.key.clone();
+    if let Some(values) = &raw.values {
+        if raw.from.is_some() || raw.to.is_some() || raw.steps.is_some() || values.is_empty() {
+            return Err((format!("`{key}` has no single list of values"), one_way));
+        }
+        return Ok(Axis { key, levels: Levels::Listed(values.clone()) });
+    }
+    let (Some(from), Some(to)) = (raw.from, raw.to) else {
+        return Err((format!("`{key}` has no values"), one_way));
+    };
+    if !from.is_finite() || !to.is_finite() || raw.log && (from <= 0.0 || to <= 0.0) {
+        return Err((format!("`{key}` goes from {from} to {to}"), "write two numbers, above zero with log = true"));
+    }
+    let levels = match (raw.steps, sampled) {
+        (None, true) => Levels::Between { from, to, log: raw.log },
+        (None, false) => return Err((format!("`{key}` has no steps"), "add steps = 7, or a [sample]")),
+        (Some(_), true) => return Err((format!("`{key}` has steps, but a sample draws between"), "leave steps out")),
+        (Some(0), _) => return Err((format!("`{key}` has no step"), "write steps = 1 or more")),
+        (Some(1), _) if from != to => {
+            return Err((format!("`{key}` goes from {from} to {to} in one step"), "write steps = 2 or more"));
+        }
+        (Some(MOST_CASES..), _) => return Err((format!("`{key}` has too many steps"), "take fewer")),
+        (Some(n), false) => {
+            let at = |i: usize| match i {
+                0 => from,
+                i if i + 1 == n => to,
+                i => between(from, to, raw.log, i as f64 / (n - 1) as f64),
+            };
+            Levels::Listed((0..n).map(|i| number(at(i))).collect())
+        }
+    };
+    Ok(Axis { key, levels })
+}
+
+/// A value as a number, if it is one.
+pub fn as_number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Integer(whole) => Some(*whole as f64),
+        Value::Float(number) => Some(*number),
+        _ => None,
+    }
+}
+
+fn numbers(values: &[Value]) -> Option<Vec<f64>> {
+    values.iter().map(as_number).collect()
+}

@@ -1,0 +1,218 @@
+//! A sweep is what its cases are one by one, however it is cut, killed or gone on with.
+
+use super::*;
+use crate::sample::{Method, Points};
+use compare::ScenarioFile;
+use data::table::Column;
+use models::{Loads, Model};
+use std::ops::ControlFlow;
+use std::path::Path;
+
+const GRID: &str = r#"
+scenario = "epam"
+outputs = ["tip", "markers", "ledger", "limits"]
+[[vary]]
+key = "actuator.width_mm"
+values = [50, 55.5, 60, 300]
+[[vary]]
+key = "pressure_kpa"
+from = 0
+to = 30
+steps = 31
+"#;
+
+fn study(text: &str) -> Result<Study, String> {
+    Study::parse("study.toml", text, Path::new(""), ScenarioFile::read).map_err(|error| error.to_string())
+}
+
+fn settings(folder: &Path, shard: Shard) -> Settings {
+    Settings { folder: folder.to_path_buf(), shard, threads: 2, runs: fem::session::Settings::default() }
+}
+
+fn made(study: &Study, folder: &Path, shard: Shard) -> Found {
+    run(study, &settings(folder, shard), &mut |_, _| ControlFlow::Continue(())).unwrap()
+}
+
+fn csv(study: &Study, folder: &Path) -> String {
+    let mut out = Vec::new();
+    collect(study, folder).unwrap().to_csv(&mut out).unwrap();
+    String::from_utf8(out).unwrap()
+}
+
+#[test]
+fn every_row_is_the_prediction_of_its_own_scenario_to_the_bit() {
+    let (study, folder) = (study(GRID).unwrap(), tempfile::tempdir().unwrap());
+    made(&study, folder.path(), Shard::WHOLE);
+    let table = collect(&study, folder.path()).unwrap();
+    let numbers = |name: &str| match &table.columns.iter().find(|c| c.0 == name).unwrap().1 {
+        Column::F64(values) => values.clone(),
+        other => panic!("{name}: {other:?}"),
+    };
+    let (width, kpa, tip) = (numbers("actuator.width_mm"), numbers("pressure_kpa"), numbers("tip_y_mm"));
+    let (wall, marker) = (numbers("actuator_gas_mj"), numbers("marker_6_y_mm"));
+    assert_eq!((table.rows(), width[40], kpa[40]), (124, 55.5, 9.0));
+    for row in 0..93 {
+        let set = [("actuator.width_mm".to_string(), width[row].to_string())];
+        let model = Model::new(&ScenarioFile::read("epam").unwrap().with(&set).unwrap().scenario);
+        let (loads, mut at) = (Loads::uniform(2e3, 1e3 * kpa[row]), model.prediction());
+        model.predict(&loads, &mut at).unwrap();
+        assert_eq!((tip[row], marker[row]), (1e3 * at.tip.y_m, 1e3 * at.markers[5][1]), "row {row}");
+        let gas: f64 = model
+            .ledger(&loads, &at)
+            .iter()
+            .filter(|l| l.account == models::Account::ActuatorGas)
+            .map(|l| 1e3 * l.energy_j)
+            .sum();
+        assert!((wall[row] - gas).abs() <= 1e-9 * gas.abs(), "row {row}");
+    }
+    // A pouch wider than half of the tube is a failed row that says why.
+    let Column::Str(reason) = &table.columns.last().unwrap().1 else { panic!() };
+    assert!(tip[93..].iter().all(|y| y.is_nan()) && reason[93].contains("300 mm"), "{}", reason[93]);
+}
+
+#[test]
+fn one_two_and_seven_shards_give_the_same_table_to_the_bit() {
+    let many = GRID.replace("steps = 31", "steps = 9001");
+    let study = study(&many).unwrap();
+    let whole = tempfile::tempdir().unwrap();
+    made(&study, whole.path(), Shard::WHOLE);
+    let wanted = csv(&study, whole.path());
+    for of in [2, 7] {
+        let folder = tempfile::tempdir().unwrap();
+        for which in (1..=of).rev() {
+            assert!(collect(&study, folder.path()).is_err());
+            made(&study, folder.path(), Shard { which, of });
+        }
+        assert!(csv(&study, folder.path()) == wanted, "{of} shards");
+    }
+}
+
+#[test]
+fn what_is_there_is_kept_and_what_was_cut_is_made_again() {
+    let (study, folder) = (study(&GRID.replace("steps = 31", "steps = 9001")).unwrap(), tempfile::tempdir().unwrap());
+    let mut calls = 0;
+    let stopped = run(&study, &settings(folder.path(), Shard::WHOLE), &mut |_, _| {
+        calls += 1;
+        if calls == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert!(matches!(stopped, Err(SweepError::Run(fem::FemError::Interrupted { .. }))), "{stopped:?}");
+    let kept = made(&study, folder.path(), Shard::WHOLE).kept;
+    assert!((2..=4).contains(&kept), "{kept} of 5 parts");
+    let wanted = csv(&study, folder.path());
+    let part = std::fs::read_dir(folder.path().join("parts")).unwrap().next().unwrap().unwrap().path();
+    let bytes = std::fs::read(&part).unwrap();
+    std::fs::write(&part, &bytes[..bytes.len() - 3]).unwrap();
+    assert!(collect(&study, folder.path()).is_err());
+    let found = made(&study, folder.path(), Shard::WHOLE);
+    assert_eq!((found.parts, found.kept, found.missing), (5, 4, 0));
+    assert!(csv(&study, folder.path()) == wanted);
+}
+
+#[test]
+fn a_sample_meets_every_nth_of_each_range_and_sobol_points_are_even() {
+    for method in [Method::LatinHypercube, Method::Sobol] {
+        let (cases, axes) = (64, 3);
+        let points = Points::new(method, cases, axes, 5).unwrap();
+        for axis in 0..axes {
+            let mut strata: Vec<usize> = (0..cases).map(|i| (points.of(i)[axis] * cases as f64) as usize).collect();
+            strata.sort_unstable();
+            assert_eq!(strata, (0..cases).collect::<Vec<_>>(), "{method:?}, axis {axis}");
+        }
+        assert_ne!(points, Points::new(method, cases, axes, 6).unwrap());
+    }
+    assert!(Points::new(Method::Sobol, 65_537, 1, 1).unwrap_err().contains("65536"));
+}
+
+#[test]
+fn a_sampled_study_varies_words_counts_and_pressures() {
+    let text = r#"
+scenario = "epam"
+[[vary]]
+key = "actuator.count"
+values = [4, 5, 6]
+[[vary]]
+key = "actuator.width_mm"
+from = 40
+to = 60
+log = true
+[[vary]]
+key = "pressure_kpa"
+from = 5
+to = 30
+[sample]
+method = "latin hypercube"
+cases = 50
+"#;
+    let (study, folder) = (study(text).unwrap(), tempfile::tempdir().unwrap());
+    assert_eq!((study.cases(), study.per_robot()), (50, 1));
+    assert_eq!(made(&study, folder.path(), Shard::WHOLE).missing, 0);
+    let csv = csv(&study, folder.path());
+    assert!(
+        !csv.contains("failed")
+            && csv.starts_with("case,engine,actuator.count,actuator.width_mm,pressure_kpa,tip_x_mm")
+    );
+}
+
+#[test]
+fn finite_elements_make_one_run_per_robot_and_find_it_again() {
+    let text = r#"
+scenario = "epam"
+engines = ["reduced", "finite elements"]
+[[vary]]
+key = "fem.seed"
+values = [1, 2]
+[[vary]]
+key = "fem.actuator_mesh_mm"
+values = [20]
+[[vary]]
+key = "pressure_kpa"
+values = [2, 1]
+"#;
+    let (study, folder) = (study(text).unwrap(), tempfile::tempdir().unwrap());
+    for which in [1, 2] {
+        made(&study, folder.path(), Shard { which, of: 2 });
+    }
+    let table = csv(&study, folder.path());
+    let rows: Vec<&str> = table.lines().filter(|line| line.contains("finite elements")).collect();
+    assert!(rows.len() == 4 && rows.iter().all(|row| row.contains(",ok,")), "{table}");
+    std::fs::remove_dir_all(folder.path().join("parts")).unwrap();
+    let started = std::time::Instant::now();
+    let first = std::fs::read_dir(folder.path().join("runs")).unwrap().count();
+    made(&study, folder.path(), Shard::WHOLE);
+    assert_eq!(std::fs::read_dir(folder.path().join("runs")).unwrap().count(), first);
+    assert!(csv(&study, folder.path()) == table, "after {:?}", started.elapsed());
+}
+
+#[test]
+fn a_wrong_study_is_refused_with_its_line_and_what_to_write() {
+    let with = |old: &str, new: &str| study(&GRID.replace(old, new)).unwrap_err();
+    for (old, new, says) in [
+        ("scenario = \"epam\"", "scenario = \"epan\"", "epan"),
+        ("width_mm", "widht_mm", "widht_mm"),
+        ("steps = 31", "", "has no steps"),
+        ("steps = 31", "steps = 0", "no step"),
+        ("to = 30", "", "has no values"),
+        ("from = 0", "from = 0\nlog = true", "goes from 0 to 30"),
+        ("values = [50, 55.5, 60, 300]", "values = []", "no single list"),
+        ("key = \"pressure_kpa\"", "key = \"actuator.width_mm\"", "varies twice"),
+        ("steps = 31", "steps = 31\nstep = 1", "unknown field"),
+        ("steps = 31", "steps = 9000000", "more than 20000000 cases"),
+        ("outputs", "output", "unknown field"),
+        ("\"tip\"", "\"tips\"", "unknown variant"),
+    ] {
+        let told = with(old, new);
+        assert!(told.contains(says), "{new}: {told}");
+    }
+    let twice = with("key = \"pressure_kpa\"", "key = \"actuator.width_mm\"");
+    assert!(twice.contains("study.toml") && twice.contains('7'), "{twice}");
+    let sampled = format!("{GRID}[sample]\nmethod = \"sobol\"\ncases = 10\n");
+    assert!(study(&sampled).unwrap_err().contains("has steps, but a sample draws between"));
+}
+
+#[test]
+fn shards_are_read_as_they_are_typed() {
+    assert_eq!(Shard::parse("2/7"), Ok(Shard { which: 2, of: 7 }));
+    for wrong in ["0/7", "8/7", "2", "2/0", "a/b", "-1/3"] {
+        assert!(Shard::parse(wrong).unwrap_err().contains("K/N"), "{wrong}");
+    }
+}
