@@ -121,6 +121,9 @@ pub struct BenchArgs {
     /// With discovery: seed of everything
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
+    /// With discovery: the library of laws by which the hidden effects act; the second was written without the diagnosis in view
+    #[arg(long, value_name = "WHICH", value_parser = ["first", "second"], default_value = "first")]
+    pub laws: String,
     /// With fem: also whole runs, pillows of the nodes of up to 80 000 triangles and the four robots, about two minutes
     #[arg(long)]
     pub all: bool,

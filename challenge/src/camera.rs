@@ -1,13 +1,25 @@
 //! What the camera makes of a marker.
 //!
 //! ```text
+//! by the first laws
 //! height     (x, y) → (x − e sinψ, y + e (cosψ − 1)), e (1 + 0.3 (s/L − ½))    markers on a body that tapers
 //! mount      turned about the base by φ · 1.4 u/(1 + 0.4 u), u = P/30 kPa      a clamp that gives way less and less
 //! scale      (1 + c)(1 + 0.4 c x/L)                                            the plane of the markers is tilted: keystone
 //! rotation   turned about the base by δ (1 + 0.15 x/L)                         roll and a little bending of the image
+//! by the second laws
+//! height     pins that lean by 20°: e sin20° along the body beside e cos20° across it
+//! mount      turned about the base by φ (u − ¼)₊/¾                              friction holds a gripped base
+//! scale      x (1 + c), y (1 + c/2)                                            pixels that are not square
+//! rotation   turned about (½L, 0) by δ                                         knocked after it was calibrated
+//! outside the catalogue
 //! lens       about (½L, L/6) by 1 + k r²                                        barrel distortion
 //! drift      y + d u²                                                           the camera's stand moves with the robot's reaction
 //! ```
+
+use super::effects::ByLaw;
+
+/// Lean of pins \[rad\].
+const LEAN_RAD: f64 = 0.349;
 
 /// Camera laws; all off at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -15,13 +27,13 @@ pub struct Camera {
     /// Body length L \[m\].
     pub length_m: f64,
     /// Marker height e \[m\].
-    pub height_m: f64,
+    pub height_m: ByLaw,
     /// Mount rotation at 30 kPa φ \[rad\].
-    pub mount_rad: f64,
+    pub mount_rad: ByLaw,
     /// Scale error c \[-\].
-    pub scale: f64,
+    pub scale: ByLaw,
     /// Roll δ \[rad\].
-    pub roll_rad: f64,
+    pub roll_rad: ByLaw,
     /// Lens k \[1/m²\].
     pub lens_per_m2: f64,
     /// Drift at 30 kPa d \[m\].
@@ -44,11 +56,18 @@ impl Camera {
     pub fn see(&self, point: &SeenPoint, p_set_pa: f64) -> [f64; 2] {
         let (u, l) = (p_set_pa / 30e3, self.length_m);
         let (sin, cos) = point.heading.sin_cos();
-        let height = self.height_m * (1.0 + 0.3 * (point.station_m / l - 0.5));
-        let xy = [point.xy[0] - height * sin, point.xy[1] + height * (cos - 1.0)];
-        let xy = turned(xy, self.mount_rad * 1.4 * u / (1.0 + 0.4 * u));
-        let zoom = (1.0 + self.scale) * (1.0 + 0.4 * self.scale * xy[0] / l);
-        let xy = turned([zoom * xy[0], zoom * xy[1]], self.roll_rad * (1.0 + 0.15 * xy[0] / l));
+        let [tapering, leaning] = self.height_m;
+        let across = tapering * (1.0 + 0.3 * (point.station_m / l - 0.5)) + leaning * LEAN_RAD.cos();
+        let along = leaning * LEAN_RAD.sin();
+        let xy = [point.xy[0] - across * sin + along * (cos - 1.0), point.xy[1] + across * (cos - 1.0) + along * sin];
+        let [gives, slips] = self.mount_rad;
+        let xy = turned(xy, gives * 1.4 * u / (1.0 + 0.4 * u) + slips * (u - 0.25).max(0.0) / 0.75);
+        let [keystone, pixels] = self.scale;
+        let zoom = (1.0 + keystone) * (1.0 + 0.4 * keystone * xy[0] / l);
+        let [bent, knocked] = self.roll_rad;
+        let xy = turned([zoom * xy[0], zoom * xy[1]], bent * (1.0 + 0.15 * xy[0] / l));
+        let xy = [xy[0] * (1.0 + pixels), xy[1] * (1.0 + 0.5 * pixels)];
+        let xy = if knocked == 0.0 { xy } else { about(xy, [0.5 * l, 0.0], knocked) };
         let centre = [0.5 * l, l / 6.0];
         let off = [xy[0] - centre[0], xy[1] - centre[1]];
         let bulge = self.lens_per_m2 * (off[0] * off[0] + off[1] * off[1]);
@@ -59,4 +78,9 @@ impl Camera {
 fn turned([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
     let (sin, cos) = angle.sin_cos();
     [x * cos - y * sin, x * sin + y * cos]
+}
+
+fn about([x, y]: [f64; 2], [cx, cy]: [f64; 2], angle: f64) -> [f64; 2] {
+    let [dx, dy] = turned([x - cx, y - cy], angle);
+    [cx + dx, cy + dy]
 }

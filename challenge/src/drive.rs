@@ -4,16 +4,32 @@
 //! from the geometry, so that a slip in `models` does not hide here. The other fields are hidden laws, off at 0:
 //!
 //! ```text
+//! by the first laws
 //! sealed edges    v → v (1 − β h/W), fPAM: v (1 − 4β r/L)         only the volume is lost, by the lens's height
 //! swelling arm    D += s h²/(h² + h₀²)                            Hill curve: late, then saturated
 //! stretch         e = c (0.4 T + 300 (1 − e^(−T/500)))            yarns uncrimp, then stretch; T = N/W in N/m
 //! crease          U' = m tanh(θ/0.6)/L₀                           a fold that gives way plastically
 //! shear           τ = G γ (1 + (γ/0.3)²)                          a coated weave that stiffens
 //! lock            τ += τ_L exp((γ − 0.22)/0.035)                  yarns press on each other ever harder
+//! by the second laws
+//! sealed edges    v → v (1 − β (h/W)²), fPAM: v (1 − β (4r/L)²)   a bowed sheet draws its ends in by the square of its rise
+//! swelling arm    D += s (sinθ/θ − cosθ)/2θ                       centroid of the bulged wall, over L₀
+//! stretch         e = c T₀ ln(1 + T/T₀), T₀ = 300 N/m             Fung's exponential, solved for the strain
+//! crease          U' = m θ^0.4/L₀                                 a sheet that hardens by a power law
+//! shear           τ = G γ/(1 + |γ|/0.15)                          Kondner's hyperbola: crossings let go
+//! lock            τ += τ_L ((1 − γ/0.36)⁻³ − 1)                   van Wyk: fibres that are pressed together
 //! ```
 
+use super::effects::ByLaw;
 use models::actuators::Family;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
+
+/// Line load at which the second law's fabric has doubled its stiffness \[N/m\].
+const FUNG_N_PER_M: f64 = 300.0;
+/// Shear angle at which no room is left between yarns \[rad\].
+const DENSE_RAD: f64 = 0.36;
+/// Room at which the law ends: its load is a million times the scale.
+const LEAST_ROOM: f64 = 0.01;
 
 /// Laws of one cell's actuator.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,17 +49,17 @@ pub struct Drive {
     /// Factor on the pressure \[-\]: 1; 0 in a dead pouch.
     pub strength: f64,
     /// Sealed edges β \[-\].
-    pub edge_loss: f64,
+    pub edge_loss: ByLaw,
     /// Swelling arm s \[m\].
-    pub swell_m: f64,
+    pub swell_m: ByLaw,
     /// Stretch c \[m/N\].
-    pub stretch_m_per_n: f64,
+    pub stretch_m_per_n: ByLaw,
     /// Crease m \[N·m\] per pouch.
-    pub crease_nm: f64,
+    pub crease_nm: ByLaw,
     /// Shear stiffness G \[N/m\].
-    pub shear_n_per_m: f64,
+    pub shear_n_per_m: ByLaw,
     /// Shear lock τ_L \[N/m\].
-    pub lock_n_per_m: f64,
+    pub lock_n_per_m: ByLaw,
 }
 
 /// What the actuator does at one coordinate.
@@ -84,9 +100,10 @@ impl Drive {
             Family::Pouch => 1.0 / self.width_m,
             Family::Mckibben => 4.0 / self.length_m,
         };
-        let kept = 1.0 - self.edge_loss * h * per;
-        let d_volume = dv * kept - v * self.edge_loss * dh * per;
-        let (swell, d_swell) = self.swell(h);
+        let [pinched, bowed] = self.edge_loss;
+        let kept = 1.0 - pinched * h * per - bowed * (h * per).powi(2);
+        let d_volume = dv * kept - v * pinched * dh * per - 2.0 * v * bowed * h * dh * per * per;
+        let [swell, d_swell] = self.swell(a, bag.height);
         let lift = match self.family {
             Family::Pouch => [0.5 * h, 0.5 * dh],
             Family::Mckibben => [h - self.width_m / PI, dh],
@@ -96,7 +113,7 @@ impl Drive {
             d_contraction: bag.contraction[1],
             push: self.strength * p_act_pa * d_volume - self.resistance(a),
             arm: self.arm_m + self.lift_share * lift[0] + swell,
-            d_arm: self.lift_share * lift[1] + d_swell * dh,
+            d_arm: self.lift_share * lift[1] + d_swell,
             weight: if self.family == Family::Pouch { a } else { 1.0 },
         }
     }
@@ -104,7 +121,9 @@ impl Drive {
     /// Strain that the tension N eats.
     pub(super) fn stretch(&self, tension: f64) -> f64 {
         let line = (tension / self.width_m).max(0.0);
-        self.stretch_m_per_n * (0.4 * line + 300.0 * (1.0 - (-line / 500.0).exp()))
+        let [crimped, fung] = self.stretch_m_per_n;
+        crimped * (0.4 * line + 300.0 * (1.0 - (-line / 500.0).exp()))
+            + fung * FUNG_N_PER_M * (line / FUNG_N_PER_M).ln_1p()
     }
 
     fn bag(&self, a: f64) -> Bag {
@@ -140,27 +159,48 @@ impl Drive {
         Bag { contraction: [e, 1.0], volume: [self.gain * volume, self.gain * d_volume], height: [radius, d_radius] }
     }
 
-    /// Hill curve in the height of the bag (of a muscle: in its growth), and its slope by the height.
-    fn swell(&self, height: f64) -> (f64, f64) {
+    /// Growth of the arm with its slope: a Hill curve in the height of the bag (of a muscle: in its growth); and the
+    /// centroid of the bulged wall.
+    fn swell(&self, a: f64, [height, slope]: [f64; 2]) -> [f64; 2] {
         let (x, half) = match self.family {
             Family::Pouch => (height, 0.35 * self.length_m),
             Family::Mckibben => ((height - self.width_m / PI).max(0.0), 0.05 * self.width_m / PI),
         };
         let sum = x * x + half * half;
-        (self.swell_m * x * x / sum, self.swell_m * 2.0 * x * half * half / (sum * sum))
+        let [hill, wall] = self.swell_m;
+        let first = [hill * x * x / sum, hill * 2.0 * x * half * half / (sum * sum) * slope];
+        let second = self.centroid(a, [height, slope]).map(|rise| wall * rise);
+        [first[0] + second[0], first[1] + second[1]]
+    }
+
+    /// Height of the centroid of a bulged wall over L₀, and its slope; of a muscle its growth over its radius at rest.
+    fn centroid(&self, a: f64, [height, slope]: [f64; 2]) -> [f64; 2] {
+        match self.family {
+            Family::Pouch => {
+                let (sin, cos) = a.sin_cos();
+                let rise = (sin / a - cos) / (2.0 * a);
+                [rise, (cos / a - sin / (a * a) + sin) / (2.0 * a) - rise / a]
+            }
+            Family::Mckibben => [height * PI / self.width_m - 1.0, slope * PI / self.width_m],
+        }
     }
 
     /// Shear load of the weave at a shear angle \[N/m\].
     pub(super) fn shear_load(&self, shear: f64) -> f64 {
-        let elastic = self.shear_n_per_m * shear * (1.0 + (shear / 0.3).powi(2));
-        let lock = if self.lock_n_per_m == 0.0 { 0.0 } else { ((shear - 0.22) / 0.035).exp() };
-        elastic + self.lock_n_per_m * lock
+        let [stiffens, softens] = self.shear_n_per_m;
+        let elastic = stiffens * shear * (1.0 + (shear / 0.3).powi(2));
+        let [ever_harder, pressed] = self.lock_n_per_m;
+        let lock = if ever_harder == 0.0 { 0.0 } else { ((shear - 0.22) / 0.035).exp() };
+        elastic + ever_harder * lock + softens * shear / (1.0 + shear.abs() / 0.15) + pressed * dense(shear)
     }
 
     /// dU/da of what the actuator's fabric stores or loses, per length.
     fn resistance(&self, a: f64) -> f64 {
         match self.family {
-            Family::Pouch => self.crease_nm * (a / 0.6).tanh() / self.length_m,
+            Family::Pouch => {
+                let [yields, hardens] = self.crease_nm;
+                (yields * (a / 0.6).tanh() + hardens * a.powf(0.4)) / self.length_m
+            }
             Family::Mckibben => {
                 let yarn = ((1.0 - a) / SQRT_2).acos();
                 let shear = 2.0 * yarn - FRAC_PI_2;
@@ -168,4 +208,9 @@ impl Drive {
             }
         }
     }
+}
+
+/// Push of fibres by the cube of their density, over that of the sheet at rest; nothing on the other side.
+fn dense(shear: f64) -> f64 {
+    (1.0 - shear.max(0.0) / DENSE_RAD).max(LEAST_ROOM).powi(-3) - 1.0
 }

@@ -6,7 +6,7 @@
 //!
 //! The base physics is the project's (pouch, body pressure, B, McKibben), written again and divided otherwise, so that
 //! without a hidden effect the model is right up to discretisation; every hidden effect follows another law than the
-//! catalogue's entry of the same name, as real robots do. Quasi-static: at every instant each cell balances, with what it
+//! catalogue's entry of the same name, as real robots do. There are two such laws of each, chosen by [`Laws`]. Quasi-static: at every instant each cell balances, with what it
 //! remembers of friction, creep and set.
 
 pub mod bench;
@@ -30,7 +30,7 @@ pub mod wall;
 #[cfg(test)]
 mod tests;
 
-pub use effects::{ALSO, HIDDEN, HiddenEffect, OUTSIDE, by_name};
+pub use effects::{ALSO, HIDDEN, HiddenEffect, Laws, OUTSIDE, by_name};
 pub use measure::{Measurement, ideal, measure};
 pub use reveal::reveal;
 pub use riddle::{Handout, Riddle};

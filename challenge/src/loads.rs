@@ -3,6 +3,9 @@
 use super::camera::SeenPoint;
 use super::robot::Cell;
 
+/// Height of the base over the table \[m\].
+const TABLE_M: f64 = 0.3;
+
 /// Weights and forces; all off at 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeadLoads {
@@ -14,6 +17,10 @@ pub struct DeadLoads {
     pub cable_n: f64,
     /// The cable's pulley \[m\].
     pub pulley_m: [f64; 2],
+    /// Weight of what the tip carries \[N\].
+    pub cap_n: f64,
+    /// Weight per length of a hose that hangs from the tip down to a table [`TABLE_M`] below the base \[N/m\].
+    pub hose_n_per_m: f64,
     /// Known force on the tip, as `about.toml` says \[N\].
     pub tip_n: [f64; 2],
     /// Stiffness of a soft obstacle in the tip's way \[N/m\].
@@ -30,6 +37,8 @@ impl DeadLoads {
             down,
             cable_n: 0.0,
             pulley_m: [0.0; 2],
+            cap_n: 0.0,
+            hose_n_per_m: 0.0,
             tip_n: [0.0; 2],
             obstacle_n_per_m: 0.0,
             obstacle_y_m: 0.0,
@@ -37,18 +46,21 @@ impl DeadLoads {
     }
 
     pub(super) fn any(&self) -> bool {
-        self.cable_n != 0.0
+        [self.cable_n, self.cap_n, self.hose_n_per_m].iter().any(|load| *load != 0.0)
             || self.tip_n != [0.0; 2]
             || self.obstacle_n_per_m != 0.0
             || self.weight_n_per_m.iter().any(|w| *w != 0.0)
     }
 
-    fn on_tip(&self, tip: [f64; 2]) -> [f64; 2] {
+    /// Force on a tip there \[N\].
+    pub(super) fn on_tip(&self, tip: [f64; 2]) -> [f64; 2] {
         let to_pulley = [self.pulley_m[0] - tip[0], self.pulley_m[1] - tip[1]];
         let distance = to_pulley[0].hypot(to_pulley[1]).max(1e-9);
         let pressed = (tip[1] - self.obstacle_y_m).max(0.0) * self.obstacle_n_per_m;
         let cable = to_pulley.map(|d| self.cable_n * d / distance);
-        [self.tip_n[0] + cable[0], self.tip_n[1] + cable[1] - pressed]
+        let lifted_m = (TABLE_M - tip[0] * self.down[0] - tip[1] * self.down[1]).max(0.0);
+        let hung = self.down.map(|d| d * (self.cap_n + self.hose_n_per_m * lifted_m));
+        [self.tip_n[0] + cable[0] + hung[0], self.tip_n[1] + cable[1] + hung[1] - pressed]
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::loads::CellPoses;
 use super::robot::{Acting, TrueRobot};
-use super::wall::CellMemory;
+use super::wall::{CellMemory, CellWall};
 use compare::error::CompareError;
 use data::Hold;
 
@@ -52,7 +52,7 @@ pub fn run(robot: &TrueRobot, holds: &[Hold], gain: f64) -> Result<Vec<f64>, Com
             time_s += RAMP_S;
         }
         for (k, t_s) in hold.t_s.iter().enumerate() {
-            if k == 0 || robot.remembers() || robot.supply.leak_per_s != 0.0 {
+            if k == 0 || robot.remembers() || robot.supply.leak_per_s != [0.0; 2] {
                 march.hold(hold, begin_s, &mut time_s, *t_s)?;
             }
             march.sight(hold.p_act_pa, &mut xy_m);
@@ -71,7 +71,8 @@ pub(super) fn held_s(time_s: f64, begin_s: f64) -> f64 {
 impl TrueRobot {
     /// Whether a state depends on what was before.
     fn remembers(&self) -> bool {
-        let memory = |wall: &super::wall::CellWall| wall.friction_nm != 0.0 || wall.creep_nm2 != 0.0 || wall.set != 0.0;
+        let memory =
+            |wall: &CellWall| [wall.friction_nm, wall.creep_nm2, wall.set].as_flattened().iter().any(|v| *v != 0.0);
         self.cells.iter().any(|cell| memory(&cell.wall))
     }
 }

@@ -91,7 +91,7 @@ impl TrueRobot {
         loads.pulley_m[1] = -loads.pulley_m[1];
         // It stood on the side to which the robot bent.
         loads.obstacle_n_per_m = 0.0;
-        self.camera.roll_rad = -self.camera.roll_rad;
+        self.camera.roll_rad = self.camera.roll_rad.map(|roll| -roll);
     }
 
     /// Calls `change` on every cell with its middle \[m\].
@@ -124,27 +124,19 @@ fn cells(scenario: &Scenario, lift_share: f64, scale_per_m: f64) -> Vec<Cell> {
             arm_m: span.arm_m,
             lift_share,
             strength: 1.0,
-            edge_loss: 0.0,
-            swell_m: 0.0,
-            stretch_m_per_n: 0.0,
-            crease_nm: 0.0,
-            shear_n_per_m: 0.0,
-            lock_n_per_m: 0.0,
+            edge_loss: [0.0; 2],
+            swell_m: [0.0; 2],
+            stretch_m_per_n: [0.0; 2],
+            crease_nm: [0.0; 2],
+            shear_n_per_m: [0.0; 2],
+            lock_n_per_m: [0.0; 2],
         });
         let wall = CellWall {
             bending: span.bending_stiffness,
             hinge_m3: scenario.hinge_share * PI * span.radius_m.powi(3),
             step_per_m: scenario.hinge_curvature,
             scale_per_m,
-            wrinkle_per_m: 0.0,
-            creased: 0.0,
-            tail_m3: 0.0,
-            oval: 0.0,
-            stop_nm: 0.0,
-            rest_per_m: 0.0,
-            friction_nm: 0.0,
-            creep_nm2: 0.0,
-            set: 0.0,
+            ..CellWall::default()
         };
         let start = |i: usize| span.start_m + i as f64 * length_m;
         cells.extend((0..count).map(|i| Cell {

@@ -1,21 +1,29 @@
 //! From the regulator's set pressure to the pressure in the actuator.
 //!
 //! ```text
+//! by the first laws
 //! dead band   √(p² + p₀²) − p₀                                 a soft valve seat
 //! loss        p − f √(p·20 kPa)                                orifice and laminar hose in series
 //! leak        p (0.6 + 0.4 e^(−r t/0.4))                       runs down towards a level the regulator can hold
+//! by the second laws
+//! dead band   p − p₀ (1 − e^(−p/p₀))                           a diaphragm on a rubber seat
+//! loss        p − f p √(p/30 kPa)                              a seam that gapes, and a laminar hose
+//! leak        p (1 − ½ r t √(20 kPa/p))²                       Torricelli
+//! outside the catalogue
 //! stuck       p (1 − s) if the set pressure is `stuck_at_pa`   one set point is not reached, in every run
 //! ```
+
+use super::effects::ByLaw;
 
 /// Supply laws; all off at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TrueSupply {
     /// Dead band p₀ \[Pa\].
-    pub dead_band_pa: f64,
+    pub dead_band_pa: ByLaw,
     /// Loss f \[-\].
-    pub loss: f64,
+    pub loss: ByLaw,
     /// Leak r \[1/s\].
-    pub leak_per_s: f64,
+    pub leak_per_s: ByLaw,
     /// Missing share at one set point \[-\].
     pub stuck: f64,
     /// That set point \[Pa\].
@@ -27,8 +35,23 @@ impl TrueSupply {
     pub fn pressure(&self, set_pa: f64, gain: f64, held_s: f64) -> f64 {
         let stuck = if self.stuck != 0.0 && (set_pa - self.stuck_at_pa).abs() < 1.0 { 1.0 - self.stuck } else { 1.0 };
         let p = set_pa * gain * stuck;
-        let seat = p.hypot(self.dead_band_pa) - self.dead_band_pa;
-        let after = (seat - self.loss * (seat * 20e3).sqrt()).max(0.0);
-        after * (0.6 + 0.4 * (-self.leak_per_s * held_s / 0.4).exp())
+        let seat = self.past_the_seat(p);
+        let [hole, seam] = self.loss;
+        let after = (seat - hole * (seat * 20e3).sqrt() - seam * seat * (seat / 30e3).sqrt()).max(0.0);
+        let [held, emptied] = self.leak_per_s;
+        let left = after * (0.6 + 0.4 * (-held * held_s / 0.4).exp());
+        if emptied == 0.0 || left == 0.0 {
+            return left;
+        }
+        left * (1.0 - 0.5 * emptied * held_s * (20e3 / left).sqrt()).max(0.0).powi(2)
+    }
+
+    /// What a valve lets pass of a pressure \[Pa\].
+    fn past_the_seat(&self, p: f64) -> f64 {
+        let [soft, rubber] = self.dead_band_pa;
+        match rubber == 0.0 {
+            true => p.hypot(soft) - soft,
+            false => p - rubber * (1.0 - (-p / rubber).exp()),
+        }
     }
 }

@@ -46,20 +46,22 @@ fn without_a_hidden_effect_the_generator_is_the_model_within_20_micrometres() {
 
 #[test]
 fn every_effect_moves_the_markers_by_a_visible_but_not_absurd_amount() {
-    for (kind, bending) in truth::ROBOTS {
+    for (laws, (kind, bending)) in
+        [Laws::First, Laws::Second].into_iter().flat_map(|laws| truth::ROBOTS.map(|r| (laws, r)))
+    {
         let scenario = scenario(kind, bending);
         let base = ideal(&TrueRobot::new(&scenario).unwrap(), &Generator::default()).unwrap();
         for effect in HIDDEN.iter().chain(ALSO).chain(OUTSIDE).filter(|effect| effect.applies_to(&scenario)) {
             let moved = |times: f64| {
                 let mut robot = TrueRobot::new(&scenario).unwrap();
-                let amount = times * (effect.typical)(&robot);
-                (effect.put)(&mut robot, amount);
+                let amount = times * effect.typical(laws, kind, &robot).unwrap();
+                (effect.law(laws).put)(&mut robot, amount);
                 1e3 * rms(&ideal(&robot, &Generator::default()).unwrap(), &base)
             };
             let (none, one, most) = (moved(0.0), moved(1.0), moved(1.5));
-            println!("{kind:5} {:18} {one:7.3} mm, {most:7.3} mm", effect.name);
+            println!("{laws:?} {kind:5} {:18} {one:7.3} mm, {most:7.3} mm", effect.name);
             assert!(none == 0.0, "{kind} {}: nothing of it must change nothing", effect.name);
-            assert!(one > 0.02 && one < 30.0 && most >= one, "{kind} {}: {one} {most}", effect.name);
+            assert!(one > 0.02 && one < 30.0 && most >= one, "{laws:?} {kind} {}: {one} {most}", effect.name);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What is hidden in a dataset, as data: drawn from a seed, written as TOML, made into a robot and measured.
 
-use super::effects::{ALSO, HIDDEN, HiddenEffect, OUTSIDE, by_name};
+use super::effects::{ALSO, HIDDEN, HiddenEffect, Laws, OUTSIDE, by_name};
 use super::measure::{Measurement, measure};
 use super::robot::TrueRobot;
 use compare::error::CompareError;
@@ -57,6 +57,9 @@ pub struct Truth {
     pub pressure_sd: f64,
     /// Run-to-run shift of the camera \[m\].
     pub alignment_sd_m: f64,
+    /// By which laws the effects act.
+    #[serde(default, skip_serializing_if = "Laws::are_first")]
+    pub laws: Laws,
     /// The effects.
     #[serde(default, rename = "effect")]
     pub effects: Vec<HiddenChoice>,
@@ -101,6 +104,7 @@ impl Truth {
             lost_markers: false,
             pressure_sd: 0.02,
             alignment_sd_m: 0.5e-3,
+            laws: Laws::First,
             effects: Vec::new(),
         })
     }
@@ -136,8 +140,7 @@ impl Truth {
     /// # Errors
     /// Not an actuator of [`ROBOTS`].
     pub fn told(&self) -> Result<Scenario, CompareError> {
-        let (scenario, usual) = robot(&self.actuator)?;
-        Ok(scenario.with_bending(usual))
+        usual(&self.actuator)
     }
 
     /// The same as a scenario file.
@@ -166,8 +169,8 @@ impl Truth {
                 let problem = format!("{} does not exist for a robot of actuator {}", choice.name, self.actuator);
                 return Err(CompareError::NotSimulated { problem });
             }
-            let amount = choice.times_typical * (effect.typical)(&robot);
-            (effect.put)(&mut robot, amount);
+            let amount = choice.times_typical * effect.typical(self.laws, &self.actuator, &robot)?;
+            (effect.law(self.laws).put)(&mut robot, amount);
         }
         Ok(robot)
     }
@@ -198,6 +201,15 @@ impl Truth {
 /// The standard protocol: 0, 10, 20, 30, 0 kPa on a body of 2 kPa.
 pub fn standard_protocol() -> Vec<[f64; 2]> {
     Generator::default().protocol
+}
+
+/// The shipped robot of that actuator with its usual bending stiffness.
+///
+/// # Errors
+/// Not an actuator of [`ROBOTS`].
+pub(super) fn usual(actuator: &str) -> Result<Scenario, CompareError> {
+    let (scenario, usual) = robot(actuator)?;
+    Ok(scenario.with_bending(usual))
 }
 
 /// The effects of a list that a robot of that actuator can have.

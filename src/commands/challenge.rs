@@ -6,7 +6,7 @@ use super::{Context, Outcome, inputs};
 use crate::cli::{ChallengeCommand, ChallengeNewArgs};
 use crate::failure::Failure;
 use crate::output::{check_set_folder, set_name, write_files};
-use challenge::{ALSO, Claim, HIDDEN, HiddenEffect, OUTSIDE, Riddle, score};
+use challenge::{ALSO, Claim, HIDDEN, HiddenEffect, Laws, OUTSIDE, Riddle, score};
 use ibr::pages::Files;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -67,12 +67,12 @@ fn list() -> Outcome {
     text.push_str(&rows(&inside));
     text.push_str("\nNo effect of the catalogue describes these\n");
     text.push_str(&rows(&OUTSIDE.iter().collect::<Vec<_>>()));
-    let entry = |effect: &HiddenEffect| json!({"name": effect.name, "sentence": effect.sentence, "law": effect.law, "in_catalog": !effect.is_outside()});
+    let entry = |effect: &HiddenEffect| json!({"name": effect.name, "sentence": effect.sentence, "law": effect.law(Laws::First).words, "in_catalog": !effect.is_outside()});
     let all: Vec<Value> = inside.into_iter().chain(OUTSIDE).map(entry).collect();
     Outcome::new(text, json!({"schema": "ibr.challenge.list", "version": 1, "effects": all}))
 }
 
 fn rows(effects: &[&HiddenEffect]) -> String {
-    let row = |e: &&HiddenEffect| [e.name, e.sentence, e.law].map(str::to_string).to_vec();
+    let row = |e: &&HiddenEffect| [e.name, e.sentence, e.law(Laws::First).words].map(str::to_string).to_vec();
     table(&["effect", "what happens", "law"], 3, effects.iter().map(row).collect())
 }

@@ -22,6 +22,7 @@ pub use made::OneOff;
 pub use row::{Goal, Rate};
 pub use slipped::SlippedSet;
 
+use super::effects::Laws;
 use super::score::{Claim, ClaimScore};
 use super::truth::{Hiding, Truth};
 use compare::diagnosis::{Diagnosis, Distances, Options};
@@ -41,6 +42,8 @@ pub struct DiscoveryOptions {
     pub seed: u64,
     /// Sets with nothing hidden, and with one effect; half as many of the other parts.
     pub sets: usize,
+    /// By which laws the hidden effects act.
+    pub laws: Laws,
 }
 
 /// One named effect beside the hidden one.
@@ -98,6 +101,8 @@ pub struct SetSeen {
 pub struct Discovery {
     /// Seed.
     pub seed: u64,
+    /// Laws of the hidden effects.
+    pub laws: Laws,
     /// Rows of the table.
     pub rows: Vec<Rate>,
     /// Truth against name, single effects.
@@ -152,6 +157,7 @@ pub fn run(
     let silence: Vec<bool> = table::missed_in_silence(&outcomes);
     Ok(Discovery {
         seed: options.seed,
+        laws: options.laws,
         rows: [table::rows(&outcomes), covered::rows(&outcomes), slipped::rows(&slipped), made::rows(&made)].concat(),
         confusion: table::confusion(&outcomes),
         breakdown: table::breakdown(&outcomes),
@@ -227,7 +233,8 @@ fn plan(options: &DiscoveryOptions) -> Result<Vec<PlannedSet>, CompareError> {
         let number = parts.iter().position(same).unwrap_or(number);
         for index in 0..sets {
             let stream = ((number as u64) << 32) + index as u64;
-            plan.push(PlannedSet { part, truth: cases::draw(part, options.seed, stream, index)? });
+            let truth = Truth { laws: options.laws, ..cases::draw(part, options.seed, stream, index)? };
+            plan.push(PlannedSet { part, truth });
         }
     }
     Ok(plan)

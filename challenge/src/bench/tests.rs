@@ -5,7 +5,7 @@ use crate::HIDDEN;
 
 #[test]
 fn all_robots_and_all_effects_take_part_equally() {
-    let plan = plan(&DiscoveryOptions { seed: 1, sets: 96 }).unwrap();
+    let plan = plan(&DiscoveryOptions { seed: 1, sets: 96, laws: Laws::First }).unwrap();
     let one: Vec<&PlannedSet> = plan.iter().filter(|case| case.part == Lot::Hidden(Hiding::One)).collect();
     assert_eq!(one.len(), 96);
     for effect in HIDDEN {
@@ -31,7 +31,7 @@ fn all_robots_and_all_effects_take_part_equally() {
 #[test]
 fn the_plan_follows_from_the_seed() {
     let truths = |seed: u64, sets: usize| -> Vec<Truth> {
-        plan(&DiscoveryOptions { seed, sets }).unwrap().into_iter().map(|case| case.truth).collect()
+        plan(&DiscoveryOptions { seed, sets, laws: Laws::First }).unwrap().into_iter().map(|case| case.truth).collect()
     };
     assert_eq!(truths(1, 8), truths(1, 8));
     assert_ne!(truths(1, 8), truths(2, 8));
@@ -41,11 +41,11 @@ fn the_plan_follows_from_the_seed() {
 #[test]
 fn a_diagnosis_that_fails_is_counted_and_named() {
     let refuse: Diagnoser = |_, _, _, _| Err(CompareError::NoModel);
-    let bench = run(&DiscoveryOptions { seed: 1, sets: 2 }, refuse, &|_| ()).unwrap();
+    let bench = run(&DiscoveryOptions { seed: 1, sets: 2, laws: Laws::First }, refuse, &|_| ()).unwrap();
     assert_eq!(bench.failed.len(), 16);
     let mut failed = Vec::new();
     assert!(made::made(&made::MADE, refuse, &mut failed).is_empty() && failed.len() == made::MADE.len());
-    let slipped = slipped::slipped(&DiscoveryOptions { seed: 1, sets: 100 }, refuse, &mut failed);
+    let slipped = slipped::slipped(&DiscoveryOptions { seed: 1, sets: 100, laws: Laws::First }, refuse, &mut failed);
     assert!(slipped.is_empty() && failed.len() == made::MADE.len() + slipped::SETS);
     assert!(bench.failed[0].contains("no model is given") && bench.rows.iter().all(|row| row.measured.is_none()));
 }

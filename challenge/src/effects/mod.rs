@@ -1,17 +1,56 @@
 //! The hidden effects: one entry each; the laws stand in `drive`, `wall`, `loads`, `supply` and `camera`.
 //!
-//! Names are those of the catalogue of `models`, so that a diagnosis can be scored; the laws are others on purpose. A
-//! *typical size* is set by what the effect does to the markers under the standard protocol (`ibr bench discovery --sizes`
-//! prints it beside the catalogue's typical size); it was set before any diagnosis of these data and is not tuned on one.
+//! Names are those of the catalogue of `models`, so that a diagnosis can be scored; the laws are others on purpose. Each
+//! mechanism has two, and [`Laws`] says which of them a robot has. A *typical size* is set by what the effect does to the
+//! markers under the standard protocol; it was set before any diagnosis of these data and is not tuned on one. That of a
+//! second law follows from the first's: it moves the markers as far ([`HiddenEffect::typical`]).
 
 mod actuator;
 mod body;
 mod outside;
 mod setup;
+mod size;
+#[cfg(test)]
+mod tests;
 
 use super::robot::TrueRobot;
 use models::Scenario;
 use models::actuators::Family;
+use serde::{Deserialize, Serialize};
+
+/// Which law of every mechanism a robot has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Laws {
+    /// Written beside the catalogue, each another one than its entry.
+    #[default]
+    First,
+    /// Taken from the literature or derived, without the diagnosis in view.
+    Second,
+}
+
+impl Laws {
+    /// Whether these are the first ones, which need no mention.
+    pub fn are_first(&self) -> bool {
+        *self == Laws::First
+    }
+}
+
+/// Amounts of one mechanism by law, first and second; both off at 0.
+pub type ByLaw = [f64; 2];
+
+/// One form of a mechanism.
+#[derive(Clone, Copy)]
+pub struct Law {
+    /// Its equation; how it differs from the catalogue's, or whose it is.
+    pub words: &'static str,
+    /// Unit of the amount.
+    pub unit: &'static str,
+    /// Amount of a typical size, SI; of a second law where the search for it begins.
+    size: fn(&TrueRobot) -> f64,
+    /// Puts an amount of it into a robot.
+    pub put: fn(&mut TrueRobot, f64),
+}
 
 /// A physical effect in a robot.
 #[derive(Clone, Copy)]
@@ -20,16 +59,10 @@ pub struct HiddenEffect {
     pub name: &'static str,
     /// What happens, in plain words.
     pub sentence: &'static str,
-    /// The law, and how it differs from the catalogue's.
-    pub law: &'static str,
-    /// Unit of the amount.
-    pub unit: &'static str,
-    /// Amount of a typical size, SI.
-    pub typical: fn(&TrueRobot) -> f64,
     /// Contraction mechanism it needs; `None`: any.
     pub family: Option<Family>,
-    /// Puts an amount of it into a robot.
-    pub put: fn(&mut TrueRobot, f64),
+    /// Its first law and its second; what is outside the catalogue has one.
+    laws: &'static [Law],
 }
 
 /// Effects that the catalogue of `models` also knows, by another law.
@@ -84,6 +117,11 @@ pub fn by_name(name: &str) -> Option<&'static HiddenEffect> {
 }
 
 impl HiddenEffect {
+    /// Its law; the only one, where it has no second.
+    pub fn law(&self, laws: Laws) -> &'static Law {
+        &self.laws[(laws as usize).min(self.laws.len() - 1)]
+    }
+
     /// Whether this effect is one of [`OUTSIDE`].
     pub fn is_outside(&self) -> bool {
         OUTSIDE.iter().any(|effect| effect.name == self.name)
@@ -96,21 +134,5 @@ impl HiddenEffect {
         let sealed = self.name != "end_constraint" || (kind.edge_restraint)(&scenario.actuator.shape) > 0.0;
         let absent = scenario.effects.iter().all(|effect| effect.name != self.name);
         self.family.is_none_or(|family| family == kind.family) && sealed && absent
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_unique_and_every_entry_says_what_it_is() {
-        let all: Vec<&HiddenEffect> = HIDDEN.iter().chain(ALSO).chain(OUTSIDE).collect();
-        assert_eq!((HIDDEN.len(), ALSO.len(), OUTSIDE.len()), (25, 1, 10));
-        for (i, effect) in all.iter().enumerate() {
-            assert!(all[..i].iter().all(|other| other.name != effect.name), "{}", effect.name);
-            assert!(effect.sentence.ends_with('.') && !effect.law.is_empty() && !effect.unit.is_empty());
-            assert_eq!(by_name(effect.name).map(|found| found.name), Some(effect.name));
-        }
     }
 }

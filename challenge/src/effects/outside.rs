@@ -1,6 +1,6 @@
 //! Effects that no entry of the catalogue describes: local, or of the measurement.
 
-use super::HiddenEffect;
+use super::{HiddenEffect, Law};
 use crate::robot::TrueRobot;
 
 /// Factor on the actuator's pressure between two shares of the body length.
@@ -16,129 +16,149 @@ fn weaken(robot: &mut TrueRobot, from: f64, to: f64, strength: f64) {
 pub(super) const DEAD_POUCH: HiddenEffect = HiddenEffect {
     name: "dead_pouch",
     sentence: "The third sixth of the actuator gets no air.",
-    law: "pressure × (1 − a) between L/3 and L/2",
-    unit: "-",
-    typical: |_| 1.0,
     family: None,
-    put: |robot, amount| weaken(robot, 1.0 / 3.0, 0.5, (1.0 - amount).max(0.0)),
+    laws: &[Law {
+        words: "pressure × (1 − a) between L/3 and L/2",
+        unit: "-",
+        size: |_| 1.0,
+        put: |robot, amount| weaken(robot, 1.0 / 3.0, 0.5, (1.0 - amount).max(0.0)),
+    }],
 };
 
 pub(super) const WEAK_POUCH: HiddenEffect = HiddenEffect {
     name: "weak_pouch",
     sentence: "The fourth sixth of the actuator gets half of the pressure through a pinched hose.",
-    law: "pressure × (1 − a) between L/2 and 2L/3",
-    unit: "-",
-    typical: |_| 0.5,
     family: None,
-    put: |robot, amount| weaken(robot, 0.5, 2.0 / 3.0, (1.0 - amount).max(0.0)),
+    laws: &[Law {
+        words: "pressure × (1 − a) between L/2 and 2L/3",
+        unit: "-",
+        size: |_| 0.5,
+        put: |robot, amount| weaken(robot, 0.5, 2.0 / 3.0, (1.0 - amount).max(0.0)),
+    }],
 };
 
 pub(super) const STIFFNESS_TAPER: HiddenEffect = HiddenEffect {
     name: "stiffness_taper",
     sentence: "The wall is stiffer at the base than at the tip: the glue got thinner on the way.",
-    law: "B (1 + a (1 − 2s/L))",
-    unit: "-",
-    typical: |_| 0.6,
     family: None,
-    put: |robot, amount| {
-        let length = robot.length_m;
-        robot.each(|cell, s| cell.wall.bending *= (1.0 + amount * (1.0 - 2.0 * s / length)).max(0.02));
-    },
+    laws: &[Law {
+        words: "B (1 + a (1 − 2s/L))",
+        unit: "-",
+        size: |_| 0.6,
+        put: |robot, amount| {
+            let length = robot.length_m;
+            robot.each(|cell, s| cell.wall.bending *= (1.0 + amount * (1.0 - 2.0 * s / length)).max(0.02));
+        },
+    }],
 };
 
 pub(super) const KINK: HiddenEffect = HiddenEffect {
     name: "kink",
     sentence: "The body has a crease at 40 % of its length, where it folds easily.",
-    law: "B and hinge × (1 − a) over 22 mm",
-    unit: "-",
-    typical: |_| 0.8,
     family: None,
-    put: |robot, amount| {
-        let length = robot.length_m;
-        robot.each(|cell, s| {
-            if (s - 0.4 * length).abs() < 0.0115 {
-                cell.wall.bending *= (1.0 - amount).max(0.02);
-                cell.wall.hinge_m3 *= (1.0 - amount).max(0.02);
-            }
-        });
-    },
+    laws: &[Law {
+        words: "B and hinge × (1 − a) over 22 mm",
+        unit: "-",
+        size: |_| 0.8,
+        put: |robot, amount| {
+            let length = robot.length_m;
+            robot.each(|cell, s| {
+                if (s - 0.4 * length).abs() < 0.0115 {
+                    cell.wall.bending *= (1.0 - amount).max(0.02);
+                    cell.wall.hinge_m3 *= (1.0 - amount).max(0.02);
+                }
+            });
+        },
+    }],
 };
 
 pub(super) const OBSTACLE: HiddenEffect = HiddenEffect {
     name: "obstacle",
     sentence: "Something soft stands in the tip's way.",
-    law: "force a (y − 0.3 κ_c L²)₊ on the tip",
-    unit: "N/m",
-    typical: |robot| 0.5 * robot.cells[0].wall.bending.max(0.3) / robot.length_m.powi(3) * 6.0,
     family: None,
-    put: |robot, amount| {
-        robot.loads.obstacle_n_per_m += amount;
-        robot.loads.obstacle_y_m = 0.3 * robot.scale_per_m * robot.length_m * robot.length_m;
-    },
+    laws: &[Law {
+        words: "force a (y − 0.3 κ_c L²)₊ on the tip",
+        unit: "N/m",
+        size: |robot| 0.5 * robot.cells[0].wall.bending.max(0.3) / robot.length_m.powi(3) * 6.0,
+        put: |robot, amount| {
+            robot.loads.obstacle_n_per_m += amount;
+            robot.loads.obstacle_y_m = 0.3 * robot.scale_per_m * robot.length_m * robot.length_m;
+        },
+    }],
 };
 
 pub(super) const STUCK_REGULATOR: HiddenEffect = HiddenEffect {
     name: "stuck_regulator",
     sentence: "The regulator does not reach one of its set points, 20 kPa, in any run.",
-    law: "pressure × (1 − a) at that set point",
-    unit: "-",
-    typical: |_| 0.15,
     family: None,
-    put: |robot, amount| {
-        robot.supply.stuck += amount;
-        robot.supply.stuck_at_pa = 20e3;
-    },
+    laws: &[Law {
+        words: "pressure × (1 − a) at that set point",
+        unit: "-",
+        size: |_| 0.15,
+        put: |robot, amount| {
+            robot.supply.stuck += amount;
+            robot.supply.stuck_at_pa = 20e3;
+        },
+    }],
 };
 
 pub(super) const SHIFTED_MARKER: HiddenEffect = HiddenEffect {
     name: "shifted_marker",
     sentence: "The fourth marker sits elsewhere than was written down.",
-    law: "station + a",
-    unit: "m",
-    typical: |_| 0.008,
     family: None,
-    put: |robot, amount| {
-        let index = 3.min(robot.markers_m.len().saturating_sub(1));
-        let length = robot.length_m;
-        if let Some(station) = robot.markers_m.get_mut(index) {
-            *station = (*station + amount).clamp(0.0, length);
-        }
-    },
+    laws: &[Law {
+        words: "station + a",
+        unit: "m",
+        size: |_| 0.008,
+        put: |robot, amount| {
+            let index = 3.min(robot.markers_m.len().saturating_sub(1));
+            let length = robot.length_m;
+            if let Some(station) = robot.markers_m.get_mut(index) {
+                *station = (*station + amount).clamp(0.0, length);
+            }
+        },
+    }],
 };
 
 pub(super) const SWAPPED_MARKERS: HiddenEffect = HiddenEffect {
     name: "swapped_markers",
     sentence: "The tracking confused the third and the fourth marker while their paths were close.",
-    law: "each recorded at a share a of the way to the other",
-    unit: "-",
-    typical: |_| 1.0,
     family: None,
-    put: |robot, amount| {
-        if robot.markers_m.len() > 3 {
-            let (third, fourth) = (robot.markers_m[2], robot.markers_m[3]);
-            let share = amount.min(1.0);
-            robot.markers_m[2] = third + share * (fourth - third);
-            robot.markers_m[3] = fourth - share * (fourth - third);
-        }
-    },
+    laws: &[Law {
+        words: "each recorded at a share a of the way to the other",
+        unit: "-",
+        size: |_| 1.0,
+        put: |robot, amount| {
+            if robot.markers_m.len() > 3 {
+                let (third, fourth) = (robot.markers_m[2], robot.markers_m[3]);
+                let share = amount.min(1.0);
+                robot.markers_m[2] = third + share * (fourth - third);
+                robot.markers_m[3] = fourth - share * (fourth - third);
+            }
+        },
+    }],
 };
 
 pub(super) const LENS_DISTORTION: HiddenEffect = HiddenEffect {
     name: "lens_distortion",
     sentence: "The lens bulges the image about its centre.",
-    law: "1 + k r² about (L/2, L/6)",
-    unit: "1/m²",
-    typical: |_| 0.8,
     family: None,
-    put: |robot, amount| robot.camera.lens_per_m2 += amount,
+    laws: &[Law {
+        words: "1 + k r² about (L/2, L/6)",
+        unit: "1/m²",
+        size: |_| 0.8,
+        put: |robot, amount| robot.camera.lens_per_m2 += amount,
+    }],
 };
 
 pub(super) const DRIFTING_CAMERA: HiddenEffect = HiddenEffect {
     name: "drifting_camera",
     sentence: "The camera's stand gives way when the robot is pressurised: all markers shift together.",
-    law: "y + d (P/30 kPa)²",
-    unit: "m",
-    typical: |_| 0.004,
     family: None,
-    put: |robot, amount| robot.camera.drift_m += amount,
+    laws: &[Law {
+        words: "y + d (P/30 kPa)²",
+        unit: "m",
+        size: |_| 0.004,
+        put: |robot, amount| robot.camera.drift_m += amount,
+    }],
 };

@@ -3,7 +3,7 @@
 use crate::{Error, Findings, Printed};
 use challenge::bench::{Attainable, Confusion, Discovery, DiscoveryOptions, Goal, Rate, run as run_bench};
 use challenge::truth::{ROBOTS, standard_protocol};
-use challenge::{Draw, Truth};
+use challenge::{Draw, Laws, Truth};
 use compare::Evidence;
 use compare::diagnosis::{Options, diagnose};
 use cpu_time::ThreadTime;
@@ -18,12 +18,12 @@ const LARGEST: f64 = 1.5;
 /// λ that parts two explanations in about nine of ten cases.
 const ENOUGH: f64 = 16.0;
 
-/// Diagnoses so many sets without and with one hidden effect; `machine` says where the time was taken.
+/// Diagnoses so many sets without and with one hidden effect by those laws; `machine` says where the time was taken.
 ///
 /// # Errors
 /// A robot without an equilibrium, or a diagnosis that cannot be made.
-pub fn measure(sets: usize, seed: u64, machine: &str) -> Result<Findings, Error> {
-    let options = DiscoveryOptions { seed, sets };
+pub fn measure(sets: usize, seed: u64, laws: Laws, machine: &str) -> Result<Findings, Error> {
+    let options = DiscoveryOptions { seed, sets, laws };
     let bench = run_bench(&options, diagnose, &|_| ())?;
     let seconds = seconds(seed)?;
     let time = Rate::number(
@@ -34,7 +34,7 @@ pub fn measure(sets: usize, seed: u64, machine: &str) -> Result<Findings, Error>
         ROBOTS.len(),
     );
     let json = json!({
-        "schema": "ibr.bench.discovery", "version": 1, "seed": seed, "sets": sets, "rows": bench.rows, "slipped": bench.slipped,
+        "schema": "ibr.bench.discovery", "version": 1, "seed": seed, "sets": sets, "laws": laws, "rows": bench.rows, "slipped": bench.slipped,
         "confusion": bench.confusion, "breakdown": bench.breakdown, "attainable": bench.attainable,
         "missed_after": bench.missed_after, "missed_by_law": bench.missed_by_law,
         "made": bench.made, "seen": bench.seen, "failed": bench.failed, "time": {"machine": machine, "row": time},
@@ -117,8 +117,9 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
          another formula of the catalogue meets the robot's law as well as its own, or better.\n",
         bench.missed_after, bench.missed_by_law
     );
+    let laws = if bench.laws.are_first() { "" } else { " by the second laws" };
     vec![
-        Printed::Text(format!("Diagnosis of data with hidden effects, seed {}\n", bench.seed)),
+        Printed::Text(format!("Diagnosis of data with hidden effects{laws}, seed {}\n", bench.seed)),
         Printed::table(head, 2, bench.rows.iter().chain([time]).map(cells)),
         Printed::Text("\nOne hidden effect, by part of the sets\n".into()),
         Printed::table(&["of", "sets", "alarm", "truth on top", "truth in set"], 1, by_part),
