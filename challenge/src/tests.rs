@@ -66,6 +66,24 @@ fn every_effect_moves_the_markers_by_a_visible_but_not_absurd_amount() {
     }
 }
 
+/// Sizes of second laws are no choice: they move the markers of the usual robot as far as the first ones do.
+#[test]
+fn a_second_law_moves_the_markers_as_far_as_the_first() {
+    for (kind, _) in truth::ROBOTS {
+        let usual = truth::usual(kind).unwrap();
+        let bare = TrueRobot::new(&usual).unwrap();
+        let base = ideal(&bare, &Generator::default()).unwrap();
+        for effect in HIDDEN.iter().chain(ALSO).filter(|effect| effect.applies_to(&usual)) {
+            let [first, second] = [Laws::First, Laws::Second].map(|laws| {
+                let mut robot = bare.clone();
+                (effect.law(laws).put)(&mut robot, effect.typical(laws, kind, &bare).unwrap());
+                rms(&ideal(&robot, &Generator::default()).unwrap(), &base)
+            });
+            assert!((second / first - 1.0).abs() < 0.006, "{kind} {}: {first} {second}", effect.name);
+        }
+    }
+}
+
 #[test]
 fn friction_and_set_leave_the_robot_bent_after_unloading_and_creep_moves_within_a_hold() {
     let made = |name: &str| {

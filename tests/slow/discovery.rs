@@ -21,8 +21,26 @@ fn the_bench_gives_the_same_numbers_for_any_number_of_threads_and_no_set_fails()
     assert_eq!(one["schema"], "ibr.bench.discovery");
     assert_eq!(one["failed"].as_array().map(Vec::len), Some(0), "{}", one["failed"]);
     let rows = one["rows"].as_array().expect("rows");
-    assert_eq!(rows.len(), 56);
+    assert_eq!(rows.len(), 58);
     assert!(rows.iter().all(|row| row["figure"].is_string() && row["target"].is_object()), "{rows:?}");
+}
+
+#[test]
+fn the_second_laws_make_other_data_of_the_same_robots() {
+    let folder = Folder::new();
+    let [first, second] = ["first", "second"].map(|laws| {
+        let output =
+            folder.ibr(&["bench", "discovery", "--sets", "1", "--laws", laws, "--json"]).output().expect("ibr starts");
+        serde_json::from_slice::<Value>(&output.stdout).expect("JSON")
+    });
+    assert_eq!((&first["laws"], &second["laws"]), (&"first".into(), &"second".into()));
+    assert_eq!(second["failed"].as_array().map(Vec::len), Some(0), "{}", second["failed"]);
+    let one = |bench: &Value| bench["seen"][1].clone();
+    assert_eq!(
+        (one(&first)["part"].as_str(), one(&first)["truth"]["effect"].clone()),
+        (Some("Hidden(One)"), one(&second)["truth"]["effect"].clone())
+    );
+    assert_ne!(one(&first)["distances"], one(&second)["distances"]);
 }
 
 #[test]

@@ -40,6 +40,8 @@ pub struct Named {
     pub slip: bool,
     /// A column of pressures was, and the verdict withheld.
     pub pressure_slip: bool,
+    /// The stiffness of the answer was told to be another one than the scenario or a bending test says.
+    pub bending_alarm: bool,
     /// Error beyond noise of the calibrated base and of the final model \[mm\].
     pub systematic_mm: [f64; 2],
     /// Error that is good enough \[mm\].
@@ -236,6 +238,7 @@ fn named(truth: &Truth, found: &Diagnosis) -> Named {
         identified: found.confidence == Some(Confidence::IdentifiedInCatalog),
         slip: !found.slips.is_empty(),
         pressure_slip: found.pressure_slip.is_some(),
+        bending_alarm: found.bending_alarm.is_some(),
         systematic_mm: [found.base.systematic_mm, found.base.systematic_with_added_mm],
         tolerance_mm: found.tolerance_mm,
         heldout_mm: found.base.heldout_run_mm.zip(first.and_then(|row| row.heldout_run_mm)).map(|(a, b)| [a, b]),

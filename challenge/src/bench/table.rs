@@ -37,18 +37,22 @@ fn shares(sets: &[(&SetOutcome, &Named)], hit: impl Fn(&Named) -> bool) -> Vec<b
 
 fn nothing(outcomes: &[SetOutcome]) -> Vec<Rate> {
     let all = found(outcomes, Lot::Hidden(Hiding::Nothing));
+    let told = shares(&all, |named| named.bending_alarm);
     let (few, many): (Vec<_>, Vec<_>) = all.into_iter().partition(|(outcome, _)| outcome.truth.runs < 5);
     let case = "no hidden effect";
     let alarm = |named: &Named| named.score.alarm;
     let heavy = found(outcomes, Lot::HeavyTails);
-    let tested = found(outcomes, Lot::Measured(Hiding::Nothing));
+    let (tested_case, tested) =
+        ("no hidden effect, B measured to 10 %", found(outcomes, Lot::Measured(Hiding::Nothing)));
     let lossy = found(outcomes, Lot::LostMarkers(Hiding::Nothing));
     vec![
         Rate::share("no hidden effect, markers lost", "false alarms", AtMost(0.05), &shares(&lossy, alarm)),
         Rate::share("no hidden effect, heavy tails", "false alarms", AtMost(0.05), &shares(&heavy, alarm)),
         Rate::share(case, "false alarms, 5 and 10 runs", AtMost(0.03), &shares(&many, alarm)),
         Rate::share(case, "false alarms, 3 runs", AtMost(0.05), &shares(&few, alarm)),
-        Rate::share("no hidden effect, B measured to 10 %", "false alarms", AtMost(0.05), &shares(&tested, alarm)),
+        Rate::share(tested_case, "false alarms", AtMost(0.05), &shares(&tested, alarm)),
+        Rate::share(case, "told another stiffness", AtMost(0.05), &told),
+        Rate::share(tested_case, "told another stiffness", AtMost(0.05), &shares(&tested, |named| named.bending_alarm)),
     ]
 }
 

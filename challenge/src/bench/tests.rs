@@ -29,6 +29,16 @@ fn all_robots_and_all_effects_take_part_equally() {
 }
 
 #[test]
+fn the_second_laws_are_asked_of_the_same_robots_and_sizes() {
+    let [first, second] =
+        [Laws::First, Laws::Second].map(|laws| plan(&DiscoveryOptions { seed: 1, sets: 8, laws }).unwrap());
+    for (a, b) in first.iter().zip(&second) {
+        assert_eq!((a.truth.laws, b.truth.laws), (Laws::First, Laws::Second));
+        assert_eq!(a.truth, Truth { laws: Laws::First, ..b.truth.clone() });
+    }
+}
+
+#[test]
 fn the_plan_follows_from_the_seed() {
     let truths = |seed: u64, sets: usize| -> Vec<Truth> {
         plan(&DiscoveryOptions { seed, sets, laws: Laws::First }).unwrap().into_iter().map(|case| case.truth).collect()
