@@ -67,7 +67,14 @@ fn list() -> Outcome {
     text.push_str(&rows(&inside));
     text.push_str("\nNo effect of the catalogue describes these\n");
     text.push_str(&rows(&OUTSIDE.iter().collect::<Vec<_>>()));
-    let entry = |effect: &HiddenEffect| json!({"name": effect.name, "sentence": effect.sentence, "law": effect.law(Laws::First).words, "in_catalog": !effect.is_outside()});
+    text.push_str("\nThe second law of each mechanism, for `ibr bench discovery --laws second`\n");
+    let second = |e: &&HiddenEffect| vec![e.name.to_string(), e.law(Laws::Second).words.to_string()];
+    text.push_str(&table(&["effect", "law: its source"], 2, inside.iter().map(second).collect()));
+    let entry = |effect: &HiddenEffect| {
+        let second = (!effect.is_outside()).then(|| effect.law(Laws::Second).words);
+        json!({"name": effect.name, "sentence": effect.sentence, "law": effect.law(Laws::First).words, "second_law": second,
+            "in_catalog": !effect.is_outside()})
+    };
     let all: Vec<Value> = inside.into_iter().chain(OUTSIDE).map(entry).collect();
     Outcome::new(text, json!({"schema": "ibr.challenge.list", "version": 1, "effects": all}))
 }
