@@ -2,6 +2,7 @@
 
 mod data;
 mod discover;
+mod export;
 mod groups;
 mod import;
 
@@ -11,6 +12,7 @@ pub use data::{CharacterizeArgs, DataCommand, DataFemArgs, GenerateArgs, Scatter
 pub use discover::{
     AddArgs, BreakdownArgs, ChallengeCommand, ChallengeNewArgs, DiagnoseArgs, LadderArgs, ValidateArgs,
 };
+pub use export::{ExportArgs, ExportCommand};
 pub use groups::{command, parsed};
 pub use import::Import;
 use std::path::PathBuf;
@@ -41,6 +43,9 @@ pub enum Command {
     Demo(OutDirArgs),
     /// Shape and markers at given pressures, or the pressure for a wanted tip
     Predict(PredictArgs),
+    /// A robot for a controller: tables as C code, or its linear form
+    #[command(subcommand)]
+    Export(ExportCommand),
     /// Sewing pattern of a robot, true to size: SVG, pages to print, DXF for a cutter
     Pattern(PatternArgs),
     /// Hold a model against measurements: how far off, and where
@@ -148,30 +153,38 @@ pub struct TradeoffArgs {
     pub runs: Option<PathBuf>,
 }
 
-/// `ibr predict`
+/// A robot as it is typed: a scenario, and what is changed in it.
 #[derive(Debug, Args)]
-pub struct PredictArgs {
+pub struct RobotArgs {
     /// Scenario file or shipped robot
     pub scenario: String,
-    /// Actuator pressures with unit, for example 10kPa,20kPa; `/` separates supply channels. With an effect that has
-    /// history (friction, creep, plastic_set, leak) they are one path in this order, 5 s each, from rest
-    #[arg(long, short, allow_hyphen_values = true)]
-    pub pressure: Option<String>,
     /// Body pressure with unit, for example 2kPa; default: the scenario's
     #[arg(long, short, allow_hyphen_values = true)]
     pub body_pressure: Option<String>,
-    /// Find the pressure instead: tip=100mm (height) or angle=60deg (total bend)
-    #[arg(long, short, conflicts_with = "pressure")]
-    pub inverse: Option<String>,
-    /// How long the robot may grow before gravity and tip_load fold it, straight and at each pressure
-    #[arg(long, conflicts_with_all = ["inverse", "out"])]
-    pub limits: bool,
     /// Without the scenario's own effects; --effect adds to that
     #[arg(long)]
     pub bare: bool,
     /// Add an effect or change its values: name or name:key=value[,key=value]; repeatable
     #[arg(long, short)]
     pub effect: Vec<String>,
+}
+
+/// `ibr predict`
+#[derive(Debug, Args)]
+pub struct PredictArgs {
+    /// The robot
+    #[command(flatten)]
+    pub robot: RobotArgs,
+    /// Actuator pressures with unit, for example 10kPa,20kPa; `/` separates supply channels. With an effect that has
+    /// history (friction, creep, plastic_set, leak) they are one path in this order, 5 s each, from rest
+    #[arg(long, short, allow_hyphen_values = true)]
+    pub pressure: Option<String>,
+    /// Find the pressure instead: tip=100mm (height) or angle=60deg (total bend)
+    #[arg(long, short, conflicts_with = "pressure")]
+    pub inverse: Option<String>,
+    /// How long the robot may grow before gravity and tip_load fold it, straight and at each pressure
+    #[arg(long, conflicts_with_all = ["inverse", "out"])]
+    pub limits: bool,
     /// Folder for a plot of the shapes
     #[arg(long)]
     pub out: Option<PathBuf>,

@@ -16,6 +16,22 @@ pub struct ScenarioError {
     pub span: Option<(usize, usize)>,
 }
 
+impl ScenarioError {
+    /// Line, what is wrong there and what to type, in one line: for programs that show no text around it.
+    ///
+    /// ```
+    /// let text = "[body]\nradius_mm = 40\nlength_mm = 360\npressure = 2\n";
+    /// let told = models::Scenario::parse(text).unwrap_err().in_text(text);
+    /// assert!(told.starts_with("line 4: unknown field `pressure`"), "{told}");
+    /// ```
+    pub fn in_text(&self, text: &str) -> String {
+        let line = |(start, _): (usize, usize)| text.bytes().take(start).filter(|byte| *byte == b'\n').count() + 1;
+        let place = self.span.map_or(String::new(), |span| format!("line {}: ", line(span)));
+        let help = self.help.as_ref().map_or(String::new(), |help| format!("; {help}"));
+        format!("{place}{}{help}", self.message)
+    }
+}
+
 /// Why no prediction came out.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Unsolved {
@@ -28,6 +44,12 @@ pub enum Unsolved {
         value_kpa: f64,
         /// Largest accepted \[kPa\].
         limit_kpa: f64,
+    },
+    /// A wanted place or limits that mean nothing.
+    #[error("{what}")]
+    BadAim {
+        /// What is wrong.
+        what: &'static str,
     },
     /// A time that is not a number of seconds.
     #[error("the time {t_s} s of a step of the protocol is not finite")]

@@ -204,7 +204,8 @@ impl Model {
         flat
     }
 
-    fn uses(&self, channel: usize) -> bool {
+    /// Whether a channel feeds an actuator.
+    pub fn uses(&self, channel: usize) -> bool {
         self.assembly().sites.iter().any(|site| site.actuator.is_some() && site.channel == channel)
     }
 }

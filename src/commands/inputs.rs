@@ -1,12 +1,13 @@
 //! Scenarios, data and quantities as typed on the command line.
 
 use super::Context;
-use crate::cli::ScatterArgs;
+use crate::cli::{RobotArgs, ScatterArgs};
 use crate::failure::Failure;
 use crate::output::Input;
 use compare::progress::part;
 use compare::progress::shares::READ;
 use compare::study::Generator;
+use compare::typed_effect::with_effect;
 use compare::{Evidence, ScenarioFile};
 use models::Scenario;
 use models::actuators::Family;
@@ -15,6 +16,19 @@ use models::scenario::quantity::{Quantity, parse};
 /// A scenario as typed.
 pub fn scenario(spec: &str) -> Result<ScenarioFile, Failure> {
     Ok(ibr::studies::scenario(spec)?)
+}
+
+/// A robot as typed: its file, and the scenario with what was changed.
+pub fn robot(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
+    let file = scenario(&args.scenario)?;
+    let mut changed = if args.bare { file.bare() } else { file.scenario.clone() };
+    for text in &args.effect {
+        changed = with_effect(&changed, text)?.0;
+    }
+    if let Some(text) = &args.body_pressure {
+        changed.p_body_pa = quantity("--body-pressure", text, Quantity::Pressure)?;
+    }
+    Ok((file, changed))
 }
 
 /// Loads marker data with progress.

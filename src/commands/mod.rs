@@ -13,6 +13,7 @@ mod demo;
 mod diagnose;
 mod diagnose_bench;
 mod engines;
+mod export;
 mod fem_inputs;
 mod held;
 pub(crate) mod import_options;
@@ -39,6 +40,7 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
     match command {
         Command::Demo(out) => demo::run(&out.out, context),
         Command::Predict(args) => predict::run(args, context),
+        Command::Export(command) => export::run(command, context),
         Command::Pattern(args) => pattern::run(args, context),
         Command::Compare(args) if args.paper => paper::run(args, context),
         Command::Compare(args) if args.engines => engines::run(args, context),

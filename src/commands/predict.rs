@@ -6,7 +6,6 @@ use crate::cli::PredictArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
 use crate::shown::predicted::{above_limit, beyond_words, state_json, text};
-use compare::typed_effect::with_effect;
 use ibr::pages::predicted_files;
 use ibr::{check_fed, predict, predict_for};
 use models::scenario::quantity::{Quantity, parse_pressures};
@@ -15,16 +14,10 @@ use serde_json::{Value, json};
 
 pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
-    let file = inputs::scenario(&args.scenario)?;
-    let mut scenario = if args.bare { file.bare() } else { file.scenario.clone() };
-    for text in &args.effect {
-        scenario = with_effect(&scenario, text)?.0;
-    }
-    if let Some(text) = &args.body_pressure {
-        scenario.p_body_pa = quantity("--body-pressure", text, Quantity::Pressure)?;
-    }
+    let (file, scenario) = inputs::robot(&args.robot)?;
+    let typed = &args.robot.scenario;
     if args.limits {
-        return limits::run(&args.scenario, &scenario, &wanted(&scenario, args.pressure.as_deref())?);
+        return limits::run(typed, &scenario, &wanted(&scenario, args.pressure.as_deref())?);
     }
     let states = match &args.inverse {
         Some(text) => vec![predict_for(&scenario, target(text)?)?],
@@ -37,7 +30,7 @@ pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure
     let told: Vec<Value> = states.iter().map(|s| state_json(&model, &scenario, s)).collect();
     let effects: Vec<&str> = scenario.effects.iter().map(|e| e.name.as_str()).collect();
     let answer = json!({
-        "schema": "ibr.predict", "version": 1, "scenario": args.scenario, "name": scenario.name,
+        "schema": "ibr.predict", "version": 1, "scenario": typed, "name": scenario.name,
         "actuator": scenario.actuator.kind.name, "effects": effects, "states": told,
     });
     let mut outcome = Outcome::new(text(&scenario, &states), answer);

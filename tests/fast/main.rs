@@ -16,6 +16,7 @@ mod characterize;
 mod compare;
 mod data_errors;
 mod diagnose;
+mod export;
 mod generate;
 mod held;
 mod import;

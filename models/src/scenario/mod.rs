@@ -244,6 +244,12 @@ impl Scenario {
         Catalogue::new(&self.formulas)
     }
 
+    /// Names of its effects after which a state depends on those before it.
+    pub fn remembering(&self) -> Vec<&str> {
+        let remembers = |name: &str| crate::effects::by_name(name).is_some_and(|effect| effect.history);
+        self.effects.iter().map(|effect| effect.name.as_str()).filter(|name| remembers(name)).collect()
+    }
+
     fn formula(&self, name: &str) -> Option<&Formula> {
         self.formulas.iter().find(|formula| formula.name == name).map(|formula| &**formula)
     }

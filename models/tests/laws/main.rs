@@ -17,5 +17,7 @@ mod random_inverse;
 mod scaling;
 mod solver;
 mod stationary;
+mod steer;
 mod support;
+mod tables;
 mod zones;

@@ -1,0 +1,117 @@
+//! `ibr export`
+
+use super::inputs::{self, quantity};
+use super::{Context, Outcome};
+use crate::cli::{ExportArgs, ExportCommand};
+use crate::failure::Failure;
+use models::export::{Origin, Table, Untabulated};
+use models::scenario::quantity::Quantity;
+use models::{Model, Scenario};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+use std::sync::PoisonError;
+
+pub fn run(command: &ExportCommand, context: &mut Context) -> Result<Outcome, Failure> {
+    match command {
+        ExportCommand::C(args) => c(args, context),
+    }
+}
+
+fn c(args: &ExportArgs, context: &mut Context) -> Result<Outcome, Failure> {
+    let scenario = inputs::robot(&args.robot)?.1;
+    let (model, range_pa) = (Model::new(&scenario), range(&scenario, args.pressure.as_deref())?);
+    let history = if model.has_history() { scenario.remembering() } else { Vec::new() };
+    if !history.is_empty() && !args.loading {
+        let message =
+            format!("with {} a state depends on those before it, and a table knows the pressure", history.join(", "));
+        let help = "add --loading for the first loading from rest, or leave it out of the scenario";
+        return Err(Failure::usage(message, help));
+    }
+    if !args.out.extension().is_some_and(|end| end == "c") {
+        let message = format!("--out {} does not end with .c", args.out.display());
+        return Err(Failure::usage(message, "write for example --out robot.c"));
+    }
+    let table = Table::new(&model, scenario.p_body_pa, range_pa).map_err(refused)?;
+    let stem = args.out.file_stem().unwrap_or_default().to_string_lossy();
+    let command = format!("ibr {} export c {}", env!("CARGO_PKG_VERSION"), args.robot.scenario);
+    let origin = Origin { prefix: &stem, robot: &scenario.name, command: &command, history: &history };
+    let [header, source] = table.c_files(&origin);
+    let files = [(args.out.with_extension("h"), header), (args.out.clone(), source)];
+    write(&files, context)?;
+    Ok(told(args, &table, &files.map(|(path, _)| path.display().to_string())))
+}
+
+/// All files at once, each complete or not at all.
+fn write(files: &[(PathBuf, String)], context: &mut Context) -> Result<(), Failure> {
+    let mut written = context.written.lock().unwrap_or_else(PoisonError::into_inner);
+    files
+        .iter()
+        .try_for_each(|(path, text): &(PathBuf, String)| data::write_atomically(Path::new(path), text.as_bytes()))?;
+    *written = true;
+    Ok(())
+}
+
+/// Pressures from:to; a number without unit has that of the other.
+fn range(scenario: &Scenario, typed: Option<&str>) -> Result<[f64; 2], Failure> {
+    let Some(typed) = typed else { return Ok([0.0, scenario.p_max_pa]) };
+    let Some((from, to)) = typed.split_once(':') else {
+        let help = "write from:to, for example --pressure 0:40kPa";
+        return Err(Failure::usage(format!("--pressure {typed} is no range"), help));
+    };
+    let high = quantity("--pressure", to, Quantity::Pressure)?;
+    let unit = to.trim_start_matches(|c: char| !c.is_alphabetic());
+    let low = match from.parse::<f64>() {
+        Ok(_) => quantity("--pressure", &format!("{from}{unit}"), Quantity::Pressure)?,
+        Err(_) => quantity("--pressure", from, Quantity::Pressure)?,
+    };
+    Ok([low, high])
+}
+
+fn refused(error: Untabulated) -> Failure {
+    let help = match &error {
+        Untabulated::Unsolved(unsolved) => return unsolved.clone().into(),
+        Untabulated::Range { .. } => "write from:to, for example --pressure 0:40kPa",
+        Untabulated::Channels { .. } => "ibr-capi solves such a robot (docs/control.md)",
+        Untabulated::TooRough { .. } => "export the pressures on one side of it, for example --pressure 5:40kPa",
+    };
+    Failure::usage(error.to_string(), help)
+}
+
+fn told(args: &ExportArgs, table: &Table, names: &[String]) -> Outcome {
+    let (bound, kpa) = (&table.bound, |pa: f64| pa / 1e3);
+    let markers = match table.markers() {
+        0 => String::new(),
+        count => format!(", {count} markers {:.1e} mm", bound.marker_m * 1e3),
+    };
+    let text = format!(
+        "{}: {} bytes of constants, {} pieces of degree {}\nActuator pressures {} to {} kPa at body pressure {} kPa.\n\
+         Largest difference from the model at {} pressures: tip {:.1e} mm ({:.1e} of the length), angle {:.1e} deg{markers}.\n",
+        names.join(", "),
+        table.bytes(),
+        table.pieces(),
+        table.degree,
+        kpa(table.range_pa[0]),
+        kpa(table.range_pa[1]),
+        kpa(table.body_pa),
+        bound.pressures,
+        bound.tip_m * 1e3,
+        bound.tip_m / table.length_m,
+        bound.angle_rad.to_degrees(),
+    );
+    let answer = json!({
+        "schema": "ibr.export.c", "version": 1, "scenario": args.robot.scenario, "written": names, "bytes": table.bytes(),
+        "pieces": table.pieces(), "degree": table.degree, "markers": table.markers(), "p_body_kpa": kpa(table.body_pa),
+        "p_act_kpa": table.range_pa.map(kpa), "p_open_kpa": kpa(table.open_pa),
+        "heights_mm": table.heights_m().map(|h| h.map(|m| m * 1e3)),
+        "bound": {
+            "pressures": bound.pressures, "tip_mm": bound.tip_m * 1e3, "angle_deg": bound.angle_rad.to_degrees(),
+            "marker_mm": bound.marker_m * 1e3, "slope_mm_per_kpa": bound.slope_m_per_pa * 1e6,
+            "slope_from_kpa": kpa(bound.slope_from_pa),
+        },
+    });
+    let mut outcome = Outcome::new(text, answer);
+    if table.markers() == 0 {
+        outcome.notes.push("note: no markers in the table: the scenario has none, or they do not fit".into());
+    }
+    outcome
+}
