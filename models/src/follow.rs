@@ -65,31 +65,52 @@ impl Model {
     ) -> Result<(), Unsolved> {
         let mut before: Option<Step> = None;
         for (index, step) in steps.iter().enumerate() {
-            check(&step.loads)?;
-            if !step.t_s.is_finite() {
-                return Err(Unsolved::BadTime { t_s: step.t_s });
-            }
             let last = before.filter(|last| last.t_s <= step.t_s);
-            if last.is_none() {
-                out.work.history.start();
-            }
-            let is_new = last.is_none_or(|last| last.loads != step.loads);
-            if let Some(held) = held {
-                out.work.held.curvatures.clone_from(&held[index]);
-            }
-            if is_new {
-                self.change(last.map(|last| last.loads), &step.loads, out)?;
-            }
-            self.wait(step.t_s - last.map_or(0.0, |last| last.t_s), &step.loads, out)?;
-            if held.is_some() && !is_new {
-                // What nothing changes by itself is not solved again, but it may be held elsewhere.
-                out.work.history.dt_s = 0.0;
-                self.reach(&step.loads, out, true)?;
-            }
-            self.show(out);
+            self.pass(last, step, held.map(|held| held[index].as_slice()), out)?;
             each(index, out);
             before = Some(*step);
         }
+        Ok(())
+    }
+
+    /// The next state of a protocol after `last`; without one the robot is at rest at time 0. What `out` holds has to be the
+    /// state of `last`: a stream that never ends is walked with one buffer.
+    ///
+    /// # Errors
+    /// As [`Model::follow`].
+    pub fn follow_on(&self, last: Option<Step>, step: &Step, out: &mut Prediction) -> Result<(), Unsolved> {
+        self.pass(last.filter(|last| last.t_s <= step.t_s), step, None, out)
+    }
+
+    fn pass(
+        &self,
+        last: Option<Step>,
+        step: &Step,
+        held: Option<&[f64]>,
+        out: &mut Prediction,
+    ) -> Result<(), Unsolved> {
+        check(&step.loads)?;
+        if !step.t_s.is_finite() {
+            return Err(Unsolved::BadTime { t_s: step.t_s });
+        }
+        if last.is_none() {
+            out.work.history.start();
+        }
+        let is_new = last.is_none_or(|last| last.loads != step.loads);
+        if let Some(held) = held {
+            out.work.held.curvatures.clear();
+            out.work.held.curvatures.extend_from_slice(held);
+        }
+        if is_new {
+            self.change(last.map(|last| last.loads), &step.loads, out)?;
+        }
+        self.wait(step.t_s - last.map_or(0.0, |last| last.t_s), &step.loads, out)?;
+        if held.is_some() && !is_new {
+            // What nothing changes by itself is not solved again, but it may be held elsewhere.
+            out.work.history.dt_s = 0.0;
+            self.reach(&step.loads, out, true)?;
+        }
+        self.show(out);
         Ok(())
     }
 

@@ -2,6 +2,7 @@
 
 use super::formulas::formulas;
 use super::raw::{Body, Raw, RawActuator, RawZone};
+use super::supply::line;
 use super::{ActuatorChoice, BASES, EffectChoice, Scenario, Wall, Zone, order};
 use crate::actuators::{self, ACTUATORS, ActuatorShape, BIAS, Family};
 use crate::catalogue::Catalogue;
@@ -83,6 +84,7 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
         pressures_pa: raw.predict.pressures_kpa.iter().map(|p| si(p, &PRESSURE)).collect::<Checked<Vec<_>>>()?,
         segments: segments(raw)?,
         p_max_pa: p_max.map(|p| si(p, &MOST_PRESSURE)).transpose()?.unwrap_or(100e3),
+        line: raw.supply.as_ref().map(line).transpose()?,
         effects: effects_of(raw, &actuator, &formulas)?,
         formulas,
     };
@@ -100,7 +102,7 @@ pub(super) fn refuse<T>(message: String, help: impl Into<String>, span: std::ops
     Err(ScenarioError { message, help: Some(help.into()), span: Some((span.start, span.end)) })
 }
 
-fn si(value: &Spanned<f64>, range: &Range) -> Checked<f64> {
+pub(super) fn si(value: &Spanned<f64>, range: &Range) -> Checked<f64> {
     range.si(range.name, *value.get_ref()).or_else(|(message, help)| refuse(message, help, value.span()))
 }
 
@@ -109,7 +111,7 @@ pub(super) fn unit(name: &str) -> String {
     if name == "-" { String::new() } else { format!(" {name}") }
 }
 
-fn optional(value: &Option<Spanned<f64>>, range: &Range) -> Checked<Option<f64>> {
+pub(super) fn optional(value: &Option<Spanned<f64>>, range: &Range) -> Checked<Option<f64>> {
     value.as_ref().map(|v| si(v, range)).transpose()
 }
 

@@ -24,6 +24,7 @@ mod formulas;
 pub mod quantity;
 mod raw;
 mod spans;
+mod supply;
 
 pub use spans::Span;
 
@@ -33,6 +34,7 @@ use crate::catalogue::Catalogue;
 use crate::effects::{EFFECTS, Effect};
 use crate::error::ScenarioError;
 use crate::formula::Formula;
+use crate::line::Line;
 use std::sync::Arc;
 
 /// A scenario in SI units, checked.
@@ -70,6 +72,8 @@ pub struct Scenario {
     pub segments: usize,
     /// Largest actuator pressure an inverse may ask for \[Pa\].
     pub p_max_pa: f64,
+    /// How fast a set pressure arrives, for what happens in time; `None`: at once.
+    pub line: Option<Line>,
     /// Effects, in catalogue order.
     pub effects: Vec<EffectChoice>,
     /// The scenario's own effects, in the order of the text: they follow those of the catalogue.

@@ -24,6 +24,7 @@ pub(super) struct Raw {
     pub markers: Markers,
     #[serde(default)]
     pub predict: Predict,
+    pub supply: Option<Spanned<RawSupply>>,
     #[serde(default)]
     pub formula: Vec<Spanned<RawFormula>>,
     #[serde(default)]
@@ -93,6 +94,15 @@ pub(super) struct Predict {
     #[serde(default)]
     pub pressures_kpa: Vec<Num>,
     pub segments: Option<Spanned<i64>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawSupply {
+    pub valve_time_s: Option<Num>,
+    pub conductance_l_per_s_bar: Option<Num>,
+    pub critical_ratio: Option<Num>,
+    pub volume_ml: Option<Num>,
 }
 
 #[derive(Debug, Deserialize)]
