@@ -12,7 +12,7 @@ pub use data::{CharacterizeArgs, DataCommand, DataFemArgs, GenerateArgs, Scatter
 pub use discover::{
     AddArgs, BreakdownArgs, ChallengeCommand, ChallengeNewArgs, DiagnoseArgs, LadderArgs, ValidateArgs,
 };
-pub use export::{ExportArgs, ExportCommand};
+pub use export::{ExportArgs, ExportCommand, LinearArgs};
 pub use groups::{command, parsed};
 pub use import::Import;
 use std::path::PathBuf;
@@ -179,12 +179,17 @@ pub struct PredictArgs {
     /// history (friction, creep, plastic_set, leak) they are one path in this order, 5 s each, from rest
     #[arg(long, short, allow_hyphen_values = true)]
     pub pressure: Option<String>,
-    /// Find the pressure instead: tip=100mm (height) or angle=60deg (total bend)
+    /// Find the pressure instead: tip=100mm (height) or angle=60deg (total bend); or 300mm,120mm: the pressures of all supply
+    /// channels that bring the tip nearest to this x, y
     #[arg(long, short, conflicts_with = "pressure")]
     pub inverse: Option<String>,
     /// How long the robot may grow before gravity and tip_load fold it, straight and at each pressure
     #[arg(long, conflicts_with_all = ["inverse", "out"])]
     pub limits: bool,
+    /// Read lines of time and pressures from standard input, answer each at once with a line of the tip; the first line
+    /// names the columns, for example t_s,p_kpa or t_s,p0_kpa,p1_kpa
+    #[arg(long, conflicts_with_all = ["pressure", "inverse", "limits", "out"])]
+    pub follow: bool,
     /// Folder for a plot of the shapes
     #[arg(long)]
     pub out: Option<PathBuf>,

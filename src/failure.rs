@@ -79,7 +79,8 @@ impl Failure {
     pub fn code(&self) -> u8 {
         use CompareError::{BadProtocol, Refused, Unsolved as NoSolution};
         match self {
-            Failure::Compare(BadProtocol { .. } | Refused { .. } | NoSolution(Unsolved::BadPressure { .. })) => USAGE,
+            Failure::Compare(BadProtocol { .. } | Refused { .. }) => USAGE,
+            Failure::Compare(NoSolution(Unsolved::BadPressure { .. } | Unsolved::BadAim { .. })) => USAGE,
             Failure::Compare(NoSolution(_)) => UNSOLVED,
             Failure::Fem(FemError::Interrupted { .. }) => INTERRUPTED,
             Failure::Fem(FemError::Setting { .. }) => USAGE,

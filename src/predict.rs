@@ -1,7 +1,7 @@
 //! Shapes of a robot at given pressures, and the pressure for a wanted tip.
 
 use compare::CompareError;
-use models::{CHANNELS, Loads, Model, Prediction, Scenario, Step, Target, TipSlope};
+use models::{Aim, CHANNELS, Limits, Loads, Model, Prediction, Scenario, Steered, Step, Target, TipSlope};
 
 /// Time for which each pressure of a model with history is held \[s\]: the hold of the usual protocol.
 pub const HOLD_S: f64 = 5.0;
@@ -48,6 +48,18 @@ pub fn predict_for(scenario: &Scenario, target: Target) -> Result<AtPressure, Co
     let model = Model::new(scenario);
     let pressure_pa = model.pressure_for(target, scenario.p_body_pa, &mut model.prediction())?;
     at(&model, Loads::uniform(scenario.p_body_pa, pressure_pa))
+}
+
+/// The state, at the scenario's body pressure and up to its largest actuator pressure, in which the tip is nearest to a place
+/// x, y \[m\]; each supply channel has a pressure of its own.
+///
+/// # Errors
+/// A place that is none, or no equilibrium anywhere.
+pub fn predict_near(scenario: &Scenario, place_m: [f64; 2]) -> Result<(AtPressure, Steered), CompareError> {
+    let model = Model::new(scenario);
+    let limits = Limits::up_to(scenario.p_max_pa);
+    let found = model.steer(Aim::Tip(place_m), scenario.p_body_pa, &limits, &mut model.steering())?;
+    Ok((at(&model, found.loads)?, found))
 }
 
 fn at(model: &Model, loads: Loads) -> Result<AtPressure, CompareError> {

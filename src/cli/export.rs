@@ -9,6 +9,8 @@ use std::path::PathBuf;
 pub enum ExportCommand {
     /// Tip, markers, slope and inverse over the actuator pressure as C99 for a microcontroller, with their error bounds
     C(ExportArgs),
+    /// Stiffness, damping and drive of a chain of joints about a working point, for simulators and linear control
+    Linear(LinearArgs),
 }
 
 /// `ibr export c`
@@ -26,4 +28,18 @@ pub struct ExportArgs {
     /// A robot with history (friction, creep): its first loading from rest, which the file then says
     #[arg(long)]
     pub loading: bool,
+}
+
+/// `ibr export linear`
+#[derive(Debug, Args)]
+pub struct LinearArgs {
+    /// The robot
+    #[command(flatten)]
+    pub robot: RobotArgs,
+    /// Actuator pressure of the working point, `/` separates supply channels; default: the scenario's middle one
+    #[arg(long, short, allow_hyphen_values = true)]
+    pub pressure: Option<String>,
+    /// Joints, of equal length; default: one per actuator unit, or 5
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    pub joints: Option<u64>,
 }

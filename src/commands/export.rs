@@ -1,10 +1,12 @@
 //! `ibr export`
 
 use super::inputs::{self, quantity};
+use super::predict::wanted;
 use super::{Context, Outcome};
-use crate::cli::{ExportArgs, ExportCommand};
+use crate::cli::{ExportArgs, ExportCommand, LinearArgs};
 use crate::failure::Failure;
-use models::export::{Origin, Table, Untabulated};
+use crate::shown::linear;
+use models::export::{Linear, Origin, Table, Untabulated};
 use models::scenario::quantity::Quantity;
 use models::{Model, Scenario};
 use serde_json::json;
@@ -14,7 +16,31 @@ use std::sync::PoisonError;
 pub fn run(command: &ExportCommand, context: &mut Context) -> Result<Outcome, Failure> {
     match command {
         ExportCommand::C(args) => c(args, context),
+        ExportCommand::Linear(args) => linear(args),
     }
+}
+
+/// Joints of a muscle, which has one unit.
+const JOINTS: usize = 5;
+
+fn linear(args: &LinearArgs) -> Result<Outcome, Failure> {
+    let scenario = inputs::robot(&args.robot)?.1;
+    let all = wanted(&scenario, args.pressure.as_deref())?;
+    let loads = match (&args.pressure, all.as_slice()) {
+        (Some(typed), [_, _, ..]) => {
+            let message = format!("--pressure {typed} is more than one working point");
+            return Err(Failure::usage(message, "give one pressure, with / between supply channels"));
+        }
+        (_, all) => all[all.len() / 2],
+    };
+    let units = if scenario.actuator.count > 1 { scenario.actuator.count } else { JOINTS };
+    let chain = Linear::new(&scenario, args.joints.map_or(units, |joints| joints as usize), &loads)?;
+    let answer = linear::as_json(&args.robot.scenario, &scenario, &chain);
+    let mut outcome = Outcome::new(linear::text(&scenario, &chain), answer);
+    if chain.joints.iter().any(|joint| joint.stiffness_nm.is_nan() || joint.offset_nm.is_nan()) {
+        outcome.notes.push("note: an actuator is flat or at the end of its stroke there, and has no slope".into());
+    }
+    Ok(outcome)
 }
 
 fn c(args: &ExportArgs, context: &mut Context) -> Result<Outcome, Failure> {

@@ -5,9 +5,10 @@ use super::{Context, Outcome, limits};
 use crate::cli::PredictArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
+use crate::shown::nearest::{nearest_json, nearest_words};
 use crate::shown::predicted::{above_limit, beyond_words, state_json, text};
 use ibr::pages::predicted_files;
-use ibr::{check_fed, predict, predict_for};
+use ibr::{check_fed, predict, predict_for, predict_near};
 use models::scenario::quantity::{Quantity, parse_pressures};
 use models::{CHANNELS, Loads, Model, Scenario, Target};
 use serde_json::{Value, json};
@@ -16,12 +17,22 @@ pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     let (file, scenario) = inputs::robot(&args.robot)?;
     let typed = &args.robot.scenario;
+    if args.follow {
+        return follow(&scenario, context);
+    }
     if args.limits {
         return limits::run(typed, &scenario, &wanted(&scenario, args.pressure.as_deref())?);
     }
-    let states = match &args.inverse {
-        Some(text) => vec![predict_for(&scenario, target(text)?)?],
-        None => predict(&scenario, &wanted(&scenario, args.pressure.as_deref())?)?,
+    let aimed = args.inverse.as_deref().and_then(|text| text.split_once(',')).map(place).transpose()?;
+    let mut steered = None;
+    let states = match (&args.inverse, aimed) {
+        (_, Some(place)) => {
+            let found = predict_near(&scenario, place)?;
+            steered = Some((place, found.1));
+            vec![found.0]
+        }
+        (Some(text), None) => vec![predict_for(&scenario, target(text)?)?],
+        (None, None) => predict(&scenario, &wanted(&scenario, args.pressure.as_deref())?)?,
     };
     let model = Model::new(&scenario);
     if let Some(folder) = &args.out {
@@ -29,15 +40,33 @@ pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure
     }
     let told: Vec<Value> = states.iter().map(|s| state_json(&model, &scenario, s)).collect();
     let effects: Vec<&str> = scenario.effects.iter().map(|e| e.name.as_str()).collect();
-    let answer = json!({
+    let mut answer = json!({
         "schema": "ibr.predict", "version": 1, "scenario": typed, "name": scenario.name,
         "actuator": scenario.actuator.kind.name, "effects": effects, "states": told,
     });
+    if let Some((place, found)) = &steered {
+        answer["nearest"] = nearest_json(*place, found);
+    }
     let mut outcome = Outcome::new(text(&scenario, &states), answer);
+    outcome.notes.extend(steered.and_then(|(place, found)| nearest_words(place, &found)));
     outcome.notes.extend(inputs::superseded(&scenario));
     outcome.notes.extend(above_limit(&scenario, &states));
     outcome.notes.extend(states.iter().flat_map(|s| beyond_words(&model, s)));
     Ok(outcome)
+}
+
+/// Lines in, lines out.
+fn follow(scenario: &Scenario, context: &Context) -> Result<Outcome, Failure> {
+    if context.json {
+        return Err(Failure::usage("--follow writes lines of numbers", "leave out --json"));
+    }
+    ibr::follow(scenario, std::io::stdin().lock(), std::io::stdout().lock())?;
+    Ok(Outcome::default())
+}
+
+/// The place of `--inverse X,Y`.
+fn place((x, y): (&str, &str)) -> Result<[f64; 2], Failure> {
+    Ok([quantity("--inverse", x, Quantity::Length)?, quantity("--inverse", y, Quantity::Length)?])
 }
 
 /// What `--inverse` asks for.
@@ -46,14 +75,14 @@ fn target(wanted: &str) -> Result<Target, Failure> {
         Some(("tip", value)) => Ok(Target::TipHeight(quantity("--inverse", value, Quantity::Length)?)),
         Some(("angle", value)) => Ok(Target::Angle(quantity("--inverse", value, Quantity::Angle)?)),
         _ => {
-            let help = "write tip=100mm (height) or angle=60deg (total bend)";
+            let help = "write tip=100mm (height), angle=60deg (total bend) or 300mm,120mm (x,y)";
             Err(Failure::usage(format!("--inverse {wanted} is not understood"), help))
         }
     }
 }
 
 /// The pressures of the command line, else of the scenario; a beam has none to be asked for.
-fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<Loads>, Failure> {
+pub fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<Loads>, Failure> {
     let mut pressures = match pressures {
         Some(text) => {
             parse_pressures(text).map_err(|m| Failure::usage(format!("--pressure: {m}"), "see ibr predict --help"))?

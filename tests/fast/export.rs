@@ -3,7 +3,6 @@
 use crate::refused::{refuse, with_report};
 use crate::support::{Folder, repository};
 use models::{Loads, Model, Scenario, Target, shipped};
-use std::io::Write;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
@@ -30,9 +29,10 @@ fn answers(folder: &Folder, args: &[&str], lines: &str) -> Vec<Vec<f64>> {
     cc.args(flags).arg(main).args(["-o", "table", "-lm"]).current_dir(folder.path(""));
     let built = cc.output().unwrap();
     assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
-    let mut ran = Command::new(folder.path("table")).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-    ran.stdin.take().unwrap().write_all(lines.as_bytes()).unwrap();
-    let text = String::from_utf8(ran.wait_with_output().unwrap().stdout).unwrap();
+    folder.write("lines", lines);
+    let lines = std::fs::File::open(folder.path("lines")).unwrap();
+    let ran = Command::new(folder.path("table")).stdin(lines).output().unwrap();
+    let text = String::from_utf8(ran.stdout).unwrap();
     text.lines().map(|line| line.split(' ').map(|word| word.parse().unwrap()).collect()).collect()
 }
 

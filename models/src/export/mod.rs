@@ -2,7 +2,9 @@
 
 mod c;
 mod fit;
+mod linear;
 mod table;
 
 pub use c::Origin;
+pub use linear::{Joint, Linear};
 pub use table::{Bound, MOST_BYTES, MOST_MISS, Table, Untabulated};

@@ -12,6 +12,7 @@ mod held;
 mod history;
 mod inverse;
 mod inverse_bounds;
+mod linear;
 mod neutral;
 mod random_inverse;
 mod scaling;

@@ -1,0 +1,131 @@
+//! A robot as a chain of joints, linear about a working point: what simulators and linear control take.
+//!
+//! ```text
+//! moment that bends joint i = bᵢ + Σ Bᵢ P − Kᵢ qᵢ − Cᵢ qᵢ'        q: angle of the joint, P: pressure of a channel
+//! ```
+//!
+//! K and B are slopes of the moment that would have to be added to hold the joint ([`Prediction::missing_moments`]), by its
+//! angle and by the pressure; b makes the line pass through the working point. Loads across the body (`gravity`, `tip_load`)
+//! bend the working point but stand in none of the three: a simulator has its own.
+
+use crate::error::Unsolved;
+use crate::follow::Step;
+use crate::model::{Model, Prediction};
+use crate::scenario::Scenario;
+use crate::term::{CHANNELS, Loads};
+
+/// A joint: a piece of the body, bent as a whole.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// Start of its piece along the undeformed body \[m\].
+    pub start_m: f64,
+    /// Length of its piece \[m\].
+    pub length_m: f64,
+    /// Angle q at the working point \[rad\].
+    pub angle_rad: f64,
+    /// K \[N·m/rad\]; NaN where the actuator is flat and no bend has a slope.
+    pub stiffness_nm: f64,
+    /// B of each channel \[N·m/Pa\]; NaN likewise.
+    pub per_pa: [f64; CHANNELS],
+    /// b \[N·m\]; NaN likewise.
+    pub offset_nm: f64,
+    /// C \[N·m·s/rad\]: of slow motion with the effect `creep`; `None` without, for nothing else here depends on the rate.
+    pub damping_nms: Option<f64>,
+}
+
+/// The chain, base to tip.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Linear {
+    /// Pressures of the working point.
+    pub loads: Loads,
+    /// Its joints.
+    pub joints: Vec<Joint>,
+}
+
+/// Effects that load the body across.
+const ACROSS: [&str; 2] = ["gravity", "tip_load"];
+/// Step of the differences over the value, and over the least value that counts \[1/m, Pa\].
+const NUDGE: f64 = 1e-4;
+const LEAST: [f64; 2] = [0.1, 1e3];
+
+impl Linear {
+    /// Cuts the body into `joints` equal pieces (more where a zone ends within one) and takes their slopes at these pressures.
+    ///
+    /// ```
+    /// let robot = models::Scenario::parse(models::shipped("epam").unwrap()).unwrap();
+    /// let chain = models::export::Linear::new(&robot, 6, &models::Loads::uniform(2e3, 10e3)).unwrap();
+    /// assert!(chain.joints.len() == 6 && chain.joints[2].stiffness_nm > 0.0 && chain.joints[2].per_pa[0] > 0.0);
+    /// ```
+    ///
+    /// # Errors
+    /// What [`Model::predict`] returns at the working point.
+    pub fn new(scenario: &Scenario, joints: usize, loads: &Loads) -> Result<Linear, Unsolved> {
+        let cuts: Vec<f64> = (1..joints).map(|i| scenario.length_m * i as f64 / joints as f64).collect();
+        let whole = Model::in_pieces(scenario, &cuts);
+        let mut state = whole.prediction();
+        whole.predict(loads, &mut state)?;
+        let bent: Vec<f64> = whole.states(&state).iter().map(|place| place.curvature).collect();
+        let mut unloaded = scenario.clone();
+        unloaded.effects.retain(|effect| !ACROSS.contains(&effect.name.as_str()));
+        let mut held = Held { model: Model::in_pieces(&unloaded, &cuts), state, loads: *loads, bent };
+        held.state = held.model.prediction();
+        let creep = scenario.effects.iter().find(|effect| effect.name == "creep");
+        let joint = |i| held.joint(i, creep.map(|effect| effect.values[0] * effect.values[1]));
+        Ok(Linear { loads: *loads, joints: (0..whole.segments().len()).map(joint).collect::<Result<_, _>>()? })
+    }
+}
+
+/// The chain held at its working point.
+struct Held {
+    model: Model,
+    state: Prediction,
+    loads: Loads,
+    bent: Vec<f64>,
+}
+
+impl Held {
+    /// Moment that is missing at a joint when it has another curvature and the robot other pressures \[N·m\].
+    fn missing(&mut self, index: usize, curvature: f64, loads: &Loads) -> Result<f64, Unsolved> {
+        let (mut bent, mut found) = (self.bent.clone(), f64::NAN);
+        bent[index] = curvature;
+        let step = [Step { t_s: 0.0, loads: *loads }];
+        self.model.hold(&step, &[bent], &mut self.state, &mut |_, at| found = at.missing_moments()[index])?;
+        Ok(found)
+    }
+
+    fn joint(&mut self, index: usize, creeping_s: Option<f64>) -> Result<Joint, Unsolved> {
+        let segment = self.model.segments()[index];
+        let site = &self.model.assembly().sites[segment.site];
+        let (h, channel, bending) = (segment.length_m, site.channel, site.bending.stiffness);
+        let (is_active, bent, loads) = (self.model.is_active(index), self.bent[index], self.loads);
+        let at_point = self.missing(index, bent, &loads)?;
+        let step = NUDGE * bent.abs().max(LEAST[0]);
+        let [up, down] = [self.missing(index, bent + step, &loads)?, self.missing(index, bent - step, &loads)?];
+        // At the end of a stroke only one side has a moment.
+        let slope = match (up.is_nan(), down.is_nan()) {
+            (false, true) => (up - at_point) / step,
+            (true, false) => (at_point - down) / step,
+            _ => (up - down) / (2.0 * step),
+        };
+        let mut per_pa = [0.0; CHANNELS];
+        if is_active {
+            per_pa[channel] = self.by_pressure(index, channel)?;
+        }
+        let (stiffness_nm, angle_rad) = (slope / h, bent * h);
+        let driven: f64 = (0..CHANNELS).map(|c| per_pa[c] * loads.actuator_pa[c]).sum();
+        let offset_nm = stiffness_nm * angle_rad - driven - at_point;
+        let damping_nms = creeping_s.map(|share_s| share_s * bending / h);
+        Ok(Joint { start_m: segment.start_m, length_m: h, angle_rad, stiffness_nm, per_pa, offset_nm, damping_nms })
+    }
+
+    /// How much more moment a joint has per pascal of its channel.
+    fn by_pressure(&mut self, index: usize, channel: usize) -> Result<f64, Unsolved> {
+        let step = NUDGE * self.loads.actuator_pa[channel].max(LEAST[1]);
+        let [mut up, mut down] = [self.loads; 2];
+        up.actuator_pa[channel] += step;
+        down.actuator_pa[channel] = (down.actuator_pa[channel] - step).max(0.0);
+        let span = up.actuator_pa[channel] - down.actuator_pa[channel];
+        let bent = self.bent[index];
+        Ok((self.missing(index, bent, &down)? - self.missing(index, bent, &up)?) / span)
+    }
+}
