@@ -337,3 +337,21 @@ fn code(error: &Unsolved) -> i32 {
         Unsolved::NoEquilibrium { .. } | Unsolved::Formula { .. } | Unsolved::NotConverged { .. } => IBR_UNSOLVED,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_ends_at_the_border_and_the_robot_goes_on() {
+        // SAFETY: a text that ends with a zero; the robot is used while it is open.
+        unsafe {
+            let robot = ibr_open(c"epam".as_ptr(), std::ptr::null_mut(), 0);
+            assert_eq!(call(robot, |_| panic!("a fault")), IBR_FAULT);
+            assert!(CStr::from_ptr(ibr_error(robot)).to_bytes().starts_with(b"a fault in the library"));
+            let mut p = 0.0;
+            assert_eq!(ibr_pressure_for_height(robot, 2e3, 0.05, &raw mut p), IBR_OK);
+            ibr_close(robot);
+        }
+    }
+}

@@ -126,3 +126,63 @@ fn what_a_table_cannot_hold_is_refused_with_the_way_out() {
     let header = std::fs::read_to_string(folder.path("first.h")).unwrap();
     assert!(told.code == 0 && header.contains("FIRST LOADING FROM REST, AT ONCE: friction"), "{}", told.stderr);
 }
+
+/// Rows of a table of docs/control.md, without its head.
+fn published_rows() -> Vec<[f64; 6]> {
+    let text = std::fs::read_to_string(repository().join("data/sets/jitosho-2023-arm/joint_model.csv")).unwrap();
+    let scenario = repository().join("data/sets/jitosho-2023-arm/scenario.toml");
+    let args = ["export", "linear", scenario.to_str().unwrap(), "--pressure", "3psi", "--json"];
+    let chain = Folder::new().run(&args).json("ibr.export.linear");
+    let rows = text.lines().skip(1).zip(chain["joints"].as_array().unwrap()).map(|(line, joint)| {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        let of = |key: &str| joint[key].as_f64().unwrap();
+        let (k, b) = (of("k_nm_per_rad"), joint["b_nm_per_kpa"][0].as_f64().unwrap() * 6.894_757_293_168);
+        [cells[2], k, cells[5], b, cells[5] / cells[2], b / k]
+    });
+    rows.collect()
+}
+
+#[test]
+fn the_published_chain_stands_beside_the_predicted_one_in_the_document() {
+    let rows = published_rows();
+    assert_eq!(rows.len(), 5);
+    let digits = |[kp, k, bp, b, rp, r]: &[f64; 6]| format!("{kp:.2} | {k:.1} | {bp:.4} | {b:.2} | {rp:.3} | {r:.3} |");
+    let lines: Vec<String> = rows.iter().enumerate().map(|(i, row)| format!("| {} | {}", i + 1, digits(row))).collect();
+    let page = std::fs::read_to_string(repository().join("docs/control.md")).unwrap();
+    assert!(page.contains(&lines.join("\n")), "docs/control.md should have\n{}", lines.join("\n"));
+    // What the page says of it: ten times too large, B/K near the published mean.
+    let mean = |i: usize| rows.iter().map(|row| row[i]).sum::<f64>() / 5.0;
+    let [k, b, turn] = [mean(1) / mean(0), mean(3) / mean(2), mean(5) / mean(4)];
+    assert!((5.0..20.0).contains(&k) && (5.0..20.0).contains(&b) && (0.8..1.25).contains(&turn), "{k} {b} {turn}");
+}
+
+/// Code of the page: C goes into main.c, shell is run.
+#[test]
+fn the_examples_of_the_document_run_as_they_stand() {
+    if !has_cc() {
+        return;
+    }
+    let page = std::fs::read_to_string(repository().join("docs/control.md")).unwrap();
+    let folder = Folder::new();
+    let block = |kind: &str| {
+        let parts = page.split(&format!("```{kind}\n")).skip(1);
+        parts.map(|part| part.split("```").next().unwrap().to_string()).collect::<Vec<_>>()
+    };
+    folder.write("main.c", &block("c")[0]);
+    let bin = std::path::Path::new(env!("CARGO_BIN_EXE_ibr")).parent().unwrap();
+    let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
+    let mut told = String::new();
+    for script in block("sh") {
+        let mut sh = Command::new("sh");
+        sh.args(["-ec", &script]).env("PATH", &path).env("NO_COLOR", "1").current_dir(folder.path(""));
+        let ran = sh.output().unwrap();
+        told += &String::from_utf8_lossy(&ran.stdout);
+        let stderr = String::from_utf8_lossy(&ran.stderr);
+        assert!(ran.status.success(), "{script}\n{stderr}");
+        told += &stderr;
+    }
+    for words in ["kPa: x 3", "y 60.0 mm", "channel 0 is at its largest pressure", "0.3,", "K [N m/rad]", "\"joints\""]
+    {
+        assert!(told.contains(words), "no `{words}` in\n{told}");
+    }
+}

@@ -33,10 +33,13 @@ const RARE: [&str; 20] = [
 ];
 
 /// What runs, in this order in one folder, and the schema of its answer.
-const COMMANDS: [(&str, &str); 37] = [
+const COMMANDS: [(&str, &str); 40] = [
     ("predict epam-textbook --pressure 30kPa", "ibr.predict"),
     ("predict epam --pressure 300kPa", "ibr.predict"),
     ("predict epam --limits --effect tip_load:force_y_n=1", "ibr.predict.limits"),
+    ("predict epam-textbook --inverse 100mm,400mm", "ibr.predict"),
+    ("export c epam --out epam.c", "ibr.export.c"),
+    ("export linear fpam --pressure 20kPa", "ibr.export.linear"),
     ("pattern cpam", "ibr.pattern"),
     ("simulate tube --end 1ms --out t", "ibr.simulate"),
     ("compare epam-textbook synthetic-epam --calibrate", "ibr.compare"),

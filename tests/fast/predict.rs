@@ -142,3 +142,43 @@ fn a_straight_robot_folds_where_its_weight_reaches_the_moment_of_the_pressure() 
     assert!(length(0) > straight && length(0) < 1.02 * straight, "{} {straight}", length(0));
     assert!(length(3) > length(0), "a steered robot has a shorter lever");
 }
+
+#[test]
+fn a_place_is_reached_by_the_pressures_of_two_channels_or_the_limit_that_holds_is_told() {
+    let folder = Folder::new();
+    let two = "\n[[zone]]\nfrom_mm = 180\nto_mm = 360\nchannel = 1\n";
+    folder.write("two.toml", models::shipped("epam-textbook").unwrap().to_string() + two);
+    let answer = folder.run(&["predict", "two.toml", "--inverse", "300mm,120mm", "--json"]).json("ibr.predict");
+    let (state, nearest) = (&answer["states"][0], &answer["nearest"]);
+    assert!(nearest["miss_mm"].as_f64().unwrap() < 1e-6 && nearest["held_back"] == serde_json::json!([]), "{nearest}");
+    let [p0, p1] = [0, 1].map(|i| state["p_act_channels_kpa"][i].as_f64().unwrap());
+    let back = folder.run(&["predict", "two.toml", "--pressure", &format!("{p0}kPa/{p1}kPa"), "--json"]);
+    let tip = &back.json("ibr.predict")["states"][0]["tip"];
+    assert!(
+        (tip["x_mm"].as_f64().unwrap() - 300.0).abs() < 1e-6 && (tip["y_mm"].as_f64().unwrap() - 120.0).abs() < 1e-6
+    );
+    let ran = folder.run(&["predict", "two.toml", "--inverse", "300mm,250mm"]);
+    assert!(ran.code == 0 && ran.stderr.contains("channel 0 is at its largest pressure, 100 kPa"), "{}", ran.stderr);
+    refuse(&with_report(), &["predict", "epam", "--inverse", "300mm,x"], 2, &["not a quantity"]);
+}
+
+#[test]
+fn lines_of_a_stream_are_answered_before_the_next_one_comes() {
+    use std::io::{BufRead, BufReader, Write};
+    let mut command = Folder::new().ibr(&["predict", "epam", "--follow"]);
+    let piped = std::process::Stdio::piped;
+    let mut running = command.stdin(piped()).stdout(piped()).stderr(piped()).current_dir("/").spawn().unwrap();
+    let (mut input, output) = (running.stdin.take().unwrap(), running.stdout.take().unwrap());
+    let mut lines = BufReader::new(output).lines().map(Result::unwrap);
+    for (given, answered) in
+        [("t_s,p_kpa", "t_s,x_mm,y_mm,angle_deg,p0_kpa"), ("0,0", "0,360.0000,0.0000,0.0000,0.0000")]
+    {
+        writeln!(input, "{given}").unwrap();
+        assert_eq!(lines.next().unwrap(), answered);
+    }
+    writeln!(input, "1,many").unwrap();
+    let ended = running.wait_with_output().unwrap();
+    let told = String::from_utf8_lossy(&ended.stderr).into_owned();
+    assert!(ended.status.code() == Some(3) && told.contains("line 3: `many` is no number"), "{told}");
+    refuse(&with_report(), &["predict", "epam", "--follow", "--json"], 2, &["leave out --json"]);
+}
