@@ -5,6 +5,7 @@ mod discover;
 mod export;
 mod groups;
 mod import;
+mod sweep;
 
 use clap::{Args, Parser, Subcommand};
 use compare::study::Knob;
@@ -16,6 +17,7 @@ pub use export::{ExportArgs, ExportCommand, LinearArgs};
 pub use groups::{command, parsed};
 pub use import::Import;
 use std::path::PathBuf;
+pub use sweep::SweepArgs;
 
 /// Models of pneumatic bending actuators on inflated-beam robots, held against measurements.
 #[derive(Debug, Parser)]
@@ -62,6 +64,8 @@ pub enum Command {
     Breakdown(BreakdownArgs),
     /// Run a finite element case through time: ParaView frames, energy balance, checkpoints
     Simulate(SimulateArgs),
+    /// Many cases of one robot: keys of its scenario varied, a row per case, in shards or on a cluster
+    Sweep(SweepArgs),
     /// From tensile tests of a fabric to its moduli, curves and a table for cases
     Characterize(CharacterizeArgs),
     /// Look at, list or make marker data

@@ -63,6 +63,21 @@ impl From<data::DataError> for Failure {
     }
 }
 
+impl From<sweep::SweepError> for Failure {
+    fn from(error: sweep::SweepError) -> Failure {
+        use sweep::SweepError::{Cluster, Run, Study, Write};
+        match error {
+            Study(error) => error.into(),
+            Run(error) => error.into(),
+            Write { path, cause } => {
+                let help = "choose another folder with --out".into();
+                Failure::Write { path: path.display().to_string(), cause, help }
+            }
+            Cluster { message, help } => Failure::usage(message, help),
+        }
+    }
+}
+
 impl From<Unsolved> for Failure {
     fn from(error: Unsolved) -> Failure {
         Failure::Compare(error.into())

@@ -51,6 +51,7 @@ pub mod studies;
 mod tables;
 
 pub use ::compare as study;
+pub use ::sweep;
 pub use data;
 pub use data::import;
 pub use fem;

@@ -26,6 +26,7 @@ mod pattern;
 mod predict;
 mod published;
 mod simulate;
+mod sweep;
 mod tradeoff;
 mod validate;
 mod verify;
@@ -51,6 +52,7 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
         Command::Validate(args) => validate::run(args, context),
         Command::Breakdown(args) => breakdown::run(args, context),
         Command::Simulate(args) => simulate::run(args, context),
+        Command::Sweep(args) => sweep::run(args, context),
         Command::Characterize(args) => characterize::run(args, context),
         Command::Data(args) => data::run(args, context),
         Command::Challenge(command) => challenge::run(command, context),

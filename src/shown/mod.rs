@@ -22,4 +22,5 @@ pub mod predicted;
 pub mod run;
 pub mod run_robot;
 pub mod several_runs;
+pub mod swept;
 pub mod validation;

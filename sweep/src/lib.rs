@@ -9,6 +9,7 @@
 
 mod elements;
 mod error;
+pub mod influence;
 mod part;
 pub mod policy;
 mod reduced;
@@ -21,6 +22,6 @@ mod table;
 mod tests;
 
 pub use error::SweepError;
-pub use run::{Found, Settings, Shard, run};
-pub use study::{Axis, Engine, Output, Study};
+pub use run::{Found, Settings, Shard, parts_missing, run};
+pub use study::{Axis, Engine, Output, PRESSURE, Study};
 pub use table::{collect, names};

@@ -75,6 +75,11 @@ pub fn parts(study: &Study) -> Vec<Part> {
     study.engines.iter().flat_map(of).collect()
 }
 
+/// Parts of a study that are not in a folder.
+pub fn parts_missing(study: &Study, folder: &std::path::Path) -> usize {
+    parts(study).iter().filter(|part| !part.path(study, folder).exists()).count()
+}
+
 /// Computes what is missing of a shard. `progress` is told how far it is and says whether to go on.
 ///
 /// # Errors
@@ -100,7 +105,7 @@ pub fn run(study: &Study, settings: &Settings, progress: Progress) -> Result<Fou
             cpu_s += rows.cpu_s;
         }
     }
-    let missing = all.iter().filter(|part| !part.path(study, &settings.folder).exists()).count();
+    let missing = parts_missing(study, &settings.folder);
     Ok(Found { parts: kept + quick.len() + long.len(), kept, missing, cpu_s })
 }
 

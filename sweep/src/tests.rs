@@ -216,3 +216,38 @@ fn shards_are_read_as_they_are_typed() {
         assert!(Shard::parse(wrong).unwrap_err().contains("K/N"), "{wrong}");
     }
 }
+
+#[test]
+fn the_key_that_moves_the_tip_most_comes_first_and_its_groups_have_the_means_of_their_cases() {
+    let (study, folder) = (study(&GRID.replace(", 300]", "]")).unwrap(), tempfile::tempdir().unwrap());
+    made(&study, folder.path(), Shard::WHOLE);
+    let table = collect(&study, folder.path()).unwrap();
+    let found = influence::influences(&study, &table, Engine::Reduced, "tip_y_mm");
+    assert_eq!(found.iter().map(|i| &*i.key).collect::<Vec<_>>(), ["pressure_kpa", "actuator.width_mm"]);
+    assert_eq!((found[0].groups.len(), found[1].groups.len()), (10, 3));
+    let (Column::F64(width), Column::F64(tip)) = (&table.columns[2].1, &table.columns[5].1) else { panic!() };
+    let own: Vec<f64> = (0..93).filter(|i| width[*i] == 55.5).map(|i| tip[i]).collect();
+    let mean = own.iter().sum::<f64>() / own.len() as f64;
+    assert!((found[1].groups[1].1 - mean).abs() < 1e-9 && found[1].groups[1].0 == "55.5", "{found:?}");
+    let map = influence::map(&table, Engine::Reduced, "tip_y_mm", ["actuator.width_mm", "pressure_kpa"]).unwrap();
+    let of_row =
+        map.means[1].iter().zip([4.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 3.0]).map(|(m, n)| m * n).sum::<f64>()
+            / 31.0;
+    assert!((of_row - mean).abs() < 1e-9, "{map:?}");
+}
+
+#[test]
+fn a_scheduler_gets_one_array_job_of_the_same_command() {
+    let job = schedule::Job {
+        program: "/opt/it's/ibr".into(),
+        study: "study.toml".into(),
+        folder: "out".into(),
+        shards: 4,
+        threads: 2,
+    };
+    let script = job.script(schedule::Cluster::Slurm);
+    assert!(script.contains("#SBATCH --array=1-4\n#SBATCH --cpus-per-task=2"), "{script}");
+    let command = "exec '/opt/it'\\''s/ibr' --quiet sweep 'study.toml' --out 'out' --threads 2 --shard \"$SLURM_ARRAY_TASK_ID/4\"";
+    assert!(script.contains(command), "{script}");
+    assert!(job.script(schedule::Cluster::HyperQueue).contains("--shard \"$HQ_TASK_ID/4\""));
+}

@@ -165,7 +165,8 @@ fn the_examples_of_the_document_run_as_they_stand() {
     let page = std::fs::read_to_string(repository().join("docs/control.md")).unwrap();
     let folder = Folder::new();
     let block = |kind: &str| {
-        let parts = page.split(&format!("```{kind}\n")).skip(1);
+        let start = format!("```{kind}\n");
+        let parts = page.split(&start).skip(1);
         parts.map(|part| part.split("```").next().unwrap().to_string()).collect::<Vec<_>>()
     };
     folder.write("main.c", &block("c")[0]);

@@ -1,0 +1,33 @@
+//! `ibr sweep`
+
+use clap::Args;
+use std::path::PathBuf;
+
+/// `ibr sweep`
+#[derive(Debug, Args)]
+pub struct SweepArgs {
+    /// Study: a TOML file that says what varies (docs/sweep.md)
+    pub study: PathBuf,
+    /// Folder of the table, the pictures and of what is computed; what is there already is kept.
+    /// Default: ibr-report/sweep-<study>
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+    /// Compute only every N-th part, from the K-th on; shards may run anywhere that sees the folder
+    #[arg(long, value_name = "K/N", conflicts_with_all = ["engine", "script"])]
+    pub shard: Option<String>,
+    /// Let a scheduler run the shards: submit them, watch, collect
+    #[arg(long, value_name = "SCHEDULER", value_parser = ["slurm", "hq"])]
+    pub engine: Option<String>,
+    /// With --engine: shards of the job
+    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    pub shards: u64,
+    /// With --engine: print what would be submitted
+    #[arg(long, requires = "engine")]
+    pub script: bool,
+    /// Threads, with --engine those of each shard; 0: one per core
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
+    pub threads: u64,
+    /// Write table.parquet in place of table.csv
+    #[arg(long)]
+    pub parquet: bool,
+}

@@ -1,0 +1,121 @@
+//! `ibr sweep`
+
+use super::{Context, Outcome};
+use crate::cli::SweepArgs;
+use crate::failure::Failure;
+use crate::output::{Input, check_folder, maker, sha256, write_files};
+use crate::shown::swept::{swept_json, swept_text};
+use data::Table;
+use ibr::pages::{sweep_picture_names, sweep_pictures};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use sweep::schedule::{Cluster, Job};
+use sweep::{Found, Settings, Shard, Study, collect, run as compute};
+
+pub fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Failure> {
+    let study = Study::read(&args.study, ibr::studies::scenario)?;
+    let stem = args.study.file_stem().unwrap_or_default().to_string_lossy();
+    let folder = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("ibr-report/sweep-{stem}")));
+    check_folder(&folder)?;
+    if let Some(name) = &args.engine {
+        let cluster = if name == "hq" { Cluster::HyperQueue } else { Cluster::Slurm };
+        let job = job(args, &folder)?;
+        if args.script {
+            return Ok(Outcome { text: job.script(cluster), ..Outcome::default() });
+        }
+        submit(&job, cluster, &study, &folder, context)?;
+    }
+    let shard = args.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse);
+    let shard = shard.map_err(|message| Failure::usage(message, "see ibr sweep --help"))?;
+    let runs = fem::session::Settings {
+        frames: false,
+        threads: args.threads as usize,
+        maker: maker(),
+        ..fem::session::Settings::default()
+    };
+    let settings = Settings { folder: folder.clone(), shard, threads: args.threads as usize, runs };
+    let found = made(&study, &settings, context)?;
+    match collect(&study, &folder) {
+        Ok(table) => whole(args, &study, &folder, &found, table, context),
+        Err(missing) => {
+            let text = format!(
+                "{} parts of shard {}/{} are there; {missing} of other shards are not yet. The last shard writes the table\n",
+                found.parts, shard.which, shard.of
+            );
+            Ok(Outcome::new(text, swept_json(&args.study, &study, &found, None)))
+        }
+    }
+}
+
+/// Computes what is missing; Ctrl-C leaves what is complete.
+fn made(study: &Study, settings: &Settings, context: &mut Context) -> Result<Found, Failure> {
+    let mut failure = None;
+    let found = context.fem(|progress| match compute(study, settings, progress) {
+        Ok(found) => Ok(Some(found)),
+        Err(sweep::SweepError::Run(error)) => Err(error),
+        Err(other) => {
+            failure = Some(other);
+            Ok(None)
+        }
+    })?;
+    match (found, failure) {
+        (Some(found), _) => Ok(found),
+        (None, Some(error)) => Err(error.into()),
+        (None, None) => Err(Failure::usage("nothing was computed", "report this")),
+    }
+}
+
+/// Table, pictures and what is printed.
+fn whole(
+    args: &SweepArgs,
+    study: &Study,
+    folder: &Path,
+    found: &Found,
+    table: Table,
+    context: &mut Context,
+) -> Result<Outcome, Failure> {
+    (context.progress)("writing the table", None);
+    let mut files = sweep_pictures(study, &table)?;
+    let both = |name: &str| ["svg", "png"].map(|kind| format!("{name}.{kind}"));
+    files.retired = sweep_picture_names().into_iter().flat_map(both).collect();
+    let mut outcome =
+        Outcome::new(swept_text(study, found, &table), swept_json(&args.study, study, found, Some(&table)));
+    let name = if args.parquet { "table.parquet" } else { "table.csv" };
+    match args.parquet {
+        true => files.parquet.push((name.into(), table)),
+        false => {
+            let mut csv = Vec::new();
+            table.to_csv(&mut csv)?;
+            files.files.push((name.into(), csv));
+        }
+    }
+    let input = |name: &Path, text: &[u8]| Input { name: name.display().to_string(), sha256: sha256(text) };
+    let own = input(&args.study, &std::fs::read(&args.study).unwrap_or_default());
+    let robot = input(Path::new(&study.base.name), study.base.text.as_bytes());
+    write_files(folder, &files, &[own, robot], context)?;
+    outcome.notes.push(format!("table: {}", folder.join(name).display()));
+    Ok(outcome)
+}
+
+fn job(args: &SweepArgs, folder: &Path) -> Result<Job, Failure> {
+    let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    let program = std::env::current_exe()
+        .map_err(|cause| Failure::usage(format!("this program cannot be found: {cause}"), "run the shards by hand"))?;
+    let threads = (args.threads as usize).max(1);
+    Ok(Job { program, study: whole(&args.study), folder: whole(folder), shards: args.shards as usize, threads })
+}
+
+/// Submits and watches until all parts are there; Ctrl-C leaves the job alone.
+fn submit(job: &Job, cluster: Cluster, study: &Study, folder: &Path, context: &mut Context) -> Result<(), Failure> {
+    let mut outcome = Ok(());
+    let all = sweep::parts_missing(study, folder).max(1);
+    context.fem(|progress| {
+        let missing = || sweep::parts_missing(study, folder);
+        let told = &mut |left: usize| -> ControlFlow<()> {
+            progress("parts by the scheduler", Some(1.0 - left as f64 / all as f64))
+        };
+        outcome = job.run(cluster, &missing, told);
+        Ok(())
+    })?;
+    Ok(outcome?)
+}

@@ -1,0 +1,86 @@
+//! A sweep as pictures: how far each key moves the tip, and a map over the two that move it most.
+
+use super::{Files, PageError};
+use ::sweep::influence::{Influence, SweepMap, influences, map};
+use ::sweep::{Engine, Study};
+use data::Table;
+use report::chart::{Bar, Chart, ChartColumn, ChartRow, Mark, Space};
+use report::{Drawn, Ink, number};
+
+/// The output that is drawn, and what it is called.
+const OUTPUT: (&str, &str) = ("tip_y_mm", "height of the tip [mm]");
+
+/// Pictures of a table, two for every engine.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn sweep_pictures(study: &Study, table: &Table) -> Result<Files, PageError> {
+    let mut files = Files::default();
+    for engine in &study.engines {
+        let name = |picture: &str| match engine {
+            Engine::Reduced => picture.to_string(),
+            Engine::Elements => format!("{picture}_fe"),
+        };
+        let found = influences(study, table, *engine, OUTPUT.0);
+        if found.is_empty() {
+            continue;
+        }
+        files.plot(&name("influence"), tornado(&found, *engine)?);
+        let Some([first, second]) = found.first_chunk::<2>() else { continue };
+        let drawn = map(table, *engine, OUTPUT.0, [&second.key, &first.key]);
+        drawn.map(|map| map_of(&map, *engine)).transpose()?.into_iter().for_each(|d| files.plot(&name("map"), d));
+    }
+    Ok(files)
+}
+
+/// Names of all pictures that a sweep may have.
+pub fn sweep_picture_names() -> [&'static str; 4] {
+    ["influence", "influence_fe", "map", "map_fe"]
+}
+
+fn tornado(found: &[Influence], engine: Engine) -> Result<Drawn, PageError> {
+    let bar = |(row, i): (usize, &Influence)| {
+        let span = i.range();
+        let (low, high) = (number(span[0], 0), number(span[1], 0));
+        Mark::Bar(Bar {
+            row,
+            span,
+            ink: Ink::Series(0),
+            alpha: 1.0,
+            text: format!("{low} to {high}"),
+            ..Bar::default()
+        })
+    };
+    let rows = found.iter().map(|i| ChartRow::beside(&i.key)).collect();
+    let chart = Chart {
+        title: format!("How far each key moves the tip, {}", engine.word()),
+        x_label: format!("mean {} over the values of the key", OUTPUT.1),
+        space: Space::Rows(rows),
+        marks: found.iter().enumerate().map(bar).collect(),
+        ..Chart::default()
+    };
+    Ok(chart.draw("influence of each key")?)
+}
+
+fn map_of(map: &SweepMap, engine: Engine) -> Result<Drawn, PageError> {
+    let finite = || map.means.iter().flatten().copied().filter(|m| m.is_finite());
+    let most = finite().fold(0.0, |most: f64, m| most.max(m.abs()));
+    let cell = |r: usize, c: usize| {
+        let mean = map.means[r][c];
+        Mark::Cell([r, c], mean / most, number(mean, 0), String::new())
+    };
+    let columns = map.names[1].iter().map(|name| ChartColumn { name: name.clone(), ..ChartColumn::default() });
+    let chart = Chart {
+        title: format!("Height of the tip, {}", engine.word()),
+        x_label: map.keys[1].clone(),
+        y_label: map.keys[0].clone(),
+        space: Space::Grid(map.names[0].iter().map(|name| ChartRow::beside(name)).collect(), columns.collect()),
+        marks: (0..map.means.len())
+            .flat_map(|r| (0..map.means[r].len()).map(move |c| (r, c)))
+            .map(|(r, c)| cell(r, c))
+            .collect(),
+        heat: Some((format!("mean {}", OUTPUT.1), most)),
+        ..Chart::default()
+    };
+    Ok(chart.draw("map of the sweep")?)
+}
