@@ -128,12 +128,10 @@ pub fn check_fed(scenario: &Scenario, actuator_pa: &[f64; CHANNELS]) -> Result<(
         let message = "an actuator pressure for a beam without [actuator]";
         return Err(CompareError::refused(message, "leave it out"));
     }
-    let is_fed = |channel: usize| {
-        scenario.actuator.channel == channel || scenario.zones.iter().any(|zone| zone.channel == Some(channel))
-    };
+    let fed = scenario.channels();
     let is_lost = |channel: &usize| {
         let p = actuator_pa[*channel];
-        p > 0.0 && p != actuator_pa[0] && !is_fed(*channel)
+        p > 0.0 && p != actuator_pa[0] && !fed.contains(channel)
     };
     match (0..CHANNELS).find(is_lost) {
         Some(channel) => {

@@ -18,6 +18,8 @@ static INTERRUPT: Interrupt = Interrupt::new();
 /// Runs what was typed, the name of the program first, prints, and returns the exit code. It takes over Ctrl-C and ends the
 /// process itself on `--help`, on wrong usage and on an interrupt: call it once, from a program that does nothing else.
 pub fn run(typed: impl IntoIterator<Item = OsString>) -> u8 {
+    // A browser has none.
+    #[cfg(not(target_family = "wasm"))]
     if let Err(error) = ctrlc::set_handler(interrupt) {
         say(&format!("warning: an interrupt cannot be caught here: {error}\n"));
     }

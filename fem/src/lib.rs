@@ -25,6 +25,7 @@ mod atomic;
 mod bytes;
 pub mod case;
 pub mod contact;
+pub mod cost;
 pub mod error;
 pub mod mesh;
 mod output;

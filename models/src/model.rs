@@ -171,6 +171,21 @@ impl Model {
             .collect()
     }
 
+    /// Both sides of the body in the plane of bending at `count` stations from base to tip \[m\], the actuator's first, for drawing.
+    pub fn outline(&self, at: &Prediction, count: usize) -> [Vec<[f64; 2]>; 2] {
+        let length: f64 = self.assembly.segments.iter().map(|s| s.length_m).sum();
+        let mut sides = [Vec::with_capacity(count), Vec::with_capacity(count)];
+        for i in 0..count {
+            let (segment, offset) = locate(&self.assembly.segments, length * i as f64 / (count.max(2) - 1) as f64);
+            let ([x, y], heading) = self.stretch(&at.work, segment).at(offset);
+            let radius = self.assembly.sites[self.assembly.segments[segment].site].radius_m;
+            let across = [-radius * heading.sin(), radius * heading.cos()];
+            sides[0].push([x + across[0], y + across[1]]);
+            sides[1].push([x - across[0], y - across[1]]);
+        }
+        sides
+    }
+
     /// Largest actuator pressure of the search for an inverse \[Pa\], from the scenario.
     pub fn p_max_pa(&self) -> f64 {
         self.p_max_pa

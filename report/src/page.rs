@@ -39,8 +39,9 @@ fn environment(figures: BTreeMap<String, String>) -> Result<Environment<'static>
     for (name, text) in TEMPLATES {
         env.add_template(name, text)?;
     }
-    env.add_global("css_light", css_variables(Theme::Light));
-    env.add_global("css_dark", css_variables(Theme::Dark));
+    let [light, dark] = colours();
+    env.add_global("css_light", light);
+    env.add_global("css_dark", dark);
     env.add_filter("inline", |text: &str| Value::from_safe_string(markup::inline(text)));
     env.add_filter("tags", |text: &str| Value::from_safe_string(markup::with_tags(text)));
     env.add_filter("effect", |text: &str| text.replace('_', " "));
@@ -67,8 +68,13 @@ fn number(value: &Value, scale: f64, words: impl Fn(f64) -> String) -> String {
     }
 }
 
+/// Declarations of the colours of plots and pages as CSS variables, light then dark, for a page that holds [`inline`] plots.
+pub fn colours() -> [String; 2] {
+    [Theme::Light, Theme::Dark].map(css_variables)
+}
+
 /// A plot as part of a page: its colours and its font, as wide as its column, with an accessible title.
-fn inline(svg: &str, alt: &str) -> String {
+pub fn inline(svg: &str, alt: &str) -> String {
     let (head, body) = svg.split_once('>').unwrap_or(("", svg));
     let view = head.split_once("viewBox=\"").and_then(|(_, rest)| rest.split_once('"')).map_or("", |(view, _)| view);
     let alt = markup::escape(alt);

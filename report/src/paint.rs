@@ -24,10 +24,11 @@ struct Surface {
     by_letter: bool,
 }
 
-/// Draws the scene as SVG text and PNG bytes.
+/// Draws the scene as SVG text and PNG bytes; in a browser, where nobody saves them, without the latter.
 pub(crate) fn paint(scene: &Scene) -> Result<Drawn, ReportError> {
     text::font()?;
-    Ok(Drawn { svg: svg(scene)?, png: png(scene)? })
+    let png = if cfg!(target_family = "wasm") { Vec::new() } else { png(scene)? };
+    Ok(Drawn { svg: svg(scene)?, png })
 }
 
 fn svg(scene: &Scene) -> Result<String, ReportError> {

@@ -1,7 +1,6 @@
 //! The one font, its registration and its metrics.
 
 use ab_glyph::{Font, FontRef};
-use plotters::style::{FontStyle, register_font};
 use std::sync::OnceLock;
 
 use crate::ReportError;
@@ -14,7 +13,9 @@ const BYTES: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
 pub(crate) fn font() -> Result<&'static FontRef<'static>, ReportError> {
     static FONT: OnceLock<Option<FontRef<'static>>> = OnceLock::new();
     let load = || {
-        register_font(FAMILY, FontStyle::Normal, BYTES).ok()?;
+        // A browser has fonts of its own, and paints no bitmap here.
+        #[cfg(not(target_family = "wasm"))]
+        plotters::style::register_font(FAMILY, plotters::style::FontStyle::Normal, BYTES).ok()?;
         FontRef::try_from_slice(BYTES).ok()
     };
     FONT.get_or_init(load).as_ref().ok_or(ReportError::Font)

@@ -1,10 +1,5 @@
 //! What the process has used so far.
 
-/// Processor seconds of this process, all threads.
-pub(crate) fn cpu_seconds() -> f64 {
-    cpu_time::ProcessTime::try_now().map_or(0.0, |t| t.as_duration().as_secs_f64())
-}
-
 /// Memory in use \[bytes\]; 0 where the system does not say.
 pub(crate) fn resident_bytes() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

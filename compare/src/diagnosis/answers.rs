@@ -3,7 +3,7 @@
 use super::fitted::with_fitted;
 use super::result::{Combination, Diagnosis, ParameterValue, Ranked, Verdict};
 use crate::policy;
-use models::Scenario;
+use models::{Known, Scenario};
 
 /// What a diagnosis says of an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,6 +49,20 @@ impl<'d> Answer<'d> {
         let kept = self.effects.iter().filter(|(r, _)| wanted(r));
         let kept: Vec<(&str, &[ParameterValue])> = kept.map(|(r, values)| (r.effect.as_str(), *values)).collect();
         with_fitted(scenario, &kept, self.bending_nm2.get(level).copied())
+    }
+
+    /// It as changes of a scenario's text, for [`crate::ScenarioFile::with`]: each place and what is written there. `level` as in
+    /// [`Answer::on`].
+    pub fn changes(&self, level: usize) -> Vec<(String, String)> {
+        let mut changes = Vec::new();
+        for (r, values) in &self.effects {
+            let of = |key: &str, value: String| (format!("effects.{}.{key}", r.effect), value);
+            changes.extend(values.iter().map(|p| of(&p.key, format!("{:?}", p.value))));
+            changes.push(of("basis", format!("\"{}\"", Known::Calibrated.word())));
+        }
+        let bending = self.bending_nm2.get(level).map(|b| ("body.bending_stiffness_nm2".to_string(), format!("{b:?}")));
+        changes.extend(bending);
+        changes
     }
 
     /// Whether it changes anything, with values that are possible.

@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
 use crate::FemError;
+use crate::cost::thread_seconds;
 
 /// Stretches after a change until the way that is not in use is tried again, since one bad stretch may have misled; twice as
 /// many each time it stays the slower one.
@@ -145,11 +146,6 @@ fn awake<T: Send>(work: impl FnOnce() -> T + Send) -> T {
         }
         work()
     })
-}
-
-/// Processor seconds of the calling thread; 0 where the system does not say.
-fn thread_seconds() -> f64 {
-    cpu_time::ThreadTime::try_now().map_or(0.0, |t| t.as_duration().as_secs_f64())
 }
 
 #[cfg(test)]

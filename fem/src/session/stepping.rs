@@ -4,6 +4,7 @@ use super::Progress;
 use super::watch::{Watched, WatchedState};
 use crate::bytes::{pack, unpack};
 use crate::case::Case;
+use crate::cost::thread_seconds;
 use crate::output::Frame;
 use crate::output::centre_line::{CentreLine, CentreLineFile};
 use crate::output::checkpoint::{Checkpoint, read_checkpoint, write_checkpoint};
@@ -262,11 +263,6 @@ impl Keeper {
         self.saving = self.saved_at - began;
         saved
     }
-}
-
-/// Processor seconds of the calling thread.
-fn thread_seconds() -> f64 {
-    cpu_time::ThreadTime::try_now().map_or(0.0, |t| t.as_duration().as_secs_f64())
 }
 
 /// Tells how far a run is.

@@ -20,12 +20,14 @@
 
 mod built;
 mod check;
+mod dials;
 mod formulas;
 pub mod quantity;
 mod raw;
 mod spans;
 mod supply;
 
+pub use dials::Dial;
 pub use spans::Span;
 
 use crate::actuators::{Actuator, ActuatorShape, BEAM};

@@ -1,7 +1,7 @@
 //! All that `ibr verify` prints.
 
 use super::{Against, CHECKS, Check, CheckOutcome, Figure, Line};
-use crate::cost::cpu_seconds;
+use fem::cost::process_seconds;
 use crate::exact::{OracleRow, oracle_table};
 use crate::{Error, Findings, Printed};
 use compare::Progress;
@@ -31,9 +31,9 @@ pub fn verify(choice: &Choice, progress: &mut Progress) -> Result<(Findings, Fig
     let (mut lines, mut missed) = (0, 0);
     for (i, check) in checks.iter().enumerate() {
         progress(check.name, Some(i as f64 / checks.len() as f64));
-        let start = cpu_seconds();
+        let start = process_seconds();
         let outcome = (check.run)()?;
-        let cpu_s = cpu_seconds() - start;
+        let cpu_s = process_seconds() - start;
         missed += outcome.lines.iter().filter(|line| !line.passes()).count();
         lines += outcome.lines.len();
         cells.extend(outcome.lines.iter().enumerate().map(|(n, line)| row(check, line, n == 0, cpu_s)));

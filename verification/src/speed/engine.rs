@@ -3,7 +3,8 @@
 use super::plain_loop::Membrane;
 use super::workloads as speed;
 use crate::checks::Against;
-use crate::cost::{cpu_seconds, resident_bytes};
+use crate::cost::resident_bytes;
+use fem::cost::process_seconds;
 use crate::{Error, Findings, Printed};
 use compare::Progress;
 use fem::Simulation;
@@ -137,12 +138,12 @@ fn against_plain() -> Result<[Figure; 2], Error> {
     for _ in 0..REPEATS {
         let mut best = [f64::INFINITY; 2];
         for _ in 0..TURNS {
-            let start = cpu_seconds();
+            let start = process_seconds();
             plain.advance_by(TURN_STEPS);
-            best[0] = best[0].min((cpu_seconds() - start) / TURN_STEPS as f64);
-            let start = cpu_seconds();
+            best[0] = best[0].min((process_seconds() - start) / TURN_STEPS as f64);
+            let start = process_seconds();
             let steps = speed::advance_by(&mut run, TURN_STEPS)?;
-            best[1] = best[1].min((cpu_seconds() - start) / steps as f64);
+            best[1] = best[1].min((process_seconds() - start) / steps as f64);
         }
         per_step.push(best[1] / best[0]);
         per_time.push(best[1] / best[0] * plain.dt_s() / run.dt_s());
@@ -196,13 +197,13 @@ fn rates(progress: &mut Progress) -> Result<Vec<Figure>, Error> {
             progress("element-steps per second", Some(share));
             let until_s = problem.settings.end_s * (i + 1) as f64 / STRETCHES as f64;
             for (k, run) in [&mut membrane, &mut bending, &mut touching].into_iter().enumerate() {
-                let (from, start) = (run.step(), cpu_seconds());
+                let (from, start) = (run.step(), process_seconds());
                 if k == 2 {
                     run.advance_until(until_s, &mut |_| true)?;
                 } else {
                     speed::advance_by(run, TURN_STEPS)?;
                 }
-                spent_s[k] += cpu_seconds() - start;
+                spent_s[k] += process_seconds() - start;
                 done[k] += (run.step() - from) as f64 * run.elements() as f64;
             }
         }
@@ -237,12 +238,12 @@ fn memory() -> Result<Figure, Error> {
 
 /// CPU-seconds of the whole pillow run to 0.15 s, preparation and ledger included.
 fn whole_run(n: usize, name: &str) -> Result<Figure, Error> {
-    let start = cpu_seconds();
+    let start = process_seconds();
     let problem = speed::pillow(n, true)?;
     let mut run = Simulation::new(&problem)?;
     run.advance_until(problem.settings.end_s, &mut |_| true)?;
     let what = format!("pillow to 0.15 s, nodes of {name} triangles");
-    Ok(Figure::new(&what, &run, "CPU-s", vec![cpu_seconds() - start], None))
+    Ok(Figure::new(&what, &run, "CPU-s", vec![process_seconds() - start], None))
 }
 
 /// Seconds on two threads of one ramp to 30 kPa with elements of 4 mm everywhere.

@@ -1,0 +1,82 @@
+//! A robot held against measurements: how far off, and what it lacks.
+
+use crate::data_of::Measured;
+use crate::robot::Robot;
+use compare::diagnosis::words::listed;
+use compare::diagnosis::{Answer, Diagnosis, Options, Standing, diagnose};
+use compare::{CompareError, Evidence};
+use ibr::compared::Compared;
+use ibr::pages::{Diagnosed, Files, Imprint, PageError, compare_page, diagnosis_page};
+use ibr::shown::comparison::CompareAnswer;
+use ibr::shown::diagnosis::{text, to_json};
+use report::page::inline;
+use serde_json::{Map, Value, json};
+
+/// The answer of `ibr compare --json`, and its pictures.
+///
+/// # Errors
+/// Scenario or data that are refused, or that do not fit together.
+pub fn compared(robot: &Robot, data: &Measured) -> Result<Value, CompareError> {
+    let ([_, file], evidence) = (robot.files()?, data.evidence()?);
+    let Compared { found, added } = Compared::of(&file, &evidence, &[], None, None)?;
+    let mut told = CompareAnswer { scenario: &file.name, found: &found, added: added.as_ref() }.json();
+    told["error_mm"] = json!(found.error_mm());
+    told["pictures"] = pictures(compare_page(&found, &Imprint::default()))?;
+    Ok(told)
+}
+
+/// The answer of `ibr diagnose --json`, its pictures and its page, and every candidate as changes of the robot.
+///
+/// # Errors
+/// As [`compared`].
+pub fn diagnosed(robot: &Robot, data: &Measured) -> Result<Value, CompareError> {
+    let ([_, file], evidence) = (robot.files()?, data.evidence()?);
+    let d = diagnose(&file, std::slice::from_ref(&evidence), &Options::default(), &mut |_, _| ())?;
+    let mut told = to_json(&d, None, &file.name);
+    told["text"] = json!(text(&d, None, false));
+    let level = d.level(1e-3 * file.p_body_pa);
+    told["candidates"] = d.answers().iter().filter(|a| a.helps()).map(|a| candidate(&d, a, level)).collect();
+    let Evidence { dataset, about, .. } = &evidence;
+    let typed = [file.name.as_str(), data.name.as_str()];
+    let found = Diagnosed {
+        diagnosis: &d,
+        scenario: &file,
+        dataset,
+        about: about.as_ref(),
+        witness: None,
+        typed,
+        more: String::new(),
+    };
+    told["pictures"] = pictures(diagnosis_page(&found, &Imprint::default(), &mut |_, _| ()))?;
+    Ok(told)
+}
+
+fn candidate(d: &Diagnosis, answer: &Answer, level: usize) -> Value {
+    let standing = match answer.standing {
+        Standing::Stated => "stated",
+        Standing::Attempt => "attempt",
+        Standing::Other => "other",
+        Standing::Rejected => "rejected",
+    };
+    let values: Vec<String> = answer.effects.iter().map(|(_, values)| listed(values)).collect();
+    let first = answer.effects.first().map(|(r, _)| r);
+    json!({
+        "name": answer.name(), "words": answer.name().replace('_', " "), "standing": standing, "values": values.join("; "),
+        "sentence": first.map(|r| &r.sentence), "remedy": first.map(|r| &r.remedy), "before_mm": d.base.systematic_mm,
+        "after_mm": answer.after_mm, "changes": answer.changes(level),
+    })
+}
+
+/// The drawings of a page, by name, to be put into another one.
+fn pictures(files: Result<Files, PageError>) -> Result<Value, CompareError> {
+    let files = files.map_err(|error| match error {
+        PageError::Compare(error) => error,
+        PageError::Report(error) => CompareError::refused(error.to_string(), "look at the data"),
+    })?;
+    let picture = |(name, bytes): (String, Vec<u8>)| {
+        let name = name.strip_suffix(".svg")?.to_string();
+        let drawn = inline(&String::from_utf8(bytes).ok()?, &name.replace('_', " "));
+        Some((name, json!(drawn)))
+    };
+    Ok(Value::Object(files.files.into_iter().filter_map(picture).collect::<Map<_, _>>()))
+}
