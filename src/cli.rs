@@ -91,6 +91,8 @@ pub enum Command {
     Verify(VerifyArgs),
     /// Measure the speed on this machine, or how often a diagnosis is right
     Bench(BenchArgs),
+    /// The page of web/ for the browser of this machine, with finite elements behind it
+    Studio(StudioArgs),
     /// Shell completions on standard output
     Completions {
         /// Which shell
@@ -102,6 +104,17 @@ pub enum Command {
         #[arg(long)]
         out: Option<PathBuf>,
     },
+}
+
+/// The page and its port.
+#[derive(Debug, Args)]
+pub struct StudioArgs {
+    /// Port on 127.0.0.1; 0 for a free one
+    #[arg(long, default_value_t = 0)]
+    pub port: u16,
+    /// The page; default: web/dist/ibr.html here, or ibr.html beside the program
+    #[arg(long, value_name = "FILE")]
+    pub page: Option<PathBuf>,
 }
 
 /// What is checked.

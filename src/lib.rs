@@ -48,6 +48,7 @@ mod printable;
 pub mod program;
 pub mod shown;
 pub mod studies;
+pub mod studio;
 mod tables;
 
 pub use ::compare as study;

@@ -27,6 +27,10 @@ pub const STUDIES: &[(&str, &str, &str)] = &[
     ("obstacle", "a cylinder in the way", include_str!("../studies/obstacle.toml")),
 ];
 
+/// Keys of `[fem]` for a run that somebody waits for: a little coarse and fast.
+pub const SMALL_RUN: [(&str, &str); 3] =
+    [("actuator_mesh_mm", "4"), ("body_ramp_s", "0.02"), ("actuator_ramp_s", "0.18")];
+
 /// The text of a study.
 pub fn study(name: &str) -> Option<&'static str> {
     STUDIES.iter().find(|s| s.0 == name).map(|s| s.2)

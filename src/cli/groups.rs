@@ -6,7 +6,7 @@ use std::ffi::OsString;
 
 /// Every command once, in the order of a session.
 const GROUPS: &[(&str, &[&str])] = &[
-    ("Start here", &["demo", "new", "list"]),
+    ("Start here", &["demo", "new", "list", "studio"]),
     ("Predict", &["predict", "export", "simulate", "sweep", "pattern"]),
     ("Measurements", &["data", "characterize"]),
     ("What is missing?", &["compare", "diagnose", "add", "validate", "ladder"]),

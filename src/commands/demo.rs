@@ -9,6 +9,7 @@ use compare::progress::part;
 use compare::progress::shares::SHOWN;
 use fem::session::{FeRun, Settings, Source, heights_mm, simulate};
 use ibr::pages::demo_page;
+use ibr::studies::SMALL_RUN;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -28,17 +29,13 @@ pub fn run(folder: &Path, context: &mut Context) -> Result<Outcome, Failure> {
     Ok(outcome)
 }
 
-/// The run that is made here and now: a little coarse and fast, to be quick.
-const SMALL: [(&str, &str); 4] = [
-    ("actuator_mesh_mm", "4"),
-    ("body_ramp_s", "0.02"),
-    ("actuator_ramp_s", "0.18"),
-    ("pressures_kpa", "[10, 20, 30]"),
-];
+/// Pressures of the run that is made here and now.
+const PRESSURES: (&str, &str) = ("pressures_kpa", "[10, 20, 30]");
 
 fn small_run(context: &mut Context) -> Result<FeRun, Failure> {
     let mut tell = part(context.progress, SHOWN);
-    let changes = SMALL.map(|(key, value)| (key.to_string(), value.to_string()));
+    let keys = SMALL_RUN.iter().chain([&PRESSURES]);
+    let changes: Vec<_> = keys.map(|(key, value)| (key.to_string(), value.to_string())).collect();
     let robot = Source::new("epam", models::shipped("epam").unwrap_or_default()).with(&changes)?;
     Ok(simulate(&robot, &Settings::default(), &mut |_, share| {
         tell("a small finite element run", share);

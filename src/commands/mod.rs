@@ -26,6 +26,7 @@ mod pattern;
 mod predict;
 mod published;
 mod simulate;
+mod studio;
 mod sweep;
 mod tradeoff;
 mod validate;
@@ -58,6 +59,7 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
         Command::Challenge(command) => challenge::run(command, context),
         Command::List { what } => list::run(what.as_deref()),
         Command::New { kind } => list::new(kind),
+        Command::Studio(args) => studio::run(args, context),
         Command::Tradeoff(args) => tradeoff::run(args, context),
         Command::Verify(args) => verify::run(args, context),
         Command::Bench(args) => bench::run(args, context),

@@ -25,7 +25,7 @@ pub(super) const MOST_POSES: usize = 6;
 const SAME_BODY: f64 = 0.05;
 
 /// Hold mean over samples and runs of one marker \[m\], and its standard deviation over runs.
-pub(super) fn measured(dataset: &Dataset, hold: usize, marker: usize) -> ([f64; 2], [f64; 2]) {
+pub fn measured(dataset: &Dataset, hold: usize, marker: usize) -> ([f64; 2], [f64; 2]) {
     let run_means: Vec<[f64; 2]> = (0..dataset.runs.len())
         .map(|run| {
             let samples = dataset.samples_per_hold;

@@ -28,7 +28,7 @@ pub use demo::demo_page;
 pub use diagnosis::{Diagnosed, diagnosis_page, diagnosis_pictures};
 pub use engine_figures::parting_plot;
 pub use engines::engines_page;
-pub use figures::tradeoff as tradeoff_plot;
+pub use figures::{measured, tradeoff as tradeoff_plot};
 pub use ladder::{Climbed, ladder_page};
 pub use one_number::one_number_files;
 pub use pattern::pattern_sheet;

@@ -51,7 +51,7 @@ pub fn text(d: &Diagnosis, witness: Option<&Witness>, all: bool) -> String {
 }
 
 /// The verdict in words, with its ties.
-fn verdict(d: &Diagnosis) -> String {
+pub fn verdict(d: &Diagnosis) -> String {
     match d.verdict {
         Some(Verdict::None) => "no missing effect detectable".into(),
         Some(Verdict::TooSmall) => "more than noise, too small to name".into(),

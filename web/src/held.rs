@@ -5,10 +5,11 @@ use crate::robot::Robot;
 use compare::diagnosis::words::listed;
 use compare::diagnosis::{Answer, Diagnosis, Options, Standing, diagnose};
 use compare::{CompareError, Evidence};
+use data::Dataset;
 use ibr::compared::Compared;
-use ibr::pages::{Diagnosed, Files, Imprint, PageError, compare_page, diagnosis_page};
+use ibr::pages::{Diagnosed, Files, Imprint, PageError, compare_page, diagnosis_page, measured};
 use ibr::shown::comparison::CompareAnswer;
-use ibr::shown::diagnosis::{text, to_json};
+use ibr::shown::diagnosis::{to_json, verdict};
 use report::page::inline;
 use serde_json::{Map, Value, json};
 
@@ -21,6 +22,7 @@ pub fn compared(robot: &Robot, data: &Measured) -> Result<Value, CompareError> {
     let Compared { found, added } = Compared::of(&file, &evidence, &[], None, None)?;
     let mut told = CompareAnswer { scenario: &file.name, found: &found, added: added.as_ref() }.json();
     told["error_mm"] = json!(found.error_mm());
+    told["measured_m"] = means(&found.dataset);
     told["pictures"] = pictures(compare_page(&found, &Imprint::default()))?;
     Ok(told)
 }
@@ -33,7 +35,7 @@ pub fn diagnosed(robot: &Robot, data: &Measured) -> Result<Value, CompareError> 
     let ([_, file], evidence) = (robot.files()?, data.evidence()?);
     let d = diagnose(&file, std::slice::from_ref(&evidence), &Options::default(), &mut |_, _| ())?;
     let mut told = to_json(&d, None, &file.name);
-    told["text"] = json!(text(&d, None, false));
+    told["verdict_words"] = json!(verdict(&d));
     let level = d.level(1e-3 * file.p_body_pa);
     told["candidates"] = d.answers().iter().filter(|a| a.helps()).map(|a| candidate(&d, a, level)).collect();
     let Evidence { dataset, about, .. } = &evidence;
@@ -49,6 +51,12 @@ pub fn diagnosed(robot: &Robot, data: &Measured) -> Result<Value, CompareError> 
     };
     told["pictures"] = pictures(diagnosis_page(&found, &Imprint::default(), &mut |_, _| ()))?;
     Ok(told)
+}
+
+/// Mean place of every marker in every hold \[m\].
+fn means(dataset: &Dataset) -> Value {
+    let of = |hold: usize| (0..dataset.markers.len()).map(|m| measured(dataset, hold, m).0).collect::<Vec<_>>();
+    json!((0..dataset.holds.len()).map(of).collect::<Vec<_>>())
 }
 
 fn candidate(d: &Diagnosis, answer: &Answer, level: usize) -> Value {

@@ -4,6 +4,7 @@ use compare::{CompareError, ScenarioFile};
 use ibr::shown::predicted::{above_limit, beyond_words, state_json};
 use ibr::{AtPressure, Predictor};
 use models::actuators::Family;
+use models::actuators::pattern::Joint;
 use models::effects::{Effect, Parameter};
 use models::scenario::SHIPPED;
 use models::{Known, Scenario};
@@ -43,7 +44,6 @@ pub(crate) fn shipped() -> Vec<Value> {
     shipped_names().into_iter().filter_map(told).collect()
 }
 
-
 impl Robot {
     /// Its scenario, without and with the changes.
     ///
@@ -76,9 +76,7 @@ impl Robot {
         Ok(json!({
             "name": file.scenario.name, "text": file.text, "dials": dials, "effects": effects,
             "channels": file.channels(), "pressures_kpa": kpa(&file.pressures_pa), "most_kpa": 1e-3 * file.p_max_pa,
-            "kind": a.kind.name, "title": a.kind.title, "sentence": a.kind.sentence, "is_pouch": a.kind.family == Family::Pouch,
-            "units": {"start_m": a.start_m, "length_m": a.shape.length_m, "width_m": a.shape.width_m, "count": a.count},
-            "radius_m": file.radius_m, "length_m": file.length_m,
+            "kind": a.kind.name, "title": a.kind.title, "sentence": a.kind.sentence,
         }))
     }
 
@@ -95,6 +93,7 @@ impl Robot {
         // The bare model of a loaded beam may have no equilibrium, and is then not drawn.
         let bare = Predictor::new(&file.bare());
         told["bare"] = bare.state(&state.loads).map_or(Value::Null, |state| drawn(&bare, &state));
+        told["units"] = units(&file.scenario);
         told["notes"] = json!(
             beyond_words(own.model(), &state).into_iter().chain(above_limit(&file, &[state])).collect::<Vec<_>>()
         );
@@ -102,17 +101,30 @@ impl Robot {
     }
 }
 
+/// Where the units of the actuator lie, and whether they are welded into the wall.
+fn units(scenario: &Scenario) -> Value {
+    let a = &scenario.actuator;
+    let pattern = (a.kind.pattern)(&a.shape);
+    json!({
+        "start_m": a.start_m, "length_m": a.shape.length_m, "width_m": a.shape.width_m, "count": a.count,
+        "is_pouch": a.kind.family == Family::Pouch, "in_wall": matches!(pattern.joint, Joint::Wall),
+    })
+}
+
 /// A state as `ibr predict --json` tells it, with what is drawn \[m\].
 fn drawn(of: &Predictor, state: &AtPressure) -> Value {
     let mut told = state_json(of.model(), of.scenario(), state);
     told["sides"] = json!(of.model().outline(&state.prediction, STATIONS));
+    told["radius_m"] = json!(of.scenario().radius_m);
+    told["length_m"] = json!(of.scenario().length_m);
     told["height_m"] = json!(of.model().pouch_shape(&state.loads, &state.prediction).map(|shape| shape.height_m));
     told
 }
 
 /// An effect, whether it is on, and what switches it on and off.
 fn effect_told(effect: &Effect, given: &Scenario, now: &Scenario) -> Value {
-    let of = |scenario: &Scenario| scenario.effects.iter().find(|own| own.name == effect.name).map(|own| own.values.clone());
+    let of =
+        |scenario: &Scenario| scenario.effects.iter().find(|own| own.name == effect.name).map(|own| own.values.clone());
     let neutral = effect.neutral();
     let is_on = |values: &Vec<f64>| *values != neutral;
     let (before, values) = (of(given).filter(is_on), of(now).unwrap_or_else(|| neutral.clone()));

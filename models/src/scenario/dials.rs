@@ -42,7 +42,13 @@ impl Scenario {
         let stiffness = Dial {
             low: 0.0,
             high: STIFF_NM2.max(2.0 * self.bending_stiffness),
-            ..around("body.bending_stiffness_nm2", "bending stiffness of the body", "N m²", self.bending_stiffness, 0.01)
+            ..around(
+                "body.bending_stiffness_nm2",
+                "bending stiffness of the body",
+                "N m²",
+                self.bending_stiffness,
+                0.01,
+            )
         };
         let mut dials = vec![
             around("body.pressure_kpa", "body pressure", "kPa", 1e-3 * self.p_body_pa, 0.1),

@@ -1,10 +1,10 @@
 //! All that `ibr verify` prints.
 
 use super::{Against, CHECKS, Check, CheckOutcome, Figure, Line};
-use fem::cost::process_seconds;
 use crate::exact::{OracleRow, oracle_table};
 use crate::{Error, Findings, Printed};
 use compare::Progress;
+use fem::cost::process_seconds;
 use serde_json::{Value, json};
 
 /// What is verified.

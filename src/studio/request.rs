@@ -1,0 +1,99 @@
+//! As much of HTTP as one page needs: a request is read whole, answered, and the connection closed.
+
+use serde_json::Value;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+
+/// Bytes of a request line and its headers, and of a body.
+const MOST_HEAD: u64 = 16 << 10;
+const MOST_BODY: u64 = 1 << 20;
+
+/// A request.
+pub struct Request {
+    pub method: String,
+    pub path: String,
+    headers: Vec<(String, String)>,
+    pub body: Vec<u8>,
+}
+
+impl Request {
+    /// Reads it, or says why not.
+    pub fn read(stream: &TcpStream) -> Result<Request, Response> {
+        let broken = |_: io::Error| Response::words(400, "the request broke off");
+        let mut reader = BufReader::new(stream);
+        let mut head = String::new();
+        let mut lines = (&mut reader).take(MOST_HEAD);
+        while !head.ends_with("\r\n\r\n") {
+            if lines.read_line(&mut head).map_err(broken)? == 0 {
+                return Err(Response::words(400, "this is no request, or a very long one"));
+            }
+        }
+        let mut request = Request::of(&head).ok_or_else(|| Response::words(400, "this is no request"))?;
+        let length = request.header("content-length").map_or(Ok(0), str::parse::<u64>);
+        let length = length.map_err(|_| Response::words(400, "this is no length"))?;
+        if length > MOST_BODY {
+            return Err(Response::words(413, "a robot of more than a megabyte is none"));
+        }
+        reader.take(length).read_to_end(&mut request.body).map_err(broken)?;
+        Ok(request)
+    }
+
+    /// Of its head; `None` if that is none.
+    fn of(head: &str) -> Option<Request> {
+        let mut lines = head.lines();
+        let mut words = lines.next()?.split(' ');
+        let (method, path) = (words.next()?.to_string(), words.next()?.to_string());
+        words.next().filter(|version| version.starts_with("HTTP/1."))?;
+        let header = |line: &str| {
+            line.split_once(':').map(|(name, value)| (name.to_ascii_lowercase(), value.trim().to_string()))
+        };
+        let headers = lines.take_while(|line| !line.is_empty()).map(header).collect::<Option<Vec<_>>>()?;
+        Some(Request { method, path, headers, body: Vec::new() })
+    }
+
+    /// A header by its name in small letters; nothing where it comes twice, which may mean two things.
+    pub fn header(&self, name: &str) -> Option<&str> {
+        let mut found = self.headers.iter().filter(|(own, _)| own == name);
+        let first = found.next()?;
+        found.next().is_none().then_some(first.1.as_str())
+    }
+}
+
+/// An answer.
+pub struct Response {
+    code: u16,
+    kind: &'static str,
+    body: Vec<u8>,
+}
+
+impl Response {
+    /// Plain words.
+    pub fn words(code: u16, words: &str) -> Response {
+        Response { code, kind: "text/plain; charset=utf-8", body: format!("{words}\n").into_bytes() }
+    }
+
+    /// A page.
+    pub fn page(page: &str) -> Response {
+        Response { code: 200, kind: "text/html; charset=utf-8", body: page.as_bytes().to_vec() }
+    }
+
+    /// A value.
+    pub fn json(value: &Value) -> Response {
+        Response { code: 200, kind: "application/json", body: value.to_string().into_bytes() }
+    }
+
+    /// Sends it.
+    pub fn write(&self, mut stream: &TcpStream) -> io::Result<()> {
+        let Response { code, kind, body } = self;
+        let head = format!(
+            "HTTP/1.1 {code} {}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nCache-Control: no-store\r\n\
+             X-Content-Type-Options: nosniff\r\nX-Frame-Options: DENY\r\nReferrer-Policy: no-referrer\r\n\
+             Cross-Origin-Resource-Policy: same-origin\r\nConnection: close\r\n\r\n",
+            if *code == 200 { "OK" } else { "Refused" },
+            body.len()
+        );
+        stream.write_all(head.as_bytes())?;
+        stream.write_all(body)?;
+        stream.flush()
+    }
+}

@@ -1,0 +1,110 @@
+//! One finite element run at a time, started by a page.
+
+use crate::studies::SMALL_RUN;
+use fem::FemError;
+use fem::robot::Reading;
+use fem::session::{FeRun, Settings, Source, simulate};
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::ops::ControlFlow;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// What the page wants to see in finite elements.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Wish {
+    /// Name of the robot.
+    name: String,
+    /// Text of its scenario.
+    text: String,
+    /// Actuator pressure \[kPa\].
+    actuator_kpa: f64,
+}
+
+/// How far a run is.
+#[derive(Debug, Default)]
+struct Stand {
+    /// What is told.
+    told: Option<Value>,
+    /// It is under way.
+    runs: bool,
+    /// It shall end.
+    stop: bool,
+}
+
+/// The place where runs are made.
+#[derive(Default)]
+pub struct Bench {
+    stand: Arc<Mutex<Stand>>,
+}
+
+/// The stand; a thread that panicked has told that already.
+fn of(stand: &Mutex<Stand>) -> std::sync::MutexGuard<'_, Stand> {
+    stand.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Bench {
+    /// What there is to tell.
+    pub fn told(&self) -> Value {
+        of(&self.stand).told.clone().unwrap_or_else(|| json!({"state": "none"}))
+    }
+
+    /// Starts a run, unless one is under way.
+    pub fn start(&self, body: &[u8]) -> Value {
+        let wish: Wish = match serde_json::from_slice(body) {
+            Ok(wish) => wish,
+            Err(error) => return failed(&format!("this is no robot: {error}"), "send name, text and actuator_kpa"),
+        };
+        let mut stand = of(&self.stand);
+        if stand.runs {
+            return failed("a run is under way", "stop it, or wait for its end");
+        }
+        let told = json!({"state": "runs", "what": "building the mesh", "share": 0.0});
+        *stand = Stand { told: Some(told.clone()), runs: true, stop: false };
+        let shared = Arc::clone(&self.stand);
+        std::thread::spawn(move || {
+            let made = std::panic::catch_unwind(|| run(&wish, &shared));
+            let told = match made {
+                Ok(Ok(run)) => shape(&run),
+                Ok(Err(error)) => failed(&error.to_string(), error.help().unwrap_or("change the robot and try again")),
+                Err(_) => failed("the run broke off", "please report it with the scenario's text"),
+            };
+            *of(&shared) = Stand { told: Some(told), ..Stand::default() };
+        });
+        told
+    }
+
+    /// Asks the run to end.
+    pub fn stop(&self) -> Value {
+        of(&self.stand).stop = true;
+        self.told()
+    }
+}
+
+fn run(wish: &Wish, stand: &Mutex<Stand>) -> Result<FeRun, FemError> {
+    let pressure = ("pressures_kpa".to_string(), format!("[{:?}]", wish.actuator_kpa));
+    let coarse = SMALL_RUN.map(|(key, value)| (key.to_string(), value.to_string()));
+    let source = Source::new(&wish.name, &wish.text).with(&[&coarse[..], &[pressure]].concat())?;
+    simulate(&source, &Settings::default(), &mut |what, share| {
+        let mut stand = of(stand);
+        stand.told = Some(json!({"state": "runs", "what": what, "share": share}));
+        if stand.stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })
+}
+
+fn failed(message: &str, help: &str) -> Value {
+    json!({"state": "failed", "message": message, "help": help})
+}
+
+/// Where the sections of the robot are at its last hold \[m\], from the base.
+fn shape(run: &FeRun) -> Value {
+    let Some(last) = run.readings().last() else { return failed("this is no robot", "give a scenario with [body]") };
+    let Reading { stations_m, moved_m, .. } = last;
+    let moved = stations_m.iter().zip(moved_m).map(|(s, moved)| [s + moved[0], moved[1]]);
+    let line: Vec<[f64; 2]> = std::iter::once([0.0, 0.0]).chain(moved).collect();
+    json!({
+        "state": "done", "line_m": line, "angle_deg": last.tip_angle_rad.to_degrees(), "actuator_kpa": 1e-3 * last.actuator_pa,
+        "elements": run.summary.elements, "cpu_s": run.cost.cpu_s, "missing_share": run.summary.residual_share,
+        "notices": run.notices,
+    })
+}

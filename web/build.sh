@@ -1,0 +1,11 @@
+#!/bin/sh
+# Builds web/dist/ibr.html: the page with the library in it, one file that needs no network.
+set -eu
+cd "$(dirname "$0")/.."
+target=wasm32-unknown-unknown
+has() { [ -d "$(rustc --print sysroot)/lib/rustlib/$target" ]; }
+has || rustup target add $target || true
+has || { echo "web: absent: Rust's standard library for $target. Get it: rustup target add $target"; exit 3; }
+command -v node > /dev/null || { echo "web: absent: node (20 or newer), which puts the page together"; exit 3; }
+cargo build --quiet --package ibr-web --lib --profile web --target $target
+node web/inline.mjs "${CARGO_TARGET_DIR:-target}/$target/web/ibr_web.wasm"
