@@ -2,12 +2,16 @@
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { gzipSync } from 'node:zlib';
 
-const here = name => new URL(name, import.meta.url);
-const text = name => readFileSync(here(name), 'utf8').trim();
+const here = (name) => new URL(name, import.meta.url);
+const text = (name) => readFileSync(here(name), 'utf8').trim();
 const engine = gzipSync(readFileSync(process.argv[2]), { level: 9 }).toString('base64');
-const parts = { '/*page.css*/': text('page.css'), '/*page.js*/': text('page.js'), '<!--engine-->': engine };
+const parts = {
+  '/*page.css*/': text('page.css'),
+  '/*page.js*/': ['engine.js', 'draw.js', 'measured.js', 'page.js'].map(text).join('\n'),
+  '<!--engine-->': engine,
+};
 const page = Object.entries(parts).reduce((page, [place, part]) => page.replace(place, () => part), text('index.html'));
 mkdirSync(here('dist/'), { recursive: true });
 writeFileSync(here('dist/ibr.html'), `${page}\n`);
-const kb = bytes => `${Math.ceil(bytes.length / 1000)} kB`;
+const kb = (bytes) => `${Math.ceil(bytes.length / 1000)} kB`;
 console.log(`web/dist/ibr.html: ${kb(Buffer.from(page))}, ${kb(gzipSync(page, { level: 9 }))} gzipped`);

@@ -10,6 +10,9 @@ use std::path::PathBuf;
 const BUILT: &str = "web/dist/ibr.html";
 
 pub fn run(args: &StudioArgs, context: &mut Context) -> Result<Outcome, Failure> {
+    if context.json {
+        return Err(Failure::usage("ibr studio serves a page and has no answer", "leave --json out"));
+    }
     let beside = std::env::current_exe().ok().and_then(|own| Some(own.parent()?.join("ibr.html")));
     let places: Vec<PathBuf> = match &args.page {
         Some(page) => vec![page.clone()],
