@@ -33,8 +33,7 @@ impl Follower {
     /// A time before the last one, a pressure that means nothing, or no equilibrium.
     pub fn next(&mut self, t_s: f64, set: &Loads) -> Result<&Prediction, CompareError> {
         let since = self.before.map_or(0.0, |last| last.t_s);
-        // Written so that what is no number is refused.
-        if !(t_s >= since) {
+        if t_s < since || t_s.is_nan() {
             let message = format!("the time {t_s} s is before {since} s");
             return Err(CompareError::refused(message, "times count from the start and do not go back"));
         }

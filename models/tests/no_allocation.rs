@@ -4,7 +4,7 @@
 
 use models::actuators::ACTUATORS;
 use models::effects::EFFECTS;
-use models::{Loads, Model, Scenario, Step, Target, shipped};
+use models::{Aim, Limits, Loads, Model, Scenario, Step, Target, shipped};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 
@@ -49,7 +49,7 @@ fn main() {
             let model = Model::new(&scenario);
             let mut out = model.prediction();
             let sweep: Vec<Loads> = (0..50).map(|i| Loads::uniform(2e3, 1e3 * f64::from(i))).collect();
-            let mut batch = model.batch(sweep.len(), 1);
+            let (mut batch, mut steering) = (model.batch(sweep.len(), 1), model.steering());
             let found = allocations(|| {
                 for loads in &sweep {
                     model.predict(loads, &mut out).unwrap();
@@ -58,14 +58,15 @@ fn main() {
                 model.pressure_for(target, 2e3, &mut out).unwrap();
                 model.pressure_for(Target::Angle(0.02), 2e3, &mut out).unwrap();
                 model.jacobian(&sweep[20], &mut out).unwrap();
+                model.steer(Aim::Tip([0.3, 0.1]), 2e3, &Limits::up_to(50e3), &mut steering).unwrap();
                 model.predict_batch(&sweep, &mut batch).unwrap();
             });
-            assert_eq!(found, 0, "allocations in predict, inverse, Jacobian or batch of {name}");
+            assert_eq!(found, 0, "allocations in predict, inverse, Jacobian, steering or batch of {name}");
             let steps: Vec<Step> =
                 sweep.iter().enumerate().map(|(i, loads)| Step { t_s: i as f64, loads: *loads }).collect();
             let found = allocations(|| model.follow(&steps, &mut out, &mut |_, _| ()).unwrap());
             assert_eq!(found, 0, "allocations in a protocol of {name}");
         }
     }
-    println!("predict, inverse, Jacobian, batch and protocol allocate nothing after set-up");
+    println!("predict, inverse, Jacobian, steering, batch and protocol allocate nothing after set-up");
 }

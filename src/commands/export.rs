@@ -53,7 +53,7 @@ fn c(args: &ExportArgs, context: &mut Context) -> Result<Outcome, Failure> {
         let help = "add --loading for the first loading from rest, or leave it out of the scenario";
         return Err(Failure::usage(message, help));
     }
-    if !args.out.extension().is_some_and(|end| end == "c") {
+    if args.out.extension().is_none_or(|end| end != "c") {
         let message = format!("--out {} does not end with .c", args.out.display());
         return Err(Failure::usage(message, "write for example --out robot.c"));
     }

@@ -165,9 +165,10 @@ fn a_place_is_reached_by_the_pressures_of_two_channels_or_the_limit_that_holds_i
 #[test]
 fn lines_of_a_stream_are_answered_before_the_next_one_comes() {
     use std::io::{BufRead, BufReader, Write};
-    let mut command = Folder::new().ibr(&["predict", "epam", "--follow"]);
+    let folder = Folder::new();
+    let mut command = folder.ibr(&["predict", "epam", "--follow"]);
     let piped = std::process::Stdio::piped;
-    let mut running = command.stdin(piped()).stdout(piped()).stderr(piped()).current_dir("/").spawn().unwrap();
+    let mut running = command.stdin(piped()).stdout(piped()).stderr(piped()).spawn().unwrap();
     let (mut input, output) = (running.stdin.take().unwrap(), running.stdout.take().unwrap());
     let mut lines = BufReader::new(output).lines().map(Result::unwrap);
     for (given, answered) in
