@@ -28,3 +28,18 @@ pub fn import_typed(typed: &[String]) -> Result<Imported, CompareError> {
     })?;
     Ok(import(&args.files, &options, &mut |_, _| ())?)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_option_is_that_of_the_command() {
+        let told =
+            |typed: &[&str]| import_typed(&typed.iter().map(ToString::to_string).collect::<Vec<_>>()).unwrap_err();
+        let slip = told(&["run1.csv", "--scal=3px/mm"]);
+        assert!(slip.to_string().contains("--scal") && slip.help().unwrap().contains("--scale"), "{slip:?}");
+        assert!(told(&["run1.csv", "--scale=3"]).to_string().starts_with("--scale: `3` is not understood"));
+        assert!(told(&["nowhere.csv"]).to_string().contains("nowhere.csv"));
+    }
+}

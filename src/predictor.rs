@@ -141,3 +141,38 @@ pub fn check_fed(scenario: &Scenario, actuator_pa: &[f64; CHANNELS]) -> Result<(
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ScenarioFile, predict};
+
+    fn robot(more: &str) -> Predictor {
+        let text = format!("{}{more}", models::shipped("epam").unwrap());
+        Predictor::new(&ScenarioFile::parse("robot", &text).unwrap())
+    }
+
+    #[test]
+    fn a_state_is_that_of_a_prediction_with_and_without_history() {
+        for more in ["", "[effects.friction]\nmoment_nm = 0.2\n"] {
+            let robot = robot(more);
+            let loads = robot.loads(None, &[20e3]).unwrap();
+            let wanted = predict(robot.scenario(), &[loads]).unwrap().remove(0);
+            let found = robot.state(&loads).unwrap();
+            assert_eq!((found.prediction.tip, found.slopes), (wanted.prediction.tip, wanted.slopes), "{more}");
+            assert_eq!(robot.has_history(), !more.is_empty());
+            assert_eq!(robot.batch(&[loads], 1).is_err(), robot.has_history());
+        }
+    }
+
+    #[test]
+    fn pressures_that_would_be_lost_are_refused() {
+        let robot = robot("");
+        let told = |given: &[f64]| robot.loads(Some(2e3), given).map_err(|error| error.to_string());
+        assert!(told(&[10e3, 10e3]).is_ok());
+        assert!(told(&[10e3, 20e3]).unwrap_err().contains("channel 1"));
+        assert!(told(&[]).unwrap_err().contains("0 actuator pressures"));
+        let high = [10e3, 2e6].map(|pa| Loads::uniform(2e3, pa));
+        assert!(robot.batch(&high, 2).unwrap_err().to_string().starts_with("state 1 of the batch: "));
+    }
+}

@@ -121,8 +121,15 @@ pub fn parse_markers(
 /// Reads a marker table that is at hand, as if it were the CSV file of this name: faults say the line that it would have.
 ///
 /// # Errors
-/// As [`read_markers`].
+/// As [`read_markers`]; columns of different length.
 pub fn markers_of_table(name: &str, table: &Table, about: Option<&About>) -> Result<Dataset, DataError> {
+    let rows = table.columns.iter().map(|(_, column)| column.len()).max().unwrap_or(0);
+    if let Some((label, column)) = table.columns.iter().find(|(_, column)| column.len() != rows) {
+        let message = format!("column {label} has {} of {rows} rows", column.len());
+        let mut fault = Fault::of_file(name, message, "give every column a value in every row");
+        fault.location.column_name = Some(label.clone());
+        return Err(DataError::Layout(Box::new(fault)));
+    }
     let options = ReadOptions { about, ..ReadOptions::default() };
     parse_markers(name, &mut TableReader::new(table), options, &mut |_, _| ())
 }

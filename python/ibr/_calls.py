@@ -8,7 +8,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Union
 import numpy as np
 
 from . import _ibr
-from ._ibr import Data, Scenario
+from ._ibr import Data, Error, Scenario
 from ._results import Result, columns_of
 
 Robot = Union[Scenario, str, os.PathLike]
@@ -29,7 +29,7 @@ def data(source: Measured, *, name: str = "frame", about: Union[str, os.PathLike
         return source
     if isinstance(source, (str, os.PathLike)):
         return Data.read(os.fspath(source))
-    columns = [(label, _column(source[label])) for label in _labels(source)]
+    columns = [(label, _column(label, source[label])) for label in _labels(source)]
     return Data.of_columns(columns, name, None if about is None else os.fspath(about))
 
 
@@ -42,9 +42,11 @@ def _labels(table: Any) -> List[str]:
     return [str(name) for name in table]
 
 
-def _column(values: Any) -> Any:
+def _column(label: str, values: Any) -> Any:
     """Numbers as an array of float64 or int64, everything else as texts; an empty cell is NaN or ""."""
-    array = np.asarray(values)
+    array = np.atleast_1d(np.asarray(values))
+    if array.ndim > 1:
+        raise Error(f"column {label} has the shape {array.shape}: a column is one value a row")
     if array.dtype.kind == "f":
         return array.astype(np.float64)
     if array.dtype.kind in "iu":

@@ -49,11 +49,12 @@ def comparison(found, axes=None):
 
 
 def diagnosis(found, axes=None):
-    """Error that is left with every effect."""
+    """Error that is left with every effect: blue where the data cannot tell them apart, pale where one sits on a bound."""
     axes, table = _axes(axes), found.table
     order = np.argsort(table["systematic_after_mm"], kind="stable")[:12][::-1]
     names = [name.replace("_", " ") for name in table["effect"][order]]
-    axes.barh(names, table["systematic_after_mm"][order], color=np.where(table["in_set"][order], "C0", "0.75"))
+    colours = np.where(table["in_set"], "C0", np.where(table["at_bound"], "0.9", "0.7"))[order]
+    axes.barh(names, table["systematic_after_mm"][order], color=colours)
     axes.axvline(found.base["systematic_mm"], color="C3", label="without any of them")
     return _labelled(axes, "error beyond noise [mm]", "", "What is left with each effect")
 

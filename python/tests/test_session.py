@@ -103,6 +103,14 @@ def test_a_fault_of_a_frame_has_its_row_and_column():
     assert fault.value.where == "mine:6, column y_mm" and "twelve" in str(fault.value)
 
 
+def test_columns_of_other_lengths_are_refused():
+    columns = ibr.data("synthetic-epam").table
+    with pytest.raises(ibr.Error, match="column actuator has 1 of"):
+        ibr.data({**columns, "actuator": "epam"})
+    with pytest.raises(ibr.Error, match="shape"):
+        ibr.data({**columns, "x_mm": np.zeros((5, 2))})
+
+
 def test_a_description_goes_with_a_frame(tmp_path):
     frame = ibr.data("synthetic-epam").table
     with pytest.raises(ibr.Error):

@@ -1,7 +1,7 @@
 //! Tables that are read, and what comes out.
 
 use super::{read, read_bytes, table};
-use crate::{Phase, ReadOptions, load, parse_about};
+use crate::{Column, Phase, ReadOptions, Table, load, markers_of_table, parse_about};
 
 #[test]
 fn a_table_becomes_the_tensor_in_si_units() {
@@ -179,4 +179,18 @@ fn a_folder_is_loaded_with_its_description_and_name() {
 fn a_gauge_that_reads_just_below_zero_counts_as_zero() {
     let data = read(&table(1, 5).replace(",2,0,load", ",2,-0.04,load")).unwrap();
     assert_eq!(data.holds[0].p_act_pa, 0.0);
+}
+
+#[test]
+fn a_table_at_hand_is_read_as_its_file_would_be() {
+    let wanted = read(&table(3, 7)).unwrap();
+    let mut at_hand = wanted.to_table();
+    assert_eq!(markers_of_table("markers", &at_hand, None).unwrap(), wanted);
+    if let Some((_, Column::F64(y))) = at_hand.columns.iter_mut().find(|(name, _)| name == "y_mm") {
+        y.pop();
+    }
+    let error = markers_of_table("markers", &at_hand, None).unwrap_err();
+    assert!(error.to_string().starts_with("markers, column y_mm: column y_mm has"), "{error}");
+    let nothing = markers_of_table("markers", &Table::default(), None).unwrap_err();
+    assert!(nothing.help().contains("run,actuator"), "{}", nothing.help());
 }
