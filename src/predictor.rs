@@ -2,7 +2,9 @@
 
 use crate::predict::{AtPressure, HOLD_S, state};
 use compare::CompareError;
-use models::{Batch, CHANNELS, Loads, Model, Prediction, Scenario, Step, Target, TipSlope, Unsolved};
+use models::{
+    Aim, Batch, CHANNELS, Limits, Loads, Model, Prediction, Scenario, Steered, Step, Target, TipSlope, Unsolved,
+};
 
 /// A robot ready to be asked. Pressures are refused where the scenario has nothing that they could act on.
 pub struct Predictor {
@@ -89,6 +91,24 @@ impl Predictor {
         let mut at = self.model.prediction();
         let pressure_pa = self.model.pressure_for(target, body_pa, &mut at)?;
         Ok((Loads::uniform(body_pa, pressure_pa), at))
+    }
+
+    /// Pressures of all channels that bring the robot nearest to an aim, and its state there; within limits, else from nothing to
+    /// the largest pressure of the scenario.
+    ///
+    /// # Errors
+    /// As [`Model::steer`].
+    pub fn steer(
+        &self,
+        aim: Aim,
+        body_pa: Option<f64>,
+        limits: Option<Limits>,
+    ) -> Result<(Steered, Prediction), CompareError> {
+        let mut work = self.model.steering();
+        let body_pa = body_pa.unwrap_or(self.scenario.p_body_pa);
+        let limits = limits.unwrap_or(Limits::up_to(self.scenario.p_max_pa));
+        let found = self.model.steer(aim, body_pa, &limits, &mut work)?;
+        Ok((found, work.state().clone()))
     }
 
     /// Change of the tip with the pressure of each channel.

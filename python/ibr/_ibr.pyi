@@ -121,6 +121,18 @@ class Scenario:
         body_pressure_kpa: Optional[float] = None,
     ) -> State:
         """The state in which the tip has this height or the robot this total bend; its `pressure_kpa` is the answer."""
+    def steer(
+        self,
+        *,
+        tip_mm: Optional[Sequence[float]] = None,
+        markers_mm: Optional[Sequence[Sequence[float]]] = None,
+        now_kpa: Optional[Pressure] = None,
+        change_kpa: Optional[float] = None,
+        body_pressure_kpa: Optional[float] = None,
+    ) -> Tuple[State, float]:
+        """Several channels: the state nearest to a tip (x, y) or to places of all markers, and the distance that is left (mm,
+        root mean square over markers). `channels_kpa` of the state is the answer. With `now_kpa` no pressure changes by more
+        than `change_kpa`."""
     def jacobian(self, pressure_kpa: Pressure, body_pressure_kpa: Optional[float] = None) -> Array:
         """Change of tip x, tip y (mm/kPa) and angle (deg/kPa) with the pressure of each channel, shape (channels, 3); NaN
         where an actuator is flat."""

@@ -4,7 +4,7 @@ use crate::arrays::{Numbers, matrix, numbers};
 use crate::errors::{raised, refused};
 use crate::inputs::{Pressures, places};
 use crate::states::{State, States};
-use ibr::models::{CHANNELS, Loads, Prediction, Step, Target};
+use ibr::models::{Aim, CHANNELS, Limits, Loads, Prediction, Step, Target};
 use ibr::{Predictor, ScenarioFile};
 use numpy::PyArray2;
 use pyo3::prelude::*;
@@ -221,6 +221,46 @@ impl Scenario {
         let body_pa = body_pressure_kpa.map(|kpa| kpa * 1e3);
         let (loads, at) = self.predictor().inverse(target, body_pa).map_err(raised)?;
         State::new(&self.robot, loads, &at)
+    }
+
+    /// Pressures of all channels that bring tip or markers nearest to where they are wanted.
+    #[pyo3(signature = (*, tip_mm = None, markers_mm = None, now_kpa = None, change_kpa = None, body_pressure_kpa = None))]
+    fn steer(
+        &self,
+        tip_mm: Option<[f64; 2]>,
+        markers_mm: Option<Vec<[f64; 2]>>,
+        now_kpa: Option<Pressures>,
+        change_kpa: Option<f64>,
+        body_pressure_kpa: Option<f64>,
+    ) -> PyResult<(State, f64)> {
+        let metres = |xy: &[f64; 2]| xy.map(|mm| mm / 1e3);
+        let markers_m: Option<Vec<[f64; 2]>> = markers_mm.map(|all| all.iter().map(metres).collect());
+        let aim = match (&tip_mm, &markers_m) {
+            (Some(tip), None) => Aim::Tip(metres(tip)),
+            (None, Some(markers)) => Aim::Markers(markers),
+            _ => {
+                return Err(refused(
+                    "one aim is needed",
+                    "give tip_mm=(290, 130) or markers_mm, a row for every marker",
+                ));
+            }
+        };
+        let limits = match (&now_kpa, change_kpa) {
+            (Some(now), Some(kpa)) => {
+                let now = self.loads(now, body_pressure_kpa)?.actuator_pa;
+                Some(Limits::up_to(self.predictor().scenario().p_max_pa).near(&now, kpa * 1e3))
+            }
+            (None, None) => None,
+            _ => {
+                return Err(refused(
+                    "now_kpa and change_kpa go together",
+                    "give present pressures and the largest change",
+                ));
+            }
+        };
+        let body_pa = body_pressure_kpa.map(|kpa| kpa * 1e3);
+        let (found, at) = self.predictor().steer(aim, body_pa, limits).map_err(raised)?;
+        Ok((State::new(&self.robot, found.loads, &at)?, found.miss_m * 1e3))
     }
 
     /// Slopes of the tip.

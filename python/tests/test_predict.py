@@ -51,6 +51,22 @@ def test_the_inverse_meets_its_target():
     assert abs(robot.inverse(angle_deg=30).angle_deg - 30) < 1e-6
 
 
+def test_several_channels_are_steered_together():
+    zone = "\n[[zone]]\nfrom_mm = 180\nto_mm = 360\nchannel = 1\n"
+    robot = ibr.Scenario.from_toml(ibr.Scenario.named("epam-textbook").text + zone)
+    state, miss_mm = robot.steer(tip_mm=(290, 130))
+    assert miss_mm < 1e-6 and np.allclose(state.tip_mm, (290, 130), atol=1e-6)
+    assert state.channels_kpa[0] != state.channels_kpa[1]
+    again = robot.predict(state.channels_kpa)
+    assert again.tip_mm.tolist() == state.tip_mm.tolist()
+    markers, miss_mm = robot.steer(markers_mm=robot.predict([12, 5]).markers_mm)
+    assert miss_mm < 1e-6 and np.allclose(markers.channels_kpa[:2], (12, 5), atol=1e-3)
+    near, miss_mm = robot.steer(tip_mm=(290, 130), now_kpa=[1, 1], change_kpa=0.5)
+    assert near.channels_kpa[:2].max() <= 1.5 and miss_mm > 1
+    with pytest.raises(ibr.Error, match="one aim"):
+        robot.steer()
+
+
 def test_slopes_are_those_of_differences_and_of_the_command(told):
     robot = ibr.Scenario.named("epam")
     slopes = robot.jacobian(20)
