@@ -112,7 +112,8 @@ class Scenario:
     def follow(
         self, t_s: ArrayLike, pressure_kpa: ArrayLike, body_pressure_kpa: Optional[ArrayLike] = None
     ) -> States:
-        """A protocol from rest: pressures change at once after the state before, then time passes until `t_s`, shape (N,)."""
+        """A protocol from rest at time 0: pressures change at once after the state before, then time passes until `t_s`, shape
+        (N,), which does not fall. With `[supply]` in the scenario they arrive late."""
     def inverse(
         self,
         *,

@@ -4,8 +4,8 @@ use crate::arrays::{Numbers, matrix, numbers};
 use crate::errors::{raised, refused};
 use crate::inputs::{Pressures, places};
 use crate::states::{State, States};
-use ibr::models::{Aim, CHANNELS, Limits, Loads, Prediction, Step, Target};
-use ibr::{Predictor, ScenarioFile};
+use ibr::models::{Aim, CHANNELS, Limits, Loads, Prediction, Target};
+use ibr::{Follower, Predictor, ScenarioFile};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -197,16 +197,17 @@ impl Scenario {
                 "give one time for each",
             ));
         }
-        let steps: Vec<Step> = times.into_iter().zip(loads).map(|(t_s, loads)| Step { t_s, loads }).collect();
         let (mut tips, mut markers) = (Vec::new(), Vec::new());
         let walked = py.detach(|| {
-            let model = self.predictor().model();
-            model.follow(&steps, &mut model.prediction(), &mut |_, at| {
+            let mut follower = Follower::new(&self.file);
+            times.iter().zip(&loads).try_for_each(|(t_s, loads)| {
+                let at = follower.next(*t_s, loads)?;
                 tips.push(at.tip);
                 markers.extend_from_slice(&at.markers);
+                Ok(())
             })
         });
-        walked.map_err(|error| raised(ibr::Error::from(error)))?;
+        walked.map_err(|error: ibr::Error| raised(error))?;
         States::new(py, &tips, markers)
     }
 

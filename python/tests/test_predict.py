@@ -114,6 +114,7 @@ def test_values_are_set_by_table_and_key():
         (lambda: ibr.Scenario.named("epam").inverse(tip_mm=1000), "out of reach"),
         (lambda: ibr.Scenario.named("epam").inverse(), "tip_mm=100"),
         (lambda: ibr.Scenario.named("epam").follow([1], [1, 2]), "1 times for 2"),
+        (lambda: ibr.Scenario.named("epam").follow([2, 1], [1, 2]), "is before 2 s"),
         (lambda: ibr.Scenario.named("epam").replace(body_radius_mn=40), "radius_mm"),
     ],
 )
