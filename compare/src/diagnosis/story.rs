@@ -179,9 +179,10 @@ fn effect(d: &Diagnosis) -> Vec<String> {
 
 /// How often a stated set held the truth where that was known; two effects at once are another question.
 fn covered(d: &Diagnosis) -> Option<String> {
-    let share = 100.0 * d.covered?;
+    let [most, least] = [d.covered?, policy::COVERED_BY_OTHERS].map(|share| 100.0 * share);
     Some(format!(
-        "Of made-up robots, whose laws are not the catalogue's, the truth is in such an answer in {share:.0} of 100."
+        "Of made-up robots, whose laws are not the catalogue's, the truth is in such an answer in {least:.0} to {most:.0} of 100, by who \
+         wrote the laws."
     ))
 }
 

@@ -54,7 +54,7 @@ pub fn at_turn(base: &Scenario, loads: &Loads, turn_rad: f64) -> Option<CurvePoi
     let active_m: f64 = (0..count).map(|i| of(i, model.segments()[i].length_m)).sum();
     let bends: Vec<f64> = (0..count).map(|i| of(i, turn_rad / active_m)).collect();
     let (mut missing, mut at) = (Vec::new(), model.prediction());
-    let step = [Step { t_s: 0.0, loads: loads.clone() }];
+    let step = [Step { t_s: 0.0, loads: *loads }];
     model
         .hold(&step, std::slice::from_ref(&bends), &mut at, &mut |_, at| missing = at.missing_moments().to_vec())
         .ok()?;
