@@ -1,7 +1,7 @@
 //! A sweep as text and JSON.
 
 use crate::tables::table as printed;
-use ::sweep::influence::influences;
+use ::sweep::influence::{influences, pairs};
 use ::sweep::{Found, Study};
 use data::table::{Column, Table};
 use serde_json::{Value, json};
@@ -24,17 +24,29 @@ fn failures(table: &Table) -> Vec<(String, usize)> {
     found
 }
 
+/// How far the engines are from each other where both have a case.
+fn agreement(table: &Table) -> String {
+    let mut off: Vec<f64> = pairs(table, "tip_y_mm").iter().map(|[model, fe]| model - fe).collect();
+    off.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let (Some(middle), Some(worst)) = (off.get(off.len() / 2), off.last()) else { return String::new() };
+    format!(
+        "\n{} cases by both: the model's tip is {:.1} mm from the finite elements' in the median, {worst:+.1} mm at worst\n",
+        off.len(),
+        middle.abs()
+    )
+}
+
 /// Reasons that are printed.
 const MOST_REASONS: usize = 3;
 
 /// What came of a sweep.
 pub fn swept_text(study: &Study, found: &Found, table: &Table) -> String {
-    let engines: Vec<&str> = study.engines.iter().map(|engine| engine.word()).collect();
+    let engines: Vec<String> =
+        study.engines.iter().map(|engine| format!("{} cases by {}", study.cases(*engine), engine.word())).collect();
     let mut text = format!(
-        "{}: {} cases by {}; {} of {} parts were there before\n",
+        "{}: {}; {} of {} parts were there before\n",
         study.base.scenario.name,
-        study.cases(),
-        engines.join(" and by "),
+        engines.join(", "),
         found.kept,
         found.parts
     );
@@ -48,6 +60,7 @@ pub fn swept_text(study: &Study, found: &Found, table: &Table) -> String {
             text += &printed(&["key", "lowest mm", "highest mm"], 1, rows);
         }
     }
+    text += &agreement(table);
     let failed = failures(table);
     let count: usize = failed.iter().map(|f| f.1).sum();
     if count > 0 {
@@ -62,7 +75,7 @@ pub fn swept_json(file: &Path, study: &Study, found: &Found, table: Option<&Tabl
     let failed = table.map_or(Vec::new(), failures);
     json!({
         "schema": "ibr.sweep", "version": 1, "study": file.display().to_string(), "scenario": study.base.name,
-        "cases": study.cases(), "engines": study.engines.iter().map(|engine| engine.word()).collect::<Vec<_>>(),
+        "cases": study.cases(sweep::Engine::Reduced), "engines": study.engines.iter().map(|engine| engine.word()).collect::<Vec<_>>(),
         "parts": found.parts, "kept": found.kept, "missing": found.missing, "cpu_s": found.cpu_s,
         "failed": failed.iter().map(|(reason, rows)| json!({"reason": reason, "rows": rows})).collect::<Vec<_>>(),
         "columns": sweep::names(study),

@@ -52,6 +52,18 @@ pub fn influences(study: &Study, table: &Table, engine: Engine, output: &str) ->
     found
 }
 
+/// An output of the cases that both engines have: reduced model and finite elements.
+pub fn pairs(table: &Table, output: &str) -> Vec<[f64; 2]> {
+    let Some(Column::I64(cases)) = column(table, "case") else { return Vec::new() };
+    let of = |engine| {
+        let rows = Solved::of(table, engine, output);
+        rows.map_or(Vec::new(), |rows| rows.rows.into_iter().map(|i| cases[i]).zip(rows.values).collect())
+    };
+    let reduced: std::collections::BTreeMap<i64, f64> = of(Engine::Reduced).into_iter().collect();
+    let both = |(case, fe): (i64, f64)| Some([*reduced.get(&case)?, fe]);
+    of(Engine::Elements).into_iter().filter_map(both).collect()
+}
+
 /// The map over two keys.
 pub fn map(table: &Table, engine: Engine, output: &str, keys: [&str; 2]) -> Option<SweepMap> {
     let rows = Solved::of(table, engine, output)?;

@@ -63,13 +63,12 @@ pub struct Found {
 
 /// All parts of a study in order: those of the reduced model in equal pieces, a robot each for finite elements.
 pub fn parts(study: &Study) -> Vec<Part> {
-    let cases = study.cases();
     let of = |engine: &Engine| {
         let size = match engine {
             Engine::Reduced => PART,
             Engine::Elements => study.per_robot(),
         };
-        let engine = *engine;
+        let (engine, cases) = (*engine, study.cases(*engine));
         (0..cases.div_ceil(size)).map(move |k| Part { engine, cases: k * size..cases.min((k + 1) * size) })
     };
     study.engines.iter().flat_map(of).collect()

@@ -101,6 +101,7 @@ pub struct Study {
     pub pressures_kpa: Vec<f64>,
     points: Option<Points>,
     robots: usize,
+    checked: usize,
 }
 
 #[derive(Deserialize)]
@@ -151,6 +152,8 @@ struct RawSample {
     cases: usize,
     #[serde(default = "one")]
     seed: u32,
+    /// How many of them, from the first on, finite elements compute too.
+    checked: Option<usize>,
 }
 
 fn one() -> u32 {
@@ -233,7 +236,7 @@ impl Study {
         let (robots, points) = match &raw.sample {
             None => (axes.iter().try_fold(1_usize, |n, axis| n.checked_mul(listed(axis)?)), None),
             Some(sample) => {
-                let RawSample { method, cases, seed } = *sample.get_ref();
+                let RawSample { method, cases, seed, .. } = *sample.get_ref();
                 let points = (cases <= MOST_CASES).then(|| Points::new(method, cases, axes.len(), seed)).transpose();
                 let points = points.map_err(|m| (Some(sample.span()), m, "take fewer, or a latin hypercube"))?;
                 (Some(cases), points)
@@ -245,13 +248,25 @@ impl Study {
             format!("more than {MOST_CASES} cases"),
             "take fewer steps, or a [sample]",
         ))?;
+        let checked = raw.sample.as_ref().and_then(|sample| sample.get_ref().checked).unwrap_or(robots).min(robots);
         let folder = folder.to_path_buf();
-        Ok(Study { base, folder, engines: raw.engines, outputs: raw.outputs, axes, pressures_kpa, points, robots })
+        Ok(Study {
+            base,
+            folder,
+            engines: raw.engines,
+            outputs: raw.outputs,
+            axes,
+            pressures_kpa,
+            points,
+            robots,
+            checked,
+        })
     }
 
-    /// Cases in all, of each engine.
-    pub fn cases(&self) -> usize {
-        self.robots * self.per_robot()
+    /// Cases of an engine.
+    pub fn cases(&self, engine: Engine) -> usize {
+        let robots = if engine == Engine::Elements { self.checked } else { self.robots };
+        robots * self.per_robot()
     }
 
     /// Cases with the same robot, beside each other.

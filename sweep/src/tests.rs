@@ -144,7 +144,7 @@ method = "latin hypercube"
 cases = 50
 "#;
     let (study, folder) = (study(text).unwrap(), tempfile::tempdir().unwrap());
-    assert_eq!((study.cases(), study.per_robot()), (50, 1));
+    assert_eq!((study.cases(Engine::Reduced), study.per_robot()), (50, 1));
     assert_eq!(made(&study, folder.path(), Shard::WHOLE).missing, 0);
     let csv = csv(&study, folder.path());
     assert!(

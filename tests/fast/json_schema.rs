@@ -33,7 +33,7 @@ const RARE: [&str; 20] = [
 ];
 
 /// What runs, in this order in one folder, and the schema of its answer.
-const COMMANDS: [(&str, &str); 40] = [
+const COMMANDS: [(&str, &str); 41] = [
     ("predict epam-textbook --pressure 30kPa", "ibr.predict"),
     ("predict epam --pressure 300kPa", "ibr.predict"),
     ("predict epam --limits --effect tip_load:force_y_n=1", "ibr.predict.limits"),
@@ -41,6 +41,7 @@ const COMMANDS: [(&str, &str); 40] = [
     ("export c epam --out epam.c", "ibr.export.c"),
     ("export linear fpam --pressure 20kPa", "ibr.export.linear"),
     ("pattern cpam", "ibr.pattern"),
+    ("sweep study.toml --out swept", "ibr.sweep"),
     ("simulate tube --end 1ms --out t", "ibr.simulate"),
     ("compare epam-textbook synthetic-epam --calibrate", "ibr.compare"),
     ("compare breukels-2011-beams", "ibr.compare.bench"),
@@ -147,6 +148,7 @@ impl Checker {
 #[test]
 fn every_key_is_described_and_every_described_key_comes_out() {
     let folder = Folder::new();
+    folder.write("study.toml", "scenario = \"epam\"\n[[vary]]\nkey = \"actuator.width_mm\"\nvalues = [60, 300]\n");
     let mut checker = Checker { all: described(), seen: BTreeSet::new() };
     for (typed, schema) in COMMANDS {
         let args: Vec<&str> = typed.split(' ').chain(["--json"]).collect();

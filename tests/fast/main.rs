@@ -35,3 +35,4 @@ mod simulate;
 mod slips;
 #[path = "../support/mod.rs"]
 mod support;
+mod sweep;
