@@ -131,7 +131,7 @@ async function finite_elements(start) {
     run = await (await fetch('run')).json();
   }
   $('running').hidden = $('stop').hidden = true;
-  $('run-said').textContent = '';
+  $('run-said').textContent = run.state === 'stopped' ? 'Stopped.' : '';
   if (run.state === 'failed') fault(run);
   if (run.state !== 'done') return;
   finite = [run.line_m];

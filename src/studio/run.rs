@@ -66,6 +66,7 @@ impl Bench {
             let made = std::panic::catch_unwind(|| run(&wish, &shared));
             let told = match made {
                 Ok(Ok(run)) => shape(&run),
+                Ok(Err(FemError::Interrupted { .. })) => json!({"state": "stopped"}),
                 Ok(Err(error)) => failed(&error.to_string(), error.help().unwrap_or("change the robot and try again")),
                 Err(_) => failed("the run broke off", "please report it with the scenario's text"),
             };
