@@ -63,6 +63,8 @@ const GRID: [usize; CHANNELS + 1] = [1, 65, 21, 9, 6];
 const STARTS: usize = 6;
 /// Steps to the bottom: some ten settle, more only along a flat valley.
 const STEPS: usize = 60;
+/// Relative fall of the cost at which the bottom is reached.
+const SETTLED: f64 = 1e-12;
 /// Step of the central differences over the largest √P.
 const NUDGE: f64 = 1e-5;
 
@@ -154,7 +156,15 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn loads(&self, roots: &Roots) -> Loads {
-        Loads { body_pa: self.body_pa, actuator_pa: roots.map(|root| root * root) }
+        let mut actuator_pa = roots.map(|root| root * root);
+        // At a limit exactly that, whatever the root was rounded to.
+        for channel in self.channels() {
+            let [low, high] = self.limits.ends(channel);
+            let limits = [(low, self.limits.least_pa[channel]), (high, self.limits.most_pa[channel])];
+            let at = limits.into_iter().find(|(root, _)| *root == roots[channel]);
+            actuator_pa[channel] = at.map_or(actuator_pa[channel], |(_, limit)| limit);
+        }
+        Loads { body_pa: self.body_pa, actuator_pa }
     }
 
     fn channels(&self) -> impl Iterator<Item = usize> + use<> {
@@ -246,7 +256,7 @@ impl Search<'_> {
             for channel in self.channels() {
                 free[channel] = self.held(channel, &roots, &gradient).is_none();
             }
-            let mut moved = false;
+            let (mut moved, before) = (false, cost);
             while !moved && damping < 1e12 {
                 let step = solve(&gradient, &matrix, &free, damping);
                 let mut next = roots;
@@ -261,6 +271,10 @@ impl Search<'_> {
                 } else {
                     damping *= 10.0;
                 }
+            }
+            // At the bottom of what is out of reach the cost only falls by its rounding.
+            if before - cost <= SETTLED * before {
+                break;
             }
         }
         (cost, roots)

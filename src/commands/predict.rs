@@ -75,7 +75,7 @@ fn target(wanted: &str) -> Result<Target, Failure> {
         Some(("tip", value)) => Ok(Target::TipHeight(quantity("--inverse", value, Quantity::Length)?)),
         Some(("angle", value)) => Ok(Target::Angle(quantity("--inverse", value, Quantity::Angle)?)),
         _ => {
-            let help = "write tip=100mm (height), angle=60deg (total bend) or 300mm,120mm (x,y)";
+            let help = "write tip=100mm (height) or angle=60deg (total bend), or a place x,y: 300mm,120mm";
             Err(Failure::usage(format!("--inverse {wanted} is not understood"), help))
         }
     }

@@ -81,6 +81,8 @@ fn out_of_reach_it_comes_as_near_as_any_pressure_and_names_the_limit() {
         assert!(found.miss_m <= nearest + 1e-9, "{wanted:?}: {} {nearest}", found.miss_m);
         assert!((found.miss_m - far(&found.loads)).abs() < 1e-12);
         assert_eq!(&found.held[..2], held, "{wanted:?}: {found:?}");
+        let limit = held.map(|end| if end == Some(End::Most) { 30e3 } else { 0.0 });
+        assert_eq!(&found.loads.actuator_pa[..2], limit, "the limit itself, and no rounding of it");
     }
 }
 
