@@ -96,7 +96,7 @@ fn range(scenario: &Scenario, typed: Option<&str>) -> Result<[f64; 2], Failure> 
 fn refused(error: Untabulated) -> Failure {
     let help = match &error {
         Untabulated::Unsolved(unsolved) => return unsolved.clone().into(),
-        Untabulated::Range { .. } => "write from:to, for example --pressure 0:40kPa",
+        Untabulated::Order { .. } | Untabulated::Range { .. } => "write from:to, for example --pressure 0:40kPa",
         Untabulated::Channels { .. } => "ibr-capi solves such a robot (docs/control.md)",
         Untabulated::TooRough { .. } => "export the pressures on one side of it, for example --pressure 5:40kPa",
     };

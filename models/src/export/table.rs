@@ -72,7 +72,15 @@ pub enum Untabulated {
     /// The model has no prediction somewhere in the range.
     #[error(transparent)]
     Unsolved(#[from] Unsolved),
-    /// No range.
+    /// Pressures that do not rise.
+    #[error("pressures from {low_kpa} to {high_kpa} kPa are no range: they rise, from 0 or more")]
+    Order {
+        /// Least \[kPa\].
+        low_kpa: f64,
+        /// Largest \[kPa\].
+        high_kpa: f64,
+    },
+    /// A range in which the actuator stays flat.
     #[error(
         "pressures from {low_kpa} to {high_kpa} kPa are no range that opens the actuator (it is flat up to {open_kpa:.3} kPa)"
     )]
@@ -123,13 +131,16 @@ impl Table {
             return Err(Untabulated::Channels { channels });
         }
         let [low_pa, high_pa] = range_pa;
+        if low_pa < 0.0 || low_pa >= high_pa {
+            return Err(Untabulated::Order { low_kpa: low_pa / 1e3, high_kpa: high_pa / 1e3 });
+        }
         let mut sampler = Sampler { model, state: model.prediction(), body_pa, open_pa: 0.0, high_pa, outputs: 3 };
         let openings = sampler.openings(range_pa)?;
         // Where nothing opens it is open all along, or never.
         let unopened = if sampler.open(high_pa)? == 0 { high_pa } else { 0.0 };
         sampler.open_pa = openings.first().copied().unwrap_or(unopened);
         let open_pa = sampler.open_pa;
-        if !(low_pa >= 0.0 && low_pa < high_pa && open_pa < high_pa) || channels == 0 {
+        if open_pa >= high_pa || channels == 0 {
             return Err(Untabulated::Range { low_kpa: low_pa / 1e3, high_kpa: high_pa / 1e3, open_kpa: open_pa / 1e3 });
         }
         let root = |p: f64| (((p - open_pa) / (high_pa - open_pa)).max(0.0).sqrt()) as f32;
