@@ -53,7 +53,7 @@ impl Part {
             let (changes, pressure) = study.changes(robot);
             changes.iter().for_each(|(key, value)| told.extend(format!("{key} = {value}\n").bytes()));
             let own = self.pressures(robot, per_robot);
-            let pressures = pressure.as_ref().map_or(&study.pressures_kpa[own], std::slice::from_ref);
+            let pressures = pressure.as_ref().map_or_else(|| &study.pressures_kpa[own], std::slice::from_ref);
             pressures.iter().for_each(|kpa| told.extend(kpa.to_le_bytes()));
         }
         folder.join("parts").join(format!("{}.part", &sha256(&told)[..32]))
