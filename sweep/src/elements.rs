@@ -52,18 +52,27 @@ fn job(study: &Study, robot: usize) -> Result<(Job, Vec<f64>), String> {
     let mut rising = kpa.clone();
     rising.sort_by(f64::total_cmp);
     rising.dedup();
-    rising.retain(|p| *p > 0.0);
+    // Below the body's pressure an actuator stays flat, and a run is refused.
+    rising.retain(|kpa| 1e3 * kpa > file.p_body_pa);
+    if let (true, Some(highest)) = (rising.is_empty(), kpa.iter().copied().reduce(f64::max)) {
+        return Err(flat(highest, file.p_body_pa));
+    }
     let set = [("fem.pressures_kpa".to_string(), format!("{rising:?}"))];
-    let file = if rising.is_empty() { Ok(file) } else { file.with(&set) }.map_err(|error| error.to_string())?;
+    let file = file.with(&set).map_err(|error| error.to_string())?;
     let source = Source { text: file.text.clone(), name: file.name.clone(), folder: study.folder.clone() };
     source.load().map_err(|error| error.to_string())?;
     Ok((Job { source, what: format!("robot {}", robot + 1), folder: None }, kpa))
 }
 
+fn flat(kpa: f64, body_pa: f64) -> String {
+    format!("an actuator at {kpa} kPa in a body at {} kPa stays flat", 1e-3 * body_pa)
+}
+
 fn read(study: &Study, run: &FeRun, kpa: f64, width: usize, rows: &mut Rows) {
     let same = |r: &&Reading| (r.actuator_pa - 1e3 * kpa).abs() < 1.0;
     let Some(reading) = run.readings().iter().find(same) else {
-        return fail(width, format!("the run was not read at {kpa} kPa"), &mut rows.numbers, &mut rows.failed);
+        let body_pa = run.readings().first().map_or(study.base.p_body_pa, |r| r.body_pa);
+        return fail(width, flat(kpa, body_pa), &mut rows.numbers, &mut rows.failed);
     };
     let end = rows.numbers.len() + width;
     study.outputs.iter().for_each(|output| put(*output, reading, run, study, &mut rows.numbers));
