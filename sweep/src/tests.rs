@@ -163,7 +163,7 @@ key = "fem.seed"
 values = [1, 2]
 [[vary]]
 key = "fem.actuator_mesh_mm"
-values = [20]
+values = [15]
 [[vary]]
 key = "pressure_kpa"
 values = [4, 3, 1]
