@@ -19,7 +19,7 @@ function dial({ name, unit, value, low, high, step, set }) {
   const place = (v) => ((v - low) / (high - low)) ** (1 / power);
   const input = element('input', { type: 'range', min: step ? low : 0, max: step ? high : 1, step: step || 0.002 });
   input.value = step ? value : place(value);
-  const output = element('output', { textContent: `${shown(value)} ${unit === '-' ? '' : unit}` });
+  const output = element('span', { className: 'value', textContent: `${shown(value)} ${unit === '-' ? '' : unit}` });
   const now = () => (step ? +(+input.value).toFixed(6) : low + (high - low) * (+input.value) ** power);
   const turned = (last) => {
     output.textContent = `${shown(now())} ${unit === '-' ? '' : unit}`;

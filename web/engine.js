@@ -23,7 +23,9 @@ async function opened(module) {
     words = new TextDecoder();
   return (question) => {
     const asked = bytes.encode(JSON.stringify(question));
-    new Uint8Array(exports.memory.buffer, exports.room(asked.length), asked.length).set(asked);
+    // The memory may grow in a call, and is another buffer then.
+    const room = exports.room(asked.length);
+    new Uint8Array(exports.memory.buffer, room, asked.length).set(asked);
     const length = exports.ask();
     return JSON.parse(words.decode(new Uint8Array(exports.memory.buffer, exports.answer(), length)));
   };

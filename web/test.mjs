@@ -28,7 +28,7 @@ const browser = await chromium.launch({ executablePath, args: flags });
 const left = [];
 
 async function opened(hash = '', options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, bypassCSP: true, ...options });
   const page = await context.newPage();
   page.on('request', (request) => {
     if (!/^(file|blob|data):/.test(request.url())) left.push(request.url());
@@ -37,7 +37,7 @@ async function opened(hash = '', options = {}) {
     throw error;
   });
   await page.goto(url + hash);
-  await page.waitForFunction(() => window.ibr?.state);
+  await page.waitForSelector('#shape path.own', { state: 'attached' });
   return page;
 }
 
@@ -97,12 +97,11 @@ async function numbers_are_the_programs() {
   const robot = { name: 'cpam', changes },
     saved = join(scratch, 'mine.toml');
   writeFileSync(saved, (await ask(page, { ask: 'robot', robot })).text);
-  same(
-    states(await ask(page, { ask: 'predict', robot, actuator_kpa: [17] })),
-    states(native('predict', saved, '--pressure', '17kPa').states[0]),
-    1e-12,
-    'changed',
-  );
+  const { jacobian: slopes, ...hand } = states(await ask(page, { ask: 'predict', robot, actuator_kpa: [17] }));
+  const { jacobian, ...kept } = states(native('predict', saved, '--pressure', '17kPa').states[0]);
+  same(hand, kept, 1e-12, 'changed');
+  // Slopes of a loaded robot are quotients of differences, which magnify the last bit.
+  same(slopes, jacobian, 1e-9, 'slopes');
   // A comparison and a diagnosis are those of the program; fits end where their steps end, so to fewer digits.
   const data = { name: 'synthetic-epam' },
     mine = { name: 'epam-textbook' };
@@ -152,7 +151,7 @@ async function it_is_quick() {
   const first = [],
     found = [];
   for (let i = 0; i < 3; i++) {
-    const page = await opened('#robot=epam-textbook&data=synthetic-epam');
+    const page = await opened('#robot=epam-textbook&data=synthetic-epam', { bypassCSP: false });
     first.push(await page.evaluate(() => performance.getEntriesByName('first-shape')[0].startTime));
     await page.waitForSelector('#compared:not([hidden])');
     await page.click('#diagnose');
@@ -162,11 +161,11 @@ async function it_is_quick() {
     await page.close();
   }
   const began = performance.now();
-  execFileSync(ibr, ['--json', 'diagnose', 'epam-textbook', 'synthetic-epam', '--out', join(scratch, 'd')]);
+  native('diagnose', 'epam-textbook', 'synthetic-epam');
   const own = (performance.now() - began) / 1e3,
     best = (values) => Math.min(...values);
   console.log(
-    `quick: first shape after ${best(first).toFixed(0)} ms; diagnosis with its pictures ${best(found).toFixed(2)} s, ${(best(found) / own).toFixed(1)} times the program's ${own.toFixed(2)} s`,
+    `quick: first shape after ${best(first).toFixed(0)} ms; diagnosis and its pictures ${best(found).toFixed(2)} s, ${(best(found) / own).toFixed(1)} times the program's ${own.toFixed(2)} s without them`,
   );
   assert.ok(best(first) <= 1000 && best(found) <= 2);
 }
