@@ -18,9 +18,7 @@ static INTERRUPT: Interrupt = Interrupt::new();
 /// Runs what was typed, the name of the program first, prints, and returns the exit code. It takes over Ctrl-C and ends the
 /// process itself on `--help`, on wrong usage and on an interrupt: call it once, from a program that does nothing else.
 pub fn run(typed: impl IntoIterator<Item = OsString>) -> u8 {
-    // A browser has none.
-    #[cfg(not(target_family = "wasm"))]
-    if let Err(error) = ctrlc::set_handler(interrupt) {
+    if let Err(error) = on_interrupt(interrupt) {
         say(&format!("warning: an interrupt cannot be caught here: {error}\n"));
     }
     silence_parquet();
@@ -47,6 +45,18 @@ pub fn run(typed: impl IntoIterator<Item = OsString>) -> u8 {
             error.code()
         }
     }
+}
+
+/// Has it called on Ctrl-C.
+#[cfg(not(target_family = "wasm"))]
+fn on_interrupt(call: fn()) -> Result<(), ctrlc::Error> {
+    ctrlc::set_handler(call)
+}
+
+/// A browser has no Ctrl-C.
+#[cfg(target_family = "wasm")]
+fn on_interrupt(_: fn()) -> Result<(), std::convert::Infallible> {
+    Ok(())
 }
 
 /// A panic of the library that reads Parquet files is told as an error of the file, and not as one of this program.
