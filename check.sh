@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The whole check of this repository, and all that CI runs. `./check.sh fast` is the short form while editing:
-# no release build, no slow tests.
+# no release build, no slow tests. `./check.sh all` also builds and tries the page in a browser and a sweep through Slurm,
+# where these are installed.
 # Needs Rust (rust-version in Cargo.toml) with rustfmt and clippy, and the C compiler that Rust links with.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -33,6 +34,8 @@ else
   step known numbers
   ./target/release/ibr verify
   # Benches end with 1 where they miss what is wanted: on a shared machine, or with few sets, that is no fault.
+  step Python
+  python/test.sh
   step speed
   ./target/release/ibr bench || [ $? = 1 ]
   step discovery, short form
@@ -41,5 +44,11 @@ else
   cargo bench --no-run --quiet
   step each case of the diagnosis bench runs
   cargo bench --quiet --bench diagnose -- --test > /dev/null
+  if [ "${1:-}" = all ]; then
+    step the page in a browser
+    web/test.sh
+    step a sweep through Slurm
+    tests/slurm.sh
+  fi
 fi
 printf '\nall checks passed in %ss\n' "$SECONDS"
