@@ -69,10 +69,13 @@ fn map_of(map: &SweepMap, engine: Engine) -> Result<Drawn, PageError> {
         let mean = map.means[r][c];
         Mark::Cell([r, c], mean / most, number(mean, 0), String::new())
     };
-    let columns = map.names[1].iter().map(|name| ChartColumn { name: name.clone(), ..ChartColumn::default() });
+    // Ranges are too wide to stand beside each other: each column begins where it says.
+    let start = |name: &String| name.split(" to ").next().unwrap_or_default().to_string();
+    let columns = map.names[1].iter().map(|name| ChartColumn { name: start(name), ..ChartColumn::default() });
+    let is_ranges = map.names[1].iter().any(|name| name.contains(" to "));
     let chart = Chart {
         title: format!("Height of the tip, {}", engine.word()),
-        x_label: map.keys[1].clone(),
+        x_label: format!("{}{}", map.keys[1], if is_ranges { ", from" } else { "" }),
         y_label: map.keys[0].clone(),
         space: Space::Grid(map.names[0].iter().map(|name| ChartRow::beside(name)).collect(), columns.collect()),
         marks: (0..map.means.len())
