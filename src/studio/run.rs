@@ -9,6 +9,9 @@ use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// Stack of a run, as much as a program has: set-up and pictures need more than a thread is given.
+const STACK: usize = 16 << 20;
+
 /// What the page wants to see in finite elements.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -62,7 +65,8 @@ impl Bench {
         let told = json!({"state": "runs", "what": "building the mesh", "share": 0.0});
         *stand = Stand { told: Some(told.clone()), runs: true, stop: false };
         let shared = Arc::clone(&self.stand);
-        std::thread::spawn(move || {
+        let thread = std::thread::Builder::new().stack_size(STACK);
+        let spawned = thread.spawn(move || {
             let made = std::panic::catch_unwind(|| run(&wish, &shared));
             let told = match made {
                 Ok(Ok(run)) => shape(&run),
@@ -72,7 +76,13 @@ impl Bench {
             };
             *of(&shared) = Stand { told: Some(told), ..Stand::default() };
         });
-        told
+        if let Err(cause) = spawned {
+            *stand = Stand {
+                told: Some(failed(&format!("no thread for it: {cause}"), "close other programs")),
+                ..Stand::default()
+            };
+        }
+        stand.told.clone().unwrap_or(told)
     }
 
     /// Asks the run to end.
