@@ -19,7 +19,7 @@ pub struct DeadLoads {
     pub pulley_m: [f64; 2],
     /// Weight of what the tip carries \[N\].
     pub cap_n: f64,
-    /// Weight per length of a hose that hangs from the tip down to a table [`TABLE_M`] below the base \[N/m\].
+    /// Weight per length of a hose that hangs from the tip down to a table below the base \[N/m\].
     pub hose_n_per_m: f64,
     /// Known force on the tip, as `about.toml` says \[N\].
     pub tip_n: [f64; 2],
