@@ -64,7 +64,7 @@ pub enum Command {
     Breakdown(BreakdownArgs),
     /// Run a finite element case through time: ParaView frames, energy balance, checkpoints
     Simulate(SimulateArgs),
-    /// Many cases of one robot: keys of its scenario varied, a row per case, in shards or on a cluster
+    /// Many cases of one robot, a row each: keys that vary, in shards or on a cluster
     Sweep(SweepArgs),
     /// From tensile tests of a fabric to its moduli, curves and a table for cases
     Characterize(CharacterizeArgs),
