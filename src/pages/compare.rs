@@ -10,6 +10,23 @@ use serde_json::{Value, json};
 /// # Errors
 /// What cannot be drawn.
 pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files, PageError> {
+    let mut files = compare_files(study)?;
+    let (first, dataset) = (&study.variants[0], &study.dataset);
+    let variants: Vec<Value> = study.variants.iter().map(variant).collect();
+    let values = json!({
+        "title": format!("{} held against {}", first.scenario.name, dataset.name),
+        "lead": lead(study), "first": variants[0], "variants": variants, "provenance": provenance(study),
+        "several_bodies": figures::several_bodies(dataset), "map_colours": residual_figure::MAP_COLOURS,
+    });
+    files.page("compare.html", values, imprint)?;
+    Ok(files)
+}
+
+/// What is beside the page: plots and tables.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn compare_files(study: &Comparison) -> Result<Files, PageError> {
     let mut files = Files::default();
     let (first, dataset) = (&study.variants[0], &study.dataset);
     files.plot("shapes", figures::shapes("Predicted and measured shape", &first.scenario, dataset)?);
@@ -24,13 +41,6 @@ pub fn compare_page(study: &Comparison, imprint: &Imprint) -> Result<Files, Page
         let cases: Vec<_> = study.variants.iter().map(|v| (v.label.clone(), v.scenario.clone())).collect();
         files.plot("ledger", figures::ledgers(&title, &cases, &loads)?);
     }
-    let variants: Vec<Value> = study.variants.iter().map(variant).collect();
-    let values = json!({
-        "title": format!("{} held against {}", first.scenario.name, dataset.name),
-        "lead": lead(study), "first": variants[0], "variants": variants, "provenance": provenance(study),
-        "several_bodies": figures::several_bodies(dataset), "map_colours": residual_figure::MAP_COLOURS,
-    });
-    files.page("compare.html", values, imprint)?;
     Ok(files)
 }
 

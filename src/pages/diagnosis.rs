@@ -45,12 +45,21 @@ pub struct Diagnosed<'a> {
 /// # Errors
 /// What cannot be drawn.
 pub fn diagnosis_page(found: &Diagnosed, imprint: &Imprint, progress: &mut Progress) -> Result<Files, PageError> {
-    let mut files = Files::default();
-    draw(found, "", &diagnosis_pictures(), &mut files, progress)?;
+    let mut files = diagnosis_plots(found, progress)?;
     if let Some(missing) = &found.diagnosis.missing_moment {
         files.text("missing_moment.csv", missing.csv());
     }
     files.page("diagnosis.html", values(found), imprint)?;
+    Ok(files)
+}
+
+/// Its plots alone.
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn diagnosis_plots(found: &Diagnosed, progress: &mut Progress) -> Result<Files, PageError> {
+    let mut files = Files::default();
+    draw(found, "", &diagnosis_pictures(), &mut files, progress)?;
     Ok(files)
 }
 

@@ -23,9 +23,9 @@ mod tracks;
 mod uncertain;
 
 pub use characterize::characterized_files;
-pub use compare::compare_page;
+pub use compare::{compare_files, compare_page};
 pub use demo::demo_page;
-pub use diagnosis::{Diagnosed, diagnosis_page, diagnosis_pictures};
+pub use diagnosis::{Diagnosed, diagnosis_page, diagnosis_pictures, diagnosis_plots};
 pub use engine_figures::parting_plot;
 pub use engines::engines_page;
 pub use figures::{measured, tradeoff as tradeoff_plot};

@@ -7,7 +7,7 @@ use compare::diagnosis::{Answer, Diagnosis, Options, Standing, diagnose};
 use compare::{CompareError, Evidence};
 use data::Dataset;
 use ibr::compared::Compared;
-use ibr::pages::{Diagnosed, Files, Imprint, PageError, compare_page, diagnosis_page, measured};
+use ibr::pages::{Diagnosed, Files, PageError, compare_files, diagnosis_plots, measured};
 use ibr::shown::comparison::CompareAnswer;
 use ibr::shown::diagnosis::{to_json, verdict};
 use report::page::inline;
@@ -23,7 +23,7 @@ pub fn compared(robot: &Robot, data: &Measured) -> Result<Value, CompareError> {
     let mut told = CompareAnswer { scenario: &file.name, found: &found, added: added.as_ref() }.json();
     told["error_mm"] = json!(found.error_mm());
     told["measured_m"] = means(&found.dataset);
-    told["pictures"] = pictures(compare_page(&found, &Imprint::default()))?;
+    told["pictures"] = pictures(compare_files(&found))?;
     Ok(told)
 }
 
@@ -49,7 +49,7 @@ pub fn diagnosed(robot: &Robot, data: &Measured) -> Result<Value, CompareError> 
         typed,
         more: String::new(),
     };
-    told["pictures"] = pictures(diagnosis_page(&found, &Imprint::default(), &mut |_, _| ()))?;
+    told["pictures"] = pictures(diagnosis_plots(&found, &mut |_, _| ()))?;
     Ok(told)
 }
 
