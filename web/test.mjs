@@ -316,6 +316,7 @@ async function the_studio_runs_finite_elements() {
     await page.waitForSelector('#shape path.finite', { timeout: 120000, state: 'attached' });
     const said = await page.textContent('#run-said');
     assert.match(said, /elements at 20 kPa/);
+    await page.evaluate(() => scrollTo(0, 0));
     await page.screenshot({ path: join(folder, 'studio.png') });
     await page.close();
     console.log(`studio: ${said.trim()}`);
