@@ -103,13 +103,15 @@ impl Job {
         told: &mut dyn FnMut(usize) -> ControlFlow<()>,
     ) -> Result<(), SweepError> {
         let mut before = usize::MAX;
-        while missing() > 0 {
+        loop {
+            let left = missing();
             let id = match self.submitted(cluster) {
+                _ if left == 0 => return Ok(()),
                 Some(id) => id,
-                None if missing() >= before => return Err(self.useless()),
+                None if left >= before => return Err(self.useless()),
                 None => self.submit(cluster)?,
             };
-            before = missing();
+            before = left;
             while cluster.is_alive(&id) {
                 if told(missing()).is_break() {
                     let (time_s, step, of) = (0.0, 0, self.shards);
@@ -119,7 +121,6 @@ impl Job {
             }
             let _ = std::fs::remove_file(self.folder.join(SUBMITTED));
         }
-        Ok(())
     }
 
     /// A job of an earlier call that is still alive.

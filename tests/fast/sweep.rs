@@ -35,7 +35,7 @@ fn a_study_becomes_a_table_with_pictures_and_is_kept() {
     let row = table.lines().nth(9001 + 6001).unwrap();
     let predicted = folder.run(&["predict", "epam", "--pressure", "20kPa", "--json"]);
     let state: serde_json::Value = serde_json::from_str(&predicted.stdout).unwrap();
-    let tip = state["states"][0]["tip_mm"][1].as_f64().unwrap();
+    let tip = state["states"][0]["tip"]["y_mm"].as_f64().unwrap();
     assert!(
         row.contains(",60,20,") && (row.split(',').nth(5).unwrap().parse::<f64>().unwrap() - tip).abs() < 1e-9,
         "{row}"
