@@ -5,6 +5,7 @@ use crate::part::{Part, Rows};
 use crate::reduced::{ACCOUNTS, fail};
 use crate::study::{Output, Study};
 use crate::table::columns;
+use compare::wording::short;
 use fem::FemError;
 use fem::robot::Reading;
 use fem::session::{FeRun, Job, Many, Progress, Settings, Source, simulate_all};
@@ -65,7 +66,7 @@ fn job(study: &Study, robot: usize) -> Result<(Job, Vec<f64>), String> {
 }
 
 fn flat(kpa: f64, body_pa: f64) -> String {
-    format!("an actuator at {kpa} kPa in a body at {} kPa stays flat", 1e-3 * body_pa)
+    format!("an actuator at {kpa} kPa in a body at {} kPa stays flat", short(1e-3 * body_pa))
 }
 
 fn read(study: &Study, run: &FeRun, kpa: f64, width: usize, rows: &mut Rows) {
