@@ -13,14 +13,14 @@ step format
 cargo fmt --all --check
 step clippy
 cargo clippy --workspace --all-targets -- -D warnings
-cargo clippy --test slow --test zoo -- -D warnings
+cargo clippy --workspace --test slow --test zoo -- -D warnings
 step docs
 cargo doc --workspace --no-deps --quiet
 if [ "${1:-}" = fast ]; then
   step fast tests
   cargo test --workspace --quiet
 else
-  # One profile for everything, so that the dependencies are built once.
+  # One profile and one set of crates for everything, so that the dependencies are built once.
   step release build
   cargo build --release --workspace --quiet
   step fast tests
@@ -28,9 +28,9 @@ else
   step broken inputs, ten thousand for every reader
   ./target/release/ibr-fuzz all --cases 10000 --keep target/fuzz-found
   step slow tests
-  cargo test --release --quiet --test slow
+  cargo test --workspace --release --quiet --test slow
   step bad input
-  cargo test --release --quiet --test zoo
+  cargo test --workspace --release --quiet --test zoo
   step known numbers
   ./target/release/ibr verify
   # Benches end with 1 where they miss what is wanted: on a shared machine, or with few sets, that is no fault.
@@ -41,9 +41,9 @@ else
   step discovery, short form
   ./target/release/ibr bench discovery --sets 8 || [ $? = 1 ]
   step benches compile
-  cargo bench --no-run --quiet
+  cargo bench --workspace --no-run --quiet
   step each case of the diagnosis bench runs
-  cargo bench --quiet --bench diagnose -- --test > /dev/null
+  cargo bench --workspace --quiet --bench diagnose -- --test > /dev/null
   if [ "${1:-}" = all ]; then
     step the page in a browser
     web/test.sh
