@@ -58,7 +58,7 @@ impl Follower {
 
     /// Channels that feed an actuator.
     pub fn channels(&self) -> Vec<usize> {
-        (0..CHANNELS).filter(|channel| self.model.uses(*channel)).collect()
+        self.model.channels().collect()
     }
 }
 

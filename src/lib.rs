@@ -68,7 +68,8 @@ pub use ::compare::{CompareError as Error, Comparison, Evidence, Extension, Prog
 pub use fem::session::{FeRun, Settings as FeSettings, Source as FeSource, simulate, simulate_all};
 pub use follow::{Follower, follow};
 pub use import_typed::import_typed;
+pub use models::HOLD_S;
 pub use models::{Loads, Scenario};
-pub use predict::{AtPressure, HOLD_S, predict, predict_for, predict_near};
+pub use predict::{AtPressure, predict, predict_for, predict_near};
 pub use predictor::{Predictor, check_fed};
 pub use studies::fe_source;

@@ -1,10 +1,7 @@
 //! Shapes of a robot at given pressures, and the pressure for a wanted tip.
 
 use compare::CompareError;
-use models::{Aim, CHANNELS, Limits, Loads, Model, Prediction, Scenario, Steered, Step, Target, TipSlope};
-
-/// Time for which each pressure of a model with history is held \[s\]: the hold of the usual protocol.
-pub const HOLD_S: f64 = 5.0;
+use models::{Aim, CHANNELS, HOLD_S, Limits, Loads, Model, Prediction, Scenario, Steered, Step, Target, TipSlope};
 
 /// One predicted state.
 #[derive(Debug, Clone)]
@@ -58,7 +55,12 @@ pub fn predict_for(scenario: &Scenario, target: Target) -> Result<AtPressure, Co
 pub fn predict_near(scenario: &Scenario, place_m: [f64; 2]) -> Result<(AtPressure, Steered), CompareError> {
     let model = Model::new(scenario);
     let limits = Limits::up_to(scenario.p_max_pa);
-    let found = model.steer(Aim::Tip(place_m), scenario.p_body_pa, &limits, &mut model.steering())?;
+    let mut found = model.steer(Aim::Tip(place_m), scenario.p_body_pa, &limits, &mut model.steering())?;
+    // A robot with one channel has one pressure, as everywhere.
+    let mut channels = model.channels();
+    if let (Some(only), None) = (channels.next(), channels.next()) {
+        found.loads = Loads::uniform(found.loads.body_pa, found.loads.actuator_pa[only]);
+    }
     Ok((at(&model, found.loads)?, found))
 }
 

@@ -1,23 +1,19 @@
 //! A robot put together once and asked many times: what a control loop and a binding call.
 
-use crate::predict::{AtPressure, HOLD_S, state};
+use crate::predict::{AtPressure, state};
 use compare::CompareError;
-use models::{
-    Aim, Batch, CHANNELS, Limits, Loads, Model, Prediction, Scenario, Steered, Step, Target, TipSlope, Unsolved,
-};
+use models::{Aim, Batch, CHANNELS, Limits, Loads, Model, Prediction, Scenario, Steered, Target, TipSlope};
 
 /// A robot ready to be asked. Pressures are refused where the scenario has nothing that they could act on.
 pub struct Predictor {
     scenario: Scenario,
     model: Model,
-    has_history: bool,
 }
 
 impl Predictor {
     /// Puts a scenario together.
     pub fn new(scenario: &Scenario) -> Predictor {
-        let model = Model::new(scenario);
-        Predictor { scenario: scenario.clone(), has_history: model.has_history(), model }
+        Predictor { scenario: scenario.clone(), model: Model::new(scenario) }
     }
 
     /// The scenario.
@@ -44,42 +40,26 @@ impl Predictor {
                 return Err(CompareError::refused(message, "give one pressure, or one for every channel"));
             }
         }
-        check_fed(&self.scenario, &actuator_pa)?;
+        check_fed(&self.model, &actuator_pa)?;
         Ok(Loads { body_pa: body_pa.unwrap_or(self.scenario.p_body_pa), actuator_pa })
     }
 
-    /// One state. With an effect that has history it is held for [`HOLD_S`], from rest.
+    /// A state by itself, as [`Model::predict_held`], with the slopes of the tip.
     ///
     /// # Errors
-    /// A pressure that means nothing, or at which there is no equilibrium.
-    pub fn predict(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
-        match self.has_history {
-            false => self.model.predict(loads, out),
-            true => self.model.follow(&[Step { t_s: HOLD_S, loads: *loads }], out, &mut |_, _| ()),
-        }
-    }
-
-    /// The same with the slopes of the tip.
-    ///
-    /// # Errors
-    /// As [`Predictor::predict`].
+    /// As [`Model::predict`].
     pub fn state(&self, loads: &Loads) -> Result<AtPressure, CompareError> {
         let mut prediction = self.model.prediction();
-        self.predict(loads, &mut prediction)?;
+        self.model.predict_held(loads, &mut prediction)?;
         self.with_slopes(loads, prediction)
     }
 
     /// A state that was predicted, with the slopes of the tip, which are those of the first loading.
     ///
     /// # Errors
-    /// As [`Predictor::predict`].
+    /// As [`Model::predict`].
     pub fn with_slopes(&self, loads: &Loads, at: Prediction) -> Result<AtPressure, CompareError> {
         state(&self.model, *loads, at)
-    }
-
-    /// Whether a state depends on those before it or on time.
-    pub fn has_history(&self) -> bool {
-        self.has_history
     }
 
     /// The state, on the first loading, in which the tip is where it is wanted, and its pressures.
@@ -114,7 +94,7 @@ impl Predictor {
     /// Change of the tip with the pressure of each channel.
     ///
     /// # Errors
-    /// As [`Predictor::predict`].
+    /// As [`Model::predict`].
     pub fn jacobian(&self, loads: &Loads) -> Result<[TipSlope; CHANNELS], CompareError> {
         Ok(self.model.jacobian(loads, &mut self.model.prediction())?)
     }
@@ -124,7 +104,7 @@ impl Predictor {
     /// # Errors
     /// A state without equilibrium, with its number from 0; an effect with history, whose states have an order.
     pub fn batch(&self, loads: &[Loads], threads: usize) -> Result<Batch, CompareError> {
-        if self.has_history {
+        if self.model.has_history() {
             let message = format!("{} remembers, so its states have an order and times", self.scenario.name);
             return Err(CompareError::refused(message, "walk them with follow(t_s, pressure_kpa)"));
         }
@@ -143,15 +123,16 @@ impl Predictor {
 ///
 /// # Errors
 /// Which, and what to write.
-pub fn check_fed(scenario: &Scenario, actuator_pa: &[f64; CHANNELS]) -> Result<(), CompareError> {
-    if !scenario.actuator.exists() && actuator_pa.iter().any(|p| *p > 0.0) {
+pub fn check_fed(model: &Model, actuator_pa: &[f64; CHANNELS]) -> Result<(), CompareError> {
+    let mut fed = [false; CHANNELS];
+    model.channels().for_each(|channel| fed[channel] = true);
+    if !fed.contains(&true) && actuator_pa.iter().any(|p| *p > 0.0) {
         let message = "an actuator pressure for a beam without [actuator]";
         return Err(CompareError::refused(message, "leave it out"));
     }
-    let fed = scenario.channels();
     let is_lost = |channel: &usize| {
         let p = actuator_pa[*channel];
-        p > 0.0 && p != actuator_pa[0] && !fed.contains(channel)
+        p > 0.0 && p != actuator_pa[0] && !fed[*channel]
     };
     match (0..CHANNELS).find(is_lost) {
         Some(channel) => {
@@ -180,8 +161,8 @@ mod tests {
             let wanted = predict(robot.scenario(), &[loads]).unwrap().remove(0);
             let found = robot.state(&loads).unwrap();
             assert_eq!((found.prediction.tip, found.slopes), (wanted.prediction.tip, wanted.slopes), "{more}");
-            assert_eq!(robot.has_history(), !more.is_empty());
-            assert_eq!(robot.batch(&[loads], 1).is_err(), robot.has_history());
+            assert_eq!(robot.model().has_history(), !more.is_empty());
+            assert_eq!(robot.batch(&[loads], 1).is_err(), robot.model().has_history());
         }
     }
 

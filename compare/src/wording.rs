@@ -19,6 +19,20 @@ pub fn short(value: f64) -> String {
     if text == "-0" { "0".to_string() } else { text }
 }
 
+/// A number with three significant digits, without needless zeros.
+pub fn value(v: f64) -> String {
+    if v == 0.0 || !v.is_finite() {
+        return "0".into();
+    }
+    let size = v.abs();
+    if !(1e-3..1e5).contains(&size) {
+        return format!("{v:.2e}");
+    }
+    let digits = (2 - size.log10().floor() as i32).max(0) as usize;
+    let text = format!("{v:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
+}
+
 /// The pressures of some holds: `10, 20 and 30 kPa`; body pressures are named if the data have several.
 pub fn pressures(map: &ResidualMap, holds: &[usize]) -> String {
     let body = &map.holds[0].p_body_kpa;
@@ -102,6 +116,12 @@ fn hold_word(hold: &HoldLabel) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn values_have_three_digits() {
+        let shown = [0.0, 0.4463, 12.0, 123.4, 8.1e-5, 0.5, -1.2345].map(value);
+        assert_eq!(shown, ["0", "0.446", "12", "123", "8.10e-5", "0.5", "-1.23"]);
+    }
 
     #[test]
     fn lists_and_numbers_read_naturally() {

@@ -75,6 +75,7 @@ pub const READERS: &[Reader] = &[
         &["data/sets/breukels-2011-beams/load_deflection.csv", "data/sets/mckibben-free/force_contraction.csv"],
         bench,
     ),
+    of("study", &["studies/epam-designs.toml"], study),
     made("parquet", parquets, parquet),
     made("case", cases, case),
     made("robot", robots, robot),
@@ -210,6 +211,12 @@ fn markers(mut bytes: &[u8]) -> bool {
 
 fn about(bytes: &[u8]) -> bool {
     std::str::from_utf8(bytes).is_ok_and(|text| data::parse_about("about.toml", text).is_ok())
+}
+
+/// Its robot is one that comes with the program.
+fn study(bytes: &[u8]) -> bool {
+    let epam = |_: &str| compare::ScenarioFile::read("epam");
+    std::str::from_utf8(bytes).is_ok_and(|text| sweep::Study::parse("study.toml", text, Path::new(""), epam).is_ok())
 }
 
 /// As it is, and with what an export of a machine leaves out.

@@ -21,7 +21,21 @@ const HELD_SHARE: f64 = 0.1;
 /// or when actuator and body pressure change together.
 const PATH_STEPS: usize = 8;
 
+/// Time for which a pressure of a model with history is held \[s\]: the hold of the usual protocol.
+pub const HOLD_S: f64 = 5.0;
+
 impl Model {
+    /// A state by itself: with history after a hold of [`HOLD_S`] from rest, else as [`Model::predict`].
+    ///
+    /// # Errors
+    /// As [`Model::predict`].
+    pub fn predict_held(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
+        match self.has_history() {
+            false => self.predict(loads, out),
+            true => self.follow(&[Step { t_s: HOLD_S, loads: *loads }], out, &mut |_, _| ()),
+        }
+    }
+
     /// Whether a state depends on those before it or on the time in a hold: then [`Model::follow`] differs from
     /// [`Model::predict`], which is the first loading from rest, at once.
     pub fn has_history(&self) -> bool {

@@ -166,7 +166,8 @@ impl Model {
         let mut slopes = [TipSlope { x_per_pa: 0.0, y_per_pa: 0.0, angle_per_pa: 0.0 }; CHANNELS];
         self.settle(loads, out, false)?;
         let flat = self.flat(loads, out);
-        for (channel, slope) in slopes.iter_mut().enumerate().filter(|(channel, _)| self.uses(*channel)) {
+        for channel in self.channels() {
+            let slope = &mut slopes[channel];
             let step = JACOBIAN_STEP * loads.actuator_pa[channel];
             if flat[channel] {
                 *slope = TipSlope::NONE;
@@ -204,9 +205,12 @@ impl Model {
         flat
     }
 
-    /// Whether a channel feeds an actuator.
-    pub fn uses(&self, channel: usize) -> bool {
-        self.assembly().sites.iter().any(|site| site.actuator.is_some() && site.channel == channel)
+    /// Supply channels that feed an actuator, rising; none of a beam.
+    pub fn channels(&self) -> impl Iterator<Item = usize> + '_ {
+        let feeds = |channel: &usize| {
+            self.assembly().sites.iter().any(|site| site.actuator.is_some() && site.channel == *channel)
+        };
+        (0..CHANNELS).filter(feeds)
     }
 }
 

@@ -53,7 +53,7 @@ pub use batch::Batch;
 pub use catalogue::Catalogue;
 pub use error::{ScenarioError, Unsolved};
 pub use fabrics::Fabric;
-pub use follow::Step;
+pub use follow::{HOLD_S, Step};
 pub use formula::Formula;
 pub use inverse::{Target, TipSlope};
 pub use known::Known;

@@ -330,7 +330,7 @@ impl Model {
     pub fn steer(&self, aim: Aim, body_pa: f64, limits: &Limits, work: &mut Steering) -> Result<Steered, Unsolved> {
         self.check_aim(&aim, body_pa, limits)?;
         let mut used = [false; CHANNELS];
-        (0..CHANNELS).for_each(|channel| used[channel] = self.uses(channel));
+        self.channels().for_each(|channel| used[channel] = true);
         let mut search = Search { model: self, aim, body_pa, limits, used, work, failed: None };
         let mut best = (f64::INFINITY, [0.0; CHANNELS]);
         for start in search.starts().into_iter().filter(|start| start.0.is_finite()) {

@@ -149,7 +149,7 @@ impl Scenario {
     /// Whether a state depends on those before it or on time.
     #[getter]
     fn has_history(&self) -> bool {
-        self.predictor().has_history()
+        self.predictor().model().has_history()
     }
 
     /// Shape at a pressure.
@@ -162,7 +162,7 @@ impl Scenario {
             Ok(scratch) => &mut **scratch,
             Err(_) => own.insert(self.predictor().model().prediction()),
         };
-        self.predictor().predict(&loads, scratch).map_err(|error| raised(ibr::Error::from(error)))?;
+        self.predictor().model().predict_held(&loads, scratch).map_err(|error| raised(ibr::Error::from(error)))?;
         State::new(&self.robot, loads, scratch)
     }
 

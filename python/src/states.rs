@@ -30,7 +30,7 @@ impl State {
     pub fn new(robot: &Arc<Robot>, loads: Loads, at: &Prediction) -> PyResult<State> {
         let (tip, markers_m) = (at.tip, at.markers.clone());
         let state = State { robot: robot.clone(), loads, tip, markers_m, whole: OnceLock::new() };
-        if robot.predictor.has_history() {
+        if robot.predictor.model().has_history() {
             state.keep(robot.predictor.with_slopes(&loads, at.clone()))?;
         }
         Ok(state)

@@ -89,7 +89,8 @@ pub fn wanted(scenario: &Scenario, pressures: Option<&str>) -> Result<Vec<Loads>
         }
         None => scenario.pressures_pa.iter().map(|p| [*p; CHANNELS]).collect(),
     };
-    pressures.iter().try_for_each(|all| check_fed(scenario, all))?;
+    let model = Model::new(scenario);
+    pressures.iter().try_for_each(|all| check_fed(&model, all))?;
     if !scenario.actuator.exists() {
         pressures = vec![[0.0; CHANNELS]];
     }

@@ -35,5 +35,5 @@ pub fn pressure_words(loads: &Loads) -> String {
     if p.iter().all(|x| *x == p[0]) {
         return format!("{:.3}", p[0] / 1e3);
     }
-    p.map(|x| format!("{}", x / 1e3)).join("/")
+    p.map(|x| format!("{:.3}", x / 1e3).trim_end_matches('0').trim_end_matches('.').to_string()).join("/")
 }

@@ -1,6 +1,7 @@
 //! What a table shows: how far each key moves an output, and a map over two keys.
 
 use crate::study::{Engine, PRESSURE, Study};
+use compare::wording::value;
 use data::table::{Column, Table};
 
 /// Groups of a key that has more values.
@@ -134,8 +135,8 @@ impl Solved {
         let last = sorted.last().copied().unwrap_or(0.0);
         let end = |g: usize| starts.get(g + 1).copied().unwrap_or(last);
         let name = |(g, start): (usize, &f64)| match is_few {
-            true => short(*start),
-            false => format!("{} to {}", short(*start), short(end(g))),
+            true => value(*start),
+            false => format!("{} to {}", value(*start), value(end(g))),
         };
         Some(Grouped { names: starts.iter().enumerate().map(name).collect(), of_row })
     }
@@ -145,9 +146,4 @@ impl Solved {
         let (sum, count) = own.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
         sum / count
     }
-}
-
-/// Three digits.
-fn short(value: f64) -> String {
-    compare::wording::short(value)
 }

@@ -6,9 +6,13 @@ use fem::session::sha256;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Goes up when a number of the reduced model, or the file, changes its meaning.
 const FORMAT: u32 = 1;
+
+/// Files that this process has begun.
+static UNDER_WAY: AtomicUsize = AtomicUsize::new(0);
 
 /// Cases of one engine that are computed together.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -40,7 +44,7 @@ struct Head {
 }
 
 impl Part {
-    /// Its file in the folder of a sweep: the hash of all that its numbers depend on.
+    /// Its file in the folder of a sweep: the hash of all that its numbers depend on, code by its version.
     pub fn path(&self, study: &Study, folder: &Path) -> PathBuf {
         let engine = match self.engine {
             Engine::Reduced => format!("reduced {}", env!("CARGO_PKG_VERSION")),
@@ -92,7 +96,8 @@ impl Rows {
         bytes.push(b'\n');
         bytes.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
         // A name of its own: two workers may make the same part, and either file is right.
-        let partial = path.with_extension(format!("{}.partial", std::process::id()));
+        let number = UNDER_WAY.fetch_add(1, Ordering::Relaxed);
+        let partial = path.with_extension(format!("{}-{number}.partial", std::process::id()));
         let written = std::fs::write(&partial, bytes).and_then(|()| std::fs::rename(&partial, path));
         written.map_err(|cause| {
             let _ = std::fs::remove_file(&partial);

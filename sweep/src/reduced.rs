@@ -4,10 +4,8 @@ use crate::part::{Part, Rows};
 use crate::study::{Output, Study};
 use crate::table::columns;
 use compare::ScenarioFile;
-use models::{Account, Loads, Model, Prediction, Step, Unsolved};
+use models::{Account, Loads, Model, Prediction};
 
-/// Time for which a state of a model with history is held \[s\], from rest: that of the usual protocol.
-const HOLD_S: f64 = 5.0;
 /// Accounts of the ledger, in the order of their columns.
 pub const ACCOUNTS: [(&str, Account); 7] = [
     ("actuator_gas", Account::ActuatorGas),
@@ -55,7 +53,7 @@ fn of_robot(
     for kpa in pressures_kpa {
         let loads = Loads::uniform(file.p_body_pa, 1e3 * kpa);
         let idle = !file.actuator.exists() && *kpa > 0.0;
-        match solve(&model, &loads, &mut at) {
+        match model.predict_held(&loads, &mut at) {
             _ if idle => fail(width, "an actuator pressure for a beam without [actuator]".into(), numbers, failed),
             Err(error) => fail(width, error.to_string(), numbers, failed),
             Ok(()) => {
@@ -64,13 +62,6 @@ fn of_robot(
                 numbers.resize(end, f64::NAN);
             }
         }
-    }
-}
-
-fn solve(model: &Model, loads: &Loads, at: &mut Prediction) -> Result<(), Unsolved> {
-    match model.has_history() {
-        false => model.predict(loads, at),
-        true => model.follow(&[Step { t_s: HOLD_S, loads: *loads }], at, &mut |_, _| ()),
     }
 }
 

@@ -62,6 +62,14 @@ enum Levels {
 }
 
 impl Axis {
+    fn is_pressure(&self) -> bool {
+        let fits = |kpa: f64| kpa.is_finite() && kpa >= 0.0;
+        match &self.levels {
+            Levels::Listed(all) => all.iter().all(|value| as_number(value).is_some_and(fits)),
+            Levels::Between { from, to, .. } => fits(*from) && fits(*to),
+        }
+    }
+
     /// The value at a share of the range, from 0 to below 1; of a list every entry has an equal share.
     fn at(&self, share: f64) -> Value {
         match &self.levels {
@@ -110,10 +118,8 @@ struct Raw {
     #[serde(rename = "kind")]
     _kind: Option<Kind>,
     scenario: Spanned<String>,
-    #[serde(default = "reduced")]
-    engines: Vec<Engine>,
-    #[serde(default = "tip")]
-    outputs: Vec<Output>,
+    engines: Option<Spanned<Vec<Engine>>>,
+    outputs: Option<Spanned<Vec<Output>>>,
     #[serde(default)]
     vary: Vec<Spanned<RawAxis>>,
     sample: Option<Spanned<RawSample>>,
@@ -125,12 +131,19 @@ enum Kind {
     Sweep,
 }
 
-fn reduced() -> Vec<Engine> {
-    vec![Engine::Reduced]
-}
-
-fn tip() -> Vec<Output> {
-    vec![Output::Tip, Output::Limits]
+/// A list of the study, each entry once, or what stands for it.
+fn listed_once<T: Copy + PartialEq>(given: Option<&Spanned<Vec<T>>>, usual: &[T], what: &str) -> Result<Vec<T>, Wrong> {
+    let Some(given) = given else { return Ok(usual.to_vec()) };
+    let all = given.get_ref();
+    let twice = (1..all.len()).any(|i| all[..i].contains(&all[i]));
+    match all.is_empty() || twice {
+        true => Err((
+            Some(given.span()),
+            format!("`{what}` is empty, or has an entry twice"),
+            "leave it out, or name each once",
+        )),
+        false => Ok(all.clone()),
+    }
 }
 
 #[derive(Deserialize)]
@@ -145,7 +158,7 @@ struct RawAxis {
     log: bool,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawSample {
     method: Method,
@@ -209,21 +222,30 @@ impl Study {
     }
 
     fn of(raw: Raw, base: ScenarioFile, folder: &Path) -> Result<Study, Wrong> {
-        let sampled = raw.sample.as_ref().map(|sample| sample.get_ref().method);
-        let mut axes = Vec::new();
+        let engines = listed_once(raw.engines.as_ref(), &[Engine::Reduced], "engines")?;
+        let outputs = listed_once(raw.outputs.as_ref(), &[Output::Tip, Output::Limits], "outputs")?;
+        let (mut axes, raw_sample) = (Vec::new(), raw.sample.as_ref());
         for raw in &raw.vary {
-            let axis =
-                axis(raw.get_ref(), sampled.is_some()).map_err(|(message, help)| (Some(raw.span()), message, help))?;
+            let axis = axis(raw.get_ref(), raw_sample.is_some())
+                .map_err(|(message, help)| (Some(raw.span()), message, help))?;
             if axes.iter().any(|other: &Axis| other.key == axis.key) {
                 return Err((Some(raw.span()), format!("`{}` varies twice", axis.key), "leave one of them out"));
+            }
+            if axis.key.ends_with(".pressures_kpa") {
+                let message = format!("`{}` is a list of pressures", axis.key);
+                return Err((Some(raw.span()), message, "vary pressure_kpa"));
+            }
+            if axis.key == PRESSURE && !axis.is_pressure() {
+                let message = "a pressure is a number of kPa, 0 or more".to_string();
+                return Err((Some(raw.span()), message, "write for example values = [10, 20]"));
             }
             axes.push(axis);
         }
         let own = axes.iter().position(|axis| axis.key == PRESSURE);
         let mut pressures_kpa: Vec<f64> = base.pressures_pa.iter().map(|pa| pa * 1e-3).collect();
         match own.map(|i| &axes[i].levels) {
-            Some(Levels::Listed(all)) if sampled.is_none() => {
-                pressures_kpa = numbers(all).ok_or((None, "a pressure is a number of kPa".to_string(), "write 20"))?;
+            Some(Levels::Listed(all)) if raw_sample.is_none() => {
+                pressures_kpa = all.iter().filter_map(as_number).collect();
                 axes.retain(|axis| axis.key != PRESSURE);
             }
             Some(_) => pressures_kpa = Vec::new(),
@@ -236,7 +258,18 @@ impl Study {
         let (robots, points) = match &raw.sample {
             None => (axes.iter().try_fold(1_usize, |n, axis| n.checked_mul(listed(axis)?)), None),
             Some(sample) => {
-                let RawSample { method, cases, seed, .. } = *sample.get_ref();
+                let RawSample { method, cases, seed, checked } = *sample.get_ref();
+                if cases == 0 {
+                    return Err((
+                        Some(sample.span()),
+                        "a sample without a case".into(),
+                        "write for example cases = 100",
+                    ));
+                }
+                if checked.is_some() && !engines.contains(&Engine::Elements) {
+                    let help = "add engines = [\"reduced\", \"finite elements\"], or leave checked out";
+                    return Err((Some(sample.span()), "`checked` without finite elements".into(), help));
+                }
                 let points = (cases <= MOST_CASES).then(|| Points::new(method, cases, axes.len(), seed)).transpose();
                 let points = points.map_err(|m| (Some(sample.span()), m, "take fewer, or a latin hypercube"))?;
                 (Some(cases), points)
@@ -250,17 +283,7 @@ impl Study {
         ))?;
         let checked = raw.sample.as_ref().and_then(|sample| sample.get_ref().checked).unwrap_or(robots).min(robots);
         let folder = folder.to_path_buf();
-        Ok(Study {
-            base,
-            folder,
-            engines: raw.engines,
-            outputs: raw.outputs,
-            axes,
-            pressures_kpa,
-            points,
-            robots,
-            checked,
-        })
+        Ok(Study { base, folder, engines, outputs, axes, pressures_kpa, points, robots, checked })
     }
 
     /// Cases of an engine.
@@ -366,8 +389,4 @@ pub fn as_number(value: &Value) -> Option<f64> {
         Value::Float(number) => Some(*number),
         _ => None,
     }
-}
-
-fn numbers(values: &[Value]) -> Option<Vec<f64>> {
-    values.iter().map(as_number).collect()
 }

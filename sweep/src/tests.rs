@@ -22,7 +22,8 @@ steps = 31
 "#;
 
 fn study(text: &str) -> Result<Study, String> {
-    Study::parse("study.toml", text, Path::new(""), ScenarioFile::read).map_err(|error| error.to_string())
+    let told = |error: compare::CompareError| format!("{error} {}", error.help().unwrap_or_default());
+    Study::parse("study.toml", text, Path::new(""), ScenarioFile::read).map_err(told)
 }
 
 fn settings(folder: &Path, shard: Shard) -> Settings {
@@ -200,6 +201,11 @@ fn a_wrong_study_is_refused_with_its_line_and_what_to_write() {
         ("steps = 31", "steps = 9000000", "more than 20000000 cases"),
         ("outputs", "output", "unknown field"),
         ("\"tip\"", "\"tips\"", "unknown variant"),
+        ("[\"tip\", \"markers\", \"ledger\", \"limits\"]", "[]", "`outputs` is empty"),
+        ("scenario = ", "engines = []\nscenario = ", "`engines` is empty"),
+        ("scenario = ", "engines = [\"reduced\", \"reduced\"]\nscenario = ", "twice"),
+        ("actuator.width_mm", "predict.pressures_kpa", "vary pressure_kpa"),
+        ("from = 0", "from = -1", "a number of kPa, 0 or more"),
     ] {
         let told = with(old, new);
         assert!(told.contains(says), "{new}: {told}");
@@ -208,6 +214,9 @@ fn a_wrong_study_is_refused_with_its_line_and_what_to_write() {
     assert!(twice.contains("study.toml") && twice.contains('7'), "{twice}");
     let sampled = format!("{GRID}[sample]\nmethod = \"sobol\"\ncases = 10\n");
     assert!(study(&sampled).unwrap_err().contains("has steps, but a sample draws between"));
+    let drawn = sampled.replace("steps = 31\n", "");
+    assert!(study(&drawn.replace("cases = 10", "cases = 0")).unwrap_err().contains("a sample without a case"));
+    assert!(study(&format!("{drawn}checked = 3\n")).unwrap_err().contains("`checked` without finite elements"));
 }
 
 #[test]

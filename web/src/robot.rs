@@ -7,7 +7,7 @@ use models::actuators::Family;
 use models::actuators::pattern::Joint;
 use models::effects::{Effect, Parameter};
 use models::scenario::SHIPPED;
-use models::{Known, Scenario};
+use models::{Known, Model, Scenario};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -75,7 +75,7 @@ impl Robot {
         let a = &file.actuator;
         Ok(json!({
             "name": file.scenario.name, "text": file.text, "dials": dials, "effects": effects,
-            "channels": file.channels(), "pressures_kpa": kpa(&file.pressures_pa), "most_kpa": 1e-3 * file.p_max_pa,
+            "channels": Model::new(&file.scenario).channels().collect::<Vec<_>>(), "pressures_kpa": kpa(&file.pressures_pa), "most_kpa": 1e-3 * file.p_max_pa,
             "kind": a.kind.name, "title": a.kind.title, "sentence": a.kind.sentence,
         }))
     }

@@ -9,7 +9,6 @@
 use super::fit::{Fitter, Sampler};
 use crate::error::Unsolved;
 use crate::model::Model;
-use crate::term::CHANNELS;
 use thiserror::Error;
 
 /// Most bytes of constants of a table that is given out.
@@ -126,7 +125,7 @@ impl Table {
     /// # Errors
     /// [`Untabulated`]: no prediction, several channels, a jump, or a response that does not fit.
     pub fn new(model: &Model, body_pa: f64, range_pa: [f64; 2]) -> Result<Table, Untabulated> {
-        let channels = (0..CHANNELS).filter(|channel| model.uses(*channel)).count();
+        let channels = model.channels().count();
         if channels > 1 {
             return Err(Untabulated::Channels { channels });
         }
