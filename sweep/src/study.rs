@@ -212,6 +212,10 @@ impl Study {
             fault((error.span(), error.message().to_string(), "docs/sweep.md shows every key of a study"))
         })?;
         let beside = folder.join(raw.scenario.get_ref());
+        if beside == Path::new(name) {
+            let message = "`scenario` names the study itself".to_string();
+            return Err(fault((Some(raw.scenario.span()), message, "name a robot, for example scenario = \"epam\"")));
+        }
         let spec = if beside.exists() { beside.display().to_string() } else { raw.scenario.get_ref().clone() };
         let study = Study::of(raw, scenario(&spec)?, beside.parent().unwrap_or(folder)).map_err(fault)?;
         if study.robots > 0 {
