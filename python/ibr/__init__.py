@@ -24,11 +24,12 @@ from ._calls import (
     import_tracks,
     validate,
 )
-from ._runs import Frame, Run, simulate
+from ._runs import Frame, Run, simulate, sweep
 
 __all__ = [
     "Comparison", "Data", "Diagnosis", "Error", "Extension", "Frame", "Run", "Scenario", "State", "States",
-    "Validation", "add", "compare", "data", "diagnose", "extend", "import_tracks", "simulate", "validate",
+    "Validation", "add", "compare", "data", "diagnose", "extend", "import_tracks", "simulate", "sweep",
+    "validate",
 ]
 
 Error.where = None

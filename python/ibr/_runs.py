@@ -150,3 +150,19 @@ def simulate(
     source = source if isinstance(source, Scenario) else os.fspath(source)
     answer = _ibr.simulate(source, folder, dict(changes or {}), resume, force, end_s, threads, progress)
     return Run(answer, Path(folder), kept)
+
+
+def sweep(
+    study: Union[str, os.PathLike],
+    folder: Union[str, os.PathLike, None] = None,
+    *,
+    threads: int = 0,
+    progress: Optional[Progress] = None,
+) -> Dict[str, Any]:
+    """Many cases of one robot (docs/sweep.md): a dict of columns, for `pandas.DataFrame`; a row per case and engine.
+
+    `study`: the path of a study, or its text in TOML. `folder`: where what is computed is kept, so that the same call goes on
+    after Ctrl-C and computes nothing twice; left out, nothing is kept. `threads`: 0 is one per core.
+    """
+    with tempfile.TemporaryDirectory(prefix="ibr-sweep-") as kept:
+        return _ibr.sweep(os.fspath(study), os.fspath(folder or kept), threads, progress)

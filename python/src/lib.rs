@@ -9,6 +9,7 @@ mod progress;
 mod runs;
 mod scenario;
 mod states;
+mod sweeps;
 
 use pyo3::prelude::*;
 
@@ -29,6 +30,8 @@ mod _ibr {
     use super::scenario::Scenario;
     #[pymodule_export]
     use super::states::{State, States};
+    #[pymodule_export]
+    use super::sweeps::sweep;
 }
 
 /// The command line: runs what was typed and returns the exit code. It takes over Ctrl-C.

@@ -99,3 +99,31 @@ def test_a_signal_ends_a_script(tmp_path):
     _, said = child.communicate(timeout=60)
     assert child.returncode != 0 and "KeyboardInterrupt" in said and "panicked" not in said
     assert time.perf_counter() - start < 20
+
+
+STUDY = """
+scenario = "epam"
+outputs = ["tip"]
+[[vary]]
+key = "actuator.length_mm"
+values = [40, 50]
+[[vary]]
+key = "pressure_kpa"
+values = [10, 20, 30]
+"""
+
+
+def test_a_sweep_is_the_prediction_of_every_robot(tmp_path):
+    shares = []
+    table = ibr.sweep(STUDY, tmp_path / "s", progress=lambda _, share: shares.append(share))
+    assert shares[-1] == 1.0 and table["status"] == ["ok"] * 6
+    for i, (length, kpa) in enumerate(zip(table["actuator.length_mm"], table["pressure_kpa"])):
+        state = ibr.Scenario.named("epam").replace(actuator_length_mm=length).predict(kpa)
+        assert table["tip_y_mm"][i] == pytest.approx(state.tip[1], abs=1e-9)
+    assert ibr.sweep(STUDY, tmp_path / "s")["tip_y_mm"].tolist() == table["tip_y_mm"].tolist()
+
+
+def test_a_wrong_study_has_its_line():
+    with pytest.raises(ibr.Error, match="epan") as caught:
+        ibr.sweep(STUDY.replace('"epam"', '"epan"'))
+    assert caught.value.help

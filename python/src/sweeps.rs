@@ -1,0 +1,46 @@
+//! Many cases of one robot.
+
+use crate::arrays::columns;
+use crate::errors::{Told, raised, refused};
+use crate::progress::beside;
+use ibr::studies::scenario;
+use ibr::sweep::{Settings, Shard, Study, SweepError, collect, run};
+use ibr::{Error, FeSettings};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::{Path, PathBuf};
+
+impl From<SweepError> for Told {
+    fn from(error: SweepError) -> Told {
+        match error {
+            SweepError::Study(error) => error.into(),
+            SweepError::Run(error) => error.into(),
+            SweepError::Cluster { message, help } => Error::refused(message, help).into(),
+            SweepError::Write { .. } => Error::refused(error.to_string(), "name a folder that can be written to").into(),
+        }
+    }
+}
+
+/// `ibr sweep`: the table as a dictionary of arrays. A study with a line break is its text, else its file.
+#[pyfunction]
+#[pyo3(signature = (study, folder, threads, progress = None))]
+pub fn sweep<'py>(
+    py: Python<'py>,
+    study: String,
+    folder: PathBuf,
+    threads: usize,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let study = match study.contains('\n') {
+        true => Study::parse("study", &study, Path::new(""), scenario),
+        false => Study::read(Path::new(&study), scenario),
+    }
+    .map_err(raised)?;
+    let runs = FeSettings { frames: false, threads, maker: ibr::program::maker(), ..FeSettings::default() };
+    let settings = Settings { folder, shard: Shard::WHOLE, threads, runs };
+    let (made, raised_meanwhile) = beside(py, progress.as_ref(), |tell| run(&study, &settings, tell));
+    raised_meanwhile.map_or(Ok(()), Err)?;
+    made.map_err(raised)?;
+    let missing = |parts| refused(format!("{parts} parts of the sweep are gone"), "call it again: the rest is kept");
+    columns(py, &py.detach(|| collect(&study, &settings.folder)).map_err(missing)?)
+}
