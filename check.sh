@@ -22,7 +22,7 @@ if [ "${1:-}" = fast ]; then
 else
   # One profile and one set of crates for everything, so that the dependencies are built once.
   step release build
-  cargo build --release --workspace --quiet
+  cargo build --release --workspace --all-targets --quiet
   step fast tests
   cargo test --workspace --release --quiet
   step broken inputs, ten thousand for every reader

@@ -119,7 +119,7 @@ def test_a_sweep_is_the_prediction_of_every_robot(tmp_path):
     assert shares[-1] == 1.0 and table["status"] == ["ok"] * 6
     for i, (length, kpa) in enumerate(zip(table["actuator.length_mm"], table["pressure_kpa"])):
         state = ibr.Scenario.named("epam").replace(actuator_length_mm=length).predict(kpa)
-        assert table["tip_y_mm"][i] == pytest.approx(state.tip[1], abs=1e-9)
+        assert table["tip_y_mm"][i] == pytest.approx(state.tip_mm[1], abs=1e-9)
     assert ibr.sweep(STUDY, tmp_path / "s")["tip_y_mm"].tolist() == table["tip_y_mm"].tolist()
 
 
