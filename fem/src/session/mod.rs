@@ -23,6 +23,7 @@
 //! | `stepping` | rows, frames and checkpoints as a run goes |
 //! | `watch`, `robot_files` | what is read of a robot, its tables and pictures |
 //! | `folder`, `exchange` | who may write to a run's folder, and how a new run takes the place of an older one |
+//! | `memory` | whether a mesh fits into this machine |
 //! | `summary` | the records `summary.json` and the cost of a run |
 //! | `plan`, `many`, `table` | runs that differ in seed, pressure, mesh or assumed numbers; several beside each other; the cache by hash; what they gave |
 //!
@@ -34,6 +35,7 @@ mod export;
 mod folder;
 mod manifest;
 mod many;
+mod memory;
 mod plan;
 mod robot_files;
 mod source;
@@ -47,6 +49,7 @@ pub use exchange::in_one_step as exchange_folders;
 pub use export::{Export, export};
 pub use manifest::{FileHash, MANIFEST, Maker, Manifest, sha256};
 pub use many::{Job, Many, finished_below, simulate_all};
+pub use memory::least_bytes;
 pub use plan::{Changes, Cube, Felt, Variation, cube, mesh_keys, product};
 pub use source::{Loaded, Source};
 pub use summary::{
@@ -185,6 +188,7 @@ fn run(mut loaded: Loaded, settings: &Settings, progress: Progress) -> Result<Fe
     numerics.end_s = settings.end_s.unwrap_or(numerics.end_s);
     numerics.threads = settings.threads;
     loaded.case.outputs.frames &= settings.frames;
+    memory::check(&loaded.case.problem)?;
     let fresh = Simulation::new(&loaded.case.problem).map_err(|error| loaded.source.refused(error))?;
     let place = match &settings.folder {
         None => None,

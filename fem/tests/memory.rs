@@ -1,0 +1,32 @@
+//! Memory of a run against what is told before it, by the peak of this process, in which nothing else runs.
+#![cfg(target_os = "linux")]
+#![allow(clippy::unwrap_used)] // a test that cannot be set up must fail
+
+use fem::session::{Settings, Source, least_bytes, simulate};
+use std::ops::ControlFlow;
+
+/// Largest memory of this process so far \[bytes\].
+fn peak() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap();
+    let line = status.lines().find(|line| line.starts_with("VmHWM:")).unwrap();
+    line.split_whitespace().nth(1).unwrap().parse::<u64>().unwrap() * 1024
+}
+
+/// The first is a plain tube; the second, larger, is the robot with the most layers.
+#[test]
+fn what_is_said_before_a_run_is_a_lower_bound_of_what_it_takes() {
+    let tube = fem::case::shipped_case("tube").unwrap();
+    let tube = tube.replace("elements_around = 48", "elements_around = 150");
+    let tube = tube.replace("elements_along = 72", "elements_along = 300");
+    let cpam = Source::new("cpam", models::shipped("cpam").unwrap());
+    let cpam = cpam.with(&fem::session::mesh_keys(&[1.3; 2])).unwrap();
+    let program = peak();
+    for source in [Source::new("tube", &tube), cpam] {
+        let folder = tempfile::tempdir().unwrap();
+        let settings = Settings { folder: Some(folder.path().join("run")), end_s: Some(2e-5), ..Settings::default() };
+        let least = least_bytes(&source.load().unwrap().case.problem);
+        simulate(&source, &settings, &mut |_, _| ControlFlow::Continue(())).unwrap();
+        let share = (peak() - program) as f64 / least as f64;
+        assert!((1.0..2.6).contains(&share), "{}: {share:.2} of the bound of {least} bytes", source.name);
+    }
+}
