@@ -16,7 +16,9 @@ impl From<SweepError> for Told {
             SweepError::Study(error) => error.into(),
             SweepError::Run(error) => error.into(),
             SweepError::Cluster { message, help } => Error::refused(message, help).into(),
-            SweepError::Write { .. } => Error::refused(error.to_string(), "name a folder that can be written to").into(),
+            SweepError::Write { .. } => {
+                Error::refused(error.to_string(), "name a folder that can be written to").into()
+            }
         }
     }
 }
