@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The whole check of this repository, and all that CI runs. `./check.sh fast` is the short form while editing:
-# no release build, no slow tests. `./check.sh all` also builds and tries the page in a browser and a sweep through Slurm,
+# no release build, no slow tests. `./check.sh all` also builds and tries the page in a browser and a sweep through Slurm and HyperQueue,
 # where these are installed.
 # Needs Rust (rust-version in Cargo.toml) with rustfmt and clippy, and the C compiler that Rust links with.
 set -euo pipefail
@@ -47,8 +47,8 @@ else
   if [ "${1:-}" = all ]; then
     step the page in a browser
     web/test.sh
-    step a sweep through Slurm
-    tests/slurm.sh
+    step a sweep through Slurm and HyperQueue
+    tests/clusters.sh
   fi
 fi
 printf '\nall checks passed in %ss\n' "$SECONDS"

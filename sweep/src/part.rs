@@ -81,6 +81,7 @@ fn output_word(output: &Output) -> &'static str {
         Output::Markers => "markers",
         Output::Ledger => "ledger",
         Output::Limits => "limits",
+        Output::Time => "time",
     }
 }
 

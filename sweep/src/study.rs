@@ -4,6 +4,9 @@ use crate::policy::MOST_CASES;
 use crate::sample::{Method, Points};
 use compare::{CompareError, ScenarioFile};
 use data::Fault;
+use fem::FemError;
+use fem::robot::Spread;
+use fem::session::{Felt, Source, felt, rounded};
 use serde::Deserialize;
 use spelling::files::{MOST_TEXT, read_whole};
 use std::path::Path;
@@ -45,6 +48,8 @@ pub enum Output {
     Ledger,
     /// Whether the pose can be trusted.
     Limits,
+    /// Processor time. It is another one every time, so that two tables with it are not the same to the bit.
+    Time,
 }
 
 /// A key that varies.
@@ -122,6 +127,7 @@ struct Raw {
     outputs: Option<Spanned<Vec<Output>>>,
     #[serde(default)]
     vary: Vec<Spanned<RawAxis>>,
+    assumed: Option<Spanned<bool>>,
     sample: Option<Spanned<RawSample>>,
 }
 
@@ -245,6 +251,14 @@ impl Study {
             }
             axes.push(axis);
         }
+        if let Some(span) = raw.assumed.as_ref().filter(|wish| *wish.get_ref()).map(Spanned::span) {
+            let wrong = |message: &str, help| (Some(span.clone()), message.to_string(), help);
+            if raw_sample.is_none() || !engines.contains(&Engine::Elements) {
+                let help = "add a [sample], and engines = [\"finite elements\"]";
+                return Err(wrong("assumed numbers are drawn, for finite elements", help));
+            }
+            axes.extend(assumed(&base, folder, &axes).map_err(|cause| wrong(&cause.to_string(), "try ibr simulate"))?);
+        }
         let own = axes.iter().position(|axis| axis.key == PRESSURE);
         let mut pressures_kpa: Vec<f64> = base.pressures_pa.iter().map(|pa| pa * 1e-3).collect();
         match own.map(|i| &axes[i].levels) {
@@ -340,6 +354,20 @@ impl Study {
         let file = if changes.is_empty() { self.base.clone() } else { self.base.with(&changes)? };
         Ok((file, pressures))
     }
+}
+
+/// An axis for every number that nobody measured and that the finite elements of this robot feel, but for those that vary anyway.
+fn assumed(base: &ScenarioFile, folder: &Path, axes: &[Axis]) -> Result<Vec<Axis>, FemError> {
+    let known: Vec<&str> = axes.iter().filter_map(|axis| axis.key.strip_prefix("fem.")).collect();
+    let source = Source { text: base.text.clone(), name: base.name.clone(), folder: folder.to_path_buf() };
+    let of = |(number, key): Felt| {
+        let [from, to] = number.interval.map(|si| rounded(si / key.si));
+        Axis {
+            key: format!("fem.{}", key.name),
+            levels: Levels::Between { from, to, log: number.spread == Spread::Factor },
+        }
+    };
+    Ok(felt(&source, &known)?.into_iter().map(of).collect())
 }
 
 /// Entries of an axis; `None` for a range without steps.

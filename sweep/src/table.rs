@@ -8,6 +8,9 @@ use data::table::{Column, Table};
 use std::path::Path;
 use toml::Value;
 
+/// Column of processor time \[s\].
+const CPU_S: &str = "cpu_s";
+
 /// Columns of numbers that a study asks for.
 pub fn columns(study: &Study) -> Vec<String> {
     let of = |output: &Output| -> Vec<String> {
@@ -18,6 +21,7 @@ pub fn columns(study: &Study) -> Vec<String> {
                 .collect(),
             Output::Ledger => ACCOUNTS.map(|(name, _)| format!("{name}_mj")).to_vec(),
             Output::Limits => vec!["trusted".into()],
+            Output::Time => vec![CPU_S.into()],
         }
     };
     study.outputs.iter().flat_map(of).collect()
@@ -55,6 +59,8 @@ struct Building {
     inputs: Vec<Vec<Value>>,
     pressure: Vec<f64>,
     numbers: Vec<Vec<f64>>,
+    /// Which of the columns of numbers is that of processor time.
+    timed: Option<usize>,
     status: Vec<String>,
     reason: Vec<String>,
 }
@@ -67,6 +73,7 @@ impl Building {
             inputs: vec![Vec::new(); study.axes.len()],
             pressure: Vec::new(),
             numbers: vec![Vec::new(); columns(study).len()],
+            timed: columns(study).iter().position(|name| name == CPU_S),
             status: Vec::new(),
             reason: Vec::new(),
         }
@@ -84,8 +91,10 @@ impl Building {
                 self.pressure.push(study.pressures_kpa.get(k).copied().or_else(own).unwrap_or(f64::NAN));
             }
         }
+        let each_s = rows.cpu_s / part.cases.len() as f64;
         for row in rows.numbers.chunks(width) {
-            self.numbers.iter_mut().zip(row).for_each(|(column, value)| column.push(*value));
+            let timed = row.iter().enumerate().map(|(k, v)| if Some(k) == self.timed { each_s } else { *v });
+            self.numbers.iter_mut().zip(timed).for_each(|(column, value)| column.push(value));
         }
         let first = self.status.len();
         self.status.resize(first + part.cases.len(), "ok".into());

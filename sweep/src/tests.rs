@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::sample::{Method, Points};
+use crate::study::as_number;
 use compare::ScenarioFile;
 use data::table::Column;
 use models::{Loads, Model};
@@ -186,6 +187,39 @@ values = [4, 3, 1]
 }
 
 #[test]
+fn assumed_numbers_are_drawn_within_their_intervals_and_time_is_told() {
+    let text = r#"
+scenario = "epam"
+engines = ["reduced", "finite elements"]
+outputs = ["tip", "time"]
+assumed = true
+[[vary]]
+key = "fem.weld_mm"
+values = [3]
+[sample]
+method = "latin hypercube"
+cases = 40
+checked = 1
+"#;
+    let mut study = study(text).unwrap();
+    let keys: Vec<&str> = study.axes.iter().map(|axis| axis.key.as_str()).collect();
+    assert!(keys.contains(&"fem.density_kg_m3") && keys.iter().filter(|key| **key == "fem.weld_mm").count() == 1, "{keys:?}");
+    let density = keys.iter().position(|key| *key == "fem.density_kg_m3").unwrap();
+    let drawn: Vec<f64> = (0..40).map(|robot| as_number(&study.values(robot)[density]).unwrap()).collect();
+    assert!(drawn.iter().all(|kg| (700.0..1300.0).contains(kg)) && drawn.iter().any(|kg| *kg < 715.0), "{drawn:?}");
+    assert!(drawn.iter().any(|kg| *kg > 1285.0), "{drawn:?}");
+    let folder = tempfile::tempdir().unwrap();
+    study.engines = vec![Engine::Reduced];
+    made(&study, folder.path(), Shard::WHOLE);
+    let table = collect(&study, folder.path()).unwrap();
+    let seconds = table.columns.iter().find(|(name, _)| name == "cpu_s").map(|(_, column)| column);
+    assert!(
+        matches!(seconds, Some(Column::F64(all)) if all.len() == 120 && all.iter().all(|s| *s > 0.0)),
+        "{seconds:?}"
+    );
+}
+
+#[test]
 fn a_wrong_study_is_refused_with_its_line_and_what_to_write() {
     let with = |old: &str, new: &str| study(&GRID.replace(old, new)).unwrap_err();
     for (old, new, says) in [
@@ -198,6 +232,7 @@ fn a_wrong_study_is_refused_with_its_line_and_what_to_write() {
         ("values = [50, 55.5, 60, 300]", "values = []", "no single list"),
         ("key = \"pressure_kpa\"", "key = \"actuator.width_mm\"", "varies twice"),
         ("steps = 31", "steps = 31\nstep = 1", "unknown field"),
+        ("scenario = ", "assumed = true\nscenario = ", "assumed numbers are drawn"),
         ("steps = 31", "steps = 9000000", "more than 20000000 cases"),
         ("outputs", "output", "unknown field"),
         ("\"tip\"", "\"tips\"", "unknown variant"),

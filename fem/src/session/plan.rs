@@ -86,6 +86,17 @@ pub struct Cube {
 /// A scenario that is refused with one of the numbers at an end of its interval.
 pub fn cube(base: Source, known: &[&str], robots: usize) -> Result<Cube, FemError> {
     let base = base.of_one_mesh()?;
+    let numbers = felt(&base, known)?;
+    let shares = hypercube(robots, numbers.len(), CUBE);
+    let robots = shares.iter().enumerate().map(|(index, shares)| robot(index + 1, &numbers, shares)).collect();
+    Ok(Cube { base, numbers, shares, robots })
+}
+
+/// All assumed numbers that a robot of one mesh feels, but for the keys that are known.
+///
+/// # Errors
+/// As [`cube`].
+pub fn felt(base: &Source, known: &[&str]) -> Result<Vec<Felt>, FemError> {
     let mut numbers = Vec::new();
     for unknown in ASSUMED {
         let Some(key) = key_of(unknown).filter(|key| !known.contains(&key.name)) else { continue };
@@ -97,9 +108,7 @@ pub fn cube(base: Source, known: &[&str], robots: usize) -> Result<Cube, FemErro
             numbers.push((unknown, key));
         }
     }
-    let shares = hypercube(robots, numbers.len(), CUBE);
-    let robots = shares.iter().enumerate().map(|(index, shares)| robot(index + 1, &numbers, shares)).collect();
-    Ok(Cube { base, numbers, shares, robots })
+    Ok(numbers)
 }
 
 fn robot(number: usize, numbers: &[Felt], shares: &[f64]) -> Variation {
