@@ -203,7 +203,10 @@ checked = 1
 "#;
     let mut study = study(text).unwrap();
     let keys: Vec<&str> = study.axes.iter().map(|axis| axis.key.as_str()).collect();
-    assert!(keys.contains(&"fem.density_kg_m3") && keys.iter().filter(|key| **key == "fem.weld_mm").count() == 1, "{keys:?}");
+    assert!(
+        keys.contains(&"fem.density_kg_m3") && keys.iter().filter(|key| **key == "fem.weld_mm").count() == 1,
+        "{keys:?}"
+    );
     let density = keys.iter().position(|key| *key == "fem.density_kg_m3").unwrap();
     let drawn: Vec<f64> = (0..40).map(|robot| as_number(&study.values(robot)[density]).unwrap()).collect();
     assert!(drawn.iter().all(|kg| (700.0..1300.0).contains(kg)) && drawn.iter().any(|kg| *kg < 715.0), "{drawn:?}");
