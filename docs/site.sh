@@ -35,7 +35,7 @@ title() { sed -n '0,/^# /s/^# //p' "$site/src/$1.md"; }
     done
 } > "$site/SUMMARY.md"
 
-# The gallery: every picture that a document shows, with the words that stand for it there.
+# The gallery: every picture that a document shows, with the words that stand for it there. A README is the index of its folder.
 {
     echo "# Gallery"
     (cd "$site/src" && grep -oHE '!\[[^]]+\]\([^)]+\)' README.md docs/*.md docs/verification/README.md) |
@@ -45,7 +45,7 @@ title() { sed -n '0,/^# /s/^# //p' "$site/src/$1.md"; }
             printf '%s\t%s\t%s\n' "$file" "${words%%]*}" "$page"
         done | sort -u -t "$(printf '\t')" -k 1,1 |
         while IFS="$(printf '\t')" read -r file words page; do
-            printf '\n## %s\n\n![%s](%s)\n\n[%s](%s)\n' "$words" "$words" "$file" "$(title "${page%.md}")" "$page"
+            printf '\n## %s\n\n![%s](%s)\n\n[%s](%s)\n' "$words" "$words" "$file" "$(title "${page%.md}")" "${page/README.md/index.md}"
         done
 } > "$site/src/gallery.md"
 mv "$site/SUMMARY.md" "$site/src/"
