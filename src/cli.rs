@@ -17,7 +17,7 @@ pub use export::{ExportArgs, ExportCommand, LinearArgs};
 pub use groups::{command, parsed};
 pub use import::Import;
 use std::path::PathBuf;
-pub use sweep::SweepArgs;
+pub use sweep::{DesignArgs, SweepArgs};
 
 /// Models of pneumatic bending actuators on inflated-beam robots, held against measurements.
 #[derive(Debug, Parser)]
@@ -66,6 +66,8 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Many cases of one robot, a row each: keys that vary, in shards or on a cluster
     Sweep(SweepArgs),
+    /// The robot that a wanted shape asks for: sizes and pressures within your ranges, checked and ready to cut
+    Design(DesignArgs),
     /// From tensile tests of a fabric to its moduli, curves and a table for cases
     Characterize(CharacterizeArgs),
     /// Look at, list or make marker data

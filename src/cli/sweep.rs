@@ -1,4 +1,4 @@
-//! `ibr sweep`
+//! `ibr sweep`, `ibr design`
 
 use clap::Args;
 use std::path::PathBuf;
@@ -30,4 +30,20 @@ pub struct SweepArgs {
     /// Write table.parquet in place of table.csv
     #[arg(long)]
     pub parquet: bool,
+}
+
+/// `ibr design`
+#[derive(Debug, Args)]
+pub struct DesignArgs {
+    /// Wish: a TOML file that says what is wanted and what may be chosen (docs/design.md)
+    pub wish: PathBuf,
+    /// Folder of the robot, its picture and its pattern. Default: ibr-report/design-<wish>
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+    /// Without the finite element run that checks the answer
+    #[arg(long)]
+    pub no_check: bool,
+    /// Threads; 0: one per core
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
+    pub threads: u64,
 }

@@ -10,6 +10,7 @@ mod data;
 mod data_fem;
 mod data_import;
 mod demo;
+mod design;
 mod diagnose;
 mod diagnose_bench;
 mod engines;
@@ -54,6 +55,7 @@ pub fn run(command: &Command, context: &mut Context) -> Result<Outcome, Failure>
         Command::Breakdown(args) => breakdown::run(args, context),
         Command::Simulate(args) => simulate::run(args, context),
         Command::Sweep(args) => sweep::run(args, context),
+        Command::Design(args) => design::run(args, context),
         Command::Characterize(args) => characterize::run(args, context),
         Command::Data(args) => data::run(args, context),
         Command::Challenge(command) => challenge::run(command, context),

@@ -16,6 +16,9 @@ use std::sync::PoisonError;
 /// Width of welds where neither the scenario nor the user says one, as in [`fem::robot::RobotSettings`] \[m\].
 const WELD_M: f64 = 0.003;
 
+/// Fabric beyond welds and ends of a pattern that nobody says more about, as in the command \[m\].
+const ALLOWANCE_M: f64 = 0.01;
+
 /// More fabric than that around a piece is a slip of the unit \[m\].
 const MOST_ALLOWANCE_M: f64 = 0.5;
 
@@ -43,11 +46,25 @@ pub fn run(args: &PatternArgs, context: &mut Context) -> Result<Outcome, Failure
 
 /// The width of the welds and how it is known.
 fn weld(args: &PatternArgs, scenario: &Scenario) -> Result<(f64, String), Failure> {
-    if let Some(text) = &args.weld {
-        return Ok((quantity("--weld", text, Quantity::Length)?, "as told".into()));
+    match &args.weld {
+        Some(text) => Ok((quantity("--weld", text, Quantity::Length)?, "as told".into())),
+        None => Ok(usual_weld(scenario)),
     }
+}
+
+fn usual_weld(scenario: &Scenario) -> (f64, String) {
     let effect = scenario.effects.iter().find(|e| e.name == "weld_width");
-    Ok(effect.map_or((WELD_M, "assumed".into()), |e| (e.values[0], format!("the scenario's weld_width, {}", e.basis))))
+    effect.map_or((WELD_M, "assumed".into()), |e| (e.values[0], format!("the scenario's weld_width, {}", e.basis)))
+}
+
+/// The pattern of a robot as SVG with what `ibr pattern` takes by itself; `Err` says why there is none.
+pub(super) fn usual_pattern(scenario: &Scenario) -> Result<String, String> {
+    let (weld_m, how) = usual_weld(scenario);
+    let plan = CuttingPlan::new(scenario, &Making { weld_m, allowance_m: ALLOWANCE_M })?;
+    let mut told =
+        vec![format!("Welds {:.1} mm wide ({how}), allowance {:.0} mm beyond.", 1e3 * weld_m, 1e3 * ALLOWANCE_M)];
+    told.extend(plan.notes.iter().cloned());
+    Ok(svg(&pattern_sheet(&scenario.name, &plan, &told)))
 }
 
 /// Files to write: the drawing, and its pages beside it.

@@ -3,6 +3,7 @@
 mod characterize;
 mod compare;
 mod demo;
+mod design;
 mod diagnosis;
 mod diagnosis_figures;
 #[cfg(test)]
@@ -25,6 +26,7 @@ mod uncertain;
 pub use characterize::characterized_files;
 pub use compare::{compare_files, compare_page};
 pub use demo::demo_page;
+pub use design::design_files;
 pub use diagnosis::{Diagnosed, diagnosis_page, diagnosis_pictures, diagnosis_plots};
 pub use engine_figures::parting_plot;
 pub use engines::engines_page;

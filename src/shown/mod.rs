@@ -6,6 +6,7 @@ pub mod characterized;
 pub mod check;
 pub mod comparison;
 pub mod demo;
+pub mod designed;
 pub mod diagnosis;
 pub mod diagnosis_tables;
 pub mod engines;

@@ -67,7 +67,8 @@ enum Levels {
 }
 
 impl Axis {
-    fn is_pressure(&self) -> bool {
+    /// Whether all of it are pressures.
+    pub(crate) fn is_pressure(&self) -> bool {
         let fits = |kpa: f64| kpa.is_finite() && kpa >= 0.0;
         match &self.levels {
             Levels::Listed(all) => all.iter().all(|value| as_number(value).is_some_and(fits)),
@@ -76,11 +77,40 @@ impl Axis {
     }
 
     /// The value at a share of the range, from 0 to below 1; of a list every entry has an equal share.
-    fn at(&self, share: f64) -> Value {
+    pub(crate) fn at(&self, share: f64) -> Value {
         match &self.levels {
             Levels::Listed(all) => all[((share * all.len() as f64) as usize).min(all.len() - 1)].clone(),
             Levels::Between { from, to, log } => number(between(*from, *to, *log, share)),
         }
+    }
+
+    /// Entries of a list; `None` for a range.
+    pub(crate) fn entries(&self) -> Option<usize> {
+        match &self.levels {
+            Levels::Listed(all) => Some(all.len()),
+            Levels::Between { .. } => None,
+        }
+    }
+
+    /// The value at a share with so many digits, within the range; entries of lists as they are.
+    pub(crate) fn rounded(&self, share: f64, digits: usize) -> Value {
+        match (&self.levels, as_number(&self.at(share))) {
+            (Levels::Between { from, to, .. }, Some(exact)) => {
+                let rounded: f64 = format!("{exact:.*e}", digits - 1).parse().unwrap_or(exact);
+                number(rounded.clamp(from.min(*to), from.max(*to)))
+            }
+            _ => self.at(share),
+        }
+    }
+
+    /// The share of a value of a range.
+    pub(crate) fn share_of(&self, value: &Value) -> Option<f64> {
+        match (&self.levels, as_number(value)?) {
+            (Levels::Between { from, to, log: true }, value) => Some((value / from).ln() / (to / from).ln()),
+            (Levels::Between { from, to, .. }, value) => Some((value - from) / (to - from)),
+            _ => None,
+        }
+        .filter(|share| share.is_finite())
     }
 }
 
@@ -154,7 +184,7 @@ fn listed_once<T: Copy + PartialEq>(given: Option<&Spanned<Vec<T>>>, usual: &[T]
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct RawAxis {
+pub(crate) struct RawAxis {
     key: String,
     values: Option<Vec<Value>>,
     from: Option<f64>,
@@ -179,7 +209,8 @@ fn one() -> u32 {
     1
 }
 
-type Wrong = (Option<std::ops::Range<usize>>, String, &'static str);
+/// Bytes at fault, message and help.
+pub(crate) type Wrong = (Option<std::ops::Range<usize>>, String, &'static str);
 
 impl Study {
     /// Reads a study; `scenario` reads the robot that it names, first as a file beside it.
@@ -274,7 +305,7 @@ impl Study {
             None => {}
         }
         let (robots, points) = match &raw.sample {
-            None => (axes.iter().try_fold(1_usize, |n, axis| n.checked_mul(listed(axis)?)), None),
+            None => (axes.iter().try_fold(1_usize, |n, axis| n.checked_mul(axis.entries()?)), None),
             Some(sample) => {
                 let RawSample { method, cases, seed, checked } = *sample.get_ref();
                 if cases == 0 {
@@ -370,15 +401,8 @@ fn assumed(base: &ScenarioFile, folder: &Path, axes: &[Axis]) -> Result<Vec<Axis
     Ok(felt(&source, &known)?.into_iter().map(of).collect())
 }
 
-/// Entries of an axis; `None` for a range without steps.
-fn listed(axis: &Axis) -> Option<usize> {
-    match &axis.levels {
-        Levels::Listed(all) => Some(all.len()),
-        Levels::Between { .. } => None,
-    }
-}
-
-fn axis(raw: &RawAxis, sampled: bool) -> Result<Axis, (String, &'static str)> {
+/// A key with its values; with a sample ranges have no steps.
+pub(crate) fn axis(raw: &RawAxis, sampled: bool) -> Result<Axis, (String, &'static str)> {
     let one_way = "write values = [40, 50], or from, to and steps";
     let key = raw.key.clone();
     if let Some(values) = &raw.values {

@@ -1,0 +1,57 @@
+//! A design beside its wish.
+
+use super::figures::{LINE_POINTS, mm};
+use super::predicted::pressure_words;
+use super::{Files, PageError};
+use ::sweep::design::{Design, Wish};
+use models::Model;
+use report::chart::{Chart, Key, KeyLook, Mark, Space};
+use report::{Ink, Symbol};
+
+/// The shape of a design, with the places that are wished for and, where there are, those of finite elements (tip last) \[m\].
+///
+/// # Errors
+/// What cannot be drawn.
+pub fn design_files(wish: &Wish, found: &Design, elements_m: Option<&[[f64; 2]]>) -> Result<Files, PageError> {
+    let model = Model::new(&found.file.scenario);
+    let radius = 1e3 * found.file.radius_m;
+    let rest = [[0.0, 0.0], [1e3 * found.file.length_m, 0.0]];
+    let [above, below] = model.outline(&found.pose, LINE_POINTS).map(|side| mm(&side));
+    let line = mm(&model.centre_line(&found.pose, LINE_POINTS));
+    let end = line.last().copied().unwrap_or_default();
+    let [wished, predicted, other] = [Ink::Ink, Ink::Series(0), Ink::Series(2)];
+    let point =
+        |at: [f64; 2], ink, symbol, open| Mark::Point { at, error: [0.0; 2], ink, symbol, open, label: String::new() };
+    let mut marks = vec![
+        Mark::Band(above.iter().chain(below.iter().rev()).copied().collect()),
+        Mark::Line { points: rest.to_vec(), ink: Ink::Muted, dashed: true },
+        Mark::Line { points: vec![[0.0, -1.15 * radius], [0.0, 1.15 * radius]], ink: Ink::Muted, dashed: false },
+        Mark::Line { points: line, ink: predicted, dashed: false },
+    ];
+    let mut keys =
+        vec![Key::new(KeyLook::Line, predicted, "model, predicted"), Key::new(KeyLook::Dashed, Ink::Muted, "at rest")];
+    if let Some(places) = elements_m {
+        let stations = mm(places);
+        marks.extend(stations.iter().map(|at| point(*at, other, Symbol::Triangle, false)));
+        keys.push(Key::new(KeyLook::Symbol(Symbol::Triangle, false), other, "finite elements, predicted"));
+    }
+    let places: Vec<[f64; 2]> =
+        wish.wanted.tip_m.into_iter().chain(wish.wanted.places.iter().map(|p| p.at_m)).collect();
+    if !places.is_empty() {
+        marks.extend(mm(&places).into_iter().map(|at| point(at, wished, Symbol::Diamond, true)));
+        keys.push(Key::new(KeyLook::Symbol(Symbol::Diamond, true), wished, "wished for"));
+    }
+    marks.push(Mark::Tip { at: end, label: format!("{} kPa", pressure_words(&found.loads)), ink: predicted });
+    let chart = Chart {
+        title: format!("{}, designed", found.file.scenario.name),
+        x_label: "x along the robot at rest [mm]".into(),
+        y_label: "y sideways [mm]".into(),
+        space: Space::Equal,
+        marks,
+        keys,
+        ..Chart::default()
+    };
+    let mut files = Files::default();
+    files.plot("shape", chart.draw("design")?);
+    Ok(files)
+}

@@ -1,0 +1,23 @@
+//! The design that a wanted shape asks for: what may be chosen is varied until the reduced model has the wish.
+//!
+//! ```text
+//! min over the free keys x in their ranges:   Σ (rᵢ(x) / (t L))²  +  w_p (P / P_max)²  +  w_f A / A₀  +  w_r (ΔT / (t L))²
+//! ```
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | rᵢ | a miss \[m\]: a distance, or an angle times L |
+//! | t, L | tolerance, and length of the body |
+//! | P, P_max | largest pressure of the design, and that of the scenario |
+//! | A, A₀ | flat area of the actuator, of the design and of the scenario |
+//! | ΔT | half of how far the tip moves over the assumed numbers \[m\] |
+//!
+//! Solved with the simplex of Nelder and Mead (argmin) from many Sobol points; lists stay at the entry of their point.
+
+mod search;
+#[cfg(test)]
+mod tests;
+mod wish;
+
+pub use search::{Design, Held, Miss, Spread, design, misses_of_reading};
+pub use wish::{Cost, Place, Turn, Wanted, Wish};

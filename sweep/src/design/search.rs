@@ -1,0 +1,383 @@
+//! The search, and what is known of its end.
+
+use super::wish::{Changes, Wish, channel};
+use crate::SweepError;
+use crate::sample::{Method, Points};
+use argmin::core::{CostFunction, Executor};
+use argmin::solver::neldermead::NelderMead;
+use compare::{CompareError, ScenarioFile};
+use fem::FemError;
+use fem::session::Progress;
+use models::{CHANNELS, Loads, Model, Prediction};
+use rayon::prelude::*;
+use std::sync::Mutex;
+
+/// Starts for every entry of the longest list, and in all.
+const STARTS_PER_ENTRY: usize = 12;
+const MOST_STARTS: usize = 192;
+/// First and second simplex as a share of the ranges, and steps of each.
+const SIMPLEX: [(f64, u64); 2] = [(0.2, 250), (0.02, 150)];
+/// Points over the assumed numbers, in the search and for the interval.
+const ASSUMED: [usize; 2] = [8, 64];
+/// Points of the centre line that places are read from.
+const LINE: usize = 401;
+/// A share this close to an end is at it.
+const AT_END: f64 = 1e-3;
+/// Digits of the values of a design: a hundredth of a per cent.
+const DIGITS: usize = 4;
+/// Objective of what has no equilibrium or no meaning; above any miss.
+const NONE: f64 = 1e12;
+
+/// One part of the wish and how far it is missed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Miss {
+    /// What: `tip`, `tip angle`, `station 150 mm`, `turn 0 to 100 mm`.
+    pub what: String,
+    /// Wanted: x, y \[m\], or one angle \[rad\].
+    pub wanted: Vec<f64>,
+    /// What the robot has.
+    pub found: Vec<f64>,
+    /// Distance \[m\], or angle times length.
+    pub miss_m: f64,
+}
+
+/// How far the tip and the miss go over the assumed numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spread {
+    /// Smallest and largest x of the tip \[m\].
+    pub x_m: [f64; 2],
+    /// Smallest and largest y \[m\].
+    pub y_m: [f64; 2],
+    /// Largest miss of any part of the wish \[m\].
+    pub worst_m: f64,
+}
+
+/// A free key at an end of its range that holds the design back.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Held {
+    /// The key.
+    pub key: String,
+    /// The end.
+    pub value: f64,
+    /// What a unit beyond it would take off the miss \[m\].
+    pub gain_m: f64,
+}
+
+/// A design.
+#[derive(Debug, Clone)]
+pub struct Design {
+    /// The robot with the chosen values; its pressure to predict at is the chosen one where the channels share it.
+    pub file: ScenarioFile,
+    /// Keys and values as they are written.
+    pub chosen: Vec<(String, String)>,
+    /// Pressures of the channels \[Pa\].
+    pub loads: Loads,
+    /// Its pose.
+    pub pose: Prediction,
+    /// The wish, part by part.
+    pub misses: Vec<Miss>,
+    /// Over the assumed numbers; `None` where none are named.
+    pub spread: Option<Spread>,
+    /// What holds it back, where the wish is not reached; the most first.
+    pub held: Vec<Held>,
+    /// Starts of the search, and how many of them ended at this objective.
+    pub starts: [usize; 2],
+}
+
+impl Design {
+    /// Whether every part of the wish is within the tolerance.
+    pub fn reached(&self, wish: &Wish) -> bool {
+        self.worst_m() <= wish.tolerance * self.file.length_m
+    }
+
+    /// Largest miss of a part \[m\].
+    pub fn worst_m(&self) -> f64 {
+        self.misses.iter().map(|miss| miss.miss_m).fold(0.0, f64::max)
+    }
+}
+
+/// A robot at one point of the ranges.
+struct Tried {
+    file: ScenarioFile,
+    model: Model,
+    loads: Loads,
+    pose: Prediction,
+}
+
+impl Wish {
+    fn tried(&self, Changes { values, pressures_kpa }: &Changes) -> Option<Tried> {
+        let file = if values.is_empty() { self.base.clone() } else { self.base.with(values).ok()? };
+        let own = || file.pressures_pa.iter().copied().reduce(f64::max).map(|pa| [pa; CHANNELS]);
+        let actuator_pa = pressures_kpa.map(|all| all.map(|kpa| 1e3 * kpa)).or_else(own).unwrap_or_default();
+        let loads = Loads { body_pa: file.p_body_pa, actuator_pa };
+        let model = Model::new(&file.scenario);
+        let mut pose = model.prediction();
+        model.predict_held(&loads, &mut pose).ok()?;
+        Some(Tried { file, model, loads, pose })
+    }
+
+    /// The objective; shares beyond the ranges are put back and cost.
+    fn objective(&self, shares: &[f64]) -> f64 {
+        let inside: Vec<f64> = shares.iter().map(|share| share.clamp(0.0, 1.0)).collect();
+        let beyond: f64 = shares.iter().zip(&inside).map(|(share, put)| (share - put).powi(2)).sum();
+        let usual = vec![0.5; self.assumed.len()];
+        let Some(tried) = self.tried(&self.changes(&inside, &usual)) else { return NONE * (1.0 + beyond) };
+        let tolerance_m = self.tolerance * tried.file.length_m;
+        let off: f64 = self.misses(&tried).iter().map(|miss| (miss.miss_m / tolerance_m).powi(2)).sum();
+        let highest = tried.loads.actuator_pa.iter().copied().fold(0.0, f64::max);
+        let area = |file: &ScenarioFile| {
+            file.actuator.count as f64 * file.actuator.shape.length_m * file.actuator.shape.width_m
+        };
+        let pressure = self.cost.pressure * (highest / tried.file.p_max_pa.max(1.0)).powi(2);
+        let footprint = match self.cost.footprint {
+            0.0 => 0.0,
+            weight => weight * area(&tried.file) / area(&self.base).max(1e-9),
+        };
+        let robustness = match self.cost.robustness {
+            0.0 => 0.0,
+            weight => self.spread(&inside, ASSUMED[0]).map_or(NONE, |spread| {
+                let half = |[low, high]: [f64; 2]| 0.5 * (high - low);
+                weight * (half(spread.x_m).powi(2) + half(spread.y_m).powi(2)) / tolerance_m.powi(2)
+            }),
+        };
+        off + pressure + footprint + robustness + 1e6 * beyond
+    }
+
+    /// Every part of the wish for a robot.
+    fn misses(&self, tried: &Tried) -> Vec<Miss> {
+        let Tried { file, model, pose, .. } = tried;
+        let line = match self.wanted.places.is_empty() {
+            true => Vec::new(),
+            false => model.centre_line(pose, LINE),
+        };
+        let place = |s_m: f64| {
+            let at = (s_m / file.length_m).clamp(0.0, 1.0) * (LINE - 1) as f64;
+            let i = (at as usize).min(LINE - 2);
+            let rest = at - i as f64;
+            [0, 1].map(|k| line[i][k] + rest * (line[i + 1][k] - line[i][k]))
+        };
+        let heading = |s_m: f64| -> f64 {
+            model.curvatures(pose).map(|(s, kappa)| kappa * (s_m - s.start_m).clamp(0.0, s.length_m)).sum()
+        };
+        parts(self, file.length_m, [pose.tip.x_m, pose.tip.y_m], pose.tip.angle_rad, &place, &heading)
+    }
+
+    /// Over points of the assumed numbers; `None` without any, or where one of them has no equilibrium.
+    fn spread(&self, free: &[f64], points: usize) -> Option<Spread> {
+        if self.assumed.is_empty() {
+            return None;
+        }
+        let all = Points::new(Method::Sobol, points, self.assumed.len(), 1).ok()?;
+        let none = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut spread = Spread { x_m: none, y_m: none, worst_m: 0.0 };
+        for k in 0..points {
+            let tried = self.tried(&self.changes(free, all.of(k)))?;
+            let tip = tried.pose.tip;
+            let wider = |[low, high]: [f64; 2], v: f64| [low.min(v), high.max(v)];
+            spread.x_m = wider(spread.x_m, tip.x_m);
+            spread.y_m = wider(spread.y_m, tip.y_m);
+            spread.worst_m = self.misses(&tried).iter().map(|miss| miss.miss_m).fold(spread.worst_m, f64::max);
+        }
+        Some(spread)
+    }
+}
+
+/// Every part of a wish for a robot of a length, of which tip, angle, stations and headings are known.
+fn parts(
+    wish: &Wish,
+    length_m: f64,
+    tip_m: [f64; 2],
+    angle_rad: f64,
+    place: &dyn Fn(f64) -> [f64; 2],
+    heading: &dyn Fn(f64) -> f64,
+) -> Vec<Miss> {
+    let distance = |what: String, wanted: [f64; 2], found: [f64; 2]| {
+        let miss_m = (wanted[0] - found[0]).hypot(wanted[1] - found[1]);
+        Miss { what, wanted: wanted.to_vec(), found: found.to_vec(), miss_m }
+    };
+    let angle = |what: String, wanted: f64, found: f64| Miss {
+        what,
+        wanted: vec![wanted],
+        found: vec![found],
+        miss_m: (wanted - found).abs() * length_m,
+    };
+    let mm = |m: f64| compare::wording::short(1e3 * m);
+    let wanted = &wish.wanted;
+    let tip = wanted.tip_m.map(|tip| distance("tip".into(), tip, tip_m));
+    let turned = wanted.tip_angle_rad.map(|a| angle("angle of the tip".into(), a, angle_rad));
+    let places = wanted.places.iter().map(|p| distance(format!("station {} mm", mm(p.s_m)), p.at_m, place(p.s_m)));
+    let turns = wanted.turns.iter().map(|t| {
+        let [from, to] = t.between_m;
+        angle(format!("turn from {} to {} mm", mm(from), mm(to)), t.angle_rad, heading(to) - heading(from))
+    });
+    tip.into_iter().chain(turned).chain(places).chain(turns).collect()
+}
+
+/// How far tip and stations of another engine miss the wish; stations between those that it read lie on a line. Turns are not read.
+pub fn misses_of_reading(
+    wish: &Wish,
+    length_m: f64,
+    stations_m: &[f64],
+    places_m: &[[f64; 2]],
+    angle_rad: f64,
+) -> Vec<Miss> {
+    let with_base: Vec<(f64, [f64; 2])> =
+        std::iter::once((0.0, [0.0; 2])).chain(stations_m.iter().copied().zip(places_m.iter().copied())).collect();
+    let place = |s_m: f64| {
+        let after = with_base.iter().position(|(s, _)| *s >= s_m).unwrap_or(with_base.len() - 1).max(1);
+        let Some(([(a, from), (b, to)], _)) = with_base.get(after - 1..).and_then(|rest| rest.split_first_chunk::<2>())
+        else {
+            return [f64::NAN; 2];
+        };
+        let share = if b > a { ((s_m - a) / (b - a)).clamp(0.0, 1.0) } else { 0.0 };
+        [0, 1].map(|k| from[k] + share * (to[k] - from[k]))
+    };
+    let tip_m = places_m.last().copied().unwrap_or([f64::NAN; 2]);
+    let all = parts(wish, length_m, tip_m, angle_rad, &place, &|_| f64::NAN);
+    all.into_iter().filter(|miss| !miss.miss_m.is_nan()).collect()
+}
+
+struct Problem<'a> {
+    wish: &'a Wish,
+    /// All shares; those of ranges are replaced.
+    fixed: Vec<f64>,
+    ranges: &'a [usize],
+}
+
+impl Problem<'_> {
+    fn shares(&self, of_ranges: &[f64]) -> Vec<f64> {
+        let mut all = self.fixed.clone();
+        self.ranges.iter().zip(of_ranges).for_each(|(k, share)| all[*k] = *share);
+        all
+    }
+
+    /// From one point by simplex after simplex.
+    fn solved(self) -> (f64, Vec<f64>) {
+        let mut at: Vec<f64> = self.ranges.iter().map(|k| self.fixed[*k]).collect();
+        let mut best = self.wish.objective(&self.fixed);
+        if at.is_empty() {
+            return (best, self.fixed);
+        }
+        for (size, steps) in SIMPLEX {
+            let corner = |k: usize| {
+                let mut corner = at.clone();
+                corner[k] += if corner[k] > 0.5 { -size } else { size };
+                corner
+            };
+            let simplex = std::iter::once(at.clone()).chain((0..at.len()).map(corner)).collect();
+            let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(1e-9) else { break };
+            let of = Problem { wish: self.wish, fixed: self.fixed.clone(), ranges: self.ranges };
+            let made = Executor::new(of, solver).configure(|state| state.max_iters(steps)).run();
+            if let Some((found, cost)) = made.ok().and_then(|made| Some((made.state.best_param?, made.state.best_cost)))
+                && cost < best
+            {
+                (at, best) = (found, cost);
+            }
+        }
+        let all = self.shares(&at).into_iter().map(|share| share.clamp(0.0, 1.0)).collect();
+        (best, all)
+    }
+}
+
+impl CostFunction for Problem<'_> {
+    type Param = Vec<f64>;
+    type Output = f64;
+
+    fn cost(&self, of_ranges: &Vec<f64>) -> Result<f64, argmin::core::Error> {
+        Ok(self.wish.objective(&self.shares(of_ranges)))
+    }
+}
+
+/// Searches the design. The same wish gives the same bits, whatever the threads.
+///
+/// # Errors
+/// No values of the free keys give a robot with an equilibrium; [`FemError::Interrupted`] if `progress` asked to end.
+pub fn design(wish: &Wish, progress: Progress) -> Result<Design, SweepError> {
+    let ranges: Vec<usize> = (0..wish.free.len()).filter(|k| wish.free[*k].entries().is_none()).collect();
+    let combinations =
+        wish.free.iter().filter_map(crate::study::Axis::entries).try_fold(1_usize, |n, m| n.checked_mul(m));
+    let starts = combinations.unwrap_or(MOST_STARTS).saturating_mul(STARTS_PER_ENTRY).min(MOST_STARTS);
+    let points = Points::new(Method::Sobol, starts, wish.free.len(), 1)
+        .map_err(|message| CompareError::refused(message, "leave keys out"))?;
+    let told = Mutex::new((0_usize, progress));
+    let one = |k: usize| {
+        let solved = Problem { wish, fixed: points.of(k).to_vec(), ranges: &ranges }.solved();
+        let mut told = told.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        told.0 += 1;
+        let share = told.0 as f64 / starts as f64;
+        match (told.1)("searching designs", Some(share)).is_break() {
+            true => Err(FemError::Interrupted { time_s: 0.0, step: 0, done: told.0, of: starts }),
+            false => Ok(solved),
+        }
+    };
+    let all: Vec<(f64, Vec<f64>)> = (0..starts).into_par_iter().map(one).collect::<Result<_, FemError>>()?;
+    let (best, shares) = all.iter().min_by(|a, b| a.0.total_cmp(&b.0)).cloned().unwrap_or((NONE, Vec::new()));
+    if best >= NONE {
+        let help = "widen the ranges, or try one design with ibr predict to see why";
+        return Err(CompareError::refused("no design within these ranges has an equilibrium", help).into());
+    }
+    let same = all.iter().filter(|(cost, _)| cost - best <= 1e-3 * best.max(1e-3)).count();
+    Ok(told_of(wish, &shares, [starts, same])?)
+}
+
+/// The design at shares of the ranges, with its values as somebody would write them.
+fn told_of(wish: &Wish, shares: &[f64], starts: [usize; 2]) -> Result<Design, CompareError> {
+    let usual = vec![0.5; wish.assumed.len()];
+    // Rounding a value may change which side of an end it is on by a hundredth of a per cent.
+    let chosen: Vec<(String, toml::Value)> =
+        wish.free.iter().zip(shares).map(|(axis, share)| (axis.key.clone(), axis.rounded(*share, DIGITS))).collect();
+    let rounded: Vec<f64> = wish
+        .free
+        .iter()
+        .zip(&chosen)
+        .zip(shares)
+        .map(|((axis, (_, value)), share)| axis.share_of(value).unwrap_or(*share))
+        .collect();
+    let gone = || CompareError::refused("the design has no equilibrium when its values are rounded", "report this");
+    let tried = wish.tried(&wish.changes(&rounded, &usual)).ok_or_else(gone)?;
+    let misses = wish.misses(&tried);
+    let mut file = tried.file;
+    let all = tried.loads.actuator_pa;
+    if chosen.iter().any(|(key, _)| channel(key).is_some()) && all.iter().all(|pa| *pa == all[0]) {
+        let kpa = fem::session::rounded(1e-3 * all[0]);
+        file = file.with(&[("predict.pressures_kpa".into(), format!("[{kpa}]"))])?;
+    }
+    let chosen = chosen.into_iter().map(|(key, value)| (key, value.to_string())).collect();
+    let mut design =
+        Design { file, chosen, loads: tried.loads, pose: tried.pose, misses, spread: None, held: Vec::new(), starts };
+    design.spread = wish.spread(&rounded, ASSUMED[1]);
+    if !design.reached(wish) {
+        design.held = held(wish, shares);
+    }
+    Ok(design)
+}
+
+/// Free keys at an end of their ranges beyond which the miss goes on falling.
+fn held(wish: &Wish, shares: &[f64]) -> Vec<Held> {
+    let usual = vec![0.5; wish.assumed.len()];
+    let total = |shares: &[f64]| {
+        let tried = wish.tried(&wish.changes(shares, &usual))?;
+        Some(wish.misses(&tried).iter().map(|miss| miss.miss_m.powi(2)).sum::<f64>().sqrt())
+    };
+    let Some(here) = total(shares) else { return Vec::new() };
+    let mut found: Vec<Held> = Vec::new();
+    for (k, axis) in wish.free.iter().enumerate().filter(|(_, axis)| axis.entries().is_none()) {
+        let out = match shares[k] {
+            share if share < AT_END => -0.01,
+            share if share > 1.0 - AT_END => 1.01,
+            _ => continue,
+        };
+        let mut beyond = shares.to_vec();
+        beyond[k] = out;
+        let number = |share: f64| crate::study::as_number(&axis.at(share));
+        let (Some(there), Some(end), Some(next)) = (total(&beyond), number(shares[k].round()), number(out)) else {
+            continue;
+        };
+        let gain_m = (here - there) / (next - end).abs();
+        if gain_m > 0.0 {
+            found.push(Held { key: axis.key.clone(), value: end, gain_m });
+        }
+    }
+    found.sort_by(|a, b| b.gain_m.total_cmp(&a.gain_m));
+    found
+}

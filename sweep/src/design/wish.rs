@@ -1,0 +1,318 @@
+//! The TOML file of a wish.
+
+use crate::study::{Axis, PRESSURE, RawAxis, Wrong, axis};
+use compare::{CompareError, ScenarioFile};
+use data::Fault;
+use models::CHANNELS;
+use serde::Deserialize;
+use spelling::files::{MOST_TEXT, read_whole};
+use std::path::{Path, PathBuf};
+use toml::Spanned;
+
+/// Largest number of free keys: more than that nobody can choose, and no simplex finds.
+const MOST_FREE: usize = 12;
+
+/// What is wanted of the shape; all of it at once.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Wanted {
+    /// Place of the tip \[m\].
+    pub tip_m: Option<[f64; 2]>,
+    /// Angle of the tip \[rad\].
+    pub tip_angle_rad: Option<f64>,
+    /// Places that stations of the body pass.
+    pub places: Vec<Place>,
+    /// By how much stretches of the body turn.
+    pub turns: Vec<Turn>,
+}
+
+/// A station and where it is wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// Along the undeformed body \[m\].
+    pub s_m: f64,
+    /// x, y \[m\].
+    pub at_m: [f64; 2],
+}
+
+/// A stretch and by how much it turns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turn {
+    /// Its ends along the undeformed body \[m\].
+    pub between_m: [f64; 2],
+    /// Angle from one to the other \[rad\].
+    pub angle_rad: f64,
+}
+
+/// What a design costs beside its miss, in squares of the tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Cost {
+    /// Of the largest pressure of the scenario.
+    pub pressure: f64,
+    /// Of the scenario's flat actuator.
+    pub footprint: f64,
+    /// Of a tip that the assumed numbers move by the tolerance to each side.
+    pub robustness: f64,
+}
+
+impl Default for Cost {
+    /// Of two designs that have the wish the one with less pressure.
+    fn default() -> Cost {
+        Cost { pressure: 0.01, footprint: 0.0, robustness: 0.0 }
+    }
+}
+
+/// A wish as its file tells it.
+#[derive(Debug, Clone)]
+pub struct Wish {
+    /// The robot, with the force at its tip.
+    pub base: ScenarioFile,
+    /// Folder that paths in the robot's file count from.
+    pub folder: PathBuf,
+    /// What is wanted.
+    pub wanted: Wanted,
+    /// Share of the body's length by which it may be missed.
+    pub tolerance: f64,
+    /// What may be chosen.
+    pub free: Vec<Axis>,
+    /// What is not known, and between which values it lies.
+    pub assumed: Vec<Axis>,
+    /// What it costs.
+    pub cost: Cost,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Raw {
+    #[serde(rename = "kind")]
+    _kind: Option<Kind>,
+    scenario: Spanned<String>,
+    wish: Spanned<RawWish>,
+    #[serde(default)]
+    free: Vec<Spanned<RawAxis>>,
+    #[serde(default)]
+    assumed: Vec<Spanned<RawAxis>>,
+    cost: Option<Spanned<Cost>>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    Design,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawWish {
+    tip_mm: Option<[f64; 2]>,
+    tip_angle_deg: Option<f64>,
+    #[serde(default)]
+    places: Vec<Spanned<RawPlace>>,
+    #[serde(default)]
+    turns: Vec<Spanned<RawTurn>>,
+    force_n: Option<[f64; 2]>,
+    tolerance: Option<f64>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawPlace {
+    s_mm: f64,
+    at_mm: [f64; 2],
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawTurn {
+    from_mm: f64,
+    to_mm: f64,
+    angle_deg: f64,
+}
+
+impl Wish {
+    /// Reads a wish; `scenario` reads the robot that it names, first as a file beside it.
+    ///
+    /// # Errors
+    /// A file that cannot be read; a fault of the wish or of the robot, with its line and what to write.
+    pub fn read(
+        path: &Path,
+        scenario: impl Fn(&str) -> Result<ScenarioFile, CompareError>,
+    ) -> Result<Wish, CompareError> {
+        let name = path.display().to_string();
+        let unread = |cause: String| {
+            let help = "write a wish as docs/design.md shows".to_string();
+            CompareError::Unread { path: name.clone(), cause, help }
+        };
+        let bytes = read_whole(path, MOST_TEXT).map_err(|cause| unread(cause.to_string()))?;
+        let text = String::from_utf8(bytes).map_err(|_| unread("it is not a text in UTF-8".into()))?;
+        Wish::parse(&name, &text, path.parent().unwrap_or(Path::new("")), scenario)
+    }
+
+    /// Of a text; `name` is for messages.
+    ///
+    /// # Errors
+    /// As [`Wish::read`].
+    pub fn parse(
+        name: &str,
+        text: &str,
+        folder: &Path,
+        scenario: impl Fn(&str) -> Result<ScenarioFile, CompareError>,
+    ) -> Result<Wish, CompareError> {
+        let fault = |(span, message, help): Wrong| {
+            let span = span.map(|span| (span.start, span.end));
+            CompareError::Scenario(Box::new(Fault::of_text(name, text, span, message, help.into())))
+        };
+        let raw: Raw = toml::from_str(text).map_err(|error| {
+            fault((error.span(), error.message().to_string(), "docs/design.md shows every key of a wish"))
+        })?;
+        let beside = folder.join(raw.scenario.get_ref());
+        if beside == Path::new(name) {
+            let message = "`scenario` names the wish itself".to_string();
+            return Err(fault((Some(raw.scenario.span()), message, "name a robot, for example scenario = \"epam\"")));
+        }
+        let spec = if beside.exists() { beside.display().to_string() } else { raw.scenario.get_ref().clone() };
+        let base = scenario(&spec)?;
+        let wish = Wish::of(&raw, base, beside.parent().unwrap_or(folder)).map_err(fault)?;
+        // A key that the scenario has not is told before anything is searched.
+        let middle = |axes: &[Axis]| vec![0.5; axes.len()];
+        let changes = wish.changes(&middle(&wish.free), &middle(&wish.assumed));
+        wish.base.with(&changes.values)?;
+        Ok(wish)
+    }
+
+    fn of(raw: &Raw, base: ScenarioFile, folder: &Path) -> Result<Wish, Wrong> {
+        let whole = base.length_m;
+        let wanted = wanted(raw.wish.get_ref(), whole)?;
+        let wrong = |message: &str, help| Err((Some(raw.wish.span()), message.to_string(), help));
+        if wanted == Wanted::default() {
+            return wrong("nothing is wished for", "write for example tip_mm = [290, 140]");
+        }
+        let tolerance = raw.wish.get_ref().tolerance.unwrap_or(0.01);
+        if !(1e-6..=0.5).contains(&tolerance) {
+            return wrong(
+                "`tolerance` is a share of the length, from 1e-6 to 0.5",
+                "write for example tolerance = 0.01",
+            );
+        }
+        let free = axes(&raw.free)?;
+        if free.is_empty() || free.len() > MOST_FREE {
+            let message = format!("{} keys are free; a design needs 1 to {MOST_FREE}", free.len());
+            return Err((None, message, "add [[free]] with key = \"pressure_kpa\", from = 5 and to = 30"));
+        }
+        let assumed = axes(&raw.assumed)?;
+        if let Some(twice) = assumed.iter().position(|a| free.iter().any(|f| f.key == a.key)) {
+            let message = format!("`{}` is free and assumed", assumed[twice].key);
+            return Err((Some(raw.assumed[twice].span()), message, "what you choose is known: leave one out"));
+        }
+        let cost = raw.cost.as_ref().map_or(Cost::default(), |cost| *cost.get_ref());
+        if ![cost.pressure, cost.footprint, cost.robustness].iter().all(|weight| (0.0..=1e3).contains(weight)) {
+            let span = raw.cost.as_ref().map(Spanned::span);
+            return Err((span, "a weight is not from 0 to 1000".into(), "write for example pressure = 0.01"));
+        }
+        if cost.robustness > 0.0 && assumed.is_empty() {
+            let span = raw.cost.as_ref().map(Spanned::span);
+            return Err((span, "robustness against nothing".into(), "add [[assumed]] keys with from and to"));
+        }
+        let force = raw.wish.get_ref().force_n.unwrap_or_default();
+        let base = match force.iter().all(|f| *f == 0.0) {
+            true => base,
+            false => {
+                let [x, y] = force.map(|f| format!("{f:?}"));
+                let set = [("force_x_n", x), ("force_y_n", y)].map(|(key, f)| (format!("effects.tip_load.{key}"), f));
+                base.with(&set).map_err(|error| (Some(raw.wish.span()), error.to_string(), "force_n is in newtons"))?
+            }
+        };
+        Ok(Wish { base, folder: folder.to_path_buf(), wanted, tolerance, free, assumed, cost })
+    }
+
+    /// What is set in the scenario at shares of the ranges of free and assumed keys.
+    pub(super) fn changes(&self, free: &[f64], assumed: &[f64]) -> Changes {
+        let mut changes = Changes { values: Vec::new(), pressures_kpa: None };
+        for (axis, share) in self.free.iter().zip(free).chain(self.assumed.iter().zip(assumed)) {
+            let value = axis.at(*share);
+            match (channel(&axis.key), crate::study::as_number(&value)) {
+                (Some(None), Some(kpa)) => changes.pressures_kpa = Some([kpa; CHANNELS]),
+                (Some(Some(one)), Some(kpa)) => changes.pressures_kpa.get_or_insert([0.0; CHANNELS])[one] = kpa,
+                _ => changes.values.push((axis.key.clone(), value.to_string())),
+            }
+        }
+        changes
+    }
+}
+
+/// What is set in a scenario, and the pressures of its channels if they are free \[kPa\].
+pub(super) struct Changes {
+    pub values: Vec<(String, String)>,
+    pub pressures_kpa: Option<[f64; CHANNELS]>,
+}
+
+/// Whether a key is a pressure: of all channels, or of one.
+pub(super) fn channel(key: &str) -> Option<Option<usize>> {
+    let rest = key.strip_prefix(PRESSURE)?;
+    match rest.strip_prefix('.') {
+        None => rest.is_empty().then_some(None),
+        Some(number) => number.parse().ok().filter(|channel| *channel < CHANNELS).map(Some),
+    }
+}
+
+/// Keys with their ranges, each once.
+fn axes(raw: &[Spanned<RawAxis>]) -> Result<Vec<Axis>, Wrong> {
+    let mut all: Vec<Axis> = Vec::new();
+    for raw in raw {
+        let wrong = |message: String, help| Err((Some(raw.span()), message, help));
+        let axis = match axis(raw.get_ref(), true) {
+            Ok(axis) => axis,
+            Err((message, help)) => return wrong(message, help),
+        };
+        if all.iter().any(|other| other.key == axis.key) {
+            return wrong(format!("`{}` is there twice", axis.key), "leave one of them out");
+        }
+        if axis.key.starts_with(PRESSURE) && (channel(&axis.key).is_none() || !axis.is_pressure()) {
+            let message = format!("`{}` is no pressure, or has a value below zero", axis.key);
+            return wrong(message, "write pressure_kpa, or pressure_kpa.0 to pressure_kpa.3 for single channels");
+        }
+        let both = |a: &str, b: &str| channel(a) == Some(None) && matches!(channel(b), Some(Some(_)));
+        if all.iter().any(|other| both(&axis.key, &other.key) || both(&other.key, &axis.key)) {
+            return wrong("a pressure for all channels beside one for a channel".into(), "leave one of them out");
+        }
+        all.push(axis);
+    }
+    Ok(all)
+}
+
+fn wanted(raw: &RawWish, length_m: f64) -> Result<Wanted, Wrong> {
+    let on_body = |s: f64| (0.0..=length_m).contains(&(1e-3 * s));
+    let far = "a place is within ten lengths of the robot";
+    let near = |[x, y]: [f64; 2]| [x, y].iter().all(|v| v.abs() <= 1e4 * length_m);
+    if raw.tip_mm.is_some_and(|tip| !near(tip)) {
+        return Err((None, far.into(), "write millimetres: tip_mm = [290, 140]"));
+    }
+    if raw.tip_angle_deg.is_some_and(|angle| angle.is_nan() || angle.abs() > 720.0) {
+        return Err((None, "`tip_angle_deg` is more than two turns".into(), "write degrees"));
+    }
+    let places = raw.places.iter().map(|place| {
+        let RawPlace { s_mm, at_mm } = *place.get_ref();
+        match on_body(s_mm) && near(at_mm) {
+            true => Ok(Place { s_m: 1e-3 * s_mm, at_m: at_mm.map(|v| 1e-3 * v) }),
+            false => {
+                Err((Some(place.span()), format!("s_mm = {s_mm} is not on the body, or {far}"), "write millimetres"))
+            }
+        }
+    });
+    let turns = raw.turns.iter().map(|turn| {
+        let RawTurn { from_mm, to_mm, angle_deg } = *turn.get_ref();
+        match on_body(from_mm) && on_body(to_mm) && from_mm < to_mm && angle_deg.abs() <= 720.0 {
+            true => Ok(Turn { between_m: [1e-3 * from_mm, 1e-3 * to_mm], angle_rad: angle_deg.to_radians() }),
+            false => {
+                let help = "write from_mm below to_mm, both on the body, and degrees";
+                Err((Some(turn.span()), "a turn of a stretch that is none".to_string(), help))
+            }
+        }
+    });
+    Ok(Wanted {
+        tip_m: raw.tip_mm.map(|tip| tip.map(|v| 1e-3 * v)),
+        tip_angle_rad: raw.tip_angle_deg.map(f64::to_radians),
+        places: places.collect::<Result<_, Wrong>>()?,
+        turns: turns.collect::<Result<_, Wrong>>()?,
+    })
+}
