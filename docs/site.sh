@@ -24,7 +24,7 @@ END
 
 # Chapters in the order in which a reader meets them. A document that is not named here comes at the end by its title.
 chapters="docs/guide docs/scenario docs/effects docs/robots docs/accuracy docs/theory docs/case docs/characterize docs/python docs/web
-docs/control docs/sweep docs/json docs/verification/README ARCHITECTURE CONTRIBUTING benches/README CHANGELOG"
+docs/control docs/sweep docs/design docs/json docs/verification/README ARCHITECTURE CONTRIBUTING benches/README CHANGELOG"
 rest=$(cd "$site/src" && find . -name '*.md' ! -path ./README.md | sed 's|^\./||; s|\.md$||' | sort)
 title() { sed -n '0,/^# /s/^# //p' "$site/src/$1.md"; }
 {

@@ -76,6 +76,7 @@ pub const READERS: &[Reader] = &[
         bench,
     ),
     of("study", &["studies/epam-designs.toml"], study),
+    of("wish", &["studies/epam-wish.toml"], wish),
     made("parquet", parquets, parquet),
     made("case", cases, case),
     made("robot", robots, robot),
@@ -217,6 +218,12 @@ fn about(bytes: &[u8]) -> bool {
 fn study(bytes: &[u8]) -> bool {
     let epam = |_: &str| compare::ScenarioFile::read("epam");
     std::str::from_utf8(bytes).is_ok_and(|text| sweep::Study::parse("study.toml", text, Path::new(""), epam).is_ok())
+}
+
+fn wish(bytes: &[u8]) -> bool {
+    let epam = |_: &str| compare::ScenarioFile::read("epam");
+    let read = |text| sweep::design::Wish::parse("wish.toml", text, Path::new(""), epam);
+    std::str::from_utf8(bytes).is_ok_and(|text| read(text).is_ok())
 }
 
 /// As it is, and with what an export of a machine leaves out.

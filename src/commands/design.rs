@@ -97,9 +97,8 @@ fn read(wish: &Wish, found: &Design, run: FeRun) -> Result<Checked, String> {
     let at = |(s, d): (&f64, &[f64; 3])| [s + d[0], d[1]];
     let places_m: Vec<[f64; 2]> = reading.stations_m.iter().zip(&reading.moved_m).map(at).collect();
     let misses = misses_of_reading(wish, found.file.length_m, &reading.stations_m, &places_m, reading.tip_angle_rad);
-    let angle_rad = reading.tip_angle_rad;
     let is_picture = |name: &str| ["side.png", "section.png", "cut.png"].contains(&name);
     let warnings = run.summary.warnings();
     let pictures = run.files.into_iter().filter(|(name, _)| is_picture(name)).collect();
-    Ok(Checked { places_m, angle_rad, misses, warnings, pictures })
+    Ok(Checked { places_m, misses, warnings, pictures })
 }

@@ -2,7 +2,7 @@
 
 use crate::pages::pressure_words;
 use crate::tables::table;
-use ::sweep::design::{Design, Miss, Wish};
+use ::sweep::design::{Design, Held, Miss, Wish};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -11,8 +11,6 @@ use std::path::Path;
 pub struct Checked {
     /// Where the stations are, the last is the tip \[m\].
     pub places_m: Vec<[f64; 2]>,
-    /// Angle of the tip \[rad\].
-    pub angle_rad: f64,
     /// The parts of the wish that it can read.
     pub misses: Vec<Miss>,
     /// What makes the run doubtful.
@@ -96,25 +94,25 @@ pub fn design_text(wish: &Wish, found: &Design, checked: &Result<Checked, String
 /// For programs.
 pub fn design_json(file: &Path, wish: &Wish, found: &Design, checked: &Result<Checked, String>) -> Value {
     let of = |misses: &[Miss]| -> Vec<Value> {
-        let one = |m: &Miss| json!({"what": m.what, "wanted": m.wanted, "found": m.found, "miss_m": m.miss_m});
+        let shown = |values: &[f64]| match values {
+            [rad] => vec![rad.to_degrees()],
+            more => more.iter().map(|m| 1e3 * m).collect(),
+        };
+        let one = |m: &Miss| json!({"what": m.what, "wanted": shown(&m.wanted), "found": shown(&m.found), "miss_mm": 1e3 * m.miss_m});
         misses.iter().map(one).collect()
     };
-    let chosen: serde_json::Map<String, Value> =
-        found.chosen.iter().map(|(k, v)| (k.clone(), serde_json::from_str(v).unwrap_or(json!(v)))).collect();
-    let spread = found.spread.map(|s| json!({"tip_x_m": s.x_m, "tip_y_m": s.y_m, "worst_m": s.worst_m}));
-    let held: Vec<Value> =
-        found.held.iter().map(|h| json!({"key": h.key, "end": h.value, "gain_m_per_unit": h.gain_m})).collect();
-    let fe = match checked {
-        Ok(c) => {
-            json!({"misses": of(&c.misses), "tip_m": c.places_m.last(), "tip_angle_rad": c.angle_rad, "warnings": c.warnings})
-        }
-        Err(why) => json!({"left_out": why}),
-    };
+    let mm = |ends: [f64; 2]| ends.map(|m| 1e3 * m);
+    let chosen: Vec<Value> = found.chosen.iter().map(|(key, value)| json!({"key": key, "value": value})).collect();
+    let interval =
+        found.spread.map(|s| json!({"tip_x_mm": mm(s.x_m), "tip_y_mm": mm(s.y_m), "worst_mm": 1e3 * s.worst_m}));
+    let held = |h: &Held| json!({"key": h.key, "end": h.value, "gain_mm": 1e3 * h.gain_m});
     json!({
         "schema": "ibr.design", "version": 1, "wish": file.display().to_string(), "scenario": wish.base.name,
-        "reached": found.reached(wish), "tolerance_m": wish.tolerance * found.file.length_m, "chosen": chosen,
-        "actuator_pa": found.loads.actuator_pa, "body_pa": found.loads.body_pa, "misses": of(&found.misses),
-        "interval": spread, "held": held, "starts": found.starts[0], "starts_that_agree": found.starts[1],
-        "finite_elements": fe,
+        "reached": found.reached(wish), "tolerance_mm": 1e3 * wish.tolerance * found.file.length_m, "chosen": chosen,
+        "p_act_channels_kpa": found.loads.actuator_pa.map(|pa| 1e-3 * pa), "p_body_kpa": 1e-3 * found.loads.body_pa,
+        "misses": of(&found.misses), "interval": interval, "held": found.held.iter().map(held).collect::<Vec<_>>(),
+        "starts": found.starts[0], "starts_that_agree": found.starts[1],
+        "finite_elements": checked.as_ref().ok().map(|c| json!({"misses": of(&c.misses), "warnings": c.warnings})),
+        "unchecked": checked.as_ref().err(),
     })
 }

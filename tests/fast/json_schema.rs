@@ -9,12 +9,13 @@ type Keys = BTreeMap<String, String>;
 
 /// Records that only come with data of a kind that these commands have not: two effects at once, a fault, a slip, a law that the
 /// catalogue lacks, a robot's run, lost nodes.
-const RARE: [&str; 20] = [
+const RARE: [&str; 21] = [
     "AsClose",
     "BendingAlarm",
     "BestEffect",
     "ChangedSides",
     "Combination",
+    "DesignCheck",
     "FirstThrough",
     "Inflated",
     "KeptBending",
@@ -33,7 +34,7 @@ const RARE: [&str; 20] = [
 ];
 
 /// What runs, in this order in one folder, and the schema of its answer.
-const COMMANDS: [(&str, &str); 41] = [
+const COMMANDS: [(&str, &str); 42] = [
     ("predict epam-textbook --pressure 30kPa", "ibr.predict"),
     ("predict epam --pressure 300kPa", "ibr.predict"),
     ("predict epam --limits --effect tip_load:force_y_n=1", "ibr.predict.limits"),
@@ -42,6 +43,7 @@ const COMMANDS: [(&str, &str); 41] = [
     ("export linear fpam --pressure 20kPa", "ibr.export.linear"),
     ("pattern cpam", "ibr.pattern"),
     ("sweep study.toml --out swept", "ibr.sweep"),
+    ("design wish.toml --no-check --out designed", "ibr.design"),
     ("simulate tube --end 1ms --out t", "ibr.simulate"),
     ("compare epam-textbook synthetic-epam --calibrate", "ibr.compare"),
     ("compare breukels-2011-beams", "ibr.compare.bench"),
@@ -149,6 +151,8 @@ impl Checker {
 fn every_key_is_described_and_every_described_key_comes_out() {
     let folder = Folder::new();
     folder.write("study.toml", "scenario = \"epam\"\n[[vary]]\nkey = \"actuator.width_mm\"\nvalues = [60, 300]\n");
+    let free = "[[free]]\nkey = \"pressure_kpa\"\nfrom = 5\nto = 10\n[[assumed]]\nkey = \"body.pressure_kpa\"\nfrom = 1.9\nto = 2.1\n";
+    folder.write("wish.toml", &format!("scenario = \"epam\"\n[wish]\ntip_angle_deg = 90\n{free}"));
     let mut checker = Checker { all: described(), seen: BTreeSet::new() };
     for (typed, schema) in COMMANDS {
         let args: Vec<&str> = typed.split(' ').chain(["--json"]).collect();

@@ -54,6 +54,8 @@ fn wishes_that_hidden_designs_have_are_reached() {
         own.predict(&found.loads, &mut at).unwrap();
         assert_eq!(at.tip, found.pose.tip);
         assert!((found.file.pressures_pa[0] - found.loads.actuator_pa[0]).abs() < 1e-6);
+        let width = found.file.text.lines().find(|line| line.starts_with("width_mm")).unwrap();
+        assert!(width.ends_with("# chosen") && found.file.name == "design.toml", "{width}");
         let miss = (1e3 * at.tip.x_m - x).hypot(1e3 * at.tip.y_m - y);
         assert!((1e-3 * miss - found.worst_m()).abs() < 1e-9);
         found.reached(&wish) && miss <= 0.01 * 1e3 * found.file.length_m
