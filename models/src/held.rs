@@ -75,6 +75,7 @@ impl Model {
         out: &mut Prediction,
         each: &mut dyn FnMut(usize, &Prediction),
     ) -> Result<(), Unsolved> {
+        self.planar("holding a robot at curvatures")?;
         out.work.held.missing = vec![0.0; self.segments().len()];
         let walked = self.walk(steps, Some(curvatures), out, each);
         out.work.held = Held::default();

@@ -43,6 +43,7 @@ pub mod scenario;
 mod section;
 mod shape;
 pub mod site;
+pub mod space;
 mod steer;
 mod supply;
 pub mod term;

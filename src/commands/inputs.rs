@@ -20,7 +20,7 @@ pub fn scenario(spec: &str) -> Result<ScenarioFile, Failure> {
 
 /// A robot as typed: its file, and the scenario with what was changed.
 pub fn robot(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
-    let file = scenario(&args.scenario)?;
+    let file = ibr::studies::scenario_in_space(&args.scenario)?;
     let mut changed = if args.bare { file.bare() } else { file.scenario.clone() };
     for text in &args.effect {
         changed = with_effect(&changed, text)?.0;
