@@ -72,8 +72,14 @@ impl ScenarioFile {
         if !self.scenario.is_spatial() {
             return Ok(self);
         }
-        let message = format!("{}: this robot has strips round the body, and what was asked is built for planar robots", self.name);
-        Err(CompareError::refused(message, "ibr predict takes it; for the rest leave out [[strip]], azimuth_deg and turns"))
+        let message = format!(
+            "{}: this robot has strips round the body, and what was asked is built for planar robots",
+            self.name
+        );
+        Err(CompareError::refused(
+            message,
+            "ibr predict takes it; for the rest leave out [[strip]], azimuth_deg and turns",
+        ))
     }
 
     /// The same for what is built for strips round the body too.

@@ -89,7 +89,10 @@ impl CuttingPlan {
             return Err("a beam without [actuator] has no sewing pattern; add one".into());
         }
         if scenario.is_spatial() {
-            return Err("sewing patterns are built for one strip along the body; leave out [[strip]], azimuth_deg and turns".into());
+            return Err(
+                "sewing patterns are built for one strip along the body; leave out [[strip]], azimuth_deg and turns"
+                    .into(),
+            );
         }
         let spans = scenario.spans();
         let mut notes = Vec::new();

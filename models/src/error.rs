@@ -52,7 +52,9 @@ pub enum Unsolved {
         what: &'static str,
     },
     /// Built for planar robots alone.
-    #[error("{what} is built for planar robots; this one has strips round the body, for which ibr predict gives the shape at pressures")]
+    #[error(
+        "{what} is built for planar robots; this one has strips round the body, for which ibr predict gives the shape at pressures"
+    )]
     InSpace {
         /// What was asked for.
         what: &'static str,

@@ -146,7 +146,8 @@ impl Model {
         }
         place(&self.assembly, &mut out.work);
         let (work, last) = (&out.work, self.assembly.segments.len());
-        out.tip = Tip { x_m: work.nodes[2 * last], y_m: work.nodes[2 * last + 1], z_m: 0.0, angle_rad: work.headings[last] };
+        out.tip =
+            Tip { x_m: work.nodes[2 * last], y_m: work.nodes[2 * last + 1], z_m: 0.0, angle_rad: work.headings[last] };
     }
 
     /// Potential energy of every term at a predicted state \[J\], in the order in which terms were added. In a state of

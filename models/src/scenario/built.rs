@@ -15,7 +15,10 @@ impl Scenario {
             return Err("a beam without [actuator] has no sewing pattern; add one".into());
         }
         if self.is_spatial() {
-            return Err("strips round the body are built for ibr predict alone; leave out [[strip]], azimuth_deg and turns".into());
+            return Err(
+                "strips round the body are built for ibr predict alone; leave out [[strip]], azimuth_deg and turns"
+                    .into(),
+            );
         }
         sewn(pattern, self.radius_m, weld_m, margin_m)?;
         let end_m = self.length_m * (1.0 + 1e-9);

@@ -14,7 +14,8 @@ const AZIMUTH: Range = Range {
     si: PI / 180.0,
     ..Range::plain(-360.0, 360.0, "write degrees from y towards z: 90 is z")
 };
-const TURNS: Range = Range { name: "turns", ..Range::plain(-20.0, 20.0, "write turns round the body from start to end") };
+const TURNS: Range =
+    Range { name: "turns", ..Range::plain(-20.0, 20.0, "write turns round the body from start to end") };
 
 /// Azimuth \[rad\] and turns.
 pub(super) fn round_the_body(a: &RawActuator) -> Checked<(f64, f64)> {
@@ -56,7 +57,8 @@ pub(super) fn more_strips(
         if let Some(other) = std::iter::once(first).chain(&strips).find(|other| overlap(other, &next, radius_m)) {
             let (a, b) = (other.azimuth_rad.to_degrees(), next.azimuth_rad.to_degrees());
             let message = format!("the strips from azimuth {a:.0} and {b:.0} degrees lie on each other");
-            let help = "move azimuth_deg or start_mm, or make them narrower: width_mm over the radius is the angle they take";
+            let help =
+                "move azimuth_deg or start_mm, or make them narrower: width_mm over the radius is the angle they take";
             return refuse(message, help, strip.span());
         }
         strips.push(next);

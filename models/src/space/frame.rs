@@ -18,8 +18,7 @@ pub(crate) struct Frame {
 
 impl Frame {
     /// The clamp.
-    pub const BASE: Frame =
-        Frame { at: [0.0; 3], tangent: [1.0, 0.0, 0.0], sides: [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
+    pub const BASE: Frame = Frame { at: [0.0; 3], tangent: [1.0, 0.0, 0.0], sides: [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
 }
 
 /// A stretch of one bend.

@@ -51,8 +51,7 @@ impl Model {
         }
         let length = self.assembly().length_m();
         let point = |i: usize| {
-            let (segment, offset) =
-                locate(&self.assembly().segments, length * i as f64 / (count.max(2) - 1) as f64);
+            let (segment, offset) = locate(&self.assembly().segments, length * i as f64 / (count.max(2) - 1) as f64);
             self.stretch_in_space(&at.work, segment).at(offset).at
         };
         (0..count).map(point).collect()

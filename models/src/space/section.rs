@@ -105,7 +105,14 @@ impl<'a> Section<'a> {
     }
 
     fn loads(&self, p_act_pa: f64) -> SiteLoads {
-        SiteLoads { p_body_pa: self.p_body_pa, p_act_pa, moment: 0.0, s_m: self.segment.middle_m(), dt_s: 0.0, stamp: 0 }
+        SiteLoads {
+            p_body_pa: self.p_body_pa,
+            p_act_pa,
+            moment: 0.0,
+            s_m: self.segment.middle_m(),
+            dt_s: 0.0,
+            stamp: 0,
+        }
     }
 
     /// Its actuator, if the pressure opens it.
@@ -129,12 +136,7 @@ impl<'a> Section<'a> {
         let tension = -slope / (link.stroke_fraction * stroke.d_contraction - cos2 * k * d_arm);
         let from_axis_m = arm - site.radius_m;
         let own = link.stroke_fraction * stroke.contraction - link.compliance_per_n * tension;
-        Fit {
-            contraction: own / cos2 - from_axis_m * k,
-            force: tension * strip.cos_slant,
-            from_axis_m,
-            tension,
-        }
+        Fit { contraction: own / cos2 - from_axis_m * k, force: tension * strip.cos_slant, from_axis_m, tension }
     }
 
     /// Coordinate of a strip at a contraction of the axis and a bend: the end of its range where it goes no further.
@@ -201,19 +203,15 @@ impl<'a> Section<'a> {
         let second = |i: usize, j: usize| {
             let own = if i == j { self.bending } else { 0.0 };
             if is_slack {
-                return own + pulls.bend[i][j] - pulls.mixed[i] * pulls.mixed[j] / pulls.stiffness.max(f64::MIN_POSITIVE);
+                return own + pulls.bend[i][j]
+                    - pulls.mixed[i] * pulls.mixed[j] / pulls.stiffness.max(f64::MIN_POSITIVE);
             }
             let r = self.radius_m;
             let taut = pulls.bend[i][j] + r * (n[i] * pulls.mixed[j] + n[j] * pulls.mixed[i]);
             let across = if i == j { 1.0 - n[i] * n[j] } else { -n[i] * n[j] };
             own + taut + r * r * pulls.stiffness * n[i] * n[j] + held / size.max(STRAIGHT) * across
         };
-        Ok(Balance {
-            contraction,
-            slope,
-            second: [[second(0, 0), second(0, 1)], [second(1, 0), second(1, 1)]],
-            taut_n,
-        })
+        Ok(Balance { contraction, slope, second: [[second(0, 0), second(0, 1)], [second(1, 0), second(1, 1)]], taut_n })
     }
 
     /// The equilibrium; `strips` has the pressures, and gets the rest.

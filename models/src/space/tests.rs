@@ -259,3 +259,33 @@ fn the_slopes_of_the_tip_are_those_of_two_predictions() {
     let slope = (tip(12.1e3) - tip(11.9e3)) / 200.0;
     assert!((slopes[1].y_per_pa / slope - 1.0).abs() < 1e-2, "{} {slope}", slopes[1].y_per_pa);
 }
+
+/// Three to four strips at random azimuths and pressures: always a state, and the one from any start.
+#[test]
+fn every_set_of_pressures_has_one_equilibrium() {
+    let mut seed = 7_u64;
+    let mut random = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let more = "[[strip]]\nazimuth_deg = 95\nchannel = 1\n[[strip]]\nazimuth_deg = 190\nchannel = 2";
+    for scenario in [robot("epam", "", more), full("", more), robot("fpam", "", more), full("", more).with_bending(0.5)]
+    {
+        let model = Model::new(&scenario);
+        let section = Section::new(model.assembly(), 0, 2e3);
+        for _ in 0..200 {
+            let pressures: [f64; 3] = std::array::from_fn(|_| (100.0 * random() * random() - 2.0).max(0.0) * 1e3);
+            let mut strips = pressures.map(|p_act_pa: f64| StripState { p_act_pa, ..StripState::default() });
+            let pulled = strips;
+            let at = section.solve(&mut strips).unwrap_or_else(|e| panic!("{pressures:?}: {e}"));
+            if strips.iter().filter(|strip| strip.tension > 0.0).count() < 2 {
+                continue;
+            }
+            let start = [8.0 * random() - 4.0, 8.0 * random() - 4.0];
+            let mut strips = pulled;
+            let other = section.minimum(&mut strips, start).unwrap_or_else(|e| panic!("{pressures:?} {start:?}: {e}"));
+            let off = (other.kappa[0] - at.kappa[0]).hypot(other.kappa[1] - at.kappa[1]);
+            assert!(off < 1e-6, "{pressures:?} from {start:?}: {off:e} {at:?} {other:?}");
+        }
+    }
+}
