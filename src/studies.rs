@@ -26,10 +26,14 @@ pub const STUDIES: &[(&str, &str, &str)] = &[
     ("tip-load", "a load on the tip", include_str!("../studies/tip-load.toml")),
     (
         "epam-two-strips",
-        "two strips of pouches a quarter round the body apart",
+        "two strips of pouches at 90 degrees, for ibr predict",
         include_str!("../studies/epam-two-strips.toml"),
     ),
-    ("epam-helix", "a strip of pouches that turns round the body", include_str!("../studies/epam-helix.toml")),
+    (
+        "epam-helix",
+        "a strip of pouches wound round the body, for ibr predict",
+        include_str!("../studies/epam-helix.toml"),
+    ),
     ("obstacle", "a cylinder in the way", include_str!("../studies/obstacle.toml")),
 ];
 

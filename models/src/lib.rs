@@ -18,6 +18,7 @@ pub mod body;
 mod catalogue;
 pub mod comer_levy;
 pub mod cutting;
+mod drawn;
 pub mod effects;
 pub mod error;
 pub mod export;

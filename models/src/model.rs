@@ -132,11 +132,9 @@ impl Model {
     }
 
     fn see(&self, out: &mut Prediction) {
-        self.sight(&out.work, &mut out.markers);
-        if self.is_spatial() {
-            for (z, (segment, offset)) in out.markers_z_m.iter_mut().zip(&self.markers) {
-                *z = self.seen_in_space(&out.work, *segment, *offset)[2];
-            }
+        match self.is_spatial() {
+            true => self.see_in_space(&self.markers, out),
+            false => self.sight(&out.work, &mut out.markers),
         }
     }
 
@@ -187,35 +185,6 @@ impl Model {
         &at.work.states
     }
 
-    /// `count` points of the centre line from base to tip \[m\], for drawing.
-    pub fn centre_line(&self, at: &Prediction, count: usize) -> Vec<[f64; 2]> {
-        if self.is_spatial() {
-            return self.centre_line_in_space(at, count).into_iter().map(|[x, y, _]| [x, y]).collect();
-        }
-        let length: f64 = self.assembly.segments.iter().map(|s| s.length_m).sum();
-        (0..count)
-            .map(|i| {
-                let (segment, offset) = locate(&self.assembly.segments, length * i as f64 / (count.max(2) - 1) as f64);
-                self.stretch(&at.work, segment).at(offset).0
-            })
-            .collect()
-    }
-
-    /// Both sides of the body in the plane of bending at `count` stations from base to tip \[m\], the actuator's first, for drawing.
-    pub fn outline(&self, at: &Prediction, count: usize) -> [Vec<[f64; 2]>; 2] {
-        let length: f64 = self.assembly.segments.iter().map(|s| s.length_m).sum();
-        let mut sides = [Vec::with_capacity(count), Vec::with_capacity(count)];
-        for i in 0..count {
-            let (segment, offset) = locate(&self.assembly.segments, length * i as f64 / (count.max(2) - 1) as f64);
-            let ([x, y], heading) = self.stretch(&at.work, segment).at(offset);
-            let radius = self.assembly.sites[self.assembly.segments[segment].site].radius_m;
-            let across = [-radius * heading.sin(), radius * heading.cos()];
-            sides[0].push([x + across[0], y + across[1]]);
-            sides[1].push([x - across[0], y - across[1]]);
-        }
-        sides
-    }
-
     /// Largest actuator pressure of the search for an inverse \[Pa\], from the scenario.
     pub fn p_max_pa(&self) -> f64 {
         self.p_max_pa
@@ -249,7 +218,7 @@ impl Model {
     }
 
     #[inline]
-    fn stretch(&self, work: &Workspace, segment: usize) -> Stretch {
+    pub(crate) fn stretch(&self, work: &Workspace, segment: usize) -> Stretch {
         let offset_m = self.assembly.sites[self.assembly.segments[segment].site].centre_line_m;
         let from = [work.nodes[2 * segment], work.nodes[2 * segment + 1]];
         let stretch = Stretch::new(
@@ -264,16 +233,10 @@ impl Model {
 
     /// The markers as the camera sees them.
     pub(crate) fn sight(&self, work: &Workspace, markers: &mut [[f64; 2]]) {
-        if self.is_spatial() {
-            for (marker, (segment, offset)) in markers.iter_mut().zip(&self.markers) {
-                let [x, y, _] = self.seen_in_space(work, *segment, *offset);
-                *marker = [x, y];
-            }
-            return;
-        }
         let Some(&(mut current, _)) = self.markers.first() else { return };
         let mut stretch = self.stretch(work, current);
-        let p_act_pa = if self.assembly.camera.is_empty() { 0.0 } else { largest(&work.p_act_pa) };
+        let largest = || work.p_act_pa.iter().fold(0.0, |most, p| p.max(most));
+        let p_act_pa = if self.assembly.camera.is_empty() { 0.0 } else { largest() };
         for (marker, (segment, offset)) in markers.iter_mut().zip(&self.markers) {
             if *segment != current {
                 current = *segment;
@@ -354,10 +317,6 @@ impl Model {
         }
         nodes
     }
-}
-
-fn largest(pressures: &[f64]) -> f64 {
-    pressures.iter().fold(0.0, |most, p| p.max(most))
 }
 
 #[inline]

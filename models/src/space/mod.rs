@@ -71,8 +71,6 @@ pub struct Strip {
     pub azimuth_rad: f64,
     /// cos β of its slant to the axis.
     pub cos_slant: f64,
-    /// Slope of the azimuth dθ/ds \[rad/m\].
-    pub turn: f64,
 }
 
 /// Unit vector (y, z) at an azimuth, exact at quarter turns.
@@ -122,7 +120,6 @@ pub(crate) fn around(strips: &[ActuatorChoice], radius_m: f64, spans: usize, seg
         site: i * spans + segment.site,
         azimuth_rad: choice.azimuth_at(radius_m, segment.middle_m()),
         cos_slant: choice.cos_slant(radius_m),
-        turn: if choice.turns == 0.0 { 0.0 } else { TAU * choice.turns / choice.covered_m(radius_m) },
     };
     segments.iter().map(|segment| strips.iter().enumerate().map(|s| strip(segment, s)).collect()).collect()
 }

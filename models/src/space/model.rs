@@ -1,10 +1,9 @@
 //! What a [`Model`] says of a robot in space.
 
-use super::frame::mix;
-use super::{Section, Stretch, StripState, direction};
+use super::{Section, Stretch, StripState};
 use crate::assembly::Segment;
 use crate::error::Unsolved;
-use crate::model::{Model, Prediction, locate, post};
+use crate::model::{Model, Prediction, post};
 use crate::robot::Workspace;
 use crate::term::{Row, RowKind};
 
@@ -44,39 +43,7 @@ impl Model {
         self.assembly().segments.iter().zip(work.bends.iter().zip(&work.strips)).map(section)
     }
 
-    /// `count` points of the centre line from base to tip \[m\].
-    pub fn centre_line_in_space(&self, at: &Prediction, count: usize) -> Vec<[f64; 3]> {
-        if !self.is_spatial() {
-            return self.centre_line(at, count).into_iter().map(|[x, y]| [x, y, 0.0]).collect();
-        }
-        let length = self.assembly().length_m();
-        let point = |i: usize| {
-            let (segment, offset) = locate(&self.assembly().segments, length * i as f64 / (count.max(2) - 1) as f64);
-            self.stretch_in_space(&at.work, segment).at(offset).at
-        };
-        (0..count).map(point).collect()
-    }
-
-    /// `count` points of every strip on the wall from base to tip \[m\], in the order of the scenario; none of a planar robot.
-    pub fn strips_in_space(&self, at: &Prediction, count: usize) -> Vec<Vec<[f64; 3]>> {
-        let assembly = self.assembly();
-        let strips = assembly.around.first().map_or(0, Vec::len);
-        let length = assembly.length_m();
-        let point = |strip: usize, i: usize| {
-            let (segment, offset) = locate(&assembly.segments, length * i as f64 / (count.max(2) - 1) as f64);
-            let here = &assembly.around[segment][strip];
-            let site = &assembly.sites[here.site];
-            site.actuator?;
-            let within = offset - 0.5 * assembly.segments[segment].length_m;
-            let [y, z] = direction(here.azimuth_rad + here.turn * within);
-            let frame = self.stretch_in_space(&at.work, segment).at(offset);
-            let out = mix(y * site.radius_m, frame.sides[0], z * site.radius_m, frame.sides[1]);
-            Some(mix(1.0, frame.at, 1.0, out))
-        };
-        (0..strips).map(|strip| (0..count).filter_map(|i| point(strip, i)).collect()).collect()
-    }
-
-    fn stretch_in_space(&self, work: &Workspace, segment: usize) -> Stretch {
+    pub(crate) fn stretch_in_space(&self, work: &Workspace, segment: usize) -> Stretch {
         let site = &self.assembly().sites[self.assembly().segments[segment].site];
         let bend = work.space.bends[segment];
         let contraction = bend.contraction + (site.centre_line_m - site.radius_m) * bend.size();
@@ -98,9 +65,12 @@ impl Model {
         out.tip = crate::model::Tip { x_m, y_m, z_m, angle_rad: turned };
     }
 
-    /// A point of the centre line: effects of the camera are refused in space.
-    pub(crate) fn seen_in_space(&self, work: &Workspace, segment: usize, offset: f64) -> [f64; 3] {
-        self.stretch_in_space(work, segment).at(offset).at
+    /// Markers on the centre line: effects of the camera are refused in space.
+    pub(crate) fn see_in_space(&self, places: &[(usize, f64)], out: &mut Prediction) {
+        for (i, (segment, offset)) in places.iter().enumerate() {
+            let [x, y, z] = self.stretch_in_space(&out.work, *segment).at(*offset).at;
+            (out.markers[i], out.markers_z_m[i]) = ([x, y], z);
+        }
     }
 
     /// Sets the strips' pressures from those of the channels.

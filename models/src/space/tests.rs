@@ -289,3 +289,26 @@ fn every_set_of_pressures_has_one_equilibrium() {
         }
     }
 }
+
+/// Curvatures at 20 kPa \[1/m\] from before there were strips round the body.
+const PLANAR: [(&str, f64); 8] = [
+    ("spam", 1.7596820867549439),
+    ("cpam", 4.084099552755166),
+    ("epam", 2.004340314971638),
+    ("fpam", 1.0944503665610517),
+    ("spam-textbook", 3.3667842102841754),
+    ("cpam-textbook", 4.030559589937582),
+    ("epam-textbook", 4.030559589937582),
+    ("fpam-textbook", 1.47361045223847),
+];
+
+#[test]
+fn planar_robots_do_not_change_a_bit() {
+    for (name, kappa) in PLANAR {
+        let scenario = Scenario::parse(crate::shipped(name).unwrap()).unwrap();
+        let (model, out) = at(&scenario, [20.0; 4]);
+        assert!(!model.is_spatial() && model.sections(&out).next().is_none());
+        assert_eq!(out.work.states[0].curvature, kappa, "{name}");
+        assert!(out.tip.z_m == 0.0 && out.markers_z_m.iter().all(|z| *z == 0.0));
+    }
+}
