@@ -42,7 +42,7 @@ impl Model {
         self.assembly().sites[self.segments()[segment].site].actuator.is_some()
     }
 
-    /// Markers and tip of the shape with these curvatures \[1/m\], one per segment; nothing has to balance.
+    /// Markers and tip of the shape of a planar robot with these curvatures \[1/m\], one per segment; nothing has to balance.
     pub fn bend(&self, loads: &Loads, curvatures: &[f64], out: &mut Prediction) {
         self.supply(loads, &mut out.work);
         bend(self.assembly(), self.body_pa(loads), &mut out.work, curvatures);
