@@ -72,14 +72,13 @@ impl ScenarioFile {
         if !self.scenario.is_spatial() {
             return Ok(self);
         }
-        let message = format!(
-            "{}: this robot has strips round the body, and what was asked is built for planar robots",
-            self.name
-        );
-        Err(CompareError::refused(
-            message,
-            "ibr predict takes it; for the rest leave out [[strip]], azimuth_deg and turns",
-        ))
+        let start = ["[[strip]]", "azimuth_deg", "turns"].iter().find_map(|key| self.text.find(key));
+        let error = ScenarioError {
+            message: "this robot has strips round the body, and what was asked is built for planar robots".into(),
+            help: Some("ibr predict takes it; for the rest remove [[strip]], azimuth_deg and turns".into()),
+            span: start.map(|start| (start, start + 1)),
+        };
+        Err(fault(&self.name, &self.text, &error))
     }
 
     /// The same for what is built for strips round the body too.

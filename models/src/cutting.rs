@@ -90,7 +90,7 @@ impl CuttingPlan {
         }
         if scenario.is_spatial() {
             return Err(
-                "sewing patterns are built for one strip along the body; leave out [[strip]], azimuth_deg and turns"
+                "sewing patterns are built for one strip along the body; write one [actuator] without azimuth_deg and turns"
                     .into(),
             );
         }

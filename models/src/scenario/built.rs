@@ -16,8 +16,7 @@ impl Scenario {
         }
         if self.is_spatial() {
             return Err(
-                "strips round the body are built for ibr predict alone; leave out [[strip]], azimuth_deg and turns"
-                    .into(),
+                "strips round the body are built for ibr predict alone; write one [actuator] without azimuth_deg and turns".into(),
             );
         }
         sewn(pattern, self.radius_m, weld_m, margin_m)?;
