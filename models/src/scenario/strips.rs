@@ -105,7 +105,7 @@ pub(super) fn check_space(scenario: &Scenario, raw: &Raw) -> Checked<()> {
         return Ok(());
     }
     let only = format!("strips round the body take {}", IN_SPACE.join(", "));
-    for (name, _) in &raw.effects {
+    for name in raw.effects.keys() {
         if !IN_SPACE.contains(&name.get_ref().as_str()) {
             let message = format!("the effect {} is not built for strips round the body", name.get_ref());
             return refuse(message, only, name.span());

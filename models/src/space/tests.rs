@@ -202,7 +202,6 @@ fn a_helical_strip_makes_a_helix_and_sections_converge_with_their_square() {
         let found = [out.tip.x_m, out.tip.y_m, out.tip.z_m];
         misses.push((0..3).map(|i| (found[i] - tip[i]).powi(2)).sum::<f64>().sqrt());
     }
-    println!("misses [m]: {misses:?}");
     for pair in misses.windows(2) {
         assert!((pair[0] / pair[1] - 4.0).abs() < 0.2, "{misses:?}");
     }
