@@ -99,6 +99,9 @@ pub unsafe extern "C" fn ibr_open(scenario: *const c_char, error: *mut c_char, e
 
 fn open(text: &str) -> Result<ibr_robot, String> {
     let scenario = Scenario::parse(text).map_err(|fault| fault.in_text(text))?;
+    if scenario.is_spatial() {
+        return Err("this robot has strips round the body, and this interface knows x and y alone; leave out [[strip]], azimuth_deg and turns".into());
+    }
     let model = Model::new(&scenario);
     let (state, steering) = (model.prediction(), model.steering());
     Ok(ibr_robot { model, body_pa: scenario.p_body_pa, state, steering, error: Text::default() })
@@ -302,7 +305,7 @@ unsafe fn pressures(given_pa: *const f64) -> Option<[f64; CHANNELS]> {
 }
 
 fn tip_of(at: &Prediction) -> ibr_tip {
-    let models::Tip { x_m, y_m, angle_rad } = at.tip;
+    let models::Tip { x_m, y_m, angle_rad, .. } = at.tip;
     ibr_tip { x_m, y_m, angle_rad }
 }
 
@@ -332,7 +335,10 @@ unsafe fn call(robot: *mut ibr_robot, work: impl FnOnce(&mut ibr_robot) -> Resul
 
 fn code(error: &Unsolved) -> i32 {
     match error {
-        Unsolved::BadPressure { .. } | Unsolved::BadAim { .. } | Unsolved::BadTime { .. } => IBR_BAD_ARGUMENT,
+        Unsolved::BadPressure { .. }
+        | Unsolved::BadAim { .. }
+        | Unsolved::BadTime { .. }
+        | Unsolved::InSpace { .. } => IBR_BAD_ARGUMENT,
         Unsolved::OutOfReach { .. } | Unsolved::Jump { .. } => IBR_OUT_OF_REACH,
         Unsolved::NoEquilibrium { .. } | Unsolved::Formula { .. } | Unsolved::NotConverged { .. } => IBR_UNSOLVED,
     }

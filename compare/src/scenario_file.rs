@@ -35,12 +35,20 @@ impl ScenarioFile {
     /// # Errors
     /// No such file, or a fault in it with its line and what to write.
     pub fn read(name: &str) -> Result<ScenarioFile, CompareError> {
+        ScenarioFile::read_in_space(name)?.planar()
+    }
+
+    /// The same for what is built for strips round the body too.
+    ///
+    /// # Errors
+    /// As [`ScenarioFile::read`].
+    pub fn read_in_space(name: &str) -> Result<ScenarioFile, CompareError> {
         let cause = match (read_whole(Path::new(name), MOST_TEXT), models::shipped(name)) {
-            (Err(_), Some(text)) if !Path::new(name).exists() => return ScenarioFile::parse(name, text),
+            (Err(_), Some(text)) if !Path::new(name).exists() => return ScenarioFile::parse_in_space(name, text),
             (Err(cause), _) => cause.to_string(),
             (Ok(bytes), _) => match String::from_utf8(bytes) {
                 Ok(text) if text.trim().is_empty() => "the file is empty".to_string(),
-                Ok(text) => return ScenarioFile::parse(name, &text),
+                Ok(text) => return ScenarioFile::parse_in_space(name, &text),
                 Err(_) => "it is not a text in UTF-8".to_string(),
             },
         };
@@ -56,6 +64,28 @@ impl ScenarioFile {
     /// # Errors
     /// A fault in it with its line and what to write.
     pub fn parse(name: &str, text: &str) -> Result<ScenarioFile, CompareError> {
+        ScenarioFile::parse_in_space(name, text)?.planar()
+    }
+
+    /// A robot without strips round the body: most questions are built for those alone.
+    fn planar(self) -> Result<ScenarioFile, CompareError> {
+        if !self.scenario.is_spatial() {
+            return Ok(self);
+        }
+        let start = ["[[strip]]", "azimuth_deg", "turns"].iter().find_map(|key| self.text.find(key));
+        let error = ScenarioError {
+            message: "this robot has strips round the body, and what was asked is built for planar robots".into(),
+            help: Some("ibr predict takes it; for the rest remove [[strip]], azimuth_deg and turns".into()),
+            span: start.map(|start| (start, start + 1)),
+        };
+        Err(fault(&self.name, &self.text, &error))
+    }
+
+    /// The same for what is built for strips round the body too.
+    ///
+    /// # Errors
+    /// As [`ScenarioFile::parse`].
+    pub fn parse_in_space(name: &str, text: &str) -> Result<ScenarioFile, CompareError> {
         let scenario = Scenario::parse(text).map_err(|error| fault(name, text, &error))?;
         Ok(ScenarioFile { name: name.into(), text: text.into(), scenario })
     }
@@ -72,7 +102,8 @@ impl ScenarioFile {
             let value: Value = text.parse().map_err(|_| refused(format!("{place} = {text} is no value of TOML")))?;
             set(&mut document, place, value).ok_or_else(|| refused(format!("{place} is not in a table")))?;
         }
-        ScenarioFile::parse(&self.name, &document.to_string())
+        let new = ScenarioFile::parse_in_space(&self.name, &document.to_string())?;
+        if self.scenario.is_spatial() { Ok(new) } else { new.planar() }
     }
 
     /// The scenario that an embedded set or a folder of data brings along.

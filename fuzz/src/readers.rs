@@ -170,7 +170,9 @@ fn scenarios() -> Vec<Vec<u8>> {
     let textbook = models::shipped("epam-textbook").unwrap_or_default();
     let spring = format!("{textbook}{}", FORMULA.replace("FORMULA", "-k*theta^3 * exp(-s/R)"));
     let zone = format!("{textbook}\n[[zone]]\nfrom_mm = 10\nto_mm = 50\nradius_mm = 30\n");
-    texts(&[models::shipped("epam").unwrap_or_default(), models::shipped("fpam").unwrap_or_default(), &spring, &zone])
+    let strips = format!("{textbook}\n[[strip]]\nazimuth_deg = 180\nturns = 0.2\nchannel = 1\n");
+    let shipped = |name: &str| models::shipped(name).unwrap_or_default();
+    texts(&[shipped("epam"), shipped("fpam"), &spring, &zone, &strips])
 }
 
 /// As `ibr predict` does.

@@ -2,6 +2,7 @@
 
 use crate::actuators::Family;
 use crate::site::Site;
+use crate::space::Strip;
 use crate::term::Term;
 
 /// Set pressure \[Pa\], and for how long it has been held \[s\] → pressure in the actuator \[Pa\].
@@ -44,6 +45,8 @@ pub struct Assembly {
     pub sites: Vec<Site>,
     /// Division of the body, base to tip.
     pub segments: Vec<Segment>,
+    /// Strips of actuators round the body, per segment; empty: one strip towards y, and the robot is planar.
+    pub around: Vec<Vec<Strip>>,
     /// Terms over node positions, J.
     pub node_terms: Vec<Box<dyn Term>>,
     /// Supply laws in order.
@@ -66,6 +69,7 @@ impl Assembly {
         Assembly {
             sites: Vec::new(),
             segments: Vec::new(),
+            around: Vec::new(),
             node_terms: Vec::new(),
             supply: Vec::new(),
             body_offset_pa: 0.0,

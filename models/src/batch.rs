@@ -45,8 +45,9 @@ impl Model {
     /// # Errors
     /// The first [`Unsolved`]; the states before it are in `out`, so `out.tips.len()` is the index of the culprit.
     pub fn predict_batch(&self, loads: &[Loads], out: &mut Batch) -> Result<(), Unsolved> {
+        self.planar("a batch, which has no z,")?;
         out.markers.resize(loads.len() * self.marker_count(), [0.0; 2]);
-        out.tips.resize(loads.len(), Tip { x_m: 0.0, y_m: 0.0, angle_rad: 0.0 });
+        out.tips.resize(loads.len(), Tip { x_m: 0.0, y_m: 0.0, z_m: 0.0, angle_rad: 0.0 });
         let whole = Part { first: 0, loads, markers: &mut out.markers, tips: &mut out.tips };
         let failed = match out.states.as_mut_slice() {
             [state] => self.predict_part(whole, state),

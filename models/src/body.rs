@@ -95,6 +95,15 @@ impl std::ops::Deref for BodyLaw {
 }
 
 impl BodyLaw {
+    /// Share of πp_bR³ that the folded section carries; 1 where an effect has replaced the law.
+    pub(crate) fn share(&self) -> f64 {
+        match self {
+            BodyLaw::Hinge(law) => law.share,
+            BodyLaw::Wall(law) => law.share,
+            BodyLaw::Replaced(_) => 1.0,
+        }
+    }
+
     /// The moment of the gas is another than that of a round section by a factor; a replaced law keeps its own.
     pub(crate) fn scale(&mut self, factor: f64) {
         match self {

@@ -88,6 +88,12 @@ impl CuttingPlan {
         if !scenario.actuator.exists() {
             return Err("a beam without [actuator] has no sewing pattern; add one".into());
         }
+        if scenario.is_spatial() {
+            return Err(
+                "sewing patterns are built for one strip along the body; write one [actuator] without azimuth_deg and turns"
+                    .into(),
+            );
+        }
         let spans = scenario.spans();
         let mut notes = Vec::new();
         let mut strips = Vec::new();

@@ -51,6 +51,14 @@ pub enum Unsolved {
         /// What is wrong.
         what: &'static str,
     },
+    /// Built for planar robots alone.
+    #[error(
+        "{what} is built for planar robots; this one has strips round the body, for which ibr predict gives the shape at pressures"
+    )]
+    InSpace {
+        /// What was asked for.
+        what: &'static str,
+    },
     /// A time that is not a number of seconds.
     #[error("the time {t_s} s of a step of the protocol is not finite")]
     BadTime {

@@ -42,7 +42,7 @@ impl Model {
         self.assembly().sites[self.segments()[segment].site].actuator.is_some()
     }
 
-    /// Markers and tip of the shape with these curvatures \[1/m\], one per segment; nothing has to balance.
+    /// Markers and tip of the shape of a planar robot with these curvatures \[1/m\], one per segment; nothing has to balance.
     pub fn bend(&self, loads: &Loads, curvatures: &[f64], out: &mut Prediction) {
         self.supply(loads, &mut out.work);
         bend(self.assembly(), self.body_pa(loads), &mut out.work, curvatures);
@@ -75,6 +75,7 @@ impl Model {
         out: &mut Prediction,
         each: &mut dyn FnMut(usize, &Prediction),
     ) -> Result<(), Unsolved> {
+        self.planar("holding a robot at curvatures")?;
         out.work.held.missing = vec![0.0; self.segments().len()];
         let walked = self.walk(steps, Some(curvatures), out, each);
         out.work.held = Held::default();

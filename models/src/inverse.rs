@@ -198,7 +198,14 @@ impl Model {
     /// Channels with an actuator that its pressure has not opened.
     fn flat(&self, loads: &Loads, at: &Prediction) -> [bool; CHANNELS] {
         let (mut flat, body_pa) = ([false; CHANNELS], self.body_pa(loads));
-        for (segment, p) in self.assembly().segments.iter().zip(&at.work.p_act_pa) {
+        for (states, strips) in at.work.space.strips.iter().zip(&self.assembly().around) {
+            for (state, strip) in states.iter().zip(strips) {
+                let site = &self.assembly().sites[strip.site];
+                flat[site.channel] |= site.actuator.is_some() && !site.is_open(body_pa, state.p_act_pa);
+            }
+        }
+        let planar = self.assembly().segments.iter().filter(|_| !self.is_spatial());
+        for (segment, p) in planar.zip(&at.work.p_act_pa) {
             let site = &self.assembly().sites[segment.site];
             flat[site.channel] |= site.actuator.is_some() && !site.is_open(body_pa, *p);
         }

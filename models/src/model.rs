@@ -5,9 +5,10 @@ use crate::assembly::{Assembly, Segment, Sighting};
 use crate::body::{Bending, BodyLaw, BodyPressure, BodyWall};
 use crate::error::Unsolved;
 use crate::robot::{Workspace, equilibrium, place};
-use crate::scenario::{Scenario, Span};
+use crate::scenario::{ActuatorChoice, Scenario, Span};
 use crate::shape::Stretch;
 use crate::site::{Linkage, Site, SiteState};
+use crate::space::around;
 use crate::term::{Account, CHANNELS, LedgerLine, Loads, Pose, Row, RowKind, Term, actuator_q};
 
 /// A robot with its list of terms. Made once from a scenario; predicting does not change it.
@@ -26,9 +27,11 @@ const P_LIMIT_PA: f64 = 1e6;
 pub struct Tip {
     /// Along the undeformed body \[m\].
     pub x_m: f64,
-    /// Towards the actuator \[m\].
+    /// Towards azimuth 0, where the actuator of a planar robot is \[m\].
     pub y_m: f64,
-    /// Heading, the total bending angle \[rad\].
+    /// Towards azimuth 90°; 0 of a planar robot \[m\].
+    pub z_m: f64,
+    /// Heading, the total bending angle; in space ∫|κ| ds, whatever the directions \[rad\].
     pub angle_rad: f64,
 }
 
@@ -37,6 +40,8 @@ pub struct Tip {
 pub struct Prediction {
     /// Marker positions as the camera sees them \[m\].
     pub markers: Vec<[f64; 2]>,
+    /// Their third coordinate, 0 of a planar robot \[m\].
+    pub markers_z_m: Vec<f64>,
     /// End of the centre line.
     pub tip: Tip,
     pub(crate) work: Workspace,
@@ -70,11 +75,15 @@ impl Model {
             site.tabulate(scenario.p_body_pa, scenario.p_max_pa);
         }
         // Without transverse loads and terms that vary along it every stretch of equal design is one arc.
-        if assembly.node_terms.is_empty() && !assembly.varies {
+        if assembly.node_terms.is_empty() && !assembly.varies && scenario.strips().all(|strip| strip.turns == 0.0) {
             assembly.segments = divide(spans, 1);
         }
         if let Some(own) = segments {
             assembly.segments = own;
+        }
+        if scenario.is_spatial() {
+            let strips: Vec<ActuatorChoice> = scenario.strips().copied().collect();
+            assembly.around = around(&strips, scenario.radius_m, spans.len(), &assembly.segments);
         }
         let markers = scenario.markers_m.iter().map(|s| locate(&assembly.segments, *s)).collect();
         Model { assembly, markers, p_max_pa: scenario.p_max_pa }
@@ -84,7 +93,8 @@ impl Model {
     pub fn prediction(&self) -> Prediction {
         Prediction {
             markers: vec![[0.0; 2]; self.markers.len()],
-            tip: Tip { x_m: 0.0, y_m: 0.0, angle_rad: 0.0 },
+            markers_z_m: vec![0.0; self.markers.len()],
+            tip: Tip { x_m: 0.0, y_m: 0.0, z_m: 0.0, angle_rad: 0.0 },
             work: Workspace::new(&self.assembly),
         }
     }
@@ -96,7 +106,7 @@ impl Model {
     /// [`Unsolved`] with pressures and place when a pressure is negative or not finite, or nothing balances.
     pub fn predict(&self, loads: &Loads, out: &mut Prediction) -> Result<(), Unsolved> {
         self.settle(loads, out, false)?;
-        self.sight(&out.work, &mut out.markers);
+        self.see(out);
         Ok(())
     }
 
@@ -118,13 +128,24 @@ impl Model {
     /// Tip and markers of the equilibrium in `out`.
     pub(crate) fn show(&self, out: &mut Prediction) {
         self.place_tip(out);
-        self.sight(&out.work, &mut out.markers);
+        self.see(out);
+    }
+
+    fn see(&self, out: &mut Prediction) {
+        match self.is_spatial() {
+            true => self.see_in_space(&self.markers, out),
+            false => self.sight(&out.work, &mut out.markers),
+        }
     }
 
     fn place_tip(&self, out: &mut Prediction) {
+        if self.is_spatial() {
+            return self.place_in_space(out);
+        }
         place(&self.assembly, &mut out.work);
         let (work, last) = (&out.work, self.assembly.segments.len());
-        out.tip = Tip { x_m: work.nodes[2 * last], y_m: work.nodes[2 * last + 1], angle_rad: work.headings[last] };
+        out.tip =
+            Tip { x_m: work.nodes[2 * last], y_m: work.nodes[2 * last + 1], z_m: 0.0, angle_rad: work.headings[last] };
     }
 
     /// Potential energy of every term at a predicted state \[J\], in the order in which terms were added. In a state of
@@ -132,6 +153,10 @@ impl Model {
     /// [`Model::predict`] its line is the sum.
     pub fn ledger(&self, loads: &Loads, at: &Prediction) -> Vec<Row> {
         let (mut lines, body_pa) = (Vec::new(), self.body_pa(loads));
+        if self.is_spatial() {
+            self.ledger_in_space(body_pa, at, &mut lines);
+            return lines;
+        }
         for (i, segment) in self.assembly.segments.iter().enumerate() {
             let site = &self.assembly.sites[segment.site];
             self.site_energies(site, segment, [body_pa, at.work.p_act_pa[i]], &at.work, i, &mut lines);
@@ -160,32 +185,6 @@ impl Model {
         &at.work.states
     }
 
-    /// `count` points of the centre line from base to tip \[m\], for drawing.
-    pub fn centre_line(&self, at: &Prediction, count: usize) -> Vec<[f64; 2]> {
-        let length: f64 = self.assembly.segments.iter().map(|s| s.length_m).sum();
-        (0..count)
-            .map(|i| {
-                let (segment, offset) = locate(&self.assembly.segments, length * i as f64 / (count.max(2) - 1) as f64);
-                self.stretch(&at.work, segment).at(offset).0
-            })
-            .collect()
-    }
-
-    /// Both sides of the body in the plane of bending at `count` stations from base to tip \[m\], the actuator's first, for drawing.
-    pub fn outline(&self, at: &Prediction, count: usize) -> [Vec<[f64; 2]>; 2] {
-        let length: f64 = self.assembly.segments.iter().map(|s| s.length_m).sum();
-        let mut sides = [Vec::with_capacity(count), Vec::with_capacity(count)];
-        for i in 0..count {
-            let (segment, offset) = locate(&self.assembly.segments, length * i as f64 / (count.max(2) - 1) as f64);
-            let ([x, y], heading) = self.stretch(&at.work, segment).at(offset);
-            let radius = self.assembly.sites[self.assembly.segments[segment].site].radius_m;
-            let across = [-radius * heading.sin(), radius * heading.cos()];
-            sides[0].push([x + across[0], y + across[1]]);
-            sides[1].push([x - across[0], y - across[1]]);
-        }
-        sides
-    }
-
     /// Largest actuator pressure of the search for an inverse \[Pa\], from the scenario.
     pub fn p_max_pa(&self) -> f64 {
         self.p_max_pa
@@ -207,6 +206,9 @@ impl Model {
     }
 
     pub(crate) fn supply(&self, loads: &Loads, work: &mut Workspace) {
+        if self.is_spatial() {
+            return self.supply_strips(&loads.actuator_pa, work);
+        }
         let held_s = work.history.held_s;
         for (p, segment) in work.p_act_pa.iter_mut().zip(&self.assembly.segments) {
             let site = &self.assembly.sites[segment.site];
@@ -216,7 +218,7 @@ impl Model {
     }
 
     #[inline]
-    fn stretch(&self, work: &Workspace, segment: usize) -> Stretch {
+    pub(crate) fn stretch(&self, work: &Workspace, segment: usize) -> Stretch {
         let offset_m = self.assembly.sites[self.assembly.segments[segment].site].centre_line_m;
         let from = [work.nodes[2 * segment], work.nodes[2 * segment + 1]];
         let stretch = Stretch::new(
@@ -233,7 +235,8 @@ impl Model {
     pub(crate) fn sight(&self, work: &Workspace, markers: &mut [[f64; 2]]) {
         let Some(&(mut current, _)) = self.markers.first() else { return };
         let mut stretch = self.stretch(work, current);
-        let p_act_pa = if self.assembly.camera.is_empty() { 0.0 } else { largest(&work.p_act_pa) };
+        let largest = || work.p_act_pa.iter().fold(0.0, |most, p| p.max(most));
+        let p_act_pa = if self.assembly.camera.is_empty() { 0.0 } else { largest() };
         for (marker, (segment, offset)) in markers.iter_mut().zip(&self.markers) {
             if *segment != current {
                 current = *segment;
@@ -316,10 +319,6 @@ impl Model {
     }
 }
 
-fn largest(pressures: &[f64]) -> f64 {
-    pressures.iter().fold(0.0, |most, p| p.max(most))
-}
-
 #[inline]
 pub(crate) fn check(loads: &Loads) -> Result<(), Unsolved> {
     let bad = |p: &f64| !(0.0..=P_LIMIT_PA).contains(p);
@@ -334,11 +333,11 @@ pub(crate) fn check(loads: &Loads) -> Result<(), Unsolved> {
 }
 
 /// Ledger lines of what is no term: its energy follows from the equilibrium.
-const FABRIC_STRETCH: LedgerLine = LedgerLine { name: "fabric_stretch", account: Account::Stretch };
+pub(crate) const FABRIC_STRETCH: LedgerLine = LedgerLine { name: "fabric_stretch", account: Account::Stretch };
 const WALL_SHEAR: LedgerLine = LedgerLine { name: "wall_shear", account: Account::Wall };
 
 /// Adds to the row of that name and kind, or opens it.
-fn post(rows: &mut Vec<Row>, line: LedgerLine, kind: RowKind, energy_j: f64) {
+pub(crate) fn post(rows: &mut Vec<Row>, line: LedgerLine, kind: RowKind, energy_j: f64) {
     match rows.iter_mut().find(|row| row.name == line.name && row.kind == kind) {
         Some(row) => row.energy_j += energy_j,
         None => rows.push(line.row(kind, energy_j)),
@@ -346,7 +345,10 @@ fn post(rows: &mut Vec<Row>, line: LedgerLine, kind: RowKind, energy_j: f64) {
 }
 
 pub(crate) fn assemble(scenario: &Scenario, spans: &[Span], segments: usize) -> Assembly {
-    let sites = spans.iter().map(|span| site(scenario, span)).collect();
+    let mut sites: Vec<Site> = spans.iter().map(|span| site(scenario, span)).collect();
+    for strip in &scenario.more_strips {
+        sites.extend(spans.iter().map(|span| site(scenario, &span.of_strip(strip, scenario.radius_m))));
+    }
     let segments = divide(spans, segments);
     Assembly { sites, segments, ..Assembly::empty(scenario.gravity_direction) }
 }
@@ -393,7 +395,7 @@ fn divide(spans: &[Span], total: usize) -> Vec<Segment> {
 }
 
 /// Segment that holds a station, and the distance from its start; the last segment takes what lies beyond the tip.
-fn locate(segments: &[Segment], station_m: f64) -> (usize, f64) {
+pub(crate) fn locate(segments: &[Segment], station_m: f64) -> (usize, f64) {
     let index = segments.iter().rposition(|s| s.start_m <= station_m).unwrap_or(0);
     (index, station_m - segments[index].start_m)
 }

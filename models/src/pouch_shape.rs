@@ -46,6 +46,7 @@ const STEP: f64 = 1e-3;
 impl Model {
     /// Shape of a state of [`Model::predict`] at its loads; `None` without pouches.
     pub fn pouch_shape(&self, loads: &Loads, at: &Prediction) -> Option<PouchShape> {
+        self.planar("").ok()?;
         let (mut shape, mut active_m) = (PouchShape::default(), 0.0);
         let body_pa = self.body_pa(loads);
         for (index, segment) in self.assembly().segments.iter().enumerate() {

@@ -8,6 +8,7 @@ use crate::history::History;
 use crate::root::NoRoot;
 use crate::shape::{Arc, advance, arc, turned};
 use crate::site::{Site, SiteLoads, SiteState};
+use crate::space::{self, SpaceWork};
 use crate::term::Pose;
 use held::hold;
 pub(crate) use held::{Held, bend};
@@ -29,6 +30,8 @@ pub(crate) struct Workspace {
     pub history: History,
     /// Where the robot is held instead of solved for.
     pub held: Held,
+    /// What a robot in space has besides.
+    pub space: SpaceWork,
     coupled: Coupled,
 }
 
@@ -62,6 +65,7 @@ impl Workspace {
             headings: vec![0.0; segments + 1],
             history: History::new(assembly),
             held: Held::default(),
+            space: SpaceWork::new(assembly),
             coupled: Coupled {
                 arcs: vec![Arc::NONE; n],
                 forces: vec![0.0; if coupled { 2 * (n + 1) } else { 0 }],
@@ -109,6 +113,9 @@ pub(crate) fn equilibrium(
     work: &mut Workspace,
     warm: bool,
 ) -> Result<(), Unsolved> {
+    if !assembly.around.is_empty() {
+        return space::equilibrium(assembly, p_body_pa, work);
+    }
     if !work.held.curvatures.is_empty() {
         hold(assembly, p_body_pa, work);
         return Ok(());

@@ -43,7 +43,7 @@ fn alternating<const N: usize>(z: f64, coefficients: [f64; N]) -> f64 {
 
 /// `sin u/u`, `(1 − cos u)/u`, their first and second derivatives; then `sin u` and `cos u`.
 #[inline(always)]
-fn sinc_pair(u: f64) -> [f64; 8] {
+pub(crate) fn sinc_pair(u: f64) -> [f64; 8] {
     if u.abs() < SERIES_BELOW {
         let z = u * u;
         let (a, b) = (alternating(z, SIN_SERIES), alternating(z, COS_SERIES));

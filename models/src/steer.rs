@@ -328,6 +328,7 @@ impl Model {
     /// # Errors
     /// [`Unsolved::BadAim`], a limit that is no pressure, or what [`Model::predict`] returns if nothing balances anywhere.
     pub fn steer(&self, aim: Aim, body_pa: f64, limits: &Limits, work: &mut Steering) -> Result<Steered, Unsolved> {
+        self.planar("steering to a place")?;
         self.check_aim(&aim, body_pa, limits)?;
         let mut used = [false; CHANNELS];
         self.channels().for_each(|channel| used[channel] = true);

@@ -135,7 +135,7 @@ impl State {
     }
 
     fn __repr__(&self) -> String {
-        let Tip { x_m, y_m, angle_rad } = self.tip;
+        let Tip { x_m, y_m, angle_rad, .. } = self.tip;
         let pressure = ibr::pages::pressure_words(&self.loads);
         format!("State({pressure} kPa: tip {:.2}, {:.2} mm, {:.2} deg)", x_m * 1e3, y_m * 1e3, angle_rad.to_degrees())
     }

@@ -109,6 +109,8 @@ pub fn lines(data: &Lines) -> Result<Drawn, ReportError> {
 pub struct Shapes {
     /// Title above the plot; empty for none.
     pub title: String,
+    /// Name of the axis across the robot; empty: `y sideways [mm]`.
+    pub across: String,
     /// Centre line at rest.
     pub rest_mm: Vec<[f64; 2]>,
     /// Body radius, drawn as a soft band about the line at rest; 0 for none.
@@ -169,7 +171,7 @@ pub fn shapes(data: &Shapes) -> Result<Drawn, ReportError> {
     Chart {
         title: data.title.clone(),
         x_label: "x along the robot at rest [mm]".into(),
-        y_label: "y sideways [mm]".into(),
+        y_label: if data.across.is_empty() { "y sideways [mm]".into() } else { data.across.clone() },
         space: Space::Equal,
         marks,
         keys: keys.map(|(look, name)| Key::new(look, Ink::Muted, name)).collect(),

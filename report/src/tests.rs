@@ -33,8 +33,13 @@ fn planes(name: &str, v: &dyn Fn(usize) -> f64) -> Vec<Result<Drawn, ReportError
         predicted_mm: points.clone(),
         measured: vec![measured; 2],
     };
-    let shape =
-        Shapes { title: label(name), rest_mm: points.clone(), body_radius_mm: v(1), poses: vec![pose.clone(), pose] };
+    let shape = Shapes {
+        title: label(name),
+        across: label(name),
+        rest_mm: points.clone(),
+        body_radius_mm: v(1),
+        poses: vec![pose.clone(), pose],
+    };
     let point = |i: usize| Mark::Point {
         at: [v(i), v(i + 1)],
         error: [0.0; 2],

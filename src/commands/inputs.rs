@@ -20,7 +20,15 @@ pub fn scenario(spec: &str) -> Result<ScenarioFile, Failure> {
 
 /// A robot as typed: its file, and the scenario with what was changed.
 pub fn robot(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
-    let file = scenario(&args.scenario)?;
+    changed(scenario(&args.scenario)?, args)
+}
+
+/// The same for what is built for strips round the body too.
+pub fn robot_in_space(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
+    changed(ibr::studies::scenario_in_space(&args.scenario)?, args)
+}
+
+fn changed(file: ScenarioFile, args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
     let mut changed = if args.bare { file.bare() } else { file.scenario.clone() };
     for text in &args.effect {
         changed = with_effect(&changed, text)?.0;

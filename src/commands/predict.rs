@@ -15,7 +15,9 @@ use serde_json::{Value, json};
 
 pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure> {
     args.out.as_deref().map_or(Ok(()), check_folder)?;
-    let (file, scenario) = inputs::robot(&args.robot)?;
+    // A stream and a length at collapse are built in the plane.
+    let planar = args.follow || args.limits;
+    let (file, scenario) = if planar { inputs::robot } else { inputs::robot_in_space }(&args.robot)?;
     let typed = &args.robot.scenario;
     if args.follow {
         return follow(&scenario, context);

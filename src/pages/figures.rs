@@ -118,7 +118,8 @@ pub(super) fn shapes(title: &str, scenario: &Scenario, dataset: &Dataset) -> Res
         });
     }
     let rest_mm = mm(&[[0.0, 0.0], [scenario.length_m, 0.0]]);
-    let shapes = plots::Shapes { title: title.into(), rest_mm, body_radius_mm: scenario.radius_m * MM, poses };
+    let body_radius_mm = scenario.radius_m * MM;
+    let shapes = plots::Shapes { title: title.into(), rest_mm, body_radius_mm, poses, ..plots::Shapes::default() };
     Ok(plots::shapes(&shapes)?)
 }
 

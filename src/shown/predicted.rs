@@ -3,31 +3,43 @@
 use crate::tables::table;
 use ibr::AtPressure;
 use ibr::pages::pressure_words;
+use models::space::SectionState;
 use models::{Beyond, Limit, Model, RowKind, Scenario};
 use serde_json::{Value, json};
 
 /// For readers.
 pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
-    let head = ["P [kPa]", "tip x [mm]", "tip y [mm]", "angle [deg]", "dy/dP [mm/kPa]"];
+    let is_spatial = scenario.is_spatial();
+    let mut head = vec!["P [kPa]", "tip x [mm]", "tip y [mm]", "angle [deg]", "dy/dP [mm/kPa]"];
+    if is_spatial {
+        head.insert(3, "tip z [mm]");
+    }
     let rows = states.iter().map(|s| {
         let tip = s.prediction.tip;
-        vec![
+        let mut row = vec![
             pressure_words(&s.loads),
             format!("{:.2}", tip.x_m * 1e3),
             format!("{:.2}", tip.y_m * 1e3),
             format!("{:.3}", tip.angle_rad.to_degrees()),
             slope_words(total_slope(s) * 1e6),
-        ]
+        ];
+        if is_spatial {
+            row.insert(3, format!("{:.2}", tip.z_m * 1e3));
+        }
+        row
     });
     let mut out =
         format!("{} at body pressure {} kPa{}\n", scenario.name, scenario.p_body_pa / 1e3, wall_words(scenario));
     out.push_str(&table(&head, 0, rows.collect()));
     if !scenario.markers_m.is_empty() {
+        let axes = if is_spatial { "x, y, z" } else { "x, y" };
         let mut head = vec!["marker at s [mm]".to_string()];
-        head.extend(states.iter().map(|s| format!("x, y [mm] at {} kPa", pressure_words(&s.loads))));
+        head.extend(states.iter().map(|s| format!("{} [mm] at {} kPa", axes, pressure_words(&s.loads))));
         let rows = scenario.markers_m.iter().enumerate().map(|(i, s)| {
             let place = |state: &AtPressure| {
-                format!("{:.2}, {:.2}", state.prediction.markers[i][0] * 1e3, state.prediction.markers[i][1] * 1e3)
+                let [x, y] = state.prediction.markers[i].map(|v| v * 1e3);
+                let z = state.prediction.markers_z_m[i] * 1e3;
+                if is_spatial { format!("{x:.2}, {y:.2}, {z:.2}") } else { format!("{x:.2}, {y:.2}") }
             };
             std::iter::once(format!("{:.1}", s * 1e3)).chain(states.iter().map(place)).collect()
         });
@@ -80,12 +92,34 @@ pub fn state_json(model: &Model, scenario: &Scenario, s: &AtPressure) -> Value {
             json!({"x_mm_per_kpa": j.x_per_pa * 1e6, "y_mm_per_kpa": j.y_per_pa * 1e6, "angle_deg_per_kpa": angle})
         })
         .collect();
+    let (mut tip_json, mut markers) =
+        (json!({"x_mm": tip.x_m * 1e3, "y_mm": tip.y_m * 1e3, "angle_deg": tip.angle_rad.to_degrees()}), markers);
+    if model.is_spatial() {
+        tip_json["z_mm"] = json!(tip.z_m * 1e3);
+        for (marker, z) in markers.iter_mut().zip(&s.prediction.markers_z_m) {
+            marker["z_mm"] = json!(z * 1e3);
+        }
+    }
     let beyond: Vec<Value> = model.beyond(&s.loads, &s.prediction).iter().map(beyond_json).collect();
-    json!({
+    let mut told = json!({
         "p_act_kpa": channels[0], "p_act_channels_kpa": channels, "p_body_kpa": s.loads.body_pa / 1e3,
         "markers": markers,
-        "tip": {"x_mm": tip.x_m * 1e3, "y_mm": tip.y_m * 1e3, "angle_deg": tip.angle_rad.to_degrees()},
+        "tip": tip_json,
         "curvature_per_m": curvature, "segments": segments, "jacobian": slopes, "ledger": ledger, "beyond": beyond,
+    });
+    if model.is_spatial() {
+        let sections: Vec<Value> = model.sections(&s.prediction).map(|section| section_json(&section)).collect();
+        told["sections"] = json!(sections);
+    }
+    told
+}
+
+/// A section of a robot with strips round the body.
+fn section_json(section: &SectionState) -> Value {
+    let tensions: Vec<f64> = section.strips.iter().map(|strip| strip.tension).collect();
+    json!({
+        "s_mm": section.segment.start_m * 1e3, "length_mm": section.segment.length_m * 1e3,
+        "curvature_yz_per_m": section.kappa, "contraction": section.contraction, "tension_n": tensions,
     })
 }
 

@@ -37,6 +37,7 @@ const RARE: [&str; 21] = [
 const COMMANDS: [(&str, &str); 42] = [
     ("predict epam-textbook --pressure 30kPa", "ibr.predict"),
     ("predict epam --pressure 300kPa", "ibr.predict"),
+    ("predict epam-two-strips --pressure 20kPa/10kPa", "ibr.predict"),
     ("predict epam --limits --effect tip_load:force_y_n=1", "ibr.predict.limits"),
     ("predict epam-textbook --inverse 100mm,400mm", "ibr.predict"),
     ("export c epam --out epam.c", "ibr.export.c"),

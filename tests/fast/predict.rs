@@ -183,3 +183,34 @@ fn lines_of_a_stream_are_answered_before_the_next_one_comes() {
     assert!(ended.status.code() == Some(3) && told.contains("line 3: `many` is no number"), "{told}");
     refuse(&with_report(), &["predict", "epam", "--follow", "--json"], 2, &["leave out --json"]);
 }
+
+#[test]
+fn strips_round_the_body_bend_it_out_of_the_plane() {
+    let equal = state(&["predict", "epam-two-strips", "--pressure", "20kPa"]);
+    let [y, z] = ["y_mm", "z_mm"].map(|key| equal["tip"][key].as_f64().unwrap());
+    assert!(y > 20.0 && (y - z).abs() < 1e-6, "{y} {z}");
+    assert_eq!(equal["sections"][0]["tension_n"].as_array().unwrap().len(), 2);
+    let more = state(&["predict", "epam-two-strips", "--pressure", "20kPa/10kPa"]);
+    assert!(more["tip"]["y_mm"].as_f64().unwrap() > more["tip"]["z_mm"].as_f64().unwrap());
+    let folder = Folder::new();
+    let drawn = folder.run(&["predict", "epam-helix", "--pressure", "20kPa", "--out", "seen"]);
+    assert_eq!(drawn.code, 0, "{}", drawn.stderr);
+    assert!(drawn.stdout.contains("tip z [mm]") && drawn.stdout.contains("x, y, z [mm]"), "{}", drawn.stdout);
+    for side in ["shapes", "shapes_z"] {
+        assert!(folder.path(&format!("seen/{side}.svg")).exists(), "{side}");
+    }
+}
+
+#[test]
+fn what_is_not_built_in_space_is_refused() {
+    let robot = "epam-two-strips";
+    let loaded = ["predict", robot, "--effect", "gravity"];
+    refuse(&with_report(), &[&loaded[..], &["--out", "report"]].concat(), 4, &["a load on the body", "planar robots"]);
+    let words = ["strips round the body", "ibr predict takes it"];
+    for args in
+        [vec!["predict", robot, "--limits"], vec!["export", "linear", robot], vec!["compare", robot, "synthetic-epam"]]
+    {
+        let ran = Folder::new().run(&args);
+        assert!(ran.code != 0 && words.iter().all(|word| ran.stderr.contains(word)), "{args:?}: {}", ran.stderr);
+    }
+}

@@ -125,6 +125,7 @@ impl Table {
     /// # Errors
     /// [`Untabulated`]: no prediction, several channels, a jump, or a response that does not fit.
     pub fn new(model: &Model, body_pa: f64, range_pa: [f64; 2]) -> Result<Table, Untabulated> {
+        model.planar("a table over the pressure")?;
         let channels = model.channels().count();
         if channels > 1 {
             return Err(Untabulated::Channels { channels });

@@ -14,6 +14,11 @@ impl Scenario {
         if !self.actuator.exists() {
             return Err("a beam without [actuator] has no sewing pattern; add one".into());
         }
+        if self.is_spatial() {
+            return Err(
+                "strips round the body are built for ibr predict alone; write one [actuator] without azimuth_deg and turns".into(),
+            );
+        }
         sewn(pattern, self.radius_m, weld_m, margin_m)?;
         let end_m = self.length_m * (1.0 + 1e-9);
         let length = self.length_m * 1e3;

@@ -2,6 +2,7 @@
 
 use super::formulas::formulas;
 use super::raw::{Body, Raw, RawActuator, RawZone};
+use super::strips::{check_space, check_turns, more_strips, round_the_body};
 use super::supply::line;
 use super::{ActuatorChoice, BASES, EffectChoice, Scenario, Wall, Zone, order};
 use crate::actuators::{self, ACTUATORS, ActuatorShape, BIAS, Family};
@@ -62,7 +63,8 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
     let body = raw.body.get_ref();
     let length_m = si(&body.length_mm, &LENGTH)?;
     let radius_m = radius(&body.radius_mm)?;
-    let actuator = raw.actuator.as_ref().map_or(Ok(ActuatorChoice::NONE), |a| actuator(a, length_m))?;
+    let actuator = raw.actuator.as_ref().map_or(Ok(ActuatorChoice::NONE), |a| actuator(a, radius_m, length_m))?;
+    let more_strips = more_strips(raw, &actuator, radius_m, length_m)?;
     let zones = raw.zone.iter().map(|z| zone(z, length_m, &actuator)).collect::<Checked<Vec<_>>>()?;
     let formulas = formulas(raw, text)?;
     let p_max = raw.actuator.as_ref().and_then(|a| a.get_ref().max_pressure_kpa.as_ref());
@@ -79,6 +81,7 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
         centre_line_m: optional(&body.centre_line_mm, &POSITION)?.or((!actuator.exists()).then_some(0.0)),
         gravity_direction: gravity(body)?,
         actuator,
+        more_strips,
         zones,
         markers_m: stations(&raw.markers.s_mm, length_m)?,
         pressures_pa: raw.predict.pressures_kpa.iter().map(|p| si(p, &PRESSURE)).collect::<Checked<Vec<_>>>()?,
@@ -88,6 +91,7 @@ pub(super) fn scenario(raw: &Raw, text: &str) -> Checked<Scenario> {
         effects: effects_of(raw, &actuator, &formulas)?,
         formulas,
     };
+    check_space(&scenario, raw)?;
     match (scenario.can_be_built(), &raw.actuator) {
         (Err(fault), Some(actuator)) => refuse(
             format!("robot: {fault}"),
@@ -149,7 +153,7 @@ fn gravity(body: &Body) -> Checked<[f64; 2]> {
     refuse(message, "[0, -1] points against the bend, [1, 0] along the robot", direction.span())
 }
 
-fn actuator(raw: &Spanned<RawActuator>, length_m: f64) -> Checked<ActuatorChoice> {
+pub(super) fn actuator(raw: &Spanned<RawActuator>, radius_m: f64, length_m: f64) -> Checked<ActuatorChoice> {
     let a = raw.get_ref();
     let Some(kind) = actuators::by_name(a.kind.get_ref()) else {
         let known: Vec<&str> = ACTUATORS.iter().map(|a| a.name).collect();
@@ -168,7 +172,12 @@ fn actuator(raw: &Spanned<RawActuator>, length_m: f64) -> Checked<ActuatorChoice
         return refuse(format!("count must be from 1 to 10000, not {count}"), "units in series", a.count.span());
     }
     let start_m = optional(&a.start_mm, &POSITION)?.unwrap_or(0.0);
-    let end_m = start_m + count as f64 * shape.length_m;
+    let (arm_m, channel) = (optional(&a.arm_mm, &LENGTH)?, channel(&a.channel)?.unwrap_or(0));
+    let (azimuth_rad, turns) = round_the_body(a)?;
+    let count_of = count as usize;
+    let choice = ActuatorChoice { kind, shape, count: count_of, start_m, arm_m, channel, azimuth_rad, turns };
+    let end_m = start_m + choice.covered_m(radius_m);
+    check_turns(a, &choice, radius_m)?;
     if end_m > length_m * (1.0 + 1e-9) {
         let message = format!(
             "{count} units of {} mm from {} mm end at {:.1} mm, beyond the body's {:.1} mm",
@@ -179,8 +188,7 @@ fn actuator(raw: &Spanned<RawActuator>, length_m: f64) -> Checked<ActuatorChoice
         );
         return refuse(message, "lower count, length_mm or start_mm, or raise body.length_mm", a.count.span());
     }
-    let (arm_m, channel) = (optional(&a.arm_mm, &LENGTH)?, channel(&a.channel)?.unwrap_or(0));
-    Ok(ActuatorChoice { kind, shape, count: count as usize, start_m, arm_m, channel })
+    Ok(choice)
 }
 
 fn bias(a: &RawActuator, kind: &actuators::Actuator) -> Checked<f64> {

@@ -25,6 +25,7 @@ mod formulas;
 pub mod quantity;
 mod raw;
 mod spans;
+mod strips;
 mod supply;
 
 pub use dials::Dial;
@@ -64,6 +65,8 @@ pub struct Scenario {
     pub gravity_direction: [f64; 2],
     /// The actuator.
     pub actuator: ActuatorChoice,
+    /// Further strips of it round the body.
+    pub more_strips: Vec<ActuatorChoice>,
     /// Stretches that differ.
     pub zones: Vec<Zone>,
     /// Marker stations along the undeformed body \[m\].
@@ -108,6 +111,10 @@ pub struct ActuatorChoice {
     pub arm_m: Option<f64>,
     /// Supply channel.
     pub channel: usize,
+    /// Azimuth of its first unit's start, from y towards z \[rad\].
+    pub azimuth_rad: f64,
+    /// Turns round the body from its start to its end, in the same sense; not 0: a helix.
+    pub turns: f64,
 }
 
 impl ActuatorChoice {
@@ -125,6 +132,8 @@ impl ActuatorChoice {
         start_m: 0.0,
         arm_m: None,
         channel: 0,
+        azimuth_rad: 0.0,
+        turns: 0.0,
     };
 
     /// Whether there is an actuator.
@@ -143,6 +152,7 @@ impl PartialEq for ActuatorChoice {
         self.kind.name == other.kind.name
             && (self.shape, self.count, self.start_m, self.arm_m, self.channel)
                 == (other.shape, other.count, other.start_m, other.arm_m, other.channel)
+            && (self.azimuth_rad, self.turns) == (other.azimuth_rad, other.turns)
     }
 }
 
@@ -279,6 +289,16 @@ impl Scenario {
     /// The same with other marker stations \[m\].
     pub fn with_markers(&self, stations_m: &[f64]) -> Scenario {
         Scenario { markers_m: stations_m.to_vec(), ..self.clone() }
+    }
+
+    /// The actuator and its further strips.
+    pub fn strips(&self) -> impl Iterator<Item = &ActuatorChoice> {
+        std::iter::once(&self.actuator).chain(&self.more_strips)
+    }
+
+    /// Whether strips lie elsewhere than along azimuth 0: the robot then leaves the x–y plane, and [`crate::space`] has its balance.
+    pub fn is_spatial(&self) -> bool {
+        !self.more_strips.is_empty() || self.actuator.azimuth_rad != 0.0 || self.actuator.turns != 0.0
     }
 
     /// Stretches of equal design, base to tip.

@@ -19,6 +19,8 @@ pub(super) struct Raw {
     pub body: Spanned<Body>,
     pub actuator: Option<Spanned<RawActuator>>,
     #[serde(default)]
+    pub strip: Vec<Spanned<RawStrip>>,
+    #[serde(default)]
     pub zone: Vec<Spanned<RawZone>>,
     #[serde(default)]
     pub markers: Markers,
@@ -50,7 +52,7 @@ pub(super) struct Body {
     pub gravity: Option<Spanned<Exactly<2>>>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawActuator {
     pub kind: Spanned<String>,
@@ -64,6 +66,24 @@ pub(super) struct RawActuator {
     pub bias_deg: Option<Num>,
     pub channel: Option<Spanned<i64>>,
     pub max_pressure_kpa: Option<Num>,
+    pub azimuth_deg: Option<Num>,
+    pub turns: Option<Num>,
+}
+
+/// A further strip: keys left out are those of `[actuator]`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawStrip {
+    pub azimuth_deg: Num,
+    pub turns: Option<Num>,
+    pub length_mm: Option<Num>,
+    pub width_mm: Option<Num>,
+    pub count: Option<Spanned<i64>>,
+    pub start_mm: Option<Num>,
+    pub arm_mm: Option<Num>,
+    pub fold_mm: Option<Num>,
+    pub volume_gain: Option<Num>,
+    pub channel: Option<Spanned<i64>>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -1,6 +1,6 @@
 //! The body cut into stretches of equal design.
 
-use super::{Scenario, Zone};
+use super::{ActuatorChoice, Scenario, Zone};
 use crate::actuators::{Actuator, ActuatorShape};
 
 /// A stretch of equal design.
@@ -34,14 +34,28 @@ pub(super) fn spans(scenario: &Scenario) -> Vec<Span> {
     cuts.windows(2).map(|pair| span(scenario, pair[0], pair[1])).collect()
 }
 
-fn active(scenario: &Scenario) -> (f64, f64) {
-    let a = &scenario.actuator;
-    (a.start_m, a.start_m + a.count as f64 * a.shape.length_m)
+fn active(strip: &ActuatorChoice, radius_m: f64) -> (f64, f64) {
+    (strip.start_m, strip.start_m + strip.covered_m(radius_m))
+}
+
+impl Span {
+    /// The same stretch where another strip passes it.
+    pub(crate) fn of_strip(&self, strip: &ActuatorChoice, radius_m: f64) -> Span {
+        let (from, to) = active(strip, radius_m);
+        let middle = self.start_m + 0.5 * self.length_m;
+        Span {
+            actuator: (from < middle && middle < to).then_some(strip.kind),
+            shape: strip.shape,
+            arm_m: strip.arm_m.unwrap_or_else(|| (strip.kind.arm)(self.radius_m, &strip.shape)),
+            channel: strip.channel,
+            ..*self
+        }
+    }
 }
 
 fn cuts(scenario: &Scenario) -> Vec<f64> {
-    let (start, end) = active(scenario);
-    let mut cuts = vec![0.0, scenario.length_m, start, end];
+    let mut cuts = vec![0.0, scenario.length_m];
+    cuts.extend(scenario.strips().flat_map(|strip| <[f64; 2]>::from(active(strip, scenario.radius_m))));
     cuts.extend(scenario.zones.iter().flat_map(|z| [z.from_m, z.to_m]));
     cuts.retain(|c| *c <= scenario.length_m + MERGE_BELOW_M);
     cuts.sort_by(f64::total_cmp);
@@ -56,8 +70,8 @@ fn cuts(scenario: &Scenario) -> Vec<f64> {
 fn span(scenario: &Scenario, start_m: f64, end_m: f64) -> Span {
     let middle = 0.5 * (start_m + end_m);
     let inside = |from: f64, to: f64| from < middle && middle < to;
-    let (from, to) = active(scenario);
     let a = &scenario.actuator;
+    let (from, to) = active(a, scenario.radius_m);
     let mut radius_m = scenario.radius_m;
     let mut arm_m = a.arm_m;
     let mut built = Span {

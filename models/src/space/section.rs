@@ -1,0 +1,352 @@
+//! Equilibrium of one section: the minimum of a convex energy over κ, the contraction ε₀ found inside.
+
+use super::{Bend, Strip, StripState, direction};
+use crate::actuators::Actuator;
+use crate::assembly::{Assembly, Segment};
+use crate::body::BODY_PRESSURE;
+use crate::error::Unsolved;
+use crate::root::{Start, find_root};
+use crate::site::{Site, SiteLoads, SiteState};
+use crate::term::{LedgerLine, Pose, Term, actuator_q};
+use std::f64::consts::PI;
+
+/// Newton steps; a dozen are usual.
+const MAX_ITERATIONS: usize = 80;
+/// Moment left over, relative to that of the pressure.
+const TOLERANCE: f64 = 1e-11;
+/// A step that is rounding \[1/m\].
+const LEAST_STEP: f64 = 1e-13;
+/// Curvature below which a bend has no direction \[1/m\].
+const STRAIGHT: f64 = 1e-12;
+/// Relative step of the stiffness of a strip.
+const STEP: f64 = 1e-6;
+/// Contraction tried first beyond a taut wall.
+const FIRST_CONTRACTION: f64 = 1e-2;
+/// Determinant over the square of the trace below which an energy is flat along some bend.
+const FLAT: f64 = 1e-8;
+/// Halvings of a step.
+const HALVINGS: usize = 40;
+
+/// One section of the body and what acts there.
+pub(super) struct Section<'a> {
+    sites: &'a [Site],
+    strips: &'a [Strip],
+    segment: Segment,
+    p_body_pa: f64,
+    radius_m: f64,
+    bending: f64,
+    area_m2: f64,
+    /// First moment of the area about the axis, (y, z) \[m³\].
+    moment_m3: [f64; 2],
+}
+
+/// A strip at one coordinate, in a section bent by k = κ·e.
+#[derive(Clone, Copy)]
+pub(super) struct Fit {
+    /// Contraction ε₀ of the axis that goes with it.
+    contraction: f64,
+    /// Force on ε₀ \[N\]: tension times cos β.
+    force: f64,
+    /// Distance b of its line of action from the axis \[m\].
+    from_axis_m: f64,
+    /// Tension \[N\].
+    pub tension: f64,
+}
+
+/// All strips at one bend and contraction.
+#[derive(Clone, Copy, Default)]
+struct Pulls {
+    force: f64,
+    /// Σ F b e.
+    moment: [f64; 2],
+    /// Σ K over (1, b e): stiffness of contraction, mixed, and of the bend.
+    stiffness: f64,
+    mixed: [f64; 2],
+    bend: [[f64; 2]; 2],
+}
+
+/// Slope and curvature of the energy by κ, with ε₀ at its best.
+struct Balance {
+    contraction: f64,
+    slope: [f64; 2],
+    second: [[f64; 2]; 2],
+    /// Force with which the wall holds ε₀ at R|κ| \[N\].
+    taut_n: f64,
+}
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+impl<'a> Section<'a> {
+    pub fn new(assembly: &'a Assembly, index: usize, p_body_pa: f64) -> Section<'a> {
+        let (segment, strips) = (assembly.segments[index], assembly.around[index].as_slice());
+        let body = &assembly.sites[segment.site];
+        let round_m2 = PI * body.radius_m.powi(2);
+        let (mut area_m2, mut moment_m3) = (round_m2, [0.0; 2]);
+        for strip in strips {
+            let site = &assembly.sites[strip.site];
+            let [share, e] = [[site.body_pressure.share(), 0.0], direction(strip.azimuth_rad)];
+            area_m2 += site.area_m2 - round_m2;
+            // What the far side feels is A ȳ; about the axis it is A (ȳ − R).
+            let about_axis = share[0] * round_m2 * site.radius_m - site.area_m2 * site.radius_m;
+            moment_m3 = [moment_m3[0] + about_axis * e[0], moment_m3[1] + about_axis * e[1]];
+        }
+        Section {
+            sites: &assembly.sites,
+            strips,
+            segment,
+            p_body_pa,
+            radius_m: body.radius_m,
+            bending: body.bending.stiffness,
+            area_m2,
+            moment_m3,
+        }
+    }
+
+    fn loads(&self, p_act_pa: f64) -> SiteLoads {
+        SiteLoads {
+            p_body_pa: self.p_body_pa,
+            p_act_pa,
+            moment: 0.0,
+            s_m: self.segment.middle_m(),
+            dt_s: 0.0,
+            stamp: 0,
+        }
+    }
+
+    /// Its actuator, if the pressure opens it.
+    fn open(&self, strip: &Strip, state: &StripState) -> Option<&'static Actuator> {
+        let site = &self.sites[strip.site];
+        let actuator = site.actuator.filter(|_| site.is_open(self.p_body_pa, state.p_act_pa))?;
+        // Even flat it is held shut: by the body's gas at its sides, or by its folds.
+        (self.fit(strip, actuator, state.p_act_pa, actuator.range.0, 0.0).tension > 0.0).then_some(actuator)
+    }
+
+    pub(super) fn fit(&self, strip: &Strip, actuator: &Actuator, p_act_pa: f64, a: f64, k: f64) -> Fit {
+        let site = &self.sites[strip.site];
+        let (stroke, link) = ((actuator.stroke)(&site.shape, a), &site.linkage);
+        let arm = link.arm_m + link.arm_growth * stroke.lift;
+        let d_arm = link.arm_growth * stroke.d_lift;
+        let geometric = link.stroke_fraction * stroke.contraction / arm;
+        let d_geometric = (link.stroke_fraction * stroke.d_contraction - geometric * d_arm) / arm;
+        let loads = self.loads(p_act_pa);
+        let slope = link.active_fraction * site.actuator_slope(a, &stroke, geometric, d_geometric, &loads);
+        let cos2 = strip.cos_slant * strip.cos_slant;
+        let tension = -slope / (link.stroke_fraction * stroke.d_contraction - cos2 * k * d_arm);
+        let from_axis_m = arm - site.radius_m;
+        let own = link.stroke_fraction * stroke.contraction - link.compliance_per_n * tension;
+        Fit { contraction: own / cos2 - from_axis_m * k, force: tension * strip.cos_slant, from_axis_m, tension }
+    }
+
+    /// Coordinate of a strip at a contraction of the axis and a bend: the end of its range where it goes no further.
+    fn coordinate(&self, strip: &Strip, actuator: &Actuator, state: &StripState, contraction: f64, k: f64) -> f64 {
+        let (low, high) = actuator.range;
+        let of = |a: f64| self.fit(strip, actuator, state.p_act_pa, a, k).contraction;
+        let x = if state.coordinate > low && state.coordinate < high { state.coordinate } else { 0.5 * (low + high) };
+        let step = STEP * (high - low);
+        let slope = (of(x) - of(x + step)) / step;
+        match find_root(&mut |a| contraction - of(a), actuator.range, Start { x, f: None, slope }) {
+            Ok(root) => root.x + root.step,
+            Err(_) if contraction < of(0.5 * (low + high)) => low,
+            Err(_) => high,
+        }
+    }
+
+    fn pulls(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> Pulls {
+        let mut sum = Pulls::default();
+        for (strip, state) in self.strips.iter().zip(strips) {
+            let Some(actuator) = self.open(strip, state) else { continue };
+            let e = direction(strip.azimuth_rad);
+            let k = dot(kappa, e);
+            let a = self.coordinate(strip, actuator, state, contraction, k);
+            let at = |a: f64| self.fit(strip, actuator, state.p_act_pa, a, k);
+            let (fit, step) = (at(a), STEP * a.abs().max(STEP));
+            let (up, down) = (at(a + step), at(a - step));
+            let stiffness = ((down.force - up.force) / (up.contraction - down.contraction)).max(0.0);
+            (state.coordinate, state.tension) = (a, fit.tension);
+            let arm = e.map(|e| e * fit.from_axis_m);
+            sum.force += fit.force;
+            sum.stiffness += stiffness;
+            for i in 0..2 {
+                sum.moment[i] += fit.force * arm[i];
+                sum.mixed[i] += stiffness * arm[i];
+                for j in 0..2 {
+                    sum.bend[i][j] += stiffness * arm[i] * arm[j];
+                }
+            }
+        }
+        sum
+    }
+
+    /// Slope of the energy by κ where ε₀ is at its best: R|κ|, or more where the strips pull harder than the gas.
+    fn balance(&self, strips: &mut [StripState], kappa: [f64; 2]) -> Result<Balance, Unsolved> {
+        let (size, thrust) = (kappa[0].hypot(kappa[1]), self.p_body_pa * self.area_m2);
+        let floor = self.radius_m * size;
+        let mut contraction = floor;
+        let mut pulls = self.pulls(strips, kappa, contraction);
+        let is_slack = pulls.force > thrust;
+        if is_slack {
+            let mut excess = |e0: f64| self.pulls(strips, kappa, e0).force - thrust;
+            // No slope: that of flat pouches is infinite.
+            let start = Start { x: floor + FIRST_CONTRACTION, f: None, slope: 0.0 };
+            let root = find_root(&mut excess, (floor, 1.0), start).map_err(|_| self.unsolved(strips, pulls.force))?;
+            contraction = root.x + root.step;
+            pulls = self.pulls(strips, kappa, contraction);
+        }
+        let taut_n = if is_slack { 0.0 } else { thrust - pulls.force };
+        let n = if size > STRAIGHT { kappa.map(|k| k / size) } else { [0.0; 2] };
+        let held = taut_n * self.radius_m;
+        let slope = std::array::from_fn(|i| {
+            self.p_body_pa * self.moment_m3[i] + self.bending * kappa[i] + held * n[i] - pulls.moment[i]
+        });
+        let second = |i: usize, j: usize| {
+            let own = if i == j { self.bending } else { 0.0 };
+            if is_slack {
+                return own + pulls.bend[i][j]
+                    - pulls.mixed[i] * pulls.mixed[j] / pulls.stiffness.max(f64::MIN_POSITIVE);
+            }
+            let r = self.radius_m;
+            let taut = pulls.bend[i][j] + r * (n[i] * pulls.mixed[j] + n[j] * pulls.mixed[i]);
+            let across = if i == j { 1.0 - n[i] * n[j] } else { -n[i] * n[j] };
+            own + taut + r * r * pulls.stiffness * n[i] * n[j] + held / size.max(STRAIGHT) * across
+        };
+        Ok(Balance { contraction, slope, second: [[second(0, 0), second(0, 1)], [second(1, 0), second(1, 1)]], taut_n })
+    }
+
+    /// The equilibrium; `strips` has the pressures, and gets the rest.
+    pub fn solve(&self, strips: &mut [StripState]) -> Result<Bend, Unsolved> {
+        for state in &mut *strips {
+            (state.coordinate, state.tension) = (0.0, 0.0);
+        }
+        let open = |(strip, state): (&Strip, &StripState)| self.open(strip, state).is_some();
+        let mut opened = self.strips.iter().zip(&*strips).enumerate().filter(|(_, pair)| open(*pair)).map(|(i, _)| i);
+        let kappa = match (opened.next(), opened.next()) {
+            (None, _) => return Ok(Bend::default()),
+            (Some(one), None) if self.strips[one].cos_slant == 1.0 && self.is_round_but(one) => {
+                return self.alone(one, &mut strips[one]);
+            }
+            _ => self.first_guess(strips),
+        };
+        self.minimum(strips, kappa)
+    }
+
+    /// Whether no other strip draws the section in: then a strip alone bends it in its own plane.
+    fn is_round_but(&self, one: usize) -> bool {
+        let round = |site: &Site| site.area_m2 == PI * site.radius_m.powi(2);
+        (0..self.strips.len()).all(|i| i == one || round(&self.sites[self.strips[i].site]))
+    }
+
+    /// The planar balance of one strip, turned.
+    fn alone(&self, one: usize, state: &mut StripState) -> Result<Bend, Unsolved> {
+        let (strip, loads) = (&self.strips[one], self.loads(state.p_act_pa));
+        let solved = self.sites[strip.site].solve(&loads, &[], None);
+        let at: SiteState = solved.map_err(|_| self.unsolved(std::slice::from_ref(state), 0.0))?;
+        (state.coordinate, state.tension) = (at.coordinate, at.tension);
+        let kappa = direction(strip.azimuth_rad).map(|e| at.curvature * e);
+        Ok(Bend { kappa, contraction: self.radius_m * at.curvature.abs() })
+    }
+
+    /// The bends of all strips alone, added.
+    fn first_guess(&self, strips: &[StripState]) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        for (strip, state) in self.strips.iter().zip(strips) {
+            let site = &self.sites[strip.site];
+            let Ok(at) = site.solve(&self.loads(state.p_act_pa), &[], None) else { continue };
+            let e = direction(strip.azimuth_rad);
+            sum = [sum[0] + at.curvature * e[0], sum[1] + at.curvature * e[1]];
+        }
+        if sum[0].hypot(sum[1]) < 1e-9 { [0.0; 2] } else { sum }
+    }
+
+    pub(super) fn minimum(&self, strips: &mut [StripState], start: [f64; 2]) -> Result<Bend, Unsolved> {
+        let scale = self.p_body_pa * self.area_m2 * self.radius_m;
+        let mut kappa = start;
+        let mut at = self.balance(strips, kappa)?;
+        for _ in 0..MAX_ITERATIONS {
+            let size = kappa[0].hypot(kappa[1]);
+            let left = at.slope[0].hypot(at.slope[1]);
+            // At the tip of the cone the wall takes any moment up to this.
+            let carried = if size <= STRAIGHT { at.taut_n * self.radius_m } else { 0.0 };
+            if left <= TOLERANCE * scale + carried {
+                return Ok(Bend { kappa, contraction: at.contraction });
+            }
+            let ([[mut a, b], [_, mut d]], g) = (at.second, at.slope);
+            if a * d - b * b <= FLAT * (a + d).powi(2) || size <= STRAIGHT && at.taut_n > 0.0 {
+                // Fewer strips pull on a slack body than it has ways to give: flat along some.
+                (a, d) = (a + scale * self.radius_m, d + scale * self.radius_m);
+            }
+            let det = a * d - b * b;
+            let mut step = [-(d * g[0] - b * g[1]) / det, -(a * g[1] - b * g[0]) / det];
+            let longest = 2.0 / self.radius_m;
+            let length = step[0].hypot(step[1]);
+            if length.is_nan() {
+                break;
+            }
+            if length > longest {
+                step = step.map(|s| s * longest / length);
+            }
+            let before = dot(at.slope, step);
+            let mut share = 1.0;
+            for _ in 0..HALVINGS {
+                let next = [kappa[0] + share * step[0], kappa[1] + share * step[1]];
+                at = self.balance(strips, next)?;
+                // The slope along the way rises: beyond the minimum it is positive.
+                if dot(at.slope, step) <= -0.9 * before {
+                    break;
+                }
+                share *= 0.5;
+            }
+            kappa = [kappa[0] + share * step[0], kappa[1] + share * step[1]];
+            if share * step[0].hypot(step[1]) <= LEAST_STEP * (1.0 + kappa[0].hypot(kappa[1])) {
+                return Ok(Bend { kappa, contraction: at.contraction });
+            }
+        }
+        Err(self.unsolved(strips, at.slope[0].hypot(at.slope[1])))
+    }
+
+    fn unsolved(&self, strips: &[StripState], residual: f64) -> Unsolved {
+        let p_act_kpa = strips.iter().fold(0.0, |most: f64, state| most.max(state.p_act_pa)) / 1e3;
+        Unsolved::NotConverged { iterations: MAX_ITERATIONS, p_act_kpa, residual }
+    }
+
+    /// Energies per metre of body \[J/m\] by line of the ledger.
+    pub fn energies(&self, bend: &Bend, strips: &[StripState], post: &mut dyn FnMut(LedgerLine, f64)) {
+        let mut unused = [0.0; actuator_q::LEN];
+        for (strip, state) in self.strips.iter().zip(strips) {
+            let site = &self.sites[strip.site];
+            let Some(actuator) = site.actuator.filter(|_| state.p_act_pa > 0.0) else { continue };
+            let stroke = (actuator.stroke)(&site.shape, state.coordinate.max(actuator.range.0));
+            let rest = (actuator.stroke)(&site.shape, 0.0_f64.max(actuator.range.0));
+            let q = [state.coordinate, stroke.contraction, stroke.volume - rest.volume, site.geometric(&stroke)];
+            let pose = Pose { s_m: self.segment.middle_m(), ..Pose::new(&q, self.p_body_pa, state.p_act_pa) };
+            for term in &site.actuator_terms {
+                post(term.line(), term.add(&pose, &mut unused) * site.linkage.active_fraction / strip.cos_slant);
+            }
+            let stretch = 0.5 * site.linkage.compliance_per_n * state.tension * state.tension;
+            if stretch != 0.0 {
+                post(crate::model::FABRIC_STRETCH, stretch / strip.cos_slant);
+            }
+        }
+        let gas = self.area_m2 * bend.contraction + dot(self.moment_m3, bend.kappa);
+        post(BODY_PRESSURE, self.p_body_pa * gas);
+        post(crate::body::Bending { stiffness: 0.0 }.line(), 0.5 * self.bending * dot(bend.kappa, bend.kappa));
+    }
+
+    /// Energy per metre at any bend and contraction, strips settled \[J/m\]; for tests.
+    #[cfg(test)]
+    pub fn energy(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> f64 {
+        self.pulls(strips, kappa, contraction);
+        let mut sum = 0.0;
+        self.energies(&Bend { kappa, contraction }, strips, &mut |_, energy| sum += energy);
+        sum
+    }
+
+    /// Forces on κ and ε₀ there, of everything but the constraint; for tests.
+    #[cfg(test)]
+    pub fn forces(&self, strips: &mut [StripState], kappa: [f64; 2], contraction: f64) -> [f64; 3] {
+        let pulls = self.pulls(strips, kappa, contraction);
+        let by = |i: usize| pulls.moment[i] - self.p_body_pa * self.moment_m3[i] - self.bending * kappa[i];
+        [by(0), by(1), pulls.force - self.p_body_pa * self.area_m2]
+    }
+}
