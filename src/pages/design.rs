@@ -43,7 +43,7 @@ pub fn design_files(wish: &Wish, found: &Design, elements_m: Option<&[[f64; 2]]>
     }
     marks.push(Mark::Tip { at: end, label: format!("{} kPa", pressure_words(&found.loads)), ink: predicted });
     let chart = Chart {
-        title: format!("{}, designed", found.file.scenario.name),
+        title: found.file.scenario.name.clone(),
         x_label: "x along the robot at rest [mm]".into(),
         y_label: "y sideways [mm]".into(),
         space: Space::Equal,
