@@ -63,6 +63,9 @@ pub const SIZE_FACTOR: f64 = 3.0;
 pub const LEAST_PRICE: f64 = 1.0;
 /// Sizes beyond this factor from the typical one are equally odd.
 pub const ODDEST: f64 = 1e3;
+/// Width of the prior of a law's shape about the usual one, as a share of its range: the root mean square of what the two laws of
+/// a mechanism that were written for `ibr bench discovery` need.
+pub const SHAPE: f64 = 0.25;
 /// Gain below which an effect does not help: less than one parameter of noise.
 pub const HELPS: f64 = 1.0;
 /// Gain below which a name is a hint.

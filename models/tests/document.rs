@@ -58,7 +58,7 @@ fn parameter(p: &Parameter) -> String {
     let neutral = if p.neutral == 0.0 { String::new() } else { format!(", neutral {}", short(p.neutral)) };
     let fitted = match p.fitted {
         Fitted::Always => "",
-        Fitted::WithGauge => ", fitted with a gauge only",
+        Fitted::Shape => ", shapes the law",
         Fitted::WithKeptBending => ", fitted with B kept only",
         Fitted::WithBodyPressures => ", fitted at several body pressures only",
         Fitted::FromDesign => ", from design",

@@ -48,10 +48,9 @@ pub(super) const ENTRY: Effect = Effect {
             lower: 0.5,
             upper: 2.0,
             possible: [0.5, 2.0],
-            starts: &[0.5, 0.75, 1.5],
-            fitted: Fitted::WithGauge,
+            starts: &[0.5, 1.5],
             meaning: "exponent of the loss",
-            ..PLAIN
+            ..SHAPE
         },
     ],
     needs: Needs::Actuator,
