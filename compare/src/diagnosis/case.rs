@@ -288,14 +288,9 @@ impl<'a> Case<'a> {
         (self.base.cost() - fit.cost()).max(0.0)
     }
 
-    /// Parameters beyond the base.
+    /// Parameters beyond the base that do not shape a law; a shape pays by its prior.
     pub fn extra(&self, fit: &Fit) -> usize {
-        self.problem.count(&fit.effects) - self.problem.count(&self.always)
-    }
-
-    /// Sizes beyond the base: parameters that do not shape a law.
-    pub fn sizes(&self, fit: &Fit) -> usize {
-        fit.effects[self.always.len()..].iter().map(|e| self.candidate(*e).sizes()).sum()
+        self.problem.sizes(&fit.effects) - self.problem.sizes(&self.always)
     }
 
     /// p of a gain by `parameters`, the best of `tests`; `None` if no p-values can be formed.

@@ -102,7 +102,7 @@ pub fn add_shapes(known: &mut Vec<Known>, candidates: &[Candidate]) {
     for (effect, candidate) in candidates.iter().enumerate() {
         for (parameter, p) in candidate.parameters.iter().enumerate().filter(|(_, p)| p.is_shape() && p.is_free()) {
             if known.iter().all(|k| (k.effect, k.parameter) != (effect, parameter)) {
-                let sd = policy::SHAPE * (p.upper - p.lower);
+                let sd = policy::shape_sd(p.lower, p.upper);
                 known.push(Known { effect, parameter, value: p.neutral, sd, lacking: 0.0, usual: true });
             }
         }

@@ -32,7 +32,7 @@ pub fn allowance(best_gain: f64) -> f64 {
 
 /// C of an explanation, up to a constant.
 pub fn criterion(case: &Case, fit: &Fit, allowance: f64) -> f64 {
-    criterion_of(case, fit.cost(), case.sizes(fit), allowance) + oddness(case, fit) + odd_forms(case, fit, allowance)
+    criterion_of(case, fit.cost(), case.extra(fit), allowance) + oddness(case, fit) + odd_forms(case, fit, allowance)
 }
 
 /// The same of a sum of squares and a number of parameters added.

@@ -194,9 +194,9 @@ impl Problem<'_> {
         std::iter::repeat_n(bending, self.bendings).chain(free).collect()
     }
 
-    /// Number of fitted parameters of a hypothesis beyond the bending stiffnesses.
-    pub fn count(&self, effects: &[usize]) -> usize {
-        effects.iter().map(|e| self.candidates[*e].count()).sum()
+    /// Number of fitted parameters of a hypothesis beyond the bending stiffnesses, without those that shape a law.
+    pub fn sizes(&self, effects: &[usize]) -> usize {
+        effects.iter().map(|e| self.candidates[*e].sizes()).sum()
     }
 
     /// The best fit from several starts; `None` if none of them has an equilibrium.

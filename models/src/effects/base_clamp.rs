@@ -58,7 +58,7 @@ pub(super) const END: Parameter = Parameter {
     symbol: "m",
     neutral: 1.0,
     typical: 1.0,
-    lower: 0.5,
+    lower: 1.0,
     upper: 5.0,
     possible: ABOVE_ZERO,
     starts: &[3.0],

@@ -52,7 +52,7 @@ pub(super) const ENTRY: Effect = Effect {
             neutral: 2.0,
             typical: 2.0,
             lower: 0.5,
-            upper: 4.0,
+            upper: 3.0,
             possible: POSITIVE,
             meaning: "exponent of the curvature",
             ..SHAPE
