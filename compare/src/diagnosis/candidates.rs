@@ -193,6 +193,12 @@ pub fn hold(candidates: &mut [Candidate], held: &Held) {
     }
 }
 
+/// Gives all laws their usual forms.
+pub fn hold_shapes(candidates: &mut [Candidate]) {
+    let all = candidates.iter_mut().flat_map(|c| &mut c.parameters);
+    all.filter(|p| p.is_shape()).for_each(|p| p.is_held = true);
+}
+
 /// Effects of the catalogue and formulas of the scenario that exist for this actuator and are not in the scenario yet. What follows
 /// from how the robot is cut and joined is there or not, with nothing to fit: it may be missing where a scenario describes that.
 pub fn candidates(scenario: &Scenario) -> Vec<Candidate> {

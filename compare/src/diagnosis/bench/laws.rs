@@ -1,6 +1,6 @@
 //! What may be missing on a bench: effects of the catalogue, and numbers of the scenario that are usually not known.
 
-use crate::diagnosis::candidates::{Candidate, Free, Held, candidate, hold};
+use crate::diagnosis::candidates::{Candidate, Free, Held, candidate, hold, hold_shapes};
 use crate::diagnosis::detect::lead;
 use crate::diagnosis::result::Group;
 use data::Bench;
@@ -165,7 +165,7 @@ pub fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Law>, Vec<u
     });
     hold(&mut effects, &Held { kept_bending: true, body_pressures, measured: &[] });
     // Laws have their usual forms in a table of one quantity.
-    effects.iter_mut().flat_map(|c| &mut c.parameters).filter(|p| p.is_shape()).for_each(|p| p.is_held = true);
+    hold_shapes(&mut effects);
     for chosen in &scenario.effects {
         effects.iter_mut().filter(|c| c.name == chosen.name).for_each(|c| c.as_given(&chosen.values));
     }
