@@ -29,7 +29,7 @@ fn seen(scenario: &Scenario) -> (Vec<[f64; 2]>, f64) {
 #[test]
 fn a_camera_that_turns_about_a_point_keeps_every_distance_to_it() {
     let base = robot("epam").with_bending(1.0);
-    let (length, angle) = (base.body_length_m, 0.03_f64);
+    let (length, angle) = (base.length_m, 0.03_f64);
     let (plain, turned) = (seen(&base).0, seen(&base.with_effect("camera_rotation", &[angle, 0.5])).0);
     for (a, b) in plain.iter().zip(&turned) {
         let (from, to) = ([a[0] - 0.5 * length, a[1]], [b[0] - 0.5 * length, b[1]]);
