@@ -23,7 +23,7 @@ pub(super) const ENTRY: Effect = Effect {
     stage: Stage::Supply,
     history: false,
     formula: "P = P_set − f P_r (P_set/P_r)ⁿ, P_r = 20 kPa",
-    sentence: "Air that leaks away loses part of the set pressure on its way to the actuator.",
+    sentence: "A leak takes part of the set pressure.",
     differs: "The curve over pressure is stretched sideways, by the same factor everywhere if n = 1.",
     remedy: "Put a gauge on the actuator while air flows.",
     validity: "steady flow; looks like a stiffer body if n = 1",
