@@ -50,8 +50,9 @@ fn pins_that_lean_are_as_long_as_ever() {
         let head = [b[0] - a[0] + along, b[1] - a[1] + height];
         assert!((head[0].hypot(head[1]) - height / lean.cos()).abs() < 1e-14, "{head:?}");
     }
-    let outermost = plain.iter().zip(&pinned).last().map(|(a, b)| b[1] - a[1]).unwrap();
-    assert!(outermost > 0.0, "a pin that leans to the tip is lifted by the bend: {outermost}");
+    let upright = seen(&base.with_effect("marker_height", &[height])).0;
+    let outermost = upright.iter().zip(&pinned).last().map(|(a, b)| b[1] - a[1]).unwrap();
+    assert!(outermost > 0.0, "the bend lifts a pin that leans to the tip above an upright one: {outermost}");
 }
 
 /// The flattening at 2 /m is that of any exponent, and κ rises with g.
