@@ -20,17 +20,17 @@ pub struct Linkage {
 /// How a section that changes as the body bends turns the curvature `g` of one that does not into κ.
 #[derive(Debug, Clone, Copy)]
 pub struct SectionLaw {
-    /// κ and dκ/dg from the law's parameter and `g`.
-    pub law: fn(f64, f64) -> (f64, f64),
-    /// That parameter, SI.
-    pub parameter: f64,
+    /// κ and dκ/dg from the law's size and shape, and `g`.
+    pub law: fn([f64; 2], f64) -> (f64, f64),
+    /// Those two, SI.
+    pub parameters: [f64; 2],
 }
 
 impl Linkage {
     /// Curvature κ of the body where one whose section stays as it is would have curvature `g`, and dκ/dg.
     #[inline]
     pub fn bent(&self, g: f64) -> (f64, f64) {
-        self.section.map_or((g, 1.0), |section| (section.law)(section.parameter, g))
+        self.section.map_or((g, 1.0), |section| (section.law)(section.parameters, g))
     }
 }
 

@@ -15,7 +15,8 @@ Write `[effects.NAME]` into a scenario to switch one on ([scenario.md](scenario.
 
 The first number of a parameter is its typical size, the two others bound a fit. A parameter that is left out has its
 neutral value, at which the effect vanishes; it is 0 unless told. *From design*: never fitted, it follows from how the
-robot is made. *History*: a state depends on those before it. [theory.md](theory.md) derives the mechanics of pouches and muscles.
+robot is made. *Shapes the law*: at its neutral value the law has its usual form; a fit finds another one only where data ask
+for it. *History*: a state depends on those before it. [theory.md](theory.md) derives the mechanics of pouches and muscles.
 ";
 
 const GROUPS: &[(Group, &str)] = &[
@@ -58,7 +59,7 @@ fn parameter(p: &Parameter) -> String {
     let neutral = if p.neutral == 0.0 { String::new() } else { format!(", neutral {}", short(p.neutral)) };
     let fitted = match p.fitted {
         Fitted::Always => "",
-        Fitted::WithGauge => ", fitted with a gauge only",
+        Fitted::Shape => ", shapes the law",
         Fitted::WithKeptBending => ", fitted with B kept only",
         Fitted::WithBodyPressures => ", fitted at several body pressures only",
         Fitted::FromDesign => ", from design",

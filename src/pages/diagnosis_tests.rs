@@ -132,7 +132,7 @@ fn the_ledgers_beside_finite_elements_begin_with_the_whole_stated_set() {
     let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     let evidence = [Evidence::of(dataset.clone(), about.clone())];
     let d = diagnose(&scenario, &evidence, &options, &mut |_, _| ()).unwrap();
-    assert_eq!(d.indistinguishable, ["end_constraint", "self_contact"]);
+    assert_eq!(d.indistinguishable, ["end_constraint", "self_contact", "pressure_loss"]);
     let w = witness(&d, &scenario, &dataset, about.as_ref(), &stored().unwrap()).unwrap().unwrap();
     let labels: Vec<String> = witness_cases(&w, &d).into_iter().map(|case| case.label).collect();
     assert_eq!(labels[..3], ["base", "end_constraint", "self_contact"]);

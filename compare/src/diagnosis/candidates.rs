@@ -59,7 +59,12 @@ pub struct Free {
 impl Free {
     /// Whether it is fitted: a parameter that is typically zero (a force along the robot) stays there.
     pub fn is_free(&self) -> bool {
-        !self.is_held && (self.typical != 0.0 || self.neutral != 0.0)
+        !self.is_held && (self.typical != 0.0 || self.neutral != 0.0 || self.is_shape())
+    }
+
+    /// Whether it shapes the law about its usual form.
+    pub fn is_shape(&self) -> bool {
+        self.fitted == Fitted::Shape
     }
 
     /// Value where it is not fitted: neutral, or as the design has it.
@@ -91,7 +96,7 @@ impl Free {
     /// Whether it shapes the law and lies at an end of its range.
     pub fn is_shape_at_end(&self, value: f64) -> bool {
         let at_end = [self.lower, self.upper].iter().any(|end| (value - end).abs() < NEAR * self.scale());
-        self.is_free() && self.typical == self.neutral && at_end
+        self.is_free() && !self.is_shape() && self.typical == self.neutral && at_end
     }
 }
 
@@ -136,6 +141,11 @@ impl Candidate {
         self.parameters.iter().filter(|p| p.is_free()).count()
     }
 
+    /// Number of those that do not shape its law.
+    pub fn sizes(&self) -> usize {
+        self.parameters.iter().filter(|p| p.is_free() && !p.is_shape()).count()
+    }
+
     /// Values from which a fit is started: neutral, typical, three times as much, and the other sign where bounds allow
     /// it, and what the catalogue names.
     pub fn starts(&self) -> Vec<Vec<f64>> {
@@ -160,8 +170,6 @@ impl Candidate {
 
 /// What the data hold beside markers at one body pressure.
 pub struct Held<'a> {
-    /// Readings of a gauge at the actuator.
-    pub gauge: bool,
     /// The bending stiffness is kept.
     pub kept_bending: bool,
     /// Several body pressures.
@@ -176,14 +184,19 @@ pub fn hold(candidates: &mut [Candidate], held: &Held) {
         for p in parameters {
             let is_measured = held.measured.iter().any(|m| m.effect == *name && m.key == p.key);
             p.is_held = match p.fitted {
-                Fitted::Always => false,
-                Fitted::WithGauge => !held.gauge,
+                Fitted::Always | Fitted::Shape => false,
                 Fitted::WithKeptBending => !held.kept_bending,
                 Fitted::WithBodyPressures => !held.body_pressures && !is_measured,
                 Fitted::FromDesign => true,
             };
         }
     }
+}
+
+/// Gives all laws their usual forms.
+pub fn hold_shapes(candidates: &mut [Candidate]) {
+    let all = candidates.iter_mut().flat_map(|c| &mut c.parameters);
+    all.filter(|p| p.is_shape()).for_each(|p| p.is_held = true);
 }
 
 /// Effects of the catalogue and formulas of the scenario that exist for this actuator and are not in the scenario yet. What follows
@@ -237,7 +250,7 @@ mod tests {
     #[test]
     fn a_range_may_end_where_physics_does_not() {
         let entry = |name: &str| candidate(models::effects::by_name(name).unwrap(), "epam").parameters;
-        let [mut share, reach] = <[Free; 2]>::try_from(entry("base_clamp")).unwrap();
+        let [mut share, reach, _] = <[Free; 3]>::try_from(entry("base_clamp")).unwrap();
         assert!(!share.is_forbidden_beyond(share.upper) && share.is_forbidden_beyond(0.0));
         assert!(reach.is_forbidden_beyond(reach.upper) && reach.is_shape_at_end(reach.upper));
         share.widen(share.upper);

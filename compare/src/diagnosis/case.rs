@@ -3,7 +3,7 @@
 use super::basis::{Basis, cosine};
 use super::blocks::{body_pressures, fitted_scenarios, whole_block};
 use super::candidates::{Candidate, Held, candidates, hold, present};
-use super::known::{Known, bound, known, make_room};
+use super::known::{Known, add_shapes, bound, known, make_room};
 use super::least_squares::square;
 use super::options::Options;
 use super::problem::{Block, Fit, Problem};
@@ -79,7 +79,6 @@ pub fn catalogue(sources: &[Source], options: &Options) -> (Vec<Candidate>, usiz
     let own = list.len();
     list.extend(candidates(scenario).into_iter().filter(open).filter(|c| !options.excludes(&c.name)));
     let held = Held {
-        gauge: sources.iter().any(|source| source.gauge.is_some()),
         kept_bending: options.keep_bending,
         body_pressures: body_pressures(sources.iter().map(|source| source.dataset)).len() > 1,
         measured: &sources.iter().flat_map(|source| source.measured).collect::<Vec<_>>(),
@@ -127,6 +126,7 @@ impl<'a> Case<'a> {
         let Source { scenario, dataset, direct, gauge, .. } = sources[0];
         let known_bending = sources.iter().find_map(|source| source.bending_nm2);
         let mut known = known(sources.iter().flat_map(|source| source.measured), candidates, sources[0].as_given())?;
+        add_shapes(&mut known, candidates);
         for source in sources {
             Layout::of(source.dataset)?;
         }
@@ -288,9 +288,9 @@ impl<'a> Case<'a> {
         (self.base.cost() - fit.cost()).max(0.0)
     }
 
-    /// Parameters beyond the base.
+    /// Parameters beyond the base that do not shape a law; a shape pays by its prior.
     pub fn extra(&self, fit: &Fit) -> usize {
-        self.problem.count(&fit.effects) - self.problem.count(&self.always)
+        self.problem.sizes(&fit.effects) - self.problem.sizes(&self.always)
     }
 
     /// p of a gain by `parameters`, the best of `tests`; `None` if no p-values can be formed.

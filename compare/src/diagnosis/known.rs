@@ -13,7 +13,7 @@ use crate::policy;
 use data::MeasuredValue;
 use models::Scenario;
 
-/// A parameter measured by itself, in SI.
+/// A parameter measured by itself, or the usual form of a law, in SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Known {
     /// Effect, as an index into the catalogue.
@@ -26,6 +26,8 @@ pub struct Known {
     pub sd: f64,
     /// What a hypothesis without the effect differs from it by, in standard deviations.
     pub lacking: f64,
+    /// Not measured: the usual form of a law, from which real ones differ by [`policy::SHAPE`].
+    pub usual: bool,
 }
 
 /// A test beside the markers, and what it measures.
@@ -66,6 +68,11 @@ pub const BENCH_TESTS: [BenchTest; 3] = [
 pub const BENCH_TEST: f64 = 0.1;
 
 impl Known {
+    /// A test whose result is not known yet.
+    pub fn planned(effect: usize, parameter: usize) -> Known {
+        Known { effect, parameter, value: 0.0, sd: 0.0, lacking: 0.0, usual: false }
+    }
+
     /// Difference of a hypothesis to it, in standard deviations; `values` are those of its effects, one after the other.
     pub fn residual(&self, candidates: &[Candidate], effects: &[usize], values: &[f64]) -> f64 {
         self.of(candidates, effects, values).map_or(self.lacking, |value| (value - self.value) / self.sd)
@@ -90,12 +97,24 @@ impl Known {
     }
 }
 
+/// Adds the usual forms of all laws to what was measured.
+pub fn add_shapes(known: &mut Vec<Known>, candidates: &[Candidate]) {
+    for (effect, candidate) in candidates.iter().enumerate() {
+        for (parameter, p) in candidate.parameters.iter().enumerate().filter(|(_, p)| p.is_shape() && p.is_free()) {
+            if known.iter().all(|k| (k.effect, k.parameter) != (effect, parameter)) {
+                let sd = policy::shape_sd(p.lower, p.upper);
+                known.push(Known { effect, parameter, value: p.neutral, sd, lacking: 0.0, usual: true });
+            }
+        }
+    }
+}
+
 /// Bounds what lacking an effect costs by what it changes at the markers where the robot is fitted with it: with the base alone, whose
 /// stiffness has taken its place, it might not act at all.
 pub fn bound(problem: &Problem, base: &Fit, known: &mut [Known]) {
     for i in 0..known.len() {
         let effect = known[i].effect;
-        if base.effects.contains(&effect) {
+        if known[i].usual || base.effects.contains(&effect) {
             continue;
         }
         let mut values = problem.candidates[effect].at(1.0);
@@ -135,8 +154,7 @@ pub fn known<'m>(
         // Of two tests of one quantity the first stands.
         if all.iter().all(|k| (k.effect, k.parameter) != (effect, parameter)) {
             let si = candidates[effect].parameters[parameter].si;
-            let unknown = Known { effect, parameter, value: 0.0, sd: 1.0, lacking: 0.0 };
-            all.push(unknown.at(candidates, m.value * si, m.sd * si));
+            all.push(Known::planned(effect, parameter).at(candidates, m.value * si, m.sd * si));
         }
     }
     Ok(all)

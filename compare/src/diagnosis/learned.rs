@@ -1,6 +1,6 @@
 //! A learned law: chosen by the missing moments of pressures left out, then fitted to the markers by the full model.
 
-use super::candidates::{Candidate, candidate};
+use super::candidates::{Candidate, candidate, hold_shapes};
 use super::case::Case;
 use super::decide::Decision;
 use super::heldout::HeldOut;
@@ -270,7 +270,10 @@ fn extended(scenario: &Scenario, form: &Form, name: &str, line: Option<f64>) -> 
 fn candidates(scenario: &Scenario, name: &str, line: Option<f64>) -> Vec<Candidate> {
     let catalogue = scenario.catalogue();
     let names = line.map(|_| LINE).into_iter().chain([name]);
-    names.filter_map(|name| Some(candidate(&catalogue.by_name(name)?, scenario.actuator.kind.name))).collect()
+    let entries = names.filter_map(|name| Some(candidate(&catalogue.by_name(name)?, scenario.actuator.kind.name)));
+    let mut candidates: Vec<Candidate> = entries.collect();
+    hold_shapes(&mut candidates);
+    candidates
 }
 
 /// Shares of what the moments say from which a law is fitted to the markers: the whole may leave no equilibrium.

@@ -215,8 +215,11 @@ fn expected_tests(case: &Case, plan: Option<&Plan>, truth: &Fit) -> Vec<Known> {
     let candidates = case.problem.candidates;
     let at_hand = case.problem.known.iter().copied();
     let planned = plan.into_iter().flat_map(|plan| &plan.tests).flat_map(|test| parameters_of(test, candidates));
-    let planned = planned.map(|(effect, parameter)| Known { effect, parameter, value: 0.0, sd: 0.0, lacking: 0.0 });
+    let planned = planned.map(|(effect, parameter)| Known::planned(effect, parameter));
     let expected = |known: Known| {
+        if known.usual {
+            return known;
+        }
         let p = &candidates[known.effect].parameters[known.parameter];
         let value = known.of(candidates, &truth.effects, values).unwrap_or(p.neutral);
         let sd = if known.sd > 0.0 { known.sd } else { BENCH_TEST * value.abs().max(p.typical.abs()) };

@@ -1,7 +1,7 @@
 //! In which order explanations are named, and which cannot be told apart.
 //!
 //! ```text
-//! C = S/A + q ln(n/A) + Σ [(ln u / ln 3)² + 2 ln w],    A = 1 + cG,    u = |x − neutral| / |typical − neutral|
+//! C = S/A + q ln(n/A) + Σ [(ln u / ln 3)² + 2 ln w + (1 − 1/A) v²],    A = 1 + cG,    u = |x − neutral| / |typical − neutral|
 //! ```
 //!
 //! | symbol | meaning |
@@ -9,8 +9,9 @@
 //! | S, G | whitened sum of squares; gain of the best explanation that no bound rejects |
 //! | c | allowance for the form of the law: 5 % of the gain counts as six units |
 //! | A | what that makes of the noise: the n values then tell as much as n/A; each parameter costs at least 1 |
-//! | q, n | parameters added, values fitted |
+//! | q, n | parameters added that do not shape a law, values fitted |
 //! | u | size over the catalogue's typical one, of every effect added that has one parameter |
+//! | v | a law's form: its shape over the width about the usual one ([`policy::SHAPE`]), which S contains too |
 //! | w | for a value on the other side of neutral than the typical one: how much further the bounds reach on the usual side |
 //!
 //! Real laws are never the textbook ones: what a formula misses grows with the effect, so differences are held against
@@ -31,7 +32,7 @@ pub fn allowance(best_gain: f64) -> f64 {
 
 /// C of an explanation, up to a constant.
 pub fn criterion(case: &Case, fit: &Fit, allowance: f64) -> f64 {
-    criterion_of(case, fit.cost(), case.extra(fit), allowance) + oddness(case, fit)
+    criterion_of(case, fit.cost(), case.extra(fit), allowance) + oddness(case, fit) + odd_forms(case, fit, allowance)
 }
 
 /// The same of a sum of squares and a number of parameters added.
@@ -68,13 +69,21 @@ fn oddness(case: &Case, fit: &Fit) -> f64 {
         let k = lead(candidate);
         let p = &candidate.parameters[k];
         let size = (fit.theta()[from + k] - p.neutral).abs() / p.scale();
-        if i >= case.always.len() && candidate.count() == 1 {
+        if i >= case.always.len() && candidate.sizes() == 1 {
             sum += odd_size(size);
             sum += wrong_sign(p, fit.theta()[from + k]);
         }
         from += candidate.parameters.len();
     }
     sum
+}
+
+/// Squared deviations of the laws from their usual forms, as far as S/A does not count them: no misfit of a form excuses another.
+fn odd_forms(case: &Case, fit: &Fit, allowance: f64) -> f64 {
+    let (problem, values) = (&case.problem, &fit.theta()[case.problem.bendings..]);
+    let forms = problem.known.iter().filter(|known| known.usual);
+    let odd: f64 = forms.map(|form| form.residual(problem.candidates, &fit.effects, values).powi(2)).sum();
+    odd * (1.0 - 1.0 / allowance)
 }
 
 /// (ln u / ln 3)² of a size over the typical one.

@@ -135,8 +135,13 @@ fn an_attempt_comes_closer_in_mm_even_where_quiet_holds_ask_for_something_else()
     for robot in ["cpam", "fpam"] {
         let (data, about) = data::load(&format!("fem-{robot}"), &mut |_, _| {}).unwrap();
         let d = of_one(&textbook_scenario(robot).unwrap().bare(), &data, about.as_ref(), &options).unwrap();
-        assert!(d.verdict == Some(Verdict::OutOfCatalog) && !d.attempt.is_empty(), "{robot}");
         let (before, after) = (d.base.systematic_mm, d.base.systematic_with_added_mm);
+        // A known fault: a loss of pressure of another form, and a mount that turns, take nine tenths of what a bare cPAM lacks.
+        if robot == "cpam" && d.verdict == Some(Verdict::Effect) {
+            assert!(d.added.iter().any(|a| a.effect == "pressure_loss") && after < 0.15 * before, "{:?}", d.summary);
+            continue;
+        }
+        assert!(d.verdict == Some(Verdict::OutOfCatalog) && !d.attempt.is_empty(), "{robot}");
         // The fPAM's markers on the wall leave more than half of their error with the best there is.
         assert!(after < if robot == "cpam" { 0.5 * before } else { before }, "{robot}: {before} to {after} mm");
         for other in d.ranked.iter().filter(|other| !other.at_bound) {

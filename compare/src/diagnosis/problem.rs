@@ -194,9 +194,9 @@ impl Problem<'_> {
         std::iter::repeat_n(bending, self.bendings).chain(free).collect()
     }
 
-    /// Number of fitted parameters of a hypothesis beyond the bending stiffnesses.
-    pub fn count(&self, effects: &[usize]) -> usize {
-        effects.iter().map(|e| self.candidates[*e].count()).sum()
+    /// Number of fitted parameters of a hypothesis beyond the bending stiffnesses, without those that shape a law.
+    pub fn sizes(&self, effects: &[usize]) -> usize {
+        effects.iter().map(|e| self.candidates[*e].sizes()).sum()
     }
 
     /// The best fit from several starts; `None` if none of them has an equilibrium.
@@ -216,14 +216,16 @@ impl Problem<'_> {
         let minimum = best?;
         let several_minima = costs.iter().any(|c| policy::is_another_minimum(*c, minimum.cost));
         let neutral = self.neutral(effects);
+        let free: Vec<&Free> = effects.iter().flat_map(|e| &self.candidates[*e].parameters).collect();
+        // No end of a range says no to a form, its prior does.
+        let is_shape = |k: usize| k.checked_sub(self.bendings).is_some_and(|own| free[own].is_shape());
         let pushed = |m: &Minimum| -> Vec<bool> {
-            (0..ranges.len()).map(|k| is_binding(m, k, &ranges[k], neutral[k])).collect()
+            (0..ranges.len()).map(|k| !is_shape(k) && is_binding(m, k, &ranges[k], neutral[k])).collect()
         };
         let (pushed, minimum, misfit) = match self.allowing(effects, &ranges, &minimum) {
             Some((wide, misfit)) => (pushed(&wide), self.at(effects, &ranges, wide.at)?, misfit),
             None => (pushed(&minimum), minimum, vec![1.0; self.blocks.len()]),
         };
-        let free: Vec<&Free> = effects.iter().flat_map(|e| &self.candidates[*e].parameters).collect();
         let is_forbidden =
             |k: usize| k.checked_sub(self.bendings).is_none_or(|own| free[own].is_forbidden_beyond(minimum.at[k]));
         let (binding, open) =

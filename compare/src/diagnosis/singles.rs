@@ -125,7 +125,7 @@ pub fn rank(case: &Case, decision: &Decision, held_out: &HeldOut) -> Vec<Ranked>
             at_bound: own.iter().any(|p| p.at_bound),
             gain,
             bic_difference: c(fit) - least,
-            p_corrected: case.p_of_gain(gain, candidate.count(), case.tests).map(reported_p),
+            p_corrected: case.p_of_gain(gain, candidate.sizes(), case.tests).map(reported_p),
             systematic_before_mm: before,
             systematic_after_mm: case.error_mm(&case.prediction(fit)),
             heldout_mm: held_out.pressure_mm(fit),

@@ -181,8 +181,7 @@ fn effect(d: &Diagnosis) -> Vec<String> {
 fn covered(d: &Diagnosis) -> Option<String> {
     let [most, least] = [d.covered?, policy::COVERED_BY_OTHERS].map(|share| 100.0 * share);
     Some(format!(
-        "Of made-up robots, whose laws are not the catalogue's, the truth is in such an answer in {least:.0} to {most:.0} of 100, by who \
-         wrote the laws."
+        "Of made-up robots with other laws than the catalogue's, such an answer holds the truth in {least:.0} to {most:.0} of 100."
     ))
 }
 

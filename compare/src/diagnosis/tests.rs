@@ -181,8 +181,8 @@ fn a_stray_sample_is_listed_and_does_not_decide() {
 #[test]
 fn a_value_on_its_bound_is_rejected_and_said_so() {
     let plain = robot("spam");
-    // Pouches that touch at once take more of the bend than any loss of pressure can.
-    let d = run(&plain, &measured(&plain.with_effect("self_contact", &[3.0, 0.2]), 5, 91));
+    // Edges sealed so far take more of the bend than any loss of pressure can.
+    let d = run(&plain, &measured(&plain.with_effect("end_constraint", &[0.9, 1.0]), 5, 91));
     let rejected: Vec<&Ranked> = d.ranked.iter().filter(|r| r.at_bound).collect();
     assert!(rejected.iter().any(|r| r.effect == "pressure_loss"));
     for r in rejected {

@@ -36,6 +36,11 @@ fn six_units_part_explanations_and_a_fifth_of_the_error_attempts() {
     turns_at(0.95, |opposite| cancel(-opposite));
 }
 
+#[test]
+fn a_quarter_of_its_range_is_one_deviation_of_a_shape() {
+    turns_at(0.25, |away| away / shape_sd(1.0, 2.0) >= 1.0);
+}
+
 /// That they are true is held by `ibr bench discovery`.
 #[test]
 fn most_stated_sets_hold_the_truth_and_not_all() {

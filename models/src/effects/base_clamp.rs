@@ -1,7 +1,7 @@
 //! A stiffer base: the clamp holds the wall round and keeps the folds from forming beside it.
 //!
 //! ```text
-//! B(s) = B (1 + b e^{−s/λ})      E = ½ B b e^{−s/λ} κ² per metre      λ = c R
+//! B(s) = B (1 + b e^{−(s/λ)ᵐ})      E = ½ B b e^{−(s/λ)ᵐ} κ² per metre      λ = c R
 //! ```
 //!
 //! | symbol | meaning | unit |
@@ -9,6 +9,7 @@
 //! | b | extra stiffness at the base as a share of B | - |
 //! | s | distance from the base | m |
 //! | c | length over which it fades, in body radii; 1.5 is assumed (end effects of tubes fade within one to two), a fit finds it | - |
+//! | m | how suddenly it ends: 1 where it fades, large for a sleeve | - |
 //!
 //! Acts only where B > 0; divides the body into segments, as transverse loads do. **Validity**: linear; s is taken in the middle of
 //! a segment. Derived here.
@@ -20,13 +21,13 @@ pub(super) const ENTRY: Effect = Effect {
     group: Group::Body,
     stage: Stage::Balance,
     history: false,
-    formula: "B(s) = B (1 + b e^{−s/λ}), λ = c R",
+    formula: "B(s) = B (1 + b e^{−(s/λ)ᵐ}), λ = c R",
     sentence: "The clamp at the base stiffens the body next to it.",
     differs: "The first markers bend too little and the others only follow: the missing angle is gained near the base.",
     remedy: "Mark the body densely near the base, or clamp a longer stretch and see the bend move on.",
-    validity: "fades exponentially; needs B > 0",
+    validity: "a stretch that fades or ends; needs B > 0",
     reference: "derived here",
-    parameters: &[share("extra stiffness at the base as a share of B"), REACH],
+    parameters: &[share("extra stiffness at the base as a share of B"), REACH, END],
     needs: Needs::Body,
     add,
 };
@@ -51,27 +52,42 @@ pub(super) const REACH: Parameter = Parameter {
     ..PLAIN
 };
 
+/// How suddenly it ends.
+pub(super) const END: Parameter = Parameter {
+    key: "end_exponent",
+    symbol: "m",
+    neutral: 1.0,
+    typical: 1.0,
+    lower: 1.0,
+    upper: 5.0,
+    possible: ABOVE_ZERO,
+    starts: &[3.0],
+    meaning: "how suddenly the stiffer stretch ends",
+    ..SHAPE
+};
+
 /// A wall that is stiffer towards one place.
 struct Clamp {
     name: &'static str,
     stiffness: f64,
     at_m: f64,
     length_m: f64,
+    end: f64,
 }
 
 fn add(values: &[f64], assembly: &mut Assembly) {
-    clamp(ENTRY.name, [values[0], values[1]], 0.0, assembly);
+    clamp(ENTRY.name, [values[0], values[1], values[2]], 0.0, assembly);
 }
 
-/// Stiffens the wall around station `at_m` by a share of its B, which fades over so many radii.
-pub(super) fn clamp(name: &'static str, [share, reach]: [f64; 2], at_m: f64, assembly: &mut Assembly) {
+/// Stiffens the wall around station `at_m` by a share of its B, which fades over so many radii, and how suddenly.
+pub(super) fn clamp(name: &'static str, [share, reach, end]: [f64; 3], at_m: f64, assembly: &mut Assembly) {
     if share == 0.0 {
         return;
     }
     assembly.varies = true;
     for site in &mut assembly.sites {
         let (stiffness, length_m) = (share * site.bending.stiffness, reach * site.radius_m);
-        site.body_terms.push(Box::new(Clamp { name, stiffness, at_m, length_m }));
+        site.body_terms.push(Box::new(Clamp { name, stiffness, at_m, length_m, end }));
     }
 }
 
@@ -81,7 +97,9 @@ impl Term for Clamp {
     }
 
     fn add(&self, at: &Pose, force: &mut [f64]) -> f64 {
-        let moment = self.stiffness * (-(at.s_m - self.at_m).abs() / self.length_m).exp() * at.q[0];
+        let away = (at.s_m - self.at_m).abs() / self.length_m;
+        let away = if self.end == 1.0 { away } else { away.powf(self.end) };
+        let moment = self.stiffness * (-away).exp() * at.q[0];
         force[0] -= moment;
         0.5 * moment * at.q[0]
     }

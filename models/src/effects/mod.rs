@@ -211,13 +211,16 @@ const ABOVE_ZERO: [f64; 2] = [f64::MIN_POSITIVE, f64::INFINITY];
 /// Of what has a direction.
 const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
+/// A number that shapes a law, neutral where the law has its usual form.
+const SHAPE: Parameter<'static> = Parameter { typical: 0.0, fitted: Fitted::Shape, ..PLAIN };
+
 /// Which data hold a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fitted {
     /// All.
     Always,
-    /// Only readings of a gauge at the actuator.
-    WithGauge,
+    /// All, about its neutral value: it shapes a law whose exact form nobody knows, and does nothing by itself.
+    Shape,
     /// Only data of a robot whose bending stiffness is not fitted: next to it this shape of a law says nothing of its own.
     WithKeptBending,
     /// Only data at several body pressures, or with a test of its own: at one pressure it is another effect's curve.

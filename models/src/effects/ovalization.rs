@@ -1,13 +1,14 @@
 //! Ovalisation: the bent body flattens, and the arm of the actuator with it.
 //!
 //! ```text
-//! D = (D₀ + β·lift)/(1 + o g²)      g = ηε/(D₀ + β·lift): curvature of the round body at the same stroke
-//! hence  κ = g (1 + o g²)           and the moment of the line on κ is N (D₀ + β·lift)/(1 + 3 o g²)
+//! D = (D₀ + β·lift)/(1 + o g_r² (g/g_r)ⁿ)      g = ηε/(D₀ + β·lift): curvature of the round body at the same stroke
+//! n = 2: κ = g (1 + o g²), and the moment of the line on κ is N (D₀ + β·lift)/(1 + 3 o g²)      g_r = 2 /m
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | o | flattening per squared curvature | m² |
+//! | n | exponent of the curvature: 2 for an elastic tube, 1 for an inflated one that dents under a line load | - |
 //! | D₀ | arm of the round body | m |
 //! | g, κ | curvature without and with flattening | 1/m |
 //!
@@ -20,39 +21,58 @@
 use super::*;
 use crate::site::SectionLaw;
 
+/// Curvature g_r at which o is the flattening whatever the exponent \[1/m\].
+const REFERENCE_PER_M: f64 = 2.0;
+
 pub(super) const ENTRY: Effect = Effect {
     name: "ovalization",
     group: Group::Body,
     stage: Stage::Balance,
     history: false,
-    formula: "D = D₀/(1 + o g²), g = ηε/D₀;  κ = g (1 + o g²)",
+    formula: "D = D₀/(1 + o g_r² (g/g_r)ⁿ), g = ηε/D₀, g_r = 2 /m;  n = 2: κ = g (1 + o g²)",
     sentence: "The bent body flattens, so the actuator sits closer to its far wall: shorter lever, more bend per stroke.",
     differs: "Less bend at low pressure than at high: the curve over pressure stays steep where others flatten.",
     remedy: "Measure the body's height at its middle, straight and fully bent; repeat at another body pressure.",
     validity: "o g² below about 1; body pressure moment of the round section",
     reference: "Brazier 1927 for the squared curvature; derived here",
-    parameters: &[Parameter {
-        key: "flattening_m2",
-        symbol: "o",
-        unit: "m²",
-        typical: 0.02,
-        upper: 0.5,
-        by_actuator: &[("spam", 0.07), ("epam", 0.014), ("cpam", 0.0078), ("fpam", 0.05)],
-        meaning: "flattening per squared curvature",
-        ..PLAIN
-    }],
+    parameters: &[
+        Parameter {
+            key: "flattening_m2",
+            symbol: "o",
+            unit: "m²",
+            typical: 0.02,
+            upper: 0.5,
+            by_actuator: &[("spam", 0.07), ("epam", 0.014), ("cpam", 0.0078), ("fpam", 0.05)],
+            meaning: "flattening per squared curvature, at 2 /m",
+            ..PLAIN
+        },
+        Parameter {
+            key: "exponent",
+            symbol: "n",
+            neutral: 2.0,
+            typical: 2.0,
+            lower: 0.5,
+            upper: 3.0,
+            possible: POSITIVE,
+            meaning: "exponent of the curvature",
+            ..SHAPE
+        },
+    ],
     needs: Needs::Body,
     add,
 };
 
 fn add(values: &[f64], assembly: &mut Assembly) {
     for site in &mut assembly.sites {
-        site.linkage.section = Some(SectionLaw { law: flattened, parameter: values[0] });
+        site.linkage.section = Some(SectionLaw { law: flattened, parameters: [values[0], values[1]] });
     }
 }
 
-/// κ = g (1 + o g²) and dκ/dg.
-fn flattened(flattening_m2: f64, g: f64) -> (f64, f64) {
-    let flat = flattening_m2 * g * g;
-    (g + flat * g, 1.0 + 3.0 * flat)
+/// κ = g (1 + o g_r² (g/g_r)ⁿ) and dκ/dg.
+fn flattened([flattening_m2, exponent]: [f64; 2], g: f64) -> (f64, f64) {
+    let flat = match exponent == 2.0 {
+        true => flattening_m2 * g * g,
+        false => flattening_m2 * REFERENCE_PER_M.powi(2) * (g.abs() / REFERENCE_PER_M).powf(exponent),
+    };
+    (g + flat * g, 1.0 + (1.0 + exponent) * flat)
 }

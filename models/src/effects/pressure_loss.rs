@@ -23,7 +23,7 @@ pub(super) const ENTRY: Effect = Effect {
     stage: Stage::Supply,
     history: false,
     formula: "P = P_set − f P_r (P_set/P_r)ⁿ, P_r = 20 kPa",
-    sentence: "Air that leaks away loses part of the set pressure on its way to the actuator.",
+    sentence: "A leak takes part of the set pressure.",
     differs: "The curve over pressure is stretched sideways, by the same factor everywhere if n = 1.",
     remedy: "Put a gauge on the actuator while air flows.",
     validity: "steady flow; looks like a stiffer body if n = 1",
@@ -48,10 +48,9 @@ pub(super) const ENTRY: Effect = Effect {
             lower: 0.5,
             upper: 2.0,
             possible: [0.5, 2.0],
-            starts: &[0.5, 0.75, 1.5],
-            fitted: Fitted::WithGauge,
+            starts: &[0.5, 1.5],
             meaning: "exponent of the loss",
-            ..PLAIN
+            ..SHAPE
         },
     ],
     needs: Needs::Actuator,

@@ -34,7 +34,7 @@ pub use spans::Span;
 use crate::actuators::{Actuator, ActuatorShape, BEAM};
 use crate::assembly::Assembly;
 use crate::catalogue::Catalogue;
-use crate::effects::{EFFECTS, Effect};
+use crate::effects::{EFFECTS, Effect, Fitted};
 use crate::error::ScenarioError;
 use crate::formula::Formula;
 use crate::line::Line;
@@ -238,18 +238,25 @@ impl Scenario {
         Scenario { bending_stiffness: 0.0, effects: Vec::new(), ..self.clone() }
     }
 
-    /// The same with an effect set (added, or its values replaced); values in SI, catalogue order is kept.
+    /// The same with an effect set (added, or its values replaced); values in SI, catalogue order is kept. What shapes its
+    /// law stands last and may be left out: the law then has its usual form.
     ///
     /// # Panics
     /// The catalogue has no effect of that name, or it has another number of parameters: a slip in the calling code, which
     /// must not pass as a model without the effect. Look names typed by a user up in [`Scenario::catalogue`] first.
     pub fn with_effect(&self, name: &str, values: &[f64]) -> Scenario {
-        let listed = crate::effects::by_name(name).map(|effect| effect.parameters.len());
-        let parameters = listed.or_else(|| self.formula(name).map(|formula| formula.parameters.len()));
-        assert!(parameters == Some(values.len()), "no effect `{name}` with {} parameters", values.len());
+        let catalogue = self.catalogue();
+        let given = values.len();
+        let takes =
+            |e: &Effect| given <= e.parameters.len() && e.parameters[given..].iter().all(|p| p.fitted == Fitted::Shape);
+        let effect = catalogue.by_name(name).filter(takes);
+        let neutral = effect.map(|e| e.neutral());
+        assert!(neutral.is_some(), "no effect `{name}` with {given} parameters");
+        let usual = neutral.into_iter().flatten().skip(given);
+        let values = values.iter().copied().chain(usual).collect();
         let mut changed = self.clone();
         changed.effects.retain(|e| e.name != name);
-        let choice = EffectChoice { name: name.to_string(), values: values.to_vec(), basis: String::new() };
+        let choice = EffectChoice { name: name.to_string(), values, basis: String::new() };
         changed.effects.push(choice);
         changed.effects.sort_by_key(|e| order(&e.name, &self.formulas));
         changed

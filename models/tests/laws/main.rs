@@ -16,6 +16,7 @@ mod linear;
 mod neutral;
 mod random_inverse;
 mod scaling;
+mod shapes;
 mod solver;
 mod stationary;
 mod steer;

@@ -1,6 +1,6 @@
 //! What may be missing on a bench: effects of the catalogue, and numbers of the scenario that are usually not known.
 
-use crate::diagnosis::candidates::{Candidate, Free, Held, candidate, hold};
+use crate::diagnosis::candidates::{Candidate, Free, Held, candidate, hold, hold_shapes};
 use crate::diagnosis::detect::lead;
 use crate::diagnosis::result::Group;
 use data::Bench;
@@ -163,7 +163,9 @@ pub fn laws(bench: &Bench, scenario: &Scenario, refit: bool) -> (Vec<Law>, Vec<u
     effects.iter_mut().flat_map(|c| &mut c.parameters).filter(|p| p.fitted == Fitted::FromDesign).for_each(|p| {
         p.fitted = Fitted::Always;
     });
-    hold(&mut effects, &Held { gauge: false, kept_bending: true, body_pressures, measured: &[] });
+    hold(&mut effects, &Held { kept_bending: true, body_pressures, measured: &[] });
+    // Laws have their usual forms in a table of one quantity.
+    hold_shapes(&mut effects);
     for chosen in &scenario.effects {
         effects.iter_mut().filter(|c| c.name == chosen.name).for_each(|c| c.as_given(&chosen.values));
     }
