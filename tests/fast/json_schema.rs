@@ -34,7 +34,7 @@ const RARE: [&str; 21] = [
 ];
 
 /// What runs, in this order in one folder, and the schema of its answer.
-const COMMANDS: [(&str, &str); 42] = [
+const COMMANDS: [(&str, &str); 43] = [
     ("predict epam-textbook --pressure 30kPa", "ibr.predict"),
     ("predict epam --pressure 300kPa", "ibr.predict"),
     ("predict epam-two-strips --pressure 20kPa/10kPa", "ibr.predict"),
