@@ -139,9 +139,8 @@ impl Job {
         let script = script.display().to_string();
         let told = match cluster {
             Cluster::Slurm => asked("sbatch", &["--parsable", &script]),
-            Cluster::HyperQueue => {
-                asked("hq", &["submit", "--directives", "file", "--output-mode", "quiet", "bash", &script])
-            }
+            // It reads the directives of what it is given, and starts it as its first line says.
+            Cluster::HyperQueue => asked("hq", &["submit", "--directives", "file", "--output-mode", "quiet", &script]),
         }?;
         // With several clusters Slurm adds the name of one.
         let id = told.trim().split([';', '\n']).next().unwrap_or_default().to_string();
