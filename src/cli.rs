@@ -194,8 +194,9 @@ pub struct PredictArgs {
     /// The robot
     #[command(flatten)]
     pub robot: RobotArgs,
-    /// Actuator pressures with unit, for example 10kPa,20kPa; `/` separates supply channels. With an effect that has
-    /// history (friction, creep, plastic_set, leak) they are one path in this order, 5 s each, from rest
+    /// Actuator pressures with unit, for example 10kPa,20kPa, or from 0 to 30 in steps: 0:30:0.01kPa; `/` separates supply
+    /// channels. With an effect that has history (friction, creep, plastic_set, leak) they are one path in this order, 5 s
+    /// each, from rest
     #[arg(long, short, allow_hyphen_values = true)]
     pub pressure: Option<String>,
     /// Find the pressure instead: tip=100mm (height) or angle=60deg (total bend); or 300mm,120mm: the pressures of all supply
@@ -209,6 +210,9 @@ pub struct PredictArgs {
     /// names the columns, for example t_s,p_kpa or t_s,p0_kpa,p1_kpa
     #[arg(long, conflicts_with_all = ["pressure", "inverse", "limits", "out"])]
     pub follow: bool,
+    /// Print a row of numbers per pressure: tip and markers in mm
+    #[arg(long, conflicts_with_all = ["limits", "follow", "json"])]
+    pub csv: bool,
     /// Folder for a plot of the shapes
     #[arg(long)]
     pub out: Option<PathBuf>,

@@ -6,7 +6,7 @@ use crate::cli::PredictArgs;
 use crate::failure::Failure;
 use crate::output::{check_folder, write_files};
 use crate::shown::nearest::{nearest_json, nearest_words};
-use crate::shown::predicted::{above_limit, beyond_words, state_json, text};
+use crate::shown::predicted::{above_limit, beyond_words, columns, state_json, text};
 use ibr::pages::predicted_files;
 use ibr::{check_fed, predict, predict_for, predict_near};
 use models::scenario::quantity::{Quantity, parse_pressures};
@@ -39,6 +39,11 @@ pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure
     let model = Model::new(&scenario);
     if let Some(folder) = &args.out {
         write_files(folder, &predicted_files(&scenario, &states)?, &inputs::named(&file, [])?, context)?;
+    }
+    if args.csv {
+        let mut csv = Vec::new();
+        columns(&scenario, &states).to_csv(&mut csv)?;
+        return Ok(Outcome { text: String::from_utf8_lossy(&csv).into_owned(), ..Outcome::default() });
     }
     let told: Vec<Value> = states.iter().map(|s| state_json(&model, &scenario, s)).collect();
     let effects: Vec<&str> = scenario.effects.iter().map(|e| e.name.as_str()).collect();

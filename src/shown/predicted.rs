@@ -1,10 +1,12 @@
 //! Predicted states.
 
 use crate::tables::table;
+use ::sweep::PRESSURE;
+use data::{Column, Table};
 use ibr::AtPressure;
 use ibr::pages::pressure_words;
 use models::space::SectionState;
-use models::{Beyond, Limit, Model, RowKind, Scenario};
+use models::{Beyond, CHANNELS, Limit, Model, RowKind, Scenario};
 use serde_json::{Value, json};
 
 /// For readers.
@@ -46,6 +48,32 @@ pub fn text(scenario: &Scenario, states: &[AtPressure]) -> String {
         out.push_str(&table(&head, 0, rows.collect()));
     }
     out
+}
+
+/// For other programs: a row per pressure, with columns named as those of a sweep.
+pub fn columns(scenario: &Scenario, states: &[AtPressure]) -> Table {
+    let axes = if scenario.is_spatial() { &["x", "y", "z"][..] } else { &["x", "y"] };
+    let of = |value: &dyn Fn(&AtPressure) -> f64| Column::F64(states.iter().map(value).collect());
+    let mut columns = Vec::new();
+    let all_alike = states.iter().all(|s| s.loads.actuator_pa.iter().all(|pa| *pa == s.loads.actuator_pa[0]));
+    match all_alike {
+        true => columns.push((PRESSURE.to_string(), of(&|s| s.loads.actuator_pa[0] / 1e3))),
+        false => {
+            columns.extend((0..CHANNELS).map(|c| (format!("{PRESSURE}.{c}"), of(&|s| s.loads.actuator_pa[c] / 1e3))))
+        }
+    }
+    for (k, axis) in axes.iter().enumerate() {
+        let tip = |s: &AtPressure| [s.prediction.tip.x_m, s.prediction.tip.y_m, s.prediction.tip.z_m][k] * 1e3;
+        columns.push((format!("tip_{axis}_mm"), of(&tip)));
+    }
+    columns.push(("tip_angle_deg".into(), of(&|s| s.prediction.tip.angle_rad.to_degrees())));
+    for m in 0..scenario.markers_m.len() {
+        for (k, axis) in axes.iter().enumerate() {
+            let place = |s: &AtPressure| s.prediction.markers[m].get(k).unwrap_or(&s.prediction.markers_z_m[m]) * 1e3;
+            columns.push((format!("marker_{}_{axis}_mm", m + 1), of(&place)));
+        }
+    }
+    Table { columns }
 }
 
 /// A slope; none where a pouch is flat.
