@@ -171,12 +171,17 @@ mod parquet {
     use std::fs::File;
     use std::io::Cursor;
 
-    use polars_core::prelude::{Column as PolarsColumn, DataFrame, DataType, NamedFrom, PolarsResult, Series};
+    use polars_core::prelude::{
+        Column as PolarsColumn, DataFrame, DataType, NamedFrom, PolarsError, PolarsResult, Series,
+    };
     use polars_io::SerReader;
     use polars_io::prelude::{ParquetCompression, ParquetReader, ParquetWriter};
 
     use super::{Column, DataError, Fault, PARQUET_READER, Path, Table};
     use crate::write::write_atomically;
+
+    /// Largest number of rows; a table of that many is larger than the memory.
+    const MOST_ROWS: usize = 1 << 30;
 
     /// Snappy: every Parquet reader has it.
     pub fn write(table: &Table, path: &Path) -> Result<(), DataError> {
@@ -204,7 +209,14 @@ mod parquet {
     }
 
     fn table(file: File) -> PolarsResult<Table> {
-        let frame = ParquetReader::new(file).finish()?;
+        let mut reader = ParquetReader::new(file);
+        // The library makes room for as many rows as the file says before it looks for them.
+        let said = reader.get_metadata()?;
+        let rows = said.row_groups.iter().map(|group| group.num_rows()).fold(said.num_rows, usize::max);
+        if rows > MOST_ROWS {
+            return Err(PolarsError::ComputeError(format!("it says that it has {rows} rows").into()));
+        }
+        let frame = reader.finish()?;
         let column = |column: &PolarsColumn| Ok((column.name().to_string(), from_polars(column)?));
         let columns: PolarsResult<Vec<_>> = frame.columns().iter().map(column).collect();
         Ok(Table { columns: columns? })

@@ -7,7 +7,7 @@ use std::ffi::OsString;
 /// Every command once, in the order of a session.
 const GROUPS: &[(&str, &[&str])] = &[
     ("Start here", &["demo", "new", "list", "studio"]),
-    ("Predict", &["predict", "export", "simulate", "sweep", "pattern"]),
+    ("Predict", &["predict", "export", "simulate", "sweep", "design", "pattern"]),
     ("Measurements", &["data", "characterize"]),
     ("What is missing?", &["compare", "diagnose", "add", "validate", "ladder"]),
     ("Both engines", &["breakdown", "tradeoff"]),
