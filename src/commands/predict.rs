@@ -40,12 +40,8 @@ pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure
     if let Some(folder) = &args.out {
         write_files(folder, &predicted_files(&scenario, &states)?, &inputs::named(&file, [])?, context)?;
     }
-    if args.csv {
-        let mut csv = Vec::new();
-        columns(&scenario, &states).to_csv(&mut csv)?;
-        return Ok(Outcome { text: String::from_utf8_lossy(&csv).into_owned(), ..Outcome::default() });
-    }
-    let told: Vec<Value> = states.iter().map(|s| state_json(&model, &scenario, s)).collect();
+    // Rows of numbers may be many, and their objects are not printed.
+    let told: Vec<Value> = states.iter().filter(|_| !args.csv).map(|s| state_json(&model, &scenario, s)).collect();
     let effects: Vec<&str> = scenario.effects.iter().map(|e| e.name.as_str()).collect();
     let mut answer = json!({
         "schema": "ibr.predict", "version": 1, "scenario": typed, "name": scenario.name,
@@ -55,6 +51,11 @@ pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure
         answer["nearest"] = nearest_json(*place, found);
     }
     let mut outcome = Outcome::new(text(&scenario, &states), answer);
+    if args.csv {
+        let mut csv = Vec::new();
+        columns(&scenario, &states).to_csv(&mut csv)?;
+        outcome.text = String::from_utf8_lossy(&csv).into_owned();
+    }
     outcome.notes.extend(steered.and_then(|(place, found)| nearest_words(place, &found)));
     outcome.notes.extend(inputs::superseded(&scenario));
     outcome.notes.extend(above_limit(&scenario, &states));

@@ -24,7 +24,7 @@ pub(super) fn missing_moment(found: &MissingMoment, beside: &[FeMoment]) -> Resu
     }
     let levels = levels(points.iter().map(|p| p.p_act_kpa));
     let bodies = self::levels(points.iter().map(|p| p.p_body_kpa));
-    let mut marks: Vec<Mark> = found.curves.iter().filter(|c| c.is_told && is_narrow(c, found)).map(band).collect();
+    let mut marks: Vec<Mark> = found.curves.iter().filter(|c| c.is_told).map(|c| band(c, found)).collect();
     let furthest = beside.iter().map(|p| p.bend_deg + p.bend_sd_deg).fold(furthest(found), f64::max);
     let (ends, inks) = ([0.0, furthest], Inks::of(&found.curves));
     marks.push(Mark::Line { points: ends.map(|x| [x, 0.0]).to_vec(), ink: Ink::Axis, dashed: false });
@@ -123,15 +123,11 @@ impl<'a> Inks<'a> {
     }
 }
 
-/// Whether a band leaves the points to be seen: where hardly anything is known, it would fill the picture.
-fn is_narrow(curve: &MomentCurve, found: &MissingMoment) -> bool {
-    let sizes = found.of_holds().map(|p| p.moment_nm.abs() + p.moment_sd_nm);
-    let widest = curve.points.iter().map(|p| p[3]).fold(0.0, f64::max);
-    widest < sizes.fold(0.0, f64::max)
-}
-
-fn band(curve: &MomentCurve) -> Mark {
-    let side = |sign: f64| curve.points.iter().map(move |p| [p[1], p[2] + sign * p[3]]);
+/// The band of a curve, where it leaves the points to be seen: where hardly anything is known, it would fill the picture.
+fn band(curve: &MomentCurve, found: &MissingMoment) -> Mark {
+    let largest = found.of_holds().map(|p| p.moment_nm.abs() + p.moment_sd_nm).fold(0.0, f64::max);
+    let narrow = || curve.points.iter().filter(|p| p[3] < 0.5 * largest);
+    let side = |sign: f64| narrow().map(move |p| [p[1], p[2] + sign * p[3]]);
     Mark::Band(side(1.0).chain(side(-1.0).rev()).collect())
 }
 

@@ -47,6 +47,13 @@ pub fn design_text(wish: &Wish, found: &Design, checked: &Result<Checked, String
         pressure_words(&found.loads),
         compare::wording::short(1e-3 * found.loads.body_pa)
     );
+    let all = found.loads.actuator_pa;
+    if all.iter().any(|pa| *pa != all[0]) {
+        let typed = all.map(|pa| format!("{}kPa", compare::wording::short(1e-3 * pa))).join("/");
+        text += &format!(
+            "Pressures of single channels are not in design.toml: ibr predict design.toml --pressure {typed}\n\n"
+        );
+    }
     let by_other = |what: &str| checked.as_ref().ok()?.misses.iter().find(|miss| miss.what == what);
     let row = |miss: &Miss| {
         let mut row =
@@ -86,7 +93,7 @@ pub fn design_text(wish: &Wish, found: &Design, checked: &Result<Checked, String
         );
     }
     if !found.reached(wish) && found.held.is_empty() {
-        text += "No end of a range holds it back: these keys cannot make that shape. Free others, or wish for less at once.\n";
+        text += "No end of a range holds it back. Longer lists, other free keys or a smaller wish may help.\n";
     }
     text
 }

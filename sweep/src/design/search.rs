@@ -12,8 +12,8 @@ use models::{CHANNELS, Loads, Model, Prediction};
 use rayon::prelude::*;
 use std::sync::Mutex;
 
-/// Starts for every entry of the longest list, and in all.
-const STARTS_PER_ENTRY: usize = 12;
+/// Starts for every combination of the entries of lists, and in all.
+const STARTS_PER_COMBINATION: usize = 12;
 const MOST_STARTS: usize = 192;
 /// First and second simplex as a share of the ranges, and steps of each.
 const SIMPLEX: [(f64, u64); 2] = [(0.2, 250), (0.02, 150)];
@@ -59,7 +59,7 @@ pub struct Held {
     pub key: String,
     /// The end.
     pub value: f64,
-    /// What a unit beyond it would take off the miss \[m\].
+    /// What a unit beyond it would take off the largest miss, the other keys as they are \[m\].
     pub gain_m: f64,
 }
 
@@ -296,7 +296,7 @@ pub fn design(wish: &Wish, progress: Progress) -> Result<Design, SweepError> {
     let ranges: Vec<usize> = (0..wish.free.len()).filter(|k| wish.free[*k].entries().is_none()).collect();
     let combinations =
         wish.free.iter().filter_map(crate::study::Axis::entries).try_fold(1_usize, |n, m| n.checked_mul(m));
-    let starts = combinations.unwrap_or(MOST_STARTS).saturating_mul(STARTS_PER_ENTRY).min(MOST_STARTS);
+    let starts = combinations.unwrap_or(MOST_STARTS).saturating_mul(STARTS_PER_COMBINATION).min(MOST_STARTS);
     let points = Points::new(Method::Sobol, starts, wish.free.len(), 1)
         .map_err(|message| CompareError::refused(message, "leave keys out"))?;
     let told = Mutex::new((0_usize, progress));
@@ -377,7 +377,7 @@ fn held(wish: &Wish, shares: &[f64]) -> Vec<Held> {
     let usual = vec![0.5; wish.assumed.len()];
     let total = |shares: &[f64]| {
         let tried = wish.tried(&wish.changes(shares, &usual))?;
-        Some(wish.misses(&tried).iter().map(|miss| miss.miss_m.powi(2)).sum::<f64>().sqrt())
+        Some(wish.misses(&tried).iter().map(|miss| miss.miss_m).fold(0.0, f64::max))
     };
     let Some(here) = total(shares) else { return Vec::new() };
     let mut found: Vec<Held> = Vec::new();

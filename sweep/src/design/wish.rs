@@ -182,7 +182,8 @@ impl Wish {
 
     fn of(raw: &Raw, base: ScenarioFile, folder: &Path) -> Result<Wish, Wrong> {
         let whole = base.length_m;
-        let wanted = wanted(raw.wish.get_ref(), whole)?;
+        let wanted = wanted(raw.wish.get_ref(), whole)
+            .map_err(|(span, message, help)| (span.or(Some(raw.wish.span())), message, help))?;
         let wrong = |message: &str, help| Err((Some(raw.wish.span()), message.to_string(), help));
         if wanted == Wanted::default() {
             return wrong("nothing is wished for", "write for example tip_mm = [290, 140]");
