@@ -101,16 +101,29 @@ enum Kind {
     Design,
 }
 
+/// Two numbers and no more: an array of serde takes the first two of many.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(try_from = "Vec<f64>")]
+struct Pair([f64; 2]);
+
+impl TryFrom<Vec<f64>> for Pair {
+    type Error = String;
+
+    fn try_from(given: Vec<f64>) -> Result<Pair, String> {
+        given.try_into().map(Pair).map_err(|given: Vec<f64>| format!("{} numbers in place of two", given.len()))
+    }
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawWish {
-    tip_mm: Option<[f64; 2]>,
+    tip_mm: Option<Pair>,
     tip_angle_deg: Option<f64>,
     #[serde(default)]
     places: Vec<Spanned<RawPlace>>,
     #[serde(default)]
     turns: Vec<Spanned<RawTurn>>,
-    force_n: Option<[f64; 2]>,
+    force_n: Option<Pair>,
     tolerance: Option<f64>,
 }
 
@@ -118,7 +131,7 @@ struct RawWish {
 #[serde(deny_unknown_fields)]
 struct RawPlace {
     s_mm: f64,
-    at_mm: [f64; 2],
+    at_mm: Pair,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -214,7 +227,7 @@ impl Wish {
             let span = raw.cost.as_ref().map(Spanned::span);
             return Err((span, "robustness against nothing".into(), "add [[assumed]] keys with from and to"));
         }
-        let force = raw.wish.get_ref().force_n.unwrap_or_default();
+        let force = raw.wish.get_ref().force_n.map_or([0.0; 2], |force| force.0);
         let base = match force.iter().all(|f| *f == 0.0) {
             true => base,
             false => {
@@ -285,14 +298,14 @@ fn wanted(raw: &RawWish, length_m: f64) -> Result<Wanted, Wrong> {
     let on_body = |s: f64| (0.0..=length_m).contains(&(1e-3 * s));
     let far = "a place is within ten lengths of the robot";
     let near = |[x, y]: [f64; 2]| [x, y].iter().all(|v| v.abs() <= 1e4 * length_m);
-    if raw.tip_mm.is_some_and(|tip| !near(tip)) {
+    if raw.tip_mm.is_some_and(|tip| !near(tip.0)) {
         return Err((None, far.into(), "write millimetres: tip_mm = [290, 140]"));
     }
     if raw.tip_angle_deg.is_some_and(|angle| angle.is_nan() || angle.abs() > 720.0) {
         return Err((None, "`tip_angle_deg` is more than two turns".into(), "write degrees"));
     }
     let places = raw.places.iter().map(|place| {
-        let RawPlace { s_mm, at_mm } = *place.get_ref();
+        let RawPlace { s_mm, at_mm: Pair(at_mm) } = *place.get_ref();
         match on_body(s_mm) && near(at_mm) {
             true => Ok(Place { s_m: 1e-3 * s_mm, at_m: at_mm.map(|v| 1e-3 * v) }),
             false => {
@@ -311,7 +324,7 @@ fn wanted(raw: &RawWish, length_m: f64) -> Result<Wanted, Wrong> {
         }
     });
     Ok(Wanted {
-        tip_m: raw.tip_mm.map(|tip| tip.map(|v| 1e-3 * v)),
+        tip_m: raw.tip_mm.map(|tip| tip.0.map(|v| 1e-3 * v)),
         tip_angle_rad: raw.tip_angle_deg.map(f64::to_radians),
         places: places.collect::<Result<_, Wrong>>()?,
         turns: turns.collect::<Result<_, Wrong>>()?,
