@@ -154,7 +154,7 @@ fn every_key_is_described_and_every_described_key_comes_out() {
     let folder = Folder::new();
     folder.write("study.toml", "scenario = \"epam\"\n[[vary]]\nkey = \"actuator.width_mm\"\nvalues = [60, 300]\n");
     let free = "[[free]]\nkey = \"pressure_kpa\"\nfrom = 5\nto = 30\n[[assumed]]\nkey = \"body.pressure_kpa\"\nfrom = 1.9\nto = 2.1\n";
-    folder.write("wish.toml", &format!("scenario = \"epam\"\n[wish]\ntip_angle_deg = 36\n{free}"));
+    folder.write("wish.toml", format!("scenario = \"epam\"\n[wish]\ntip_angle_deg = 36\n{free}"));
     let mut checker = Checker { all: described(), seen: BTreeSet::new() };
     for (typed, schema) in COMMANDS {
         let args: Vec<&str> = typed.split(' ').chain(["--json"]).collect();

@@ -11,9 +11,9 @@ fn a_leak_through_a_hole_is_torricellis() {
     let robot = robot("spam");
     let through = |k: f64| Supply::of(&robot.with_effect("leak", &[0.05, k]));
     for (p, t) in [(5e3, 1.0), (20e3, 4.0), (30e3, 10.0)] {
-        let exact = p * (1.0 - 0.5 * 0.05 * t * (20e3 / p as f64).sqrt()).powi(2);
+        let exact = p * (1.0 - 0.5 * 0.05 * t * (20e3_f64 / p).sqrt()).powi(2);
         assert!((through(0.5).pressure(p, t) / exact - 1.0).abs() < 1e-12, "{p} {t}");
-        let pores = p * (-0.05 * t as f64).exp();
+        let pores = p * (-0.05_f64 * t).exp();
         assert!((through(1.0 + 1e-7).pressure(p, t) / pores - 1.0).abs() < 1e-6, "{p} {t}: no jump at k = 1");
     }
     assert_eq!(through(0.5).pressure(10.0, 60.0), 0.0, "a hole empties it, pores never do");
@@ -51,7 +51,7 @@ fn pins_that_lean_are_as_long_as_ever() {
         assert!((head[0].hypot(head[1]) - height / lean.cos()).abs() < 1e-14, "{head:?}");
     }
     let upright = seen(&base.with_effect("marker_height", &[height])).0;
-    let outermost = upright.iter().zip(&pinned).last().map(|(a, b)| b[1] - a[1]).unwrap();
+    let outermost = upright.iter().zip(&pinned).next_back().map(|(a, b)| b[1] - a[1]).unwrap();
     assert!(outermost > 0.0, "the bend lifts a pin that leans to the tip above an upright one: {outermost}");
 }
 
