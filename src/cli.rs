@@ -66,7 +66,7 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Many cases of one robot, a row each: keys that vary, in shards or on a cluster
     Sweep(SweepArgs),
-    /// The robot that a wanted shape asks for: sizes and pressures in your ranges, ready to cut
+    /// The robot for a wanted shape: sizes and pressures within your ranges, ready to cut
     Design(DesignArgs),
     /// From tensile tests of a fabric to its moduli, curves and a table for cases
     Characterize(CharacterizeArgs),
