@@ -1,9 +1,10 @@
 //! The table of a sweep: a row per case and engine.
 
+use crate::axis::as_number;
 use crate::part::{Part, Rows};
 use crate::reduced::ACCOUNTS;
 use crate::run::parts;
-use crate::study::{Output, PRESSURE, Study, as_number};
+use crate::study::{Output, PRESSURE, Study};
 use data::table::{Column, Table};
 use std::path::Path;
 use toml::Value;

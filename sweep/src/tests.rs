@@ -1,8 +1,8 @@
 //! A sweep is what its cases are one by one, however it is cut, killed or gone on with.
 
 use super::*;
+use crate::axis::as_number;
 use crate::sample::{Method, Points};
-use crate::study::as_number;
 use compare::ScenarioFile;
 use data::table::Column;
 use models::{Loads, Model};

@@ -295,7 +295,7 @@ impl CostFunction for Problem<'_> {
 pub fn design(wish: &Wish, progress: Progress) -> Result<Design, SweepError> {
     let ranges: Vec<usize> = (0..wish.free.len()).filter(|k| wish.free[*k].entries().is_none()).collect();
     let combinations =
-        wish.free.iter().filter_map(crate::study::Axis::entries).try_fold(1_usize, |n, m| n.checked_mul(m));
+        wish.free.iter().filter_map(crate::axis::Axis::entries).try_fold(1_usize, |n, m| n.checked_mul(m));
     let starts = combinations.unwrap_or(MOST_STARTS).saturating_mul(STARTS_PER_COMBINATION).min(MOST_STARTS);
     let points = Points::new(Method::Sobol, starts, wish.free.len(), 1)
         .map_err(|message| CompareError::refused(message, "leave keys out"))?;
@@ -389,7 +389,7 @@ fn held(wish: &Wish, shares: &[f64]) -> Vec<Held> {
         };
         let mut beyond = shares.to_vec();
         beyond[k] = out;
-        let number = |share: f64| crate::study::as_number(&axis.at(share));
+        let number = |share: f64| crate::axis::as_number(&axis.at(share));
         let (Some(there), Some(end), Some(next)) = (total(&beyond), number(shares[k].round()), number(out)) else {
             continue;
         };

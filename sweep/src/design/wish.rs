@@ -1,6 +1,7 @@
 //! The TOML file of a wish.
 
-use crate::study::{Axis, PRESSURE, RawAxis, Wrong, axis};
+use crate::axis::{Axis, RawAxis, as_number, axis};
+use crate::study::{PRESSURE, Wrong};
 use compare::{CompareError, ScenarioFile};
 use data::Fault;
 use models::CHANNELS;
@@ -244,7 +245,7 @@ impl Wish {
         let mut changes = Changes { values: Vec::new(), pressures_kpa: None };
         for (axis, share) in self.free.iter().zip(free).chain(self.assumed.iter().zip(assumed)) {
             let value = axis.at(*share);
-            match (channel(&axis.key), crate::study::as_number(&value)) {
+            match (channel(&axis.key), as_number(&value)) {
                 (Some(None), Some(kpa)) => changes.pressures_kpa = Some([kpa; CHANNELS]),
                 (Some(Some(one)), Some(kpa)) => changes.pressures_kpa.get_or_insert([0.0; CHANNELS])[one] = kpa,
                 _ => changes.values.push((axis.key.clone(), value.to_string())),
