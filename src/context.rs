@@ -1,7 +1,6 @@
 //! What commands share: the outside that they may use, the wish to end, and what they have to say.
 
 use crate::failure::{Failure, INTERRUPTED};
-use fem::FemError;
 use fem::session::Progress;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -25,7 +24,7 @@ pub struct Context<'a> {
 
 impl Context<'_> {
     /// Makes finite element runs. Ctrl-C asks them to end from here on, which they do with a checkpoint.
-    pub fn fem<T>(&mut self, make: impl FnOnce(Progress) -> Result<T, FemError>) -> Result<T, FemError> {
+    pub fn fem<T, E>(&mut self, make: impl FnOnce(Progress) -> Result<T, E>) -> Result<T, E> {
         let Context { progress, interrupt, .. } = self;
         interrupt.await_one();
         let made = make(&mut |text, share| {

@@ -9,7 +9,6 @@ use crate::shown::designed::{Checked, design_json, design_text};
 use fem::session::{FeRun, Settings, Source, simulate};
 use ibr::pages::design_files;
 use std::path::PathBuf;
-use sweep::SweepError;
 use sweep::design::{Design, Wish, design, misses_of_reading};
 
 pub fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome, Failure> {
@@ -44,26 +43,10 @@ pub fn run(args: &DesignArgs, context: &mut Context) -> Result<Outcome, Failure>
 /// The search; Ctrl-C ends it, and nothing is written.
 fn searched(wish: &Wish, threads: usize, context: &mut Context) -> Result<Design, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let mut failure = None;
-    let found = context.fem(|progress| {
-        let made = match pool {
-            Ok(pool) => pool.install(|| design(wish, progress)),
-            Err(_) => design(wish, progress),
-        };
-        match made {
-            Ok(found) => Ok(Some(found)),
-            Err(SweepError::Run(error)) => Err(error),
-            Err(other) => {
-                failure = Some(other);
-                Ok(None)
-            }
-        }
-    })?;
-    match (found, failure) {
-        (Some(found), _) => Ok(found),
-        (None, Some(error)) => Err(error.into()),
-        (None, None) => Err(Failure::usage("nothing was searched", "report this")),
-    }
+    Ok(context.fem(|progress| match pool {
+        Ok(pool) => pool.install(|| design(wish, progress)),
+        Err(_) => design(wish, progress),
+    })?)
 }
 
 /// One finite element run of the design; or why there is none.

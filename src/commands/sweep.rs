@@ -34,7 +34,8 @@ pub fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Failure> 
         ..fem::session::Settings::default()
     };
     let settings = Settings { folder: folder.clone(), shard, threads: args.threads as usize, runs };
-    let found = made(&study, &settings, context)?;
+    // Ctrl-C leaves what is complete.
+    let found = context.fem(|progress| compute(&study, &settings, progress))?;
     match collect(&study, &folder) {
         Ok(table) => whole(args, &study, &folder, &found, table, context),
         Err(missing) => {
@@ -44,24 +45,6 @@ pub fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Failure> 
             );
             Ok(Outcome::new(text, swept_json(&args.study, &study, &found, None)))
         }
-    }
-}
-
-/// Computes what is missing; Ctrl-C leaves what is complete.
-fn made(study: &Study, settings: &Settings, context: &mut Context) -> Result<Found, Failure> {
-    let mut failure = None;
-    let found = context.fem(|progress| match compute(study, settings, progress) {
-        Ok(found) => Ok(Some(found)),
-        Err(sweep::SweepError::Run(error)) => Err(error),
-        Err(other) => {
-            failure = Some(other);
-            Ok(None)
-        }
-    })?;
-    match (found, failure) {
-        (Some(found), _) => Ok(found),
-        (None, Some(error)) => Err(error.into()),
-        (None, None) => Err(Failure::usage("nothing was computed", "report this")),
     }
 }
 
@@ -107,15 +90,13 @@ fn job(args: &SweepArgs, folder: &Path) -> Result<Job, Failure> {
 
 /// Submits and watches until all parts are there; Ctrl-C leaves the job alone.
 fn submit(job: &Job, cluster: Cluster, study: &Study, folder: &Path, context: &mut Context) -> Result<(), Failure> {
-    let mut outcome = Ok(());
     let all = sweep::parts_missing(study, folder).max(1);
     context.fem(|progress| {
         let missing = || sweep::parts_missing(study, folder);
         let told = &mut |left: usize| -> ControlFlow<()> {
             progress("parts by the scheduler", Some(1.0 - left as f64 / all as f64))
         };
-        outcome = job.run(cluster, &missing, told);
-        Ok(())
+        job.run(cluster, &missing, told)
     })?;
-    Ok(outcome?)
+    Ok(())
 }

@@ -18,6 +18,7 @@ mod search;
 #[cfg(test)]
 mod tests;
 mod wish;
+mod written;
 
 pub use search::{Design, Held, Miss, Spread, design, misses_of_reading};
 pub use wish::{Cost, Place, Turn, Wanted, Wish};
