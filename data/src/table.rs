@@ -168,14 +168,16 @@ impl Read for TableReader<'_> {
 
 #[cfg(feature = "parquet")]
 mod parquet {
-    use std::fs::File;
     use std::io::Cursor;
 
+    use polars_buffer::Buffer;
     use polars_core::prelude::{
         Column as PolarsColumn, DataFrame, DataType, NamedFrom, PolarsError, PolarsResult, Series,
     };
     use polars_io::SerReader;
     use polars_io::prelude::{ParquetCompression, ParquetReader, ParquetWriter};
+    use polars_parquet::parquet::page::CompressedPage;
+    use polars_parquet::parquet::read::get_page_iterator;
 
     use super::{Column, DataError, Fault, PARQUET_READER, Path, Table};
     use crate::write::write_atomically;
@@ -195,9 +197,9 @@ mod parquet {
     }
 
     pub fn read(path: &Path) -> Result<Table, DataError> {
-        let file = File::open(path)
+        let bytes = std::fs::read(path)
             .map_err(|cause| file_error(path, format!("cannot open the file: {cause}"), "check the path"))?;
-        let reading = std::thread::Builder::new().name(PARQUET_READER.into()).spawn(move || table(file));
+        let reading = std::thread::Builder::new().name(PARQUET_READER.into()).spawn(move || table(bytes));
         let cause = match reading.map(std::thread::JoinHandle::join) {
             Ok(Ok(Ok(table))) => return Ok(table),
             Ok(Ok(Err(cause))) => cause.to_string(),
@@ -208,13 +210,30 @@ mod parquet {
         Err(file_error(path, format!("not a readable Parquet file: {cause}"), help))
     }
 
-    fn table(file: File) -> PolarsResult<Table> {
-        let mut reader = ParquetReader::new(file);
-        // The library makes room for as many rows as the file says before it looks for them.
+    /// The library makes room for as many rows as the file and its pages say before it looks for them, and for texts in the
+    /// heads of pages as long as these say. So pages are counted first, and none may be longer than the file.
+    fn table(bytes: Vec<u8>) -> PolarsResult<Table> {
+        let bytes = Buffer::from_vec(bytes);
+        let mut reader = ParquetReader::new(Cursor::new(bytes.clone()));
         let said = reader.get_metadata()?;
         let rows = said.row_groups.iter().map(|group| group.num_rows()).fold(said.num_rows, usize::max);
         if rows > MOST_ROWS {
             return Err(PolarsError::ComputeError(format!("it says that it has {rows} rows").into()));
+        }
+        for group in &said.row_groups {
+            for column in group.parquet_columns() {
+                let mut in_pages = 0_usize;
+                for page in get_page_iterator(column, Cursor::new(bytes.clone()), Vec::new(), bytes.len())? {
+                    if let CompressedPage::Data(page) = page? {
+                        in_pages = in_pages.saturating_add(page.num_values());
+                    }
+                }
+                if in_pages != group.num_rows() {
+                    let name = column.descriptor().path_in_schema.join(".");
+                    let message = format!("column {name} has {in_pages} values in {} rows", group.num_rows());
+                    return Err(PolarsError::ComputeError(message.into()));
+                }
+            }
         }
         let frame = reader.finish()?;
         let column = |column: &PolarsColumn| Ok((column.name().to_string(), from_polars(column)?));

@@ -1,17 +1,28 @@
 //! Grid lines of a robot: along the body so that welds and markers lie on rings, around so that edges and folds of the
 //! actuator lie on generators.
+//!
+//! Where strips turn round the body, the grid turns with them. In the unrolled wall, with s across a strip of slant β:
+//!
+//! ```text
+//! x = x_m − s sin β        Rθ = R (θ₀ + x_m tan β/R) + s cos β
+//! ```
+//!
+//! Between strips x changes evenly, so that every ring closes. Towards base and tip the rings straighten, and generators run along the body.
 
 use std::f64::consts::TAU;
 
 use models::Scenario;
+use models::scenario::ActuatorChoice;
 use models::actuators::pattern::Pattern;
 
 use super::RobotSettings;
 use super::settings::{FOLDED_ROW, TAPED_SPACING};
+use crate::FemError;
 
 /// Largest ratio of neighbouring elements where the size changes.
 const GROWTH: f64 = 1.25;
-/// A weld narrower than this share of the element size is a line, a margin is none: a row of slivers turns inside out.
+/// A weld narrower than this share of the element size is a line, a margin is none: a row of slivers turns inside out. Strips and
+/// their seams keep that far apart.
 const LEAST_STRIP: f64 = 0.5;
 /// Lines closer than this share of the element size become one.
 const MERGE: f64 = 0.4;
@@ -19,33 +30,164 @@ const MERGE: f64 = 0.4;
 /// The grid.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Lines {
-    /// Places of the rings \[m\].
+    /// Places of the rings where they cross the middle of a strip \[m\].
     pub x_m: Vec<f64>,
-    /// Rows of elements that are welded flat: (first ring, last ring); equal for a weld without width.
-    pub welds: Vec<[usize; 2]>,
-    /// Places across the strip \[m\], from edge to edge of the sheet, its side welds included; the first generators.
-    pub s_m: Vec<f64>,
-    /// Angles of all generators from the middle of the strip \[rad\], ascending from the strip's edge.
+    /// The strips, in the order of the scenario.
+    pub strips: Vec<StripLines>,
+    /// Angles of all generators \[rad\], ascending from the edge of the first strip; where they turn, those at the base.
     pub angles: Vec<f64>,
     /// Ring of every marker.
     pub markers: Vec<usize>,
+    turn: Option<Turn>,
+}
+
+/// Grid lines of one strip.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct StripLines {
+    /// Rows of elements that are welded flat: (first ring, last ring); equal for a weld without width.
+    pub welds: Vec<[usize; 2]>,
+    /// Its first generator.
+    pub first: usize,
+    /// Places across the strip \[m\], from edge to edge of the sheet, its side welds included.
+    pub s_m: Vec<f64>,
+}
+
+/// How the grid turns with slanted strips.
+#[derive(Debug, Clone, PartialEq)]
+struct Turn {
+    /// From the first weld to the last \[m\].
+    zone_m: [f64; 2],
+    length_m: f64,
+    /// tan β/R \[rad/m\].
+    rad_per_m: f64,
+    /// How far each generator's nodes lie ahead of their ring there \[m\].
+    ahead_m: Vec<f64>,
 }
 
 impl Lines {
-    pub fn of(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) -> Lines {
-        let (x_m, bands) = along(scenario, rows(pattern, settings), settings);
-        let nearest = |place: f64| nearest(&x_m, place);
-        let welds = bands.iter().map(|band| band.map(nearest)).collect();
-        let markers = scenario.markers_m.iter().map(|s| nearest(*s)).collect();
-        let s_m = across(pattern, settings);
-        let angles = around(scenario.radius_m, &s_m, settings);
-        Lines { welds, markers, s_m, angles, x_m }
+    /// # Errors
+    /// [`FemError::Problem`] for strips of several slants, or so close that elements between them are slivers.
+    pub fn of(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Result<Lines, FemError> {
+        let radius_m = scenario.radius_m;
+        let [cos, sin] = [scenario.actuator.cos_slant(radius_m), scenario.actuator.sin_slant(radius_m)];
+        if scenario.strips().any(|strip| (strip.sin_slant(radius_m) - sin).abs() > 1e-9) {
+            return Err(refused("strips of different slant; give all of them the same turns, count and length_mm"));
+        }
+        let bands = bands(scenario, cos, settings);
+        let x_m = along(scenario, cos, &bands, patterns, settings);
+        if let Some(pair) = sliver(&bands, LEAST_STRIP * cos * settings.actuator_size_m) {
+            let [a, b] = pair.map(|m| m * 1e3);
+            return Err(refused(&format!(
+                "seams of two strips at {a:.2} and {b:.2} mm are too close for elements; move start_mm or length_mm of one"
+            )));
+        }
+        let on_ring = |place: &f64| nearest(&x_m, *place);
+        let mut strips: Vec<StripLines> = std::iter::zip(patterns, &bands)
+            .map(|(pattern, bands)| StripLines {
+                welds: bands.iter().map(|band| [on_ring(&band[0]), on_ring(&band[1])]).collect(),
+                first: 0,
+                s_m: across(pattern, settings),
+            })
+            .collect();
+        let markers = scenario.markers_m.iter().map(on_ring).collect();
+        let zone_m = [f64::min, f64::max].map(|of| bands.iter().flatten().flatten().copied().reduce(of).unwrap_or(0.0));
+        let rad_per_m = sin / cos / radius_m;
+        // Azimuths where the grid begins to turn.
+        let centres: Vec<f64> = scenario
+            .strips()
+            .map(|strip| strip.azimuth_rad + rad_per_m * if sin == 0.0 { 0.0 } else { zone_m[0] - strip.start_m })
+            .collect();
+        let angles = around(radius_m, cos, &centres, &mut strips, settings)?;
+        let ahead = || Turn { zone_m, length_m: scenario.length_m, rad_per_m, ahead_m: ahead(&angles, &strips, sin) };
+        let turn = (sin != 0.0).then(ahead);
+        Ok(Lines { strips, markers, angles, turn, x_m })
     }
 
+    /// Place of the node of a ring and a generator at a radius \[m\].
+    pub fn place(&self, ring: usize, column: usize, radius_m: f64) -> [f64; 3] {
+        let (mut x, mut angle) = (self.x_m[ring], self.angles[column]);
+        if let Some(turn) = &self.turn {
+            angle += turn.angle(x);
+            x += turn.ahead_m[column] * turn.share(x);
+        }
+        [x, radius_m * angle.cos(), radius_m * angle.sin()]
+    }
+
+    /// How far generators turn from base to tip \[rad\].
+    pub fn turned_rad(&self) -> f64 {
+        self.turn.as_ref().map_or(0.0, |turn| turn.angle(turn.length_m))
+    }
+}
+
+impl StripLines {
     /// Generator at a place across the strip.
     pub fn column(&self, s_m: f64) -> usize {
-        nearest(&self.s_m, s_m)
+        self.first + nearest(&self.s_m, s_m)
     }
+}
+
+impl Turn {
+    /// By which generators have turned at a ring \[rad\].
+    fn angle(&self, x_m: f64) -> f64 {
+        self.rad_per_m * (x_m.clamp(self.zone_m[0], self.zone_m[1]) - self.zone_m[0])
+    }
+
+    /// Share of `ahead_m` that a ring has.
+    fn share(&self, x_m: f64) -> f64 {
+        let [first, last] = self.zone_m;
+        match x_m {
+            x if x < first => x / first,
+            x if x > last => (self.length_m - x) / (self.length_m - last),
+            _ => 1.0,
+        }
+    }
+}
+
+fn refused(message: &str) -> FemError {
+    FemError::Problem(format!("robot: {message}"))
+}
+
+/// Where every weld of every strip begins and ends along the body \[m\].
+fn bands(scenario: &Scenario, cos: f64, settings: &RobotSettings) -> Vec<Vec<[f64; 2]>> {
+    let (length, half) = (scenario.length_m, 0.5 * weld_m(settings) * cos);
+    let of = |strip: &ActuatorChoice| {
+        (0..=strip.count).map(|k| [-half, half].map(|w| (seam(strip, k, cos) + w).clamp(0.0, length))).collect()
+    };
+    scenario.strips().map(of).collect()
+}
+
+fn seam(strip: &ActuatorChoice, k: usize, cos: f64) -> f64 {
+    strip.start_m + k as f64 * (strip.shape.length_m * cos)
+}
+
+/// Edges of welds of two strips that are neither on one ring nor `apart`.
+fn sliver(bands: &[Vec<[f64; 2]>], apart: f64) -> Option<[f64; 2]> {
+    let off = |strip: &[[f64; 2]], place: f64| {
+        strip.iter().flatten().map(|edge| (edge - place).abs()).fold(f64::INFINITY, f64::min)
+    };
+    let close = |strip: &Vec<[f64; 2]>, other: &Vec<[f64; 2]>| {
+        let place = other.iter().flatten().copied().find(|place| (1e-9..apart).contains(&off(strip, *place)))?;
+        strip.iter().flatten().copied().find(|edge| (edge - place).abs() < apart).map(|edge| [edge, place])
+    };
+    bands.iter().enumerate().find_map(|(i, strip)| bands[..i].iter().find_map(|other| close(strip, other)))
+}
+
+/// How far the nodes of every generator lie ahead of their ring where the grid turns \[m\].
+fn ahead(angles: &[f64], strips: &[StripLines], sin: f64) -> Vec<f64> {
+    let mut known: Vec<(usize, f64)> =
+        strips.iter().flat_map(|strip| strip.s_m.iter().enumerate().map(|(i, s)| (strip.first + i, -s * sin))).collect();
+    known.sort_by_key(|(column, _)| *column);
+    let (first, last) = (known[0], known[known.len() - 1]);
+    known.push((angles.len(), first.1));
+    let angle = |column: usize| if column == angles.len() { angles[0] + TAU } else { angles[column] };
+    let mut found = Vec::with_capacity(angles.len());
+    for pair in known.windows(2) {
+        let [(from, a), (to, b)] = [pair[0], pair[1]];
+        let share = |column: usize| (angle(column) - angle(from)) / (angle(to) - angle(from));
+        found.extend((from..to).map(|column| a + (b - a) * share(column)));
+    }
+    debug_assert!(found.len() == angles.len() && last.0 < angles.len());
+    found
 }
 
 fn nearest(places: &[f64], wanted: f64) -> usize {
@@ -74,25 +216,24 @@ fn rows(pattern: &Pattern, settings: &RobotSettings) -> [f64; 2] {
     [row, settings.seam_row_m.or(folded).unwrap_or(row).min(row)]
 }
 
-/// Rings, and where each weld begins and ends.
-fn along(scenario: &Scenario, [row, beside]: [f64; 2], settings: &RobotSettings) -> (Vec<f64>, Vec<[f64; 2]>) {
-    let (actuator, length) = (&scenario.actuator, scenario.length_m);
-    let seam = |k: usize| actuator.start_m + k as f64 * actuator.shape.length_m;
-    let half = 0.5 * weld_m(settings);
-    let bands: Vec<[f64; 2]> =
-        (0..=actuator.count).map(|k| [-half, half].map(|w| (seam(k) + w).clamp(0.0, length))).collect();
+/// Rings.
+fn along(scenario: &Scenario, cos: f64, bands: &[Vec<[f64; 2]>], patterns: &[Pattern], settings: &RobotSettings) -> Vec<f64> {
+    let [row, beside] = rows(&patterns[0], settings).map(|row| cos * row);
+    let length = scenario.length_m;
     let mut cuts = vec![0.0, length];
-    bands.iter().flatten().for_each(|place| add(&mut cuts, *place, 1e-9));
-    let [first, last] = [seam(0), seam(actuator.count)];
-    let pouch = |place: f64| first < place && place < last;
+    bands.iter().flatten().flatten().for_each(|place| add(&mut cuts, *place, 1e-9));
+    let pouch = |place: f64| {
+        let over = |strip: &ActuatorChoice| seam(strip, 0, cos) < place && place < seam(strip, strip.count, cos);
+        scenario.strips().any(over)
+    };
     let size = |place: f64| if pouch(place) { row } else { settings.body_size_m };
     scenario.markers_m.iter().for_each(|place| add(&mut cuts, *place, MERGE * size(*place)));
     if beside < row {
         let middle = |pair: &[[f64; 2]]| 0.5 * (pair[0][1] + pair[1][0]);
-        bands.windows(2).map(middle).for_each(|place| add(&mut cuts, place, MERGE * row));
+        bands.iter().flat_map(|strip| strip.windows(2)).map(middle).for_each(|place| add(&mut cuts, place, MERGE * row));
     }
     cuts.sort_by(f64::total_cmp);
-    let weld = |place: f64| bands.iter().flatten().any(|edge| (edge - place).abs() < 1e-9);
+    let weld = |place: f64| bands.iter().flatten().flatten().any(|edge| (edge - place).abs() < 1e-9);
     let mut x_m = vec![0.0];
     for pair in cuts.windows(2) {
         let [a, b] = [pair[0], pair[1]];
@@ -103,7 +244,7 @@ fn along(scenario: &Scenario, [row, beside]: [f64; 2], settings: &RobotSettings)
             x_m.extend(divided(a, b, size(middle)).skip(1));
         }
     }
-    (x_m, bands)
+    x_m
 }
 
 /// Adds a line unless there is one within `apart`.
@@ -151,10 +292,39 @@ fn across(pattern: &Pattern, settings: &RobotSettings) -> Vec<f64> {
     std::iter::once(cuts[0]).chain(cuts.windows(2).flat_map(steps)).collect()
 }
 
-/// The strip's generators, then the others: growing from the strip's size to the body's and back.
-fn around(radius: f64, s_m: &[f64], settings: &RobotSettings) -> Vec<f64> {
-    let (first, last) = (s_m[0], s_m[s_m.len() - 1]);
-    let half = 0.5 * (TAU * radius - (last - first));
+/// Generators of every strip and those between, which grow from the strips' size to the body's and back.
+fn around(
+    radius_m: f64,
+    cos: f64,
+    centres: &[f64],
+    strips: &mut [StripLines],
+    settings: &RobotSettings,
+) -> Result<Vec<f64>, FemError> {
+    let turned = |i: usize| (centres[i] - centres[0]).rem_euclid(TAU);
+    let mut order: Vec<usize> = (0..centres.len()).collect();
+    order.sort_by(|a, b| turned(*a).total_cmp(&turned(*b)));
+    let mut angles = Vec::new();
+    for (k, i) in order.iter().enumerate() {
+        let next = order.get(k + 1).copied();
+        let centre = radius_m * (centres[0] + turned(*i));
+        let to_next = radius_m * (next.map_or(TAU, turned) - turned(*i));
+        let last = cos * strips[*i].s_m[strips[*i].s_m.len() - 1];
+        let gap = to_next - (last - cos * strips[next.unwrap_or(0)].s_m[0]);
+        if gap < LEAST_STRIP * settings.actuator_size_m {
+            return Err(refused(&format!(
+                "{:.1} mm are left between the welds of two strips round the body; make them narrower, or move azimuth_deg",
+                1e3 * gap
+            )));
+        }
+        strips[*i].first = angles.len();
+        angles.extend(strips[*i].s_m.iter().map(|s| (centre + cos * s) / radius_m));
+        angles.extend(between(centre + last, 0.5 * gap, settings).map(|place| place / radius_m));
+    }
+    Ok(angles)
+}
+
+/// Places of the generators after one at `place` to another `2 half` further \[m\].
+fn between(mut place: f64, half: f64, settings: &RobotSettings) -> impl Iterator<Item = f64> {
     let mut steps = Vec::new();
     let (mut size, mut sum) = (settings.actuator_size_m, 0.0);
     while sum + 0.5 * size < half || steps.is_empty() {
@@ -166,13 +336,10 @@ fn around(radius: f64, s_m: &[f64], settings: &RobotSettings) -> Vec<f64> {
         steps.push(size);
         sum += size;
     }
-    let scale = half / sum;
-    let mut place = last;
-    let mut angles: Vec<f64> = s_m.iter().map(|s| s / radius).collect();
-    for step in steps.iter().chain(steps.iter().rev()) {
+    let (scale, inner) = (half / sum, 2 * steps.len() - 1);
+    let back: Vec<f64> = steps.iter().rev().copied().collect();
+    steps.into_iter().chain(back).take(inner).map(move |step| {
         place += step * scale;
-        angles.push(place / radius);
-    }
-    angles.pop();
-    angles
+        place
+    })
 }

@@ -4,7 +4,7 @@
 //! ramp ([`Amplitude::Growing`]), for a sixth of the ramp at least; then the pressure is held for `hold_s`, and read at the end
 //! of it. Without a stop the robot cannot be read: while the pressure passes by, its motion holds a tenth of the energy.
 
-use models::Scenario;
+use models::{CHANNELS, Scenario};
 
 use super::{Preset, RobotSettings, problem, sew, table};
 use crate::problem::{Amplitude, NodalForce, Obstacle, Pressure};
@@ -25,8 +25,8 @@ pub struct RobotRun {
     pub settings: RobotSettings,
     /// Whether every pressure is a run of its own.
     pub separate: bool,
-    /// Actuator pressures that are read, in this order \[Pa\].
-    pub pressures_pa: Vec<f64>,
+    /// Pressures of the channels that are read, in this order \[Pa\].
+    pub pressures_pa: Vec<[f64; CHANNELS]>,
     /// Dead load on the tip's ring, which grows while the body is filled \[N\].
     pub tip_force_n: [f64; 3],
     /// A cylinder along z in the way.
@@ -40,8 +40,20 @@ pub struct RobotRun {
 pub struct HoldEnd {
     /// When \[s\].
     pub time_s: f64,
-    /// Actuator pressure then \[Pa\].
-    pub pressure_pa: f64,
+    /// Pressures of the channels then \[Pa\].
+    pub pressures_pa: [f64; CHANNELS],
+}
+
+impl HoldEnd {
+    /// The highest \[Pa\].
+    pub fn highest_pa(&self) -> f64 {
+        highest_pa(&self.pressures_pa)
+    }
+}
+
+/// The highest pressure of all channels \[Pa\].
+pub(super) fn highest_pa(channels: &[f64; CHANNELS]) -> f64 {
+    channels.iter().copied().fold(0.0, f64::max)
 }
 
 impl RobotRun {
@@ -55,23 +67,25 @@ impl RobotRun {
 
     /// When the robot is read: full body first, then every pressure.
     pub fn holds(&self) -> Vec<HoldEnd> {
-        let (mut time_s, mut before) = (self.settings.body_ramp_s, 0.0);
-        let mut holds = vec![HoldEnd { time_s, pressure_pa: 0.0 }];
-        for pressure_pa in &self.pressures_pa {
-            time_s += self.ramp_s(before, *pressure_pa) + self.settings.hold_s;
-            holds.push(HoldEnd { time_s, pressure_pa: *pressure_pa });
-            before = *pressure_pa;
+        let (mut time_s, mut before) = (self.settings.body_ramp_s, [0.0; CHANNELS]);
+        let mut holds = vec![HoldEnd { time_s, pressures_pa: before }];
+        for pressures_pa in &self.pressures_pa {
+            time_s += self.ramp_s(&before, pressures_pa) + self.settings.hold_s;
+            holds.push(HoldEnd { time_s, pressures_pa: *pressures_pa });
+            before = *pressures_pa;
         }
         holds
     }
 
-    fn ramp_s(&self, from_pa: f64, to_pa: f64) -> f64 {
+    /// As long as the channel with the longest way takes.
+    fn ramp_s(&self, from_pa: &[f64; CHANNELS], to_pa: &[f64; CHANNELS]) -> f64 {
         let way = |from: f64, to: f64| match self.settings.ramp_floor_pa {
             Some(floor_pa) => ((to - from) / (from + floor_pa)).ln_1p().abs(),
             None => (to - from).abs(),
         };
         let whole = way(0.0, self.settings.actuator_pa).max(f64::MIN_POSITIVE);
-        self.settings.actuator_ramp_s * (way(from_pa, to_pa) / whole).max(SHORTEST)
+        let longest = from_pa.iter().zip(to_pa).map(|(from, to)| way(*from, *to)).fold(0.0, f64::max);
+        self.settings.actuator_ramp_s * (longest / whole).max(SHORTEST)
     }
 
     /// The problem, ready to run.
@@ -86,16 +100,19 @@ impl RobotRun {
         }
         let mut made = problem(scenario, &self.settings)?;
         let holds = self.holds();
-        let mut points = vec![(holds[0].time_s, 0.0)];
-        for hold in &holds[1..] {
-            let ramped_s = hold.time_s - self.settings.hold_s;
-            points.push((ramped_s, hold.pressure_pa));
-            if self.settings.hold_s > 0.0 {
-                points.push((hold.time_s, hold.pressure_pa));
+        for (i, strip) in scenario.strips().enumerate() {
+            let mut points = vec![(holds[0].time_s, 0.0)];
+            for hold in &holds[1..] {
+                let pressure_pa = hold.pressures_pa[strip.channel];
+                points.push((hold.time_s - self.settings.hold_s, pressure_pa));
+                if self.settings.hold_s > 0.0 {
+                    points.push((hold.time_s, pressure_pa));
+                }
             }
-        }
-        if let Some(chamber) = made.chambers.iter_mut().find(|c| c.name == sew::ACTUATOR) {
-            chamber.pressure = Pressure::Set(self.settings.rise(points));
+            let name = sew::of_strip(sew::ACTUATOR, i);
+            if let Some(chamber) = made.chambers.iter_mut().find(|c| c.name == name) {
+                chamber.pressure = Pressure::Set(self.settings.rise(points));
+            }
         }
         made.settings.end_s = holds[holds.len() - 1].time_s;
         if self.tip_force_n != [0.0; 3] {

@@ -1,7 +1,7 @@
 //! The robots: from a scenario of the reduced model and its actuator's sewing pattern to a finite element problem.
 //!
 //! The body is a cylinder along x, its base ring pinned at x = 0, a flat cap at the tip; the actuator lies on the side of
-//! +y, so that the robot bends towards +y. The actuator's sheet is meshed panel by panel over the same grid lines, layers
+//! +y, so that the robot bends towards +y, or where the scenario's strips say. The actuator's sheet is meshed panel by panel over the same grid lines, layers
 //! `layer_gap_m` apart; welds are shared nodes.
 //!
 //! | part | what | chambers (front, back) |
@@ -11,12 +11,13 @@
 //! | `margin` | the wall with the taped sheet beyond its welds stuck to it | –, body |
 //! | `seam_2`, `seam_4` … | welds with a width: so many layers | –, body |
 //! | by the pattern: `top`, `gusset_1_left` … | the sheet | –, actuator |
+//! | `face_2`, `top_2` … | those of the second strip | actuator_2, … |
 //!
 //! | set | nodes |
 //! |---|---|
 //! | `base` | pinned ring; with `encastre` the row beside it is held too |
 //! | `tip`, `marker_1` … | rings of the body at its end and at (or next to) the scenario's stations |
-//! | `far_generator` | the taut line opposite the actuator |
+//! | `far_generator` | the taut line opposite the actuator of a robot with one strip along y |
 //!
 //! Where elements around are of one size, the mean of a ring is the centre line; [`sections`] gives it for any mesh.
 
@@ -45,6 +46,7 @@ pub use snaps::{Sample, Snap, Watch, snaps};
 pub use table::{KEYS, OTHERS, RunKey, with_fem};
 
 use models::Scenario;
+use models::scenario::ActuatorChoice;
 use models::actuators::pattern::Pattern;
 
 use crate::case::{Outputs, encastre};
@@ -80,11 +82,11 @@ pub fn problem(scenario: &Scenario, settings: &RobotSettings) -> Result<Problem,
         );
         return Err(FemError::Problem(message));
     }
-    let pattern = (scenario.actuator.kind.pattern)(&scenario.actuator.shape);
-    match settings.taped_at_seams && pattern.is_taped() {
-        true => sewn(scenario, &pattern.taped_at_seams(), settings),
-        false => sewn(scenario, &pattern, settings),
-    }
+    let pattern = |strip: &ActuatorChoice| {
+        let pattern = (strip.kind.pattern)(&strip.shape);
+        if settings.taped_at_seams && pattern.is_taped() { pattern.taped_at_seams() } else { pattern }
+    };
+    sewn(scenario, &scenario.strips().map(pattern).collect::<Vec<_>>(), settings)
 }
 
 /// A robot that comes with the program, by name, and its problem.
@@ -98,26 +100,26 @@ pub fn shipped(name: &str, settings: &RobotSettings) -> Result<(Scenario, Proble
     Ok((scenario, problem))
 }
 
-/// The same with another pattern than the actuator's own.
-///
-/// # Errors
-/// As [`problem`].
-pub fn sewn(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) -> Result<Problem, FemError> {
+/// The robot with a pattern for each of its strips.
+fn sewn(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Result<Problem, FemError> {
     settings.check()?;
-    fits(scenario, pattern, settings)?;
-    let pattern = &pattern.between_welds(lines::weld_m(settings));
-    let lines = Lines::of(scenario, pattern, settings);
-    rows(&lines, pattern, settings)?;
-    let mut mesh = sew::sew(scenario, pattern, settings, &lines)?;
+    fits(scenario, patterns, settings)?;
+    let weld_m = lines::weld_m(settings);
+    let patterns: Vec<Pattern> = patterns.iter().map(|pattern| pattern.between_welds(weld_m)).collect();
+    let lines = Lines::of(scenario, &patterns, settings)?;
+    rows(&lines, &patterns[0], settings)?;
+    let mut mesh = sew::sew(scenario, &patterns, settings, &lines)?;
     mesh.membrane = waviness::wavy(&mesh.points, settings.waviness_m, settings.seed);
-    check_open(&mesh, &[sew::BODY, sew::ACTUATOR], &[sew::BASE])?;
-    let plies = Plies::of(pattern, settings)?;
-    let sections = mesh.parts.iter().map(|part| plies.section(&part.name)).collect();
-    let mut problem = Problem::new(&scenario.name, mesh, sections, chambers(scenario, settings));
+    let chambers = chambers(scenario, settings);
+    let names: Vec<&str> = chambers.iter().map(|chamber| chamber.name.as_str()).collect();
+    check_open(&mesh, &names, &[sew::BASE])?;
+    let plies = Plies::of(&patterns[0], scenario.actuator.sin_slant(scenario.radius_m).asin(), settings)?;
+    let sections = mesh.parts.iter().map(|part| plies.section(sew::plain(&part.name))).collect();
+    let mut problem = Problem::new(&scenario.name, mesh, sections, chambers);
     problem.open = vec![sew::BASE.into()];
     let set = if settings.encastre { encastre(&mut problem.mesh, sew::BASE) } else { sew::BASE.into() };
     problem.supports = vec![Support { set, axes: [true; 3], motion: None }];
-    problem.contact = contact(&problem.mesh, pattern, settings);
+    problem.contact = contact(&problem.mesh, &patterns[0], settings);
     problem.settings = numerics(&problem, settings);
     Ok(problem)
 }
@@ -157,16 +159,20 @@ pub fn outputs(scenario: &Scenario, mesh: &Mesh) -> Outputs {
 }
 
 fn body_parts(mesh: &Mesh) -> Vec<String> {
-    let body = |name: &str| [sew::WALL, sew::FACE, sew::MARGIN].contains(&name) || name.starts_with(sew::SEAM);
+    let body = |name: &str| {
+        [sew::WALL, sew::FACE, sew::MARGIN].contains(&sew::plain(name)) || name.starts_with(sew::SEAM)
+    };
     mesh.parts.iter().map(|p| p.name.clone()).filter(|name| body(name)).collect()
 }
 
 /// Refuses what the scenario and the pattern do not allow together.
-fn fits(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) -> Result<(), FemError> {
+fn fits(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Result<(), FemError> {
     let refuse = |message: String| Err(FemError::Problem(format!("robot: {message}")));
-    let taped_m = if pattern.is_taped() { settings.tape_margin_m } else { 0.0 };
-    if let Err(fault) = scenario.fits(pattern, settings.weld_m, taped_m) {
-        return refuse(fault);
+    for (strip, pattern) in scenario.strips().zip(patterns) {
+        let taped_m = if pattern.is_taped() { settings.tape_margin_m } else { 0.0 };
+        if let Err(fault) = scenario.fits(strip, pattern, settings.weld_m, taped_m) {
+            return refuse(fault);
+        }
     }
     if !scenario.zones.is_empty() {
         return refuse(format!("{} zones; zones exist in the reduced model only, remove them", scenario.zones.len()));
@@ -179,8 +185,9 @@ fn fits(scenario: &Scenario, pattern: &Pattern, settings: &RobotSettings) -> Res
 }
 
 fn rows(lines: &Lines, pattern: &Pattern, settings: &RobotSettings) -> Result<(), FemError> {
-    let fewest = lines.welds.windows(2).map(|w| w[1][0].saturating_sub(w[0][1])).min().unwrap_or(0);
-    let fewest = fewest.min(lines.s_m.len() - 1);
+    let along = lines.strips.iter().flat_map(|strip| strip.welds.windows(2)).map(|w| w[1][0].saturating_sub(w[0][1]));
+    let across = lines.strips.iter().map(|strip| strip.s_m.len() - 1);
+    let fewest = along.chain(across).min().unwrap_or(0);
     if policy::is_fine(fewest) {
         return Ok(());
     }
@@ -192,14 +199,15 @@ fn rows(lines: &Lines, pattern: &Pattern, settings: &RobotSettings) -> Result<()
     )))
 }
 
-/// Body first, then the actuator.
+/// Body first, then every strip.
 fn chambers(scenario: &Scenario, settings: &RobotSettings) -> Vec<Chamber> {
     let filled = settings.body_ramp_s;
     let full = filled + settings.actuator_ramp_s;
     let body = Amplitude::Smooth(vec![(0.0, 0.0), (filled, scenario.p_body_pa)]);
     let actuator = settings.rise(vec![(filled, 0.0), (full, settings.actuator_pa)]);
-    let chamber = |name: &str, set| Chamber { name: name.into(), pressure: Pressure::Set(set), open_axis: None };
-    vec![chamber(sew::BODY, body), chamber(sew::ACTUATOR, actuator)]
+    let chamber = |name: String, set| Chamber { name, pressure: Pressure::Set(set), open_axis: None };
+    let strips = (0..scenario.strips().count()).map(|i| chamber(sew::of_strip(sew::ACTUATOR, i), actuator.clone()));
+    std::iter::once(chamber(sew::BODY.into(), body)).chain(strips).collect()
 }
 
 /// Contact of everything but the cap, where the pattern folds.

@@ -38,14 +38,19 @@ use crate::sheet::reference::{bending_stiffness, mean_stiffness};
 pub(super) struct Plies<'a> {
     pattern: &'a Pattern,
     settings: &'a RobotSettings,
+    /// Of the strips to the body \[rad\], as ply angles count.
+    slant_rad: f64,
     body: Arc<dyn Fabric>,
     sheet: Arc<dyn Fabric>,
 }
 
 impl Plies<'_> {
-    pub fn of<'a>(pattern: &'a Pattern, settings: &'a RobotSettings) -> Result<Plies<'a>, FemError> {
+    /// For strips of one kind and slant, as azimuths turn from base to tip \[rad\].
+    pub fn of<'a>(pattern: &'a Pattern, slant_rad: f64, settings: &'a RobotSettings) -> Result<Plies<'a>, FemError> {
         let fabric = |name: &str| made(name, settings.nu12);
-        Ok(Plies { pattern, settings, body: fabric(pattern.body_fabric)?, sheet: fabric(pattern.fabric)? })
+        let (body, sheet) = (fabric(pattern.body_fabric)?, fabric(pattern.fabric)?);
+        // Azimuths turn clockwise seen from outside.
+        Ok(Plies { pattern, settings, slant_rad: -slant_rad, body, sheet })
     }
 
     /// Section of the part of that name.
@@ -62,7 +67,7 @@ impl Plies<'_> {
                 let mut plies = vec![wall];
                 plies.extend(self.stuck());
                 let welded = layers + usize::from(self.film().is_some());
-                plies.resize(plies.len().max(welded), ply(&self.sheet, self.pattern.panels[0].warp_rad));
+                plies.resize(plies.len().max(welded), ply(&self.sheet, self.slant_rad + self.pattern.panels[0].warp_rad));
                 self.bonded(plies)
             }
             (FACE | MARGIN, None) if !self.stuck().is_empty() => {
@@ -88,7 +93,7 @@ impl Plies<'_> {
     /// Film and bottom sheet on the wall, if the pattern has them.
     fn stuck(&self) -> Vec<Ply> {
         let Joint::Bonded { warp_rad, .. } = self.pattern.joint else { return Vec::new() };
-        let bottom = ply(&self.sheet, warp_rad);
+        let bottom = ply(&self.sheet, self.slant_rad + warp_rad);
         self.film().map(|film| ply(&film, 0.0)).into_iter().chain([bottom]).collect()
     }
 

@@ -7,6 +7,7 @@ use super::inflated::{InflatedPouch, Tape};
 use super::seams::Seams;
 use super::{marker_points, sections, sew};
 use crate::output::centre_line::CentreLine;
+use crate::vec3::{along, cross};
 use crate::{FemError, Mesh, Problem, Simulation};
 
 /// Reads a robot while it runs.
@@ -21,6 +22,7 @@ pub struct RobotGauge {
     seams: Seams,
     tape: Option<Tape>,
     mesh: Mesh,
+    is_spatial: bool,
 }
 
 /// A robot at one moment; SI, displacements from the start.
@@ -28,23 +30,28 @@ pub struct RobotGauge {
 pub struct Reading {
     /// Time \[s\].
     pub time_s: f64,
-    /// Actuator gauge pressure \[Pa\].
+    /// Actuator gauge pressure \[Pa\]; the highest of all strips.
     pub actuator_pa: f64,
+    /// Gauge pressure of every strip \[Pa\]; none in readings that did not keep it.
+    #[serde(default)]
+    pub strips_pa: Vec<f64>,
     /// Body gauge pressure \[Pa\].
     pub body_pa: f64,
     /// Marker stations and, last, the tip \[m\].
     pub stations_m: Vec<f64>,
     /// Displacement of the section's centroid at each station \[m\].
     pub moved_m: Vec<[f64; 3]>,
-    /// Displacement of the wall where a marker sticks at each marker's station, without the tip \[m\]: on the side that faces a camera.
+    /// Displacement of the wall where a marker sticks at each marker's station, without the tip \[m\]: on the side that faces a
+    /// camera. With strips round the body no side is free of them, and it is the section's centroid.
     pub seen_moved_m: Vec<[f64; 3]>,
     /// Displacement of the mean of the ring of nodes at (or next to) each station \[m\].
     pub ring_moved_m: Vec<[f64; 3]>,
-    /// Turn of the tip's ring in the plane of bending \[rad\].
+    /// Turn of the tip's ring \[rad\]: in the x–y plane, positive towards the actuator; with strips round the body the angle between
+    /// its normal and the straight one.
     pub tip_angle_rad: f64,
     /// Volume of the body \[m³\].
     pub body_m3: f64,
-    /// Volume of the actuator \[m³\].
+    /// Volume of the actuator, all strips \[m³\].
     pub actuator_m3: f64,
     /// Largest von Mises stress \[Pa\], with the part and the place along the robot \[m\] of its element.
     pub von_mises_pa: f64,
@@ -92,7 +99,10 @@ impl RobotGauge {
         let line = sections(&mesh, &stations_m)?;
         let start: Vec<[f64; 3]> = (0..mesh.points.len()).map(|node| mesh.start_of(node)).collect();
         let start_m = line.at(&start)?;
-        let seen = marker_points(&mesh, &scenario.markers_m)?;
+        let seen = match scenario.is_spatial() {
+            true => sections(&mesh, &scenario.markers_m)?,
+            false => marker_points(&mesh, &scenario.markers_m)?,
+        };
         let seen_start_m = seen.at(&start)?;
         Ok(RobotGauge {
             line,
@@ -104,6 +114,7 @@ impl RobotGauge {
             seams: Seams::of(&mesh),
             tape: Tape::of(scenario, &mesh),
             mesh,
+            is_spatial: scenario.is_spatial(),
         })
     }
 
@@ -122,8 +133,8 @@ impl RobotGauge {
         let seam = self.seams.largest(&fields);
         let (von_mises_part, von_mises_at_m) = self.place(hottest);
         let (seam_part, seam_at_m) = seam.map_or((String::new(), 0.0), |s| self.place(s.element));
-        let chamber = |name: &str| run.chambers().into_iter().find(|c| c.name == name);
-        let (body, actuator) = (chamber(sew::BODY), chamber(sew::ACTUATOR));
+        let (body, strips): (Vec<_>, Vec<_>) = run.chambers().into_iter().partition(|c| c.name == sew::BODY);
+        let strips_pa: Vec<f64> = strips.iter().map(|c| c.pressure_pa).collect();
         // The base is the only thing that is held, with one row of nodes or two.
         let base = run.reactions().first();
         let ledger = run.ledger();
@@ -131,15 +142,16 @@ impl RobotGauge {
         rows.extend(ledger.rows.iter().map(|r| (r.name.to_string(), r.kind.word().to_string(), r.energy_j)));
         Ok(Reading {
             time_s: run.time_s(),
-            actuator_pa: actuator.as_ref().map_or(0.0, |c| c.pressure_pa),
-            body_pa: body.as_ref().map_or(0.0, |c| c.pressure_pa),
+            actuator_pa: strips_pa.iter().copied().fold(0.0, f64::max),
+            strips_pa,
+            body_pa: body.first().map_or(0.0, |c| c.pressure_pa),
             stations_m: self.line.stations_m().to_vec(),
             moved_m: moved(&self.line, &self.start_m)?,
             seen_moved_m: moved(&self.seen, &self.seen_start_m)?,
             ring_moved_m: self.rings.iter().map(|ring| self.moved(ring, &positions)).collect(),
             tip_angle_rad: self.turn_rad(&positions),
-            body_m3: body.map_or(0.0, |c| c.volume_m3),
-            actuator_m3: actuator.map_or(0.0, |c| c.volume_m3),
+            body_m3: body.first().map_or(0.0, |c| c.volume_m3),
+            actuator_m3: strips.iter().map(|c| c.volume_m3).sum(),
             von_mises_pa: fields.von_mises_pa.get(hottest).copied().unwrap_or(0.0),
             von_mises_part,
             von_mises_at_m,
@@ -180,6 +192,10 @@ impl RobotGauge {
 
     /// Turn of the tip's ring for node positions in mesh order \[rad\]: its height vector Σ (y₀ − ȳ₀) x turns with the tip.
     pub(super) fn turn_rad(&self, positions: &[[f64; 3]]) -> f64 {
+        if self.is_spatial {
+            let normal = self.normal(positions);
+            return normal[1].hypot(normal[2]).atan2(normal[0]);
+        }
         let start = |node: u32| self.mesh.start_of(node as usize);
         let middle = self.tip.iter().map(|n| start(*n)[1]).sum::<f64>() / self.tip.len() as f64;
         let (mut now, mut before) = ([0.0; 2], [0.0; 2]);
@@ -192,6 +208,20 @@ impl RobotGauge {
         }
         let (cross, dot) = (before[0] * now[1] - before[1] * now[0], before[0] * now[0] + before[1] * now[1]);
         cross.atan2(dot)
+    }
+}
+
+impl RobotGauge {
+    /// Normal of the tip's ring, x at the start: that of its moments Σ (y₀ − ȳ₀) x and Σ (z₀ − z̄₀) x.
+    fn normal(&self, positions: &[[f64; 3]]) -> [f64; 3] {
+        let starts = || self.tip.iter().map(|node| self.mesh.start_of(*node as usize));
+        let moment = |axis: usize| {
+            let middle = starts().map(|p| p[axis]).sum::<f64>() / self.tip.len() as f64;
+            self.tip.iter().zip(starts()).fold([0.0; 3], |sum, (node, start)| {
+                along(sum, start[axis] - middle, positions[*node as usize])
+            })
+        };
+        cross(moment(1), moment(2))
     }
 }
 

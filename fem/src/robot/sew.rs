@@ -4,7 +4,7 @@ use models::Scenario;
 use models::actuators::pattern::{Joint, Panel, Pattern};
 
 use super::RobotSettings;
-use super::lines::{Lines, weld_m};
+use super::lines::{Lines, StripLines, weld_m};
 use crate::FemError;
 use crate::mesh::generate::{Around, Cap, Tube, tube};
 use crate::mesh::{Mesh, Part};
@@ -22,53 +22,127 @@ pub(super) const MARGIN: &str = "margin";
 /// Parts made of welded layers are called `seam_` and their number, the wall's included.
 pub(super) const SEAM: &str = "seam_";
 
-/// The mesh of a robot.
+/// The name of a part or chamber of the strip with that index: the first has the plain name.
+pub(super) fn of_strip(name: &str, strip: usize) -> String {
+    if strip == 0 { name.into() } else { format!("{name}_{}", strip + 1) }
+}
+
+/// The plain name of a part, whatever its strip.
+pub(super) fn plain(name: &str) -> &str {
+    match name.rsplit_once('_') {
+        Some((plain, strip)) if !name.starts_with(SEAM) && strip.bytes().all(|b| b.is_ascii_digit()) => plain,
+        _ => name,
+    }
+}
+
+/// The mesh of a robot; a pattern for every strip.
 pub(super) fn sew(
     scenario: &Scenario,
-    pattern: &Pattern,
+    patterns: &[Pattern],
     settings: &RobotSettings,
     lines: &Lines,
 ) -> Result<Mesh, FemError> {
     let mut mesh = body(scenario, lines)?;
     mesh.sets.remove("middle");
     let wall = std::mem::take(&mut mesh.parts[0]);
-    let sewer =
-        Sewer { pattern, lines, radius_m: scenario.radius_m, gap_m: settings.layer_gap_m, weld_m: weld_m(settings) };
-    let mut parts = sewer.wall(&wall.quads);
+    let radius_m = scenario.radius_m;
+    let sewer = |(strip, pattern)| Sewer {
+        strip,
+        pattern,
+        own: &lines.strips[strip],
+        lines,
+        radius_m,
+        gap_m: settings.layer_gap_m,
+        weld_m: weld_m(settings),
+    };
+    let sewers: Vec<Sewer> = patterns.iter().enumerate().map(sewer).collect();
+    let mut parts = sorted(&sewers, lines, &wall.quads);
     parts.extend(mesh.parts.drain(1..));
-    parts.extend(sewer.sheet(&mut mesh.points));
+    for sewer in &sewers {
+        let mut sheet = sewer.sheet(&mut mesh.points);
+        if scenario.actuator.turns != 0.0 {
+            sheet.iter_mut().for_each(|part| part.warp = along_strip(scenario, &mesh.points, part));
+        }
+        parts.extend(sheet);
+    }
     mesh.parts = parts;
     let n = lines.angles.len() as u32;
     for (k, ring) in lines.markers.iter().enumerate() {
         let first = *ring as u32 * n;
         mesh.sets.insert(format!("marker_{}", k + 1), (first..first + n).collect());
     }
-    // The taut generator runs opposite the middle of the strip.
-    let far = (lines.s_m.len() - 1 + lines.angles.len()) / 2;
-    let generator = (0..lines.x_m.len()).map(|i| i as u32 * n + far as u32).collect();
-    mesh.sets.insert("far_generator".into(), generator);
-    Ok(mesh)
-}
-
-/// The body as a tube with its rings at the lines.
-fn body(scenario: &Scenario, lines: &Lines) -> Result<Mesh, FemError> {
-    let n = lines.angles.len();
-    let mut mesh = tube(&Tube {
-        radius_m: scenario.radius_m,
-        length_m: scenario.length_m,
-        around: Around::Angles(lines.angles.clone()),
-        along: lines.x_m.len() - 1,
-        caps: [Cap::Open, Cap::Triangles],
-        warp_rad: 0.0,
-    })?;
-    for (ring, x) in lines.x_m.iter().enumerate() {
-        mesh.points[ring * n..(ring + 1) * n].iter_mut().for_each(|p| p[0] = *x);
+    if !scenario.is_spatial() {
+        // The taut generator runs opposite the middle of the strip.
+        let far = (lines.strips[0].s_m.len() - 1 + lines.angles.len()) / 2;
+        let generator = (0..lines.x_m.len()).map(|i| i as u32 * n + far as u32).collect();
+        mesh.sets.insert("far_generator".into(), generator);
     }
     Ok(mesh)
 }
 
+/// The body as a tube with its nodes on the lines.
+fn body(scenario: &Scenario, lines: &Lines) -> Result<Mesh, FemError> {
+    let (n, rings) = (lines.angles.len(), lines.x_m.len());
+    let mut mesh = tube(&Tube {
+        radius_m: scenario.radius_m,
+        length_m: scenario.length_m,
+        around: Around::Angles(lines.angles.clone()),
+        along: rings - 1,
+        caps: [Cap::Open, Cap::Triangles],
+        warp_rad: 0.0,
+    })?;
+    let (wall, cap) = mesh.points.split_at_mut(rings * n);
+    wall.iter_mut().enumerate().for_each(|(i, p)| *p = lines.place(i / n, i % n, scenario.radius_m));
+    if lines.turned_rad() != 0.0 {
+        let (sin, cos) = lines.turned_rad().sin_cos();
+        cap.iter_mut().for_each(|p| *p = [p[0], cos * p[1] - sin * p[2], sin * p[1] + cos * p[2]]);
+    }
+    Ok(mesh)
+}
+
+/// The wall's elements in parts.
+fn sorted(sewers: &[Sewer], lines: &Lines, quads: &[[u32; 4]]) -> Vec<Part> {
+    let n = lines.angles.len();
+    let back = || Some(BODY.into());
+    let mut parts = vec![Part { name: WALL.into(), back: back(), ..Part::default() }];
+    for (e, quad) in quads.iter().enumerate() {
+        let (row, column) = (e / n, e % n);
+        let placed = sewers.iter().map(|sewer| (sewer, sewer.place(row, column)));
+        let (name, front) = match placed.into_iter().find(|(_, place)| *place != Place::Beside) {
+            None | Some((_, Place::Beside)) => (WALL.into(), None),
+            Some((_, Place::Weld(layers))) => (format!("{SEAM}{layers}"), None),
+            Some((_, Place::Margin)) => (MARGIN.into(), None),
+            Some((sewer, Place::Under)) if sewer.pattern.joint == Joint::Seams => (WALL.into(), None),
+            Some((sewer, Place::Under)) => {
+                (of_strip(FACE, sewer.strip), Some(of_strip(ACTUATOR, sewer.strip)))
+            }
+        };
+        let at = parts.iter().position(|p| p.name == name).unwrap_or_else(|| {
+            parts.push(Part { name, front, back: back(), ..Part::default() });
+            parts.len() - 1
+        });
+        parts[at].quads.push(*quad);
+    }
+    parts.retain(|p| !p.is_empty());
+    parts.iter_mut().for_each(|p| p.warp = vec![[1.0, 0.0, 0.0]]);
+    parts
+}
+
+/// The warp of a slanted strip, one for every element: cos β e_x + sin β e_θ.
+fn along_strip(scenario: &Scenario, points: &[[f64; 3]], part: &Part) -> Vec<[f64; 3]> {
+    let [cos, sin] = [scenario.actuator.cos_slant(scenario.radius_m), scenario.actuator.sin_slant(scenario.radius_m)];
+    let warp = |quad: &[u32; 4]| {
+        let [y, z] = [1, 2].map(|k| quad.iter().map(|node| points[*node as usize][k]).sum::<f64>());
+        [cos, -sin * z / y.hypot(z), sin * y / y.hypot(z)]
+    };
+    part.quads.iter().map(warp).collect()
+}
+
+/// What sews one strip.
 struct Sewer<'a> {
+    strip: usize,
     pattern: &'a Pattern,
+    own: &'a StripLines,
     lines: &'a Lines,
     radius_m: f64,
     gap_m: f64,
@@ -76,37 +150,13 @@ struct Sewer<'a> {
 }
 
 impl Sewer<'_> {
-    /// The wall's elements sorted into parts.
-    fn wall(&self, quads: &[[u32; 4]]) -> Vec<Part> {
-        let n = self.lines.angles.len();
-        let back = || Some(BODY.into());
-        let mut parts = vec![Part { name: WALL.into(), back: back(), ..Part::default() }];
-        for (e, quad) in quads.iter().enumerate() {
-            let (row, column) = (e / n, e % n);
-            let (name, front) = match self.place(row, column) {
-                Place::Beside => (WALL.into(), None),
-                Place::Weld(layers) => (format!("{SEAM}{layers}"), None),
-                Place::Margin => (MARGIN.into(), None),
-                Place::Under if self.pattern.joint == Joint::Seams => (WALL.into(), None),
-                Place::Under => (FACE.into(), Some(ACTUATOR.into())),
-            };
-            let at = parts.iter().position(|p| p.name == name).unwrap_or_else(|| {
-                parts.push(Part { name, front, back: back(), ..Part::default() });
-                parts.len() - 1
-            });
-            parts[at].quads.push(*quad);
-        }
-        parts.retain(|p| !p.is_empty());
-        parts.iter_mut().for_each(|p| p.warp = vec![[1.0, 0.0, 0.0]]);
-        parts
-    }
-
     fn place(&self, row: usize, column: usize) -> Place {
-        let (s, welds) = (&self.lines.s_m, &self.lines.welds);
+        let (s, welds) = (&self.own.s_m, &self.own.welds);
         let [first, last] = [welds[0][0], welds[welds.len() - 1][1]];
-        if column + 1 >= s.len() || !(first..last).contains(&row) {
+        if column < self.own.first || column + 1 >= self.own.first + s.len() || !(first..last).contains(&row) {
             return Place::Beside;
         }
+        let column = column - self.own.first;
         let middle = 0.5 * (s[column] + s[column + 1]);
         let side_weld_m = if self.pattern.side_welds { self.weld_m } else { 0.0 };
         if middle.abs() > 0.5 * self.pattern.width_m + side_weld_m {
@@ -124,8 +174,9 @@ impl Sewer<'_> {
 
     /// The panels of all units; nodes of the sheet are added to `points`.
     fn sheet(&self, points: &mut Vec<[f64; 3]>) -> Vec<Part> {
-        let mut parts: Vec<Part> = self.pattern.panels.iter().enumerate().map(|(k, p)| part(k, p)).collect();
-        for pair in self.lines.welds.windows(2) {
+        let part = |(layer, panel)| part(layer, panel, self.strip);
+        let mut parts: Vec<Part> = self.pattern.panels.iter().enumerate().map(part).collect();
+        for pair in self.own.welds.windows(2) {
             self.unit(points, &mut parts, [pair[0][1], pair[1][0]]);
         }
         parts
@@ -157,7 +208,7 @@ impl Sewer<'_> {
         let panels = &self.pattern.panels;
         let mut stops: Vec<Stop> = Vec::new();
         for (k, panel) in panels.iter().enumerate() {
-            let [from, to] = [panel.from_m, panel.to_m].map(|s| self.lines.column(s));
+            let [from, to] = [panel.from_m, panel.to_m].map(|s| self.own.column(s));
             let columns: Vec<usize> = if from < to { (from..=to).collect() } else { (to..=from).rev().collect() };
             let level = panel.level as f64;
             stops.extend(columns.iter().skip(usize::from(k > 0)).map(|c| Stop { panel: k, column: *c, level }));
@@ -179,13 +230,13 @@ impl Sewer<'_> {
         if !inside || stop.level == 0.0 {
             return (ring * self.lines.angles.len() + stop.column) as u32;
         }
-        let (radius, angle) = (self.radius_m + stop.level * self.gap_m, self.lines.angles[stop.column]);
-        points.push([self.lines.x_m[ring], radius * angle.cos(), radius * angle.sin()]);
+        points.push(self.lines.place(ring, stop.column, self.radius_m + stop.level * self.gap_m));
         (points.len() - 1) as u32
     }
 }
 
 /// Where an element of the wall is.
+#[derive(PartialEq)]
 enum Place {
     Beside,
     Under,
@@ -203,13 +254,13 @@ struct Stop {
     level: f64,
 }
 
-/// A part without elements. The warp is along the body; angles are the section's.
-fn part(k: usize, panel: &Panel) -> Part {
+/// A part without elements. The warp is along the strip; angles are the section's.
+fn part(layer: usize, panel: &Panel, strip: usize) -> Part {
     Part {
-        name: panel.name.into(),
+        name: of_strip(panel.name, strip),
         warp: vec![[1.0, 0.0, 0.0]],
-        back: Some(ACTUATOR.into()),
-        layer: k as u32 + 1,
+        back: Some(of_strip(ACTUATOR, strip)),
+        layer: layer as u32 + 1,
         ..Part::default()
     }
 }

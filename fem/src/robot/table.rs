@@ -11,10 +11,11 @@
 
 use std::collections::BTreeMap;
 
-use models::Scenario;
+use models::{CHANNELS, Scenario};
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
+use super::loading::highest_pa;
 use super::{Preset, RobotRun, RobotSettings};
 use crate::FemError;
 use crate::case::plain_number;
@@ -155,14 +156,15 @@ pub(super) fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun, FemErro
     if run.settings.hold_s > 0.0 && run.set.iter().all(|key| key != "hold_s") {
         run.settings.hold_s = run.settings.hold_s.max(HOLD * run.settings.actuator_ramp_s);
     }
-    run.settings.actuator_pa = run.pressures_pa.iter().copied().fold(0.0, f64::max);
+    run.settings.actuator_pa = run.pressures_pa.iter().map(highest_pa).fold(0.0, f64::max);
     above_body(&run, scenario, table)?;
     Ok(run)
 }
 
-fn usual_pressures(scenario: &Scenario) -> Vec<f64> {
+fn usual_pressures(scenario: &Scenario) -> Vec<[f64; CHANNELS]> {
     let above: Vec<f64> = scenario.pressures_pa.iter().copied().filter(|p| *p >= scenario.p_body_pa).collect();
-    if above.is_empty() { vec![RobotSettings::default().actuator_pa] } else { above }
+    let usual = if above.is_empty() { vec![RobotSettings::default().actuator_pa] } else { above };
+    usual.into_iter().map(|pa| [pa; CHANNELS]).collect()
 }
 
 fn model(table: &Free) -> Checked<Preset> {
@@ -257,14 +259,25 @@ fn triple(name: &str, value: &Spanned<Value>, range: &Range) -> Checked<[f64; 3]
     found.try_into().or_else(|_| refuse(format!("{name} needs three numbers"), range.too_large, value.span()))
 }
 
-fn pressures(value: &Spanned<Value>) -> Checked<Vec<f64>> {
-    let found = numbers("pressures_kpa", value, &PRESSURE)?;
+/// Each a number for all channels, or a list with one for each.
+fn pressures(value: &Spanned<Value>) -> Checked<Vec<[f64; CHANNELS]>> {
+    const HOW: &str = "write for example [10, 20, 30], or with channels [[20, 10], [30, 15]]";
+    let Some(list) = value.get_ref().as_array() else {
+        return refuse("pressures_kpa must be a list", HOW, value.span());
+    };
+    let one = |entry: &Value| {
+        let channels = entry.as_array().cloned().unwrap_or_else(|| vec![entry.clone(); CHANNELS]);
+        let mut found = numbers("pressures_kpa", &Spanned::new(value.span(), Value::Array(channels)), &PRESSURE)?;
+        if found.is_empty() || found.len() > CHANNELS {
+            let message = format!("pressures_kpa has {} channels; there are 1 to {CHANNELS}", found.len());
+            return refuse(message, HOW, value.span());
+        }
+        found.resize(CHANNELS, 0.0);
+        Ok(std::array::from_fn(|channel| found[channel]))
+    };
+    let found: Vec<[f64; CHANNELS]> = list.iter().map(one).collect::<Checked<_>>()?;
     if found.is_empty() || found.windows(2).any(|pair| pair[0] == pair[1]) {
-        return refuse(
-            "pressures_kpa needs pressures that differ one by one",
-            "write for example [10, 20, 30]",
-            value.span(),
-        );
+        return refuse("pressures_kpa needs pressures that differ one by one", HOW, value.span());
     }
     Ok(found)
 }
@@ -283,9 +296,16 @@ fn meshes(value: &Spanned<Value>) -> Checked<Vec<[f64; 2]>> {
     }
 }
 
+/// Every strip is flat without pressure or above the body's, and one of them is above.
 fn above_body(run: &RobotRun, scenario: &Scenario, table: &Free) -> Checked<()> {
-    let Some(low) = run.pressures_pa.iter().find(|p| **p < scenario.p_body_pa) else { return Ok(()) };
-    let [low, body] = [*low, scenario.p_body_pa].map(|p| p * 1e-3);
+    let body_pa = scenario.p_body_pa;
+    let low = |channels: &[f64; CHANNELS]| {
+        let of_strips = || scenario.strips().map(|strip| channels[strip.channel]);
+        let highest = of_strips().fold(0.0, f64::max);
+        of_strips().chain([highest]).find(|p| *p < body_pa && (*p > 0.0 || highest == 0.0))
+    };
+    let Some(low) = run.pressures_pa.iter().find_map(low) else { return Ok(()) };
+    let [low, body] = [low, body_pa].map(|p| p * 1e-3);
     let span = table.iter().find(|(key, _)| key.get_ref() == "pressures_kpa").map(|(_, value)| value.span());
     let message = format!("an actuator at {low} kPa in a body at {body} kPa stays flat\nraise the actuator pressure");
     Err(FemError::Case { message, span })

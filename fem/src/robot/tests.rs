@@ -94,7 +94,7 @@ fn the_body_holds_the_prism_of_its_section_and_the_pouches_what_lies_between_the
     let scenario = shipped("epam");
     let pattern = (scenario.actuator.kind.pattern)(&scenario.actuator.shape);
     let problem = robot("epam", &settings);
-    let lines = Lines::of(&scenario, &pattern, &settings);
+    let lines = Lines::of(&scenario, &[pattern], &settings).unwrap();
     let turn = lines.angles[0] + std::f64::consts::TAU;
     let next = lines.angles.iter().skip(1).chain(std::iter::once(&turn));
     let section: f64 = lines.angles.iter().zip(next).map(|(a, b)| 0.5 * 0.04f64.powi(2) * (b - a).sin()).sum();
@@ -103,7 +103,7 @@ fn the_body_holds_the_prism_of_its_section_and_the_pouches_what_lies_between_the
     // Between two facets R and R + g from the axis: g R sin δ per column. Sheet and wall meet at all edges of a pouch, where
     // half a row and half a column are lost.
     let row = lines.x_m[1] - lines.x_m[0];
-    let (columns, delta) = (lines.s_m.len() - 1, (lines.s_m[1] - lines.s_m[0]) / 0.04);
+    let (columns, delta) = (lines.strips[0].s_m.len() - 1, (lines.strips[0].s_m[1] - lines.strips[0].s_m[0]) / 0.04);
     let exact = 6.0 * (0.06 - row) * (columns - 1) as f64 * 1e-5 * 0.04 * delta.sin();
     let found = volume_m3(&problem, "actuator");
     assert!((found / exact - 1.0).abs() < 2e-4, "{found} {exact}");
@@ -262,11 +262,11 @@ fn a_wavy_robot_starts_without_membrane_stress_and_holds_what_the_pattern_holds(
 fn rows_beside_the_welds_of_a_folded_sheet_are_two_thirds_of_a_weld_and_grow_by_a_quarter() {
     let of = |scenario: &Scenario, settings: &RobotSettings| {
         let pattern = (scenario.actuator.kind.pattern)(&scenario.actuator.shape);
-        Lines::of(scenario, &pattern.between_welds(lines::weld_m(settings)), settings)
+        Lines::of(scenario, &[pattern.between_welds(lines::weld_m(settings))], settings).unwrap()
     };
     let lines = |name: &str, settings: &RobotSettings| of(&shipped(name), settings);
     let check = |lines: &Lines, first_m: f64, row_m: f64| {
-        for pair in lines.welds.windows(2) {
+        for pair in lines.strips[0].welds.windows(2) {
             let rows: Vec<f64> = lines.x_m[pair[0][1]..=pair[1][0]].windows(2).map(|x| x[1] - x[0]).collect();
             let n = rows.len();
             let ends = [rows[0], rows[n - 1]];

@@ -2,6 +2,7 @@
 
 use super::{Source, rounded};
 use crate::FemError;
+use models::CHANNELS;
 use crate::robot::{ASSUMED, Assumed, KEYS, RobotRun, RobotSettings, RunKey, hypercube};
 
 /// Keys of `[fem]` and their values as in TOML.
@@ -39,9 +40,13 @@ pub fn product(run: &RobotRun, seeds: Option<u64>, separate: bool, meshes: &[[f6
         cases = extended(&cases, &(1..=count).map(of).collect::<Vec<_>>());
     }
     if separate {
-        let of = |pa: &f64| {
-            let kpa = rounded(pa * 1e-3);
-            (format!("{kpa}kPa"), vec![("pressures_kpa".into(), format!("[{kpa}]"))], false)
+        let of = |pa: &[f64; CHANNELS]| {
+            let kpa = pa.map(|pa| rounded(pa * 1e-3));
+            let [label, list] = match kpa.iter().all(|p| *p == kpa[0]) {
+                true => [format!("{}kPa", kpa[0]), format!("[{}]", kpa[0])],
+                false => [kpa.map(|p| format!("{p}kPa")).join("-"), format!("[{kpa:?}]")],
+            };
+            (label, vec![("pressures_kpa".into(), list)], false)
         };
         cases = extended(&cases, &run.pressures_pa.iter().map(of).collect::<Vec<_>>());
     }

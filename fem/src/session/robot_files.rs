@@ -100,20 +100,30 @@ fn readings_csv(readings: &[Reading]) -> String {
     out
 }
 
-/// The columns of a measured dataset, so that `ibr compare` can hold the reduced model against the run.
+/// The columns of a measured dataset, so that `ibr compare` can hold the reduced model against the run; with strips round the body
+/// z too, and a pressure for each channel.
 fn markers_csv(robot: &WatchedRobot, readings: &[Reading]) -> String {
-    let mut out = String::from("run,actuator,t_s,p_body_kpa,p_act_kpa,phase,marker,x_mm,y_mm,s_mm\n");
-    let kind = robot.scenario.actuator.kind.name;
+    let scenario = &robot.scenario;
+    let highest = scenario.strips().map(|strip| strip.channel).max().filter(|_| !scenario.more_strips.is_empty());
+    let channels = highest.unwrap_or(0) + 1;
+    let more: String = (1..channels).map(|channel| format!("p_act_{channel}_kpa,")).collect();
+    let axes = if scenario.is_spatial() { 3 } else { 2 };
+    let names = ["x_mm", "y_mm", "z_mm"][..axes].join(",");
+    let mut out = format!("run,actuator,t_s,p_body_kpa,p_act_kpa,{more}phase,marker,{names},s_mm\n");
+    let kind = scenario.actuator.kind.name;
     let mut before = 0.0;
     for r in readings {
         let phase = if r.actuator_pa >= before { "load" } else { "unload" };
         before = r.actuator_pa;
-        for (k, station) in robot.scenario.markers_m.iter().enumerate() {
+        let strip = |channel: usize| scenario.strips().position(|strip| channels == 1 || strip.channel == channel);
+        let of = |channel: usize| strip(channel).map_or(0.0, |i| r.strips_pa[i]);
+        let pressures_pa = std::iter::once(r.body_pa).chain((0..channels).map(of));
+        let pressures: Vec<String> = pressures_pa.map(|pa| rounded(pa * 1e-3).to_string()).collect();
+        for (k, station) in scenario.markers_m.iter().enumerate() {
             let Some(moved) = r.seen_moved_m.get(k) else { continue };
-            let (x, y) = ((station + moved[0]) * MM, moved[1] * MM);
-            let (body, actuator) = (rounded(r.body_pa * 1e-3), rounded(r.actuator_pa * 1e-3));
-            let s = rounded(station * MM);
-            let _ = writeln!(out, "fem,{kind},{},{body},{actuator},{phase},{},{x},{y},{s}", r.time_s, k + 1);
+            let place = [station + moved[0], moved[1], moved[2]].map(|m| (m * MM).to_string());
+            let (pressures, place, s) = (pressures.join(","), place[..axes].join(","), rounded(station * MM));
+            let _ = writeln!(out, "fem,{kind},{},{pressures},{phase},{},{place},{s}", r.time_s, k + 1);
         }
     }
     out
@@ -152,8 +162,16 @@ fn look(robot: &WatchedRobot, what: &str, stress_mpa: &[f64]) -> PictureLook {
     let mut sorted = stress_mpa.to_vec();
     sorted.sort_by(f64::total_cmp);
     let nearly_all = sorted.get((WITHIN * sorted.len() as f64) as usize).copied().unwrap_or(0.0);
-    let pressure = robot.run.pressures_pa.last().map_or(0.0, |p| p * 1e-3);
-    let title = format!("{what}, von Mises [MPa], {pressure:.0} kPa");
+    let end_pa = robot.run.pressures_pa.last();
+    let mut strips: Vec<String> = robot
+        .scenario
+        .strips()
+        .filter_map(|strip| end_pa.map(|channels| format!("{:.0}", channels[strip.channel] * 1e-3)))
+        .collect();
+    if strips.iter().all(|pressure| *pressure == strips[0]) {
+        strips.truncate(1);
+    }
+    let title = format!("{what}, von Mises [MPa], {} kPa", strips.join("/"));
     PictureLook {
         view: Viewpoint::Side,
         limits: Some((0.0, picture::round_above(nearly_all))),

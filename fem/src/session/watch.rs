@@ -76,7 +76,7 @@ impl Watched {
     /// Pressure of the hold that a moment leads to or lies in \[Pa\].
     pub fn hold_pa(&self, time_s: f64) -> Option<f64> {
         let ahead = self.holds.iter().find(|hold| time_s <= hold.time_s + NOW_S);
-        ahead.or(self.holds.last()).map(|hold| hold.pressure_pa)
+        ahead.or(self.holds.last()).map(HoldEnd::highest_pa)
     }
 
     /// Reads the robot.

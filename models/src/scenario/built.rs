@@ -1,23 +1,18 @@
 //! What cannot be built: one place for the scenario and for the finite elements.
 
-use super::Scenario;
+use super::{ActuatorChoice, Scenario};
 use crate::actuators::pattern::Pattern;
 use std::f64::consts::PI;
 
 impl Scenario {
-    /// Refuses what this robot and a sewing pattern do not allow together, with welds `weld_m` wide and the sheet's edge
-    /// `margin_m` beyond them.
+    /// Refuses what this robot and the sewing pattern of one of its strips do not allow together, with welds `weld_m` wide and the
+    /// sheet's edge `margin_m` beyond them.
     ///
     /// # Errors
     /// The fault with its number, and what to change.
-    pub fn fits(&self, pattern: &Pattern, weld_m: f64, margin_m: f64) -> Result<(), String> {
-        if !self.actuator.exists() {
+    pub fn fits(&self, strip: &ActuatorChoice, pattern: &Pattern, weld_m: f64, margin_m: f64) -> Result<(), String> {
+        if !strip.exists() {
             return Err("a beam without [actuator] has no sewing pattern; add one".into());
-        }
-        if self.is_spatial() {
-            return Err(
-                "strips round the body are built for ibr predict alone; write one [actuator] without azimuth_deg and turns".into(),
-            );
         }
         sewn(pattern, self.radius_m, weld_m, margin_m)?;
         let end_m = self.length_m * (1.0 + 1e-9);
@@ -25,10 +20,19 @@ impl Scenario {
         if let Some(s) = self.markers_m.iter().find(|s| !(0.0..=end_m).contains(*s)) {
             return Err(format!("a marker at {} mm is off the body of {length} mm", s * 1e3));
         }
-        let last_m = self.actuator.start_m + self.actuator.count as f64 * pattern.pitch_m;
-        if self.actuator.start_m < 0.0 || last_m > end_m {
-            let count = self.actuator.count;
+        let last_m = strip.start_m + strip.count as f64 * pattern.pitch_m * strip.cos_slant(self.radius_m);
+        if strip.start_m < 0.0 || last_m > end_m {
+            let count = strip.count;
             return Err(format!("{count} units that end at {:.1} mm do not fit the body of {length} mm", last_m * 1e3));
+        }
+        // The ends of a slanted strip reach beyond its middle line.
+        let beyond_m = (0.5 * (pattern.width_m + weld_m) + margin_m) * strip.sin_slant(self.radius_m).abs();
+        if strip.start_m < beyond_m || last_m + beyond_m > end_m {
+            let [beyond, last] = [beyond_m, last_m].map(|m| m * 1e3);
+            return Err(format!(
+                "the ends of a strip that turns round the body reach {beyond:.1} mm beyond its middle, which lies from {:.1} to {last:.1} mm of {length} mm; move start_mm or make the body longer",
+                strip.start_m * 1e3
+            ));
         }
         Ok(())
     }

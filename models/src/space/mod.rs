@@ -112,6 +112,11 @@ impl ActuatorChoice {
     pub fn cos_slant(&self, radius_m: f64) -> f64 {
         if self.turns == 0.0 { 1.0 } else { self.covered_m(radius_m) / self.strip_m() }
     }
+
+    /// sin β, positive from y towards z.
+    pub fn sin_slant(&self, radius_m: f64) -> f64 {
+        if self.turns == 0.0 { 0.0 } else { TAU * radius_m * self.turns / self.strip_m() }
+    }
 }
 
 /// Strips of every segment; `spans` sites per strip, those of the first strip first.

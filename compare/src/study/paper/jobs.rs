@@ -36,7 +36,7 @@ pub fn jobs(
 
 /// The scenario's, and those at which the cPAM buckles.
 fn own_pressures((source, scenario): &(Source, Scenario)) -> Result<Vec<f64>, FemError> {
-    let mut kpa: Vec<f64> = source.robot_run()?.1.pressures_pa.iter().map(|pa| rounded(pa * 1e-3)).collect();
+    let mut kpa: Vec<f64> = source.robot_run()?.1.pressures_pa.iter().map(|pa| rounded(pa[0] * 1e-3)).collect();
     if scenario.actuator.kind.name == "cpam" {
         kpa.extend(BUCKLING_KPA);
     }
