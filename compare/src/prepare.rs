@@ -80,7 +80,10 @@ fn without_copies(dataset: &Dataset, copies: &[[String; 2]]) -> Dataset {
     Dataset {
         runs: kept.iter().map(|r| dataset.runs[*r].clone()).collect(),
         xy_m: kept.iter().flat_map(|r| dataset.run(*r)).copied().collect(),
-        z_m: dataset.z_m.as_ref().map(|_| kept.iter().filter_map(|r| dataset.z_of_run(*r)).flatten().copied().collect()),
+        z_m: dataset
+            .z_m
+            .as_ref()
+            .map(|_| kept.iter().filter_map(|r| dataset.z_of_run(*r)).flatten().copied().collect()),
         ..dataset.clone()
     }
 }

@@ -75,7 +75,9 @@ impl ScenarioFile {
         let start = ["[[strip]]", "azimuth_deg", "turns"].iter().find_map(|key| self.text.find(key));
         let error = ScenarioError {
             message: "this robot has strips round the body, and what was asked is built for planar robots".into(),
-            help: Some("ibr predict and ibr compare take it; for the rest remove [[strip]], azimuth_deg and turns".into()),
+            help: Some(
+                "ibr predict and ibr compare take it; for the rest remove [[strip]], azimuth_deg and turns".into(),
+            ),
             span: start.map(|start| (start, start + 1)),
         };
         Err(fault(&self.name, &self.text, &error))

@@ -291,11 +291,11 @@ pub fn contradictions(dataset: &Dataset) -> Vec<String> {
             continue;
         }
         gaps.push(begins(hold) - begins(before));
-        let (change, least) =
-            (hold.sum_act_pa() - before.sum_act_pa(), tolerance_act_pa(before.sum_act_pa()));
+        let (change, least) = (hold.sum_act_pa() - before.sum_act_pa(), tolerance_act_pa(before.sum_act_pa()));
         let right = if change > least { Phase::Load } else { Phase::Unload };
         if change.abs() > least && hold.phase != right {
-            let ([from, to], said, right) = ([before, hold].map(|h| kpa(h.sum_act_pa())), hold.phase.word(), right.word());
+            let ([from, to], said, right) =
+                ([before, hold].map(|h| kpa(h.sum_act_pa())), hold.phase.word(), right.word());
             wrong.push(format!("hold {} goes from {from:.1} to {to:.1} kPa and says {said}, not {right}", i + 2));
         }
     }

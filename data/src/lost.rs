@@ -135,8 +135,10 @@ fn made(dataset: &Dataset, of: &Coordinates, mean: &[f64], cells: &[[usize; 3]])
     let share = runs as f64 / (runs as f64 - 1.0);
     let of_run = |run: usize| {
         let is_lost = |i: &usize| {
-            let (hold, marker) =
-                (i / (of.width * dataset.markers.len() * dataset.samples_per_hold), i / of.width % dataset.markers.len());
+            let (hold, marker) = (
+                i / (of.width * dataset.markers.len() * dataset.samples_per_hold),
+                i / of.width % dataset.markers.len(),
+            );
             cells.binary_search(&[run, hold, marker]).is_ok() || !dataset.is_seen(hold, marker)
         };
         if dataset.lost.filled.iter().all(|cell| cell[0] != run) {

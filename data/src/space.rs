@@ -28,7 +28,8 @@ impl Dataset {
     /// hold, each run by itself. 0 of a table without that axis.
     pub fn travel_m(&self, axis: usize) -> f64 {
         let at = |run: usize, hold: usize, marker: usize| {
-            let values = (0..self.samples_per_hold).map(|sample| self.place(run, hold, sample, marker)[axis].unwrap_or(0.0));
+            let values =
+                (0..self.samples_per_hold).map(|sample| self.place(run, hold, sample, marker)[axis].unwrap_or(0.0));
             values.sum::<f64>() / self.samples_per_hold as f64
         };
         let mut most: f64 = 0.0;
@@ -48,17 +49,26 @@ impl Dataset {
     /// Markers that move towards z more than towards y; channels at different pressures; y that points down, which is not asked
     /// before of a table with z.
     pub fn left_aside(&self) -> Result<Option<String>, DataError> {
-        let refused = |message: String, help: &str| Err(DataError::Runs(Box::new(Fault::of_file(&self.name, message, help))));
+        let refused =
+            |message: String, help: &str| Err(DataError::Runs(Box::new(Fault::of_file(&self.name, message, help))));
         if self.channels_differ() {
-            let message = format!("the table has pressures of {} supply channels, and this is built for one", self.more_channels() + 1);
-            return refused(message, "`ibr compare` takes it; for the rest keep the holds of one channel and delete the others' columns");
+            let message = format!(
+                "the table has pressures of {} supply channels, and this is built for one",
+                self.more_channels() + 1
+            );
+            return refused(
+                message,
+                "`ibr compare` takes it; for the rest keep the holds of one channel and delete the others' columns",
+            );
         }
         if !self.is_spatial() {
             return Ok(None);
         }
         let [y_mm, z_mm] = [1, 2].map(|axis| mm(self.travel_m(axis)));
         if z_mm > y_mm && z_mm > mm(policy::SURELY_DOWN_M) {
-            let message = format!("the markers move by up to {z_mm:.1} mm towards z and {y_mm:.1} mm towards y, and the robot is planar");
+            let message = format!(
+                "the markers move by up to {z_mm:.1} mm towards z and {y_mm:.1} mm towards y, and the robot is planar"
+            );
             let help = "y is towards the actuator: exchange the names of the columns of y and z, or describe the robot with azimuth_deg or \
                         [[strip]] and use `ibr compare`";
             return refused(message, help);
@@ -82,7 +92,8 @@ impl Dataset {
                 }
             }
         }
-        let after = |name: &str, table: &Table| table.columns.iter().position(|(n, _)| n == name).map_or(0, |at| at + 1);
+        let after =
+            |name: &str, table: &Table| table.columns.iter().position(|(n, _)| n == name).map_or(0, |at| at + 1);
         if self.z_m.is_some() {
             let at = after("y_mm", &table);
             table.columns.insert(at, ("z_mm".into(), Column::F64(z_mm)));

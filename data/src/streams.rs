@@ -188,8 +188,7 @@ impl Stream {
     /// Puts a last segment of one row back into the one before, if this row goes on there: the reading was noise.
     fn take_back(&mut self, row: &Row) {
         let [.., before, last] = self.segments.as_slice() else { return };
-        let noise =
-            last.rows == 1 && last.phase == before.phase && are_near(before.means_pa(), last.means_pa(), 2.0);
+        let noise = last.rows == 1 && last.phase == before.phase && are_near(before.means_pa(), last.means_pa(), 2.0);
         if noise && before.continues_with(row) && !last.continues_with(row) {
             let one = self.segments.pop();
             self.segments.last_mut().zip(one).into_iter().for_each(|(before, one)| before.absorb(one));
@@ -362,7 +361,20 @@ mod tests {
         let (run, marker, phase) = ("1", "1", Phase::Load);
         let (x_m, y_m, gauge_pa) = (2.0 * t_s, -t_s, Some(3.0 * t_s));
         let (z_m, more_act_pa) = (Some(4.0 * t_s), [0.0; 3]);
-        Row { run, marker, phase, t_s, p_body_pa: 2000.0, p_act_pa, more_act_pa, x_m, y_m, z_m, station_m: None, gauge_pa }
+        Row {
+            run,
+            marker,
+            phase,
+            t_s,
+            p_body_pa: 2000.0,
+            p_act_pa,
+            more_act_pa,
+            x_m,
+            y_m,
+            z_m,
+            station_m: None,
+            gauge_pa,
+        }
     }
 
     #[test]
@@ -396,7 +408,10 @@ mod tests {
             });
             let sum = (rows * (rows - 1) / 2) as f64;
             assert!(segment.samples.len() <= MOST_SAMPLES && segment.samples.len() as u64 >= rows.min(32));
-            assert_eq!(total, Sample { count: rows, t_s: sum, x_m: 2.0 * sum, y_m: -sum, z_m: 4.0 * sum, gauge_pa: 3.0 * sum });
+            assert_eq!(
+                total,
+                Sample { count: rows, t_s: sum, x_m: 2.0 * sum, y_m: -sum, z_m: 4.0 * sum, gauge_pa: 3.0 * sum }
+            );
             let full = &segment.samples[..segment.samples.len() - 1];
             assert!(full.iter().all(|sample| sample.count == segment.stride), "equal counts but for the last");
         }

@@ -61,20 +61,22 @@ fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Ou
 
 /// What is said of a table with z or several channels.
 fn in_space_words(dataset: &Dataset) -> String {
-    let z = dataset.z_m.as_ref().map(|_| format!("z varies by up to {:.1} mm from the first hold", 1e3 * dataset.travel_m(2)));
+    let z = dataset
+        .z_m
+        .as_ref()
+        .map(|_| format!("z varies by up to {:.1} mm from the first hold", 1e3 * dataset.travel_m(2)));
     let more = dataset.more_channels();
     let channels = (more > 0).then(|| format!("pressures of {} supply channels", more + 1));
     let words: Vec<String> = z.into_iter().chain(channels).collect();
-    format!("{}: `ibr compare` takes them; slips of frame and pressures are looked for in planar tables only", words.join(", "))
+    format!(
+        "{}: `ibr compare` takes them; slips of frame and pressures are looked for in planar tables only",
+        words.join(", ")
+    )
 }
 
 fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome, Failure> {
-    let generator = Generator {
-        seed: args.seed,
-        runs: args.runs as usize,
-        gauge: args.gauge,
-        ..scattered(&args.scatter)?
-    };
+    let generator =
+        Generator { seed: args.seed, runs: args.runs as usize, gauge: args.gauge, ..scattered(&args.scatter)? };
     let generator = generator.with_protocol(&args.protocol)?;
     check_set_folder(&args.out, args.force)?;
     let named = ibr::studies::scenario_in_space(&args.scenario)?;
@@ -91,7 +93,8 @@ fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome, Failure> 
     let about = about(&named.scenario, &dataset, &generator);
     let inputs = inputs::named(&named, [])?;
     write(&args.out, &dataset, &about, named.text, &inputs, context)?;
-    let text = format!("{} values of {} runs in {}\n", dataset.xy_m.len(), dataset.runs.len(), args.out.display());
+    let values = dataset.xy_m.len() + dataset.z_m.as_ref().map_or(0, Vec::len);
+    let text = format!("{values} values of {} runs in {}\n", dataset.runs.len(), args.out.display());
     Ok(Outcome::new(text, written_json("ibr.data.generate", &args.out, &dataset)))
 }
 

@@ -61,7 +61,7 @@ fn seen(study: &InSpace, axis: usize) -> Result<Drawn, PageError> {
 }
 
 /// Every marker at every hold of every model, one row each.
-fn markers(study: &InSpace) -> Table {
+pub fn markers(study: &InSpace) -> Table {
     let rows: Vec<(&SpaceVariant, &SpaceMarker)> =
         study.variants.iter().flat_map(|v| v.markers.iter().map(move |m| (v, m))).collect();
     let texts = |value: &dyn Fn(&SpaceVariant, &SpaceMarker) -> String| {
@@ -92,7 +92,8 @@ fn variant(v: &SpaceVariant) -> Value {
         let [tip, tip_distance] = tip;
         json!({"name": name, "of": of, "bias": along(&of.bias_mm), "tip": tip, "tip_distance_mm": tip_distance})
     };
-    let of_hold = |h: &SpaceHold| row(hold_name(h), &h.errors, [json!(along(&h.tip_error_mm)), json!(h.tip_distance_mm)]);
+    let of_hold =
+        |h: &SpaceHold| row(hold_name(h), &h.errors, [json!(along(&h.tip_error_mm)), json!(h.tip_distance_mm)]);
     let all = row("all".into(), &v.overall, [json!(""), Value::Null]);
     json!({
         "label": effect(&v.label), "known": v.known.word(), "why": v.why,
@@ -107,7 +108,9 @@ fn lead(study: &InSpace) -> String {
         Some(mm) => format!("{mm:.2} mm per coordinate beyond noise"),
         None => format!("{:.2} mm rms per coordinate; the noise is unknown with one run", first.overall.rmse_mm),
     };
-    let tip = first.worst().map_or(String::new(), |hold| format!("; the outermost marker by up to {:.1} mm", hold.tip_distance_mm));
+    let tip = first
+        .worst()
+        .map_or(String::new(), |hold| format!("; the outermost marker by up to {:.1} mm", hold.tip_distance_mm));
     format!("**{}** misses the data by {size}{tip}, of {:.1} mm.", effect(&first.label), study.d_max_mm)
 }
 

@@ -17,7 +17,8 @@ pub fn check_text(report: &CheckReport) -> String {
     );
     let holds = report.holds.iter().map(|h| {
         let more = h.p_act_channels_kpa.iter().skip(1).map(|p| format!("/{p:.2}"));
-        let cells = [format!("{:.2}{}", h.p_act_kpa, more.collect::<String>()), format!("{:.2}", h.p_body_kpa), h.phase.into()];
+        let cells =
+            [format!("{:.2}{}", h.p_act_kpa, more.collect::<String>()), format!("{:.2}", h.p_body_kpa), h.phase.into()];
         let rest = [format!("{:.1}", h.duration_s), number(h.scatter_mm, 2)];
         let read = h.gauge_kpa.map(|kpa| format!("{kpa:.2}"));
         cells.into_iter().chain(rest).chain(read).collect()

@@ -5,7 +5,8 @@ use compare::study::in_space::{InSpace, SpaceHold, SpaceVariant};
 use serde_json::{Value, json};
 
 /// What is built for planar robots alone.
-const LEFT_OUT: &str = "Diagnosis, calibration, the paper's accuracy and P/p scaling are of planar robots and were left out.";
+const LEFT_OUT: &str =
+    "Diagnosis, calibration, the paper's accuracy and P/p scaling are of planar robots and were left out.";
 
 /// Values along the axes with their signs: `+0.1, -2.3, +0.0`.
 pub(crate) fn along(values: &[f64]) -> String {
@@ -30,11 +31,15 @@ pub(crate) fn misses(variant: &SpaceVariant) -> Vec<String> {
             along(&hold.tip_error_mm)
         )
     });
+    let within =
+        variant.overall.systematic_mm.zip(variant.overall.noise_floor_mm).filter(|(beyond, noise)| beyond < noise);
+    let within =
+        within.map(|(beyond, noise)| format!("Over all holds {beyond:.2} mm are beyond a noise of {noise:.2} mm."));
     let total: f64 = variant.overall.rmse_axes_mm.iter().map(|v| v * v).sum();
     let share = |(name, v): (&&str, &f64)| format!("{name} {:.0} %", 100.0 * v * v / total);
     let shares: Vec<String> = names.iter().zip(&variant.overall.rmse_axes_mm).map(share).collect();
     let shares = (total > 0.0).then(|| format!("Of the mean square error: {}.", shares.join(", ")));
-    tip.into_iter().chain(shares).collect()
+    within.into_iter().chain(tip).chain(shares).collect()
 }
 
 /// `ibr.compare.space`
@@ -51,7 +56,7 @@ pub fn as_json(scenario: &str, found: &InSpace) -> Value {
         "actuator": found.dataset.actuator, "runs": found.dataset.runs.len(), "axes": found.axes, "d_max_mm": found.d_max_mm,
         "provenance": found.about.as_ref().map(|a| a.provenance.word()),
         "models": found.variants.iter().map(variant).collect::<Vec<_>>(),
-        "where_it_fails": misses(&found.variants[0]), "warnings": found.warnings,
+        "overall": found.variants[0].overall, "where_it_fails": misses(&found.variants[0]), "warnings": found.warnings,
     })
 }
 
@@ -89,7 +94,8 @@ fn holds(variant: &SpaceVariant, axes: usize) -> String {
         let numbers = numbers.map(|v| number(v, 2));
         std::iter::once(name).chain(numbers).chain([along(&errors.bias_mm)]).chain(tip).collect()
     };
-    let of_hold = |h: &SpaceHold| row(hold_name(h), &h.errors, [along(&h.tip_error_mm), format!("{:.2}", h.tip_distance_mm)]);
+    let of_hold =
+        |h: &SpaceHold| row(hold_name(h), &h.errors, [along(&h.tip_error_mm), format!("{:.2}", h.tip_distance_mm)]);
     let all = row("all".into(), &variant.overall, [String::new(), String::new()]);
     table(&head, 1, variant.holds.iter().map(of_hold).chain([all]).collect())
 }

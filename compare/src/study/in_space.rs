@@ -184,11 +184,16 @@ fn channels(model: &Model, dataset: &Dataset) -> Result<Option<String>, CompareE
         let message = format!("the robot has supply channel {channel}, and {} has no pressure of it", dataset.name);
         return Err(CompareError::refused(message, format!("add the column p_act_{channel}_kpa")));
     }
-    let pressed = |channel: &usize| dataset.holds.iter().any(|hold| hold.channels_pa().nth(*channel).unwrap_or(0.0) > 0.0);
+    let pressed =
+        |channel: &usize| dataset.holds.iter().any(|hold| hold.channels_pa().nth(*channel).unwrap_or(0.0) > 0.0);
     match (1..=last).find(|channel| !fed.contains(channel) && pressed(channel)) {
         Some(channel) => {
-            let message = format!("nothing is supplied by channel {channel} in this scenario, and {} has pressures of it", dataset.name);
-            let help = format!("write channel = {channel} into its [[strip]] or [[zone]], or delete p_act_{channel}_kpa");
+            let message = format!(
+                "nothing is supplied by channel {channel} in this scenario, and {} has pressures of it",
+                dataset.name
+            );
+            let help =
+                format!("write channel = {channel} into its [[strip]] or [[zone]], or delete p_act_{channel}_kpa");
             Err(CompareError::refused(message, help))
         }
         None => Ok(None),
@@ -213,7 +218,8 @@ impl<'a> Beside<'a> {
         };
         let mut state = model.prediction();
         if model.has_history() {
-            let of_hold = |hold: &Hold| hold.t_s.iter().map(|t_s| Step { t_s: *t_s, loads: loads(hold) }).collect::<Vec<_>>();
+            let of_hold =
+                |hold: &Hold| hold.t_s.iter().map(|t_s| Step { t_s: *t_s, loads: loads(hold) }).collect::<Vec<_>>();
             let steps: Vec<Step> = dataset.holds.iter().flat_map(of_hold).collect();
             model.follow(&steps, &mut state, &mut |_, at| take(at))?;
         } else {
@@ -240,16 +246,20 @@ impl<'a> Beside<'a> {
     }
 
     fn errors(&self, holds: std::ops::Range<usize>) -> SpaceErrors {
-        let (mut squares, mut sums, mut noise, mut count) = (vec![0.0; self.axes], vec![0.0; self.axes], Some(0.0), 0.0);
+        let (mut squares, mut sums, mut noise, mut count) =
+            (vec![0.0; self.axes], vec![0.0; self.axes], Some(0.0), 0.0);
         for hold in holds {
-            for (marker, sample) in self.seen(hold).flat_map(|m| (0..self.dataset.samples_per_hold).map(move |s| (m, s))) {
+            for (marker, sample) in
+                self.seen(hold).flat_map(|m| (0..self.dataset.samples_per_hold).map(move |s| (m, s)))
+            {
                 count += 1.0;
                 for axis in 0..self.axes {
                     let runs_m = self.runs_m(hold, sample, marker, axis);
                     let error = self.predicted_m(hold, sample, marker)[axis] - mean(&runs_m);
                     squares[axis] += error * error;
                     sums[axis] += error;
-                    let own = variance(&runs_m).map(|v| v / runs_m.len() as f64).or(self.sigma_m.map(|sigma| sigma * sigma));
+                    let own =
+                        variance(&runs_m).map(|v| v / runs_m.len() as f64).or(self.sigma_m.map(|sigma| sigma * sigma));
                     noise = noise.zip(own).map(|(sum, v)| sum + v);
                 }
             }
@@ -271,7 +281,9 @@ impl<'a> Beside<'a> {
         let samples = self.dataset.samples_per_hold;
         let over_samples = |axis: usize| {
             let all: Vec<Vec<f64>> = (0..samples).map(|s| self.runs_m(hold, s, marker, axis)).collect();
-            (0..self.dataset.runs.len()).map(|run| mean(&all.iter().map(|runs| runs[run]).collect::<Vec<_>>())).collect()
+            (0..self.dataset.runs.len())
+                .map(|run| mean(&all.iter().map(|runs| runs[run]).collect::<Vec<_>>()))
+                .collect()
         };
         let runs: Vec<Vec<f64>> = (0..self.axes).map(over_samples).collect();
         let predicted = |axis| mean(&(0..samples).map(|s| self.predicted_m(hold, s, marker)[axis]).collect::<Vec<_>>());
@@ -295,7 +307,8 @@ impl<'a> Beside<'a> {
     fn hold(&self, index: usize) -> SpaceHold {
         let hold = &self.dataset.holds[index];
         let tip = self.seen(index).last().map(|marker| self.marker(index, marker));
-        let off = |tip: SpaceMarker| tip.predicted_mm.iter().zip(tip.measured_mm).map(|(f, y)| f - y).collect::<Vec<_>>();
+        let off =
+            |tip: SpaceMarker| tip.predicted_mm.iter().zip(tip.measured_mm).map(|(f, y)| f - y).collect::<Vec<_>>();
         let tip_error_mm = tip.map(off).unwrap_or_default();
         SpaceHold {
             p_act_channels_kpa: hold.channels_pa().map(|p| 1e-3 * p).collect(),
@@ -322,8 +335,8 @@ fn variance(values: &[f64]) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::generate::{Generator, generate};
     use super::super::comparison::compare;
+    use super::super::generate::{Generator, generate};
     use super::*;
     use crate::ScenarioFile;
 
@@ -343,7 +356,8 @@ mod tests {
         let runs = 12;
         for seed in 1..=4 {
             let protocol = "0/0,10/0,20/10,20/20,0/25,0/0@2";
-            let generator = Generator { runs, seed, samples: 3, ..Generator::default() }.with_protocol(protocol).unwrap();
+            let generator =
+                Generator { runs, seed, samples: 3, ..Generator::default() }.with_protocol(protocol).unwrap();
             let found = alone(&truth, generate(&truth, "made", &generator).unwrap());
             let first = &found.variants[0];
             assert_eq!((found.axes, first.holds[2].p_act_channels_kpa.as_slice()), (3, &[20.0, 10.0][..]));
@@ -361,7 +375,13 @@ mod tests {
     #[test]
     fn without_noise_there_is_no_error() {
         let truth = robot(TWO);
-        let quiet = Generator { camera_sd_m: 0.0, pressure_sd: 0.0, alignment_sd_m: 0.0, rotation_sd: 0.0, ..Generator::default() };
+        let quiet = Generator {
+            camera_sd_m: 0.0,
+            pressure_sd: 0.0,
+            alignment_sd_m: 0.0,
+            rotation_sd: 0.0,
+            ..Generator::default()
+        };
         let made = generate(&truth, "made", &quiet.with_protocol("0/0,20/10,5/30@2").unwrap()).unwrap();
         let found = alone(&truth, made);
         assert!(found.variants[0].overall.rmse_mm < 1e-9, "{:?}", found.variants[0].overall);
@@ -370,7 +390,10 @@ mod tests {
 
     #[test]
     fn a_turned_robot_has_the_errors_of_the_planar_one() {
-        let upright = TWO.replace("[[strip]]\nazimuth_deg = 90               # towards z; all other sizes as above\nchannel = 1\n", "");
+        let upright = TWO.replace(
+            "[[strip]]\nazimuth_deg = 90               # towards z; all other sizes as above\nchannel = 1\n",
+            "",
+        );
         assert!(!upright.contains("[[strip]]"));
         let planar = robot(&upright);
         assert!(!planar.is_spatial());
@@ -407,7 +430,9 @@ mod tests {
         let told = alone(&two, with("0,10,20@2", &two)).warnings;
         assert!(told.iter().any(|w| w.contains("supply channels 0 and 1") && w.contains("p_act_1_kpa")), "{told:?}");
         let error = |scenario: &Scenario, dataset: Dataset| {
-            compare_in_space(&[Contender::as_given(scenario)], &Evidence::of(dataset, None), None).unwrap_err().to_string()
+            compare_in_space(&[Contender::as_given(scenario)], &Evidence::of(dataset, None), None)
+                .unwrap_err()
+                .to_string()
         };
         assert!(error(&one, with("0/0,10/20@2", &two)).contains("nothing is supplied by channel 1"));
         let third = robot(&TWO.replace("channel = 1\n", "channel = 2\n"));
