@@ -85,6 +85,7 @@ pub fn measure_holds(
         markers: markers(scenario),
         samples_per_hold: g.samples,
         xy_m,
+        z_m: None,
         gauge_pa: g.gauge.then_some(readings),
         lost: data::Lost::default(),
         told: Vec::new(),

@@ -60,4 +60,5 @@ pub use ladder::ladder;
 pub use progress::Progress;
 pub use scenario_file::ScenarioFile;
 pub use study::comparison::{Comparison, compare};
+pub use study::in_space::{InSpace, compare_in_space};
 pub use validation::{Validation, validate};

@@ -80,6 +80,10 @@ fn without_copies(dataset: &Dataset, copies: &[[String; 2]]) -> Dataset {
     Dataset {
         runs: kept.iter().map(|r| dataset.runs[*r].clone()).collect(),
         xy_m: kept.iter().flat_map(|r| dataset.run(*r)).copied().collect(),
+        z_m: dataset
+            .z_m
+            .as_ref()
+            .map(|_| kept.iter().filter_map(|r| dataset.z_of_run(*r)).flatten().copied().collect()),
         ..dataset.clone()
     }
 }
@@ -101,6 +105,10 @@ fn replace(dataset: &mut Dataset, strays: &[data::check::Outlier]) {
         for axis in 0..2 {
             let sum: f64 = others.iter().map(|r| dataset.xy_m[r * n + at + axis]).sum();
             dataset.xy_m[run * n + at + axis] = sum / others.len() as f64;
+        }
+        if let Some(z_m) = &mut dataset.z_m {
+            let sum: f64 = others.iter().map(|r| z_m[(r * n + at) / 2]).sum();
+            z_m[(run * n + at) / 2] = sum / others.len() as f64;
         }
     }
 }

@@ -75,7 +75,9 @@ impl ScenarioFile {
         let start = ["[[strip]]", "azimuth_deg", "turns"].iter().find_map(|key| self.text.find(key));
         let error = ScenarioError {
             message: "this robot has strips round the body, and what was asked is built for planar robots".into(),
-            help: Some("ibr predict takes it; for the rest remove [[strip]], azimuth_deg and turns".into()),
+            help: Some(
+                "ibr predict and ibr compare take it; for the rest remove [[strip]], azimuth_deg and turns".into(),
+            ),
             span: start.map(|start| (start, start + 1)),
         };
         Err(fault(&self.name, &self.text, &error))
@@ -111,9 +113,17 @@ impl ScenarioFile {
     /// # Errors
     /// A fault in it.
     pub fn beside(data: &str) -> Result<Option<ScenarioFile>, CompareError> {
+        ScenarioFile::beside_in_space(data)?.map(ScenarioFile::planar).transpose()
+    }
+
+    /// The same for what is built for strips round the body too.
+    ///
+    /// # Errors
+    /// A fault in it.
+    pub fn beside_in_space(data: &str) -> Result<Option<ScenarioFile>, CompareError> {
         let of_set = || data::set_file(data, "scenario.toml").ok().map(str::to_string);
         let text = std::fs::read_to_string(Path::new(data).join("scenario.toml")).ok().or_else(of_set);
-        text.map(|text| ScenarioFile::parse(&format!("{data}/scenario.toml"), &text)).transpose()
+        text.map(|text| ScenarioFile::parse_in_space(&format!("{data}/scenario.toml"), &text)).transpose()
     }
 
     /// SHA-256 of the text, in hex.

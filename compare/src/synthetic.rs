@@ -79,6 +79,7 @@ impl SyntheticRobot {
             markers: (0..self.markers).map(marker).collect(),
             samples_per_hold: self.samples,
             xy_m,
+            z_m: None,
             gauge_pa: None,
             lost: data::Lost::default(),
             told: Vec::new(),
@@ -91,7 +92,7 @@ impl SyntheticRobot {
             let phase = if p < before { Phase::Unload } else { Phase::Load };
             before = p;
             let t_s = (0..self.samples).map(|s| s as f64).collect();
-            Hold { p_body_pa: 1e3 * body, p_act_pa: 1e3 * p, phase, occurrence: 0, t_s }
+            Hold { p_body_pa: 1e3 * body, p_act_pa: 1e3 * p, more_act_pa: Vec::new(), phase, occurrence: 0, t_s }
         };
         self.pressures_kpa.iter().map(hold).collect()
     }

@@ -3,8 +3,8 @@
 use crate::dataset::{Dataset, Hold, Lost, Marker};
 use crate::error::{DataError, Fault};
 use crate::lost::fill;
-use crate::policy::{self, tolerance_act_pa, tolerance_body_pa};
-use crate::streams::{Recorder, Sample, Segment, Stream};
+use crate::policy;
+use crate::streams::{PRESSURES, Recorder, Sample, Segment, Stream, are_near};
 use crate::units::kpa;
 
 /// Samples kept per (run, hold, marker): enough to see creep inside a hold, few enough for a dense noise model.
@@ -24,9 +24,9 @@ pub(crate) fn align(
     let grid = Grid::new(file, recorder)?;
     let order = marker_order(stations_m);
     let samples = grid.common_samples();
-    let holds = grid.holds(samples);
+    let holds = grid.holds(samples, recorder.more_channels);
     let mut xy_m = Vec::with_capacity(recorder.runs.names.len() * holds.len() * samples * order.len() * 2);
-    let (mut gauge_pa, mut lost) = (Vec::new(), Vec::new());
+    let (mut z_m, mut gauge_pa, mut lost) = (Vec::new(), Vec::new(), Vec::new());
     for run in 0..recorder.runs.names.len() {
         for hold in 0..holds.len() {
             let seen = |m: &usize| grid.segment(run, *m, hold).map(|segment| bins(&segment.samples, samples));
@@ -35,6 +35,7 @@ pub(crate) fn align(
             for sample in 0..samples {
                 let place = |bin: Sample| [mean(bin, |b| b.x_m), mean(bin, |b| b.y_m)];
                 xy_m.extend(bins.iter().flat_map(|bins| bins.as_ref().map_or([0.0; 2], |bins| place(bins[sample]))));
+                z_m.extend(bins.iter().map(|bins| bins.as_ref().map_or(0.0, |bins| mean(bins[sample], |b| b.z_m))));
                 let readings = bins.iter().flatten().map(|bins| mean(bins[sample], |b| b.gauge_pa));
                 gauge_pa.push(readings.sum::<f64>() / bins.iter().flatten().count().max(1) as f64);
             }
@@ -53,6 +54,7 @@ pub(crate) fn align(
         markers,
         samples_per_hold: samples,
         xy_m,
+        z_m: recorder.has_z.then_some(z_m),
         gauge_pa,
         lost: none,
         told: Vec::new(),
@@ -165,25 +167,24 @@ impl<'a> Grid<'a> {
     }
 
     /// Pressures and times as means over runs and markers; a gauge that reads just below zero counts as zero.
-    fn holds(&self, samples: usize) -> Vec<Hold> {
+    fn holds(&self, samples: usize, more_channels: usize) -> Vec<Hold> {
         let shifts = self.time_shifts_s();
         let mut holds: Vec<Hold> = Vec::with_capacity(self.reference.len());
         for (index, first) in self.reference.iter().enumerate() {
-            let (mut p_body_pa, mut p_act_pa, mut t_s) = (0.0, 0.0, vec![0.0; samples]);
+            let (mut sums_pa, mut t_s) = ([0.0; PRESSURES.len()], vec![0.0; samples]);
             for (run, segment) in self.of_hold(index) {
-                p_body_pa += segment.p_body_pa();
-                p_act_pa += segment.p_act_pa();
+                sums_pa.iter_mut().zip(segment.means_pa()).for_each(|(sum, mean)| *sum += mean);
                 let times = bins(&segment.samples, samples);
                 t_s.iter_mut().zip(times).for_each(|(t, bin)| *t += mean(bin, |b| b.t_s) - shifts[run]);
             }
             let series = self.of_hold(index).count() as f64;
             t_s.iter_mut().for_each(|t| *t /= series);
-            let (p_body_pa, p_act_pa) = ((p_body_pa / series).max(0.0), (p_act_pa / series).max(0.0));
-            let same = |hold: &&Hold| {
-                hold.phase == first.phase && near([hold.p_body_pa, hold.p_act_pa], [p_body_pa, p_act_pa], 1.0)
-            };
+            let means_pa = sums_pa.map(|sum| (sum / series).max(0.0));
+            let same = |hold: &&Hold| hold.phase == first.phase && are_near(hold_pa(hold), means_pa, 1.0);
             let occurrence = holds.iter().filter(same).count();
-            holds.push(Hold { p_body_pa, p_act_pa, phase: first.phase, occurrence, t_s });
+            let [p_body_pa, p_act_pa, ref more @ ..] = means_pa;
+            let more_act_pa = more[..more_channels].to_vec();
+            holds.push(Hold { p_body_pa, p_act_pa, more_act_pa, phase: first.phase, occurrence, t_s });
         }
         holds
     }
@@ -244,17 +245,21 @@ fn match_holds(reference: &[Segment], stream: &[Segment]) -> Result<Vec<Option<u
 
 /// Same phase, and pressures that can be two readings of one set point, each a tolerance away from it.
 fn alike(a: &Segment, b: &Segment) -> bool {
-    a.phase == b.phase && near([a.p_body_pa(), a.p_act_pa()], [b.p_body_pa(), b.p_act_pa()], 2.0)
+    a.phase == b.phase && are_near(a.means_pa(), b.means_pa(), 2.0)
 }
 
-fn near(a: [f64; 2], b: [f64; 2], tolerances: f64) -> bool {
-    (a[0] - b[0]).abs() <= tolerances * tolerance_body_pa(a[0])
-        && (a[1] - b[1]).abs() <= tolerances * tolerance_act_pa(a[1])
+/// Pressures of a hold in the order of [`PRESSURES`].
+fn hold_pa(hold: &Hold) -> [f64; PRESSURES.len()] {
+    let more = |channel: usize| hold.more_act_pa.get(channel).copied().unwrap_or(0.0);
+    [hold.p_body_pa, hold.p_act_pa, more(0), more(1), more(2)]
 }
 
 fn describe(segment: &Segment) -> String {
-    let (act, body) = (kpa(segment.p_act_pa()), kpa(segment.p_body_pa()));
-    format!("{} at {act:.1} kPa actuator, {body:.1} kPa body (line {})", segment.phase.word(), segment.first_line)
+    let [body, act, ref more @ ..] = segment.means_pa().map(kpa);
+    let used = more.iter().rposition(|p| *p != 0.0).map_or(0, |last| last + 1);
+    let act: Vec<String> = std::iter::once(&act).chain(&more[..used]).map(|p| format!("{p:.1}")).collect();
+    let act = act.join("/");
+    format!("{} at {act} kPa actuator, {body:.1} kPa body (line {})", segment.phase.word(), segment.first_line)
 }
 
 fn series(recorder: &Recorder, stream: &Stream) -> String {

@@ -32,6 +32,9 @@ pub struct CheckReport {
     pub actuator_pressures_kpa: Vec<f64>,
     /// Distinct body pressures \[kPa\], rising.
     pub body_pressures_kpa: Vec<f64>,
+    /// How far z of a marker is at most from that of the first hold \[mm\], where the table has z.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z_travel_mm: Option<f64>,
     /// Whether there is an unloading branch.
     pub unloading: bool,
     /// Samples far from the other runs.
@@ -47,6 +50,9 @@ pub struct CheckReport {
 pub struct HoldCheck {
     /// Actuator pressure \[kPa\].
     pub p_act_kpa: f64,
+    /// Of every supply channel \[kPa\], where the table has several.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub p_act_channels_kpa: Vec<f64>,
     /// Body pressure \[kPa\].
     pub p_body_kpa: f64,
     /// `load`, `hold` or `unload`.
@@ -87,7 +93,10 @@ pub struct Outlier {
     pub dx_mm: f64,
     /// Distance along y from the median over runs \[mm\].
     pub dy_mm: f64,
-    /// Larger of the two robust z.
+    /// Distance along z \[mm\], where the table has z.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dz_mm: Option<f64>,
+    /// Largest of the robust z of the axes.
     pub robust_z: f64,
 }
 
@@ -109,8 +118,9 @@ pub fn check(dataset: &Dataset, about: Option<&About>) -> CheckReport {
         samples_per_hold: dataset.samples_per_hold,
         holds: (0..holds).map(|h| hold_check(dataset, h, rms(&|hold, _| hold == h))).collect(),
         markers: (0..markers).map(|m| marker_check(dataset, m, rms(&|_, marker| marker == m))).collect(),
-        actuator_pressures_kpa: levels(dataset.holds.iter().map(|hold| hold.p_act_pa).collect(), tolerance_act_pa),
+        actuator_pressures_kpa: levels(dataset.holds.iter().flat_map(Hold::channels_pa).collect(), tolerance_act_pa),
         body_pressures_kpa: levels(dataset.holds.iter().map(|hold| hold.p_body_pa).collect(), tolerance_body_pa),
+        z_travel_mm: dataset.z_m.as_ref().map(|_| mm(dataset.travel_m(2))),
         unloading: dataset.holds.iter().any(|hold| hold.phase == Phase::Unload),
         outliers: outliers(dataset),
         identical_runs: identical_runs(dataset),
@@ -127,6 +137,7 @@ fn hold_check(dataset: &Dataset, index: usize, scatter_mm: Option<f64>) -> HoldC
     let duration_s = hold.t_s.last().zip(hold.t_s.first()).map_or(0.0, |(last, first)| last - first);
     HoldCheck {
         p_act_kpa: kpa(hold.p_act_pa),
+        p_act_channels_kpa: hold.channels_pa().map(kpa).filter(|_| !hold.more_act_pa.is_empty()).collect(),
         p_body_kpa: kpa(hold.p_body_pa),
         phase: hold.phase.word(),
         occurrence: hold.occurrence,
@@ -148,7 +159,7 @@ fn marker_check(dataset: &Dataset, index: usize, scatter_mm: Option<f64>) -> Mar
     MarkerCheck { name: marker.name.clone(), s_mm: marker.station_m.map(mm), scatter_mm }
 }
 
-/// `[hold][marker]`: variance over runs of the mean over samples, averaged over x and y \[mm²\]; `None` for one run.
+/// `[hold][marker]`: variance over runs of the mean over samples, averaged over the axes \[mm²\]; `None` for one run.
 fn variance_of_hold_means_mm2(dataset: &Dataset) -> Option<Vec<f64>> {
     let runs = dataset.runs.len();
     if runs < 2 {
@@ -156,7 +167,8 @@ fn variance_of_hold_means_mm2(dataset: &Dataset) -> Option<Vec<f64>> {
     }
     let samples = dataset.samples_per_hold;
     let mean_mm = |run: usize, hold: usize, marker: usize, axis: usize| {
-        (0..samples).map(|sample| mm(dataset.xy(run, hold, sample, marker)[axis])).sum::<f64>() / samples as f64
+        let values = (0..samples).filter_map(|sample| dataset.place(run, hold, sample, marker)[axis]);
+        values.map(mm).sum::<f64>() / samples as f64
     };
     let variance = |hold: usize, marker: usize, axis: usize| {
         let means: Vec<f64> = (0..runs).map(|run| mean_mm(run, hold, marker, axis)).collect();
@@ -164,7 +176,14 @@ fn variance_of_hold_means_mm2(dataset: &Dataset) -> Option<Vec<f64>> {
         means.iter().map(|mean| (mean - centre).powi(2)).sum::<f64>() / (runs - 1) as f64
     };
     let cells = (0..dataset.holds.len()).flat_map(|hold| (0..dataset.markers.len()).map(move |marker| (hold, marker)));
-    Some(cells.map(|(hold, marker)| 0.5 * (variance(hold, marker, 0) + variance(hold, marker, 1))).collect())
+    let share = 1.0 / axes(dataset) as f64;
+    let over_axes = |hold, marker| (0..axes(dataset)).map(|axis| variance(hold, marker, axis)).sum::<f64>();
+    Some(cells.map(|(hold, marker)| share * over_axes(hold, marker)).collect())
+}
+
+/// 2 of a planar table, 3 of one with z.
+fn axes(dataset: &Dataset) -> usize {
+    2 + usize::from(dataset.z_m.is_some())
 }
 
 /// Distinct values \[kPa\], rising; values within the tolerance of a hold are one.
@@ -188,27 +207,29 @@ fn outliers(dataset: &Dataset) -> Vec<Outlier> {
     if runs < 3 {
         return Vec::new();
     }
-    let deviations = deviations_from_median_m(dataset);
+    let deviations: Vec<_> = (0..axes(dataset)).map(|axis| deviations_from_median_m(dataset, axis)).collect();
     let few_runs = (runs as f64 / (runs - 1) as f64).sqrt();
     let mut found = Vec::new();
     for (marker, described) in dataset.markers.iter().enumerate() {
         let scale = |holds: &[usize], axis: usize| {
-            let all = holds.iter().flat_map(|&h| samples_of(dataset, h, marker)).map(|i| i + axis);
+            let all = holds.iter().flat_map(|&h| samples_of(dataset, h, marker));
+            let of_axis = &deviations[axis];
             let sizes =
-                all.flat_map(|i| deviations.iter().map(move |run| run[i].abs())).filter(|size| *size > 0.0).collect();
+                all.flat_map(|i| of_axis.iter().map(move |run| run[i].abs())).filter(|size| *size > 0.0).collect();
             (few_runs * SD_PER_MAD * median(sizes)).max(policy::SURELY_FINE_M / policy::OUTLIER_Z)
         };
         let every_hold: Vec<usize> = (0..dataset.holds.len()).collect();
-        let of_marker = [scale(&every_hold, 0), scale(&every_hold, 1)];
+        let of_marker: Vec<f64> = (0..axes(dataset)).map(|axis| scale(&every_hold, axis)).collect();
         for hold in every_hold {
-            let sd = [0, 1].map(|axis| scale(&[hold], axis).max(of_marker[axis]));
+            let sd = of_marker.iter().enumerate().map(|(axis, sd)| scale(&[hold], axis).max(*sd)).collect::<Vec<_>>();
             for (sample, at) in samples_of(dataset, hold, marker).enumerate() {
                 for (run, label) in dataset.runs.iter().enumerate() {
-                    let d = [deviations[run][at], deviations[run][at + 1]];
-                    let robust_z = (d[0].abs() / sd[0]).max(d[1].abs() / sd[1]);
+                    let d: Vec<f64> = deviations.iter().map(|of_axis| of_axis[run][at]).collect();
+                    let robust_z = d.iter().zip(&sd).map(|(d, sd)| d.abs() / sd).fold(0.0, f64::max);
                     if robust_z > policy::OUTLIER_Z {
                         let (run, marker) = (label.clone(), described.name.clone());
-                        found.push(Outlier { run, hold, sample, marker, dx_mm: mm(d[0]), dy_mm: mm(d[1]), robust_z });
+                        let (dx_mm, dy_mm, dz_mm) = (mm(d[0]), mm(d[1]), d.get(2).copied().map(mm));
+                        found.push(Outlier { run, hold, sample, marker, dx_mm, dy_mm, dz_mm, robust_z });
                     }
                 }
             }
@@ -218,17 +239,19 @@ fn outliers(dataset: &Dataset) -> Vec<Outlier> {
 }
 
 fn samples_of(dataset: &Dataset, hold: usize, marker: usize) -> impl Iterator<Item = usize> + '_ {
-    (0..dataset.samples_per_hold).map(move |sample| dataset.offset(hold, sample, marker))
+    (0..dataset.samples_per_hold).map(move |sample| dataset.offset(hold, sample, marker) / 2)
 }
 
-/// `[run][value]`: distance of every value from the median over runs \[m\].
-fn deviations_from_median_m(dataset: &Dataset) -> Vec<Vec<f64>> {
-    let runs = 0..dataset.runs.len();
-    let over_runs = |i: usize| median(runs.clone().map(|run| dataset.run(run)[i]).collect());
-    let centre: Vec<f64> = (0..dataset.values_per_run()).map(over_runs).collect();
-    runs.clone()
-        .map(|run| dataset.run(run).iter().zip(&centre).map(|(value, centre)| value - centre).collect())
-        .collect()
+/// `[run][hold, sample, marker]`: distance of a coordinate from the median over runs \[m\].
+fn deviations_from_median_m(dataset: &Dataset, axis: usize) -> Vec<Vec<f64>> {
+    let of_run = |run: usize| -> Vec<f64> {
+        let in_plane = || dataset.run(run).iter().skip(axis).step_by(2).copied().collect();
+        if axis < 2 { in_plane() } else { dataset.z_of_run(run).unwrap_or_default().to_vec() }
+    };
+    let runs: Vec<Vec<f64>> = (0..dataset.runs.len()).map(of_run).collect();
+    let over_runs = |i: usize| median(runs.iter().map(|run| run[i]).collect());
+    let centre: Vec<f64> = (0..dataset.values_per_run() / 2).map(over_runs).collect();
+    runs.iter().map(|run| run.iter().zip(&centre).map(|(value, centre)| value - centre).collect()).collect()
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -244,7 +267,8 @@ fn median(mut values: Vec<f64>) -> f64 {
 fn identical_runs(dataset: &Dataset) -> Vec<[String; 2]> {
     let mut order: Vec<usize> = (0..dataset.runs.len()).collect();
     let compare = |a: &usize, b: &usize| {
-        let pairs = dataset.run(*a).iter().zip(dataset.run(*b));
+        let values = |run: usize| dataset.run(run).iter().chain(dataset.z_of_run(run).unwrap_or_default());
+        let pairs = values(*a).zip(values(*b));
         pairs.map(|(x, y)| x.total_cmp(y)).find(|order| order.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
     };
     order.sort_by(compare);
@@ -267,10 +291,11 @@ pub fn contradictions(dataset: &Dataset) -> Vec<String> {
             continue;
         }
         gaps.push(begins(hold) - begins(before));
-        let (change, least) = (hold.p_act_pa - before.p_act_pa, tolerance_act_pa(before.p_act_pa));
+        let (change, least) = (hold.sum_act_pa() - before.sum_act_pa(), tolerance_act_pa(before.sum_act_pa()));
         let right = if change > least { Phase::Load } else { Phase::Unload };
         if change.abs() > least && hold.phase != right {
-            let ([from, to], said, right) = ([before, hold].map(|h| kpa(h.p_act_pa)), hold.phase.word(), right.word());
+            let ([from, to], said, right) =
+                ([before, hold].map(|h| kpa(h.sum_act_pa())), hold.phase.word(), right.word());
             wrong.push(format!("hold {} goes from {from:.1} to {to:.1} kPa and says {said}, not {right}", i + 2));
         }
     }

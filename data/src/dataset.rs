@@ -33,14 +33,28 @@ impl Phase {
 pub struct Hold {
     /// Body gauge pressure p_b \[Pa\], mean over runs of the recorded value.
     pub p_body_pa: f64,
-    /// Actuator gauge pressure P \[Pa\], mean over runs of the recorded value.
+    /// Actuator gauge pressure P \[Pa\], mean over runs of the recorded value; that of supply channel 0 where there are more.
     pub p_act_pa: f64,
+    /// The same of the supply channels 1, 2, … \[Pa\]; empty where the table has one actuator pressure.
+    pub more_act_pa: Vec<f64>,
     /// How the hold was reached.
     pub phase: Phase,
     /// 0 for the first hold with these pressures and this phase, 1 for the second, …
     pub occurrence: usize,
     /// Time of each sample since the start of the run \[s\], mean over runs; `samples_per_hold` values.
     pub t_s: Vec<f64>,
+}
+
+impl Hold {
+    /// Pressures of all channels that the table has, channel 0 first \[Pa\].
+    pub fn channels_pa(&self) -> impl Iterator<Item = f64> + '_ {
+        std::iter::once(self.p_act_pa).chain(self.more_act_pa.iter().copied())
+    }
+
+    /// Their sum \[Pa\]: whether it rose or fell is the phase.
+    pub fn sum_act_pa(&self) -> f64 {
+        self.channels_pa().sum()
+    }
 }
 
 /// A marker: its label in the file and where it sits on the undeformed robot.
@@ -69,6 +83,8 @@ pub struct Dataset {
     pub samples_per_hold: usize,
     /// Positions \[m\], laid out `[run][hold][sample][marker][x, y]`; no NaN.
     pub xy_m: Vec<f64>,
+    /// Third coordinate \[m\], laid out `[run][hold][sample][marker]`; `None` of a table without it.
+    pub z_m: Option<Vec<f64>>,
     /// What a gauge at the actuator read \[Pa\], laid out `[run][hold][sample]`; `None` without one.
     pub gauge_pa: Option<Vec<f64>>,
     /// Cells that a camera lost for a whole hold.
@@ -99,6 +115,19 @@ impl Dataset {
         let i = self.offset(hold, sample, marker);
         let values = self.run(run);
         [values[i], values[i + 1]]
+    }
+
+    /// z of one run \[m\], laid out `[hold][sample][marker]`; `None` of a table without it.
+    pub fn z_of_run(&self, run: usize) -> Option<&[f64]> {
+        let n = self.values_per_run() / 2;
+        self.z_m.as_ref().map(|all| &all[run * n..(run + 1) * n])
+    }
+
+    /// Coordinates of one marker in one sample: x, y and, where the table has it, z \[m\].
+    pub fn place(&self, run: usize, hold: usize, sample: usize, marker: usize) -> [Option<f64>; 3] {
+        let [x, y] = self.xy(run, hold, sample, marker);
+        let z = self.z_of_run(run).map(|z| z[self.offset(hold, sample, marker) / 2]);
+        [Some(x), Some(y), z]
     }
 
     /// Whether enough runs saw a marker in a hold; positions where they did not stand for nothing.
@@ -150,8 +179,9 @@ impl Dataset {
         let empty = self.runs.is_empty() || self.values_per_run() == 0;
         let timed = self.holds.iter().all(|hold| hold.t_s.len() == self.samples_per_hold);
         let gauge = self.gauge_pa.as_deref().unwrap_or_default();
+        let z_m = self.z_m.as_deref().unwrap_or_default();
         let times = self.holds.iter().flat_map(|hold| &hold.t_s);
-        let finite = self.xy_m.iter().chain(times).chain(gauge).all(|value| value.is_finite());
+        let finite = self.xy_m.iter().chain(times).chain(gauge).chain(z_m).all(|value| value.is_finite());
         let expected = self.runs.len() * self.values_per_run();
         let readings = self.runs.len() * self.holds.len() * self.samples_per_hold;
         let wrong = |message: String| {
@@ -163,6 +193,9 @@ impl Dataset {
             (_, false, _) => wrong(format!("a hold has not {} sample times", self.samples_per_hold)),
             (.., false) => wrong("a value is not finite".to_string()),
             _ if self.xy_m.len() != expected => wrong(format!("expected {expected} values, found {}", self.xy_m.len())),
+            _ if self.z_m.is_some() && z_m.len() != expected / 2 => {
+                wrong(format!("expected {} values of z, found {}", expected / 2, z_m.len()))
+            }
             _ if self.gauge_pa.is_some() && gauge.len() != readings => {
                 wrong(format!("expected {readings} readings of the gauge, found {}", gauge.len()))
             }

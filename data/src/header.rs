@@ -39,9 +39,12 @@ pub(crate) const X: usize = 7;
 pub(crate) const Y: usize = 8;
 pub(crate) const STATION: usize = 9;
 pub(crate) const GAUGE: usize = 10;
+pub(crate) const Z: usize = 11;
+/// Of supply channels 1, 2 and 3.
+pub(crate) const P_MORE: [usize; 3] = [12, 13, 14];
 
-/// All quantities, in the order of the documented columns; `s_mm` and `p_gauge_kpa` are optional.
-pub(crate) const QUANTITIES: [Quantity; 11] = [
+/// All quantities; those from `s_mm` on are optional.
+pub(crate) const QUANTITIES: [Quantity; 15] = [
     text("run"),
     text("actuator"),
     number("t", "t_s", Measured::Time),
@@ -53,6 +56,10 @@ pub(crate) const QUANTITIES: [Quantity; 11] = [
     number("y", "y_mm", Measured::Length),
     optional("s", "s_mm", Measured::Length),
     optional("p_gauge", "p_gauge_kpa", Measured::Pressure),
+    optional("z", "z_mm", Measured::Length),
+    optional("p_act_1", "p_act_1_kpa", Measured::Pressure),
+    optional("p_act_2", "p_act_2_kpa", Measured::Pressure),
+    optional("p_act_3", "p_act_3_kpa", Measured::Pressure),
 ];
 
 /// A column that holds a quantity.
@@ -67,7 +74,7 @@ pub(crate) struct Column {
 pub(crate) struct Header {
     /// Column names as written.
     pub names: Vec<String>,
-    /// The column of each quantity; only `STATION` and `GAUGE` may be absent.
+    /// The column of each quantity; optional ones may be absent.
     pub columns: [Option<Column>; QUANTITIES.len()],
     /// The y column was called `y_down_…`: its sign is turned on reading.
     pub y_down: bool,
@@ -77,6 +84,18 @@ pub(crate) struct Header {
     pub named: bool,
     /// The line itself, for faults of a whole column.
     pub line: KeptLine,
+}
+
+impl Header {
+    /// Supply channels beyond the first that have a column.
+    pub fn more_channels(&self) -> usize {
+        P_MORE.iter().filter(|quantity| self.columns[**quantity].is_some()).count()
+    }
+
+    /// Whether there is a column of z.
+    pub fn has_z(&self) -> bool {
+        self.columns[Z].is_some()
+    }
 }
 
 /// Reads comment lines and the header line of a marker table.
@@ -130,10 +149,18 @@ fn parse_header(line: &Line, said: Option<u8>) -> Result<Header, DataError> {
             absent(line, &names, delimiter, missing)
         });
     }
-    if columns[GAUGE].is_none()
-        && let Some(fault) = without_unit(line, &names, GAUGE)
-    {
-        return Err(fault);
+    for quantity in [GAUGE, Z].into_iter().chain(P_MORE).filter(|q| columns[*q].is_none()) {
+        // Another program's z_score or z_px is no place.
+        if let Some(fault) = without_unit(line, &names, quantity, quantity != Z) {
+            return Err(fault);
+        }
+    }
+    if let Some(gap) = (1..P_MORE.len()).find(|c| columns[P_MORE[*c]].is_some() && columns[P_MORE[c - 1]].is_none()) {
+        let index = columns[P_MORE[gap]].as_ref().map_or(0, |column| column.index);
+        let (missing, found) = (QUANTITIES[P_MORE[gap - 1]].expected, &names[index]);
+        let message = format!("column {found} is there and {missing} is not");
+        let help = format!("add {missing}, 0 in every row where nothing is connected to supply channel {gap}");
+        return Err(column_fault(line, &names, index, message, help));
     }
     Ok(Header { names, columns, y_down, delimiter, named: said.is_some(), line: line.keep() })
 }
@@ -215,8 +242,8 @@ fn column_fault(line: &Line, names: &[String], index: usize, message: String, he
     DataError::Column(fault)
 }
 
-/// The fault of a column that names a quantity without a unit, or with one that is not known.
-fn without_unit(line: &Line, names: &[String], missing: usize) -> Option<DataError> {
+/// The fault of a column that names a quantity without a unit, or, where that is asked for, with one that is not known.
+fn without_unit(line: &Line, names: &[String], missing: usize, known: bool) -> Option<DataError> {
     let Quantity { expected, dimension, .. } = &QUANTITIES[missing];
     let units = dimension.map(Measured::sentence).unwrap_or_default();
     names.iter().enumerate().find_map(|(index, name)| match meaning(name) {
@@ -224,7 +251,7 @@ fn without_unit(line: &Line, names: &[String], missing: usize) -> Option<DataErr
             let help = format!("name it {expected}; {units}");
             Some(column_fault(line, names, index, format!("column {name} has no unit in its name"), help))
         }
-        Meaning::OtherUnit { quantity } if quantity == missing => {
+        Meaning::OtherUnit { quantity } if quantity == missing && known => {
             let help = format!("convert it and name it {expected}; {units}");
             Some(column_fault(line, names, index, format!("column {name} has an unknown unit"), help))
         }
@@ -233,7 +260,7 @@ fn without_unit(line: &Line, names: &[String], missing: usize) -> Option<DataErr
 }
 
 fn absent(line: &Line, names: &[String], delimiter: u8, missing: usize) -> DataError {
-    if let Some(fault) = without_unit(line, names, missing) {
+    if let Some(fault) = without_unit(line, names, missing, true) {
         return fault;
     }
     let expected = QUANTITIES[missing].expected;

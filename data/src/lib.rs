@@ -22,6 +22,7 @@ mod ramps;
 pub mod read;
 mod rows;
 pub mod sets;
+mod space;
 mod streams;
 pub mod table;
 mod units;

@@ -21,11 +21,10 @@ const FEW_ROWS: f64 = 0.2;
 pub(crate) fn check_kept(file: &str, recorder: &Recorder) -> Result<(), DataError> {
     let segments = || recorder.streams.iter().flat_map(|stream| &stream.segments);
     let below = |segment: &Segment| {
-        let means = [segment.p_body_pa(), segment.p_act_pa()];
         segment
             .below_zero
             .iter()
-            .zip(means)
+            .zip(segment.means_pa())
             .find(|(_, mean)| *mean < policy::LOWEST_GAUGE_PA)
             .and_then(|(fault, _)| fault.clone())
     };

@@ -7,7 +7,9 @@
 //! | `p_body_kpa`, `p_act_kpa` | gauge pressures |
 //! | `phase` | `load`, `hold` or `unload` |
 //! | `x_mm`, `y_mm` | position, x along the undeformed body from its base, y towards the actuator; both empty or NaN where the marker was not seen |
+//! | `z_mm` (optional) | third coordinate, right-handed: of robots with strips round the body |
 //! | `s_mm` (optional) | station of the marker on the undeformed body |
+//! | `p_act_1_kpa`, … `p_act_3_kpa` (optional) | pressures of supply channels 1 to 3; `p_act_kpa` is then that of channel 0 |
 //! | `p_gauge_kpa` (optional) | reading of a gauge at the actuator, where `p_act_kpa` is what was set |
 //!
 //! Other units by suffix: mm, cm, m; kPa, Pa, MPa, psi, bar, mbar, inH2O; s, ms, min. `y_down_mm` means −y. Extra columns are ignored.
@@ -85,7 +87,7 @@ pub fn parse_markers(
     let mut lines = Lines::new(file, reader, options.bytes_total, progress);
     let mut cells = RowReader::new(read_header(&mut lines)?);
     let mut kind = Kind { wanted: options.actuator.map(str::to_lowercase), ..Kind::default() };
-    let mut recorder = Recorder::default();
+    let mut recorder = Recorder::of(&cells.header);
     while let Some(line) = lines.next_filled()? {
         cells.split(&line)?;
         match kind.accept(cells.actuator(&line)?) {
@@ -114,7 +116,9 @@ pub fn parse_markers(
     dataset.lost.frames = recorder.lost_frames;
     dataset.told = told;
     check_kind(file, &dataset.actuator, options.about)?;
-    check_y_up(&cells.header, &dataset)?;
+    if !dataset.is_spatial() {
+        check_y_up(&cells.header, &dataset)?;
+    }
     Ok(dataset)
 }
 

@@ -3,7 +3,9 @@
 use crate::cells::{Decimals, is_nothing, label, with_comma};
 use crate::dataset::Phase;
 use crate::error::{DataError, Fault};
-use crate::header::{ACTUATOR, GAUGE, Header, MARKER, P_ACT, P_BODY, PHASE, QUANTITIES, RUN, STATION, TIME, X, Y};
+use crate::header::{
+    ACTUATOR, GAUGE, Header, MARKER, P_ACT, P_BODY, P_MORE, PHASE, QUANTITIES, RUN, STATION, TIME, X, Y, Z,
+};
 use crate::lines::Line;
 use crate::policy;
 
@@ -16,8 +18,11 @@ pub(crate) struct Row<'a> {
     pub t_s: f64,
     pub p_body_pa: f64,
     pub p_act_pa: f64,
+    /// Of supply channels 1, 2 and 3; 0 without a column.
+    pub more_act_pa: [f64; 3],
     pub x_m: f64,
     pub y_m: f64,
+    pub z_m: Option<f64>,
     pub station_m: Option<f64>,
     pub gauge_pa: Option<f64>,
 }
@@ -150,9 +155,14 @@ impl RowReader {
         self.word(line, ACTUATOR)
     }
 
-    /// Whether the line split last says that its marker was not seen: neither x nor y, or NaN for both.
+    /// Whether the line split last says that its marker was not seen: no coordinate, or NaN for each.
     pub fn is_lost(&self) -> bool {
-        [X, Y].iter().all(|axis| is_nothing(self.text(*axis)))
+        [X, Y].iter().all(|axis| is_nothing(self.text(*axis))) && (!self.has(Z) || is_nothing(self.text(Z)))
+    }
+
+    /// Whether the table has a column.
+    fn has(&self, quantity: usize) -> bool {
+        self.header.columns[quantity].is_some()
     }
 
     /// What stands in the place of a position that was not seen, as some programs write it: 0, 0 or -1, -1 or 9999, 9999.
@@ -163,6 +173,10 @@ impl RowReader {
             return None;
         }
         let (x, y) = (x.parse::<f64>().ok()?, y.parse::<f64>().ok()?);
+        // A third coordinate of its own is a place.
+        if self.has(Z) && self.text(Z).parse().is_ok_and(|z: f64| z != x) {
+            return None;
+        }
         PLACEHOLDERS.iter().find(|(value, _)| x == *value && y == *value).map(|(_, words)| *words)
     }
 
@@ -182,9 +196,11 @@ impl RowReader {
     /// # Errors
     /// An empty cell, text in a number cell, NaN or infinity, an unknown phase, an impossible pressure or length.
     pub fn row(&self, line: &Line) -> Result<Row<'_>, DataError> {
-        let station = self.header.columns[STATION].is_some();
-        let gauge = self.header.columns[GAUGE].is_some();
         let y_m = self.length(line, Y)?;
+        let mut more_act_pa = [0.0; P_MORE.len()];
+        for (pressure_pa, quantity) in more_act_pa.iter_mut().zip(P_MORE).filter(|(_, q)| self.has(*q)) {
+            *pressure_pa = self.pressure(line, quantity)?;
+        }
         Ok(Row {
             run: label(self.word(line, RUN)?),
             marker: label(self.word(line, MARKER)?),
@@ -192,10 +208,12 @@ impl RowReader {
             t_s: self.time(line)?,
             p_body_pa: self.pressure(line, P_BODY)?,
             p_act_pa: self.pressure(line, P_ACT)?,
+            more_act_pa,
             x_m: self.length(line, X)?,
             y_m: if self.header.y_down { -y_m } else { y_m },
-            station_m: if station { Some(self.station(line)?) } else { None },
-            gauge_pa: if gauge { Some(self.pressure(line, GAUGE)?) } else { None },
+            z_m: if self.has(Z) { Some(self.length(line, Z)?) } else { None },
+            station_m: if self.has(STATION) { Some(self.station(line)?) } else { None },
+            gauge_pa: if self.has(GAUGE) { Some(self.pressure(line, GAUGE)?) } else { None },
         })
     }
 
@@ -265,7 +283,11 @@ impl RowReader {
             Err(_) => format!("expected a number, found \"{text}\""),
         };
         let name = QUANTITIES[quantity].expected;
-        let lost = if matches!(quantity, X | Y) { "; of a marker that was not seen leave x and y empty" } else { "" };
+        let lost = match quantity {
+            X | Y | Z if self.has(Z) => "; of a marker that was not seen leave x, y and z empty",
+            X | Y => "; of a marker that was not seen leave x and y empty",
+            _ => "",
+        };
         let help = if text.replace(',', ".").parse::<f64>().is_ok_and(f64::is_finite) {
             format!("write decimals with a point: {}", text.replace(',', "."))
         } else {

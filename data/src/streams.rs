@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 use crate::dataset::Phase;
 use crate::error::{DataError, Fault};
-use crate::header::{MARKER, P_ACT, P_BODY, RUN, STATION, TIME};
+use crate::header::{Header, MARKER, P_ACT, P_BODY, P_MORE, RUN, STATION, TIME};
 use crate::lines::{KeptLine, Line};
 use crate::policy::{self, tolerance_act_pa, tolerance_body_pa};
 use crate::rows::{Row, RowReader};
@@ -28,13 +28,15 @@ pub(crate) struct Sample {
     pub t_s: f64,
     pub x_m: f64,
     pub y_m: f64,
+    /// 0 of a table without z.
+    pub z_m: f64,
     pub gauge_pa: f64,
 }
 
 impl Sample {
     /// Mean position \[m\].
-    pub fn place(&self) -> [f64; 2] {
-        [self.x_m, self.y_m].map(|sum| sum / self.count.max(1) as f64)
+    pub fn place(&self) -> [f64; 3] {
+        [self.x_m, self.y_m, self.z_m].map(|sum| sum / self.count.max(1) as f64)
     }
 
     pub fn add(&mut self, other: Sample) {
@@ -42,6 +44,7 @@ impl Sample {
         self.t_s += other.t_s;
         self.x_m += other.x_m;
         self.y_m += other.y_m;
+        self.z_m += other.z_m;
         self.gauge_pa += other.gauge_pa;
     }
 }
@@ -56,12 +59,20 @@ pub(crate) struct Segment {
     pub rows: u64,
     /// The first actuator pressure and the last \[Pa\].
     pub ends_pa: [f64; 2],
-    /// The first reading of it that is below zero, by body and actuator, to be judged by the mean.
-    pub below_zero: [Option<Box<Fault>>; 2],
+    /// The first reading that is below zero, in the order of [`PRESSURES`], to be judged by the mean.
+    pub below_zero: [Option<Box<Fault>>; PRESSURES.len()],
     /// Observations per sample; doubles whenever neighbours are merged.
     stride: u64,
-    p_body_sum: f64,
-    p_act_sum: f64,
+    /// Sums of the pressures.
+    sums_pa: [f64; PRESSURES.len()],
+}
+
+/// Pressures of a row: body, actuator, and the supply channels from 1 on.
+pub(crate) const PRESSURES: [usize; 2 + P_MORE.len()] = [P_BODY, P_ACT, P_MORE[0], P_MORE[1], P_MORE[2]];
+
+fn pressures_pa(row: &Row) -> [f64; PRESSURES.len()] {
+    let [one, two, three] = row.more_act_pa;
+    [row.p_body_pa, row.p_act_pa, one, two, three]
 }
 
 impl Segment {
@@ -72,21 +83,20 @@ impl Segment {
             samples: Vec::new(),
             rows: 0,
             ends_pa: [row.p_act_pa; 2],
-            below_zero: [None, None],
+            below_zero: Default::default(),
             stride: 1,
-            p_body_sum: 0.0,
-            p_act_sum: 0.0,
+            sums_pa: [0.0; PRESSURES.len()],
         }
-    }
-
-    /// Mean body pressure \[Pa\].
-    pub fn p_body_pa(&self) -> f64 {
-        self.p_body_sum / self.rows.max(1) as f64
     }
 
     /// Mean actuator pressure \[Pa\].
     pub fn p_act_pa(&self) -> f64 {
-        self.p_act_sum / self.rows.max(1) as f64
+        self.means_pa()[1]
+    }
+
+    /// Mean of every pressure \[Pa\], in the order of [`PRESSURES`].
+    pub fn means_pa(&self) -> [f64; PRESSURES.len()] {
+        self.sums_pa.map(|sum| sum / self.rows.max(1) as f64)
     }
 
     /// Time of the first sample \[s\].
@@ -100,21 +110,13 @@ impl Segment {
     }
 
     fn continues_with(&self, row: &Row) -> bool {
-        row.phase == self.phase && self.is_near([row.p_body_pa, row.p_act_pa], 1.0)
-    }
-
-    /// Whether pressures of body and actuator are within so many tolerances of the mean.
-    fn is_near(&self, [body_pa, act_pa]: [f64; 2], tolerances: f64) -> bool {
-        let (act, body) = (self.p_act_pa(), self.p_body_pa());
-        (act_pa - act).abs() <= tolerances * tolerance_act_pa(act)
-            && (body_pa - body).abs() <= tolerances * tolerance_body_pa(body)
+        row.phase == self.phase && are_near(self.means_pa(), pressures_pa(row), 1.0)
     }
 
     /// Takes in a later segment of one row: a single reading that departed and came back is noise.
     fn absorb(&mut self, one: Segment) {
         self.rows += one.rows;
-        self.p_body_sum += one.p_body_sum;
-        self.p_act_sum += one.p_act_sum;
+        self.sums_pa.iter_mut().zip(one.sums_pa).for_each(|(sum, other)| *sum += other);
         one.samples.into_iter().for_each(|sample| self.push(sample));
         let below = self.below_zero.iter_mut().zip(one.below_zero);
         below.for_each(|(own, other)| *own = own.take().or(other));
@@ -126,7 +128,7 @@ impl Segment {
         if gone > 0 {
             // Pressures stay what they are on average.
             let left = (self.rows - gone) as f64 / self.rows as f64;
-            (self.p_body_sum, self.p_act_sum) = (left * self.p_body_sum, left * self.p_act_sum);
+            self.sums_pa = self.sums_pa.map(|sum| left * sum);
             self.rows -= gone;
             self.samples.retain(|sample| !is_out(sample));
         }
@@ -135,11 +137,11 @@ impl Segment {
 
     fn add(&mut self, row: &Row) {
         self.rows += 1;
-        self.p_body_sum += row.p_body_pa;
-        self.p_act_sum += row.p_act_pa;
+        self.sums_pa.iter_mut().zip(pressures_pa(row)).for_each(|(sum, pressure_pa)| *sum += pressure_pa);
         self.ends_pa[1] = row.p_act_pa;
         let gauge_pa = row.gauge_pa.unwrap_or(0.0);
-        self.push(Sample { count: 1, t_s: row.t_s, x_m: row.x_m, y_m: row.y_m, gauge_pa });
+        let z_m = row.z_m.unwrap_or(0.0);
+        self.push(Sample { count: 1, t_s: row.t_s, x_m: row.x_m, y_m: row.y_m, z_m, gauge_pa });
     }
 
     fn push(&mut self, one: Sample) {
@@ -165,6 +167,12 @@ impl Segment {
     }
 }
 
+/// Whether pressures, in the order of [`PRESSURES`], are within so many tolerances of the first.
+pub(crate) fn are_near(of: [f64; PRESSURES.len()], other: [f64; PRESSURES.len()], tolerances: f64) -> bool {
+    let tolerance = |k: usize| if k == 0 { tolerance_body_pa(of[0]) } else { tolerance_act_pa(of[k]) };
+    (0..of.len()).all(|k| (other[k] - of[k]).abs() <= tolerances * tolerance(k))
+}
+
 /// The observations of one marker in one run.
 #[derive(Debug)]
 pub(crate) struct Stream {
@@ -180,8 +188,7 @@ impl Stream {
     /// Puts a last segment of one row back into the one before, if this row goes on there: the reading was noise.
     fn take_back(&mut self, row: &Row) {
         let [.., before, last] = self.segments.as_slice() else { return };
-        let noise =
-            last.rows == 1 && last.phase == before.phase && before.is_near([last.p_body_pa(), last.p_act_pa()], 2.0);
+        let noise = last.rows == 1 && last.phase == before.phase && are_near(before.means_pa(), last.means_pa(), 2.0);
         if noise && before.continues_with(row) && !last.continues_with(row) {
             let one = self.segments.pop();
             self.segments.last_mut().zip(one).into_iter().for_each(|(before, one)| before.absorb(one));
@@ -224,6 +231,10 @@ pub(crate) struct Recorder {
     /// Station of each marker from the `s_mm` column \[m\].
     pub stations_m: Vec<Option<f64>>,
     pub extremes: Extremes,
+    /// Supply channels beyond the first that the table has.
+    pub more_channels: usize,
+    /// The table has a third coordinate.
+    pub has_z: bool,
     pub first_row: Option<KeptLine>,
     /// Rows without a position.
     pub lost_frames: u64,
@@ -234,6 +245,11 @@ pub(crate) struct Recorder {
 }
 
 impl Recorder {
+    /// Nothing yet, of a table with this header.
+    pub fn of(header: &Header) -> Recorder {
+        Recorder { more_channels: header.more_channels(), has_z: header.has_z(), ..Recorder::default() }
+    }
+
     /// Takes in one observation.
     ///
     /// # Errors
@@ -288,9 +304,7 @@ impl Recorder {
             stream.segments.push(Segment::new(row, line.number));
         }
         if let Some(segment) = stream.segments.last_mut() {
-            for (which, (pressure_pa, quantity)) in
-                [(row.p_body_pa, P_BODY), (row.p_act_pa, P_ACT)].into_iter().enumerate()
-            {
+            for (which, (pressure_pa, quantity)) in pressures_pa(row).into_iter().zip(PRESSURES).enumerate() {
                 if pressure_pa < policy::LOWEST_GAUGE_PA && segment.below_zero[which].is_none() {
                     segment.below_zero[which] = Some(cells.below_zero(line, quantity));
                 }
@@ -346,7 +360,21 @@ mod tests {
     fn row(t_s: f64, p_act_pa: f64) -> Row<'static> {
         let (run, marker, phase) = ("1", "1", Phase::Load);
         let (x_m, y_m, gauge_pa) = (2.0 * t_s, -t_s, Some(3.0 * t_s));
-        Row { run, marker, phase, t_s, p_body_pa: 2000.0, p_act_pa, x_m, y_m, station_m: None, gauge_pa }
+        let (z_m, more_act_pa) = (Some(4.0 * t_s), [0.0; 3]);
+        Row {
+            run,
+            marker,
+            phase,
+            t_s,
+            p_body_pa: 2000.0,
+            p_act_pa,
+            more_act_pa,
+            x_m,
+            y_m,
+            z_m,
+            station_m: None,
+            gauge_pa,
+        }
     }
 
     #[test]
@@ -362,6 +390,11 @@ mod tests {
         let other_phase = Row { phase: Phase::Unload, ..row(1.0, 20_000.0) };
         let other_body = Row { p_body_pa: 2201.0, ..row(1.0, 20_000.0) };
         assert!(!segment.continues_with(&other_phase) && !segment.continues_with(&other_body));
+        for channel in 0..3 {
+            let mut other = row(1.0, 0.0);
+            other.more_act_pa[channel] = 501.0;
+            assert!(!segment.continues_with(&other), "{channel}");
+        }
     }
 
     #[test]
@@ -375,7 +408,10 @@ mod tests {
             });
             let sum = (rows * (rows - 1) / 2) as f64;
             assert!(segment.samples.len() <= MOST_SAMPLES && segment.samples.len() as u64 >= rows.min(32));
-            assert_eq!(total, Sample { count: rows, t_s: sum, x_m: 2.0 * sum, y_m: -sum, gauge_pa: 3.0 * sum });
+            assert_eq!(
+                total,
+                Sample { count: rows, t_s: sum, x_m: 2.0 * sum, y_m: -sum, z_m: 4.0 * sum, gauge_pa: 3.0 * sum }
+            );
             let full = &segment.samples[..segment.samples.len() - 1];
             assert!(full.iter().all(|sample| sample.count == segment.stride), "equal counts but for the last");
         }

@@ -7,6 +7,7 @@ mod checks;
 mod good_input;
 mod lost;
 mod placeholders;
+mod space;
 mod writing;
 
 use crate::{DataError, Dataset, ReadOptions, parse_markers};

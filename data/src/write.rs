@@ -11,14 +11,17 @@ use crate::error::{DataError, Fault};
 use crate::units::{kpa, mm};
 
 /// Writes the tidy marker table of a dataset: mm and kPa with four decimals, so that the same data give the same bytes.
-/// A column `s_mm` follows if every marker has a station, and `p_gauge_kpa` if there are readings of a gauge. The pressures set
+/// `z_mm` and pressures of more channels are there if the dataset has them. A column `s_mm` follows if every marker has a station, and `p_gauge_kpa` if there are readings of a gauge. The pressures set
 /// are those of the holds (means over runs). What a run lost has no rows.
 ///
 /// # Errors
 /// The writer fails.
 pub fn write_markers_csv(dataset: &Dataset, out: &mut dyn Write) -> Result<(), DataError> {
     let stations = dataset.markers.iter().all(|marker| marker.station_m.is_some());
-    let mut text = String::from("run,actuator,t_s,p_body_kpa,p_act_kpa,phase,marker,x_mm,y_mm");
+    let mut text = String::from("run,actuator,t_s,p_body_kpa,p_act_kpa");
+    (1..=dataset.more_channels()).for_each(|channel| text.push_str(&format!(",p_act_{channel}_kpa")));
+    text.push_str(",phase,marker,x_mm,y_mm");
+    text.push_str(if dataset.z_m.is_some() { ",z_mm" } else { "" });
     text.push_str(if stations { ",s_mm" } else { "" });
     text.push_str(if dataset.gauge_pa.is_some() { ",p_gauge_kpa\n" } else { "\n" });
     for (run, label) in dataset.runs.iter().enumerate() {
@@ -44,17 +47,19 @@ pub fn set_files(dataset: &Dataset, about: &About) -> Result<[(String, Vec<u8>);
 fn add_rows(text: &mut String, dataset: &Dataset, run: usize, label: &str, hold: usize, stations: bool) {
     let Dataset { actuator, holds, markers, samples_per_hold, .. } = dataset;
     for sample in 0..*samples_per_hold {
-        let (t, body, act) = (holds[hold].t_s[sample], kpa(holds[hold].p_body_pa), kpa(holds[hold].p_act_pa));
-        let state = [t, body, act].map(fixed).join(",");
+        let pressures = std::iter::once(holds[hold].p_body_pa).chain(holds[hold].channels_pa()).map(kpa);
+        let state: Vec<String> = std::iter::once(holds[hold].t_s[sample]).chain(pressures).map(fixed).collect();
+        let state = state.join(",");
         let gauge = dataset.gauge(run).map(|all| format!(",{}", fixed(kpa(all[hold * samples_per_hold + sample]))));
         let gauge = gauge.unwrap_or_default();
         for (index, marker) in markers.iter().enumerate().filter(|(m, _)| !dataset.is_lost(run, hold, *m)) {
-            let [x, y] = dataset.xy(run, hold, sample, index).map(|value| fixed(mm(value)));
+            let place = dataset.place(run, hold, sample, index).into_iter().flatten();
+            let place = place.map(|value| fixed(mm(value))).collect::<Vec<_>>().join(",");
             let (phase, name) = (holds[hold].phase.word(), quoted(&marker.name));
             let station = marker.station_m.filter(|_| stations).map_or(String::new(), |s| format!(",{}", fixed(mm(s))));
             // Writing into a String cannot fail.
             let _ =
-                writeln!(text, "{},{},{state},{phase},{name},{x},{y}{station}{gauge}", quoted(label), quoted(actuator));
+                writeln!(text, "{},{},{state},{phase},{name},{place}{station}{gauge}", quoted(label), quoted(actuator));
         }
     }
 }

@@ -9,6 +9,8 @@ use crate::term::Loads;
 pub struct Batch {
     /// Markers \[m\], all of the first state, then all of the second …
     pub markers: Vec<[f64; 2]>,
+    /// Their z \[m\] in the same order, of a robot in space; empty of a planar one.
+    pub markers_z_m: Vec<f64>,
     /// Tip per state.
     pub tips: Vec<Tip>,
     /// One set of buffers per thread.
@@ -20,6 +22,8 @@ struct Part<'a> {
     first: usize,
     loads: &'a [Loads],
     markers: &'a mut [[f64; 2]],
+    /// Empty of a planar robot.
+    z_m: &'a mut [f64],
     tips: &'a mut [Tip],
 }
 
@@ -28,7 +32,13 @@ impl Model {
     /// once.
     pub fn batch(&self, count: usize, threads: usize) -> Batch {
         let states = vec![self.prediction(); threads.max(1)];
-        Batch { markers: Vec::with_capacity(count * self.marker_count()), tips: Vec::with_capacity(count), states }
+        let in_space = if self.is_spatial() { count * self.marker_count() } else { 0 };
+        Batch {
+            markers: Vec::with_capacity(count * self.marker_count()),
+            markers_z_m: Vec::with_capacity(in_space),
+            tips: Vec::with_capacity(count),
+            states,
+        }
     }
 
     /// Predicts one state per item of `loads`, each identical to the bit to [`Model::predict`] at these loads, whatever
@@ -45,18 +55,24 @@ impl Model {
     /// # Errors
     /// The first [`Unsolved`]; the states before it are in `out`, so `out.tips.len()` is the index of the culprit.
     pub fn predict_batch(&self, loads: &[Loads], out: &mut Batch) -> Result<(), Unsolved> {
-        self.planar("a batch, which has no z,")?;
         out.markers.resize(loads.len() * self.marker_count(), [0.0; 2]);
+        out.markers_z_m.resize(loads.len() * self.heights_each(), 0.0);
         out.tips.resize(loads.len(), Tip { x_m: 0.0, y_m: 0.0, z_m: 0.0, angle_rad: 0.0 });
-        let whole = Part { first: 0, loads, markers: &mut out.markers, tips: &mut out.tips };
+        let whole = Part { first: 0, loads, markers: &mut out.markers, z_m: &mut out.markers_z_m, tips: &mut out.tips };
         let failed = match out.states.as_mut_slice() {
             [state] => self.predict_part(whole, state),
             states => self.predict_parts(whole, states),
         };
         let Err((index, error)) = failed else { return Ok(()) };
         out.markers.truncate(index * self.marker_count());
+        out.markers_z_m.truncate(index * self.heights_each());
         out.tips.truncate(index);
         Err(error)
+    }
+
+    /// Values of z in a state.
+    fn heights_each(&self) -> usize {
+        if self.is_spatial() { self.marker_count() } else { 0 }
     }
 
     /// Equal parts, one per thread; of several failures the first counts.
@@ -66,7 +82,7 @@ impl Model {
             let mut rest = whole;
             let mut running = Vec::with_capacity(states.len());
             for state in states {
-                let (part, others) = rest.split(size, self.marker_count());
+                let (part, others) = rest.split(size, [self.marker_count(), self.heights_each()]);
                 rest = others;
                 running.push(scope.spawn(move || self.predict_part(part, state)));
             }
@@ -81,7 +97,14 @@ impl Model {
         let count = self.marker_count();
         for (i, (item, tip)) in part.loads.iter().zip(part.tips).enumerate() {
             self.settle(item, state, false).map_err(|error| (part.first + i, error))?;
-            self.sight(&state.work, &mut part.markers[i * count..(i + 1) * count]);
+            let own = i * count..(i + 1) * count;
+            if self.is_spatial() {
+                self.see(state);
+                part.markers[own.clone()].copy_from_slice(&state.markers);
+                part.z_m[own].copy_from_slice(&state.markers_z_m);
+            } else {
+                self.sight(&state.work, &mut part.markers[own]);
+            }
             *tip = state.tip;
         }
         Ok(())
@@ -90,12 +113,19 @@ impl Model {
 
 impl<'a> Part<'a> {
     /// The first `size` states (or what there is) and the others.
-    fn split(self, size: usize, markers_each: usize) -> (Part<'a>, Part<'a>) {
+    fn split(self, size: usize, [markers_each, heights_each]: [usize; 2]) -> (Part<'a>, Part<'a>) {
         let size = size.min(self.loads.len());
         let (loads, other_loads) = self.loads.split_at(size);
         let (markers, other_markers) = self.markers.split_at_mut(size * markers_each);
+        let (z_m, other_z_m) = self.z_m.split_at_mut(size * heights_each);
         let (tips, other_tips) = self.tips.split_at_mut(size);
-        let others = Part { first: self.first + size, loads: other_loads, markers: other_markers, tips: other_tips };
-        (Part { first: self.first, loads, markers, tips }, others)
+        let others = Part {
+            first: self.first + size,
+            loads: other_loads,
+            markers: other_markers,
+            z_m: other_z_m,
+            tips: other_tips,
+        };
+        (Part { first: self.first, loads, markers, z_m, tips }, others)
     }
 }

@@ -131,7 +131,7 @@ impl Model {
         self.see(out);
     }
 
-    fn see(&self, out: &mut Prediction) {
+    pub(crate) fn see(&self, out: &mut Prediction) {
         match self.is_spatial() {
             true => self.see_in_space(&self.markers, out),
             false => self.sight(&out.work, &mut out.markers),

@@ -15,6 +15,7 @@ from ._calls import (
     Comparison,
     Diagnosis,
     Extension,
+    SpaceComparison,
     Validation,
     add,
     compare,
@@ -27,8 +28,8 @@ from ._calls import (
 from ._runs import Frame, Run, simulate, sweep
 
 __all__ = [
-    "Comparison", "Data", "Diagnosis", "Error", "Extension", "Frame", "Run", "Scenario", "State", "States",
-    "Validation", "add", "compare", "data", "diagnose", "extend", "import_tracks", "simulate", "sweep",
+    "Comparison", "Data", "Diagnosis", "Error", "Extension", "Frame", "Run", "Scenario", "SpaceComparison", "State",
+    "States", "Validation", "add", "compare", "data", "diagnose", "extend", "import_tracks", "simulate", "sweep",
     "validate",
 ]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Union
 
@@ -21,7 +22,7 @@ def data(source: Measured, *, name: str = "frame", about: Union[str, os.PathLike
 
     `source`: an embedded set (`python -m ibr data list`), a CSV file, a folder with markers.csv and about.toml, or a table:
     a pandas or polars frame, a pyarrow table or a dict of columns named as those of markers.csv (run, actuator, t_s,
-    p_body_kpa, p_act_kpa, phase, marker, x_mm, y_mm and, if known, s_mm; other units by suffix). Faults of a table named
+    p_body_kpa, p_act_kpa, phase, marker, x_mm, y_mm and, if known, z_mm, s_mm, p_act_1_kpa; other units by suffix). Faults of a table named
     `name` count lines as its CSV would: the first row is line 2.
     `about`: of a table, the text or the path of its about.toml.
     """
@@ -108,6 +109,26 @@ class Comparison(Result):
 
     def _headline(self) -> str:
         return f"{self.scenario} held against {self.data}: {self.error_mm:.2f} mm beyond noise\n{self.verdict}"
+
+
+class SpaceComparison(Comparison):
+    """The same in x, y and z, of a robot with strips round the body, or of data with a pressure for every supply channel.
+
+    Errors are of one coordinate; `models` has them hold by hold, with bias and tip error along every axis.
+    """
+
+    _shown = ("shapes", "shapes_z")
+
+    @property
+    def verdict(self) -> str:
+        """Where the model fails first, in a sentence."""
+        return self.where_it_fails[0]
+
+    def plot(self, axes=None):
+        """Measured and predicted markers from two sides, on two axes of matplotlib."""
+        from . import _plot
+
+        return _plot.space_comparison(self, axes)
 
 
 class Diagnosis(Result):
@@ -213,9 +234,12 @@ def compare(
     """Holds a scenario against measurements: how far off, and where.
 
     `effects`: further models, each with one more effect, as `"name"` or `"name:key=value"`. `sigma_mm`: camera noise of one
-    coordinate, for a single run. `calibrate`: also fit "bending" or "body-pressure".
+    coordinate, for a single run. `calibrate`: also fit "bending" or "body-pressure". A robot with strips round the body gives a
+    `SpaceComparison`.
     """
-    return Comparison(_ibr.compare(_robot(scenario), data(measured), list(effects), sigma_mm, calibrate))
+    answer = _ibr.compare(_robot(scenario), data(measured), list(effects), sigma_mm, calibrate)
+    in_space = json.loads(answer.json)["schema"] == "ibr.compare.space"
+    return SpaceComparison(answer) if in_space else Comparison(answer)
 
 
 def diagnose(

@@ -23,16 +23,17 @@ class State:
 
     @property
     def tip_mm(self) -> Array:
-        """Tip of the centre line, x along the undeformed body and y towards the actuator, shape (2,)."""
+        """Tip of the centre line, x along the undeformed body and y towards the actuator, shape (2,); with strips round the body
+        x, y and z, shape (3,)."""
     @property
     def angle_deg(self) -> float:
         """Total bending angle."""
     @property
     def markers_mm(self) -> Array:
-        """Markers as the camera sees them, shape (markers, 2)."""
+        """Markers as the camera sees them, shape (markers, 2); with strips round the body (markers, 3)."""
     @property
     def curve_mm(self) -> Array:
-        """Centre line from base to tip, shape (101, 2)."""
+        """Centre line from base to tip, shape (101, 2); with strips round the body (101, 3)."""
     @property
     def pressure_kpa(self) -> float:
         """Actuator pressure of the first supply channel."""
@@ -50,7 +51,7 @@ class State:
     def to_dict(self) -> Dict[str, Any]:
         """The same as a dictionary (docs/json.md)."""
     def plot(self, axes: Any = None) -> Any:
-        """The shape on axes of matplotlib; returns the axes."""
+        """The shape on axes of matplotlib; returns the axes. With strips round the body two axes, one for each side."""
     def _repr_html_(self) -> str: ...
 
 class States:
@@ -58,13 +59,13 @@ class States:
 
     @property
     def tips_mm(self) -> Array:
-        """Tips of the centre line, shape (N, 2)."""
+        """Tips of the centre line, shape (N, 2); with strips round the body (N, 3)."""
     @property
     def angles_deg(self) -> Array:
         """Total bending angles, shape (N,)."""
     @property
     def markers_mm(self) -> Array:
-        """Markers as the camera sees them, shape (N, markers, 2)."""
+        """Markers as the camera sees them, shape (N, markers, 2); with strips round the body (N, markers, 3)."""
     def __len__(self) -> int: ...
 
 class Scenario:

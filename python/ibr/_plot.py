@@ -26,12 +26,65 @@ def _plane(axes, title):
     return _labelled(axes, "x along the body [mm]", "y towards the actuator [mm]", title)
 
 
+def _two(axes):
+    if axes is not None:
+        return axes
+    import matplotlib.pyplot as plt
+
+    return plt.subplots(2, layout="constrained")[1]
+
+
+def _sides(axes, draw, title):
+    """The same on two axes: seen along z, then along y."""
+    for side, (one, label) in enumerate(zip(axes, ("y, azimuth 0° [mm]", "z, azimuth 90° [mm]")), 1):
+        draw(one, side)
+        one.set_aspect("equal", adjustable="datalim")
+        _labelled(one, "x along the body [mm]", label, title if side == 1 else "")
+    return axes
+
+
 def state(state, axes=None):
-    """Centre line and markers of a predicted state."""
+    """Centre line and markers of a predicted state; of a robot with strips round the body from two sides, on two axes."""
+    if state.tip_mm.size == 3:
+        return _state_in_space(state, _two(axes))
     axes = _axes(axes)
     (line,) = axes.plot(*state.curve_mm.T, label=f"{state.pressure_kpa:g} kPa")
     axes.plot(*state.markers_mm.T, "o", color=line.get_color())
     return _plane(axes, "Predicted shape")
+
+
+def _state_in_space(state, axes):
+    channels = "/".join(f"{kpa:g}" for kpa in np.trim_zeros(state.channels_kpa, "b"))
+    # Equal pressures are one.
+    name = f"{state.pressure_kpa:g} kPa" if np.ptp(state.channels_kpa) == 0 else f"{channels} kPa"
+
+    def draw(one, side):
+        (line,) = one.plot(state.curve_mm[:, 0], state.curve_mm[:, side], label=name)
+        one.plot(state.markers_mm[:, 0], state.markers_mm[:, side], "o", color=line.get_color())
+
+    return _sides(axes, draw, "Predicted shape")
+
+
+def space_comparison(found, axes=None):
+    """Measured and predicted markers of every hold from two sides."""
+    table = found.table
+    first = table["model"] == found.names[0]
+    names = [name for name in table if name == "p_body_kpa" or name.startswith("p_act_")]
+    pressures = np.stack([table[name] for name in names], axis=1)
+    holds = np.unique(pressures[first], axis=0)
+
+    def draw(one, side):
+        axis = "xyz"[side]
+        if f"{axis}_mm" not in table:
+            return
+        for k, hold in enumerate(holds):
+            at = first & (pressures == hold).all(axis=1)
+            channels = [kpa for name, kpa in zip(names, hold) if name != "p_body_kpa"]
+            name = "/".join(f"{kpa:.0f}" for kpa in channels) + " kPa"
+            one.plot(table["predicted_x_mm"][at], table[f"predicted_{axis}_mm"][at], "_", ms=12, color=f"C{k % 10}")
+            one.plot(table["x_mm"][at], table[f"{axis}_mm"][at], "o", ms=5, color=f"C{k % 10}", label=name)
+
+    return _sides(_two(axes), draw, f"Measured (dots) and predicted (bars): {found.data}")
 
 
 def comparison(found, axes=None):

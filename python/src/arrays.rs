@@ -10,11 +10,16 @@ use pyo3::types::PyDict;
 pub type Numbers<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
 
 /// Points in metres as rows of millimetres, without a copy.
-pub fn rows_mm(py: Python<'_>, points_m: Vec<[f64; 2]>) -> Bound<'_, PyArray2<f64>> {
+pub fn rows_mm<const AXES: usize>(py: Python<'_>, points_m: Vec<[f64; AXES]>) -> Bound<'_, PyArray2<f64>> {
     let count = points_m.len();
     let mut flat = points_m.into_flattened();
     flat.iter_mut().for_each(|v| *v *= 1e3);
-    matrix(py, count, 2, flat)
+    matrix(py, count, AXES, flat)
+}
+
+/// x, y and z of points whose z stands apart.
+pub fn with_z(xy: &[[f64; 2]], z: &[f64]) -> Vec<[f64; 3]> {
+    xy.iter().zip(z).map(|([x, y], z)| [*x, *y, *z]).collect()
 }
 
 /// A matrix of so many rows and columns; empty if the numbers are fewer.

@@ -83,7 +83,7 @@ impl Scenario {
     /// A robot or study that comes with the package, or a TOML file.
     #[staticmethod]
     fn named(name: PathBuf) -> PyResult<Scenario> {
-        ibr::studies::scenario(&name.to_string_lossy()).map(Scenario::of).map_err(raised)
+        ibr::studies::scenario_in_space(&name.to_string_lossy()).map(Scenario::of).map_err(raised)
     }
 
     /// A TOML file, or its text.
@@ -91,7 +91,7 @@ impl Scenario {
     fn from_toml(source: PathBuf) -> PyResult<Scenario> {
         let text = source.to_string_lossy();
         if text.contains('\n') {
-            return ScenarioFile::parse("scenario", &text).map(Scenario::of).map_err(raised);
+            return ScenarioFile::parse_in_space("scenario", &text).map(Scenario::of).map_err(raised);
         }
         Scenario::named(source)
     }
@@ -177,7 +177,8 @@ impl Scenario {
     ) -> PyResult<States> {
         let loads = self.all_loads(&pressure_kpa, body_pressure_kpa.as_ref())?;
         let batch = py.detach(|| self.predictor().batch(&loads, threads)).map_err(raised)?;
-        States::new(py, &batch.tips, batch.markers)
+        let z_m = self.predictor().model().is_spatial().then_some(&batch.markers_z_m[..]);
+        States::new(py, &batch.tips, batch.markers, z_m)
     }
 
     /// A protocol in time.
@@ -197,18 +198,20 @@ impl Scenario {
                 "give one time for each",
             ));
         }
-        let (mut tips, mut markers) = (Vec::new(), Vec::new());
+        let (mut tips, mut markers, mut z_m) = (Vec::new(), Vec::new(), Vec::new());
         let walked = py.detach(|| {
             let mut follower = Follower::new(&self.file);
             times.iter().zip(&loads).try_for_each(|(t_s, loads)| {
                 let at = follower.next(*t_s, loads)?;
                 tips.push(at.tip);
                 markers.extend_from_slice(&at.markers);
+                z_m.extend_from_slice(&at.markers_z_m);
                 Ok(())
             })
         });
         walked.map_err(|error: ibr::Error| raised(error))?;
-        States::new(py, &tips, markers)
+        let z_m = self.predictor().model().is_spatial().then_some(&z_m[..]);
+        States::new(py, &tips, markers, z_m)
     }
 
     /// The state in which the tip is where it is wanted.

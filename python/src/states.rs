@@ -1,6 +1,6 @@
 //! Predicted states.
 
-use crate::arrays::{matrix, rows_mm, vector};
+use crate::arrays::{matrix, rows_mm, vector, with_z};
 use crate::errors::raised;
 use crate::scenario::Robot;
 use ibr::AtPressure;
@@ -22,6 +22,8 @@ pub struct State {
     loads: Loads,
     tip: Tip,
     markers_m: Vec<[f64; 2]>,
+    /// Of a robot with strips round the body.
+    markers_z_m: Option<Vec<f64>>,
     /// All of it: of a robot with history as it was found, of others when it is asked for.
     whole: OnceLock<AtPressure>,
 }
@@ -29,7 +31,8 @@ pub struct State {
 impl State {
     pub fn new(robot: &Arc<Robot>, loads: Loads, at: &Prediction) -> PyResult<State> {
         let (tip, markers_m) = (at.tip, at.markers.clone());
-        let state = State { robot: robot.clone(), loads, tip, markers_m, whole: OnceLock::new() };
+        let markers_z_m = robot.predictor.model().is_spatial().then(|| at.markers_z_m.clone());
+        let state = State { robot: robot.clone(), loads, tip, markers_m, markers_z_m, whole: OnceLock::new() };
         if robot.predictor.model().has_history() {
             state.keep(robot.predictor.with_slopes(&loads, at.clone()))?;
         }
@@ -52,10 +55,12 @@ impl State {
 
 #[pymethods]
 impl State {
-    /// Tip of the centre line, x along the undeformed body and y towards the actuator (mm), shape (2,).
+    /// Tip of the centre line, x along the undeformed body and y towards the actuator (mm), shape (2,); with strips round the
+    /// body x, y and z, shape (3,).
     #[getter]
     fn tip_mm<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        vector(py, vec![self.tip.x_m * 1e3, self.tip.y_m * 1e3])
+        let z = self.markers_z_m.as_ref().map(|_| self.tip.z_m * 1e3);
+        vector(py, [self.tip.x_m * 1e3, self.tip.y_m * 1e3].into_iter().chain(z).collect())
     }
 
     /// Total bending angle (degrees).
@@ -64,10 +69,13 @@ impl State {
         self.tip.angle_rad.to_degrees()
     }
 
-    /// Markers as the camera sees them (mm), shape (markers, 2).
+    /// Markers as the camera sees them (mm), shape (markers, 2); with strips round the body (markers, 3).
     #[getter]
     fn markers_mm<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        rows_mm(py, self.markers_m.clone())
+        match &self.markers_z_m {
+            Some(z_m) => rows_mm(py, with_z(&self.markers_m, z_m)),
+            None => rows_mm(py, self.markers_m.clone()),
+        }
     }
 
     /// Actuator pressure of the first supply channel (kPa).
@@ -88,11 +96,14 @@ impl State {
         self.loads.body_pa / 1e3
     }
 
-    /// Points of the centre line from base to tip (mm), shape (101, 2).
+    /// Points of the centre line from base to tip (mm), shape (101, 2); with strips round the body (101, 3).
     #[getter]
     fn curve_mm<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let points = self.robot.predictor.model().centre_line(&self.whole()?.prediction, LINE_POINTS);
-        Ok(rows_mm(py, points))
+        let (model, at) = (self.robot.predictor.model(), &self.whole()?.prediction);
+        Ok(match model.is_spatial() {
+            true => rows_mm(py, model.centre_line_in_space(at, LINE_POINTS)),
+            false => rows_mm(py, model.centre_line(at, LINE_POINTS)),
+        })
     }
 
     /// What to know before believing it.
@@ -123,11 +134,8 @@ impl State {
     fn _repr_html_(&self) -> PyResult<String> {
         let whole = std::slice::from_ref(self.whole()?);
         let files = predicted_files(self.robot.predictor.scenario(), whole).map_err(raised)?;
-        Ok(files
-            .files
-            .iter()
-            .find(|(name, _)| name.ends_with(".svg"))
-            .map_or(String::new(), |(_, svg)| String::from_utf8_lossy(svg).into_owned()))
+        let svg = files.files.iter().filter(|(name, _)| name.ends_with(".svg"));
+        Ok(svg.map(|(_, svg)| String::from_utf8_lossy(svg)).collect())
     }
 
     fn __str__(&self) -> PyResult<String> {
@@ -135,9 +143,11 @@ impl State {
     }
 
     fn __repr__(&self) -> String {
-        let Tip { x_m, y_m, angle_rad, .. } = self.tip;
+        let Tip { x_m, y_m, z_m, angle_rad } = self.tip;
         let pressure = ibr::pages::pressure_words(&self.loads);
-        format!("State({pressure} kPa: tip {:.2}, {:.2} mm, {:.2} deg)", x_m * 1e3, y_m * 1e3, angle_rad.to_degrees())
+        let z = self.markers_z_m.as_ref().map_or(String::new(), |_| format!(", {:.2}", z_m * 1e3));
+        let (x, y, angle) = (x_m * 1e3, y_m * 1e3, angle_rad.to_degrees());
+        format!("State({pressure} kPa: tip {x:.2}, {y:.2}{z} mm, {angle:.2} deg)")
     }
 }
 
@@ -150,15 +160,26 @@ pub struct States {
 }
 
 impl States {
-    pub fn new(py: Python<'_>, tips: &[Tip], markers_m: Vec<[f64; 2]>) -> PyResult<States> {
-        let xy = tips.iter().flat_map(|tip| [tip.x_m * 1e3, tip.y_m * 1e3]).collect();
+    /// `markers_z_m` is there of a robot with strips round the body.
+    pub fn new(
+        py: Python<'_>,
+        tips: &[Tip],
+        markers_m: Vec<[f64; 2]>,
+        markers_z_m: Option<&[f64]>,
+    ) -> PyResult<States> {
+        let axes = if markers_z_m.is_some() { 3 } else { 2 };
+        let place = |tip: &Tip| [tip.x_m, tip.y_m, tip.z_m].into_iter().take(axes).map(|v| v * 1e3);
+        let places = tips.iter().flat_map(place).collect();
         let angles = tips.iter().map(|tip| tip.angle_rad.to_degrees()).collect();
         let each = markers_m.len() / tips.len().max(1);
-        let mut flat = markers_m.into_flattened();
+        let mut flat = match markers_z_m {
+            Some(z_m) => with_z(&markers_m, z_m).into_flattened(),
+            None => markers_m.into_flattened(),
+        };
         flat.iter_mut().for_each(|v| *v *= 1e3);
-        let markers = Array3::from_shape_vec((tips.len(), each, 2), flat).unwrap_or_default();
+        let markers = Array3::from_shape_vec((tips.len(), each, axes), flat).unwrap_or_default();
         Ok(States {
-            tips_mm: matrix(py, tips.len(), 2, xy).unbind(),
+            tips_mm: matrix(py, tips.len(), axes, places).unbind(),
             angles_deg: vector(py, angles).unbind(),
             markers_mm: markers.into_pyarray(py).unbind(),
         })
@@ -167,7 +188,7 @@ impl States {
 
 #[pymethods]
 impl States {
-    /// Tips of the centre line, x and y (mm), shape (N, 2).
+    /// Tips of the centre line, x and y (mm), shape (N, 2); with strips round the body x, y and z, shape (N, 3).
     #[getter]
     fn tips_mm(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
         self.tips_mm.clone_ref(py)
@@ -179,7 +200,7 @@ impl States {
         self.angles_deg.clone_ref(py)
     }
 
-    /// Markers as the camera sees them (mm), shape (N, markers, 2).
+    /// Markers as the camera sees them (mm), shape (N, markers, 2); with strips round the body (N, markers, 3).
     #[getter]
     fn markers_mm(&self, py: Python<'_>) -> Py<PyArray3<f64>> {
         self.markers_mm.clone_ref(py)

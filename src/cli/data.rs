@@ -127,7 +127,7 @@ pub struct GenerateArgs {
     /// Runs
     #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=10_000))]
     pub runs: u64,
-    /// Actuator pressures in kPa at a body pressure in kPa
+    /// Actuator pressures in kPa at a body pressure in kPa; a slash separates supply channels: 0/0,10/20@2
     #[arg(long, default_value = "0,10,20,30,0@2")]
     pub protocol: String,
     /// A gauge at the actuator is read along: column p_gauge_kpa

@@ -6,11 +6,13 @@ use crate::cli::CompareArgs;
 use crate::failure::{Failure, MISSED};
 use crate::output::{check_folder, imprint, write_files};
 use crate::shown::comparison::{CompareAnswer, text};
-use compare::ScenarioFile;
+use crate::shown::in_space;
 use compare::progress::shares::{COMPARED, READ};
 use compare::study::comparison::Variant;
+use compare::study::in_space::{SpaceVariant, compare_in_space};
+use compare::{Evidence, ScenarioFile};
 use ibr::compared::{Compared, contenders, unused_sigma};
-use ibr::pages::compare_page;
+use ibr::pages::{Files, compare_page, space_page};
 use std::path::PathBuf;
 
 pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure> {
@@ -22,36 +24,66 @@ pub fn run(args: &CompareArgs, context: &mut Context) -> Result<Outcome, Failure
     let sigma_m = positive("--sigma", args.sigma.as_ref())?;
     args.out.as_deref().map_or(Ok(()), check_folder)?;
     // What is asked for is refused before data are read.
-    contenders(&file, &args.effect)?;
+    let models = contenders(&file, &args.effect)?;
     let evidence = inputs::evidence(data_spec, context)?;
     (context.progress)("comparing", Some(READ));
-    let Compared { found, added } = Compared::of(&file, &evidence, &args.effect, sigma_m, args.calibrate)?;
     let scenario = if args.inputs.len() == 1 { "its own" } else { &file.name };
+    if file.is_spatial() || evidence.dataset.channels_differ() {
+        if args.calibrate.is_some() {
+            let message = "--calibrate is built for planar robots with one actuator pressure";
+            return Err(Failure::usage(message, "leave it out: the comparison in x, y and z has no fitted number"));
+        }
+        let found = compare_in_space(&models, &evidence, sigma_m)?;
+        let mut outcome = Outcome::new(in_space::text(&found), in_space::as_json(scenario, &found));
+        report(args, &file, &evidence, &mut outcome, context, || Ok(space_page(&found, &imprint())?))?;
+        outcome.warn(&found.warnings);
+        outcome.notes.extend(unused_sigma(sigma_m, &evidence));
+        check_error(&mut outcome, found.variants.last().map_or(0.0, SpaceVariant::error_mm), limit_m);
+        return Ok(outcome);
+    }
+    let Compared { found, added } = Compared::of(&file, &evidence, &args.effect, sigma_m, args.calibrate)?;
     let answer = CompareAnswer { scenario, found: &found, added: added.as_ref() };
     let mut outcome = Outcome::new(text(&answer), answer.json());
-    let folder = format!("ibr-report/compare-{}", plain(&found.dataset.name));
-    if let Some(folder) = args.out.clone().or_else(|| (!context.json).then(|| PathBuf::from(folder))) {
-        (context.progress)("drawing the report", Some(COMPARED));
-        let files = compare_page(&found, &imprint())?;
-        write_files(&folder, &files, &inputs::named(&file, [&evidence])?, context)?;
-        outcome.report(&folder);
-    }
+    report(args, &file, &evidence, &mut outcome, context, || Ok(compare_page(&found, &imprint())?))?;
     outcome.warn(&found.warnings);
     outcome.notes.extend(unused_sigma(sigma_m, &evidence));
-    let last_mm = found.variants.last().map_or(0.0, Variant::error_mm);
+    check_error(&mut outcome, found.variants.last().map_or(0.0, Variant::error_mm), limit_m);
+    Ok(outcome)
+}
+
+/// Writes the report where one is wanted.
+fn report(
+    args: &CompareArgs,
+    file: &ScenarioFile,
+    evidence: &Evidence,
+    outcome: &mut Outcome,
+    context: &mut Context,
+    page: impl FnOnce() -> Result<Files, Failure>,
+) -> Result<(), Failure> {
+    let folder = format!("ibr-report/compare-{}", plain(&evidence.dataset.name));
+    let Some(folder) = args.out.clone().or_else(|| (!context.json).then(|| PathBuf::from(folder))) else {
+        return Ok(());
+    };
+    (context.progress)("drawing the report", Some(COMPARED));
+    write_files(&folder, &page()?, &inputs::named(file, [evidence])?, context)?;
+    outcome.report(&folder);
+    Ok(())
+}
+
+/// Ends with another code where the last model misses by more than was allowed.
+fn check_error(outcome: &mut Outcome, last_mm: f64, limit_m: Option<f64>) {
     if let Some(limit_mm) = limit_m.map(|m| 1e3 * m).filter(|limit_mm| last_mm > *limit_mm) {
         outcome.notes.push(format!("error beyond noise {last_mm:.2} mm exceeds --max-error {limit_mm:.2} mm"));
         outcome.code = MISSED;
     }
-    Ok(outcome)
 }
 
 /// Scenario and data; data with a scenario of their own may stand alone.
 fn both(args: &CompareArgs) -> Result<(ScenarioFile, &str), Failure> {
-    let own = |data: &String| ScenarioFile::beside(data);
+    let own = |data: &String| ScenarioFile::beside_in_space(data);
     match &args.inputs[..] {
         [data] => own(data)?.map(|file| (file, data.as_str())),
-        [scenario, data] => Some((inputs::scenario(scenario)?, data.as_str())),
+        [scenario, data] => Some((ibr::studies::scenario_in_space(scenario)?, data.as_str())),
         _ => None,
     }
     .ok_or_else(|| {

@@ -9,10 +9,12 @@ use crate::shown::check::check_text;
 use compare::diagnosis::{Options, pressure_slip};
 use compare::slips::pressure::pressure_words;
 use compare::slips::slips;
-use compare::study::generate::{Generator, about, generate, parse_protocol};
+use compare::study::generate::{Generator, about, generate};
 use compare::{Evidence, ScenarioFile};
 use data::{About, Dataset};
+use ibr::check_fed;
 use ibr::pages::Files;
+use models::Model;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -39,12 +41,13 @@ fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Ou
     let stations_m: Option<Vec<f64>> = dataset.markers.iter().map(|marker| marker.station_m).collect();
     let radius_m = about.as_ref().and_then(|about| about.geometry.as_ref()).map(|geometry| geometry.body_radius_m);
     match stations_m.zip(radius_m) {
+        _ if dataset.is_spatial() => report.warnings.push(in_space_words(dataset)),
         Some((stations_m, radius_m)) => report.warnings.extend(slips(dataset, &stations_m, radius_m)),
         None => report.warnings.extend(pressure_words(dataset)),
     }
     let model = match scenario {
         Some(scenario) => Some(inputs::scenario(scenario)?),
-        None => ScenarioFile::beside(spec)?,
+        None => ScenarioFile::beside_in_space(spec)?.filter(|file| !file.is_spatial() && !dataset.channels_differ()),
     };
     if let Some(model) = model
         && let Some(found) = pressure_slip(&model, &evidence, &Options::default())?
@@ -56,16 +59,29 @@ fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Ou
     Ok(Outcome::new(check_text(&report), json!({"schema": "ibr.data.check", "version": 1, "check": report})))
 }
 
+/// What is said of a table with z or several channels.
+fn in_space_words(dataset: &Dataset) -> String {
+    let z = dataset
+        .z_m
+        .as_ref()
+        .map(|_| format!("z varies by up to {:.1} mm from the first hold", 1e3 * dataset.travel_m(2)));
+    let more = dataset.more_channels();
+    let channels = (more > 0).then(|| format!("pressures of {} supply channels", more + 1));
+    let words: Vec<String> = z.into_iter().chain(channels).collect();
+    format!(
+        "{}: `ibr compare` takes them; slips of frame and pressures are looked for in planar tables only",
+        words.join(", ")
+    )
+}
+
 fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome, Failure> {
-    let generator = Generator {
-        seed: args.seed,
-        runs: args.runs as usize,
-        protocol: parse_protocol(&args.protocol)?,
-        gauge: args.gauge,
-        ..scattered(&args.scatter)?
-    };
+    let generator =
+        Generator { seed: args.seed, runs: args.runs as usize, gauge: args.gauge, ..scattered(&args.scatter)? };
+    let generator = generator.with_protocol(&args.protocol)?;
     check_set_folder(&args.out, args.force)?;
-    let named = inputs::scenario(&args.scenario)?;
+    let named = ibr::studies::scenario_in_space(&args.scenario)?;
+    let model = Model::new(&named.scenario);
+    (0..generator.protocol.len()).try_for_each(|hold| check_fed(&model, &generator.loads(hold, 1.0).actuator_pa))?;
     if named.markers_m.is_empty() {
         let message = format!("the scenario {} has no marker stations", args.scenario);
         return Err(Failure::usage(
@@ -77,7 +93,8 @@ fn make(args: &GenerateArgs, context: &mut Context) -> Result<Outcome, Failure> 
     let about = about(&named.scenario, &dataset, &generator);
     let inputs = inputs::named(&named, [])?;
     write(&args.out, &dataset, &about, named.text, &inputs, context)?;
-    let text = format!("{} values of {} runs in {}\n", dataset.xy_m.len(), dataset.runs.len(), args.out.display());
+    let values = dataset.xy_m.len() + dataset.z_m.as_ref().map_or(0, Vec::len);
+    let text = format!("{values} values of {} runs in {}\n", dataset.runs.len(), args.out.display());
     Ok(Outcome::new(text, written_json("ibr.data.generate", &args.out, &dataset)))
 }
 

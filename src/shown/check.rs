@@ -16,7 +16,9 @@ pub fn check_text(report: &CheckReport) -> String {
         report.provenance.as_ref().map_or(String::new(), |p| format!(" ({p})"))
     );
     let holds = report.holds.iter().map(|h| {
-        let cells = [format!("{:.2}", h.p_act_kpa), format!("{:.2}", h.p_body_kpa), h.phase.into()];
+        let more = h.p_act_channels_kpa.iter().skip(1).map(|p| format!("/{p:.2}"));
+        let cells =
+            [format!("{:.2}{}", h.p_act_kpa, more.collect::<String>()), format!("{:.2}", h.p_body_kpa), h.phase.into()];
         let rest = [format!("{:.1}", h.duration_s), number(h.scatter_mm, 2)];
         let read = h.gauge_kpa.map(|kpa| format!("{kpa:.2}"));
         cells.into_iter().chain(rest).chain(read).collect()
@@ -28,13 +30,14 @@ pub fn check_text(report: &CheckReport) -> String {
     out.push_str(&table(&["marker", "station [mm]", "scatter of runs [mm]"], 1, markers.collect()));
     for o in &report.outliers {
         out.push_str(&format!(
-            "outlier: run {}, hold {}, sample {}, marker {}: {:+.1}, {:+.1} mm off\n",
+            "outlier: run {}, hold {}, sample {}, marker {}: {:+.1}, {:+.1}{} mm off\n",
             o.run,
             o.hold + 1,
             o.sample + 1,
             o.marker,
             o.dx_mm,
-            o.dy_mm
+            o.dy_mm,
+            o.dz_mm.map_or(String::new(), |dz| format!(", {dz:+.1}"))
         ));
     }
     for [a, b] in &report.identical_runs {

@@ -13,6 +13,7 @@ pub mod engines;
 pub mod extension;
 pub mod held;
 pub mod imported;
+pub mod in_space;
 pub mod linear;
 pub mod lists;
 pub mod nearest;

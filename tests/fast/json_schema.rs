@@ -35,7 +35,7 @@ const RARE: [&str; 22] = [
 ];
 
 /// What runs, in this order in one folder, and the schema of its answer.
-const COMMANDS: [(&str, &str); 43] = [
+const COMMANDS: [(&str, &str); 46] = [
     ("predict epam-textbook --pressure 30kPa", "ibr.predict"),
     ("predict epam --pressure 300kPa", "ibr.predict"),
     ("predict epam-two-strips --pressure 20kPa/10kPa", "ibr.predict"),
@@ -64,6 +64,9 @@ const COMMANDS: [(&str, &str); 43] = [
     ("data check synthetic-epam", "ibr.data.check"),
     ("data check festo-bolen-2026", "ibr.data.check"),
     ("data generate epam --out made", "ibr.data.generate"),
+    ("data generate epam-two-strips --protocol 0/0,20/10@2 --out space", "ibr.data.generate"),
+    ("data check space", "ibr.data.check"),
+    ("compare epam-two-strips space", "ibr.compare.space"),
     ("data import --example camera", "ibr.data.import.example"),
     ("data import made/markers.csv --out imported", "ibr.data.import"),
     ("data fem epam --stored --seeds 1 --out seen", "ibr.data.fem"),

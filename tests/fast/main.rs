@@ -1,7 +1,7 @@
 //! Tests of the command `ibr` as a user meets it.
 //!
 //! A new test belongs into the module of what the user was doing: `json` if a program reads the answer, `predict`,
-//! `compare`, `characterize`, `diagnose`, `add`, `generate`, `simulate` and `robots` for what those commands promise, `slips` for data that are
+//! `compare`, `characterize`, `diagnose`, `add`, `generate`, `in_space`, `simulate` and `robots` for what those commands promise, `slips` for data that are
 //! not what they say, `scenario_errors` and
 //! `data_errors` for files that are wrong, `arguments` for wrong options, `output` for what lands on disk, `shell` for help,
 //! completions and pipes.
@@ -20,6 +20,7 @@ mod export;
 mod generate;
 mod held;
 mod import;
+mod in_space;
 mod json;
 mod json_schema;
 mod output;

@@ -183,6 +183,7 @@ fn protocol(dataset: &Dataset, pressures: &[f64], body: f64, hold_s: f64) -> Dat
     let hold = |(i, p): (usize, &f64)| Hold {
         p_body_pa: body,
         p_act_pa: *p,
+        more_act_pa: Vec::new(),
         phase: if i > 0 && *p < pressures[i - 1] { Phase::Unload } else { Phase::Load },
         occurrence: 0,
         t_s: (0..samples).map(|k| hold_s * (i as f64 + (k + 1) as f64 / samples as f64)).collect(),
@@ -192,6 +193,7 @@ fn protocol(dataset: &Dataset, pressures: &[f64], body: f64, hold_s: f64) -> Dat
         runs: vec!["1".into()],
         holds,
         xy_m: Vec::new(),
+        z_m: None,
         gauge_pa: None,
         lost: Lost::default(),
         ..dataset.clone()

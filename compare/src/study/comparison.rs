@@ -155,10 +155,11 @@ pub fn compare_all(
 }
 
 /// Where the samples are that are far from the other runs.
-fn strays(outliers: &[Outlier], name: &str) -> Option<String> {
+pub(super) fn strays(outliers: &[Outlier], name: &str) -> Option<String> {
     let o = outliers.iter().max_by(|a, b| a.robust_z.total_cmp(&b.robust_z))?;
+    let dz = o.dz_mm.map_or(String::new(), |dz| format!(", {dz:+.1}"));
     Some(format!(
-        "the farthest of them is of run {}, marker {} ({:+.1}, {:+.1} mm): look at `ibr data check {name}`",
+        "the farthest of them is of run {}, marker {} ({:+.1}, {:+.1}{dz} mm): look at `ibr data check {name}`",
         o.run, o.marker, o.dx_mm, o.dy_mm
     ))
 }

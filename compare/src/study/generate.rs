@@ -5,7 +5,7 @@
 
 use crate::error::CompareError;
 use data::{About, Dataset, Direct, Geometry, Hold, Marker, MarkerStation, Phase, Provenance};
-use models::{Loads, Model, Prediction, Scenario, Step, Supply};
+use models::{CHANNELS, Loads, Model, Prediction, Scenario, Step, Supply};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
 
@@ -22,6 +22,8 @@ pub struct Generator {
     pub hold_s: f64,
     /// Holds: body pressure, actuator pressure \[Pa\].
     pub protocol: Vec<[f64; 2]>,
+    /// Of every hold the pressures of supply channels 1, 2, … \[Pa\]; empty: all channels have the actuator pressure.
+    pub more_act_pa: Vec<Vec<f64>>,
     /// Camera noise of one coordinate \[m\].
     pub camera_sd_m: f64,
     /// Run-to-run relative error of the actuator pressure \[-\].
@@ -42,6 +44,7 @@ impl Default for Generator {
             samples: 5,
             hold_s: 5.0,
             protocol: [0.0, 10e3, 20e3, 30e3, 0.0].map(|p| [2e3, p]).to_vec(),
+            more_act_pa: Vec::new(),
             camera_sd_m: 1e-3,
             pressure_sd: 0.02,
             alignment_sd_m: 0.5e-3,
@@ -56,6 +59,52 @@ impl Default for Generator {
 /// # Errors
 /// Texts that are not of that form, or pressures that are negative or above 500 kPa.
 pub fn parse_protocol(text: &str) -> Result<Vec<[f64; 2]>, CompareError> {
+    let holds = parse_channels(text)?;
+    if holds.iter().any(|(_, channels)| channels.len() > 1) {
+        let problem = "one actuator pressure is possible here, not one for each channel".to_string();
+        return Err(CompareError::BadProtocol { text: text.to_string(), problem });
+    }
+    Ok(holds.into_iter().map(|(body, channels)| [body, channels[0]]).collect())
+}
+
+impl Generator {
+    /// The same with a protocol like `0/0,10/0,10/20@2`, in which a slash separates supply channels.
+    ///
+    /// # Errors
+    /// As [`parse_protocol`]; holds with different numbers of channels.
+    pub fn with_protocol(self, text: &str) -> Result<Generator, CompareError> {
+        let holds = parse_channels(text)?;
+        if let Some((_, other)) = holds.iter().find(|(_, channels)| channels.len() != holds[0].1.len()) {
+            let problem = format!("holds have {} and {} channels", holds[0].1.len(), other.len());
+            return Err(CompareError::BadProtocol { text: text.to_string(), problem });
+        }
+        let several = holds[0].1.len() > 1;
+        let protocol = holds.iter().map(|(body, channels)| [*body, channels[0]]).collect();
+        let more = holds.into_iter().map(|(_, channels)| channels[1..].to_vec());
+        Ok(Generator { protocol, more_act_pa: more.filter(|_| several).collect(), ..self })
+    }
+
+    /// Pressures of a hold, those of the actuators times a factor.
+    pub fn loads(&self, hold: usize, factor: f64) -> Loads {
+        let [body_pa, act_pa] = self.protocol[hold];
+        let more = self.more_act_pa.get(hold).map_or(&[][..], Vec::as_slice);
+        in_channels(body_pa, std::iter::once(act_pa).chain(more.iter().copied()).map(|p| p * factor))
+    }
+}
+
+/// Loads of pressures by channel; one is for all.
+pub(super) fn in_channels(body_pa: f64, channels_pa: impl Iterator<Item = f64>) -> Loads {
+    let given: Vec<f64> = channels_pa.take(CHANNELS).collect();
+    if let [only] = given[..] {
+        return Loads::uniform(body_pa, only);
+    }
+    let mut actuator_pa = [0.0; CHANNELS];
+    actuator_pa[..given.len()].copy_from_slice(&given);
+    Loads { body_pa, actuator_pa }
+}
+
+/// Body pressure and those of the channels, hold by hold \[Pa\].
+fn parse_channels(text: &str) -> Result<Vec<(f64, Vec<f64>)>, CompareError> {
     let bad = |problem: &str| CompareError::BadProtocol { text: text.to_string(), problem: problem.to_string() };
     let number = |word: &str| match word.trim().parse::<f64>() {
         Ok(p) if (0.0..=500.0).contains(&p) => Ok(p * 1e3),
@@ -67,7 +116,11 @@ pub fn parse_protocol(text: &str) -> Result<Vec<[f64; 2]>, CompareError> {
         let (pressures, body) = part.split_once('@').ok_or_else(|| bad("a body pressure is missing (after `@`)"))?;
         let body = number(body)?;
         for p in pressures.split(',') {
-            holds.push([body, number(p)?]);
+            let channels: Vec<f64> = p.split('/').map(&number).collect::<Result<_, _>>()?;
+            if channels.len() > CHANNELS {
+                return Err(bad(&format!("there are {CHANNELS} supply channels")));
+            }
+            holds.push((body, channels));
         }
     }
     if holds.is_empty() { Err(bad("it has no hold")) } else { Ok(holds) }
@@ -85,9 +138,12 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
     let mut state = model.prediction();
     let mut eye = Seen::new(generator);
     let (supply, mut manometer) = (Supply::of(scenario), Manometer::new(generator.seed));
-    let (mut xy_m, mut gauge_pa) = (Vec::new(), Vec::new());
+    let (mut xy_m, mut z_m, mut gauge_pa) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..generator.runs {
         let gain = eye.next_run();
+        if model.is_spatial() {
+            eye.tilt();
+        }
         for (set_pa, held_s) in held(&holds(generator)) {
             gauge_pa.push(manometer.read(supply.pressure(gain * set_pa, held_s)));
         }
@@ -96,9 +152,14 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
             model.follow(&steps(generator, gain), &mut state, &mut each)?;
             continue;
         }
-        for [p_body, p_act] in &generator.protocol {
-            model.predict(&Loads::uniform(*p_body, p_act * gain), &mut state)?;
-            (0..generator.samples).for_each(|_| eye.look(&state.markers, &mut xy_m));
+        for hold in 0..generator.protocol.len() {
+            model.predict(&generator.loads(hold, gain), &mut state)?;
+            for _ in 0..generator.samples {
+                match model.is_spatial() {
+                    true => eye.look_in_space(&state, &mut xy_m, &mut z_m),
+                    false => eye.look(&state.markers, &mut xy_m),
+                }
+            }
         }
     }
     Ok(Dataset {
@@ -109,6 +170,7 @@ pub fn generate(scenario: &Scenario, name: &str, generator: &Generator) -> Resul
         markers: markers(scenario),
         samples_per_hold: generator.samples,
         xy_m,
+        z_m: model.is_spatial().then_some(z_m),
         gauge_pa: generator.gauge.then_some(gauge_pa),
         lost: data::Lost::default(),
         told: Vec::new(),
@@ -159,11 +221,13 @@ pub(super) struct Seen<'a> {
     scatter: Scatter,
     shift: [f64; 2],
     roll: f64,
+    /// Shift along z \[m\] and rotations about x and y \[rad\] of a robot in space.
+    tilt: [f64; 3],
 }
 
 impl<'a> Seen<'a> {
     pub(super) fn new(generator: &'a Generator) -> Seen<'a> {
-        Seen { generator, scatter: Scatter::new(generator.seed), shift: [0.0; 2], roll: 0.0 }
+        Seen { generator, scatter: Scatter::new(generator.seed), shift: [0.0; 2], roll: 0.0, tilt: [0.0; 3] }
     }
 
     /// Sets the robot up again; returns true over set pressure.
@@ -173,6 +237,25 @@ impl<'a> Seen<'a> {
         self.shift = [scatter.normal(), scatter.normal()].map(|n| n * g.alignment_sd_m);
         self.roll = g.rotation_sd * scatter.normal();
         gain
+    }
+
+    /// Sets up what a planar robot does not show.
+    fn tilt(&mut self) {
+        let g = self.generator;
+        self.tilt = [g.alignment_sd_m, g.rotation_sd, g.rotation_sd].map(|sd| sd * self.scatter.normal());
+    }
+
+    /// One sample of all markers in x, y and z.
+    fn look_in_space(&mut self, at: &Prediction, xy_m: &mut Vec<f64>, z_m: &mut Vec<f64>) {
+        let [shift_z, about_x, about_y] = self.tilt;
+        let from = xy_m.len();
+        self.look(&at.markers, xy_m);
+        for (seen, ([x, y], z)) in xy_m[from..].chunks_exact_mut(2).zip(at.markers.iter().zip(&at.markers_z_m)) {
+            seen[0] += about_y * z;
+            seen[1] -= about_x * z;
+            let noise = self.generator.camera_sd_m * self.scatter.normal();
+            z_m.push(z + about_x * y - about_y * x + shift_z + noise);
+        }
     }
 
     /// One sample of all markers.
@@ -188,11 +271,11 @@ impl<'a> Seen<'a> {
 
 /// The protocol of one run whose actuator pressures are off by a factor.
 fn steps(generator: &Generator, gain: f64) -> Vec<Step> {
-    let of_hold = |(hold, [p_body, p_act]): (Hold, &[f64; 2])| {
-        let loads = Loads::uniform(*p_body, p_act * gain);
+    let of_hold = |(index, hold): (usize, Hold)| {
+        let loads = generator.loads(index, gain);
         hold.t_s.into_iter().map(move |t_s| Step { t_s, loads })
     };
-    holds(generator).into_iter().zip(&generator.protocol).flat_map(of_hold).collect()
+    holds(generator).into_iter().enumerate().flat_map(of_hold).collect()
 }
 
 /// The markers of a scenario, counted from 1.
@@ -205,19 +288,24 @@ pub fn markers(scenario: &Scenario) -> Vec<Marker> {
 pub fn holds(generator: &Generator) -> Vec<Hold> {
     let mut holds: Vec<Hold> = Vec::new();
     for (i, [p_body_pa, p_act_pa]) in generator.protocol.iter().enumerate() {
-        let before = if i == 0 { 0.0 } else { generator.protocol[i - 1][1] };
-        let phase = if i == 0 || *p_act_pa > before {
+        let more_act_pa = generator.more_act_pa.get(i).cloned().unwrap_or_default();
+        let sum_pa = p_act_pa + more_act_pa.iter().sum::<f64>();
+        let before = holds.last().map_or(0.0, Hold::sum_act_pa);
+        let phase = if i == 0 || sum_pa > before {
             Phase::Load
-        } else if *p_act_pa < before {
+        } else if sum_pa < before {
             Phase::Unload
         } else {
             Phase::Hold
         };
-        let alike = |h: &&Hold| h.p_body_pa == *p_body_pa && h.p_act_pa == *p_act_pa && h.phase == phase;
+        let alike = |h: &&Hold| {
+            let same = h.p_body_pa == *p_body_pa && h.p_act_pa == *p_act_pa && h.more_act_pa == more_act_pa;
+            same && h.phase == phase
+        };
         let occurrence = holds.iter().filter(alike).count();
         let step = generator.hold_s / generator.samples as f64;
         let t_s = (0..generator.samples).map(|k| i as f64 * generator.hold_s + (k + 1) as f64 * step).collect();
-        holds.push(Hold { p_body_pa: *p_body_pa, p_act_pa: *p_act_pa, phase, occurrence, t_s });
+        holds.push(Hold { p_body_pa: *p_body_pa, p_act_pa: *p_act_pa, more_act_pa, phase, occurrence, t_s });
     }
     holds
 }

@@ -23,8 +23,28 @@ const PRESSURE_STEP: f64 = 1e-4;
 /// measured directly; and what does not match, in words.
 ///
 /// # Errors
-/// Another actuator, unknown stations, markers off the body, runs with different tip forces.
+/// Another actuator, unknown stations, markers off the body, runs with different tip forces; a robot with strips round the body, and
+/// what a planar one cannot leave aside of the data ([`Dataset::left_aside`]).
 pub fn fit_scenario(
+    scenario: &Scenario,
+    dataset: &Dataset,
+    about: Option<&About>,
+) -> Result<(Scenario, Vec<String>), CompareError> {
+    if scenario.is_spatial() {
+        let message = "this robot has strips round the body, and what was asked is built for planar robots";
+        return Err(CompareError::refused(message, "`ibr compare` takes it"));
+    }
+    let aside = dataset.left_aside()?;
+    let (fitted, mut warnings) = fit_in_space(scenario, dataset, about)?;
+    warnings.extend(aside);
+    Ok((fitted, warnings))
+}
+
+/// The same for what sees all coordinates and channels of the data.
+///
+/// # Errors
+/// As [`fit_scenario`], without what a planar robot refuses.
+pub(super) fn fit_in_space(
     scenario: &Scenario,
     dataset: &Dataset,
     about: Option<&About>,

@@ -61,6 +61,7 @@ pub fn seen(runs: &[EngineRun], name: &str, generator: &Generator) -> Result<Dat
         markers: first.stations_mm.iter().enumerate().map(marker).collect(),
         samples_per_hold: generator.samples,
         xy_m,
+        z_m: None,
         gauge_pa: None,
         lost: data::Lost::default(),
         told: Vec::new(),

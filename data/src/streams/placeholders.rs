@@ -8,7 +8,7 @@ use crate::policy;
 use crate::units::mm;
 
 /// A place, to the last digit.
-type Place = [u64; 2];
+type Place = [u64; 3];
 
 /// Rows that were taken as not seen.
 #[derive(Debug, Default)]
@@ -52,11 +52,12 @@ impl Placeholders {
     /// Takes out what two markers share to the last digit, far from where both are else.
     pub fn take_out_shared(&mut self, streams: &mut [Stream]) {
         for place in shared(streams) {
-            let [x_mm, y_mm] = place.map(|bits| mm(f64::from_bits(bits)));
+            let [x_mm, y_mm, z_mm] = place.map(|bits| mm(f64::from_bits(bits)));
+            let words = if z_mm == 0.0 { format!("{x_mm}, {y_mm} mm") } else { format!("{x_mm}, {y_mm}, {z_mm} mm") };
             for segment in streams.iter_mut().flat_map(|stream| &mut stream.segments) {
                 let rows = segment.take_out(|sample| is_at(sample.place(), place));
                 if rows > 0 {
-                    self.note(&format!("{x_mm}, {y_mm} mm"), rows, segment.first_line);
+                    self.note(&words, rows, segment.first_line);
                 }
             }
         }
@@ -64,7 +65,7 @@ impl Placeholders {
     }
 }
 
-fn is_at(place: [f64; 2], other: Place) -> bool {
+fn is_at(place: [f64; 3], other: Place) -> bool {
     place.map(f64::to_bits) == other
 }
 
@@ -92,8 +93,8 @@ fn stood_still(segment: &Segment) -> Vec<Place> {
 
 /// Whether a marker was nowhere near a place but at it.
 fn is_far(streams: &[Stream], marker: usize, place: Place) -> bool {
-    let [x, y] = place.map(f64::from_bits);
+    let [x, y, z] = place.map(f64::from_bits);
     let own = streams.iter().filter(|stream| stream.marker == marker).flat_map(|stream| &stream.segments);
     let others = own.flat_map(|segment| &segment.samples).map(|sample| sample.place()).filter(|p| !is_at(*p, place));
-    others.map(|p| (p[0] - x).hypot(p[1] - y)).all(policy::is_elsewhere)
+    others.map(|p| (p[0] - x).hypot(p[1] - y).hypot(p[2] - z)).all(policy::is_elsewhere)
 }

@@ -5,7 +5,7 @@
 use super::Recorder;
 use crate::dataset::Dataset;
 use crate::error::{DataError, Fault};
-use crate::header::{Header, P_ACT, P_BODY, QUANTITIES, STATION, X, Y};
+use crate::header::{Header, P_ACT, P_BODY, QUANTITIES, STATION, X, Y, Z};
 use crate::policy;
 use crate::rows::{Row, RowReader};
 use crate::units::mm;
@@ -15,6 +15,7 @@ use crate::units::mm;
 pub(crate) struct Extremes {
     pub x_m: f64,
     pub y_m: f64,
+    pub z_m: f64,
     pub station_m: f64,
     pub p_body_pa: f64,
     pub p_act_pa: f64,
@@ -27,9 +28,10 @@ impl Extremes {
         let widen = |most: &mut f64, value: f64| *most = most.max(value.abs());
         widen(&mut self.x_m, row.x_m);
         widen(&mut self.y_m, row.y_m);
+        widen(&mut self.z_m, row.z_m.unwrap_or(0.0));
         widen(&mut self.station_m, row.station_m.unwrap_or(0.0));
         widen(&mut self.p_body_pa, row.p_body_pa);
-        widen(&mut self.p_act_pa, row.p_act_pa);
+        [row.p_act_pa].iter().chain(&row.more_act_pa).for_each(|p| widen(&mut self.p_act_pa, *p));
         self.gauge |= row.gauge_pa.is_some();
     }
 }
@@ -53,7 +55,8 @@ pub(crate) fn check_units(cells: &RowReader, recorder: &Recorder) -> Result<(), 
     if unit(STATION) == "mm" && extremes.station_m > 0.0 && extremes.station_m < policy::SHORTEST_ROBOT_M {
         return looks(STATION, mm(extremes.station_m), "metres");
     }
-    for (quantity, value_m) in [(X, extremes.x_m), (Y, extremes.y_m), (STATION, extremes.station_m)] {
+    let lengths = [(X, extremes.x_m), (Y, extremes.y_m), (Z, extremes.z_m), (STATION, extremes.station_m)];
+    for (quantity, value_m) in lengths {
         if unit(quantity) == "m" && value_m > policy::LONGEST_ROBOT_M {
             return looks(quantity, value_m, "millimetres");
         }
@@ -84,17 +87,57 @@ fn check_small_pressures(cells: &RowReader, p_body: f64, p_act: f64) -> Result<(
     Err(DataError::Unit(column_fault(&cells.header, P_ACT, message, help)))
 }
 
+/// How y is not what it should be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum WrongY {
+    /// x and y are exchanged.
+    Exchanged,
+    /// y points down.
+    Down,
+}
+
+impl WrongY {
+    /// What to do, where y stands in a column of this unit.
+    fn help(self, unit: &str, down: bool) -> String {
+        match (self, down) {
+            (WrongY::Exchanged, _) => {
+                "x runs from the base along the straight robot, y towards the actuator: exchange the names of the two columns".into()
+            }
+            (_, true) => {
+                format!("y_down_{unit} means the values grow downwards; here they grow upwards: name the column y_{unit}")
+            }
+            _ => format!("y is positive towards the actuator: multiply it by -1, or name the column y_down_{unit}"),
+        }
+    }
+}
+
 /// Refuses a table whose last marker moves to negative y when the actuator is inflated.
 ///
 /// # Errors
-/// At the highest actuator pressure it is more than 5 mm below its place in the first hold (mean over runs). Markers that lie
-/// along y rather than x in that hold are told apart from a y that points down.
+/// As [`wrong_y`].
 pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<(), DataError> {
+    let Some((wrong, message)) = wrong_y(dataset) else { return Ok(()) };
+    let unit = header.columns[Y].as_ref().and_then(|column| column.unit).map_or("mm", |unit| unit.symbol);
+    Err(DataError::Unit(column_fault(header, Y, message, wrong.help(unit, header.y_down))))
+}
+
+/// The same of a table that was read before and is now of a planar robot.
+///
+/// # Errors
+/// As [`wrong_y`].
+pub(crate) fn check_y_up_later(dataset: &Dataset) -> Result<(), DataError> {
+    let Some((wrong, message)) = wrong_y(dataset) else { return Ok(()) };
+    Err(DataError::Unit(Box::new(Fault::of_file(&dataset.name, message, wrong.help("mm", false)))))
+}
+
+/// Whether the last marker is, at the highest actuator pressure, more than 5 mm below its place in the first hold (mean over runs).
+/// Markers that lie along y rather than x in that hold are told apart from a y that points down.
+fn wrong_y(dataset: &Dataset) -> Option<(WrongY, String)> {
     let holds = &dataset.holds;
     let by_pressure = |&a: &usize, &b: &usize| holds[a].p_act_pa.total_cmp(&holds[b].p_act_pa);
-    let Some(highest) = (0..holds.len()).max_by(by_pressure) else { return Ok(()) };
+    let highest = (0..holds.len()).max_by(by_pressure)?;
     if holds[highest].p_act_pa <= holds[0].p_act_pa {
-        return Ok(());
+        return None;
     }
     let mean = dataset.mean_over_runs();
     let at = |hold: usize, marker: usize, axis: usize| {
@@ -102,10 +145,10 @@ pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<(), DataE
         (0..samples).map(|sample| mean[dataset.offset(hold, sample, marker) + axis]).sum::<f64>() / samples as f64
     };
     let place = |marker: usize| dataset.markers[marker].station_m.unwrap_or_else(|| at(0, marker, 0));
-    let Some(last) = (0..dataset.markers.len()).max_by(|&a, &b| place(a).total_cmp(&place(b))) else { return Ok(()) };
+    let last = (0..dataset.markers.len()).max_by(|&a, &b| place(a).total_cmp(&place(b)))?;
     let moved_m = at(highest, last, 1) - at(0, last, 1);
     if moved_m >= -policy::SURELY_DOWN_M {
-        return Ok(());
+        return None;
     }
     let markers = 0..dataset.markers.len();
     let length_m = |axis: usize| {
@@ -117,8 +160,7 @@ pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<(), DataE
         let message = format!(
             "x and y look exchanged: in the first hold the markers take up {along_y:.1} mm of y and {along_x:.1} mm of x"
         );
-        let help = "x runs from the base along the straight robot, y towards the actuator: exchange the names of the two columns";
-        return Err(DataError::Unit(column_fault(header, Y, message, help.to_string())));
+        return Some((WrongY::Exchanged, message));
     }
     let message = format!(
         "y points down: at {:.1} kPa marker {} has moved by {:.1} mm",
@@ -126,13 +168,7 @@ pub(crate) fn check_y_up(header: &Header, dataset: &Dataset) -> Result<(), DataE
         dataset.markers[last].name,
         mm(moved_m)
     );
-    let unit = header.columns[Y].as_ref().and_then(|column| column.unit).map_or("mm", |unit| unit.symbol);
-    let help = if header.y_down {
-        format!("y_down_{unit} means the values grow downwards; here they grow upwards: name the column y_{unit}")
-    } else {
-        format!("y is positive towards the actuator: multiply it by -1, or name the column y_down_{unit}")
-    };
-    Err(DataError::Unit(column_fault(header, Y, message, help)))
+    Some((WrongY::Down, message))
 }
 
 /// A fault of a whole column, shown at its name in the header.

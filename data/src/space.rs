@@ -1,0 +1,107 @@
+//! A third coordinate and pressures of several supply channels: what a planar robot leaves aside, and when it must not.
+
+use crate::dataset::Dataset;
+use crate::error::{DataError, Fault};
+use crate::policy::{self, tolerance_act_pa};
+use crate::streams::plausible::check_y_up_later;
+use crate::table::{Column, Table};
+use crate::units::{kpa, mm};
+
+impl Dataset {
+    /// Whether the table says more than one plane and one actuator pressure.
+    pub fn is_spatial(&self) -> bool {
+        self.z_m.is_some() || self.more_channels() > 0
+    }
+
+    /// Supply channels beyond the first that the table has pressures of.
+    pub fn more_channels(&self) -> usize {
+        self.holds.first().map_or(0, |hold| hold.more_act_pa.len())
+    }
+
+    /// Whether channels ever have different pressures.
+    pub fn channels_differ(&self) -> bool {
+        let differs = |p: f64, other: &f64| (other - p).abs() > tolerance_act_pa(p);
+        self.holds.iter().any(|hold| hold.more_act_pa.iter().any(|other| differs(hold.p_act_pa, other)))
+    }
+
+    /// How far a marker was at most from its place in the first hold that saw it, along an axis \[m\]: means over the samples of a
+    /// hold, each run by itself. 0 of a table without that axis.
+    pub fn travel_m(&self, axis: usize) -> f64 {
+        let at = |run: usize, hold: usize, marker: usize| {
+            let values =
+                (0..self.samples_per_hold).map(|sample| self.place(run, hold, sample, marker)[axis].unwrap_or(0.0));
+            values.sum::<f64>() / self.samples_per_hold as f64
+        };
+        let mut most: f64 = 0.0;
+        for run in 0..self.runs.len() {
+            for marker in 0..self.markers.len() {
+                let mut seen = (0..self.holds.len()).filter(|hold| !self.is_lost(run, *hold, marker));
+                let Some(first) = seen.next().map(|hold| at(run, hold, marker)) else { continue };
+                most = seen.map(|hold| (at(run, hold, marker) - first).abs()).fold(most, f64::max);
+            }
+        }
+        most
+    }
+
+    /// What a planar robot leaves aside of this table, in words; nothing of a planar table.
+    ///
+    /// # Errors
+    /// Markers that move towards z more than towards y; channels at different pressures; y that points down, which is not asked
+    /// before of a table with z.
+    pub fn left_aside(&self) -> Result<Option<String>, DataError> {
+        let refused =
+            |message: String, help: &str| Err(DataError::Runs(Box::new(Fault::of_file(&self.name, message, help))));
+        if self.channels_differ() {
+            let message = format!(
+                "the table has pressures of {} supply channels, and this is built for one",
+                self.more_channels() + 1
+            );
+            return refused(
+                message,
+                "`ibr compare` takes it; for the rest keep the holds of one channel and delete the others' columns",
+            );
+        }
+        if !self.is_spatial() {
+            return Ok(None);
+        }
+        let [y_mm, z_mm] = [1, 2].map(|axis| mm(self.travel_m(axis)));
+        if z_mm > y_mm && z_mm > mm(policy::SURELY_DOWN_M) {
+            let message = format!(
+                "the markers move by up to {z_mm:.1} mm towards z and {y_mm:.1} mm towards y, and the robot is planar"
+            );
+            let help = "y is towards the actuator: exchange the names of the columns of y and z, or describe the robot with azimuth_deg or \
+                        [[strip]] and use `ibr compare`";
+            return refused(message, help);
+        }
+        check_y_up_later(self)?;
+        let words = "the robot is planar, so z was left aside. If it bends towards z too, describe its strips with azimuth_deg or [[strip]]";
+        Ok((z_mm > 0.0).then(|| format!("{}: z varies by up to {z_mm:.1} mm from the first hold; {words}", self.name)))
+    }
+
+    /// [`Dataset::to_table`] with the columns of z and of the supply channels beyond the first.
+    pub fn to_full_table(&self) -> Table {
+        let mut table = self.to_table();
+        let (mut z_mm, mut more_kpa) = (Vec::new(), vec![Vec::new(); self.more_channels()]);
+        for run in 0..self.runs.len() {
+            for (index, hold) in self.holds.iter().enumerate() {
+                for sample in 0..self.samples_per_hold {
+                    for marker in (0..self.markers.len()).filter(|marker| !self.is_lost(run, index, *marker)) {
+                        z_mm.extend(self.place(run, index, sample, marker)[2].map(mm));
+                        more_kpa.iter_mut().zip(&hold.more_act_pa).for_each(|(column, p)| column.push(kpa(*p)));
+                    }
+                }
+            }
+        }
+        let after =
+            |name: &str, table: &Table| table.columns.iter().position(|(n, _)| n == name).map_or(0, |at| at + 1);
+        if self.z_m.is_some() {
+            let at = after("y_mm", &table);
+            table.columns.insert(at, ("z_mm".into(), Column::F64(z_mm)));
+        }
+        let at = after("p_act_kpa", &table);
+        for (k, column) in more_kpa.into_iter().enumerate() {
+            table.columns.insert(at + k, (format!("p_act_{}_kpa", k + 1), Column::F64(column)));
+        }
+        table
+    }
+}
