@@ -199,6 +199,9 @@ pub struct PredictArgs {
     /// each, from rest
     #[arg(long, short, allow_hyphen_values = true)]
     pub pressure: Option<String>,
+    /// A CSV file of pressures, a line for each pose; the first names the columns: p_kpa, or p0_kpa,p1_kpa; also p_body_kpa
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["pressure", "inverse", "follow"])]
+    pub pressures: Option<PathBuf>,
     /// Find the pressure instead: tip=100mm (height) or angle=60deg (total bend); or 300mm,120mm: the pressures of all supply
     /// channels that bring the tip nearest to this x, y
     #[arg(long, short, conflicts_with = "pressure")]
@@ -321,7 +324,7 @@ pub struct SimulateArgs {
     /// Run nothing: write mesh, sections, loads and step for another solver (.inp, Abaqus), or the mesh alone (.vtu, .ibrmesh)
     #[arg(long, value_name = "FILE")]
     pub export: Option<PathBuf>,
-    /// Robots: actuator pressures in one ramp with a hold at each, for example 10kPa,20kPa,30kPa
+    /// Robots: actuator pressures in one ramp with a hold at each, for example 10kPa,20kPa,30kPa; `/` separates supply channels
     #[arg(long, short, allow_hyphen_values = true)]
     pub pressure: Option<String>,
     /// Robots: a run of its own for every pressure

@@ -1,9 +1,11 @@
-//! A stream of pressures in, a stream of poses out, line by line: for a simulator or a log beside the real robot.
+//! A stream of pressures in, a stream of poses out, line by line: for a simulator or a log beside the real robot. And a file of pressures.
 
 use compare::CompareError;
 use models::{CHANNELS, InLine, Loads, Model, Prediction, Scenario, Step};
 use spelling::units::{Dimension, Unit, units_of};
-use std::io::{BufRead, Read, Write};
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::path::Path;
 
 /// Most bytes of a line.
 const MOST_LINE: u64 = 4096;
@@ -77,18 +79,18 @@ enum Column {
 /// # Errors
 /// A line that cannot be understood or predicted, by its number; the lines before it are out. Of a closed output nothing is said.
 pub fn follow(scenario: &Scenario, input: impl BufRead, mut output: impl Write) -> Result<(), CompareError> {
-    let (mut follower, mut lines) = (Follower::new(scenario), Lines { input, number: 0, line: Vec::new() });
-    let Some(header) = lines.next()? else { return Err(lines.fault("nothing came in", HEADER)) };
-    let columns = columns(&header, &follower.channels()).map_err(|what| lines.fault(&what, HEADER))?;
+    let mut follower = Follower::new(scenario);
     let channels = follower.channels();
+    let (mut lines, columns) =
+        Lines::begin(input, "standard input", HEADER, |header| columns(header, &channels, true))?;
     let names: String = channels.iter().map(|channel| format!(",p{channel}_kpa")).collect();
     let mut say = |text: String| output.write_all(text.as_bytes()).and_then(|()| output.flush()).is_ok();
     let mut goes_on = say(format!("t_s,x_mm,y_mm,angle_deg{names}\n"));
     while goes_on {
         let Some(line) = lines.next()? else { break };
-        let (t_s, loads) = read(&line, &columns, scenario.p_body_pa).map_err(|what| lines.fault(&what, HEADER))?;
+        let (t_s, loads) = read(&line, &columns, scenario.p_body_pa).map_err(|what| lines.fault(&what))?;
         let told = follower.next(t_s, &loads).map(|at| at.tip);
-        let tip = told.map_err(|error| lines.fault(&error.to_string(), error.help().unwrap_or_default()))?;
+        let tip = told.map_err(|error| lines.fault_with(&error.to_string(), error.help().unwrap_or_default()))?;
         let arrived = follower.arrived_pa();
         let pressures: String = channels.iter().map(|channel| format!(",{:.4}", arrived[*channel] / 1e3)).collect();
         let (x, y, angle) = (tip.x_m * 1e3, tip.y_m * 1e3, tip.angle_rad.to_degrees());
@@ -99,25 +101,68 @@ pub fn follow(scenario: &Scenario, input: impl BufRead, mut output: impl Write) 
 
 const HEADER: &str = "the first line names the columns, for example t_s,p_kpa or t_s,p0_kpa,p1_kpa; then numbers";
 
+const TABLE: &str =
+    "the first line names the columns, for example p_kpa or p0_kpa,p1_kpa; then numbers, a line for each pose";
+
+/// Pressures of a file, a line for each pose: columns as those of [`follow`], without a time.
+///
+/// # Errors
+/// A file that cannot be read; a line that cannot be understood, by its number; more than `most` lines.
+pub fn pressures_of(scenario: &Scenario, path: &Path, most: usize) -> Result<Vec<Loads>, CompareError> {
+    let name = path.display().to_string();
+    let unread = |cause: std::io::Error| CompareError::Unread {
+        path: name.clone(),
+        cause: cause.to_string(),
+        help: "give a CSV file of pressures".into(),
+    };
+    let input = BufReader::new(File::open(path).map_err(unread)?);
+    let channels: Vec<usize> = Model::new(scenario).channels().collect();
+    let (mut lines, columns) = Lines::begin(input, &name, TABLE, |header| columns(header, &channels, false))?;
+    let mut all = Vec::new();
+    while let Some(line) = lines.next()? {
+        if all.len() == most {
+            return Err(lines.fault_with(&format!("more than {most} pressures"), "ibr sweep computes more, in parts"));
+        }
+        all.push(read(&line, &columns, scenario.p_body_pa).map_err(|what| lines.fault(&what))?.1);
+    }
+    if all.is_empty() { Err(lines.fault("there is no line of pressures")) } else { Ok(all) }
+}
+
 /// Lines that are read one by one into one buffer.
 struct Lines<R> {
     input: R,
+    /// For messages: where they are from, and how they should look.
+    from: String,
+    how: &'static str,
     number: u64,
     line: Vec<u8>,
 }
 
 impl<R: BufRead> Lines<R> {
+    /// With what the header says.
+    fn begin<T>(
+        input: R,
+        from: &str,
+        how: &'static str,
+        header: impl Fn(&str) -> Result<T, String>,
+    ) -> Result<(Lines<R>, T), CompareError> {
+        let mut lines = Lines { input, from: from.into(), how, number: 0, line: Vec::new() };
+        let Some(first) = lines.next()? else { return Err(lines.fault("nothing came in")) };
+        let found = header(&first).map_err(|what| lines.fault(&what))?;
+        Ok((lines, found))
+    }
+
     /// The next line that is neither empty nor a comment.
     fn next(&mut self) -> Result<Option<String>, CompareError> {
         loop {
             self.line.clear();
             self.number += 1;
             let got = (&mut self.input).take(MOST_LINE).read_until(b'\n', &mut self.line);
-            let got = got.map_err(|cause| self.fault(&cause.to_string(), ""))?;
+            let got = got.map_err(|cause| self.fault_with(&cause.to_string(), ""))?;
             if got as u64 == MOST_LINE && self.line.last() != Some(&b'\n') {
-                return Err(self.fault(&format!("it is longer than {MOST_LINE} bytes"), HEADER));
+                return Err(self.fault(&format!("it is longer than {MOST_LINE} bytes")));
             }
-            let Ok(text) = std::str::from_utf8(&self.line) else { return Err(self.fault("it is no text", HEADER)) };
+            let Ok(text) = std::str::from_utf8(&self.line) else { return Err(self.fault("it is no text")) };
             let text = text.trim_start_matches('\u{feff}').trim();
             match text {
                 _ if got == 0 => return Ok(None),
@@ -128,14 +173,18 @@ impl<R: BufRead> Lines<R> {
         }
     }
 
-    fn fault(&self, what: &str, help: &str) -> CompareError {
+    fn fault(&self, what: &str) -> CompareError {
+        self.fault_with(what, self.how)
+    }
+
+    fn fault_with(&self, what: &str, help: &str) -> CompareError {
         let cause = format!("line {}: {what}", self.number);
-        CompareError::Unread { path: "standard input".into(), cause, help: help.into() }
+        CompareError::Unread { path: self.from.clone(), cause, help: help.into() }
     }
 }
 
-/// What the header says; a channel that feeds nothing is refused.
-fn columns(header: &str, fed: &[usize]) -> Result<Vec<(Column, Unit)>, String> {
+/// What the header says, with a time or without; a channel that feeds nothing is refused.
+fn columns(header: &str, fed: &[usize], timed: bool) -> Result<Vec<(Column, Unit)>, String> {
     let mut found: Vec<(Column, Unit)> = Vec::new();
     for name in header.split(',').map(|name| name.trim().to_lowercase()) {
         let (base, unit) = name.rsplit_once('_').ok_or_else(|| format!("`{name}` has no unit"))?;
@@ -161,7 +210,8 @@ fn columns(header: &str, fed: &[usize]) -> Result<Vec<(Column, Unit)>, String> {
     let has = |column: Column| found.iter().any(|(known, _)| *known == column);
     let (some, every) = (fed.iter().any(|c| has(Column::Channel(*c))), fed.iter().all(|c| has(Column::Channel(*c))));
     match (has(Column::Time), has(Column::All), some) {
-        (false, ..) => Err("there is no column t_s".into()),
+        (false, ..) if timed => Err("there is no column t_s".into()),
+        (true, ..) if !timed => Err("it has times: give it to ibr predict --follow as standard input".into()),
         (_, true, true) => Err("p for all channels and pressures of single ones say the same twice".into()),
         (_, false, _) if !every => Err(format!("there is no pressure for each of the channels {fed:?}")),
         _ => Ok(found),
@@ -232,6 +282,29 @@ mod tests {
         assert!((rows[1][4] - exact(0.5)).abs() < 1e-3 && (rows[2][4] - exact(1.0)).abs() < 1e-3, "{rows:?}");
         let (still, _) = answer(&robot(""), &format!("t_s,p_kpa\n0,{}\n", exact(1.0)));
         assert!((still[0][2] - rows[2][2]).abs() < 1e-3, "the tip is that of the pressure that arrived");
+    }
+
+    #[test]
+    fn a_file_of_pressures_is_read_line_by_line_without_times() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("p.csv");
+        let read = |text: &str| {
+            std::fs::write(&path, text).unwrap();
+            pressures_of(&robot(""), &path, 3).map_err(|error| error.to_string())
+        };
+        let found = read("p_bar,p_body_kpa\n0.1,2\n\n0.2,3\n").unwrap();
+        assert_eq!(found, [Loads::uniform(2e3, 0.1e5), Loads::uniform(3e3, 0.2e5)]);
+        for (text, words) in [
+            ("p_kpa\n", "there is no line of pressures"),
+            ("p_kpa\n1\nx\n", "line 3: `x` is no number"),
+            ("t_s,p_kpa\n0,1\n", "line 1: it has times"),
+            ("p_kpa\n1\n2\n3\n4\n", "line 5: more than 3 pressures"),
+        ] {
+            let told = read(text).unwrap_err();
+            assert!(told.contains(words) && told.contains("p.csv"), "{text}: {told}");
+        }
+        std::fs::remove_file(&path).unwrap();
+        assert!(pressures_of(&robot(""), &path, 3).unwrap_err().to_string().contains("p.csv"));
     }
 
     #[test]

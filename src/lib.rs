@@ -67,7 +67,7 @@ pub use ::compare::validation::{BeforeAfter, Validation, validate};
 pub use ::compare::{CompareError as Error, Comparison, Evidence, Extension, Progress, ScenarioFile, compare, extend};
 pub use ::compare::{InSpace, compare_in_space};
 pub use fem::session::{FeRun, Settings as FeSettings, Source as FeSource, simulate, simulate_all};
-pub use follow::{Follower, follow};
+pub use follow::{Follower, follow, pressures_of};
 pub use import_typed::import_typed;
 pub use models::HOLD_S;
 pub use models::{Loads, Scenario};

@@ -9,7 +9,7 @@ use crate::shown::nearest::{nearest_json, nearest_words};
 use crate::shown::predicted::{above_limit, beyond_words, columns, state_json, text};
 use ibr::pages::predicted_files;
 use ibr::{check_fed, predict, predict_for, predict_near};
-use models::scenario::quantity::{Quantity, parse_pressures};
+use models::scenario::quantity::{MOST, Quantity, parse_pressures};
 use models::{CHANNELS, Loads, Model, Scenario, Target};
 use serde_json::{Value, json};
 
@@ -23,7 +23,7 @@ pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure
         return follow(&scenario, context);
     }
     if args.limits {
-        return limits::run(typed, &scenario, &wanted(&scenario, args.pressure.as_deref())?);
+        return limits::run(typed, &scenario, &asked(&scenario, args)?);
     }
     let aimed = args.inverse.as_deref().and_then(|text| text.split_once(',')).map(place).transpose()?;
     let mut steered = None;
@@ -34,7 +34,7 @@ pub fn run(args: &PredictArgs, context: &mut Context) -> Result<Outcome, Failure
             vec![found.0]
         }
         (Some(text), None) => vec![predict_for(&scenario, target(text)?)?],
-        (None, None) => predict(&scenario, &wanted(&scenario, args.pressure.as_deref())?)?,
+        (None, None) => predict(&scenario, &asked(&scenario, args)?)?,
     };
     let model = Model::new(&scenario);
     if let Some(folder) = &args.out {
@@ -87,6 +87,15 @@ fn target(wanted: &str) -> Result<Target, Failure> {
             Err(Failure::usage(format!("--inverse {wanted} is not understood"), help))
         }
     }
+}
+
+/// The pressures of a file, else those of [`wanted`].
+fn asked(scenario: &Scenario, args: &PredictArgs) -> Result<Vec<Loads>, Failure> {
+    let Some(file) = &args.pressures else { return wanted(scenario, args.pressure.as_deref()) };
+    if !scenario.actuator.exists() {
+        return Err(Failure::usage("--pressures for a beam, which has no actuator", "leave it out"));
+    }
+    Ok(ibr::pressures_of(scenario, file, MOST)?)
 }
 
 /// The pressures of the command line, else of the scenario; a beam has none to be asked for.

@@ -11,25 +11,40 @@ pub fn text(robot: &RobotSummary) -> String {
     let readings = &robot.readings;
     let Some(last) = readings.last() else { return String::new() };
     let mut out = String::new();
-    out.push_str(
-        "\nDisplacement towards the actuator [mm]: section at the station; at the tip also the mean of its ring\n",
-    );
+    if robot.is_spatial {
+        out.push_str("\nDisplacement of the sections [mm] along y and z; the turn is that of the tip's normal\n");
+    } else {
+        out.push_str(
+            "\nDisplacement towards the actuator [mm]: section at the station; at the tip also the mean of its ring\n",
+        );
+    }
+    let axes = if robot.is_spatial { &[("y", 1), ("z", 2)][..] } else { &[("", 1)] };
     let mut head = vec!["actuator kPa".to_string()];
+    head.extend(robot.is_spatial.then(|| "along".to_string()));
     head.extend(last.stations_m.iter().map(|s| format!("s = {:.0}", s * MM)));
     head.extend(["tip ring", "tip x", "turn deg"].map(String::from));
-    let rows = readings.iter().map(|r| {
-        let mut row = vec![format!("{:.0}", r.actuator_pa * 1e-3)];
-        row.extend(r.moved_m.iter().map(|d| format!("{:.1}", d[1] * MM)));
-        row.push(r.ring_moved_m.last().map_or("–".into(), |d| format!("{:.1}", d[1] * MM)));
+    let row = |r: &Reading, (name, axis): (&str, usize)| {
+        let mut row = vec![pressures(r)];
+        row.extend(robot.is_spatial.then(|| name.to_string()));
+        row.extend(r.moved_m.iter().map(|d| format!("{:.1}", d[axis] * MM)));
+        row.push(r.ring_moved_m.last().map_or("–".into(), |d| format!("{:.1}", d[axis] * MM)));
         row.push(r.moved_m.last().map_or("–".into(), |d| format!("{:.1}", d[0] * MM)));
         row.push(format!("{:.1}", r.tip_angle_rad.to_degrees()));
         row
-    });
+    };
+    let rows = readings.iter().flat_map(|r| axes.iter().map(|axis| row(r, *axis)));
     out.push_str(&table(&head, 0, rows.collect()));
     out.push('\n');
     out.push_str(&state(readings));
     out.push_str(&buckling(&robot.snaps));
     out
+}
+
+/// Of all strips, or one number where they are alike \[kPa\].
+fn pressures(r: &Reading) -> String {
+    let alike = r.strips_pa.iter().all(|pa| *pa == r.actuator_pa);
+    let strips = if alike { &[r.actuator_pa][..] } else { &r.strips_pa };
+    strips.iter().map(|pa| format!("{:.0}", pa * 1e-3)).collect::<Vec<_>>().join("/")
 }
 
 fn state(readings: &[Reading]) -> String {
@@ -47,7 +62,7 @@ fn state(readings: &[Reading]) -> String {
     ];
     let rows = readings.iter().map(|r| {
         vec![
-            format!("{:.0}", r.actuator_pa * 1e-3),
+            pressures(r),
             format!("{:.1}", r.body_m3 * 1e6),
             format!("{:.1}", r.actuator_m3 * 1e6),
             format!("{:.1}", r.von_mises_pa * 1e-6),

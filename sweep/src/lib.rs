@@ -11,6 +11,7 @@ mod axis;
 pub mod design;
 mod elements;
 mod error;
+mod form;
 pub mod influence;
 mod part;
 pub mod policy;

@@ -2,12 +2,11 @@
 
 pub use crate::axis::Axis;
 use crate::axis::{Levels, RawAxis, as_number, assumed, axis};
+use crate::form::{Form, Wrong};
 use crate::policy::MOST_CASES;
 use crate::sample::{Method, Points};
 use compare::{CompareError, ScenarioFile};
-use data::Fault;
 use serde::Deserialize;
-use spelling::files::{MOST_TEXT, read_whole};
 use std::path::Path;
 use toml::{Spanned, Value};
 
@@ -121,8 +120,8 @@ fn one() -> u32 {
     1
 }
 
-/// Bytes at fault, message and help.
-pub(crate) type Wrong = (Option<std::ops::Range<usize>>, String, &'static str);
+const FORM: Form<Raw, Study> =
+    Form { what: "study", page: "docs/sweep.md", scenario: |raw| &raw.scenario, of: Study::of };
 
 impl Study {
     /// Reads a study; `scenario` reads the robot that it names, first as a file beside it.
@@ -133,14 +132,7 @@ impl Study {
         path: &Path,
         scenario: impl Fn(&str) -> Result<ScenarioFile, CompareError>,
     ) -> Result<Study, CompareError> {
-        let name = path.display().to_string();
-        let unread = |cause: String| {
-            let help = "write a study as docs/sweep.md shows".to_string();
-            CompareError::Unread { path: name.clone(), cause, help }
-        };
-        let bytes = read_whole(path, MOST_TEXT).map_err(|cause| unread(cause.to_string()))?;
-        let text = String::from_utf8(bytes).map_err(|_| unread("it is not a text in UTF-8".into()))?;
-        Study::parse(&name, &text, path.parent().unwrap_or(Path::new("")), scenario)
+        FORM.read(path, scenario)?.checked()
     }
 
     /// Of a text; `name` is for messages.
@@ -153,25 +145,15 @@ impl Study {
         folder: &Path,
         scenario: impl Fn(&str) -> Result<ScenarioFile, CompareError>,
     ) -> Result<Study, CompareError> {
-        let fault = |(span, message, help): Wrong| {
-            let span = span.map(|span| (span.start, span.end));
-            CompareError::Scenario(Box::new(Fault::of_text(name, text, span, message, help.into())))
-        };
-        let raw: Raw = toml::from_str(text).map_err(|error| {
-            fault((error.span(), error.message().to_string(), "docs/sweep.md shows every key of a study"))
-        })?;
-        let beside = folder.join(raw.scenario.get_ref());
-        if beside == Path::new(name) {
-            let message = "`scenario` names the study itself".to_string();
-            return Err(fault((Some(raw.scenario.span()), message, "name a robot, for example scenario = \"epam\"")));
+        FORM.parse(name, text, folder, scenario)?.checked()
+    }
+
+    /// A key that the scenario has not is told before anything is computed.
+    fn checked(self) -> Result<Study, CompareError> {
+        if self.robots > 0 {
+            self.robot(0)?;
         }
-        let spec = if beside.exists() { beside.display().to_string() } else { raw.scenario.get_ref().clone() };
-        let study = Study::of(raw, scenario(&spec)?, beside.parent().unwrap_or(folder)).map_err(fault)?;
-        if study.robots > 0 {
-            // A key that the scenario has not is told before anything is computed.
-            study.robot(0)?;
-        }
-        Ok(study)
+        Ok(self)
     }
 
     fn of(raw: Raw, base: ScenarioFile, folder: &Path) -> Result<Study, Wrong> {

@@ -2,7 +2,7 @@
 //!
 //! A new test belongs into the module of what it measures or runs to its end: `characterize`, `demo`, `engine` (the finite
 //! element engine against known answers), `interrupts`, `kills`, `learned` (laws that no catalogue has), `simulate`,
-//! `large_file`, `open_chamber` (chambers open along an axis), `figures` (speed and known numbers), `documents` (command
+//! `in_space` (strips round the body: both engines), `large_file`, `open_chamber` (chambers open along an axis), `figures` (speed and known numbers), `documents` (command
 //! lines of the documents). Whatever takes less than a second in an unoptimised build belongs into `tests/fast`.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests: a panic is the failure to report")]
@@ -13,6 +13,7 @@ mod discovery;
 mod documents;
 mod engine;
 mod figures;
+mod in_space;
 mod interrupts;
 mod kills;
 mod large_file;

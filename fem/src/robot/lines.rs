@@ -12,8 +12,8 @@
 use std::f64::consts::TAU;
 
 use models::Scenario;
-use models::scenario::ActuatorChoice;
 use models::actuators::pattern::Pattern;
+use models::scenario::ActuatorChoice;
 
 use super::RobotSettings;
 use super::settings::{FOLDED_ROW, TAPED_SPACING};
@@ -174,11 +174,12 @@ fn sliver(bands: &[Vec<[f64; 2]>], apart: f64) -> Option<[f64; 2]> {
 
 /// How far the nodes of every generator lie ahead of their ring where the grid turns \[m\].
 fn ahead(angles: &[f64], strips: &[StripLines], sin: f64) -> Vec<f64> {
-    let mut known: Vec<(usize, f64)> =
-        strips.iter().flat_map(|strip| strip.s_m.iter().enumerate().map(|(i, s)| (strip.first + i, -s * sin))).collect();
+    let mut known: Vec<(usize, f64)> = strips
+        .iter()
+        .flat_map(|strip| strip.s_m.iter().enumerate().map(|(i, s)| (strip.first + i, -s * sin)))
+        .collect();
     known.sort_by_key(|(column, _)| *column);
-    let (first, last) = (known[0], known[known.len() - 1]);
-    known.push((angles.len(), first.1));
+    known.push((angles.len(), known[0].1));
     let angle = |column: usize| if column == angles.len() { angles[0] + TAU } else { angles[column] };
     let mut found = Vec::with_capacity(angles.len());
     for pair in known.windows(2) {
@@ -186,7 +187,6 @@ fn ahead(angles: &[f64], strips: &[StripLines], sin: f64) -> Vec<f64> {
         let share = |column: usize| (angle(column) - angle(from)) / (angle(to) - angle(from));
         found.extend((from..to).map(|column| a + (b - a) * share(column)));
     }
-    debug_assert!(found.len() == angles.len() && last.0 < angles.len());
     found
 }
 
@@ -217,7 +217,13 @@ fn rows(pattern: &Pattern, settings: &RobotSettings) -> [f64; 2] {
 }
 
 /// Rings.
-fn along(scenario: &Scenario, cos: f64, bands: &[Vec<[f64; 2]>], patterns: &[Pattern], settings: &RobotSettings) -> Vec<f64> {
+fn along(
+    scenario: &Scenario,
+    cos: f64,
+    bands: &[Vec<[f64; 2]>],
+    patterns: &[Pattern],
+    settings: &RobotSettings,
+) -> Vec<f64> {
     let [row, beside] = rows(&patterns[0], settings).map(|row| cos * row);
     let length = scenario.length_m;
     let mut cuts = vec![0.0, length];
@@ -230,7 +236,11 @@ fn along(scenario: &Scenario, cos: f64, bands: &[Vec<[f64; 2]>], patterns: &[Pat
     scenario.markers_m.iter().for_each(|place| add(&mut cuts, *place, MERGE * size(*place)));
     if beside < row {
         let middle = |pair: &[[f64; 2]]| 0.5 * (pair[0][1] + pair[1][0]);
-        bands.iter().flat_map(|strip| strip.windows(2)).map(middle).for_each(|place| add(&mut cuts, place, MERGE * row));
+        bands
+            .iter()
+            .flat_map(|strip| strip.windows(2))
+            .map(middle)
+            .for_each(|place| add(&mut cuts, place, MERGE * row));
     }
     cuts.sort_by(f64::total_cmp);
     let weld = |place: f64| bands.iter().flatten().flatten().any(|edge| (edge - place).abs() < 1e-9);

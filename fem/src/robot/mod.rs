@@ -46,8 +46,8 @@ pub use snaps::{Sample, Snap, Watch, snaps};
 pub use table::{KEYS, OTHERS, RunKey, with_fem};
 
 use models::Scenario;
-use models::scenario::ActuatorChoice;
 use models::actuators::pattern::Pattern;
+use models::scenario::ActuatorChoice;
 
 use crate::case::{Outputs, encastre};
 use crate::mesh::check::check_open;
@@ -159,9 +159,8 @@ pub fn outputs(scenario: &Scenario, mesh: &Mesh) -> Outputs {
 }
 
 fn body_parts(mesh: &Mesh) -> Vec<String> {
-    let body = |name: &str| {
-        [sew::WALL, sew::FACE, sew::MARGIN].contains(&sew::plain(name)) || name.starts_with(sew::SEAM)
-    };
+    let body =
+        |name: &str| [sew::WALL, sew::FACE, sew::MARGIN].contains(&sew::plain(name)) || name.starts_with(sew::SEAM);
     mesh.parts.iter().map(|p| p.name.clone()).filter(|name| body(name)).collect()
 }
 
@@ -247,5 +246,7 @@ fn numerics(problem: &Problem, settings: &RobotSettings) -> Settings {
 
 #[cfg(test)]
 mod run_tests;
+#[cfg(test)]
+mod space_tests;
 #[cfg(test)]
 mod tests;

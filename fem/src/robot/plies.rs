@@ -67,7 +67,10 @@ impl Plies<'_> {
                 let mut plies = vec![wall];
                 plies.extend(self.stuck());
                 let welded = layers + usize::from(self.film().is_some());
-                plies.resize(plies.len().max(welded), ply(&self.sheet, self.slant_rad + self.pattern.panels[0].warp_rad));
+                plies.resize(
+                    plies.len().max(welded),
+                    ply(&self.sheet, self.slant_rad + self.pattern.panels[0].warp_rad),
+                );
                 self.bonded(plies)
             }
             (FACE | MARGIN, None) if !self.stuck().is_empty() => {

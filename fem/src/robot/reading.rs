@@ -217,9 +217,10 @@ impl RobotGauge {
         let starts = || self.tip.iter().map(|node| self.mesh.start_of(*node as usize));
         let moment = |axis: usize| {
             let middle = starts().map(|p| p[axis]).sum::<f64>() / self.tip.len() as f64;
-            self.tip.iter().zip(starts()).fold([0.0; 3], |sum, (node, start)| {
-                along(sum, start[axis] - middle, positions[*node as usize])
-            })
+            self.tip
+                .iter()
+                .zip(starts())
+                .fold([0.0; 3], |sum, (node, start)| along(sum, start[axis] - middle, positions[*node as usize]))
         };
         cross(moment(1), moment(2))
     }

@@ -113,9 +113,7 @@ fn sorted(sewers: &[Sewer], lines: &Lines, quads: &[[u32; 4]]) -> Vec<Part> {
             Some((_, Place::Weld(layers))) => (format!("{SEAM}{layers}"), None),
             Some((_, Place::Margin)) => (MARGIN.into(), None),
             Some((sewer, Place::Under)) if sewer.pattern.joint == Joint::Seams => (WALL.into(), None),
-            Some((sewer, Place::Under)) => {
-                (of_strip(FACE, sewer.strip), Some(of_strip(ACTUATOR, sewer.strip)))
-            }
+            Some((sewer, Place::Under)) => (of_strip(FACE, sewer.strip), Some(of_strip(ACTUATOR, sewer.strip))),
         };
         let at = parts.iter().position(|p| p.name == name).unwrap_or_else(|| {
             parts.push(Part { name, front, back: back(), ..Part::default() });

@@ -8,7 +8,7 @@ fn shipped(name: &str) -> Scenario {
 }
 
 /// Welds are lines and nothing is wavy, so that areas and volumes are those of the pattern.
-fn coarse() -> RobotSettings {
+pub(super) fn coarse() -> RobotSettings {
     let exact = RobotSettings { weld_m: 0.0, waviness_m: 0.0, ..RobotSettings::default() };
     RobotSettings { body_size_m: 8e-3, actuator_size_m: 6e-3, ..exact }
 }
@@ -24,7 +24,7 @@ fn refused(name: &str, change: impl Fn(&mut Scenario, &mut RobotSettings)) -> St
 }
 
 /// Area of the parts that `wanted` picks; quads are planar here.
-fn area_m2(mesh: &Mesh, wanted: impl Fn(&str) -> bool) -> f64 {
+pub(super) fn area_m2(mesh: &Mesh, wanted: impl Fn(&str) -> bool) -> f64 {
     let mut sum = 0.0;
     for quad in mesh.parts.iter().filter(|p| wanted(&p.name)).flat_map(|p| &p.quads) {
         let x = quad.map(|n| mesh.points[n as usize]);
@@ -40,11 +40,11 @@ fn quality(problem: &Problem) -> Quality {
     check_open(&problem.mesh, &[sew::BODY, sew::ACTUATOR], &[sew::BASE]).unwrap()
 }
 
-fn volume_m3(problem: &Problem, chamber: &str) -> f64 {
+pub(super) fn volume_m3(problem: &Problem, chamber: &str) -> f64 {
     quality(problem).volumes_m3.iter().find(|v| v.0 == chamber).unwrap().1
 }
 
-fn radius_m(mesh: &Mesh, node: u32) -> f64 {
+pub(super) fn radius_m(mesh: &Mesh, node: u32) -> f64 {
     let p = mesh.points[node as usize];
     p[1].hypot(p[2])
 }

@@ -50,7 +50,7 @@ pub use export::{Export, export};
 pub use manifest::{FileHash, MANIFEST, Maker, Manifest, sha256};
 pub use many::{Job, Many, finished_below, simulate_all};
 pub use memory::least_bytes;
-pub use plan::{Changes, Cube, Felt, Variation, cube, felt, mesh_keys, product};
+pub use plan::{Changes, Cube, Felt, Variation, cube, felt, mesh_keys, pressures_in_toml, product};
 pub use source::{Loaded, Source};
 pub use summary::{
     ChamberEnd, Cost, EnergyLine, FirstThrough, KineticShares, MeshQuality, ProbeEnd, ReactionEnd, Rule, SUMMARY,

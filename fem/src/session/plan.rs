@@ -2,8 +2,8 @@
 
 use super::{Source, rounded};
 use crate::FemError;
-use models::CHANNELS;
 use crate::robot::{ASSUMED, Assumed, KEYS, RobotRun, RobotSettings, RunKey, hypercube};
+use models::CHANNELS;
 
 /// Keys of `[fem]` and their values as in TOML.
 pub type Changes = Vec<(String, String)>;
@@ -24,6 +24,12 @@ pub fn mesh_keys([body_mm, actuator_mm]: &[f64; 2]) -> [(String, String); 2] {
     [("body_mesh_mm".into(), body_mm.to_string()), ("actuator_mesh_mm".into(), actuator_mm.to_string())]
 }
 
+/// An entry of `pressures_kpa` for pressures of the channels \[Pa\].
+pub fn pressures_in_toml(channels_pa: &[f64; CHANNELS]) -> String {
+    let kpa = channels_pa.map(|pa| rounded(pa * 1e-3));
+    if kpa.iter().all(|p| *p == kpa[0]) { kpa[0].to_string() } else { format!("{kpa:?}") }
+}
+
 /// Every mesh \[mm\] with every seed at every pressure of `run`, if these are `separate` runs.
 pub fn product(run: &RobotRun, seeds: Option<u64>, separate: bool, meshes: &[[f64; 2]]) -> Vec<Variation> {
     let mut cases = vec![Variation::default()];
@@ -41,12 +47,9 @@ pub fn product(run: &RobotRun, seeds: Option<u64>, separate: bool, meshes: &[[f6
     }
     if separate {
         let of = |pa: &[f64; CHANNELS]| {
-            let kpa = pa.map(|pa| rounded(pa * 1e-3));
-            let [label, list] = match kpa.iter().all(|p| *p == kpa[0]) {
-                true => [format!("{}kPa", kpa[0]), format!("[{}]", kpa[0])],
-                false => [kpa.map(|p| format!("{p}kPa")).join("-"), format!("[{kpa:?}]")],
-            };
-            (label, vec![("pressures_kpa".into(), list)], false)
+            let entry = pressures_in_toml(pa);
+            let label = entry.trim_matches(['[', ']']).replace(", ", "-");
+            (format!("{label}kPa"), vec![("pressures_kpa".into(), format!("[{entry}]"))], false)
         };
         cases = extended(&cases, &run.pressures_pa.iter().map(of).collect::<Vec<_>>());
     }

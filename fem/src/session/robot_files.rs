@@ -113,8 +113,9 @@ fn markers_csv(robot: &WatchedRobot, readings: &[Reading]) -> String {
     let kind = scenario.actuator.kind.name;
     let mut before = 0.0;
     for r in readings {
-        let phase = if r.actuator_pa >= before { "load" } else { "unload" };
-        before = r.actuator_pa;
+        let all_pa: f64 = r.strips_pa.iter().sum();
+        let phase = if all_pa >= before { "load" } else { "unload" };
+        before = all_pa;
         let strip = |channel: usize| scenario.strips().position(|strip| channels == 1 || strip.channel == channel);
         let of = |channel: usize| strip(channel).map_or(0.0, |i| r.strips_pa[i]);
         let pressures_pa = std::iter::once(r.body_pa).chain((0..channels).map(of));
@@ -137,7 +138,7 @@ fn snaps_csv(found: &[Snap]) -> String {
     out
 }
 
-/// Side view, cross-section through the middle of a unit, and cut along the robot.
+/// Side view, cross-section through the middle of a unit, and cut along the robot; with strips round the body from above too.
 fn pictures(robot: &WatchedRobot, mesh: &Mesh, run: &Simulation) -> Result<Vec<(&'static str, Image)>, FemError> {
     let (stress_mpa, positions) = (stress_mpa(run), run.positions());
     let actuator = &robot.scenario.actuator;
@@ -149,8 +150,14 @@ fn pictures(robot: &WatchedRobot, mesh: &Mesh, run: &Simulation) -> Result<Vec<(
     let end = PictureLook { view: Viewpoint::End, ..look(&format!("section that was at {:.0} mm", middle_m * MM)) };
     let section = picture::section(mesh, &positions, &stress_mpa, &across, &end)?;
     let cut = picture::section(mesh, &positions, &stress_mpa, &along, &look("middle plane"))?;
-    let side = picture::render(mesh, &positions, &stress_mpa, &look(&robot.scenario.name))?;
-    Ok(vec![("side.png", side), ("section.png", section), ("cut.png", cut)])
+    let name = &robot.scenario.name;
+    let side = picture::render(mesh, &positions, &stress_mpa, &look(name))?;
+    let mut made = vec![("side.png", side), ("section.png", section), ("cut.png", cut)];
+    if robot.scenario.is_spatial() {
+        let top = PictureLook { view: Viewpoint::Top, ..look(name) };
+        made.push(("top.png", picture::render(mesh, &positions, &stress_mpa, &top)?));
+    }
+    Ok(made)
 }
 
 fn stress_mpa(run: &Simulation) -> Vec<f64> {

@@ -113,6 +113,7 @@ impl Watched {
             width_m: scenario.actuator.shape.width_m,
             pouch_m: scenario.actuator.shape.length_m,
             count: scenario.actuator.count,
+            is_spatial: scenario.is_spatial(),
             model: run.model.name().into(),
             set: run.set.clone(),
             base: if run.settings.encastre { "encastre" } else { "pinned" }.into(),
@@ -140,6 +141,9 @@ pub struct RobotSummary {
     pub pouch_m: f64,
     /// Units in series.
     pub count: usize,
+    /// Whether strips lie round the body, so that it bends out of the x–y plane.
+    #[serde(default)]
+    pub is_spatial: bool,
     /// Preset of `[fem]`, and the keys that were set beside it.
     #[serde(default)]
     pub model: String,

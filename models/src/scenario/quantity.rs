@@ -3,7 +3,7 @@
 pub use spelling::quantity::{Quantity, parse};
 
 /// Most pressures of one list.
-const MOST: usize = 100_000;
+pub const MOST: usize = 100_000;
 
 /// Reads a comma-separated list of pressures; in each, `/` separates supply channels: `10kPa/20kPa,30kPa`. A range is its first
 /// value, its last and the step: `0:30:0.5kPa`; the last is met where whole steps lead there.

@@ -1,12 +1,15 @@
 //! What the options of `ibr simulate` ask for: one run, or several that differ in one thing each.
 
 use crate::cli::SimulateArgs;
-use crate::commands::fem_inputs::{pressures, sizes};
+use crate::commands::fem_inputs::sizes;
 use crate::commands::inputs::plain;
 use crate::failure::Failure;
 use fem::robot::{KEYS, OTHERS};
-use fem::session::{Cube, Source, Variation, cube, mesh_keys, product, rounded};
+use fem::session::{Cube, Source, Variation, cube, mesh_keys, pressures_in_toml, product, rounded};
+use models::scenario::quantity::parse_pressures;
 use std::path::{Path, PathBuf};
+
+const PRESSURES: &str = "write for example --pressure 10kPa,20kPa, or with supply channels 20kPa/10kPa";
 
 /// What is to be run.
 pub enum RunPlan {
@@ -43,8 +46,10 @@ pub fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan, Failure> {
         };
     }
     let mut common = args.set.iter().map(|text| setting(text)).collect::<Result<Vec<_>, _>>()?;
-    if let Some(list) = args.pressure.as_deref().map(pressures).transpose()? {
-        common.push(("pressures_kpa".to_string(), format!("{list:?}")));
+    if let Some(text) = args.pressure.as_deref() {
+        let list = parse_pressures(text).map_err(|m| Failure::usage(format!("--pressure: {m}"), PRESSURES))?;
+        let entries: Vec<String> = list.iter().map(pressures_in_toml).collect();
+        common.push(("pressures_kpa".to_string(), format!("[{}]", entries.join(", "))));
     }
     let typed = args.mesh.as_deref().map(sizes).transpose()?;
     if let Some([one]) = typed.as_deref() {

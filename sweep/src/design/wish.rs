@@ -1,12 +1,11 @@
 //! The TOML file of a wish.
 
 use crate::axis::{Axis, RawAxis, as_number, axis};
-use crate::study::{PRESSURE, Wrong};
+use crate::form::{Form, Wrong};
+use crate::study::PRESSURE;
 use compare::{CompareError, ScenarioFile};
-use data::Fault;
 use models::CHANNELS;
 use serde::Deserialize;
-use spelling::files::{MOST_TEXT, read_whole};
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 
@@ -143,6 +142,9 @@ struct RawTurn {
     angle_deg: f64,
 }
 
+const FORM: Form<Raw, Wish> =
+    Form { what: "wish", page: "docs/design.md", scenario: |raw| &raw.scenario, of: Wish::of };
+
 impl Wish {
     /// Reads a wish; `scenario` reads the robot that it names, first as a file beside it.
     ///
@@ -152,14 +154,7 @@ impl Wish {
         path: &Path,
         scenario: impl Fn(&str) -> Result<ScenarioFile, CompareError>,
     ) -> Result<Wish, CompareError> {
-        let name = path.display().to_string();
-        let unread = |cause: String| {
-            let help = "write a wish as docs/design.md shows".to_string();
-            CompareError::Unread { path: name.clone(), cause, help }
-        };
-        let bytes = read_whole(path, MOST_TEXT).map_err(|cause| unread(cause.to_string()))?;
-        let text = String::from_utf8(bytes).map_err(|_| unread("it is not a text in UTF-8".into()))?;
-        Wish::parse(&name, &text, path.parent().unwrap_or(Path::new("")), scenario)
+        FORM.read(path, scenario)?.checked()
     }
 
     /// Of a text; `name` is for messages.
@@ -172,29 +167,18 @@ impl Wish {
         folder: &Path,
         scenario: impl Fn(&str) -> Result<ScenarioFile, CompareError>,
     ) -> Result<Wish, CompareError> {
-        let fault = |(span, message, help): Wrong| {
-            let span = span.map(|span| (span.start, span.end));
-            CompareError::Scenario(Box::new(Fault::of_text(name, text, span, message, help.into())))
-        };
-        let raw: Raw = toml::from_str(text).map_err(|error| {
-            fault((error.span(), error.message().to_string(), "docs/design.md shows every key of a wish"))
-        })?;
-        let beside = folder.join(raw.scenario.get_ref());
-        if beside == Path::new(name) {
-            let message = "`scenario` names the wish itself".to_string();
-            return Err(fault((Some(raw.scenario.span()), message, "name a robot, for example scenario = \"epam\"")));
-        }
-        let spec = if beside.exists() { beside.display().to_string() } else { raw.scenario.get_ref().clone() };
-        let base = scenario(&spec)?;
-        let wish = Wish::of(&raw, base, beside.parent().unwrap_or(folder)).map_err(fault)?;
-        // A key that the scenario has not is told before anything is searched.
-        let middle = |axes: &[Axis]| vec![0.5; axes.len()];
-        let changes = wish.changes(&middle(&wish.free), &middle(&wish.assumed));
-        wish.base.with(&changes.values)?;
-        Ok(wish)
+        FORM.parse(name, text, folder, scenario)?.checked()
     }
 
-    fn of(raw: &Raw, base: ScenarioFile, folder: &Path) -> Result<Wish, Wrong> {
+    /// A key that the scenario has not is told before anything is searched.
+    fn checked(self) -> Result<Wish, CompareError> {
+        let middle = |axes: &[Axis]| vec![0.5; axes.len()];
+        let changes = self.changes(&middle(&self.free), &middle(&self.assumed));
+        self.base.with(&changes.values)?;
+        Ok(self)
+    }
+
+    fn of(raw: Raw, base: ScenarioFile, folder: &Path) -> Result<Wish, Wrong> {
         let whole = base.length_m;
         let wanted = wanted(raw.wish.get_ref(), whole)
             .map_err(|(span, message, help)| (span.or(Some(raw.wish.span())), message, help))?;
