@@ -97,6 +97,15 @@ impl ScenarioFile {
     /// # Errors
     /// A value that is not TOML, a place below something that is no table; a fault of the new text with its line.
     pub fn with(&self, changes: &[(String, String)]) -> Result<ScenarioFile, CompareError> {
+        let new = self.with_in_space(changes)?;
+        if self.scenario.is_spatial() { Ok(new) } else { new.planar() }
+    }
+
+    /// The same; strips round the body may come in.
+    ///
+    /// # Errors
+    /// As [`ScenarioFile::with`].
+    pub fn with_in_space(&self, changes: &[(String, String)]) -> Result<ScenarioFile, CompareError> {
         let refused = |message: String| CompareError::refused(message, "write for example body.radius_mm = 40");
         let mut document: DocumentMut =
             self.text.parse().map_err(|error: toml_edit::TomlError| refused(error.message().into()))?;
@@ -104,8 +113,7 @@ impl ScenarioFile {
             let value: Value = text.parse().map_err(|_| refused(format!("{place} = {text} is no value of TOML")))?;
             set(&mut document, place, value).ok_or_else(|| refused(format!("{place} is not in a table")))?;
         }
-        let new = ScenarioFile::parse_in_space(&self.name, &document.to_string())?;
-        if self.scenario.is_spatial() { Ok(new) } else { new.planar() }
+        ScenarioFile::parse_in_space(&self.name, &document.to_string())
     }
 
     /// The scenario that an embedded set or a folder of data brings along.

@@ -4,7 +4,8 @@ use crate::dataset::{Dataset, Hold, Lost, Marker};
 use crate::error::{DataError, Fault};
 use crate::lost::fill;
 use crate::policy;
-use crate::streams::{PRESSURES, Recorder, Sample, Segment, Stream, are_near};
+use crate::streams::pressures::{PRESSURES, are_near};
+use crate::streams::{Recorder, Sample, Segment, Stream};
 use crate::units::kpa;
 
 /// Samples kept per (run, hold, marker): enough to see creep inside a hold, few enough for a dense noise model.

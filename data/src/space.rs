@@ -7,6 +7,9 @@ use crate::streams::plausible::check_y_up_later;
 use crate::table::{Column, Table};
 use crate::units::{kpa, mm};
 
+/// A smaller change of z would be printed as 0.0 mm.
+const TOLD_MM: f64 = 0.05;
+
 impl Dataset {
     /// Whether the table says more than one plane and one actuator pressure.
     pub fn is_spatial(&self) -> bool {
@@ -75,7 +78,8 @@ impl Dataset {
         }
         check_y_up_later(self)?;
         let words = "the robot is planar, so z was left aside. If it bends towards z too, describe its strips with azimuth_deg or [[strip]]";
-        Ok((z_mm > 0.0).then(|| format!("{}: z varies by up to {z_mm:.1} mm from the first hold; {words}", self.name)))
+        Ok((z_mm >= TOLD_MM)
+            .then(|| format!("{}: z varies by up to {z_mm:.1} mm from the first hold; {words}", self.name)))
     }
 
     /// [`Dataset::to_table`] with the columns of z and of the supply channels beyond the first.

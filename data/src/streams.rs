@@ -3,19 +3,23 @@
 //! Rows may come sorted by time or by marker: each (run, marker) pair is followed on its own. A new hold begins when
 //! the phase changes or a pressure departs from the mean of the current hold by more than its tolerance.
 
+mod labels;
 mod placeholders;
 pub(crate) mod plausible;
+pub(crate) mod pressures;
 
 use std::collections::HashMap;
 
 use crate::dataset::Phase;
 use crate::error::{DataError, Fault};
-use crate::header::{Header, MARKER, P_ACT, P_BODY, P_MORE, RUN, STATION, TIME};
+use crate::header::{Header, MARKER, RUN, STATION, TIME};
 use crate::lines::{KeptLine, Line};
-use crate::policy::{self, tolerance_act_pa, tolerance_body_pa};
+use crate::policy;
 use crate::rows::{Row, RowReader};
+pub(crate) use labels::Labels;
 use placeholders::Placeholders;
 use plausible::Extremes;
+use pressures::{PRESSURES, are_near, pressures_pa};
 
 /// Samples kept per (run, hold, marker) before neighbours are merged; above the few that `Dataset` holds, far below a
 /// camera's frames.
@@ -65,14 +69,6 @@ pub(crate) struct Segment {
     stride: u64,
     /// Sums of the pressures.
     sums_pa: [f64; PRESSURES.len()],
-}
-
-/// Pressures of a row: body, actuator, and the supply channels from 1 on.
-pub(crate) const PRESSURES: [usize; 2 + P_MORE.len()] = [P_BODY, P_ACT, P_MORE[0], P_MORE[1], P_MORE[2]];
-
-fn pressures_pa(row: &Row) -> [f64; PRESSURES.len()] {
-    let [one, two, three] = row.more_act_pa;
-    [row.p_body_pa, row.p_act_pa, one, two, three]
 }
 
 impl Segment {
@@ -167,12 +163,6 @@ impl Segment {
     }
 }
 
-/// Whether pressures, in the order of [`PRESSURES`], are within so many tolerances of the first.
-pub(crate) fn are_near(of: [f64; PRESSURES.len()], other: [f64; PRESSURES.len()], tolerances: f64) -> bool {
-    let tolerance = |k: usize| if k == 0 { tolerance_body_pa(of[0]) } else { tolerance_act_pa(of[k]) };
-    (0..of.len()).all(|k| (other[k] - of[k]).abs() <= tolerances * tolerance(k))
-}
-
 /// The observations of one marker in one run.
 #[derive(Debug)]
 pub(crate) struct Stream {
@@ -193,32 +183,6 @@ impl Stream {
             let one = self.segments.pop();
             self.segments.last_mut().zip(one).into_iter().for_each(|(before, one)| before.absorb(one));
         }
-    }
-}
-
-/// Labels numbered in order of first appearance.
-#[derive(Debug, Default)]
-pub(crate) struct Labels {
-    pub names: Vec<String>,
-    numbers: HashMap<String, usize>,
-    last: usize,
-}
-
-impl Labels {
-    fn number(&mut self, name: &str) -> usize {
-        if self.names.get(self.last).is_none_or(|last| last != name) {
-            self.last = match self.numbers.get(name) {
-                Some(&number) => number,
-                None => self.insert(name),
-            };
-        }
-        self.last
-    }
-
-    fn insert(&mut self, name: &str) -> usize {
-        self.names.push(name.to_string());
-        self.numbers.insert(name.to_string(), self.names.len() - 1);
-        self.names.len() - 1
     }
 }
 

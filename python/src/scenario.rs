@@ -101,7 +101,7 @@ impl Scenario {
     fn replace(&self, changes: Option<&Bound<'_, PyDict>>) -> PyResult<Scenario> {
         let mut set = Vec::new();
         changes.map_or(Ok(()), |changes| places("", changes, &mut set))?;
-        self.file.with(&set).map(Scenario::of).map_err(raised)
+        self.file.with_in_space(&set).map(Scenario::of).map_err(raised)
     }
 
     /// The TOML text.

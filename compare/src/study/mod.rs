@@ -27,4 +27,6 @@ pub use published::{Rung, published_ladders};
 pub use tradeoff::{Timing, time_prediction};
 
 #[cfg(test)]
+mod space_tests;
+#[cfg(test)]
 pub(crate) mod tests;

@@ -63,7 +63,7 @@ pub(super) fn fit_in_space(
         }
         fitted = with_tip_force(fitted, dataset, about)?;
         fitted = without_settled(&fitted, about.direct);
-        warnings.extend(geometry_warnings(scenario, about));
+        warnings.extend(geometry_warnings(scenario, about, dataset.more_channels() == 0));
         if about.gravity_direction.is_none() && scenario.effects.iter().any(|e| e.name == "gravity") {
             warnings.push(
                 "the scenario has gravity, the data's about.toml no [gravity] direction: the scenario's is used".into(),
@@ -126,8 +126,8 @@ fn with_tip_force(scenario: Scenario, dataset: &Dataset, about: &About) -> Resul
     Ok(scenario.with_effect("tip_load", &[own[0] + known[0], own[1] + known[1]]))
 }
 
-/// Differences beyond 2 % between the scenario and the data's own description.
-fn geometry_warnings(scenario: &Scenario, about: &About) -> Vec<String> {
+/// Differences beyond 2 % between the scenario and the data's own description, and channels that the data do not tell apart.
+fn geometry_warnings(scenario: &Scenario, about: &About, one_pressure: bool) -> Vec<String> {
     let Some(g) = &about.geometry else { return Vec::new() };
     let shape = &scenario.actuator.shape;
     let pairs = [
@@ -147,7 +147,7 @@ fn geometry_warnings(scenario: &Scenario, about: &About) -> Vec<String> {
         warnings.push(format!("pouches: the scenario says {}, the data's about.toml {count}", scenario.actuator.count));
     }
     let first = scenario.actuator.channel;
-    if scenario.zones.iter().any(|z| z.channel.is_some_and(|c| c != first)) {
+    if one_pressure && scenario.zones.iter().any(|z| z.channel.is_some_and(|c| c != first)) {
         warnings.push("the scenario has several supply channels; data have one actuator pressure, used for all".into());
     }
     warnings
