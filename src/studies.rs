@@ -24,16 +24,8 @@ pub const STUDIES: &[(&str, &str, &str)] = &[
     paper!("fpam-paper", "the fPAM as the paper modelled it", "../models/scenarios/fpam.toml"),
     ("long", "a robot of 2 m with 40 pouches", include_str!("../studies/long.toml")),
     ("tip-load", "a load on the tip", include_str!("../studies/tip-load.toml")),
-    (
-        "epam-two-strips",
-        "two strips of pouches at 90 degrees, for ibr predict",
-        include_str!("../studies/epam-two-strips.toml"),
-    ),
-    (
-        "epam-helix",
-        "a strip of pouches wound round the body, for ibr predict",
-        include_str!("../studies/epam-helix.toml"),
-    ),
+    ("epam-two-strips", "two strips of pouches at 90 degrees", include_str!("../studies/epam-two-strips.toml")),
+    ("epam-helix", "a strip of pouches wound round the body", include_str!("../studies/epam-helix.toml")),
     ("obstacle", "a cylinder in the way", include_str!("../studies/obstacle.toml")),
 ];
 

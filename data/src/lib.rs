@@ -25,6 +25,7 @@ pub mod sets;
 mod space;
 mod streams;
 pub mod table;
+mod tidy;
 mod units;
 pub mod write;
 

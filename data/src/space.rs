@@ -4,8 +4,7 @@ use crate::dataset::Dataset;
 use crate::error::{DataError, Fault};
 use crate::policy::{self, tolerance_act_pa};
 use crate::streams::plausible::check_y_up_later;
-use crate::table::{Column, Table};
-use crate::units::{kpa, mm};
+use crate::units::mm;
 
 /// A smaller change of z would be printed as 0.0 mm.
 const TOLD_MM: f64 = 0.05;
@@ -25,6 +24,11 @@ impl Dataset {
     pub fn channels_differ(&self) -> bool {
         let differs = |p: f64, other: &f64| (other - p).abs() > tolerance_act_pa(p);
         self.holds.iter().any(|hold| hold.more_act_pa.iter().any(|other| differs(hold.p_act_pa, other)))
+    }
+
+    /// Whether z varies, or channels have different pressures: what a planar robot cannot do.
+    pub fn leaves_the_plane(&self) -> bool {
+        self.channels_differ() || mm(self.travel_m(2)) >= TOLD_MM
     }
 
     /// How far a marker was at most from its place in the first hold that saw it, along an axis \[m\]: means over the samples of a
@@ -80,32 +84,5 @@ impl Dataset {
         let words = "the robot is planar, so z was left aside. If it bends towards z too, describe its strips with azimuth_deg or [[strip]]";
         Ok((z_mm >= TOLD_MM)
             .then(|| format!("{}: z varies by up to {z_mm:.1} mm from the first hold; {words}", self.name)))
-    }
-
-    /// [`Dataset::to_table`] with the columns of z and of the supply channels beyond the first.
-    pub fn to_full_table(&self) -> Table {
-        let mut table = self.to_table();
-        let (mut z_mm, mut more_kpa) = (Vec::new(), vec![Vec::new(); self.more_channels()]);
-        for run in 0..self.runs.len() {
-            for (index, hold) in self.holds.iter().enumerate() {
-                for sample in 0..self.samples_per_hold {
-                    for marker in (0..self.markers.len()).filter(|marker| !self.is_lost(run, index, *marker)) {
-                        z_mm.extend(self.place(run, index, sample, marker)[2].map(mm));
-                        more_kpa.iter_mut().zip(&hold.more_act_pa).for_each(|(column, p)| column.push(kpa(*p)));
-                    }
-                }
-            }
-        }
-        let after =
-            |name: &str, table: &Table| table.columns.iter().position(|(n, _)| n == name).map_or(0, |at| at + 1);
-        if self.z_m.is_some() {
-            let at = after("y_mm", &table);
-            table.columns.insert(at, ("z_mm".into(), Column::F64(z_mm)));
-        }
-        let at = after("p_act_kpa", &table);
-        for (k, column) in more_kpa.into_iter().enumerate() {
-            table.columns.insert(at + k, (format!("p_act_{}_kpa", k + 1), Column::F64(column)));
-        }
-        table
     }
 }

@@ -6,9 +6,7 @@ use std::fmt::Write as _;
 use std::io::{Read, Write};
 use std::path::Path;
 
-use crate::dataset::Dataset;
 use crate::error::{DataError, Fault};
-use crate::units::{kpa, mm};
 use crate::write::{cannot_write, quoted};
 
 /// One column.
@@ -75,40 +73,6 @@ impl Table {
     /// Columns of different length; the folder is not writable; the crate was built without the feature `parquet`.
     pub fn to_parquet(&self, path: &Path) -> Result<(), DataError> {
         parquet::write(self, path)
-    }
-}
-
-impl Dataset {
-    /// The dataset as a tidy table in mm and kPa, with the columns of the marker CSV (pressures of the holds); `s_mm`
-    /// is there if every marker has a station, `p_gauge_kpa` if a gauge was read.
-    pub fn to_table(&self) -> Table {
-        let (mut texts, mut numbers) = (vec![Vec::new(); 4], vec![Vec::new(); 7]);
-        for (run, label) in self.runs.iter().enumerate() {
-            for (index, hold) in self.holds.iter().enumerate() {
-                for sample in 0..self.samples_per_hold {
-                    let seen = |(marker, _): &(usize, _)| !self.is_lost(run, index, *marker);
-                    for (marker, described) in self.markers.iter().enumerate().filter(seen) {
-                        let [x, y] = self.xy(run, index, sample, marker);
-                        let words = [label.as_str(), &self.actuator, hold.phase.word(), &described.name];
-                        let station = described.station_m.unwrap_or(f64::NAN);
-                        let (body, act) = (kpa(hold.p_body_pa), kpa(hold.p_act_pa));
-                        let read =
-                            self.gauge(run).map_or(f64::NAN, |all| kpa(all[index * self.samples_per_hold + sample]));
-                        let values = [hold.t_s[sample], body, act, mm(x), mm(y), mm(station), read];
-                        texts.iter_mut().zip(words).for_each(|(column, word)| column.push(word.to_string()));
-                        numbers.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
-                    }
-                }
-            }
-        }
-        let mut columns = Vec::with_capacity(11);
-        let texts = ["run", "actuator", "phase", "marker"].into_iter().zip(texts.into_iter().map(Column::Str));
-        let names = ["t_s", "p_body_kpa", "p_act_kpa", "x_mm", "y_mm", "s_mm", "p_gauge_kpa"];
-        columns.extend(texts.chain(names.into_iter().zip(numbers.into_iter().map(Column::F64))));
-        let stations = self.markers.iter().all(|marker| marker.station_m.is_some());
-        columns.retain(|(name, _)| *name != "s_mm" || stations);
-        columns.retain(|(name, _)| *name != "p_gauge_kpa" || self.gauge_pa.is_some());
-        Table { columns: columns.into_iter().map(|(name, column)| (name.to_string(), column)).collect() }
     }
 }
 

@@ -210,7 +210,7 @@ fn markers(mut bytes: &[u8]) -> bool {
     read.is_ok_and(|dataset| {
         data::check(&dataset, None);
         let aside = dataset.left_aside();
-        aside.is_ok() || dataset.to_full_table().rows() > 0
+        aside.is_ok() || dataset.to_table().rows() > 0
     })
 }
 

@@ -1,6 +1,7 @@
 //! A model under construction: what effects change.
 
 use crate::actuators::Family;
+use crate::scenario::Span;
 use crate::site::Site;
 use crate::space::Strip;
 use crate::term::Term;
@@ -99,4 +100,18 @@ impl Assembly {
         }
         lengths
     }
+}
+
+/// Every span in about `total · length/whole` equal segments, at least one.
+pub(crate) fn divide(spans: &[Span], total: usize) -> Vec<Segment> {
+    let whole: f64 = spans.iter().map(|s| s.length_m).sum();
+    let mut segments = Vec::new();
+    for (site, span) in spans.iter().enumerate() {
+        let count = ((total as f64 * span.length_m / whole).round() as usize).max(1);
+        let length_m = span.length_m / count as f64;
+        for i in 0..count {
+            segments.push(Segment { site, start_m: span.start_m + i as f64 * length_m, length_m });
+        }
+    }
+    segments
 }

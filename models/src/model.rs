@@ -1,7 +1,7 @@
 //! A model: a scenario put together, ready to predict.
 
 use crate::actuators::ActuatorShape;
-use crate::assembly::{Assembly, Segment, Sighting};
+use crate::assembly::{Assembly, Segment, Sighting, divide};
 use crate::body::{Bending, BodyLaw, BodyPressure, BodyWall};
 use crate::error::Unsolved;
 use crate::robot::{Workspace, equilibrium, place};
@@ -378,20 +378,6 @@ fn site(scenario: &Scenario, span: &Span) -> Site {
         site.body_pressure = BodyLaw::Wall(wall);
     }
     site
-}
-
-/// Every span in about `total · length/whole` equal segments, at least one.
-fn divide(spans: &[Span], total: usize) -> Vec<Segment> {
-    let whole: f64 = spans.iter().map(|s| s.length_m).sum();
-    let mut segments = Vec::new();
-    for (site, span) in spans.iter().enumerate() {
-        let count = ((total as f64 * span.length_m / whole).round() as usize).max(1);
-        let length_m = span.length_m / count as f64;
-        for i in 0..count {
-            segments.push(Segment { site, start_m: span.start_m + i as f64 * length_m, length_m });
-        }
-    }
-    segments
 }
 
 /// Segment that holds a station, and the distance from its start; the last segment takes what lies beyond the tip.

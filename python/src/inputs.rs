@@ -148,7 +148,7 @@ impl Data {
     /// The columns of its marker table, texts as lists.
     #[getter]
     fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        crate::arrays::columns(py, &self.evidence.dataset.to_full_table())
+        crate::arrays::columns(py, &self.evidence.dataset.to_table())
     }
 
     fn __repr__(&self) -> String {

@@ -41,7 +41,7 @@ fn check(spec: &str, scenario: Option<&str>, context: &mut Context) -> Result<Ou
     let stations_m: Option<Vec<f64>> = dataset.markers.iter().map(|marker| marker.station_m).collect();
     let radius_m = about.as_ref().and_then(|about| about.geometry.as_ref()).map(|geometry| geometry.body_radius_m);
     match stations_m.zip(radius_m) {
-        _ if dataset.is_spatial() => report.warnings.push(in_space_words(dataset)),
+        _ if dataset.leaves_the_plane() => report.warnings.push(in_space_words(dataset)),
         Some((stations_m, radius_m)) => report.warnings.extend(slips(dataset, &stations_m, radius_m)),
         None => report.warnings.extend(pressure_words(dataset)),
     }

@@ -60,7 +60,7 @@ fn a_turned_robot_has_the_errors_of_the_planar_one() {
     let turned = robot(&upright.replace("azimuth_deg = 0 ", "azimuth_deg = 90 "));
     let dataset = generate(&planar, "made", &Generator { runs: 4, ..Generator::default() }).unwrap();
     // The model is another one than that of the data.
-    let wrong = |scenario: &Scenario| Scenario { p_body_pa: 2e3, bending_stiffness: 0.3, ..scenario.clone() };
+    let wrong = |scenario: &Scenario| Scenario { p_body_pa: 2e3, bending_stiffness: 0.6, ..scenario.clone() };
     let wanted = compare(&wrong(&planar), &Evidence::of(dataset.clone(), None)).unwrap();
     let (xy, z): (Vec<f64>, Vec<f64>) = (
         dataset.xy_m.chunks_exact(2).flat_map(|p| [p[0], 0.0]).collect(),

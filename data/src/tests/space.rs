@@ -30,7 +30,7 @@ fn z_and_channels_are_read_and_come_back() {
     let mut csv = Vec::new();
     write_markers_csv(&dataset, &mut csv).unwrap();
     assert_eq!(String::from_utf8(csv.clone()).unwrap(), SPACE);
-    let again = markers_of_table("markers.csv", &dataset.to_full_table(), None).unwrap();
+    let again = markers_of_table("markers.csv", &dataset.to_table(), None).unwrap();
     let close = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
     assert!(close(&again.xy_m, &dataset.xy_m) && close(again.z_of_run(2).unwrap(), dataset.z_of_run(2).unwrap()));
     assert!(again.holds.iter().zip(&dataset.holds).all(|(a, b)| close(&a.more_act_pa, &b.more_act_pa)));
