@@ -190,7 +190,9 @@ impl<'a> Section<'a> {
             let mut excess = |e0: f64| self.pulls(strips, kappa, e0).force - thrust;
             // No slope: that of flat pouches is infinite.
             let start = Start { x: floor + FIRST_CONTRACTION, f: None, slope: 0.0 };
-            let root = find_root(&mut excess, (floor, 1.0), start).map_err(|_| self.unsolved(strips, pulls.force))?;
+            // A bend that is tried may be too sharp for any body.
+            let root = find_root(&mut excess, (floor, f64::max(1.0, 2.0 * floor)), start)
+                .map_err(|_| self.unsolved(strips, pulls.force))?;
             contraction = root.x + root.step;
             pulls = self.pulls(strips, kappa, contraction);
         }

@@ -311,3 +311,15 @@ fn planar_robots_do_not_change_a_bit() {
         assert!(out.tip.z_m == 0.0 && out.markers_z_m.iter().all(|z| *z == 0.0));
     }
 }
+
+/// A step of the search may try a bend whose taut wall alone would be shorter than nothing.
+#[test]
+fn a_bare_helix_is_solved_at_every_pressure() {
+    let helix = robot("epam", "turns = 0.5", "").bare();
+    let mut before = 0.0;
+    for kpa in [1.0, 5.0, 20.0, 25.0, 30.0, 60.0, 100.0] {
+        let angle = at(&helix, [kpa; 4]).1.tip.angle_rad;
+        assert!(angle > before && angle < 8.0, "{kpa} kPa: {angle} rad");
+        before = angle;
+    }
+}
