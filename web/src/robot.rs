@@ -40,8 +40,12 @@ pub(crate) fn shipped() -> Vec<Value> {
     let told = |name: String| {
         let scenario = scenario_in_space(&name).ok()?.scenario;
         let kind = scenario.actuator.kind;
-        let known = if scenario.effects.len() > 1 { "with its known mechanics" } else { "as textbooks have it" };
-        Some(json!({"name": name, "title": format!("{}, {known}", scenario.name), "sentence": kind.sentence}))
+        let known = match (scenario.is_spatial(), scenario.effects.len()) {
+            (true, _) => "",
+            (false, 0 | 1) => ", as textbooks have it",
+            (false, _) => ", with its known mechanics",
+        };
+        Some(json!({"name": name, "title": format!("{}{known}", scenario.name), "sentence": kind.sentence}))
     };
     shipped_names().into_iter().filter_map(told).collect()
 }
