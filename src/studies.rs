@@ -29,6 +29,9 @@ pub const STUDIES: &[(&str, &str, &str)] = &[
     ("obstacle", "a cylinder in the way", include_str!("../studies/obstacle.toml")),
 ];
 
+/// Those of robots with strips round the body.
+pub const IN_SPACE: [&str; 2] = ["epam-two-strips", "epam-helix"];
+
 /// Keys of `[fem]` for a run that somebody waits for: a little coarse and fast.
 pub const SMALL_RUN: [(&str, &str); 3] =
     [("actuator_mesh_mm", "4"), ("body_ramp_s", "0.02"), ("actuator_ramp_s", "0.18")];

@@ -114,45 +114,124 @@ function nearest() {
   return { hold: holds[best], points: compared.measured_m[best] };
 }
 
+/** What a planar robot shows: its one side. */
+function side(own) {
+  const seen = nearest();
+  return {
+    own: outline(own.sides),
+    bare: own.bare && outline(own.bare.sides),
+    units: units(own, own.units).map((d) => ({ d, is_near: true })),
+    markers: own.markers.map((m) => [m.x_mm / MM, m.y_mm / MM]),
+    seen: (seen?.points ?? []).filter((p) => p[0] !== null),
+    points: [...own.sides.flat(), ...(own.bare?.sides.flat() ?? [])],
+  };
+}
+
+/** What a robot with strips round the body shows to who looks along z, and along y. */
+function sides(own) {
+  const closed = (points) => `${line(points)}Z`;
+  return own.views.map((view, i) => {
+    const bare = own.bare?.views[i];
+    return {
+      axis: view.axis,
+      own: outline(view.sides),
+      bare: bare && outline(bare.sides),
+      ring: { d: closed(view.ring), is_near: view.is_ring_near },
+      units: view.units.map(({ outline, is_near }) => ({ d: closed(outline), is_near })),
+      markers: own.markers.map((m) => [m.x_mm / MM, m[`${view.axis}_mm`] / MM]),
+      seen: [],
+      points: [...view.sides.flat(), ...view.units.flatMap((u) => u.outline), ...(bare?.sides.flat() ?? [])],
+    };
+  });
+}
+
+/** Words at a place, of a size on the screen. */
+function words(text, x, y, pixel, anchor = 'start') {
+  const label = svg('text', { x, y, style: `font-size:${13 * pixel}px`, 'text-anchor': anchor });
+  label.textContent = text;
+  return label;
+}
+
+/** Both axes in the lower left corner of a view. */
+function axes(axis, x, y, pixel) {
+  const [left, low, long, head] = [x + 14 * pixel, y - 14 * pixel, 26 * pixel, 4 * pixel];
+  const d = `M${left},${low - long}v${long}h${long}m${-head},${-head}l${head},${head}l${-head},${head}M${left - head},${low - long + head}l${head},${-head}l${head},${head}`;
+  return [
+    svg('path', { class: 'scale', fill: 'none', d }),
+    words('x', left + long + 5 * pixel, low + 4 * pixel, pixel),
+    words(axis, left, low - long - 6 * pixel, pixel, 'middle'),
+  ];
+}
+
+/** Where the tip is, in words. */
+function tip({ views, tip: { x_mm, y_mm, z_mm, angle_deg }, bare }) {
+  const mm = (v) =>
+    v
+      .toFixed(1)
+      .replace(/^-(0\.0)$/, '$1')
+      .replace('-', '−');
+  if (!views) {
+    const other = bare ? `; bare model: ${bare.tip.y_mm.toFixed(1)} mm up` : '';
+    return `tip ${x_mm.toFixed(1)} mm along, ${y_mm.toFixed(1)} mm up, turned by ${angle_deg.toFixed(1)}°${other}`;
+  }
+  const other = bare ? `; bare model: y ${mm(bare.tip.y_mm)} mm, z ${mm(bare.tip.z_mm)} mm` : '';
+  return `tip x ${mm(x_mm)} mm, y ${mm(y_mm)} mm, z ${mm(z_mm)} mm, bent by ${mm(angle_deg)}°${other}`;
+}
+
 function draw(own) {
   const length = MM * own.length_m,
-    all = [...own.sides.flat(), ...(own.bare?.sides.flat() ?? [])].map((p) => [MM * p[0], -MM * p[1]]);
+    views = own.views ? sides(own) : [side(own)],
+    all = views.flatMap((view) => view.points).map((p) => [MM * p[0], -MM * p[1]]);
   const bound = (k, pick, least) => pick(least, ...all.map((p) => p[k]));
   const x = [bound(0, Math.min, -0.12 * length) - 12, bound(0, Math.max, 1.04 * length) + 12],
-    y = [bound(1, Math.min, -0.62 * length) - 12, bound(1, Math.max, 0.2 * length) + 12];
-  const picture = $('shape');
-  picture.setAttribute('viewBox', `${x[0]} ${y[0]} ${x[1] - x[0]} ${y[1] - y[0]}`);
-  const width = (x[1] - x[0]) / (picture.clientWidth || 600),
-    tall = (y[1] - y[0]) / (picture.clientHeight || 400),
-    pixel = Math.max(width, tall);
+    y = [bound(1, Math.min, (own.views ? -0.45 : -0.62) * length) - 12, bound(1, Math.max, 0.2 * length) + 12];
+  const picture = $('shape'),
+    [wide, high] = [x[1] - x[0], y[1] - y[0]],
+    room = [picture.clientWidth || 600, picture.clientHeight || 400],
+    pixels = (n, m) => Math.max((n * wide) / room[0], (m * high) / room[1]);
+  // Two views stand beside or above each other, as they are larger.
+  const is_row = pixels(views.length, 1) <= pixels(1, views.length),
+    [columns, rows] = is_row ? [views.length, 1] : [1, views.length],
+    pixel = pixels(columns, rows);
+  picture.setAttribute('viewBox', `${x[0]} ${y[0]} ${columns * wide} ${rows * high}`);
   const circle = (className, r) => (p) =>
     svg('circle', { class: className, cx: MM * p[0], cy: -MM * p[1], r: r * pixel });
-  const seen = nearest(),
-    scale = 10 ** Math.floor(Math.log10(length / 2)),
-    left = x[1] - 14 * pixel - scale,
-    low = y[1] - 12 * pixel;
-  const label = svg('text', { x: left + 6 * pixel, y: low - 7 * pixel, style: `font-size:${13 * pixel}px` });
-  label.textContent = `${scale} mm`;
+  const unit = ({ d }) => svg('path', { class: 'unit', d });
+  const drawn = (view, i) => {
+    const group = svg('g', { transform: `translate(${is_row ? i * wide : 0},${is_row ? 0 : i * high})` }),
+      ring = view.ring ? [svg('path', { class: 'ring', d: view.ring.d })] : [];
+    group.append(
+      svg('line', { class: 'base', x1: 0, x2: 0, y1: -1.5 * MM * own.radius_m, y2: 1.5 * MM * own.radius_m }),
+      ...(view.ring?.is_near ? [] : ring),
+      ...view.units.filter((u) => !u.is_near).map(unit),
+      svg('path', { class: own.views ? 'own clear' : 'own', d: view.own }),
+      ...(view.ring?.is_near ? ring : []),
+      ...view.units.filter((u) => u.is_near).map(unit),
+      ...(view.bare ? [svg('path', { class: 'bare', d: view.bare })] : []),
+      ...(finite ? [svg('path', { class: 'finite', d: finite.map(line).join('') })] : []),
+      ...view.markers.map(circle('marker', 4)),
+      ...view.seen.map(circle('seen', 3.2)),
+      ...(view.axis ? axes(view.axis, x[0], y[1], pixel) : []),
+    );
+    return group;
+  };
+  const scale = 10 ** Math.floor(Math.log10(length / 2)),
+    left = x[0] + columns * wide - 14 * pixel - scale,
+    low = y[0] + rows * high - 12 * pixel;
   picture.replaceChildren(
-    svg('line', { class: 'base', x1: 0, x2: 0, y1: -1.5 * MM * own.radius_m, y2: 1.5 * MM * own.radius_m }),
-    svg('path', { class: 'own', d: outline(own.sides) }),
-    ...units(own, own.units).map((d) => svg('path', { class: 'unit', d })),
-    ...(own.bare ? [svg('path', { class: 'bare', d: outline(own.bare.sides) })] : []),
-    ...(finite ? [svg('path', { class: 'finite', d: finite.map(line).join('') })] : []),
-    ...own.markers.map((m) => circle('marker', 4)([m.x_mm / MM, m.y_mm / MM])),
-    ...(seen?.points ?? []).filter((p) => p[0] !== null).map(circle('seen', 3.2)),
+    ...views.map(drawn),
     svg('path', {
       class: 'scale',
       fill: 'none',
       d: `M${left},${low}h${scale}m0,${-4 * pixel}v${8 * pixel}m${-scale},0v${-8 * pixel}`,
     }),
-    label,
+    words(`${scale} mm`, left + 6 * pixel, low - 7 * pixel, pixel),
   );
+  picture.setAttribute('aria-label', `The robot, seen from ${own.views ? 'two sides' : 'its side'}`);
+  const seen = own.views ? null : nearest();
   $('measured-key').hidden = !seen;
   if (seen) $('measured-at').textContent = `at ${shown(seen.hold.p_act_kpa)} kPa, ${seen.hold.phase}`;
-  const tip = ({ tip: { x_mm, y_mm, angle_deg } }) =>
-    `tip ${x_mm.toFixed(1)} mm along, ${y_mm.toFixed(1)} mm up, turned by ${angle_deg.toFixed(1)}°`;
-  $('tip').textContent = `${tip(own)}${own.bare ? `; bare model: ${own.bare.tip.y_mm.toFixed(1)} mm up` : ''}`;
+  $('tip').textContent = tip(own);
   $('notes').replaceChildren(...own.notes.map((note) => element('li', { textContent: note })));
   bars(
     $('ledger'),

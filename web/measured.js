@@ -141,9 +141,10 @@ async function finite_elements(start) {
   predict();
 }
 
+const is_studio = () => !!document.querySelector('meta[name=ibr-studio]');
+
 function studio() {
-  if (!document.querySelector('meta[name=ibr-studio]')) return;
-  $('finite').hidden = false;
+  if (!is_studio()) return;
   const guarded = (start) =>
     finite_elements(start)
       .catch((error) => fault(Object.assign(error, { help: 'Is ibr studio still running?' })))

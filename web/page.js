@@ -129,13 +129,13 @@ function effect(e) {
 }
 
 function controls() {
-  const channel = (c, i) =>
+  const channel = (c) =>
     dial({
       name: told.channels.length > 1 ? `actuator pressure, channel ${c}` : 'actuator pressure',
       unit: 'kPa',
-      value: state.kpa[i],
+      value: state.kpa[told.channels.length > 1 ? c : 0],
       low: 0,
-      high: Math.max(2 * Math.max(10, ...told.pressures_kpa), state.kpa[i]),
+      high: Math.max(2 * Math.max(10, ...told.pressures_kpa), ...state.kpa),
       step: 0.1,
       set: (v, last) => {
         if (told.channels.length > 1) state.kpa[c] = v;
@@ -176,19 +176,28 @@ function settled(rebuild) {
       controls();
     }
     told = { ...fresh, dials: told.dials };
+    planar(!fresh.is_spatial);
     $('text').textContent = fresh.text;
     $('save').href = `data:application/toml;charset=utf-8,${encodeURIComponent(fresh.text)}`;
     link();
-    if (state.data) compare();
+    if (state.data && !fresh.is_spatial) compare();
   } catch (error) {
     fault(error);
   }
 }
 
+/** What is built for planar robots alone is there for them alone. */
+function planar(is_planar) {
+  $('measurements').hidden = !is_planar;
+  $('finite').hidden = !is_planar || !is_studio();
+  $('far-key').hidden = is_planar;
+}
+
 function pressures() {
   const usual = told.pressures_kpa.at(-1) ?? 0;
   const most = told.channels.length > 1 ? Math.max(...told.channels) + 1 : Math.min(1, told.channels.length);
-  state.kpa = [...Array(most)].map((_, i) => (Number.isFinite(state.kpa[i]) ? state.kpa[i] : usual));
+  const is_fed = (i) => told.channels.length === 1 || told.channels.includes(i);
+  state.kpa = [...Array(most)].map((_, i) => (is_fed(i) ? (Number.isFinite(state.kpa[i]) ? state.kpa[i] : usual) : 0));
 }
 
 function choose(name, text = null) {

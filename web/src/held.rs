@@ -18,7 +18,7 @@ use serde_json::{Map, Value, json};
 /// # Errors
 /// Scenario or data that are refused, or that do not fit together.
 pub fn compared(robot: &Robot, data: &Measured) -> Result<Value, CompareError> {
-    let ([_, file], evidence) = (robot.files()?, data.evidence()?);
+    let (file, evidence) = (robot.planar()?, data.evidence()?);
     let Compared { found, added } = Compared::of(&file, &evidence, &[], None, None)?;
     let mut told = CompareAnswer { scenario: &file.name, found: &found, added: added.as_ref() }.json();
     told["error_mm"] = json!(found.error_mm());
@@ -32,7 +32,7 @@ pub fn compared(robot: &Robot, data: &Measured) -> Result<Value, CompareError> {
 /// # Errors
 /// As [`compared`].
 pub fn diagnosed(robot: &Robot, data: &Measured) -> Result<Value, CompareError> {
-    let ([_, file], evidence) = (robot.files()?, data.evidence()?);
+    let (file, evidence) = (robot.planar()?, data.evidence()?);
     let d = diagnose(&file, std::slice::from_ref(&evidence), &Options::default(), &mut |_, _| ())?;
     let mut told = to_json(&d, None, &file.name);
     told["verdict_words"] = json!(verdict(&d));

@@ -8,6 +8,7 @@ pub mod data_of;
 pub mod held;
 pub mod question;
 pub mod robot;
+pub mod seen;
 
 use std::cell::RefCell;
 

@@ -1,10 +1,11 @@
 //! A robot of the page: a scenario with what was changed by hand.
 
+use crate::seen::views;
 use compare::{CompareError, ScenarioFile};
 use ibr::shown::predicted::{above_limit, beyond_words, state_json};
+use ibr::studies::{IN_SPACE, scenario_in_space};
 use ibr::{AtPressure, Predictor};
 use models::actuators::Family;
-use models::actuators::pattern::Joint;
 use models::effects::{Effect, Parameter};
 use models::scenario::SHIPPED;
 use models::{Known, Model, Scenario};
@@ -28,18 +29,23 @@ pub struct Robot {
     pub changes: Vec<(String, String)>,
 }
 
-/// The shipped robots, each followed by what textbooks have of it.
+/// The shipped robots, each followed by what textbooks have of it, then those with strips round the body.
 pub fn shipped_names() -> Vec<String> {
-    SHIPPED.iter().flat_map(|(name, _)| [name.to_string(), format!("{name}-textbook")]).collect()
+    let planar = SHIPPED.iter().flat_map(|(name, _)| [name.to_string(), format!("{name}-textbook")]);
+    planar.chain(IN_SPACE.map(String::from)).collect()
 }
 
 /// Their names, what they are, and their actuators.
 pub(crate) fn shipped() -> Vec<Value> {
     let told = |name: String| {
-        let scenario = Scenario::parse(models::shipped(&name)?).ok()?;
+        let scenario = scenario_in_space(&name).ok()?.scenario;
         let kind = scenario.actuator.kind;
-        let known = if scenario.effects.len() > 1 { "with its known mechanics" } else { "as textbooks have it" };
-        Some(json!({"name": name, "title": format!("{}, {known}", scenario.name), "sentence": kind.sentence}))
+        let known = match (scenario.is_spatial(), scenario.effects.len()) {
+            (true, _) => "",
+            (false, 0 | 1) => ", as textbooks have it",
+            (false, _) => ", with its known mechanics",
+        };
+        Some(json!({"name": name, "title": format!("{}{known}", scenario.name), "sentence": kind.sentence}))
     };
     shipped_names().into_iter().filter_map(told).collect()
 }
@@ -48,14 +54,23 @@ impl Robot {
     /// Its scenario, without and with the changes.
     ///
     /// # Errors
-    /// As [`ScenarioFile::read`] and [`ScenarioFile::with`].
-    pub fn files(&self) -> Result<[ScenarioFile; 2], CompareError> {
+    /// As [`scenario_in_space`] and [`ScenarioFile::with`].
+    fn files(&self) -> Result<[ScenarioFile; 2], CompareError> {
         let given = match &self.text {
-            Some(text) => ScenarioFile::parse(&self.name, text),
-            None => ScenarioFile::read(&self.name),
+            Some(text) => ScenarioFile::parse_in_space(&self.name, text),
+            None => scenario_in_space(&self.name),
         }?;
         let changed = given.with(&self.changes)?;
         Ok([given, changed])
+    }
+
+    /// The scenario with the changes, for what is built for planar robots alone.
+    ///
+    /// # Errors
+    /// As [`ScenarioFile::parse`].
+    pub fn planar(&self) -> Result<ScenarioFile, CompareError> {
+        let [_, changed] = self.files()?;
+        ScenarioFile::parse(&changed.name, &changed.text)
     }
 
     /// What it is: its text, what can be turned, its effects.
@@ -70,13 +85,13 @@ impl Robot {
         let dials: Vec<Value> =
             given.dials().iter().map(|dial| json!({"dial": dial, "value": value(dial.place)})).collect();
         let catalogue = file.catalogue();
-        let possible = catalogue.effects().filter(|effect| file.actuator.takes(effect));
+        let possible = catalogue.effects().filter(|effect| file.takes(effect));
         let effects: Vec<Value> = possible.map(|effect| effect_told(&effect, &given, &file)).collect();
         let a = &file.actuator;
         Ok(json!({
             "name": file.scenario.name, "text": file.text, "dials": dials, "effects": effects,
             "channels": Model::new(&file.scenario).channels().collect::<Vec<_>>(), "pressures_kpa": kpa(&file.pressures_pa), "most_kpa": 1e-3 * file.p_max_pa,
-            "kind": a.kind.name, "title": a.kind.title, "sentence": a.kind.sentence,
+            "is_spatial": file.is_spatial(), "kind": a.kind.name, "title": a.kind.title, "sentence": a.kind.sentence,
         }))
     }
 
@@ -89,10 +104,10 @@ impl Robot {
         let pa: Vec<f64> = actuator_kpa.iter().map(|p| 1e3 * p).collect();
         let own = Predictor::new(&file.scenario);
         let state = own.state(&own.loads(None, &pa)?)?;
-        let mut told = drawn(&own, &state);
+        let mut told = drawn(&own, &state, true);
         // The bare model of a loaded beam may have no equilibrium, and is then not drawn.
         let bare = Predictor::new(&file.bare());
-        told["bare"] = bare.state(&state.loads).map_or(Value::Null, |state| drawn(&bare, &state));
+        told["bare"] = bare.state(&state.loads).map_or(Value::Null, |state| drawn(&bare, &state, false));
         told["units"] = units(&file.scenario);
         told["notes"] = json!(
             beyond_words(own.model(), &state).into_iter().chain(above_limit(&file, &[state])).collect::<Vec<_>>()
@@ -104,17 +119,19 @@ impl Robot {
 /// Where the units of the actuator lie, and whether they are welded into the wall.
 fn units(scenario: &Scenario) -> Value {
     let a = &scenario.actuator;
-    let pattern = (a.kind.pattern)(&a.shape);
     json!({
         "start_m": a.start_m, "length_m": a.shape.length_m, "width_m": a.shape.width_m, "count": a.count,
-        "is_pouch": a.kind.family == Family::Pouch, "in_wall": matches!(pattern.joint, Joint::Wall),
+        "is_pouch": a.kind.family == Family::Pouch, "in_wall": a.in_wall(),
     })
 }
 
 /// A state as `ibr predict --json` tells it, with what is drawn \[m\].
-fn drawn(of: &Predictor, state: &AtPressure) -> Value {
+fn drawn(of: &Predictor, state: &AtPressure, with_units: bool) -> Value {
     let mut told = state_json(of.model(), of.scenario(), state);
-    told["sides"] = json!(of.model().outline(&state.prediction, STATIONS));
+    match views(of, state, STATIONS, with_units) {
+        Some(views) => told["views"] = views,
+        None => told["sides"] = json!(of.model().outline(&state.prediction, STATIONS)),
+    }
     told["radius_m"] = json!(of.scenario().radius_m);
     told["length_m"] = json!(of.scenario().length_m);
     told["height_m"] = json!(of.model().pouch_shape(&state.loads, &state.prediction).map(|shape| shape.height_m));

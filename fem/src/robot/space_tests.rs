@@ -63,7 +63,7 @@ fn every_strip_has_its_own_sheet_and_chamber_and_its_channel_fills_it() {
 #[test]
 fn a_helix_is_its_pattern_wound_on_the_wall() {
     let robot = scenario(HELIX);
-    let straight = Scenario { actuator: ActuatorChoice { turns: 0.0, ..robot.actuator.clone() }, ..robot.clone() };
+    let straight = Scenario { actuator: ActuatorChoice { turns: 0.0, ..robot.actuator }, ..robot.clone() };
     let [wound, flat] = [&robot, &straight].map(|robot| problem(robot, &coarse()).unwrap());
     // Chords of a helix are longer than those across the body: sheets differ by how far both are from their arcs.
     let areas = [&wound, &flat].map(|problem| area_m2(&problem.mesh, |part| part == "top"));
@@ -99,7 +99,7 @@ fn a_helix_is_its_pattern_wound_on_the_wall() {
 fn few_turns_are_nearly_none() {
     let robot = scenario(HELIX);
     let made = |turns: f64| {
-        let actuator = ActuatorChoice { turns, start_m: 0.01, ..robot.actuator.clone() };
+        let actuator = ActuatorChoice { turns, start_m: 0.01, ..robot.actuator };
         problem(&Scenario { actuator, ..robot.clone() }, &coarse()).unwrap().mesh.points
     };
     let [none, few] = [0.0, 1e-6].map(made);

@@ -61,6 +61,8 @@ impl Scenario {
             dials.push(mm("actuator.length_mm", "length of one unit", a.shape.length_m));
             dials.push(mm("actuator.width_mm", "width of one unit", a.shape.width_m));
             dials.extend((a.count > 1).then_some(count));
+            let turns = around("actuator.turns", "turns of the strip round the body", "", a.turns, 0.05);
+            dials.extend((a.turns > 0.0).then_some(turns));
         }
         if a.shape.fold_m > 0.0 {
             dials.push(mm("actuator.fold_mm", "depth of the folds", a.shape.fold_m));

@@ -31,6 +31,7 @@ mod supply;
 pub use dials::Dial;
 pub use spans::Span;
 
+use crate::actuators::pattern::Joint;
 use crate::actuators::{Actuator, ActuatorShape, BEAM};
 use crate::assembly::Assembly;
 use crate::catalogue::Catalogue;
@@ -38,6 +39,7 @@ use crate::effects::{EFFECTS, Effect, Fitted};
 use crate::error::ScenarioError;
 use crate::formula::Formula;
 use crate::line::Line;
+use crate::space::IN_SPACE;
 use std::sync::Arc;
 
 /// A scenario in SI units, checked.
@@ -139,6 +141,11 @@ impl ActuatorChoice {
     /// Whether there is an actuator.
     pub fn exists(&self) -> bool {
         self.count > 0
+    }
+
+    /// Whether the body's wall is the bottom of its pouches.
+    pub fn in_wall(&self) -> bool {
+        matches!((self.kind.pattern)(&self.shape).joint, Joint::Wall)
     }
 
     /// Whether an effect can act on this robot: those of a family, and all that act in an actuator, need one.
@@ -306,6 +313,11 @@ impl Scenario {
     /// Whether strips lie elsewhere than along azimuth 0: the robot then leaves the x–y plane, and [`crate::space`] has its balance.
     pub fn is_spatial(&self) -> bool {
         !self.more_strips.is_empty() || self.actuator.azimuth_rad != 0.0 || self.actuator.turns != 0.0
+    }
+
+    /// Whether an effect can act on this robot: as [`ActuatorChoice::takes`], and those of [`IN_SPACE`] where strips lie round the body.
+    pub fn takes(&self, effect: &Effect) -> bool {
+        self.actuator.takes(effect) && (!self.is_spatial() || IN_SPACE.contains(&effect.name))
     }
 
     /// Stretches of equal design, base to tip.

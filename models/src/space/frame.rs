@@ -10,15 +10,19 @@ use crate::shape::sinc_pair;
 
 /// A place and the frame there: tangent, and the directions of azimuth 0° and 90°.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Frame {
+pub struct Frame {
+    /// x, y, z \[m\].
     pub at: [f64; 3],
+    /// Unit vector towards the tip.
     pub tangent: [f64; 3],
+    /// Unit vectors towards azimuth 0° and 90°.
     pub sides: [[f64; 3]; 2],
 }
 
 impl Frame {
     /// The clamp.
-    pub const BASE: Frame = Frame { at: [0.0; 3], tangent: [1.0, 0.0, 0.0], sides: [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
+    pub(crate) const BASE: Frame =
+        Frame { at: [0.0; 3], tangent: [1.0, 0.0, 0.0], sides: [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
 }
 
 /// A stretch of one bend.

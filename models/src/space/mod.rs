@@ -24,6 +24,7 @@
 //! terms see the bend ε/D that its contraction would make alone. The body does not twist. A bend has no shear. The wall's step at
 //! κ = 0 is sharp: `hinge_curvature_per_m` acts in sections with one upright strip alone. Derived here.
 
+mod drawn;
 mod frame;
 mod model;
 mod section;
@@ -37,7 +38,8 @@ use crate::robot::Workspace;
 use crate::scenario::ActuatorChoice;
 #[cfg(doc)]
 use crate::site::Site;
-pub(crate) use frame::{Frame, Stretch};
+pub use frame::Frame;
+pub(crate) use frame::Stretch;
 pub use model::SectionState;
 use section::Section;
 use std::f64::consts::{FRAC_PI_2, TAU};

@@ -22,7 +22,7 @@ const STRAIGHT: f64 = 1e-12;
 const STEP: f64 = 1e-6;
 /// Contraction tried first beyond a taut wall.
 const FIRST_CONTRACTION: f64 = 1e-2;
-/// Determinant over the square of the trace below which an energy is flat along some bend.
+/// Determinant over the square of the trace, and trace over p_b A R², below which an energy is flat along some bend.
 const FLAT: f64 = 1e-8;
 /// Halvings of a step.
 const HALVINGS: usize = 40;
@@ -190,7 +190,9 @@ impl<'a> Section<'a> {
             let mut excess = |e0: f64| self.pulls(strips, kappa, e0).force - thrust;
             // No slope: that of flat pouches is infinite.
             let start = Start { x: floor + FIRST_CONTRACTION, f: None, slope: 0.0 };
-            let root = find_root(&mut excess, (floor, 1.0), start).map_err(|_| self.unsolved(strips, pulls.force))?;
+            // A bend that is tried may be too sharp for any body.
+            let root = find_root(&mut excess, (floor, f64::max(1.0, 2.0 * floor)), start)
+                .map_err(|_| self.unsolved(strips, pulls.force))?;
             contraction = root.x + root.step;
             pulls = self.pulls(strips, kappa, contraction);
         }
@@ -272,9 +274,11 @@ impl<'a> Section<'a> {
                 return Ok(Bend { kappa, contraction: at.contraction });
             }
             let ([[mut a, b], [_, mut d]], g) = (at.second, at.slope);
-            if a * d - b * b <= FLAT * (a + d).powi(2) || size <= STRAIGHT && at.taut_n > 0.0 {
-                // Fewer strips pull on a slack body than it has ways to give: flat along some.
-                (a, d) = (a + scale * self.radius_m, d + scale * self.radius_m);
+            let usual = scale * self.radius_m;
+            let is_flat = a + d <= FLAT * usual || a * d - b * b <= FLAT * (a + d).powi(2);
+            if is_flat || size <= STRAIGHT && at.taut_n > 0.0 {
+                // Fewer strips pull on a slack body than it has ways to give: flat along some, or rounding alone.
+                (a, d) = (a + usual, d + usual);
             }
             let det = a * d - b * b;
             let mut step = [-(d * g[0] - b * g[1]) / det, -(a * g[1] - b * g[0]) / det];

@@ -311,3 +311,15 @@ fn planar_robots_do_not_change_a_bit() {
         assert!(out.tip.z_m == 0.0 && out.markers_z_m.iter().all(|z| *z == 0.0));
     }
 }
+
+/// A step of the search may try a bend whose taut wall alone would be shorter than nothing, and a slack body is flat along all bends.
+#[test]
+fn a_bare_helix_is_solved() {
+    let helix = robot("epam", "turns = 0.5", "").bare();
+    let mut before = 0.0;
+    for i in 1..=250 {
+        let angle = at(&helix, [0.4 * f64::from(i); 4]).1.tip.angle_rad;
+        assert!(angle > before && angle < 8.0, "{} kPa: {angle} rad", 0.4 * f64::from(i));
+        before = angle;
+    }
+}
