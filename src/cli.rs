@@ -17,7 +17,7 @@ pub use export::{ExportArgs, ExportCommand, LinearArgs};
 pub use groups::{command, parsed};
 pub use import::Import;
 use std::path::PathBuf;
-pub use sweep::{DesignArgs, SweepArgs};
+pub use sweep::{DesignArgs, ShardArgs, SweepArgs};
 
 /// Models of pneumatic bending actuators on inflated-beam robots, held against measurements.
 #[derive(Debug, Parser)]
@@ -339,6 +339,9 @@ pub struct SimulateArgs {
     /// Robots: another value of a key of [fem], for example bond=0.5; repeatable
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
+    /// Machines beside each other
+    #[command(flatten)]
+    pub shards: ShardArgs,
     /// Robots: so many robots (30) whose assumed numbers fill their intervals as a Latin hypercube: median and 80 % interval of every
     /// marker, and which number to measure first
     #[arg(long, num_args = 0..=1, default_missing_value = "30", value_name = "ROBOTS",

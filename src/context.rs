@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 
 /// What a command may use of the outside.
 pub struct Context<'a> {
+    /// What was typed after the name of the program.
+    pub typed: Vec<String>,
     /// JSON is wanted.
     pub json: bool,
     /// Told what is being done, and which share of the whole is done if known.

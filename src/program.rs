@@ -22,9 +22,12 @@ pub fn run(typed: impl IntoIterator<Item = OsString>) -> u8 {
         say(&format!("warning: an interrupt cannot be caught here: {error}\n"));
     }
     silence_parquet();
+    let typed: Vec<OsString> = typed.into_iter().collect();
+    let words = typed.iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
     let cli = cli::parsed(typed);
     let bar = Meter::new(!cli.quiet && !cli.json);
     let mut context = Context {
+        typed: words,
         json: cli.json,
         progress: &mut |what, share| bar.tell(what, share),
         say: &mut |text| {

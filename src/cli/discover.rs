@@ -1,5 +1,6 @@
 //! The commands around a missing effect: diagnose, add, ladder, validate, breakdown, challenge.
 
+use super::ShardArgs;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -144,6 +145,9 @@ pub struct BreakdownArgs {
     /// Element size, or those of body and actuator, for example 8mm/4mm; default: the scenario's
     #[arg(long, value_name = "[BODY/]ACTUATOR", allow_hyphen_values = true)]
     pub mesh: Option<String>,
+    /// Machines beside each other
+    #[command(flatten)]
+    pub shards: ShardArgs,
     /// Threads; 0: one per core
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
     pub threads: u64,

@@ -1,17 +1,11 @@
-//! `ibr sweep`, `ibr design`
+//! `ibr sweep`, `ibr design`, and how many runs are shared
 
 use clap::Args;
 use std::path::PathBuf;
 
-/// `ibr sweep`
+/// Shares of many runs
 #[derive(Debug, Args)]
-pub struct SweepArgs {
-    /// Study: a TOML file that says what varies (docs/sweep.md)
-    pub study: PathBuf,
-    /// Folder of the table, the pictures and of what is computed; what is there already is kept.
-    /// Default: ibr-report/sweep-<study>
-    #[arg(long)]
-    pub out: Option<PathBuf>,
+pub struct ShardArgs {
     /// Compute only every N-th part, from the K-th on; shards may run anywhere that sees the folder
     #[arg(long, value_name = "K/N", conflicts_with_all = ["engine", "script"])]
     pub shard: Option<String>,
@@ -24,6 +18,20 @@ pub struct SweepArgs {
     /// With --engine: print what would be submitted
     #[arg(long, requires = "engine")]
     pub script: bool,
+}
+
+/// `ibr sweep`
+#[derive(Debug, Args)]
+pub struct SweepArgs {
+    /// Study: a TOML file that says what varies (docs/sweep.md)
+    pub study: PathBuf,
+    /// Folder of the table, the pictures and of what is computed; what is there already is kept.
+    /// Default: ibr-report/sweep-<study>
+    #[arg(long)]
+    pub out: Option<PathBuf>,
+    /// Machines beside each other
+    #[command(flatten)]
+    pub shards: ShardArgs,
     /// Threads, with --engine those of each shard; 0: one per core
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
     pub threads: u64,

@@ -1,6 +1,7 @@
 //! `ibr breakdown`: over which pressures and pouches the reduced model parts from the finite elements.
 
 use super::fem_inputs::{kept, list, robots, sizes};
+use super::shards::shared;
 use super::{Context, Outcome};
 use crate::cli::BreakdownArgs;
 use crate::failure::Failure;
@@ -15,7 +16,10 @@ use serde_json::json;
 
 pub fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome, Failure> {
     check_folder(&args.out)?;
-    let (runs, stopped) = runs(args, context)?;
+    let (runs, stopped) = match runs(args, context)? {
+        Ok(made) => made,
+        Err(told) => return Ok(told),
+    };
     let scenarios: Vec<Scenario> = robots(&args.scenarios)?.0.into_iter().map(|r| r.1).collect();
     let rows = partings(&scenarios, &runs)?;
     let mut files = Files::default();
@@ -32,10 +36,13 @@ pub fn run(args: &BreakdownArgs, context: &mut Context) -> Result<Outcome, Failu
     Ok(outcome)
 }
 
-/// Runs that come with the program or those of the folder, which gets what is missing; and what stopped.
-fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<(Vec<EngineRun>, Vec<Failure>), Failure> {
+/// Runs, and what stopped.
+type Made = (Vec<EngineRun>, Vec<Failure>);
+
+/// Runs that come with the program or those of the folder, which gets what is missing; or what is said of a shard of them.
+fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<Result<Made, Outcome>, Failure> {
     if args.stored {
-        return Ok((stored()?.into_iter().filter(|run| run.seed == 1).collect(), Vec::new()));
+        return Ok(Ok((stored()?.into_iter().filter(|run| run.seed == 1).collect(), Vec::new())));
     }
     let meshes = args.mesh.as_deref().map(sizes).transpose()?.unwrap_or_default();
     if meshes.len() > 1 {
@@ -48,6 +55,9 @@ fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<(Vec<EngineRun>, 
         mesh_mm: meshes.first().copied(),
     };
     let (jobs, settings) = (jobs(&robots(&args.scenarios)?.0, &ranges)?, kept(&args.runs, args.threads));
+    if let Some(told) = shared(&args.shards, &jobs, &settings, context)? {
+        return Ok(Err(told));
+    }
     let (mut runs, mut stopped) = (Vec::new(), Vec::new());
     for run in context.fem(|progress| runs_of(&jobs, &settings, progress))? {
         match run {
@@ -57,6 +67,6 @@ fn runs(args: &BreakdownArgs, context: &mut Context) -> Result<(Vec<EngineRun>, 
     }
     match runs.is_empty() && !stopped.is_empty() {
         true => Err(stopped.remove(0)),
-        false => Ok((runs, stopped)),
+        false => Ok(Ok((runs, stopped))),
     }
 }

@@ -26,6 +26,7 @@ mod paper;
 mod pattern;
 mod predict;
 mod published;
+mod shards;
 mod simulate;
 mod studio;
 mod sweep;

@@ -1,5 +1,6 @@
 //! `ibr sweep`
 
+use super::shards::{cluster, job, shard};
 use super::{Context, Outcome};
 use crate::cli::SweepArgs;
 use crate::failure::Failure;
@@ -10,23 +11,21 @@ use ibr::pages::{sweep_picture_names, sweep_pictures};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use sweep::schedule::{Cluster, Job};
-use sweep::{Found, Settings, Shard, Study, collect, run as compute};
+use sweep::{Found, Settings, Study, collect, run as compute};
 
 pub fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let study = Study::read(&args.study, ibr::studies::scenario)?;
     let stem = args.study.file_stem().unwrap_or_default().to_string_lossy();
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("ibr-report/sweep-{stem}")));
     check_folder(&folder)?;
-    if let Some(name) = &args.engine {
-        let cluster = if name == "hq" { Cluster::HyperQueue } else { Cluster::Slurm };
-        let job = job(args, &folder)?;
-        if args.script {
+    if let Some(cluster) = cluster(&args.shards) {
+        let job = job(&args.shards, args.threads, &folder, context)?;
+        if args.shards.script {
             return Ok(Outcome { text: job.script(cluster), ..Outcome::default() });
         }
         submit(&job, cluster, &study, &folder, context)?;
     }
-    let shard = args.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse);
-    let shard = shard.map_err(|message| Failure::usage(message, "see ibr sweep --help"))?;
+    let shard = shard(&args.shards)?;
     let runs = fem::session::Settings {
         frames: false,
         threads: args.threads as usize,
@@ -80,14 +79,6 @@ fn whole(
     Ok(outcome)
 }
 
-fn job(args: &SweepArgs, folder: &Path) -> Result<Job, Failure> {
-    let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
-    let program = std::env::current_exe()
-        .map_err(|cause| Failure::usage(format!("this program cannot be found: {cause}"), "run the shards by hand"))?;
-    let threads = (args.threads as usize).max(1);
-    Ok(Job { program, study: whole(&args.study), folder: whole(folder), shards: args.shards as usize, threads })
-}
-
 /// Submits and watches until all parts are there; Ctrl-C leaves the job alone.
 fn submit(job: &Job, cluster: Cluster, study: &Study, folder: &Path, context: &mut Context) -> Result<(), Failure> {
     let all = sweep::parts_missing(study, folder).max(1);
@@ -96,7 +87,10 @@ fn submit(job: &Job, cluster: Cluster, study: &Study, folder: &Path, context: &m
         let told = &mut |left: usize| -> ControlFlow<()> {
             progress("parts by the scheduler", Some(1.0 - left as f64 / all as f64))
         };
-        job.run(cluster, &missing, told)
+        match job.run(cluster, &missing, told)? {
+            0 => Ok(()),
+            _ => Err(job.useless()),
+        }
     })?;
     Ok(())
 }

@@ -25,6 +25,7 @@ mod table;
 mod tests;
 
 pub use error::SweepError;
-pub use run::{Found, Settings, Shard, parts_missing, run};
+pub use fem::session::Shard;
+pub use run::{Found, Settings, parts_missing, run};
 pub use study::{Axis, Engine, Output, PRESSURE, Study};
 pub use table::{collect, names};

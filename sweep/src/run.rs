@@ -6,34 +6,11 @@ use crate::study::{Engine, Study};
 use crate::table::columns;
 use crate::{SweepError, elements, reduced};
 use fem::FemError;
-use fem::session::Progress;
+use fem::session::{Progress, Shard};
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Mutex;
-
-/// Every `of`-th part, from the `which`-th on, counted from 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shard {
-    /// From 1.
-    pub which: usize,
-    /// Shards in all.
-    pub of: usize,
-}
-
-impl Shard {
-    /// All of it.
-    pub const WHOLE: Shard = Shard { which: 1, of: 1 };
-
-    /// `2/7`; `Err` says what to write.
-    pub fn parse(text: &str) -> Result<Shard, String> {
-        let read = text.split_once('/').and_then(|(which, of)| Some((which.parse().ok()?, of.parse().ok()?)));
-        match read {
-            Some((which, of)) if (1..=of).contains(&which) => Ok(Shard { which, of }),
-            _ => Err(format!("`{text}` is no shard: write K/N, for example 2/7, with K from 1 to N")),
-        }
-    }
-}
 
 /// How a sweep is made.
 #[derive(Debug, Clone)]
@@ -88,8 +65,7 @@ pub fn run(study: &Study, settings: &Settings, progress: Progress) -> Result<Fou
     let folder = settings.folder.join("parts");
     std::fs::create_dir_all(&folder).map_err(|cause| unwritable(&folder, &cause))?;
     let all = parts(study);
-    let Shard { which, of } = settings.shard;
-    let own: Vec<&Part> = all.iter().skip(which - 1).step_by(of).collect();
+    let own: Vec<&Part> = settings.shard.own(&all).collect();
     let there = |part: &Part| Rows::read(&part.path(study, &settings.folder), part.cases.len() * width);
     let before: Vec<Option<Rows>> = own.iter().map(|part| there(part)).collect();
     let kept = before.iter().flatten().count();

@@ -1,4 +1,4 @@
-//! A sweep on a cluster: the shards as one array job of Slurm or HyperQueue, watched until all parts are there.
+//! Many runs on a cluster: the shards as one array job of Slurm or HyperQueue, watched until all parts are there.
 //!
 //! What runs on the cluster is the same command with `--shard K/N`. Its folder has to be seen by all machines.
 
@@ -23,9 +23,9 @@ pub enum Cluster {
 pub struct Job {
     /// The program.
     pub program: PathBuf,
-    /// The study.
-    pub study: PathBuf,
-    /// Folder of the sweep.
+    /// What it is told beside threads and shard: a command and its options.
+    pub words: Vec<String>,
+    /// Folder of the job and its logs.
     pub folder: PathBuf,
     /// Shards.
     pub shards: usize,
@@ -63,14 +63,14 @@ impl Cluster {
 }
 
 /// A word in quotes that a shell takes as it is.
-fn quoted(path: &Path) -> String {
-    format!("'{}'", path.display().to_string().replace('\'', "'\\''"))
+fn quoted(word: &str) -> String {
+    format!("'{}'", word.replace('\'', "'\\''"))
 }
 
 impl Job {
     /// The script of one shard, with what the scheduler reads in it.
     pub fn script(&self, cluster: Cluster) -> String {
-        let Job { program, study, folder, shards, threads } = self;
+        let Job { program, words, folder, shards, threads } = self;
         let logs = folder.join("logs");
         let head = match cluster {
             Cluster::Slurm => format!(
@@ -84,31 +84,34 @@ impl Job {
                 logs.display()
             ),
         };
-        let (program, study, out) = (quoted(program), quoted(study), quoted(folder));
+        let typed: Vec<String> =
+            std::iter::once(&program.display().to_string()).chain(words).map(|word| quoted(word)).collect();
         format!(
-            "#!/bin/bash\n{head}exec {program} --quiet sweep {study} --out {out} --threads {threads} --shard \"${}/{shards}\"\n",
+            "#!/bin/bash\n{head}exec {} --quiet --threads {threads} --shard \"${}/{shards}\"\n",
+            typed.join(" "),
             cluster.variable()
         )
     }
 
     /// Submits the job, or finds the one that an earlier call submitted, and waits until it has ended. `told` says how many parts are
-    /// missing and is asked whether to go on; a job goes on without whoever watches it. Submits again while that helps.
+    /// missing and is asked whether to go on; a job goes on without whoever watches it. Submits again while that helps, and returns
+    /// how many parts are missing then.
     ///
     /// # Errors
-    /// No such scheduler, what it answered, a job that ends without a further part; [`SweepError::Run`] on an interrupt.
+    /// No such scheduler, what it answered; [`SweepError::Run`] on an interrupt.
     pub fn run(
         &self,
         cluster: Cluster,
         missing: &dyn Fn() -> usize,
         told: &mut dyn FnMut(usize) -> ControlFlow<()>,
-    ) -> Result<(), SweepError> {
+    ) -> Result<usize, SweepError> {
         let mut before = usize::MAX;
         loop {
             let left = missing();
             let id = match self.submitted(cluster) {
-                _ if left == 0 => return Ok(()),
+                _ if left == 0 => return Ok(0),
                 Some(id) => id,
-                None if left >= before => return Err(self.useless()),
+                None if left >= before => return Ok(left),
                 None => self.submit(cluster)?,
             };
             before = left;
@@ -149,7 +152,8 @@ impl Job {
         Ok(id)
     }
 
-    fn useless(&self) -> SweepError {
+    /// A job that ended without all parts.
+    pub fn useless(&self) -> SweepError {
         SweepError::Cluster {
             message: "the job ended and no further part is there".into(),
             help: format!("read the logs in {}", self.folder.join("logs").display()),

@@ -288,14 +288,14 @@ fn the_key_that_moves_the_tip_most_comes_first_and_its_groups_have_the_means_of_
 fn a_scheduler_gets_one_array_job_of_the_same_command() {
     let job = schedule::Job {
         program: "/opt/it's/ibr".into(),
-        study: "study.toml".into(),
+        words: ["sweep", "study.toml", "--out", "out"].map(String::from).to_vec(),
         folder: "out".into(),
         shards: 4,
         threads: 2,
     };
     let script = job.script(schedule::Cluster::Slurm);
     assert!(script.contains("#SBATCH --array=1-4\n#SBATCH --cpus-per-task=2"), "{script}");
-    let command = "exec '/opt/it'\\''s/ibr' --quiet sweep 'study.toml' --out 'out' --threads 2 --shard \"$SLURM_ARRAY_TASK_ID/4\"";
+    let command = "exec '/opt/it'\\''s/ibr' 'sweep' 'study.toml' '--out' 'out' --quiet --threads 2 --shard \"$SLURM_ARRAY_TASK_ID/4\"";
     assert!(script.contains(command), "{script}");
     assert!(job.script(schedule::Cluster::HyperQueue).contains("--shard \"$HQ_TASK_ID/4\""));
 }

@@ -66,6 +66,50 @@ pub fn simulate_all(jobs: &[Job], settings: &Settings, progress: Progress) -> Re
     Ok(Many { runs: runs.into_iter().map(|run| run.1).collect(), of })
 }
 
+/// One share of several runs, for machines beside each other that see one folder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// From 1.
+    pub which: usize,
+    /// Shards in all.
+    pub of: usize,
+}
+
+impl Shard {
+    /// All of it.
+    pub const WHOLE: Shard = Shard { which: 1, of: 1 };
+
+    /// `2/7`; `Err` says what to write.
+    pub fn parse(text: &str) -> Result<Shard, String> {
+        let read = text.split_once('/').and_then(|(which, of)| Some((which.parse().ok()?, of.parse().ok()?)));
+        match read {
+            Some((which, of)) if (1..=of).contains(&which) => Ok(Shard { which, of }),
+            _ => Err(format!("`{text}` is no shard: write K/N, for example 2/7, with K from 1 to N")),
+        }
+    }
+
+    /// Every N-th of some things, from the K-th on.
+    pub fn own<T>(self, all: impl IntoIterator<Item = T>) -> impl Iterator<Item = T> {
+        all.into_iter().skip(self.which - 1).step_by(self.of)
+    }
+}
+
+/// Each problem of some jobs once, with the folder of its run below `root`.
+///
+/// # Errors
+/// [`FemError::Refused`] for a job that cannot be run.
+pub fn problems<'a>(jobs: &'a [Job], root: &Path) -> Result<Vec<(&'a Job, PathBuf)>, FemError> {
+    let (mut prints, mut found) = (Vec::new(), Vec::new());
+    for (at, job) in jobs.iter().enumerate() {
+        let Task { fingerprint, folder, .. } = Task::of(at, job, &job.source.load()?, root);
+        if !prints.contains(&fingerprint) {
+            prints.push(fingerprint);
+            found.push((job, folder));
+        }
+    }
+    Ok(found)
+}
+
 /// What a step with contact costs, in steps without.
 const CONTACT: f64 = 2.5;
 

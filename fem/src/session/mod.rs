@@ -47,8 +47,9 @@ mod watch;
 
 pub use exchange::in_one_step as exchange_folders;
 pub use export::{Export, export};
+pub use folder::is_finished;
 pub use manifest::{FileHash, MANIFEST, Maker, Manifest, sha256};
-pub use many::{Job, Many, finished_below, simulate_all};
+pub use many::{Job, Many, Shard, finished_below, problems, simulate_all};
 pub use memory::least_bytes;
 pub use plan::{Changes, Cube, Felt, Variation, cube, felt, mesh_keys, pressures_in_toml, product};
 pub use source::{Loaded, Source};

@@ -38,9 +38,13 @@ pub fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failur
     };
     check_folder(&folder)?;
     match plan {
+        RunPlan::Single(_) if args.shards.shard.is_some() || args.shards.engine.is_some() => {
+            let help = "add --seeds, --separate, --uncertain or several --mesh, or leave --shard and --engine out";
+            Err(Failure::usage("one run has no shards", help))
+        }
         RunPlan::Single(source) => one(args, &source, &settings, context),
-        RunPlan::Table(base, variations) => several::table(&base, &variations, &settings, context),
-        RunPlan::Uncertain(cube) => several::uncertain(&cube, &args.set, settings, context),
+        RunPlan::Table(base, variations) => several::table(&base, &variations, &settings, &args.shards, context),
+        RunPlan::Uncertain(cube) => several::uncertain(&cube, args, settings, context),
     }
 }
 

@@ -1,5 +1,7 @@
 //! Several runs of one robot: those that differ in seed, mesh or pressure, and hypercubes.
 
+use crate::cli::{ShardArgs, SimulateArgs};
+use crate::commands::shards::shared;
 use crate::commands::{Context, Outcome};
 use crate::failure::Failure;
 use crate::shown::several_runs::{table_text, uncertain_text};
@@ -23,9 +25,13 @@ pub fn table(
     base: &Source,
     variations: &[Variation],
     settings: &Settings,
+    shards: &ShardArgs,
     context: &mut Context,
 ) -> Result<Outcome, Failure> {
     let jobs = jobs(base, variations)?;
+    if let Some(told) = shared(shards, &jobs, settings, context)? {
+        return Ok(told);
+    }
     let many = context.fem(|progress| simulate_all(&jobs, settings, progress))?;
     let table = RunTable::of(variations, many)?;
     let mut outcome = Outcome::new(
@@ -47,11 +53,14 @@ fn records(table: &RunTable) -> Vec<Value> {
     table.rows.iter().map(record).collect()
 }
 
-pub fn uncertain(cube: &Cube, set: &[String], settings: Settings, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn uncertain(cube: &Cube, args: &SimulateArgs, settings: Settings, context: &mut Context) -> Result<Outcome, Failure> {
     let settings = Settings { frames: false, ..settings };
     let jobs = jobs(&cube.base, &cube.robots)?;
+    if let Some(told) = shared(&args.shards, &jobs, &settings, context)? {
+        return Ok(told);
+    }
     let many = context.fem(|progress| simulate_all(&jobs, &settings, progress))?;
-    let all = Uncertain::of(cube, &many, set)?;
+    let all = Uncertain::of(cube, &many, &args.set)?;
     let (measured, top) = (all.measured(), all.top_kpa());
     let weights = all.weights(top);
     let mut outcome = Outcome::new(

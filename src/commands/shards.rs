@@ -1,0 +1,101 @@
+//! Finite element runs shared between machines that see one folder: `--shard K/N`, or a scheduler that runs all shards.
+
+use super::{Context, Outcome};
+use crate::cli::ShardArgs;
+use crate::failure::Failure;
+use fem::FemError;
+use fem::session::{Job, Settings, Shard, is_finished, problems, simulate_all};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+use sweep::schedule::{self, Cluster};
+
+/// The scheduler that was asked for.
+pub fn cluster(args: &ShardArgs) -> Option<Cluster> {
+    args.engine.as_deref().map(|name| if name == "hq" { Cluster::HyperQueue } else { Cluster::Slurm })
+}
+
+/// The shard that was asked for.
+pub fn shard(args: &ShardArgs) -> Result<Shard, Failure> {
+    let shard = args.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse);
+    shard.map_err(|message| Failure::usage(message, "see --help"))
+}
+
+/// What is submitted: the command as it was typed, with a shard. Its files go below `folder`.
+pub fn job(args: &ShardArgs, threads: u64, folder: &Path, context: &Context) -> Result<schedule::Job, Failure> {
+    let program = std::env::current_exe()
+        .map_err(|cause| Failure::usage(format!("this program cannot be found: {cause}"), "run the shards by hand"))?;
+    let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_path_buf());
+    let (shards, threads) = (args.shards as usize, (threads as usize).max(1));
+    Ok(schedule::Job { program, words: without(&context.typed), folder, shards, threads })
+}
+
+/// Typed words without those that a shard gets otherwise.
+fn without(typed: &[String]) -> Vec<String> {
+    let mut words = Vec::new();
+    let mut rest = typed.iter();
+    while let Some(word) = rest.next() {
+        match word.as_str() {
+            "--engine" | "--shards" | "--threads" => _ = rest.next(),
+            "--script" | "--json" | "--quiet" | "-q" => {}
+            other if ["--engine=", "--shards=", "--threads="].iter().any(|option| other.starts_with(option)) => {}
+            _ => words.push(word.clone()),
+        }
+    }
+    words
+}
+
+/// Runs a shard of the jobs, or has a scheduler run all of them. `None`: the command goes on with all runs, and makes those that are
+/// not there; else what it has to say.
+pub fn shared(
+    args: &ShardArgs,
+    jobs: &[Job],
+    settings: &Settings,
+    context: &mut Context,
+) -> Result<Option<Outcome>, Failure> {
+    if args.engine.is_none() && args.shard.is_none() {
+        return Ok(None);
+    }
+    let root = settings.folder.clone().unwrap_or_default();
+    let all: Vec<(&Job, PathBuf)> = problems(jobs, &root)?;
+    let left = || all.iter().filter(|(_, folder)| !is_finished(folder)).count();
+    if let Some(cluster) = cluster(args) {
+        let job = job(args, settings.threads as u64, &root, context)?;
+        if args.script {
+            return Ok(Some(Outcome { text: job.script(cluster), ..Outcome::default() }));
+        }
+        context.fem(|progress| {
+            let told = &mut |left: usize| progress("runs by the scheduler", Some(1.0 - left as f64 / all.len() as f64));
+            job.run(cluster, &left, told)
+        })?;
+        return Ok(None);
+    }
+    let shard = shard(args)?;
+    let own: Vec<Job> =
+        shard.own(&all).filter(|(_, folder)| !is_finished(folder)).map(|(job, _)| (*job).clone()).collect();
+    let made = context.fem(|progress| simulate_all(&own, settings, progress))?;
+    let stopped: Vec<String> = made.runs.iter().filter_map(|run| run.as_ref().err()).map(FemError::to_string).collect();
+    let Shard { which, of } = shard;
+    let missing = left();
+    if missing == 0 {
+        return Ok(None);
+    }
+    let text = format!(
+        "{} runs of shard {which}/{of} were made; {missing} of all {} are not there. The command without --shard makes them and goes on\n",
+        made.runs.len() - stopped.len(),
+        all.len()
+    );
+    let told = json!({"schema": "ibr.shard", "version": 1, "made": made.runs.len() - stopped.len(), "missing": missing, "runs": all.len()});
+    Ok(Some(Outcome { notes: stopped, ..Outcome::new(text, told) }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shard_is_told_what_was_typed_but_for_what_it_gets_otherwise() {
+        let typed = "breakdown epam --pressure 5kPa --engine slurm --threads=4 --shards 3 --quiet --out a";
+        let typed: Vec<String> = typed.split(' ').map(String::from).collect();
+        assert_eq!(without(&typed).join(" "), "breakdown epam --pressure 5kPa --out a");
+    }
+}
