@@ -158,3 +158,52 @@ fn a_breakdown_is_drawn_from_runs_that_are_kept() {
     assert_eq!(std::fs::read(folder.path("map/breakdown.csv")).unwrap(), first);
     assert_eq!(std::fs::read_dir(folder.path("runs")).unwrap().count(), 2);
 }
+
+#[test]
+fn runs_of_shards_are_those_of_the_whole_and_the_last_shard_draws() {
+    let _alone = alone();
+    let (whole, parts) = (Folder::new(), Folder::new());
+    let more = ["--pressure", "10kPa,15kPa", "--separate", "--seeds", "2", "--out", "batch"];
+    let expected = simulate(&whole, &more);
+    let shard = |shard: &str| simulate(&parts, &[&more[..], &["--shard", shard]].concat());
+    let first = shard("1/3");
+    assert_eq!((&first["schema"], &first["made"], &first["missing"]), (&"ibr.shard".into(), &2.into(), &2.into()));
+    assert_eq!((&shard("1/3")["made"], &shard("2/3")["missing"]), (&0.into(), &1.into()));
+    let numbers = |answer: &Value| {
+        let runs = answer["runs"].as_array().unwrap();
+        runs.iter().map(|run| (run["run"].clone(), run["heights"].clone())).collect::<Vec<_>>()
+    };
+    assert_eq!(numbers(&shard("3/3")), numbers(&expected));
+    let script = ["simulate", "epam", "--seeds", "4", "--engine", "slurm", "--shards", "2", "--script", "--out", "b"];
+    let told = parts.run(&script).stdout;
+    assert!(told.contains("#SBATCH --array=1-2\n") && told.contains("'--seeds' '4' '--out' 'b' --quiet"), "{told}");
+    for (args, code, words) in [
+        (&["simulate", "epam", "--seeds", "4", "--shard", "3/2"][..], 2, "write K/N"),
+        (&["simulate", "epam", "--shard", "1/2"], 2, "one run has no shards"),
+        (&["breakdown", "epam", "--shard", "0/2"], 2, "write K/N"),
+    ] {
+        let ran = parts.run(args);
+        assert!(ran.code == code && ran.stderr.contains(words), "{args:?}: {}", ran.stderr);
+    }
+}
+
+#[test]
+fn a_breakdown_in_shards_is_that_of_the_whole() {
+    let _alone = alone();
+    let folder = Folder::new();
+    let text = models::shipped("fpam").unwrap().to_string();
+    folder.write("quick.toml", text + "\n[fem]\nbody_ramp_s = 0.004\nactuator_ramp_s = 0.006\n");
+    let words = "breakdown quick.toml --mesh 14mm --pressure 10kPa,20kPa --body-pressure 3kPa";
+    let run = |more: &str| {
+        let args: Vec<&str> = words.split(' ').chain(more.split(' ')).collect();
+        let ran = folder.run(&args);
+        assert_eq!(ran.code, 0, "{}", ran.stderr);
+        ran.stdout
+    };
+    run("--out whole --runs runs");
+    assert!(run("--out map --runs shared --shard 1/2").contains("1 of all 2 are not there"));
+    assert!(!folder.path("map").exists());
+    run("--out map --runs shared --shard 2/2");
+    let csv = |name: &str| std::fs::read(folder.path(&format!("{name}/breakdown.csv"))).unwrap();
+    assert_eq!(csv("whole"), csv("map"));
+}

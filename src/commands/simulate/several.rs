@@ -53,7 +53,12 @@ fn records(table: &RunTable) -> Vec<Value> {
     table.rows.iter().map(record).collect()
 }
 
-pub fn uncertain(cube: &Cube, args: &SimulateArgs, settings: Settings, context: &mut Context) -> Result<Outcome, Failure> {
+pub fn uncertain(
+    cube: &Cube,
+    args: &SimulateArgs,
+    settings: Settings,
+    context: &mut Context,
+) -> Result<Outcome, Failure> {
     let settings = Settings { frames: false, ..settings };
     let jobs = jobs(&cube.base, &cube.robots)?;
     if let Some(told) = shared(&args.shards, &jobs, &settings, context)? {
