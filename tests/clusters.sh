@@ -121,7 +121,11 @@ values = [4]
 STUDY
 seconds() { local from=$EPOCHREALTIME; "$@"; echo "$EPOCHREALTIME $from" | awk '{print $1 - $2}' > took; }
 
+{ "$ibr" new fpam; printf '\n[fem]\nbody_ramp_s = 0.004\nactuator_ramp_s = 0.006\n'; } > quick.toml
+map=("$ibr" --quiet breakdown quick.toml --mesh 14mm --pressure 10kPa,20kPa --body-pressure 1kPa,3kPa)
+
 "$ibr" --quiet sweep study.toml --out plain > plain.txt
+"${map[@]}" --out plain-map --runs plain-runs > plain.txt
 for engine in ${2:-slurm hq}; do
   "has_$engine" || continue
   "start_$engine"
@@ -136,6 +140,10 @@ for engine in ${2:-slurm hq}; do
   "${queue[@]}" > queued.txt
   cmp plain/table.csv "$engine/table.csv"
   echo "$engine: $(wc -l < "$engine/table.csv") rows, the same to the bit, with a killed submitter and a lost worker"
+  "${map[@]}" --out "$engine-map" --runs "$engine-runs" --engine "$engine" --shards 2 > queued.txt
+  cmp plain-map/breakdown.csv "$engine-map/breakdown.csv"
+  [ -s "$engine-runs/job.sh" ]
+  echo "$engine: a breakdown map, the same to the bit"
   seconds "$ibr" --quiet sweep short.toml --out "loop-for-$engine" --threads "$(nproc)" > short.txt
   loop=$(cat took)
   seconds "$ibr" --quiet sweep short.toml --out "$engine-short" --engine "$engine" --shards "$(nproc)" --threads 1 > short.txt

@@ -35,7 +35,7 @@ const RARE: [&str; 22] = [
 ];
 
 /// What runs, in this order in one folder, and the schema of its answer.
-const COMMANDS: [(&str, &str); 46] = [
+const COMMANDS: [(&str, &str); 47] = [
     ("predict epam-textbook --pressure 30kPa", "ibr.predict"),
     ("predict epam --pressure 300kPa", "ibr.predict"),
     ("predict epam-two-strips --pressure 20kPa/10kPa", "ibr.predict"),
@@ -47,6 +47,7 @@ const COMMANDS: [(&str, &str); 46] = [
     ("sweep study.toml --out swept", "ibr.sweep"),
     ("design wish.toml --no-check --out designed", "ibr.design"),
     ("simulate tube --end 1ms --out t", "ibr.simulate"),
+    ("simulate epam --mesh 14mm --end 0.1ms --seeds 2 --shard 1/2 --out shards", "ibr.shard"),
     ("compare epam-textbook synthetic-epam --calibrate", "ibr.compare"),
     ("compare breukels-2011-beams", "ibr.compare.bench"),
     ("compare epam --engines --stored", "ibr.engines"),
