@@ -67,8 +67,11 @@ fn collect(folder: &Path, found: &mut BTreeMap<PathBuf, Vec<u8>>) {
         if path.is_dir() {
             collect(&path, found);
         } else {
-            let bytes = std::fs::read(&path).expect("a file");
-            found.insert(path, bytes);
+            // A program that is still at work takes temporary files away.
+            match std::fs::read(&path) {
+                Err(cause) if cause.kind() == std::io::ErrorKind::NotFound => {}
+                bytes => _ = found.insert(path, bytes.expect("a file")),
+            }
         }
     }
 }

@@ -76,7 +76,7 @@ impl Robot {
     /// What it is: its text, what can be turned, its effects.
     ///
     /// # Errors
-    /// As [`Robot::files`].
+    /// A scenario that cannot be read.
     pub fn told(&self) -> Result<Value, CompareError> {
         let [given, file] = self.files()?;
         // Where a dial ends does not depend on where it stands.
@@ -98,7 +98,7 @@ impl Robot {
     /// Its shape, and that of its bare model.
     ///
     /// # Errors
-    /// As [`Robot::files`] and [`Predictor::state`].
+    /// A scenario that cannot be read, and those of [`Predictor::state`].
     pub fn predicted(&self, actuator_kpa: &[f64]) -> Result<Value, CompareError> {
         let [_, file] = self.files()?;
         let pa: Vec<f64> = actuator_kpa.iter().map(|p| 1e3 * p).collect();
