@@ -71,14 +71,14 @@ impl Lines {
         let radius_m = scenario.radius_m;
         let [cos, sin] = [scenario.actuator.cos_slant(radius_m), scenario.actuator.sin_slant(radius_m)];
         if scenario.strips().any(|strip| (strip.sin_slant(radius_m) - sin).abs() > 1e-9) {
-            return Err(refused("strips of different slant; give all of them the same turns, count and length_mm"));
+            return Err(refused("strips of different slant\ngive all of them the same turns, count and length_mm"));
         }
         let bands = bands(scenario, cos, settings);
         let x_m = along(scenario, cos, &bands, patterns, settings);
         if let Some(pair) = sliver(&bands, LEAST_STRIP * cos * settings.actuator_size_m) {
             let [a, b] = pair.map(|m| m * 1e3);
             return Err(refused(&format!(
-                "seams of two strips at {a:.2} and {b:.2} mm are too close for elements; move start_mm or length_mm of one"
+                "seams of two strips at {a:.2} and {b:.2} mm are too close for elements\nmove start_mm or length_mm of one"
             )));
         }
         let on_ring = |place: &f64| nearest(&x_m, *place);
@@ -322,7 +322,7 @@ fn around(
         let gap = to_next - (last - cos * strips[next.unwrap_or(0)].s_m[0]);
         if gap < LEAST_STRIP * settings.actuator_size_m {
             return Err(refused(&format!(
-                "{:.1} mm are left between the welds of two strips round the body; make them narrower, or move azimuth_deg",
+                "{:.1} mm are left between the welds of two strips round the body\nmake them narrower, or move azimuth_deg",
                 1e3 * gap
             )));
         }
