@@ -55,6 +55,10 @@ pub fn shared(
     if args.engine.is_none() && args.shard.is_none() {
         return Ok(None);
     }
+    if settings.force {
+        let help = "leave --force out, and give another --out or remove the runs to make them again";
+        return Err(Failure::usage("--force would make the runs of all shards again in every one", help));
+    }
     let root = settings.folder.clone().unwrap_or_default();
     let all: Vec<(&Job, PathBuf)> = problems(jobs, &root)?;
     let left = || all.iter().filter(|(_, folder)| !is_finished(folder)).count();

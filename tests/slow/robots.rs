@@ -180,6 +180,7 @@ fn runs_of_shards_are_those_of_the_whole_and_the_last_shard_draws() {
     for (args, code, words) in [
         (&["simulate", "epam", "--seeds", "4", "--shard", "3/2"][..], 2, "write K/N"),
         (&["simulate", "epam", "--shard", "1/2"], 2, "one run has no shards"),
+        (&["simulate", "epam", "--seeds", "4", "--engine", "hq", "--force"], 2, "leave --force out"),
         (&["breakdown", "epam", "--shard", "0/2"], 2, "write K/N"),
     ] {
         let ran = parts.run(args);
