@@ -139,7 +139,7 @@ pub struct BenchArgs {
     /// model, fem or discovery: how often a diagnosis is right on data with hidden effects
     #[arg(value_parser = ["model", "fem", "discovery"], default_value = "model")]
     pub what: String,
-    /// With discovery: sets without and with one hidden effect; the default takes a minute, 200 are the full bench
+    /// With discovery: sets without and with one hidden effect; the default takes seconds, 200 are the full bench
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=100_000))]
     pub sets: u64,
     /// With discovery: seed of everything
@@ -148,6 +148,15 @@ pub struct BenchArgs {
     /// With discovery: the library of laws by which the hidden effects act; the second was written without the diagnosis in view
     #[arg(long, value_name = "WHICH", value_parser = ["first", "second"], default_value = "first")]
     pub laws: String,
+    /// With discovery: folder where every answer is kept, so that an interrupted bench goes on and shards share it
+    #[arg(long, value_name = "FOLDER")]
+    pub out: Option<PathBuf>,
+    /// With discovery: machines beside each other
+    #[command(flatten)]
+    pub shards: ShardArgs,
+    /// With discovery: threads, with --engine those of each shard; 0: one per core
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
+    pub threads: u64,
     /// With fem: also whole runs, pillows of the nodes of up to 80 000 triangles and the four robots, about two minutes
     #[arg(long)]
     pub all: bool,

@@ -126,6 +126,9 @@ map=("$ibr" --quiet breakdown quick.toml --mesh 14mm --pressure 10kPa,20kPa --bo
 
 "$ibr" --quiet sweep study.toml --out plain > plain.txt
 "${map[@]}" --out plain-map --runs plain-runs > plain.txt
+# The table of the bench, without the row of the time that a diagnosis takes. It ends with 1 where a row is not met.
+bench() { { "$ibr" --quiet bench discovery --sets 4 "$@" || [ $? = 1 ]; } | grep -v '^| full diagnosis'; }
+bench > plain-bench.txt
 for engine in ${2:-slurm hq}; do
   "has_$engine" || continue
   "start_$engine"
@@ -144,6 +147,10 @@ for engine in ${2:-slurm hq}; do
   cmp plain-map/breakdown.csv "$engine-map/breakdown.csv"
   [ -s "$engine-runs/job.sh" ]
   echo "$engine: a breakdown map, the same to the bit"
+  bench --out "$engine-bench" --engine "$engine" --shards 2 > "$engine-bench.txt"
+  cmp plain-bench.txt "$engine-bench.txt"
+  [ -s "$engine-bench/job.sh" ]
+  echo "$engine: the bench of the diagnosis, the same table"
   seconds "$ibr" --quiet sweep short.toml --out "loop-for-$engine" --threads "$(nproc)" > short.txt
   loop=$(cat took)
   seconds "$ibr" --quiet sweep short.toml --out "$engine-short" --engine "$engine" --shards "$(nproc)" --threads 1 > short.txt

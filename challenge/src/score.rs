@@ -3,13 +3,13 @@
 use super::effects::by_name;
 use super::truth::Truth;
 use compare::diagnosis::{Diagnosis, Verdict};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The verdict that says that there is something, and that it does not matter what.
 const TOO_SMALL: &str = "too_small";
 
 /// What a diagnosis says, as far as it is scored.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Claim {
     /// `none`, `too_small`, `effect` or `out_of_catalog`; `None` if it gives no verdict.
     pub verdict: Option<String>,
@@ -22,7 +22,7 @@ pub struct Claim {
 }
 
 /// How good an answer is.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ClaimScore {
     /// It says that something is missing.
     pub alarm: bool,

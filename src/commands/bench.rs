@@ -1,20 +1,79 @@
 //! `ibr bench`: speed of the model, of the finite elements, and how often a diagnosis is right, beside what is wanted.
 
+use super::shards::{Work, in_shards};
 use super::verify::show;
 use super::{Context, Outcome};
 use crate::cli::BenchArgs;
 use crate::failure::Failure;
-use crate::output::machine;
+use crate::output::{check_folder, machine, sha256};
 use challenge::Laws;
+use challenge::bench::DiscoveryOptions;
+use fem::session::Shard;
+use std::ops::ControlFlow;
+use std::path::Path;
 use verification::speed::{discovery, engine, model};
 
 pub fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure> {
+    if args.what == "discovery" {
+        return discovery(args, context);
+    }
+    if args.out.is_some() || args.shards.shard.is_some() || args.shards.engine.is_some() {
+        return Err(Failure::usage(
+            format!("the bench of {} keeps nothing", args.what),
+            "leave --out, --shard and --engine out, or write ibr bench discovery",
+        ));
+    }
     let progress = &mut |what: &str, share| (context.progress)(what, share);
-    let laws = if args.laws == "second" { Laws::Second } else { Laws::First };
     let answer = match args.what.as_str() {
         "fem" => engine::measure(args.all, &machine(), progress),
-        "discovery" => discovery::measure(args.sets as usize, args.seed, laws, &machine()),
         _ => model::measure(&machine(), progress),
     };
     Ok(show(answer?))
+}
+
+fn discovery(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure> {
+    let laws = if args.laws == "second" { Laws::Second } else { Laws::First };
+    let options = DiscoveryOptions { seed: args.seed, sets: args.sets as usize, laws };
+    let threads = args.threads as usize;
+    let Some(folder) = &args.out else {
+        if args.shards.shard.is_some() || args.shards.engine.is_some() {
+            return Err(Failure::usage("shards need a folder that all of them see", "add --out FOLDER"));
+        }
+        let bench = discovery::Work::plan(options, None)?;
+        let progress = &mut |what: &str, share: Option<f64>| {
+            (context.progress)(what, share);
+            ControlFlow::Continue(())
+        };
+        let answers = bench.answers(Shard::WHOLE, threads, progress)?;
+        return Ok(show(bench.findings(answers, &machine())?));
+    };
+    check_folder(folder)?;
+    let bench = discovery::Work::plan(options, Some((folder, &this_program()?)))?;
+    let work = Work {
+        folder,
+        threads: args.threads,
+        parts: "sets",
+        all: bench.pieces(),
+        missing: &|| bench.missing(Shard::WHOLE),
+        may_fail: false,
+    };
+    let told = in_shards(&args.shards, &work, context, |shard, context| {
+        let made = bench.missing(shard);
+        context.fem(|progress| bench.answers(shard, threads, progress))?;
+        Ok((made, Vec::new()))
+    })?;
+    if let Some(told) = told {
+        return Ok(told);
+    }
+    let answers = context.fem(|progress| bench.answers(Shard::WHOLE, threads, progress))?;
+    Ok(show(bench.findings(answers, &machine())?))
+}
+
+/// Fingerprint of this program: whoever changes a diagnosis must not be shown the answers of the one before.
+fn this_program() -> Result<String, Failure> {
+    let unread = |cause: std::io::Error| {
+        Failure::usage(format!("this program cannot be read: {cause}"), "leave --out out, or copy the program")
+    };
+    let path = std::env::current_exe().map_err(unread)?;
+    Ok(sha256(&std::fs::read::<&Path>(&path).map_err(unread)?))
 }

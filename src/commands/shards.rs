@@ -1,4 +1,4 @@
-//! Finite element runs shared between machines that see one folder: `--shard K/N`, or a scheduler that runs all shards.
+//! Work shared between machines that see one folder: `--shard K/N`, or a scheduler that runs all shards.
 
 use super::{Context, Outcome};
 use crate::cli::ShardArgs;
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use sweep::schedule::{self, Cluster};
 
 /// The scheduler that was asked for.
-pub fn cluster(args: &ShardArgs) -> Option<Cluster> {
+fn cluster(args: &ShardArgs) -> Option<Cluster> {
     args.engine.as_deref().map(|name| if name == "hq" { Cluster::HyperQueue } else { Cluster::Slurm })
 }
 
@@ -21,7 +21,7 @@ pub fn shard(args: &ShardArgs) -> Result<Shard, Failure> {
 }
 
 /// What is submitted: the command as it was typed, with a shard. Its files go below `folder`.
-pub fn job(args: &ShardArgs, threads: u64, folder: &Path, context: &Context) -> Result<schedule::Job, Failure> {
+fn job(args: &ShardArgs, threads: u64, folder: &Path, context: &Context) -> Result<schedule::Job, Failure> {
     let program = std::env::current_exe()
         .map_err(|cause| Failure::usage(format!("this program cannot be found: {cause}"), "run the shards by hand"))?;
     let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_path_buf());
@@ -44,8 +44,63 @@ fn without(typed: &[String]) -> Vec<String> {
     words
 }
 
-/// Runs a shard of the jobs, or has a scheduler run all of them. `None`: the command goes on with all runs, and makes those that are
-/// not there; else what it has to say.
+/// Work that is done in shards.
+pub struct Work<'w> {
+    /// Folder of the job and its logs, seen by all machines.
+    pub folder: &'w Path,
+    /// Threads of each shard.
+    pub threads: u64,
+    /// What it consists of, for example runs.
+    pub parts: &'w str,
+    /// How many of them there are.
+    pub all: usize,
+    /// How many are not there yet.
+    pub missing: &'w dyn Fn() -> usize,
+    /// One that fails is never there, so that a job may end with some missing.
+    pub may_fail: bool,
+}
+
+/// Has a scheduler run all shards, if one was asked for. `None`: the command goes on; else what it has to say.
+pub fn by_scheduler(args: &ShardArgs, work: &Work, context: &mut Context) -> Result<Option<Outcome>, Failure> {
+    let Some(cluster) = cluster(args) else { return Ok(None) };
+    let job = job(args, work.threads, work.folder, context)?;
+    if args.script {
+        return Ok(Some(Outcome { text: job.script(cluster), ..Outcome::default() }));
+    }
+    let (all, what) = (work.all.max(1) as f64, format!("{} by the scheduler", work.parts));
+    let left = context.fem(|progress| {
+        job.run(cluster, work.missing, &mut |left: usize| progress(&what, Some(1.0 - left as f64 / all)))
+    })?;
+    if left > 0 && !work.may_fail { Err(job.useless().into()) } else { Ok(None) }
+}
+
+/// Makes one shard, or has a scheduler run all of them. `None`: the command goes on with all of the work, and makes what is not there;
+/// else what it has to say. `make` says how many parts it made, and why others stopped.
+pub fn in_shards(
+    args: &ShardArgs,
+    work: &Work,
+    context: &mut Context,
+    make: impl FnOnce(Shard, &mut Context) -> Result<(usize, Vec<String>), Failure>,
+) -> Result<Option<Outcome>, Failure> {
+    if args.shard.is_none() {
+        return by_scheduler(args, work, context);
+    }
+    let shard = shard(args)?;
+    let (made, stopped) = make(shard, context)?;
+    let (Shard { which, of }, Work { parts, all, .. }) = (shard, work);
+    let missing = (work.missing)();
+    if missing == 0 {
+        return Ok(None);
+    }
+    let text = format!(
+        "{made} {parts} of shard {which}/{of} were made; {missing} of all {all} are not there. \
+         The command without --shard makes them and goes on\n"
+    );
+    let told = json!({"schema": "ibr.shard", "version": 1, "made": made, "missing": missing, "runs": all});
+    Ok(Some(Outcome { notes: stopped, ..Outcome::new(text, told) }))
+}
+
+/// The same for finite element runs.
 pub fn shared(
     args: &ShardArgs,
     jobs: &[Job],
@@ -61,35 +116,22 @@ pub fn shared(
     }
     let root = settings.folder.clone().unwrap_or_default();
     let all: Vec<(&Job, PathBuf)> = problems(jobs, &root)?;
-    let left = || all.iter().filter(|(_, folder)| !is_finished(folder)).count();
-    if let Some(cluster) = cluster(args) {
-        let job = job(args, settings.threads as u64, &root, context)?;
-        if args.script {
-            return Ok(Some(Outcome { text: job.script(cluster), ..Outcome::default() }));
-        }
-        context.fem(|progress| {
-            let told = &mut |left: usize| progress("runs by the scheduler", Some(1.0 - left as f64 / all.len() as f64));
-            job.run(cluster, &left, told)
-        })?;
-        return Ok(None);
-    }
-    let shard = shard(args)?;
-    let own: Vec<Job> =
-        shard.own(&all).filter(|(_, folder)| !is_finished(folder)).map(|(job, _)| (*job).clone()).collect();
-    let made = context.fem(|progress| simulate_all(&own, settings, progress))?;
-    let stopped: Vec<String> = made.runs.iter().filter_map(|run| run.as_ref().err()).map(FemError::to_string).collect();
-    let Shard { which, of } = shard;
-    let missing = left();
-    if missing == 0 {
-        return Ok(None);
-    }
-    let text = format!(
-        "{} runs of shard {which}/{of} were made; {missing} of all {} are not there. The command without --shard makes them and goes on\n",
-        made.runs.len() - stopped.len(),
-        all.len()
-    );
-    let told = json!({"schema": "ibr.shard", "version": 1, "made": made.runs.len() - stopped.len(), "missing": missing, "runs": all.len()});
-    Ok(Some(Outcome { notes: stopped, ..Outcome::new(text, told) }))
+    let work = Work {
+        folder: &root,
+        threads: settings.threads as u64,
+        parts: "runs",
+        all: all.len(),
+        missing: &|| all.iter().filter(|(_, folder)| !is_finished(folder)).count(),
+        may_fail: true,
+    };
+    in_shards(args, &work, context, |shard, context| {
+        let own: Vec<Job> =
+            shard.own(&all).filter(|(_, folder)| !is_finished(folder)).map(|(job, _)| (*job).clone()).collect();
+        let made = context.fem(|progress| simulate_all(&own, settings, progress))?;
+        let stopped: Vec<String> =
+            made.runs.iter().filter_map(|run| run.as_ref().err()).map(FemError::to_string).collect();
+        Ok((made.runs.len() - stopped.len(), stopped))
+    })
 }
 
 #[cfg(test)]

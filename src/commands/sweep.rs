@@ -1,6 +1,6 @@
 //! `ibr sweep`
 
-use super::shards::{cluster, job, shard};
+use super::shards::{Work, by_scheduler, shard};
 use super::{Context, Outcome};
 use crate::cli::SweepArgs;
 use crate::failure::Failure;
@@ -8,22 +8,19 @@ use crate::output::{Input, check_folder, maker, sha256, write_files};
 use crate::shown::swept::{swept_json, swept_text};
 use data::Table;
 use ibr::pages::{sweep_picture_names, sweep_pictures};
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use sweep::schedule::{Cluster, Job};
-use sweep::{Found, Settings, Study, collect, run as compute};
+use sweep::{Found, Settings, Study, collect, parts_missing, run as compute};
 
 pub fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Failure> {
     let study = Study::read(&args.study, ibr::studies::scenario)?;
     let stem = args.study.file_stem().unwrap_or_default().to_string_lossy();
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("ibr-report/sweep-{stem}")));
     check_folder(&folder)?;
-    if let Some(cluster) = cluster(&args.shards) {
-        let job = job(&args.shards, args.threads, &folder, context)?;
-        if args.shards.script {
-            return Ok(Outcome { text: job.script(cluster), ..Outcome::default() });
-        }
-        submit(&job, cluster, &study, &folder, context)?;
+    let missing = || parts_missing(&study, &folder);
+    let (all, may_fail) = (missing(), false);
+    let work = Work { folder: &folder, threads: args.threads, parts: "parts", all, missing: &missing, may_fail };
+    if let Some(script) = by_scheduler(&args.shards, &work, context)? {
+        return Ok(script);
     }
     let shard = shard(&args.shards)?;
     let runs = fem::session::Settings {
@@ -77,20 +74,4 @@ fn whole(
     write_files(folder, &files, &[own, robot], context)?;
     outcome.notes.push(format!("table: {}", folder.join(name).display()));
     Ok(outcome)
-}
-
-/// Submits and watches until all parts are there; Ctrl-C leaves the job alone.
-fn submit(job: &Job, cluster: Cluster, study: &Study, folder: &Path, context: &mut Context) -> Result<(), Failure> {
-    let all = sweep::parts_missing(study, folder).max(1);
-    context.fem(|progress| {
-        let missing = || sweep::parts_missing(study, folder);
-        let told = &mut |left: usize| -> ControlFlow<()> {
-            progress("parts by the scheduler", Some(1.0 - left as f64 / all as f64))
-        };
-        match job.run(cluster, &missing, told)? {
-            0 => Ok(()),
-            _ => Err(job.useless()),
-        }
-    })?;
-    Ok(())
 }

@@ -38,6 +38,7 @@ impl From<Error> for Failure {
             Error::Fem(error) => error.into(),
             Error::Unsolved(error) => error.into(),
             Error::Compare(error) => error.into(),
+            Error::Kept(error) => error.into(),
             Error::NoCheck { name, known } => {
                 Failure::usage(format!("there is no check `{name}`"), format!("write one of {known}"))
             }

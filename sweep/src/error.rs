@@ -2,7 +2,7 @@
 
 use compare::CompareError;
 use fem::FemError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why a sweep ended.
 #[derive(Debug, thiserror::Error)]
@@ -29,4 +29,11 @@ pub enum SweepError {
         /// What to do.
         help: String,
     },
+}
+
+impl SweepError {
+    /// A file that cannot be written.
+    pub(crate) fn unwritable(path: &Path, cause: &std::io::Error) -> SweepError {
+        SweepError::Write { path: path.to_path_buf(), cause: cause.to_string() }
+    }
 }

@@ -14,6 +14,7 @@ mod error;
 mod form;
 pub mod influence;
 mod part;
+pub mod pieces;
 pub mod policy;
 mod reduced;
 mod run;

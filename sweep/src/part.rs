@@ -1,18 +1,14 @@
 //! Some cases that are computed together, and their file.
 
-use crate::SweepError;
 use crate::study::{Engine, Output, Study};
+use crate::{SweepError, pieces};
 use fem::session::sha256;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Goes up when a number of the reduced model, or the file, changes its meaning.
 const FORMAT: u32 = 1;
-
-/// Files that this process has begun.
-static UNDER_WAY: AtomicUsize = AtomicUsize::new(0);
 
 /// Cases of one engine that are computed together.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -96,14 +92,7 @@ impl Rows {
         let mut bytes = serde_json::to_vec(&head).unwrap_or_default();
         bytes.push(b'\n');
         bytes.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
-        // A name of its own: two workers may make the same part, and either file is right.
-        let number = UNDER_WAY.fetch_add(1, Ordering::Relaxed);
-        let partial = path.with_extension(format!("{}-{number}.partial", std::process::id()));
-        let written = std::fs::write(&partial, bytes).and_then(|()| std::fs::rename(&partial, path));
-        written.map_err(|cause| {
-            let _ = std::fs::remove_file(&partial);
-            unwritable(path, &cause)
-        })
+        pieces::keep(path, &bytes)
     }
 
     /// Reads them; `None` where there is no whole file of so many numbers.
@@ -116,9 +105,4 @@ impl Rows {
         let numbers = values.iter().map(|b| f64::from_le_bytes(*b)).collect();
         whole.then_some(Rows { numbers, failed: head.failed, cpu_s: head.cpu_s })
     }
-}
-
-/// A folder of a sweep that cannot be written to.
-pub fn unwritable(path: &Path, cause: &std::io::Error) -> SweepError {
-    SweepError::Write { path: path.to_path_buf(), cause: cause.to_string() }
 }

@@ -1,16 +1,13 @@
 //! A sweep, or a shard of it: what is missing is computed.
 
-use crate::part::{Part, Rows, unwritable};
+use crate::part::{Part, Rows};
+use crate::pieces::{self, beside};
 use crate::policy::PART;
 use crate::study::{Engine, Study};
 use crate::table::columns;
 use crate::{SweepError, elements, reduced};
-use fem::FemError;
 use fem::session::{Progress, Shard};
-use rayon::prelude::*;
-use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::sync::Mutex;
 
 /// How a sweep is made.
 #[derive(Debug, Clone)]
@@ -62,8 +59,7 @@ pub fn parts_missing(study: &Study, folder: &std::path::Path) -> usize {
 /// A folder that cannot be written to; [`FemError::Interrupted`] if `progress` asked to end: what is complete stays.
 pub fn run(study: &Study, settings: &Settings, progress: Progress) -> Result<Found, SweepError> {
     let width = columns(study).len();
-    let folder = settings.folder.join("parts");
-    std::fs::create_dir_all(&folder).map_err(|cause| unwritable(&folder, &cause))?;
+    pieces::folder(&settings.folder.join("parts"))?;
     let all = parts(study);
     let own: Vec<&Part> = settings.shard.own(&all).collect();
     let there = |part: &Part| Rows::read(&part.path(study, &settings.folder), part.cases.len() * width);
@@ -86,27 +82,10 @@ pub fn run(study: &Study, settings: &Settings, progress: Progress) -> Result<Fou
 
 /// Parts beside each other on threads; each is written as soon as it is complete.
 fn by_model(study: &Study, settings: &Settings, parts: &[Part], progress: Progress) -> Result<f64, SweepError> {
-    let told = Mutex::new((0_usize, progress));
-    let one = |part: &Part| -> Result<f64, SweepError> {
-        let rows = reduced::compute(study, part);
-        rows.write(&part.path(study, &settings.folder))?;
-        let mut told = told.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        told.0 += 1;
-        let done = told.0;
-        let share = done as f64 / parts.len() as f64;
-        match (told.1)("cases of the reduced model", Some(share)) {
-            ControlFlow::Break(()) if done < parts.len() => {
-                let (time_s, step, of) = (0.0, 0, parts.len());
-                Err(FemError::Interrupted { time_s, step, done, of }.into())
-            }
-            _ => Ok(rows.cpu_s),
-        }
+    let one = |part: usize| -> Result<f64, SweepError> {
+        let rows = reduced::compute(study, &parts[part]);
+        rows.write(&parts[part].path(study, &settings.folder))?;
+        Ok(rows.cpu_s)
     };
-    let all = || parts.par_iter().map(one).collect::<Result<Vec<f64>, SweepError>>();
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build();
-    let made = match pool {
-        Ok(pool) => pool.install(all),
-        Err(_) => all(),
-    };
-    Ok(made?.iter().sum())
+    Ok(beside(parts.len(), settings.threads, "cases of the reduced model", progress, &one)?.iter().sum())
 }

@@ -25,6 +25,35 @@ fn the_bench_gives_the_same_numbers_for_any_number_of_threads_and_no_set_fails()
     assert!(rows.iter().all(|row| row["figure"].is_string() && row["target"].is_object()), "{rows:?}");
 }
 
+/// Shards in any order, one with a file of half an answer, and a bench of fewer sets before: the table is that of one call.
+#[test]
+fn a_bench_in_shards_has_the_numbers_of_one_call() {
+    let folder = Folder::new();
+    let bench = |sets: &str, more: &[&str]| {
+        let ran = folder.ibr(&[&["bench", "discovery", "--sets", sets, "--json"], more].concat()).output();
+        let ran = ran.expect("ibr starts");
+        assert!(matches!(ran.status.code(), Some(0 | 1)), "{}", String::from_utf8_lossy(&ran.stderr));
+        let mut answer: Value = serde_json::from_slice(&ran.stdout).expect("JSON");
+        answer["time"] = Value::Null;
+        answer
+    };
+    let whole = bench("4", &[]);
+    assert_eq!(whole["seen"].as_array().map(Vec::len), Some(32));
+    let told = bench("4", &["--out", "b", "--shard", "2/3"]);
+    assert_eq!((&told["schema"], &told["made"], &told["missing"]), (&"ibr.shard".into(), &11.into(), &21.into()));
+    bench("4", &["--out", "b", "--shard", "1/3"]);
+    let answers = || std::fs::read_dir(folder.path("b/answers")).expect("a folder").map(|e| e.expect("a file").path());
+    assert_eq!(answers().count(), 22);
+    let torn = answers().next().expect("a file");
+    let half = std::fs::read(&torn).expect("a file");
+    std::fs::write(&torn, &half[..half.len() / 2]).expect("a file");
+    assert_eq!(bench("4", &["--out", "b", "--shard", "3/3"]), whole, "the last shard has the table");
+    assert_eq!(bench("4", &["--out", "b", "--threads", "1"]), whole);
+    assert_eq!((answers().count(), std::fs::read(&torn).expect("a file")), (32, half), "what is damaged is made again");
+    bench("2", &["--out", "b"]);
+    assert_eq!(answers().count(), 32, "the sets of a smaller bench are among those of a larger one");
+}
+
 #[test]
 fn the_second_laws_make_other_data_of_the_same_robots() {
     let folder = Folder::new();

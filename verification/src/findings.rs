@@ -52,6 +52,9 @@ pub enum Error {
     /// Data or a diagnosis.
     #[error(transparent)]
     Compare(#[from] compare::CompareError),
+    /// A folder for answers that cannot be written to, or an interrupt.
+    #[error(transparent)]
+    Kept(#[from] sweep::SweepError),
     /// A check that does not exist.
     #[error("there is no check `{name}`; write one of {known}")]
     NoCheck {

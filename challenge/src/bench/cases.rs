@@ -12,7 +12,7 @@ use compare::diagnosis::{Confidence, Diagnosis, Distances, Experiment, Options};
 use compare::error::CompareError;
 use compare::study::generate;
 use data::{About, Direct, Provenance};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What became of a set.
 #[derive(Debug, Clone)]
@@ -23,12 +23,10 @@ pub struct SetOutcome {
     pub truth: Truth,
     /// What was found; `None` if it failed.
     pub named: Option<Named>,
-    /// Why it failed.
-    pub failed: Option<String>,
 }
 
 /// What was found.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Named {
     /// The answer.
     pub answer: Claim,
@@ -68,7 +66,7 @@ pub struct Named {
 }
 
 /// What the recommended experiment brought.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct After {
     /// The experiment.
     pub experiment: String,
@@ -119,8 +117,8 @@ pub(super) fn draw(part: Lot, seed: u64, stream: u64, index: usize) -> Result<Tr
     Ok(truth)
 }
 
-/// Makes and diagnoses a set.
-pub(super) fn outcome(case: &PlannedSet, diagnose: Diagnoser) -> SetOutcome {
+/// Makes and diagnoses a set; `Err` says why it failed.
+pub(super) fn named(case: &PlannedSet, diagnose: Diagnoser) -> Result<Named, String> {
     let found = match case.part {
         Lot::Hidden(kind) => hidden(&case.truth, kind, diagnose),
         Lot::Measured(_) => measured(&case.truth, diagnose),
@@ -128,11 +126,7 @@ pub(super) fn outcome(case: &PlannedSet, diagnose: Diagnoser) -> SetOutcome {
         Lot::HeavyTails => hidden(&case.truth, Hiding::Nothing, diagnose),
         Lot::LostMarkers(_) | Lot::Clamp | Lot::Softening => alone(&case.truth, diagnose),
     };
-    let (named, failed) = match found {
-        Ok(named) => (Some(named), None),
-        Err(error) => (None, Some(format!("{} {:?}: {error}", case.truth.actuator, names(&case.truth)))),
-    };
-    SetOutcome { part: case.part, truth: case.truth.clone(), named, failed }
+    found.map_err(|error| format!("{} {:?}: {error}", case.truth.actuator, names(&case.truth)))
 }
 
 pub(super) fn names(truth: &Truth) -> Vec<&str> {
@@ -145,7 +139,7 @@ fn hidden(truth: &Truth, kind: Hiding, diagnose: Diagnoser) -> Result<Named, Com
     let options = Options { next_experiment, missing_moment: false, ..Options::default() };
     let about = about(truth)?;
     let found = diagnose(&truth.told()?, &[Evidence::of(data.clone(), Some(about))], &options, &mut |_, _| ())?;
-    let mut named = named(truth, &found);
+    let mut named = scored(truth, &found);
     if matches!(kind, Hiding::One | Hiding::Outside) {
         named.distances = Some(distances_of(truth, &data, kind == Hiding::Outside)?);
     }
@@ -173,7 +167,7 @@ fn alone(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let data = truth.dataset("hidden", &standard_protocol())?;
     let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     let about = about(truth)?;
-    Ok(named(truth, &diagnose(&truth.told()?, &[Evidence::of(data.clone(), Some(about))], &options, &mut |_, _| ())?))
+    Ok(scored(truth, &diagnose(&truth.told()?, &[Evidence::of(data.clone(), Some(about))], &options, &mut |_, _| ())?))
 }
 
 /// A set with the robot's bending stiffness measured by itself.
@@ -182,7 +176,7 @@ fn measured(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let about = tested(truth)?;
     let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     let found = diagnose(&truth.told()?, &[Evidence::of(data.clone(), Some(about))], &options, &mut |_, _| ())?;
-    Ok(named(truth, &found))
+    Ok(scored(truth, &found))
 }
 
 /// What comes out after an experiment.
@@ -219,7 +213,7 @@ fn interval(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
     let data = generate(&robot, "own law", &truth.measurement(&standard_protocol()).generator)?;
     let options = Options { next_experiment: false, missing_moment: false, ..Options::default() };
     let found = diagnose(&told, &[Evidence::of(data, Some(about(truth)?))], &options, &mut |_, _| ())?;
-    let mut named = named(truth, &found);
+    let mut named = scored(truth, &found);
     let only = found.added.len() == 1 && found.added[0].effect == *name;
     if let Some(first) = found.added.first().and_then(|added| added.parameters.first()).filter(|_| only) {
         let wanted = values[0] / effect.parameters[0].si;
@@ -228,7 +222,7 @@ fn interval(truth: &Truth, diagnose: Diagnoser) -> Result<Named, CompareError> {
     Ok(named)
 }
 
-fn named(truth: &Truth, found: &Diagnosis) -> Named {
+fn scored(truth: &Truth, found: &Diagnosis) -> Named {
     let answer = Claim::of(found);
     let first = found.ranked.iter().find(|row| answer.added.first() == Some(&row.effect));
     let is_true = |name: &String| truth.effects.first().is_some_and(|choice| choice.name == *name);

@@ -17,7 +17,7 @@ use compare::study::seen::seen;
 use compare::study::{Generator, predict_dataset};
 use models::Scenario;
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Robots with finite element runs.
 pub(super) const MADE: [&str; 4] = ["spam", "cpam", "epam", "fpam"];
@@ -29,10 +29,10 @@ const RUNS: usize = 5;
 const SEED: u64 = 22;
 
 /// What became of one mechanism that was switched off.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct OneOff {
     /// Robot.
-    pub robot: &'static str,
+    pub robot: String,
     /// Mechanism that the model lacks.
     pub lacking: String,
     /// Body pressures of the data.
@@ -63,7 +63,7 @@ pub struct OneOff {
 
 /// One question: a robot without a mechanism, and the data.
 struct Question<'e> {
-    robot: &'static str,
+    robot: &'e str,
     whole: &'e Scenario,
     lacking: &'e str,
     evidence: &'e [Evidence],
@@ -72,19 +72,8 @@ struct Question<'e> {
     whole_mm: f64,
 }
 
-/// Diagnoses the finite element sets; what fails is told in `failed`.
-pub(super) fn made(robots: &[&'static str], diagnose: Diagnoser, failed: &mut Vec<String>) -> Vec<OneOff> {
-    let mut all = Vec::new();
-    for robot in robots {
-        match of_robot(robot, diagnose) {
-            Ok(made) => all.extend(made),
-            Err(error) => failed.push(format!("fem-{robot}: {error}")),
-        }
-    }
-    all
-}
-
-fn of_robot(robot: &'static str, diagnose: Diagnoser) -> Result<Vec<OneOff>, CompareError> {
+/// Diagnoses the finite element sets of a robot.
+pub(super) fn made(robot: &str, diagnose: Diagnoser) -> Result<Vec<OneOff>, CompareError> {
     let whole = shipped_scenario(robot)?;
     let mut evidence = vec![Evidence::read(&format!("fem-{robot}"))?];
     evidence.extend(second(&whole)?);
@@ -143,7 +132,7 @@ impl Question<'_> {
         let in_set = holds(&found.indistinguishable);
         let by_design = found.by_design.iter().any(|entry| entry.effects == [self.lacking]);
         OneOff {
-            robot: self.robot,
+            robot: self.robot.into(),
             lacking: self.lacking.into(),
             bodies: self.evidence.len(),
             kept: self.kept,

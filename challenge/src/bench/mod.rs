@@ -29,8 +29,7 @@ use compare::diagnosis::{Diagnosis, Distances, Options};
 use compare::error::CompareError;
 use compare::{Evidence, Progress};
 use models::Scenario;
-use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What diagnoses; the bench is given it.
 pub type Diagnoser = fn(&Scenario, &[Evidence], &Options, &mut Progress) -> Result<Diagnosis, CompareError>;
@@ -129,46 +128,99 @@ pub struct Discovery {
 /// Sets of every kind from which on finite elements and slips are asked too: they take minutes.
 const WHOLE: usize = 50;
 
-/// Runs the bench; `tell` is told the share done.
-///
-/// # Errors
-/// A shipped scenario is damaged.
-pub fn run(
-    options: &DiscoveryOptions,
-    diagnose: Diagnoser,
-    tell: &(dyn Fn(f64) + Sync),
-) -> Result<Discovery, CompareError> {
-    let plan = plan(options)?;
-    let done = std::sync::atomic::AtomicUsize::new(0);
-    let outcomes: Vec<SetOutcome> = plan
-        .par_iter()
-        .map(|case| {
-            let outcome = cases::outcome(case, diagnose);
-            let so_far = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
-            tell(so_far as f64 / plan.len() as f64);
-            outcome
-        })
-        .collect();
-    let mut failed: Vec<String> = outcomes.iter().filter_map(|outcome| outcome.failed.clone()).collect();
-    let (made, slipped) = match options.sets < WHOLE {
-        true => (Vec::new(), Vec::new()),
-        false => (made::made(&made::MADE, diagnose, &mut failed), slipped::slipped(options, diagnose, &mut failed)),
-    };
-    let silence: Vec<bool> = table::missed_in_silence(&outcomes);
-    Ok(Discovery {
-        seed: options.seed,
-        laws: options.laws,
-        rows: [table::rows(&outcomes), covered::rows(&outcomes), slipped::rows(&slipped), made::rows(&made)].concat(),
-        confusion: table::confusion(&outcomes),
-        breakdown: table::breakdown(&outcomes),
-        attainable: attainable::of(&outcomes),
-        missed_after: silence.len(),
-        missed_by_law: silence.iter().filter(|missed| **missed).count(),
-        slipped,
-        made,
-        seen: outcomes.iter().map(seen).collect(),
-        failed,
-    })
+/// A bench that is planned: pieces of work that do not depend on each other, and have one answer on any machine.
+#[derive(Debug, Clone)]
+pub struct Bench {
+    /// How large it is.
+    pub options: DiscoveryOptions,
+    pieces: Vec<Piece>,
+}
+
+/// What is asked.
+#[derive(Debug, Clone)]
+enum Piece {
+    /// A set of the plan.
+    Set(PlannedSet),
+    /// Finite element data of a robot.
+    Made(&'static str),
+    /// A set with a column of pressures written wrongly, of (seed, number).
+    Slipped(u64, usize),
+}
+
+/// What a piece gave, or why it failed.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub enum Answer {
+    /// Of a set.
+    Set(Result<Box<Named>, String>),
+    /// Of finite element data.
+    Made(Result<Vec<OneOff>, String>),
+    /// Of a column written wrongly.
+    Slipped(Result<Box<SlippedSet>, String>),
+}
+
+impl Bench {
+    /// Draws all sets.
+    ///
+    /// # Errors
+    /// A shipped scenario is damaged.
+    pub fn plan(options: DiscoveryOptions) -> Result<Bench, CompareError> {
+        let mut pieces: Vec<Piece> = plan(&options)?.into_iter().map(Piece::Set).collect();
+        if options.sets >= WHOLE {
+            pieces.extend(made::MADE.map(Piece::Made));
+            pieces.extend((0..slipped::count(options.sets)).map(|index| Piece::Slipped(options.seed, index)));
+        }
+        Ok(Bench { options, pieces })
+    }
+
+    /// What the answer to each piece depends on, beside the program.
+    pub fn keys(&self) -> Vec<String> {
+        self.pieces.iter().map(|piece| format!("{piece:?}")).collect()
+    }
+
+    /// Makes the data of a piece and diagnoses them.
+    pub fn answer(&self, piece: usize, diagnose: Diagnoser) -> Answer {
+        match &self.pieces[piece] {
+            Piece::Set(set) => Answer::Set(cases::named(set, diagnose).map(Box::new)),
+            Piece::Made(robot) => {
+                Answer::Made(made::made(robot, diagnose).map_err(|error| format!("fem-{robot}: {error}")))
+            }
+            Piece::Slipped(seed, index) => Answer::Slipped(slipped::slipped(*seed, *index, diagnose).map(Box::new)),
+        }
+    }
+
+    /// The table, of the answers to all pieces in order.
+    pub fn table(self, answers: Vec<Answer>) -> Discovery {
+        let (mut outcomes, mut made, mut slipped, mut failed) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        for (piece, answer) in self.pieces.into_iter().zip(answers) {
+            let failure = match (piece, answer) {
+                (Piece::Set(PlannedSet { part, truth }), Answer::Set(found)) => {
+                    let (named, failure) = found.map_or_else(|e| (None, Some(e)), |named| (Some(*named), None));
+                    outcomes.push(SetOutcome { part, truth, named });
+                    failure
+                }
+                (Piece::Made(_), Answer::Made(found)) => found.map(|found| made.extend(found)).err(),
+                (Piece::Slipped(..), Answer::Slipped(found)) => found.map(|found| slipped.push(*found)).err(),
+                (piece, _) => Some(format!("{piece:?}: an answer to something else")),
+            };
+            failed.extend(failure);
+        }
+        let silence: Vec<bool> = table::missed_in_silence(&outcomes);
+        Discovery {
+            seed: self.options.seed,
+            laws: self.options.laws,
+            rows: [table::rows(&outcomes), covered::rows(&outcomes), slipped::rows(&slipped), made::rows(&made)]
+                .concat(),
+            confusion: table::confusion(&outcomes),
+            breakdown: table::breakdown(&outcomes),
+            attainable: attainable::of(&outcomes),
+            missed_after: silence.len(),
+            missed_by_law: silence.iter().filter(|missed| **missed).count(),
+            slipped,
+            made,
+            seen: outcomes.iter().map(seen).collect(),
+            failed,
+        }
+    }
 }
 
 fn seen(outcome: &SetOutcome) -> SetSeen {

@@ -1,17 +1,16 @@
 //! Columns of pressures that were written wrongly, ten kinds on each robot, and placeholders where markers were lost; without any
 //! hidden effect.
 
+use super::Diagnoser;
 use super::cases::about;
 use super::row::{Goal, Rate};
-use super::{Diagnoser, DiscoveryOptions};
 use crate::truth::{ROBOTS, standard_protocol};
 use crate::{Draw, Truth};
 use compare::Evidence;
 use compare::diagnosis::Options;
 use compare::error::CompareError;
 use data::{Dataset, Hold};
-use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What becomes of a hold's pressures.
 type Spoil = fn(&mut Hold);
@@ -35,15 +34,15 @@ const PLACEHOLDERS: [(&str, &str); 4] =
     [("0, 0", "0,0"), ("-1, -1", "-1,-1"), ("9999, 9999", "9999,9999"), ("a corner of the picture", "613.25,-207.5")];
 
 /// Sets of a round: every kind on every robot.
-pub(super) const SETS: usize = (KINDS.len() + PLACEHOLDERS.len()) * ROBOTS.len();
+const SETS: usize = (KINDS.len() + PLACEHOLDERS.len()) * ROBOTS.len();
 /// Keeps their streams apart from those of the other parts.
 const STREAM: u64 = 100 << 32;
 
 /// What became of a set.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct SlippedSet {
     /// What stands in the column.
-    pub kind: &'static str,
+    pub kind: String,
     /// It is of a column of pressures, else a placeholder.
     pub is_column: bool,
     /// Robot, noise and runs.
@@ -56,26 +55,20 @@ pub struct SlippedSet {
     pub named: Vec<String>,
 }
 
-/// Makes, spoils and diagnoses the sets, a round for every hundred sets of the bench; what fails is told in `failed`.
-pub(super) fn slipped(options: &DiscoveryOptions, diagnose: Diagnoser, failed: &mut Vec<String>) -> Vec<SlippedSet> {
-    let count = SETS * options.sets.div_ceil(100);
-    let one = |index: usize| {
-        let kind = index / ROBOTS.len() % (SETS / ROBOTS.len());
-        let name = KINDS.get(kind).map_or_else(|| PLACEHOLDERS[kind - KINDS.len()].0, |(name, _)| name);
-        one(options.seed, index, kind, diagnose, name).map_err(|error| format!("{name}: {error}"))
-    };
-    let made: Vec<Result<SlippedSet, String>> = (0..count).into_par_iter().map(one).collect();
-    made.into_iter().filter_map(|made| made.map_err(|error| failed.push(error)).ok()).collect()
+/// Sets of a bench, a round for every hundred of its sets.
+pub(super) fn count(sets: usize) -> usize {
+    SETS * sets.div_ceil(100)
+}
+
+/// Makes, spoils and diagnoses a set; `Err` says why it failed.
+pub(super) fn slipped(seed: u64, index: usize, diagnose: Diagnoser) -> Result<SlippedSet, String> {
+    let kind = index / ROBOTS.len() % (SETS / ROBOTS.len());
+    let name = KINDS.get(kind).map_or_else(|| PLACEHOLDERS[kind - KINDS.len()].0, |(name, _)| name);
+    one(seed, index, kind, diagnose, name).map_err(|error| format!("{name}: {error}"))
 }
 
 /// A refusal that names the column is an answer too.
-fn one(
-    seed: u64,
-    index: usize,
-    kind: usize,
-    diagnose: Diagnoser,
-    name: &'static str,
-) -> Result<SlippedSet, CompareError> {
+fn one(seed: u64, index: usize, kind: usize, diagnose: Diagnoser, name: &str) -> Result<SlippedSet, CompareError> {
     let truth = Truth::draw(ROBOTS[index % ROBOTS.len()].0, &mut Draw::new(seed, STREAM + index as u64))?;
     let right = truth.dataset("slipped", &standard_protocol())?;
     let is_column = kind < KINDS.len();
@@ -95,7 +88,7 @@ fn one(
         Err(CompareError::Refused { message, .. }) => (Some(message), Vec::new()),
         Err(error) => return Err(error),
     };
-    Ok(SlippedSet { kind: name, is_column, truth, told: words.is_some(), words, named })
+    Ok(SlippedSet { kind: name.into(), is_column, truth, told: words.is_some(), words, named })
 }
 
 fn with_slip(mut data: Dataset, spoil: Spoil) -> Dataset {

@@ -20,7 +20,7 @@ use crate::noise::NoiseModel;
 use crate::study::fit_scenario;
 use data::{About, Dataset};
 use models::Scenario;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 /// The noise of a test, known.
@@ -35,7 +35,7 @@ pub struct KnownNoise {
 }
 
 /// λ to the nearest explanation of each kind.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Distances {
     /// The base with its bending stiffness fitted.
     pub base: f64,

@@ -13,10 +13,10 @@ use crate::residuals::ResidualMap;
 use crate::slips::pressure::PressureSlipFound;
 use crate::where_it_fails::Statement;
 pub use models::effects::Group;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The answer to "is an effect missing, and which".
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// No missing effect is detectable in these data.

@@ -1,14 +1,17 @@
 //! How often a diagnosis is right, on data whose hidden effects follow other laws.
 
 use crate::{Error, Findings, Printed};
-use challenge::bench::{Attainable, Confusion, Discovery, DiscoveryOptions, Goal, Rate, run as run_bench};
+use challenge::bench::{Answer, Attainable, Bench, Confusion, Discovery, DiscoveryOptions, Goal, Rate};
 use challenge::truth::{ROBOTS, standard_protocol};
-use challenge::{Draw, Laws, Truth};
+use challenge::{Draw, Truth};
 use compare::Evidence;
 use compare::diagnosis::{Options, diagnose};
 use fem::cost::thread_seconds;
+use fem::session::{Progress, Shard, sha256};
 use serde_json::json;
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use sweep::pieces;
 
 /// Time wanted for a full diagnosis on one core \[s\].
 const TIME_S: f64 = 1.0;
@@ -18,29 +21,88 @@ const LARGEST: f64 = 1.5;
 /// λ that parts two explanations in about nine of ten cases.
 const ENOUGH: f64 = 16.0;
 
-/// Diagnoses so many sets without and with one hidden effect by those laws; `machine` says where the time was taken.
-///
-/// # Errors
-/// A robot without an equilibrium, or a diagnosis that cannot be made.
-pub fn measure(sets: usize, seed: u64, laws: Laws, machine: &str) -> Result<Findings, Error> {
-    let options = DiscoveryOptions { seed, sets, laws };
-    let bench = run_bench(&options, diagnose, &|_| ())?;
-    let seconds = seconds(seed)?;
-    let time = Rate::number(
-        "full diagnosis",
-        "median CPU seconds on one core",
-        Goal::AtMost(TIME_S),
-        Some(seconds),
-        ROBOTS.len(),
-    );
-    let json = json!({
-        "schema": "ibr.bench.discovery", "version": 1, "seed": seed, "sets": sets, "laws": laws, "rows": bench.rows, "slipped": bench.slipped,
-        "confusion": bench.confusion, "breakdown": bench.breakdown, "attainable": bench.attainable,
-        "missed_after": bench.missed_after, "missed_by_law": bench.missed_by_law,
-        "made": bench.made, "seen": bench.seen, "failed": bench.failed, "time": {"machine": machine, "row": time},
-    });
-    let missed = bench.rows.iter().chain([&time]).any(|row| row.met == Some(false)) || !bench.failed.is_empty();
-    Ok(Findings { parts: parts(&bench, &time), json, missed })
+/// The bench, and where its answers are kept.
+#[derive(Debug)]
+pub struct Work {
+    bench: Bench,
+    /// A file for each piece; none where nothing is kept.
+    files: Vec<PathBuf>,
+}
+
+impl Work {
+    /// Plans a bench. Answers are kept in a folder if one is given, beside the fingerprint of the program: another one may answer otherwise.
+    ///
+    /// # Errors
+    /// A shipped scenario is damaged; a folder that cannot be made.
+    pub fn plan(options: DiscoveryOptions, kept: Option<(&Path, &str)>) -> Result<Work, Error> {
+        let bench = Bench::plan(options)?;
+        let files = match kept {
+            Some((folder, program)) => {
+                let folder = folder.join("answers");
+                pieces::folder(&folder)?;
+                let name = |key: String| format!("{}.json", &sha256(format!("{program}\n{key}").as_bytes())[..32]);
+                bench.keys().into_iter().map(|key| folder.join(name(key))).collect()
+            }
+            None => Vec::new(),
+        };
+        Ok(Work { bench, files })
+    }
+
+    /// Pieces of the whole bench.
+    pub fn pieces(&self) -> usize {
+        self.bench.keys().len()
+    }
+
+    /// Pieces of a shard that have no file yet.
+    pub fn missing(&self, shard: Shard) -> usize {
+        shard.own(&self.files).filter(|file| !file.exists()).count()
+    }
+
+    /// Answers to the pieces of a shard: those in files, and the others, which are made.
+    ///
+    /// # Errors
+    /// A folder that cannot be written to; an interrupt.
+    pub fn answers(&self, shard: Shard, threads: usize, progress: Progress) -> Result<Vec<Answer>, Error> {
+        let own: Vec<usize> = shard.own(0..self.pieces()).collect();
+        let answer = |k: usize| {
+            let file = self.files.get(own[k]);
+            let there = file.and_then(|file| serde_json::from_slice(&std::fs::read(file).ok()?).ok());
+            if let Some(answer) = there {
+                return Ok(answer);
+            }
+            let answer = self.bench.answer(own[k], diagnose);
+            if let Some(file) = file {
+                pieces::keep(file, &serde_json::to_vec(&answer).unwrap_or_default())?;
+            }
+            Ok(answer)
+        };
+        Ok(pieces::beside(own.len(), threads, "sets", progress, &answer)?)
+    }
+
+    /// The table, of all answers; `machine` says where the time of a diagnosis is taken.
+    ///
+    /// # Errors
+    /// A robot without an equilibrium, or a diagnosis that cannot be made.
+    pub fn findings(self, answers: Vec<Answer>, machine: &str) -> Result<Findings, Error> {
+        let DiscoveryOptions { seed, sets, laws } = self.bench.options;
+        let bench = self.bench.table(answers);
+        let seconds = seconds(seed)?;
+        let time = Rate::number(
+            "full diagnosis",
+            "median CPU seconds on one core",
+            Goal::AtMost(TIME_S),
+            Some(seconds),
+            ROBOTS.len(),
+        );
+        let json = json!({
+            "schema": "ibr.bench.discovery", "version": 1, "seed": seed, "sets": sets, "laws": laws, "rows": bench.rows, "slipped": bench.slipped,
+            "confusion": bench.confusion, "breakdown": bench.breakdown, "attainable": bench.attainable,
+            "missed_after": bench.missed_after, "missed_by_law": bench.missed_by_law,
+            "made": bench.made, "seen": bench.seen, "failed": bench.failed, "time": {"machine": machine, "row": time},
+        });
+        let missed = bench.rows.iter().chain([&time]).any(|row| row.met == Some(false)) || !bench.failed.is_empty();
+        Ok(Findings { parts: parts(&bench, &time), json, missed })
+    }
 }
 
 /// Median CPU time of a diagnosis, one set with a hidden effect for every actuator.
@@ -85,7 +147,7 @@ fn parts(bench: &Discovery, time: &Rate) -> Vec<Printed> {
         };
         let place = m.place.map_or("–".into(), |place| place.to_string());
         let bending = if m.kept { "kept" } else { "fitted" };
-        let asked = [m.robot, &m.lacking, &m.bodies.to_string(), bending].map(String::from);
+        let asked = [&m.robot, &m.lacking, &m.bodies.to_string(), bending].map(String::from);
         let told = [
             number(Some(m.does_mm)),
             before,
