@@ -189,6 +189,9 @@ pub struct RobotArgs {
     /// Body pressure with unit, for example 2kPa; default: the scenario's
     #[arg(long, short, allow_hyphen_values = true)]
     pub body_pressure: Option<String>,
+    /// Another value of a key of the scenario, for example body.radius_mm=45 or strip.1.azimuth_deg=120; repeatable
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
     /// Without the scenario's own effects; --effect adds to that
     #[arg(long)]
     pub bare: bool,
@@ -345,7 +348,7 @@ pub struct SimulateArgs {
     /// Robots: element size, or those of body and actuator, for example 8mm/3mm; several (8mm/4mm,8mm/3mm) are several runs
     #[arg(long, value_name = "[BODY/]ACTUATOR", allow_hyphen_values = true)]
     pub mesh: Option<String>,
-    /// Robots: another value of a key of [fem], for example bond=0.5; repeatable
+    /// Robots: another value of a key of [fem] or of the scenario, for example bond=0.5 or body.radius_mm=45; repeatable
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// Machines beside each other

@@ -93,6 +93,7 @@ impl ScenarioFile {
     }
 
     /// The same with values set, each at its place such as `body.radius_mm` and written as in TOML; the rest of the text stays.
+    /// The first of several tables `[[strip]]` is `strip.1`.
     ///
     /// # Errors
     /// A value that is not TOML, a place below something that is no table; a fault of the new text with its line.
@@ -106,12 +107,15 @@ impl ScenarioFile {
     /// # Errors
     /// As [`ScenarioFile::with`].
     pub fn with_in_space(&self, changes: &[(String, String)]) -> Result<ScenarioFile, CompareError> {
-        let refused = |message: String| CompareError::refused(message, "write for example body.radius_mm = 40");
+        let refused = |message: String| {
+            CompareError::refused(message, "write for example body.radius_mm = 40, and text in quotes")
+        };
         let mut document: DocumentMut =
             self.text.parse().map_err(|error: toml_edit::TomlError| refused(error.message().into()))?;
         for (place, text) in changes {
             let value: Value = text.parse().map_err(|_| refused(format!("{place} = {text} is no value of TOML")))?;
-            set(&mut document, place, value).ok_or_else(|| refused(format!("{place} is not in a table")))?;
+            set(&mut document, place, value)
+                .ok_or_else(|| refused(format!("{place} is not in a table of {}", self.name)))?;
         }
         ScenarioFile::parse_in_space(&self.name, &document.to_string())
     }
@@ -145,10 +149,14 @@ fn set(document: &mut DocumentMut, place: &str, value: Value) -> Option<()> {
     let mut parts: Vec<&str> = place.split('.').collect();
     let key = parts.pop()?;
     let mut at: &mut dyn TableLike = document.as_table_mut();
-    for part in parts {
+    let mut parts = parts.into_iter();
+    while let Some(part) = parts.next() {
         let mut implicit = Table::new();
         implicit.set_implicit(true);
-        at = at.entry(part).or_insert(Item::Table(implicit)).as_table_like_mut()?;
+        at = match at.entry(part).or_insert(Item::Table(implicit)) {
+            Item::ArrayOfTables(tables) => tables.get_mut(parts.next()?.parse::<usize>().ok()?.checked_sub(1)?)?,
+            item => item.as_table_like_mut()?,
+        };
     }
     match at.get_mut(key).and_then(Item::as_value_mut) {
         Some(old) => {
@@ -206,5 +214,18 @@ mod tests {
         assert!(told(&[("body.radius_mn", "45")]).contains("epam:"), "{}", told(&[("body.radius_mn", "45")]));
         assert!(told(&[("body.radius_mm", "45 mm")]).contains("no value of TOML"));
         assert!(told(&[("name.first", "45")]).contains("is not in a table"));
+        assert!(told(&[("markers.s_mm.1", "45")]).contains("is not in a table"));
+    }
+
+    #[test]
+    fn a_strip_is_named_by_its_number() {
+        let text = "[body]\nradius_mm = 40\nlength_mm = 360\npressure_kpa = 2\n[actuator]\nkind = 'epam'\nlength_mm = 60\n\
+                    width_mm = 50\ncount = 6\nazimuth_deg = 0\n[[strip]]\nazimuth_deg = 90\nchannel = 1\n";
+        let robot = ScenarioFile::parse_in_space("two", text).unwrap();
+        let turned = |place: &str| robot.with_in_space(&[(place.into(), "80".into())]);
+        assert!(turned("strip.1.azimuth_deg").unwrap().text.contains("[[strip]]\nazimuth_deg = 80\n"));
+        for place in ["strip.0.azimuth_deg", "strip.2.azimuth_deg", "strip.azimuth_deg", "strip.1"] {
+            assert!(turned(place).unwrap_err().to_string().contains("is not in a table of two"), "{place}");
+        }
     }
 }

@@ -8,7 +8,7 @@ use compare::progress::part;
 use compare::progress::shares::READ;
 use compare::study::Generator;
 use compare::typed_effect::with_effect;
-use compare::{Evidence, ScenarioFile};
+use compare::{CompareError, Evidence, ScenarioFile};
 use models::Scenario;
 use models::actuators::Family;
 use models::scenario::quantity::{Quantity, parse};
@@ -20,15 +20,29 @@ pub fn scenario(spec: &str) -> Result<ScenarioFile, Failure> {
 
 /// A robot as typed: its file, and the scenario with what was changed.
 pub fn robot(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
-    changed(scenario(&args.scenario)?, args)
+    changed(scenario(&args.scenario)?, ScenarioFile::with, args)
 }
 
 /// The same for what is built for strips round the body too.
 pub fn robot_in_space(args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
-    changed(ibr::studies::scenario_in_space(&args.scenario)?, args)
+    changed(ibr::studies::scenario_in_space(&args.scenario)?, ScenarioFile::with_in_space, args)
 }
 
-fn changed(file: ScenarioFile, args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
+/// `key=value` of an option `--set`.
+pub fn setting<'t>(text: &'t str, help: &str) -> Result<(&'t str, &'t str), Failure> {
+    let both = text.split_once('=').map(|(key, value)| (key.trim(), value.trim()));
+    both.ok_or_else(|| Failure::usage(format!("--set {text}: there is no ="), help))
+}
+
+/// Sets values of keys in a scenario.
+type Set = fn(&ScenarioFile, &[(String, String)]) -> Result<ScenarioFile, CompareError>;
+
+fn changed(mut file: ScenarioFile, set: Set, args: &RobotArgs) -> Result<(ScenarioFile, Scenario), Failure> {
+    if !args.set.is_empty() {
+        let help = "write for example --set body.radius_mm=45";
+        let changes = args.set.iter().map(|text| setting(text, help).map(|(key, value)| (key.into(), value.into())));
+        file = set(&file, &changes.collect::<Result<Vec<(String, String)>, _>>()?)?;
+    }
     let mut changed = if args.bare { file.bare() } else { file.scenario.clone() };
     for text in &args.effect {
         changed = with_effect(&changed, text)?.0;

@@ -3,6 +3,7 @@
 use super::{Files, Imprint, PageError, effect, figures, number, residual_figure, tables};
 use ::compare::metrics::HoldMetrics;
 use ::compare::study::{Comparison, Variant};
+use data::{About, Dataset};
 use serde_json::{Value, json};
 
 /// The page of a comparison and the files beside it.
@@ -80,19 +81,27 @@ fn lead(study: &Comparison) -> String {
 }
 
 fn provenance(study: &Comparison) -> Vec<[String; 2]> {
-    let line = |name: &str, value: &str| [name.into(), value.into()];
     let first = &study.variants[0];
-    let mut lines = vec![
-        line("scenario", &first.scenario.name),
-        line("data", &study.dataset.name),
-        line("runs", &study.dataset.runs.len().to_string()),
-        line("pairing", first.evaluation.metrics.pairing),
-    ];
-    if let Some(about) = &study.about {
+    let mut lines = origin(&first.scenario.name, &study.dataset, study.about.as_ref(), &study.warnings);
+    lines.insert(3, ["pairing".into(), first.evaluation.metrics.pairing.into()]);
+    lines
+}
+
+/// Where scenario and data of a page are from, and what does not fit between them.
+pub(super) fn origin(
+    scenario: &str,
+    dataset: &Dataset,
+    about: Option<&About>,
+    warnings: &[String],
+) -> Vec<[String; 2]> {
+    let line = |name: &str, value: &str| [name.into(), value.into()];
+    let mut lines =
+        vec![line("scenario", scenario), line("data", &dataset.name), line("runs", &dataset.runs.len().to_string())];
+    if let Some(about) = about {
         lines.push(line("data are", &format!("{}: {}", about.provenance.word(), about.title)));
         lines.push(line("source", &about.source));
         lines.push(line("licence", &about.licence));
     }
-    lines.extend(study.warnings.iter().map(|w| line("mismatch", w)));
+    lines.extend(warnings.iter().map(|w| line("mismatch", w)));
     lines
 }

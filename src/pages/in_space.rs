@@ -1,5 +1,6 @@
 //! The page of a scenario held against a dataset in x, y and z.
 
+use super::compare::origin;
 use super::figures::{LINE_POINTS, MOST_POSES};
 use super::{Files, Imprint, PageError, effect};
 use crate::shown::in_space::{along, hold_name, misses};
@@ -23,7 +24,7 @@ pub fn space_page(study: &InSpace, imprint: &Imprint) -> Result<Files, PageError
     files.table("markers", markers(study))?;
     let values = json!({
         "title": format!("{} held against {}", first.scenario.name, study.dataset.name),
-        "lead": lead(study), "provenance": provenance(study), "where_it_fails": misses(first),
+        "lead": lead(study), "provenance": origin(&first.scenario.name, &study.dataset, study.about.as_ref(), &study.warnings), "where_it_fails": misses(first),
         "axes": if study.axes == 3 { "x, y, z" } else { "x, y" }, "variants": study.variants.iter().map(variant).collect::<Vec<_>>(),
     });
     files.page("in_space.html", values, imprint)?;
@@ -112,20 +113,4 @@ fn lead(study: &InSpace) -> String {
         .worst()
         .map_or(String::new(), |hold| format!("; the outermost marker by up to {:.1} mm", hold.tip_distance_mm));
     format!("**{}** misses the data by {size}{tip}, of {:.1} mm.", effect(&first.label), study.d_max_mm)
-}
-
-fn provenance(study: &InSpace) -> Vec<[String; 2]> {
-    let line = |name: &str, value: &str| [name.to_string(), value.to_string()];
-    let mut lines = vec![
-        line("scenario", &study.variants[0].scenario.name),
-        line("data", &study.dataset.name),
-        line("runs", &study.dataset.runs.len().to_string()),
-    ];
-    if let Some(about) = &study.about {
-        lines.push(line("data are", &format!("{}: {}", about.provenance.word(), about.title)));
-        lines.push(line("source", &about.source));
-        lines.push(line("licence", &about.licence));
-    }
-    lines.extend(study.warnings.iter().map(|w| line("mismatch", w)));
-    lines
 }

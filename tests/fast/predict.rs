@@ -202,6 +202,32 @@ fn strips_round_the_body_bend_it_out_of_the_plane() {
 }
 
 #[test]
+fn values_of_the_scenario_can_be_typed() {
+    let folder = Folder::new();
+    let epam = models::shipped("epam").expect("shipped");
+    folder.write(
+        "mine.toml",
+        epam.replace("width_mm = 60 ", "width_mm = 50 ").replace("radius_mm = 40 ", "radius_mm = 45 "),
+    );
+    let asked = |words: &[&str]| folder.run(&[words, &["--pressure", "20kPa", "--json"]].concat()).json("ibr.predict");
+    let tip = |words: &[&str]| asked(words)["states"][0]["tip"].clone();
+    let typed = tip(&["predict", "epam", "--set", "actuator.width_mm=50", "--set", "body.radius_mm = 45"]);
+    assert_eq!(typed, tip(&["predict", "mine.toml"]));
+    let [plain, turned] =
+        ["0", "90"].map(|angle| tip(&["predict", "epam", "--set", &format!("actuator.azimuth_deg={angle}")]));
+    assert_eq!((&turned["y_mm"], &turned["z_mm"]), (&0.0.into(), &plain["y_mm"]));
+    assert_ne!(plain["y_mm"], typed["y_mm"]);
+    for (set, code, words) in [
+        ("body.radius_mn=45", 3, "unknown field `radius_mn`"),
+        ("body.radius_mm=45mm", 2, "is no value of TOML"),
+        ("body.radius_mm", 2, "there is no ="),
+        ("strip.1.azimuth_deg=9", 3, "expected a sequence"),
+    ] {
+        refuse(&with_report(), &["predict", "epam", "--set", set], code, &[words]);
+    }
+}
+
+#[test]
 fn what_is_not_built_in_space_is_refused() {
     let robot = "epam-two-strips";
     let loaded = ["predict", robot, "--effect", "gravity"];

@@ -66,6 +66,7 @@ fn wrong_settings_are_refused_before_anything_is_run() {
         (["--set", "bnd=1"], ["unknown key `bnd`", "hourglass"]),
         (["--set", "model=papers"], ["unknown model", "known: recommended, paper"]),
         (["--set", "bond=2"], ["bond must be from 0 to 1, not 2", "here"]),
+        (["--set", "body.radius_mm=0"], ["radius must be from 1 to 1000 mm, not 0", "here"]),
         (["--set", "weld_mm=70"], ["welds of 70 mm every 60 mm overlap", "below 60 mm"]),
     ] {
         let code = if words[0].starts_with("--") || words[0].starts_with("unknown key") { 2 } else { 3 };

@@ -2,8 +2,9 @@
 
 use crate::cli::SimulateArgs;
 use crate::commands::fem_inputs::sizes;
-use crate::commands::inputs::plain;
+use crate::commands::inputs::{self, plain};
 use crate::failure::Failure;
+use compare::ScenarioFile;
 use fem::robot::{KEYS, OTHERS};
 use fem::session::{Cube, Source, Variation, cube, mesh_keys, pressures_in_toml, product, rounded};
 use models::scenario::quantity::parse_pressures;
@@ -45,7 +46,10 @@ pub fn plan(args: &SimulateArgs, source: Source) -> Result<RunPlan, Failure> {
             }
         };
     }
-    let mut common = args.set.iter().map(|text| setting(text)).collect::<Result<Vec<_>, _>>()?;
+    let set = args.set.iter().map(|text| setting(text)).collect::<Result<Vec<_>, _>>()?;
+    // A key with a table before it is one of the scenario, as in a sweep.
+    let (of_robot, mut common): (Vec<_>, Vec<_>) = set.into_iter().partition(|(key, _)| key.contains('.'));
+    let source = if of_robot.is_empty() { source } else { changed(source, &of_robot)? };
     if let Some(text) = args.pressure.as_deref() {
         let list = parse_pressures(text).map_err(|m| Failure::usage(format!("--pressure: {m}"), PRESSURES))?;
         let entries: Vec<String> = list.iter().map(pressures_in_toml).collect();
@@ -83,13 +87,19 @@ fn robot_option(args: &SimulateArgs) -> Option<&'static str> {
     given.iter().find(|(_, given)| *given).map(|(option, _)| *option)
 }
 
+/// A robot with other values in its scenario.
+fn changed(source: Source, changes: &[(String, String)]) -> Result<Source, Failure> {
+    let file = ScenarioFile::parse_in_space(&source.name, &source.text)?.with_in_space(changes)?;
+    Ok(Source { text: file.text, ..source })
+}
+
 fn setting(text: &str) -> Result<(String, String), Failure> {
     let names = || OTHERS.into_iter().chain(KEYS.iter().map(|k| k.name)).collect::<Vec<_>>().join(", ");
-    let help = || format!("for example --set hourglass=0.02; keys: {}", names());
-    let Some((key, value)) = text.split_once('=') else {
-        return Err(Failure::usage(format!("--set {text}: there is no ="), help()));
-    };
-    let (key, value) = (key.trim(), value.trim());
+    let help = || format!("for example --set hourglass=0.02 or body.radius_mm=45; keys of [fem]: {}", names());
+    let (key, value) = inputs::setting(text, &help())?;
+    if key.contains('.') {
+        return Ok((key.into(), value.into()));
+    }
     match KEYS.iter().any(|k| k.name == key) || OTHERS.contains(&key) {
         true if ["model", "base", "taped"].contains(&key) => {
             Ok((key.into(), format!("\"{}\"", value.trim_matches('"'))))
