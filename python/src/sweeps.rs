@@ -3,7 +3,7 @@
 use crate::arrays::columns;
 use crate::errors::{Told, raised, refused};
 use crate::progress::beside;
-use ibr::studies::scenario;
+use ibr::studies::scenario_in_space;
 use ibr::sweep::{Settings, Shard, Study, SweepError, collect, run};
 use ibr::{Error, FeSettings};
 use pyo3::prelude::*;
@@ -34,8 +34,8 @@ pub fn sweep<'py>(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let study = match study.contains('\n') {
-        true => Study::parse("study", &study, Path::new(""), scenario),
-        false => Study::read(Path::new(&study), scenario),
+        true => Study::parse("study", &study, Path::new(""), scenario_in_space),
+        false => Study::read(Path::new(&study), scenario_in_space),
     }
     .map_err(raised)?;
     let runs = FeSettings { frames: false, threads, maker: ibr::program::maker(), ..FeSettings::default() };

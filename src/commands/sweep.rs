@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use sweep::{Found, Settings, Study, collect, parts_missing, run as compute};
 
 pub fn run(args: &SweepArgs, context: &mut Context) -> Result<Outcome, Failure> {
-    let study = Study::read(&args.study, ibr::studies::scenario)?;
+    let study = Study::read(&args.study, ibr::studies::scenario_in_space)?;
     let stem = args.study.file_stem().unwrap_or_default().to_string_lossy();
     let folder = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("ibr-report/sweep-{stem}")));
     check_folder(&folder)?;

@@ -7,38 +7,36 @@ use data::Table;
 use report::chart::{Bar, Chart, ChartColumn, ChartRow, Mark, Space};
 use report::{Drawn, Ink, number};
 
-/// The output that is drawn, and what it is called.
-const OUTPUT: (&str, &str) = ("tip_y_mm", "height of the tip [mm]");
-
-/// Pictures of a table, two for every engine.
+/// Pictures of a table, two for every engine and coordinate of the tip.
 ///
 /// # Errors
 /// What cannot be drawn.
 pub fn sweep_pictures(study: &Study, table: &Table) -> Result<Files, PageError> {
     let mut files = Files::default();
     for engine in &study.engines {
-        let name = |picture: &str| match engine {
-            Engine::Reduced => picture.to_string(),
-            Engine::Elements => format!("{picture}_fe"),
-        };
-        let found = influences(study, table, *engine, OUTPUT.0);
-        if found.is_empty() {
-            continue;
+        let by = if *engine == Engine::Elements { "_fe" } else { "" };
+        for (output, what) in study.heights() {
+            let axis = if *output == "tip_z_mm" { "_z" } else { "" };
+            let found = influences(study, table, *engine, output);
+            if found.is_empty() {
+                continue;
+            }
+            files.plot(&format!("influence{axis}{by}"), tornado(&found, *engine, what)?);
+            let Some([first, second]) = found.first_chunk::<2>() else { continue };
+            let drawn = map(table, *engine, output, [&second.key, &first.key]);
+            let drawn = drawn.map(|map| map_of(&map, *engine, what)).transpose()?;
+            drawn.into_iter().for_each(|drawn| files.plot(&format!("map{axis}{by}"), drawn));
         }
-        files.plot(&name("influence"), tornado(&found, *engine)?);
-        let Some([first, second]) = found.first_chunk::<2>() else { continue };
-        let drawn = map(table, *engine, OUTPUT.0, [&second.key, &first.key]);
-        drawn.map(|map| map_of(&map, *engine)).transpose()?.into_iter().for_each(|d| files.plot(&name("map"), d));
     }
     Ok(files)
 }
 
 /// Names of all pictures that a sweep may have.
-pub fn sweep_picture_names() -> [&'static str; 4] {
-    ["influence", "influence_fe", "map", "map_fe"]
+pub fn sweep_picture_names() -> [&'static str; 8] {
+    ["influence", "influence_fe", "map", "map_fe", "influence_z", "influence_z_fe", "map_z", "map_z_fe"]
 }
 
-fn tornado(found: &[Influence], engine: Engine) -> Result<Drawn, PageError> {
+fn tornado(found: &[Influence], engine: Engine, what: &str) -> Result<Drawn, PageError> {
     let bar = |(row, i): (usize, &Influence)| {
         let span = i.range();
         let (low, high) = (number(span[0], 0), number(span[1], 0));
@@ -54,7 +52,7 @@ fn tornado(found: &[Influence], engine: Engine) -> Result<Drawn, PageError> {
     let rows = found.iter().map(|i| ChartRow::beside(&i.key)).collect();
     let chart = Chart {
         title: format!("How far each key moves the tip, {}", engine.word()),
-        x_label: format!("mean {} over the values of the key", OUTPUT.1),
+        x_label: format!("mean {what} [mm] over the values of the key"),
         space: Space::Rows(rows),
         marks: found.iter().enumerate().map(bar).collect(),
         ..Chart::default()
@@ -62,7 +60,7 @@ fn tornado(found: &[Influence], engine: Engine) -> Result<Drawn, PageError> {
     Ok(chart.draw("influence of each key")?)
 }
 
-fn map_of(map: &SweepMap, engine: Engine) -> Result<Drawn, PageError> {
+fn map_of(map: &SweepMap, engine: Engine, what: &str) -> Result<Drawn, PageError> {
     let finite = || map.means.iter().flatten().copied().filter(|m| m.is_finite());
     let most = finite().fold(0.0, |most: f64, m| most.max(m.abs()));
     let cell = |r: usize, c: usize| {
@@ -74,7 +72,7 @@ fn map_of(map: &SweepMap, engine: Engine) -> Result<Drawn, PageError> {
     let columns = map.names[1].iter().map(|name| ChartColumn { name: start(name), ..ChartColumn::default() });
     let is_ranges = map.names[1].iter().any(|name| name.contains(" to "));
     let chart = Chart {
-        title: format!("Height of the tip, {}", engine.word()),
+        title: format!("{}{}, {}", what[..1].to_uppercase(), &what[1..], engine.word()),
         x_label: format!("{}{}", map.keys[1], if is_ranges { ", from" } else { "" }),
         y_label: map.keys[0].clone(),
         space: Space::Grid(map.names[0].iter().map(|name| ChartRow::beside(name)).collect(), columns.collect()),
@@ -82,7 +80,7 @@ fn map_of(map: &SweepMap, engine: Engine) -> Result<Drawn, PageError> {
             .flat_map(|r| (0..map.means[r].len()).map(move |c| (r, c)))
             .map(|(r, c)| cell(r, c))
             .collect(),
-        heat: Some((format!("mean {}", OUTPUT.1), most)),
+        heat: Some((format!("mean {what} [mm]"), most)),
         ..Chart::default()
     };
     Ok(chart.draw("map of the sweep")?)

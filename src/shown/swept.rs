@@ -25,12 +25,12 @@ fn failures(table: &Table) -> Vec<(String, usize)> {
 }
 
 /// How far the engines are from each other where both have a case.
-fn agreement(table: &Table) -> String {
-    let mut off: Vec<f64> = pairs(table, "tip_y_mm").iter().map(|[model, fe]| model - fe).collect();
+fn agreement(table: &Table, (output, what): (&str, &str)) -> String {
+    let mut off: Vec<f64> = pairs(table, output).iter().map(|[model, fe]| model - fe).collect();
     off.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     let (Some(middle), Some(worst)) = (off.get(off.len() / 2), off.last()) else { return String::new() };
     format!(
-        "\n{} cases by both: the model's tip is {:.1} mm from the finite elements' in the median, {worst:+.1} mm at worst\n",
+        "\n{} cases by both: the model's {what} is {:.1} mm from the finite elements' in the median, {worst:+.1} mm at worst\n",
         off.len(),
         middle.abs()
     )
@@ -51,16 +51,18 @@ pub fn swept_text(study: &Study, found: &Found, table: &Table) -> String {
         found.parts
     );
     for engine in &study.engines {
-        let rows: Vec<Vec<String>> = influences(study, table, *engine, "tip_y_mm")
-            .iter()
-            .map(|i| vec![i.key.clone(), format!("{:.1}", i.range()[0]), format!("{:.1}", i.range()[1])])
-            .collect();
-        if !rows.is_empty() {
-            text += &format!("\nMean height of the tip over the values of each key, {}:\n", engine.word());
-            text += &printed(&["key", "lowest mm", "highest mm"], 1, rows);
+        for (output, what) in study.heights() {
+            let rows: Vec<Vec<String>> = influences(study, table, *engine, output)
+                .iter()
+                .map(|i| vec![i.key.clone(), format!("{:.1}", i.range()[0]), format!("{:.1}", i.range()[1])])
+                .collect();
+            if !rows.is_empty() {
+                text += &format!("\nMean {what} over the values of each key, {}:\n", engine.word());
+                text += &printed(&["key", "lowest mm", "highest mm"], 1, rows);
+            }
         }
     }
-    text += &agreement(table);
+    study.heights().iter().for_each(|height| text += &agreement(table, *height));
     let failed = failures(table);
     let count: usize = failed.iter().map(|f| f.1).sum();
     if count > 0 {

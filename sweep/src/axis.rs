@@ -1,13 +1,16 @@
 //! A key that varies, and its values.
 
+use crate::form::Wrong;
 use crate::policy::MOST_CASES;
+use crate::study::PRESSURE;
 use compare::ScenarioFile;
 use fem::FemError;
 use fem::robot::Spread;
 use fem::session::{Felt, Source, felt, rounded};
+use models::CHANNELS;
 use serde::Deserialize;
 use std::path::Path;
-use toml::Value;
+use toml::{Spanned, Value};
 
 /// A key that varies.
 #[derive(Debug, Clone, PartialEq)]
@@ -110,8 +113,66 @@ pub(crate) fn assumed(base: &ScenarioFile, folder: &Path, axes: &[Axis]) -> Resu
     Ok(felt(&source, &known)?.into_iter().map(of).collect())
 }
 
+/// Whether a key is a pressure: of all channels, or of one.
+pub(crate) fn channel(key: &str) -> Option<Option<usize>> {
+    let rest = key.strip_prefix(PRESSURE)?;
+    match rest.strip_prefix('.') {
+        None => rest.is_empty().then_some(None),
+        Some(number) => number.parse().ok().filter(|channel| *channel < CHANNELS).map(Some),
+    }
+}
+
+/// What is set in a scenario, and the pressures of its channels if they are among the keys \[kPa\].
+pub(crate) struct Changes {
+    pub values: Vec<(String, String)>,
+    pub pressures_kpa: Option<[f64; CHANNELS]>,
+}
+
+impl Changes {
+    /// Of keys with their values. A channel without a pressure beside others has none.
+    pub fn of<'a>(all: impl Iterator<Item = (&'a Axis, Value)>) -> Changes {
+        let mut changes = Changes { values: Vec::with_capacity(all.size_hint().0), pressures_kpa: None };
+        for (axis, value) in all {
+            match (channel(&axis.key), as_number(&value)) {
+                (Some(None), Some(kpa)) => changes.pressures_kpa = Some([kpa; CHANNELS]),
+                (Some(Some(one)), Some(kpa)) => changes.pressures_kpa.get_or_insert([0.0; CHANNELS])[one] = kpa,
+                _ => changes.values.push((axis.key.clone(), value.to_string())),
+            }
+        }
+        changes
+    }
+}
+
+/// Keys with their values, each once; with a sample ranges have no steps.
+pub(crate) fn axes(raw: &[Spanned<RawAxis>], sampled: bool) -> Result<Vec<Axis>, Wrong> {
+    let mut all: Vec<Axis> = Vec::new();
+    for raw in raw {
+        let wrong = |message: String, help| Err((Some(raw.span()), message, help));
+        let axis = match axis(raw.get_ref(), sampled) {
+            Ok(axis) => axis,
+            Err((message, help)) => return wrong(message, help),
+        };
+        if all.iter().any(|other| other.key == axis.key) {
+            return wrong(format!("`{}` is there twice", axis.key), "leave one of them out");
+        }
+        if axis.key.ends_with(".pressures_kpa") {
+            return wrong(format!("`{}` is a list of pressures", axis.key), "vary pressure_kpa");
+        }
+        if axis.key.starts_with(PRESSURE) && (channel(&axis.key).is_none() || !axis.is_pressure()) {
+            let message = format!("`{}` is no pressure, or has a value below zero", axis.key);
+            return wrong(message, "write pressure_kpa, or pressure_kpa.0 to pressure_kpa.3 for single channels");
+        }
+        let both = |a: &str, b: &str| channel(a) == Some(None) && matches!(channel(b), Some(Some(_)));
+        if all.iter().any(|other| both(&axis.key, &other.key) || both(&other.key, &axis.key)) {
+            return wrong("a pressure for all channels beside one for a channel".into(), "leave one of them out");
+        }
+        all.push(axis);
+    }
+    Ok(all)
+}
+
 /// A key with its values; with a sample ranges have no steps.
-pub(crate) fn axis(raw: &RawAxis, sampled: bool) -> Result<Axis, (String, &'static str)> {
+fn axis(raw: &RawAxis, sampled: bool) -> Result<Axis, (String, &'static str)> {
     let one_way = "write values = [40, 50], or from, to and steps";
     let key = raw.key.clone();
     if let Some(values) = &raw.values {

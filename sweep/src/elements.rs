@@ -9,6 +9,7 @@ use compare::wording::short;
 use fem::FemError;
 use fem::robot::Reading;
 use fem::session::{FeRun, Job, Many, Progress, Settings, Source, simulate_all};
+use models::CHANNELS;
 
 /// What came of a part.
 pub type Made = (Part, Rows);
@@ -49,7 +50,11 @@ pub fn compute(
 
 /// The run of a robot, which rises through its pressures; or why there is none.
 fn job(study: &Study, robot: usize) -> Result<(Job, Vec<f64>), String> {
-    let (file, kpa) = study.robot(robot).map_err(|error| error.to_string())?;
+    let (file, channels) = study.robot(robot).map_err(|error| error.to_string())?;
+    // One pressure for all channels, or one pose with a pressure for each; read at the highest.
+    let of_strips =
+        |pose: &[f64; CHANNELS]| file.scenario.strips().map(|strip| pose[strip.channel]).fold(0.0, f64::max);
+    let kpa: Vec<f64> = channels.iter().map(of_strips).collect();
     let mut rising = kpa.clone();
     rising.sort_by(f64::total_cmp);
     rising.dedup();
@@ -58,7 +63,8 @@ fn job(study: &Study, robot: usize) -> Result<(Job, Vec<f64>), String> {
     if let (true, Some(highest)) = (rising.is_empty(), kpa.iter().copied().reduce(f64::max)) {
         return Err(flat(highest, file.p_body_pa));
     }
-    let set = [("fem.pressures_kpa".to_string(), format!("{rising:?}"))];
+    let holds = if study.has_channels() { format!("{channels:?}") } else { format!("{rising:?}") };
+    let set = [("fem.pressures_kpa".to_string(), holds)];
     let file = file.with(&set).map_err(|error| error.to_string())?;
     let source = Source { text: file.text.clone(), name: file.name.clone(), folder: study.folder.clone() };
     source.load().map_err(|error| error.to_string())?;
@@ -82,15 +88,20 @@ fn read(study: &Study, run: &FeRun, kpa: f64, width: usize, rows: &mut Rows) {
 
 fn put(output: Output, r: &Reading, run: &FeRun, study: &Study, numbers: &mut Vec<f64>) {
     let at = |i: usize, moved: &[[f64; 3]]| match (r.stations_m.get(i), moved.get(i)) {
-        (Some(s), Some(d)) => [1e3 * (s + d[0]), 1e3 * d[1]],
-        _ => [f64::NAN; 2],
+        (Some(s), Some(d)) => [s + d[0], d[1], d[2]].map(|m| 1e3 * m),
+        _ => [f64::NAN; 3],
     };
+    let axes = study.axes_of_place().len();
     match output {
         Output::Tip => {
             let tip = at(r.stations_m.len().saturating_sub(1), &r.moved_m);
-            numbers.extend([tip[0], tip[1], r.tip_angle_rad.to_degrees()]);
+            numbers.extend(&tip[..axes]);
+            numbers.push(r.tip_angle_rad.to_degrees());
         }
-        Output::Markers => numbers.extend((0..study.base.markers_m.len()).flat_map(|i| at(i, &r.seen_moved_m))),
+        Output::Markers => {
+            let places = (0..study.base.markers_m.len()).map(|i| at(i, &r.seen_moved_m));
+            places.for_each(|place| numbers.extend(&place[..axes]));
+        }
         Output::Ledger => {
             let stored = |name: &str| 1e3 * r.ledger.iter().filter(|l| l.0 == name).map(|l| l.2).sum::<f64>();
             let of = |account: &str| match account {

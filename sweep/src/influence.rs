@@ -77,7 +77,7 @@ pub fn map(table: &Table, engine: Engine, output: &str, keys: [&str; 2]) -> Opti
 /// Keys of the table that a study varies.
 fn keys(study: &Study) -> Vec<String> {
     let own = study.axes.iter().map(|axis| axis.key.clone()).filter(|key| key != PRESSURE);
-    own.chain([PRESSURE.to_string()]).collect()
+    own.chain((!study.has_channels()).then(|| PRESSURE.to_string())).collect()
 }
 
 /// Cases of an engine that have a number.

@@ -1,5 +1,6 @@
 //! Some cases that are computed together, and their file.
 
+use crate::axis::Changes;
 use crate::study::{Engine, Output, Study};
 use crate::{SweepError, pieces};
 use fem::session::sha256;
@@ -50,10 +51,13 @@ impl Part {
         let mut told = format!("ibr sweep {FORMAT}, {engine}, {}\n{}\n", words.join(" "), study.base.text).into_bytes();
         let per_robot = study.per_robot();
         for robot in self.robots(per_robot) {
-            let (changes, pressure) = study.changes(robot);
-            changes.iter().for_each(|(key, value)| told.extend(format!("{key} = {value}\n").bytes()));
-            let own = self.pressures(robot, per_robot);
-            let pressures = pressure.as_ref().map_or_else(|| &study.pressures_kpa[own], std::slice::from_ref);
+            let Changes { values, pressures_kpa } = study.changes(robot);
+            values.iter().for_each(|(key, value)| told.extend(format!("{key} = {value}\n").bytes()));
+            let pressures = match &pressures_kpa {
+                Some(channels) if study.has_channels() => &channels[..],
+                Some(channels) => &channels[..1],
+                None => &study.pressures_kpa[self.pressures(robot, per_robot)],
+            };
             pressures.iter().for_each(|kpa| told.extend(kpa.to_le_bytes()));
         }
         folder.join("parts").join(format!("{}.part", &sha256(&told)[..32]))

@@ -4,7 +4,7 @@ use crate::part::{Part, Rows};
 use crate::study::{Output, Study};
 use crate::table::columns;
 use compare::ScenarioFile;
-use models::{Account, Loads, Model, Prediction};
+use models::{Account, CHANNELS, Loads, Model, Prediction};
 
 /// Accounts of the ledger, in the order of their columns.
 pub const ACCOUNTS: [(&str, Account); 7] = [
@@ -43,16 +43,16 @@ pub fn fail(width: usize, why: String, numbers: &mut Vec<f64>, failed: &mut Fail
 fn of_robot(
     study: &Study,
     file: &ScenarioFile,
-    pressures_kpa: &[f64],
+    pressures_kpa: &[[f64; CHANNELS]],
     width: usize,
     numbers: &mut Vec<f64>,
     failed: &mut Failed,
 ) {
     let model = Model::new(&file.scenario);
     let mut at = model.prediction();
-    for kpa in pressures_kpa {
-        let loads = Loads::uniform(file.p_body_pa, 1e3 * kpa);
-        let idle = !file.actuator.exists() && *kpa > 0.0;
+    for channels in pressures_kpa {
+        let loads = Loads { body_pa: file.p_body_pa, actuator_pa: channels.map(|kpa| 1e3 * kpa) };
+        let idle = !file.actuator.exists() && channels.iter().any(|kpa| *kpa > 0.0);
         match model.predict_held(&loads, &mut at) {
             _ if idle => fail(width, "an actuator pressure for a beam without [actuator]".into(), numbers, failed),
             Err(error) => fail(width, error.to_string(), numbers, failed),
@@ -67,10 +67,16 @@ fn of_robot(
 
 fn put(output: Output, model: &Model, loads: &Loads, at: &Prediction, study: &Study, numbers: &mut Vec<f64>) {
     match output {
-        Output::Tip => numbers.extend([1e3 * at.tip.x_m, 1e3 * at.tip.y_m, at.tip.angle_rad.to_degrees()]),
+        Output::Tip => {
+            let tip = [at.tip.x_m, at.tip.y_m, at.tip.z_m].map(|m| 1e3 * m);
+            numbers.extend(&tip[..study.axes_of_place().len()]);
+            numbers.push(at.tip.angle_rad.to_degrees());
+        }
         Output::Markers => {
-            let end = numbers.len() + 2 * study.base.markers_m.len();
-            numbers.extend(at.markers.iter().flatten().map(|m| 1e3 * m));
+            let axes = study.axes_of_place().len();
+            let end = numbers.len() + axes * study.base.markers_m.len();
+            let places = at.markers.iter().zip(&at.markers_z_m).map(|([x, y], z)| [x, y, z].map(|m| 1e3 * m));
+            places.for_each(|place| numbers.extend(&place[..axes]));
             numbers.resize(end, f64::NAN);
         }
         Output::Ledger => {

@@ -1,11 +1,12 @@
 //! The TOML file of a sweep: what is varied, and what is asked of every case.
 
 pub use crate::axis::Axis;
-use crate::axis::{Levels, RawAxis, as_number, assumed, axis};
+use crate::axis::{Changes, Levels, RawAxis, as_number, assumed, axes, channel};
 use crate::form::{Form, Wrong};
 use crate::policy::MOST_CASES;
 use crate::sample::{Method, Points};
 use compare::{CompareError, ScenarioFile};
+use models::CHANNELS;
 use serde::Deserialize;
 use std::path::Path;
 use toml::{Spanned, Value};
@@ -63,7 +64,7 @@ pub struct Study {
     pub outputs: Vec<Output>,
     /// Keys that vary from robot to robot.
     pub axes: Vec<Axis>,
-    /// Pressures of every robot \[kPa\]; empty where the pressure is one of the axes of a sample.
+    /// Pressures of every robot \[kPa\]; empty where they are among the axes: of a sample, or of single channels.
     pub pressures_kpa: Vec<f64>,
     points: Option<Points>,
     robots: usize,
@@ -159,23 +160,8 @@ impl Study {
     fn of(raw: Raw, base: ScenarioFile, folder: &Path) -> Result<Study, Wrong> {
         let engines = listed_once(raw.engines.as_ref(), &[Engine::Reduced], "engines")?;
         let outputs = listed_once(raw.outputs.as_ref(), &[Output::Tip, Output::Limits], "outputs")?;
-        let (mut axes, raw_sample) = (Vec::new(), raw.sample.as_ref());
-        for raw in &raw.vary {
-            let axis = axis(raw.get_ref(), raw_sample.is_some())
-                .map_err(|(message, help)| (Some(raw.span()), message, help))?;
-            if axes.iter().any(|other: &Axis| other.key == axis.key) {
-                return Err((Some(raw.span()), format!("`{}` varies twice", axis.key), "leave one of them out"));
-            }
-            if axis.key.ends_with(".pressures_kpa") {
-                let message = format!("`{}` is a list of pressures", axis.key);
-                return Err((Some(raw.span()), message, "vary pressure_kpa"));
-            }
-            if axis.key == PRESSURE && !axis.is_pressure() {
-                let message = "a pressure is a number of kPa, 0 or more".to_string();
-                return Err((Some(raw.span()), message, "write for example values = [10, 20]"));
-            }
-            axes.push(axis);
-        }
+        let raw_sample = raw.sample.as_ref();
+        let mut axes = axes(&raw.vary, raw_sample.is_some())?;
         if let Some(span) = raw.assumed.as_ref().filter(|wish| *wish.get_ref()).map(Spanned::span) {
             let wrong = |message: &str, help| (Some(span.clone()), message.to_string(), help);
             if raw_sample.is_none() || !engines.contains(&Engine::Elements) {
@@ -192,6 +178,7 @@ impl Study {
                 axes.retain(|axis| axis.key != PRESSURE);
             }
             Some(_) => pressures_kpa = Vec::new(),
+            None if axes.iter().any(|axis| channel(&axis.key).is_some()) => pressures_kpa = Vec::new(),
             None if pressures_kpa.is_empty() => {
                 let help = "add [[vary]] with key = \"pressure_kpa\", or [predict] pressures_kpa to the scenario";
                 return Err((None, "no pressure is given".into(), help));
@@ -257,26 +244,35 @@ impl Study {
         values
     }
 
-    /// What is set in the scenario of a robot, and its pressure where that is one of its values \[kPa\].
-    pub fn changes(&self, robot: usize) -> (Vec<(String, String)>, Option<f64>) {
-        let (mut changes, mut pressure) = (Vec::with_capacity(self.axes.len()), None);
-        for (axis, value) in self.axes.iter().zip(self.values(robot)) {
-            match axis.key == PRESSURE {
-                true => pressure = as_number(&value),
-                false => changes.push((axis.key.clone(), value.to_string())),
-            }
-        }
-        (changes, pressure)
+    /// Coordinates of a place: z only of robots with strips round the body.
+    pub fn axes_of_place(&self) -> &'static [&'static str] {
+        if self.base.scenario.is_spatial() { &["x", "y", "z"] } else { &["x", "y"] }
     }
 
-    /// A robot, and its pressures \[kPa\].
+    /// Outputs that are drawn and printed, and what they are called.
+    pub fn heights(&self) -> &'static [(&'static str, &'static str)] {
+        let both = &[("tip_y_mm", "height of the tip"), ("tip_z_mm", "z of the tip")];
+        &both[..self.axes_of_place().len() - 1]
+    }
+
+    /// Whether single channels have pressures of their own.
+    pub fn has_channels(&self) -> bool {
+        self.axes.iter().any(|axis| matches!(channel(&axis.key), Some(Some(_))))
+    }
+
+    /// What is set in the scenario of a robot, and its pressures.
+    pub(crate) fn changes(&self, robot: usize) -> Changes {
+        Changes::of(self.axes.iter().zip(self.values(robot)))
+    }
+
+    /// A robot, and its pressures in every channel \[kPa\].
     ///
     /// # Errors
     /// Values that its scenario refuses.
-    pub fn robot(&self, robot: usize) -> Result<(ScenarioFile, Vec<f64>), CompareError> {
-        let (changes, pressure) = self.changes(robot);
-        let pressures = pressure.map_or_else(|| self.pressures_kpa.clone(), |one| vec![one]);
-        let file = if changes.is_empty() { self.base.clone() } else { self.base.with(&changes)? };
-        Ok((file, pressures))
+    pub fn robot(&self, robot: usize) -> Result<(ScenarioFile, Vec<[f64; CHANNELS]>), CompareError> {
+        let Changes { values, pressures_kpa } = self.changes(robot);
+        let all = || self.pressures_kpa.iter().map(|kpa| [*kpa; CHANNELS]).collect();
+        let file = if values.is_empty() { self.base.clone() } else { self.base.with(&values)? };
+        Ok((file, pressures_kpa.map_or_else(all, |own| vec![own])))
     }
 }

@@ -16,9 +16,12 @@ const CPU_S: &str = "cpu_s";
 pub fn columns(study: &Study) -> Vec<String> {
     let of = |output: &Output| -> Vec<String> {
         match output {
-            Output::Tip => ["tip_x_mm", "tip_y_mm", "tip_angle_deg"].map(String::from).to_vec(),
+            Output::Tip => {
+                let places = study.axes_of_place().iter().map(|axis| format!("tip_{axis}_mm"));
+                places.chain(["tip_angle_deg".into()]).collect()
+            }
             Output::Markers => (1..=study.base.markers_m.len())
-                .flat_map(|m| ["x", "y"].map(|axis| format!("marker_{m}_{axis}_mm")))
+                .flat_map(|m| study.axes_of_place().iter().map(move |axis| format!("marker_{m}_{axis}_mm")))
                 .collect(),
             Output::Ledger => ACCOUNTS.map(|(name, _)| format!("{name}_mj")).to_vec(),
             Output::Limits => vec!["trusted".into()],
@@ -33,7 +36,8 @@ pub fn names(study: &Study) -> Vec<String> {
     let keys = study.axes.iter().map(|axis| axis.key.clone()).filter(|key| key != PRESSURE);
     let first = ["case", "engine"].into_iter().map(String::from);
     let last = ["status", "reason"].into_iter().map(String::from);
-    first.chain(keys).chain([PRESSURE.into()]).chain(columns(study)).chain(last).collect()
+    let pressure = (!study.has_channels()).then(|| PRESSURE.into());
+    first.chain(keys).chain(pressure).chain(columns(study)).chain(last).collect()
 }
 
 /// The table of the parts in a folder; those that are missing otherwise.
@@ -111,7 +115,7 @@ impl Building {
         let columns = [Column::I64(self.case), Column::Str(self.engine)]
             .into_iter()
             .chain(inputs.map(column))
-            .chain([Column::F64(self.pressure)])
+            .chain((!study.has_channels()).then_some(Column::F64(self.pressure)))
             .chain(self.numbers.into_iter().map(Column::F64))
             .chain([Column::Str(self.status), Column::Str(self.reason)]);
         Table { columns: names(study).into_iter().zip(columns).collect() }

@@ -222,6 +222,45 @@ checked = 1
     );
 }
 
+/// Two strips a quarter round the body from each other, their pressures and the place of one of them varied.
+#[test]
+fn strips_round_the_body_have_channels_and_a_third_coordinate() {
+    let text = "[body]\nradius_mm = 40\nlength_mm = 360\npressure_kpa = 2\n[actuator]\nkind = 'epam'\nlength_mm = 60\n\
+                width_mm = 50\ncount = 6\nazimuth_deg = 0\n[[strip]]\nazimuth_deg = 90\nchannel = 1\n[markers]\ns_mm = [180]\n";
+    let robot = |_: &str| ScenarioFile::parse_in_space("two", text);
+    let asked = "scenario = 'two'\noutputs = ['tip', 'markers']\n[[vary]]\nkey = 'strip.1.azimuth_deg'\nvalues = [90, 180]\n\
+                 [[vary]]\nkey = 'pressure_kpa.0'\nvalues = [10, 20]\n[[vary]]\nkey = 'pressure_kpa.1'\nfrom = 0\nto = 20\nsteps = 3\n";
+    let study = Study::parse("study.toml", asked, Path::new(""), robot).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    for which in 1..=2 {
+        made(&study, folder.path(), Shard { which, of: 2 });
+    }
+    let table = collect(&study, folder.path()).unwrap();
+    let numbers = |name: &str| match table.columns.iter().find(|c| c.0 == name) {
+        Some((_, Column::F64(values))) => values.clone(),
+        other => panic!("{name}: {other:?}"),
+    };
+    assert_eq!((table.rows(), table.columns.iter().any(|c| c.0 == PRESSURE)), (12, false));
+    let [azimuth, first, second] = ["strip.1.azimuth_deg", "pressure_kpa.0", "pressure_kpa.1"].map(numbers);
+    let columns = ["tip_y_mm", "tip_z_mm", "tip_angle_deg", "marker_1_y_mm", "marker_1_z_mm"].map(numbers);
+    for row in 0..12 {
+        let set = [("strip.1.azimuth_deg".to_string(), azimuth[row].to_string())];
+        let model = Model::new(&robot("").unwrap().with(&set).unwrap().scenario);
+        let mut at = model.prediction();
+        let actuator_pa = [1e3 * first[row], 1e3 * second[row], 0.0, 0.0];
+        model.predict(&Loads { body_pa: 2e3, actuator_pa }, &mut at).unwrap();
+        let (tip, z_m) = (at.tip, at.markers_z_m[0]);
+        let alone = [tip.y_m * 1e3, tip.z_m * 1e3, tip.angle_rad.to_degrees(), at.markers[0][1] * 1e3, z_m * 1e3];
+        assert_eq!(columns.each_ref().map(|column| column[row].to_bits()), alone.map(f64::to_bits), "row {row}");
+    }
+    // An antagonist of the same pressure holds it straight.
+    let straight = (0..12).find(|row| azimuth[*row] == 180.0 && first[*row] == 20.0 && second[*row] == 20.0).unwrap();
+    assert!(columns[0][straight].abs() < 1e-9 && columns[1][5] > 1.0, "{columns:?}");
+    let keys: Vec<String> =
+        influence::influences(&study, &table, Engine::Reduced, "tip_z_mm").into_iter().map(|i| i.key).collect();
+    assert_eq!((keys.len(), keys[0].as_str()), (3, "strip.1.azimuth_deg"), "{keys:?}");
+}
+
 #[test]
 fn a_wrong_study_is_refused_with_its_line_and_what_to_write() {
     let with = |old: &str, new: &str| study(&GRID.replace(old, new)).unwrap_err();
@@ -233,7 +272,7 @@ fn a_wrong_study_is_refused_with_its_line_and_what_to_write() {
         ("to = 30", "", "has no values"),
         ("from = 0", "from = 0\nlog = true", "goes from 0 to 30"),
         ("values = [50, 55.5, 60, 300]", "values = []", "no single list"),
-        ("key = \"pressure_kpa\"", "key = \"actuator.width_mm\"", "varies twice"),
+        ("key = \"pressure_kpa\"", "key = \"actuator.width_mm\"", "is there twice"),
         ("steps = 31", "steps = 31\nstep = 1", "unknown field"),
         ("scenario = ", "assumed = true\nscenario = ", "assumed numbers are drawn"),
         ("steps = 31", "steps = 9000000", "more than 20000000 cases"),
@@ -243,7 +282,9 @@ fn a_wrong_study_is_refused_with_its_line_and_what_to_write() {
         ("scenario = ", "engines = []\nscenario = ", "`engines` is empty"),
         ("scenario = ", "engines = [\"reduced\", \"reduced\"]\nscenario = ", "twice"),
         ("actuator.width_mm", "predict.pressures_kpa", "vary pressure_kpa"),
-        ("from = 0", "from = -1", "a number of kPa, 0 or more"),
+        ("actuator.width_mm", "pressure_kpa.1", "a pressure for all channels beside one for a channel"),
+        ("actuator.width_mm", "pressure_kpa.4", "pressure_kpa.0 to pressure_kpa.3"),
+        ("from = 0", "from = -1", "no pressure, or has a value below zero"),
     ] {
         let told = with(old, new);
         assert!(told.contains(says), "{new}: {told}");

@@ -99,3 +99,27 @@ fn a_scheduler_gets_the_shards_and_a_killed_task_is_submitted_again() {
         ran.stderr
     );
 }
+
+/// One robot with two strips by both engines, each strip with a pressure of its own.
+#[test]
+fn robots_in_space_are_swept_by_both_engines() {
+    let folder = Folder::new();
+    let key = |key: &str, value: f64| format!("[[vary]]\nkey = \"{key}\"\nvalues = [{value}]\n");
+    let coarse = [("mesh_mm", 12.0), ("ramp_s", 0.01)];
+    let coarse =
+        coarse.map(|(what, value)| ["body", "actuator"].map(|part| key(&format!("fem.{part}_{what}"), value)).concat());
+    let pressures = [("pressure_kpa.0", 5.0), ("pressure_kpa.1", 15.0)].map(|(name, kpa)| key(name, kpa)).concat();
+    let head = "scenario = \"epam-two-strips\"\nengines = [\"reduced\", \"finite elements\"]\noutputs = [\"tip\"]\n";
+    folder.write("study.toml", format!("{head}{pressures}{}", coarse.concat()));
+    let ran = folder.run(&["sweep", "study.toml", "--out", "s"]);
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    assert!(ran.stdout.contains("the model's z of the tip is"), "{}", ran.stdout);
+    let table = read(&folder, "s/table.csv");
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    assert!(rows.len() == 3 && !rows[0].contains(&"pressure_kpa"), "{table}");
+    let at = |name: &str| rows[0].iter().position(|column| *column == name).expect("a column");
+    for row in &rows[1..] {
+        let [y, z] = ["tip_y_mm", "tip_z_mm"].map(|name| row[at(name)].parse::<f64>().expect("a number"));
+        assert!(z > y && z > 5.0 && row[at("status")] == "ok", "{table}");
+    }
+}

@@ -1,8 +1,9 @@
 //! The search, and what is known of its end.
 
-use super::wish::{Changes, Wish, channel};
+use super::wish::Wish;
 use super::written::commented;
 use crate::SweepError;
+use crate::axis::{Changes, channel};
 use crate::sample::{Method, Points};
 use argmin::core::{CostFunction, Executor};
 use argmin::solver::neldermead::NelderMead;

@@ -1,10 +1,8 @@
 //! The TOML file of a wish.
 
-use crate::axis::{Axis, RawAxis, as_number, axis};
+use crate::axis::{Axis, Changes, RawAxis, axes};
 use crate::form::{Form, Wrong};
-use crate::study::PRESSURE;
 use compare::{CompareError, ScenarioFile};
-use models::CHANNELS;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -193,12 +191,12 @@ impl Wish {
                 "write for example tolerance = 0.01",
             );
         }
-        let free = axes(&raw.free)?;
+        let free = axes(&raw.free, true)?;
         if free.is_empty() || free.len() > MOST_FREE {
             let message = format!("{} keys are free; a design needs 1 to {MOST_FREE}", free.len());
             return Err((None, message, "add [[free]] with key = \"pressure_kpa\", from = 5 and to = 30"));
         }
-        let assumed = axes(&raw.assumed)?;
+        let assumed = axes(&raw.assumed, true)?;
         if let Some(twice) = assumed.iter().position(|a| free.iter().any(|f| f.key == a.key)) {
             let message = format!("`{}` is free and assumed", assumed[twice].key);
             return Err((Some(raw.assumed[twice].span()), message, "what you choose is known: leave one out"));
@@ -226,57 +224,9 @@ impl Wish {
 
     /// What is set in the scenario at shares of the ranges of free and assumed keys.
     pub(super) fn changes(&self, free: &[f64], assumed: &[f64]) -> Changes {
-        let mut changes = Changes { values: Vec::new(), pressures_kpa: None };
-        for (axis, share) in self.free.iter().zip(free).chain(self.assumed.iter().zip(assumed)) {
-            let value = axis.at(*share);
-            match (channel(&axis.key), as_number(&value)) {
-                (Some(None), Some(kpa)) => changes.pressures_kpa = Some([kpa; CHANNELS]),
-                (Some(Some(one)), Some(kpa)) => changes.pressures_kpa.get_or_insert([0.0; CHANNELS])[one] = kpa,
-                _ => changes.values.push((axis.key.clone(), value.to_string())),
-            }
-        }
-        changes
+        let both = self.free.iter().zip(free).chain(self.assumed.iter().zip(assumed));
+        Changes::of(both.map(|(axis, share)| (axis, axis.at(*share))))
     }
-}
-
-/// What is set in a scenario, and the pressures of its channels if they are free \[kPa\].
-pub(super) struct Changes {
-    pub values: Vec<(String, String)>,
-    pub pressures_kpa: Option<[f64; CHANNELS]>,
-}
-
-/// Whether a key is a pressure: of all channels, or of one.
-pub(super) fn channel(key: &str) -> Option<Option<usize>> {
-    let rest = key.strip_prefix(PRESSURE)?;
-    match rest.strip_prefix('.') {
-        None => rest.is_empty().then_some(None),
-        Some(number) => number.parse().ok().filter(|channel| *channel < CHANNELS).map(Some),
-    }
-}
-
-/// Keys with their ranges, each once.
-fn axes(raw: &[Spanned<RawAxis>]) -> Result<Vec<Axis>, Wrong> {
-    let mut all: Vec<Axis> = Vec::new();
-    for raw in raw {
-        let wrong = |message: String, help| Err((Some(raw.span()), message, help));
-        let axis = match axis(raw.get_ref(), true) {
-            Ok(axis) => axis,
-            Err((message, help)) => return wrong(message, help),
-        };
-        if all.iter().any(|other| other.key == axis.key) {
-            return wrong(format!("`{}` is there twice", axis.key), "leave one of them out");
-        }
-        if axis.key.starts_with(PRESSURE) && (channel(&axis.key).is_none() || !axis.is_pressure()) {
-            let message = format!("`{}` is no pressure, or has a value below zero", axis.key);
-            return wrong(message, "write pressure_kpa, or pressure_kpa.0 to pressure_kpa.3 for single channels");
-        }
-        let both = |a: &str, b: &str| channel(a) == Some(None) && matches!(channel(b), Some(Some(_)));
-        if all.iter().any(|other| both(&axis.key, &other.key) || both(&other.key, &axis.key)) {
-            return wrong("a pressure for all channels beside one for a channel".into(), "leave one of them out");
-        }
-        all.push(axis);
-    }
-    Ok(all)
 }
 
 fn wanted(raw: &RawWish, length_m: f64) -> Result<Wanted, Wrong> {

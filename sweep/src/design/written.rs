@@ -1,6 +1,6 @@
 //! The text of a designed robot.
 
-use super::wish::channel;
+use crate::axis::channel;
 
 /// The text with a comment of its own at every chosen value: that of the robot it began with says where another value is from.
 pub(super) fn commented(text: &str, chosen: &[(String, String)]) -> String {
