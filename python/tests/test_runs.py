@@ -123,6 +123,14 @@ def test_a_sweep_is_the_prediction_of_every_robot(tmp_path):
     assert ibr.sweep(STUDY, tmp_path / "s")["tip_y_mm"].tolist() == table["tip_y_mm"].tolist()
 
 
+def test_a_sweep_of_strips_round_the_body_has_a_third_coordinate(tmp_path):
+    study = 'scenario = "epam-two-strips"\n[[vary]]\nkey = "pressure_kpa.0"\nvalues = [10, 20]\n' \
+        '[[vary]]\nkey = "pressure_kpa.1"\nvalues = [20]\n'
+    table = ibr.sweep(study, tmp_path / "s")
+    assert "pressure_kpa" not in table and table["pressure_kpa.1"].tolist() == [20, 20]
+    assert table["tip_y_mm"][1] == pytest.approx(table["tip_z_mm"][1]) and table["tip_z_mm"][0] > table["tip_y_mm"][0]
+
+
 def test_a_wrong_study_has_its_line():
     with pytest.raises(ibr.Error, match="epan") as caught:
         ibr.sweep(STUDY.replace('"epam"', '"epan"'))

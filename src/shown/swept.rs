@@ -43,9 +43,10 @@ const MOST_REASONS: usize = 3;
 pub fn swept_text(study: &Study, found: &Found, table: &Table) -> String {
     let engines: Vec<String> =
         study.engines.iter().map(|engine| format!("{} cases by {}", study.cases(*engine), engine.word())).collect();
+    let name = &study.base.scenario.name;
     let mut text = format!(
         "{}: {}; {} of {} parts were there before\n",
-        study.base.scenario.name,
+        if name.is_empty() { &study.base.name } else { name },
         engines.join(", "),
         found.kept,
         found.parts
