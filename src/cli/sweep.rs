@@ -51,6 +51,11 @@ pub struct DesignArgs {
     /// Without the finite element run that checks the answer
     #[arg(long)]
     pub no_check: bool,
+    /// Designs after the first, at most: while finite elements miss the wish, the model is corrected by
+    /// how far it was off from them, searches again near the last design, and that one is checked
+    #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "no_check")]
+    #[arg(value_parser = clap::value_parser!(u64).range(0..=20))]
+    pub correct: u64,
     /// Threads; 0: one per core
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
     pub threads: u64,

@@ -1,7 +1,7 @@
 //! Tests of the command `ibr` as a user meets it.
 //!
 //! A new test belongs into the module of what the user was doing: `json` if a program reads the answer, `predict`,
-//! `compare`, `characterize`, `diagnose`, `add`, `generate`, `in_space`, `simulate` and `robots` for what those commands promise, `slips` for data that are
+//! `compare`, `characterize`, `design`, `diagnose`, `add`, `generate`, `in_space`, `simulate` and `robots` for what those commands promise, `slips` for data that are
 //! not what they say, `scenario_errors` and
 //! `data_errors` for files that are wrong, `arguments` for wrong options, `output` for what lands on disk, `shell` for help,
 //! completions and pipes.
@@ -15,6 +15,7 @@ mod challenge;
 mod characterize;
 mod compare;
 mod data_errors;
+mod design;
 mod diagnose;
 mod export;
 mod generate;

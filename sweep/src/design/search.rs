@@ -1,9 +1,10 @@
 //! The search, and what is known of its end.
 
+use super::misses::{Miss, parts, worst_m};
 use super::wish::Wish;
 use super::written::commented;
 use crate::SweepError;
-use crate::axis::{Changes, channel};
+use crate::axis::{Axis, Changes, channel};
 use crate::sample::{Method, Points};
 use argmin::core::{CostFunction, Executor};
 use argmin::solver::neldermead::NelderMead;
@@ -29,19 +30,9 @@ const AT_END: f64 = 1e-3;
 const DIGITS: usize = 4;
 /// Objective of what has no equilibrium or no meaning; above any miss.
 const NONE: f64 = 1e12;
-
-/// One part of the wish and how far it is missed.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Miss {
-    /// What: `tip`, `tip angle`, `station 150 mm`, `turn 0 to 100 mm`.
-    pub what: String,
-    /// Wanted: x, y \[m\], or one angle \[rad\].
-    pub wanted: Vec<f64>,
-    /// What the robot has.
-    pub found: Vec<f64>,
-    /// Distance \[m\], or angle times length.
-    pub miss_m: f64,
-}
+/// What it costs to leave the design that a correction is from: a key that goes through its whole range, or to another entry of its
+/// list, counts as much as a miss of one tolerance.
+const NEAR: f64 = 1.0;
 
 /// How far the tip and the miss go over the assumed numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,6 +75,8 @@ pub struct Design {
     pub held: Vec<Held>,
     /// Starts of the search, and how many of them ended at this objective.
     pub starts: [usize; 2],
+    /// Shares of the ranges of the free keys.
+    pub(super) shares: Vec<f64>,
 }
 
 impl Design {
@@ -94,7 +87,7 @@ impl Design {
 
     /// Largest miss of a part \[m\].
     pub fn worst_m(&self) -> f64 {
-        self.misses.iter().map(|miss| miss.miss_m).fold(0.0, f64::max)
+        worst_m(&self.misses)
     }
 }
 
@@ -145,6 +138,15 @@ impl Wish {
         off + pressure + footprint + robustness + 1e6 * beyond
     }
 
+    /// How far shares of the ranges are from others, squared; another entry of a list is as far as the whole of a range.
+    fn way(&self, from: &[f64], to: &[f64]) -> f64 {
+        let of = |(axis, (from, to)): (&Axis, (&f64, &f64))| match axis.entries() {
+            Some(_) => f64::from(u8::from(axis.at(*from) != axis.at(*to))),
+            None => (from - to).powi(2),
+        };
+        self.free.iter().zip(from.iter().zip(to)).map(of).sum()
+    }
+
     /// Every part of the wish for a robot.
     fn misses(&self, tried: &Tried) -> Vec<Miss> {
         let Tried { file, model, pose, .. } = tried;
@@ -178,65 +180,10 @@ impl Wish {
             let wider = |[low, high]: [f64; 2], v: f64| [low.min(v), high.max(v)];
             spread.x_m = wider(spread.x_m, tip.x_m);
             spread.y_m = wider(spread.y_m, tip.y_m);
-            spread.worst_m = self.misses(&tried).iter().map(|miss| miss.miss_m).fold(spread.worst_m, f64::max);
+            spread.worst_m = worst_m(&self.misses(&tried)).max(spread.worst_m);
         }
         Some(spread)
     }
-}
-
-/// Every part of a wish for a robot of a length, of which tip, angle, stations and headings are known.
-fn parts(
-    wish: &Wish,
-    length_m: f64,
-    tip_m: [f64; 2],
-    angle_rad: f64,
-    place: &dyn Fn(f64) -> [f64; 2],
-    heading: &dyn Fn(f64) -> f64,
-) -> Vec<Miss> {
-    let distance = |what: String, wanted: [f64; 2], found: [f64; 2]| {
-        let miss_m = (wanted[0] - found[0]).hypot(wanted[1] - found[1]);
-        Miss { what, wanted: wanted.to_vec(), found: found.to_vec(), miss_m }
-    };
-    let angle = |what: String, wanted: f64, found: f64| Miss {
-        what,
-        wanted: vec![wanted],
-        found: vec![found],
-        miss_m: (wanted - found).abs() * length_m,
-    };
-    let mm = |m: f64| compare::wording::short(1e3 * m);
-    let wanted = &wish.wanted;
-    let tip = wanted.tip_m.map(|tip| distance("tip".into(), tip, tip_m));
-    let turned = wanted.tip_angle_rad.map(|a| angle("angle of the tip".into(), a, angle_rad));
-    let places = wanted.places.iter().map(|p| distance(format!("station {} mm", mm(p.s_m)), p.at_m, place(p.s_m)));
-    let turns = wanted.turns.iter().map(|t| {
-        let [from, to] = t.between_m;
-        angle(format!("turn from {} to {} mm", mm(from), mm(to)), t.angle_rad, heading(to) - heading(from))
-    });
-    tip.into_iter().chain(turned).chain(places).chain(turns).collect()
-}
-
-/// How far tip and stations of another engine miss the wish; stations between those that it read lie on a line. Turns are not read.
-pub fn misses_of_reading(
-    wish: &Wish,
-    length_m: f64,
-    stations_m: &[f64],
-    places_m: &[[f64; 2]],
-    angle_rad: f64,
-) -> Vec<Miss> {
-    let with_base: Vec<(f64, [f64; 2])> =
-        std::iter::once((0.0, [0.0; 2])).chain(stations_m.iter().copied().zip(places_m.iter().copied())).collect();
-    let place = |s_m: f64| {
-        let after = with_base.iter().position(|(s, _)| *s >= s_m).unwrap_or(with_base.len() - 1).max(1);
-        let Some(([(a, from), (b, to)], _)) = with_base.get(after - 1..).and_then(|rest| rest.split_first_chunk::<2>())
-        else {
-            return [f64::NAN; 2];
-        };
-        let share = if b > a { ((s_m - a) / (b - a)).clamp(0.0, 1.0) } else { 0.0 };
-        [0, 1].map(|k| from[k] + share * (to[k] - from[k]))
-    };
-    let tip_m = places_m.last().copied().unwrap_or([f64::NAN; 2]);
-    let all = parts(wish, length_m, tip_m, angle_rad, &place, &|_| f64::NAN);
-    all.into_iter().filter(|miss| !miss.miss_m.is_nan()).collect()
 }
 
 struct Problem<'a> {
@@ -244,6 +191,8 @@ struct Problem<'a> {
     /// All shares; those of ranges are replaced.
     fixed: Vec<f64>,
     ranges: &'a [usize],
+    /// Shares of a design to stay near to.
+    near: Option<&'a [f64]>,
 }
 
 impl Problem<'_> {
@@ -253,10 +202,14 @@ impl Problem<'_> {
         all
     }
 
+    fn objective(&self, shares: &[f64]) -> f64 {
+        self.wish.objective(shares) + self.near.map_or(0.0, |near| NEAR * self.wish.way(near, shares))
+    }
+
     /// From one point by simplex after simplex.
     fn solved(self) -> (f64, Vec<f64>) {
         let mut at: Vec<f64> = self.ranges.iter().map(|k| self.fixed[*k]).collect();
-        let mut best = self.wish.objective(&self.fixed);
+        let mut best = self.objective(&self.fixed);
         if at.is_empty() {
             return (best, self.fixed);
         }
@@ -268,7 +221,7 @@ impl Problem<'_> {
             };
             let simplex = std::iter::once(at.clone()).chain((0..at.len()).map(corner)).collect();
             let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(1e-9) else { break };
-            let of = Problem { wish: self.wish, fixed: self.fixed.clone(), ranges: self.ranges };
+            let of = Problem { fixed: self.fixed.clone(), ..self };
             let made = Executor::new(of, solver).configure(|state| state.max_iters(steps)).run();
             if let Some((found, cost)) = made.ok().and_then(|made| Some((made.state.best_param?, made.state.best_cost)))
                 && cost < best
@@ -286,7 +239,7 @@ impl CostFunction for Problem<'_> {
     type Output = f64;
 
     fn cost(&self, of_ranges: &Vec<f64>) -> Result<f64, argmin::core::Error> {
-        Ok(self.wish.objective(&self.shares(of_ranges)))
+        Ok(self.objective(&self.shares(of_ranges)))
     }
 }
 
@@ -295,15 +248,22 @@ impl CostFunction for Problem<'_> {
 /// # Errors
 /// No values of the free keys give a robot with an equilibrium; [`FemError::Interrupted`] if `progress` asked to end.
 pub fn design(wish: &Wish, progress: Progress) -> Result<Design, SweepError> {
+    design_near(wish, None, progress)
+}
+
+/// The same with one more start at the shares of a design, which it leaves no further than the wish asks for.
+pub(super) fn design_near(wish: &Wish, near: Option<&[f64]>, progress: Progress) -> Result<Design, SweepError> {
     let ranges: Vec<usize> = (0..wish.free.len()).filter(|k| wish.free[*k].entries().is_none()).collect();
     let combinations =
         wish.free.iter().filter_map(crate::axis::Axis::entries).try_fold(1_usize, |n, m| n.checked_mul(m));
     let starts = combinations.unwrap_or(MOST_STARTS).saturating_mul(STARTS_PER_COMBINATION).min(MOST_STARTS);
     let points = Points::new(Method::Sobol, starts, wish.free.len(), 1)
         .map_err(|message| CompareError::refused(message, "leave keys out"))?;
+    let from: Vec<&[f64]> = (0..starts).map(|k| points.of(k)).chain(near).collect();
+    let starts = from.len();
     let told = Mutex::new((0_usize, progress));
-    let one = |k: usize| {
-        let solved = Problem { wish, fixed: points.of(k).to_vec(), ranges: &ranges }.solved();
+    let one = |from: &&[f64]| {
+        let solved = Problem { wish, fixed: from.to_vec(), ranges: &ranges, near }.solved();
         let mut told = told.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         told.0 += 1;
         let share = told.0 as f64 / starts as f64;
@@ -312,7 +272,7 @@ pub fn design(wish: &Wish, progress: Progress) -> Result<Design, SweepError> {
             false => Ok(solved),
         }
     };
-    let all: Vec<(f64, Vec<f64>)> = (0..starts).into_par_iter().map(one).collect::<Result<_, FemError>>()?;
+    let all: Vec<(f64, Vec<f64>)> = from.par_iter().map(one).collect::<Result<_, FemError>>()?;
     let (best, shares) = all.iter().min_by(|a, b| a.0.total_cmp(&b.0)).cloned().unwrap_or((NONE, Vec::new()));
     if best >= NONE {
         let help = "widen the ranges, or try one design with ibr predict to see why";
@@ -348,8 +308,17 @@ fn told_of(wish: &Wish, shares: &[f64], starts: [usize; 2]) -> Result<Design, Co
     let name = toml::Value::String(format!("{}, designed", file.scenario.name)).to_string();
     file = file.with(&[("name".into(), name)])?;
     file = ScenarioFile::parse("design.toml", &commented(&file.text, &chosen))?;
-    let mut design =
-        Design { file, chosen, loads: tried.loads, pose: tried.pose, misses, spread: None, held: Vec::new(), starts };
+    let mut design = Design {
+        file,
+        chosen,
+        loads: tried.loads,
+        pose: tried.pose,
+        misses,
+        spread: None,
+        held: Vec::new(),
+        starts,
+        shares: rounded.clone(),
+    };
     design.spread = wish.spread(&rounded, ASSUMED[1]);
     if !design.reached(wish) {
         design.held = held(wish, shares);
@@ -362,7 +331,7 @@ fn held(wish: &Wish, shares: &[f64]) -> Vec<Held> {
     let usual = vec![0.5; wish.assumed.len()];
     let total = |shares: &[f64]| {
         let tried = wish.tried(&wish.changes(shares, &usual))?;
-        Some(wish.misses(&tried).iter().map(|miss| miss.miss_m).fold(0.0, f64::max))
+        Some(worst_m(&wish.misses(&tried)))
     };
     let Some(here) = total(shares) else { return Vec::new() };
     let mut found: Vec<Held> = Vec::new();

@@ -146,3 +146,116 @@ fn a_wrong_wish_is_refused_with_its_line_and_what_to_write() {
         assert!(told.contains(says), "{new}: {told}");
     }
 }
+
+/// Designs until the end, checked by a truth that is the model plus an offset of places \[m\] that depends on the pressure \[kPa\].
+fn checked(wish: &Wish, corrections: usize, offset: impl Fn(f64) -> [f64; 2]) -> Rounds {
+    let mut rounds = Rounds::new(corrections);
+    while let Some(design) = rounds.search(wish, &mut |_, _| ControlFlow::Continue(())).unwrap() {
+        let by = offset(1e-3 * design.loads.actuator_pa[0]);
+        let of = |miss: &Miss| {
+            let found = miss.found.iter().zip(by).map(|(number, by)| number + by).collect();
+            Miss::new(miss.what.clone(), miss.wanted.clone(), found, design.file.length_m)
+        };
+        let misses = design.misses.iter().filter(|miss| !miss.what.starts_with("turn")).map(of).collect();
+        rounds.tell(Ok(Checked { misses, ..Checked::default() }));
+    }
+    rounds
+}
+
+fn tip_wish(more: &str) -> Wish {
+    let [x, y] = tip(55.0, 5, 15.0);
+    wish(&format!("scenario = \"epam\"\n[wish]\ntip_mm = [{x}, {y}]\n{more}{FREE}")).unwrap()
+}
+
+/// What the truth lacks where another design than the wished one has the wish, so that one with the wish can be found \[m\].
+fn lacks(share: f64) -> [f64; 2] {
+    let (here, there) = (tip(55.0, 5, 15.0), tip(62.0, 5, 19.0));
+    [0, 1].map(|k| 1e-3 * share * (here[k] - there[k]))
+}
+
+#[test]
+fn one_correction_is_exact_for_a_constant_offset_of_every_part_that_is_read() {
+    let [x, y] = tip(55.0, 5, 15.0);
+    let more = format!("places = [{{ s_mm = 360, at_mm = [{x}, {y}] }}]\ntolerance = 0.1\n");
+    let turn = "turns = [{ from_mm = 0, to_mm = 100, angle_deg = 6 }]\n";
+    for more in ["", &format!("{turn}{more}")] {
+        let wish = tip_wish(more);
+        let rounds = checked(&wish, 3, |_| lacks(1.0));
+        let [first, second] = &rounds.all[..] else { panic!("{} rounds", rounds.all.len()) };
+        assert!(first.corrected.is_none() && !first.reached(&wish) && second.reached(&wish));
+        assert_eq!((rounds.best(), rounds.end(&wish), rounds.reached(&wish)), (1, Some(End::Reached), true));
+        for miss in second.corrected.as_ref().unwrap() {
+            // What is not read is not corrected.
+            let by_model = second.design.misses.iter().find(|other| other.what == miss.what).unwrap();
+            let truth = second.by_elements(&miss.what).unwrap_or(by_model);
+            assert!(miss.found.iter().zip(&truth.found).all(|(a, b)| (a - b).abs() < 1e-12), "{miss:?} {truth:?}");
+            assert_eq!(miss.wanted, first.design.misses.iter().find(|other| other.what == miss.what).unwrap().wanted);
+        }
+        // The model's own answer is told as it is, and is now off by what it lacks.
+        let own = Model::new(&second.design.file.scenario);
+        let mut at = own.prediction();
+        own.predict(&second.design.loads, &mut at).unwrap();
+        assert_eq!(second.design.misses[0].found, [at.tip.x_m, at.tip.y_m]);
+    }
+}
+
+#[test]
+fn one_correction_of_a_smooth_offset_lands_within_the_tolerance_and_near() {
+    let wish = tip_wish("");
+    let rounds = checked(&wish, 1, |kpa| lacks(0.8 + 0.005 * (kpa - 15.0)));
+    let [first, second] = &rounds.all[..] else { panic!("{} rounds", rounds.all.len()) };
+    assert!(!first.reached(&wish) && second.reached(&wish), "{} {}", first.worst_m(), second.worst_m());
+    let count = |round: &Round| round.design.chosen[1].clone();
+    assert_eq!(count(first), count(second));
+    // A search for the same wish near a design goes nowhere, though others have the wish as well.
+    let (from, mut silent) = (&first.design.shares, |_: &str, _: Option<f64>| ControlFlow::Continue(()));
+    let again = search::design_near(&wish, Some(from), &mut silent).unwrap();
+    assert_eq!(again.chosen[1], first.design.chosen[1]);
+    assert!([0, 2].iter().all(|k| (again.shares[*k] - from[*k]).abs() < 0.02), "{:?} {from:?}", again.shares);
+}
+
+#[test]
+fn without_a_correction_the_design_is_the_same_to_the_bit() {
+    let wish = tip_wish("");
+    let plain = found(&wish);
+    let of_zero = found(&wish.less(&[0.0; 2]));
+    let none_allowed = checked(&wish, 0, |_| [0.1; 2]);
+    let none_needed = checked(&wish, 4, |_| [0.0; 2]);
+    for rounds in [&none_allowed, &none_needed] {
+        let [only] = &rounds.all[..] else { panic!("{} rounds", rounds.all.len()) };
+        assert_eq!((&only.design.file.text, &only.design.misses), (&plain.file.text, &plain.misses));
+    }
+    assert_eq!((&of_zero.file.text, &of_zero.misses), (&plain.file.text, &plain.misses));
+    assert_eq!((none_allowed.end(&wish), none_needed.end(&wish)), (Some(End::Spent), Some(End::Reached)));
+    // Without corrections the model decides, as the check is only told.
+    assert!(none_allowed.reached(&wish) && !none_allowed.all[0].reached(&wish));
+}
+
+#[test]
+fn the_best_checked_design_is_returned_though_corrections_lead_away() {
+    let wish = tip_wish("");
+    // The further from 10 kPa the worse.
+    let truth = |kpa: f64| [0.01, -0.01 - 0.01 * (kpa - 10.0).abs()];
+    let rounds = checked(&wish, 3, truth);
+    let misses: Vec<f64> = rounds.all.iter().map(Round::worst_m).collect();
+    let least = misses.iter().copied().fold(f64::INFINITY, f64::min);
+    assert_eq!(misses[rounds.best()], least);
+    assert!(rounds.all.len() > 1 && misses.last().unwrap() > &least && !rounds.reached(&wish), "{misses:?}");
+}
+
+#[test]
+fn the_end_is_told() {
+    let free = "[[free]]\nkey = \"pressure_kpa\"\nfrom = 5\nto = 12\n";
+    let [x, y] = tip(80.0, 5, 12.0);
+    let text = format!("scenario = \"epam\"\n[wish]\ntip_mm = [{x}, {y}]\n{free}");
+    let wish = wish(&text).unwrap();
+    // More bend than the range has: the end of the range again.
+    let rounds = checked(&wish, 3, |_| [0.01, -0.05]);
+    assert_eq!((rounds.end(&wish), rounds.best()), (Some(End::Same), 0));
+    let mut rounds = Rounds::new(3);
+    assert_eq!(rounds.end(&wish), None);
+    rounds.search(&wish, &mut |_, _| ControlFlow::Continue(())).unwrap();
+    rounds.tell(Err("the run was stopped".into()));
+    assert!(rounds.search(&wish, &mut |_, _| ControlFlow::Continue(())).unwrap().is_none());
+    assert_eq!((rounds.end(&wish), rounds.best(), rounds.all.len()), (Some(End::Unchecked), 0, 1));
+}

@@ -222,6 +222,17 @@ impl Wish {
         Ok(Wish { base, folder: folder.to_path_buf(), wanted, tolerance, free, assumed, cost })
     }
 
+    /// The wish less some numbers, in the order of its parts: who finds it has this one once they are added.
+    pub(super) fn less(&self, numbers: &[f64]) -> Wish {
+        let mut wish = self.clone();
+        let Wanted { tip_m, tip_angle_rad, places, turns } = &mut wish.wanted;
+        let places = places.iter_mut().flat_map(|place| &mut place.at_m);
+        let turns = turns.iter_mut().map(|turn| &mut turn.angle_rad);
+        let all = tip_m.iter_mut().flatten().chain(tip_angle_rad).chain(places).chain(turns);
+        all.zip(numbers).for_each(|(wanted, number)| *wanted -= number);
+        wish
+    }
+
     /// What is set in the scenario at shares of the ranges of free and assumed keys.
     pub(super) fn changes(&self, free: &[f64], assumed: &[f64]) -> Changes {
         let both = self.free.iter().zip(free).chain(self.assumed.iter().zip(assumed));
