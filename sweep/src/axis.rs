@@ -12,6 +12,9 @@ use serde::Deserialize;
 use std::path::Path;
 use toml::{Spanned, Value};
 
+/// A share this close to an end is at it.
+const AT_END: f64 = 1e-3;
+
 /// A key that varies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
@@ -49,6 +52,34 @@ impl Axis {
         match &self.levels {
             Levels::Listed(all) => Some(all.len()),
             Levels::Between { .. } => None,
+        }
+    }
+
+    /// The end of the range, or of a list of numbers, that a share is at, and a value beyond it: by a hundredth of the range, or by the
+    /// step from the entry before.
+    pub(crate) fn beyond(&self, share: f64) -> Option<(f64, Value)> {
+        match &self.levels {
+            Levels::Between { .. } => {
+                let (end, out) = match share {
+                    share if share < AT_END => (0.0, -0.01),
+                    share if share > 1.0 - AT_END => (1.0, 1.01),
+                    _ => return None,
+                };
+                Some((as_number(&self.at(end))?, self.at(out)))
+            }
+            Levels::Listed(all) => {
+                let here = as_number(&self.at(share))?;
+                let mut numbers = all.iter().map(as_number).collect::<Option<Vec<f64>>>()?;
+                numbers.sort_by(f64::total_cmp);
+                numbers.dedup();
+                let from_end: Vec<f64> = match *numbers {
+                    [.., last] if here == last => numbers.into_iter().rev().take(2).collect(),
+                    [first, ..] if here == first => numbers.into_iter().take(2).collect(),
+                    _ => return None,
+                };
+                let [end, before] = <[f64; 2]>::try_from(from_end).ok()?;
+                Some((end, number(2.0 * end - before)))
+            }
         }
     }
 

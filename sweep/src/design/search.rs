@@ -4,7 +4,7 @@ use super::misses::{Miss, parts, worst_m};
 use super::wish::Wish;
 use super::written::commented;
 use crate::SweepError;
-use crate::axis::{Axis, Changes, channel};
+use crate::axis::{Axis, Changes, as_number, channel};
 use crate::sample::{Method, Points};
 use argmin::core::{CostFunction, Executor};
 use argmin::solver::neldermead::NelderMead;
@@ -14,6 +14,7 @@ use fem::session::Progress;
 use models::{CHANNELS, Loads, Model, Prediction};
 use rayon::prelude::*;
 use std::sync::Mutex;
+use toml::Value;
 
 /// Starts for every combination of the entries of lists, and in all.
 const STARTS_PER_COMBINATION: usize = 12;
@@ -24,8 +25,6 @@ const SIMPLEX: [(f64, u64); 2] = [(0.2, 250), (0.02, 150)];
 const ASSUMED: [usize; 2] = [8, 64];
 /// Points of the centre line that places are read from.
 const LINE: usize = 401;
-/// A share this close to an end is at it.
-const AT_END: f64 = 1e-3;
 /// Digits of the values of a design: a hundredth of a per cent.
 const DIGITS: usize = 4;
 /// Objective of what has no equilibrium or no meaning; above any miss.
@@ -45,7 +44,7 @@ pub struct Spread {
     pub worst_m: f64,
 }
 
-/// A free key at an end of its range that holds the design back.
+/// A free key at an end of its range or list that holds the design back.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Held {
     /// The key.
@@ -286,7 +285,7 @@ pub(super) fn design_near(wish: &Wish, near: Option<&[f64]>, progress: Progress)
 fn told_of(wish: &Wish, shares: &[f64], starts: [usize; 2]) -> Result<Design, CompareError> {
     let usual = vec![0.5; wish.assumed.len()];
     // Rounding a value may change which side of an end it is on by a hundredth of a per cent.
-    let chosen: Vec<(String, toml::Value)> =
+    let chosen: Vec<(String, Value)> =
         wish.free.iter().zip(shares).map(|(axis, share)| (axis.key.clone(), axis.rounded(*share, DIGITS))).collect();
     let rounded: Vec<f64> = wish
         .free
@@ -305,7 +304,7 @@ fn told_of(wish: &Wish, shares: &[f64], starts: [usize; 2]) -> Result<Design, Co
         file = file.with(&[("predict.pressures_kpa".into(), format!("[{kpa}]"))])?;
     }
     let chosen: Vec<(String, String)> = chosen.into_iter().map(|(key, value)| (key, value.to_string())).collect();
-    let name = toml::Value::String(format!("{}, designed", file.scenario.name)).to_string();
+    let name = Value::String(format!("{}, designed", file.scenario.name)).to_string();
     file = file.with(&[("name".into(), name)])?;
     file = ScenarioFile::parse("design.toml", &commented(&file.text, &chosen))?;
     let mut design = Design {
@@ -326,32 +325,24 @@ fn told_of(wish: &Wish, shares: &[f64], starts: [usize; 2]) -> Result<Design, Co
     Ok(design)
 }
 
-/// Free keys at an end of their ranges beyond which the miss goes on falling.
+/// Free keys at an end of their ranges or lists beyond which the miss goes on falling.
 fn held(wish: &Wish, shares: &[f64]) -> Vec<Held> {
-    let usual = vec![0.5; wish.assumed.len()];
-    let total = |shares: &[f64]| {
-        let tried = wish.tried(&wish.changes(shares, &usual))?;
+    let worst_with = |other: Option<(usize, &Value)>| {
+        let value = |(i, (axis, share)): (usize, (&'_ Axis, &f64))| match other {
+            Some((k, beyond)) if k == i => beyond.clone(),
+            _ => axis.at(*share),
+        };
+        let free = wish.free.iter().zip(shares).enumerate().map(|all| (all.1.0, value(all)));
+        let tried = wish.tried(&Changes::of(free.chain(wish.assumed.iter().map(|axis| (axis, axis.at(0.5))))))?;
         Some(worst_m(&wish.misses(&tried)))
     };
-    let Some(here) = total(shares) else { return Vec::new() };
-    let mut found: Vec<Held> = Vec::new();
-    for (k, axis) in wish.free.iter().enumerate().filter(|(_, axis)| axis.entries().is_none()) {
-        let out = match shares[k] {
-            share if share < AT_END => -0.01,
-            share if share > 1.0 - AT_END => 1.01,
-            _ => continue,
-        };
-        let mut beyond = shares.to_vec();
-        beyond[k] = out;
-        let number = |share: f64| crate::axis::as_number(&axis.at(share));
-        let (Some(there), Some(end), Some(next)) = (total(&beyond), number(shares[k].round()), number(out)) else {
-            continue;
-        };
-        let gain_m = (here - there) / (next - end).abs();
-        if gain_m > 0.0 {
-            found.push(Held { key: axis.key.clone(), value: end, gain_m });
-        }
-    }
+    let Some(here) = worst_with(None) else { return Vec::new() };
+    let one = |(k, axis): (usize, &Axis)| {
+        let (value, beyond) = axis.beyond(shares[k])?;
+        let gain_m = (here - worst_with(Some((k, &beyond)))?) / (as_number(&beyond)? - value).abs();
+        Some(Held { key: axis.key.clone(), value, gain_m }).filter(|held| held.gain_m > 0.0)
+    };
+    let mut found: Vec<Held> = wish.free.iter().enumerate().filter_map(one).collect();
     found.sort_by(|a, b| b.gain_m.total_cmp(&a.gain_m));
     found
 }

@@ -79,6 +79,22 @@ fn a_wish_beyond_the_ranges_is_told_with_the_end_that_holds_it_back() {
     assert!((gained / first.gain_m - 1.0).abs() < 0.2, "{gained} against {}", first.gain_m);
 }
 
+/// The end of a list is named too, with the gain of the next entry that it might have.
+#[test]
+fn the_end_of_a_list_holds_a_design_back() {
+    let of = |widths: &str| {
+        let free = format!("[[free]]\nkey = \"actuator.width_mm\"\nvalues = {widths}\n");
+        let text = format!("scenario = \"epam\"\n[wish]\ntip_angle_deg = 120\n{free}");
+        found(&wish(&text).unwrap())
+    };
+    let (short, longer) = (of("[60, 40, 50]"), of("[60, 40, 50, 70]"));
+    let held = &short.held[0];
+    assert_eq!((short.held.len(), held.key.as_str(), held.value), (1, "actuator.width_mm", 60.0));
+    let gained_m = short.worst_m() - longer.worst_m();
+    assert!(gained_m > 1e-3 && (0.1 * gained_m - held.gain_m).abs() < 1e-12, "{gained_m} {}", held.gain_m);
+    assert!(of("[60]").held.is_empty(), "nobody knows what comes after one entry");
+}
+
 #[test]
 fn turns_add_up_to_the_tip_and_stations_lie_on_the_line() {
     let text = format!(
