@@ -43,7 +43,7 @@ pub fn design_text(wish: &Wish, rounds: &Rounds) -> String {
     );
     let all = found.loads.actuator_pa;
     if all.iter().any(|pa| *pa != all[0]) {
-        let typed = all.map(|pa| format!("{}kPa", compare::wording::short(1e-3 * pa))).join("/");
+        let typed = all.map(|pa| format!("{}kPa", fem::session::rounded(1e-3 * pa))).join("/");
         text += &format!(
             "Pressures of single channels are not in design.toml: ibr predict design.toml --pressure {typed}\n\n"
         );

@@ -304,7 +304,9 @@ fn told_of(wish: &Wish, shares: &[f64], starts: [usize; 2]) -> Result<Design, Co
         file = file.with(&[("predict.pressures_kpa".into(), format!("[{kpa}]"))])?;
     }
     let chosen: Vec<(String, String)> = chosen.into_iter().map(|(key, value)| (key, value.to_string())).collect();
-    let name = Value::String(format!("{}, designed", file.scenario.name)).to_string();
+    let stem = std::path::Path::new(&wish.base.name).file_stem().unwrap_or_default().to_string_lossy();
+    let of = if file.scenario.name.is_empty() { &*stem } else { &file.scenario.name };
+    let name = Value::String(format!("{of}, designed")).to_string();
     file = file.with(&[("name".into(), name)])?;
     file = ScenarioFile::parse("design.toml", &commented(&file.text, &chosen))?;
     let mut design = Design {
