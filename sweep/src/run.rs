@@ -56,7 +56,7 @@ pub fn parts_missing(study: &Study, folder: &std::path::Path) -> usize {
 /// Computes what is missing of a shard. `progress` is told how far it is and says whether to go on.
 ///
 /// # Errors
-/// A folder that cannot be written to; [`FemError::Interrupted`] if `progress` asked to end: what is complete stays.
+/// A folder that cannot be written to; [`fem::FemError::Interrupted`] if `progress` asked to end: what is complete stays.
 pub fn run(study: &Study, settings: &Settings, progress: Progress) -> Result<Found, SweepError> {
     let width = columns(study).len();
     pieces::folder(&settings.folder.join("parts"))?;
