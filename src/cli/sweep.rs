@@ -20,6 +20,13 @@ pub struct ShardArgs {
     pub script: bool,
 }
 
+impl ShardArgs {
+    /// Whether the work is shared.
+    pub fn asked(&self) -> bool {
+        self.shard.is_some() || self.engine.is_some()
+    }
+}
+
 /// `ibr sweep`
 #[derive(Debug, Args)]
 pub struct SweepArgs {

@@ -17,7 +17,7 @@ pub fn run(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure> 
     if args.what == "discovery" {
         return discovery(args, context);
     }
-    if args.out.is_some() || args.shards.shard.is_some() || args.shards.engine.is_some() {
+    if args.out.is_some() || args.shards.asked() {
         return Err(Failure::usage(
             format!("the bench of {} keeps nothing", args.what),
             "leave --out, --shard and --engine out, or write ibr bench discovery",
@@ -36,7 +36,7 @@ fn discovery(args: &BenchArgs, context: &mut Context) -> Result<Outcome, Failure
     let options = DiscoveryOptions { seed: args.seed, sets: args.sets as usize, laws };
     let threads = args.threads as usize;
     let Some(folder) = &args.out else {
-        if args.shards.shard.is_some() || args.shards.engine.is_some() {
+        if args.shards.asked() {
             return Err(Failure::usage("shards need a folder that all of them see", "add --out FOLDER"));
         }
         let bench = discovery::Work::plan(options, None)?;

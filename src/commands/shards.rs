@@ -107,7 +107,7 @@ pub fn shared(
     settings: &Settings,
     context: &mut Context,
 ) -> Result<Option<Outcome>, Failure> {
-    if args.engine.is_none() && args.shard.is_none() {
+    if !args.asked() {
         return Ok(None);
     }
     if settings.force {

@@ -30,7 +30,7 @@ fn agreement(table: &Table, (output, what): (&str, &str)) -> String {
     off.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     let (Some(middle), Some(worst)) = (off.get(off.len() / 2), off.last()) else { return String::new() };
     format!(
-        "\n{} cases by both: the model's {what} is {:.1} mm from the finite elements' in the median, {worst:+.1} mm at worst\n",
+        "\n{} cases by both: the model's {what} is {:.1} mm off in the median, {worst:+.1} mm at worst\n",
         off.len(),
         middle.abs()
     )

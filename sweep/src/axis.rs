@@ -7,7 +7,7 @@ use compare::ScenarioFile;
 use fem::FemError;
 use fem::robot::Spread;
 use fem::session::{Felt, Source, felt, rounded};
-use models::CHANNELS;
+use models::{CHANNELS, Model};
 use serde::Deserialize;
 use std::path::Path;
 use toml::{Spanned, Value};
@@ -175,7 +175,7 @@ impl Changes {
 }
 
 /// Keys with their values, each once; with a sample ranges have no steps.
-pub(crate) fn axes(raw: &[Spanned<RawAxis>], sampled: bool) -> Result<Vec<Axis>, Wrong> {
+pub(crate) fn axes(raw: &[Spanned<RawAxis>], sampled: bool, base: &ScenarioFile) -> Result<Vec<Axis>, Wrong> {
     let mut all: Vec<Axis> = Vec::new();
     for raw in raw {
         let wrong = |message: String, help| Err((Some(raw.span()), message, help));
@@ -199,6 +199,13 @@ pub(crate) fn axes(raw: &[Spanned<RawAxis>], sampled: bool) -> Result<Vec<Axis>,
         }
         all.push(axis);
     }
+    let fed: Vec<usize> = Model::new(&base.scenario).channels().collect();
+    let idle = |(raw, axis): (&Spanned<RawAxis>, &Axis)| {
+        let one = channel(&axis.key).flatten().filter(|one| !fed.contains(one))?;
+        let message = format!("nothing of {} is on supply channel {one}", base.name);
+        Some((Some(raw.span()), message, "leave it out, or write pressure_kpa"))
+    };
+    raw.iter().zip(&all).find_map(idle).map_or(Ok(()), Err)?;
     Ok(all)
 }
 

@@ -1,6 +1,6 @@
 //! What a table shows: how far each key moves an output, and a map over two keys.
 
-use crate::study::{Engine, PRESSURE, Study};
+use crate::study::{Engine, Study};
 use compare::wording::value;
 use data::table::{Column, Table};
 
@@ -48,7 +48,7 @@ pub fn influences(study: &Study, table: &Table, engine: Engine, output: &str) ->
         let groups = grouped.names.iter().enumerate().map(|(g, name)| (name.clone(), mean(g))).collect();
         Some(Influence { key, groups }).filter(|found| found.groups.len() > 1)
     };
-    let mut found: Vec<Influence> = keys(study).into_iter().filter_map(of).collect();
+    let mut found: Vec<Influence> = study.keys().filter_map(of).collect();
     found.sort_by(|a, b| b.span().total_cmp(&a.span()));
     found
 }
@@ -72,12 +72,6 @@ pub fn map(table: &Table, engine: Engine, output: &str, keys: [&str; 2]) -> Opti
     let mean = |r: usize, c: usize| rows.mean(|i| down.of_row[i] == r && across.of_row[i] == c);
     let means = (0..down.names.len()).map(|r| (0..across.names.len()).map(|c| mean(r, c)).collect()).collect();
     Some(SweepMap { keys: keys.map(String::from), names: [down.names, across.names], means })
-}
-
-/// Keys of the table that a study varies.
-fn keys(study: &Study) -> Vec<String> {
-    let own = study.axes.iter().map(|axis| axis.key.clone()).filter(|key| key != PRESSURE);
-    own.chain((!study.has_channels()).then(|| PRESSURE.to_string())).collect()
 }
 
 /// Cases of an engine that have a number.

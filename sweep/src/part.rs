@@ -54,8 +54,7 @@ impl Part {
             let Changes { values, pressures_kpa } = study.changes(robot);
             values.iter().for_each(|(key, value)| told.extend(format!("{key} = {value}\n").bytes()));
             let pressures = match &pressures_kpa {
-                Some(channels) if study.has_channels() => &channels[..],
-                Some(channels) => &channels[..1],
+                Some(channels) => &channels[..],
                 None => &study.pressures_kpa[self.pressures(robot, per_robot)],
             };
             pressures.iter().for_each(|kpa| told.extend(kpa.to_le_bytes()));

@@ -161,7 +161,7 @@ impl Study {
         let engines = listed_once(raw.engines.as_ref(), &[Engine::Reduced], "engines")?;
         let outputs = listed_once(raw.outputs.as_ref(), &[Output::Tip, Output::Limits], "outputs")?;
         let raw_sample = raw.sample.as_ref();
-        let mut axes = axes(&raw.vary, raw_sample.is_some())?;
+        let mut axes = axes(&raw.vary, raw_sample.is_some(), &base)?;
         if let Some(span) = raw.assumed.as_ref().filter(|wish| *wish.get_ref()).map(Spanned::span) {
             let wrong = |message: &str, help| (Some(span.clone()), message.to_string(), help);
             if raw_sample.is_none() || !engines.contains(&Engine::Elements) {
@@ -258,6 +258,12 @@ impl Study {
     /// Whether single channels have pressures of their own.
     pub fn has_channels(&self) -> bool {
         self.axes.iter().any(|axis| matches!(channel(&axis.key), Some(Some(_))))
+    }
+
+    /// Keys that have a column: those that vary, and last the pressure, unless single channels have their own.
+    pub(crate) fn keys(&self) -> impl Iterator<Item = String> {
+        let own = self.axes.iter().map(|axis| axis.key.clone()).filter(|key| key != PRESSURE);
+        own.chain((!self.has_channels()).then(|| PRESSURE.to_string()))
     }
 
     /// What is set in the scenario of a robot, and its pressures.

@@ -33,11 +33,9 @@ pub fn columns(study: &Study) -> Vec<String> {
 
 /// Names of all columns of the table.
 pub fn names(study: &Study) -> Vec<String> {
-    let keys = study.axes.iter().map(|axis| axis.key.clone()).filter(|key| key != PRESSURE);
     let first = ["case", "engine"].into_iter().map(String::from);
     let last = ["status", "reason"].into_iter().map(String::from);
-    let pressure = (!study.has_channels()).then(|| PRESSURE.into());
-    first.chain(keys).chain(pressure).chain(columns(study)).chain(last).collect()
+    first.chain(study.keys()).chain(columns(study)).chain(last).collect()
 }
 
 /// The table of the parts in a folder; those that are missing otherwise.

@@ -191,12 +191,12 @@ impl Wish {
                 "write for example tolerance = 0.01",
             );
         }
-        let free = axes(&raw.free, true)?;
+        let free = axes(&raw.free, true, &base)?;
         if free.is_empty() || free.len() > MOST_FREE {
             let message = format!("{} keys are free; a design needs 1 to {MOST_FREE}", free.len());
             return Err((None, message, "add [[free]] with key = \"pressure_kpa\", from = 5 and to = 30"));
         }
-        let assumed = axes(&raw.assumed, true)?;
+        let assumed = axes(&raw.assumed, true, &base)?;
         if let Some(twice) = assumed.iter().position(|a| free.iter().any(|f| f.key == a.key)) {
             let message = format!("`{}` is free and assumed", assumed[twice].key);
             return Err((Some(raw.assumed[twice].span()), message, "what you choose is known: leave one out"));
