@@ -25,6 +25,10 @@ pub const HEAVY: f64 = 1.0;
 pub const KINETIC_OF_INTERNAL: f64 = 0.10;
 /// Kinetic over total energy that the paper kept its runs below.
 pub const KINETIC_OF_TOTAL: f64 = 0.01;
+/// Movement of the tip that a hold does not wait for, as a share of its displacement from the start.
+pub const CREEP: f64 = 0.005;
+/// Displacement of the tip from which on that is judged, as a share of the length.
+pub const BENT: f64 = 0.1;
 /// A peak of the walls' kinetic energy stands out if the valleys beside it are below this share of it.
 pub const VALLEY: f64 = 0.5;
 /// Smallest drop of a snap, as a share of the largest stored energy of the run.
@@ -83,6 +87,11 @@ pub fn is_at_rest(kinetic_share: f64) -> bool {
 pub fn is_valid(kinetic_share: f64) -> bool {
     // K < r·U is the same as K/(K + U) < r/(1 + r).
     kinetic_share < KINETIC_OF_INTERNAL / (1.0 + KINETIC_OF_INTERNAL)
+}
+
+/// Movement of a tip that counts as none \[m\], of its displacement and the robot's length \[m\].
+pub fn moves_no_more_m(tip_m: f64, length_m: f64) -> f64 {
+    CREEP * tip_m.max(BENT * length_m)
 }
 
 /// Whether a valley parts two peaks, of the walls' kinetic energies.
@@ -149,6 +158,13 @@ mod tests {
     fn a_run_is_at_rest_below_a_hundredth_and_valid_below_a_tenth_of_its_stored_energy() {
         turns_at(0.01, |share| !is_at_rest(share));
         turns_at(0.1 / 1.1, |share| !is_valid(share));
+    }
+
+    #[test]
+    fn a_tip_moves_by_half_a_per_cent_of_its_way_or_of_a_tenth_of_the_length() {
+        for (tip_m, allowed_m) in [(0.1, 5e-4), (0.001, 1.8e-4)] {
+            assert!((moves_no_more_m(tip_m, 0.36) / allowed_m - 1.0).abs() < 1e-9);
+        }
     }
 
     #[test]

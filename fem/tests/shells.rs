@@ -49,7 +49,7 @@ fn zoo() -> Vec<(Problem, &'static str)> {
         Problem::new("tube", tube.clone(), sections.collect(), vec![chamber("body", 2e3)])
     };
     all.push((by_part(&woven, &neo), "tube"));
-    let film: Arc<dyn Fabric> = Arc::new(WrinklingFilm { film: neo_film(), share: 0.05 });
+    let film: Arc<dyn Fabric> = Arc::new(WrinklingFilm { film: neo_film(), load_n_per_m: 5.0 });
     all.push((by_part(&film, &film), "tube that wrinkles"));
     all.push((by_part(&film, &neo), "tube that wrinkles, with stiff caps"));
     let mut wavy = by_part(&film, &neo);

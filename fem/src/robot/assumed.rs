@@ -55,10 +55,10 @@ pub const ASSUMED: &[Assumed] = &[
         set: |s, v| s.bending_factor = v,
     },
     Assumed {
-        interval: [0.01, 1.0],
-        spread: Spread::Factor,
-        reason: "sheets that wrinkle below the mesh, as far as it was tried, to sheets that carry all of it",
-        set: |s, v| s.compression = v,
+        interval: [0.5, 1.0],
+        spread: Spread::Even,
+        reason: "wrinkles from the strip's edge to the taut line, or half as far; their load follows from it, bending and hoop tension",
+        set: |s, v| s.wrinkle_length = Some(v),
     },
     Assumed {
         interval: [0.0, 1.0],

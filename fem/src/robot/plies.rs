@@ -17,16 +17,21 @@
 //! Two equal sheets have 6.2/8 of the stiffness of a solid plate of both with β = 1, b = 0.1. Derived here; Jones,
 //! Mechanics of Composite Materials, ch. 4, for β = b = 1.
 //!
+//! **Wrinkles**: a single sheet under compression carries N_w = 2π √(D T)/ℓ ([`models::fabrics::WrinklingFilm`]) with its own bending stiffness
+//! D, the hoop tension T = p_b R of the body, and the length ℓ of [`Wrinkles`], both from the geometry.
+//! The sheets of a pouch have a tension of this size where the load matters: P L/π of a full pouch is 1.2 p_b R at 2.5 p_b.
+//!
 //! **Sharp folds**: an adhesive of shear modulus G and thickness t_g lets two sheets at ±z slide over a length
 //! ℓ = √(A t_g/2G) beside a fold, so that a fold by θ cannot cost more than √(G A/2t_g) z² θ² per width (derived here: least
 //! energy of stretch and slip). Soft acrylic, G = 0.3 MPa, t_g = 0.05 mm, gives 0.25 J/m and ℓ = 2.4 mm. This is not
 //! modelled; β = 1 − (ℓ/h)(1 − exp(−h/ℓ)) at element size h stands for it.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
-use models::Fabric;
 use models::actuators::pattern::{Film, Joint, Pattern};
-use models::fabrics::{Kind, Orthotropic, Ply, WrinklingFilm, material};
+use models::fabrics::{Kind, Orthotropic, Ply, WrinklingFilm, material, wrinkling_load_n_per_m};
+use models::{Fabric, Scenario};
 
 use super::RobotSettings;
 use super::sew::{FACE, MARGIN, SEAM, WALL};
@@ -40,27 +45,57 @@ pub(super) struct Plies<'a> {
     settings: &'a RobotSettings,
     /// Of the strips to the body \[rad\], as ply angles count.
     slant_rad: f64,
+    wrinkles: Option<Wrinkles>,
     body: Arc<dyn Fabric>,
     sheet: Arc<dyn Fabric>,
 }
 
+/// Wrinkles of single sheets: tension along them, and their length between the lines that keep the sheet flat.
+pub(super) struct Wrinkles {
+    /// T = p_b R, the hoop tension of the body \[N/m\].
+    tension_n_per_m: f64,
+    /// In the wall: half of the circumference between two strips, from the edge of a strip to the line that stays taut \[m\].
+    wall_m: f64,
+    /// In the actuator's sheets: half of the strip's width, from its side to its middle \[m\].
+    sheet_m: f64,
+}
+
+impl Wrinkles {
+    /// Of a robot; `None` if its sheets carry all of compression.
+    pub fn of(scenario: &Scenario, patterns: &[Pattern], settings: &RobotSettings) -> Option<Wrinkles> {
+        let longer = settings.wrinkle_length?;
+        let free_m = 2.0 * PI * scenario.radius_m - patterns.iter().map(|p| p.width_m).sum::<f64>();
+        Some(Wrinkles {
+            tension_n_per_m: scenario.p_body_pa * scenario.radius_m,
+            wall_m: 0.5 * longer * free_m / patterns.len() as f64,
+            sheet_m: 0.5 * longer * patterns[0].width_m,
+        })
+    }
+}
+
 impl Plies<'_> {
     /// For strips of one kind and slant, as azimuths turn from base to tip \[rad\].
-    pub fn of<'a>(pattern: &'a Pattern, slant_rad: f64, settings: &'a RobotSettings) -> Result<Plies<'a>, FemError> {
+    pub fn of<'a>(
+        pattern: &'a Pattern,
+        slant_rad: f64,
+        settings: &'a RobotSettings,
+        wrinkles: Option<Wrinkles>,
+    ) -> Result<Plies<'a>, FemError> {
         let fabric = |name: &str| made(name, settings.nu12);
         let (body, sheet) = (fabric(pattern.body_fabric)?, fabric(pattern.fabric)?);
         // Azimuths turn clockwise seen from outside.
-        Ok(Plies { pattern, settings, slant_rad: -slant_rad, body, sheet })
+        Ok(Plies { pattern, settings, slant_rad: -slant_rad, wrinkles, body, sheet })
     }
 
     /// Section of the part of that name.
     pub fn section(&self, part: &str) -> Section {
         let wall = ply(&self.body, 0.0);
-        let free = ply(&self.wrinkling(&self.body), 0.0);
+        let [wall_m, sheet_m] = self.wrinkles.as_ref().map_or([0.0; 2], |w| [w.wall_m, w.sheet_m]);
+        let free = |length_m: f64| ply(&self.wrinkling(&self.body, length_m), 0.0);
         if let Some(panel) = self.pattern.panels.iter().find(|p| p.name == part) {
             // A panel that runs back shows its front to the body, and is seen from there.
             let seen = if panel.to_m < panel.from_m { -panel.warp_rad } else { panel.warp_rad };
-            return self.loose(vec![ply(&self.wrinkling(&self.sheet), seen)]);
+            return self.loose(vec![ply(&self.wrinkling(&self.sheet, sheet_m), seen)]);
         }
         match (part, part.strip_prefix(SEAM).and_then(|n| n.parse::<usize>().ok())) {
             (_, Some(layers)) => {
@@ -77,17 +112,19 @@ impl Plies<'_> {
                 let plies = std::iter::once(wall).chain(self.stuck()).collect();
                 self.bonded(plies)
             }
-            (WALL, None) => self.loose(vec![free; self.pattern.body_sheets]),
-            _ => self.loose(vec![free]),
+            (WALL, None) => self.loose(vec![free(wall_m); self.pattern.body_sheets]),
+            (FACE | MARGIN, None) => self.loose(vec![free(sheet_m)]),
+            _ => self.loose(vec![free(wall_m)]),
         }
     }
 
-    /// A film whose wrinkles are shorter than an element, if less than all of compression is to be carried; stuck plies are too
-    /// stiff for such wrinkles.
-    fn wrinkling(&self, fabric: &Arc<dyn Fabric>) -> Arc<dyn Fabric> {
-        match fabric.kind() {
-            Kind::NeoHookean(film) if self.settings.compression < 1.0 => {
-                Arc::new(WrinklingFilm { film: *film, share: self.settings.compression })
+    /// A film with the load of its wrinkles over a length \[m\]; stuck plies are too stiff for such wrinkles.
+    fn wrinkling(&self, fabric: &Arc<dyn Fabric>, length_m: f64) -> Arc<dyn Fabric> {
+        match (fabric.kind(), &self.wrinkles) {
+            (Kind::NeoHookean(film), Some(wrinkles)) => {
+                let bending_nm = self.settings.bending_factor * mean_stiffness(film) * film.thickness_m.powi(2) / 12.0;
+                let load_n_per_m = wrinkling_load_n_per_m(bending_nm, wrinkles.tension_n_per_m, length_m);
+                Arc::new(WrinklingFilm { film: *film, load_n_per_m })
             }
             _ => Arc::clone(fabric),
         }

@@ -4,6 +4,7 @@ use models::Scenario;
 use serde::{Deserialize, Serialize};
 
 use super::inflated::{InflatedPouch, Tape};
+use super::rest::Rest;
 use super::seams::Seams;
 use super::{marker_points, sections, sew};
 use crate::output::centre_line::CentreLine;
@@ -81,6 +82,12 @@ pub struct Reading {
     pub ledger: Vec<(String, String, f64)>,
     /// Kinetic over kinetic and stored energy.
     pub kinetic_share: f64,
+    /// Time that the hold waited for rest \[s\].
+    pub waited_s: f64,
+    /// How far the tip still goes by its last movements \[m\]; `None` without waiting.
+    pub ahead_m: Option<f64>,
+    /// Whether the tip is at rest, by [`super::Settling`].
+    pub is_at_rest: bool,
 }
 
 impl RobotGauge {
@@ -122,8 +129,12 @@ impl RobotGauge {
     ///
     /// # Errors
     /// [`FemError::Problem`] if the run is of another mesh.
-    pub fn read(&self, run: &Simulation) -> Result<Reading, FemError> {
+    pub fn read(&self, run: &Simulation, rest: Rest) -> Result<Reading, FemError> {
         let (positions, fields) = (run.positions(), run.element_fields());
+        let (waited_s, ahead_m, is_at_rest) = match rest {
+            Rest::Over { waited_s, ahead_m, is_at_rest } => (waited_s, ahead_m.is_finite().then_some(ahead_m), is_at_rest),
+            Rest::Until(_) => (0.0, None, false),
+        };
         let moved = |line: &CentreLine, start: &[[f64; 3]]| -> Result<Vec<[f64; 3]>, FemError> {
             let now = line.at(&positions)?;
             Ok(now.iter().zip(start).map(|(a, b)| [0, 1, 2].map(|k| a[k] - b[k])).collect())
@@ -164,7 +175,15 @@ impl RobotGauge {
             inflated: self.tape.as_ref().map(|tape| tape.read(&positions)),
             ledger: rows,
             kinetic_share: ledger.kinetic_share(),
+            waited_s,
+            ahead_m,
+            is_at_rest,
         })
+    }
+
+    /// Displacement of the mean of the tip's ring \[m\].
+    pub fn tip_moved_m(&self, run: &Simulation) -> [f64; 3] {
+        self.moved(&self.tip, &run.positions())
     }
 
     /// Part and place along the straight robot of an element.

@@ -146,7 +146,7 @@ fn the_papers_model_sets_its_modelling_choices_and_other_keys_override_them() {
     let s = &run.settings;
     assert_eq!((run.model, run.separate, run.pressures_pa.len()), (Preset::Paper, true, 3));
     assert_eq!([s.body_size_m, s.actuator_size_m, s.layer_gap_m], [4e-3, 4e-3, 1e-5]);
-    assert_eq!([s.bending_factor, s.compression, s.bond], [1.0, 1.0, 1.0]);
+    assert_eq!(([s.bending_factor, s.bond], s.wrinkle_length), ([1.0, 1.0], None));
     assert_eq!([s.weld_m, s.tape_m, s.tape_margin_m, s.waviness_m], [0.0, 1e-6, 0.0, 0.0]);
     assert_eq!([s.body_ramp_s, s.actuator_ramp_s, s.hold_s], [0.1, 1.0, 0.0]);
     assert_eq!((s.nu12, s.ring_spacing, s.ramp_floor_pa), (Some(0.0), Some(1.0), None));
@@ -196,7 +196,7 @@ fn the_base_holds_the_filled_body_however_it_is_held() {
         let gauge = crate::robot::RobotGauge::new(&scenario, &problem).unwrap();
         let mut body = crate::Simulation::new(&problem).unwrap();
         body.advance_until(run.holds()[0].time_s, &mut |_| true).unwrap();
-        let reading = gauge.read(&body).unwrap();
+        let reading = gauge.read(&body, Rest::Until(0.0)).unwrap();
         let pull = scenario.p_body_pa * std::f64::consts::PI * scenario.radius_m.powi(2);
         assert!((reading.base_n[0] / -pull - 1.0).abs() < 0.05, "{base}: {:?}, {pull}", reading.base_n);
         assert!(reading.base_n[1].hypot(reading.base_n[2]) < 0.05 * pull, "{base}: {:?}", reading.base_n);

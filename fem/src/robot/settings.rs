@@ -39,9 +39,9 @@ pub struct RobotSettings {
     pub weld_m: f64,
     /// Share of the bending stiffness of a solid plate that one sheet of coated fabric has. Assumed.
     pub bending_factor: f64,
-    /// Share of compression that single sheets of a film carry: less than 1 where wrinkles are shorter than the elements
-    /// ([`models::fabrics::WrinklingFilm`]). Assumed.
-    pub compression: f64,
+    /// Length of the wrinkles of single sheets over the length that the geometry gives (`plies`), to which their load is inverse
+    /// ([`models::fabrics::WrinklingFilm`]). `None`: sheets carry all of compression. Assumed.
+    pub wrinkle_length: Option<f64>,
     /// How far taped and glued plies bend as one: 1 without slip, 0 as loose sheets. Assumed.
     pub bond: f64,
     /// Thickness of the transfer tape \[m\]. Assumed.
@@ -70,8 +70,10 @@ pub struct RobotSettings {
     /// The actuator's pressure grows by equal shares of itself plus this in equal times \[Pa\]: a robot bends most, and its
     /// folds open, while this is about the body's pressure. `None`: a fifth-order step of the pressure itself.
     pub ramp_floor_pa: Option<f64>,
-    /// Time at full pressure \[s\].
+    /// Time at full pressure before the robot is watched \[s\].
     pub hold_s: f64,
+    /// Longest time that a hold then waits until the tip is at rest \[s\]; `None`: twice the actuator's ramp.
+    pub rest_s: Option<f64>,
     /// Square of the step over the time that sound takes through the smallest element; masses are raised as the highest mode of the
     /// mesh needs (`mass_scaling`). `None`: 2.4, and 3.6 for elements below 1.5 mm whose layers touch.
     pub mass_factor: Option<f64>,
@@ -109,12 +111,12 @@ impl RobotSettings {
     /// | rows of 2 mm beside the welds of a folded sheet | full pouches set these welds on edge, which longer rows cannot follow |
     /// | waviness 0.1 mm | assumed; without it all seeds of a robot take the folds that its mesh prefers |
     /// | welds 3 mm wide | assumed; of all numbers the one that decides most |
-    /// | 0.04 + 0.36 + 0.06 s, masses raised | 24 000 to 47 000 steps; with rate-free fabrics only their number counts |
+    /// | 0.04 + 0.36 s and holds until rest, masses raised | with rate-free fabrics only the number of steps counts |
     /// | selective masses | the step asks for an eighth and less of the mass that it asks for without |
     /// | ramp floor 2 kPa | the body's pressure: there a robot bends most per pascal, and gussets open |
-    /// | mass damping 40 1/s | with the time at full pressure it brings the kinetic share below 1 % |
-    /// | hourglass .001 | p R/(E t) of the TPU-coated body; .01 holds 9 to 16 % of the stored energy, .001 up to 2.4 % |
-    /// | 1 % of compression | single sheets wrinkle below the mesh; with all of it the cPAM gains 10 mm for every millimetre off the elements |
+    /// | mass damping 40 1/s | holds last until the tip is at rest, so that it decides how long a run takes |
+    /// | hourglass .003 | with .001 elements of the pouches turn inside out; .01 holds 9 to 16 % of the stored energy |
+    /// | compressed sheets carry the load of their wrinkles | 2π √(D T)/ℓ, from D, T = p_b R and the geometry: no number of its own |
     /// | bending factor 0.2 | droop of a heat-bondable coated nylon, measured by others: 0.1 to 0.5 |
     /// | tape 0.05 mm over the whole face, no margin | assumed: the usual thickness, a sheet cut at its welds |
     /// | ν₁₂ = 0.2 | assumed: the middle of 0 to 0.4 |
@@ -129,7 +131,7 @@ impl RobotSettings {
             layer_gap_m: 1e-5,
             weld_m: 3e-3,
             bending_factor: 0.2,
-            compression: 0.01,
+            wrinkle_length: Some(1.0),
             bond: 1.0,
             tape_m: 5e-5,
             tape_e_pa: 1e6,
@@ -143,12 +145,13 @@ impl RobotSettings {
             body_ramp_s: 0.04,
             actuator_ramp_s: 0.36,
             ramp_floor_pa: Some(2e3),
-            hold_s: 0.06,
+            hold_s: 0.03,
+            rest_s: None,
             mass_factor: None,
             selective_mass: true,
             mass_passes: None,
             mass_damping_1_s: 40.0,
-            hourglass: 1e-3,
+            hourglass: 3e-3,
             guard_hourglass: Guards::default().hourglass,
             contact: None,
             encastre: false,
@@ -180,7 +183,7 @@ impl RobotSettings {
             ring_spacing: Some(1.0),
             weld_m: 0.0,
             bending_factor: 1.0,
-            compression: 1.0,
+            wrinkle_length: None,
             tape_m: TIE_M,
             tape_margin_m: 0.0,
             nu12: Some(0.0),
@@ -188,10 +191,16 @@ impl RobotSettings {
             actuator_ramp_s: 1.0,
             ramp_floor_pa: None,
             hold_s: 0.0,
+            rest_s: Some(0.0),
             mass_damping_1_s: 5.0,
             waviness_m: 0.0,
             ..RobotSettings::compressed()
         }
+    }
+
+    /// Longest time that a hold waits for rest \[s\].
+    pub fn longest_rest_s(&self) -> f64 {
+        self.rest_s.unwrap_or(2.0 * self.actuator_ramp_s)
     }
 
     /// The actuator's pressure through (time \[s\], pressure \[Pa\]) points.

@@ -68,8 +68,8 @@ pub const KEYS: &[RunKey] = &[
     key("weld_mm", 1e-3, [0.0, 100.0], "width of the welds across the robot; 0: a line", |s| Some(s.weld_m), |s, v| s.weld_m = v),
     key("bending_factor", 1.0, [0.0, 10.0], "bending stiffness of one sheet over that of a solid plate",
         |s| Some(s.bending_factor), |s, v| s.bending_factor = v),
-    key("compression", 1.0, [0.0, 1.0], "share of compression that single sheets of a film carry; the rest wrinkles",
-        |s| Some(s.compression), |s, v| s.compression = v),
+    key("wrinkle_length", 1.0, [1e-3, 1e3], "length of wrinkles over that of the geometry; their load is inverse to it",
+        |s| s.wrinkle_length, |s, v| s.wrinkle_length = Some(v)),
     key("bond", 1.0, [0.0, 1.0], "how far taped and glued plies bend as one", |s| Some(s.bond), |s, v| s.bond = v),
     key("tape_mm", 1e-3, [1e-3, 5.0], "thickness of the transfer tape", |s| Some(s.tape_m), |s, v| s.tape_m = v),
     key("tape_e_mpa", 1e6, [1e-3, 1e4], "Young's modulus of its adhesive", |s| Some(s.tape_e_pa), |s, v| s.tape_e_pa = v),
@@ -86,7 +86,9 @@ pub const KEYS: &[RunKey] = &[
         |s| Some(s.actuator_ramp_s), |s, v| s.actuator_ramp_s = v),
     key("ramp_floor_kpa", 1e3, [1e-3, 1e6], "pressure from which the actuator's grows by equal shares in equal times",
         |s| s.ramp_floor_pa, |s, v| s.ramp_floor_pa = Some(v)),
-    key("hold_s", 1.0, [0.0, 1e3], "time at each pressure before it is read", |s| Some(s.hold_s), |s, v| s.hold_s = v),
+    key("hold_s", 1.0, [0.0, 1e3], "time at each pressure before the robot is watched", |s| Some(s.hold_s), |s, v| s.hold_s = v),
+    key("rest_s", 1.0, [0.0, 1e3], "longest time that a hold then waits until the tip is at rest; twice the ramp unless written",
+        |s| s.rest_s, |s, v| s.rest_s = Some(v)),
     key("mass_factor", 1.0, [1.0, 1e4], "square of the step over the time of sound through the smallest element",
         |s| s.mass_factor, |s, v| s.mass_factor = Some(v)),
     key("mass_passes", 1.0, [2.0, 6.0], "passes of the selective masses, 2, 4 or 6: more allow longer steps and make longer waves heavy",
@@ -122,7 +124,7 @@ const MESHES: &str = "write the element sizes of body and actuator of every run:
 const ELEMENT: Range = Range { si: 1e-3, ..plain(0.5, 50.0, MESHES) };
 
 /// Shortest time at each pressure over the actuator's ramp, unless `hold_s` is given.
-const HOLD: f64 = 0.06;
+const HOLD: f64 = 0.03;
 
 #[derive(Deserialize)]
 struct File {

@@ -66,7 +66,7 @@ fn the_step_is_stable_and_a_little_more_is_not() {
         caps: [generate::Cap::Triangles, generate::Cap::Quads],
         warp_rad: 0.0,
     });
-    let wrinkling = WrinklingFilm { film: FILM, share: 0.05 };
+    let wrinkling = WrinklingFilm { film: FILM, load_n_per_m: 5.0 };
     let tied = crate::shared_tests::tied().unwrap();
     for (name, problem, gain) in [
         ("tube", problem(tube.unwrap(), Arc::new(FILM)), 1.03),

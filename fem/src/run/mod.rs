@@ -92,7 +92,11 @@ struct Limits {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Clock {
     step: u64,
+    /// Time of loads and supports; it stops while the run waits.
     time_s: f64,
+    /// Time that the run has waited.
+    waited_s: f64,
+    waits: bool,
     dt_s: f64,
     /// Length of the step before; 0 at the start.
     before_s: f64,
@@ -100,6 +104,13 @@ struct Clock {
     longest_s: f64,
     /// γ: the stable step of the whole mesh over that of the nodes' bounds.
     gain: f64,
+}
+
+impl Clock {
+    /// The clock that runs.
+    fn runs_s(&self) -> f64 {
+        if self.waits { self.waited_s } else { self.time_s }
+    }
 }
 
 /// Energies that only stepping can add up \[J\].
@@ -215,6 +226,10 @@ impl Simulation {
     /// Simulated time \[s\].
     pub fn time_s(&self) -> f64 {
         self.clock.time_s
+    }
+    /// Time that loads and supports stood still, [`Simulation::wait_until`] \[s\]; simulated in addition to the time.
+    pub fn waited_s(&self) -> f64 {
+        self.clock.waited_s
     }
     /// Steps done.
     pub fn step(&self) -> u64 {

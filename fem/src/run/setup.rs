@@ -58,7 +58,7 @@ impl Simulation {
             v: vec![[0.0; 4]; count],
             selective: still.selective(settings, &mesh, &mass),
             force: vec![[0.0; 4]; count],
-            clock: Clock { step: 0, time_s: 0.0, dt_s, before_s: 0.0, longest_s: dt_s, gain },
+            clock: Clock { step: 0, time_s: 0.0, waited_s: 0.0, waits: false, dt_s, before_s: 0.0, longest_s: dt_s, gain },
             books: Books::default(),
             limits: limits(settings, &sheet, added_mass),
             team: Some(Team::new(settings.threads)?),

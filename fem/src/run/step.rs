@@ -32,6 +32,29 @@ impl Simulation {
         time_s: f64,
         go_on: &mut (dyn FnMut(&Simulation) -> bool + Send),
     ) -> Result<Advance, FemError> {
+        self.clock.waits = false;
+        self.advance(time_s, go_on)
+    }
+
+    /// Steps with all loads and supports as they are, until the run has waited for so long in all \[s\], or `go_on` returns false.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance_until`].
+    pub fn wait_until(
+        &mut self,
+        waited_s: f64,
+        go_on: &mut (dyn FnMut(&Simulation) -> bool + Send),
+    ) -> Result<Advance, FemError> {
+        self.clock.waits = true;
+        self.advance(waited_s, go_on)
+    }
+
+    /// To a time of the clock that runs.
+    fn advance(
+        &mut self,
+        time_s: f64,
+        go_on: &mut (dyn FnMut(&Simulation) -> bool + Send),
+    ) -> Result<Advance, FemError> {
         let mut advance = None;
         while self.is_before(time_s) && advance.is_none() {
             // The team is moved out for the call, so that the steps may borrow the rest.
@@ -49,7 +72,7 @@ impl Simulation {
     }
 
     fn is_before(&self, time_s: f64) -> bool {
-        self.clock.time_s + 0.5 * self.clock.dt_s < time_s
+        self.clock.runs_s() + 0.5 * self.clock.dt_s < time_s
     }
 
     /// Steps for [`STRETCH`], or until the time is reached or the callback asks to stop.
@@ -82,7 +105,7 @@ impl Simulation {
     /// Up to `steps` steps.
     fn burst(&mut self, steps: u64, time_s: f64) {
         for done in 1..=steps {
-            let ahead = self.clock.time_s + 1.5 * self.clock.dt_s;
+            let ahead = self.clock.runs_s() + 1.5 * self.clock.dt_s;
             self.sheet.measure = done == steps || ahead >= time_s;
             self.one_step();
             if ahead >= time_s {
@@ -93,6 +116,7 @@ impl Simulation {
 
     pub(super) fn one_step(&mut self) {
         let (t, dt) = (self.clock.time_s, self.clock.dt_s);
+        let next_s = if self.clock.waits { t } else { t + dt };
         let dv = 0.5 * (self.clock.before_s + dt);
         let pose = Pose::nodes(self.x.as_flattened());
         let tick = Tick { step: self.clock.step, time_s: t, dt_s: dt };
@@ -121,7 +145,7 @@ impl Simulation {
         }
         let mut support = 0.0;
         for driven in &self.driven {
-            support += driven.step(t + dt, dt, &self.mass, &self.force, &self.x, &mut self.v);
+            support += driven.step(next_s, dt, &self.mass, &self.force, &self.x, &mut self.v);
         }
         self.books.support.add(support);
         if look {
@@ -150,7 +174,8 @@ impl Simulation {
         self.books.stored = stored;
         self.books.damping.add(self.limits.damping_1_s * dv * damped);
         self.clock.before_s = dt;
-        self.clock.time_s += dt;
+        self.clock.time_s = next_s;
+        self.clock.waited_s += if self.clock.waits { dt } else { 0.0 };
         self.clock.step += 1;
     }
 }

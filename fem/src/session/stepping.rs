@@ -10,6 +10,7 @@ use crate::output::centre_line::{CentreLine, CentreLineFile};
 use crate::output::checkpoint::{Checkpoint, read_checkpoint, write_checkpoint};
 use crate::output::history::{History, Record};
 use crate::output::pvd::Series;
+use crate::robot::Rest;
 use crate::run::Advance;
 use crate::{FemError, Simulation};
 use serde::{Deserialize, Serialize};
@@ -124,30 +125,36 @@ impl<'a> Running<'a> {
         while self.next <= last {
             let output_s = if self.next == last { end_s } else { self.next as f64 * every_s };
             let hold_s = self.robot.as_ref().and_then(Watched::next_s).filter(|hold_s| *hold_s <= output_s);
-            if self.advance(hold_s.unwrap_or(output_s), &mut teller, &mut keeper, progress)? == Advance::Interrupted {
-                self.save(self.cpu_before_s + self.cpu_s())?;
-                return Err(FemError::Interrupted { time_s: self.run.time_s(), step: self.run.step(), done: 0, of: 1 });
+            self.advance(Goal::Time(hold_s.unwrap_or(output_s)), &mut teller, &mut keeper, progress)?;
+            if hold_s.is_none() {
+                self.output()?;
+                continue;
             }
-            match &mut self.robot {
-                Some(robot) if hold_s.is_some() => robot.read(&self.run)?,
-                _ => self.output()?,
+            while let Some(robot) = &mut self.robot {
+                match robot.rest(&self.run) {
+                    Rest::Until(waited_s) => self.advance(Goal::Waited(waited_s), &mut teller, &mut keeper, progress)?,
+                    rest => {
+                        robot.read(&self.run, rest)?;
+                        break;
+                    }
+                }
             }
         }
         self.run.judge_end()
     }
 
-    /// Steps to a moment, with checkpoints on the way.
+    /// Steps to a moment, with checkpoints on the way; [`FemError::Interrupted`] once `progress` asks to end.
     fn advance(
         &mut self,
-        target_s: f64,
+        goal: Goal,
         teller: &mut Teller,
         keeper: &mut Keeper,
         progress: Progress,
-    ) -> Result<Advance, FemError> {
+    ) -> Result<(), FemError> {
         let (next, balances, files, robot) = (self.next, &self.balances, &self.files, &mut self.robot);
         let outside_s = self.cpu_before_s + thread_seconds() - self.began.1;
         let mut fault = None;
-        let advanced = self.run.advance_until(target_s, &mut |run| {
+        let mut each = |run: &Simulation| {
             let flow = teller.tell(run, progress);
             robot.iter_mut().for_each(|robot| robot.watch.sample(run));
             if let Some(files) = files.as_ref().filter(|_| keeper.is_due()) {
@@ -155,8 +162,17 @@ impl<'a> Running<'a> {
                 fault = keeper.keep(|| files.save(run, next, balances, robot.as_ref(), cpu_s)).err();
             }
             fault.is_none() && flow.is_continue()
-        })?;
-        fault.map_or(Ok(advanced), Err)
+        };
+        let advanced = match goal {
+            Goal::Time(time_s) => self.run.advance_until(time_s, &mut each)?,
+            Goal::Waited(waited_s) => self.run.wait_until(waited_s, &mut each)?,
+        };
+        fault.map_or(Ok(()), Err)?;
+        if advanced == Advance::Interrupted {
+            self.save(self.cpu_before_s + self.cpu_s())?;
+            return Err(FemError::Interrupted { time_s: self.run.time_s(), step: self.run.step(), done: 0, of: 1 });
+        }
+        Ok(())
     }
 
     fn save(&self, cpu_s: f64) -> Result<(), FemError> {
@@ -240,6 +256,15 @@ fn centre_line(case: &Case) -> Result<Option<CentreLine>, FemError> {
     let wanted = &case.outputs;
     let make = || CentreLine::new(&case.problem.mesh, &wanted.station_parts, wanted.station_axis, &wanted.stations_m);
     (!wanted.stations_m.is_empty()).then(make).transpose()
+}
+
+/// Where a run steps to \[s\].
+#[derive(Clone, Copy)]
+enum Goal {
+    /// A time of its loads.
+    Time(f64),
+    /// A time waited in all.
+    Waited(f64),
 }
 
 /// When to write a checkpoint.

@@ -1,7 +1,7 @@
 //! What is read of a robot while it runs.
 
 use super::rounded;
-use crate::robot::{HoldEnd, KEYS, Reading, RobotGauge, RobotRun, RunKey, Sample, Snap, Watch, snaps};
+use crate::robot::{HoldEnd, KEYS, Reading, Rest, RobotGauge, RobotRun, RunKey, Sample, Settling, Snap, Watch, snaps};
 use crate::{FemError, Problem, Simulation};
 use models::Scenario;
 use models::scenario::Wall;
@@ -44,6 +44,9 @@ impl WatchedRobot {
             gauge: self.gauge.clone(),
             holds: holds.collect(),
             readings: Vec::new(),
+            length_m: self.scenario.length_m,
+            rest_s: self.run.settings.longest_rest_s(),
+            settling: Settling::default(),
             watch: Watch::new(&problem.mesh),
         }
     }
@@ -56,6 +59,9 @@ pub(super) struct Watched {
     filled_s: f64,
     gauge: RobotGauge,
     holds: Vec<HoldEnd>,
+    length_m: f64,
+    rest_s: f64,
+    settling: Settling,
     /// Readings so far.
     pub readings: Vec<Reading>,
 }
@@ -64,6 +70,7 @@ pub(super) struct Watched {
 #[derive(Serialize, Deserialize)]
 pub(super) struct WatchedState {
     samples: Vec<Sample>,
+    settling: Settling,
     readings: Vec<Reading>,
 }
 
@@ -79,9 +86,18 @@ impl Watched {
         ahead.or(self.holds.last()).map(HoldEnd::highest_pa)
     }
 
+    /// Whether the robot is at rest; to be called at the end of a hold, and of every window that it asks for.
+    pub fn rest(&mut self, run: &Simulation) -> Rest {
+        // A run that goes on from a checkpoint may be within a window.
+        if let Some(next_s) = self.settling.next_s().filter(|next_s| run.waited_s() + 0.5 * run.dt_s() < *next_s) {
+            return Rest::Until(next_s);
+        }
+        self.settling.look(self.gauge.tip_moved_m(run), self.length_m, run.waited_s(), self.rest_s)
+    }
+
     /// Reads the robot.
-    pub fn read(&mut self, run: &Simulation) -> Result<(), FemError> {
-        self.readings.push(self.gauge.read(run)?);
+    pub fn read(&mut self, run: &Simulation, rest: Rest) -> Result<(), FemError> {
+        self.readings.push(self.gauge.read(run, rest)?);
         Ok(())
     }
 
@@ -92,13 +108,14 @@ impl Watched {
 
     /// For a checkpoint.
     pub fn save(&self) -> WatchedState {
-        WatchedState { samples: self.watch.samples().to_vec(), readings: self.readings.clone() }
+        let (samples, settling) = (self.watch.samples().to_vec(), self.settling.clone());
+        WatchedState { samples, settling, readings: self.readings.clone() }
     }
 
     /// From a checkpoint.
     pub fn restore(&mut self, state: WatchedState) {
         self.watch.restore(state.samples);
-        self.readings = state.readings;
+        (self.settling, self.readings) = (state.settling, state.readings);
     }
 
     /// For the summary.

@@ -41,8 +41,8 @@ pub struct RestShape {
 pub struct Stock {
     /// What the law's answer is per: 2 t C₁₀ \[N/m\] for films, 1 for others.
     pub per: Lane,
-    /// Share of compression that a film does not carry.
-    pub relief: Lane,
+    /// Root of the energy of compression, per `per`, at which a film wrinkles.
+    pub flat: Lane,
     /// 1 where the element's energy is this lane's to count, 0 where another lane or patch counts it.
     pub own: Lane,
     /// 1 in lanes that hold an element.
@@ -56,7 +56,7 @@ pub struct Item {
     pub node: Vec<u32>,
     /// Reference data.
     pub reference: Reference,
-    /// What the law's answer is per, and the share of compression that a film does not carry.
+    /// The lanes `per` and `flat` of [`Stock`].
     pub law: [f64; 2],
     /// Hourglass stiffness \[N/m\].
     pub hourglass: f64,
@@ -123,10 +123,10 @@ impl Stock {
     /// Packs up to eight elements, of which the first `counted_before` are counted by an earlier group.
     pub fn pack(items: &[Item], counted_before: usize) -> Stock {
         let zero = [0.0; LANES];
-        let mut stock = Stock { per: zero, relief: zero, own: zero, real: zero };
+        let mut stock = Stock { per: zero, flat: zero, own: zero, real: zero };
         for (lane, item) in items.iter().enumerate() {
             stock.per[lane] = item.law[0];
-            stock.relief[lane] = item.law[1];
+            stock.flat[lane] = item.law[1];
             stock.own[lane] = f64::from(u8::from(item.own && lane >= counted_before));
             stock.real[lane] = 1.0;
         }
@@ -135,7 +135,7 @@ impl Stock {
 
     /// As [`RestShape::key`].
     pub fn key(&self) -> Vec<i64> {
-        let all = [self.per, self.relief, self.own, self.real];
+        let all = [self.per, self.flat, self.own, self.real];
         all.as_flattened().iter().map(|value| leading_bits(*value)).collect()
     }
 }

@@ -27,7 +27,7 @@ pub trait ShellLaw: Copy {
 }
 
 /// Number of the fabric whose loop each fabric goes through. Films of any stiffness go through one, since rows of elements
-/// across a seam are then whole: their moduli and shares of compression are with the elements.
+/// across a seam are then whole: their moduli and loads in compression are with the elements.
 pub fn loops(fabrics: &[Arc<dyn Fabric>]) -> Vec<usize> {
     let kind = |wrinkles: bool| {
         fabrics.iter().position(|f| match f.kind() {
@@ -44,15 +44,21 @@ pub fn loops(fabrics: &[Arc<dyn Fabric>]) -> Vec<usize> {
     (0..fabrics.len()).map(of).collect()
 }
 
-/// What a fabric's loop computes tension per \[N/m\], and what share of compression the fabric does without: 1 and 0 but for
-/// films.
+/// Unit of the tension that a fabric's loop computes \[N/m\], 1 for all but films, and the root of the energy of compression in
+/// that unit at which a film wrinkles.
 pub fn own(fabric: &dyn Fabric) -> [f64; 2] {
     match fabric.kind() {
-        Kind::NeoHookean(film) => [modulus(film), 0.0],
-        Kind::WrinklingFilm(film) => [modulus(&film.film), 1.0 - film.share],
-        _ => [1.0, 0.0],
+        Kind::NeoHookean(film) => [modulus(film), NEVER],
+        Kind::WrinklingFilm(film) => {
+            let per = modulus(&film.film);
+            [per, (film.flat_n_per_m() / per).sqrt().min(NEVER)]
+        }
+        _ => [1.0, NEVER],
     }
 }
+
+/// Far above the root of any energy of compression.
+const NEVER: f64 = 1e6;
 
 /// 2 t C₁₀ \[N/m\].
 fn modulus(film: &NeoHookean) -> f64 {
@@ -93,12 +99,15 @@ impl ShellLaw for WrinklingFilm {
         let (x, y) = ((mean + r).max(zero), mean - r);
         let a = (one + x).sqrt();
         let z = x * (a + one).inverse();
-        let share = (y + z + y * z).choose(zero, V::load(simd, &who.stock.relief, who.part));
         let (over, per_r) = (a.inverse(), half * r.inverse());
         let sigma = z * (a * a + a + one) * over * over * over;
         let along = [half + d * per_r, half - d * per_r, c * per_r];
         let w = half * z * z * (a + V::all(simd, 2.0)) * over;
-        (axes!(i => full[i] + share * (sigma * along[i] - full[i])), stored + share * (w - stored))
+        // √X, 0 where the film is taut, and the part of it beyond the load of the wrinkles.
+        let root = (y + z + y * z).choose(zero, (stored - w).max(zero).sqrt());
+        let beyond = (root - V::load(simd, &who.stock.flat, who.part)).max(zero);
+        let share = beyond * root.max(V::all(simd, f64::MIN_POSITIVE)).inverse();
+        (axes!(i => full[i] + share * (sigma * along[i] - full[i])), stored - beyond * beyond)
     }
 }
 

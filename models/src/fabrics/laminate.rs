@@ -109,18 +109,20 @@ impl Laminate {
     }
 }
 
-/// Wrinkling films of one share are one film; `None` if a ply is something else.
+/// Wrinkling films that wrinkle at one strain are one film; `None` if a ply is something else.
 fn film_of(plies: &[(Arc<dyn Fabric>, Turn)]) -> Option<WrinklingFilm> {
     let mut sum = Mixed { rubber: NeoHookean { c10_pa: 0.0, thickness_m: 0.0 }, linear: [[0.0; 3]; 3] };
-    let mut share = None;
+    let (mut strain, mut load_n_per_m) = (None, 0.0);
     for (fabric, _) in plies {
         let Kind::WrinklingFilm(ply) = fabric.kind() else { return None };
-        if *share.get_or_insert(ply.share) != ply.share {
+        let own = ply.load_n_per_m / (ply.film.c10_pa * ply.film.thickness_m);
+        if *strain.get_or_insert(own) != own {
             return None;
         }
+        load_n_per_m += ply.load_n_per_m;
         sum.add_rubber(&ply.film);
     }
-    Some(WrinklingFilm { film: sum.rubber, share: share? })
+    strain.map(|_| WrinklingFilm { film: sum.rubber, load_n_per_m })
 }
 
 impl Mixed {

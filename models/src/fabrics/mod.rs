@@ -35,7 +35,7 @@ pub use pull::Pull;
 pub use recipe::{CurveInput, Law, Need, Parameter, Recipe};
 pub use tension_field::TensionField;
 pub use woven::{Woven, Yarn};
-pub use wrinkling_film::WrinklingFilm;
+pub use wrinkling_film::{WrinklingFilm, wrinkling_load_n_per_m};
 
 use std::fmt::Debug;
 

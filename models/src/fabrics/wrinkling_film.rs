@@ -1,56 +1,82 @@
-//! Neo-Hookean film whose wrinkles are shorter than an element: compressed across, it folds instead of pushing back.
+//! Neo-Hookean film with wrinkles shorter than an element: under compression it carries the load of its wrinkles and no more.
 //!
 //! With the eigenvalues L₁ ≥ L₂ of C = 1 + 2E, stretches λ = √L, and the film's own energy W of [`NeoHookean`],
 //!
 //! ```text
 //! slack     L₁ ≤ 1                         W_r = 0
-//! wrinkled  L₁ > 1 and L₂ √L₁ < 1          W_r = t C₁₀ (λ₁² + 2/λ₁ − 3),   S = 2 t C₁₀ (1 − λ₁⁻³) n₁⊗n₁
+//! wrinkled  L₁ > 1 and L₂ √L₁ < 1          W_r = t C₁₀ (λ₁² + 2/λ₁ − 3),   S_r = 2 t C₁₀ (1 − λ₁⁻³) n₁⊗n₁
 //! taut      otherwise                      W_r = W
-//! W_η = η W + (1 − η) W_r
+//! X = W − W_r       W_N = W_r + X                      √X ≤ c = N/√(2K)      flat: K resists
+//!                   W_N = W_r + 2c√X − c² = W − (√X − c)²       beyond       wrinkled: N resists
+//! S_N = S_r + (c/√X)(S − S_r) beyond
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | η | share of the film that carries compression | – |
+//! | N | load of the wrinkles, constant in strain | N/m |
+//! | K | 6 t C₁₀, stiffness of the film under uniaxial load | N/m |
 //! | n₁ | direction of the larger stretch, along the wrinkles | – |
 //!
-//! Pulled by λ₁ alone the film is λ₁^(−1/2) wide; where it is narrower than that it wrinkles, and W_r, the least energy over all
-//! folds, no longer depends on the width. With W_r = W beyond it the law is one energy with a continuous slope.
+//! A film pulled by λ₁ alone has the width λ₁^(−1/2); a narrower one is compressed by δ, and X = ½ K δ² at small strain. It stays flat up
+//! to Kδ = N, then wrinkles, and the compressive load stays at N (5 % above at δ = 0.1, where X exceeds ½ K δ²). W_N is one energy with a
+//! continuous slope. N = 0 is Pipkin's relaxed energy, N = ∞ the film itself.
 //!
-//! **For sheets whose wrinkles the mesh cannot show.** A mesh that shows them needs η = 1; then bending chooses their width.
-//! With a small η and mass damping alone it flutters: give viscosity, or a share of some per cent.
-//! Reference: Pipkin 1986, IMA J. Appl. Math. 36, 85 (relaxed energy); the film is that of du Pasquier, Jeong, Okamura 2023.
+//! **The load follows from bending.** Wrinkles of wavelength Λ across a tension T over a length ℓ cost N(Λ) = 4π² D/Λ² + T Λ²/4ℓ² per
+//! compression. The least is
+//!
+//! ```text
+//! N_w = 2π √(D T)/ℓ     at   Λ_w = 2 √π (D/T)^¼ √ℓ                        D bending stiffness [N m]
+//! ```
+//!
+//! **Validity**: wrinkles that the mesh cannot show. Where it can, it makes them with its own bending stiffness.
+//! Give N = 0 viscosity: with mass damping alone it flutters.
+//! References: Pipkin 1986, IMA J. Appl. Math. 36, 85 (relaxed energy); Cerda and Mahadevan 2003, Phys. Rev. Lett. 90, 074302 (wrinkles);
+//! the film is that of du Pasquier, Jeong, Okamura 2023.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
-use super::recipe::{Law, Need, Recipe, THICKNESS, modulus, ratio};
+use super::recipe::{Law, Need, Parameter, Recipe, THICKNESS, modulus};
 use super::{Fabric, Kind, NeoHookean, Past};
 
 pub(super) const ENTRY: Law = Law {
     name: "wrinkling-film",
     parameters: &[
         modulus("c10_MPa", Need::Required, "neo-Hookean constant, a sixth of Young's modulus"),
-        ratio("compression_share", [0.0, 1.0], Need::Default(0.01), "share of the film that carries compression"),
+        Parameter {
+            key: "wrinkling_load_n_per_m",
+            unit: "N/m",
+            si: 1.0,
+            lower: 0.0,
+            upper: 1e6,
+            need: Need::Required,
+            meaning: "compressive load of the wrinkled film, 2π √(D T)/ℓ",
+        },
         THICKNESS,
     ],
     curves: &[],
     plies: [0, 0],
     strain_limit: 0.4,
-    example: || Recipe::of(&[("c10_MPa", 50.3), ("thickness_mm", 0.2)]),
+    example: || Recipe::of(&[("c10_MPa", 50.3), ("wrinkling_load_n_per_m", 5.0), ("thickness_mm", 0.2)]),
     make: |recipe| {
         let v = ENTRY.read(recipe)?;
         let film = NeoHookean { c10_pa: v.get("c10_MPa")?, thickness_m: v.get("thickness_mm")? };
-        Ok(Arc::new(WrinklingFilm { film, share: v.get("compression_share")? }))
+        Ok(Arc::new(WrinklingFilm { film, load_n_per_m: v.get("wrinkling_load_n_per_m")? }))
     },
 };
 
-/// A film that carries a share of compression only.
+/// A film with a constant load in compression.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WrinklingFilm {
     /// The film, which carries all tension.
     pub film: NeoHookean,
-    /// Share of it that carries compression, 0 to 1.
-    pub share: f64,
+    /// Load of its wrinkles N, 0 or more \[N/m\].
+    pub load_n_per_m: f64,
+}
+
+/// Load of wrinkles across a tension \[N/m\] over a length \[m\], for a bending stiffness \[N m\]: N_w of the module \[N/m\].
+pub fn wrinkling_load_n_per_m(bending_nm: f64, tension_n_per_m: f64, length_m: f64) -> f64 {
+    2.0 * PI * (bending_nm * tension_n_per_m).sqrt() / length_m
 }
 
 /// Where the film is slack or wrinkled.
@@ -89,6 +115,17 @@ impl WrinklingFilm {
     fn k(&self) -> f64 {
         2.0 * self.film.thickness_m * self.film.c10_pa
     }
+
+    /// c² \[N/m\]: X at which the film wrinkles.
+    pub fn flat_n_per_m(&self) -> f64 {
+        self.load_n_per_m * self.load_n_per_m / (6.0 * self.k())
+    }
+
+    /// √X − c and √X; `None` where the film is flat.
+    fn beyond(&self, full: f64, relaxed: f64) -> Option<[f64; 2]> {
+        let (root, c) = ((full - relaxed).max(0.0).sqrt(), self.flat_n_per_m().sqrt());
+        (root > c).then_some([root - c, root])
+    }
 }
 
 impl Folded {
@@ -112,31 +149,39 @@ impl Fabric for WrinklingFilm {
 
     fn energy(&self, e: [f64; 3], past: &Past) -> f64 {
         let full = self.film.energy(e, past);
-        let relaxed = Self::folded(e).map_or(full, |folded| self.k() * folded.pull()[0]);
-        full + (1.0 - self.share) * (relaxed - full)
+        let beyond = Self::folded(e).and_then(|folded| self.beyond(full, self.k() * folded.pull()[0]));
+        beyond.map_or(full, |[over, _]| full - over * over)
     }
 
     fn tension(&self, e: [f64; 3], past: &Past) -> [f64; 3] {
         let full = self.film.tension(e, past);
         let Some(folded) = Self::folded(e) else { return full };
-        let (sigma, along) = (self.k() * folded.pull()[1], folded.along());
-        std::array::from_fn(|i| full[i] + (1.0 - self.share) * (sigma * along[i] - full[i]))
+        let pull = folded.pull();
+        let Some([over, root]) = self.beyond(self.film.energy(e, past), self.k() * pull[0]) else { return full };
+        let (sigma, along) = (self.k() * pull[1], folded.along());
+        std::array::from_fn(|i| full[i] + over / root * (sigma * along[i] - full[i]))
     }
 
-    /// With σ = k (1 − L₁^(−3/2)) and N = n₁⊗n₁: ∂(σN)ᵢ/∂eⱼ = 2σ′ NᵢNⱼ + σ ∂Nᵢ/∂eⱼ.
+    /// With σ = k (1 − L₁^(−3/2)), N = n₁⊗n₁ and η = c/√X: ∂(σN)ᵢ/∂eⱼ = 2σ′ NᵢNⱼ + σ ∂Nᵢ/∂eⱼ and ∂η/∂X = −η/2X.
     fn tangent(&self, e: [f64; 3], past: &Past) -> [[f64; 3]; 3] {
         let full = self.film.tangent(e, past);
         let Some(folded) = Self::folded(e) else { return full };
+        let pull = folded.pull();
+        let Some([over, root]) = self.beyond(self.film.energy(e, past), self.k() * pull[0]) else { return full };
         let Folded { d, c, z, .. } = folded;
         let r = folded.r.max(f64::MIN_POSITIVE);
-        let (sigma, n) = (self.k() * folded.pull()[1], folded.along());
+        let (sigma, n) = (self.k() * pull[1], folded.along());
         let slope = if z > 0.0 { self.k() * 3.0 * (1.0 + z).powi(-5) } else { 0.0 };
         let turn = [c / r * (c / r), -c / r * (c / r), -d / r * (c / r)].map(|v| 0.5 * sigma * v / r);
         let shear = [-c / r * (d / r), c / r * (d / r), d / r * (d / r)].map(|v| 0.5 * sigma * v / r);
         let rows = [turn, turn.map(|v| -v), shear];
         let own = |i: usize, j: usize| slope * n[i] * n[j] + rows[i][j];
-        let share = self.share;
-        std::array::from_fn(|i| std::array::from_fn(|j| full[i][j] + (1.0 - share) * (own(i, j) - full[i][j])))
+        let (share, tension) = (over / root, self.film.tension(e, past));
+        let excess: [f64; 3] = std::array::from_fn(|i| tension[i] - sigma * n[i]);
+        let fall = 0.5 * (1.0 - share) / (root * root);
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| full[i][j] + share * (own(i, j) - full[i][j]) - fall * excess[i] * excess[j])
+        })
     }
 
     fn kind(&self) -> Kind<'_> {
