@@ -257,7 +257,7 @@ impl Summary {
 impl Summary {
     /// What to know before believing the numbers: hourglass control, motion at the end, added mass, layers that were passed.
     pub fn warnings(&self) -> Vec<String> {
-        let mut found = Vec::new();
+        let mut found = self.robot.as_ref().map_or(Vec::new(), RobotSummary::warnings);
         if policy::is_warped(self.hourglass_share) {
             let rule = "over 5 %, it is no longer small. Compare with smaller elements, or with a tenth of hourglass";
             found.push(rule.to_string());

@@ -2,7 +2,7 @@
 
 use super::rounded;
 use crate::robot::{HoldEnd, KEYS, Reading, RobotGauge, RobotRun, RunKey, Sample, Snap, Watch, snaps};
-use crate::{FemError, Problem, Simulation};
+use crate::{FemError, Problem, Simulation, policy};
 use models::Scenario;
 use models::scenario::Wall;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -41,6 +41,7 @@ impl WatchedRobot {
         let holds = self.run.holds().into_iter().filter(|hold| hold.time_s <= problem.settings.end_s + NOW_S);
         Watched {
             filled_s: self.run.settings.body_ramp_s,
+            weld_strength_n_per_m: self.run.settings.weld_strength_n_per_m,
             gauge: self.gauge.clone(),
             holds: holds.collect(),
             readings: Vec::new(),
@@ -54,6 +55,7 @@ pub(super) struct Watched {
     /// Energies between outputs.
     pub watch: Watch,
     filled_s: f64,
+    weld_strength_n_per_m: Option<f64>,
     gauge: RobotGauge,
     holds: Vec<HoldEnd>,
     /// Readings so far.
@@ -81,7 +83,9 @@ impl Watched {
 
     /// Reads the robot.
     pub fn read(&mut self, run: &Simulation) -> Result<(), FemError> {
-        self.readings.push(self.gauge.read(run)?);
+        let mut reading = self.gauge.read(run)?;
+        reading.seam_share = self.weld_strength_n_per_m.map(|strength| reading.seam_n_per_m / strength);
+        self.readings.push(reading);
         Ok(())
     }
 
@@ -172,6 +176,26 @@ fn with_needed<'de, D: Deserializer<'de>>(from: D) -> Result<BTreeMap<String, Op
 }
 
 impl RobotSummary {
+    /// What to know before believing the readings: welds beyond their strength, and a planar robot that leaves its plane.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let kpa = |r: &Reading| rounded(r.actuator_pa * 1e-3);
+        let torn = self.readings.iter().find(|r| r.seam_share.is_some_and(policy::is_torn)).map(|r| {
+            format!(
+                "at {} kPa {} ({} at {:.0} mm) carries {:.0} N/m, {:.2} of weld_strength_n_per_m: it would open, and the run goes on as if it held",
+                kpa(r), r.seam, r.seam_part, r.seam_at_m * 1e3, r.seam_n_per_m, r.seam_share.unwrap_or_default()
+            )
+        });
+        let share = |r: &&Reading| r.out_of_plane_share();
+        let aside = self.readings.iter().filter(|_| !self.is_spatial).max_by(|a, b| share(a).total_cmp(&share(b)));
+        let aside = aside.filter(|r| policy::leaves_plane(share(r))).map(|r| {
+            format!(
+                "at {} kPa the tip is {:+.1} mm out of the x–y plane, {:.1} % of its way: no planar model shows that",
+                kpa(r), r.out_of_plane_m()[0] * 1e3, 100.0 * share(&r)
+            )
+        });
+        torn.into_iter().chain(aside).collect()
+    }
+
     /// A key of `[fem]`, in the unit of its name.
     pub fn setting(&self, key: &str) -> f64 {
         self.settings.get(key).copied().flatten().unwrap_or(f64::NAN)
