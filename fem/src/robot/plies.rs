@@ -48,7 +48,11 @@ impl Plies<'_> {
     /// For strips of one kind and slant, as azimuths turn from base to tip \[rad\].
     pub fn of<'a>(pattern: &'a Pattern, slant_rad: f64, settings: &'a RobotSettings) -> Result<Plies<'a>, FemError> {
         let s = settings;
-        let body = made(pattern.body_fabric, s.nu12, &[("body_sheet_mm", s.body_sheet_m), ("body_sheet_e_mpa", s.body_sheet_e_pa)])?;
+        let body = made(
+            pattern.body_fabric,
+            s.nu12,
+            &[("body_sheet_mm", s.body_sheet_m), ("body_sheet_e_mpa", s.body_sheet_e_pa)],
+        )?;
         let sheet = made(pattern.fabric, s.nu12, &[("sheet_mm", s.sheet_m), ("sheet_e_mpa", s.sheet_e_pa)])?;
         // Azimuths turn clockwise seen from outside.
         Ok(Plies { pattern, settings, slant_rad: -slant_rad, body, sheet })
@@ -143,7 +147,11 @@ fn ply(fabric: &Arc<dyn Fabric>, angle_rad: f64) -> Ply {
 
 /// A fabric of the list, with another biaxial coupling if it has one, and another thickness \[m\] and Young's modulus \[Pa\]
 /// where these are set, each with its key.
-fn made(name: &str, nu12: Option<f64>, [thickness, modulus]: &[(&str, Option<f64>); 2]) -> Result<Arc<dyn Fabric>, FemError> {
+fn made(
+    name: &str,
+    nu12: Option<f64>,
+    [thickness, modulus]: &[(&str, Option<f64>); 2],
+) -> Result<Arc<dyn Fabric>, FemError> {
     let problem = |message: String| FemError::Problem(format!("robot: fabric `{name}`: {message}"));
     let material = material(name).ok_or_else(|| problem("there is no such material".into()))?;
     let law = material.law().ok_or_else(|| problem("there is no such law".into()))?;
@@ -160,7 +168,9 @@ fn made(name: &str, nu12: Option<f64>, [thickness, modulus]: &[(&str, Option<f64
         ((_, Some(e_pa)), Some(c10_mpa)) => *c10_mpa = e_pa * 1e-6 / 6.0,
         ((key, Some(e_pa)), None) => {
             let e_mpa = e_pa * 1e-6;
-            return Err(problem(format!("cannot take {key} = {e_mpa}: its moduli along warp, fill and bias differ. Leave {key} out")));
+            return Err(problem(format!(
+                "cannot take {key} = {e_mpa}: its moduli along warp, fill and bias differ. Leave {key} out"
+            )));
         }
     }
     (law.make)(&recipe).map_err(|fault| problem(fault.to_string()))

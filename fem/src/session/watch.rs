@@ -190,7 +190,9 @@ impl RobotSummary {
         let aside = aside.filter(|r| policy::leaves_plane(share(r))).map(|r| {
             format!(
                 "at {} kPa the tip is {:+.1} mm out of the x–y plane, {:.1} % of its way: no planar model shows that",
-                kpa(r), r.out_of_plane_m()[0] * 1e3, 100.0 * share(&r)
+                kpa(r),
+                r.out_of_plane_m()[0] * 1e3,
+                100.0 * share(&r)
             )
         });
         torn.into_iter().chain(aside).collect()

@@ -5,7 +5,7 @@ const G: f64 = 9.81;
 
 fn term(shape: ObstacleShape, friction: f64, stiffness: &[f64]) -> Obstacles {
     let mesh = Mesh { points: vec![[0.0; 3]; stiffness.len()], ..Mesh::default() };
-    Obstacles::new(&mesh, &[Obstacle { shape, friction }], stiffness).unwrap()
+    Obstacles::new(&mesh, &[Obstacle { shape, friction, motion: None }], stiffness).unwrap()
 }
 
 /// A node of 1 kg under a constant force, by central differences; returns way, speed and work of the force.
@@ -153,7 +153,8 @@ fn an_impossible_obstacle_is_named() {
     let thin = ObstacleShape::Cylinder { point: [0.0; 3], axis: [0.0, 0.0, 1.0], radius_m: -1.0 };
     for (shape, friction, what) in [(flat, 0.0, "normal"), (thin, 0.0, "radius"), (good.clone(), f64::NAN, "friction")]
     {
-        let list = [Obstacle { shape: good.clone(), friction: 0.0 }, Obstacle { shape, friction }];
+        let list =
+            [Obstacle { shape: good.clone(), friction: 0.0, motion: None }, Obstacle { shape, friction, motion: None }];
         let message = Obstacles::new(&mesh, &list, &[1.0]).unwrap_err().to_string();
         assert!(message.contains("obstacle 2") && message.contains(what), "{message}");
     }
