@@ -44,7 +44,9 @@ pub struct Earlier {
 pub(super) fn keep(folder: &Path, loaded: &Loaded, running: &Running) -> Result<(), FemError> {
     let (problem, run) = (&loaded.case.problem, &running.run);
     let mut loads = problem.loads_at(run.time_s());
-    loads.extend(run.chambers().into_iter().map(|c| (pressure_of(&c.name), [c.pressure_pa, 0.0, 0.0])));
+    for sealed in run.chambers() {
+        loads.entry(pressure_of(&sealed.name)).or_insert([sealed.pressure_pa, 0.0, 0.0]);
+    }
     let fingerprint = problem.fingerprint_of_any_length();
     let payload = pack(&End { fingerprint, loads, session: running.end() });
     let structure = problem.fingerprint_of_structure();
@@ -55,10 +57,11 @@ impl Earlier {
     /// The end of the run in a folder.
     ///
     /// # Errors
-    /// [`FemError::Folder`] for a folder without the end of a run, [`FemError::Checkpoint`] for a damaged one.
+    /// [`FemError::Setting`] for a folder without the end of a run, [`FemError::Checkpoint`] for a damaged one.
     pub fn read(folder: &Path) -> Result<Earlier, FemError> {
-        let refused =
-            |cause: &str, help: &str| FemError::Folder { path: folder.into(), cause: cause.into(), help: help.into() };
+        let refused = |cause: &str, help: &str| {
+            FemError::setting(format!("cannot go on from {}: {cause}", folder.display()), help)
+        };
         if !folder::is_finished(folder) {
             return Err(refused(
                 "it holds no complete run",
@@ -95,7 +98,7 @@ impl Earlier {
             );
             let own = self.folder.join("case.toml");
             let help =
-                format!("Change only pressures, forces, gravity, obstacles, outputs and times of {}", own.display());
+                format!("change only pressures, forces, gravity, obstacles, outputs and times of {}", own.display());
             return Err(FemError::setting(message, help));
         }
         if problem.settings.end_s <= self.time_s {
@@ -152,7 +155,7 @@ pub(super) fn reopened(folder: &Path, loaded: &Loaded, settings: &Settings) -> R
     let (problem, outputs) = (&loaded.case.problem, &loaded.case.outputs);
     if problem.fingerprint_of_any_length() != earlier.fingerprint {
         let message = format!("cannot go on with the run in {}: it is of another problem", folder.display());
-        let help = "give what it was started with, --from too; or go on from it with other loads: --from with a folder of its own";
+        let help = "give the options that it was started with, --from too; for other loads, go on from it with --from";
         return Err(FemError::setting(message, help));
     }
     let marker = RunIdentity {

@@ -203,3 +203,45 @@ impl RobotSummary {
         self.settings.get(key).copied().flatten().unwrap_or(f64::NAN)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::{Value, json};
+
+    /// A planar robot whose tip moves 100 mm in its plane and aside, with a weld at a share of its strength.
+    fn robot(aside_m: f64, share: Value, is_spatial: bool) -> RobotSummary {
+        let none: [f64; 0] = [];
+        let reading = json!({
+            "time_s": 1, "actuator_pa": 20e3, "body_pa": 2e3, "stations_m": [0.3], "moved_m": [[0, 0.1, aside_m]],
+            "seen_moved_m": none, "ring_moved_m": none, "tip_angle_rad": 0, "body_m3": 0, "actuator_m3": 0, "von_mises_pa": 0,
+            "von_mises_part": "", "von_mises_at_m": 0, "seam_n_per_m": 900, "seam_part": "top", "seam_at_m": 0.12,
+            "seam": "seam 3", "seam_share": share, "ledger": none, "kinetic_share": 0,
+        });
+        let summary = json!({
+            "actuator": "epam", "length_m": 0.3, "body_pa": 2e3, "radius_m": 0.04, "width_m": 0.06, "pouch_m": 0.06, "count": 5,
+            "is_spatial": is_spatial, "settings": {"body_mesh_mm": 8, "actuator_mesh_mm": 4, "seed": 1}, "readings": [reading],
+            "snaps": none,
+        });
+        serde_json::from_value(summary).unwrap()
+    }
+
+    #[test]
+    fn a_weld_beyond_its_strength_and_a_tip_beside_its_plane_are_named() {
+        let warnings = |aside_m: f64, share: Value| robot(aside_m, share, false).warnings();
+        for share in [json!(null), json!(0.7), json!(0.99)] {
+            assert_eq!(warnings(0.0016, share), Vec::<String>::new());
+        }
+        let torn = warnings(0.0, json!(1.3));
+        assert!(
+            torn.len() == 1 && torn[0].contains("at 20 kPa seam 3") && torn[0].contains("1.30 of weld_strength"),
+            "{torn:?}"
+        );
+        let aside = warnings(-0.0024, json!(null));
+        assert!(aside.len() == 1 && aside[0].contains("-2.4 mm") && aside[0].contains("2.4 %"), "{aside:?}");
+        assert!(
+            robot(0.05, json!(null), true).warnings().is_empty(),
+            "a robot with strips round its body has no plane"
+        );
+    }
+}
