@@ -152,7 +152,7 @@ pub(super) fn reopened(folder: &Path, loaded: &Loaded, settings: &Settings) -> R
         return Err(FemError::setting(message, "leave --end out, give a later one, or run it again with --force"));
     }
     let earlier = Earlier::read(folder)?;
-    let (problem, outputs) = (&loaded.case.problem, &loaded.case.outputs);
+    let problem = &loaded.case.problem;
     if problem.fingerprint_of_any_length() != earlier.fingerprint {
         let message = format!("cannot go on with the run in {}: it is of another problem", folder.display());
         let help = "give the options that it was started with, --from too; for other loads, go on from it with --from";
@@ -161,7 +161,7 @@ pub(super) fn reopened(folder: &Path, loaded: &Loaded, settings: &Settings) -> R
     let marker = RunIdentity {
         case_sha256: sha256(loaded.source.text.as_bytes()),
         end_s,
-        frames: outputs.frames && folder.join("run.pvd").exists(),
+        frames: folder.join("run.pvd").exists(),
         from: settings.from.as_deref().map(Earlier::read).transpose()?.map(|from| from.sha256),
     };
     let Earlier { time_s, step, session, .. } = earlier;
