@@ -318,9 +318,13 @@ pub struct SimulateArgs {
     /// Threads; 0: one per core. Results do not depend on it
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1024))]
     pub threads: u64,
-    /// Go on with the interrupted run in the folder; the end is the same to the bit
+    /// Go on with the interrupted run in the folder, or with a complete one to a later --end; the result is the same to the bit
     #[arg(long)]
     pub resume: bool,
+    /// Go on from the end of the complete run in this folder, with other loads: a robot's pressures and loads begin there, the
+    /// times of a case count on
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["uncertain", "separate", "seeds", "export"])]
+    pub from: Option<PathBuf>,
     /// Run again where a run is; a finished one stays until the new one is complete
     #[arg(long)]
     pub force: bool,

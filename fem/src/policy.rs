@@ -29,6 +29,10 @@ pub const KINETIC_OF_TOTAL: f64 = 0.01;
 pub const CREEP: f64 = 0.005;
 /// Displacement of the tip from which on that is judged, as a share of the length.
 pub const BENT: f64 = 0.1;
+/// Displacement of a planar robot's tip across its plane over its whole displacement from which it is warned of.
+pub const OUT_OF_PLANE: f64 = 0.02;
+/// Pull on a weld over its strength beyond which it opens.
+pub const TORN: f64 = 1.0;
 /// A peak of the walls' kinetic energy stands out if the valleys beside it are below this share of it.
 pub const VALLEY: f64 = 0.5;
 /// Smallest drop of a snap, as a share of the largest stored energy of the run.
@@ -76,6 +80,16 @@ pub fn is_heavy(added_mass: f64) -> bool {
 /// Whether hourglass control is no longer small, of its share of the stored energy.
 pub fn is_warped(share: f64) -> bool {
     share > HOURGLASS_WARNED
+}
+
+/// Whether a planar robot has left its plane, of its tip's displacement across it over the whole.
+pub fn leaves_plane(share: f64) -> bool {
+    share > OUT_OF_PLANE
+}
+
+/// Whether a weld opens, of the pull on it over its strength.
+pub fn is_torn(share: f64) -> bool {
+    share > TORN
 }
 
 /// Whether a run is at rest, of its kinetic over its total energy.

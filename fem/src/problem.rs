@@ -1,5 +1,6 @@
 //! What a run needs besides the mesh: sections, chambers, supports, loads, contact, settings.
 
+mod print;
 pub(crate) mod solid;
 mod start;
 
@@ -7,6 +8,7 @@ use crate::FemError;
 pub use crate::amplitude::Amplitude;
 use crate::mesh::Mesh;
 use crate::policy;
+pub use print::{GRAVITY, Loads, force_on, motion_of, pressure_of};
 
 /// Everything that defines a run.
 #[derive(Debug, Clone)]
@@ -29,7 +31,7 @@ pub struct Problem {
     pub forces: Vec<NodalForce>,
     /// Gravity \[m/s²\].
     pub gravity: Option<Gravity>,
-    /// Fixed solids in the way.
+    /// Solids in the way.
     pub obstacles: Vec<Obstacle>,
     /// Contact between layers; `None` switches the search off.
     pub contact: Option<Contact>,
@@ -125,13 +127,22 @@ pub struct Gravity {
     pub amplitude: Amplitude,
 }
 
-/// A fixed rigid solid.
+/// A rigid solid that does not turn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Obstacle {
     /// Its surface.
     pub shape: ObstacleShape,
     /// Coulomb friction coefficient.
     pub friction: f64,
+    /// Displacement over time \[m\] per axis; `None` holds still.
+    pub motion: Option<[Amplitude; 3]>,
+}
+
+impl Obstacle {
+    /// Displacement at a time \[m\].
+    pub fn moved_m(&self, time_s: f64) -> [f64; 3] {
+        self.motion.as_ref().map_or([0.0; 3], |motion| [0, 1, 2].map(|k| motion[k].at(time_s)))
+    }
 }
 
 /// Surface of an obstacle.
@@ -301,6 +312,13 @@ impl Problem {
     /// # Errors
     /// [`FemError::Problem`] saying which value is wrong and what to write.
     pub fn check(&self) -> Result<(), FemError> {
+        self.check_but_obstacles()?;
+        let start: Vec<[f64; 3]> = (0..self.mesh.points.len()).map(|node| self.mesh.start_of(node)).collect();
+        solid::check(&start, &self.obstacles, 0.0)
+    }
+
+    /// The same where the run goes on from a later shape.
+    pub(crate) fn check_but_obstacles(&self) -> Result<(), FemError> {
         let refuse = |message: String| Err(FemError::Problem(message));
         if self.sections.len() != self.mesh.parts.len() {
             return refuse(format!("{} parts but {} sections", self.mesh.parts.len(), self.sections.len()));
@@ -336,29 +354,11 @@ impl Problem {
         crate::mesh::check::check_open(&self.mesh, &chambers, &open)?;
         self.check_rims()?;
         self.check_supports()?;
-        solid::check(&self.mesh, &self.obstacles)?;
         if self.settings.selective_mass && self.contact.as_ref().is_some_and(|c| c.edges) {
             let message = "contact: edges need each node's own mass; leave out edges, or selective_mass";
             return refuse(message.into());
         }
         self.settings.check()
-    }
-
-    /// A number that two problems share only if a checkpoint of one fits the other; threads do not matter.
-    pub fn fingerprint(&self) -> u64 {
-        struct Fnv(u64);
-        impl std::fmt::Write for Fnv {
-            fn write_str(&mut self, text: &str) -> std::fmt::Result {
-                text.bytes().for_each(|b| self.0 = (self.0 ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
-                Ok(())
-            }
-        }
-        let mut plain = self.clone();
-        plain.settings.threads = 0;
-        let mut hash = Fnv(0xcbf2_9ce4_8422_2325);
-        // Writing into a hash cannot fail.
-        let _ = std::fmt::Write::write_fmt(&mut hash, format_args!("{plain:?}"));
-        hash.0
     }
 }
 

@@ -255,7 +255,7 @@ fn loads_and_supports_that_point_nowhere_are_refused() {
     says(&refused(&lost), &["support", "`rihgt`", "right"]);
     let mut blunt = plate();
     let shape = ObstacleShape::Plane { point: [0.0; 3], normal: [0.0; 3] };
-    blunt.obstacles = vec![Obstacle { shape, friction: 0.1 }];
+    blunt.obstacles = vec![Obstacle { shape, friction: 0.1, motion: None }];
     says(&refused(&blunt), &["obstacle 1", "normal"]);
 }
 

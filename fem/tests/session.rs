@@ -85,3 +85,67 @@ fn an_error_says_file_line_and_what_to_type() {
     assert!(refused.to_string().starts_with(&format!("my.toml:{line}: ")), "{refused}");
     assert!(refused.help().unwrap().contains("elements"), "{:?}", refused.help());
 }
+
+fn from(earlier: &Path, folder: &Path) -> Settings {
+    Settings { from: Some(earlier.into()), ..into(folder) }
+}
+
+#[test]
+fn a_complete_run_goes_on_to_a_later_end_as_if_it_had_been_asked_for_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = simulate(&small(), &into(&folder.path().join("whole")), &mut go_on).unwrap();
+    let until = |end_s: f64| Settings { end_s: Some(end_s), ..into(&folder.path().join("longer")) };
+    assert!(simulate(&small(), &until(0.006), &mut go_on).unwrap().fresh);
+    assert!(!simulate(&small(), &until(0.006), &mut go_on).unwrap().fresh);
+    let back = simulate(&small(), &until(0.004), &mut go_on).unwrap_err();
+    assert!(back.to_string().contains("after --end 0.004 s"), "{back}");
+    // It is an unfinished run until it is complete again.
+    assert!(matches!(simulate(&small(), &until(0.01), &mut stop).unwrap_err(), FemError::Interrupted { .. }));
+    let longer = simulate(&small(), &until(0.01), &mut go_on).unwrap();
+    assert!(longer.fresh && longer.summary == whole.summary, "{:?}", longer.summary);
+    for name in ["summary.json", "history.csv", "run.pvd", "picture.png", "checkpoint.end"] {
+        assert!(bytes(&longer, name) == bytes(&whole, name), "{name}");
+    }
+}
+
+#[test]
+fn a_run_that_goes_on_from_another_keeps_time_shape_and_books() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name);
+    let energy = |run: &FeRun, name: &str| run.summary.ledger.iter().find(|r| r.name == name).map(|r| r.energy_j);
+    let longer = Source { text: small().text.replace("end_s = 0.01", "end_s = 0.02"), ..small() };
+    let heavy = "[gravity]\ng_m_s2 = [0, 0, -90]\nlinear_s = [[0.01, 0], [0.012, 1]]\n[output]";
+    let heavy = Source { text: longer.text.replace("[output]", heavy), ..small() };
+    simulate(&small(), &into(&place("first")), &mut go_on).unwrap();
+    let straight = simulate(&longer, &into(&place("straight")), &mut go_on).unwrap();
+    let same = simulate(&longer, &from(&place("first"), &place("same")), &mut go_on).unwrap();
+    let volume = |run: &FeRun| run.summary.chambers[0].volume_cm3;
+    assert!((volume(&same) / volume(&straight) - 1.0).abs() < 1e-3, "{} {}", volume(&same), volume(&straight));
+    assert!((same.summary.began_s - 0.01).abs() < same.summary.dt_s && same.notices.is_empty(), "{:?}", same.notices);
+    let rows = String::from_utf8(bytes(&same, "history.csv")).unwrap();
+    assert_eq!(rows.lines().count(), 1 + 6, "one row at the start and one every 2 ms: {rows}");
+    // Weight that only the second run has works on it alone, and the third keeps that work when the weight is gone.
+    let pulled = simulate(&heavy, &from(&place("first"), &place("heavy")), &mut go_on).unwrap();
+    assert!(pulled.summary.residual_share < 1e-3 && pulled.notices.is_empty(), "{:?}", pulled.notices);
+    let last = Source { text: longer.text.replace("end_s = 0.02", "end_s = 0.022"), ..small() };
+    let light = simulate(&last, &from(&place("heavy"), &place("light")), &mut go_on).unwrap();
+    assert!(light.notices[0].contains("gravity [m/s²] jumps from -90"), "{:?}", light.notices);
+    assert_eq!(energy(&light, "earlier loads"), energy(&pulled, "gravity"));
+    assert!(light.summary.residual_share < 1e-3, "{}", light.summary.residual_share);
+    let work = |run: &FeRun| energy(run, "gravity").unwrap();
+    assert!(work(&pulled).abs() > 1e-3 * pulled.summary.external_work_j.abs(), "{}", work(&pulled));
+}
+
+#[test]
+fn a_run_of_another_structure_or_an_earlier_end_cannot_go_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let first = folder.path().join("first");
+    simulate(&small(), &into(&first), &mut go_on).unwrap();
+    let thin = Source { text: small().text.replace("thickness_mm = 0.6", "thickness_mm = 0.5"), ..small() };
+    for (source, words) in [(thin, "its mesh, fabrics"), (small(), "cannot end at 0.01 s")] {
+        let refused = simulate(&source, &from(&first, &folder.path().join("second")), &mut go_on).unwrap_err();
+        assert!(refused.to_string().contains(words) && refused.help().is_some(), "{refused}");
+    }
+    let nothing = simulate(&small(), &from(folder.path(), &folder.path().join("second")), &mut go_on).unwrap_err();
+    assert!(nothing.to_string().contains("no complete run"), "{nothing}");
+}

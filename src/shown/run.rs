@@ -8,6 +8,12 @@ use fem::session::{ChamberEnd, Cost, MeshQuality, ProbeEnd, ReactionEnd, Rule, S
 pub fn text(s: &Summary) -> String {
     let Summary { name, elements, steps, time_s, .. } = s;
     let mut out = format!("{name}\n{elements} elements, {steps} steps to t = {time_s:.6} s\n");
+    if s.began_s > 0.0 {
+        out.push_str(&format!(
+            "went on from the end of another run at t = {:.6} s; the energies below are those of both\n",
+            s.began_s
+        ));
+    }
     if s.added_mass_share > 0.0 {
         let selective = if s.selective_mass { ", more to waves of a few elements" } else { "" };
         let percent = 100.0 * s.added_mass_share;

@@ -23,6 +23,7 @@ pub fn text(robot: &RobotSummary) -> String {
     head.extend(robot.is_spatial.then(|| "along".to_string()));
     head.extend(last.stations_m.iter().map(|s| format!("s = {:.0}", s * MM)));
     head.extend(["tip ring", "tip x", "turn deg"].map(String::from));
+    head.extend((!robot.is_spatial).then_some(["tip z", "most z"]).into_iter().flatten().map(String::from));
     let row = |r: &Reading, (name, axis): (&str, usize)| {
         let mut row = vec![pressures(r)];
         row.extend(robot.is_spatial.then(|| name.to_string()));
@@ -30,6 +31,8 @@ pub fn text(robot: &RobotSummary) -> String {
         row.push(r.ring_moved_m.last().map_or("–".into(), |d| format!("{:.1}", d[axis] * MM)));
         row.push(r.moved_m.last().map_or("–".into(), |d| format!("{:.1}", d[0] * MM)));
         row.push(format!("{:.1}", r.tip_angle_rad.to_degrees()));
+        let aside = (!robot.is_spatial).then(|| r.out_of_plane_m().map(|m| format!("{:.1}", m * MM)));
+        row.extend(aside.into_iter().flatten());
         row
     };
     let rows = readings.iter().flat_map(|r| axes.iter().map(|axis| row(r, *axis)));
@@ -48,7 +51,8 @@ fn pressures(r: &Reading) -> String {
 }
 
 fn state(readings: &[Reading]) -> String {
-    let head = [
+    let strength = readings.iter().any(|r| r.seam_share.is_some());
+    let mut head = vec![
         "actuator kPa",
         "body cm³",
         "actuator cm³",
@@ -60,8 +64,9 @@ fn state(readings: &[Reading]) -> String {
         "at mm",
         "kinetic %",
     ];
+    head.extend(strength.then_some(["weld", "of its strength"]).into_iter().flatten());
     let rows = readings.iter().map(|r| {
-        vec![
+        let mut row = vec![
             pressures(r),
             format!("{:.1}", r.body_m3 * 1e6),
             format!("{:.1}", r.actuator_m3 * 1e6),
@@ -72,7 +77,10 @@ fn state(readings: &[Reading]) -> String {
             r.seam_part.clone(),
             format!("{:.0}", r.seam_at_m * MM),
             format!("{:.2}", 100.0 * r.kinetic_share),
-        ]
+        ];
+        let share = r.seam_share.map(|share| [r.seam.clone(), format!("{share:.2}")]);
+        row.extend(share.into_iter().flatten());
+        row
     });
     table(&head, 0, rows.collect())
 }

@@ -100,7 +100,7 @@ fn support(table: &Spanned<RawSupport>, mesh: &mut Mesh) -> Checked<Support> {
         }
         set = encastre(mesh, &set);
     }
-    Ok(Support { set, axes, motion: motion(raw)? })
+    Ok(Support { set, axes, motion: motion(&raw.smooth_s_mm, &raw.linear_s_mm)? })
 }
 
 fn axes(text: &Text) -> Checked<[bool; 3]> {
@@ -135,8 +135,11 @@ fn with_next_row(mesh: &Mesh, nodes: &[u32]) -> Vec<u32> {
     wider.into_iter().collect()
 }
 
-fn motion(raw: &RawSupport) -> Checked<Option<[Amplitude; 3]>> {
-    let (rows, smooth) = match (&raw.smooth_s_mm, &raw.linear_s_mm) {
+/// Rows of time and displacement along x, y, z, as smooth steps or straight lines.
+type Rows = Option<Spanned<Vec<Exactly<4>>>>;
+
+fn motion(smooth: &Rows, linear: &Rows) -> Checked<Option<[Amplitude; 3]>> {
+    let (rows, smooth) = match (smooth, linear) {
         (None, None) => return Ok(None),
         (Some(rows), None) => (rows, true),
         (None, Some(rows)) => (rows, false),
@@ -218,7 +221,8 @@ fn obstacle(table: &Spanned<RawObstacle>) -> Checked<Obstacle> {
             return refuse("a cylinder has point_mm, axis and radius_mm", "axis = [0, 1, 0]", table.span());
         }
     };
-    Ok(Obstacle { shape, friction: optional("friction", &raw.friction, &FRICTION)?.unwrap_or(0.0) })
+    let friction = optional("friction", &raw.friction, &FRICTION)?.unwrap_or(0.0);
+    Ok(Obstacle { shape, friction, motion: motion(&raw.smooth_s_mm, &raw.linear_s_mm)? })
 }
 
 pub(super) fn contact(raw: &Raw, mesh: &Mesh) -> Checked<Option<Contact>> {

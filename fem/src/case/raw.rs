@@ -124,6 +124,8 @@ pub(super) struct RawObstacle {
     pub axis: Option<Spanned<Exactly<3>>>,
     pub radius_mm: Option<Num>,
     pub friction: Option<Num>,
+    pub smooth_s_mm: Option<Spanned<Vec<Exactly<4>>>>,
+    pub linear_s_mm: Option<Spanned<Vec<Exactly<4>>>>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -12,14 +12,16 @@ use std::io::{Error, Write};
 use std::path::{Path, PathBuf};
 
 use crate::FemError;
-use crate::atomic::{make_folder, partial_name, sync_folder, write_whole};
+use crate::atomic::{make_folder, partial_name, replace, sync_folder, write_whole};
 use crate::bytes::{pack, unpack};
 use serde::{Deserialize, Serialize};
 
 const MAGIC: &[u8; 8] = b"ibr-fem\n";
 /// Raised whenever the meaning of the bytes changes.
-const VERSION: u64 = 6;
+const VERSION: u64 = 7;
 const CHECK: usize = 4;
+/// The end of a complete run, from which another one may go on.
+const END: &str = "checkpoint.end";
 
 /// Everything a checkpoint holds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -71,6 +73,26 @@ pub fn read_checkpoint(folder: &Path, fingerprint: u64) -> Result<Option<LoadedC
         (Found::Nothing, None) => Ok(None),
         (Found::Damaged(reason), None) => Err(start_anew(previous, &reason)),
         (_, Some(reason)) => Err(start_anew(newest, &reason)),
+    }
+}
+
+/// Writes the end of a complete run to `folder`; its `fingerprint` is that of the structure.
+pub fn write_end(folder: &Path, end: &Checkpoint) -> Result<(), FemError> {
+    replace(&folder.join(END), &mut |out| out.write_all(&encode(end)))
+}
+
+/// Reads the end of the complete run in a folder, with the bytes of the file; `None` if it keeps none.
+pub fn read_end(folder: &Path) -> Result<Option<(Checkpoint, Vec<u8>)>, FemError> {
+    let path = folder.join(END);
+    let bytes = match std::fs::read(&path) {
+        Err(source) if source.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+        read => read.map_err(|source| FemError::Io { path: path.clone(), source })?,
+    };
+    match decode(&bytes, None) {
+        Found::Good(end) => Ok(Some((end, bytes))),
+        Found::Foreign(reason) => Err(FemError::Checkpoint { path, reason }),
+        Found::Damaged(reason) => Err(start_anew(path, &reason)),
+        Found::Nothing => Ok(None),
     }
 }
 
@@ -128,13 +150,13 @@ enum Found {
 
 fn read_file(path: &Path, fingerprint: u64) -> Result<Found, FemError> {
     match std::fs::read(path) {
-        Ok(bytes) => Ok(decode(&bytes, fingerprint)),
+        Ok(bytes) => Ok(decode(&bytes, Some(fingerprint))),
         Err(source) if source.kind() == std::io::ErrorKind::NotFound => Ok(Found::Nothing),
         Err(source) => Err(FemError::Io { path: path.to_path_buf(), source }),
     }
 }
 
-fn decode(bytes: &[u8], fingerprint: u64) -> Found {
+fn decode(bytes: &[u8], fingerprint: Option<u64>) -> Found {
     let Some((body, check)) = bytes.split_last_chunk::<CHECK>() else {
         return Found::Damaged(format!("is cut off after {} bytes", bytes.len()));
     };
@@ -154,7 +176,7 @@ fn decode(bytes: &[u8], fingerprint: u64) -> Found {
     let Some(checkpoint) = unpack::<Checkpoint>(state) else {
         return Found::Damaged("has fields of the wrong length".into());
     };
-    if checkpoint.fingerprint != fingerprint {
+    if let Some(fingerprint) = fingerprint.filter(|wanted| *wanted != checkpoint.fingerprint) {
         return Found::Foreign(format!(
             "it belongs to another problem ({:016x}, this one is {fingerprint:016x}): the case or mesh was changed. Undo \
              the change, choose another folder, or start anew with --force",

@@ -2,7 +2,6 @@
 
 use super::{Obstacle, ObstacleShape};
 use crate::FemError;
-use crate::mesh::Mesh;
 use crate::policy;
 use crate::vec3::{V3, along, cross, dot, scale, sub, unit};
 
@@ -54,20 +53,20 @@ impl Solid {
     }
 }
 
-/// Refuses nodes that start inside an obstacle.
+/// Refuses nodes at these places that start inside an obstacle, as it is at a time \[s\].
 ///
 /// # Errors
 /// [`FemError::Problem`] with the deepest node (from 1), its place, the obstacle (from 1) and what to do.
-pub(super) fn check(mesh: &Mesh, obstacles: &[Obstacle]) -> Result<(), FemError> {
+pub(crate) fn check(places_m: &[V3], obstacles: &[Obstacle], time_s: f64) -> Result<(), FemError> {
     for (number, obstacle) in obstacles.iter().enumerate() {
         let solid = Solid::new(number, obstacle)?;
         let depth = |node: usize| {
-            let [x, y, z] = mesh.start_of(node);
+            let [x, y, z] = sub(places_m[node], obstacle.moved_m(time_s));
             solid.touch(&[x, y, z, 0.0]).depth_m
         };
-        let deepest = (0..mesh.points.len()).max_by(|a, b| depth(*a).total_cmp(&depth(*b)));
+        let deepest = (0..places_m.len()).max_by(|a, b| depth(*a).total_cmp(&depth(*b)));
         let Some(node) = deepest.filter(|node| policy::is_inside(depth(*node))) else { continue };
-        let [x, y, z] = mesh.start_of(node).map(|c| c * 1e3);
+        let [x, y, z] = places_m[node].map(|c| c * 1e3);
         return Err(FemError::Problem(format!(
             "[[obstacle]] {}: node {} starts {:.3} mm inside it, at ({x:.2}, {y:.2}, {z:.2}) mm. Move the obstacle, or turn the \
              normal of a plane to its free side",

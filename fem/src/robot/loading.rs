@@ -6,8 +6,9 @@
 
 use models::{CHANNELS, Scenario};
 
+use super::loads::{Load, RobotStart};
 use super::{Preset, RobotSettings, problem, sew, table};
-use crate::problem::{Amplitude, NodalForce, Obstacle, Pressure};
+use crate::problem::{Amplitude, Obstacle, Pressure};
 use crate::{FemError, Problem};
 
 /// Shortest way between two pressures, as a share of the ramp: a robot that is stopped faster swings past its place, and stays
@@ -27,10 +28,16 @@ pub struct RobotRun {
     pub separate: bool,
     /// Pressures of the channels that are read, in this order \[Pa\].
     pub pressures_pa: Vec<[f64; CHANNELS]>,
-    /// Dead load on the tip's ring, which grows while the body is filled \[N\].
-    pub tip_force_n: [f64; 3],
+    /// Dead load on the tip's ring \[N\].
+    pub tip_force_n: Load,
+    /// Gravity \[m/s²\], which acts on the true mass.
+    pub gravity_m_s2: Load,
     /// A cylinder along z in the way.
     pub obstacle: Option<Obstacle>,
+    /// How far it has moved at every pressure \[m\]; empty: it does not.
+    pub obstacle_moves_m: Vec<[f64; 3]>,
+    /// Where another run ended that this one goes on from.
+    pub start: Option<RobotStart>,
     /// Element sizes of body and actuator that a study of the mesh runs beside each other \[m\]; `settings` has those of one run.
     pub meshes_m: Vec<[f64; 2]>,
 }
@@ -65,9 +72,10 @@ impl RobotRun {
         table::parse(text, scenario)
     }
 
-    /// When the robot is read: full body first, then every pressure.
+    /// When the robot is read: full body, or the end of the run before, first, then every pressure.
     pub fn holds(&self) -> Vec<HoldEnd> {
-        let (mut time_s, mut before) = (self.settings.body_ramp_s, [0.0; CHANNELS]);
+        let begun = self.start.as_ref().map(|start| (start.time_s, start.pressures_pa));
+        let (mut time_s, mut before) = begun.unwrap_or((self.settings.body_ramp_s, [0.0; CHANNELS]));
         let mut holds = vec![HoldEnd { time_s, pressures_pa: before }];
         for pressures_pa in &self.pressures_pa {
             time_s += self.ramp_s(&before, pressures_pa) + self.settings.hold_s;
@@ -88,6 +96,19 @@ impl RobotRun {
         self.settings.actuator_ramp_s * (longest / whole).max(SHORTEST)
     }
 
+    /// (time \[s\], value) points of what is `before` at the first hold and has another value at each of those after it.
+    pub(super) fn stairs<T: Copy>(&self, before: T, each: impl IntoIterator<Item = T>) -> Vec<(f64, T)> {
+        let holds = self.holds();
+        let mut points = vec![(holds[0].time_s, before)];
+        for (hold, value) in holds[1..].iter().zip(each) {
+            points.push((hold.time_s - self.settings.hold_s, value));
+            if self.settings.hold_s > 0.0 {
+                points.push((hold.time_s, value));
+            }
+        }
+        points
+    }
+
     /// The problem, ready to run.
     ///
     /// # Errors
@@ -101,25 +122,19 @@ impl RobotRun {
         let mut made = problem(scenario, &self.settings)?;
         let holds = self.holds();
         for (i, strip) in scenario.strips().enumerate() {
-            let mut points = vec![(holds[0].time_s, 0.0)];
-            for hold in &holds[1..] {
-                let pressure_pa = hold.pressures_pa[strip.channel];
-                points.push((hold.time_s - self.settings.hold_s, pressure_pa));
-                if self.settings.hold_s > 0.0 {
-                    points.push((hold.time_s, pressure_pa));
-                }
-            }
+            let channel = |channels: &[f64; CHANNELS]| channels[strip.channel];
+            let points = self.stairs(channel(&holds[0].pressures_pa), self.pressures_pa.iter().map(channel));
             let name = sew::of_strip(sew::ACTUATOR, i);
             if let Some(chamber) = made.chambers.iter_mut().find(|c| c.name == name) {
                 chamber.pressure = Pressure::Set(self.settings.rise(points));
             }
         }
         made.settings.end_s = holds[holds.len() - 1].time_s;
-        if self.tip_force_n != [0.0; 3] {
-            let amplitude = Amplitude::Smooth(vec![(0.0, 0.0), (holds[0].time_s, 1.0)]);
-            made.forces.push(NodalForce { set: "tip".into(), total_n: self.tip_force_n, amplitude });
+        if let Some(start) = &self.start {
+            let points = self.stairs(start.body_pa, std::iter::repeat(scenario.p_body_pa));
+            made.chambers[0].pressure = Pressure::Set(Amplitude::Smooth(points));
         }
-        made.obstacles.extend(self.obstacle.clone());
+        self.load(&mut made)?;
         Ok(made)
     }
 }

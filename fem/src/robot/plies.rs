@@ -81,8 +81,13 @@ impl Plies<'_> {
         settings: &'a RobotSettings,
         wrinkles: Option<Wrinkles>,
     ) -> Result<Plies<'a>, FemError> {
-        let fabric = |name: &str| made(name, settings.nu12);
-        let (body, sheet) = (fabric(pattern.body_fabric)?, fabric(pattern.fabric)?);
+        let s = settings;
+        let body = made(
+            pattern.body_fabric,
+            s.nu12,
+            &[("body_sheet_mm", s.body_sheet_m), ("body_sheet_e_mpa", s.body_sheet_e_pa)],
+        )?;
+        let sheet = made(pattern.fabric, s.nu12, &[("sheet_mm", s.sheet_m), ("sheet_e_mpa", s.sheet_e_pa)])?;
         // Azimuths turn clockwise seen from outside.
         Ok(Plies { pattern, settings, slant_rad: -slant_rad, wrinkles, body, sheet })
     }
@@ -177,14 +182,33 @@ fn ply(fabric: &Arc<dyn Fabric>, angle_rad: f64) -> Ply {
     Ply { fabric: Arc::clone(fabric), angle_rad }
 }
 
-/// A fabric of the list, with another biaxial coupling if it has one.
-fn made(name: &str, nu12: Option<f64>) -> Result<Arc<dyn Fabric>, FemError> {
+/// A fabric of the list, with another biaxial coupling if it has one, and another thickness \[m\] and Young's modulus \[Pa\]
+/// where these are set, each with its key.
+fn made(
+    name: &str,
+    nu12: Option<f64>,
+    [thickness, modulus]: &[(&str, Option<f64>); 2],
+) -> Result<Arc<dyn Fabric>, FemError> {
     let problem = |message: String| FemError::Problem(format!("robot: fabric `{name}`: {message}"));
     let material = material(name).ok_or_else(|| problem("there is no such material".into()))?;
     let law = material.law().ok_or_else(|| problem("there is no such law".into()))?;
     let mut recipe = material.recipe();
     if let (Some(value), Some(number)) = (nu12, recipe.numbers.get_mut("nu12")) {
         *number = value;
+    }
+    if let (_, Some(thickness_m)) = thickness {
+        recipe.numbers.insert("thickness_mm".into(), thickness_m * 1e3);
+    }
+    match (modulus, recipe.numbers.get_mut("c10_MPa")) {
+        ((_, None), _) => {}
+        // An incompressible neo-Hookean sheet has E = 6 C₁₀ at small strains.
+        ((_, Some(e_pa)), Some(c10_mpa)) => *c10_mpa = e_pa * 1e-6 / 6.0,
+        ((key, Some(e_pa)), None) => {
+            let e_mpa = e_pa * 1e-6;
+            return Err(problem(format!(
+                "cannot take {key} = {e_mpa}: its moduli along warp, fill and bias differ. Leave {key} out"
+            )));
+        }
     }
     (law.make)(&recipe).map_err(|fault| problem(fault.to_string()))
 }

@@ -11,6 +11,22 @@ use crate::output::centre_line::CentreLine;
 use crate::vec3::{along, cross};
 use crate::{FemError, Mesh, Problem, Simulation};
 
+impl Reading {
+    /// Displacement along z of the tip, and the largest of all markers and the tip, with its sign \[m\].
+    pub fn out_of_plane_m(&self) -> [f64; 2] {
+        let z = |d: &[f64; 3]| d[2];
+        let largest = |most: f64, z: f64| if z.abs() > most.abs() { z } else { most };
+        [self.moved_m.last().map_or(0.0, z), self.moved_m.iter().map(z).fold(0.0, largest)]
+    }
+
+    /// The displacement of the tip along z over its whole displacement; 0 where it did not move.
+    pub fn out_of_plane_share(&self) -> f64 {
+        let [x, y, z] = self.moved_m.last().copied().unwrap_or_default();
+        let way = x.hypot(y).hypot(z);
+        if way > 0.0 { z.abs() / way } else { 0.0 }
+    }
+}
+
 /// Reads a robot while it runs.
 #[derive(Debug, Clone)]
 pub struct RobotGauge {
@@ -21,6 +37,8 @@ pub struct RobotGauge {
     rings: Vec<Vec<u32>>,
     tip: Vec<u32>,
     seams: Seams,
+    /// Where the pouches of every strip begin, and their distance, along the straight robot \[m\].
+    pouches_m: Vec<[f64; 2]>,
     tape: Option<Tape>,
     mesh: Mesh,
     is_spatial: bool,
@@ -69,6 +87,13 @@ pub struct Reading {
     pub seam_part: String,
     /// Its place along the straight robot \[m\].
     pub seam_at_m: f64,
+    /// The weld: `seam 3` is the third across the robot from the base, `side of pouch 3` runs along it; empty in readings that
+    /// did not keep it.
+    #[serde(default)]
+    pub seam: String,
+    /// That pull over the strength of a weld, where `weld_strength_n_per_m` is known.
+    #[serde(default)]
+    pub seam_share: Option<f64>,
     /// Force of the support at the base on the robot \[N\]; 0 in readings that did not keep it.
     #[serde(default)]
     pub base_n: [f64; 3],
@@ -119,6 +144,10 @@ impl RobotGauge {
             rings,
             tip,
             seams: Seams::of(&mesh),
+            pouches_m: scenario
+                .strips()
+                .map(|strip| [strip.start_m, strip.shape.length_m * strip.cos_slant(scenario.radius_m)])
+                .collect(),
             tape: Tape::of(scenario, &mesh),
             mesh,
             is_spatial: scenario.is_spatial(),
@@ -144,6 +173,7 @@ impl RobotGauge {
         let seam = self.seams.largest(&fields);
         let (von_mises_part, von_mises_at_m) = self.place(hottest);
         let (seam_part, seam_at_m) = seam.map_or((String::new(), 0.0), |s| self.place(s.element));
+        let seam_name = seam.map_or(String::new(), |s| self.weld(s.is_across, &seam_part, seam_at_m));
         let (body, strips): (Vec<_>, Vec<_>) = run.chambers().into_iter().partition(|c| c.name == sew::BODY);
         let strips_pa: Vec<f64> = strips.iter().map(|c| c.pressure_pa).collect();
         // The base is the only thing that is held, with one row of nodes or two.
@@ -170,6 +200,8 @@ impl RobotGauge {
             seam_n_per_m: seam.map_or(0.0, |s| s.n_per_m),
             seam_part,
             seam_at_m,
+            seam: seam_name,
+            seam_share: None,
             base_n: base.map_or([0.0; 3], |r| r.force_n),
             base_nm: base.map_or([0.0; 3], |r| r.moment_nm),
             inflated: self.tape.as_ref().map(|tape| tape.read(&positions)),
@@ -198,6 +230,18 @@ impl RobotGauge {
             first += part.len();
         }
         (String::new(), f64::NAN)
+    }
+
+    /// Name of the weld beside an element of a part at a place along the straight robot \[m\].
+    fn weld(&self, is_across: bool, part: &str, at_m: f64) -> String {
+        let strip = (1..self.pouches_m.len()).rev().find(|i| sew::of_strip(sew::plain(part), *i) == part).unwrap_or(0);
+        let [start_m, pitch_m] = self.pouches_m[strip];
+        let pouches = (at_m - start_m) / pitch_m;
+        let of = if strip > 0 { format!(" of strip {}", strip + 1) } else { String::new() };
+        match is_across {
+            true => format!("seam {:.0}{of}", pouches.round().max(0.0) + 1.0),
+            false => format!("side of pouch {:.0}{of}", pouches.floor().max(0.0) + 1.0),
+        }
     }
 
     fn moved(&self, ring: &[u32], positions: &[[f64; 3]]) -> [f64; 3] {

@@ -71,6 +71,12 @@ fn faults_of_the_table_are_refused_with_their_place() {
         ("contact = \"yes\"", "leave it out: where the pattern folds", "\"yes\""),
         ("tip_force_n = [1, 2]", "three numbers", "[1, 2]"),
         ("obstacle_friction = 0.2", "add obstacle_mm", "obstacle_friction"),
+        ("obstacle_moves_mm = [[0, 0, 0]]", "there is no obstacle to move", "obstacle_moves_mm"),
+        ("obstacle_mm = [200, 80, 25]\nobstacle_moves_mm = [0, 1, 0]", "is no list", "[0, 1, 0]"),
+        ("gravity_m_s2 = 9.81", "must be a list", "9.81"),
+        ("tip_force_n = [[0, 0, 0], [0, 1, 0]]", "2 entries and pressures_kpa 3", "[[0, 0, 0], [0, 1, 0]]"),
+        ("pressures_kpa = [20, 20]", "differ one by one, or loads that do", "[20, 20]"),
+        ("separate = true\npressures_kpa = [20]\ntip_force_n = [[0, 1, 0]]", "write separate = false", "[[0, 1, 0]]"),
     ] {
         let (message, found) = refused(more);
         assert!(message.contains(words) && found == place, "{more}: {message} at {found}");
@@ -211,6 +217,113 @@ fn loads_of_the_outlook_reach_the_problem() {
     assert_eq!((problem.forces[0].set.as_str(), problem.forces[0].total_n), ("tip", [0.0, -1.0, 0.0]));
     let ObstacleShape::Cylinder { point, radius_m, .. } = problem.obstacles[0].shape else { panic!("no cylinder") };
     assert!((point[0] - 0.2).abs() < 1e-12 && (radius_m - 0.025).abs() < 1e-12 && problem.obstacles[0].friction == 0.2);
+}
+
+#[test]
+fn a_load_with_an_entry_for_every_pressure_comes_on_with_it() {
+    let (scenario, run) = parsed(
+        "pressures_kpa = [20, 20, 10]\nmesh_mm = 8\ntip_force_n = [[0, 0, 0], [0, -1, 0], [0, -1, 1]]\n\
+         gravity_m_s2 = [[0, 0, 0], [0, -4, 0], [0, -8, 0]]\nobstacle_mm = [200, 120, 25]\n\
+         obstacle_moves_mm = [[0, 0, 0], [0, -20, 0], [5, -20, 0]]",
+    )
+    .unwrap();
+    let problem = run.problem(&scenario).unwrap();
+    let holds = run.holds();
+    let at = |hold: usize| problem.loads_at(holds[hold].time_s);
+    let close = |found: [f64; 3], wanted: [f64; 3]| (0..3).all(|k| (found[k] - wanted[k]).abs() < 1e-9);
+    let expected = [
+        ([0.0; 3], [0.0; 3], [0.0; 3]),
+        ([0.0; 3], [0.0; 3], [0.0; 3]),
+        ([0.0, -1.0, 0.0], [0.0, -4.0, 0.0], [0.0, -0.02, 0.0]),
+        ([0.0, -1.0, 1.0], [0.0, -8.0, 0.0], [0.005, -0.02, 0.0]),
+    ];
+    for (hold, (force, gravity, moved)) in expected.into_iter().enumerate() {
+        let loads = at(hold);
+        assert!(
+            close(loads["force on `tip` [N]"], force) && close(loads["gravity [m/s²]"], gravity),
+            "{hold}: {loads:?}"
+        );
+        assert!(close(loads["motion of obstacle 1 [m]"], moved), "{hold}: {loads:?}");
+    }
+    let turning = parsed("pressures_kpa = [20, 20]\nmesh_mm = 8\ngravity_m_s2 = [[0, -4, 0], [-4, 0, 0]]").unwrap().1;
+    assert!(turning.problem(&scenario).unwrap_err().to_string().contains("one direction"));
+}
+
+#[test]
+fn a_run_that_goes_on_begins_with_the_loads_of_the_end_before() {
+    let (scenario, first) = parsed("pressures_kpa = [20]\nmesh_mm = 8\ntip_force_n = [0, -1, 0]").unwrap();
+    let end_s = first.holds()[1].time_s;
+    let loads = first.problem(&scenario).unwrap().loads_at(end_s);
+    let (_, mut second) = parsed("pressures_kpa = [5]\nmesh_mm = 8\ngravity_m_s2 = [0, -9.81, 0]").unwrap();
+    second.start = Some(RobotStart::of(&scenario, end_s, &loads));
+    let problem = second.problem(&scenario).unwrap();
+    let (begin, end) = (problem.loads_at(end_s), problem.loads_at(second.holds()[1].time_s));
+    let of = |loads: &crate::problem::Loads, what: &str| loads.get(what).copied().unwrap_or_default();
+    for what in loads.keys() {
+        let (before, now) = (of(&loads, what), of(&begin, what));
+        assert!(
+            (0..3).all(|k| (before[k] - now[k]).abs() < 1e-6 * before[k].abs().max(1.0)),
+            "{what}: {before:?} {now:?}"
+        );
+    }
+    let pressure = |chamber: &str| of(&end, &crate::problem::pressure_of(chamber))[0];
+    assert!((pressure("actuator") - 5e3).abs() < 1e-6 && (pressure("body") - scenario.p_body_pa).abs() < 1e-6);
+    assert_eq!((of(&end, "force on `tip` [N]"), of(&end, "gravity [m/s²]")), ([0.0; 3], [0.0, -9.81, 0.0]));
+    assert!(
+        problem.settings.end_s > end_s
+            && problem.fingerprint_of_structure() == first.problem(&scenario).unwrap().fingerprint_of_structure()
+    );
+}
+
+/// A filled body is a beam on its base ring: the base carries its weight W, and the moment W L/2.
+#[test]
+fn gravity_weighs_on_the_base_of_a_filled_body_and_its_tip_hangs() {
+    let (scenario, run) =
+        parsed("mesh_mm = 8\nbody_ramp_s = 0.5\nmass_damping_1_s = 200\ngravity_m_s2 = [0, -9.81, 0]").unwrap();
+    let problem = run.problem(&scenario).unwrap();
+    let gauge = RobotGauge::new(&scenario, &problem).unwrap();
+    let mut body = crate::Simulation::new(&problem).unwrap();
+    body.advance_until(0.25, &mut |_| true).unwrap();
+    let (reading, loads) = (gauge.read(&body).unwrap(), problem.loads_at(0.25));
+    let areas = problem.mesh.parts.iter().zip(&problem.sections).map(|(part, section)| {
+        let corners = |i: usize| part.nodes(i).iter().map(|n| problem.mesh.points[*n as usize]).collect::<Vec<_>>();
+        let area: f64 = (0..part.len()).map(|i| crate::vec3::norm(crate::vec3::area(&corners(i)))).sum();
+        area * section.density_kg_m3 * section.plies.iter().map(|ply| ply.fabric.thickness_m()).sum::<f64>()
+    });
+    let weight_n = 9.81 * areas.sum::<f64>();
+    let [_, y, z] = reading.base_n;
+    println!(
+        "base {:?} N, {:?} N m; weight {weight_n} N; tip {:?}",
+        reading.base_n,
+        reading.base_nm,
+        reading.moved_m.last()
+    );
+    assert_eq!(loads["gravity [m/s²]"], [0.0, -9.81, 0.0]);
+    assert!((y / weight_n - 1.0).abs() < 0.03 && z.abs() < 0.03 * weight_n, "{y} {z} {weight_n}");
+    assert!(reading.moved_m.last().unwrap()[1] < -1e-4, "{:?}", reading.moved_m);
+}
+
+#[test]
+fn sheets_take_another_thickness_and_modulus_and_woven_ones_refuse_the_modulus() {
+    let more = "mesh_mm = 8\nsheet_mm = 0.1\nsheet_e_mpa = 120\nbody_sheet_mm = 0.3";
+    let (scenario, run) = parsed(more).unwrap();
+    let problem = run.problem(&scenario).unwrap();
+    let fabric_of = |part: &str| {
+        let at = problem.mesh.parts.iter().position(|p| p.name == part).unwrap();
+        std::sync::Arc::clone(&problem.sections[at].plies[0].fabric)
+    };
+    // Pulled along one axis a sheet has the tension E t per strain.
+    let pulled = |part: &str| {
+        let a = fabric_of(part).tangent([1e-9, 0.0, 0.0], &[0.0; 2]);
+        (fabric_of(part).thickness_m(), a[0][0] - a[0][1] * a[1][0] / a[1][1])
+    };
+    let (top, wall) = (pulled("top"), pulled("wall"));
+    assert!((top.0 - 1e-4).abs() < 1e-12 && (wall.0 - 3e-4).abs() < 1e-12, "{top:?} {wall:?}");
+    assert!((top.1 / (120e6 * 1e-4) - 1.0).abs() < 1e-3, "{top:?}");
+    let woven = format!("{}\n[fem]\nmesh_mm = 8\nsheet_e_mpa = 100\n", models::shipped("fpam").unwrap());
+    let scenario = Scenario::parse(&woven).unwrap();
+    let refused = RobotRun::parse(&woven, &scenario).unwrap().problem(&scenario).unwrap_err().to_string();
+    assert!(refused.contains("sheet_e_mpa = 100") && refused.contains("Leave sheet_e_mpa out"), "{refused}");
 }
 
 #[test]

@@ -9,7 +9,7 @@
 //! is the largest force per length that its fabric can put on the weld in any direction. **Validity**: a bound of the pull of
 //! one sheet, at the resolution of the mesh; the peak at the end of a weld grows with finer elements.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use crate::Mesh;
 use crate::run::ElementFields;
@@ -18,6 +18,8 @@ use crate::run::ElementFields;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Seams {
     elements: Vec<usize>,
+    /// Those beside a weld across the robot.
+    across: Vec<usize>,
 }
 
 /// The largest pull on a weld.
@@ -27,6 +29,8 @@ pub struct SeamForce {
     pub n_per_m: f64,
     /// Element, in mesh order.
     pub element: usize,
+    /// Whether the weld runs across the robot, and not along a side of its actuator.
+    pub is_across: bool,
 }
 
 impl Seams {
@@ -39,10 +43,17 @@ impl Seams {
                 beside.entry((*a.min(&b), *a.max(&b))).or_default().push(index);
             }
         }
-        let mut elements: Vec<usize> = beside.into_values().filter(|e| e.len() > 2).flatten().collect();
-        elements.sort_unstable();
-        elements.dedup();
-        Seams { elements }
+        beside.retain(|_, elements| elements.len() > 2);
+        let is_across = |(a, b): &(u32, u32)| {
+            let side = [a, b].map(|node| mesh.points[*node as usize]);
+            let [x, y, z] = [0, 1, 2].map(|k| side[1][k] - side[0][k]);
+            x.abs() < y.hypot(z)
+        };
+        let listed = |wanted: &dyn Fn(&(u32, u32)) -> bool| {
+            let welds = beside.iter().filter(|(edge, _)| wanted(edge));
+            welds.flat_map(|(_, elements)| elements).copied().collect::<BTreeSet<usize>>().into_iter().collect()
+        };
+        Seams { elements: listed(&|_| true), across: listed(&is_across) }
     }
 
     /// Elements beside the welds, in mesh order.
@@ -55,6 +66,7 @@ impl Seams {
         let pull = |element: usize| SeamForce {
             n_per_m: fields.principal_stress_pa[element][0] * fields.thickness_m[element],
             element,
+            is_across: self.across.binary_search(&element).is_ok(),
         };
         self.elements.iter().map(|e| pull(*e)).max_by(|a, b| a.n_per_m.total_cmp(&b.n_per_m))
     }

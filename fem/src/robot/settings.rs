@@ -59,6 +59,16 @@ pub struct RobotSettings {
     /// Contraction along fill per stretch along warp of an anisotropic fabric; `None` keeps the material's own.
     /// Assumed.
     pub nu12: Option<f64>,
+    /// Thickness of the actuator's sheet \[m\]; `None`: that of its fabric.
+    pub sheet_m: Option<f64>,
+    /// Young's modulus of the actuator's sheet \[Pa\]; `None`: that of its fabric. Isotropic fabrics only.
+    pub sheet_e_pa: Option<f64>,
+    /// Thickness of the body's sheet \[m\]; `None`: that of its fabric.
+    pub body_sheet_m: Option<f64>,
+    /// Young's modulus of the body's sheet \[Pa\]; `None`: that of its fabric. Isotropic fabrics only.
+    pub body_sheet_e_pa: Option<f64>,
+    /// Force per length that a weld carries \[N/m\], from a peel or tensile test of a seam; `None`: not known. Changes no run.
+    pub weld_strength_n_per_m: Option<f64>,
     /// Mass per volume of all fabrics, tape and glue \[kg/m³\]. Assumed.
     pub density_kg_m3: f64,
     /// Actuator gauge pressure at the end \[Pa\].
@@ -140,6 +150,11 @@ impl RobotSettings {
             glue_m: 1e-4,
             glue_e_pa: 1e6,
             nu12: Some(0.2),
+            sheet_m: None,
+            sheet_e_pa: None,
+            body_sheet_m: None,
+            body_sheet_e_pa: None,
+            weld_strength_n_per_m: None,
             density_kg_m3: 1000.0,
             actuator_pa: 30e3,
             body_ramp_s: 0.04,

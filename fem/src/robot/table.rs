@@ -16,6 +16,7 @@ use serde::Deserialize;
 use toml::{Spanned, Value};
 
 use super::loading::highest_pa;
+use super::loads::{self, Load};
 use super::{Preset, RobotRun, RobotSettings};
 use crate::FemError;
 use crate::case::plain_number;
@@ -79,6 +80,13 @@ pub const KEYS: &[RunKey] = &[
     key("glue_e_mpa", 1e6, [1e-3, 1e4], "Young's modulus of the glue", |s| Some(s.glue_e_pa), |s, v| s.glue_e_pa = v),
     key("nu12", 1.0, [0.0, 0.9], "contraction along fill per stretch along warp of an anisotropic fabric",
         |s| s.nu12, |s, v| s.nu12 = Some(v)),
+    key("sheet_mm", 1e-3, [1e-3, 5.0], "thickness of the actuator's sheet", |s| s.sheet_m, |s, v| s.sheet_m = Some(v)),
+    key("sheet_e_mpa", 1e6, [0.1, 1e5], "Young's modulus of the actuator's sheet", |s| s.sheet_e_pa, |s, v| s.sheet_e_pa = Some(v)),
+    key("body_sheet_mm", 1e-3, [1e-3, 5.0], "thickness of the body's sheet", |s| s.body_sheet_m, |s, v| s.body_sheet_m = Some(v)),
+    key("body_sheet_e_mpa", 1e6, [0.1, 1e5], "Young's modulus of the body's sheet",
+        |s| s.body_sheet_e_pa, |s, v| s.body_sheet_e_pa = Some(v)),
+    key("weld_strength_n_per_m", 1.0, [1.0, 1e6], "force per length that a weld carries",
+        |s| s.weld_strength_n_per_m, |s, v| s.weld_strength_n_per_m = Some(v)),
     key("density_kg_m3", 1.0, [50.0, 2e4], "mass per volume of fabrics, tape and glue",
         |s| Some(s.density_kg_m3), |s, v| s.density_kg_m3 = v),
     key("body_ramp_s", 1.0, [1e-4, 1e3], "duration of the body's ramp", |s| Some(s.body_ramp_s), |s, v| s.body_ramp_s = v),
@@ -105,7 +113,7 @@ pub const KEYS: &[RunKey] = &[
 ];
 
 /// Keys that are no single number.
-pub const OTHERS: [&str; 11] = [
+pub const OTHERS: [&str; 13] = [
     "model",
     "taped",
     "pressures_kpa",
@@ -115,8 +123,10 @@ pub const OTHERS: [&str; 11] = [
     "contact",
     "selective_mass",
     "tip_force_n",
+    "gravity_m_s2",
     "obstacle_mm",
     "obstacle_friction",
+    "obstacle_moves_mm",
 ];
 
 /// How `meshes_mm` is written.
@@ -147,8 +157,11 @@ pub(super) fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun, FemErro
         settings: model.settings(),
         separate: model.separate(),
         pressures_pa: usual_pressures(scenario),
-        tip_force_n: [0.0; 3],
+        tip_force_n: Load::default(),
+        gravity_m_s2: Load::default(),
         obstacle: None,
+        obstacle_moves_m: Vec::new(),
+        start: None,
         meshes_m: Vec::new(),
     };
     // What others override or need comes first, whatever their order.
@@ -160,6 +173,7 @@ pub(super) fn parse(text: &str, scenario: &Scenario) -> Result<RobotRun, FemErro
     }
     run.settings.actuator_pa = run.pressures_pa.iter().map(highest_pa).fold(0.0, f64::max);
     above_body(&run, scenario, table)?;
+    loads::check(&run, table)?;
     Ok(run)
 }
 
@@ -202,12 +216,16 @@ fn read(run: &mut RobotRun, key: &Spanned<String>, value: &Spanned<Value>) -> Ch
         "contact" => run.settings.contact = Some(yes_or_no(name, value, "where the pattern folds")?),
         "taped" => run.settings.taped_at_seams = at_seams(value)?,
         "selective_mass" => run.settings.selective_mass = yes_or_no(name, value, "short waves are heavy then")?,
-        "tip_force_n" => run.tip_force_n = triple(name, value, &plain(-1e4, 1e4, "write newtons: [x, y, z]"))?,
+        "tip_force_n" | "gravity_m_s2" => loads::read(run, name, value)?,
         "obstacle_mm" => {
             let [x, y, radius] = triple(name, value, &POSITION)?;
             number("its radius", radius * 1e3, value.span(), &LENGTH)?;
             let shape = ObstacleShape::Cylinder { point: [x, y, 0.0], axis: [0.0, 0.0, 1.0], radius_m: radius };
-            run.obstacle = Some(Obstacle { shape, friction: run.obstacle.as_ref().map_or(0.0, |o| o.friction) });
+            run.obstacle = Some(Obstacle { shape, friction: 0.0, motion: None });
+        }
+        "obstacle_moves_mm" if run.obstacle.is_some() => loads::read(run, name, value)?,
+        "obstacle_moves_mm" => {
+            return refuse("there is no obstacle to move", "add obstacle_mm = [x, y, radius]", key.span());
         }
         "obstacle_friction" => {
             let friction = number(name, plain_number(name, value)?, value.span(), &plain(0.0, 2.0, "Coulomb"))?;
@@ -256,7 +274,7 @@ fn numbers(name: &str, value: &Spanned<Value>, range: &Range) -> Checked<Vec<f64
     list.iter().map(one).collect()
 }
 
-fn triple(name: &str, value: &Spanned<Value>, range: &Range) -> Checked<[f64; 3]> {
+pub(super) fn triple(name: &str, value: &Spanned<Value>, range: &Range) -> Checked<[f64; 3]> {
     let found = numbers(name, value, range)?;
     found.try_into().or_else(|_| refuse(format!("{name} needs three numbers"), range.too_large, value.span()))
 }
@@ -278,8 +296,8 @@ fn pressures(value: &Spanned<Value>) -> Checked<Vec<[f64; CHANNELS]>> {
         Ok(std::array::from_fn(|channel| found[channel]))
     };
     let found: Vec<[f64; CHANNELS]> = list.iter().map(one).collect::<Checked<_>>()?;
-    if found.is_empty() || found.windows(2).any(|pair| pair[0] == pair[1]) {
-        return refuse("pressures_kpa needs pressures that differ one by one", HOW, value.span());
+    if found.is_empty() {
+        return refuse("pressures_kpa names no pressure", HOW, value.span());
     }
     Ok(found)
 }

@@ -122,6 +122,8 @@ struct Books {
     support: Halves,
     start: f64,
     scale: f64,
+    /// Supplied and dissipated by loads of an earlier run that this one has not.
+    earlier: [f64; 2],
 }
 
 /// A sum of what happens from half a step before to half a step after each moment, read at the moments.
@@ -147,9 +149,29 @@ struct State {
     v: Vec<[f64; 4]>,
     selective: Option<Vec<f64>>,
     sheet: Vec<u8>,
-    terms: Vec<Vec<u8>>,
+    terms: Vec<SavedTerm>,
     bodies: Vec<[f64; 13]>,
     reactions: Vec<f64>,
+    /// Masses, what scaling added over the true mass, and the first step, which other loads would choose otherwise.
+    masses: (Vec<f64>, f64, f64),
+}
+
+/// What a checkpoint holds of a term.
+#[derive(Serialize, Deserialize)]
+struct SavedTerm {
+    name: String,
+    state: Vec<u8>,
+    /// What it has supplied and dissipated if it goes, taking what it stores with it \[J\].
+    gone: [f64; 2],
+}
+
+impl SavedTerm {
+    fn of(term: &dyn Transient, pose: &Pose) -> SavedTerm {
+        let rows = if term.line().account == Account::Load { term.ledger(pose) } else { Vec::new() };
+        let sum = |kind: RowKind| rows.iter().filter(|r| r.kind == kind).map(|r| r.energy_j).sum::<f64>();
+        let gone = [sum(RowKind::Supplied) - sum(RowKind::Stored), sum(RowKind::Dissipated)];
+        SavedTerm { name: term.line().name.into(), state: term.save(), gone }
+    }
 }
 
 /// Why [`Simulation::advance_until`] returned.
@@ -178,15 +200,34 @@ impl Simulation {
     /// # Errors
     /// [`FemError::Problem`] if it belongs to another problem or is damaged.
     pub fn resume(problem: &Problem, saved: &[u8]) -> Result<Simulation, FemError> {
-        let mut run = Simulation::new(problem)?;
-        match run.restore(saved) {
-            Some(()) => Ok(run),
-            None => Err(FemError::Problem("the saved state does not fit this problem: start the run afresh".into())),
+        let misfit = || FemError::Problem("the saved state does not fit this problem: start the run afresh".into());
+        let state: State = unpack(saved).ok_or_else(misfit)?;
+        let mut run = Simulation::prepared(problem, Some(&state.masses))?;
+        run.restore(state, false).ok_or_else(misfit)?;
+        Ok(run)
+    }
+
+    /// Goes on from the end of a run of another problem of the same structure ([`Problem::fingerprint_of_structure`]): loads that
+    /// both have in the same way go on, others begin, and the books keep what those did that are gone.
+    ///
+    /// # Errors
+    /// [`FemError::Problem`] if the state does not fit, or a new obstacle is where the structure is.
+    pub fn go_on(problem: &Problem, saved: &[u8]) -> Result<Simulation, FemError> {
+        let misfit = || FemError::Problem("the saved state does not fit this problem".into());
+        let state: State = unpack(saved).ok_or_else(misfit)?;
+        let mut run = Simulation::prepared(problem, Some(&state.masses))?;
+        let left = run.restore(state, true).ok_or_else(misfit)?;
+        if left.iter().any(|name| name == "obstacles") {
+            crate::problem::solid::check(&run.positions(), &problem.obstacles, run.time_s())?;
         }
+        // Higher pressures may allow a shorter step only.
+        run.recheck()?;
+        Ok(run)
     }
 
     /// Everything a bit-identical continuation needs.
     pub fn save(&self) -> Vec<u8> {
+        let pose = Pose::nodes(self.x.as_flattened());
         pack(&State {
             clock: self.clock,
             books: self.books,
@@ -194,24 +235,34 @@ impl Simulation {
             v: self.v.clone(),
             selective: self.selective.as_ref().map(Selective::save),
             sheet: self.sheet.save(),
-            terms: self.others().map(|term| term.save()).collect(),
+            terms: self.others().map(|term| SavedTerm::of(term, &pose)).collect(),
             bodies: self.bodies.iter().map(Body::save).collect(),
             reactions: self.reactions.save(),
+            masses: (self.mass.clone(), self.limits.added_mass, self.clock.longest_s),
         })
     }
 
-    fn restore(&mut self, saved: &[u8]) -> Option<()> {
-        let state: State = unpack(saved)?;
+    /// Every term gets its state; loads need none where the run goes on with others. Returns the names of loads that begin.
+    fn restore(&mut self, mut state: State, goes_on: bool) -> Option<Vec<String>> {
         let contact = self.contact.iter_mut().map(|c| c as &mut dyn Transient);
         let contact = contact.chain(self.edges.iter_mut().map(|e| e as &mut dyn Transient));
-        let mut terms: Vec<&mut dyn Transient> =
-            self.terms.iter_mut().map(|t| &mut **t as &mut dyn Transient).chain(contact).collect();
+        let mut begin = Vec::new();
+        for term in self.terms.iter_mut().map(|t| &mut **t as &mut dyn Transient).chain(contact) {
+            let (name, account) = (term.line().name, term.line().account);
+            let own = state.terms.iter().position(|saved| saved.name == name);
+            match own.filter(|at| term.restore(&state.terms[*at].state)) {
+                Some(at) => drop(state.terms.remove(at)),
+                None => begin.push((goes_on && account == Account::Load).then(|| name.to_string())?),
+            }
+        }
         let fits = [state.x.len(), state.v.len()] == [self.x.len(), self.v.len()]
-            && state.terms.len() == terms.len()
+            && (goes_on || state.terms.is_empty())
             && state.bodies.len() == self.bodies.len()
-            && terms.iter_mut().zip(&state.terms).all(|(term, saved)| term.restore(saved))
             && self.sheet.restore(&state.sheet);
         fits.then_some(())?;
+        for saved in &state.terms {
+            (0..2).for_each(|k| state.books.earlier[k] += saved.gone[k]);
+        }
         match (&mut self.selective, &state.selective) {
             (Some(selective), Some(saved)) => selective.restore(saved)?,
             (None, None) => {}
@@ -220,7 +271,7 @@ impl Simulation {
         self.bodies.iter_mut().zip(&state.bodies).for_each(|(body, saved)| body.restore(saved));
         self.reactions.restore(&state.reactions)?;
         (self.clock, self.books, self.x, self.v) = (state.clock, state.books, state.x, state.v);
-        Some(())
+        Some(begin)
     }
 
     /// Simulated time \[s\].
@@ -292,6 +343,11 @@ impl Simulation {
         rows.extend(self.others().flat_map(|term| term.ledger(&pose)));
         let row = |name, account, kind, energy_j| Row { name, account, kind, energy_j };
         rows.push(row("mass damping", Account::Numerical, RowKind::Dissipated, self.books.damping.sum));
+        let [supplied, dissipated] = self.books.earlier;
+        if self.books.earlier != [0.0; 2] {
+            rows.push(row("earlier loads", Account::Load, RowKind::Supplied, supplied));
+            rows.push(row("earlier loads", Account::Load, RowKind::Dissipated, dissipated));
+        }
         if !self.driven.is_empty() {
             rows.push(row("supports", Account::Load, RowKind::Supplied, self.books.support.sum));
         }

@@ -27,7 +27,16 @@ impl Simulation {
     /// # Errors
     /// [`FemError::Mesh`] or [`FemError::Problem`] naming what cannot be simulated.
     pub fn new(problem: &Problem) -> Result<Simulation, FemError> {
-        problem.check()?;
+        Simulation::prepared(problem, None)
+    }
+
+    /// The same with the masses, their added share and the first step \[s\] of an earlier run.
+    pub(super) fn prepared(problem: &Problem, earlier: Option<&(Vec<f64>, f64, f64)>) -> Result<Simulation, FemError> {
+        if earlier.is_none() {
+            problem.check()?
+        } else {
+            problem.check_but_obstacles()?
+        }
         let order = Order::of(&problem.mesh);
         let mut mesh = renumber(&problem.mesh, &order);
         let settings = &problem.settings;
@@ -40,6 +49,7 @@ impl Simulation {
         let bent = bent(problem, &mesh, &sheet);
         let still = Still { fixed: listed(&fixed), carried: carried(problem, &mesh, &driven)? };
         let Masses { mass, added_mass, gain, dt_s } = masses_and_step(settings, &mesh, &sheet, &bent, &x, &still)?;
+        let (mass, added_mass, dt_s) = earlier.cloned().unwrap_or((mass, added_mass, dt_s));
         mesh.start = x.iter().map(|x| [x[0], x[1], x[2]]).collect();
         let terms = terms(problem, &mesh, &mass, dt_s, bent)?;
         let touching = problem.contact.as_ref();

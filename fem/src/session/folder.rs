@@ -37,6 +37,7 @@ const OWN: &[&str] = &[
     "summary.json",
     "checkpoint",
     "checkpoint.previous",
+    "checkpoint.end",
 ];
 
 /// What tells one run from another, besides the case itself.
@@ -48,6 +49,9 @@ pub struct RunIdentity {
     pub end_s: f64,
     /// Whether frames are written.
     pub frames: bool,
+    /// SHA-256 of the end of the run that it goes on from.
+    #[serde(default)]
+    pub from: Option<String>,
 }
 
 /// What is asked for.
@@ -142,6 +146,19 @@ pub fn open(wish: &RunWish) -> Result<Opened, FemError> {
             refuse(&format!("it holds other files ({name})"), "choose a new or empty folder with --out")
         }
     }
+}
+
+/// Makes a complete run an unfinished one again, with the checkpoint that `keep` writes. Killed at any point it is one of the two.
+pub fn reopen(
+    folder: &Path,
+    marker: RunIdentity,
+    keep: &dyn Fn() -> Result<(), FemError>,
+) -> Result<Workplace, FemError> {
+    let place = locked(folder, folder, Some(marker.clone()))?;
+    keep()?;
+    place.mark(&marker)?;
+    remove(&folder.join(LAST))?;
+    Ok(place)
 }
 
 /// The new run is made beside the finished one, which stays until then.
@@ -240,6 +257,10 @@ fn read_marker(folder: &Path) -> Option<RunIdentity> {
 }
 
 fn take(folder: &Path, target: &Path, interrupted: Option<RunIdentity>) -> Result<Opened, FemError> {
+    locked(folder, target, interrupted).map(Opened::Work)
+}
+
+fn locked(folder: &Path, target: &Path, interrupted: Option<RunIdentity>) -> Result<Workplace, FemError> {
     std::fs::create_dir_all(folder).map_err(|cause| unwritable(folder, &cause))?;
     let lock = File::create(folder.join(LOCK)).map_err(|cause| unwritable(folder, &cause))?;
     if let Err(std::fs::TryLockError::WouldBlock) = lock.try_lock() {
@@ -252,7 +273,7 @@ fn take(folder: &Path, target: &Path, interrupted: Option<RunIdentity>) -> Resul
     sweep(folder)?;
     sweep(&folder.join("frames"))?;
     let target = target.to_path_buf();
-    Ok(Opened::Work(Workplace { folder: folder.to_path_buf(), interrupted, target, _lock: lock }))
+    Ok(Workplace { folder: folder.to_path_buf(), interrupted, target, _lock: lock })
 }
 
 /// One change to a folder.

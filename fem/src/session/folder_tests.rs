@@ -3,7 +3,7 @@
 use super::*;
 
 fn marker(text: &str, end_s: f64) -> RunIdentity {
-    RunIdentity { case_sha256: sha256(text.as_bytes()), end_s, frames: false }
+    RunIdentity { case_sha256: sha256(text.as_bytes()), end_s, frames: false, from: None }
 }
 
 fn place(folder: &Path) -> Workplace {

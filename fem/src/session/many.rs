@@ -154,7 +154,8 @@ impl Task {
             return Ok(run);
         }
         let other = folder::is_of(&self.folder, &job.source.text)? == Some(false);
-        let settings = Settings { folder: Some(self.folder.clone()), resume: !other, force: other, ..settings.clone() };
+        let folder = Some(self.folder.clone());
+        let settings = Settings { folder, resume: !other, force: other, keep_end: false, ..settings.clone() };
         let what = format!("{} of {}, {}", self.at + 1, jobs.len(), job.what);
         simulate(&job.source, &settings, &mut |text, share| tell(&format!("{what}: {text}"), share))
     }

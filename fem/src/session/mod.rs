@@ -22,6 +22,7 @@
 //! | `export` | the problem as a file for another solver |
 //! | `stepping` | rows, frames and checkpoints as a run goes |
 //! | `watch`, `robot_files` | what is read of a robot, its tables and pictures |
+//! | `goes_on` | the end of a complete run, and runs that go on from it |
 //! | `folder`, `exchange` | who may write to a run's folder, and how a new run takes the place of an older one |
 //! | `memory` | whether a mesh fits into this machine |
 //! | `summary` | the records `summary.json` and the cost of a run |
@@ -33,6 +34,7 @@
 mod exchange;
 mod export;
 mod folder;
+mod goes_on;
 mod manifest;
 mod many;
 mod memory;
@@ -63,6 +65,7 @@ pub use watch::{RobotSummary, WatchedRobot};
 use crate::robot::{Reading, Sample};
 use crate::{FemError, Simulation};
 use folder::{Opened, RunIdentity, RunWish, Workplace};
+use goes_on::Earlier;
 use serde::Deserialize;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -81,8 +84,12 @@ pub struct Settings {
     /// Folder of the run. `None`: nothing is written, files of the end are in [`FeRun::files`], and energies are judged at the
     /// start, at the holds and at the end.
     pub folder: Option<PathBuf>,
-    /// Go on with an interrupted run.
+    /// Go on with an interrupted run, or with a complete one to a later end.
     pub resume: bool,
+    /// Folder of a complete run of the same mesh, fabrics and numerics; this one goes on from its end, with its own loads.
+    pub from: Option<PathBuf>,
+    /// Keep the end, so that another run can go on from it.
+    pub keep_end: bool,
     /// Replace a run.
     pub force: bool,
     /// Write frames, if the case wants them.
@@ -104,6 +111,8 @@ impl Default for Settings {
         Settings {
             folder: None,
             resume: false,
+            from: None,
+            keep_end: true,
             force: false,
             frames: true,
             end_s: None,
@@ -180,28 +189,32 @@ impl FeRun {
 /// folder that holds something else; [`FemError::StoppedIn`] by a guard; [`FemError::Interrupted`] if `progress` asked to
 /// end: a checkpoint is written then.
 pub fn simulate(source: &Source, settings: &Settings, progress: Progress) -> Result<FeRun, FemError> {
-    run(source.load()?, settings, progress)
-}
-
-fn run(mut loaded: Loaded, settings: &Settings, progress: Progress) -> Result<FeRun, FemError> {
     let started = Instant::now();
+    let earlier = settings.from.as_deref().map(Earlier::read).transpose()?;
+    let mut loaded = source.load_after(earlier.as_ref())?;
     let numerics = &mut loaded.case.problem.settings;
     numerics.end_s = settings.end_s.unwrap_or(numerics.end_s);
     numerics.threads = settings.threads;
     loaded.case.outputs.frames &= settings.frames;
     memory::check(&loaded.case.problem)?;
-    let fresh = Simulation::new(&loaded.case.problem).map_err(|error| loaded.source.refused(error))?;
+    let fresh = match &earlier {
+        Some(earlier) => earlier.go_on(&mut loaded)?,
+        None => Simulation::new(&loaded.case.problem).map_err(|error| loaded.source.refused(error))?,
+    };
     let place = match &settings.folder {
         None => None,
         Some(folder) => {
             let (resume, force) = (settings.resume, settings.force);
             match folder::open(&RunWish { folder, text: &loaded.source.text, resume, force })? {
-                Opened::Complete => return FeRun::read(folder),
+                Opened::Complete => match goes_on::reopened(folder, &loaded, settings)? {
+                    Some(place) => Some(place),
+                    None => return FeRun::read(folder),
+                },
                 Opened::Work(place) => Some(place),
             }
         }
     };
-    begin(&mut loaded, place.as_ref(), settings)?;
+    begin(&mut loaded, place.as_ref(), settings, earlier.as_ref())?;
     let robot = loaded.robot.as_ref().map(|robot| robot.watch(&loaded.case.problem));
     let mut running = match &place {
         Some(place) if place.interrupted.is_some() => Running::resume(&loaded.case, fresh, &place.folder, robot)?,
@@ -212,12 +225,17 @@ fn run(mut loaded: Loaded, settings: &Settings, progress: Progress) -> Result<Fe
 }
 
 /// Marks the folder as that of this run. In memory energies are told at the start and at the end only.
-fn begin(loaded: &mut Loaded, place: Option<&Workplace>, settings: &Settings) -> Result<(), FemError> {
+fn begin(
+    loaded: &mut Loaded,
+    place: Option<&Workplace>,
+    settings: &Settings,
+    earlier: Option<&Earlier>,
+) -> Result<(), FemError> {
     let Some(place) = place else {
         loaded.case.problem.settings.output_every_s = loaded.case.problem.settings.end_s;
         return Ok(());
     };
-    let marker = same_run(place, loaded, settings)?;
+    let marker = same_run(place, loaded, settings, earlier)?;
     loaded.case.problem.settings.end_s = marker.end_s;
     loaded.case.outputs.frames = marker.frames;
     match place.interrupted {
@@ -227,13 +245,26 @@ fn begin(loaded: &mut Loaded, place: Option<&Workplace>, settings: &Settings) ->
 }
 
 /// The run that was asked for, or the interrupted one if the settings agree with it.
-fn same_run(place: &Workplace, loaded: &Loaded, settings: &Settings) -> Result<RunIdentity, FemError> {
+fn same_run(
+    place: &Workplace,
+    loaded: &Loaded,
+    settings: &Settings,
+    earlier: Option<&Earlier>,
+) -> Result<RunIdentity, FemError> {
     let asked = RunIdentity {
         case_sha256: sha256(loaded.source.text.as_bytes()),
         end_s: loaded.case.problem.settings.end_s,
         frames: loaded.case.outputs.frames,
+        from: earlier.map(|earlier| earlier.sha256.clone()),
     };
     let Some(begun) = &place.interrupted else { return Ok(asked) };
+    if asked.from != begun.from {
+        let message = "the interrupted run goes on from the end of another run than the one asked for";
+        return Err(FemError::setting(
+            message,
+            "give the --from that it was started with, or start again with --force",
+        ));
+    }
     if settings.end_s.is_some() && asked.end_s != begun.end_s {
         let message = format!("the interrupted run ends at {} s, not at {} s", begun.end_s, asked.end_s);
         return Err(FemError::setting(message, "leave --end out, or start again with --force"));
@@ -274,6 +305,9 @@ fn finish(
         files: Vec::new(),
     };
     let mut files = vec![("summary.json".to_string(), format!("{:#}\n", SUMMARY.stamped(&run.summary)).into_bytes())];
+    if let Some(place) = place.as_ref().filter(|_| settings.keep_end) {
+        goes_on::keep(&place.folder, loaded, &running)?;
+    }
     files.extend(robot_files::files(loaded, &run, &running.run, settings.further)?);
     match place {
         Some(place) => complete(loaded, &mut run, files, place, settings)?,

@@ -83,6 +83,12 @@ fn readings_csv(readings: &[Reading]) -> String {
             "MPa",
         );
         line("weld_force_max", format!("{} at {:.0} mm", r.seam_part, r.seam_at_m * MM), r.seam_n_per_m, "N/m");
+        if let Some(share) = r.seam_share {
+            line("weld_force_over_strength", r.seam.clone(), share, "1");
+        }
+        let [tip_m, most_m] = r.out_of_plane_m();
+        line("out_of_plane", "tip".into(), tip_m * MM, "mm");
+        line("out_of_plane", "most".into(), most_m * MM, "mm");
         if let Some(i) = r.inflated {
             for (name, m) in [("arm", i.arm_m), ("pouch_width", i.width_m), ("pouch_height", i.height_m)] {
                 line(name, "inner".into(), m * MM, "mm");

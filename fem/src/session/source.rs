@@ -1,11 +1,12 @@
 //! What is simulated: the text of a case or of a robot's scenario, and what it describes.
 
+use super::goes_on::Earlier;
 use super::rounded;
 use super::watch::WatchedRobot;
 use crate::FemError;
 use crate::case::{Case, Outputs, is_case};
 use crate::error::Refusal;
-use crate::robot::{RobotRun, outputs, with_fem};
+use crate::robot::{RobotRun, RobotStart, outputs, with_fem};
 use models::{Scenario, ScenarioError};
 use std::path::{Path, PathBuf};
 
@@ -96,9 +97,14 @@ impl Source {
     /// # Errors
     /// [`FemError::Refused`] with the place; what the mesh file says that it names.
     pub fn load(&self) -> Result<Loaded, FemError> {
+        self.load_after(None)
+    }
+
+    /// The same; a robot's loads go on from those at the end of an earlier run.
+    pub(super) fn load_after(&self, earlier: Option<&Earlier>) -> Result<Loaded, FemError> {
         let mut read_mesh = |path: &Path| crate::mesh::file::read(&self.folder.join(path));
         let made = match self.is_robot() {
-            true => self.robot().map(|(case, robot)| (case, Some(robot))),
+            true => self.robot(earlier).map(|(case, robot)| (case, Some(robot))),
             false => Case::parse(&self.text, &mut read_mesh).map(|case| (case, None)),
         };
         let (case, robot) = made.map_err(|error| self.refused(error))?;
@@ -106,9 +112,10 @@ impl Source {
     }
 
     /// The robot of a scenario.
-    fn robot(&self) -> Result<(Case, WatchedRobot), FemError> {
+    fn robot(&self, earlier: Option<&Earlier>) -> Result<(Case, WatchedRobot), FemError> {
         let scenario = self.scenario()?;
-        let run = RobotRun::parse(&self.text, &scenario)?;
+        let mut run = RobotRun::parse(&self.text, &scenario)?;
+        run.start = earlier.map(|earlier| RobotStart::of(&scenario, earlier.time_s, &earlier.loads));
         let problem = run.problem(&scenario)?;
         let robot = WatchedRobot::new(&scenario, &run, &problem)?;
         // The pictures of a robot are its own.

@@ -61,7 +61,7 @@ struct Files {
 }
 
 impl<'a> Running<'a> {
-    /// A new run in a folder.
+    /// A run from its start, or from the end of another one, in a folder.
     pub fn start(
         case: &'a Case,
         run: Simulation,
@@ -69,9 +69,10 @@ impl<'a> Running<'a> {
         robot: Option<Watched>,
     ) -> Result<Running<'a>, FemError> {
         let files = folder.map(|folder| Files::open(case, folder, &[])).transpose()?;
-        let began = (0, thread_seconds());
+        let began = (run.step(), thread_seconds());
         let (balances, notices) = (Vec::new(), Vec::new());
-        Ok(Running { run, balances, cpu_before_s: 0.0, notices, began, robot, case, files, next: 0 })
+        let next = number_at(run.time_s(), case.problem.settings.output_every_s);
+        Ok(Running { run, balances, cpu_before_s: 0.0, notices, began, robot, case, files, next })
     }
 
     /// Goes on from the last checkpoint of a folder; from the beginning if there is none yet.
@@ -203,6 +204,11 @@ impl<'a> Running<'a> {
         Ok(())
     }
 
+    /// The end of the run, the same to the bit however often it was interrupted.
+    pub fn end(&self) -> Vec<u8> {
+        Saved::pack(&self.run, self.next, &self.balances, self.robot.as_ref(), 0.0)
+    }
+
     /// Processor seconds of this session: of the steps, and of this thread, which writes.
     pub fn cpu_s(&self) -> f64 {
         self.run.cpu_s() + thread_seconds() - self.began.1
@@ -234,8 +240,7 @@ impl Files {
     ) -> Result<(), FemError> {
         self.history.sync()?;
         self.centre_line.as_ref().map_or(Ok(()), CentreLineFile::sync)?;
-        let robot = robot.map(Watched::save);
-        let payload = pack(&Saved { next, cpu_s, balances: balances.to_vec(), robot, run: run.save() });
+        let payload = Saved::pack(run, next, balances, robot, cpu_s);
         let (step, time_s) = (run.step(), run.time_s());
         let checkpoint = Checkpoint { fingerprint: self.fingerprint, step, time_s, payload };
         write_checkpoint(&self.folder, &checkpoint).map(|_| ())
@@ -250,6 +255,29 @@ struct Saved {
     balances: Vec<Balance>,
     robot: Option<WatchedState>,
     run: Vec<u8>,
+}
+
+impl Saved {
+    fn pack(run: &Simulation, next: u64, balances: &[Balance], robot: Option<&Watched>, cpu_s: f64) -> Vec<u8> {
+        let robot = robot.map(Watched::save);
+        pack(&Saved { next, cpu_s, balances: balances.to_vec(), robot, run: run.save() })
+    }
+}
+
+/// Number of the output at a time, or of the last one before it.
+fn number_at(time_s: f64, every_s: f64) -> u64 {
+    (time_s / every_s + 1e-6).floor() as u64
+}
+
+/// The state of the run in what [`Running::end`] gave.
+pub(super) fn run_of(session: &[u8]) -> Option<Vec<u8>> {
+    unpack::<Saved>(session).map(|saved| saved.run)
+}
+
+/// What [`Running::end`] gave as a checkpoint of the same run that goes on: its last output counts as one on the way.
+pub(super) fn extended(session: &[u8], time_s: f64, every_s: f64) -> Option<Vec<u8>> {
+    let saved: Saved = unpack(session)?;
+    Some(pack(&Saved { next: number_at(time_s, every_s) + 1, ..saved }))
 }
 
 fn centre_line(case: &Case) -> Result<Option<CentreLine>, FemError> {

@@ -20,6 +20,9 @@ pub struct Summary {
     pub engine: u32,
     /// What was read of a robot.
     pub robot: Option<RobotSummary>,
+    /// Time at which it went on from another run; 0 for a run from the start \[s\].
+    #[serde(default)]
+    pub began_s: f64,
     /// Simulated time \[s\].
     pub time_s: f64,
     /// Steps.
@@ -230,6 +233,7 @@ impl Summary {
             name: case.problem.name.clone(),
             engine: crate::ENGINE,
             robot: robot.zip(running.robot.as_ref()).map(|(robot, seen)| seen.summary(robot)),
+            began_s: running.balances.first().map_or(0.0, |first| first.time_s),
             time_s: run.time_s(),
             steps: run.step(),
             dt_s: run.dt_s(),
@@ -257,7 +261,7 @@ impl Summary {
 impl Summary {
     /// What to know before believing the numbers: hourglass control, motion at the end, added mass, layers that were passed.
     pub fn warnings(&self) -> Vec<String> {
-        let mut found = Vec::new();
+        let mut found = self.robot.as_ref().map_or(Vec::new(), RobotSummary::warnings);
         if policy::is_warped(self.hourglass_share) {
             let rule = "over 5 %, it is no longer small. Compare with smaller elements, or with a tenth of hourglass";
             found.push(rule.to_string());

@@ -2,7 +2,7 @@
 
 use super::rounded;
 use crate::robot::{HoldEnd, KEYS, Reading, Rest, RobotGauge, RobotRun, RunKey, Sample, Settling, Snap, Watch, snaps};
-use crate::{FemError, Problem, Simulation};
+use crate::{FemError, Problem, Simulation, policy};
 use models::Scenario;
 use models::scenario::Wall;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -41,6 +41,7 @@ impl WatchedRobot {
         let holds = self.run.holds().into_iter().filter(|hold| hold.time_s <= problem.settings.end_s + NOW_S);
         Watched {
             filled_s: self.run.settings.body_ramp_s,
+            weld_strength_n_per_m: self.run.settings.weld_strength_n_per_m,
             gauge: self.gauge.clone(),
             holds: holds.collect(),
             readings: Vec::new(),
@@ -57,6 +58,7 @@ pub(super) struct Watched {
     /// Energies between outputs.
     pub watch: Watch,
     filled_s: f64,
+    weld_strength_n_per_m: Option<f64>,
     gauge: RobotGauge,
     holds: Vec<HoldEnd>,
     length_m: f64,
@@ -97,7 +99,9 @@ impl Watched {
 
     /// Reads the robot.
     pub fn read(&mut self, run: &Simulation, rest: Rest) -> Result<(), FemError> {
-        self.readings.push(self.gauge.read(run, rest)?);
+        let mut reading = self.gauge.read(run, rest)?;
+        reading.seam_share = self.weld_strength_n_per_m.map(|strength| reading.seam_n_per_m / strength);
+        self.readings.push(reading);
         Ok(())
     }
 
@@ -189,8 +193,72 @@ fn with_needed<'de, D: Deserializer<'de>>(from: D) -> Result<BTreeMap<String, Op
 }
 
 impl RobotSummary {
+    /// What to know before believing the readings: welds beyond their strength, and a planar robot that leaves its plane.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let kpa = |r: &Reading| rounded(r.actuator_pa * 1e-3);
+        let torn = self.readings.iter().find(|r| r.seam_share.is_some_and(policy::is_torn)).map(|r| {
+            format!(
+                "at {} kPa {} ({} at {:.0} mm) carries {:.0} N/m, {:.2} of weld_strength_n_per_m: it would open, and the run goes on as if it held",
+                kpa(r), r.seam, r.seam_part, r.seam_at_m * 1e3, r.seam_n_per_m, r.seam_share.unwrap_or_default()
+            )
+        });
+        let share = |r: &&Reading| r.out_of_plane_share();
+        let aside = self.readings.iter().filter(|_| !self.is_spatial).max_by(|a, b| share(a).total_cmp(&share(b)));
+        let aside = aside.filter(|r| policy::leaves_plane(share(r))).map(|r| {
+            format!(
+                "at {} kPa the tip is {:+.1} mm out of the x–y plane, {:.1} % of its way: no planar model shows that",
+                kpa(r),
+                r.out_of_plane_m()[0] * 1e3,
+                100.0 * share(&r)
+            )
+        });
+        torn.into_iter().chain(aside).collect()
+    }
+
     /// A key of `[fem]`, in the unit of its name.
     pub fn setting(&self, key: &str) -> f64 {
         self.settings.get(key).copied().flatten().unwrap_or(f64::NAN)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::{Value, json};
+
+    /// A planar robot whose tip moves 100 mm in its plane and aside, with a weld at a share of its strength.
+    fn robot(aside_m: f64, share: Value, is_spatial: bool) -> RobotSummary {
+        let none: [f64; 0] = [];
+        let reading = json!({
+            "time_s": 1, "actuator_pa": 20e3, "body_pa": 2e3, "stations_m": [0.3], "moved_m": [[0, 0.1, aside_m]],
+            "seen_moved_m": none, "ring_moved_m": none, "tip_angle_rad": 0, "body_m3": 0, "actuator_m3": 0, "von_mises_pa": 0,
+            "von_mises_part": "", "von_mises_at_m": 0, "seam_n_per_m": 900, "seam_part": "top", "seam_at_m": 0.12,
+            "seam": "seam 3", "seam_share": share, "ledger": none, "kinetic_share": 0,
+        });
+        let summary = json!({
+            "actuator": "epam", "length_m": 0.3, "body_pa": 2e3, "radius_m": 0.04, "width_m": 0.06, "pouch_m": 0.06, "count": 5,
+            "is_spatial": is_spatial, "settings": {"body_mesh_mm": 8, "actuator_mesh_mm": 4, "seed": 1}, "readings": [reading],
+            "snaps": none,
+        });
+        serde_json::from_value(summary).unwrap()
+    }
+
+    #[test]
+    fn a_weld_beyond_its_strength_and_a_tip_beside_its_plane_are_named() {
+        let warnings = |aside_m: f64, share: Value| robot(aside_m, share, false).warnings();
+        for share in [json!(null), json!(0.7), json!(0.99)] {
+            assert_eq!(warnings(0.0016, share), Vec::<String>::new());
+        }
+        let torn = warnings(0.0, json!(1.3));
+        assert!(
+            torn.len() == 1 && torn[0].contains("at 20 kPa seam 3") && torn[0].contains("1.30 of weld_strength"),
+            "{torn:?}"
+        );
+        let aside = warnings(-0.0024, json!(null));
+        assert!(aside.len() == 1 && aside[0].contains("-2.4 mm") && aside[0].contains("2.4 %"), "{aside:?}");
+        assert!(
+            robot(0.05, json!(null), true).warnings().is_empty(),
+            "a robot with strips round its body has no plane"
+        );
     }
 }

@@ -88,11 +88,16 @@ impl Transient for Gravity {
         vec![self.line().row(RowKind::Supplied, self.work_j)]
     }
     fn save(&self) -> Vec<u8> {
-        pack(&(self.time_s, self.work_j, self.last))
+        pack(&(self.time_s, self.work_j, self.last, self.g_m_s2))
     }
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let Some(state) = unpack(saved) else { return false };
-        (self.time_s, self.work_j, self.last) = state;
+        let Some((time_s, work_j, last, g_m_s2)) = unpack::<(f64, f64, Option<[f64; 2]>, [f64; 3])>(saved) else {
+            return false;
+        };
+        if g_m_s2 != self.g_m_s2 {
+            return false;
+        }
+        (self.time_s, self.work_j, self.last) = (time_s, work_j, last);
         true
     }
 }

@@ -35,6 +35,9 @@ struct Load {
     last: Option<[f64; 2]>,
 }
 
+/// Amplitude and way of the step before, force and nodes.
+type SavedLoad = (Option<[f64; 2]>, [f64; 3], Vec<u32>);
+
 impl NodalForces {
     /// Forces on node sets of `mesh` (solver's node order).
     ///
@@ -73,15 +76,17 @@ impl Transient for NodalForces {
         vec![self.line().row(RowKind::Supplied, self.work_j)]
     }
     fn save(&self) -> Vec<u8> {
-        pack(&(self.time_s, self.work_j, self.loads.iter().map(|load| load.last).collect::<Vec<_>>()))
+        let loads: Vec<_> = self.loads.iter().map(|load| (load.last, load.force_n, &load.nodes)).collect();
+        pack(&(self.time_s, self.work_j, loads))
     }
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let Some((time_s, work_j, lasts)) = unpack::<(f64, f64, Vec<Option<[f64; 2]>>)>(saved) else { return false };
-        if lasts.len() != self.loads.len() {
+        let Some((time_s, work_j, loads)) = unpack::<(f64, f64, Vec<SavedLoad>)>(saved) else { return false };
+        let same = |(own, (_, force_n, nodes)): (&Load, &SavedLoad)| own.force_n == *force_n && own.nodes == *nodes;
+        if loads.len() != self.loads.len() || !self.loads.iter().zip(&loads).all(same) {
             return false;
         }
         (self.time_s, self.work_j) = (time_s, work_j);
-        self.loads.iter_mut().zip(lasts).for_each(|(load, last)| load.last = last);
+        self.loads.iter_mut().zip(loads).for_each(|(load, (last, ..))| load.last = last);
         true
     }
 }

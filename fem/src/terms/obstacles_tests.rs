@@ -1,11 +1,11 @@
 use super::*;
-use crate::problem::ObstacleShape;
+use crate::problem::{Amplitude, ObstacleShape};
 
 const G: f64 = 9.81;
 
 fn term(shape: ObstacleShape, friction: f64, stiffness: &[f64]) -> Obstacles {
     let mesh = Mesh { points: vec![[0.0; 3]; stiffness.len()], ..Mesh::default() };
-    Obstacles::new(&mesh, &[Obstacle { shape, friction }], stiffness).unwrap()
+    Obstacles::new(&mesh, &[Obstacle { shape, friction, motion: None }], stiffness).unwrap()
 }
 
 /// A node of 1 kg under a constant force, by central differences; returns way, speed and work of the force.
@@ -153,8 +153,38 @@ fn an_impossible_obstacle_is_named() {
     let thin = ObstacleShape::Cylinder { point: [0.0; 3], axis: [0.0, 0.0, 1.0], radius_m: -1.0 };
     for (shape, friction, what) in [(flat, 0.0, "normal"), (thin, 0.0, "radius"), (good.clone(), f64::NAN, "friction")]
     {
-        let list = [Obstacle { shape: good.clone(), friction: 0.0 }, Obstacle { shape, friction }];
+        let list =
+            [Obstacle { shape: good.clone(), friction: 0.0, motion: None }, Obstacle { shape, friction, motion: None }];
         let message = Obstacles::new(&mesh, &list, &[1.0]).unwrap_err().to_string();
         assert!(message.contains("obstacle 2") && message.contains(what), "{message}");
     }
+}
+
+/// A plate rises under a block and draws it along: its work is what the block gains, and what friction takes.
+#[test]
+fn the_work_of_an_obstacle_that_moves_is_kinetic_potential_stored_and_lost_energy() {
+    let plane = ObstacleShape::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+    let to = |m: f64| Amplitude::Smooth(vec![(0.1, 0.0), (0.6, m)]);
+    let motion = Some([to(0.4), Amplitude::Constant(0.0), to(0.05)]);
+    let mesh = Mesh { points: vec![[0.0; 3]], ..Mesh::default() };
+    let term = Obstacles::new(&mesh, &[Obstacle { shape: plane, friction: 0.1, motion }], &[K]).unwrap();
+    let mut block = Block { term, x: vec![0.0, 0.0, -G / K, 0.0], v: vec![0.0; 4], pull: [0.0, 0.0, -G], step: 0 };
+    let start = block.x[2];
+    let mut fastest: f64 = 0.0;
+    for step in 0..9000 {
+        block.step();
+        fastest = fastest.max(block.v[0]);
+        if step % 1000 == 999 {
+            // The ledger is of the last force, half a step of motion before.
+            let rows = block.term.ledger(&Pose::nodes(&block.x));
+            let [stored, lost, work] = [0, 1, 2].map(|k| rows[k].energy_j);
+            let kinetic: f64 = 0.5 * block.v.iter().map(|v| v * v).sum::<f64>();
+            let gained = kinetic + G * (block.x[2] - start) + (stored - 0.5 * G * G / K) + lost;
+            assert!((work - gained).abs() < 2e-3 * (lost + 0.05 * G), "{step}: {work} {gained} {lost}");
+            assert_eq!(rows[2].kind, RowKind::Supplied);
+        }
+    }
+    // The plate outruns the block, which Coulomb's force accelerates and stops again.
+    assert!(fastest > 0.2 && fastest < 1.0 && block.v[0].abs() < 1e-2, "{fastest} {:?}", block.v);
+    assert!((block.x[2] - start - 0.05).abs() < 1e-3, "{}", block.x[2]);
 }

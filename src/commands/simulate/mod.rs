@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::output::{check_folder, maker};
 use crate::shown::run::{cost_text, text};
 use fem::FemError;
-use fem::session::{FeRun, Further, SUMMARY, Settings, Source, simulate};
+use fem::session::{FeRun, Further, SUMMARY, Settings, Source, Summary, simulate};
 use ibr::fe_source;
 use ibr::pages::run_plots;
 use plan::RunPlan;
@@ -24,9 +24,15 @@ pub fn run(args: &SimulateArgs, context: &mut Context) -> Result<Outcome, Failur
     if let Some(file) = &args.export {
         return export::written(args, &plan, file);
     }
-    let folder = args.out.clone().unwrap_or_else(|| plan.folder(&args.case));
+    if args.from.is_some() && !matches!(plan, RunPlan::Single(_)) {
+        let help = "name one mesh and leave separate out, then go on from one run to another";
+        return Err(Failure::usage("--from goes on with one run, and this is several", help));
+    }
+    let folder = args.out.clone().unwrap_or_else(|| plan.folder(args));
     let settings = Settings {
         resume: args.resume,
+        from: args.from.clone(),
+        keep_end: true,
         force: args.force,
         frames: !args.no_frames,
         end_s: args.end.as_deref().map(|text| seconds("--end", text)).transpose()?,
@@ -64,7 +70,11 @@ fn one(args: &SimulateArgs, source: &Source, settings: &Settings, context: &mut 
     };
     let mut outcome = Outcome::new(text(&run.summary), SUMMARY.stamped(&run.summary));
     if !run.fresh {
-        outcome.notes.push(format!("the run in {} is complete; nothing was done", folder.display()));
+        let Summary { time_s, .. } = run.summary;
+        let folder = folder.display();
+        outcome.notes.push(format!(
+            "the run in {folder} is complete at t = {time_s:.6} s; nothing was done. A later --end goes on with it"
+        ));
         return Ok(outcome);
     }
     outcome.text.push_str(&cost_text(&run.cost));
@@ -93,5 +103,6 @@ fn notes(run: &FeRun, folder: &Path) -> Vec<String> {
 fn typed_again(args: &SimulateArgs) -> String {
     let pressure = args.pressure.iter().map(|p| ("pressure", p));
     let others = args.mesh.iter().map(|m| ("mesh", m)).chain(args.set.iter().map(|s| ("set", s)));
-    pressure.chain(others).map(|(option, value)| format!(" --{option} {value}")).collect()
+    let from = args.from.iter().map(|folder| format!(" --from {}", folder.display()));
+    pressure.chain(others).map(|(option, value)| format!(" --{option} {value}")).chain(from).collect()
 }

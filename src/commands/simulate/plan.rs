@@ -24,14 +24,15 @@ pub enum RunPlan {
 
 impl RunPlan {
     /// The folder of a case if none is named.
-    pub fn folder(&self, case: &str) -> PathBuf {
-        let stem = Path::new(case).file_stem().unwrap_or_default().to_string_lossy();
+    pub fn folder(&self, args: &SimulateArgs) -> PathBuf {
+        let stem = Path::new(&args.case).file_stem().unwrap_or_default().to_string_lossy();
         let kind = match self {
             RunPlan::Uncertain(_) => "uncertain",
             RunPlan::Table(..) => "batch",
             RunPlan::Single(_) => "simulate",
         };
-        PathBuf::from(format!("ibr-report/{kind}-{}", plain(&stem)))
+        let on = if args.from.is_some() { "-on" } else { "" };
+        PathBuf::from(format!("ibr-report/{kind}-{}{on}", plain(&stem)))
     }
 }
 

@@ -72,7 +72,7 @@ fn ball_on_floor() -> Found {
     let total: f64 = mass.iter().sum();
     let mut problem = Problem::new("ball", mesh.clone(), vec![fabric()], vec![air()]);
     let shape = ObstacleShape::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
-    problem.obstacles = vec![Obstacle { shape, friction: 0.2 }];
+    problem.obstacles = vec![Obstacle { shape, friction: 0.2, motion: None }];
     let mut run = Simulation::new(&problem)?;
     drop(&mut run, &mesh, "sphere");
     let lowest = |run: &Simulation| run.positions().iter().fold(f64::INFINITY, |m, p| m.min(p[2]));

@@ -63,7 +63,7 @@ fn loads(mesh: &Mesh, mass_kg: &[f64]) -> Result<Vec<Box<dyn Term>>, FemError> {
         ObstacleShape::Plane { point: [0.0, 0.0, -0.02], normal: [0.1, 0.0, 1.0] },
         ObstacleShape::Cylinder { point: [0.05, 0.0, 0.07], axis: [0.0, 1.0, 0.1], radius_m: 0.05 },
     ];
-    let solids = solids.map(|shape| Obstacle { shape, friction: 0.0 });
+    let solids = solids.map(|shape| Obstacle { shape, friction: 0.0, motion: None });
     let stiffness = vec![1e4; mesh.points.len()];
     Ok(vec![
         Box::new(NodalForces::new(mesh, &[force])?),

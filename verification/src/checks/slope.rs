@@ -54,7 +54,7 @@ fn plate(friction: f64, rigid: bool) -> Result<Simulation, FemError> {
     let mut problem = problem("slope", mesh, sheet, vec![]);
     problem.gravity = Some(Gravity { g_m_s2: [0.0, 0.0, -GRAVITY], amplitude: rise(RISE_S, 1.0) });
     let shape = ObstacleShape::Plane { point: [0.0; 3], normal: [sin, 0.0, cos] };
-    problem.obstacles = vec![Obstacle { shape, friction }];
+    problem.obstacles = vec![Obstacle { shape, friction, motion: None }];
     if rigid {
         problem.rigid = vec![Rigid { set: "all".into() }];
     }

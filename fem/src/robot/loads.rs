@@ -1,0 +1,188 @@
+//! Loads of a robot beside its pressures: one for the whole run, or one at every pressure.
+//!
+//! A list has an entry for every pressure, and the load goes from one to the next while the pressure does: a pressure written twice,
+//! `pressures_kpa = [30, 30]` with `tip_force_n = [[0, 0, 0], [0, -0.5, 0]]`, loads the robot at pressure. All steps are of fifth
+//! order ([`Amplitude::Smooth`]).
+
+use models::{CHANNELS, Scenario};
+use toml::{Spanned, Value};
+
+use super::loading::RobotRun;
+use super::{sew, table::triple};
+use crate::case::range::{Checked, POSITION, Range, plain, refuse};
+use crate::case::raw::Free;
+use crate::problem::{Amplitude, GRAVITY, Gravity, Loads, NodalForce, force_on, motion_of, pressure_of};
+use crate::{FemError, Problem};
+
+/// A load of a robot's run.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Load {
+    /// It grows while the body is filled, and stays; in a run that goes on from another one it grows with the first pressure.
+    Always([f64; 3]),
+    /// One for every pressure.
+    AtPressures(Vec<[f64; 3]>),
+}
+
+impl Default for Load {
+    fn default() -> Load {
+        Load::Always([0.0; 3])
+    }
+}
+
+/// Pressures and loads at the end of a run that another one goes on from.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RobotStart {
+    /// When \[s\].
+    pub time_s: f64,
+    /// Pressure of the body \[Pa\].
+    pub body_pa: f64,
+    /// Pressures of the channels \[Pa\].
+    pub pressures_pa: [f64; CHANNELS],
+    /// Force on the tip \[N\].
+    pub tip_force_n: [f64; 3],
+    /// Gravity \[m/s²\].
+    pub gravity_m_s2: [f64; 3],
+    /// How far the obstacle has moved \[m\].
+    pub obstacle_m: [f64; 3],
+}
+
+impl RobotStart {
+    /// Of loads at a time \[s\].
+    pub fn of(scenario: &Scenario, time_s: f64, loads: &Loads) -> RobotStart {
+        let of = |name: String| loads.get(&name).copied().unwrap_or_default();
+        let mut pressures_pa = [0.0; CHANNELS];
+        for (i, strip) in scenario.strips().enumerate() {
+            pressures_pa[strip.channel] = of(pressure_of(&sew::of_strip(sew::ACTUATOR, i)))[0];
+        }
+        RobotStart {
+            time_s,
+            body_pa: of(pressure_of(sew::BODY))[0],
+            pressures_pa,
+            tip_force_n: of(force_on("tip")),
+            gravity_m_s2: of(GRAVITY.into()),
+            obstacle_m: of(motion_of(0)),
+        }
+    }
+}
+
+/// Keys of lists with an entry for every pressure.
+const LISTS: [&str; 3] = ["tip_force_n", "gravity_m_s2", "obstacle_moves_mm"];
+const FORCE: Range = plain(-1e4, 1e4, "write newtons: [x, y, z], or [[x, y, z], …] with one for every pressure");
+const ACCELERATION: Range =
+    plain(-1e3, 1e3, "write m/s²: [0, -9.81, 0], or [[0, 0, 0], …] with one for every pressure");
+
+/// Reads a key of [`LISTS`].
+pub(super) fn read(run: &mut RobotRun, name: &str, value: &Spanned<Value>) -> Checked<()> {
+    let each = |range: &Range| -> Checked<Vec<[f64; 3]>> {
+        let list = value.get_ref().as_array().map_or(&[][..], Vec::as_slice);
+        list.iter().map(|one| triple(name, &Spanned::new(value.span(), one.clone()), range)).collect()
+    };
+    let is_list = value.get_ref().as_array().is_some_and(|list| list.first().is_some_and(Value::is_array));
+    let load = |range: &Range| match is_list {
+        true => each(range).map(Load::AtPressures),
+        false => triple(name, value, range).map(Load::Always),
+    };
+    match name {
+        "tip_force_n" => run.tip_force_n = load(&FORCE)?,
+        "gravity_m_s2" => run.gravity_m_s2 = load(&ACCELERATION)?,
+        _ if is_list => run.obstacle_moves_m = each(&POSITION)?,
+        _ => {
+            let help = "write how far it has moved at every pressure: [[0, 0, 0], [0, -20, 0]]";
+            return refuse(format!("{name} is no list of [x, y, z]"), help, value.span());
+        }
+    }
+    Ok(())
+}
+
+/// Refuses lists of another length than that of the pressures, and a step in which nothing changes.
+pub(super) fn check(run: &RobotRun, table: &Free) -> Checked<()> {
+    let span = |name: &str| table.iter().find(|(key, _)| key.get_ref() == name).map_or(0..0, |(_, value)| value.span());
+    let of = |load: &Load| if let Load::AtPressures(list) = load { list.clone() } else { Vec::new() };
+    let lists = [of(&run.tip_force_n), of(&run.gravity_m_s2), run.obstacle_moves_m.clone()];
+    for (name, list) in LISTS.iter().zip(&lists).filter(|(_, list)| !list.is_empty()) {
+        let (entries, pressures) = (list.len(), run.pressures_pa.len());
+        if entries != pressures {
+            let help = "write one entry for every pressure; a pressure may stand twice: pressures_kpa = [30, 30]";
+            return refuse(format!("{name} has {entries} entries and pressures_kpa {pressures}"), help, span(name));
+        }
+        if run.separate {
+            let help = "write separate = false, or one load for all";
+            return refuse(
+                format!("{name} changes within a run, and every pressure is a run of its own"),
+                help,
+                span(name),
+            );
+        }
+    }
+    let steps = 1..run.pressures_pa.len();
+    let idle = |i: &usize| {
+        run.pressures_pa[i - 1] == run.pressures_pa[*i]
+            && lists.iter().all(|list| list.is_empty() || list[i - 1] == list[*i])
+    };
+    match steps.into_iter().find(idle) {
+        Some(_) => {
+            let help = "write for example [10, 20, 30], or with channels [[20, 10], [30, 15]]";
+            refuse(
+                "pressures_kpa needs pressures that differ one by one, or loads that do",
+                help,
+                span("pressures_kpa"),
+            )
+        }
+        None => Ok(()),
+    }
+}
+
+impl RobotRun {
+    /// Puts the loads into a problem.
+    pub(super) fn load(&self, made: &mut Problem) -> Result<(), FemError> {
+        let start = self.start.clone().unwrap_or_default();
+        let force = self.steps(&self.tip_force_n, start.tip_force_n);
+        let forces = match along(&force) {
+            Some(one) => vec![one],
+            // A force that turns has an amplitude along each axis.
+            None => (0..3).filter_map(|k| along(&only(&force, k))).collect(),
+        };
+        let forces = forces.into_iter().filter(|(total_n, _)| *total_n != [0.0; 3]);
+        made.forces.extend(forces.map(|(total_n, amplitude)| NodalForce { set: "tip".into(), total_n, amplitude }));
+        let Some((g_m_s2, amplitude)) = along(&self.steps(&self.gravity_m_s2, start.gravity_m_s2)) else {
+            let message = "robot: gravity_m_s2 turns, and can only grow and shrink; write vectors of one direction";
+            return Err(FemError::Problem(message.into()));
+        };
+        made.gravity = (g_m_s2 != [0.0; 3]).then_some(Gravity { g_m_s2, amplitude });
+        if let Some(obstacle) = &self.obstacle {
+            let rests = self.obstacle_moves_m.is_empty();
+            let moves =
+                if rests { vec![start.obstacle_m; self.pressures_pa.len()] } else { self.obstacle_moves_m.clone() };
+            let path = self.steps(&Load::AtPressures(moves), start.obstacle_m);
+            let axis = |k: usize| Amplitude::Smooth(path.iter().map(|(t, m)| (*t, m[k])).collect());
+            let moved = path.iter().any(|(_, m)| *m != [0.0; 3]);
+            let motion = moved.then(|| [axis(0), axis(1), axis(2)]);
+            made.obstacles.push(crate::problem::Obstacle { motion, ..obstacle.clone() });
+        }
+        Ok(())
+    }
+
+    /// A load through (time \[s\], vector) points.
+    fn steps(&self, load: &Load, before: [f64; 3]) -> Vec<(f64, [f64; 3])> {
+        match load {
+            Load::Always(value) if self.start.is_none() => vec![(0.0, before), (self.holds()[0].time_s, *value)],
+            Load::Always(value) => self.stairs(before, std::iter::repeat(*value)),
+            Load::AtPressures(list) => self.stairs(before, list.iter().copied()),
+        }
+    }
+}
+
+fn only(points: &[(f64, [f64; 3])], axis: usize) -> Vec<(f64, [f64; 3])> {
+    points.iter().map(|(t, v)| (*t, std::array::from_fn(|k| if k == axis { v[k] } else { 0.0 }))).collect()
+}
+
+/// Vectors of one direction as the largest of them and its multiplier over time; `None` where they turn.
+fn along(points: &[(f64, [f64; 3])]) -> Option<([f64; 3], Amplitude)> {
+    use crate::vec3::{dot, norm, scale, sub};
+    let largest = points.iter().map(|p| p.1).max_by(|a, b| norm(*a).total_cmp(&norm(*b)))?;
+    let square = dot(largest, largest).max(f64::MIN_POSITIVE);
+    let share = |v: [f64; 3]| dot(v, largest) / square;
+    let turns = |(_, v): &(f64, [f64; 3])| norm(sub(*v, scale(largest, share(*v)))) > 1e-9 * norm(largest);
+    let factors = points.iter().map(|(t, v)| (*t, share(*v))).collect();
+    (!points.iter().any(turns)).then_some((largest, Amplitude::Smooth(factors)))
+}
