@@ -284,7 +284,7 @@ fn gravity_weighs_on_the_base_of_a_filled_body_and_its_tip_hangs() {
     let gauge = RobotGauge::new(&scenario, &problem).unwrap();
     let mut body = crate::Simulation::new(&problem).unwrap();
     body.advance_until(0.25, &mut |_| true).unwrap();
-    let (reading, loads) = (gauge.read(&body).unwrap(), problem.loads_at(0.25));
+    let (reading, loads) = (gauge.read(&body, Rest::Until(0.0)).unwrap(), problem.loads_at(0.25));
     let areas = problem.mesh.parts.iter().zip(&problem.sections).map(|(part, section)| {
         let corners = |i: usize| part.nodes(i).iter().map(|n| problem.mesh.points[*n as usize]).collect::<Vec<_>>();
         let area: f64 = (0..part.len()).map(|i| crate::vec3::norm(crate::vec3::area(&corners(i)))).sum();
