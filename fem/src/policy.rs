@@ -3,8 +3,11 @@
 
 /// Energy residual over external work that stops a run.
 pub const RESIDUAL: f64 = 0.02;
-/// The residual is not judged before this much work went in \[J\].
-pub const RESIDUAL_FLOOR_J: f64 = 1e-6;
+/// Share of the energy that the loads of a run can turn over, which the residual is judged against at least: elements that start
+/// strained lose a part of that energy in the first steps, while pressures are still near zero.
+pub const TURNED_OVER: f64 = 1e-3;
+/// Uniform strain of all fabric whose energy it is judged against at least: far above rounding, far below any load.
+pub const STRAIN_FLOOR: f64 = 1e-5;
 /// Share of the nodes in contact that may change side of a layer.
 pub const SIDES: f64 = 0.05;
 /// Share of the stored energy that hourglass control may hold at the end.
@@ -31,6 +34,8 @@ pub const VALLEY: f64 = 0.5;
 pub const SMALLEST_DROP: f64 = 0.005;
 /// Fewest rows of elements between two welds.
 pub const FEWEST_ROWS: usize = 4;
+/// Fewest steps of a run: with fewer, the load jumps from step to step and nothing moves between.
+pub const FEWEST_STEPS: f64 = 10.0;
 /// More outputs than this fill a disk before they help.
 pub const MOST_OUTPUTS: f64 = 100_000.0;
 /// Largest number of nodes a generator makes: a slip in a count is a message, not a full memory.
@@ -100,6 +105,11 @@ pub fn is_fine(rows: usize) -> bool {
     rows >= FEWEST_ROWS
 }
 
+/// Whether a run has too few steps to follow any motion.
+pub fn is_too_short(steps: f64) -> bool {
+    steps < FEWEST_STEPS
+}
+
 /// Whether a node starts inside an obstacle \[m\].
 pub fn is_inside(depth_m: f64) -> bool {
     depth_m > TOUCHING_M
@@ -129,6 +139,7 @@ mod tests {
     fn a_mesh_is_refused_by_what_no_robot_is() {
         turns_at(0.5, is_coarse);
         turns_at(1e-5, is_inside);
+        turns_at(10.0, |steps| !is_too_short(steps));
         turns_at(1e-9, |area| is_area(area, 1.0));
         assert!(!is_area(f64::INFINITY, 1.0));
         turns_at(0.0175, is_in_sheet);

@@ -13,7 +13,7 @@ fn small() -> Source {
     let text = text.replace("elements = 32 ", "elements = 8 ").replace("end_s = 0.15", "end_s = 0.01");
     Source::new(
         "pillow",
-        &text.replace("output_every_s = 0.005", "output_every_s = 0.002\nguard_residual_floor_j = 1e-3"),
+        &text.replace("output_every_s = 0.005", "output_every_s = 0.002"),
     )
 }
 
