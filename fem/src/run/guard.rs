@@ -6,6 +6,7 @@ use super::{Ledger, Simulation, highest, setup};
 use crate::policy;
 use crate::problem::Guards;
 use crate::sheet::Sheet;
+use crate::sheet::bound::largest;
 use crate::sheet::chamber::Air;
 use crate::sheet::reference::mean_stiffness;
 use crate::vec3::{cross, dot, norm};
@@ -86,10 +87,11 @@ impl Simulation {
             return Ok(());
         }
         Err(self.stopped(format!(
-            "hourglass control holds {:.0} % of the stored energy (limit {:.0} %): the shape is as much its own as the fabric's. \
-             Make the elements smaller, or compare with a tenth of hourglass; to take the result nevertheless, raise guard_hourglass",
+            "cannot trust the shape: hourglass control holds {:.0} % of the stored energy (allowed up to {:.0} %). Try: {}; or raise \
+             guard_hourglass and take the result as it is",
             100.0 * share,
-            100.0 * limit
+            100.0 * limit,
+            policy::LESS_HOURGLASS
         )))
     }
 
@@ -178,15 +180,21 @@ impl Simulation {
                     area
                 )));
             }
-            // A quadrilateral is inside out when most of its corners turn against its mean normal.
-            if element.corners == 4 {
+            // A quadrilateral is inside out when most of its corners turn against its mean normal. One that is stretched in no
+            // direction is fabric in folds, which has no shape.
+            let c = [dot(f1, f1), dot(f2, f2), dot(f1, f2)];
+            if element.corners == 4 && largest(c[0], c[1], c[2]) > 1.0 {
                 let against = (0..4).filter(|n| {
                     let (here, next, last) = (at(*n), at((n + 1) % 4), at((n + 3) % 4));
                     let corner = cross([0, 1, 2].map(|k| next[k] - here[k]), [0, 1, 2].map(|k| last[k] - here[k]));
                     dot(corner, normal) < 0.0
                 });
                 if against.count() > 1 {
-                    return Err(self.stopped(format!("element {} (part `{part}`) has turned inside out", index + 1)));
+                    return Err(self.stopped(format!(
+                        "element {} (part `{part}`) has turned inside out. Try: a slower load, more mass_damping_1_s, smaller \
+                         elements, or edges = true in [contact] where layers catch in each other",
+                        index + 1
+                    )));
                 }
             }
         }
@@ -221,7 +229,8 @@ pub(super) fn least_scale_j(problem: &Problem, mesh: &Mesh, sheet: &Sheet, mass_
     let stiffness: Vec<f64> = sheet.fabrics.iter().map(|fabric| mean_stiffness(&**fabric)).collect();
     let strained = 0.5 * policy::STRAIN_FLOOR * policy::STRAIN_FLOOR * area(&|part| stiffness[part]);
     let blown = |air: &Air| {
-        let faces = |part: usize| [&mesh.parts[part].front, &mesh.parts[part].back].map(|c| c.as_deref() == Some(air.name()));
+        let faces =
+            |part: usize| [&mesh.parts[part].front, &mesh.parts[part].back].map(|c| c.as_deref() == Some(air.name()));
         let around = area(&|part| if faces(part).contains(&true) { 1.0 } else { 0.0 });
         air.peak_pa() * around.powf(1.5) / (6.0 * std::f64::consts::PI.sqrt())
     };

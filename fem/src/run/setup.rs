@@ -37,7 +37,8 @@ impl Simulation {
         imperfect(&mut x, &mesh, &order, &fixed, settings.imperfection, settings.seed);
         let bent = bent(problem, &mesh, &sheet);
         let still = Still { fixed: listed(&fixed), carried: carried(problem, &mesh, &driven)? };
-        let Masses { true_mass, mass, added_mass, gain, dt_s } = masses_and_step(settings, &mesh, &sheet, &bent, &x, &still)?;
+        let Masses { true_mass, mass, added_mass, gain, dt_s } =
+            masses_and_step(settings, &mesh, &sheet, &bent, &x, &still)?;
         mesh.start = x.iter().map(|x| [x[0], x[1], x[2]]).collect();
         let terms = terms(problem, &mesh, [&true_mass, &mass], dt_s, bent)?;
         let touching = problem.contact.as_ref();
