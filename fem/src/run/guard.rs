@@ -132,6 +132,9 @@ impl Simulation {
         let pose = Pose::nodes(self.x.as_flattened());
         let mut others = vec![0.0; self.x.len()];
         self.others().for_each(|term| term.stiffness_bound(&pose, &mut others));
+        // Until after the next estimate.
+        let until_s = self.clock.time_s + 1000.0 * self.clock.dt_s;
+        self.sheet.add_gas_bound(until_s, self.x.as_flattened(), &mut others);
         let mut bound = others.clone();
         self.sheet.stiffness_bound(&pose, &mut bound);
         setup::give_tied_bounds(&self.mesh, &mut bound);

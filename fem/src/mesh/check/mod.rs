@@ -15,8 +15,8 @@ mod chamber;
 mod elements;
 mod quality;
 
-pub use chamber::rim;
-pub(super) use chamber::signed_volume;
+pub(super) use chamber::{counted, signed_volume};
+pub use chamber::{near, planes, rim};
 pub use quality::{LowMidHigh, Quality};
 
 use crate::FemError;
