@@ -1,7 +1,7 @@
 //! What a run needs besides the mesh: sections, chambers, supports, loads, contact, settings.
 
 pub(crate) mod solid;
-mod start;
+pub(crate) mod start;
 
 use crate::FemError;
 pub use crate::amplitude::Amplitude;
@@ -371,8 +371,10 @@ impl Problem {
         }
         let chambers: Vec<&str> = self.chambers.iter().map(|c| c.name.as_str()).collect();
         let open: Vec<&str> = self.open.iter().map(String::as_str).collect();
-        crate::mesh::check::check_open(&self.mesh, &chambers, &open)?;
+        let quality = crate::mesh::check::check_open(&self.mesh, &chambers, &open)?;
+        self.check_gas(&quality.volumes_m3)?;
         self.check_rims()?;
+        self.check_warps()?;
         self.check_supports()?;
         solid::check(&self.mesh, &self.obstacles)?;
         if self.settings.selective_mass && self.contact.as_ref().is_some_and(|c| c.edges) {

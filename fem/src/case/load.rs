@@ -72,7 +72,10 @@ fn pressure(table: &Spanned<RawChamber>) -> Checked<Pressure> {
     let Some(at) = &raw.sealed_at_s else {
         // The room's pressure also bounds a vacuum.
         let keys: [(&str, Option<Span>); 7] = [
-            ("atmosphere_kPa", raw.atmosphere_kpa.as_ref().filter(|_| lowest(&filling) >= Some(0.0)).map(Spanned::span)),
+            (
+                "atmosphere_kPa",
+                raw.atmosphere_kpa.as_ref().filter(|_| lowest(&filling) >= Some(0.0)).map(Spanned::span),
+            ),
             ("dead_volume_cm3", raw.dead_volume_cm3.as_ref().map(Spanned::span)),
             ("polytropic_exponent", raw.polytropic_exponent.as_ref().map(Spanned::span)),
             ("leak_l_min_kPa", raw.leak_l_min_kpa.as_ref().map(Spanned::span)),
@@ -143,6 +146,19 @@ fn filling(table: &Spanned<RawChamber>) -> Checked<Amplitude> {
         (Some(_), Some(_), _) => refuse("a constant pressure and a curve at once", help, table.span()),
         (None, None, None) => refuse("a chamber without a pressure", help, table.span()),
     }
+}
+
+/// What happens in a vacuum without contact.
+pub(super) fn vacuum(raw: &Raw, chambers: &[Chamber]) -> Option<String> {
+    let below = |chamber: &&Chamber| {
+        let (Pressure::Set(filling) | Pressure::Sealed { filling, .. }) = &chamber.pressure;
+        lowest(filling) < Some(0.0)
+    };
+    let chamber = chambers.iter().find(below).filter(|_| raw.contact.is_none())?;
+    Some(format!(
+        "chamber `{}` goes below the pressure of the room, and without [contact] its walls pass through each other where they meet",
+        chamber.name
+    ))
 }
 
 /// Supports; an encastre one gets a node set of its own in the mesh.

@@ -56,6 +56,7 @@ pub(super) struct RawPart {
     pub density_kg_m3: Num,
     pub bending_factor: Option<Num>,
     pub rest_curvature: Option<bool>,
+    pub warp: Option<Spanned<toml::Value>>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -57,6 +57,13 @@ impl Simulation {
         if !(books.kinetic.is_finite() && books.stored.is_finite()) {
             return Err(self.stopped(self.not_a_number()));
         }
+        if let Some(air) = self.sheet.air.iter().find(|air| air.is_inside_out()) {
+            let cm3 = 1e6 * air.now.volume_m3.unwrap_or(0.0);
+            return Err(self.stopped(format!(
+                "chamber `{}` is inside out, with {cm3:.1} cm³: its walls passed through each other. Add [contact]",
+                air.name()
+            )));
+        }
         let ledger = self.ledger();
         self.books.scale = ledger.scale_j;
         let guards = &self.limits.guards;

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::Element;
 use crate::mesh::Mesh;
 use crate::mesh::check::{planes, rim};
+use crate::policy;
 use crate::problem::{Chamber, Gas, Pressure};
 use crate::vec3::{add, cross, node, scale, sub};
 
@@ -12,8 +13,10 @@ use crate::vec3::{add, cross, node, scale, sub};
 #[derive(Debug, Clone)]
 pub struct Air {
     chamber: Chamber,
-    /// Elements of its wall, and +1 where their front is outside; only where the gas decides its pressure.
+    /// Elements of its wall, and +1 where their front is outside.
     wall: Vec<(u32, f64)>,
+    /// Area of the wall at rest \[m²\].
+    area_m2: f64,
     /// Where the chamber ends at planes of all three axes.
     cut: Option<Cut>,
     /// What changes.
@@ -46,14 +49,13 @@ pub struct AirNow {
 impl Air {
     /// At rest, before the first step.
     pub fn new(chamber: &Chamber, mesh: &Mesh, elements: &[Element]) -> Air {
-        let mut air = Air { chamber: chamber.clone(), wall: Vec::new(), cut: None, now: AirNow::default() };
+        let faces = |name: &Option<String>| f64::from(u8::from(name.as_ref() == Some(&chamber.name)));
+        let side: Vec<f64> = mesh.parts.iter().map(|part| faces(&part.back) - faces(&part.front)).collect();
+        let of = |(index, element): (usize, &Element)| (index as u32, side[element.part]);
+        let wall: Vec<(u32, f64)> = elements.iter().enumerate().map(of).filter(|(_, side)| *side != 0.0).collect();
+        let area_m2 = wall.iter().map(|(index, _)| elements[*index as usize].reference.area).sum();
+        let mut air = Air { chamber: chamber.clone(), wall, area_m2, cut: None, now: AirNow::default() };
         air.now.pressure_pa = air.supply(0.0);
-        if air.follows() {
-            let faces = |name: &Option<String>| f64::from(u8::from(name.as_ref() == Some(&chamber.name)));
-            let side: Vec<f64> = mesh.parts.iter().map(|part| faces(&part.back) - faces(&part.front)).collect();
-            let of = |(index, element): (usize, &Element)| (index as u32, side[element.part]);
-            air.wall = elements.iter().enumerate().map(of).filter(|(_, side)| *side != 0.0).collect();
-        }
         air
     }
 
@@ -83,6 +85,11 @@ impl Air {
     pub fn peak_pa(&self) -> f64 {
         let (Pressure::Set(amplitude) | Pressure::Sealed { filling: amplitude, .. }) = &self.chamber.pressure;
         amplitude.peak().max(self.now.pressure_pa.abs())
+    }
+
+    /// True if its walls have passed through each other.
+    pub fn is_inside_out(&self) -> bool {
+        policy::is_inside_out(self.now.volume_m3.unwrap_or(0.0) / self.area_m2.powf(1.5))
     }
 
     /// True if the gas decides the pressure at some time: the volume is then taken at every step, before the forces.
@@ -171,10 +178,8 @@ impl Air {
         if until_s < *sealed_at_s || all <= 0.0 {
             return;
         }
-        let walls = || self.wall.iter().map(|(index, _)| &elements[*index as usize]);
-        let total: f64 = walls().map(|element| element.reference.area).sum();
-        let spring = gas.exponent * (self.now.pressure_pa + gas.atmosphere_pa) / all * total;
-        for element in walls() {
+        let spring = gas.exponent * (self.now.pressure_pa + gas.atmosphere_pa) / all * self.area_m2;
+        for element in self.wall.iter().map(|(index, _)| &elements[*index as usize]) {
             let share = element.reference.area / element.corners as f64;
             element.nodes().iter().for_each(|n| bound[*n as usize] += spring * share);
         }

@@ -3,6 +3,7 @@
 use super::apart::{masses, momentum};
 use super::setup::*;
 use fem::mesh::{Tie, generate};
+use fem::problem::Gas;
 use fem::vec3::{V3, cross, dot, sub};
 use models::fabrics::Orthotropic;
 
